@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file base.h
+ * @brief Vector types and the two range helpers every module of the core shares.
+ *
+ * Amplitude-invariant (peak) scaling everywhere: the length of a current vector is the peak of the
+ * phase current. Single precision only; nothing here allocates, reads a clock or touches hardware.
+ */
+#ifndef BASE_H
+#define BASE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define BASE_PI      3.14159265f
+#define BASE_TWO_PI  6.28318531f
+#define BASE_SQRT3   1.73205081f
+#define BASE_1_SQRT3 0.577350269f
+
+/** Vector in the rotor frame; d is the magnet axis. */
+typedef struct {
+    float d;
+    float q;
+} dq_t;
+
+/** Vector in the stator frame; alpha is the axis of phase a. */
+typedef struct {
+    float alpha;
+    float beta;
+} ab_t;
+
+/** Three phase quantities. */
+typedef struct {
+    float a;
+    float b;
+    float c;
+} abc_t;
+
+/** Result of an _init function; anything but CTL_OK leaves the module unusable. */
+typedef enum {
+    CTL_OK = 0,
+    CTL_BAD_CONFIG /**< a constant is missing, not finite or out of its documented range */
+} ctl_status_t;
+
+/** x limited to [lo, hi]; a NaN comes out as lo, so that no NaN passes a limit. */
+float base_clamp(float x, float lo, float hi);
+
+/** true when lo <= x <= hi; false for NaN, so it is the one check for untrusted numbers. */
+bool base_in_range(float x, float lo, float hi);
+
+#endif /* BASE_H */

@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: MIT */
+#include "drive_config.h"
+
+/* Beyond any physical constant of a drive, and far enough from FLT_MAX that products stay finite. */
+#define LARGEST 1.0e12f
+
+static bool is_positive(float x)
+{
+    return base_in_range(x, 1.0e-12f, LARGEST);
+}
+
+static bool all_finite(const float *x, int16_t count)
+{
+    for (int16_t i = 0; i < count; i++) {
+        if (!base_in_range(x[i], -LARGEST, LARGEST)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool motor_ok(const motor_reduced_t *m)
+{
+    return is_positive(m->l1) && base_in_range(m->l2, 0.0f, LARGEST) && is_positive(m->l3) &&
+           is_positive(m->l4) && is_positive(m->l5) && is_positive(m->l6) && is_positive(m->l7) &&
+           is_positive(m->l8) && is_positive(m->l9) && is_positive(m->l10) &&
+           base_in_range(m->l11, -LARGEST, 0.0f) && is_positive(m->inv_l6) &&
+           is_positive(m->inv_l8);
+}
+
+static bool current_ref_ok(const current_ref_config_t *c)
+{
+    return is_positive(c->current_max_A) && is_positive(c->iq_max_A) &&
+           (c->iq_max_A <= c->current_max_A) && base_in_range(c->mtpa_gain_1pA, -LARGEST, 0.0f) &&
+           base_in_range(c->voltage_share, 1.0e-3f, 1.0f) && is_positive(c->l1_min) &&
+           base_in_range(c->filter_per_period, 1.0e-6f, 1.0f) && is_positive(c->filter_1ps);
+}
+
+static bool nosc_ok(const nosc_gains_t *g)
+{
+    if (!is_positive(g->iq_error_max_A) || (g->order < 0) || (g->order > NOSC_ORDER_MAX)) {
+        return false;
+    }
+    for (int16_t n = 0; n <= g->order; n++) {
+        for (int16_t row = 0; row < NOSC_N_U; row++) {
+            if (!all_finite(g->lambda[n][row], NOSC_N_E)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static bool nodo_ok(const nodo_gains_t *g)
+{
+    if (!is_positive(g->iq_max_A) || (g->order < 0) || (g->order > NODO_ORDER_MAX)) {
+        return false;
+    }
+    for (int16_t n = 0; n <= g->order; n++) {
+        for (int16_t row = 0; row < NODO_N_X; row++) {
+            if (!all_finite(g->gain[n][row], NODO_N_Y)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+ctl_status_t drive_config_check(const drive_config_t *c)
+{
+    const bool limits_ok = base_in_range(c->ts_s, 1.0e-5f, 1.0e-2f) &&
+                           is_positive(c->accel_max_e_radps2) && is_positive(c->trip_current_A) &&
+                           (c->trip_current_A > c->current_ref.current_max_A) &&
+                           is_positive(c->trip_speed_e_radps) && is_positive(c->dc_link_min_V) &&
+                           is_positive(c->dc_link_max_V) && (c->dc_link_max_V > c->dc_link_min_V);
+
+    return (limits_ok && motor_ok(&c->motor) && current_ref_ok(&c->current_ref) &&
+            nosc_ok(&c->nosc) && nodo_ok(&c->nodo))
+               ? CTL_OK
+               : CTL_BAD_CONFIG;
+}

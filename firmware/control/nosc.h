@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file nosc.h
+ * @brief Near optimal speed controller: stator voltage fed back from the tracking error.
+ *
+ *     u_fb = -Lambda(e_iq) e                                                EQ-NOSC-1, paper A (26), (42)
+ *     Lambda(e_iq) = Lambda_0 + Lambda_1 e_iq + ... + Lambda_N e_iq^N       EQ-NOSC-2
+ *
+ * Gains come from sdre-gains; no number is typed by hand here.
+ */
+#ifndef NOSC_H
+#define NOSC_H
+
+#include "base.h"
+
+#define NOSC_ORDER_MAX 8 /**< highest power of e_iq a table can hold */
+#define NOSC_N_U       2 /**< rows of Lambda_n: 0 = v_q, 1 = v_d */
+#define NOSC_N_E       3 /**< columns of Lambda_n, in the order of nosc_error_t */
+
+/** Tracking error e = measured - reference. Member order = column order of Lambda_n. */
+typedef struct {
+    float omega_e_radps; /**< electrical speed error */
+    float iq_A;          /**< q-axis current error */
+    float id_A;          /**< d-axis current error */
+} nosc_error_t;
+
+/** One motor's gains for one control period. */
+typedef struct {
+    int16_t order;          /**< N, 0 .. NOSC_ORDER_MAX */
+    float   iq_error_max_A; /**< certified for |e_iq| <= this; > 0 */
+    float   lambda[NOSC_ORDER_MAX + 1][NOSC_N_U][NOSC_N_E]; /**< Lambda_n, n <= order */
+} nosc_gains_t;
+
+/** The q current that the speed error asks for, -(k_w / k_iq) e_w of EQ-NOSC-3. Context: control ISR. One division. */
+float nosc_speed_current_A(const nosc_gains_t *g, float omega_error_e_radps);
+
+/**
+ * @brief The error with its speed part limited so that the q current it asks for stays in a range.
+ *
+ * Row v_q of EQ-NOSC-1 at n = 0 is -k_iq (iq - (iq_ref - (k_w / k_iq) e_w)): a current loop whose command
+ * is the bracket. Limiting e_w limits that command and nothing else.           EQ-NOSC-3
+ *
+ * @param g         Gains.
+ * @param e         Tracking error.
+ * @param iq_ref_A  q-current reference the error was formed with, in iq_lo_A .. iq_hi_A.
+ * @param iq_lo_A   Lowest q current allowed now.
+ * @param iq_hi_A   Highest q current allowed now.
+ */
+nosc_error_t nosc_limit_speed_error(const nosc_gains_t *g, nosc_error_t e, float iq_ref_A,
+                                    float iq_lo_A, float iq_hi_A);
+
+/**
+ * @brief Feedback voltage, EQ-NOSC-1.
+ *
+ * Beyond g->iq_error_max_A the gain is held at its boundary value: a truncated power series is only
+ * trustworthy where it was certified.
+ *
+ * Context: control ISR. Pure, no division, 8 (N+1) multiply-adds.
+ */
+dq_t nosc_feedback_V(const nosc_gains_t *g, const nosc_error_t *e);
+
+#endif /* NOSC_H */

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file svpwm.h
+ * @brief Space vector modulation by centring the three phase voltages.
+ *
+ *     duty_x = 1/2 + (v_x - (max + min) / 2) / v_dc,   x = a, b, c             EQ-SVPWM-1
+ *
+ * Identical to classic SVPWM with the zero time split equally; linear up to |v| = v_dc / sqrt(3).
+ */
+#ifndef SVPWM_H
+#define SVPWM_H
+
+#include "base.h"
+
+/**
+ * @brief Duty ratios of the upper switches.
+ *
+ * @param v_V     Wanted stator voltage.
+ * @param v_dc_V  Measured dc-link voltage [V], > 0.
+ * @return        Three ratios in [0, 1]; outside the linear range they are clipped.
+ *
+ * Context: control ISR. One division.
+ */
+abc_t svpwm_duty(ab_t v_V, float v_dc_V);
+
+#endif /* SVPWM_H */
