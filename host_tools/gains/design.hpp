@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+/// From a drive description to gains, limits and their certificate: the whole off-line job in one call.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core_types.hpp"
+#include "drive_file.hpp"
+#include "motor_model.hpp"
+#include "sdre_series.hpp"
+
+namespace sdre {
+
+/// A solved series with the gain matrices read off it.
+struct GainSeries {
+    SdreProblem                  problem;
+    SdreSeries                   series;
+    std::vector<Eigen::MatrixXd> gain;      ///< NOSC: Lambda_n, 2 x 3. NODO: L_n, 6 x 3.
+    std::vector<double>          residuals; ///< [0] Riccati, [n] Lyapunov, relative
+};
+
+/// How one sampled loop behaves over its certified range.
+struct SampledLoop {
+    double range_A =
+        0.0; ///< scheduling current in +-range_A; beyond series_range_A the gain is held
+    double series_range_A  = 0.0; ///< the series itself is used in +-series_range_A
+    double worst_pole_1ps  = 0.0; ///< largest real part of the continuous poles over the range
+    double fastest_pole_ts = 0.0; ///< largest |pole| times the control period
+    double spectral_radius = 0.0; ///< of the sampled loop, worst over the range; stable below 1
+    std::vector<double>
+        series_error; ///< [n]: order n against the exact SDRE gain, worst in +-series_range_A
+    std::vector<double> series_error_full; ///< the same in +-range_A, series not held
+};
+
+struct Certificate {
+    SampledLoop              nosc;
+    SampledLoop              nodo;
+    std::vector<std::string> failures; ///< one line each; empty = certified
+
+    bool passed() const
+    {
+        return failures.empty();
+    }
+};
+
+struct Design {
+    Drive             drive;
+    ReducedParameters l{};
+    GainSeries        nosc;
+    GainSeries        nodo;
+    drive_config_t    config{}; ///< what the firmware gets, in its own single precision
+    Certificate       certificate;
+};
+
+/// Relative residual above which a solution is refused.
+constexpr double residual_limit = 1e-10;
+/// The series is used up to where its gain is this far (relative, norm-wise) from the exact SDRE gain.
+constexpr double series_error_limit = 0.1;
+
+/// Solves both problems and certifies them. DesignError when a Riccati or Lyapunov equation has no
+/// acceptable solution; a failed certificate is reported in Design::certificate, not thrown.
+Design design_drive(const Drive &drive);
+
+} // namespace sdre

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "drive_file.hpp"
+
+#include <cstdint>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "errors.hpp"
+#include "toml_reader.hpp"
+
+namespace sdre {
+namespace {
+
+// Allowed values: wide enough for any drive from a model motor to a locomotive, narrow enough that a
+// slipped unit (mH, rpm, g cm^2) is caught.
+constexpr Range resistance_Ohm{1e-5, 1e3};
+constexpr Range inductance_H{1e-7, 10.0};
+constexpr Range flux_Wb{1e-5, 10.0};
+constexpr Range inertia_kgm2{1e-9, 1e3};
+constexpr Range friction_Nms{0.0, 1e2};
+constexpr Range speed_e_radps{1.0, 1e5};
+constexpr Range torque_Nm{1e-5, 1e5};
+constexpr Range current_A{1e-3, 1e4};
+constexpr Range dc_link_V{1.0, 1e4};
+constexpr Range pwm_frequency_Hz{1e3, 1e5};
+constexpr Range dead_time_s{0.0, 2e-5};
+constexpr Range encoder_lines{1, 1e6};
+constexpr Range series_order{0, 8};
+constexpr Range state_weight{0.0, 1e15};
+constexpr Range input_weight{1e-12, 1e12};
+
+template <std::size_t N> std::array<double, N> last_of(const std::vector<double> &values)
+{
+    std::array<double, N> out{};
+    std::copy(values.end() - static_cast<std::ptrdiff_t>(N), values.end(), out.begin());
+    return out;
+}
+
+Motor read_motor(TomlReader t)
+{
+    Motor m;
+    m.pole_pairs            = t.integer("pole_pairs", {1, 100});
+    m.stator_resistance_Ohm = t.number("stator_resistance_Ohm", resistance_Ohm);
+    m.d_axis_inductance_H   = t.number("d_axis_inductance_H", inductance_H);
+    m.q_axis_inductance_H   = t.number("q_axis_inductance_H", inductance_H);
+    m.pm_flux_Wb            = t.number("pm_flux_Wb", flux_Wb);
+    m.inertia_kgm2          = t.number("inertia_kgm2", inertia_kgm2);
+    m.viscous_friction_Nms  = t.number("viscous_friction_Nms", friction_Nms);
+    m.rated_speed_e_radps   = t.number("rated_speed_e_radps", speed_e_radps);
+    m.rated_torque_Nm       = t.number("rated_torque_Nm", torque_Nm);
+    m.max_current_A         = t.number("max_current_A", current_A);
+    t.reject_unknown_keys();
+    if (m.d_axis_inductance_H > m.q_axis_inductance_H) {
+        t.fail("d_axis_inductance_H",
+               fmt::format("= {:g} is not allowed: must not exceed q_axis_inductance_H = {:g} "
+                           "(the reluctance torque of the law needs Ld <= Lq)",
+                           m.d_axis_inductance_H, m.q_axis_inductance_H));
+    }
+    return m;
+}
+
+Inverter read_inverter(TomlReader t)
+{
+    Inverter inverter;
+    inverter.dc_link_V          = t.number("dc_link_V", dc_link_V);
+    inverter.pwm_frequency_Hz   = t.number("pwm_frequency_Hz", pwm_frequency_Hz);
+    inverter.dead_time_s        = t.number("dead_time_s", dead_time_s);
+    inverter.updates_per_period = t.integer_or("updates_per_period", {1, 2}, 1);
+    t.reject_unknown_keys();
+    return inverter;
+}
+
+Encoder read_encoder(TomlReader t)
+{
+    Encoder encoder;
+    encoder.lines = t.integer("lines", encoder_lines);
+    t.reject_unknown_keys();
+    return encoder;
+}
+
+NoscSpec read_nosc(TomlReader t)
+{
+    NoscSpec spec;
+    spec.order = t.integer("order", series_order);
+    spec.Q     = last_of<3>(t.numbers("Q", {3}, state_weight));
+    spec.T     = last_of<2>(t.numbers("T", {2}, input_weight));
+    t.reject_unknown_keys();
+    return spec;
+}
+
+NodoSpec read_nodo(TomlReader t)
+{
+    NodoSpec spec;
+    spec.order = t.integer("order", series_order);
+    spec.Q     = last_of<6>(t.numbers("Q", {6}, state_weight));
+    // The paper writes six weights; its C_d is zero for the first three, so only the last three act.
+    spec.T = last_of<3>(t.numbers("T", {6, 3}, input_weight));
+    t.reject_unknown_keys();
+    return spec;
+}
+
+std::string normalised(const Drive &d)
+{
+    const Motor    &m = d.motor;
+    const Inverter &i = d.inverter;
+    std::string     s = fmt::format("schema={};name={};", drive_schema, d.name);
+    s += fmt::format("{};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};",
+                     m.pole_pairs, m.stator_resistance_Ohm, m.d_axis_inductance_H,
+                     m.q_axis_inductance_H, m.pm_flux_Wb, m.inertia_kgm2, m.viscous_friction_Nms,
+                     m.rated_speed_e_radps, m.rated_torque_Nm, m.max_current_A);
+    s += fmt::format("{:.17g};{:.17g};{:.17g};{};{};", i.dc_link_V, i.pwm_frequency_Hz,
+                     i.dead_time_s, i.updates_per_period, d.encoder.lines);
+    s += fmt::format("nosc;{};", d.nosc.order);
+    for (double x : d.nosc.Q) {
+        s += fmt::format("{:.17g};", x);
+    }
+    for (double x : d.nosc.T) {
+        s += fmt::format("{:.17g};", x);
+    }
+    s += fmt::format("nodo;{};", d.nodo.order);
+    for (double x : d.nodo.Q) {
+        s += fmt::format("{:.17g};", x);
+    }
+    for (double x : d.nodo.T) {
+        s += fmt::format("{:.17g};", x);
+    }
+    return s;
+}
+
+} // namespace
+
+Drive read_drive_file(const std::filesystem::path &file)
+{
+    const toml::table root = parse_toml_file(file);
+    TomlReader        t(file.string(), "", root);
+    Drive             drive;
+    const int         schema = t.integer("schema", {0, 1e6});
+    if (schema != drive_schema) {
+        t.fail("schema",
+               fmt::format("= {} is not allowed: this tool reads schema {}", schema, drive_schema));
+    }
+    drive.name = t.text("name");
+    if (drive.name.empty() ||
+        drive.name.find_first_not_of(
+            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") !=
+            std::string::npos) {
+        t.fail("name", "must be one or more of A-Z a-z 0-9 _ - .");
+    }
+    drive.motor    = read_motor(t.table("motor"));
+    drive.inverter = read_inverter(t.table("inverter"));
+    drive.encoder  = read_encoder(t.table("encoder"));
+    drive.nosc     = read_nosc(t.table("nosc"));
+    drive.nodo     = read_nodo(t.table("nodo"));
+    t.reject_unknown_keys();
+    if (drive.inverter.dead_time_s * drive.inverter.pwm_frequency_Hz > 0.1) {
+        t.fail("[inverter] dead_time_s",
+               "is not allowed: must be at most a tenth of the PWM period");
+    }
+    return drive;
+}
+
+double control_period_s(const Drive &drive)
+{
+    return 1.0 / (drive.inverter.pwm_frequency_Hz * drive.inverter.updates_per_period);
+}
+
+std::string drive_digest(const Drive &drive)
+{
+    std::uint64_t hash = 0xcbf29ce484222325ULL; // FNV-1a, 64 bit
+    for (char c : normalised(drive)) {
+        hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+    }
+    return fmt::format("fnv1a64:{:016x}", hash);
+}
+
+double &motor_value(Motor &m, const std::string &key)
+{
+    const std::map<std::string, double *> values{
+        {"stator_resistance_Ohm", &m.stator_resistance_Ohm},
+        {"d_axis_inductance_H", &m.d_axis_inductance_H},
+        {"q_axis_inductance_H", &m.q_axis_inductance_H},
+        {"pm_flux_Wb", &m.pm_flux_Wb},
+        {"inertia_kgm2", &m.inertia_kgm2},
+        {"viscous_friction_Nms", &m.viscous_friction_Nms},
+        {"rated_speed_e_radps", &m.rated_speed_e_radps},
+        {"rated_torque_Nm", &m.rated_torque_Nm},
+        {"max_current_A", &m.max_current_A}};
+    const auto found = values.find(key);
+    if (found == values.end()) {
+        throw InputError(fmt::format("{} is not a motor key that can be scaled", key));
+    }
+    return *found->second;
+}
+
+} // namespace sdre

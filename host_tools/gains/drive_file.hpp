@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+/// The drive description: the only place where a motor number is written.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+
+namespace sdre {
+
+/// SI units; the unit is part of the TOML key. Peak (amplitude-invariant) currents and flux.
+struct Motor {
+    int    pole_pairs            = 0;
+    double stator_resistance_Ohm = 0.0;
+    double d_axis_inductance_H   = 0.0;
+    double q_axis_inductance_H   = 0.0;
+    double pm_flux_Wb            = 0.0;
+    double inertia_kgm2          = 0.0;
+    double viscous_friction_Nms  = 0.0; ///< acts on the mechanical speed
+    double rated_speed_e_radps   = 0.0; ///< electrical
+    double rated_torque_Nm       = 0.0;
+    double max_current_A         = 0.0; ///< peak of the phase current
+};
+
+struct Inverter {
+    double dc_link_V          = 0.0;
+    double pwm_frequency_Hz   = 0.0;
+    double dead_time_s        = 0.0;
+    int    updates_per_period = 1; ///< control runs at pwm_frequency_Hz times this
+};
+
+struct Encoder {
+    int lines = 0;
+};
+
+/// Weights of the speed controller: speed, i_q, i_d error; v_q, v_d.
+struct NoscSpec {
+    int                   order = 0;
+    std::array<double, 3> Q{};
+    std::array<double, 2> T{};
+};
+
+/// Weights of the observer: d_w, d_q, d_d, w, i_q, i_d; measured w, i_q, i_d.
+struct NodoSpec {
+    int                   order = 0;
+    std::array<double, 6> Q{};
+    std::array<double, 3> T{};
+};
+
+struct Drive {
+    std::string name;
+    Motor       motor;
+    Inverter    inverter;
+    Encoder     encoder;
+    NoscSpec    nosc;
+    NodoSpec    nodo;
+};
+
+constexpr int drive_schema = 1;
+
+/// InputError in one line on anything missing, unknown, not finite or out of range.
+Drive read_drive_file(const std::filesystem::path &file);
+
+/// Control period: 1 / (pwm_frequency_Hz * updates_per_period).
+double control_period_s(const Drive &drive);
+
+/// "fnv1a64:<16 hex digits>" of every value of the drive; independent of layout and comments.
+std::string drive_digest(const Drive &drive);
+
+/// The motor's keys and values, for tools that scale or list them. Throws InputError for an unknown key.
+double &motor_value(Motor &motor, const std::string &key);
+
+} // namespace sdre

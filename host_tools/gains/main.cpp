@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+/// sdre-gains: drive file -> gains, report, firmware tables.
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "care_command.hpp"
+#include "design.hpp"
+#include "emit_tables.hpp"
+#include "errors.hpp"
+#include "report.hpp"
+#include "version.hpp"
+
+namespace {
+
+enum ExitCode { exit_ok = 0, exit_bad_input = 1, exit_design_failed = 2, exit_check_mismatch = 3 };
+
+struct Options {
+    std::string drive;
+    std::string problem;
+    std::string out;
+    std::string check;
+    bool        json = false;
+};
+
+int run_generate(const Options &options)
+{
+    if (options.out.empty() == options.check.empty()) {
+        throw sdre::InputError("generate: give either --out DIR or --check DIR");
+    }
+    const sdre::Design design = sdre::design_drive(sdre::read_drive_file(options.drive));
+    if (!design.certificate.passed()) {
+        throw sdre::DesignError(fmt::format("{}: not certified: {}", options.drive,
+                                            fmt::join(design.certificate.failures, "; ")));
+    }
+    const sdre::TableText text = sdre::table_text(design);
+    if (!options.out.empty()) {
+        sdre::write_tables(text, options.out);
+        fmt::print("{}: certified; wrote gain_tables.h and gain_tables.c to {}\n",
+                   design.drive.name, options.out);
+        return exit_ok;
+    }
+    const std::string difference = sdre::compare_tables(text, options.check);
+    if (!difference.empty()) {
+        fmt::print(stderr, "sdre-gains: {}\n", difference);
+        return exit_check_mismatch;
+    }
+    fmt::print("{}: certified; {} matches\n", design.drive.name, options.check);
+    return exit_ok;
+}
+
+int run_report(const Options &options)
+{
+    const sdre::Design design = sdre::design_drive(sdre::read_drive_file(options.drive));
+    fmt::print("{}", options.json ? sdre::report_json(design) : sdre::report_text(design));
+    return exit_ok;
+}
+
+int run_care(const Options &options)
+{
+    const sdre::CareSolution solution =
+        sdre::solve_care_problem(sdre::read_care_problem(options.problem));
+    fmt::print("{}", options.json ? sdre::care_json(solution) : sdre::care_text(solution));
+    return exit_ok;
+}
+
+int run(int argc, char **argv)
+{
+    Options  options;
+    CLI::App app{
+        "Gain design for sdre-drive: Riccati and Lyapunov solutions as certified firmware tables."};
+    app.require_subcommand(1);
+    app.set_version_flag("--version", fmt::format("sdre-gains {}", sdre::tool_version));
+
+    CLI::App *generate = app.add_subcommand(
+        "generate", "write gain_tables.h and .c, or compare them with the drive file");
+    generate->add_option("DRIVE", options.drive, "drive file (TOML)")->required();
+    generate->add_option("--out", options.out, "directory to write to");
+    generate->add_option("--check", options.check,
+                         "directory to compare with; exit code 3 on a mismatch");
+
+    CLI::App *report = app.add_subcommand("report", "print gains, poles and the certificate");
+    report->add_option("DRIVE", options.drive, "drive file (TOML)")->required();
+    report->add_flag("--json", options.json, "one JSON object");
+
+    CLI::App *care = app.add_subcommand("care", "solve A'X + XA - XBR^-1B'X + Q = 0");
+    care->add_option("PROBLEM", options.problem, "JSON file with A, Q and B, R (or G)")->required();
+    care->add_flag("--json", options.json, "one JSON object");
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError &e) {
+        if (e.get_exit_code() == 0) {
+            return app.exit(e); // --help, --version
+        }
+        throw sdre::InputError(e.what());
+    }
+    if (*generate) {
+        return run_generate(options);
+    }
+    return *report ? run_report(options) : run_care(options);
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+    try {
+        return run(argc, argv);
+    } catch (const sdre::DesignError &e) {
+        fmt::print(stderr, "sdre-gains: {}\n", e.what());
+        return exit_design_failed;
+    } catch (const std::exception &e) {
+        fmt::print(stderr, "sdre-gains: {}\n", e.what());
+        return exit_bad_input;
+    }
+}

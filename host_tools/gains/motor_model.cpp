@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "motor_model.hpp"
+
+namespace sdre {
+
+using Eigen::MatrixXd;
+
+ReducedParameters reduced_parameters(const Motor &m)
+{
+    const double np = m.pole_pairs;
+    const double Rs = m.stator_resistance_Ohm;
+    const double Ld = m.d_axis_inductance_H;
+    const double Lq = m.q_axis_inductance_H;
+    const double J  = m.inertia_kgm2;
+
+    ReducedParameters l{}; // EQ-MOTOR-1
+    l[1]  = 1.5 * np * np * m.pm_flux_Wb / J;
+    l[2]  = m.viscous_friction_Nms / J;
+    l[3]  = np / J;
+    l[4]  = Rs / Lq;
+    l[5]  = m.pm_flux_Wb / Lq;
+    l[6]  = 1.0 / Lq;
+    l[7]  = Rs / Ld;
+    l[8]  = 1.0 / Ld;
+    l[9]  = Lq / Ld;
+    l[10] = Ld / Lq;
+    l[11] = 1.5 * np * np * (Ld - Lq) / J;
+    return l;
+}
+
+namespace {
+
+MatrixXd constant_part(const ReducedParameters &l)
+{
+    MatrixXd A(3, 3);
+    A << -l[2], l[1], 0.0, -l[5], -l[4], 0.0, 0.0, 0.0, -l[7];
+    return A;
+}
+
+} // namespace
+
+MatrixXd nosc_input_matrix(const ReducedParameters &l)
+{
+    MatrixXd B(3, 2);
+    B << 0.0, 0.0, l[6], 0.0, 0.0, l[8];
+    return B;
+}
+
+SdreProblem nosc_problem(const ReducedParameters &l, const NoscSpec &spec)
+{
+    MatrixXd dA = MatrixXd::Zero(3, 3);
+    dA(0, 2)    = l[11]; // (20)
+
+    const Eigen::Vector2d T(spec.T[0], spec.T[1]);
+    const Eigen::Vector3d Q(spec.Q[0], spec.Q[1], spec.Q[2]);
+    return {constant_part(l),
+            {dA},
+            control_weight(nosc_input_matrix(l), T.asDiagonal()),
+            Q.asDiagonal()};
+}
+
+ObserverModel nodo_model(const ReducedParameters &l)
+{
+    ObserverModel model{MatrixXd::Zero(6, 6), MatrixXd::Zero(6, 6), MatrixXd::Zero(3, 6)};
+    model.A0.bottomLeftCorner(3, 3) = MatrixXd::Identity(3, 3); // (34); see docs/errata.md for (35)
+    model.A0.bottomRightCorner(3, 3) = constant_part(l);
+    model.dA(3, 5)                   = l[11];
+    model.dA(5, 3)                   = l[9];
+    model.C.rightCols(3)             = MatrixXd::Identity(3, 3);
+    return model;
+}
+
+SdreProblem nodo_problem(const ReducedParameters &l, const NodoSpec &spec)
+{
+    const ObserverModel   model = nodo_model(l);
+    const Eigen::Vector3d T(spec.T[0], spec.T[1], spec.T[2]);
+    const Eigen::VectorXd Q = Eigen::Map<const Eigen::VectorXd>(spec.Q.data(), 6);
+    return {model.A0.transpose(),
+            {model.dA.transpose()},
+            control_weight(model.C.transpose(), T.asDiagonal()),
+            Q.asDiagonal()};
+}
+
+double torque_Nm(const Motor &m, double id_A, double iq_A)
+{
+    return 1.5 * m.pole_pairs *
+           (m.pm_flux_Wb + (m.d_axis_inductance_H - m.q_axis_inductance_H) * id_A) * iq_A;
+}
+
+} // namespace sdre

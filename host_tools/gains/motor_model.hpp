@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+/// The motor as the control problems see it: reduced parameters (EQ-MOTOR-1) and the two SDRE problems.
+#pragma once
+
+#include <array>
+
+#include "drive_file.hpp"
+#include "sdre_series.hpp"
+
+namespace sdre {
+
+/// l[1] .. l[11] of paper A (2); l[0] is unused so that indices are the paper's.
+using ReducedParameters = std::array<double, 12>;
+
+ReducedParameters reduced_parameters(const Motor &motor);
+
+/// Error dynamics (10), (15), (20): states e_w, e_iq, e_id; inputs v_q, v_d; scheduled by e_iq.
+SdreProblem nosc_problem(const ReducedParameters &l, const NoscSpec &spec);
+
+/// 3 x 2 input matrix of (10).
+Eigen::MatrixXd nosc_input_matrix(const ReducedParameters &l);
+
+/// Observer (27), (34), (35): states d_w, d_q, d_d, w, i_q, i_d; scheduled by i_q; not transposed.
+struct ObserverModel {
+    Eigen::MatrixXd A0; ///< 6 x 6
+    Eigen::MatrixXd dA; ///< 6 x 6, per ampere of i_q
+    Eigen::MatrixXd C;  ///< 3 x 6: w, i_q, i_d are measured
+};
+
+ObserverModel nodo_model(const ReducedParameters &l);
+
+/// The dual of the observer problem, (33): A0', dA', C' T^-1 C.
+SdreProblem nodo_problem(const ReducedParameters &l, const NodoSpec &spec);
+
+/// Electromagnetic torque of (1) [N m]; currents in amperes peak.
+double torque_Nm(const Motor &motor, double id_A, double iq_A);
+
+} // namespace sdre
