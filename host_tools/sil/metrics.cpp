@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "metrics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sdre {
+namespace {
+
+using Iterator = std::vector<TraceRow>::const_iterator;
+
+constexpr double tail_share = 0.2;
+
+template <typename Value> double mean(Iterator begin, Iterator end, Value value)
+{
+    double sum = 0.0;
+    for (Iterator row = begin; row != end; ++row) {
+        sum += value(*row);
+    }
+    return sum / static_cast<double>(end - begin);
+}
+
+std::optional<double> settling_time_s(Iterator begin, Iterator end, double target, double band)
+{
+    Iterator inside = end; // first row of the last stretch within the band
+    for (Iterator row = end; row != begin;) {
+        --row;
+        if (std::abs(row->omega_e_radps - target) > band) {
+            break;
+        }
+        inside = row;
+    }
+    if (inside == end) {
+        return std::nullopt;
+    }
+    return inside->time_s - begin->time_s;
+}
+
+void excursions(Iterator begin, Iterator end, double target, double band, Metrics &m)
+{
+    const double start    = begin->omega_e_radps - target;
+    const bool   step     = std::abs(start) > band;
+    const double upwards  = (step && start > 0.0) ? -1.0 : 1.0; // direction in which the step goes
+    bool         counting = !step;
+    for (Iterator row = begin; row != end; ++row) {
+        const double beyond = upwards * (row->omega_e_radps - target);
+        counting            = counting || beyond >= -band;
+        if (counting) {
+            m.overshoot_e_radps = std::max(m.overshoot_e_radps, beyond);
+            m.dip_e_radps       = std::max(m.dip_e_radps, -beyond);
+        }
+    }
+}
+
+Metrics metrics_of(const Measure &measure, Iterator begin, Iterator end)
+{
+    const double   target = (end - 1)->omega_ref_e_radps;
+    const auto     length = end - begin;
+    const Iterator tail =
+        end - std::max<std::ptrdiff_t>(
+                  1, static_cast<std::ptrdiff_t>(tail_share * static_cast<double>(length)));
+    const auto speed_less = [](const TraceRow &a, const TraceRow &b) {
+        return a.omega_e_radps < b.omega_e_radps;
+    };
+    const auto [lowest, highest] = std::minmax_element(tail, end, speed_less);
+
+    Metrics m;
+    m.name            = measure.name;
+    m.time_s          = measure.time_s;
+    m.settling_time_s = settling_time_s(begin, end, target, measure.band_e_radps);
+    excursions(begin, end, target, measure.band_e_radps, m);
+    m.steady_state_error_e_radps =
+        std::abs(mean(tail, end, [](const TraceRow &r) { return r.omega_e_radps; }) - target);
+    m.ripple_e_radps = 0.5 * (highest->omega_e_radps - lowest->omega_e_radps);
+    for (Iterator row = begin; row != end; ++row) {
+        m.peak_current_A = std::max(m.peak_current_A, std::hypot(row->id_A, row->iq_A));
+    }
+    m.d_omega_hat = mean(tail, end, [](const TraceRow &r) { return r.d_omega_hat; });
+    m.d_q_hat     = mean(tail, end, [](const TraceRow &r) { return r.d_q_hat; });
+    m.d_d_hat     = mean(tail, end, [](const TraceRow &r) { return r.d_d_hat; });
+    m.iq_A        = mean(tail, end, [](const TraceRow &r) { return r.iq_A; });
+    m.id_A        = mean(tail, end, [](const TraceRow &r) { return r.id_A; });
+    return m;
+}
+
+} // namespace
+
+std::vector<Metrics> measure(const Scenario &scenario, const std::vector<TraceRow> &trace)
+{
+    const auto first_at = [&](double time_s) {
+        return std::find_if(trace.begin(), trace.end(),
+                            [&](const TraceRow &r) { return r.time_s >= time_s - 1e-12; });
+    };
+    std::vector<Metrics> out;
+    for (std::size_t i = 0; i < scenario.measures.size(); i++) {
+        const Iterator begin = first_at(scenario.measures[i].time_s);
+        const Iterator end   = (i + 1 < scenario.measures.size())
+                                   ? first_at(scenario.measures[i + 1].time_s)
+                                   : trace.end();
+        if (begin != end) {
+            out.push_back(metrics_of(scenario.measures[i], begin, end));
+        }
+    }
+    return out;
+}
+
+std::vector<std::pair<std::string, double>> metric_values(const Metrics &m)
+{
+    std::vector<std::pair<std::string, double>> values;
+    if (m.settling_time_s) {
+        values.emplace_back("settling_time_s", *m.settling_time_s);
+    }
+    values.insert(values.end(), {{"dip_e_radps", m.dip_e_radps},
+                                 {"overshoot_e_radps", m.overshoot_e_radps},
+                                 {"steady_state_error_e_radps", m.steady_state_error_e_radps},
+                                 {"ripple_e_radps", m.ripple_e_radps},
+                                 {"peak_current_A", m.peak_current_A},
+                                 {"d_omega_hat", m.d_omega_hat},
+                                 {"d_q_hat", m.d_q_hat},
+                                 {"d_d_hat", m.d_d_hat},
+                                 {"iq_A", m.iq_A},
+                                 {"id_A", m.id_A}});
+    return values;
+}
+
+bool is_metric_name(const std::string &name)
+{
+    Metrics probe;
+    probe.settling_time_s = 0.0;
+    const auto values     = metric_values(probe);
+    return std::any_of(values.begin(), values.end(),
+                       [&](const auto &value) { return value.first == name; });
+}
+
+} // namespace sdre

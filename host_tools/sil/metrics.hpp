@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+/// What is read off a trace.
+///
+/// A measure's window runs from its time to the next measure or the end. Its target is the reference at the
+/// end of the window; its tail is the last fifth. A window is a step when the speed starts more than a
+/// band away from the target, otherwise a disturbance.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulation.hpp"
+
+namespace sdre {
+
+struct Metrics {
+    std::string name;
+    double      time_s = 0.0;
+    std::optional<double>
+        settling_time_s; ///< last entry into the band; none when outside at the end
+    /// Step: how far the speed falls back from the target after first reaching the band, and how far it goes
+    /// beyond. Disturbance: largest deviation below and above the target.
+    double dip_e_radps                = 0.0;
+    double overshoot_e_radps          = 0.0;
+    double steady_state_error_e_radps = 0.0; ///< |mean error| in the tail
+    double ripple_e_radps             = 0.0; ///< (max - min) / 2 in the tail
+    double peak_current_A             = 0.0; ///< largest |i| in the window
+    double d_omega_hat                = 0.0; ///< means in the tail [rad/s^2]
+    double d_q_hat                    = 0.0; ///< [A/s]
+    double d_d_hat                    = 0.0; ///< [A/s]
+    double iq_A                       = 0.0;
+    double id_A                       = 0.0;
+};
+
+std::vector<Metrics> measure(const Scenario &scenario, const std::vector<TraceRow> &trace);
+
+/// The numeric metrics by their JSON name, in order; a missing settling time is left out.
+std::vector<std::pair<std::string, double>> metric_values(const Metrics &metrics);
+
+bool is_metric_name(const std::string &name);
+
+} // namespace sdre

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "plot.hpp"
+
+#include <array>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "errors.hpp"
+#include "file_output.hpp"
+
+namespace sdre {
+namespace {
+
+int run(const std::array<std::string, 5> &arguments)
+{
+    std::array<char *, 6> argv{};
+    for (std::size_t i = 0; i < arguments.size(); i++) {
+        argv[i] = const_cast<char *>(arguments[i].c_str()); // posix_spawn does not write to them
+    }
+    pid_t child  = 0;
+    int   status = 0;
+    if (posix_spawnp(&child, argv[0], nullptr, nullptr, argv.data(), environ) != 0 ||
+        waitpid(child, &status, 0) != child) {
+        return -1;
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+} // namespace
+
+void plot_trace(const std::string &csv, const std::string &title,
+                const std::filesystem::path &picture)
+{
+    const std::string python = SDRE_PYTHON;
+    const std::string kind   = picture.extension().string();
+    if (kind != ".png" && kind != ".svg") {
+        throw InputError(fmt::format("{}: a plot is a .png or a .svg", picture.string()));
+    }
+    if (python.empty()) {
+        throw InputError("--plot: this build found no Python with matplotlib");
+    }
+    // Beside the target, so that a directory that cannot be written fails here, before anything is drawn.
+    const std::filesystem::path data = picture.string() + ".csv.tmp";
+    const std::filesystem::path part = picture.string() + ".tmp" + kind;
+    write_files({{data, csv}});
+    const int       status = run({python, SDRE_PLOT_SCRIPT, data.string(), title, part.string()});
+    std::error_code error;
+    std::filesystem::remove(data, error);
+    if (status == 0) {
+        std::filesystem::rename(part, picture, error);
+    }
+    if (status != 0 || error) {
+        std::filesystem::remove(part, error);
+        throw InputError(fmt::format("{}: cannot draw", picture.string()));
+    }
+}
+
+} // namespace sdre

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+/// Draws a trace with matplotlib.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace sdre {
+
+/// Writes a .png or .svg. InputError when no Python with matplotlib was found at build time or it fails.
+void plot_trace(const std::string &csv, const std::string &title,
+                const std::filesystem::path &picture);
+
+} // namespace sdre

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+/// The control core against the plant, tick by tick.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core_types.hpp"
+#include "scenario.hpp"
+
+namespace sdre {
+
+/// One control period: the plant at the sampling instant and what the core answered.
+struct TraceRow {
+    double time_s            = 0.0;
+    double omega_ref_e_radps = 0.0; ///< commanded
+    double omega_e_radps     = 0.0;
+    double iq_A              = 0.0;
+    double id_A              = 0.0;
+    double iq_ref_A          = 0.0;
+    double id_ref_A          = 0.0;
+    double vq_V              = 0.0; ///< commanded at this tick, after the limit
+    double vd_V              = 0.0;
+    double d_omega_hat       = 0.0;
+    double d_q_hat           = 0.0;
+    double d_d_hat           = 0.0;
+    double load_torque_Nm    = 0.0;
+    double torque_Nm         = 0.0;
+};
+
+struct SimulationResult {
+    std::vector<TraceRow> trace;
+    int                   fault                        = 0; ///< drive_fault_t; 0 = none
+    double                fault_time_s                 = 0.0;
+    double                simulated_seconds_per_second = 0.0; ///< wall clock
+    bool compiled_table = false;          ///< the generated table was used, not gains solved here
+    std::vector<std::string> uncertified; ///< why the gains would not have been written as a table
+};
+
+/// Runs a scenario. DesignError when the controller's gains cannot be solved.
+///
+/// The samples of tick k meet duty ratios that act from t_k+1 to t_k+2; the controller is enabled at t = 0
+/// on a motor that turns at the initial speed without current.
+SimulationResult simulate(const Scenario &scenario);
+
+/// "over current" and so on.
+const char *fault_name(int fault);
+
+} // namespace sdre
