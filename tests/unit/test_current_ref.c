@@ -1,0 +1,597 @@
+/* SPDX-License-Identifier: MIT */
+#include "current_ref.h"
+
+#include "gain_tables.h"
+#include "unit_support.h"
+#include "unity.h"
+
+#define TOL_A        7.0e-5 /* A, currents up to 4 A; worst 1.4e-5 */
+#define TOL_STEEP_A  7.0e-4 /* A where iq nearly touches the voltage circle; worst 1.4e-4 */
+#define TOL_V        1.8e-4 /* V beyond the usable 161.5 V; worst 3.5e-5 */
+#define TOL_CIRCLE_A 7.5e-7 /* A beyond the circle of 4 A; worst 1.5e-7 */
+#define TOL_RADPS2   2.0e-3 /* rad/s^2, summands up to 4e3 rad/s^2; worst 4.1e-4 */
+#define TOL_Aps      2.7e-3 /* A/s, currents up to 4 A over 1 ms; worst 5.3e-4 */
+#define TOL_FILTER_A 8.0e-7 /* A; worst 1.7e-7 */
+
+#define TOL_TRIAL_A 2.0e-4 /* A; twice the spacing of the trials */
+
+/* Next term of the series, |mtpa_gain|^3 iq^4, which the second order leaves out. The worst distance from
+ * the optimum is 0.62 of it; three are allowed. */
+#define MTPA_NEXT_TERM 8.3e-3 /* 1/A^3 */
+
+#define CASES   2000
+#define V_MAX_V 170.0f
+#define TS_s    2.0e-4
+
+static support_random_t     random_state;
+static current_ref_config_t config;
+static motor_reduced_t      motor;
+static support_motor_t      si;
+static nodo_t               est;
+static nodo_meas_t          y;
+static speed_ref_t          w_ref;
+static float                iq_speed_A;
+static current_ref_t        r;
+
+static void use_motor(motor_reduced_t m)
+{
+    motor                = m;
+    si                   = support_motor(&motor);
+    config.mtpa_gain_1pA = (motor.l10 - 1.0f) / motor.l5;
+}
+
+void setUp(void)
+{
+    const nodo_meas_t rest    = {0.0f, 0.0f, 0.0f};
+    const nodo_t      nothing = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+
+    random_state.state       = 19u;
+    config                   = gain_tables_drive.current_ref;
+    config.filter_per_period = 1.0f; /* id_ref is its target at once */
+    config.filter_1ps        = (float)(1.0 / TS_s);
+    use_motor(gain_tables_drive.motor);
+    est        = nothing;
+    y          = rest;
+    iq_speed_A = 0.0f;
+    speed_ref_reset(&w_ref, 0.0f);
+    current_ref_reset(&r);
+}
+
+void tearDown(void) {}
+
+static void update(void)
+{
+    const current_ref_input_t in = {
+        .est = &est, .meas = &y, .iq_speed_A = iq_speed_A, .v_max_V = V_MAX_V};
+    current_ref_update(&r, &config, &motor, &w_ref, &in);
+}
+
+/* Sets the acceleration so that EQ-CURRENT-REF-4 asks for this q current. */
+static void ask_for(double iq_A)
+{
+    const double torque_gain =
+        fmax((double)motor.l1 + ((double)motor.l11 * (double)y.id_A), (double)config.l1_min);
+    w_ref.omega_e_radps = y.omega_e_radps;
+    w_ref.omega_dot_e_radps2 =
+        (float)((iq_A * torque_gain) - ((double)motor.l2 * (double)y.omega_e_radps) +
+                (double)est.d_omega);
+}
+
+/* The voltage equations of the motor in SI units: length of the vector that holds (id, iq) while the
+ * resistive drop is that of the measured currents. */
+static double voltage_V(double id_A, double iq_A)
+{
+    const double w = (double)y.omega_e_radps;
+    const double v_d =
+        (si.rs_Ohm * (double)y.id_A) - (w * si.lq_H * iq_A) - (si.ld_H * (double)est.d_d);
+    const double v_q = (si.rs_Ohm * (double)y.iq_A) + (w * (si.flux_Wb + (si.ld_H * id_A))) -
+                       (si.lq_H * (double)est.d_q);
+    return hypot(v_d, v_q);
+}
+
+static double usable_V(void)
+{
+    return (double)config.voltage_share * (double)V_MAX_V;
+}
+
+/* Bisects between a current that fits the voltage and one that does not. */
+static double search(bool along_d, double other_A, double fits_A, double fails_A)
+{
+    for (int halving = 0; halving < 60; halving++) {
+        const double middle_A = 0.5 * (fits_A + fails_A);
+        const double v_V = along_d ? voltage_V(middle_A, other_A) : voltage_V(other_A, middle_A);
+        if (v_V <= usable_V()) {
+            fits_A = middle_A;
+        } else {
+            fails_A = middle_A;
+        }
+    }
+    return fits_A;
+}
+
+/* Oracle: the id closest to zero flux weakening that fits, found in volts; where none fits, the id that
+ * needs least voltage. */
+static double oracle_fw_A(double iq_A)
+{
+    const double w = (double)y.omega_e_radps;
+    const double rest =
+        (si.rs_Ohm * (double)y.iq_A) - (si.lq_H * (double)est.d_q) + (w * si.flux_Wb);
+    const double least = -rest / (w * si.ld_H);
+    return (voltage_V(least, iq_A) <= usable_V()) ? search(true, iq_A, least, least + 1.0e3)
+                                                  : least;
+}
+
+static double oracle_id_A(double iq_before_A, double iq_wanted_A)
+{
+    const double mtpa_A =
+        (((double)motor.l10 - 1.0) / (double)motor.l5) * iq_before_A * iq_before_A;
+    const double fw_A = oracle_fw_A(iq_wanted_A);
+    return support_limit(fmin(mtpa_A, fw_A), -(double)config.current_max_A, 0.0);
+}
+
+/* Oracle: lowest (direction -1) or highest (+1) iq that fits the voltage at the measured id. */
+static double oracle_iq_limit_A(double direction, double id_ref_A)
+{
+    const double w       = (double)y.omega_e_radps;
+    const double id_A    = (double)y.id_A;
+    const double least   = ((si.rs_Ohm * id_A) - (si.ld_H * (double)est.d_d)) / (w * si.lq_H);
+    const double voltage = (voltage_V(id_A, least) <= usable_V())
+                               ? search(false, id_A, least, least + (direction * 1.0e3))
+                               : least;
+    const double i_max   = (double)config.current_max_A;
+    const double current =
+        fmin((double)config.iq_max_A, sqrt(fmax((i_max * i_max) - (id_ref_A * id_ref_A), 0.0)));
+    return (direction > 0.0) ? support_limit(voltage, 0.0, current)
+                             : support_limit(voltage, -current, 0.0);
+}
+
+static void draw_fast_case(void)
+{
+    const float speed = support_uniform(&random_state, 350.0f, 1500.0f);
+    y.omega_e_radps   = (support_uniform(&random_state, -1.0f, 1.0f) < 0.0f) ? -speed : speed;
+    y.iq_A            = support_uniform(&random_state, -4.0f, 4.0f);
+    y.id_A            = support_uniform(&random_state, -4.0f, 1.0f);
+    est.d_q           = support_uniform(&random_state, -300.0f, 300.0f);
+    est.d_d           = support_uniform(&random_state, -300.0f, 300.0f);
+    est.d_omega       = support_uniform(&random_state, -7000.0f, 7000.0f);
+    r.i_A.q           = support_uniform(&random_state, -3.3f, 3.3f);
+}
+
+/* Whether the tangent to the voltage circle is steep enough to amplify rounding. */
+static bool steep(double value_A, double shifted_A)
+{
+    return fabs(voltage_V(value_A, shifted_A) - usable_V()) < 0.05 * usable_V();
+}
+
+static void assert_inside_current_circle(void)
+{
+    const double beyond_A = support_length(r.i_A) - (double)config.current_max_A;
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_CIRCLE_A, 0.0, fmax(beyond_A, 0.0));
+}
+
+static void test_reset_starts_everything_at_zero(void)
+{
+    current_ref_t used = {{1.0f, 2.0f}, 3.0f, 4.0f, {5.0f, 6.0f}, {7.0f, 8.0f}};
+
+    current_ref_reset(&used);
+
+    TEST_ASSERT_TRUE((used.i_A.d == 0.0f) && (used.i_A.q == 0.0f));
+    TEST_ASSERT_TRUE((used.iq_lo_A == 0.0f) && (used.iq_hi_A == 0.0f));
+    TEST_ASSERT_TRUE((used.i_dot_Aps.d == 0.0f) && (used.i_dot_Aps.q == 0.0f));
+    TEST_ASSERT_TRUE((used.filter_A.d == 0.0f) && (used.filter_A.q == 0.0f));
+}
+
+static void test_rest_without_disturbance_asks_for_no_current(void)
+{
+    update();
+
+    TEST_ASSERT_TRUE((r.i_A.d == 0.0f) && (r.i_A.q == 0.0f));
+    TEST_ASSERT_TRUE((r.i_dot_Aps.d == 0.0f) && (r.i_dot_Aps.q == 0.0f));
+}
+
+/* Oracle: of all (id, iq) with the same torque, the shortest, by trying id. */
+static void test_id_at_low_speed_gives_the_most_torque_per_ampere(void)
+{
+    for (int step = -20; step <= 20; step++) {
+        const double iq_A   = 0.1 * (double)step;
+        r.i_A.q             = (float)iq_A;
+        const double id_A   = (double)config.mtpa_gain_1pA * iq_A * iq_A;
+        const double torque = iq_A * ((double)motor.l1 + ((double)motor.l11 * id_A));
+        double       best_A = 0.0;
+        double       length = 1.0e9;
+        for (int trial = 0; trial <= 20000; trial++) {
+            const double id = -1.0e-4 * (double)trial;
+            const double iq = torque / ((double)motor.l1 + ((double)motor.l11 * id));
+            if (hypot(id, iq) < length) {
+                length = hypot(id, iq);
+                best_A = id;
+            }
+        }
+
+        update();
+
+        TEST_ASSERT_DOUBLE_WITHIN((3.0 * MTPA_NEXT_TERM * pow(iq_A, 4.0)) + TOL_TRIAL_A, best_A,
+                                  (double)r.i_A.d);
+    }
+}
+
+static void test_id_follows_the_mtpa_series_of_the_previous_reference(void)
+{
+    for (int step = -33; step <= 33; step++) {
+        const double iq_A     = 0.1 * (double)step;
+        const double expected = (si.ld_H - si.lq_H) / si.flux_Wb * iq_A * iq_A;
+        r.i_A.q               = (float)iq_A;
+        y.iq_A                = 1.7f; /* the measured current has no say */
+
+        update();
+
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_A, expected, (double)r.i_A.d);
+    }
+}
+
+static void test_surface_magnet_motor_needs_no_id_at_low_speed(void)
+{
+    motor_reduced_t m = gain_tables_drive.motor;
+    m.l10             = 1.0f;
+    m.l9              = 1.0f;
+    m.l11             = 0.0f;
+    use_motor(m);
+    r.i_A.q = 3.0f;
+
+    update();
+
+    TEST_ASSERT_TRUE(r.i_A.d == 0.0f);
+}
+
+static void test_id_matches_search_in_volts_at_high_speed(void)
+{
+    for (int n = 0; n < CASES; n++) {
+        draw_fast_case();
+        const double before_A = (double)r.i_A.q;
+        const double wanted_A = (double)support_uniform(&random_state, -3.3f, 3.3f);
+        ask_for(wanted_A);
+        const double expected = oracle_id_A(before_A, wanted_A);
+        const double least    = voltage_V(oracle_fw_A(wanted_A) - 0.1, wanted_A);
+        const bool   touching = (least > usable_V());
+
+        update();
+
+        if (touching) {
+            TEST_ASSERT_DOUBLE_WITHIN(TOL_STEEP_A, expected, (double)r.i_A.d);
+        } else {
+            TEST_ASSERT_DOUBLE_WITHIN(TOL_A, expected, (double)r.i_A.d);
+        }
+    }
+}
+
+static void test_id_makes_room_for_the_current_that_the_speed_error_asks_for(void)
+{
+    for (int n = 0; n < CASES; n++) {
+        draw_fast_case();
+        const double before_A = (double)r.i_A.q;
+        iq_speed_A            = support_uniform(&random_state, -6.0f, 6.0f);
+        ask_for(0.5);
+        const double limit_A  = (double)config.iq_max_A;
+        const double wanted_A = support_limit(0.5 + (double)iq_speed_A, -limit_A, limit_A);
+        const double expected = oracle_id_A(before_A, wanted_A);
+
+        update();
+
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_STEEP_A, expected, (double)r.i_A.d);
+    }
+}
+
+static void test_limits_of_iq_match_search_in_volts_at_high_speed(void)
+{
+    for (int n = 0; n < CASES; n++) {
+        draw_fast_case();
+        ask_for((double)support_uniform(&random_state, -3.3f, 3.3f));
+
+        update();
+
+        const double lo_A = oracle_iq_limit_A(-1.0, (double)r.i_A.d);
+        const double hi_A = oracle_iq_limit_A(1.0, (double)r.i_A.d);
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_STEEP_A, lo_A, (double)r.iq_lo_A);
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_STEEP_A, hi_A, (double)r.iq_hi_A);
+        if (!steep((double)y.id_A, 0.5 * (lo_A + hi_A))) {
+            TEST_ASSERT_DOUBLE_WITHIN(TOL_A, lo_A, (double)r.iq_lo_A);
+            TEST_ASSERT_DOUBLE_WITHIN(TOL_A, hi_A, (double)r.iq_hi_A);
+        }
+    }
+}
+
+/* The references settle where a motor that follows them is on or inside the voltage circle. */
+static void test_steady_references_need_no_more_than_the_usable_voltage(void)
+{
+    for (int speed = -1500; speed <= 1500; speed += 50) {
+        for (int load = -3; load <= 3; load++) {
+            setUp();
+            config.filter_per_period = 0.2f;
+            y.omega_e_radps          = (float)speed;
+            w_ref.omega_e_radps      = (float)speed;
+            est.d_omega              = 2500.0f * (float)load;
+            for (int n = 0; n < 400; n++) {
+                update();
+                y.id_A += 0.2f * (r.i_A.d - y.id_A);
+                y.iq_A += 0.2f * (r.i_A.q - y.iq_A);
+            }
+
+            const double v_V = voltage_V((double)r.i_A.d, (double)r.i_A.q);
+
+            TEST_ASSERT_DOUBLE_WITHIN(TOL_V, 0.0, fmax(v_V - usable_V(), 0.0));
+        }
+    }
+}
+
+static void test_low_speed_ignores_the_voltage_circle(void)
+{
+    const double base_radps = usable_V() / si.flux_Wb;
+    for (int sign = -1; sign <= 1; sign++) {
+        y.omega_e_radps = (float)(0.249 * base_radps) * (float)sign;
+        est.d_d         = 3.0e3f; /* more than the circle holds */
+
+        update();
+
+        TEST_ASSERT_TRUE((r.iq_hi_A == config.iq_max_A) && (r.iq_lo_A == -config.iq_max_A));
+    }
+}
+
+static void test_voltage_circle_counts_from_a_quarter_of_the_base_speed(void)
+{
+    const double base_radps = usable_V() / si.flux_Wb;
+    for (int sign = -1; sign <= 1; sign += 2) {
+        y.omega_e_radps = (float)(0.251 * base_radps) * (float)sign;
+        est.d_d         = 3.0e3f; /* more than the circle holds */
+
+        update();
+
+        TEST_ASSERT_TRUE((r.iq_hi_A == 0.0f) || (r.iq_lo_A == 0.0f));
+    }
+}
+
+static void test_tiny_speeds_give_finite_references(void)
+{
+    static const float speeds[] = {0.0f, -0.0f, 1.0e-30f, -1.0e-30f, 1.0e-3f, -1.0e-3f};
+    for (int i = 0; i < SUPPORT_COUNT(speeds); i++) {
+        y.omega_e_radps = speeds[i];
+        ask_for(1.0);
+
+        update();
+
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_A, 1.0, (double)r.i_A.q);
+        TEST_ASSERT_TRUE(isfinite(r.i_A.d));
+    }
+}
+
+/* (40) put back into the speed equation of (4): the reference gives the wanted acceleration. */
+static void test_iq_gives_the_wanted_acceleration(void)
+{
+    for (int n = 0; n < CASES; n++) {
+        y.id_A                   = support_uniform(&random_state, -3.0f, 2.0f);
+        w_ref.omega_e_radps      = support_uniform(&random_state, -300.0f, 300.0f);
+        w_ref.omega_dot_e_radps2 = support_uniform(&random_state, -2.0e3f, 2.0e3f);
+        est.d_omega              = support_uniform(&random_state, -2.0e3f, 2.0e3f);
+
+        update();
+
+        const double iq  = (double)r.i_A.q;
+        const double dot = ((double)motor.l1 * iq) -
+                           ((double)motor.l2 * (double)w_ref.omega_e_radps) +
+                           ((double)motor.l11 * (double)y.id_A * iq) + (double)est.d_omega;
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_RADPS2, (double)w_ref.omega_dot_e_radps2, dot);
+    }
+}
+
+static void test_positive_id_never_turns_the_division_round(void)
+{
+    for (int step = 0; step <= 100; step++) {
+        y.id_A                   = 0.1f * (float)step; /* l1 + l11 id is zero at 4.96 A */
+        w_ref.omega_dot_e_radps2 = 1000.0f;
+        const double gain =
+            fmax((double)motor.l1 + ((double)motor.l11 * (double)y.id_A), (double)config.l1_min);
+
+        update();
+
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_A, 1000.0 / gain, (double)r.i_A.q);
+    }
+}
+
+static void test_references_never_leave_the_current_circle(void)
+{
+    config.filter_per_period = 0.2f;
+    config.filter_1ps        = 1000.0f;
+    for (int n = 0; n < 20 * CASES; n++) {
+        const float iq_before_A = r.i_A.q;
+        draw_fast_case();
+        r.i_A.q         = iq_before_A;
+        y.omega_e_radps = support_uniform(&random_state, -1500.0f, 1500.0f);
+        iq_speed_A      = support_uniform(&random_state, -10.0f, 10.0f);
+        ask_for((double)support_uniform(&random_state, -9.0f, 9.0f));
+
+        update();
+
+        assert_inside_current_circle();
+        TEST_ASSERT_TRUE(fabsf(r.i_A.q) <= config.iq_max_A);
+        TEST_ASSERT_TRUE(r.i_A.d <= 0.0f);
+        TEST_ASSERT_TRUE((r.iq_lo_A <= 0.0f) && (r.iq_hi_A >= 0.0f));
+        TEST_ASSERT_TRUE(base_in_range(r.i_A.q, r.iq_lo_A, r.iq_hi_A));
+    }
+}
+
+static void test_large_demand_is_met_up_to_the_limit(void)
+{
+    for (int sign = -1; sign <= 1; sign += 2) {
+        ask_for(9.0 * (double)sign);
+
+        update();
+
+        TEST_ASSERT_TRUE(r.i_A.q == (float)sign * config.iq_max_A);
+    }
+}
+
+static void test_full_weakening_leaves_no_q_current(void)
+{
+    config.current_max_A = 2.0f;
+    config.iq_max_A      = 1.9f;
+    y.omega_e_radps      = 1569.0f;
+    y.id_A               = -2.0f;
+    ask_for(1.0);
+
+    update();
+
+    TEST_ASSERT_TRUE((r.i_A.d == -2.0f) && (r.i_A.q == 0.0f));
+}
+
+/* Speed, q quantities and the disturbances of their equations mirrored: motoring stays motoring. */
+static void test_reversed_rotation_mirrors_the_references(void)
+{
+    config.filter_per_period = 0.2f;
+    for (int n = 0; n < CASES; n++) {
+        draw_fast_case();
+        y.omega_e_radps     = support_uniform(&random_state, -1500.0f, 1500.0f);
+        iq_speed_A          = support_uniform(&random_state, -2.0f, 2.0f);
+        current_ref_t start = r;
+        ask_for((double)support_uniform(&random_state, -3.0f, 3.0f));
+        update();
+        const current_ref_t forwards = r;
+
+        r                        = start;
+        r.i_A.q                  = -start.i_A.q;
+        r.filter_A.q             = -start.filter_A.q;
+        y.omega_e_radps          = -y.omega_e_radps;
+        y.iq_A                   = -y.iq_A;
+        est.d_omega              = -est.d_omega;
+        est.d_q                  = -est.d_q;
+        iq_speed_A               = -iq_speed_A;
+        w_ref.omega_e_radps      = -w_ref.omega_e_radps;
+        w_ref.omega_dot_e_radps2 = -w_ref.omega_dot_e_radps2;
+        update();
+
+        TEST_ASSERT_TRUE((r.i_A.d == forwards.i_A.d) && (r.i_A.q == -forwards.i_A.q));
+        TEST_ASSERT_TRUE((r.iq_lo_A == -forwards.iq_hi_A) && (r.iq_hi_A == -forwards.iq_lo_A));
+        TEST_ASSERT_TRUE(r.i_dot_Aps.q == -forwards.i_dot_Aps.q);
+        r = forwards;
+    }
+}
+
+/* First-order response to a constant target, (1 - (1 - k)^n). */
+static void test_id_approaches_its_target_exponentially(void)
+{
+    config.filter_per_period = 0.2f;
+    config.filter_1ps        = 1000.0f;
+    y.omega_e_radps          = 1200.0f;
+    const double target_A    = oracle_id_A(0.0, 0.0);
+    for (int n = 1; n <= 60; n++) {
+        const double expected = target_A * (1.0 - pow(0.8, (double)n));
+
+        ask_for(0.0);
+        update();
+
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_FILTER_A, expected, (double)r.i_A.d);
+    }
+}
+
+static void test_derivative_of_id_is_its_difference_quotient(void)
+{
+    config.filter_per_period = 0.2f;
+    config.filter_1ps        = 1000.0f;
+    for (int n = 0; n < CASES; n++) {
+        const double before_A = (double)r.i_A.d;
+        const float  iq_A     = r.i_A.q;
+        draw_fast_case();
+        r.i_A.q = iq_A;
+        ask_for((double)support_uniform(&random_state, -3.0f, 3.0f));
+
+        update();
+
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_Aps, ((double)r.i_A.d - before_A) / TS_s,
+                                  (double)r.i_dot_Aps.d);
+    }
+}
+
+/* Oracle: (iq - its low-pass) / time constant, the low-pass kept here in double. */
+static void test_derivative_of_iq_is_that_of_a_low_pass(void)
+{
+    double low_pass_A        = 0.0;
+    config.filter_per_period = 0.2f;
+    config.filter_1ps        = 1000.0f;
+    for (int n = 0; n < CASES; n++) {
+        ask_for((double)support_uniform(&random_state, -3.0f, 3.0f));
+
+        update();
+
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_Aps, ((double)r.i_A.q - low_pass_A) * 1000.0,
+                                  (double)r.i_dot_Aps.q);
+        low_pass_A += 0.2 * ((double)r.i_A.q - low_pass_A);
+    }
+}
+
+static void test_steady_references_have_no_derivative(void)
+{
+    config.filter_per_period = 0.2f;
+    config.filter_1ps        = 1000.0f;
+    y.omega_e_radps          = 900.0f;
+    ask_for(1.0);
+
+    for (int n = 0; n < 400; n++) {
+        update();
+    }
+
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_Aps, 0.0, (double)r.i_dot_Aps.d);
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_Aps, 0.0, (double)r.i_dot_Aps.q);
+}
+
+static void test_bad_estimates_give_finite_references_inside_the_circle(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(support_not_finite); i++) {
+        float *const fields[] = {&est.d_omega,
+                                 &est.d_q,
+                                 &est.d_d,
+                                 &iq_speed_A,
+                                 &w_ref.omega_e_radps,
+                                 &w_ref.omega_dot_e_radps2};
+        for (int k = 0; k < SUPPORT_COUNT(fields); k++) {
+            for (int speed = 0; speed <= 1200; speed += 600) {
+                setUp();
+                y.omega_e_radps = (float)speed;
+                *fields[k]      = support_not_finite[i];
+
+                update();
+
+                assert_inside_current_circle();
+                TEST_ASSERT_TRUE(isfinite(r.i_dot_Aps.d) && isfinite(r.i_dot_Aps.q));
+                TEST_ASSERT_TRUE(base_in_range(r.iq_lo_A, -config.iq_max_A, 0.0f));
+                TEST_ASSERT_TRUE(base_in_range(r.iq_hi_A, 0.0f, config.iq_max_A));
+            }
+        }
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_reset_starts_everything_at_zero);
+    RUN_TEST(test_rest_without_disturbance_asks_for_no_current);
+    RUN_TEST(test_id_at_low_speed_gives_the_most_torque_per_ampere);
+    RUN_TEST(test_id_follows_the_mtpa_series_of_the_previous_reference);
+    RUN_TEST(test_surface_magnet_motor_needs_no_id_at_low_speed);
+    RUN_TEST(test_id_matches_search_in_volts_at_high_speed);
+    RUN_TEST(test_id_makes_room_for_the_current_that_the_speed_error_asks_for);
+    RUN_TEST(test_limits_of_iq_match_search_in_volts_at_high_speed);
+    RUN_TEST(test_steady_references_need_no_more_than_the_usable_voltage);
+    RUN_TEST(test_low_speed_ignores_the_voltage_circle);
+    RUN_TEST(test_voltage_circle_counts_from_a_quarter_of_the_base_speed);
+    RUN_TEST(test_tiny_speeds_give_finite_references);
+    RUN_TEST(test_iq_gives_the_wanted_acceleration);
+    RUN_TEST(test_positive_id_never_turns_the_division_round);
+    RUN_TEST(test_references_never_leave_the_current_circle);
+    RUN_TEST(test_large_demand_is_met_up_to_the_limit);
+    RUN_TEST(test_full_weakening_leaves_no_q_current);
+    RUN_TEST(test_reversed_rotation_mirrors_the_references);
+    RUN_TEST(test_id_approaches_its_target_exponentially);
+    RUN_TEST(test_derivative_of_id_is_its_difference_quotient);
+    RUN_TEST(test_derivative_of_iq_is_that_of_a_low_pass);
+    RUN_TEST(test_steady_references_have_no_derivative);
+    RUN_TEST(test_bad_estimates_give_finite_references_inside_the_circle);
+    return UNITY_END();
+}

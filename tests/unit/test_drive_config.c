@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: MIT */
+#include "drive_config.h"
+
+#include "gain_tables.h"
+#include "unit_support.h"
+#include "unity.h"
+
+#define TOO_LARGE 1.0e13f /* beyond any constant of a drive */
+
+static drive_config_t config;
+
+/* What a constant may be besides a positive number. */
+typedef enum { POSITIVE, ZERO_OR_MORE, ZERO_OR_LESS, ANY } range_t;
+
+typedef struct {
+    float  *constant;
+    range_t range;
+} entry_t;
+
+static const entry_t entries[] = {
+    {&config.ts_s, POSITIVE},
+    {&config.accel_max_e_radps2, POSITIVE},
+    {&config.trip_current_A, POSITIVE},
+    {&config.trip_speed_e_radps, POSITIVE},
+    {&config.dc_link_min_V, POSITIVE},
+    {&config.dc_link_max_V, POSITIVE},
+    {&config.motor.l1, POSITIVE},
+    {&config.motor.l2, ZERO_OR_MORE},
+    {&config.motor.l3, POSITIVE},
+    {&config.motor.l4, POSITIVE},
+    {&config.motor.l5, POSITIVE},
+    {&config.motor.l6, POSITIVE},
+    {&config.motor.l7, POSITIVE},
+    {&config.motor.l8, POSITIVE},
+    {&config.motor.l9, POSITIVE},
+    {&config.motor.l10, POSITIVE},
+    {&config.motor.l11, ZERO_OR_LESS},
+    {&config.motor.inv_l6, POSITIVE},
+    {&config.motor.inv_l8, POSITIVE},
+    {&config.current_ref.current_max_A, POSITIVE},
+    {&config.current_ref.iq_max_A, POSITIVE},
+    {&config.current_ref.mtpa_gain_1pA, ZERO_OR_LESS},
+    {&config.current_ref.voltage_share, POSITIVE},
+    {&config.current_ref.l1_min, POSITIVE},
+    {&config.current_ref.filter_per_period, POSITIVE},
+    {&config.current_ref.filter_1ps, POSITIVE},
+    {&config.nosc.iq_error_max_A, POSITIVE},
+    {&config.nodo.iq_max_A, POSITIVE},
+};
+
+void setUp(void)
+{
+    config = gain_tables_drive;
+}
+
+void tearDown(void) {}
+
+/* Puts x in place of one constant; the others are those of the shipped drive. */
+static ctl_status_t check_with(float *constant, float x)
+{
+    config    = gain_tables_drive;
+    *constant = x;
+    return drive_config_check(&config);
+}
+
+static void test_shipped_drive_is_accepted(void)
+{
+    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&config));
+}
+
+static void test_every_constant_that_is_not_finite_is_refused(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(entries); i++) {
+        for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
+            const ctl_status_t status = check_with(entries[i].constant, support_not_finite[k]);
+
+            TEST_ASSERT_EQUAL_INT_MESSAGE(CTL_BAD_CONFIG, status, "see the table of entries");
+        }
+    }
+}
+
+static void test_every_constant_beyond_physics_is_refused(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(entries); i++) {
+        TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(entries[i].constant, TOO_LARGE));
+        TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(entries[i].constant, -TOO_LARGE));
+    }
+}
+
+static void test_zero_is_refused_where_it_has_no_meaning(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(entries); i++) {
+        const ctl_status_t expected = (entries[i].range == POSITIVE) ? CTL_BAD_CONFIG : CTL_OK;
+
+        TEST_ASSERT_EQUAL_INT(expected, check_with(entries[i].constant, 0.0f));
+        TEST_ASSERT_EQUAL_INT(expected, check_with(entries[i].constant, -0.0f));
+    }
+}
+
+static void test_wrong_sign_is_refused(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(entries); i++) {
+        const float wrong = (entries[i].range == ZERO_OR_LESS) ? 1.0e-6f : -1.0e-6f;
+
+        TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(entries[i].constant, wrong));
+    }
+}
+
+static void assert_bounds(float *constant, float lo, float hi)
+{
+    TEST_ASSERT_EQUAL_INT(CTL_OK, check_with(constant, lo));
+    TEST_ASSERT_EQUAL_INT(CTL_OK, check_with(constant, hi));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(constant, nextafterf(lo, 0.0f)));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(constant, nextafterf(hi, INFINITY)));
+}
+
+static void test_control_period_has_its_documented_bounds(void)
+{
+    assert_bounds(&config.ts_s, 1.0e-5f, 1.0e-2f);
+}
+
+static void test_shares_end_at_one(void)
+{
+    assert_bounds(&config.current_ref.voltage_share, 1.0e-3f, 1.0f);
+    assert_bounds(&config.current_ref.filter_per_period, 1.0e-6f, 1.0f);
+}
+
+static void test_trip_current_lies_beyond_the_current_limit(void)
+{
+    const float limit_A = config.current_ref.current_max_A;
+
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(&config.trip_current_A, limit_A));
+    TEST_ASSERT_EQUAL_INT(CTL_OK,
+                          check_with(&config.trip_current_A, nextafterf(limit_A, INFINITY)));
+}
+
+static void test_dc_link_range_is_not_empty(void)
+{
+    const float lowest_V = config.dc_link_min_V;
+
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(&config.dc_link_max_V, lowest_V));
+    TEST_ASSERT_EQUAL_INT(CTL_OK,
+                          check_with(&config.dc_link_max_V, nextafterf(lowest_V, INFINITY)));
+}
+
+static void test_iq_limit_lies_within_the_current_circle(void)
+{
+    const float limit_A = config.current_ref.current_max_A;
+
+    TEST_ASSERT_EQUAL_INT(CTL_OK, check_with(&config.current_ref.iq_max_A, limit_A));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG,
+                          check_with(&config.current_ref.iq_max_A, nextafterf(limit_A, INFINITY)));
+}
+
+static ctl_status_t check_with_nosc_order(int16_t order)
+{
+    config.nosc.order = order;
+    return drive_config_check(&config);
+}
+
+static ctl_status_t check_with_nodo_order(int16_t order)
+{
+    config.nodo.order = order;
+    return drive_config_check(&config);
+}
+
+static void test_orders_that_no_table_can_hold_are_refused(void)
+{
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with_nosc_order(-1));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with_nosc_order(NOSC_ORDER_MAX + 1));
+    setUp();
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with_nodo_order(-1));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with_nodo_order(NODO_ORDER_MAX + 1));
+}
+
+static void test_every_order_that_a_table_can_hold_is_accepted(void)
+{
+    for (int16_t order = 0; order <= NOSC_ORDER_MAX; order++) {
+        TEST_ASSERT_EQUAL_INT(CTL_OK, check_with_nosc_order(order));
+    }
+    for (int16_t order = 0; order <= NODO_ORDER_MAX; order++) {
+        TEST_ASSERT_EQUAL_INT(CTL_OK, check_with_nodo_order(order));
+    }
+}
+
+static void test_every_gain_of_the_controller_in_use_is_checked(void)
+{
+    for (int n = 0; n <= gain_tables_drive.nosc.order; n++) {
+        for (int row = 0; row < NOSC_N_U; row++) {
+            for (int column = 0; column < NOSC_N_E; column++) {
+                float *const gain = &config.nosc.lambda[n][row][column];
+
+                for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
+                    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(gain, support_not_finite[k]));
+                }
+                TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(gain, TOO_LARGE));
+                TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(gain, -TOO_LARGE));
+            }
+        }
+    }
+}
+
+static void test_every_gain_of_the_observer_in_use_is_checked(void)
+{
+    for (int n = 0; n <= gain_tables_drive.nodo.order; n++) {
+        for (int row = 0; row < NODO_N_X; row++) {
+            for (int column = 0; column < NODO_N_Y; column++) {
+                float *const gain = &config.nodo.gain[n][row][column];
+
+                for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
+                    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(gain, support_not_finite[k]));
+                }
+                TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(gain, TOO_LARGE));
+                TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(gain, -TOO_LARGE));
+            }
+        }
+    }
+}
+
+static void test_powers_beyond_the_order_are_not_looked_at(void)
+{
+    config.nosc.lambda[config.nosc.order + 1][0][0] = NAN;
+    config.nodo.gain[config.nodo.order + 1][0][0]   = NAN;
+
+    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&config));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_shipped_drive_is_accepted);
+    RUN_TEST(test_every_constant_that_is_not_finite_is_refused);
+    RUN_TEST(test_every_constant_beyond_physics_is_refused);
+    RUN_TEST(test_zero_is_refused_where_it_has_no_meaning);
+    RUN_TEST(test_wrong_sign_is_refused);
+    RUN_TEST(test_control_period_has_its_documented_bounds);
+    RUN_TEST(test_shares_end_at_one);
+    RUN_TEST(test_trip_current_lies_beyond_the_current_limit);
+    RUN_TEST(test_dc_link_range_is_not_empty);
+    RUN_TEST(test_iq_limit_lies_within_the_current_circle);
+    RUN_TEST(test_orders_that_no_table_can_hold_are_refused);
+    RUN_TEST(test_every_order_that_a_table_can_hold_is_accepted);
+    RUN_TEST(test_every_gain_of_the_controller_in_use_is_checked);
+    RUN_TEST(test_every_gain_of_the_observer_in_use_is_checked);
+    RUN_TEST(test_powers_beyond_the_order_are_not_looked_at);
+    return UNITY_END();
+}

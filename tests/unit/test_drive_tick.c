@@ -1,0 +1,731 @@
+/* SPDX-License-Identifier: MIT */
+#include "drive_tick.h"
+
+#include "gain_tables.h"
+#include "unit_support.h"
+#include "unity.h"
+#include "voltage.h"
+
+#define TOL_V          3.0e-3 /* V, up to 1 kV before the limit; worst 5.7e-4 */
+#define TOL_DUTY_V     4.0e-4 /* V worked back from duty ratios; worst 7.4e-5 */
+#define TOL_CIRCLE     1.0e-6 /* relative overshoot of the voltage circle; worst 2.0e-7 */
+#define TOL_A          1.5e-7 /* A, currents up to 0.5 A; worst 3.0e-8 */
+#define TOL_RADPS      1.0e-4 /* rad/s, settled speed; worst 1.7e-5 */
+#define TOL_RAMP_RADPS 7.0e-5 /* rad/s after one step of the reference; worst 1.4e-5 */
+#define TOL_TORQUE     6.5e-4 /* N m, load found by the observer; worst 1.3e-4 */
+#define TOL_START_V    3.0e-5 /* V, back-EMF up to 116 V; worst 6.1e-6 */
+#define TOL_ROTATE_V   8.0e-5 /* V, the same operating point at another angle; worst 1.6e-5 */
+
+#define V_DC_V 295.0f
+
+static const double third_turn = 2.0943951023931953; /* rad */
+
+static support_random_t random_state;
+static drive_config_t   config;
+static drive_t          drive;
+static drive_sample_t   sample;
+static drive_command_t  command;
+static double           walk_radps; /* speed of draw_inputs() */
+
+/* Phase currents of a rotor-frame vector, by projection on the phase axes. */
+static drive_sample_t sample_at(double id_A, double iq_A, double theta_rad, double omega_e_radps)
+{
+    const double complex i_A = support_complex(id_A, iq_A) * cexp(support_complex(0.0, theta_rad));
+    const drive_sample_t s   = {.ia_A = (float)creal(i_A),
+                                .ib_A = (float)creal(i_A * cexp(support_complex(0.0, -third_turn))),
+                                .dc_link_V     = V_DC_V,
+                                .theta_e_rad   = (float)theta_rad,
+                                .omega_e_radps = (float)omega_e_radps,
+                                .valid         = true};
+    return s;
+}
+
+void setUp(void)
+{
+    random_state.state    = 23u;
+    walk_radps            = 300.0;
+    config                = gain_tables_drive;
+    sample                = sample_at(-0.1, 0.5, 1.0, 300.0);
+    command.omega_e_radps = 302.0f;
+    command.run           = true;
+    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_init(&drive, &config));
+}
+
+void tearDown(void) {}
+
+static drive_output_t tick(void)
+{
+    return drive_tick(&drive, &sample, &command);
+}
+
+static void assert_open(drive_output_t out)
+{
+    TEST_ASSERT_FALSE(out.gate_enable);
+    TEST_ASSERT_TRUE((out.duty.a == 0.5f) && (out.duty.b == 0.5f) && (out.duty.c == 0.5f));
+}
+
+static void assert_same_output(drive_output_t expected, drive_output_t actual)
+{
+    TEST_ASSERT_TRUE(actual.gate_enable == expected.gate_enable);
+    TEST_ASSERT_TRUE((actual.duty.a == expected.duty.a) && (actual.duty.b == expected.duty.b) &&
+                     (actual.duty.c == expected.duty.c));
+}
+
+/* Samples and commands anywhere in their accepted ranges, except that the speed is a random walk: no motor
+ * jumps by 1500 rad/s within one period. */
+static void draw_inputs(void)
+{
+    const double angle    = (double)support_uniform(&random_state, -6.28f, 6.28f);
+    const double i_A      = (double)support_uniform(&random_state, 0.0f, 7.9f);
+    const double at       = (double)support_uniform(&random_state, -3.14f, 3.14f);
+    const double step     = (double)support_uniform(&random_state, -20.0f, 20.0f);
+    walk_radps            = support_limit(walk_radps + step, -1560.0, 1560.0);
+    sample                = sample_at(i_A * cos(at), i_A * sin(at), angle, walk_radps);
+    sample.dc_link_V      = support_uniform(&random_state, 88.5f, 398.25f);
+    command.omega_e_radps = support_uniform(&random_state, -1569.0f, 1569.0f);
+}
+
+/* Samples a motor would give: near 300 rad/s, errors within the linear range of the voltage. */
+static void draw_calm_inputs(void)
+{
+    const double angle    = (double)support_uniform(&random_state, -6.28f, 6.28f);
+    const double id_A     = (double)support_uniform(&random_state, -0.3f, 0.0f);
+    const double iq_A     = (double)support_uniform(&random_state, 0.4f, 0.7f);
+    const double w        = (double)support_uniform(&random_state, 299.9f, 300.1f);
+    sample                = sample_at(id_A, iq_A, angle, w);
+    command.omega_e_radps = support_uniform(&random_state, 299.9f, 300.1f);
+}
+
+static void test_drive_starts_off_without_fault(void)
+{
+    TEST_ASSERT_EQUAL_INT(DRIVE_OFF, drive.state);
+    TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_NONE, drive.fault);
+}
+
+static void test_drive_that_is_not_asked_to_run_keeps_the_bridge_open(void)
+{
+    command.run = false;
+
+    for (int n = 0; n < 10; n++) {
+        assert_open(tick());
+    }
+
+    TEST_ASSERT_EQUAL_INT(DRIVE_OFF, drive.state);
+    TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_NONE, drive.fault);
+}
+
+static void test_drive_off_still_measures_the_rotor_frame(void)
+{
+    command.run = false;
+
+    (void)tick();
+
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, -0.1, (double)drive.meas.id_A);
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, 0.5, (double)drive.meas.iq_A);
+    TEST_ASSERT_TRUE(drive.meas.omega_e_radps == 300.0f);
+}
+
+static void test_run_command_closes_the_bridge_in_the_same_call(void)
+{
+    const drive_output_t out = tick();
+
+    TEST_ASSERT_TRUE(out.gate_enable);
+    TEST_ASSERT_EQUAL_INT(DRIVE_RUN, drive.state);
+}
+
+static void test_withdrawn_run_command_opens_the_bridge_in_the_same_call(void)
+{
+    (void)tick();
+    command.run = false;
+
+    assert_open(tick());
+
+    TEST_ASSERT_EQUAL_INT(DRIVE_OFF, drive.state);
+    TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_NONE, drive.fault);
+}
+
+static void test_bad_configuration_leaves_the_drive_unusable(void)
+{
+    config.motor.l5 = NAN;
+
+    const ctl_status_t status = drive_init(&drive, &config);
+
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, status);
+    assert_open(tick());
+    drive_reset(&drive);
+    assert_open(tick());
+    TEST_ASSERT_EQUAL_INT(DRIVE_OFF, drive.state);
+}
+
+static void test_start_takes_over_the_present_speed(void)
+{
+    command.omega_e_radps = 900.0f;
+
+    (void)tick();
+
+    const double step = (double)config.accel_max_e_radps2 * (double)config.ts_s;
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_RAMP_RADPS, 300.0 + step, (double)drive.speed_ref.omega_e_radps);
+}
+
+/* A motor that coasts without current is met with its own back-EMF, so that none starts to flow. */
+static void test_start_at_speed_without_current_applies_the_back_emf(void)
+{
+    for (int speed = -600; speed <= 600; speed += 50) {
+        setUp();
+        config.motor.l2       = 0.0f; /* friction asks for a current to keep the speed */
+        sample                = sample_at(0.0, 0.0, 0.3, (double)speed);
+        command.omega_e_radps = (float)speed;
+
+        (void)tick();
+
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_START_V, 0.193 * (double)speed, (double)drive.v_V.q);
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_START_V, 0.0, (double)drive.v_V.d);
+    }
+}
+
+static void run_wildly(void)
+{
+    for (int n = 0; n < 200; n++) {
+        draw_inputs();
+        (void)tick();
+    }
+}
+
+static void test_restart_forgets_the_past(void)
+{
+    const drive_sample_t  at_start = sample;
+    const drive_command_t wanted   = command;
+    drive_output_t        fresh[5];
+    for (int n = 0; n < 5; n++) {
+        fresh[n] = tick();
+    }
+
+    run_wildly();
+    command.run = false;
+    (void)tick();
+    sample  = at_start;
+    command = wanted;
+
+    for (int n = 0; n < 5; n++) {
+        assert_same_output(fresh[n], tick());
+    }
+}
+
+static void test_reset_while_running_forgets_the_past(void)
+{
+    const drive_sample_t  at_start = sample;
+    const drive_command_t wanted   = command;
+    drive_output_t        fresh[5];
+    for (int n = 0; n < 5; n++) {
+        fresh[n] = tick();
+    }
+
+    run_wildly();
+    drive_reset(&drive);
+    sample  = at_start;
+    command = wanted;
+
+    for (int n = 0; n < 5; n++) {
+        assert_same_output(fresh[n], tick());
+    }
+}
+
+static void test_reset_zeroes_everything_that_is_published(void)
+{
+    run_wildly();
+    drive.v_limited = true;
+
+    drive_reset(&drive);
+
+    TEST_ASSERT_EQUAL_INT(DRIVE_OFF, drive.state);
+    TEST_ASSERT_TRUE((drive.v_V.d == 0.0f) && (drive.v_V.q == 0.0f) && !drive.v_limited);
+    TEST_ASSERT_TRUE((drive.meas.omega_e_radps == 0.0f) && (drive.meas.iq_A == 0.0f) &&
+                     (drive.meas.id_A == 0.0f));
+    TEST_ASSERT_TRUE((drive.observer.omega_e_radps == 0.0f) && (drive.observer.d_omega == 0.0f) &&
+                     (drive.observer.d_q == 0.0f) && (drive.observer.d_d == 0.0f));
+    TEST_ASSERT_TRUE((drive.speed_ref.omega_e_radps == 0.0f) && (drive.current_ref.i_A.q == 0.0f) &&
+                     (drive.current_ref.i_A.d == 0.0f) && (drive.current_ref.filter_A.d == 0.0f));
+}
+
+typedef struct {
+    float        *field;
+    float         lo; /* accepted range */
+    float         hi;
+    drive_fault_t reason;
+} input_t;
+
+static const input_t inputs[] = {
+    {&sample.theta_e_rad, -BASE_TWO_PI, BASE_TWO_PI, DRIVE_FAULT_SAMPLE},
+    {&sample.ia_A, -8.0f, 8.0f, DRIVE_FAULT_OVER_CURRENT},
+    {&sample.ib_A, -8.0f, 8.0f, DRIVE_FAULT_OVER_CURRENT},
+    {&sample.dc_link_V, 88.5f, 398.25f, DRIVE_FAULT_DC_LINK},
+    {&sample.omega_e_radps, -1569.0f, 1569.0f, DRIVE_FAULT_OVER_SPEED},
+    {&command.omega_e_radps, -1569.0f, 1569.0f, DRIVE_FAULT_COMMAND},
+};
+
+/* The bridge opens at once, the reason is latched through good samples and other faults, a reset clears. */
+static void assert_trips(drive_fault_t reason)
+{
+    assert_open(tick());
+    TEST_ASSERT_EQUAL_INT(DRIVE_FAULT, drive.state);
+    TEST_ASSERT_EQUAL_INT(reason, drive.fault);
+    TEST_ASSERT_TRUE((drive.v_V.d == 0.0f) && (drive.v_V.q == 0.0f));
+
+    sample = sample_at(-0.1, 0.5, 1.0, 300.0);
+    assert_open(tick());
+    TEST_ASSERT_EQUAL_INT(reason, drive.fault);
+
+    sample.dc_link_V = (reason == DRIVE_FAULT_DC_LINK) ? V_DC_V : NAN;
+    sample.valid     = (reason != DRIVE_FAULT_DC_LINK);
+    assert_open(tick());
+    TEST_ASSERT_EQUAL_INT(reason, drive.fault);
+
+    sample                = sample_at(-0.1, 0.5, 1.0, 300.0);
+    command.omega_e_radps = 300.0f;
+    command.run           = true;
+    drive_reset(&drive);
+    TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_NONE, drive.fault);
+    TEST_ASSERT_EQUAL_INT(DRIVE_OFF, drive.state);
+    TEST_ASSERT_TRUE(tick().gate_enable);
+}
+
+static void test_invalid_sample_trips(void)
+{
+    (void)tick();
+    sample.valid = false;
+
+    assert_trips(DRIVE_FAULT_SAMPLE);
+}
+
+static void test_every_input_that_is_not_finite_trips(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(inputs); i++) {
+        for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
+            setUp();
+            (void)tick();
+            *inputs[i].field = support_not_finite[k];
+
+            assert_trips(inputs[i].reason);
+        }
+    }
+}
+
+static void test_every_input_just_out_of_range_trips(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(inputs); i++) {
+        for (int side = 0; side < 2; side++) {
+            setUp();
+            (void)tick();
+            sample.ia_A      = 0.0f;
+            sample.ib_A      = 0.0f;
+            *inputs[i].field = (side == 0) ? nextafterf(inputs[i].lo, -INFINITY)
+                                           : nextafterf(inputs[i].hi, INFINITY);
+
+            assert_trips(inputs[i].reason);
+        }
+    }
+}
+
+static void test_every_input_at_the_end_of_its_range_is_accepted(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(inputs); i++) {
+        for (int side = 0; side < 2; side++) {
+            setUp();
+            sample.ia_A      = 0.0f;
+            sample.ib_A      = 0.0f;
+            *inputs[i].field = (side == 0) ? inputs[i].lo : inputs[i].hi;
+
+            TEST_ASSERT_TRUE(tick().gate_enable);
+        }
+    }
+}
+
+static void test_current_of_one_phase_trips_when_the_others_share_its_return(void)
+{
+    for (int sign = -1; sign <= 1; sign += 2) {
+        setUp();
+        (void)tick();
+        sample.ia_A = 8.02f * (float)sign;
+        sample.ib_A = -4.01f * (float)sign;
+        assert_trips(DRIVE_FAULT_OVER_CURRENT);
+
+        sample.ia_A = -4.01f * (float)sign;
+        sample.ib_A = 8.02f * (float)sign;
+        assert_trips(DRIVE_FAULT_OVER_CURRENT);
+    }
+}
+
+static void test_current_of_the_third_phase_trips(void)
+{
+    for (int sign = -1; sign <= 1; sign += 2) {
+        setUp();
+        (void)tick();
+        sample.ia_A = 4.01f * (float)sign;
+        sample.ib_A = 4.01f * (float)sign;
+
+        assert_trips(DRIVE_FAULT_OVER_CURRENT);
+    }
+}
+
+static void test_opposite_currents_of_two_phases_leave_the_third_empty(void)
+{
+    sample.ia_A = 7.9f;
+    sample.ib_A = -7.9f;
+
+    TEST_ASSERT_TRUE(tick().gate_enable);
+}
+
+static void test_bad_input_trips_while_the_drive_is_off(void)
+{
+    command.run  = false;
+    sample.valid = false;
+
+    assert_trips(DRIVE_FAULT_SAMPLE);
+}
+
+static void test_bad_sample_leaves_no_trace_in_the_measurement(void)
+{
+    (void)tick();
+    sample.ia_A = NAN;
+
+    (void)tick();
+
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, -0.1, (double)drive.meas.id_A);
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, 0.5, (double)drive.meas.iq_A);
+}
+
+static void test_estimate_that_is_not_finite_trips_before_it_reaches_the_bridge(void)
+{
+    float *const estimates[] = {&drive.observer.d_omega, &drive.observer.d_q,
+                                &drive.observer.d_d,     &drive.observer.omega_e_radps,
+                                &drive.observer.iq_A,    &drive.observer.id_A};
+    for (int i = 0; i < SUPPORT_COUNT(estimates); i++) {
+        for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
+            setUp();
+            (void)tick();
+            *estimates[i] = support_not_finite[k];
+
+            for (int n = 0; n < 3; n++) {
+                const drive_output_t out = tick();
+                TEST_ASSERT_TRUE(base_in_range(out.duty.a, 0.0f, 1.0f));
+            }
+
+            assert_trips(DRIVE_FAULT_NUMERIC);
+        }
+    }
+}
+
+static void test_one_axis_that_is_not_a_number_is_enough_to_trip(void)
+{
+    drive.observer.d_q = NAN;
+    (void)tick();
+    drive.observer.d_q = NAN;
+    assert_trips(DRIVE_FAULT_NUMERIC);
+
+    setUp();
+    (void)tick();
+    drive.observer.d_d = NAN;
+    assert_trips(DRIVE_FAULT_NUMERIC);
+}
+
+/* EQ-DRIVE-1 from what the drive publishes: (26) power by power, (41) as printed, the speed error held where
+ * the q current it asks for ends (EQ-NOSC-3). */
+typedef struct {
+    double v_q;
+    double v_d;
+} law_t;
+
+static law_t oracle_law(void)
+{
+    const motor_reduced_t *m     = &config.motor;
+    const nosc_gains_t    *g     = &config.nosc;
+    const double           w     = (double)drive.meas.omega_e_radps;
+    const double           iqr   = (double)drive.current_ref.i_A.q;
+    const double           idr   = (double)drive.current_ref.i_A.d;
+    const double           ratio = (double)g->lambda[0][0][0] / (double)g->lambda[0][0][1];
+    const double           asked = iqr - (ratio * (w - (double)drive.speed_ref.omega_e_radps));
+    const double           given =
+        support_limit(asked, (double)drive.current_ref.iq_lo_A, (double)drive.current_ref.iq_hi_A);
+    const double e_w   = (iqr - given) / ratio;
+    const double w_d   = w - e_w;
+    const double e[3]  = {e_w, (double)drive.meas.iq_A - iqr, (double)drive.meas.id_A - idr};
+    const double limit = (double)g->iq_error_max_A;
+    const double held  = support_limit(e[1], -limit, limit);
+
+    law_t u;
+    u.v_q = ((double)m->l4 * iqr) + ((double)m->l5 * w_d) + (double)drive.current_ref.i_dot_Aps.q +
+            ((double)m->l10 * ((e[2] * w_d) + (w * idr) + (e[2] * e[0])));
+    u.v_d = ((double)m->l7 * idr) + (double)drive.current_ref.i_dot_Aps.d -
+            ((double)m->l9 * ((e[1] * w_d) + (w * iqr) + (e[1] * e[0])));
+    u.v_q = (u.v_q - (double)drive.observer.d_q) / (double)m->l6;
+    u.v_d = (u.v_d - (double)drive.observer.d_d) / (double)m->l8;
+    for (int n = 0; n <= g->order; n++) {
+        for (int column = 0; column < NOSC_N_E; column++) {
+            u.v_q -= pow(held, (double)n) * (double)g->lambda[n][0][column] * e[column];
+            u.v_d -= pow(held, (double)n) * (double)g->lambda[n][1][column] * e[column];
+        }
+    }
+    return u;
+}
+
+static void test_voltage_matches_the_printed_law(void)
+{
+    int compared = 0;
+    for (int n = 0; n < 5000; n++) {
+        draw_calm_inputs();
+
+        (void)tick();
+
+        if (!drive.v_limited) {
+            const law_t u = oracle_law();
+            TEST_ASSERT_DOUBLE_WITHIN(TOL_V, u.v_q, (double)drive.v_V.q);
+            TEST_ASSERT_DOUBLE_WITHIN(TOL_V, u.v_d, (double)drive.v_V.d);
+            compared++;
+        }
+    }
+    TEST_ASSERT_TRUE(compared > 1000);
+}
+
+/* The limited voltage is the printed law, limited around the voltage that holds the currents. */
+static void test_limited_voltage_is_the_printed_law_on_the_circle(void)
+{
+    const motor_reduced_t *m        = &config.motor;
+    int                    compared = 0;
+    for (int n = 0; n < 5000; n++) {
+        draw_inputs();
+        (void)tick();
+        const double w      = (double)drive.meas.omega_e_radps;
+        const law_t  u      = oracle_law();
+        const dq_t   u_V    = {.d = (float)u.v_d, .q = (float)u.v_q};
+        const dq_t   hold_V = {
+              .d = (float)((((double)m->l7 * (double)drive.meas.id_A) -
+                          ((double)m->l9 * w * (double)drive.meas.iq_A) -
+                          (double)drive.observer.d_d) /
+                         (double)m->l8),
+              .q = (float)((((double)m->l4 * (double)drive.meas.iq_A) + ((double)m->l5 * w) +
+                          ((double)m->l10 * w * (double)drive.meas.id_A) -
+                          (double)drive.observer.d_q) /
+                         (double)m->l6)};
+
+        const voltage_limited_t expected =
+            voltage_limit(u_V, hold_V, sample.dc_link_V * BASE_1_SQRT3);
+
+        TEST_ASSERT_TRUE(drive.v_limited == expected.limited);
+        if (support_length(u_V) < 2.0e4) {
+            TEST_ASSERT_DOUBLE_WITHIN(TOL_V, (double)expected.v_V.q, (double)drive.v_V.q);
+            TEST_ASSERT_DOUBLE_WITHIN(TOL_V, (double)expected.v_V.d, (double)drive.v_V.d);
+            compared++;
+        }
+    }
+    TEST_ASSERT_TRUE(compared > 1000);
+}
+
+static void test_observer_is_driven_by_the_limited_voltage_of_the_previous_tick(void)
+{
+    (void)tick();
+    for (int n = 0; n < 1000; n++) {
+        const dq_t in_force_V = drive.v_V;
+        nodo_t     expected   = drive.observer;
+        draw_inputs();
+
+        (void)tick();
+        nodo_update(&expected, &config.nodo, &config.motor, &drive.meas, in_force_V, config.ts_s);
+
+        TEST_ASSERT_TRUE((drive.observer.d_omega == expected.d_omega) &&
+                         (drive.observer.d_q == expected.d_q) &&
+                         (drive.observer.d_d == expected.d_d));
+        TEST_ASSERT_TRUE((drive.observer.omega_e_radps == expected.omega_e_radps) &&
+                         (drive.observer.iq_A == expected.iq_A) &&
+                         (drive.observer.id_A == expected.id_A));
+    }
+}
+
+static void test_references_follow_this_sample_and_command(void)
+{
+    (void)tick();
+    for (int n = 0; n < 1000; n++) {
+        speed_ref_t   speed   = drive.speed_ref;
+        current_ref_t current = drive.current_ref;
+        draw_inputs();
+
+        (void)tick();
+        speed_ref_update(&speed, command.omega_e_radps, config.accel_max_e_radps2, config.ts_s);
+        const float               ratio = config.nosc.lambda[0][0][0] / config.nosc.lambda[0][0][1];
+        const current_ref_input_t in    = {
+               .est        = &drive.observer,
+               .meas       = &drive.meas,
+               .iq_speed_A = -ratio * (drive.meas.omega_e_radps - speed.omega_e_radps),
+               .v_max_V    = sample.dc_link_V * BASE_1_SQRT3};
+        current_ref_update(&current, &config.current_ref, &config.motor, &speed, &in);
+
+        TEST_ASSERT_TRUE(drive.speed_ref.omega_e_radps == speed.omega_e_radps);
+        TEST_ASSERT_TRUE((drive.current_ref.i_A.d == current.i_A.d) &&
+                         (drive.current_ref.i_A.q == current.i_A.q));
+        TEST_ASSERT_TRUE((drive.current_ref.iq_lo_A == current.iq_lo_A) &&
+                         (drive.current_ref.iq_hi_A == current.iq_hi_A));
+    }
+}
+
+/* Voltage vector that the duty ratios make, in the stator frame. */
+static double complex realised_V(drive_output_t out)
+{
+    const double complex turn = cexp(support_complex(0.0, third_turn));
+    return (2.0 / 3.0) * (double)sample.dc_link_V *
+           ((double)out.duty.a + ((double)out.duty.b * turn) + ((double)out.duty.c * conj(turn)));
+}
+
+/* EQ-DRIVE-2: seen from where the rotor is 1.5 periods after the sample. */
+static void test_duty_realises_the_voltage_one_and_a_half_periods_ahead(void)
+{
+    for (int n = 0; n < 2000; n++) {
+        draw_inputs();
+        const double ahead =
+            (double)sample.theta_e_rad + (1.5 * 2.0e-4 * (double)sample.omega_e_radps);
+
+        const drive_output_t out = tick();
+
+        const double complex v_V = realised_V(out) * cexp(support_complex(0.0, -ahead));
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_DUTY_V, (double)drive.v_V.d, creal(v_V));
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_DUTY_V, (double)drive.v_V.q, cimag(v_V));
+    }
+}
+
+static void test_same_operating_point_at_any_angle_gives_the_same_voltage(void)
+{
+    (void)tick();
+    const dq_t expected_V = drive.v_V;
+    for (int step = -62; step <= 62; step++) {
+        setUp();
+        sample = sample_at(-0.1, 0.5, 0.1 * (double)step, 300.0);
+
+        (void)tick();
+
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_ROTATE_V, (double)expected_V.d, (double)drive.v_V.d);
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_ROTATE_V, (double)expected_V.q, (double)drive.v_V.q);
+    }
+}
+
+static void test_random_operation_keeps_duties_and_voltage_in_range(void)
+{
+    for (int32_t n = 0; n < 100000; n++) {
+        draw_inputs();
+
+        const drive_output_t out = tick();
+
+        TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_NONE, drive.fault);
+        TEST_ASSERT_TRUE(out.gate_enable);
+        TEST_ASSERT_TRUE(base_in_range(out.duty.a, 0.0f, 1.0f));
+        TEST_ASSERT_TRUE(base_in_range(out.duty.b, 0.0f, 1.0f));
+        TEST_ASSERT_TRUE(base_in_range(out.duty.c, 0.0f, 1.0f));
+        const double radius_V = (double)sample.dc_link_V / sqrt(3.0);
+        const double beyond   = (support_length(drive.v_V) / radius_V) - 1.0;
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_CIRCLE, 0.0, fmax(beyond, 0.0));
+    }
+}
+
+/* Jumps that no motor makes, anywhere in the accepted range: the observer must come through them. */
+static void test_implausible_speed_samples_keep_duties_in_range(void)
+{
+    for (int32_t n = 0; n < 100000; n++) {
+        draw_inputs();
+        sample.omega_e_radps = support_uniform(&random_state, -1569.0f, 1569.0f);
+
+        const drive_output_t out = tick();
+
+        TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_NONE, drive.fault);
+        TEST_ASSERT_TRUE(base_in_range(out.duty.a, 0.0f, 1.0f));
+        TEST_ASSERT_TRUE(base_in_range(out.duty.b, 0.0f, 1.0f));
+        TEST_ASSERT_TRUE(base_in_range(out.duty.c, 0.0f, 1.0f));
+    }
+}
+
+/* (4) of paper A in SI units, averaged inverter, Euler at a hundredth of the period. */
+typedef struct {
+    double omega;
+    double iq;
+    double id;
+    double theta;
+} plant_t;
+
+static void plant_run(plant_t *p, double complex stator_V, double load_Nm)
+{
+    const double rs = 2.48, ld = 0.07498, lq = 0.11391, flux = 0.193, inertia = 4.2e-4, np = 2.0;
+    const double dt = 2.0e-6;
+    for (int step = 0; step < 100; step++) {
+        const double complex v      = stator_V * cexp(support_complex(0.0, -p->theta));
+        const double         torque = 1.5 * np * p->iq * (flux + ((ld - lq) * p->id));
+        const double         dw     = np * (torque - load_Nm - (1.0e-4 * p->omega / np)) / inertia;
+        const double diq = (cimag(v) - (rs * p->iq) - (p->omega * (flux + (ld * p->id)))) / lq;
+        const double did = (creal(v) - (rs * p->id) + (p->omega * lq * p->iq)) / ld;
+        p->theta += dt * p->omega;
+        p->omega += dt * dw;
+        p->iq += dt * diq;
+        p->id += dt * did;
+    }
+    p->theta = remainder(p->theta, 2.0 * (double)BASE_PI);
+}
+
+static void assert_settles(double speed, double load_Nm)
+{
+    plant_t        plant  = {0.0, 0.0, 0.0, 0.0};
+    double complex stator = 0.0;
+    command.omega_e_radps = (float)speed;
+    for (int n = 0; n < 3000; n++) {
+        sample                      = sample_at(plant.id, plant.iq, plant.theta, plant.omega);
+        const drive_output_t out    = tick();
+        const double complex coming = realised_V(out);
+        plant_run(&plant, stator, load_Nm);
+        stator = coming; /* in force from the next sample on */
+    }
+
+    TEST_ASSERT_EQUAL_INT(DRIVE_RUN, drive.state);
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_RADPS, speed, plant.omega);
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_TORQUE, load_Nm,
+                              -(double)drive.observer.d_omega / (double)config.motor.l3);
+}
+
+static void test_loop_around_a_motor_settles_at_the_command_and_finds_the_load(void)
+{
+    assert_settles(300.0, 0.75);
+    setUp();
+    assert_settles(-300.0, 0.75); /* the load drives: regeneration */
+    setUp();
+    assert_settles(0.0, 0.75);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_drive_starts_off_without_fault);
+    RUN_TEST(test_drive_that_is_not_asked_to_run_keeps_the_bridge_open);
+    RUN_TEST(test_drive_off_still_measures_the_rotor_frame);
+    RUN_TEST(test_run_command_closes_the_bridge_in_the_same_call);
+    RUN_TEST(test_withdrawn_run_command_opens_the_bridge_in_the_same_call);
+    RUN_TEST(test_bad_configuration_leaves_the_drive_unusable);
+    RUN_TEST(test_start_takes_over_the_present_speed);
+    RUN_TEST(test_start_at_speed_without_current_applies_the_back_emf);
+    RUN_TEST(test_restart_forgets_the_past);
+    RUN_TEST(test_reset_while_running_forgets_the_past);
+    RUN_TEST(test_reset_zeroes_everything_that_is_published);
+    RUN_TEST(test_invalid_sample_trips);
+    RUN_TEST(test_every_input_that_is_not_finite_trips);
+    RUN_TEST(test_every_input_just_out_of_range_trips);
+    RUN_TEST(test_every_input_at_the_end_of_its_range_is_accepted);
+    RUN_TEST(test_current_of_one_phase_trips_when_the_others_share_its_return);
+    RUN_TEST(test_current_of_the_third_phase_trips);
+    RUN_TEST(test_opposite_currents_of_two_phases_leave_the_third_empty);
+    RUN_TEST(test_bad_input_trips_while_the_drive_is_off);
+    RUN_TEST(test_bad_sample_leaves_no_trace_in_the_measurement);
+    RUN_TEST(test_estimate_that_is_not_finite_trips_before_it_reaches_the_bridge);
+    RUN_TEST(test_one_axis_that_is_not_a_number_is_enough_to_trip);
+    RUN_TEST(test_voltage_matches_the_printed_law);
+    RUN_TEST(test_limited_voltage_is_the_printed_law_on_the_circle);
+    RUN_TEST(test_observer_is_driven_by_the_limited_voltage_of_the_previous_tick);
+    RUN_TEST(test_references_follow_this_sample_and_command);
+    RUN_TEST(test_duty_realises_the_voltage_one_and_a_half_periods_ahead);
+    RUN_TEST(test_same_operating_point_at_any_angle_gives_the_same_voltage);
+    RUN_TEST(test_random_operation_keeps_duties_and_voltage_in_range);
+    RUN_TEST(test_implausible_speed_samples_keep_duties_in_range);
+    RUN_TEST(test_loop_around_a_motor_settles_at_the_command_and_finds_the_load);
+    return UNITY_END();
+}
