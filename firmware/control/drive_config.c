@@ -48,7 +48,7 @@ static bool nosc_ok(const nosc_gains_t *g)
             }
         }
     }
-    return true;
+    return is_positive(g->lambda[0][0][1]); /* EQ-NOSC-3 divides by k_iq */
 }
 
 static bool nodo_ok(const nodo_gains_t *g)

@@ -14,10 +14,9 @@ void nodo_reset(nodo_t *x, const nodo_meas_t *y)
 }
 
 /* L(iq^) (y - C_d x^) of EQ-NODO-2 by Horner on the vectors L_n (y - C_d x^). */
-static void correction(const nodo_gains_t *g, const nodo_t *x, const nodo_meas_t *y,
+static void correction(const nodo_gains_t *g, const nodo_t *x, const nodo_meas_t *y, float iq_A,
                        float out[NODO_N_X])
 {
-    const float iq_A    = base_clamp(x->iq_A, -g->iq_max_A, g->iq_max_A);
     const float r_omega = y->omega_e_radps - x->omega_e_radps;
     const float r_iq    = y->iq_A - x->iq_A;
     const float r_id    = y->id_A - x->id_A;
@@ -36,17 +35,20 @@ static void correction(const nodo_gains_t *g, const nodo_t *x, const nodo_meas_t
 void nodo_update(nodo_t *x, const nodo_gains_t *g, const motor_reduced_t *m, const nodo_meas_t *y,
                  dq_t v_V, float ts_s)
 {
-    float lr[NODO_N_X];
-    correction(g, x, y, lr);
+    /* A_d and L are scheduled by the same clamped current: outside the certified range the products of
+     * estimates would otherwise outrun the gain that has to hold them. */
+    const float iq_s = base_clamp(x->iq_A, -g->iq_max_A, g->iq_max_A);
+    float       lr[NODO_N_X];
+    correction(g, x, y, iq_s, lr);
 
     /* EQ-NODO-1: the rows of A_d(iq^) x^ + u_d. */
     const float w    = x->omega_e_radps;
     const float iq   = x->iq_A;
     const float id   = x->id_A;
-    const float w_p  = (m->l1 * iq) - (m->l2 * w) + (m->l11 * iq * id) + x->d_omega;
+    const float w_p  = (m->l1 * iq) - (m->l2 * w) + (m->l11 * iq_s * id) + x->d_omega;
     const float iq_p = (m->l6 * v_V.q) - (m->l4 * iq) - (m->l5 * w) -
                        (m->l10 * y->id_A * y->omega_e_radps) + x->d_q;
-    const float id_p = (m->l8 * v_V.d) - (m->l7 * id) + (m->l9 * iq * w) + x->d_d;
+    const float id_p = (m->l8 * v_V.d) - (m->l7 * id) + (m->l9 * iq_s * w) + x->d_d;
 
     x->d_omega += ts_s * lr[ROW_D_OMEGA];
     x->d_q += ts_s * lr[ROW_D_Q];

@@ -49,7 +49,7 @@ void nodo_reset(nodo_t *x, const nodo_meas_t *y);
 /**
  * @brief One step: corrects with y and advances to the next sampling instant.
  *
- * The series is evaluated at iq^ clamped to +-g->iq_max_A.
+ * A_d and L are evaluated at iq^ clamped to +-g->iq_max_A.
  *
  * @param x     Estimates, advanced in place.
  * @param g     Gains.

@@ -28,7 +28,7 @@ typedef struct {
 typedef struct {
     int16_t order;          /**< N, 0 .. NOSC_ORDER_MAX */
     float   iq_error_max_A; /**< certified for |e_iq| <= this; > 0 */
-    float   lambda[NOSC_ORDER_MAX + 1][NOSC_N_U][NOSC_N_E]; /**< Lambda_n, n <= order */
+    float   lambda[NOSC_ORDER_MAX + 1][NOSC_N_U][NOSC_N_E]; /**< Lambda_n; k_iq > 0 */
 } nosc_gains_t;
 
 /** The q current that the speed error asks for, -(k_w / k_iq) e_w of EQ-NOSC-3. Context: control ISR. One division. */

@@ -3,7 +3,7 @@
  * @file voltage.h
  * @brief Voltage limit on the vector.
  *
- *     v_lim = hold + s (v - hold),  s = max { s <= 1 : |v_lim| <= v_max }      EQ-VOLTAGE-1
+ *     v_lim = hold + s (v - hold),  s = max { 0 <= s <= 1 : |v_lim| <= v_max }      EQ-VOLTAGE-1
  *
  * hold is what keeps the currents where they are, so the limit scales their rates of change and keeps
  * the direction. Where no s fits, the shortest vector on that line is taken and scaled into the circle.
