@@ -51,9 +51,6 @@ public:
     Matrix solve(const Matrix &W) const;
 
 private:
-    Matrix solve_once(const Matrix &W) const;
-
-    Matrix        A_;
     ComplexMatrix T_;
     ComplexMatrix U_;
 };

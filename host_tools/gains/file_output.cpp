@@ -29,6 +29,13 @@ void remove_temporaries(const std::vector<OutputFile> &files)
 void write_files(const std::vector<OutputFile> &files)
 {
     for (const OutputFile &file : files) {
+        std::error_code error;
+        if (std::filesystem::is_directory(file.path,
+                                          error)) { // rename would fail after earlier ones worked
+            throw InputError(fmt::format("{}: cannot write: is a directory", file.path.string()));
+        }
+    }
+    for (const OutputFile &file : files) {
         std::ofstream stream(temporary_name(file.path), std::ios::binary | std::ios::trunc);
         stream << file.text;
         stream.close();

@@ -115,7 +115,7 @@ bool find_axis_eigenvalue(const Matrix &M, const ComplexVector &eigenvalues, Com
     return false;
 }
 
-LyapunovSolver::LyapunovSolver(const Matrix &A) : A_(A)
+LyapunovSolver::LyapunovSolver(const Matrix &A)
 {
     const Eigen::ComplexSchur<Matrix> schur(A, true);
     if (schur.info() != Eigen::Success) {
@@ -125,11 +125,11 @@ LyapunovSolver::LyapunovSolver(const Matrix &A) : A_(A)
     U_ = schur.matrixU();
 }
 
-Matrix LyapunovSolver::solve_once(const Matrix &W) const
+Matrix LyapunovSolver::solve(const Matrix &W) const
 {
     // With A = U T U^H and Y = U^H X U the equation reads T^H Y + Y T = -U^H W U; T is upper
     // triangular, so each column of Y follows from the columns before it by forward substitution.
-    const Eigen::Index  n    = A_.rows();
+    const Eigen::Index  n    = T_.rows();
     const ComplexMatrix C    = U_.adjoint() * W.cast<Complex>() * U_;
     ComplexMatrix       Y    = ComplexMatrix::Zero(n, n);
     ComplexMatrix       left = T_.adjoint();
@@ -139,13 +139,6 @@ Matrix LyapunovSolver::solve_once(const Matrix &W) const
         Y.col(j)                = left.triangularView<Eigen::Lower>().solve(rhs);
     }
     return symmetric_part((U_ * Y * U_.adjoint()).real());
-}
-
-Matrix LyapunovSolver::solve(const Matrix &W) const
-{
-    const Matrix X  = solve_once(W);
-    const Matrix XA = X * A_;
-    return X + solve_once(XA + XA.transpose() + W);
 }
 
 } // namespace sdre::extended

@@ -6,10 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench.hpp"
 #include "errors.hpp"
 #include "file_output.hpp"
 #include "plot.hpp"
 #include "results.hpp"
+#include "seeds.hpp"
 #include "version.hpp"
 
 namespace {
@@ -21,25 +23,51 @@ struct Options {
     std::string csv;
     std::string json;
     std::string plot;
+    int         seed  = 0;
+    int         seeds = 0;
 };
 
-int run_scenario(const Options &options)
+/// The files that were asked for; `json` is already text.
+void write_outputs(const Options &options, const std::string &name,
+                   const std::vector<sdre::TraceRow> &trace, const std::string &json)
 {
-    const sdre::Scenario             scenario = sdre::read_scenario_file(options.scenario);
-    const sdre::SimulationResult     result   = sdre::simulate(scenario);
-    const std::vector<sdre::Metrics> metrics  = sdre::measure(scenario, result.trace);
-
     std::vector<sdre::OutputFile> files;
     if (!options.csv.empty()) {
-        files.push_back({options.csv, sdre::trace_csv(result.trace)});
+        files.push_back({options.csv, sdre::trace_csv(trace)});
     }
     if (!options.json.empty()) {
-        files.push_back({options.json, sdre::result_json(scenario, result, metrics)});
+        files.push_back({options.json, json});
     }
     sdre::write_files(files);
     if (!options.plot.empty()) {
-        sdre::plot_trace(sdre::trace_csv(result.trace), scenario.name, options.plot);
+        sdre::plot_trace(sdre::trace_csv(trace), name, options.plot);
     }
+}
+
+int run_many_seeds(const sdre::Scenario &scenario, const Options &options)
+{
+    const sdre::SeedRuns runs = sdre::run_seeds(scenario, options.seeds);
+    write_outputs(options, scenario.name, runs.first.trace, sdre::seeds_json(scenario, runs));
+    fmt::print("{}", sdre::seeds_text(scenario, runs));
+    return runs.faults == 0 ? exit_ok : exit_fault;
+}
+
+int run_scenario(const Options &options)
+{
+    if (!options.plot.empty()) {
+        sdre::require_plot(options.plot);
+    }
+    sdre::Scenario scenario = sdre::read_scenario_file(options.scenario);
+    if (options.seeds > 0) {
+        return run_many_seeds(scenario, options);
+    }
+    if (options.seed > 0) {
+        scenario.seed = static_cast<std::uint64_t>(options.seed);
+    }
+    const sdre::SimulationResult     result  = sdre::simulate(scenario);
+    const std::vector<sdre::Metrics> metrics = sdre::measure(scenario, result.trace);
+    write_outputs(options, scenario.name, result.trace,
+                  sdre::result_json(scenario, result, metrics));
     fmt::print("{}", sdre::result_text(scenario, result, metrics));
     return result.fault == 0 ? exit_ok : exit_fault;
 }
@@ -57,6 +85,16 @@ int run(int argc, char **argv)
     run_command->add_option("--csv", options.csv, "write the trace, one row per control period");
     run_command->add_option("--json", options.json, "write the metrics");
     run_command->add_option("--plot", options.plot, "draw the trace (.png or .svg)");
+    CLI::Option *seed = run_command->add_option("--seed", options.seed, "seed of the noise")
+                            ->check(CLI::Range(1, 2147483647));
+    run_command
+        ->add_option("--seeds", options.seeds,
+                     "run seeds 1 .. N and report worst and mean; CSV and plot are of seed 1")
+        ->check(CLI::Range(1, 100000))
+        ->excludes(seed);
+
+    CLI::App *bench_command = app.add_subcommand("bench", "print the speed of the simulation");
+    bench_command->add_option("SCENARIO", options.scenario, "scenario file (default: Fig. 5)");
 
     try {
         app.parse(argc, argv);
@@ -65,6 +103,12 @@ int run(int argc, char **argv)
             return app.exit(e); // --help, --version
         }
         throw sdre::InputError(e.what());
+    }
+    if (bench_command->parsed()) {
+        fmt::print("{}", sdre::bench_text(options.scenario.empty()
+                                              ? sdre::default_bench_scenario()
+                                              : std::filesystem::path(options.scenario)));
+        return exit_ok;
     }
     return run_scenario(options);
 }

@@ -73,8 +73,11 @@ Metrics metrics_of(const Measure &measure, Iterator begin, Iterator end)
         std::abs(mean(tail, end, [](const TraceRow &r) { return r.omega_e_radps; }) - target);
     m.ripple_e_radps = 0.5 * (highest->omega_e_radps - lowest->omega_e_radps);
     for (Iterator row = begin; row != end; ++row) {
-        m.peak_current_A = std::max(m.peak_current_A, std::hypot(row->id_A, row->iq_A));
+        m.peak_current_A =
+            std::max({m.peak_current_A, std::hypot(row->id_A, row->iq_A), row->peak_current_A});
     }
+    m.steady_current_A =
+        mean(tail, end, [](const TraceRow &r) { return std::hypot(r.id_A, r.iq_A); });
     m.d_omega_hat = mean(tail, end, [](const TraceRow &r) { return r.d_omega_hat; });
     m.d_q_hat     = mean(tail, end, [](const TraceRow &r) { return r.d_q_hat; });
     m.d_d_hat     = mean(tail, end, [](const TraceRow &r) { return r.d_d_hat; });
@@ -115,6 +118,7 @@ std::vector<std::pair<std::string, double>> metric_values(const Metrics &m)
                                  {"steady_state_error_e_radps", m.steady_state_error_e_radps},
                                  {"ripple_e_radps", m.ripple_e_radps},
                                  {"peak_current_A", m.peak_current_A},
+                                 {"steady_current_A", m.steady_current_A},
                                  {"d_omega_hat", m.d_omega_hat},
                                  {"d_q_hat", m.d_q_hat},
                                  {"d_d_hat", m.d_d_hat},

@@ -26,7 +26,8 @@ struct Metrics {
     double overshoot_e_radps          = 0.0;
     double steady_state_error_e_radps = 0.0; ///< |mean error| in the tail
     double ripple_e_radps             = 0.0; ///< (max - min) / 2 in the tail
-    double peak_current_A             = 0.0; ///< largest |i| in the window
+    double peak_current_A             = 0.0; ///< largest |i| in the window, between instants too
+    double steady_current_A           = 0.0; ///< mean |i| in the tail
     double d_omega_hat                = 0.0; ///< means in the tail [rad/s^2]
     double d_q_hat                    = 0.0; ///< [A/s]
     double d_d_hat                    = 0.0; ///< [A/s]

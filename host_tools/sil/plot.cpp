@@ -32,17 +32,23 @@ int run(const std::array<std::string, 5> &arguments)
 
 } // namespace
 
+void require_plot(const std::filesystem::path &picture)
+{
+    const std::string kind = picture.extension().string();
+    if (kind != ".png" && kind != ".svg") {
+        throw InputError(fmt::format("{}: a plot is a .png or a .svg", picture.string()));
+    }
+    if (std::string(SDRE_PYTHON).empty()) {
+        throw InputError("--plot: this build found no Python with matplotlib");
+    }
+}
+
 void plot_trace(const std::string &csv, const std::string &title,
                 const std::filesystem::path &picture)
 {
     const std::string python = SDRE_PYTHON;
     const std::string kind   = picture.extension().string();
-    if (kind != ".png" && kind != ".svg") {
-        throw InputError(fmt::format("{}: a plot is a .png or a .svg", picture.string()));
-    }
-    if (python.empty()) {
-        throw InputError("--plot: this build found no Python with matplotlib");
-    }
+    require_plot(picture);
     // Beside the target, so that a directory that cannot be written fails here, before anything is drawn.
     const std::filesystem::path data = picture.string() + ".csv.tmp";
     const std::filesystem::path part = picture.string() + ".tmp" + kind;

@@ -7,6 +7,9 @@
 
 namespace sdre {
 
+/// InputError when this name or this build cannot become a plot. Lets a tool refuse before it writes anything.
+void require_plot(const std::filesystem::path &picture);
+
 /// Writes a .png or .svg. InputError when no Python with matplotlib was found at build time or it fails.
 void plot_trace(const std::string &csv, const std::string &title,
                 const std::filesystem::path &picture);

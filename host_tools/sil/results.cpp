@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "results.hpp"
 
+#include <map>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -23,6 +25,7 @@ constexpr Label labels[] = {
     {"steady_state_error_e_radps", "steady error [rad/s el.]", 1.0, "{:.3f}"},
     {"ripple_e_radps", "ripple [rad/s el.]", 1.0, "{:.3f}"},
     {"peak_current_A", "peak current [A]", 1.0, "{:.2f}"},
+    {"steady_current_A", "steady current [A]", 1.0, "{:.3f}"},
     {"d_omega_hat", "d_omega [rad/s^2]", 1.0, "{:.0f}"},
     {"d_q_hat", "d_q [A/s]", 1.0, "{:.1f}"},
     {"d_d_hat", "d_d [A/s]", 1.0, "{:.1f}"},
@@ -38,6 +41,18 @@ std::string cell(const std::vector<std::pair<std::string, double>> &values, cons
         }
     }
     return missing;
+}
+
+/// The published values of a measure; found by name, as a measure without rows has no metrics.
+const std::map<std::string, double> &paper_of(const Scenario &scenario, const Metrics &metrics)
+{
+    static const std::map<std::string, double> none;
+    for (const Measure &measure : scenario.measures) {
+        if (measure.name == metrics.name) {
+            return measure.paper;
+        }
+    }
+    return none;
 }
 
 } // namespace
@@ -72,6 +87,7 @@ std::string result_json(const Scenario &scenario, const SimulationResult &result
     const ordered_json out{
         {"scenario", scenario.name},
         {"drive", scenario.drive.name},
+        {"seed", scenario.seed},
         {"gains", result.compiled_table ? "compiled table" : "solved in process"},
         {"uncertified", result.uncertified},
         {"fault", fault_name(result.fault)},
@@ -94,16 +110,15 @@ std::string result_text(const Scenario &scenario, const SimulationResult &result
         s += fmt::format("FAULT at {:.4f} s: {}\n", result.fault_time_s, fault_name(result.fault));
     }
     s += fmt::format("{:<26}", "");
-    for (std::size_t i = 0; i < metrics.size(); i++) {
-        s += fmt::format("{:>16}{:>10}", metrics[i].name,
-                         scenario.measures[i].paper.empty() ? "" : "paper");
+    for (const Metrics &m : metrics) {
+        s += fmt::format("{:>16}{:>10}", m.name, paper_of(scenario, m).empty() ? "" : "paper");
     }
     s += "\n";
     for (const Label &label : labels) {
         s += fmt::format("{:<26}", label.text);
-        for (std::size_t i = 0; i < metrics.size(); i++) {
-            const auto &paper = scenario.measures[i].paper;
-            s += fmt::format("{:>16}{:>10}", cell(metric_values(metrics[i]), label, "never"),
+        for (const Metrics &m : metrics) {
+            const auto &paper = paper_of(scenario, m);
+            s += fmt::format("{:>16}{:>10}", cell(metric_values(m), label, "never"),
                              cell({paper.begin(), paper.end()}, label, ""));
         }
         s += "\n";

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "board_reader.hpp"
 #include "errors.hpp"
 #include "metrics.hpp"
 #include "toml_reader.hpp"
@@ -19,7 +20,11 @@ constexpr Range speed_range_e_radps{-1e5, 1e5};
 constexpr Range torque_range_Nm{-1e5, 1e5};
 constexpr Range band_range_e_radps{1e-9, 1e5};
 constexpr Range scale_range{0.01, 100.0};
-constexpr Range dc_link_range_V{1.0, 1e4};
+constexpr Range current_range_A{1e-3, 1e4};
+constexpr Range updates_range{1, 2};
+constexpr Range fan_range_Nm_per_radps2{0.0, 1e3};
+constexpr Range counts_range{-1e6, 1e6};
+constexpr Range seed_range{0, 2147483647};
 constexpr Range order_range{0, 8};
 constexpr Range paper_range{-1e9, 1e9};
 
@@ -95,20 +100,94 @@ std::vector<Measure> read_measures(TomlReader &t)
     return measures;
 }
 
-std::vector<PlantChange> read_changes(TomlReader &t)
+PlantChange read_change_set(TomlReader set, const PlantChange &before, const Drive &drive)
+{
+    PlantChange change;
+    change.sensors       = before.sensors;
+    change.inverter      = before.inverter;
+    change.load_sine     = before.load_sine;
+    const bool other     = set.has("sensors") || set.has("inverter") || set.has("load_sine");
+    change.changes_plant = set.has("plant_scale") || !other; // without any of them it is missing
+    if (change.changes_plant) {
+        change.plant_scale = read_scale(set.table("plant_scale"));
+    }
+    if (std::optional<TomlReader> sensors = set.table_if("sensors")) {
+        change.lost_counts = sensors->integer_or("lost_counts", counts_range, 0);
+        change.sensors     = read_sensors(*sensors, *before.sensors, drive);
+    }
+    if (std::optional<TomlReader> inverter = set.table_if("inverter")) {
+        change.inverter = read_board_inverter(*inverter, *before.inverter, drive);
+    }
+    if (std::optional<TomlReader> sine = set.table_if("load_sine")) {
+        change.load_sine = read_load_sine(*sine, *before.load_sine);
+    }
+    set.table_if("plant_scale");
+    set.reject_unknown_keys();
+    return change;
+}
+
+std::vector<PlantChange> read_changes(TomlReader &t, const Scenario &s)
 {
     std::vector<PlantChange> changes;
+    PlantChange              now; // what a partial table adds to
+    now.sensors   = s.sensors;
+    now.inverter  = s.inverter;
+    now.load_sine = s.load_sine;
     for (TomlReader &entry : t.tables("change")) {
-        PlantChange change;
-        change.time_s      = entry.number("time_s", time_range_s);
-        TomlReader set     = entry.table("set");
-        change.plant_scale = read_scale(set.table("plant_scale"));
-        set.reject_unknown_keys();
+        const double time_s = entry.number("time_s", time_range_s);
+        now                 = read_change_set(entry.table("set"), now, s.drive);
+        now.time_s          = time_s;
         entry.reject_unknown_keys();
-        changes.push_back(change);
+        changes.push_back(now);
     }
     require_sorted(t, "change", changes);
     return changes;
+}
+
+/// A step in the middle of a ramp would leave open what the ramp does after it.
+void require_no_step_in_ramp(const TomlReader &t, const Scenario &s)
+{
+    for (const LoadRamp &ramp : s.load_ramps) {
+        for (const Step &step : s.load_torque) {
+            if (step.time_s > ramp.time_s && step.time_s < ramp.until_s) {
+                t.fail(
+                    "load_torque",
+                    fmt::format("time_s = {:g} is not allowed: inside the load_ramp {:g} .. {:g}",
+                                step.time_s, ramp.time_s, ramp.until_s));
+            }
+        }
+    }
+}
+
+void read_load(TomlReader &t, Scenario &s)
+{
+    s.load_torque = read_steps(t, "load_torque", "value_Nm", torque_range_Nm);
+    s.load_ramps  = read_load_ramps(t);
+    require_no_step_in_ramp(t, s);
+    if (std::optional<TomlReader> sine = t.table_if("load_sine")) {
+        s.load_sine = read_load_sine(*sine, s.load_sine);
+    }
+    if (std::optional<TomlReader> fan = t.table_if("load_fan")) {
+        s.load_fan_Nm_per_radps2 = fan->number("Nm_per_radps2", fan_range_Nm_per_radps2);
+        fan->reject_unknown_keys();
+    }
+}
+
+void read_board(TomlReader &t, Scenario &s)
+{
+    s.dc_link_V = s.drive.inverter.dc_link_V;
+    if (std::optional<TomlReader> inverter = t.table_if("inverter")) {
+        inverter->integer_or("updates_per_period", updates_range, 1); // read with the drive
+        s.inverter  = read_board_inverter(*inverter, s.inverter, s.drive);
+        s.dc_link_V = s.inverter.dc_link_V.value_or(s.dc_link_V);
+    }
+    if (std::optional<TomlReader> sensors = t.table_if("sensors")) {
+        s.sensors.ideal = false; // a table without `ideal` is the shipped board
+        s.sensors       = read_sensors(*sensors, s.sensors, s.drive);
+    }
+    if (std::optional<TomlReader> effects = t.table_if("motor_effects")) {
+        s.motor_effects = read_motor_effects(*effects);
+    }
 }
 
 std::filesystem::path drive_path(const std::filesystem::path &scenario, const std::string &drive)
@@ -116,6 +195,19 @@ std::filesystem::path drive_path(const std::filesystem::path &scenario, const st
     const std::filesystem::path beside = scenario.parent_path() / drive;
     std::error_code             error;
     return std::filesystem::exists(beside, error) ? beside : std::filesystem::path(drive);
+}
+
+/// The drive file, with what the scenario overrides for controller and plant alike.
+Drive read_drive(TomlReader &t, const std::filesystem::path &file)
+{
+    Drive drive = read_drive_file(drive_path(file, t.text("drive")));
+    drive.motor.max_current_A =
+        t.number_or("max_current_A", current_range_A, drive.motor.max_current_A);
+    if (std::optional<TomlReader> inverter = t.table_if("inverter")) {
+        drive.inverter.updates_per_period = inverter->integer_or(
+            "updates_per_period", updates_range, drive.inverter.updates_per_period);
+    }
+    return drive;
 }
 
 void read_controller(TomlReader t, Scenario &s)
@@ -151,16 +243,25 @@ double value_at(const std::vector<Step> &steps, double time_s, double before)
     return value;
 }
 
+double StepCursor::at(double time_s)
+{
+    for (; next_ < steps_.size() && steps_[next_].time_s <= time_s + 1e-12; next_++) {
+        value_ = steps_[next_].value;
+    }
+    return value_;
+}
+
 Scenario read_scenario_file(const std::filesystem::path &file)
 {
     const toml::table root = parse_toml_file(file);
     TomlReader        t(file.string(), "", root);
     Scenario          s;
     s.name  = file.stem().string();
-    s.drive = read_drive_file(drive_path(file, t.text("drive")));
+    s.drive = read_drive(t, file);
     if (t.text_or("law", "noc") != "noc") {
         t.fail("law", "is not allowed: must be \"noc\"");
     }
+    s.seed                  = static_cast<std::uint64_t>(t.integer_or("seed", seed_range, 1));
     s.duration_s            = t.number("duration_s", duration_range_s);
     s.initial_speed_e_radps = t.number_or("initial_speed_e_radps", speed_range_e_radps, 0.0);
     if (std::optional<TomlReader> scale = t.table_if("controller_scale")) {
@@ -173,24 +274,13 @@ Scenario read_scenario_file(const std::filesystem::path &file)
         read_controller(*controller, s);
     }
     s.speed_reference = read_steps(t, "speed_reference", "value_e_radps", speed_range_e_radps);
-    s.load_torque     = read_steps(t, "load_torque", "value_Nm", torque_range_Nm);
-    s.changes         = read_changes(t);
-    s.measures        = read_measures(t);
+    read_load(t, s);
+    read_board(t, s);
+    s.changes  = read_changes(t, s);
+    s.measures = read_measures(t);
     if (!s.measures.empty() && s.measures.back().time_s >= s.duration_s) {
         t.fail("measure", fmt::format("\"{}\": time_s must be before duration_s = {:g}",
                                       s.measures.back().name, s.duration_s));
-    }
-    s.dc_link_V = s.drive.inverter.dc_link_V;
-    if (std::optional<TomlReader> inverter = t.table_if("inverter")) {
-        s.dc_link_V = inverter->number_or("dc_link_V", dc_link_range_V, s.dc_link_V);
-        inverter->reject_unknown_keys();
-    }
-    if (std::optional<TomlReader> sensors = t.table_if("sensors")) {
-        if (!sensors->boolean_or("ideal", true)) {
-            sensors->fail("ideal",
-                          "= false is not allowed: the sensors of this simulation are ideal");
-        }
-        sensors->reject_unknown_keys();
     }
     t.reject_unknown_keys();
     return s;

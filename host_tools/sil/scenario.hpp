@@ -2,13 +2,16 @@
 /// A closed-loop experiment, read from TOML.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "board_settings.hpp"
 #include "drive_file.hpp"
+#include "load.hpp"
 
 namespace sdre {
 
@@ -29,10 +32,16 @@ struct Measure {
     std::map<std::string, double> paper; ///< published values by metric name, printed beside ours
 };
 
-/// The motor changes at a time.
+/// Motor, board or load change at a time. A table that is there holds all values from then on, not only
+/// the keys that the file names.
 struct PlantChange {
-    double     time_s = 0.0;
-    MotorScale plant_scale;
+    double                          time_s = 0.0;
+    MotorScale                      plant_scale; ///< replaces the scale before when changes_plant
+    bool                            changes_plant = true;
+    std::optional<SensorSettings>   sensors;
+    int                             lost_counts = 0; ///< the encoder's counter misses these, now
+    std::optional<InverterSettings> inverter;
+    std::optional<LoadSine>         load_sine;
 };
 
 struct Scenario {
@@ -49,6 +58,13 @@ struct Scenario {
     std::vector<PlantChange> changes;         ///< sorted by time
     std::vector<Measure>     measures;        ///< sorted by time
     double                   dc_link_V = 0.0; ///< the supply; the drive file's unless given
+    std::uint64_t            seed      = 1;   ///< of every random draw
+    SensorSettings           sensors;
+    InverterSettings         inverter;
+    MotorEffects             motor_effects;
+    std::vector<LoadRamp>    load_ramps; ///< sorted by time
+    LoadSine                 load_sine;
+    double                   load_fan_Nm_per_radps2 = 0.0; ///< of the mechanical speed
 };
 
 /// InputError in one line on anything wrong. The drive path is relative to the scenario file, or to the
@@ -60,5 +76,17 @@ Motor scaled(Motor motor, const MotorScale &scale);
 
 /// The last step at or before a time; `before` when there is none.
 double value_at(const std::vector<Step> &steps, double time_s, double before);
+
+/// value_at() for times that rise: it goes on from where it was.
+class StepCursor {
+public:
+    StepCursor(const std::vector<Step> &steps, double before) : steps_(steps), value_(before) {}
+    double at(double time_s);
+
+private:
+    const std::vector<Step> &steps_;
+    std::size_t              next_ = 0;
+    double                   value_;
+};
 
 } // namespace sdre

@@ -4,28 +4,17 @@
 #include <chrono>
 #include <cmath>
 
+#include "board.hpp"
 #include "design.hpp"
 #include "errors.hpp"
-#include "inverter.hpp"
-#include "plant.hpp"
 
 extern "C" {
 #include "gain_tables.h"
 }
 
 namespace sdre {
-namespace {
 
-// Measured: 4 RK4 steps of 50 us reproduce the reference trajectories to 3e-10 of the speed range.
-constexpr int substeps_per_period = 4;
-
-struct Controller {
-    drive_config_t           config{};
-    bool                     compiled_table = false;
-    std::vector<std::string> uncertified;
-};
-
-Controller make_controller(const Scenario &s)
+Controller prepare_controller(const Scenario &s)
 {
     Drive believed      = s.drive;
     believed.motor      = scaled(s.drive.motor, s.controller_scale);
@@ -44,19 +33,7 @@ Controller make_controller(const Scenario &s)
     return c;
 }
 
-/// Ideal sensors: the plant, in single precision.
-drive_sample_t sample_of(const Plant &plant, double dc_link_V)
-{
-    const StatorVector i = to_stator(plant.current_A(), plant.theta_e_rad());
-    drive_sample_t     s{};
-    s.ia_A        = static_cast<float>(i.alpha);
-    s.ib_A        = static_cast<float>(-0.5 * i.alpha + 0.5 * std::sqrt(3.0) * i.beta);
-    s.dc_link_V   = static_cast<float>(dc_link_V);
-    s.theta_e_rad = static_cast<float>(std::remainder(plant.theta_e_rad(), 2.0 * std::acos(-1.0)));
-    s.omega_e_radps = static_cast<float>(plant.omega_e_radps());
-    s.valid         = true;
-    return s;
-}
+namespace {
 
 TraceRow row_of(double time_s, double omega_ref, double load_Nm, const Plant &plant,
                 const drive_t &drive)
@@ -84,12 +61,16 @@ TraceRow row_of(double time_s, double omega_ref, double load_Nm, const Plant &pl
 
 SimulationResult simulate(const Scenario &s)
 {
-    const Controller controller = make_controller(s);
-    const double     ts         = control_period_s(s.drive);
-    const auto       ticks      = static_cast<long>(std::floor(s.duration_s / ts + 1e-9)) + 1;
+    return simulate(s, prepare_controller(s));
+}
 
-    Plant plant(scaled(s.drive.motor, s.plant_scale));
-    plant.reset(s.initial_speed_e_radps);
+SimulationResult simulate(const Scenario &s, const Controller &controller)
+{
+    const double ts    = control_period_s(s.drive);
+    const auto   ticks = static_cast<long>(std::floor(s.duration_s / ts + 1e-9)) + 1;
+
+    Board            board(s);
+    StepCursor       reference(s.speed_reference, s.initial_speed_e_radps);
     drive_t          drive{};
     SimulationResult result;
     result.compiled_table = controller.compiled_table;
@@ -100,30 +81,25 @@ SimulationResult simulate(const Scenario &s)
     }
 
     drive_output_t in_force{{0.5F, 0.5F, 0.5F}, true}; // until the first result acts: no voltage
-    std::size_t    next_change = 0;
-    const auto     start       = std::chrono::steady_clock::now();
+    const auto     start = std::chrono::steady_clock::now();
     for (long k = 0; k < ticks; k++) {
         const double t         = static_cast<double>(k) * ts;
-        const double omega_ref = value_at(s.speed_reference, t, s.initial_speed_e_radps);
-        const double load_Nm   = value_at(s.load_torque, t, 0.0);
-        for (; next_change < s.changes.size() && s.changes[next_change].time_s <= t + 1e-12;
-             next_change++) {
-            plant.set_motor(scaled(s.drive.motor, s.changes[next_change].plant_scale));
-        }
+        const double omega_ref = reference.at(t);
+        board.begin_tick(t);
 
-        const drive_sample_t  sample  = sample_of(plant, s.dc_link_V);
+        const drive_sample_t  sample  = board.sample();
         const drive_command_t command = {static_cast<float>(omega_ref), true};
         const drive_output_t  output  = drive_tick(&drive, &sample, &command);
-        result.trace.push_back(row_of(t, omega_ref, load_Nm, plant, drive));
+        result.trace.push_back(row_of(t, omega_ref, board.load_Nm(), board.plant(), drive));
         if (drive.state == DRIVE_FAULT && result.fault == 0) {
             result.fault        = drive.fault;
             result.fault_time_s = t;
         }
 
         in_force.gate_enable = in_force.gate_enable && output.gate_enable; // gates go off at once
-        const StatorVector i = to_stator(plant.current_A(), plant.theta_e_rad());
-        plant.step(inverter_voltage(in_force, s.dc_link_V, i), load_Nm, ts, substeps_per_period);
-        in_force = output;
+        board.run_period(in_force);
+        result.trace.back().peak_current_A = board.peak_current_A();
+        in_force                           = output;
     }
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     result.simulated_seconds_per_second      = static_cast<double>(ticks) * ts / wall.count();

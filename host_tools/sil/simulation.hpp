@@ -26,6 +26,7 @@ struct TraceRow {
     double d_d_hat           = 0.0;
     double load_torque_Nm    = 0.0;
     double torque_Nm         = 0.0;
+    double peak_current_A    = 0.0; ///< largest |i| from this instant to the next
 };
 
 struct SimulationResult {
@@ -37,11 +38,23 @@ struct SimulationResult {
     std::vector<std::string> uncertified; ///< why the gains would not have been written as a table
 };
 
+/// The constants the core runs on, from the table or solved here.
+struct Controller {
+    drive_config_t           config{};
+    bool                     compiled_table = false;
+    std::vector<std::string> uncertified;
+};
+
+/// DesignError when the gains cannot be solved.
+Controller prepare_controller(const Scenario &scenario);
+
 /// Runs a scenario. DesignError when the controller's gains cannot be solved.
 ///
 /// The samples of tick k meet duty ratios that act from t_k+1 to t_k+2; the controller is enabled at t = 0
 /// on a motor that turns at the initial speed without current.
 SimulationResult simulate(const Scenario &scenario);
+/// The same with a controller that is ready, for runs that differ in the plant or the seed only.
+SimulationResult simulate(const Scenario &scenario, const Controller &controller);
 
 /// "over current" and so on.
 const char *fault_name(int fault);

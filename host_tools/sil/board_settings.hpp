@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+/// What stands between the control core and the motor: sensors, inverter, and what the plain motor model
+/// leaves out. The defaults are the shipped board.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace sdre {
+
+struct SensorSettings {
+    bool ideal = true; ///< exact signals; every other key of this table is then without effect
+    std::optional<int> encoder_lines;        ///< the drive file's unless given
+    bool               encoder_index = true; ///< lost counts come back once per turn
+    double encoder_eccentricity_rad  = 0.0;  ///< mechanical, amplitude of one sine per turn
+    double encoder_offset_e_rad      = 0.0;  ///< alignment error, electrical
+    int    adc_bits                  = 12;   ///< the F28335's converter
+    double adc_full_scale_A   = 10.0;  ///< chosen: 2.5 x the 4 A limit, so that a trip is seen
+    double adc_noise_rms_A    = 0.010; ///< chosen: 2 codes, a Hall sensor with its amplifier
+    double adc_offset_a_A     = 0.0;   ///< calibrated before the start
+    double adc_offset_b_A     = 0.0;
+    double adc_gain_a         = 1.0;
+    double adc_gain_b         = 1.0;
+    double sampling_advance_s = 0.0; ///< samples are taken this long before the period starts
+};
+
+enum class InverterModel { averaged, switched };
+enum class Regeneration {
+    blocks, ///< diode rectifier: energy that comes back charges the capacitor
+    sinks   ///< the source takes it
+};
+
+struct InverterSettings {
+    std::optional<double> dc_link_V; ///< Scenario::dc_link_V unless given
+    InverterModel         model = InverterModel::averaged;
+    std::optional<double>
+                 dead_time_s; ///< none: the drive file's with real sensors, 0 with ideal ones
+    double       switch_drop_V         = 0.0;
+    double       diode_drop_V          = 0.0;
+    double       duty_min              = 0.0;
+    double       duty_max              = 1.0;
+    double       source_resistance_Ohm = 0.0;                 ///< 0 = stiff
+    double       capacitance_F         = 1e-3;                ///< chosen: 295 V then hold 44 J
+    Regeneration regeneration          = Regeneration::sinks; ///< a laboratory supply with a load
+};
+
+/// Inductances over the currents; flux = L(i_d, i_q) i + magnet.
+struct SaturationMap {
+    std::vector<double> id_A; ///< increasing
+    std::vector<double> iq_A; ///< increasing
+    std::vector<double> ld_H; ///< one row of iq values per i_d
+    std::vector<double> lq_H;
+};
+
+struct MotorEffects {
+    std::optional<SaturationMap> saturation;
+    double                       cogging_amplitude_Nm = 0.0;
+    double                       cogging_order        = 0.0; ///< periods per mechanical turn
+    double                       coulomb_friction_Nm  = 0.0;
+    double                       resistance_drift = 0.0; ///< share of the start value per second
+    double                       flux_drift       = 0.0;
+};
+
+} // namespace sdre

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "encoder.hpp"
+
+#include <cmath>
+
+namespace sdre {
+namespace {
+
+const double two_pi = 2.0 * std::acos(-1.0);
+
+} // namespace
+
+QuadratureEncoder::QuadratureEncoder(const SensorSettings &settings, int lines, int pole_pairs,
+                                     double period_s)
+    : drive_lines_(lines), pole_pairs_(pole_pairs), period_s_(period_s)
+{
+    configure(settings);
+}
+
+void QuadratureEncoder::configure(const SensorSettings &settings)
+{
+    settings_        = settings;
+    counts_per_turn_ = 4 * static_cast<std::int64_t>(settings.encoder_lines.value_or(drive_lines_));
+}
+
+double QuadratureEncoder::shaft_turns(double theta_e_rad) const
+{
+    const double theta_m = theta_e_rad / pole_pairs_; // EQ-ENCODER-1
+    double       shaft   = theta_m + settings_.encoder_offset_e_rad / pole_pairs_;
+    if (settings_.encoder_eccentricity_rad != 0.0) {
+        shaft += settings_.encoder_eccentricity_rad * std::sin(theta_m);
+    }
+    return shaft / two_pi;
+}
+
+std::int64_t QuadratureEncoder::counts_of(double theta_e_rad) const
+{
+    return static_cast<std::int64_t>(
+        std::floor(shaft_turns(theta_e_rad) * static_cast<double>(counts_per_turn_)));
+}
+
+void QuadratureEncoder::start(double theta_e_rad, double omega_e_radps)
+{
+    lost_         = 0;
+    lost_at_turn_ = std::floor(shaft_turns(theta_e_rad));
+    before_       = counts_of(theta_e_rad - omega_e_radps * period_s_);
+}
+
+void QuadratureEncoder::lose(int counts)
+{
+    lost_ += counts;
+}
+
+QuadratureEncoder::Reading QuadratureEncoder::read(double theta_e_rad)
+{
+    const double turn = std::floor(shaft_turns(theta_e_rad));
+    if (settings_.encoder_index && turn != lost_at_turn_) {
+        lost_ = 0;
+    }
+    lost_at_turn_ = turn;
+
+    Reading r;
+    r.count = counts_of(theta_e_rad) - lost_; // EQ-ENCODER-2
+
+    // EQ-ENCODER-3 in whole half counts, so that the wrap is exact.
+    const std::int64_t half_turn = 2 * counts_per_turn_;
+    std::int64_t       half_counts =
+        ((2 * r.count + 1) * static_cast<std::int64_t>(pole_pairs_)) % half_turn;
+    half_counts += half_counts < 0 ? half_turn : 0;
+    r.theta_e_rad = two_pi * static_cast<double>(half_counts) / static_cast<double>(half_turn);
+
+    const auto per_turn = static_cast<double>(counts_per_turn_);
+    r.omega_e_radps     = pole_pairs_ * static_cast<double>(r.count - before_) * two_pi /
+                      (per_turn * period_s_); // EQ-ENCODER-4
+    before_ = r.count;
+    return r;
+}
+
+} // namespace sdre

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+/// Incremental encoder with a quadrature counter (x4) on the motor's shaft.
+///
+///     shaft = theta_m + offset_e / n_p + eccentricity sin(theta_m)             EQ-ENCODER-1
+///     count = floor(4 lines shaft / 2 pi) - lost                               EQ-ENCODER-2
+///     theta_e = n_p (count + 1/2) 2 pi / (4 lines), wrapped to [0, 2 pi)       EQ-ENCODER-3
+///     omega_e = n_p (count - count before) 2 pi / (4 lines Ts)                 EQ-ENCODER-4
+#pragma once
+
+#include <cstdint>
+
+#include "board_settings.hpp"
+
+namespace sdre {
+
+class QuadratureEncoder {
+public:
+    struct Reading {
+        std::int64_t count         = 0; ///< since the start, not wrapped
+        double       theta_e_rad   = 0.0;
+        double       omega_e_radps = 0.0;
+    };
+
+    /// @param lines of the drive file, unless the settings name others.
+    QuadratureEncoder(const SensorSettings &settings, int lines, int pole_pairs, double period_s);
+
+    /// Changes in flight; the counter keeps what it has lost.
+    void configure(const SensorSettings &settings);
+    /// The counter as if the shaft had turned at this speed before the start.
+    void start(double theta_e_rad, double omega_e_radps);
+    /// The counter misses this many counts, now. An index mark puts it right.
+    void lose(int counts);
+
+    /// Call once per period.
+    Reading read(double theta_e_rad);
+
+private:
+    double       shaft_turns(double theta_e_rad) const;
+    std::int64_t counts_of(double theta_e_rad) const;
+
+    SensorSettings settings_;
+    int            drive_lines_;
+    double         pole_pairs_;
+    double         period_s_;
+    std::int64_t   counts_per_turn_ = 0;
+    std::int64_t   before_          = 0;
+    std::int64_t   lost_            = 0;
+    double         lost_at_turn_    = 0.0; ///< whole turns when they were last lost or read
+};
+
+} // namespace sdre

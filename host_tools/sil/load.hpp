@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+/// Torque of the driven machine over time.
+///
+///     T = steps and ramps + amplitude sin(2 pi f (t - start)) + fan w_m |w_m|  EQ-LOAD-1
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace sdre {
+
+struct Step;
+
+/// A straight line from the torque at time_s to to_Nm at until_s, which then stays.
+struct LoadRamp {
+    double time_s  = 0.0;
+    double until_s = 0.0;
+    double to_Nm   = 0.0;
+};
+
+struct LoadSine {
+    double amplitude_Nm = 0.0;
+    double frequency_Hz = 0.0;
+    double start_s      = 0.0;
+};
+
+/// What acts on the shaft during one step of the plant.
+struct ShaftLoad {
+    double torque_Nm         = 0.0;
+    double fan_Nm_per_radps2 = 0.0;
+};
+
+/// Steps, ramps and sine; times must be asked for in rising order.
+class LoadProfile {
+public:
+    LoadProfile(const std::vector<Step> &steps, const std::vector<LoadRamp> &ramps,
+                const LoadSine &sine);
+
+    void set_sine(const LoadSine &sine);
+    /// At a time; a step acts from its time on, ramp and sine have their value `ahead_s` later (half
+    /// a period, for a torque that is held over one).
+    double at(double time_s, double ahead_s);
+
+private:
+    struct Piece {
+        double time_s;
+        double until_s; ///< = time_s for a step
+        double from_Nm;
+        double to_Nm;
+    };
+    double value_of(const Piece &piece, double time_s) const;
+
+    std::vector<Piece> pieces_;
+    std::size_t        next_ = 0; ///< the first piece that has not begun
+    LoadSine           sine_;
+};
+
+} // namespace sdre

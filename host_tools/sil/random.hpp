@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+/// Repeatable noise. std::normal_distribution differs between libraries; this does not.
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+namespace sdre {
+
+/// Who draws; each source has a generator of its own, so that one does not shift another.
+enum class NoiseStream : std::uint64_t { adc_a = 1, adc_b = 2 };
+
+/// Gaussian numbers: std::mt19937_64, whose sequence the standard fixes, and Box-Muller.
+class Noise {
+public:
+    Noise(std::uint64_t seed, NoiseStream stream);
+
+    /// Mean 0, standard deviation 1.
+    double next();
+
+private:
+    double uniform(); ///< (0, 1]
+
+    std::mt19937_64 generator_;
+    double          spare_     = 0.0;
+    bool            has_spare_ = false;
+};
+
+} // namespace sdre
