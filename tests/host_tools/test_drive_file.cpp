@@ -1,0 +1,472 @@
+// SPDX-License-Identifier: MIT
+#include "drive_file.hpp"
+
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "drive_text.hpp"
+#include "errors.hpp"
+#include "temp_dir.hpp"
+
+namespace {
+
+using support::DriveText;
+using support::TempDir;
+
+/// The limits as a user meets them, written down a second time on purpose.
+struct Key {
+    std::string section;
+    std::string name;
+    double      lo;
+    double      hi;
+    bool        whole;
+    std::string allowed; ///< as messages print it
+};
+
+const std::vector<Key> scalar_keys{
+    {"motor", "pole_pairs", 1, 100, true, "1 .. 100"},
+    {"motor", "stator_resistance_Ohm", 1e-5, 1e3, false, "1e-05 .. 1000"},
+    {"motor", "d_axis_inductance_H", 1e-7, 10, false, "1e-07 .. 10"},
+    {"motor", "q_axis_inductance_H", 1e-7, 10, false, "1e-07 .. 10"},
+    {"motor", "pm_flux_Wb", 1e-5, 10, false, "1e-05 .. 10"},
+    {"motor", "inertia_kgm2", 1e-9, 1e3, false, "1e-09 .. 1000"},
+    {"motor", "viscous_friction_Nms", 0, 100, false, "0 .. 100"},
+    {"motor", "rated_speed_e_radps", 1, 1e5, false, "1 .. 100000"},
+    {"motor", "rated_torque_Nm", 1e-5, 1e5, false, "1e-05 .. 100000"},
+    {"motor", "max_current_A", 1e-3, 1e4, false, "0.001 .. 10000"},
+    {"inverter", "dc_link_V", 1, 1e4, false, "1 .. 10000"},
+    {"inverter", "pwm_frequency_Hz", 1e3, 1e5, false, "1000 .. 100000"},
+    {"inverter", "dead_time_s", 0, 2e-5, false, "0 .. 2e-05"},
+    {"inverter", "updates_per_period", 1, 2, true, "1 .. 2"},
+    {"encoder", "lines", 1, 1e6, true, "1 .. 1e+06"},
+    {"nosc", "order", 0, 8, true, "0 .. 8"},
+    {"nodo", "order", 0, 8, true, "0 .. 8"}};
+
+struct ArrayKey {
+    std::string section;
+    std::string name;
+    int         length;
+    double      lo;
+    double      hi;
+    std::string allowed;
+    std::string lengths;
+};
+
+const std::vector<ArrayKey> array_keys{
+    {"nosc", "Q", 3, 0.0, 1e15, "0 .. 1e+15", "array of 3 numbers"},
+    {"nosc", "T", 2, 1e-12, 1e12, "1e-12 .. 1e+12", "array of 2 numbers"},
+    {"nodo", "Q", 6, 0.0, 1e15, "0 .. 1e+15", "array of 6 numbers"},
+    {"nodo", "T", 3, 1e-12, 1e12, "1e-12 .. 1e+12", "array of 6 or 3 numbers"}};
+
+std::string number(double x, bool whole)
+{
+    return whole ? fmt::format("{}", static_cast<long long>(x)) : fmt::format("{:.17e}", x);
+}
+
+/// "[1, 1, x, 1]" with x at `at`.
+std::string array_with(int length, int at, const std::string &x)
+{
+    std::string text = "[";
+    for (int i = 0; i < length; i++) {
+        text += fmt::format("{}{}", i == 0 ? "" : ", ", i == at ? x : "1.0");
+    }
+    return text + "]";
+}
+
+sdre::Drive read(const std::string &text)
+{
+    const TempDir dir;
+    return sdre::read_drive_file(dir.write("drive.toml", text));
+}
+
+/// The complaint about a text, without the file's path in front; checks that it is one line about
+/// this file.
+std::string complaint(const std::string &text)
+{
+    const TempDir dir;
+    const auto    file = dir.write("drive.toml", text);
+    try {
+        sdre::read_drive_file(file);
+    } catch (const sdre::InputError &error) {
+        const std::string what = error.what();
+        EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+        EXPECT_EQ(what.rfind(file.string() + ":", 0), 0U) << what;
+        return what.substr(file.string().size() + 1);
+    }
+    return "accepted";
+}
+
+std::string complaint(const DriveText &text)
+{
+    return complaint(text.str());
+}
+
+void expect_complaint(const DriveText &text, const std::vector<std::string> &pieces)
+{
+    const std::string what = complaint(text);
+    for (const std::string &piece : pieces) {
+        EXPECT_NE(what.find(piece), std::string::npos) << "'" << piece << "' not in: " << what;
+    }
+}
+
+/// Other keys moved so that an end of one key's range meets no rule about two keys.
+DriveText room_for(const Key &key, double value)
+{
+    DriveText text;
+    if (key.name == "d_axis_inductance_H") {
+        text.set("motor", "q_axis_inductance_H", "10.0");
+    } else if (key.name == "q_axis_inductance_H") {
+        text.set("motor", "d_axis_inductance_H", "1e-7");
+    } else if (key.name == "pwm_frequency_Hz") {
+        text.set("inverter", "dead_time_s", "0.0");
+    }
+    return text.set(key.section, key.name, number(value, key.whole));
+}
+
+} // namespace
+
+TEST(DriveFile, ReadsEveryValueToItsPlace)
+{
+    const sdre::Drive drive = read(DriveText().set("inverter", "updates_per_period", "2").str());
+
+    EXPECT_EQ(drive.name, "bench");
+    EXPECT_EQ(drive.motor.pole_pairs, 2);
+    EXPECT_EQ(drive.motor.stator_resistance_Ohm, 2.48);
+    EXPECT_EQ(drive.motor.d_axis_inductance_H, 0.07498);
+    EXPECT_EQ(drive.motor.q_axis_inductance_H, 0.11391);
+    EXPECT_EQ(drive.motor.pm_flux_Wb, 0.193);
+    EXPECT_EQ(drive.motor.inertia_kgm2, 0.00042);
+    EXPECT_EQ(drive.motor.viscous_friction_Nms, 0.0001);
+    EXPECT_EQ(drive.motor.rated_speed_e_radps, 523.0);
+    EXPECT_EQ(drive.motor.rated_torque_Nm, 1.5);
+    EXPECT_EQ(drive.motor.max_current_A, 4.0);
+    EXPECT_EQ(drive.inverter.dc_link_V, 295.0);
+    EXPECT_EQ(drive.inverter.pwm_frequency_Hz, 5000.0);
+    EXPECT_EQ(drive.inverter.dead_time_s, 3e-6);
+    EXPECT_EQ(drive.inverter.updates_per_period, 2);
+    EXPECT_EQ(drive.encoder.lines, 2500);
+    EXPECT_EQ(drive.nosc.order, 2);
+    EXPECT_EQ(drive.nosc.Q, (std::array<double, 3>{2.0, 8.0, 8.5}));
+    EXPECT_EQ(drive.nosc.T, (std::array<double, 2>{1e-3, 1.25e-3}));
+    EXPECT_EQ(drive.nodo.order, 1);
+    EXPECT_EQ(drive.nodo.Q, (std::array<double, 6>{1.0e8, 1.1e8, 1.2e8, 85.0, 86.0, 90.0}));
+    EXPECT_EQ(drive.nodo.T, (std::array<double, 3>{1e-4, 1.5e-4, 2e-4}));
+}
+
+TEST(DriveFile, ShippedDrivesAreRead)
+{
+    const std::filesystem::path drives =
+        std::filesystem::path(SDRE_SOURCE_DIR) / "firmware/config/drives";
+
+    const sdre::Drive ipmsm = sdre::read_drive_file(drives / "ipmsm_390w.toml");
+    const sdre::Drive paper = sdre::read_drive_file(drives / "ipmsm_390w_paper.toml");
+    const sdre::Drive servo = sdre::read_drive_file(drives / "servo_200w.toml");
+
+    EXPECT_EQ(ipmsm.name, "ipmsm_390w");
+    EXPECT_EQ(paper.name, "ipmsm_390w_paper");
+    EXPECT_EQ(servo.name, "servo_200w");
+    EXPECT_EQ(ipmsm.motor.pole_pairs, 2);
+    EXPECT_EQ(ipmsm.motor.q_axis_inductance_H, 0.11391);
+    EXPECT_EQ(ipmsm.motor.max_current_A, 4.0);
+    EXPECT_EQ(paper.nodo.Q, (std::array<double, 6>{0.3, 5.0, 5.0, 85.0, 85.0, 90.0}));
+    EXPECT_EQ(servo.motor.pole_pairs, 4);
+    EXPECT_EQ(servo.motor.d_axis_inductance_H, servo.motor.q_axis_inductance_H);
+}
+
+TEST(DriveFile, MissingKeyIsNamed)
+{
+    for (const Key &key : scalar_keys) {
+        if (key.name != "updates_per_period") {
+            expect_complaint(DriveText().erase(key.section, key.name),
+                             {fmt::format("[{}] {} is missing", key.section, key.name)});
+        }
+    }
+    for (const ArrayKey &key : array_keys) {
+        expect_complaint(DriveText().erase(key.section, key.name),
+                         {fmt::format("[{}] {} is missing", key.section, key.name)});
+    }
+    expect_complaint(DriveText().erase("", "name"), {" name is missing"});
+    expect_complaint(DriveText().erase("", "schema"), {" schema is missing"});
+}
+
+TEST(DriveFile, MissingTableIsNamed)
+{
+    for (const std::string section : {"motor", "inverter", "encoder", "nosc", "nodo"}) {
+        expect_complaint(DriveText().erase_section(section), {" " + section + " is missing"});
+
+        DriveText as_number = DriveText().erase_section(section);
+        as_number.set("", section, "1");
+        expect_complaint(as_number, {" " + section + " must be a table"});
+    }
+}
+
+TEST(DriveFile, UpdatesPerPeriodDefaultsToOne)
+{
+    EXPECT_EQ(
+        read(DriveText().erase("inverter", "updates_per_period").str()).inverter.updates_per_period,
+        1);
+}
+
+TEST(DriveFile, UnknownKeyIsNamedWithTheKnownOnes)
+{
+    for (const std::string section : {"motor", "inverter", "encoder", "nosc", "nodo"}) {
+        expect_complaint(DriveText().set(section, "colour", "1"),
+                         {"[" + section + "] colour is not a known key; allowed: "});
+    }
+    expect_complaint(DriveText().set("", "colour", "1"),
+                     {" colour is not a known key", "motor", "schema", "nodo"});
+    expect_complaint(DriveText().set("encoder", "Lines", "1"), {"allowed: lines"});
+    expect_complaint(DriveText().set("inverter", "dead_time_us", "3"),
+                     {"dead_time_us", "dead_time_s", "updates_per_period"});
+}
+
+TEST(DriveFile, WrongTypeIsNamedWithTheRange)
+{
+    for (const Key &key : scalar_keys) {
+        for (const std::string value : {"\"1\"", "true", "[1.0]", "{ x = 1.0 }", "1979-05-27"}) {
+            expect_complaint(
+                DriveText().set(key.section, key.name, value),
+                {fmt::format("[{}] {} must be a ", key.section, key.name), key.allowed});
+        }
+        if (key.whole) {
+            expect_complaint(DriveText().set(key.section, key.name, "1.0"),
+                             {key.name + " must be a whole number", key.allowed});
+        }
+    }
+    expect_complaint(DriveText().set("", "name", "3"), {" name must be a string"});
+    expect_complaint(DriveText().set("", "schema", "1.0"), {" schema must be a whole number"});
+}
+
+TEST(DriveFile, NotFiniteIsRefusedWithTheRange)
+{
+    for (const Key &key : scalar_keys) {
+        for (const std::string value : {"nan", "inf", "-inf", "+inf"}) {
+            expect_complaint(DriveText().set(key.section, key.name, value),
+                             {fmt::format("[{}] {} ", key.section, key.name), key.allowed});
+        }
+    }
+    for (const ArrayKey &key : array_keys) {
+        for (const std::string value : {"nan", "inf", "-inf"}) {
+            expect_complaint(DriveText().set(key.section, key.name,
+                                             array_with(key.length, key.length - 1, value)),
+                             {fmt::format("[{}] {}[{}] = ", key.section, key.name, key.length - 1),
+                              value, key.allowed});
+        }
+    }
+}
+
+TEST(DriveFile, EndsOfTheRangeAreAllowed)
+{
+    for (const Key &key : scalar_keys) {
+        for (const double value : {key.lo, key.hi}) {
+            EXPECT_EQ(complaint(room_for(key, value)), "accepted") << key.name << " " << value;
+        }
+    }
+    for (const ArrayKey &key : array_keys) {
+        for (const double value : {key.lo, key.hi}) {
+            const std::string text = array_with(key.length, 0, number(value, false));
+            EXPECT_EQ(complaint(DriveText().set(key.section, key.name, text)), "accepted") << text;
+        }
+    }
+}
+
+TEST(DriveFile, JustOutsideTheRangeIsRefusedWithValueAndRange)
+{
+    for (const Key &key : scalar_keys) {
+        const double below = key.whole ? key.lo - 1 : std::nextafter(key.lo, -1e300);
+        const double above = key.whole ? key.hi + 1 : std::nextafter(key.hi, 1e300);
+        for (const double value : {below, above}) {
+            expect_complaint(
+                room_for(key, value),
+                {fmt::format("[{}] {} = {:g} ", key.section, key.name, value), key.allowed});
+        }
+    }
+    for (const ArrayKey &key : array_keys) {
+        for (int at = 0; at < key.length; at++) {
+            for (const double value :
+                 {std::nextafter(key.lo, -1e300), std::nextafter(key.hi, 1e300)}) {
+                expect_complaint(
+                    DriveText().set(key.section, key.name,
+                                    array_with(key.length, at, number(value, false))),
+                    {fmt::format("[{}] {}[{}] = {:g} ", key.section, key.name, at, value),
+                     key.allowed});
+            }
+        }
+    }
+}
+
+TEST(DriveFile, HugeWholeNumberDoesNotWrapIntoRange)
+{
+    expect_complaint(DriveText().set("motor", "pole_pairs", "4294967298"), {"pole_pairs", "100"});
+    expect_complaint(DriveText().set("encoder", "lines", "9223372036854775807"),
+                     {"lines", "1e+06"});
+}
+
+TEST(DriveFile, NegativeInertiaIsRefused)
+{
+    expect_complaint(DriveText().set("motor", "inertia_kgm2", "-0.00042"),
+                     {"[motor] inertia_kgm2 = -0.00042 is not allowed", "1e-09 .. 1000"});
+}
+
+TEST(DriveFile, SaliencyTheLawCannotUseIsRefused)
+{
+    expect_complaint(DriveText().set("motor", "d_axis_inductance_H", "0.12"),
+                     {"[motor] d_axis_inductance_H = 0.12", "q_axis_inductance_H = 0.11391"});
+
+    EXPECT_EQ(complaint(DriveText().set("motor", "d_axis_inductance_H", "0.11391")), "accepted");
+}
+
+TEST(DriveFile, DeadTimeOverATenthOfThePeriodIsRefused)
+{
+    DriveText text;
+    text.set("inverter", "pwm_frequency_Hz", "50000.0");
+
+    text.set("inverter", "dead_time_s", "1.9e-6");
+    EXPECT_EQ(complaint(text), "accepted");
+    text.set("inverter", "dead_time_s", "2.1e-6");
+    expect_complaint(text, {"[inverter] dead_time_s", "tenth of the PWM period"});
+}
+
+TEST(DriveFile, ArrayOfAnotherLengthOrTypeIsRefused)
+{
+    for (const ArrayKey &key : array_keys) {
+        for (const int length : {0, 1, 4, 5, 7}) {
+            expect_complaint(
+                DriveText().set(key.section, key.name, array_with(length, 0, "1.0")),
+                {fmt::format("[{}] {} must be an ", key.section, key.name), key.lengths});
+        }
+        expect_complaint(DriveText().set(key.section, key.name, "1.0"), {key.lengths});
+        expect_complaint(
+            DriveText().set(key.section, key.name, array_with(key.length, 1, "\"x\"")),
+            {fmt::format("[{}] {}[1] must be a number", key.section, key.name), key.allowed});
+    }
+    expect_complaint(DriveText().set("nosc", "Q", "[1.0, 1.0, 1.0, 1.0, 1.0, 1.0]"),
+                     {"array of 3 numbers"});
+    expect_complaint(DriveText().set("nodo", "Q", "[1.0, 1.0, 1.0]"), {"array of 6 numbers"});
+}
+
+TEST(DriveFile, SixObserverInputWeightsMeanTheLastThree)
+{
+    const sdre::Drive drive =
+        read(DriveText().set("nodo", "T", "[9.0, 8.0, 7.0, 1e-4, 1.5e-4, 2e-4]").str());
+
+    EXPECT_EQ(drive.nodo.T, (std::array<double, 3>{1e-4, 1.5e-4, 2e-4}));
+    EXPECT_EQ(sdre::drive_digest(drive), sdre::drive_digest(read(DriveText().str())));
+    expect_complaint(DriveText().set("nodo", "T", "[0.0, 8.0, 7.0, 1e-4, 1.5e-4, 2e-4]"),
+                     {"[nodo] T[0] = 0 "});
+}
+
+TEST(DriveFile, OtherSchemaIsRefused)
+{
+    for (const std::string schema : {"0", "2", "10"}) {
+        expect_complaint(DriveText().set("", "schema", schema), {"schema = " + schema, "schema 1"});
+    }
+    expect_complaint(DriveText().set("", "schema", "-1"), {"schema = -1"});
+}
+
+TEST(DriveFile, NameIsLimitedToHarmlessCharacters)
+{
+    EXPECT_EQ(complaint(DriveText().set("", "name", "\"Ab-1_2.z\"")), "accepted");
+    for (const std::string name : {"", "two words", "a/b", "a\\\"b", "a\\nb", "a*/b", "\\u00e4"}) {
+        expect_complaint(DriveText().set("", "name", "\"" + name + "\""),
+                         {" name must be one or more of A-Z a-z 0-9 _ - ."});
+    }
+}
+
+TEST(DriveFile, NotTomlNamesTheLine)
+{
+    const std::string what = complaint("schema = 1\nname = \"x\"\n[motor\npole_pairs = 2\n");
+
+    EXPECT_EQ(what.rfind("3: not valid TOML: ", 0), 0U) << what;
+    EXPECT_NE(complaint(DriveText().str() + "T = [1e-4, 1e-4, 1e-4]\n").find("not valid TOML"),
+              std::string::npos); // a key given twice
+    EXPECT_NE(complaint(std::string("schema = 1\n\0", 12)).find("not valid TOML"),
+              std::string::npos);
+}
+
+TEST(DriveFile, MissingFileAndDirectoryAreRefused)
+{
+    const TempDir dir;
+    for (const auto &file : {dir / "none.toml", dir.path()}) {
+        try {
+            sdre::read_drive_file(file);
+            ADD_FAILURE() << "read " << file;
+        } catch (const sdre::InputError &error) {
+            EXPECT_EQ(std::string(error.what()), file.string() + ": no such file");
+        }
+    }
+}
+
+TEST(DriveFile, ControlPeriodCountsUpdates)
+{
+    sdre::Drive drive = read(DriveText().set("inverter", "pwm_frequency_Hz", "8000.0").str());
+
+    EXPECT_DOUBLE_EQ(sdre::control_period_s(drive), 125e-6);
+    drive.inverter.updates_per_period = 2;
+    EXPECT_DOUBLE_EQ(sdre::control_period_s(drive), 62.5e-6);
+}
+
+TEST(DriveFile, DigestIgnoresLayout)
+{
+    const std::string digest    = sdre::drive_digest(read(DriveText().str()));
+    std::string       commented = "# a comment\n\n";
+    for (const char c : DriveText().str()) {
+        commented += (c == '\n') ? std::string("   # said\n\n") : std::string(1, c);
+    }
+
+    EXPECT_EQ(digest.rfind("fnv1a64:", 0), 0U);
+    EXPECT_EQ(digest.size(), 24U);
+    EXPECT_EQ(digest.find_first_not_of("0123456789abcdef", 8), std::string::npos);
+    EXPECT_EQ(sdre::drive_digest(read(commented)), digest);
+    EXPECT_EQ(sdre::drive_digest(read(DriveText().reverse().str())), digest);
+    EXPECT_EQ(sdre::drive_digest(read(DriveText().set("motor", "pm_flux_Wb", "1.93e-1").str())),
+              digest);
+    EXPECT_EQ(sdre::drive_digest(read(DriveText().erase("inverter", "updates_per_period").str())),
+              digest);
+}
+
+TEST(DriveFile, DigestSeesEveryValue)
+{
+    std::set<std::string> digests{sdre::drive_digest(read(DriveText().str()))};
+    std::size_t           changes = 1;
+    const auto            add     = [&](const DriveText &text) {
+        digests.insert(sdre::drive_digest(read(text.str())));
+        changes++;
+        EXPECT_EQ(digests.size(), changes) << text.str();
+    };
+
+    for (const Key &key : scalar_keys) {
+        DriveText    text;
+        const double value = std::stod(text.value(key.section, key.name));
+        add(text.set(key.section, key.name,
+                     number(key.whole ? value + 1 : std::nextafter(value, 1e300), key.whole)));
+    }
+    for (const ArrayKey &key : array_keys) {
+        for (int at = 0; at < key.length; at++) {
+            add(DriveText().set(key.section, key.name, array_with(key.length, at, "1.5")));
+        }
+    }
+    add(DriveText().set("", "name", "\"bench2\""));
+}
+
+TEST(DriveFile, MotorValueReachesEveryScalableKey)
+{
+    std::set<double *> places;
+    sdre::Motor        motor = read(DriveText().str()).motor;
+    for (const Key &key : scalar_keys) {
+        if (key.section == "motor" && key.name != "pole_pairs") {
+            double &value = sdre::motor_value(motor, key.name);
+            places.insert(&value);
+            EXPECT_EQ(value, std::stod(DriveText().value("motor", key.name))) << key.name;
+        }
+    }
+
+    EXPECT_EQ(places.size(), 9U);
+    EXPECT_THROW(sdre::motor_value(motor, "pole_pairs"), sdre::InputError);
+    EXPECT_THROW(sdre::motor_value(motor, ""), sdre::InputError);
+}

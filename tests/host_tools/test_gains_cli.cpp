@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "drive_text.hpp"
+#include "temp_dir.hpp"
+
+namespace {
+
+using support::CommandResult;
+using support::DriveText;
+using support::TempDir;
+
+const std::string tool = "sdre-gains";
+const std::string shipped =
+    std::string(SDRE_SOURCE_DIR) + "/firmware/config/drives/ipmsm_390w.toml";
+const std::string tables = std::string(SDRE_SOURCE_DIR) + "/firmware/config";
+
+CommandResult gains(std::vector<std::string> arguments)
+{
+    arguments.insert(arguments.begin(), SDRE_GAINS_EXE);
+    return support::run_command(std::move(arguments));
+}
+
+void expect_refused(const std::vector<std::string> &arguments, int exit_code,
+                    const std::vector<std::string> &pieces)
+{
+    std::string all;
+    for (const std::string &argument : arguments) {
+        all += " " + argument;
+    }
+    SCOPED_TRACE("sdre-gains" + all);
+    support::expect_refused(gains(arguments), exit_code, tool, pieces);
+}
+
+/// A drive that solves but must not be written: the control period is too long.
+DriveText uncertified()
+{
+    return DriveText().set("inverter", "pwm_frequency_Hz", "1000.0");
+}
+
+} // namespace
+
+TEST(GainsCli, WrongCommandLineIsOneLine)
+{
+    expect_refused({}, 1, {"subcommand"});
+    expect_refused({"frobnicate"}, 1, {});
+    expect_refused({"--frobnicate"}, 1, {});
+    expect_refused({"report"}, 1, {"DRIVE"});
+    expect_refused({"generate"}, 1, {"DRIVE"});
+    expect_refused({"care"}, 1, {"PROBLEM"});
+    expect_refused({"report", shipped, "extra"}, 1, {"extra"});
+    expect_refused({"report", "--colour", shipped}, 1, {"--colour"});
+    expect_refused({"generate", shipped, "--out"}, 1, {"--out"});
+    expect_refused({"report", shipped, "care", "x.json"}, 1, {});
+}
+
+TEST(GainsCli, GenerateNeedsExactlyOneTarget)
+{
+    const TempDir dir;
+
+    expect_refused({"generate", shipped}, 1, {"--out DIR", "--check DIR"});
+    expect_refused({"generate", shipped, "--out", dir.path(), "--check", tables}, 1,
+                   {"--out DIR", "--check DIR"});
+    EXPECT_TRUE(support::names_in(dir.path()).empty());
+}
+
+TEST(GainsCli, HelpAndVersionAreNoErrors)
+{
+    for (const std::vector<std::string> &arguments : {std::vector<std::string>{"--help"},
+                                                      {"report", "--help"},
+                                                      {"generate", "-h"},
+                                                      {"care", "--help"}}) {
+        const CommandResult r = gains(arguments);
+        EXPECT_EQ(r.exit_code, 0);
+        EXPECT_EQ(r.err, "");
+        EXPECT_NE(r.out.find("--help"), std::string::npos);
+    }
+    EXPECT_EQ(gains({"--version"}).out, "sdre-gains 1.0.0\n");
+    EXPECT_EQ(gains({"--version"}).exit_code, 0);
+}
+
+TEST(GainsCli, BadDriveFileIsBadInputForEveryCommand)
+{
+    const TempDir     dir;
+    const std::string out  = dir / "out";
+    const std::string file = dir.write("bad.toml", "[motor\n");
+    for (const std::string &drive : {(dir / "none.toml").string(), dir.path().string(), file}) {
+        expect_refused({"report", drive}, 1, {drive + ":"});
+        expect_refused({"report", drive, "--json"}, 1, {drive + ":"});
+        expect_refused({"generate", drive, "--out", out}, 1, {drive + ":"});
+        expect_refused({"generate", drive, "--check", tables}, 1, {drive + ":"});
+    }
+    EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST(GainsCli, BadKeyIsBadInput)
+{
+    const TempDir dir;
+    const auto    refused = [&](DriveText text, const std::vector<std::string> &pieces) {
+        const std::string        file = dir.write("drive.toml", text.str());
+        std::vector<std::string> all  = pieces;
+        all.push_back(file + ": ");
+        expect_refused({"report", file, "--json"}, 1, all);
+    };
+
+    refused(DriveText().erase("motor", "pm_flux_Wb"), {"[motor] pm_flux_Wb is missing"});
+    refused(DriveText().set("motor", "colour", "1"), {"[motor] colour", "inertia_kgm2"});
+    refused(DriveText().set("motor", "inertia_kgm2", "-1.0"), {"inertia_kgm2 = -1", "1000"});
+    refused(DriveText().set("motor", "inertia_kgm2", "nan"), {"inertia_kgm2 = nan", "1000"});
+    refused(DriveText().set("motor", "inertia_kgm2", "\"1\""), {"inertia_kgm2 must be a number"});
+    refused(DriveText().set("motor", "d_axis_inductance_H", "0.2"), {"Ld <= Lq"});
+    refused(DriveText().set("nosc", "Q", "[1e300, 1.0, 1.0]"), {"Q[0] = 1e+300", "1e+15"});
+    refused(DriveText().set("nodo", "T", "[1e300, 1.0, 1.0]"), {"T[0] = 1e+300", "1e+12"});
+    refused(DriveText().set("", "schema", "2"), {"schema = 2"});
+    refused(DriveText().erase_section("nodo"), {"nodo is missing"});
+}
+
+TEST(GainsCli, GenerateWritesTablesThatCheck)
+{
+    const TempDir     dir;
+    const std::string out = dir / "a/b";
+
+    const CommandResult made    = gains({"generate", shipped, "--out", out});
+    const CommandResult checked = gains({"generate", shipped, "--check", out});
+
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_EQ(made.err, "");
+    EXPECT_EQ(made.out,
+              "ipmsm_390w: certified; wrote gain_tables.h and gain_tables.c to " + out + "\n");
+    EXPECT_EQ(support::names_in(out), (std::set<std::string>{"gain_tables.c", "gain_tables.h"}));
+    EXPECT_EQ(checked.exit_code, 0) << checked.err;
+    EXPECT_EQ(checked.out, "ipmsm_390w: certified; " + out + " matches\n");
+}
+
+TEST(GainsCli, GenerateTwiceGivesTheSameBytes)
+{
+    const TempDir     dir;
+    const std::string first  = dir / "first";
+    const std::string second = dir / "second";
+
+    gains({"generate", shipped, "--out", first});
+    gains({"generate", shipped, "--out", second});
+    gains({"generate", shipped, "--out", second});
+
+    for (const std::string name : {"/gain_tables.h", "/gain_tables.c"}) {
+        EXPECT_EQ(support::read_file(first + name), support::read_file(second + name));
+    }
+}
+
+TEST(GainsCli, CommittedTablesCheck)
+{
+    const CommandResult r = gains({"generate", shipped, "--check", tables});
+
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+}
+
+TEST(GainsCli, CheckMismatchIsExitThree)
+{
+    const TempDir     dir;
+    const std::string header = support::read_file(tables + "/gain_tables.h");
+    const std::string source = support::read_file(tables + "/gain_tables.c");
+    dir.write("gain_tables.h", header);
+
+    dir.write("gain_tables.c", support::replaced(source, ".l1 = 2.75714282e+03f",
+                                                 ".l1 = 2.75714310e+03f")); // 1e-7
+    EXPECT_EQ(gains({"generate", shipped, "--check", dir.path()}).exit_code, 0);
+    dir.write("gain_tables.c",
+              support::replaced(source, ".l1 = 2.75714282e+03f", ".l1 = 2.75716282e+03f"));
+    expect_refused({"generate", shipped, "--check", dir.path()}, 3,
+                   {"gain_tables.c", "2.75716282e+03f", "2.75714282e+03f"});
+    dir.write("gain_tables.c", source);
+    dir.write("gain_tables.h",
+              support::replaced(header, "DIGEST \"fnv1a64:5a", "DIGEST \"fnv1a64:5b"));
+    expect_refused({"generate", shipped, "--check", dir.path()}, 3,
+                   {"gain_tables.h", "fnv1a64:5b"});
+}
+
+TEST(GainsCli, CheckOfAnotherDriveIsExitThree)
+{
+    expect_refused({"generate",
+                    std::string(SDRE_SOURCE_DIR) + "/firmware/config/drives/ipmsm_390w_paper.toml",
+                    "--check", tables},
+                   3, {"gain_tables.h"});
+}
+
+TEST(GainsCli, CheckWithoutFilesIsBadInput)
+{
+    const TempDir dir;
+    expect_refused({"generate", shipped, "--check", dir.path()}, 1, {"gain_tables.h"});
+    expect_refused({"generate", shipped, "--check", dir / "none"}, 1, {"gain_tables.h"});
+
+    dir.write("gain_tables.h", support::read_file(tables + "/gain_tables.h"));
+    expect_refused({"generate", shipped, "--check", dir.path()}, 1, {"gain_tables.c"});
+}
+
+TEST(GainsCli, OutputThatCannotBeMadeIsBadInput)
+{
+    const TempDir     dir;
+    const std::string file = dir.write("file", "kept");
+
+    expect_refused({"generate", shipped, "--out", file}, 1, {file});
+    expect_refused({"generate", shipped, "--out", file + "/sub"}, 1, {file});
+    expect_refused({"generate", shipped, "--out", "/proc/sdre"}, 1, {"/proc/sdre"});
+    EXPECT_EQ(support::names_in(dir.path()), (std::set<std::string>{"file"}));
+    EXPECT_EQ(support::read_file(file), "kept");
+}
+
+TEST(GainsCli, RefusedDesignLeavesEarlierOutput)
+{
+    const TempDir     dir;
+    const std::string header = dir.write("gain_tables.h", "earlier header");
+    const std::string source = dir.write("gain_tables.c", "earlier source");
+    const TempDir     input;
+    const std::string drive = input.write("drive.toml", uncertified().str());
+
+    expect_refused({"generate", drive, "--out", dir.path()}, 2, {drive, "not certified", "nodo"});
+    expect_refused({"generate", drive, "--check", dir.path()}, 2, {"not certified"});
+    expect_refused({"generate", drive, "--out", dir / "new"}, 2, {"not certified"});
+
+    EXPECT_EQ(support::read_file(header), "earlier header");
+    EXPECT_EQ(support::read_file(source), "earlier source");
+    EXPECT_EQ(support::names_in(dir.path()),
+              (std::set<std::string>{"gain_tables.c", "gain_tables.h"}));
+}
+
+TEST(GainsCli, UnsolvableDesignIsExitTwo)
+{
+    const TempDir     dir;
+    const std::string drive = dir.write(
+        "drive.toml", DriveText().set("nodo", "Q", "[0.0, 0.0, 0.0, 85.0, 86.0, 90.0]").str());
+
+    expect_refused({"generate", drive, "--out", dir / "out"}, 2, {});
+    expect_refused({"report", drive}, 2, {});
+    EXPECT_FALSE(std::filesystem::exists(dir / "out"));
+}
+
+TEST(GainsCli, ReportAnswersForAnUncertifiedDrive)
+{
+    const TempDir     dir;
+    const std::string drive = dir.write("drive.toml", uncertified().str());
+
+    const CommandResult text = gains({"report", drive});
+    const CommandResult json = gains({"report", drive, "--json"});
+
+    EXPECT_EQ(text.exit_code, 0);
+    EXPECT_EQ(text.err, "");
+    EXPECT_NE(text.out.find("verdict: refused"), std::string::npos);
+    EXPECT_EQ(json.exit_code, 0);
+    EXPECT_EQ(nlohmann::json::parse(json.out).at("certificate").at("certified"), false);
+}
+
+TEST(GainsCli, ReportOfTheShippedDriveIsCertified)
+{
+    const CommandResult text = gains({"report", shipped});
+    const CommandResult json = gains({"report", "--json", shipped});
+
+    EXPECT_EQ(text.exit_code, 0);
+    EXPECT_NE(text.out.find("verdict: certified"), std::string::npos);
+    EXPECT_EQ(json.exit_code, 0);
+    EXPECT_EQ(json.err, "");
+    EXPECT_EQ(nlohmann::json::parse(json.out).at("certificate").at("certified"), true);
+}
+
+TEST(GainsCli, CareSolvesAFile)
+{
+    const TempDir     dir; // x' = u, q = 4, r = 1: X = 2, pole at -2
+    const std::string file =
+        dir.write("p.json", R"({"A": [[0]], "B": [[1]], "R": [[1]], "Q": [[4]], "more": "x"})");
+
+    const CommandResult json = gains({"care", file, "--json"});
+    const CommandResult text = gains({"care", file});
+
+    ASSERT_EQ(json.exit_code, 0) << json.err;
+    const nlohmann::json result = nlohmann::json::parse(json.out);
+    EXPECT_NEAR(result.at("X")[0][0].get<double>(), 2.0, 1e-15);
+    EXPECT_NEAR(result.at("closed_loop_eigenvalues")[0][0].get<double>(), -2.0, 1e-15);
+    EXPECT_LT(result.at("relative_residual").get<double>(), 1e-15);
+    EXPECT_EQ(text.exit_code, 0);
+    EXPECT_NE(text.out.find("X ="), std::string::npos);
+    EXPECT_NE(text.out.find("residual"), std::string::npos);
+}
+
+TEST(GainsCli, CareRefusesBrokenFiles)
+{
+    const TempDir dir;
+    const auto file = [&](const std::string &text) { return dir.write("p.json", text).string(); };
+
+    expect_refused({"care", dir / "none.json"}, 1, {"none.json"});
+    expect_refused({"care", dir.path()}, 1, {dir.path().string()});
+    expect_refused({"care", file("{")}, 1, {"p.json", "JSON"});
+    expect_refused({"care", file("")}, 1, {"p.json", "JSON"});
+    expect_refused({"care", file("[1]")}, 1, {"p.json", "object"});
+    expect_refused({"care", file(R"({"A": [[0]], "B": [[1]], "R": [[1]]})"), "--json"}, 1, {"'Q'"});
+    expect_refused({"care", file(R"({"A": [[0, 1]], "B": [[1]], "R": [[1]], "Q": [[1]]})")}, 1,
+                   {"'A'"});
+    expect_refused({"care", file(R"({"A": [["x"]], "B": [[1]], "R": [[1]], "Q": [[1]]})")}, 1,
+                   {"'A'", "row 1, column 1"});
+    expect_refused({"care", file(R"({"A": [[1]], "B": [[0]], "R": [[1]], "Q": [[1]]})")}, 2,
+                   {"stabilis"});
+    expect_refused({"care", file(R"({"A": [[1]], "B": [[1]], "R": [[-1]], "Q": [[1]]})")}, 2,
+                   {"R"});
+    expect_refused({"care", file(R"({"A": [[0]], "B": [[1]], "R": [[1]], "Q": [[0]]})")}, 2, {});
+}
+
+TEST(GainsCli, CareWithHugeNumbersAnswersOrRefusesInOneLine)
+{
+    const TempDir dir;
+    for (const std::string text :
+         {R"({"A": [[0]], "B": [[1]], "R": [[1]], "Q": [[1e300]]})",
+          R"({"A": [[0]], "B": [[1e300]], "R": [[1]], "Q": [[1]]})",
+          R"({"A": [[1e300]], "B": [[1]], "R": [[1e-300]], "Q": [[1e300]]})",
+          R"({"A": [[0]], "B": [[1]], "R": [[1]], "Q": [[1e999]]})"}) {
+        const CommandResult r = gains({"care", dir.write("p.json", text), "--json"});
+        if (r.exit_code == 0) {
+            EXPECT_FALSE(nlohmann::json::parse(r.out).at("X")[0][0].is_null()) << text;
+        } else {
+            EXPECT_TRUE(r.exit_code == 1 || r.exit_code == 2) << text << r.err;
+            support::expect_refused(r, r.exit_code, tool);
+        }
+    }
+}

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "report.hpp"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "errors.hpp"
+#include "reference_gains.hpp"
+
+namespace {
+
+using nlohmann::json;
+
+constexpr double gain_tolerance_0 = 1e-9; // asked for; measured 1e-12
+constexpr double gain_tolerance_n = 1e-7; // asked for; measured 1e-12
+
+const sdre::Design &certified()
+{
+    static const sdre::Design design =
+        sdre::design_drive(sdre::read_drive_file(support::shipped_drive("ipmsm_390w")));
+    return design;
+}
+
+const sdre::Design &refused()
+{
+    static const sdre::Design design = [] {
+        sdre::Drive drive               = certified().drive;
+        drive.inverter.pwm_frequency_Hz = 1000.0;
+        return sdre::design_drive(drive);
+    }();
+    return design;
+}
+
+json report_of(const sdre::Design &design)
+{
+    return json::parse(sdre::report_json(design));
+}
+
+bool contains(const std::string &text, const std::string &piece)
+{
+    return text.find(piece) != std::string::npos;
+}
+
+} // namespace
+
+TEST(Report, GainsInJsonEqualTheReference)
+{
+    const json cases = support::reference_gains();
+    for (const auto &[name, reference] : cases.items()) {
+        const json r = report_of(sdre::design_drive(support::drive_of(name, reference)));
+
+        const std::vector<std::tuple<const char *, const char *, const char *>> series{
+            {"nosc", "lambda", "lambda_"},
+            {"nosc", "gamma", "gamma"},
+            {"nodo", "gain", "L"},
+            {"nodo", "pi", "pi"}};
+        for (const auto &[loop, key, reference_key] : series) {
+            const json &found = r.at(loop).at(key);
+            ASSERT_EQ(found.size(), 4U) << name << " " << key;
+            const double scale = support::matrix_of(found[0]).norm();
+            for (std::size_t n = 0; n < 4; n++) {
+                Eigen::MatrixXd expected = support::matrix_of(reference.at(reference_key)[n]);
+                if (std::string(key) == "gain") {
+                    expected = expected.rightCols(3).eval(); // the measured ones act
+                }
+                const Eigen::MatrixXd M = support::matrix_of(found[n]);
+                ASSERT_EQ(M.rows(), expected.rows());
+                ASSERT_EQ(M.cols(), expected.cols());
+                EXPECT_LT(support::relative_error(M, expected, scale),
+                          n == 0 ? gain_tolerance_0 : gain_tolerance_n)
+                    << name << " " << key << " " << n;
+            }
+        }
+        for (std::size_t i = 1; i <= 11; i++) {
+            const double l = r.at("reduced_parameters").at("l" + std::to_string(i)).get<double>();
+            const double expected = reference.at("l")[i - 1].get<double>();
+            EXPECT_NEAR(l, expected, 1e-14 * std::abs(expected)) << name << " l" << i;
+        }
+    }
+}
+
+TEST(Report, JsonHasEveryKeyInItsShape)
+{
+    const json r = report_of(certified());
+
+    EXPECT_EQ(r.at("drive"), "ipmsm_390w");
+    EXPECT_EQ(r.at("digest"), sdre::drive_digest(certified().drive));
+    EXPECT_EQ(r.at("control_period_s"), 2e-4);
+    EXPECT_EQ(r.at("reduced_parameters").size(), 11U);
+    EXPECT_EQ(r.at("nosc").at("order"), 2);
+    EXPECT_EQ(r.at("nosc").at("closed_loop_eigenvalues").size(), 3U);
+    EXPECT_EQ(r.at("nosc").at("closed_loop_eigenvalues")[0].size(), 2U);
+    EXPECT_EQ(r.at("nosc").at("residuals").size(), 3U);
+    EXPECT_EQ(r.at("nodo").at("order"), 2);
+    EXPECT_EQ(r.at("nodo").at("eigenvalues").size(), 6U);
+    EXPECT_EQ(r.at("nodo").at("residuals").size(), 3U);
+    const json &c = r.at("certificate");
+    EXPECT_EQ(c.at("certified"), true);
+    EXPECT_EQ(c.at("failures"), json::array());
+    EXPECT_EQ(c.at("range").at("e_iq_A"), json({-8.0, 8.0}));
+    EXPECT_EQ(c.at("range").at("i_q_hat_A"), json({-8.0, 8.0}));
+    for (const std::string loop : {"nosc", "nodo"}) {
+        EXPECT_EQ(c.at("series_error").at(loop).size(), 3U); // orders 0 .. order
+        EXPECT_LT(c.at("worst_pole").at(loop + "_1ps").get<double>(), 0.0);
+    }
+}
+
+TEST(Report, JsonCarriesTheCertificate)
+{
+    const json               r = report_of(certified());
+    const sdre::Certificate &c = certified().certificate;
+    for (const auto &[name, loop, variable] :
+         {std::tuple{"nosc", &c.nosc, "e_iq"}, std::tuple{"nodo", &c.nodo, "i_q_hat"}}) {
+        const json &j = r.at("certificate").at(name);
+        EXPECT_EQ(j.at("range").at("variable"), variable);
+        EXPECT_EQ(j.at("range").at("min_A"), -loop->range_A);
+        EXPECT_EQ(j.at("range").at("max_A"), loop->range_A);
+        EXPECT_EQ(j.at("series_range_A"), loop->series_range_A);
+        EXPECT_EQ(j.at("worst_pole_1ps"), loop->worst_pole_1ps);
+        EXPECT_EQ(j.at("fastest_pole_times_period"), loop->fastest_pole_ts);
+        EXPECT_EQ(j.at("spectral_radius"), loop->spectral_radius);
+        EXPECT_EQ(j.at("series_error"), json(loop->series_error));
+        EXPECT_EQ(j.at("series_error_full_range"), json(loop->series_error_full));
+        EXPECT_EQ(r.at("certificate").at("series_error").at(name), json(loop->series_error));
+        EXPECT_EQ(r.at("certificate").at("worst_pole").at(std::string(name) + "_1ps"),
+                  loop->worst_pole_1ps);
+    }
+    EXPECT_EQ(r.at("nosc").at("residuals"), json(certified().nosc.residuals));
+    EXPECT_EQ(r.at("nodo").at("residuals"), json(certified().nodo.residuals));
+}
+
+TEST(Report, JsonEigenvaluesAreRealAndImaginaryParts)
+{
+    const json  r            = report_of(certified());
+    const auto &poles        = certified().nodo.series.care.closed_loop_eigenvalues;
+    bool        complex_pair = false;
+    for (Eigen::Index i = 0; i < poles.size(); i++) {
+        const json &pole = r.at("nodo").at("eigenvalues")[static_cast<std::size_t>(i)];
+        EXPECT_EQ(pole[0], poles(i).real());
+        EXPECT_EQ(pole[1], poles(i).imag());
+        complex_pair = complex_pair || poles(i).imag() != 0.0;
+    }
+
+    EXPECT_TRUE(complex_pair); // otherwise the second column proves nothing
+}
+
+TEST(Report, RefusedDriveIsStillAnswered)
+{
+    const json r = report_of(refused());
+
+    EXPECT_EQ(r.at("certificate").at("certified"), false);
+    EXPECT_EQ(r.at("certificate").at("failures"), json(refused().certificate.failures));
+    EXPECT_FALSE(refused().certificate.failures.empty());
+    EXPECT_EQ(r.at("nosc").at("lambda").size(), 3U);
+}
+
+TEST(Report, TextSaysTheVerdict)
+{
+    const std::string good = sdre::report_text(certified());
+    const std::string bad  = sdre::report_text(refused());
+
+    EXPECT_TRUE(contains(good, "\nverdict: certified\n"));
+    EXPECT_FALSE(contains(good, "refused"));
+    EXPECT_TRUE(contains(bad, "\nverdict: refused\n  " + refused().certificate.failures[0]));
+    EXPECT_TRUE(contains(bad, "control period 1000 us"));
+}
+
+TEST(Report, TextHasTheFiguresOfTheJson)
+{
+    const std::string text = sdre::report_text(certified());
+
+    for (const char *piece :
+         {"ipmsm_390w (fnv1a64:", "control period 200 us", "  l1   2757.14286\n",
+          "  l11  -556.142857\n", "Lambda_0", "Lambda_2", "L_0", "L_2", "44.5124", "187.167",
+          "controller, e_iq in +-8 A", "observer, iq_hat in +-8 A", "series used in +-2.75 A",
+          "order 0: gain error", "order 2: gain error"}) {
+        EXPECT_TRUE(contains(text, piece)) << piece;
+    }
+    EXPECT_FALSE(contains(text, "Lambda_3"));
+}

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT
+#include "emit_tables.hpp"
+
+#include <cmath>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "errors.hpp"
+#include "reference_gains.hpp"
+
+extern "C" {
+#include "gain_tables.h"
+}
+
+namespace {
+
+using support::TempDir;
+
+const std::filesystem::path committed = std::filesystem::path(SDRE_SOURCE_DIR) / "firmware/config";
+
+const sdre::Design &shipped()
+{
+    static const sdre::Design design =
+        sdre::design_drive(sdre::read_drive_file(support::shipped_drive("ipmsm_390w")));
+    return design;
+}
+
+std::string without_comments(const std::string &text)
+{
+    return std::regex_replace(text, std::regex(R"(/\*[^*]*\*+([^/*][^*]*\*+)*/)"), " ");
+}
+
+/// Every floating-point literal of the code, in order.
+std::vector<double> literals(const std::string &text)
+{
+    const std::string   code = without_comments(text);
+    const std::regex    pattern(R"(-?\d\.\d+e[+-]\d+f)");
+    std::vector<double> values;
+    for (auto it = std::sregex_iterator(code.begin(), code.end(), pattern);
+         it != std::sregex_iterator(); ++it) {
+        values.push_back(std::stod(it->str()));
+    }
+    return values;
+}
+
+/// The numbers of a configuration in the order of the structure.
+std::vector<float> values_of(const drive_config_t &c)
+{
+    const motor_reduced_t      &m = c.motor;
+    const current_ref_config_t &r = c.current_ref;
+    std::vector<float>          v{c.ts_s,           c.accel_max_e_radps2,
+                         c.trip_current_A, c.trip_speed_e_radps,
+                         c.dc_link_min_V,  c.dc_link_max_V};
+    v.insert(v.end(), {m.l1, m.l2, m.l3, m.l4, m.l5, m.l6, m.l7, m.l8, m.l9, m.l10, m.l11, m.inv_l6,
+                       m.inv_l8});
+    v.insert(v.end(), {r.current_max_A, r.iq_max_A, r.mtpa_gain_1pA, r.voltage_share, r.l1_min,
+                       r.filter_per_period, r.filter_1ps, c.nosc.iq_error_max_A});
+    for (int n = 0; n <= c.nosc.order; n++) {
+        for (const auto &row : c.nosc.lambda[n]) {
+            v.insert(v.end(), std::begin(row), std::end(row));
+        }
+    }
+    v.push_back(c.nodo.iq_max_A);
+    for (int n = 0; n <= c.nodo.order; n++) {
+        for (const auto &row : c.nodo.gain[n]) {
+            v.insert(v.end(), std::begin(row), std::end(row));
+        }
+    }
+    return v;
+}
+
+bool contains(const std::string &text, const std::string &piece)
+{
+    return text.find(piece) != std::string::npos;
+}
+
+/// The difference found after changing one place of a directory that matched.
+std::string difference_after(const std::string &file, const std::string &from,
+                             const std::string &to)
+{
+    const TempDir         dir;
+    const sdre::TableText text = sdre::table_text(shipped());
+    sdre::write_tables(text, dir.path());
+    dir.write(file, support::replaced(support::read_file(dir / file), from, to));
+    return sdre::compare_tables(text, dir.path());
+}
+
+} // namespace
+
+TEST(Tables, CommittedTablesAreThoseOfTheShippedDrive)
+{
+    constexpr double      tolerance = 1e-6; // compilers differ in the last digits
+    const sdre::TableText text      = sdre::table_text(shipped());
+    const std::string     source    = support::read_file(committed / "gain_tables.c");
+    const auto            expected  = literals(text.source);
+    const auto            found     = literals(source);
+
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); i++) {
+        EXPECT_NEAR(found[i], expected[i], tolerance * std::abs(expected[i])) << i;
+    }
+    EXPECT_EQ(sdre::compare_tables(text, committed), "");
+    EXPECT_EQ(without_comments(support::read_file(committed / "gain_tables.h")),
+              without_comments(text.header));
+}
+
+TEST(Tables, CompiledTableIsTheDesign)
+{
+    const std::vector<float> compiled = values_of(gain_tables_drive);
+    const std::vector<float> design   = values_of(shipped().config);
+
+    EXPECT_EQ(gain_tables_drive.nosc.order, shipped().config.nosc.order);
+    EXPECT_EQ(gain_tables_drive.nodo.order, shipped().config.nodo.order);
+    ASSERT_EQ(compiled.size(), design.size());
+    for (std::size_t i = 0; i < compiled.size(); i++) {
+        const auto expected = static_cast<double>(design[i]);
+        EXPECT_NEAR(static_cast<double>(compiled[i]), expected, 1e-6 * std::abs(expected)) << i;
+    }
+    EXPECT_STREQ(GAIN_TABLES_NAME, "ipmsm_390w");
+    EXPECT_EQ(GAIN_TABLES_DIGEST, sdre::drive_digest(shipped().drive));
+}
+
+TEST(Tables, TextHoldsEveryNumberBitForBit)
+{
+    const std::vector<float>  design = values_of(shipped().config);
+    const std::vector<double> text   = literals(sdre::table_text(shipped()).source);
+
+    ASSERT_EQ(text.size(), design.size());
+    for (std::size_t i = 0; i < text.size(); i++) {
+        EXPECT_EQ(static_cast<float>(text[i]), design[i]) << i;
+    }
+}
+
+TEST(Tables, SameInputSameBytes)
+{
+    const sdre::TableText first  = sdre::table_text(shipped());
+    const sdre::TableText second = sdre::table_text(sdre::design_drive(shipped().drive));
+
+    EXPECT_EQ(first.header, second.header);
+    EXPECT_EQ(first.source, second.source);
+}
+
+TEST(Tables, TextCarriesDigestButNoTimePathOrUser)
+{
+    const sdre::TableText text   = sdre::table_text(shipped());
+    const std::string     digest = sdre::drive_digest(shipped().drive);
+    char                  host[256]{};
+    ASSERT_EQ(gethostname(host, sizeof host - 1), 0);
+
+    for (const std::string &file : {text.header, text.source}) {
+        EXPECT_TRUE(contains(file, digest));
+        EXPECT_TRUE(contains(file, "sdre-gains 1.0.0"));
+        EXPECT_FALSE(contains(file, SDRE_SOURCE_DIR));
+        EXPECT_FALSE(contains(file, ".toml"));
+        EXPECT_FALSE(contains(file, host));
+        EXPECT_FALSE(std::regex_search(file, std::regex(R"(\b20\d\d\b|\d\d:\d\d)")));
+        EXPECT_TRUE(file.rfind("/* SPDX-License-Identifier: MIT */\n", 0) == 0U);
+    }
+    EXPECT_TRUE(contains(text.header, "#define GAIN_TABLES_DIGEST \"" + digest + "\""));
+    EXPECT_TRUE(contains(text.header, "#define GAIN_TABLES_NAME   \"ipmsm_390w\""));
+    EXPECT_TRUE(contains(text.header, "#define GAIN_TABLES_SCHEMA 1"));
+    EXPECT_TRUE(contains(text.source, "GAIN_TABLES_SCHEMA != 1"));
+    EXPECT_TRUE(contains(text.source, "NOSC_ORDER_MAX < 2"));
+    EXPECT_TRUE(contains(text.source, "NODO_ORDER_MAX < 2"));
+}
+
+TEST(Tables, HeaderSaysWhatWasChecked)
+{
+    const std::string header = sdre::table_text(shipped()).header;
+
+    for (const char *piece :
+         {"N = 2", "Nd = 2", "relative residuals <= 1e-", "controller: slowest pole -827 1/s",
+          "spectral radius 0.842, |e_iq| <= 8 A", "observer:   slowest pole -204 1/s",
+          "spectral radius 0.959, |iq| <= 8 A"}) {
+        EXPECT_TRUE(contains(header, piece)) << piece;
+    }
+}
+
+TEST(Tables, OrdersOtherThanTwoAreWrittenInFull)
+{
+    sdre::Drive drive            = shipped().drive;
+    drive.nosc.order             = 0;
+    drive.nodo.order             = 3;
+    const sdre::Design    design = sdre::design_drive(drive);
+    const sdre::TableText text   = sdre::table_text(design);
+
+    EXPECT_EQ(literals(text.source).size(), values_of(design.config).size());
+    EXPECT_TRUE(contains(text.source, "NOSC_ORDER_MAX < 0"));
+    EXPECT_TRUE(contains(text.source, "NODO_ORDER_MAX < 3"));
+    EXPECT_TRUE(contains(text.source, "{ /* n = 3 */"));
+}
+
+TEST(Tables, WriteMakesTheDirectoryAndLeavesNothingElse)
+{
+    const TempDir         dir;
+    const sdre::TableText text{"header\n", "source\n"};
+
+    sdre::write_tables(text, dir / "new" / "deep");
+
+    EXPECT_EQ(support::names_in(dir / "new" / "deep"),
+              (std::set<std::string>{"gain_tables.c", "gain_tables.h"}));
+    EXPECT_EQ(support::read_file(dir / "new" / "deep" / "gain_tables.h"), "header\n");
+    EXPECT_EQ(support::read_file(dir / "new" / "deep" / "gain_tables.c"), "source\n");
+}
+
+TEST(Tables, WriteReplacesBoth)
+{
+    const TempDir dir;
+    sdre::write_tables({"a long first header\n", "a long first source\n"}, dir.path());
+
+    sdre::write_tables({"h\n", "s\n"}, dir.path());
+
+    EXPECT_EQ(support::read_file(dir / "gain_tables.h"), "h\n");
+    EXPECT_EQ(support::read_file(dir / "gain_tables.c"), "s\n");
+}
+
+TEST(Tables, FailedWriteLeavesBothEarlierFiles)
+{
+    const TempDir dir;
+    dir.write("gain_tables.h", "earlier\n");
+    std::filesystem::create_directory(dir / "gain_tables.c"); // cannot be replaced by a file
+
+    EXPECT_THROW(sdre::write_tables({"h\n", "s\n"}, dir.path()), sdre::InputError);
+
+    EXPECT_EQ(support::read_file(dir / "gain_tables.h"), "earlier\n");
+    EXPECT_EQ(support::names_in(dir.path()),
+              (std::set<std::string>{"gain_tables.c", "gain_tables.h"}));
+}
+
+TEST(Tables, WriteWhereNoDirectoryCanBeIsAnInputError)
+{
+    const TempDir dir;
+    dir.write("file", "");
+
+    EXPECT_THROW(sdre::write_tables({"h", "s"}, dir / "file" / "sub"), sdre::InputError);
+    EXPECT_THROW(sdre::write_tables({"h", "s"}, dir / "file"), sdre::InputError);
+    EXPECT_EQ(support::names_in(dir.path()), (std::set<std::string>{"file"}));
+}
+
+TEST(Tables, CompareAcceptsRoundingAndLayout)
+{
+    EXPECT_EQ(difference_after("gain_tables.c", "4.45124016e+01f", "4.45124060e+01f"), ""); // 1e-7
+    EXPECT_EQ(difference_after("gain_tables.c", "-1.12239637e+01f", "-1.12239626e+01f"), "");
+    EXPECT_EQ(difference_after("gain_tables.c", "    .ts_s = ", "\n\n  .ts_s  = "), "");
+    EXPECT_EQ(difference_after("gain_tables.h", "checked    ", "checked by "), "");
+    EXPECT_EQ(difference_after("gain_tables.c", "0.00000000e+00f", "1.00000000e-13f"), "");
+}
+
+TEST(Tables, CompareSeesAChangedNumber)
+{
+    const std::string number =
+        difference_after("gain_tables.c", "4.45124016e+01f", "4.45125000e+01f"); // 2e-6
+    const std::string sign =
+        difference_after("gain_tables.c", "-1.12239637e+01f", "1.12239637e+01f");
+
+    EXPECT_TRUE(contains(number, "gain_tables.c: '4.45125000e+01f' where"));
+    EXPECT_TRUE(contains(number, "'4.45124016e+01f'"));
+    EXPECT_NE(sign, "");
+    EXPECT_NE(difference_after("gain_tables.c", "0.00000000e+00f", "1.00000000e-11f"), "");
+    EXPECT_NE(difference_after("gain_tables.c", "4.45124016e+01f", "4.45124016e+01"), "x");
+    EXPECT_NE(difference_after("gain_tables.c", "4.45124016e+01f", "nan"), "");
+    EXPECT_NE(difference_after("gain_tables.c", "4.45124016e+01f", "44"), "");
+}
+
+TEST(Tables, CompareSeesEverythingElseExactly)
+{
+    const std::string digest = difference_after("gain_tables.h", "fnv1a64:5a93112ad34a4a64\"",
+                                                "fnv1a64:5a93112ad34a4a65\"");
+
+    EXPECT_TRUE(contains(digest, "gain_tables.h: "));
+    EXPECT_EQ(digest.find('\n'), std::string::npos);
+    EXPECT_NE(difference_after("gain_tables.h", "SCHEMA 1", "SCHEMA 2"), "");
+    EXPECT_NE(difference_after("gain_tables.h", "\"ipmsm_390w\"", "\"ipmsm_391w\""), "");
+    EXPECT_NE(difference_after("gain_tables.c", ".order = 2", ".order = 3"), "");
+    EXPECT_NE(difference_after("gain_tables.c", ".l1 = ", ".l2 = "), "");
+    EXPECT_NE(difference_after("gain_tables.c", "    .l2", "    .extra = 1.0e+00f,\n    .l2"), "");
+    EXPECT_NE(difference_after("gain_tables.c", "};\n", "};\nint more;\n"), "");
+    EXPECT_NE(difference_after("gain_tables.c", "const drive_config_t", "/* const drive_config_t"),
+              "");
+}
+
+TEST(Tables, CompareSeesATruncatedFile)
+{
+    const TempDir         dir;
+    const sdre::TableText text = sdre::table_text(shipped());
+    sdre::write_tables(text, dir.path());
+
+    dir.write("gain_tables.c", text.source.substr(0, text.source.size() - 4));
+    const std::string cut = sdre::compare_tables(text, dir.path());
+    dir.write("gain_tables.c", "");
+    const std::string empty = sdre::compare_tables(text, dir.path());
+
+    EXPECT_TRUE(contains(cut, "gain_tables.c: ")) << cut;
+    EXPECT_TRUE(contains(empty, "gain_tables.c: length differs")) << empty;
+}
+
+TEST(Tables, CompareWithoutAFileIsAnInputError)
+{
+    const TempDir         dir;
+    const sdre::TableText text = sdre::table_text(shipped());
+    EXPECT_THROW(sdre::compare_tables(text, dir.path()), sdre::InputError);
+    EXPECT_THROW(sdre::compare_tables(text, dir / "none"), sdre::InputError);
+
+    dir.write("gain_tables.h", text.header);
+    EXPECT_THROW(sdre::compare_tables(text, dir.path()), sdre::InputError);
+    std::filesystem::create_directory(dir / "gain_tables.c");
+    EXPECT_THROW(sdre::compare_tables(text, dir.path()), sdre::InputError); // nothing to read there
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "encoder.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+using sdre::QuadratureEncoder;
+using sdre::SensorSettings;
+
+namespace {
+
+const double     pi       = std::acos(-1.0);
+constexpr int    lines    = 2500;
+constexpr int    pairs    = 2;
+constexpr double period_s = 2e-4;
+
+QuadratureEncoder encoder_with(const SensorSettings &settings)
+{
+    QuadratureEncoder encoder(settings, lines, pairs, period_s);
+    encoder.start(0.0, 0.0);
+    return encoder;
+}
+
+/// Middle of count n as an electrical angle in [0, 2 pi), by the library's remainder.
+double middle_e_rad(std::int64_t n)
+{
+    const double theta =
+        std::fmod(pairs * 2.0 * pi * (static_cast<double>(n) + 0.5) / (4 * lines), 2.0 * pi);
+    return theta < 0.0 ? theta + 2.0 * pi : theta;
+}
+
+} // namespace
+
+TEST(Encoder, CountsAreTheFloorOverManyTurnsBothWays)
+{
+    for (double direction : {1.0, -1.0}) {
+        QuadratureEncoder encoder = encoder_with({});
+        std::int64_t      before  = 0;
+        for (int k = 0; k < 20000; k++) { // 20 turns
+            const double theta_e = direction * (0.0123 + 2.0 * pi * 40.0 * k / 20000.0);
+            const auto   r       = encoder.read(theta_e);
+            const auto   n =
+                static_cast<std::int64_t>(std::floor(theta_e / pairs / (2.0 * pi) * (4 * lines)));
+            ASSERT_EQ(r.count, n);
+            ASSERT_NEAR(r.theta_e_rad, middle_e_rad(n), 1e-9);
+            ASSERT_GE(r.theta_e_rad, 0.0);
+            ASSERT_LT(r.theta_e_rad, 2.0 * pi);
+            if (k > 0) {
+                ASSERT_NEAR(r.omega_e_radps,
+                            static_cast<double>(n - before) * pairs * 2.0 * pi / (4 * lines) /
+                                period_s,
+                            1e-9);
+            }
+            before = n;
+        }
+    }
+}
+
+TEST(Encoder, AngleIsWithinHalfACount)
+{
+    QuadratureEncoder encoder = encoder_with({});
+    std::mt19937_64   random(7);
+    for (int k = 0; k < 1000; k++) {
+        const double theta_e = std::uniform_real_distribution<>(-50.0, 50.0)(random);
+        const double error = std::remainder(encoder.read(theta_e).theta_e_rad - theta_e, 2.0 * pi);
+        EXPECT_LE(std::abs(error), 0.5 * pairs * 2.0 * pi / (4 * lines) + 1e-12);
+    }
+}
+
+TEST(Encoder, ReversalAtACountEdgeTogglesOneCount)
+{
+    QuadratureEncoder encoder = encoder_with({});
+    const double      edge    = pairs * 2.0 * pi * 100.0 / (4 * lines);
+    for (int k = 0; k < 6; k++) {
+        const auto below = encoder.read(edge - 1e-9);
+        const auto above = encoder.read(edge + 1e-9);
+        EXPECT_EQ(below.count, 99);
+        EXPECT_EQ(above.count, 100);
+        EXPECT_NEAR(above.omega_e_radps, 6.2832, 1e-4); // one count per period
+    }
+}
+
+TEST(Encoder, StartsWithTheSpeedItHad)
+{
+    QuadratureEncoder encoder({}, lines, pairs, period_s);
+    encoder.start(1.0, 300.0);
+    EXPECT_NEAR(encoder.read(1.0).omega_e_radps, 300.0, 6.3); // one count
+}
+
+TEST(Encoder, EccentricityIsOnePerTurnAndOffsetElectrical)
+{
+    SensorSettings s;
+    s.encoder_lines            = 1000000; // quantisation below what is looked at
+    s.encoder_eccentricity_rad = 0.01;
+    s.encoder_offset_e_rad     = 0.2;
+    QuadratureEncoder encoder  = encoder_with(s);
+    for (double theta_m = -7.0; theta_m < 7.0; theta_m += 0.1) {
+        const double found = encoder.read(pairs * theta_m).theta_e_rad;
+        const double shift = std::remainder(found - pairs * theta_m, 2.0 * pi);
+        EXPECT_NEAR(shift, 0.2 + pairs * 0.01 * std::sin(theta_m), 1e-5);
+    }
+}
+
+TEST(Encoder, IndexRestoresLostCounts)
+{
+    for (bool index : {true, false}) {
+        SensorSettings s;
+        s.encoder_index           = index;
+        QuadratureEncoder encoder = encoder_with(s);
+        encoder.lose(37);
+        const double half = pairs * pi + 1e-4; // half a turn, just past an edge
+        EXPECT_EQ(encoder.read(half).count, 5000 - 37);
+        EXPECT_EQ(encoder.read(half + pairs * pi).count, index ? 10000 : 10000 - 37);
+    }
+}

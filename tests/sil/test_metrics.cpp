@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+#include "metrics.hpp"
+
+#include <cmath>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "results.hpp"
+
+namespace {
+
+constexpr double ts_s = 1e-3;
+
+/// One measure from t = 0 unless more are given.
+sdre::Scenario scenario_with(std::vector<sdre::Measure> measures)
+{
+    sdre::Scenario scenario;
+    scenario.measures = std::move(measures);
+    return scenario;
+}
+
+sdre::Measure event(const std::string &name, double time_s, double band)
+{
+    sdre::Measure m;
+    m.name         = name;
+    m.time_s       = time_s;
+    m.band_e_radps = band;
+    return m;
+}
+
+std::vector<sdre::TraceRow> trace_of(int rows, const std::function<double(double)> &speed,
+                                     double reference)
+{
+    std::vector<sdre::TraceRow> trace(static_cast<std::size_t>(rows));
+    for (int k = 0; k < rows; k++) {
+        sdre::TraceRow &row   = trace[static_cast<std::size_t>(k)];
+        row.time_s            = k * ts_s;
+        row.omega_ref_e_radps = reference;
+        row.omega_e_radps     = speed(row.time_s);
+    }
+    return trace;
+}
+
+sdre::Metrics only(const std::vector<sdre::TraceRow> &trace, double band)
+{
+    const auto all = sdre::measure(scenario_with({event("m", 0.0, band)}), trace);
+    EXPECT_EQ(all.size(), 1U);
+    return all.at(0);
+}
+
+} // namespace
+
+TEST(Metrics, FirstOrderResponseSettlesAtTheLogarithm)
+{
+    const double tau   = 0.02;
+    const auto   trace = trace_of(
+          501, [&](double t) { return 100.0 * (1.0 - std::exp(-t / tau)); }, 100.0);
+
+    const sdre::Metrics m = only(trace, 1.0);
+
+    ASSERT_TRUE(m.settling_time_s.has_value());
+    EXPECT_NEAR(*m.settling_time_s, 0.093, 1e-9); // tau ln 100 = 92.1 ms, next sample
+    EXPECT_EQ(m.overshoot_e_radps, 0.0);
+    EXPECT_NEAR(m.dip_e_radps, 100.0 * std::exp(-0.093 / tau), 1e-9); // where it enters the band
+    EXPECT_LT(m.steady_state_error_e_radps, 1e-6);
+    EXPECT_EQ(m.name, "m");
+    EXPECT_EQ(m.time_s, 0.0);
+}
+
+TEST(Metrics, RingingSettlesAfterItsLastExcursion)
+{
+    const auto speed = [](double t) { // 100 + 50 e^(-10 t) cos(2 pi 10 t), from 150 down
+        return 100.0 + 50.0 * std::exp(-10.0 * t) * std::cos(20.0 * std::acos(-1.0) * t);
+    };
+    const auto trace = trace_of(1001, speed, 100.0);
+
+    const sdre::Metrics m = only(trace, 5.0);
+
+    ASSERT_TRUE(m.settling_time_s.has_value());
+    const auto at = static_cast<std::size_t>(std::lround(*m.settling_time_s / ts_s));
+    EXPECT_GT(std::abs(trace[at - 1].omega_e_radps - 100.0), 5.0);
+    for (std::size_t k = at; k < trace.size(); k++) {
+        EXPECT_LE(std::abs(trace[k].omega_e_radps - 100.0), 5.0);
+    }
+    // Downward step: beyond the target is below it.
+    EXPECT_NEAR(m.overshoot_e_radps, 100.0 - speed(0.049), 0.2); // measured 0.1: sampling
+    EXPECT_NEAR(m.dip_e_radps, speed(0.098) - 100.0, 0.2);
+}
+
+TEST(Metrics, UpwardStepCountsOnlyAfterReachingTheBand)
+{
+    const auto trace = trace_of(
+        401,
+        [](double t) {
+            return t < 0.1 ? 1000.0 * t : (t < 0.2 ? 112.0 : (t < 0.3 ? 93.0 : 100.0));
+        },
+        100.0);
+
+    const sdre::Metrics m = only(trace, 2.0);
+
+    EXPECT_NEAR(m.overshoot_e_radps, 12.0, 1e-9);
+    EXPECT_NEAR(m.dip_e_radps, 7.0, 1e-9);
+    ASSERT_TRUE(m.settling_time_s.has_value());
+    EXPECT_NEAR(*m.settling_time_s, 0.3, 1e-9);
+}
+
+TEST(Metrics, DownwardStepToANegativeTarget)
+{
+    const auto trace = trace_of(
+        401, [](double t) { return t < 0.1 ? 50.0 : (t < 0.2 ? -108.0 : -100.0); }, -100.0);
+
+    const sdre::Metrics m = only(trace, 1.0);
+
+    EXPECT_NEAR(m.overshoot_e_radps, 8.0, 1e-9);
+    EXPECT_NEAR(m.dip_e_radps, 0.0, 1e-9);
+    EXPECT_NEAR(m.settling_time_s.value_or(-1.0), 0.2, 1e-9);
+}
+
+TEST(Metrics, NeverSettlingHasNoSettlingTime)
+{
+    const auto trace = trace_of(
+        500, [](double t) { return std::fmod(t + 0.5 * ts_s, 0.02) < 0.01 ? 96.0 : 106.0; }, 100.0);
+
+    const sdre::Metrics m = only(trace, 3.0);
+
+    EXPECT_FALSE(m.settling_time_s.has_value());
+    EXPECT_NEAR(m.ripple_e_radps, 5.0, 1e-9);
+    EXPECT_NEAR(m.steady_state_error_e_radps, 1.0, 1e-9);
+    for (const auto &[name, value] : sdre::metric_values(m)) {
+        EXPECT_NE(name, "settling_time_s");
+    }
+}
+
+TEST(Metrics, LeavingTheBandInTheLastRowIsNotSettled)
+{
+    const auto trace = trace_of(
+        101, [](double t) { return t > 0.0995 ? 90.0 : 100.0; }, 100.0);
+
+    EXPECT_FALSE(only(trace, 3.0).settling_time_s.has_value());
+}
+
+TEST(Metrics, EnteringTheBandInTheLastRowIsSettled)
+{
+    const auto trace = trace_of(
+        101, [](double t) { return t > 0.0995 ? 100.0 : 90.0; }, 100.0);
+
+    EXPECT_NEAR(only(trace, 3.0).settling_time_s.value_or(-1.0), 0.1, 1e-9);
+}
+
+TEST(Metrics, LoadDipIsADisturbance)
+{
+    const auto trace = trace_of(
+        501,
+        [](double t) {
+            return t < 0.05 ? 300.0 - 800.0 * t : (t < 0.1 ? 306.0 : (t < 0.2 ? 302.0 : 300.0));
+        },
+        300.0);
+
+    const sdre::Metrics m = only(trace, 3.0);
+
+    EXPECT_NEAR(m.dip_e_radps, 0.049 * 800.0, 1e-9);
+    EXPECT_NEAR(m.overshoot_e_radps, 6.0, 1e-9);
+    EXPECT_NEAR(m.settling_time_s.value_or(-1.0), 0.1, 1e-9);
+}
+
+TEST(Metrics, UndisturbedSpeedIsSettledAtOnce)
+{
+    const sdre::Metrics m = only(trace_of(
+                                     100, [](double) { return 102.0; }, 100.0),
+                                 3.0);
+
+    EXPECT_EQ(m.settling_time_s, 0.0);
+    EXPECT_EQ(m.overshoot_e_radps, 2.0);
+    EXPECT_EQ(m.dip_e_radps, 0.0);
+    EXPECT_EQ(m.steady_state_error_e_radps, 2.0);
+    EXPECT_EQ(m.ripple_e_radps, 0.0);
+}
+
+TEST(Metrics, BandIncludesItsEdge)
+{
+    const sdre::Metrics m = only(trace_of(
+                                     100, [](double) { return 103.0; }, 100.0),
+                                 3.0);
+
+    EXPECT_EQ(m.settling_time_s, 0.0);
+    EXPECT_EQ(m.overshoot_e_radps, 3.0);
+}
+
+TEST(Metrics, TailIsTheLastFifth)
+{
+    std::vector<sdre::TraceRow> trace = trace_of(
+        100, [](double) { return 100.0; }, 100.0);
+    for (std::size_t k = 0; k < trace.size(); k++) {
+        const double x         = k < 80 ? 1000.0 : static_cast<double>(k) - 80.0; // 0 .. 19
+        trace[k].d_omega_hat   = x;
+        trace[k].d_q_hat       = 2.0 * x;
+        trace[k].d_d_hat       = 3.0 * x;
+        trace[k].iq_A          = 4.0 * x;
+        trace[k].id_A          = -x;
+        trace[k].omega_e_radps = k < 80 ? 500.0 : 100.0 + x;
+    }
+
+    const sdre::Metrics m = only(trace, 1.0);
+
+    EXPECT_NEAR(m.d_omega_hat, 9.5, 1e-12);
+    EXPECT_NEAR(m.d_q_hat, 19.0, 1e-12);
+    EXPECT_NEAR(m.d_d_hat, 28.5, 1e-12);
+    EXPECT_NEAR(m.iq_A, 38.0, 1e-12);
+    EXPECT_NEAR(m.id_A, -9.5, 1e-12);
+    EXPECT_NEAR(m.steady_state_error_e_radps, 9.5, 1e-12);
+    EXPECT_NEAR(m.ripple_e_radps, 9.5, 1e-12);
+}
+
+TEST(Metrics, PeakCurrentIsTheLargestLengthInTheWindow)
+{
+    std::vector<sdre::TraceRow> trace = trace_of(
+        100, [](double) { return 0.0; }, 0.0);
+    trace[10].iq_A = 100.0; // before the window
+    trace[50].iq_A = -3.0;
+    trace[50].id_A = -4.0;
+    trace[60].iq_A = 4.5;
+
+    const auto all = sdre::measure(scenario_with({event("late", 0.04, 1.0)}), trace);
+
+    EXPECT_EQ(all.at(0).peak_current_A, 5.0);
+}
+
+TEST(Metrics, WindowsEndWhereTheNextBegins)
+{
+    const auto trace = trace_of(
+        301, [](double t) { return t < 0.0995 ? 10.0 : (t < 0.1995 ? 20.0 : 30.0); }, 10.0);
+    std::vector<sdre::TraceRow> stepped = trace;
+    for (sdre::TraceRow &row : stepped) {
+        row.omega_ref_e_radps = row.time_s < 0.1995 ? 20.0 : 30.0;
+    }
+
+    const auto all = sdre::measure(
+        scenario_with({event("a", 0.0, 1.0), event("b", 0.1, 1.0), event("c", 0.2, 1.0)}), stepped);
+
+    ASSERT_EQ(all.size(), 3U);
+    EXPECT_EQ(all[0].name, "a");
+    EXPECT_FALSE(all[0].settling_time_s.has_value()); // 10 where 20 is wanted, to its last row
+    EXPECT_EQ(all[1].settling_time_s, 0.0);
+    EXPECT_EQ(all[2].settling_time_s, 0.0);
+    EXPECT_EQ(all[2].steady_state_error_e_radps, 0.0);
+    EXPECT_EQ(all[2].time_s, 0.2);
+}
+
+TEST(Metrics, ShortWindowStillHasATail)
+{
+    const sdre::Metrics m = only(trace_of(
+                                     2, [](double t) { return t > 0 ? 7.0 : 0.0; }, 7.0),
+                                 1.0);
+
+    EXPECT_EQ(m.steady_state_error_e_radps, 0.0); // one row
+    EXPECT_NEAR(m.settling_time_s.value_or(-1.0), ts_s, 1e-12);
+}
+
+TEST(Metrics, NamesAreTheJsonKeys)
+{
+    sdre::Metrics m;
+    m.settling_time_s            = 1.0;
+    m.dip_e_radps                = 2.0;
+    m.overshoot_e_radps          = 3.0;
+    m.steady_state_error_e_radps = 4.0;
+    m.ripple_e_radps             = 5.0;
+    m.peak_current_A             = 6.0;
+    m.steady_current_A           = 6.5;
+    m.d_omega_hat                = 7.0;
+    m.d_q_hat                    = 8.0;
+    m.d_d_hat                    = 9.0;
+    m.iq_A                       = 10.0;
+    m.id_A                       = 11.0;
+
+    const std::vector<std::pair<std::string, double>> expected{{"settling_time_s", 1.0},
+                                                               {"dip_e_radps", 2.0},
+                                                               {"overshoot_e_radps", 3.0},
+                                                               {"steady_state_error_e_radps", 4.0},
+                                                               {"ripple_e_radps", 5.0},
+                                                               {"peak_current_A", 6.0},
+                                                               {"steady_current_A", 6.5},
+                                                               {"d_omega_hat", 7.0},
+                                                               {"d_q_hat", 8.0},
+                                                               {"d_d_hat", 9.0},
+                                                               {"iq_A", 10.0},
+                                                               {"id_A", 11.0}};
+    EXPECT_EQ(sdre::metric_values(m), expected);
+    for (const auto &[name, value] : expected) {
+        EXPECT_TRUE(sdre::is_metric_name(name)) << name;
+    }
+    EXPECT_FALSE(sdre::is_metric_name("time_s"));
+    EXPECT_FALSE(sdre::is_metric_name(""));
+}
+
+TEST(Results, PublishedValuesStandBesideTheirOwnMeasure)
+{
+    // The first measure falls between two ticks and has no row: the second keeps its own figures.
+    sdre::Scenario scenario =
+        scenario_with({event("first", 0.0101, 1.0), event("second", 0.0105, 1.0)});
+    scenario.measures[0].paper = {{"id_A", -77.0}};
+    scenario.measures[1].paper = {{"id_A", -55.0}};
+    sdre::SimulationResult result;
+    result.trace = trace_of(
+        50, [](double) { return 0.0; }, 0.0);
+
+    const std::string text =
+        sdre::result_text(scenario, result, sdre::measure(scenario, result.trace));
+
+    EXPECT_NE(text.find("-55.000"), std::string::npos) << text;
+}

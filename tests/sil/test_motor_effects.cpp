@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "motor_effects.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "plant.hpp"
+
+using namespace sdre;
+
+namespace {
+
+const double pi = std::acos(-1.0);
+
+Motor motor()
+{
+    Motor m;
+    m.pole_pairs            = 2;
+    m.stator_resistance_Ohm = 2.48;
+    m.d_axis_inductance_H   = 0.07498;
+    m.q_axis_inductance_H   = 0.11391;
+    m.pm_flux_Wb            = 0.193;
+    m.inertia_kgm2          = 0.00042;
+    m.viscous_friction_Nms  = 0.0001;
+    return m;
+}
+
+SaturationMap constant_map()
+{
+    SaturationMap map;
+    map.id_A = {-4.0, 0.0, 4.0};
+    map.iq_A = {-4.0, 4.0};
+    map.ld_H.assign(6, motor().d_axis_inductance_H);
+    map.lq_H.assign(6, motor().q_axis_inductance_H);
+    return map;
+}
+
+SaturationMap falling_map()
+{
+    SaturationMap map;
+    map.id_A = {-4.0, 0.0, 4.0};
+    map.iq_A = {-4.0, 0.0, 4.0};
+    map.ld_H = {0.075, 0.080, 0.075, 0.070, 0.075, 0.070, 0.060, 0.065, 0.060};
+    map.lq_H = {0.090, 0.115, 0.090, 0.085, 0.114, 0.085, 0.080, 0.110, 0.080};
+    return map;
+}
+
+double energy_J(const Plant &plant, const Motor &m)
+{
+    const double w_m = plant.omega_e_radps() / m.pole_pairs;
+    return 0.5 * m.inertia_kgm2 * w_m * w_m;
+}
+
+} // namespace
+
+TEST(Plant, AdvanceFollowsStepClosely)
+{
+    Plant reference(motor());
+    Plant quick(motor());
+    reference.reset(300.0, 0.4);
+    quick.reset(300.0, 0.4);
+    for (int k = 0; k < 5000; k++) {
+        const double       angle = 1.3 + 0.06 * k;
+        const StatorVector v{90.0 * std::cos(angle), 90.0 * std::sin(angle)};
+        reference.step(v, 0.3, 2e-4, 4);
+        for (int n = 0; n < 4; n++) {
+            quick.advance(v, {0.3, 0.0}, 5e-5);
+        }
+        const RotorVector a = reference.current_A();
+        const RotorVector b = quick.current_A();
+        ASSERT_NEAR(a.d, b.d, 1e-9);
+        ASSERT_NEAR(a.q, b.q, 1e-9);
+        ASSERT_NEAR(reference.omega_e_radps(), quick.omega_e_radps(), 1e-7);
+        ASSERT_NEAR(reference.theta_e_rad(), quick.theta_e_rad(), 1e-8);
+    }
+}
+
+TEST(MotorEffects, ConstantMapIsTheLinearMotorExactly)
+{
+    Plant        linear(motor());
+    Plant        mapped(motor());
+    MotorEffects effects;
+    effects.saturation = constant_map();
+    mapped.set_effects(effects);
+    linear.reset(200.0);
+    mapped.reset(200.0);
+    for (int k = 0; k < 5000; k++) {
+        const StatorVector v{80.0 * std::cos(0.05 * k), 80.0 * std::sin(0.05 * k)};
+        linear.advance(v, {0.3, 1e-6}, 5e-5);
+        mapped.advance(v, {0.3, 1e-6}, 5e-5);
+        ASSERT_EQ(linear.current_A().d, mapped.current_A().d);
+        ASSERT_EQ(linear.current_A().q, mapped.current_A().q);
+        ASSERT_EQ(linear.omega_e_radps(), mapped.omega_e_radps());
+    }
+}
+
+TEST(MotorEffects, MapIsBilinearAndHeldOutside)
+{
+    const SaturationMap map = falling_map();
+    EXPECT_DOUBLE_EQ(inductance_H(map, {0.0, 0.0}).d, 0.075);
+    EXPECT_DOUBLE_EQ(inductance_H(map, {4.0, 4.0}).q, 0.080);
+    EXPECT_NEAR(inductance_H(map, {-2.0, 2.0}).d, 0.25 * (0.080 + 0.075 + 0.075 + 0.070), 1e-15);
+    EXPECT_DOUBLE_EQ(inductance_H(map, {9.0, 9.0}).q, 0.080);
+}
+
+TEST(MotorEffects, CurrentInvertsTheFlux)
+{
+    const SaturationMap map = falling_map();
+    std::mt19937_64     random(5);
+    for (int k = 0; k < 2000; k++) {
+        std::uniform_real_distribution<> any(-5.0, 5.0);
+        const RotorVector                i{any(random), any(random)};
+        const RotorVector                L = inductance_H(map, i);
+        const RotorVector found            = saturated_current_A(map, {L.d * i.d, L.q * i.q}, {});
+        ASSERT_NEAR(found.d, i.d, 1e-9);
+        ASSERT_NEAR(found.q, i.q, 1e-9);
+    }
+}
+
+TEST(MotorEffects, CoulombFrictionTakesItsEnergyAndStops)
+{
+    Motor m                = motor();
+    m.viscous_friction_Nms = 0.0;
+    m.pm_flux_Wb           = 1e-12; // no electric brake
+    MotorEffects effects;
+    effects.coulomb_friction_Nm = 0.05;
+    Plant plant(m);
+    plant.set_effects(effects);
+    plant.reset(300.0);
+    const double start_J = energy_J(plant, m);
+    const double stop_s  = m.inertia_kgm2 * 150.0 / 0.05;
+    int          steps   = 0;
+    while (plant.omega_e_radps() != 0.0 && steps < 100000) {
+        plant.advance({}, {}, 5e-5);
+        steps++;
+    }
+    EXPECT_NEAR(steps * 5e-5, stop_s, 1e-4);
+    EXPECT_NEAR(0.05 * plant.theta_e_rad() / m.pole_pairs, start_J, 1e-3 * start_J);
+    plant.advance({}, {0.049, 0.0}, 5e-5); // held below the friction ..
+    EXPECT_EQ(plant.omega_e_radps(), 0.0);
+    plant.advance({}, {0.051, 0.0}, 5e-5); // .. and let go above
+    EXPECT_NEAR(plant.omega_e_radps(), -m.pole_pairs * 0.001 / m.inertia_kgm2 * 5e-5, 1e-12);
+}
+
+TEST(MotorEffects, CoggingIsConservative)
+{
+    Motor m                = motor();
+    m.viscous_friction_Nms = 0.0;
+    m.pm_flux_Wb           = 1e-12;
+    MotorEffects effects;
+    effects.cogging_amplitude_Nm = 0.1;
+    effects.cogging_order        = 24.0;
+    Plant plant(m);
+    plant.set_effects(effects);
+    plant.reset(40.0, 0.3);
+    const auto total_J = [&] { // T = - dW/dtheta, W = -(A / n) cos(n theta)
+        return energy_J(plant, m) -
+               0.1 / 24.0 * std::cos(24.0 * plant.theta_e_rad() / m.pole_pairs);
+    };
+    const double start_J = total_J();
+    double       lowest  = 1e9;
+    double       highest = 0.0;
+    for (int k = 0; k < 20000; k++) {
+        plant.advance({}, {}, 2e-5);
+        ASSERT_NEAR(total_J(), start_J, 1e-6 * 0.1);
+        lowest  = std::min(lowest, plant.omega_e_radps());
+        highest = std::max(highest, plant.omega_e_radps());
+    }
+    EXPECT_GT(highest - lowest, 1.0);
+}
+
+TEST(MotorEffects, FanBrakesWithTheSquare)
+{
+    Motor m                = motor();
+    m.viscous_friction_Nms = 0.0;
+    m.pm_flux_Wb           = 1e-12;
+    for (double sign : {1.0, -1.0}) {
+        Plant plant(m);
+        plant.reset(sign * 400.0);
+        for (int k = 0; k < 2000; k++) {
+            plant.advance({}, {0.0, 1e-5}, 5e-5);
+        }
+        const double w_m = 200.0 / (1.0 + 200.0 * 1e-5 / m.inertia_kgm2 * 0.1); // w' = -k w^2 / J
+        EXPECT_NEAR(plant.omega_e_radps(), sign * m.pole_pairs * w_m, 1e-6);
+    }
+}
+
+TEST(MotorEffects, DriftIsAShareOfTheStartPerSecond)
+{
+    EXPECT_DOUBLE_EQ(drifted(2.0, 0.5, 0.0), 2.0);
+    EXPECT_DOUBLE_EQ(drifted(2.0, 0.5, 2.0), 4.0);
+    EXPECT_DOUBLE_EQ(drifted(2.0, -1.0, 5.0), 0.02);
+}

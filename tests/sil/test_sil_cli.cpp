@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "scenario_text.hpp"
+#include "temp_dir.hpp"
+
+namespace {
+
+using support::CommandResult;
+using support::replaced;
+using support::scenario_text;
+using support::TempDir;
+
+const std::string tool = "sdre-sil";
+
+CommandResult sil(std::vector<std::string> arguments)
+{
+    arguments.insert(arguments.begin(), SDRE_SIL_EXE);
+    return support::run_command(std::move(arguments));
+}
+
+void expect_refused(const std::vector<std::string> &arguments, int exit_code,
+                    const std::vector<std::string> &pieces)
+{
+    std::string all;
+    for (const std::string &argument : arguments) {
+        all += " " + argument;
+    }
+    SCOPED_TRACE("sdre-sil" + all);
+    support::expect_refused(sil(arguments), exit_code, tool, pieces);
+}
+
+/// A scenario whose supply is too low: the drive faults in its first period.
+std::string faulting_scenario()
+{
+    return scenario_text() + "[inverter]\ndc_link_V = 50.0\n";
+}
+
+std::set<std::string> keys_of(const nlohmann::json &object)
+{
+    std::set<std::string> keys;
+    for (const auto &[key, value] : object.items()) {
+        keys.insert(key);
+    }
+    return keys;
+}
+
+bool draws_plots()
+{
+    static const bool able = [] {
+        const TempDir     dir;
+        const std::string scenario = dir.write("case.toml", scenario_text());
+        const auto        r        = sil({"run", scenario, "--plot", dir / "p.png"});
+        return r.err.find("no Python") == std::string::npos;
+    }();
+    return able;
+}
+
+} // namespace
+
+TEST(SilCli, WrongCommandLineIsOneLine)
+{
+    const TempDir     dir;
+    const std::string scenario = dir.write("case.toml", scenario_text());
+
+    expect_refused({}, 1, {"subcommand"});
+    expect_refused({"walk"}, 1, {});
+    expect_refused({"run"}, 1, {"SCENARIO"});
+    expect_refused({"run", scenario, "--colour"}, 1, {"--colour"});
+    expect_refused({"run", scenario, "--csv"}, 1, {"--csv"});
+    expect_refused({"run", scenario, "extra"}, 1, {"extra"});
+}
+
+TEST(SilCli, HelpAndVersionAreNoErrors)
+{
+    for (const std::vector<std::string> &arguments :
+         {std::vector<std::string>{"--help"}, {"run", "--help"}}) {
+        const CommandResult r = sil(arguments);
+        EXPECT_EQ(r.exit_code, 0);
+        EXPECT_EQ(r.err, "");
+        EXPECT_NE(r.out.find("--help"), std::string::npos);
+    }
+    EXPECT_EQ(sil({"--version"}).out, "sdre-sil 1.0.0\n");
+}
+
+TEST(SilCli, PrintsMetricsAndWritesNothingUnasked)
+{
+    const TempDir     dir;
+    const std::string scenario = dir.write("case.toml", scenario_text());
+
+    const CommandResult r = sil({"run", scenario});
+
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    EXPECT_EQ(r.err, "");
+    EXPECT_EQ(r.out.rfind("case on ipmsm_390w, gains: compiled table\n", 0), 0U) << r.out;
+    for (const char *piece : {"whole", "settling time [ms]", "peak current [A]", "i_d [A]"}) {
+        EXPECT_NE(r.out.find(piece), std::string::npos) << piece;
+    }
+    EXPECT_EQ(r.out.find("FAULT"), std::string::npos);
+    EXPECT_EQ(support::names_in(dir.path()), (std::set<std::string>{"case.toml"}));
+}
+
+TEST(SilCli, PublishedValuesArePrintedBesideOurs)
+{
+    const TempDir     dir;
+    const std::string scenario = dir.write(
+        "case.toml", scenario_text() + "paper = { settling_time_s = 0.0123, id_A = -7.5 }\n");
+
+    const std::string out = sil({"run", scenario}).out;
+
+    for (const char *piece : {"paper", "12.3", "-7.500"}) {
+        EXPECT_NE(out.find(piece), std::string::npos) << piece << " not in\n" << out;
+    }
+}
+
+TEST(SilCli, CsvHasTheAgreedColumnsAndOneRowPerPeriod)
+{
+    const TempDir     dir;
+    const std::string scenario = dir.write("case.toml", scenario_text());
+
+    ASSERT_EQ(sil({"run", scenario, "--csv", dir / "t.csv"}).exit_code, 0);
+
+    const std::string csv = support::read_file(dir / "t.csv");
+    EXPECT_EQ(csv.substr(0, csv.find('\n')),
+              "time_s,omega_ref_e_radps,omega_e_radps,iq_A,id_A,iq_ref_A,id_ref_A,vq_V,vd_V,"
+              "d_omega_hat,d_q_hat,d_d_hat,load_torque_Nm,torque_Nm");
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 101); // 20 ms at 5 kHz, both ends
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), 13 * 102);
+    const std::string first = csv.substr(csv.find('\n') + 1);
+    EXPECT_EQ(first.rfind("0,100,100,0,0,", 0), 0U) << first.substr(0, 80);
+    EXPECT_EQ(csv.find("nan"), std::string::npos);
+    EXPECT_EQ(support::names_in(dir.path()), (std::set<std::string>{"case.toml", "t.csv"}));
+}
+
+TEST(SilCli, CsvIsDeterministic)
+{
+    const TempDir     dir;
+    const std::string scenario = dir.write("case.toml", scenario_text());
+
+    sil({"run", scenario, "--csv", dir / "a.csv"});
+    sil({"run", scenario, "--csv", dir / "b.csv"});
+
+    EXPECT_TRUE(support::read_file(dir / "a.csv") == support::read_file(dir / "b.csv"));
+}
+
+TEST(SilCli, JsonHasTheAgreedKeys)
+{
+    const TempDir     dir;
+    const std::string scenario = dir.write("case.toml", scenario_text());
+
+    ASSERT_EQ(sil({"run", scenario, "--json", dir / "r.json"}).exit_code, 0);
+
+    const auto r = nlohmann::json::parse(support::read_file(dir / "r.json"));
+    EXPECT_EQ(r.at("scenario"), "case");
+    EXPECT_EQ(r.at("drive"), "ipmsm_390w");
+    EXPECT_EQ(r.at("gains"), "compiled table");
+    EXPECT_EQ(r.at("uncertified"), nlohmann::json::array());
+    EXPECT_EQ(r.at("fault"), "none");
+    EXPECT_TRUE(r.at("fault_time_s").is_null());
+    EXPECT_GT(r.at("simulated_seconds_per_second").get<double>(), 0.0);
+    EXPECT_EQ(keys_of(r.at("measures").at("whole")),
+              (std::set<std::string>{"time_s", "settling_time_s", "dip_e_radps",
+                                     "overshoot_e_radps", "steady_state_error_e_radps",
+                                     "ripple_e_radps", "peak_current_A", "steady_current_A",
+                                     "d_omega_hat", "d_q_hat", "d_d_hat", "iq_A", "id_A"}));
+}
+
+TEST(SilCli, JsonSaysNullWhereTheSpeedNeverSettles)
+{
+    const TempDir     dir;
+    const std::string scenario = dir.write(
+        "case.toml", replaced(scenario_text(), "value_e_radps = 100.0", "value_e_radps = 400.0"));
+
+    ASSERT_EQ(sil({"run", scenario, "--json", dir / "r.json"}).exit_code, 0);
+
+    const auto r = nlohmann::json::parse(support::read_file(dir / "r.json"));
+    EXPECT_TRUE(r.at("measures").at("whole").at("settling_time_s").is_null());
+    EXPECT_NE(sil({"run", scenario}).out.find("never"), std::string::npos);
+}
+
+TEST(SilCli, GainsSolvedInProcessAreSaidSo)
+{
+    const TempDir     dir;
+    const std::string scenario =
+        dir.write("case.toml", replaced(scenario_text(), "[controller_scale]\n",
+                                        "[controller_scale]\ninertia_kgm2 = 2.0\n"));
+
+    const CommandResult r = sil({"run", scenario, "--json", dir / "r.json"});
+
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    EXPECT_NE(r.out.find("gains: solved in process"), std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(support::read_file(dir / "r.json")).at("gains"),
+              "solved in process");
+}
+
+TEST(SilCli, FaultIsExitFourWithItsReasonAndTrace)
+{
+    const TempDir     dir;
+    const std::string scenario = dir.write("case.toml", faulting_scenario());
+
+    const CommandResult r =
+        sil({"run", scenario, "--csv", dir / "t.csv", "--json", dir / "r.json"});
+
+    EXPECT_EQ(r.exit_code, 4) << r.err;
+    EXPECT_NE(r.out.find("FAULT at 0.0000 s: dc link out of range"), std::string::npos) << r.out;
+    const auto json = nlohmann::json::parse(support::read_file(dir / "r.json"));
+    EXPECT_EQ(json.at("fault"), "dc link out of range");
+    EXPECT_EQ(json.at("fault_time_s"), 0.0);
+    const std::string csv = support::read_file(dir / "t.csv");
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 102);
+}
+
+TEST(SilCli, BadScenarioIsBadInput)
+{
+    const TempDir     dir;
+    const std::string out  = dir / "t.csv";
+    const auto        file = [&](const std::string &text) {
+        return dir.write("case.toml", text).string();
+    };
+
+    expect_refused({"run", dir / "none.toml", "--csv", out}, 1, {"none.toml"});
+    expect_refused({"run", dir.path(), "--csv", out}, 1, {dir.path().string()});
+    expect_refused({"run", file("drive = "), "--csv", out}, 1, {"case.toml:1: not valid TOML"});
+    expect_refused({"run", file(""), "--csv", out}, 1, {"drive is missing"});
+    expect_refused({"run", file(replaced(scenario_text(), "0.02", "-1.0")), "--csv", out}, 1,
+                   {"duration_s = -1"});
+    expect_refused({"run", file(replaced(scenario_text(), "ipmsm_390w.toml", "none.toml"))}, 1,
+                   {"none.toml: no such file"});
+    expect_refused(
+        {"run", file(replaced(scenario_text(), "[plant_scale]", "[plant_scale]\nx = 1"))}, 1,
+        {"x"});
+    EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST(SilCli, ControllerThatCannotBeDesignedIsExitTwo)
+{
+    const TempDir     dir;
+    const std::string scenario =
+        dir.write("case.toml", replaced(scenario_text(), "[controller_scale]\n",
+                                        "[controller_scale]\nd_axis_inductance_H = 2.0\n"));
+
+    expect_refused({"run", scenario, "--csv", dir / "t.csv"}, 2, {});
+    EXPECT_FALSE(std::filesystem::exists(dir / "t.csv"));
+}
+
+TEST(SilCli, OutputThatCannotBeWrittenLeavesEarlierFiles)
+{
+    const TempDir     dir;
+    const std::string scenario = dir.write("case.toml", scenario_text());
+    const std::string kept     = dir.write("kept.csv", "earlier");
+
+    expect_refused({"run", scenario, "--csv", kept + "/t.csv"}, 1, {kept});
+    expect_refused({"run", scenario, "--json", dir / "none/r.json"}, 1, {"none/r.json"});
+    expect_refused({"run", scenario, "--csv", kept, "--json", dir / "none/r.json"}, 1, {"r.json"});
+    EXPECT_TRUE(support::read_file(kept) == "earlier");
+    EXPECT_EQ(support::names_in(dir.path()), (std::set<std::string>{"case.toml", "kept.csv"}));
+}
+
+TEST(SilCli, TargetThatIsADirectoryLeavesEarlierFiles)
+{
+    const TempDir     dir;
+    const std::string scenario = dir.write("case.toml", scenario_text());
+    const std::string kept     = dir.write("kept.csv", "earlier");
+    std::filesystem::create_directory(dir / "taken");
+
+    expect_refused({"run", scenario, "--csv", kept, "--json", dir / "taken"}, 1, {"taken"});
+
+    EXPECT_TRUE(support::read_file(kept) == "earlier");
+    EXPECT_EQ(support::names_in(dir.path()),
+              (std::set<std::string>{"case.toml", "kept.csv", "taken"}));
+}
+
+TEST(SilCli, PlotOfAnUnknownKindLeavesEarlierFiles)
+{
+    const TempDir     dir;
+    const std::string scenario = dir.write("case.toml", scenario_text());
+    const std::string kept     = dir.write("kept.csv", "earlier");
+
+    expect_refused({"run", scenario, "--csv", kept, "--plot", dir / "p.jpg"}, 1,
+                   {"p.jpg", ".png or a .svg"});
+
+    EXPECT_TRUE(support::read_file(kept) == "earlier");
+    EXPECT_EQ(support::names_in(dir.path()), (std::set<std::string>{"case.toml", "kept.csv"}));
+}
+
+TEST(SilCli, PlotsAreRealPictures)
+{
+    if (!draws_plots()) {
+        GTEST_SKIP() << "built without a Python that has matplotlib";
+    }
+    const TempDir     dir;
+    const std::string scenario = dir.write("case.toml", scenario_text());
+
+    const CommandResult png = sil({"run", scenario, "--plot", dir / "p.png"});
+    const CommandResult svg = sil({"run", scenario, "--plot", dir / "p.svg"});
+
+    EXPECT_EQ(png.exit_code, 0) << png.err;
+    EXPECT_EQ(support::read_file(dir / "p.png").substr(0, 8), "\x89PNG\r\n\x1a\n");
+    EXPECT_EQ(svg.exit_code, 0) << svg.err;
+    EXPECT_NE(support::read_file(dir / "p.svg").find("<svg"), std::string::npos);
+    EXPECT_EQ(support::names_in(dir.path()),
+              (std::set<std::string>{"case.toml", "p.png", "p.svg"}));
+}
+
+TEST(SilCli, PlotThatCannotBeWrittenIsOneLine)
+{
+    if (!draws_plots()) {
+        GTEST_SKIP() << "built without a Python that has matplotlib";
+    }
+    const TempDir     dir;
+    const std::string scenario = dir.write("case.toml", scenario_text());
+    std::filesystem::create_directory(dir / "taken.png");
+
+    expect_refused({"run", scenario, "--plot", dir / "none/p.png"}, 1, {"p.png"});
+    expect_refused({"run", scenario, "--plot", dir / "taken.png"}, 1, {"taken.png"});
+    EXPECT_EQ(support::names_in(dir.path()), (std::set<std::string>{"case.toml", "taken.png"}));
+}
