@@ -92,6 +92,7 @@ TEST(ClosedLoop, Fig5LoadStepWithTheRightParameters)
     const Outcome r = run(shipped("fig5_load_step"));
 
     EXPECT_EQ(r.result.fault, 0);
+    EXPECT_EQ(r.result.fault_time_s, 0.0);
     EXPECT_TRUE(r.result.compiled_table);
     EXPECT_TRUE(r.result.uncertified.empty());
     ASSERT_EQ(r.metrics.size(), 2U);
@@ -366,6 +367,36 @@ TEST(ClosedLoop, ImpossibleCommandIsAFault)
 
     EXPECT_EQ(r.fault, DRIVE_FAULT_COMMAND);
     EXPECT_NEAR(r.fault_time_s, 0.005, 1e-12);
+}
+
+TEST(ClosedLoop, FaultOpensTheGatesInTheSamePeriod)
+{
+    sdre::Scenario s = load_step();
+    s.duration_s     = 0.11;
+    s.speed_reference.push_back({0.1, 5000.0}); // out of range: a fault in steady state
+
+    const auto r = sdre::simulate(s);
+
+    const auto current = [&](std::size_t k) {
+        return std::hypot(r.trace[k].id_A, r.trace[k].iq_A);
+    };
+    ASSERT_EQ(r.fault, DRIVE_FAULT_COMMAND);
+    ASSERT_NEAR(r.fault_time_s, 0.1, 1e-12);
+    EXPECT_NEAR(current(500), current(499), 1e-3);
+    EXPECT_LT(current(501), 0.8 * current(500)); // the diodes oppose it at once; measured 0.7
+}
+
+TEST(ClosedLoop, SpeedIsHeldWhereNoReferenceIsGiven)
+{
+    sdre::Scenario s = load_step();
+    s.speed_reference.clear();
+    s.load_torque.clear();
+    s.duration_s = 0.3;
+
+    const auto trace = sdre::simulate(s).trace;
+
+    EXPECT_EQ(trace.front().omega_ref_e_radps, 300.0);
+    EXPECT_NEAR(trace.back().omega_e_radps, 300.0, 0.1);
 }
 
 TEST(ClosedLoop, PlantChangesInFlight)

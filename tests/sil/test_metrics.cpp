@@ -250,6 +250,20 @@ TEST(Metrics, WindowsEndWhereTheNextBegins)
     EXPECT_EQ(all[2].time_s, 0.2);
 }
 
+TEST(Metrics, TargetIsTheReferenceAtTheEndOfTheWindow)
+{
+    std::vector<sdre::TraceRow> trace = trace_of(
+        200, [](double) { return 80.0; }, 80.0);
+    for (std::size_t k = 0; k < 50; k++) {
+        trace[k].omega_ref_e_radps = 20.0;
+    }
+
+    const sdre::Metrics m = only(trace, 1.0);
+
+    EXPECT_EQ(m.settling_time_s, 0.0);
+    EXPECT_EQ(m.steady_state_error_e_radps, 0.0);
+}
+
 TEST(Metrics, ShortWindowStillHasATail)
 {
     const sdre::Metrics m = only(trace_of(
