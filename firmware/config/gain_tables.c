@@ -63,6 +63,7 @@ const drive_config_t gain_tables_drive = {
     .nodo = {
         .order = 2,
         .iq_max_A = 4.87500000e+00f,
+        .iq_certified_A = 8.00000000e+00f,
         .gain = {
             { /* n = 0 */
                 /*          omega_e_radps             iq_A             id_A */

@@ -53,7 +53,8 @@ static bool nosc_ok(const nosc_gains_t *g)
 
 static bool nodo_ok(const nodo_gains_t *g)
 {
-    if (!is_positive(g->iq_max_A) || (g->order < 0) || (g->order > NODO_ORDER_MAX)) {
+    if (!is_positive(g->iq_max_A) || !base_in_range(g->iq_certified_A, g->iq_max_A, LARGEST) ||
+        (g->order < 0) || (g->order > NODO_ORDER_MAX)) {
         return false;
     }
     for (int16_t n = 0; n <= g->order; n++) {

@@ -35,11 +35,10 @@ static void correction(const nodo_gains_t *g, const nodo_t *x, const nodo_meas_t
 void nodo_update(nodo_t *x, const nodo_gains_t *g, const motor_reduced_t *m, const nodo_meas_t *y,
                  dq_t v_V, float ts_s)
 {
-    /* A_d and L are scheduled by the same clamped current: outside the certified range the products of
-     * estimates would otherwise outrun the gain that has to hold them. */
-    const float iq_s = base_clamp(x->iq_A, -g->iq_max_A, g->iq_max_A);
+    /* Beyond the range in which the held gain is certified, the products of estimates would outrun it. */
+    const float iq_s = base_clamp(x->iq_A, -g->iq_certified_A, g->iq_certified_A);
     float       lr[NODO_N_X];
-    correction(g, x, y, iq_s, lr);
+    correction(g, x, y, base_clamp(x->iq_A, -g->iq_max_A, g->iq_max_A), lr);
 
     /* EQ-NODO-1: the rows of A_d(iq^) x^ + u_d. */
     const float w    = x->omega_e_radps;

@@ -21,8 +21,9 @@
 #define NODO_N_Y       3 /**< columns of L_n: measured speed, iq, id */
 
 typedef struct {
-    int16_t order;                                        /**< N_d, 0 .. NODO_ORDER_MAX */
-    float   iq_max_A;                                     /**< certified for |iq^| <= this; > 0 */
+    int16_t order;          /**< N_d, 0 .. NODO_ORDER_MAX */
+    float   iq_max_A;       /**< the series is used for |iq^| <= this; > 0 */
+    float   iq_certified_A; /**< stable with the gain held for |iq^| <= this; >= iq_max_A */
     float   gain[NODO_ORDER_MAX + 1][NODO_N_X][NODO_N_Y]; /**< L_n, n <= order */
 } nodo_gains_t;
 
@@ -49,7 +50,7 @@ void nodo_reset(nodo_t *x, const nodo_meas_t *y);
 /**
  * @brief One step: corrects with y and advances to the next sampling instant.
  *
- * A_d and L are evaluated at iq^ clamped to +-g->iq_max_A.
+ * L is evaluated at iq^ clamped to +-g->iq_max_A, A_d at iq^ clamped to +-g->iq_certified_A.
  *
  * @param x     Estimates, advanced in place.
  * @param g     Gains.

@@ -79,7 +79,8 @@ std::string nodo_block(const nodo_gains_t &g)
 {
     const char *labels[NODO_N_X] = {"d_w", "d_q", "d_d", "w", "iq", "id"};
     std::string s                = fmt::format("    .nodo = {{\n        .order = {},\n", g.order);
-    s += field("iq_max_A", g.iq_max_A) + "        .gain = {\n";
+    s += field("iq_max_A", g.iq_max_A) + field("iq_certified_A", g.iq_certified_A) +
+         "        .gain = {\n";
     for (int n = 0; n <= g.order; n++) {
         s += fmt::format("            {{ /* n = {} */\n", n);
         s += "                /*          omega_e_radps             iq_A             id_A */\n";

@@ -57,6 +57,10 @@ void write_files(const std::vector<OutputFile> &files)
 
 std::string read_text_file(const std::filesystem::path &file)
 {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) { // a directory opens, and reads as empty
+        throw InputError(fmt::format("{}: cannot read", file.string()));
+    }
     std::ifstream      stream(file, std::ios::binary);
     std::ostringstream text;
     text << stream.rdbuf();

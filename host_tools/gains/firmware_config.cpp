@@ -61,8 +61,9 @@ void copy_gains(const Design &d, drive_config_t &c)
             }
         }
     }
-    c.nodo.order    = static_cast<int16_t>(d.drive.nodo.order);
-    c.nodo.iq_max_A = single(d.certificate.nodo.series_range_A);
+    c.nodo.order          = static_cast<int16_t>(d.drive.nodo.order);
+    c.nodo.iq_max_A       = single(d.certificate.nodo.series_range_A);
+    c.nodo.iq_certified_A = single(d.certificate.nodo.range_A);
     for (int n = 0; n <= d.drive.nodo.order; n++) {
         for (int row = 0; row < NODO_N_X; row++) {
             for (int column = 0; column < NODO_N_Y; column++) {

@@ -1,13 +1,33 @@
 // SPDX-License-Identifier: MIT
 #include "toml_reader.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include <fmt/format.h>
 
 #include "errors.hpp"
 
 namespace sdre {
+namespace {
+
+std::string must_be(const char *what, Range allowed)
+{
+    return fmt::format("must be {} in {:g} .. {:g}", what, allowed.lo, allowed.hi);
+}
+
+/// A value as it stands in the file, on one line.
+std::string shown(const toml::node &node)
+{
+    std::ostringstream text;
+    node.visit([&](const auto &value) { text << value; });
+    std::string s = text.str();
+    std::replace(s.begin(), s.end(), '\n', ' ');
+    return s;
+}
+
+} // namespace
 
 toml::table parse_toml_file(const std::filesystem::path &file)
 {
@@ -43,12 +63,12 @@ bool TomlReader::has(const std::string &key) const
     return table_->contains(key);
 }
 
-const toml::node &TomlReader::required(const std::string &key)
+const toml::node &TomlReader::required(const std::string &key, const std::string &allowed)
 {
     known_.insert(key);
     const toml::node *node = table_->get(key);
     if (node == nullptr) {
-        fail(key, "is missing");
+        fail(key, fmt::format("is missing: {}", allowed));
     }
     return *node;
 }
@@ -56,10 +76,15 @@ const toml::node &TomlReader::required(const std::string &key)
 double TomlReader::checked_number(const std::string &key, const toml::node &node,
                                   Range allowed) const
 {
-    if (!node.is_number()) {
-        fail(key, fmt::format("must be a number in {:g} .. {:g}", allowed.lo, allowed.hi));
+    double x = 0.0;
+    if (const auto *whole = node.as_integer()) {
+        x = static_cast<double>(whole->get());
+    } else if (const auto *real = node.as_floating_point()) {
+        x = real->get();
+    } else {
+        fail(key,
+             fmt::format("= {} is not allowed: {}", shown(node), must_be("a number", allowed)));
     }
-    const double x = *node.value<double>();
     if (!std::isfinite(x) || x < allowed.lo || x > allowed.hi) {
         fail(key, fmt::format("= {:g} is not allowed: must be in {:g} .. {:g}", x, allowed.lo,
                               allowed.hi));
@@ -69,7 +94,7 @@ double TomlReader::checked_number(const std::string &key, const toml::node &node
 
 double TomlReader::number(const std::string &key, Range allowed)
 {
-    return checked_number(key, required(key), allowed);
+    return checked_number(key, required(key, must_be("a number", allowed)), allowed);
 }
 
 double TomlReader::number_or(const std::string &key, Range allowed, double fallback)
@@ -80,9 +105,10 @@ double TomlReader::number_or(const std::string &key, Range allowed, double fallb
 
 int TomlReader::integer(const std::string &key, Range allowed)
 {
-    const toml::node &node = required(key);
+    const toml::node &node = required(key, must_be("a whole number", allowed));
     if (!node.is_integer()) {
-        fail(key, fmt::format("must be a whole number in {:g} .. {:g}", allowed.lo, allowed.hi));
+        fail(key, fmt::format("= {} is not allowed: {}", shown(node),
+                              must_be("a whole number", allowed)));
     }
     return static_cast<int>(checked_number(key, node, allowed));
 }
@@ -99,7 +125,7 @@ bool TomlReader::boolean_or(const std::string &key, bool fallback)
     if (!has(key)) {
         return fallback;
     }
-    const toml::node &node = required(key);
+    const toml::node &node = required(key, "must be true or false");
     if (!node.is_boolean()) {
         fail(key, "must be true or false");
     }
@@ -108,7 +134,7 @@ bool TomlReader::boolean_or(const std::string &key, bool fallback)
 
 std::string TomlReader::text(const std::string &key)
 {
-    const toml::node &node = required(key);
+    const toml::node &node = required(key, "must be a string");
     if (!node.is_string()) {
         fail(key, "must be a string");
     }
@@ -124,7 +150,7 @@ std::string TomlReader::text_or(const std::string &key, const std::string &fallb
 std::vector<double> TomlReader::numbers(const std::string              &key,
                                         const std::vector<std::size_t> &lengths, Range allowed)
 {
-    const toml::array *array     = required(key).as_array();
+    const toml::array *array     = required(key, "must be an array of numbers").as_array();
     bool               length_ok = false;
     std::string        choices;
     for (std::size_t n : lengths) {
@@ -143,7 +169,7 @@ std::vector<double> TomlReader::numbers(const std::string              &key,
 
 TomlReader TomlReader::table(const std::string &key)
 {
-    const toml::table *inner = required(key).as_table();
+    const toml::table *inner = required(key, "must be a table").as_table();
     if (inner == nullptr) {
         fail(key, "must be a table");
     }
@@ -163,7 +189,7 @@ std::vector<TomlReader> TomlReader::tables(const std::string &key)
     if (!has(key)) {
         return readers;
     }
-    const toml::array *array = required(key).as_array();
+    const toml::array *array = required(key, "must be an array of tables").as_array();
     if (array == nullptr) {
         fail(key, fmt::format("must be an array of tables, written [[{}]]", key));
     }

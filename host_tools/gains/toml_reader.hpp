@@ -51,7 +51,7 @@ public:
     [[noreturn]] void fail(const std::string &key, const std::string &what) const;
 
 private:
-    const toml::node &required(const std::string &key);
+    const toml::node &required(const std::string &key, const std::string &allowed);
     double checked_number(const std::string &key, const toml::node &node, Range allowed) const;
 
     std::string           file_;

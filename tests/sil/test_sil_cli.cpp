@@ -135,6 +135,8 @@ TEST(SilCli, CsvHasTheAgreedColumnsAndOneRowPerPeriod)
     EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), 13 * 102);
     const std::string first = csv.substr(csv.find('\n') + 1);
     EXPECT_EQ(first.rfind("0,100,100,0,0,", 0), 0U) << first.substr(0, 80);
+    const std::string row = first.substr(0, first.find('\n'));
+    EXPECT_EQ(row.substr(row.size() - 6), ",0.5,0") << row; // load before any torque
     EXPECT_EQ(csv.find("nan"), std::string::npos);
     EXPECT_EQ(support::names_in(dir.path()), (std::set<std::string>{"case.toml", "t.csv"}));
 }

@@ -46,6 +46,7 @@ static const entry_t entries[] = {
     {&config.current_ref.filter_1ps, POSITIVE},
     {&config.nosc.iq_error_max_A, POSITIVE},
     {&config.nodo.iq_max_A, POSITIVE},
+    {&config.nodo.iq_certified_A, POSITIVE},
 };
 
 void setUp(void)

@@ -20,8 +20,9 @@ static motor_reduced_t  motor;
 /* No zero anywhere: an exchange of rows, columns or powers shows. */
 static void fill_gains(int16_t order)
 {
-    gains.order    = order;
-    gains.iq_max_A = 1.5f;
+    gains.order          = order;
+    gains.iq_max_A       = 1.5f;
+    gains.iq_certified_A = 2.5f;
     for (int16_t n = 0; n <= NODO_ORDER_MAX; n++) {
         for (int row = 0; row < NODO_N_X; row++) {
             for (int column = 0; column < NODO_N_Y; column++) {
@@ -60,14 +61,16 @@ static oracle_t oracle_update(const nodo_t *est, const nodo_meas_t *y, dq_t v_V,
     const double measured[NODO_N_Y] = {(double)y->omega_e_radps, (double)y->iq_A, (double)y->id_A};
     const double iq                 = x[4];
     const double held = support_limit(iq, -(double)gains.iq_max_A, (double)gains.iq_max_A);
+    const double certified =
+        support_limit(iq, -(double)gains.iq_certified_A, (double)gains.iq_certified_A);
 
     const double a_d[NODO_N_X][NODO_N_X] = {
         {0.0},
         {0.0},
         {0.0},
-        {1.0, 0.0, 0.0, -(double)motor.l2, (double)motor.l1, (double)motor.l11 * held},
+        {1.0, 0.0, 0.0, -(double)motor.l2, (double)motor.l1, (double)motor.l11 * certified},
         {0.0, 1.0, 0.0, -(double)motor.l5, -(double)motor.l4, 0.0},
-        {0.0, 0.0, 1.0, (double)motor.l9 * held, 0.0, -(double)motor.l7}};
+        {0.0, 0.0, 1.0, (double)motor.l9 * certified, 0.0, -(double)motor.l7}};
     const double coupling      = -(double)motor.l10 * measured[2] * measured[0];
     const double u_d[NODO_N_X] = {0.0,
                                   0.0,
