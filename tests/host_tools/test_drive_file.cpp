@@ -229,17 +229,19 @@ TEST(DriveFile, WrongTypeIsNamedWithTheRange)
 {
     for (const Key &key : scalar_keys) {
         for (const std::string value : {"\"1\"", "true", "[1.0]", "{ x = 1.0 }", "1979-05-27"}) {
-            expect_complaint(
-                DriveText().set(key.section, key.name, value),
-                {fmt::format("[{}] {} must be a ", key.section, key.name), key.allowed});
+            expect_complaint(DriveText().set(key.section, key.name, value),
+                             {fmt::format("[{}] {} = ", key.section, key.name),
+                              "is not allowed: must be a ", key.allowed});
         }
         if (key.whole) {
-            expect_complaint(DriveText().set(key.section, key.name, "1.0"),
-                             {key.name + " must be a whole number", key.allowed});
+            expect_complaint(
+                DriveText().set(key.section, key.name, "1.0"),
+                {key.name + " = 1.0 is not allowed: must be a whole number", key.allowed});
         }
     }
     expect_complaint(DriveText().set("", "name", "3"), {" name must be a string"});
-    expect_complaint(DriveText().set("", "schema", "1.0"), {" schema must be a whole number"});
+    expect_complaint(DriveText().set("", "schema", "1.0"),
+                     {" schema = 1.0 is not allowed: must be a whole number"});
 }
 
 TEST(DriveFile, NotFiniteIsRefusedWithTheRange)
@@ -343,7 +345,7 @@ TEST(DriveFile, ArrayOfAnotherLengthOrTypeIsRefused)
         expect_complaint(DriveText().set(key.section, key.name, "1.0"), {key.lengths});
         expect_complaint(
             DriveText().set(key.section, key.name, array_with(key.length, 1, "\"x\"")),
-            {fmt::format("[{}] {}[1] must be a number", key.section, key.name), key.allowed});
+            {fmt::format("[{}] {}[1] = ", key.section, key.name), "must be a number", key.allowed});
     }
     expect_complaint(DriveText().set("nosc", "Q", "[1.0, 1.0, 1.0, 1.0, 1.0, 1.0]"),
                      {"array of 3 numbers"});

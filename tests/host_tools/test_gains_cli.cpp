@@ -112,7 +112,8 @@ TEST(GainsCli, BadKeyIsBadInput)
     refused(DriveText().set("motor", "colour", "1"), {"[motor] colour", "inertia_kgm2"});
     refused(DriveText().set("motor", "inertia_kgm2", "-1.0"), {"inertia_kgm2 = -1", "1000"});
     refused(DriveText().set("motor", "inertia_kgm2", "nan"), {"inertia_kgm2 = nan", "1000"});
-    refused(DriveText().set("motor", "inertia_kgm2", "\"1\""), {"inertia_kgm2 must be a number"});
+    refused(DriveText().set("motor", "inertia_kgm2", "\"1\""),
+            {"inertia_kgm2 = ", "must be a number"});
     refused(DriveText().set("motor", "d_axis_inductance_H", "0.2"), {"Ld <= Lq"});
     refused(DriveText().set("nosc", "Q", "[1e300, 1.0, 1.0]"), {"Q[0] = 1e+300", "1e+15"});
     refused(DriveText().set("nodo", "T", "[1e300, 1.0, 1.0]"), {"T[0] = 1e+300", "1e+12"});

@@ -66,6 +66,7 @@ std::vector<float> values_of(const drive_config_t &c)
         }
     }
     v.push_back(c.nodo.iq_max_A);
+    v.push_back(c.nodo.iq_certified_A);
     for (int n = 0; n <= c.nodo.order; n++) {
         for (const auto &row : c.nodo.gain[n]) {
             v.insert(v.end(), std::begin(row), std::end(row));
