@@ -3,7 +3,7 @@
  *
  * generator  sdre-gains 1.0.0, schema 1
  * drive      ipmsm_390w
- * digest     fnv1a64:5a93112ad34a4a64 (of the normalised drive file)
+ * digest     fnv1a64:6f5b9f2bd58be51a (of the normalised drive file)
  * method     EQ-NOSC-2 with N = 2, EQ-NODO-2 with Nd = 2
  * checked    relative residuals <= 1e-16
  *            controller: slowest pole -827 1/s, sampled spectral radius 0.842, |e_iq| <= 8 A
@@ -16,7 +16,7 @@
 
 #define GAIN_TABLES_SCHEMA 1
 #define GAIN_TABLES_NAME   "ipmsm_390w"
-#define GAIN_TABLES_DIGEST "fnv1a64:5a93112ad34a4a64"
+#define GAIN_TABLES_DIGEST "fnv1a64:6f5b9f2bd58be51a"
 
 extern const drive_config_t gain_tables_drive;
 

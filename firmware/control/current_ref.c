@@ -6,6 +6,8 @@
 /* Chosen: where the back-EMF is below this share of the voltage circle, no current inside the circle of
  * the shipped motors needs flux weakening; it also keeps every division by the speed away from zero. */
 #define FW_SPEED_SHARE 0.25f
+/* Chosen: the q current can always be asked to change by this share of what a motor at rest allows. */
+#define SLEW_SHARE_MIN 0.4f
 
 /* The voltage circle in amperes of q-axis flux linkage, around the present operating point. */
 typedef struct {
@@ -20,7 +22,6 @@ void current_ref_reset(current_ref_t *r)
     const dq_t zero = {0.0f, 0.0f};
     r->i_A          = zero;
     r->i_dot_Aps    = zero;
-    r->filter_A     = zero;
     r->iq_lo_A      = 0.0f;
     r->iq_hi_A      = 0.0f;
 }
@@ -30,10 +31,17 @@ static float positive_sqrt(float x)
     return (x > 0.0f) ? sqrtf(x) : 0.0f;
 }
 
+/* Acceleration per ampere of iq. It vanishes at id = l1 / -l11 > 0; it is held well above. */
+static float accel_per_A(const current_ref_config_t *c, const motor_reduced_t *m, float id_A)
+{
+    const float l1_id = m->l1 + (m->l11 * id_A);
+    return (l1_id > c->l1_min) ? l1_id : c->l1_min;
+}
+
 static circle_t voltage_circle(const current_ref_config_t *c, const motor_reduced_t *m,
                                const current_ref_input_t *in)
 {
-    const float w      = in->meas->omega_e_radps;
+    const float w      = in->state->omega_e_radps;
     const float v_6    = m->l6 * c->voltage_share * in->v_max_V;
     circle_t    circle = {.active = (FW_SPEED_SHARE * v_6) < (m->l5 * fabsf(w)),
                           .f_A    = 0.0f,
@@ -43,64 +51,111 @@ static circle_t voltage_circle(const current_ref_config_t *c, const motor_reduce
     if (circle.active) {
         const float inv_w = 1.0f / w;
         circle.f_A        = v_6 * fabsf(inv_w);
-        circle.y_A        = m->l10 * ((m->l7 * in->meas->id_A) - in->est->d_d) * inv_w;
-        circle.x_A        = ((m->l4 * in->meas->iq_A) - in->est->d_q) * inv_w;
+        circle.y_A        = m->l10 * ((m->l7 * in->state->id_A) - in->est->d_d) * inv_w;
+        circle.x_A        = ((m->l4 * in->state->iq_A) - in->est->d_q) * inv_w;
     }
     return circle;
 }
 
-/* EQ-CURRENT-REF-1 to 3. Weakening makes room for the current that is wanted, not for what fits already. */
+/* EQ-CURRENT-REF-3 and 4 for the iq that is wanted, not for the one that fits already. */
+static float id_weakening_A(const current_ref_config_t *c, const motor_reduced_t *m,
+                            const circle_t *v, float iq_A)
+{
+    const float dq     = fabsf(iq_A - v->y_A);
+    const float f2     = v->f_A * v->f_A;
+    float       q_flux = positive_sqrt(f2 - (dq * dq));
+
+    if (dq > v->f_A) {
+        const float u = f2 / (c->mtpa_A + sqrtf((c->mtpa_A * c->mtpa_A) + (2.0f * f2)));
+        q_flux        = -fminf(dq - v->f_A, u);
+    }
+    return m->l9 * (q_flux - m->l5 - v->x_A);
+}
+
+/* EQ-CURRENT-REF-2 and 5. */
 static float id_target_A(const current_ref_config_t *c, const motor_reduced_t *m, const circle_t *v,
                          float iq_A, float iq_wanted_A)
 {
-    float id_A = c->mtpa_gain_1pA * iq_A * iq_A;
+    const float iq2  = iq_A * iq_A;
+    const float root = c->mtpa_exact ? sqrtf((c->mtpa_A * c->mtpa_A) + iq2) : c->mtpa_A;
+    float       id_A = -iq2 / (c->mtpa_A + root);
 
     if (v->active) {
-        const float dq   = iq_wanted_A - v->y_A;
-        const float fw_A = m->l9 * (positive_sqrt((v->f_A * v->f_A) - (dq * dq)) - m->l5 - v->x_A);
-        id_A             = (fw_A < id_A) ? fw_A : id_A;
+        id_A = fminf(id_A, id_weakening_A(c, m, v, iq_wanted_A));
     }
     return base_clamp(id_A, -c->current_max_A, 0.0f);
 }
 
-/* The current circle and EQ-CURRENT-REF-5. */
-static void limit_iq(current_ref_t *r, const current_ref_config_t *c, const motor_reduced_t *m,
-                     const circle_t *v, float id_A)
+/* EQ-CURRENT-REF-7: the least iq w. */
+static float limit_regeneration(const current_ref_config_t *c, float accel, float w,
+                                float dc_link_V, float iq_A)
 {
+    const float share =
+        base_clamp(1.0f - (c->regen_per_V * (dc_link_V - c->regen_start_V)), 0.0f, 1.0f);
+    const float power = share * c->regen_max_W_norm;
+
+    return ((-iq_A * w * accel) > power) ? (-power / (w * accel)) : iq_A;
+}
+
+/* The current circle, EQ-CURRENT-REF-6 and 7. */
+static void limit_iq(current_ref_t *r, const current_ref_config_t *c, const motor_reduced_t *m,
+                     const circle_t *v, const current_ref_input_t *in)
+{
+    const float w       = in->state->omega_e_radps;
+    const float accel   = accel_per_A(c, m, in->state->id_A);
     const float room_A2 = (c->current_max_A * c->current_max_A) - (r->i_A.d * r->i_A.d);
     const float hi_A    = fminf(c->iq_max_A, positive_sqrt(room_A2));
     r->iq_lo_A          = -hi_A;
     r->iq_hi_A          = hi_A;
 
     if (v->active) {
-        const float q_A    = m->l5 + (m->l10 * id_A) + v->x_A;
+        const float q_A    = m->l5 + (m->l10 * in->state->id_A) + v->x_A;
         const float half_A = positive_sqrt((v->f_A * v->f_A) - (q_A * q_A));
         r->iq_lo_A         = base_clamp(v->y_A - half_A, -hi_A, 0.0f);
         r->iq_hi_A         = base_clamp(v->y_A + half_A, 0.0f, hi_A);
     }
+    r->iq_lo_A = limit_regeneration(c, accel, w, in->dc_link_V, r->iq_lo_A);
+    r->iq_hi_A = limit_regeneration(c, accel, w, in->dc_link_V, r->iq_hi_A);
+}
+
+speed_ref_limits_t current_ref_speed_limits(const current_ref_t *r, const current_ref_config_t *c,
+                                            const motor_reduced_t *m, const current_ref_input_t *in,
+                                            float command_e_radps)
+{
+    const float w     = in->state->omega_e_radps;
+    const float accel = c->torque_share * accel_per_A(c, m, r->i_A.d);
+    const float free  = in->est->d_omega - (m->l2 * w);
+    const float top   = m->l6 * c->voltage_share * in->v_max_V;
+    /* The jerk that stops at the command must be there at both ends of the way. */
+    const float fastest = fmaxf(fabsf(w), fabsf(command_e_radps));
+    const float slew    = fmaxf(top - (m->l5 * fastest), SLEW_SHARE_MIN * top);
+
+    const speed_ref_limits_t limits = {
+        .accel_hi_e_radps2 = fmaxf(free + (accel * r->iq_hi_A), 0.0f),
+        .accel_lo_e_radps2 = fminf(free + (accel * r->iq_lo_A), 0.0f),
+        .jerk_e_radps3     = m->l1 * slew,
+        .near_e_radps      = c->near_e_radps};
+    return limits;
 }
 
 void current_ref_update(current_ref_t *r, const current_ref_config_t *c, const motor_reduced_t *m,
                         const speed_ref_t *w, const current_ref_input_t *in)
 {
-    const circle_t v = voltage_circle(c, m, in);
+    const circle_t v     = voltage_circle(c, m, in);
+    const float    inv   = 1.0f / accel_per_A(c, m, in->state->id_A);
+    const float    load  = (m->l2 * w->omega_e_radps) - in->est->d_omega;
+    const float    iq_A  = inv * (load + w->omega_dot_e_radps2); /* EQ-CURRENT-REF-1 */
+    const float    all_A = inv * (load + w->accel_wanted_e_radps2) + in->iq_speed_A;
+    const float hi_A = positive_sqrt((c->current_max_A * c->current_max_A) - (r->i_A.d * r->i_A.d));
 
-    /* EQ-CURRENT-REF-4. The denominator vanishes at id = l1 / -l11 > 0; it is held well above. */
-    const float l1_id = m->l1 + (m->l11 * in->meas->id_A);
-    const float iq_A  = ((m->l2 * w->omega_e_radps) + w->omega_dot_e_radps2 - in->est->d_omega) /
-                       ((l1_id > c->l1_min) ? l1_id : c->l1_min);
-    const float wanted_A = base_clamp(iq_A + in->iq_speed_A, -c->iq_max_A, c->iq_max_A);
-
-    /* The filtered target is the reference, so its derivative is exact. */
-    const float id_step_A = id_target_A(c, m, &v, r->i_A.q, wanted_A) - r->filter_A.d;
+    /* id_ref is a first-order filter's output, so its derivative is exact. */
+    const float id_A      = id_target_A(c, m, &v, r->i_A.q, base_clamp(all_A, -hi_A, hi_A));
+    const float id_step_A = id_A - r->i_A.d;
     r->i_dot_Aps.d        = c->filter_1ps * id_step_A;
-    r->filter_A.d += c->filter_per_period * id_step_A;
-    r->i_A.d = r->filter_A.d;
+    r->i_A.d += c->filter_per_period * id_step_A;
 
-    limit_iq(r, c, m, &v, in->meas->id_A);
+    limit_iq(r, c, m, &v, in);
     r->i_A.q = base_clamp(iq_A, r->iq_lo_A, r->iq_hi_A);
-
-    const float iq_step_A = r->i_A.q - r->filter_A.q;
-    r->i_dot_Aps.q        = c->filter_1ps * iq_step_A;
-    r->filter_A.q += c->filter_per_period * iq_step_A;
+    r->i_dot_Aps.q =
+        base_in_range(iq_A, r->iq_lo_A, r->iq_hi_A) ? (inv * w->omega_2dot_e_radps3) : 0.0f;
 }

@@ -31,9 +31,12 @@ static bool motor_ok(const motor_reduced_t *m)
 static bool current_ref_ok(const current_ref_config_t *c)
 {
     return is_positive(c->current_max_A) && is_positive(c->iq_max_A) &&
-           (c->iq_max_A <= c->current_max_A) && base_in_range(c->mtpa_gain_1pA, -LARGEST, 0.0f) &&
-           base_in_range(c->voltage_share, 1.0e-3f, 1.0f) && is_positive(c->l1_min) &&
-           base_in_range(c->filter_per_period, 1.0e-6f, 1.0f) && is_positive(c->filter_1ps);
+           (c->iq_max_A <= c->current_max_A) && is_positive(c->mtpa_A) &&
+           base_in_range(c->voltage_share, 1.0e-3f, 1.0f) &&
+           base_in_range(c->torque_share, 1.0e-3f, 1.0f) && is_positive(c->near_e_radps) &&
+           is_positive(c->l1_min) && base_in_range(c->filter_per_period, 1.0e-6f, 1.0f) &&
+           is_positive(c->filter_1ps) && base_in_range(c->regen_max_W_norm, 0.0f, LARGEST) &&
+           is_positive(c->regen_start_V) && is_positive(c->regen_per_V);
 }
 
 static bool nosc_ok(const nosc_gains_t *g)
@@ -67,16 +70,36 @@ static bool nodo_ok(const nodo_gains_t *g)
     return true;
 }
 
+static bool nodo_encoder_ok(const nodo_encoder_gains_t *g)
+{
+    if (!is_positive(g->iq_max_A) || (g->order < 0) || (g->order > NODO_ORDER_MAX)) {
+        return false;
+    }
+    for (int16_t n = 0; n <= g->order; n++) {
+        for (int16_t row = 0; row < NODO_ENCODER_N_X; row++) {
+            if (!all_finite(g->gain[n][row], NODO_ENCODER_N_Y)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 ctl_status_t drive_config_check(const drive_config_t *c)
 {
-    const bool limits_ok = base_in_range(c->ts_s, 1.0e-5f, 1.0e-2f) &&
-                           is_positive(c->accel_max_e_radps2) && is_positive(c->trip_current_A) &&
-                           (c->trip_current_A > c->current_ref.current_max_A) &&
-                           is_positive(c->trip_speed_e_radps) && is_positive(c->dc_link_min_V) &&
-                           is_positive(c->dc_link_max_V) && (c->dc_link_max_V > c->dc_link_min_V);
+    const bool limits_ok =
+        base_in_range(c->ts_s, 1.0e-5f, 1.0e-2f) && is_positive(c->trip_current_A) &&
+        (c->trip_current_A > c->current_ref.current_max_A) && is_positive(c->trip_speed_e_radps) &&
+        base_in_range(c->trip_angle_rad, 1.0e-6f, BASE_PI) && is_positive(c->trip_d_omega) &&
+        is_positive(c->dc_link_min_V) && is_positive(c->dc_link_max_V) &&
+        (c->dc_link_max_V > c->dc_link_min_V);
+    const bool dead_time_ok =
+        base_in_range(c->dead_time.share, 0.0f, 0.1f) && is_positive(c->dead_time.inv_fade_1pA);
+    const bool observer_ok = ((c->form == DRIVE_FORM_SPEED) && nodo_ok(&c->nodo)) ||
+                             ((c->form == DRIVE_FORM_ENCODER) && nodo_encoder_ok(&c->nodo_encoder));
 
-    return (limits_ok && motor_ok(&c->motor) && current_ref_ok(&c->current_ref) &&
-            nosc_ok(&c->nosc) && nodo_ok(&c->nodo))
+    return (limits_ok && dead_time_ok && motor_ok(&c->motor) && current_ref_ok(&c->current_ref) &&
+            nosc_ok(&c->nosc) && observer_ok)
                ? CTL_OK
                : CTL_BAD_CONFIG;
 }

@@ -8,22 +8,36 @@
 
 #include "base.h"
 #include "current_ref.h"
+#include "dead_time.h"
 #include "motor.h"
 #include "nodo.h"
+#include "nodo_encoder.h"
 #include "nosc.h"
+
+/** What the observer measures beside the currents. */
+typedef enum {
+    DRIVE_FORM_SPEED = 0, /**< a speed signal: paper A's six states, law on the measurement */
+    DRIVE_FORM_ENCODER    /**< the angle: seven states, law on the prediction */
+} drive_form_t;
 
 /** Everything that depends on the motor and the board: generated, constant, checked by drive_init(). */
 typedef struct {
-    float           ts_s;               /**< control period [s], 1e-5 .. 1e-2 */
-    float           accel_max_e_radps2; /**< of the speed reference, > 0 */
-    float           trip_current_A; /**< a phase current beyond this is a fault, > current_max_A */
-    float           trip_speed_e_radps; /**< a speed beyond this is a fault, > 0 */
-    float           dc_link_min_V;      /**< accepted dc link, > 0 */
-    float           dc_link_max_V;      /**< > dc_link_min_V */
-    motor_reduced_t motor;
+    float ts_s;               /**< control period [s], 1e-5 .. 1e-2 */
+    float trip_current_A;     /**< a phase current beyond this is a fault */
+    float trip_speed_e_radps; /**< a speed beyond this is a fault, > 0 */
+    float trip_angle_rad;     /**< an angle this far from its estimate is a fault, (0, pi] */
+    float
+        trip_d_omega; /**< encoder form: an estimated speed disturbance beyond this is no load but a
+                             wrong angle [rad/s^2], > 0 */
+    float                dc_link_min_V; /**< accepted dc link, > 0 */
+    float                dc_link_max_V; /**< > dc_link_min_V */
+    drive_form_t         form;          /**< which of nodo and nodo_encoder is used and checked */
+    motor_reduced_t      motor;
     current_ref_config_t current_ref;
+    dead_time_config_t   dead_time;
     nosc_gains_t         nosc;
     nodo_gains_t         nodo;
+    nodo_encoder_gains_t nodo_encoder;
 } drive_config_t;
 
 /**

@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 #include "drive_tick.h"
 
+#include <math.h>
 #include <stddef.h>
 
 #include "feedforward.h"
 #include "frames.h"
 #include "svpwm.h"
 #include "voltage.h"
+
+/* Beyond anything a law asks for, and below where squares overflow. */
+#define VOLTAGE_ANY_V 1.0e9f
 
 static const dq_t           zero_dq     = {0.0f, 0.0f};
 static const drive_output_t open_bridge = {.duty = {0.5f, 0.5f, 0.5f}, .gate_enable = false};
@@ -24,9 +28,10 @@ void drive_reset(drive_t *d)
 {
     const nodo_meas_t zero = {0.0f, 0.0f, 0.0f};
 
-    d->state = DRIVE_OFF;
-    d->fault = DRIVE_FAULT_NONE;
-    d->meas  = zero;
+    d->state         = DRIVE_OFF;
+    d->fault         = DRIVE_FAULT_NONE;
+    d->theta_hat_rad = 0.0f;
+    d->now           = zero;
     nodo_reset(&d->observer, &zero);
     speed_ref_reset(&d->speed_ref, 0.0f);
     current_ref_reset(&d->current_ref);
@@ -70,64 +75,129 @@ static drive_output_t trip(drive_t *d, drive_fault_t fault)
     return open_bridge;
 }
 
-/* Bumpless: the observer takes over the measurement and the reference the present speed. */
-static void start(drive_t *d)
+static nodo_meas_t measurement(const drive_sample_t *s)
 {
-    nodo_reset(&d->observer, &d->meas);
-    speed_ref_reset(&d->speed_ref, d->meas.omega_e_radps);
+    const dq_t i_A = frames_park(frames_clarke(s->ia_A, s->ib_A), frames_angle(s->theta_e_rad));
+    const nodo_meas_t y = {.omega_e_radps = s->omega_e_radps, .iq_A = i_A.q, .id_A = i_A.d};
+    return y;
+}
+
+/* Bumpless: the observer takes over the measurement and the reference the present speed. */
+static void start(drive_t *d, const drive_sample_t *s)
+{
+    const nodo_meas_t y = measurement(s);
+
+    nodo_reset(&d->observer, &y);
+    d->theta_hat_rad = nodo_encoder_wrap(s->theta_e_rad);
+    speed_ref_reset(&d->speed_ref, y.omega_e_radps);
     current_ref_reset(&d->current_ref);
     d->v_V   = zero_dq;
     d->state = DRIVE_RUN;
 }
 
-/* EQ-DRIVE-1 and the limits; the result is stored as the voltage of the next period. */
-static void control_law(drive_t *d, float v_max_V)
+/* Paper A's observer; returns the angle of the middle of the period in which the new voltage acts. */
+static float estimate_from_speed(drive_t *d, const drive_sample_t *s)
+{
+    const drive_config_t *c = d->config;
+
+    d->now = measurement(s);
+    nodo_update(&d->observer, &c->nodo, &c->motor, &d->now, d->v_V, c->ts_s);
+    return s->theta_e_rad + (1.5f * c->ts_s * s->omega_e_radps); /* EQ-DRIVE-2 */
+}
+
+/* Correct with this sample, predict to the next; returns the angle as above. */
+static float estimate_from_encoder(drive_t *d, const drive_sample_t *s, bool *plausible)
+{
+    const drive_config_t *c = d->config;
+    const dq_t  i_A = frames_park(frames_clarke(s->ia_A, s->ib_A), frames_angle(d->theta_hat_rad));
+    const float angle_error = nodo_encoder_wrap(s->theta_e_rad - d->theta_hat_rad);
+
+    nodo_encoder_correct(&d->observer, &d->theta_hat_rad, &c->nodo_encoder, i_A, angle_error,
+                         c->ts_s);
+    nodo_encoder_predict(&d->observer, &d->theta_hat_rad, &c->motor, d->v_V, c->ts_s);
+    /* A standing angle looks like a load that no motor could carry. */
+    *plausible = symmetric_range(angle_error, c->trip_angle_rad) &&
+                 symmetric_range(d->observer.d_omega, c->trip_d_omega);
+    d->now.omega_e_radps = d->observer.omega_e_radps;
+    d->now.iq_A          = d->observer.iq_A;
+    d->now.id_A          = d->observer.id_A;
+    return d->theta_hat_rad + (0.5f * c->ts_s * d->now.omega_e_radps); /* EQ-DRIVE-2 */
+}
+
+static void update_references(drive_t *d, const drive_sample_t *s, float command_e_radps)
+{
+    const drive_config_t     *c   = d->config;
+    const float               e_w = d->now.omega_e_radps - d->speed_ref.omega_e_radps;
+    const current_ref_input_t in  = {.est        = &d->observer,
+                                     .state      = &d->now,
+                                     .iq_speed_A = nosc_speed_current_A(&c->nosc, e_w),
+                                     .dc_link_V  = s->dc_link_V,
+                                     .v_max_V    = s->dc_link_V * BASE_1_SQRT3};
+    const speed_ref_limits_t  limits =
+        current_ref_speed_limits(&d->current_ref, &c->current_ref, &c->motor, &in, command_e_radps);
+
+    speed_ref_update(&d->speed_ref, &limits, command_e_radps, d->now.omega_e_radps, c->ts_s);
+    current_ref_update(&d->current_ref, &c->current_ref, &c->motor, &d->speed_ref, &in);
+}
+
+/* EQ-DRIVE-1 and the limits; the result is stored as the voltage of the next period. False when the law gives
+ * no number: the limit would turn a NaN into full voltage. */
+static bool control_law(drive_t *d, float v_max_V)
 {
     const drive_config_t *c   = d->config;
     const dq_t            ref = d->current_ref.i_A;
 
-    nosc_error_t e = {.omega_e_radps = d->meas.omega_e_radps - d->speed_ref.omega_e_radps,
-                      .iq_A          = d->meas.iq_A - ref.q,
-                      .id_A          = d->meas.id_A - ref.d};
+    nosc_error_t e = {.omega_e_radps = d->now.omega_e_radps - d->speed_ref.omega_e_radps,
+                      .iq_A          = d->now.iq_A - ref.q,
+                      .id_A          = d->now.id_A - ref.d};
     e = nosc_limit_speed_error(&c->nosc, e, ref.q, d->current_ref.iq_lo_A, d->current_ref.iq_hi_A);
 
     const float w_d =
-        d->meas.omega_e_radps - e.omega_e_radps; /* the reference as far as it is followed */
+        d->now.omega_e_radps - e.omega_e_radps; /* the reference as far as it is followed */
     const dq_t fb_V = nosc_feedback_V(&c->nosc, &e);
-    const dq_t ff_V = feedforward_V(&c->motor, &d->current_ref, w_d, &d->meas, &d->observer);
+    const dq_t ff_V = feedforward_V(&c->motor, &d->current_ref, w_d, &d->now, &d->observer);
     const dq_t u_V  = {.d = fb_V.d + ff_V.d, .q = fb_V.q + ff_V.q};
 
-    const dq_t              hold_V = feedforward_hold_V(&c->motor, &d->meas, &d->observer);
-    const voltage_limited_t v      = voltage_limit(u_V, hold_V, v_max_V);
-    d->v_V                         = v.v_V;
-    d->v_limited                   = v.limited;
+    if (!symmetric_range(u_V.d, VOLTAGE_ANY_V) || !symmetric_range(u_V.q, VOLTAGE_ANY_V)) {
+        return false;
+    }
+    const float             hold_q_V = feedforward_hold_q_V(&c->motor, &d->now, &d->observer);
+    const voltage_limited_t v        = voltage_limit(u_V, hold_q_V, v_max_V);
+    d->v_V                           = v.v_V;
+    d->v_limited                     = v.limited;
+    return true;
+}
+
+static drive_output_t modulate(const drive_t *d, float theta_rad, float dc_link_V)
+{
+    const drive_config_t *c     = d->config;
+    const frames_angle_t  angle = frames_angle(theta_rad);
+    const dq_t            i_A   = {.d = d->now.id_A, .q = d->now.iq_A};
+    const abc_t           duty  = svpwm_duty(frames_inverse_park(d->v_V, angle), dc_link_V);
+    const abc_t           i_abc = frames_inverse_clarke(frames_inverse_park(i_A, angle));
+    const drive_output_t  out   = {.duty        = dead_time_compensate(&c->dead_time, duty, i_abc),
+                                   .gate_enable = true};
+    return out;
 }
 
 static drive_output_t run(drive_t *d, const drive_sample_t *s, const drive_command_t *command)
 {
-    const drive_config_t *c       = d->config;
-    const float           v_max_V = s->dc_link_V * BASE_1_SQRT3;
+    bool        plausible = true;
+    const float theta_rad = (d->config->form == DRIVE_FORM_ENCODER)
+                                ? estimate_from_encoder(d, s, &plausible)
+                                : estimate_from_speed(d, s);
 
-    nodo_update(&d->observer, &c->nodo, &c->motor, &d->meas, d->v_V, c->ts_s);
-    speed_ref_update(&d->speed_ref, command->omega_e_radps, c->accel_max_e_radps2, c->ts_s);
-
-    const float               e_w = d->meas.omega_e_radps - d->speed_ref.omega_e_radps;
-    const current_ref_input_t in  = {.est        = &d->observer,
-                                     .meas       = &d->meas,
-                                     .iq_speed_A = nosc_speed_current_A(&c->nosc, e_w),
-                                     .v_max_V    = v_max_V};
-    current_ref_update(&d->current_ref, &c->current_ref, &c->motor, &d->speed_ref, &in);
-    control_law(d, v_max_V);
-
-    if (!symmetric_range(d->v_V.d, s->dc_link_V) || !symmetric_range(d->v_V.q, s->dc_link_V)) {
+    if (!plausible) {
+        return trip(d, DRIVE_FAULT_ENCODER);
+    }
+    if (!symmetric_range(d->now.omega_e_radps, d->config->trip_speed_e_radps)) {
+        return trip(d, DRIVE_FAULT_OVER_SPEED);
+    }
+    update_references(d, s, command->omega_e_radps);
+    if (!control_law(d, s->dc_link_V * BASE_1_SQRT3)) {
         return trip(d, DRIVE_FAULT_NUMERIC);
     }
-    /* EQ-DRIVE-2: in force from one to two periods after this sample. */
-    const float          theta = s->theta_e_rad + (1.5f * c->ts_s * s->omega_e_radps);
-    const drive_output_t out   = {
-          .duty        = svpwm_duty(frames_inverse_park(d->v_V, frames_angle(theta)), s->dc_link_V),
-          .gate_enable = true};
-    return out;
+    return modulate(d, theta_rad, s->dc_link_V);
 }
 
 drive_output_t drive_tick(drive_t *d, const drive_sample_t *sample, const drive_command_t *command)
@@ -139,19 +209,12 @@ drive_output_t drive_tick(drive_t *d, const drive_sample_t *sample, const drive_
     if (fault != DRIVE_FAULT_NONE) {
         return trip(d, fault);
     }
-
-    const dq_t i_A =
-        frames_park(frames_clarke(sample->ia_A, sample->ib_A), frames_angle(sample->theta_e_rad));
-    d->meas.omega_e_radps = sample->omega_e_radps;
-    d->meas.iq_A          = i_A.q;
-    d->meas.id_A          = i_A.d;
-
     if (!command->run) {
         d->state = DRIVE_OFF;
         return open_bridge;
     }
     if (d->state == DRIVE_OFF) {
-        start(d);
+        start(d, sample);
     }
     return run(d, sample, command);
 }

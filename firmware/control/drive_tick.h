@@ -6,7 +6,10 @@
  *     u = -Lambda(e_iq) e - d_dq + u_ff                                        EQ-DRIVE-1, paper A (42)
  *
  * Call drive_tick() once per control period. Its duty ratios take effect one period later and hold for
- * one period; the voltage is turned by 1.5 periods of rotation to meet its middle.   EQ-DRIVE-2
+ * one period; the voltage is turned to the angle in the middle of that period.       EQ-DRIVE-2
+ *
+ * Encoder form: the observer is corrected with this sample and predicted to the instant at which the new
+ * voltage takes effect; references and law act on the prediction. Speed form: on the measurement.
  *
  * Nothing received is trusted: an invalid, non-finite or out-of-range sample or command opens the bridge
  * in the same call and latches the first reason until drive_reset().
@@ -26,7 +29,7 @@ typedef struct {
     float ib_A;          /**< phase current, positive into the motor */
     float dc_link_V;     /**< dc-link voltage */
     float theta_e_rad;   /**< electrical angle, -2 pi .. 2 pi */
-    float omega_e_radps; /**< electrical speed */
+    float omega_e_radps; /**< electrical speed; the encoder form reads it only when it starts */
     bool  valid;         /**< all of the above were measured in this period */
 } drive_sample_t;
 
@@ -49,6 +52,7 @@ typedef enum {
     DRIVE_FAULT_OVER_CURRENT, /**< phase current beyond the trip level, or not a number */
     DRIVE_FAULT_DC_LINK,      /**< dc link outside its accepted range, or not a number */
     DRIVE_FAULT_OVER_SPEED,   /**< speed beyond the trip level, or not a number */
+    DRIVE_FAULT_ENCODER,      /**< the angle jumped, or stands still while the motor turns fast */
     DRIVE_FAULT_COMMAND,      /**< commanded speed out of range, or not a number */
     DRIVE_FAULT_NUMERIC       /**< the law produced a voltage that is not a number */
 } drive_fault_t;
@@ -58,10 +62,11 @@ typedef struct {
     drive_state_t         state;
     drive_fault_t         fault;
     nodo_t                observer;
+    float                 theta_hat_rad; /**< encoder form: angle that belongs to observer */
+    nodo_meas_t           now; /**< what the law acts on: measured, or predicted (encoder form) */
     speed_ref_t           speed_ref;
     current_ref_t         current_ref;
-    nodo_meas_t           meas; /**< last measurement in the rotor frame */
-    dq_t                  v_V;  /**< limited voltage computed last; in force from the next tick */
+    dq_t                  v_V; /**< limited voltage computed last; in force from the next tick */
     bool                  v_limited; /**< v_V was limited */
 } drive_t;
 

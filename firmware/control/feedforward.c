@@ -13,12 +13,8 @@ dq_t feedforward_V(const motor_reduced_t *m, const current_ref_t *ref, float w_d
     return u_V;
 }
 
-dq_t feedforward_hold_V(const motor_reduced_t *m, const nodo_meas_t *y, const nodo_t *est)
+float feedforward_hold_q_V(const motor_reduced_t *m, const nodo_meas_t *y, const nodo_t *est)
 {
-    const float w   = y->omega_e_radps;
-    const dq_t  h_V = {
-         /* EQ-FEEDFORWARD-3 */
-         .d = m->inv_l8 * ((m->l7 * y->id_A) - (m->l9 * w * y->iq_A) - est->d_d),
-         .q = m->inv_l6 * ((m->l4 * y->iq_A) + (m->l5 * w) + (m->l10 * w * y->id_A) - est->d_q)};
-    return h_V;
+    const float w = y->omega_e_radps; /* EQ-FEEDFORWARD-3 */
+    return m->inv_l6 * ((m->l4 * y->iq_A) + (m->l5 * w) + (m->l10 * w * y->id_A) - est->d_q);
 }

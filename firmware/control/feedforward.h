@@ -30,12 +30,12 @@ dq_t feedforward_V(const motor_reduced_t *m, const current_ref_t *ref, float w_d
                    const nodo_meas_t *y, const nodo_t *est);
 
 /**
- * @brief Voltage that keeps the measured currents where they are at the measured speed:
+ * @brief q voltage that keeps the q current where it is at the present speed:
  *
- *     h_q = (l4 iq + l5 w + l10 w id - d_q) / l6,   h_d = (l7 id - l9 w iq - d_d) / l8   EQ-FEEDFORWARD-3
+ *     h_q = (l4 iq + l5 w + l10 w id - d_q) / l6                            EQ-FEEDFORWARD-3
  *
  * Mostly the back-EMF: a voltage limit has to cover this first.
  */
-dq_t feedforward_hold_V(const motor_reduced_t *m, const nodo_meas_t *y, const nodo_t *est);
+float feedforward_hold_q_V(const motor_reduced_t *m, const nodo_meas_t *y, const nodo_t *est);
 
 #endif /* FEEDFORWARD_H */

@@ -1,11 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file speed_ref.h
- * @brief Acceleration-limited speed reference.
+ * @brief Reference model: the fastest speed profile within given limits of acceleration and jerk.
  *
- * Paper A assumes below (5) that w_d changes slowly and uses its derivative in (6); a step has none.
- * The reference therefore moves to the commanded speed at no more than the acceleration that the
- * current limit can follow beside the rated load.                        EQ-SPEED-REF-1
+ * With jerk j and period Ts, the acceleration that still stops at the command is
+ *
+ *     a* = (j Ts / 2) (sqrt(1 + 8 |command - w_d| / (j Ts^2)) - 1)              EQ-SPEED-REF-1
+ * (|command - w_d| / Ts when that is less), and
+ *
+ *     w_d'' = +-j towards clamp(+-a*, lowest, highest acceleration)             EQ-SPEED-REF-2
+ *
+ * The last step may pass the command by j Ts^2 / 8; the end is exact. Both derivatives are known,
+ * so that w_d' and w_d'' are known and nothing has to be differentiated. The last step may pass the
+ * command by j Ts^2 / 8; the end is exact.
  */
 #ifndef SPEED_REF_H
 #define SPEED_REF_H
@@ -13,23 +20,35 @@
 #include "base.h"
 
 typedef struct {
-    float omega_e_radps;      /**< w_d, electrical */
-    float omega_dot_e_radps2; /**< its derivative over the coming period */
+    float omega_e_radps;         /**< w_d, electrical */
+    float omega_dot_e_radps2;    /**< w_d' */
+    float omega_2dot_e_radps3;   /**< w_d'' over the last step */
+    float accel_wanted_e_radps2; /**< w_d' that the command asks for, whatever the limits */
 } speed_ref_t;
 
-/** Starts at the given speed, at rest in acceleration. */
+/** What the drive can do now. */
+typedef struct {
+    float accel_hi_e_radps2; /**< highest acceleration */
+    float accel_lo_e_radps2; /**< lowest (most negative) acceleration */
+    float jerk_e_radps3;     /**< largest |w_d''|, > 0 */
+    float near_e_radps;      /**< w_d stays this close to the speed, > 0 */
+} speed_ref_limits_t;
+
+/** Starts at the given speed, without acceleration. */
 void speed_ref_reset(speed_ref_t *r, float omega_e_radps);
 
 /**
  * @brief Advance by one period towards the command.
  *
- * @param r                  Reference, updated in place.
- * @param command_e_radps    Commanded electrical speed.
- * @param accel_max_e_radps2 Largest |derivative|, > 0.
- * @param ts_s               Control period [s].
+ * @param r               Reference, updated in place.
+ * @param limits          What the drive can do now.
+ * @param command_e_radps Commanded electrical speed.
+ * @param omega_e_radps   Actual speed: a reference further away than limits->near_e_radps waits for it.
+ * @param ts_s            Control period [s].
  *
- * The derivative is zero on the last, shorter step of a ramp. Context: control ISR. No division.
+ * Context: control ISR. One division, one square root.
  */
-void speed_ref_update(speed_ref_t *r, float command_e_radps, float accel_max_e_radps2, float ts_s);
+void speed_ref_update(speed_ref_t *r, const speed_ref_limits_t *limits, float command_e_radps,
+                      float omega_e_radps, float ts_s);
 
 #endif /* SPEED_REF_H */

@@ -3,40 +3,28 @@
 
 #include <math.h>
 
-/* Largest s <= 1 with |hold + s r| <= v_max, or the s of the shortest vector, not below 0. */
-static float scale(dq_t hold_V, dq_t r_V, float v_max_V)
-{
-    const float a = (r_V.d * r_V.d) + (r_V.q * r_V.q);
-    const float b = (r_V.d * hold_V.d) + (r_V.q * hold_V.q);
-    const float c = (hold_V.d * hold_V.d) + (hold_V.q * hold_V.q) - (v_max_V * v_max_V);
+/* Chosen: a tenth of the holding voltage given up lets the q current fall by no more than a tenth of what
+ * the back-EMF alone would make it fall. */
+#define KEEP_SHARE 0.9f
 
-    if (a <= 0.0f) {
-        return 0.0f;
-    }
-    const float discriminant = (b * b) - (a * c);
-    const float root         = (discriminant > 0.0f) ? sqrtf(discriminant) : 0.0f;
-    return base_clamp((root - b) / a, 0.0f, 1.0f);
+static float leg(float hypotenuse, float other_leg)
+{
+    const float square = (hypotenuse * hypotenuse) - (other_leg * other_leg);
+    return (square > 0.0f) ? sqrtf(square) : 0.0f;
 }
 
-voltage_limited_t voltage_limit(dq_t v_V, dq_t hold_V, float v_max_V)
+voltage_limited_t voltage_limit(dq_t v_V, float hold_q_V, float v_max_V)
 {
-    const float       v_max2 = v_max_V * v_max_V;
-    voltage_limited_t out    = {.v_V = v_V, .limited = false};
+    voltage_limited_t out = {.v_V = v_V, .limited = false};
 
-    if (base_in_range((v_V.d * v_V.d) + (v_V.q * v_V.q), 0.0f, v_max2)) {
+    if (base_in_range((v_V.d * v_V.d) + (v_V.q * v_V.q), 0.0f, v_max_V * v_max_V)) {
         return out;
     }
-    const dq_t  r_V = {.d = v_V.d - hold_V.d, .q = v_V.q - hold_V.q};
-    const float s   = scale(hold_V, r_V, v_max_V); /* EQ-VOLTAGE-1 */
-    out.limited     = true;
-    out.v_V.d       = hold_V.d + (s * r_V.d);
-    out.v_V.q       = hold_V.q + (s * r_V.q);
-
-    const float length2 = (out.v_V.d * out.v_V.d) + (out.v_V.q * out.v_V.q);
-    if (length2 > v_max2) {
-        const float shrink = v_max_V / sqrtf(length2);
-        out.v_V.d *= shrink;
-        out.v_V.q *= shrink;
-    }
+    const float keep_V = fminf(KEEP_SHARE * fminf(fabsf(hold_q_V), v_max_V), fabsf(v_V.q));
+    const float d_V    = leg(v_max_V, keep_V); /* EQ-VOLTAGE-1 */
+    out.v_V.d          = base_clamp(v_V.d, -d_V, d_V);
+    const float q_V    = leg(v_max_V, out.v_V.d);
+    out.v_V.q          = base_clamp(v_V.q, -q_V, q_V);
+    out.limited        = true;
     return out;
 }

@@ -3,10 +3,14 @@
  * @file voltage.h
  * @brief Voltage limit on the vector.
  *
- *     v_lim = hold + s (v - hold),  s = max { 0 <= s <= 1 : |v_lim| <= v_max }      EQ-VOLTAGE-1
+ * When the wanted vector leaves the circle, most of the q voltage that holds the q current is covered
+ * first, then the d axis gets what it wants, then the q axis what is left:
  *
- * hold is what keeps the currents where they are, so the limit scales their rates of change and keeps
- * the direction. Where no s fits, the shortest vector on that line is taken and scaled into the circle.
+ *     keep = min(0.9 |hold_q|, 0.9 v_max, |u_q|)
+ *     v_d  = clamp(u_d, +-sqrt(v_max^2 - keep^2)),  v_q = clamp(u_q, +-sqrt(v_max^2 - v_d^2))   EQ-VOLTAGE-1
+ *
+ * The d axis comes before the rest because only a d current can make room again at high speed; it does not
+ * come before the back-EMF because the q current would run away.
  */
 #ifndef VOLTAGE_H
 #define VOLTAGE_H
@@ -19,12 +23,12 @@ typedef struct {
 } voltage_limited_t;
 
 /**
- * @param v_V     Wanted voltage.
- * @param hold_V  Voltage to cover first.
- * @param v_max_V Radius of the circle [V], >= 0.
+ * @param v_V      Wanted voltage.
+ * @param hold_q_V q voltage that keeps the q current where it is.
+ * @param v_max_V  Radius of the circle [V], >= 0.
  *
- * Context: control ISR. When limiting: two square roots and two divisions at most, otherwise none.
+ * Context: control ISR. No division; two square roots when limiting.
  */
-voltage_limited_t voltage_limit(dq_t v_V, dq_t hold_V, float v_max_V);
+voltage_limited_t voltage_limit(dq_t v_V, float hold_q_V, float v_max_V);
 
 #endif /* VOLTAGE_H */

@@ -9,6 +9,9 @@
 #include <fmt/format.h>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "firmware_config.hpp"
+#include "sampled_model.hpp"
+
 namespace sdre {
 namespace {
 
@@ -16,6 +19,7 @@ using Eigen::MatrixXd;
 
 // Chosen: fine enough that neighbouring points differ by under 2 % of the range.
 constexpr int points_per_side = 64;
+constexpr int speed_points    = 4;
 
 // The phase current can pass from -max to +max while the bridge runs, so errors reach twice the limit;
 // beyond the same figure the firmware trips.
@@ -35,8 +39,8 @@ MatrixXd series_gain(const std::vector<MatrixXd> &gain, double s, std::size_t ma
 
 /// The exact gain at a frozen state, from the exact solution X of the SDRE there.
 using ExactGain = std::function<MatrixXd(const MatrixXd &X)>;
-/// The transition matrix of the sampled loop with gain K at scheduling current s.
-using Transition = std::function<MatrixXd(const MatrixXd &K, double s)>;
+/// The spectral radius of the sampled loop with gain K at scheduling current s.
+using Radius = std::function<double(const MatrixXd &K, double s)>;
 /// The continuous closed loop.
 using ClosedLoop = std::function<MatrixXd(const MatrixXd &K, double s)>;
 
@@ -78,7 +82,7 @@ double usable_range(const std::vector<double> &error, const std::vector<double> 
 }
 
 SampledLoop sweep(const GainSeries &g, double range, double ts, const ExactGain &exact_gain,
-                  const Transition &transition, const ClosedLoop &closed_loop)
+                  const Radius &radius_of, const ClosedLoop &closed_loop)
 {
     SampledLoop loop;
     loop.range_A                     = range;
@@ -103,42 +107,58 @@ SampledLoop sweep(const GainSeries &g, double range, double ts, const ExactGain 
             loop.worst_pole_1ps  = std::max(loop.worst_pole_1ps, pole.real());
             loop.fastest_pole_ts = std::max(loop.fastest_pole_ts, std::abs(pole) * ts);
         }
-        const double radius  = transition(K, s[i]).eigenvalues().cwiseAbs().maxCoeff();
-        loop.spectral_radius = std::max(loop.spectral_radius, radius);
+        loop.spectral_radius = std::max(loop.spectral_radius, radius_of(K, s[i]));
     }
     return loop;
 }
 
+/// Speeds at which the encoder form is checked: standstill to the trip speed, both directions.
+std::vector<double> speed_grid(const Design &d)
+{
+    const double trip = static_cast<double>(trip_speed_ratio) * d.drive.motor.rated_speed_e_radps;
+    std::vector<double> w;
+    for (int i = -speed_points; i <= speed_points; i++) {
+        w.push_back(trip * i / speed_points);
+    }
+    return w;
+}
+
 SampledLoop sweep_nosc(const Design &d)
 {
-    const double          ts = control_period_s(d.drive);
-    const MatrixXd        B  = nosc_input_matrix(d.l);
-    const MatrixXd       &A0 = d.nosc.problem.A0;
-    const MatrixXd       &dA = d.nosc.problem.dA[0];
+    const double          ts      = control_period_s(d.drive);
+    const bool            delayed = d.drive.nodo.form == NodoForm::speed;
+    const MatrixXd        B       = nosc_input_matrix(d.l);
+    const MatrixXd       &A0      = d.nosc.problem.A0;
+    const MatrixXd       &dA      = d.nosc.problem.dA[0];
     const Eigen::Vector2d T_inverse(1.0 / d.drive.nosc.T[0], 1.0 / d.drive.nosc.T[1]);
 
     const auto exact = [&](const MatrixXd &X) -> MatrixXd {
         return T_inverse.asDiagonal() * B.transpose() * X;
     };
     const auto loop = [&](const MatrixXd &K, double s) -> MatrixXd { return A0 + s * dA - B * K; };
-    const auto step = [&](const MatrixXd &K, double s) { // EQ-CERT-1
-        MatrixXd M               = MatrixXd::Zero(5, 5);
-        M.topLeftCorner(3, 3)    = (A0 + s * dA) * ts;
-        M.topRightCorner(3, 2)   = B * ts;
+    const auto radius = [&](const MatrixXd &K, double s) { // EQ-CERT-1
+        MatrixXd M             = MatrixXd::Zero(5, 5);
+        M.topLeftCorner(3, 3)  = (A0 + s * dA) * ts;
+        M.topRightCorner(3, 2) = B * ts;
+        const MatrixXd E       = M.exp();
+        if (!delayed) { // the prediction takes the delay out
+            return spectral_radius(E.topLeftCorner(3, 3) - E.topRightCorner(3, 2) * K);
+        }
         MatrixXd Z               = MatrixXd::Zero(5, 5);
-        Z.topRows(3)             = M.exp().topRows(3);
+        Z.topRows(3)             = E.topRows(3);
         Z.bottomLeftCorner(2, 3) = -K;
-        return Z;
+        return spectral_radius(Z);
     };
-    return sweep(d.nosc, certified_range_A(d.drive.motor), ts, exact, step, loop);
+    return sweep(d.nosc, certified_range_A(d.drive.motor), ts, exact, radius, loop);
 }
 
 SampledLoop sweep_nodo(const Design &d)
 {
-    const double          ts    = control_period_s(d.drive);
-    const ObserverModel   model = nodo_model(d.l);
-    const Eigen::Vector3d T_inverse(1.0 / d.drive.nodo.T[0], 1.0 / d.drive.nodo.T[1],
-                                    1.0 / d.drive.nodo.T[2]);
+    const double              ts     = control_period_s(d.drive);
+    const ObserverModel       model  = nodo_model(d.l, d.drive.nodo.form);
+    const std::vector<double> speeds = speed_grid(d);
+    const Eigen::Vector3d     T_inverse(1.0 / d.drive.nodo.T[0], 1.0 / d.drive.nodo.T[1],
+                                        1.0 / d.drive.nodo.T[2]);
 
     const auto exact = [&](const MatrixXd &X) -> MatrixXd {
         return X * model.C.transpose() * T_inverse.asDiagonal();
@@ -146,10 +166,19 @@ SampledLoop sweep_nodo(const Design &d)
     const auto loop = [&](const MatrixXd &L, double s) -> MatrixXd {
         return model.A0 + s * model.dA - L * model.C;
     };
-    const auto step = [&](const MatrixXd &L, double s) -> MatrixXd { // EQ-CERT-2
-        return MatrixXd::Identity(6, 6) + ts * loop(L, s);
+    const auto radius = [&](const MatrixXd &L, double s) {
+        if (d.drive.nodo.form == NodoForm::speed) { // EQ-CERT-2
+            return spectral_radius(MatrixXd::Identity(6, 6) + ts * loop(L, s));
+        }
+        double worst = 0.0;
+        for (const double w : speeds) { // EQ-CERT-3: observer, law and motor at a steady state
+            const OperatingPoint at{w, s, mtpa_id_A(d.l, s)};
+            const LoopGains      gains{d.nosc.gain[0], L};
+            worst = std::max(worst, spectral_radius(sampled_model(d.l, d.l, gains, at, ts).A));
+        }
+        return worst;
     };
-    return sweep(d.nodo, certified_range_A(d.drive.motor), ts, exact, step, loop);
+    return sweep(d.nodo, certified_range_A(d.drive.motor), ts, exact, radius, loop);
 }
 
 void judge(const char *name, const GainSeries &g, const SampledLoop &loop,

@@ -32,7 +32,7 @@ GainSeries solve_nodo(const ReducedParameters &l, const NodoSpec &spec)
 
     const Eigen::Vector3d T_inverse(1.0 / spec.T[0], 1.0 / spec.T[1], 1.0 / spec.T[2]);
     for (const SeriesTerm &term : out.series.terms) {
-        out.gain.emplace_back(term.X * nodo_model(l).C.transpose() *
+        out.gain.emplace_back(term.X * nodo_model(l, spec.form).C.transpose() *
                               T_inverse.asDiagonal()); // (32), (39)
         out.residuals.push_back(term.relative_residual);
     }

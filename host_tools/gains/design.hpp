@@ -16,7 +16,7 @@ namespace sdre {
 struct GainSeries {
     SdreProblem                  problem;
     SdreSeries                   series;
-    std::vector<Eigen::MatrixXd> gain;      ///< NOSC: Lambda_n, 2 x 3. NODO: L_n, 6 x 3.
+    std::vector<Eigen::MatrixXd> gain;      ///< NOSC: Lambda_n, 2 x 3. NODO: L_n, 6 x 3 or 7 x 3.
     std::vector<double>          residuals; ///< [0] Riccati, [n] Lyapunov, relative
 };
 

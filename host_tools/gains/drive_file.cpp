@@ -63,10 +63,11 @@ Motor read_motor(TomlReader t)
 Inverter read_inverter(TomlReader t)
 {
     Inverter inverter;
-    inverter.dc_link_V          = t.number("dc_link_V", dc_link_V);
-    inverter.pwm_frequency_Hz   = t.number("pwm_frequency_Hz", pwm_frequency_Hz);
-    inverter.dead_time_s        = t.number("dead_time_s", dead_time_s);
-    inverter.updates_per_period = t.integer_or("updates_per_period", {1, 2}, 1);
+    inverter.dc_link_V              = t.number("dc_link_V", dc_link_V);
+    inverter.pwm_frequency_Hz       = t.number("pwm_frequency_Hz", pwm_frequency_Hz);
+    inverter.dead_time_s            = t.number("dead_time_s", dead_time_s);
+    inverter.updates_per_period     = t.integer_or("updates_per_period", {1, 2}, 1);
+    inverter.dead_time_compensation = t.boolean_or("dead_time_compensation", true);
     t.reject_unknown_keys();
     return inverter;
 }
@@ -91,11 +92,20 @@ NoscSpec read_nosc(TomlReader t)
 
 NodoSpec read_nodo(TomlReader t)
 {
-    NodoSpec spec;
-    spec.order = t.integer("order", series_order);
-    spec.Q     = last_of<6>(t.numbers("Q", {6}, state_weight));
+    NodoSpec          spec;
+    const std::string form = t.text_or("form", "speed");
+    if (form != "speed" && form != "encoder") {
+        t.fail("form",
+               fmt::format("= \"{}\" is not allowed: must be \"speed\" or \"encoder\"", form));
+    }
+    const bool speed = form == "speed";
+    spec.form        = speed ? NodoForm::speed : NodoForm::encoder;
+    spec.order       = t.integer("order", series_order);
+    spec.Q           = t.numbers("Q", {speed ? 6U : 7U}, state_weight);
     // The paper writes six weights; its C_d is zero for the first three, so only the last three act.
-    spec.T = last_of<3>(t.numbers("T", {6, 3}, input_weight));
+    const std::vector<std::size_t> lengths =
+        speed ? std::vector<std::size_t>{6, 3} : std::vector<std::size_t>{3};
+    spec.T = last_of<3>(t.numbers("T", lengths, input_weight));
     t.reject_unknown_keys();
     return spec;
 }
@@ -111,6 +121,7 @@ std::string normalised(const Drive &d)
                      m.rated_speed_e_radps, m.rated_torque_Nm, m.max_current_A);
     s += fmt::format("{:.17g};{:.17g};{:.17g};{};{};", i.dc_link_V, i.pwm_frequency_Hz,
                      i.dead_time_s, i.updates_per_period, d.encoder.lines);
+    s += i.dead_time_compensation ? "compensated;" : "uncompensated;";
     s += fmt::format("nosc;{};", d.nosc.order);
     for (double x : d.nosc.Q) {
         s += fmt::format("{:.17g};", x);
@@ -118,7 +129,8 @@ std::string normalised(const Drive &d)
     for (double x : d.nosc.T) {
         s += fmt::format("{:.17g};", x);
     }
-    s += fmt::format("nodo;{};", d.nodo.order);
+    s += fmt::format("nodo;{};{};", d.nodo.form == NodoForm::speed ? "speed" : "encoder",
+                     d.nodo.order);
     for (double x : d.nodo.Q) {
         s += fmt::format("{:.17g};", x);
     }

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace sdre {
 
@@ -23,10 +24,11 @@ struct Motor {
 };
 
 struct Inverter {
-    double dc_link_V          = 0.0;
-    double pwm_frequency_Hz   = 0.0;
-    double dead_time_s        = 0.0;
-    int    updates_per_period = 1; ///< control runs at pwm_frequency_Hz times this
+    double dc_link_V              = 0.0;
+    double pwm_frequency_Hz       = 0.0;
+    double dead_time_s            = 0.0;
+    int    updates_per_period     = 1; ///< control runs at pwm_frequency_Hz times this
+    bool   dead_time_compensation = true;
 };
 
 struct Encoder {
@@ -40,10 +42,15 @@ struct NoscSpec {
     std::array<double, 2> T{};
 };
 
-/// Weights of the observer: d_w, d_q, d_d, w, i_q, i_d; measured w, i_q, i_d.
+/// What the observer measures beside the currents.
+enum class NodoForm { speed, encoder };
+
+/// Weights of the observer. Speed form: states d_w, d_q, d_d, w, i_q, i_d; measured w, i_q, i_d.
+/// Encoder form: the angle theta is a seventh state; measured i_q, i_d, theta.
 struct NodoSpec {
+    NodoForm              form  = NodoForm::speed;
     int                   order = 0;
-    std::array<double, 6> Q{};
+    std::vector<double>   Q;
     std::array<double, 3> T{};
 };
 

@@ -4,25 +4,37 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sampled_model.hpp"
+
 namespace sdre {
 namespace {
 
-// Chosen: five periods. Long against the limit cycle that a shorter one lets through with wrong
+// Chosen: eight periods. Long against the limit cycle that a shorter one lets through with wrong
 // parameters, short against the speed loop (docs/errata.md, d/dt of the current references).
-constexpr double reference_filter_periods = 5.0;
+constexpr double reference_filter_periods = 8.0;
 // Chosen: half the nominal l1, reached at e_id = l1 / (2 |l11|).
 constexpr double smallest_l1_ratio = 0.5;
 // Chosen: room for regeneration and for a weak supply; the board's hardware limits stand behind it.
-constexpr double dc_link_min_ratio = 0.3;
-constexpr double dc_link_max_ratio = 1.35;
-// Chosen: the flux-weakening range of the shipped motors ends below twice the rated speed.
-constexpr double trip_speed_ratio   = 3.0;
+constexpr double dc_link_min_ratio  = 0.3;
+constexpr double dc_link_max_ratio  = 1.35;
 constexpr double trip_current_ratio = 2.0;
-// Chosen: a motor whose rated torque takes the whole current circle still accelerates with this share.
-constexpr double smallest_torque_share = 0.25;
+// Chosen: twice the torque the motor has, so that a motor with half the believed inertia does not trip.
+// Measured: a standing encoder is found above about 120 rad/s.
+constexpr double trip_torque_ratio = 2.0;
+// Chosen: an encoder wrong by this much turns a tenth of the torque into flux.
+constexpr double trip_angle_rad = 0.45;
+// Chosen: 2 % of the torque stays for the feedback while the reference accelerates.
+constexpr double torque_share = 0.98;
+// Chosen: regeneration is full up to 10 % above the nominal dc link and nothing at 25 %, below the trip.
+constexpr double regen_start_ratio = 1.10;
+constexpr double regen_end_ratio   = 1.25;
+// Chosen: 2.5 % of the current limit, ten times the rms noise of the shipped board's sensors.
+constexpr double dead_time_fade_ratio = 0.025;
+// A surface magnet motor has no saliency; this many amperes stand for its infinite k of EQ-CURRENT-REF-2.
+constexpr double largest_mtpa_A = 1e6;
 
-// Chosen: 5 % of the voltage circle stays free for transients.
-constexpr double voltage_share = 0.95;
+// Chosen: 3 % of the voltage circle stays free for transients.
+constexpr double voltage_share = 0.97;
 
 float single(double x)
 {
@@ -36,76 +48,133 @@ float gain_entry(const Eigen::MatrixXd &gain, Eigen::Index row, Eigen::Index col
     return (std::abs(x) < 1e-12 * gain.norm()) ? 0.0F : single(x);
 }
 
-double mtpa_gain_1pA(const ReducedParameters &l)
+/// k of EQ-CURRENT-REF-2.
+double mtpa_A(const ReducedParameters &l)
 {
-    return (l[10] - 1.0) / l[5]; // EQ-CURRENT-REF-1
+    return std::min(0.5 * l[5] / std::max(1.0 - l[10], 1e-9), largest_mtpa_A);
 }
 
-/// The iq at which (iq, mtpa_gain iq^2) meets the current circle: iq^2 + k^2 iq^4 = max^2.
-double largest_iq_A(const Motor &motor, double k)
+/// The iq at which the MTPA curve meets the current circle. Exact: id = k/2 - sqrt(k^2/4 + max^2/2); second order:
+/// iq^2 + iq^4 / (2 k)^2 = max^2.
+double largest_iq_A(const Motor &motor, double k, bool exact)
 {
     const double i2 = motor.max_current_A * motor.max_current_A;
-    const double k2 = k * k;
-    return std::sqrt(2.0 * i2 / (1.0 + std::sqrt(1.0 + 4.0 * k2 * i2)));
+    if (exact) {
+        const double id_A = -0.5 * i2 / (0.5 * k + std::sqrt(0.25 * k * k + 0.5 * i2));
+        return std::sqrt(i2 - id_A * id_A);
+    }
+    return std::sqrt(2.0 * i2 / (1.0 + std::sqrt(1.0 + i2 / (k * k))));
+}
+
+/// On the MTPA curve at the current limit.
+double largest_torque_Nm(const Motor &motor, const ReducedParameters &l)
+{
+    const double iq_A = largest_iq_A(motor, mtpa_A(l), true);
+    return torque_Nm(motor, mtpa_id_A(l, iq_A), iq_A);
+}
+
+/// The speed error whose feedback asks for the current to go from one limit to the other.
+double near_e_radps(const Design &d)
+{
+    const Eigen::MatrixXd &Lambda = d.nosc.gain[0];
+    const double           full =
+        2.0 * d.drive.motor.max_current_A * Lambda(0, 1) / std::max(Lambda(0, 0), 1e-9);
+    return std::min(full, trip_speed_ratio * d.drive.motor.rated_speed_e_radps);
+}
+
+template <std::size_t Rows, std::size_t Columns>
+void copy_matrix(const Eigen::MatrixXd &from, float (&to)[Rows][Columns])
+{
+    for (std::size_t row = 0; row < Rows; row++) {
+        for (std::size_t column = 0; column < Columns; column++) {
+            to[row][column] =
+                gain_entry(from, static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column));
+        }
+    }
 }
 
 void copy_gains(const Design &d, drive_config_t &c)
 {
+    const auto  nodo_order = static_cast<int16_t>(d.drive.nodo.order);
+    const float nodo_iq_A  = single(d.certificate.nodo.series_range_A);
+
     c.nosc.order          = static_cast<int16_t>(d.drive.nosc.order);
     c.nosc.iq_error_max_A = single(d.certificate.nosc.series_range_A);
-    for (int n = 0; n <= d.drive.nosc.order; n++) {
-        for (int row = 0; row < NOSC_N_U; row++) {
-            for (int column = 0; column < NOSC_N_E; column++) {
-                c.nosc.lambda[n][row][column] =
-                    gain_entry(d.nosc.gain[static_cast<std::size_t>(n)], row, column);
-            }
+    for (std::size_t n = 0; n < d.nosc.gain.size(); n++) {
+        copy_matrix(d.nosc.gain[n], c.nosc.lambda[n]);
+    }
+    if (d.drive.nodo.form == NodoForm::encoder) {
+        c.form                  = DRIVE_FORM_ENCODER;
+        c.nodo_encoder.order    = nodo_order;
+        c.nodo_encoder.iq_max_A = nodo_iq_A;
+        for (std::size_t n = 0; n < d.nodo.gain.size(); n++) {
+            copy_matrix(d.nodo.gain[n], c.nodo_encoder.gain[n]);
+        }
+    } else {
+        c.form                = DRIVE_FORM_SPEED;
+        c.nodo.order          = nodo_order;
+        c.nodo.iq_max_A       = nodo_iq_A;
+        c.nodo.iq_certified_A = single(d.certificate.nodo.range_A);
+        for (std::size_t n = 0; n < d.nodo.gain.size(); n++) {
+            copy_matrix(d.nodo.gain[n], c.nodo.gain[n]);
         }
     }
-    c.nodo.order          = static_cast<int16_t>(d.drive.nodo.order);
-    c.nodo.iq_max_A       = single(d.certificate.nodo.series_range_A);
-    c.nodo.iq_certified_A = single(d.certificate.nodo.range_A);
-    for (int n = 0; n <= d.drive.nodo.order; n++) {
-        for (int row = 0; row < NODO_N_X; row++) {
-            for (int column = 0; column < NODO_N_Y; column++) {
-                c.nodo.gain[n][row][column] =
-                    gain_entry(d.nodo.gain[static_cast<std::size_t>(n)], row, column);
-            }
-        }
-    }
+}
+
+current_ref_config_t current_ref_config(const Design &d)
+{
+    const Motor &m      = d.drive.motor;
+    const double ts     = control_period_s(d.drive);
+    const double np     = m.pole_pairs;
+    const double v_dc   = d.drive.inverter.dc_link_V;
+    const double k      = mtpa_A(d.l);
+    const double full_W = 1.5 * v_dc / std::sqrt(3.0) * m.max_current_A;
+
+    // The paper's own form keeps the paper's second-order MTPA.
+    const bool exact = d.drive.nodo.form == NodoForm::encoder;
+
+    current_ref_config_t c{};
+    c.current_max_A     = single(m.max_current_A);
+    c.iq_max_A          = single(largest_iq_A(m, k, exact));
+    c.mtpa_A            = single(k);
+    c.mtpa_exact        = exact;
+    c.voltage_share     = single(voltage_share);
+    c.torque_share      = single(torque_share);
+    c.near_e_radps      = single(near_e_radps(d));
+    c.l1_min            = single(smallest_l1_ratio * d.l[1]);
+    c.filter_per_period = single(1.0 / reference_filter_periods);
+    c.filter_1ps        = single(1.0 / (reference_filter_periods * ts));
+    c.regen_max_W_norm  = single(np * np / m.inertia_kgm2 * full_W); // EQ-CURRENT-REF-7
+    c.regen_start_V     = single(regen_start_ratio * v_dc);
+    c.regen_per_V       = single(1.0 / ((regen_end_ratio - regen_start_ratio) * v_dc));
+    return c;
 }
 
 } // namespace
 
 drive_config_t firmware_config(const Design &d)
 {
-    const Motor             &m             = d.drive.motor;
-    const ReducedParameters &l             = d.l;
-    const double             k             = mtpa_gain_1pA(l);
-    const double             iq_max_A      = largest_iq_A(m, k);
-    const double             torque_max_Nm = torque_Nm(m, k * iq_max_A * iq_max_A, iq_max_A);
-    const double             torque_free_Nm =
-        std::max(torque_max_Nm - m.rated_torque_Nm, smallest_torque_share * torque_max_Nm);
-    const double ts = control_period_s(d.drive);
+    const Motor             &m   = d.drive.motor;
+    const Inverter          &inv = d.drive.inverter;
+    const ReducedParameters &l   = d.l;
 
     drive_config_t c{};
-    c.ts_s               = single(ts);
-    c.accel_max_e_radps2 = single(l[3] * torque_free_Nm); // EQ-SPEED-REF-1
+    c.ts_s               = single(control_period_s(d.drive));
     c.trip_current_A     = single(trip_current_ratio * m.max_current_A);
     c.trip_speed_e_radps = single(trip_speed_ratio * m.rated_speed_e_radps);
-    c.dc_link_min_V      = single(dc_link_min_ratio * d.drive.inverter.dc_link_V);
-    c.dc_link_max_V      = single(dc_link_max_ratio * d.drive.inverter.dc_link_V);
+    c.trip_angle_rad     = single(trip_angle_rad);
+    c.trip_d_omega       = single(trip_torque_ratio * l[3] * largest_torque_Nm(m, l));
+    c.dc_link_min_V      = single(dc_link_min_ratio * inv.dc_link_V);
+    c.dc_link_max_V      = single(dc_link_max_ratio * inv.dc_link_V);
 
     c.motor = {single(l[1]),  single(l[2]),       single(l[3]),      single(l[4]), single(l[5]),
                single(l[6]),  single(l[7]),       single(l[8]),      single(l[9]), single(l[10]),
                single(l[11]), single(1.0 / l[6]), single(1.0 / l[8])};
 
-    c.current_ref.current_max_A     = single(m.max_current_A);
-    c.current_ref.iq_max_A          = single(iq_max_A);
-    c.current_ref.mtpa_gain_1pA     = single(k);
-    c.current_ref.voltage_share     = single(voltage_share);
-    c.current_ref.l1_min            = single(smallest_l1_ratio * l[1]);
-    c.current_ref.filter_per_period = single(1.0 / reference_filter_periods);
-    c.current_ref.filter_1ps        = single(1.0 / (reference_filter_periods * ts));
+    c.current_ref = current_ref_config(d);
+    c.dead_time.share =
+        single(inv.dead_time_compensation ? inv.dead_time_s * inv.pwm_frequency_Hz : 0.0);
+    c.dead_time.inv_fade_1pA = single(1.0 / (dead_time_fade_ratio * m.max_current_A));
     copy_gains(d, c);
     return c;
 }

@@ -6,6 +6,9 @@
 
 namespace sdre {
 
+/// Chosen: the flux-weakening range of the shipped motors ends below twice the rated speed.
+constexpr double trip_speed_ratio = 3.0;
+
 /// Rounds to single precision and adds the limits of the reference path and of the fault detection.
 drive_config_t firmware_config(const Design &design);
 

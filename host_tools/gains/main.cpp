@@ -11,7 +11,9 @@
 #include "design.hpp"
 #include "emit_tables.hpp"
 #include "errors.hpp"
+#include "file_output.hpp"
 #include "report.hpp"
+#include "tune.hpp"
 #include "version.hpp"
 
 namespace {
@@ -23,6 +25,7 @@ struct Options {
     std::string problem;
     std::string out;
     std::string check;
+    std::string spec;
     bool        json = false;
 };
 
@@ -59,6 +62,24 @@ int run_report(const Options &options)
     return exit_ok;
 }
 
+int run_tune(const Options &options)
+{
+    const sdre::Drive    drive    = sdre::read_drive_file(options.drive);
+    const sdre::TuneSpec spec     = sdre::read_tune_spec(options.spec);
+    const auto           progress = [](int evaluations, double worst) {
+        fmt::print(stderr, "\r{} evaluations, worst result {:.3f} of its specification ",
+                             evaluations, worst);
+    };
+    const sdre::TuneResult result = sdre::tune_drive(drive, spec, progress);
+    fmt::print(stderr, "\n");
+    const std::string sections = sdre::tuned_sections(result, spec);
+    const std::string out      = options.out.empty() ? options.drive : options.out;
+    sdre::write_files({{out, sdre::with_sections(sdre::read_text_file(options.drive), sections)}});
+    fmt::print("{}{}: written; worst result / specification {:.2f}{}\n", sections, out,
+               result.worst_ratio, result.worst_ratio > 1.0 ? " (not all are met)" : "");
+    return exit_ok;
+}
+
 int run_care(const Options &options)
 {
     const sdre::CareSolution solution =
@@ -86,6 +107,12 @@ int run(int argc, char **argv)
     report->add_option("DRIVE", options.drive, "drive file (TOML)")->required();
     report->add_flag("--json", options.json, "one JSON object");
 
+    CLI::App *tune = app.add_subcommand(
+        "tune", "find weights from physical specifications and write them to the drive file");
+    tune->add_option("DRIVE", options.drive, "drive file (TOML)")->required();
+    tune->add_option("--spec", options.spec, "specification (TOML)")->required();
+    tune->add_option("--out", options.out, "drive file to write instead");
+
     CLI::App *care = app.add_subcommand("care", "solve A'X + XA - XBR^-1B'X + Q = 0");
     care->add_option("PROBLEM", options.problem, "JSON file with A, Q and B, R (or G)")->required();
     care->add_flag("--json", options.json, "one JSON object");
@@ -100,6 +127,9 @@ int run(int argc, char **argv)
     }
     if (*generate) {
         return run_generate(options);
+    }
+    if (*tune) {
+        return run_tune(options);
     }
     return *report ? run_report(options) : run_care(options);
 }

@@ -59,22 +59,30 @@ SdreProblem nosc_problem(const ReducedParameters &l, const NoscSpec &spec)
             Q.asDiagonal()};
 }
 
-ObserverModel nodo_model(const ReducedParameters &l)
+ObserverModel nodo_model(const ReducedParameters &l, NodoForm form)
 {
-    ObserverModel model{MatrixXd::Zero(6, 6), MatrixXd::Zero(6, 6), MatrixXd::Zero(3, 6)};
-    model.A0.bottomLeftCorner(3, 3) = MatrixXd::Identity(3, 3); // (34); see docs/errata.md for (35)
-    model.A0.bottomRightCorner(3, 3) = constant_part(l);
-    model.dA(3, 5)                   = l[11];
-    model.dA(5, 3)                   = l[9];
-    model.C.rightCols(3)             = MatrixXd::Identity(3, 3);
+    const Eigen::Index n = (form == NodoForm::encoder) ? 7 : 6;
+    ObserverModel      model{MatrixXd::Zero(n, n), MatrixXd::Zero(n, n), MatrixXd::Zero(3, n)};
+    model.A0.block(3, 0, 3, 3) = MatrixXd::Identity(3, 3); // (34); see docs/errata.md for (35)
+    model.A0.block(3, 3, 3, 3) = constant_part(l);
+    model.dA(3, 5)             = l[11];
+    model.dA(5, 3)             = l[9];
+    if (form == NodoForm::encoder) {
+        model.A0(6, 3) = 1.0; // theta' = w
+        model.C.rightCols(3).setZero();
+        model.C(0, 4) = model.C(1, 5) = model.C(2, 6) = 1.0;
+    } else {
+        model.C.rightCols(3) = MatrixXd::Identity(3, 3);
+    }
     return model;
 }
 
 SdreProblem nodo_problem(const ReducedParameters &l, const NodoSpec &spec)
 {
-    const ObserverModel   model = nodo_model(l);
+    const ObserverModel   model = nodo_model(l, spec.form);
     const Eigen::Vector3d T(spec.T[0], spec.T[1], spec.T[2]);
-    const Eigen::VectorXd Q = Eigen::Map<const Eigen::VectorXd>(spec.Q.data(), 6);
+    const Eigen::VectorXd Q =
+        Eigen::Map<const Eigen::VectorXd>(spec.Q.data(), static_cast<Eigen::Index>(spec.Q.size()));
     return {model.A0.transpose(),
             {model.dA.transpose()},
             control_weight(model.C.transpose(), T.asDiagonal()),

@@ -20,14 +20,15 @@ SdreProblem nosc_problem(const ReducedParameters &l, const NoscSpec &spec);
 /// 3 x 2 input matrix of (10).
 Eigen::MatrixXd nosc_input_matrix(const ReducedParameters &l);
 
-/// Observer (27), (34), (35): states d_w, d_q, d_d, w, i_q, i_d; scheduled by i_q; not transposed.
+/// Observer (27), (34), (35): states d_w, d_q, d_d, w, i_q, i_d, in the encoder form also theta; scheduled by
+/// i_q; not transposed. n is 6 or 7.
 struct ObserverModel {
-    Eigen::MatrixXd A0; ///< 6 x 6
-    Eigen::MatrixXd dA; ///< 6 x 6, per ampere of i_q
-    Eigen::MatrixXd C;  ///< 3 x 6: w, i_q, i_d are measured
+    Eigen::MatrixXd A0; ///< n x n
+    Eigen::MatrixXd dA; ///< n x n, per ampere of i_q
+    Eigen::MatrixXd C;  ///< 3 x n: w, i_q, i_d are measured, or i_q, i_d, theta
 };
 
-ObserverModel nodo_model(const ReducedParameters &l);
+ObserverModel nodo_model(const ReducedParameters &l, NodoForm form);
 
 /// The dual of the observer problem, (33): A0', dA', C' T^-1 C.
 SdreProblem nodo_problem(const ReducedParameters &l, const NodoSpec &spec);

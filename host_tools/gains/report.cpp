@@ -49,6 +49,13 @@ ordered_json gain_json(const GainSeries &g, const char *gain_key, const char *so
             {"residuals", g.residuals}};
 }
 
+ordered_json nodo_json(const Design &d)
+{
+    ordered_json out = gain_json(d.nodo, "gain", "pi", "eigenvalues");
+    out["form"]      = d.drive.nodo.form == NodoForm::encoder ? "encoder" : "speed";
+    return out;
+}
+
 ordered_json loop_json(const SampledLoop &loop, const char *variable)
 {
     return {{"range", {{"variable", variable}, {"min_A", -loop.range_A}, {"max_A", loop.range_A}}},
@@ -117,7 +124,7 @@ std::string report_json(const Design &d)
         {"control_period_s", control_period_s(d.drive)},
         {"reduced_parameters", reduced},
         {"nosc", gain_json(d.nosc, "lambda", "gamma", "closed_loop_eigenvalues")},
-        {"nodo", gain_json(d.nodo, "gain", "pi", "eigenvalues")},
+        {"nodo", nodo_json(d)},
         {"certificate",
          {{"certified", c.passed()},
           {"failures", c.failures},
@@ -142,8 +149,11 @@ std::string report_text(const Design &d)
     }
     s += "\ncontroller (rows v_q, v_d; columns e_w, e_iq, e_id)\n" + gain_text("Lambda", d.nosc);
     s += "  poles" + poles_text(d.nosc.series.care.closed_loop_eigenvalues) + " 1/s\n";
-    s += "\nobserver (rows d_w, d_q, d_d, w, iq, id; columns measured w, iq, id)\n" +
-         gain_text("L", d.nodo);
+    s +=
+        (d.drive.nodo.form == NodoForm::encoder
+             ? "\nobserver (rows d_w, d_q, d_d, w, iq, id, theta; columns measured iq, id, theta)\n"
+             : "\nobserver (rows d_w, d_q, d_d, w, iq, id; columns measured w, iq, id)\n") +
+        gain_text("L", d.nodo);
     s += "  poles" + poles_text(d.nodo.series.care.closed_loop_eigenvalues) + " 1/s\n";
     s += "\ncertificate\n" + loop_text("controller", "e_iq", d.certificate.nosc) +
          loop_text("observer", "iq_hat", d.certificate.nodo);

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file dead_time.h
+ * @brief Dead-time compensation on the duty ratios.
+ *
+ * During the dead time the current, not the switch, sets a phase's voltage: the phase loses the share
+ * Td / T_pwm of the dc link when its current is positive and gains it when negative.
+ *
+ *     duty_x += share clamp(i_x / i_fade, -1, 1)                               EQ-DEAD-TIME-1
+ *
+ * Around zero current the sign is not known and the loss is smaller, hence the fade.
+ */
+#ifndef DEAD_TIME_H
+#define DEAD_TIME_H
+
+#include "base.h"
+
+typedef struct {
+    float share;        /**< Td / T_pwm, 0 .. 0.1; 0 switches the compensation off */
+    float inv_fade_1pA; /**< 1 / i_fade [1/A], > 0 */
+} dead_time_config_t;
+
+/** Duty ratios with EQ-DEAD-TIME-1 added, limited to [0, 1]. Context: control ISR. No division. */
+abc_t dead_time_compensate(const dead_time_config_t *c, abc_t duty, abc_t i_A);
+
+#endif /* DEAD_TIME_H */

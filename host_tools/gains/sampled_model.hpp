@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+/// The sampled closed loop of the encoder form, linearised at an operating point: true motor, observer, law, one
+/// period of delay. State [w iq id (theta - theta^) | d_w^ d_q^ d_d^ w^ iq^ id^] as deviations from the operating point.
+#pragma once
+
+#include "motor_model.hpp"
+
+namespace sdre {
+
+/// Where the loop is linearised.
+struct OperatingPoint {
+    double omega_e_radps = 0.0;
+    double iq_A          = 0.0;
+    double id_A          = 0.0;
+};
+
+/// The gains in force: Lambda (2 x 3) and L (7 x 3) at that point.
+struct LoopGains {
+    Eigen::MatrixXd Lambda;
+    Eigen::MatrixXd L;
+};
+
+/// EQ-CERT-3: x(k+1) = A x(k) + b_load T_load(k) + B_noise n(k).
+struct SampledModel {
+    Eigen::MatrixXd A;      ///< 10 x 10
+    Eigen::VectorXd b_load; ///< 10, per newton metre of load torque
+    Eigen::MatrixXd
+        B_noise; ///< 10 x 3, per ampere of iq, id and radian of angle error in the measurement
+    Eigen::MatrixXd C_voltage; ///< 2 x 10: the v_q, v_d in force
+    double          ts_s = 0.0;
+};
+
+/// Jacobian of EQ-MOTOR-2 in (w, iq, id), 3 x 3.
+Eigen::Matrix3d motor_jacobian(const ReducedParameters &l, const OperatingPoint &at);
+
+/// @param motor what the motor is, @param model what the controller believes.
+SampledModel sampled_model(const ReducedParameters &motor, const ReducedParameters &model,
+                           const LoopGains &gains, const OperatingPoint &at, double ts_s);
+
+/// Largest |eigenvalue|.
+double spectral_radius(const Eigen::MatrixXd &A);
+
+/// The exact MTPA current id for an iq, 0 without saliency.
+double mtpa_id_A(const ReducedParameters &l, double iq_A);
+
+} // namespace sdre

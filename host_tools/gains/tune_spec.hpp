@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+/// What a drive should reach, in physical terms: the input of `sdre-gains tune`.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace sdre {
+
+/// Factors on what the controller believes, relative to the motor, and what is still acceptable then.
+struct RobustnessCase {
+    double mechanical      = 1.0; ///< on J and B
+    double electrical      = 1.0; ///< on Rs, Ld, Lq and flux
+    double dip_e_radps     = 0.0; ///< largest speed deviation after the load step
+    double settling_time_s = 0.0;
+    double ripple_e_radps  = 0.0; ///< three standard deviations of the speed
+};
+
+struct TuneSpec {
+    // Operating point and disturbance.
+    double speed_e_radps  = 0.0;
+    double load_before_Nm = 0.0;
+    double load_step_Nm   = 0.0;
+    double band_e_radps   = 0.0; ///< settled within
+    double largest_pole   = 0.0; ///< spectral radius that every robustness case must stay below
+    // Bryson limits of the controller: one unit of cost each.
+    double voltage_V      = 0.0;
+    double d_axis_error_A = 0.0;
+    double voltage_headroom_V =
+        0.0; ///< what the load step and three deviations of noise may ask for
+    // Sensors: standard deviations of one sample, quantisation included by the tool.
+    double                      current_noise_A = 0.0;
+    double                      current_lsb_A   = 0.0;
+    std::vector<RobustnessCase> cases; ///< the first is the nominal one
+};
+
+/// InputError in one line on anything missing, unknown or out of range.
+TuneSpec read_tune_spec(const std::filesystem::path &file);
+
+} // namespace sdre
