@@ -25,11 +25,14 @@ Controller prepare_controller(const Scenario &s)
     if (drive_digest(believed) == GAIN_TABLES_DIGEST) {
         c.config         = gain_tables_drive;
         c.compiled_table = true;
-        return c;
+    } else {
+        const Design design = design_drive(believed);
+        c.config            = design.config;
+        c.uncertified       = design.certificate.failures;
     }
-    const Design design = design_drive(believed);
-    c.config            = design.config;
-    c.uncertified       = design.certificate.failures;
+    if (s.sensors.ideal && s.inverter.dead_time_s.value_or(0.0) <= 0.0) {
+        c.config.dead_time.share = 0.0F; // an inverter without dead time has nothing to compensate
+    }
     return c;
 }
 
@@ -119,6 +122,8 @@ const char *fault_name(int fault)
         return "dc link out of range";
     case DRIVE_FAULT_OVER_SPEED:
         return "over speed";
+    case DRIVE_FAULT_ENCODER:
+        return "encoder implausible";
     case DRIVE_FAULT_COMMAND:
         return "command out of range";
     case DRIVE_FAULT_NUMERIC:
