@@ -214,6 +214,69 @@ std::vector<double> some_currents(double range)
             0.05 * range, 0.33 * range,  0.62 * range,  0.9 * range,  range};
 }
 
+// The encoder form, again from physical quantities: the angle as a seventh state.
+
+MatrixXd encoder_matrix(const sdre::Motor &m, double s)
+{
+    MatrixXd A            = MatrixXd::Zero(7, 7);
+    A.topLeftCorner(6, 6) = observer_matrix(m, s);
+    A(6, 3)               = 1.0;
+    return A;
+}
+
+MatrixXd encoder_output()
+{
+    MatrixXd C = MatrixXd::Zero(3, 7);
+    C(0, 4) = C(1, 5) = C(2, 6) = 1.0;
+    return C;
+}
+
+/// The firmware's own coefficients, held at the ends of the series.
+MatrixXd encoder_gain(const drive_config_t &c, double s)
+{
+    const nodo_encoder_gains_t &g   = c.nodo_encoder;
+    const auto                  end = static_cast<double>(g.iq_max_A);
+    const double                x   = std::clamp(s, -end, end);
+    MatrixXd                    L   = MatrixXd::Zero(7, 3);
+    for (int n = 0; n <= g.order; n++) {
+        for (int i = 0; i < 7; i++) {
+            for (int j = 0; j < 3; j++) {
+                L(i, j) += std::pow(x, n) * static_cast<double>(g.gain[n][i][j]);
+            }
+        }
+    }
+    return L;
+}
+
+MatrixXd exact_encoder_gain(const sdre::Drive &drive, double s)
+{
+    const MatrixXd C = encoder_output();
+    const MatrixXd R =
+        Eigen::Vector3d(drive.nodo.T[0], drive.nodo.T[1], drive.nodo.T[2]).asDiagonal();
+    const MatrixXd Q =
+        Eigen::Map<const Eigen::VectorXd>(drive.nodo.Q.data(), 7).asDiagonal().toDenseMatrix();
+    const MatrixXd A = encoder_matrix(drive.motor, s).transpose();
+    const MatrixXd X = sdre::solve_care(A, C.transpose(), R, Q).X;
+    return X * C.transpose() * R.inverse();
+}
+
+/// The estimation error from one sample to the next at a steady state: corrected, then predicted by the
+/// midpoint rule with the linearised motor.
+MatrixXd sampled_encoder_observer(const sdre::Design &d, double w, double iq, double id)
+{
+    const sdre::Motor &m  = d.drive.motor;
+    const double       ts = sdre::control_period_s(d.drive);
+    const double       kt = 1.5 * m.pole_pairs * m.pole_pairs / m.inertia_kgm2;
+    MatrixXd           J  = encoder_matrix(m, iq);
+    J(3, 4) += kt * (m.d_axis_inductance_H - m.q_axis_inductance_H) * id;
+    J(4, 3) -= m.d_axis_inductance_H / m.q_axis_inductance_H * id;
+    J(4, 5) -= m.d_axis_inductance_H / m.q_axis_inductance_H * w;
+    J(5, 4) += m.q_axis_inductance_H / m.d_axis_inductance_H * w;
+    const MatrixXd I = MatrixXd::Identity(7, 7);
+    const MatrixXd P = I + ts * J + 0.5 * ts * ts * J * J;
+    return P * (I - ts * encoder_gain(d.config, iq) * encoder_output());
+}
+
 bool any_failure(const sdre::Design &design, const std::string &piece)
 {
     const auto &failures = design.certificate.failures;
@@ -473,33 +536,61 @@ TEST(Design, FirmwareConstantsFollowTheirDefinitions)
     near(c.dc_link_min_V, 0.3 * 295.0);
     near(c.dc_link_max_V, 1.35 * 295.0);
     near(c.current_ref.current_max_A, 4.0);
-    near(c.current_ref.voltage_share, 0.95);
-    near(c.current_ref.filter_per_period, 0.2);
-    near(c.current_ref.filter_1ps, 1000.0);
-    const double k = (m.d_axis_inductance_H - m.q_axis_inductance_H) / m.pm_flux_Wb;
-    near(c.current_ref.mtpa_gain_1pA, k);
+    near(c.trip_angle_rad, 0.45);
+    EXPECT_EQ(c.form, DRIVE_FORM_SPEED);
+    near(c.current_ref.voltage_share, 0.97);
+    near(c.current_ref.torque_share, 0.98);
+    near(c.current_ref.filter_per_period, 0.125);
+    near(c.current_ref.filter_1ps, 625.0);
+    near(c.current_ref.near_e_radps, 2.0 * 4.0 * d.nosc.gain[0](0, 1) / d.nosc.gain[0](0, 0));
     near(c.current_ref.l1_min, 0.5 * 1.5 * 4 * m.pm_flux_Wb / m.inertia_kgm2);
+    near(c.dead_time.share, 3e-6 * 5000.0);
+    near(c.dead_time.inv_fade_1pA, 1.0 / (0.025 * 4.0));
+    const double k = (m.d_axis_inductance_H - m.q_axis_inductance_H) / m.pm_flux_Wb;
+    near(c.current_ref.mtpa_A, -0.5 / k);
+    EXPECT_FALSE(c.current_ref.mtpa_exact);
     const auto iq = static_cast<double>(c.current_ref.iq_max_A);
     EXPECT_NEAR(std::hypot(iq, k * iq * iq), 4.0, 4.0 * single);
-    const double torque =
-        1.5 * 2 * (m.pm_flux_Wb + (m.d_axis_inductance_H - m.q_axis_inductance_H) * k * iq * iq) *
-        iq;
-    EXPECT_NEAR(static_cast<double>(c.accel_max_e_radps2), 2.0 / m.inertia_kgm2 * (torque - 1.5),
-                2e-6 * static_cast<double>(c.accel_max_e_radps2)); // a difference of two torques
+    const double regen_W = 1.5 * 295.0 / std::sqrt(3.0) * 4.0; // the largest active power
+    near(c.current_ref.regen_max_W_norm, 4.0 / m.inertia_kgm2 * regen_W);
+    near(c.current_ref.regen_start_V, 1.10 * 295.0);
+    near(c.current_ref.regen_per_V, 1.0 / (0.15 * 295.0));
 }
 
-TEST(Design, AccelerationKeepsAShareWhenTheLoadTakesTheWholeCircle)
+TEST(Design, DeadTimeCompensationSwitchedOffIsAZeroShare)
 {
-    sdre::Drive drive           = shipped("servo_200w").drive; // no reluctance torque: T = 0.504 i
-    drive.motor.rated_torque_Nm = 2.4;
-    const double torque_max     = 1.5 * 4 * 0.084 * 5.0;
+    sdre::Drive drive                     = shipped("ipmsm_390w").drive;
+    drive.inverter.dead_time_compensation = false;
 
-    const drive_config_t c = sdre::design_drive(drive).config;
+    const sdre::Design d = sdre::design_drive(drive);
 
-    EXPECT_NEAR(static_cast<double>(c.accel_max_e_radps2), 4 / 0.000135 * 0.25 * torque_max,
-                1e-6 * 4 / 0.000135 * torque_max);
+    EXPECT_EQ(d.config.dead_time.share, 0.0F);
+    EXPECT_TRUE(d.certificate.passed());
+}
+
+TEST(Design, SurfaceMagnetMotorMayUseTheWholeCircle)
+{
+    const drive_config_t &c = shipped("servo_200w").config;
+
     EXPECT_EQ(c.current_ref.iq_max_A, 5.0F);
-    EXPECT_EQ(c.current_ref.mtpa_gain_1pA, 0.0F);
+    EXPECT_GE(c.current_ref.mtpa_A, 1e5F); // no d current worth a millionth of the q current
+}
+
+TEST(Design, ExactMtpaGivesTheMostTorqueOnTheCircle)
+{
+    constexpr double    tolerance = 1e-6; // of the torque; measured rounding only
+    const sdre::Design &d         = shipped("ipmsm_390w_board");
+    const auto          iq        = static_cast<double>(d.config.current_ref.iq_max_A);
+    const double        max_A     = d.drive.motor.max_current_A;
+    const double found = sdre::torque_Nm(d.drive.motor, -std::sqrt(max_A * max_A - iq * iq), iq);
+
+    EXPECT_TRUE(d.config.current_ref.mtpa_exact);
+    for (int i = 0; i <= 900; i++) {
+        const double angle = 1.5707963 * i / 900.0;
+        const double torque =
+            sdre::torque_Nm(d.drive.motor, -max_A * std::sin(angle), max_A * std::cos(angle));
+        EXPECT_LE(torque, found * (1.0 + tolerance)) << angle;
+    }
 }
 
 TEST(Design, FirmwareMotorIsTheReducedMotor)
@@ -544,4 +635,107 @@ TEST(Design, FirmwareGainsAreTheSeriesInSinglePrecisionWithoutNoise)
                   static_cast<float>(d.certificate.nosc.series_range_A));
         EXPECT_EQ(d.config.nodo.iq_max_A, static_cast<float>(d.certificate.nodo.series_range_A));
     }
+}
+
+TEST(Design, EncoderFormIsCertified)
+{
+    const sdre::Design &d = shipped("ipmsm_390w_board");
+
+    EXPECT_TRUE(d.certificate.passed());
+    EXPECT_EQ(d.config.form, DRIVE_FORM_ENCODER);
+    EXPECT_EQ(drive_config_check(&d.config), CTL_OK);
+    for (const double residual : d.nodo.residuals) {
+        EXPECT_LE(residual, 1e-10);
+    }
+}
+
+TEST(Design, EncoderFormModelIsThePhysicalOne)
+{
+    const sdre::Design       &d     = shipped("ipmsm_390w_board");
+    const sdre::ObserverModel model = sdre::nodo_model(d.l, sdre::NodoForm::encoder);
+
+    EXPECT_EQ(model.C, encoder_output());
+    for (const double s : {-3.0, 0.0, 1.0, 7.0}) {
+        const MatrixXd expected = encoder_matrix(d.drive.motor, s);
+        EXPECT_LT((model.A0 + s * model.dA - expected).norm(), exact_tolerance * expected.norm());
+    }
+}
+
+TEST(Design, EncoderFormSeriesAgainstTheExactSdre)
+{
+    constexpr double    tolerance = 1e-6; // relative
+    const sdre::Design &d         = shipped("ipmsm_390w_board");
+    const auto         &loop      = d.certificate.nodo;
+    const double        step      = loop.range_A / 64.0;
+    const auto          error     = [&](std::size_t order, double s) {
+        return gain_error(d.nodo.gain, order, s, exact_encoder_gain(d.drive, s));
+    };
+
+    ASSERT_EQ(loop.series_error.size(), 3U);
+    EXPECT_LT(error(0, 0.0), 1e-9);
+    for (std::size_t n = 0; n < 3; n++) {
+        double worst = 0.0;
+        for (double s = 0.0; s <= loop.series_range_A + 0.5 * step; s += step) {
+            worst = std::max({worst, error(n, s), error(n, -s)});
+        }
+        EXPECT_NEAR(loop.series_error[n] / worst, 1.0, tolerance) << n;
+    }
+    EXPECT_LE(loop.series_error[2], sdre::series_error_limit);
+    EXPECT_LE(loop.series_error[2], loop.series_error[1]);
+    EXPECT_LE(loop.series_error[1], loop.series_error[0]);
+    if (loop.series_range_A < loop.range_A) {
+        EXPECT_GT(error(2, loop.series_range_A + step), sdre::series_error_limit);
+    }
+    // Small currents: what is left falls with the power that follows the order.
+    for (std::size_t n = 0; n < 3; n++) {
+        const double ratio = error(n, 0.02) / error(n, 0.01);
+        EXPECT_NEAR(std::log2(ratio), static_cast<double>(n + 1), 0.2) << n;
+    }
+}
+
+TEST(Design, EncoderFormIsStableInAnIndependentModel)
+{
+    const sdre::Design &d     = shipped("ipmsm_390w_board");
+    const sdre::Motor  &m     = d.drive.motor;
+    const double        trip  = 3.0 * m.rated_speed_e_radps;
+    double              worst = 0.0;
+    for (const double s : some_currents(d.certificate.nodo.range_A)) {
+        const MatrixXd A = encoder_matrix(m, s) - encoder_gain(d.config, s) * encoder_output();
+        EXPECT_LT(worst_real(A), 0.0) << s;
+        const double k  = m.pm_flux_Wb / (2.0 * (m.q_axis_inductance_H - m.d_axis_inductance_H));
+        const double id = k - std::hypot(k, s); // most torque per ampere
+        for (int i = -4; i <= 4; i++) {
+            worst = std::max(worst, radius(sampled_encoder_observer(d, trip * i / 4.0, s, id)));
+        }
+    }
+    EXPECT_LT(worst, 1.0);
+    EXPECT_LE(worst,
+              d.certificate.nodo.spectral_radius + 1e-3); // the whole loop holds the observer's
+}
+
+TEST(Design, EncoderFormWithTooLongAPeriodIsNotCertified)
+{
+    sdre::Drive drive               = shipped("ipmsm_390w_board").drive;
+    drive.inverter.pwm_frequency_Hz = 1000.0;
+
+    const sdre::Design d = sdre::design_drive(drive);
+
+    EXPECT_TRUE(any_failure(d, "nodo: the sampled loop is unstable in +-8 A"));
+    EXPECT_LT(d.certificate.nodo.worst_pole_1ps, 0.0);
+}
+
+TEST(Design, EncoderFormOfTheServoIsStableToo)
+{
+    sdre::Drive drive = shipped("servo_200w").drive;
+    drive.nodo        = shipped("ipmsm_390w_board").drive.nodo;
+
+    const sdre::Design d = sdre::design_drive(drive);
+
+    for (const double s : some_currents(d.certificate.nodo.range_A)) {
+        EXPECT_LT(worst_real(encoder_matrix(drive.motor, s) -
+                             encoder_gain(d.config, s) * encoder_output()),
+                  0.0)
+            << s;
+    }
+    EXPECT_EQ(d.nodo.gain[0].rows(), 7);
 }

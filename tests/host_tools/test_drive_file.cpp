@@ -114,6 +114,14 @@ void expect_complaint(const DriveText &text, const std::vector<std::string> &pie
     }
 }
 
+/// The same drive with an observer that measures the angle.
+DriveText encoder_text()
+{
+    return DriveText()
+        .set("nodo", "form", "\"encoder\"")
+        .set("nodo", "Q", "[1.0e8, 1.1e8, 1.2e8, 85.0, 86.0, 90.0, 0.0]");
+}
+
 /// Other keys moved so that an end of one key's range meets no rule about two keys.
 DriveText room_for(const Key &key, double value)
 {
@@ -153,8 +161,9 @@ TEST(DriveFile, ReadsEveryValueToItsPlace)
     EXPECT_EQ(drive.nosc.order, 2);
     EXPECT_EQ(drive.nosc.Q, (std::array<double, 3>{2.0, 8.0, 8.5}));
     EXPECT_EQ(drive.nosc.T, (std::array<double, 2>{1e-3, 1.25e-3}));
+    EXPECT_EQ(drive.nodo.form, sdre::NodoForm::speed);
     EXPECT_EQ(drive.nodo.order, 1);
-    EXPECT_EQ(drive.nodo.Q, (std::array<double, 6>{1.0e8, 1.1e8, 1.2e8, 85.0, 86.0, 90.0}));
+    EXPECT_EQ(drive.nodo.Q, (std::vector<double>{1.0e8, 1.1e8, 1.2e8, 85.0, 86.0, 90.0}));
     EXPECT_EQ(drive.nodo.T, (std::array<double, 3>{1e-4, 1.5e-4, 2e-4}));
 }
 
@@ -166,6 +175,7 @@ TEST(DriveFile, ShippedDrivesAreRead)
     const sdre::Drive ipmsm = sdre::read_drive_file(drives / "ipmsm_390w.toml");
     const sdre::Drive paper = sdre::read_drive_file(drives / "ipmsm_390w_paper.toml");
     const sdre::Drive servo = sdre::read_drive_file(drives / "servo_200w.toml");
+    const sdre::Drive board = sdre::read_drive_file(drives / "ipmsm_390w_board.toml");
 
     EXPECT_EQ(ipmsm.name, "ipmsm_390w");
     EXPECT_EQ(paper.name, "ipmsm_390w_paper");
@@ -173,9 +183,14 @@ TEST(DriveFile, ShippedDrivesAreRead)
     EXPECT_EQ(ipmsm.motor.pole_pairs, 2);
     EXPECT_EQ(ipmsm.motor.q_axis_inductance_H, 0.11391);
     EXPECT_EQ(ipmsm.motor.max_current_A, 4.0);
-    EXPECT_EQ(paper.nodo.Q, (std::array<double, 6>{0.3, 5.0, 5.0, 85.0, 85.0, 90.0}));
+    EXPECT_EQ(paper.nodo.Q, (std::vector<double>{0.3, 5.0, 5.0, 85.0, 85.0, 90.0}));
+    EXPECT_EQ(paper.nodo.form, sdre::NodoForm::speed);
     EXPECT_EQ(servo.motor.pole_pairs, 4);
     EXPECT_EQ(servo.motor.d_axis_inductance_H, servo.motor.q_axis_inductance_H);
+    EXPECT_EQ(board.name, "ipmsm_390w_board");
+    EXPECT_EQ(board.nodo.form, sdre::NodoForm::encoder);
+    EXPECT_EQ(board.nodo.Q.size(), 7U);
+    EXPECT_EQ(board.motor.inertia_kgm2, ipmsm.motor.inertia_kgm2); // the same motor
 }
 
 TEST(DriveFile, MissingKeyIsNamed)
@@ -471,4 +486,85 @@ TEST(DriveFile, MotorValueReachesEveryScalableKey)
     EXPECT_EQ(places.size(), 9U);
     EXPECT_THROW(sdre::motor_value(motor, "pole_pairs"), sdre::InputError);
     EXPECT_THROW(sdre::motor_value(motor, ""), sdre::InputError);
+}
+
+TEST(DriveFile, EncoderFormReadsSevenAndThreeWeights)
+{
+    const sdre::Drive drive = read(encoder_text().str());
+
+    EXPECT_EQ(drive.nodo.form, sdre::NodoForm::encoder);
+    EXPECT_EQ(drive.nodo.Q, (std::vector<double>{1.0e8, 1.1e8, 1.2e8, 85.0, 86.0, 90.0, 0.0}));
+    EXPECT_EQ(drive.nodo.T, (std::array<double, 3>{1e-4, 1.5e-4, 2e-4}));
+}
+
+TEST(DriveFile, FormIsSpeedUnlessSaidOtherwise)
+{
+    const sdre::Drive absent = read(DriveText().str());
+    const sdre::Drive said   = read(DriveText().set("nodo", "form", "\"speed\"").str());
+
+    EXPECT_EQ(absent.nodo.form, sdre::NodoForm::speed);
+    EXPECT_EQ(said.nodo.form, sdre::NodoForm::speed);
+    EXPECT_EQ(sdre::drive_digest(absent), sdre::drive_digest(said));
+    EXPECT_NE(sdre::drive_digest(absent), sdre::drive_digest(read(encoder_text().str())));
+}
+
+TEST(DriveFile, OtherFormIsRefusedWithTheAllowedOnes)
+{
+    for (const std::string form : {"", "Encoder", "angle", "speed "}) {
+        expect_complaint(DriveText().set("nodo", "form", "\"" + form + "\""),
+                         {"[nodo] form", "\"speed\" or \"encoder\""});
+    }
+    for (const std::string value : {"1", "true", "[\"encoder\"]"}) {
+        expect_complaint(DriveText().set("nodo", "form", value), {"[nodo] form"});
+    }
+}
+
+TEST(DriveFile, WeightsOfTheOtherFormAreRefused)
+{
+    for (const int length : {0, 3, 6, 8}) {
+        expect_complaint(encoder_text().set("nodo", "Q", array_with(length, 0, "1.0")),
+                         {"[nodo] Q must be an array of 7 numbers"});
+    }
+    for (const int length : {0, 2, 4, 6, 7}) {
+        expect_complaint(encoder_text().set("nodo", "T", array_with(length, 0, "1.0")),
+                         {"[nodo] T must be an array of 3 numbers"});
+    }
+    expect_complaint(encoder_text().set("nodo", "form", "\"speed\""),
+                     {"[nodo] Q must be an array of 6 numbers"});
+    expect_complaint(encoder_text().erase("nodo", "form"),
+                     {"[nodo] Q must be an array of 6 numbers"});
+    expect_complaint(encoder_text().set("nodo", "Q", array_with(7, 6, "-1.0")),
+                     {"[nodo] Q[6] = -1 ", "0 .. 1e+15"});
+    expect_complaint(encoder_text().set("nodo", "T", array_with(3, 2, "0.0")),
+                     {"[nodo] T[2] = 0 ", "1e-12 .. 1e+12"});
+    expect_complaint(encoder_text().set("nodo", "Q", array_with(7, 3, "nan")), {"[nodo] Q[3] = "});
+}
+
+TEST(DriveFile, EncoderFormDigestSeesEveryWeight)
+{
+    std::set<std::string> digests{sdre::drive_digest(read(encoder_text().str()))};
+    for (int at = 0; at < 7; at++) {
+        digests.insert(sdre::drive_digest(
+            read(encoder_text().set("nodo", "Q", array_with(7, at, "1.5")).str())));
+    }
+    EXPECT_EQ(digests.size(), 8U);
+}
+
+TEST(DriveFile, DeadTimeCompensationDefaultsToOn)
+{
+    const sdre::Drive absent = read(DriveText().str());
+    const sdre::Drive on =
+        read(DriveText().set("inverter", "dead_time_compensation", "true").str());
+    const sdre::Drive off =
+        read(DriveText().set("inverter", "dead_time_compensation", "false").str());
+
+    EXPECT_TRUE(absent.inverter.dead_time_compensation);
+    EXPECT_TRUE(on.inverter.dead_time_compensation);
+    EXPECT_FALSE(off.inverter.dead_time_compensation);
+    EXPECT_EQ(sdre::drive_digest(absent), sdre::drive_digest(on));
+    EXPECT_NE(sdre::drive_digest(absent), sdre::drive_digest(off));
+    for (const std::string value : {"1", "\"true\"", "[true]"}) {
+        expect_complaint(DriveText().set("inverter", "dead_time_compensation", value),
+                         {"[inverter] dead_time_compensation"});
+    }
 }

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "command.hpp"
 #include "errors.hpp"
 #include "reference_gains.hpp"
 
@@ -22,6 +23,13 @@ namespace {
 using support::TempDir;
 
 const std::filesystem::path committed = std::filesystem::path(SDRE_SOURCE_DIR) / "firmware/config";
+
+const sdre::Design &encoder_form()
+{
+    static const sdre::Design design =
+        sdre::design_drive(sdre::read_drive_file(support::shipped_drive("ipmsm_390w_board")));
+    return design;
+}
 
 const sdre::Design &shipped()
 {
@@ -48,29 +56,40 @@ std::vector<double> literals(const std::string &text)
     return values;
 }
 
+template <std::size_t Rows>
+void add_observer(std::vector<float> &v, const std::vector<float> &ranges, int order,
+                  const float (&gain)[NODO_ORDER_MAX + 1][Rows][3])
+{
+    v.insert(v.end(), ranges.begin(), ranges.end());
+    for (int n = 0; n <= order; n++) {
+        for (const auto &row : gain[n]) {
+            v.insert(v.end(), std::begin(row), std::end(row));
+        }
+    }
+}
+
 /// The numbers of a configuration in the order of the structure.
 std::vector<float> values_of(const drive_config_t &c)
 {
     const motor_reduced_t      &m = c.motor;
     const current_ref_config_t &r = c.current_ref;
-    std::vector<float>          v{c.ts_s,           c.accel_max_e_radps2,
-                         c.trip_current_A, c.trip_speed_e_radps,
-                         c.dc_link_min_V,  c.dc_link_max_V};
+    std::vector<float> v{c.ts_s,         c.trip_current_A, c.trip_speed_e_radps, c.trip_angle_rad,
+                         c.trip_d_omega, c.dc_link_min_V,  c.dc_link_max_V};
     v.insert(v.end(), {m.l1, m.l2, m.l3, m.l4, m.l5, m.l6, m.l7, m.l8, m.l9, m.l10, m.l11, m.inv_l6,
                        m.inv_l8});
-    v.insert(v.end(), {r.current_max_A, r.iq_max_A, r.mtpa_gain_1pA, r.voltage_share, r.l1_min,
-                       r.filter_per_period, r.filter_1ps, c.nosc.iq_error_max_A});
+    v.insert(v.end(), {r.current_max_A, r.iq_max_A, r.mtpa_A, r.voltage_share, r.torque_share,
+                       r.near_e_radps, r.l1_min, r.filter_per_period, r.filter_1ps,
+                       r.regen_max_W_norm, r.regen_start_V, r.regen_per_V, c.dead_time.share,
+                       c.dead_time.inv_fade_1pA, c.nosc.iq_error_max_A});
     for (int n = 0; n <= c.nosc.order; n++) {
         for (const auto &row : c.nosc.lambda[n]) {
             v.insert(v.end(), std::begin(row), std::end(row));
         }
     }
-    v.push_back(c.nodo.iq_max_A);
-    v.push_back(c.nodo.iq_certified_A);
-    for (int n = 0; n <= c.nodo.order; n++) {
-        for (const auto &row : c.nodo.gain[n]) {
-            v.insert(v.end(), std::begin(row), std::end(row));
-        }
+    if (c.form == DRIVE_FORM_ENCODER) {
+        add_observer(v, {c.nodo_encoder.iq_max_A}, c.nodo_encoder.order, c.nodo_encoder.gain);
+    } else {
+        add_observer(v, {c.nodo.iq_max_A, c.nodo.iq_certified_A}, c.nodo.order, c.nodo.gain);
     }
     return v;
 }
@@ -270,8 +289,8 @@ TEST(Tables, CompareSeesAChangedNumber)
 
 TEST(Tables, CompareSeesEverythingElseExactly)
 {
-    const std::string digest = difference_after("gain_tables.h", "fnv1a64:5a93112ad34a4a64\"",
-                                                "fnv1a64:5a93112ad34a4a65\"");
+    const std::string digest = difference_after("gain_tables.h", "fnv1a64:6f5b9f2bd58be51a\"",
+                                                "fnv1a64:6f5b9f2bd58be51b\"");
 
     EXPECT_TRUE(contains(digest, "gain_tables.h: "));
     EXPECT_EQ(digest.find('\n'), std::string::npos);
@@ -311,4 +330,87 @@ TEST(Tables, CompareWithoutAFileIsAnInputError)
     EXPECT_THROW(sdre::compare_tables(text, dir.path()), sdre::InputError);
     std::filesystem::create_directory(dir / "gain_tables.c");
     EXPECT_THROW(sdre::compare_tables(text, dir.path()), sdre::InputError); // nothing to read there
+}
+
+TEST(Tables, EncoderFormIsWrittenBitForBit)
+{
+    const drive_config_t     &config = encoder_form().config;
+    const sdre::TableText     text   = sdre::table_text(encoder_form());
+    const std::vector<float>  design = values_of(config);
+    const std::vector<double> found  = literals(text.source);
+
+    ASSERT_EQ(config.form, DRIVE_FORM_ENCODER);
+    ASSERT_EQ(found.size(), design.size());
+    for (std::size_t i = 0; i < found.size(); i++) {
+        EXPECT_EQ(static_cast<float>(found[i]), design[i]) << i;
+    }
+    EXPECT_TRUE(contains(text.source, ".form = DRIVE_FORM_ENCODER,"));
+    EXPECT_TRUE(contains(text.source, ".nodo_encoder = {"));
+    EXPECT_FALSE(contains(text.source, ".nodo = {"));
+    EXPECT_TRUE(contains(text.source, "/* theta*/"));
+    EXPECT_TRUE(contains(sdre::table_text(shipped()).source, ".form = DRIVE_FORM_SPEED,"));
+}
+
+TEST(Tables, EncoderFormIsWhatItsSeriesSays)
+{
+    const sdre::Design         &d = encoder_form();
+    const nodo_encoder_gains_t &g = d.config.nodo_encoder;
+
+    ASSERT_EQ(static_cast<std::size_t>(g.order) + 1, d.nodo.gain.size());
+    for (std::size_t n = 0; n < d.nodo.gain.size(); n++) {
+        ASSERT_EQ(d.nodo.gain[n].rows(), 7);
+        ASSERT_EQ(d.nodo.gain[n].cols(), 3);
+        for (int i = 0; i < 7; i++) {
+            for (int j = 0; j < 3; j++) {
+                const double x = d.nodo.gain[n](i, j); // rounding noise is stored as zero
+                EXPECT_NEAR(static_cast<double>(g.gain[n][i][j]), x,
+                            1.2e-7 * std::abs(x) + 1e-12 * d.nodo.gain[n].norm());
+            }
+        }
+    }
+}
+
+TEST(Tables, EncoderFormMatchesItselfAndSeesAChange)
+{
+    const TempDir         dir;
+    const sdre::TableText text = sdre::table_text(encoder_form());
+    sdre::write_tables(text, dir.path());
+
+    EXPECT_EQ(sdre::compare_tables(text, dir.path()), "");
+    EXPECT_NE(sdre::compare_tables(sdre::table_text(shipped()), dir.path()), "");
+    dir.write("gain_tables.c", support::replaced(text.source, "_ENCODER,", "_SPEED,"));
+    EXPECT_TRUE(contains(sdre::compare_tables(text, dir.path()), "gain_tables.c: "));
+}
+
+TEST(Tables, GenerateAndCheckInTheEncoderForm)
+{
+    const TempDir     dir;
+    const std::string drive = support::shipped_drive("ipmsm_390w_board").string();
+    const std::string out   = (dir / "tables").string();
+
+    const auto written = support::run_command({SDRE_GAINS_EXE, "generate", drive, "--out", out});
+    const auto checked = support::run_command({SDRE_GAINS_EXE, "generate", drive, "--check", out});
+    const auto other =
+        support::run_command({SDRE_GAINS_EXE, "generate",
+                              support::shipped_drive("ipmsm_390w").string(), "--check", out});
+
+    EXPECT_EQ(written.exit_code, 0) << written.err;
+    EXPECT_EQ(checked.exit_code, 0) << checked.err;
+    support::expect_refused(other, 3, "sdre-gains");
+}
+
+TEST(Tables, BothFormsAreC99)
+{
+    const std::string compiler = "/usr/bin/cc";
+    if (!std::filesystem::exists(compiler)) {
+        GTEST_SKIP() << "no C compiler at " << compiler;
+    }
+    for (const sdre::Design *design : {&shipped(), &encoder_form()}) {
+        const TempDir dir;
+        sdre::write_tables(sdre::table_text(*design), dir.path());
+        const auto result = support::run_command(
+            {compiler, "-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only",
+             "-I", SDRE_SOURCE_DIR "/firmware/control", (dir / "gain_tables.c").string()});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+    }
 }

@@ -215,10 +215,13 @@ TEST(ClosedLoop, VoltageActsOnePeriodAfterItsTick)
 
     const auto trace = sdre::simulate(s).trace;
 
-    EXPECT_NE(trace[0].vq_V, 0.0); // computed from the first sample,
-    EXPECT_EQ(trace[1].iq_A, 0.0); // not yet in force in the first period,
-    EXPECT_NE(trace[2].iq_A, 0.0); // felt at the end of the second
-    EXPECT_NEAR(trace[2].iq_A, trace[0].vq_V * 2e-4 / 0.11391, 0.01 * trace[2].iq_A);
+    // The speed reference moves from the second tick on, within the current range of the first.
+    ASSERT_EQ(trace[0].vq_V, 0.0);
+    EXPECT_NE(trace[1].vq_V, 0.0); // computed from this sample,
+    EXPECT_EQ(trace[1].iq_A, 0.0);
+    EXPECT_EQ(trace[2].iq_A, 0.0); // not yet in force in the period that follows,
+    EXPECT_NE(trace[3].iq_A, 0.0); // felt at the end of the one after it
+    EXPECT_NEAR(trace[3].iq_A, trace[1].vq_V * 2e-4 / 0.11391, 0.01 * trace[3].iq_A);
 }
 
 TEST(ClosedLoop, ServoRejectsALoadStep)

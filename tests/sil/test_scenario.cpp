@@ -114,11 +114,13 @@ TEST(Scenario, ShippedScenariosAreRead)
     for (const auto &entry : std::filesystem::directory_iterator(scenarios)) {
         const sdre::Scenario s = sdre::read_scenario_file(entry.path());
         EXPECT_EQ(s.name, entry.path().stem());
-        EXPECT_EQ(s.drive.name, "ipmsm_390w");
+        const bool board = s.name.rfind("board_", 0) == 0;
+        EXPECT_EQ(s.drive.name, board ? "ipmsm_390w_board" : "ipmsm_390w") << s.name;
+        EXPECT_EQ(s.sensors.ideal, !board) << s.name;
         EXPECT_FALSE(s.measures.empty());
         count++;
     }
-    EXPECT_EQ(count, 8); // Fig. 4 with four orders, Fig. 5 to 8
+    EXPECT_EQ(count, 17); // Fig. 4 with four orders, Fig. 5 to 8; nine on the realistic board
     EXPECT_EQ(sdre::read_scenario_file(scenarios / "fig4_parameter_steps_nd3.toml").nodo_order, 3);
     EXPECT_EQ(sdre::read_scenario_file(scenarios / "fig8_flux_weakening.toml").dc_link_V, 173.2);
 }

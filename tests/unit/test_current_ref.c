@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "current_ref.h"
 
+#include "board_config.h"
 #include "gain_tables.h"
 #include "unit_support.h"
 #include "unity.h"
@@ -12,12 +13,6 @@
 #define TOL_RADPS2   2.0e-3 /* rad/s^2, summands up to 4e3 rad/s^2; worst 4.1e-4 */
 #define TOL_Aps      2.7e-3 /* A/s, currents up to 4 A over 1 ms; worst 5.3e-4 */
 #define TOL_FILTER_A 8.0e-7 /* A; worst 1.7e-7 */
-
-#define TOL_TRIAL_A 2.0e-4 /* A; twice the spacing of the trials */
-
-/* Next term of the series, |mtpa_gain|^3 iq^4, which the second order leaves out. The worst distance from
- * the optimum is 0.62 of it; three are allowed. */
-#define MTPA_NEXT_TERM 8.3e-3 /* 1/A^3 */
 
 #define CASES   2000
 #define V_MAX_V 170.0f
@@ -31,13 +26,15 @@ static nodo_t               est;
 static nodo_meas_t          y;
 static speed_ref_t          w_ref;
 static float                iq_speed_A;
+static float                dc_link_V;
 static current_ref_t        r;
 
 static void use_motor(motor_reduced_t m)
 {
+    const float saliency = fmaxf(1.0f - m.l10, 1.0e-9f);
     motor                = m;
     si                   = support_motor(&motor);
-    config.mtpa_gain_1pA = (motor.l10 - 1.0f) / motor.l5;
+    config.mtpa_A        = m.l5 / (2.0f * saliency);
 }
 
 void setUp(void)
@@ -49,7 +46,9 @@ void setUp(void)
     config                   = gain_tables_drive.current_ref;
     config.filter_per_period = 1.0f; /* id_ref is its target at once */
     config.filter_1ps        = (float)(1.0 / TS_s);
+    config.regen_max_W_norm  = 1.0e12f; /* regeneration has its own tests */
     use_motor(gain_tables_drive.motor);
+    dc_link_V  = 295.0f;
     est        = nothing;
     y          = rest;
     iq_speed_A = 0.0f;
@@ -61,12 +60,15 @@ void tearDown(void) {}
 
 static void update(void)
 {
-    const current_ref_input_t in = {
-        .est = &est, .meas = &y, .iq_speed_A = iq_speed_A, .v_max_V = V_MAX_V};
+    const current_ref_input_t in = {.est        = &est,
+                                    .state      = &y,
+                                    .iq_speed_A = iq_speed_A,
+                                    .dc_link_V  = dc_link_V,
+                                    .v_max_V    = V_MAX_V};
     current_ref_update(&r, &config, &motor, &w_ref, &in);
 }
 
-/* Sets the acceleration so that EQ-CURRENT-REF-4 asks for this q current. */
+/* Sets the acceleration so that EQ-CURRENT-REF-1 asks for this q current. */
 static void ask_for(double iq_A)
 {
     const double torque_gain =
@@ -75,6 +77,7 @@ static void ask_for(double iq_A)
     w_ref.omega_dot_e_radps2 =
         (float)((iq_A * torque_gain) - ((double)motor.l2 * (double)y.omega_e_radps) +
                 (double)est.d_omega);
+    w_ref.accel_wanted_e_radps2 = w_ref.omega_dot_e_radps2;
 }
 
 /* The voltage equations of the motor in SI units: length of the vector that holds (id, iq) while the
@@ -109,23 +112,52 @@ static double search(bool along_d, double other_A, double fits_A, double fails_A
     return fits_A;
 }
 
+/* Torque for a q axis flux linkage of u amperes below the centre of the circle, resistance left out. */
+static double torque_on_circle(double f_A, double u_A)
+{
+    const double id_A = -((double)motor.l5 + u_A) / (double)motor.l10;
+    return sqrt(fmax((f_A * f_A) - (u_A * u_A), 0.0)) *
+           ((double)motor.l5 + (((double)motor.l10 - 1.0) * id_A));
+}
+
+/* Maximum torque per volt by golden search over the voltage circle. */
+static double oracle_mtpv_A(double f_A)
+{
+    double lo = 0.0;
+    double hi = f_A;
+    for (int n = 0; n < 120; n++) {
+        const double left  = hi - (0.618034 * (hi - lo));
+        const double right = lo + (0.618034 * (hi - lo));
+        if (torque_on_circle(f_A, left) > torque_on_circle(f_A, right)) {
+            hi = right;
+        } else {
+            lo = left;
+        }
+    }
+    return 0.5 * (lo + hi);
+}
+
 /* Oracle: the id closest to zero flux weakening that fits, found in volts; where none fits, the id that
- * needs least voltage. */
+ * needs least voltage, and as far beyond it as the iq is beyond the circle, to maximum torque per volt. */
 static double oracle_fw_A(double iq_A)
 {
     const double w = (double)y.omega_e_radps;
     const double rest =
         (si.rs_Ohm * (double)y.iq_A) - (si.lq_H * (double)est.d_q) + (w * si.flux_Wb);
     const double least = -rest / (w * si.ld_H);
-    return (voltage_V(least, iq_A) <= usable_V()) ? search(true, iq_A, least, least + 1.0e3)
-                                                  : least;
+    const double f_A   = usable_V() / (fabs(w) * si.lq_H);
+    const double y_A = ((si.rs_Ohm * (double)y.id_A) - (si.ld_H * (double)est.d_d)) / (w * si.lq_H);
+    return (voltage_V(least, iq_A) <= usable_V())
+               ? search(true, iq_A, least, least + 1.0e3)
+               : least - (fmin(fabs(iq_A - y_A) - f_A, oracle_mtpv_A(f_A)) * si.lq_H / si.ld_H);
 }
 
 static double oracle_id_A(double iq_before_A, double iq_wanted_A)
 {
-    const double mtpa_A =
-        (((double)motor.l10 - 1.0) / (double)motor.l5) * iq_before_A * iq_before_A;
-    const double fw_A = oracle_fw_A(iq_wanted_A);
+    const double k      = (double)config.mtpa_A;
+    const double iq2    = iq_before_A * iq_before_A;
+    const double mtpa_A = config.mtpa_exact ? (k - sqrt((k * k) + iq2)) : (-iq2 / (2.0 * k));
+    const double fw_A   = oracle_fw_A(iq_wanted_A);
     return support_limit(fmin(mtpa_A, fw_A), -(double)config.current_max_A, 0.0);
 }
 
@@ -171,14 +203,13 @@ static void assert_inside_current_circle(void)
 
 static void test_reset_starts_everything_at_zero(void)
 {
-    current_ref_t used = {{1.0f, 2.0f}, 3.0f, 4.0f, {5.0f, 6.0f}, {7.0f, 8.0f}};
+    current_ref_t used = {{1.0f, 2.0f}, {3.0f, 4.0f}, 5.0f, 6.0f};
 
     current_ref_reset(&used);
 
     TEST_ASSERT_TRUE((used.i_A.d == 0.0f) && (used.i_A.q == 0.0f));
     TEST_ASSERT_TRUE((used.iq_lo_A == 0.0f) && (used.iq_hi_A == 0.0f));
     TEST_ASSERT_TRUE((used.i_dot_Aps.d == 0.0f) && (used.i_dot_Aps.q == 0.0f));
-    TEST_ASSERT_TRUE((used.filter_A.d == 0.0f) && (used.filter_A.q == 0.0f));
 }
 
 static void test_rest_without_disturbance_asks_for_no_current(void)
@@ -189,43 +220,72 @@ static void test_rest_without_disturbance_asks_for_no_current(void)
     TEST_ASSERT_TRUE((r.i_dot_Aps.d == 0.0f) && (r.i_dot_Aps.q == 0.0f));
 }
 
-/* Oracle: of all (id, iq) with the same torque, the shortest, by trying id. */
-static void test_id_at_low_speed_gives_the_most_torque_per_ampere(void)
+/* Oracle: of all (id, iq) with the same torque, the shortest, by golden search over id. */
+static double shortest_A(double torque)
 {
-    for (int step = -20; step <= 20; step++) {
-        const double iq_A   = 0.1 * (double)step;
-        r.i_A.q             = (float)iq_A;
-        const double id_A   = (double)config.mtpa_gain_1pA * iq_A * iq_A;
-        const double torque = iq_A * ((double)motor.l1 + ((double)motor.l11 * id_A));
-        double       best_A = 0.0;
-        double       length = 1.0e9;
-        for (int trial = 0; trial <= 20000; trial++) {
-            const double id = -1.0e-4 * (double)trial;
-            const double iq = torque / ((double)motor.l1 + ((double)motor.l11 * id));
-            if (hypot(id, iq) < length) {
-                length = hypot(id, iq);
-                best_A = id;
-            }
+    double lo = -8.0;
+    double hi = 0.0;
+    for (int n = 0; n < 120; n++) {
+        const double left     = hi - (0.618034 * (hi - lo));
+        const double right    = lo + (0.618034 * (hi - lo));
+        const double of_left  = torque / ((double)motor.l1 + ((double)motor.l11 * left));
+        const double of_right = torque / ((double)motor.l1 + ((double)motor.l11 * right));
+        if (hypot(left, of_left) < hypot(right, of_right)) {
+            hi = right;
+        } else {
+            lo = left;
         }
-
-        update();
-
-        TEST_ASSERT_DOUBLE_WITHIN((3.0 * MTPA_NEXT_TERM * pow(iq_A, 4.0)) + TOL_TRIAL_A, best_A,
-                                  (double)r.i_A.d);
     }
+    const double id_A = 0.5 * (lo + hi);
+    return hypot(id_A, torque / ((double)motor.l1 + ((double)motor.l11 * id_A)));
 }
 
-static void test_id_follows_the_mtpa_series_of_the_previous_reference(void)
+/* Worst share of current above the shortest one over the whole range of torque. */
+static double mtpa_excess(void)
 {
-    for (int step = -33; step <= 33; step++) {
-        const double iq_A     = 0.1 * (double)step;
-        const double expected = (si.ld_H - si.lq_H) / si.flux_Wb * iq_A * iq_A;
-        r.i_A.q               = (float)iq_A;
-        y.iq_A                = 1.7f; /* the measured current has no say */
-
+    double worst = 0.0;
+    for (int step = -35; step <= 35; step++) {
+        const double iq_A = 0.1 * (double)step;
+        r.i_A.q           = (float)iq_A;
         update();
+        const double id_A   = (double)r.i_A.d;
+        const double torque = iq_A * ((double)motor.l1 + ((double)motor.l11 * id_A));
+        if (step != 0) {
+            worst = fmax(worst, (hypot(id_A, iq_A) / shortest_A(torque)) - 1.0);
+        }
+    }
+    return worst;
+}
 
-        TEST_ASSERT_DOUBLE_WITHIN(TOL_A, expected, (double)r.i_A.d);
+static void test_id_at_low_speed_gives_the_most_torque_per_ampere(void)
+{
+    config.mtpa_exact = true;
+    TEST_ASSERT_TRUE(mtpa_excess() < 1.0e-4);
+}
+
+static void test_second_order_id_costs_some_percent_more_current(void)
+{
+    config.mtpa_exact = false;
+    TEST_ASSERT_TRUE(mtpa_excess() < 3.0e-2);
+    TEST_ASSERT_TRUE(mtpa_excess() > 1.0e-4);
+}
+
+static void test_id_follows_the_mtpa_curve_of_the_previous_reference(void)
+{
+    for (int exact = 0; exact < 2; exact++) {
+        config.mtpa_exact = (exact == 1);
+        for (int step = -33; step <= 33; step++) {
+            const double iq_A  = 0.1 * (double)step;
+            const double k     = si.flux_Wb / (2.0 * (si.lq_H - si.ld_H));
+            const double curve = k - sqrt((k * k) + (iq_A * iq_A));
+            r.i_A.q            = (float)iq_A;
+            y.iq_A             = 1.7f; /* the actual current has no say */
+
+            update();
+
+            TEST_ASSERT_DOUBLE_WITHIN(TOL_A, (exact == 1) ? curve : (-iq_A * iq_A / (2.0 * k)),
+                                      (double)r.i_A.d);
+        }
     }
 }
 
@@ -240,7 +300,7 @@ static void test_surface_magnet_motor_needs_no_id_at_low_speed(void)
 
     update();
 
-    TEST_ASSERT_TRUE(r.i_A.d == 0.0f);
+    TEST_ASSERT_TRUE(fabsf(r.i_A.d) < 1.0e-7f);
 }
 
 static void test_id_matches_search_in_volts_at_high_speed(void)
@@ -249,6 +309,8 @@ static void test_id_matches_search_in_volts_at_high_speed(void)
         draw_fast_case();
         const double before_A = (double)r.i_A.q;
         const double wanted_A = (double)support_uniform(&random_state, -3.3f, 3.3f);
+        r.i_A.d               = 0.0f; /* leaves the whole current to the wish */
+        config.mtpa_exact     = (n % 2) == 0;
         ask_for(wanted_A);
         const double expected = oracle_id_A(before_A, wanted_A);
         const double least    = voltage_V(oracle_fw_A(wanted_A) - 0.1, wanted_A);
@@ -271,7 +333,8 @@ static void test_id_makes_room_for_the_current_that_the_speed_error_asks_for(voi
         const double before_A = (double)r.i_A.q;
         iq_speed_A            = support_uniform(&random_state, -6.0f, 6.0f);
         ask_for(0.5);
-        const double limit_A  = (double)config.iq_max_A;
+        r.i_A.d               = support_uniform(&random_state, -3.9f, 0.0f);
+        const double limit_A  = sqrt(16.0 - ((double)r.i_A.d * (double)r.i_A.d));
         const double wanted_A = support_limit(0.5 + (double)iq_speed_A, -limit_A, limit_A);
         const double expected = oracle_id_A(before_A, wanted_A);
 
@@ -452,19 +515,22 @@ static void test_reversed_rotation_mirrors_the_references(void)
         iq_speed_A          = support_uniform(&random_state, -2.0f, 2.0f);
         current_ref_t start = r;
         ask_for((double)support_uniform(&random_state, -3.0f, 3.0f));
+        w_ref.omega_2dot_e_radps3 = support_uniform(&random_state, -4.0e6f, 4.0e6f);
+        config.regen_max_W_norm   = support_uniform(&random_state, 0.0f, 2.0e6f);
         update();
         const current_ref_t forwards = r;
 
-        r                        = start;
-        r.i_A.q                  = -start.i_A.q;
-        r.filter_A.q             = -start.filter_A.q;
-        y.omega_e_radps          = -y.omega_e_radps;
-        y.iq_A                   = -y.iq_A;
-        est.d_omega              = -est.d_omega;
-        est.d_q                  = -est.d_q;
-        iq_speed_A               = -iq_speed_A;
-        w_ref.omega_e_radps      = -w_ref.omega_e_radps;
-        w_ref.omega_dot_e_radps2 = -w_ref.omega_dot_e_radps2;
+        r                           = start;
+        r.i_A.q                     = -start.i_A.q;
+        y.omega_e_radps             = -y.omega_e_radps;
+        y.iq_A                      = -y.iq_A;
+        est.d_omega                 = -est.d_omega;
+        est.d_q                     = -est.d_q;
+        iq_speed_A                  = -iq_speed_A;
+        w_ref.omega_e_radps         = -w_ref.omega_e_radps;
+        w_ref.omega_dot_e_radps2    = -w_ref.omega_dot_e_radps2;
+        w_ref.accel_wanted_e_radps2 = -w_ref.accel_wanted_e_radps2;
+        w_ref.omega_2dot_e_radps3   = -w_ref.omega_2dot_e_radps3;
         update();
 
         TEST_ASSERT_TRUE((r.i_A.d == forwards.i_A.d) && (r.i_A.q == -forwards.i_A.q));
@@ -509,20 +575,145 @@ static void test_derivative_of_id_is_its_difference_quotient(void)
     }
 }
 
-/* Oracle: (iq - its low-pass) / time constant, the low-pass kept here in double. */
-static void test_derivative_of_iq_is_that_of_a_low_pass(void)
+/* d/dt of EQ-CURRENT-REF-1, and none while a limit holds iq. */
+static void test_derivative_of_iq_is_that_of_the_wanted_acceleration(void)
 {
-    double low_pass_A        = 0.0;
-    config.filter_per_period = 0.2f;
-    config.filter_1ps        = 1000.0f;
+    int held = 0;
     for (int n = 0; n < CASES; n++) {
-        ask_for((double)support_uniform(&random_state, -3.0f, 3.0f));
+        y.id_A                    = support_uniform(&random_state, -3.0f, 2.0f);
+        w_ref.omega_2dot_e_radps3 = support_uniform(&random_state, -4.0e6f, 4.0e6f);
+        ask_for((double)support_uniform(&random_state, -5.0f, 5.0f));
+        const double gain = (double)motor.l1 + ((double)motor.l11 * (double)y.id_A);
 
         update();
 
-        TEST_ASSERT_DOUBLE_WITHIN(TOL_Aps, ((double)r.i_A.q - low_pass_A) * 1000.0,
-                                  (double)r.i_dot_Aps.q);
-        low_pass_A += 0.2 * ((double)r.i_A.q - low_pass_A);
+        if ((r.i_A.q == r.iq_lo_A) || (r.i_A.q == r.iq_hi_A)) {
+            TEST_ASSERT_TRUE(r.i_dot_Aps.q == 0.0f);
+            held++;
+        } else {
+            TEST_ASSERT_DOUBLE_WITHIN(TOL_Aps, (double)w_ref.omega_2dot_e_radps3 / gain,
+                                      (double)r.i_dot_Aps.q);
+        }
+    }
+    TEST_ASSERT_TRUE((held > 100) && (held < CASES - 100));
+}
+
+/* Mechanical power into the dc link, divided by J / np^2, of both ends of the range of iq. */
+static void test_regeneration_never_feeds_back_more_than_allowed(void)
+{
+    config = board_config_drive.current_ref;
+    for (int n = 0; n < 5 * CASES; n++) {
+        draw_fast_case();
+        y.omega_e_radps         = support_uniform(&random_state, -1500.0f, 1500.0f);
+        config.regen_max_W_norm = support_uniform(&random_state, 0.0f, 3.0e6f);
+        dc_link_V               = support_uniform(&random_state, 300.0f, 390.0f);
+        ask_for((double)support_uniform(&random_state, -5.0f, 5.0f));
+        const double share = support_limit(
+            1.0 - ((double)config.regen_per_V * ((double)dc_link_V - (double)config.regen_start_V)),
+            0.0, 1.0);
+        const double allowed = share * (double)config.regen_max_W_norm;
+        const double torque_gain =
+            fmax((double)motor.l1 + ((double)motor.l11 * (double)y.id_A), (double)config.l1_min);
+
+        update();
+
+        const double w      = (double)y.omega_e_radps;
+        const float  ends[] = {r.iq_lo_A, r.iq_hi_A, r.i_A.q};
+        for (int k = 0; k < SUPPORT_COUNT(ends); k++) {
+            const double power = -(double)ends[k] * w * torque_gain;
+            TEST_ASSERT_TRUE(power <= (allowed * (1.0 + 1.0e-5)) + 5.0);
+        }
+    }
+}
+
+static void test_full_dc_link_takes_nothing_back_but_leaves_motoring(void)
+{
+    config.regen_max_W_norm = 1.0e6f;
+    dc_link_V               = config.regen_start_V + (1.01f / config.regen_per_V);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        y.omega_e_radps = 150.0f * (float)sign;
+
+        update();
+
+        TEST_ASSERT_TRUE(((sign > 0) ? r.iq_lo_A : r.iq_hi_A) == 0.0f);
+        TEST_ASSERT_TRUE(((sign > 0) ? r.iq_hi_A : -r.iq_lo_A) == config.iq_max_A);
+    }
+}
+
+/* Across base speed, where the circle begins to count, and zero speed: small steps give small changes. The
+ * steepest place is where the wanted iq touches the circle: a root, 0.08 A for this step. */
+static void test_references_are_continuous_in_the_speed(void)
+{
+    config                   = board_config_drive.current_ref;
+    config.filter_per_period = 1.0f;
+    for (int load = -3; load <= 3; load++) {
+        dq_t before_A = {0.0f, 0.0f};
+        for (int step = -12000; step <= 12000; step++) {
+            y.omega_e_radps = 0.1f * (float)step;
+            y.id_A          = -0.5f;
+            y.iq_A          = (float)load;
+            r.i_A.q         = (float)load;
+            r.i_A.d         = 0.0f;
+            ask_for((double)load);
+
+            update();
+
+            if (step > -12000) {
+                TEST_ASSERT_TRUE(fabsf(r.i_A.d - before_A.d) < 1.0e-1f);
+                TEST_ASSERT_TRUE(fabsf(r.i_A.q - before_A.q) < 3.0e-2f);
+            }
+            before_A = r.i_A;
+        }
+    }
+}
+
+/* EQ-CURRENT-REF-1 at the ends of the range of iq, and the jerk of the free voltage. */
+static void test_speed_limits_are_the_accelerations_of_the_current_range(void)
+{
+    for (int n = 0; n < CASES; n++) {
+        draw_fast_case();
+        config.torque_share  = support_uniform(&random_state, 0.1f, 1.0f);
+        r.i_A.d              = support_uniform(&random_state, -4.0f, 0.0f);
+        r.iq_lo_A            = support_uniform(&random_state, -3.3f, 0.0f);
+        r.iq_hi_A            = support_uniform(&random_state, 0.0f, 3.3f);
+        const float  command = support_uniform(&random_state, -1500.0f, 1500.0f);
+        const double gain    = ((double)motor.l1 + ((double)motor.l11 * (double)r.i_A.d)) *
+                            (double)config.torque_share;
+        const double free_radps2 =
+            (double)est.d_omega - ((double)motor.l2 * (double)y.omega_e_radps);
+        const double fastest         = fmax(fabs((double)y.omega_e_radps), fabs((double)command));
+        const double spare_V         = fmax(usable_V() - (si.flux_Wb * fastest),
+                                            0.4 * usable_V()); /* what is left for diq/dt */
+        const current_ref_input_t in = {&est, &y, iq_speed_A, dc_link_V, V_MAX_V};
+
+        const speed_ref_limits_t limits =
+            current_ref_speed_limits(&r, &config, &motor, &in, command);
+
+        TEST_ASSERT_DOUBLE_WITHIN(1.0e-2, fmax(free_radps2 + (gain * (double)r.iq_hi_A), 0.0),
+                                  (double)limits.accel_hi_e_radps2);
+        TEST_ASSERT_DOUBLE_WITHIN(1.0e-2, fmin(free_radps2 + (gain * (double)r.iq_lo_A), 0.0),
+                                  (double)limits.accel_lo_e_radps2);
+        TEST_ASSERT_DOUBLE_WITHIN(
+            1.0e-5, 1.0, (double)limits.jerk_e_radps3 / ((double)motor.l1 * spare_V / si.lq_H));
+        TEST_ASSERT_TRUE(limits.near_e_radps == config.near_e_radps);
+    }
+}
+
+/* Without resistance and disturbance, a wish beyond the circle settles at maximum torque per volt. */
+static void test_wish_beyond_the_circle_ends_at_maximum_torque_per_volt(void)
+{
+    config.current_max_A = 60.0f;
+    config.iq_max_A      = 60.0f;
+    for (int speed = 400; speed <= 1500; speed += 100) {
+        y.omega_e_radps   = (float)speed;
+        const double f_A  = usable_V() / ((double)speed * si.lq_H);
+        const double id_A = -(si.flux_Wb + (oracle_mtpv_A(f_A) * si.lq_H)) / si.ld_H;
+        r.i_A.d           = 0.0f;
+        ask_for(30.0);
+
+        update();
+
+        TEST_ASSERT_DOUBLE_WITHIN(1.0e-4, id_A, (double)r.i_A.d);
     }
 }
 
@@ -549,7 +740,9 @@ static void test_bad_estimates_give_finite_references_inside_the_circle(void)
                                  &est.d_d,
                                  &iq_speed_A,
                                  &w_ref.omega_e_radps,
-                                 &w_ref.omega_dot_e_radps2};
+                                 &w_ref.omega_dot_e_radps2,
+                                 &w_ref.accel_wanted_e_radps2,
+                                 &dc_link_V};
         for (int k = 0; k < SUPPORT_COUNT(fields); k++) {
             for (int speed = 0; speed <= 1200; speed += 600) {
                 setUp();
@@ -573,7 +766,8 @@ int main(void)
     RUN_TEST(test_reset_starts_everything_at_zero);
     RUN_TEST(test_rest_without_disturbance_asks_for_no_current);
     RUN_TEST(test_id_at_low_speed_gives_the_most_torque_per_ampere);
-    RUN_TEST(test_id_follows_the_mtpa_series_of_the_previous_reference);
+    RUN_TEST(test_second_order_id_costs_some_percent_more_current);
+    RUN_TEST(test_id_follows_the_mtpa_curve_of_the_previous_reference);
     RUN_TEST(test_surface_magnet_motor_needs_no_id_at_low_speed);
     RUN_TEST(test_id_matches_search_in_volts_at_high_speed);
     RUN_TEST(test_id_makes_room_for_the_current_that_the_speed_error_asks_for);
@@ -590,7 +784,12 @@ int main(void)
     RUN_TEST(test_reversed_rotation_mirrors_the_references);
     RUN_TEST(test_id_approaches_its_target_exponentially);
     RUN_TEST(test_derivative_of_id_is_its_difference_quotient);
-    RUN_TEST(test_derivative_of_iq_is_that_of_a_low_pass);
+    RUN_TEST(test_derivative_of_iq_is_that_of_the_wanted_acceleration);
+    RUN_TEST(test_regeneration_never_feeds_back_more_than_allowed);
+    RUN_TEST(test_full_dc_link_takes_nothing_back_but_leaves_motoring);
+    RUN_TEST(test_references_are_continuous_in_the_speed);
+    RUN_TEST(test_speed_limits_are_the_accelerations_of_the_current_range);
+    RUN_TEST(test_wish_beyond_the_circle_ends_at_maximum_torque_per_volt);
     RUN_TEST(test_steady_references_have_no_derivative);
     RUN_TEST(test_bad_estimates_give_finite_references_inside_the_circle);
     return UNITY_END();

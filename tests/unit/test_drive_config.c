@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "drive_config.h"
 
+#include "board_config.h"
 #include "gain_tables.h"
 #include "unit_support.h"
 #include "unity.h"
@@ -10,7 +11,7 @@
 static drive_config_t config;
 
 /* What a constant may be besides a positive number. */
-typedef enum { POSITIVE, ZERO_OR_MORE, ZERO_OR_LESS, ANY } range_t;
+typedef enum { POSITIVE, ZERO_OR_MORE, ZERO_OR_LESS } range_t;
 
 typedef struct {
     float  *constant;
@@ -19,9 +20,10 @@ typedef struct {
 
 static const entry_t entries[] = {
     {&config.ts_s, POSITIVE},
-    {&config.accel_max_e_radps2, POSITIVE},
     {&config.trip_current_A, POSITIVE},
     {&config.trip_speed_e_radps, POSITIVE},
+    {&config.trip_angle_rad, POSITIVE},
+    {&config.trip_d_omega, POSITIVE},
     {&config.dc_link_min_V, POSITIVE},
     {&config.dc_link_max_V, POSITIVE},
     {&config.motor.l1, POSITIVE},
@@ -39,14 +41,28 @@ static const entry_t entries[] = {
     {&config.motor.inv_l8, POSITIVE},
     {&config.current_ref.current_max_A, POSITIVE},
     {&config.current_ref.iq_max_A, POSITIVE},
-    {&config.current_ref.mtpa_gain_1pA, ZERO_OR_LESS},
+    {&config.current_ref.mtpa_A, POSITIVE},
     {&config.current_ref.voltage_share, POSITIVE},
+    {&config.current_ref.torque_share, POSITIVE},
+    {&config.current_ref.near_e_radps, POSITIVE},
     {&config.current_ref.l1_min, POSITIVE},
     {&config.current_ref.filter_per_period, POSITIVE},
     {&config.current_ref.filter_1ps, POSITIVE},
+    {&config.current_ref.regen_max_W_norm, ZERO_OR_MORE},
+    {&config.current_ref.regen_start_V, POSITIVE},
+    {&config.current_ref.regen_per_V, POSITIVE},
+    {&config.dead_time.share, ZERO_OR_MORE},
+    {&config.dead_time.inv_fade_1pA, POSITIVE},
     {&config.nosc.iq_error_max_A, POSITIVE},
+};
+
+static const entry_t speed_entries[] = {
     {&config.nodo.iq_max_A, POSITIVE},
     {&config.nodo.iq_certified_A, POSITIVE},
+};
+
+static const entry_t encoder_entries[] = {
+    {&config.nodo_encoder.iq_max_A, POSITIVE},
 };
 
 void setUp(void)
@@ -56,55 +72,108 @@ void setUp(void)
 
 void tearDown(void) {}
 
-/* Puts x in place of one constant; the others are those of the shipped drive. */
-static ctl_status_t check_with(float *constant, float x)
+/* Puts x in place of one constant; the others are those of `base`. */
+static ctl_status_t check_in(const drive_config_t *base, float *constant, float x)
 {
-    config    = gain_tables_drive;
+    config    = *base;
     *constant = x;
     return drive_config_check(&config);
 }
 
-static void test_shipped_drive_is_accepted(void)
+static ctl_status_t check_with(float *constant, float x)
 {
+    return check_in(&gain_tables_drive, constant, x);
+}
+
+static void assert_refused(const drive_config_t *base, float *constant, float x)
+{
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_in(base, constant, x));
+}
+
+/* Not finite, beyond physics, zero where it has no meaning, of the wrong sign. */
+static void assert_entry_checked(const drive_config_t *base, const entry_t *entry)
+{
+    const ctl_status_t at_zero = (entry->range == POSITIVE) ? CTL_BAD_CONFIG : CTL_OK;
+    const float        wrong   = (entry->range == ZERO_OR_LESS) ? 1.0e-6f : -1.0e-6f;
+
+    for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
+        assert_refused(base, entry->constant, support_not_finite[k]);
+    }
+    assert_refused(base, entry->constant, TOO_LARGE);
+    assert_refused(base, entry->constant, -TOO_LARGE);
+    assert_refused(base, entry->constant, wrong);
+    TEST_ASSERT_EQUAL_INT(at_zero, check_in(base, entry->constant, 0.0f));
+    TEST_ASSERT_EQUAL_INT(at_zero, check_in(base, entry->constant, -0.0f));
+}
+
+static void assert_entry_ignored(const drive_config_t *base, const entry_t *entry)
+{
+    for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
+        TEST_ASSERT_EQUAL_INT(CTL_OK, check_in(base, entry->constant, support_not_finite[k]));
+    }
+    TEST_ASSERT_EQUAL_INT(CTL_OK, check_in(base, entry->constant, TOO_LARGE));
+    TEST_ASSERT_EQUAL_INT(CTL_OK, check_in(base, entry->constant, -1.0f));
+}
+
+static void test_shipped_drives_are_accepted(void)
+{
+    TEST_ASSERT_EQUAL_INT(DRIVE_FORM_SPEED, gain_tables_drive.form);
+    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&gain_tables_drive));
+    TEST_ASSERT_EQUAL_INT(DRIVE_FORM_ENCODER, board_config_drive.form);
+    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&board_config_drive));
+}
+
+static void test_every_constant_is_checked_in_both_forms(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(entries); i++) {
+        assert_entry_checked(&gain_tables_drive, &entries[i]);
+        assert_entry_checked(&board_config_drive, &entries[i]);
+    }
+}
+
+static void test_only_the_observer_in_use_is_checked(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(speed_entries); i++) {
+        assert_entry_checked(&gain_tables_drive, &speed_entries[i]);
+        assert_entry_ignored(&board_config_drive, &speed_entries[i]);
+    }
+    for (int i = 0; i < SUPPORT_COUNT(encoder_entries); i++) {
+        assert_entry_checked(&board_config_drive, &encoder_entries[i]);
+        assert_entry_ignored(&gain_tables_drive, &encoder_entries[i]);
+    }
+}
+
+static void test_unused_observer_may_be_anything(void)
+{
+    config                       = gain_tables_drive;
+    config.nodo_encoder.order    = -1;
+    config.nodo_encoder.iq_max_A = NAN;
+    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&config));
+
+    config               = board_config_drive;
+    config.nodo.order    = NODO_ORDER_MAX + 1;
+    config.nodo.iq_max_A = NAN;
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&config));
 }
 
-static void test_every_constant_that_is_not_finite_is_refused(void)
+/* The tables hold the gains of one form only. */
+static void test_form_without_its_gains_is_refused(void)
 {
-    for (int i = 0; i < SUPPORT_COUNT(entries); i++) {
-        for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
-            const ctl_status_t status = check_with(entries[i].constant, support_not_finite[k]);
+    config      = gain_tables_drive;
+    config.form = DRIVE_FORM_ENCODER;
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, drive_config_check(&config));
 
-            TEST_ASSERT_EQUAL_INT_MESSAGE(CTL_BAD_CONFIG, status, "see the table of entries");
-        }
-    }
+    config      = board_config_drive;
+    config.form = DRIVE_FORM_SPEED;
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, drive_config_check(&config));
 }
 
-static void test_every_constant_beyond_physics_is_refused(void)
+static void test_unknown_form_is_refused(void)
 {
-    for (int i = 0; i < SUPPORT_COUNT(entries); i++) {
-        TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(entries[i].constant, TOO_LARGE));
-        TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(entries[i].constant, -TOO_LARGE));
-    }
-}
-
-static void test_zero_is_refused_where_it_has_no_meaning(void)
-{
-    for (int i = 0; i < SUPPORT_COUNT(entries); i++) {
-        const ctl_status_t expected = (entries[i].range == POSITIVE) ? CTL_BAD_CONFIG : CTL_OK;
-
-        TEST_ASSERT_EQUAL_INT(expected, check_with(entries[i].constant, 0.0f));
-        TEST_ASSERT_EQUAL_INT(expected, check_with(entries[i].constant, -0.0f));
-    }
-}
-
-static void test_wrong_sign_is_refused(void)
-{
-    for (int i = 0; i < SUPPORT_COUNT(entries); i++) {
-        const float wrong = (entries[i].range == ZERO_OR_LESS) ? 1.0e-6f : -1.0e-6f;
-
-        TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(entries[i].constant, wrong));
-    }
+    config              = gain_tables_drive;
+    config.nodo_encoder = board_config_drive.nodo_encoder;
+    config.form         = (drive_form_t)2;
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, drive_config_check(&config));
 }
 
 static void assert_bounds(float *constant, float lo, float hi)
@@ -123,7 +192,31 @@ static void test_control_period_has_its_documented_bounds(void)
 static void test_shares_end_at_one(void)
 {
     assert_bounds(&config.current_ref.voltage_share, 1.0e-3f, 1.0f);
+    assert_bounds(&config.current_ref.torque_share, 1.0e-3f, 1.0f);
     assert_bounds(&config.current_ref.filter_per_period, 1.0e-6f, 1.0f);
+}
+
+static void test_trip_angle_ends_at_half_a_turn(void)
+{
+    assert_bounds(&config.trip_angle_rad, 1.0e-6f, BASE_PI);
+}
+
+static void test_dead_time_ends_at_a_tenth_of_the_period(void)
+{
+    float *const share = &config.dead_time.share;
+
+    TEST_ASSERT_EQUAL_INT(CTL_OK, check_with(share, 0.1f));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(share, nextafterf(0.1f, 1.0f)));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(share, -nextafterf(0.0f, 1.0f)));
+}
+
+static void test_certified_range_contains_the_range_of_the_series(void)
+{
+    const float range_A = gain_tables_drive.nodo.iq_max_A;
+
+    TEST_ASSERT_EQUAL_INT(CTL_OK, check_with(&config.nodo.iq_certified_A, range_A));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG,
+                          check_with(&config.nodo.iq_certified_A, nextafterf(range_A, 0.0f)));
 }
 
 static void test_trip_current_lies_beyond_the_current_limit(void)
@@ -165,6 +258,13 @@ static ctl_status_t check_with_nodo_order(int16_t order)
     return drive_config_check(&config);
 }
 
+static ctl_status_t check_with_encoder_order(int16_t order)
+{
+    config                    = board_config_drive;
+    config.nodo_encoder.order = order;
+    return drive_config_check(&config);
+}
+
 static void test_orders_that_no_table_can_hold_are_refused(void)
 {
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with_nosc_order(-1));
@@ -172,6 +272,8 @@ static void test_orders_that_no_table_can_hold_are_refused(void)
     setUp();
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with_nodo_order(-1));
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with_nodo_order(NODO_ORDER_MAX + 1));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with_encoder_order(-1));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with_encoder_order(NODO_ORDER_MAX + 1));
 }
 
 static void test_every_order_that_a_table_can_hold_is_accepted(void)
@@ -181,6 +283,9 @@ static void test_every_order_that_a_table_can_hold_is_accepted(void)
     }
     for (int16_t order = 0; order <= NODO_ORDER_MAX; order++) {
         TEST_ASSERT_EQUAL_INT(CTL_OK, check_with_nodo_order(order));
+    }
+    for (int16_t order = 0; order <= NODO_ORDER_MAX; order++) {
+        TEST_ASSERT_EQUAL_INT(CTL_OK, check_with_encoder_order(order));
     }
 }
 
@@ -218,24 +323,50 @@ static void test_every_gain_of_the_observer_in_use_is_checked(void)
     }
 }
 
+static void test_every_gain_of_the_encoder_observer_in_use_is_checked(void)
+{
+    const drive_config_t *const base = &board_config_drive;
+    for (int n = 0; n <= base->nodo_encoder.order; n++) {
+        for (int row = 0; row < NODO_ENCODER_N_X; row++) {
+            for (int column = 0; column < NODO_ENCODER_N_Y; column++) {
+                float *const gain = &config.nodo_encoder.gain[n][row][column];
+
+                for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
+                    assert_refused(base, gain, support_not_finite[k]);
+                }
+                assert_refused(base, gain, TOO_LARGE);
+                assert_refused(base, gain, -TOO_LARGE);
+            }
+        }
+    }
+}
+
 static void test_powers_beyond_the_order_are_not_looked_at(void)
 {
     config.nosc.lambda[config.nosc.order + 1][0][0] = NAN;
     config.nodo.gain[config.nodo.order + 1][0][0]   = NAN;
 
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&config));
+
+    config                                                        = board_config_drive;
+    config.nodo_encoder.gain[config.nodo_encoder.order + 1][0][0] = NAN;
+    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&config));
 }
 
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_shipped_drive_is_accepted);
-    RUN_TEST(test_every_constant_that_is_not_finite_is_refused);
-    RUN_TEST(test_every_constant_beyond_physics_is_refused);
-    RUN_TEST(test_zero_is_refused_where_it_has_no_meaning);
-    RUN_TEST(test_wrong_sign_is_refused);
+    RUN_TEST(test_shipped_drives_are_accepted);
+    RUN_TEST(test_every_constant_is_checked_in_both_forms);
+    RUN_TEST(test_only_the_observer_in_use_is_checked);
+    RUN_TEST(test_unused_observer_may_be_anything);
+    RUN_TEST(test_form_without_its_gains_is_refused);
+    RUN_TEST(test_unknown_form_is_refused);
     RUN_TEST(test_control_period_has_its_documented_bounds);
     RUN_TEST(test_shares_end_at_one);
+    RUN_TEST(test_trip_angle_ends_at_half_a_turn);
+    RUN_TEST(test_dead_time_ends_at_a_tenth_of_the_period);
+    RUN_TEST(test_certified_range_contains_the_range_of_the_series);
     RUN_TEST(test_trip_current_lies_beyond_the_current_limit);
     RUN_TEST(test_dc_link_range_is_not_empty);
     RUN_TEST(test_iq_limit_lies_within_the_current_circle);
@@ -243,6 +374,7 @@ int main(void)
     RUN_TEST(test_every_order_that_a_table_can_hold_is_accepted);
     RUN_TEST(test_every_gain_of_the_controller_in_use_is_checked);
     RUN_TEST(test_every_gain_of_the_observer_in_use_is_checked);
+    RUN_TEST(test_every_gain_of_the_encoder_observer_in_use_is_checked);
     RUN_TEST(test_powers_beyond_the_order_are_not_looked_at);
     return UNITY_END();
 }

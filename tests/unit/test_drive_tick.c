@@ -1,20 +1,28 @@
 /* SPDX-License-Identifier: MIT */
 #include "drive_tick.h"
 
+#include "board_config.h"
+#include "dead_time.h"
+#include "feedforward.h"
+#include "frames.h"
 #include "gain_tables.h"
+#include "svpwm.h"
 #include "unit_support.h"
 #include "unity.h"
 #include "voltage.h"
 
-#define TOL_V          3.0e-3 /* V, up to 1 kV before the limit; worst 5.7e-4 */
-#define TOL_DUTY_V     4.0e-4 /* V worked back from duty ratios; worst 7.4e-5 */
-#define TOL_CIRCLE     1.0e-6 /* relative overshoot of the voltage circle; worst 2.0e-7 */
-#define TOL_A          1.5e-7 /* A, currents up to 0.5 A; worst 3.0e-8 */
-#define TOL_RADPS      1.0e-4 /* rad/s, settled speed; worst 1.7e-5 */
-#define TOL_RAMP_RADPS 7.0e-5 /* rad/s after one step of the reference; worst 1.4e-5 */
-#define TOL_TORQUE     6.5e-4 /* N m, load found by the observer; worst 1.3e-4 */
-#define TOL_START_V    3.0e-5 /* V, back-EMF up to 116 V; worst 6.1e-6 */
-#define TOL_ROTATE_V   8.0e-5 /* V, the same operating point at another angle; worst 1.6e-5 */
+#define TOL_V           3.0e-3 /* V, up to 1 kV before the limit; worst 5.7e-4 */
+#define TOL_DUTY_V      4.0e-4 /* V worked back from duty ratios; worst 7.4e-5 */
+#define TOL_CIRCLE      1.0e-6 /* relative overshoot of the voltage circle; worst 2.0e-7 */
+#define TOL_A           1.5e-7 /* A, currents up to 0.5 A; worst 3.0e-8 */
+#define TOL_RADPS       1.0e-4 /* rad/s, settled speed; worst 1.7e-5 */
+#define TOL_TORQUE      6.5e-4 /* N m, load found by the observer; worst 1.3e-4 */
+#define TOL_MEAN_RADPS  2.0e-2 /* rad/s, mean settled speed with counts of an encoder */
+#define TOL_FAST_RADPS  5.0e-1 /* rad/s, the same where noise touches the voltage limit */
+#define TOL_NOISE_RADPS 1.5e0  /* rad/s, largest distance of the settled speed */
+#define TOL_LOAD        5.0e-3 /* N m, mean load found by the observer */
+#define TOL_START_V     3.0e-5 /* V, back-EMF up to 116 V; worst 6.1e-6 */
+#define TOL_ROTATE_V    8.0e-5 /* V, the same operating point at another angle; worst 1.6e-5 */
 
 #define V_DC_V 295.0f
 
@@ -40,15 +48,31 @@ static drive_sample_t sample_at(double id_A, double iq_A, double theta_rad, doub
     return s;
 }
 
+static const drive_config_t *base = &gain_tables_drive;
+
+/* The realised voltage is worked back from the duties, so the dead time is left out unless a test asks. */
+static void start_over(void)
+{
+    random_state.state     = 23u;
+    walk_radps             = 300.0;
+    config                 = *base;
+    config.dead_time.share = 0.0f;
+    sample                 = sample_at(-0.1, 0.5, 1.0, 300.0);
+    command.omega_e_radps  = 302.0f;
+    command.run            = true;
+    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_init(&drive, &config));
+}
+
 void setUp(void)
 {
-    random_state.state    = 23u;
-    walk_radps            = 300.0;
-    config                = gain_tables_drive;
-    sample                = sample_at(-0.1, 0.5, 1.0, 300.0);
-    command.omega_e_radps = 302.0f;
-    command.run           = true;
-    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_init(&drive, &config));
+    base = &gain_tables_drive;
+    start_over();
+}
+
+static void use_encoder_form(void)
+{
+    base = &board_config_drive;
+    start_over();
 }
 
 void tearDown(void) {}
@@ -88,12 +112,13 @@ static void draw_inputs(void)
 /* Samples a motor would give: near 300 rad/s, errors within the linear range of the voltage. */
 static void draw_calm_inputs(void)
 {
-    const double angle    = (double)support_uniform(&random_state, -6.28f, 6.28f);
-    const double id_A     = (double)support_uniform(&random_state, -0.3f, 0.0f);
-    const double iq_A     = (double)support_uniform(&random_state, 0.4f, 0.7f);
-    const double w        = (double)support_uniform(&random_state, 299.9f, 300.1f);
-    sample                = sample_at(id_A, iq_A, angle, w);
-    command.omega_e_radps = support_uniform(&random_state, 299.9f, 300.1f);
+    const double angle = (double)support_uniform(&random_state, -6.28f, 6.28f);
+    const double id_A  = (double)support_uniform(&random_state, -0.3f, 0.0f);
+    const double iq_A  = (double)support_uniform(&random_state, 0.4f, 0.7f);
+    const double w     = (double)support_uniform(&random_state, 299.9f, 300.1f);
+    sample             = sample_at(id_A, iq_A, angle, w);
+    command.omega_e_radps =
+        300.0f; /* a new command would use the jerk, and with it all the voltage */
 }
 
 static void test_drive_starts_off_without_fault(void)
@@ -112,17 +137,6 @@ static void test_drive_that_is_not_asked_to_run_keeps_the_bridge_open(void)
 
     TEST_ASSERT_EQUAL_INT(DRIVE_OFF, drive.state);
     TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_NONE, drive.fault);
-}
-
-static void test_drive_off_still_measures_the_rotor_frame(void)
-{
-    command.run = false;
-
-    (void)tick();
-
-    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, -0.1, (double)drive.meas.id_A);
-    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, 0.5, (double)drive.meas.iq_A);
-    TEST_ASSERT_TRUE(drive.meas.omega_e_radps == 300.0f);
 }
 
 static void test_run_command_closes_the_bridge_in_the_same_call(void)
@@ -157,14 +171,14 @@ static void test_bad_configuration_leaves_the_drive_unusable(void)
     TEST_ASSERT_EQUAL_INT(DRIVE_OFF, drive.state);
 }
 
+/* Before the first range of the q current is known, the reference has no acceleration to use. */
 static void test_start_takes_over_the_present_speed(void)
 {
     command.omega_e_radps = 900.0f;
 
     (void)tick();
 
-    const double step = (double)config.accel_max_e_radps2 * (double)config.ts_s;
-    TEST_ASSERT_DOUBLE_WITHIN(TOL_RAMP_RADPS, 300.0 + step, (double)drive.speed_ref.omega_e_radps);
+    TEST_ASSERT_TRUE(drive.speed_ref.omega_e_radps == 300.0f);
 }
 
 /* A motor that coasts without current is met with its own back-EMF, so that none starts to flow. */
@@ -233,18 +247,19 @@ static void test_reset_while_running_forgets_the_past(void)
 static void test_reset_zeroes_everything_that_is_published(void)
 {
     run_wildly();
-    drive.v_limited = true;
+    drive.v_limited     = true;
+    drive.theta_hat_rad = 1.0f;
 
     drive_reset(&drive);
 
     TEST_ASSERT_EQUAL_INT(DRIVE_OFF, drive.state);
     TEST_ASSERT_TRUE((drive.v_V.d == 0.0f) && (drive.v_V.q == 0.0f) && !drive.v_limited);
-    TEST_ASSERT_TRUE((drive.meas.omega_e_radps == 0.0f) && (drive.meas.iq_A == 0.0f) &&
-                     (drive.meas.id_A == 0.0f));
+    TEST_ASSERT_TRUE((drive.now.omega_e_radps == 0.0f) && (drive.now.iq_A == 0.0f) &&
+                     (drive.now.id_A == 0.0f));
     TEST_ASSERT_TRUE((drive.observer.omega_e_radps == 0.0f) && (drive.observer.d_omega == 0.0f) &&
                      (drive.observer.d_q == 0.0f) && (drive.observer.d_d == 0.0f));
     TEST_ASSERT_TRUE((drive.speed_ref.omega_e_radps == 0.0f) && (drive.current_ref.i_A.q == 0.0f) &&
-                     (drive.current_ref.i_A.d == 0.0f) && (drive.current_ref.filter_A.d == 0.0f));
+                     (drive.current_ref.i_A.d == 0.0f) && (drive.theta_hat_rad == 0.0f));
 }
 
 typedef struct {
@@ -301,7 +316,7 @@ static void test_every_input_that_is_not_finite_trips(void)
 {
     for (int i = 0; i < SUPPORT_COUNT(inputs); i++) {
         for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
-            setUp();
+            start_over();
             (void)tick();
             *inputs[i].field = support_not_finite[k];
 
@@ -314,7 +329,7 @@ static void test_every_input_just_out_of_range_trips(void)
 {
     for (int i = 0; i < SUPPORT_COUNT(inputs); i++) {
         for (int side = 0; side < 2; side++) {
-            setUp();
+            start_over();
             (void)tick();
             sample.ia_A      = 0.0f;
             sample.ib_A      = 0.0f;
@@ -330,7 +345,7 @@ static void test_every_input_at_the_end_of_its_range_is_accepted(void)
 {
     for (int i = 0; i < SUPPORT_COUNT(inputs); i++) {
         for (int side = 0; side < 2; side++) {
-            setUp();
+            start_over();
             sample.ia_A      = 0.0f;
             sample.ib_A      = 0.0f;
             *inputs[i].field = (side == 0) ? inputs[i].lo : inputs[i].hi;
@@ -343,7 +358,7 @@ static void test_every_input_at_the_end_of_its_range_is_accepted(void)
 static void test_current_of_one_phase_trips_when_the_others_share_its_return(void)
 {
     for (int sign = -1; sign <= 1; sign += 2) {
-        setUp();
+        start_over();
         (void)tick();
         sample.ia_A = 8.02f * (float)sign;
         sample.ib_A = -4.01f * (float)sign;
@@ -358,7 +373,7 @@ static void test_current_of_one_phase_trips_when_the_others_share_its_return(voi
 static void test_current_of_the_third_phase_trips(void)
 {
     for (int sign = -1; sign <= 1; sign += 2) {
-        setUp();
+        start_over();
         (void)tick();
         sample.ia_A = 4.01f * (float)sign;
         sample.ib_A = 4.01f * (float)sign;
@@ -390,8 +405,8 @@ static void test_bad_sample_leaves_no_trace_in_the_measurement(void)
 
     (void)tick();
 
-    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, -0.1, (double)drive.meas.id_A);
-    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, 0.5, (double)drive.meas.iq_A);
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, -0.1, (double)drive.now.id_A);
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, 0.5, (double)drive.now.iq_A);
 }
 
 static void test_estimate_that_is_not_finite_trips_before_it_reaches_the_bridge(void)
@@ -401,7 +416,7 @@ static void test_estimate_that_is_not_finite_trips_before_it_reaches_the_bridge(
                                 &drive.observer.iq_A,    &drive.observer.id_A};
     for (int i = 0; i < SUPPORT_COUNT(estimates); i++) {
         for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
-            setUp();
+            start_over();
             (void)tick();
             *estimates[i] = support_not_finite[k];
 
@@ -422,7 +437,7 @@ static void test_one_axis_that_is_not_a_number_is_enough_to_trip(void)
     drive.observer.d_q = NAN;
     assert_trips(DRIVE_FAULT_NUMERIC);
 
-    setUp();
+    start_over();
     (void)tick();
     drive.observer.d_d = NAN;
     assert_trips(DRIVE_FAULT_NUMERIC);
@@ -439,7 +454,7 @@ static law_t oracle_law(void)
 {
     const motor_reduced_t *m     = &config.motor;
     const nosc_gains_t    *g     = &config.nosc;
-    const double           w     = (double)drive.meas.omega_e_radps;
+    const double           w     = (double)drive.now.omega_e_radps;
     const double           iqr   = (double)drive.current_ref.i_A.q;
     const double           idr   = (double)drive.current_ref.i_A.d;
     const double           ratio = (double)g->lambda[0][0][0] / (double)g->lambda[0][0][1];
@@ -448,7 +463,7 @@ static law_t oracle_law(void)
         support_limit(asked, (double)drive.current_ref.iq_lo_A, (double)drive.current_ref.iq_hi_A);
     const double e_w   = (iqr - given) / ratio;
     const double w_d   = w - e_w;
-    const double e[3]  = {e_w, (double)drive.meas.iq_A - iqr, (double)drive.meas.id_A - idr};
+    const double e[3]  = {e_w, (double)drive.now.iq_A - iqr, (double)drive.now.id_A - idr};
     const double limit = (double)g->iq_error_max_A;
     const double held  = support_limit(e[1], -limit, limit);
 
@@ -486,7 +501,7 @@ static void test_voltage_matches_the_printed_law(void)
     TEST_ASSERT_TRUE(compared > 1000);
 }
 
-/* The limited voltage is the printed law, limited around the voltage that holds the currents. */
+/* The limited voltage is the printed law, limited beside the voltage that holds the q current. */
 static void test_limited_voltage_is_the_printed_law_on_the_circle(void)
 {
     const motor_reduced_t *m        = &config.motor;
@@ -494,26 +509,27 @@ static void test_limited_voltage_is_the_printed_law_on_the_circle(void)
     for (int n = 0; n < 5000; n++) {
         draw_inputs();
         (void)tick();
-        const double w      = (double)drive.meas.omega_e_radps;
-        const law_t  u      = oracle_law();
-        const dq_t   u_V    = {.d = (float)u.v_d, .q = (float)u.v_q};
-        const dq_t   hold_V = {
-              .d = (float)((((double)m->l7 * (double)drive.meas.id_A) -
-                          ((double)m->l9 * w * (double)drive.meas.iq_A) -
-                          (double)drive.observer.d_d) /
-                         (double)m->l8),
-              .q = (float)((((double)m->l4 * (double)drive.meas.iq_A) + ((double)m->l5 * w) +
-                          ((double)m->l10 * w * (double)drive.meas.id_A) -
-                          (double)drive.observer.d_q) /
-                         (double)m->l6)};
+        const double w   = (double)drive.now.omega_e_radps;
+        const law_t  u   = oracle_law();
+        const dq_t   u_V = {.d = (float)u.v_d, .q = (float)u.v_q};
+        const float  hold_V =
+            (float)((((double)m->l4 * (double)drive.now.iq_A) + ((double)m->l5 * w) +
+                     ((double)m->l10 * w * (double)drive.now.id_A) - (double)drive.observer.d_q) /
+                    (double)m->l6);
+        const float v_max_V = sample.dc_link_V * BASE_1_SQRT3;
+        const bool  near_V  = fabs(support_length(u_V) - (double)v_max_V) < 0.05;
 
-        const voltage_limited_t expected =
-            voltage_limit(u_V, hold_V, sample.dc_link_V * BASE_1_SQRT3);
+        const voltage_limited_t expected = voltage_limit(u_V, hold_V, v_max_V);
 
-        TEST_ASSERT_TRUE(drive.v_limited == expected.limited);
+        TEST_ASSERT_TRUE(near_V || (drive.v_limited == expected.limited));
         if (support_length(u_V) < 2.0e4) {
-            TEST_ASSERT_DOUBLE_WITHIN(TOL_V, (double)expected.v_V.q, (double)drive.v_V.q);
-            TEST_ASSERT_DOUBLE_WITHIN(TOL_V, (double)expected.v_V.d, (double)drive.v_V.d);
+            /* beside a d axis that takes nearly all, the q axis is the root of a small difference */
+            const double steep = 1.0 + (100.0 / fmax(fabs((double)expected.v_V.q), 1.0));
+            TEST_ASSERT_DOUBLE_WITHIN(TOL_V * steep, (double)expected.v_V.d, (double)drive.v_V.d);
+            if (fabs((double)expected.v_V.q) > 5.0) {
+                TEST_ASSERT_DOUBLE_WITHIN(TOL_V * steep, (double)expected.v_V.q,
+                                          (double)drive.v_V.q);
+            }
             compared++;
         }
     }
@@ -529,7 +545,7 @@ static void test_observer_is_driven_by_the_limited_voltage_of_the_previous_tick(
         draw_inputs();
 
         (void)tick();
-        nodo_update(&expected, &config.nodo, &config.motor, &drive.meas, in_force_V, config.ts_s);
+        nodo_update(&expected, &config.nodo, &config.motor, &drive.now, in_force_V, config.ts_s);
 
         TEST_ASSERT_TRUE((drive.observer.d_omega == expected.d_omega) &&
                          (drive.observer.d_q == expected.d_q) &&
@@ -540,22 +556,25 @@ static void test_observer_is_driven_by_the_limited_voltage_of_the_previous_tick(
     }
 }
 
-static void test_references_follow_this_sample_and_command(void)
+static void assert_references_follow(void (*draw)(void))
 {
     (void)tick();
     for (int n = 0; n < 1000; n++) {
         speed_ref_t   speed   = drive.speed_ref;
         current_ref_t current = drive.current_ref;
-        draw_inputs();
+        draw();
 
-        (void)tick();
-        speed_ref_update(&speed, command.omega_e_radps, config.accel_max_e_radps2, config.ts_s);
-        const float               ratio = config.nosc.lambda[0][0][0] / config.nosc.lambda[0][0][1];
-        const current_ref_input_t in    = {
-               .est        = &drive.observer,
-               .meas       = &drive.meas,
-               .iq_speed_A = -ratio * (drive.meas.omega_e_radps - speed.omega_e_radps),
-               .v_max_V    = sample.dc_link_V * BASE_1_SQRT3};
+        TEST_ASSERT_TRUE(tick().gate_enable);
+        const float               e_w    = drive.now.omega_e_radps - speed.omega_e_radps;
+        const current_ref_input_t in     = {.est        = &drive.observer,
+                                            .state      = &drive.now,
+                                            .iq_speed_A = nosc_speed_current_A(&config.nosc, e_w),
+                                            .dc_link_V  = sample.dc_link_V,
+                                            .v_max_V    = sample.dc_link_V * BASE_1_SQRT3};
+        const speed_ref_limits_t  limits = current_ref_speed_limits(
+             &current, &config.current_ref, &config.motor, &in, command.omega_e_radps);
+        speed_ref_update(&speed, &limits, command.omega_e_radps, drive.now.omega_e_radps,
+                         config.ts_s);
         current_ref_update(&current, &config.current_ref, &config.motor, &speed, &in);
 
         TEST_ASSERT_TRUE(drive.speed_ref.omega_e_radps == speed.omega_e_radps);
@@ -564,6 +583,11 @@ static void test_references_follow_this_sample_and_command(void)
         TEST_ASSERT_TRUE((drive.current_ref.iq_lo_A == current.iq_lo_A) &&
                          (drive.current_ref.iq_hi_A == current.iq_hi_A));
     }
+}
+
+static void test_references_follow_this_sample_and_command(void)
+{
+    assert_references_follow(draw_inputs);
 }
 
 /* Voltage vector that the duty ratios make, in the stator frame. */
@@ -595,7 +619,7 @@ static void test_same_operating_point_at_any_angle_gives_the_same_voltage(void)
     (void)tick();
     const dq_t expected_V = drive.v_V;
     for (int step = -62; step <= 62; step++) {
-        setUp();
+        start_over();
         sample = sample_at(-0.1, 0.5, 0.1 * (double)step, 300.0);
 
         (void)tick();
@@ -620,6 +644,27 @@ static void test_random_operation_keeps_duties_and_voltage_in_range(void)
         const double radius_V = (double)sample.dc_link_V / sqrt(3.0);
         const double beyond   = (support_length(drive.v_V) / radius_V) - 1.0;
         TEST_ASSERT_DOUBLE_WITHIN(TOL_CIRCLE, 0.0, fmax(beyond, 0.0));
+    }
+}
+
+/* With the dead time: the duties of the limited voltage, compensated for the currents the law saw. */
+static void test_dead_time_is_compensated_for_the_currents_of_the_law(void)
+{
+    config.dead_time = gain_tables_drive.dead_time;
+    for (int n = 0; n < 2000; n++) {
+        draw_inputs();
+        const drive_output_t out = tick();
+        const frames_angle_t angle =
+            frames_angle(sample.theta_e_rad + (1.5f * config.ts_s * sample.omega_e_radps));
+        const dq_t  i_A   = {.d = drive.now.id_A, .q = drive.now.iq_A};
+        const abc_t i_abc = frames_inverse_clarke(frames_inverse_park(i_A, angle));
+        const abc_t plain = svpwm_duty(frames_inverse_park(drive.v_V, angle), sample.dc_link_V);
+
+        const abc_t expected = dead_time_compensate(&config.dead_time, plain, i_abc);
+
+        TEST_ASSERT_DOUBLE_WITHIN(1.0e-5, (double)expected.a, (double)out.duty.a);
+        TEST_ASSERT_DOUBLE_WITHIN(1.0e-5, (double)expected.b, (double)out.duty.b);
+        TEST_ASSERT_DOUBLE_WITHIN(1.0e-5, (double)expected.c, (double)out.duty.c);
     }
 }
 
@@ -687,10 +732,239 @@ static void assert_settles(double speed, double load_Nm)
 static void test_loop_around_a_motor_settles_at_the_command_and_finds_the_load(void)
 {
     assert_settles(300.0, 0.75);
-    setUp();
+    start_over();
     assert_settles(-300.0, 0.75); /* the load drives: regeneration */
-    setUp();
+    start_over();
     assert_settles(0.0, 0.75);
+}
+
+/* Encoder form: 10000 counts a turn, two pole pairs. */
+#define COUNT_e_rad (2.0 * 6.283185307179586 / 10000.0)
+
+typedef struct {
+    plant_t        plant;
+    double complex stator; /* voltage in force */
+} loop_t;
+
+static drive_sample_t encoder_sample(const plant_t *p)
+{
+    drive_sample_t s = sample_at(p->id, p->iq, p->theta, p->omega);
+    s.theta_e_rad    = (float)(floor(p->theta / COUNT_e_rad) * COUNT_e_rad);
+    return s;
+}
+
+static drive_output_t loop_step(loop_t *loop, double load_Nm)
+{
+    const drive_output_t out    = tick();
+    const double complex coming = out.gate_enable ? realised_V(out) : 0.0;
+    plant_run(&loop->plant, loop->stator, load_Nm);
+    loop->stator = coming;
+    return out;
+}
+
+static loop_t settled_loop(double speed, double load_Nm)
+{
+    loop_t loop           = {{0.0, 0.0, 0.0, 0.0}, 0.0};
+    command.omega_e_radps = (float)speed;
+    for (int n = 0; n < 4000; n++) {
+        sample = encoder_sample(&loop.plant);
+        TEST_ASSERT_TRUE(loop_step(&loop, load_Nm).gate_enable);
+    }
+    return loop;
+}
+
+static void test_encoder_loop_settles_at_the_command_and_finds_the_load(void)
+{
+    static const double speeds[] = {300.0, -300.0, 0.0, 800.0};
+    static const double loads[]  = {0.75, 0.75, 0.75, 0.2};
+    static const double means[]  = {TOL_MEAN_RADPS, TOL_MEAN_RADPS, TOL_MEAN_RADPS,
+                                    TOL_FAST_RADPS}; /* the last one touches the voltage circle */
+    for (int i = 0; i < SUPPORT_COUNT(speeds); i++) {
+        use_encoder_form();
+        loop_t loop  = settled_loop(speeds[i], loads[i]);
+        double mean  = 0.0;
+        double d_w   = 0.0;
+        double worst = 0.0;
+        for (int n = 0; n < 500; n++) {
+            sample = encoder_sample(&loop.plant);
+            (void)loop_step(&loop, loads[i]);
+            mean += loop.plant.omega / 500.0;
+            d_w += (double)drive.observer.d_omega / 500.0;
+            worst = fmax(worst, fabs(loop.plant.omega - speeds[i]));
+        }
+
+        TEST_ASSERT_EQUAL_INT(DRIVE_RUN, drive.state);
+        TEST_ASSERT_DOUBLE_WITHIN(means[i], speeds[i], mean);
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_NOISE_RADPS, 0.0, worst);
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_LOAD, loads[i], -d_w / (double)config.motor.l3);
+    }
+}
+
+/* An encoder that stops while the motor turns. Below about 120 rad/s a standing angle looks like a load that
+ * the motor could just carry: trip_d_omega is twice its torque. */
+static void test_standing_angle_of_a_turning_motor_trips(void)
+{
+    static const double speeds[] = {300.0, -300.0, 800.0, -800.0, 150.0};
+    for (int i = 0; i < SUPPORT_COUNT(speeds); i++) {
+        use_encoder_form();
+        loop_t         loop  = settled_loop(speeds[i], 0.2);
+        const float    stuck = encoder_sample(&loop.plant).theta_e_rad;
+        drive_output_t out   = {{0.0f, 0.0f, 0.0f}, true};
+        int            n     = 0;
+        for (; (n < 100) && out.gate_enable; n++) {
+            sample             = encoder_sample(&loop.plant);
+            sample.theta_e_rad = stuck;
+            out                = loop_step(&loop, 0.2);
+        }
+
+        assert_open(out);
+        TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_ENCODER, drive.fault);
+    }
+}
+
+static void test_jumping_angle_trips_in_the_same_call(void)
+{
+    static const float jumps[] = {0.47f, -0.47f, 1.0f, -1.0f, 3.1f, -3.1f, 4.0f, -4.0f};
+    for (int i = 0; i < SUPPORT_COUNT(jumps); i++) {
+        use_encoder_form();
+        const loop_t loop = settled_loop(300.0, 0.2);
+        sample            = encoder_sample(&loop.plant);
+        sample.theta_e_rad += jumps[i];
+        sample.theta_e_rad -= (sample.theta_e_rad > BASE_TWO_PI) ? BASE_TWO_PI : 0.0f;
+        sample.theta_e_rad += (sample.theta_e_rad < -BASE_TWO_PI) ? BASE_TWO_PI : 0.0f;
+
+        assert_open(tick());
+
+        TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_ENCODER, drive.fault);
+        TEST_ASSERT_EQUAL_INT(DRIVE_FAULT, drive.state);
+        TEST_ASSERT_TRUE((drive.v_V.d == 0.0f) && (drive.v_V.q == 0.0f));
+    }
+}
+
+/* The same angle, told in another turn, is no jump. */
+static void test_angle_of_another_turn_is_accepted(void)
+{
+    use_encoder_form();
+    loop_t loop = settled_loop(300.0, 0.2);
+    for (int n = 0; n < 500; n++) {
+        sample = encoder_sample(&loop.plant);
+        if (n % 2 == 0) {
+            sample.theta_e_rad += (sample.theta_e_rad < 0.0f) ? BASE_TWO_PI : -BASE_TWO_PI;
+        }
+        TEST_ASSERT_TRUE(loop_step(&loop, 0.2).gate_enable);
+    }
+}
+
+static void test_encoder_form_trips_on_every_input_that_is_not_finite(void)
+{
+    use_encoder_form();
+    for (int i = 0; i < SUPPORT_COUNT(inputs); i++) {
+        for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
+            start_over();
+            (void)tick();
+            *inputs[i].field = support_not_finite[k];
+
+            assert_trips(inputs[i].reason);
+        }
+    }
+}
+
+static void test_encoder_form_trips_on_estimates_that_are_not_finite(void)
+{
+    float *const estimates[] = {&drive.observer.d_omega, &drive.observer.d_q,
+                                &drive.observer.d_d,     &drive.observer.omega_e_radps,
+                                &drive.observer.iq_A,    &drive.observer.id_A,
+                                &drive.theta_hat_rad};
+    use_encoder_form();
+    for (int i = 0; i < SUPPORT_COUNT(estimates); i++) {
+        for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
+            start_over();
+            (void)tick();
+            *estimates[i] = support_not_finite[k];
+
+            assert_open(tick());
+
+            TEST_ASSERT_EQUAL_INT(DRIVE_FAULT, drive.state);
+        }
+    }
+}
+
+/* Only its start reads the speed signal. */
+static void test_encoder_form_does_not_use_the_speed_signal(void)
+{
+    use_encoder_form();
+    loop_t  loop  = settled_loop(300.0, 0.2);
+    drive_t other = drive;
+    for (int n = 0; n < 50; n++) {
+        sample                   = encoder_sample(&loop.plant);
+        drive_sample_t disturbed = sample;
+        disturbed.omega_e_radps  = support_uniform(&random_state, -1500.0f, 1500.0f);
+
+        const drive_output_t out = loop_step(&loop, 0.2);
+
+        assert_same_output(out, drive_tick(&other, &disturbed, &command));
+    }
+}
+
+/* Correct with this sample, predict with the voltage in force; law and angle belong to the prediction. */
+static void test_encoder_form_acts_on_the_prediction(void)
+{
+    use_encoder_form();
+    loop_t loop = settled_loop(300.0, 0.5);
+    for (int n = 0; n < 500; n++) {
+        sample              = encoder_sample(&loop.plant);
+        nodo_t      x       = drive.observer;
+        float       theta   = drive.theta_hat_rad;
+        const dq_t  force_V = drive.v_V;
+        const dq_t  i_A = frames_park(frames_clarke(sample.ia_A, sample.ib_A), frames_angle(theta));
+        const float error = nodo_encoder_wrap(sample.theta_e_rad - theta);
+        nodo_encoder_correct(&x, &theta, &config.nodo_encoder, i_A, error, config.ts_s);
+        nodo_encoder_predict(&x, &theta, &config.motor, force_V, config.ts_s);
+
+        const drive_output_t out = loop_step(&loop, 0.5);
+
+        TEST_ASSERT_TRUE((drive.observer.d_omega == x.d_omega) && (drive.observer.d_q == x.d_q) &&
+                         (drive.observer.d_d == x.d_d) && (drive.theta_hat_rad == theta));
+        TEST_ASSERT_TRUE((drive.now.omega_e_radps == x.omega_e_radps) &&
+                         (drive.now.iq_A == x.iq_A) && (drive.now.id_A == x.id_A));
+        const double ahead = (double)theta + (0.5 * (double)config.ts_s * (double)x.omega_e_radps);
+        const double complex v_V = realised_V(out) * cexp(support_complex(0.0, -ahead));
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_DUTY_V, (double)drive.v_V.d, creal(v_V));
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_DUTY_V, (double)drive.v_V.q, cimag(v_V));
+    }
+}
+
+/* A speed that wanders, its angle in counts, currents and dc link anywhere. */
+static void test_encoder_form_keeps_duties_in_range_for_plausible_samples(void)
+{
+    double theta   = 0.0;
+    int    running = 0;
+    use_encoder_form();
+    config.dead_time = board_config_drive.dead_time;
+    for (int32_t n = 0; n < 100000; n++) {
+        draw_inputs();
+        const double i_d   = (double)support_uniform(&random_state, -4.0f, 4.0f);
+        const double i_q   = (double)support_uniform(&random_state, -4.0f, 4.0f);
+        const float  v_V   = sample.dc_link_V;
+        theta              = remainder(theta + (2.0e-4 * walk_radps), 2.0 * (double)BASE_PI);
+        sample             = sample_at(i_d, i_q, theta, walk_radps);
+        sample.theta_e_rad = (float)(floor(theta / COUNT_e_rad) * COUNT_e_rad);
+        sample.dc_link_V   = v_V;
+
+        const drive_output_t out = tick();
+
+        TEST_ASSERT_TRUE(base_in_range(out.duty.a, 0.0f, 1.0f));
+        TEST_ASSERT_TRUE(base_in_range(out.duty.b, 0.0f, 1.0f));
+        TEST_ASSERT_TRUE(base_in_range(out.duty.c, 0.0f, 1.0f));
+        TEST_ASSERT_TRUE(isfinite(drive.observer.omega_e_radps) && isfinite(drive.v_V.d) &&
+                         isfinite(drive.v_V.q) && isfinite(drive.observer.d_omega));
+        TEST_ASSERT_TRUE(drive.fault != DRIVE_FAULT_NUMERIC);
+        running += out.gate_enable ? 1 : 0;
+        if (drive.state == DRIVE_FAULT) { /* speeds and currents that contradict each other */
+            drive_reset(&drive);
+        }
+    }
+    TEST_ASSERT_TRUE(running > 50000);
 }
 
 int main(void)
@@ -698,7 +972,6 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_drive_starts_off_without_fault);
     RUN_TEST(test_drive_that_is_not_asked_to_run_keeps_the_bridge_open);
-    RUN_TEST(test_drive_off_still_measures_the_rotor_frame);
     RUN_TEST(test_run_command_closes_the_bridge_in_the_same_call);
     RUN_TEST(test_withdrawn_run_command_opens_the_bridge_in_the_same_call);
     RUN_TEST(test_bad_configuration_leaves_the_drive_unusable);
@@ -725,7 +998,17 @@ int main(void)
     RUN_TEST(test_duty_realises_the_voltage_one_and_a_half_periods_ahead);
     RUN_TEST(test_same_operating_point_at_any_angle_gives_the_same_voltage);
     RUN_TEST(test_random_operation_keeps_duties_and_voltage_in_range);
+    RUN_TEST(test_dead_time_is_compensated_for_the_currents_of_the_law);
     RUN_TEST(test_implausible_speed_samples_keep_duties_in_range);
     RUN_TEST(test_loop_around_a_motor_settles_at_the_command_and_finds_the_load);
+    RUN_TEST(test_encoder_loop_settles_at_the_command_and_finds_the_load);
+    RUN_TEST(test_standing_angle_of_a_turning_motor_trips);
+    RUN_TEST(test_jumping_angle_trips_in_the_same_call);
+    RUN_TEST(test_angle_of_another_turn_is_accepted);
+    RUN_TEST(test_encoder_form_trips_on_every_input_that_is_not_finite);
+    RUN_TEST(test_encoder_form_trips_on_estimates_that_are_not_finite);
+    RUN_TEST(test_encoder_form_does_not_use_the_speed_signal);
+    RUN_TEST(test_encoder_form_acts_on_the_prediction);
+    RUN_TEST(test_encoder_form_keeps_duties_in_range_for_plausible_samples);
     return UNITY_END();
 }

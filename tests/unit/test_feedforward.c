@@ -121,15 +121,29 @@ static void test_feedforward_leaves_the_error_dynamics(void)
     }
 }
 
-static void test_hold_voltage_keeps_both_currents(void)
+static void test_hold_voltage_keeps_the_q_current(void)
 {
     for (int n = 0; n < CASES; n++) {
         draw_case();
 
-        const dq_t h_V = feedforward_hold_V(&motor, &y, &est);
+        const dq_t h_V = {.d = 0.0f, .q = feedforward_hold_q_V(&motor, &y, &est)};
 
         TEST_ASSERT_DOUBLE_WITHIN(TOL_Aps, 0.0, iq_dot_Aps(h_V));
-        TEST_ASSERT_DOUBLE_WITHIN(TOL_Aps, 0.0, id_dot_Aps(h_V));
+    }
+}
+
+static void test_hold_voltage_of_the_shipped_motor_is_mostly_its_back_emf(void)
+{
+    motor = gain_tables_drive.motor;
+    for (int speed = -1500; speed <= 1500; speed += 100) {
+        const nodo_t nothing = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+        y.omega_e_radps      = (float)speed;
+        y.iq_A               = 0.0f;
+        y.id_A               = 0.0f;
+
+        const float h_V = feedforward_hold_q_V(&motor, &y, &nothing);
+
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_V, 0.193 * (double)speed, (double)h_V);
     }
 }
 
@@ -142,11 +156,11 @@ static void test_feedforward_without_errors_or_derivatives_is_the_hold_voltage(v
         ref.i_dot_Aps.d = 0.0f;
         ref.i_dot_Aps.q = 0.0f;
 
-        const dq_t u_V = feedforward_V(&motor, &ref, y.omega_e_radps, &y, &est);
-        const dq_t h_V = feedforward_hold_V(&motor, &y, &est);
+        const dq_t  u_V   = feedforward_V(&motor, &ref, y.omega_e_radps, &y, &est);
+        const float h_q_V = feedforward_hold_q_V(&motor, &y, &est);
 
-        TEST_ASSERT_DOUBLE_WITHIN(TOL_V, (double)h_V.d, (double)u_V.d);
-        TEST_ASSERT_DOUBLE_WITHIN(TOL_V, (double)h_V.q, (double)u_V.q);
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_V, (double)h_q_V, (double)u_V.q);
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_Aps, 0.0, id_dot_Aps(u_V));
     }
 }
 
@@ -156,27 +170,27 @@ static void test_rest_without_disturbance_needs_no_voltage(void)
     const nodo_t      nothing = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
     current_ref_reset(&ref);
 
-    const dq_t u_V = feedforward_V(&motor, &ref, 0.0f, &rest, &nothing);
-    const dq_t h_V = feedforward_hold_V(&motor, &rest, &nothing);
+    const dq_t  u_V   = feedforward_V(&motor, &ref, 0.0f, &rest, &nothing);
+    const float h_q_V = feedforward_hold_q_V(&motor, &rest, &nothing);
 
-    TEST_ASSERT_TRUE((u_V.d == 0.0f) && (u_V.q == 0.0f) && (h_V.d == 0.0f) && (h_V.q == 0.0f));
+    TEST_ASSERT_TRUE((u_V.d == 0.0f) && (u_V.q == 0.0f) && (h_q_V == 0.0f));
 }
 
 /* Running backwards with mirrored q quantities mirrors v_q and leaves v_d. */
 static void test_reversed_rotation_mirrors_the_q_axis(void)
 {
-    const dq_t forwards_V  = feedforward_V(&motor, &ref, w_d_e_radps, &y, &est);
-    const dq_t hold_V      = feedforward_hold_V(&motor, &y, &est);
-    ref.i_A.q              = -ref.i_A.q;
-    ref.i_dot_Aps.q        = -ref.i_dot_Aps.q;
-    y.omega_e_radps        = -y.omega_e_radps;
-    y.iq_A                 = -y.iq_A;
-    est.d_q                = -est.d_q;
-    const dq_t backwards_V = feedforward_V(&motor, &ref, -w_d_e_radps, &y, &est);
-    const dq_t hold_back_V = feedforward_hold_V(&motor, &y, &est);
+    const dq_t  forwards_V  = feedforward_V(&motor, &ref, w_d_e_radps, &y, &est);
+    const float hold_V      = feedforward_hold_q_V(&motor, &y, &est);
+    ref.i_A.q               = -ref.i_A.q;
+    ref.i_dot_Aps.q         = -ref.i_dot_Aps.q;
+    y.omega_e_radps         = -y.omega_e_radps;
+    y.iq_A                  = -y.iq_A;
+    est.d_q                 = -est.d_q;
+    const dq_t  backwards_V = feedforward_V(&motor, &ref, -w_d_e_radps, &y, &est);
+    const float hold_back_V = feedforward_hold_q_V(&motor, &y, &est);
 
     TEST_ASSERT_TRUE((backwards_V.d == forwards_V.d) && (backwards_V.q == -forwards_V.q));
-    TEST_ASSERT_TRUE((hold_back_V.d == hold_V.d) && (hold_back_V.q == -hold_V.q));
+    TEST_ASSERT_TRUE(hold_back_V == -hold_V);
 }
 
 static void test_not_a_number_is_not_hidden(void)
@@ -184,10 +198,10 @@ static void test_not_a_number_is_not_hidden(void)
     est.d_q = NAN;
     est.d_d = NAN;
 
-    const dq_t u_V = feedforward_V(&motor, &ref, w_d_e_radps, &y, &est);
-    const dq_t h_V = feedforward_hold_V(&motor, &y, &est);
+    const dq_t  u_V   = feedforward_V(&motor, &ref, w_d_e_radps, &y, &est);
+    const float h_q_V = feedforward_hold_q_V(&motor, &y, &est);
 
-    TEST_ASSERT_TRUE(isnan(u_V.d) && isnan(u_V.q) && isnan(h_V.d) && isnan(h_V.q));
+    TEST_ASSERT_TRUE(isnan(u_V.d) && isnan(u_V.q) && isnan(h_q_V));
 }
 
 int main(void)
@@ -196,7 +210,8 @@ int main(void)
     RUN_TEST(test_feedforward_matches_printed_sums);
     RUN_TEST(test_feedforward_matches_printed_sums_for_the_shipped_motor);
     RUN_TEST(test_feedforward_leaves_the_error_dynamics);
-    RUN_TEST(test_hold_voltage_keeps_both_currents);
+    RUN_TEST(test_hold_voltage_keeps_the_q_current);
+    RUN_TEST(test_hold_voltage_of_the_shipped_motor_is_mostly_its_back_emf);
     RUN_TEST(test_feedforward_without_errors_or_derivatives_is_the_hold_voltage);
     RUN_TEST(test_rest_without_disturbance_needs_no_voltage);
     RUN_TEST(test_reversed_rotation_mirrors_the_q_axis);

@@ -58,16 +58,47 @@ static void test_constants_of_the_references_agree_with_the_motor(void)
 {
     const current_ref_config_t *c = &drive->current_ref;
 
-    assert_constant((0.07498 - 0.11391) / 0.193, c->mtpa_gain_1pA);
+    assert_constant(0.193 / (2.0 * (0.11391 - 0.07498)), c->mtpa_A);
     assert_constant((double)drive->ts_s * (double)c->filter_1ps, c->filter_per_period);
+    assert_constant(0.5 * (double)drive->motor.l1, c->l1_min);
     assert_constant(2.0e-4, drive->ts_s);
 }
 
-/* The largest iq of the MTPA curve on the current circle. */
+static void test_tables_are_those_of_the_speed_form(void)
+{
+    TEST_ASSERT_EQUAL_INT(DRIVE_FORM_SPEED, drive->form);
+    TEST_ASSERT_TRUE(!drive->current_ref.mtpa_exact);
+}
+
+/* Through EQ-NOSC-3 that speed error turns the whole current round, from one limit to the other. */
+static void test_near_speed_asks_for_the_whole_current(void)
+{
+    const double ratio = (double)drive->nosc.lambda[0][0][0] / (double)drive->nosc.lambda[0][0][1];
+
+    assert_constant(2.0 * (double)drive->current_ref.current_max_A / ratio,
+                    drive->current_ref.near_e_radps);
+}
+
+/* Nothing is fed back any more where the dc link trips. */
+static void test_regeneration_ends_before_the_dc_link_trips(void)
+{
+    const current_ref_config_t *c      = &drive->current_ref;
+    const double                ends_V = (double)c->regen_start_V + (1.0 / (double)c->regen_per_V);
+
+    TEST_ASSERT_TRUE(ends_V < (double)drive->dc_link_max_V);
+    TEST_ASSERT_TRUE((double)c->regen_start_V > 295.0);
+}
+
+static void test_dead_time_is_its_share_of_the_pwm_period(void)
+{
+    assert_constant(3.0e-6 * 5000.0, drive->dead_time.share);
+}
+
+/* The largest iq of the MTPA curve on the current circle; the speed form keeps the second-order term. */
 static void test_largest_q_current_lies_on_the_current_circle(void)
 {
     const double iq = (double)drive->current_ref.iq_max_A;
-    const double id = (double)drive->current_ref.mtpa_gain_1pA * iq * iq;
+    const double id = iq * iq / (2.0 * (double)drive->current_ref.mtpa_A);
 
     assert_constant(hypot(id, iq), drive->current_ref.current_max_A);
 }
@@ -221,6 +252,10 @@ int main(void)
     RUN_TEST(test_tables_name_their_drive);
     RUN_TEST(test_reduced_parameters_are_those_of_the_motor);
     RUN_TEST(test_constants_of_the_references_agree_with_the_motor);
+    RUN_TEST(test_tables_are_those_of_the_speed_form);
+    RUN_TEST(test_near_speed_asks_for_the_whole_current);
+    RUN_TEST(test_regeneration_ends_before_the_dc_link_trips);
+    RUN_TEST(test_dead_time_is_its_share_of_the_pwm_period);
     RUN_TEST(test_largest_q_current_lies_on_the_current_circle);
     RUN_TEST(test_gains_of_the_controller_have_the_symmetry_of_the_motor);
     RUN_TEST(test_gains_of_the_observer_have_the_symmetry_of_the_motor);

@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: MIT
+#include "sampled_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "design.hpp"
+#include "plant.hpp"
+#include "reference_gains.hpp"
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double pi = 3.14159265358979323846;
+
+const sdre::Design &board()
+{
+    static const sdre::Design design =
+        sdre::design_drive(sdre::read_drive_file(support::shipped_drive("ipmsm_390w_board")));
+    return design;
+}
+
+/// The gains that the firmware uses in a steady state with this q current.
+sdre::LoopGains gains_at(const sdre::Design &d, double iq_A)
+{
+    const double held =
+        std::clamp(iq_A, -d.certificate.nodo.series_range_A, d.certificate.nodo.series_range_A);
+    MatrixXd L = MatrixXd::Zero(7, 3);
+    for (std::size_t n = 0; n < d.nodo.gain.size(); n++) {
+        L += std::pow(held, static_cast<double>(n)) * d.nodo.gain[n];
+    }
+    return {d.nosc.gain[0], L};
+}
+
+/// Largest distance of an eigenvalue of one set to the nearest one of the other set, both ways.
+double distance(const Eigen::VectorXcd &a, const Eigen::VectorXcd &b)
+{
+    double worst = 0.0;
+    for (const auto &x : a) {
+        worst = std::max(worst, (b.array() - x).abs().minCoeff());
+    }
+    for (const auto &x : b) {
+        worst = std::max(worst, (a.array() - x).abs().minCoeff());
+    }
+    return worst;
+}
+
+/// The eigenvalues of the law on the motor itself and of the estimation error, from the motor's Jacobian
+/// alone: what the separation principle predicts.
+Eigen::VectorXcd separate_loops(const sdre::Design &d, const sdre::LoopGains &gains,
+                                const sdre::OperatingPoint &at, double ts)
+{
+    const auto           &l = d.l;
+    const Eigen::Matrix3d J = sdre::motor_jacobian(l, at);
+    const MatrixXd        B = sdre::nosc_input_matrix(l);
+
+    const double D = l[1] + l[11] * at.id_A; // iq_ref = -d_w^ / D, with id^ from the estimate
+    MatrixXd     F = -gains.Lambda;
+    F(0, 0) += l[10] * at.id_A / l[6];
+    F(0, 2) +=
+        l[10] * at.omega_e_radps / l[6] - (gains.Lambda(0, 1) + l[4] / l[6]) * at.iq_A * l[11] / D;
+    F(1, 0) -= l[9] * at.iq_A / l[8];
+    F(1, 1) -= l[9] * at.omega_e_radps / l[8];
+    MatrixXd M             = MatrixXd::Zero(5, 5);
+    M.topLeftCorner(3, 3)  = J * ts;
+    M.topRightCorner(3, 2) = B * ts;
+    const MatrixXd held    = M.exp();
+    const MatrixXd law     = held.topLeftCorner(3, 3) + held.topRightCorner(3, 2) * F;
+
+    MatrixXd A          = MatrixXd::Zero(7, 7);
+    A.block(3, 0, 3, 3) = MatrixXd::Identity(3, 3);
+    A.block(3, 3, 3, 3) = J;
+    A(6, 3)             = 1.0;
+    MatrixXd C          = MatrixXd::Zero(3, 7);
+    C(0, 4) = C(1, 5) = C(2, 6) = 1.0;
+    const MatrixXd I            = MatrixXd::Identity(7, 7);
+    const MatrixXd error        = (I + ts * A + 0.5 * ts * ts * A * A) * (I - ts * gains.L * C);
+
+    Eigen::VectorXcd all(10);
+    all << law.eigenvalues(), error.eigenvalues();
+    return all;
+}
+
+/// One motor with the control core on it: exact sensors, no dead time, the duty one period late.
+class Loop {
+public:
+    Loop(const sdre::Design &d, double omega, double theta)
+        : config_(d.config), plant_(d.drive.motor), dc_V_(d.drive.inverter.dc_link_V)
+    {
+        config_.dead_time.share = 0.0F;
+        if (drive_init(&drive_, &config_) != CTL_OK) {
+            throw std::runtime_error("refused");
+        }
+        plant_.reset(omega, theta);
+        command_ = {static_cast<float>(omega), true};
+    }
+
+    /// One control period; false when the drive has tripped.
+    bool tick(double load_Nm)
+    {
+        const sdre::StatorVector i = sdre::to_stator(plant_.current_A(), plant_.theta_e_rad());
+        const double             b = 0.5 * (-i.alpha + std::sqrt(3.0) * i.beta);
+        const drive_sample_t     sample{
+            static_cast<float>(i.alpha),
+            static_cast<float>(b),
+            static_cast<float>(dc_V_),
+            static_cast<float>(std::remainder(plant_.theta_e_rad(), 2 * pi)),
+            static_cast<float>(plant_.omega_e_radps()),
+            true};
+        const drive_output_t out = drive_tick(&drive_, &sample, &command_);
+        limited_                 = limited_ || drive_.v_limited;
+        plant_.step(voltage_, load_Nm, static_cast<double>(config_.ts_s), 20);
+        const auto a = static_cast<double>(out.duty.a);
+        const auto c = static_cast<double>(out.duty.c);
+        const auto m = static_cast<double>(out.duty.b);
+        voltage_     = {dc_V_ * (2.0 * a - m - c) / 3.0, dc_V_ * (m - c) / std::sqrt(3.0)};
+        return drive_.state == DRIVE_RUN;
+    }
+
+    const sdre::Plant &plant() const
+    {
+        return plant_;
+    }
+    bool limited() const
+    {
+        return limited_;
+    }
+    void forget_limit()
+    {
+        limited_ = false;
+    }
+
+private:
+    drive_config_t     config_;
+    sdre::Plant        plant_;
+    double             dc_V_;
+    drive_t            drive_{};
+    drive_command_t    command_{};
+    sdre::StatorVector voltage_;
+    bool               limited_ = false;
+};
+
+struct StepResponse {
+    std::vector<double>  deviation_e_radps; ///< after each period from the load step on
+    sdre::OperatingPoint before;
+    bool                 limited = false; ///< the voltage limit was reached after the step
+};
+
+constexpr int settle_ticks   = 2000; // 0.4 s
+constexpr int response_ticks = 200;  // 40 ms
+
+StepResponse nonlinear_step(const sdre::Design &d, double omega, double load_Nm, double step_Nm,
+                            double theta)
+{
+    Loop         loop(d, omega, theta);
+    StepResponse out;
+    for (int k = 0; k < settle_ticks; k++) {
+        EXPECT_TRUE(loop.tick(load_Nm));
+    }
+    const sdre::RotorVector i = loop.plant().current_A();
+    out.before                = {loop.plant().omega_e_radps(), i.q, i.d};
+    loop.forget_limit();
+    for (int k = 0; k < response_ticks; k++) {
+        EXPECT_TRUE(loop.tick(load_Nm + step_Nm));
+        out.deviation_e_radps.push_back(loop.plant().omega_e_radps() - out.before.omega_e_radps);
+    }
+    out.limited = loop.limited();
+    return out;
+}
+
+std::vector<double> linear_step(const sdre::SampledModel &m, double step_Nm)
+{
+    VectorXd            x = VectorXd::Zero(m.A.rows());
+    std::vector<double> out;
+    for (int k = 0; k < response_ticks; k++) {
+        x = m.A * x + m.b_load * step_Nm;
+        out.push_back(x(0));
+    }
+    return out;
+}
+
+} // namespace
+
+TEST(SampledModel, JacobianIsTheDerivativeOfTheMotor)
+{
+    const sdre::Motor &m = board().drive.motor;
+    const auto         f = [&](const Eigen::Vector3d &x) { // paper A (1) at no voltage
+        const double psi_d = m.d_axis_inductance_H * x(2) + m.pm_flux_Wb;
+        const double psi_q = m.q_axis_inductance_H * x(1);
+        const double np    = m.pole_pairs;
+        const double T     = 1.5 * np * (psi_d * x(1) - psi_q * x(2));
+        return Eigen::Vector3d(
+                    (np * T - m.viscous_friction_Nms * x(0)) / m.inertia_kgm2,
+                    (-m.stator_resistance_Ohm * x(1) - x(0) * psi_d) / m.q_axis_inductance_H,
+                    (-m.stator_resistance_Ohm * x(2) + x(0) * psi_q) / m.d_axis_inductance_H);
+    };
+    const Eigen::Vector3d at(310.0, 2.1, -0.7);
+    const Eigen::Matrix3d J = sdre::motor_jacobian(board().l, {at(0), at(1), at(2)});
+
+    for (int j = 0; j < 3; j++) {
+        const double          h = 1e-3; // the motor is quadratic: central differences are exact
+        const Eigen::Vector3d e = Eigen::Vector3d::Unit(j) * h;
+        EXPECT_LT(((f(at + e) - f(at - e)) / (2.0 * h) - J.col(j)).norm(), 1e-6 * J.norm()) << j;
+    }
+}
+
+TEST(SampledModel, EigenvaluesAreThoseOfLawAndObserver)
+{
+    // The motor is sampled exactly but predicted to second order, so separation holds up to the third.
+    // Clustered eigenvalues magnify that; their polynomial on the unit circle does not.
+    for (const sdre::OperatingPoint at :
+         {sdre::OperatingPoint{0.0, 0.0, 0.0}, {300.0, 1.9, -0.4}, {523.0, -2.5, -0.6}}) {
+        const sdre::LoopGains gains = gains_at(board(), at.iq_A);
+        for (const auto &[ts, tolerance] : {std::pair{200e-6, 0.05}, std::pair{20e-6, 0.005}}) {
+            const MatrixXd A = sdre::sampled_model(board().l, board().l, gains, at, ts).A;
+            ASSERT_EQ(A.rows(), 10);
+            const Eigen::VectorXcd whole    = A.eigenvalues();
+            const Eigen::VectorXcd separate = separate_loops(board(), gains, at, ts);
+            for (int i = 0; i < 16; i++) {
+                const std::complex<double> z = std::polar(1.0, 2.0 * pi * (i + 0.5) / 16.0);
+                const std::complex<double> ratio =
+                    ((z - whole.array()) / (z - separate.array())).prod();
+                EXPECT_LT(std::abs(ratio - 1.0), tolerance) << at.omega_e_radps << " " << i;
+            }
+        }
+        const MatrixXd A = sdre::sampled_model(board().l, board().l, gains, at, 20e-6).A;
+        EXPECT_LT(distance(A.eigenvalues(), separate_loops(board(), gains, at, 20e-6)), 1e-4);
+    }
+}
+
+TEST(SampledModel, SmallLoadStepIsThatOfTheNonlinearLoop)
+{
+    constexpr double step_Nm = 0.05;
+    for (const double omega : {100.0, 300.0}) {
+        const StepResponse       found = nonlinear_step(board(), omega, 0.75, step_Nm, 0.3);
+        const sdre::SampledModel model =
+            sdre::sampled_model(board().l, board().l, gains_at(board(), found.before.iq_A),
+                                found.before, sdre::control_period_s(board().drive));
+        const std::vector<double> expected = linear_step(model, step_Nm);
+
+        EXPECT_FALSE(found.limited);
+        EXPECT_NEAR(found.before.omega_e_radps, omega, 0.01);
+        const double dip =
+            -*std::min_element(found.deviation_e_radps.begin(), found.deviation_e_radps.end());
+        const double expected_dip = -*std::min_element(expected.begin(), expected.end());
+        EXPECT_GT(expected_dip, 0.0);
+        EXPECT_NEAR(dip / expected_dip, 1.0, 0.15) << omega;
+        for (std::size_t k = 0; k < expected.size(); k++) {
+            EXPECT_NEAR(found.deviation_e_radps[k], expected[k], 0.15 * expected_dip)
+                << omega << " period " << k;
+        }
+    }
+}
+
+TEST(SampledModel, AngleItselfDoesNotMatter)
+{
+    // The model has no angle, only its error: the nonlinear loop answers the same wherever it starts.
+    constexpr double   tolerance = 0.02; // of the dip; single precision of angle and currents
+    const StepResponse first     = nonlinear_step(board(), 300.0, 0.75, 0.05, 0.0);
+    const double       dip =
+        -*std::min_element(first.deviation_e_radps.begin(), first.deviation_e_radps.end());
+    for (const double theta : {1.0, 2.5, -2.9, pi}) {
+        const StepResponse other = nonlinear_step(board(), 300.0, 0.75, 0.05, theta);
+        for (std::size_t k = 0; k < first.deviation_e_radps.size(); k++) {
+            EXPECT_NEAR(other.deviation_e_radps[k], first.deviation_e_radps[k], tolerance * dip);
+        }
+    }
+}
+
+TEST(SampledModel, SteadyStateHasNoSpeedError)
+{
+    const sdre::OperatingPoint at{300.0, 1.9, -0.4};
+    const sdre::SampledModel   m =
+        sdre::sampled_model(board().l, board().l, gains_at(board(), at.iq_A), at, 200e-6);
+    const VectorXd x = (MatrixXd::Identity(10, 10) - m.A).fullPivLu().solve(m.b_load);
+
+    EXPECT_NEAR(x(0), 0.0, 1e-6);                   // w
+    EXPECT_NEAR(x(3), 0.0, 1e-6);                   // theta - theta^
+    EXPECT_NEAR(x(4) / -board().l[3], 1.0, 1e-6);   // d_w^ is the load
+    EXPECT_NEAR(x(8), x(1), 1e-6 * std::abs(x(1))); // iq^ = iq
+    EXPECT_LT(sdre::spectral_radius(m.A), 1.0);
+    EXPECT_EQ(m.B_noise.rows(), 10);
+    EXPECT_EQ(m.B_noise.topRows(3).norm(), 0.0); // noise reaches the motor through the observer
+}
+
+TEST(SampledModel, WrongParametersStillSettleOnTheSpeed)
+{
+    sdre::Motor believed = board().drive.motor;
+    believed.inertia_kgm2 *= 2.0;
+    believed.viscous_friction_Nms *= 2.0;
+    believed.stator_resistance_Ohm *= 1.5;
+    believed.d_axis_inductance_H *= 1.5;
+    believed.q_axis_inductance_H *= 1.5;
+    believed.pm_flux_Wb *= 1.5;
+    sdre::Drive drive            = board().drive;
+    drive.motor                  = believed;
+    const sdre::Design         d = sdre::design_drive(drive);
+    const sdre::OperatingPoint at{300.0, 1.9, -0.4};
+    const sdre::SampledModel   m =
+        sdre::sampled_model(board().l, d.l, gains_at(d, at.iq_A), at, 200e-6);
+    const VectorXd x = (MatrixXd::Identity(10, 10) - m.A).fullPivLu().solve(m.b_load);
+
+    EXPECT_LT(sdre::spectral_radius(m.A), 1.0);
+    EXPECT_NEAR(x(0), 0.0, 1e-6);
+}
+
+TEST(SampledModel, DestabilisedGainsAreUnstable)
+{
+    const sdre::OperatingPoint at{300.0, 1.9, -0.4};
+    const auto                 radius = [&](double law, double observer) {
+        sdre::LoopGains gains = gains_at(board(), at.iq_A);
+        gains.Lambda *= law;
+        gains.L *= observer;
+        return sdre::spectral_radius(
+                            sdre::sampled_model(board().l, board().l, gains, at, 200e-6).A);
+    };
+
+    EXPECT_LT(radius(1.0, 1.0), 1.0);
+    EXPECT_GT(radius(20.0, 1.0), 1.0);
+    EXPECT_GT(radius(-1.0, 1.0), 1.0);
+    EXPECT_GT(radius(1.0, 20.0), 1.0);
+    EXPECT_GT(radius(1.0, -1.0), 1.0);
+}
+
+TEST(SampledModel, DriveWithDestabilisingWeightsIsReported)
+{
+    sdre::Drive drive = board().drive;
+    drive.nosc.Q      = {2e9, 8e9, 8e9}; // far beyond what the period allows
+
+    const sdre::Design d = sdre::design_drive(drive);
+
+    EXPECT_FALSE(d.certificate.passed());
+    EXPECT_GT(d.certificate.nosc.spectral_radius, 1.0);
+    EXPECT_GT(d.certificate.nodo.spectral_radius, 1.0); // the whole loop
+}
+
+TEST(SampledModel, MtpaCurrentIsTheBestDirection)
+{
+    const sdre::Motor &m = board().drive.motor;
+    for (const double iq : {-3.0, 0.5, 2.0, 7.5}) {
+        const double id    = sdre::mtpa_id_A(board().l, iq);
+        const double i     = std::hypot(id, iq);
+        const double angle = std::atan2(-id, std::abs(iq));
+        const auto   T     = [&](double a) {
+            return sdre::torque_Nm(m, -i * std::sin(a), i * std::cos(a));
+        };
+        EXPECT_LT(id, 0.0);
+        EXPECT_GE(T(angle), T(angle + 1e-3)) << iq;
+        EXPECT_GE(T(angle), T(angle - 1e-3)) << iq;
+    }
+    EXPECT_EQ(sdre::mtpa_id_A(board().l, 0.0), 0.0);
+}

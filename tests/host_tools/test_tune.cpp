@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+#include "tune.hpp"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "command.hpp"
+#include "design.hpp"
+#include "errors.hpp"
+#include "reference_gains.hpp"
+
+namespace {
+
+using support::read_file;
+using support::replaced;
+using support::TempDir;
+
+const std::filesystem::path board_drive = support::shipped_drive("ipmsm_390w_board");
+const std::filesystem::path board_spec =
+    std::filesystem::path(SDRE_SOURCE_DIR) / "firmware/config/specs/ipmsm_390w_board.toml";
+
+/// A specification of its own, so that retuning the shipped drive changes no test but one.
+const std::string spec_text = R"(speed_e_radps  = 300.0
+load_before_Nm = 0.75
+load_step_Nm   = 0.75
+band_e_radps   = 0.5
+largest_pole   = 0.98
+voltage_V      = 31.6
+d_axis_error_A = 0.35
+voltage_headroom_V = 330.0
+current_noise_A = 0.010
+current_lsb_A   = 0.00488
+[[case]]
+mechanical      = 1.0
+electrical      = 1.0
+dip_e_radps     = 5.0
+settling_time_s = 0.012
+ripple_e_radps  = 0.6
+[[case]]
+mechanical      = 2.0
+electrical      = 1.5
+dip_e_radps     = 6.0
+settling_time_s = 0.016
+ripple_e_radps  = 0.8
+)";
+
+sdre::TuneSpec own_spec()
+{
+    const TempDir dir;
+    return sdre::read_tune_spec(dir.write("spec.toml", spec_text));
+}
+
+/// A result as tune_drive() would return it, without the search.
+sdre::TuneResult found()
+{
+    sdre::TuneResult r;
+    r.drive       = sdre::read_drive_file(board_drive);
+    r.cases       = {{5.05, 0.0084, 0.6, 303.0, 0.929}, {4.92, 0.0088, 0.63, 333.0, 0.944}};
+    r.worst_ratio = 1.01;
+    r.evaluations = 17;
+    return r;
+}
+
+std::string sections()
+{
+    return sdre::tuned_sections(found(), own_spec());
+}
+
+/// The complaint about a specification, without the file's path; one line.
+std::string complaint(const std::string &text)
+{
+    const TempDir dir;
+    const auto    file = dir.write("spec.toml", text);
+    try {
+        sdre::read_tune_spec(file);
+    } catch (const sdre::InputError &error) {
+        const std::string what = error.what();
+        EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+        EXPECT_EQ(what.rfind(file.string() + ":", 0), 0U) << what;
+        return what.substr(file.string().size() + 1);
+    }
+    return "accepted";
+}
+
+void expect_complaint(const std::string &text, const std::vector<std::string> &pieces)
+{
+    const std::string what = complaint(text);
+    for (const std::string &piece : pieces) {
+        EXPECT_NE(what.find(piece), std::string::npos) << "'" << piece << "' not in: " << what;
+    }
+}
+
+/// The specification without the line that starts with `key`.
+std::string without(const std::string &key)
+{
+    std::string       text = spec_text;
+    const std::size_t at   = text.find(key);
+    return text.erase(at, text.find('\n', at) + 1 - at);
+}
+
+} // namespace
+
+TEST(Tune, ShippedSpecificationIsRead)
+{
+    EXPECT_GE(sdre::read_tune_spec(board_spec).cases.size(), 2U);
+}
+
+TEST(Tune, SpecificationReachesItsPlaces)
+{
+    const sdre::TuneSpec spec = own_spec();
+
+    EXPECT_EQ(spec.speed_e_radps, 300.0);
+    EXPECT_EQ(spec.load_before_Nm, 0.75);
+    EXPECT_EQ(spec.load_step_Nm, 0.75);
+    EXPECT_EQ(spec.band_e_radps, 0.5);
+    EXPECT_EQ(spec.largest_pole, 0.98);
+    EXPECT_EQ(spec.voltage_V, 31.6);
+    EXPECT_EQ(spec.voltage_headroom_V, 330.0);
+    EXPECT_EQ(spec.d_axis_error_A, 0.35);
+    EXPECT_EQ(spec.current_noise_A, 0.010);
+    EXPECT_EQ(spec.current_lsb_A, 0.00488);
+    ASSERT_EQ(spec.cases.size(), 2U);
+    EXPECT_EQ(spec.cases[0].mechanical, 1.0);
+    EXPECT_EQ(spec.cases[1].mechanical, 2.0);
+    EXPECT_EQ(spec.cases[1].electrical, 1.5);
+    EXPECT_EQ(spec.cases[1].dip_e_radps, 6.0);
+    EXPECT_EQ(spec.cases[1].settling_time_s, 0.016);
+    EXPECT_EQ(spec.cases[1].ripple_e_radps, 0.8);
+}
+
+TEST(Tune, SpecificationMistakesAreOneLine)
+{
+    const std::string &text = spec_text;
+    for (const std::string key :
+         {"speed_e_radps", "load_before_Nm", "load_step_Nm", "band_e_radps", "largest_pole",
+          "voltage_V", "voltage_headroom_V", "d_axis_error_A", "current_noise_A", "current_lsb_A",
+          "dip_e_radps", "settling_time_s", "ripple_e_radps", "mechanical", "electrical"}) {
+        expect_complaint(without(key + " "), {key + " is missing"});
+    }
+    expect_complaint("colour = 1\n" + text, {"colour is not a known key"});
+    expect_complaint(text + "colour = 1\n", {"colour is not a known key"}); // of the last case
+    expect_complaint(replaced(text, "largest_pole   = 0.98", "largest_pole   = 1.0"),
+                     {"largest_pole = 1 ", "0.1 .. 0.9999"});
+    expect_complaint(replaced(text, "load_step_Nm   = 0.75", "load_step_Nm   = 0.0"),
+                     {"load_step_Nm = 0 "});
+    expect_complaint(replaced(text, "load_step_Nm   = 0.75", "load_step_Nm   = nan"),
+                     {"load_step_Nm"});
+    expect_complaint(replaced(text, "load_step_Nm   = 0.75", "load_step_Nm   = \"0.75\""),
+                     {"load_step_Nm"});
+    expect_complaint(replaced(text, "settling_time_s = 0.012", "settling_time_s = -0.012"),
+                     {"settling_time_s"});
+    expect_complaint(replaced(text, "mechanical      = 1.0", "mechanical      = 2.0"),
+                     {"case", "nominal"});
+    expect_complaint(replaced(text, "electrical      = 1.0", "electrical      = 0.5"),
+                     {"case", "nominal"});
+    expect_complaint(text.substr(0, text.find("[[case]]")), {"case"});
+    expect_complaint(text.substr(0, text.find("[[case]]")) + "case = 3\n", {"case"});
+    expect_complaint("speed_e_radps = \n", {"not valid TOML"});
+    EXPECT_THROW(sdre::read_tune_spec(board_spec.string() + ".none"), sdre::InputError);
+}
+
+TEST(Tune, CommandRefusesWithOneLineAndLeavesTheDriveFile)
+{
+    const TempDir     dir;
+    const std::string text  = read_file(board_drive);
+    const std::string drive = dir.write("drive.toml", text).string();
+    const std::string bad   = dir.write("spec.toml", without("voltage_V ")).string();
+    const std::string tool  = "sdre-gains";
+    const auto        tune  = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {SDRE_GAINS_EXE, "tune"});
+        return support::run_command(arguments);
+    };
+
+    support::expect_refused(tune({drive}), 1, tool, {"--spec"});
+    support::expect_refused(tune({drive, "--spec", bad}), 1, tool, {"voltage_V is missing"});
+    support::expect_refused(tune({drive, "--spec", (dir / "none").string()}), 1, tool, {"none"});
+    support::expect_refused(tune({(dir / "none").string(), "--spec", board_spec.string()}), 1, tool,
+                            {"none"});
+    support::expect_refused(tune({board_spec.string(), "--spec", board_spec.string()}), 1, tool);
+    EXPECT_EQ(read_file(drive), text);
+    EXPECT_EQ(support::names_in(dir.path()), (std::set<std::string>{"drive.toml", "spec.toml"}));
+}
+
+TEST(Tune, SectionsReplaceThoseOfTheShippedDriveOnly)
+{
+    const std::string text  = read_file(board_drive);
+    const std::string tuned = sdre::with_sections(text, sections());
+    const std::string head  = text.substr(0, text.find("# The weights below"));
+
+    EXPECT_EQ(tuned, head + sections());
+    EXPECT_EQ(sdre::with_sections(tuned, sections()), tuned);
+}
+
+TEST(Tune, SectionsBeforeOthersKeepThemByteForByte)
+{
+    const std::string head = "# a note\nschema = 1\nname = \"x\"\n\n";
+    const std::string old  = "[nosc]\norder = 2 # old\nQ = [1.0, 1.0, 1.0]\n[nodo]\norder = 1\n";
+    const std::string tail = "[encoder]\nlines  =  2500 # odd   spaces\n\n\n# the end";
+    const std::string once = sdre::with_sections(head + old + tail, sections());
+
+    EXPECT_EQ(once, head + sections() + tail);
+    EXPECT_EQ(sdre::with_sections(once, sections()), once);
+}
+
+TEST(Tune, SectionsApartFromEachOtherAreBothReplaced)
+{
+    const std::string text = "[nodo]\norder = 1\n[encoder]\nlines = 2500\n[nosc]\norder = 2\n";
+    const std::string once = sdre::with_sections(text, sections());
+
+    EXPECT_EQ(once, sections() + "[encoder]\nlines = 2500\n");
+    EXPECT_EQ(sdre::with_sections(once, sections()), once);
+}
+
+TEST(Tune, SectionsAreAppendedWhereThereAreNone)
+{
+    for (const std::string text : {"schema = 1\n[encoder]\nlines = 2500\n", ""}) {
+        const std::string once = sdre::with_sections(text, sections());
+        EXPECT_EQ(once, text + "\n" + sections());
+        EXPECT_EQ(sdre::with_sections(once, sections()), once);
+    }
+}
+
+TEST(Tune, SectionsReadBackAsTheResult)
+{
+    const TempDir dir;
+    const auto    file =
+        dir.write("drive.toml", sdre::with_sections(read_file(board_drive), sections()));
+    const sdre::Drive back = sdre::read_drive_file(file);
+
+    EXPECT_EQ(sdre::drive_digest(back), sdre::drive_digest(found().drive));
+    for (const char *piece : {"(17 evaluations)", "load step of 0.75 N m at 300 rad/s",
+                              "dip 5.05 (wanted 5), settled 8.4 ms (12), 3 sigma 0.60 (0.6)",
+                              "x2, R, L, flux x1.5", "form = \"encoder\""}) {
+        EXPECT_NE(sections().find(piece), std::string::npos) << piece;
+    }
+}
+
+TEST(Tune, ShippedDriveIsWhatTheSearchFinds)
+{
+    const TempDir     dir;
+    const std::string out    = (dir / "tuned.toml").string();
+    const auto        result = support::run_command({SDRE_GAINS_EXE, "tune", board_drive.string(),
+                                                     "--spec", board_spec.string(), "--out", out});
+
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(read_file(out), read_file(board_drive));
+}
+
+TEST(Tune, UnreachableSpecificationGivesAStableDesignOrNone)
+{
+    sdre::TuneSpec spec           = own_spec();
+    spec.cases                    = {spec.cases[0]};
+    spec.cases[0].dip_e_radps     = 1e-6;
+    spec.cases[0].settling_time_s = 1e-5;
+    try {
+        const sdre::TuneResult r =
+            sdre::tune_drive(sdre::read_drive_file(board_drive), spec, [](int, double) {});
+        EXPECT_GT(r.worst_ratio, 1.0);
+        EXPECT_LT(r.cases[0].spectral_radius, 1.0);
+        EXPECT_TRUE(sdre::design_drive(r.drive).certificate.passed());
+    } catch (const sdre::DesignError &error) {
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos); // exit code 2
+    }
+}
