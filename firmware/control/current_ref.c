@@ -122,17 +122,17 @@ speed_ref_limits_t current_ref_speed_limits(const current_ref_t *r, const curren
                                             const motor_reduced_t *m, const current_ref_input_t *in,
                                             float command_e_radps)
 {
-    const float w     = in->state->omega_e_radps;
-    const float accel = c->torque_share * accel_per_A(c, m, r->i_A.d);
-    const float free  = in->est->d_omega - (m->l2 * w);
-    const float top   = m->l6 * c->voltage_share * in->v_max_V;
+    const float w        = in->state->omega_e_radps;
+    const float accel    = c->torque_share * accel_per_A(c, m, r->i_A.d);
+    const float unforced = in->est->d_omega - (m->l2 * w);
+    const float top      = m->l6 * c->voltage_share * in->v_max_V;
     /* The jerk that stops at the command must be there at both ends of the way. */
     const float fastest = fmaxf(fabsf(w), fabsf(command_e_radps));
     const float slew    = fmaxf(top - (m->l5 * fastest), SLEW_SHARE_MIN * top);
 
     const speed_ref_limits_t limits = {
-        .accel_hi_e_radps2 = fmaxf(free + (accel * r->iq_hi_A), 0.0f),
-        .accel_lo_e_radps2 = fminf(free + (accel * r->iq_lo_A), 0.0f),
+        .accel_hi_e_radps2 = fmaxf(unforced + (accel * r->iq_hi_A), 0.0f),
+        .accel_lo_e_radps2 = fminf(unforced + (accel * r->iq_lo_A), 0.0f),
         .jerk_e_radps3     = m->l1 * slew,
         .near_e_radps      = c->near_e_radps};
     return limits;
