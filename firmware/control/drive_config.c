@@ -41,7 +41,8 @@ static bool current_ref_ok(const current_ref_config_t *c)
 
 static bool nosc_ok(const nosc_gains_t *g)
 {
-    if (!is_positive(g->iq_error_max_A) || (g->order < 0) || (g->order > NOSC_ORDER_MAX)) {
+    if (!is_positive(g->iq_error_max_A) || !is_positive(g->iq_speed_max_A) || (g->order < 0) ||
+        (g->order > NOSC_ORDER_MAX)) {
         return false;
     }
     for (int16_t n = 0; n <= g->order; n++) {

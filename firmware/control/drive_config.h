@@ -29,9 +29,10 @@ typedef struct {
     float
         trip_d_omega; /**< encoder form: an estimated speed disturbance beyond this is no load but a
                              wrong angle [rad/s^2], > 0 */
-    float                dc_link_min_V; /**< accepted dc link, > 0 */
-    float                dc_link_max_V; /**< > dc_link_min_V */
-    drive_form_t         form;          /**< which of nodo and nodo_encoder is used and checked */
+    float                dc_link_min_V;  /**< accepted dc link, > 0 */
+    float                dc_link_max_V;  /**< > dc_link_min_V */
+    bool                 overmodulation; /**< voltages may use the hexagon outside the circle */
+    drive_form_t         form;           /**< which of nodo and nodo_encoder is used and checked */
     motor_reduced_t      motor;
     current_ref_config_t current_ref;
     dead_time_config_t   dead_time;

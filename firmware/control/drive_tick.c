@@ -140,9 +140,42 @@ static void update_references(drive_t *d, const drive_sample_t *s, float command
     current_ref_update(&d->current_ref, &c->current_ref, &c->motor, &d->speed_ref, &in);
 }
 
+/* What the modulator can produce of a voltage: up to the circle, or to the hexagon around it. */
+static float voltage_share(const drive_config_t *c, dq_t v_V, frames_angle_t angle, float dc_link_V)
+{
+    const float circle_V = dc_link_V * BASE_1_SQRT3;
+    const float square   = (v_V.d * v_V.d) + (v_V.q * v_V.q);
+
+    if (square <= circle_V * circle_V) {
+        return 1.0f;
+    }
+    return c->overmodulation ? svpwm_share(frames_inverse_park(v_V, angle), dc_link_V)
+                             : (circle_V / sqrtf(square));
+}
+
+/* EQ-VOLTAGE-1 within what can be produced in the direction of u. The limit turns the vector; what cannot be
+ * produced in the new direction is cut off. */
+static void limit_voltage(drive_t *d, dq_t u_V, frames_angle_t angle, float dc_link_V)
+{
+    const drive_config_t *c     = d->config;
+    const float           share = voltage_share(c, u_V, angle, dc_link_V);
+
+    d->v_V       = u_V;
+    d->v_limited = share < 1.0f;
+    if (d->v_limited) {
+        const float hold_q_V = feedforward_hold_q_V(&c->motor, &d->now, &d->observer);
+        const float reach_V  = share * sqrtf((u_V.d * u_V.d) + (u_V.q * u_V.q));
+        const dq_t  v_V      = voltage_limit(u_V, hold_q_V, reach_V);
+        const float cut      = voltage_share(c, v_V, angle, dc_link_V);
+
+        d->v_V.d = cut * v_V.d;
+        d->v_V.q = cut * v_V.q;
+    }
+}
+
 /* EQ-DRIVE-1 and the limits; the result is stored as the voltage of the next period. False when the law gives
  * no number: the limit would turn a NaN into full voltage. */
-static bool control_law(drive_t *d, float v_max_V)
+static bool control_law(drive_t *d, frames_angle_t angle, float dc_link_V)
 {
     const drive_config_t *c   = d->config;
     const dq_t            ref = d->current_ref.i_A;
@@ -161,17 +194,13 @@ static bool control_law(drive_t *d, float v_max_V)
     if (!symmetric_range(u_V.d, VOLTAGE_ANY_V) || !symmetric_range(u_V.q, VOLTAGE_ANY_V)) {
         return false;
     }
-    const float             hold_q_V = feedforward_hold_q_V(&c->motor, &d->now, &d->observer);
-    const voltage_limited_t v        = voltage_limit(u_V, hold_q_V, v_max_V);
-    d->v_V                           = v.v_V;
-    d->v_limited                     = v.limited;
+    limit_voltage(d, u_V, angle, dc_link_V);
     return true;
 }
 
-static drive_output_t modulate(const drive_t *d, float theta_rad, float dc_link_V)
+static drive_output_t modulate(const drive_t *d, frames_angle_t angle, float dc_link_V)
 {
     const drive_config_t *c     = d->config;
-    const frames_angle_t  angle = frames_angle(theta_rad);
     const dq_t            i_A   = {.d = d->now.id_A, .q = d->now.iq_A};
     const abc_t           duty  = svpwm_duty(frames_inverse_park(d->v_V, angle), dc_link_V);
     const abc_t           i_abc = frames_inverse_clarke(frames_inverse_park(i_A, angle));
@@ -194,10 +223,12 @@ static drive_output_t run(drive_t *d, const drive_sample_t *s, const drive_comma
         return trip(d, DRIVE_FAULT_OVER_SPEED);
     }
     update_references(d, s, command->omega_e_radps);
-    if (!control_law(d, s->dc_link_V * BASE_1_SQRT3)) {
+
+    const frames_angle_t angle = frames_angle(theta_rad);
+    if (!control_law(d, angle, s->dc_link_V)) {
         return trip(d, DRIVE_FAULT_NUMERIC);
     }
-    return modulate(d, theta_rad, s->dc_link_V);
+    return modulate(d, angle, s->dc_link_V);
 }
 
 drive_output_t drive_tick(drive_t *d, const drive_sample_t *sample, const drive_command_t *command)

@@ -28,10 +28,15 @@ typedef struct {
 typedef struct {
     int16_t order;          /**< N, 0 .. NOSC_ORDER_MAX */
     float   iq_error_max_A; /**< certified for |e_iq| <= this; > 0 */
+    float   iq_speed_max_A; /**< most q current that the speed error may ask for; > 0 */
     float   lambda[NOSC_ORDER_MAX + 1][NOSC_N_U][NOSC_N_E]; /**< Lambda_n; k_iq > 0 */
 } nosc_gains_t;
 
-/** The q current that the speed error asks for, -(k_w / k_iq) e_w of EQ-NOSC-3. Context: control ISR. One division. */
+/**
+ * @brief The q current that the speed error asks for, -(k_w / k_iq) e_w within +-iq_speed_max_A (EQ-NOSC-3).
+ *
+ * Context: control ISR. One division.
+ */
 float nosc_speed_current_A(const nosc_gains_t *g, float omega_error_e_radps);
 
 /**
@@ -39,6 +44,8 @@ float nosc_speed_current_A(const nosc_gains_t *g, float omega_error_e_radps);
  *
  * Row v_q of EQ-NOSC-1 at n = 0 is -k_iq (iq - (iq_ref - (k_w / k_iq) e_w)): a current loop whose command
  * is the bracket. Limiting e_w limits that command and nothing else.           EQ-NOSC-3
+ * The command also stays within iq_speed_max_A of iq_ref: the voltage limits how fast the current follows, and
+ * a loop that asks for more than it gets in time starts to oscillate.
  *
  * @param g         Gains.
  * @param e         Tracking error.

@@ -5,10 +5,20 @@
 
 #include "frames.h"
 
+static float largest(abc_t v)
+{
+    return fmaxf(v.a, fmaxf(v.b, v.c));
+}
+
+static float smallest(abc_t v)
+{
+    return fminf(v.a, fminf(v.b, v.c));
+}
+
 abc_t svpwm_duty(ab_t v_V, float v_dc_V)
 {
     const abc_t v      = frames_inverse_clarke(v_V);
-    const float centre = 0.5f * (fmaxf(v.a, fmaxf(v.b, v.c)) + fminf(v.a, fminf(v.b, v.c)));
+    const float centre = 0.5f * (largest(v) + smallest(v));
     const float inv_V  = 1.0f / v_dc_V;
 
     const abc_t duty = {/* EQ-SVPWM-1 */
@@ -16,4 +26,12 @@ abc_t svpwm_duty(ab_t v_V, float v_dc_V)
                         .b = base_clamp(0.5f + ((v.b - centre) * inv_V), 0.0f, 1.0f),
                         .c = base_clamp(0.5f + ((v.c - centre) * inv_V), 0.0f, 1.0f)};
     return duty;
+}
+
+float svpwm_share(ab_t v_V, float v_dc_V)
+{
+    const abc_t v        = frames_inverse_clarke(v_V);
+    const float spread_V = largest(v) - smallest(v);
+
+    return (spread_V > v_dc_V) ? (v_dc_V / spread_V) : 1.0f; /* EQ-SVPWM-2 */
 }

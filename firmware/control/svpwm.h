@@ -5,7 +5,10 @@
  *
  *     duty_x = 1/2 + (v_x - (max + min) / 2) / v_dc,   x = a, b, c             EQ-SVPWM-1
  *
- * Identical to classic SVPWM with the zero time split equally; linear up to |v| = v_dc / sqrt(3).
+ *     share  = v_dc / (max - min)                                             EQ-SVPWM-2
+ *
+ * Identical to classic SVPWM with the zero time split equally; linear up to |v| = v_dc / sqrt(3) in every
+ * direction and up to share |v| in the direction of v: the hexagon.
  */
 #ifndef SVPWM_H
 #define SVPWM_H
@@ -22,5 +25,12 @@
  * Context: control ISR. One division.
  */
 abc_t svpwm_duty(ab_t v_V, float v_dc_V);
+
+/**
+ * @brief The share of a vector that the inverter can produce, EQ-SVPWM-2, at most 1.
+ *
+ * Context: control ISR. One division.
+ */
+float svpwm_share(ab_t v_V, float v_dc_V);
 
 #endif /* SVPWM_H */

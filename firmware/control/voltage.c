@@ -13,18 +13,17 @@ static float leg(float hypotenuse, float other_leg)
     return (square > 0.0f) ? sqrtf(square) : 0.0f;
 }
 
-voltage_limited_t voltage_limit(dq_t v_V, float hold_q_V, float v_max_V)
+dq_t voltage_limit(dq_t v_V, float hold_q_V, float v_max_V)
 {
-    voltage_limited_t out = {.v_V = v_V, .limited = false};
-
     if (base_in_range((v_V.d * v_V.d) + (v_V.q * v_V.q), 0.0f, v_max_V * v_max_V)) {
-        return out;
+        return v_V;
     }
     const float keep_V = fminf(KEEP_SHARE * fminf(fabsf(hold_q_V), v_max_V), fabsf(v_V.q));
     const float d_V    = leg(v_max_V, keep_V); /* EQ-VOLTAGE-1 */
-    out.v_V.d          = base_clamp(v_V.d, -d_V, d_V);
-    const float q_V    = leg(v_max_V, out.v_V.d);
-    out.v_V.q          = base_clamp(v_V.q, -q_V, q_V);
-    out.limited        = true;
-    return out;
+    dq_t        out_V;
+
+    out_V.d         = base_clamp(v_V.d, -d_V, d_V);
+    const float q_V = leg(v_max_V, out_V.d);
+    out_V.q         = base_clamp(v_V.q, -q_V, q_V);
+    return out_V;
 }

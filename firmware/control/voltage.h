@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file voltage.h
- * @brief Voltage limit on the vector.
+ * @brief Voltage limit on the vector: which axis gives way.
  *
  * When the wanted vector leaves the circle, most of the q voltage that holds the q current is covered
  * first, then the d axis gets what it wants, then the q axis what is left:
@@ -17,18 +17,14 @@
 
 #include "base.h"
 
-typedef struct {
-    dq_t v_V;     /**< limited voltage, |v_V| <= v_max within rounding */
-    bool limited; /**< the limit was active */
-} voltage_limited_t;
-
 /**
- * @param v_V      Wanted voltage.
+ * @param v_V      Wanted voltage; a NaN comes out as a vector inside the circle.
  * @param hold_q_V q voltage that keeps the q current where it is.
  * @param v_max_V  Radius of the circle [V], >= 0.
+ * @return         Limited voltage, |v| <= v_max within rounding.
  *
  * Context: control ISR. No division; two square roots when limiting.
  */
-voltage_limited_t voltage_limit(dq_t v_V, float hold_q_V, float v_max_V);
+dq_t voltage_limit(dq_t v_V, float hold_q_V, float v_max_V);
 
 #endif /* VOLTAGE_H */

@@ -68,6 +68,7 @@ Inverter read_inverter(TomlReader t)
     inverter.dead_time_s            = t.number("dead_time_s", dead_time_s);
     inverter.updates_per_period     = t.integer_or("updates_per_period", {1, 2}, 1);
     inverter.dead_time_compensation = t.boolean_or("dead_time_compensation", true);
+    inverter.overmodulation         = t.boolean_or("overmodulation", false);
     t.reject_unknown_keys();
     return inverter;
 }
@@ -122,6 +123,7 @@ std::string normalised(const Drive &d)
     s += fmt::format("{:.17g};{:.17g};{:.17g};{};{};", i.dc_link_V, i.pwm_frequency_Hz,
                      i.dead_time_s, i.updates_per_period, d.encoder.lines);
     s += i.dead_time_compensation ? "compensated;" : "uncompensated;";
+    s += i.overmodulation ? "hexagon;" : "circle;";
     s += fmt::format("nosc;{};", d.nosc.order);
     for (double x : d.nosc.Q) {
         s += fmt::format("{:.17g};", x);

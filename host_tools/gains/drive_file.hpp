@@ -29,6 +29,7 @@ struct Inverter {
     double dead_time_s            = 0.0;
     int    updates_per_period     = 1; ///< control runs at pwm_frequency_Hz times this
     bool   dead_time_compensation = true;
+    bool   overmodulation         = false; ///< transient voltages may use the hexagon's corners
 };
 
 struct Encoder {

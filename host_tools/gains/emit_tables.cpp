@@ -75,7 +75,8 @@ std::string dead_time_block(const dead_time_config_t &c)
 std::string nosc_block(const nosc_gains_t &g)
 {
     std::string s = fmt::format("    .nosc = {{\n        .order = {},\n", g.order);
-    s += field("iq_error_max_A", g.iq_error_max_A) + "        .lambda = {\n";
+    s += field("iq_error_max_A", g.iq_error_max_A) + field("iq_speed_max_A", g.iq_speed_max_A) +
+         "        .lambda = {\n";
     for (int n = 0; n <= g.order; n++) {
         s += fmt::format("            {{ /* n = {} */\n", n);
         s += "                /*          omega_e_radps             iq_A             id_A */\n";
@@ -166,6 +167,7 @@ std::string source_text(const Design &d)
          scalar("trip_speed_e_radps", c.trip_speed_e_radps) +
          scalar("trip_angle_rad", c.trip_angle_rad) + scalar("trip_d_omega", c.trip_d_omega) +
          scalar("dc_link_min_V", c.dc_link_min_V) + scalar("dc_link_max_V", c.dc_link_max_V);
+    s += fmt::format("    .overmodulation = {},\n", c.overmodulation);
     s += fmt::format("    .form = {},\n", encoder ? "DRIVE_FORM_ENCODER" : "DRIVE_FORM_SPEED");
     s += motor_block(c.motor) + current_ref_block(c.current_ref) + dead_time_block(c.dead_time) +
          nosc_block(c.nosc) + observer_block(c);

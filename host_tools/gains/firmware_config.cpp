@@ -33,8 +33,11 @@ constexpr double dead_time_fade_ratio = 0.025;
 // A surface magnet motor has no saliency; this many amperes stand for its infinite k of EQ-CURRENT-REF-2.
 constexpr double largest_mtpa_A = 1e6;
 
-// Chosen: 3 % of the voltage circle stays free for transients.
-constexpr double voltage_share = 0.97;
+// Chosen: 1 % of the voltage circle, and what the hexagon holds outside it, stay free for transients.
+constexpr double voltage_share = 0.99;
+// Chosen by simulation: of 10,000 random motors (docs/errata.md) 48 fail without this limit and 30 with it;
+// a smaller share deepens the dip after a load step.
+constexpr double speed_current_ratio = 0.25;
 
 float single(double x)
 {
@@ -100,6 +103,7 @@ void copy_gains(const Design &d, drive_config_t &c)
 
     c.nosc.order          = static_cast<int16_t>(d.drive.nosc.order);
     c.nosc.iq_error_max_A = single(d.certificate.nosc.series_range_A);
+    c.nosc.iq_speed_max_A = single(speed_current_ratio * d.drive.motor.max_current_A);
     for (std::size_t n = 0; n < d.nosc.gain.size(); n++) {
         copy_matrix(d.nosc.gain[n], c.nosc.lambda[n]);
     }
@@ -166,6 +170,7 @@ drive_config_t firmware_config(const Design &d)
     c.trip_d_omega       = single(trip_torque_ratio * l[3] * largest_torque_Nm(m, l));
     c.dc_link_min_V      = single(dc_link_min_ratio * inv.dc_link_V);
     c.dc_link_max_V      = single(dc_link_max_ratio * inv.dc_link_V);
+    c.overmodulation     = inv.overmodulation;
 
     c.motor = {single(l[1]),  single(l[2]),       single(l[3]),      single(l[4]), single(l[5]),
                single(l[6]),  single(l[7]),       single(l[8]),      single(l[9]), single(l[10]),

@@ -10,6 +10,7 @@
 #include "errors.hpp"
 #include "file_output.hpp"
 #include "plot.hpp"
+#include "random_motors.hpp"
 #include "results.hpp"
 #include "seeds.hpp"
 #include "version.hpp"
@@ -23,8 +24,10 @@ struct Options {
     std::string csv;
     std::string json;
     std::string plot;
-    int         seed  = 0;
-    int         seeds = 0;
+    int         seed   = 0;
+    int         seeds  = 0;
+    int         motors = 1000;
+    std::string failures;
 };
 
 /// The files that were asked for; `json` is already text.
@@ -72,6 +75,17 @@ int run_scenario(const Options &options)
     return result.fault == 0 ? exit_ok : exit_fault;
 }
 
+int run_motors(const Options &options)
+{
+    const sdre::Scenario     scenario = sdre::read_scenario_file(options.scenario);
+    const sdre::RandomMotors runs     = sdre::run_random_motors(scenario, options.motors);
+    if (!options.failures.empty()) {
+        sdre::write_failed_motors(options.scenario, runs, options.failures);
+    }
+    fmt::print("{}", sdre::random_motors_text(scenario, runs));
+    return exit_ok;
+}
+
 int run(int argc, char **argv)
 {
     Options  options;
@@ -93,6 +107,16 @@ int run(int argc, char **argv)
         ->check(CLI::Range(1, 100000))
         ->excludes(seed);
 
+    CLI::App *motors_command = app.add_subcommand(
+        "motors", "run one scenario with random motors that the controller does not know");
+    motors_command
+        ->add_option("SCENARIO", options.scenario, "scenario file with a [motor_ranges] table")
+        ->required();
+    motors_command->add_option("--count", options.motors, "number of motors (default 1000)")
+        ->check(CLI::Range(1, 1000000));
+    motors_command->add_option("--failures", options.failures,
+                               "write every failed motor as a scenario into this directory");
+
     CLI::App *bench_command = app.add_subcommand("bench", "print the speed of the simulation");
     bench_command->add_option("SCENARIO", options.scenario, "scenario file (default: Fig. 5)");
 
@@ -110,7 +134,7 @@ int run(int argc, char **argv)
                                               : std::filesystem::path(options.scenario)));
         return exit_ok;
     }
-    return run_scenario(options);
+    return motors_command->parsed() ? run_motors(options) : run_scenario(options);
 }
 
 } // namespace

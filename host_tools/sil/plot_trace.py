@@ -38,6 +38,8 @@ def main(trace_path, title, out_path):
     axes[2].plot(time, t["vd_V"], label="vd")
     length = [(q * q + d * d) ** 0.5 for q, d in zip(t["vq_V"], t["vd_V"])]
     axes[2].plot(time, length, "k:", lw=1, label="length")
+    circle = [v / 3**0.5 for v in t["dc_link_V"]]
+    axes[2].plot(time, circle, "r--", lw=1, label="dc link / sqrt 3")
     axes[2].set_ylabel("voltage [V]")
 
     axes[3].plot(time, t["d_omega_hat"], "C3", label="d_omega [rad/s²]")

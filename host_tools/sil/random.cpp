@@ -16,15 +16,21 @@ std::uint64_t mix(std::uint64_t z)
 
 } // namespace
 
-Noise::Noise(std::uint64_t seed, NoiseStream stream)
-    : generator_(mix(seed + 0x9e3779b97f4a7c15ULL * static_cast<std::uint64_t>(stream)))
+Uniform::Uniform(std::uint64_t seed, std::uint64_t stream)
+    : generator_(mix(seed + 0x9e3779b97f4a7c15ULL * stream))
 {
 }
 
-double Noise::uniform()
+double Uniform::next(double lo, double hi)
 {
     // 53 random bits fill a double's mantissa; + 1 keeps 0 out, which has no logarithm.
-    return static_cast<double>((generator_() >> 11U) + 1U) * 0x1p-53;
+    const double share = static_cast<double>((generator_() >> 11U) + 1U) * 0x1p-53;
+    return lo + (hi - lo) * share;
+}
+
+Noise::Noise(std::uint64_t seed, NoiseStream stream)
+    : uniform_(seed, static_cast<std::uint64_t>(stream))
+{
 }
 
 double Noise::next()
@@ -33,8 +39,8 @@ double Noise::next()
         has_spare_ = false;
         return spare_;
     }
-    const double radius = std::sqrt(-2.0 * std::log(uniform()));
-    const double angle  = 2.0 * std::acos(-1.0) * uniform();
+    const double radius = std::sqrt(-2.0 * std::log(uniform_.next(0.0, 1.0)));
+    const double angle  = 2.0 * std::acos(-1.0) * uniform_.next(0.0, 1.0);
     spare_              = radius * std::sin(angle);
     has_spare_          = true;
     return radius * std::cos(angle);

@@ -10,6 +10,18 @@ namespace sdre {
 /// Who draws; each source has a generator of its own, so that one does not shift another.
 enum class NoiseStream : std::uint64_t { adc_a = 1, adc_b = 2 };
 
+/// Evenly distributed numbers, a sequence per seed and stream.
+class Uniform {
+public:
+    Uniform(std::uint64_t seed, std::uint64_t stream);
+
+    /// lo .. hi, lo excluded.
+    double next(double lo, double hi);
+
+private:
+    std::mt19937_64 generator_;
+};
+
 /// Gaussian numbers: std::mt19937_64, whose sequence the standard fixes, and Box-Muller.
 class Noise {
 public:
@@ -19,11 +31,9 @@ public:
     double next();
 
 private:
-    double uniform(); ///< (0, 1]
-
-    std::mt19937_64 generator_;
-    double          spare_     = 0.0;
-    bool            has_spare_ = false;
+    Uniform uniform_;
+    double  spare_     = 0.0;
+    bool    has_spare_ = false;
 };
 
 } // namespace sdre

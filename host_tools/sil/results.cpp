@@ -61,14 +61,15 @@ std::string trace_csv(const std::vector<TraceRow> &trace)
 {
     std::string s = "time_s,omega_ref_e_radps,omega_e_radps,iq_A,id_A,iq_ref_A,id_ref_A,vq_V,vd_V,"
                     "d_omega_hat,d_q_hat,"
-                    "d_d_hat,load_torque_Nm,torque_Nm\n";
+                    "d_d_hat,load_torque_Nm,torque_Nm,dc_link_V\n";
     for (const TraceRow &r : trace) {
         fmt::format_to(std::back_inserter(s),
                        "{:.10g},{:.10g},{:.10g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},",
                        r.time_s, r.omega_ref_e_radps, r.omega_e_radps, r.iq_A, r.id_A, r.iq_ref_A,
                        r.id_ref_A, r.vq_V, r.vd_V);
-        fmt::format_to(std::back_inserter(s), "{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", r.d_omega_hat,
-                       r.d_q_hat, r.d_d_hat, r.load_torque_Nm, r.torque_Nm);
+        fmt::format_to(std::back_inserter(s), "{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n",
+                       r.d_omega_hat, r.d_q_hat, r.d_d_hat, r.load_torque_Nm, r.torque_Nm,
+                       r.dc_link_V);
     }
     return s;
 }

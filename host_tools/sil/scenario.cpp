@@ -43,6 +43,25 @@ MotorScale read_scale(TomlReader t)
     return scale;
 }
 
+Range read_factor_range(TomlReader &t, const char *key)
+{
+    const std::vector<double> range = t.numbers(key, {2}, scale_range);
+    if (range[1] < range[0]) {
+        t.fail(key, fmt::format("= [{:g}, {:g}] is not allowed: the first must not be above the "
+                                "second",
+                                range[0], range[1]));
+    }
+    return {range[0], range[1]};
+}
+
+MotorRanges read_motor_ranges(TomlReader t)
+{
+    const MotorRanges ranges{read_factor_range(t, "resistance"), read_factor_range(t, "inductance"),
+                             read_factor_range(t, "flux"), read_factor_range(t, "inertia")};
+    t.reject_unknown_keys();
+    return ranges;
+}
+
 /// Times must not go backwards, so that a file reads in the order in which things happen.
 template <typename T>
 void require_sorted(const TomlReader &t, const char *what, const std::vector<T> &items)
@@ -190,17 +209,10 @@ void read_board(TomlReader &t, Scenario &s)
     }
 }
 
-std::filesystem::path drive_path(const std::filesystem::path &scenario, const std::string &drive)
-{
-    const std::filesystem::path beside = scenario.parent_path() / drive;
-    std::error_code             error;
-    return std::filesystem::exists(beside, error) ? beside : std::filesystem::path(drive);
-}
-
 /// The drive file, with what the scenario overrides for controller and plant alike.
 Drive read_drive(TomlReader &t, const std::filesystem::path &file)
 {
-    Drive drive = read_drive_file(drive_path(file, t.text("drive")));
+    Drive drive = read_drive_file(scenario_drive_path(file, t.text("drive")));
     drive.motor.max_current_A =
         t.number_or("max_current_A", current_range_A, drive.motor.max_current_A);
     if (std::optional<TomlReader> inverter = t.table_if("inverter")) {
@@ -222,6 +234,14 @@ void read_controller(TomlReader t, Scenario &s)
 }
 
 } // namespace
+
+std::filesystem::path scenario_drive_path(const std::filesystem::path &scenario,
+                                          const std::string           &drive)
+{
+    const std::filesystem::path beside = scenario.parent_path() / drive;
+    std::error_code             error;
+    return std::filesystem::exists(beside, error) ? beside : std::filesystem::path(drive);
+}
 
 Motor scaled(Motor motor, const MotorScale &scale)
 {
@@ -269,6 +289,9 @@ Scenario read_scenario_file(const std::filesystem::path &file)
     }
     if (std::optional<TomlReader> scale = t.table_if("plant_scale")) {
         s.plant_scale = read_scale(*scale);
+    }
+    if (std::optional<TomlReader> ranges = t.table_if("motor_ranges")) {
+        s.motor_ranges = read_motor_ranges(*ranges);
     }
     if (std::optional<TomlReader> controller = t.table_if("controller")) {
         read_controller(*controller, s);

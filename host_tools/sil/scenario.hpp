@@ -12,6 +12,7 @@
 #include "board_settings.hpp"
 #include "drive_file.hpp"
 #include "load.hpp"
+#include "toml_reader.hpp"
 
 namespace sdre {
 
@@ -23,6 +24,14 @@ struct Step {
 
 /// Factors per motor key, e.g. {"inertia_kgm2", 2.0}.
 using MotorScale = std::map<std::string, double>;
+
+/// Factors that one random motor of `sdre-sil motors` is drawn with, relative to the drive file.
+struct MotorRanges {
+    Range resistance{1.0, 1.0};
+    Range inductance{1.0, 1.0}; ///< one factor for both axes
+    Range flux{1.0, 1.0};
+    Range inertia{1.0, 1.0};
+};
 
 struct Measure {
     std::string name;
@@ -51,25 +60,30 @@ struct Scenario {
     double      initial_speed_e_radps = 0.0;
     MotorScale  controller_scale; ///< what the controller believes, relative to the drive file
     MotorScale  plant_scale;      ///< what the motor is, relative to the drive file
-    std::optional<int>       nosc_order; ///< instead of the drive file's
-    std::optional<int>       nodo_order;
-    std::vector<Step>        speed_reference; ///< electrical rad/s, sorted by time
-    std::vector<Step>        load_torque;     ///< N m, sorted by time
-    std::vector<PlantChange> changes;         ///< sorted by time
-    std::vector<Measure>     measures;        ///< sorted by time
-    double                   dc_link_V = 0.0; ///< the supply; the drive file's unless given
-    std::uint64_t            seed      = 1;   ///< of every random draw
-    SensorSettings           sensors;
-    InverterSettings         inverter;
-    MotorEffects             motor_effects;
-    std::vector<LoadRamp>    load_ramps; ///< sorted by time
-    LoadSine                 load_sine;
-    double                   load_fan_Nm_per_radps2 = 0.0; ///< of the mechanical speed
+    std::optional<MotorRanges> motor_ranges;
+    std::optional<int>         nosc_order; ///< instead of the drive file's
+    std::optional<int>         nodo_order;
+    std::vector<Step>          speed_reference; ///< electrical rad/s, sorted by time
+    std::vector<Step>          load_torque;     ///< N m, sorted by time
+    std::vector<PlantChange>   changes;         ///< sorted by time
+    std::vector<Measure>       measures;        ///< sorted by time
+    double                     dc_link_V = 0.0; ///< the supply; the drive file's unless given
+    std::uint64_t              seed      = 1;   ///< of every random draw
+    SensorSettings             sensors;
+    InverterSettings           inverter;
+    MotorEffects               motor_effects;
+    std::vector<LoadRamp>      load_ramps; ///< sorted by time
+    LoadSine                   load_sine;
+    double                     load_fan_Nm_per_radps2 = 0.0; ///< of the mechanical speed
 };
 
 /// InputError in one line on anything wrong. The drive path is relative to the scenario file, or to the
 /// working directory when no such file is there.
 Scenario read_scenario_file(const std::filesystem::path &file);
+
+/// Where the `drive` key of a scenario file points: beside the file when it is there, else as it stands.
+std::filesystem::path scenario_drive_path(const std::filesystem::path &scenario,
+                                          const std::string           &drive);
 
 /// The motor with every factor applied.
 Motor scaled(Motor motor, const MotorScale &scale);

@@ -2,13 +2,12 @@
 #include "seeds.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <thread>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "parallel.hpp"
 
 namespace sdre {
 namespace {
@@ -78,40 +77,18 @@ SeedRuns run_seeds(const Scenario &scenario, int count)
     const auto                        n          = static_cast<std::size_t>(count);
     std::vector<std::vector<Metrics>> metrics(n);
     std::vector<int>                  faults(n, 0);
-    std::vector<std::exception_ptr>   errors(n);
     SeedRuns                          out;
-    std::atomic<std::size_t>          next{0};
 
-    const auto worker = [&]() {
-        for (std::size_t i = next++; i < n; i = next++) {
-            try {
-                Scenario seeded         = scenario;
-                seeded.seed             = i + 1;
-                SimulationResult result = simulate(seeded, controller);
-                metrics[i]              = measure(seeded, result.trace);
-                faults[i]               = result.fault != 0 ? 1 : 0;
-                if (i == 0) {
-                    out.first = std::move(result);
-                }
-            } catch (...) {
-                errors[i] = std::current_exception();
-            }
+    parallel_for(n, [&](std::size_t i) {
+        Scenario seeded         = scenario;
+        seeded.seed             = i + 1;
+        SimulationResult result = simulate(seeded, controller);
+        metrics[i]              = measure(seeded, result.trace);
+        faults[i]               = result.fault != 0 ? 1 : 0;
+        if (i == 0) {
+            out.first = std::move(result);
         }
-    };
-    std::vector<std::thread> threads;
-    const std::size_t        cores = std::max(1U, std::thread::hardware_concurrency());
-    for (std::size_t i = 1; i < std::min(cores, n); i++) {
-        threads.emplace_back(worker);
-    }
-    worker();
-    for (std::thread &thread : threads) {
-        thread.join();
-    }
-    for (const std::exception_ptr &error : errors) {
-        if (error) {
-            std::rethrow_exception(error);
-        }
-    }
+    });
 
     out.seeds         = count;
     out.first_metrics = metrics[0];

@@ -38,10 +38,10 @@ Controller prepare_controller(const Scenario &s)
 
 namespace {
 
-TraceRow row_of(double time_s, double omega_ref, double load_Nm, const Plant &plant,
-                const drive_t &drive)
+TraceRow row_of(double time_s, double omega_ref, const Board &board, const drive_t &drive)
 {
-    const RotorVector i = plant.current_A();
+    const Plant      &plant = board.plant();
+    const RotorVector i     = plant.current_A();
     TraceRow          row;
     row.time_s            = time_s;
     row.omega_ref_e_radps = omega_ref;
@@ -55,8 +55,9 @@ TraceRow row_of(double time_s, double omega_ref, double load_Nm, const Plant &pl
     row.d_omega_hat       = static_cast<double>(drive.observer.d_omega);
     row.d_q_hat           = static_cast<double>(drive.observer.d_q);
     row.d_d_hat           = static_cast<double>(drive.observer.d_d);
-    row.load_torque_Nm    = load_Nm;
+    row.load_torque_Nm    = board.load_Nm();
     row.torque_Nm         = plant.torque_Nm();
+    row.dc_link_V         = board.dc_link_V();
     return row;
 }
 
@@ -93,7 +94,7 @@ SimulationResult simulate(const Scenario &s, const Controller &controller)
         const drive_sample_t  sample  = board.sample();
         const drive_command_t command = {static_cast<float>(omega_ref), true};
         const drive_output_t  output  = drive_tick(&drive, &sample, &command);
-        result.trace.push_back(row_of(t, omega_ref, board.load_Nm(), board.plant(), drive));
+        result.trace.push_back(row_of(t, omega_ref, board, drive));
         if (drive.state == DRIVE_FAULT && result.fault == 0) {
             result.fault        = drive.fault;
             result.fault_time_s = t;

@@ -26,6 +26,7 @@ struct TraceRow {
     double d_d_hat           = 0.0;
     double load_torque_Nm    = 0.0;
     double torque_Nm         = 0.0;
+    double dc_link_V         = 0.0;
     double peak_current_A    = 0.0; ///< largest |i| from this instant to the next
 };
 

@@ -349,13 +349,13 @@ TEST(Design, EigenvaluesEqualTheReference)
 
 TEST(Design, DefaultDriveIsCertified)
 {
-    EXPECT_TRUE(shipped("ipmsm_390w").certificate.passed());
-    EXPECT_TRUE(shipped("ipmsm_390w").certificate.failures.empty());
+    EXPECT_TRUE(shipped("ipmsm_390w_speed").certificate.passed());
+    EXPECT_TRUE(shipped("ipmsm_390w_speed").certificate.failures.empty());
 }
 
 TEST(Design, VerdictIsThatOfAnIndependentModel)
 {
-    for (const std::string name : {"ipmsm_390w", "ipmsm_390w_paper", "servo_200w"}) {
+    for (const std::string name : {"ipmsm_390w_speed", "ipmsm_390w_paper", "servo_200w"}) {
         const sdre::Design &d      = shipped(name);
         const double        ts     = sdre::control_period_s(d.drive);
         bool                stable = true;
@@ -375,7 +375,7 @@ TEST(Design, CertificateFiguresAreThoseOfAnIndependentModel)
 {
     // On the certificate's own grid; the tool's gains are double, these single: measured 4e-7.
     constexpr double tolerance = 3e-6;
-    for (const std::string name : {"ipmsm_390w", "servo_200w"}) {
+    for (const std::string name : {"ipmsm_390w_speed", "servo_200w"}) {
         const sdre::Design &d         = shipped(name);
         const double        ts        = sdre::control_period_s(d.drive);
         double              nosc_pole = -1e300, nosc_radius = 0.0, nosc_fastest = 0.0;
@@ -403,7 +403,7 @@ TEST(Design, CertificateFiguresAreThoseOfAnIndependentModel)
 
 TEST(Design, SeriesErrorFallsWithTheOrderOverTheSeriesRange)
 {
-    for (const std::string name : {"ipmsm_390w", "servo_200w"}) {
+    for (const std::string name : {"ipmsm_390w_speed", "servo_200w"}) {
         const sdre::Design &d = shipped(name);
         for (const sdre::SampledLoop *loop : {&d.certificate.nosc, &d.certificate.nodo}) {
             ASSERT_EQ(loop->series_error.size(), 3U);
@@ -424,7 +424,7 @@ TEST(Design, SeriesErrorFallsWithTheOrderOverTheSeriesRange)
 TEST(Design, SeriesErrorIsTheDistanceToTheExactGain)
 {
     constexpr double    tolerance = 1e-6; // relative; measured 1e-9
-    const sdre::Design &d         = shipped("ipmsm_390w");
+    const sdre::Design &d         = shipped("ipmsm_390w_speed");
     const double        nosc_end  = d.certificate.nosc.series_range_A;
     const double        nodo_end  = d.certificate.nodo.series_range_A;
     const double        range     = d.certificate.nosc.range_A;
@@ -447,7 +447,7 @@ TEST(Design, SeriesErrorIsTheDistanceToTheExactGain)
 
 TEST(Design, SeriesRangeEndsWhereTheErrorPassesTheLimit)
 {
-    const sdre::Design &d    = shipped("ipmsm_390w");
+    const sdre::Design &d    = shipped("ipmsm_390w_speed");
     const double        step = d.certificate.nosc.range_A / 64.0;
     const double        nosc = d.certificate.nosc.series_range_A;
     const double        nodo = d.certificate.nodo.series_range_A;
@@ -463,7 +463,7 @@ TEST(Design, SeriesRangeEndsWhereTheErrorPassesTheLimit)
 
 TEST(Design, ResidualsAreSmall)
 {
-    for (const std::string name : {"ipmsm_390w", "ipmsm_390w_paper", "servo_200w"}) {
+    for (const std::string name : {"ipmsm_390w_speed", "ipmsm_390w_paper", "servo_200w"}) {
         for (const sdre::GainSeries *g : {&shipped(name).nosc, &shipped(name).nodo}) {
             ASSERT_EQ(g->residuals.size(), g->gain.size());
             for (const double residual : g->residuals) {
@@ -475,7 +475,7 @@ TEST(Design, ResidualsAreSmall)
 
 TEST(Design, TooLongAControlPeriodIsNotCertified)
 {
-    sdre::Drive drive               = shipped("ipmsm_390w").drive;
+    sdre::Drive drive               = shipped("ipmsm_390w_speed").drive;
     drive.inverter.pwm_frequency_Hz = 1000.0;
 
     const sdre::Design d = sdre::design_drive(drive);
@@ -489,7 +489,7 @@ TEST(Design, TooLongAControlPeriodIsNotCertified)
 
 TEST(Design, HugeControllerWeightIsNotCertified)
 {
-    sdre::Drive drive = shipped("ipmsm_390w").drive;
+    sdre::Drive drive = shipped("ipmsm_390w_speed").drive;
     drive.nosc.Q      = {2e6, 8e6, 8e6};
 
     const sdre::Design d = sdre::design_drive(drive);
@@ -514,7 +514,7 @@ TEST(Design, ConstantsTheFirmwareRefusesAreNotCertified)
 
 TEST(Design, UnsolvableWeightsAreADesignError)
 {
-    sdre::Drive drive = shipped("ipmsm_390w").drive;
+    sdre::Drive drive = shipped("ipmsm_390w_speed").drive;
     drive.nodo.Q      = {0.0, 0.0, 0.0, 85.0, 85.0, 90.0}; // integrators without noise
 
     EXPECT_THROW(sdre::design_drive(drive), sdre::DesignError);
@@ -523,7 +523,7 @@ TEST(Design, UnsolvableWeightsAreADesignError)
 TEST(Design, FirmwareConstantsFollowTheirDefinitions)
 {
     constexpr double     single = 2e-7; // rounding to single precision
-    const sdre::Design  &d      = shipped("ipmsm_390w");
+    const sdre::Design  &d      = shipped("ipmsm_390w_speed");
     const sdre::Motor   &m      = d.drive.motor;
     const drive_config_t c      = d.config;
     const auto           near   = [&](float found, double expected) {
@@ -538,7 +538,8 @@ TEST(Design, FirmwareConstantsFollowTheirDefinitions)
     near(c.current_ref.current_max_A, 4.0);
     near(c.trip_angle_rad, 0.45);
     EXPECT_EQ(c.form, DRIVE_FORM_SPEED);
-    near(c.current_ref.voltage_share, 0.97);
+    near(c.current_ref.voltage_share, 0.99);
+    near(c.nosc.iq_speed_max_A, 1.0); // a quarter of 4 A
     near(c.current_ref.torque_share, 0.98);
     near(c.current_ref.filter_per_period, 0.125);
     near(c.current_ref.filter_1ps, 625.0);
@@ -557,9 +558,15 @@ TEST(Design, FirmwareConstantsFollowTheirDefinitions)
     near(c.current_ref.regen_per_V, 1.0 / (0.15 * 295.0));
 }
 
+TEST(Design, OvermodulationIsPassedOn)
+{
+    EXPECT_TRUE(shipped("ipmsm_390w").config.overmodulation);
+    EXPECT_FALSE(shipped("ipmsm_390w_speed").config.overmodulation);
+}
+
 TEST(Design, DeadTimeCompensationSwitchedOffIsAZeroShare)
 {
-    sdre::Drive drive                     = shipped("ipmsm_390w").drive;
+    sdre::Drive drive                     = shipped("ipmsm_390w_speed").drive;
     drive.inverter.dead_time_compensation = false;
 
     const sdre::Design d = sdre::design_drive(drive);
@@ -579,7 +586,7 @@ TEST(Design, SurfaceMagnetMotorMayUseTheWholeCircle)
 TEST(Design, ExactMtpaGivesTheMostTorqueOnTheCircle)
 {
     constexpr double    tolerance = 1e-6; // of the torque; measured rounding only
-    const sdre::Design &d         = shipped("ipmsm_390w_board");
+    const sdre::Design &d         = shipped("ipmsm_390w");
     const auto          iq        = static_cast<double>(d.config.current_ref.iq_max_A);
     const double        max_A     = d.drive.motor.max_current_A;
     const double found = sdre::torque_Nm(d.drive.motor, -std::sqrt(max_A * max_A - iq * iq), iq);
@@ -596,7 +603,7 @@ TEST(Design, ExactMtpaGivesTheMostTorqueOnTheCircle)
 TEST(Design, FirmwareMotorIsTheReducedMotor)
 {
     constexpr double      single = 2e-7;
-    const sdre::Design   &d      = shipped("ipmsm_390w");
+    const sdre::Design   &d      = shipped("ipmsm_390w_speed");
     const motor_reduced_t m      = d.config.motor;
     const float found[11] = {m.l1, m.l2, m.l3, m.l4, m.l5, m.l6, m.l7, m.l8, m.l9, m.l10, m.l11};
 
@@ -610,7 +617,7 @@ TEST(Design, FirmwareMotorIsTheReducedMotor)
 TEST(Design, FirmwareGainsAreTheSeriesInSinglePrecisionWithoutNoise)
 {
     constexpr double single = 1.2e-7;
-    for (const std::string name : {"ipmsm_390w", "servo_200w"}) {
+    for (const std::string name : {"ipmsm_390w_speed", "servo_200w"}) {
         const sdre::Design &d = shipped(name);
         ASSERT_EQ(d.config.nosc.order, 2);
         ASSERT_EQ(d.config.nodo.order, 2);
@@ -639,7 +646,7 @@ TEST(Design, FirmwareGainsAreTheSeriesInSinglePrecisionWithoutNoise)
 
 TEST(Design, EncoderFormIsCertified)
 {
-    const sdre::Design &d = shipped("ipmsm_390w_board");
+    const sdre::Design &d = shipped("ipmsm_390w");
 
     EXPECT_TRUE(d.certificate.passed());
     EXPECT_EQ(d.config.form, DRIVE_FORM_ENCODER);
@@ -651,7 +658,7 @@ TEST(Design, EncoderFormIsCertified)
 
 TEST(Design, EncoderFormModelIsThePhysicalOne)
 {
-    const sdre::Design       &d     = shipped("ipmsm_390w_board");
+    const sdre::Design       &d     = shipped("ipmsm_390w");
     const sdre::ObserverModel model = sdre::nodo_model(d.l, sdre::NodoForm::encoder);
 
     EXPECT_EQ(model.C, encoder_output());
@@ -664,7 +671,7 @@ TEST(Design, EncoderFormModelIsThePhysicalOne)
 TEST(Design, EncoderFormSeriesAgainstTheExactSdre)
 {
     constexpr double    tolerance = 1e-6; // relative
-    const sdre::Design &d         = shipped("ipmsm_390w_board");
+    const sdre::Design &d         = shipped("ipmsm_390w");
     const auto         &loop      = d.certificate.nodo;
     const double        step      = loop.range_A / 64.0;
     const auto          error     = [&](std::size_t order, double s) {
@@ -695,7 +702,7 @@ TEST(Design, EncoderFormSeriesAgainstTheExactSdre)
 
 TEST(Design, EncoderFormIsStableInAnIndependentModel)
 {
-    const sdre::Design &d     = shipped("ipmsm_390w_board");
+    const sdre::Design &d     = shipped("ipmsm_390w");
     const sdre::Motor  &m     = d.drive.motor;
     const double        trip  = 3.0 * m.rated_speed_e_radps;
     double              worst = 0.0;
@@ -715,7 +722,7 @@ TEST(Design, EncoderFormIsStableInAnIndependentModel)
 
 TEST(Design, EncoderFormWithTooLongAPeriodIsNotCertified)
 {
-    sdre::Drive drive               = shipped("ipmsm_390w_board").drive;
+    sdre::Drive drive               = shipped("ipmsm_390w").drive;
     drive.inverter.pwm_frequency_Hz = 1000.0;
 
     const sdre::Design d = sdre::design_drive(drive);
@@ -727,7 +734,7 @@ TEST(Design, EncoderFormWithTooLongAPeriodIsNotCertified)
 TEST(Design, EncoderFormOfTheServoIsStableToo)
 {
     sdre::Drive drive = shipped("servo_200w").drive;
-    drive.nodo        = shipped("ipmsm_390w_board").drive.nodo;
+    drive.nodo        = shipped("ipmsm_390w").drive.nodo;
 
     const sdre::Design d = sdre::design_drive(drive);
 

@@ -172,12 +172,12 @@ TEST(DriveFile, ShippedDrivesAreRead)
     const std::filesystem::path drives =
         std::filesystem::path(SDRE_SOURCE_DIR) / "firmware/config/drives";
 
-    const sdre::Drive ipmsm = sdre::read_drive_file(drives / "ipmsm_390w.toml");
+    const sdre::Drive ipmsm = sdre::read_drive_file(drives / "ipmsm_390w_speed.toml");
     const sdre::Drive paper = sdre::read_drive_file(drives / "ipmsm_390w_paper.toml");
     const sdre::Drive servo = sdre::read_drive_file(drives / "servo_200w.toml");
-    const sdre::Drive board = sdre::read_drive_file(drives / "ipmsm_390w_board.toml");
+    const sdre::Drive board = sdre::read_drive_file(drives / "ipmsm_390w.toml");
 
-    EXPECT_EQ(ipmsm.name, "ipmsm_390w");
+    EXPECT_EQ(ipmsm.name, "ipmsm_390w_speed");
     EXPECT_EQ(paper.name, "ipmsm_390w_paper");
     EXPECT_EQ(servo.name, "servo_200w");
     EXPECT_EQ(ipmsm.motor.pole_pairs, 2);
@@ -187,7 +187,7 @@ TEST(DriveFile, ShippedDrivesAreRead)
     EXPECT_EQ(paper.nodo.form, sdre::NodoForm::speed);
     EXPECT_EQ(servo.motor.pole_pairs, 4);
     EXPECT_EQ(servo.motor.d_axis_inductance_H, servo.motor.q_axis_inductance_H);
-    EXPECT_EQ(board.name, "ipmsm_390w_board");
+    EXPECT_EQ(board.name, "ipmsm_390w");
     EXPECT_EQ(board.nodo.form, sdre::NodoForm::encoder);
     EXPECT_EQ(board.nodo.Q.size(), 7U);
     EXPECT_EQ(board.motor.inertia_kgm2, ipmsm.motor.inertia_kgm2); // the same motor
@@ -548,6 +548,18 @@ TEST(DriveFile, EncoderFormDigestSeesEveryWeight)
             read(encoder_text().set("nodo", "Q", array_with(7, at, "1.5")).str())));
     }
     EXPECT_EQ(digests.size(), 8U);
+}
+
+TEST(DriveFile, OvermodulationDefaultsToOff)
+{
+    const sdre::Drive absent = read(DriveText().str());
+    const sdre::Drive on     = read(DriveText().set("inverter", "overmodulation", "true").str());
+
+    EXPECT_FALSE(absent.inverter.overmodulation);
+    EXPECT_TRUE(on.inverter.overmodulation);
+    EXPECT_NE(sdre::drive_digest(absent), sdre::drive_digest(on));
+    expect_complaint(DriveText().set("inverter", "overmodulation", "1"),
+                     {"[inverter] overmodulation"});
 }
 
 TEST(DriveFile, DeadTimeCompensationDefaultsToOn)

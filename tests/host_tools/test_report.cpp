@@ -20,7 +20,7 @@ constexpr double gain_tolerance_n = 1e-7; // asked for; measured 1e-12
 const sdre::Design &certified()
 {
     static const sdre::Design design =
-        sdre::design_drive(sdre::read_drive_file(support::shipped_drive("ipmsm_390w")));
+        sdre::design_drive(sdre::read_drive_file(support::shipped_drive("ipmsm_390w_speed")));
     return design;
 }
 
@@ -86,7 +86,7 @@ TEST(Report, JsonHasEveryKeyInItsShape)
 {
     const json r = report_of(certified());
 
-    EXPECT_EQ(r.at("drive"), "ipmsm_390w");
+    EXPECT_EQ(r.at("drive"), "ipmsm_390w_speed");
     EXPECT_EQ(r.at("digest"), sdre::drive_digest(certified().drive));
     EXPECT_EQ(r.at("control_period_s"), 2e-4);
     EXPECT_EQ(r.at("reduced_parameters").size(), 11U);
@@ -173,7 +173,7 @@ TEST(Report, TextHasTheFiguresOfTheJson)
     const std::string text = sdre::report_text(certified());
 
     for (const char *piece :
-         {"ipmsm_390w (fnv1a64:", "control period 200 us", "  l1   2757.14286\n",
+         {"ipmsm_390w_speed (fnv1a64:", "control period 200 us", "  l1   2757.14286\n",
           "  l11  -556.142857\n", "Lambda_0", "Lambda_2", "L_0", "L_2", "44.5124", "187.167",
           "controller, e_iq in +-8 A", "observer, iq_hat in +-8 A", "series used in +-2.75 A",
           "order 0: gain error", "order 2: gain error"}) {

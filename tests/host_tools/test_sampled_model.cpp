@@ -26,7 +26,7 @@ constexpr double pi = 3.14159265358979323846;
 const sdre::Design &board()
 {
     static const sdre::Design design =
-        sdre::design_drive(sdre::read_drive_file(support::shipped_drive("ipmsm_390w_board")));
+        sdre::design_drive(sdre::read_drive_file(support::shipped_drive("ipmsm_390w")));
     return design;
 }
 

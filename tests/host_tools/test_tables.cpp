@@ -27,14 +27,14 @@ const std::filesystem::path committed = std::filesystem::path(SDRE_SOURCE_DIR) /
 const sdre::Design &encoder_form()
 {
     static const sdre::Design design =
-        sdre::design_drive(sdre::read_drive_file(support::shipped_drive("ipmsm_390w_board")));
+        sdre::design_drive(sdre::read_drive_file(support::shipped_drive("ipmsm_390w")));
     return design;
 }
 
-const sdre::Design &shipped()
+const sdre::Design &speed_form()
 {
     static const sdre::Design design =
-        sdre::design_drive(sdre::read_drive_file(support::shipped_drive("ipmsm_390w")));
+        sdre::design_drive(sdre::read_drive_file(support::shipped_drive("ipmsm_390w_speed")));
     return design;
 }
 
@@ -80,7 +80,7 @@ std::vector<float> values_of(const drive_config_t &c)
     v.insert(v.end(), {r.current_max_A, r.iq_max_A, r.mtpa_A, r.voltage_share, r.torque_share,
                        r.near_e_radps, r.l1_min, r.filter_per_period, r.filter_1ps,
                        r.regen_max_W_norm, r.regen_start_V, r.regen_per_V, c.dead_time.share,
-                       c.dead_time.inv_fade_1pA, c.nosc.iq_error_max_A});
+                       c.dead_time.inv_fade_1pA, c.nosc.iq_error_max_A, c.nosc.iq_speed_max_A});
     for (int n = 0; n <= c.nosc.order; n++) {
         for (const auto &row : c.nosc.lambda[n]) {
             v.insert(v.end(), std::begin(row), std::end(row));
@@ -104,7 +104,7 @@ std::string difference_after(const std::string &file, const std::string &from,
                              const std::string &to)
 {
     const TempDir         dir;
-    const sdre::TableText text = sdre::table_text(shipped());
+    const sdre::TableText text = sdre::table_text(speed_form());
     sdre::write_tables(text, dir.path());
     dir.write(file, support::replaced(support::read_file(dir / file), from, to));
     return sdre::compare_tables(text, dir.path());
@@ -115,7 +115,7 @@ std::string difference_after(const std::string &file, const std::string &from,
 TEST(Tables, CommittedTablesAreThoseOfTheShippedDrive)
 {
     constexpr double      tolerance = 1e-6; // compilers differ in the last digits
-    const sdre::TableText text      = sdre::table_text(shipped());
+    const sdre::TableText text      = sdre::table_text(encoder_form());
     const std::string     source    = support::read_file(committed / "gain_tables.c");
     const auto            expected  = literals(text.source);
     const auto            found     = literals(source);
@@ -132,23 +132,23 @@ TEST(Tables, CommittedTablesAreThoseOfTheShippedDrive)
 TEST(Tables, CompiledTableIsTheDesign)
 {
     const std::vector<float> compiled = values_of(gain_tables_drive);
-    const std::vector<float> design   = values_of(shipped().config);
+    const std::vector<float> design   = values_of(encoder_form().config);
 
-    EXPECT_EQ(gain_tables_drive.nosc.order, shipped().config.nosc.order);
-    EXPECT_EQ(gain_tables_drive.nodo.order, shipped().config.nodo.order);
+    EXPECT_EQ(gain_tables_drive.nosc.order, encoder_form().config.nosc.order);
+    EXPECT_EQ(gain_tables_drive.nodo_encoder.order, encoder_form().config.nodo_encoder.order);
     ASSERT_EQ(compiled.size(), design.size());
     for (std::size_t i = 0; i < compiled.size(); i++) {
         const auto expected = static_cast<double>(design[i]);
         EXPECT_NEAR(static_cast<double>(compiled[i]), expected, 1e-6 * std::abs(expected)) << i;
     }
     EXPECT_STREQ(GAIN_TABLES_NAME, "ipmsm_390w");
-    EXPECT_EQ(GAIN_TABLES_DIGEST, sdre::drive_digest(shipped().drive));
+    EXPECT_EQ(GAIN_TABLES_DIGEST, sdre::drive_digest(encoder_form().drive));
 }
 
 TEST(Tables, TextHoldsEveryNumberBitForBit)
 {
-    const std::vector<float>  design = values_of(shipped().config);
-    const std::vector<double> text   = literals(sdre::table_text(shipped()).source);
+    const std::vector<float>  design = values_of(speed_form().config);
+    const std::vector<double> text   = literals(sdre::table_text(speed_form()).source);
 
     ASSERT_EQ(text.size(), design.size());
     for (std::size_t i = 0; i < text.size(); i++) {
@@ -158,8 +158,8 @@ TEST(Tables, TextHoldsEveryNumberBitForBit)
 
 TEST(Tables, SameInputSameBytes)
 {
-    const sdre::TableText first  = sdre::table_text(shipped());
-    const sdre::TableText second = sdre::table_text(sdre::design_drive(shipped().drive));
+    const sdre::TableText first  = sdre::table_text(speed_form());
+    const sdre::TableText second = sdre::table_text(sdre::design_drive(speed_form().drive));
 
     EXPECT_EQ(first.header, second.header);
     EXPECT_EQ(first.source, second.source);
@@ -167,8 +167,8 @@ TEST(Tables, SameInputSameBytes)
 
 TEST(Tables, TextCarriesDigestButNoTimePathOrUser)
 {
-    const sdre::TableText text   = sdre::table_text(shipped());
-    const std::string     digest = sdre::drive_digest(shipped().drive);
+    const sdre::TableText text   = sdre::table_text(speed_form());
+    const std::string     digest = sdre::drive_digest(speed_form().drive);
     char                  host[256]{};
     ASSERT_EQ(gethostname(host, sizeof host - 1), 0);
 
@@ -182,7 +182,7 @@ TEST(Tables, TextCarriesDigestButNoTimePathOrUser)
         EXPECT_TRUE(file.rfind("/* SPDX-License-Identifier: MIT */\n", 0) == 0U);
     }
     EXPECT_TRUE(contains(text.header, "#define GAIN_TABLES_DIGEST \"" + digest + "\""));
-    EXPECT_TRUE(contains(text.header, "#define GAIN_TABLES_NAME   \"ipmsm_390w\""));
+    EXPECT_TRUE(contains(text.header, "#define GAIN_TABLES_NAME   \"ipmsm_390w_speed\""));
     EXPECT_TRUE(contains(text.header, "#define GAIN_TABLES_SCHEMA 1"));
     EXPECT_TRUE(contains(text.source, "GAIN_TABLES_SCHEMA != 1"));
     EXPECT_TRUE(contains(text.source, "NOSC_ORDER_MAX < 2"));
@@ -191,7 +191,7 @@ TEST(Tables, TextCarriesDigestButNoTimePathOrUser)
 
 TEST(Tables, HeaderSaysWhatWasChecked)
 {
-    const std::string header = sdre::table_text(shipped()).header;
+    const std::string header = sdre::table_text(speed_form()).header;
 
     for (const char *piece :
          {"N = 2", "Nd = 2", "relative residuals <= 1e-", "controller: slowest pole -827 1/s",
@@ -203,7 +203,7 @@ TEST(Tables, HeaderSaysWhatWasChecked)
 
 TEST(Tables, OrdersOtherThanTwoAreWrittenInFull)
 {
-    sdre::Drive drive            = shipped().drive;
+    sdre::Drive drive            = speed_form().drive;
     drive.nosc.order             = 0;
     drive.nodo.order             = 3;
     const sdre::Design    design = sdre::design_drive(drive);
@@ -289,13 +289,14 @@ TEST(Tables, CompareSeesAChangedNumber)
 
 TEST(Tables, CompareSeesEverythingElseExactly)
 {
-    const std::string digest = difference_after("gain_tables.h", "fnv1a64:6f5b9f2bd58be51a\"",
-                                                "fnv1a64:6f5b9f2bd58be51b\"");
+    const std::string right = sdre::drive_digest(speed_form().drive) + "\"";
+    const std::string digest =
+        difference_after("gain_tables.h", right, "fnv1a64:0000000000000000\"");
 
     EXPECT_TRUE(contains(digest, "gain_tables.h: "));
     EXPECT_EQ(digest.find('\n'), std::string::npos);
     EXPECT_NE(difference_after("gain_tables.h", "SCHEMA 1", "SCHEMA 2"), "");
-    EXPECT_NE(difference_after("gain_tables.h", "\"ipmsm_390w\"", "\"ipmsm_391w\""), "");
+    EXPECT_NE(difference_after("gain_tables.h", "\"ipmsm_390w_speed\"", "\"ipmsm_391w\""), "");
     EXPECT_NE(difference_after("gain_tables.c", ".order = 2", ".order = 3"), "");
     EXPECT_NE(difference_after("gain_tables.c", ".l1 = ", ".l2 = "), "");
     EXPECT_NE(difference_after("gain_tables.c", "    .l2", "    .extra = 1.0e+00f,\n    .l2"), "");
@@ -307,7 +308,7 @@ TEST(Tables, CompareSeesEverythingElseExactly)
 TEST(Tables, CompareSeesATruncatedFile)
 {
     const TempDir         dir;
-    const sdre::TableText text = sdre::table_text(shipped());
+    const sdre::TableText text = sdre::table_text(speed_form());
     sdre::write_tables(text, dir.path());
 
     dir.write("gain_tables.c", text.source.substr(0, text.source.size() - 4));
@@ -322,7 +323,7 @@ TEST(Tables, CompareSeesATruncatedFile)
 TEST(Tables, CompareWithoutAFileIsAnInputError)
 {
     const TempDir         dir;
-    const sdre::TableText text = sdre::table_text(shipped());
+    const sdre::TableText text = sdre::table_text(speed_form());
     EXPECT_THROW(sdre::compare_tables(text, dir.path()), sdre::InputError);
     EXPECT_THROW(sdre::compare_tables(text, dir / "none"), sdre::InputError);
 
@@ -345,10 +346,12 @@ TEST(Tables, EncoderFormIsWrittenBitForBit)
         EXPECT_EQ(static_cast<float>(found[i]), design[i]) << i;
     }
     EXPECT_TRUE(contains(text.source, ".form = DRIVE_FORM_ENCODER,"));
+    EXPECT_TRUE(contains(text.source, ".overmodulation = true,"));
     EXPECT_TRUE(contains(text.source, ".nodo_encoder = {"));
     EXPECT_FALSE(contains(text.source, ".nodo = {"));
     EXPECT_TRUE(contains(text.source, "/* theta*/"));
-    EXPECT_TRUE(contains(sdre::table_text(shipped()).source, ".form = DRIVE_FORM_SPEED,"));
+    EXPECT_TRUE(contains(sdre::table_text(speed_form()).source, ".form = DRIVE_FORM_SPEED,"));
+    EXPECT_TRUE(contains(sdre::table_text(speed_form()).source, ".overmodulation = false,"));
 }
 
 TEST(Tables, EncoderFormIsWhatItsSeriesSays)
@@ -377,7 +380,7 @@ TEST(Tables, EncoderFormMatchesItselfAndSeesAChange)
     sdre::write_tables(text, dir.path());
 
     EXPECT_EQ(sdre::compare_tables(text, dir.path()), "");
-    EXPECT_NE(sdre::compare_tables(sdre::table_text(shipped()), dir.path()), "");
+    EXPECT_NE(sdre::compare_tables(sdre::table_text(speed_form()), dir.path()), "");
     dir.write("gain_tables.c", support::replaced(text.source, "_ENCODER,", "_SPEED,"));
     EXPECT_TRUE(contains(sdre::compare_tables(text, dir.path()), "gain_tables.c: "));
 }
@@ -385,14 +388,14 @@ TEST(Tables, EncoderFormMatchesItselfAndSeesAChange)
 TEST(Tables, GenerateAndCheckInTheEncoderForm)
 {
     const TempDir     dir;
-    const std::string drive = support::shipped_drive("ipmsm_390w_board").string();
+    const std::string drive = support::shipped_drive("ipmsm_390w").string();
     const std::string out   = (dir / "tables").string();
 
     const auto written = support::run_command({SDRE_GAINS_EXE, "generate", drive, "--out", out});
     const auto checked = support::run_command({SDRE_GAINS_EXE, "generate", drive, "--check", out});
     const auto other =
         support::run_command({SDRE_GAINS_EXE, "generate",
-                              support::shipped_drive("ipmsm_390w").string(), "--check", out});
+                              support::shipped_drive("ipmsm_390w_speed").string(), "--check", out});
 
     EXPECT_EQ(written.exit_code, 0) << written.err;
     EXPECT_EQ(checked.exit_code, 0) << checked.err;
@@ -405,7 +408,7 @@ TEST(Tables, BothFormsAreC99)
     if (!std::filesystem::exists(compiler)) {
         GTEST_SKIP() << "no C compiler at " << compiler;
     }
-    for (const sdre::Design *design : {&shipped(), &encoder_form()}) {
+    for (const sdre::Design *design : {&speed_form(), &encoder_form()}) {
         const TempDir dir;
         sdre::write_tables(sdre::table_text(*design), dir.path());
         const auto result = support::run_command(

@@ -17,9 +17,9 @@ using support::read_file;
 using support::replaced;
 using support::TempDir;
 
-const std::filesystem::path board_drive = support::shipped_drive("ipmsm_390w_board");
+const std::filesystem::path board_drive = support::shipped_drive("ipmsm_390w");
 const std::filesystem::path board_spec =
-    std::filesystem::path(SDRE_SOURCE_DIR) / "firmware/config/specs/ipmsm_390w_board.toml";
+    std::filesystem::path(SDRE_SOURCE_DIR) / "firmware/config/specs/ipmsm_390w.toml";
 
 /// A specification of its own, so that retuning the shipped drive changes no test but one.
 const std::string spec_text = R"(speed_e_radps  = 300.0

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the shipped board drive reaches on the realistic board: the worst of five noise seeds.
+// What the shipped drive reaches on the realistic board: the worst of twenty noise seeds.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,11 +9,13 @@
 #include <gtest/gtest.h>
 
 #include "metrics.hpp"
+#include "parallel.hpp"
+#include "random_motors.hpp"
 #include "simulation.hpp"
 
 namespace {
 
-constexpr std::uint64_t seeds = 5;
+constexpr std::size_t seeds = 20;
 
 sdre::Scenario shipped(const std::string &name)
 {
@@ -54,13 +56,19 @@ void take(Worst &worst, const sdre::Scenario &s, const sdre::SimulationResult &r
     }
 }
 
-/// Seeds 1 .. 5; what holds for every board scenario is checked here.
-Worst run(sdre::Scenario s)
+/// Seeds 1 .. 20; what holds for every board scenario is checked here.
+Worst run(const sdre::Scenario &s)
 {
-    const sdre::Controller controller = sdre::prepare_controller(s);
-    Worst                  worst;
-    for (s.seed = 1; s.seed <= seeds; s.seed++) {
-        take(worst, s, sdre::simulate(s, controller));
+    const sdre::Controller              controller = sdre::prepare_controller(s);
+    std::vector<sdre::SimulationResult> results(seeds);
+    sdre::parallel_for(seeds, [&](std::size_t i) {
+        sdre::Scenario seeded = s;
+        seeded.seed           = i + 1;
+        results[i]            = sdre::simulate(seeded, controller);
+    });
+    Worst worst;
+    for (const sdre::SimulationResult &result : results) {
+        take(worst, s, result);
     }
     EXPECT_EQ(worst.faults, 0) << s.name;
     EXPECT_LE(worst.peak_share, 1.1) << s.name;
@@ -84,40 +92,40 @@ TEST(BoardScenarios, LoadStep)
 {
     const Worst w = run(shipped("board_load_step"));
 
-    EXPECT_LE(w.settling_s, 0.012);    // measured 8.8 ms
-    EXPECT_LE(w.dip_e_radps, 6.0);     // measured 5.8
-    EXPECT_LE(w.steady_e_radps, 0.05); // measured 0.003
-    EXPECT_LE(w.ripple_e_radps, 0.35); // measured 0.32
+    EXPECT_LE(w.settling_s, 0.012);    // measured 11.2 ms
+    EXPECT_LE(w.dip_e_radps, 5.75);    // measured 5.64; wanted 5.5, see docs/errata.md
+    EXPECT_LE(w.steady_e_radps, 0.05); // measured 0.011
+    EXPECT_LE(w.ripple_e_radps, 0.35); // measured 0.30
 }
 
 TEST(BoardScenarios, LoadStepWithWrongParameters)
 {
     const Worst w = run(shipped("board_load_step_varied"));
 
-    EXPECT_LE(w.settling_s, 0.016);   // measured 10.8 ms
-    EXPECT_LE(w.dip_e_radps, 6.5);    // measured 5.63
-    EXPECT_LE(w.steady_e_radps, 0.1); // measured 0.001
-    EXPECT_LE(w.ripple_e_radps, 0.5); // measured 0.30
+    EXPECT_LE(w.settling_s, 0.016);   // measured 14.4 ms
+    EXPECT_LE(w.dip_e_radps, 6.5);    // measured 5.47
+    EXPECT_LE(w.steady_e_radps, 0.1); // measured 0.012
+    EXPECT_LE(w.ripple_e_radps, 0.5); // measured 0.36
 }
 
 TEST(BoardScenarios, SpeedStep)
 {
     const Worst w = run(shipped("board_speed_step"));
 
-    EXPECT_LE(w.settling_s, 0.0255); // measured 23.2 ms
+    EXPECT_LE(w.settling_s, 0.0255); // measured 24.0 ms
     EXPECT_LE(w.overshoot_e_radps, 2.0);
 }
 
 TEST(BoardScenarios, SpeedStepWithMoreCurrent)
 {
-    EXPECT_LE(run(shipped("board_speed_step_5A")).settling_s, 0.020); // measured 19.4 ms
+    EXPECT_LE(run(shipped("board_speed_step_5A")).settling_s, 0.020); // measured 19.2 ms
 }
 
 TEST(BoardScenarios, SpeedStepWithWrongParameters)
 {
     const Worst w = run(shipped("board_speed_step_varied"));
 
-    EXPECT_LE(w.settling_s, 0.035); // measured 30.8 ms
+    EXPECT_LE(w.settling_s, 0.035); // measured 31.2 ms
     EXPECT_LE(w.overshoot_e_radps, 6.0);
 }
 
@@ -125,23 +133,98 @@ TEST(BoardScenarios, FluxWeakening)
 {
     const Worst w = run(shipped("board_flux_weakening"));
 
-    EXPECT_LE(w.settling_s, 0.0896); // measured 59 ms
+    EXPECT_LE(w.settling_s, 0.0896); // measured 60.8 ms
     EXPECT_LE(w.peak_share * 4.0, 4.4);
 }
 
 TEST(BoardScenarios, FluxWeakeningWithMoreCurrent)
 {
-    EXPECT_LE(run(shipped("board_flux_weakening_5A")).settling_s, 0.082); // measured 77.6 ms
+    EXPECT_LE(run(shipped("board_flux_weakening_5A")).settling_s, 0.077); // measured 75.6 ms
 }
 
 TEST(BoardScenarios, Reversal)
 {
-    run(shipped("board_reversal"));
+    const Worst w = run(shipped("board_reversal"));
+
+    EXPECT_LE(w.settling_s, 0.07);    // measured 67.6 ms
+    EXPECT_LE(w.ripple_e_radps, 0.4); // measured 0.29
 }
 
 TEST(BoardScenarios, HoldAndCrawl)
 {
-    run(shipped("board_hold"));
+    const Worst w = run(shipped("board_hold")); // of the crawl
+
+    EXPECT_LE(w.ripple_e_radps, 0.4); // measured 0.28
+}
+
+TEST(BoardScenarios, SpeedIsBackWithinTenMillisecondsOfSaturation)
+{
+    constexpr double             restored_s          = 0.26;
+    constexpr double             band                = 4.0;
+    const sdre::Scenario         s                   = shipped("board_voltage_dip");
+    const sdre::Controller       controller          = sdre::prepare_controller(s);
+    const sdre::SimulationResult result              = sdre::simulate(s, controller);
+    double                       last_full_current_s = 0.0;
+    double                       settled_s           = 0.0;
+    for (const sdre::TraceRow &row : result.trace) {
+        const double i_A = std::hypot(row.id_ref_A, row.iq_ref_A);
+        if (row.time_s > restored_s && i_A >= 0.97 * s.drive.motor.max_current_A) {
+            last_full_current_s = row.time_s;
+        }
+        if (std::abs(row.omega_e_radps - 400.0) > band) {
+            settled_s = row.time_s;
+        }
+    }
+    const Worst w = run(s);
+
+    EXPECT_GT(last_full_current_s, restored_s + 0.005) << "the current was never at its limit";
+    EXPECT_LE(settled_s - last_full_current_s, 0.010);
+    EXPECT_LE(w.overshoot_e_radps, 4.0); // 1 % of 400 rad/s; measured 0.32
+}
+
+double highest_dc_link_V(const sdre::SimulationResult &result)
+{
+    double highest = 0.0;
+    for (const sdre::TraceRow &row : result.trace) {
+        highest = std::max(highest, row.dc_link_V);
+    }
+    return highest;
+}
+
+TEST(BoardScenarios, BrakingBehindARectifierStaysBelowTheTrip)
+{
+    const sdre::Scenario s = shipped("board_regeneration");
+    run(s);
+
+    const double highest_V = highest_dc_link_V(sdre::simulate(s));
+
+    EXPECT_GT(highest_V, 345.0); // the limit was needed
+    EXPECT_LT(highest_V,
+              370.0); // measured 363; nothing is fed back above 368.75 V, the trip is at 398 V
+}
+
+TEST(BoardScenarios, RegenerationLimitKeepsASmallCapacitorFromTripping)
+{
+    sdre::Scenario s                           = shipped("board_regeneration");
+    s.inverter.capacitance_F                   = 0.5e-3;
+    const sdre::Controller limited             = sdre::prepare_controller(s);
+    sdre::Controller       unlimited           = limited;
+    unlimited.config.current_ref.regen_start_V = 1e6F;
+
+    const sdre::SimulationResult with    = sdre::simulate(s, limited);
+    const sdre::SimulationResult without = sdre::simulate(s, unlimited);
+
+    EXPECT_EQ(with.fault, DRIVE_FAULT_NONE);
+    EXPECT_LT(highest_dc_link_V(with), 372.0);
+    EXPECT_EQ(without.fault, DRIVE_FAULT_DC_LINK);
+}
+
+TEST(BoardScenarios, RandomMotors)
+{
+    const sdre::RandomMotors runs = sdre::run_random_motors(shipped("board_random_motors"), 1000);
+
+    EXPECT_EQ(runs.count, 1000);
+    EXPECT_LE(runs.failures.size(), 5U); // measured 1; of 10,000 12
 }
 
 TEST(BoardScenarios, SwitchedInverterGivesTheSame)

@@ -17,8 +17,9 @@ using namespace sdre;
 
 namespace {
 
-const std::string head = "drive = \"" SDRE_SOURCE_DIR "/firmware/config/drives/ipmsm_390w.toml\"\n"
-                         "duration_s = 0.05\ninitial_speed_e_radps = 300.0\n";
+const std::string head =
+    "drive = \"" SDRE_SOURCE_DIR "/firmware/config/drives/ipmsm_390w_speed.toml\"\n"
+    "duration_s = 0.05\ninitial_speed_e_radps = 300.0\n";
 const std::string body = "[[speed_reference]]\ntime_s = 0.0\nvalue_e_radps = 300.0\n"
                          "[[load_torque]]\ntime_s = 0.0\nvalue_Nm = 0.75\n"
                          "[[measure]]\nname = \"start\"\ntime_s = 0.0\nband_e_radps = 3.0\n";

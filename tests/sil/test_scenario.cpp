@@ -65,7 +65,7 @@ TEST(Scenario, ReadsEveryValue)
     const sdre::Scenario s = read(text);
 
     EXPECT_EQ(s.name, "case");
-    EXPECT_EQ(s.drive.name, "ipmsm_390w");
+    EXPECT_EQ(s.drive.name, "ipmsm_390w_speed");
     EXPECT_EQ(s.duration_s, 0.02);
     EXPECT_EQ(s.initial_speed_e_radps, 100.0);
     EXPECT_EQ(s.controller_scale, (sdre::MotorScale{{"inertia_kgm2", 2.0}}));
@@ -115,12 +115,12 @@ TEST(Scenario, ShippedScenariosAreRead)
         const sdre::Scenario s = sdre::read_scenario_file(entry.path());
         EXPECT_EQ(s.name, entry.path().stem());
         const bool board = s.name.rfind("board_", 0) == 0;
-        EXPECT_EQ(s.drive.name, board ? "ipmsm_390w_board" : "ipmsm_390w") << s.name;
+        EXPECT_EQ(s.drive.name, board ? "ipmsm_390w" : "ipmsm_390w_speed") << s.name;
         EXPECT_EQ(s.sensors.ideal, !board) << s.name;
         EXPECT_FALSE(s.measures.empty());
         count++;
     }
-    EXPECT_EQ(count, 17); // Fig. 4 with four orders, Fig. 5 to 8; nine on the realistic board
+    EXPECT_EQ(count, 20); // Fig. 4 with four orders, Fig. 5 to 8; twelve on the realistic board
     EXPECT_EQ(sdre::read_scenario_file(scenarios / "fig4_parameter_steps_nd3.toml").nodo_order, 3);
     EXPECT_EQ(sdre::read_scenario_file(scenarios / "fig8_flux_weakening.toml").dc_link_V, 173.2);
 }

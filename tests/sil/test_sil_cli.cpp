@@ -99,7 +99,7 @@ TEST(SilCli, PrintsMetricsAndWritesNothingUnasked)
 
     EXPECT_EQ(r.exit_code, 0) << r.err;
     EXPECT_EQ(r.err, "");
-    EXPECT_EQ(r.out.rfind("case on ipmsm_390w, gains: compiled table\n", 0), 0U) << r.out;
+    EXPECT_EQ(r.out.rfind("case on ipmsm_390w_speed, gains: solved in process\n", 0), 0U) << r.out;
     for (const char *piece : {"whole", "settling time [ms]", "peak current [A]", "i_d [A]"}) {
         EXPECT_NE(r.out.find(piece), std::string::npos) << piece;
     }
@@ -130,13 +130,13 @@ TEST(SilCli, CsvHasTheAgreedColumnsAndOneRowPerPeriod)
     const std::string csv = support::read_file(dir / "t.csv");
     EXPECT_EQ(csv.substr(0, csv.find('\n')),
               "time_s,omega_ref_e_radps,omega_e_radps,iq_A,id_A,iq_ref_A,id_ref_A,vq_V,vd_V,"
-              "d_omega_hat,d_q_hat,d_d_hat,load_torque_Nm,torque_Nm");
+              "d_omega_hat,d_q_hat,d_d_hat,load_torque_Nm,torque_Nm,dc_link_V");
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 101); // 20 ms at 5 kHz, both ends
-    EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), 13 * 102);
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), 14 * 102);
     const std::string first = csv.substr(csv.find('\n') + 1);
     EXPECT_EQ(first.rfind("0,100,100,0,0,", 0), 0U) << first.substr(0, 80);
     const std::string row = first.substr(0, first.find('\n'));
-    EXPECT_EQ(row.substr(row.size() - 6), ",0.5,0") << row; // load before any torque
+    EXPECT_EQ(row.substr(row.size() - 10), ",0.5,0,295") << row; // load before any torque
     EXPECT_EQ(csv.find("nan"), std::string::npos);
     EXPECT_EQ(support::names_in(dir.path()), (std::set<std::string>{"case.toml", "t.csv"}));
 }
@@ -161,8 +161,8 @@ TEST(SilCli, JsonHasTheAgreedKeys)
 
     const auto r = nlohmann::json::parse(support::read_file(dir / "r.json"));
     EXPECT_EQ(r.at("scenario"), "case");
-    EXPECT_EQ(r.at("drive"), "ipmsm_390w");
-    EXPECT_EQ(r.at("gains"), "compiled table");
+    EXPECT_EQ(r.at("drive"), "ipmsm_390w_speed");
+    EXPECT_EQ(r.at("gains"), "solved in process");
     EXPECT_EQ(r.at("uncertified"), nlohmann::json::array());
     EXPECT_EQ(r.at("fault"), "none");
     EXPECT_TRUE(r.at("fault_time_s").is_null());
@@ -233,8 +233,8 @@ TEST(SilCli, BadScenarioIsBadInput)
     expect_refused({"run", file(""), "--csv", out}, 1, {"drive is missing"});
     expect_refused({"run", file(replaced(scenario_text(), "0.02", "-1.0")), "--csv", out}, 1,
                    {"duration_s = -1"});
-    expect_refused({"run", file(replaced(scenario_text(), "ipmsm_390w.toml", "none.toml"))}, 1,
-                   {"none.toml: no such file"});
+    expect_refused({"run", file(replaced(scenario_text(), "ipmsm_390w_speed.toml", "none.toml"))},
+                   1, {"none.toml: no such file"});
     expect_refused(
         {"run", file(replaced(scenario_text(), "[plant_scale]", "[plant_scale]\nx = 1"))}, 1,
         {"x"});

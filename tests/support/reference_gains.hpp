@@ -38,7 +38,9 @@ inline std::filesystem::path shipped_drive(const std::string &name)
 /// The drive of one reference case: its motor and weights, the rest from the shipped file.
 inline sdre::Drive drive_of(const std::string &name, const nlohmann::json &reference)
 {
-    sdre::Drive          drive        = sdre::read_drive_file(shipped_drive(name.substr(0, 10)));
+    const bool  servo = name.rfind("servo", 0) == 0;
+    sdre::Drive drive =
+        sdre::read_drive_file(shipped_drive(servo ? "servo_200w" : "ipmsm_390w_speed"));
     const nlohmann::json motor        = reference.at("motor");
     const nlohmann::json weights      = reference.at("weights");
     drive.motor.pole_pairs            = motor.at("p").get<int>() / 2;

@@ -7,7 +7,7 @@
 namespace support {
 
 /// A scenario on one of the shipped drives, constant speed and load, 20 ms.
-inline std::string scenario_text(const std::string &drive = "ipmsm_390w")
+inline std::string scenario_text(const std::string &drive = "ipmsm_390w_speed")
 {
     return "drive = \"" + (std::string(SDRE_SOURCE_DIR) + "/firmware/config/drives/" + drive) +
            ".toml\"\n"

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "drive_config.h"
 
-#include "board_config.h"
 #include "gain_tables.h"
+#include "speed_tables.h"
 #include "unit_support.h"
 #include "unity.h"
 
@@ -54,6 +54,7 @@ static const entry_t entries[] = {
     {&config.dead_time.share, ZERO_OR_MORE},
     {&config.dead_time.inv_fade_1pA, POSITIVE},
     {&config.nosc.iq_error_max_A, POSITIVE},
+    {&config.nosc.iq_speed_max_A, POSITIVE},
 };
 
 static const entry_t speed_entries[] = {
@@ -67,7 +68,7 @@ static const entry_t encoder_entries[] = {
 
 void setUp(void)
 {
-    config = gain_tables_drive;
+    config = speed_tables_drive;
 }
 
 void tearDown(void) {}
@@ -82,7 +83,7 @@ static ctl_status_t check_in(const drive_config_t *base, float *constant, float 
 
 static ctl_status_t check_with(float *constant, float x)
 {
-    return check_in(&gain_tables_drive, constant, x);
+    return check_in(&speed_tables_drive, constant, x);
 }
 
 static void assert_refused(const drive_config_t *base, float *constant, float x)
@@ -117,40 +118,40 @@ static void assert_entry_ignored(const drive_config_t *base, const entry_t *entr
 
 static void test_shipped_drives_are_accepted(void)
 {
-    TEST_ASSERT_EQUAL_INT(DRIVE_FORM_SPEED, gain_tables_drive.form);
+    TEST_ASSERT_EQUAL_INT(DRIVE_FORM_SPEED, speed_tables_drive.form);
+    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&speed_tables_drive));
+    TEST_ASSERT_EQUAL_INT(DRIVE_FORM_ENCODER, gain_tables_drive.form);
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&gain_tables_drive));
-    TEST_ASSERT_EQUAL_INT(DRIVE_FORM_ENCODER, board_config_drive.form);
-    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&board_config_drive));
 }
 
 static void test_every_constant_is_checked_in_both_forms(void)
 {
     for (int i = 0; i < SUPPORT_COUNT(entries); i++) {
+        assert_entry_checked(&speed_tables_drive, &entries[i]);
         assert_entry_checked(&gain_tables_drive, &entries[i]);
-        assert_entry_checked(&board_config_drive, &entries[i]);
     }
 }
 
 static void test_only_the_observer_in_use_is_checked(void)
 {
     for (int i = 0; i < SUPPORT_COUNT(speed_entries); i++) {
-        assert_entry_checked(&gain_tables_drive, &speed_entries[i]);
-        assert_entry_ignored(&board_config_drive, &speed_entries[i]);
+        assert_entry_checked(&speed_tables_drive, &speed_entries[i]);
+        assert_entry_ignored(&gain_tables_drive, &speed_entries[i]);
     }
     for (int i = 0; i < SUPPORT_COUNT(encoder_entries); i++) {
-        assert_entry_checked(&board_config_drive, &encoder_entries[i]);
-        assert_entry_ignored(&gain_tables_drive, &encoder_entries[i]);
+        assert_entry_checked(&gain_tables_drive, &encoder_entries[i]);
+        assert_entry_ignored(&speed_tables_drive, &encoder_entries[i]);
     }
 }
 
 static void test_unused_observer_may_be_anything(void)
 {
-    config                       = gain_tables_drive;
+    config                       = speed_tables_drive;
     config.nodo_encoder.order    = -1;
     config.nodo_encoder.iq_max_A = NAN;
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&config));
 
-    config               = board_config_drive;
+    config               = gain_tables_drive;
     config.nodo.order    = NODO_ORDER_MAX + 1;
     config.nodo.iq_max_A = NAN;
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&config));
@@ -159,19 +160,19 @@ static void test_unused_observer_may_be_anything(void)
 /* The tables hold the gains of one form only. */
 static void test_form_without_its_gains_is_refused(void)
 {
-    config      = gain_tables_drive;
+    config      = speed_tables_drive;
     config.form = DRIVE_FORM_ENCODER;
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, drive_config_check(&config));
 
-    config      = board_config_drive;
+    config      = gain_tables_drive;
     config.form = DRIVE_FORM_SPEED;
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, drive_config_check(&config));
 }
 
 static void test_unknown_form_is_refused(void)
 {
-    config              = gain_tables_drive;
-    config.nodo_encoder = board_config_drive.nodo_encoder;
+    config              = speed_tables_drive;
+    config.nodo_encoder = gain_tables_drive.nodo_encoder;
     config.form         = (drive_form_t)2;
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, drive_config_check(&config));
 }
@@ -212,7 +213,7 @@ static void test_dead_time_ends_at_a_tenth_of_the_period(void)
 
 static void test_certified_range_contains_the_range_of_the_series(void)
 {
-    const float range_A = gain_tables_drive.nodo.iq_max_A;
+    const float range_A = speed_tables_drive.nodo.iq_max_A;
 
     TEST_ASSERT_EQUAL_INT(CTL_OK, check_with(&config.nodo.iq_certified_A, range_A));
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG,
@@ -260,7 +261,7 @@ static ctl_status_t check_with_nodo_order(int16_t order)
 
 static ctl_status_t check_with_encoder_order(int16_t order)
 {
-    config                    = board_config_drive;
+    config                    = gain_tables_drive;
     config.nodo_encoder.order = order;
     return drive_config_check(&config);
 }
@@ -291,7 +292,7 @@ static void test_every_order_that_a_table_can_hold_is_accepted(void)
 
 static void test_every_gain_of_the_controller_in_use_is_checked(void)
 {
-    for (int n = 0; n <= gain_tables_drive.nosc.order; n++) {
+    for (int n = 0; n <= speed_tables_drive.nosc.order; n++) {
         for (int row = 0; row < NOSC_N_U; row++) {
             for (int column = 0; column < NOSC_N_E; column++) {
                 float *const gain = &config.nosc.lambda[n][row][column];
@@ -308,7 +309,7 @@ static void test_every_gain_of_the_controller_in_use_is_checked(void)
 
 static void test_every_gain_of_the_observer_in_use_is_checked(void)
 {
-    for (int n = 0; n <= gain_tables_drive.nodo.order; n++) {
+    for (int n = 0; n <= speed_tables_drive.nodo.order; n++) {
         for (int row = 0; row < NODO_N_X; row++) {
             for (int column = 0; column < NODO_N_Y; column++) {
                 float *const gain = &config.nodo.gain[n][row][column];
@@ -325,7 +326,7 @@ static void test_every_gain_of_the_observer_in_use_is_checked(void)
 
 static void test_every_gain_of_the_encoder_observer_in_use_is_checked(void)
 {
-    const drive_config_t *const base = &board_config_drive;
+    const drive_config_t *const base = &gain_tables_drive;
     for (int n = 0; n <= base->nodo_encoder.order; n++) {
         for (int row = 0; row < NODO_ENCODER_N_X; row++) {
             for (int column = 0; column < NODO_ENCODER_N_Y; column++) {
@@ -348,7 +349,7 @@ static void test_powers_beyond_the_order_are_not_looked_at(void)
 
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&config));
 
-    config                                                        = board_config_drive;
+    config                                                        = gain_tables_drive;
     config.nodo_encoder.gain[config.nodo_encoder.order + 1][0][0] = NAN;
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&config));
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "feedforward.h"
 
-#include "gain_tables.h"
+#include "speed_tables.h"
 #include "unit_support.h"
 #include "unity.h"
 
@@ -92,7 +92,7 @@ static void test_feedforward_matches_printed_sums(void)
 
 static void test_feedforward_matches_printed_sums_for_the_shipped_motor(void)
 {
-    motor = gain_tables_drive.motor;
+    motor = speed_tables_drive.motor;
     for (int n = 0; n < CASES; n++) {
         draw_case();
 
@@ -134,7 +134,7 @@ static void test_hold_voltage_keeps_the_q_current(void)
 
 static void test_hold_voltage_of_the_shipped_motor_is_mostly_its_back_emf(void)
 {
-    motor = gain_tables_drive.motor;
+    motor = speed_tables_drive.motor;
     for (int speed = -1500; speed <= 1500; speed += 100) {
         const nodo_t nothing = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
         y.omega_e_radps      = (float)speed;

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "speed_tables.h"
 #include "unit_support.h"
 #include "unity.h"
 
@@ -13,7 +14,16 @@
 void setUp(void) {}
 void tearDown(void) {}
 
-static const drive_config_t *const drive = &gain_tables_drive;
+static const drive_config_t *drive;
+
+/* Runs a test on the shipped tables and on those of the other form. */
+#define RUN_BOTH_FORMS(test)                                                                       \
+    do {                                                                                           \
+        drive = &gain_tables_drive;                                                                \
+        RUN_TEST(test);                                                                            \
+        drive = &speed_tables_drive;                                                               \
+        RUN_TEST(test);                                                                            \
+    } while (0)
 
 static void assert_constant(double expected, float actual)
 {
@@ -64,10 +74,12 @@ static void test_constants_of_the_references_agree_with_the_motor(void)
     assert_constant(2.0e-4, drive->ts_s);
 }
 
-static void test_tables_are_those_of_the_speed_form(void)
+static void test_shipped_tables_are_those_of_the_encoder_form(void)
 {
-    TEST_ASSERT_EQUAL_INT(DRIVE_FORM_SPEED, drive->form);
-    TEST_ASSERT_TRUE(!drive->current_ref.mtpa_exact);
+    TEST_ASSERT_EQUAL_INT(DRIVE_FORM_ENCODER, gain_tables_drive.form);
+    TEST_ASSERT_TRUE(gain_tables_drive.current_ref.mtpa_exact);
+    TEST_ASSERT_EQUAL_INT(DRIVE_FORM_SPEED, speed_tables_drive.form);
+    TEST_ASSERT_TRUE(!speed_tables_drive.current_ref.mtpa_exact);
 }
 
 /* Through EQ-NOSC-3 that speed error turns the whole current round, from one limit to the other. */
@@ -97,8 +109,10 @@ static void test_dead_time_is_its_share_of_the_pwm_period(void)
 /* The largest iq of the MTPA curve on the current circle; the speed form keeps the second-order term. */
 static void test_largest_q_current_lies_on_the_current_circle(void)
 {
-    const double iq = (double)drive->current_ref.iq_max_A;
-    const double id = iq * iq / (2.0 * (double)drive->current_ref.mtpa_A);
+    const double iq   = (double)drive->current_ref.iq_max_A;
+    const double k    = (double)drive->current_ref.mtpa_A;
+    const double root = drive->current_ref.mtpa_exact ? hypot(k, iq) : k;
+    const double id   = iq * iq / (k + root);
 
     assert_constant(hypot(id, iq), drive->current_ref.current_max_A);
 }
@@ -114,6 +128,23 @@ static void test_gains_of_the_controller_have_the_symmetry_of_the_motor(void)
                 const bool odd             = ((n % 2) == 1);
                 if ((mirrored_row != mirrored_column) != odd) {
                     TEST_ASSERT_TRUE(drive->nosc.lambda[n][row][column] == 0.0f);
+                }
+            }
+        }
+    }
+}
+
+static void test_gains_of_the_angle_observer_have_the_symmetry_of_the_motor(void)
+{
+    const nodo_encoder_gains_t *g = &gain_tables_drive.nodo_encoder;
+    for (int n = 0; n <= g->order; n++) {
+        for (int row = 0; row < NODO_ENCODER_N_X; row++) {
+            for (int column = 0; column < NODO_ENCODER_N_Y; column++) {
+                const bool mirrored_row    = ((row % 3) != 2);
+                const bool mirrored_column = (column != 1);
+                const bool odd             = ((n % 2) == 1);
+                if ((mirrored_row != mirrored_column) != odd) {
+                    TEST_ASSERT_TRUE(g->gain[n][row][column] == 0.0f);
                 }
             }
         }
@@ -248,19 +279,21 @@ static void test_sampled_observer_decays_over_the_certified_range(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_tables_are_a_valid_drive_configuration);
+    RUN_BOTH_FORMS(test_tables_are_a_valid_drive_configuration);
     RUN_TEST(test_tables_name_their_drive);
-    RUN_TEST(test_reduced_parameters_are_those_of_the_motor);
-    RUN_TEST(test_constants_of_the_references_agree_with_the_motor);
-    RUN_TEST(test_tables_are_those_of_the_speed_form);
-    RUN_TEST(test_near_speed_asks_for_the_whole_current);
-    RUN_TEST(test_regeneration_ends_before_the_dc_link_trips);
-    RUN_TEST(test_dead_time_is_its_share_of_the_pwm_period);
-    RUN_TEST(test_largest_q_current_lies_on_the_current_circle);
-    RUN_TEST(test_gains_of_the_controller_have_the_symmetry_of_the_motor);
+    RUN_BOTH_FORMS(test_reduced_parameters_are_those_of_the_motor);
+    RUN_BOTH_FORMS(test_constants_of_the_references_agree_with_the_motor);
+    RUN_TEST(test_shipped_tables_are_those_of_the_encoder_form);
+    RUN_BOTH_FORMS(test_near_speed_asks_for_the_whole_current);
+    RUN_BOTH_FORMS(test_regeneration_ends_before_the_dc_link_trips);
+    RUN_BOTH_FORMS(test_dead_time_is_its_share_of_the_pwm_period);
+    RUN_BOTH_FORMS(test_largest_q_current_lies_on_the_current_circle);
+    RUN_BOTH_FORMS(test_gains_of_the_controller_have_the_symmetry_of_the_motor);
+    RUN_BOTH_FORMS(test_powers_beyond_the_order_are_empty);
+    RUN_BOTH_FORMS(test_sampled_error_dynamics_decay_over_the_certified_range);
+    RUN_TEST(test_gains_of_the_angle_observer_have_the_symmetry_of_the_motor);
+    drive = &speed_tables_drive;
     RUN_TEST(test_gains_of_the_observer_have_the_symmetry_of_the_motor);
-    RUN_TEST(test_powers_beyond_the_order_are_empty);
-    RUN_TEST(test_sampled_error_dynamics_decay_over_the_certified_range);
     RUN_TEST(test_sampled_observer_decays_over_the_certified_range);
     return UNITY_END();
 }

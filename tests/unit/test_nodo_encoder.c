@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "nodo_encoder.h"
 
-#include "board_config.h"
+#include "gain_tables.h"
 #include "unit_support.h"
 #include "unity.h"
 
@@ -25,8 +25,8 @@ static float                theta_rad;
 void setUp(void)
 {
     random_state.state = 31u;
-    gains              = board_config_drive.nodo_encoder;
-    motor              = board_config_drive.motor;
+    gains              = gain_tables_drive.nodo_encoder;
+    motor              = gain_tables_drive.motor;
     x                  = support_random_estimate(&random_state);
     theta_rad          = 0.5f;
 }
@@ -282,7 +282,7 @@ static dq_t draw_voltage(void)
 static void test_prediction_matches_the_midpoint_rule(void)
 {
     for (int odd = 0; odd < 2; odd++) {
-        motor = (odd == 0) ? board_config_drive.motor : support_odd_motor();
+        motor = (odd == 0) ? gain_tables_drive.motor : support_odd_motor();
         for (int n = 0; n < CASES; n++) {
             state_t size           = {{1.0e-3, 1.0e-3, 1.0e-3, 4.0e3, 2.0e1, 2.0e1, 1.0}};
             x                      = support_random_estimate(&random_state);

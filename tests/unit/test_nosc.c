@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "nosc.h"
 
-#include "gain_tables.h"
+#include "speed_tables.h"
 #include "unit_support.h"
 #include "unity.h"
 
@@ -22,6 +22,7 @@ static void fill_gains(int16_t order)
 {
     gains.order          = order;
     gains.iq_error_max_A = 1.5f;
+    gains.iq_speed_max_A = 100.0f;
     for (int n = 0; n <= NOSC_ORDER_MAX; n++) {
         for (int row = 0; row < NOSC_N_U; row++) {
             for (int column = 0; column < NOSC_N_E; column++) {
@@ -115,7 +116,7 @@ static void test_gain_is_held_beyond_the_certified_range(void)
 static void test_shipped_series_matches_oracle_in_volts(void)
 {
     for (int n = 0; n < CASES; n++) {
-        const nosc_gains_t *g = &gain_tables_drive.nosc;
+        const nosc_gains_t *g = &speed_tables_drive.nosc;
         const nosc_error_t  e = random_error(8.0f);
         double              magnitude;
 
@@ -151,8 +152,8 @@ static void test_reversed_rotation_mirrors_the_shipped_law(void)
         const nosc_error_t e        = random_error(4.0f);
         const nosc_error_t mirrored = {-e.omega_e_radps, -e.iq_A, e.id_A};
 
-        const dq_t u_V = nosc_feedback_V(&gain_tables_drive.nosc, &e);
-        const dq_t m_V = nosc_feedback_V(&gain_tables_drive.nosc, &mirrored);
+        const dq_t u_V = nosc_feedback_V(&speed_tables_drive.nosc, &e);
+        const dq_t m_V = nosc_feedback_V(&speed_tables_drive.nosc, &mirrored);
 
         TEST_ASSERT_TRUE((m_V.q == -u_V.q) && (m_V.d == u_V.d));
     }
@@ -162,7 +163,7 @@ static void test_infinite_current_error_does_not_reach_the_powers(void)
 {
     const nosc_error_t e = {0.0f, 1.0e30f, 0.0f};
 
-    const dq_t u_V = nosc_feedback_V(&gain_tables_drive.nosc, &e);
+    const dq_t u_V = nosc_feedback_V(&speed_tables_drive.nosc, &e);
 
     TEST_ASSERT_TRUE(isfinite(u_V.q) && isfinite(u_V.d));
 }
@@ -210,14 +211,16 @@ static double commanded_A(const nosc_gains_t *g, double e_w, double iq_ref_A)
 
 static void test_limited_speed_error_limits_the_commanded_current(void)
 {
-    const nosc_gains_t *g = &gain_tables_drive.nosc;
+    const nosc_gains_t *g = &speed_tables_drive.nosc;
     for (int n = 0; n < CASES; n++) {
         const float        lo       = support_uniform(&random_state, -4.0f, 0.0f);
         const float        hi       = support_uniform(&random_state, 0.0f, 4.0f);
         const float        iq_ref_A = support_uniform(&random_state, lo, hi);
         const nosc_error_t e        = random_error(2.0f);
+        const double       most_A   = (double)g->iq_speed_max_A;
+        const double       asked_A  = commanded_A(g, (double)e.omega_e_radps, 0.0);
         const double       expected = support_limit(
-                  commanded_A(g, (double)e.omega_e_radps, (double)iq_ref_A), (double)lo, (double)hi);
+                  (double)iq_ref_A + support_limit(asked_A, -most_A, most_A), (double)lo, (double)hi);
 
         const nosc_error_t limited = nosc_limit_speed_error(g, e, iq_ref_A, lo, hi);
 
@@ -229,11 +232,11 @@ static void test_limited_speed_error_limits_the_commanded_current(void)
 
 static void test_speed_error_within_the_range_is_untouched(void)
 {
-    const nosc_gains_t *g = &gain_tables_drive.nosc;
+    const nosc_gains_t *g = &speed_tables_drive.nosc;
     for (int step = -50; step <= 50; step++) {
-        const nosc_error_t e = {0.1f * (float)step, 0.3f, -0.2f}; /* asks for 1.2 A at most */
+        const nosc_error_t e = {0.08f * (float)step, 0.3f, -0.2f}; /* asks for 0.96 A at most */
 
-        const nosc_error_t limited = nosc_limit_speed_error(g, e, 0.5f, -0.7f, 1.7f);
+        const nosc_error_t limited = nosc_limit_speed_error(g, e, 0.5f, -0.5f, 1.5f);
 
         TEST_ASSERT_TRUE(limited.omega_e_radps == e.omega_e_radps); /* exact by design */
     }
@@ -244,7 +247,7 @@ static void test_empty_range_leaves_only_the_reference(void)
     const nosc_error_t e = {25.0f, 0.3f, -0.2f};
 
     const nosc_error_t limited =
-        nosc_limit_speed_error(&gain_tables_drive.nosc, e, 1.0f, 1.0f, 1.0f);
+        nosc_limit_speed_error(&speed_tables_drive.nosc, e, 1.0f, 1.0f, 1.0f);
 
     TEST_ASSERT_TRUE(limited.omega_e_radps == 0.0f);
 }
@@ -273,12 +276,15 @@ static void test_small_gains_limit_and_ask_like_large_ones(void)
 
     TEST_ASSERT_DOUBLE_WITHIN(TOL_A, 0.0, commanded_A(&gains, (double)limited.omega_e_radps, 1.0));
     TEST_ASSERT_DOUBLE_WITHIN(TOL_A, -12.5, (double)iq_A);
+    gains.iq_speed_max_A = 3.0f;
+    TEST_ASSERT_TRUE(nosc_speed_current_A(&gains, e.omega_e_radps) == -3.0f);
+    TEST_ASSERT_TRUE(nosc_speed_current_A(&gains, -e.omega_e_radps) == 3.0f);
 }
 
 static void test_bad_speed_error_is_limited_to_the_range(void)
 {
     for (int i = 0; i < SUPPORT_COUNT(support_not_finite); i++) {
-        const nosc_gains_t *g = &gain_tables_drive.nosc;
+        const nosc_gains_t *g = &speed_tables_drive.nosc;
         const nosc_error_t  e = {support_not_finite[i], 0.0f, 0.0f};
 
         const nosc_error_t limited = nosc_limit_speed_error(g, e, 0.5f, -1.0f, 2.0f);

@@ -172,6 +172,46 @@ static void test_bad_numbers_never_leave_the_range_of_a_duty(void)
     }
 }
 
+/* Oracle: the hexagon's edge lies v_dc / sqrt(3) from the centre, across the middle of each sector. */
+static void test_share_reaches_the_hexagon_in_every_direction(void)
+{
+    for (int length = 1; length <= 40; length++) {
+        for (int step = 0; step < ANGLE_STEPS; step++) {
+            const double angle    = 2.0 * pi * (double)step / ANGLE_STEPS;
+            const double length_V = 10.0 * (double)length;
+            const double reach_V =
+                (double)V_DC_V / sqrt(3.0) / cos(fmod(angle, pi / 3.0) - (pi / 6.0));
+
+            const float share = svpwm_share(vector_at(length_V, angle), V_DC_V);
+
+            TEST_ASSERT_DOUBLE_WITHIN(TOL_DUTY, fmin(reach_V / length_V, 1.0), (double)share);
+        }
+    }
+}
+
+static void test_share_of_a_vector_is_what_the_duty_ratios_produce(void)
+{
+    for (int step = 0; step < ANGLE_STEPS; step++) {
+        const double angle = 2.0 * pi * (double)step / ANGLE_STEPS;
+        const float  share = svpwm_share(vector_at(250.0, angle), V_DC_V);
+
+        const abc_t duty = svpwm_duty(vector_at(250.0 * (double)share, angle), V_DC_V);
+
+        const double a_b_V = (double)V_DC_V * ((double)duty.a - (double)duty.b);
+        TEST_ASSERT_DOUBLE_WITHIN(
+            TOL_DUTY * (double)V_DC_V,
+            250.0 * (double)share * (cos(angle) - cos(angle - (2.0 * pi / 3.0))), a_b_V);
+    }
+}
+
+static void test_share_inside_the_hexagon_is_exactly_one(void)
+{
+    const ab_t zero = {0.0f, 0.0f};
+
+    TEST_ASSERT_TRUE(svpwm_share(zero, V_DC_V) == 1.0f);
+    TEST_ASSERT_TRUE(svpwm_share(vector_at(170.0, 0.4), V_DC_V) == 1.0f);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -184,5 +224,8 @@ int main(void)
     RUN_TEST(test_overmodulation_is_clipped_phase_by_phase);
     RUN_TEST(test_overmodulation_stays_within_the_period);
     RUN_TEST(test_bad_numbers_never_leave_the_range_of_a_duty);
+    RUN_TEST(test_share_reaches_the_hexagon_in_every_direction);
+    RUN_TEST(test_share_of_a_vector_is_what_the_duty_ratios_produce);
+    RUN_TEST(test_share_inside_the_hexagon_is_exactly_one);
     return UNITY_END();
 }

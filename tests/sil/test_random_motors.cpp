@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "random_motors.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "command.hpp"
+#include "errors.hpp"
+#include "parallel.hpp"
+#include "scenario_text.hpp"
+#include "simulation.hpp"
+#include "temp_dir.hpp"
+
+using namespace sdre;
+
+namespace {
+
+/// A law that stands a motor like the believed one, and none with a fortieth of the inertia.
+std::string text(const std::string &ranges)
+{
+    return support::scenario_text("ipmsm_390w") + ranges;
+}
+
+const std::string good  = "[motor_ranges]\nresistance = [0.9, 1.1]\ninductance = [0.9, 1.1]\n"
+                          "flux = [0.9, 1.1]\ninertia = [0.9, 1.1]\n";
+const std::string light = "[motor_ranges]\nresistance = [1.0, 1.0]\ninductance = [1.0, 1.0]\n"
+                          "flux = [1.0, 1.0]\ninertia = [0.02, 0.03]\n";
+
+Scenario read(const std::string &content)
+{
+    const support::TempDir dir;
+    return read_scenario_file(dir.write("case.toml", content));
+}
+
+std::string error_of(const std::string &content)
+{
+    try {
+        read(content);
+    } catch (const InputError &e) {
+        return e.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST(ParallelFor, CallsEveryNumberOnce)
+{
+    std::vector<int> calls(1000, 0);
+    parallel_for(calls.size(), [&](std::size_t i) { calls[i]++; });
+
+    EXPECT_TRUE(std::all_of(calls.begin(), calls.end(), [](int n) { return n == 1; }));
+}
+
+TEST(ParallelFor, NothingToDoCallsNothing)
+{
+    parallel_for(0, [](std::size_t) { FAIL(); });
+}
+
+TEST(ParallelFor, FirstExceptionByNumberComesThrough)
+{
+    const auto fail_late = [](std::size_t i) {
+        if (i % 10 == 7) {
+            throw InputError("number " + std::to_string(i));
+        }
+    };
+    try {
+        parallel_for(100, fail_late);
+        FAIL();
+    } catch (const InputError &e) {
+        EXPECT_STREQ(e.what(), "number 7");
+    }
+}
+
+TEST(DrawMotor, FactorsFillTheirRangesAndNothingElse)
+{
+    const MotorRanges                    ranges{{0.5, 1.5}, {0.6, 1.4}, {0.7, 1.3}, {0.5, 3.0}};
+    const std::pair<const char *, Range> expected[] = {{"stator_resistance_Ohm", {0.5, 1.5}},
+                                                       {"d_axis_inductance_H", {0.6, 1.4}},
+                                                       {"pm_flux_Wb", {0.7, 1.3}},
+                                                       {"inertia_kgm2", {0.5, 3.0}}};
+    for (const auto &[key, range] : expected) {
+        double lowest  = 1e9;
+        double highest = 0.0;
+        double sum     = 0.0;
+        for (int motor = 1; motor <= 2000; motor++) {
+            const double x = draw_motor(ranges, 1, motor).at(key);
+            lowest         = std::min(lowest, x);
+            highest        = std::max(highest, x);
+            sum += x / 2000.0;
+        }
+        const double width = range.hi - range.lo;
+        EXPECT_GE(lowest, range.lo) << key;
+        EXPECT_LE(highest, range.hi) << key;
+        EXPECT_LT(lowest, range.lo + 0.01 * width) << key;
+        EXPECT_GT(highest, range.hi - 0.01 * width) << key;
+        EXPECT_NEAR(sum, 0.5 * (range.lo + range.hi), 0.02 * width) << key; // 3 sigma of the mean
+    }
+}
+
+TEST(DrawMotor, BothInductancesShareAFactorAndTheRestIsIndependent)
+{
+    const MotorRanges ranges{{0.5, 1.5}, {0.5, 1.5}, {0.5, 1.5}, {0.5, 1.5}};
+    double            product = 0.0;
+    for (int motor = 1; motor <= 2000; motor++) {
+        const MotorScale m = draw_motor(ranges, 1, motor);
+        EXPECT_EQ(m.at("d_axis_inductance_H"), m.at("q_axis_inductance_H"));
+        product += (m.at("pm_flux_Wb") - 1.0) * (m.at("inertia_kgm2") - 1.0) / 2000.0;
+    }
+    EXPECT_NEAR(product, 0.0, 0.006); // 3 sigma of independent factors
+}
+
+TEST(DrawMotor, SameNumbersSameMotor)
+{
+    const MotorRanges ranges{{0.5, 1.5}, {0.5, 1.5}, {0.5, 1.5}, {0.5, 3.0}};
+
+    EXPECT_EQ(draw_motor(ranges, 3, 17), draw_motor(ranges, 3, 17));
+    EXPECT_NE(draw_motor(ranges, 3, 17), draw_motor(ranges, 3, 18));
+    EXPECT_NE(draw_motor(ranges, 3, 17), draw_motor(ranges, 4, 17));
+}
+
+TEST(RandomMotors, MotorsLikeTheBelievedOneAllPass)
+{
+    const RandomMotors runs = run_random_motors(read(text(good)), 20);
+
+    EXPECT_EQ(runs.count, 20);
+    EXPECT_TRUE(runs.failures.empty());
+}
+
+TEST(RandomMotors, FailuresSayWhatAndWhy)
+{
+    const Scenario     s    = read(text(light));
+    const RandomMotors runs = run_random_motors(s, 3);
+
+    ASSERT_EQ(runs.failures.size(), 3U);
+    for (int i = 0; i < 3; i++) {
+        const MotorFailure &f = runs.failures[static_cast<std::size_t>(i)];
+        EXPECT_EQ(f.motor, i + 1);
+        EXPECT_EQ(f.scale, draw_motor(*s.motor_ranges, s.seed, i + 1));
+        ASSERT_GE(f.reasons.size(), 2U);
+        EXPECT_NE(f.reasons.back().find("unstable"), std::string::npos) << f.reasons.back();
+        EXPECT_NE(f.reasons.back().find("x what is believed"), std::string::npos);
+    }
+    EXPECT_NE(random_motors_text(s, runs).find("3 of 3 motors failed, 0.00 % good"),
+              std::string::npos);
+}
+
+TEST(RandomMotors, SavedFailureIsTheSameRun)
+{
+    const support::TempDir dir;
+    const auto             file = dir.write("case.toml", text(light));
+    const Scenario         s    = read_scenario_file(file);
+    const RandomMotors     runs = run_random_motors(s, 2);
+
+    write_failed_motors(file, runs, dir / "failed");
+    const Scenario saved = read_scenario_file(dir / "failed" / "case_motor_2.toml");
+
+    Scenario expected    = s;
+    expected.plant_scale = draw_motor(*s.motor_ranges, s.seed, 2);
+    expected.seed        = 2;
+    EXPECT_EQ(saved.plant_scale, expected.plant_scale);
+    EXPECT_EQ(saved.seed, 2U);
+    EXPECT_FALSE(saved.motor_ranges);
+    const SimulationResult a = simulate(saved);
+    const SimulationResult b = simulate(expected);
+    ASSERT_EQ(a.trace.size(), b.trace.size());
+    for (std::size_t i = 0; i < a.trace.size(); i++) {
+        ASSERT_EQ(a.trace[i].omega_e_radps, b.trace[i].omega_e_radps) << i;
+    }
+}
+
+TEST(RandomMotors, MissingOrWrongRangesAreRefused)
+{
+    EXPECT_THROW(run_random_motors(read(text("")), 1), InputError);
+    EXPECT_NE(error_of(text("[motor_ranges]\nresistance = [1.1, 0.9]\n")).find("[motor_ranges]"),
+              std::string::npos);
+    EXPECT_NE(error_of(text(good + "colour = [1, 2]\n")).find("colour"), std::string::npos);
+}
+
+TEST(RandomMotors, CommandPrintsTheShareAndSavesFailures)
+{
+    const support::TempDir dir;
+    const auto             file = dir.write("case.toml", text(light)).string();
+
+    const support::CommandResult r = support::run_command(
+        {SDRE_SIL_EXE, "motors", file, "--count", "2", "--failures", (dir / "out").string()});
+
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    EXPECT_NE(r.out.find("2 of 2 motors failed"), std::string::npos) << r.out;
+    EXPECT_TRUE(std::filesystem::exists(dir / "out" / "case_motor_1.toml"));
+    EXPECT_TRUE(std::filesystem::exists(dir / "out" / "case_motor_2.toml"));
+}
