@@ -35,7 +35,7 @@ constexpr double largest_mtpa_A = 1e6;
 
 // Chosen: 1 % of the voltage circle, and what the hexagon holds outside it, stay free for transients.
 constexpr double voltage_share = 0.99;
-// Chosen by simulation: of 10,000 random motors (docs/errata.md) 48 fail without this limit and 30 with it;
+// Chosen by simulation: of 10,000 random motors (docs/errata.md) 48 failed without this limit and 36 with it;
 // a smaller share deepens the dip after a load step.
 constexpr double speed_current_ratio = 0.25;
 

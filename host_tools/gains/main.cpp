@@ -64,17 +64,19 @@ int run_report(const Options &options)
 
 int run_tune(const Options &options)
 {
-    const sdre::Drive    drive    = sdre::read_drive_file(options.drive);
-    const sdre::TuneSpec spec     = sdre::read_tune_spec(options.spec);
-    const auto           progress = [](int evaluations, double worst) {
+    const sdre::Drive    drive = sdre::read_drive_file(options.drive);
+    const sdre::TuneSpec spec  = sdre::read_tune_spec(options.spec);
+    const std::string    text  = sdre::read_text_file(options.drive);
+    sdre::require_rewritable(options.drive, text);
+    const auto progress = [](int evaluations, double worst) {
         fmt::print(stderr, "\r{} evaluations, worst result {:.3f} of its specification ",
-                             evaluations, worst);
+                   evaluations, worst);
     };
     const sdre::TuneResult result = sdre::tune_drive(drive, spec, progress);
     fmt::print(stderr, "\n");
     const std::string sections = sdre::tuned_sections(result, spec);
     const std::string out      = options.out.empty() ? options.drive : options.out;
-    sdre::write_files({{out, sdre::with_sections(sdre::read_text_file(options.drive), sections)}});
+    sdre::write_files({{out, sdre::with_sections(text, sections)}});
     fmt::print("{}{}: written; worst result / specification {:.2f}{}\n", sections, out,
                result.worst_ratio, result.worst_ratio > 1.0 ? " (not all are met)" : "");
     return exit_ok;

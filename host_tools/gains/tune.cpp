@@ -345,31 +345,79 @@ std::string tuned_sections(const TuneResult &r, const TuneSpec &spec)
     return s;
 }
 
+namespace {
+
+std::vector<std::string> lines_of(const std::string &text)
+{
+    std::vector<std::string> lines;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
+        lines.push_back(text.substr(at, end - at));
+        at = end;
+    }
+    return lines;
+}
+
+bool starts_with(const std::string &line, const char *prefix)
+{
+    return line.rfind(prefix, 0) == 0;
+}
+
+bool is_tuned_header(const std::string &line)
+{
+    return starts_with(line, "[nosc]") || starts_with(line, "[nodo]");
+}
+
+bool is_old_note(const std::string &line)
+{
+    return starts_with(line, "# The weights below were found by") ||
+           starts_with(line, "# for a load step of") || starts_with(line, "#   J, B x");
+}
+
+} // namespace
+
+void require_rewritable(const std::filesystem::path &file, const std::string &text)
+{
+    for (const char *header : {"[nosc]", "[nodo]"}) {
+        const std::vector<std::string> lines = lines_of(text);
+        if (std::none_of(lines.begin(), lines.end(),
+                         [header](const std::string &line) { return starts_with(line, header); })) {
+            throw InputError(fmt::format("{}: {} must stand at the start of a line, so that its "
+                                         "weights can be replaced",
+                                         file.string(), header));
+        }
+    }
+}
+
 std::string with_sections(const std::string &text, const std::string &sections)
 {
     std::string out;
-    bool        skipping = false;
-    std::size_t at       = 0;
-    bool        inserted = false;
-    while (at < text.size()) {
-        const std::size_t end  = std::min(text.find('\n', at), text.size() - 1) + 1;
-        const std::string line = text.substr(at, end - at);
-        at                     = end;
-        if (line[0] == '[') {
-            skipping = line.rfind("[nosc]", 0) == 0 || line.rfind("[nodo]", 0) == 0;
+    std::string
+         pending; // comments and blank lines that may belong to the section after the tuned ones
+    bool skipping = false;
+    bool inserted = false;
+    for (const std::string &line : lines_of(text)) {
+        if (is_old_note(line)) {
+            continue;
         }
-        const bool old_note = line.rfind("# The weights below were found by", 0) == 0 ||
-                              line.rfind("# for a load step of", 0) == 0 ||
-                              line.rfind("#   J, B x", 0) == 0;
+        if (line[0] == '[') {
+            skipping = is_tuned_header(line);
+            out += skipping ? "" : pending;
+            pending.clear();
+        }
         if (skipping && !inserted) {
             out += sections;
             inserted = true;
         }
-        if (!skipping && !old_note) {
+        if (!skipping) {
             out += line;
+        } else if (line[0] == '#' || line[0] == '\n') {
+            pending += line;
+        } else {
+            pending.clear();
         }
     }
-    return inserted ? out : out + "\n" + sections;
+    return pending.find('#') == std::string::npos ? out : out + pending;
 }
 
 } // namespace sdre

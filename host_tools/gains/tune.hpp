@@ -2,6 +2,7 @@
 /// Weights from physical specifications, by search on the sampled closed loop (EQ-CERT-3).
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -37,7 +38,10 @@ TuneResult tune_drive(const Drive &drive, const TuneSpec &spec, const TuneProgre
 /// The [nosc] and [nodo] sections with every choice explained, ready for a drive file.
 std::string tuned_sections(const TuneResult &result, const TuneSpec &spec);
 
-/// A drive file's text with those two sections in place of its own.
+/// InputError unless both sections begin with their header at the start of a line; call before the search.
+void require_rewritable(const std::filesystem::path &file, const std::string &drive_text);
+
+/// A drive file's text with those two sections in place of its own, the rest byte for byte.
 std::string with_sections(const std::string &drive_text, const std::string &sections);
 
 } // namespace sdre

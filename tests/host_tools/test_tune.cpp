@@ -213,12 +213,30 @@ TEST(Tune, SectionsApartFromEachOtherAreBothReplaced)
     EXPECT_EQ(sdre::with_sections(once, sections()), once);
 }
 
-TEST(Tune, SectionsAreAppendedWhereThereAreNone)
+TEST(Tune, CommentsOfTheNextSectionAreKept)
 {
-    for (const std::string text : {"schema = 1\n[encoder]\nlines = 2500\n", ""}) {
-        const std::string once = sdre::with_sections(text, sections());
-        EXPECT_EQ(once, text + "\n" + sections());
-        EXPECT_EQ(sdre::with_sections(once, sections()), once);
+    const std::string text =
+        "[nosc]\nQ = [\n  1.0,\n  2.0]\n# of nodo\n[nodo]\n# inside\norder = 1\n\n"
+        "# of the encoder\n[encoder]\nlines = 2500\n";
+    const std::string once = sdre::with_sections(text, sections());
+
+    EXPECT_EQ(once, sections() + "\n# of the encoder\n[encoder]\nlines = 2500\n");
+    EXPECT_EQ(sdre::with_sections(once, sections()), once);
+    EXPECT_EQ(sdre::with_sections("[nosc]\n[nodo]\norder = 1\n# the end\n", sections()),
+              sections() + "# the end\n");
+}
+
+TEST(Tune, HeadersThatCannotBeFoundAreRefusedBeforeTheSearch)
+{
+    for (const std::string header : {"[ nosc ]", "  [nosc]"}) {
+        const TempDir     dir;
+        const std::string text = support::replaced(read_file(board_drive), "[nosc]", header);
+        const std::string file = dir.write("drive.toml", text);
+
+        support::expect_refused(
+            support::run_command({SDRE_GAINS_EXE, "tune", file, "--spec", board_spec.string()}), 1,
+            "sdre-gains", {"drive.toml", "[nosc]"});
+        EXPECT_EQ(read_file(file), text);
     }
 }
 
