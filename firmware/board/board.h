@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file board.h
+ * @brief The whole hardware interface of the drive.
+ *
+ * Integers only: converter codes in, compare counts out. Exactly one implementation per program.
+ *
+ * Order of use: board_init(), board_start(); then everything else happens in the tick and in the
+ * background loop. All six switches stay off until board_gate_enable().
+ */
+#ifndef BOARD_H
+#define BOARD_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "board_limits.h"
+
+/** What was measured at the start of the present control period. */
+typedef struct {
+    uint16_t ia_cnt;          /**< phase current a, 0 .. BOARD_ADC_CODES - 1 */
+    uint16_t ib_cnt;          /**< phase current b, taken at the same instant */
+    uint16_t dc_link_cnt;     /**< dc-link voltage */
+    uint16_t temperature_cnt; /**< heat sink */
+    uint16_t position_cnt;    /**< 0 .. BOARD_POSITIONS - 1, latched with the currents */
+    uint16_t index_cnt;       /**< position latched at the last index pulse */
+    bool     index_seen;      /**< an index pulse came since the sample before */
+    bool     valid; /**< measured in this period, and the encoder reports no phase error in it */
+} board_sample_t;
+
+/** On-time of the upper switches, 0 .. BOARD_DUTY_FULL; more counts as full. */
+typedef struct {
+    uint16_t a_cnt;
+    uint16_t b_cnt;
+    uint16_t c_cnt;
+} board_duty_t;
+
+/** Bits of board_fault_read(). */
+enum {
+    BOARD_FAULT_NONE    = 0,
+    BOARD_FAULT_TRIP    = 1, /**< the hardware opened the bridge, or its trip input is active */
+    BOARD_FAULT_OVERRUN = 2, /**< a tick outlasted its control period, or a period got no tick */
+    BOARD_FAULT_CLOCK   = 4, /**< the crystal is missing, or the PLL did not lock */
+    BOARD_FAULT_ENCODER = 8  /**< both encoder tracks changed at once */
+};
+
+/**
+ * @brief Makes the pins safe, then sets clock, peripherals and trip up; all six switches stay off.
+ *
+ * @return false: the clock cannot be trusted (BOARD_FAULT_CLOCK); do not go on to board_start().
+ *
+ * Context: init, once, interrupts off. About 15 ms.
+ */
+bool board_init(void);
+
+/**
+ * @brief Starts the control periods and the watchdog.
+ *
+ * @param tick Called once per control period, in the control ISR.
+ *
+ * Context: init, once, after board_init().
+ */
+void board_start(void (*tick)(void));
+
+/** The sample of this period; the same one for the whole tick. Context: control ISR. */
+board_sample_t board_sample_read(void);
+
+/** Duty ratios that act from the start of the next period. Context: control ISR. */
+void board_duty_write(const board_duty_t *duty);
+
+/**
+ * @brief Lets the switches follow the duty ratios; the last thing to do on the way to running.
+ *
+ * Forgets latched faults whose cause is gone. Where a cause is left, its fault is latched and the bridge
+ * stays off: check board_fault_read() afterwards. Nothing happens while the gates are enabled.
+ *
+ * Context: control ISR.
+ */
+void board_gate_enable(void);
+
+/** All six switches off, now, until board_gate_enable(). Context: any. */
+void board_gate_trip(void);
+
+/**
+ * @brief BOARD_FAULT_ bits latched since board_gate_enable() last reset them.
+ *
+ * All but BOARD_FAULT_ENCODER, which makes the sample invalid instead, have opened the bridge already.
+ *
+ * Context: any.
+ */
+uint16_t board_fault_read(void);
+
+/** Processor cycles, free running, wraps; BOARD_TICK_CYCLES per period. Context: any. */
+uint32_t board_cycles(void);
+
+/** Without it the processor is reset after 17 ms. Context: background. */
+void board_watchdog_serve(void);
+
+/**
+ * @brief Takes one received octet.
+ *
+ * @return false: nothing there, or what was there was received with an error and is dropped.
+ *
+ * Context: background.
+ */
+bool board_serial_read(uint16_t *octet);
+
+/** Sends the low eight bits. @return false: no room. Context: background. */
+bool board_serial_write(uint16_t octet);
+
+#endif /* BOARD_H */

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+#include "DSP28x_Project.h"
+#include "clock_tree.h"
+#include "peripherals.h"
+
+#define POWER_UP_CYCLES (CLOCK_SYSCLK_Hz / 200UL) /* 5 ms, data sheet */
+#define POWER_UP        0xE0U                     /* band gap, reference and converter */
+#define ACQUISITION     3U /* window of 4 ADC clocks, 160 ns; docs/hardware.md: source impedance */
+#define PAIRS           2U
+
+/* ADCTRL2: trigger from ePWM, interrupt at the end of each sequence; and the same with a rewind. */
+#define RUN        0x0900U
+#define REWIND     0x4900U
+#define CLEAR_DONE 0x0010U /* ADCST: INT_SEQ1_CLR */
+
+void adc_init(void)
+{
+    ADC_cal(); /* factory trim; a debugger's load skips the boot ROM, which would have called it */
+
+    AdcRegs.ADCTRL3.all = POWER_UP;
+    cycles_wait(POWER_UP_CYCLES);
+
+    AdcRegs.ADCTRL1.all           = 0U; /* two sequencers, one run per trigger, ADCCLK = HSPCLK */
+    AdcRegs.ADCTRL1.bit.ACQ_PS    = ACQUISITION;
+    AdcRegs.ADCTRL3.bit.ADCCLKPS  = 0U; /* HSPCLK undivided */
+    AdcRegs.ADCTRL3.bit.SMODE_SEL = 1U; /* inputs A and B of a pair are held at the same instant */
+    AdcRegs.ADCMAXCONV.all        = PAIRS - 1U;
+    AdcRegs.ADCCHSELSEQ1.all      = 0U;
+    AdcRegs.ADCCHSELSEQ1.bit.CONV00 = 0U; /* A0, B0: phase currents, first after the trigger */
+    AdcRegs.ADCCHSELSEQ1.bit.CONV01 = 1U; /* A1, B1: dc link, temperature */
+    AdcRegs.ADCTRL2.all             = RUN;
+    adc_rewind();
+}
+
+bool adc_is_done(void)
+{
+    return AdcRegs.ADCST.bit.INT_SEQ1 != 0U;
+}
+
+void adc_rewind(void)
+{
+    AdcRegs.ADCTRL2.all = REWIND;
+    AdcRegs.ADCST.all   = CLEAR_DONE;
+}
+
+void adc_read(board_sample_t *sample)
+{
+    sample->ia_cnt          = AdcMirror.ADCRESULT0;
+    sample->ib_cnt          = AdcMirror.ADCRESULT1;
+    sample->dc_link_cnt     = AdcMirror.ADCRESULT2;
+    sample->temperature_cnt = AdcMirror.ADCRESULT3;
+}

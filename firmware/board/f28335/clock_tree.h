@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file clock_tree.h
+ * @brief Every rate of this board, derived from the crystal; the one place to change them.
+ *
+ * Preprocessor arithmetic, so that a rate that a register cannot hold stops the compiler.
+ */
+#ifndef CLOCK_TREE_H
+#define CLOCK_TREE_H
+
+#include "board_limits.h"
+
+#define CLOCK_CRYSTAL_Hz 30000000UL /**< of the board */
+
+#define CLOCK_PLL_MULTIPLIER 10U /**< PLLCR.DIV */
+#define CLOCK_PLL_DIVSEL     2U  /**< PLLSTS.DIVSEL: divide by two */
+#define CLOCK_SYSCLK_Hz      ((CLOCK_CRYSTAL_Hz * CLOCK_PLL_MULTIPLIER) / 2UL)
+
+/* HISPCP and LOSPCP divide by twice their value. */
+#define CLOCK_HISPCP    3U
+#define CLOCK_HSPCLK_Hz (CLOCK_SYSCLK_Hz / (2UL * CLOCK_HISPCP))
+#define CLOCK_LOSPCP    2U
+#define CLOCK_LSPCLK_Hz (CLOCK_SYSCLK_Hz / (2UL * CLOCK_LOSPCP))
+
+/** The converter runs on HSPCLK undivided: at its maximum, for the shortest sampling delay. */
+#define CLOCK_ADCCLK_Hz     CLOCK_HSPCLK_Hz
+#define CLOCK_ADCCLK_MAX_Hz 25000000UL /**< data sheet */
+
+/** Half the system clock: a dead time of 7 us still fits its ten bits. */
+#define CLOCK_SYSCLK_PER_TBCLK 2UL
+#define CLOCK_TBCLK_Hz         (CLOCK_SYSCLK_Hz / CLOCK_SYSCLK_PER_TBCLK)
+
+#define CLOCK_PWM_Hz  5000UL /**< control rate that the gain tables are made for */
+#define CLOCK_PWM_cnt (CLOCK_TBCLK_Hz / (2UL * CLOCK_PWM_Hz)) /**< TBPRD, counted up and down */
+
+#define CLOCK_DEAD_TIME_us      3UL /**< of the shipped drive's inverter */
+#define CLOCK_DEAD_TIME_cnt     (CLOCK_DEAD_TIME_us * (CLOCK_TBCLK_Hz / 1000000UL))
+#define CLOCK_DEAD_TIME_MAX_cnt 1023UL /**< ten bits */
+
+#define CLOCK_BAUD_Hz 115200UL /**< chosen: 1.4 ms for a Modbus frame of 16 octets */
+/** BRR of the nearest rate: LSPCLK / (8 baud) - 1. */
+#define CLOCK_BAUD_BRR       (((CLOCK_LSPCLK_Hz + (4UL * CLOCK_BAUD_Hz)) / (8UL * CLOCK_BAUD_Hz)) - 1UL)
+#define CLOCK_BAUD_ACTUAL_Hz (CLOCK_LSPCLK_Hz / (8UL * (CLOCK_BAUD_BRR + 1UL)))
+
+#if CLOCK_SYSCLK_Hz != 150000000UL
+#error "flash wait states and PLL settings are those of 150 MHz"
+#endif
+#if CLOCK_ADCCLK_Hz > CLOCK_ADCCLK_MAX_Hz
+#error "the ADC clock is too fast"
+#endif
+#if (CLOCK_PWM_cnt > 65535UL) || ((CLOCK_PWM_cnt * 2UL * CLOCK_PWM_Hz) != CLOCK_TBCLK_Hz)
+#error "the PWM period does not fit its register, or is no whole number of counts"
+#endif
+#if CLOCK_DEAD_TIME_cnt > CLOCK_DEAD_TIME_MAX_cnt
+#error "the dead time does not fit its ten bits: only the low ones would act"
+#endif
+#if (CLOCK_DEAD_TIME_cnt == 0UL) || ((2UL * CLOCK_DEAD_TIME_cnt) >= CLOCK_PWM_cnt)
+#error "the dead time is zero or swallows the PWM period"
+#endif
+#if CLOCK_PWM_cnt != BOARD_DUTY_FULL
+#error "BOARD_DUTY_FULL is not the PWM period of this board"
+#endif
+#if (CLOCK_SYSCLK_Hz / CLOCK_PWM_Hz) != BOARD_TICK_CYCLES
+#error "BOARD_TICK_CYCLES is not the control period of this board"
+#endif
+#if (CLOCK_BAUD_BRR > 65535UL) || ((CLOCK_BAUD_ACTUAL_Hz * 100UL) > (CLOCK_BAUD_Hz * 102UL)) ||    \
+    ((CLOCK_BAUD_ACTUAL_Hz * 100UL) < (CLOCK_BAUD_Hz * 98UL))
+#error "the baud rate cannot be made within 2 %"
+#endif
+
+#endif /* CLOCK_TREE_H */

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file peripherals.h
+ * @brief What the files of this board offer each other; no one else includes it.
+ *
+ * Context: init, unless a line says otherwise.
+ */
+#ifndef PERIPHERALS_H
+#define PERIPHERALS_H
+
+#include "DSP28x_Project.h"
+#include "board.h"
+
+void gpio_make_safe(void); /**< gate driver off and bridge pins low; first of all */
+void gpio_connect(void);   /**< pins to their peripherals; the bridge has to be tripped */
+
+bool clock_init(void);        /**< false: no crystal or no lock */
+void clock_peripherals(void); /**< dividers and module clocks; PWM time bases stand still */
+bool clock_is_good(void);     /**< the crystal is there. Context: any */
+
+void flash_init(void); /**< wait states and pipeline; runs from RAM */
+
+void pie_init(void);  /**< every vector stops the drive, but that of the control ISR */
+void pie_start(void); /**< control interrupt on */
+
+void trip_init(void);               /**< armed and tripped; before the PWM runs */
+void trip_check(void);              /**< context: control ISR, every period */
+void trip_latch(uint16_t fault);    /**< remembers and opens the bridge. Context: any */
+void trip_remember(uint16_t fault); /**< remembers only. Context: control ISR */
+
+void pwm_init(void);
+void pwm_start(void); /**< all three legs at once */
+
+void adc_init(void);                   /**< about 5 ms */
+bool adc_is_done(void);                /**< a conversion is complete. Context: control ISR */
+void adc_rewind(void);                 /**< ready for the next one. Context: control ISR */
+void adc_read(board_sample_t *sample); /**< context: control ISR */
+
+void encoder_init(void);
+void encoder_start(void); /**< next to pwm_start() */
+/** False: nothing was latched in this period, or a phase error. Context: control ISR. */
+bool encoder_read(board_sample_t *sample);
+
+void cycles_init(void);
+void cycles_wait(uint32_t cycles);
+
+void watchdog_stop(void);
+void watchdog_start(void);
+
+void serial_init(void);
+
+void             control_isr_init(void (*tick)(void));
+__interrupt void control_isr(void);
+
+#endif /* PERIPHERALS_H */

@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: MIT */
+#include "DSP28x_Project.h"
+#include "clock_tree.h"
+#include "peripherals.h"
+
+#define HSPCLKDIV_BY_2    1U
+#define HALT_AT_CYCLE_END 1U /* a debugger's halt leaves all upper switches on: zero voltage */
+
+/* The counter goes 0 .. TBPRD .. 0. The upper switch is on around 0, all lower ones around TBPRD: there the
+ * currents are sampled, and there a control period begins. */
+static void set_up_leg(volatile struct EPWM_REGS *leg)
+{
+    leg->TBCTL.bit.CTRMODE   = TB_FREEZE;
+    leg->TBCTL.bit.FREE_SOFT = HALT_AT_CYCLE_END;
+    leg->TBCTL.bit.CLKDIV    = TB_DIV1;
+    leg->TBCTL.bit.HSPCLKDIV = HSPCLKDIV_BY_2; /* 75 MHz */
+    leg->TBCTL.bit.PHSEN     = TB_DISABLE;     /* TBCLKSYNC starts the legs together */
+    leg->TBCTL.bit.SYNCOSEL  = TB_SYNC_DISABLE;
+    leg->TBCTL.bit.PRDLD     = TB_IMMEDIATE; /* written once, here */
+    leg->TBPRD               = (uint16_t)CLOCK_PWM_cnt;
+    leg->TBCTR               = 0U;
+    leg->TBPHS.all           = 0U;
+
+    leg->CMPCTL.bit.SHDWAMODE = CC_SHADOW;
+    leg->CMPCTL.bit.LOADAMODE = CC_CTR_PRD; /* a new duty acts from the next control period on */
+    leg->CMPA.half.CMPA       = 0U;
+
+    leg->AQCTLA.all     = 0U;
+    leg->AQCTLA.bit.CAU = AQ_CLEAR;
+    leg->AQCTLA.bit.CAD = AQ_SET; /* at full duty it meets PRD, and goes before it */
+    leg->AQCTLA.bit.PRD =
+        AQ_CLEAR;         /* full duty leaves the output high: the next period starts low */
+    leg->AQCTLB.all = 0U; /* output B is made from A by the dead band */
+
+    leg->DBCTL.bit.IN_MODE  = DBA_ALL;
+    leg->DBCTL.bit.POLSEL   = DB_ACTV_HIC;
+    leg->DBRED              = (uint16_t)CLOCK_DEAD_TIME_cnt;
+    leg->DBFED              = (uint16_t)CLOCK_DEAD_TIME_cnt;
+    leg->DBCTL.bit.OUT_MODE = DB_FULL_ENABLE;
+
+    leg->ETSEL.all         = 0U; /* no interrupt, no trigger */
+    leg->TBCTL.bit.CTRMODE = TB_COUNT_UPDOWN;
+}
+
+static uint16_t at_most_full(uint16_t duty_cnt)
+{
+    return (duty_cnt < BOARD_DUTY_FULL) ? duty_cnt : BOARD_DUTY_FULL;
+}
+
+void pwm_init(void)
+{
+    set_up_leg(&EPwm1Regs);
+    set_up_leg(&EPwm2Regs);
+    set_up_leg(&EPwm3Regs);
+
+    EPwm1Regs.ETPS.bit.SOCAPRD  = ET_1ST;
+    EPwm1Regs.ETSEL.bit.SOCASEL = ET_CTR_PRD; /* sample while all lower switches are on */
+    EPwm1Regs.ETSEL.bit.SOCAEN  = 1U;
+}
+
+void pwm_start(void)
+{
+    EALLOW;
+    SysCtrlRegs.PCLKCR0.bit.TBCLKSYNC = 1U;
+    EDIS;
+}
+
+void board_duty_write(const board_duty_t *duty)
+{
+    EPwm1Regs.CMPA.half.CMPA = at_most_full(duty->a_cnt);
+    EPwm2Regs.CMPA.half.CMPA = at_most_full(duty->b_cnt);
+    EPwm3Regs.CMPA.half.CMPA = at_most_full(duty->c_cnt);
+}

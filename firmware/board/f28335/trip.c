@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: MIT */
+#include "DSP28x_Project.h"
+#include "peripherals.h"
+
+#define GATE_ENABLE_PIN 0x40UL /* GPIO6 */
+#define CLEAR_ALL       7U     /* one-shot, cycle by cycle, and the summary flag */
+
+static volatile uint16_t latched;
+static volatile bool     enabled; /* false: the bridge is off on our own account */
+
+static void arm(volatile struct EPWM_REGS *leg)
+{
+    EALLOW;
+    leg->TZSEL.all       = 0U;
+    leg->TZSEL.bit.OSHT1 = 1U; /* TZ1 trips for good */
+    leg->TZCTL.bit.TZA   = TZ_FORCE_LO;
+    leg->TZCTL.bit.TZB   = TZ_FORCE_LO;
+    leg->TZEINT.all      = 0U; /* the hardware needs no help; trip_check() looks once a period */
+    leg->TZFRC.bit.OST   = 1U; /* off until board_gate_enable() */
+    EDIS;
+}
+
+static bool is_tripped(void)
+{
+    return (EPwm1Regs.TZFLG.bit.OST != 0U) || (EPwm2Regs.TZFLG.bit.OST != 0U) ||
+           (EPwm3Regs.TZFLG.bit.OST != 0U);
+}
+
+static bool pin_is_active(void)
+{
+    return GpioDataRegs.GPADAT.bit.GPIO12 == 0U;
+}
+
+void trip_init(void)
+{
+    enabled = false;
+    latched = BOARD_FAULT_NONE;
+    arm(&EPwm1Regs);
+    arm(&EPwm2Regs);
+    arm(&EPwm3Regs);
+}
+
+void trip_remember(uint16_t fault)
+{
+    latched |= fault;
+}
+
+void trip_latch(uint16_t fault)
+{
+    board_gate_trip();
+    trip_remember(fault);
+}
+
+void trip_check(void)
+{
+    if (!clock_is_good()) {
+        trip_latch(BOARD_FAULT_CLOCK);
+    }
+    if (enabled && is_tripped()) {
+        trip_latch(BOARD_FAULT_TRIP);
+    }
+    if (!enabled) {
+        board_gate_trip(); /* mends a trip of the background that board_gate_enable() interrupted */
+    }
+}
+
+void board_gate_trip(void)
+{
+    GpioDataRegs.GPACLEAR.all = GATE_ENABLE_PIN;
+    EALLOW;
+    EPwm1Regs.TZFRC.bit.OST = 1U;
+    EPwm2Regs.TZFRC.bit.OST = 1U;
+    EPwm3Regs.TZFRC.bit.OST = 1U;
+    EDIS;
+    enabled = false;
+}
+
+void board_gate_enable(void)
+{
+    if (enabled) {
+        return; /* a trip of this very moment must not be cleared */
+    }
+
+    latched = BOARD_FAULT_NONE;
+    if (!clock_is_good()) {
+        trip_remember(BOARD_FAULT_CLOCK);
+    }
+    if (pin_is_active()) {
+        trip_remember(BOARD_FAULT_TRIP);
+    }
+    if (latched != BOARD_FAULT_NONE) {
+        return;
+    }
+
+    EALLOW;
+    EPwm1Regs.TZCLR.all = CLEAR_ALL;
+    EPwm2Regs.TZCLR.all = CLEAR_ALL;
+    EPwm3Regs.TZCLR.all = CLEAR_ALL;
+    EDIS;
+    if (is_tripped()) { /* the input fell just now */
+        trip_latch(BOARD_FAULT_TRIP);
+        return;
+    }
+
+    enabled                 = true;
+    GpioDataRegs.GPASET.all = GATE_ENABLE_PIN; /* last: now the bridge follows the PWM */
+}
+
+uint16_t board_fault_read(void)
+{
+    return latched;
+}

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT */
+#include "DSP28x_Project.h"
+#include "peripherals.h"
+
+#define WDCR_STOP 0x68U
+/* 256 * 512 crystal cycles times 4 = 17.5 ms: ten times the longest background pass expected (1 to 2 ms), and
+ * short beside the mechanics. Bits 5:3 have to be 101 in every write. */
+#define WDCR_RUN  0x2BU
+#define SCSR_LOCK 0x01U /* reset, not interrupt; and the watchdog cannot be stopped any more */
+
+void watchdog_stop(void)
+{
+    EALLOW;
+    SysCtrlRegs.WDCR = WDCR_STOP;
+    EDIS;
+}
+
+void watchdog_start(void)
+{
+    board_watchdog_serve();
+    EALLOW;
+    SysCtrlRegs.WDCR = WDCR_RUN;
+    SysCtrlRegs.SCSR = SCSR_LOCK;
+    EDIS;
+}
+
+void board_watchdog_serve(void)
+{
+    EALLOW;
+    SysCtrlRegs.WDKEY = 0x55U;
+    SysCtrlRegs.WDKEY = 0xAAU;
+    EDIS;
+}

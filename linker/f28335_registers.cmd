@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: MIT */
+/* Where the peripherals are: the device headers declare these objects, and nothing else defines them. */
+FlashRegs     = 0x000A80;
+AdcMirror     = 0x000B00;
+CpuTimer0Regs = 0x000C00;
+PieCtrlRegs   = 0x000CE0;
+PieVectTable  = 0x000D00;
+EPwm1Regs     = 0x006800;
+EPwm2Regs     = 0x006840;
+EPwm3Regs     = 0x006880;
+EQep1Regs     = 0x006B00;
+GpioCtrlRegs  = 0x006F80;
+GpioDataRegs  = 0x006FC0;
+SysCtrlRegs   = 0x007010;
+SciaRegs      = 0x007050;
+AdcRegs       = 0x007100;
+
+/* A routine that the factory put there: trims the converter. */
+ADC_cal = 0x380080;

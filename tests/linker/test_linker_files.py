@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: MIT
+"""Do linker/*.cmd fit the device and the program? With copies that do not, which have to be refused."""
+import fnmatch
+import pathlib
+import re
+import sys
+import unittest
+
+sys.dont_write_bytecode = True
+import command_file
+import device
+from command_file import Refused
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BOARD = ROOT / "firmware" / "board" / "f28335"
+TEXT = {image: (ROOT / "linker" / f"f28335_{image}.cmd").read_text() for image in ("flash", "ram")}
+FAST_RTS = "-l rts2800_fpu32_fast_supplement_eabi.lib(.text)"
+RTS = "-l rts2800_fpu32_eabi.lib(.text)"
+
+
+def inside(item, blocks):
+    return any(first <= item.origin and item.end <= last for first, last in blocks)
+
+
+def check_memory(image, ranges):
+    entry = device.BOOT_ENTRY[image]
+    blocks = (device.RAM + device.FLASH + device.ROM_TABLES + device.RESET_VECTOR
+              + [(entry, entry + 2)])
+    for item in ranges.values():
+        if item.length == 0:
+            raise Refused(f"range {item.name} is empty")
+        if any(item.origin < last and first < item.end for first, last in device.SECURITY):
+            raise Refused(f"range {item.name} holds words of the security module")
+        if not inside(item, blocks):
+            raise Refused(f"range {item.name} is not memory of the device")
+    ordered = sorted(ranges.values(), key=lambda item: item.origin)
+    for lower, upper in zip(ordered, ordered[1:]):
+        if lower.end > upper.origin:
+            raise Refused(f"ranges {lower.name} and {upper.name} overlap")
+
+
+def check_sections(image, ranges, sections, fast_rts):
+    def require(condition, name, what):
+        if not condition:
+            raise Refused(f"section {name} {what}")
+
+    expected = device.LOADED + device.NOT_LOADED + device.OWN
+    for name in expected:
+        require(name in sections, name, "has no place")
+    for name in sections:
+        require(name in expected, name, "is made by nothing")
+    for section in sections.values():
+        for where in (section.load, section.run):
+            require(where in ranges, section.name, f"is in {where}, which is no range")
+
+    stored = device.FLASH if image == "flash" else device.RAM
+    for name in device.LOADED + [".tables"]:
+        require(inside(ranges[sections[name].load], stored), name, "is not stored where it lasts")
+    for name in device.NOT_LOADED:
+        require(inside(ranges[sections[name].run], device.RAM), name, "is not in RAM")
+
+    code, tables, stack = sections[".TI.ramfunc"], sections[".tables"], sections[".stack"]
+    require(inside(ranges[code.run], [device.ZERO_WAIT_CODE]), code.name, "runs with wait states")
+    require(inside(ranges[tables.run], [device.ZERO_WAIT_DATA]), tables.name, "has wait states")
+    require(tables.run != code.run, tables.name, "shares a block with the code that reads it")
+    require(ranges[stack.run].end <= device.STACK_LIMIT, ".stack", "is out of the pointer's reach")
+    require(sum(s.run == stack.run for s in sections.values()) == 1, ".stack", "is not alone")
+
+    wanted = ["*(.TI.ramfunc)"] + ([FAST_RTS] if fast_rts else []) + [RTS]
+    require(code.inputs == wanted, code.name, f"takes {code.inputs}")
+
+    entry = ranges[sections["codestart"].run]
+    require((entry.origin, entry.length) == (device.BOOT_ENTRY[image], 2), "codestart",
+            "is not where the boot ROM jumps to")
+    require(sum(entry.name in (s.load, s.run) for s in sections.values()) == 1, "codestart",
+            "is not alone")
+
+    rom = sections["FPUmathTables"]
+    require(rom.type == "NOLOAD", rom.name, "would be loaded")
+    require(ranges[rom.run].origin == device.ROM_TABLES[0][0], rom.name, "is not at the ROM's tables")
+    require(sections[".reset"].type == "DSECT", ".reset", "would be loaded")
+    for section in sections.values():
+        require(section.name in ("FPUmathTables", ".reset") or not section.type, section.name,
+                "would not be loaded")
+
+
+def check_symbols(sections):
+    expected = {
+        ".TI.ramfunc": {"codestart_code_load": "LOAD_START", "codestart_code_words": "LOAD_SIZE",
+                        "codestart_code_run": "RUN_START"},
+        ".tables": {"codestart_tables_load": "LOAD_START", "codestart_tables_words": "LOAD_SIZE",
+                    "codestart_tables_run": "RUN_START"},
+        ".stack": {"codestart_stack": "RUN_START", "codestart_stack_words": "RUN_SIZE"},
+    }
+    for section in sections.values():
+        if section.symbols != expected.get(section.name, {}):
+            raise Refused(f"section {section.name} defines {section.symbols}")
+    names = {name for symbols in expected.values() for name in symbols}
+    source = (BOARD / "codestart.asm").read_text()
+    used = set(re.findall(r"\bcodestart_\w+", re.sub(r";.*", "", source)))
+    if used != names:
+        raise Refused(f"codestart.asm and the linker differ in {used ^ names}")
+
+
+def check_tables(sections):
+    """The patterns have to name what the sources define, or the tables would stay in flash."""
+    for name in ("gain_tables", "board_f28335"):
+        source = (ROOT / "firmware" / "config" / f"{name}.c").read_text()
+        constants = re.findall(r"^(?:static )?const \w+ (\w+)", source, flags=re.M)
+        if not constants:
+            raise Refused(f"{name}.c defines nothing")
+        for constant in constants:
+            if not any(fnmatch.fnmatchcase(f"*(.const:{constant})", pattern.replace("*(", "[*](", 1))
+                       for pattern in sections[".tables"].inputs):
+                raise Refused(f"section .tables leaves {constant} out")
+
+
+def check(image, text):
+    for defines in ((), ("FAST_RTS",)):
+        ranges, sections = command_file.parse(text, defines)
+        check_memory(image, ranges)
+        check_sections(image, ranges, sections, bool(defines))
+        check_symbols(sections)
+        check_tables(sections)
+
+
+def check_registers(text):
+    symbols = command_file.parse_symbols(text)
+    if symbols != device.PERIPHERALS:
+        raise Refused(f"peripherals: {set(symbols.items()) ^ set(device.PERIPHERALS.items())}")
+    used = set()
+    for source in BOARD.glob("*.c"):
+        used |= set(re.findall(r"\b(\w+Regs|AdcMirror|PieVectTable|ADC_cal)\b", source.read_text()))
+    if used != set(symbols):
+        raise Refused(f"used and placed differ in {used ^ set(symbols)}")
+
+
+# image, text, what it becomes, part of the reason
+MUTANTS = [
+    ("flash", "length = 0x038000", "length = 0x03FFF7", "security module"),
+    ("flash", "length = 0x038000", "length = 0x03FF81", "security module"),
+    ("flash", "origin = 0x33FFF6, length = 0x000002", "origin = 0x33FFF6, length = 0x000003",
+     "security module"),
+    ("flash", "origin = 0x33FFF6", "origin = 0x33FFF4", "security module"),
+    ("flash", "origin = 0x33FFF6", "origin = 0x33FF7E", "not where the boot ROM"),
+    ("flash", "origin = 0x300000", "origin = 0x2FFFFE", "not memory"),
+    ("flash", "origin = 0x000050, length = 0x0003B0", "origin = 0x000040, length = 0x0003C0",
+     "not memory"),
+    ("flash", "origin = 0x008000, length = 0x003000", "origin = 0x008000, length = 0x003001",
+     "overlap"),
+    ("flash", "RUN = RAML012", "RUN = RAML4567", "wait states"),
+    ("flash", "RUN = RAML012", "RUN = FLASH", "wait states"),
+    ("flash", "RUN = RAML3", "RUN = RAML012", "shares a block"),
+    ("flash", "RUN = RAML3", "RUN = RAML9", "no range"),
+    ("flash", ".init_array  : > FLASH", "", ".init_array has no place"),
+    ("flash", ".data        : > RAML4567", ".data        : > FLASH", ".data is not in RAM"),
+    ("flash", ".cinit       : > FLASH", ".cinit       : > RAML4567", "not stored where it lasts"),
+    ("flash", ".const       : > FLASH", ".econst      : > FLASH", "has no place"),
+    ("flash", ".bss         : > RAML4567", ".bss         : > RAMM1", ".stack is not alone"),
+    ("flash", "TYPE = NOLOAD", "TYPE = COPY", "would be loaded"),
+    ("flash", ", TYPE = DSECT", "", "would be loaded"),
+    ("flash", "> FPUTABLES", "> RAMM0", "not at the ROM's tables"),
+    ("flash", "LOAD_SIZE(codestart_code_words)", "RUN_START(codestart_code_words)", "defines"),
+    ("flash", "LOAD_START(codestart_tables_load)", "LOAD_START(codestart_table_load)", "defines"),
+    ("flash", "*(.const:gain_tables_*)", "*(.const:gains_*)", "leaves gain_tables_drive out"),
+    ("flash", RTS, "", "takes"),
+    ("flash", "#ifdef FAST_RTS", "#ifdef FASTRTS", "takes"),
+    ("flash", "#endif", "", "without #endif"),
+    ("flash", "SECTIONS", "SECTION", "no SECTIONS"),
+    ("flash", "codestart    : > BEGIN", "codestart    : > FLASH", "not where the boot ROM"),
+    ("ram", "> RAML0123,", "> RAML4567,", "wait states"),
+    ("ram", ".cinit       : > RAML4567", ".cinit       : > RAMX", "no range"),
+    ("ram", "origin = 0x000000", "origin = 0x000002", "not memory"),
+    ("ram", "length = 0x000400", "length = 0x000401", "not memory"),
+    ("ram", "length = 0x000400", "length = 0x000000", "empty"),
+    ("ram", ".switch      : > RAML0123", ".switch      : > RAML0123, TYPE = NOLOAD",
+     "would not be loaded"),
+]
+
+
+class LinkerFiles(unittest.TestCase):
+    def test_flash_image_fits(self):
+        check("flash", TEXT["flash"])
+
+    def test_ram_image_fits(self):
+        check("ram", TEXT["ram"])
+
+    def test_every_peripheral_used_is_placed_where_it_is(self):
+        check_registers((ROOT / "linker" / "f28335_registers.cmd").read_text())
+
+    def test_wrong_copies_are_refused(self):
+        for image, old, new, reason in MUTANTS:
+            with self.subTest(image=image, old=old, new=new):
+                self.assertIn(old, TEXT[image])
+                with self.assertRaises(Refused) as refused:
+                    check(image, TEXT[image].replace(old, new, 1))
+                self.assertIn(reason, str(refused.exception))
+
+    def test_wrong_addresses_are_refused(self):
+        text = (ROOT / "linker" / "f28335_registers.cmd").read_text()
+        for old, new in (("0x006840", "0x006841"), ("EQep1Regs     = 0x006B00;", ""), ("0x380080", "0x380090")):
+            with self.subTest(old=old), self.assertRaises(Refused):
+                self.assertIn(old, text)
+                check_registers(text.replace(old, new, 1))
+
+
+if __name__ == "__main__":
+    unittest.main()

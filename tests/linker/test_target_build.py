@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: MIT
+"""Do the presets f28335-flash and f28335-ram ask TI's tools for the right things? TI's tools are stood in for by
+stand_in_tool.py: whether they accept it, this test cannot tell."""
+import json
+import os
+import pathlib
+import shlex
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+FAST_RTS = "rts2800_fpu32_fast_supplement_eabi.lib"
+TICK = ["app.c", "app_align.c", "app_angle.c", "app_modes.c", "app_scale.c", "adc.c", "clock.c",
+        "control_isr.c", "cycles.c", "encoder.c", "flash.c", "pie.c", "pwm.c", "trip.c"]
+
+
+def touch(path):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("")
+
+
+def make_compiler(root):
+    for tool in ("cl2000", "ar2000", "hex2000"):
+        path = root / "bin" / tool
+        touch(path)
+        stand_in = shlex.quote(str(HERE / "stand_in_tool.py"))
+        path.write_text(f'#!/bin/sh\nexec {shlex.quote(sys.executable)} {stand_in} {tool} "$@"\n')
+        path.chmod(path.stat().st_mode | stat.S_IXUSR)
+    touch(root / "include" / "stdint.h")
+    touch(root / "lib" / "rts2800_fpu32_eabi.lib")
+
+
+def make_headers(root, fast_rts):
+    touch(root / "device_support/f2833x/headers/include/DSP2833x_Device.h")
+    touch(root / "device_support/f2833x/common/include/DSP28x_Project.h")
+    if fast_rts:
+        touch(root / "libraries/math/FPUfastRTS/c28/lib" / FAST_RTS)
+
+
+class TargetBuild(unittest.TestCase):
+    def setUp(self):
+        directory = tempfile.TemporaryDirectory()
+        self.addCleanup(directory.cleanup)
+        self.top = pathlib.Path(directory.name)
+        self.build = self.top / "build"
+        self.log = self.top / "log"
+        self.environment = {k: v for k, v in os.environ.items() if not k.startswith("C2000")}
+
+    def cmake(self, *arguments, **variables):
+        return subprocess.run(["cmake", *map(str, arguments)], cwd=ROOT, text=True, check=False,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              env={**self.environment, "STAND_IN_LOG": str(self.log), **variables})
+
+    def configure(self, preset, *arguments, **variables):
+        return self.cmake("--preset", preset, "-B", self.build, *arguments, **variables)
+
+    def calls(self, tool):
+        calls = [json.loads(line) for line in self.log.read_text().splitlines()]
+        return [call[1:] for call in calls if call[0] == tool]
+
+    def build_image(self, preset, fast_rts=True, **variables):
+        make_compiler(self.top / "cgt")
+        make_headers(self.top / "ware", fast_rts)
+        done = self.configure(preset, f"-DC2000_CGT_ROOT={self.top / 'cgt'}",
+                              C2000WARE_ROOT=str(self.top / "ware"), **variables)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.log.write_text("")
+        done = self.cmake("--build", self.build, **variables)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        compiled = {}
+        for call in self.calls("cl2000"):
+            for argument in call:
+                if argument.startswith(("--c_file=", "--asm_file=")):
+                    compiled[pathlib.Path(argument).name] = call
+        links = [call for call in self.calls("cl2000") if "--run_linker" in call]
+        self.assertEqual(len(links), 1)
+        return compiled, links[0], done.stdout
+
+    def check_device_options(self, call):
+        for option in ("--abi=eabi", "--float_support=fpu32", "--silicon_version=28"):
+            self.assertIn(option, call)
+        self.assertEqual(sum(option.startswith("--abi") for option in call), 1)
+
+    def test_flash_image(self):
+        compiled, link, output = self.build_image("f28335-flash")
+        linker = ROOT / "linker"
+
+        for call in [*compiled.values(), link]:
+            self.check_device_options(call)
+        for directory in ("firmware/control", "firmware/board/f28335", "firmware/app"):
+            for source in (ROOT / directory).glob("*.c"):
+                self.assertIn(source.name, compiled)
+        for name, call in compiled.items():
+            if name.endswith(".c"):
+                for option in ("--float_operations_allowed=32", "--fp_single_precision_constant",
+                               "--gen_data_subsections=on", "-O2", "--c99"):
+                    self.assertIn(option, call, name)
+        before, after = link[: link.index("--run_linker")], link[link.index("--run_linker") :]
+        self.assertNotIn("--define=FAST_RTS", before)
+        for option in ("--define=FAST_RTS", "--stack_size=0x380", "--entry_point=code_start",
+                       "--rom_model", "--priority", "--diag_error=10247",
+                       str(linker / "f28335_flash.cmd"), str(linker / "f28335_registers.cmd")):
+            self.assertIn(option, after)
+        self.assertLess(after.index(f"--library={FAST_RTS}"),
+                        after.index("--library=rts2800_fpu32_eabi.lib"))
+        self.assertNotIn("--library=m", after)
+        self.assertTrue((self.build / "bin" / "sdre_f28335_flash.out").exists())
+        self.assertTrue((self.build / "bin" / "sdre_f28335_flash.hex").exists())
+        self.assertIn("--intel", self.calls("hex2000")[0])
+        self.assertIn("RAML012      6144 of 12288 words (50 %)", output)
+
+    def test_tick_and_flash_set_up_run_from_ram_and_the_way_there_does_not(self):
+        compiled, _, _ = self.build_image("f28335-flash")
+
+        in_ram = {name for name, call in compiled.items() if "--ramfunc=on" in call}
+        control = {source.name for source in (ROOT / "firmware" / "control").glob("*.c")}
+        self.assertEqual(in_ram, control | set(TICK))
+
+    def test_ram_image_without_fast_rts_and_with_an_older_compiler(self):
+        compiled, link, output = self.build_image("f28335-ram", fast_rts=False,
+                                                  STAND_IN_VERSION="00000020.00000002.00000000")
+
+        self.assertIn(str(ROOT / "linker" / "f28335_ram.cmd"), link)
+        self.assertNotIn("--define=FAST_RTS", link)
+        self.assertNotIn(f"--library={FAST_RTS}", link)
+        for name, call in compiled.items():
+            self.assertNotIn("--fp_single_precision_constant", call, name)
+
+    def test_missing_and_wrong_directories_are_one_line(self):
+        cgt, ware = self.top / "cgt", self.top / "ware"
+        make_compiler(cgt)
+        empty = self.top / "empty"
+        empty.mkdir()
+        cases = [
+            ([], "C2000_CGT_ROOT is not set"),
+            ([f"-DC2000_CGT_ROOT={empty}"], f"C2000_CGT_ROOT={empty} is not TI's C2000 compiler"),
+            ([f"-DC2000_CGT_ROOT={cgt}"], "C2000WARE_ROOT is not set"),
+            ([f"-DC2000_CGT_ROOT={cgt}", f"-DC2000WARE_ROOT={empty}"],
+             f"C2000WARE_ROOT={empty} is not C2000Ware"),
+        ]
+        for arguments, message in cases:
+            with self.subTest(message=message):
+                done = self.configure("f28335-flash", *arguments)
+                self.assertNotEqual(done.returncode, 0)
+                lines = [line.strip() for line in done.stdout.splitlines()]
+                self.assertEqual(sum(line.startswith(message) for line in lines), 1, done.stdout)
+                self.assertEqual(done.stdout.count("CMake Error"), 1, done.stdout)
+        make_headers(ware, fast_rts=False)  # the refused values are forgotten
+        done = self.configure("f28335-flash", f"-DC2000_CGT_ROOT={cgt}", f"-DC2000WARE_ROOT={ware}")
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+    def test_unknown_image_is_refused(self):
+        done = self.configure("f28335-flash", "-DSDRE_IMAGE=rom")
+
+        self.assertIn("SDRE_IMAGE=rom: expected flash or ram", done.stdout)
+        self.assertNotEqual(done.returncode, 0)
+
+    def test_board_check_without_headers_says_that_it_skipped(self):
+        self.assertEqual(self.configure("board-check").returncode, 0)
+        done = self.cmake("--build", self.build, "--target", "board_check")
+
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("board-check: skipped, C2000WARE_ROOT is not set", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
