@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: MIT */
+#include "app.h"
+
+#include "app_modbus.h"
+#include "app_modes.h"
+
+/* A copy takes less than a hundredth of a period: the second one succeeds unless ticks overrun. */
+#define STATUS_COPIES 3U
+
+#define CYCLES_SHOWN_MAX 65535UL
+
+/* Written by both sides; see app.h for who writes what. */
+static volatile struct {
+    uint16_t      background_count; /* background */
+    uint32_t      ticks;            /* tick, at its end */
+    bool          command_full;     /* background raises, tick lowers */
+    app_command_t command;          /* background, while command_full is false */
+    uint16_t      status_sequence;  /* tick */
+    app_status_t  status;           /* tick */
+} shared;
+
+/* Only the tick. */
+static struct {
+    app_modes_t   modes;
+    app_command_t command;
+    uint16_t      background_count;
+    uint16_t      background_age_ticks;
+    uint16_t      cycles_worst;
+} tick_side;
+
+/* Only the background. */
+static struct {
+    app_modbus_t    modbus;
+    app_registers_t registers;
+    app_status_t    status;
+    uint32_t        served_ticks;
+} background_side;
+
+static ctl_status_t init_tick_side(const app_config_t *config, const drive_config_t *drive)
+{
+    const app_command_t none = {.omega_e_radps = 0.0f, .run = false, .reset = false};
+
+    tick_side.command              = none;
+    tick_side.background_count     = 0U;
+    tick_side.background_age_ticks = 0U;
+    tick_side.cycles_worst         = 0U;
+    return app_modes_init(&tick_side.modes, config, drive);
+}
+
+ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
+{
+    const ctl_status_t modes = init_tick_side(config, drive);
+    const ctl_status_t modbus =
+        app_modbus_init(&background_side.modbus, config->modbus_address, config->modbus_gap_ticks,
+                        config->modbus_timeout_ticks);
+
+    app_registers_init(&background_side.registers, drive->trip_speed_e_radps);
+    background_side.status       = app_modes_status(&tick_side.modes, 0U);
+    background_side.served_ticks = 0UL;
+
+    shared.background_count = 0U;
+    shared.ticks            = 0UL;
+    shared.command_full     = false;
+    shared.command          = tick_side.command;
+    shared.status_sequence  = 0U;
+    shared.status           = background_side.status;
+    return ((modes == CTL_OK) && (modbus == CTL_OK)) ? CTL_OK : CTL_BAD_CONFIG;
+}
+
+static void take_command(void)
+{
+    tick_side.command.reset = false;
+    if (shared.command_full) {
+        tick_side.command   = shared.command;
+        shared.command_full = false;
+    }
+}
+
+static bool background_lost(void)
+{
+    const uint16_t count = shared.background_count;
+
+    if (count != tick_side.background_count) {
+        tick_side.background_count     = count;
+        tick_side.background_age_ticks = 0U;
+    } else if (tick_side.background_age_ticks <= tick_side.modes.config->background_ticks) {
+        tick_side.background_age_ticks = (uint16_t)(tick_side.background_age_ticks + 1U);
+    }
+    return tick_side.background_age_ticks > tick_side.modes.config->background_ticks;
+}
+
+/* Off before anything else; on after everything else. */
+static void drive_bridge(const app_modes_output_t *out, bool was_on)
+{
+    const board_duty_t duty = app_scale_duty(out->duty);
+
+    if (!out->gate_enable) {
+        board_gate_trip();
+    }
+    board_duty_write(&duty);
+    if (out->gate_enable && !was_on) {
+        board_gate_enable();
+    }
+}
+
+static void publish(uint16_t board_faults, uint32_t start_cycles)
+{
+    app_status_t   status = app_modes_status(&tick_side.modes, board_faults);
+    const uint32_t cycles = (uint32_t)(board_cycles() - start_cycles);
+
+    status.tick_cycles = (uint16_t)((cycles < CYCLES_SHOWN_MAX) ? cycles : CYCLES_SHOWN_MAX);
+    if (status.tick_cycles > tick_side.cycles_worst) {
+        tick_side.cycles_worst = status.tick_cycles;
+    }
+    status.tick_cycles_worst = tick_side.cycles_worst;
+
+    shared.status          = status;
+    shared.status_sequence = (uint16_t)(shared.status_sequence + 1U);
+    shared.ticks           = shared.ticks + 1UL;
+}
+
+void app_tick(void)
+{
+    const uint32_t start_cycles = board_cycles();
+
+    take_command();
+    const app_modes_input_t  in     = {.raw             = board_sample_read(),
+                                       .board_faults    = board_fault_read(),
+                                       .background_lost = background_lost(),
+                                       .command         = tick_side.command};
+    const bool               was_on = tick_side.modes.gate_on;
+    const app_modes_output_t out    = app_modes_tick(&tick_side.modes, &in);
+    drive_bridge(&out, was_on);
+    publish(in.board_faults, start_cycles);
+}
+
+static void serve_watchdog(uint32_t now_ticks)
+{
+    if (now_ticks != background_side.served_ticks) {
+        background_side.served_ticks = now_ticks;
+        board_watchdog_serve();
+    }
+}
+
+void app_background(void)
+{
+    app_registers_t *r         = &background_side.registers;
+    const uint32_t   now_ticks = shared.ticks;
+
+    shared.background_count = (uint16_t)(shared.background_count + 1U);
+    serve_watchdog(now_ticks);
+
+    r->status = app_status_read();
+    app_modbus_poll(&background_side.modbus, r, now_ticks);
+    if (r->changed && app_command_write(&r->command)) {
+        r->changed       = false;
+        r->command.reset = false;
+    }
+}
+
+bool app_command_write(const app_command_t *command)
+{
+    if (shared.command_full) {
+        return false;
+    }
+    shared.command      = *command;
+    shared.command_full = true;
+    return true;
+}
+
+app_status_t app_status_read(void)
+{
+    for (uint16_t copies = 0U; copies < STATUS_COPIES; copies++) {
+        const uint16_t     before = shared.status_sequence;
+        const app_status_t copy   = shared.status;
+        if (before == shared.status_sequence) {
+            background_side.status = copy;
+            break;
+        }
+    }
+    return background_side.status;
+}
+
+const drive_t *app_drive(void)
+{
+    return &tick_side.modes.drive;
+}

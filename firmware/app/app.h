@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file app.h
+ * @brief The drive application on a board: what runs in the control ISR and what runs behind it.
+ *
+ * The tick owns everything that drives the bridge; the background owns the serial line, the registers and the
+ * watchdog. They share, in one place (app.c), without masking interrupts:
+ *
+ * | what | writer | how it stays whole |
+ * |---|---|---|
+ * | life sign of the background, tick count | one side each | one aligned access, which the C28x does not split |
+ * | command | background | written only while its flag is down, then raised; the tick takes it and lowers the flag |
+ * | status | tick | a sequence number moves with every write; the background copies again when it moved |
+ *
+ * The tick interrupts the background, never the other way round.
+ *
+ * Watchdog, both ways: the background serves it only when a tick has ended since it did so last; a tick trips
+ * when the background has given no sign for config->background_ticks.
+ */
+#ifndef APP_H
+#define APP_H
+
+#include "app_config.h"
+#include "app_status.h"
+
+/**
+ * @brief Everything to its start; the bridge stays off.
+ *
+ * @param config Board constants, must stay.
+ * @param drive  Drive constants, must stay.
+ * @return CTL_BAD_CONFIG: the application runs and answers, but stays in APP_MODE_FAULT.
+ *
+ * Context: init, before board_start().
+ */
+ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive);
+
+/** One control period. Context: control ISR. */
+void app_tick(void);
+
+/** One pass of the background; to be called for ever. Context: background. */
+void app_background(void);
+
+/**
+ * @brief Give a command; it acts from the next tick on.
+ * @return false: the command before has not been taken yet, try again after a tick.
+ *
+ * Context: background.
+ */
+bool app_command_write(const app_command_t *command);
+
+/** The status of the last tick that could be copied whole. Context: background. */
+app_status_t app_status_read(void);
+
+/** The drive, for tracing; consistent only where no tick can interrupt. */
+const drive_t *app_drive(void);
+
+#endif /* APP_H */

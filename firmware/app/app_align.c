@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: MIT */
+#include "app_align.h"
+
+#include "board_limits.h"
+#include "dead_time.h"
+#include "frames.h"
+#include "svpwm.h"
+
+static const app_align_output_t open_bridge = {.duty = {0.5f, 0.5f, 0.5f}, .gate_enable = false};
+
+ctl_status_t app_align_init(app_align_t *a, const app_align_config_t *c, uint16_t pole_pairs,
+                            const drive_config_t *drive)
+{
+    const float current_max_A = drive->current_ref.current_max_A;
+    const bool  times_ok = (c->watch_ticks > 0U) && (c->ramp_ticks > 0U) && (c->sweep_ticks > 0U) &&
+                          (c->still_ticks > 0U) && (c->settle_ticks > c->still_ticks);
+    const bool ok = times_ok && (pole_pairs > 0U) &&
+                    base_in_range(c->current_A, 1.0e-3f, 0.5f * current_max_A) &&
+                    base_in_range(c->bandwidth_radps * drive->ts_s, 1.0e-4f, 0.1f);
+    const float rs_Ohm = drive->motor.l7 * drive->motor.inv_l8;
+
+    a->config          = c;
+    a->drive           = drive;
+    a->kp_VpA          = c->bandwidth_radps * drive->motor.inv_l8;
+    a->ki_VpA          = c->bandwidth_radps * rs_Ohm * drive->ts_s;
+    a->v_max_V         = 2.0f * rs_Ohm * c->current_A;
+    a->current_max2_A2 = current_max_A * current_max_A;
+
+    a->current_per_tick_A = ok ? (c->current_A / (float)c->ramp_ticks) : 0.0f;
+    a->angle_per_tick_rad = ok ? (BASE_PI / (float)c->sweep_ticks) : 0.0f;
+    a->quarter_cnt        = (int16_t)(ok ? (BOARD_POSITIONS / (4U * pole_pairs)) : 0U);
+    app_align_start(a, 0U);
+    return ok ? CTL_OK : CTL_BAD_CONFIG;
+}
+
+static void enter(app_align_t *a, app_align_stage_t stage, uint16_t position_cnt)
+{
+    a->stage       = stage;
+    a->timer_ticks = 0U;
+    a->marked_cnt  = position_cnt;
+}
+
+void app_align_start(app_align_t *a, uint16_t position_cnt)
+{
+    enter(a, APP_ALIGN_WATCH, position_cnt);
+    a->integral_V = 0.0f;
+    a->middle_cnt = position_cnt;
+}
+
+static bool within(int16_t x, uint16_t limit)
+{
+    const int32_t most = (int32_t)limit;
+    return ((int32_t)x <= most) && ((int32_t)x >= -most);
+}
+
+static bool stands(const app_align_t *a, uint16_t position_cnt)
+{
+    return within(app_angle_turned_cnt(a->marked_cnt, position_cnt), a->config->still_cnt);
+}
+
+static bool turned_a_quarter(const app_align_t *a, uint16_t position_cnt)
+{
+    const int16_t turned_cnt = app_angle_turned_cnt(a->middle_cnt, position_cnt);
+    return within((int16_t)(turned_cnt - a->quarter_cnt), a->config->quarter_error_cnt);
+}
+
+static void watch(app_align_t *a, uint16_t position_cnt)
+{
+    if (!stands(a, position_cnt)) {
+        a->stage = APP_ALIGN_FAILED;
+    } else if (a->timer_ticks >= a->config->watch_ticks) {
+        enter(a, APP_ALIGN_RAMP, position_cnt);
+    }
+}
+
+static void sweep(app_align_t *a, uint16_t position_cnt)
+{
+    if (a->timer_ticks == (a->config->sweep_ticks / 2U)) {
+        a->middle_cnt = position_cnt;
+    }
+    if (a->timer_ticks >= a->config->sweep_ticks) {
+        enter(a, APP_ALIGN_SETTLE, position_cnt);
+    }
+}
+
+static void settle(app_align_t *a, uint16_t position_cnt)
+{
+    const uint16_t rest_from = (uint16_t)(a->config->settle_ticks - a->config->still_ticks);
+
+    if (a->timer_ticks <= rest_from) {
+        a->marked_cnt = position_cnt;
+    } else if (!stands(a, position_cnt)) {
+        a->stage = APP_ALIGN_FAILED;
+    } else if (a->timer_ticks >= a->config->settle_ticks) {
+        a->stage = turned_a_quarter(a, position_cnt) ? APP_ALIGN_DONE : APP_ALIGN_FAILED;
+    }
+}
+
+static void advance(app_align_t *a, uint16_t position_cnt)
+{
+    a->timer_ticks = (uint16_t)(a->timer_ticks + 1U);
+    switch (a->stage) {
+    case APP_ALIGN_WATCH:
+        watch(a, position_cnt);
+        break;
+    case APP_ALIGN_RAMP:
+        if (a->timer_ticks >= a->config->ramp_ticks) {
+            enter(a, APP_ALIGN_SWEEP, position_cnt);
+        }
+        break;
+    case APP_ALIGN_SWEEP:
+        sweep(a, position_cnt);
+        break;
+    case APP_ALIGN_SETTLE:
+        settle(a, position_cnt);
+        break;
+    case APP_ALIGN_DONE:
+    case APP_ALIGN_FAILED:
+    default:
+        break;
+    }
+}
+
+static float vector_angle_rad(const app_align_t *a)
+{
+    if (a->stage == APP_ALIGN_RAMP) {
+        return -BASE_PI;
+    }
+    return (a->stage == APP_ALIGN_SWEEP)
+               ? (-BASE_PI + (a->angle_per_tick_rad * (float)a->timer_ticks))
+               : 0.0f;
+}
+
+static abc_t drive_current(app_align_t *a, dq_t i_A, frames_angle_t angle, float dc_link_V)
+{
+    const float ref_A   = (a->stage == APP_ALIGN_RAMP)
+                              ? (a->current_per_tick_A * (float)a->timer_ticks)
+                              : a->config->current_A;
+    const float error_A = ref_A - i_A.d;
+
+    a->integral_V = /* EQ-APP-ALIGN-1 */
+        base_clamp(a->integral_V + (a->ki_VpA * error_A), -a->v_max_V, a->v_max_V);
+    const dq_t v_V = {
+        .d = base_clamp((a->kp_VpA * error_A) + a->integral_V, -a->v_max_V, a->v_max_V),
+        .q = base_clamp(-a->kp_VpA * i_A.q, -a->v_max_V, a->v_max_V)};
+    const dq_t  wanted_A = {.d = ref_A, .q = 0.0f};
+    const abc_t phases_A = frames_inverse_clarke(frames_inverse_park(wanted_A, angle));
+    return dead_time_compensate(&a->drive->dead_time,
+                                svpwm_duty(frames_inverse_park(v_V, angle), dc_link_V), phases_A);
+}
+
+app_align_output_t app_align_tick(app_align_t *a, float ia_A, float ib_A, float dc_link_V,
+                                  uint16_t position_cnt)
+{
+    advance(a, position_cnt);
+
+    const frames_angle_t angle = frames_angle(vector_angle_rad(a));
+    const dq_t           i_A   = frames_park(frames_clarke(ia_A, ib_A), angle);
+    if (!base_in_range((i_A.d * i_A.d) + (i_A.q * i_A.q), 0.0f, a->current_max2_A2)) {
+        a->stage = APP_ALIGN_FAILED;
+    }
+    if ((a->stage == APP_ALIGN_WATCH) || (a->stage == APP_ALIGN_FAILED)) {
+        return open_bridge;
+    }
+    const app_align_output_t out = {.duty        = drive_current(a, i_A, angle, dc_link_V),
+                                    .gate_enable = true};
+    return out;
+}

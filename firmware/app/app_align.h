@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file app_align.h
+ * @brief Finds the electrical angle without an index: pulls the rotor's d axis to phase a with a current vector.
+ *
+ *     watch    bridge off, the shaft must stand
+ *     ramp     current vector at -180 degrees, length 0 -> I
+ *     sweep    vector turns from -180 to 0 degrees; it takes a rotor along that stood at the dead point opposite
+ *     settle   vector at 0; the shaft must come to rest
+ *
+ * From the middle of the sweep to the rest the rotor must have turned a quarter of an electrical turn forward: that
+ * proves phase order, direction and pole pairs.
+ *
+ *     v_along = k_p (I - i_along) + integral of k_i (I - i_along),  v_cross = -k_p i_cross    EQ-APP-ALIGN-1
+ *     k_p = w_c L_d,  k_i = w_c R_s,  each within +-2 R_s I
+ *
+ * Across the vector there is no integral: the winding then looks like a resistance of R_s + k_p, which brakes the
+ * swinging rotor. With an ideal current source it would be friction alone, which takes seconds.
+ *
+ * Load: the rotor holds against 1.5 n_p (flux I - (L_q - L_d) I^2) N m per electrical radian near the vector. A load
+ * or friction torque T turns it away by T over that, and the angle is wrong by as much.
+ */
+#ifndef APP_ALIGN_H
+#define APP_ALIGN_H
+
+#include "app_angle.h"
+#include "drive_config.h"
+
+typedef struct {
+    float    current_A;       /**< I, > 0, at most half of the drive's current limit */
+    float    bandwidth_radps; /**< w_c, > 0, far below the sampling rate */
+    uint16_t watch_ticks;     /**< > 0, like all of the times */
+    uint16_t ramp_ticks;
+    uint16_t sweep_ticks;
+    uint16_t settle_ticks;      /**< the vector stands; longer than still_ticks */
+    uint16_t still_ticks;       /**< end of settle in which the shaft must rest */
+    uint16_t still_cnt;         /**< counts of movement that are rest */
+    uint16_t quarter_error_cnt; /**< accepted error of the quarter turn */
+} app_align_config_t;
+
+typedef enum {
+    APP_ALIGN_WATCH = 0,
+    APP_ALIGN_RAMP,
+    APP_ALIGN_SWEEP,
+    APP_ALIGN_SETTLE,
+    APP_ALIGN_DONE, /**< the d axis stands at phase a */
+    APP_ALIGN_FAILED /**< the shaft turned, did not come to rest or went the wrong way, or too much current */
+} app_align_stage_t;
+
+typedef struct {
+    const app_align_config_t *config;
+    const drive_config_t     *drive;
+    float                     kp_VpA;
+    float                     ki_VpA; /**< k_i times the period */
+    float                     v_max_V;
+    float                     current_max2_A2;
+    float                     current_per_tick_A;
+    float                     angle_per_tick_rad;
+    int16_t                   quarter_cnt;
+    app_align_stage_t         stage;
+    uint16_t                  timer_ticks; /**< since the stage began */
+    float                     integral_V;
+    uint16_t                  marked_cnt; /**< position to compare with */
+    uint16_t                  middle_cnt; /**< position in the middle of the sweep */
+} app_align_t;
+
+typedef struct {
+    abc_t duty;
+    bool  gate_enable;
+} app_align_output_t;
+
+/** @return CTL_BAD_CONFIG, a unusable, when a constant is out of range. Context: init. */
+ctl_status_t app_align_init(app_align_t *a, const app_align_config_t *config, uint16_t pole_pairs,
+                            const drive_config_t *drive);
+
+/** Begin at the first stage. Context: control ISR. */
+void app_align_start(app_align_t *a, uint16_t position_cnt);
+
+/**
+ * @brief One period; a->stage says how it stands. The bridge is open in WATCH and FAILED.
+ *
+ * The caller checks currents and dc link against the drive's trip levels; here the current limit is watched.
+ *
+ * Context: control ISR. One sine, one cosine, one division (modulator).
+ */
+app_align_output_t app_align_tick(app_align_t *a, float ia_A, float ib_A, float dc_link_V,
+                                  uint16_t position_cnt);
+
+#endif /* APP_ALIGN_H */

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file app_modbus.h
+ * @brief Modbus RTU server on the board's serial line: functions 3, 4, 6 and 16, broadcast writes.
+ *
+ * A frame ends by silence, measured in control ticks. Every other character time is not checked: the line is polled.
+ * The line must not echo what is sent.
+ *
+ * Not answered: a wrong CRC, another address, a broadcast, a length that does not fit the function.
+ * Exceptions: 1 function, 2 address, 3 value or quantity.
+ */
+#ifndef APP_MODBUS_H
+#define APP_MODBUS_H
+
+#include "app_registers.h"
+
+#define APP_MODBUS_FRAME_MAX 256U /**< octets, by the protocol */
+
+typedef struct {
+    uint16_t address;       /**< own, 1 .. 247 */
+    uint16_t gap_ticks;     /**< silence that ends a frame */
+    uint16_t timeout_ticks; /**< without a request for longer, run is withdrawn */
+    uint16_t rx_octets[APP_MODBUS_FRAME_MAX];
+    uint16_t rx_count;
+    bool     rx_spoilt; /**< longer than any frame, or came while answering */
+    uint16_t tx_octets[APP_MODBUS_FRAME_MAX];
+    uint16_t tx_count;
+    uint16_t tx_sent;
+    uint32_t heard_ticks;   /**< last octet */
+    uint32_t request_ticks; /**< last request for this server */
+} app_modbus_t;
+
+/** @return CTL_BAD_CONFIG when an argument is out of range. Context: init. */
+ctl_status_t app_modbus_init(app_modbus_t *m, uint16_t address, uint16_t gap_ticks,
+                             uint16_t timeout_ticks);
+
+/**
+ * @brief Receive, answer, send; to be called again and again.
+ *
+ * At most 16 octets are taken and one request is answered per call.
+ *
+ * @param r         Registers to read and write.
+ * @param now_ticks Control ticks, wraps.
+ *
+ * Context: background.
+ */
+void app_modbus_poll(app_modbus_t *m, app_registers_t *r, uint32_t now_ticks);
+
+/** CRC of `count` octets; its low octet is sent first. */
+uint16_t app_modbus_crc(const uint16_t *octets, uint16_t count);
+
+#endif /* APP_MODBUS_H */

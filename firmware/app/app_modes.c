@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: MIT */
+#include "app_modes.h"
+
+/* Two statements of the same number, both in single precision. */
+#define SAME_RATIO 1.0e-4f
+
+static const app_modes_output_t open_bridge = {.duty = {0.5f, 0.5f, 0.5f}, .gate_enable = false};
+
+static bool same(float x, float y)
+{
+    return base_in_range(x, y * (1.0f - SAME_RATIO), y * (1.0f + SAME_RATIO));
+}
+
+/* l1 = 1.5 n_p^2 flux / J, l3 = n_p / J, l5 / l6 = flux (EQ-MOTOR-1), so n_p = l1 l6 / (1.5 l3 l5). */
+static bool drive_fits(const app_config_t *c, const drive_config_t *d)
+{
+    const motor_reduced_t *l = &d->motor;
+    return same(d->ts_s, c->ts_s) &&
+           same(l->l1 * l->l6, (float)c->angle.pole_pairs * 1.5f * l->l3 * l->l5);
+}
+
+static bool values_ok(const app_config_t *c)
+{
+    return base_in_range(c->temperature_trip_degC, -100.0f, 300.0f) &&
+           base_in_range(c->temperature_limit_degC, -100.0f, c->temperature_trip_degC) &&
+           (c->calibrate_ticks > 0U) && (c->background_ticks > 0U);
+}
+
+static void clear_snapshot(app_snapshot_t *s)
+{
+    const app_snapshot_t none = {.fault = APP_FAULT_NONE, .mode = APP_MODE_BOOT};
+    *s                        = none;
+}
+
+ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *c, const drive_config_t *d)
+{
+    const bool drive_ok = drive_init(&m->drive, d) == CTL_OK;
+    const bool scale_ok = app_scale_init(&m->scale, &c->scale, d->trip_current_A) == CTL_OK;
+    const bool angle_ok = app_angle_init(&m->angle, &c->angle, d->ts_s) == CTL_OK;
+    const bool align_ok = app_align_init(&m->align, &c->align, c->angle.pole_pairs, d) == CTL_OK;
+    const bool ok =
+        drive_ok && scale_ok && angle_ok && align_ok && drive_fits(c, d) && values_ok(c);
+    const app_scale_sample_t  no_sample  = {.valid = false};
+    const app_angle_reading_t no_reading = {.speed_valid = false};
+
+    m->config      = c;
+    m->mode        = ok ? APP_MODE_BOOT : APP_MODE_FAULT;
+    m->fault       = ok ? APP_FAULT_NONE : APP_FAULT_CONFIG;
+    m->sample      = no_sample;
+    m->reading     = no_reading;
+    m->ticks       = 0UL;
+    m->sum_a_cnt   = 0UL;
+    m->sum_b_cnt   = 0UL;
+    m->timer_ticks = 0U;
+    m->calibrated  = false;
+    m->armed       = false;
+    m->hot         = true;
+    m->gate_on     = false;
+    clear_snapshot(&m->snapshot);
+    m->snapshot.fault = m->fault;
+    return ok ? CTL_OK : CTL_BAD_CONFIG;
+}
+
+static void enter(app_modes_t *m, app_mode_t mode)
+{
+    m->mode        = mode;
+    m->timer_ticks = 0U;
+    m->sum_a_cnt   = 0UL;
+    m->sum_b_cnt   = 0UL;
+    m->armed       = false;
+}
+
+/* SI units and angle of this tick. After an invalid sample the count cannot be trusted any more. */
+static void measure(app_modes_t *m, const board_sample_t *raw)
+{
+    m->sample = app_scale_sample(&m->scale, raw);
+    if (m->sample.valid) {
+        m->reading =
+            app_angle_update(&m->angle, raw->position_cnt, raw->index_seen, raw->index_cnt);
+        m->hot = !m->sample.temperature_valid ||
+                 !(m->sample.temperature_degC <= m->config->temperature_limit_degC);
+    } else {
+        app_angle_drop(&m->angle);
+        m->reading.speed_valid = false;
+        m->reading.index_fault = false;
+    }
+}
+
+static drive_sample_t drive_sample(const app_modes_t *m)
+{
+    const drive_sample_t s = {.ia_A          = m->sample.ia_A,
+                              .ib_A          = m->sample.ib_A,
+                              .dc_link_V     = m->sample.dc_link_V,
+                              .theta_e_rad   = m->reading.theta_e_rad,
+                              .omega_e_radps = m->reading.omega_e_radps,
+                              .valid         = m->sample.valid && m->reading.speed_valid};
+    return s;
+}
+
+/* What would be wrong in any mode, then what matters as soon as samples are used, then what needs the bridge. */
+static app_fault_t watch(const app_modes_t *m, const app_modes_input_t *in)
+{
+    const bool driving = (m->mode == APP_MODE_ALIGN) || (m->mode == APP_MODE_RUN);
+
+    if (in->background_lost) {
+        return APP_FAULT_BACKGROUND;
+    }
+    if (m->gate_on && (in->board_faults != (uint16_t)BOARD_FAULT_NONE)) {
+        return APP_FAULT_BOARD;
+    }
+    if (m->reading.index_fault) {
+        return APP_FAULT_INDEX;
+    }
+    if ((driving || (m->mode == APP_MODE_CALIBRATE)) && !m->sample.valid) {
+        return APP_FAULT_SAMPLE;
+    }
+    if (driving && !m->sample.temperature_valid) {
+        return APP_FAULT_TEMPERATURE_SENSOR;
+    }
+    if (driving && !(m->sample.temperature_degC <= m->config->temperature_trip_degC)) {
+        return APP_FAULT_TEMPERATURE;
+    }
+    return APP_FAULT_NONE;
+}
+
+static app_modes_output_t trip(app_modes_t *m, const app_modes_input_t *in, app_fault_t fault)
+{
+    const app_snapshot_t snapshot = {.fault          = fault,
+                                     .mode           = m->mode,
+                                     .drive_fault    = m->drive.fault,
+                                     .board_faults   = in->board_faults,
+                                     .raw            = in->raw,
+                                     .speed_e_radps  = m->reading.omega_e_radps,
+                                     .wanted_e_radps = in->command.omega_e_radps,
+                                     .ticks          = m->ticks};
+    const bool           encoder  = ((in->board_faults & (uint16_t)BOARD_FAULT_ENCODER) != 0U) ||
+                         (m->drive.fault == DRIVE_FAULT_ENCODER);
+
+    if (encoder) {
+        app_angle_drop(&m->angle);
+    }
+    m->snapshot = snapshot;
+    m->fault    = fault;
+    enter(m, APP_MODE_FAULT);
+    return open_bridge;
+}
+
+static app_modes_output_t boot(app_modes_t *m)
+{
+    m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
+    if (m->timer_ticks >= m->config->boot_ticks) {
+        enter(m, APP_MODE_CALIBRATE);
+    }
+    return open_bridge;
+}
+
+static app_modes_output_t calibrate(app_modes_t *m, const app_modes_input_t *in)
+{
+    m->sum_a_cnt += in->raw.ia_cnt;
+    m->sum_b_cnt += in->raw.ib_cnt;
+    m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
+    if (m->timer_ticks < m->config->calibrate_ticks) {
+        return open_bridge;
+    }
+    if (!app_scale_set_zero(&m->scale, m->sum_a_cnt, m->sum_b_cnt, m->timer_ticks)) {
+        return trip(m, in, APP_FAULT_OFFSET);
+    }
+    m->calibrated = true;
+    enter(m, APP_MODE_READY);
+    return open_bridge;
+}
+
+/* The bridge stays open in this tick: the next one looks at everything again in the new mode. */
+static app_modes_output_t ready(app_modes_t *m, const app_modes_input_t *in)
+{
+    if (!in->command.run) {
+        m->armed = true;
+        return open_bridge;
+    }
+    const bool start = m->armed && !(m->hot && m->sample.temperature_valid);
+    m->armed         = false; /* a refused start is not made up for later */
+    if (start && (m->angle.reference != APP_ANGLE_NONE)) {
+        enter(m, APP_MODE_RUN);
+    } else if (start) {
+        app_align_start(&m->align, in->raw.position_cnt);
+        enter(m, APP_MODE_ALIGN);
+    }
+    return open_bridge;
+}
+
+static drive_output_t drive(app_modes_t *m, const app_command_t *wanted, bool run)
+{
+    const drive_sample_t  sample  = drive_sample(m);
+    const drive_command_t command = {.omega_e_radps = wanted->omega_e_radps, .run = run};
+    return drive_tick(&m->drive, &sample, &command);
+}
+
+static app_modes_output_t run(app_modes_t *m, const app_modes_input_t *in)
+{
+    const drive_output_t     got = drive(m, &in->command, in->command.run);
+    const app_modes_output_t out = {.duty = got.duty, .gate_enable = got.gate_enable};
+
+    if (m->drive.state == DRIVE_FAULT) {
+        return trip(m, in, APP_FAULT_DRIVE);
+    }
+    if (!in->command.run) {
+        enter(m, APP_MODE_READY);
+    }
+    return out;
+}
+
+/* The drive itself stays off: it only checks samples and command against its limits. */
+static app_modes_output_t align(app_modes_t *m, const app_modes_input_t *in)
+{
+    if (!in->command.run) {
+        enter(m, APP_MODE_READY);
+        return open_bridge;
+    }
+    (void)drive(m, &in->command, false);
+    if (m->drive.state == DRIVE_FAULT) {
+        return trip(m, in, APP_FAULT_DRIVE);
+    }
+    if (m->angle.reference == APP_ANGLE_INDEX) { /* the mark came by: better than alignment */
+        enter(m, APP_MODE_RUN);
+        return run(m, in);
+    }
+    const app_align_output_t got = app_align_tick(&m->align, m->sample.ia_A, m->sample.ib_A,
+                                                  m->sample.dc_link_V, in->raw.position_cnt);
+    const app_modes_output_t out = {.duty = got.duty, .gate_enable = got.gate_enable};
+    if (m->align.stage == APP_ALIGN_FAILED) {
+        return trip(m, in, APP_FAULT_ALIGN);
+    }
+    if (m->align.stage == APP_ALIGN_DONE) {
+        app_angle_align(&m->angle, in->raw.position_cnt);
+        enter(m, APP_MODE_RUN);
+    }
+    return out;
+}
+
+static void leave_fault(app_modes_t *m)
+{
+    m->fault = APP_FAULT_NONE;
+    drive_reset(&m->drive);
+    enter(m, m->calibrated ? APP_MODE_READY : APP_MODE_BOOT);
+}
+
+static app_modes_output_t act(app_modes_t *m, const app_modes_input_t *in)
+{
+    switch (m->mode) {
+    case APP_MODE_BOOT:
+        return boot(m);
+    case APP_MODE_CALIBRATE:
+        return calibrate(m, in);
+    case APP_MODE_READY:
+        return ready(m, in);
+    case APP_MODE_ALIGN:
+        return align(m, in);
+    case APP_MODE_RUN:
+        return run(m, in);
+    case APP_MODE_FAULT:
+    default:
+        break;
+    }
+    if (in->command.reset && !in->command.run && (m->fault != APP_FAULT_CONFIG)) {
+        leave_fault(m);
+    }
+    return open_bridge;
+}
+
+app_modes_output_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in)
+{
+    if (m->fault == APP_FAULT_CONFIG) {
+        return open_bridge;
+    }
+    m->ticks++;
+    measure(m, &in->raw);
+
+    const app_fault_t        fault = (m->mode == APP_MODE_FAULT) ? APP_FAULT_NONE : watch(m, in);
+    const app_modes_output_t out   = (fault == APP_FAULT_NONE) ? act(m, in) : trip(m, in, fault);
+    m->gate_on                     = out.gate_enable;
+    return out;
+}
+
+app_status_t app_modes_status(const app_modes_t *m, uint16_t board_faults)
+{
+    const bool   running = m->mode == APP_MODE_RUN;
+    const dq_t   zero    = {0.0f, 0.0f};
+    const dq_t   now_A   = {.d = m->drive.now.id_A, .q = m->drive.now.iq_A};
+    app_status_t s       = {.mode              = m->mode,
+                            .fault             = m->fault,
+                            .drive_fault       = m->drive.fault,
+                            .board_faults      = board_faults,
+                            .hot               = m->hot,
+                            .gate_enable       = m->gate_on,
+                            .reference         = m->angle.reference,
+                            .align_stage       = m->align.stage,
+                            .position_cnt      = m->angle.before_cnt,
+                            .index_corrections = m->angle.corrections,
+                            .theta_e_rad       = m->reading.theta_e_rad,
+                            .speed_e_radps =
+                          running ? m->drive.now.omega_e_radps : m->reading.omega_e_radps,
+                            .dc_link_V         = m->sample.dc_link_V,
+                            .temperature_degC  = m->sample.temperature_degC,
+                            .i_A               = running ? now_A : zero,
+                            .i_ref_A           = running ? m->drive.current_ref.i_A : zero,
+                            .v_V               = running ? m->drive.v_V : zero,
+                            .zero_a_cnt        = m->scale.zero_a_cnt,
+                            .zero_b_cnt        = m->scale.zero_b_cnt,
+                            .tick_cycles       = 0U,
+                            .tick_cycles_worst = 0U,
+                            .ticks             = m->ticks,
+                            .snapshot          = m->snapshot};
+    return s;
+}

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file app_modes.h
+ * @brief The application's state machine: one period from raw samples to duty ratios and a gate request.
+ *
+ *     BOOT -> CALIBRATE -> READY -> (ALIGN, unless the angle is referenced) -> RUN
+ *
+ * Anything wrong in a mode that uses it leads to FAULT in the same call, with the bridge open. FAULT ends by a reset
+ * command without run. A run starts when run rises in READY, never by itself.
+ *
+ * The board's fault flags count while the gates are enabled: enabling is what clears them.
+ * Hardware is not touched here: app.c does what the output says.
+ */
+#ifndef APP_MODES_H
+#define APP_MODES_H
+
+#include "app_config.h"
+#include "app_status.h"
+
+typedef struct {
+    board_sample_t raw;
+    uint16_t       board_faults;
+    bool           background_lost; /**< the background has not run for too long */
+    app_command_t  command;         /**< reset is true for one tick only */
+} app_modes_input_t;
+
+typedef struct {
+    abc_t duty;
+    bool  gate_enable;
+} app_modes_output_t;
+
+typedef struct {
+    const app_config_t *config;
+    app_mode_t          mode;
+    app_fault_t         fault;
+    drive_t             drive;
+    app_scale_t         scale;
+    app_angle_t         angle;
+    app_align_t         align;
+    app_scale_sample_t  sample;
+    app_angle_reading_t reading;
+    uint32_t            ticks;
+    uint32_t            sum_a_cnt;
+    uint32_t            sum_b_cnt;
+    uint16_t            timer_ticks; /**< BOOT, CALIBRATE: since the mode began */
+    bool                calibrated;
+    bool                armed;   /**< READY has seen run = false */
+    bool                hot;     /**< above the temperature limit, or temperature unknown */
+    bool                gate_on; /**< gates were enabled by an earlier tick */
+    app_snapshot_t      snapshot;
+} app_modes_t;
+
+/**
+ * @return CTL_BAD_CONFIG when a constant of config or drive is out of range, or the two disagree about the control
+ *         period or the pole pairs; m is then in FAULT for good.
+ *
+ * Context: init.
+ */
+ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *config,
+                            const drive_config_t *drive);
+
+/** Context: control ISR. Bounded: drive_tick() or app_align_tick() and about as much again. */
+app_modes_output_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in);
+
+/** Everything but the cycle counts. Context: control ISR, after app_modes_tick(). */
+app_status_t app_modes_status(const app_modes_t *m, uint16_t board_faults);
+
+#endif /* APP_MODES_H */

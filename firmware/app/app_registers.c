@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: MIT */
+#include "app_registers.h"
+
+#define TENTHS      10.0f
+#define THOUSANDTHS 1000.0f
+
+static uint16_t signed_value(float x, float per_unit)
+{
+    const float scaled = base_clamp(x * per_unit, -32768.0f, 32767.0f);
+    return (uint16_t)(int16_t)(scaled + ((scaled < 0.0f) ? -0.5f : 0.5f));
+}
+
+static uint16_t unsigned_value(float x, float per_unit)
+{
+    return (uint16_t)(base_clamp(x * per_unit, 0.0f, 65535.0f) + 0.5f);
+}
+
+static uint16_t high_word(uint32_t x)
+{
+    return (uint16_t)(x >> 16);
+}
+
+static uint16_t low_word(uint32_t x)
+{
+    return (uint16_t)(x & 0xFFFFUL);
+}
+
+/* The operator's integer back to SI; two's complement without relying on the conversion. */
+static float speed_of(uint16_t value)
+{
+    const int32_t tenths = (value < 0x8000U) ? (int32_t)value : ((int32_t)value - 65536L);
+    return (float)tenths / TENTHS;
+}
+
+void app_registers_init(app_registers_t *r, float speed_max_e_radps)
+{
+    const app_status_t  status  = {.mode = APP_MODE_BOOT};
+    const app_command_t command = {.omega_e_radps = 0.0f, .run = false, .reset = false};
+
+    r->status            = status;
+    r->command           = command;
+    r->speed_max_e_radps = speed_max_e_radps;
+    r->changed           = false;
+    r->silent            = false;
+}
+
+static void holding_values(const app_registers_t *r, uint16_t all[APP_REGISTERS_HOLDING_COUNT])
+{
+    all[APP_REGISTERS_RUN]   = r->command.run ? 1U : 0U;
+    all[APP_REGISTERS_RESET] = 0U;
+    all[APP_REGISTERS_SPEED] = signed_value(r->command.omega_e_radps, TENTHS);
+}
+
+static uint16_t conditions(const app_registers_t *r)
+{
+    const uint16_t hot    = r->status.hot ? (uint16_t)APP_REGISTERS_HOT : 0U;
+    const uint16_t silent = r->silent ? (uint16_t)APP_REGISTERS_SILENT : 0U;
+    const uint16_t gate   = r->status.gate_enable ? (uint16_t)APP_REGISTERS_GATE : 0U;
+    return (uint16_t)(hot | silent | gate);
+}
+
+static void state_values(const app_registers_t *r, uint16_t all[APP_REGISTERS_INPUT_COUNT])
+{
+    const app_status_t *s = &r->status;
+
+    all[APP_REGISTERS_MODE]         = (uint16_t)s->mode;
+    all[APP_REGISTERS_FAULT]        = (uint16_t)s->fault;
+    all[APP_REGISTERS_DRIVE_FAULT]  = (uint16_t)s->drive_fault;
+    all[APP_REGISTERS_BOARD_FAULTS] = s->board_faults;
+    all[APP_REGISTERS_CONDITIONS]   = conditions(r);
+    all[APP_REGISTERS_REFERENCE]    = (uint16_t)s->reference;
+    all[APP_REGISTERS_ALIGN_STAGE]  = (uint16_t)s->align_stage;
+    all[APP_REGISTERS_POSITION]     = s->position_cnt;
+    all[APP_REGISTERS_CORRECTIONS]  = s->index_corrections;
+    all[APP_REGISTERS_CYCLES]       = s->tick_cycles;
+    all[APP_REGISTERS_CYCLES_WORST] = s->tick_cycles_worst;
+    all[APP_REGISTERS_TICKS_HI]     = high_word(s->ticks);
+    all[APP_REGISTERS_TICKS_LO]     = low_word(s->ticks);
+}
+
+static void measured_values(const app_status_t *s, uint16_t all[APP_REGISTERS_INPUT_COUNT])
+{
+    all[APP_REGISTERS_SPEED_NOW]   = signed_value(s->speed_e_radps, TENTHS);
+    all[APP_REGISTERS_IQ]          = signed_value(s->i_A.q, THOUSANDTHS);
+    all[APP_REGISTERS_ID]          = signed_value(s->i_A.d, THOUSANDTHS);
+    all[APP_REGISTERS_IQ_REF]      = signed_value(s->i_ref_A.q, THOUSANDTHS);
+    all[APP_REGISTERS_ID_REF]      = signed_value(s->i_ref_A.d, THOUSANDTHS);
+    all[APP_REGISTERS_VQ]          = signed_value(s->v_V.q, TENTHS);
+    all[APP_REGISTERS_VD]          = signed_value(s->v_V.d, TENTHS);
+    all[APP_REGISTERS_DC_LINK]     = unsigned_value(s->dc_link_V, TENTHS);
+    all[APP_REGISTERS_TEMPERATURE] = signed_value(s->temperature_degC, TENTHS);
+    all[APP_REGISTERS_THETA]       = unsigned_value(s->theta_e_rad, THOUSANDTHS);
+    all[APP_REGISTERS_ZERO_A]      = unsigned_value(s->zero_a_cnt, TENTHS);
+    all[APP_REGISTERS_ZERO_B]      = unsigned_value(s->zero_b_cnt, TENTHS);
+}
+
+static void snapshot_values(const app_snapshot_t *f, uint16_t all[APP_REGISTERS_INPUT_COUNT])
+{
+    const uint16_t valid = f->raw.valid ? (uint16_t)APP_REGISTERS_SAMPLE_VALID : 0U;
+    const uint16_t index = f->raw.index_seen ? (uint16_t)APP_REGISTERS_SAMPLE_INDEX : 0U;
+
+    all[APP_REGISTERS_FIRST_FAULT]        = (uint16_t)f->fault;
+    all[APP_REGISTERS_FIRST_MODE]         = (uint16_t)f->mode;
+    all[APP_REGISTERS_FIRST_DRIVE_FAULT]  = (uint16_t)f->drive_fault;
+    all[APP_REGISTERS_FIRST_BOARD_FAULTS] = f->board_faults;
+    all[APP_REGISTERS_FIRST_IA]           = f->raw.ia_cnt;
+    all[APP_REGISTERS_FIRST_IB]           = f->raw.ib_cnt;
+    all[APP_REGISTERS_FIRST_DC_LINK]      = f->raw.dc_link_cnt;
+    all[APP_REGISTERS_FIRST_TEMPERATURE]  = f->raw.temperature_cnt;
+    all[APP_REGISTERS_FIRST_POSITION]     = f->raw.position_cnt;
+    all[APP_REGISTERS_FIRST_INDEX]        = f->raw.index_cnt;
+    all[APP_REGISTERS_FIRST_SAMPLE]       = (uint16_t)(valid | index);
+    all[APP_REGISTERS_FIRST_SPEED]        = signed_value(f->speed_e_radps, TENTHS);
+    all[APP_REGISTERS_FIRST_WANTED]       = signed_value(f->wanted_e_radps, TENTHS);
+    all[APP_REGISTERS_FIRST_TICKS_HI]     = high_word(f->ticks);
+    all[APP_REGISTERS_FIRST_TICKS_LO]     = low_word(f->ticks);
+}
+
+/* Subtraction instead of a sum, which could wrap in 16 bits. */
+static bool exist(uint16_t first, uint16_t count, uint16_t existing)
+{
+    return (first < existing) && (count <= (uint16_t)(existing - first));
+}
+
+app_registers_result_t app_registers_read_holding(const app_registers_t *r, uint16_t first,
+                                                  uint16_t count, uint16_t *values)
+{
+    uint16_t all[APP_REGISTERS_HOLDING_COUNT];
+
+    if (!exist(first, count, APP_REGISTERS_HOLDING_COUNT)) {
+        return APP_REGISTERS_BAD_ADDRESS;
+    }
+    holding_values(r, all);
+    for (uint16_t i = 0U; i < count; i++) {
+        values[i] = all[first + i];
+    }
+    return APP_REGISTERS_OK;
+}
+
+app_registers_result_t app_registers_read_input(const app_registers_t *r, uint16_t first,
+                                                uint16_t count, uint16_t *values)
+{
+    uint16_t all[APP_REGISTERS_INPUT_COUNT];
+
+    if (!exist(first, count, APP_REGISTERS_INPUT_COUNT)) {
+        return APP_REGISTERS_BAD_ADDRESS;
+    }
+    state_values(r, all);
+    measured_values(&r->status, all);
+    snapshot_values(&r->status.snapshot, all);
+    for (uint16_t i = 0U; i < count; i++) {
+        values[i] = all[first + i];
+    }
+    return APP_REGISTERS_OK;
+}
+
+static bool value_ok(const app_registers_t *r, uint16_t address, uint16_t value)
+{
+    if (address == (uint16_t)APP_REGISTERS_SPEED) {
+        return base_in_range(speed_of(value), -r->speed_max_e_radps, r->speed_max_e_radps);
+    }
+    return value <= 1U;
+}
+
+static void write_one(app_registers_t *r, uint16_t address, uint16_t value)
+{
+    if (address == (uint16_t)APP_REGISTERS_SPEED) {
+        r->command.omega_e_radps = speed_of(value);
+    } else if (address == (uint16_t)APP_REGISTERS_RUN) {
+        r->command.run = value != 0U;
+        r->silent      = r->silent && !r->command.run;
+    } else {
+        r->command.reset = value != 0U;
+    }
+}
+
+app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, uint16_t count,
+                                           const uint16_t *values)
+{
+    if (!exist(first, count, APP_REGISTERS_HOLDING_COUNT)) {
+        return APP_REGISTERS_BAD_ADDRESS;
+    }
+    for (uint16_t i = 0U; i < count; i++) {
+        if (!value_ok(r, (uint16_t)(first + i), values[i])) {
+            return APP_REGISTERS_BAD_VALUE;
+        }
+    }
+    for (uint16_t i = 0U; i < count; i++) {
+        write_one(r, (uint16_t)(first + i), values[i]);
+    }
+    r->changed = true;
+    return APP_REGISTERS_OK;
+}
+
+void app_registers_silence(app_registers_t *r)
+{
+    if (r->command.run) {
+        r->command.run = false;
+        r->changed     = true;
+        r->silent      = true;
+    }
+}

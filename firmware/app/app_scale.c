@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: MIT */
+#include "app_scale.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static bool ntc_ok(const app_scale_config_t *c)
+{
+    if ((c->ntc_degC == NULL) || (c->ntc_points < 2U) || (c->ntc_step_cnt == 0U)) {
+        return false;
+    }
+    const uint32_t last_cnt =
+        (uint32_t)c->ntc_first_cnt + ((uint32_t)c->ntc_step_cnt * ((uint32_t)c->ntc_points - 1U));
+    if (last_cnt >= BOARD_ADC_CODES) {
+        return false;
+    }
+    for (uint16_t i = 0U; i < c->ntc_points; i++) {
+        if (!base_in_range(c->ntc_degC[i], -100.0f, 300.0f) ||
+            ((i > 0U) && !(c->ntc_degC[i] < c->ntc_degC[i - 1U]))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+ctl_status_t app_scale_init(app_scale_t *s, const app_scale_config_t *c, float trip_current_A)
+{
+    const float top_cnt    = (float)(BOARD_ADC_CODES - 1U);
+    const bool  current_ok = base_in_range(c->current_A_per_cnt, 1.0e-6f, 1.0e3f) &&
+                            base_in_range(c->current_zero_cnt, 0.0f, top_cnt) &&
+                            base_in_range(c->offset_max_cnt, 1.0e-3f, top_cnt);
+    const float room_cnt =
+        fminf(c->current_zero_cnt, top_cnt - c->current_zero_cnt) - c->offset_max_cnt;
+    const bool ok = current_ok && ((room_cnt * c->current_A_per_cnt) > trip_current_A) &&
+                    base_in_range(c->dc_link_V_per_cnt, 1.0e-6f, 1.0e3f) && ntc_ok(c);
+
+    s->config       = c;
+    s->zero_a_cnt   = c->current_zero_cnt;
+    s->zero_b_cnt   = c->current_zero_cnt;
+    s->inv_ntc_step = ok ? (1.0f / (float)c->ntc_step_cnt) : 0.0f;
+    return ok ? CTL_OK : CTL_BAD_CONFIG;
+}
+
+static bool zero_ok(const app_scale_config_t *c, float zero_cnt)
+{
+    return base_in_range(zero_cnt - c->current_zero_cnt, -c->offset_max_cnt, c->offset_max_cnt);
+}
+
+bool app_scale_set_zero(app_scale_t *s, uint32_t sum_a_cnt, uint32_t sum_b_cnt, uint16_t count)
+{
+    if (count == 0U) {
+        return false;
+    }
+    const float zero_a_cnt = (float)sum_a_cnt / (float)count;
+    const float zero_b_cnt = (float)sum_b_cnt / (float)count;
+    if (!zero_ok(s->config, zero_a_cnt) || !zero_ok(s->config, zero_b_cnt)) {
+        return false;
+    }
+    s->zero_a_cnt = zero_a_cnt;
+    s->zero_b_cnt = zero_b_cnt;
+    return true;
+}
+
+static bool raw_ok(const board_sample_t *raw)
+{
+    return raw->valid && (raw->ia_cnt < BOARD_ADC_CODES) && (raw->ib_cnt < BOARD_ADC_CODES) &&
+           (raw->dc_link_cnt < BOARD_ADC_CODES) && (raw->temperature_cnt < BOARD_ADC_CODES) &&
+           (raw->position_cnt < BOARD_POSITIONS) &&
+           (!raw->index_seen || (raw->index_cnt < BOARD_POSITIONS));
+}
+
+static void convert_temperature(const app_scale_t *s, uint16_t code_cnt, app_scale_sample_t *out)
+{
+    const app_scale_config_t *c = s->config;
+
+    if (code_cnt < c->ntc_first_cnt) {
+        return;
+    }
+    const uint16_t from_cnt = (uint16_t)(code_cnt - c->ntc_first_cnt);
+    const uint16_t point    = (uint16_t)(from_cnt / c->ntc_step_cnt);
+    if ((uint16_t)(point + 1U) >= c->ntc_points) { /* nothing to draw the line to */
+        return;
+    }
+    const uint16_t past_cnt = (uint16_t)(from_cnt - (uint16_t)(point * c->ntc_step_cnt));
+    const float    share    = (float)past_cnt * s->inv_ntc_step;
+    const float    here     = c->ntc_degC[point];
+    out->temperature_degC   = here + (share * (c->ntc_degC[point + 1U] - here));
+    out->temperature_valid  = true;
+}
+
+app_scale_sample_t app_scale_sample(const app_scale_t *s, const board_sample_t *raw)
+{
+    const app_scale_config_t *c   = s->config;
+    app_scale_sample_t        out = {.ia_A              = 0.0f,
+                                     .ib_A              = 0.0f,
+                                     .dc_link_V         = 0.0f,
+                                     .temperature_degC  = 0.0f,
+                                     .temperature_valid = false,
+                                     .valid             = false};
+
+    if (!raw_ok(raw)) {
+        return out;
+    }
+    out.ia_A      = c->current_A_per_cnt * ((float)raw->ia_cnt - s->zero_a_cnt);
+    out.ib_A      = c->current_A_per_cnt * ((float)raw->ib_cnt - s->zero_b_cnt);
+    out.dc_link_V = c->dc_link_V_per_cnt * (float)raw->dc_link_cnt;
+    convert_temperature(s, raw->temperature_cnt, &out);
+    out.valid = true;
+    return out;
+}
+
+static uint16_t compare_cnt(float duty)
+{
+    return (uint16_t)((base_clamp(duty, 0.0f, 1.0f) * (float)BOARD_DUTY_FULL) + 0.5f);
+}
+
+board_duty_t app_scale_duty(abc_t duty)
+{
+    const board_duty_t out = {
+        .a_cnt = compare_cnt(duty.a), .b_cnt = compare_cnt(duty.b), .c_cnt = compare_cnt(duty.c)};
+    return out;
+}

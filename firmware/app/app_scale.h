@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file app_scale.h
+ * @brief Raw codes to SI units and duty ratios to compare values.
+ *
+ *     i = A_per_cnt (code - zero),   v_dc = V_per_cnt code                     EQ-APP-SCALE-1
+ *
+ * The zero of each current is measured with the bridge off. Temperature: straight lines between the points
+ * of a table over the code, because the curve of an NTC at a divider needs a logarithm otherwise.
+ */
+#ifndef APP_SCALE_H
+#define APP_SCALE_H
+
+#include "base.h"
+#include "board.h"
+
+typedef struct {
+    float        current_A_per_cnt; /**< > 0 */
+    float        current_zero_cnt;  /**< code of no current, nominal */
+    float        offset_max_cnt; /**< a measured zero further than this from it is refused, > 0 */
+    float        dc_link_V_per_cnt; /**< > 0 */
+    uint16_t     ntc_first_cnt;     /**< code of the first point */
+    uint16_t     ntc_step_cnt;      /**< codes from point to point, > 0 */
+    uint16_t     ntc_points;        /**< >= 2; the last point is below BOARD_ADC_CODES */
+    const float *ntc_degC;          /**< temperature of each point, strictly falling */
+} app_scale_config_t;
+
+typedef struct {
+    const app_scale_config_t *config;
+    float                     zero_a_cnt;
+    float                     zero_b_cnt;
+    float                     inv_ntc_step;
+} app_scale_t;
+
+/** Samples in SI units; all zero unless valid. */
+typedef struct {
+    float ia_A;
+    float ib_A;
+    float dc_link_V;
+    float temperature_degC;  /**< 0 unless temperature_valid */
+    bool  temperature_valid; /**< the code is within the table: no broken or shorted sensor */
+    bool  valid;             /**< marked valid by the board, and no code out of range */
+} app_scale_sample_t;
+
+/**
+ * @param trip_current_A Must be within what the converter can show at the worst accepted zero.
+ * @return CTL_BAD_CONFIG, s unusable, when a constant is out of range.
+ *
+ * Context: init.
+ */
+ctl_status_t app_scale_init(app_scale_t *s, const app_scale_config_t *config, float trip_current_A);
+
+/**
+ * @brief Take the mean of `count` codes per phase, with no current flowing, as the zeros.
+ * @return false, zeros unchanged, when one is further from the nominal zero than offset_max_cnt.
+ *
+ * Context: control ISR, once.
+ */
+bool app_scale_set_zero(app_scale_t *s, uint32_t sum_a_cnt, uint32_t sum_b_cnt, uint16_t count);
+
+/** Context: control ISR. No division of floats. */
+app_scale_sample_t app_scale_sample(const app_scale_t *s, const board_sample_t *raw);
+
+/** Nearest compare values; ratios are limited to [0, 1], what is not a number is 0. Context: control ISR. */
+board_duty_t app_scale_duty(abc_t duty);
+
+#endif /* APP_SCALE_H */

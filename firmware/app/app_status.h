@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file app_status.h
+ * @brief What the application tells about itself: modes, faults, measurements. docs/modbus.md repeats the numbers.
+ */
+#ifndef APP_STATUS_H
+#define APP_STATUS_H
+
+#include "app_align.h"
+#include "app_angle.h"
+#include "board.h"
+#include "drive_tick.h"
+
+typedef enum {
+    APP_MODE_BOOT = 0,  /**< sensors and converter settle; bridge off */
+    APP_MODE_CALIBRATE, /**< zeros of the currents; bridge off */
+    APP_MODE_READY,     /**< bridge off, waits for run to rise */
+    APP_MODE_ALIGN,     /**< finds the angle */
+    APP_MODE_RUN,       /**< drive_tick() has the bridge */
+    APP_MODE_FAULT      /**< bridge off until a reset without run */
+} app_mode_t;
+
+/** Why the mode is FAULT; the first reason is kept. */
+typedef enum {
+    APP_FAULT_NONE = 0,
+    APP_FAULT_CONFIG,             /**< a constant is out of range; stays until power off */
+    APP_FAULT_BOARD,              /**< see the board's flags */
+    APP_FAULT_BACKGROUND,         /**< the background loop stood still */
+    APP_FAULT_SAMPLE,             /**< invalid sample in CALIBRATE, ALIGN or RUN */
+    APP_FAULT_OFFSET,             /**< zero of a current too far from where it should be */
+    APP_FAULT_TEMPERATURE_SENSOR, /**< broken, shorted, or too cold to tell */
+    APP_FAULT_TEMPERATURE,        /**< heat sink too hot */
+    APP_FAULT_INDEX,              /**< index pulse far from where it should be */
+    APP_FAULT_ALIGN,              /**< alignment failed */
+    APP_FAULT_DRIVE               /**< see the drive's fault */
+} app_fault_t;
+
+/** The tick of the first fault; kept, also after a reset, until the next fault. */
+typedef struct {
+    app_fault_t    fault;
+    app_mode_t     mode; /**< in which it happened */
+    drive_fault_t  drive_fault;
+    uint16_t       board_faults;
+    board_sample_t raw;
+    float          speed_e_radps;
+    float          wanted_e_radps;
+    uint32_t       ticks;
+} app_snapshot_t;
+
+typedef struct {
+    app_mode_t            mode;
+    app_fault_t           fault;
+    drive_fault_t         drive_fault;
+    uint16_t              board_faults; /**< flags of this tick */
+    bool                  hot;          /**< above the temperature limit: no start */
+    bool                  gate_enable;
+    app_angle_reference_t reference;
+    app_align_stage_t     align_stage;
+    uint16_t              position_cnt;
+    uint16_t              index_corrections;
+    float                 theta_e_rad;
+    float                 speed_e_radps; /**< RUN: estimate of the drive; otherwise by difference */
+    float                 dc_link_V;
+    float                 temperature_degC;
+    dq_t                  i_A;     /**< RUN only */
+    dq_t                  i_ref_A; /**< RUN only */
+    dq_t                  v_V;     /**< RUN only */
+    float                 zero_a_cnt;
+    float                 zero_b_cnt;
+    uint16_t              tick_cycles;       /**< of the last tick; 65535 if more */
+    uint16_t              tick_cycles_worst; /**< since the start */
+    uint32_t              ticks;
+    app_snapshot_t        snapshot;
+} app_status_t;
+
+/** What the operator wants. */
+typedef struct {
+    float omega_e_radps; /**< speed; out of the drive's range is a fault in RUN */
+    bool  run;
+    bool  reset; /**< leave FAULT; ignored together with run */
+} app_command_t;
+
+#endif /* APP_STATUS_H */

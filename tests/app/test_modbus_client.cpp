@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+/// The application, ticking beside a client that was written by others: libmodbus, over a pseudo-terminal.
+#include <fcntl.h>
+#include <modbus.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <functional>
+#include <stdexcept>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "fake_board.h"
+
+extern "C" {
+#include "app.h"
+#include "board_f28335.h"
+#include "gain_tables.h"
+}
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int address = 1;
+
+// Input and holding registers, from docs/modbus.md.
+constexpr int input_mode        = 0;
+constexpr int input_fault       = 1;
+constexpr int input_drive_fault = 2;
+constexpr int input_dc_link     = 14;
+constexpr int input_first_fault = 25;
+constexpr int input_count       = 40;
+constexpr int holding_run       = 0;
+constexpr int holding_reset     = 1;
+constexpr int holding_speed     = 2;
+
+constexpr int mode_ready = 2;
+constexpr int mode_run   = 4;
+constexpr int mode_fault = 5;
+
+/// Both ends of a pseudo-terminal; the server's does not block.
+class Terminal {
+public:
+    Terminal() : server_(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK))
+    {
+        if (server_ < 0 || grantpt(server_) != 0 || unlockpt(server_) != 0) {
+            throw std::runtime_error("no pseudo-terminal");
+        }
+        client_ = ptsname(server_);
+    }
+    ~Terminal()
+    {
+        close(server_);
+    }
+    Terminal(const Terminal &)            = delete;
+    Terminal &operator=(const Terminal &) = delete;
+
+    int server() const
+    {
+        return server_;
+    }
+    const char *client() const
+    {
+        return client_.c_str();
+    }
+
+private:
+    int         server_;
+    std::string client_;
+};
+
+/// Ticks and background by turns, as fast as one tick per 100 us, in a thread of their own. The board may be
+/// changed through at(), between two ticks.
+class Server {
+public:
+    explicit Server(int terminal) : terminal_(terminal)
+    {
+        fake_board_reset();
+        if (app_init(&board_f28335_config, &gain_tables_drive) != CTL_OK) {
+            throw std::runtime_error("the application refuses its constants");
+        }
+        for (int n = 0; n < 2000; n++) { // past the calibration
+            pass();
+        }
+        fake_board.sample.index_seen = true;
+        pass();
+        fake_board.sample.index_seen = false;
+        thread_                      = std::thread([this] { run(); });
+    }
+    ~Server()
+    {
+        stop_ = true;
+        thread_.join();
+    }
+    Server(const Server &)            = delete;
+    Server &operator=(const Server &) = delete;
+
+    /// Runs `change` between two ticks and returns after a few more.
+    void at(std::function<void()> change)
+    {
+        change_  = std::move(change);
+        pending_ = true;
+        while (pending_) {
+            std::this_thread::sleep_for(1ms);
+        }
+        std::this_thread::sleep_for(5ms);
+    }
+    bool gate() const
+    {
+        return gate_;
+    }
+
+private:
+    static void pass()
+    {
+        app_tick();
+        app_background();
+    }
+    void exchange() const
+    {
+        std::array<unsigned char, 64> octets{};
+        const ssize_t                 got = read(terminal_, octets.data(), octets.size());
+        for (ssize_t i = 0; i < got; i++) {
+            const int octet = octets.at(static_cast<std::size_t>(i));
+            fake_board_receive(&octet, 1);
+        }
+        for (int octet = fake_board_sent(); octet >= 0; octet = fake_board_sent()) {
+            const auto one = static_cast<unsigned char>(octet);
+            while (write(terminal_, &one, 1) != 1 && !stop_) {
+                std::this_thread::sleep_for(1ms);
+            }
+        }
+    }
+    void run()
+    {
+        while (!stop_) {
+            if (pending_) {
+                change_();
+                pending_ = false;
+            }
+            exchange();
+            pass();
+            gate_ = fake_board.gate;
+            std::this_thread::sleep_for(100us);
+        }
+    }
+
+    int                   terminal_;
+    std::function<void()> change_;
+    std::atomic<bool>     pending_{false};
+    std::atomic<bool>     stop_{false};
+    std::atomic<bool>     gate_{false};
+    std::thread           thread_;
+};
+
+class ModbusClient : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        client_ = modbus_new_rtu(terminal_.client(), 115200, 'E', 8, 1);
+        ASSERT_NE(client_, nullptr);
+        ASSERT_EQ(modbus_set_slave(client_, address), 0);
+        ASSERT_EQ(modbus_set_response_timeout(client_, 2, 0), 0); // a loaded machine
+        ASSERT_EQ(modbus_connect(client_), 0) << modbus_strerror(errno);
+    }
+    void TearDown() override
+    {
+        if (client_ != nullptr) {
+            modbus_close(client_);
+            modbus_free(client_);
+        }
+    }
+    int input(int number)
+    {
+        std::uint16_t value = 0;
+        EXPECT_EQ(modbus_read_input_registers(client_, number, 1, &value), 1)
+            << modbus_strerror(errno);
+        return value;
+    }
+    int holding(int number)
+    {
+        std::uint16_t value = 0;
+        EXPECT_EQ(modbus_read_registers(client_, number, 1, &value), 1) << modbus_strerror(errno);
+        return value;
+    }
+    void write(int number, std::uint16_t value)
+    {
+        EXPECT_EQ(modbus_write_register(client_, number, value), 1) << modbus_strerror(errno);
+    }
+    /// The background hands a command over and the next tick acts on it: soon, but after the answer.
+    void expect_mode(int mode)
+    {
+        for (int n = 0; n < 50 && input(input_mode) != mode; n++) {
+            std::this_thread::sleep_for(1ms);
+        }
+        EXPECT_EQ(input(input_mode), mode);
+    }
+    void expect_exception(int result, int exception)
+    {
+        EXPECT_EQ(result, -1);
+        EXPECT_EQ(errno, exception) << modbus_strerror(errno);
+    }
+
+    Terminal  terminal_;
+    Server    server_{terminal_.server()};
+    modbus_t *client_ = nullptr;
+};
+
+} // namespace
+
+TEST_F(ModbusClient, ReadsAllInputRegistersAtOnce)
+{
+    std::array<std::uint16_t, input_count> values{};
+    ASSERT_EQ(modbus_read_input_registers(client_, 0, input_count, values.data()), input_count)
+        << modbus_strerror(errno);
+    EXPECT_EQ(values[input_mode], mode_ready);
+    EXPECT_EQ(values[input_fault], 0);
+    EXPECT_NEAR(values[input_dc_link], 2950, 1);
+    EXPECT_EQ(values[5], 2); // referenced by the index
+}
+
+TEST_F(ModbusClient, StartsAndStopsTheDrive)
+{
+    write(holding_speed, static_cast<std::uint16_t>(-123));
+    EXPECT_EQ(holding(holding_speed), 65536 - 123);
+    write(holding_run, 1);
+    expect_mode(mode_run);
+    EXPECT_TRUE(server_.gate());
+    write(holding_run, 0);
+    expect_mode(mode_ready);
+    EXPECT_FALSE(server_.gate());
+}
+
+TEST_F(ModbusClient, WritesSeveralRegistersAtOnce)
+{
+    const std::array<std::uint16_t, 3> block = {1, 0, 500};
+    ASSERT_EQ(modbus_write_registers(client_, 0, 3, block.data()), 3) << modbus_strerror(errno);
+    EXPECT_EQ(holding(holding_speed), 500);
+    expect_mode(mode_run);
+}
+
+TEST_F(ModbusClient, TellsTheFirstFaultAndLeavesItByReset)
+{
+    write(holding_run, 1);
+    expect_mode(mode_run);
+    server_.at([] { fake_board.sample.dc_link_cnt = 4000; });
+    EXPECT_FALSE(server_.gate());
+    expect_mode(mode_fault);
+    EXPECT_EQ(input(input_fault), 10);
+    EXPECT_EQ(input(input_drive_fault), 3);
+    EXPECT_EQ(input(input_first_fault + 6), 4000);
+    server_.at([] { fake_board.sample.dc_link_cnt = 2685; });
+
+    write(holding_reset, 1); // run is still there
+    expect_mode(mode_fault);
+    write(holding_run, 0);
+    write(holding_reset, 1);
+    expect_mode(mode_ready);
+    EXPECT_EQ(input(input_first_fault), 10);
+}
+
+TEST_F(ModbusClient, RefusesWithTheExceptionThatSaysWhy)
+{
+    std::array<std::uint16_t, 125> values{};
+    std::array<std::uint8_t, 8>    bits{};
+    expect_exception(modbus_read_input_registers(client_, 40, 1, values.data()), EMBXILADD);
+    expect_exception(modbus_read_registers(client_, 2, 2, values.data()), EMBXILADD);
+    expect_exception(modbus_write_register(client_, 3, 0), EMBXILADD);
+    expect_exception(modbus_write_register(client_, holding_run, 2), EMBXILVAL);
+    expect_exception(modbus_write_register(client_, holding_speed, 15691), EMBXILVAL);
+    values = {1, 0, 20000};
+    expect_exception(modbus_write_registers(client_, 0, 3, values.data()), EMBXILVAL);
+    expect_exception(modbus_read_bits(client_, 0, 1, bits.data()), EMBXILFUN);
+    EXPECT_EQ(holding(holding_run), 0);
+}
+
+TEST_F(ModbusClient, ObeysABroadcastWithoutAnswering)
+{
+    ASSERT_EQ(modbus_set_slave(client_, MODBUS_BROADCAST_ADDRESS), 0);
+    ASSERT_EQ(modbus_set_response_timeout(client_, 0, 200000), 0);
+    expect_exception(modbus_write_register(client_, holding_speed, 77), ETIMEDOUT);
+
+    ASSERT_EQ(modbus_set_slave(client_, address), 0);
+    ASSERT_EQ(modbus_set_response_timeout(client_, 2, 0), 0);
+    EXPECT_EQ(holding(holding_speed), 77);
+}
+
+TEST_F(ModbusClient, DoesNotAnswerForAnotherAddress)
+{
+    ASSERT_EQ(modbus_set_slave(client_, address + 1), 0);
+    ASSERT_EQ(modbus_set_response_timeout(client_, 0, 200000), 0);
+    expect_exception(modbus_write_register(client_, holding_speed, 77), ETIMEDOUT);
+}
+
+TEST_F(ModbusClient, SilenceOpensTheBridge)
+{
+    write(holding_run, 1);
+    expect_mode(mode_run);
+    for (int n = 0; n < 500 && server_.gate(); n++) {
+        std::this_thread::sleep_for(20ms); // 2500 ticks of 100 us and more
+    }
+    EXPECT_FALSE(server_.gate());
+    expect_mode(mode_ready);
+    EXPECT_EQ(input(4) & 2, 2);
+}

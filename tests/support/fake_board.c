@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: MIT */
+#include "fake_board.h"
+
+#include <stddef.h>
+
+fake_board_t fake_board;
+
+void fake_board_reset(void)
+{
+    const board_sample_t rest = {.ia_cnt          = 2048U,
+                                 .ib_cnt          = 2048U,
+                                 .dc_link_cnt     = 2685U, /* 295 V of 450 V */
+                                 .temperature_cnt = 3357U, /* 25 degC */
+                                 .position_cnt    = 0U,
+                                 .index_cnt       = 0U,
+                                 .index_seen      = false,
+                                 .valid           = true};
+    const fake_board_t   none = {.init_result = true, .sample = rest, .serial_room = 1 << 20};
+    fake_board                = none;
+}
+
+static void note(fake_board_event_t event)
+{
+    if (fake_board.event_count < FAKE_BOARD_EVENTS) {
+        fake_board.events[fake_board.event_count++] = event;
+    }
+}
+
+static void push(fake_board_queue_t *q, int octet)
+{
+    q->octets[(q->first + q->count) % FAKE_BOARD_QUEUE] = octet;
+    q->count++;
+}
+
+static int pop(fake_board_queue_t *q)
+{
+    const int octet = q->octets[q->first];
+    q->first        = (q->first + 1) % FAKE_BOARD_QUEUE;
+    q->count--;
+    return octet;
+}
+
+void fake_board_fail(uint16_t causes)
+{
+    fake_board.causes = causes;
+    fake_board.faults = (uint16_t)(fake_board.faults | causes);
+}
+
+void fake_board_receive(const int *octets, int count)
+{
+    for (int i = 0; i < count; i++) {
+        push(&fake_board.rx, octets[i]);
+    }
+}
+
+int fake_board_sent(void)
+{
+    return (fake_board.tx.count > 0) ? pop(&fake_board.tx) : -1;
+}
+
+bool board_init(void)
+{
+    note(FAKE_BOARD_INIT);
+    return fake_board.init_result;
+}
+
+void board_start(void (*tick)(void))
+{
+    note(FAKE_BOARD_START);
+    fake_board.tick = tick;
+}
+
+board_sample_t board_sample_read(void)
+{
+    note(FAKE_BOARD_SAMPLE);
+    return fake_board.sample;
+}
+
+void board_duty_write(const board_duty_t *duty)
+{
+    note(FAKE_BOARD_DUTY);
+    fake_board.duty = *duty;
+}
+
+void board_gate_enable(void)
+{
+    note(FAKE_BOARD_ENABLE);
+    fake_board.faults = fake_board.causes;
+    fake_board.gate   = fake_board.causes == (uint16_t)BOARD_FAULT_NONE;
+}
+
+void board_gate_trip(void)
+{
+    note(FAKE_BOARD_TRIP);
+    fake_board.gate = false;
+}
+
+uint16_t board_fault_read(void)
+{
+    note(FAKE_BOARD_FAULT);
+    return fake_board.faults;
+}
+
+uint32_t board_cycles(void)
+{
+    fake_board.cycles += fake_board.cycles_per_read;
+    return fake_board.cycles;
+}
+
+void board_watchdog_serve(void)
+{
+    fake_board.served++;
+}
+
+bool board_serial_read(uint16_t *octet)
+{
+    if (fake_board.rx.count == 0) {
+        return false;
+    }
+    *octet = (uint16_t)pop(&fake_board.rx);
+    return true;
+}
+
+bool board_serial_write(uint16_t octet)
+{
+    if (fake_board.serial_room == 0) {
+        return false;
+    }
+    fake_board.serial_room--;
+    push(&fake_board.tx, (int)octet);
+    return true;
+}

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file fake_board.h
+ * @brief board.h for tests: the test sets what the board would sample and sees what it was told.
+ */
+#ifndef FAKE_BOARD_H
+#define FAKE_BOARD_H
+
+#include "board.h"
+
+#define FAKE_BOARD_QUEUE  1024
+#define FAKE_BOARD_EVENTS 64
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum {
+    FAKE_BOARD_INIT,
+    FAKE_BOARD_START,
+    FAKE_BOARD_SAMPLE,
+    FAKE_BOARD_FAULT,
+    FAKE_BOARD_TRIP,
+    FAKE_BOARD_DUTY,
+    FAKE_BOARD_ENABLE
+} fake_board_event_t;
+
+typedef struct {
+    int first;
+    int count;
+    int octets[FAKE_BOARD_QUEUE];
+} fake_board_queue_t;
+
+typedef struct {
+    bool           init_result;
+    board_sample_t sample;
+    uint16_t       causes; /* faults that are there now */
+    uint16_t       faults; /* latched */
+    bool           gate;
+    board_duty_t   duty;
+    int            served; /* watchdog */
+    uint32_t       cycles;
+    uint32_t       cycles_per_read;
+    int            serial_room; /* octets that the transmitter takes before it is full */
+    void (*tick)(void);
+    fake_board_queue_t rx;
+    fake_board_queue_t tx;
+    fake_board_event_t events[FAKE_BOARD_EVENTS];
+    int                event_count; /* stops at FAKE_BOARD_EVENTS */
+} fake_board_t;
+
+extern fake_board_t fake_board;
+
+/** Healthy board at rest: no current, 295 V, 25 degC, position 0, no index. */
+void fake_board_reset(void);
+/** The causes show in board_fault_read() from now on. */
+void fake_board_fail(uint16_t causes);
+void fake_board_receive(const int *octets, int count);
+/** -1: nothing was sent. */
+int fake_board_sent(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* FAKE_BOARD_H */

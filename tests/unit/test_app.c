@@ -1,0 +1,503 @@
+/* SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 600 /* the timer that plays the interrupt */
+
+#include "app.h"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/time.h>
+
+#include "board_f28335.h"
+#include "fake_board.h"
+#include "gain_tables.h"
+#include "speed_tables.h"
+#include "test_motor.h"
+#include "unit_support.h"
+#include "unity.h"
+
+#define READY_TICKS       (250 + 1280 + 2)
+#define TOL_ENCODER_RADPS 0.15 /* rad/s, mean of 0.2 s; worst 0.074 */
+/* The same, speed form: one count is 6.3 rad/s there, which drives the law from limit to limit. Worst 1.6, and
+ * as much with drive_tick() alone in the loop. */
+#define TOL_SPEED_FORM_RADPS 3.0
+#define TOL_ANGLE            0.002 /* rad, half a count of two pole pairs is 0.0006 */
+#define MARK_RAD             0.7   /* mechanical angle of the index mark */
+
+static app_config_t config;
+static test_motor_t motor;
+static double       in_force[3]; /* duty ratios of this period */
+static bool         index_on;    /* the encoder has an index */
+static double       offset_A[2]; /* of the current sensors */
+static double       tolerance_radps;
+
+void setUp(void)
+{
+    fake_board_reset();
+    config      = board_f28335_config;
+    motor       = test_motor_390w();
+    index_on    = true;
+    offset_A[0] = 0.0;
+    offset_A[1] = 0.0;
+    for (int x = 0; x < 3; x++) {
+        in_force[x] = 0.5;
+    }
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_init(&config, &speed_tables_drive));
+}
+
+void tearDown(void) {}
+
+static void both(int count)
+{
+    for (int n = 0; n < count; n++) {
+        app_tick();
+        app_background();
+    }
+}
+
+static void command(float omega_e_radps, bool run)
+{
+    const app_command_t c = {.omega_e_radps = omega_e_radps, .run = run};
+    TEST_ASSERT_TRUE(app_command_write(&c));
+}
+
+static app_mode_t mode(void)
+{
+    return app_status_read().mode;
+}
+
+static void go_run(void)
+{
+    both(READY_TICKS);
+    fake_board.sample.index_seen = true;
+    both(1);
+    fake_board.sample.index_seen = false;
+    command(0.0f, true);
+    both(3);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
+    TEST_ASSERT_TRUE(fake_board.gate);
+}
+
+static void test_gates_are_enabled_once_and_after_everything_else(void)
+{
+    go_run();
+    fake_board.event_count = 0;
+    both(1);
+    const fake_board_event_t on[] = {FAKE_BOARD_SAMPLE, FAKE_BOARD_FAULT, FAKE_BOARD_DUTY};
+    TEST_ASSERT_EQUAL_INT(3, fake_board.event_count);
+    for (int i = 0; i < 3; i++) {
+        TEST_ASSERT_EQUAL_INT(on[i], fake_board.events[i]);
+    }
+
+    command(0.0f, false);
+    both(2);
+    command(0.0f, true);
+    both(1);
+    fake_board.event_count = 0;
+    both(1);
+    TEST_ASSERT_EQUAL_INT(4, fake_board.event_count);
+    TEST_ASSERT_EQUAL_INT(FAKE_BOARD_DUTY, fake_board.events[2]);
+    TEST_ASSERT_EQUAL_INT(FAKE_BOARD_ENABLE, fake_board.events[3]);
+}
+
+static void test_gates_are_off_before_the_duty_changes(void)
+{
+    go_run();
+    fake_board.sample.valid = false;
+    fake_board.event_count  = 0;
+    app_tick();
+    TEST_ASSERT_FALSE(fake_board.gate);
+    TEST_ASSERT_EQUAL_INT(4, fake_board.event_count);
+    TEST_ASSERT_EQUAL_INT(FAKE_BOARD_TRIP, fake_board.events[2]);
+    TEST_ASSERT_EQUAL_INT(FAKE_BOARD_DUTY, fake_board.events[3]);
+    TEST_ASSERT_TRUE((fake_board.duty.a_cnt == 3750U) && (fake_board.duty.b_cnt == 3750U) &&
+                     (fake_board.duty.c_cnt == 3750U));
+}
+
+static void test_board_fault_opens_the_bridge_and_enabling_clears_it(void)
+{
+    go_run();
+    fake_board_fail(BOARD_FAULT_OVERRUN);
+    app_tick();
+    TEST_ASSERT_FALSE(fake_board.gate);
+    app_background();
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_BOARD, app_status_read().fault);
+
+    fake_board.causes         = 0U;
+    const app_command_t reset = {.reset = true};
+    TEST_ASSERT_TRUE(app_command_write(&reset));
+    both(2);
+    command(0.0f, true);
+    both(4);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
+    TEST_ASSERT_TRUE(fake_board.gate);
+}
+
+static void test_fault_that_is_still_there_trips_again(void)
+{
+    go_run();
+    fake_board_fail(BOARD_FAULT_TRIP);
+    both(1);
+    const app_command_t reset = {.reset = true};
+    TEST_ASSERT_TRUE(app_command_write(&reset));
+    both(2);
+    command(0.0f, true);
+    both(4);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, mode());
+    TEST_ASSERT_FALSE(fake_board.gate);
+}
+
+static void test_reset_acts_once(void)
+{
+    both(READY_TICKS);
+    const app_command_t reset = {.reset = true};
+    TEST_ASSERT_TRUE(app_command_write(&reset));
+    both(5);
+    for (int n = 0; n < 60; n++) { /* stopped background: fault */
+        app_tick();
+    }
+    both(5);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, mode());
+}
+
+static void test_watchdog_is_served_only_when_ticks_go_on(void)
+{
+    both(10);
+    TEST_ASSERT_EQUAL_INT(10, fake_board.served);
+    for (int n = 0; n < 100; n++) {
+        app_background();
+    }
+    TEST_ASSERT_EQUAL_INT(10, fake_board.served);
+    both(1);
+    TEST_ASSERT_EQUAL_INT(11, fake_board.served);
+}
+
+static void test_tick_trips_when_the_background_stands_still(void)
+{
+    go_run();
+    for (int n = 0; n < 51; n++) { /* the first still sees the sign of the last pass */
+        app_tick();
+        TEST_ASSERT_TRUE(fake_board.gate);
+    }
+    app_tick();
+    TEST_ASSERT_FALSE(fake_board.gate);
+    app_background();
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_BACKGROUND, app_status_read().fault);
+}
+
+static void test_background_that_lives_late_is_enough(void)
+{
+    go_run();
+    for (int n = 0; n < 20; n++) {
+        for (int k = 0; k < 50; k++) {
+            app_tick();
+        }
+        app_background();
+    }
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
+}
+
+static void test_second_command_waits_until_the_first_was_taken(void)
+{
+    const app_command_t first = {.omega_e_radps = 10.0f};
+    TEST_ASSERT_TRUE(app_command_write(&first));
+    TEST_ASSERT_FALSE(app_command_write(&first));
+    app_tick();
+    TEST_ASSERT_TRUE(app_command_write(&first));
+}
+
+static void test_cycles_of_last_and_worst_tick_are_shown(void)
+{
+    fake_board.cycles          = 0xFFFFFFF0UL; /* wraps */
+    fake_board.cycles_per_read = 1000U;
+    both(1);
+    TEST_ASSERT_EQUAL_UINT(1000U, app_status_read().tick_cycles);
+    fake_board.cycles_per_read = 3000U;
+    both(1);
+    fake_board.cycles_per_read = 100U;
+    both(1);
+    TEST_ASSERT_EQUAL_UINT(100U, app_status_read().tick_cycles);
+    TEST_ASSERT_EQUAL_UINT(3000U, app_status_read().tick_cycles_worst);
+    fake_board.cycles_per_read = 100000U;
+    both(1);
+    TEST_ASSERT_EQUAL_UINT(65535U, app_status_read().tick_cycles_worst);
+}
+
+static void test_bad_constants_keep_the_bridge_off_and_are_told(void)
+{
+    config.modbus_address = 0U;
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_init(&config, &speed_tables_drive));
+    setUp();
+    config.angle.pole_pairs = 7U;
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_init(&config, &speed_tables_drive));
+    both(READY_TICKS);
+    command(0.0f, true);
+    both(10);
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_CONFIG, app_status_read().fault);
+    TEST_ASSERT_FALSE(fake_board.gate);
+    TEST_ASSERT_TRUE(fake_board.served > READY_TICKS); /* alive, to be asked why */
+}
+
+static void test_init_forgets_everything(void)
+{
+    fake_board.cycles_per_read = 500U;
+    go_run();
+    command(5.0f, true);
+    const int served = fake_board.served;
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_init(&config, &speed_tables_drive));
+    app_background();
+    TEST_ASSERT_EQUAL_INT(served, fake_board.served); /* no tick yet */
+    TEST_ASSERT_EQUAL_UINT(0U, app_status_read().board_faults);
+    command(0.0f, false); /* there is room: the one before is gone */
+    fake_board.cycles_per_read = 100U;
+    both(1);
+    TEST_ASSERT_EQUAL_UINT(100U, app_status_read().tick_cycles_worst);
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_init(&config, &speed_tables_drive));
+    TEST_ASSERT_EQUAL_INT(APP_MODE_BOOT, mode());
+    TEST_ASSERT_EQUAL_UINT(0U, (unsigned)app_status_read().ticks);
+    both(READY_TICKS + 10);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, mode());
+}
+
+/* The CRC is tested in test_app_modbus.c. */
+static void modbus_write(int address, int value)
+{
+    int      frame[8] = {1, 6, 0, address, (value >> 8) & 0xFF, value & 0xFF, 0, 0};
+    unsigned crc      = 0xFFFFu;
+    for (int i = 0; i < 6; i++) {
+        crc ^= (unsigned)frame[i];
+        for (int bit = 0; bit < 8; bit++) {
+            crc = ((crc & 1u) != 0u) ? ((crc >> 1) ^ 0xA001u) : (crc >> 1);
+        }
+    }
+    frame[6] = (int)(crc & 0xFFu);
+    frame[7] = (int)(crc >> 8);
+    fake_board_receive(frame, 8);
+    both(14);
+}
+
+static void test_modbus_starts_stops_and_resets(void)
+{
+    both(READY_TICKS);
+    fake_board.sample.index_seen = true;
+    both(1);
+    fake_board.sample.index_seen = false;
+    modbus_write(2, 100);
+    modbus_write(0, 1);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
+    TEST_ASSERT_TRUE(fake_board.gate);
+    TEST_ASSERT_TRUE(app_drive()->speed_ref.omega_e_radps > 0.0f);
+    fake_board.sample.dc_link_cnt = 0U;
+    both(1);
+    fake_board.sample.dc_link_cnt = 2685U;
+    modbus_write(1, 1);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, mode()); /* run is still there */
+    modbus_write(0, 0);
+    modbus_write(1, 1);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, mode());
+}
+
+static void test_command_of_modbus_is_given_once(void)
+{
+    go_run();
+    modbus_write(1, 1);
+    command(0.0f, false);
+    both(2);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, mode());
+    command(0.0f, true);
+    both(20);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY + 2, (int)mode()); /* not withdrawn again */
+
+    fake_board.sample.dc_link_cnt = 0U;
+    both(1);
+    fake_board.sample.dc_link_cnt = 2685U;
+    TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, mode());
+    modbus_write(0, 0); /* the reset before must not come along */
+    TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, mode());
+}
+
+static void tick_as_interrupt(int signal)
+{
+    (void)signal;
+    fake_board.sample.position_cnt = (uint16_t)((fake_board.sample.position_cnt + 1U) % 10000U);
+    app_tick();
+}
+
+/* Ticks interrupt the background anywhere: each sets the position to its own number. */
+static void test_status_is_copied_whole_though_ticks_interrupt(void)
+{
+    const struct itimerval every = {.it_interval = {.tv_usec = 100}, .it_value = {.tv_usec = 100}};
+    const struct itimerval never = {.it_value = {.tv_usec = 0}};
+    uint32_t               last  = 0U;
+
+    struct sigaction action;
+    (void)memset(&action, 0, sizeof action);
+    action.sa_handler = tick_as_interrupt;
+    TEST_ASSERT_EQUAL_INT(0, sigaction(SIGALRM, &action, NULL));
+    TEST_ASSERT_EQUAL_INT(0, setitimer(ITIMER_REAL, &every, NULL));
+    bool whole = true;
+    while (whole && (last < 3000U)) {
+        const app_status_t s = app_status_read();
+        whole = (s.ticks >= last) && (s.position_cnt == (uint16_t)(s.ticks % 10000U));
+        last  = s.ticks;
+    }
+    TEST_ASSERT_EQUAL_INT(0, setitimer(ITIMER_REAL, &never, NULL));
+    TEST_ASSERT_TRUE(whole);
+}
+
+static void test_lost_communication_opens_the_bridge(void)
+{
+    both(READY_TICKS);
+    fake_board.sample.index_seen = true;
+    both(1);
+    fake_board.sample.index_seen = false;
+    modbus_write(0, 1);
+    both(2480);
+    TEST_ASSERT_TRUE(fake_board.gate);
+    both(30);
+    TEST_ASSERT_FALSE(fake_board.gate);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, mode());
+}
+
+static uint16_t code(double current_A)
+{
+    return (uint16_t)(2048 + (int)lround(current_A * 4096.0 / 20.0));
+}
+
+/* One period of the whole loop: samples at its start, the duty ratios written now act in the next one. */
+static void period(void)
+{
+    const int before               = fake_board.sample.position_cnt;
+    const int now                  = test_motor_position(&motor, MARK_RAD);
+    fake_board.sample.ia_cnt       = code(test_motor_phase_A(&motor, 0) + offset_A[0]);
+    fake_board.sample.ib_cnt       = code(test_motor_phase_A(&motor, 1) + offset_A[1]);
+    fake_board.sample.dc_link_cnt  = (uint16_t)(motor.v_dc_V * 4096.0 / 450.0);
+    fake_board.sample.index_seen   = index_on && (abs(now - before) > 5000);
+    fake_board.sample.index_cnt    = 0U;
+    fake_board.sample.position_cnt = (uint16_t)now;
+    both(1);
+    test_motor_period(&motor, in_force, fake_board.gate);
+    in_force[0] = (double)fake_board.duty.a_cnt / 7500.0;
+    in_force[1] = (double)fake_board.duty.b_cnt / 7500.0;
+    in_force[2] = (double)fake_board.duty.c_cnt / 7500.0;
+}
+
+static void periods(int count)
+{
+    for (int n = 0; n < count; n++) {
+        period();
+    }
+}
+
+static double mean_speed_radps(int count)
+{
+    double sum = 0.0;
+    for (int n = 0; n < count; n++) {
+        period();
+        sum += 2.0 * motor.omega_m_radps;
+    }
+    return sum / (double)count;
+}
+
+/* The mark is MARK_RAD from the d axis: 2 x 0.7 rad electrical. */
+static void start_motor(const drive_config_t *drive)
+{
+    config.angle.index_theta_e_rad = (float)(2.0 * MARK_RAD);
+    tolerance_radps =
+        (drive->form == DRIVE_FORM_ENCODER) ? TOL_ENCODER_RADPS : TOL_SPEED_FORM_RADPS;
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_init(&config, drive));
+}
+
+static void assert_runs_at(float omega_e_radps)
+{
+    command(omega_e_radps, true);
+    periods(3000);
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_NONE, app_status_read().fault);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
+    TEST_ASSERT_DOUBLE_WITHIN(tolerance_radps, (double)omega_e_radps, mean_speed_radps(1000));
+}
+
+/* Counts to compare values around a motor, both observers, both directions, sensors with an offset. */
+static void test_whole_loop_runs_from_the_index_and_follows_the_command(void)
+{
+    const drive_config_t *const drives[] = {&speed_tables_drive, &gain_tables_drive};
+    for (int i = 0; i < SUPPORT_COUNT(drives); i++) {
+        setUp();
+        start_motor(drives[i]);
+        offset_A[0]         = 0.3;
+        offset_A[1]         = -0.4;
+        motor.omega_m_radps = 20.0; /* turned by hand until the mark has passed */
+        motor.load_Nm       = 0.0;
+        periods(READY_TICKS + 500);
+        TEST_ASSERT_EQUAL_INT(APP_ANGLE_INDEX, app_status_read().reference);
+        assert_runs_at(200.0f);
+        motor.load_Nm = 0.5;
+        assert_runs_at(200.0f);
+        assert_runs_at(-150.0f);
+        TEST_ASSERT_EQUAL_UINT(0U, app_status_read().index_corrections);
+        /* with the offsets taken away, MTPA at 0.5 N m is 0.87 A */
+        TEST_ASSERT_TRUE(hypot(motor.id_A, motor.iq_A) < 1.2);
+    }
+}
+
+static void test_whole_loop_aligns_without_an_index_and_runs(void)
+{
+    const drive_config_t *const drives[] = {&speed_tables_drive, &gain_tables_drive};
+    for (int i = 0; i < SUPPORT_COUNT(drives); i++) {
+        setUp();
+        start_motor(drives[i]);
+        index_on          = false;
+        motor.theta_m_rad = 2.3;
+        motor.coulomb_Nm  = 0.01;
+        periods(READY_TICKS);
+        command(0.0f, true);
+        periods(14005);
+        TEST_ASSERT_EQUAL_INT(APP_ANGLE_ALIGNED, app_status_read().reference);
+        TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
+        assert_runs_at(150.0f);
+    }
+}
+
+static void test_index_after_alignment_takes_over_on_the_run(void)
+{
+    start_motor(&speed_tables_drive);
+    motor.theta_m_rad = 2.3;
+    index_on          = false;
+    periods(READY_TICKS);
+    command(0.0f, true);
+    periods(14005);
+    TEST_ASSERT_EQUAL_INT(APP_ANGLE_ALIGNED, app_status_read().reference);
+    index_on = true;
+    assert_runs_at(100.0f);
+    TEST_ASSERT_EQUAL_INT(APP_ANGLE_INDEX, app_status_read().reference);
+    const double sampled_rad = 2.0 * motor.theta_m_rad; /* what the next tick samples */
+    period();
+    TEST_ASSERT_DOUBLE_WITHIN(
+        TOL_ANGLE, 0.0,
+        remainder((double)app_status_read().theta_e_rad - sampled_rad, 6.283185307179586));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_gates_are_enabled_once_and_after_everything_else);
+    RUN_TEST(test_gates_are_off_before_the_duty_changes);
+    RUN_TEST(test_board_fault_opens_the_bridge_and_enabling_clears_it);
+    RUN_TEST(test_fault_that_is_still_there_trips_again);
+    RUN_TEST(test_reset_acts_once);
+    RUN_TEST(test_watchdog_is_served_only_when_ticks_go_on);
+    RUN_TEST(test_tick_trips_when_the_background_stands_still);
+    RUN_TEST(test_background_that_lives_late_is_enough);
+    RUN_TEST(test_second_command_waits_until_the_first_was_taken);
+    RUN_TEST(test_cycles_of_last_and_worst_tick_are_shown);
+    RUN_TEST(test_bad_constants_keep_the_bridge_off_and_are_told);
+    RUN_TEST(test_init_forgets_everything);
+    RUN_TEST(test_modbus_starts_stops_and_resets);
+    RUN_TEST(test_command_of_modbus_is_given_once);
+    RUN_TEST(test_status_is_copied_whole_though_ticks_interrupt);
+    RUN_TEST(test_lost_communication_opens_the_bridge);
+    RUN_TEST(test_whole_loop_runs_from_the_index_and_follows_the_command);
+    RUN_TEST(test_whole_loop_aligns_without_an_index_and_runs);
+    RUN_TEST(test_index_after_alignment_takes_over_on_the_run);
+    return UNITY_END();
+}

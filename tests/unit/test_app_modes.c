@@ -1,0 +1,681 @@
+/* SPDX-License-Identifier: MIT */
+#include "app_modes.h"
+
+#include <string.h>
+
+#include "board_f28335.h"
+#include "gain_tables.h"
+#include "speed_tables.h"
+#include "unit_support.h"
+#include "unity.h"
+
+#define BOOT_TICKS      250
+#define CALIBRATE_TICKS 1280
+#define CODE_80_degC    1763 /* last code that is above the limit */
+#define CODE_90_degC    1501 /* last code that is above the trip level */
+
+static app_config_t       config;
+static drive_config_t     drive_config;
+static app_modes_t        modes;
+static app_modes_input_t  in;
+static app_modes_output_t out;
+
+static void init(void)
+{
+    const board_sample_t    rest  = {.ia_cnt          = 2048U,
+                                     .ib_cnt          = 2048U,
+                                     .dc_link_cnt     = 2685U,
+                                     .temperature_cnt = 3357U,
+                                     .valid           = true};
+    const app_modes_input_t quiet = {.raw = rest};
+    in                            = quiet;
+    (void)memset(&modes, 0xFF, sizeof modes); /* init has to set everything */
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_modes_init(&modes, &config, &drive_config));
+}
+
+void setUp(void)
+{
+    config       = board_f28335_config;
+    drive_config = speed_tables_drive;
+    init();
+}
+
+void tearDown(void) {}
+
+static void assert_open(void)
+{
+    TEST_ASSERT_FALSE(out.gate_enable);
+    TEST_ASSERT_FALSE(modes.gate_on);
+    TEST_ASSERT_TRUE((out.duty.a == 0.5f) && (out.duty.b == 0.5f) && (out.duty.c == 0.5f));
+}
+
+static void tick(void)
+{
+    out = app_modes_tick(&modes, &in);
+    if ((modes.mode != APP_MODE_RUN) && (modes.mode != APP_MODE_ALIGN)) {
+        assert_open();
+    }
+}
+
+static void ticks(int count)
+{
+    for (int n = 0; n < count; n++) {
+        tick();
+    }
+}
+
+static void go_ready(void)
+{
+    ticks(BOOT_TICKS + CALIBRATE_TICKS + 1);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+}
+
+static void see_index(void)
+{
+    in.raw.index_seen = true;
+    tick();
+    in.raw.index_seen = false;
+}
+
+static void go_run(void)
+{
+    go_ready();
+    see_index();
+    in.command.run = true;
+    ticks(2);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+    TEST_ASSERT_TRUE(out.gate_enable);
+    tick();
+    TEST_ASSERT_TRUE(out.gate_enable);
+}
+
+/* Into ALIGN with the bridge closed. */
+static void go_align(void)
+{
+    go_ready();
+    in.command.run = true;
+    ticks(1 + 500);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_ALIGN, modes.mode);
+    TEST_ASSERT_TRUE(out.gate_enable);
+}
+
+static void assert_fault(app_fault_t fault)
+{
+    TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, modes.mode);
+    TEST_ASSERT_EQUAL_INT(fault, modes.fault);
+    TEST_ASSERT_EQUAL_INT(fault, modes.snapshot.fault);
+    assert_open();
+}
+
+/* Healthy samples again: the fault stays until a reset without run. */
+static void assert_latched_until_reset(app_fault_t fault, app_mode_t after)
+{
+    in.raw.valid           = true;
+    in.raw.ia_cnt          = 2048U;
+    in.raw.temperature_cnt = 3357U;
+    in.board_faults        = 0U;
+    in.background_lost     = false;
+    in.command.run         = true;
+    ticks(3);
+    assert_fault(fault);
+    in.command.reset = true;
+    tick();
+    assert_fault(fault);
+    in.command.reset = false;
+    in.command.run   = false;
+    ticks(3);
+    assert_fault(fault);
+    in.command.reset = true;
+    tick();
+    in.command.reset = false;
+    TEST_ASSERT_EQUAL_INT(after, modes.mode);
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_NONE, modes.fault);
+    TEST_ASSERT_EQUAL_INT(fault, modes.snapshot.fault); /* the record stays */
+}
+
+static void test_start_boots_calibrates_and_waits_with_the_bridge_open(void)
+{
+    TEST_ASSERT_EQUAL_INT(APP_MODE_BOOT, modes.mode);
+    ticks(BOOT_TICKS - 1);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_BOOT, modes.mode);
+    tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_CALIBRATE, modes.mode);
+    ticks(CALIBRATE_TICKS - 1);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_CALIBRATE, modes.mode);
+    tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    ticks(1000);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+}
+
+static void test_calibration_takes_the_mean_of_each_phase(void)
+{
+    ticks(BOOT_TICKS);
+    for (int n = 0; n < CALIBRATE_TICKS; n++) {
+        in.raw.ia_cnt = (uint16_t)(2040 + (n % 5)); /* mean 2042 */
+        in.raw.ib_cnt = (uint16_t)(2060 - (n % 2)); /* mean 2059.5 */
+        tick();
+    }
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    TEST_ASSERT_FLOAT_WITHIN(0.001f, 2042.0f, modes.scale.zero_a_cnt);
+    TEST_ASSERT_FLOAT_WITHIN(0.001f, 2059.5f, modes.scale.zero_b_cnt);
+}
+
+static void test_zero_beyond_its_bound_faults_and_can_be_tried_again(void)
+{
+    in.raw.ib_cnt = 2149U;
+    ticks(BOOT_TICKS + CALIBRATE_TICKS);
+    assert_fault(APP_FAULT_OFFSET);
+    in.raw.ib_cnt = 2048U;
+    assert_latched_until_reset(APP_FAULT_OFFSET, APP_MODE_BOOT);
+    go_ready();
+}
+
+static void test_run_given_too_early_does_not_start_by_itself(void)
+{
+    in.command.run = true;
+    see_index();
+    go_ready();
+    ticks(100);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    in.command.run = false;
+    tick();
+    in.command.run = true;
+    tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+}
+
+static void test_gates_are_asked_for_by_the_second_tick_of_a_run(void)
+{
+    go_ready();
+    see_index();
+    in.command.run = true;
+    tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+    TEST_ASSERT_FALSE(out.gate_enable);
+    tick();
+    TEST_ASSERT_TRUE(out.gate_enable);
+}
+
+static void test_withdrawn_run_opens_the_bridge_in_the_same_tick(void)
+{
+    go_run();
+    in.command.run = false;
+    tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    assert_open();
+    init();
+    go_align();
+    in.command.run = false;
+    tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    assert_open();
+}
+
+static void test_run_gets_what_the_drive_gives(void)
+{
+    drive_t              drive;
+    const drive_sample_t rest = {.dc_link_V   = 450.0f / 4096.0f * 2685.0f,
+                                 .theta_e_rad = (float)(2.0 * 0.5 * 6.283185307179586 / 10000.0),
+                                 .valid       = true};
+    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_init(&drive, &drive_config));
+    go_ready();
+    see_index();
+    in.command.run           = true;
+    in.command.omega_e_radps = 50.0f;
+    tick();
+    for (int n = 0; n < 20; n++) {
+        const drive_command_t command = {.omega_e_radps = 50.0f, .run = true};
+        const drive_output_t  want    = drive_tick(&drive, &rest, &command);
+        tick();
+        TEST_ASSERT_FLOAT_WITHIN(1.0e-6f, want.duty.a, out.duty.a);
+        TEST_ASSERT_FLOAT_WITHIN(1.0e-6f, want.duty.b, out.duty.b);
+        TEST_ASSERT_FLOAT_WITHIN(1.0e-6f, want.duty.c, out.duty.c);
+    }
+    TEST_ASSERT_TRUE(out.duty.a != 0.5f);
+}
+
+typedef void (*way_t)(void);
+static const way_t ways[] = {go_run, go_align};
+
+static void test_invalid_sample_trips_in_the_same_tick_and_costs_the_angle(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(ways); i++) {
+        init();
+        ways[i]();
+        in.raw.valid = false;
+        tick();
+        assert_fault(APP_FAULT_SAMPLE);
+        TEST_ASSERT_EQUAL_INT(APP_ANGLE_NONE, modes.angle.reference);
+        assert_latched_until_reset(APP_FAULT_SAMPLE, APP_MODE_READY);
+    }
+    init();
+    ticks(BOOT_TICKS + 10);
+    in.raw.ia_cnt = 4096U;
+    tick();
+    assert_fault(APP_FAULT_SAMPLE);
+}
+
+static void test_invalid_sample_in_ready_costs_the_angle_only(void)
+{
+    go_ready();
+    see_index();
+    in.raw.valid = false;
+    tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    TEST_ASSERT_EQUAL_INT(APP_ANGLE_NONE, modes.angle.reference);
+}
+
+static void test_every_board_fault_trips_while_the_gates_are_on(void)
+{
+    static const int faults[] = {BOARD_FAULT_TRIP, BOARD_FAULT_OVERRUN, BOARD_FAULT_CLOCK,
+                                 BOARD_FAULT_ENCODER};
+    for (int i = 0; i < SUPPORT_COUNT(ways); i++) {
+        for (int k = 0; k < SUPPORT_COUNT(faults); k++) {
+            init();
+            ways[i]();
+            in.board_faults = (uint16_t)faults[k];
+            tick();
+            assert_fault(APP_FAULT_BOARD);
+            TEST_ASSERT_EQUAL_UINT(faults[k], modes.snapshot.board_faults);
+            TEST_ASSERT_TRUE((modes.angle.reference == APP_ANGLE_NONE) ==
+                             ((faults[k] == BOARD_FAULT_ENCODER) || (ways[i] == go_align)));
+            assert_latched_until_reset(APP_FAULT_BOARD, APP_MODE_READY);
+        }
+    }
+}
+
+/* Enabling clears them, so a latched one must not keep the drive from starting. */
+static void test_board_faults_are_ignored_until_the_gates_were_enabled(void)
+{
+    in.board_faults = BOARD_FAULT_TRIP;
+    go_ready();
+    see_index();
+    in.command.run = true;
+    ticks(2);
+    TEST_ASSERT_TRUE(out.gate_enable);
+    tick();
+    assert_fault(APP_FAULT_BOARD);
+}
+
+static void test_lost_background_trips_in_every_mode(void)
+{
+    for (int mode = 0; mode < 5; mode++) {
+        init();
+        if (mode == 1) {
+            ticks(BOOT_TICKS + 5);
+        } else if (mode == 2) {
+            go_ready();
+        } else if (mode > 2) {
+            ways[mode - 3]();
+        }
+        in.background_lost = true;
+        tick();
+        assert_fault(APP_FAULT_BACKGROUND);
+        assert_latched_until_reset(APP_FAULT_BACKGROUND,
+                                   (mode < 2) ? APP_MODE_BOOT : APP_MODE_READY);
+    }
+}
+
+static void test_temperature_beyond_the_trip_level_trips(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(ways); i++) {
+        init();
+        ways[i]();
+        in.raw.temperature_cnt = CODE_90_degC + 1;
+        tick();
+        TEST_ASSERT_TRUE(out.gate_enable);
+        TEST_ASSERT_TRUE(modes.hot);
+        in.raw.temperature_cnt = CODE_90_degC;
+        tick();
+        assert_fault(APP_FAULT_TEMPERATURE);
+        assert_latched_until_reset(APP_FAULT_TEMPERATURE, APP_MODE_READY);
+    }
+}
+
+static void test_broken_temperature_sensor_trips(void)
+{
+    static const int broken[] = {0, 4095};
+    for (int i = 0; i < SUPPORT_COUNT(ways); i++) {
+        for (int k = 0; k < SUPPORT_COUNT(broken); k++) {
+            init();
+            ways[i]();
+            in.raw.temperature_cnt = (uint16_t)broken[k];
+            tick();
+            assert_fault(APP_FAULT_TEMPERATURE_SENSOR);
+            assert_latched_until_reset(APP_FAULT_TEMPERATURE_SENSOR, APP_MODE_READY);
+        }
+    }
+}
+
+static void test_hot_drive_refuses_to_start_until_asked_again(void)
+{
+    go_ready();
+    see_index();
+    in.raw.temperature_cnt = CODE_80_degC;
+    tick();
+    TEST_ASSERT_TRUE(modes.hot);
+    in.command.run = true;
+    ticks(5);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    in.raw.temperature_cnt = CODE_80_degC + 1;
+    ticks(5);
+    TEST_ASSERT_FALSE(modes.hot);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    in.command.run = false;
+    tick();
+    in.command.run = true;
+    tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+}
+
+/* Starting shows the operator that the sensor is broken; waiting for it to cool would not. */
+static void test_start_with_a_broken_sensor_faults_before_the_gates(void)
+{
+    go_ready();
+    see_index();
+    in.raw.temperature_cnt = 0U;
+    in.command.run         = true;
+    tick();
+    assert_open();
+    tick();
+    assert_fault(APP_FAULT_TEMPERATURE_SENSOR);
+}
+
+static void test_index_far_off_trips_and_costs_the_angle(void)
+{
+    go_run();
+    in.raw.index_cnt = 101U;
+    see_index();
+    assert_fault(APP_FAULT_INDEX);
+    TEST_ASSERT_EQUAL_INT(APP_ANGLE_NONE, modes.angle.reference);
+    assert_latched_until_reset(APP_FAULT_INDEX, APP_MODE_READY);
+}
+
+static void test_index_fault_is_not_seen_again_in_invalid_samples(void)
+{
+    go_run();
+    in.raw.index_cnt = 101U;
+    see_index();
+    assert_fault(APP_FAULT_INDEX);
+    in.raw.valid     = false;
+    in.command.run   = false;
+    in.command.reset = true;
+    tick();
+    in.command.reset = false;
+    ticks(3);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+}
+
+static void test_index_a_little_off_is_corrected_on_the_run(void)
+{
+    go_run();
+    in.raw.index_cnt = 20U;
+    see_index();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+    TEST_ASSERT_EQUAL_UINT(1U, modes.angle.corrections);
+}
+
+static void test_faults_of_the_drive_trip_and_are_named(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(ways); i++) {
+        init();
+        ways[i]();
+        in.raw.ia_cnt = (uint16_t)(2048 + 1640); /* 8.008 A */
+        tick();
+        assert_fault(APP_FAULT_DRIVE);
+        TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_OVER_CURRENT, modes.snapshot.drive_fault);
+        TEST_ASSERT_EQUAL_UINT(2048 + 1640, modes.snapshot.raw.ia_cnt);
+        assert_latched_until_reset(APP_FAULT_DRIVE, APP_MODE_READY);
+        tick();
+        in.command.run = true;
+        ticks(510);
+        TEST_ASSERT_TRUE(out.gate_enable); /* and runs or aligns again */
+
+        init();
+        ways[i]();
+        in.raw.dc_link_cnt = 0U;
+        tick();
+        assert_fault(APP_FAULT_DRIVE);
+        TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_DC_LINK, modes.snapshot.drive_fault);
+    }
+}
+
+static void test_command_out_of_range_trips_in_the_same_tick(void)
+{
+    static const float bad[] = {1569.2f, -1569.2f, NAN, INFINITY, -INFINITY};
+    for (int i = 0; i < SUPPORT_COUNT(ways); i++) {
+        for (int k = 0; k < SUPPORT_COUNT(bad); k++) {
+            init();
+            ways[i]();
+            in.command.omega_e_radps = bad[k];
+            tick();
+            assert_fault(APP_FAULT_DRIVE);
+            TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_COMMAND, modes.snapshot.drive_fault);
+        }
+    }
+}
+
+/* Encoder form: 240 counts are 0.30 rad electrical, and just below the trip speed. */
+static void test_encoder_fault_of_the_drive_costs_the_angle(void)
+{
+    drive_config = gain_tables_drive;
+    init();
+    go_run();
+    in.raw.position_cnt = 240U;
+    tick();
+    assert_fault(APP_FAULT_DRIVE);
+    TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_ENCODER, modes.snapshot.drive_fault);
+    TEST_ASSERT_EQUAL_INT(APP_ANGLE_NONE, modes.angle.reference);
+}
+
+static void test_align_without_a_motor_fails(void)
+{
+    go_align();
+    ticks(14000);
+    assert_fault(APP_FAULT_ALIGN);
+    TEST_ASSERT_EQUAL_INT(APP_ANGLE_NONE, modes.angle.reference);
+}
+
+/* A rotor that follows the vector exactly; the currents do not matter. */
+static void test_align_ends_in_run_with_the_angle_zero_here(void)
+{
+    go_ready();
+    in.raw.position_cnt = 9000U;
+    tick();
+    in.command.run = true;
+    tick();
+    for (int n = 1; (n < 14000) && (modes.mode == APP_MODE_ALIGN); n++) {
+        const int swept     = (n > 2000) ? ((n < 8000) ? n - 2000 : 6000) : 0;
+        in.raw.position_cnt = (uint16_t)((9000 + ((2500 * swept) / 6000)) % 10000);
+        tick();
+    }
+    TEST_ASSERT_EQUAL_INT(APP_MODE_ALIGN, modes.mode);
+    tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+    TEST_ASSERT_EQUAL_INT(APP_ANGLE_ALIGNED, modes.angle.reference);
+    TEST_ASSERT_TRUE(out.gate_enable);
+    tick();
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 0.0f, modes.reading.theta_e_rad);
+    TEST_ASSERT_TRUE(out.gate_enable);
+}
+
+static void test_index_during_align_ends_it(void)
+{
+    go_align();
+    see_index();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+    TEST_ASSERT_EQUAL_INT(APP_ANGLE_INDEX, modes.angle.reference);
+    TEST_ASSERT_TRUE(out.gate_enable);
+    TEST_ASSERT_EQUAL_INT(DRIVE_RUN, modes.drive.state);
+}
+
+static void test_second_alignment_starts_over(void)
+{
+    go_align();
+    in.command.run = false;
+    ticks(2);
+    in.command.run = true;
+    ticks(500);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_ALIGN, modes.mode);
+    TEST_ASSERT_FALSE(out.gate_enable);
+    tick();
+    TEST_ASSERT_TRUE(out.gate_enable);
+}
+
+static void test_snapshot_keeps_the_first_fault(void)
+{
+    go_run();
+    in.command.omega_e_radps = 12.5f;
+    in.raw.valid             = false;
+    in.raw.ib_cnt            = 77U;
+    tick();
+    const uint32_t at = modes.ticks;
+    in.raw.ib_cnt     = 88U;
+    in.board_faults   = BOARD_FAULT_CLOCK;
+    ticks(10);
+
+    const app_snapshot_t *s = &modes.snapshot;
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_SAMPLE, s->fault);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, s->mode);
+    TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_NONE, s->drive_fault);
+    TEST_ASSERT_EQUAL_UINT(0U, s->board_faults);
+    TEST_ASSERT_EQUAL_UINT(77U, s->raw.ib_cnt);
+    TEST_ASSERT_TRUE(s->wanted_e_radps == 12.5f);
+    TEST_ASSERT_TRUE(s->ticks == at);
+    TEST_ASSERT_TRUE(modes.ticks == (at + 10U));
+}
+
+static void test_status_before_the_first_tick_promises_nothing(void)
+{
+    const app_status_t s = app_modes_status(&modes, 0U);
+
+    TEST_ASSERT_EQUAL_INT(APP_MODE_BOOT, s.mode);
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_NONE, s.fault);
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_NONE, s.snapshot.fault);
+    TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_NONE, s.snapshot.drive_fault);
+    TEST_ASSERT_TRUE((s.snapshot.ticks == 0U) && (s.snapshot.raw.ia_cnt == 0U));
+    TEST_ASSERT_TRUE(s.hot && !s.gate_enable);
+    TEST_ASSERT_TRUE((s.ticks == 0U) && (s.dc_link_V == 0.0f) && (s.theta_e_rad == 0.0f));
+    TEST_ASSERT_TRUE((s.tick_cycles == 0U) && (s.tick_cycles_worst == 0U));
+}
+
+static void test_status_repeats_what_is_inside(void)
+{
+    in.raw.ia_cnt = 2050U;
+    in.raw.ib_cnt = 2041U;
+    go_run();
+    in.raw.ia_cnt       = 2100U;
+    in.raw.position_cnt = 3U;
+    tick();
+    const app_status_t s = app_modes_status(&modes, 5U);
+
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, s.mode);
+    TEST_ASSERT_EQUAL_INT(APP_ANGLE_INDEX, s.reference);
+    TEST_ASSERT_EQUAL_UINT(5U, s.board_faults);
+    TEST_ASSERT_EQUAL_UINT(3U, s.position_cnt);
+    TEST_ASSERT_TRUE(s.gate_enable && !s.hot);
+    TEST_ASSERT_TRUE(s.speed_e_radps == modes.drive.now.omega_e_radps);
+    TEST_ASSERT_TRUE((s.i_A.q == modes.drive.now.iq_A) && (s.i_A.d == modes.drive.now.id_A));
+    TEST_ASSERT_TRUE((s.i_A.q != 0.0f) && (s.i_A.d > 0.1f));
+    TEST_ASSERT_TRUE((s.zero_a_cnt == 2050.0f) && (s.zero_b_cnt == 2041.0f));
+    TEST_ASSERT_TRUE((s.v_V.q == modes.drive.v_V.q) && (s.v_V.q != 0.0f));
+    TEST_ASSERT_FLOAT_WITHIN(0.1f, 25.0f, s.temperature_degC);
+    TEST_ASSERT_FLOAT_WITHIN(0.1f, 295.0f, s.dc_link_V);
+    TEST_ASSERT_TRUE(s.ticks == modes.ticks);
+
+    in.command.run      = false;
+    in.raw.position_cnt = 4U;
+    tick();
+    const app_status_t off = app_modes_status(&modes, 0U);
+    TEST_ASSERT_FLOAT_WITHIN(0.01f, 6.283f, off.speed_e_radps);
+    TEST_ASSERT_TRUE((off.v_V.q == 0.0f) && (off.i_A.q == 0.0f) && !off.gate_enable);
+}
+
+static void assert_config_refused(void)
+{
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_modes_init(&modes, &config, &drive_config));
+    in.command.run = false;
+    tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, modes.mode);
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_CONFIG, modes.fault);
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_CONFIG, modes.snapshot.fault);
+    in.command.reset = true;
+    ticks(3);
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_CONFIG, modes.fault);
+    in.command.reset = false;
+    setUp();
+}
+
+static void test_bad_constants_end_in_fault_for_good(void)
+{
+    drive_config.motor.l5 = NAN;
+    assert_config_refused();
+    drive_config.ts_s = 1.0e-4f; /* of another board */
+    assert_config_refused();
+    config.angle.pole_pairs = 3U; /* of another motor */
+    assert_config_refused();
+    config.angle.pole_pairs = 1U;
+    assert_config_refused();
+    config.angle.index_theta_e_rad = -1.0f;
+    assert_config_refused();
+    config.scale.offset_max_cnt = 1000.0f;
+    assert_config_refused();
+    config.align.current_A = 3.0f;
+    assert_config_refused();
+    config.temperature_limit_degC = config.temperature_trip_degC + 1.0f;
+    assert_config_refused();
+    config.temperature_trip_degC = NAN;
+    assert_config_refused();
+    config.calibrate_ticks = 0U;
+    assert_config_refused();
+    config.background_ticks = 0U;
+    assert_config_refused();
+    config.calibrate_ticks  = 1U;
+    config.background_ticks = 1U;
+    init();
+}
+
+static void test_both_forms_of_the_shipped_drive_fit_the_board(void)
+{
+    drive_config = gain_tables_drive;
+    init();
+    go_run();
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_start_boots_calibrates_and_waits_with_the_bridge_open);
+    RUN_TEST(test_calibration_takes_the_mean_of_each_phase);
+    RUN_TEST(test_zero_beyond_its_bound_faults_and_can_be_tried_again);
+    RUN_TEST(test_run_given_too_early_does_not_start_by_itself);
+    RUN_TEST(test_gates_are_asked_for_by_the_second_tick_of_a_run);
+    RUN_TEST(test_withdrawn_run_opens_the_bridge_in_the_same_tick);
+    RUN_TEST(test_run_gets_what_the_drive_gives);
+    RUN_TEST(test_invalid_sample_trips_in_the_same_tick_and_costs_the_angle);
+    RUN_TEST(test_invalid_sample_in_ready_costs_the_angle_only);
+    RUN_TEST(test_every_board_fault_trips_while_the_gates_are_on);
+    RUN_TEST(test_board_faults_are_ignored_until_the_gates_were_enabled);
+    RUN_TEST(test_lost_background_trips_in_every_mode);
+    RUN_TEST(test_temperature_beyond_the_trip_level_trips);
+    RUN_TEST(test_broken_temperature_sensor_trips);
+    RUN_TEST(test_hot_drive_refuses_to_start_until_asked_again);
+    RUN_TEST(test_start_with_a_broken_sensor_faults_before_the_gates);
+    RUN_TEST(test_index_far_off_trips_and_costs_the_angle);
+    RUN_TEST(test_index_fault_is_not_seen_again_in_invalid_samples);
+    RUN_TEST(test_index_a_little_off_is_corrected_on_the_run);
+    RUN_TEST(test_faults_of_the_drive_trip_and_are_named);
+    RUN_TEST(test_command_out_of_range_trips_in_the_same_tick);
+    RUN_TEST(test_encoder_fault_of_the_drive_costs_the_angle);
+    RUN_TEST(test_align_without_a_motor_fails);
+    RUN_TEST(test_align_ends_in_run_with_the_angle_zero_here);
+    RUN_TEST(test_index_during_align_ends_it);
+    RUN_TEST(test_second_alignment_starts_over);
+    RUN_TEST(test_snapshot_keeps_the_first_fault);
+    RUN_TEST(test_status_before_the_first_tick_promises_nothing);
+    RUN_TEST(test_status_repeats_what_is_inside);
+    RUN_TEST(test_bad_constants_end_in_fault_for_good);
+    RUN_TEST(test_both_forms_of_the_shipped_drive_fit_the_board);
+    return UNITY_END();
+}
