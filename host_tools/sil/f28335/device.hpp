@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+/// A virtual TMS320F28335: runs firmware against the register model.
+///
+/// Registers are plain memory. The model takes what was written and refreshes what is read at the firmware's hooks:
+/// EALLOW, EDIS, EINT, DINT, asm(), DELAY_US, the return of an ISR, and the accesses that the headers
+/// count (SCIRXBUF, SCITXBUF, WDKEY). Time passes in asm(" NOP"), in DELAY_US, and where a test says so; between two hooks
+/// the firmware takes no time. One device at a time: the registers exist once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "adc_unit.hpp"
+#include "clock.hpp"
+#include "coroutine.hpp"
+#include "cpu_timer.hpp"
+#include "encoder_unit.hpp"
+#include "findings.hpp"
+#include "gpio.hpp"
+#include "guarded.hpp"
+#include "pie.hpp"
+#include "pwm_unit.hpp"
+#include "registers.hpp"
+#include "sci_unit.hpp"
+#include "surroundings.hpp"
+#include "watchdog.hpp"
+
+namespace sdre::f28335 {
+
+struct DeviceOptions {
+    ClockFaults clock;
+    double      dead_time_s = 0.0; ///< what the bridge needs; less is reported
+};
+
+class Device {
+public:
+    using Firmware = int (*)();
+
+    /// Power-up: registers as after reset, watchdog stopped as the start-up code leaves it.
+    Device(Surroundings &surroundings, Firmware firmware, const DeviceOptions &options);
+    ~Device();
+    Device(const Device &)            = delete;
+    Device &operator=(const Device &) = delete;
+
+    void run_for(double time_s);
+    /// Until `done` says so or the time is over; false in the latter case.
+    template <typename Done>
+    bool run_until(const Done &done, double longest_s, double step_s = 25e-6)
+    {
+        const double end_s = time_s() + longest_s;
+        while (!done()) {
+            if (time_s() >= end_s || stopped()) {
+                return false;
+            }
+            run_for(step_s);
+        }
+        return true;
+    }
+
+    double time_s() const
+    {
+        return static_cast<double>(now_) / tick_Hz;
+    }
+    /// main() has returned, or the watchdog has reset the device.
+    bool stopped() const
+    {
+        return reset_ || main_.finished();
+    }
+    bool was_reset() const
+    {
+        return reset_;
+    }
+    const Findings &findings() const
+    {
+        return findings_;
+    }
+    SciUnit &serial()
+    {
+        return sci_;
+    }
+    const Clock &clock() const
+    {
+        return clock_;
+    }
+
+    // What may go wrong from outside.
+    void set_fault_pin(bool low);
+    void lose_crystal();
+    /// The next interrupt is served this late, as if another one held the processor.
+    void delay_next_interrupt(std::int64_t cycles)
+    {
+        late_cycles_ = cycles;
+    }
+
+    // Firmware's hooks.
+    void instruction(const char *text);
+    void wait_s(double time_s);
+    void spend_cycles(std::int64_t cycles);
+    void calibrate_adc();
+    void serial_read_access();
+    void serial_write_access();
+    void watchdog_key_access();
+
+    /// The device that the hooks belong to.
+    static Device &current();
+
+private:
+    void         sync();
+    void         update_legs();
+    void         wait_ticks(std::int64_t ticks);
+    std::int64_t ticks_to_event() const;
+    void         elapse(std::int64_t ticks);
+    void         step_pwm(std::int64_t cycles);
+    void         begin_control_period();
+    void         step_encoder(std::int64_t cycles);
+    void         dispatch();
+    void         serve(int vector);
+    bool         fault_pin_trips() const;
+    double       into_period_s() const;
+
+    Surroundings          &surroundings_;
+    DeviceOptions          options_;
+    Findings               findings_;
+    std::int64_t           now_          = 0; ///< ticks of 1 / 150 MHz
+    std::int64_t           target_       = 0; ///< the firmware is suspended there
+    std::int64_t           period_began_ = 0;
+    bool                   reset_        = false;
+    bool                   intm_         = true; ///< interrupts masked
+    bool                   eallow_       = false;
+    bool                   fault_low_    = false;
+    std::int64_t           late_cycles_  = 0;
+    std::array<bool, 3>    legs_{};
+    Clock                  clock_;
+    Watchdog               watchdog_;
+    Pie                    pie_;
+    Gpio                   gpio_;
+    std::array<PwmUnit, 3> pwm_;
+    AdcUnit                adc_;
+    EncoderUnit            encoder_;
+    CpuTimer               timer_;
+    SciUnit                sci_;
+    Guard                  guard_;
+    Coroutine              main_;
+};
+
+} // namespace sdre::f28335

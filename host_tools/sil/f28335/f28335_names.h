@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: MIT */
+/* Force-included into board/f28335: there sdre-sil holds two boards, and board.h's names belong to the one that
+ * chooses (board_choice.cpp). */
+#ifndef F28335_NAMES_H
+#define F28335_NAMES_H
+
+#define board_init           f28335_board_init
+#define board_start          f28335_board_start
+#define board_sample_read    f28335_board_sample_read
+#define board_duty_write     f28335_board_duty_write
+#define board_gate_enable    f28335_board_gate_enable
+#define board_gate_trip      f28335_board_gate_trip
+#define board_fault_read     f28335_board_fault_read
+#define board_cycles         f28335_board_cycles
+#define board_watchdog_serve f28335_board_watchdog_serve
+#define board_serial_read    f28335_board_serial_read
+#define board_serial_write   f28335_board_serial_write
+
+#endif /* F28335_NAMES_H */

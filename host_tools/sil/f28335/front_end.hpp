@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+/// What lies between the motor's quantities and the converter's pins (docs/hardware.md). Written without looking at the
+/// firmware's scaling, so that an error there cannot cancel here.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace sdre::f28335 {
+
+constexpr int    adc_codes        = 4096;
+constexpr int    adc_middle       = 2048;  ///< no current: half of the 3 V
+constexpr double dc_link_full_V   = 450.0; ///< gives 3 V
+constexpr int    temperature_code = 3357;  ///< 25 degC
+
+inline int current_code(int signed_code)
+{
+    return signed_code + adc_middle;
+}
+
+inline int dc_link_code(double V)
+{
+    return static_cast<int>(
+        std::clamp(std::floor(adc_codes * V / dc_link_full_V), 0.0, adc_codes - 1.0));
+}
+
+/// The middle of the voltages that give a code.
+inline double voltage_V(int code)
+{
+    return 3.0 * (code + 0.5) / adc_codes;
+}
+
+} // namespace sdre::f28335

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+/// From register values to the gates of one leg: action qualifier and dead band over one control period.
+///
+/// Counter values count up and down; a control period runs from TBPRD to TBPRD, so ZERO is in its middle.
+///
+///     output(t) = last action at or before t;  compare beats ZERO and PRD          EQ-GATES-1
+///     delayed rise:  in(t) and t - last rise >= DBRED                              EQ-GATES-2
+///     delayed fall:  in(t) or  t - last fall <  DBFED                              EQ-GATES-3
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace sdre::f28335 {
+
+/// What the registers of a leg hold, the compare values being the active ones.
+struct LegRegisters {
+    int           tbprd  = 0;
+    int           cmpa   = 0;
+    int           cmpb   = 0;
+    std::uint16_t aqctla = 0;
+    std::uint16_t aqctlb = 0;
+    std::uint16_t dbctl  = 0;
+    std::uint16_t dbred  = 0; ///< only ten bits act
+    std::uint16_t dbfed  = 0;
+};
+
+/// The level of a signal and its last changes, in counts before the coming control period (<= 0).
+struct SignalMemory {
+    bool level     = false;
+    int  last_rise = -100000; ///< long ago
+    int  last_fall = -100000;
+};
+
+struct LegMemory {
+    SignalMemory a;
+    SignalMemory b;
+};
+
+/// A state from a time on; counts since the period's start.
+struct SignalEdge {
+    int  time_cnt;
+    bool level;
+};
+struct GateEdge {
+    int  time_cnt;
+    bool upper;
+    bool lower;
+};
+
+struct LegPeriod {
+    std::vector<SignalEdge> a; ///< output of the action qualifier; the first is the state at 0
+    std::vector<GateEdge>   gates;
+    bool complementary  = false; ///< the dead band makes B from A: edges of `a` plus delays say all
+    int  rise_delay_cnt = 0;
+    int  fall_delay_cnt = 0;
+};
+
+/// One control period; the memory goes on to the next.
+LegPeriod leg_period(const LegRegisters &registers, LegMemory &memory);
+
+/// Shortest time between one switch off and the other on [counts]; negative: both were on at once. None: the leg does
+/// not change over. `before` is the last state of the period before.
+std::optional<int> shortest_gap_cnt(const std::vector<GateEdge> &gates);
+
+} // namespace sdre::f28335

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+/// Registers that may not be written just now: EALLOW protection, and units without a clock. A register is
+/// plain memory, so the guard compares it with a copy whenever the model looks, and puts it back.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "findings.hpp"
+
+namespace sdre::f28335 {
+
+class Guard {
+public:
+    Guard();
+
+    /// Takes what is there now as allowed.
+    void remember();
+    /// Undoes and reports what was written without leave since the last remember(), then remembers.
+    void check(bool eallow, Findings &findings, double time_s);
+
+private:
+    struct Region {
+        std::string                name;
+        unsigned char             *data;
+        std::size_t                bytes;
+        bool                       eallow;  ///< needs EALLOW
+        std::function<bool()>      clocked; ///< empty: always
+        std::vector<unsigned char> copy;
+    };
+    void add(const std::string &name, volatile void *data, std::size_t bytes, bool eallow,
+             const std::function<bool()> &clocked = {});
+    std::vector<Region> regions_;
+};
+
+} // namespace sdre::f28335

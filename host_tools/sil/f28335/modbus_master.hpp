@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+/// The other end of the serial line: a Modbus RTU master. Own checksum, so that it does not share an error with the
+/// firmware's.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "sci_unit.hpp"
+
+namespace sdre::f28335 {
+
+std::uint16_t modbus_crc(const std::vector<std::uint8_t> &octets);
+
+class ModbusMaster {
+public:
+    ModbusMaster(SciUnit &line, std::uint8_t server) : line_(line), server_(server) {}
+
+    /// Function 6. One request at a time: see busy().
+    void write(std::uint16_t address, std::uint16_t value);
+    /// Function 4.
+    void read_input(std::uint16_t address, std::uint16_t count);
+    /// Takes what has come; call it now and then.
+    void poll();
+    bool busy() const
+    {
+        return expected_ != 0;
+    }
+    /// Of the last read; empty before its answer is there.
+    const std::vector<std::uint16_t> &values() const
+    {
+        return values_;
+    }
+    int answers() const
+    {
+        return answers_;
+    }
+    /// Answers that were no good: checksum, exception, wrong length.
+    int errors() const
+    {
+        return errors_;
+    }
+
+private:
+    void send(std::vector<std::uint8_t> frame, std::size_t expected);
+    void end_request()
+    {
+        expected_ = 0;
+        got_.clear();
+    }
+    void take_answer();
+
+    SciUnit                   &line_;
+    std::uint8_t               server_;
+    std::size_t                expected_ = 0; ///< octets of the answer; 0: no request is open
+    std::vector<std::uint8_t>  request_;
+    std::vector<std::uint8_t>  got_;
+    std::vector<std::uint16_t> values_;
+    int                        answers_ = 0;
+    int                        errors_  = 0;
+};
+
+} // namespace sdre::f28335

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+/// What is connected to the device's pins, as the device sees it.
+#pragma once
+
+#include <array>
+
+#include "encoder_unit.hpp"
+#include "gate_edges.hpp"
+
+namespace sdre::f28335 {
+
+/// The three legs over one control period, counter top to counter top.
+struct ControlPeriod {
+    std::array<LegPeriod, 3> legs;
+    int                      tbprd            = 0;
+    int                      cycles_per_count = 1;
+    double                   sysclk_Hz        = 150e6;
+
+    double seconds(int counts) const
+    {
+        return static_cast<double>(counts * cycles_per_count) / sysclk_Hz;
+    }
+};
+
+class Surroundings {
+public:
+    Surroundings()                                = default;
+    Surroundings(const Surroundings &)            = delete;
+    Surroundings &operator=(const Surroundings &) = delete;
+    virtual ~Surroundings()                       = default;
+
+    /// The counters have reached their top; the gates will do this until they are there again.
+    virtual void period_begins(const ControlPeriod &period) = 0;
+    /// Which legs follow the PWM from now on; the others have both switches off.
+    virtual void legs_change(const std::array<bool, 3> &enabled, double into_period_s) = 0;
+    /// Voltage at a converter input, now: side 0 = A, 1 = B.
+    virtual double analog_V(int side, int number) = 0;
+    /// The encoder, now.
+    virtual ShaftCount shaft(double into_period_s) = 0;
+};
+
+} // namespace sdre::f28335

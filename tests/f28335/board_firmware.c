@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT */
+#include "board_firmware.h"
+
+#include "DSP28x_Project.h"
+
+volatile board_firmware_t board_firmware;
+
+static void tick(void)
+{
+    const board_duty_t duty = board_firmware.duty;
+
+    board_firmware.sample = board_sample_read();
+    if (board_firmware.ticks == 0U) {
+        board_firmware.first_sample = board_sample_read();
+    }
+    board_firmware.ticks = board_firmware.ticks + 1U;
+    if (board_firmware.tick_lasts_us > 0.0) {
+        const double lasts_us        = board_firmware.tick_lasts_us;
+        board_firmware.tick_lasts_us = 0.0;
+        DELAY_US(lasts_us);
+    }
+    board_duty_write(&duty);
+    if (board_firmware.enable) {
+        board_firmware.enable = false;
+        board_gate_enable();
+    }
+    if (board_firmware.trip) {
+        board_firmware.trip = false;
+        board_gate_trip();
+    }
+    board_firmware.faults = board_fault_read();
+}
+
+int board_firmware_main(void)
+{
+    board_firmware.init_result = board_init();
+    board_firmware.faults      = board_fault_read();
+    if (board_firmware.init_result) {
+        board_start(tick);
+        board_firmware.started = true;
+    }
+    for (;;) {
+        if (board_firmware.serve && board_firmware.started) {
+            board_watchdog_serve();
+        }
+        asm(" NOP");
+    }
+}

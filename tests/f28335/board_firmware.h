@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file board_firmware.h
+ * @brief The real board layer under a tick and a background that a test controls.
+ */
+#ifndef BOARD_FIRMWARE_H
+#define BOARD_FIRMWARE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "f28335_names.h"
+
+#include "board.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+    /* Set by the test. */
+    bool         enable;        /**< gates on from the next tick */
+    bool         trip;          /**< gates off from the next tick */
+    bool         serve;         /**< the background serves the watchdog */
+    double       tick_lasts_us; /**< more than nothing: the next tick takes this long, once */
+    board_duty_t duty;
+    /* Seen by the firmware. */
+    bool           init_result;
+    bool           started;
+    uint32_t       ticks;
+    board_sample_t first_sample;
+    board_sample_t sample;
+    uint16_t       faults;
+} board_firmware_t;
+
+extern volatile board_firmware_t board_firmware;
+
+int board_firmware_main(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* BOARD_FIRMWARE_H */

@@ -1,0 +1,417 @@
+// SPDX-License-Identifier: MIT
+// The drivers of firmware/board/f28335 on the virtual device: every register after the start, the timing of a period, and
+// what they do when something breaks. Expected values are derived here, from the crystal up.
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "board_firmware.h"
+#include "device.hpp"
+#include "plain_surroundings.hpp"
+
+namespace {
+
+using namespace sdre::f28335;
+
+constexpr double period_s = 200e-6;
+
+class F28335Board : public ::testing::Test {
+protected:
+    F28335Board()
+    {
+        auto &b              = const_cast<board_firmware_t &>(board_firmware);
+        b                    = board_firmware_t{};
+        b.serve              = true;
+        b.duty               = {3000, 3750, 7500};
+        around.input_V[1][1] = 1.0;
+    }
+
+    Device &start()
+    {
+        device = std::make_unique<Device>(around, board_firmware_main, options);
+        EXPECT_TRUE(device->run_until([] { return board_firmware.ticks >= 1U; }, 50e-3));
+        return *device;
+    }
+    void enable_gates()
+    {
+        board_firmware.enable = true;
+        device->run_for(2 * period_s);
+    }
+    bool all_legs(bool on) const
+    {
+        return around.legs == std::array<bool, 3>{on, on, on};
+    }
+
+    PlainSurroundings       around;
+    DeviceOptions           options{{}, 3e-6};
+    std::unique_ptr<Device> device;
+};
+
+TEST_F(F28335Board, ClockRegisters)
+{
+    start();
+    // 30 MHz * 10 / 2 = 150 MHz: PLLCR 10, DIVSEL (8:7) 2, locked (0).
+    EXPECT_EQ(SysCtrlRegs.PLLCR.all, 10U);
+    EXPECT_EQ(SysCtrlRegs.PLLSTS.all, (2U << 7) | 1U);
+    // ADC: 150 / (2 * 3) = 25 MHz. SCI: 150 / (2 * 2) = 37.5 MHz.
+    EXPECT_EQ(SysCtrlRegs.HISPCP.all, 3U);
+    EXPECT_EQ(SysCtrlRegs.LOSPCP.all, 2U);
+    // TBCLKSYNC 2, ADC 3, SCI-A 10; ePWM1..3 0..2, eQEP1 14; CPU timer 0 8; all the rest off.
+    EXPECT_EQ(SysCtrlRegs.PCLKCR0.all, (1U << 2) | (1U << 3) | (1U << 10));
+    EXPECT_EQ(SysCtrlRegs.PCLKCR1.all, 7U | (1U << 14));
+    EXPECT_EQ(SysCtrlRegs.PCLKCR3.all, 1U << 8);
+    EXPECT_EQ(SysCtrlRegs.MAPCNF.all, 0U);
+}
+
+TEST_F(F28335Board, FlashRegisters)
+{
+    start();
+    // 150 MHz: 5 random and 5 paged waits, 8 for the OTP, pipeline on, longest wake-up times.
+    EXPECT_EQ(FlashRegs.FOPT.all, 1U);
+    EXPECT_EQ(FlashRegs.FBANKWAIT.all, (5U << 8) | 5U);
+    EXPECT_EQ(FlashRegs.FOTPWAIT.all, 8U);
+    EXPECT_EQ(FlashRegs.FSTDBYWAIT.all, 0x1FFU);
+    EXPECT_EQ(FlashRegs.FACTIVEWAIT.all, 0x1FFU);
+}
+
+TEST_F(F28335Board, PwmRegisters)
+{
+    start();
+    const volatile EPWM_REGS *legs[] = {&EPwm1Regs, &EPwm2Regs, &EPwm3Regs};
+    for (const volatile EPWM_REGS *leg : legs) {
+        // Up-down 2, shadow of the period off (3), no sync out 3 (5:4), SYSCLK / 2 (9:7 = 1), halt at end of cycle (15:14 = 1).
+        EXPECT_EQ(leg->TBCTL.all, 2U | (1U << 3) | (3U << 4) | (1U << 7) | (1U << 14));
+        // 75 MHz / (2 * 5 kHz)
+        EXPECT_EQ(leg->TBPRD, 7500U);
+        EXPECT_EQ(leg->TBPHS.all, 0U);
+        // Shadow, loaded at PRD.
+        EXPECT_EQ(leg->CMPCTL.all, 1U);
+        // PRD (3:2) clear 1, CAU (5:4) clear 1, CAD (7:6) set 2.
+        EXPECT_EQ(leg->AQCTLA.all, (1U << 2) | (1U << 4) | (2U << 6));
+        EXPECT_EQ(leg->AQCTLB.all, 0U);
+        EXPECT_EQ(leg->AQSFRC.all, 0U);
+        EXPECT_EQ(leg->AQCSFRC.all, 0U);
+        // Both outputs delayed 3, B inverted 2 (3:2), both from A 0 (5:4). 3 us * 75 MHz = 225.
+        EXPECT_EQ(leg->DBCTL.all, 3U | (2U << 2));
+        EXPECT_EQ(leg->DBRED, 225U);
+        EXPECT_EQ(leg->DBFED, 225U);
+        // One-shot by TZ1 (8), both outputs low (2 and 2 << 2), no interrupt; tripped until enabled.
+        EXPECT_EQ(leg->TZSEL.all, 1U << 8);
+        EXPECT_EQ(leg->TZCTL.all, 2U | (2U << 2));
+        EXPECT_EQ(leg->TZEINT.all, 0U);
+        EXPECT_EQ(leg->TZFLG.all, 1U << 2);
+        EXPECT_EQ(leg->PCCTL.all, 0U);
+        EXPECT_EQ(leg->HRCNFG.all, 0U);
+    }
+    // SOCA on (11) at PRD (10:8 = 2), every time (9:8 = 1); the other legs trigger nothing.
+    EXPECT_EQ(EPwm1Regs.ETSEL.all, (2U << 8) | (1U << 11));
+    EXPECT_EQ(EPwm1Regs.ETPS.all & 0x0303U, 1U << 8);
+    EXPECT_EQ(EPwm2Regs.ETSEL.all, 0U);
+    EXPECT_EQ(EPwm3Regs.ETSEL.all, 0U);
+}
+
+TEST_F(F28335Board, ConverterRegisters)
+{
+    start();
+    // Window of 4 clocks (11:8 = 3), no prescaler, two sequencers.
+    EXPECT_EQ(AdcRegs.ADCTRL1.all, 3U << 8);
+    // SOCA starts sequencer 1 (8), interrupt at its end (11).
+    EXPECT_EQ(AdcRegs.ADCTRL2.all, (1U << 8) | (1U << 11));
+    // Powered (7:5), undivided (4:1), simultaneous (0).
+    EXPECT_EQ(AdcRegs.ADCTRL3.all, 0xE0U | 1U);
+    // Two pairs: 0, then 1.
+    EXPECT_EQ(AdcRegs.ADCMAXCONV.all, 1U);
+    EXPECT_EQ(AdcRegs.ADCCHSELSEQ1.all, 1U << 4);
+}
+
+TEST_F(F28335Board, EncoderRegisters)
+{
+    start();
+    EXPECT_EQ(EQep1Regs.QPOSMAX, 9999U); // 4 * 2500 - 1
+    EXPECT_EQ(EQep1Regs.QUPRD, 30000U);  // 150 MHz / 5 kHz
+    EXPECT_EQ(EQep1Regs.QDECCTL.all, 0U);
+    // Unit timer 1, latch at time-out 2, counter on 3, index rising (5:4 = 1), reset at maximum (13:12 = 1), free run (15:14 = 2).
+    EXPECT_EQ(EQep1Regs.QEPCTL.all,
+              (1U << 1) | (1U << 2) | (1U << 3) | (1U << 4) | (1U << 12) | (2U << 14));
+    EXPECT_EQ(EQep1Regs.QEINT.all, 0U);
+    EXPECT_EQ(EQep1Regs.QCAPCTL.all, 0U);
+    EXPECT_EQ(EQep1Regs.QPOSCTL.all, 0U);
+}
+
+TEST_F(F28335Board, PinRegisters)
+{
+    start();
+    // Two bits a pin: ePWM1A..3B on 0..5, TZ1 on 12; eQEP1A, B, I on 20, 21, 23 and SCI-A on 28, 29 (second register from 16).
+    EXPECT_EQ(GpioCtrlRegs.GPAMUX1.all, 0x555U | (1UL << 24));
+    EXPECT_EQ(GpioCtrlRegs.GPAMUX2.all,
+              (1UL << 8) | (1UL << 10) | (1UL << 14) | (1UL << 24) | (1UL << 26));
+    // Outputs: the six gates and the driver's enable on 6.
+    EXPECT_EQ(GpioCtrlRegs.GPADIR.all, 0x7FU);
+    // Pull-ups off: reset value 0xFFF, and pin 12, which the board pulls down.
+    EXPECT_EQ(GpioCtrlRegs.GPAPUD.all, 0xFFFUL | (1UL << 12));
+    // TZ1 asynchronous 3; encoder six samples 2; receiver asynchronous 3.
+    EXPECT_EQ(GpioCtrlRegs.GPAQSEL1.all, 3UL << 24);
+    EXPECT_EQ(GpioCtrlRegs.GPAQSEL2.all, (2UL << 8) | (2UL << 10) | (2UL << 14) | (3UL << 24));
+    EXPECT_EQ(GpioCtrlRegs.GPACTRL.all, 2UL << 16);
+    EXPECT_EQ(GpioCtrlRegs.GPBMUX1.all | GpioCtrlRegs.GPBMUX2.all | GpioCtrlRegs.GPBDIR.all, 0U);
+}
+
+TEST_F(F28335Board, SerialRegisters)
+{
+    start();
+    // 8 bits (2:0 = 7), parity on (5) and even (6), one stop bit.
+    EXPECT_EQ(SciaRegs.SCICCR.all, 7U | (1U << 5) | (1U << 6));
+    EXPECT_EQ(SciaRegs.SCICTL1.all, 3U | (1U << 5));
+    // 37.5 MHz / (8 * 115200) - 1 = 39.7, so 40: 114329 baud.
+    EXPECT_EQ(SciaRegs.SCIHBAUD, 0U);
+    EXPECT_EQ(SciaRegs.SCILBAUD, 40U);
+    EXPECT_EQ(SciaRegs.SCIFFTX.all, 0xE000U);
+    EXPECT_EQ(SciaRegs.SCIFFRX.all, 0x2000U);
+    EXPECT_EQ(SciaRegs.SCICTL2.all & 3U, 0U);
+}
+
+TEST_F(F28335Board, InterruptWatchdogAndTimerRegisters)
+{
+    start();
+    EXPECT_EQ(+PieCtrlRegs.PIECTRL.bit.ENPIE, 1);
+    EXPECT_EQ(PieCtrlRegs.PIEIER1.all, 1U); // ADC sequencer 1
+    EXPECT_EQ(PieCtrlRegs.PIEIER2.all | PieCtrlRegs.PIEIER3.all | PieCtrlRegs.PIEIER5.all |
+                  PieCtrlRegs.PIEIER9.all | PieCtrlRegs.PIEIER12.all,
+              0U);
+    EXPECT_EQ(IER, 1U);
+    const PINT *vectors = reinterpret_cast<const PINT *>(&PieVectTable);
+    for (int n = 0; n < 128; n++) {
+        EXPECT_NE(vectors[n], nullptr) << n;
+    }
+    EXPECT_NE(PieVectTable.SEQ1INT, PieVectTable.ADCINT);
+    // On, crystal / 512 / 4: 256 * 512 * 4 / 30 MHz = 17.5 ms.
+    EXPECT_EQ(SysCtrlRegs.WDCR & 0x47U, 3U);
+    EXPECT_EQ(CpuTimer0Regs.PRD.all, 0xFFFFFFFFU);
+    EXPECT_EQ(+CpuTimer0Regs.TCR.bit.TSS, 0);
+    EXPECT_EQ(CpuTimer0Regs.TPR.all, 0U);
+    EXPECT_EQ(CpuTimer0Regs.TPRH.all, 0U);
+}
+
+TEST_F(F28335Board, StartsWithoutFindingAndWithTheBridgeOff)
+{
+    Device &d = start();
+    EXPECT_TRUE(board_firmware.init_result);
+    EXPECT_TRUE(all_legs(false));
+    for (const Findings::Entry &e : d.findings().all()) {
+        ADD_FAILURE() << e.text;
+    }
+}
+
+TEST_F(F28335Board, OneTickPerPeriodWithItsSample)
+{
+    around.input_V[0][0]     = 1.0; // 1365.3
+    around.input_V[1][0]     = 2.0; // 2730.7
+    around.counts_per_period = 50;
+    Device             &d    = start();
+    const std::uint32_t tick = board_firmware.ticks;
+    const int           from = board_firmware.sample.position_cnt;
+    d.run_for(50 * period_s);
+
+    EXPECT_EQ(board_firmware.ticks - tick, 50U);
+    EXPECT_EQ((board_firmware.sample.position_cnt + 10000 - from) % 10000, 2500);
+    EXPECT_EQ(board_firmware.sample.ia_cnt, 1365);
+    EXPECT_EQ(board_firmware.sample.ib_cnt, 2730);
+    EXPECT_TRUE(board_firmware.sample.valid);
+    EXPECT_EQ(board_firmware.faults, BOARD_FAULT_NONE);
+}
+
+TEST_F(F28335Board, EverySampleIsNew)
+{
+    Device &d = start();
+    for (int n = 1; n <= 8; n++) { // once around the sequencer and more
+        around.input_V[0][0] = 0.1 * n;
+        around.input_V[0][1] = 0.2 * n;
+        d.run_for(period_s);
+        EXPECT_EQ(board_firmware.sample.ia_cnt, static_cast<int>(4096 * 0.1 * n / 3.0)) << n;
+        EXPECT_EQ(board_firmware.sample.dc_link_cnt, static_cast<int>(4096 * 0.2 * n / 3.0)) << n;
+    }
+}
+
+TEST_F(F28335Board, DutyReachesTheGatesWithThreeMicrosecondsOfDeadTime)
+{
+    start();
+    enable_gates();
+    EXPECT_TRUE(all_legs(true));
+    device->run_for(2 * period_s);
+
+    const ControlPeriod &p = around.period;
+    ASSERT_EQ(p.legs[0].gates.size(), 5U);
+    EXPECT_NEAR(p.seconds(p.legs[0].gates[1].time_cnt), 100e-6 * (1.0 - 0.4), 1e-12);
+    EXPECT_NEAR(p.seconds(*shortest_gap_cnt(p.legs[0].gates)), 3e-6, 1e-12);
+    EXPECT_NEAR(p.seconds(*shortest_gap_cnt(p.legs[1].gates)), 3e-6, 1e-12);
+    EXPECT_EQ(p.legs[2].gates.size(), 1U); // always on
+    EXPECT_TRUE(p.legs[2].gates[0].upper);
+}
+
+TEST_F(F28335Board, GatesComeOnWithinAMicrosecondOfTheSample)
+{
+    start();
+    enable_gates();
+    // 2.5 + 4 + 5 + 6 clocks of 40 ns.
+    EXPECT_NEAR(around.legs_changed_s, 0.7e-6, 1e-12);
+}
+
+TEST_F(F28335Board, FaultPinTripsAndIsReported)
+{
+    Device &d = start();
+    enable_gates();
+    d.set_fault_pin(true);
+    EXPECT_TRUE(all_legs(false));
+    d.run_for(2 * period_s);
+    EXPECT_EQ(board_firmware.faults & BOARD_FAULT_TRIP, BOARD_FAULT_TRIP);
+
+    // Enabling is refused as long as the pin is low, and works after.
+    enable_gates();
+    EXPECT_TRUE(all_legs(false));
+    d.set_fault_pin(false);
+    enable_gates();
+    EXPECT_TRUE(all_legs(true));
+    EXPECT_EQ(board_firmware.faults, BOARD_FAULT_NONE);
+    EXPECT_FALSE(d.findings().has(Finding::trip));
+}
+
+TEST_F(F28335Board, SoftwareTripOpensEveryLegAndTheDriver)
+{
+    start();
+    enable_gates();
+    board_firmware.trip = true;
+    // Look at the instant, before the next tick repeats the trip.
+    device->run_until([&] { return all_legs(false); }, 2 * period_s, 5e-6);
+    EXPECT_TRUE(all_legs(false));
+    EXPECT_EQ(+EPwm1Regs.TZFLG.bit.OST, 1);
+    EXPECT_EQ(+EPwm2Regs.TZFLG.bit.OST, 1);
+    EXPECT_EQ(+EPwm3Regs.TZFLG.bit.OST, 1);
+    EXPECT_EQ(+GpioDataRegs.GPADAT.bit.GPIO6, 0);
+    EXPECT_EQ(board_firmware.faults, BOARD_FAULT_NONE);
+}
+
+TEST_F(F28335Board, FirstSampleIsValidAndOneWithoutLatchIsNot)
+{
+    Device &d = start();
+    EXPECT_TRUE(board_firmware.first_sample.valid);
+    EQep1Regs.QEPCTL.bit.UTE = 0; // the unit timer stops
+    d.run_for(3 * period_s);
+    EXPECT_FALSE(board_firmware.sample.valid);
+}
+
+TEST_F(F28335Board, ReceiverOverflowsAfterSixteenOctets)
+{
+    Device &d = start();
+    for (int n = 0; n < 17; n++) {
+        d.serial().send(0x55);
+    }
+    // 11 bits with parity, 8 * 41 cycles of a quarter of the clock each.
+    const double octet_s = 11 * 8 * 41 * 4 / 150e6;
+    d.run_for(16.5 * octet_s);
+    EXPECT_EQ(+SciaRegs.SCIFFRX.bit.RXFFST, 16);
+    EXPECT_EQ(+SciaRegs.SCIFFRX.bit.RXFFOVF, 0);
+    d.run_for(octet_s);
+    EXPECT_EQ(+SciaRegs.SCIFFRX.bit.RXFFST, 16);
+    EXPECT_EQ(+SciaRegs.SCIFFRX.bit.RXFFOVF, 1);
+}
+
+TEST_F(F28335Board, WatchdogServedDoesNotReset)
+{
+    Device &d = start();
+    d.run_for(60e-3);
+    EXPECT_FALSE(d.was_reset());
+}
+
+TEST_F(F28335Board, TickThatOutlastsItsPeriodIsAnOverrun)
+{
+    Device &d = start();
+    enable_gates();
+    EXPECT_EQ(board_firmware.faults, BOARD_FAULT_NONE);
+    board_firmware.tick_lasts_us = 201.0;
+    d.run_for(3 * period_s);
+    EXPECT_EQ(board_firmware.faults & BOARD_FAULT_OVERRUN, BOARD_FAULT_OVERRUN);
+    EXPECT_TRUE(all_legs(false));
+}
+
+TEST_F(F28335Board, LongTickWithinItsPeriodIsNone)
+{
+    Device &d = start();
+    enable_gates();
+    board_firmware.tick_lasts_us = 190.0;
+    d.run_for(3 * period_s);
+    EXPECT_EQ(board_firmware.faults, BOARD_FAULT_NONE);
+    EXPECT_TRUE(all_legs(true));
+}
+
+TEST_F(F28335Board, LateInterruptIsAnOverrun)
+{
+    Device &d = start();
+    enable_gates();
+    d.delay_next_interrupt(30000); // a whole period
+    d.run_for(4 * period_s);
+    EXPECT_EQ(board_firmware.faults & BOARD_FAULT_OVERRUN, BOARD_FAULT_OVERRUN);
+    EXPECT_TRUE(all_legs(false));
+}
+
+TEST_F(F28335Board, PhaseErrorMakesTheSampleInvalid)
+{
+    Device &d                = start();
+    around.phase_error       = true;
+    const std::uint32_t tick = board_firmware.ticks;
+    d.run_until([&] { return board_firmware.ticks > tick; }, 2 * period_s, 5e-6);
+    EXPECT_FALSE(board_firmware.sample.valid);
+    EXPECT_EQ(board_firmware.faults & BOARD_FAULT_ENCODER, BOARD_FAULT_ENCODER);
+    d.run_for(period_s);
+    EXPECT_TRUE(board_firmware.sample.valid);
+}
+
+TEST_F(F28335Board, FailedLockIsReportedAndNothingStarts)
+{
+    options.clock.never_locks = true;
+    device                    = std::make_unique<Device>(around, board_firmware_main, options);
+    device->run_for(0.5);
+
+    EXPECT_FALSE(board_firmware.init_result);
+    EXPECT_FALSE(board_firmware.started);
+    EXPECT_EQ(board_firmware.faults & BOARD_FAULT_CLOCK, BOARD_FAULT_CLOCK);
+    EXPECT_EQ(board_firmware.ticks, 0U);
+    EXPECT_TRUE(all_legs(false));
+    EXPECT_FALSE(device->findings().has(Finding::clock));
+}
+
+TEST_F(F28335Board, MissingCrystalIsReportedAndNothingStarts)
+{
+    options.clock.limp_mode = true;
+    device                  = std::make_unique<Device>(around, board_firmware_main, options);
+    device->run_for(0.2);
+
+    EXPECT_FALSE(board_firmware.init_result);
+    EXPECT_EQ(board_firmware.faults & BOARD_FAULT_CLOCK, BOARD_FAULT_CLOCK);
+    EXPECT_EQ(SysCtrlRegs.PLLCR.all, 0U); // never touched in limp mode
+    EXPECT_TRUE(all_legs(false));
+}
+
+TEST_F(F28335Board, CrystalThatDiesOpensTheBridge)
+{
+    Device &d = start();
+    enable_gates();
+    d.lose_crystal();
+    // Everything is 75 times slower now.
+    d.run_until([&] { return all_legs(false); }, 75 * 2 * period_s);
+    EXPECT_TRUE(all_legs(false));
+}
+
+TEST_F(F28335Board, WatchdogNotServedResetsTheDevice)
+{
+    Device &d = start();
+    enable_gates();
+    board_firmware.serve = false;
+    d.run_for(16e-3);
+    EXPECT_FALSE(d.was_reset());
+    d.run_for(2e-3);
+    EXPECT_TRUE(d.was_reset());
+    EXPECT_TRUE(all_legs(false));
+}
+
+} // namespace

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// The application with its drivers on the virtual device against the same application on board.h: the same codes and counts
+// go in, so the same duty ratios have to come out, bit for bit.
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+extern "C" {
+#include "app.h"
+#include "app_registers.h"
+}
+#include "board_run.hpp"
+#include "board_runs.hpp"
+#include "errors.hpp"
+
+namespace {
+
+using namespace sdre;
+
+Scenario shipped(const std::string &name)
+{
+    return read_scenario_file(std::string(SDRE_SOURCE_DIR) + "/host_tools/sil/scenarios/" + name +
+                              ".toml");
+}
+
+class BoardRuns : public ::testing::TestWithParam<const char *> {};
+
+TEST_P(BoardRuns, DriversAndFakeGiveTheSameRunBitForBit)
+{
+    Scenario s                   = shipped(GetParam());
+    s.duration_s                 = std::min(s.duration_s, 0.45); // beyond the first step of each
+    const Controller  controller = prepare_controller(s);
+    const BoardResult api        = simulate_on_board(s, BoardKind::api, controller);
+    const BoardResult device     = simulate_on_board(s, BoardKind::f28335, controller);
+
+    EXPECT_EQ(device.findings, std::vector<std::string>{});
+    EXPECT_EQ(device.result.fault, 0);
+    EXPECT_EQ(device.modbus_errors, 0);
+    EXPECT_GT(device.modbus_answers, 2);
+    EXPECT_EQ(device.zero_a_cnt, api.zero_a_cnt);
+    EXPECT_EQ(device.zero_b_cnt, api.zero_b_cnt);
+    ASSERT_EQ(device.ticks.size(), api.ticks.size());
+    for (std::size_t k = 0; k < api.ticks.size(); k++) {
+        ASSERT_EQ(device.ticks[k].current_code, api.ticks[k].current_code) << k;
+        ASSERT_EQ(device.ticks[k].count, api.ticks[k].count) << k;
+        ASSERT_EQ(device.ticks[k].duty_cnt, api.ticks[k].duty_cnt) << k;
+        ASSERT_EQ(device.result.trace[k].omega_e_radps, api.result.trace[k].omega_e_radps) << k;
+        ASSERT_EQ(device.result.trace[k].iq_A, api.result.trace[k].iq_A) << k;
+        ASSERT_EQ(device.result.trace[k].peak_current_A, api.result.trace[k].peak_current_A) << k;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, BoardRuns,
+                         ::testing::Values("board_load_step", "board_load_step_varied",
+                                           "board_speed_step", "board_speed_step_varied",
+                                           "board_speed_step_5A", "board_reversal", "board_hold",
+                                           "board_flux_weakening", "board_flux_weakening_5A",
+                                           "fig4_parameter_steps_nd0", "fig4_parameter_steps_nd1",
+                                           "fig4_parameter_steps_nd2", "fig4_parameter_steps_nd3",
+                                           "fig5_load_step", "fig6_load_step_varied",
+                                           "fig7_speed_step", "fig8_flux_weakening"));
+
+TEST(BoardRunsMore, SwitchedInverterToo)
+{
+    Scenario s                   = shipped("board_load_step");
+    s.duration_s                 = 0.1;
+    s.inverter.model             = InverterModel::switched;
+    const Controller  controller = prepare_controller(s);
+    const BoardResult api        = simulate_on_board(s, BoardKind::api, controller);
+    const BoardResult device     = simulate_on_board(s, BoardKind::f28335, controller);
+    EXPECT_EQ(device.result.fault, 0);
+    ASSERT_EQ(device.ticks.size(), api.ticks.size());
+    for (std::size_t k = 0; k < api.ticks.size(); k++) {
+        ASSERT_EQ(device.ticks[k].duty_cnt, api.ticks[k].duty_cnt) << k;
+        ASSERT_EQ(device.result.trace[k].iq_A, api.result.trace[k].iq_A) << k;
+    }
+}
+
+TEST(BoardRunsMore, StartsWithTheShaftAtZeroAndTheWantedSpeed)
+{
+    Scenario s            = shipped("board_load_step");
+    s.duration_s          = 0.01;
+    const BoardResult run = simulate_on_board(s, BoardKind::f28335);
+    EXPECT_EQ(run.ticks.front().count, 0);
+    EXPECT_DOUBLE_EQ(run.result.trace.front().omega_e_radps, 300.0);
+    EXPECT_DOUBLE_EQ(run.result.trace.front().iq_A, 0.0);
+}
+
+TEST(BoardRunsMore, CoreAloneAndApplicationAgreeWithinTheirNoise)
+{
+    // The application adds duty counts (0.04 V), the dc link's code (0.1 V) and the calibrated zeros (0.3 mA).
+    // Measured without noise: 0.32 rad/s.
+    Scenario s                         = shipped("board_load_step");
+    s.sensors.adc_noise_rms_A          = 0.0;
+    s.duration_s                       = 0.4;
+    const Controller       c           = prepare_controller(s);
+    const SimulationResult core        = simulate(s, c);
+    const BoardResult      device      = simulate_on_board(s, BoardKind::f28335, c);
+    double                 worst_omega = 0.0;
+    for (std::size_t k = 0; k < core.trace.size(); k++) {
+        worst_omega = std::max(worst_omega, std::abs(core.trace[k].omega_e_radps -
+                                                     device.result.trace[k].omega_e_radps));
+    }
+    RecordProperty("worst_omega_mradps", static_cast<int>(1e3 * worst_omega));
+    EXPECT_LT(worst_omega, 1.0); // rad/s, of 300
+}
+
+TEST(BoardRunsMore, StuckEncoderIsAFault)
+{
+    Scenario         s = shipped("board_load_step");
+    const Controller c = prepare_controller(s);
+    set_firmware_drive(c.config);
+    F28335Run  run(s, 1700, 3e-6);
+    const auto step_to = [&run](long tick) {
+        while (run.bench().tick() < tick) {
+            ASSERT_TRUE(run.step());
+        }
+    };
+    step_to(1560);
+    run.set_speed(3000);
+    step_to(1640);
+    run.set_run();
+    step_to(2000);
+    ASSERT_EQ(app_status_read().mode, APP_MODE_RUN);
+    run.bench().stick_encoder();
+    step_to(2100);
+    EXPECT_EQ(app_status_read().mode, APP_MODE_FAULT);
+    EXPECT_EQ(app_status_read().drive_fault, DRIVE_FAULT_ENCODER);
+
+    // And the operator reads so over the serial line.
+    run.chat();
+    step_to(2160);
+    ASSERT_GT(run.registers().size(), static_cast<std::size_t>(APP_REGISTERS_DRIVE_FAULT));
+    EXPECT_EQ(run.registers()[APP_REGISTERS_MODE], APP_MODE_FAULT);
+    EXPECT_EQ(run.registers()[APP_REGISTERS_DRIVE_FAULT], DRIVE_FAULT_ENCODER);
+}
+
+TEST(BoardRunsMore, SettingsThatTheBoardDoesNotHaveAreRefused)
+{
+    Scenario s                        = shipped("board_load_step");
+    s.drive.inverter.pwm_frequency_Hz = 10000.0;
+    EXPECT_THROW(simulate_on_board(s, BoardKind::api), InputError);
+    s                  = shipped("board_load_step");
+    s.sensors.adc_bits = 14;
+    EXPECT_THROW(simulate_on_board(s, BoardKind::api), InputError);
+    s                      = shipped("board_load_step");
+    s.inverter.dead_time_s = 5e-6;
+    EXPECT_THROW(simulate_on_board(s, BoardKind::api), InputError);
+}
+
+} // namespace

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// Register values of one leg to the edges of its two gates. Times in counts since the counter's top.
+#include <gtest/gtest.h>
+
+#include "gate_edges.hpp"
+
+namespace {
+
+using namespace sdre::f28335;
+
+constexpr int prd = 7500;
+
+/// Up-down, upper switch on around ZERO, dead band of 3 us at 75 MHz.
+LegRegisters leg(int compare)
+{
+    LegRegisters r;
+    r.tbprd  = prd;
+    r.cmpa   = compare;
+    r.aqctla = 0x0094; // PRD clears, CAU clears, CAD sets
+    r.dbctl  = 0x000B; // both delays, B inverted, from A
+    r.dbred  = 225;
+    r.dbfed  = 225;
+    return r;
+}
+
+std::vector<GateEdge> gates_of(const LegRegisters &r, LegMemory &memory)
+{
+    return leg_period(r, memory).gates;
+}
+
+void expect_gates(const std::vector<GateEdge> &got, const std::vector<GateEdge> &want)
+{
+    ASSERT_EQ(got.size(), want.size());
+    for (std::size_t n = 0; n < got.size(); n++) {
+        EXPECT_EQ(got[n].time_cnt, want[n].time_cnt) << n;
+        EXPECT_EQ(got[n].upper, want[n].upper) << n;
+        EXPECT_EQ(got[n].lower, want[n].lower) << n;
+    }
+}
+
+TEST(GateEdges, PulseIsCentredAndEachSwitchComesOnThreeMicrosecondsLate)
+{
+    LegMemory  memory;
+    const auto gates = gates_of(leg(3000), memory);
+
+    // The input rises at 7500 - 3000 and falls at 7500 + 3000.
+    expect_gates(gates, {{0, false, true},
+                         {4500, false, false},
+                         {4725, true, false},
+                         {10500, false, false},
+                         {10725, false, true}});
+    EXPECT_EQ(shortest_gap_cnt(gates), 225);
+    EXPECT_DOUBLE_EQ(225 / 75e6, 3e-6);
+}
+
+TEST(GateEdges, DelaysOfTheTwoEdgesAreApart)
+{
+    LegRegisters r = leg(3000);
+    r.dbred        = 100;
+    r.dbfed        = 400;
+    LegMemory memory;
+
+    expect_gates(gates_of(r, memory), {{0, false, true},
+                                       {4500, false, false},
+                                       {4600, true, false},
+                                       {10500, false, false},
+                                       {10900, false, true}});
+}
+
+TEST(GateEdges, DeadTimeRunsOnIntoTheNextPeriod)
+{
+    LegMemory memory;
+    gates_of(leg(7400), memory); // falls at 14900, lower switch at 15125 = 125 of the next period
+
+    expect_gates(gates_of(leg(3000), memory), {{0, false, false},
+                                               {125, false, true},
+                                               {4500, false, false},
+                                               {4725, true, false},
+                                               {10500, false, false},
+                                               {10725, false, true}});
+}
+
+TEST(GateEdges, PulseShorterThanTheDeadTimeNeverTurnsTheUpperSwitchOn)
+{
+    LegMemory memory;
+
+    expect_gates(gates_of(leg(100), memory),
+                 {{0, false, true}, {7400, false, false}, {7825, false, true}});
+}
+
+TEST(GateEdges, NoDutyAndFullDutyDoNotSwitch)
+{
+    LegMemory low;
+    expect_gates(gates_of(leg(0), low), {{0, false, true}});
+
+    LegMemory high;
+    gates_of(leg(prd), high);
+    expect_gates(gates_of(leg(prd), high), {{0, true, false}});
+}
+
+TEST(GateEdges, AfterFullDutyThePeriodActionEndsThePulse)
+{
+    LegMemory memory;
+    gates_of(leg(prd), memory);
+    const LegPeriod with = leg_period(leg(3000), memory);
+    EXPECT_FALSE(with.a.front().level);
+
+    // Without that action the output would stay high until the counter comes up again.
+    LegRegisters r = leg(prd);
+    r.aqctla       = 0x0090;
+    LegMemory other;
+    leg_period(r, other);
+    r.cmpa                  = 3000;
+    const LegPeriod without = leg_period(r, other);
+    ASSERT_EQ(without.a.size(), 2U);
+    EXPECT_TRUE(without.a[0].level);
+    EXPECT_EQ(without.a[1].time_cnt, 10500);
+}
+
+TEST(GateEdges, SevenMicrosecondsAtFullSpeedLeaveTwentySixCounts)
+{
+    LegRegisters r = leg(3000);
+    r.dbred        = 1050;
+    r.dbfed        = 1050;
+    LegMemory memory;
+
+    EXPECT_EQ(shortest_gap_cnt(gates_of(r, memory)), 1050 - 1024);
+}
+
+TEST(GateEdges, WithoutDeadBandBothSwitchesAreNeverOffTogether)
+{
+    LegRegisters r = leg(3000);
+    r.dbctl        = 0x0008; // polarity set, but both outputs pass
+    LegMemory       memory;
+    const LegPeriod period = leg_period(r, memory);
+
+    EXPECT_FALSE(period.complementary);
+    for (const GateEdge &e : period.gates) {
+        EXPECT_FALSE(e.lower); // B follows its own qualifier, which does nothing
+    }
+}
+
+TEST(GateEdges, SamePolarityOnBothOutputsIsAShootThrough)
+{
+    LegRegisters r = leg(3000);
+    r.dbctl        = 0x0003; // active high both
+    LegMemory memory;
+
+    EXPECT_EQ(shortest_gap_cnt(gates_of(r, memory)), -1);
+}
+
+} // namespace
