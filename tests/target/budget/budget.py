@@ -1,0 +1,256 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The cost of one control period, from the compiled core.
+
+Usage: budget.py RECORDER IMAGE CORE_LIBRARY TABLES_LIBRARY SCENARIO...
+
+RECORDER runs the scenarios on the host and records every tick; IMAGE replays them on an emulated
+Cortex-M4F. Its answers must equal the host's, its instructions are counted, and the operations it
+executed are priced with the C28x's cycles of costs.toml. Exit code 1: a check failed.
+"""
+import re
+import sys
+import tempfile
+import tomllib
+from pathlib import Path
+
+from execution import (
+    COUNTS_PER_INSTRUCTION, TICKS, Steps, count_instructions, path_counts, run, single_steps, walk_ticks,
+)  # fmt: skip
+from longest_path import LongestPath
+from machine_code import read_code, section_sizes, stack_depth, symbols
+from tick_file import GATE, read_results, read_runs
+
+PREFIX = "arm-none-eabi-"
+
+# Host and Cortex-M4F differ in the last bits of sine and cosine and what follows from them: measured 2.3e-5 at
+# most, over all scenarios. Chosen: below one count of the compare register, 1.3e-4.
+DUTY_TOLERANCE = 1e-4
+
+FORMS = ("speed form", "encoder form")
+KINDS = ("speed form", "speed form, start", "encoder form", "encoder form, start", "PI-FOC")
+ORDER = 2  # of the shipped drives; a run of a higher order stands only in the list of scenarios
+SINGLE_STEPPED = 100  # chosen: more than one way through the code, in a second
+OPERATIONS = (
+    ("add, subtract", ("fp_add",)),
+    ("multiply", ("fp_mul",)),
+    ("divide", ("fp_div",)),
+    ("square root", ("fp_sqrt",)),
+    ("compare", ("fp_compare", "fp_flags")),
+    ("move, negate, convert", ("fp_move", "fp_convert", "fp_mac")),
+    ("constant", ("constant",)),
+    ("load", ("load",)),
+    ("store", ("store",)),
+    ("integer", ("integer",)),
+    ("branch", ("branch", "taken", "not_taken")),
+    ("call and return", ("call", "return")),
+    ("sine, cosine", ("sinf", "cosf")),
+    ("minimum, maximum", ("fminf", "fmaxf")),
+)
+
+
+class Costs:
+    def __init__(self, path):
+        with open(path, "rb") as file:
+            data = tomllib.load(file)
+        self.cycles_per_tick = data["cycles_per_tick"]
+        self.target_share = data["target_share"]
+        self.library = set(data["library"])
+        self.around = sum(data["around"].values())
+        self.loops = data["loops"]
+        table = {**data["cost"], **data["library"]}
+        self.slow_division = data["without_fast_rts"]["fp_div"]
+        self.low_of = {name: cost["low"] for name, cost in table.items()}
+        self.high_of = {name: cost["high"] for name, cost in table.items()}
+
+    def low(self, counts):
+        return sum(n * self.low_of[name] for name, n in counts.items())
+
+    def high(self, counts):
+        return sum(n * self.high_of[name] for name, n in counts.items())
+
+    def slow(self, counts):
+        """As high, with the plain library's division."""
+        return self.high(counts) + counts.get("fp_div", 0) * (self.slow_division - self.high_of["fp_div"])
+
+
+class Checks:
+    def __init__(self):
+        self.failed = False
+
+    def __call__(self, good, text):
+        print(f"{'ok  ' if good else 'FAIL'} {text}")
+        self.failed |= not good
+
+
+def check_no_double(check, table):
+    """Neither double precision nor software floating point."""
+    helper = r"__aeabi_|__(add|sub|mul|div|neg|fix|fixuns|float|floatun|extend|trunc|cmp)\w*[sd]f\w*$"
+    found = sorted(name for name in table if re.match(helper, name))
+    check(not found, f"no floating-point helper is linked{': ' if found else ''}{' '.join(found)}")
+
+
+def compare(check, runs, results):
+    worst = pi_worst = 0.0
+    gates = True
+    for recorded, replayed in zip(runs, results):
+        for tick, result in zip(recorded.ticks, replayed):
+            worst = max(worst, *(abs(tick[6 + i] - result[3 + i]) for i in range(3)))
+            pi_worst = max(pi_worst, *(abs(tick[9 + i] - result[6 + i]) for i in range(3)))
+            gates &= tick[12] & GATE == result[2]
+    check(gates, "gates as on the host")
+    check(worst <= DUTY_TOLERANCE, f"duties as on the host: worst {worst:.1e}, allowed {DUTY_TOLERANCE:.0e}")
+    check(pi_worst <= DUTY_TOLERANCE, f"those of the PI-FOC: worst {pi_worst:.1e}, allowed {DUTY_TOLERANCE:.0e}")
+
+
+class Worst:
+    """The dearest tick of one kind."""
+
+    def __init__(self):
+        self.cycles = self.instructions = self.total = self.ticks = 0
+        self.path = self.where = None
+
+    def see(self, costs, instructions, path, where):
+        self.total += instructions
+        self.ticks += 1
+        self.instructions = max(self.instructions, instructions)
+        if costs[1] > self.cycles:
+            self.cycles, self.path, self.where = costs[1], path, where
+
+
+def execute(image, directory, table, steps, runs, results):
+    """{kind: Worst}, {run's name: Worst}; kinds are the columns of the table."""
+    kinds = {name: Worst() for name in KINDS}
+    by_run = {recorded.name: Worst() for recorded in runs}
+    walked = walk_ticks(image, directory, table, steps)
+    for recorded, replayed in zip(runs, results):
+        for k, result in enumerate(replayed):
+            for function, timer in zip(TICKS, result):
+                name, cycles, _, path = next(walked)
+                assert name == function
+                kind = "PI-FOC" if function == "pi_foc_tick" else FORMS[recorded.encoder]
+                if k == 0 and kind != "PI-FOC":
+                    kind += ", start"
+                seen = [kinds[kind]] if kind == "PI-FOC" or recorded.order <= ORDER else []
+                if function == "drive_tick" and k > 0:
+                    seen.append(by_run[recorded.name])
+                for worst in seen:
+                    worst.see(cycles, round(timer / COUNTS_PER_INSTRUCTION), path, f"{recorded.name}, tick {k}")
+    assert next(walked, None) is None
+    return kinds, by_run
+
+
+def check_counting(check, image, directory, table, steps, results):
+    """Timer and decoded blocks against one log line per instruction, on the first ticks."""
+    stepped = single_steps(image, directory, table, SINGLE_STEPPED)
+    timer = [round(t / COUNTS_PER_INSTRUCTION) for result in results[0] for t in result[:2]]
+    around = {timer[n] - everything for n, (everything, _) in enumerate(stepped)}
+    walked = walk_ticks(image, directory, table, steps)
+    blocks = [next(walked)[2] == core for _, core in stepped]
+    walked.close()
+    check(len(around) <= 2 and max(around) <= 20, f"timer and single steps agree but for {max(around)} instructions")
+    check(len(stepped) == SINGLE_STEPPED and all(blocks), "decoded blocks and single steps agree")
+
+
+def print_table(title, columns, rows):
+    print(f"\n{title}")
+    width = max(len(row[0]) for row in rows) + 2
+    widths = [max(len(c), *(len(row[n + 1]) for row in rows)) + 3 for n, c in enumerate(columns)]
+    for cells in (("", *columns), *rows):
+        print(cells[0].ljust(width) + "".join(c.rjust(w) for c, w in zip(cells[1:], widths)))
+
+
+def span(low, high):
+    return f"{low} .. {high}"
+
+
+def share(costs, low, high):
+    return span(*(f"{100 * cycles / costs.cycles_per_tick:.1f}" for cycles in (low, high))) + " %"
+
+
+def print_operations(costs, kinds, steps, bound):
+    """The dearest executed tick of each kind, and the bound over all ways through the code."""
+    columns = {kind: path_counts(worst.path, steps) for kind, worst in kinds.items()}
+    columns["bound"] = bound
+    named = {name for _, names in OPERATIONS for name in names} | {"spill"}
+    assert all(name in named for counts in columns.values() for name in counts)
+    rows = [
+        (text, *(str(sum(counts.get(name, 0) for name in names)) for counts in columns.values()))
+        for text, names in OPERATIONS
+    ]
+    around = costs.around
+    rows += [
+        ("cycles", *(span(costs.low(c), costs.high(c)) for c in columns.values())),
+        ("  share of the period", *(share(costs, costs.low(c), costs.high(c)) for c in columns.values())),
+        ("  with plain division", *(str(costs.slow(c)) for c in columns.values())),
+        ("with the pass around", *(span(costs.low(c) + around, costs.high(c) + around) for c in columns.values())),
+        ("  share of the period", *(share(costs, costs.low(c) + around, costs.high(c) + around) for c in columns.values())),
+    ]
+    print_table("Dearest tick, operations and estimated C28x cycles (all delay slots filled .. none)", list(columns), rows)
+    for kind, worst in kinds.items():
+        print(f"  {kind}: {worst.where}")
+    print("  bound: dearest way through the compiled code, whether or not anything can take it")
+
+
+def print_verdict(costs, kinds, steps):
+    limit = costs.target_share * costs.cycles_per_tick
+    for form in FORMS:
+        counts = path_counts(kinds[form].path, steps)
+        low, high = costs.low(counts), costs.high(counts)
+        verdict = "met" if high <= limit else "missed" if low > limit else "within the uncertainty of the estimate"
+        print(f"  target of {limit:.0f} cycles ({100 * costs.target_share:.0f} %), {form} without the pass around: {verdict}")
+
+
+def print_instructions(kinds, by_run):
+    plain = kinds["PI-FOC"]
+    rows = [
+        (kind, str(w.instructions), f"{w.total / w.ticks:.0f}", f"{w.total / w.ticks / (plain.total / plain.ticks):.2f}")
+        for kind, w in kinds.items()
+    ]
+    print_table("Instructions per tick, Cortex-M4F, library included", ["worst", "mean", "mean / PI-FOC"], rows)
+    rows = [(name, str(w.instructions), str(w.cycles)) for name, w in by_run.items()]
+    print_table("Worst after the start, per scenario (nd3: order 3)", ["instructions", "C28x cycles at most"], rows)
+
+
+def print_memory(code, table, core, tables):
+    flash, constants = section_sizes(PREFIX, core), section_sizes(PREFIX, tables)
+    rows = [
+        ("flash: core", str((flash["text"] + flash["rodata"]) // 2)),
+        ("flash: gain table", str((constants["text"] + constants["rodata"]) // 2)),
+        ("RAM: drive_t", str(table["drive"][1] // 2)),
+        ("RAM: other data of the core", str((flash["data"] + flash["bss"]) // 2)),
+        ("RAM: stack of drive_tick", str(stack_depth(code, "drive_tick") // 2)),
+    ]
+    print_table("Memory, estimated from the Cortex-M4F's objects: two octets are one C28x word", ["words"], rows)
+
+
+def main(recorder, image, core, tables, *scenarios):
+    image = str(Path(image).resolve())  # the emulator runs in another directory
+    costs = Costs(Path(__file__).with_name("costs.toml"))
+    code = read_code(PREFIX, image)
+    table = symbols(PREFIX, image)
+    steps = Steps(code, costs.library, (costs.low, costs.high))
+    check = Checks()
+    with tempfile.TemporaryDirectory() as directory:
+        run([recorder, f"{directory}/ticks.bin", *scenarios])
+        runs = read_runs(f"{directory}/ticks.bin")
+        count_instructions(image, directory)
+        results = read_results(f"{directory}/results.bin", runs)
+        print(f"{sum(len(r.ticks) for r in runs)} ticks of {len(runs)} scenarios")
+        check_no_double(check, table)
+        compare(check, runs, results)
+        check_counting(check, image, directory, table, steps, results)
+        kinds, by_run = execute(image, directory, table, steps, runs, results)
+
+    bound = LongestPath(code, costs.library, costs.loops, costs.high).function("drive_tick")
+    dearest = max(worst.cycles for kind, worst in kinds.items() if kind != "PI-FOC")
+    check(dearest <= costs.high(bound), "no tick costs more than the bound")
+    print_operations(costs, kinds, steps, bound)
+    print_verdict(costs, kinds, steps)
+    print_instructions(kinds, by_run)
+    print_memory(code, table, core, tables)
+    return 1 if check.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

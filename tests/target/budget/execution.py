@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: MIT
+"""What the replay image executed, tick by tick, from the emulator's log."""
+import subprocess
+from collections import Counter
+
+def run(command, directory=None):
+    status = subprocess.run(command, cwd=directory).returncode
+    if status != 0:
+        raise RuntimeError(f"{command[0]} ended with {status}")
+
+
+EMULATOR = ["qemu-system-arm", "-M", "mps2-an386", "-display", "none", "-monitor", "none", "-serial", "none",
+            "-semihosting-config", "enable=on,target=native"]  # fmt: skip
+TICKS = ("drive_tick", "pi_foc_tick")
+ICOUNT_SHIFT = 8  # chosen: 256 ns per instruction are 6.4 timer counts, enough to tell instructions apart
+COUNTS_PER_INSTRUCTION = 256e-9 * 25e6
+
+
+def count_instructions(image, directory):
+    """Replays with every instruction taking the same virtual time; leaves results.bin."""
+    run(EMULATOR + ["-icount", f"shift={ICOUNT_SHIFT}", "-kernel", image], directory)
+
+
+class Steps:
+    """Operations from the start of one logged block to the start of the next."""
+
+    def __init__(self, code, library, tables):
+        self.code, self.library, self.tables = code, library, tables
+        self.known = {}  # (block, next block) -> [cost per table, instructions], counts
+
+    def __getitem__(self, key):
+        step = self.known.get(key)
+        if step is None:
+            counts, instructions = self._count(*key)
+            step = self.known[key] = (tuple(cost(counts) for cost in self.tables), instructions, counts)
+        return step
+
+    def _count(self, block, after):
+        i = self.code[int(block, 16)]
+        end = int(after, 16) if after else None
+        counts, instructions, short = Counter(), 0, None
+        while True:
+            counts.update(i.counts)
+            instructions += 1
+            if i.flow:
+                break
+            i = i.next
+            if i.address == end:
+                short = (counts.copy(), instructions)
+        if short and end not in self._goals(i):
+            return short  # the emulator ended the block early, at the end of a page
+        self._leave(i, end, counts)
+        return counts, instructions
+
+    def _goals(self, i):
+        """Where control can be after i, as far as i says."""
+        if i.flow == "conditional":
+            return (i.target, i.next.address)
+        if i.target_name in self.library:
+            return (i.next.address,) if i.flow == "call" else ()
+        return (i.target,) if i.flow in ("call", "branch") else ()
+
+    def _leave(self, i, end, counts):
+        if i.flow == "conditional":
+            if end not in self._goals(i):
+                raise ValueError(f"no way from {i.address:x} to {end:x}")
+            counts["taken" if end == i.target else "not_taken"] += 1
+        elif i.target_name in self.library:
+            counts[i.target_name] += 1  # its price has call and return in it
+        elif i.flow == "return" or i.target in self.code:
+            counts[i.flow] += 1
+        else:
+            raise ValueError(f"{i.target_name}() has no cost")
+
+
+def log_of(image, directory, *options):
+    """The emulator writing one line per executed block; the block's address is the line's second field."""
+    command = EMULATOR + ["-d", "exec,nochain", *options, "-D", "/dev/stdout", "-kernel", image]
+    return subprocess.Popen(command, cwd=directory, stdout=subprocess.PIPE, bufsize=1 << 20)
+
+
+def walk_ticks(image, directory, symbols, steps):
+    """Yields (function, costs, instructions, path) of each call of drive_tick and pi_foc_tick, in order."""
+    begin, end = symbols["image_core_begin"][0], symbols["image_core_end"][0]
+    starts = {b"%08x" % symbols[name][0]: name for name in TICKS}
+    others = {b"%08x" % symbols[name][0] for name in ("drive_init", "pi_foc_init")}
+    current, path, known = None, [], {}
+
+    def finished():
+        """Many ticks take the same way; each way is added up once."""
+        key = tuple(path)
+        if key not in known:
+            edges = [steps[edge] for edge in zip(path, path[1:] + [None])]
+            costs = tuple(sum(column) for column in zip(*(edge[0] for edge in edges)))
+            known[key] = (costs, sum(edge[1] for edge in edges))
+        return (current, *known[key], key)
+
+    with log_of(image, directory, "-dfilter", f"{begin:#x}..{end - 1:#x}") as emulator:
+        for line in emulator.stdout:
+            block = line.split(b"/", 2)[1]
+            if block in starts or block in others:
+                if current:
+                    yield finished()
+                current, path = starts.get(block), []
+            path.append(block)
+        if current:
+            yield finished()
+    if emulator.returncode != 0:
+        raise RuntimeError(f"the logged replay ended with {emulator.returncode}")
+
+
+def single_steps(image, directory, symbols, calls):
+    """[(all instructions, those of the core)] of the first calls of a tick, one log line per instruction."""
+    begin, end = symbols["image_core_begin"][0], symbols["image_core_end"][0]
+    starts = {symbols[name][0] for name in TICKS}
+    caller = range(symbols["main"][0], symbols["main"][0] + symbols["main"][1])
+    result, inside = [], False
+    with log_of(image, directory, "-singlestep") as emulator:
+        for line in emulator.stdout:
+            address = int(line.split(b"/", 2)[1], 16)
+            if address in starts:
+                result.append([0, 0])
+                inside = True
+            elif address in caller:
+                inside = False
+                if len(result) == calls:
+                    break
+            if inside:
+                result[-1][0] += 1
+                result[-1][1] += begin <= address < end
+        emulator.kill()
+    return result
+
+
+def path_counts(path, steps):
+    total = Counter()
+    for edge in zip(path, path[1:] + (None,)):
+        total.update(steps[edge][2])
+    return total

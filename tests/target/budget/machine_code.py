@@ -1,0 +1,195 @@
+# SPDX-License-Identifier: MIT
+"""Disassembled Cortex-M4F code: what kind of operation each instruction is, and where control goes."""
+import re
+import subprocess
+from collections import Counter
+from dataclasses import dataclass, field
+
+CONDITIONS = "eq ne cs hs cc lo mi pl vs vc hi ls ge lt gt le".split()
+KINDS = {
+    "fp_add": ("vadd", "vsub"),
+    "fp_mul": ("vmul", "vnmul"),
+    "fp_mac": ("vmla", "vmls", "vnmla", "vnmls", "vfma", "vfms", "vfnma", "vfnms"),
+    "fp_convert": ("vcvt", "vcvtr"),
+    "fp_div": ("vdiv",),
+    "fp_sqrt": ("vsqrt",),
+    "fp_compare": ("vcmp", "vcmpe"),
+    "fp_flags": ("vmrs",),
+    "fp_move": ("vmov", "vneg", "vabs"),
+    "load": ("vldr", "ldr", "ldrh", "ldrsh", "ldrb", "ldrsb", "ldrd"),
+    "store": ("vstr", "str", "strh", "strb", "strd"),
+    "integer": (
+        "adc add adds addw and ands asr asrs bic bics clz cmn cmp eor eors lsl lsls lsr lsrs mla mov movs "
+        "movt movw mul muls mvn mvns orr orrs ror rsb rsbs sbc sbfx smlabb smlal smulbb smull sub subs subw sxtb sxth teq tst "
+        "ubfx umlal umull uxtb uxth"
+    ).split(),
+}
+KIND_OF = {name: kind for kind, names in KINDS.items() for name in names}
+MULTIPLE_LOAD = ("ldmia", "ldmdb", "ldm", "pop", "vpop", "vldmia", "vldmdb")
+MULTIPLE_STORE = ("stmia", "stmdb", "stm", "push", "vpush", "vstmia", "vstmdb")
+FLOAT_REGISTERS = 8  # of the C28x
+
+
+@dataclass
+class Instruction:
+    address: int
+    function: str
+    name: str  # without condition and width
+    conditional: bool
+    operands: str
+    counts: Counter = field(default_factory=Counter)
+    flow: str = ""  # "", branch, conditional, call, return
+    target: int = 0
+    target_name: str = ""
+    next: "Instruction | None" = None
+
+
+def run(*command):
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def base_name(mnemonic):
+    """(name, conditional) of e.g. vmovgt.f32, beq.n."""
+    name = mnemonic.split(".")[0]
+    known = name in KIND_OF or name in MULTIPLE_LOAD + MULTIPLE_STORE or name in ("b", "bl", "bx", "blx")
+    if not known and name[-2:] in CONDITIONS and name[:-2]:
+        return name[:-2], True
+    return name, False
+
+
+def float_registers(operands):
+    """Single registers named, d registers as two."""
+    registers = [int(n) for n in re.findall(r"\bs(\d+)\b", operands)]
+    for n in re.findall(r"\bd(\d+)\b", operands):
+        registers += [2 * int(n), 2 * int(n) + 1]
+    return registers
+
+
+def list_length(operands):
+    """Registers in {r4, r5-r7, d8}; a d register is two 32-bit cells."""
+    length = 0
+    for item in operands[operands.index("{") + 1 : operands.index("}")].split(","):
+        ends = item.strip().split("-")
+        count = 1 if len(ends) == 1 else int(ends[1][1:]) - int(ends[0][1:]) + 1
+        length += count * (2 if ends[0].startswith("d") else 1)
+    return length
+
+
+def classify(i):
+    """Fills counts and flow; an instruction that is not known stops the budget."""
+    if i.name in ("b", "bl", "bx", "cbz", "cbnz"):
+        if i.name == "bl":
+            i.flow = "call"
+        elif i.name == "bx":
+            if i.operands.strip() != "lr":
+                raise ValueError(f"computed jump at {i.address:x}")
+            i.flow = "return"
+        else:
+            i.flow = "conditional" if i.conditional or i.name != "b" else "branch"
+            if i.name != "b":
+                i.counts["integer"] += 1
+        if i.conditional and i.flow != "conditional":
+            raise ValueError(f"conditional call or return at {i.address:x}")
+        return
+    if i.name in MULTIPLE_LOAD + MULTIPLE_STORE:
+        kind = "load" if i.name in MULTIPLE_LOAD else "store"
+        i.counts[kind] += list_length(i.operands)
+        if "pc" in i.operands:
+            if i.conditional:
+                raise ValueError(f"conditional return at {i.address:x}")
+            i.counts[kind] -= 1
+            i.flow = "return"
+        return
+    if re.fullmatch(r"i[te]{1,4}", i.name):
+        i.counts["integer"] += 1
+        return
+    if i.name == "nop":
+        return
+    kind = KIND_OF.get(i.name)
+    if i.name == "ldr" and i.operands.startswith("pc, [sp]"):
+        i.flow = "return"
+        return
+    if re.match(r"pc\b", i.operands):
+        kind = None  # a jump table
+    if kind is None:
+        raise ValueError(f"unknown instruction {i.name} {i.operands} at {i.address:x}")
+    if kind == "load" and "[pc" in i.operands or i.name == "vmov" and "#" in i.operands:
+        kind = "constant"
+    i.counts[kind] += 2 if i.name in ("ldrd", "strd") else 1
+
+
+def read_code(prefix, image):
+    """{address: Instruction} of the section .core, linked within each function."""
+    text = run(f"{prefix}objdump", "-d", "--no-show-raw-insn", "-j", ".core", image)
+    code, function, before = {}, "", None
+    for line in text.splitlines():
+        head = re.match(r"[0-9a-f]+ <(\S+)>:", line)
+        if head:
+            function, before = head[1], None
+            continue
+        match = re.match(r"\s*([0-9a-f]+):\t(\S+)\s*([^@;]*)", line)
+        if not match or match[2] in (".word", ".short"):
+            continue
+        if match[2].startswith("."):
+            raise ValueError(f"not decoded: {line}")
+        if ".f64" in match[2]:
+            raise ValueError(f"double precision: {line}")
+        name, conditional = base_name(match[2])
+        i = Instruction(int(match[1], 16), function, name, conditional, match[3].strip())
+        classify(i)
+        goal = re.search(r"([0-9a-f]+) <(\w+)(\+0x[0-9a-f]+)?>", i.operands)
+        if i.flow in ("branch", "conditional", "call"):
+            i.target, i.target_name = int(goal[1], 16), goal[2]
+        if before:
+            before.next = i
+        code[i.address] = before = i
+    count_spills(code)
+    return code
+
+
+def count_spills(code):
+    """Accesses to float registers beyond the eight busiest of the function: memory, on the C28x."""
+    use = {}
+    for i in code.values():
+        use.setdefault(i.function, Counter()).update(float_registers(i.operands))
+    for i in code.values():
+        if i.name not in MULTIPLE_LOAD + MULTIPLE_STORE:
+            busiest = {r for r, _ in use[i.function].most_common(FLOAT_REGISTERS)}
+            i.counts["spill"] += sum(r not in busiest for r in float_registers(i.operands))
+
+
+def symbols(prefix, image):
+    """{name: (address, size)}"""
+    table = {}
+    for line in run(f"{prefix}nm", "-S", image).splitlines():
+        fields = line.split()
+        size = int(fields[1], 16) if len(fields) == 4 else 0
+        table[fields[-1]] = (int(fields[0], 16), size)
+    return table
+
+
+def section_sizes(prefix, archive):
+    """Octets of code, constants, data summed over an archive."""
+    sizes = Counter()
+    for line in run(f"{prefix}objdump", "-h", archive).splitlines():
+        match = re.match(r"\s*\d+ \.(text|rodata|data|bss)\S*\s+([0-9a-f]{8})", line)
+        if match:
+            sizes[match[1]] += int(match[2], 16)
+    return sizes
+
+
+def stack_depth(code, function):
+    """Octets of stack of a call, library functions left out."""
+    own, callees = 0, set()
+    for i in code.values():
+        if i.function != function:
+            continue
+        if i.name in ("push", "vpush", "stmdb"):
+            own += 4 * list_length(i.operands)
+        elif i.name in ("sub", "subw") and i.operands.startswith("sp, "):
+            own += int(re.search(r"#(\d+)", i.operands)[1])
+        elif i.name == "str" and "[sp, #-" in i.operands:
+            own += int(re.search(r"#-(\d+)", i.operands)[1])
+        if i.flow in ("call", "branch") and i.target_name != function and i.target in code:
+            callees.add(i.target_name)
+    return own + max((stack_depth(code, callee) for callee in callees), default=0)

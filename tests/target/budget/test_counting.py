@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: MIT
+"""Counting and pricing on code small enough to count by hand; needs no cross compiler."""
+import sys
+import unittest
+from pathlib import Path
+from unittest import mock
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).parent))
+import machine_code  # noqa: E402
+from execution import Steps, path_counts  # noqa: E402
+from longest_path import LongestPath  # noqa: E402
+
+LISTING = """
+00000100 <sum>:
+ 100:	push	{r4, lr}
+ 102:	vldr	s0, [pc, #20]	@ 118
+ 106:	vadd.f32	s0, s0, s1
+ 10a:	cmp	r0, r1
+ 10c:	bne.n	106 <sum+0x6>
+ 10e:	it	gt
+ 110:	vsqrtgt.f32	s0, s0
+ 112:	bl	200 <sinf>
+ 116:	pop	{r4, pc}
+ 118:	.word	0x3f800000
+
+00000120 <tick>:
+ 120:	str.w	lr, [sp, #-4]!
+ 124:	cbz	r0, 12e <tick+0xe>
+ 126:	vdiv.f32	s0, s0, s1
+ 12a:	b.n	132 <tick+0x12>
+ 12e:	bl	100 <sum>
+ 132:	vmov.f32	s1, #112	@ 0x3f800000  1.0
+ 136:	ldr.w	pc, [sp], #4
+"""
+
+
+def code_of(listing):
+    with mock.patch.object(machine_code, "run", lambda *command: listing):
+        return machine_code.read_code("", "")
+
+
+def unit_cost(counts):
+    return sum(counts.values())
+
+
+def counted(counts):
+    return {name: n for name, n in counts.items() if n}
+
+
+def trace(*addresses):
+    return tuple(b"%08x" % address for address in addresses)
+
+
+class Counting(unittest.TestCase):
+    def setUp(self):
+        self.code = code_of(LISTING)
+        self.steps = Steps(self.code, {"sinf"}, (unit_cost,))
+
+    def test_path_with_loop_and_library_call(self):
+        # Block 100 runs through 106 to the branch; 106 is then entered once more by that branch.
+        path = trace(0x120, 0x12E, 0x100, 0x106, 0x10E, 0x116, 0x132)
+        self.assertEqual(counted(path_counts(path, self.steps)), {
+            "store": 3, "integer": 4, "taken": 2, "not_taken": 1, "call": 1, "constant": 2, "fp_add": 2,
+            "fp_sqrt": 1, "sinf": 1, "load": 1, "return": 2})  # fmt: skip
+
+    def test_block_cut_at_the_end_of_a_page(self):
+        counts, instructions = self.steps._count(b"00000126", b"0000012a")
+        self.assertEqual((counted(counts), instructions), ({"fp_div": 1}, 1))
+
+    def test_impossible_step_is_refused(self):
+        with self.assertRaisesRegex(ValueError, "no way"):
+            self.steps[(b"00000120", b"00000100")]
+
+    def test_library_function_without_a_price_is_refused(self):
+        with self.assertRaisesRegex(ValueError, "sinf"):
+            Steps(self.code, set(), (unit_cost,))[(b"0000010e", b"00000116")]
+
+    def test_bound_takes_the_dearest_way_and_all_passes(self):
+        bound = LongestPath(self.code, {"sinf"}, {"sum": [5]}, unit_cost).function("tick")
+        self.assertEqual((bound["fp_add"], bound["taken"], bound["not_taken"]), (5, 5, 1))
+        self.assertNotIn("fp_div", bound)
+
+    def test_bound_needs_every_loop(self):
+        with self.assertRaisesRegex(ValueError, "1 loops, 0 bounds"):
+            LongestPath(self.code, {"sinf"}, {}, unit_cost).function("tick")
+
+    def test_recursion_is_refused(self):
+        listing = "00000100 <f>:\n 100:\tbl\t100 <f>\n 104:\tbx\tlr\n"
+        with self.assertRaisesRegex(ValueError, "recursion"):
+            LongestPath(code_of(listing), set(), {}, unit_cost).function("f")
+
+    def test_nested_loops_multiply(self):
+        listing = (
+            "00000100 <f>:\n 100:\tmovs\tr0, #0\n 102:\tvmul.f32\ts0, s0, s0\n 106:\tcmp\tr0, r1\n"
+            " 108:\tbne.n\t102 <f+0x2>\n 10a:\tcmp\tr0, r2\n 10c:\tbne.n\t100 <f>\n 10e:\tbx\tlr\n"
+        )
+        bound = LongestPath(code_of(listing), set(), {"f": [3, 6]}, unit_cost).function("f")
+        self.assertEqual(counted(bound), {
+            "integer": 3 * (1 + 6 + 1), "fp_mul": 18, "taken": 3 * 5 + 2, "not_taken": 4, "return": 1})  # fmt: skip
+
+    def test_registers_beyond_eight_are_spills(self):
+        lines = [f" {0x100 + 4 * n:x}:\tvadd.f32\ts{n}, s{n}, s{n}" for n in range(8)]
+        listing = "00000100 <f>:\n" + "\n".join(lines) + "\n 120:\tvadd.f32\ts8, s0, s1\n 124:\tbx\tlr\n"
+        self.assertEqual(sum(i.counts["spill"] for i in code_of(listing).values()), 1)
+
+    def test_unknown_instruction_is_refused(self):
+        for instruction in ("tbb\t[pc, r0]", "vcvt.f64.f32\td0, s0", "ldr.w\tpc, [pc, r0, lsl #2]"):
+            with self.assertRaisesRegex(ValueError, "unknown|double"):
+                code_of(f"00000100 <f>:\n 100:\t{instruction}\n")
+
+    def test_stack(self):
+        self.assertEqual(machine_code.stack_depth(self.code, "tick"), 4 + 8)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file tick_file.h
+ * @brief Recorded control periods, for replay on another machine.
+ *
+ * A file of runs: tick_file_run_t, then its ticks; a run of no ticks ends the file. Host and Cortex-M4F lay
+ * these structures out alike (little-endian, four-byte floats and enumerations); `layout` holds what could
+ * differ, and the reader refuses a file whose layout is not its own.
+ */
+#ifndef TICK_FILE_H
+#define TICK_FILE_H
+
+#include <stddef.h>
+
+#include "drive_tick.h"
+#include "pi_foc_tick.h"
+
+#define TICK_FILE_NAME_SIZE 64
+
+/** What the two machines must agree on, as numbers. */
+#define TICK_FILE_LAYOUT                                                                           \
+    ((uint32_t)sizeof(drive_config_t) + ((uint32_t)sizeof(tick_file_tick_t) << 12) +               \
+     ((uint32_t)offsetof(drive_config_t, motor) << 20))
+
+enum { TICK_FILE_VALID = 1, TICK_FILE_RUN = 2, TICK_FILE_GATE = 4 };
+
+typedef struct {
+    char           name[TICK_FILE_NAME_SIZE];
+    uint32_t       layout;
+    uint32_t       form;  /**< drive_form_t */
+    uint32_t       order; /**< highest of the series in use */
+    uint32_t       ticks;
+    drive_config_t config;
+    pi_foc_gains_t pi;
+} tick_file_run_t;
+
+/** The core's memory without its pointer, which the two machines cannot share. */
+typedef struct {
+    drive_state_t state;
+    drive_fault_t fault;
+    nodo_t        observer;
+    float         theta_hat_rad;
+    nodo_meas_t   now;
+    speed_ref_t   speed_ref;
+    current_ref_t current_ref;
+    dq_t          v_V;
+    uint32_t      v_limited;
+} tick_file_drive_t;
+
+/**
+ * One period: the core before it, what it was given, and what it and the plain PI-FOC answered on the host.
+ * Every period starts from the host's memory: a controller with integral action drifts when it is played
+ * back without its plant, so that a long replay would compare nothing.
+ */
+typedef struct {
+    tick_file_drive_t drive;
+    float             ia_A;
+    float             ib_A;
+    float             dc_link_V;
+    float             theta_e_rad;
+    float             omega_e_radps;
+    float             command_e_radps;
+    abc_t             duty;
+    abc_t             pi_duty;
+    uint32_t flags; /**< TICK_FILE_VALID, TICK_FILE_RUN, and of the answer TICK_FILE_GATE */
+} tick_file_tick_t;
+
+/** What the replay answers to one tick. */
+typedef struct {
+    uint32_t timer;    /**< counts of the timer during drive_tick() */
+    uint32_t pi_timer; /**< during pi_foc_tick() */
+    uint32_t flags;    /**< TICK_FILE_GATE */
+    abc_t    duty;
+    abc_t    pi_duty;
+} tick_file_result_t;
+
+static inline tick_file_drive_t tick_file_from_drive(const drive_t *d)
+{
+    tick_file_drive_t x;
+
+    x.state         = d->state;
+    x.fault         = d->fault;
+    x.observer      = d->observer;
+    x.theta_hat_rad = d->theta_hat_rad;
+    x.now           = d->now;
+    x.speed_ref     = d->speed_ref;
+    x.current_ref   = d->current_ref;
+    x.v_V           = d->v_V;
+    x.v_limited     = d->v_limited ? 1u : 0u;
+    return x;
+}
+
+static inline drive_t tick_file_to_drive(const tick_file_drive_t *x, const drive_config_t *config)
+{
+    drive_t d;
+
+    d.config        = config;
+    d.state         = x->state;
+    d.fault         = x->fault;
+    d.observer      = x->observer;
+    d.theta_hat_rad = x->theta_hat_rad;
+    d.now           = x->now;
+    d.speed_ref     = x->speed_ref;
+    d.current_ref   = x->current_ref;
+    d.v_V           = x->v_V;
+    d.v_limited     = x->v_limited != 0u;
+    return d;
+}
+
+#endif /* TICK_FILE_H */
