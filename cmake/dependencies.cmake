@@ -14,6 +14,9 @@ endif()
 
 if(SDRE_BUILD_TESTS)
     find_package(GTest REQUIRED)
+    find_package(Threads REQUIRED)
+    find_package(PkgConfig REQUIRED)
+    pkg_check_modules(libmodbus REQUIRED IMPORTED_TARGET libmodbus)
 endif()
 
 # SDRE_PYTHON: the interpreter sdre-sil calls to draw. The system's own comes first, because

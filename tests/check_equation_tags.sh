@@ -22,7 +22,9 @@ complain "in docs/equations.md but not in the code" "$(comm -13 <(echo "$used") 
 
 while read -r test; do
     pattern="sdre_unit_test(${test#unit.})"
+    [[ $test != unit.app* ]] || pattern="sdre_app_test(${test#unit.})"
     [[ $test == unit.* ]] || pattern="sdre_host_test(${test/./ })"
-    grep -qF "$pattern" tests/CMakeLists.txt || complain "not a registered test" "$test"
+    [[ $test != f28335.* ]] || pattern="sdre_f28335_test(${test#f28335.} "
+    grep -qF "$pattern" tests/CMakeLists.txt tests/f28335/CMakeLists.txt || complain "not a registered test" "$test"
 done < <(awk -F' *[|] *' '/^\| EQ-/ {print $(NF-2)}' docs/equations.md | sort -u)
 exit "$status"

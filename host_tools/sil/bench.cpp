@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "board.hpp"
 #include "pi_foc.hpp"
+#include "recording.hpp"
 #include "simulation.hpp"
 
 namespace sdre {
@@ -56,34 +56,6 @@ Speed speed_of(const Scenario &s, const Controller &controller)
     return speed;
 }
 
-struct Recording {
-    std::vector<drive_sample_t>  samples;
-    std::vector<drive_command_t> commands;
-};
-
-/// The core's input over a run: played back, the core does the same again without a plant.
-Recording record(const Scenario &s, const Controller &controller)
-{
-    const double   ts    = control_period_s(s.drive);
-    const auto     ticks = static_cast<long>(s.duration_s / ts);
-    Board          board(s);
-    StepCursor     reference(s.speed_reference, s.initial_speed_e_radps);
-    drive_t        drive{};
-    drive_output_t in_force{{0.5F, 0.5F, 0.5F}, true};
-    Recording      r;
-    drive_init(&drive, &controller.config);
-    for (long k = 0; k < ticks; k++) {
-        const double t = static_cast<double>(k) * ts;
-        board.begin_tick(t);
-        r.samples.push_back(board.sample());
-        r.commands.push_back({static_cast<float>(reference.at(t)), true});
-        const drive_output_t output = drive_tick(&drive, &r.samples.back(), &r.commands.back());
-        board.run_period(in_force);
-        in_force = output;
-    }
-    return r;
-}
-
 template <typename Tick> double tick_ns(const Recording &r, const Tick &tick)
 {
     volatile float sink = 0.0F; // the result is used, so that the work is done
@@ -112,17 +84,19 @@ std::string bench_text(const std::filesystem::path &file)
     Scenario switched           = averaged;
     switched.inverter.model     = InverterModel::switched;
 
-    const Recording r = record(averaged, controller);
-    drive_t         drive{};
-    const double    core_ns = tick_ns(r, [&](std::size_t k) {
+    const Recording      r = record(averaged, controller);
+    drive_t              drive{};
+    const double         core_ns = tick_ns(r, [&](std::size_t k) {
         if (k == 0) {
             drive_init(&drive, &controller.config);
         }
         return drive_tick(&drive, &r.samples[k], &r.commands[k]);
     });
-    PiFoc           pi      = make_pi_foc(averaged.drive);
-    const double    pi_ns =
-        tick_ns(r, [&](std::size_t k) { return pi_foc_tick(pi, r.samples[k], r.commands[k]); });
+    const pi_foc_gains_t gains   = pi_foc_gains(averaged.drive);
+    pi_foc_t             pi{};
+    pi_foc_init(&pi, &gains);
+    const double pi_ns =
+        tick_ns(r, [&](std::size_t k) { return pi_foc_tick(&pi, &r.samples[k], &r.commands[k]); });
 
     std::string text = fmt::format("{}, one core, best of {}\n", ideal.name, repeats);
     const auto  line = [&](const char *name, const Scenario &s) {

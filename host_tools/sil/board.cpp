@@ -173,6 +173,31 @@ drive_sample_t Board::sample()
     return measured_sample();
 }
 
+RawSample Board::raw_sample()
+{
+    const QuadratureEncoder::Reading position = encoder_.read(plant_.theta_e_rad());
+    const PhaseVector                i        = plant_.phase_current_A();
+    RawSample                        s;
+    s.ia_code     = adc_code(channel_a(sensors_), i.a, noise_a_);
+    s.ib_code     = adc_code(channel_b(sensors_), i.b, noise_b_);
+    s.dc_link_V   = dc_link_.voltage_V();
+    s.count       = position.raw_count;
+    s.index       = position.index;
+    s.index_count = position.index_count;
+    return s;
+}
+
+void Board::begin_raw_period(const std::array<LegTiming, 3> &legs)
+{
+    std::array<LegTiming, 3> limited = legs;
+    for (LegTiming &leg : limited) {
+        leg.duty = std::clamp(leg.duty, inverter_.duty_min, inverter_.duty_max);
+    }
+    plant_.reset_peak();
+    plant_.align_angle();
+    bridge_.begin_period(limited);
+}
+
 /// Nothing but the plain motor under a constant averaged voltage.
 bool Board::plain_period() const
 {

@@ -2,6 +2,9 @@
 /// The simulated board with its motor: samples for the core in, duty ratios of the core out.
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "adc.hpp"
 #include "encoder.hpp"
 #include "inverter.hpp"
@@ -10,6 +13,16 @@
 #include "scenario.hpp"
 
 namespace sdre {
+
+/// What the converters and the counter of a real board show at a tick.
+struct RawSample {
+    int          ia_code     = 0; ///< two's complement
+    int          ib_code     = 0;
+    double       dc_link_V   = 0.0;
+    std::int64_t count       = 0; ///< of a counter that nobody puts right, since the shaft's zero
+    bool         index       = false;
+    std::int64_t index_count = 0;
+};
 
 class Board {
 public:
@@ -21,6 +34,19 @@ public:
     drive_sample_t sample();
     /// One period with the duty ratios in force; ends at the next tick.
     void run_period(const drive_output_t &in_force);
+
+    /// The same for a board that is simulated down to its codes and edges: instead of sample(), ...
+    RawSample raw_sample();
+    /// ... and instead of run_period(), in pieces.
+    void begin_raw_period(const std::array<LegTiming, 3> &legs);
+    void set_legs(const std::array<bool, 3> &enabled)
+    {
+        bridge_.set_legs(enabled);
+    }
+    void advance_raw(double from_s, double to_s)
+    {
+        bridge_.advance(plant_, dc_link_, shaft_load_, from_s, to_s);
+    }
 
     const Plant &plant() const
     {

@@ -41,14 +41,33 @@ std::int64_t QuadratureEncoder::counts_of(double theta_e_rad) const
 
 void QuadratureEncoder::start(double theta_e_rad, double omega_e_radps)
 {
-    lost_         = 0;
-    lost_at_turn_ = std::floor(shaft_turns(theta_e_rad));
-    before_       = counts_of(theta_e_rad - omega_e_radps * period_s_);
+    lost_          = 0;
+    lost_at_turn_  = std::floor(shaft_turns(theta_e_rad));
+    before_        = counts_of(theta_e_rad - omega_e_radps * period_s_);
+    lost_for_good_ = 0;
+    true_before_   = before_;
 }
 
 void QuadratureEncoder::lose(int counts)
 {
     lost_ += counts;
+    lost_for_good_ += counts;
+}
+
+/// The index is high within the count that begins a turn; it has gone high when that count was entered.
+void QuadratureEncoder::note_index(std::int64_t now, Reading &r)
+{
+    const auto turn_below = [this](std::int64_t count) {
+        const std::int64_t rest = count % counts_per_turn_;
+        return count - (rest < 0 ? rest + counts_per_turn_ : rest);
+    };
+    const bool         forward = now > true_before_;
+    const std::int64_t mark    = forward ? turn_below(now) : turn_below(now + counts_per_turn_ - 1);
+    const bool         passed  = forward ? mark > true_before_ : mark < true_before_;
+    r.raw_count                = now - lost_for_good_;
+    r.index                    = settings_.encoder_index && passed;
+    r.index_count              = mark - lost_for_good_;
+    true_before_               = now;
 }
 
 QuadratureEncoder::Reading QuadratureEncoder::read(double theta_e_rad)
@@ -59,8 +78,10 @@ QuadratureEncoder::Reading QuadratureEncoder::read(double theta_e_rad)
     }
     lost_at_turn_ = turn;
 
-    Reading r;
-    r.count = counts_of(theta_e_rad) - lost_; // EQ-ENCODER-2
+    Reading            r;
+    const std::int64_t now = counts_of(theta_e_rad);
+    note_index(now, r);
+    r.count = now - lost_; // EQ-ENCODER-2
 
     // EQ-ENCODER-3 in whole half counts, so that the wrap is exact.
     const std::int64_t half_turn = 2 * counts_per_turn_;

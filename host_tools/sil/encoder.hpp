@@ -19,6 +19,9 @@ public:
         std::int64_t count         = 0; ///< since the start, not wrapped
         double       theta_e_rad   = 0.0;
         double       omega_e_radps = 0.0;
+        std::int64_t raw_count     = 0;     ///< what a plain counter shows: never put right
+        bool         index         = false; ///< the mark was passed since the read before
+        std::int64_t index_count   = 0;     ///< raw_count at the mark
     };
 
     /// @param lines of the drive file, unless the settings name others.
@@ -37,6 +40,7 @@ public:
 private:
     double       shaft_turns(double theta_e_rad) const;
     std::int64_t counts_of(double theta_e_rad) const;
+    void         note_index(std::int64_t now, Reading &r);
 
     SensorSettings settings_;
     int            drive_lines_;
@@ -45,6 +49,8 @@ private:
     std::int64_t   counts_per_turn_ = 0;
     std::int64_t   before_          = 0;
     std::int64_t   lost_            = 0;
+    std::int64_t   lost_for_good_   = 0; ///< by a counter that the index does not put right
+    std::int64_t   true_before_     = 0;
     double         lost_at_turn_    = 0.0; ///< whole turns when they were last lost or read
 };
 

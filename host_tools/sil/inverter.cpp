@@ -72,7 +72,8 @@ void Bridge::Leg::plan(double time_s, bool to_high)
 {
     const bool before = count > 0 ? edges[static_cast<std::size_t>(count - 1)].high : high;
     if (before != to_high) {
-        edges[static_cast<std::size_t>(count++)] = {time_s, to_high};
+        edges[static_cast<std::size_t>(count++)] = {time_s, to_high,
+                                                    to_high ? rise_dead_s : fall_dead_s};
     }
 }
 
@@ -101,17 +102,38 @@ void Bridge::begin_period(const drive_output_t &output)
     const std::array<double, 3> asked{static_cast<double>(output.duty.a),
                                       static_cast<double>(output.duty.b),
                                       static_cast<double>(output.duty.c)};
-    gates_        = output.gate_enable;
+    enabled_.fill(output.gate_enable);
     volt_seconds_ = {};
     for (std::size_t x = 0; x < 3; x++) {
-        duty_[x] = std::clamp(asked[x], settings_.duty_min, settings_.duty_max);
+        duty_[x]        = std::clamp(asked[x], settings_.duty_min, settings_.duty_max);
+        Leg &leg        = legs_[x];
+        leg.rise_dead_s = dead_time_s_;
+        leg.fall_dead_s = dead_time_s_;
         if (settings_.model == InverterModel::switched) {
-            Leg &leg = legs_[x];
             leg.dead_until_s -= timing_.period_s;
             plan_leg(leg, duty_[x]);
         }
     }
     rising_half_ = !rising_half_;
+}
+
+void Bridge::begin_period(const std::array<LegTiming, 3> &legs)
+{
+    volt_seconds_ = {};
+    for (std::size_t x = 0; x < 3; x++) {
+        const LegTiming &timing = legs[x];
+        Leg             &leg    = legs_[x];
+        duty_[x]                = timing.duty;
+        leg.rise_dead_s         = timing.rise_delay_s;
+        leg.fall_dead_s         = timing.fall_delay_s;
+        leg.dead_until_s -= timing_.period_s;
+        leg.count = 0;
+        leg.next  = 0;
+        for (int n = 0; n < timing.count; n++) {
+            const LegTiming::Change &change = timing.changes.at(static_cast<std::size_t>(n));
+            leg.plan(change.time_s, change.high);
+        }
+    }
 }
 
 void Bridge::advance(Plant &plant, DcLink &dc_link, const ShaftLoad &load, double from_s,
@@ -120,7 +142,7 @@ void Bridge::advance(Plant &plant, DcLink &dc_link, const ShaftLoad &load, doubl
     const double longest_s = timing_.period_s / steps_per_period;
     double       now_s     = from_s;
     while (to_s - now_s > no_time_s) {
-        const bool   switched = gates_ && settings_.model == InverterModel::switched;
+        const bool   switched = any_enabled() && settings_.model == InverterModel::switched;
         const double event_s  = switched ? next_event_s(now_s, to_s) : to_s;
         const double pieces   = std::ceil((event_s - now_s) / longest_s - 1e-9);
         const double dt_s     = (event_s - now_s) / std::max(1.0, pieces);
@@ -158,19 +180,23 @@ void Bridge::advance_averaged(Plant &plant, DcLink &dc_link, const ShaftLoad &lo
 {
     const std::array<double, 3> i     = phases_of(plant.phase_current_A());
     const double                vdc_V = dc_link.voltage_V();
-    const double                lost  = dead_time_s_ * timing_.pwm_frequency_Hz;
-    // EQ-INVERTER-4; with drops alone the width is that of a hundredth of the period.
-    const double width_s = std::max(dead_time_s_, 0.01 / timing_.pwm_frequency_Hz);
-    double       width_A = width_s * vdc_V / timing_.inductance_H;
-    if (!gates_) { // the diodes' rails fade so that one step cannot turn a current around
-        width_A = std::max(diode_fade_A, dt_s * vdc_V / timing_.inductance_H);
-    }
-    std::array<double, 3> share{};
-    std::array<double, 3> v{};
+    std::array<double, 3>       share{};
+    std::array<double, 3>       v{};
     for (std::size_t x = 0; x < 3; x++) {
+        const Leg   &leg    = legs_[x];
+        const double dead_s = std::max(leg.rise_dead_s, leg.fall_dead_s);
+        // EQ-INVERTER-4; with drops alone the width is that of a hundredth of the period.
+        const double width_s = std::max(dead_s, 0.01 / timing_.pwm_frequency_Hz);
+        double       width_A = width_s * vdc_V / timing_.inductance_H;
+        if (!enabled_[x]) { // the diodes' rails fade so that one step cannot turn a current around
+            width_A = std::max(diode_fade_A, dt_s * vdc_V / timing_.inductance_H);
+        }
         const double sign = std::clamp(i[x] / width_A, -1.0, 1.0);
-        if (gates_) {
+        if (enabled_[x]) {
             const bool edges = duty_[x] > 0.0 && duty_[x] < 1.0;
+            // Outwards the upper switch comes late, inwards the lower one.
+            const double lost =
+                (sign > 0.0 ? leg.rise_dead_s : leg.fall_dead_s) * timing_.pwm_frequency_Hz;
             share[x] =
                 std::clamp(duty_[x] - (edges ? sign * lost : 0.0), 0.0, 1.0); // EQ-INVERTER-2
             const double out =
@@ -195,7 +221,7 @@ double Bridge::next_event_s(double now_s, double to_s)
                leg.edges[static_cast<std::size_t>(leg.next)].time_s <= now_s + no_time_s) {
             const Edge &edge = leg.edges[static_cast<std::size_t>(leg.next++)];
             leg.high         = edge.high;
-            leg.dead_until_s = edge.time_s + dead_time_s_;
+            leg.dead_until_s = edge.time_s + edge.dead_s;
             leg.held         = false;
         }
         if (leg.next < leg.count) {
@@ -239,7 +265,7 @@ void Bridge::advance_switched(Plant &plant, DcLink &dc_link, const ShaftLoad &lo
         for (std::size_t x = 0; x < 3; x++) {
             const Leg &leg = legs_[x];
             const bool out = i[x] >= 0.0;
-            off[x]         = leg.dead_until_s > now_s + no_time_s;
+            off[x]         = !enabled_[x] || leg.dead_until_s > now_s + no_time_s;
             any_off        = any_off || off[x];
             any_held       = any_held || (off[x] && leg.held);
             const bool top = off[x] ? !out : leg.high;

@@ -37,6 +37,20 @@ struct BridgeTiming {
     bool   half_periods     = false; ///< two updates per PWM period
 };
 
+/// What a leg is told over one control period, edge by edge. A change turns one switch off at once and the
+/// other on after the delay.
+struct LegTiming {
+    struct Change {
+        double time_s = 0.0;
+        bool   high   = false;
+    };
+    std::array<Change, 4> changes{}; ///< in order of time, the first at 0
+    int                   count        = 0;
+    double                duty         = 0.0; ///< share of the period that is high
+    double                rise_delay_s = 0.0; ///< upper switch
+    double                fall_delay_s = 0.0; ///< lower switch
+};
+
 /// Drives the plant through one control period, in pieces.
 class Bridge {
 public:
@@ -46,6 +60,13 @@ public:
     void configure(const InverterSettings &settings, double dead_time_s);
     /// Fixes the switching instants of the coming period.
     void begin_period(const drive_output_t &output);
+    /// The same from the edges themselves; the dead time is then that of the edges.
+    void begin_period(const std::array<LegTiming, 3> &legs);
+    /// Opens (false: both switches off) or frees legs, now.
+    void set_legs(const std::array<bool, 3> &enabled)
+    {
+        enabled_ = enabled;
+    }
     /// Moves plant and dc link from `from_s` to `to_s` within the period that has begun.
     void advance(Plant &plant, DcLink &dc_link, const ShaftLoad &load, double from_s, double to_s);
 
@@ -59,18 +80,25 @@ private:
     struct Edge {
         double time_s;
         bool   high;
+        double dead_s;
     };
     struct Leg {
-        std::array<Edge, 3> edges{};
+        std::array<Edge, 4> edges{};
         int                 count        = 0;
         int                 next         = 0;
         bool                high         = false; ///< commanded
         double              dead_until_s = 0.0;
         bool                held         = false; ///< its current died out in this dead time
+        double              rise_dead_s  = 0.0;
+        double              fall_dead_s  = 0.0;
         void                plan(double time_s, bool to_high);
     };
 
-    void   plan_leg(Leg &leg, double duty) const;
+    void plan_leg(Leg &leg, double duty) const;
+    bool any_enabled() const
+    {
+        return enabled_[0] || enabled_[1] || enabled_[2];
+    }
     double next_event_s(double now_s, double to_s);
     void   advance_averaged(Plant &plant, DcLink &dc_link, const ShaftLoad &load, double dt_s);
     void   advance_switched(Plant &plant, DcLink &dc_link, const ShaftLoad &load, double now_s,
@@ -86,7 +114,7 @@ private:
     InverterSettings      settings_;
     double                dead_time_s_ = 0.0;
     std::array<double, 3> duty_{};
-    bool                  gates_ = true;
+    std::array<bool, 3>   enabled_{true, true, true};
     bool rising_half_ = true; ///< with half_periods: the carrier runs down, switches close
     std::array<Leg, 3>    legs_{};
     std::array<double, 3> volt_seconds_{};

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "bench.hpp"
+#include "board_run.hpp"
 #include "errors.hpp"
 #include "file_output.hpp"
 #include "plot.hpp"
@@ -24,6 +25,7 @@ struct Options {
     std::string csv;
     std::string json;
     std::string plot;
+    std::string board;
     int         seed   = 0;
     int         seeds  = 0;
     int         motors = 1000;
@@ -55,6 +57,30 @@ int run_many_seeds(const sdre::Scenario &scenario, const Options &options)
     return runs.faults == 0 ? exit_ok : exit_fault;
 }
 
+/// What a run on a board has to say beside its metrics.
+std::string board_text(const Options &options, const sdre::BoardResult &run)
+{
+    std::string s = fmt::format("board: {}\n", options.board);
+    for (const std::string &note : run.notes) {
+        s += fmt::format("note: {}\n", note);
+    }
+    for (const std::string &finding : run.findings) {
+        s += fmt::format("device: {}\n", finding);
+    }
+    return s;
+}
+
+int run_on_board(const sdre::Scenario &scenario, const Options &options)
+{
+    const auto kind = options.board == "api" ? sdre::BoardKind::api : sdre::BoardKind::f28335;
+    const sdre::BoardResult          run     = sdre::simulate_on_board(scenario, kind);
+    const std::vector<sdre::Metrics> metrics = sdre::measure(scenario, run.result.trace);
+    write_outputs(options, scenario.name, run.result.trace,
+                  sdre::result_json(scenario, run.result, metrics));
+    fmt::print("{}{}", board_text(options, run), sdre::result_text(scenario, run.result, metrics));
+    return run.result.fault == 0 && run.findings.empty() ? exit_ok : exit_fault;
+}
+
 int run_scenario(const Options &options)
 {
     if (!options.plot.empty()) {
@@ -66,6 +92,9 @@ int run_scenario(const Options &options)
     }
     if (options.seed > 0) {
         scenario.seed = static_cast<std::uint64_t>(options.seed);
+    }
+    if (!options.board.empty()) {
+        return run_on_board(scenario, options);
     }
     const sdre::SimulationResult     result  = sdre::simulate(scenario);
     const std::vector<sdre::Metrics> metrics = sdre::measure(scenario, result.trace);
@@ -106,6 +135,12 @@ int run(int argc, char **argv)
                      "run seeds 1 .. N and report worst and mean; CSV and plot are of seed 1")
         ->check(CLI::Range(1, 100000))
         ->excludes(seed);
+    run_command
+        ->add_option("--board", options.board,
+                     "run the application too: api (on board.h) or f28335 (with the drivers, on a "
+                     "virtual device)")
+        ->check(CLI::IsMember({"api", "f28335"}))
+        ->excludes("--seeds");
 
     CLI::App *motors_command = app.add_subcommand(
         "motors", "run one scenario with random motors that the controller does not know");

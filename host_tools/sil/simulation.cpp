@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <iterator>
 
 #include "board.hpp"
 #include "design.hpp"
@@ -36,6 +37,17 @@ Controller prepare_controller(const Scenario &s)
     return c;
 }
 
+void add_drive(TraceRow &row, const drive_t &drive)
+{
+    row.iq_ref_A    = static_cast<double>(drive.current_ref.i_A.q);
+    row.id_ref_A    = static_cast<double>(drive.current_ref.i_A.d);
+    row.vq_V        = static_cast<double>(drive.v_V.q);
+    row.vd_V        = static_cast<double>(drive.v_V.d);
+    row.d_omega_hat = static_cast<double>(drive.observer.d_omega);
+    row.d_q_hat     = static_cast<double>(drive.observer.d_q);
+    row.d_d_hat     = static_cast<double>(drive.observer.d_d);
+}
+
 namespace {
 
 TraceRow row_of(double time_s, double omega_ref, const Board &board, const drive_t &drive)
@@ -48,16 +60,10 @@ TraceRow row_of(double time_s, double omega_ref, const Board &board, const drive
     row.omega_e_radps     = plant.omega_e_radps();
     row.iq_A              = i.q;
     row.id_A              = i.d;
-    row.iq_ref_A          = static_cast<double>(drive.current_ref.i_A.q);
-    row.id_ref_A          = static_cast<double>(drive.current_ref.i_A.d);
-    row.vq_V              = static_cast<double>(drive.v_V.q);
-    row.vd_V              = static_cast<double>(drive.v_V.d);
-    row.d_omega_hat       = static_cast<double>(drive.observer.d_omega);
-    row.d_q_hat           = static_cast<double>(drive.observer.d_q);
-    row.d_d_hat           = static_cast<double>(drive.observer.d_d);
     row.load_torque_Nm    = board.load_Nm();
     row.torque_Nm         = plant.torque_Nm();
     row.dc_link_V         = board.dc_link_V();
+    add_drive(row, drive);
     return row;
 }
 
@@ -110,8 +116,35 @@ SimulationResult simulate(const Scenario &s, const Controller &controller)
     return result;
 }
 
+namespace {
+
+const char *app_fault_name(int fault)
+{
+    // In the order of app_fault_t, which is part of the serial protocol.
+    static const char *const names[] = {"none",
+                                        "application: constant out of range",
+                                        "application: board fault",
+                                        "application: background stands still",
+                                        "application: invalid sample",
+                                        "application: current offset",
+                                        "application: temperature sensor",
+                                        "application: temperature",
+                                        "application: index out of place",
+                                        "application: alignment",
+                                        "application: drive"};
+    return fault >= 0 && fault < static_cast<int>(std::size(names)) ? names[fault] : "unknown";
+}
+
+} // namespace
+
 const char *fault_name(int fault)
 {
+    if (fault == device_reset_fault) {
+        return "reset by the watchdog";
+    }
+    if (fault >= app_fault_base) {
+        return app_fault_name(fault - app_fault_base);
+    }
     switch (static_cast<drive_fault_t>(fault)) {
     case DRIVE_FAULT_NONE:
         return "none";

@@ -57,6 +57,13 @@ SimulationResult simulate(const Scenario &scenario);
 /// The same with a controller that is ready, for runs that differ in the plant or the seed only.
 SimulationResult simulate(const Scenario &scenario, const Controller &controller);
 
+/// The drive's part of a row: references, voltages, estimated disturbances.
+void add_drive(TraceRow &row, const drive_t &drive);
+
+/// Faults beyond drive_fault_t in SimulationResult::fault, of runs with the application on a board.
+constexpr int app_fault_base     = 100; ///< plus app_fault_t
+constexpr int device_reset_fault = 200; ///< by its watchdog
+
 /// "over current" and so on.
 const char *fault_name(int fault);
 

@@ -268,14 +268,17 @@ TEST(RealisticScenario, BothInverterModelsGiveTheSameSteadyState)
 
 TEST(RealisticScenario, PiFocHoldsTheSpeed)
 {
-    const Scenario s = read(head + body + "[sensors]\n");
-    Board          board(s);
-    PiFoc          pi = make_pi_foc(s.drive);
+    const Scenario       s = read(head + body + "[sensors]\n");
+    Board                board(s);
+    const pi_foc_gains_t gains = pi_foc_gains(s.drive);
+    pi_foc_t             pi{};
+    pi_foc_init(&pi, &gains);
     drive_output_t in_force{{0.5F, 0.5F, 0.5F}, true};
     for (int k = 0; k < 4000; k++) {
         board.begin_tick(2e-4 * k);
-        const drive_sample_t sample = board.sample();
-        const drive_output_t out    = pi_foc_tick(pi, sample, {300.0F, true});
+        const drive_sample_t  sample  = board.sample();
+        const drive_command_t command = {300.0F, true};
+        const drive_output_t  out     = pi_foc_tick(&pi, &sample, &command);
         board.run_period(in_force);
         in_force = out;
     }
