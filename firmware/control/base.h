@@ -42,10 +42,33 @@ typedef enum {
     CTL_BAD_CONFIG /**< a constant is missing, not finite or out of its documented range */
 } ctl_status_t;
 
+/* Inline, because a call costs more than the comparison and the tick makes about sixty of them. */
+
 /** x limited to [lo, hi]; a NaN comes out as lo, so that no NaN passes a limit. */
-float base_clamp(float x, float lo, float hi);
+static inline float base_clamp(float x, float lo, float hi)
+{
+    if (x > hi) {
+        return hi;
+    }
+    return (x >= lo) ? x : lo;
+}
 
 /** true when lo <= x <= hi; false for NaN, so it is the one check for untrusted numbers. */
-bool base_in_range(float x, float lo, float hi);
+static inline bool base_in_range(float x, float lo, float hi)
+{
+    return (x >= lo) && (x <= hi);
+}
+
+/** The smaller one; b when a is NaN. */
+static inline float base_min(float a, float b)
+{
+    return (a < b) ? a : b;
+}
+
+/** The larger one; b when a is NaN. */
+static inline float base_max(float a, float b)
+{
+    return (a > b) ? a : b;
+}
 
 #endif /* BASE_H */

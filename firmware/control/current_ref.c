@@ -67,7 +67,7 @@ static float id_weakening_A(const current_ref_config_t *c, const motor_reduced_t
 
     if (dq > v->f_A) {
         const float u = f2 / (c->mtpa_A + sqrtf((c->mtpa_A * c->mtpa_A) + (2.0f * f2)));
-        q_flux        = -fminf(dq - v->f_A, u);
+        q_flux        = -base_min(dq - v->f_A, u);
     }
     return m->l9 * (q_flux - m->l5 - v->x_A);
 }
@@ -81,7 +81,7 @@ static float id_target_A(const current_ref_config_t *c, const motor_reduced_t *m
     float       id_A = -iq2 / (c->mtpa_A + root);
 
     if (v->active) {
-        id_A = fminf(id_A, id_weakening_A(c, m, v, iq_wanted_A));
+        id_A = base_min(id_weakening_A(c, m, v, iq_wanted_A), id_A);
     }
     return base_clamp(id_A, -c->current_max_A, 0.0f);
 }
@@ -104,7 +104,7 @@ static void limit_iq(current_ref_t *r, const current_ref_config_t *c, const moto
     const float w       = in->state->omega_e_radps;
     const float accel   = accel_per_A(c, m, in->state->id_A);
     const float room_A2 = (c->current_max_A * c->current_max_A) - (r->i_A.d * r->i_A.d);
-    const float hi_A    = fminf(c->iq_max_A, positive_sqrt(room_A2));
+    const float hi_A    = base_min(positive_sqrt(room_A2), c->iq_max_A);
     r->iq_lo_A          = -hi_A;
     r->iq_hi_A          = hi_A;
 
@@ -127,12 +127,12 @@ speed_ref_limits_t current_ref_speed_limits(const current_ref_t *r, const curren
     const float unforced = in->est->d_omega - (m->l2 * w);
     const float top      = m->l6 * c->voltage_share * in->v_max_V;
     /* The jerk that stops at the command must be there at both ends of the way. */
-    const float fastest = fmaxf(fabsf(w), fabsf(command_e_radps));
-    const float slew    = fmaxf(top - (m->l5 * fastest), SLEW_SHARE_MIN * top);
+    const float fastest = base_max(fabsf(w), fabsf(command_e_radps));
+    const float slew    = base_max(top - (m->l5 * fastest), SLEW_SHARE_MIN * top);
 
     const speed_ref_limits_t limits = {
-        .accel_hi_e_radps2 = fmaxf(unforced + (accel * r->iq_hi_A), 0.0f),
-        .accel_lo_e_radps2 = fminf(unforced + (accel * r->iq_lo_A), 0.0f),
+        .accel_hi_e_radps2 = base_max(unforced + (accel * r->iq_hi_A), 0.0f),
+        .accel_lo_e_radps2 = base_min(unforced + (accel * r->iq_lo_A), 0.0f),
         .jerk_e_radps3     = m->l1 * slew,
         .near_e_radps      = c->near_e_radps};
     return limits;

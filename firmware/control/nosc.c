@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "nosc.h"
 
-#include <math.h>
-
 enum { ROW_Q = 0, ROW_D = 1, COLUMN_OMEGA = 0, COLUMN_IQ = 1, COLUMN_ID = 2 };
 
 static float row_times_error(const float row[NOSC_N_E], const nosc_error_t *e)
@@ -27,8 +25,8 @@ nosc_error_t nosc_limit_speed_error(const nosc_gains_t *g, nosc_error_t e, float
 {
     const float *row    = g->lambda[0][ROW_Q];
     const float  scaled = row[COLUMN_OMEGA] * e.omega_e_radps; /* EQ-NOSC-3, times k_iq */
-    const float  lo     = row[COLUMN_IQ] * fmaxf(iq_ref_A - iq_hi_A, -g->iq_speed_max_A);
-    const float  hi     = row[COLUMN_IQ] * fminf(iq_ref_A - iq_lo_A, g->iq_speed_max_A);
+    const float  lo     = row[COLUMN_IQ] * base_max(iq_ref_A - iq_hi_A, -g->iq_speed_max_A);
+    const float  hi     = row[COLUMN_IQ] * base_min(iq_ref_A - iq_lo_A, g->iq_speed_max_A);
 
     if (!base_in_range(scaled, lo, hi) && (row[COLUMN_OMEGA] > 0.0f)) {
         e.omega_e_radps = base_clamp(scaled, lo, hi) / row[COLUMN_OMEGA];

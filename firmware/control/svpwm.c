@@ -1,18 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 #include "svpwm.h"
 
-#include <math.h>
-
 #include "frames.h"
 
 static float largest(abc_t v)
 {
-    return fmaxf(v.a, fmaxf(v.b, v.c));
+    return base_max(v.a, base_max(v.b, v.c));
 }
 
 static float smallest(abc_t v)
 {
-    return fminf(v.a, fminf(v.b, v.c));
+    return base_min(v.a, base_min(v.b, v.c));
 }
 
 abc_t svpwm_duty(ab_t v_V, float v_dc_V)

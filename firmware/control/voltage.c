@@ -18,7 +18,7 @@ dq_t voltage_limit(dq_t v_V, float hold_q_V, float v_max_V)
     if (base_in_range((v_V.d * v_V.d) + (v_V.q * v_V.q), 0.0f, v_max_V * v_max_V)) {
         return v_V;
     }
-    const float keep_V = fminf(KEEP_SHARE * fminf(fabsf(hold_q_V), v_max_V), fabsf(v_V.q));
+    const float keep_V = base_min(KEEP_SHARE * base_min(fabsf(hold_q_V), v_max_V), fabsf(v_V.q));
     const float d_V    = leg(v_max_V, keep_V); /* EQ-VOLTAGE-1 */
     dq_t        out_V;
 

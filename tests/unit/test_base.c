@@ -98,6 +98,25 @@ static void test_constants_are_the_nearest_floats(void)
     TEST_ASSERT_DOUBLE_WITHIN(TOL_CONSTANT, 1.0, (double)BASE_1_SQRT3 * sqrt(3.0));
 }
 
+static void test_min_and_max_pick_one_of_the_two(void)
+{
+    for (int i = -20; i <= 20; i++) {
+        for (int k = -20; k <= 20; k++) {
+            const float a = 0.1f * (float)i;
+            const float b = 0.1f * (float)k;
+
+            TEST_ASSERT_TRUE((double)base_min(a, b) == fmin((double)a, (double)b));
+            TEST_ASSERT_TRUE((double)base_max(a, b) == fmax((double)a, (double)b));
+        }
+    }
+}
+
+static void test_min_and_max_take_the_second_when_the_first_is_not_a_number(void)
+{
+    TEST_ASSERT_TRUE(base_min(NAN, 1.5f) == 1.5f);
+    TEST_ASSERT_TRUE(base_max(NAN, -1.5f) == -1.5f);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -112,6 +131,8 @@ int main(void)
     RUN_TEST(test_nothing_but_finite_numbers_is_in_range);
     RUN_TEST(test_nothing_is_in_a_range_without_limits);
     RUN_TEST(test_nothing_is_in_a_reversed_range);
+    RUN_TEST(test_min_and_max_pick_one_of_the_two);
+    RUN_TEST(test_min_and_max_take_the_second_when_the_first_is_not_a_number);
     RUN_TEST(test_constants_are_the_nearest_floats);
     return UNITY_END();
 }
