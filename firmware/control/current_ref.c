@@ -61,13 +61,15 @@ static circle_t voltage_circle(const current_ref_config_t *c, const motor_reduce
 static float id_weakening_A(const current_ref_config_t *c, const motor_reduced_t *m,
                             const circle_t *v, float iq_A)
 {
-    const float dq     = fabsf(iq_A - v->y_A);
-    const float f2     = v->f_A * v->f_A;
-    float       q_flux = positive_sqrt(f2 - (dq * dq));
+    const float dq = fabsf(iq_A - v->y_A);
+    const float f2 = v->f_A * v->f_A;
+    float       q_flux;
 
     if (dq > v->f_A) {
         const float u = f2 / (c->mtpa_A + sqrtf((c->mtpa_A * c->mtpa_A) + (2.0f * f2)));
         q_flux        = -base_min(dq - v->f_A, u);
+    } else {
+        q_flux = positive_sqrt(f2 - (dq * dq));
     }
     return m->l9 * (q_flux - m->l5 - v->x_A);
 }
@@ -99,10 +101,9 @@ static float limit_regeneration(const current_ref_config_t *c, float accel, floa
 
 /* The current circle, EQ-CURRENT-REF-6 and 7. */
 static void limit_iq(current_ref_t *r, const current_ref_config_t *c, const motor_reduced_t *m,
-                     const circle_t *v, const current_ref_input_t *in)
+                     const circle_t *v, float accel, const current_ref_input_t *in)
 {
     const float w       = in->state->omega_e_radps;
-    const float accel   = accel_per_A(c, m, in->state->id_A);
     const float room_A2 = (c->current_max_A * c->current_max_A) - (r->i_A.d * r->i_A.d);
     const float hi_A    = base_min(positive_sqrt(room_A2), c->iq_max_A);
     r->iq_lo_A          = -hi_A;
@@ -114,8 +115,12 @@ static void limit_iq(current_ref_t *r, const current_ref_config_t *c, const moto
         r->iq_lo_A         = base_clamp(v->y_A - half_A, -hi_A, 0.0f);
         r->iq_hi_A         = base_clamp(v->y_A + half_A, 0.0f, hi_A);
     }
-    r->iq_lo_A = limit_regeneration(c, accel, w, in->dc_link_V, r->iq_lo_A);
-    r->iq_hi_A = limit_regeneration(c, accel, w, in->dc_link_V, r->iq_hi_A);
+    /* iq_lo <= 0 <= iq_hi: only the one against the speed feeds back. */
+    if (w > 0.0f) {
+        r->iq_lo_A = limit_regeneration(c, accel, w, in->dc_link_V, r->iq_lo_A);
+    } else {
+        r->iq_hi_A = limit_regeneration(c, accel, w, in->dc_link_V, r->iq_hi_A);
+    }
 }
 
 speed_ref_limits_t current_ref_speed_limits(const current_ref_t *r, const current_ref_config_t *c,
@@ -142,7 +147,8 @@ void current_ref_update(current_ref_t *r, const current_ref_config_t *c, const m
                         const speed_ref_t *w, const current_ref_input_t *in)
 {
     const circle_t v     = voltage_circle(c, m, in);
-    const float    inv   = 1.0f / accel_per_A(c, m, in->state->id_A);
+    const float    accel = accel_per_A(c, m, in->state->id_A);
+    const float    inv   = 1.0f / accel;
     const float    load  = (m->l2 * w->omega_e_radps) - in->est->d_omega;
     const float    iq_A  = inv * (load + w->omega_dot_e_radps2); /* EQ-CURRENT-REF-1 */
     const float    all_A = inv * (load + w->accel_wanted_e_radps2) + in->iq_speed_A;
@@ -154,7 +160,7 @@ void current_ref_update(current_ref_t *r, const current_ref_config_t *c, const m
     r->i_dot_Aps.d        = c->filter_1ps * id_step_A;
     r->i_A.d += c->filter_per_period * id_step_A;
 
-    limit_iq(r, c, m, &v, in);
+    limit_iq(r, c, m, &v, accel, in);
     r->i_A.q = base_clamp(iq_A, r->iq_lo_A, r->iq_hi_A);
     r->i_dot_Aps.q =
         base_in_range(iq_A, r->iq_lo_A, r->iq_hi_A) ? (inv * w->omega_2dot_e_radps3) : 0.0f;

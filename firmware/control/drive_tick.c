@@ -39,9 +39,10 @@ void drive_reset(drive_t *d)
     d->v_limited = false;
 }
 
+/* One comparison; false for NaN, as base_in_range(). */
 static bool symmetric_range(float x, float limit)
 {
-    return base_in_range(x, -limit, limit);
+    return fabsf(x) <= limit;
 }
 
 static drive_fault_t find_fault(const drive_config_t *c, const drive_sample_t *s,
@@ -140,36 +141,42 @@ static void update_references(drive_t *d, const drive_sample_t *s, float command
     current_ref_update(&d->current_ref, &c->current_ref, &c->motor, &d->speed_ref, &in);
 }
 
-/* What the modulator can produce of a voltage: up to the circle, or to the hexagon around it. */
-static float voltage_share(const drive_config_t *c, dq_t v_V, frames_angle_t angle, float dc_link_V)
+/* EQ-VOLTAGE-1 within the hexagon's reach in the direction of u. The limit turns the vector; what cannot be
+ * produced in the new direction is cut off. */
+static void limit_to_hexagon(drive_t *d, float length_V, frames_angle_t angle, float dc_link_V)
 {
-    const float circle_V = dc_link_V * BASE_1_SQRT3;
-    const float square   = (v_V.d * v_V.d) + (v_V.q * v_V.q);
+    const motor_reduced_t *m     = &d->config->motor;
+    const float            share = svpwm_share(frames_inverse_park(d->v_V, angle), dc_link_V);
 
-    if (square <= circle_V * circle_V) {
-        return 1.0f;
+    if (share < 1.0f) {
+        const float hold_q_V = feedforward_hold_q_V(m, &d->now, &d->observer);
+        const dq_t  v_V      = voltage_limit(d->v_V, hold_q_V, share * length_V);
+        const float cut      = svpwm_share(frames_inverse_park(v_V, angle), dc_link_V);
+
+        d->v_V.d     = cut * v_V.d;
+        d->v_V.q     = cut * v_V.q;
+        d->v_limited = true;
     }
-    return c->overmodulation ? svpwm_share(frames_inverse_park(v_V, angle), dc_link_V)
-                             : (circle_V / sqrtf(square));
 }
 
-/* EQ-VOLTAGE-1 within what can be produced in the direction of u. The limit turns the vector; what cannot be
- * produced in the new direction is cut off. */
+/* What the modulator can produce of u: up to the circle, or to the hexagon around it. */
 static void limit_voltage(drive_t *d, dq_t u_V, frames_angle_t angle, float dc_link_V)
 {
-    const drive_config_t *c     = d->config;
-    const float           share = voltage_share(c, u_V, angle, dc_link_V);
+    const drive_config_t *c        = d->config;
+    const float           circle_V = dc_link_V * BASE_1_SQRT3;
+    const float           square   = (u_V.d * u_V.d) + (u_V.q * u_V.q);
 
     d->v_V       = u_V;
-    d->v_limited = share < 1.0f;
-    if (d->v_limited) {
-        const float hold_q_V = feedforward_hold_q_V(&c->motor, &d->now, &d->observer);
-        const float reach_V  = share * sqrtf((u_V.d * u_V.d) + (u_V.q * u_V.q));
-        const dq_t  v_V      = voltage_limit(u_V, hold_q_V, reach_V);
-        const float cut      = voltage_share(c, v_V, angle, dc_link_V);
-
-        d->v_V.d = cut * v_V.d;
-        d->v_V.q = cut * v_V.q;
+    d->v_limited = false;
+    if (square <= circle_V * circle_V) {
+        return;
+    }
+    if (c->overmodulation) {
+        limit_to_hexagon(d, sqrtf(square), angle, dc_link_V);
+    } else {
+        d->v_V =
+            voltage_limit(u_V, feedforward_hold_q_V(&c->motor, &d->now, &d->observer), circle_V);
+        d->v_limited = true;
     }
 }
 

@@ -23,16 +23,39 @@ typedef struct {
 /** @param theta_e_rad electrical angle of the d axis from phase a; any finite value, best in +-2 pi. */
 frames_angle_t frames_angle(float theta_e_rad);
 
-/** Phase currents a and b to the stator frame, EQ-FRAMES-1. */
-ab_t frames_clarke(float a, float b);
+/* The transformations are inline, because a call costs more than their arithmetic. */
+
+/** Phase currents a and b to the stator frame. */
+static inline ab_t frames_clarke(float a, float b)
+{
+    const ab_t x = {.alpha = a, .beta = (a + (2.0f * b)) * BASE_1_SQRT3}; /* EQ-FRAMES-1 */
+    return x;
+}
 
 /** Stator frame to phases; the sum of the phases is zero. Inverse of EQ-FRAMES-1. */
-abc_t frames_inverse_clarke(ab_t x);
+static inline abc_t frames_inverse_clarke(ab_t x)
+{
+    const float half_alpha = 0.5f * x.alpha;
+    const float half_beta  = 0.5f * BASE_SQRT3 * x.beta;
+    const abc_t phases = {.a = x.alpha, .b = half_beta - half_alpha, .c = -half_beta - half_alpha};
+    return phases;
+}
 
-/** Stator frame to rotor frame, EQ-FRAMES-2. */
-dq_t frames_park(ab_t x, frames_angle_t angle);
+/** Stator frame to rotor frame. */
+static inline dq_t frames_park(ab_t x, frames_angle_t angle)
+{
+    const dq_t y = {/* EQ-FRAMES-2 */
+                    .d = (x.alpha * angle.cos) + (x.beta * angle.sin),
+                    .q = (x.beta * angle.cos) - (x.alpha * angle.sin)};
+    return y;
+}
 
 /** Rotor frame to stator frame, inverse of EQ-FRAMES-2. */
-ab_t frames_inverse_park(dq_t x, frames_angle_t angle);
+static inline ab_t frames_inverse_park(dq_t x, frames_angle_t angle)
+{
+    const ab_t y = {.alpha = (x.d * angle.cos) - (x.q * angle.sin),
+                    .beta  = (x.d * angle.sin) + (x.q * angle.cos)};
+    return y;
+}
 
 #endif /* FRAMES_H */

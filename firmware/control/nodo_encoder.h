@@ -38,7 +38,7 @@ typedef struct {
  * @param angle_error Measured minus estimated angle [rad], within +-pi.
  * @param ts_s        Control period [s].
  *
- * Context: control ISR. No division, 28 (Nd+1) + 7 multiply-adds.
+ * Context: control ISR. No division, 24 (Nd+1) + 3 multiplications.
  */
 void nodo_encoder_correct(nodo_t *x, float *theta_rad, const nodo_encoder_gains_t *g, dq_t i_A,
                           float angle_error, float ts_s);
@@ -46,12 +46,18 @@ void nodo_encoder_correct(nodo_t *x, float *theta_rad, const nodo_encoder_gains_
 /**
  * @brief EQ-NODO-ENCODER-2: one period ahead with the voltage in force.
  *
- * Context: control ISR. No division, about 50 multiply-adds.
+ * Context: control ISR. No division, 29 multiplications.
  */
 void nodo_encoder_predict(nodo_t *x, float *theta_rad, const motor_reduced_t *m, dq_t v_V,
                           float ts_s);
 
 /** An angle moved into +-pi; exact for angles within +-3 pi. */
-float nodo_encoder_wrap(float angle_rad);
+static inline float nodo_encoder_wrap(float angle_rad)
+{
+    if (angle_rad > BASE_PI) {
+        return angle_rad - BASE_TWO_PI;
+    }
+    return (angle_rad < -BASE_PI) ? (angle_rad + BASE_TWO_PI) : angle_rad;
+}
 
 #endif /* NODO_ENCODER_H */

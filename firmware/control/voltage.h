@@ -23,7 +23,7 @@
  * @param v_max_V  Radius of the circle [V], >= 0.
  * @return         Limited voltage, |v| <= v_max within rounding.
  *
- * Context: control ISR. No division; two square roots when limiting.
+ * Context: control ISR. No division; one square root when limiting.
  */
 dq_t voltage_limit(dq_t v_V, float hold_q_V, float v_max_V);
 
