@@ -11,10 +11,11 @@
 
 /* The voltage circle in amperes of q-axis flux linkage, around the present operating point. */
 typedef struct {
-    bool  active; /**< fast enough to matter */
-    float f_A;    /**< radius */
-    float y_A;    /**< resistive drop and disturbance on the d axis */
-    float x_A;    /**< the same on the q axis */
+    bool  active;      /**< fast enough to matter; only then the rest is set */
+    float inv_w_accel; /**< 1 / (speed times acceleration per ampere) */
+    float f_A;         /**< radius */
+    float y_A;         /**< resistive drop and disturbance on the d axis */
+    float x_A;         /**< the same on the q axis */
 } circle_t;
 
 void current_ref_reset(current_ref_t *r)
@@ -39,20 +40,19 @@ static float accel_per_A(const current_ref_config_t *c, const motor_reduced_t *m
 }
 
 static circle_t voltage_circle(const current_ref_config_t *c, const motor_reduced_t *m,
-                               const current_ref_input_t *in)
+                               const current_ref_input_t *in, float accel)
 {
     const float w      = in->state->omega_e_radps;
     const float v_6    = m->l6 * c->voltage_share * in->v_max_V;
-    circle_t    circle = {.active = (FW_SPEED_SHARE * v_6) < (m->l5 * fabsf(w)),
-                          .f_A    = 0.0f,
-                          .y_A    = 0.0f,
-                          .x_A    = 0.0f};
+    circle_t    circle = {.active = (FW_SPEED_SHARE * v_6) < (m->l5 * fabsf(w))};
 
     if (circle.active) {
-        const float inv_w = 1.0f / w;
-        circle.f_A        = v_6 * fabsf(inv_w);
-        circle.y_A        = m->l10 * ((m->l7 * in->state->id_A) - in->est->d_d) * inv_w;
-        circle.x_A        = ((m->l4 * in->state->iq_A) - in->est->d_q) * inv_w;
+        const float both   = 1.0f / (w * accel); /* one division for both reciprocals */
+        const float inv_w  = accel * both;
+        circle.inv_w_accel = both;
+        circle.f_A         = v_6 * fabsf(inv_w);
+        circle.y_A         = m->l10 * ((m->l7 * in->state->id_A) - in->est->d_d) * inv_w;
+        circle.x_A         = ((m->l4 * in->state->iq_A) - in->est->d_q) * inv_w;
     }
     return circle;
 }
@@ -89,14 +89,17 @@ static float id_target_A(const current_ref_config_t *c, const motor_reduced_t *m
 }
 
 /* EQ-CURRENT-REF-7: the least iq w. */
-static float limit_regeneration(const current_ref_config_t *c, float accel, float w,
+static float limit_regeneration(const current_ref_config_t *c, const circle_t *v, float w_accel,
                                 float dc_link_V, float iq_A)
 {
     const float share =
         base_clamp(1.0f - (c->regen_per_V * (dc_link_V - c->regen_start_V)), 0.0f, 1.0f);
     const float power = share * c->regen_max_W_norm;
 
-    return ((-iq_A * w * accel) > power) ? (-power / (w * accel)) : iq_A;
+    if (-iq_A * w_accel > power) {
+        return -power * (v->active ? v->inv_w_accel : (1.0f / w_accel));
+    }
+    return iq_A;
 }
 
 /* The current circle, EQ-CURRENT-REF-6 and 7. */
@@ -117,9 +120,9 @@ static void limit_iq(current_ref_t *r, const current_ref_config_t *c, const moto
     }
     /* iq_lo <= 0 <= iq_hi: only the one against the speed feeds back. */
     if (w > 0.0f) {
-        r->iq_lo_A = limit_regeneration(c, accel, w, in->dc_link_V, r->iq_lo_A);
+        r->iq_lo_A = limit_regeneration(c, v, w * accel, in->dc_link_V, r->iq_lo_A);
     } else {
-        r->iq_hi_A = limit_regeneration(c, accel, w, in->dc_link_V, r->iq_hi_A);
+        r->iq_hi_A = limit_regeneration(c, v, w * accel, in->dc_link_V, r->iq_hi_A);
     }
 }
 
@@ -146,9 +149,9 @@ speed_ref_limits_t current_ref_speed_limits(const current_ref_t *r, const curren
 void current_ref_update(current_ref_t *r, const current_ref_config_t *c, const motor_reduced_t *m,
                         const speed_ref_t *w, const current_ref_input_t *in)
 {
-    const circle_t v     = voltage_circle(c, m, in);
     const float    accel = accel_per_A(c, m, in->state->id_A);
-    const float    inv   = 1.0f / accel;
+    const circle_t v     = voltage_circle(c, m, in, accel);
+    const float    inv   = v.active ? (in->state->omega_e_radps * v.inv_w_accel) : (1.0f / accel);
     const float    load  = (m->l2 * w->omega_e_radps) - in->est->d_omega;
     const float    iq_A  = inv * (load + w->omega_dot_e_radps2); /* EQ-CURRENT-REF-1 */
     const float    all_A = inv * (load + w->accel_wanted_e_radps2) + in->iq_speed_A;

@@ -12,7 +12,11 @@
 #ifndef FRAMES_H
 #define FRAMES_H
 
+#include <math.h>
+
 #include "base.h"
+
+/* Inline, because a call costs more than the arithmetic. In C and C++: members are set in their order. */
 
 /** An electrical angle, kept as its cosine and sine. */
 typedef struct {
@@ -21,14 +25,16 @@ typedef struct {
 } frames_angle_t;
 
 /** @param theta_e_rad electrical angle of the d axis from phase a; any finite value, best in +-2 pi. */
-frames_angle_t frames_angle(float theta_e_rad);
-
-/* The transformations are inline, because a call costs more than their arithmetic. */
+static inline frames_angle_t frames_angle(float theta_e_rad)
+{
+    const frames_angle_t angle = {cosf(theta_e_rad), sinf(theta_e_rad)};
+    return angle;
+}
 
 /** Phase currents a and b to the stator frame. */
 static inline ab_t frames_clarke(float a, float b)
 {
-    const ab_t x = {.alpha = a, .beta = (a + (2.0f * b)) * BASE_1_SQRT3}; /* EQ-FRAMES-1 */
+    const ab_t x = {a, (a + (2.0f * b)) * BASE_1_SQRT3}; /* EQ-FRAMES-1 */
     return x;
 }
 
@@ -37,7 +43,7 @@ static inline abc_t frames_inverse_clarke(ab_t x)
 {
     const float half_alpha = 0.5f * x.alpha;
     const float half_beta  = 0.5f * BASE_SQRT3 * x.beta;
-    const abc_t phases = {.a = x.alpha, .b = half_beta - half_alpha, .c = -half_beta - half_alpha};
+    const abc_t phases     = {x.alpha, half_beta - half_alpha, -half_beta - half_alpha};
     return phases;
 }
 
@@ -45,16 +51,15 @@ static inline abc_t frames_inverse_clarke(ab_t x)
 static inline dq_t frames_park(ab_t x, frames_angle_t angle)
 {
     const dq_t y = {/* EQ-FRAMES-2 */
-                    .d = (x.alpha * angle.cos) + (x.beta * angle.sin),
-                    .q = (x.beta * angle.cos) - (x.alpha * angle.sin)};
+                    (x.alpha * angle.cos) + (x.beta * angle.sin),
+                    (x.beta * angle.cos) - (x.alpha * angle.sin)};
     return y;
 }
 
 /** Rotor frame to stator frame, inverse of EQ-FRAMES-2. */
 static inline ab_t frames_inverse_park(dq_t x, frames_angle_t angle)
 {
-    const ab_t y = {.alpha = (x.d * angle.cos) - (x.q * angle.sin),
-                    .beta  = (x.d * angle.sin) + (x.q * angle.cos)};
+    const ab_t y = {(x.d * angle.cos) - (x.q * angle.sin), (x.d * angle.sin) + (x.q * angle.cos)};
     return y;
 }
 
