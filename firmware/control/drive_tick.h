@@ -92,7 +92,7 @@ void drive_reset(drive_t *d);
  * @param command Wanted speed and run flag.
  * @return        Duty ratios for the next period and the gate request for now.
  *
- * Context: control ISR. Bounded: no loop but the two Horner sums.
+ * Context: control ISR. Bounded: no loop but the sums over the two series.
  */
 drive_output_t drive_tick(drive_t *d, const drive_sample_t *sample, const drive_command_t *command);
 

@@ -26,7 +26,7 @@ clang_flags=(-std=c99 -fsyntax-only -ffreestanding -nostdlibinc -isystem "$here/
     -Wshadow -Wundef -Wfloat-equal -Wswitch-enum -Wstrict-prototypes -Wmissing-prototypes -Wvla
     -Wno-avr-rtlib-linking-quirks) # nothing is linked
 cppcheck_flags=(--platform="$here/c28x.xml" --std=c99 --error-exitcode=1 --quiet --inline-suppr
-    --enable=warning,performance,portability --template='{file}:{line}: {severity}: {message} [{id}]')
+    "--enable=warning,performance,portability" --template='{file}:{line}: {severity}: {message} [{id}]')
 
 # analyse <extra options..> -- <files..>: the tool's report on stdout, its verdict as status
 analyse()
