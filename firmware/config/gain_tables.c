@@ -18,6 +18,7 @@ const drive_config_t gain_tables_drive = {
     .dc_link_min_V = 8.85000000e+01f,
     .dc_link_max_V = 3.98250000e+02f,
     .overmodulation = true,
+    .law = DRIVE_LAW_NOC,
     .form = DRIVE_FORM_ENCODER,
     .motor = {
         .l1 = 2.75714282e+03f,

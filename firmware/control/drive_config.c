@@ -86,21 +86,55 @@ static bool nodo_encoder_ok(const nodo_encoder_gains_t *g)
     return true;
 }
 
+static bool dobc_ok(const dobc_config_t *c)
+{
+    if ((c->n_x < 1) || (c->n_x > DOBC_N_X_MAX)) {
+        return false;
+    }
+    for (int16_t row = 0; row < c->n_x; row++) {
+        if (!all_finite(c->m[row], c->n_x)) {
+            return false;
+        }
+    }
+    return is_positive(c->direct_Vs) && is_positive(c->ld_H) && is_positive(c->k_omega_Vs) &&
+           all_finite(c->k_x, c->n_x) && all_finite(c->g, c->n_x) && all_finite(c->h, c->n_x);
+}
+
+static bool pid_ok(const pid_law_config_t *c)
+{
+    return is_positive(c->kp) && base_in_range(c->ki_per_tick, 0.0f, LARGEST) &&
+           base_in_range(c->kd_tick, 0.0f, LARGEST);
+}
+
+static bool servo_ok(const servo_law_config_t *c)
+{
+    const bool speed_ok = ((c->kind == SERVO_LAW_DOBC) && dobc_ok(&c->dobc)) ||
+                          ((c->kind == SERVO_LAW_PID) && pid_ok(&c->pid));
+
+    return speed_ok && pid_ok(&c->id_pi);
+}
+
+static bool noc_ok(const drive_config_t *c)
+{
+    const bool observer_ok = ((c->form == DRIVE_FORM_SPEED) && nodo_ok(&c->nodo)) ||
+                             ((c->form == DRIVE_FORM_ENCODER) && nodo_encoder_ok(&c->nodo_encoder));
+
+    return current_ref_ok(&c->current_ref) && nosc_ok(&c->nosc) && observer_ok;
+}
+
 ctl_status_t drive_config_check(const drive_config_t *c)
 {
     const bool limits_ok =
         base_in_range(c->ts_s, 1.0e-5f, 1.0e-2f) && is_positive(c->trip_current_A) &&
+        is_positive(c->current_ref.current_max_A) &&
         (c->trip_current_A > c->current_ref.current_max_A) && is_positive(c->trip_speed_e_radps) &&
         base_in_range(c->trip_angle_rad, 1.0e-6f, BASE_PI) && is_positive(c->trip_d_omega) &&
         is_positive(c->dc_link_min_V) && is_positive(c->dc_link_max_V) &&
         (c->dc_link_max_V > c->dc_link_min_V);
     const bool dead_time_ok =
         base_in_range(c->dead_time.share, 0.0f, 0.1f) && is_positive(c->dead_time.inv_fade_1pA);
-    const bool observer_ok = ((c->form == DRIVE_FORM_SPEED) && nodo_ok(&c->nodo)) ||
-                             ((c->form == DRIVE_FORM_ENCODER) && nodo_encoder_ok(&c->nodo_encoder));
+    const bool law_ok = ((c->law == DRIVE_LAW_NOC) && noc_ok(c)) ||
+                        ((c->law == DRIVE_LAW_SERVO) && servo_ok(&c->servo));
 
-    return (limits_ok && dead_time_ok && motor_ok(&c->motor) && current_ref_ok(&c->current_ref) &&
-            nosc_ok(&c->nosc) && observer_ok)
-               ? CTL_OK
-               : CTL_BAD_CONFIG;
+    return (limits_ok && dead_time_ok && motor_ok(&c->motor) && law_ok) ? CTL_OK : CTL_BAD_CONFIG;
 }

@@ -13,6 +13,13 @@
 #include "nodo.h"
 #include "nodo_encoder.h"
 #include "nosc.h"
+#include "servo_law.h"
+
+/** What turns samples into a voltage. */
+typedef enum {
+    DRIVE_LAW_NOC = 0, /**< paper A: observer, references, state feedback */
+    DRIVE_LAW_SERVO    /**< paper B: one of the laws of servo_law.h */
+} drive_law_t;
 
 /** What the observer measures beside the currents. */
 typedef enum {
@@ -29,16 +36,18 @@ typedef struct {
     float
         trip_d_omega; /**< encoder form: an estimated speed disturbance beyond this is no load but a
                              wrong angle [rad/s^2], > 0 */
-    float                dc_link_min_V;  /**< accepted dc link, > 0 */
-    float                dc_link_max_V;  /**< > dc_link_min_V */
-    bool                 overmodulation; /**< voltages may use the hexagon outside the circle */
-    drive_form_t         form;           /**< which of nodo and nodo_encoder is used and checked */
-    motor_reduced_t      motor;
+    float           dc_link_min_V;  /**< accepted dc link, > 0 */
+    float           dc_link_max_V;  /**< > dc_link_min_V */
+    bool            overmodulation; /**< voltages may use the hexagon outside the circle */
+    drive_law_t     law;  /**< NOC: current_ref, nosc, form; SERVO: servo. Only these are checked */
+    drive_form_t    form; /**< which of nodo and nodo_encoder is used and checked */
+    motor_reduced_t motor;
     current_ref_config_t current_ref;
     dead_time_config_t   dead_time;
     nosc_gains_t         nosc;
     nodo_gains_t         nodo;
     nodo_encoder_gains_t nodo_encoder;
+    servo_law_config_t   servo;
 } drive_config_t;
 
 /**

@@ -35,6 +35,7 @@ void drive_reset(drive_t *d)
     nodo_reset(&d->observer, &zero);
     speed_ref_reset(&d->speed_ref, 0.0f);
     current_ref_reset(&d->current_ref);
+    servo_law_reset(&d->servo, 0.0f);
     d->v_V       = zero_dq;
     d->v_limited = false;
 }
@@ -92,8 +93,15 @@ static void start(drive_t *d, const drive_sample_t *s)
     d->theta_hat_rad = nodo_encoder_wrap(s->theta_e_rad);
     speed_ref_reset(&d->speed_ref, y.omega_e_radps);
     current_ref_reset(&d->current_ref);
+    servo_law_reset(&d->servo, feedforward_hold_q_V(&d->config->motor, &y, &d->observer));
     d->v_V   = zero_dq;
     d->state = DRIVE_RUN;
+}
+
+/* From the measured speed: the angle of the middle of the period in which the new voltage acts. EQ-DRIVE-2 */
+static float middle_angle_rad(const drive_config_t *c, const drive_sample_t *s)
+{
+    return s->theta_e_rad + (1.5f * c->ts_s * s->omega_e_radps);
 }
 
 /* Paper A's observer; returns the angle of the middle of the period in which the new voltage acts. */
@@ -103,7 +111,7 @@ static float estimate_from_speed(drive_t *d, const drive_sample_t *s)
 
     d->now = measurement(s);
     nodo_update(&d->observer, &c->nodo, &c->motor, &d->now, d->v_V, c->ts_s);
-    return s->theta_e_rad + (1.5f * c->ts_s * s->omega_e_radps); /* EQ-DRIVE-2 */
+    return middle_angle_rad(c, s);
 }
 
 /* Correct with this sample, predict to the next; returns the angle as above. */
@@ -205,6 +213,20 @@ static bool control_law(drive_t *d, frames_angle_t angle, float dc_link_V)
     return true;
 }
 
+/* Paper B's laws in the place of EQ-DRIVE-1; false as above. */
+static bool servo_law(drive_t *d, frames_angle_t angle, float dc_link_V, float command_e_radps)
+{
+    const servo_law_config_t *c   = &d->config->servo;
+    const dq_t                u_V = servo_law_voltage_V(&d->servo, c, &d->now, command_e_radps);
+
+    if (!symmetric_range(u_V.d, VOLTAGE_ANY_V) || !symmetric_range(u_V.q, VOLTAGE_ANY_V)) {
+        return false;
+    }
+    limit_voltage(d, u_V, angle, dc_link_V);
+    servo_law_realise(&d->servo, c, d->v_V);
+    return true;
+}
+
 static drive_output_t modulate(const drive_t *d, frames_angle_t angle, float dc_link_V)
 {
     const drive_config_t *c     = d->config;
@@ -216,8 +238,20 @@ static drive_output_t modulate(const drive_t *d, frames_angle_t angle, float dc_
     return out;
 }
 
+static drive_output_t run_servo(drive_t *d, const drive_sample_t *s, float command_e_radps)
+{
+    const frames_angle_t angle = frames_angle(middle_angle_rad(d->config, s));
+
+    d->now = measurement(s);
+    return servo_law(d, angle, s->dc_link_V, command_e_radps) ? modulate(d, angle, s->dc_link_V)
+                                                              : trip(d, DRIVE_FAULT_NUMERIC);
+}
+
 static drive_output_t run(drive_t *d, const drive_sample_t *s, const drive_command_t *command)
 {
+    if (d->config->law == DRIVE_LAW_SERVO) {
+        return run_servo(d, s, command->omega_e_radps);
+    }
     bool        plausible = true;
     const float theta_rad = (d->config->form == DRIVE_FORM_ENCODER)
                                 ? estimate_from_encoder(d, s, &plausible)

@@ -11,6 +11,9 @@
  * Encoder form: the observer is corrected with this sample and predicted to the instant at which the new
  * voltage takes effect; references and law act on the prediction. Speed form: on the measurement.
  *
+ * DRIVE_LAW_SERVO replaces observer, reference and law by one of servo_law.h, on the measurement; checks,
+ * voltage limit and modulator stay.
+ *
  * Nothing received is trusted: an invalid, non-finite or out-of-range sample or command opens the bridge
  * in the same call and latches the first reason until drive_reset().
  */
@@ -21,6 +24,7 @@
 #include "current_ref.h"
 #include "drive_config.h"
 #include "nodo.h"
+#include "servo_law.h"
 #include "speed_ref.h"
 
 /** Samples of one instant, converted to SI units. */
@@ -66,7 +70,8 @@ typedef struct {
     nodo_meas_t           now; /**< what the law acts on: measured, or predicted (encoder form) */
     speed_ref_t           speed_ref;
     current_ref_t         current_ref;
-    dq_t                  v_V; /**< limited voltage computed last; in force from the next tick */
+    servo_law_t           servo; /**< DRIVE_LAW_SERVO only */
+    dq_t                  v_V;   /**< limited voltage computed last; in force from the next tick */
     bool                  v_limited; /**< v_V was limited */
 } drive_t;
 
@@ -92,7 +97,7 @@ void drive_reset(drive_t *d);
  * @param command Wanted speed and run flag.
  * @return        Duty ratios for the next period and the gate request for now.
  *
- * Context: control ISR. Bounded: no loop but the sums over the two series.
+ * Context: control ISR. Bounded: no loop but the sums over the two series, or the matrix product of dobc.h.
  */
 drive_output_t drive_tick(drive_t *d, const drive_sample_t *sample, const drive_command_t *command);
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "certificate.hpp"
 #include "firmware_config.hpp"
 
@@ -39,10 +41,51 @@ GainSeries solve_nodo(const ReducedParameters &l, const NodoSpec &spec)
     return out;
 }
 
+void judge(const char *name, const LoopCheck &loop, std::vector<std::string> &failures)
+{
+    if (!(loop.spectral_radius < 1.0)) {
+        failures.push_back(fmt::format("{}: the sampled loop is unstable: spectral radius {:.5f}",
+                                       name, loop.spectral_radius));
+    }
+    if (!(loop.peak <= peak_sensitivity_limit)) {
+        failures.push_back(fmt::format("{}: sensitivity peak {:.3g} at {:.0f} Hz exceeds {:g}",
+                                       name, loop.peak, loop.peak_Hz, peak_sensitivity_limit));
+    }
+}
+
+Design design_servo(const Drive &drive)
+{
+    Design design;
+    design.drive = drive;
+    design.l     = reduced_parameters(drive.motor);
+    design.servo.emplace();
+    ServoDesign              &servo    = *design.servo;
+    std::vector<std::string> &failures = design.certificate.failures;
+    if (drive.law != Law::pid) {
+        servo.dobc = design_dobc(drive.motor, drive.dobc, control_period_s(drive));
+        if (!(servo.dobc->matching_error <= matching_error_limit)) {
+            failures.push_back(fmt::format("observer: coefficient matching is off by {:.1e}",
+                                           servo.dobc->matching_error));
+        }
+    }
+    design.config = firmware_config(design);
+    servo.speed =
+        check_loop(speed_loop(drive.motor, design.config), disturbance_frequencies(drive));
+    servo.d_axis =
+        check_loop(d_axis_loop(drive.motor, design.config), disturbance_frequencies(drive));
+    judge("speed loop", servo.speed, failures);
+    judge("d axis", servo.d_axis, failures);
+    add_firmware_failures(design.config, design.certificate);
+    return design;
+}
+
 } // namespace
 
 Design design_drive(const Drive &drive)
 {
+    if (drive.law != Law::noc) {
+        return design_servo(drive);
+    }
     Design design;
     design.drive       = drive;
     design.l           = reduced_parameters(drive.motor);

@@ -2,13 +2,16 @@
 /// From a drive description to gains, limits and their certificate: the whole off-line job in one call.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core_types.hpp"
+#include "dobc_design.hpp"
 #include "drive_file.hpp"
 #include "motor_model.hpp"
 #include "sdre_series.hpp"
+#include "servo_loop.hpp"
 
 namespace sdre {
 
@@ -44,19 +47,33 @@ struct Certificate {
     }
 };
 
+/// One of paper B's laws.
+struct ServoDesign {
+    std::optional<DobcDesign> dobc; ///< none for the PID
+    LoopCheck                 speed;
+    LoopCheck                 d_axis;
+};
+
 struct Design {
-    Drive             drive;
-    ReducedParameters l{};
-    GainSeries        nosc;
-    GainSeries        nodo;
-    drive_config_t    config{}; ///< what the firmware gets, in its own single precision
-    Certificate       certificate;
+    Drive                      drive;
+    ReducedParameters          l{};
+    GainSeries                 nosc; ///< nosc and nodo, also in the certificate: Law::noc only
+    GainSeries                 nodo;
+    std::optional<ServoDesign> servo;    ///< every other law
+    drive_config_t             config{}; ///< what the firmware gets, in its own single precision
+    Certificate                certificate;
 };
 
 /// Relative residual above which a solution is refused.
 constexpr double residual_limit = 1e-10;
 /// The series is used up to where its gain is this far (relative, norm-wise) from the exact SDRE gain.
 constexpr double series_error_limit = 0.1;
+
+/// Largest peak sensitivity of a certified loop of paper B. Chosen: a phase margin of 19 degrees is then left; the
+/// repaired design has 2.55, the printed one 122.
+constexpr double peak_sensitivity_limit = 3.0;
+/// Relative error above which coefficient matching is refused.
+constexpr double matching_error_limit = 1e-9;
 
 /// Solves both problems and certifies them. DesignError when a Riccati or Lyapunov equation has no
 /// acceptable solution; a failed certificate is reported in Design::certificate, not thrown.

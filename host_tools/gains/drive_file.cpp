@@ -29,6 +29,11 @@ constexpr Range encoder_lines{1, 1e6};
 constexpr Range series_order{0, 8};
 constexpr Range state_weight{0.0, 1e15};
 constexpr Range input_weight{1e-12, 1e12};
+constexpr Range polynomial_order{1, 3};
+constexpr Range harmonic_order{1.0, 1e3};
+constexpr Range pole_1ps{1.0, 1e5};
+constexpr Range speed_gain{0.0, 1e6};
+constexpr Range current_gain{0.0, 1e9};
 
 template <std::size_t N> std::array<double, N> last_of(const std::vector<double> &values)
 {
@@ -111,20 +116,104 @@ NodoSpec read_nodo(TomlReader t)
     return spec;
 }
 
-std::string normalised(const Drive &d)
+const std::map<std::string, Law> &laws()
 {
-    const Motor    &m = d.motor;
-    const Inverter &i = d.inverter;
-    std::string     s = fmt::format("schema={};name={};", drive_schema, d.name);
-    s += fmt::format("{};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};",
-                     m.pole_pairs, m.stator_resistance_Ohm, m.d_axis_inductance_H,
-                     m.q_axis_inductance_H, m.pm_flux_Wb, m.inertia_kgm2, m.viscous_friction_Nms,
-                     m.rated_speed_e_radps, m.rated_torque_Nm, m.max_current_A);
-    s += fmt::format("{:.17g};{:.17g};{:.17g};{};{};", i.dc_link_V, i.pwm_frequency_Hz,
-                     i.dead_time_s, i.updates_per_period, d.encoder.lines);
-    s += i.dead_time_compensation ? "compensated;" : "uncompensated;";
-    s += i.overmodulation ? "hexagon;" : "circle;";
-    s += fmt::format("nosc;{};", d.nosc.order);
+    static const std::map<std::string, Law> names{{"noc", Law::noc},
+                                                  {"cdobc", Law::cdobc},
+                                                  {"gpiobc", Law::gpiobc},
+                                                  {"hdobc", Law::hdobc},
+                                                  {"pid", Law::pid}};
+    return names;
+}
+
+Law read_law(TomlReader &t)
+{
+    const std::string name  = t.text_or("law", "noc");
+    const auto        found = laws().find(name);
+    if (found == laws().end()) {
+        t.fail("law", fmt::format("= \"{}\" is not allowed: must be \"noc\", \"cdobc\", "
+                                  "\"gpiobc\", \"hdobc\" or \"pid\"",
+                                  name));
+    }
+    return found->second;
+}
+
+void read_harmonics(TomlReader &t, DobcSpec &spec)
+{
+    const std::string preset = t.text("preset");
+    if (preset != "printed" && preset != "repaired") {
+        t.fail("preset",
+               fmt::format("= \"{}\" is not allowed: must be \"printed\" or \"repaired\"", preset));
+    }
+    spec.preset               = preset == "printed" ? DobcPreset::printed : DobcPreset::repaired;
+    spec.harmonics_per_turn   = t.numbers("harmonics_per_turn", {1, 2, 3, 4}, harmonic_order);
+    spec.design_speed_e_radps = t.number("design_speed_e_radps", speed_e_radps);
+    const std::vector<double> &orders = spec.harmonics_per_turn;
+    for (std::size_t i = 1; i < orders.size(); i++) {
+        if (orders[i] <= orders[i - 1]) {
+            t.fail("harmonics_per_turn",
+                   fmt::format("= [.. {:g}, {:g} ..] is not allowed: must rise", orders[i - 1],
+                               orders[i]));
+        }
+    }
+    if (spec.preset == DobcPreset::repaired) {
+        spec.oscillator_damping_1ps = t.number("oscillator_damping_1ps", pole_1ps);
+    }
+}
+
+DobcSpec read_dobc(TomlReader t, Law law)
+{
+    DobcSpec spec;
+    spec.controller_pole_1ps = t.number("controller_pole_1ps", pole_1ps);
+    spec.observer_pole_1ps   = t.number("observer_pole_1ps", pole_1ps);
+    if (law != Law::hdobc) {
+        spec.polynomial_order = t.integer("polynomial_order", polynomial_order);
+    }
+    if (law != Law::gpiobc) {
+        read_harmonics(t, spec);
+    }
+    t.reject_unknown_keys();
+    return spec;
+}
+
+PidSpec read_pid(TomlReader t)
+{
+    PidSpec spec;
+    spec.proportional_Vs_per_rad = t.number("proportional_Vs_per_rad", {1e-9, speed_gain.hi});
+    spec.integral_V_per_rad      = t.number("integral_V_per_rad", speed_gain);
+    spec.derivative_Vs2_per_rad  = t.number("derivative_Vs2_per_rad", speed_gain);
+    t.reject_unknown_keys();
+    return spec;
+}
+
+DAxisSpec read_d_axis(TomlReader t)
+{
+    DAxisSpec spec;
+    spec.proportional_V_per_A = t.number("proportional_V_per_A", {1e-9, current_gain.hi});
+    spec.integral_V_per_As    = t.number("integral_V_per_As", current_gain);
+    t.reject_unknown_keys();
+    return spec;
+}
+
+/// The sections that belong to the law; the sections of the others are unknown keys.
+void read_law_sections(TomlReader &t, Drive &drive)
+{
+    if (drive.law == Law::noc) {
+        drive.nosc = read_nosc(t.table("nosc"));
+        drive.nodo = read_nodo(t.table("nodo"));
+        return;
+    }
+    drive.d_axis = read_d_axis(t.table("d_axis"));
+    if (drive.law == Law::pid) {
+        drive.pid = read_pid(t.table("pid"));
+    } else {
+        drive.dobc = read_dobc(t.table("dobc"), drive.law);
+    }
+}
+
+std::string normalised_weights(const Drive &d)
+{
+    std::string s = fmt::format("nosc;{};", d.nosc.order);
     for (double x : d.nosc.Q) {
         s += fmt::format("{:.17g};", x);
     }
@@ -140,6 +229,41 @@ std::string normalised(const Drive &d)
         s += fmt::format("{:.17g};", x);
     }
     return s;
+}
+
+std::string normalised_servo(const Drive &d)
+{
+    const DobcSpec &o = d.dobc;
+    std::string     s = fmt::format("{};{:.17g};{:.17g};", law_name(d.law),
+                                    d.d_axis.proportional_V_per_A, d.d_axis.integral_V_per_As);
+    if (d.law == Law::pid) {
+        return s + fmt::format("{:.17g};{:.17g};{:.17g};", d.pid.proportional_Vs_per_rad,
+                               d.pid.integral_V_per_rad, d.pid.derivative_Vs2_per_rad);
+    }
+    s += fmt::format("{};{};{:.17g};{:.17g};{:.17g};{:.17g};",
+                     o.preset == DobcPreset::printed ? "printed" : "repaired", o.polynomial_order,
+                     o.design_speed_e_radps, o.controller_pole_1ps, o.observer_pole_1ps,
+                     o.oscillator_damping_1ps);
+    for (const double order : o.harmonics_per_turn) {
+        s += fmt::format("{:.17g};", order);
+    }
+    return s;
+}
+
+std::string normalised(const Drive &d)
+{
+    const Motor    &m = d.motor;
+    const Inverter &i = d.inverter;
+    std::string     s = fmt::format("schema={};name={};", drive_schema, d.name);
+    s += fmt::format("{};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};",
+                     m.pole_pairs, m.stator_resistance_Ohm, m.d_axis_inductance_H,
+                     m.q_axis_inductance_H, m.pm_flux_Wb, m.inertia_kgm2, m.viscous_friction_Nms,
+                     m.rated_speed_e_radps, m.rated_torque_Nm, m.max_current_A);
+    s += fmt::format("{:.17g};{:.17g};{:.17g};{};{};", i.dc_link_V, i.pwm_frequency_Hz,
+                     i.dead_time_s, i.updates_per_period, d.encoder.lines);
+    s += i.dead_time_compensation ? "compensated;" : "uncompensated;";
+    s += i.overmodulation ? "hexagon;" : "circle;";
+    return s + (d.law == Law::noc ? normalised_weights(d) : normalised_servo(d));
 }
 
 } // namespace
@@ -164,14 +288,24 @@ Drive read_drive_file(const std::filesystem::path &file)
     drive.motor    = read_motor(t.table("motor"));
     drive.inverter = read_inverter(t.table("inverter"));
     drive.encoder  = read_encoder(t.table("encoder"));
-    drive.nosc     = read_nosc(t.table("nosc"));
-    drive.nodo     = read_nodo(t.table("nodo"));
+    drive.law      = read_law(t);
+    read_law_sections(t, drive);
     t.reject_unknown_keys();
     if (drive.inverter.dead_time_s * drive.inverter.pwm_frequency_Hz > 0.1) {
         t.fail("[inverter] dead_time_s",
                "is not allowed: must be at most a tenth of the PWM period");
     }
     return drive;
+}
+
+const char *law_name(Law law)
+{
+    for (const auto &[name, value] : laws()) {
+        if (value == law) {
+            return name.c_str();
+        }
+    }
+    return "unknown";
 }
 
 double control_period_s(const Drive &drive)

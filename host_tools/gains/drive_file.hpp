@@ -55,13 +55,52 @@ struct NodoSpec {
     std::array<double, 3> T{};
 };
 
+/// The control law; paper A's, or one of paper B's.
+enum class Law { noc, cdobc, gpiobc, hdobc, pid };
+
+const char *law_name(Law law);
+
+/// How paper B's observer places its poles and how it compensates.
+enum class DobcPreset {
+    printed, ///< all poles on one point, oscillators compensated without lead
+    repaired ///< oscillators keep their frequency and get a light damping; half a sample of lead
+};
+
+/// cdobc, gpiobc (no harmonics, so no preset either), hdobc (no polynomial).
+struct DobcSpec {
+    DobcPreset          preset           = DobcPreset::repaired;
+    int                 polynomial_order = 0;         ///< N
+    std::vector<double> harmonics_per_turn;           ///< of the shaft, rising
+    double              design_speed_e_radps   = 0.0; ///< the harmonics' frequencies hold here
+    double              controller_pole_1ps    = 0.0; ///< distance from 0 of both poles
+    double              observer_pole_1ps      = 0.0; ///< the same of the observer's fast poles
+    double              oscillator_damping_1ps = 0.0; ///< repaired: half of s^2 + 2 damping s + w^2
+};
+
+/// Gains as paper B gives them: q voltage per mechanical speed error.
+struct PidSpec {
+    double proportional_Vs_per_rad = 0.0;
+    double integral_V_per_rad      = 0.0;
+    double derivative_Vs2_per_rad  = 0.0;
+};
+
+/// The PI that keeps i_d at zero, for every law of paper B.
+struct DAxisSpec {
+    double proportional_V_per_A = 0.0;
+    double integral_V_per_As    = 0.0;
+};
+
 struct Drive {
     std::string name;
     Motor       motor;
     Inverter    inverter;
     Encoder     encoder;
-    NoscSpec    nosc;
+    Law         law = Law::noc;
+    NoscSpec    nosc; ///< nosc and nodo: noc only
     NodoSpec    nodo;
+    DobcSpec    dobc;   ///< cdobc, gpiobc, hdobc only
+    PidSpec     pid;    ///< pid only
+    DAxisSpec   d_axis; ///< every law but noc
 };
 
 constexpr int drive_schema = 1;

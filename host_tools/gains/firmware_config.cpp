@@ -154,6 +154,45 @@ current_ref_config_t current_ref_config(const Design &d)
     return c;
 }
 
+dobc_config_t dobc_config(const Motor &m, const DobcDesign &d)
+{
+    const ServoPlant p = servo_plant(m);
+    const double np = m.pole_pairs; // the design's speeds are mechanical, the firmware's electrical
+    dobc_config_t c{};
+    c.n_x        = static_cast<int16_t>(d.l.size());
+    c.direct_Vs  = single(m.viscous_friction_Nms * m.stator_resistance_Ohm / (p.kt_NmpA * np) +
+                          m.pm_flux_Wb); // EQ-DOBC-1
+    c.ld_H       = single(m.d_axis_inductance_H);
+    c.k_omega_Vs = single(d.k1 / np);
+    for (Eigen::Index i = 0; i < d.l.size(); i++) {
+        c.k_x[i] = single(d.K(i));
+        c.g[i]   = single(d.g(i) / np);
+        c.h[i]   = single(d.h(i));
+        for (Eigen::Index j = 0; j < d.l.size(); j++) {
+            c.m[i][j] = single(d.M(i, j));
+        }
+    }
+    return c;
+}
+
+servo_law_config_t servo_config(const Design &d)
+{
+    const double       ts = control_period_s(d.drive);
+    const double       np = d.drive.motor.pole_pairs;
+    const PidSpec     &k  = d.drive.pid;
+    servo_law_config_t c{};
+    c.kind  = d.drive.law == Law::pid ? SERVO_LAW_PID : SERVO_LAW_DOBC;
+    c.id_pi = {single(d.drive.d_axis.proportional_V_per_A),
+               single(d.drive.d_axis.integral_V_per_As * ts), 0.0F};
+    if (c.kind == SERVO_LAW_PID) {
+        c.pid = {single(k.proportional_Vs_per_rad / np), single(k.integral_V_per_rad * ts / np),
+                 single(k.derivative_Vs2_per_rad / (ts * np))};
+    } else {
+        c.dobc = dobc_config(d.drive.motor, *d.servo->dobc);
+    }
+    return c;
+}
+
 } // namespace
 
 drive_config_t firmware_config(const Design &d)
@@ -176,11 +215,19 @@ drive_config_t firmware_config(const Design &d)
                single(l[6]),  single(l[7]),       single(l[8]),      single(l[9]), single(l[10]),
                single(l[11]), single(1.0 / l[6]), single(1.0 / l[8])};
 
-    c.current_ref = current_ref_config(d);
     c.dead_time.share =
         single(inv.dead_time_compensation ? inv.dead_time_s * inv.pwm_frequency_Hz : 0.0);
     c.dead_time.inv_fade_1pA = single(1.0 / (dead_time_fade_ratio * m.max_current_A));
-    copy_gains(d, c);
+    if (d.servo) {
+        c.law = DRIVE_LAW_SERVO;
+        c.current_ref.current_max_A =
+            single(m.max_current_A); // the application's alignment uses it
+        c.servo = servo_config(d);
+    } else {
+        c.law         = DRIVE_LAW_NOC;
+        c.current_ref = current_ref_config(d);
+        copy_gains(d, c);
+    }
     return c;
 }
 

@@ -108,21 +108,118 @@ std::string poles_text(const Eigen::VectorXcd &poles)
     return s;
 }
 
-} // namespace
+ordered_json loop_json(const LoopCheck &loop)
+{
+    ordered_json at = ordered_json::object();
+    for (const SensitivityAt &x : loop.at) {
+        at[x.name] = {{"frequency_Hz", x.frequency_Hz}, {"sensitivity", x.value}};
+    }
+    return {{"spectral_radius", loop.spectral_radius},
+            {"sensitivity_peak", loop.peak},
+            {"sensitivity_peak_Hz", loop.peak_Hz},
+            {"disturbances", at}};
+}
 
-std::string report_json(const Design &d)
+ordered_json dobc_json(const DobcDesign &d)
+{
+    return {{"oscillators_radps", d.oscillators_radps},
+            {"wanted_polynomial", d.wanted},
+            {"matching_error", d.matching_error},
+            {"l", std::vector<double>(d.l.begin(), d.l.end())},
+            {"k1_Vs_per_rad", d.k1},
+            {"k2_V_per_A", d.k2},
+            {"K", std::vector<double>(d.K.begin(), d.K.end())},
+            {"M", to_json(d.M)},
+            {"g", std::vector<double>(d.g.begin(), d.g.end())},
+            {"h", std::vector<double>(d.h.begin(), d.h.end())}};
+}
+
+std::string loop_text(const char *name, const LoopCheck &loop)
+{
+    std::string s =
+        fmt::format("  {}: sensitivity peak {:.3f} at {:.1f} Hz, sampled spectral radius {:.5f}\n",
+                    name, loop.peak, loop.peak_Hz, loop.spectral_radius);
+    for (const SensitivityAt &x : loop.at) {
+        s += fmt::format("    {:<22} {:7.2f} Hz  |S| = {:.5f}\n", x.name, x.frequency_Hz, x.value);
+    }
+    return s;
+}
+
+std::string dobc_text(const DobcDesign &d)
+{
+    std::string s = fmt::format("\nobserver (coefficients matched to {:.1e})\n", d.matching_error);
+    for (Eigen::Index i = 0; i < d.l.size(); i++) {
+        s += fmt::format("  l{:<2} {:.9g}\n", i + 2, d.l(i));
+    }
+    return s + fmt::format("\ncontroller\n  k1 {:.9g} V s/rad, k2 {:.9g} V/A\n", d.k1, d.k2);
+}
+
+std::string pid_text(const PidSpec &k)
+{
+    return fmt::format("\ncontroller\n  {:g} V s/rad, {:g} V/rad, {:g} V s^2/rad\n",
+                       k.proportional_Vs_per_rad, k.integral_V_per_rad, k.derivative_Vs2_per_rad);
+}
+
+std::string servo_text(const Design &d)
+{
+    const ServoDesign &servo = *d.servo;
+    return (servo.dobc ? dobc_text(*servo.dobc) : pid_text(d.drive.pid)) + "\nsampled loops\n" +
+           loop_text("speed", servo.speed) + loop_text("d axis", servo.d_axis);
+}
+
+std::string noc_text(const Design &d)
+{
+    std::string s =
+        "\ncontroller (rows v_q, v_d; columns e_w, e_iq, e_id)\n" + gain_text("Lambda", d.nosc);
+    s += "  poles" + poles_text(d.nosc.series.care.closed_loop_eigenvalues) + " 1/s\n";
+    s +=
+        (d.drive.nodo.form == NodoForm::encoder
+             ? "\nobserver (rows d_w, d_q, d_d, w, iq, id, theta; columns measured iq, id, theta)\n"
+             : "\nobserver (rows d_w, d_q, d_d, w, iq, id; columns measured w, iq, id)\n") +
+        gain_text("L", d.nodo);
+    s += "  poles" + poles_text(d.nodo.series.care.closed_loop_eigenvalues) + " 1/s\n";
+    return s + "\ncertificate\n" + loop_text("controller", "e_iq", d.certificate.nosc) +
+           loop_text("observer", "iq_hat", d.certificate.nodo);
+}
+
+ordered_json heading_json(const Design &d)
 {
     ordered_json reduced;
     for (int i = 1; i <= 11; i++) {
         reduced[fmt::format("l{}", i)] = d.l[static_cast<std::size_t>(i)];
     }
+    return {{"tool", fmt::format("sdre-gains {}", tool_version)},
+            {"drive", d.drive.name},
+            {"digest", drive_digest(d.drive)},
+            {"control_period_s", control_period_s(d.drive)},
+            {"reduced_parameters", reduced}};
+}
+
+ordered_json servo_json(const Design &d)
+{
+    const ServoDesign &servo = *d.servo;
+    ordered_json       out   = {{"law", law_name(d.drive.law)}};
+    if (servo.dobc) {
+        out["dobc"] = dobc_json(*servo.dobc);
+    }
+    out["speed_loop"]  = loop_json(servo.speed);
+    out["d_axis_loop"] = loop_json(servo.d_axis);
+    out["certificate"] = {{"certified", d.certificate.passed()},
+                          {"failures", d.certificate.failures}};
+    return out;
+}
+
+} // namespace
+
+std::string report_json(const Design &d)
+{
+    ordered_json report = heading_json(d);
+    if (d.servo) {
+        report.update(servo_json(d));
+        return report.dump(2) + "\n";
+    }
     const Certificate &c = d.certificate;
-    const ordered_json report{
-        {"tool", fmt::format("sdre-gains {}", tool_version)},
-        {"drive", d.drive.name},
-        {"digest", drive_digest(d.drive)},
-        {"control_period_s", control_period_s(d.drive)},
-        {"reduced_parameters", reduced},
+    report.update(ordered_json{
         {"nosc", gain_json(d.nosc, "lambda", "gamma", "closed_loop_eigenvalues")},
         {"nodo", nodo_json(d)},
         {"certificate",
@@ -135,7 +232,7 @@ std::string report_json(const Design &d)
            {{"nosc_1ps", c.nosc.worst_pole_1ps}, {"nodo_1ps", c.nodo.worst_pole_1ps}}},
           {"series_error", {{"nosc", c.nosc.series_error}, {"nodo", c.nodo.series_error}}},
           {"nosc", loop_json(c.nosc, "e_iq")},
-          {"nodo", loop_json(c.nodo, "i_q_hat")}}}};
+          {"nodo", loop_json(c.nodo, "i_q_hat")}}}});
     return report.dump(2) + "\n";
 }
 
@@ -147,16 +244,7 @@ std::string report_text(const Design &d)
     for (std::size_t i = 1; i <= 11; i++) {
         s += fmt::format("  l{:<3} {:.9g}\n", i, d.l[i]);
     }
-    s += "\ncontroller (rows v_q, v_d; columns e_w, e_iq, e_id)\n" + gain_text("Lambda", d.nosc);
-    s += "  poles" + poles_text(d.nosc.series.care.closed_loop_eigenvalues) + " 1/s\n";
-    s +=
-        (d.drive.nodo.form == NodoForm::encoder
-             ? "\nobserver (rows d_w, d_q, d_d, w, iq, id, theta; columns measured iq, id, theta)\n"
-             : "\nobserver (rows d_w, d_q, d_d, w, iq, id; columns measured w, iq, id)\n") +
-        gain_text("L", d.nodo);
-    s += "  poles" + poles_text(d.nodo.series.care.closed_loop_eigenvalues) + " 1/s\n";
-    s += "\ncertificate\n" + loop_text("controller", "e_iq", d.certificate.nosc) +
-         loop_text("observer", "iq_hat", d.certificate.nodo);
+    s += d.servo ? servo_text(d) : noc_text(d);
     s += d.certificate.passed() ? "\nverdict: certified\n" : "\nverdict: refused\n";
     for (const std::string &failure : d.certificate.failures) {
         s += "  " + failure + "\n";

@@ -147,7 +147,8 @@ drive_sample_t Board::ideal_sample() const
 
 drive_sample_t Board::measured_sample()
 {
-    const QuadratureEncoder::Reading position = encoder_.read(plant_.theta_e_rad());
+    const QuadratureEncoder::Reading position =
+        encoder_.read(plant_.theta_e_rad(), plant_.omega_e_radps());
     if (sensors_.ideal) {
         return ideal_sample();
     }

@@ -66,7 +66,8 @@ SensorSettings read_sensors(TomlReader t, SensorSettings s, const Drive &drive)
     if (t.has("encoder_lines")) {
         s.encoder_lines = t.integer("encoder_lines", encoder_lines);
     }
-    s.encoder_index = t.boolean_or("encoder_index", s.encoder_index);
+    s.encoder_index     = t.boolean_or("encoder_index", s.encoder_index);
+    s.encoder_edge_time = t.boolean_or("encoder_edge_time", s.encoder_edge_time);
     s.encoder_eccentricity_rad =
         t.number_or("encoder_eccentricity_rad", eccentricity_rad, s.encoder_eccentricity_rad);
     s.encoder_offset_e_rad =
@@ -135,6 +136,7 @@ MotorEffects read_motor_effects(TomlReader t)
     if (e.cogging_amplitude_Nm > 0.0 || t.has("cogging_order")) {
         e.cogging_order =
             t.number("cogging_order", cogging_order); // no motor-independent default exists
+        e.cogging_second_Nm = t.number_or("cogging_second_Nm", positive_torque_Nm, 0.0);
     }
     e.coulomb_friction_Nm = t.number_or("coulomb_friction_Nm", positive_torque_Nm, 0.0);
     e.resistance_drift    = t.number_or("resistance_drift", drift_per_s, 0.0);

@@ -164,6 +164,12 @@ BoardResult simulate_on_board(const Scenario &s, BoardKind kind)
 BoardResult simulate_on_board(const Scenario &scenario, BoardKind kind,
                               const Controller &controller)
 {
+    if (scenario.drive.law != Law::noc) {
+        throw InputError(
+            fmt::format("--board: law = \"{}\" needs the speed from edge times, which the "
+                        "application does not measure",
+                        law_name(scenario.drive.law)));
+    }
     const BoardScenario b     = for_board(scenario);
     const Scenario     &s     = b.scenario;
     const double        ts    = control_period_s(s.drive);

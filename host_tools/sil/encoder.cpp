@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "encoder.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sdre {
 namespace {
 
 const double two_pi = 2.0 * std::acos(-1.0);
+
+// Chosen: the age of an edge that nobody has seen; a speed from it is next to zero.
+constexpr double no_edge_s = 1.0;
 
 } // namespace
 
@@ -46,6 +50,9 @@ void QuadratureEncoder::start(double theta_e_rad, double omega_e_radps)
     before_        = counts_of(theta_e_rad - omega_e_radps * period_s_);
     lost_for_good_ = 0;
     true_before_   = before_;
+    edge_          = before_;
+    edge_age_s_    = no_edge_s;
+    edge_speed_    = omega_e_radps;
 }
 
 void QuadratureEncoder::lose(int counts)
@@ -70,7 +77,34 @@ void QuadratureEncoder::note_index(std::int64_t now, Reading &r)
     true_before_               = now;
 }
 
-QuadratureEncoder::Reading QuadratureEncoder::read(double theta_e_rad)
+/// How long ago the shaft passed the edge of its count, at the speed it has now.
+double QuadratureEncoder::since_edge_s(double theta_e_rad, double omega_e_radps) const
+{
+    const double counts = static_cast<double>(counts_per_turn_);
+    const double step_s = 1e-3 * period_s_; // short enough for a straight line
+    const double now    = counts * shaft_turns(theta_e_rad);
+    const double rate = (now - counts * shaft_turns(theta_e_rad - omega_e_radps * step_s)) / step_s;
+    const double beyond = rate >= 0.0 ? now - std::floor(now) : std::floor(now) + 1.0 - now;
+    return rate == 0.0 ? period_s_ : std::min(beyond / std::abs(rate), period_s_);
+}
+
+void QuadratureEncoder::time_edges(const Reading &r, double since_edge_s, bool forward)
+{
+    const double per_count = pole_pairs_ * two_pi / static_cast<double>(counts_per_turn_);
+    edge_age_s_ += period_s_;
+    if (r.count == before_) {
+        const double most = per_count / edge_age_s_;
+        edge_speed_       = std::clamp(edge_speed_, -most, most);
+        return;
+    }
+    const std::int64_t edge = forward ? r.count : r.count + 1;
+    edge_speed_             = per_count * static_cast<double>(edge - edge_) /
+                  (edge_age_s_ - since_edge_s); // EQ-ENCODER-5
+    edge_       = edge;
+    edge_age_s_ = since_edge_s;
+}
+
+QuadratureEncoder::Reading QuadratureEncoder::read(double theta_e_rad, double omega_e_radps)
 {
     const double turn = std::floor(shaft_turns(theta_e_rad));
     if (settings_.encoder_index && turn != lost_at_turn_) {
@@ -93,6 +127,10 @@ QuadratureEncoder::Reading QuadratureEncoder::read(double theta_e_rad)
     const auto per_turn = static_cast<double>(counts_per_turn_);
     r.omega_e_radps     = pole_pairs_ * static_cast<double>(r.count - before_) * two_pi /
                       (per_turn * period_s_); // EQ-ENCODER-4
+    time_edges(r, since_edge_s(theta_e_rad, omega_e_radps), omega_e_radps >= 0.0);
+    if (settings_.encoder_edge_time) {
+        r.omega_e_radps = edge_speed_;
+    }
     before_ = r.count;
     return r;
 }

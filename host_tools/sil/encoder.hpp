@@ -5,6 +5,10 @@
 ///     count = floor(4 lines shaft / 2 pi) - lost                               EQ-ENCODER-2
 ///     theta_e = n_p (count + 1/2) 2 pi / (4 lines), wrapped to [0, 2 pi)       EQ-ENCODER-3
 ///     omega_e = n_p (count - count before) 2 pi / (4 lines Ts)                 EQ-ENCODER-4
+///     or, with the times of the last edges of this period and of the one before them,
+///     omega_e = n_p (edge - edge before) 2 pi / (4 lines (t_edge - t_edge before))  EQ-ENCODER-5
+///
+/// A period without an edge keeps the speed of EQ-ENCODER-5, but at most one count in the time since the edge.
 #pragma once
 
 #include <cstdint>
@@ -34,13 +38,15 @@ public:
     /// The counter misses this many counts, now. An index mark puts it right.
     void lose(int counts);
 
-    /// Call once per period.
-    Reading read(double theta_e_rad);
+    /// Call once per period. The true speed places the edges in time; EQ-ENCODER-4 does not look at it.
+    Reading read(double theta_e_rad, double omega_e_radps = 0.0);
 
 private:
     double       shaft_turns(double theta_e_rad) const;
     std::int64_t counts_of(double theta_e_rad) const;
     void         note_index(std::int64_t now, Reading &r);
+    double       since_edge_s(double theta_e_rad, double omega_e_radps) const;
+    void         time_edges(const Reading &r, double since_edge_s, bool forward);
 
     SensorSettings settings_;
     int            drive_lines_;

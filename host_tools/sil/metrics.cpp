@@ -52,14 +52,41 @@ void excursions(Iterator begin, Iterator end, double target, double band, Metric
     }
 }
 
-Metrics metrics_of(const Measure &measure, Iterator begin, Iterator end)
+Iterator tail_of(const Measure &measure, Iterator begin, Iterator end)
 {
-    const double   target = (end - 1)->omega_ref_e_radps;
-    const auto     length = end - begin;
-    const Iterator tail =
-        end - std::max<std::ptrdiff_t>(
-                  1, static_cast<std::ptrdiff_t>(tail_share * static_cast<double>(length)));
-    const auto speed_less = [](const TraceRow &a, const TraceRow &b) {
+    if (measure.tail_s) {
+        const double from_s = (end - 1)->time_s - *measure.tail_s;
+        return std::find_if(begin, end - 1, [&](const TraceRow &r) { return r.time_s > from_s; });
+    }
+    const auto length = static_cast<double>(end - begin);
+    return end - std::max<std::ptrdiff_t>(1, static_cast<std::ptrdiff_t>(tail_share * length));
+}
+
+/// Paper B's definitions; speeds come in electrical.
+void add_paper_b(Metrics &m, double band, Iterator begin, Iterator tail, Iterator end,
+                 int pole_pairs)
+{
+    const double target = (end - 1)->omega_ref_e_radps;
+    const double rpm    = 30.0 / std::acos(-1.0) / pole_pairs;
+    const auto   less   = [](const TraceRow &a, const TraceRow &b) {
+        return a.omega_e_radps < b.omega_e_radps;
+    };
+    const auto [lowest, highest] = std::minmax_element(tail, end, less);
+    const double range           = highest->omega_e_radps - lowest->omega_e_radps;
+    const double sum             = highest->omega_e_radps + lowest->omega_e_radps;
+    const double centre = mean(tail, end, [](const TraceRow &r) { return r.omega_e_radps; });
+    m.fluctuation_rpm   = 0.5 * rpm * range;
+    m.fluctuation_rate  = sum != 0.0 ? 100.0 * range / sum : 0.0; // none about standstill
+    m.offset_rpm        = rpm * (centre - target);
+    m.decrease_rpm      = rpm * (target - std::min_element(begin, end, less)->omega_e_radps);
+    m.recovery_time_s   = settling_time_s(begin, end, centre, band);
+}
+
+Metrics metrics_of(const Measure &measure, Iterator begin, Iterator end, int pole_pairs)
+{
+    const double   target     = (end - 1)->omega_ref_e_radps;
+    const Iterator tail       = tail_of(measure, begin, end);
+    const auto     speed_less = [](const TraceRow &a, const TraceRow &b) {
         return a.omega_e_radps < b.omega_e_radps;
     };
     const auto [lowest, highest] = std::minmax_element(tail, end, speed_less);
@@ -101,7 +128,8 @@ std::vector<Metrics> measure(const Scenario &scenario, const std::vector<TraceRo
                                    ? first_at(scenario.measures[i + 1].time_s)
                                    : trace.end();
         if (begin != end) {
-            out.push_back(metrics_of(scenario.measures[i], begin, end));
+            out.push_back(
+                metrics_of(scenario.measures[i], begin, end, scenario.drive.motor.pole_pairs));
         }
     }
     return out;
@@ -123,7 +151,14 @@ std::vector<std::pair<std::string, double>> metric_values(const Metrics &m)
                                  {"d_q_hat", m.d_q_hat},
                                  {"d_d_hat", m.d_d_hat},
                                  {"iq_A", m.iq_A},
-                                 {"id_A", m.id_A}});
+                                 {"id_A", m.id_A},
+                                 {"fluctuation_rpm", m.fluctuation_rpm},
+                                 {"fluctuation_rate", m.fluctuation_rate},
+                                 {"offset_rpm", m.offset_rpm},
+                                 {"decrease_rpm", m.decrease_rpm}});
+    if (m.recovery_time_s) {
+        values.emplace_back("recovery_time_s", *m.recovery_time_s);
+    }
     return values;
 }
 
@@ -131,6 +166,7 @@ bool is_metric_name(const std::string &name)
 {
     Metrics probe;
     probe.settling_time_s = 0.0;
+    probe.recovery_time_s = 0.0;
     const auto values     = metric_values(probe);
     return std::any_of(values.begin(), values.end(),
                        [&](const auto &value) { return value.first == name; });

@@ -2,7 +2,7 @@
 /// What is read off a trace.
 ///
 /// A measure's window runs from its time to the next measure or the end. Its target is the reference at the
-/// end of the window; its tail is the last fifth. A window is a step when the speed starts more than a
+/// end of the window; its tail is the last fifth, or the last tail_s of the measure. A window is a step when the speed starts more than a
 /// band away from the target, otherwise a disturbance.
 #pragma once
 
@@ -33,11 +33,18 @@ struct Metrics {
     double d_d_hat                    = 0.0; ///< [A/s]
     double iq_A                       = 0.0;
     double id_A                       = 0.0;
+    // Paper B's figures, of the mechanical speed.
+    double fluctuation_rpm  = 0.0; ///< (max - min) / 2 in the tail
+    double fluctuation_rate = 0.0; ///< (max - min) / (max + min) in the tail [%]
+    double offset_rpm       = 0.0; ///< mean in the tail minus the target
+    double decrease_rpm     = 0.0; ///< target minus the lowest speed in the window
+    std::optional<double>
+        recovery_time_s; ///< last entry into the band about the mean of the tail; paper B names no band
 };
 
 std::vector<Metrics> measure(const Scenario &scenario, const std::vector<TraceRow> &trace);
 
-/// The numeric metrics by their JSON name, in order; a missing settling time is left out.
+/// The numeric metrics by their JSON name, in order; a missing time is left out.
 std::vector<std::pair<std::string, double>> metric_values(const Metrics &metrics);
 
 bool is_metric_name(const std::string &name);

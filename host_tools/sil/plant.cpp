@@ -184,8 +184,11 @@ double Plant::net_torque_Nm(const State &x, RotorVector i, const ShaftLoad &load
     torque -= motor_.viscous_friction_Nms * x.omega_m + load.torque_Nm;
     torque -= load.fan_Nm_per_radps2 * x.omega_m * std::abs(x.omega_m);
     if (effects_.cogging_amplitude_Nm != 0.0) { // EQ-EFFECTS-2
-        torque -= effects_.cogging_amplitude_Nm *
-                  std::sin(effects_.cogging_order * x.theta_e / motor_.pole_pairs);
+        const double angle = effects_.cogging_order * x.theta_e / motor_.pole_pairs;
+        torque -= effects_.cogging_amplitude_Nm * std::sin(angle);
+        if (effects_.cogging_second_Nm != 0.0) {
+            torque -= effects_.cogging_second_Nm * std::sin(2.0 * angle);
+        }
     }
     return torque;
 }

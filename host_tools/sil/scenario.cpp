@@ -106,6 +106,9 @@ std::vector<Measure> read_measures(TomlReader &t)
         m.name         = entry.text("name");
         m.time_s       = entry.number("time_s", time_range_s);
         m.band_e_radps = entry.number("band_e_radps", band_range_e_radps);
+        if (entry.has("tail_s")) {
+            m.tail_s = entry.number("tail_s", duration_range_s);
+        }
         if (std::optional<TomlReader> paper = entry.table_if("paper")) {
             m.paper = read_paper(*paper);
         }
@@ -276,10 +279,12 @@ Scenario read_scenario_file(const std::filesystem::path &file)
     const toml::table root = parse_toml_file(file);
     TomlReader        t(file.string(), "", root);
     Scenario          s;
-    s.name  = file.stem().string();
-    s.drive = read_drive(t, file);
-    if (t.text_or("law", "noc") != "noc") {
-        t.fail("law", "is not allowed: must be \"noc\"");
+    s.name                = file.stem().string();
+    s.drive               = read_drive(t, file);
+    const std::string law = law_name(s.drive.law);
+    if (t.text_or("law", law) != law) {
+        t.fail("law",
+               fmt::format("is not allowed: must be \"{}\", the law of the drive file", law));
     }
     s.seed                  = static_cast<std::uint64_t>(t.integer_or("seed", seed_range, 1));
     s.duration_s            = t.number("duration_s", duration_range_s);

@@ -37,6 +37,24 @@ Controller prepare_controller(const Scenario &s)
     return c;
 }
 
+namespace {
+
+/// What paper B's law compensates on the q axis, as a current slope.
+double disturbance_Aps(const drive_t &drive)
+{
+    const servo_law_config_t &c   = drive.config->servo;
+    double                    u_V = static_cast<double>(drive.servo.pid.integral_V);
+    if (c.kind == SERVO_LAW_DOBC) {
+        u_V = 0.0;
+        for (int i = 1; i < c.dobc.n_x; i++) {
+            u_V += static_cast<double>(c.dobc.k_x[i] * drive.servo.dobc.x[i]);
+        }
+    }
+    return u_V * static_cast<double>(drive.config->motor.l6);
+}
+
+} // namespace
+
 void add_drive(TraceRow &row, const drive_t &drive)
 {
     row.iq_ref_A    = static_cast<double>(drive.current_ref.i_A.q);
@@ -46,6 +64,9 @@ void add_drive(TraceRow &row, const drive_t &drive)
     row.d_omega_hat = static_cast<double>(drive.observer.d_omega);
     row.d_q_hat     = static_cast<double>(drive.observer.d_q);
     row.d_d_hat     = static_cast<double>(drive.observer.d_d);
+    if (drive.config != nullptr && drive.config->law == DRIVE_LAW_SERVO) {
+        row.d_q_hat = disturbance_Aps(drive);
+    }
 }
 
 namespace {

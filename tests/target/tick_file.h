@@ -43,6 +43,7 @@ typedef struct {
     nodo_meas_t   now;
     speed_ref_t   speed_ref;
     current_ref_t current_ref;
+    servo_law_t   servo;
     dq_t          v_V;
     uint32_t      v_limited;
 } tick_file_drive_t;
@@ -85,6 +86,7 @@ static inline tick_file_drive_t tick_file_from_drive(const drive_t *d)
     x.now           = d->now;
     x.speed_ref     = d->speed_ref;
     x.current_ref   = d->current_ref;
+    x.servo         = d->servo;
     x.v_V           = d->v_V;
     x.v_limited     = d->v_limited ? 1u : 0u;
     return x;
@@ -102,6 +104,7 @@ static inline drive_t tick_file_to_drive(const tick_file_drive_t *x, const drive
     d.now           = x->now;
     d.speed_ref     = x->speed_ref;
     d.current_ref   = x->current_ref;
+    d.servo         = x->servo;
     d.v_V           = x->v_V;
     d.v_limited     = x->v_limited != 0u;
     return d;
