@@ -122,6 +122,12 @@ static bool noc_ok(const drive_config_t *c)
     return current_ref_ok(&c->current_ref) && nosc_ok(&c->nosc) && observer_ok;
 }
 
+static bool law_ok(const drive_config_t *c)
+{
+    return (drive_config_is(c, DRIVE_LAW_NOC) && noc_ok(c)) ||
+           (drive_config_is(c, DRIVE_LAW_SERVO) && servo_ok(&c->servo));
+}
+
 ctl_status_t drive_config_check(const drive_config_t *c)
 {
     const bool limits_ok =
@@ -133,8 +139,7 @@ ctl_status_t drive_config_check(const drive_config_t *c)
         (c->dc_link_max_V > c->dc_link_min_V);
     const bool dead_time_ok =
         base_in_range(c->dead_time.share, 0.0f, 0.1f) && is_positive(c->dead_time.inv_fade_1pA);
-    const bool law_ok = ((c->law == DRIVE_LAW_NOC) && noc_ok(c)) ||
-                        ((c->law == DRIVE_LAW_SERVO) && servo_ok(&c->servo));
 
-    return (limits_ok && dead_time_ok && motor_ok(&c->motor) && law_ok) ? CTL_OK : CTL_BAD_CONFIG;
+    return (limits_ok && dead_time_ok && motor_ok(&c->motor) && law_ok(c)) ? CTL_OK
+                                                                           : CTL_BAD_CONFIG;
 }

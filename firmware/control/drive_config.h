@@ -21,6 +21,18 @@ typedef enum {
     DRIVE_LAW_SERVO    /**< paper B: one of the laws of servo_law.h */
 } drive_law_t;
 
+/**
+ * @brief Whether this build contains a law.
+ *
+ * The build of an image defines DRIVE_ONLY_LAW as the law of its tables: every branch of another law is then
+ * constant false and the compiler leaves out what only it calls. Without it all laws are there.
+ */
+#ifdef DRIVE_ONLY_LAW
+#define DRIVE_HAS_LAW(wanted) ((wanted) == DRIVE_ONLY_LAW)
+#else
+#define DRIVE_HAS_LAW(wanted) true
+#endif
+
 /** What the observer measures beside the currents. */
 typedef enum {
     DRIVE_FORM_SPEED = 0, /**< a speed signal: paper A's six states, law on the measurement */
@@ -50,8 +62,14 @@ typedef struct {
     servo_law_config_t   servo;
 } drive_config_t;
 
+/** Whether these constants are those of a law, and this build contains it. */
+static inline bool drive_config_is(const drive_config_t *config, drive_law_t law)
+{
+    return DRIVE_HAS_LAW(law) && (config->law == law);
+}
+
 /**
- * @brief CTL_OK when every constant is finite and within its documented range.
+ * @brief CTL_OK when this build contains the law and every constant is finite and within its documented range.
  *
  * Context: init.
  */

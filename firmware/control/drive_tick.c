@@ -15,6 +15,18 @@
 static const dq_t           zero_dq     = {0.0f, 0.0f};
 static const drive_output_t open_bridge = {.duty = {0.5f, 0.5f, 0.5f}, .gate_enable = false};
 
+/* The speed now and the q voltage that holds it. */
+static void reset_laws(drive_t *d, float omega_e_radps, float hold_q_V)
+{
+    if (DRIVE_HAS_LAW(DRIVE_LAW_NOC)) {
+        speed_ref_reset(&d->speed_ref, omega_e_radps);
+        current_ref_reset(&d->current_ref);
+    }
+    if (DRIVE_HAS_LAW(DRIVE_LAW_SERVO)) {
+        servo_law_reset(&d->servo, hold_q_V);
+    }
+}
+
 ctl_status_t drive_init(drive_t *d, const drive_config_t *config)
 {
     const ctl_status_t status = drive_config_check(config);
@@ -33,9 +45,7 @@ void drive_reset(drive_t *d)
     d->theta_hat_rad = 0.0f;
     d->now           = zero;
     nodo_reset(&d->observer, &zero);
-    speed_ref_reset(&d->speed_ref, 0.0f);
-    current_ref_reset(&d->current_ref);
-    servo_law_reset(&d->servo, 0.0f);
+    reset_laws(d, 0.0f, 0.0f);
     d->v_V       = zero_dq;
     d->v_limited = false;
 }
@@ -91,9 +101,7 @@ static void start(drive_t *d, const drive_sample_t *s)
 
     nodo_reset(&d->observer, &y);
     d->theta_hat_rad = nodo_encoder_wrap(s->theta_e_rad);
-    speed_ref_reset(&d->speed_ref, y.omega_e_radps);
-    current_ref_reset(&d->current_ref);
-    servo_law_reset(&d->servo, feedforward_hold_q_V(&d->config->motor, &y, &d->observer));
+    reset_laws(d, y.omega_e_radps, feedforward_hold_q_V(&d->config->motor, &y, &d->observer));
     d->v_V   = zero_dq;
     d->state = DRIVE_RUN;
 }
@@ -247,11 +255,8 @@ static drive_output_t run_servo(drive_t *d, const drive_sample_t *s, float comma
                                                               : trip(d, DRIVE_FAULT_NUMERIC);
 }
 
-static drive_output_t run(drive_t *d, const drive_sample_t *s, const drive_command_t *command)
+static drive_output_t run_noc(drive_t *d, const drive_sample_t *s, float command_e_radps)
 {
-    if (d->config->law == DRIVE_LAW_SERVO) {
-        return run_servo(d, s, command->omega_e_radps);
-    }
     bool        plausible = true;
     const float theta_rad = (d->config->form == DRIVE_FORM_ENCODER)
                                 ? estimate_from_encoder(d, s, &plausible)
@@ -263,13 +268,23 @@ static drive_output_t run(drive_t *d, const drive_sample_t *s, const drive_comma
     if (!symmetric_range(d->now.omega_e_radps, d->config->trip_speed_e_radps)) {
         return trip(d, DRIVE_FAULT_OVER_SPEED);
     }
-    update_references(d, s, command->omega_e_radps);
+    update_references(d, s, command_e_radps);
 
     const frames_angle_t angle = frames_angle(theta_rad);
     if (!control_law(d, angle, s->dc_link_V)) {
         return trip(d, DRIVE_FAULT_NUMERIC);
     }
     return modulate(d, angle, s->dc_link_V);
+}
+
+/* The only place where the laws part; drive_init() let no other law through. */
+static drive_output_t run(drive_t *d, const drive_sample_t *s, float command_e_radps)
+{
+    if (drive_config_is(d->config, DRIVE_LAW_NOC)) {
+        return run_noc(d, s, command_e_radps);
+    }
+    return drive_config_is(d->config, DRIVE_LAW_SERVO) ? run_servo(d, s, command_e_radps)
+                                                       : trip(d, DRIVE_FAULT_NUMERIC);
 }
 
 drive_output_t drive_tick(drive_t *d, const drive_sample_t *sample, const drive_command_t *command)
@@ -288,5 +303,5 @@ drive_output_t drive_tick(drive_t *d, const drive_sample_t *sample, const drive_
     if (d->state == DRIVE_OFF) {
         start(d, sample);
     }
-    return run(d, sample, command);
+    return run(d, sample, command->omega_e_radps);
 }

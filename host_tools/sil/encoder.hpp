@@ -58,6 +58,9 @@ private:
     std::int64_t   lost_for_good_   = 0; ///< by a counter that the index does not put right
     std::int64_t   true_before_     = 0;
     double         lost_at_turn_    = 0.0; ///< whole turns when they were last lost or read
+    std::int64_t   edge_            = 0;   ///< the last edge, as the count above it
+    double         edge_age_s_      = 0.0; ///< since that edge, at the last reading
+    double         edge_speed_      = 0.0; ///< EQ-ENCODER-5, electrical
 };
 
 } // namespace sdre

@@ -2,6 +2,7 @@
 /// sdre-sil: the control core in closed loop with a simulated motor.
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include "random_motors.hpp"
 #include "results.hpp"
 #include "seeds.hpp"
+#include "spectrum.hpp"
 #include "version.hpp"
 
 namespace {
@@ -22,9 +24,11 @@ enum ExitCode { exit_ok = 0, exit_bad_input = 1, exit_design_failed = 2, exit_fa
 
 struct Options {
     std::string scenario;
+    std::string drive;
     std::string csv;
     std::string json;
     std::string plot;
+    std::string spectrum;
     std::string board;
     int         seed   = 0;
     int         seeds  = 0;
@@ -32,10 +36,30 @@ struct Options {
     std::string failures;
 };
 
+/// A spectrum is a table or a picture, as its name says.
+bool is_table(const std::string &spectrum)
+{
+    return std::filesystem::path(spectrum).extension() == ".csv";
+}
+
+void require_outputs(const Options &options)
+{
+    if (!options.plot.empty()) {
+        sdre::require_plot(options.plot);
+    }
+    if (!options.spectrum.empty() && !is_table(options.spectrum)) {
+        sdre::require_plot(options.spectrum);
+    }
+}
+
 /// The files that were asked for; `json` is already text.
-void write_outputs(const Options &options, const std::string &name,
+void write_outputs(const Options &options, const sdre::Scenario &scenario,
                    const std::vector<sdre::TraceRow> &trace, const std::string &json)
 {
+    const std::string title =
+        options.drive.empty() ? scenario.name : scenario.name + ", " + scenario.drive.name;
+    const std::string spectrum =
+        options.spectrum.empty() ? "" : sdre::spectrum_csv(scenario, trace);
     std::vector<sdre::OutputFile> files;
     if (!options.csv.empty()) {
         files.push_back({options.csv, sdre::trace_csv(trace)});
@@ -43,16 +67,22 @@ void write_outputs(const Options &options, const std::string &name,
     if (!options.json.empty()) {
         files.push_back({options.json, json});
     }
+    if (is_table(options.spectrum)) {
+        files.push_back({options.spectrum, spectrum});
+    }
     sdre::write_files(files);
     if (!options.plot.empty()) {
-        sdre::plot_trace(sdre::trace_csv(trace), name, options.plot);
+        sdre::plot_trace(sdre::trace_csv(trace), title, options.plot);
+    }
+    if (!options.spectrum.empty() && !is_table(options.spectrum)) {
+        sdre::plot_spectrum(spectrum, title, options.spectrum);
     }
 }
 
 int run_many_seeds(const sdre::Scenario &scenario, const Options &options)
 {
     const sdre::SeedRuns runs = sdre::run_seeds(scenario, options.seeds);
-    write_outputs(options, scenario.name, runs.first.trace, sdre::seeds_json(scenario, runs));
+    write_outputs(options, scenario, runs.first.trace, sdre::seeds_json(scenario, runs));
     fmt::print("{}", sdre::seeds_text(scenario, runs));
     return runs.faults == 0 ? exit_ok : exit_fault;
 }
@@ -75,7 +105,7 @@ int run_on_board(const sdre::Scenario &scenario, const Options &options)
     const auto kind = options.board == "api" ? sdre::BoardKind::api : sdre::BoardKind::f28335;
     const sdre::BoardResult          run     = sdre::simulate_on_board(scenario, kind);
     const std::vector<sdre::Metrics> metrics = sdre::measure(scenario, run.result.trace);
-    write_outputs(options, scenario.name, run.result.trace,
+    write_outputs(options, scenario, run.result.trace,
                   sdre::result_json(scenario, run.result, metrics));
     fmt::print("{}{}", board_text(options, run), sdre::result_text(scenario, run.result, metrics));
     return run.result.fault == 0 && run.findings.empty() ? exit_ok : exit_fault;
@@ -83,10 +113,8 @@ int run_on_board(const sdre::Scenario &scenario, const Options &options)
 
 int run_scenario(const Options &options)
 {
-    if (!options.plot.empty()) {
-        sdre::require_plot(options.plot);
-    }
-    sdre::Scenario scenario = sdre::read_scenario_file(options.scenario);
+    require_outputs(options);
+    sdre::Scenario scenario = sdre::read_scenario_file(options.scenario, options.drive);
     if (options.seeds > 0) {
         return run_many_seeds(scenario, options);
     }
@@ -98,8 +126,7 @@ int run_scenario(const Options &options)
     }
     const sdre::SimulationResult     result  = sdre::simulate(scenario);
     const std::vector<sdre::Metrics> metrics = sdre::measure(scenario, result.trace);
-    write_outputs(options, scenario.name, result.trace,
-                  sdre::result_json(scenario, result, metrics));
+    write_outputs(options, scenario, result.trace, sdre::result_json(scenario, result, metrics));
     fmt::print("{}", sdre::result_text(scenario, result, metrics));
     return result.fault == 0 ? exit_ok : exit_fault;
 }
@@ -125,9 +152,13 @@ int run(int argc, char **argv)
     CLI::App *run_command = app.add_subcommand(
         "run", "run one scenario and print its metrics; exit code 4 when the drive faults");
     run_command->add_option("SCENARIO", options.scenario, "scenario file (TOML)")->required();
+    run_command->add_option("--drive", options.drive, "drive file instead of the scenario's");
     run_command->add_option("--csv", options.csv, "write the trace, one row per control period");
     run_command->add_option("--json", options.json, "write the metrics");
     run_command->add_option("--plot", options.plot, "draw the trace (.png or .svg)");
+    run_command->add_option("--spectrum", options.spectrum,
+                            "write (.csv) or draw (.png, .svg) the speed error's spectrum in the "
+                            "steady part of every measure");
     CLI::Option *seed = run_command->add_option("--seed", options.seed, "seed of the noise")
                             ->check(CLI::Range(1, 2147483647));
     run_command

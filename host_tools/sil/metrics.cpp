@@ -9,7 +9,8 @@ namespace {
 
 using Iterator = std::vector<TraceRow>::const_iterator;
 
-constexpr double tail_share = 0.2;
+constexpr double tail_share       = 0.2;
+constexpr double time_tolerance_s = 1e-9; // far below a period: two times that mean the same tick
 
 template <typename Value> double mean(Iterator begin, Iterator end, Value value)
 {
@@ -55,38 +56,46 @@ void excursions(Iterator begin, Iterator end, double target, double band, Metric
 Iterator tail_of(const Measure &measure, Iterator begin, Iterator end)
 {
     if (measure.tail_s) {
-        const double from_s = (end - 1)->time_s - *measure.tail_s;
+        const double from_s = (end - 1)->time_s - *measure.tail_s + time_tolerance_s;
         return std::find_if(begin, end - 1, [&](const TraceRow &r) { return r.time_s > from_s; });
     }
     const auto length = static_cast<double>(end - begin);
     return end - std::max<std::ptrdiff_t>(1, static_cast<std::ptrdiff_t>(tail_share * length));
 }
 
-/// Paper B's definitions; speeds come in electrical.
-void add_paper_b(Metrics &m, double band, Iterator begin, Iterator tail, Iterator end,
-                 int pole_pairs)
+/// From the figures of the electrical speed.
+void add_paper_b(Metrics &m, Iterator begin, Iterator tail, Iterator end, int pole_pairs)
 {
-    const double target = (end - 1)->omega_ref_e_radps;
-    const double rpm    = 30.0 / std::acos(-1.0) / pole_pairs;
-    const auto   less   = [](const TraceRow &a, const TraceRow &b) {
-        return a.omega_e_radps < b.omega_e_radps;
+    const auto   speed       = [](const TraceRow &r) { return r.omega_e_radps; };
+    const double target      = (end - 1)->omega_ref_e_radps;
+    const double centre      = mean(tail, end, speed);
+    const double rpm         = 30.0 / std::acos(-1.0) / pole_pairs;
+    m.fluctuation_rpm        = rpm * m.ripple_e_radps;
+    m.offset_rpm             = rpm * (centre - target);
+    m.decrease_rpm           = rpm * m.dip_e_radps;
+    const auto [least, most] = std::minmax_element(
+        tail, end, [&](const TraceRow &a, const TraceRow &b) { return speed(a) < speed(b); });
+    const double sum = speed(*least) + speed(*most);
+    if (sum != 0.0) {
+        m.fluctuation_rate_percent = 100.0 * 2.0 * m.ripple_e_radps / std::abs(sum);
+    }
+    if (target != 0.0) {
+        m.overshoot_percent = 100.0 * m.overshoot_e_radps / std::abs(target);
+    }
+    const auto within = [&](double share) {
+        return settling_time_s(begin, end, centre, share * std::abs(target));
     };
-    const auto [lowest, highest] = std::minmax_element(tail, end, less);
-    const double range           = highest->omega_e_radps - lowest->omega_e_radps;
-    const double sum             = highest->omega_e_radps + lowest->omega_e_radps;
-    const double centre = mean(tail, end, [](const TraceRow &r) { return r.omega_e_radps; });
-    m.fluctuation_rpm   = 0.5 * rpm * range;
-    m.fluctuation_rate  = sum != 0.0 ? 100.0 * range / sum : 0.0; // none about standstill
-    m.offset_rpm        = rpm * (centre - target);
-    m.decrease_rpm      = rpm * (target - std::min_element(begin, end, less)->omega_e_radps);
-    m.recovery_time_s   = settling_time_s(begin, end, centre, band);
+    m.within_5_percent_s = within(0.05);
+    m.within_2_percent_s = within(0.02);
+    m.within_1_percent_s = within(0.01);
 }
 
-Metrics metrics_of(const Measure &measure, Iterator begin, Iterator end, int pole_pairs)
+Metrics metrics_of(const Window &window, int pole_pairs)
 {
-    const double   target     = (end - 1)->omega_ref_e_radps;
-    const Iterator tail       = tail_of(measure, begin, end);
-    const auto     speed_less = [](const TraceRow &a, const TraceRow &b) {
+    const auto &[measure, begin, tail, end] = window;
+
+    const double target     = (end - 1)->omega_ref_e_radps;
+    const auto   speed_less = [](const TraceRow &a, const TraceRow &b) {
         return a.omega_e_radps < b.omega_e_radps;
     };
     const auto [lowest, highest] = std::minmax_element(tail, end, speed_less);
@@ -110,18 +119,19 @@ Metrics metrics_of(const Measure &measure, Iterator begin, Iterator end, int pol
     m.d_d_hat     = mean(tail, end, [](const TraceRow &r) { return r.d_d_hat; });
     m.iq_A        = mean(tail, end, [](const TraceRow &r) { return r.iq_A; });
     m.id_A        = mean(tail, end, [](const TraceRow &r) { return r.id_A; });
+    add_paper_b(m, begin, tail, end, pole_pairs);
     return m;
 }
 
 } // namespace
 
-std::vector<Metrics> measure(const Scenario &scenario, const std::vector<TraceRow> &trace)
+std::vector<Window> windows_of(const Scenario &scenario, const std::vector<TraceRow> &trace)
 {
     const auto first_at = [&](double time_s) {
         return std::find_if(trace.begin(), trace.end(),
                             [&](const TraceRow &r) { return r.time_s >= time_s - 1e-12; });
     };
-    std::vector<Metrics> out;
+    std::vector<Window> out;
     for (std::size_t i = 0; i < scenario.measures.size(); i++) {
         const Iterator begin = first_at(scenario.measures[i].time_s);
         const Iterator end   = (i + 1 < scenario.measures.size())
@@ -129,8 +139,17 @@ std::vector<Metrics> measure(const Scenario &scenario, const std::vector<TraceRo
                                    : trace.end();
         if (begin != end) {
             out.push_back(
-                metrics_of(scenario.measures[i], begin, end, scenario.drive.motor.pole_pairs));
+                {scenario.measures[i], begin, tail_of(scenario.measures[i], begin, end), end});
         }
+    }
+    return out;
+}
+
+std::vector<Metrics> measure(const Scenario &scenario, const std::vector<TraceRow> &trace)
+{
+    std::vector<Metrics> out;
+    for (const Window &window : windows_of(scenario, trace)) {
+        out.push_back(metrics_of(window, scenario.drive.motor.pole_pairs));
     }
     return out;
 }
@@ -153,23 +172,38 @@ std::vector<std::pair<std::string, double>> metric_values(const Metrics &m)
                                  {"iq_A", m.iq_A},
                                  {"id_A", m.id_A},
                                  {"fluctuation_rpm", m.fluctuation_rpm},
-                                 {"fluctuation_rate", m.fluctuation_rate},
+                                 {"fluctuation_rate_percent", m.fluctuation_rate_percent},
                                  {"offset_rpm", m.offset_rpm},
-                                 {"decrease_rpm", m.decrease_rpm}});
-    if (m.recovery_time_s) {
-        values.emplace_back("recovery_time_s", *m.recovery_time_s);
+                                 {"decrease_rpm", m.decrease_rpm},
+                                 {"overshoot_percent", m.overshoot_percent}});
+    for (const auto &[name, time_s] : {std::pair("within_5_percent_s", &m.within_5_percent_s),
+                                       {"within_2_percent_s", &m.within_2_percent_s},
+                                       {"within_1_percent_s", &m.within_1_percent_s}}) {
+        if (*time_s) {
+            values.emplace_back(name, **time_s);
+        }
     }
     return values;
 }
 
-bool is_metric_name(const std::string &name)
+std::vector<std::string> metric_names()
 {
     Metrics probe;
-    probe.settling_time_s = 0.0;
-    probe.recovery_time_s = 0.0;
-    const auto values     = metric_values(probe);
-    return std::any_of(values.begin(), values.end(),
-                       [&](const auto &value) { return value.first == name; });
+    probe.settling_time_s    = 0.0;
+    probe.within_5_percent_s = 0.0;
+    probe.within_2_percent_s = 0.0;
+    probe.within_1_percent_s = 0.0;
+    std::vector<std::string> names;
+    for (const auto &[name, value] : metric_values(probe)) {
+        names.push_back(name);
+    }
+    return names;
+}
+
+bool is_metric_name(const std::string &name)
+{
+    const std::vector<std::string> names = metric_names();
+    return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 } // namespace sdre

@@ -2,8 +2,8 @@
 /// What is read off a trace.
 ///
 /// A measure's window runs from its time to the next measure or the end. Its target is the reference at the
-/// end of the window; its tail is the last fifth, or the last tail_s of the measure. A window is a step when the speed starts more than a
-/// band away from the target, otherwise a disturbance.
+/// end of the window; its tail is the last fifth, or the last tail_s of the measure. A window is a step when the speed
+/// starts more than a band away from the target, otherwise a disturbance.
 #pragma once
 
 #include <map>
@@ -34,18 +34,36 @@ struct Metrics {
     double iq_A                       = 0.0;
     double id_A                       = 0.0;
     // Paper B's figures, of the mechanical speed.
-    double fluctuation_rpm  = 0.0; ///< (max - min) / 2 in the tail
-    double fluctuation_rate = 0.0; ///< (max - min) / (max + min) in the tail [%]
-    double offset_rpm       = 0.0; ///< mean in the tail minus the target
-    double decrease_rpm     = 0.0; ///< target minus the lowest speed in the window
-    std::optional<double>
-        recovery_time_s; ///< last entry into the band about the mean of the tail; paper B names no band
+    double fluctuation_rpm          = 0.0; ///< (max - min) / 2 in the tail
+    double fluctuation_rate_percent = 0.0; ///< (max - min) / (max + min) in the tail; 0 about 0
+    double offset_rpm               = 0.0; ///< mean in the tail minus the target
+    double decrease_rpm             = 0.0; ///< dip_e_radps
+    double overshoot_percent        = 0.0; ///< overshoot_e_radps, of the target; 0 about 0
+    /// Last entry into this share of the target about the mean of the tail; none when outside at the end. Paper B calls
+    /// it settling and recovery time and names no band: stated are 5 % and 2 % after a speed step, 5 % and 1 % after a load.
+    std::optional<double> within_5_percent_s;
+    std::optional<double> within_2_percent_s;
+    std::optional<double> within_1_percent_s;
 };
+
+/// The rows of a measure.
+struct Window {
+    Measure                               measure;
+    std::vector<TraceRow>::const_iterator begin;
+    std::vector<TraceRow>::const_iterator tail; ///< its steady part goes from here to `end`
+    std::vector<TraceRow>::const_iterator end;
+};
+
+/// Of every measure that has a row. They point into the trace.
+std::vector<Window> windows_of(const Scenario &scenario, const std::vector<TraceRow> &trace);
 
 std::vector<Metrics> measure(const Scenario &scenario, const std::vector<TraceRow> &trace);
 
 /// The numeric metrics by their JSON name, in order; a missing time is left out.
 std::vector<std::pair<std::string, double>> metric_values(const Metrics &metrics);
+
+/// The names of all of them, in the same order.
+std::vector<std::string> metric_names();
 
 bool is_metric_name(const std::string &name);
 

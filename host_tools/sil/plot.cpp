@@ -30,6 +30,29 @@ int run(const std::array<std::string, 5> &arguments)
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+void plot(const char *script, const std::string &csv, const std::string &title,
+          const std::filesystem::path &picture)
+{
+    const std::string python = SDRE_PYTHON;
+    const std::string kind   = picture.extension().string();
+    require_plot(picture);
+    // Beside the target, so that a directory that cannot be written fails here, before anything is drawn.
+    const std::filesystem::path data = picture.string() + ".csv.tmp";
+    const std::filesystem::path part = picture.string() + ".tmp" + kind;
+    write_files({{data, csv}});
+    const int status = run(
+        {python, std::string(SDRE_PLOT_SCRIPTS "/") + script, data.string(), title, part.string()});
+    std::error_code error;
+    std::filesystem::remove(data, error);
+    if (status == 0) {
+        std::filesystem::rename(part, picture, error);
+    }
+    if (status != 0 || error) {
+        std::filesystem::remove(part, error);
+        throw InputError(fmt::format("{}: cannot draw", picture.string()));
+    }
+}
+
 } // namespace
 
 void require_plot(const std::filesystem::path &picture)
@@ -46,23 +69,13 @@ void require_plot(const std::filesystem::path &picture)
 void plot_trace(const std::string &csv, const std::string &title,
                 const std::filesystem::path &picture)
 {
-    const std::string python = SDRE_PYTHON;
-    const std::string kind   = picture.extension().string();
-    require_plot(picture);
-    // Beside the target, so that a directory that cannot be written fails here, before anything is drawn.
-    const std::filesystem::path data = picture.string() + ".csv.tmp";
-    const std::filesystem::path part = picture.string() + ".tmp" + kind;
-    write_files({{data, csv}});
-    const int       status = run({python, SDRE_PLOT_SCRIPT, data.string(), title, part.string()});
-    std::error_code error;
-    std::filesystem::remove(data, error);
-    if (status == 0) {
-        std::filesystem::rename(part, picture, error);
-    }
-    if (status != 0 || error) {
-        std::filesystem::remove(part, error);
-        throw InputError(fmt::format("{}: cannot draw", picture.string()));
-    }
+    plot("plot_trace.py", csv, title, picture);
+}
+
+void plot_spectrum(const std::string &csv, const std::string &title,
+                   const std::filesystem::path &picture)
+{
+    plot("plot_spectrum.py", csv, title, picture);
 }
 
 } // namespace sdre

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Draws a trace with matplotlib.
+/// Draws traces and spectra with matplotlib.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,11 @@ namespace sdre {
 /// InputError when this name or this build cannot become a plot. Lets a tool refuse before it writes anything.
 void require_plot(const std::filesystem::path &picture);
 
-/// Writes a .png or .svg. InputError when no Python with matplotlib was found at build time or it fails.
+/// Write a .png or .svg from what trace_csv() or spectrum_csv() gives. InputError when no Python with matplotlib was found
+/// at build time or it fails.
 void plot_trace(const std::string &csv, const std::string &title,
                 const std::filesystem::path &picture);
+void plot_spectrum(const std::string &csv, const std::string &title,
+                   const std::filesystem::path &picture);
 
 } // namespace sdre

@@ -32,10 +32,13 @@ constexpr Label labels[] = {
     {"iq_A", "i_q [A]", 1.0, "{:.3f}"},
     {"id_A", "i_d [A]", 1.0, "{:.3f}"},
     {"fluctuation_rpm", "fluctuation [r/min]", 1.0, "{:.2f}"},
-    {"fluctuation_rate", "fluctuation rate [%]", 1.0, "{:.2f}"},
+    {"fluctuation_rate_percent", "fluctuation rate [%]", 1.0, "{:.2f}"},
     {"offset_rpm", "offset [r/min]", 1.0, "{:.2f}"},
     {"decrease_rpm", "decrease [r/min]", 1.0, "{:.1f}"},
-    {"recovery_time_s", "recovery to mean [ms]", 1e3, "{:.1f}"}};
+    {"overshoot_percent", "overshoot [%]", 1.0, "{:.2f}"},
+    {"within_5_percent_s", "within 5 % [ms]", 1e3, "{:.1f}"},
+    {"within_2_percent_s", "within 2 % [ms]", 1e3, "{:.1f}"},
+    {"within_1_percent_s", "within 1 % [ms]", 1e3, "{:.1f}"}};
 
 std::string cell(const std::vector<std::pair<std::string, double>> &values, const Label &label,
                  const char *missing)
@@ -84,8 +87,10 @@ std::string result_json(const Scenario &scenario, const SimulationResult &result
 {
     ordered_json measures = ordered_json::object();
     for (const Metrics &m : metrics) {
-        ordered_json entry{
-            {"time_s", m.time_s}, {"settling_time_s", nullptr}, {"recovery_time_s", nullptr}};
+        ordered_json entry{{"time_s", m.time_s}};
+        for (const std::string &name : metric_names()) {
+            entry[name] = nullptr; // of a time: never
+        }
         for (const auto &[name, value] : metric_values(m)) {
             entry[name] = value;
         }

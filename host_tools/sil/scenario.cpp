@@ -213,9 +213,11 @@ void read_board(TomlReader &t, Scenario &s)
 }
 
 /// The drive file, with what the scenario overrides for controller and plant alike.
-Drive read_drive(TomlReader &t, const std::filesystem::path &file)
+Drive read_drive(TomlReader &t, const std::filesystem::path &file,
+                 const std::filesystem::path &instead)
 {
-    Drive drive = read_drive_file(scenario_drive_path(file, t.text("drive")));
+    const std::filesystem::path own   = scenario_drive_path(file, t.text("drive"));
+    Drive                       drive = read_drive_file(instead.empty() ? own : instead);
     drive.motor.max_current_A =
         t.number_or("max_current_A", current_range_A, drive.motor.max_current_A);
     if (std::optional<TomlReader> inverter = t.table_if("inverter")) {
@@ -274,13 +276,13 @@ double StepCursor::at(double time_s)
     return value_;
 }
 
-Scenario read_scenario_file(const std::filesystem::path &file)
+Scenario read_scenario_file(const std::filesystem::path &file, const std::filesystem::path &drive)
 {
     const toml::table root = parse_toml_file(file);
     TomlReader        t(file.string(), "", root);
     Scenario          s;
     s.name                = file.stem().string();
-    s.drive               = read_drive(t, file);
+    s.drive               = read_drive(t, file, drive);
     const std::string law = law_name(s.drive.law);
     if (t.text_or("law", law) != law) {
         t.fail("law",

@@ -79,8 +79,9 @@ struct Scenario {
 };
 
 /// InputError in one line on anything wrong. The drive path is relative to the scenario file, or to the
-/// working directory when no such file is there.
-Scenario read_scenario_file(const std::filesystem::path &file);
+/// working directory when no such file is there; `drive`, unless empty, is read instead.
+Scenario read_scenario_file(const std::filesystem::path &file,
+                            const std::filesystem::path &drive = {});
 
 /// Where the `drive` key of a scenario file points: beside the file when it is there, else as it stands.
 std::filesystem::path scenario_drive_path(const std::filesystem::path &scenario,

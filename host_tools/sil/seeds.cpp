@@ -18,7 +18,7 @@ using nlohmann::ordered_json;
 bool is_signed(const std::string &metric)
 {
     return metric == "d_omega_hat" || metric == "d_q_hat" || metric == "d_d_hat" ||
-           metric == "iq_A" || metric == "id_A";
+           metric == "iq_A" || metric == "id_A" || metric == "offset_rpm";
 }
 
 SeedSpread spread_of(const std::string &metric, const std::vector<std::vector<Metrics>> &runs,
@@ -46,17 +46,6 @@ SeedSpread spread_of(const std::string &metric, const std::vector<std::vector<Me
         return std::abs(a - centre) < std::abs(b - centre);
     });
     return s;
-}
-
-std::vector<std::string> metric_names()
-{
-    Metrics probe;
-    probe.settling_time_s = 0.0;
-    std::vector<std::string> names;
-    for (const auto &[name, value] : metric_values(probe)) {
-        names.push_back(name);
-    }
-    return names;
 }
 
 ordered_json json_of(const std::optional<double> &value)

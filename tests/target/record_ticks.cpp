@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// record_ticks FILE SCENARIO...: runs the scenarios and writes every control period to FILE.
+/// record_ticks FILE SCENARIO...: runs the scenarios and writes every control period to FILE. The image that replays them
+/// contains the law of the shipped tables alone, so scenarios of another law are passed over.
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include "recording.hpp"
 
 extern "C" {
+#include "gain_tables.h"
 #include "tick_file.h"
 }
 
@@ -56,16 +58,20 @@ void write_run(std::ofstream &file, const std::filesystem::path &path)
 {
     const sdre::Scenario   scenario   = sdre::read_scenario_file(path);
     const sdre::Controller controller = sdre::prepare_controller(scenario);
-    const sdre::Recording  recording  = sdre::record(scenario, controller);
+    if (controller.config.law != gain_tables_drive.law) {
+        return;
+    }
+    const sdre::Recording recording = sdre::record(scenario, controller);
 
     static tick_file_run_t run; // static: its padding is zero, so equal runs give equal files
     std::strncpy(run.name, path.stem().c_str(), TICK_FILE_NAME_SIZE - 1);
-    run.layout = TICK_FILE_LAYOUT;
-    run.form   = static_cast<std::uint32_t>(controller.config.form);
-    run.order  = static_cast<std::uint32_t>(highest_order(controller.config));
-    run.ticks  = static_cast<std::uint32_t>(recording.samples.size());
-    run.config = controller.config;
-    run.pi     = sdre::pi_foc_gains(scenario.drive);
+    run.layout    = TICK_FILE_LAYOUT;
+    run.tick_size = TICK_FILE_TICK_SIZE;
+    run.form      = static_cast<std::uint32_t>(controller.config.form);
+    run.order     = static_cast<std::uint32_t>(highest_order(controller.config));
+    run.ticks     = static_cast<std::uint32_t>(recording.samples.size());
+    run.config    = controller.config;
+    run.pi        = sdre::pi_foc_gains(scenario.drive);
     put(file, run);
 
     pi_foc_t pi{};

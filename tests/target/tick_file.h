@@ -5,7 +5,7 @@
  *
  * A file of runs: tick_file_run_t, then its ticks; a run of no ticks ends the file. Host and Cortex-M4F lay
  * these structures out alike (little-endian, four-byte floats and enumerations); `layout` holds what could
- * differ, and the reader refuses a file whose layout is not its own.
+ * differ with `tick_size`, and the reader refuses a file in which they are not its own.
  */
 #ifndef TICK_FILE_H
 #define TICK_FILE_H
@@ -19,14 +19,15 @@
 
 /** What the two machines must agree on, as numbers. */
 #define TICK_FILE_LAYOUT                                                                           \
-    ((uint32_t)sizeof(drive_config_t) + ((uint32_t)sizeof(tick_file_tick_t) << 12) +               \
-     ((uint32_t)offsetof(drive_config_t, motor) << 20))
+    ((uint32_t)sizeof(drive_config_t) + ((uint32_t)offsetof(drive_config_t, motor) << 16))
+#define TICK_FILE_TICK_SIZE ((uint32_t)sizeof(tick_file_tick_t))
 
 enum { TICK_FILE_VALID = 1, TICK_FILE_RUN = 2, TICK_FILE_GATE = 4 };
 
 typedef struct {
     char           name[TICK_FILE_NAME_SIZE];
     uint32_t       layout;
+    uint32_t       tick_size;
     uint32_t       form;  /**< drive_form_t */
     uint32_t       order; /**< highest of the series in use */
     uint32_t       ticks;

@@ -4,8 +4,8 @@ import struct
 from dataclasses import dataclass
 
 NAME_SIZE, PI_GAINS_SIZE = 64, 32
-HEAD = struct.Struct("<4I")  # layout, form, order, ticks
-DRIVE_SIZE = 25 * 4
+HEAD = struct.Struct("<5I")  # layout, tick size, form, order, ticks
+DRIVE_SIZE = 49 * 4
 TICK = struct.Struct(f"<{DRIVE_SIZE}x6f3f3fI")
 RESULT = struct.Struct("<III3f3f")
 GATE = 4
@@ -25,10 +25,10 @@ def read_runs(path):
     runs, at = [], 0
     while True:
         name = data[at : at + NAME_SIZE].rstrip(b"\0").decode()
-        layout, form, order, count = HEAD.unpack_from(data, at + NAME_SIZE)
+        layout, tick_size, form, order, count = HEAD.unpack_from(data, at + NAME_SIZE)
         if count == 0:
             return runs
-        config_size, tick_size = layout & 0xFFF, (layout >> 12) & 0xFF
+        config_size = layout & 0xFFFF
         if tick_size != TICK.size:
             raise ValueError(f"{path}: ticks of {tick_size} octets, {TICK.size} are known")
         at += NAME_SIZE + HEAD.size + config_size + PI_GAINS_SIZE
