@@ -136,7 +136,8 @@ MotorEffects read_motor_effects(TomlReader t)
     if (e.cogging_amplitude_Nm > 0.0 || t.has("cogging_order")) {
         e.cogging_order =
             t.number("cogging_order", cogging_order); // no motor-independent default exists
-        e.cogging_second_Nm = t.number_or("cogging_second_Nm", positive_torque_Nm, 0.0);
+        e.cogging_second_Nm  = t.number_or("cogging_second_Nm", positive_torque_Nm, 0.0);
+        e.cogging_second_rad = t.number_or("cogging_second_rad", angle_e_rad, 0.0);
     }
     e.coulomb_friction_Nm = t.number_or("coulomb_friction_Nm", positive_torque_Nm, 0.0);
     e.resistance_drift    = t.number_or("resistance_drift", drift_per_s, 0.0);

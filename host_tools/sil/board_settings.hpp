@@ -59,6 +59,7 @@ struct MotorEffects {
     double                       cogging_amplitude_Nm = 0.0;
     double                       cogging_order        = 0.0; ///< periods per mechanical turn
     double                       cogging_second_Nm    = 0.0; ///< amplitude at twice the order
+    double                       cogging_second_rad   = 0.0; ///< phase of the second
     double                       coulomb_friction_Nm  = 0.0;
     double                       resistance_drift = 0.0; ///< share of the start value per second
     double                       flux_drift       = 0.0;

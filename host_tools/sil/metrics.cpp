@@ -66,16 +66,16 @@ Iterator tail_of(const Measure &measure, Iterator begin, Iterator end)
 /// From the figures of the electrical speed.
 void add_paper_b(Metrics &m, Iterator begin, Iterator tail, Iterator end, int pole_pairs)
 {
-    const auto   speed       = [](const TraceRow &r) { return r.omega_e_radps; };
-    const double target      = (end - 1)->omega_ref_e_radps;
-    const double centre      = mean(tail, end, speed);
-    const double rpm         = 30.0 / std::acos(-1.0) / pole_pairs;
-    m.fluctuation_rpm        = rpm * m.ripple_e_radps;
-    m.offset_rpm             = rpm * (centre - target);
-    m.decrease_rpm           = rpm * m.dip_e_radps;
-    const auto [least, most] = std::minmax_element(
-        tail, end, [&](const TraceRow &a, const TraceRow &b) { return speed(a) < speed(b); });
-    const double sum = speed(*least) + speed(*most);
+    const auto   speed  = [](const TraceRow &r) { return r.omega_e_radps; };
+    const double target = (end - 1)->omega_ref_e_radps;
+    const double centre = mean(tail, end, speed);
+    const double rpm    = 30.0 / std::acos(-1.0) / pole_pairs;
+    m.fluctuation_rpm   = rpm * m.ripple_e_radps;
+    m.offset_rpm        = rpm * (centre - target);
+    const auto slower   = [&](const TraceRow &a, const TraceRow &b) { return speed(a) < speed(b); };
+    m.decrease_rpm      = rpm * (target - speed(*std::min_element(begin, end, slower)));
+    const auto [least, most] = std::minmax_element(tail, end, slower);
+    const double sum         = speed(*least) + speed(*most);
     if (sum != 0.0) {
         m.fluctuation_rate_percent = 100.0 * 2.0 * m.ripple_e_radps / std::abs(sum);
     }

@@ -37,7 +37,7 @@ struct Metrics {
     double fluctuation_rpm          = 0.0; ///< (max - min) / 2 in the tail
     double fluctuation_rate_percent = 0.0; ///< (max - min) / (max + min) in the tail; 0 about 0
     double offset_rpm               = 0.0; ///< mean in the tail minus the target
-    double decrease_rpm             = 0.0; ///< dip_e_radps
+    double decrease_rpm             = 0.0; ///< target minus the lowest speed in the window
     double overshoot_percent        = 0.0; ///< overshoot_e_radps, of the target; 0 about 0
     /// Last entry into this share of the target about the mean of the tail; none when outside at the end. Paper B calls
     /// it settling and recovery time and names no band: stated are 5 % and 2 % after a speed step, 5 % and 1 % after a load.

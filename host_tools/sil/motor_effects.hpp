@@ -2,7 +2,7 @@
 /// Saturation and what drags on the shaft.
 ///
 ///     psi_d = psi_m + L_d(i) i_d,  psi_q = L_q(i) i_q,  L bilinear in the map  EQ-EFFECTS-1
-///     T_cogging = amplitude sin(order theta_m) + second sin(2 order theta_m)   EQ-EFFECTS-2
+///     T_cogging = amplitude sin(order theta_m) + second sin(2 order theta_m + phase)   EQ-EFFECTS-2
 ///
 /// Outside the map its edge value holds.
 #pragma once

@@ -187,7 +187,8 @@ double Plant::net_torque_Nm(const State &x, RotorVector i, const ShaftLoad &load
         const double angle = effects_.cogging_order * x.theta_e / motor_.pole_pairs;
         torque -= effects_.cogging_amplitude_Nm * std::sin(angle);
         if (effects_.cogging_second_Nm != 0.0) {
-            torque -= effects_.cogging_second_Nm * std::sin(2.0 * angle);
+            torque -=
+                effects_.cogging_second_Nm * std::sin(2.0 * angle + effects_.cogging_second_rad);
         }
     }
     return torque;
