@@ -38,8 +38,9 @@ struct Measure {
     double      time_s =
         0.0; ///< the event; the window ends at the next measure or at the end of the run
     double band_e_radps = 0.0; ///< settled when the speed stays this close to the final reference
-    std::optional<double>         tail_s; ///< the steady part; the window's last fifth unless given
-    std::map<std::string, double> paper;  ///< published values by metric name, printed beside ours
+    std::map<std::string, double> paper; ///< published values by metric name, printed beside ours
+    std::optional<double>         tail_s =
+        std::nullopt; ///< the steady part; the window\'s last fifth unless given
 };
 
 /// Motor, board or load change at a time. A table that is there holds all values from then on, not only

@@ -325,3 +325,46 @@ TEST(GainsCli, CareWithHugeNumbersAnswersOrRefusesInOneLine)
         }
     }
 }
+
+TEST(GainsCli, UncertifiedTablesAreWrittenOnDemandAndSaySo)
+{
+    const TempDir     dir;
+    const std::string out = dir / "out";
+    const std::string printed =
+        std::string(SDRE_SOURCE_DIR) + "/firmware/config/drives/servo_200w_cdobc_printed.toml";
+
+    expect_refused({"generate", printed, "--out", out}, 2,
+                   {"not certified", "sensitivity peak 122"});
+    EXPECT_FALSE(std::filesystem::exists(out + "/gain_tables.h"));
+
+    const CommandResult r = gains({"generate", printed, "--uncertified", "--out", out});
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    EXPECT_NE(r.out.find("NOT CERTIFIED"), std::string::npos);
+    EXPECT_NE(
+        support::read_file(out + "/gain_tables.h").find("NOT CERTIFIED: speed loop: sensitivity"),
+        std::string::npos);
+    EXPECT_EQ(gains({"generate", printed, "--uncertified", "--check", out}).exit_code, 0);
+}
+
+TEST(GainsCli, CertifiedServoTablesCompileTheSameWithAndWithoutTheOption)
+{
+    const TempDir     dir;
+    const std::string drive =
+        std::string(SDRE_SOURCE_DIR) + "/firmware/config/drives/servo_200w_cdobc.toml";
+
+    ASSERT_EQ(gains({"generate", drive, "--out", dir / "a"}).exit_code, 0);
+    ASSERT_EQ(gains({"generate", drive, "--uncertified", "--out", dir / "b"}).exit_code, 0);
+    const std::string header = support::read_file(dir / "a/gain_tables.h");
+    EXPECT_EQ(header, support::read_file(dir / "b/gain_tables.h"));
+    EXPECT_EQ(header.find("NOT CERTIFIED"), std::string::npos);
+}
+
+TEST(GainsCli, OnlyPaperAsLawIsTuned)
+{
+    const std::string root = SDRE_SOURCE_DIR;
+    const TempDir     dir;
+
+    expect_refused({"tune", root + "/firmware/config/drives/servo_200w_pid.toml", "--spec",
+                    root + "/firmware/config/specs/ipmsm_390w.toml", "--out", dir / "t.toml"},
+                   1, {"\"pid\"", "no weights"});
+}

@@ -115,3 +115,47 @@ TEST(Encoder, IndexRestoresLostCounts)
         EXPECT_EQ(encoder.read(half + pairs * pi).count, index ? 10000 : 10000 - 37);
     }
 }
+
+namespace {
+
+/// EQ-ENCODER-5 after a run of periods at a constant speed.
+double edge_speed(double omega_e_radps)
+{
+    SensorSettings settings;
+    settings.encoder_edge_time = true;
+    QuadratureEncoder encoder  = encoder_with(settings);
+    double            speed    = 0.0;
+    for (int k = 1; k <= 200; k++) {
+        speed = encoder.read(0.3 + omega_e_radps * k * period_s, omega_e_radps).omega_e_radps;
+    }
+    return speed;
+}
+
+} // namespace
+
+TEST(Encoder, EdgeTimesGiveTheSpeedBetweenCounts)
+{
+    for (const double omega :
+         {400.0, 37.0, 8.0, -8.0, -37.0, -400.0}) { // counts alone: steps of 6.3
+        EXPECT_NEAR(edge_speed(omega), omega, 1e-6 * std::abs(omega)) << omega;
+    }
+}
+
+TEST(Encoder, WithoutAnEdgeTheSpeedFades)
+{
+    SensorSettings settings;
+    settings.encoder_edge_time = true;
+    QuadratureEncoder encoder  = encoder_with(settings);
+    double            theta    = 0.0;
+    for (int k = 0; k < 50; k++) {
+        theta += 100.0 * period_s;
+        encoder.read(theta, 100.0);
+    }
+    double before = 1e9;
+    for (int k = 1; k <= 100; k++) {
+        const double speed = encoder.read(theta, 0.0).omega_e_radps;
+        EXPECT_LE(speed, before);
+        before = speed;
+    }
+    EXPECT_LE(before, pairs * 2.0 * pi / (4 * lines) / (99 * period_s)); // one count in that time
+}

@@ -289,6 +289,14 @@ TEST(Metrics, NamesAreTheJsonKeys)
     m.d_d_hat                    = 9.0;
     m.iq_A                       = 10.0;
     m.id_A                       = 11.0;
+    m.fluctuation_rpm            = 12.0;
+    m.fluctuation_rate_percent   = 13.0;
+    m.offset_rpm                 = 14.0;
+    m.decrease_rpm               = 15.0;
+    m.overshoot_percent          = 16.0;
+    m.within_5_percent_s         = 17.0;
+    m.within_2_percent_s         = 18.0;
+    m.within_1_percent_s         = 19.0;
 
     const std::vector<std::pair<std::string, double>> expected{{"settling_time_s", 1.0},
                                                                {"dip_e_radps", 2.0},
@@ -301,13 +309,66 @@ TEST(Metrics, NamesAreTheJsonKeys)
                                                                {"d_q_hat", 8.0},
                                                                {"d_d_hat", 9.0},
                                                                {"iq_A", 10.0},
-                                                               {"id_A", 11.0}};
+                                                               {"id_A", 11.0},
+                                                               {"fluctuation_rpm", 12.0},
+                                                               {"fluctuation_rate_percent", 13.0},
+                                                               {"offset_rpm", 14.0},
+                                                               {"decrease_rpm", 15.0},
+                                                               {"overshoot_percent", 16.0},
+                                                               {"within_5_percent_s", 17.0},
+                                                               {"within_2_percent_s", 18.0},
+                                                               {"within_1_percent_s", 19.0}};
     EXPECT_EQ(sdre::metric_values(m), expected);
     for (const auto &[name, value] : expected) {
         EXPECT_TRUE(sdre::is_metric_name(name)) << name;
     }
     EXPECT_FALSE(sdre::is_metric_name("time_s"));
     EXPECT_FALSE(sdre::is_metric_name(""));
+}
+
+namespace {
+
+/// Four pole pairs, 500 r/min wanted; speed in r/min over time, the last 50 ms are the tail.
+sdre::Metrics of_rpm(double (*rpm)(double))
+{
+    const double   radps     = std::acos(-1.0) / 30.0 * 4;
+    sdre::Scenario s         = scenario_with({event("m", 0.0, 0.05 * 500.0 * radps)});
+    s.measures[0].tail_s     = 0.05;
+    s.drive.motor.pole_pairs = 4;
+    const auto all =
+        sdre::measure(s, trace_of(
+                             200, [&](double t) { return rpm(t) * radps; }, 500.0 * radps));
+    EXPECT_EQ(all.size(), 1U);
+    return all.at(0);
+}
+
+} // namespace
+
+TEST(Metrics, PaperBsFigures)
+{
+    // A dip to 430, back through 5 %, 2 % and 1 % of 500 about the mean of 498 at 20, 40 and 60 ms.
+    const sdre::Metrics m = of_rpm([](double t) {
+        const double swing = std::fmod(t + 0.5e-3, 2e-3) < 1e-3 ? 4.0 : -4.0;
+        return t < 0.0195 ? 430.0 : t < 0.0395 ? 484.0 : t < 0.0595 ? 490.0 : 498.0 + swing;
+    });
+
+    EXPECT_NEAR(m.fluctuation_rpm, 4.0, 1e-9);
+    EXPECT_NEAR(m.fluctuation_rate_percent, 100.0 * 8.0 / 996.0, 1e-9);
+    EXPECT_NEAR(m.offset_rpm, -2.0, 1e-9);
+    EXPECT_NEAR(m.decrease_rpm, 70.0, 1e-9);
+    EXPECT_NEAR(m.overshoot_percent, 0.4, 1e-9);
+    EXPECT_NEAR(m.within_5_percent_s.value_or(-1.0), 0.02, 1e-9);
+    EXPECT_NEAR(m.within_2_percent_s.value_or(-1.0), 0.04, 1e-9);
+    EXPECT_NEAR(m.within_1_percent_s.value_or(-1.0), 0.06, 1e-9);
+}
+
+TEST(Metrics, TailOfItsOwnLength)
+{
+    const sdre::Metrics m =
+        of_rpm([](double t) { return t < 0.1495 ? 0.0 : 500.0; }); // rows 150 .. 199
+
+    EXPECT_EQ(m.ripple_e_radps, 0.0);
+    EXPECT_NEAR(m.offset_rpm, 0.0, 1e-9);
 }
 
 TEST(Results, PublishedValuesStandBesideTheirOwnMeasure)

@@ -168,10 +168,27 @@ TEST(SilCli, JsonHasTheAgreedKeys)
     EXPECT_TRUE(r.at("fault_time_s").is_null());
     EXPECT_GT(r.at("simulated_seconds_per_second").get<double>(), 0.0);
     EXPECT_EQ(keys_of(r.at("measures").at("whole")),
-              (std::set<std::string>{"time_s", "settling_time_s", "dip_e_radps",
-                                     "overshoot_e_radps", "steady_state_error_e_radps",
-                                     "ripple_e_radps", "peak_current_A", "steady_current_A",
-                                     "d_omega_hat", "d_q_hat", "d_d_hat", "iq_A", "id_A"}));
+              (std::set<std::string>{"time_s",
+                                     "settling_time_s",
+                                     "dip_e_radps",
+                                     "overshoot_e_radps",
+                                     "steady_state_error_e_radps",
+                                     "ripple_e_radps",
+                                     "peak_current_A",
+                                     "steady_current_A",
+                                     "d_omega_hat",
+                                     "d_q_hat",
+                                     "d_d_hat",
+                                     "iq_A",
+                                     "id_A",
+                                     "fluctuation_rpm",
+                                     "fluctuation_rate_percent",
+                                     "offset_rpm",
+                                     "decrease_rpm",
+                                     "overshoot_percent",
+                                     "within_5_percent_s",
+                                     "within_2_percent_s",
+                                     "within_1_percent_s"}));
 }
 
 TEST(SilCli, JsonSaysNullWhereTheSpeedNeverSettles)
@@ -185,6 +202,39 @@ TEST(SilCli, JsonSaysNullWhereTheSpeedNeverSettles)
     const auto r = nlohmann::json::parse(support::read_file(dir / "r.json"));
     EXPECT_TRUE(r.at("measures").at("whole").at("settling_time_s").is_null());
     EXPECT_NE(sil({"run", scenario}).out.find("never"), std::string::npos);
+}
+
+TEST(SilCli, AnotherDriveTakesThePlaceOfTheScenarios)
+{
+    const TempDir     dir;
+    const std::string root     = SDRE_SOURCE_DIR;
+    const std::string scenario = root + "/host_tools/sil/scenarios/servo_case_3_4.toml";
+    const std::string pid      = root + "/firmware/config/drives/servo_200w_pid.toml";
+
+    ASSERT_EQ(sil({"run", scenario, "--drive", pid, "--json", dir / "r.json"}).exit_code, 0);
+
+    EXPECT_EQ(nlohmann::json::parse(support::read_file(dir / "r.json")).at("drive"),
+              "servo_200w_pid");
+    expect_refused({"run", scenario, "--drive", dir / "none.toml"}, 1, {"none.toml"});
+    const std::string paper_a = dir.write("case.toml", scenario_text());
+    expect_refused({"run", paper_a, "--drive", pid}, 1, {"law", "\"pid\""});
+    expect_refused({"run", scenario, "--board", "api"}, 1, {"--board", "cdobc", "edge times"});
+}
+
+TEST(SilCli, SpectrumIsATableOrAPicture)
+{
+    const TempDir     dir;
+    const std::string scenario = dir.write("case.toml", scenario_text());
+
+    ASSERT_EQ(sil({"run", scenario, "--spectrum", dir / "s.csv"}).exit_code, 0);
+    EXPECT_EQ(
+        support::read_file(dir / "s.csv").rfind("measure,frequency_Hz,amplitude_rpm\nwhole,", 0),
+        0U);
+    expect_refused({"run", scenario, "--spectrum", dir / "s.txt"}, 1, {"s.txt"});
+    if (draws_plots()) {
+        ASSERT_EQ(sil({"run", scenario, "--spectrum", dir / "s.png"}).exit_code, 0);
+        EXPECT_EQ(support::read_file(dir / "s.png").rfind("\x89PNG", 0), 0U);
+    }
 }
 
 TEST(SilCli, GainsSolvedInProcessAreSaidSo)
