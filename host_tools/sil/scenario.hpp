@@ -40,7 +40,7 @@ struct Measure {
     double band_e_radps = 0.0; ///< settled when the speed stays this close to the final reference
     std::map<std::string, double> paper; ///< published values by metric name, printed beside ours
     std::optional<double>         tail_s =
-        std::nullopt; ///< the steady part; the window\'s last fifth unless given
+        std::nullopt; ///< the steady part; the window's last fifth unless given
 };
 
 /// Motor, board or load change at a time. A table that is there holds all values from then on, not only

@@ -152,13 +152,17 @@ TEST(MotorEffects, CoggingIsConservative)
     MotorEffects effects;
     effects.cogging_amplitude_Nm = 0.1;
     effects.cogging_order        = 24.0;
+    effects.cogging_second_Nm    = 0.03;
+    effects.cogging_second_rad   = -0.7;
     Plant plant(m);
     plant.set_effects(effects);
     plant.reset(40.0, 0.3);
-    const auto total_J = [&] { // T = - dW/dtheta, W = -(A / n) cos(n theta)
-        return energy_J(plant, m) -
-               0.1 / 24.0 * std::cos(24.0 * plant.theta_e_rad() / m.pole_pairs);
-    };
+    const auto total_J =
+        [&] { // T = - dW/dtheta, W = -(A / n) cos(n theta) - (B / 2n) cos(2n theta + phase)
+            const double angle = 24.0 * plant.theta_e_rad() / m.pole_pairs;
+            return energy_J(plant, m) - 0.1 / 24.0 * std::cos(angle) -
+                   0.03 / 48.0 * std::cos(2.0 * angle - 0.7);
+        };
     const double start_J = total_J();
     double       lowest  = 1e9;
     double       highest = 0.0;
