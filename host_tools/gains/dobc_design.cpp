@@ -14,6 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
 Polynomial product(const Polynomial &p, const Polynomial &q)
 {
@@ -150,18 +151,39 @@ MatrixXd error_matrix(const VectorXd &l, const std::vector<double> &w, int N, do
     return F;
 }
 
-/// EQ-DOBC-6. The entries of F span twenty orders of magnitude, hence the extended precision.
-void sample(DobcDesign &d, double ts_s)
+/// Periods to the power of how many times a state is a rate: what brings all entries of F to the order of one.
+LongVector rate_scale(std::size_t oscillators, int N, long double ts_s)
 {
-    const Index n          = d.F.rows();
-    LongMatrix  Z          = LongMatrix::Zero(2 * n, 2 * n);
-    Z.topLeftCorner(n, n)  = d.F.cast<long double>() * static_cast<long double>(ts_s);
-    Z.topRightCorner(n, n) = LongMatrix::Identity(n, n) * static_cast<long double>(ts_s);
-    const LongMatrix X     = Z.exp();
-    const LongMatrix Phi   = X.topRightCorner(n, n);
-    d.M                    = X.topLeftCorner(n, n).cast<double>();
-    d.g = (Phi * d.E.cast<long double>() / static_cast<long double>(ts_s)).cast<double>();
-    d.h = (Phi * d.H.cast<long double>()).cast<double>();
+    LongVector  scale(static_cast<Index>(1 + 2 * oscillators) + N);
+    const Index first = scale.size() - N;
+    scale(0)          = 1.0L;
+    for (Index i = 1; i < first; i += 2) {
+        scale(i)     = ts_s;
+        scale(i + 1) = ts_s * ts_s;
+    }
+    for (Index i = first; i < scale.size(); i++) {
+        scale(i) = scale(i == first ? 0 : i - 1) * ts_s;
+    }
+    return scale;
+}
+
+/// EQ-DOBC-6. The entries of F span twenty orders of magnitude, hence the scale (without it M is off by up to 2e-6,
+/// relative) and the extended precision.
+void sample(DobcDesign &d, int N, double ts_s)
+{
+    const Index       n     = d.F.rows();
+    const long double ts    = static_cast<long double>(ts_s);
+    const LongVector  scale = rate_scale(d.oscillators_radps.size(), N, ts);
+    const LongMatrix  into  = scale.asDiagonal();
+    const LongMatrix  back  = scale.cwiseInverse().asDiagonal();
+    LongMatrix        Z     = LongMatrix::Zero(2 * n, 2 * n);
+    Z.topLeftCorner(n, n)   = into * d.F.cast<long double>() * back * ts;
+    Z.topRightCorner(n, n)  = LongMatrix::Identity(n, n) * ts;
+    const LongMatrix X      = Z.exp();
+    const LongMatrix Phi    = back * X.topRightCorner(n, n) * into;
+    d.M                     = (back * X.topLeftCorner(n, n) * into).cast<double>();
+    d.g                     = (Phi * d.E.cast<long double>() / ts).cast<double>();
+    d.h                     = (Phi * d.H.cast<long double>()).cast<double>();
 }
 
 /// EQ-DOBC-7. The voltage is held: its value in the middle of the period is what an oscillator needs. The printed law
@@ -216,7 +238,7 @@ DobcDesign design_dobc(const Motor &motor, const DobcSpec &spec, double ts_s)
     d.k1             = lc * lc * p.L_H / p.b;
     d.k2             = p.L_H * (2.0 * lc - p.a);
     d.K              = compensation(d, spec, p.L_H, ts_s);
-    sample(d, ts_s);
+    sample(d, N, ts_s);
     return d;
 }
 

@@ -100,7 +100,7 @@ void expect_quick_recovery(const Runs &runs)
 {
     for (const sdre::Metrics &m : runs.at("case_3")) {
         EXPECT_LE(m.within_5_percent_s.value_or(INFINITY), 0.0025);
-        EXPECT_GE(m.decrease_rpm, 34.5); // what 200 V can do at best, two periods after the step
+        EXPECT_GE(m.decrease_rpm, 34.5); // the best that 200 V can do, one period after the step
     }
 }
 
