@@ -113,7 +113,8 @@ def single_steps(image, directory, symbols, calls):
     """[(all instructions, those of the core)] of the first calls of a tick, one log line per instruction."""
     begin, end = symbols["image_core_begin"][0], symbols["image_core_end"][0]
     starts = {symbols[name][0] for name in TICKS}
-    caller = range(symbols["main"][0], symbols["main"][0] + symbols["main"][1])
+    # What calls the ticks, as far as the compiler did not inline it into main.
+    callers = [range(symbols[f][0], sum(symbols[f][:2])) for f in ("main", "replay_run", "replay") if f in symbols]
     result, inside = [], False
     with log_of(image, directory, "-singlestep") as emulator:
         for line in emulator.stdout:
@@ -121,7 +122,7 @@ def single_steps(image, directory, symbols, calls):
             if address in starts:
                 result.append([0, 0])
                 inside = True
-            elif address in caller:
+            elif any(address in caller for caller in callers):
                 inside = False
                 if len(result) == calls:
                     break
