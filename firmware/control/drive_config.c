@@ -114,6 +114,33 @@ static bool servo_ok(const servo_law_config_t *c)
     return speed_ok && pid_ok(&c->id_pi);
 }
 
+static bool order_ok(int16_t order)
+{
+    return (order >= 0) && (order <= DOUBLE_SERIES_ORDER_MAX);
+}
+
+static bool rows_ok(const float row[][DOUBLE_SERIES_COLUMNS], int16_t rows, int16_t order)
+{
+    const int16_t count = (int16_t)(rows * (double_series_index(0, order) + 1));
+
+    for (int16_t i = 0; i < count; i++) {
+        if (!all_finite(row[i], DOUBLE_SERIES_COLUMNS)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool conventional_ok(const drive_config_t *c)
+{
+    const conventional_gains_t *g = &c->conventional;
+
+    return current_ref_ok(&c->current_ref) && nosc_ok(&c->nosc) && order_ok(g->nosc_order) &&
+           order_ok(g->nodo_order) && is_positive(g->i_error_max_A) && is_positive(g->i_max_A) &&
+           base_in_range(g->i_certified_A, g->i_max_A, LARGEST) &&
+           rows_ok(g->lambda, NOSC_N_U, g->nosc_order) && rows_ok(g->gain, NODO_N_X, g->nodo_order);
+}
+
 static bool noc_ok(const drive_config_t *c)
 {
     const bool observer_ok = ((c->form == DRIVE_FORM_SPEED) && nodo_ok(&c->nodo)) ||
@@ -125,6 +152,7 @@ static bool noc_ok(const drive_config_t *c)
 static bool law_ok(const drive_config_t *c)
 {
     return (drive_config_is(c, DRIVE_LAW_NOC) && noc_ok(c)) ||
+           (drive_config_is(c, DRIVE_LAW_CONVENTIONAL) && conventional_ok(c)) ||
            (drive_config_is(c, DRIVE_LAW_SERVO) && servo_ok(&c->servo));
 }
 

@@ -7,6 +7,7 @@
 #define DRIVE_CONFIG_H
 
 #include "base.h"
+#include "conventional.h"
 #include "current_ref.h"
 #include "dead_time.h"
 #include "motor.h"
@@ -17,8 +18,9 @@
 
 /** What turns samples into a voltage. */
 typedef enum {
-    DRIVE_LAW_NOC = 0, /**< paper A: observer, references, state feedback */
-    DRIVE_LAW_SERVO    /**< paper B: one of the laws of servo_law.h */
+    DRIVE_LAW_NOC = 0,     /**< paper A: observer, references, state feedback */
+    DRIVE_LAW_SERVO,       /**< paper B: one of the laws of servo_law.h */
+    DRIVE_LAW_CONVENTIONAL /**< what paper A compares with: conventional.h in place of nosc and nodo */
 } drive_law_t;
 
 /**
@@ -51,7 +53,8 @@ typedef struct {
     float           dc_link_min_V;  /**< accepted dc link, > 0 */
     float           dc_link_max_V;  /**< > dc_link_min_V */
     bool            overmodulation; /**< voltages may use the hexagon outside the circle */
-    drive_law_t     law;  /**< NOC: current_ref, nosc, form; SERVO: servo. Only these are checked */
+    drive_law_t     law; /**< NOC: current_ref, nosc, form; SERVO: servo; CONVENTIONAL: current_ref,
+                                 conventional and nosc with Lambda_00 alone, for EQ-NOSC-3. Only these are checked */
     drive_form_t    form; /**< which of nodo and nodo_encoder is used and checked */
     motor_reduced_t motor;
     current_ref_config_t current_ref;
@@ -60,6 +63,7 @@ typedef struct {
     nodo_gains_t         nodo;
     nodo_encoder_gains_t nodo_encoder;
     servo_law_config_t   servo;
+    conventional_gains_t conventional;
 } drive_config_t;
 
 /** Whether these constants are those of a law, and this build contains it. */

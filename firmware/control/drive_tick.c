@@ -18,7 +18,7 @@ static const drive_output_t open_bridge = {.duty = {0.5f, 0.5f, 0.5f}, .gate_ena
 /* The speed now and the q voltage that holds it. */
 static void reset_laws(drive_t *d, float omega_e_radps, float hold_q_V)
 {
-    if (DRIVE_HAS_LAW(DRIVE_LAW_NOC)) {
+    if (DRIVE_HAS_LAW(DRIVE_LAW_NOC) || DRIVE_HAS_LAW(DRIVE_LAW_CONVENTIONAL)) {
         speed_ref_reset(&d->speed_ref, omega_e_radps);
         current_ref_reset(&d->current_ref);
     }
@@ -112,13 +112,32 @@ static float middle_angle_rad(const drive_config_t *c, const drive_sample_t *s)
     return s->theta_e_rad + (1.5f * c->ts_s * s->omega_e_radps);
 }
 
+/* Observer and feedback: all in which paper A's law and the conventional one differ. */
+static void observe(drive_t *d)
+{
+    const drive_config_t *c = d->config;
+
+    if (drive_config_is(c, DRIVE_LAW_CONVENTIONAL)) {
+        conventional_update(&d->observer, &c->conventional, &c->motor, &d->now, d->v_V, c->ts_s);
+    } else {
+        nodo_update(&d->observer, &c->nodo, &c->motor, &d->now, d->v_V, c->ts_s);
+    }
+}
+
+static dq_t feedback_V(const drive_config_t *c, const nosc_error_t *e)
+{
+    return drive_config_is(c, DRIVE_LAW_CONVENTIONAL)
+               ? conventional_feedback_V(&c->conventional, &c->motor, e)
+               : nosc_feedback_V(&c->nosc, e);
+}
+
 /* Paper A's observer; returns the angle of the middle of the period in which the new voltage acts. */
 static float estimate_from_speed(drive_t *d, const drive_sample_t *s)
 {
     const drive_config_t *c = d->config;
 
     d->now = measurement(s);
-    nodo_update(&d->observer, &c->nodo, &c->motor, &d->now, d->v_V, c->ts_s);
+    observe(d);
     return middle_angle_rad(c, s);
 }
 
@@ -210,7 +229,7 @@ static bool control_law(drive_t *d, frames_angle_t angle, float dc_link_V)
 
     const float w_d =
         d->now.omega_e_radps - e.omega_e_radps; /* the reference as far as it is followed */
-    const dq_t fb_V = nosc_feedback_V(&c->nosc, &e);
+    const dq_t fb_V = feedback_V(c, &e);
     const dq_t ff_V = feedforward_V(&c->motor, &d->current_ref, w_d, &d->now, &d->observer);
     const dq_t u_V  = {.d = fb_V.d + ff_V.d, .q = fb_V.q + ff_V.q};
 
@@ -280,7 +299,8 @@ static drive_output_t run_noc(drive_t *d, const drive_sample_t *s, float command
 /* The only place where the laws part; drive_init() let no other law through. */
 static drive_output_t run(drive_t *d, const drive_sample_t *s, float command_e_radps)
 {
-    if (drive_config_is(d->config, DRIVE_LAW_NOC)) {
+    if (drive_config_is(d->config, DRIVE_LAW_NOC) ||
+        drive_config_is(d->config, DRIVE_LAW_CONVENTIONAL)) {
         return run_noc(d, s, command_e_radps);
     }
     return drive_config_is(d->config, DRIVE_LAW_SERVO) ? run_servo(d, s, command_e_radps)

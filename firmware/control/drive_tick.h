@@ -12,7 +12,8 @@
  * voltage takes effect; references and law act on the prediction. Speed form: on the measurement.
  *
  * DRIVE_LAW_SERVO replaces observer, reference and law by one of servo_law.h, on the measurement; checks,
- * voltage limit and modulator stay.
+ * voltage limit and modulator stay. DRIVE_LAW_CONVENTIONAL is the speed form with observer and feedback of
+ * conventional.h.
  *
  * Nothing received is trusted: an invalid, non-finite or out-of-range sample or command opens the bridge
  * in the same call and latches the first reason until drive_reset().

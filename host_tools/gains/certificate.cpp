@@ -19,7 +19,9 @@ using Eigen::MatrixXd;
 
 // Chosen: fine enough that neighbouring points differ by under 2 % of the range.
 constexpr int points_per_side = 64;
-constexpr int speed_points    = 4;
+// Chosen: 625 points of a box in two variables, a fifth of a second.
+constexpr int box_points_per_side = 12;
+constexpr int speed_points        = 4;
 
 // The phase current can pass from -max to +max while the bridge runs, so errors reach twice the limit;
 // beyond the same figure the firmware trips.
@@ -28,81 +30,55 @@ double certified_range_A(const Motor &motor)
     return 2.0 * motor.max_current_A;
 }
 
-MatrixXd series_gain(const std::vector<MatrixXd> &gain, double s, std::size_t max_order)
+/// The spectral radius of the sampled loop with gain K at the scheduling currents s.
+using Radius = std::function<double(const MatrixXd &K, const Schedule &s)>;
+/// The continuous closed loop.
+using ClosedLoop = std::function<MatrixXd(const MatrixXd &K, const Schedule &s)>;
+
+/// Largest r such that the full series is within series_error_limit at every grid point in +-r.
+double usable_range(const std::vector<double> &error, const std::vector<Schedule> &s, double range,
+                    double step)
 {
-    MatrixXd K = MatrixXd::Zero(gain[0].rows(), gain[0].cols());
-    for (std::size_t n = std::min(max_order + 1, gain.size()); n-- > 0;) {
-        K = K * s + gain[n];
+    double r = range;
+    for (std::size_t i = 0; i < s.size(); i++) {
+        if (error[i] > series_error_limit) {
+            r = std::min(r, reach(s[i]));
+        }
     }
-    return K;
+    return (r < range) ? std::max(r - step, step) : r;
 }
 
-/// The exact gain at a frozen state, from the exact solution X of the SDRE there.
-using ExactGain = std::function<MatrixXd(const MatrixXd &X)>;
-/// The spectral radius of the sampled loop with gain K at scheduling current s.
-using Radius = std::function<double(const MatrixXd &K, double s)>;
-/// The continuous closed loop.
-using ClosedLoop = std::function<MatrixXd(const MatrixXd &K, double s)>;
-
-std::vector<double> grid(double range)
+Schedule held(Schedule s, double limit)
 {
-    std::vector<double> s;
-    for (int i = -points_per_side; i <= points_per_side; i++) {
-        s.push_back(range * i / points_per_side);
+    for (double &x : s) {
+        x = std::clamp(x, -limit, limit);
     }
     return s;
 }
 
-/// errors[order][i]: relative gain error of the series of that order at s[i].
-std::vector<std::vector<double>> series_errors(const GainSeries &g, const ExactGain &exact_gain,
-                                               const std::vector<double> &s)
-{
-    std::vector<std::vector<double>> errors(g.gain.size(), std::vector<double>(s.size()));
-    for (std::size_t i = 0; i < s.size(); i++) {
-        const MatrixXd exact = exact_gain(solve_sdre_exact(g.problem, {s[i]}).X);
-        const double   norm  = std::max(exact.norm(), 1e-300);
-        for (std::size_t order = 0; order < g.gain.size(); order++) {
-            errors[order][i] = (series_gain(g.gain, s[i], order) - exact).norm() / norm;
-        }
-    }
-    return errors;
-}
-
-/// Largest r such that the full series is within series_error_limit at every grid point in +-r.
-double usable_range(const std::vector<double> &error, const std::vector<double> &s)
-{
-    double r = s.back();
-    for (std::size_t i = 0; i < s.size(); i++) {
-        if (error[i] > series_error_limit) {
-            r = std::min(r, std::abs(s[i]));
-        }
-    }
-    const double step = s.back() / points_per_side;
-    return (r < s.back()) ? std::max(r - step, step) : r;
-}
-
-SampledLoop sweep(const GainSeries &g, double range, double ts, const ExactGain &exact_gain,
-                  const Radius &radius_of, const ClosedLoop &closed_loop)
+SampledLoop sweep(const GainSeries &g, double range, double ts, const Radius &radius_of,
+                  const ClosedLoop &closed_loop)
 {
     SampledLoop loop;
-    loop.range_A                     = range;
-    const std::vector<double> s      = grid(range);
-    const auto                errors = series_errors(g, exact_gain, s);
-    loop.series_range_A              = usable_range(errors.back(), s);
-    loop.worst_pole_1ps              = -1e300;
-    loop.series_error.assign(g.gain.size(), 0.0);
-    loop.series_error_full.assign(g.gain.size(), 0.0);
+    loop.range_A                          = range;
+    const std::size_t           variables = g.problem.dA.size();
+    const int                   per_side  = variables == 1 ? points_per_side : box_points_per_side;
+    const std::vector<Schedule> s         = box_grid(variables, range, per_side);
+    const auto                  errors    = series_errors(g, s);
+    loop.series_range_A                   = usable_range(errors.back(), s, range, range / per_side);
+    loop.worst_pole_1ps                   = -1e300;
+    loop.series_error.assign(errors.size(), 0.0);
+    loop.series_error_full.assign(errors.size(), 0.0);
 
     for (std::size_t i = 0; i < s.size(); i++) {
-        for (std::size_t order = 0; order < g.gain.size(); order++) {
+        for (std::size_t order = 0; order < errors.size(); order++) {
             double &full = loop.series_error_full[order];
             full         = std::max(full, errors[order][i]);
-            if (std::abs(s[i]) <= loop.series_range_A) {
+            if (reach(s[i]) <= loop.series_range_A) {
                 loop.series_error[order] = std::max(loop.series_error[order], errors[order][i]);
             }
         }
-        const double   held = std::clamp(s[i], -loop.series_range_A, loop.series_range_A);
-        const MatrixXd K    = series_gain(g.gain, held, g.gain.size() - 1);
+        const MatrixXd K = series_gain(g, held(s[i], loop.series_range_A), series_order(g));
         for (const auto &pole : closed_loop(K, s[i]).eigenvalues()) {
             loop.worst_pole_1ps  = std::max(loop.worst_pole_1ps, pole.real());
             loop.fastest_pole_ts = std::max(loop.fastest_pole_ts, std::abs(pole) * ts);
@@ -125,20 +101,16 @@ std::vector<double> speed_grid(const Design &d)
 
 SampledLoop sweep_nosc(const Design &d)
 {
-    const double          ts      = control_period_s(d.drive);
-    const bool            delayed = d.drive.nodo.form == NodoForm::speed;
-    const MatrixXd        B       = nosc_input_matrix(d.l);
-    const MatrixXd       &A0      = d.nosc.problem.A0;
-    const MatrixXd       &dA      = d.nosc.problem.dA[0];
-    const Eigen::Vector2d T_inverse(1.0 / d.drive.nosc.T[0], 1.0 / d.drive.nosc.T[1]);
+    const double   ts      = control_period_s(d.drive);
+    const bool     delayed = d.drive.nodo.form != NodoForm::encoder;
+    const MatrixXd B       = nosc_input_matrix(d.l);
 
-    const auto exact = [&](const MatrixXd &X) -> MatrixXd {
-        return T_inverse.asDiagonal() * B.transpose() * X;
+    const auto loop = [&](const MatrixXd &K, const Schedule &s) -> MatrixXd {
+        return state_matrix(d.nosc.problem, s) - B * K;
     };
-    const auto loop = [&](const MatrixXd &K, double s) -> MatrixXd { return A0 + s * dA - B * K; };
-    const auto radius = [&](const MatrixXd &K, double s) { // EQ-CERT-1
+    const auto radius = [&](const MatrixXd &K, const Schedule &s) { // EQ-CERT-1
         MatrixXd M             = MatrixXd::Zero(5, 5);
-        M.topLeftCorner(3, 3)  = (A0 + s * dA) * ts;
+        M.topLeftCorner(3, 3)  = state_matrix(d.nosc.problem, s) * ts;
         M.topRightCorner(3, 2) = B * ts;
         const MatrixXd E       = M.exp();
         if (!delayed) { // the prediction takes the delay out
@@ -149,36 +121,38 @@ SampledLoop sweep_nosc(const Design &d)
         Z.bottomLeftCorner(2, 3) = -K;
         return spectral_radius(Z);
     };
-    return sweep(d.nosc, certified_range_A(d.drive.motor), ts, exact, radius, loop);
+    return sweep(d.nosc, certified_range_A(d.drive.motor), ts, radius, loop);
 }
 
 SampledLoop sweep_nodo(const Design &d)
 {
     const double              ts     = control_period_s(d.drive);
-    const ObserverModel       model  = nodo_model(d.l, d.drive.nodo.form);
+    const MatrixXd            C      = nodo_model(d.l, d.drive.nodo.form).C;
+    const MatrixXd            I      = MatrixXd::Identity(C.cols(), C.cols());
     const std::vector<double> speeds = speed_grid(d);
-    const Eigen::Vector3d     T_inverse(1.0 / d.drive.nodo.T[0], 1.0 / d.drive.nodo.T[1],
-                                        1.0 / d.drive.nodo.T[2]);
 
-    const auto exact = [&](const MatrixXd &X) -> MatrixXd {
-        return X * model.C.transpose() * T_inverse.asDiagonal();
+    const auto loop = [&](const MatrixXd &L, const Schedule &s) -> MatrixXd {
+        return state_matrix(d.nodo.problem, s).transpose() - L * C;
     };
-    const auto loop = [&](const MatrixXd &L, double s) -> MatrixXd {
-        return model.A0 + s * model.dA - L * model.C;
-    };
-    const auto radius = [&](const MatrixXd &L, double s) {
-        if (d.drive.nodo.form == NodoForm::speed) { // EQ-CERT-2
-            return spectral_radius(MatrixXd::Identity(6, 6) + ts * loop(L, s));
+    const auto radius = [&](const MatrixXd &L, const Schedule &s) {
+        if (d.drive.nodo.form != NodoForm::encoder) { // EQ-CERT-2
+            return spectral_radius(I + ts * loop(L, s));
         }
         double worst = 0.0;
         for (const double w : speeds) { // EQ-CERT-3: observer, law and motor at a steady state
-            const OperatingPoint at{w, s, mtpa_id_A(d.l, s)};
+            const OperatingPoint at{w, s[0], mtpa_id_A(d.l, s[0])};
             const LoopGains      gains{d.nosc.gain[0], L};
             worst = std::max(worst, spectral_radius(sampled_model(d.l, d.l, gains, at, ts).A));
         }
         return worst;
     };
-    return sweep(d.nodo, certified_range_A(d.drive.motor), ts, exact, radius, loop);
+    return sweep(d.nodo, certified_range_A(d.drive.motor), ts, radius, loop);
+}
+
+/// "2", or "1,0" in two variables.
+std::string term_name(const GainSeries &g, std::size_t n)
+{
+    return fmt::format("{}", fmt::join(g.series.terms[n].powers, ","));
 }
 
 void judge(const char *name, const GainSeries &g, const SampledLoop &loop,
@@ -188,7 +162,7 @@ void judge(const char *name, const GainSeries &g, const SampledLoop &loop,
         if (!(g.residuals[n] <= residual_limit)) {
             failures.push_back(
                 fmt::format("{}: relative residual {:.1e} of order {} exceeds {:.0e}", name,
-                            g.residuals[n], n, residual_limit));
+                            g.residuals[n], term_name(g, n), residual_limit));
         }
     }
     if (!(loop.worst_pole_1ps < 0.0)) {

@@ -1,44 +1,35 @@
 // SPDX-License-Identifier: MIT
 #include "design.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "certificate.hpp"
+#include "errors.hpp"
 #include "firmware_config.hpp"
 
 namespace sdre {
 namespace {
 
-GainSeries solve_nosc(const ReducedParameters &l, const NoscSpec &spec)
+GainSeries solve_nosc(const ReducedParameters &l, const Drive &drive)
 {
-    GainSeries out;
-    out.problem = nosc_problem(l, spec);
-    out.series  = solve_sdre_series(out.problem, spec.order);
-
+    const NoscSpec       &spec = drive.nosc;
     const Eigen::Vector2d T_inverse(1.0 / spec.T[0], 1.0 / spec.T[1]);
-    const Eigen::MatrixXd to_gain = T_inverse.asDiagonal() * nosc_input_matrix(l).transpose();
-    for (const SeriesTerm &term : out.series.terms) {
-        out.gain.emplace_back(to_gain * term.X); // (26)
-        out.residuals.push_back(term.relative_residual);
-    }
-    return out;
+    const SdreProblem     problem = drive.law == Law::conventional_noc
+                                        ? conventional_nosc_problem(l, spec)
+                                        : nosc_problem(l, spec);
+    return solve_gain_series(problem, T_inverse.asDiagonal() * nosc_input_matrix(l).transpose(),
+                             Eigen::MatrixXd::Identity(3, 3), spec.order);
 }
 
 GainSeries solve_nodo(const ReducedParameters &l, const NodoSpec &spec)
 {
-    GainSeries out;
-    out.problem = nodo_problem(l, spec);
-    out.series  = solve_sdre_series(out.problem, spec.order);
-
     const Eigen::Vector3d T_inverse(1.0 / spec.T[0], 1.0 / spec.T[1], 1.0 / spec.T[2]);
-    for (const SeriesTerm &term : out.series.terms) {
-        out.gain.emplace_back(term.X * nodo_model(l, spec.form).C.transpose() *
-                              T_inverse.asDiagonal()); // (32), (39)
-        out.residuals.push_back(term.relative_residual);
-    }
-    return out;
+    const Eigen::MatrixXd C = nodo_model(l, spec.form).C;
+    return solve_gain_series(nodo_problem(l, spec), Eigen::MatrixXd::Identity(C.cols(), C.cols()),
+                             C.transpose() * T_inverse.asDiagonal(), spec.order);
 }
 
 void judge(const char *name, const LoopCheck &loop, std::vector<std::string> &failures)
@@ -83,13 +74,20 @@ Design design_servo(const Drive &drive)
 
 Design design_drive(const Drive &drive)
 {
-    if (drive.law != Law::noc) {
+    if (!is_near_optimal(drive.law)) {
         return design_servo(drive);
+    }
+    if (drive.law == Law::conventional_noc &&
+        std::max(drive.nosc.order, drive.nodo.order) > DOUBLE_SERIES_ORDER_MAX) {
+        throw InputError(fmt::format("{}: order = {} is not allowed: a series in two variables has "
+                                     "at most order {}",
+                                     drive.name, std::max(drive.nosc.order, drive.nodo.order),
+                                     DOUBLE_SERIES_ORDER_MAX));
     }
     Design design;
     design.drive       = drive;
     design.l           = reduced_parameters(drive.motor);
-    design.nosc        = solve_nosc(design.l, drive.nosc);
+    design.nosc        = solve_nosc(design.l, drive);
     design.nodo        = solve_nodo(design.l, drive.nodo);
     design.certificate = certify(design);
     design.config      = firmware_config(design);

@@ -10,20 +10,12 @@
 #include "dobc_design.hpp"
 #include "drive_file.hpp"
 #include "motor_model.hpp"
-#include "sdre_series.hpp"
+#include "series_error.hpp"
 #include "servo_loop.hpp"
 
 namespace sdre {
 
-/// A solved series with the gain matrices read off it.
-struct GainSeries {
-    SdreProblem                  problem;
-    SdreSeries                   series;
-    std::vector<Eigen::MatrixXd> gain;      ///< NOSC: Lambda_n, 2 x 3. NODO: L_n, 6 x 3 or 7 x 3.
-    std::vector<double>          residuals; ///< [0] Riccati, [n] Lyapunov, relative
-};
-
-/// How one sampled loop behaves over its certified range.
+/// How one sampled loop behaves over its certified range, of every scheduling current alike.
 struct SampledLoop {
     double range_A =
         0.0; ///< scheduling current in +-range_A; beyond series_range_A the gain is held
@@ -55,10 +47,10 @@ struct ServoDesign {
 };
 
 struct Design {
-    Drive                      drive;
-    ReducedParameters          l{};
-    GainSeries                 nosc; ///< nosc and nodo, also in the certificate: Law::noc only
-    GainSeries                 nodo;
+    Drive             drive;
+    ReducedParameters l{};
+    GainSeries nosc; ///< nosc and nodo, also in the certificate: laws of near optimal control
+    GainSeries nodo;
     std::optional<ServoDesign> servo;    ///< every other law
     drive_config_t             config{}; ///< what the firmware gets, in its own single precision
     Certificate                certificate;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core_types.hpp"
 #include "errors.hpp"
 #include "toml_reader.hpp"
 
@@ -27,6 +28,7 @@ constexpr Range pwm_frequency_Hz{1e3, 1e5};
 constexpr Range dead_time_s{0.0, 2e-5};
 constexpr Range encoder_lines{1, 1e6};
 constexpr Range series_order{0, 8};
+constexpr Range double_series_order{0, DOUBLE_SERIES_ORDER_MAX};
 constexpr Range state_weight{0.0, 1e15};
 constexpr Range input_weight{1e-12, 1e12};
 constexpr Range polynomial_order{1, 3};
@@ -86,10 +88,10 @@ Encoder read_encoder(TomlReader t)
     return encoder;
 }
 
-NoscSpec read_nosc(TomlReader t)
+NoscSpec read_nosc(TomlReader t, Range order)
 {
     NoscSpec spec;
-    spec.order = t.integer("order", series_order);
+    spec.order = t.integer("order", order);
     spec.Q     = last_of<3>(t.numbers("Q", {3}, state_weight));
     spec.T     = last_of<2>(t.numbers("T", {2}, input_weight));
     t.reject_unknown_keys();
@@ -116,13 +118,29 @@ NodoSpec read_nodo(TomlReader t)
     return spec;
 }
 
+NodoSpec read_conventional_nodo(TomlReader t)
+{
+    NodoSpec          spec;
+    const std::string disturbances = t.text("disturbances");
+    if (disturbances != "load" && disturbances != "all") {
+        t.fail("disturbances",
+               fmt::format("= \"{}\" is not allowed: must be \"load\" or \"all\"", disturbances));
+    }
+    const bool load = disturbances == "load";
+    spec.form       = load ? NodoForm::conventional_load : NodoForm::conventional_all;
+    spec.order      = t.integer("order", double_series_order);
+    spec.Q          = t.numbers("Q", {load ? 4U : 6U}, state_weight);
+    spec.T          = last_of<3>(t.numbers("T", {3}, input_weight));
+    t.reject_unknown_keys();
+    return spec;
+}
+
 const std::map<std::string, Law> &laws()
 {
-    static const std::map<std::string, Law> names{{"noc", Law::noc},
-                                                  {"cdobc", Law::cdobc},
-                                                  {"gpiobc", Law::gpiobc},
-                                                  {"hdobc", Law::hdobc},
-                                                  {"pid", Law::pid}};
+    static const std::map<std::string, Law> names{
+        {"noc", Law::noc},     {"conventional_noc", Law::conventional_noc},
+        {"cdobc", Law::cdobc}, {"gpiobc", Law::gpiobc},
+        {"hdobc", Law::hdobc}, {"pid", Law::pid}};
     return names;
 }
 
@@ -131,9 +149,10 @@ Law read_law(TomlReader &t)
     const std::string name  = t.text_or("law", "noc");
     const auto        found = laws().find(name);
     if (found == laws().end()) {
-        t.fail("law", fmt::format("= \"{}\" is not allowed: must be \"noc\", \"cdobc\", "
-                                  "\"gpiobc\", \"hdobc\" or \"pid\"",
-                                  name));
+        t.fail("law",
+               fmt::format("= \"{}\" is not allowed: must be \"noc\", "
+                           "\"conventional_noc\", \"cdobc\", \"gpiobc\", \"hdobc\" or \"pid\"",
+                           name));
     }
     return found->second;
 }
@@ -198,9 +217,11 @@ DAxisSpec read_d_axis(TomlReader t)
 /// The sections that belong to the law; the sections of the others are unknown keys.
 void read_law_sections(TomlReader &t, Drive &drive)
 {
-    if (drive.law == Law::noc) {
-        drive.nosc = read_nosc(t.table("nosc"));
-        drive.nodo = read_nodo(t.table("nodo"));
+    if (is_near_optimal(drive.law)) {
+        const bool conventional = drive.law == Law::conventional_noc;
+        drive.nosc = read_nosc(t.table("nosc"), conventional ? double_series_order : series_order);
+        drive.nodo =
+            conventional ? read_conventional_nodo(t.table("nodo")) : read_nodo(t.table("nodo"));
         return;
     }
     drive.d_axis = read_d_axis(t.table("d_axis"));
@@ -220,8 +241,7 @@ std::string normalised_weights(const Drive &d)
     for (double x : d.nosc.T) {
         s += fmt::format("{:.17g};", x);
     }
-    s += fmt::format("nodo;{};{};", d.nodo.form == NodoForm::speed ? "speed" : "encoder",
-                     d.nodo.order);
+    s += fmt::format("nodo;{};{};", nodo_form_name(d.nodo.form), d.nodo.order);
     for (double x : d.nodo.Q) {
         s += fmt::format("{:.17g};", x);
     }
@@ -263,7 +283,7 @@ std::string normalised(const Drive &d)
                      i.dead_time_s, i.updates_per_period, d.encoder.lines);
     s += i.dead_time_compensation ? "compensated;" : "uncompensated;";
     s += i.overmodulation ? "hexagon;" : "circle;";
-    return s + (d.law == Law::noc ? normalised_weights(d) : normalised_servo(d));
+    return s + (is_near_optimal(d.law) ? normalised_weights(d) : normalised_servo(d));
 }
 
 } // namespace
@@ -296,6 +316,31 @@ Drive read_drive_file(const std::filesystem::path &file)
                "is not allowed: must be at most a tenth of the PWM period");
     }
     return drive;
+}
+
+bool is_near_optimal(Law law)
+{
+    return law == Law::noc || law == Law::conventional_noc;
+}
+
+const char *nodo_form_name(NodoForm form)
+{
+    switch (form) {
+    case NodoForm::speed:
+        return "speed";
+    case NodoForm::encoder:
+        return "encoder";
+    case NodoForm::conventional_load:
+        return "conventional, load";
+    case NodoForm::conventional_all:
+        return "conventional, all";
+    }
+    return "unknown";
+}
+
+bool is_law_name(const std::string &name)
+{
+    return laws().count(name) > 0;
 }
 
 const char *law_name(Law law)

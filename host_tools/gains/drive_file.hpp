@@ -43,11 +43,14 @@ struct NoscSpec {
     std::array<double, 2> T{};
 };
 
-/// What the observer measures beside the currents.
-enum class NodoForm { speed, encoder };
+/// What paper A's observer measures beside the currents; of the conventional one, which measures the speed, what it
+/// estimates: the load alone or all three disturbances.
+enum class NodoForm { speed, encoder, conventional_load, conventional_all };
+
+const char *nodo_form_name(NodoForm form);
 
 /// Weights of the observer. Speed form: states d_w, d_q, d_d, w, i_q, i_d; measured w, i_q, i_d.
-/// Encoder form: the angle theta is a seventh state; measured i_q, i_d, theta.
+/// Encoder form: the angle theta is a seventh state; measured i_q, i_d, theta. Load alone: d_w, w, i_q, i_d.
 struct NodoSpec {
     NodoForm              form  = NodoForm::speed;
     int                   order = 0;
@@ -55,10 +58,14 @@ struct NodoSpec {
     std::array<double, 3> T{};
 };
 
-/// The control law; paper A's, or one of paper B's.
-enum class Law { noc, cdobc, gpiobc, hdobc, pid };
+/// The control law; paper A's, the one it compares with, or one of paper B's.
+enum class Law { noc, conventional_noc, cdobc, gpiobc, hdobc, pid };
+
+/// The laws with a controller and an observer from a state-dependent Riccati equation.
+bool is_near_optimal(Law law);
 
 const char *law_name(Law law);
+bool        is_law_name(const std::string &name);
 
 /// How paper B's observer places its poles and how it compensates.
 enum class DobcPreset {
@@ -96,11 +103,11 @@ struct Drive {
     Inverter    inverter;
     Encoder     encoder;
     Law         law = Law::noc;
-    NoscSpec    nosc; ///< nosc and nodo: noc only
+    NoscSpec    nosc; ///< nosc and nodo: laws of near optimal control
     NodoSpec    nodo;
     DobcSpec    dobc;   ///< cdobc, gpiobc, hdobc only
     PidSpec     pid;    ///< pid only
-    DAxisSpec   d_axis; ///< every law but noc
+    DAxisSpec   d_axis; ///< laws of paper B
 };
 
 constexpr int drive_schema = 1;

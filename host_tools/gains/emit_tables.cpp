@@ -156,6 +156,36 @@ std::string servo_block(const servo_law_config_t &c)
            "    },\n";
 }
 
+/// A table of EQ-DOUBLE-SERIES-1.
+std::string double_series_block(const char *name, const std::vector<const char *> &labels,
+                                int order, const float (*values)[DOUBLE_SERIES_COLUMNS])
+{
+    std::string s = fmt::format("        .{} = {{\n", name);
+    s += "                /*          omega_e_radps             iq_A             id_A */\n";
+    for (int degree = 0; degree <= order; degree++) {
+        for (int m = 0; m <= degree; m++) {
+            s += fmt::format("            /* n = {}, m = {} */\n", degree - m, m);
+            for (const char *label : labels) {
+                s += row(label, *values++);
+            }
+        }
+    }
+    return s + "        },\n";
+}
+
+std::string conventional_block(const conventional_gains_t &g)
+{
+    return fmt::format("    .conventional = {{\n        .nosc_order = {},\n"
+                       "        .nodo_order = {},\n",
+                       g.nosc_order, g.nodo_order) +
+           field("i_error_max_A", g.i_error_max_A) + field("i_max_A", g.i_max_A) +
+           field("i_certified_A", g.i_certified_A) +
+           double_series_block("lambda", {"v_q", "v_d"}, g.nosc_order, g.lambda) +
+           double_series_block("gain", {"d_w", "d_q", "d_d", "w", "iq", "id"}, g.nodo_order,
+                               g.gain) +
+           "    },\n";
+}
+
 std::string noc_summary(const Design &d)
 {
     const double worst =
@@ -165,8 +195,11 @@ std::string noc_summary(const Design &d)
     const SampledLoop &o = d.certificate.nodo;
     const char        *observer =
         d.drive.nodo.form == NodoForm::encoder ? "EQ-NODO-ENCODER-3" : "EQ-NODO-2";
-    std::string s = fmt::format(" * method     EQ-NOSC-2 with N = {}, {} with Nd = {}\n",
-                                d.drive.nosc.order, observer, d.drive.nodo.order);
+    std::string s = d.drive.law == Law::conventional_noc
+                        ? fmt::format(" * method     EQ-CONVENTIONAL-1 to 3 with N = {}, Nd = {}\n",
+                                      d.drive.nosc.order, d.drive.nodo.order)
+                        : fmt::format(" * method     EQ-NOSC-2 with N = {}, {} with Nd = {}\n",
+                                      d.drive.nosc.order, observer, d.drive.nodo.order);
     s += fmt::format(" * checked    relative residuals <= {:.0e}\n", std::max(worst, 1e-16));
     s += fmt::format(" *            controller: slowest pole {:.0f} 1/s, sampled spectral radius "
                      "{:.3f}, |e_iq| <= {:g} A\n",
@@ -229,6 +262,11 @@ std::string source_text(const Design &d)
                    "(NODO_N_Y != 3) || "
                    "\\\n    (NODO_ENCODER_N_X != 7) || (NODO_ENCODER_N_Y != 3)\n",
                    drive_schema, c.nosc.order, d.drive.nodo.order);
+    if (c.law == DRIVE_LAW_CONVENTIONAL) {
+        s.pop_back();
+        s += fmt::format(" || \\\n    (DOUBLE_SERIES_ORDER_MAX < {})\n",
+                         std::max(c.conventional.nosc_order, c.conventional.nodo_order));
+    }
     s += "#error \"gain_tables.c does not match the control core: regenerate\"\n#endif\n\n";
     s += "const drive_config_t gain_tables_drive = {\n";
     s += scalar("ts_s", c.ts_s) + scalar("trip_current_A", c.trip_current_A) +
@@ -242,10 +280,12 @@ std::string source_text(const Design &d)
              "    },\n" + dead_time_block(c.dead_time) + servo_block(c.servo);
         return s + "};\n";
     }
-    s += "    .law = DRIVE_LAW_NOC,\n";
+    const bool conventional = c.law == DRIVE_LAW_CONVENTIONAL;
+    s += fmt::format("    .law = {},\n", conventional ? "DRIVE_LAW_CONVENTIONAL" : "DRIVE_LAW_NOC");
     s += fmt::format("    .form = {},\n", encoder ? "DRIVE_FORM_ENCODER" : "DRIVE_FORM_SPEED");
     s += motor_block(c.motor) + current_ref_block(c.current_ref) + dead_time_block(c.dead_time) +
-         nosc_block(c.nosc) + observer_block(c);
+         nosc_block(c.nosc) +
+         (conventional ? conventional_block(c.conventional) : observer_block(c));
     return s + "};\n";
 }
 

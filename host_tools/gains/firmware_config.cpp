@@ -85,6 +85,37 @@ double near_e_radps(const Design &d)
     return std::min(full, trip_speed_ratio * d.drive.motor.rated_speed_e_radps);
 }
 
+/// One table of EQ-DOUBLE-SERIES-1: matrix row i of every term goes to row rows[i] of that term.
+void copy_terms(const GainSeries &from, const std::vector<int> &rows, int rows_per_term,
+                float (*to)[DOUBLE_SERIES_COLUMNS])
+{
+    for (std::size_t i = 0; i < from.gain.size(); i++) {
+        const std::vector<int> &powers = from.series.terms[i].powers;
+        const int               term =
+            double_series_index(static_cast<int16_t>(powers[0]), static_cast<int16_t>(powers[1]));
+        for (std::size_t row = 0; row < rows.size(); row++) {
+            for (int column = 0; column < DOUBLE_SERIES_COLUMNS; column++) {
+                to[term * rows_per_term + rows[row]][column] =
+                    gain_entry(from.gain[i], static_cast<Eigen::Index>(row), column);
+            }
+        }
+    }
+}
+
+/// The conventional law's tables; an observer of the load alone gets zero rows for d_q and d_d.
+void copy_conventional(const Design &d, conventional_gains_t &g)
+{
+    const bool load = d.drive.nodo.form == NodoForm::conventional_load;
+    g.nosc_order    = static_cast<int16_t>(d.drive.nosc.order);
+    g.nodo_order    = static_cast<int16_t>(d.drive.nodo.order);
+    g.i_error_max_A = single(d.certificate.nosc.series_range_A);
+    g.i_max_A       = single(d.certificate.nodo.series_range_A);
+    g.i_certified_A = single(d.certificate.nodo.range_A);
+    copy_terms(d.nosc, {0, 1}, NOSC_N_U, g.lambda);
+    copy_terms(d.nodo, load ? std::vector<int>{0, 3, 4, 5} : std::vector<int>{0, 1, 2, 3, 4, 5},
+               NODO_N_X, g.gain);
+}
+
 template <std::size_t Rows, std::size_t Columns>
 void copy_matrix(const Eigen::MatrixXd &from, float (&to)[Rows][Columns])
 {
@@ -101,9 +132,16 @@ void copy_gains(const Design &d, drive_config_t &c)
     const auto  nodo_order = static_cast<int16_t>(d.drive.nodo.order);
     const float nodo_iq_A  = single(d.certificate.nodo.series_range_A);
 
-    c.nosc.order          = static_cast<int16_t>(d.drive.nosc.order);
+    const bool conventional = d.drive.law == Law::conventional_noc;
+
+    c.nosc.order          = static_cast<int16_t>(conventional ? 0 : d.drive.nosc.order);
     c.nosc.iq_error_max_A = single(d.certificate.nosc.series_range_A);
     c.nosc.iq_speed_max_A = single(speed_current_ratio * d.drive.motor.max_current_A);
+    if (conventional) { // EQ-NOSC-3 needs Lambda_00
+        copy_matrix(d.nosc.gain[0], c.nosc.lambda[0]);
+        copy_conventional(d, c.conventional);
+        return;
+    }
     for (std::size_t n = 0; n < d.nosc.gain.size(); n++) {
         copy_matrix(d.nosc.gain[n], c.nosc.lambda[n]);
     }
@@ -224,7 +262,7 @@ drive_config_t firmware_config(const Design &d)
             single(m.max_current_A); // the application's alignment uses it
         c.servo = servo_config(d);
     } else {
-        c.law         = DRIVE_LAW_NOC;
+        c.law         = d.drive.law == Law::noc ? DRIVE_LAW_NOC : DRIVE_LAW_CONVENTIONAL;
         c.current_ref = current_ref_config(d);
         copy_gains(d, c);
     }

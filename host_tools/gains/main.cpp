@@ -12,6 +12,7 @@
 #include "emit_tables.hpp"
 #include "errors.hpp"
 #include "file_output.hpp"
+#include "order_study.hpp"
 #include "report.hpp"
 #include "tune.hpp"
 #include "version.hpp"
@@ -26,6 +27,8 @@ struct Options {
     std::string out;
     std::string check;
     std::string spec;
+    std::string csv;
+    int         highest     = 3;
     bool        json        = false;
     bool        uncertified = false;
 };
@@ -62,6 +65,17 @@ int run_report(const Options &options)
 {
     const sdre::Design design = sdre::design_drive(sdre::read_drive_file(options.drive));
     fmt::print("{}", options.json ? sdre::report_json(design) : sdre::report_text(design));
+    return exit_ok;
+}
+
+int run_orders(const Options &options)
+{
+    const sdre::OrderStudy study =
+        sdre::study_orders(sdre::read_drive_file(options.drive), options.highest);
+    if (!options.csv.empty()) {
+        sdre::write_files({{options.csv, sdre::orders_csv(study)}});
+    }
+    fmt::print("{}", options.json ? sdre::orders_json(study) : sdre::orders_text(study));
     return exit_ok;
 }
 
@@ -119,6 +133,14 @@ int run(int argc, char **argv)
     report->add_option("DRIVE", options.drive, "drive file (TOML)")->required();
     report->add_flag("--json", options.json, "one JSON object");
 
+    CLI::App *orders = app.add_subcommand(
+        "orders", "print how far every order of the two series is from the exact gains");
+    orders->add_option("DRIVE", options.drive, "drive file (TOML)")->required();
+    orders->add_option("--highest", options.highest, "highest order (default 3)")
+        ->check(CLI::Range(0, 8));
+    orders->add_option("--csv", options.csv, "write every grid point");
+    orders->add_flag("--json", options.json, "one JSON object");
+
     CLI::App *tune = app.add_subcommand(
         "tune", "find weights from physical specifications and write them to the drive file");
     tune->add_option("DRIVE", options.drive, "drive file (TOML)")->required();
@@ -139,6 +161,9 @@ int run(int argc, char **argv)
     }
     if (*generate) {
         return run_generate(options);
+    }
+    if (*orders) {
+        return run_orders(options);
     }
     if (*tune) {
         return run_tune(options);

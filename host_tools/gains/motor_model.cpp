@@ -46,33 +46,80 @@ MatrixXd nosc_input_matrix(const ReducedParameters &l)
     return B;
 }
 
+namespace {
+
+/// The products of (10) per ampere of the q current; (20) has the first alone.
+MatrixXd products_of_iq(const ReducedParameters &l)
+{
+    MatrixXd dA = MatrixXd::Zero(3, 3);
+    dA(0, 2)    = l[11];
+    dA(2, 0)    = l[9];
+    return dA;
+}
+
+/// -l10 i_d w, which paper A leaves out of its state matrices.
+MatrixXd products_of_id(const ReducedParameters &l)
+{
+    MatrixXd dA = MatrixXd::Zero(3, 3);
+    dA(1, 0)    = -l[10];
+    return dA;
+}
+
+SdreProblem error_problem(const ReducedParameters &l, const NoscSpec &spec,
+                          const std::vector<MatrixXd> &dA)
+{
+    const Eigen::Vector2d T(spec.T[0], spec.T[1]);
+    const Eigen::Vector3d Q(spec.Q[0], spec.Q[1], spec.Q[2]);
+    return {constant_part(l), dA, control_weight(nosc_input_matrix(l), T.asDiagonal()),
+            Q.asDiagonal()};
+}
+
+MatrixXd without_dq_dd(const MatrixXd &M)
+{
+    const std::vector<Eigen::Index> kept{0, 3, 4, 5};
+    return M.rows() == 3 ? MatrixXd(M(Eigen::all, kept)) : MatrixXd(M(kept, kept));
+}
+
+} // namespace
+
 SdreProblem nosc_problem(const ReducedParameters &l, const NoscSpec &spec)
 {
     MatrixXd dA = MatrixXd::Zero(3, 3);
     dA(0, 2)    = l[11]; // (20)
+    return error_problem(l, spec, {dA});
+}
 
-    const Eigen::Vector2d T(spec.T[0], spec.T[1]);
-    const Eigen::Vector3d Q(spec.Q[0], spec.Q[1], spec.Q[2]);
-    return {constant_part(l),
-            {dA},
-            control_weight(nosc_input_matrix(l), T.asDiagonal()),
-            Q.asDiagonal()};
+SdreProblem conventional_nosc_problem(const ReducedParameters &l, const NoscSpec &spec)
+{
+    return error_problem(l, spec, {products_of_iq(l), products_of_id(l)}); // EQ-CONVENTIONAL-2
 }
 
 ObserverModel nodo_model(const ReducedParameters &l, NodoForm form)
 {
     const Eigen::Index n = (form == NodoForm::encoder) ? 7 : 6;
-    ObserverModel      model{MatrixXd::Zero(n, n), MatrixXd::Zero(n, n), MatrixXd::Zero(3, n)};
+    ObserverModel      model;
+    model.A0                   = MatrixXd::Zero(n, n);
+    model.dA                   = MatrixXd::Zero(n, n);
+    model.C                    = MatrixXd::Zero(3, n);
     model.A0.block(3, 0, 3, 3) = MatrixXd::Identity(3, 3); // (34); see docs/errata.md for (35)
     model.A0.block(3, 3, 3, 3) = constant_part(l);
-    model.dA(3, 5)             = l[11];
-    model.dA(5, 3)             = l[9];
+    model.dA.block(3, 3, 3, 3) = products_of_iq(l);
     if (form == NodoForm::encoder) {
         model.A0(6, 3) = 1.0; // theta' = w
         model.C.rightCols(3).setZero();
         model.C(0, 4) = model.C(1, 5) = model.C(2, 6) = 1.0;
     } else {
         model.C.rightCols(3) = MatrixXd::Identity(3, 3);
+    }
+    if (form == NodoForm::conventional_load || form == NodoForm::conventional_all) {
+        model.dA_id                    = MatrixXd::Zero(n, n);
+        model.dA_id->block(3, 3, 3, 3) = products_of_id(l); // EQ-CONVENTIONAL-3
+    }
+    if (form == NodoForm::conventional_load) {
+        model.A0    = without_dq_dd(model.A0);
+        model.dA    = without_dq_dd(model.dA);
+        model.dA_id = without_dq_dd(*model.dA_id);
+        model.C     = without_dq_dd(model.C);
     }
     return model;
 }
@@ -83,9 +130,11 @@ SdreProblem nodo_problem(const ReducedParameters &l, const NodoSpec &spec)
     const Eigen::Vector3d T(spec.T[0], spec.T[1], spec.T[2]);
     const Eigen::VectorXd Q =
         Eigen::Map<const Eigen::VectorXd>(spec.Q.data(), static_cast<Eigen::Index>(spec.Q.size()));
-    return {model.A0.transpose(),
-            {model.dA.transpose()},
-            control_weight(model.C.transpose(), T.asDiagonal()),
+    std::vector<MatrixXd> dA{model.dA.transpose()};
+    if (model.dA_id) {
+        dA.emplace_back(model.dA_id->transpose());
+    }
+    return {model.A0.transpose(), dA, control_weight(model.C.transpose(), T.asDiagonal()),
             Q.asDiagonal()};
 }
 

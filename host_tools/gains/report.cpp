@@ -42,17 +42,23 @@ ordered_json gain_json(const GainSeries &g, const char *gain_key, const char *so
         gains.push_back(to_json(g.gain[n]));
         solutions.push_back(to_json(g.series.terms[n].X));
     }
-    return {{"order", static_cast<int>(g.gain.size()) - 1},
-            {gain_key, gains},
-            {solution_key, solutions},
-            {poles_key, to_json(g.series.care.closed_loop_eigenvalues)},
-            {"residuals", g.residuals}};
+    ordered_json out{{"order", series_order(g)},
+                     {gain_key, gains},
+                     {solution_key, solutions},
+                     {poles_key, to_json(g.series.care.closed_loop_eigenvalues)},
+                     {"residuals", g.residuals}};
+    if (g.problem.dA.size() > 1) {
+        for (const SeriesTerm &term : g.series.terms) {
+            out["powers"].push_back(term.powers);
+        }
+    }
+    return out;
 }
 
 ordered_json nodo_json(const Design &d)
 {
     ordered_json out = gain_json(d.nodo, "gain", "pi", "eigenvalues");
-    out["form"]      = d.drive.nodo.form == NodoForm::encoder ? "encoder" : "speed";
+    out["form"]      = nodo_form_name(d.drive.nodo.form);
     return out;
 }
 
@@ -87,7 +93,8 @@ std::string gain_text(const char *symbol, const GainSeries &g)
 {
     std::string s;
     for (std::size_t n = 0; n < g.gain.size(); n++) {
-        s += fmt::format("  {}_{} (relative residual {:.1e})\n", symbol, n, g.residuals[n]);
+        s += fmt::format("  {}_{} (relative residual {:.1e})\n", symbol,
+                         fmt::join(g.series.terms[n].powers, ","), g.residuals[n]);
         for (Eigen::Index i = 0; i < g.gain[n].rows(); i++) {
             s += fmt::format("    {:14.6g} {:14.6g} {:14.6g}\n", g.gain[n](i, 0), g.gain[n](i, 1),
                              g.gain[n](i, 2));
@@ -167,19 +174,25 @@ std::string servo_text(const Design &d)
            loop_text("speed", servo.speed) + loop_text("d axis", servo.d_axis);
 }
 
+std::string observer_heading(NodoForm form)
+{
+    const bool encoder = form == NodoForm::encoder;
+    return fmt::format("\nobserver (rows d_w, {}w, iq, id{}; columns measured {})\n",
+                       form == NodoForm::conventional_load ? "" : "d_q, d_d, ",
+                       encoder ? ", theta" : "", encoder ? "iq, id, theta" : "w, iq, id");
+}
+
 std::string noc_text(const Design &d)
 {
+    const bool  two = d.drive.law == Law::conventional_noc;
     std::string s =
         "\ncontroller (rows v_q, v_d; columns e_w, e_iq, e_id)\n" + gain_text("Lambda", d.nosc);
     s += "  poles" + poles_text(d.nosc.series.care.closed_loop_eigenvalues) + " 1/s\n";
-    s +=
-        (d.drive.nodo.form == NodoForm::encoder
-             ? "\nobserver (rows d_w, d_q, d_d, w, iq, id, theta; columns measured iq, id, theta)\n"
-             : "\nobserver (rows d_w, d_q, d_d, w, iq, id; columns measured w, iq, id)\n") +
-        gain_text("L", d.nodo);
+    s += observer_heading(d.drive.nodo.form) + gain_text("L", d.nodo);
     s += "  poles" + poles_text(d.nodo.series.care.closed_loop_eigenvalues) + " 1/s\n";
-    return s + "\ncertificate\n" + loop_text("controller", "e_iq", d.certificate.nosc) +
-           loop_text("observer", "iq_hat", d.certificate.nodo);
+    return s + "\ncertificate\n" +
+           loop_text("controller", two ? "e_iq and e_id" : "e_iq", d.certificate.nosc) +
+           loop_text("observer", two ? "iq_hat and id_hat" : "iq_hat", d.certificate.nodo);
 }
 
 ordered_json heading_json(const Design &d)

@@ -9,6 +9,7 @@
 
 #include "bench.hpp"
 #include "board_run.hpp"
+#include "compare.hpp"
 #include "errors.hpp"
 #include "file_output.hpp"
 #include "plot.hpp"
@@ -34,6 +35,7 @@ struct Options {
     int         seeds  = 0;
     int         motors = 1000;
     std::string failures;
+    std::string markdown;
 };
 
 /// A spectrum is a table or a picture, as its name says.
@@ -131,6 +133,29 @@ int run_scenario(const Options &options)
     return result.fault == 0 ? exit_ok : exit_fault;
 }
 
+int run_compare(const sdre::CompareRequest &request, const Options &options)
+{
+    const sdre::Comparison        comparison = sdre::compare(request);
+    std::vector<sdre::OutputFile> files;
+    if (!options.csv.empty()) {
+        files.push_back({options.csv, sdre::compare_csv(comparison)});
+    }
+    if (!options.json.empty()) {
+        files.push_back({options.json, sdre::compare_json(comparison)});
+    }
+    if (!options.markdown.empty()) {
+        files.push_back({options.markdown, sdre::compare_markdown(comparison)});
+    }
+    sdre::write_files(files);
+    fmt::print("{}", sdre::compare_markdown(comparison));
+    for (const sdre::CompareRun &r : comparison.runs) {
+        if (r.faulted > 0) {
+            return exit_fault;
+        }
+    }
+    return exit_ok;
+}
+
 int run_motors(const Options &options)
 {
     const sdre::Scenario     scenario = sdre::read_scenario_file(options.scenario);
@@ -173,6 +198,29 @@ int run(int argc, char **argv)
         ->check(CLI::IsMember({"api", "f28335"}))
         ->excludes("--seeds");
 
+    sdre::CompareRequest request;
+    CLI::App            *compare_command = app.add_subcommand(
+                   "compare", "run several drives on the same scenarios and print one table; exit code 4 when "
+                                         "one faults");
+    compare_command->add_option("SCENARIO", request.scenarios, "scenario files (TOML)")->required();
+    compare_command
+        ->add_option("--drive", request.drives,
+                     "a column of its own; again for more (default: the scenario's)")
+        ->allow_extra_args(false);
+    compare_command
+        ->add_option("--order", request.orders,
+                     "order of both series, a column of its own; again for more")
+        ->allow_extra_args(false)
+        ->check(CLI::Range(0, 8));
+    compare_command
+        ->add_option("--metric", request.metrics, "a metric by its JSON name; again for more")
+        ->allow_extra_args(false);
+    compare_command->add_option("--seeds", request.seeds, "worst of the seeds 1 .. N (default 1)")
+        ->check(CLI::Range(1, 100000));
+    compare_command->add_option("--csv", options.csv, "write the values, one row each");
+    compare_command->add_option("--json", options.json, "write the values");
+    compare_command->add_option("--markdown", options.markdown, "write the printed table");
+
     CLI::App *motors_command = app.add_subcommand(
         "motors", "run one scenario with random motors that the controller does not know");
     motors_command
@@ -193,6 +241,9 @@ int run(int argc, char **argv)
             return app.exit(e); // --help, --version
         }
         throw sdre::InputError(e.what());
+    }
+    if (compare_command->parsed()) {
+        return run_compare(request, options);
     }
     if (bench_command->parsed()) {
         fmt::print("{}", sdre::bench_text(options.scenario.empty()

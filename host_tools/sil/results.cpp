@@ -6,19 +6,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "errors.hpp"
+
 namespace sdre {
 namespace {
 
 using nlohmann::ordered_json;
 
-struct Label {
-    const char *metric;
-    const char *text;
-    double      factor;
-    const char *format;
-};
-
-constexpr Label labels[] = {
+constexpr MetricLabel labels[] = {
     {"settling_time_s", "settling time [ms]", 1e3, "{:.1f}"},
     {"dip_e_radps", "dip [rad/s el.]", 1.0, "{:.2f}"},
     {"overshoot_e_radps", "overshoot [rad/s el.]", 1.0, "{:.2f}"},
@@ -40,8 +35,8 @@ constexpr Label labels[] = {
     {"within_2_percent_s", "within 2 % [ms]", 1e3, "{:.1f}"},
     {"within_1_percent_s", "within 1 % [ms]", 1e3, "{:.1f}"}};
 
-std::string cell(const std::vector<std::pair<std::string, double>> &values, const Label &label,
-                 const char *missing)
+std::string cell(const std::vector<std::pair<std::string, double>> &values,
+                 const MetricLabel &label, const char *missing)
 {
     for (const auto &[name, value] : values) {
         if (name == label.metric) {
@@ -64,6 +59,16 @@ const std::map<std::string, double> &paper_of(const Scenario &scenario, const Me
 }
 
 } // namespace
+
+const MetricLabel &metric_label(const std::string &metric)
+{
+    for (const MetricLabel &label : labels) {
+        if (metric == label.metric) {
+            return label;
+        }
+    }
+    throw InputError(fmt::format("{} is not the name of a metric", metric));
+}
 
 std::string trace_csv(const std::vector<TraceRow> &trace)
 {
@@ -126,7 +131,7 @@ std::string result_text(const Scenario &scenario, const SimulationResult &result
         s += fmt::format("{:>16}{:>10}", m.name, paper_of(scenario, m).empty() ? "" : "paper");
     }
     s += "\n";
-    for (const Label &label : labels) {
+    for (const MetricLabel &label : labels) {
         s += fmt::format("{:<26}", label.text);
         for (const Metrics &m : metrics) {
             const auto &paper = paper_of(scenario, m);

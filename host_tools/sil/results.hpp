@@ -10,6 +10,17 @@
 
 namespace sdre {
 
+/// How a metric is shown to people.
+struct MetricLabel {
+    const char *metric;
+    const char *text; ///< with the unit
+    double      factor;
+    const char *format;
+};
+
+/// InputError for what is not the name of a metric.
+const MetricLabel &metric_label(const std::string &metric);
+
 /// Header line, then one row per control period.
 std::string trace_csv(const std::vector<TraceRow> &trace);
 

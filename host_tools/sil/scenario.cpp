@@ -97,7 +97,31 @@ std::map<std::string, double> read_paper(TomlReader t)
     return paper;
 }
 
-std::vector<Measure> read_measures(TomlReader &t)
+/// What was published for the law that runs: `paper` is of the scenario's own law, `paper_of` names others.
+std::map<std::string, double> read_published(TomlReader &entry, Law law, Law own)
+{
+    std::map<std::string, double> published;
+    if (std::optional<TomlReader> paper = entry.table_if("paper")) {
+        published = read_paper(*paper);
+    }
+    if (law != own) {
+        published.clear();
+    }
+    if (std::optional<TomlReader> others = entry.table_if("paper_of")) {
+        for (const std::string &name : others->keys()) {
+            if (!is_law_name(name) || name == law_name(own)) {
+                others->fail(name, "is not the name of another law than the scenario's");
+            }
+            const std::map<std::string, double> values = read_paper(others->table(name));
+            if (name == law_name(law)) {
+                published = values;
+            }
+        }
+    }
+    return published;
+}
+
+std::vector<Measure> read_measures(TomlReader &t, Law law, Law own)
 {
     std::vector<Measure>  measures;
     std::set<std::string> names;
@@ -109,9 +133,7 @@ std::vector<Measure> read_measures(TomlReader &t)
         if (entry.has("tail_s")) {
             m.tail_s = entry.number("tail_s", duration_range_s);
         }
-        if (std::optional<TomlReader> paper = entry.table_if("paper")) {
-            m.paper = read_paper(*paper);
-        }
+        m.paper = read_published(entry, law, own);
         entry.reject_unknown_keys();
         if (!names.insert(m.name).second) {
             entry.fail("name", fmt::format("= \"{}\" is used twice", m.name));
@@ -276,6 +298,18 @@ double StepCursor::at(double time_s)
     return value_;
 }
 
+namespace {
+
+/// The law of the drive that the scenario names, where another may stand in for it.
+Law own_law(TomlReader &t, const std::filesystem::path &file, const Drive &used,
+            const std::filesystem::path &instead)
+{
+    return instead.empty() ? used.law
+                           : read_drive_file(scenario_drive_path(file, t.text("drive"))).law;
+}
+
+} // namespace
+
 Scenario read_scenario_file(const std::filesystem::path &file, const std::filesystem::path &drive)
 {
     const toml::table root = parse_toml_file(file);
@@ -283,6 +317,7 @@ Scenario read_scenario_file(const std::filesystem::path &file, const std::filesy
     Scenario          s;
     s.name                = file.stem().string();
     s.drive               = read_drive(t, file, drive);
+    const Law         own = own_law(t, file, s.drive, drive);
     const std::string law = law_name(s.drive.law);
     if (t.text_or("law", law) != law) {
         t.fail("law",
@@ -307,7 +342,7 @@ Scenario read_scenario_file(const std::filesystem::path &file, const std::filesy
     read_load(t, s);
     read_board(t, s);
     s.changes  = read_changes(t, s);
-    s.measures = read_measures(t);
+    s.measures = read_measures(t, s.drive.law, own);
     if (!s.measures.empty() && s.measures.back().time_s >= s.duration_s) {
         t.fail("measure", fmt::format("\"{}\": time_s must be before duration_s = {:g}",
                                       s.measures.back().name, s.duration_s));

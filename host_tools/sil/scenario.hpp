@@ -38,7 +38,7 @@ struct Measure {
     double      time_s =
         0.0; ///< the event; the window ends at the next measure or at the end of the run
     double band_e_radps = 0.0; ///< settled when the speed stays this close to the final reference
-    std::map<std::string, double> paper; ///< published values by metric name, printed beside ours
+    std::map<std::string, double> paper; ///< published for this drive's law, by metric name
     std::optional<double>         tail_s =
         std::nullopt; ///< the steady part; the window's last fifth unless given
 };

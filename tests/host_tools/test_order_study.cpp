@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "design.hpp"
+#include "order_study.hpp"
+#include "temp_dir.hpp"
+
+namespace {
+
+const std::string drives = std::string(SDRE_SOURCE_DIR) + "/firmware/config/drives/";
+
+sdre::Drive shipped(const std::string &name)
+{
+    return sdre::read_drive_file(drives + name + ".toml");
+}
+
+} // namespace
+
+TEST(OrderStudy, ErrorsAreThoseOfTheGainAgainstTheExactSolution)
+{
+    const sdre::Drive      drive = shipped("ipmsm_390w_speed");
+    const sdre::OrderStudy study = sdre::study_orders(drive, 3);
+    ASSERT_EQ(study.loops.size(), 2U);
+    sdre::Drive cubic = drive;
+    cubic.nosc.order = cubic.nodo.order = 3;
+    const sdre::Design d                = sdre::design_drive(cubic);
+    for (std::size_t i = 0; i < 2; i++) {
+        const sdre::GainSeries &g    = i == 0 ? d.nosc : d.nodo;
+        const sdre::LoopOrders &loop = study.loops[i];
+        EXPECT_EQ(loop.lyapunov, (std::vector<int>{0, 1, 2, 3}));
+        EXPECT_EQ(loop.within_A.front(), 0.0);
+        EXPECT_EQ(loop.within_A.back(), 8.0);
+        for (std::size_t order = 0; order < 4; order++) {
+            double worst = 0.0; // at 2 A the error is largest at an end of the range or inside it
+            for (int k = -16; k <= 16; k++) {
+                const double          s = 0.125 * k;
+                const Eigen::MatrixXd exact =
+                    g.left * sdre::solve_sdre_exact(g.problem, {s}).X * g.right;
+                Eigen::MatrixXd K = Eigen::MatrixXd::Zero(exact.rows(), exact.cols());
+                for (std::size_t n = 0; n <= order; n++) {
+                    K += std::pow(s, n) * g.gain[n];
+                }
+                worst = std::max(worst, (K - exact).norm() / exact.norm());
+            }
+            EXPECT_NEAR(loop.errors[order][16] / worst, 1.0, 1e-9) << loop.name << order;
+            EXPECT_TRUE(std::is_sorted(loop.errors[order].begin(), loop.errors[order].end()));
+        }
+        EXPECT_LT(loop.errors[3][16], loop.errors[0][16]);
+    }
+}
+
+TEST(OrderStudy, TwoVariablesCountTheirEquations)
+{
+    const sdre::OrderStudy study = sdre::study_orders(shipped("ipmsm_390w_conventional"), 3);
+    for (const sdre::LoopOrders &loop : study.loops) {
+        EXPECT_EQ(loop.lyapunov, (std::vector<int>{0, 2, 5, 9}));
+    }
+}
+
+TEST(OrderStudy, CommandPrintsAndWrites)
+{
+    const support::TempDir dir;
+    const auto r = support::run_command({SDRE_GAINS_EXE, "orders", drives + "ipmsm_390w.toml",
+                                         "--highest", "1", "--csv", dir / "o.csv"});
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    for (const char *piece : {"controller", "observer", "order 1", "8 A"}) {
+        EXPECT_NE(r.out.find(piece), std::string::npos) << piece;
+    }
+    EXPECT_EQ(r.out.find("order 2"), std::string::npos);
+    const std::string csv = support::read_file(dir / "o.csv");
+    EXPECT_EQ(csv.rfind("loop,order,within_A,error\n", 0), 0U);
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 2 * 64);
+    const auto json = support::run_command(
+        {SDRE_GAINS_EXE, "orders", drives + "ipmsm_390w.toml", "--highest", "0", "--json"});
+    EXPECT_EQ(nlohmann::json::parse(json.out).at("loops").at("observer").at("errors").size(), 1U);
+}
+
+TEST(OrderStudy, LawsWithoutASeriesAreRefused)
+{
+    support::expect_refused(
+        support::run_command({SDRE_GAINS_EXE, "orders", drives + "servo_200w_pid.toml"}), 1,
+        "sdre-gains", {"pid", "has no series"});
+    support::expect_refused(support::run_command({SDRE_GAINS_EXE, "orders",
+                                                  drives + "ipmsm_390w.toml", "--highest", "9"}),
+                            1, "sdre-gains", {"--highest"});
+}
