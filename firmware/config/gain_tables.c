@@ -3,9 +3,15 @@
 /* clang-format off */
 #include "gain_tables.h"
 
-#if (GAIN_TABLES_SCHEMA != 1) || (NOSC_ORDER_MAX < 2) || (NOSC_N_U != 2) || (NOSC_N_E != 3) || \
-    (NODO_ORDER_MAX < 2) || (NODO_N_X != 6) || (NODO_N_Y != 3) || \
-    (NODO_ENCODER_N_X != 7) || (NODO_ENCODER_N_Y != 3)
+#if (GAIN_TABLES_SCHEMA != 1) || \
+    (NOSC_ORDER_MAX < 2) || \
+    (NOSC_N_U != 2) || \
+    (NOSC_N_E != 3) || \
+    (NODO_ORDER_MAX < 2) || \
+    (NODO_N_X != 6) || \
+    (NODO_N_Y != 3) || \
+    (NODO_ENCODER_N_X != 7) || \
+    (NODO_ENCODER_N_Y != 3)
 #error "gain_tables.c does not match the control core: regenerate"
 #endif
 

@@ -9,6 +9,7 @@
 #ifndef BASE_H
 #define BASE_H
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -57,6 +58,12 @@ static inline float base_clamp(float x, float lo, float hi)
 static inline bool base_in_range(float x, float lo, float hi)
 {
     return (x >= lo) && (x <= hi);
+}
+
+/** true when |x| <= limit, in one comparison; false for NaN. */
+static inline bool base_within(float x, float limit)
+{
+    return fabsf(x) <= limit;
 }
 
 /** The smaller one; b when a is NaN. */

@@ -164,7 +164,8 @@ void current_ref_update(current_ref_t *r, const current_ref_config_t *c, const m
     r->i_A.d += c->filter_per_period * id_step_A;
 
     limit_iq(r, c, m, &v, accel, in);
-    r->i_A.q = base_clamp(iq_A, r->iq_lo_A, r->iq_hi_A);
-    r->i_dot_Aps.q =
-        base_in_range(iq_A, r->iq_lo_A, r->iq_hi_A) ? (inv * w->omega_2dot_e_radps3) : 0.0f;
+    r->i_A.q       = base_clamp(iq_A, r->iq_lo_A, r->iq_hi_A);
+    r->i_dot_Aps.q = base_in_range(iq_A, r->iq_lo_A, r->iq_hi_A)
+                         ? (inv * (w->omega_2dot_e_radps3 - in->d_omega_dot))
+                         : 0.0f;
 }

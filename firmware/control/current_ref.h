@@ -3,7 +3,7 @@
  * @file current_ref.h
  * @brief Current references: maximum torque per ampere, flux weakening, and the torque they leave.
  *
- *     iq_ref  = (l2 w_d + w_d' - d_w) / (l1 + l11 id),  iq_ref' = w_d'' / (l1 + l11 id)
+ *     iq_ref  = (l2 w_d + w_d' - d_w) / (l1 + l11 id),  iq_ref' = (w_d'' - d_w') / (l1 + l11 id)
  *                                                                           EQ-CURRENT-REF-1, paper A (40)
  *     id_mtpa = -iq^2 / (k + sqrt(k^2 + iq^2)),  k = l5 / (2 (1 - l10))     EQ-CURRENT-REF-2, for (7b)
  *     (speed form: its second-order term -iq^2 / (2 k), as the paper prints it)
@@ -53,11 +53,12 @@ typedef struct {
 
 /** What the references are made of, all of one instant. */
 typedef struct {
-    const nodo_t      *est;        /**< disturbance estimates */
-    const nodo_meas_t *state;      /**< speed and currents */
-    float              iq_speed_A; /**< q current that the speed feedback asks for on top */
-    float              dc_link_V;  /**< measured dc link */
-    float              v_max_V;    /**< radius of the voltage circle, > 0 */
+    const nodo_t      *est;         /**< disturbance estimates */
+    const nodo_meas_t *state;       /**< speed and currents */
+    float              iq_speed_A;  /**< q current that the speed feedback asks for on top */
+    float              dc_link_V;   /**< measured dc link */
+    float              v_max_V;     /**< radius of the voltage circle, > 0 */
+    float              d_omega_dot; /**< d_w' [rad/s^3]; 0 when nothing is known of it */
 } current_ref_input_t;
 
 /** References and derivatives start at zero current, the range at nothing. */

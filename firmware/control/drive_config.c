@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "drive_config.h"
 
+#include <math.h>
+#include <stddef.h>
+
 /* Beyond any physical constant of a drive, and far enough from FLT_MAX that products stay finite. */
 #define LARGEST 1.0e12f
+/* Harmonics beyond this have no angle left at any speed that a drive runs at. */
+#define ORDER_MAX 1.0e3f
 
 static bool is_positive(float x)
 {
@@ -86,6 +91,29 @@ static bool nodo_encoder_ok(const nodo_encoder_gains_t *g)
     return true;
 }
 
+static bool nodo_harmonic_ok(const nodo_harmonic_gains_t *g)
+{
+    if ((g == NULL) || (g->n_pairs < 0) || (g->n_pairs > NODO_HARMONIC_PAIRS_MAX) ||
+        (g->n_nodes < 2) || (g->n_nodes > NODO_HARMONIC_NODES_MAX)) {
+        return false;
+    }
+    const int16_t rows = (int16_t)(NODO_HARMONIC_N_BASE + (2 * g->n_pairs));
+    for (int16_t node = 0; node < g->n_nodes; node++) {
+        for (int16_t row = 0; row < rows; row++) {
+            if (!all_finite(g->gain[node][row], NODO_HARMONIC_N_G)) {
+                return false;
+            }
+        }
+    }
+    for (int16_t i = 0; i < g->n_pairs; i++) {
+        if (!base_in_range(fabsf(g->pair[i].order), 0.0f, ORDER_MAX)) {
+            return false;
+        }
+    }
+    return is_positive(g->iq_max_A) && is_positive(g->nodes_per_root) && is_positive(g->keep) &&
+           (g->keep <= 1.0f) && is_positive(g->keep_fast) && (g->keep_fast <= 1.0f);
+}
+
 static bool dobc_ok(const dobc_config_t *c)
 {
     if ((c->n_x < 1) || (c->n_x > DOBC_N_X_MAX)) {
@@ -135,9 +163,9 @@ static bool conventional_ok(const drive_config_t *c)
 {
     const conventional_gains_t *g = &c->conventional;
 
-    return current_ref_ok(&c->current_ref) && nosc_ok(&c->nosc) && order_ok(g->nosc_order) &&
-           order_ok(g->nodo_order) && is_positive(g->i_error_max_A) && is_positive(g->i_max_A) &&
-           base_in_range(g->i_certified_A, g->i_max_A, LARGEST) &&
+    return (c->form == DRIVE_FORM_SPEED) && current_ref_ok(&c->current_ref) && nosc_ok(&c->nosc) &&
+           order_ok(g->nosc_order) && order_ok(g->nodo_order) && is_positive(g->i_error_max_A) &&
+           is_positive(g->i_max_A) && base_in_range(g->i_certified_A, g->i_max_A, LARGEST) &&
            rows_ok(g->lambda, NOSC_N_U, g->nosc_order) && rows_ok(g->gain, NODO_N_X, g->nodo_order);
 }
 
@@ -149,9 +177,16 @@ static bool noc_ok(const drive_config_t *c)
     return current_ref_ok(&c->current_ref) && nosc_ok(&c->nosc) && observer_ok;
 }
 
+static bool noc_h_ok(const drive_config_t *c)
+{
+    return current_ref_ok(&c->current_ref) && nosc_ok(&c->nosc) &&
+           (c->form == DRIVE_FORM_ENCODER) && nodo_harmonic_ok(c->nodo_harmonic);
+}
+
 static bool law_ok(const drive_config_t *c)
 {
     return (drive_config_is(c, DRIVE_LAW_NOC) && noc_ok(c)) ||
+           (drive_config_is(c, DRIVE_LAW_NOC_H) && noc_h_ok(c)) ||
            (drive_config_is(c, DRIVE_LAW_CONVENTIONAL) && conventional_ok(c)) ||
            (drive_config_is(c, DRIVE_LAW_SERVO) && servo_ok(&c->servo));
 }

@@ -13,12 +13,14 @@
 #include "motor.h"
 #include "nodo.h"
 #include "nodo_encoder.h"
+#include "nodo_harmonic.h"
 #include "nosc.h"
 #include "servo_law.h"
 
 /** What turns samples into a voltage. */
 typedef enum {
     DRIVE_LAW_NOC = 0,     /**< paper A: observer, references, state feedback */
+    DRIVE_LAW_NOC_H,       /**< the same in the encoder form with nodo_harmonic.h as its observer */
     DRIVE_LAW_SERVO,       /**< paper B: one of the laws of servo_law.h */
     DRIVE_LAW_CONVENTIONAL /**< what paper A compares with: conventional.h in place of nosc and nodo */
 } drive_law_t;
@@ -63,6 +65,8 @@ typedef struct {
     nodo_gains_t         nodo;
     nodo_encoder_gains_t nodo_encoder;
     servo_law_config_t   servo;
+    const nodo_harmonic_gains_t
+                        *nodo_harmonic; /**< DRIVE_LAW_NOC_H, which needs DRIVE_FORM_ENCODER */
     conventional_gains_t conventional;
 } drive_config_t;
 

@@ -68,12 +68,15 @@ typedef struct {
     drive_fault_t         fault;
     nodo_t                observer;
     float                 theta_hat_rad; /**< encoder form: angle that belongs to observer */
-    nodo_meas_t           now; /**< what the law acts on: measured, or predicted (encoder form) */
-    speed_ref_t           speed_ref;
-    current_ref_t         current_ref;
-    servo_law_t           servo; /**< DRIVE_LAW_SERVO only */
-    dq_t                  v_V;   /**< limited voltage computed last; in force from the next tick */
-    bool                  v_limited; /**< v_V was limited */
+    nodo_harmonic_t
+                  harmonic; /**< DRIVE_LAW_NOC_H only: observer is then what the law needs of it */
+    float         d_omega_dot; /**< d_w' as far as it is known [rad/s^3] */
+    nodo_meas_t   now;         /**< what the law acts on: measured, or predicted (encoder form) */
+    speed_ref_t   speed_ref;
+    current_ref_t current_ref;
+    servo_law_t   servo;     /**< DRIVE_LAW_SERVO only */
+    dq_t          v_V;       /**< limited voltage computed last; in force from the next tick */
+    bool          v_limited; /**< v_V was limited */
 } drive_t;
 
 /**
