@@ -9,6 +9,7 @@
 #include "core_types.hpp"
 #include "dobc_design.hpp"
 #include "drive_file.hpp"
+#include "harmonic_design.hpp"
 #include "motor_model.hpp"
 #include "series_error.hpp"
 #include "servo_loop.hpp"
@@ -46,14 +47,25 @@ struct ServoDesign {
     LoopCheck                 d_axis;
 };
 
+/// How the loop of noc_h behaves from standstill to the trip speed, over the observer's current range.
+struct HarmonicCheck {
+    double    spectral_radius     = 0.0; ///< worst, at:
+    double    worst_speed_e_radps = 0.0;
+    double    worst_iq_A          = 0.0;
+    double    worst_residual      = 0.0; ///< of all Riccati and Lyapunov equations
+    LoopCheck speed_loop;                ///< sensitivity at the weights' speed, no load
+};
+
 struct Design {
-    Drive             drive;
-    ReducedParameters l{};
-    GainSeries nosc; ///< nosc and nodo, also in the certificate: laws of near optimal control
-    GainSeries nodo;
-    std::optional<ServoDesign> servo;    ///< every other law
-    drive_config_t             config{}; ///< what the firmware gets, in its own single precision
-    Certificate                certificate;
+    Drive                         drive;
+    ReducedParameters             l{};
+    GainSeries                    nosc; ///< and in the certificate: laws of near optimal control
+    GainSeries                    nodo; ///< the same, but for noc_h
+    std::optional<HarmonicDesign> harmonics; ///< noc_h only
+    HarmonicCheck                 harmonic_check;
+    std::optional<ServoDesign>    servo;    ///< laws of paper B
+    drive_config_t                config{}; ///< what the firmware gets, in its own single precision
+    Certificate                   certificate;
 };
 
 /// Relative residual above which a solution is refused.

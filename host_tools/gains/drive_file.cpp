@@ -27,10 +27,14 @@ constexpr Range dc_link_V{1.0, 1e4};
 constexpr Range pwm_frequency_Hz{1e3, 1e5};
 constexpr Range dead_time_s{0.0, 2e-5};
 constexpr Range encoder_lines{1, 1e6};
+constexpr Range slots{3, 1000};
+constexpr Range sensor_order{1.0, 2.0};
+constexpr Range slot_multiple{1.0, 3.0};
+constexpr Range leak_1ps{1e-3, 1e2};
 constexpr Range series_order{0, 8};
 constexpr Range double_series_order{0, DOUBLE_SERIES_ORDER_MAX};
 constexpr Range state_weight{0.0, 1e15};
-constexpr Range input_weight{1e-12, 1e12};
+constexpr Range input_weight{1e-18, 1e12};
 constexpr Range polynomial_order{1, 3};
 constexpr Range harmonic_order{1.0, 1e3};
 constexpr Range pole_1ps{1.0, 1e5};
@@ -57,6 +61,9 @@ Motor read_motor(TomlReader t)
     m.rated_speed_e_radps   = t.number("rated_speed_e_radps", speed_e_radps);
     m.rated_torque_Nm       = t.number("rated_torque_Nm", torque_Nm);
     m.max_current_A         = t.number("max_current_A", current_A);
+    if (t.has("slots")) {
+        m.slots = t.integer("slots", slots);
+    }
     t.reject_unknown_keys();
     if (m.d_axis_inductance_H > m.q_axis_inductance_H) {
         t.fail("d_axis_inductance_H",
@@ -139,8 +146,9 @@ const std::map<std::string, Law> &laws()
 {
     static const std::map<std::string, Law> names{
         {"noc", Law::noc},     {"conventional_noc", Law::conventional_noc},
-        {"cdobc", Law::cdobc}, {"gpiobc", Law::gpiobc},
-        {"hdobc", Law::hdobc}, {"pid", Law::pid}};
+        {"noc_h", Law::noc_h}, {"cdobc", Law::cdobc},
+        {"hdobc", Law::hdobc}, {"gpiobc", Law::gpiobc},
+        {"pid", Law::pid}};
     return names;
 }
 
@@ -150,7 +158,7 @@ Law read_law(TomlReader &t)
     const auto        found = laws().find(name);
     if (found == laws().end()) {
         t.fail("law",
-               fmt::format("= \"{}\" is not allowed: must be \"noc\", "
+               fmt::format("= \"{}\" is not allowed: must be \"noc\", \"noc_h\", "
                            "\"conventional_noc\", \"cdobc\", \"gpiobc\", \"hdobc\" or \"pid\"",
                            name));
     }
@@ -214,6 +222,42 @@ DAxisSpec read_d_axis(TomlReader t)
     return spec;
 }
 
+HarmonicSpec read_harmonic_spec(TomlReader t, const Motor &motor)
+{
+    const auto orders = [&t](const char *key, const Range &allowed) {
+        return t.has(key) ? t.numbers(key, {1, 2, 3}, allowed) : std::vector<double>{};
+    };
+    HarmonicSpec spec;
+    spec.sensor  = orders("sensor", sensor_order);
+    spec.voltage = orders("voltage", harmonic_order);
+    spec.cogging = orders("cogging", slot_multiple);
+    if (!spec.cogging.empty() && motor.slots == 0) {
+        t.fail("cogging", "needs [motor] slots");
+    }
+    spec.cogging_voltage_weight   = t.number_or("cogging_voltage_weight", state_weight, 0.0);
+    const std::size_t per_cogging = spec.cogging_voltage_weight > 0.0 ? 2 : 1;
+    const std::size_t pairs =
+        spec.sensor.size() + 2 * spec.voltage.size() + per_cogging * spec.cogging.size();
+    if (pairs > NODO_HARMONIC_PAIRS_MAX) {
+        t.fail(
+            "voltage",
+            fmt::format(
+                "is not allowed: {} pairs in all, the firmware holds {}; a voltage order takes two",
+                pairs, NODO_HARMONIC_PAIRS_MAX));
+    }
+    const auto weight = [&t](const char *key, const std::vector<double> &of) {
+        return of.empty() ? 0.0 : t.number(key, state_weight);
+    };
+    spec.sensor_weight        = weight("sensor_weight", spec.sensor);
+    spec.voltage_weight       = weight("voltage_weight", spec.voltage);
+    spec.cogging_weight       = weight("cogging_weight", spec.cogging);
+    spec.slope_weight         = t.number_or("slope_weight", {0.0, 1e20}, 0.0);
+    spec.weight_speed_e_radps = t.number("weight_speed_e_radps", speed_e_radps);
+    spec.leak_1ps             = t.number("leak_1ps", leak_1ps);
+    t.reject_unknown_keys();
+    return spec;
+}
+
 /// The sections that belong to the law; the sections of the others are unknown keys.
 void read_law_sections(TomlReader &t, Drive &drive)
 {
@@ -222,6 +266,17 @@ void read_law_sections(TomlReader &t, Drive &drive)
         drive.nosc = read_nosc(t.table("nosc"), conventional ? double_series_order : series_order);
         drive.nodo =
             conventional ? read_conventional_nodo(t.table("nodo")) : read_nodo(t.table("nodo"));
+        if (drive.law != Law::noc_h) {
+            return;
+        }
+        drive.harmonics = read_harmonic_spec(t.table("harmonics"), drive.motor);
+        if (drive.nodo.form != NodoForm::encoder) {
+            t.fail("[nodo] form", "is not allowed: noc_h needs \"encoder\"");
+        }
+        if (drive.nodo.order != 1) {
+            t.fail("[nodo] order",
+                   fmt::format("= {} is not allowed: must be 1 with noc_h", drive.nodo.order));
+        }
         return;
     }
     drive.d_axis = read_d_axis(t.table("d_axis"));
@@ -249,6 +304,22 @@ std::string normalised_weights(const Drive &d)
         s += fmt::format("{:.17g};", x);
     }
     return s;
+}
+
+std::string normalised_harmonics(const Drive &d)
+{
+    const HarmonicSpec &h = d.harmonics;
+    std::string         s = fmt::format("{};", law_name(d.law));
+    for (const auto *orders : {&h.sensor, &h.voltage, &h.cogging}) {
+        for (const double order : *orders) {
+            s += fmt::format("{:.17g};", order);
+        }
+        s += "|";
+    }
+    return s + fmt::format("{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{};",
+                           h.sensor_weight, h.voltage_weight, h.cogging_weight,
+                           h.cogging_voltage_weight, h.slope_weight, h.weight_speed_e_radps,
+                           h.leak_1ps, d.motor.slots);
 }
 
 std::string normalised_servo(const Drive &d)
@@ -283,6 +354,9 @@ std::string normalised(const Drive &d)
                      i.dead_time_s, i.updates_per_period, d.encoder.lines);
     s += i.dead_time_compensation ? "compensated;" : "uncompensated;";
     s += i.overmodulation ? "hexagon;" : "circle;";
+    if (d.law == Law::noc_h) {
+        return s + normalised_weights(d) + normalised_harmonics(d);
+    }
     return s + (is_near_optimal(d.law) ? normalised_weights(d) : normalised_servo(d));
 }
 
@@ -320,7 +394,7 @@ Drive read_drive_file(const std::filesystem::path &file)
 
 bool is_near_optimal(Law law)
 {
-    return law == Law::noc || law == Law::conventional_noc;
+    return law == Law::noc || law == Law::noc_h || law == Law::conventional_noc;
 }
 
 const char *nodo_form_name(NodoForm form)

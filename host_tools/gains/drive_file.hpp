@@ -21,6 +21,7 @@ struct Motor {
     double rated_speed_e_radps   = 0.0; ///< electrical
     double rated_torque_Nm       = 0.0;
     double max_current_A         = 0.0; ///< peak of the phase current
+    int    slots = 0; ///< stator slots, periods of cogging per turn; 0 when not given
 };
 
 struct Inverter {
@@ -58,8 +59,8 @@ struct NodoSpec {
     std::array<double, 3> T{};
 };
 
-/// The control law; paper A's, the one it compares with, or one of paper B's.
-enum class Law { noc, conventional_noc, cdobc, gpiobc, hdobc, pid };
+/// The control law; paper A's, the same with a harmonic observer, the one paper A compares with, or one of paper B's.
+enum class Law { noc, noc_h, conventional_noc, cdobc, gpiobc, hdobc, pid };
 
 /// The laws with a controller and an observer from a state-dependent Riccati equation.
 bool is_near_optimal(Law law);
@@ -97,17 +98,35 @@ struct DAxisSpec {
     double integral_V_per_As    = 0.0;
 };
 
+/// What noc_h's observer knows of repeating disturbances; weights are those of the observer's Q.
+struct HarmonicSpec {
+    std::vector<double>
+        sensor; ///< electrical orders of current-sensor errors: 1 offset, 2 unequal gains
+    std::vector<double> voltage; ///< electrical orders in d_q and d_d: 6 dead time
+    std::vector<double> cogging; ///< multiples of the motor's slots
+    double              sensor_weight  = 0.0;
+    double              voltage_weight = 0.0;
+    double              cogging_weight = 0.0;
+    double              cogging_voltage_weight =
+        0.0; ///< of the q voltage that the dead time makes of the cogging's current; 0: none
+    double slope_weight = 0.0; ///< of d_w'; 0 leaves the state out
+    double weight_speed_e_radps =
+        0.0; ///< the pairs' weights hold from here on, below they fall with its square
+    double leak_1ps = 0.0; ///< decay of every pair
+};
+
 struct Drive {
-    std::string name;
-    Motor       motor;
-    Inverter    inverter;
-    Encoder     encoder;
-    Law         law = Law::noc;
-    NoscSpec    nosc; ///< nosc and nodo: laws of near optimal control
-    NodoSpec    nodo;
-    DobcSpec    dobc;   ///< cdobc, gpiobc, hdobc only
-    PidSpec     pid;    ///< pid only
-    DAxisSpec   d_axis; ///< laws of paper B
+    std::string  name;
+    Motor        motor;
+    Inverter     inverter;
+    Encoder      encoder;
+    Law          law = Law::noc;
+    NoscSpec     nosc; ///< nosc and nodo: laws of near optimal control
+    NodoSpec     nodo;
+    HarmonicSpec harmonics; ///< noc_h only
+    DobcSpec     dobc;      ///< cdobc, gpiobc, hdobc only
+    PidSpec      pid;       ///< pid only
+    DAxisSpec    d_axis;    ///< laws of paper B
 };
 
 constexpr int drive_schema = 1;

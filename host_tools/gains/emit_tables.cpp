@@ -10,180 +10,43 @@
 
 #include "errors.hpp"
 #include "file_output.hpp"
+#include "table_blocks.hpp"
 #include "version.hpp"
 
 namespace sdre {
 namespace {
 
-constexpr const char *header_name = "gain_tables.h";
-constexpr const char *source_name = "gain_tables.c";
+constexpr const char *header_name   = "gain_tables.h";
+constexpr const char *source_name   = "gain_tables.c";
+constexpr const char *harmonic_name = "harmonic_gains"; // of the table beside the configuration
 // Gains computed by different compilers agree far better; a real difference is far larger.
 constexpr double check_relative = 1e-6;
 constexpr double check_absolute = 1e-12;
 
-std::string number(float x)
+std::string controller_summary(const SampledLoop &c)
 {
-    return fmt::format("{:.8e}f",
-                       static_cast<double>(x)); // nine digits round-trip single precision
+    return fmt::format(" *            controller: slowest pole {:.0f} 1/s, sampled spectral radius "
+                       "{:.3f}, |e_iq| <= {:g} A\n",
+                       c.worst_pole_1ps, c.spectral_radius, c.range_A);
 }
 
-std::string field(const std::string &name, float value)
+std::string noc_h_summary(const Design &d)
 {
-    return fmt::format("        .{} = {},\n", name, number(value));
-}
-
-std::string scalar(const std::string &name, float value)
-{
-    return fmt::format("    .{} = {},\n", name, number(value));
-}
-
-template <std::size_t N> std::string row(const char *label, const float (&values)[N])
-{
-    std::string s = fmt::format("                /* {:<4}*/ {{", label);
-    for (std::size_t i = 0; i < N; i++) {
-        s += fmt::format("{}{:>16}", i == 0 ? " " : ", ", number(values[i]));
-    }
-    return s + " },\n";
-}
-
-std::string motor_block(const motor_reduced_t &m)
-{
-    return "    .motor = {\n" + field("l1", m.l1) + field("l2", m.l2) + field("l3", m.l3) +
-           field("l4", m.l4) + field("l5", m.l5) + field("l6", m.l6) + field("l7", m.l7) +
-           field("l8", m.l8) + field("l9", m.l9) + field("l10", m.l10) + field("l11", m.l11) +
-           field("inv_l6", m.inv_l6) + field("inv_l8", m.inv_l8) + "    },\n";
-}
-
-std::string current_ref_block(const current_ref_config_t &c)
-{
-    return "    .current_ref = {\n" + field("current_max_A", c.current_max_A) +
-           field("iq_max_A", c.iq_max_A) + field("mtpa_A", c.mtpa_A) +
-           fmt::format("        .mtpa_exact = {},\n", c.mtpa_exact) +
-           field("voltage_share", c.voltage_share) + field("torque_share", c.torque_share) +
-           field("near_e_radps", c.near_e_radps) + field("l1_min", c.l1_min) +
-           field("filter_per_period", c.filter_per_period) + field("filter_1ps", c.filter_1ps) +
-           field("regen_max_W_norm", c.regen_max_W_norm) + field("regen_start_V", c.regen_start_V) +
-           field("regen_per_V", c.regen_per_V) + "    },\n";
-}
-
-std::string dead_time_block(const dead_time_config_t &c)
-{
-    return "    .dead_time = {\n" + field("share", c.share) +
-           field("inv_fade_1pA", c.inv_fade_1pA) + "    },\n";
-}
-
-std::string nosc_block(const nosc_gains_t &g)
-{
-    std::string s = fmt::format("    .nosc = {{\n        .order = {},\n", g.order);
-    s += field("iq_error_max_A", g.iq_error_max_A) + field("iq_speed_max_A", g.iq_speed_max_A) +
-         "        .lambda = {\n";
-    for (int n = 0; n <= g.order; n++) {
-        s += fmt::format("            {{ /* n = {} */\n", n);
-        s += "                /*          omega_e_radps             iq_A             id_A */\n";
-        s += row("v_q", g.lambda[n][0]) + row("v_d", g.lambda[n][1]) + "            },\n";
-    }
-    return s + "        },\n    },\n";
-}
-
-/// The observer block of either form; Rows is 6 or 7.
-template <std::size_t Rows>
-std::string nodo_block(const char *name, const char *columns, int order, const std::string &ranges,
-                       const float (&gain)[NODO_ORDER_MAX + 1][Rows][3])
-{
-    const char *labels[] = {"d_w", "d_q", "d_d", "w", "iq", "id", "theta"};
-    std::string s        = fmt::format("    .{} = {{\n        .order = {},\n", name, order);
-    s += ranges + "        .gain = {\n";
-    for (int n = 0; n <= order; n++) {
-        s += fmt::format("            {{ /* n = {} */\n", n);
-        s += fmt::format("                /*          {} */\n", columns);
-        for (std::size_t i = 0; i < Rows; i++) {
-            s += row(labels[i], gain[n][i]);
-        }
-        s += "            },\n";
-    }
-    return s + "        },\n    },\n";
-}
-
-std::string observer_block(const drive_config_t &c)
-{
-    if (c.form == DRIVE_FORM_ENCODER) {
-        const nodo_encoder_gains_t &g = c.nodo_encoder;
-        return nodo_block("nodo_encoder", "           iq_A             id_A      theta_e_rad",
-                          g.order, field("iq_max_A", g.iq_max_A), g.gain);
-    }
-    return nodo_block("nodo", "omega_e_radps             iq_A             id_A", c.nodo.order,
-                      field("iq_max_A", c.nodo.iq_max_A) +
-                          field("iq_certified_A", c.nodo.iq_certified_A),
-                      c.nodo.gain);
-}
-
-template <std::size_t N> std::string list(const float (&values)[N], int count)
-{
-    std::string s = "{";
-    for (int i = 0; i < count; i++) {
-        s += fmt::format("{}{:>16}", i == 0 ? " " : ", ", number(values[i]));
-    }
-    return s + " }";
-}
-
-std::string pid_block(const char *name, const pid_law_config_t &c)
-{
-    return fmt::format("        .{} = {{ .kp = {}, .ki_per_tick = {}, .kd_tick = {} }},\n", name,
-                       number(c.kp), number(c.ki_per_tick), number(c.kd_tick));
-}
-
-std::string dobc_block(const dobc_config_t &c)
-{
-    std::string s = fmt::format("        .dobc = {{\n            .n_x = {},\n", c.n_x);
-    s += fmt::format("            .direct_Vs = {},\n            .ld_H = {},\n"
-                     "            .k_omega_Vs = {},\n",
-                     number(c.direct_Vs), number(c.ld_H), number(c.k_omega_Vs));
-    s += fmt::format("            .k_x = {},\n            .m = {{\n", list(c.k_x, c.n_x));
-    for (int i = 0; i < c.n_x; i++) {
-        s += fmt::format("                {},\n", list(c.m[i], c.n_x));
-    }
-    return s +
-           fmt::format("            }},\n            .g = {},\n            .h = {},\n        }},\n",
-                       list(c.g, c.n_x), list(c.h, c.n_x));
-}
-
-std::string servo_block(const servo_law_config_t &c)
-{
-    const bool pid = c.kind == SERVO_LAW_PID;
-    return fmt::format("    .servo = {{\n        .kind = {},\n",
-                       pid ? "SERVO_LAW_PID" : "SERVO_LAW_DOBC") +
-           (pid ? pid_block("pid", c.pid) : dobc_block(c.dobc)) + pid_block("id_pi", c.id_pi) +
-           "    },\n";
-}
-
-/// A table of EQ-DOUBLE-SERIES-1.
-std::string double_series_block(const char *name, const std::vector<const char *> &labels,
-                                int order, const float (*values)[DOUBLE_SERIES_COLUMNS])
-{
-    std::string s = fmt::format("        .{} = {{\n", name);
-    s += "                /*          omega_e_radps             iq_A             id_A */\n";
-    for (int degree = 0; degree <= order; degree++) {
-        for (int m = 0; m <= degree; m++) {
-            s += fmt::format("            /* n = {}, m = {} */\n", degree - m, m);
-            for (const char *label : labels) {
-                s += row(label, *values++);
-            }
-        }
-    }
-    return s + "        },\n";
-}
-
-std::string conventional_block(const conventional_gains_t &g)
-{
-    return fmt::format("    .conventional = {{\n        .nosc_order = {},\n"
-                       "        .nodo_order = {},\n",
-                       g.nosc_order, g.nodo_order) +
-           field("i_error_max_A", g.i_error_max_A) + field("i_max_A", g.i_max_A) +
-           field("i_certified_A", g.i_certified_A) +
-           double_series_block("lambda", {"v_q", "v_d"}, g.nosc_order, g.lambda) +
-           double_series_block("gain", {"d_w", "d_q", "d_d", "w", "iq", "id"}, g.nodo_order,
-                               g.gain) +
-           "    },\n";
+    const nodo_harmonic_gains_t &t     = *d.harmonics->table;
+    const HarmonicCheck         &c     = d.harmonic_check;
+    const double                 worst = std::max(
+                        *std::max_element(d.nosc.residuals.begin(), d.nosc.residuals.end()), c.worst_residual);
+    return fmt::format(
+               " * method     EQ-NOSC-2 with N = {}, EQ-HARMONIC-3 with {} pairs and {} nodes\n"
+               " * checked    relative residuals <= {:.0e}\n",
+               d.drive.nosc.order, t.n_pairs, t.n_nodes, std::max(worst, 1e-16)) +
+           controller_summary(d.certificate.nosc) +
+           fmt::format(" *            loop:       sampled spectral radius {:.5f} at {:.0f} rad/s, "
+                       "iq {:.2f} A, worst up to {:.0f} rad/s\n"
+                       " *            speed loop: sensitivity peak {:.3g} at {:.0f} Hz\n",
+                       c.spectral_radius, c.worst_speed_e_radps, c.worst_iq_A,
+                       d.harmonics->nodes.back().omega_e_radps, c.speed_loop.peak,
+                       c.speed_loop.peak_Hz);
 }
 
 std::string noc_summary(const Design &d)
@@ -191,7 +54,6 @@ std::string noc_summary(const Design &d)
     const double worst =
         std::max(*std::max_element(d.nosc.residuals.begin(), d.nosc.residuals.end()),
                  *std::max_element(d.nodo.residuals.begin(), d.nodo.residuals.end()));
-    const SampledLoop &c = d.certificate.nosc;
     const SampledLoop &o = d.certificate.nodo;
     const char        *observer =
         d.drive.nodo.form == NodoForm::encoder ? "EQ-NODO-ENCODER-3" : "EQ-NODO-2";
@@ -201,9 +63,7 @@ std::string noc_summary(const Design &d)
                         : fmt::format(" * method     EQ-NOSC-2 with N = {}, {} with Nd = {}\n",
                                       d.drive.nosc.order, observer, d.drive.nodo.order);
     s += fmt::format(" * checked    relative residuals <= {:.0e}\n", std::max(worst, 1e-16));
-    s += fmt::format(" *            controller: slowest pole {:.0f} 1/s, sampled spectral radius "
-                     "{:.3f}, |e_iq| <= {:g} A\n",
-                     c.worst_pole_1ps, c.spectral_radius, c.range_A);
+    s += controller_summary(d.certificate.nosc);
     s += fmt::format(" *            observer:   slowest pole {:.0f} 1/s, sampled spectral radius "
                      "{:.3f}, |iq| <= {:g} A\n",
                      o.worst_pole_1ps, o.spectral_radius, o.range_A);
@@ -233,7 +93,7 @@ std::string header_text(const Design &d)
     s += fmt::format(" * generator  sdre-gains {}, schema {}\n", tool_version, drive_schema);
     s += fmt::format(" * drive      {}\n", d.drive.name);
     s += fmt::format(" * digest     {} (of the normalised drive file)\n", drive_digest(d.drive));
-    s += d.servo ? servo_summary(d) : noc_summary(d);
+    s += d.servo ? servo_summary(d) : d.harmonics ? noc_h_summary(d) : noc_summary(d);
     for (const std::string &failure : d.certificate.failures) {
         s += fmt::format(" * NOT CERTIFIED: {}\n", failure);
     }
@@ -244,6 +104,69 @@ std::string header_text(const Design &d)
     return s + "extern const drive_config_t gain_tables_drive;\n\n#endif /* GAIN_TABLES_H */\n";
 }
 
+/// What the control core has to be like, as conditions of which none may hold.
+std::vector<std::string> mismatches(const drive_config_t &c)
+{
+    std::vector<std::string> out{fmt::format("GAIN_TABLES_SCHEMA != {}", drive_schema)};
+    if (c.law == DRIVE_LAW_SERVO) {
+        out.push_back(fmt::format("DOBC_N_X_MAX < {}", c.servo.dobc.n_x));
+        return out;
+    }
+    out.insert(out.end(), {fmt::format("NOSC_ORDER_MAX < {}", c.nosc.order), "NOSC_N_U != 2",
+                           "NOSC_N_E != 3"});
+    if (c.law == DRIVE_LAW_NOC_H) {
+        out.insert(out.end(),
+                   {fmt::format("NODO_HARMONIC_PAIRS_MAX < {}", c.nodo_harmonic->n_pairs),
+                    fmt::format("NODO_HARMONIC_NODES_MAX < {}", c.nodo_harmonic->n_nodes),
+                    fmt::format("NODO_HARMONIC_N_BASE != {}", NODO_HARMONIC_N_BASE),
+                    fmt::format("NODO_HARMONIC_N_G != {}", NODO_HARMONIC_N_G)});
+        return out;
+    }
+    out.insert(out.end(), {fmt::format("NODO_ORDER_MAX < {}",
+                                       c.law == DRIVE_LAW_CONVENTIONAL ? c.conventional.nodo_order
+                                       : c.form == DRIVE_FORM_ENCODER  ? c.nodo_encoder.order
+                                                                       : c.nodo.order),
+                           "NODO_N_X != 6", "NODO_N_Y != 3", "NODO_ENCODER_N_X != 7",
+                           "NODO_ENCODER_N_Y != 3"});
+    if (c.law == DRIVE_LAW_CONVENTIONAL) {
+        out.push_back(fmt::format("DOUBLE_SERIES_ORDER_MAX < {}",
+                                  std::max(c.conventional.nosc_order, c.conventional.nodo_order)));
+    }
+    return out;
+}
+
+const char *law_symbol(drive_law_t law)
+{
+    switch (law) {
+    case DRIVE_LAW_NOC:
+        return "DRIVE_LAW_NOC";
+    case DRIVE_LAW_NOC_H:
+        return "DRIVE_LAW_NOC_H";
+    case DRIVE_LAW_CONVENTIONAL:
+        return "DRIVE_LAW_CONVENTIONAL";
+    case DRIVE_LAW_SERVO:
+        return "DRIVE_LAW_SERVO";
+    }
+    return "unknown";
+}
+
+/// The members that belong to the law.
+std::string law_blocks(const drive_config_t &c)
+{
+    if (c.law == DRIVE_LAW_SERVO) {
+        return motor_block(c.motor) + "    .current_ref = {\n    " +
+               scalar("current_max_A", c.current_ref.current_max_A) + "    },\n" +
+               dead_time_block(c.dead_time) + servo_block(c.servo);
+    }
+    const bool encoder = c.form == DRIVE_FORM_ENCODER;
+    return fmt::format("    .form = {},\n", encoder ? "DRIVE_FORM_ENCODER" : "DRIVE_FORM_SPEED") +
+           motor_block(c.motor) + current_ref_block(c.current_ref) + dead_time_block(c.dead_time) +
+           nosc_block(c.nosc) +
+           (c.law == DRIVE_LAW_CONVENTIONAL ? conventional_block(c.conventional)
+            : c.law == DRIVE_LAW_NOC_H ? fmt::format("    .nodo_harmonic = &{},\n", harmonic_name)
+                                       : observer_block(c));
+}
+
 std::string source_text(const Design &d)
 {
     const drive_config_t &c = d.config;
@@ -251,42 +174,17 @@ std::string source_text(const Design &d)
     s += fmt::format("/* Generated by sdre-gains {}, {}. Do not edit. */\n", tool_version,
                      drive_digest(d.drive));
     s += "/* clang-format off */\n#include \"gain_tables.h\"\n\n";
-    const bool servo   = c.law == DRIVE_LAW_SERVO;
-    const bool encoder = c.form == DRIVE_FORM_ENCODER;
-    s += servo
-             ? fmt::format("#if (GAIN_TABLES_SCHEMA != {}) || (DOBC_N_X_MAX < {})\n", drive_schema,
-                           c.servo.dobc.n_x)
-             : fmt::format(
-                   "#if (GAIN_TABLES_SCHEMA != {}) || (NOSC_ORDER_MAX < {}) || (NOSC_N_U != 2) || "
-                   "(NOSC_N_E != 3) || \\\n    (NODO_ORDER_MAX < {}) || (NODO_N_X != 6) || "
-                   "(NODO_N_Y != 3) || "
-                   "\\\n    (NODO_ENCODER_N_X != 7) || (NODO_ENCODER_N_Y != 3)\n",
-                   drive_schema, c.nosc.order, d.drive.nodo.order);
-    if (c.law == DRIVE_LAW_CONVENTIONAL) {
-        s.pop_back();
-        s += fmt::format(" || \\\n    (DOUBLE_SERIES_ORDER_MAX < {})\n",
-                         std::max(c.conventional.nosc_order, c.conventional.nodo_order));
-    }
+    s += fmt::format("#if ({})\n", fmt::join(mismatches(c), ") || \\\n    ("));
     s += "#error \"gain_tables.c does not match the control core: regenerate\"\n#endif\n\n";
+    s += c.law == DRIVE_LAW_NOC_H ? harmonic_table(harmonic_name, *c.nodo_harmonic) : "";
     s += "const drive_config_t gain_tables_drive = {\n";
     s += scalar("ts_s", c.ts_s) + scalar("trip_current_A", c.trip_current_A) +
          scalar("trip_speed_e_radps", c.trip_speed_e_radps) +
          scalar("trip_angle_rad", c.trip_angle_rad) + scalar("trip_d_omega", c.trip_d_omega) +
          scalar("dc_link_min_V", c.dc_link_min_V) + scalar("dc_link_max_V", c.dc_link_max_V);
-    s += fmt::format("    .overmodulation = {},\n", c.overmodulation);
-    if (servo) {
-        s += "    .law = DRIVE_LAW_SERVO,\n" + motor_block(c.motor);
-        s += "    .current_ref = {\n" + field("current_max_A", c.current_ref.current_max_A) +
-             "    },\n" + dead_time_block(c.dead_time) + servo_block(c.servo);
-        return s + "};\n";
-    }
-    const bool conventional = c.law == DRIVE_LAW_CONVENTIONAL;
-    s += fmt::format("    .law = {},\n", conventional ? "DRIVE_LAW_CONVENTIONAL" : "DRIVE_LAW_NOC");
-    s += fmt::format("    .form = {},\n", encoder ? "DRIVE_FORM_ENCODER" : "DRIVE_FORM_SPEED");
-    s += motor_block(c.motor) + current_ref_block(c.current_ref) + dead_time_block(c.dead_time) +
-         nosc_block(c.nosc) +
-         (conventional ? conventional_block(c.conventional) : observer_block(c));
-    return s + "};\n";
+    s += fmt::format("    .overmodulation = {},\n    .law = {},\n", c.overmodulation,
+                     law_symbol(c.law));
+    return s + law_blocks(c) + "};\n";
 }
 
 /// Splits text into numbers (with a digit-led mantissa) and everything between them.

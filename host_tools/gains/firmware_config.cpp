@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linalg_checks.hpp"
 #include "sampled_model.hpp"
 
 namespace sdre {
@@ -42,13 +43,6 @@ constexpr double speed_current_ratio = 0.25;
 float single(double x)
 {
     return static_cast<float>(x);
-}
-
-/// Entries that are zero in exact arithmetic come out of the solvers as rounding noise; they are stored as zero.
-float gain_entry(const Eigen::MatrixXd &gain, Eigen::Index row, Eigen::Index column)
-{
-    const double x = gain(row, column);
-    return (std::abs(x) < 1e-12 * gain.norm()) ? 0.0F : single(x);
 }
 
 /// k of EQ-CURRENT-REF-2.
@@ -145,7 +139,10 @@ void copy_gains(const Design &d, drive_config_t &c)
     for (std::size_t n = 0; n < d.nosc.gain.size(); n++) {
         copy_matrix(d.nosc.gain[n], c.nosc.lambda[n]);
     }
-    if (d.drive.nodo.form == NodoForm::encoder) {
+    if (d.harmonics) {
+        c.form          = DRIVE_FORM_ENCODER;
+        c.nodo_harmonic = d.harmonics->table.get();
+    } else if (d.drive.nodo.form == NodoForm::encoder) {
         c.form                  = DRIVE_FORM_ENCODER;
         c.nodo_encoder.order    = nodo_order;
         c.nodo_encoder.iq_max_A = nodo_iq_A;
@@ -231,6 +228,20 @@ servo_law_config_t servo_config(const Design &d)
     return c;
 }
 
+drive_law_t firmware_law(Law law)
+{
+    switch (law) {
+    case Law::noc:
+        return DRIVE_LAW_NOC;
+    case Law::noc_h:
+        return DRIVE_LAW_NOC_H;
+    case Law::conventional_noc:
+        return DRIVE_LAW_CONVENTIONAL;
+    default:
+        return DRIVE_LAW_SERVO;
+    }
+}
+
 } // namespace
 
 drive_config_t firmware_config(const Design &d)
@@ -257,12 +268,12 @@ drive_config_t firmware_config(const Design &d)
         single(inv.dead_time_compensation ? inv.dead_time_s * inv.pwm_frequency_Hz : 0.0);
     c.dead_time.inv_fade_1pA = single(1.0 / (dead_time_fade_ratio * m.max_current_A));
     if (d.servo) {
-        c.law = DRIVE_LAW_SERVO;
+        c.law = firmware_law(d.drive.law);
         c.current_ref.current_max_A =
             single(m.max_current_A); // the application's alignment uses it
         c.servo = servo_config(d);
     } else {
-        c.law         = d.drive.law == Law::noc ? DRIVE_LAW_NOC : DRIVE_LAW_CONVENTIONAL;
+        c.law         = firmware_law(d.drive.law);
         c.current_ref = current_ref_config(d);
         copy_gains(d, c);
     }

@@ -121,4 +121,10 @@ std::string mode_text(std::complex<double> s)
                        std::abs(s.imag()));
 }
 
+float gain_entry(const Eigen::MatrixXd &gain, Eigen::Index row, Eigen::Index column)
+{
+    const double x = gain(row, column);
+    return (std::abs(x) < 1e-12 * gain.norm()) ? 0.0F : static_cast<float>(x);
+}
+
 } // namespace sdre

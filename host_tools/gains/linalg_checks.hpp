@@ -36,4 +36,8 @@ void require_positive_semidefinite(const Eigen::MatrixXd &M, const std::string &
 /// "1.5", "-2e-06" or "0.25 + 3j": a mode as it appears in messages.
 std::string mode_text(std::complex<double> s);
 
+/// One entry of a gain for the firmware. Entries that are zero in exact arithmetic come out of the solvers as rounding
+/// noise; they become zero.
+float gain_entry(const Eigen::MatrixXd &gain, Eigen::Index row, Eigen::Index column);
+
 } // namespace sdre

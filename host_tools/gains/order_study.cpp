@@ -62,7 +62,7 @@ LoopOrders orders_of(const std::string &name, const std::string &variable, const
 
 OrderStudy study_orders(Drive drive, int highest)
 {
-    if (!is_near_optimal(drive.law)) {
+    if (drive.law != Law::noc && drive.law != Law::conventional_noc) {
         throw InputError(
             fmt::format("{}: law = \"{}\" has no series", drive.name, law_name(drive.law)));
     }

@@ -174,6 +174,85 @@ std::string servo_text(const Design &d)
            loop_text("speed", servo.speed) + loop_text("d axis", servo.d_axis);
 }
 
+const char *channel_name(nodo_harmonic_channel_t channel)
+{
+    switch (channel) {
+    case NODO_HARMONIC_SENSOR:
+        return "current sensors";
+    case NODO_HARMONIC_TORQUE:
+        return "torque";
+    case NODO_HARMONIC_VOLTAGE_Q:
+        return "q voltage";
+    case NODO_HARMONIC_VOLTAGE_D:
+        return "d voltage";
+    }
+    return "unknown";
+}
+
+std::string harmonic_text(const Design &d)
+{
+    const nodo_harmonic_gains_t &t     = *d.harmonics->table;
+    const HarmonicCheck         &check = d.harmonic_check;
+    std::string                  s     = fmt::format(
+                             "\nobserver with harmonics ({} states, {} nodes, {:.0f} to {:.0f} rad/s)\n",
+                             NODO_HARMONIC_N_BASE + 2 * t.n_pairs, t.n_nodes, d.harmonics->nodes.front().omega_e_radps,
+                             d.harmonics->nodes.back().omega_e_radps);
+    for (int i = 0; i < t.n_pairs; i++) {
+        s += fmt::format("  {:<16} order {:g}\n", channel_name(t.pair[i].channel),
+                         static_cast<double>(t.pair[i].order));
+    }
+    s += "\ncertificate\n" + loop_text("controller", "e_iq", d.certificate.nosc);
+    s += fmt::format(
+        "  observer, law and motor: relative residuals <= {:.1e}, sampled spectral radius {:.5f} "
+        "(at {:.0f} rad/s, iq {:.2f} A)\n",
+        check.worst_residual, check.spectral_radius, check.worst_speed_e_radps, check.worst_iq_A);
+    return s + loop_text("speed loop", check.speed_loop);
+}
+
+ordered_json harmonics_json(const Design &d)
+{
+    const nodo_harmonic_gains_t &t     = *d.harmonics->table;
+    ordered_json                 pairs = ordered_json::array();
+    ordered_json                 nodes = ordered_json::array();
+    for (int i = 0; i < t.n_pairs; i++) {
+        pairs.push_back({{"channel", channel_name(t.pair[i].channel)},
+                         {"order", static_cast<double>(t.pair[i].order)}});
+    }
+    for (const HarmonicNode &node : d.harmonics->nodes) {
+        nodes.push_back({{"omega_e_radps", node.omega_e_radps},
+                         {"K0", to_json(node.K0)},
+                         {"K1", to_json(node.K1)},
+                         {"residual", node.residual}});
+    }
+    return {{"iq_max_A", static_cast<double>(t.iq_max_A)},
+            {"keep", static_cast<double>(t.keep)},
+            {"keep_fast", static_cast<double>(t.keep_fast)},
+            {"pairs", pairs},
+            {"nodes", nodes}};
+}
+
+ordered_json harmonic_check_json(const HarmonicCheck &check)
+{
+    return {{"spectral_radius", check.spectral_radius},
+            {"worst_speed_e_radps", check.worst_speed_e_radps},
+            {"worst_iq_A", check.worst_iq_A},
+            {"worst_residual", check.worst_residual},
+            {"speed_loop", loop_json(check.speed_loop)}};
+}
+
+ordered_json noc_h_json(const Design &d)
+{
+    const Certificate &c = d.certificate;
+    return {{"law", law_name(d.drive.law)},
+            {"nosc", gain_json(d.nosc, "lambda", "gamma", "closed_loop_eigenvalues")},
+            {"harmonics", harmonics_json(d)},
+            {"harmonic_check", harmonic_check_json(d.harmonic_check)},
+            {"certificate",
+             {{"certified", c.passed()},
+              {"failures", c.failures},
+              {"nosc", loop_json(c.nosc, "e_iq")}}}};
+}
+
 std::string observer_heading(NodoForm form)
 {
     const bool encoder = form == NodoForm::encoder;
@@ -188,6 +267,9 @@ std::string noc_text(const Design &d)
     std::string s =
         "\ncontroller (rows v_q, v_d; columns e_w, e_iq, e_id)\n" + gain_text("Lambda", d.nosc);
     s += "  poles" + poles_text(d.nosc.series.care.closed_loop_eigenvalues) + " 1/s\n";
+    if (d.harmonics) {
+        return s + harmonic_text(d);
+    }
     s += observer_heading(d.drive.nodo.form) + gain_text("L", d.nodo);
     s += "  poles" + poles_text(d.nodo.series.care.closed_loop_eigenvalues) + " 1/s\n";
     return s + "\ncertificate\n" +
@@ -229,6 +311,10 @@ std::string report_json(const Design &d)
     ordered_json report = heading_json(d);
     if (d.servo) {
         report.update(servo_json(d));
+        return report.dump(2) + "\n";
+    }
+    if (d.harmonics) {
+        report.update(noc_h_json(d));
         return report.dump(2) + "\n";
     }
     const Certificate &c = d.certificate;

@@ -29,9 +29,10 @@ MatrixXd observer_input(const ReducedParameters &l)
     return B;
 }
 
-/// The law of the firmware as a row pair on the predicted observer state: EQ-NOSC-1 and EQ-FEEDFORWARD-1, 2 with
-/// iq_ref of EQ-CURRENT-REF-1 and a constant id_ref.
-MatrixXd law(const ReducedParameters &l, const MatrixXd &Lambda, const OperatingPoint &at)
+} // namespace
+
+MatrixXd encoder_form_law(const ReducedParameters &l, const MatrixXd &Lambda,
+                          const OperatingPoint &at)
 {
     const double D      = l[1] + l[11] * at.id_A;
     const double k_ref  = Lambda(0, 1) + l[4] / l[6]; // v_q per ampere of iq_ref
@@ -47,13 +48,7 @@ MatrixXd law(const ReducedParameters &l, const MatrixXd &Lambda, const Operating
     return F;
 }
 
-struct Held {
-    MatrixXd Phi;   ///< 4 x 4
-    MatrixXd Gamma; ///< 4 x 3: v_q, v_d, T_load
-};
-
-/// The motor (w, iq, id, theta) over one period with held inputs, exactly.
-Held held_motor(const ReducedParameters &l, const OperatingPoint &at, double ts)
+HeldMotor held_motor(const ReducedParameters &l, const OperatingPoint &at, double ts)
 {
     MatrixXd M          = MatrixXd::Zero(7, 7);
     M.block(0, 0, 3, 3) = motor_jacobian(l, at) * ts;
@@ -64,7 +59,14 @@ Held held_motor(const ReducedParameters &l, const OperatingPoint &at, double ts)
     return {E.topLeftCorner(4, 4), E.topRightCorner(4, 3)};
 }
 
-} // namespace
+PredictedObserver predicted_encoder_form(const ReducedParameters &model, const OperatingPoint &at,
+                                         double ts)
+{
+    const MatrixXd J = observer_jacobian(model, at);
+    const MatrixXd I = MatrixXd::Identity(7, 7);
+    return {I + ts * J * (I + 0.5 * ts * J), // EQ-NODO-ENCODER-2
+            ts * (I + 0.5 * ts * J) * observer_input(model)};
+}
 
 Eigen::Matrix3d motor_jacobian(const ReducedParameters &l, const OperatingPoint &at)
 {
@@ -78,14 +80,11 @@ Eigen::Matrix3d motor_jacobian(const ReducedParameters &l, const OperatingPoint 
 SampledModel sampled_model(const ReducedParameters &motor, const ReducedParameters &model,
                            const LoopGains &gains, const OperatingPoint &at, double ts)
 {
-    const Held     held = held_motor(motor, at, ts);
-    const MatrixXd J    = observer_jacobian(model, at);
-    const MatrixXd I    = MatrixXd::Identity(7, 7);
-    const MatrixXd P    = I + ts * J * (I + 0.5 * ts * J); // EQ-NODO-ENCODER-2
-    const MatrixXd G    = ts * (I + 0.5 * ts * J) * observer_input(model);
-    const MatrixXd F    = law(model, gains.Lambda, at);
-    const MatrixXd C    = nodo_model(model, NodoForm::encoder).C;
-    const MatrixXd PL   = ts * P * gains.L; // EQ-NODO-ENCODER-1, then the prediction
+    const HeldMotor held = held_motor(motor, at, ts);
+    const auto [P, G]    = predicted_encoder_form(model, at, ts);
+    const MatrixXd F     = encoder_form_law(model, gains.Lambda, at);
+    const MatrixXd C     = nodo_model(model, NodoForm::encoder).C;
+    const MatrixXd PL    = ts * P * gains.L; // EQ-NODO-ENCODER-1, then the prediction
 
     MatrixXd A                = MatrixXd::Zero(11, 11); // (w iq id theta | observer)
     A.topLeftCorner(4, 4)     = held.Phi;

@@ -33,6 +33,28 @@ struct SampledModel {
 /// Jacobian of EQ-MOTOR-2 in (w, iq, id), 3 x 3.
 Eigen::Matrix3d motor_jacobian(const ReducedParameters &l, const OperatingPoint &at);
 
+/// The motor (w, iq, id, theta) over one period with held inputs, exactly.
+struct HeldMotor {
+    Eigen::MatrixXd Phi;   ///< 4 x 4
+    Eigen::MatrixXd Gamma; ///< 4 x 3: v_q, v_d, T_load
+};
+
+HeldMotor held_motor(const ReducedParameters &l, const OperatingPoint &at, double ts_s);
+
+/// EQ-NODO-ENCODER-2 linearised: x^-(k+1) = P x^+ + G v.
+struct PredictedObserver {
+    Eigen::MatrixXd P; ///< 7 x 7
+    Eigen::MatrixXd G; ///< 7 x 2
+};
+
+PredictedObserver predicted_encoder_form(const ReducedParameters &model, const OperatingPoint &at,
+                                         double ts_s);
+
+/// The law of the firmware as a row pair on the predicted observer state (2 x 7): EQ-NOSC-1 and
+/// EQ-FEEDFORWARD-1, 2 with iq_ref of EQ-CURRENT-REF-1 and a constant id_ref.
+Eigen::MatrixXd encoder_form_law(const ReducedParameters &l, const Eigen::MatrixXd &Lambda,
+                                 const OperatingPoint &at);
+
 /// @param motor what the motor is, @param model what the controller believes.
 SampledModel sampled_model(const ReducedParameters &motor, const ReducedParameters &model,
                            const LoopGains &gains, const OperatingPoint &at, double ts_s);

@@ -179,13 +179,18 @@ LoopCheck check_loop(const SampledServoLoop &loop, std::vector<SensitivityAt> di
 std::vector<SensitivityAt> disturbance_frequencies(const Drive &drive)
 {
     const int    np      = drive.motor.pole_pairs;
-    const double speed   = drive.dobc.design_speed_e_radps > 0.0 ? drive.dobc.design_speed_e_radps
-                                                                 : drive.motor.rated_speed_e_radps;
+    const double design  = drive.law == Law::noc_h ? drive.harmonics.weight_speed_e_radps
+                                                   : drive.dobc.design_speed_e_radps;
+    const double speed   = design > 0.0 ? design : drive.motor.rated_speed_e_radps;
     const double turn_Hz = speed / np / (2.0 * pi);
     std::vector<SensitivityAt> out{{"current sensor offset", np * turn_Hz, 0.0},
                                    {"current sensor gain", 2 * np * turn_Hz, 0.0},
                                    {"dead time", 6 * np * turn_Hz, 0.0}};
-    for (const double order : drive.dobc.harmonics_per_turn) {
+    std::vector<double>        per_turn = drive.dobc.harmonics_per_turn;
+    for (const double multiple : drive.harmonics.cogging) {
+        per_turn.push_back(multiple * drive.motor.slots);
+    }
+    for (const double order : per_turn) {
         if (std::abs(order - 6.0 * np) < 1e-9) {
             continue; // the dead time's
         }
