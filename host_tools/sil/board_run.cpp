@@ -164,7 +164,7 @@ BoardResult simulate_on_board(const Scenario &s, BoardKind kind)
 BoardResult simulate_on_board(const Scenario &scenario, BoardKind kind,
                               const Controller &controller)
 {
-    if (scenario.drive.law != Law::noc) {
+    if (!is_near_optimal(scenario.drive.law)) {
         throw InputError(
             fmt::format("--board: law = \"{}\" needs the speed from edge times, which the "
                         "application does not measure",

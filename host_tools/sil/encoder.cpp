@@ -50,9 +50,11 @@ void QuadratureEncoder::start(double theta_e_rad, double omega_e_radps)
     before_        = counts_of(theta_e_rad - omega_e_radps * period_s_);
     lost_for_good_ = 0;
     true_before_   = before_;
-    edge_          = before_;
-    edge_age_s_    = no_edge_s;
     edge_speed_    = omega_e_radps;
+    edge_          = omega_e_radps < 0.0 ? before_ + 1 : before_;
+    edge_age_s_    = omega_e_radps == 0.0
+                         ? no_edge_s
+                         : since_edge_s(theta_e_rad - omega_e_radps * period_s_, omega_e_radps);
 }
 
 void QuadratureEncoder::lose(int counts)
@@ -104,6 +106,18 @@ void QuadratureEncoder::time_edges(const Reading &r, double since_edge_s, bool f
     edge_age_s_ = since_edge_s;
 }
 
+/// EQ-ENCODER-6: from the last edge on with the speed of the edges, but within the count.
+double QuadratureEncoder::edge_angle_rad(std::int64_t count) const
+{
+    const double per_count = pole_pairs_ * two_pi / static_cast<double>(counts_per_turn_);
+    const double beyond    = std::clamp(
+           static_cast<double>(edge_ - count) + edge_speed_ * edge_age_s_ / per_count, 0.0, 1.0);
+    const double theta =
+        per_count * static_cast<double>(count % counts_per_turn_) + per_count * beyond;
+    const double wrapped = std::fmod(theta, two_pi);
+    return wrapped < 0.0 ? wrapped + two_pi : wrapped;
+}
+
 QuadratureEncoder::Reading QuadratureEncoder::read(double theta_e_rad, double omega_e_radps)
 {
     const double turn = std::floor(shaft_turns(theta_e_rad));
@@ -130,6 +144,7 @@ QuadratureEncoder::Reading QuadratureEncoder::read(double theta_e_rad, double om
     time_edges(r, since_edge_s(theta_e_rad, omega_e_radps), omega_e_radps >= 0.0);
     if (settings_.encoder_edge_time) {
         r.omega_e_radps = edge_speed_;
+        r.theta_e_rad   = edge_angle_rad(r.count);
     }
     before_ = r.count;
     return r;

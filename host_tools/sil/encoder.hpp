@@ -46,6 +46,7 @@ private:
     std::int64_t counts_of(double theta_e_rad) const;
     void         note_index(std::int64_t now, Reading &r);
     double       since_edge_s(double theta_e_rad, double omega_e_radps) const;
+    double       edge_angle_rad(std::int64_t count) const;
     void         time_edges(const Reading &r, double since_edge_s, bool forward);
 
     SensorSettings settings_;

@@ -90,6 +90,15 @@ void add_paper_b(Metrics &m, Iterator begin, Iterator tail, Iterator end, int po
     m.within_1_percent_s = within(0.01);
 }
 
+double current_distortion_percent(Iterator tail, Iterator end, double id_A, double iq_A)
+{
+    const double fundamental = std::hypot(id_A, iq_A);
+    const double square      = mean(tail, end, [&](const TraceRow &r) {
+        return std::pow(r.id_A - id_A, 2) + std::pow(r.iq_A - iq_A, 2);
+    });
+    return fundamental > 0.0 ? 100.0 * std::sqrt(square) / fundamental : 0.0;
+}
+
 Metrics metrics_of(const Window &window, int pole_pairs)
 {
     const auto &[measure, begin, tail, end] = window;
@@ -119,6 +128,9 @@ Metrics metrics_of(const Window &window, int pole_pairs)
     m.d_d_hat     = mean(tail, end, [](const TraceRow &r) { return r.d_d_hat; });
     m.iq_A        = mean(tail, end, [](const TraceRow &r) { return r.iq_A; });
     m.id_A        = mean(tail, end, [](const TraceRow &r) { return r.id_A; });
+    m.sensor_offset_hat_A =
+        mean(tail, end, [](const TraceRow &r) { return r.sensor_offset_hat_A; });
+    m.current_distortion_percent = current_distortion_percent(tail, end, m.id_A, m.iq_A);
     add_paper_b(m, begin, tail, end, pole_pairs);
     return m;
 }
@@ -171,6 +183,8 @@ std::vector<std::pair<std::string, double>> metric_values(const Metrics &m)
                                  {"d_d_hat", m.d_d_hat},
                                  {"iq_A", m.iq_A},
                                  {"id_A", m.id_A},
+                                 {"sensor_offset_hat_A", m.sensor_offset_hat_A},
+                                 {"current_distortion_percent", m.current_distortion_percent},
                                  {"fluctuation_rpm", m.fluctuation_rpm},
                                  {"fluctuation_rate_percent", m.fluctuation_rate_percent},
                                  {"offset_rpm", m.offset_rpm},

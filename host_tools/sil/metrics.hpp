@@ -33,6 +33,10 @@ struct Metrics {
     double d_d_hat                    = 0.0; ///< [A/s]
     double iq_A                       = 0.0;
     double id_A                       = 0.0;
+    double sensor_offset_hat_A        = 0.0; ///< noc_h: estimate, mean in the tail
+    /// All of the true phase currents but their fundamental, rms over that of the fundamental, in the tail. At constant
+    /// speed: the deviation of (id, iq) from its mean over that mean; 0 without current.
+    double current_distortion_percent = 0.0;
     // Paper B's figures, of the mechanical speed.
     double fluctuation_rpm          = 0.0; ///< (max - min) / 2 in the tail
     double fluctuation_rate_percent = 0.0; ///< (max - min) / (max + min) in the tail; 0 about 0

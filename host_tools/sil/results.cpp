@@ -26,6 +26,8 @@ constexpr MetricLabel labels[] = {
     {"d_d_hat", "d_d [A/s]", 1.0, "{:.1f}"},
     {"iq_A", "i_q [A]", 1.0, "{:.3f}"},
     {"id_A", "i_d [A]", 1.0, "{:.3f}"},
+    {"sensor_offset_hat_A", "sensor offset found [A]", 1.0, "{:.3f}"},
+    {"current_distortion_percent", "current distortion [%]", 1.0, "{:.2f}"},
     {"fluctuation_rpm", "fluctuation [r/min]", 1.0, "{:.2f}"},
     {"fluctuation_rate_percent", "fluctuation rate [%]", 1.0, "{:.2f}"},
     {"offset_rpm", "offset [r/min]", 1.0, "{:.2f}"},

@@ -29,6 +29,7 @@ Controller prepare_controller(const Scenario &s)
     } else {
         const Design design = design_drive(believed);
         c.config            = design.config;
+        c.harmonics         = design.harmonics ? design.harmonics->table : nullptr;
         c.uncertified       = design.certificate.failures;
     }
     if (s.sensors.ideal && s.inverter.dead_time_s.value_or(0.0) <= 0.0) {
@@ -53,6 +54,19 @@ double disturbance_Aps(const drive_t &drive)
     return u_V * static_cast<double>(drive.config->motor.l6);
 }
 
+/// The pair that stands still in the stator frame.
+double sensor_offset_A(const drive_t &drive)
+{
+    const nodo_harmonic_gains_t &g = *drive.config->nodo_harmonic;
+    for (int i = 0; i < g.n_pairs; i++) {
+        if (g.pair[i].channel == NODO_HARMONIC_SENSOR && std::lround(g.pair[i].order) == -1) {
+            const nodo_harmonic_pair_t &p = drive.harmonic.pair[i];
+            return std::hypot(static_cast<double>(p.a), static_cast<double>(p.b));
+        }
+    }
+    return 0.0;
+}
+
 } // namespace
 
 void add_drive(TraceRow &row, const drive_t &drive)
@@ -66,6 +80,9 @@ void add_drive(TraceRow &row, const drive_t &drive)
     row.d_d_hat     = static_cast<double>(drive.observer.d_d);
     if (drive.config != nullptr && drive.config->law == DRIVE_LAW_SERVO) {
         row.d_q_hat = disturbance_Aps(drive);
+    }
+    if (drive.config != nullptr && drive.config->law == DRIVE_LAW_NOC_H) {
+        row.sensor_offset_hat_A = sensor_offset_A(drive);
     }
 }
 

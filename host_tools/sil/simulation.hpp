@@ -2,6 +2,7 @@
 /// The control core against the plant, tick by tick.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,22 +13,23 @@ namespace sdre {
 
 /// One control period: the plant at the sampling instant and what the core answered.
 struct TraceRow {
-    double time_s            = 0.0;
-    double omega_ref_e_radps = 0.0; ///< commanded
-    double omega_e_radps     = 0.0;
-    double iq_A              = 0.0;
-    double id_A              = 0.0;
-    double iq_ref_A          = 0.0;
-    double id_ref_A          = 0.0;
-    double vq_V              = 0.0; ///< commanded at this tick, after the limit
-    double vd_V              = 0.0;
-    double d_omega_hat       = 0.0;
-    double d_q_hat           = 0.0;
-    double d_d_hat           = 0.0;
-    double load_torque_Nm    = 0.0;
-    double torque_Nm         = 0.0;
-    double dc_link_V         = 0.0;
-    double peak_current_A    = 0.0; ///< largest |i| from this instant to the next
+    double time_s              = 0.0;
+    double omega_ref_e_radps   = 0.0; ///< commanded
+    double omega_e_radps       = 0.0;
+    double iq_A                = 0.0;
+    double id_A                = 0.0;
+    double iq_ref_A            = 0.0;
+    double id_ref_A            = 0.0;
+    double vq_V                = 0.0; ///< commanded at this tick, after the limit
+    double vd_V                = 0.0;
+    double d_omega_hat         = 0.0;
+    double d_q_hat             = 0.0;
+    double d_d_hat             = 0.0;
+    double sensor_offset_hat_A = 0.0; ///< length of the offset that noc_h's observer has found
+    double load_torque_Nm      = 0.0;
+    double torque_Nm           = 0.0;
+    double dc_link_V           = 0.0;
+    double peak_current_A      = 0.0; ///< largest |i| from this instant to the next
 };
 
 struct SimulationResult {
@@ -41,9 +43,10 @@ struct SimulationResult {
 
 /// The constants the core runs on, from the table or solved here.
 struct Controller {
-    drive_config_t           config{};
-    bool                     compiled_table = false;
-    std::vector<std::string> uncertified;
+    drive_config_t                               config{};
+    bool                                         compiled_table = false;
+    std::vector<std::string>                     uncertified;
+    std::shared_ptr<const nodo_harmonic_gains_t> harmonics; ///< what config points to, noc_h only
 };
 
 /// DesignError when the gains cannot be solved.
