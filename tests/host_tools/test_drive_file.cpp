@@ -59,9 +59,9 @@ struct ArrayKey {
 
 const std::vector<ArrayKey> array_keys{
     {"nosc", "Q", 3, 0.0, 1e15, "0 .. 1e+15", "array of 3 numbers"},
-    {"nosc", "T", 2, 1e-12, 1e12, "1e-12 .. 1e+12", "array of 2 numbers"},
+    {"nosc", "T", 2, 1e-18, 1e12, "1e-18 .. 1e+12", "array of 2 numbers"},
     {"nodo", "Q", 6, 0.0, 1e15, "0 .. 1e+15", "array of 6 numbers"},
-    {"nodo", "T", 3, 1e-12, 1e12, "1e-12 .. 1e+12", "array of 6 or 3 numbers"}};
+    {"nodo", "T", 3, 1e-18, 1e12, "1e-18 .. 1e+12", "array of 6 or 3 numbers"}};
 
 std::string number(double x, bool whole)
 {
@@ -120,6 +120,25 @@ DriveText encoder_text()
     return DriveText()
         .set("nodo", "form", "\"encoder\"")
         .set("nodo", "Q", "[1.0e8, 1.1e8, 1.2e8, 85.0, 86.0, 90.0, 0.0]");
+}
+
+/// The same with harmonics: eight pairs, as many as the firmware holds.
+DriveText harmonic_text()
+{
+    return encoder_text()
+        .set("", "law", "\"noc_h\"")
+        .set("motor", "slots", "24")
+        .add_section("harmonics")
+        .set("harmonics", "sensor", "[1, 2]")
+        .set("harmonics", "voltage", "[6]")
+        .set("harmonics", "cogging", "[1, 2]")
+        .set("harmonics", "sensor_weight", "0.1")
+        .set("harmonics", "voltage_weight", "3e4")
+        .set("harmonics", "cogging_weight", "1e6")
+        .set("harmonics", "cogging_voltage_weight", "2e4")
+        .set("harmonics", "slope_weight", "1e9")
+        .set("harmonics", "weight_speed_e_radps", "300.0")
+        .set("harmonics", "leak_1ps", "0.2");
 }
 
 /// Other keys moved so that an end of one key's range meets no rule about two keys.
@@ -536,7 +555,7 @@ TEST(DriveFile, WeightsOfTheOtherFormAreRefused)
     expect_complaint(encoder_text().set("nodo", "Q", array_with(7, 6, "-1.0")),
                      {"[nodo] Q[6] = -1 ", "0 .. 1e+15"});
     expect_complaint(encoder_text().set("nodo", "T", array_with(3, 2, "0.0")),
-                     {"[nodo] T[2] = 0 ", "1e-12 .. 1e+12"});
+                     {"[nodo] T[2] = 0 ", "1e-18 .. 1e+12"});
     expect_complaint(encoder_text().set("nodo", "Q", array_with(7, 3, "nan")), {"[nodo] Q[3] = "});
 }
 
@@ -579,4 +598,101 @@ TEST(DriveFile, DeadTimeCompensationDefaultsToOn)
         expect_complaint(DriveText().set("inverter", "dead_time_compensation", value),
                          {"[inverter] dead_time_compensation"});
     }
+}
+
+TEST(DriveFile, HarmonicsAreReadAsTheyAreWritten)
+{
+    const sdre::Drive         drive = read(harmonic_text().str());
+    const sdre::HarmonicSpec &h     = drive.harmonics;
+
+    EXPECT_EQ(drive.law, sdre::Law::noc_h);
+    EXPECT_EQ(drive.motor.slots, 24);
+    EXPECT_EQ(h.sensor, (std::vector<double>{1, 2}));
+    EXPECT_EQ(h.voltage, (std::vector<double>{6}));
+    EXPECT_EQ(h.cogging, (std::vector<double>{1, 2}));
+    EXPECT_EQ(h.sensor_weight, 0.1);
+    EXPECT_EQ(h.voltage_weight, 3e4);
+    EXPECT_EQ(h.cogging_weight, 1e6);
+    EXPECT_EQ(h.cogging_voltage_weight, 2e4);
+    EXPECT_EQ(h.slope_weight, 1e9);
+    EXPECT_EQ(h.weight_speed_e_radps, 300.0);
+    EXPECT_EQ(h.leak_1ps, 0.2);
+}
+
+/// One clear line for whatever is wrong with them.
+TEST(DriveFile, WrongHarmonicsAreNamed)
+{
+    const auto with = [](const char *key, const char *value) {
+        return harmonic_text().set("harmonics", key, value);
+    };
+    expect_complaint(harmonic_text().erase("motor", "slots"),
+                     {"[harmonics] cogging", "needs [motor] slots"});
+    expect_complaint(with("voltage", "[6, 12]"),
+                     {"[harmonics] voltage", "10 pairs in all", "firmware holds 8", "takes two"});
+    expect_complaint(with("sensor", "[3]"), {"[harmonics] sensor", "1 .. 2"});
+    expect_complaint(with("sensor", "[0.5]"), {"[harmonics] sensor", "1 .. 2"});
+    expect_complaint(with("voltage", "[1001]"), {"[harmonics] voltage", "1 .. 1000"});
+    expect_complaint(with("cogging", "[4]"), {"[harmonics] cogging", "1 .. 3"});
+    expect_complaint(with("cogging", "[1, 1, 1, 1]"), {"[harmonics] cogging", "array of 1"});
+    expect_complaint(with("sensor", "1"), {"[harmonics] sensor", "array of 1"});
+    for (const char *key :
+         {"sensor_weight", "voltage_weight", "cogging_weight", "cogging_voltage_weight"}) {
+        expect_complaint(with(key, "-1e-9"), {std::string("[harmonics] ") + key, "0 .. 1e+15"});
+        expect_complaint(with(key, "2e15"), {std::string("[harmonics] ") + key, "0 .. 1e+15"});
+    }
+    expect_complaint(with("slope_weight", "2e20"), {"[harmonics] slope_weight", "0 .. 1e+20"});
+    expect_complaint(with("weight_speed_e_radps", "0.5"),
+                     {"[harmonics] weight_speed_e_radps", "1 .. 100000"});
+    expect_complaint(with("leak_1ps", "0.0"), {"[harmonics] leak_1ps", "0.001 .. 100"});
+    expect_complaint(with("extra", "1"), {"[harmonics]", "extra"});
+    expect_complaint(harmonic_text().set("motor", "slots", "2"), {"[motor] slots", "3 .. 1000"});
+    for (const char *key : {"sensor_weight", "voltage_weight", "cogging_weight",
+                            "weight_speed_e_radps", "leak_1ps"}) {
+        expect_complaint(harmonic_text().erase("harmonics", key), {"[harmonics]", key, "missing"});
+    }
+}
+
+TEST(DriveFile, HarmonicsNeedTheEncoderFormAndTheirOwnLaw)
+{
+    expect_complaint(harmonic_text()
+                         .set("nodo", "form", "\"speed\"")
+                         .set("nodo", "Q", "[1.0e8, 1.1e8, 1.2e8, 85.0, 86.0, 90.0]"),
+                     {"[nodo] form", "is not allowed", "noc_h needs \"encoder\""});
+    expect_complaint(harmonic_text().set("", "law", "\"noc\""), {"harmonics"});
+    expect_complaint(harmonic_text().erase_section("harmonics"), {"harmonics", "missing"});
+}
+
+TEST(DriveFile, AbsentHarmonicsNeedNoWeight)
+{
+    DriveText text = harmonic_text();
+    for (const char *key : {"sensor", "voltage", "cogging", "sensor_weight", "voltage_weight",
+                            "cogging_weight", "cogging_voltage_weight", "slope_weight"}) {
+        text.erase("harmonics", key);
+    }
+    const sdre::Drive drive = read(text.erase("motor", "slots").str());
+    EXPECT_TRUE(drive.harmonics.sensor.empty() && drive.harmonics.cogging.empty());
+    EXPECT_EQ(drive.harmonics.slope_weight, 0.0);
+}
+
+TEST(DriveFile, DigestSeesEveryHarmonic)
+{
+    std::set<std::string> digests{sdre::drive_digest(read(harmonic_text().str()))};
+    const std::vector<std::pair<std::string, std::string>> changes{
+        {"sensor", "[1]"},
+        {"voltage", "[7]"},
+        {"cogging", "[1]"},
+        {"sensor_weight", "0.2"},
+        {"voltage_weight", "3.1e4"},
+        {"cogging_weight", "1.1e6"},
+        {"cogging_voltage_weight", "2.1e4"},
+        {"slope_weight", "2e9"},
+        {"weight_speed_e_radps", "301.0"},
+        {"leak_1ps", "0.3"}};
+    for (const auto &[key, value] : changes) {
+        digests.insert(
+            sdre::drive_digest(read(harmonic_text().set("harmonics", key, value).str())));
+    }
+    digests.insert(sdre::drive_digest(read(harmonic_text().set("motor", "slots", "30").str())));
+    digests.insert(sdre::drive_digest(read(encoder_text().str())));
+    EXPECT_EQ(digests.size(), changes.size() + 3);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "emit_tables.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <regex>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include <unistd.h>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "command.hpp"
@@ -16,6 +18,7 @@
 
 extern "C" {
 #include "gain_tables.h"
+#include "harmonic_tables.h"
 }
 
 namespace {
@@ -86,12 +89,45 @@ std::vector<float> values_of(const drive_config_t &c)
             v.insert(v.end(), std::begin(row), std::end(row));
         }
     }
+    if (c.law == DRIVE_LAW_NOC_H) {
+        return v; // its observer is a table of its own
+    }
     if (c.form == DRIVE_FORM_ENCODER) {
         add_observer(v, {c.nodo_encoder.iq_max_A}, c.nodo_encoder.order, c.nodo_encoder.gain);
     } else {
         add_observer(v, {c.nodo.iq_max_A, c.nodo.iq_certified_A}, c.nodo.order, c.nodo.gain);
     }
     return v;
+}
+
+/// The numbers of the table of noc_h in the order of the structure.
+std::vector<float> values_of(const nodo_harmonic_gains_t &g)
+{
+    std::vector<float> v{g.iq_max_A, g.nodes_per_root, g.keep, g.keep_fast};
+    for (int i = 0; i < g.n_pairs; i++) {
+        v.push_back(g.pair[i].order);
+    }
+    for (int node = 0; node < g.n_nodes; node++) {
+        for (int row = 0; row < NODO_HARMONIC_N_BASE + 2 * g.n_pairs; row++) {
+            v.insert(v.end(), std::begin(g.gain[node][row]), std::end(g.gain[node][row]));
+        }
+    }
+    return v;
+}
+
+/// Every shipped drive of noc_h, designed once.
+const std::vector<sdre::Design> &harmonic_designs()
+{
+    static const std::vector<sdre::Design> designs = [] {
+        std::vector<sdre::Design> out;
+        for (const auto &entry : std::filesystem::directory_iterator(committed / "drives")) {
+            if (entry.path().string().find("noc_h") != std::string::npos) {
+                out.push_back(sdre::design_drive(sdre::read_drive_file(entry.path())));
+            }
+        }
+        return out;
+    }();
+    return designs;
 }
 
 bool contains(const std::string &text, const std::string &piece)
@@ -402,18 +438,96 @@ TEST(Tables, GenerateAndCheckInTheEncoderForm)
     support::expect_refused(other, 3, "sdre-gains");
 }
 
-TEST(Tables, BothFormsAreC99)
+TEST(Tables, AllFormsAreC99)
 {
     const std::string compiler = "/usr/bin/cc";
     if (!std::filesystem::exists(compiler)) {
         GTEST_SKIP() << "no C compiler at " << compiler;
     }
-    for (const sdre::Design *design : {&speed_form(), &encoder_form()}) {
+    std::vector<const sdre::Design *> designs{&speed_form(), &encoder_form()};
+    for (const sdre::Design &design : harmonic_designs()) {
+        designs.push_back(&design);
+    }
+    sdre::Drive none                    = harmonic_designs().at(0).drive;
+    none.harmonics                      = {};
+    none.harmonics.weight_speed_e_radps = 300.0;
+    const sdre::Design no_pairs         = sdre::design_drive(none);
+    designs.push_back(&no_pairs);
+    for (const sdre::Design *design : designs) {
         const TempDir dir;
         sdre::write_tables(sdre::table_text(*design), dir.path());
         const auto result = support::run_command(
             {compiler, "-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only",
              "-I", SDRE_SOURCE_DIR "/firmware/control", (dir / "gain_tables.c").string()});
         EXPECT_EQ(result.exit_code, 0) << result.err;
+    }
+}
+
+TEST(Tables, HarmonicsAreWrittenBitForBit)
+{
+    ASSERT_GE(harmonic_designs().size(), 2U);
+    for (const sdre::Design &design : harmonic_designs()) {
+        const sdre::TableText    text   = sdre::table_text(design);
+        std::vector<float>       values = values_of(*design.config.nodo_harmonic);
+        const std::vector<float> rest   = values_of(design.config);
+        values.insert(values.end(), rest.begin(), rest.end());
+        const std::vector<double> found = literals(text.source);
+
+        ASSERT_EQ(found.size(), values.size());
+        for (std::size_t i = 0; i < found.size(); i++) {
+            EXPECT_EQ(static_cast<float>(found[i]), values[i]) << design.drive.name << " " << i;
+        }
+        EXPECT_TRUE(contains(text.source, ".law = DRIVE_LAW_NOC_H,"));
+        EXPECT_TRUE(contains(text.source, ".form = DRIVE_FORM_ENCODER,"));
+        EXPECT_TRUE(contains(text.source, ".nodo_harmonic = &harmonic_gains,"));
+        EXPECT_TRUE(contains(text.source, "NODO_HARMONIC_N_BASE != 8"));
+        EXPECT_TRUE(contains(text.source, fmt::format("NODO_HARMONIC_PAIRS_MAX < {})",
+                                                      design.config.nodo_harmonic->n_pairs)));
+        EXPECT_LT(text.source.find("harmonic_gains = {"),
+                  text.source.find("gain_tables_drive = {"));
+        EXPECT_TRUE(contains(text.header, "EQ-HARMONIC-3 with"));
+        EXPECT_TRUE(contains(text.header, fmt::format("sampled spectral radius {:.5f} at",
+                                                      design.harmonic_check.spectral_radius)));
+    }
+}
+
+TEST(Tables, CompiledHarmonicTableIsTheDesign)
+{
+    const auto design =
+        std::find_if(harmonic_designs().begin(), harmonic_designs().end(),
+                     [](const sdre::Design &d) { return d.drive.name == "ipmsm_390w_noc_h"; });
+    ASSERT_NE(design, harmonic_designs().end());
+    const drive_config_t &c = harmonic_tables_drive;
+
+    EXPECT_EQ(c.law, DRIVE_LAW_NOC_H);
+    EXPECT_EQ(c.nodo_harmonic->n_pairs, design->config.nodo_harmonic->n_pairs);
+    EXPECT_EQ(c.nodo_harmonic->n_nodes, design->config.nodo_harmonic->n_nodes);
+    for (int i = 0; i < c.nodo_harmonic->n_pairs; i++) {
+        EXPECT_EQ(c.nodo_harmonic->pair[i].channel, design->config.nodo_harmonic->pair[i].channel);
+    }
+    EXPECT_EQ(values_of(*c.nodo_harmonic), values_of(*design->config.nodo_harmonic));
+    EXPECT_EQ(values_of(c), values_of(design->config));
+}
+
+TEST(Tables, GenerateAndCheckWithHarmonics)
+{
+    for (const sdre::Design &design : harmonic_designs()) {
+        const TempDir     dir;
+        const std::string drive = support::shipped_drive(design.drive.name).string();
+        const std::string out   = (dir / "tables").string();
+
+        const auto written =
+            support::run_command({SDRE_GAINS_EXE, "generate", drive, "--out", out});
+        const auto checked =
+            support::run_command({SDRE_GAINS_EXE, "generate", drive, "--check", out});
+        EXPECT_EQ(written.exit_code, 0) << written.err;
+        EXPECT_EQ(checked.exit_code, 0) << checked.err;
+
+        const std::string source = support::read_file(dir / "tables/gain_tables.c");
+        dir.write("tables/gain_tables.c",
+                  support::replaced(source, "_SENSOR, .order = -1.00", "_SENSOR, .order = -1.01"));
+        support::expect_refused(
+            support::run_command({SDRE_GAINS_EXE, "generate", drive, "--check", out}), 3,
+            "sdre-gains");
     }
 }

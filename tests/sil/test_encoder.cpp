@@ -159,3 +159,49 @@ TEST(Encoder, WithoutAnEdgeTheSpeedFades)
     }
     EXPECT_LE(before, pairs * 2.0 * pi / (4 * lines) / (99 * period_s)); // one count in that time
 }
+
+namespace {
+
+/// Largest error of EQ-ENCODER-6 over a run at constant speed, from the first reading on.
+double largest_angle_error(double omega_e_radps)
+{
+    SensorSettings settings;
+    settings.encoder_edge_time = true;
+    QuadratureEncoder encoder  = encoder_with(settings);
+    encoder.start(0.3, omega_e_radps);
+    double worst = 0.0;
+    for (int k = 0; k < 2000; k++) {
+        const double theta = 0.3 + omega_e_radps * k * period_s;
+        const double error = encoder.read(theta, omega_e_radps).theta_e_rad - theta;
+        worst              = std::max(worst, std::abs(std::remainder(error, 2.0 * pi)));
+    }
+    return worst;
+}
+
+} // namespace
+
+TEST(Encoder, EdgeTimesGiveTheAngleWithinACount)
+{
+    for (const double omega : {400.0, 37.0, 8.0, -8.0, -37.0, -400.0}) { // a count is 1.3e-3
+        EXPECT_LT(largest_angle_error(omega), 1e-6) << omega;
+    }
+}
+
+TEST(Encoder, AStandingAngleStaysWithinItsCount)
+{
+    SensorSettings settings;
+    settings.encoder_edge_time = true;
+    QuadratureEncoder encoder  = encoder_with(settings);
+    const double      count    = pairs * 2.0 * pi / (4 * lines);
+    double            theta    = 0.0;
+    for (int k = 0; k < 50; k++) {
+        theta += 100.0 * period_s;
+        encoder.read(theta, 100.0);
+    }
+    const double cell = std::floor(theta / count) * count;
+    for (int k = 0; k < 50; k++) {
+        const double read = encoder.read(theta, 0.0).theta_e_rad;
+        EXPECT_GE(read, cell - 1e-12);
+        EXPECT_LE(read, cell + count + 1e-12);
+    }
+}

@@ -274,6 +274,24 @@ TEST(Metrics, ShortWindowStillHasATail)
     EXPECT_NEAR(m.settling_time_s.value_or(-1.0), ts_s, 1e-12);
 }
 
+/// A sine of 0.3 A on iq and a cosine on id: a vector of 0.3 A that turns about (-0.6, 0.8) A.
+TEST(Metrics, DistortionIsWhatTurnsAgainstTheFundamental)
+{
+    std::vector<sdre::TraceRow> trace = trace_of(
+        1000, [](double) { return 100.0; }, 100.0);
+    for (std::size_t k = 0; k < trace.size(); k++) {
+        const double phase           = 2.0 * std::acos(-1.0) * static_cast<double>(k) / 20.0;
+        trace[k].iq_A                = 0.8 + 0.3 * std::sin(phase);
+        trace[k].id_A                = -0.6 + 0.3 * std::cos(phase);
+        trace[k].sensor_offset_hat_A = 0.25;
+    }
+
+    const sdre::Metrics m = only(trace, 1.0);
+
+    EXPECT_NEAR(m.current_distortion_percent, 30.0, 1e-9);
+    EXPECT_NEAR(m.sensor_offset_hat_A, 0.25, 1e-12);
+}
+
 TEST(Metrics, NamesAreTheJsonKeys)
 {
     sdre::Metrics m;
@@ -289,6 +307,8 @@ TEST(Metrics, NamesAreTheJsonKeys)
     m.d_d_hat                    = 9.0;
     m.iq_A                       = 10.0;
     m.id_A                       = 11.0;
+    m.sensor_offset_hat_A        = 11.3;
+    m.current_distortion_percent = 11.6;
     m.fluctuation_rpm            = 12.0;
     m.fluctuation_rate_percent   = 13.0;
     m.offset_rpm                 = 14.0;
@@ -310,6 +330,8 @@ TEST(Metrics, NamesAreTheJsonKeys)
                                                                {"d_d_hat", 9.0},
                                                                {"iq_A", 10.0},
                                                                {"id_A", 11.0},
+                                                               {"sensor_offset_hat_A", 11.3},
+                                                               {"current_distortion_percent", 11.6},
                                                                {"fluctuation_rpm", 12.0},
                                                                {"fluctuation_rate_percent", 13.0},
                                                                {"offset_rpm", 14.0},

@@ -3,70 +3,21 @@
 // the shipped scenarios.
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
-#include <vector>
 
-#include <gtest/gtest.h>
-
-#include "metrics.hpp"
-#include "parallel.hpp"
-#include "simulation.hpp"
+#include "seeded_runs.hpp"
 
 namespace {
 
-constexpr std::size_t seeds = 20;
-
-/// Of every seed, by measure.
-using Runs = std::map<std::string, std::vector<sdre::Metrics>>;
-
-sdre::Scenario shipped(const std::string &name, const std::string &law)
-{
-    const std::filesystem::path root = SDRE_SOURCE_DIR;
-    return sdre::read_scenario_file(root / "host_tools/sil/scenarios" / (name + ".toml"),
-                                    root / "firmware/config/drives" /
-                                        ("servo_200w_" + law + ".toml"));
-}
-
-void run(const sdre::Scenario &s, Runs &runs)
-{
-    const sdre::Controller                  controller = sdre::prepare_controller(s);
-    std::vector<std::vector<sdre::Metrics>> found(seeds);
-    EXPECT_TRUE(controller.uncertified.empty()) << s.drive.name;
-    sdre::parallel_for(seeds, [&](std::size_t i) {
-        sdre::Scenario seeded               = s;
-        seeded.seed                         = i + 1;
-        const sdre::SimulationResult result = sdre::simulate(seeded, controller);
-        EXPECT_EQ(result.fault, DRIVE_FAULT_NONE) << s.drive.name;
-        found[i] = sdre::measure(seeded, result.trace);
-    });
-    for (const std::vector<sdre::Metrics> &metrics : found) {
-        for (const sdre::Metrics &m : metrics) {
-            runs[m.name].push_back(m);
-        }
-    }
-}
+using sdre_test::expect_share;
+using sdre_test::Runs;
 
 Runs all_cases(const std::string &law)
 {
     Runs runs;
-    run(shipped("servo_case_1_2", law), runs);
-    run(shipped("servo_case_3_4", law), runs);
+    sdre_test::run(sdre_test::shipped("servo_case_1_2", "servo_200w_" + law), runs);
+    sdre_test::run(sdre_test::shipped("servo_case_3_4", "servo_200w_" + law), runs);
     return runs;
-}
-
-/// Every seed within a share of the expected value.
-void expect_share(const Runs &runs, const char *measure, const char *metric, double expected,
-                  double share)
-{
-    for (const sdre::Metrics &m : runs.at(measure)) {
-        const auto values = sdre::metric_values(m);
-        const auto value  = std::find_if(values.begin(), values.end(),
-                                         [&](const auto &v) { return v.first == metric; });
-        ASSERT_NE(value, values.end()) << measure << " " << metric;
-        EXPECT_NEAR(value->second, expected, share * std::abs(expected))
-            << measure << " " << metric;
-    }
 }
 
 void expect_no_offset(const Runs &runs)
@@ -178,7 +129,7 @@ TEST(ServoCases, SensorErrorsAreRejectedInThisOrder)
 /// Counts instead of edge times: one count per period is 60 r/min, and the loop swings on it.
 TEST(ServoCases, CountsPerPeriodAreNoSpeedForThisLaw)
 {
-    sdre::Scenario s            = shipped("servo_case_1_2", "cdobc");
+    sdre::Scenario s            = sdre_test::shipped("servo_case_1_2", "servo_200w_cdobc");
     s.sensors.encoder_edge_time = false;
     for (sdre::PlantChange &change : s.changes) {
         change.sensors->encoder_edge_time = false;

@@ -43,6 +43,13 @@ public:
         return *this;
     }
 
+    /// At the end, still empty.
+    DriveText &add_section(const std::string &name)
+    {
+        sections_.push_back({name, {}});
+        return *this;
+    }
+
     /// Turns the order of the keys, and of the sections below the top level, around.
     DriveText &reverse()
     {

@@ -12,7 +12,7 @@ wanted()
 {
     local file options=(-std=c99 -O2 -c -Ifirmware/control)
     [[ -z $1 ]] || options+=("-DDRIVE_ONLY_LAW=$1")
-    for file in drive_tick drive_config; do
+    for file in drive_tick estimate drive_config; do
         "$cc" "${options[@]}" "firmware/control/$file.c" -o "$work/$file.o"
         nm --undefined-only "$work/$file.o" | awk '{print $2}'
     done | sort -u
@@ -31,14 +31,25 @@ expect()
 
 cc=$1
 status=0
-of_noc='nosc_|current_ref_|speed_ref_|nodo_encoder_correct|nodo_encoder_predict|nodo_update|feedforward_V'
+of_near_optimal='current_ref_update|speed_ref_update|nosc_limit_speed_error|feedforward_V'
+of_noc='nodo_encoder_correct|nodo_update'
+of_noc_h='nodo_harmonic_'
+of_conventional='conventional_'
 of_servo='servo_law_|dobc_|pid_law_'
-for law in '' DRIVE_LAW_NOC; do
-    expect "$law" yes "$of_noc"
-done
-for law in '' DRIVE_LAW_SERVO; do
-    expect "$law" yes "$of_servo"
-done
-expect DRIVE_LAW_SERVO no "$of_noc"
-expect DRIVE_LAW_NOC no "$of_servo"
+
+# expect_all <law or nothing> <one answer for each of the five>
+expect_all()
+{
+    local law=$1 answers=("${@:2}") n=0 pattern
+    for pattern in "$of_near_optimal" "$of_noc" "$of_noc_h" "$of_conventional" "$of_servo"; do
+        expect "$law" "${answers[n]}" "$pattern"
+        n=$((n + 1))
+    done
+}
+
+expect_all '' yes yes yes yes yes
+expect_all DRIVE_LAW_NOC yes yes no no no
+expect_all DRIVE_LAW_NOC_H yes no yes no no
+expect_all DRIVE_LAW_CONVENTIONAL yes no no yes no
+expect_all DRIVE_LAW_SERVO no no no no yes
 exit "$status"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// record_ticks FILE SCENARIO...: runs the scenarios and writes every control period to FILE. The image that replays them
-/// contains the law of the shipped tables alone, so scenarios of another law are passed over.
+/// record_ticks LAW FILE SCENARIO...: runs the scenarios and writes every control period to FILE. The image that replays
+/// them contains one law alone, so scenarios of another one are passed over.
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
@@ -9,12 +9,12 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <string>
 
 #include "pi_foc.hpp"
 #include "recording.hpp"
 
 extern "C" {
-#include "gain_tables.h"
 #include "tick_file.h"
 }
 
@@ -54,11 +54,11 @@ int highest_order(const drive_config_t &c)
     return std::max<int>(c.nosc.order, observer);
 }
 
-void write_run(std::ofstream &file, const std::filesystem::path &path)
+void write_run(std::ofstream &file, const std::string &law, const std::filesystem::path &path)
 {
     const sdre::Scenario   scenario   = sdre::read_scenario_file(path);
     const sdre::Controller controller = sdre::prepare_controller(scenario);
-    if (controller.config.law != gain_tables_drive.law) {
+    if (law != sdre::law_name(scenario.drive.law)) {
         return;
     }
     const sdre::Recording recording = sdre::record(scenario, controller);
@@ -70,8 +70,10 @@ void write_run(std::ofstream &file, const std::filesystem::path &path)
     run.form      = static_cast<std::uint32_t>(controller.config.form);
     run.order     = static_cast<std::uint32_t>(highest_order(controller.config));
     run.ticks     = static_cast<std::uint32_t>(recording.samples.size());
-    run.config    = controller.config;
-    run.pi        = sdre::pi_foc_gains(scenario.drive);
+    run.harmonic  = controller.config.law == DRIVE_LAW_NOC_H ? 1U : 0U;
+    run.table     = run.harmonic != 0U ? *controller.config.nodo_harmonic : nodo_harmonic_gains_t{};
+    std::memcpy(run.config, &controller.config, sizeof run.config);
+    run.pi = sdre::pi_foc_gains(scenario.drive);
     put(file, run);
 
     pi_foc_t pi{};
@@ -88,18 +90,18 @@ void write_run(std::ofstream &file, const std::filesystem::path &path)
 
 int main(int argc, char **argv)
 try {
-    if (argc < 3) {
-        std::fprintf(stderr, "usage: record_ticks FILE SCENARIO...\n");
+    if (argc < 4) {
+        std::fprintf(stderr, "usage: record_ticks LAW FILE SCENARIO...\n");
         return 2;
     }
-    std::ofstream file(argv[1], std::ios::binary);
-    for (int i = 2; i < argc; i++) {
-        write_run(file, argv[i]);
+    std::ofstream file(argv[2], std::ios::binary);
+    for (int i = 3; i < argc; i++) {
+        write_run(file, argv[1], argv[i]);
     }
     const tick_file_run_t end{};
     put(file, end);
     if (!file.flush()) {
-        throw std::runtime_error(std::string("cannot write ") + argv[1]);
+        throw std::runtime_error(std::string("cannot write ") + argv[2]);
     }
     return 0;
 } catch (const std::exception &error) {

@@ -17,36 +17,44 @@
 
 #define TICK_FILE_NAME_SIZE 64
 
+/** The constants without the pointer to a table, which the two machines cannot share, and what follows it: the
+ * conventional law's. */
+#define TICK_FILE_CONFIG_SIZE (offsetof(drive_config_t, servo) + sizeof(servo_law_config_t))
+
 /** What the two machines must agree on, as numbers. */
 #define TICK_FILE_LAYOUT                                                                           \
-    ((uint32_t)sizeof(drive_config_t) + ((uint32_t)offsetof(drive_config_t, motor) << 16))
+    ((uint32_t)TICK_FILE_CONFIG_SIZE + ((uint32_t)offsetof(drive_config_t, motor) << 16))
 #define TICK_FILE_TICK_SIZE ((uint32_t)sizeof(tick_file_tick_t))
 
 enum { TICK_FILE_VALID = 1, TICK_FILE_RUN = 2, TICK_FILE_GATE = 4 };
 
 typedef struct {
-    char           name[TICK_FILE_NAME_SIZE];
-    uint32_t       layout;
-    uint32_t       tick_size;
-    uint32_t       form;  /**< drive_form_t */
-    uint32_t       order; /**< highest of the series in use */
-    uint32_t       ticks;
-    drive_config_t config;
-    pi_foc_gains_t pi;
+    char                  name[TICK_FILE_NAME_SIZE];
+    uint32_t              layout;
+    uint32_t              tick_size;
+    uint32_t              form;  /**< drive_form_t */
+    uint32_t              order; /**< highest of the series in use */
+    uint32_t              ticks;
+    uint32_t              config[TICK_FILE_CONFIG_SIZE / sizeof(uint32_t)];
+    pi_foc_gains_t        pi;
+    uint32_t              harmonic; /**< the law is DRIVE_LAW_NOC_H: */
+    nodo_harmonic_gains_t table;
 } tick_file_run_t;
 
 /** The core's memory without its pointer, which the two machines cannot share. */
 typedef struct {
-    drive_state_t state;
-    drive_fault_t fault;
-    nodo_t        observer;
-    float         theta_hat_rad;
-    nodo_meas_t   now;
-    speed_ref_t   speed_ref;
-    current_ref_t current_ref;
-    servo_law_t   servo;
-    dq_t          v_V;
-    uint32_t      v_limited;
+    drive_state_t   state;
+    drive_fault_t   fault;
+    nodo_t          observer;
+    float           theta_hat_rad;
+    nodo_harmonic_t harmonic;
+    float           d_omega_dot;
+    nodo_meas_t     now;
+    speed_ref_t     speed_ref;
+    current_ref_t   current_ref;
+    servo_law_t     servo;
+    dq_t            v_V;
+    uint32_t        v_limited;
 } tick_file_drive_t;
 
 /**
@@ -84,6 +92,8 @@ static inline tick_file_drive_t tick_file_from_drive(const drive_t *d)
     x.fault         = d->fault;
     x.observer      = d->observer;
     x.theta_hat_rad = d->theta_hat_rad;
+    x.harmonic      = d->harmonic;
+    x.d_omega_dot   = d->d_omega_dot;
     x.now           = d->now;
     x.speed_ref     = d->speed_ref;
     x.current_ref   = d->current_ref;
@@ -102,6 +112,8 @@ static inline drive_t tick_file_to_drive(const tick_file_drive_t *x, const drive
     d.fault         = x->fault;
     d.observer      = x->observer;
     d.theta_hat_rad = x->theta_hat_rad;
+    d.harmonic      = x->harmonic;
+    d.d_omega_dot   = x->d_omega_dot;
     d.now           = x->now;
     d.speed_ref     = x->speed_ref;
     d.current_ref   = x->current_ref;

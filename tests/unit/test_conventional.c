@@ -267,6 +267,9 @@ static void test_constants_outside_their_range_are_refused(void)
 
     c.conventional.nosc_order = DOUBLE_SERIES_ORDER_MAX + 1;
     expect_refused(c);
+    c      = conventional_drive();
+    c.form = DRIVE_FORM_ENCODER;
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, drive_config_check(&c));
     c                         = conventional_drive();
     c.conventional.nodo_order = -1;
     expect_refused(c);

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "drive_config.h"
 
+#include <stddef.h>
+
 #include "gain_tables.h"
+#include "harmonic_tables.h"
 #include "speed_tables.h"
 #include "unit_support.h"
 #include "unity.h"
@@ -290,6 +293,127 @@ static void test_every_order_that_a_table_can_hold_is_accepted(void)
     }
 }
 
+/* A drive of noc_h with a table of its own. */
+static nodo_harmonic_gains_t table;
+
+static void use_harmonics(void)
+{
+    table                = *harmonic_tables_drive.nodo_harmonic;
+    config               = harmonic_tables_drive;
+    config.nodo_harmonic = &table;
+}
+
+static void assert_harmonics(ctl_status_t expected)
+{
+    TEST_ASSERT_EQUAL_INT(expected, drive_config_check(&config));
+}
+
+static void test_noc_h_needs_its_table_and_the_encoder_form(void)
+{
+    use_harmonics();
+    assert_harmonics(CTL_OK);
+    config.nodo_harmonic = NULL;
+    assert_harmonics(CTL_BAD_CONFIG);
+    use_harmonics();
+    config.form = DRIVE_FORM_SPEED;
+    assert_harmonics(CTL_BAD_CONFIG);
+    use_harmonics();
+    config.nodo_encoder.order = -1; /* not its observer */
+    assert_harmonics(CTL_OK);
+    config.nosc.order = -1;
+    assert_harmonics(CTL_BAD_CONFIG);
+    use_harmonics();
+    config.current_ref.mtpa_A = NAN;
+    assert_harmonics(CTL_BAD_CONFIG);
+}
+
+static void test_counts_of_harmonics_are_those_of_a_table(void)
+{
+    const int16_t bad_pairs[] = {-1, NODO_HARMONIC_PAIRS_MAX + 1};
+    const int16_t bad_nodes[] = {-1, 0, 1, NODO_HARMONIC_NODES_MAX + 1};
+
+    for (int i = 0; i < SUPPORT_COUNT(bad_pairs); i++) {
+        use_harmonics();
+        table.n_pairs = bad_pairs[i];
+        assert_harmonics(CTL_BAD_CONFIG);
+    }
+    for (int i = 0; i < SUPPORT_COUNT(bad_nodes); i++) {
+        use_harmonics();
+        table.n_nodes = bad_nodes[i];
+        assert_harmonics(CTL_BAD_CONFIG);
+    }
+    use_harmonics();
+    table.n_pairs = 0;
+    table.n_nodes = 2;
+    assert_harmonics(CTL_OK);
+    table.n_pairs = NODO_HARMONIC_PAIRS_MAX; /* what the drive has not is zero */
+    assert_harmonics(CTL_OK);
+}
+
+static void test_constants_of_harmonics_are_checked(void)
+{
+    float *const constants[] = {&table.iq_max_A, &table.nodes_per_root, &table.keep,
+                                &table.keep_fast};
+
+    for (int i = 0; i < SUPPORT_COUNT(constants); i++) {
+        const float bad[] = {0.0f, -1.0f, TOO_LARGE, NAN, INFINITY};
+        for (int k = 0; k < SUPPORT_COUNT(bad); k++) {
+            use_harmonics();
+            *constants[i] = bad[k];
+            assert_harmonics(CTL_BAD_CONFIG);
+        }
+    }
+    use_harmonics();
+    table.keep = 1.0f;
+    assert_harmonics(CTL_OK);
+    table.keep = nextafterf(1.0f, 2.0f);
+    assert_harmonics(CTL_BAD_CONFIG);
+    use_harmonics();
+    table.keep_fast = nextafterf(1.0f, 2.0f);
+    assert_harmonics(CTL_BAD_CONFIG);
+}
+
+static void test_orders_of_the_pairs_in_use_are_checked(void)
+{
+    const float bad[] = {1001.0f, -1001.0f, NAN, -INFINITY};
+
+    use_harmonics();
+    for (int i = 0; i < table.n_pairs; i++) {
+        for (int k = 0; k < SUPPORT_COUNT(bad); k++) {
+            use_harmonics();
+            table.pair[i].order = bad[k];
+            assert_harmonics(CTL_BAD_CONFIG);
+        }
+    }
+    use_harmonics();
+    table.n_pairs--;
+    table.pair[table.n_pairs].order = NAN;
+    assert_harmonics(CTL_OK);
+}
+
+static void test_every_gain_of_the_harmonics_in_use_is_checked(void)
+{
+    use_harmonics();
+    const int rows  = NODO_HARMONIC_N_BASE + (2 * table.n_pairs);
+    const int nodes = table.n_nodes;
+
+    for (int n = 0; n < nodes * rows * NODO_HARMONIC_N_G; n++) {
+        float *const gain = &table.gain[n / (rows * NODO_HARMONIC_N_G)]
+                                       [(n / NODO_HARMONIC_N_G) % rows][n % NODO_HARMONIC_N_G];
+        const float good = *gain;
+        for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
+            *gain = support_not_finite[k];
+            assert_harmonics(CTL_BAD_CONFIG);
+        }
+        *gain = -TOO_LARGE;
+        assert_harmonics(CTL_BAD_CONFIG);
+        *gain = good;
+    }
+    table.n_pairs--; /* the last two rows are no longer in use */
+    table.gain[0][rows - 1][0] = NAN;
+    assert_harmonics(CTL_OK);
+}
+
 static void test_every_gain_of_the_controller_in_use_is_checked(void)
 {
     for (int n = 0; n <= speed_tables_drive.nosc.order; n++) {
@@ -377,5 +501,10 @@ int main(void)
     RUN_TEST(test_every_gain_of_the_observer_in_use_is_checked);
     RUN_TEST(test_every_gain_of_the_encoder_observer_in_use_is_checked);
     RUN_TEST(test_powers_beyond_the_order_are_not_looked_at);
+    RUN_TEST(test_noc_h_needs_its_table_and_the_encoder_form);
+    RUN_TEST(test_counts_of_harmonics_are_those_of_a_table);
+    RUN_TEST(test_constants_of_harmonics_are_checked);
+    RUN_TEST(test_orders_of_the_pairs_in_use_are_checked);
+    RUN_TEST(test_every_gain_of_the_harmonics_in_use_is_checked);
     return UNITY_END();
 }

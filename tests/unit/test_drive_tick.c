@@ -5,6 +5,7 @@
 #include "feedforward.h"
 #include "frames.h"
 #include "gain_tables.h"
+#include "harmonic_tables.h"
 #include "speed_tables.h"
 #include "svpwm.h"
 #include "unit_support.h"
@@ -926,6 +927,85 @@ static void test_encoder_form_trips_on_estimates_that_are_not_finite(void)
     }
 }
 
+static void use_harmonics(void)
+{
+    base = &harmonic_tables_drive;
+    start_over();
+}
+
+/* Whatever of the harmonic observer is no number, the bridge opens in that period. */
+static void test_noc_h_trips_on_estimates_that_are_not_finite(void)
+{
+    nodo_harmonic_t *const h           = &drive.harmonic;
+    float *const           estimates[] = {
+                  &h->base.d_omega,    &h->base.d_q,  &h->base.d_d,  &h->base.omega_e_radps,
+                  &h->base.iq_A,       &h->base.id_A, &h->slope,     &h->theta_rad,
+                  &h->theta_pairs_rad, &h->pair[0].a, &h->pair[0].b, &drive.theta_hat_rad};
+    use_harmonics();
+    for (int i = 0;
+         i < SUPPORT_COUNT(estimates) + (2 * harmonic_tables_drive.nodo_harmonic->n_pairs); i++) {
+        const int pair = (i - SUPPORT_COUNT(estimates)) / 2;
+        for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
+            start_over();
+            (void)tick();
+            *((i < SUPPORT_COUNT(estimates)) ? estimates[i]
+              : (i % 2 == 0)                 ? &h->pair[pair].a
+                                             : &h->pair[pair].b) = support_not_finite[k];
+
+            assert_open(tick());
+
+            TEST_ASSERT_EQUAL_INT(DRIVE_FAULT, drive.state);
+        }
+    }
+}
+
+static void test_noc_h_trips_on_every_input_that_is_not_finite(void)
+{
+    use_harmonics();
+    test_every_input_that_is_not_finite_trips();
+}
+
+/* A start after a fault or a stop knows nothing of before. */
+static void test_noc_h_starts_afresh(void)
+{
+    use_harmonics();
+    (void)settled_loop(300.0, 0.5);
+    TEST_ASSERT_TRUE((drive.harmonic.pair[0].a != 0.0f) && (drive.d_omega_dot != 0.0f));
+    drive_reset(&drive);
+    sample                     = sample_at(0.0, 0.0, 1.0, 100.0);
+    command.omega_e_radps      = 100.0f;
+    const drive_output_t again = tick();
+    const drive_t        used  = drive;
+    use_harmonics();
+    sample                     = sample_at(0.0, 0.0, 1.0, 100.0);
+    command.omega_e_radps      = 100.0f;
+    const drive_output_t first = tick();
+
+    TEST_ASSERT_TRUE((again.duty.a == first.duty.a) && (again.duty.b == first.duty.b));
+    TEST_ASSERT_TRUE((used.harmonic.pair[0].a == drive.harmonic.pair[0].a) &&
+                     (used.harmonic.slope == drive.harmonic.slope) &&
+                     (used.d_omega_dot == drive.d_omega_dot));
+}
+
+static void test_noc_h_loop_settles_at_the_command_and_finds_the_load(void)
+{
+    static const double speeds[] = {300.0, -300.0, 0.0};
+    for (int i = 0; i < SUPPORT_COUNT(speeds); i++) {
+        use_harmonics();
+        loop_t loop = settled_loop(speeds[i], 0.75);
+        double mean = 0.0, d_w = 0.0;
+        for (int n = 0; n < 500; n++) {
+            sample = encoder_sample(&loop.plant);
+            (void)loop_step(&loop, 0.75);
+            mean += loop.plant.omega / 500.0;
+            d_w += (double)drive.observer.d_omega / 500.0;
+        }
+        TEST_ASSERT_EQUAL_INT(DRIVE_RUN, drive.state);
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_MEAN_RADPS, speeds[i], mean);
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_LOAD, 0.75, -d_w / (double)config.motor.l3);
+    }
+}
+
 /* Only its start reads the speed signal. */
 static void test_encoder_form_does_not_use_the_speed_signal(void)
 {
@@ -1048,5 +1128,9 @@ int main(void)
     RUN_TEST(test_encoder_form_does_not_use_the_speed_signal);
     RUN_TEST(test_encoder_form_acts_on_the_prediction);
     RUN_TEST(test_encoder_form_keeps_duties_in_range_for_plausible_samples);
+    RUN_TEST(test_noc_h_trips_on_estimates_that_are_not_finite);
+    RUN_TEST(test_noc_h_trips_on_every_input_that_is_not_finite);
+    RUN_TEST(test_noc_h_starts_afresh);
+    RUN_TEST(test_noc_h_loop_settles_at_the_command_and_finds_the_load);
     return UNITY_END();
 }

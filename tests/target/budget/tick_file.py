@@ -4,8 +4,9 @@ import struct
 from dataclasses import dataclass
 
 NAME_SIZE, PI_GAINS_SIZE = 64, 32
+TABLE_SIZE = 4 + 4 + 3 * 4 + 8 * 8 + 17 * 24 * 6 * 4  # whether there is one, counts, constants, pairs, gains
 HEAD = struct.Struct("<5I")  # layout, tick size, form, order, ticks
-DRIVE_SIZE = 49 * 4
+DRIVE_SIZE = (49 + 26) * 4
 TICK = struct.Struct(f"<{DRIVE_SIZE}x6f3f3fI")
 RESULT = struct.Struct("<III3f3f")
 GATE = 4
@@ -31,7 +32,7 @@ def read_runs(path):
         config_size = layout & 0xFFFF
         if tick_size != TICK.size:
             raise ValueError(f"{path}: ticks of {tick_size} octets, {TICK.size} are known")
-        at += NAME_SIZE + HEAD.size + config_size + PI_GAINS_SIZE
+        at += NAME_SIZE + HEAD.size + config_size + PI_GAINS_SIZE + TABLE_SIZE
         ticks = list(TICK.iter_unpack(data[at : at + count * TICK.size]))
         runs.append(Run(name, form == 1, order, ticks))
         at += count * TICK.size

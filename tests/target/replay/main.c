@@ -7,6 +7,7 @@
  * timer's counts are instructions times a constant.
  */
 #include <stddef.h>
+#include <string.h>
 
 #include "semihosting.h"
 #include "tick_file.h"
@@ -23,6 +24,7 @@ enum { EXIT_DONE = 0, EXIT_INPUT, EXIT_LAYOUT };
 #define SYST_START 5u /* enabled, processor clock */
 
 static tick_file_run_t    run;
+static drive_config_t     config;
 static tick_file_tick_t   ticks[BLOCK_TICKS];
 static tick_file_result_t results[BLOCK_TICKS];
 static drive_t            drive;
@@ -39,7 +41,7 @@ static tick_file_result_t replay(const tick_file_tick_t *t)
     const drive_command_t command = {.omega_e_radps = t->command_e_radps,
                                      .run           = (t->flags & TICK_FILE_RUN) != 0u};
 
-    drive = tick_file_to_drive(&t->drive, &run.config);
+    drive = tick_file_to_drive(&t->drive, &config);
 
     const uint32_t       start  = SYST_CVR;
     const drive_output_t law    = drive_tick(&drive, &sample, &command);
@@ -59,7 +61,9 @@ static bool replay_run(int32_t in, int32_t out)
 {
     uint32_t left = run.ticks;
 
-    if (drive_init(&drive, &run.config) != CTL_OK) {
+    memcpy(&config, run.config, sizeof(run.config));
+    config.nodo_harmonic = (run.harmonic != 0u) ? &run.table : NULL;
+    if (drive_init(&drive, &config) != CTL_OK) {
         return false;
     }
     pi_foc_init(&pi, &run.pi);
