@@ -5,9 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "firmware_config.hpp"
 #include "sampled_model.hpp"
@@ -79,7 +77,7 @@ SampledLoop sweep(const GainSeries &g, double range, double ts, const Radius &ra
             }
         }
         const MatrixXd K = series_gain(g, held(s[i], loop.series_range_A), series_order(g));
-        for (const auto &pole : closed_loop(K, s[i]).eigenvalues()) {
+        for (const auto &pole : eigenvalues(closed_loop(K, s[i]))) {
             loop.worst_pole_1ps  = std::max(loop.worst_pole_1ps, pole.real());
             loop.fastest_pole_ts = std::max(loop.fastest_pole_ts, std::abs(pole) * ts);
         }
@@ -112,7 +110,7 @@ SampledLoop sweep_nosc(const Design &d)
         MatrixXd M             = MatrixXd::Zero(5, 5);
         M.topLeftCorner(3, 3)  = state_matrix(d.nosc.problem, s) * ts;
         M.topRightCorner(3, 2) = B * ts;
-        const MatrixXd E       = M.exp();
+        const MatrixXd E       = exponential(M);
         if (!delayed) { // the prediction takes the delay out
             return spectral_radius(E.topLeftCorner(3, 3) - E.topRightCorner(3, 2) * K);
         }

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <unsupported/Eigen/MatrixFunctions>
-
 #include "linalg_checks.hpp"
+#include "matrix_functions.hpp"
 #include "sampled_riccati.hpp"
 
 namespace sdre {
@@ -95,7 +94,7 @@ SampledObserverProblem sampled(const MatrixXd &A, const MatrixXd &dA, const Matr
     MatrixXd M = MatrixXd::Zero(2 * n, 2 * n); // its exponential holds that of A and the derivative
     M.topLeftCorner(n, n) = M.bottomRightCorner(n, n) = A * ts;
     M.topRightCorner(n, n)                            = dA * ts;
-    const MatrixXd         E                          = M.exp();
+    const MatrixXd         E                          = exponential(M);
     SampledObserverProblem p;
     p.A0              = E.topLeftCorner(n, n);
     p.A1              = E.topRightCorner(n, n);

@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-#include <unsupported/Eigen/MatrixFunctions>
-
 namespace sdre {
 namespace {
 
@@ -55,7 +52,7 @@ HeldMotor held_motor(const ReducedParameters &l, const OperatingPoint &at, doubl
     M(3, 0)             = ts;
     M.block(0, 4, 3, 2) = nosc_input_matrix(l) * ts;
     M(0, 6)             = -l[3] * ts;
-    const MatrixXd E    = M.exp();
+    const MatrixXd E    = exponential(M);
     return {E.topLeftCorner(4, 4), E.topRightCorner(4, 3)};
 }
 
@@ -112,11 +109,6 @@ SampledModel sampled_model(const ReducedParameters &motor, const ReducedParamete
     out.b_load                 = (S * b_load).head(10);
     out.B_noise                = (S * B_noise).topRows(10);
     return out;
-}
-
-double spectral_radius(const MatrixXd &A)
-{
-    return A.eigenvalues().cwiseAbs().maxCoeff();
 }
 
 double mtpa_id_A(const ReducedParameters &l, double iq_A)

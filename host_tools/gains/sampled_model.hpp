@@ -3,6 +3,7 @@
 /// period of delay. State [w iq id (theta - theta^) | d_w^ d_q^ d_d^ w^ iq^ id^] as deviations from the operating point.
 #pragma once
 
+#include "matrix_functions.hpp"
 #include "motor_model.hpp"
 
 namespace sdre {
@@ -58,9 +59,6 @@ Eigen::MatrixXd encoder_form_law(const ReducedParameters &l, const Eigen::Matrix
 /// @param motor what the motor is, @param model what the controller believes.
 SampledModel sampled_model(const ReducedParameters &motor, const ReducedParameters &model,
                            const LoopGains &gains, const OperatingPoint &at, double ts_s);
-
-/// Largest |eigenvalue|.
-double spectral_radius(const Eigen::MatrixXd &A);
 
 /// The exact MTPA current id for an iq, 0 without saliency.
 double mtpa_id_A(const ReducedParameters &l, double iq_A);

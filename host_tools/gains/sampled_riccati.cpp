@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "errors.hpp"
+#include "matrix_functions.hpp"
 
 namespace sdre {
 namespace {
@@ -95,7 +95,7 @@ SampledObserverGain solve_sampled_observer(const SampledObserverProblem &p)
     out.P1               = P1.cast<double>();
     out.riccati_residual = relative(P - (A * after * A.transpose() + Q), P, Q);
     out.stein_residual   = relative(P1 - (F * P1 * F.transpose() + W), P1, W);
-    out.spectral_radius  = F.cast<double>().eigenvalues().cwiseAbs().maxCoeff();
+    out.spectral_radius  = spectral_radius(F.cast<double>());
     if (!(out.spectral_radius < 1.0)) {
         throw DesignError("sampled Riccati equation: no stabilising solution found");
     }

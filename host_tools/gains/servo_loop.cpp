@@ -7,7 +7,6 @@
 
 #include <Eigen/LU>
 #include <fmt/format.h>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "dobc_design.hpp"
 #include "sampled_model.hpp"
@@ -40,7 +39,7 @@ Held held(const MatrixXd &A, const VectorXd &B, double ts_s)
     MatrixXd    Z          = MatrixXd::Zero(n + 1, n + 1);
     Z.topLeftCorner(n, n)  = A * ts_s;
     Z.topRightCorner(n, 1) = B * ts_s;
-    const MatrixXd X       = Z.exp();
+    const MatrixXd X       = exponential(Z);
     return {X.topLeftCorner(n, n), X.topRightCorner(n, 1)};
 }
 

@@ -125,12 +125,12 @@ MatrixXd nodo_gain(const drive_config_t &c, double s)
 
 double worst_real(const MatrixXd &A)
 {
-    return A.eigenvalues().real().maxCoeff();
+    return sdre::eigenvalues(A).real().maxCoeff();
 }
 
 double radius(const MatrixXd &A)
 {
-    return A.eigenvalues().cwiseAbs().maxCoeff();
+    return sdre::eigenvalues(A).cwiseAbs().maxCoeff();
 }
 
 /// x(Ts) of x' = A x + B u with u held, by 20 classical Runge-Kutta steps on every unit vector.
