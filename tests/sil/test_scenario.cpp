@@ -114,19 +114,20 @@ TEST(Scenario, ShippedScenariosAreRead)
     for (const auto &entry : std::filesystem::directory_iterator(scenarios)) {
         const sdre::Scenario s = sdre::read_scenario_file(entry.path());
         EXPECT_EQ(s.name, entry.path().stem());
-        const bool board = s.name.rfind("board_", 0) == 0;
-        const bool servo = s.name.rfind("servo_", 0) == 0;
-        EXPECT_EQ(s.drive.name, servo   ? "servo_200w_cdobc"
-                                : board ? "ipmsm_390w"
-                                        : "ipmsm_390w_speed")
+        const bool board     = s.name.rfind("board_", 0) == 0;
+        const bool servo     = s.name.rfind("servo_", 0) == 0;
+        const bool harmonics = s.name.rfind("harmonics_", 0) == 0;
+        EXPECT_EQ(s.drive.name, servo       ? "servo_200w_cdobc"
+                                : harmonics ? "ipmsm_390w_noc_h_edges"
+                                : board     ? "ipmsm_390w"
+                                            : "ipmsm_390w_speed")
             << s.name;
-        EXPECT_EQ(s.sensors.ideal, !board && !servo) << s.name;
+        EXPECT_EQ(s.sensors.ideal, !board && !servo && !harmonics) << s.name;
         EXPECT_FALSE(s.measures.empty());
         count++;
     }
-    EXPECT_EQ(
-        count,
-        22); // Fig. 4 with four orders, Fig. 5 to 8; twelve on the realistic board; two of paper B
+    // Fig. 4 with four orders, Fig. 5 to 8; twelve on the realistic board; two of paper B; two of noc_h
+    EXPECT_EQ(count, 24);
     EXPECT_EQ(sdre::read_scenario_file(scenarios / "fig4_parameter_steps_nd3.toml").nodo_order, 3);
     EXPECT_EQ(sdre::read_scenario_file(scenarios / "fig8_flux_weakening.toml").dc_link_V, 173.2);
 }

@@ -176,6 +176,8 @@ TEST(SilCli, JsonHasTheAgreedKeys)
                                      "ripple_e_radps",
                                      "peak_current_A",
                                      "steady_current_A",
+                                     "current_distortion_percent",
+                                     "sensor_offset_hat_A",
                                      "d_omega_hat",
                                      "d_q_hat",
                                      "d_d_hat",
