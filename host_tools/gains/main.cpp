@@ -90,11 +90,16 @@ int run_tune(const Options &options)
     const std::string    text = sdre::read_text_file(options.drive);
     sdre::require_rewritable(options.drive, text);
     const auto progress = [](int evaluations, double worst) {
-        fmt::print(stderr, "\r{} evaluations, worst result {:.3f} of its specification ",
+        fmt::print(stderr, "{} evaluations, worst result {:.3f} of its specification\n",
                    evaluations, worst);
     };
-    const sdre::TuneResult result = sdre::tune_drive(drive, spec, progress);
-    fmt::print(stderr, "\n");
+    const sdre::TuneResult  result      = sdre::tune_drive(drive, spec, progress);
+    const sdre::Certificate certificate = sdre::design_drive(result.drive).certificate;
+    if (!certificate.passed()) {
+        throw sdre::DesignError(
+            fmt::format("{}: the best weights found are not certified, nothing written: {}",
+                        options.spec, fmt::join(certificate.failures, "; ")));
+    }
     const std::string sections = sdre::tuned_sections(result, spec);
     const std::string out      = options.out.empty() ? options.drive : options.out;
     sdre::write_files({{out, sdre::with_sections(text, sections)}});

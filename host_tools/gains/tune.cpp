@@ -153,9 +153,11 @@ CaseResult evaluate_case(const Drive &drive, const TuneSpec &spec, const Robustn
     const double         iq_far = 2.0 * drive.motor.max_current_A;
     const OperatingPoint far{trip_speed_ratio * drive.motor.rated_speed_e_radps, iq_far,
                              mtpa_id_A(l, iq_far)};
-    if (c.mechanical == 1.0 && c.electrical == 1.0 &&
-        !(spectral_radius(sampled_model(l, l, gains, far, ts).A) < 1.0)) {
-        result.spectral_radius = 1.0;
+    if (c.mechanical == 1.0 && c.electrical == 1.0) {
+        const double radius = spectral_radius(sampled_model(l, l, gains, far, ts).A);
+        if (!(radius < 1.0)) {
+            result.spectral_radius = std::max(1.0, radius);
+        }
     }
     if (result.spectral_radius < 1.0) {
         load_step(m, spec, result);
@@ -169,11 +171,15 @@ CaseResult evaluate_case(const Drive &drive, const TuneSpec &spec, const Robustn
     return result;
 }
 
-/// Largest result / specification of one case; above 1000 when unstable.
+// Far above the ratio of any stable design, so that none looks worse than these.
+constexpr double unstable    = 1e9;
+constexpr double no_solution = 1e12; ///< of the Riccati equations
+
+/// Largest result / specification of one case; `unstable` and above when the loop is.
 double ratio(const CaseResult &r, const RobustnessCase &c, const TuneSpec &spec)
 {
     if (!(r.spectral_radius < 1.0)) {
-        return 1e3 * r.spectral_radius;
+        return unstable * r.spectral_radius;
     }
     return std::max({r.dip_e_radps / c.dip_e_radps, r.settling_time_s / c.settling_time_s,
                      r.ripple_e_radps / c.ripple_e_radps,
@@ -193,7 +199,7 @@ Score score(const Drive &drive, const TuneSpec &spec, const Point &x)
     Score       s;
     const Drive candidate = with_weights(drive, spec, x);
     for (const RobustnessCase &c : spec.cases) {
-        double r = 1e6;
+        double r = no_solution;
         try {
             s.cases.push_back(evaluate_case(candidate, spec, c));
             r = ratio(s.cases.back(), c, spec);
@@ -291,7 +297,7 @@ TuneResult tune_drive(const Drive &drive, const TuneSpec &spec, const TuneProgre
         found = minimise(found.x, f);
     }
     const Score s = score(drive, spec, found.x);
-    if (!(s.worst < 1e3)) {
+    if (!(s.worst < unstable)) {
         throw DesignError("no stable design found for these specifications");
     }
     result.drive = with_weights(drive, spec, found.x);

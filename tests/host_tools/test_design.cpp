@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "errors.hpp"
+#include "matrix_functions.hpp"
 #include "reference_gains.hpp"
 
 namespace {

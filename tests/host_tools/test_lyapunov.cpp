@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "errors.hpp"
+#include "matrix_functions.hpp"
 
 namespace {
 
@@ -25,7 +26,7 @@ MatrixXd random_matrix(Eigen::Index rows, Eigen::Index cols, std::mt19937 &gener
 MatrixXd random_hurwitz(Eigen::Index n, double margin, std::mt19937 &generator)
 {
     const MatrixXd M       = random_matrix(n, n, generator);
-    const double   slowest = M.eigenvalues().real().maxCoeff();
+    const double   slowest = sdre::eigenvalues(M).real().maxCoeff();
     return M - (slowest + margin) * MatrixXd::Identity(n, n);
 }
 

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "errors.hpp"
+#include "matrix_functions.hpp"
 
 namespace {
 
@@ -144,7 +145,7 @@ void expect_stabilising(const MatrixXd &A, const MatrixXd &G, const MatrixXd &Q,
     EXPECT_LE(solution.relative_residual, residual_bound);
     const Eigen::SelfAdjointEigenSolver<MatrixXd> definite(X);
     EXPECT_GE(definite.eigenvalues().minCoeff(), -1e-12 * X.norm());
-    const Eigen::VectorXcd modes = (A - G * X).eigenvalues();
+    const Eigen::VectorXcd modes = sdre::eigenvalues(A - G * X);
     EXPECT_LT(modes.real().maxCoeff(), 0.0);
     ASSERT_EQ(solution.closed_loop_eigenvalues.size(), A.rows());
     for (Eigen::Index i = 0; i < modes.size(); ++i) {

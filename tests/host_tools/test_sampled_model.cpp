@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "design.hpp"
