@@ -41,6 +41,15 @@ bool touches_axis(const Matrix &M, Scalar omega);
 /// nearest to the axis, absolutely and relative to their size. False when there is none.
 bool find_axis_eigenvalue(const Matrix &M, const ComplexVector &eigenvalues, Complex &found);
 
+/// M = U T U^H, T upper triangular, U unitary.
+struct SchurForm {
+    ComplexMatrix T;
+    ComplexMatrix U;
+};
+
+/// DesignError when the iteration fails.
+SchurForm schur_form(const Matrix &M);
+
 /// Factorises A once, then solves EQ-LYAP-1 for any number of right-hand sides.
 class LyapunovSolver {
 public:
@@ -51,8 +60,7 @@ public:
     Matrix solve(const Matrix &W) const;
 
 private:
-    ComplexMatrix T_;
-    ComplexMatrix U_;
+    SchurForm schur_;
 };
 
 /// G = F F'. Kept as a factor when B and R are known: B R^-1 B' of a nearly singular R loses digits

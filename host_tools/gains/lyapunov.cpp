@@ -115,30 +115,31 @@ bool find_axis_eigenvalue(const Matrix &M, const ComplexVector &eigenvalues, Com
     return false;
 }
 
-LyapunovSolver::LyapunovSolver(const Matrix &A)
+SchurForm schur_form(const Matrix &M)
 {
-    const Eigen::ComplexSchur<Matrix> schur(A, true);
+    const Eigen::ComplexSchur<Matrix> schur(M, true);
     if (schur.info() != Eigen::Success) {
         throw DesignError("the Schur iteration did not converge");
     }
-    T_ = schur.matrixT();
-    U_ = schur.matrixU();
+    return {schur.matrixT(), schur.matrixU()};
 }
+
+LyapunovSolver::LyapunovSolver(const Matrix &A) : schur_(schur_form(A)) {}
 
 Matrix LyapunovSolver::solve(const Matrix &W) const
 {
     // With A = U T U^H and Y = U^H X U the equation reads T^H Y + Y T = -U^H W U; T is upper
     // triangular, so each column of Y follows from the columns before it by forward substitution.
-    const Eigen::Index  n    = T_.rows();
-    const ComplexMatrix C    = U_.adjoint() * W.cast<Complex>() * U_;
+    const Eigen::Index  n    = schur_.T.rows();
+    const ComplexMatrix C    = schur_.U.adjoint() * W.cast<Complex>() * schur_.U;
     ComplexMatrix       Y    = ComplexMatrix::Zero(n, n);
-    ComplexMatrix       left = T_.adjoint();
+    ComplexMatrix       left = schur_.T.adjoint();
     for (Eigen::Index j = 0; j < n; ++j) {
-        const ComplexVector rhs = -C.col(j) - Y.leftCols(j) * T_.col(j).head(j);
-        left.diagonal()         = T_.diagonal().conjugate().array() + T_(j, j);
+        const ComplexVector rhs = -C.col(j) - Y.leftCols(j) * schur_.T.col(j).head(j);
+        left.diagonal()         = schur_.T.diagonal().conjugate().array() + schur_.T(j, j);
         Y.col(j)                = left.triangularView<Eigen::Lower>().solve(rhs);
     }
-    return symmetric_part((U_ * Y * U_.adjoint()).real());
+    return symmetric_part((schur_.U * Y * schur_.U.adjoint()).real());
 }
 
 } // namespace sdre::extended

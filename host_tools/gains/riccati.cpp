@@ -36,11 +36,6 @@ struct Problem {
     Matrix        Q;
 };
 
-struct OrderedSchur {
-    ComplexMatrix T;
-    ComplexMatrix U;
-};
-
 Matrix residual(const Problem &p, const Matrix &X)
 {
     const Matrix XA = X * p.A;
@@ -115,7 +110,7 @@ Matrix hamiltonian(const Problem &p)
 }
 
 /// Exchanges the neighbouring eigenvalues k and k + 1 of the triangular factor.
-void swap_neighbours(OrderedSchur &s, Eigen::Index k)
+void swap_neighbours(SchurForm &s, Eigen::Index k)
 {
     const Eigen::Index             size   = s.T.rows();
     const Complex                  first  = s.T(k, k);
@@ -131,13 +126,9 @@ void swap_neighbours(OrderedSchur &s, Eigen::Index k)
 }
 
 /// Schur form of H with the half of the spectrum of smaller real part first.
-OrderedSchur stable_first(const Matrix &H)
+SchurForm stable_first(const Matrix &H)
 {
-    const Eigen::ComplexSchur<Matrix> schur(H, true);
-    if (schur.info() != Eigen::Success) {
-        throw DesignError("the Schur iteration of the Hamiltonian did not converge");
-    }
-    OrderedSchur              s{schur.matrixT(), schur.matrixU()};
+    SchurForm                 s    = schur_form(H);
     const Eigen::Index        size = H.rows();
     std::vector<Eigen::Index> rank(static_cast<std::size_t>(size));
     std::iota(rank.begin(), rank.end(), Eigen::Index(0));
@@ -251,7 +242,7 @@ void require_no_axis_eigenvalue(const Problem &p, const Matrix &H, const Complex
 }
 
 /// X from the basis [U1; U2] of the stable subspace: X = U2 U1^-1.
-Matrix subspace_solution(const Problem &p, const OrderedSchur &s)
+Matrix subspace_solution(const Problem &p, const SchurForm &s)
 {
     const Eigen::Index  n  = p.A.rows();
     const ComplexMatrix U1 = s.U.topLeftCorner(n, n);
