@@ -10,7 +10,6 @@
 #include <numeric>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Jacobi>
 #include <Eigen/LU>
 #include <Eigen/QR>
