@@ -66,6 +66,7 @@ void write_run(std::ofstream &file, const std::string &law, const std::filesyste
     static tick_file_run_t run; // static: its padding is zero, so equal runs give equal files
     std::strncpy(run.name, path.stem().c_str(), TICK_FILE_NAME_SIZE - 1);
     run.layout    = TICK_FILE_LAYOUT;
+    run.run_size  = sizeof run;
     run.tick_size = TICK_FILE_TICK_SIZE;
     run.form      = static_cast<std::uint32_t>(controller.config.form);
     run.order     = static_cast<std::uint32_t>(highest_order(controller.config));

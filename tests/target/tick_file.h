@@ -29,13 +29,14 @@
 enum { TICK_FILE_VALID = 1, TICK_FILE_RUN = 2, TICK_FILE_GATE = 4 };
 
 typedef struct {
-    char                  name[TICK_FILE_NAME_SIZE];
-    uint32_t              layout;
-    uint32_t              tick_size;
-    uint32_t              form;  /**< drive_form_t */
-    uint32_t              order; /**< highest of the series in use */
-    uint32_t              ticks;
-    uint32_t              config[TICK_FILE_CONFIG_SIZE / sizeof(uint32_t)];
+    char     name[TICK_FILE_NAME_SIZE];
+    uint32_t layout;
+    uint32_t run_size; /**< of this structure; with tick_size all a reader has to know of layouts */
+    uint32_t tick_size;
+    uint32_t form;  /**< drive_form_t */
+    uint32_t order; /**< highest of the series in use */
+    uint32_t ticks;
+    uint32_t config[TICK_FILE_CONFIG_SIZE / sizeof(uint32_t)];
     pi_foc_gains_t        pi;
     uint32_t              harmonic; /**< the law is DRIVE_LAW_NOC_H: */
     nodo_harmonic_gains_t table;

@@ -3,11 +3,9 @@
 import struct
 from dataclasses import dataclass
 
-NAME_SIZE, PI_GAINS_SIZE = 64, 32
-TABLE_SIZE = 4 + 4 + 3 * 4 + 8 * 8 + 17 * 24 * 6 * 4  # whether there is one, counts, constants, pairs, gains
-HEAD = struct.Struct("<5I")  # layout, tick size, form, order, ticks
-DRIVE_SIZE = (49 + 26) * 4
-TICK = struct.Struct(f"<{DRIVE_SIZE}x6f3f3fI")
+NAME_SIZE = 64
+HEAD = struct.Struct("<6I")  # layout, size of this head and all up to the ticks, tick size, form, order, ticks
+PUBLIC = struct.Struct("<6f3f3fI")  # end of a tick, after the core's memory
 RESULT = struct.Struct("<III3f3f")
 GATE = 4
 
@@ -17,7 +15,7 @@ class Run:
     name: str
     encoder: bool
     order: int
-    ticks: list  # tuples of TICK
+    ticks: list  # tuples: sample and command, duties of the law and of the PI-FOC, flags
 
 
 def read_runs(path):
@@ -26,16 +24,14 @@ def read_runs(path):
     runs, at = [], 0
     while True:
         name = data[at : at + NAME_SIZE].rstrip(b"\0").decode()
-        layout, tick_size, form, order, count = HEAD.unpack_from(data, at + NAME_SIZE)
+        _, run_size, tick_size, form, order, count = HEAD.unpack_from(data, at + NAME_SIZE)
         if count == 0:
             return runs
-        config_size = layout & 0xFFFF
-        if tick_size != TICK.size:
-            raise ValueError(f"{path}: ticks of {tick_size} octets, {TICK.size} are known")
-        at += NAME_SIZE + HEAD.size + config_size + PI_GAINS_SIZE + TABLE_SIZE
-        ticks = list(TICK.iter_unpack(data[at : at + count * TICK.size]))
+        at += run_size
+        tick = struct.Struct(f"<{tick_size - PUBLIC.size}x{PUBLIC.format[1:]}")
+        ticks = list(tick.iter_unpack(data[at : at + count * tick_size]))
         runs.append(Run(name, form == 1, order, ticks))
-        at += count * TICK.size
+        at += count * tick_size
 
 
 def read_results(path, runs):

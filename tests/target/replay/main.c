@@ -95,7 +95,8 @@ int main(void)
         if (run.ticks == 0u) {
             return EXIT_DONE;
         }
-        if ((run.layout != TICK_FILE_LAYOUT) || (run.tick_size != TICK_FILE_TICK_SIZE)) {
+        if ((run.layout != TICK_FILE_LAYOUT) || (run.run_size != sizeof(run)) ||
+            (run.tick_size != TICK_FILE_TICK_SIZE)) {
             return EXIT_LAYOUT;
         }
         if (!replay_run(in, out)) {
