@@ -90,7 +90,8 @@ Inverter read_inverter(TomlReader t)
 Encoder read_encoder(TomlReader t)
 {
     Encoder encoder;
-    encoder.lines = t.integer("lines", encoder_lines);
+    encoder.lines      = t.integer("lines", encoder_lines);
+    encoder.edge_times = t.boolean_or("edge_times", false);
     t.reject_unknown_keys();
     return encoder;
 }
@@ -354,6 +355,7 @@ std::string normalised(const Drive &d)
                      i.dead_time_s, i.updates_per_period, d.encoder.lines);
     s += i.dead_time_compensation ? "compensated;" : "uncompensated;";
     s += i.overmodulation ? "hexagon;" : "circle;";
+    s += d.encoder.edge_times ? "edges;" : "";
     if (d.law == Law::noc_h) {
         return s + normalised_weights(d) + normalised_harmonics(d);
     }

@@ -34,7 +34,8 @@ struct Inverter {
 };
 
 struct Encoder {
-    int lines = 0;
+    int  lines      = 0;
+    bool edge_times = false; ///< angle and speed from the times of the edges; else from counts
 };
 
 /// Weights of the speed controller: speed, i_q, i_d error; v_q, v_d.

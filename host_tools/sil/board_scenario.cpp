@@ -27,6 +27,7 @@ void check_sensors(const SensorSettings &s, int lines)
     const double board_full_scale_A = 10.0;
     require(s.encoder_lines.value_or(lines) == board_lines, "the encoder has to have 2500 lines");
     require(s.encoder_index, "the encoder has to have an index");
+    require(!s.encoder_edge_time, "the board counts edges, it does not time them");
     require(s.adc_bits == 12, "the converter has 12 bits");
     require(std::abs(s.adc_full_scale_A - board_full_scale_A) < 1e-9,
             "the currents' range is 10 A");
@@ -50,9 +51,11 @@ BoardScenario for_board(const Scenario &scenario)
                 s.drive.inverter.updates_per_period == 1,
             "the board runs at 5 kHz with one update per period");
     if (s.sensors.ideal) {
-        s.sensors              = SensorSettings{};
-        s.sensors.ideal        = false;
-        s.inverter.dead_time_s = s.inverter.dead_time_s.value_or(0.0);
+        const bool edge_time        = s.sensors.encoder_edge_time;
+        s.sensors                   = SensorSettings{};
+        s.sensors.ideal             = false;
+        s.sensors.encoder_edge_time = edge_time;
+        s.inverter.dead_time_s      = s.inverter.dead_time_s.value_or(0.0);
         b.notes.emplace_back("ideal sensors: run with the board's sensors and an ideal inverter");
     }
     check_sensors(s.sensors, s.drive.encoder.lines);

@@ -10,20 +10,19 @@ namespace sdre {
 
 struct SensorSettings {
     bool ideal = true; ///< exact signals; every other key of this table is then without effect
-    std::optional<int> encoder_lines;        ///< the drive file's unless given
-    bool               encoder_index = true; ///< lost counts come back once per turn
-    bool               encoder_edge_time =
-        false; ///< speed from the times of the edges, not from counts per period
-    double encoder_eccentricity_rad = 0.0;  ///< mechanical, amplitude of one sine per turn
-    double encoder_offset_e_rad     = 0.0;  ///< alignment error, electrical
-    int    adc_bits                 = 12;   ///< the F28335's converter
-    double adc_full_scale_A         = 10.0; ///< chosen: 2.5 x the 4 A limit, so that a trip is seen
-    double adc_noise_rms_A          = 0.010; ///< chosen: 2 codes, a Hall sensor with its amplifier
-    double adc_offset_a_A           = 0.0;   ///< calibrated before the start
-    double adc_offset_b_A           = 0.0;
-    double adc_gain_a               = 1.0;
-    double adc_gain_b               = 1.0;
-    double sampling_advance_s       = 0.0; ///< samples are taken this long before the period starts
+    std::optional<int> encoder_lines;             ///< the drive file's unless given
+    bool               encoder_index     = true;  ///< lost counts come back once per turn
+    bool               encoder_edge_time = false; ///< the drive file's unless given
+    double encoder_eccentricity_rad      = 0.0;   ///< mechanical, amplitude of one sine per turn
+    double encoder_offset_e_rad          = 0.0;   ///< alignment error, electrical
+    int    adc_bits                      = 12;    ///< the F28335's converter
+    double adc_full_scale_A   = 10.0;  ///< chosen: 2.5 x the 4 A limit, so that a trip is seen
+    double adc_noise_rms_A    = 0.010; ///< chosen: 2 codes, a Hall sensor with its amplifier
+    double adc_offset_a_A     = 0.0;   ///< calibrated before the start
+    double adc_offset_b_A     = 0.0;
+    double adc_gain_a         = 1.0;
+    double adc_gain_b         = 1.0;
+    double sampling_advance_s = 0.0; ///< samples are taken this long before the period starts
 };
 
 enum class InverterModel { averaged, switched };

@@ -158,10 +158,10 @@ int run_compare(const sdre::CompareRequest &request, const Options &options)
 
 int run_motors(const Options &options)
 {
-    const sdre::Scenario     scenario = sdre::read_scenario_file(options.scenario);
+    const sdre::Scenario     scenario = sdre::read_scenario_file(options.scenario, options.drive);
     const sdre::RandomMotors runs     = sdre::run_random_motors(scenario, options.motors);
     if (!options.failures.empty()) {
-        sdre::write_failed_motors(options.scenario, runs, options.failures);
+        sdre::write_failed_motors(options.scenario, options.drive, runs, options.failures);
     }
     fmt::print("{}", sdre::random_motors_text(scenario, runs));
     return exit_ok;
@@ -226,6 +226,7 @@ int run(int argc, char **argv)
     motors_command
         ->add_option("SCENARIO", options.scenario, "scenario file with a [motor_ranges] table")
         ->required();
+    motors_command->add_option("--drive", options.drive, "drive file instead of the scenario's");
     motors_command->add_option("--count", options.motors, "number of motors (default 1000)")
         ->check(CLI::Range(1, 1000000));
     motors_command->add_option("--failures", options.failures,

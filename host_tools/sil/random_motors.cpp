@@ -74,7 +74,7 @@ std::string explain(const Scenario &s, const drive_config_t &config)
 {
     const double gain = s.plant_scale.at("pm_flux_Wb") / s.plant_scale.at("inertia_kgm2");
     std::string  text = fmt::format("acceleration per ampere is {:.2f} x what is believed", gain);
-    if (config.form == DRIVE_FORM_ENCODER) {
+    if (config.law == DRIVE_LAW_NOC && config.form == DRIVE_FORM_ENCODER) {
         const double radius = linear_radius(s, config);
         text +=
             fmt::format(", spectral radius of the linear loop {:.4f}: {}", radius,
@@ -162,7 +162,8 @@ std::string random_motors_text(const Scenario &scenario, const RandomMotors &run
     return s;
 }
 
-void write_failed_motors(const std::filesystem::path &scenario_file, const RandomMotors &runs,
+void write_failed_motors(const std::filesystem::path &scenario_file,
+                         const std::filesystem::path &drive_file, const RandomMotors &runs,
                          const std::filesystem::path &directory)
 {
     std::error_code error;
@@ -178,7 +179,12 @@ void write_failed_motors(const std::filesystem::path &scenario_file, const Rando
         }
         t.insert_or_assign("plant_scale", scale);
         const std::filesystem::path drive =
-            scenario_drive_path(scenario_file, *t["drive"].value<std::string>());
+            drive_file.empty()
+                ? scenario_drive_path(scenario_file, *t["drive"].value<std::string>())
+                : drive_file;
+        if (!drive_file.empty()) {
+            t.erase("law"); // the law of the scenario's own drive
+        }
         t.insert_or_assign("drive", std::filesystem::proximate(drive, directory).generic_string());
         std::ostringstream text;
         for (const std::string &reason : f.reasons) {

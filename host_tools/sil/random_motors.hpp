@@ -33,8 +33,10 @@ RandomMotors run_random_motors(const Scenario &scenario, int count);
 
 std::string random_motors_text(const Scenario &scenario, const RandomMotors &runs);
 
-/// Writes every failed motor as DIR/<scenario>_motor_<n>.toml, a scenario for `sdre-sil run`.
-void write_failed_motors(const std::filesystem::path &scenario_file, const RandomMotors &runs,
+/// Writes every failed motor as DIR/<scenario>_motor_<n>.toml, a scenario for `sdre-sil run`; with `drive_file` in
+/// place of the scenario's unless it is empty.
+void write_failed_motors(const std::filesystem::path &scenario_file,
+                         const std::filesystem::path &drive_file, const RandomMotors &runs,
                          const std::filesystem::path &directory);
 
 } // namespace sdre

@@ -219,7 +219,8 @@ void read_load(TomlReader &t, Scenario &s)
 
 void read_board(TomlReader &t, Scenario &s)
 {
-    s.dc_link_V = s.drive.inverter.dc_link_V;
+    s.dc_link_V                 = s.drive.inverter.dc_link_V;
+    s.sensors.encoder_edge_time = s.drive.encoder.edge_times;
     if (std::optional<TomlReader> inverter = t.table_if("inverter")) {
         inverter->integer_or("updates_per_period", updates_range, 1); // read with the drive
         s.inverter  = read_board_inverter(*inverter, s.inverter, s.drive);
@@ -318,7 +319,7 @@ Scenario read_scenario_file(const std::filesystem::path &file, const std::filesy
     s.name                = file.stem().string();
     s.drive               = read_drive(t, file, drive);
     const Law         own = own_law(t, file, s.drive, drive);
-    const std::string law = law_name(s.drive.law);
+    const std::string law = law_name(own);
     if (t.text_or("law", law) != law) {
         t.fail("law",
                fmt::format("is not allowed: must be \"{}\", the law of the drive file", law));
