@@ -182,9 +182,6 @@ void write_failed_motors(const std::filesystem::path &scenario_file,
             drive_file.empty()
                 ? scenario_drive_path(scenario_file, *t["drive"].value<std::string>())
                 : drive_file;
-        if (!drive_file.empty()) {
-            t.erase("law"); // the law of the scenario's own drive
-        }
         t.insert_or_assign("drive", std::filesystem::proximate(drive, directory).generic_string());
         std::ostringstream text;
         for (const std::string &reason : f.reasons) {

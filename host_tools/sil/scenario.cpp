@@ -319,7 +319,7 @@ Scenario read_scenario_file(const std::filesystem::path &file, const std::filesy
     s.name                = file.stem().string();
     s.drive               = read_drive(t, file, drive);
     const Law         own = own_law(t, file, s.drive, drive);
-    const std::string law = law_name(own);
+    const std::string law = law_name(s.drive.law);
     if (t.text_or("law", law) != law) {
         t.fail("law",
                fmt::format("is not allowed: must be \"{}\", the law of the drive file", law));

@@ -488,6 +488,17 @@ TEST(DriveFile, DigestSeesEveryValue)
         }
     }
     add(DriveText().set("", "name", "\"bench2\""));
+    add(DriveText().set("encoder", "edge_times", "true"));
+}
+
+TEST(DriveFile, EdgeTimesAreOffUnlessAskedFor)
+{
+    EXPECT_FALSE(read(DriveText().str()).encoder.edge_times);
+    EXPECT_TRUE(read(DriveText().set("encoder", "edge_times", "true").str()).encoder.edge_times);
+    EXPECT_EQ(sdre::drive_digest(read(DriveText().set("encoder", "edge_times", "false").str())),
+              sdre::drive_digest(read(DriveText().str())));
+    expect_complaint(DriveText().set("encoder", "edge_times", "1"),
+                     {"edge_times", "must be true or false"});
 }
 
 TEST(DriveFile, MotorValueReachesEveryScalableKey)

@@ -153,7 +153,7 @@ TEST(RandomMotors, SavedFailureIsTheSameRun)
     const Scenario         s    = read_scenario_file(file);
     const RandomMotors     runs = run_random_motors(s, 2);
 
-    write_failed_motors(file, runs, dir / "failed");
+    write_failed_motors(file, "", runs, dir / "failed");
     const Scenario saved = read_scenario_file(dir / "failed" / "case_motor_2.toml");
 
     Scenario expected    = s;
@@ -168,6 +168,21 @@ TEST(RandomMotors, SavedFailureIsTheSameRun)
     for (std::size_t i = 0; i < a.trace.size(); i++) {
         ASSERT_EQ(a.trace[i].omega_e_radps, b.trace[i].omega_e_radps) << i;
     }
+}
+
+TEST(RandomMotors, SavedFailureOfAnotherDriveNamesThatDrive)
+{
+    const support::TempDir dir;
+    const auto             file = dir.write("case.toml", text(light));
+    const auto             other =
+        std::filesystem::path(SDRE_SOURCE_DIR) / "firmware/config/drives/ipmsm_390w_speed.toml";
+    const RandomMotors runs = run_random_motors(read_scenario_file(file, other), 1);
+
+    write_failed_motors(file, other, runs, dir / "failed");
+
+    ASSERT_EQ(runs.failures.size(), 1U);
+    EXPECT_EQ(read_scenario_file(dir / "failed" / "case_motor_1.toml").drive.name,
+              "ipmsm_390w_speed");
 }
 
 TEST(RandomMotors, MissingOrWrongRangesAreRefused)

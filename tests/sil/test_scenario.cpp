@@ -161,6 +161,20 @@ TEST(Scenario, DrivePathFallsBackToTheWorkingDirectory)
     EXPECT_EQ(name, "servo_200w");
 }
 
+TEST(Scenario, AngleComesFromWhatTheDriveMeasures)
+{
+    const TempDir dir;
+    const auto    drives = std::filesystem::path(SDRE_SOURCE_DIR) / "firmware/config/drives";
+    const auto    plain  = dir.write("a.toml", with("law = \"noc\"\n", ""));
+    const auto    counts =
+        dir.write("b.toml", with("ideal = true", "ideal = false\nencoder_edge_time = false"));
+    const std::filesystem::path edges = drives / "ipmsm_390w_noc_h_edges.toml";
+
+    EXPECT_FALSE(sdre::read_scenario_file(plain).sensors.encoder_edge_time);
+    EXPECT_TRUE(sdre::read_scenario_file(plain, edges).sensors.encoder_edge_time);
+    EXPECT_FALSE(sdre::read_scenario_file(counts).sensors.encoder_edge_time);
+}
+
 TEST(Scenario, MissingOrBrokenDriveIsNamed)
 {
     for (const std::string drive : {"none.toml", ".", ""}) {
