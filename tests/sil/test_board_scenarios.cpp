@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the shipped drive reaches on the realistic board: the worst of twenty noise seeds.
+// What the drives of paper A's motor reach on the realistic board: the worst of twenty noise seeds with the shipped
+// drive, of six with the larger observers.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,12 +16,28 @@
 
 namespace {
 
-constexpr std::size_t seeds = 20;
+struct Case {
+    const char *drive;
+    std::size_t seeds;
+    double      dip_e_radps;       ///< allowed after the load step
+    double      varied_settling_s; ///< with wrong parameters
+    int         motors;            ///< random ones
+    int         failed_motors;     ///< allowed
+};
 
-sdre::Scenario shipped(const std::string &name)
+void PrintTo(const Case &c, std::ostream *out)
 {
-    return sdre::read_scenario_file(std::filesystem::path(SDRE_SOURCE_DIR) /
-                                    "host_tools/sil/scenarios" / (name + ".toml"));
+    *out << c.drive;
+}
+
+constexpr Case plain{"ipmsm_390w", 20, 5.75, 0.016, 1000, 5};
+
+sdre::Scenario shipped(const std::string &name, const Case &c = plain)
+{
+    const std::filesystem::path root = SDRE_SOURCE_DIR;
+    return sdre::read_scenario_file(root / "host_tools/sil/scenarios" / (name + ".toml"),
+                                    root / "firmware/config/drives" /
+                                        (std::string(c.drive) + ".toml"));
 }
 
 struct Worst {
@@ -56,8 +73,8 @@ void take(Worst &worst, const sdre::Scenario &s, const sdre::SimulationResult &r
     }
 }
 
-/// Seeds 1 .. 20; what holds for every board scenario is checked here.
-Worst run(const sdre::Scenario &s)
+/// Seeds from 1 on; what holds for every board scenario is checked here.
+Worst run(const sdre::Scenario &s, std::size_t seeds = plain.seeds)
 {
     const sdre::Controller              controller = sdre::prepare_controller(s);
     std::vector<sdre::SimulationResult> results(seeds);
@@ -86,73 +103,88 @@ Worst run(const sdre::Scenario &s)
     return worst;
 }
 
+class Drives : public ::testing::TestWithParam<Case> {
+protected:
+    static Worst run_shipped(const std::string &name)
+    {
+        return run(shipped(name, GetParam()), GetParam().seeds);
+    }
+};
+
 } // namespace
 
-TEST(BoardScenarios, LoadStep)
-{
-    const Worst w = run(shipped("board_load_step"));
+// Measured values are those of the shipped drive; docs/noc_h.md has all.
+INSTANTIATE_TEST_SUITE_P(BoardScenarios, Drives,
+                         ::testing::Values(plain, Case{"ipmsm_390w_noc_h", 6, 5.9, 0.018, 200, 1},
+                                           Case{"ipmsm_390w_noc_h_edges", 6, 5.5, 0.016, 200, 20}),
+                         [](const auto &c) { return std::string(c.param.drive); });
 
-    EXPECT_LE(w.settling_s, 0.012);    // measured 11.2 ms
-    EXPECT_LE(w.dip_e_radps, 5.75);    // measured 5.64; wanted 5.5, see docs/errata.md
+TEST_P(Drives, LoadStep)
+{
+    const Worst w = run_shipped("board_load_step");
+
+    EXPECT_LE(w.settling_s, 0.012 + 1e-9); // whole periods; measured 11.2 ms
+    EXPECT_LE(w.dip_e_radps,
+              GetParam().dip_e_radps); // measured 5.69; wanted 5.5, see docs/errata.md
     EXPECT_LE(w.steady_e_radps, 0.05); // measured 0.011
     EXPECT_LE(w.ripple_e_radps, 0.35); // measured 0.30
 }
 
-TEST(BoardScenarios, LoadStepWithWrongParameters)
+TEST_P(Drives, LoadStepWithWrongParameters)
 {
-    const Worst w = run(shipped("board_load_step_varied"));
+    const Worst w = run_shipped("board_load_step_varied");
 
-    EXPECT_LE(w.settling_s, 0.016);   // measured 14.4 ms
-    EXPECT_LE(w.dip_e_radps, 6.5);    // measured 5.47
-    EXPECT_LE(w.steady_e_radps, 0.1); // measured 0.012
-    EXPECT_LE(w.ripple_e_radps, 0.5); // measured 0.36
+    EXPECT_LE(w.settling_s, GetParam().varied_settling_s); // measured 13.4 ms; wanted 16
+    EXPECT_LE(w.dip_e_radps, 6.5);                         // measured 5.50
+    EXPECT_LE(w.steady_e_radps, 0.1);                      // measured 0.012
+    EXPECT_LE(w.ripple_e_radps, 0.5);                      // measured 0.36
 }
 
-TEST(BoardScenarios, SpeedStep)
+TEST_P(Drives, SpeedStep)
 {
-    const Worst w = run(shipped("board_speed_step"));
+    const Worst w = run_shipped("board_speed_step");
 
-    EXPECT_LE(w.settling_s, 0.0255); // measured 24.0 ms
+    EXPECT_LE(w.settling_s, 0.0255); // measured 23.8 ms
     EXPECT_LE(w.overshoot_e_radps, 2.0);
 }
 
-TEST(BoardScenarios, SpeedStepWithMoreCurrent)
+TEST_P(Drives, SpeedStepWithMoreCurrent)
 {
-    EXPECT_LE(run(shipped("board_speed_step_5A")).settling_s, 0.020); // measured 19.2 ms
+    EXPECT_LE(run_shipped("board_speed_step_5A").settling_s, 0.020); // measured 19.2 ms
 }
 
-TEST(BoardScenarios, SpeedStepWithWrongParameters)
+TEST_P(Drives, SpeedStepWithWrongParameters)
 {
-    const Worst w = run(shipped("board_speed_step_varied"));
+    const Worst w = run_shipped("board_speed_step_varied");
 
     EXPECT_LE(w.settling_s, 0.035); // measured 31.2 ms
     EXPECT_LE(w.overshoot_e_radps, 6.0);
 }
 
-TEST(BoardScenarios, FluxWeakening)
+TEST_P(Drives, FluxWeakening)
 {
-    const Worst w = run(shipped("board_flux_weakening"));
+    const Worst w = run_shipped("board_flux_weakening");
 
     EXPECT_LE(w.settling_s, 0.0896); // measured 60.8 ms
     EXPECT_LE(w.peak_share * 4.0, 4.4);
 }
 
-TEST(BoardScenarios, FluxWeakeningWithMoreCurrent)
+TEST_P(Drives, FluxWeakeningWithMoreCurrent)
 {
-    EXPECT_LE(run(shipped("board_flux_weakening_5A")).settling_s, 0.077); // measured 75.6 ms
+    EXPECT_LE(run_shipped("board_flux_weakening_5A").settling_s, 0.077); // measured 75.8 ms
 }
 
-TEST(BoardScenarios, Reversal)
+TEST_P(Drives, Reversal)
 {
-    const Worst w = run(shipped("board_reversal"));
+    const Worst w = run_shipped("board_reversal");
 
     EXPECT_LE(w.settling_s, 0.07);    // measured 67.6 ms
     EXPECT_LE(w.ripple_e_radps, 0.4); // measured 0.29
 }
 
-TEST(BoardScenarios, HoldAndCrawl)
+TEST_P(Drives, HoldAndCrawl)
 {
-    const Worst w = run(shipped("board_hold")); // of the crawl
+    const Worst w = run_shipped("board_hold"); // of the crawl
 
     EXPECT_LE(w.ripple_e_radps, 0.4); // measured 0.28
 }
@@ -219,12 +251,15 @@ TEST(BoardScenarios, RegenerationLimitKeepsASmallCapacitorFromTripping)
     EXPECT_EQ(without.fault, DRIVE_FAULT_DC_LINK);
 }
 
-TEST(BoardScenarios, RandomMotors)
+TEST_P(Drives, RandomMotors)
 {
-    const sdre::RandomMotors runs = sdre::run_random_motors(shipped("board_random_motors"), 1000);
+    const Case              &c = GetParam();
+    const sdre::RandomMotors runs =
+        sdre::run_random_motors(shipped("board_random_motors", c), c.motors);
 
-    EXPECT_EQ(runs.count, 1000);
-    EXPECT_LE(runs.failures.size(), 5U); // measured 1; of 10,000 12
+    EXPECT_EQ(runs.count, c.motors);
+    EXPECT_LE(runs.failures.size(),
+              static_cast<std::size_t>(c.failed_motors)); // wanted 0.5 %; with edge times 8 %
 }
 
 TEST(BoardScenarios, SwitchedInverterGivesTheSame)

@@ -68,12 +68,12 @@ TEST(Harmonics, InteriorMagnetMotorRunsSmoothly)
     const Runs r = runs_of("harmonics_load_step", "ipmsm_390w_noc_h_edges");
 
     for (const sdre::Metrics &m : r.at("light_load")) {
-        EXPECT_LE(m.fluctuation_rpm, 0.2); // measured 0.10; the law without harmonics 23
+        EXPECT_LE(m.fluctuation_rpm, 0.2); // measured 0.16; the law without harmonics 24
         EXPECT_NEAR(m.sensor_offset_hat_A, 0.970, 0.02);
     }
     for (const sdre::Metrics &m : r.at("load_step")) {
-        EXPECT_LE(m.fluctuation_rpm, 0.2); // measured 0.15
-        EXPECT_LE(m.decrease_rpm, 25.0);   // measured 24.1
+        EXPECT_LE(m.fluctuation_rpm, 0.2); // measured 0.19
+        EXPECT_LE(m.decrease_rpm, 25.0);   // measured 23.2
         EXPECT_LE(m.peak_current_A, 1.1 * 4.0);
     }
 }
@@ -96,28 +96,8 @@ TEST(Harmonics, NoSpeedLosesStability)
     for (const sdre::Metrics &m : sdre::measure(s, result.trace)) {
         const bool slow = m.name == "at_0" || m.name == "at_0_second" || m.name == "at_0_third" ||
                           m.name == "at_50";
-        EXPECT_LE(m.fluctuation_rpm, slow ? 6.0 : 1.0) << m.name; // measured 3.0 and 0.8
+        EXPECT_LE(m.fluctuation_rpm, slow ? 6.0 : 1.0) << m.name; // measured 3.2 and 0.9
         EXPECT_LE(m.steady_state_error_e_radps, 0.1) << m.name;
-        EXPECT_LE(m.peak_current_A, 1.1 * 4.0) << m.name; // measured 4.3
-    }
-}
-
-/// The realistic board, angle from counts: what it costs to know of harmonics that are not there.
-TEST(Harmonics, CostLittleWhereThereAreNone)
-{
-    Runs r;
-    for (const char *scenario : {"board_load_step", "board_speed_step"}) {
-        const std::filesystem::path root = SDRE_SOURCE_DIR;
-        sdre::Scenario              s = sdre::read_scenario_file(root / "host_tools/sil/scenarios" /
-                                                                 (std::string(scenario) + ".toml"));
-        s.drive = sdre::read_drive_file(root / "firmware/config/drives/ipmsm_390w_noc_h.toml");
-        sdre_test::run(s, r);
-    }
-    for (const sdre::Metrics &m : r.at("load_step")) {
-        EXPECT_LE(m.dip_e_radps, 5.9); // measured 5.7; without harmonics 5.64
-        EXPECT_LE(m.ripple_e_radps, 0.35);
-    }
-    for (const sdre::Metrics &m : r.at("speed_step")) {
-        EXPECT_LE(m.settling_time_s.value_or(INFINITY), 25.5e-3);
+        EXPECT_LE(m.peak_current_A, 1.1 * 4.0) << m.name; // measured 4.2
     }
 }
