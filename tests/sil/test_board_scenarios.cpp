@@ -12,6 +12,7 @@
 #include "metrics.hpp"
 #include "parallel.hpp"
 #include "random_motors.hpp"
+#include "seeded_runs.hpp"
 #include "simulation.hpp"
 
 namespace {
@@ -34,10 +35,7 @@ constexpr Case plain{"ipmsm_390w", 20, 5.75, 0.016, 1000, 5};
 
 sdre::Scenario shipped(const std::string &name, const Case &c = plain)
 {
-    const std::filesystem::path root = SDRE_SOURCE_DIR;
-    return sdre::read_scenario_file(root / "host_tools/sil/scenarios" / (name + ".toml"),
-                                    root / "firmware/config/drives" /
-                                        (std::string(c.drive) + ".toml"));
+    return sdre_test::shipped(name, c.drive);
 }
 
 struct Worst {
