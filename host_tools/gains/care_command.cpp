@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "care_command.hpp"
+#include "gains/care_command.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "errors.hpp"
+#include "common/errors.hpp"
 
 namespace sdre {
 

@@ -13,7 +13,7 @@
 
 #include <Eigen/Core>
 
-#include "riccati.hpp"
+#include "linalg/riccati.hpp"
 
 namespace sdre {
 

@@ -7,15 +7,15 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "care_command.hpp"
-#include "design.hpp"
-#include "emit_tables.hpp"
-#include "errors.hpp"
-#include "file_output.hpp"
-#include "order_study.hpp"
-#include "report.hpp"
-#include "tune.hpp"
-#include "version.hpp"
+#include "common/errors.hpp"
+#include "common/file_output.hpp"
+#include "common/version.hpp"
+#include "design/design.hpp"
+#include "emit/emit_tables.hpp"
+#include "emit/report.hpp"
+#include "gains/care_command.hpp"
+#include "gains/order_study.hpp"
+#include "tune/tune.hpp"
 
 namespace {
 

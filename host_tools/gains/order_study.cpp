@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "order_study.hpp"
+#include "gains/order_study.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "design.hpp"
-#include "errors.hpp"
+#include "common/errors.hpp"
+#include "design/design.hpp"
 
 namespace sdre {
 namespace {

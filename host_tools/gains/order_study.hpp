@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "drive_file.hpp"
+#include "drive/drive_file.hpp"
 
 namespace sdre {
 

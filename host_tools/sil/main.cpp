@@ -7,17 +7,17 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench.hpp"
-#include "board_run.hpp"
-#include "compare.hpp"
-#include "errors.hpp"
-#include "file_output.hpp"
-#include "plot.hpp"
-#include "random_motors.hpp"
-#include "results.hpp"
-#include "seeds.hpp"
-#include "spectrum.hpp"
-#include "version.hpp"
+#include "common/errors.hpp"
+#include "common/file_output.hpp"
+#include "common/version.hpp"
+#include "sil/board/board_run.hpp"
+#include "sil/eval/bench.hpp"
+#include "sil/eval/compare.hpp"
+#include "sil/eval/plot.hpp"
+#include "sil/eval/random_motors.hpp"
+#include "sil/eval/results.hpp"
+#include "sil/eval/seeds.hpp"
+#include "sil/eval/spectrum.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "surroundings.hpp"
+#include "sil/f28335/surroundings.hpp"
 
 class PlainSurroundings : public sdre::f28335::Surroundings {
 public:

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "board_firmware.h"
-#include "device.hpp"
 #include "plain_surroundings.hpp"
+#include "sil/f28335/device.hpp"
 
 namespace {
 

@@ -10,9 +10,9 @@ extern "C" {
 #include "app.h"
 #include "app_registers.h"
 }
-#include "board_run.hpp"
-#include "board_runs.hpp"
-#include "errors.hpp"
+#include "common/errors.hpp"
+#include "sil/board/board_run.hpp"
+#include "sil/board/board_runs.hpp"
 
 namespace {
 

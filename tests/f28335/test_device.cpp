@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "device.hpp"
 #include "plain_surroundings.hpp"
+#include "sil/f28335/device.hpp"
 #include "small_firmware.h"
 
 namespace {

@@ -2,7 +2,7 @@
 // Register values of one leg to the edges of its two gates. Times in counts since the counter's top.
 #include <gtest/gtest.h>
 
-#include "gate_edges.hpp"
+#include "sil/f28335/gate_edges.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "registers.hpp"
+#include "sil/f28335/registers.hpp"
 
 namespace {
 

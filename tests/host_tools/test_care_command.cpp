@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "care_command.hpp"
+#include "gains/care_command.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "errors.hpp"
+#include "common/errors.hpp"
 
 namespace {
 

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "command.hpp"
-#include "design.hpp"
+#include "common/errors.hpp"
+#include "design/design.hpp"
 #include "drive_text.hpp"
-#include "errors.hpp"
 #include "temp_dir.hpp"
 
 namespace {

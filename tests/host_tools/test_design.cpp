@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "design.hpp"
+#include "design/design.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "errors.hpp"
-#include "matrix_functions.hpp"
+#include "common/errors.hpp"
+#include "linalg/matrix_functions.hpp"
 #include "reference_gains.hpp"
 
 namespace {

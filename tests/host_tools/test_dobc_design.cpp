@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Paper B's observer and its sampled loops (EQ-DOBC-4 to 7, EQ-CERT-4) against reference numbers and their own properties.
-#include "dobc_design.hpp"
+#include "design/servo/dobc_design.hpp"
 
 #include <cmath>
 #include <string>
@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "design.hpp"
-#include "errors.hpp"
+#include "common/errors.hpp"
+#include "design/design.hpp"
 #include "reference_gains.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "drive_file.hpp"
+#include "drive/drive_file.hpp"
 
 #include <cmath>
 #include <set>
@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "common/errors.hpp"
 #include "drive_text.hpp"
-#include "errors.hpp"
 #include "temp_dir.hpp"
 
 namespace {

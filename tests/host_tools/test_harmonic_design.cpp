@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "harmonic_design.hpp"
+#include "design/noc_h/harmonic_design.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "design.hpp"
-#include "harmonic_loop.hpp"
+#include "design/design.hpp"
+#include "design/noc_h/harmonic_loop.hpp"
 #include "reference_gains.hpp"
 
 extern "C" {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lyapunov.hpp"
+#include "linalg/lyapunov.hpp"
 
 #include <cmath>
 #include <random>
@@ -8,8 +8,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "errors.hpp"
-#include "matrix_functions.hpp"
+#include "common/errors.hpp"
+#include "linalg/matrix_functions.hpp"
 
 namespace {
 

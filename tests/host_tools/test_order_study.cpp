@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
-#include "design.hpp"
-#include "order_study.hpp"
+#include "design/design.hpp"
+#include "gains/order_study.hpp"
 #include "temp_dir.hpp"
 
 namespace {

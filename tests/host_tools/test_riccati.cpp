@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "riccati.hpp"
+#include "linalg/riccati.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "errors.hpp"
-#include "matrix_functions.hpp"
+#include "common/errors.hpp"
+#include "linalg/matrix_functions.hpp"
 
 namespace {
 

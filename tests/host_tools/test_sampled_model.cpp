@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sampled_model.hpp"
+#include "design/sampled_model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "design.hpp"
-#include "plant.hpp"
+#include "design/design.hpp"
 #include "reference_gains.hpp"
+#include "sil/plant/plant.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sampled_riccati.hpp"
+#include "linalg/sampled_riccati.hpp"
 
 #include <cmath>
 #include <string>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "errors.hpp"
+#include "common/errors.hpp"
 #include "reference_gains.hpp"
 
 namespace {

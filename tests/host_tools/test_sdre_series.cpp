@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sdre_series.hpp"
+#include "design/sdre_series.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "errors.hpp"
+#include "common/errors.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "emit_tables.hpp"
+#include "emit/emit_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "command.hpp"
-#include "errors.hpp"
+#include "common/errors.hpp"
 #include "reference_gains.hpp"
 
 extern "C" {

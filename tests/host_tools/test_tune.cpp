@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tune.hpp"
+#include "tune/tune.hpp"
 
 #include <string>
 #include <vector>
@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "command.hpp"
-#include "design.hpp"
-#include "errors.hpp"
+#include "common/errors.hpp"
+#include "design/design.hpp"
 #include "reference_gains.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "adc.hpp"
+#include "sil/sensors/adc.hpp"
 
 #include <cmath>
 #include <vector>

@@ -9,11 +9,11 @@
 
 #include <gtest/gtest.h>
 
-#include "metrics.hpp"
-#include "parallel.hpp"
-#include "random_motors.hpp"
+#include "common/parallel.hpp"
 #include "seeded_runs.hpp"
-#include "simulation.hpp"
+#include "sil/eval/metrics.hpp"
+#include "sil/eval/random_motors.hpp"
+#include "sil/run/simulation.hpp"
 
 namespace {
 

@@ -7,11 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include "errors.hpp"
-#include "metrics.hpp"
+#include "common/errors.hpp"
 #include "reference_gains.hpp"
 #include "scenario_text.hpp"
-#include "simulation.hpp"
+#include "sil/eval/metrics.hpp"
+#include "sil/run/simulation.hpp"
 #include "temp_dir.hpp"
 
 namespace {

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
-#include "compare.hpp"
-#include "scenario.hpp"
 #include "scenario_text.hpp"
-#include "seeds.hpp"
+#include "sil/eval/compare.hpp"
+#include "sil/eval/seeds.hpp"
+#include "sil/setup/scenario.hpp"
 #include "temp_dir.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dc_link.hpp"
+#include "sil/plant/dc_link.hpp"
 
 #include <cmath>
 

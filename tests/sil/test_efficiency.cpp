@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "metrics.hpp"
 #include "reference_gains.hpp"
-#include "simulation.hpp"
+#include "sil/eval/metrics.hpp"
+#include "sil/run/simulation.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "encoder.hpp"
+#include "sil/sensors/encoder.hpp"
 
 #include <cmath>
 #include <random>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "design.hpp"
+#include "design/design.hpp"
 #include "seeded_runs.hpp"
 
 using sdre_test::Runs;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "inverter.hpp"
+#include "sil/plant/inverter.hpp"
 
 #include <cmath>
 #include <fstream>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "load.hpp"
+#include "sil/plant/load.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "scenario.hpp"
+#include "sil/setup/scenario.hpp"
 
 using namespace sdre;
 

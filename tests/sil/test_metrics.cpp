@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "metrics.hpp"
+#include "sil/eval/metrics.hpp"
 
 #include <cmath>
 #include <functional>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "results.hpp"
+#include "sil/eval/results.hpp"
 
 namespace {
 

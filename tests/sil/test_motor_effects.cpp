@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "motor_effects.hpp"
+#include "sil/plant/motor_effects.hpp"
 
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "plant.hpp"
+#include "sil/plant/plant.hpp"
 
 using namespace sdre;
 

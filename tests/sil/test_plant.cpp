@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plant.hpp"
+#include "sil/plant/plant.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "inverter.hpp"
+#include "sil/plant/inverter.hpp"
 
 namespace {
 

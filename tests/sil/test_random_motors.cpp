@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "random_motors.hpp"
+#include "sil/eval/random_motors.hpp"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "command.hpp"
-#include "errors.hpp"
-#include "parallel.hpp"
+#include "common/errors.hpp"
+#include "common/parallel.hpp"
 #include "scenario_text.hpp"
-#include "simulation.hpp"
+#include "sil/run/simulation.hpp"
 #include "temp_dir.hpp"
 
 using namespace sdre;

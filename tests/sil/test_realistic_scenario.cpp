@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include "bench.hpp"
-#include "board.hpp"
 #include "command.hpp"
-#include "errors.hpp"
-#include "pi_foc.hpp"
-#include "seeds.hpp"
-#include "simulation.hpp"
+#include "common/errors.hpp"
+#include "sil/eval/bench.hpp"
+#include "sil/eval/pi_foc.hpp"
+#include "sil/eval/seeds.hpp"
+#include "sil/run/board.hpp"
+#include "sil/run/simulation.hpp"
 #include "temp_dir.hpp"
 
 using namespace sdre;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "scenario.hpp"
+#include "sil/setup/scenario.hpp"
 
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "errors.hpp"
+#include "common/errors.hpp"
 #include "scenario_text.hpp"
 #include "temp_dir.hpp"
 

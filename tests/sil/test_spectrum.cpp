@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "spectrum.hpp"
+#include "sil/eval/spectrum.hpp"
 
 #include <cmath>
 

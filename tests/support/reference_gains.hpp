@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
-#include "drive_file.hpp"
+#include "drive/drive_file.hpp"
 #include "temp_dir.hpp"
 
 namespace support {

@@ -10,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include "metrics.hpp"
-#include "parallel.hpp"
-#include "simulation.hpp"
+#include "common/parallel.hpp"
+#include "sil/eval/metrics.hpp"
+#include "sil/run/simulation.hpp"
 
 namespace sdre_test {
 

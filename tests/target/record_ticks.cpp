@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "pi_foc.hpp"
-#include "recording.hpp"
+#include "sil/eval/pi_foc.hpp"
+#include "sil/run/recording.hpp"
 
 extern "C" {
 #include "tick_file.h"

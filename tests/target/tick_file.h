@@ -13,7 +13,7 @@
 #include <stddef.h>
 
 #include "drive_tick.h"
-#include "pi_foc_tick.h"
+#include "sil/eval/pi_foc_tick.h"
 
 #define TICK_FILE_NAME_SIZE 64
 

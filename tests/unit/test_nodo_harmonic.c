@@ -341,8 +341,8 @@ static void test_pairs_fade_with_keep_once_per_period(void)
     const dq_t            v_V   = {.d = 3.0f, .q = 5.0f};
     nodo_harmonic_t       whole;
     (void)nodo_harmonic_predict(&s, &gains, &motor, v_V, TS_s);
-    whole      = s;
-    s          = start;
+    whole           = s;
+    s               = start;
     gains.keep      = 0.5f;
     gains.keep_fast = 0.5f; /* some of the drawn speeds are beyond the limit */
     (void)nodo_harmonic_predict(&s, &gains, &motor, v_V, TS_s);

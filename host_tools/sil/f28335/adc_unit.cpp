@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "adc_unit.hpp"
+#include "sil/f28335/adc_unit.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "registers.hpp"
+#include "sil/f28335/registers.hpp"
 
 namespace sdre::f28335 {
 namespace {

@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <functional>
 
-#include "clock.hpp"
-#include "findings.hpp"
+#include "sil/f28335/clock.hpp"
+#include "sil/f28335/findings.hpp"
 
 namespace sdre::f28335 {
 

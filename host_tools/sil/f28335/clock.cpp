@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "clock.hpp"
+#include "sil/f28335/clock.hpp"
 
 #include <algorithm>
 
-#include "registers.hpp"
+#include "sil/f28335/registers.hpp"
 
 namespace sdre::f28335 {
 namespace {

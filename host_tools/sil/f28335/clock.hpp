@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "findings.hpp"
+#include "sil/f28335/findings.hpp"
 
 namespace sdre::f28335 {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "coroutine.hpp"
+#include "sil/f28335/coroutine.hpp"
 
 #include <cstdint>
 #include <utility>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "cpu_timer.hpp"
+#include "sil/f28335/cpu_timer.hpp"
 
-#include "registers.hpp"
+#include "sil/f28335/registers.hpp"
 
 namespace sdre::f28335 {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "device.hpp"
+#include "sil/f28335/device.hpp"
 
 #include <algorithm>
 #include <cmath>

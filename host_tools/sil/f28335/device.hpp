@@ -11,20 +11,20 @@
 #include <cstdint>
 #include <memory>
 
-#include "adc_unit.hpp"
-#include "clock.hpp"
-#include "coroutine.hpp"
-#include "cpu_timer.hpp"
-#include "encoder_unit.hpp"
-#include "findings.hpp"
-#include "gpio.hpp"
-#include "guarded.hpp"
-#include "pie.hpp"
-#include "pwm_unit.hpp"
-#include "registers.hpp"
-#include "sci_unit.hpp"
-#include "surroundings.hpp"
-#include "watchdog.hpp"
+#include "sil/f28335/adc_unit.hpp"
+#include "sil/f28335/clock.hpp"
+#include "sil/f28335/coroutine.hpp"
+#include "sil/f28335/cpu_timer.hpp"
+#include "sil/f28335/encoder_unit.hpp"
+#include "sil/f28335/findings.hpp"
+#include "sil/f28335/gpio.hpp"
+#include "sil/f28335/guarded.hpp"
+#include "sil/f28335/pie.hpp"
+#include "sil/f28335/pwm_unit.hpp"
+#include "sil/f28335/registers.hpp"
+#include "sil/f28335/sci_unit.hpp"
+#include "sil/f28335/surroundings.hpp"
+#include "sil/f28335/watchdog.hpp"
 
 namespace sdre::f28335 {
 

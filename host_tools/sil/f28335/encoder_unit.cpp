@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "encoder_unit.hpp"
+#include "sil/f28335/encoder_unit.hpp"
 
-#include "gpio.hpp"
-#include "registers.hpp"
+#include "sil/f28335/gpio.hpp"
+#include "sil/f28335/registers.hpp"
 
 namespace sdre::f28335 {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gate_edges.hpp"
+#include "sil/f28335/gate_edges.hpp"
 
 #include <algorithm>
 

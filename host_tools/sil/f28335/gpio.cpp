@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "gpio.hpp"
+#include "sil/f28335/gpio.hpp"
 
-#include "registers.hpp"
+#include "sil/f28335/registers.hpp"
 
 namespace sdre::f28335 {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "guarded.hpp"
+#include "sil/f28335/guarded.hpp"
 
 #include <cstring>
 
 #include <fmt/format.h>
 
-#include "registers.hpp"
+#include "sil/f28335/registers.hpp"
 
 namespace sdre::f28335 {
 

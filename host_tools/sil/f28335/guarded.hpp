@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "findings.hpp"
+#include "sil/f28335/findings.hpp"
 
 namespace sdre::f28335 {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The functions behind the keywords of include/c28_cpu.h and behind the registers whose accesses count.
-#include "device.hpp"
+#include "sil/f28335/device.hpp"
 
 using sdre::f28335::Device;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "modbus_master.hpp"
+#include "sil/f28335/modbus_master.hpp"
 
 #include <utility>
 

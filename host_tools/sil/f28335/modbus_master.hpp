@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "sci_unit.hpp"
+#include "sil/f28335/sci_unit.hpp"
 
 namespace sdre::f28335 {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "pie.hpp"
+#include "sil/f28335/pie.hpp"
 
 #include <fmt/format.h>
 
-#include "registers.hpp"
+#include "sil/f28335/registers.hpp"
 
 namespace sdre::f28335 {
 namespace {

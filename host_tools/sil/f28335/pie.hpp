@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "findings.hpp"
+#include "sil/f28335/findings.hpp"
 
 namespace sdre::f28335 {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pwm_unit.hpp"
+#include "sil/f28335/pwm_unit.hpp"
 
 #include <algorithm>
 

@@ -4,9 +4,9 @@
 
 #include <cstdint>
 
-#include "findings.hpp"
-#include "gate_edges.hpp"
-#include "registers.hpp"
+#include "sil/f28335/findings.hpp"
+#include "sil/f28335/gate_edges.hpp"
+#include "sil/f28335/registers.hpp"
 
 namespace sdre::f28335 {
 

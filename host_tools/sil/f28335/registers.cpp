@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "registers.hpp"
+#include "sil/f28335/registers.hpp"
 
 #include <cstring>
 #include <initializer_list>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "sci_unit.hpp"
+#include "sil/f28335/sci_unit.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "gpio.hpp"
-#include "registers.hpp"
+#include "sil/f28335/gpio.hpp"
+#include "sil/f28335/registers.hpp"
 
 namespace sdre::f28335 {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "encoder_unit.hpp"
-#include "gate_edges.hpp"
+#include "sil/f28335/encoder_unit.hpp"
+#include "sil/f28335/gate_edges.hpp"
 
 namespace sdre::f28335 {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "watchdog.hpp"
+#include "sil/f28335/watchdog.hpp"
 
 #include <algorithm>
 
-#include "clock.hpp"
-#include "registers.hpp"
+#include "sil/f28335/clock.hpp"
+#include "sil/f28335/registers.hpp"
 
 namespace sdre::f28335 {
 namespace {

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "design/certificate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "design/firmware_config.hpp"
+#include "design/sampled_model.hpp"
+
+namespace sdre {
+namespace {
+
+using Eigen::MatrixXd;
+
+// Chosen: fine enough that neighbouring points differ by under 2 % of the range.
+constexpr int points_per_side = 64;
+// Chosen: 625 points of a box in two variables, a fifth of a second.
+constexpr int box_points_per_side = 12;
+constexpr int speed_points        = 4;
+
+// The phase current can pass from -max to +max while the bridge runs, so errors reach twice the limit;
+// beyond the same figure the firmware trips.
+double certified_range_A(const Motor &motor)
+{
+    return 2.0 * motor.max_current_A;
+}
+
+/// The spectral radius of the sampled loop with gain K at the scheduling currents s.
+using Radius = std::function<double(const MatrixXd &K, const Schedule &s)>;
+/// The continuous closed loop.
+using ClosedLoop = std::function<MatrixXd(const MatrixXd &K, const Schedule &s)>;
+
+/// Largest r such that the full series is within series_error_limit at every grid point in +-r.
+double usable_range(const std::vector<double> &error, const std::vector<Schedule> &s, double range,
+                    double step)
+{
+    double r = range;
+    for (std::size_t i = 0; i < s.size(); i++) {
+        if (error[i] > series_error_limit) {
+            r = std::min(r, reach(s[i]));
+        }
+    }
+    return (r < range) ? std::max(r - step, step) : r;
+}
+
+Schedule held(Schedule s, double limit)
+{
+    for (double &x : s) {
+        x = std::clamp(x, -limit, limit);
+    }
+    return s;
+}
+
+SampledLoop sweep(const GainSeries &g, double range, double ts, const Radius &radius_of,
+                  const ClosedLoop &closed_loop)
+{
+    SampledLoop loop;
+    loop.range_A                          = range;
+    const std::size_t           variables = g.problem.dA.size();
+    const int                   per_side  = variables == 1 ? points_per_side : box_points_per_side;
+    const std::vector<Schedule> s         = box_grid(variables, range, per_side);
+    const auto                  errors    = series_errors(g, s);
+    loop.series_range_A                   = usable_range(errors.back(), s, range, range / per_side);
+    loop.worst_pole_1ps                   = -1e300;
+    loop.series_error.assign(errors.size(), 0.0);
+    loop.series_error_full.assign(errors.size(), 0.0);
+
+    for (std::size_t i = 0; i < s.size(); i++) {
+        for (std::size_t order = 0; order < errors.size(); order++) {
+            double &full = loop.series_error_full[order];
+            full         = std::max(full, errors[order][i]);
+            if (reach(s[i]) <= loop.series_range_A) {
+                loop.series_error[order] = std::max(loop.series_error[order], errors[order][i]);
+            }
+        }
+        const MatrixXd K = series_gain(g, held(s[i], loop.series_range_A), series_order(g));
+        for (const auto &pole : eigenvalues(closed_loop(K, s[i]))) {
+            loop.worst_pole_1ps  = std::max(loop.worst_pole_1ps, pole.real());
+            loop.fastest_pole_ts = std::max(loop.fastest_pole_ts, std::abs(pole) * ts);
+        }
+        loop.spectral_radius = std::max(loop.spectral_radius, radius_of(K, s[i]));
+    }
+    return loop;
+}
+
+/// Speeds at which the encoder form is checked: standstill to the trip speed, both directions.
+std::vector<double> speed_grid(const Design &d)
+{
+    const double trip = static_cast<double>(trip_speed_ratio) * d.drive.motor.rated_speed_e_radps;
+    std::vector<double> w;
+    for (int i = -speed_points; i <= speed_points; i++) {
+        w.push_back(trip * i / speed_points);
+    }
+    return w;
+}
+
+SampledLoop sweep_nosc(const Design &d)
+{
+    const double   ts      = control_period_s(d.drive);
+    const bool     delayed = d.drive.nodo.form != NodoForm::encoder;
+    const MatrixXd B       = nosc_input_matrix(d.l);
+
+    const auto loop = [&](const MatrixXd &K, const Schedule &s) -> MatrixXd {
+        return state_matrix(d.nosc.problem, s) - B * K;
+    };
+    const auto radius = [&](const MatrixXd &K, const Schedule &s) { // EQ-CERT-1
+        MatrixXd M             = MatrixXd::Zero(5, 5);
+        M.topLeftCorner(3, 3)  = state_matrix(d.nosc.problem, s) * ts;
+        M.topRightCorner(3, 2) = B * ts;
+        const MatrixXd E       = exponential(M);
+        if (!delayed) { // the prediction takes the delay out
+            return spectral_radius(E.topLeftCorner(3, 3) - E.topRightCorner(3, 2) * K);
+        }
+        MatrixXd Z               = MatrixXd::Zero(5, 5);
+        Z.topRows(3)             = E.topRows(3);
+        Z.bottomLeftCorner(2, 3) = -K;
+        return spectral_radius(Z);
+    };
+    return sweep(d.nosc, certified_range_A(d.drive.motor), ts, radius, loop);
+}
+
+SampledLoop sweep_nodo(const Design &d)
+{
+    const double              ts     = control_period_s(d.drive);
+    const MatrixXd            C      = nodo_model(d.l, d.drive.nodo.form).C;
+    const MatrixXd            I      = MatrixXd::Identity(C.cols(), C.cols());
+    const std::vector<double> speeds = speed_grid(d);
+
+    const auto loop = [&](const MatrixXd &L, const Schedule &s) -> MatrixXd {
+        return state_matrix(d.nodo.problem, s).transpose() - L * C;
+    };
+    const auto radius = [&](const MatrixXd &L, const Schedule &s) {
+        if (d.drive.nodo.form != NodoForm::encoder) { // EQ-CERT-2
+            return spectral_radius(I + ts * loop(L, s));
+        }
+        double worst = 0.0;
+        for (const double w : speeds) { // EQ-CERT-3: observer, law and motor at a steady state
+            const OperatingPoint at{w, s[0], mtpa_id_A(d.l, s[0])};
+            const LoopGains      gains{d.nosc.gain[0], L};
+            worst = std::max(worst, spectral_radius(sampled_model(d.l, d.l, gains, at, ts).A));
+        }
+        return worst;
+    };
+    return sweep(d.nodo, certified_range_A(d.drive.motor), ts, radius, loop);
+}
+
+/// "2", or "1,0" in two variables.
+std::string term_name(const GainSeries &g, std::size_t n)
+{
+    return fmt::format("{}", fmt::join(g.series.terms[n].powers, ","));
+}
+
+void judge(const char *name, const GainSeries &g, const SampledLoop &loop,
+           std::vector<std::string> &failures)
+{
+    for (std::size_t n = 0; n < g.residuals.size(); n++) {
+        if (!(g.residuals[n] <= residual_limit)) {
+            failures.push_back(
+                fmt::format("{}: relative residual {:.1e} of order {} exceeds {:.0e}", name,
+                            g.residuals[n], term_name(g, n), residual_limit));
+        }
+    }
+    if (!(loop.worst_pole_1ps < 0.0)) {
+        failures.push_back(fmt::format("{}: unstable in +-{:g} A: a pole at {:+.1f} 1/s", name,
+                                       loop.range_A, loop.worst_pole_1ps));
+    }
+    if (!(loop.spectral_radius < 1.0)) {
+        failures.push_back(fmt::format(
+            "{}: the sampled loop is unstable in +-{:g} A: spectral radius {:.4f}, fastest "
+            "pole times period {:.2f}",
+            name, loop.range_A, loop.spectral_radius, loop.fastest_pole_ts));
+    }
+}
+
+} // namespace
+
+Certificate certify(const Design &design)
+{
+    Certificate certificate;
+    certificate.nosc = sweep_nosc(design);
+    judge("nosc", design.nosc, certificate.nosc, certificate.failures);
+    if (design.drive.law != Law::noc_h) { // which has an observer of its own
+        certificate.nodo = sweep_nodo(design);
+        judge("nodo", design.nodo, certificate.nodo, certificate.failures);
+    }
+    return certificate;
+}
+
+} // namespace sdre

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+/// From a drive description to gains, limits and their certificate: the whole off-line job in one call.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "design/core_types.hpp"
+#include "design/motor_model.hpp"
+#include "design/noc_h/harmonic_design.hpp"
+#include "design/series_error.hpp"
+#include "design/servo/dobc_design.hpp"
+#include "design/servo/servo_loop.hpp"
+#include "drive/drive_file.hpp"
+
+namespace sdre {
+
+/// How one sampled loop behaves over its certified range, of every scheduling current alike.
+struct SampledLoop {
+    double range_A =
+        0.0; ///< scheduling current in +-range_A; beyond series_range_A the gain is held
+    double series_range_A  = 0.0; ///< the series itself is used in +-series_range_A
+    double worst_pole_1ps  = 0.0; ///< largest real part of the continuous poles over the range
+    double fastest_pole_ts = 0.0; ///< largest |pole| times the control period
+    double spectral_radius = 0.0; ///< of the sampled loop, worst over the range; stable below 1
+    std::vector<double>
+        series_error; ///< [n]: order n against the exact SDRE gain, worst in +-series_range_A
+    std::vector<double> series_error_full; ///< the same in +-range_A, series not held
+};
+
+struct Certificate {
+    SampledLoop              nosc;
+    SampledLoop              nodo;
+    std::vector<std::string> failures; ///< one line each; empty = certified
+
+    bool passed() const
+    {
+        return failures.empty();
+    }
+};
+
+/// One of paper B's laws.
+struct ServoDesign {
+    std::optional<DobcDesign> dobc; ///< none for the PID
+    LoopCheck                 speed;
+    LoopCheck                 d_axis;
+};
+
+/// How the loop of noc_h behaves from standstill to the trip speed, over the observer's current range.
+struct HarmonicCheck {
+    double    spectral_radius     = 0.0; ///< worst, at:
+    double    worst_speed_e_radps = 0.0;
+    double    worst_iq_A          = 0.0;
+    double    worst_residual      = 0.0; ///< of all Riccati and Lyapunov equations
+    LoopCheck speed_loop;                ///< sensitivity at the weights' speed, no load
+};
+
+struct Design {
+    Drive                         drive;
+    ReducedParameters             l{};
+    GainSeries                    nosc; ///< and in the certificate: laws of near optimal control
+    GainSeries                    nodo; ///< the same, but for noc_h
+    std::optional<HarmonicDesign> harmonics; ///< noc_h only
+    HarmonicCheck                 harmonic_check;
+    std::optional<ServoDesign>    servo;    ///< laws of paper B
+    drive_config_t                config{}; ///< what the firmware gets, in its own single precision
+    Certificate                   certificate;
+};
+
+/// Relative residual above which a solution is refused.
+constexpr double residual_limit = 1e-10;
+/// The series is used up to where its gain is this far (relative, norm-wise) from the exact SDRE gain.
+constexpr double series_error_limit = 0.1;
+
+/// Largest peak sensitivity of a certified loop of paper B. Chosen: a phase margin of 19 degrees is then left; the
+/// repaired design has 2.55, the printed one 122.
+constexpr double peak_sensitivity_limit = 3.0;
+/// Relative error above which coefficient matching is refused.
+constexpr double matching_error_limit = 1e-9;
+
+/// Solves both problems and certifies them. DesignError when a Riccati or Lyapunov equation has no
+/// acceptable solution; a failed certificate is reported in Design::certificate, not thrown.
+Design design_drive(const Drive &drive);
+
+} // namespace sdre

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+/// The sampled closed loop of noc_h, linearised at an operating point, with the gains that the firmware interpolates.
+#pragma once
+
+#include "design/core_types.hpp"
+#include "design/motor_model.hpp"
+#include "design/sampled_model.hpp"
+
+namespace sdre {
+
+/// The gain that the firmware interpolates at w >= 0, n x 3.
+Eigen::MatrixXd harmonic_gain(const nodo_harmonic_gains_t &table, double omega_e_radps,
+                              double iq_A);
+
+/// EQ-CERT-3 with this observer: state [w iq id (theta - theta^) | observer without theta^].
+/// b_voltage is the response to a v_q that the observer does not know.
+struct HarmonicSampled {
+    Eigen::MatrixXd    A;
+    Eigen::VectorXd    b_voltage;
+    Eigen::RowVectorXd c_voltage; ///< v_q in force
+};
+
+/// The observer's own half: x^-(k+1) = P (x^- + K (y - C x^-)) + G v, v = F x^- (deviations), rows as the firmware's.
+struct HarmonicObserver {
+    Eigen::MatrixXd C; ///< 3 x n
+    Eigen::MatrixXd P; ///< n x n
+    Eigen::MatrixXd G; ///< n x 2
+    Eigen::MatrixXd F; ///< 2 x n, the law on what nodo_harmonic_view_t shows it
+};
+
+HarmonicObserver linear_harmonic_observer(const ReducedParameters     &l,
+                                          const nodo_harmonic_gains_t &table,
+                                          const Eigen::MatrixXd &Lambda, const OperatingPoint &at,
+                                          double ts_s);
+
+HarmonicSampled sampled_harmonic_model(const ReducedParameters     &l,
+                                       const nodo_harmonic_gains_t &table,
+                                       const Eigen::MatrixXd &Lambda, const OperatingPoint &at,
+                                       double ts_s);
+
+} // namespace sdre

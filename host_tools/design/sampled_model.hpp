@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+/// The sampled closed loop of the encoder form, linearised at an operating point: true motor, observer, law, one
+/// period of delay. State [w iq id (theta - theta^) | d_w^ d_q^ d_d^ w^ iq^ id^] as deviations from the operating point.
+#pragma once
+
+#include "design/motor_model.hpp"
+#include "linalg/matrix_functions.hpp"
+
+namespace sdre {
+
+/// Where the loop is linearised.
+struct OperatingPoint {
+    double omega_e_radps = 0.0;
+    double iq_A          = 0.0;
+    double id_A          = 0.0;
+};
+
+/// The gains in force: Lambda (2 x 3) and L (7 x 3) at that point.
+struct LoopGains {
+    Eigen::MatrixXd Lambda;
+    Eigen::MatrixXd L;
+};
+
+/// EQ-CERT-3: x(k+1) = A x(k) + b_load T_load(k) + B_noise n(k).
+struct SampledModel {
+    Eigen::MatrixXd A;      ///< 10 x 10
+    Eigen::VectorXd b_load; ///< 10, per newton metre of load torque
+    Eigen::MatrixXd
+        B_noise; ///< 10 x 3, per ampere of iq, id and radian of angle error in the measurement
+    Eigen::MatrixXd C_voltage; ///< 2 x 10: the v_q, v_d in force
+    double          ts_s = 0.0;
+};
+
+/// Jacobian of EQ-MOTOR-2 in (w, iq, id), 3 x 3.
+Eigen::Matrix3d motor_jacobian(const ReducedParameters &l, const OperatingPoint &at);
+
+/// The motor (w, iq, id, theta) over one period with held inputs, exactly.
+struct HeldMotor {
+    Eigen::MatrixXd Phi;   ///< 4 x 4
+    Eigen::MatrixXd Gamma; ///< 4 x 3: v_q, v_d, T_load
+};
+
+HeldMotor held_motor(const ReducedParameters &l, const OperatingPoint &at, double ts_s);
+
+/// EQ-NODO-ENCODER-2 linearised: x^-(k+1) = P x^+ + G v.
+struct PredictedObserver {
+    Eigen::MatrixXd P; ///< 7 x 7
+    Eigen::MatrixXd G; ///< 7 x 2
+};
+
+PredictedObserver predicted_encoder_form(const ReducedParameters &model, const OperatingPoint &at,
+                                         double ts_s);
+
+/// The law of the firmware as a row pair on the predicted observer state (2 x 7): EQ-NOSC-1 and
+/// EQ-FEEDFORWARD-1, 2 with iq_ref of EQ-CURRENT-REF-1 and a constant id_ref.
+Eigen::MatrixXd encoder_form_law(const ReducedParameters &l, const Eigen::MatrixXd &Lambda,
+                                 const OperatingPoint &at);
+
+/// @param motor what the motor is, @param model what the controller believes.
+SampledModel sampled_model(const ReducedParameters &motor, const ReducedParameters &model,
+                           const LoopGains &gains, const OperatingPoint &at, double ts_s);
+
+/// The exact MTPA current id for an iq, 0 without saliency.
+double mtpa_id_A(const ReducedParameters &l, double iq_A);
+
+} // namespace sdre

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "sil/board/board_choice.hpp"
+
+#include "sil/board/fake_board.hpp"
+
+using sdre::f28335::FakeBoard;
+
+namespace {
+
+FakeBoard *the_fake = nullptr; // board.h's functions are plain, so they need one
+
+} // namespace
+
+namespace sdre::f28335 {
+
+FakeBoardChoice::FakeBoardChoice(FakeBoard &fake)
+{
+    the_fake = &fake;
+}
+
+FakeBoardChoice::~FakeBoardChoice()
+{
+    the_fake = nullptr;
+}
+
+} // namespace sdre::f28335
+
+extern "C" {
+
+bool           f28335_board_init(void);
+void           f28335_board_start(void (*tick)(void));
+board_sample_t f28335_board_sample_read(void);
+void           f28335_board_duty_write(const board_duty_t *duty);
+void           f28335_board_gate_enable(void);
+void           f28335_board_gate_trip(void);
+uint16_t       f28335_board_fault_read(void);
+uint32_t       f28335_board_cycles(void);
+void           f28335_board_watchdog_serve(void);
+bool           f28335_board_serial_read(uint16_t *octet);
+bool           f28335_board_serial_write(uint16_t octet);
+
+bool board_init(void)
+{
+    return the_fake != nullptr || f28335_board_init();
+}
+
+void board_start(void (*tick)(void))
+{
+    if (the_fake != nullptr) {
+        the_fake->start(tick);
+    } else {
+        f28335_board_start(tick);
+    }
+}
+
+board_sample_t board_sample_read(void)
+{
+    return the_fake != nullptr ? the_fake->sample() : f28335_board_sample_read();
+}
+
+void board_duty_write(const board_duty_t *duty)
+{
+    if (the_fake != nullptr) {
+        the_fake->write_duty(*duty);
+    } else {
+        f28335_board_duty_write(duty);
+    }
+}
+
+void board_gate_enable(void)
+{
+    if (the_fake != nullptr) {
+        the_fake->enable_gates(true);
+    } else {
+        f28335_board_gate_enable();
+    }
+}
+
+void board_gate_trip(void)
+{
+    if (the_fake != nullptr) {
+        the_fake->enable_gates(false);
+    } else {
+        f28335_board_gate_trip();
+    }
+}
+
+uint16_t board_fault_read(void)
+{
+    return the_fake != nullptr ? static_cast<uint16_t>(BOARD_FAULT_NONE)
+                               : f28335_board_fault_read();
+}
+
+uint32_t board_cycles(void)
+{
+    return the_fake != nullptr ? the_fake->cycles() : f28335_board_cycles();
+}
+
+void board_watchdog_serve(void)
+{
+    if (the_fake == nullptr) {
+        f28335_board_watchdog_serve();
+    }
+}
+
+bool board_serial_read(uint16_t *octet)
+{
+    return the_fake == nullptr && f28335_board_serial_read(octet);
+}
+
+bool board_serial_write(uint16_t octet)
+{
+    return the_fake != nullptr || f28335_board_serial_write(octet); // nobody listens to the fake
+}
+}

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "sil/board/board_run.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "sil/board/board_runs.hpp"
+#include "sil/board/board_scenario.hpp"
+
+extern "C" {
+#include "app.h"
+}
+
+namespace sdre {
+namespace {
+
+// Ticks at which the commands go out. The application is ready after 306 ms = 1530 ticks.
+constexpr long speed_tick = 1560;
+constexpr long run_tick   = 1640;
+// A command has arrived and been answered well within this.
+constexpr long command_ticks = 60;
+// Chosen: ten polls a second, as an operator's display would.
+constexpr long chat_ticks = 500;
+
+std::unique_ptr<BoardRun> make_run(const BoardScenario &b, BoardKind kind, long start_tick)
+{
+    if (kind == BoardKind::api) {
+        return std::make_unique<ApiRun>(b.scenario, start_tick, b.dead_time_s);
+    }
+    return std::make_unique<F28335Run>(b.scenario, start_tick, b.dead_time_s);
+}
+
+bool running()
+{
+    return app_drive()->state == DRIVE_RUN;
+}
+
+/// From power-up to the first tick in RUN; its number.
+long bring_to_run(BoardRun &run, int speed_tenths)
+{
+    while (!running()) {
+        const long tick = run.bench().tick();
+        if (tick == speed_tick) {
+            run.set_speed(speed_tenths);
+        } else if (tick == run_tick) {
+            run.set_run();
+        }
+        const bool alive = run.step();
+        if (!alive || tick > run_tick + command_ticks) {
+            const app_status_t s   = app_status_read();
+            std::string        why = fmt::format(
+                       "--board: the drive does not come to RUN: mode {}, {}, drive: {}, board faults {}",
+                       static_cast<int>(s.mode), fault_name(app_fault_base + static_cast<int>(s.fault)),
+                       fault_name(s.drive_fault), s.board_faults);
+            for (const std::string &finding : run.findings()) {
+                why += "; " + finding;
+            }
+            throw InputError(why);
+        }
+    }
+    return run.bench().tick();
+}
+
+/// The commanded speed tick by tick; the commands leave as much earlier as they take.
+class Commands {
+public:
+    Commands(const Scenario &s, long ticks, long latency_ticks)
+        : reference_(s.speed_reference, s.initial_speed_e_radps), ticks_(ticks),
+          latency_ticks_(latency_ticks), now_tenths_(tenths_of(reference_.at(0.0))),
+          period_s_(control_period_s(s.drive))
+    {
+        find_next(1);
+    }
+    /// After tick k of the scenario.
+    void after(long k, BoardRun &run)
+    {
+        if (k + latency_ticks_ >= next_tick_) {
+            if (!run.can_command() || k + latency_ticks_ > next_tick_) {
+                throw InputError("--board: speed commands follow each other too fast for the "
+                                 "serial line");
+            }
+            run.set_speed(next_tenths_);
+            now_tenths_ = next_tenths_;
+            find_next(next_tick_ + 1);
+        } else if (k % chat_ticks == 0 && k + latency_ticks_ + command_ticks < next_tick_ &&
+                   run.can_command()) {
+            run.chat();
+        }
+    }
+
+private:
+    void find_next(long from)
+    {
+        next_tick_ = ticks_ + latency_ticks_ + command_ticks + 1;
+        for (long k = from; k < ticks_; k++) {
+            const int tenths = tenths_of(reference_.at(static_cast<double>(k) * period_s_));
+            if (tenths != now_tenths_) {
+                next_tick_   = k;
+                next_tenths_ = tenths;
+                return;
+            }
+        }
+    }
+
+    StepCursor reference_;
+    long       ticks_;
+    long       latency_ticks_;
+    int        now_tenths_;
+    int        next_tenths_ = 0;
+    double     period_s_;
+    long       next_tick_ = 0;
+};
+
+TraceRow row_of(double time_s, double omega_ref, const PlantState &plant, const drive_t &drive)
+{
+    TraceRow row;
+    row.time_s            = time_s;
+    row.omega_ref_e_radps = omega_ref;
+    row.omega_e_radps     = plant.omega_e_radps;
+    row.iq_A              = plant.current_A.q;
+    row.id_A              = plant.current_A.d;
+    row.load_torque_Nm    = plant.load_Nm;
+    row.torque_Nm         = plant.torque_Nm;
+    row.dc_link_V         = plant.dc_link_V;
+    add_drive(row, drive);
+    return row;
+}
+
+/// A trip level beyond what the converter can show would never trip; the application refuses it.
+drive_config_t for_converter(drive_config_t config, std::vector<std::string> &notes)
+{
+    // Chosen: 10 A of range less 0.5 A for the zero's error.
+    constexpr float highest_A = 9.5F;
+    if (config.trip_current_A > highest_A) {
+        notes.push_back(fmt::format("trip current lowered from {} A to {} A, which the converter "
+                                    "can show",
+                                    config.trip_current_A, highest_A));
+        config.trip_current_A = highest_A;
+    }
+    return config;
+}
+
+void note_fault(SimulationResult &result, double time_s)
+{
+    const app_status_t s = app_status_read();
+    if (result.fault == 0 && s.fault != APP_FAULT_NONE) {
+        result.fault        = s.fault == APP_FAULT_DRIVE ? static_cast<int>(s.drive_fault)
+                                                         : app_fault_base + static_cast<int>(s.fault);
+        result.fault_time_s = time_s;
+    }
+}
+
+} // namespace
+
+BoardResult simulate_on_board(const Scenario &s, BoardKind kind)
+{
+    return simulate_on_board(s, kind, prepare_controller(s));
+}
+
+BoardResult simulate_on_board(const Scenario &scenario, BoardKind kind,
+                              const Controller &controller)
+{
+    if (!is_near_optimal(scenario.drive.law)) {
+        throw InputError(
+            fmt::format("--board: law = \"{}\" needs the speed from edge times, which the "
+                        "application does not measure",
+                        law_name(scenario.drive.law)));
+    }
+    const BoardScenario b     = for_board(scenario);
+    const Scenario     &s     = b.scenario;
+    const double        ts    = control_period_s(s.drive);
+    const auto          ticks = static_cast<long>(std::floor(s.duration_s / ts + 1e-9)) + 1;
+    const auto          start = std::chrono::steady_clock::now();
+
+    StepCursor  reference(s.speed_reference, s.initial_speed_e_radps);
+    const int   first_tenths = tenths_of(reference.at(0.0));
+    BoardResult out;
+    out.notes = b.notes;
+    set_firmware_drive(for_converter(controller.config, out.notes));
+    const long start_tick =
+        bring_to_run(*make_run(b, kind, MotorBench::never), first_tenths); // rehearsal
+
+    SimulationResult &result = out.result;
+    result.compiled_table    = controller.compiled_table;
+    result.uncertified       = controller.uncertified;
+    result.trace.reserve(static_cast<std::size_t>(ticks));
+
+    const std::unique_ptr<BoardRun> run   = make_run(b, kind, start_tick);
+    const MotorBench               &bench = run->bench();
+    if (bring_to_run(*run, first_tenths) != start_tick) {
+        throw InputError("--board: the start of the firmware does not repeat itself");
+    }
+    Commands commands(s, ticks, start_tick - run_tick);
+    for (long k = 0; k < ticks; k++) {
+        const double t = static_cast<double>(k) * ts;
+        result.trace.push_back(row_of(t, reference.at(t), bench.plant_state(), *app_drive()));
+        const RawSample &raw = bench.sample();
+        out.ticks.push_back({{raw.ia_code, raw.ib_code}, raw.count, run->duty_cnt()});
+        note_fault(result, t);
+        commands.after(k, *run);
+        const bool alive                   = run->step();
+        result.trace.back().peak_current_A = bench.peak_current_A();
+        if (!alive) {
+            result.fault        = result.fault == 0 ? device_reset_fault : result.fault;
+            result.fault_time_s = t;
+            break;
+        }
+    }
+    const app_status_t status = app_status_read();
+    out.zero_a_cnt            = static_cast<double>(status.zero_a_cnt);
+    out.zero_b_cnt            = static_cast<double>(status.zero_b_cnt);
+    out.findings              = run->findings();
+    out.modbus_answers        = run->answers();
+    out.modbus_errors         = run->errors();
+    if (bench.driven_while_held()) {
+        out.findings.emplace_back("the bridge was on while the shaft was held");
+    }
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+    result.simulated_seconds_per_second      = static_cast<double>(ticks) * ts / wall.count();
+    return out;
+}
+
+} // namespace sdre

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "sil/board/board_runs.hpp"
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+
+extern "C" {
+#include "app.h"
+#include "app_registers.h"
+#include "board_f28335.h"
+
+extern drive_config_t sil_drive_config;
+int                   firmware_main(void);
+}
+
+namespace sdre {
+namespace {
+
+// Beyond the longest boot: clock 4 ms, converter 5 ms.
+constexpr double longest_boot_s = 0.5;
+// Chosen: between two ticks, clear of the conversion that follows each.
+constexpr double rest_s           = 50e-6;
+constexpr int    polled_registers = 8;
+
+float omega_of(int tenths)
+{
+    return static_cast<float>(tenths) / 10.0F;
+}
+
+} // namespace
+
+void set_firmware_drive(const drive_config_t &config)
+{
+    sil_drive_config = config;
+}
+
+ApiRun::ApiRun(const Scenario &s, long start_tick, double dead_time_s)
+    : BoardRun(s, start_tick), fake_(bench_, dead_time_s), choice_(fake_)
+{
+    if (!board_init() || app_init(&board_f28335_config, &sil_drive_config) != CTL_OK) {
+        throw InputError("--board: the application refuses these constants");
+    }
+    board_start(app_tick);
+    step();
+}
+
+bool ApiRun::step()
+{
+    fake_.tick();
+    app_background();
+    return true;
+}
+
+void ApiRun::command()
+{
+    const app_command_t c{omega_of(tenths_), run_, false};
+    app_command_write(&c);
+}
+
+void ApiRun::set_speed(int tenths)
+{
+    tenths_ = tenths;
+    command();
+}
+
+void ApiRun::set_run()
+{
+    run_ = true;
+    command();
+}
+
+std::array<int, 3> ApiRun::duty_cnt() const
+{
+    return fake_.duty_cnt();
+}
+
+F28335Run::F28335Run(const Scenario &s, long start_tick, double dead_time_s)
+    : BoardRun(s, start_tick), surroundings_(bench_, dead_time_s <= 0.0),
+      device_(surroundings_, firmware_main, {{}, dead_time_s}),
+      master_(device_.serial(), static_cast<std::uint8_t>(board_f28335_config.modbus_address))
+{
+    if (!device_.run_until([this] { return bench_.tick() >= 0; }, longest_boot_s)) {
+        std::string why = "--board: the firmware does not start";
+        for (const std::string &finding : findings()) {
+            why += "; " + finding;
+        }
+        throw InputError(why);
+    }
+    device_.run_for(rest_s);
+}
+
+bool F28335Run::step()
+{
+    device_.run_for(BOARD_TICK_CYCLES / f28335::tick_Hz);
+    master_.poll();
+    return !device_.stopped();
+}
+
+void F28335Run::set_speed(int tenths)
+{
+    master_.write(APP_REGISTERS_SPEED, static_cast<std::uint16_t>(tenths & 0xFFFF));
+}
+
+void F28335Run::set_run()
+{
+    master_.write(APP_REGISTERS_RUN, 1);
+}
+
+bool F28335Run::can_command() const
+{
+    return !master_.busy();
+}
+
+void F28335Run::chat()
+{
+    master_.read_input(APP_REGISTERS_MODE, polled_registers);
+}
+
+std::array<int, 3> F28335Run::duty_cnt() const
+{
+    return surroundings_.duty_cnt();
+}
+
+std::vector<std::string> F28335Run::findings() const
+{
+    std::vector<std::string> all;
+    for (const f28335::Findings::Entry &e : device_.findings().all()) {
+        all.push_back(fmt::format("{:.6f} s: {}", e.time_s, e.text));
+    }
+    return all;
+}
+
+} // namespace sdre

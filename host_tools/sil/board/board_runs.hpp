@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+/// The two ways to run the application against a motor bench, tick by tick.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sil/board/board_choice.hpp"
+#include "sil/board/fake_board.hpp"
+#include "sil/board/motor_surroundings.hpp"
+#include "sil/f28335/device.hpp"
+#include "sil/f28335/modbus_master.hpp"
+#include "sil/run/motor_bench.hpp"
+
+namespace sdre {
+
+/// A running application; constructed, it has booted up to its first tick.
+class BoardRun {
+public:
+    BoardRun()                            = default;
+    BoardRun(const BoardRun &)            = delete;
+    BoardRun &operator=(const BoardRun &) = delete;
+    virtual ~BoardRun()                   = default;
+
+    /// One more control period: its tick, and what the background does after it. False: the device has stopped.
+    virtual bool step() = 0;
+    /// Sends a command; it acts some ticks later, always as many.
+    virtual void set_speed(int tenths) = 0;
+    virtual void set_run()             = 0;
+    virtual bool can_command() const   = 0;
+    /// Nothing will be commanded for a while: time for other talk.
+    virtual void                     chat() {}
+    virtual std::array<int, 3>       duty_cnt() const = 0;
+    virtual std::vector<std::string> findings() const
+    {
+        return {};
+    }
+    virtual int answers() const
+    {
+        return 0;
+    }
+    virtual int errors() const
+    {
+        return 0;
+    }
+    MotorBench &bench()
+    {
+        return bench_;
+    }
+
+protected:
+    explicit BoardRun(const Scenario &scenario, long start_tick) : bench_(scenario, start_tick) {}
+
+    MotorBench bench_;
+};
+
+class ApiRun : public BoardRun {
+public:
+    ApiRun(const Scenario &scenario, long start_tick, double dead_time_s);
+    bool step() override;
+    void set_speed(int tenths) override;
+    void set_run() override;
+    bool can_command() const override
+    {
+        return true;
+    }
+    std::array<int, 3> duty_cnt() const override;
+
+private:
+    void command();
+
+    int                     tenths_ = 0;
+    bool                    run_    = false;
+    f28335::FakeBoard       fake_;
+    f28335::FakeBoardChoice choice_;
+};
+
+class F28335Run : public BoardRun {
+public:
+    F28335Run(const Scenario &scenario, long start_tick, double dead_time_s);
+    bool                     step() override;
+    void                     set_speed(int tenths) override;
+    void                     set_run() override;
+    bool                     can_command() const override;
+    void                     chat() override;
+    std::array<int, 3>       duty_cnt() const override;
+    std::vector<std::string> findings() const override;
+    int                      answers() const override
+    {
+        return master_.answers();
+    }
+    int errors() const override
+    {
+        return master_.errors();
+    }
+    /// The answer to chat(): the first input registers; empty until it is there.
+    const std::vector<std::uint16_t> &registers() const
+    {
+        return master_.values();
+    }
+
+private:
+    f28335::MotorSurroundings surroundings_;
+    f28335::Device            device_;
+    f28335::ModbusMaster      master_;
+};
+
+/// The drive's constants that main() hands to the application.
+void set_firmware_drive(const drive_config_t &config);
+
+} // namespace sdre

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "sil/board/fake_board.hpp"
+
+#include <algorithm>
+
+#include "sil/board/front_end.hpp"
+
+namespace sdre::f28335 {
+namespace {
+
+// Two pairs at 25 MHz: 2.5 + 4 + 5 + 6 clocks from the trigger to the tick (EQ-CONVERTER-2).
+constexpr double tick_delay_s = 17.5 / 25e6;
+constexpr double count_Hz     = 75e6;
+constexpr int    full         = BOARD_DUTY_FULL;
+
+LegTiming pulse(int duty_cnt, double dead_time_s)
+{
+    LegTiming leg;
+    leg.duty         = static_cast<double>(2 * duty_cnt) / (2 * full);
+    leg.rise_delay_s = dead_time_s;
+    leg.fall_delay_s = dead_time_s;
+    leg.changes[0]   = {0.0, duty_cnt >= full};
+    leg.count        = 1;
+    if (duty_cnt > 0 && duty_cnt < full) {
+        leg.changes[1] = {(full - duty_cnt) / count_Hz, true};
+        leg.changes[2] = {(full + duty_cnt) / count_Hz, false};
+        leg.count      = 3;
+    }
+    return leg;
+}
+
+std::uint16_t position_of(std::int64_t count)
+{
+    const std::int64_t turn = BOARD_POSITIONS;
+    return static_cast<std::uint16_t>(((count % turn) + turn) % turn);
+}
+
+} // namespace
+
+FakeBoard::FakeBoard(MotorBench &bench, double dead_time_s)
+    : bench_(bench), dead_time_s_(dead_time_s)
+{
+}
+
+void FakeBoard::take_sample()
+{
+    const RawSample &s      = bench_.sample();
+    sample_.ia_cnt          = static_cast<std::uint16_t>(current_code(s.ia_code));
+    sample_.ib_cnt          = static_cast<std::uint16_t>(current_code(s.ib_code));
+    sample_.dc_link_cnt     = static_cast<std::uint16_t>(dc_link_code(s.dc_link_V));
+    sample_.temperature_cnt = temperature_code;
+    sample_.position_cnt    = position_of(s.count);
+    sample_.index_seen      = s.index;
+    if (s.index) {
+        sample_.index_cnt = position_of(s.index_count);
+    }
+    sample_.valid = true;
+}
+
+void FakeBoard::tick()
+{
+    active_cnt_ = shadow_cnt_;
+    bench_.begin_tick();
+    bench_.begin_period({pulse(active_cnt_[0], dead_time_s_), pulse(active_cnt_[1], dead_time_s_),
+                         pulse(active_cnt_[2], dead_time_s_)});
+    take_sample();
+    tick_();
+}
+
+void FakeBoard::write_duty(const board_duty_t &duty)
+{
+    shadow_cnt_ = {std::min<int>(duty.a_cnt, full), std::min<int>(duty.b_cnt, full),
+                   std::min<int>(duty.c_cnt, full)};
+}
+
+void FakeBoard::enable_gates(bool on)
+{
+    if (on != gates_) {
+        gates_ = on;
+        bench_.set_legs({on, on, on}, tick_delay_s);
+    }
+}
+
+std::uint32_t FakeBoard::cycles() const
+{
+    return static_cast<std::uint32_t>(static_cast<std::uint64_t>(bench_.tick()) *
+                                      BOARD_TICK_CYCLES);
+}
+
+} // namespace sdre::f28335

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+/// firmware/board/board.h on the motor bench, without registers: same codes, same counts, same duty counts.
+#pragma once
+
+#include "sil/run/motor_bench.hpp"
+
+extern "C" {
+#include "board.h"
+}
+
+namespace sdre::f28335 {
+
+class FakeBoard {
+public:
+    FakeBoard(MotorBench &bench, double dead_time_s);
+
+    /// One control period: the tick that board_start() got.
+    void tick();
+    /// What the bridge does in the present period.
+    const std::array<int, 3> &duty_cnt() const
+    {
+        return active_cnt_;
+    }
+
+    // board.h
+    void start(void (*control_tick)(void))
+    {
+        tick_ = control_tick;
+    }
+    board_sample_t sample() const
+    {
+        return sample_;
+    }
+    void          write_duty(const board_duty_t &duty);
+    void          enable_gates(bool on);
+    std::uint32_t cycles() const;
+
+private:
+    void take_sample();
+
+    MotorBench &bench_;
+    double      dead_time_s_;
+    void (*tick_)(void) = nullptr;
+    board_sample_t     sample_{};
+    std::array<int, 3> shadow_cnt_{};
+    std::array<int, 3> active_cnt_{};
+    bool               gates_ = false;
+};
+
+} // namespace sdre::f28335

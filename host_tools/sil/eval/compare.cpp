@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "sil/eval/compare.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "common/errors.hpp"
+#include "sil/eval/results.hpp"
+#include "sil/eval/seeds.hpp"
+
+namespace sdre {
+namespace {
+
+using nlohmann::ordered_json;
+
+void require_metrics(const std::vector<std::string> &metrics)
+{
+    for (const std::string &name : metrics) {
+        if (!is_metric_name(name)) {
+            throw InputError(
+                fmt::format("--metric {}: is not the name of a metric: must be one of {}", name,
+                            fmt::join(metric_names(), ", ")));
+        }
+    }
+}
+
+std::map<std::string, CompareCell> cells_of(const SeedMeasure                   &measure,
+                                            const std::map<std::string, double> &paper,
+                                            const std::vector<std::string>      &metrics)
+{
+    std::map<std::string, CompareCell> cells;
+    for (const std::string &metric : metrics) {
+        CompareCell &cell = cells[metric];
+        for (const SeedSpread &spread : measure.spread) {
+            cell.value = spread.metric == metric ? spread.worst : cell.value;
+        }
+        if (const auto published = paper.find(metric); published != paper.end()) {
+            cell.paper = published->second;
+        }
+    }
+    return cells;
+}
+
+CompareRun run_of(const Scenario &scenario, const std::string &column, const Comparison &c,
+                  int seeds)
+{
+    const SeedRuns runs = run_seeds(scenario, seeds);
+    CompareRun     out{scenario.name, column, runs.faults, runs.first.uncertified.empty(), {}, {}};
+    for (const SeedMeasure &measure : runs.measures) {
+        const auto same = std::find_if(scenario.measures.begin(), scenario.measures.end(),
+                                       [&](const Measure &m) { return m.name == measure.name; });
+        out.measures.push_back(measure.name);
+        out.cells[measure.name] = cells_of(measure, same->paper, c.metrics);
+    }
+    return out;
+}
+
+/// The scenario as each column sees it: per drive, then per order.
+std::vector<std::pair<std::string, Scenario>> variants(const CompareRequest        &request,
+                                                       const std::filesystem::path &scenario)
+{
+    std::vector<std::filesystem::path> drives = request.drives;
+    if (drives.empty()) {
+        drives.emplace_back(); // the scenario's own
+    }
+    std::vector<std::pair<std::string, Scenario>> out;
+    for (const std::filesystem::path &drive : drives) {
+        Scenario          s    = read_scenario_file(scenario, drive);
+        const std::string name = request.drives.empty() ? "own drive" : s.drive.name;
+        if (request.orders.empty()) {
+            out.emplace_back(name, s);
+        }
+        for (const int order : request.orders) {
+            s.nosc_order = order;
+            s.nodo_order = order;
+            out.emplace_back(fmt::format("{}, order {}", name, order), s);
+        }
+    }
+    return out;
+}
+
+void add_runs(Comparison &c, const CompareRequest &request, const std::filesystem::path &scenario)
+{
+    std::vector<std::string> columns;
+    for (const auto &[column, s] : variants(request, scenario)) {
+        if (std::count(columns.begin(), columns.end(), column) > 0) {
+            throw InputError(
+                fmt::format("two columns are called \"{}\": every drive and order must "
+                            "be there once",
+                            column));
+        }
+        columns.push_back(column);
+        c.runs.push_back(run_of(s, column, c, request.seeds));
+    }
+    c.columns = columns;
+}
+
+std::string value_text(const CompareRun &run, const MetricLabel &label, const CompareCell &cell)
+{
+    std::string s = run.faulted > 0 ? "fault" : "never";
+    if (cell.value && run.faulted == 0) {
+        s = fmt::format(fmt::runtime(label.format), label.factor * *cell.value);
+    }
+    if (cell.paper) {
+        s += fmt::format(" (paper {})",
+                         fmt::format(fmt::runtime(label.format), label.factor * *cell.paper));
+    }
+    return s;
+}
+
+} // namespace
+
+const std::vector<std::string> &compare_default_metrics()
+{
+    static const std::vector<std::string> names{"settling_time_s",   "dip_e_radps",
+                                                "overshoot_e_radps", "steady_state_error_e_radps",
+                                                "ripple_e_radps",    "peak_current_A"};
+    return names;
+}
+
+Comparison compare(const CompareRequest &request)
+{
+    require_metrics(request.metrics);
+    Comparison            c;
+    std::set<std::string> seen;
+    c.metrics = request.metrics.empty() ? compare_default_metrics() : request.metrics;
+    for (const std::filesystem::path &scenario : request.scenarios) {
+        if (!seen.insert(scenario.stem().string()).second) {
+            throw InputError(fmt::format("scenario {} is there twice", scenario.stem().string()));
+        }
+        add_runs(c, request, scenario);
+    }
+    return c;
+}
+
+std::string compare_markdown(const Comparison &c)
+{
+    std::string s    = "| scenario | measure | metric |";
+    std::string rule = "|---|---|---|";
+    for (const std::string &column : c.columns) {
+        s += fmt::format(" {} |", column);
+        rule += "---:|";
+    }
+    s += "\n" + rule + "\n";
+    const std::size_t width = c.columns.size();
+    for (std::size_t first = 0; first < c.runs.size(); first += width) {
+        for (const std::string &measure : c.runs[first].measures) {
+            for (const std::string &metric : c.metrics) {
+                const MetricLabel &label = metric_label(metric);
+                s += fmt::format("| {} | {} | {} |", c.runs[first].scenario, measure, label.text);
+                for (std::size_t i = first; i < first + width; i++) {
+                    const CompareRun &run = c.runs[i];
+                    const auto        row = run.cells.find(measure);
+                    s += fmt::format(" {} |", row == run.cells.end()
+                                                  ? "fault"
+                                                  : value_text(run, label, row->second.at(metric)));
+                }
+                s += "\n";
+            }
+        }
+    }
+    for (const CompareRun &run : c.runs) {
+        if (!run.certified) {
+            s += fmt::format("\nnot certified: {} on {}\n", run.column, run.scenario);
+        }
+    }
+    return s;
+}
+
+std::string compare_csv(const Comparison &c)
+{
+    const auto number = [](const std::optional<double> &x) {
+        return x ? fmt::format("{:.9g}", *x) : std::string();
+    };
+    std::string s = "scenario,measure,metric,drive,value,paper,faulted,certified\n";
+    for (const CompareRun &run : c.runs) {
+        for (const std::string &measure : run.measures) {
+            for (const std::string &metric : c.metrics) {
+                const CompareCell &cell = run.cells.at(measure).at(metric);
+                s += fmt::format("{},{},{},\"{}\",{},{},{},{}\n", run.scenario, measure, metric,
+                                 run.column, number(cell.value), number(cell.paper), run.faulted,
+                                 run.certified);
+            }
+        }
+    }
+    return s;
+}
+
+std::string compare_json(const Comparison &c)
+{
+    const auto number = [](const std::optional<double> &x) {
+        return x ? ordered_json(*x) : ordered_json(nullptr);
+    };
+    ordered_json runs = ordered_json::array();
+    for (const CompareRun &run : c.runs) {
+        ordered_json measures = ordered_json::object();
+        for (const std::string &measure : run.measures) {
+            for (const std::string &metric : c.metrics) {
+                const CompareCell &cell   = run.cells.at(measure).at(metric);
+                measures[measure][metric] = {{"value", number(cell.value)},
+                                             {"paper", number(cell.paper)}};
+            }
+        }
+        runs.push_back({{"scenario", run.scenario},
+                        {"drive", run.column},
+                        {"faulted", run.faulted},
+                        {"certified", run.certified},
+                        {"measures", measures}});
+    }
+    return ordered_json{{"metrics", c.metrics}, {"runs", runs}}.dump(2) + "\n";
+}
+
+} // namespace sdre

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "sil/eval/metrics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sdre {
+namespace {
+
+using Iterator = std::vector<TraceRow>::const_iterator;
+
+constexpr double tail_share       = 0.2;
+constexpr double time_tolerance_s = 1e-9; // far below a period: two times that mean the same tick
+
+template <typename Value> double mean(Iterator begin, Iterator end, Value value)
+{
+    double sum = 0.0;
+    for (Iterator row = begin; row != end; ++row) {
+        sum += value(*row);
+    }
+    return sum / static_cast<double>(end - begin);
+}
+
+std::optional<double> settling_time_s(Iterator begin, Iterator end, double target, double band)
+{
+    Iterator inside = end; // first row of the last stretch within the band
+    for (Iterator row = end; row != begin;) {
+        --row;
+        if (std::abs(row->omega_e_radps - target) > band) {
+            break;
+        }
+        inside = row;
+    }
+    if (inside == end) {
+        return std::nullopt;
+    }
+    return inside->time_s - begin->time_s;
+}
+
+void excursions(Iterator begin, Iterator end, double target, double band, Metrics &m)
+{
+    const double start    = begin->omega_e_radps - target;
+    const bool   step     = std::abs(start) > band;
+    const double upwards  = (step && start > 0.0) ? -1.0 : 1.0; // direction in which the step goes
+    bool         counting = !step;
+    for (Iterator row = begin; row != end; ++row) {
+        const double beyond = upwards * (row->omega_e_radps - target);
+        counting            = counting || beyond >= -band;
+        if (counting) {
+            m.overshoot_e_radps = std::max(m.overshoot_e_radps, beyond);
+            m.dip_e_radps       = std::max(m.dip_e_radps, -beyond);
+        }
+    }
+}
+
+Iterator tail_of(const Measure &measure, Iterator begin, Iterator end)
+{
+    if (measure.tail_s) {
+        const double from_s = (end - 1)->time_s - *measure.tail_s + time_tolerance_s;
+        return std::find_if(begin, end - 1, [&](const TraceRow &r) { return r.time_s > from_s; });
+    }
+    const auto length = static_cast<double>(end - begin);
+    return end - std::max<std::ptrdiff_t>(1, static_cast<std::ptrdiff_t>(tail_share * length));
+}
+
+/// From the figures of the electrical speed.
+void add_paper_b(Metrics &m, Iterator begin, Iterator tail, Iterator end, int pole_pairs)
+{
+    const auto   speed  = [](const TraceRow &r) { return r.omega_e_radps; };
+    const double target = (end - 1)->omega_ref_e_radps;
+    const double centre = mean(tail, end, speed);
+    const double rpm    = 30.0 / std::acos(-1.0) / pole_pairs;
+    m.fluctuation_rpm   = rpm * m.ripple_e_radps;
+    m.offset_rpm        = rpm * (centre - target);
+    const auto slower   = [&](const TraceRow &a, const TraceRow &b) { return speed(a) < speed(b); };
+    m.decrease_rpm      = rpm * (target - speed(*std::min_element(begin, end, slower)));
+    const auto [least, most] = std::minmax_element(tail, end, slower);
+    const double sum         = speed(*least) + speed(*most);
+    if (sum != 0.0) {
+        m.fluctuation_rate_percent = 100.0 * 2.0 * m.ripple_e_radps / std::abs(sum);
+    }
+    if (target != 0.0) {
+        m.overshoot_percent = 100.0 * m.overshoot_e_radps / std::abs(target);
+    }
+    const auto within = [&](double share) {
+        return settling_time_s(begin, end, centre, share * std::abs(target));
+    };
+    m.within_5_percent_s = within(0.05);
+    m.within_2_percent_s = within(0.02);
+    m.within_1_percent_s = within(0.01);
+}
+
+double current_distortion_percent(Iterator tail, Iterator end, double id_A, double iq_A)
+{
+    const double fundamental = std::hypot(id_A, iq_A);
+    const double square      = mean(tail, end, [&](const TraceRow &r) {
+        return std::pow(r.id_A - id_A, 2) + std::pow(r.iq_A - iq_A, 2);
+    });
+    return fundamental > 0.0 ? 100.0 * std::sqrt(square) / fundamental : 0.0;
+}
+
+Metrics metrics_of(const Window &window, int pole_pairs)
+{
+    const auto &[measure, begin, tail, end] = window;
+
+    const double target     = (end - 1)->omega_ref_e_radps;
+    const auto   speed_less = [](const TraceRow &a, const TraceRow &b) {
+        return a.omega_e_radps < b.omega_e_radps;
+    };
+    const auto [lowest, highest] = std::minmax_element(tail, end, speed_less);
+
+    Metrics m;
+    m.name            = measure.name;
+    m.time_s          = measure.time_s;
+    m.settling_time_s = settling_time_s(begin, end, target, measure.band_e_radps);
+    excursions(begin, end, target, measure.band_e_radps, m);
+    m.steady_state_error_e_radps =
+        std::abs(mean(tail, end, [](const TraceRow &r) { return r.omega_e_radps; }) - target);
+    m.ripple_e_radps = 0.5 * (highest->omega_e_radps - lowest->omega_e_radps);
+    for (Iterator row = begin; row != end; ++row) {
+        m.peak_current_A =
+            std::max({m.peak_current_A, std::hypot(row->id_A, row->iq_A), row->peak_current_A});
+    }
+    m.steady_current_A =
+        mean(tail, end, [](const TraceRow &r) { return std::hypot(r.id_A, r.iq_A); });
+    m.d_omega_hat = mean(tail, end, [](const TraceRow &r) { return r.d_omega_hat; });
+    m.d_q_hat     = mean(tail, end, [](const TraceRow &r) { return r.d_q_hat; });
+    m.d_d_hat     = mean(tail, end, [](const TraceRow &r) { return r.d_d_hat; });
+    m.iq_A        = mean(tail, end, [](const TraceRow &r) { return r.iq_A; });
+    m.id_A        = mean(tail, end, [](const TraceRow &r) { return r.id_A; });
+    m.sensor_offset_hat_A =
+        mean(tail, end, [](const TraceRow &r) { return r.sensor_offset_hat_A; });
+    m.current_distortion_percent = current_distortion_percent(tail, end, m.id_A, m.iq_A);
+    add_paper_b(m, begin, tail, end, pole_pairs);
+    return m;
+}
+
+} // namespace
+
+std::vector<Window> windows_of(const Scenario &scenario, const std::vector<TraceRow> &trace)
+{
+    const auto first_at = [&](double time_s) {
+        return std::find_if(trace.begin(), trace.end(),
+                            [&](const TraceRow &r) { return r.time_s >= time_s - 1e-12; });
+    };
+    std::vector<Window> out;
+    for (std::size_t i = 0; i < scenario.measures.size(); i++) {
+        const Iterator begin = first_at(scenario.measures[i].time_s);
+        const Iterator end   = (i + 1 < scenario.measures.size())
+                                   ? first_at(scenario.measures[i + 1].time_s)
+                                   : trace.end();
+        if (begin != end) {
+            out.push_back(
+                {scenario.measures[i], begin, tail_of(scenario.measures[i], begin, end), end});
+        }
+    }
+    return out;
+}
+
+std::vector<Metrics> measure(const Scenario &scenario, const std::vector<TraceRow> &trace)
+{
+    std::vector<Metrics> out;
+    for (const Window &window : windows_of(scenario, trace)) {
+        out.push_back(metrics_of(window, scenario.drive.motor.pole_pairs));
+    }
+    return out;
+}
+
+std::vector<std::pair<std::string, double>> metric_values(const Metrics &m)
+{
+    std::vector<std::pair<std::string, double>> values;
+    if (m.settling_time_s) {
+        values.emplace_back("settling_time_s", *m.settling_time_s);
+    }
+    values.insert(values.end(), {{"dip_e_radps", m.dip_e_radps},
+                                 {"overshoot_e_radps", m.overshoot_e_radps},
+                                 {"steady_state_error_e_radps", m.steady_state_error_e_radps},
+                                 {"ripple_e_radps", m.ripple_e_radps},
+                                 {"peak_current_A", m.peak_current_A},
+                                 {"steady_current_A", m.steady_current_A},
+                                 {"d_omega_hat", m.d_omega_hat},
+                                 {"d_q_hat", m.d_q_hat},
+                                 {"d_d_hat", m.d_d_hat},
+                                 {"iq_A", m.iq_A},
+                                 {"id_A", m.id_A},
+                                 {"sensor_offset_hat_A", m.sensor_offset_hat_A},
+                                 {"current_distortion_percent", m.current_distortion_percent},
+                                 {"fluctuation_rpm", m.fluctuation_rpm},
+                                 {"fluctuation_rate_percent", m.fluctuation_rate_percent},
+                                 {"offset_rpm", m.offset_rpm},
+                                 {"decrease_rpm", m.decrease_rpm},
+                                 {"overshoot_percent", m.overshoot_percent}});
+    for (const auto &[name, time_s] : {std::pair("within_5_percent_s", &m.within_5_percent_s),
+                                       {"within_2_percent_s", &m.within_2_percent_s},
+                                       {"within_1_percent_s", &m.within_1_percent_s}}) {
+        if (*time_s) {
+            values.emplace_back(name, **time_s);
+        }
+    }
+    return values;
+}
+
+std::vector<std::string> metric_names()
+{
+    Metrics probe;
+    probe.settling_time_s    = 0.0;
+    probe.within_5_percent_s = 0.0;
+    probe.within_2_percent_s = 0.0;
+    probe.within_1_percent_s = 0.0;
+    std::vector<std::string> names;
+    for (const auto &[name, value] : metric_values(probe)) {
+        names.push_back(name);
+    }
+    return names;
+}
+
+bool is_metric_name(const std::string &name)
+{
+    const std::vector<std::string> names = metric_names();
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+} // namespace sdre

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "sil/eval/random_motors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/file_output.hpp"
+#include "common/parallel.hpp"
+#include "common/random.hpp"
+#include "common/toml_reader.hpp"
+#include "design/sampled_model.hpp"
+#include "sil/eval/metrics.hpp"
+
+namespace sdre {
+namespace {
+
+// The current circle may be left by this factor: the project's bound for every shipped scenario.
+constexpr double allowed_current_ratio = 1.1;
+
+MotorScale motor_scale(double resistance, double inductance, double flux, double inertia)
+{
+    return {{"stator_resistance_Ohm", resistance},
+            {"d_axis_inductance_H", inductance},
+            {"q_axis_inductance_H", inductance},
+            {"pm_flux_Wb", flux},
+            {"inertia_kgm2", inertia}};
+}
+
+LoopGains gains_at(const drive_config_t &config, double iq_A)
+{
+    LoopGains                   g{Eigen::MatrixXd(2, 3), Eigen::MatrixXd::Zero(7, 3)};
+    const nodo_encoder_gains_t &nodo  = config.nodo_encoder;
+    const double                range = static_cast<double>(nodo.iq_max_A);
+    const double                iq    = std::clamp(iq_A, -range, range);
+    for (int row = 0; row < 2; row++) {
+        for (int column = 0; column < 3; column++) {
+            g.Lambda(row, column) = static_cast<double>(config.nosc.lambda[0][row][column]);
+        }
+    }
+    for (int n = nodo.order; n >= 0; n--) {
+        for (int row = 0; row < 7; row++) {
+            for (int column = 0; column < 3; column++) {
+                g.L(row, column) =
+                    g.L(row, column) * iq + static_cast<double>(nodo.gain[n][row][column]);
+            }
+        }
+    }
+    return g;
+}
+
+/// Largest spectral radius of the true motor under the controller, over the speeds of the scenario.
+double linear_radius(const Scenario &s, const drive_config_t &config)
+{
+    const double            ts    = control_period_s(s.drive);
+    const ReducedParameters motor = reduced_parameters(scaled(s.drive.motor, s.plant_scale));
+    const ReducedParameters model = reduced_parameters(scaled(s.drive.motor, s.controller_scale));
+    double                  worst = 0.0;
+    for (const Step &step : s.speed_reference) {
+        for (const double iq_A : {0.0, 0.5 * s.drive.motor.max_current_A}) {
+            const OperatingPoint at{step.value, iq_A, mtpa_id_A(model, iq_A)};
+            worst = std::max(
+                worst,
+                spectral_radius(sampled_model(motor, model, gains_at(config, iq_A), at, ts).A));
+        }
+    }
+    return worst;
+}
+
+std::string explain(const Scenario &s, const drive_config_t &config)
+{
+    const double gain = s.plant_scale.at("pm_flux_Wb") / s.plant_scale.at("inertia_kgm2");
+    std::string  text = fmt::format("acceleration per ampere is {:.2f} x what is believed", gain);
+    if (config.law == DRIVE_LAW_NOC && config.form == DRIVE_FORM_ENCODER) {
+        const double radius = linear_radius(s, config);
+        text +=
+            fmt::format(", spectral radius of the linear loop {:.4f}: {}", radius,
+                        radius < 1.0 ? "stable for small signals, lost in saturation" : "unstable");
+    }
+    return text;
+}
+
+std::vector<std::string> judge(const Scenario &s, const SimulationResult &result)
+{
+    std::vector<std::string> reasons;
+    if (result.fault != 0) {
+        reasons.push_back(
+            fmt::format("fault at {:.4f} s: {}", result.fault_time_s, fault_name(result.fault)));
+    }
+    double peak_A = 0.0;
+    for (const TraceRow &row : result.trace) {
+        peak_A = std::max(peak_A, row.peak_current_A);
+    }
+    const double limit_A = allowed_current_ratio * s.drive.motor.max_current_A;
+    if (!(peak_A <= limit_A)) {
+        reasons.push_back(fmt::format("{:.2f} A, allowed {:.2f} A", peak_A, limit_A));
+    }
+    for (const Metrics &m : measure(s, result.trace)) {
+        if (!m.settling_time_s) {
+            reasons.push_back(fmt::format("{}: not in its band at the end, ripple {:.2g} rad/s",
+                                          m.name, m.ripple_e_radps));
+        }
+    }
+    return reasons;
+}
+
+} // namespace
+
+MotorScale draw_motor(const MotorRanges &r, std::uint64_t seed, int motor)
+{
+    Uniform      draw(seed, static_cast<std::uint64_t>(motor));
+    const double resistance = draw.next(r.resistance.lo, r.resistance.hi);
+    const double inductance = draw.next(r.inductance.lo, r.inductance.hi);
+    const double flux       = draw.next(r.flux.lo, r.flux.hi);
+    const double inertia    = draw.next(r.inertia.lo, r.inertia.hi);
+    return motor_scale(resistance, inductance, flux, inertia);
+}
+
+RandomMotors run_random_motors(const Scenario &scenario, int count)
+{
+    if (!scenario.motor_ranges) {
+        throw InputError(fmt::format("scenario {}: [motor_ranges] is missing", scenario.name));
+    }
+    const Controller          controller = prepare_controller(scenario);
+    std::vector<MotorFailure> runs(static_cast<std::size_t>(count));
+
+    parallel_for(runs.size(), [&](std::size_t i) {
+        Scenario  one   = scenario;
+        const int motor = static_cast<int>(i) + 1;
+        one.plant_scale = draw_motor(*scenario.motor_ranges, scenario.seed, motor);
+        one.seed        = static_cast<std::uint64_t>(motor);
+        runs[i]         = {motor, one.plant_scale, judge(one, simulate(one, controller))};
+        if (!runs[i].reasons.empty()) {
+            runs[i].reasons.push_back(explain(one, controller.config));
+        }
+    });
+
+    RandomMotors out;
+    out.count = count;
+    std::copy_if(runs.begin(), runs.end(), std::back_inserter(out.failures),
+                 [](const MotorFailure &run) { return !run.reasons.empty(); });
+    return out;
+}
+
+std::string random_motors_text(const Scenario &scenario, const RandomMotors &runs)
+{
+    const auto  failed = static_cast<int>(runs.failures.size());
+    std::string s = fmt::format("{} on {}: {} of {} motors failed, {:.2f} % good\n", scenario.name,
+                                scenario.drive.name, failed, runs.count,
+                                100.0 * (runs.count - failed) / runs.count);
+    for (const MotorFailure &f : runs.failures) {
+        s += fmt::format("motor {}: R {:.2f}, L {:.2f}, flux {:.2f}, J {:.2f}\n", f.motor,
+                         f.scale.at("stator_resistance_Ohm"), f.scale.at("q_axis_inductance_H"),
+                         f.scale.at("pm_flux_Wb"), f.scale.at("inertia_kgm2"));
+        for (const std::string &reason : f.reasons) {
+            s += fmt::format("  {}\n", reason);
+        }
+    }
+    return s;
+}
+
+void write_failed_motors(const std::filesystem::path &scenario_file,
+                         const std::filesystem::path &drive_file, const RandomMotors &runs,
+                         const std::filesystem::path &directory)
+{
+    std::error_code error;
+    std::filesystem::create_directories(directory, error); // write_files() names what is wrong
+    std::vector<OutputFile> files;
+    for (const MotorFailure &f : runs.failures) {
+        toml::table t = parse_toml_file(scenario_file);
+        t.erase("motor_ranges");
+        t.insert_or_assign("seed", f.motor);
+        toml::table scale;
+        for (const auto &[key, factor] : f.scale) {
+            scale.insert_or_assign(key, factor);
+        }
+        t.insert_or_assign("plant_scale", scale);
+        const std::filesystem::path drive =
+            drive_file.empty()
+                ? scenario_drive_path(scenario_file, *t["drive"].value<std::string>())
+                : drive_file;
+        t.insert_or_assign("drive", std::filesystem::proximate(drive, directory).generic_string());
+        std::ostringstream text;
+        for (const std::string &reason : f.reasons) {
+            text << "# " << reason << "\n";
+        }
+        text << t << "\n";
+        files.push_back(
+            {directory / fmt::format("{}_motor_{}.toml", scenario_file.stem().string(), f.motor),
+             text.str()});
+    }
+    write_files(files);
+}
+
+} // namespace sdre

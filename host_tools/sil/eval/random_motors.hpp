@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+/// One scenario with many motors that the controller does not know.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sil/run/simulation.hpp"
+#include "sil/setup/scenario.hpp"
+
+namespace sdre {
+
+/// What is wrong with one motor's run.
+struct MotorFailure {
+    int                      motor = 0; ///< 1 .. count; the noise seed too
+    MotorScale               scale;
+    std::vector<std::string> reasons; ///< what was seen, then the linear loop's view of why
+};
+
+struct RandomMotors {
+    int                       count = 0;
+    std::vector<MotorFailure> failures; ///< by number
+};
+
+/// The factors of one motor, a function of seed and number only: uniform in Scenario::motor_ranges.
+MotorScale draw_motor(const MotorRanges &ranges, std::uint64_t seed, int motor);
+
+/// Runs the scenario with motors 1 .. count in parallel. A motor fails when the drive faults, when the
+/// speed is outside a measure's band at its end, or when the current exceeds 1.1 times its limit.
+RandomMotors run_random_motors(const Scenario &scenario, int count);
+
+std::string random_motors_text(const Scenario &scenario, const RandomMotors &runs);
+
+/// Writes every failed motor as DIR/<scenario>_motor_<n>.toml, a scenario for `sdre-sil run`; with `drive_file` in
+/// place of the scenario's unless it is empty.
+void write_failed_motors(const std::filesystem::path &scenario_file,
+                         const std::filesystem::path &drive_file, const RandomMotors &runs,
+                         const std::filesystem::path &directory);
+
+} // namespace sdre

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "sil/eval/results.hpp"
+
+#include <map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "common/errors.hpp"
+
+namespace sdre {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr MetricLabel labels[] = {
+    {"settling_time_s", "settling time [ms]", 1e3, "{:.1f}"},
+    {"dip_e_radps", "dip [rad/s el.]", 1.0, "{:.2f}"},
+    {"overshoot_e_radps", "overshoot [rad/s el.]", 1.0, "{:.2f}"},
+    {"steady_state_error_e_radps", "steady error [rad/s el.]", 1.0, "{:.3f}"},
+    {"ripple_e_radps", "ripple [rad/s el.]", 1.0, "{:.3f}"},
+    {"peak_current_A", "peak current [A]", 1.0, "{:.2f}"},
+    {"steady_current_A", "steady current [A]", 1.0, "{:.3f}"},
+    {"d_omega_hat", "d_omega [rad/s^2]", 1.0, "{:.0f}"},
+    {"d_q_hat", "d_q [A/s]", 1.0, "{:.1f}"},
+    {"d_d_hat", "d_d [A/s]", 1.0, "{:.1f}"},
+    {"iq_A", "i_q [A]", 1.0, "{:.3f}"},
+    {"id_A", "i_d [A]", 1.0, "{:.3f}"},
+    {"sensor_offset_hat_A", "sensor offset found [A]", 1.0, "{:.3f}"},
+    {"current_distortion_percent", "current distortion [%]", 1.0, "{:.2f}"},
+    {"fluctuation_rpm", "fluctuation [r/min]", 1.0, "{:.2f}"},
+    {"fluctuation_rate_percent", "fluctuation rate [%]", 1.0, "{:.2f}"},
+    {"offset_rpm", "offset [r/min]", 1.0, "{:.2f}"},
+    {"decrease_rpm", "decrease [r/min]", 1.0, "{:.1f}"},
+    {"overshoot_percent", "overshoot [%]", 1.0, "{:.2f}"},
+    {"within_5_percent_s", "within 5 % [ms]", 1e3, "{:.1f}"},
+    {"within_2_percent_s", "within 2 % [ms]", 1e3, "{:.1f}"},
+    {"within_1_percent_s", "within 1 % [ms]", 1e3, "{:.1f}"}};
+
+std::string cell(const std::vector<std::pair<std::string, double>> &values,
+                 const MetricLabel &label, const char *missing)
+{
+    for (const auto &[name, value] : values) {
+        if (name == label.metric) {
+            return fmt::format(fmt::runtime(label.format), label.factor * value);
+        }
+    }
+    return missing;
+}
+
+/// The published values of a measure; found by name, as a measure without rows has no metrics.
+const std::map<std::string, double> &paper_of(const Scenario &scenario, const Metrics &metrics)
+{
+    static const std::map<std::string, double> none;
+    for (const Measure &measure : scenario.measures) {
+        if (measure.name == metrics.name) {
+            return measure.paper;
+        }
+    }
+    return none;
+}
+
+} // namespace
+
+const MetricLabel &metric_label(const std::string &metric)
+{
+    for (const MetricLabel &label : labels) {
+        if (metric == label.metric) {
+            return label;
+        }
+    }
+    throw InputError(fmt::format("{} is not the name of a metric", metric));
+}
+
+std::string trace_csv(const std::vector<TraceRow> &trace)
+{
+    std::string s = "time_s,omega_ref_e_radps,omega_e_radps,iq_A,id_A,iq_ref_A,id_ref_A,vq_V,vd_V,"
+                    "d_omega_hat,d_q_hat,"
+                    "d_d_hat,load_torque_Nm,torque_Nm,dc_link_V\n";
+    for (const TraceRow &r : trace) {
+        fmt::format_to(std::back_inserter(s),
+                       "{:.10g},{:.10g},{:.10g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},",
+                       r.time_s, r.omega_ref_e_radps, r.omega_e_radps, r.iq_A, r.id_A, r.iq_ref_A,
+                       r.id_ref_A, r.vq_V, r.vd_V);
+        fmt::format_to(std::back_inserter(s), "{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n",
+                       r.d_omega_hat, r.d_q_hat, r.d_d_hat, r.load_torque_Nm, r.torque_Nm,
+                       r.dc_link_V);
+    }
+    return s;
+}
+
+std::string result_json(const Scenario &scenario, const SimulationResult &result,
+                        const std::vector<Metrics> &metrics)
+{
+    ordered_json measures = ordered_json::object();
+    for (const Metrics &m : metrics) {
+        ordered_json entry{{"time_s", m.time_s}};
+        for (const std::string &name : metric_names()) {
+            entry[name] = nullptr; // of a time: never
+        }
+        for (const auto &[name, value] : metric_values(m)) {
+            entry[name] = value;
+        }
+        measures[m.name] = entry;
+    }
+    const ordered_json out{
+        {"scenario", scenario.name},
+        {"drive", scenario.drive.name},
+        {"seed", scenario.seed},
+        {"gains", result.compiled_table ? "compiled table" : "solved in process"},
+        {"uncertified", result.uncertified},
+        {"fault", fault_name(result.fault)},
+        {"fault_time_s",
+         result.fault == 0 ? ordered_json(nullptr) : ordered_json(result.fault_time_s)},
+        {"measures", measures},
+        {"simulated_seconds_per_second", result.simulated_seconds_per_second}};
+    return out.dump(2) + "\n";
+}
+
+std::string result_text(const Scenario &scenario, const SimulationResult &result,
+                        const std::vector<Metrics> &metrics)
+{
+    std::string s = fmt::format("{} on {}, gains: {}\n", scenario.name, scenario.drive.name,
+                                result.compiled_table ? "compiled table" : "solved in process");
+    for (const std::string &why : result.uncertified) {
+        s += fmt::format("not certified: {}\n", why);
+    }
+    if (result.fault != 0) {
+        s += fmt::format("FAULT at {:.4f} s: {}\n", result.fault_time_s, fault_name(result.fault));
+    }
+    s += fmt::format("{:<26}", "");
+    for (const Metrics &m : metrics) {
+        s += fmt::format("{:>16}{:>10}", m.name, paper_of(scenario, m).empty() ? "" : "paper");
+    }
+    s += "\n";
+    for (const MetricLabel &label : labels) {
+        s += fmt::format("{:<26}", label.text);
+        for (const Metrics &m : metrics) {
+            const auto &paper = paper_of(scenario, m);
+            s += fmt::format("{:>16}{:>10}", cell(metric_values(m), label, "never"),
+                             cell({paper.begin(), paper.end()}, label, ""));
+        }
+        s += "\n";
+    }
+    return s;
+}
+
+} // namespace sdre

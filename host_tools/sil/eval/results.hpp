@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+/// A finished run as text: CSV for plots, JSON for programs, a table for people.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sil/eval/metrics.hpp"
+#include "sil/run/simulation.hpp"
+
+namespace sdre {
+
+/// How a metric is shown to people.
+struct MetricLabel {
+    const char *metric;
+    const char *text; ///< with the unit
+    double      factor;
+    const char *format;
+};
+
+/// InputError for what is not the name of a metric.
+const MetricLabel &metric_label(const std::string &metric);
+
+/// Header line, then one row per control period.
+std::string trace_csv(const std::vector<TraceRow> &trace);
+
+std::string result_json(const Scenario &scenario, const SimulationResult &result,
+                        const std::vector<Metrics> &metrics);
+
+/// Metrics in rows, one column per measure and one for the published value where the scenario gives it.
+std::string result_text(const Scenario &scenario, const SimulationResult &result,
+                        const std::vector<Metrics> &metrics);
+
+} // namespace sdre

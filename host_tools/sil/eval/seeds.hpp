@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+/// One scenario under many noise seeds.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sil/eval/metrics.hpp"
+#include "sil/run/simulation.hpp"
+
+namespace sdre {
+
+/// One metric over all seeds. Settling "never" in any seed leaves worst and mean of the time empty.
+struct SeedSpread {
+    std::string metric;
+    std::optional<double>
+        worst; ///< the value furthest from zero; of estimates and axis currents: from the mean
+    std::optional<double> mean;
+};
+
+struct SeedMeasure {
+    std::string             name;
+    double                  time_s = 0.0;
+    std::vector<SeedSpread> spread;
+};
+
+struct SeedRuns {
+    int                      seeds  = 0;
+    int                      faults = 0; ///< seeds in which the drive tripped
+    SimulationResult         first;      ///< of seed 1
+    std::vector<Metrics>     first_metrics;
+    std::vector<SeedMeasure> measures;
+};
+
+/// Seeds 1 .. count, in parallel; the result does not depend on the number of threads.
+SeedRuns run_seeds(const Scenario &scenario, int count);
+
+/// Like result_json() and result_text(), with worst and mean in place of one run's values.
+std::string seeds_json(const Scenario &scenario, const SeedRuns &runs);
+std::string seeds_text(const Scenario &scenario, const SeedRuns &runs);
+
+} // namespace sdre

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "sil/plant/motor_effects.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sdre {
+namespace {
+
+// Chosen: far below any effect on the current, above the rounding of L i.
+constexpr double flux_tolerance = 1e-13;
+// Measured: 3 Newton steps suffice from the current of the step before; the rest is margin.
+constexpr int newton_steps = 20;
+
+/// Where x lies on an increasing axis: the cell and the share of it, at the edge when outside.
+struct Place {
+    std::size_t cell;
+    double      share;
+};
+
+Place place_on(const std::vector<double> &axis, double x)
+{
+    std::size_t i = 0;
+    while (i + 2 < axis.size() && x >= axis[i + 1]) {
+        i++;
+    }
+    return {i, std::clamp((x - axis[i]) / (axis[i + 1] - axis[i]), 0.0, 1.0)};
+}
+
+/// Written so that equal corners give exactly their value.
+double bilinear(const std::vector<double> &table, std::size_t width, Place d, Place q)
+{
+    const double *row  = table.data() + d.cell * width + q.cell;
+    const double *next = row + width;
+    const double  lo   = row[0] + q.share * (row[1] - row[0]);
+    const double  hi   = next[0] + q.share * (next[1] - next[0]);
+    return lo + d.share * (hi - lo);
+}
+
+RotorVector flux_of(const SaturationMap &map, RotorVector i)
+{
+    const RotorVector L = inductance_H(map, i);
+    return {L.d * i.d, L.q * i.q};
+}
+
+} // namespace
+
+SaturationMap scaled(SaturationMap map, double ld_factor, double lq_factor)
+{
+    for (double &x : map.ld_H) {
+        x *= ld_factor;
+    }
+    for (double &x : map.lq_H) {
+        x *= lq_factor;
+    }
+    return map;
+}
+
+RotorVector inductance_H(const SaturationMap &map, RotorVector i)
+{
+    const Place d = place_on(map.id_A, i.d);
+    const Place q = place_on(map.iq_A, i.q);
+    return {bilinear(map.ld_H, map.iq_A.size(), d, q), bilinear(map.lq_H, map.iq_A.size(), d, q)};
+}
+
+RotorVector saturated_current_A(const SaturationMap &map, RotorVector flux, RotorVector guess)
+{
+    const RotorVector L         = inductance_H(map, guess);
+    RotorVector       i         = {flux.d / L.d, flux.q / L.q}; // exact where L does not change
+    const double      tolerance = flux_tolerance * (1.0 + std::abs(flux.d) + std::abs(flux.q));
+    for (int n = 0; n < newton_steps; n++) {
+        const RotorVector found = flux_of(map, i);
+        const double      rd    = found.d - flux.d;
+        const double      rq    = found.q - flux.q;
+        if (std::abs(rd) + std::abs(rq) <= tolerance) {
+            break;
+        }
+        constexpr double  step_A = 1e-6; // for the slope of the flux; L is piecewise smooth
+        const RotorVector by_d   = flux_of(map, {i.d + step_A, i.q});
+        const RotorVector by_q   = flux_of(map, {i.d, i.q + step_A});
+        const double      dd     = (by_d.d - found.d) / step_A;
+        const double      qd     = (by_d.q - found.q) / step_A;
+        const double      dq     = (by_q.d - found.d) / step_A;
+        const double      qq     = (by_q.q - found.q) / step_A;
+        const double      det    = dd * qq - dq * qd;
+        i.d -= (qq * rd - dq * rq) / det;
+        i.q -= (dd * rq - qd * rd) / det;
+    }
+    return i;
+}
+
+double drifted(double value, double share_per_s, double time_s)
+{
+    return value * std::max(0.01, 1.0 + share_per_s * time_s);
+}
+
+} // namespace sdre

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+/// Saturation and what drags on the shaft.
+///
+///     psi_d = psi_m + L_d(i) i_d,  psi_q = L_q(i) i_q,  L bilinear in the map  EQ-EFFECTS-1
+///     T_cogging = amplitude sin(order theta_m) + second sin(2 order theta_m + phase)   EQ-EFFECTS-2
+///
+/// Outside the map its edge value holds.
+#pragma once
+
+#include "sil/plant/vectors.hpp"
+#include "sil/setup/board_settings.hpp"
+
+namespace sdre {
+
+/// A saturation map scaled by factors of L_d and L_q.
+SaturationMap scaled(SaturationMap map, double ld_factor, double lq_factor);
+
+/// Inductances at a current: {L_d, L_q}.
+RotorVector inductance_H(const SaturationMap &map, RotorVector current_A);
+
+/// The current that makes this flux linkage without the magnet's (EQ-EFFECTS-1 solved for i), from a guess.
+RotorVector saturated_current_A(const SaturationMap &map, RotorVector flux_Wb, RotorVector guess_A);
+
+/// Temperature drift: the value after some time, never below a hundredth of the start.
+double drifted(double value, double share_per_s, double time_s);
+
+} // namespace sdre

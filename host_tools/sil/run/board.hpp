@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+/// The simulated board with its motor: samples for the core in, duty ratios of the core out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "sil/plant/inverter.hpp"
+#include "sil/plant/load.hpp"
+#include "sil/plant/plant.hpp"
+#include "sil/sensors/adc.hpp"
+#include "sil/sensors/encoder.hpp"
+#include "sil/setup/scenario.hpp"
+
+namespace sdre {
+
+/// What the converters and the counter of a real board show at a tick.
+struct RawSample {
+    int          ia_code     = 0; ///< two's complement
+    int          ib_code     = 0;
+    double       dc_link_V   = 0.0;
+    std::int64_t count       = 0; ///< of a counter that nobody puts right, since the shaft's zero
+    bool         index       = false;
+    std::int64_t index_count = 0;
+};
+
+class Board {
+public:
+    explicit Board(const Scenario &scenario);
+
+    /// Everything that happens at a tick's time: changes, drifts, load. Call before sample().
+    void begin_tick(double time_s);
+    /// What the core gets at this tick.
+    drive_sample_t sample();
+    /// One period with the duty ratios in force; ends at the next tick.
+    void run_period(const drive_output_t &in_force);
+
+    /// The same for a board that is simulated down to its codes and edges: instead of sample(), ...
+    RawSample raw_sample();
+    /// ... and instead of run_period(), in pieces.
+    void begin_raw_period(const std::array<LegTiming, 3> &legs);
+    void set_legs(const std::array<bool, 3> &enabled)
+    {
+        bridge_.set_legs(enabled);
+    }
+    void advance_raw(double from_s, double to_s)
+    {
+        bridge_.advance(plant_, dc_link_, shaft_load_, from_s, to_s);
+    }
+
+    const Plant &plant() const
+    {
+        return plant_;
+    }
+    double dc_link_V() const
+    {
+        return dc_link_.voltage_V();
+    }
+    double load_Nm() const; ///< all of the load at this tick
+    /// Largest |i| since the tick before.
+    double peak_current_A() const
+    {
+        return plant_.peak_current_A();
+    }
+
+private:
+    void           apply(const PlantChange &change);
+    void           update_motor();
+    void           configure_inverter();
+    bool           plain_period() const;
+    drive_sample_t ideal_sample() const;
+    drive_sample_t measured_sample();
+
+    const Scenario   &scenario_;
+    double            period_s_;
+    Motor             motor_; ///< scaled, before any drift
+    MotorScale        scale_;
+    SensorSettings    sensors_;
+    InverterSettings  inverter_;
+    double            source_V_;
+    Plant             plant_;
+    Bridge            bridge_;
+    DcLink            dc_link_;
+    QuadratureEncoder encoder_;
+    Noise             noise_a_;
+    Noise             noise_b_;
+    LoadProfile       load_;
+    ShaftLoad         shaft_load_;
+    double            time_s_         = 0.0;
+    std::size_t       next_change_    = 0;
+    bool              plain_inverter_ = true;
+    bool              plain_motor_    = true;
+    bool              have_early_     = false; ///< early_sample_ was taken before this tick
+    drive_sample_t    early_sample_{};
+};
+
+} // namespace sdre

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+/// The simulated motor on a test bench, for boards that are simulated down to codes and edges.
+///
+/// Until the scenario starts a dynamometer holds the shaft: at the scenario's initial speed, so that its electrical
+/// angle is zero when the scenario starts, and turned once past the encoder's index before if that speed is low.
+/// Instants are control ticks: the tops of the PWM counter.
+#pragma once
+
+#include <array>
+#include <climits>
+#include <memory>
+
+#include "sil/run/board.hpp"
+
+namespace sdre {
+
+/// The motor at a tick.
+struct PlantState {
+    double      omega_e_radps = 0.0;
+    RotorVector current_A;
+    double      torque_Nm = 0.0;
+    double      load_Nm   = 0.0;
+    double      dc_link_V = 0.0;
+};
+
+class MotorBench {
+public:
+    static constexpr long never = LONG_MAX;
+
+    /// @param start_tick Tick that is the scenario's time zero; `never`: the shaft stays held.
+    MotorBench(const Scenario &scenario, long start_tick);
+
+    /// The next tick has come: ends the period before, takes the samples.
+    void begin_tick();
+    /// What the bridge is told from this tick to the next.
+    void begin_period(const std::array<LegTiming, 3> &legs);
+    /// Opens or frees legs, this long after the tick.
+    void set_legs(const std::array<bool, 3> &enabled, double into_period_s);
+
+    /// Of the present tick; -1 before the first.
+    long tick() const
+    {
+        return tick_;
+    }
+    const RawSample &sample() const
+    {
+        return sample_;
+    }
+    /// The encoder's count within the period; the shaft turns evenly so far.
+    std::int64_t count_after(double into_period_s) const;
+    /// At the present tick.
+    const PlantState &plant_state() const
+    {
+        return plant_state_;
+    }
+    /// Largest |i| in the period that the present tick has ended.
+    double peak_current_A() const
+    {
+        return peak_current_A_;
+    }
+    /// Somebody drove the motor while the shaft was held.
+    bool driven_while_held() const
+    {
+        return driven_while_held_;
+    }
+
+    /// The encoder's tracks show no movement any more.
+    void stick_encoder()
+    {
+        stuck_ = true;
+    }
+
+private:
+    double held_theta_e_rad(long tick) const;
+    void   hold();
+
+    Scenario               scenario_;
+    double                 period_s_;
+    long                   start_tick_;
+    long                   tick_ = -1;
+    RawSample              sample_;
+    PlantState             plant_state_;
+    double                 peak_current_A_ = 0.0;
+    std::array<bool, 3>    legs_{};
+    double                 reached_s_         = 0.0; ///< how far into the period the plant is
+    bool                   driven_while_held_ = false;
+    bool                   stuck_             = false;
+    QuadratureEncoder      held_encoder_;
+    Noise                  held_noise_a_;
+    Noise                  held_noise_b_;
+    std::unique_ptr<Board> board_;
+};
+
+} // namespace sdre

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+/// The core's input over a run: played back, the core does the same again without a plant.
+#pragma once
+
+#include <vector>
+
+#include "design/core_types.hpp"
+#include "sil/run/simulation.hpp"
+#include "sil/setup/scenario.hpp"
+
+namespace sdre {
+
+struct Recording {
+    std::vector<drive_t>         drives; ///< the core before each tick
+    std::vector<drive_sample_t>  samples;
+    std::vector<drive_command_t> commands;
+    std::vector<drive_output_t>  outputs; ///< what the core answered here
+};
+
+/// One run of the scenario. DesignError when the core refuses the controller's constants.
+Recording record(const Scenario &scenario, const Controller &controller);
+
+} // namespace sdre

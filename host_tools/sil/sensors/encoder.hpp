@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+/// Incremental encoder with a quadrature counter (x4) on the motor's shaft.
+///
+///     shaft = theta_m + offset_e / n_p + eccentricity sin(theta_m)             EQ-ENCODER-1
+///     count = floor(4 lines shaft / 2 pi) - lost                               EQ-ENCODER-2
+///     theta_e = n_p (count + 1/2) 2 pi / (4 lines), wrapped to [0, 2 pi)       EQ-ENCODER-3
+///     omega_e = n_p (count - count before) 2 pi / (4 lines Ts)                 EQ-ENCODER-4
+///     or, with the times of the last edges of this period and of the one before them,
+///     omega_e = n_p (edge - edge before) 2 pi / (4 lines (t_edge - t_edge before))  EQ-ENCODER-5
+///
+/// A period without an edge keeps the speed of EQ-ENCODER-5, but at most one count in the time since the edge.
+#pragma once
+
+#include <cstdint>
+
+#include "sil/setup/board_settings.hpp"
+
+namespace sdre {
+
+class QuadratureEncoder {
+public:
+    struct Reading {
+        std::int64_t count         = 0; ///< since the start, not wrapped
+        double       theta_e_rad   = 0.0;
+        double       omega_e_radps = 0.0;
+        std::int64_t raw_count     = 0;     ///< what a plain counter shows: never put right
+        bool         index         = false; ///< the mark was passed since the read before
+        std::int64_t index_count   = 0;     ///< raw_count at the mark
+    };
+
+    /// @param lines of the drive file, unless the settings name others.
+    QuadratureEncoder(const SensorSettings &settings, int lines, int pole_pairs, double period_s);
+
+    /// Changes in flight; the counter keeps what it has lost.
+    void configure(const SensorSettings &settings);
+    /// The counter as if the shaft had turned at this speed before the start.
+    void start(double theta_e_rad, double omega_e_radps);
+    /// The counter misses this many counts, now. An index mark puts it right.
+    void lose(int counts);
+
+    /// Call once per period. The true speed places the edges in time; EQ-ENCODER-4 does not look at it.
+    Reading read(double theta_e_rad, double omega_e_radps = 0.0);
+
+private:
+    double       shaft_turns(double theta_e_rad) const;
+    std::int64_t counts_of(double theta_e_rad) const;
+    void         note_index(std::int64_t now, Reading &r);
+    double       since_edge_s(double theta_e_rad, double omega_e_radps) const;
+    double       edge_angle_rad(std::int64_t count) const;
+    void         time_edges(const Reading &r, double since_edge_s, bool forward);
+
+    SensorSettings settings_;
+    int            drive_lines_;
+    double         pole_pairs_;
+    double         period_s_;
+    std::int64_t   counts_per_turn_ = 0;
+    std::int64_t   before_          = 0;
+    std::int64_t   lost_            = 0;
+    std::int64_t   lost_for_good_   = 0; ///< by a counter that the index does not put right
+    std::int64_t   true_before_     = 0;
+    double         lost_at_turn_    = 0.0; ///< whole turns when they were last lost or read
+    std::int64_t   edge_            = 0;   ///< the last edge, as the count above it
+    double         edge_age_s_      = 0.0; ///< since that edge, at the last reading
+    double         edge_speed_      = 0.0; ///< EQ-ENCODER-5, electrical
+};
+
+} // namespace sdre

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "sil/setup/board_reader.hpp"
+
+#include <fmt/format.h>
+
+#include "drive/drive_file.hpp"
+
+namespace sdre {
+namespace {
+
+// Allowed values: wide enough for any board, narrow enough that a slipped unit is caught.
+constexpr Range encoder_lines{1, 1e6};
+constexpr Range eccentricity_rad{0.0, 0.5};
+constexpr Range angle_e_rad{-3.2, 3.2};
+constexpr Range adc_bits{4, 24};
+constexpr Range current_A{1e-3, 1e4};
+constexpr Range noise_A{0.0, 1e3};
+constexpr Range offset_A{-1e3, 1e3};
+constexpr Range gain{0.1, 10.0};
+constexpr Range dc_link_V{1.0, 1e4};
+constexpr Range dead_time_s{0.0, 2e-5};
+constexpr Range drop_V{0.0, 20.0};
+constexpr Range duty{0.0, 1.0};
+constexpr Range resistance_Ohm{0.0, 1e3};
+constexpr Range capacitance_F{1e-6, 10.0};
+constexpr Range torque_Nm{-1e5, 1e5};
+constexpr Range positive_torque_Nm{0.0, 1e5};
+constexpr Range cogging_order{1.0, 1e3};
+constexpr Range drift_per_s{-10.0, 10.0};
+constexpr Range map_current_A{-1e4, 1e4};
+constexpr Range map_inductance_H{1e-7, 10.0};
+constexpr Range frequency_Hz{0.0, 1e3};
+constexpr Range time_s{0.0, 1e4};
+
+/// Points per axis of a saturation map; the least makes one cell.
+const std::vector<std::size_t> axis_lengths{2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16};
+
+std::vector<double> read_axis(TomlReader &t, const char *key)
+{
+    std::vector<double> axis = t.numbers(key, axis_lengths, map_current_A);
+    for (std::size_t i = 1; i < axis.size(); i++) {
+        if (axis[i] <= axis[i - 1]) {
+            t.fail(key, fmt::format("= [.. {:g}, {:g} ..] is not allowed: must increase",
+                                    axis[i - 1], axis[i]));
+        }
+    }
+    return axis;
+}
+
+SaturationMap read_saturation(TomlReader &t)
+{
+    SaturationMap map;
+    map.id_A                = read_axis(t, "id_A");
+    map.iq_A                = read_axis(t, "iq_A");
+    const std::size_t cells = map.id_A.size() * map.iq_A.size();
+    map.ld_H                = t.numbers("ld_H", {cells}, map_inductance_H);
+    map.lq_H                = t.numbers("lq_H", {cells}, map_inductance_H);
+    return map;
+}
+
+} // namespace
+
+SensorSettings read_sensors(TomlReader t, SensorSettings s, const Drive &drive)
+{
+    s.ideal = t.boolean_or("ideal", s.ideal);
+    if (t.has("encoder_lines")) {
+        s.encoder_lines = t.integer("encoder_lines", encoder_lines);
+    }
+    s.encoder_index     = t.boolean_or("encoder_index", s.encoder_index);
+    s.encoder_edge_time = t.boolean_or("encoder_edge_time", s.encoder_edge_time);
+    s.encoder_eccentricity_rad =
+        t.number_or("encoder_eccentricity_rad", eccentricity_rad, s.encoder_eccentricity_rad);
+    s.encoder_offset_e_rad =
+        t.number_or("encoder_offset_e_rad", angle_e_rad, s.encoder_offset_e_rad);
+    s.adc_bits         = t.integer_or("adc_bits", adc_bits, s.adc_bits);
+    s.adc_full_scale_A = t.number_or("adc_full_scale_A", current_A, s.adc_full_scale_A);
+    s.adc_noise_rms_A  = t.number_or("adc_noise_rms_A", noise_A, s.adc_noise_rms_A);
+    s.adc_offset_a_A   = t.number_or("adc_offset_a_A", offset_A, s.adc_offset_a_A);
+    s.adc_offset_b_A   = t.number_or("adc_offset_b_A", offset_A, s.adc_offset_b_A);
+    s.adc_gain_a       = t.number_or("adc_gain_a", gain, s.adc_gain_a);
+    s.adc_gain_b       = t.number_or("adc_gain_b", gain, s.adc_gain_b);
+    const Range half_period_s{0.0, 0.5 * control_period_s(drive)};
+    s.sampling_advance_s = t.number_or("sampling_advance_s", half_period_s, s.sampling_advance_s);
+    t.reject_unknown_keys();
+    return s;
+}
+
+InverterSettings read_board_inverter(TomlReader t, InverterSettings s, const Drive &drive)
+{
+    if (t.has("dc_link_V")) {
+        s.dc_link_V = t.number("dc_link_V", dc_link_V);
+    }
+    const std::string model =
+        t.text_or("model", s.model == InverterModel::switched ? "switched" : "averaged");
+    if (model != "averaged" && model != "switched") {
+        t.fail("model",
+               fmt::format("= \"{}\" is not allowed: must be \"averaged\" or \"switched\"", model));
+    }
+    s.model = model == "switched" ? InverterModel::switched : InverterModel::averaged;
+    if (t.has("dead_time_s")) {
+        s.dead_time_s = t.number("dead_time_s", dead_time_s);
+        if (*s.dead_time_s * drive.inverter.pwm_frequency_Hz > 0.1) {
+            t.fail("dead_time_s", "is not allowed: must be at most a tenth of the PWM period");
+        }
+    }
+    s.switch_drop_V = t.number_or("switch_drop_V", drop_V, s.switch_drop_V);
+    s.diode_drop_V  = t.number_or("diode_drop_V", drop_V, s.diode_drop_V);
+    s.duty_min      = t.number_or("duty_min", duty, s.duty_min);
+    s.duty_max      = t.number_or("duty_max", duty, s.duty_max);
+    if (s.duty_min >= s.duty_max) {
+        t.fail("duty_min", fmt::format("= {:g} is not allowed: must be below duty_max = {:g}",
+                                       s.duty_min, s.duty_max));
+    }
+    s.source_resistance_Ohm =
+        t.number_or("source_resistance_Ohm", resistance_Ohm, s.source_resistance_Ohm);
+    s.capacitance_F = t.number_or("capacitance_F", capacitance_F, s.capacitance_F);
+    const std::string regeneration =
+        t.text_or("regeneration", s.regeneration == Regeneration::blocks ? "blocks" : "sinks");
+    if (regeneration != "blocks" && regeneration != "sinks") {
+        t.fail(
+            "regeneration",
+            fmt::format("= \"{}\" is not allowed: must be \"blocks\" or \"sinks\"", regeneration));
+    }
+    s.regeneration = regeneration == "blocks" ? Regeneration::blocks : Regeneration::sinks;
+    t.reject_unknown_keys();
+    return s;
+}
+
+MotorEffects read_motor_effects(TomlReader t)
+{
+    MotorEffects e;
+    if (t.has("id_A") || t.has("iq_A") || t.has("ld_H") || t.has("lq_H")) {
+        e.saturation = read_saturation(t);
+    }
+    e.cogging_amplitude_Nm = t.number_or("cogging_amplitude_Nm", positive_torque_Nm, 0.0);
+    if (e.cogging_amplitude_Nm > 0.0 || t.has("cogging_order")) {
+        e.cogging_order =
+            t.number("cogging_order", cogging_order); // no motor-independent default exists
+        e.cogging_second_Nm  = t.number_or("cogging_second_Nm", positive_torque_Nm, 0.0);
+        e.cogging_second_rad = t.number_or("cogging_second_rad", angle_e_rad, 0.0);
+    }
+    e.coulomb_friction_Nm = t.number_or("coulomb_friction_Nm", positive_torque_Nm, 0.0);
+    e.resistance_drift    = t.number_or("resistance_drift", drift_per_s, 0.0);
+    e.flux_drift          = t.number_or("flux_drift", drift_per_s, 0.0);
+    t.reject_unknown_keys();
+    return e;
+}
+
+LoadSine read_load_sine(TomlReader t, LoadSine s)
+{
+    s.amplitude_Nm = t.number_or("amplitude_Nm", torque_Nm, s.amplitude_Nm);
+    s.frequency_Hz = t.number_or("frequency_Hz", frequency_Hz, s.frequency_Hz);
+    s.start_s      = t.number_or("start_s", time_s, s.start_s);
+    t.reject_unknown_keys();
+    return s;
+}
+
+std::vector<LoadRamp> read_load_ramps(TomlReader &t)
+{
+    std::vector<LoadRamp> ramps;
+    for (TomlReader &entry : t.tables("load_ramp")) {
+        const LoadRamp r{entry.number("time_s", time_s), entry.number("until_s", time_s),
+                         entry.number("to_Nm", torque_Nm)};
+        if (r.until_s <= r.time_s) {
+            entry.fail("until_s",
+                       fmt::format("= {:g} is not allowed: must be later than time_s = {:g}",
+                                   r.until_s, r.time_s));
+        }
+        if (!ramps.empty() && r.time_s < ramps.back().until_s) {
+            entry.fail("time_s", fmt::format("= {:g} is not allowed: the ramp before ends at {:g}",
+                                             r.time_s, ramps.back().until_s));
+        }
+        entry.reject_unknown_keys();
+        ramps.push_back(r);
+    }
+    return ramps;
+}
+
+} // namespace sdre

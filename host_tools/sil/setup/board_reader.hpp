@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+/// The tables of a scenario that describe board, motor effects and load. Every key is optional; what is not
+/// given keeps the value it had, so the same functions read a [[change]].
+#pragma once
+
+#include "common/toml_reader.hpp"
+#include "sil/plant/load.hpp"
+#include "sil/setup/board_settings.hpp"
+
+namespace sdre {
+
+struct Drive;
+
+SensorSettings        read_sensors(TomlReader t, SensorSettings now, const Drive &drive);
+InverterSettings      read_board_inverter(TomlReader t, InverterSettings now, const Drive &drive);
+MotorEffects          read_motor_effects(TomlReader t);
+LoadSine              read_load_sine(TomlReader t, LoadSine now);
+std::vector<LoadRamp> read_load_ramps(TomlReader &t);
+
+} // namespace sdre

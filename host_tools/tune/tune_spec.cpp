@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "tune/tune_spec.hpp"
+
+#include "common/toml_reader.hpp"
+
+namespace sdre {
+namespace {
+
+constexpr Range factor{0.1, 10.0};
+constexpr Range speed_e_radps{0.0, 1e5};
+constexpr Range deviation_e_radps{1e-6, 1e4};
+constexpr Range torque_Nm{1e-6, 1e5};
+constexpr Range time_s{1e-5, 10.0};
+constexpr Range current_A{1e-6, 1e4};
+constexpr Range voltage_V{1e-3, 1e4};
+constexpr Range pole{0.1, 0.9999};
+
+RobustnessCase read_case(TomlReader &t)
+{
+    RobustnessCase c;
+    c.mechanical      = t.number("mechanical", factor);
+    c.electrical      = t.number("electrical", factor);
+    c.dip_e_radps     = t.number("dip_e_radps", deviation_e_radps);
+    c.settling_time_s = t.number("settling_time_s", time_s);
+    c.ripple_e_radps  = t.number("ripple_e_radps", deviation_e_radps);
+    t.reject_unknown_keys();
+    return c;
+}
+
+} // namespace
+
+TuneSpec read_tune_spec(const std::filesystem::path &file)
+{
+    const toml::table root = parse_toml_file(file);
+    TomlReader        t(file.string(), "", root);
+    TuneSpec          spec;
+    spec.speed_e_radps      = t.number("speed_e_radps", speed_e_radps);
+    spec.load_before_Nm     = t.number("load_before_Nm", {0.0, 1e5});
+    spec.load_step_Nm       = t.number("load_step_Nm", torque_Nm);
+    spec.band_e_radps       = t.number("band_e_radps", deviation_e_radps);
+    spec.largest_pole       = t.number("largest_pole", pole);
+    spec.voltage_V          = t.number("voltage_V", voltage_V);
+    spec.voltage_headroom_V = t.number("voltage_headroom_V", voltage_V);
+    spec.d_axis_error_A     = t.number("d_axis_error_A", current_A);
+    spec.current_noise_A    = t.number("current_noise_A", current_A);
+    spec.current_lsb_A      = t.number("current_lsb_A", current_A);
+    for (TomlReader &entry : t.tables("case")) {
+        spec.cases.push_back(read_case(entry));
+    }
+    if (spec.cases.empty() || spec.cases[0].mechanical != 1.0 || spec.cases[0].electrical != 1.0) {
+        t.fail("case", "number 1 must be the nominal one: mechanical = 1, electrical = 1");
+    }
+    t.reject_unknown_keys();
+    return spec;
+}
+
+} // namespace sdre
