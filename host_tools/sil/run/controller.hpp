@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+/// The constants that the control core runs on in a scenario.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "design/core_types.hpp"
+#include "sil/setup/scenario.hpp"
+
+namespace sdre {
+
+/// The constants the core runs on, from the table or solved here.
+struct Controller {
+    drive_config_t                               config{};
+    bool                                         compiled_table = false;
+    std::vector<std::string>                     uncertified;
+    std::shared_ptr<const nodo_harmonic_gains_t> harmonics; ///< what config points to, noc_h only
+};
+
+/// DesignError when the gains cannot be solved.
+Controller prepare_controller(const Scenario &scenario);
+
+} // namespace sdre

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "sil/run/faults.hpp"
+
+#include <iterator>
+
+#include "design/core_types.hpp"
+
+namespace sdre {
+namespace {
+
+const char *app_fault_name(int fault)
+{
+    // In the order of app_fault_t, which is part of the serial protocol.
+    static const char *const names[] = {"none",
+                                        "application: constant out of range",
+                                        "application: board fault",
+                                        "application: background stands still",
+                                        "application: invalid sample",
+                                        "application: current offset",
+                                        "application: temperature sensor",
+                                        "application: temperature",
+                                        "application: index out of place",
+                                        "application: alignment",
+                                        "application: drive"};
+    return fault >= 0 && fault < static_cast<int>(std::size(names)) ? names[fault] : "unknown";
+}
+
+} // namespace
+
+const char *fault_name(int fault)
+{
+    if (fault == device_reset_fault) {
+        return "reset by the watchdog";
+    }
+    if (fault >= app_fault_base) {
+        return app_fault_name(fault - app_fault_base);
+    }
+    switch (static_cast<drive_fault_t>(fault)) {
+    case DRIVE_FAULT_NONE:
+        return "none";
+    case DRIVE_FAULT_SAMPLE:
+        return "invalid sample";
+    case DRIVE_FAULT_OVER_CURRENT:
+        return "over current";
+    case DRIVE_FAULT_DC_LINK:
+        return "dc link out of range";
+    case DRIVE_FAULT_OVER_SPEED:
+        return "over speed";
+    case DRIVE_FAULT_ENCODER:
+        return "encoder implausible";
+    case DRIVE_FAULT_COMMAND:
+        return "command out of range";
+    case DRIVE_FAULT_NUMERIC:
+        return "law not a number";
+    }
+    return "unknown";
+}
+
+} // namespace sdre

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+/// What a run leaves of each control period.
+#pragma once
+
+#include "design/core_types.hpp"
+
+namespace sdre {
+
+/// One control period: the plant at the sampling instant and what the core answered.
+struct TraceRow {
+    double time_s              = 0.0;
+    double omega_ref_e_radps   = 0.0; ///< commanded
+    double omega_e_radps       = 0.0;
+    double iq_A                = 0.0;
+    double id_A                = 0.0;
+    double iq_ref_A            = 0.0;
+    double id_ref_A            = 0.0;
+    double vq_V                = 0.0; ///< commanded at this tick, after the limit
+    double vd_V                = 0.0;
+    double d_omega_hat         = 0.0;
+    double d_q_hat             = 0.0;
+    double d_d_hat             = 0.0;
+    double sensor_offset_hat_A = 0.0; ///< length of the offset that noc_h's observer has found
+    double load_torque_Nm      = 0.0;
+    double torque_Nm           = 0.0;
+    double dc_link_V           = 0.0;
+    double peak_current_A      = 0.0; ///< largest |i| from this instant to the next
+};
+
+/// The drive's part of a row: references, voltages, estimated disturbances.
+void add_drive(TraceRow &row, const drive_t &drive);
+
+} // namespace sdre
