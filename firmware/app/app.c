@@ -90,7 +90,7 @@ static bool background_lost(void)
 }
 
 /* Off before anything else; on after everything else. */
-static void drive_bridge(const app_modes_output_t *out, bool was_on)
+static void drive_bridge(const bridge_t *out, bool was_on)
 {
     const board_duty_t duty = app_scale_duty(out->duty);
 
@@ -124,12 +124,12 @@ void app_tick(void)
     const uint32_t start_cycles = board_cycles();
 
     take_command();
-    const app_modes_input_t  in     = {.raw             = board_sample_read(),
-                                       .board_faults    = board_fault_read(),
-                                       .background_lost = background_lost(),
-                                       .command         = tick_side.command};
-    const bool               was_on = tick_side.modes.gate_on;
-    const app_modes_output_t out    = app_modes_tick(&tick_side.modes, &in);
+    const app_modes_input_t in     = {.raw             = board_sample_read(),
+                                      .board_faults    = board_fault_read(),
+                                      .background_lost = background_lost(),
+                                      .command         = tick_side.command};
+    const bool              was_on = tick_side.modes.gate_on;
+    const bridge_t          out    = app_modes_tick(&tick_side.modes, &in);
     drive_bridge(&out, was_on);
     publish(in.board_faults, start_cycles);
 }

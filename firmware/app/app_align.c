@@ -6,12 +6,10 @@
 #include "frames.h"
 #include "svpwm.h"
 
-static const app_align_output_t open_bridge = {.duty = {0.5f, 0.5f, 0.5f}, .gate_enable = false};
-
 ctl_status_t app_align_init(app_align_t *a, const app_align_config_t *c, uint16_t pole_pairs,
                             const drive_config_t *drive)
 {
-    const float current_max_A = drive->current_ref.current_max_A;
+    const float current_max_A = drive->current_max_A;
     const bool  times_ok = (c->watch_ticks > 0U) && (c->ramp_ticks > 0U) && (c->sweep_ticks > 0U) &&
                           (c->still_ticks > 0U) && (c->settle_ticks > c->still_ticks);
     const bool ok = times_ok && (pole_pairs > 0U) &&
@@ -149,8 +147,8 @@ static abc_t drive_current(app_align_t *a, dq_t i_A, frames_angle_t angle, float
                                 svpwm_duty(frames_inverse_park(v_V, angle), dc_link_V), phases_A);
 }
 
-app_align_output_t app_align_tick(app_align_t *a, float ia_A, float ib_A, float dc_link_V,
-                                  uint16_t position_cnt)
+bridge_t app_align_tick(app_align_t *a, float ia_A, float ib_A, float dc_link_V,
+                        uint16_t position_cnt)
 {
     advance(a, position_cnt);
 
@@ -160,9 +158,7 @@ app_align_output_t app_align_tick(app_align_t *a, float ia_A, float ib_A, float 
         a->stage = APP_ALIGN_FAILED;
     }
     if ((a->stage == APP_ALIGN_WATCH) || (a->stage == APP_ALIGN_FAILED)) {
-        return open_bridge;
+        return bridge_open();
     }
-    const app_align_output_t out = {.duty        = drive_current(a, i_A, angle, dc_link_V),
-                                    .gate_enable = true};
-    return out;
+    return bridge_closed(drive_current(a, i_A, angle, dc_link_V));
 }

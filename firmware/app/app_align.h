@@ -24,6 +24,7 @@
 #define APP_ALIGN_H
 
 #include "app_angle.h"
+#include "bridge.h"
 #include "drive_config.h"
 
 typedef struct {
@@ -64,11 +65,6 @@ typedef struct {
     uint16_t                  middle_cnt; /**< position in the middle of the sweep */
 } app_align_t;
 
-typedef struct {
-    abc_t duty;
-    bool  gate_enable;
-} app_align_output_t;
-
 /** @return CTL_BAD_CONFIG, a unusable, when a constant is out of range. Context: init. */
 ctl_status_t app_align_init(app_align_t *a, const app_align_config_t *config, uint16_t pole_pairs,
                             const drive_config_t *drive);
@@ -83,7 +79,7 @@ void app_align_start(app_align_t *a, uint16_t position_cnt);
  *
  * Context: control ISR. One sine, one cosine, one division (modulator).
  */
-app_align_output_t app_align_tick(app_align_t *a, float ia_A, float ib_A, float dc_link_V,
-                                  uint16_t position_cnt);
+bridge_t app_align_tick(app_align_t *a, float ia_A, float ib_A, float dc_link_V,
+                        uint16_t position_cnt);
 
 #endif /* APP_ALIGN_H */

@@ -68,8 +68,7 @@ static float index_error_cnt(const app_angle_t *a, uint16_t index_cnt)
     if (a->reference == APP_ANGLE_INDEX) {
         return (float)app_angle_turned_cnt(a->zero_cnt, index_cnt);
     }
-    const float error_rad =
-        nodo_encoder_wrap(theta_at(a, index_cnt, 0U) - a->config->index_theta_e_rad);
+    const float error_rad = frames_wrap(theta_at(a, index_cnt, 0U) - a->config->index_theta_e_rad);
     return error_rad / (2.0f * (float)a->config->pole_pairs * a->rad_per_half_cnt);
 }
 

@@ -4,8 +4,6 @@
 /* Two statements of the same number, both in single precision. */
 #define SAME_RATIO 1.0e-4f
 
-static const app_modes_output_t open_bridge = {.duty = {0.5f, 0.5f, 0.5f}, .gate_enable = false};
-
 static bool same(float x, float y)
 {
     return base_in_range(x, y * (1.0f - SAME_RATIO), y * (1.0f + SAME_RATIO));
@@ -123,7 +121,7 @@ static app_fault_t watch(const app_modes_t *m, const app_modes_input_t *in)
     return APP_FAULT_NONE;
 }
 
-static app_modes_output_t trip(app_modes_t *m, const app_modes_input_t *in, app_fault_t fault)
+static bridge_t trip(app_modes_t *m, const app_modes_input_t *in, app_fault_t fault)
 {
     const app_snapshot_t snapshot = {.fault          = fault,
                                      .mode           = m->mode,
@@ -142,40 +140,40 @@ static app_modes_output_t trip(app_modes_t *m, const app_modes_input_t *in, app_
     m->snapshot = snapshot;
     m->fault    = fault;
     enter(m, APP_MODE_FAULT);
-    return open_bridge;
+    return bridge_open();
 }
 
-static app_modes_output_t boot(app_modes_t *m)
+static bridge_t boot(app_modes_t *m)
 {
     m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
     if (m->timer_ticks >= m->config->boot_ticks) {
         enter(m, APP_MODE_CALIBRATE);
     }
-    return open_bridge;
+    return bridge_open();
 }
 
-static app_modes_output_t calibrate(app_modes_t *m, const app_modes_input_t *in)
+static bridge_t calibrate(app_modes_t *m, const app_modes_input_t *in)
 {
     m->sum_a_cnt += in->raw.ia_cnt;
     m->sum_b_cnt += in->raw.ib_cnt;
     m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
     if (m->timer_ticks < m->config->calibrate_ticks) {
-        return open_bridge;
+        return bridge_open();
     }
     if (!app_scale_set_zero(&m->scale, m->sum_a_cnt, m->sum_b_cnt, m->timer_ticks)) {
         return trip(m, in, APP_FAULT_OFFSET);
     }
     m->calibrated = true;
     enter(m, APP_MODE_READY);
-    return open_bridge;
+    return bridge_open();
 }
 
 /* The bridge stays open in this tick: the next one looks at everything again in the new mode. */
-static app_modes_output_t ready(app_modes_t *m, const app_modes_input_t *in)
+static bridge_t ready(app_modes_t *m, const app_modes_input_t *in)
 {
     if (!in->command.run) {
         m->armed = true;
-        return open_bridge;
+        return bridge_open();
     }
     const bool start = m->armed && !(m->hot && m->sample.temperature_valid);
     m->armed         = false; /* a refused start is not made up for later */
@@ -185,20 +183,19 @@ static app_modes_output_t ready(app_modes_t *m, const app_modes_input_t *in)
         app_align_start(&m->align, in->raw.position_cnt);
         enter(m, APP_MODE_ALIGN);
     }
-    return open_bridge;
+    return bridge_open();
 }
 
-static drive_output_t drive(app_modes_t *m, const app_command_t *wanted, bool run)
+static bridge_t drive(app_modes_t *m, const app_command_t *wanted, bool run)
 {
     const drive_sample_t  sample  = drive_sample(m);
     const drive_command_t command = {.omega_e_radps = wanted->omega_e_radps, .run = run};
     return drive_tick(&m->drive, &sample, &command);
 }
 
-static app_modes_output_t run(app_modes_t *m, const app_modes_input_t *in)
+static bridge_t run(app_modes_t *m, const app_modes_input_t *in)
 {
-    const drive_output_t     got = drive(m, &in->command, in->command.run);
-    const app_modes_output_t out = {.duty = got.duty, .gate_enable = got.gate_enable};
+    const bridge_t out = drive(m, &in->command, in->command.run);
 
     if (m->drive.state == DRIVE_FAULT) {
         return trip(m, in, APP_FAULT_DRIVE);
@@ -210,11 +207,11 @@ static app_modes_output_t run(app_modes_t *m, const app_modes_input_t *in)
 }
 
 /* The drive itself stays off: it only checks samples and command against its limits. */
-static app_modes_output_t align(app_modes_t *m, const app_modes_input_t *in)
+static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
 {
     if (!in->command.run) {
         enter(m, APP_MODE_READY);
-        return open_bridge;
+        return bridge_open();
     }
     (void)drive(m, &in->command, false);
     if (m->drive.state == DRIVE_FAULT) {
@@ -224,9 +221,8 @@ static app_modes_output_t align(app_modes_t *m, const app_modes_input_t *in)
         enter(m, APP_MODE_RUN);
         return run(m, in);
     }
-    const app_align_output_t got = app_align_tick(&m->align, m->sample.ia_A, m->sample.ib_A,
-                                                  m->sample.dc_link_V, in->raw.position_cnt);
-    const app_modes_output_t out = {.duty = got.duty, .gate_enable = got.gate_enable};
+    const bridge_t out = app_align_tick(&m->align, m->sample.ia_A, m->sample.ib_A,
+                                        m->sample.dc_link_V, in->raw.position_cnt);
     if (m->align.stage == APP_ALIGN_FAILED) {
         return trip(m, in, APP_FAULT_ALIGN);
     }
@@ -244,7 +240,7 @@ static void leave_fault(app_modes_t *m)
     enter(m, m->calibrated ? APP_MODE_READY : APP_MODE_BOOT);
 }
 
-static app_modes_output_t act(app_modes_t *m, const app_modes_input_t *in)
+static bridge_t act(app_modes_t *m, const app_modes_input_t *in)
 {
     switch (m->mode) {
     case APP_MODE_BOOT:
@@ -264,20 +260,20 @@ static app_modes_output_t act(app_modes_t *m, const app_modes_input_t *in)
     if (in->command.reset && !in->command.run && (m->fault != APP_FAULT_CONFIG)) {
         leave_fault(m);
     }
-    return open_bridge;
+    return bridge_open();
 }
 
-app_modes_output_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in)
+bridge_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in)
 {
     if (m->fault == APP_FAULT_CONFIG) {
-        return open_bridge;
+        return bridge_open();
     }
     m->ticks++;
     measure(m, &in->raw);
 
-    const app_fault_t        fault = (m->mode == APP_MODE_FAULT) ? APP_FAULT_NONE : watch(m, in);
-    const app_modes_output_t out   = (fault == APP_FAULT_NONE) ? act(m, in) : trip(m, in, fault);
-    m->gate_on                     = out.gate_enable;
+    const app_fault_t fault = (m->mode == APP_MODE_FAULT) ? APP_FAULT_NONE : watch(m, in);
+    const bridge_t    out   = (fault == APP_FAULT_NONE) ? act(m, in) : trip(m, in, fault);
+    m->gate_on              = out.gate_enable;
     return out;
 }
 
@@ -285,7 +281,7 @@ app_status_t app_modes_status(const app_modes_t *m, uint16_t board_faults)
 {
     const bool   running = m->mode == APP_MODE_RUN;
     const dq_t   zero    = {0.0f, 0.0f};
-    const dq_t   now_A   = {.d = m->drive.now.id_A, .q = m->drive.now.iq_A};
+    const dq_t   now_A   = {.d = m->drive.wanted.now.id_A, .q = m->drive.wanted.now.iq_A};
     app_status_t s       = {.mode              = m->mode,
                             .fault             = m->fault,
                             .drive_fault       = m->drive.fault,
@@ -298,11 +294,11 @@ app_status_t app_modes_status(const app_modes_t *m, uint16_t board_faults)
                             .index_corrections = m->angle.corrections,
                             .theta_e_rad       = m->reading.theta_e_rad,
                             .speed_e_radps =
-                          running ? m->drive.now.omega_e_radps : m->reading.omega_e_radps,
+                          running ? m->drive.wanted.now.omega_e_radps : m->reading.omega_e_radps,
                             .dc_link_V         = m->sample.dc_link_V,
                             .temperature_degC  = m->sample.temperature_degC,
                             .i_A               = running ? now_A : zero,
-                            .i_ref_A           = running ? m->drive.current_ref.i_A : zero,
+                            .i_ref_A           = running ? m->drive.wanted.i_ref_A : zero,
                             .v_V               = running ? m->drive.v_V : zero,
                             .zero_a_cnt        = m->scale.zero_a_cnt,
                             .zero_b_cnt        = m->scale.zero_b_cnt,

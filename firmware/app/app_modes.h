@@ -25,11 +25,6 @@ typedef struct {
 } app_modes_input_t;
 
 typedef struct {
-    abc_t duty;
-    bool  gate_enable;
-} app_modes_output_t;
-
-typedef struct {
     const app_config_t *config;
     app_mode_t          mode;
     app_fault_t         fault;
@@ -60,7 +55,7 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *config,
                             const drive_config_t *drive);
 
 /** Context: control ISR. Bounded: drive_tick() or app_align_tick() and about as much again. */
-app_modes_output_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in);
+bridge_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in);
 
 /** Everything but the cycle counts. Context: control ISR, after app_modes_tick(). */
 app_status_t app_modes_status(const app_modes_t *m, uint16_t board_faults);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "conventional.h"
 
+#include "check.h"
+
 enum { ROW_VQ, ROW_VD };
 enum { ROW_D_OMEGA, ROW_D_Q, ROW_D_D, ROW_OMEGA, ROW_IQ, ROW_ID };
 
@@ -53,4 +55,23 @@ void conventional_update(nodo_t *x, const conventional_gains_t *g, const motor_r
     x->omega_e_radps += ts_s * (w_p + slope[ROW_OMEGA]);
     x->iq_A += ts_s * (iq_p + slope[ROW_IQ]);
     x->id_A += ts_s * (id_p + slope[ROW_ID]);
+}
+
+static bool order_ok(int16_t order)
+{
+    return (order >= 0) && (order <= DOUBLE_SERIES_ORDER_MAX);
+}
+
+static bool terms_ok(const float row[][DOUBLE_SERIES_COLUMNS], int16_t rows, int16_t order)
+{
+    return check_rows(row, (int16_t)(rows * (double_series_index(0, order) + 1)));
+}
+
+bool conventional_check(const conventional_gains_t *g)
+{
+    return order_ok(g->nosc_order) && order_ok(g->nodo_order) && check_positive(g->i_error_max_A) &&
+           check_positive(g->i_max_A) &&
+           base_in_range(g->i_certified_A, g->i_max_A, CHECK_LARGEST) &&
+           terms_ok(g->lambda, NOSC_N_U, g->nosc_order) &&
+           terms_ok(g->gain, NODO_N_X, g->nodo_order);
 }

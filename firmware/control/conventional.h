@@ -37,6 +37,9 @@ typedef struct {
     float gain[DOUBLE_SERIES_TERMS_MAX * NODO_N_X][NODO_N_Y]; /**< L_nm, rows of nodo_t each */
 } conventional_gains_t;
 
+/** true when every constant is finite and within its documented range. Context: init. */
+bool conventional_check(const conventional_gains_t *g);
+
 /**
  * @brief Feedback voltage, EQ-CONVENTIONAL-1, and the products that the feed-forward must not cancel,
  * EQ-CONVENTIONAL-2.

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "check.h"
+
 /* Chosen: where the back-EMF is below this share of the voltage circle, no current inside the circle of
  * the shipped motors needs flux weakening; it also keeps every division by the speed away from zero. */
 #define FW_SPEED_SHARE 0.25f
@@ -168,4 +170,16 @@ void current_ref_update(current_ref_t *r, const current_ref_config_t *c, const m
     r->i_dot_Aps.q = base_in_range(iq_A, r->iq_lo_A, r->iq_hi_A)
                          ? (inv * (w->omega_2dot_e_radps3 - in->d_omega_dot))
                          : 0.0f;
+}
+
+bool current_ref_check(const current_ref_config_t *c)
+{
+    return check_positive(c->current_max_A) && check_positive(c->iq_max_A) &&
+           (c->iq_max_A <= c->current_max_A) && check_positive(c->mtpa_A) &&
+           base_in_range(c->voltage_share, 1.0e-3f, 1.0f) &&
+           base_in_range(c->torque_share, 1.0e-3f, 1.0f) && check_positive(c->near_e_radps) &&
+           check_positive(c->l1_min) && base_in_range(c->filter_per_period, 1.0e-6f, 1.0f) &&
+           check_positive(c->filter_1ps) &&
+           base_in_range(c->regen_max_W_norm, 0.0f, CHECK_LARGEST) &&
+           check_positive(c->regen_start_V) && check_positive(c->regen_per_V);
 }

@@ -61,6 +61,9 @@ typedef struct {
     float              d_omega_dot; /**< d_w' [rad/s^3]; 0 when nothing is known of it */
 } current_ref_input_t;
 
+/** true when every constant is finite and within its documented range. Context: init. */
+bool current_ref_check(const current_ref_config_t *c);
+
 /** References and derivatives start at zero current, the range at nothing. */
 void current_ref_reset(current_ref_t *r);
 

@@ -20,6 +20,9 @@ typedef struct {
     float inv_fade_1pA; /**< 1 / i_fade [1/A], > 0 */
 } dead_time_config_t;
 
+/** true when every constant is finite and within its documented range. Context: init. */
+bool dead_time_check(const dead_time_config_t *c);
+
 /** Duty ratios with EQ-DEAD-TIME-1 added, limited to [0, 1]. Context: control ISR. No division. */
 abc_t dead_time_compensate(const dead_time_config_t *c, abc_t duty, abc_t i_A);
 

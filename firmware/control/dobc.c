@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "dobc.h"
 
+#include "check.h"
+
 void dobc_reset(dobc_t *s)
 {
     s->running = false;
@@ -41,4 +43,16 @@ float dobc_update(dobc_t *s, const dobc_config_t *c, float e_radps)
 void dobc_realise(dobc_t *s, float ui_V)
 {
     s->ui_V = ui_V;
+}
+
+bool dobc_check(const dobc_config_t *c)
+{
+    bool ok = (c->n_x >= 1) && (c->n_x <= DOBC_N_X_MAX);
+
+    for (int16_t row = 0; ok && (row < c->n_x); row++) {
+        ok = check_finite(c->m[row], c->n_x);
+    }
+    return ok && check_positive(c->direct_Vs) && check_positive(c->ld_H) &&
+           check_positive(c->k_omega_Vs) && check_finite(c->k_x, c->n_x) &&
+           check_finite(c->g, c->n_x) && check_finite(c->h, c->n_x);
 }

@@ -41,6 +41,9 @@ typedef struct {
     float ui_V;    /**< u_qi as realised */
 } dobc_t;
 
+/** true when every constant is finite and within its documented range. Context: init. */
+bool dobc_check(const dobc_config_t *c);
+
 /** Estimates zero; the first update takes its error as the one before, so that it makes no kick. */
 void dobc_reset(dobc_t *s);
 

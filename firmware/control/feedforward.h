@@ -36,6 +36,6 @@ dq_t feedforward_V(const motor_reduced_t *m, const current_ref_t *ref, float w_d
  *
  * Mostly the back-EMF: a voltage limit has to cover this first.
  */
-float feedforward_hold_q_V(const motor_reduced_t *m, const nodo_meas_t *y, const nodo_t *est);
+float feedforward_hold_q_V(const motor_reduced_t *m, const nodo_meas_t *y, float d_q);
 
 #endif /* FEEDFORWARD_H */

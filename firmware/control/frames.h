@@ -63,4 +63,13 @@ static inline ab_t frames_inverse_park(dq_t x, frames_angle_t angle)
     return y;
 }
 
+/** An angle moved into +-pi; exact for angles within +-3 pi. */
+static inline float frames_wrap(float angle_rad)
+{
+    if (angle_rad > BASE_PI) {
+        return angle_rad - BASE_TWO_PI;
+    }
+    return (angle_rad < -BASE_PI) ? (angle_rad + BASE_TWO_PI) : angle_rad;
+}
+
 #endif /* FRAMES_H */

@@ -18,6 +18,8 @@
 #ifndef MOTOR_H
 #define MOTOR_H
 
+#include "base.h"
+
 typedef struct {
     float l1;     /**< [rad/s^2/A] */
     float l2;     /**< [1/s] */
@@ -33,5 +35,8 @@ typedef struct {
     float inv_l6; /**< 1 / l6 [H] */
     float inv_l8; /**< 1 / l8 [H] */
 } motor_reduced_t;
+
+/** true when every constant is finite and within its documented range. Context: init. */
+bool motor_check(const motor_reduced_t *m);
 
 #endif /* MOTOR_H */

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "nodo.h"
 
+#include "check.h"
+
 void nodo_reset(nodo_t *x, const nodo_meas_t *y)
 {
     x->d_omega       = 0.0f;
@@ -36,4 +38,16 @@ void nodo_update(nodo_t *x, const nodo_gains_t *g, const motor_reduced_t *m, con
         r[1] *= iq_A;
         r[2] *= iq_A;
     }
+}
+
+bool nodo_check(const nodo_gains_t *g)
+{
+    const bool order_ok = (g->order >= 0) && (g->order <= NODO_ORDER_MAX);
+    bool       ok       = check_positive(g->iq_max_A) &&
+              base_in_range(g->iq_certified_A, g->iq_max_A, CHECK_LARGEST) && order_ok;
+
+    for (int16_t n = 0; ok && (n <= g->order); n++) {
+        ok = check_rows(g->gain[n], NODO_N_X);
+    }
+    return ok;
 }

@@ -56,6 +56,9 @@ static inline void nodo_add_correction(nodo_t     *x, const float (*l)[NODO_N_Y]
     x->id_A += (l[5][0] * r[0]) + (l[5][1] * r[1]) + (l[5][2] * r[2]);
 }
 
+/** true when every constant is finite and within its documented range. Context: init. */
+bool nodo_check(const nodo_gains_t *g);
+
 /** Estimates start at the measurement, disturbances at zero. */
 void nodo_reset(nodo_t *x, const nodo_meas_t *y);
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "nodo_encoder.h"
 
+#include "check.h"
+
 enum { ROW_THETA = NODO_N_X };
 
 void nodo_encoder_correct(nodo_t *x, float *theta_rad, const nodo_encoder_gains_t *g, dq_t i_A,
@@ -20,7 +22,7 @@ void nodo_encoder_correct(nodo_t *x, float *theta_rad, const nodo_encoder_gains_
         r[1] *= iq_A;
         r[2] *= iq_A;
     }
-    *theta_rad = nodo_encoder_wrap(theta);
+    *theta_rad = frames_wrap(theta);
 }
 
 /* EQ-MOTOR-2 at (w, iq, id); u is the part that voltages and disturbances hold constant over the period. */
@@ -49,5 +51,16 @@ void nodo_encoder_predict(nodo_t *x, float *theta_rad, const motor_reduced_t *m,
     x->omega_e_radps += ts_s * f1.omega_e_radps;
     x->iq_A += ts_s * f1.iq_A;
     x->id_A += ts_s * f1.id_A;
-    *theta_rad = nodo_encoder_wrap(*theta_rad + (ts_s * w));
+    *theta_rad = frames_wrap(*theta_rad + (ts_s * w));
+}
+
+bool nodo_encoder_check(const nodo_encoder_gains_t *g)
+{
+    const bool order_ok = (g->order >= 0) && (g->order <= NODO_ORDER_MAX);
+    bool       ok       = check_positive(g->iq_max_A) && order_ok;
+
+    for (int16_t n = 0; ok && (n <= g->order); n++) {
+        ok = check_rows(g->gain[n], NODO_ENCODER_N_X);
+    }
+    return ok;
 }

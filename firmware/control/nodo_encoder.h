@@ -28,6 +28,9 @@ typedef struct {
     float   gain[NODO_ORDER_MAX + 1][NODO_ENCODER_N_X][NODO_ENCODER_N_Y]; /**< L_n, n <= order */
 } nodo_encoder_gains_t;
 
+/** true when every constant is finite and within its documented range. Context: init. */
+bool nodo_encoder_check(const nodo_encoder_gains_t *g);
+
 /**
  * @brief EQ-NODO-ENCODER-1.
  *
@@ -50,14 +53,5 @@ void nodo_encoder_correct(nodo_t *x, float *theta_rad, const nodo_encoder_gains_
  */
 void nodo_encoder_predict(nodo_t *x, float *theta_rad, const motor_reduced_t *m, dq_t v_V,
                           float ts_s);
-
-/** An angle moved into +-pi; exact for angles within +-3 pi. */
-static inline float nodo_encoder_wrap(float angle_rad)
-{
-    if (angle_rad > BASE_PI) {
-        return angle_rad - BASE_TWO_PI;
-    }
-    return (angle_rad < -BASE_PI) ? (angle_rad + BASE_TWO_PI) : angle_rad;
-}
 
 #endif /* NODO_ENCODER_H */

@@ -6,18 +6,23 @@
 #include "frames.h"
 #include "nodo_encoder.h"
 
+#include "check.h"
+
 void nodo_harmonic_reset(nodo_harmonic_t *s, const nodo_meas_t *y, float theta_rad)
 {
     const nodo_harmonic_pair_t nothing = {0.0f, 0.0f};
 
     nodo_reset(&s->base, y);
     s->slope           = 0.0f;
-    s->theta_rad       = nodo_encoder_wrap(theta_rad);
+    s->theta_rad       = frames_wrap(theta_rad);
     s->theta_pairs_rad = s->theta_rad;
     for (int16_t i = 0; i < NODO_HARMONIC_PAIRS_MAX; i++) {
         s->pair[i] = nothing;
     }
 }
+
+/* Harmonics beyond this have no angle left at any speed that a drive runs at. */
+#define ORDER_MAX 1.0e3f
 
 /* Two neighbouring nodes of the table and what their columns are multiplied by. */
 typedef struct {
@@ -81,7 +86,7 @@ static void apply(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, const look
     x->omega_e_radps += sign * row_of(at, 3);
     x->iq_A += sign * row_of(at, 4);
     x->id_A += row_of(at, 5);
-    s->theta_rad = nodo_encoder_wrap(s->theta_rad + (sign * row_of(at, 6)));
+    s->theta_rad = frames_wrap(s->theta_rad + (sign * row_of(at, 6)));
     s->slope += sign * row_of(at, 7);
     for (int16_t i = 0; i < g->n_pairs; i++) {
         const int16_t row = (int16_t)(NODO_HARMONIC_N_BASE + (2 * i));
@@ -182,11 +187,11 @@ nodo_harmonic_view_t nodo_harmonic_predict(nodo_harmonic_t *s, const nodo_harmon
                                            const motor_reduced_t *m, dq_t v_V, float ts_s)
 {
     const float   advanced   = s->theta_rad + (ts_s * s->base.omega_e_radps);
-    const float   dtheta_rad = nodo_encoder_wrap(advanced - s->theta_pairs_rad);
+    const float   dtheta_rad = frames_wrap(advanced - s->theta_pairs_rad);
     const added_t pairs      = turn_pairs(s, g, dtheta_rad);
     nodo_t        x          = s->base;
 
-    s->theta_pairs_rad = nodo_encoder_wrap(s->theta_pairs_rad + dtheta_rad);
+    s->theta_pairs_rad = frames_wrap(s->theta_pairs_rad + dtheta_rad);
 
     x.d_omega += (0.5f * ts_s * s->slope) + pairs.middle.omega_e_radps;
     x.d_q += pairs.middle.iq_A;
@@ -202,4 +207,28 @@ nodo_harmonic_view_t nodo_harmonic_predict(nodo_harmonic_t *s, const nodo_harmon
     view.total.d_q += pairs.after.iq_A;
     view.total.d_d += pairs.after.id_A;
     return view;
+}
+
+static bool numbers_ok(const nodo_harmonic_gains_t *g)
+{
+    return (g->n_pairs >= 0) && (g->n_pairs <= NODO_HARMONIC_PAIRS_MAX) && (g->n_nodes >= 2) &&
+           (g->n_nodes <= NODO_HARMONIC_NODES_MAX) && check_positive(g->iq_max_A) &&
+           check_positive(g->nodes_per_root) && check_positive(g->keep) && (g->keep <= 1.0f) &&
+           check_positive(g->keep_fast) && (g->keep_fast <= 1.0f);
+}
+
+bool nodo_harmonic_check(const nodo_harmonic_gains_t *g)
+{
+    bool ok = numbers_ok(g);
+
+    for (int16_t node = 0; ok && (node < g->n_nodes); node++) {
+        const int16_t rows = (int16_t)(NODO_HARMONIC_N_BASE + (2 * g->n_pairs));
+        for (int16_t row = 0; row < rows; row++) {
+            ok = ok && check_finite(g->gain[node][row], NODO_HARMONIC_N_G);
+        }
+    }
+    for (int16_t i = 0; ok && (i < g->n_pairs); i++) {
+        ok = base_within(g->pair[i].order, ORDER_MAX);
+    }
+    return ok;
 }

@@ -81,6 +81,9 @@ typedef struct {
     float  d_omega_dot; /**< d_w' in the middle of that period [rad/s^3] */
 } nodo_harmonic_view_t;
 
+/** true when every constant is finite and within its documented range. Context: init. */
+bool nodo_harmonic_check(const nodo_harmonic_gains_t *g);
+
 /** Nothing known of any harmonic. */
 void nodo_harmonic_reset(nodo_harmonic_t *s, const nodo_meas_t *y, float theta_rad);
 

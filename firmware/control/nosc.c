@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "nosc.h"
 
+#include "check.h"
+
 enum { ROW_Q = 0, ROW_D = 1, COLUMN_OMEGA = 0, COLUMN_IQ = 1, COLUMN_ID = 2 };
 
 static float row_times_error(const float row[NOSC_N_E], const nosc_error_t *e)
@@ -47,4 +49,15 @@ dq_t nosc_feedback_V(const nosc_gains_t *g, const nosc_error_t *e)
 
     const dq_t u_V = {.d = -ke_V.d, .q = -ke_V.q}; /* EQ-NOSC-1 */
     return u_V;
+}
+
+bool nosc_check(const nosc_gains_t *g)
+{
+    const bool order_ok = (g->order >= 0) && (g->order <= NOSC_ORDER_MAX);
+    bool ok = check_positive(g->iq_error_max_A) && check_positive(g->iq_speed_max_A) && order_ok;
+
+    for (int16_t n = 0; ok && (n <= g->order); n++) {
+        ok = check_rows(g->lambda[n], NOSC_N_U);
+    }
+    return ok && check_positive(g->lambda[0][ROW_Q][COLUMN_IQ]) /* EQ-NOSC-3 divides by it */;
 }

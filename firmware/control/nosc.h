@@ -32,6 +32,9 @@ typedef struct {
     float   lambda[NOSC_ORDER_MAX + 1][NOSC_N_U][NOSC_N_E]; /**< Lambda_n; k_iq > 0 */
 } nosc_gains_t;
 
+/** true when every constant is finite and within its documented range. Context: init. */
+bool nosc_check(const nosc_gains_t *g);
+
 /**
  * @brief The q current that the speed error asks for, -(k_w / k_iq) e_w within +-iq_speed_max_A (EQ-NOSC-3).
  *

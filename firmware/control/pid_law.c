@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "pid_law.h"
 
+#include "check.h"
+
 void pid_law_reset(pid_law_t *s, float integral_V)
 {
     s->running    = false;
@@ -26,4 +28,10 @@ void pid_law_realise(pid_law_t *s, const pid_law_config_t *c, float v_V)
     if (cut_V * s->error <= 0.0f) { /* EQ-PID-2 */
         s->integral_V += c->ki_per_tick * s->error;
     }
+}
+
+bool pid_law_check(const pid_law_config_t *c)
+{
+    return check_positive(c->kp) && base_in_range(c->ki_per_tick, 0.0f, CHECK_LARGEST) &&
+           base_in_range(c->kd_tick, 0.0f, CHECK_LARGEST);
 }

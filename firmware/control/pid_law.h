@@ -26,6 +26,9 @@ typedef struct {
     float u_V; /**< before any limit */
 } pid_law_t;
 
+/** true when every constant is finite and within its documented range. Context: init. */
+bool pid_law_check(const pid_law_config_t *c);
+
 /** The integral starts at integral_V; the first update takes its error as the one before. */
 void pid_law_reset(pid_law_t *s, float integral_V);
 

@@ -16,6 +16,8 @@
 #define VOLTAGE_H
 
 #include "base.h"
+#include "drive_config.h"
+#include "frames.h"
 
 /**
  * @param v_V      Wanted voltage; a NaN comes out as a vector inside the circle.
@@ -26,5 +28,26 @@
  * Context: control ISR. No division; one square root when limiting.
  */
 dq_t voltage_limit(dq_t v_V, float hold_q_V, float v_max_V);
+
+typedef struct {
+    dq_t v_V;
+    bool limited; /**< it is not the voltage that was wanted */
+} voltage_t;
+
+/**
+ * @brief What the modulator can produce of the wanted voltage: up to the circle, or to the hexagon around it.
+ *
+ * In the hexagon EQ-VOLTAGE-1 uses its reach in the direction of the wanted vector. The limit turns the vector; what
+ * cannot be produced in the new direction is cut off.
+ *
+ * @param c         Constants of the drive.
+ * @param wanted    Answer of its law; finite.
+ * @param angle     In which the voltage is produced.
+ * @param dc_link_V Measured [V], > 0.
+ *
+ * Context: control ISR. Within the circle no division; else up to two, and two square roots.
+ */
+voltage_t voltage_produce(const drive_config_t *c, const law_output_t *wanted, frames_angle_t angle,
+                          float dc_link_V);
 
 #endif /* VOLTAGE_H */

@@ -2,6 +2,7 @@
 /// From a drive description to gains, limits and their certificate: the whole off-line job in one call.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,6 +66,7 @@ struct Design {
     HarmonicCheck                 harmonic_check;
     std::optional<ServoDesign>    servo;    ///< laws of paper B
     drive_config_t                config{}; ///< what the firmware gets, in its own single precision
+    std::shared_ptr<const void>   constants; ///< what config.constants points to
     Certificate                   certificate;
 };
 

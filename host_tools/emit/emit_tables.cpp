@@ -8,82 +8,21 @@
 
 #include <fmt/format.h>
 
+#include "common/c_text.hpp"
 #include "common/errors.hpp"
 #include "common/file_output.hpp"
 #include "common/version.hpp"
-#include "emit/table_blocks.hpp"
+#include "design/law_design.hpp"
 
 namespace sdre {
 namespace {
 
-constexpr const char *header_name   = "gain_tables.h";
-constexpr const char *source_name   = "gain_tables.c";
-constexpr const char *harmonic_name = "harmonic_gains"; // of the table beside the configuration
+constexpr const char *header_name    = "gain_tables.h";
+constexpr const char *source_name    = "gain_tables.c";
+constexpr const char *constants_name = "constants"; // of the law, beside the configuration
 // Gains computed by different compilers agree far better; a real difference is far larger.
 constexpr double check_relative = 1e-6;
 constexpr double check_absolute = 1e-12;
-
-std::string controller_summary(const SampledLoop &c)
-{
-    return fmt::format(" *            controller: slowest pole {:.0f} 1/s, sampled spectral radius "
-                       "{:.3f}, |e_iq| <= {:g} A\n",
-                       c.worst_pole_1ps, c.spectral_radius, c.range_A);
-}
-
-std::string noc_h_summary(const Design &d)
-{
-    const nodo_harmonic_gains_t &t     = *d.harmonics->table;
-    const HarmonicCheck         &c     = d.harmonic_check;
-    const double                 worst = std::max(
-                        *std::max_element(d.nosc.residuals.begin(), d.nosc.residuals.end()), c.worst_residual);
-    return fmt::format(
-               " * method     EQ-NOSC-2 with N = {}, EQ-HARMONIC-3 with {} pairs and {} nodes\n"
-               " * checked    relative residuals <= {:.0e}\n",
-               d.drive.nosc.order, t.n_pairs, t.n_nodes, std::max(worst, 1e-16)) +
-           controller_summary(d.certificate.nosc) +
-           fmt::format(" *            loop:       sampled spectral radius {:.5f} at {:.0f} rad/s, "
-                       "iq {:.2f} A, worst up to {:.0f} rad/s\n"
-                       " *            speed loop: sensitivity peak {:.3g} at {:.0f} Hz\n",
-                       c.spectral_radius, c.worst_speed_e_radps, c.worst_iq_A,
-                       d.harmonics->nodes.back().omega_e_radps, c.speed_loop.peak,
-                       c.speed_loop.peak_Hz);
-}
-
-std::string noc_summary(const Design &d)
-{
-    const double worst =
-        std::max(*std::max_element(d.nosc.residuals.begin(), d.nosc.residuals.end()),
-                 *std::max_element(d.nodo.residuals.begin(), d.nodo.residuals.end()));
-    const SampledLoop &o = d.certificate.nodo;
-    const char        *observer =
-        d.drive.nodo.form == NodoForm::encoder ? "EQ-NODO-ENCODER-3" : "EQ-NODO-2";
-    std::string s = d.drive.law == Law::conventional_noc
-                        ? fmt::format(" * method     EQ-CONVENTIONAL-1 to 3 with N = {}, Nd = {}\n",
-                                      d.drive.nosc.order, d.drive.nodo.order)
-                        : fmt::format(" * method     EQ-NOSC-2 with N = {}, {} with Nd = {}\n",
-                                      d.drive.nosc.order, observer, d.drive.nodo.order);
-    s += fmt::format(" * checked    relative residuals <= {:.0e}\n", std::max(worst, 1e-16));
-    s += controller_summary(d.certificate.nosc);
-    s += fmt::format(" *            observer:   slowest pole {:.0f} 1/s, sampled spectral radius "
-                     "{:.3f}, |iq| <= {:g} A\n",
-                     o.worst_pole_1ps, o.spectral_radius, o.range_A);
-    return s;
-}
-
-std::string servo_summary(const Design &d)
-{
-    const ServoDesign &servo = *d.servo;
-    std::string        s =
-        fmt::format(" * method     {}, {}\n", law_name(d.drive.law),
-                    servo.dobc ? "EQ-DOBC-1 to 3 with gains of EQ-DOBC-5 to 7" : "EQ-PID-1, 2");
-    for (const auto &[name, loop] :
-         {std::pair("speed loop:", &servo.speed), {"d axis:", &servo.d_axis}}) {
-        s += fmt::format(" * checked    {:<11} sensitivity peak {:.3g} at {:.0f} Hz, sampled "
-                         "spectral radius {:.4f}\n",
-                         name, loop->peak, loop->peak_Hz, loop->spectral_radius);
-    }
-    return s;
-}
 
 std::string header_text(const Design &d)
 {
@@ -93,7 +32,7 @@ std::string header_text(const Design &d)
     s += fmt::format(" * generator  sdre-gains {}, schema {}\n", tool_version, drive_schema);
     s += fmt::format(" * drive      {}\n", d.drive.name);
     s += fmt::format(" * digest     {} (of the normalised drive file)\n", drive_digest(d.drive));
-    s += d.servo ? servo_summary(d) : d.harmonics ? noc_h_summary(d) : noc_summary(d);
+    s += law_design(d.drive).summary(d);
     for (const std::string &failure : d.certificate.failures) {
         s += fmt::format(" * NOT CERTIFIED: {}\n", failure);
     }
@@ -104,87 +43,49 @@ std::string header_text(const Design &d)
     return s + "extern const drive_config_t gain_tables_drive;\n\n#endif /* GAIN_TABLES_H */\n";
 }
 
-/// What the control core has to be like, as conditions of which none may hold.
-std::vector<std::string> mismatches(const drive_config_t &c)
+std::string conditions(const Design &d)
 {
-    std::vector<std::string> out{fmt::format("GAIN_TABLES_SCHEMA != {}", drive_schema)};
-    if (c.law == DRIVE_LAW_SERVO) {
-        out.push_back(fmt::format("DOBC_N_X_MAX < {}", c.servo.dobc.n_x));
-        return out;
-    }
-    out.insert(out.end(), {fmt::format("NOSC_ORDER_MAX < {}", c.nosc.order), "NOSC_N_U != 2",
-                           "NOSC_N_E != 3"});
-    if (c.law == DRIVE_LAW_NOC_H) {
-        out.insert(out.end(),
-                   {fmt::format("NODO_HARMONIC_PAIRS_MAX < {}", c.nodo_harmonic->n_pairs),
-                    fmt::format("NODO_HARMONIC_NODES_MAX < {}", c.nodo_harmonic->n_nodes),
-                    fmt::format("NODO_HARMONIC_N_BASE != {}", NODO_HARMONIC_N_BASE),
-                    fmt::format("NODO_HARMONIC_N_G != {}", NODO_HARMONIC_N_G)});
-        return out;
-    }
-    out.insert(out.end(), {fmt::format("NODO_ORDER_MAX < {}",
-                                       c.law == DRIVE_LAW_CONVENTIONAL ? c.conventional.nodo_order
-                                       : c.form == DRIVE_FORM_ENCODER  ? c.nodo_encoder.order
-                                                                       : c.nodo.order),
-                           "NODO_N_X != 6", "NODO_N_Y != 3", "NODO_ENCODER_N_X != 7",
-                           "NODO_ENCODER_N_Y != 3"});
-    if (c.law == DRIVE_LAW_CONVENTIONAL) {
-        out.push_back(fmt::format("DOUBLE_SERIES_ORDER_MAX < {}",
-                                  std::max(c.conventional.nosc_order, c.conventional.nodo_order)));
-    }
-    return out;
+    std::vector<std::string> all = law_design(d.drive).mismatches(d);
+    all.insert(all.begin(), fmt::format("GAIN_TABLES_SCHEMA != {}", drive_schema));
+    return fmt::format("#if ({})\n", fmt::join(all, ") || \\\n    ("));
 }
 
-const char *law_symbol(drive_law_t law)
+std::string motor_block(const motor_reduced_t &m)
 {
-    switch (law) {
-    case DRIVE_LAW_NOC:
-        return "DRIVE_LAW_NOC";
-    case DRIVE_LAW_NOC_H:
-        return "DRIVE_LAW_NOC_H";
-    case DRIVE_LAW_CONVENTIONAL:
-        return "DRIVE_LAW_CONVENTIONAL";
-    case DRIVE_LAW_SERVO:
-        return "DRIVE_LAW_SERVO";
-    }
-    return "unknown";
+    return c_block("motor", c_field("l1", m.l1) + c_field("l2", m.l2) + c_field("l3", m.l3) +
+                                c_field("l4", m.l4) + c_field("l5", m.l5) + c_field("l6", m.l6) +
+                                c_field("l7", m.l7) + c_field("l8", m.l8) + c_field("l9", m.l9) +
+                                c_field("l10", m.l10) + c_field("l11", m.l11) +
+                                c_field("inv_l6", m.inv_l6) + c_field("inv_l8", m.inv_l8));
 }
 
-/// The members that belong to the law.
-std::string law_blocks(const drive_config_t &c)
+std::string config_fields(const drive_config_t &c, const char *law)
 {
-    if (c.law == DRIVE_LAW_SERVO) {
-        return motor_block(c.motor) + "    .current_ref = {\n    " +
-               scalar("current_max_A", c.current_ref.current_max_A) + "    },\n" +
-               dead_time_block(c.dead_time) + servo_block(c.servo);
-    }
-    const bool encoder = c.form == DRIVE_FORM_ENCODER;
-    return fmt::format("    .form = {},\n", encoder ? "DRIVE_FORM_ENCODER" : "DRIVE_FORM_SPEED") +
-           motor_block(c.motor) + current_ref_block(c.current_ref) + dead_time_block(c.dead_time) +
-           nosc_block(c.nosc) +
-           (c.law == DRIVE_LAW_CONVENTIONAL ? conventional_block(c.conventional)
-            : c.law == DRIVE_LAW_NOC_H ? fmt::format("    .nodo_harmonic = &{},\n", harmonic_name)
-                                       : observer_block(c));
+    return c_field("ts_s", c.ts_s) + c_field("current_max_A", c.current_max_A) +
+           c_field("trip_current_A", c.trip_current_A) +
+           c_field("trip_speed_e_radps", c.trip_speed_e_radps) +
+           c_field("dc_link_min_V", c.dc_link_min_V) + c_field("dc_link_max_V", c.dc_link_max_V) +
+           c_field("overmodulation", std::string(c.overmodulation ? "true" : "false")) +
+           motor_block(c.motor) +
+           c_block("dead_time", c_field("share", c.dead_time.share) +
+                                    c_field("inv_fade_1pA", c.dead_time.inv_fade_1pA)) +
+           c_field("law", "&" + std::string(law)) +
+           c_field("constants", "&" + std::string(constants_name));
 }
 
 std::string source_text(const Design &d)
 {
-    const drive_config_t &c = d.config;
-    std::string           s = "/* SPDX-License-Identifier: MIT */\n";
+    const LawDesign &law = law_design(d.drive);
+    std::string      s   = "/* SPDX-License-Identifier: MIT */\n";
     s += fmt::format("/* Generated by sdre-gains {}, {}. Do not edit. */\n", tool_version,
                      drive_digest(d.drive));
-    s += "/* clang-format off */\n#include \"gain_tables.h\"\n\n";
-    s += fmt::format("#if ({})\n", fmt::join(mismatches(c), ") || \\\n    ("));
+    s += fmt::format("/* clang-format off */\n#include \"gain_tables.h\"\n\n#include \"{}.h\"\n\n",
+                     law.name);
+    s += conditions(d);
     s += "#error \"gain_tables.c does not match the control core: regenerate\"\n#endif\n\n";
-    s += c.law == DRIVE_LAW_NOC_H ? harmonic_table(harmonic_name, *c.nodo_harmonic) : "";
-    s += "const drive_config_t gain_tables_drive = {\n";
-    s += scalar("ts_s", c.ts_s) + scalar("trip_current_A", c.trip_current_A) +
-         scalar("trip_speed_e_radps", c.trip_speed_e_radps) +
-         scalar("trip_angle_rad", c.trip_angle_rad) + scalar("trip_d_omega", c.trip_d_omega) +
-         scalar("dc_link_min_V", c.dc_link_min_V) + scalar("dc_link_max_V", c.dc_link_max_V);
-    s += fmt::format("    .overmodulation = {},\n    .law = {},\n", c.overmodulation,
-                     law_symbol(c.law));
-    return s + law_blocks(c) + "};\n";
+    s += c_object(law.constants_type, constants_name, law.table(d));
+    return s + "const drive_config_t gain_tables_drive = {\n" +
+           c_indented(config_fields(d.config, law.name)) + "};\n";
 }
 
 /// Splits text into numbers (with a digit-led mantissa) and everything between them.

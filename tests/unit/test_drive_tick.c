@@ -1034,7 +1034,7 @@ static void test_encoder_form_acts_on_the_prediction(void)
         float       theta   = drive.theta_hat_rad;
         const dq_t  force_V = drive.v_V;
         const dq_t  i_A = frames_park(frames_clarke(sample.ia_A, sample.ib_A), frames_angle(theta));
-        const float error = nodo_encoder_wrap(sample.theta_e_rad - theta);
+        const float error = frames_wrap(sample.theta_e_rad - theta);
         nodo_encoder_correct(&x, &theta, &config.nodo_encoder, i_A, error, config.ts_s);
         nodo_encoder_predict(&x, &theta, &config.motor, force_V, config.ts_s);
 

@@ -388,22 +388,22 @@ static void test_wrap_moves_angles_of_three_half_turns_into_one(void)
     for (int step = -942; step <= 942; step++) {
         const float angle = 0.01f * (float)step;
 
-        const float out = nodo_encoder_wrap(angle);
+        const float out = frames_wrap(angle);
 
         TEST_ASSERT_TRUE(base_in_range(out, -BASE_PI, BASE_PI));
         TEST_ASSERT_DOUBLE_WITHIN(TOL_ANGLE, 0.0, wrapped((double)out - (double)angle));
-        TEST_ASSERT_TRUE(nodo_encoder_wrap(-angle) == -out);
+        TEST_ASSERT_TRUE(frames_wrap(-angle) == -out);
     }
 }
 
 static void test_wrap_leaves_what_is_in_range(void)
 {
-    TEST_ASSERT_TRUE(nodo_encoder_wrap(BASE_PI) == BASE_PI);
-    TEST_ASSERT_TRUE(nodo_encoder_wrap(-BASE_PI) == -BASE_PI);
-    TEST_ASSERT_TRUE(nodo_encoder_wrap(0.0f) == 0.0f);
-    TEST_ASSERT_TRUE(nodo_encoder_wrap(1.0e-30f) == 1.0e-30f);
-    TEST_ASSERT_TRUE(nodo_encoder_wrap(nextafterf(BASE_PI, 4.0f)) < 0.0f);
-    TEST_ASSERT_TRUE(nodo_encoder_wrap(-nextafterf(BASE_PI, 4.0f)) > 0.0f);
+    TEST_ASSERT_TRUE(frames_wrap(BASE_PI) == BASE_PI);
+    TEST_ASSERT_TRUE(frames_wrap(-BASE_PI) == -BASE_PI);
+    TEST_ASSERT_TRUE(frames_wrap(0.0f) == 0.0f);
+    TEST_ASSERT_TRUE(frames_wrap(1.0e-30f) == 1.0e-30f);
+    TEST_ASSERT_TRUE(frames_wrap(nextafterf(BASE_PI, 4.0f)) < 0.0f);
+    TEST_ASSERT_TRUE(frames_wrap(-nextafterf(BASE_PI, 4.0f)) > 0.0f);
 }
 
 /* Rotation reversed: speed, q quantities and angle change sign, the d axis stays. */

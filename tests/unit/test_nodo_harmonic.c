@@ -58,7 +58,7 @@ static void draw_state(void)
     s.base            = support_random_estimate(&random_state);
     s.slope           = draw(1.0e4f);
     s.theta_rad       = draw(3.1f);
-    s.theta_pairs_rad = nodo_encoder_wrap(s.theta_rad + draw(0.1f));
+    s.theta_pairs_rad = frames_wrap(s.theta_rad + draw(0.1f));
     for (int i = 0; i < NODO_HARMONIC_PAIRS_MAX; i++) {
         s.pair[i].a = draw(10.0f);
         s.pair[i].b = draw(10.0f);
@@ -312,7 +312,7 @@ static void test_pairs_stay_locked_to_the_angle(void)
     for (int k = 0; k < 5000; k++) { /* 111 turns */
         const double before  = (double)s.theta_pairs_rad;
         const dq_t   v_V     = {.d = 0.0f, .q = 0.0f};
-        s.theta_rad          = nodo_encoder_wrap(s.theta_rad + draw(0.02f));
+        s.theta_rad          = frames_wrap(s.theta_rad + draw(0.02f));
         s.base.omega_e_radps = 700.0f;
         s.base.iq_A = s.base.id_A = 0.0f;
         for (int i = 0; i < gains.n_pairs; i++) { /* keep the motor where it is */
@@ -468,7 +468,7 @@ static void test_sensor_offset_is_found_and_kept_out_of_the_current(void)
         offset_d_A         = (alpha_A * cos(angle)) + (beta_A * sin(angle));
         offset_q_A         = (beta_A * cos(angle)) - (alpha_A * sin(angle));
         const dq_t i_A = {.d = truth.id_A + (float)offset_d_A, .q = truth.iq_A + (float)offset_q_A};
-        nodo_harmonic_correct(&s, g, i_A, nodo_encoder_wrap(theta - s.theta_rad));
+        nodo_harmonic_correct(&s, g, i_A, frames_wrap(theta - s.theta_rad));
         if (k >= 19000) {
             worst_A = fmax(worst_A, fabs((double)(s.base.iq_A - truth.iq_A)));
             worst_A = fmax(worst_A, fabs((double)(s.base.id_A - truth.id_A)));

@@ -116,14 +116,15 @@ SampledServoLoop pid_loop(const Held &plant, const pid_law_config_t &c, double t
 SampledServoLoop speed_loop(const Motor &m, const drive_config_t &config)
 {
     const auto ts_s = static_cast<double>(config.ts_s);
-    if (config.servo.kind == SERVO_LAW_DOBC) {
-        return dobc_loop(m, config.servo.dobc, ts_s);
+    if (const auto *c = constants_of<law_dobc_config_t>(config)) {
+        return dobc_loop(m, c->dobc, ts_s);
     }
     const double L = m.q_axis_inductance_H;
     MatrixXd     A(2, 2);
     A << -m.viscous_friction_Nms / m.inertia_kgm2, m.pole_pairs * servo_plant(m).b, //
         -m.pm_flux_Wb / L, -m.stator_resistance_Ohm / L;
-    return pid_loop(held(A, Eigen::Vector2d(0.0, 1.0 / L), ts_s), config.servo.pid, ts_s);
+    return pid_loop(held(A, Eigen::Vector2d(0.0, 1.0 / L), ts_s),
+                    constants_of<law_pid_config_t>(config)->pid, ts_s);
 }
 
 SampledServoLoop d_axis_loop(const Motor &m, const drive_config_t &config)
@@ -131,7 +132,10 @@ SampledServoLoop d_axis_loop(const Motor &m, const drive_config_t &config)
     const auto     ts_s = static_cast<double>(config.ts_s);
     const double   L    = m.d_axis_inductance_H;
     const MatrixXd A    = MatrixXd::Constant(1, 1, -m.stator_resistance_Ohm / L);
-    return pid_loop(held(A, VectorXd::Constant(1, 1.0 / L), ts_s), config.servo.id_pi, ts_s);
+    const auto    *dobc = constants_of<law_dobc_config_t>(config);
+    return pid_loop(held(A, VectorXd::Constant(1, 1.0 / L), ts_s),
+                    dobc != nullptr ? dobc->id_pi : constants_of<law_pid_config_t>(config)->id_pi,
+                    ts_s);
 }
 
 double sensitivity(const SampledServoLoop &loop, double frequency_Hz) // EQ-CERT-4

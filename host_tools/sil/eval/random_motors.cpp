@@ -30,15 +30,16 @@ MotorScale motor_scale(double resistance, double inductance, double flux, double
             {"inertia_kgm2", inertia}};
 }
 
-LoopGains gains_at(const drive_config_t &config, double iq_A)
+LoopGains gains_at(const law_noc_config_t &config, double iq_A)
 {
     LoopGains                   g{Eigen::MatrixXd(2, 3), Eigen::MatrixXd::Zero(7, 3)};
-    const nodo_encoder_gains_t &nodo  = config.nodo_encoder;
+    const nodo_encoder_gains_t &nodo  = config.nodo;
     const double                range = static_cast<double>(nodo.iq_max_A);
     const double                iq    = std::clamp(iq_A, -range, range);
     for (int row = 0; row < 2; row++) {
         for (int column = 0; column < 3; column++) {
-            g.Lambda(row, column) = static_cast<double>(config.nosc.lambda[0][row][column]);
+            g.Lambda(row, column) =
+                static_cast<double>(config.near_optimal.nosc.lambda[0][row][column]);
         }
     }
     for (int n = nodo.order; n >= 0; n--) {
@@ -53,7 +54,7 @@ LoopGains gains_at(const drive_config_t &config, double iq_A)
 }
 
 /// Largest spectral radius of the true motor under the controller, over the speeds of the scenario.
-double linear_radius(const Scenario &s, const drive_config_t &config)
+double linear_radius(const Scenario &s, const law_noc_config_t &config)
 {
     const double            ts    = control_period_s(s.drive);
     const ReducedParameters motor = reduced_parameters(scaled(s.drive.motor, s.plant_scale));
@@ -74,8 +75,8 @@ std::string explain(const Scenario &s, const drive_config_t &config)
 {
     const double gain = s.plant_scale.at("pm_flux_Wb") / s.plant_scale.at("inertia_kgm2");
     std::string  text = fmt::format("acceleration per ampere is {:.2f} x what is believed", gain);
-    if (config.law == DRIVE_LAW_NOC && config.form == DRIVE_FORM_ENCODER) {
-        const double radius = linear_radius(s, config);
+    if (const auto *noc = constants_of<law_noc_config_t>(config)) {
+        const double radius = linear_radius(s, *noc);
         text +=
             fmt::format(", spectral radius of the linear loop {:.4f}: {}", radius,
                         radius < 1.0 ? "stable for small signals, lost in saturation" : "unstable");

@@ -23,7 +23,7 @@ Controller prepare_controller(const Scenario &s)
     } else {
         const Design design = design_drive(believed);
         c.config            = design.config;
-        c.harmonics         = design.harmonics ? design.harmonics->table : nullptr;
+        c.constants         = design.constants;
         c.uncertified       = design.certificate.failures;
     }
     if (s.sensors.ideal && s.inverter.dead_time_s.value_or(0.0) <= 0.0) {

@@ -13,10 +13,10 @@ namespace sdre {
 
 /// The constants the core runs on, from the table or solved here.
 struct Controller {
-    drive_config_t                               config{};
-    bool                                         compiled_table = false;
-    std::vector<std::string>                     uncertified;
-    std::shared_ptr<const nodo_harmonic_gains_t> harmonics; ///< what config points to, noc_h only
+    drive_config_t              config{};
+    bool                        compiled_table = false;
+    std::vector<std::string>    uncertified;
+    std::shared_ptr<const void> constants; ///< what config points to, when solved here
 };
 
 /// DesignError when the gains cannot be solved.

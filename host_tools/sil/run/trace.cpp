@@ -6,49 +6,55 @@
 namespace sdre {
 namespace {
 
-/// What paper B's law compensates on the q axis, as a current slope.
-double disturbance_Aps(const drive_t &drive)
+/// What paper B's law compensates on the q axis.
+double compensated_V(const law_dobc_config_t &c, const law_dobc_state_t &state)
 {
-    const servo_law_config_t &c   = drive.config->servo;
-    double                    u_V = static_cast<double>(drive.servo.pid.integral_V);
-    if (c.kind == SERVO_LAW_DOBC) {
-        u_V = 0.0;
-        for (int i = 1; i < c.dobc.n_x; i++) {
-            u_V += static_cast<double>(c.dobc.k_x[i] * drive.servo.dobc.x[i]);
-        }
+    double u_V = 0.0;
+    for (int i = 1; i < c.dobc.n_x; i++) {
+        u_V += static_cast<double>(c.dobc.k_x[i] * state.dobc.x[i]);
     }
-    return u_V * static_cast<double>(drive.config->motor.l6);
+    return u_V;
 }
 
 /// The pair that stands still in the stator frame.
-double sensor_offset_A(const drive_t &drive)
+double sensor_offset_A(const nodo_harmonic_gains_t &g, const nodo_harmonic_t &state)
 {
-    const nodo_harmonic_gains_t &g = *drive.config->nodo_harmonic;
     for (int i = 0; i < g.n_pairs; i++) {
         if (g.pair[i].channel == NODO_HARMONIC_SENSOR && std::lround(g.pair[i].order) == -1) {
-            const nodo_harmonic_pair_t &p = drive.harmonic.pair[i];
+            const nodo_harmonic_pair_t &p = state.pair[i];
             return std::hypot(static_cast<double>(p.a), static_cast<double>(p.b));
         }
     }
     return 0.0;
 }
 
+/// What only one law knows.
+void add_law(TraceRow &row, const drive_t &drive)
+{
+    const drive_config_t &config = *drive.config;
+    const auto            l6     = static_cast<double>(config.motor.l6); // volts as a current slope
+    if (const auto *dobc = constants_of<law_dobc_config_t>(config)) {
+        row.d_q_hat = compensated_V(*dobc, drive.law.dobc) * l6;
+    } else if (constants_of<law_pid_config_t>(config) != nullptr) {
+        row.d_q_hat = static_cast<double>(drive.law.pid.pid.integral_V) * l6;
+    } else if (const auto *noc_h = constants_of<law_noc_h_config_t>(config)) {
+        row.sensor_offset_hat_A = sensor_offset_A(noc_h->nodo, drive.law.noc_h.observer);
+    }
+}
+
 } // namespace
 
 void add_drive(TraceRow &row, const drive_t &drive)
 {
-    row.iq_ref_A    = static_cast<double>(drive.current_ref.i_A.q);
-    row.id_ref_A    = static_cast<double>(drive.current_ref.i_A.d);
+    row.iq_ref_A    = static_cast<double>(drive.wanted.i_ref_A.q);
+    row.id_ref_A    = static_cast<double>(drive.wanted.i_ref_A.d);
     row.vq_V        = static_cast<double>(drive.v_V.q);
     row.vd_V        = static_cast<double>(drive.v_V.d);
-    row.d_omega_hat = static_cast<double>(drive.observer.d_omega);
-    row.d_q_hat     = static_cast<double>(drive.observer.d_q);
-    row.d_d_hat     = static_cast<double>(drive.observer.d_d);
-    if (drive.config != nullptr && drive.config->law == DRIVE_LAW_SERVO) {
-        row.d_q_hat = disturbance_Aps(drive);
-    }
-    if (drive.config != nullptr && drive.config->law == DRIVE_LAW_NOC_H) {
-        row.sensor_offset_hat_A = sensor_offset_A(drive);
+    row.d_omega_hat = static_cast<double>(drive.wanted.d_omega);
+    row.d_q_hat     = static_cast<double>(drive.wanted.d_q);
+    row.d_d_hat     = static_cast<double>(drive.wanted.d_d);
+    if (drive.config != nullptr) {
+        add_law(row, drive);
     }
 }
 

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file bridge.h
+ * @brief What the inverter's three legs are told for a period.
+ */
+#ifndef BRIDGE_H
+#define BRIDGE_H
+
+#include "base.h"
+
+/* Inline functions in C and C++: members are set in their order. */
+
+typedef struct {
+    abc_t duty;        /**< upper switches, 0 .. 1; one half each while the bridge is open */
+    bool  gate_enable; /**< false: all six switches off, now */
+} bridge_t;
+
+/** All six switches off. */
+static inline bridge_t bridge_open(void)
+{
+    const bridge_t open = {{0.5f, 0.5f, 0.5f}, false};
+    return open;
+}
+
+/** Switching with these ratios, limited to [0, 1]; a NaN comes out as 0. The only place that limits duty ratios. */
+static inline bridge_t bridge_closed(abc_t duty)
+{
+    const bridge_t closed = {{base_clamp(duty.a, 0.0f, 1.0f), base_clamp(duty.b, 0.0f, 1.0f),
+                              base_clamp(duty.c, 0.0f, 1.0f)},
+                             true};
+    return closed;
+}
+
+#endif /* BRIDGE_H */

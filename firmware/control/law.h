@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file law.h
+ * @brief What turns samples into a voltage, as an object.
+ *
+ * Every law is a pair of files law_*.h, law_*.c with its own constants, its own state and one `law_t`. The generated
+ * tables name the law and its constants (drive_config.h); only that one is then linked. drive_tick.c checks, limits
+ * and modulates, and knows no law. How to add one: docs/architecture.md.
+ */
+#ifndef LAW_H
+#define LAW_H
+
+#include "base.h"
+#include "nodo.h"
+#include "sample.h"
+
+struct drive_config;
+
+/** The state of one law; laws.h lists them. */
+typedef union law_state law_state_t;
+
+/** What a law gets in a period. */
+typedef struct {
+    const drive_sample_t *sample;          /**< every value in range */
+    float                 command_e_radps; /**< wanted electrical speed, in range */
+    dq_t                  v_V; /**< what the limits left of the voltage computed a period ago: in
+                                    force from this instant on; zero at the start of a run */
+} law_input_t;
+
+/** What a law answers. */
+typedef struct {
+    dq_t        v_V;       /**< wanted voltage, before any limit; drive_tick() refuses a NaN */
+    float       theta_rad; /**< of the middle of the period in which v_V acts, EQ-DRIVE-2 */
+    nodo_meas_t now;       /**< speed and currents that the law acted on */
+    dq_t        i_ref_A;   /**< current references; zero without a current loop */
+    float d_omega; /**< estimated disturbances as in nodo.h; zero without an observer of them */
+    float d_q;
+    float d_d;
+    bool  plausible; /**< false: the angle cannot be right */
+} law_output_t;
+
+typedef struct {
+    /** true when all constants of the law are finite and within their documented ranges. Context: init. */
+    bool (*check)(const struct drive_config *config);
+
+    /** Start of a run: takes over the sample, knows nothing of any disturbance. Context: control ISR. */
+    void (*reset)(law_state_t *state, const struct drive_config *config,
+                  const drive_sample_t *sample);
+
+    /** One period. Context: control ISR, bounded. */
+    law_output_t (*step)(law_state_t *state, const struct drive_config *config,
+                         const law_input_t *in);
+} law_t;
+
+#endif /* LAW_H */

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT */
+#include "laws.h"
+
+static bool check(const drive_config_t *drive)
+{
+    const law_noc_config_t *c = drive->constants;
+
+    return near_optimal_check(&c->near_optimal, drive) && encoder_form_check(&c->plausible) &&
+           nodo_encoder_check(&c->nodo);
+}
+
+static void reset(law_state_t *state, const drive_config_t *drive, const drive_sample_t *sample)
+{
+    law_noc_state_t  *s = &state->noc;
+    const nodo_meas_t y = sample_measurement(sample);
+
+    (void)drive;
+    nodo_reset(&s->observer, &y);
+    s->theta_hat_rad = frames_wrap(sample->theta_e_rad);
+    near_optimal_reset(&s->near_optimal, y.omega_e_radps);
+}
+
+static near_optimal_view_t observe(law_noc_state_t *s, const law_noc_config_t *c,
+                                   const drive_config_t *drive, const law_input_t *in)
+{
+    const dq_t  i_A         = sample_current_A(in->sample, s->theta_hat_rad);
+    const float angle_error = encoder_form_error_rad(in->sample, s->theta_hat_rad);
+
+    nodo_encoder_correct(&s->observer, &s->theta_hat_rad, &c->nodo, i_A, angle_error, drive->ts_s);
+    nodo_encoder_predict(&s->observer, &s->theta_hat_rad, &drive->motor, in->v_V, drive->ts_s);
+    return encoder_form_view(&c->plausible, &s->observer, s->theta_hat_rad, angle_error,
+                             drive->ts_s);
+}
+
+static law_output_t step(law_state_t *state, const drive_config_t *drive, const law_input_t *in)
+{
+    const law_noc_config_t   *c    = drive->constants;
+    law_noc_state_t          *s    = &state->noc;
+    const near_optimal_view_t view = observe(s, c, drive, in);
+    const nosc_error_t e = near_optimal_error(&s->near_optimal, &c->near_optimal, drive, &view, in);
+
+    return near_optimal_answer(&s->near_optimal, &drive->motor, &view, &e,
+                               nosc_feedback_V(&c->near_optimal.nosc, &e));
+}
+
+const law_t law_noc = {.check = check, .reset = reset, .step = step};

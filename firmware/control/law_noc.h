@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file law_noc.h
+ * @brief Near optimal control of paper A with an observer that measures the encoder's angle.
+ *
+ * The observer is corrected with this sample and predicted to the instant at which the new voltage takes effect;
+ * references and law act on the prediction.
+ */
+#ifndef LAW_NOC_ENCODER_H
+#define LAW_NOC_ENCODER_H
+
+#include "encoder_form.h"
+#include "near_optimal.h"
+#include "nodo_encoder.h"
+
+typedef struct {
+    near_optimal_config_t near_optimal;
+    encoder_form_limits_t plausible;
+    nodo_encoder_gains_t  nodo;
+} law_noc_config_t;
+
+typedef struct {
+    nodo_t         observer;
+    float          theta_hat_rad; /**< estimated electrical angle, within +-pi */
+    near_optimal_t near_optimal;
+} law_noc_state_t;
+
+extern const law_t law_noc;
+
+#endif /* LAW_NOC_ENCODER_H */

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT */
+#include "laws.h"
+
+static bool check(const drive_config_t *drive)
+{
+    const law_noc_h_config_t *c = drive->constants;
+
+    return near_optimal_check(&c->near_optimal, drive) && encoder_form_check(&c->plausible) &&
+           nodo_harmonic_check(&c->nodo);
+}
+
+static void reset(law_state_t *state, const drive_config_t *drive, const drive_sample_t *sample)
+{
+    law_noc_h_state_t *s = &state->noc_h;
+    const nodo_meas_t  y = sample_measurement(sample);
+
+    (void)drive;
+    nodo_harmonic_reset(&s->observer, &y, sample->theta_e_rad);
+    nodo_reset(&s->known.total, &y);
+    s->known.d_omega_dot = 0.0f;
+    near_optimal_reset(&s->near_optimal, y.omega_e_radps);
+}
+
+static near_optimal_view_t observe(law_noc_h_state_t *s, const law_noc_h_config_t *c,
+                                   const drive_config_t *drive, const law_input_t *in)
+{
+    const dq_t  i_A         = sample_current_A(in->sample, s->observer.theta_rad);
+    const float angle_error = encoder_form_error_rad(in->sample, s->observer.theta_rad);
+
+    nodo_harmonic_correct(&s->observer, &c->nodo, i_A, angle_error);
+    s->known = nodo_harmonic_predict(&s->observer, &c->nodo, &drive->motor, in->v_V, drive->ts_s);
+
+    near_optimal_view_t view = encoder_form_view(&c->plausible, &s->known.total,
+                                                 s->observer.theta_rad, angle_error, drive->ts_s);
+    view.d_omega_dot         = s->known.d_omega_dot;
+    return view;
+}
+
+static law_output_t step(law_state_t *state, const drive_config_t *drive, const law_input_t *in)
+{
+    const law_noc_h_config_t *c    = drive->constants;
+    law_noc_h_state_t        *s    = &state->noc_h;
+    const near_optimal_view_t view = observe(s, c, drive, in);
+    const nosc_error_t e = near_optimal_error(&s->near_optimal, &c->near_optimal, drive, &view, in);
+
+    return near_optimal_answer(&s->near_optimal, &drive->motor, &view, &e,
+                               nosc_feedback_V(&c->near_optimal.nosc, &e));
+}
+
+const law_t law_noc_h = {.check = check, .reset = reset, .step = step};

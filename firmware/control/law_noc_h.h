@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file law_noc_h.h
+ * @brief Near optimal control with an observer that knows what repeats with the angle (nodo_harmonic.h).
+ */
+#ifndef LAW_NOC_H_H
+#define LAW_NOC_H_H
+
+#include "encoder_form.h"
+#include "near_optimal.h"
+#include "nodo_harmonic.h"
+
+typedef struct {
+    near_optimal_config_t near_optimal;
+    encoder_form_limits_t plausible;
+    nodo_harmonic_gains_t nodo;
+} law_noc_h_config_t;
+
+typedef struct {
+    nodo_harmonic_t      observer;
+    nodo_harmonic_view_t known; /**< what the law needs of it */
+    near_optimal_t       near_optimal;
+} law_noc_h_state_t;
+
+extern const law_t law_noc_h;
+
+#endif /* LAW_NOC_H_H */

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file law_noc_speed.h
+ * @brief Near optimal control as paper A has it: a measured speed, and a law that acts on the measurement.
+ */
+#ifndef LAW_NOC_SPEED_H
+#define LAW_NOC_SPEED_H
+
+#include "near_optimal.h"
+#include "nodo.h"
+
+typedef struct {
+    near_optimal_config_t near_optimal;
+    nodo_gains_t          nodo;
+} law_noc_speed_config_t;
+
+/** Of the conventional law too. */
+typedef struct {
+    nodo_t         observer;
+    near_optimal_t near_optimal;
+} law_noc_speed_state_t;
+
+extern const law_t law_noc_speed;
+
+/** Start of a run from the measured speed. Context: control ISR. */
+void law_noc_speed_reset(law_noc_speed_state_t *s, const drive_sample_t *sample);
+
+/** The measurement as the law sees it; every angle is plausible. Context: control ISR. */
+near_optimal_view_t law_noc_speed_view(const law_noc_speed_state_t *s, const nodo_meas_t *y,
+                                       const drive_sample_t *sample, float ts_s);
+
+#endif /* LAW_NOC_SPEED_H */

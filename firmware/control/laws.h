@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file laws.h
+ * @brief The list of laws: a line each.
+ *
+ * Naming a state here costs memory (the largest counts), no code: a law's functions are linked when the tables name it.
+ */
+#ifndef LAWS_H
+#define LAWS_H
+
+#include "law.h"
+#include "law_conventional.h"
+#include "law_dobc.h"
+#include "law_noc.h"
+#include "law_noc_h.h"
+#include "law_noc_speed.h"
+#include "law_pid.h"
+
+#define LAW_OWN_FLOATS 16 /**< chosen: room for a law that is tried out before it is listed */
+
+union law_state {
+    law_noc_state_t          noc;
+    law_noc_speed_state_t    noc_speed;
+    law_noc_h_state_t        noc_h;
+    law_conventional_state_t conventional;
+    law_dobc_state_t         dobc;
+    law_pid_state_t          pid;
+    float                    own[LAW_OWN_FLOATS];
+};
+
+#endif /* LAWS_H */

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: MIT */
+#include "near_optimal.h"
+
+#include "feedforward.h"
+
+bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *drive)
+{
+    const float max_A = c->current_ref.current_max_A;
+
+    return current_ref_check(&c->current_ref) && nosc_check(&c->nosc) &&
+           base_in_range(max_A, drive->current_max_A, drive->current_max_A);
+}
+
+void near_optimal_reset(near_optimal_t *s, float omega_e_radps)
+{
+    speed_ref_reset(&s->speed_ref, omega_e_radps);
+    current_ref_reset(&s->current_ref);
+}
+
+static void update_references(near_optimal_t *s, const near_optimal_config_t *c,
+                              const drive_config_t *drive, const near_optimal_view_t *view,
+                              const law_input_t *in)
+{
+    const float               w      = view->now.omega_e_radps;
+    const float               e_w    = w - s->speed_ref.omega_e_radps;
+    const current_ref_input_t from   = {.est         = view->est,
+                                        .state       = &view->now,
+                                        .d_omega_dot = view->d_omega_dot,
+                                        .iq_speed_A  = nosc_speed_current_A(&c->nosc, e_w),
+                                        .dc_link_V   = in->sample->dc_link_V,
+                                        .v_max_V     = in->sample->dc_link_V * BASE_1_SQRT3};
+    const speed_ref_limits_t  limits = current_ref_speed_limits(
+         &s->current_ref, &c->current_ref, &drive->motor, &from, in->command_e_radps);
+
+    speed_ref_update(&s->speed_ref, &limits, in->command_e_radps, w, drive->ts_s);
+    current_ref_update(&s->current_ref, &c->current_ref, &drive->motor, &s->speed_ref, &from);
+}
+
+nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *c,
+                                const drive_config_t *drive, const near_optimal_view_t *view,
+                                const law_input_t *in)
+{
+    update_references(s, c, drive, view, in);
+
+    const current_ref_t *ref = &s->current_ref;
+    const nosc_error_t   e = {.omega_e_radps = view->now.omega_e_radps - s->speed_ref.omega_e_radps,
+                              .iq_A          = view->now.iq_A - ref->i_A.q,
+                              .id_A          = view->now.id_A - ref->i_A.d};
+    return nosc_limit_speed_error(&c->nosc, e, ref->i_A.q, ref->iq_lo_A, ref->iq_hi_A);
+}
+
+law_output_t near_optimal_answer(const near_optimal_t *s, const motor_reduced_t *m,
+                                 const near_optimal_view_t *view, const nosc_error_t *e,
+                                 dq_t feedback_V)
+{
+    /* The reference as far as it is followed. */
+    const float w_d  = view->now.omega_e_radps - e->omega_e_radps;
+    const dq_t  ff_V = feedforward_V(m, &s->current_ref, w_d, &view->now, view->est);
+
+    const law_output_t out = {/* EQ-DRIVE-1 */
+                              .v_V       = {.d = feedback_V.d + ff_V.d, .q = feedback_V.q + ff_V.q},
+                              .theta_rad = view->theta_rad,
+                              .now       = view->now,
+                              .i_ref_A   = s->current_ref.i_A,
+                              .d_omega   = view->est->d_omega,
+                              .d_q       = view->est->d_q,
+                              .d_d       = view->est->d_d,
+                              .plausible = view->plausible};
+    return out;
+}

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file near_optimal.h
+ * @brief What the laws of near optimal control share: references, tracking error, feed-forward.
+ *
+ *     u = -Lambda(e) e - d_dq + u_ff                                           EQ-DRIVE-1, paper A (42)
+ *
+ * A law brings its observer and its feedback; in between stand near_optimal_error() and near_optimal_answer().
+ */
+#ifndef NEAR_OPTIMAL_H
+#define NEAR_OPTIMAL_H
+
+#include "base.h"
+#include "current_ref.h"
+#include "drive_config.h"
+#include "nosc.h"
+#include "speed_ref.h"
+
+typedef struct {
+    current_ref_config_t current_ref;
+    nosc_gains_t         nosc; /**< conventional: Lambda_00 alone, for EQ-NOSC-3 */
+} near_optimal_config_t;
+
+typedef struct {
+    speed_ref_t   speed_ref;
+    current_ref_t current_ref;
+} near_optimal_t;
+
+/** What the observer knows, all of one instant. */
+typedef struct {
+    const nodo_t *est;         /**< disturbance estimates */
+    nodo_meas_t   now;         /**< speed and currents: measured, or predicted */
+    float         d_omega_dot; /**< d_w' [rad/s^3]; 0 when nothing is known of it */
+    float         theta_rad;   /**< as law_output_t */
+    bool          plausible;   /**< as law_output_t */
+} near_optimal_view_t;
+
+/** true when all constants are in range and the current limit is that of the drive. Context: init. */
+bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *drive);
+
+/** References start at the present speed without current. */
+void near_optimal_reset(near_optimal_t *s, float omega_e_radps);
+
+/**
+ * @brief References of this period and the error to them, its speed part as far as the limits let it be followed.
+ *
+ * Context: control ISR. The cost of speed_ref_update() and current_ref_update(), two divisions.
+ */
+nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *c,
+                                const drive_config_t *drive, const near_optimal_view_t *view,
+                                const law_input_t *in);
+
+/** EQ-DRIVE-1: feedback plus feed-forward, with all that a law answers. Context: control ISR. No division. */
+law_output_t near_optimal_answer(const near_optimal_t *s, const motor_reduced_t *m,
+                                 const near_optimal_view_t *view, const nosc_error_t *e,
+                                 dq_t feedback_V);
+
+#endif /* NEAR_OPTIMAL_H */

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file sample.h
+ * @brief What was measured at one instant, in SI units, and what a law makes of it in the rotor frame.
+ */
+#ifndef SAMPLE_H
+#define SAMPLE_H
+
+#include "base.h"
+#include "frames.h"
+#include "nodo.h"
+
+/* Inline functions in C and C++: members are set in their order. */
+
+typedef struct {
+    float ia_A;        /**< phase current, positive into the motor */
+    float ib_A;        /**< phase current, positive into the motor */
+    float dc_link_V;   /**< dc-link voltage */
+    float theta_e_rad; /**< electrical angle, -2 pi .. 2 pi */
+    float
+        omega_e_radps; /**< electrical speed; a law that observes the angle reads it only when it starts */
+    bool valid;        /**< all of the above were measured in this period */
+} drive_sample_t;
+
+/** Currents in the frame of an angle. Context: control ISR. */
+static inline dq_t sample_current_A(const drive_sample_t *s, float theta_e_rad)
+{
+    return frames_park(frames_clarke(s->ia_A, s->ib_A), frames_angle(theta_e_rad));
+}
+
+/** Speed and currents as measured, in the frame of the measured angle. Context: control ISR. */
+static inline nodo_meas_t sample_measurement(const drive_sample_t *s)
+{
+    const dq_t        i_A = sample_current_A(s, s->theta_e_rad);
+    const nodo_meas_t y   = {s->omega_e_radps, i_A.q, i_A.d};
+    return y;
+}
+
+/** From the measured speed: the angle of the middle of the period in which the new voltage acts, EQ-DRIVE-2. */
+static inline float sample_middle_angle_rad(const drive_sample_t *s, float ts_s)
+{
+    return s->theta_e_rad + (1.5f * ts_s * s->omega_e_radps);
+}
+
+#endif /* SAMPLE_H */

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+/// The list of laws: a line each, a file each.
+#pragma once
+
+#include "design/law_design.hpp"
+
+namespace sdre {
+
+extern const LawDesign noc_design;
+extern const LawDesign noc_speed_design;
+extern const LawDesign noc_h_design;
+extern const LawDesign conventional_design;
+extern const LawDesign dobc_design;
+extern const LawDesign pid_design;
+
+} // namespace sdre

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#include "design/laws/near_optimal.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "design/certificate.hpp"
+#include "design/firmware_config.hpp"
+#include "design/sampled_model.hpp"
+
+namespace sdre {
+namespace {
+
+// Chosen: eight periods. Long against the limit cycle that a shorter one lets through with wrong
+// parameters, short against the speed loop (docs/errata.md, d/dt of the current references).
+constexpr double reference_filter_periods = 8.0;
+// Chosen: half the nominal l1, reached at e_id = l1 / (2 |l11|).
+constexpr double smallest_l1_ratio = 0.5;
+// Chosen: twice the torque the motor has, so that a motor with half the believed inertia does not trip.
+// Measured: a standing encoder is found above about 120 rad/s.
+constexpr double trip_torque_ratio = 2.0;
+// Chosen: an encoder wrong by this much turns a tenth of the torque into flux.
+constexpr double trip_angle_rad = 0.45;
+// Chosen: 2 % of the torque stays for the feedback while the reference accelerates.
+constexpr double torque_share = 0.98;
+// Chosen: regeneration is full up to 10 % above the nominal dc link and nothing at 25 %, below the trip.
+constexpr double regen_start_ratio = 1.10;
+constexpr double regen_end_ratio   = 1.25;
+// A surface magnet motor has no saliency; this many amperes stand for its infinite k of EQ-CURRENT-REF-2.
+constexpr double largest_mtpa_A = 1e6;
+// Chosen: 1 % of the voltage circle, and what the hexagon holds outside it, stay free for transients.
+constexpr double voltage_share = 0.99;
+// Chosen by simulation: of 10,000 random motors (docs/errata.md) 48 failed without this limit and 36 with it;
+// a smaller share deepens the dip after a load step.
+constexpr double speed_current_ratio = 0.25;
+
+float single(double x)
+{
+    return static_cast<float>(x);
+}
+
+GainSeries solve_nosc(const ReducedParameters &l, const Drive &drive)
+{
+    const NoscSpec       &spec = drive.nosc;
+    const Eigen::Vector2d T_inverse(1.0 / spec.T[0], 1.0 / spec.T[1]);
+    const SdreProblem     problem = drive.law == Law::conventional_noc
+                                        ? conventional_nosc_problem(l, spec)
+                                        : nosc_problem(l, spec);
+    return solve_gain_series(problem, T_inverse.asDiagonal() * nosc_input_matrix(l).transpose(),
+                             Eigen::MatrixXd::Identity(3, 3), spec.order);
+}
+
+GainSeries solve_nodo(const ReducedParameters &l, const NodoSpec &spec)
+{
+    const Eigen::Vector3d T_inverse(1.0 / spec.T[0], 1.0 / spec.T[1], 1.0 / spec.T[2]);
+    const Eigen::MatrixXd C = nodo_model(l, spec.form).C;
+    return solve_gain_series(nodo_problem(l, spec), Eigen::MatrixXd::Identity(C.cols(), C.cols()),
+                             C.transpose() * T_inverse.asDiagonal(), spec.order);
+}
+
+/// k of EQ-CURRENT-REF-2.
+double mtpa_A(const ReducedParameters &l)
+{
+    return std::min(0.5 * l[5] / std::max(1.0 - l[10], 1e-9), largest_mtpa_A);
+}
+
+/// The iq at which the MTPA curve meets the current circle. Exact: id = k/2 - sqrt(k^2/4 + max^2/2); second order:
+/// iq^2 + iq^4 / (2 k)^2 = max^2.
+double largest_iq_A(const Motor &motor, double k, bool exact)
+{
+    const double i2 = motor.max_current_A * motor.max_current_A;
+    if (exact) {
+        const double id_A = -0.5 * i2 / (0.5 * k + std::sqrt(0.25 * k * k + 0.5 * i2));
+        return std::sqrt(i2 - id_A * id_A);
+    }
+    return std::sqrt(2.0 * i2 / (1.0 + std::sqrt(1.0 + i2 / (k * k))));
+}
+
+/// On the MTPA curve at the current limit.
+double largest_torque_Nm(const Motor &motor, const ReducedParameters &l)
+{
+    const double iq_A = largest_iq_A(motor, mtpa_A(l), true);
+    return torque_Nm(motor, mtpa_id_A(l, iq_A), iq_A);
+}
+
+/// The speed error whose feedback asks for the current to go from one limit to the other.
+double near_e_radps(const Design &d)
+{
+    const Eigen::MatrixXd &Lambda = d.nosc.gain[0];
+    const double           full =
+        2.0 * d.drive.motor.max_current_A * Lambda(0, 1) / std::max(Lambda(0, 0), 1e-9);
+    return std::min(full, trip_speed_ratio * d.drive.motor.rated_speed_e_radps);
+}
+
+current_ref_config_t current_ref_constants(const Design &d, bool exact)
+{
+    const Motor &m      = d.drive.motor;
+    const double ts     = control_period_s(d.drive);
+    const double np     = m.pole_pairs;
+    const double v_dc   = d.drive.inverter.dc_link_V;
+    const double k      = mtpa_A(d.l);
+    const double full_W = 1.5 * v_dc / std::sqrt(3.0) * m.max_current_A;
+
+    current_ref_config_t c{};
+    c.current_max_A     = single(m.max_current_A);
+    c.iq_max_A          = single(largest_iq_A(m, k, exact));
+    c.mtpa_A            = single(k);
+    c.mtpa_exact        = exact;
+    c.voltage_share     = single(voltage_share);
+    c.torque_share      = single(torque_share);
+    c.near_e_radps      = single(near_e_radps(d));
+    c.l1_min            = single(smallest_l1_ratio * d.l[1]);
+    c.filter_per_period = single(1.0 / reference_filter_periods);
+    c.filter_1ps        = single(1.0 / (reference_filter_periods * ts));
+    c.regen_max_W_norm  = single(np * np / m.inertia_kgm2 * full_W); // EQ-CURRENT-REF-7
+    c.regen_start_V     = single(regen_start_ratio * v_dc);
+    c.regen_per_V       = single(1.0 / ((regen_end_ratio - regen_start_ratio) * v_dc));
+    return c;
+}
+
+std::string current_ref_block(const current_ref_config_t &c)
+{
+    return c_block(
+        "current_ref",
+        c_field("current_max_A", c.current_max_A) + c_field("iq_max_A", c.iq_max_A) +
+            c_field("mtpa_A", c.mtpa_A) +
+            c_field("mtpa_exact", std::string(c.mtpa_exact ? "true" : "false")) +
+            c_field("voltage_share", c.voltage_share) + c_field("torque_share", c.torque_share) +
+            c_field("near_e_radps", c.near_e_radps) + c_field("l1_min", c.l1_min) +
+            c_field("filter_per_period", c.filter_per_period) +
+            c_field("filter_1ps", c.filter_1ps) + c_field("regen_max_W_norm", c.regen_max_W_norm) +
+            c_field("regen_start_V", c.regen_start_V) + c_field("regen_per_V", c.regen_per_V));
+}
+
+std::string nosc_block(const nosc_gains_t &g)
+{
+    std::string terms;
+    for (int n = 0; n <= g.order; n++) {
+        terms += term_block(n, "omega_e_radps             iq_A             id_A", {"v_q", "v_d"},
+                            g.lambda[n]);
+    }
+    return c_block("nosc", c_field("order", g.order) + c_field("iq_error_max_A", g.iq_error_max_A) +
+                               c_field("iq_speed_max_A", g.iq_speed_max_A) +
+                               c_block("lambda", terms));
+}
+
+} // namespace
+
+void solve_near_optimal(Design &d)
+{
+    d.nosc = solve_nosc(d.l, d.drive);
+    if (d.drive.law != Law::noc_h) {
+        d.nodo = solve_nodo(d.l, d.drive.nodo);
+    }
+    d.certificate = certify(d);
+}
+
+near_optimal_config_t near_optimal_constants(const Design &d, bool exact_mtpa, bool nosc_series)
+{
+    near_optimal_config_t c{};
+    c.current_ref         = current_ref_constants(d, exact_mtpa);
+    c.nosc.order          = static_cast<int16_t>(nosc_series ? d.drive.nosc.order : 0);
+    c.nosc.iq_error_max_A = single(d.certificate.nosc.series_range_A);
+    c.nosc.iq_speed_max_A = single(speed_current_ratio * d.drive.motor.max_current_A);
+    for (std::size_t n = 0; n <= static_cast<std::size_t>(c.nosc.order); n++) {
+        copy_matrix(d.nosc.gain[n], c.nosc.lambda[n]);
+    }
+    return c;
+}
+
+encoder_form_limits_t encoder_limits(const Design &d)
+{
+    return {single(trip_angle_rad),
+            single(trip_torque_ratio * d.l[3] * largest_torque_Nm(d.drive.motor, d.l))};
+}
+
+double worst_residual(const Design &d)
+{
+    const auto worst = [](const GainSeries &g) {
+        return g.residuals.empty() ? 0.0
+                                   : *std::max_element(g.residuals.begin(), g.residuals.end());
+    };
+    return std::max({worst(d.nosc), worst(d.nodo), d.harmonic_check.worst_residual});
+}
+
+std::string method_line(const std::string &method)
+{
+    return fmt::format(" * method     {}\n", method);
+}
+
+std::string residual_line(double worst)
+{
+    return fmt::format(" * checked    relative residuals <= {:.0e}\n", std::max(worst, 1e-16));
+}
+
+std::string controller_line(const SampledLoop &c)
+{
+    return fmt::format(" *            controller: slowest pole {:.0f} 1/s, sampled spectral radius "
+                       "{:.3f}, |e_iq| <= {:g} A\n",
+                       c.worst_pole_1ps, c.spectral_radius, c.range_A);
+}
+
+std::string observer_line(const SampledLoop &o)
+{
+    return fmt::format(" *            observer:   slowest pole {:.0f} 1/s, sampled spectral radius "
+                       "{:.3f}, |iq| <= {:g} A\n",
+                       o.worst_pole_1ps, o.spectral_radius, o.range_A);
+}
+
+std::string near_optimal_block(const near_optimal_config_t &c)
+{
+    return c_block("near_optimal", current_ref_block(c.current_ref) + nosc_block(c.nosc));
+}
+
+std::string limits_block(const encoder_form_limits_t &limits)
+{
+    return c_block("plausible",
+                   c_field("angle_rad", limits.angle_rad) + c_field("d_omega", limits.d_omega));
+}
+
+std::string term_block(int n, const char *columns, const std::vector<std::string> &labels,
+                       const float (*rows)[3])
+{
+    std::string s = fmt::format("/*             {} */\n", columns);
+    for (const std::string &label : labels) {
+        s += c_row(label, *rows++, 3);
+    }
+    return fmt::format("{{ /* n = {} */\n", n) + c_indented(s) + "},\n";
+}
+
+std::vector<std::string> nosc_mismatches(const near_optimal_config_t &c)
+{
+    return {fmt::format("NOSC_ORDER_MAX < {}", c.nosc.order), "NOSC_N_U != 2", "NOSC_N_E != 3"};
+}
+
+} // namespace sdre

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+/// What the designs of the laws of near optimal control share.
+#pragma once
+
+#include "common/c_text.hpp"
+#include "design/laws/laws.hpp"
+#include "linalg/linalg_checks.hpp"
+
+namespace sdre {
+
+/// nosc, nodo and certificate of both; noc_h has no nodo.
+void solve_near_optimal(Design &design);
+
+/// Current references and the series of the feedback; without nosc_series its first term alone (EQ-NOSC-3).
+near_optimal_config_t near_optimal_constants(const Design &design, bool exact_mtpa,
+                                             bool nosc_series);
+
+encoder_form_limits_t encoder_limits(const Design &design);
+
+/// Entries in single precision; zeros where exact arithmetic has zeros.
+template <std::size_t Rows, std::size_t Columns>
+void copy_matrix(const Eigen::MatrixXd &from, float (&to)[Rows][Columns])
+{
+    for (std::size_t row = 0; row < Rows; row++) {
+        for (std::size_t column = 0; column < Columns; column++) {
+            to[row][column] =
+                gain_entry(from, static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column));
+        }
+    }
+}
+
+/// The observer's matrices.
+template <std::size_t Rows>
+void copy_series(const GainSeries &from, float (&to)[NODO_ORDER_MAX + 1][Rows][3])
+{
+    for (std::size_t n = 0; n < from.gain.size(); n++) {
+        copy_matrix(from.gain[n], to[n]);
+    }
+}
+
+/// Largest residual of both, for the summary.
+double worst_residual(const Design &design);
+
+std::string method_line(const std::string &method);
+std::string residual_line(double worst);
+std::string controller_line(const SampledLoop &controller);
+std::string observer_line(const SampledLoop &observer);
+
+/// ".near_optimal = {..},\n"
+std::string near_optimal_block(const near_optimal_config_t &c);
+/// ".plausible = {..},\n"
+std::string limits_block(const encoder_form_limits_t &limits);
+
+/// A term of a series: a comment, the columns' names, rows with labels.
+std::string term_block(int n, const char *columns, const std::vector<std::string> &labels,
+                       const float (*rows)[3]);
+/// ".gain = {..},\n" of an observer with the columns' names.
+template <std::size_t Rows>
+std::string gain_block(const char *columns, const std::vector<std::string> &labels, int order,
+                       const float (&gain)[NODO_ORDER_MAX + 1][Rows][3])
+{
+    std::string s;
+    for (int n = 0; n <= order; n++) {
+        s += term_block(n, columns, labels, gain[n]);
+    }
+    return c_block("gain", s);
+}
+
+/// For LawDesign::mismatches.
+std::vector<std::string> nosc_mismatches(const near_optimal_config_t &c);
+
+} // namespace sdre

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "design/firmware_config.hpp"
+#include "design/laws/near_optimal.hpp"
+#include "design/noc_h/harmonic_loop.hpp"
+#include "design/sampled_model.hpp"
+
+namespace sdre {
+namespace {
+
+// Chosen: four points between two nodes of the table where they are closest, and every half of the current limit.
+constexpr int speed_points   = 64;
+constexpr int current_points = 4;
+
+bool is_for(const Drive &drive)
+{
+    return drive.law == Law::noc_h;
+}
+
+/// Stability wherever the firmware can be, with the table's interpolated gains; negative speeds are mirror images.
+void sweep(Design &d)
+{
+    const nodo_harmonic_gains_t &table = *d.harmonics->table;
+    HarmonicCheck               &check = d.harmonic_check;
+    const double                 ts    = control_period_s(d.drive);
+    const double                 trip  = d.harmonics->nodes.back().omega_e_radps;
+    const double                 range = 2.0 * d.drive.motor.max_current_A;
+    for (int k = 0; k <= speed_points; k++) {
+        for (int j = -current_points; j <= current_points; j++) {
+            const double         iq = range * j / current_points;
+            const OperatingPoint at{trip * k / speed_points, iq, mtpa_id_A(d.l, iq)};
+            const double         radius =
+                spectral_radius(sampled_harmonic_model(d.l, table, d.nosc.gain[0], at, ts).A);
+            if (radius > check.spectral_radius) {
+                check.spectral_radius     = radius;
+                check.worst_speed_e_radps = at.omega_e_radps;
+                check.worst_iq_A          = iq;
+            }
+        }
+    }
+    const OperatingPoint  at{d.drive.harmonics.weight_speed_e_radps, 0.0, 0.0};
+    const HarmonicSampled loop = sampled_harmonic_model(d.l, table, d.nosc.gain[0], at, ts);
+    check.speed_loop =
+        check_loop({loop.A, loop.b_voltage, loop.c_voltage, ts}, disturbance_frequencies(d.drive));
+}
+
+void certify_harmonics(Design &d)
+{
+    HarmonicCheck &check = d.harmonic_check;
+    sweep(d);
+    for (const HarmonicNode &node : d.harmonics->nodes) {
+        check.worst_residual = std::max(check.worst_residual, node.residual);
+    }
+    std::vector<std::string> &failures = d.certificate.failures;
+    if (!(check.spectral_radius < 1.0)) {
+        failures.push_back(fmt::format("noc_h: the sampled loop is unstable at {:.0f} rad/s, iq "
+                                       "{:.2f} A: spectral radius {:.5f}",
+                                       check.worst_speed_e_radps, check.worst_iq_A,
+                                       check.spectral_radius));
+    }
+    if (!(check.worst_residual <= residual_limit)) {
+        failures.push_back(fmt::format("noc_h: relative residual {:.1e} exceeds {:.0e}",
+                                       check.worst_residual, residual_limit));
+    }
+}
+
+void solve(Design &d)
+{
+    const Motor &m    = d.drive.motor;
+    const double trip = trip_speed_ratio * m.rated_speed_e_radps;
+    solve_near_optimal(d);
+    d.harmonics = design_harmonics(d.l, d.drive, trip, m.max_current_A);
+    certify_harmonics(d);
+    law_noc_h_config_t c{};
+    c.near_optimal = near_optimal_constants(d, true, true);
+    c.plausible    = encoder_limits(d);
+    c.nodo         = *d.harmonics->table;
+    keep_constants(d, c);
+}
+
+std::string summary(const Design &d)
+{
+    const nodo_harmonic_gains_t &t = *d.harmonics->table;
+    const HarmonicCheck         &c = d.harmonic_check;
+    return method_line(
+               fmt::format("EQ-NOSC-2 with N = {}, EQ-HARMONIC-3 with {} pairs and {} nodes",
+                           d.drive.nosc.order, t.n_pairs, t.n_nodes)) +
+           residual_line(worst_residual(d)) + controller_line(d.certificate.nosc) +
+           fmt::format(" *            loop:       sampled spectral radius {:.5f} at {:.0f} rad/s, "
+                       "iq {:.2f} A, worst up to {:.0f} rad/s\n"
+                       " *            speed loop: sensitivity peak {:.3g} at {:.0f} Hz\n",
+                       c.spectral_radius, c.worst_speed_e_radps, c.worst_iq_A,
+                       d.harmonics->nodes.back().omega_e_radps, c.speed_loop.peak,
+                       c.speed_loop.peak_Hz);
+}
+
+std::vector<std::string> mismatches(const Design &d)
+{
+    const auto &c   = *constants_of<law_noc_h_config_t>(d.config);
+    auto        all = nosc_mismatches(c.near_optimal);
+    all.insert(all.end(), {fmt::format("NODO_HARMONIC_PAIRS_MAX < {}", c.nodo.n_pairs),
+                           fmt::format("NODO_HARMONIC_NODES_MAX < {}", c.nodo.n_nodes),
+                           fmt::format("NODO_HARMONIC_N_BASE != {}", NODO_HARMONIC_N_BASE),
+                           fmt::format("NODO_HARMONIC_N_G != {}", NODO_HARMONIC_N_G)});
+    return all;
+}
+
+const char *channel_symbol(nodo_harmonic_channel_t channel)
+{
+    switch (channel) {
+    case NODO_HARMONIC_SENSOR:
+        return "NODO_HARMONIC_SENSOR";
+    case NODO_HARMONIC_TORQUE:
+        return "NODO_HARMONIC_TORQUE";
+    case NODO_HARMONIC_VOLTAGE_Q:
+        return "NODO_HARMONIC_VOLTAGE_Q";
+    case NODO_HARMONIC_VOLTAGE_D:
+        return "NODO_HARMONIC_VOLTAGE_D";
+    }
+    return "unknown";
+}
+
+std::string row_label(int row)
+{
+    const char *base[NODO_HARMONIC_N_BASE] = {"d_w", "d_q", "d_d",   "w",
+                                              "iq",  "id",  "theta", "d_w'"};
+    if (row < NODO_HARMONIC_N_BASE) {
+        return base[row];
+    }
+    const int i = row - NODO_HARMONIC_N_BASE;
+    return fmt::format("{}{}", i % 2 == 0 ? 'a' : 'b', i / 2);
+}
+
+std::string nodes_block(const nodo_harmonic_gains_t &g)
+{
+    std::string s = "/* columns iq_A, id_A, theta_e_rad; then the same per ampere of iq */\n";
+    for (int node = 0; node < g.n_nodes; node++) {
+        const double root = node / static_cast<double>(g.nodes_per_root);
+        std::string  rows;
+        for (int i = 0; i < NODO_HARMONIC_N_BASE + 2 * g.n_pairs; i++) {
+            rows += c_row(row_label(i), g.gain[node][i], NODO_HARMONIC_N_G);
+        }
+        s += fmt::format("{{ /* {:.1f} rad/s */\n", root * root) + c_indented(rows) + "},\n";
+    }
+    return c_block("gain", s);
+}
+
+std::string table(const Design &d)
+{
+    const auto                  &c = *constants_of<law_noc_h_config_t>(d.config);
+    const nodo_harmonic_gains_t &g = c.nodo;
+    std::string                  pairs;
+    for (int i = 0; i < g.n_pairs; i++) {
+        pairs += fmt::format("{{ .channel = {}, .order = {} }},\n",
+                             channel_symbol(g.pair[i].channel), c_number(g.pair[i].order));
+    }
+    return near_optimal_block(c.near_optimal) + limits_block(c.plausible) +
+           c_block("nodo", c_field("n_pairs", g.n_pairs) + c_field("n_nodes", g.n_nodes) +
+                               c_field("iq_max_A", g.iq_max_A) +
+                               c_field("nodes_per_root", g.nodes_per_root) +
+                               c_field("keep", g.keep) + c_field("keep_fast", g.keep_fast) +
+                               (g.n_pairs > 0 ? c_block("pair", pairs) : "") + // {} is not C99
+                               nodes_block(g));
+}
+
+} // namespace
+
+const LawDesign noc_h_design = {"law_noc_h", "law_noc_h_config_t", is_for, solve,
+                                summary,     mismatches,           table};
+
+} // namespace sdre

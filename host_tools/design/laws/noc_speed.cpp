@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "design/laws/near_optimal.hpp"
+
+namespace sdre {
+namespace {
+
+bool is_for(const Drive &drive)
+{
+    return drive.law == Law::noc && drive.nodo.form == NodoForm::speed;
+}
+
+void solve(Design &d)
+{
+    solve_near_optimal(d);
+    law_noc_speed_config_t c{};
+    c.near_optimal        = near_optimal_constants(d, false, true); // the paper's second order
+    c.nodo.order          = static_cast<int16_t>(d.drive.nodo.order);
+    c.nodo.iq_max_A       = static_cast<float>(d.certificate.nodo.series_range_A);
+    c.nodo.iq_certified_A = static_cast<float>(d.certificate.nodo.range_A);
+    copy_series(d.nodo, c.nodo.gain);
+    keep_constants(d, c);
+}
+
+std::string summary(const Design &d)
+{
+    return method_line(fmt::format("EQ-NOSC-2 with N = {}, EQ-NODO-2 with Nd = {}",
+                                   d.drive.nosc.order, d.drive.nodo.order)) +
+           residual_line(worst_residual(d)) + controller_line(d.certificate.nosc) +
+           observer_line(d.certificate.nodo);
+}
+
+std::vector<std::string> mismatches(const Design &d)
+{
+    const auto &c   = *constants_of<law_noc_speed_config_t>(d.config);
+    auto        all = nosc_mismatches(c.near_optimal);
+    all.insert(all.end(), {fmt::format("NODO_ORDER_MAX < {}", c.nodo.order), "NODO_N_X != 6",
+                           "NODO_N_Y != 3"});
+    return all;
+}
+
+std::string table(const Design &d)
+{
+    const auto &c = *constants_of<law_noc_speed_config_t>(d.config);
+    return near_optimal_block(c.near_optimal) +
+           c_block("nodo", c_field("order", c.nodo.order) + c_field("iq_max_A", c.nodo.iq_max_A) +
+                               c_field("iq_certified_A", c.nodo.iq_certified_A) +
+                               gain_block("omega_e_radps             iq_A             id_A",
+                                          {"d_w", "d_q", "d_d", "w", "iq", "id"}, c.nodo.order,
+                                          c.nodo.gain));
+}
+
+} // namespace
+
+const LawDesign noc_speed_design = {
+    "law_noc_speed", "law_noc_speed_config_t", is_for, solve, summary, mismatches, table};
+
+} // namespace sdre

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+/// What the designs of paper B's laws share.
+#pragma once
+
+#include "common/c_text.hpp"
+#include "design/laws/laws.hpp"
+
+namespace sdre {
+
+/// The PI that keeps id at zero.
+pid_law_config_t d_axis_constants(const Drive &drive);
+
+/// Checks the loops with the constants that the configuration has by now.
+void certify_servo(Design &design);
+
+/// Method, then a line for each loop.
+std::string servo_summary(const Design &design, const std::string &method);
+
+/// ".name = {..},\n"
+std::string pid_block(const char *name, const pid_law_config_t &c);
+
+} // namespace sdre
