@@ -111,7 +111,7 @@ app_scale_sample_t app_scale_sample(const app_scale_t *s, const board_sample_t *
 
 static uint16_t compare_cnt(float duty)
 {
-    return (uint16_t)((base_clamp(duty, 0.0f, 1.0f) * (float)BOARD_DUTY_FULL) + 0.5f);
+    return (uint16_t)((duty * (float)BOARD_DUTY_FULL) + 0.5f);
 }
 
 board_duty_t app_scale_duty(abc_t duty)

@@ -61,7 +61,7 @@ bool app_scale_set_zero(app_scale_t *s, uint32_t sum_a_cnt, uint32_t sum_b_cnt, 
 /** Context: control ISR. No division of floats. */
 app_scale_sample_t app_scale_sample(const app_scale_t *s, const board_sample_t *raw);
 
-/** Nearest compare values; ratios are limited to [0, 1], what is not a number is 0. Context: control ISR. */
+/** Nearest compare values of the ratios of a bridge_t, which are in [0, 1]. Context: control ISR. */
 board_duty_t app_scale_duty(abc_t duty);
 
 #endif /* APP_SCALE_H */

@@ -36,6 +36,8 @@ static const law_noc_config_t constants = {
             .order = 2,
             .iq_error_max_A = 2.62500000e+00f,
             .iq_speed_max_A = 1.00000000e+00f,
+            .speed_A_per_radps = 2.79663742e-01f,
+            .speed_radps_per_A = 3.57572269e+00f,
             .lambda = {
                 { /* n = 0 */
                     /*             omega_e_radps             iq_A             id_A */

@@ -6,7 +6,7 @@
 static float compensate(const dead_time_config_t *c, float duty, float i_A)
 {
     const float direction = base_clamp(i_A * c->inv_fade_1pA, -1.0f, 1.0f);
-    return base_clamp(duty + (c->share * direction), 0.0f, 1.0f); /* EQ-DEAD-TIME-1 */
+    return duty + (c->share * direction); /* EQ-DEAD-TIME-1 */
 }
 
 abc_t dead_time_compensate(const dead_time_config_t *c, abc_t duty, abc_t i_A)

@@ -23,7 +23,7 @@ typedef struct {
 /** true when every constant is finite and within its documented range. Context: init. */
 bool dead_time_check(const dead_time_config_t *c);
 
-/** Duty ratios with EQ-DEAD-TIME-1 added, limited to [0, 1]. Context: control ISR. No division. */
+/** Duty ratios with EQ-DEAD-TIME-1 added; bridge_closed() limits them. Context: control ISR. No division. */
 abc_t dead_time_compensate(const dead_time_config_t *c, abc_t duty, abc_t i_A);
 
 #endif /* DEAD_TIME_H */

@@ -7,14 +7,14 @@
  *     x_d =  x_alpha cos + x_beta sin,
  *     x_q = -x_alpha sin + x_beta cos                       EQ-FRAMES-2
  *
- * Context: control ISR. Pure; one sine and one cosine per frames_angle().
+ * Context: control ISR. Pure.
  */
 #ifndef FRAMES_H
 #define FRAMES_H
 
-#include <math.h>
-
 #include "base.h"
+
+#define FRAMES_ANGLE_MAX (4.0f * BASE_TWO_PI)
 
 /* Inline, because a call costs more than the arithmetic. In C and C++: members are set in their order. */
 
@@ -24,12 +24,21 @@ typedef struct {
     float sin;
 } frames_angle_t;
 
-/** @param theta_e_rad electrical angle of the d axis from phase a; any finite value, best in +-2 pi. */
-static inline frames_angle_t frames_angle(float theta_e_rad)
-{
-    const frames_angle_t angle = {cosf(theta_e_rad), sinf(theta_e_rad)};
-    return angle;
-}
+/**
+ * @brief Cosine and sine of an angle, the same bits on every machine.
+ *
+ * The angle less its multiple of pi/2 is at most pi/4; there both are polynomials:
+ *
+ *     sin r = r + r^3 (s_1 + s_2 r^2 + s_3 r^4),  cos r = 1 - r^2 / 2 + r^4 (c_1 + c_2 r^2 + c_3 r^4)   EQ-FRAMES-3
+ *
+ * Worst error 9e-8 (tests/unit/test_frames.c), as that of a correctly rounded result twice.
+ *
+ * @param theta_e_rad electrical angle of the d axis from phase a, +-FRAMES_ANGLE_MAX; beyond it, and for a NaN, the
+ *                    result is a unit vector of no meaning.
+ *
+ * Context: control ISR. No division.
+ */
+frames_angle_t frames_angle(float theta_e_rad);
 
 /** Phase currents a and b to the stator frame. */
 static inline ab_t frames_clarke(float a, float b)

@@ -3,6 +3,8 @@
 
 #include "check.h"
 
+enum { COLUMN_ID = 2 };
+
 void nodo_reset(nodo_t *x, const nodo_meas_t *y)
 {
     x->d_omega       = 0.0f;
@@ -21,9 +23,9 @@ void nodo_update(nodo_t *x, const nodo_gains_t *g, const motor_reduced_t *m, con
     const float id   = x->id_A;
     const float iq_A = base_clamp(iq, -g->iq_max_A, g->iq_max_A);
     /* Beyond the range in which the held gain is certified, the products of estimates would outrun it. */
-    const float iq_s        = base_clamp(iq, -g->iq_certified_A, g->iq_certified_A);
-    float       r[NODO_N_Y] = {ts_s * (y->omega_e_radps - w), ts_s * (y->iq_A - iq),
-                               ts_s * (y->id_A - id)};
+    const float       iq_s = base_clamp(iq, -g->iq_certified_A, g->iq_certified_A);
+    nodo_innovation_t r    = {.odd = {ts_s * (y->omega_e_radps - w), ts_s * (y->iq_A - iq)},
+                              .id  = ts_s * (y->id_A - id)};
 
     /* EQ-NODO-1: the rows of A_d(iq^) x^ + u_d. */
     x->omega_e_radps += ts_s * ((m->l1 * iq) - (m->l2 * w) + (m->l11 * iq_s * id) + x->d_omega);
@@ -33,10 +35,8 @@ void nodo_update(nodo_t *x, const nodo_gains_t *g, const motor_reduced_t *m, con
 
     /* EQ-NODO-2: L_n meets iq^^n Ts (y - C_d x^); L itself is never formed. */
     for (int16_t n = 0; n <= g->order; n++) {
-        nodo_add_correction(x, g->gain[n], r);
-        r[0] *= iq_A;
-        r[1] *= iq_A;
-        r[2] *= iq_A;
+        nodo_add_correction(x, g->gain[n], ((uint16_t)n & 1U) == 0U, COLUMN_ID, &r);
+        r = nodo_next_power(r, iq_A);
     }
 }
 

@@ -41,7 +41,7 @@ bool nodo_encoder_check(const nodo_encoder_gains_t *g);
  * @param angle_error Measured minus estimated angle [rad], within +-pi.
  * @param ts_s        Control period [s].
  *
- * Context: control ISR. No division, 24 (Nd+1) + 3 multiplications.
+ * Context: control ISR. No division, 15 (Nd+1) + 3 multiplications at most.
  */
 void nodo_encoder_correct(nodo_t *x, float *theta_rad, const nodo_encoder_gains_t *g, dq_t i_A,
                           float angle_error, float ts_s);

@@ -26,9 +26,11 @@ typedef struct {
 
 /** One motor's gains for one control period. */
 typedef struct {
-    int16_t order;          /**< N, 0 .. NOSC_ORDER_MAX */
-    float   iq_error_max_A; /**< certified for |e_iq| <= this; > 0 */
-    float   iq_speed_max_A; /**< most q current that the speed error may ask for; > 0 */
+    int16_t order;             /**< N, 0 .. NOSC_ORDER_MAX */
+    float   iq_error_max_A;    /**< certified for |e_iq| <= this; > 0 */
+    float   iq_speed_max_A;    /**< most q current that the speed error may ask for; > 0 */
+    float   speed_A_per_radps; /**< k_w / k_iq of Lambda_0, EQ-NOSC-3; >= 0 */
+    float   speed_radps_per_A; /**< k_iq / k_w; 0 when the speed error asks for nothing */
     float   lambda[NOSC_ORDER_MAX + 1][NOSC_N_U][NOSC_N_E]; /**< Lambda_n; k_iq > 0 */
 } nosc_gains_t;
 
@@ -38,7 +40,7 @@ bool nosc_check(const nosc_gains_t *g);
 /**
  * @brief The q current that the speed error asks for, -(k_w / k_iq) e_w within +-iq_speed_max_A (EQ-NOSC-3).
  *
- * Context: control ISR. One division.
+ * Context: control ISR. No division.
  */
 float nosc_speed_current_A(const nosc_gains_t *g, float omega_error_e_radps);
 
@@ -65,7 +67,10 @@ nosc_error_t nosc_limit_speed_error(const nosc_gains_t *g, nosc_error_t e, float
  * Beyond g->iq_error_max_A the gain is held at its boundary value: a truncated power series is only
  * trustworthy where it was certified.
  *
- * Context: control ISR. Pure, no division, 8 (N+1) multiply-adds.
+ * With id mirrored in the d axis the motor is its own mirror image, so that half of every Lambda_n is zero: an even n
+ * has speed and iq in v_q and id in v_d, an odd n the other way round.
+ *
+ * Context: control ISR. Pure, no division, 5 (N+1) multiply-adds.
  */
 dq_t nosc_feedback_V(const nosc_gains_t *g, const nosc_error_t *e);
 

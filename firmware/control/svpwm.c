@@ -20,9 +20,9 @@ abc_t svpwm_duty(ab_t v_V, float v_dc_V)
     const float inv_V  = 1.0f / v_dc_V;
 
     const abc_t duty = {/* EQ-SVPWM-1 */
-                        .a = base_clamp(0.5f + ((v.a - centre) * inv_V), 0.0f, 1.0f),
-                        .b = base_clamp(0.5f + ((v.b - centre) * inv_V), 0.0f, 1.0f),
-                        .c = base_clamp(0.5f + ((v.c - centre) * inv_V), 0.0f, 1.0f)};
+                        .a = 0.5f + ((v.a - centre) * inv_V),
+                        .b = 0.5f + ((v.b - centre) * inv_V),
+                        .c = 0.5f + ((v.c - centre) * inv_V)};
     return duty;
 }
 

@@ -20,7 +20,7 @@
  *
  * @param v_V     Wanted stator voltage.
  * @param v_dc_V  Measured dc-link voltage [V], > 0.
- * @return        Three ratios in [0, 1]; outside the linear range they are clipped.
+ * @return        Three ratios, in [0, 1] within the linear range; bridge_closed() limits them.
  *
  * Context: control ISR. One division.
  */

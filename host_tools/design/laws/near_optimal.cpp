@@ -143,6 +143,8 @@ std::string nosc_block(const nosc_gains_t &g)
     }
     return c_block("nosc", c_field("order", g.order) + c_field("iq_error_max_A", g.iq_error_max_A) +
                                c_field("iq_speed_max_A", g.iq_speed_max_A) +
+                               c_field("speed_A_per_radps", g.speed_A_per_radps) +
+                               c_field("speed_radps_per_A", g.speed_radps_per_A) +
                                c_block("lambda", terms));
 }
 
@@ -167,6 +169,10 @@ near_optimal_config_t near_optimal_constants(const Design &d, bool exact_mtpa, b
     for (std::size_t n = 0; n <= static_cast<std::size_t>(c.nosc.order); n++) {
         copy_matrix(d.nosc.gain[n], c.nosc.lambda[n]);
     }
+    const double k_w         = d.nosc.gain[0](0, 0);
+    const double k_iq        = d.nosc.gain[0](0, 1);
+    c.nosc.speed_A_per_radps = single(k_w > 0.0 ? k_w / k_iq : 0.0);
+    c.nosc.speed_radps_per_A = single(k_w > 0.0 ? k_iq / k_w : 0.0);
     return c;
 }
 

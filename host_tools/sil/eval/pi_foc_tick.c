@@ -23,7 +23,7 @@ static float pi_step(float error, float p, float i, float limit, float *sum)
     return limited;
 }
 
-drive_output_t pi_foc_tick(pi_foc_t *c, const drive_sample_t *s, const drive_command_t *command)
+bridge_t pi_foc_tick(pi_foc_t *c, const drive_sample_t *s, const drive_command_t *command)
 {
     const pi_foc_gains_t *g = &c->gains;
     const dq_t i = frames_park(frames_clarke(s->ia_A, s->ib_A), frames_angle(s->theta_e_rad));
@@ -37,8 +37,5 @@ drive_output_t pi_foc_tick(pi_foc_t *c, const drive_sample_t *s, const drive_com
 
     const float theta = s->theta_e_rad + (1.5f * g->ts_s * s->omega_e_radps); /* as EQ-DRIVE-2 */
     const dq_t  v_V   = {.d = v_d, .q = v_q};
-    const drive_output_t out = {
-        .duty        = svpwm_duty(frames_inverse_park(v_V, frames_angle(theta)), s->dc_link_V),
-        .gate_enable = true};
-    return out;
+    return bridge_closed(svpwm_duty(frames_inverse_park(v_V, frames_angle(theta)), s->dc_link_V));
 }

@@ -34,7 +34,6 @@ typedef struct {
 void pi_foc_init(pi_foc_t *c, const pi_foc_gains_t *gains);
 
 /** One control period; reads speed and angle of the sample. */
-drive_output_t pi_foc_tick(pi_foc_t *c, const drive_sample_t *sample,
-                           const drive_command_t *command);
+bridge_t pi_foc_tick(pi_foc_t *c, const drive_sample_t *sample, const drive_command_t *command);
 
 #endif /* PI_FOC_TICK_H */
