@@ -2,6 +2,7 @@
 #include "nodo_encoder.h"
 
 #include "gain_tables.h"
+#include "law_constants.h"
 #include "unit_support.h"
 #include "unity.h"
 
@@ -25,7 +26,7 @@ static float                theta_rad;
 void setUp(void)
 {
     random_state.state = 31u;
-    gains              = gain_tables_drive.nodo_encoder;
+    gains              = law_constants_noc(&gain_tables_drive)->nodo;
     motor              = gain_tables_drive.motor;
     x                  = support_random_estimate(&random_state);
     theta_rad          = 0.5f;
