@@ -159,11 +159,13 @@ TEST(Conventional, SeriesApproachesTheExactSolutionAsItsOrderSays)
 TEST(Conventional, FirmwareTablesHoldTheGainAtEveryPoint)
 {
     for (const char *disturbances : {"load", "all"}) {
-        const sdre::Design          d = sdre::design_drive(drive(disturbances, 2));
-        const conventional_gains_t &c = d.config.conventional;
-        EXPECT_EQ(d.config.law, DRIVE_LAW_CONVENTIONAL);
-        EXPECT_EQ(d.config.nosc.order, 0);
-        EXPECT_NEAR(static_cast<double>(d.config.nosc.lambda[0][0][1]), d.nosc.gain[0](0, 1), 1e-4);
+        const sdre::Design d         = sdre::design_drive(drive(disturbances, 2));
+        const auto        *constants = sdre::constants_of<law_conventional_config_t>(d.config);
+        ASSERT_TRUE(constants != nullptr);
+        const conventional_gains_t &c    = constants->gains;
+        const nosc_gains_t         &nosc = constants->near_optimal.nosc;
+        EXPECT_EQ(nosc.order, 0);
+        EXPECT_NEAR(static_cast<double>(nosc.lambda[0][0][1]), d.nosc.gain[0](0, 1), 1e-4);
         const std::vector<double>   s{0.9, -0.7};
         const double_series_point_t at{0.9F, -0.7F};
         const MatrixXd              Lambda = sdre::series_gain(d.nosc, s, 2);

@@ -93,16 +93,30 @@ MatrixXd output_matrix()
     return C;
 }
 
+/// Constants of the law that a drive was designed for; a drive of another law is a mistake of the test.
+const law_noc_speed_config_t &of_speed_form(const drive_config_t &c)
+{
+    const auto *constants = sdre::constants_of<law_noc_speed_config_t>(c);
+    return constants != nullptr ? *constants : throw std::logic_error("not the speed form");
+}
+
+const law_noc_config_t &of_encoder_form(const drive_config_t &c)
+{
+    const auto *constants = sdre::constants_of<law_noc_config_t>(c);
+    return constants != nullptr ? *constants : throw std::logic_error("not the encoder form");
+}
+
 /// The gain the firmware would use at s: its own single-precision coefficients, held at the ends.
 MatrixXd nosc_gain(const drive_config_t &c, double s)
 {
-    const double x = std::clamp(s, -static_cast<double>(c.nosc.iq_error_max_A),
-                                static_cast<double>(c.nosc.iq_error_max_A));
-    MatrixXd     K = MatrixXd::Zero(2, 3);
-    for (int n = 0; n <= c.nosc.order; n++) {
+    const nosc_gains_t &g   = of_speed_form(c).near_optimal.nosc;
+    const auto          end = static_cast<double>(g.iq_error_max_A);
+    const double        x   = std::clamp(s, -end, end);
+    MatrixXd            K   = MatrixXd::Zero(2, 3);
+    for (int n = 0; n <= g.order; n++) {
         for (int i = 0; i < 2; i++) {
             for (int j = 0; j < 3; j++) {
-                K(i, j) += std::pow(x, n) * static_cast<double>(c.nosc.lambda[n][i][j]);
+                K(i, j) += std::pow(x, n) * static_cast<double>(g.lambda[n][i][j]);
             }
         }
     }
@@ -111,13 +125,14 @@ MatrixXd nosc_gain(const drive_config_t &c, double s)
 
 MatrixXd nodo_gain(const drive_config_t &c, double s)
 {
-    const double x =
-        std::clamp(s, -static_cast<double>(c.nodo.iq_max_A), static_cast<double>(c.nodo.iq_max_A));
-    MatrixXd L = MatrixXd::Zero(6, 3);
-    for (int n = 0; n <= c.nodo.order; n++) {
+    const nodo_gains_t &g   = of_speed_form(c).nodo;
+    const auto          end = static_cast<double>(g.iq_max_A);
+    const double        x   = std::clamp(s, -end, end);
+    MatrixXd            L   = MatrixXd::Zero(6, 3);
+    for (int n = 0; n <= g.order; n++) {
         for (int i = 0; i < 6; i++) {
             for (int j = 0; j < 3; j++) {
-                L(i, j) += std::pow(x, n) * static_cast<double>(c.nodo.gain[n][i][j]);
+                L(i, j) += std::pow(x, n) * static_cast<double>(g.gain[n][i][j]);
             }
         }
     }
@@ -235,7 +250,7 @@ MatrixXd encoder_output()
 /// The firmware's own coefficients, held at the ends of the series.
 MatrixXd encoder_gain(const drive_config_t &c, double s)
 {
-    const nodo_encoder_gains_t &g   = c.nodo_encoder;
+    const nodo_encoder_gains_t &g   = of_encoder_form(c).nodo;
     const auto                  end = static_cast<double>(g.iq_max_A);
     const double                x   = std::clamp(s, -end, end);
     MatrixXd                    L   = MatrixXd::Zero(7, 3);
@@ -536,27 +551,30 @@ TEST(Design, FirmwareConstantsFollowTheirDefinitions)
     near(c.trip_speed_e_radps, 3.0 * 523.0);
     near(c.dc_link_min_V, 0.3 * 295.0);
     near(c.dc_link_max_V, 1.35 * 295.0);
-    near(c.current_ref.current_max_A, 4.0);
-    near(c.trip_angle_rad, 0.45);
-    EXPECT_EQ(c.form, DRIVE_FORM_SPEED);
-    near(c.current_ref.voltage_share, 0.99);
-    near(c.nosc.iq_speed_max_A, 1.0); // a quarter of 4 A
-    near(c.current_ref.torque_share, 0.98);
-    near(c.current_ref.filter_per_period, 0.125);
-    near(c.current_ref.filter_1ps, 625.0);
-    near(c.current_ref.near_e_radps, 2.0 * 4.0 * d.nosc.gain[0](0, 1) / d.nosc.gain[0](0, 0));
-    near(c.current_ref.l1_min, 0.5 * 1.5 * 4 * m.pm_flux_Wb / m.inertia_kgm2);
+    near(c.current_max_A, 4.0);
+    ASSERT_EQ(c.law, &law_noc_speed);
+    const near_optimal_config_t &shared = of_speed_form(c).near_optimal;
+    const current_ref_config_t  &ref    = shared.current_ref;
+    near(ref.current_max_A, 4.0);
+    near(of_encoder_form(shipped("ipmsm_390w").config).plausible.angle_rad, 0.45);
+    near(ref.voltage_share, 0.99);
+    near(shared.nosc.iq_speed_max_A, 1.0); // a quarter of 4 A
+    near(ref.torque_share, 0.98);
+    near(ref.filter_per_period, 0.125);
+    near(ref.filter_1ps, 625.0);
+    near(ref.near_e_radps, 2.0 * 4.0 * d.nosc.gain[0](0, 1) / d.nosc.gain[0](0, 0));
+    near(ref.l1_min, 0.5 * 1.5 * 4 * m.pm_flux_Wb / m.inertia_kgm2);
     near(c.dead_time.share, 3e-6 * 5000.0);
     near(c.dead_time.inv_fade_1pA, 1.0 / (0.025 * 4.0));
     const double k = (m.d_axis_inductance_H - m.q_axis_inductance_H) / m.pm_flux_Wb;
-    near(c.current_ref.mtpa_A, -0.5 / k);
-    EXPECT_FALSE(c.current_ref.mtpa_exact);
-    const auto iq = static_cast<double>(c.current_ref.iq_max_A);
+    near(ref.mtpa_A, -0.5 / k);
+    EXPECT_FALSE(ref.mtpa_exact);
+    const auto iq = static_cast<double>(ref.iq_max_A);
     EXPECT_NEAR(std::hypot(iq, k * iq * iq), 4.0, 4.0 * single);
     const double regen_W = 1.5 * 295.0 / std::sqrt(3.0) * 4.0; // the largest active power
-    near(c.current_ref.regen_max_W_norm, 4.0 / m.inertia_kgm2 * regen_W);
-    near(c.current_ref.regen_start_V, 1.10 * 295.0);
-    near(c.current_ref.regen_per_V, 1.0 / (0.15 * 295.0));
+    near(ref.regen_max_W_norm, 4.0 / m.inertia_kgm2 * regen_W);
+    near(ref.regen_start_V, 1.10 * 295.0);
+    near(ref.regen_per_V, 1.0 / (0.15 * 295.0));
 }
 
 TEST(Design, OvermodulationIsPassedOn)
@@ -578,21 +596,23 @@ TEST(Design, DeadTimeCompensationSwitchedOffIsAZeroShare)
 
 TEST(Design, SurfaceMagnetMotorMayUseTheWholeCircle)
 {
-    const drive_config_t &c = shipped("servo_200w").config;
+    const current_ref_config_t &ref =
+        of_speed_form(shipped("servo_200w").config).near_optimal.current_ref;
 
-    EXPECT_EQ(c.current_ref.iq_max_A, 5.0F);
-    EXPECT_GE(c.current_ref.mtpa_A, 1e5F); // no d current worth a millionth of the q current
+    EXPECT_EQ(ref.iq_max_A, 5.0F);
+    EXPECT_GE(ref.mtpa_A, 1e5F); // no d current worth a millionth of the q current
 }
 
 TEST(Design, ExactMtpaGivesTheMostTorqueOnTheCircle)
 {
     constexpr double    tolerance = 1e-6; // of the torque; measured rounding only
     const sdre::Design &d         = shipped("ipmsm_390w");
-    const auto          iq        = static_cast<double>(d.config.current_ref.iq_max_A);
+    const auto         &ref       = of_encoder_form(d.config).near_optimal.current_ref;
+    const auto          iq        = static_cast<double>(ref.iq_max_A);
     const double        max_A     = d.drive.motor.max_current_A;
     const double found = sdre::torque_Nm(d.drive.motor, -std::sqrt(max_A * max_A - iq * iq), iq);
 
-    EXPECT_TRUE(d.config.current_ref.mtpa_exact);
+    EXPECT_TRUE(ref.mtpa_exact);
     for (int i = 0; i <= 900; i++) {
         const double angle = 1.5707963 * i / 900.0;
         const double torque =
@@ -619,29 +639,30 @@ TEST(Design, FirmwareGainsAreTheSeriesInSinglePrecisionWithoutNoise)
 {
     constexpr double single = 1.2e-7;
     for (const std::string name : {"ipmsm_390w_speed", "servo_200w"}) {
-        const sdre::Design &d = shipped(name);
-        ASSERT_EQ(d.config.nosc.order, 2);
-        ASSERT_EQ(d.config.nodo.order, 2);
+        const sdre::Design &d    = shipped(name);
+        const nosc_gains_t &nosc = of_speed_form(d.config).near_optimal.nosc;
+        const nodo_gains_t &nodo = of_speed_form(d.config).nodo;
+        ASSERT_EQ(nosc.order, 2);
+        ASSERT_EQ(nodo.order, 2);
         for (std::size_t n = 0; n <= 2; n++) {
             for (int j = 0; j < 3; j++) {
                 for (int i = 0; i < 2; i++) {
                     const double x = d.nosc.gain[n](i, j);
-                    const double f = static_cast<double>(d.config.nosc.lambda[n][i][j]);
+                    const double f = static_cast<double>(nosc.lambda[n][i][j]);
                     EXPECT_NEAR(f, x, single * std::abs(x) + 1e-12 * d.nosc.gain[n].norm());
                 }
                 for (int i = 0; i < 6; i++) {
                     const double x = d.nodo.gain[n](i, j);
-                    const double f = static_cast<double>(d.config.nodo.gain[n][i][j]);
+                    const double f = static_cast<double>(nodo.gain[n][i][j]);
                     EXPECT_NEAR(f, x, single * std::abs(x) + 1e-12 * d.nodo.gain[n].norm());
                 }
             }
         }
-        EXPECT_EQ(d.config.nosc.lambda[0][0][2], 0.0F); // exact zero, not rounding noise
-        EXPECT_EQ(d.config.nosc.lambda[0][1][0], 0.0F);
-        EXPECT_EQ(d.config.nodo.gain[0][0][2], 0.0F);
-        EXPECT_EQ(d.config.nosc.iq_error_max_A,
-                  static_cast<float>(d.certificate.nosc.series_range_A));
-        EXPECT_EQ(d.config.nodo.iq_max_A, static_cast<float>(d.certificate.nodo.series_range_A));
+        EXPECT_EQ(nosc.lambda[0][0][2], 0.0F); // exact zero, not rounding noise
+        EXPECT_EQ(nosc.lambda[0][1][0], 0.0F);
+        EXPECT_EQ(nodo.gain[0][0][2], 0.0F);
+        EXPECT_EQ(nosc.iq_error_max_A, static_cast<float>(d.certificate.nosc.series_range_A));
+        EXPECT_EQ(nodo.iq_max_A, static_cast<float>(d.certificate.nodo.series_range_A));
     }
 }
 
@@ -650,7 +671,7 @@ TEST(Design, EncoderFormIsCertified)
     const sdre::Design &d = shipped("ipmsm_390w");
 
     EXPECT_TRUE(d.certificate.passed());
-    EXPECT_EQ(d.config.form, DRIVE_FORM_ENCODER);
+    EXPECT_EQ(d.config.law, &law_noc);
     EXPECT_EQ(drive_config_check(&d.config), CTL_OK);
     for (const double residual : d.nodo.residuals) {
         EXPECT_LE(residual, 1e-10);

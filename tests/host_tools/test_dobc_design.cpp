@@ -180,11 +180,16 @@ TEST(ServoLoop, RepairedDesignNotchesItsHarmonics)
 /// What the half sample of lead is worth.
 TEST(ServoLoop, WithoutLeadTheNotchesAreShallow)
 {
-    const sdre::Drive drive  = shipped("cdobc");
-    drive_config_t    config = sdre::design_drive(drive).config;
+    const sdre::Drive  drive  = shipped("cdobc");
+    const sdre::Design design = sdre::design_drive(drive);
+    const auto        *solved = sdre::constants_of<law_dobc_config_t>(design.config);
+    ASSERT_TRUE(solved != nullptr);
+    law_dobc_config_t constants = *solved;
+    drive_config_t    config    = design.config;
+    sdre::set_law(config, constants);
     for (const int i : {1, 3}) {
-        config.servo.dobc.k_x[i]     = 0.026F;
-        config.servo.dobc.k_x[i + 1] = 0.0F;
+        constants.dobc.k_x[i]     = 0.026F;
+        constants.dobc.k_x[i + 1] = 0.0F;
     }
     const sdre::SampledServoLoop loop = sdre::speed_loop(drive.motor, config);
 
@@ -205,8 +210,8 @@ TEST(ServoLoop, PrintedDesignIsRejected)
 TEST(ServoLoop, DAxisAgreesWithItsTransferFunction)
 {
     const sdre::Drive            d      = shipped("pid");
-    const drive_config_t         config = sdre::design_drive(d).config;
-    const sdre::SampledServoLoop loop   = sdre::d_axis_loop(d.motor, config);
+    const sdre::Design           design = sdre::design_drive(d);
+    const sdre::SampledServoLoop loop   = sdre::d_axis_loop(d.motor, design.config);
     const double                 pole   = std::exp(-9.7 / 0.026 * ts_s);
     for (const double f : {10.0, 200.0, 1400.0, 4000.0}) {
         const std::complex<double> z     = std::polar(1.0, 2.0 * std::acos(-1.0) * f * ts_s);

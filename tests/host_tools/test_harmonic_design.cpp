@@ -88,8 +88,7 @@ VectorXd firmware_step(const sdre::Design &d, const VectorXd &x, const dq_t &i_A
 {
     const nodo_harmonic_gains_t &t = *d.harmonics->table;
     nodo_harmonic_t              s = state_of(x, t.n_pairs);
-    nodo_harmonic_correct(&s, &t, i_A,
-                          nodo_encoder_wrap(static_cast<float>(theta_rad) - s.theta_rad));
+    nodo_harmonic_correct(&s, &t, i_A, frames_wrap(static_cast<float>(theta_rad) - s.theta_rad));
     const nodo_harmonic_view_t view =
         nodo_harmonic_predict(&s, &t, &d.config.motor, voltage_V, d.config.ts_s);
     const VectorXd after = rows_of(s, t.n_pairs);

@@ -116,8 +116,8 @@ public:
             static_cast<float>(std::remainder(plant_.theta_e_rad(), 2 * pi)),
             static_cast<float>(plant_.omega_e_radps()),
             true};
-        const drive_output_t out = drive_tick(&drive_, &sample, &command_);
-        limited_                 = limited_ || drive_.v_limited;
+        const bridge_t out = drive_tick(&drive_, &sample, &command_);
+        limited_           = limited_ || drive_.v_limited;
         plant_.step(voltage_, load_Nm, static_cast<double>(config_.ts_s), 20);
         const auto a = static_cast<double>(out.duty.a);
         const auto c = static_cast<double>(out.duty.c);

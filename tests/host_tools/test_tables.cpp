@@ -71,33 +71,24 @@ void add_observer(std::vector<float> &v, const std::vector<float> &ranges, int o
     }
 }
 
-/// The numbers of a configuration in the order of the structure.
-std::vector<float> values_of(const drive_config_t &c)
+/// What the laws of near optimal control share.
+void add_near_optimal(std::vector<float> &v, const near_optimal_config_t &c)
 {
-    const motor_reduced_t      &m = c.motor;
     const current_ref_config_t &r = c.current_ref;
-    std::vector<float> v{c.ts_s,         c.trip_current_A, c.trip_speed_e_radps, c.trip_angle_rad,
-                         c.trip_d_omega, c.dc_link_min_V,  c.dc_link_max_V};
-    v.insert(v.end(), {m.l1, m.l2, m.l3, m.l4, m.l5, m.l6, m.l7, m.l8, m.l9, m.l10, m.l11, m.inv_l6,
-                       m.inv_l8});
-    v.insert(v.end(), {r.current_max_A, r.iq_max_A, r.mtpa_A, r.voltage_share, r.torque_share,
-                       r.near_e_radps, r.l1_min, r.filter_per_period, r.filter_1ps,
-                       r.regen_max_W_norm, r.regen_start_V, r.regen_per_V, c.dead_time.share,
-                       c.dead_time.inv_fade_1pA, c.nosc.iq_error_max_A, c.nosc.iq_speed_max_A});
+    v.insert(v.end(),
+             {r.current_max_A, r.iq_max_A, r.mtpa_A, r.voltage_share, r.torque_share,
+              r.near_e_radps, r.l1_min, r.filter_per_period, r.filter_1ps, r.regen_max_W_norm,
+              r.regen_start_V, r.regen_per_V, c.nosc.iq_error_max_A, c.nosc.iq_speed_max_A});
     for (int n = 0; n <= c.nosc.order; n++) {
         for (const auto &row : c.nosc.lambda[n]) {
             v.insert(v.end(), std::begin(row), std::end(row));
         }
     }
-    if (c.law == DRIVE_LAW_NOC_H) {
-        return v; // its observer is a table of its own
-    }
-    if (c.form == DRIVE_FORM_ENCODER) {
-        add_observer(v, {c.nodo_encoder.iq_max_A}, c.nodo_encoder.order, c.nodo_encoder.gain);
-    } else {
-        add_observer(v, {c.nodo.iq_max_A, c.nodo.iq_certified_A}, c.nodo.order, c.nodo.gain);
-    }
-    return v;
+}
+
+void add_limits(std::vector<float> &v, const encoder_form_limits_t &limits)
+{
+    v.insert(v.end(), {limits.angle_rad, limits.d_omega});
 }
 
 /// The numbers of the table of noc_h in the order of the structure.
@@ -112,6 +103,41 @@ std::vector<float> values_of(const nodo_harmonic_gains_t &g)
             v.insert(v.end(), std::begin(g.gain[node][row]), std::end(g.gain[node][row]));
         }
     }
+    return v;
+}
+
+/// The numbers of the law's constants in the order of the structure.
+std::vector<float> constants_in(const drive_config_t &c)
+{
+    std::vector<float> v;
+    if (const auto *noc = sdre::constants_of<law_noc_config_t>(c)) {
+        add_near_optimal(v, noc->near_optimal);
+        add_limits(v, noc->plausible);
+        add_observer(v, {noc->nodo.iq_max_A}, noc->nodo.order, noc->nodo.gain);
+    } else if (const auto *speed = sdre::constants_of<law_noc_speed_config_t>(c)) {
+        add_near_optimal(v, speed->near_optimal);
+        add_observer(v, {speed->nodo.iq_max_A, speed->nodo.iq_certified_A}, speed->nodo.order,
+                     speed->nodo.gain);
+    } else {
+        const auto &noc_h = *sdre::constants_of<law_noc_h_config_t>(c);
+        add_near_optimal(v, noc_h.near_optimal);
+        add_limits(v, noc_h.plausible);
+        const std::vector<float> nodo = values_of(noc_h.nodo);
+        v.insert(v.end(), nodo.begin(), nodo.end());
+    }
+    return v;
+}
+
+/// The numbers of a configuration in the order of a table: those of its law come first.
+std::vector<float> values_of(const drive_config_t &c)
+{
+    const motor_reduced_t &m = c.motor;
+    std::vector<float>     v = constants_in(c);
+    v.insert(v.end(), {c.ts_s, c.current_max_A, c.trip_current_A, c.trip_speed_e_radps,
+                       c.dc_link_min_V, c.dc_link_max_V});
+    v.insert(v.end(), {m.l1, m.l2, m.l3, m.l4, m.l5, m.l6, m.l7, m.l8, m.l9, m.l10, m.l11, m.inv_l6,
+                       m.inv_l8});
+    v.insert(v.end(), {c.dead_time.share, c.dead_time.inv_fade_1pA});
     return v;
 }
 
@@ -170,8 +196,11 @@ TEST(Tables, CompiledTableIsTheDesign)
     const std::vector<float> compiled = values_of(gain_tables_drive);
     const std::vector<float> design   = values_of(encoder_form().config);
 
-    EXPECT_EQ(gain_tables_drive.nosc.order, encoder_form().config.nosc.order);
-    EXPECT_EQ(gain_tables_drive.nodo_encoder.order, encoder_form().config.nodo_encoder.order);
+    const auto *table  = sdre::constants_of<law_noc_config_t>(gain_tables_drive);
+    const auto *solved = sdre::constants_of<law_noc_config_t>(encoder_form().config);
+    ASSERT_TRUE(table != nullptr && solved != nullptr);
+    EXPECT_EQ(table->near_optimal.nosc.order, solved->near_optimal.nosc.order);
+    EXPECT_EQ(table->nodo.order, solved->nodo.order);
     ASSERT_EQ(compiled.size(), design.size());
     for (std::size_t i = 0; i < compiled.size(); i++) {
         const auto expected = static_cast<double>(design[i]);
@@ -376,24 +405,25 @@ TEST(Tables, EncoderFormIsWrittenBitForBit)
     const std::vector<float>  design = values_of(config);
     const std::vector<double> found  = literals(text.source);
 
-    ASSERT_EQ(config.form, DRIVE_FORM_ENCODER);
+    ASSERT_EQ(config.law, &law_noc);
     ASSERT_EQ(found.size(), design.size());
     for (std::size_t i = 0; i < found.size(); i++) {
         EXPECT_EQ(static_cast<float>(found[i]), design[i]) << i;
     }
-    EXPECT_TRUE(contains(text.source, ".form = DRIVE_FORM_ENCODER,"));
+    EXPECT_TRUE(contains(text.source, ".law = &law_noc,"));
     EXPECT_TRUE(contains(text.source, ".overmodulation = true,"));
-    EXPECT_TRUE(contains(text.source, ".nodo_encoder = {"));
-    EXPECT_FALSE(contains(text.source, ".nodo = {"));
+    EXPECT_TRUE(contains(text.source, "static const law_noc_config_t constants = {"));
+    EXPECT_TRUE(contains(text.source, "#include \"law_noc.h\""));
+    EXPECT_FALSE(contains(text.source, "law_noc_speed"));
     EXPECT_TRUE(contains(text.source, "/* theta*/"));
-    EXPECT_TRUE(contains(sdre::table_text(speed_form()).source, ".form = DRIVE_FORM_SPEED,"));
+    EXPECT_TRUE(contains(sdre::table_text(speed_form()).source, ".law = &law_noc_speed,"));
     EXPECT_TRUE(contains(sdre::table_text(speed_form()).source, ".overmodulation = false,"));
 }
 
 TEST(Tables, EncoderFormIsWhatItsSeriesSays)
 {
     const sdre::Design         &d = encoder_form();
-    const nodo_encoder_gains_t &g = d.config.nodo_encoder;
+    const nodo_encoder_gains_t &g = sdre::constants_of<law_noc_config_t>(d.config)->nodo;
 
     ASSERT_EQ(static_cast<std::size_t>(g.order) + 1, d.nodo.gain.size());
     for (std::size_t n = 0; n < d.nodo.gain.size(); n++) {
@@ -417,7 +447,7 @@ TEST(Tables, EncoderFormMatchesItselfAndSeesAChange)
 
     EXPECT_EQ(sdre::compare_tables(text, dir.path()), "");
     EXPECT_NE(sdre::compare_tables(sdre::table_text(speed_form()), dir.path()), "");
-    dir.write("gain_tables.c", support::replaced(text.source, "_ENCODER,", "_SPEED,"));
+    dir.write("gain_tables.c", support::replaced(text.source, "&law_noc,", "&law_pid,"));
     EXPECT_TRUE(contains(sdre::compare_tables(text, dir.path()), "gain_tables.c: "));
 }
 
@@ -467,23 +497,23 @@ TEST(Tables, HarmonicsAreWrittenBitForBit)
 {
     ASSERT_GE(harmonic_designs().size(), 2U);
     for (const sdre::Design &design : harmonic_designs()) {
-        const sdre::TableText    text   = sdre::table_text(design);
-        std::vector<float>       values = values_of(*design.config.nodo_harmonic);
-        const std::vector<float> rest   = values_of(design.config);
-        values.insert(values.end(), rest.begin(), rest.end());
-        const std::vector<double> found = literals(text.source);
+        const sdre::TableText     text   = sdre::table_text(design);
+        const std::vector<float>  values = values_of(design.config);
+        const auto               *noc_h  = sdre::constants_of<law_noc_h_config_t>(design.config);
+        const std::vector<double> found  = literals(text.source);
 
+        ASSERT_TRUE(noc_h != nullptr);
         ASSERT_EQ(found.size(), values.size());
         for (std::size_t i = 0; i < found.size(); i++) {
             EXPECT_EQ(static_cast<float>(found[i]), values[i]) << design.drive.name << " " << i;
         }
-        EXPECT_TRUE(contains(text.source, ".law = DRIVE_LAW_NOC_H,"));
-        EXPECT_TRUE(contains(text.source, ".form = DRIVE_FORM_ENCODER,"));
-        EXPECT_TRUE(contains(text.source, ".nodo_harmonic = &harmonic_gains,"));
+        EXPECT_TRUE(contains(text.source, ".law = &law_noc_h,"));
+        EXPECT_TRUE(contains(text.source, "#include \"law_noc_h.h\""));
+        EXPECT_TRUE(contains(text.source, ".constants = &constants,"));
         EXPECT_TRUE(contains(text.source, "NODO_HARMONIC_N_BASE != 8"));
-        EXPECT_TRUE(contains(text.source, fmt::format("NODO_HARMONIC_PAIRS_MAX < {})",
-                                                      design.config.nodo_harmonic->n_pairs)));
-        EXPECT_LT(text.source.find("harmonic_gains = {"),
+        EXPECT_TRUE(contains(text.source,
+                             fmt::format("NODO_HARMONIC_PAIRS_MAX < {})", noc_h->nodo.n_pairs)));
+        EXPECT_LT(text.source.find("law_noc_h_config_t constants = {"),
                   text.source.find("gain_tables_drive = {"));
         EXPECT_TRUE(contains(text.header, "EQ-HARMONIC-3 with"));
         EXPECT_TRUE(contains(text.header, fmt::format("sampled spectral radius {:.5f} at",
@@ -497,16 +527,17 @@ TEST(Tables, CompiledHarmonicTableIsTheDesign)
         std::find_if(harmonic_designs().begin(), harmonic_designs().end(),
                      [](const sdre::Design &d) { return d.drive.name == "ipmsm_390w_noc_h"; });
     ASSERT_NE(design, harmonic_designs().end());
-    const drive_config_t &c = harmonic_tables_drive;
+    const auto *table  = sdre::constants_of<law_noc_h_config_t>(harmonic_tables_drive);
+    const auto *solved = sdre::constants_of<law_noc_h_config_t>(design->config);
 
-    EXPECT_EQ(c.law, DRIVE_LAW_NOC_H);
-    EXPECT_EQ(c.nodo_harmonic->n_pairs, design->config.nodo_harmonic->n_pairs);
-    EXPECT_EQ(c.nodo_harmonic->n_nodes, design->config.nodo_harmonic->n_nodes);
-    for (int i = 0; i < c.nodo_harmonic->n_pairs; i++) {
-        EXPECT_EQ(c.nodo_harmonic->pair[i].channel, design->config.nodo_harmonic->pair[i].channel);
+    ASSERT_TRUE(table != nullptr && solved != nullptr);
+    EXPECT_EQ(table->nodo.n_pairs, solved->nodo.n_pairs);
+    EXPECT_EQ(table->nodo.n_nodes, solved->nodo.n_nodes);
+    for (int i = 0; i < table->nodo.n_pairs; i++) {
+        EXPECT_EQ(table->nodo.pair[i].channel, solved->nodo.pair[i].channel);
     }
-    EXPECT_EQ(values_of(*c.nodo_harmonic), values_of(*design->config.nodo_harmonic));
-    EXPECT_EQ(values_of(c), values_of(design->config));
+    EXPECT_EQ(values_of(table->nodo), values_of(solved->nodo));
+    EXPECT_EQ(values_of(harmonic_tables_drive), values_of(design->config));
 }
 
 TEST(Tables, GenerateAndCheckWithHarmonics)

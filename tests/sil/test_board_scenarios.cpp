@@ -235,11 +235,15 @@ TEST(BoardScenarios, BrakingBehindARectifierStaysBelowTheTrip)
 
 TEST(BoardScenarios, RegenerationLimitKeepsASmallCapacitorFromTripping)
 {
-    sdre::Scenario s                           = shipped("board_regeneration");
-    s.inverter.capacitance_F                   = 0.5e-3;
-    const sdre::Controller limited             = sdre::prepare_controller(s);
-    sdre::Controller       unlimited           = limited;
-    unlimited.config.current_ref.regen_start_V = 1e6F;
+    sdre::Scenario s                 = shipped("board_regeneration");
+    s.inverter.capacitance_F         = 0.5e-3;
+    const sdre::Controller limited   = sdre::prepare_controller(s);
+    sdre::Controller       unlimited = limited;
+    const auto            *table     = sdre::constants_of<law_noc_config_t>(limited.config);
+    ASSERT_TRUE(table != nullptr);
+    law_noc_config_t constants                       = *table;
+    constants.near_optimal.current_ref.regen_start_V = 1e6F;
+    sdre::set_law(unlimited.config, constants);
 
     const sdre::SimulationResult with    = sdre::simulate(s, limited);
     const sdre::SimulationResult without = sdre::simulate(s, unlimited);

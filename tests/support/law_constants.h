@@ -43,6 +43,24 @@ static inline const law_conventional_config_t *law_constants_conventional(const 
     return (d->law == &law_conventional) ? (const law_conventional_config_t *)d->constants : NULL;
 }
 
+static inline const law_dobc_config_t *law_constants_dobc(const drive_config_t *d)
+{
+    return (d->law == &law_dobc) ? (const law_dobc_config_t *)d->constants : NULL;
+}
+
+static inline const law_pid_config_t *law_constants_pid(const drive_config_t *d)
+{
+    return (d->law == &law_pid) ? (const law_pid_config_t *)d->constants : NULL;
+}
+
+/** What the laws of near optimal control share; NULL for any other law. */
+static inline const near_optimal_config_t *law_constants_near_optimal(const drive_config_t *d)
+{
+    const bool is_one = (d->law == &law_noc) || (d->law == &law_noc_speed) ||
+                        (d->law == &law_noc_h) || (d->law == &law_conventional);
+    return is_one ? (const near_optimal_config_t *)d->constants : NULL;
+}
+
 /** A copy of a table of near optimal control, bound to constants that may be changed. */
 static inline drive_config_t law_constants_copy(law_constants_t *to, const drive_config_t *from)
 {

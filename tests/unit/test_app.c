@@ -286,7 +286,7 @@ static void test_modbus_starts_stops_and_resets(void)
     modbus_write(0, 1);
     TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
     TEST_ASSERT_TRUE(fake_board.gate);
-    TEST_ASSERT_TRUE(app_drive()->speed_ref.omega_e_radps > 0.0f);
+    TEST_ASSERT_TRUE(app_drive()->law.noc.near_optimal.speed_ref.omega_e_radps > 0.0f);
     fake_board.sample.dc_link_cnt = 0U;
     both(1);
     fake_board.sample.dc_link_cnt = 2685U;
@@ -403,8 +403,7 @@ static double mean_speed_radps(int count)
 static void start_motor(const drive_config_t *drive)
 {
     config.angle.index_theta_e_rad = (float)(2.0 * MARK_RAD);
-    tolerance_radps =
-        (drive->form == DRIVE_FORM_ENCODER) ? TOL_ENCODER_RADPS : TOL_SPEED_FORM_RADPS;
+    tolerance_radps = (drive->law == &law_noc) ? TOL_ENCODER_RADPS : TOL_SPEED_FORM_RADPS;
     TEST_ASSERT_EQUAL_INT(CTL_OK, app_init(&config, drive));
 }
 

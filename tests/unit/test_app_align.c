@@ -43,9 +43,9 @@ static uint16_t position(void)
     return (uint16_t)((direction > 0) ? forward : (9999 - forward));
 }
 
-static app_align_output_t tick(void)
+static bridge_t tick(void)
 {
-    const app_align_output_t out =
+    const bridge_t out =
         app_align_tick(&align, (float)test_motor_phase_A(&motor, 0),
                        (float)test_motor_phase_A(&motor, 1), (float)motor.v_dc_V, position());
     const double duty[3] = {(double)out.duty.a, (double)out.duty.b, (double)out.duty.c};
@@ -154,7 +154,7 @@ static void test_bridge_stays_open_while_watching(void)
 {
     app_align_start(&align, position());
     for (int n = 1; n < TICKS_WATCH; n++) {
-        const app_align_output_t out = tick();
+        const bridge_t out = tick();
         TEST_ASSERT_FALSE(out.gate_enable);
         TEST_ASSERT_TRUE((out.duty.a == 0.5f) && (out.duty.b == 0.5f) && (out.duty.c == 0.5f));
     }
@@ -213,11 +213,11 @@ static void test_voltage_is_limited_when_no_current_flows(void)
     double       seen_V = 0.0;
     app_align_start(&align, 0U);
     for (int n = 0; n < 4000; n++) {
-        const app_align_output_t out = app_align_tick(&align, 0.0f, 0.0f, 295.0f, 0U);
-        const double a = (double)out.duty.a, b = (double)out.duty.b, c = (double)out.duty.c;
-        const double alpha = 295.0 * ((2.0 * a) - b - c) / 3.0;
-        const double beta  = 295.0 * (b - c) / sqrt(3.0);
-        seen_V             = fmax(seen_V, hypot(alpha, beta));
+        const bridge_t out = app_align_tick(&align, 0.0f, 0.0f, 295.0f, 0U);
+        const double   a = (double)out.duty.a, b = (double)out.duty.b, c = (double)out.duty.c;
+        const double   alpha = 295.0 * ((2.0 * a) - b - c) / 3.0;
+        const double   beta  = 295.0 * (b - c) / sqrt(3.0);
+        seen_V               = fmax(seen_V, hypot(alpha, beta));
     }
     /* the dead time adds 4/3 of its share of the dc link */
     TEST_ASSERT_DOUBLE_WITHIN(0.01, most_V + (4.0 / 3.0 * 0.015 * 295.0), seen_V);
@@ -234,8 +234,7 @@ static void test_current_beyond_the_limit_opens_the_bridge_at_once(void)
             (void)app_align_tick(&align, 3.99f, -1.995f, 295.0f, 0U);
         }
         TEST_ASSERT_EQUAL_INT(APP_ALIGN_SWEEP, align.stage);
-        const app_align_output_t out =
-            app_align_tick(&align, too_much[i][0], too_much[i][1], 295.0f, 0U);
+        const bridge_t out = app_align_tick(&align, too_much[i][0], too_much[i][1], 295.0f, 0U);
         TEST_ASSERT_FALSE(out.gate_enable);
         TEST_ASSERT_EQUAL_INT(APP_ALIGN_FAILED, align.stage);
     }

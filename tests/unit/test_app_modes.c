@@ -14,11 +14,11 @@
 #define CODE_80_degC    1763 /* last code that is above the limit */
 #define CODE_90_degC    1501 /* last code that is above the trip level */
 
-static app_config_t       config;
-static drive_config_t     drive_config;
-static app_modes_t        modes;
-static app_modes_input_t  in;
-static app_modes_output_t out;
+static app_config_t      config;
+static drive_config_t    drive_config;
+static app_modes_t       modes;
+static app_modes_input_t in;
+static bridge_t          out;
 
 static void init(void)
 {
@@ -226,7 +226,7 @@ static void test_run_gets_what_the_drive_gives(void)
     tick();
     for (int n = 0; n < 20; n++) {
         const drive_command_t command = {.omega_e_radps = 50.0f, .run = true};
-        const drive_output_t  want    = drive_tick(&drive, &rest, &command);
+        const bridge_t        want    = drive_tick(&drive, &rest, &command);
         tick();
         TEST_ASSERT_FLOAT_WITHIN(1.0e-6f, want.duty.a, out.duty.a);
         TEST_ASSERT_FLOAT_WITHIN(1.0e-6f, want.duty.b, out.duty.b);
@@ -575,8 +575,9 @@ static void test_status_repeats_what_is_inside(void)
     TEST_ASSERT_EQUAL_UINT(5U, s.board_faults);
     TEST_ASSERT_EQUAL_UINT(3U, s.position_cnt);
     TEST_ASSERT_TRUE(s.gate_enable && !s.hot);
-    TEST_ASSERT_TRUE(s.speed_e_radps == modes.drive.now.omega_e_radps);
-    TEST_ASSERT_TRUE((s.i_A.q == modes.drive.now.iq_A) && (s.i_A.d == modes.drive.now.id_A));
+    TEST_ASSERT_TRUE(s.speed_e_radps == modes.drive.wanted.now.omega_e_radps);
+    TEST_ASSERT_TRUE((s.i_A.q == modes.drive.wanted.now.iq_A) &&
+                     (s.i_A.d == modes.drive.wanted.now.id_A));
     TEST_ASSERT_TRUE((s.i_A.q != 0.0f) && (s.i_A.d > 0.1f));
     TEST_ASSERT_TRUE((s.zero_a_cnt == 2050.0f) && (s.zero_b_cnt == 2041.0f));
     TEST_ASSERT_TRUE((s.v_V.q == modes.drive.v_V.q) && (s.v_V.q != 0.0f));

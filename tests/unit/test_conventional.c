@@ -2,6 +2,7 @@
 #include "conventional.h"
 
 #include "drive_tick.h"
+#include "law_constants.h"
 #include "speed_tables.h"
 #include "unit_support.h"
 #include "unity.h"
@@ -155,76 +156,88 @@ static void test_observer_step_matches_oracle_for_every_order(void)
     }
 }
 
-/* A drive of this law: the one-variable gains of the shipped speed form as its terms of order 0. */
-static drive_config_t conventional_drive(void)
+/* Constants of this law: the one-variable gains of the shipped speed form as its terms of order 0. */
+static law_conventional_config_t conventional_constants(void)
 {
-    drive_config_t c             = speed_tables_drive;
-    c.law                        = DRIVE_LAW_CONVENTIONAL;
-    c.conventional.nosc_order    = 0;
-    c.conventional.nodo_order    = 0;
-    c.conventional.i_error_max_A = 2.0f;
-    c.conventional.i_max_A       = 4.0f;
-    c.conventional.i_certified_A = 8.0f;
+    const law_noc_speed_config_t *from = law_constants_noc_speed(&speed_tables_drive);
+    law_conventional_config_t     c    = {.near_optimal = from->near_optimal,
+                                          .gains        = {.nosc_order    = 0,
+                                                           .nodo_order    = 0,
+                                                           .i_error_max_A = 2.0f,
+                                                           .i_max_A       = 4.0f,
+                                                           .i_certified_A = 8.0f}};
     for (int column = 0; column < 3; column++) {
         for (int row = 0; row < NOSC_N_U; row++) {
-            c.conventional.lambda[row][column] = c.nosc.lambda[0][row][column];
+            c.gains.lambda[row][column] = from->near_optimal.nosc.lambda[0][row][column];
         }
         for (int row = 0; row < NODO_N_X; row++) {
-            c.conventional.gain[row][column] = c.nodo.gain[0][row][column];
+            c.gains.gain[row][column] = from->nodo.gain[0][row][column];
         }
     }
     return c;
 }
 
+static drive_config_t conventional_drive(const law_conventional_config_t *constants)
+{
+    drive_config_t c = speed_tables_drive;
+    c.law            = &law_conventional;
+    c.constants      = constants;
+    return c;
+}
+
 static void test_tick_runs_the_observer_and_the_feedback_of_this_law(void)
 {
-    const drive_config_t  c       = conventional_drive();
-    const drive_sample_t  sample  = {0.3f, -0.1f, 295.0f, 0.2f, 300.0f, true};
-    const drive_command_t command = {305.0f, true};
-    drive_config_t        noc     = c;
-    drive_t               a;
-    drive_t               b;
-    noc.law        = DRIVE_LAW_NOC;
-    noc.nosc.order = 0;
-    noc.nodo.order = 0;
+    const law_conventional_config_t constants = conventional_constants();
+    const drive_config_t            c         = conventional_drive(&constants);
+    const drive_sample_t            sample    = {0.3f, -0.1f, 295.0f, 0.2f, 300.0f, true};
+    const drive_command_t           command   = {305.0f, true};
+    law_constants_t                 plain;
+    const drive_config_t            noc = law_constants_copy(&plain, &speed_tables_drive);
+    drive_t                         a;
+    drive_t                         b;
+    plain.noc_speed.near_optimal.nosc.order = 0;
+    plain.noc_speed.nodo.order              = 0;
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_init(&a, &c));
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_init(&b, &noc));
 
     for (int k = 0; k < 3; k++) {
-        const nodo_t before = a.observer;
+        const nodo_t before = a.law.conventional.observer;
         const dq_t   v_V    = a.v_V;
         (void)drive_tick(&a, &sample, &command);
         (void)drive_tick(&b, &sample, &command);
         nodo_t expected = before;
         if (k > 0) { /* the first tick starts the observer */
-            conventional_update(&expected, &c.conventional, &c.motor, &a.now, v_V, c.ts_s);
-            TEST_ASSERT_TRUE((expected.iq_A == a.observer.iq_A) &&
-                             (expected.id_A == a.observer.id_A) &&
-                             (expected.d_omega == a.observer.d_omega));
+            conventional_update(&expected, &constants.gains, &c.motor, &a.wanted.now, v_V, c.ts_s);
+            TEST_ASSERT_TRUE((expected.iq_A == a.law.conventional.observer.iq_A) &&
+                             (expected.id_A == a.law.conventional.observer.id_A) &&
+                             (expected.d_omega == a.law.conventional.observer.d_omega));
         }
     }
     TEST_ASSERT_EQUAL_INT(DRIVE_RUN, a.state);
-    TEST_ASSERT_TRUE(a.observer.iq_A != b.observer.iq_A); /* l10 id w of the estimates */
-    TEST_ASSERT_TRUE(a.v_V.d != b.v_V.d);                 /* l9 e_iq e_w is not cancelled */
+    TEST_ASSERT_TRUE(a.law.conventional.observer.iq_A !=
+                     b.law.noc_speed.observer.iq_A); /* l10 id w of the estimates */
+    TEST_ASSERT_TRUE(a.v_V.d != b.v_V.d);            /* l9 e_iq e_w is not cancelled */
 }
 
 static void test_tick_takes_its_feedback_from_the_table_of_this_law(void)
 {
-    const drive_sample_t  sample  = {0.3f, -0.1f, 295.0f, 0.2f, 300.0f, true};
-    const drive_command_t command = {305.0f, true};
-    const drive_config_t  c       = conventional_drive();
-    drive_config_t        stiff   = c;
-    drive_t               a;
-    drive_t               b;
-    stiff.conventional.lambda[1][2] *= 1.5f; /* v_d per ampere of e_id */
+    const drive_sample_t            sample    = {0.3f, -0.1f, 295.0f, 0.2f, 300.0f, true};
+    const drive_command_t           command   = {305.0f, true};
+    const law_conventional_config_t constants = conventional_constants();
+    law_conventional_config_t       stiffer   = constants;
+    const drive_config_t            c         = conventional_drive(&constants);
+    const drive_config_t            stiff     = conventional_drive(&stiffer);
+    drive_t                         a;
+    drive_t                         b;
+    stiffer.gains.lambda[1][2] *= 1.5f; /* v_d per ampere of e_id */
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_init(&a, &c));
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_init(&b, &stiff));
 
     (void)drive_tick(&a, &sample, &command);
     (void)drive_tick(&b, &sample, &command);
 
-    const double e_id_A = (double)(a.now.id_A - a.current_ref.i_A.d);
-    const double more_V = -0.5 * (double)c.conventional.lambda[1][2] * e_id_A;
+    const double e_id_A = (double)(a.wanted.now.id_A - a.wanted.i_ref_A.d);
+    const double more_V = -0.5 * (double)constants.gains.lambda[1][2] * e_id_A;
     TEST_ASSERT_TRUE(fabs(more_V) > 1.0);
     TEST_ASSERT_FALSE(a.v_limited || b.v_limited);
     TEST_ASSERT_DOUBLE_WITHIN(1.0e-3, more_V, (double)(b.v_V.d - a.v_V.d));
@@ -232,16 +245,16 @@ static void test_tick_takes_its_feedback_from_the_table_of_this_law(void)
 
 static void test_generated_tables_are_accepted_and_hold_both_series(void)
 {
-    const conventional_gains_t *g = &conventional_tables_drive.conventional;
-    drive_t                     d;
+    const law_conventional_config_t *c = law_constants_conventional(&conventional_tables_drive);
+    drive_t                          d;
 
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_init(&d, &conventional_tables_drive));
-    TEST_ASSERT_EQUAL_INT(DRIVE_LAW_CONVENTIONAL, conventional_tables_drive.law);
+    TEST_ASSERT_TRUE(conventional_tables_drive.law == &law_conventional);
+    const conventional_gains_t *g = &c->gains;
     TEST_ASSERT_EQUAL_INT(2, g->nosc_order);
     TEST_ASSERT_EQUAL_INT(2, g->nodo_order);
     for (int column = 0; column < 3; column++) { /* EQ-NOSC-3 reads Lambda_00 */
-        TEST_ASSERT_TRUE(g->lambda[0][column] ==
-                         conventional_tables_drive.nosc.lambda[0][0][column]);
+        TEST_ASSERT_TRUE(g->lambda[0][column] == c->near_optimal.nosc.lambda[0][0][column]);
     }
     for (int term = 0; term < 6; term++) { /* the load alone: d_q and d_d have no gain */
         for (int column = 0; column < 3; column++) {
@@ -253,53 +266,61 @@ static void test_generated_tables_are_accepted_and_hold_both_series(void)
     TEST_ASSERT_TRUE(g->gain[NODO_N_X][2] != 0.0f); /* term e_iq: d_w from the id residual */
 }
 
-static void expect_refused(drive_config_t c)
+static void expect_refused(const law_conventional_config_t *constants)
 {
-    drive_t d;
+    const drive_config_t c = conventional_drive(constants);
+    drive_t              d;
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, drive_init(&d, &c));
 }
 
 static void test_constants_outside_their_range_are_refused(void)
 {
-    drive_config_t c = conventional_drive();
-    drive_t        d;
-    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_init(&d, &c));
+    law_conventional_config_t c   = conventional_constants();
+    const drive_config_t      all = conventional_drive(&c);
+    drive_t                   d;
+    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_init(&d, &all));
 
-    c.conventional.nosc_order = DOUBLE_SERIES_ORDER_MAX + 1;
-    expect_refused(c);
-    c      = conventional_drive();
-    c.form = DRIVE_FORM_ENCODER;
-    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, drive_config_check(&c));
-    c                         = conventional_drive();
-    c.conventional.nodo_order = -1;
-    expect_refused(c);
-    c                            = conventional_drive();
-    c.conventional.i_error_max_A = 0.0f;
-    expect_refused(c);
-    c                      = conventional_drive();
-    c.conventional.i_max_A = NAN;
-    expect_refused(c);
-    c                            = conventional_drive();
-    c.conventional.i_certified_A = 3.9f; /* below i_max_A */
-    expect_refused(c);
-    c                      = conventional_drive();
-    c.nosc.lambda[0][0][1] = 0.0f; /* k_iq of EQ-NOSC-3 */
-    expect_refused(c);
+    c.gains.nosc_order = DOUBLE_SERIES_ORDER_MAX + 1;
+    expect_refused(&c);
+    c                  = conventional_constants();
+    c.gains.nosc_order = -1;
+    expect_refused(&c);
+    c                  = conventional_constants();
+    c.gains.nodo_order = DOUBLE_SERIES_ORDER_MAX + 1;
+    expect_refused(&c);
+    c                  = conventional_constants();
+    c.gains.nodo_order = -1;
+    expect_refused(&c);
+    c                     = conventional_constants();
+    c.gains.i_error_max_A = 0.0f;
+    expect_refused(&c);
+    c               = conventional_constants();
+    c.gains.i_max_A = NAN;
+    expect_refused(&c);
+    c                     = conventional_constants();
+    c.gains.i_certified_A = 3.9f; /* below i_max_A */
+    expect_refused(&c);
+    c                                   = conventional_constants();
+    c.near_optimal.nosc.lambda[0][0][1] = 0.0f; /* k_iq of EQ-NOSC-3 */
+    expect_refused(&c);
+    c                                 = conventional_constants();
+    c.near_optimal.current_ref.mtpa_A = NAN;
+    expect_refused(&c);
 }
 
 static void test_every_entry_of_the_tables_in_use_is_checked(void)
 {
     for (int i = 0; i < 6 * NODO_N_X; i++) { /* order 2: six terms */
-        drive_config_t c              = conventional_drive();
-        c.conventional.nosc_order     = 2;
-        c.conventional.nodo_order     = 2;
-        c.conventional.gain[i][i % 3] = INFINITY;
-        expect_refused(c);
+        law_conventional_config_t c = conventional_constants();
+        c.gains.nosc_order          = 2;
+        c.gains.nodo_order          = 2;
+        c.gains.gain[i][i % 3]      = INFINITY;
+        expect_refused(&c);
         if (i < 6 * NOSC_N_U) {
-            c                               = conventional_drive();
-            c.conventional.nosc_order       = 2;
-            c.conventional.lambda[i][i % 3] = NAN;
-            expect_refused(c);
+            c                        = conventional_constants();
+            c.gains.nosc_order       = 2;
+            c.gains.lambda[i][i % 3] = NAN;
+            expect_refused(&c);
         }
     }
 }

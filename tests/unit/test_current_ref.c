@@ -2,6 +2,7 @@
 #include "current_ref.h"
 
 #include "gain_tables.h"
+#include "law_constants.h"
 #include "speed_tables.h"
 #include "unit_support.h"
 #include "unity.h"
@@ -44,7 +45,7 @@ void setUp(void)
     const nodo_t      nothing = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
 
     random_state.state       = 19u;
-    config                   = speed_tables_drive.current_ref;
+    config                   = law_constants_near_optimal(&speed_tables_drive)->current_ref;
     config.filter_per_period = 1.0f; /* id_ref is its target at once */
     config.filter_1ps        = (float)(1.0 / TS_s);
     config.regen_max_W_norm  = 1.0e12f; /* regeneration has its own tests */
@@ -605,7 +606,7 @@ static void test_derivative_of_iq_is_that_of_the_wanted_acceleration(void)
 /* Mechanical power into the dc link, divided by J / np^2, of both ends of the range of iq. */
 static void test_regeneration_never_feeds_back_more_than_allowed(void)
 {
-    config = gain_tables_drive.current_ref;
+    config = law_constants_near_optimal(&gain_tables_drive)->current_ref;
     for (int n = 0; n < 5 * CASES; n++) {
         draw_fast_case();
         y.omega_e_radps         = support_uniform(&random_state, -1500.0f, 1500.0f);
@@ -648,7 +649,7 @@ static void test_full_dc_link_takes_nothing_back_but_leaves_motoring(void)
  * steepest place is where the wanted iq touches the circle: a root, 0.08 A for this step. */
 static void test_references_are_continuous_in_the_speed(void)
 {
-    config                   = gain_tables_drive.current_ref;
+    config                   = law_constants_near_optimal(&gain_tables_drive)->current_ref;
     config.filter_per_period = 1.0f;
     for (int load = -3; load <= 3; load++) {
         dq_t before_A = {0.0f, 0.0f};

@@ -5,13 +5,15 @@
 
 #include "gain_tables.h"
 #include "harmonic_tables.h"
+#include "law_constants.h"
 #include "speed_tables.h"
 #include "unit_support.h"
 #include "unity.h"
 
 #define TOO_LARGE 1.0e13f /* beyond any constant of a drive */
 
-static drive_config_t config;
+static drive_config_t  config;
+static law_constants_t constants; /* of config */
 
 /* What a constant may be besides a positive number. */
 typedef enum { POSITIVE, ZERO_OR_MORE, ZERO_OR_LESS } range_t;
@@ -23,10 +25,9 @@ typedef struct {
 
 static const entry_t entries[] = {
     {&config.ts_s, POSITIVE},
+    {&config.current_max_A, POSITIVE},
     {&config.trip_current_A, POSITIVE},
     {&config.trip_speed_e_radps, POSITIVE},
-    {&config.trip_angle_rad, POSITIVE},
-    {&config.trip_d_omega, POSITIVE},
     {&config.dc_link_min_V, POSITIVE},
     {&config.dc_link_max_V, POSITIVE},
     {&config.motor.l1, POSITIVE},
@@ -42,36 +43,43 @@ static const entry_t entries[] = {
     {&config.motor.l11, ZERO_OR_LESS},
     {&config.motor.inv_l6, POSITIVE},
     {&config.motor.inv_l8, POSITIVE},
-    {&config.current_ref.current_max_A, POSITIVE},
-    {&config.current_ref.iq_max_A, POSITIVE},
-    {&config.current_ref.mtpa_A, POSITIVE},
-    {&config.current_ref.voltage_share, POSITIVE},
-    {&config.current_ref.torque_share, POSITIVE},
-    {&config.current_ref.near_e_radps, POSITIVE},
-    {&config.current_ref.l1_min, POSITIVE},
-    {&config.current_ref.filter_per_period, POSITIVE},
-    {&config.current_ref.filter_1ps, POSITIVE},
-    {&config.current_ref.regen_max_W_norm, ZERO_OR_MORE},
-    {&config.current_ref.regen_start_V, POSITIVE},
-    {&config.current_ref.regen_per_V, POSITIVE},
+    {&constants.near_optimal.current_ref.current_max_A, POSITIVE},
+    {&constants.near_optimal.current_ref.iq_max_A, POSITIVE},
+    {&constants.near_optimal.current_ref.mtpa_A, POSITIVE},
+    {&constants.near_optimal.current_ref.voltage_share, POSITIVE},
+    {&constants.near_optimal.current_ref.torque_share, POSITIVE},
+    {&constants.near_optimal.current_ref.near_e_radps, POSITIVE},
+    {&constants.near_optimal.current_ref.l1_min, POSITIVE},
+    {&constants.near_optimal.current_ref.filter_per_period, POSITIVE},
+    {&constants.near_optimal.current_ref.filter_1ps, POSITIVE},
+    {&constants.near_optimal.current_ref.regen_max_W_norm, ZERO_OR_MORE},
+    {&constants.near_optimal.current_ref.regen_start_V, POSITIVE},
+    {&constants.near_optimal.current_ref.regen_per_V, POSITIVE},
     {&config.dead_time.share, ZERO_OR_MORE},
     {&config.dead_time.inv_fade_1pA, POSITIVE},
-    {&config.nosc.iq_error_max_A, POSITIVE},
-    {&config.nosc.iq_speed_max_A, POSITIVE},
+    {&constants.near_optimal.nosc.iq_error_max_A, POSITIVE},
+    {&constants.near_optimal.nosc.iq_speed_max_A, POSITIVE},
 };
 
 static const entry_t speed_entries[] = {
-    {&config.nodo.iq_max_A, POSITIVE},
-    {&config.nodo.iq_certified_A, POSITIVE},
+    {&constants.noc_speed.nodo.iq_max_A, POSITIVE},
+    {&constants.noc_speed.nodo.iq_certified_A, POSITIVE},
 };
 
 static const entry_t encoder_entries[] = {
-    {&config.nodo_encoder.iq_max_A, POSITIVE},
+    {&constants.noc.nodo.iq_max_A, POSITIVE},
+    {&constants.noc.plausible.angle_rad, POSITIVE},
+    {&constants.noc.plausible.d_omega, POSITIVE},
+};
+
+static const entry_t harmonic_entries[] = {
+    {&constants.noc_h.plausible.angle_rad, POSITIVE},
+    {&constants.noc_h.plausible.d_omega, POSITIVE},
 };
 
 void setUp(void)
 {
-    config = speed_tables_drive;
+    config = law_constants_copy(&constants, &speed_tables_drive);
 }
 
 void tearDown(void) {}
@@ -79,7 +87,7 @@ void tearDown(void) {}
 /* Puts x in place of one constant; the others are those of `base`. */
 static ctl_status_t check_in(const drive_config_t *base, float *constant, float x)
 {
-    config    = *base;
+    config    = law_constants_copy(&constants, base);
     *constant = x;
     return drive_config_check(&config);
 }
@@ -110,74 +118,66 @@ static void assert_entry_checked(const drive_config_t *base, const entry_t *entr
     TEST_ASSERT_EQUAL_INT(at_zero, check_in(base, entry->constant, -0.0f));
 }
 
-static void assert_entry_ignored(const drive_config_t *base, const entry_t *entry)
-{
-    for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
-        TEST_ASSERT_EQUAL_INT(CTL_OK, check_in(base, entry->constant, support_not_finite[k]));
-    }
-    TEST_ASSERT_EQUAL_INT(CTL_OK, check_in(base, entry->constant, TOO_LARGE));
-    TEST_ASSERT_EQUAL_INT(CTL_OK, check_in(base, entry->constant, -1.0f));
-}
-
 static void test_shipped_drives_are_accepted(void)
 {
-    TEST_ASSERT_EQUAL_INT(DRIVE_FORM_SPEED, speed_tables_drive.form);
+    TEST_ASSERT_TRUE(speed_tables_drive.law == &law_noc_speed);
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&speed_tables_drive));
-    TEST_ASSERT_EQUAL_INT(DRIVE_FORM_ENCODER, gain_tables_drive.form);
+    TEST_ASSERT_TRUE(gain_tables_drive.law == &law_noc);
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&gain_tables_drive));
+    TEST_ASSERT_TRUE(harmonic_tables_drive.law == &law_noc_h);
+    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&harmonic_tables_drive));
+    TEST_ASSERT_TRUE(conventional_tables_drive.law == &law_conventional);
+    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&conventional_tables_drive));
 }
 
-static void test_every_constant_is_checked_in_both_forms(void)
+static void test_every_constant_is_checked_with_every_law(void)
 {
+    const drive_config_t *const all[] = {&speed_tables_drive, &gain_tables_drive,
+                                         &harmonic_tables_drive, &conventional_tables_drive};
+
     for (int i = 0; i < SUPPORT_COUNT(entries); i++) {
-        assert_entry_checked(&speed_tables_drive, &entries[i]);
-        assert_entry_checked(&gain_tables_drive, &entries[i]);
+        for (int k = 0; k < SUPPORT_COUNT(all); k++) {
+            assert_entry_checked(all[k], &entries[i]);
+        }
     }
 }
 
-static void test_only_the_observer_in_use_is_checked(void)
+static void test_constants_of_the_observer_are_checked(void)
 {
     for (int i = 0; i < SUPPORT_COUNT(speed_entries); i++) {
         assert_entry_checked(&speed_tables_drive, &speed_entries[i]);
-        assert_entry_ignored(&gain_tables_drive, &speed_entries[i]);
     }
     for (int i = 0; i < SUPPORT_COUNT(encoder_entries); i++) {
         assert_entry_checked(&gain_tables_drive, &encoder_entries[i]);
-        assert_entry_ignored(&speed_tables_drive, &encoder_entries[i]);
+    }
+    for (int i = 0; i < SUPPORT_COUNT(harmonic_entries); i++) {
+        assert_entry_checked(&harmonic_tables_drive, &harmonic_entries[i]);
     }
 }
 
-static void test_unused_observer_may_be_anything(void)
+static void test_drive_without_a_law_is_refused(void)
 {
-    config                       = speed_tables_drive;
-    config.nodo_encoder.order    = -1;
-    config.nodo_encoder.iq_max_A = NAN;
-    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&config));
-
-    config               = gain_tables_drive;
-    config.nodo.order    = NODO_ORDER_MAX + 1;
-    config.nodo.iq_max_A = NAN;
-    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&config));
-}
-
-/* The tables hold the gains of one form only. */
-static void test_form_without_its_gains_is_refused(void)
-{
-    config      = speed_tables_drive;
-    config.form = DRIVE_FORM_ENCODER;
+    config.law = NULL;
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, drive_config_check(&config));
 
-    config      = gain_tables_drive;
-    config.form = DRIVE_FORM_SPEED;
+    setUp();
+    config.constants = NULL;
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, drive_config_check(&config));
+
+    config.law = NULL;
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, drive_config_check(&config));
 }
 
-static void test_unknown_form_is_refused(void)
+/* The references ask for what the drive allows: one number in two places. */
+static void test_current_limit_of_the_references_is_that_of_the_drive(void)
 {
-    config              = speed_tables_drive;
-    config.nodo_encoder = gain_tables_drive.nodo_encoder;
-    config.form         = (drive_form_t)2;
-    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, drive_config_check(&config));
+    const float limit_A = config.current_max_A;
+
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG,
+                          check_with(&config.current_max_A, nextafterf(limit_A, 0.0f)));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG,
+                          check_with(&config.current_max_A, nextafterf(limit_A, INFINITY)));
+    TEST_ASSERT_EQUAL_INT(CTL_OK, check_with(&config.current_max_A, limit_A));
 }
 
 static void assert_bounds(float *constant, float lo, float hi)
@@ -195,14 +195,23 @@ static void test_control_period_has_its_documented_bounds(void)
 
 static void test_shares_end_at_one(void)
 {
-    assert_bounds(&config.current_ref.voltage_share, 1.0e-3f, 1.0f);
-    assert_bounds(&config.current_ref.torque_share, 1.0e-3f, 1.0f);
-    assert_bounds(&config.current_ref.filter_per_period, 1.0e-6f, 1.0f);
+    assert_bounds(&constants.near_optimal.current_ref.voltage_share, 1.0e-3f, 1.0f);
+    assert_bounds(&constants.near_optimal.current_ref.torque_share, 1.0e-3f, 1.0f);
+    assert_bounds(&constants.near_optimal.current_ref.filter_per_period, 1.0e-6f, 1.0f);
 }
 
-static void test_trip_angle_ends_at_half_a_turn(void)
+static void test_implausible_angle_ends_at_half_a_turn(void)
 {
-    assert_bounds(&config.trip_angle_rad, 1.0e-6f, BASE_PI);
+    const drive_config_t *const all[] = {&gain_tables_drive, &harmonic_tables_drive};
+
+    for (int k = 0; k < SUPPORT_COUNT(all); k++) {
+        float *const angle =
+            (k == 0) ? &constants.noc.plausible.angle_rad : &constants.noc_h.plausible.angle_rad;
+        TEST_ASSERT_EQUAL_INT(CTL_OK, check_in(all[k], angle, 1.0e-6f));
+        TEST_ASSERT_EQUAL_INT(CTL_OK, check_in(all[k], angle, BASE_PI));
+        assert_refused(all[k], angle, nextafterf(1.0e-6f, 0.0f));
+        assert_refused(all[k], angle, nextafterf(BASE_PI, INFINITY));
+    }
 }
 
 static void test_dead_time_ends_at_a_tenth_of_the_period(void)
@@ -216,16 +225,16 @@ static void test_dead_time_ends_at_a_tenth_of_the_period(void)
 
 static void test_certified_range_contains_the_range_of_the_series(void)
 {
-    const float range_A = speed_tables_drive.nodo.iq_max_A;
+    const float range_A = law_constants_noc_speed(&speed_tables_drive)->nodo.iq_max_A;
 
-    TEST_ASSERT_EQUAL_INT(CTL_OK, check_with(&config.nodo.iq_certified_A, range_A));
-    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG,
-                          check_with(&config.nodo.iq_certified_A, nextafterf(range_A, 0.0f)));
+    TEST_ASSERT_EQUAL_INT(CTL_OK, check_with(&constants.noc_speed.nodo.iq_certified_A, range_A));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(&constants.noc_speed.nodo.iq_certified_A,
+                                                     nextafterf(range_A, 0.0f)));
 }
 
 static void test_trip_current_lies_beyond_the_current_limit(void)
 {
-    const float limit_A = config.current_ref.current_max_A;
+    const float limit_A = config.current_max_A;
 
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(&config.trip_current_A, limit_A));
     TEST_ASSERT_EQUAL_INT(CTL_OK,
@@ -243,29 +252,30 @@ static void test_dc_link_range_is_not_empty(void)
 
 static void test_iq_limit_lies_within_the_current_circle(void)
 {
-    const float limit_A = config.current_ref.current_max_A;
+    const float limit_A = config.current_max_A;
 
-    TEST_ASSERT_EQUAL_INT(CTL_OK, check_with(&config.current_ref.iq_max_A, limit_A));
-    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG,
-                          check_with(&config.current_ref.iq_max_A, nextafterf(limit_A, INFINITY)));
+    TEST_ASSERT_EQUAL_INT(CTL_OK,
+                          check_with(&constants.near_optimal.current_ref.iq_max_A, limit_A));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(&constants.near_optimal.current_ref.iq_max_A,
+                                                     nextafterf(limit_A, INFINITY)));
 }
 
 static ctl_status_t check_with_nosc_order(int16_t order)
 {
-    config.nosc.order = order;
+    constants.near_optimal.nosc.order = order;
     return drive_config_check(&config);
 }
 
 static ctl_status_t check_with_nodo_order(int16_t order)
 {
-    config.nodo.order = order;
+    constants.noc_speed.nodo.order = order;
     return drive_config_check(&config);
 }
 
 static ctl_status_t check_with_encoder_order(int16_t order)
 {
-    config                    = gain_tables_drive;
-    config.nodo_encoder.order = order;
+    config                   = law_constants_copy(&constants, &gain_tables_drive);
+    constants.noc.nodo.order = order;
     return drive_config_check(&config);
 }
 
@@ -293,14 +303,12 @@ static void test_every_order_that_a_table_can_hold_is_accepted(void)
     }
 }
 
-/* A drive of noc_h with a table of its own. */
-static nodo_harmonic_gains_t table;
+/* A drive of noc_h whose table may be changed. */
+static nodo_harmonic_gains_t *const table = &constants.noc_h.nodo;
 
 static void use_harmonics(void)
 {
-    table                = *harmonic_tables_drive.nodo_harmonic;
-    config               = harmonic_tables_drive;
-    config.nodo_harmonic = &table;
+    config = law_constants_copy(&constants, &harmonic_tables_drive);
 }
 
 static void assert_harmonics(ctl_status_t expected)
@@ -308,22 +316,14 @@ static void assert_harmonics(ctl_status_t expected)
     TEST_ASSERT_EQUAL_INT(expected, drive_config_check(&config));
 }
 
-static void test_noc_h_needs_its_table_and_the_encoder_form(void)
+static void test_noc_h_needs_references_and_feedback_too(void)
 {
     use_harmonics();
     assert_harmonics(CTL_OK);
-    config.nodo_harmonic = NULL;
+    constants.near_optimal.nosc.order = -1;
     assert_harmonics(CTL_BAD_CONFIG);
     use_harmonics();
-    config.form = DRIVE_FORM_SPEED;
-    assert_harmonics(CTL_BAD_CONFIG);
-    use_harmonics();
-    config.nodo_encoder.order = -1; /* not its observer */
-    assert_harmonics(CTL_OK);
-    config.nosc.order = -1;
-    assert_harmonics(CTL_BAD_CONFIG);
-    use_harmonics();
-    config.current_ref.mtpa_A = NAN;
+    constants.near_optimal.current_ref.mtpa_A = NAN;
     assert_harmonics(CTL_BAD_CONFIG);
 }
 
@@ -334,42 +334,42 @@ static void test_counts_of_harmonics_are_those_of_a_table(void)
 
     for (int i = 0; i < SUPPORT_COUNT(bad_pairs); i++) {
         use_harmonics();
-        table.n_pairs = bad_pairs[i];
+        table->n_pairs = bad_pairs[i];
         assert_harmonics(CTL_BAD_CONFIG);
     }
     for (int i = 0; i < SUPPORT_COUNT(bad_nodes); i++) {
         use_harmonics();
-        table.n_nodes = bad_nodes[i];
+        table->n_nodes = bad_nodes[i];
         assert_harmonics(CTL_BAD_CONFIG);
     }
     use_harmonics();
-    table.n_pairs = 0;
-    table.n_nodes = 2;
+    table->n_pairs = 0;
+    table->n_nodes = 2;
     assert_harmonics(CTL_OK);
-    table.n_pairs = NODO_HARMONIC_PAIRS_MAX; /* what the drive has not is zero */
+    table->n_pairs = NODO_HARMONIC_PAIRS_MAX; /* what the drive has not is zero */
     assert_harmonics(CTL_OK);
 }
 
 static void test_constants_of_harmonics_are_checked(void)
 {
-    float *const constants[] = {&table.iq_max_A, &table.nodes_per_root, &table.keep,
-                                &table.keep_fast};
+    float *const numbers[] = {&table->iq_max_A, &table->nodes_per_root, &table->keep,
+                              &table->keep_fast};
 
-    for (int i = 0; i < SUPPORT_COUNT(constants); i++) {
+    for (int i = 0; i < SUPPORT_COUNT(numbers); i++) {
         const float bad[] = {0.0f, -1.0f, TOO_LARGE, NAN, INFINITY};
         for (int k = 0; k < SUPPORT_COUNT(bad); k++) {
             use_harmonics();
-            *constants[i] = bad[k];
+            *numbers[i] = bad[k];
             assert_harmonics(CTL_BAD_CONFIG);
         }
     }
     use_harmonics();
-    table.keep = 1.0f;
+    table->keep = 1.0f;
     assert_harmonics(CTL_OK);
-    table.keep = nextafterf(1.0f, 2.0f);
+    table->keep = nextafterf(1.0f, 2.0f);
     assert_harmonics(CTL_BAD_CONFIG);
     use_harmonics();
-    table.keep_fast = nextafterf(1.0f, 2.0f);
+    table->keep_fast = nextafterf(1.0f, 2.0f);
     assert_harmonics(CTL_BAD_CONFIG);
 }
 
@@ -378,28 +378,28 @@ static void test_orders_of_the_pairs_in_use_are_checked(void)
     const float bad[] = {1001.0f, -1001.0f, NAN, -INFINITY};
 
     use_harmonics();
-    for (int i = 0; i < table.n_pairs; i++) {
+    for (int i = 0; i < table->n_pairs; i++) {
         for (int k = 0; k < SUPPORT_COUNT(bad); k++) {
             use_harmonics();
-            table.pair[i].order = bad[k];
+            table->pair[i].order = bad[k];
             assert_harmonics(CTL_BAD_CONFIG);
         }
     }
     use_harmonics();
-    table.n_pairs--;
-    table.pair[table.n_pairs].order = NAN;
+    table->n_pairs--;
+    table->pair[table->n_pairs].order = NAN;
     assert_harmonics(CTL_OK);
 }
 
 static void test_every_gain_of_the_harmonics_in_use_is_checked(void)
 {
     use_harmonics();
-    const int rows  = NODO_HARMONIC_N_BASE + (2 * table.n_pairs);
-    const int nodes = table.n_nodes;
+    const int rows  = NODO_HARMONIC_N_BASE + (2 * table->n_pairs);
+    const int nodes = table->n_nodes;
 
     for (int n = 0; n < nodes * rows * NODO_HARMONIC_N_G; n++) {
-        float *const gain = &table.gain[n / (rows * NODO_HARMONIC_N_G)]
-                                       [(n / NODO_HARMONIC_N_G) % rows][n % NODO_HARMONIC_N_G];
+        float *const gain = &table->gain[n / (rows * NODO_HARMONIC_N_G)]
+                                        [(n / NODO_HARMONIC_N_G) % rows][n % NODO_HARMONIC_N_G];
         const float good = *gain;
         for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
             *gain = support_not_finite[k];
@@ -409,17 +409,17 @@ static void test_every_gain_of_the_harmonics_in_use_is_checked(void)
         assert_harmonics(CTL_BAD_CONFIG);
         *gain = good;
     }
-    table.n_pairs--; /* the last two rows are no longer in use */
-    table.gain[0][rows - 1][0] = NAN;
+    table->n_pairs--; /* the last two rows are no longer in use */
+    table->gain[0][rows - 1][0] = NAN;
     assert_harmonics(CTL_OK);
 }
 
 static void test_every_gain_of_the_controller_in_use_is_checked(void)
 {
-    for (int n = 0; n <= speed_tables_drive.nosc.order; n++) {
+    for (int n = 0; n <= law_constants_near_optimal(&speed_tables_drive)->nosc.order; n++) {
         for (int row = 0; row < NOSC_N_U; row++) {
             for (int column = 0; column < NOSC_N_E; column++) {
-                float *const gain = &config.nosc.lambda[n][row][column];
+                float *const gain = &constants.near_optimal.nosc.lambda[n][row][column];
 
                 for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
                     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(gain, support_not_finite[k]));
@@ -433,10 +433,10 @@ static void test_every_gain_of_the_controller_in_use_is_checked(void)
 
 static void test_every_gain_of_the_observer_in_use_is_checked(void)
 {
-    for (int n = 0; n <= speed_tables_drive.nodo.order; n++) {
+    for (int n = 0; n <= law_constants_noc_speed(&speed_tables_drive)->nodo.order; n++) {
         for (int row = 0; row < NODO_N_X; row++) {
             for (int column = 0; column < NODO_N_Y; column++) {
-                float *const gain = &config.nodo.gain[n][row][column];
+                float *const gain = &constants.noc_speed.nodo.gain[n][row][column];
 
                 for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
                     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(gain, support_not_finite[k]));
@@ -451,10 +451,10 @@ static void test_every_gain_of_the_observer_in_use_is_checked(void)
 static void test_every_gain_of_the_encoder_observer_in_use_is_checked(void)
 {
     const drive_config_t *const base = &gain_tables_drive;
-    for (int n = 0; n <= base->nodo_encoder.order; n++) {
+    for (int n = 0; n <= law_constants_noc(base)->nodo.order; n++) {
         for (int row = 0; row < NODO_ENCODER_N_X; row++) {
             for (int column = 0; column < NODO_ENCODER_N_Y; column++) {
-                float *const gain = &config.nodo_encoder.gain[n][row][column];
+                float *const gain = &constants.noc.nodo.gain[n][row][column];
 
                 for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
                     assert_refused(base, gain, support_not_finite[k]);
@@ -468,13 +468,16 @@ static void test_every_gain_of_the_encoder_observer_in_use_is_checked(void)
 
 static void test_powers_beyond_the_order_are_not_looked_at(void)
 {
-    config.nosc.lambda[config.nosc.order + 1][0][0] = NAN;
-    config.nodo.gain[config.nodo.order + 1][0][0]   = NAN;
+    nosc_gains_t *const         nosc    = &constants.near_optimal.nosc;
+    nodo_gains_t *const         nodo    = &constants.noc_speed.nodo;
+    nodo_encoder_gains_t *const encoder = &constants.noc.nodo;
 
+    nosc->lambda[nosc->order + 1][0][0] = NAN;
+    nodo->gain[nodo->order + 1][0][0]   = NAN;
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&config));
 
-    config                                                        = gain_tables_drive;
-    config.nodo_encoder.gain[config.nodo_encoder.order + 1][0][0] = NAN;
+    config                                  = law_constants_copy(&constants, &gain_tables_drive);
+    encoder->gain[encoder->order + 1][0][0] = NAN;
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&config));
 }
 
@@ -482,14 +485,13 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_shipped_drives_are_accepted);
-    RUN_TEST(test_every_constant_is_checked_in_both_forms);
-    RUN_TEST(test_only_the_observer_in_use_is_checked);
-    RUN_TEST(test_unused_observer_may_be_anything);
-    RUN_TEST(test_form_without_its_gains_is_refused);
-    RUN_TEST(test_unknown_form_is_refused);
+    RUN_TEST(test_every_constant_is_checked_with_every_law);
+    RUN_TEST(test_constants_of_the_observer_are_checked);
+    RUN_TEST(test_drive_without_a_law_is_refused);
+    RUN_TEST(test_current_limit_of_the_references_is_that_of_the_drive);
     RUN_TEST(test_control_period_has_its_documented_bounds);
     RUN_TEST(test_shares_end_at_one);
-    RUN_TEST(test_trip_angle_ends_at_half_a_turn);
+    RUN_TEST(test_implausible_angle_ends_at_half_a_turn);
     RUN_TEST(test_dead_time_ends_at_a_tenth_of_the_period);
     RUN_TEST(test_certified_range_contains_the_range_of_the_series);
     RUN_TEST(test_trip_current_lies_beyond_the_current_limit);
@@ -501,7 +503,7 @@ int main(void)
     RUN_TEST(test_every_gain_of_the_observer_in_use_is_checked);
     RUN_TEST(test_every_gain_of_the_encoder_observer_in_use_is_checked);
     RUN_TEST(test_powers_beyond_the_order_are_not_looked_at);
-    RUN_TEST(test_noc_h_needs_its_table_and_the_encoder_form);
+    RUN_TEST(test_noc_h_needs_references_and_feedback_too);
     RUN_TEST(test_counts_of_harmonics_are_those_of_a_table);
     RUN_TEST(test_constants_of_harmonics_are_checked);
     RUN_TEST(test_orders_of_the_pairs_in_use_are_checked);

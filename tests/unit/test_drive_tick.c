@@ -6,6 +6,7 @@
 #include "frames.h"
 #include "gain_tables.h"
 #include "harmonic_tables.h"
+#include "law_constants.h"
 #include "speed_tables.h"
 #include "svpwm.h"
 #include "unit_support.h"
@@ -32,10 +33,17 @@ static const double third_turn = 2.0943951023931953; /* rad */
 
 static support_random_t random_state;
 static drive_config_t   config;
+static law_constants_t  constants; /* of config */
 static drive_t          drive;
 static drive_sample_t   sample;
 static drive_command_t  command;
 static double           walk_radps; /* speed of draw_inputs() */
+
+/* The state of each law that is tested here, and what it shares with the others. */
+static law_noc_speed_state_t *const speed_form    = &drive.law.noc_speed;
+static law_noc_state_t *const       encoder_form  = &drive.law.noc;
+static law_noc_h_state_t *const     harmonic_form = &drive.law.noc_h;
+static near_optimal_t *const        references    = &drive.law.noc_speed.near_optimal;
 
 /* Phase currents of a rotor-frame vector, by projection on the phase axes. */
 static drive_sample_t sample_at(double id_A, double iq_A, double theta_rad, double omega_e_radps)
@@ -57,7 +65,7 @@ static void start_over(void)
 {
     random_state.state     = 23u;
     walk_radps             = 300.0;
-    config                 = *base;
+    config                 = law_constants_copy(&constants, base);
     config.dead_time.share = 0.0f;
     sample                 = sample_at(-0.1, 0.5, 1.0, 300.0);
     command.omega_e_radps  = 302.0f;
@@ -79,18 +87,18 @@ static void use_encoder_form(void)
 
 void tearDown(void) {}
 
-static drive_output_t tick(void)
+static bridge_t tick(void)
 {
     return drive_tick(&drive, &sample, &command);
 }
 
-static void assert_open(drive_output_t out)
+static void assert_open(bridge_t out)
 {
     TEST_ASSERT_FALSE(out.gate_enable);
     TEST_ASSERT_TRUE((out.duty.a == 0.5f) && (out.duty.b == 0.5f) && (out.duty.c == 0.5f));
 }
 
-static void assert_same_output(drive_output_t expected, drive_output_t actual)
+static void assert_same_output(bridge_t expected, bridge_t actual)
 {
     TEST_ASSERT_TRUE(actual.gate_enable == expected.gate_enable);
     TEST_ASSERT_TRUE((actual.duty.a == expected.duty.a) && (actual.duty.b == expected.duty.b) &&
@@ -143,7 +151,7 @@ static void test_drive_that_is_not_asked_to_run_keeps_the_bridge_open(void)
 
 static void test_run_command_closes_the_bridge_in_the_same_call(void)
 {
-    const drive_output_t out = tick();
+    const bridge_t out = tick();
 
     TEST_ASSERT_TRUE(out.gate_enable);
     TEST_ASSERT_EQUAL_INT(DRIVE_RUN, drive.state);
@@ -180,7 +188,7 @@ static void test_start_takes_over_the_present_speed(void)
 
     (void)tick();
 
-    TEST_ASSERT_TRUE(drive.speed_ref.omega_e_radps == 300.0f);
+    TEST_ASSERT_TRUE(references->speed_ref.omega_e_radps == 300.0f);
 }
 
 /* A motor that coasts without current is met with its own back-EMF, so that none starts to flow. */
@@ -211,7 +219,7 @@ static void test_restart_forgets_the_past(void)
 {
     const drive_sample_t  at_start = sample;
     const drive_command_t wanted   = command;
-    drive_output_t        fresh[5];
+    bridge_t              fresh[5];
     for (int n = 0; n < 5; n++) {
         fresh[n] = tick();
     }
@@ -231,7 +239,7 @@ static void test_reset_while_running_forgets_the_past(void)
 {
     const drive_sample_t  at_start = sample;
     const drive_command_t wanted   = command;
-    drive_output_t        fresh[5];
+    bridge_t              fresh[5];
     for (int n = 0; n < 5; n++) {
         fresh[n] = tick();
     }
@@ -249,19 +257,20 @@ static void test_reset_while_running_forgets_the_past(void)
 static void test_reset_zeroes_everything_that_is_published(void)
 {
     run_wildly();
-    drive.v_limited     = true;
-    drive.theta_hat_rad = 1.0f;
+    drive.v_limited = true;
+    TEST_ASSERT_TRUE((drive.wanted.d_omega != 0.0f) && (drive.wanted.i_ref_A.q != 0.0f) &&
+                     (drive.wanted.theta_rad != 0.0f) && drive.wanted.plausible);
 
     drive_reset(&drive);
 
+    const law_output_t *w = &drive.wanted;
     TEST_ASSERT_EQUAL_INT(DRIVE_OFF, drive.state);
     TEST_ASSERT_TRUE((drive.v_V.d == 0.0f) && (drive.v_V.q == 0.0f) && !drive.v_limited);
-    TEST_ASSERT_TRUE((drive.now.omega_e_radps == 0.0f) && (drive.now.iq_A == 0.0f) &&
-                     (drive.now.id_A == 0.0f));
-    TEST_ASSERT_TRUE((drive.observer.omega_e_radps == 0.0f) && (drive.observer.d_omega == 0.0f) &&
-                     (drive.observer.d_q == 0.0f) && (drive.observer.d_d == 0.0f));
-    TEST_ASSERT_TRUE((drive.speed_ref.omega_e_radps == 0.0f) && (drive.current_ref.i_A.q == 0.0f) &&
-                     (drive.current_ref.i_A.d == 0.0f) && (drive.theta_hat_rad == 0.0f));
+    TEST_ASSERT_TRUE((w->now.omega_e_radps == 0.0f) && (w->now.iq_A == 0.0f) &&
+                     (w->now.id_A == 0.0f));
+    TEST_ASSERT_TRUE((w->d_omega == 0.0f) && (w->d_q == 0.0f) && (w->d_d == 0.0f));
+    TEST_ASSERT_TRUE((w->i_ref_A.q == 0.0f) && (w->i_ref_A.d == 0.0f) && (w->v_V.q == 0.0f) &&
+                     (w->v_V.d == 0.0f) && (w->theta_rad == 0.0f) && !w->plausible);
 }
 
 typedef struct {
@@ -407,15 +416,15 @@ static void test_bad_sample_leaves_no_trace_in_the_measurement(void)
 
     (void)tick();
 
-    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, -0.1, (double)drive.now.id_A);
-    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, 0.5, (double)drive.now.iq_A);
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, -0.1, (double)drive.wanted.now.id_A);
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, 0.5, (double)drive.wanted.now.iq_A);
 }
 
 static void test_estimate_that_is_not_finite_trips_before_it_reaches_the_bridge(void)
 {
-    float *const estimates[] = {&drive.observer.d_omega, &drive.observer.d_q,
-                                &drive.observer.d_d,     &drive.observer.omega_e_radps,
-                                &drive.observer.iq_A,    &drive.observer.id_A};
+    float *const estimates[] = {&speed_form->observer.d_omega, &speed_form->observer.d_q,
+                                &speed_form->observer.d_d,     &speed_form->observer.omega_e_radps,
+                                &speed_form->observer.iq_A,    &speed_form->observer.id_A};
     for (int i = 0; i < SUPPORT_COUNT(estimates); i++) {
         for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
             start_over();
@@ -423,7 +432,7 @@ static void test_estimate_that_is_not_finite_trips_before_it_reaches_the_bridge(
             *estimates[i] = support_not_finite[k];
 
             for (int n = 0; n < 3; n++) {
-                const drive_output_t out = tick();
+                const bridge_t out = tick();
                 TEST_ASSERT_TRUE(base_in_range(out.duty.a, 0.0f, 1.0f));
             }
 
@@ -434,14 +443,14 @@ static void test_estimate_that_is_not_finite_trips_before_it_reaches_the_bridge(
 
 static void test_one_axis_that_is_not_a_number_is_enough_to_trip(void)
 {
-    drive.observer.d_q = NAN;
+    speed_form->observer.d_q = NAN;
     (void)tick();
-    drive.observer.d_q = NAN;
+    speed_form->observer.d_q = NAN;
     assert_trips(DRIVE_FAULT_NUMERIC);
 
     start_over();
     (void)tick();
-    drive.observer.d_d = NAN;
+    speed_form->observer.d_d = NAN;
     assert_trips(DRIVE_FAULT_NUMERIC);
 }
 
@@ -450,34 +459,36 @@ static void test_one_axis_that_is_not_a_number_is_enough_to_trip(void)
 typedef struct {
     double v_q;
     double v_d;
-} law_t;
+} voltages_t;
 
-static law_t oracle_law(void)
+static voltages_t oracle_law(void)
 {
     const motor_reduced_t *m     = &config.motor;
-    const nosc_gains_t    *g     = &config.nosc;
-    const double           w     = (double)drive.now.omega_e_radps;
-    const double           iqr   = (double)drive.current_ref.i_A.q;
-    const double           idr   = (double)drive.current_ref.i_A.d;
+    const nosc_gains_t    *g     = &constants.near_optimal.nosc;
+    const double           w     = (double)drive.wanted.now.omega_e_radps;
+    const double           iqr   = (double)references->current_ref.i_A.q;
+    const double           idr   = (double)references->current_ref.i_A.d;
     const double           ratio = (double)g->lambda[0][0][0] / (double)g->lambda[0][0][1];
-    const double           asked = iqr - (ratio * (w - (double)drive.speed_ref.omega_e_radps));
-    const double           most  = (double)g->iq_speed_max_A;
-    const double           given =
-        support_limit(support_limit(asked, iqr - most, iqr + most),
-                      (double)drive.current_ref.iq_lo_A, (double)drive.current_ref.iq_hi_A);
+    const double asked = iqr - (ratio * (w - (double)references->speed_ref.omega_e_radps));
+    const double most  = (double)g->iq_speed_max_A;
+    const double given = support_limit(support_limit(asked, iqr - most, iqr + most),
+                                       (double)references->current_ref.iq_lo_A,
+                                       (double)references->current_ref.iq_hi_A);
     const double e_w   = (iqr - given) / ratio;
     const double w_d   = w - e_w;
-    const double e[3]  = {e_w, (double)drive.now.iq_A - iqr, (double)drive.now.id_A - idr};
+    const double e[3]  = {e_w, (double)drive.wanted.now.iq_A - iqr,
+                          (double)drive.wanted.now.id_A - idr};
     const double limit = (double)g->iq_error_max_A;
     const double held  = support_limit(e[1], -limit, limit);
 
-    law_t u;
-    u.v_q = ((double)m->l4 * iqr) + ((double)m->l5 * w_d) + (double)drive.current_ref.i_dot_Aps.q +
+    voltages_t u;
+    u.v_q = ((double)m->l4 * iqr) + ((double)m->l5 * w_d) +
+            (double)references->current_ref.i_dot_Aps.q +
             ((double)m->l10 * ((e[2] * w_d) + (w * idr) + (e[2] * e[0])));
-    u.v_d = ((double)m->l7 * idr) + (double)drive.current_ref.i_dot_Aps.d -
+    u.v_d = ((double)m->l7 * idr) + (double)references->current_ref.i_dot_Aps.d -
             ((double)m->l9 * ((e[1] * w_d) + (w * iqr) + (e[1] * e[0])));
-    u.v_q = (u.v_q - (double)drive.observer.d_q) / (double)m->l6;
-    u.v_d = (u.v_d - (double)drive.observer.d_d) / (double)m->l8;
+    u.v_q = (u.v_q - (double)speed_form->observer.d_q) / (double)m->l6;
+    u.v_d = (u.v_d - (double)speed_form->observer.d_d) / (double)m->l8;
     for (int n = 0; n <= g->order; n++) {
         for (int column = 0; column < NOSC_N_E; column++) {
             u.v_q -= pow(held, (double)n) * (double)g->lambda[n][0][column] * e[column];
@@ -496,7 +507,7 @@ static void test_voltage_matches_the_printed_law(void)
         (void)tick();
 
         if (!drive.v_limited) {
-            const law_t u = oracle_law();
+            const voltages_t u = oracle_law();
             TEST_ASSERT_DOUBLE_WITHIN(TOL_V, u.v_q, (double)drive.v_V.q);
             TEST_ASSERT_DOUBLE_WITHIN(TOL_V, u.v_d, (double)drive.v_V.d);
             compared++;
@@ -528,12 +539,13 @@ static void assert_limited_voltage_is_the_printed_law(void)
     for (int n = 0; n < 5000; n++) {
         draw_inputs();
         (void)tick();
-        const double w   = (double)drive.now.omega_e_radps;
-        const law_t  u   = oracle_law();
-        const dq_t   u_V = {.d = (float)u.v_d, .q = (float)u.v_q};
-        const float  hold_V =
-            (float)((((double)m->l4 * (double)drive.now.iq_A) + ((double)m->l5 * w) +
-                     ((double)m->l10 * w * (double)drive.now.id_A) - (double)drive.observer.d_q) /
+        const double     w   = (double)drive.wanted.now.omega_e_radps;
+        const voltages_t u   = oracle_law();
+        const dq_t       u_V = {.d = (float)u.v_d, .q = (float)u.v_q};
+        const float      hold_V =
+            (float)((((double)m->l4 * (double)drive.wanted.now.iq_A) + ((double)m->l5 * w) +
+                     ((double)m->l10 * w * (double)drive.wanted.now.id_A) -
+                     (double)speed_form->observer.d_q) /
                     (double)m->l6);
         const double v_max_V  = reach_V(u_V);
         const bool   near_V   = fabs(support_length(u_V) - v_max_V) < 0.05;
@@ -573,18 +585,19 @@ static void test_observer_is_driven_by_the_limited_voltage_of_the_previous_tick(
     (void)tick();
     for (int n = 0; n < 1000; n++) {
         const dq_t in_force_V = drive.v_V;
-        nodo_t     expected   = drive.observer;
+        nodo_t     expected   = speed_form->observer;
         draw_inputs();
 
         (void)tick();
-        nodo_update(&expected, &config.nodo, &config.motor, &drive.now, in_force_V, config.ts_s);
+        nodo_update(&expected, &constants.noc_speed.nodo, &config.motor, &drive.wanted.now,
+                    in_force_V, config.ts_s);
 
-        TEST_ASSERT_TRUE((drive.observer.d_omega == expected.d_omega) &&
-                         (drive.observer.d_q == expected.d_q) &&
-                         (drive.observer.d_d == expected.d_d));
-        TEST_ASSERT_TRUE((drive.observer.omega_e_radps == expected.omega_e_radps) &&
-                         (drive.observer.iq_A == expected.iq_A) &&
-                         (drive.observer.id_A == expected.id_A));
+        TEST_ASSERT_TRUE((speed_form->observer.d_omega == expected.d_omega) &&
+                         (speed_form->observer.d_q == expected.d_q) &&
+                         (speed_form->observer.d_d == expected.d_d));
+        TEST_ASSERT_TRUE((speed_form->observer.omega_e_radps == expected.omega_e_radps) &&
+                         (speed_form->observer.iq_A == expected.iq_A) &&
+                         (speed_form->observer.id_A == expected.id_A));
     }
 }
 
@@ -592,28 +605,31 @@ static void assert_references_follow(void (*draw)(void))
 {
     (void)tick();
     for (int n = 0; n < 1000; n++) {
-        speed_ref_t   speed   = drive.speed_ref;
-        current_ref_t current = drive.current_ref;
+        speed_ref_t   speed   = references->speed_ref;
+        current_ref_t current = references->current_ref;
         draw();
 
         TEST_ASSERT_TRUE(tick().gate_enable);
-        const float               e_w    = drive.now.omega_e_radps - speed.omega_e_radps;
-        const current_ref_input_t in     = {.est        = &drive.observer,
-                                            .state      = &drive.now,
-                                            .iq_speed_A = nosc_speed_current_A(&config.nosc, e_w),
-                                            .dc_link_V  = sample.dc_link_V,
-                                            .v_max_V    = sample.dc_link_V * BASE_1_SQRT3};
-        const speed_ref_limits_t  limits = current_ref_speed_limits(
-             &current, &config.current_ref, &config.motor, &in, command.omega_e_radps);
-        speed_ref_update(&speed, &limits, command.omega_e_radps, drive.now.omega_e_radps,
+        const float               e_w = drive.wanted.now.omega_e_radps - speed.omega_e_radps;
+        const current_ref_input_t in  = {.est   = &speed_form->observer,
+                                         .state = &drive.wanted.now,
+                                         .iq_speed_A =
+                                             nosc_speed_current_A(&constants.near_optimal.nosc, e_w),
+                                         .dc_link_V = sample.dc_link_V,
+                                         .v_max_V   = sample.dc_link_V * BASE_1_SQRT3};
+        const speed_ref_limits_t  limits =
+            current_ref_speed_limits(&current, &constants.near_optimal.current_ref, &config.motor,
+                                     &in, command.omega_e_radps);
+        speed_ref_update(&speed, &limits, command.omega_e_radps, drive.wanted.now.omega_e_radps,
                          config.ts_s);
-        current_ref_update(&current, &config.current_ref, &config.motor, &speed, &in);
+        current_ref_update(&current, &constants.near_optimal.current_ref, &config.motor, &speed,
+                           &in);
 
-        TEST_ASSERT_TRUE(drive.speed_ref.omega_e_radps == speed.omega_e_radps);
-        TEST_ASSERT_TRUE((drive.current_ref.i_A.d == current.i_A.d) &&
-                         (drive.current_ref.i_A.q == current.i_A.q));
-        TEST_ASSERT_TRUE((drive.current_ref.iq_lo_A == current.iq_lo_A) &&
-                         (drive.current_ref.iq_hi_A == current.iq_hi_A));
+        TEST_ASSERT_TRUE(references->speed_ref.omega_e_radps == speed.omega_e_radps);
+        TEST_ASSERT_TRUE((references->current_ref.i_A.d == current.i_A.d) &&
+                         (references->current_ref.i_A.q == current.i_A.q));
+        TEST_ASSERT_TRUE((references->current_ref.iq_lo_A == current.iq_lo_A) &&
+                         (references->current_ref.iq_hi_A == current.iq_hi_A));
     }
 }
 
@@ -623,7 +639,7 @@ static void test_references_follow_this_sample_and_command(void)
 }
 
 /* Voltage vector that the duty ratios make, in the stator frame. */
-static double complex realised_V(drive_output_t out)
+static double complex realised_V(bridge_t out)
 {
     const double complex turn = cexp(support_complex(0.0, third_turn));
     return (2.0 / 3.0) * (double)sample.dc_link_V *
@@ -638,7 +654,7 @@ static void test_duty_realises_the_voltage_one_and_a_half_periods_ahead(void)
         const double ahead =
             (double)sample.theta_e_rad + (1.5 * 2.0e-4 * (double)sample.omega_e_radps);
 
-        const drive_output_t out = tick();
+        const bridge_t out = tick();
 
         const double complex v_V = realised_V(out) * cexp(support_complex(0.0, -ahead));
         TEST_ASSERT_DOUBLE_WITHIN(TOL_DUTY_V, (double)drive.v_V.d, creal(v_V));
@@ -666,7 +682,7 @@ static void assert_duties_and_voltage_stay_in_range(void)
     for (int32_t n = 0; n < 100000; n++) {
         draw_inputs();
 
-        const drive_output_t out = tick();
+        const bridge_t out = tick();
 
         TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_NONE, drive.fault);
         TEST_ASSERT_TRUE(out.gate_enable);
@@ -691,10 +707,10 @@ static void test_dead_time_is_compensated_for_the_currents_of_the_law(void)
     config.dead_time = speed_tables_drive.dead_time;
     for (int n = 0; n < 2000; n++) {
         draw_inputs();
-        const drive_output_t out = tick();
+        const bridge_t       out = tick();
         const frames_angle_t angle =
             frames_angle(sample.theta_e_rad + (1.5f * config.ts_s * sample.omega_e_radps));
-        const dq_t  i_A   = {.d = drive.now.id_A, .q = drive.now.iq_A};
+        const dq_t  i_A   = {.d = drive.wanted.now.id_A, .q = drive.wanted.now.iq_A};
         const abc_t i_abc = frames_inverse_clarke(frames_inverse_park(i_A, angle));
         const abc_t plain = svpwm_duty(frames_inverse_park(drive.v_V, angle), sample.dc_link_V);
 
@@ -713,7 +729,7 @@ static void test_implausible_speed_samples_keep_duties_in_range(void)
         draw_inputs();
         sample.omega_e_radps = support_uniform(&random_state, -1569.0f, 1569.0f);
 
-        const drive_output_t out = tick();
+        const bridge_t out = tick();
 
         TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_NONE, drive.fault);
         TEST_ASSERT_TRUE(base_in_range(out.duty.a, 0.0f, 1.0f));
@@ -755,7 +771,7 @@ static void assert_settles(double speed, double load_Nm)
     command.omega_e_radps = (float)speed;
     for (int n = 0; n < 3000; n++) {
         sample                      = sample_at(plant.id, plant.iq, plant.theta, plant.omega);
-        const drive_output_t out    = tick();
+        const bridge_t       out    = tick();
         const double complex coming = realised_V(out);
         plant_run(&plant, stator, load_Nm);
         stator = coming; /* in force from the next sample on */
@@ -764,7 +780,7 @@ static void assert_settles(double speed, double load_Nm)
     TEST_ASSERT_EQUAL_INT(DRIVE_RUN, drive.state);
     TEST_ASSERT_DOUBLE_WITHIN(TOL_RADPS, speed, plant.omega);
     TEST_ASSERT_DOUBLE_WITHIN(TOL_TORQUE, load_Nm,
-                              -(double)drive.observer.d_omega / (double)config.motor.l3);
+                              -(double)speed_form->observer.d_omega / (double)config.motor.l3);
 }
 
 static void test_loop_around_a_motor_settles_at_the_command_and_finds_the_load(void)
@@ -791,9 +807,9 @@ static drive_sample_t encoder_sample(const plant_t *p)
     return s;
 }
 
-static drive_output_t loop_step(loop_t *loop, double load_Nm)
+static bridge_t loop_step(loop_t *loop, double load_Nm)
 {
-    const drive_output_t out    = tick();
+    const bridge_t       out    = tick();
     const double complex coming = out.gate_enable ? realised_V(out) : 0.0;
     plant_run(&loop->plant, loop->stator, load_Nm);
     loop->stator = coming;
@@ -827,7 +843,7 @@ static void test_encoder_loop_settles_at_the_command_and_finds_the_load(void)
             sample = encoder_sample(&loop.plant);
             (void)loop_step(&loop, loads[i]);
             mean += loop.plant.omega / 500.0;
-            d_w += (double)drive.observer.d_omega / 500.0;
+            d_w += (double)encoder_form->observer.d_omega / 500.0;
             worst = fmax(worst, fabs(loop.plant.omega - speeds[i]));
         }
 
@@ -845,10 +861,10 @@ static void test_standing_angle_of_a_turning_motor_trips(void)
     static const double speeds[] = {300.0, -300.0, 800.0, -800.0, 150.0};
     for (int i = 0; i < SUPPORT_COUNT(speeds); i++) {
         use_encoder_form();
-        loop_t         loop  = settled_loop(speeds[i], 0.2);
-        const float    stuck = encoder_sample(&loop.plant).theta_e_rad;
-        drive_output_t out   = {{0.0f, 0.0f, 0.0f}, true};
-        int            n     = 0;
+        loop_t      loop  = settled_loop(speeds[i], 0.2);
+        const float stuck = encoder_sample(&loop.plant).theta_e_rad;
+        bridge_t    out   = {{0.0f, 0.0f, 0.0f}, true};
+        int         n     = 0;
         for (; (n < 100) && out.gate_enable; n++) {
             sample             = encoder_sample(&loop.plant);
             sample.theta_e_rad = stuck;
@@ -909,10 +925,11 @@ static void test_encoder_form_trips_on_every_input_that_is_not_finite(void)
 
 static void test_encoder_form_trips_on_estimates_that_are_not_finite(void)
 {
-    float *const estimates[] = {&drive.observer.d_omega, &drive.observer.d_q,
-                                &drive.observer.d_d,     &drive.observer.omega_e_radps,
-                                &drive.observer.iq_A,    &drive.observer.id_A,
-                                &drive.theta_hat_rad};
+    float *const estimates[] = {
+        &encoder_form->observer.d_omega, &encoder_form->observer.d_q,
+        &encoder_form->observer.d_d,     &encoder_form->observer.omega_e_radps,
+        &encoder_form->observer.iq_A,    &encoder_form->observer.id_A,
+        &encoder_form->theta_hat_rad};
     use_encoder_form();
     for (int i = 0; i < SUPPORT_COUNT(estimates); i++) {
         for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
@@ -936,14 +953,13 @@ static void use_harmonics(void)
 /* Whatever of the harmonic observer is no number, the bridge opens in that period. */
 static void test_noc_h_trips_on_estimates_that_are_not_finite(void)
 {
-    nodo_harmonic_t *const h           = &drive.harmonic;
+    nodo_harmonic_t *const h           = &harmonic_form->observer;
     float *const           estimates[] = {
-                  &h->base.d_omega,    &h->base.d_q,  &h->base.d_d,  &h->base.omega_e_radps,
-                  &h->base.iq_A,       &h->base.id_A, &h->slope,     &h->theta_rad,
-                  &h->theta_pairs_rad, &h->pair[0].a, &h->pair[0].b, &drive.theta_hat_rad};
+                  &h->base.d_omega,    &h->base.d_q,  &h->base.d_d, &h->base.omega_e_radps,
+                  &h->base.iq_A,       &h->base.id_A, &h->slope,    &h->theta_rad,
+                  &h->theta_pairs_rad, &h->pair[0].a, &h->pair[0].b};
     use_harmonics();
-    for (int i = 0;
-         i < SUPPORT_COUNT(estimates) + (2 * harmonic_tables_drive.nodo_harmonic->n_pairs); i++) {
+    for (int i = 0; i < SUPPORT_COUNT(estimates) + (2 * constants.noc_h.nodo.n_pairs); i++) {
         const int pair = (i - SUPPORT_COUNT(estimates)) / 2;
         for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
             start_over();
@@ -970,21 +986,22 @@ static void test_noc_h_starts_afresh(void)
 {
     use_harmonics();
     (void)settled_loop(300.0, 0.5);
-    TEST_ASSERT_TRUE((drive.harmonic.pair[0].a != 0.0f) && (drive.d_omega_dot != 0.0f));
+    TEST_ASSERT_TRUE((harmonic_form->observer.pair[0].a != 0.0f) &&
+                     (harmonic_form->known.d_omega_dot != 0.0f));
     drive_reset(&drive);
-    sample                     = sample_at(0.0, 0.0, 1.0, 100.0);
-    command.omega_e_radps      = 100.0f;
-    const drive_output_t again = tick();
-    const drive_t        used  = drive;
+    sample                = sample_at(0.0, 0.0, 1.0, 100.0);
+    command.omega_e_radps = 100.0f;
+    const bridge_t again  = tick();
+    const drive_t  used   = drive;
     use_harmonics();
-    sample                     = sample_at(0.0, 0.0, 1.0, 100.0);
-    command.omega_e_radps      = 100.0f;
-    const drive_output_t first = tick();
+    sample                = sample_at(0.0, 0.0, 1.0, 100.0);
+    command.omega_e_radps = 100.0f;
+    const bridge_t first  = tick();
 
     TEST_ASSERT_TRUE((again.duty.a == first.duty.a) && (again.duty.b == first.duty.b));
-    TEST_ASSERT_TRUE((used.harmonic.pair[0].a == drive.harmonic.pair[0].a) &&
-                     (used.harmonic.slope == drive.harmonic.slope) &&
-                     (used.d_omega_dot == drive.d_omega_dot));
+    TEST_ASSERT_TRUE((used.law.noc_h.observer.pair[0].a == harmonic_form->observer.pair[0].a) &&
+                     (used.law.noc_h.observer.slope == harmonic_form->observer.slope) &&
+                     (used.law.noc_h.known.d_omega_dot == harmonic_form->known.d_omega_dot));
 }
 
 static void test_noc_h_loop_settles_at_the_command_and_finds_the_load(void)
@@ -998,7 +1015,7 @@ static void test_noc_h_loop_settles_at_the_command_and_finds_the_load(void)
             sample = encoder_sample(&loop.plant);
             (void)loop_step(&loop, 0.75);
             mean += loop.plant.omega / 500.0;
-            d_w += (double)drive.observer.d_omega / 500.0;
+            d_w += (double)drive.wanted.d_omega / 500.0;
         }
         TEST_ASSERT_EQUAL_INT(DRIVE_RUN, drive.state);
         TEST_ASSERT_DOUBLE_WITHIN(TOL_MEAN_RADPS, speeds[i], mean);
@@ -1017,7 +1034,7 @@ static void test_encoder_form_does_not_use_the_speed_signal(void)
         drive_sample_t disturbed = sample;
         disturbed.omega_e_radps  = support_uniform(&random_state, -1500.0f, 1500.0f);
 
-        const drive_output_t out = loop_step(&loop, 0.2);
+        const bridge_t out = loop_step(&loop, 0.2);
 
         assert_same_output(out, drive_tick(&other, &disturbed, &command));
     }
@@ -1030,20 +1047,22 @@ static void test_encoder_form_acts_on_the_prediction(void)
     loop_t loop = settled_loop(300.0, 0.5);
     for (int n = 0; n < 500; n++) {
         sample              = encoder_sample(&loop.plant);
-        nodo_t      x       = drive.observer;
-        float       theta   = drive.theta_hat_rad;
+        nodo_t      x       = encoder_form->observer;
+        float       theta   = encoder_form->theta_hat_rad;
         const dq_t  force_V = drive.v_V;
         const dq_t  i_A = frames_park(frames_clarke(sample.ia_A, sample.ib_A), frames_angle(theta));
         const float error = frames_wrap(sample.theta_e_rad - theta);
-        nodo_encoder_correct(&x, &theta, &config.nodo_encoder, i_A, error, config.ts_s);
+        nodo_encoder_correct(&x, &theta, &constants.noc.nodo, i_A, error, config.ts_s);
         nodo_encoder_predict(&x, &theta, &config.motor, force_V, config.ts_s);
 
-        const drive_output_t out = loop_step(&loop, 0.5);
+        const bridge_t out = loop_step(&loop, 0.5);
 
-        TEST_ASSERT_TRUE((drive.observer.d_omega == x.d_omega) && (drive.observer.d_q == x.d_q) &&
-                         (drive.observer.d_d == x.d_d) && (drive.theta_hat_rad == theta));
-        TEST_ASSERT_TRUE((drive.now.omega_e_radps == x.omega_e_radps) &&
-                         (drive.now.iq_A == x.iq_A) && (drive.now.id_A == x.id_A));
+        TEST_ASSERT_TRUE((encoder_form->observer.d_omega == x.d_omega) &&
+                         (encoder_form->observer.d_q == x.d_q) &&
+                         (encoder_form->observer.d_d == x.d_d) &&
+                         (encoder_form->theta_hat_rad == theta));
+        TEST_ASSERT_TRUE((drive.wanted.now.omega_e_radps == x.omega_e_radps) &&
+                         (drive.wanted.now.iq_A == x.iq_A) && (drive.wanted.now.id_A == x.id_A));
         const double ahead = (double)theta + (0.5 * (double)config.ts_s * (double)x.omega_e_radps);
         const double complex v_V = realised_V(out) * cexp(support_complex(0.0, -ahead));
         TEST_ASSERT_DOUBLE_WITHIN(TOL_DUTY_V, (double)drive.v_V.d, creal(v_V));
@@ -1068,13 +1087,13 @@ static void test_encoder_form_keeps_duties_in_range_for_plausible_samples(void)
         sample.theta_e_rad = (float)(floor(theta / COUNT_e_rad) * COUNT_e_rad);
         sample.dc_link_V   = v_V;
 
-        const drive_output_t out = tick();
+        const bridge_t out = tick();
 
         TEST_ASSERT_TRUE(base_in_range(out.duty.a, 0.0f, 1.0f));
         TEST_ASSERT_TRUE(base_in_range(out.duty.b, 0.0f, 1.0f));
         TEST_ASSERT_TRUE(base_in_range(out.duty.c, 0.0f, 1.0f));
-        TEST_ASSERT_TRUE(isfinite(drive.observer.omega_e_radps) && isfinite(drive.v_V.d) &&
-                         isfinite(drive.v_V.q) && isfinite(drive.observer.d_omega));
+        TEST_ASSERT_TRUE(isfinite(encoder_form->observer.omega_e_radps) && isfinite(drive.v_V.d) &&
+                         isfinite(drive.v_V.q) && isfinite(encoder_form->observer.d_omega));
         TEST_ASSERT_TRUE(drive.fault != DRIVE_FAULT_NUMERIC);
         running += out.gate_enable ? 1 : 0;
         if (drive.state == DRIVE_FAULT) { /* speeds and currents that contradict each other */

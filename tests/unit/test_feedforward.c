@@ -126,7 +126,7 @@ static void test_hold_voltage_keeps_the_q_current(void)
     for (int n = 0; n < CASES; n++) {
         draw_case();
 
-        const dq_t h_V = {.d = 0.0f, .q = feedforward_hold_q_V(&motor, &y, &est)};
+        const dq_t h_V = {.d = 0.0f, .q = feedforward_hold_q_V(&motor, &y, est.d_q)};
 
         TEST_ASSERT_DOUBLE_WITHIN(TOL_Aps, 0.0, iq_dot_Aps(h_V));
     }
@@ -136,12 +136,11 @@ static void test_hold_voltage_of_the_shipped_motor_is_mostly_its_back_emf(void)
 {
     motor = speed_tables_drive.motor;
     for (int speed = -1500; speed <= 1500; speed += 100) {
-        const nodo_t nothing = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-        y.omega_e_radps      = (float)speed;
-        y.iq_A               = 0.0f;
-        y.id_A               = 0.0f;
+        y.omega_e_radps = (float)speed;
+        y.iq_A          = 0.0f;
+        y.id_A          = 0.0f;
 
-        const float h_V = feedforward_hold_q_V(&motor, &y, &nothing);
+        const float h_V = feedforward_hold_q_V(&motor, &y, 0.0f);
 
         TEST_ASSERT_DOUBLE_WITHIN(TOL_V, 0.193 * (double)speed, (double)h_V);
     }
@@ -157,7 +156,7 @@ static void test_feedforward_without_errors_or_derivatives_is_the_hold_voltage(v
         ref.i_dot_Aps.q = 0.0f;
 
         const dq_t  u_V   = feedforward_V(&motor, &ref, y.omega_e_radps, &y, &est);
-        const float h_q_V = feedforward_hold_q_V(&motor, &y, &est);
+        const float h_q_V = feedforward_hold_q_V(&motor, &y, est.d_q);
 
         TEST_ASSERT_DOUBLE_WITHIN(TOL_V, (double)h_q_V, (double)u_V.q);
         TEST_ASSERT_DOUBLE_WITHIN(TOL_Aps, 0.0, id_dot_Aps(u_V));
@@ -171,7 +170,7 @@ static void test_rest_without_disturbance_needs_no_voltage(void)
     current_ref_reset(&ref);
 
     const dq_t  u_V   = feedforward_V(&motor, &ref, 0.0f, &rest, &nothing);
-    const float h_q_V = feedforward_hold_q_V(&motor, &rest, &nothing);
+    const float h_q_V = feedforward_hold_q_V(&motor, &rest, 0.0f);
 
     TEST_ASSERT_TRUE((u_V.d == 0.0f) && (u_V.q == 0.0f) && (h_q_V == 0.0f));
 }
@@ -180,14 +179,14 @@ static void test_rest_without_disturbance_needs_no_voltage(void)
 static void test_reversed_rotation_mirrors_the_q_axis(void)
 {
     const dq_t  forwards_V  = feedforward_V(&motor, &ref, w_d_e_radps, &y, &est);
-    const float hold_V      = feedforward_hold_q_V(&motor, &y, &est);
+    const float hold_V      = feedforward_hold_q_V(&motor, &y, est.d_q);
     ref.i_A.q               = -ref.i_A.q;
     ref.i_dot_Aps.q         = -ref.i_dot_Aps.q;
     y.omega_e_radps         = -y.omega_e_radps;
     y.iq_A                  = -y.iq_A;
     est.d_q                 = -est.d_q;
     const dq_t  backwards_V = feedforward_V(&motor, &ref, -w_d_e_radps, &y, &est);
-    const float hold_back_V = feedforward_hold_q_V(&motor, &y, &est);
+    const float hold_back_V = feedforward_hold_q_V(&motor, &y, est.d_q);
 
     TEST_ASSERT_TRUE((backwards_V.d == forwards_V.d) && (backwards_V.q == -forwards_V.q));
     TEST_ASSERT_TRUE(hold_back_V == -hold_V);
@@ -199,7 +198,7 @@ static void test_not_a_number_is_not_hidden(void)
     est.d_d = NAN;
 
     const dq_t  u_V   = feedforward_V(&motor, &ref, w_d_e_radps, &y, &est);
-    const float h_q_V = feedforward_hold_q_V(&motor, &y, &est);
+    const float h_q_V = feedforward_hold_q_V(&motor, &y, est.d_q);
 
     TEST_ASSERT_TRUE(isnan(u_V.d) && isnan(u_V.q) && isnan(h_q_V));
 }

@@ -4,8 +4,9 @@
 #include "unit_support.h"
 #include "unity.h"
 
-#define TOL_ANGLE 1.5e-7 /* cosine or sine; worst 3.1e-8 */
-#define TOL_A     1.0e-5 /* A, vectors of 10 A at any angle; worst 1.9e-6 */
+#define TOL_ANGLE    1.5e-7 /* cosine or sine; worst 3.1e-8 */
+#define TOL_WRAP_RAD 9.0e-7 /* rad, angles within +-3 pi; worst 1.8e-7 */
+#define TOL_A        1.0e-5 /* A, vectors of 10 A at any angle; worst 1.9e-6 */
 
 #define STEPS 360 /* of one degree; the sweeps go from -2 pi to 2 pi */
 
@@ -163,6 +164,30 @@ static void test_not_a_number_is_not_hidden(void)
     TEST_ASSERT_TRUE(isnan(y.d) && isnan(y.q));
 }
 
+static void test_wrap_moves_angles_of_three_half_turns_into_one(void)
+{
+    for (int step = -942; step <= 942; step++) {
+        const float angle = 0.01f * (float)step;
+
+        const float out = frames_wrap(angle);
+
+        TEST_ASSERT_TRUE(base_in_range(out, -BASE_PI, BASE_PI));
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_WRAP_RAD, 0.0,
+                                  remainder((double)out - (double)angle, 3.0 * third_turn));
+        TEST_ASSERT_TRUE(frames_wrap(-angle) == -out);
+    }
+}
+
+static void test_wrap_leaves_what_is_in_range(void)
+{
+    TEST_ASSERT_TRUE(frames_wrap(BASE_PI) == BASE_PI);
+    TEST_ASSERT_TRUE(frames_wrap(-BASE_PI) == -BASE_PI);
+    TEST_ASSERT_TRUE(frames_wrap(0.0f) == 0.0f);
+    TEST_ASSERT_TRUE(frames_wrap(1.0e-30f) == 1.0e-30f);
+    TEST_ASSERT_TRUE(frames_wrap(nextafterf(BASE_PI, 4.0f)) < 0.0f);
+    TEST_ASSERT_TRUE(frames_wrap(-nextafterf(BASE_PI, 4.0f)) > 0.0f);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -176,5 +201,7 @@ int main(void)
     RUN_TEST(test_inverse_park_turns_forwards_by_the_angle);
     RUN_TEST(test_balanced_phases_become_constant_in_the_rotor_frame);
     RUN_TEST(test_not_a_number_is_not_hidden);
+    RUN_TEST(test_wrap_moves_angles_of_three_half_turns_into_one);
+    RUN_TEST(test_wrap_leaves_what_is_in_range);
     return UNITY_END();
 }

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "law_constants.h"
 #include "speed_tables.h"
 #include "unit_support.h"
 #include "unity.h"
@@ -14,20 +15,36 @@
 void setUp(void) {}
 void tearDown(void) {}
 
-static const drive_config_t *drive;
+static const drive_config_t        *drive;
+static const near_optimal_config_t *shared; /* of its law's constants */
+static const nodo_gains_t          *nodo;   /* of the speed form */
+
+static void use(const drive_config_t *tables)
+{
+    drive  = tables;
+    shared = law_constants_near_optimal(tables);
+    nodo   = &law_constants_noc_speed(&speed_tables_drive)->nodo;
+}
 
 /* Runs a test on the shipped tables and on those of the other form. */
 #define RUN_BOTH_FORMS(test)                                                                       \
     do {                                                                                           \
-        drive = &gain_tables_drive;                                                                \
+        use(&gain_tables_drive);                                                                   \
         RUN_TEST(test);                                                                            \
-        drive = &speed_tables_drive;                                                               \
+        use(&speed_tables_drive);                                                                  \
         RUN_TEST(test);                                                                            \
     } while (0)
 
 static void assert_constant(double expected, float actual)
 {
     TEST_ASSERT_DOUBLE_WITHIN(TOL_CONSTANT, 1.0, (double)actual / expected);
+}
+
+/* One limit, wherever it is asked for. */
+static void test_current_limit_of_the_references_is_that_of_the_drive(void)
+{
+    TEST_ASSERT_TRUE(drive->current_max_A == 4.0f);
+    TEST_ASSERT_TRUE(shared->current_ref.current_max_A == drive->current_max_A);
 }
 
 static void test_tables_are_a_valid_drive_configuration(void)
@@ -66,7 +83,7 @@ static void test_reduced_parameters_are_those_of_the_motor(void)
 
 static void test_constants_of_the_references_agree_with_the_motor(void)
 {
-    const current_ref_config_t *c = &drive->current_ref;
+    const current_ref_config_t *c = &shared->current_ref;
 
     assert_constant(0.193 / (2.0 * (0.11391 - 0.07498)), c->mtpa_A);
     assert_constant((double)drive->ts_s * (double)c->filter_1ps, c->filter_per_period);
@@ -74,27 +91,28 @@ static void test_constants_of_the_references_agree_with_the_motor(void)
     assert_constant(2.0e-4, drive->ts_s);
 }
 
-static void test_shipped_tables_are_those_of_the_encoder_form(void)
+static void test_tables_name_the_law_of_their_form(void)
 {
-    TEST_ASSERT_EQUAL_INT(DRIVE_FORM_ENCODER, gain_tables_drive.form);
-    TEST_ASSERT_TRUE(gain_tables_drive.current_ref.mtpa_exact);
-    TEST_ASSERT_EQUAL_INT(DRIVE_FORM_SPEED, speed_tables_drive.form);
-    TEST_ASSERT_TRUE(!speed_tables_drive.current_ref.mtpa_exact);
+    TEST_ASSERT_TRUE(gain_tables_drive.law == &law_noc);
+    TEST_ASSERT_TRUE(law_constants_near_optimal(&gain_tables_drive)->current_ref.mtpa_exact);
+    TEST_ASSERT_TRUE(speed_tables_drive.law == &law_noc_speed);
+    TEST_ASSERT_TRUE(!law_constants_near_optimal(&speed_tables_drive)->current_ref.mtpa_exact);
 }
 
 /* Through EQ-NOSC-3 that speed error turns the whole current round, from one limit to the other. */
 static void test_near_speed_asks_for_the_whole_current(void)
 {
-    const double ratio = (double)drive->nosc.lambda[0][0][0] / (double)drive->nosc.lambda[0][0][1];
+    const double ratio =
+        (double)shared->nosc.lambda[0][0][0] / (double)shared->nosc.lambda[0][0][1];
 
-    assert_constant(2.0 * (double)drive->current_ref.current_max_A / ratio,
-                    drive->current_ref.near_e_radps);
+    assert_constant(2.0 * (double)shared->current_ref.current_max_A / ratio,
+                    shared->current_ref.near_e_radps);
 }
 
 /* Nothing is fed back any more where the dc link trips. */
 static void test_regeneration_ends_before_the_dc_link_trips(void)
 {
-    const current_ref_config_t *c      = &drive->current_ref;
+    const current_ref_config_t *c      = &shared->current_ref;
     const double                ends_V = (double)c->regen_start_V + (1.0 / (double)c->regen_per_V);
 
     TEST_ASSERT_TRUE(ends_V < (double)drive->dc_link_max_V);
@@ -109,25 +127,25 @@ static void test_dead_time_is_its_share_of_the_pwm_period(void)
 /* The largest iq of the MTPA curve on the current circle; the speed form keeps the second-order term. */
 static void test_largest_q_current_lies_on_the_current_circle(void)
 {
-    const double iq   = (double)drive->current_ref.iq_max_A;
-    const double k    = (double)drive->current_ref.mtpa_A;
-    const double root = drive->current_ref.mtpa_exact ? hypot(k, iq) : k;
+    const double iq   = (double)shared->current_ref.iq_max_A;
+    const double k    = (double)shared->current_ref.mtpa_A;
+    const double root = shared->current_ref.mtpa_exact ? hypot(k, iq) : k;
     const double id   = iq * iq / (k + root);
 
-    assert_constant(hypot(id, iq), drive->current_ref.current_max_A);
+    assert_constant(hypot(id, iq), shared->current_ref.current_max_A);
 }
 
 /* Reversing the rotation must reverse v_q and keep v_d, so every other power of every entry is zero. */
 static void test_gains_of_the_controller_have_the_symmetry_of_the_motor(void)
 {
-    for (int n = 0; n <= drive->nosc.order; n++) {
+    for (int n = 0; n <= shared->nosc.order; n++) {
         for (int row = 0; row < NOSC_N_U; row++) {
             for (int column = 0; column < NOSC_N_E; column++) {
                 const bool mirrored_row    = (row == 0);
                 const bool mirrored_column = (column < 2);
                 const bool odd             = ((n % 2) == 1);
                 if ((mirrored_row != mirrored_column) != odd) {
-                    TEST_ASSERT_TRUE(drive->nosc.lambda[n][row][column] == 0.0f);
+                    TEST_ASSERT_TRUE(shared->nosc.lambda[n][row][column] == 0.0f);
                 }
             }
         }
@@ -136,7 +154,7 @@ static void test_gains_of_the_controller_have_the_symmetry_of_the_motor(void)
 
 static void test_gains_of_the_angle_observer_have_the_symmetry_of_the_motor(void)
 {
-    const nodo_encoder_gains_t *g = &gain_tables_drive.nodo_encoder;
+    const nodo_encoder_gains_t *g = &law_constants_noc(&gain_tables_drive)->nodo;
     for (int n = 0; n <= g->order; n++) {
         for (int row = 0; row < NODO_ENCODER_N_X; row++) {
             for (int column = 0; column < NODO_ENCODER_N_Y; column++) {
@@ -153,14 +171,14 @@ static void test_gains_of_the_angle_observer_have_the_symmetry_of_the_motor(void
 
 static void test_gains_of_the_observer_have_the_symmetry_of_the_motor(void)
 {
-    for (int n = 0; n <= drive->nodo.order; n++) {
+    for (int n = 0; n <= nodo->order; n++) {
         for (int row = 0; row < NODO_N_X; row++) {
             for (int column = 0; column < NODO_N_Y; column++) {
                 const bool mirrored_row    = ((row % 3) != 2);
                 const bool mirrored_column = (column < 2);
                 const bool odd             = ((n % 2) == 1);
                 if ((mirrored_row != mirrored_column) != odd) {
-                    TEST_ASSERT_TRUE(drive->nodo.gain[n][row][column] == 0.0f);
+                    TEST_ASSERT_TRUE(nodo->gain[n][row][column] == 0.0f);
                 }
             }
         }
@@ -169,14 +187,20 @@ static void test_gains_of_the_observer_have_the_symmetry_of_the_motor(void)
 
 static void test_powers_beyond_the_order_are_empty(void)
 {
-    for (int n = drive->nosc.order + 1; n <= NOSC_ORDER_MAX; n++) {
+    for (int n = shared->nosc.order + 1; n <= NOSC_ORDER_MAX; n++) {
         for (int i = 0; i < NOSC_N_U * NOSC_N_E; i++) {
-            TEST_ASSERT_TRUE(drive->nosc.lambda[n][i / NOSC_N_E][i % NOSC_N_E] == 0.0f);
+            TEST_ASSERT_TRUE(shared->nosc.lambda[n][i / NOSC_N_E][i % NOSC_N_E] == 0.0f);
         }
     }
-    for (int n = drive->nodo.order + 1; n <= NODO_ORDER_MAX; n++) {
+    for (int n = nodo->order + 1; n <= NODO_ORDER_MAX; n++) {
         for (int i = 0; i < NODO_N_X * NODO_N_Y; i++) {
-            TEST_ASSERT_TRUE(drive->nodo.gain[n][i / NODO_N_Y][i % NODO_N_Y] == 0.0f);
+            TEST_ASSERT_TRUE(nodo->gain[n][i / NODO_N_Y][i % NODO_N_Y] == 0.0f);
+        }
+    }
+    const nodo_encoder_gains_t *encoder = &law_constants_noc(&gain_tables_drive)->nodo;
+    for (int n = encoder->order + 1; n <= NODO_ORDER_MAX; n++) {
+        for (int i = 0; i < NODO_ENCODER_N_X * NODO_ENCODER_N_Y; i++) {
+            TEST_ASSERT_TRUE(encoder->gain[n][i / NODO_ENCODER_N_Y][i % NODO_ENCODER_N_Y] == 0.0f);
         }
     }
 }
@@ -228,18 +252,20 @@ static void test_sampled_error_dynamics_decay_over_the_certified_range(void)
 {
     const motor_reduced_t *m = &drive->motor;
     for (int step = -GRID; step <= GRID; step++) {
-        const double eiq = (double)drive->nosc.iq_error_max_A * (double)step / GRID;
+        const double eiq = (double)shared->nosc.iq_error_max_A * (double)step / GRID;
         matrix_t     a   = {{{-(double)m->l2, (double)m->l1, (double)m->l11 * eiq},
                              {-(double)m->l5, -(double)m->l4, 0.0},
                              {0.0, 0.0, -(double)m->l7},
                              {0.0, 0.0, 0.0, -1000.0},
                              {0.0, 0.0, 0.0, 0.0, -1000.0},
                              {0.0, 0.0, 0.0, 0.0, 0.0, -1000.0}}};
-        for (int n = 0; n <= drive->nosc.order; n++) {
+        for (int n = 0; n <= shared->nosc.order; n++) {
             for (int column = 0; column < NOSC_N_E; column++) {
                 const double power = pow(eiq, (double)n);
-                a.at[1][column] -= (double)m->l6 * power * (double)drive->nosc.lambda[n][0][column];
-                a.at[2][column] -= (double)m->l8 * power * (double)drive->nosc.lambda[n][1][column];
+                a.at[1][column] -=
+                    (double)m->l6 * power * (double)shared->nosc.lambda[n][0][column];
+                a.at[2][column] -=
+                    (double)m->l8 * power * (double)shared->nosc.lambda[n][1][column];
             }
         }
 
@@ -254,18 +280,18 @@ static void test_sampled_observer_decays_over_the_certified_range(void)
 {
     const motor_reduced_t *m = &drive->motor;
     for (int step = -GRID; step <= GRID; step++) {
-        const double iq = (double)drive->nodo.iq_max_A * (double)step / GRID;
+        const double iq = (double)nodo->iq_max_A * (double)step / GRID;
         matrix_t     a  = {{{0.0},
                             {0.0},
                             {0.0},
                             {1.0, 0.0, 0.0, -(double)m->l2, (double)m->l1, (double)m->l11 * iq},
                             {0.0, 1.0, 0.0, -(double)m->l5, -(double)m->l4, 0.0},
                             {0.0, 0.0, 1.0, (double)m->l9 * iq, 0.0, -(double)m->l7}}};
-        for (int n = 0; n <= drive->nodo.order; n++) {
+        for (int n = 0; n <= nodo->order; n++) {
             for (int row = 0; row < NODO_N_X; row++) {
                 for (int column = 0; column < NODO_N_Y; column++) {
                     a.at[row][3 + column] -=
-                        pow(iq, (double)n) * (double)drive->nodo.gain[n][row][column];
+                        pow(iq, (double)n) * (double)nodo->gain[n][row][column];
                 }
             }
         }
@@ -280,10 +306,11 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_BOTH_FORMS(test_tables_are_a_valid_drive_configuration);
+    RUN_BOTH_FORMS(test_current_limit_of_the_references_is_that_of_the_drive);
     RUN_TEST(test_tables_name_their_drive);
     RUN_BOTH_FORMS(test_reduced_parameters_are_those_of_the_motor);
     RUN_BOTH_FORMS(test_constants_of_the_references_agree_with_the_motor);
-    RUN_TEST(test_shipped_tables_are_those_of_the_encoder_form);
+    RUN_TEST(test_tables_name_the_law_of_their_form);
     RUN_BOTH_FORMS(test_near_speed_asks_for_the_whole_current);
     RUN_BOTH_FORMS(test_regeneration_ends_before_the_dc_link_trips);
     RUN_BOTH_FORMS(test_dead_time_is_its_share_of_the_pwm_period);
@@ -292,7 +319,7 @@ int main(void)
     RUN_BOTH_FORMS(test_powers_beyond_the_order_are_empty);
     RUN_BOTH_FORMS(test_sampled_error_dynamics_decay_over_the_certified_range);
     RUN_TEST(test_gains_of_the_angle_observer_have_the_symmetry_of_the_motor);
-    drive = &speed_tables_drive;
+    use(&speed_tables_drive);
     RUN_TEST(test_gains_of_the_observer_have_the_symmetry_of_the_motor);
     RUN_TEST(test_sampled_observer_decays_over_the_certified_range);
     return UNITY_END();

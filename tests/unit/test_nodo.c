@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "nodo.h"
 
+#include "law_constants.h"
 #include "speed_tables.h"
 #include "unit_support.h"
 #include "unity.h"
@@ -169,7 +170,7 @@ static void test_step_without_residual_is_the_model_alone(void)
 
 static void test_series_is_held_beyond_its_range(void)
 {
-    gains = speed_tables_drive.nodo;
+    gains = law_constants_noc_speed(&speed_tables_drive)->nodo;
     for (int step = -60; step <= 60; step++) {
         const nodo_meas_t y   = {.omega_e_radps = 300.0f, .iq_A = 1.0f, .id_A = -1.0f};
         const dq_t        v_V = {.d = -20.0f, .q = 70.0f};
@@ -208,8 +209,10 @@ static void test_reversed_rotation_mirrors_the_estimates(void)
         const dq_t        vm  = {.d = v_V.d, .q = -v_V.q};
         nodo_t            xm  = {-x.d_omega, -x.d_q, x.d_d, -x.omega_e_radps, -x.iq_A, x.id_A};
 
-        nodo_update(&x, &speed_tables_drive.nodo, &speed_tables_drive.motor, &y, v_V, TS_s);
-        nodo_update(&xm, &speed_tables_drive.nodo, &speed_tables_drive.motor, &ym, vm, TS_s);
+        nodo_update(&x, &law_constants_noc_speed(&speed_tables_drive)->nodo,
+                    &speed_tables_drive.motor, &y, v_V, TS_s);
+        nodo_update(&xm, &law_constants_noc_speed(&speed_tables_drive)->nodo,
+                    &speed_tables_drive.motor, &ym, vm, TS_s);
 
         TEST_ASSERT_TRUE((xm.d_omega == -x.d_omega) && (xm.d_q == -x.d_q) && (xm.d_d == x.d_d));
         TEST_ASSERT_TRUE((xm.omega_e_radps == -x.omega_e_radps) && (xm.iq_A == -x.iq_A));
@@ -234,7 +237,7 @@ static void test_constant_disturbances_are_found(void)
     nodo_reset(&x, &y);
 
     for (int n = 0; n < 1000; n++) {
-        nodo_update(&x, &speed_tables_drive.nodo, m, &y, v_V, TS_s);
+        nodo_update(&x, &law_constants_noc_speed(&speed_tables_drive)->nodo, m, &y, v_V, TS_s);
     }
 
     TEST_ASSERT_DOUBLE_WITHIN(TOL_DISTURBANCE, 1.0, (double)x.d_omega / d_w);
@@ -248,7 +251,7 @@ static void test_infinite_estimate_of_the_current_does_not_reach_the_powers(void
     const dq_t        zero = {0.0f, 0.0f};
     nodo_t            x    = {0.0f, 0.0f, 0.0f, 0.0f, 1.0e20f, 0.0f};
 
-    nodo_update(&x, &speed_tables_drive.nodo, &motor, &y, zero, TS_s);
+    nodo_update(&x, &law_constants_noc_speed(&speed_tables_drive)->nodo, &motor, &y, zero, TS_s);
 
     TEST_ASSERT_TRUE(isfinite(x.d_omega) && isfinite(x.d_q) && isfinite(x.d_d));
 }

@@ -2,6 +2,7 @@
 #include "nodo_encoder.h"
 
 #include "gain_tables.h"
+#include "law_constants.h"
 #include "unit_support.h"
 #include "unity.h"
 
@@ -25,7 +26,7 @@ static float                theta_rad;
 void setUp(void)
 {
     random_state.state = 31u;
-    gains              = gain_tables_drive.nodo_encoder;
+    gains              = law_constants_noc(&gain_tables_drive)->nodo;
     motor              = gain_tables_drive.motor;
     x                  = support_random_estimate(&random_state);
     theta_rad          = 0.5f;
@@ -383,29 +384,6 @@ static void test_correction_carries_the_angle_across_half_a_turn(void)
     }
 }
 
-static void test_wrap_moves_angles_of_three_half_turns_into_one(void)
-{
-    for (int step = -942; step <= 942; step++) {
-        const float angle = 0.01f * (float)step;
-
-        const float out = frames_wrap(angle);
-
-        TEST_ASSERT_TRUE(base_in_range(out, -BASE_PI, BASE_PI));
-        TEST_ASSERT_DOUBLE_WITHIN(TOL_ANGLE, 0.0, wrapped((double)out - (double)angle));
-        TEST_ASSERT_TRUE(frames_wrap(-angle) == -out);
-    }
-}
-
-static void test_wrap_leaves_what_is_in_range(void)
-{
-    TEST_ASSERT_TRUE(frames_wrap(BASE_PI) == BASE_PI);
-    TEST_ASSERT_TRUE(frames_wrap(-BASE_PI) == -BASE_PI);
-    TEST_ASSERT_TRUE(frames_wrap(0.0f) == 0.0f);
-    TEST_ASSERT_TRUE(frames_wrap(1.0e-30f) == 1.0e-30f);
-    TEST_ASSERT_TRUE(frames_wrap(nextafterf(BASE_PI, 4.0f)) < 0.0f);
-    TEST_ASSERT_TRUE(frames_wrap(-nextafterf(BASE_PI, 4.0f)) > 0.0f);
-}
-
 /* Rotation reversed: speed, q quantities and angle change sign, the d axis stays. */
 static void test_reversed_rotation_mirrors_the_estimates(void)
 {
@@ -496,8 +474,6 @@ int main(void)
     RUN_TEST(test_prediction_is_close_to_the_motor);
     RUN_TEST(test_prediction_carries_the_angle_across_half_a_turn);
     RUN_TEST(test_correction_carries_the_angle_across_half_a_turn);
-    RUN_TEST(test_wrap_moves_angles_of_three_half_turns_into_one);
-    RUN_TEST(test_wrap_leaves_what_is_in_range);
     RUN_TEST(test_reversed_rotation_mirrors_the_estimates);
     RUN_TEST(test_observer_finds_disturbances_and_state_of_a_motor);
     RUN_TEST(test_not_a_number_is_not_hidden);

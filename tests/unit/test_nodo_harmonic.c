@@ -3,6 +3,7 @@
 
 #include "gain_tables.h"
 #include "harmonic_tables.h"
+#include "law_constants.h"
 #include "nodo_encoder.h"
 #include "unit_support.h"
 #include "unity.h"
@@ -192,7 +193,7 @@ static void test_gain_is_held_beyond_its_current(void)
 /* Equal nodes and no iq: then the gains are Ts L_0 of the encoder form, and so must be the estimates. */
 static void test_without_pairs_it_is_the_encoder_form(void)
 {
-    nodo_encoder_gains_t plain = gain_tables_drive.nodo_encoder;
+    nodo_encoder_gains_t plain = law_constants_noc(&gain_tables_drive)->nodo;
     plain.order                = 0;
     gains.n_pairs              = 0;
     for (int node = 0; node < gains.n_nodes; node++) {
@@ -447,7 +448,7 @@ static void test_not_a_number_is_not_hidden(void)
  * offset is found, and the estimated current is the true one, on which no measurement agrees with it. */
 static void test_sensor_offset_is_found_and_kept_out_of_the_current(void)
 {
-    const nodo_harmonic_gains_t *g       = harmonic_tables_drive.nodo_harmonic;
+    const nodo_harmonic_gains_t *g       = &law_constants_noc_h(&harmonic_tables_drive)->nodo;
     const float                  ts_s    = harmonic_tables_drive.ts_s;
     const double                 alpha_A = 0.05, beta_A = -0.03;
     const nodo_meas_t            start   = {300.0f, 0.0f, 0.0f};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "nosc.h"
 
+#include "law_constants.h"
 #include "speed_tables.h"
 #include "unit_support.h"
 #include "unity.h"
@@ -116,7 +117,7 @@ static void test_gain_is_held_beyond_the_certified_range(void)
 static void test_shipped_series_matches_oracle_in_volts(void)
 {
     for (int n = 0; n < CASES; n++) {
-        const nosc_gains_t *g = &speed_tables_drive.nosc;
+        const nosc_gains_t *g = &law_constants_near_optimal(&speed_tables_drive)->nosc;
         const nosc_error_t  e = random_error(8.0f);
         double              magnitude;
 
@@ -152,8 +153,10 @@ static void test_reversed_rotation_mirrors_the_shipped_law(void)
         const nosc_error_t e        = random_error(4.0f);
         const nosc_error_t mirrored = {-e.omega_e_radps, -e.iq_A, e.id_A};
 
-        const dq_t u_V = nosc_feedback_V(&speed_tables_drive.nosc, &e);
-        const dq_t m_V = nosc_feedback_V(&speed_tables_drive.nosc, &mirrored);
+        const dq_t u_V =
+            nosc_feedback_V(&law_constants_near_optimal(&speed_tables_drive)->nosc, &e);
+        const dq_t m_V =
+            nosc_feedback_V(&law_constants_near_optimal(&speed_tables_drive)->nosc, &mirrored);
 
         TEST_ASSERT_TRUE((m_V.q == -u_V.q) && (m_V.d == u_V.d));
     }
@@ -163,7 +166,7 @@ static void test_infinite_current_error_does_not_reach_the_powers(void)
 {
     const nosc_error_t e = {0.0f, 1.0e30f, 0.0f};
 
-    const dq_t u_V = nosc_feedback_V(&speed_tables_drive.nosc, &e);
+    const dq_t u_V = nosc_feedback_V(&law_constants_near_optimal(&speed_tables_drive)->nosc, &e);
 
     TEST_ASSERT_TRUE(isfinite(u_V.q) && isfinite(u_V.d));
 }
@@ -211,7 +214,7 @@ static double commanded_A(const nosc_gains_t *g, double e_w, double iq_ref_A)
 
 static void test_limited_speed_error_limits_the_commanded_current(void)
 {
-    const nosc_gains_t *g = &speed_tables_drive.nosc;
+    const nosc_gains_t *g = &law_constants_near_optimal(&speed_tables_drive)->nosc;
     for (int n = 0; n < CASES; n++) {
         const float        lo       = support_uniform(&random_state, -4.0f, 0.0f);
         const float        hi       = support_uniform(&random_state, 0.0f, 4.0f);
@@ -232,7 +235,7 @@ static void test_limited_speed_error_limits_the_commanded_current(void)
 
 static void test_speed_error_within_the_range_is_untouched(void)
 {
-    const nosc_gains_t *g = &speed_tables_drive.nosc;
+    const nosc_gains_t *g = &law_constants_near_optimal(&speed_tables_drive)->nosc;
     for (int step = -50; step <= 50; step++) {
         const nosc_error_t e = {0.08f * (float)step, 0.3f, -0.2f}; /* asks for 0.96 A at most */
 
@@ -246,8 +249,8 @@ static void test_empty_range_leaves_only_the_reference(void)
 {
     const nosc_error_t e = {25.0f, 0.3f, -0.2f};
 
-    const nosc_error_t limited =
-        nosc_limit_speed_error(&speed_tables_drive.nosc, e, 1.0f, 1.0f, 1.0f);
+    const nosc_error_t limited = nosc_limit_speed_error(
+        &law_constants_near_optimal(&speed_tables_drive)->nosc, e, 1.0f, 1.0f, 1.0f);
 
     TEST_ASSERT_TRUE(limited.omega_e_radps == 0.0f);
 }
@@ -284,7 +287,7 @@ static void test_small_gains_limit_and_ask_like_large_ones(void)
 static void test_bad_speed_error_is_limited_to_the_range(void)
 {
     for (int i = 0; i < SUPPORT_COUNT(support_not_finite); i++) {
-        const nosc_gains_t *g = &speed_tables_drive.nosc;
+        const nosc_gains_t *g = &law_constants_near_optimal(&speed_tables_drive)->nosc;
         const nosc_error_t  e = {support_not_finite[i], 0.0f, 0.0f};
 
         const nosc_error_t limited = nosc_limit_speed_error(g, e, 0.5f, -1.0f, 2.0f);

@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 #include "voltage.h"
 
+#include "gain_tables.h"
 #include "unit_support.h"
 #include "unity.h"
 
 #define TOL_V      1.0e-3 /* V, circles up to 230 V, legs near zero included */
 #define TOL_V2     1.2e-2 /* V^2, circle of 1e4 V^2 */
 #define TOL_CIRCLE 9.0e-7 /* relative overshoot of the circle */
+
+#define TOL_MAKE_V2 1.8e-1 /* V^2, up to 4e4 V^2: a root of a small difference; worst 0.035 */
+#define CIRCLE_V    (295.0 / 1.7320508075688772)
 
 #define CASES  5000
 #define SEARCH 60 /* halvings */
@@ -284,6 +288,141 @@ static void test_bad_number_never_leaves_the_circle(void)
     }
 }
 
+/* voltage_produce() on the shipped motor: what of a wanted voltage the modulator can make. */
+static drive_config_t config;
+static law_output_t   wanted;
+static double         theta_rad;
+
+static void draw_wanted(float limit_V)
+{
+    config     = gain_tables_drive;
+    theta_rad  = (double)support_uniform(&random_state, -6.28f, 6.28f);
+    wanted.v_V = random_vector(limit_V);
+    wanted.now = support_random_meas(&random_state);
+    wanted.d_q = support_uniform(&random_state, -200.0f, 200.0f);
+}
+
+static voltage_t produce(bool hexagon)
+{
+    config.overmodulation = hexagon;
+    return voltage_produce(&config, &wanted, frames_angle((float)theta_rad), 295.0f);
+}
+
+/* The q voltage under which the q current of (4) stands still. */
+static float hold_q_V(void)
+{
+    const nodo_meas_t *y = &wanted.now;
+    const double       w = (double)y->omega_e_radps;
+    return (float)((2.48 * (double)y->iq_A) + (w * (0.193 + (0.07498 * (double)y->id_A))) -
+                   (0.11391 * (double)wanted.d_q));
+}
+
+/* How far a hexagon whose edges lie v_dc / sqrt(3) from its centre reaches in the direction of a vector. */
+static double hexagon_V(dq_t v_V)
+{
+    const double sixth  = 1.0471975511965976;
+    const double angle  = theta_rad + atan2((double)v_V.q, (double)v_V.d);
+    const double within = remainder(angle - (0.5 * sixth), sixth);
+    return CIRCLE_V / cos(within);
+}
+
+static void test_what_fits_the_circle_is_produced_as_it_is(void)
+{
+    for (int n = 0; n < CASES; n++) {
+        draw_wanted(120.0f); /* 169.7 V at most */
+        for (int hexagon = 0; hexagon < 2; hexagon++) {
+            const voltage_t v = produce(hexagon != 0);
+
+            TEST_ASSERT_FALSE(v.limited);
+            TEST_ASSERT_TRUE((v.v_V.d == wanted.v_V.d) && (v.v_V.q == wanted.v_V.q));
+        }
+    }
+}
+
+static void test_circle_limits_beside_the_voltage_that_holds_the_current(void)
+{
+    int limited = 0;
+    for (int n = 0; n < CASES; n++) {
+        draw_wanted(400.0f);
+        const double         length = support_length(wanted.v_V);
+        const double complex want   = oracle_V(wanted.v_V, (double)hold_q_V(), CIRCLE_V);
+
+        const voltage_t v = produce(false);
+
+        if (fabs(length - CIRCLE_V) > 0.01) {
+            TEST_ASSERT_TRUE(v.limited == (length > CIRCLE_V));
+        }
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_MAKE_V2, creal(want) * creal(want),
+                                  (double)v.v_V.d * (double)v.v_V.d);
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_MAKE_V2, cimag(want) * cimag(want),
+                                  (double)v.v_V.q * (double)v.v_V.q);
+        TEST_ASSERT_TRUE((v.v_V.d * wanted.v_V.d >= 0.0f) && (v.v_V.q * wanted.v_V.q >= 0.0f));
+        limited += v.limited ? 1 : 0;
+    }
+    TEST_ASSERT_TRUE(limited > 1000);
+}
+
+static void test_hexagon_produces_what_lies_between_it_and_the_circle(void)
+{
+    int between = 0;
+    for (int n = 0; n < CASES; n++) {
+        draw_wanted(200.0f);
+        const double length = support_length(wanted.v_V);
+        if ((length > CIRCLE_V) && (length < hexagon_V(wanted.v_V) - 0.01)) {
+            const voltage_t v = produce(true);
+
+            TEST_ASSERT_FALSE(v.limited);
+            TEST_ASSERT_TRUE((v.v_V.d == wanted.v_V.d) && (v.v_V.q == wanted.v_V.q));
+            between++;
+        }
+    }
+    TEST_ASSERT_TRUE(between > 100);
+}
+
+/* The rule of the circle with the hexagon's reach, then cut to the reach of where it has turned to. */
+static void test_hexagon_limits_beside_the_voltage_that_holds_the_current(void)
+{
+    int turned = 0;
+    for (int n = 0; n < CASES; n++) {
+        draw_wanted(400.0f);
+        const double reach_V = hexagon_V(wanted.v_V);
+        if (support_length(wanted.v_V) < reach_V + 0.01) {
+            continue;
+        }
+        const double complex ruled = oracle_V(wanted.v_V, (double)hold_q_V(), reach_V);
+        const dq_t           there = {.d = (float)creal(ruled), .q = (float)cimag(ruled)};
+        const double         cut   = fmin(hexagon_V(there) / cabs(ruled), 1.0);
+        const double complex want  = cut * ruled;
+
+        const voltage_t v = produce(true);
+
+        TEST_ASSERT_TRUE(v.limited);
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_MAKE_V2, creal(want) * creal(want),
+                                  (double)v.v_V.d * (double)v.v_V.d);
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_MAKE_V2, cimag(want) * cimag(want),
+                                  (double)v.v_V.q * (double)v.v_V.q);
+        TEST_ASSERT_TRUE(support_length(v.v_V) <= hexagon_V(v.v_V) * (1.0 + TOL_CIRCLE));
+        turned += (cut < 0.99) ? 1 : 0;
+    }
+    TEST_ASSERT_TRUE(turned > 100);
+}
+
+/* At the corner the reach is 2/3 of the dc link, in the middle of an edge that of the circle. */
+static void test_corner_and_edge_of_the_hexagon(void)
+{
+    const dq_t far_V = {.d = 300.0f, .q = 0.0f};
+
+    draw_wanted(1.0f);
+    wanted.v_V = far_V;
+    for (int side = 0; side < 6; side++) {
+        theta_rad = 1.0471975511965976 * (double)side;
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_V, 295.0 * 2.0 / 3.0, (double)produce(true).v_V.d);
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_V, CIRCLE_V, (double)produce(false).v_V.d);
+        theta_rad += 0.5 * 1.0471975511965976;
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_V, CIRCLE_V, (double)produce(true).v_V.d);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -302,5 +441,10 @@ int main(void)
     RUN_TEST(test_signs_of_the_axes_and_of_the_hold_do_not_matter);
     RUN_TEST(test_no_voltage_at_all_gives_zero);
     RUN_TEST(test_bad_number_never_leaves_the_circle);
+    RUN_TEST(test_what_fits_the_circle_is_produced_as_it_is);
+    RUN_TEST(test_circle_limits_beside_the_voltage_that_holds_the_current);
+    RUN_TEST(test_hexagon_produces_what_lies_between_it_and_the_circle);
+    RUN_TEST(test_hexagon_limits_beside_the_voltage_that_holds_the_current);
+    RUN_TEST(test_corner_and_edge_of_the_hexagon);
     return UNITY_END();
 }
