@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "sil/board/board_run.hpp"
 
-#include <chrono>
-#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
@@ -115,21 +113,6 @@ private:
     long       next_tick_ = 0;
 };
 
-TraceRow row_of(double time_s, double omega_ref, const PlantState &plant, const drive_t &drive)
-{
-    TraceRow row;
-    row.time_s            = time_s;
-    row.omega_ref_e_radps = omega_ref;
-    row.omega_e_radps     = plant.omega_e_radps;
-    row.iq_A              = plant.current_A.q;
-    row.id_A              = plant.current_A.d;
-    row.load_torque_Nm    = plant.load_Nm;
-    row.torque_Nm         = plant.torque_Nm;
-    row.dc_link_V         = plant.dc_link_V;
-    add_drive(row, drive);
-    return row;
-}
-
 /// A trip level beyond what the converter can show would never trip; the application refuses it.
 drive_config_t for_converter(drive_config_t config, std::vector<std::string> &notes)
 {
@@ -144,14 +127,12 @@ drive_config_t for_converter(drive_config_t config, std::vector<std::string> &no
     return config;
 }
 
-void note_fault(SimulationResult &result, double time_s)
+int present_fault()
 {
     const app_status_t s = app_status_read();
-    if (result.fault == 0 && s.fault != APP_FAULT_NONE) {
-        result.fault        = s.fault == APP_FAULT_DRIVE ? static_cast<int>(s.drive_fault)
-                                                         : app_fault_base + static_cast<int>(s.fault);
-        result.fault_time_s = time_s;
-    }
+    return s.fault == APP_FAULT_NONE    ? 0
+           : s.fault == APP_FAULT_DRIVE ? static_cast<int>(s.drive_fault)
+                                        : app_fault_base + static_cast<int>(s.fault);
 }
 
 } // namespace
@@ -170,11 +151,8 @@ BoardResult simulate_on_board(const Scenario &scenario, BoardKind kind,
                         "application does not measure",
                         law_name(scenario.drive.law)));
     }
-    const BoardScenario b     = for_board(scenario);
-    const Scenario     &s     = b.scenario;
-    const double        ts    = control_period_s(s.drive);
-    const auto          ticks = static_cast<long>(std::floor(s.duration_s / ts + 1e-9)) + 1;
-    const auto          start = std::chrono::steady_clock::now();
+    const BoardScenario b = for_board(scenario);
+    const Scenario     &s = b.scenario;
 
     StepCursor  reference(s.speed_reference, s.initial_speed_e_radps);
     const int   first_tenths = tenths_of(reference.at(0.0));
@@ -184,32 +162,25 @@ BoardResult simulate_on_board(const Scenario &scenario, BoardKind kind,
     const long start_tick =
         bring_to_run(*make_run(b, kind, MotorBench::never), first_tenths); // rehearsal
 
-    SimulationResult &result = out.result;
-    result.compiled_table    = controller.compiled_table;
-    result.uncertified       = controller.uncertified;
-    result.trace.reserve(static_cast<std::size_t>(ticks));
-
     const std::unique_ptr<BoardRun> run   = make_run(b, kind, start_tick);
     const MotorBench               &bench = run->bench();
     if (bring_to_run(*run, first_tenths) != start_tick) {
         throw InputError("--board: the start of the firmware does not repeat itself");
     }
-    Commands commands(s, ticks, start_tick - run_tick);
-    for (long k = 0; k < ticks; k++) {
-        const double t = static_cast<double>(k) * ts;
-        result.trace.push_back(row_of(t, reference.at(t), bench.plant_state(), *app_drive()));
+    Commands commands(s, ticks_of(s), start_tick - run_tick);
+    out.result                = run_ticks(s, controller, [&](double time_s, double omega_ref) {
+        // The board stands at the tick: the application has answered its samples.
+        TickEnd end;
+        end.row = row_of(time_s, omega_ref, bench.plant_state());
+        add_drive(end.row, *app_drive());
+        end.fault            = present_fault();
         const RawSample &raw = bench.sample();
         out.ticks.push_back({{raw.ia_code, raw.ib_code}, raw.count, run->duty_cnt()});
-        note_fault(result, t);
-        commands.after(k, *run);
-        const bool alive                   = run->step();
-        result.trace.back().peak_current_A = bench.peak_current_A();
-        if (!alive) {
-            result.fault        = result.fault == 0 ? device_reset_fault : result.fault;
-            result.fault_time_s = t;
-            break;
-        }
-    }
+        commands.after(bench.tick() - start_tick, *run);
+        end.ended              = run->step() ? 0 : device_reset_fault;
+        end.row.peak_current_A = bench.peak_current_A();
+        return end;
+    });
     const app_status_t status = app_status_read();
     out.zero_a_cnt            = static_cast<double>(status.zero_a_cnt);
     out.zero_b_cnt            = static_cast<double>(status.zero_b_cnt);
@@ -219,8 +190,6 @@ BoardResult simulate_on_board(const Scenario &scenario, BoardKind kind,
     if (bench.driven_while_held()) {
         out.findings.emplace_back("the bridge was on while the shaft was held");
     }
-    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-    result.simulated_seconds_per_second      = static_cast<double>(ticks) * ts / wall.count();
     return out;
 }
 

@@ -126,10 +126,13 @@ void Board::begin_tick(double time_s)
     shaft_load_.torque_Nm = load_.at(time_s, 0.5 * period_s_);
 }
 
-double Board::load_Nm() const
+PlantState Board::plant_state() const
 {
-    const double omega_m = plant_.omega_e_radps() / scenario_.drive.motor.pole_pairs;
-    return shaft_load_.torque_Nm + shaft_load_.fan_Nm_per_radps2 * omega_m * std::abs(omega_m);
+    const double omega_e = plant_.omega_e_radps();
+    const double omega_m = omega_e / scenario_.drive.motor.pole_pairs;
+    const double fan_Nm  = shaft_load_.fan_Nm_per_radps2 * omega_m * std::abs(omega_m);
+    return {omega_e, plant_.current_A(), plant_.torque_Nm(), shaft_load_.torque_Nm + fan_Nm,
+            dc_link_.voltage_V()};
 }
 
 drive_sample_t Board::ideal_sample() const

@@ -24,6 +24,15 @@ struct RawSample {
     std::int64_t index_count = 0;
 };
 
+/// The motor at a tick.
+struct PlantState {
+    double      omega_e_radps = 0.0;
+    RotorVector current_A;
+    double      torque_Nm = 0.0;
+    double      load_Nm   = 0.0; ///< all of the load
+    double      dc_link_V = 0.0;
+};
+
 class Board {
 public:
     explicit Board(const Scenario &scenario);
@@ -48,15 +57,11 @@ public:
         bridge_.advance(plant_, dc_link_, shaft_load_, from_s, to_s);
     }
 
+    PlantState   plant_state() const;
     const Plant &plant() const
     {
         return plant_;
     }
-    double dc_link_V() const
-    {
-        return dc_link_.voltage_V();
-    }
-    double load_Nm() const; ///< all of the load at this tick
     /// Largest |i| since the tick before.
     double peak_current_A() const
     {

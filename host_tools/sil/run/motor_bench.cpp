@@ -74,10 +74,8 @@ void MotorBench::begin_tick()
     const RawSample before = sample_;
     if (board_) {
         board_->begin_tick(static_cast<double>(tick_ - start_tick_) * period_s_);
-        sample_            = board_->raw_sample();
-        const Plant &plant = board_->plant();
-        plant_state_       = {plant.omega_e_radps(), plant.current_A(), plant.torque_Nm(),
-                              board_->load_Nm(), board_->dc_link_V()};
+        sample_      = board_->raw_sample();
+        plant_state_ = board_->plant_state();
     } else {
         hold();
     }

@@ -14,15 +14,6 @@
 
 namespace sdre {
 
-/// The motor at a tick.
-struct PlantState {
-    double      omega_e_radps = 0.0;
-    RotorVector current_A;
-    double      torque_Nm = 0.0;
-    double      load_Nm   = 0.0;
-    double      dc_link_V = 0.0;
-};
-
 class MotorBench {
 public:
     static constexpr long never = LONG_MAX;

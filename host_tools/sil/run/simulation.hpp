@@ -1,30 +1,56 @@
 // SPDX-License-Identifier: MIT
 /// The control core against the plant, tick by tick.
+///
+/// The samples of tick k meet duty ratios that act from t_k+1 to t_k+2; the controller is enabled at t = 0
+/// on a motor that turns at the initial speed without current.
 #pragma once
 
-#include <string>
-#include <vector>
-
+#include "design/core_types.hpp"
+#include "sil/run/board.hpp"
 #include "sil/run/controller.hpp"
 #include "sil/run/faults.hpp"
-#include "sil/run/trace.hpp"
+#include "sil/run/tick_loop.hpp"
 #include "sil/setup/scenario.hpp"
 
 namespace sdre {
 
-struct SimulationResult {
-    std::vector<TraceRow> trace;
-    int                   fault                        = 0; ///< drive_fault_t; 0 = none
-    double                fault_time_s                 = 0.0;
-    double                simulated_seconds_per_second = 0.0; ///< wall clock
-    bool compiled_table = false;          ///< the generated table was used, not gains solved here
-    std::vector<std::string> uncertified; ///< why the gains would not have been written as a table
+/// A run that somebody else steps. Scenario and controller have to outlive it.
+class Simulation {
+public:
+    /// DesignError when the core refuses the controller's constants.
+    Simulation(const Scenario &scenario, const Controller &controller);
+    Simulation(const Simulation &)            = delete; // the core points to its constants
+    Simulation &operator=(const Simulation &) = delete;
+
+    /// One control period: the core's tick with this commanded speed, then the plant up to the next tick.
+    TickEnd step(double omega_ref_e_radps);
+
+    /// What the core was given and what it answered at the last tick.
+    struct CoreTick {
+        drive_sample_t  sample;
+        drive_command_t command;
+        drive_output_t  output;
+    };
+    const CoreTick &core_tick() const
+    {
+        return core_tick_;
+    }
+    /// The core between two ticks.
+    const drive_t &drive() const
+    {
+        return drive_;
+    }
+
+private:
+    double         period_s_;
+    Board          board_;
+    drive_t        drive_{};
+    CoreTick       core_tick_{};
+    drive_output_t in_force_{{0.5F, 0.5F, 0.5F}, true}; ///< no voltage until the first result acts
+    long           tick_ = 0;
 };
 
 /// Runs a scenario. DesignError when the controller's gains cannot be solved.
-///
-/// The samples of tick k meet duty ratios that act from t_k+1 to t_k+2; the controller is enabled at t = 0
-/// on a motor that turns at the initial speed without current.
 SimulationResult simulate(const Scenario &scenario);
 /// The same with a controller that is ready, for runs that differ in the plant or the seed only.
 SimulationResult simulate(const Scenario &scenario, const Controller &controller);

@@ -44,6 +44,20 @@ void add_law(TraceRow &row, const drive_t &drive)
 
 } // namespace
 
+TraceRow row_of(double time_s, double omega_ref_e_radps, const PlantState &plant)
+{
+    TraceRow row;
+    row.time_s            = time_s;
+    row.omega_ref_e_radps = omega_ref_e_radps;
+    row.omega_e_radps     = plant.omega_e_radps;
+    row.iq_A              = plant.current_A.q;
+    row.id_A              = plant.current_A.d;
+    row.load_torque_Nm    = plant.load_Nm;
+    row.torque_Nm         = plant.torque_Nm;
+    row.dc_link_V         = plant.dc_link_V;
+    return row;
+}
+
 void add_drive(TraceRow &row, const drive_t &drive)
 {
     row.iq_ref_A    = static_cast<double>(drive.wanted.i_ref_A.q);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "design/core_types.hpp"
+#include "sil/run/board.hpp"
 
 namespace sdre {
 
@@ -27,6 +28,8 @@ struct TraceRow {
     double peak_current_A      = 0.0; ///< largest |i| from this instant to the next
 };
 
+/// The plant's part of a row.
+TraceRow row_of(double time_s, double omega_ref_e_radps, const PlantState &plant);
 /// The drive's part of a row: references, voltages, estimated disturbances.
 void add_drive(TraceRow &row, const drive_t &drive);
 
