@@ -200,24 +200,4 @@ std::vector<std::pair<std::string, double>> metric_values(const Metrics &m)
     return values;
 }
 
-std::vector<std::string> metric_names()
-{
-    Metrics probe;
-    probe.settling_time_s    = 0.0;
-    probe.within_5_percent_s = 0.0;
-    probe.within_2_percent_s = 0.0;
-    probe.within_1_percent_s = 0.0;
-    std::vector<std::string> names;
-    for (const auto &[name, value] : metric_values(probe)) {
-        names.push_back(name);
-    }
-    return names;
-}
-
-bool is_metric_name(const std::string &name)
-{
-    const std::vector<std::string> names = metric_names();
-    return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 } // namespace sdre

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "sil/run/simulation.hpp"
+#include "sil/setup/metric_names.hpp"
 
 namespace sdre {
 
@@ -63,12 +64,7 @@ std::vector<Window> windows_of(const Scenario &scenario, const std::vector<Trace
 
 std::vector<Metrics> measure(const Scenario &scenario, const std::vector<TraceRow> &trace);
 
-/// The numeric metrics by their JSON name, in order; a missing time is left out.
+/// The numeric metrics by their JSON name, in the order of metric_names(); a missing time is left out.
 std::vector<std::pair<std::string, double>> metric_values(const Metrics &metrics);
-
-/// The names of all of them, in the same order.
-std::vector<std::string> metric_names();
-
-bool is_metric_name(const std::string &name);
 
 } // namespace sdre

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sil/setup/scenario.hpp"
-
 namespace sdre {
 namespace {
 

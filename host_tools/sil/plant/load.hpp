@@ -7,22 +7,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "sil/setup/load_settings.hpp"
+#include "sil/setup/steps.hpp"
+
 namespace sdre {
-
-struct Step;
-
-/// A straight line from the torque at time_s to to_Nm at until_s, which then stays.
-struct LoadRamp {
-    double time_s  = 0.0;
-    double until_s = 0.0;
-    double to_Nm   = 0.0;
-};
-
-struct LoadSine {
-    double amplitude_Nm = 0.0;
-    double frequency_Hz = 0.0;
-    double start_s      = 0.0;
-};
 
 /// What acts on the shaft during one step of the plant.
 struct ShaftLoad {

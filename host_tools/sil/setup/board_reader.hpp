@@ -3,9 +3,11 @@
 /// given keeps the value it had, so the same functions read a [[change]].
 #pragma once
 
+#include <vector>
+
 #include "common/toml_reader.hpp"
-#include "sil/plant/load.hpp"
 #include "sil/setup/board_settings.hpp"
+#include "sil/setup/load_settings.hpp"
 
 namespace sdre {
 

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "sil/setup/scenario.hpp"
 
-#include <algorithm>
-#include <set>
-
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
 #include "common/toml_reader.hpp"
-#include "sil/eval/metrics.hpp"
 #include "sil/setup/board_reader.hpp"
+#include "sil/setup/sorted_times.hpp"
 
 namespace sdre {
 namespace {
@@ -18,61 +15,11 @@ constexpr Range time_range_s{0.0, 1e4};
 constexpr Range duration_range_s{1e-3, 1e4};
 constexpr Range speed_range_e_radps{-1e5, 1e5};
 constexpr Range torque_range_Nm{-1e5, 1e5};
-constexpr Range band_range_e_radps{1e-9, 1e5};
-constexpr Range scale_range{0.01, 100.0};
 constexpr Range current_range_A{1e-3, 1e4};
 constexpr Range updates_range{1, 2};
 constexpr Range fan_range_Nm_per_radps2{0.0, 1e3};
-constexpr Range counts_range{-1e6, 1e6};
 constexpr Range seed_range{0, 2147483647};
 constexpr Range order_range{0, 8};
-constexpr Range paper_range{-1e9, 1e9};
-
-MotorScale read_scale(TomlReader t)
-{
-    MotorScale scale;
-    Motor      probe;
-    for (const std::string &key : t.keys()) {
-        scale[key] = t.number(key, scale_range);
-        try {
-            motor_value(probe, key);
-        } catch (const InputError &) {
-            t.fail(key, "is not a motor key that can be scaled");
-        }
-    }
-    return scale;
-}
-
-Range read_factor_range(TomlReader &t, const char *key)
-{
-    const std::vector<double> range = t.numbers(key, {2}, scale_range);
-    if (range[1] < range[0]) {
-        t.fail(key, fmt::format("= [{:g}, {:g}] is not allowed: the first must not be above the "
-                                "second",
-                                range[0], range[1]));
-    }
-    return {range[0], range[1]};
-}
-
-MotorRanges read_motor_ranges(TomlReader t)
-{
-    const MotorRanges ranges{read_factor_range(t, "resistance"), read_factor_range(t, "inductance"),
-                             read_factor_range(t, "flux"), read_factor_range(t, "inertia")};
-    t.reject_unknown_keys();
-    return ranges;
-}
-
-/// Times must not go backwards, so that a file reads in the order in which things happen.
-template <typename T>
-void require_sorted(const TomlReader &t, const char *what, const std::vector<T> &items)
-{
-    for (std::size_t i = 1; i < items.size(); i++) {
-        if (items[i].time_s <= items[i - 1].time_s) {
-            t.fail(what, fmt::format("number {}: time_s = {:g} must be later than the one before",
-                                     i + 1, items[i].time_s));
-        }
-    }
-}
 
 std::vector<Step> read_steps(TomlReader &t, const char *key, const char *value_key, Range range)
 {
@@ -83,109 +30,6 @@ std::vector<Step> read_steps(TomlReader &t, const char *key, const char *value_k
     }
     require_sorted(t, key, steps);
     return steps;
-}
-
-std::map<std::string, double> read_paper(TomlReader t)
-{
-    std::map<std::string, double> paper;
-    for (const std::string &key : t.keys()) {
-        if (!is_metric_name(key)) {
-            t.fail(key, "is not the name of a metric");
-        }
-        paper[key] = t.number(key, paper_range);
-    }
-    return paper;
-}
-
-/// What was published for the law that runs: `paper` is of the scenario's own law, `paper_of` names others.
-std::map<std::string, double> read_published(TomlReader &entry, Law law, Law own)
-{
-    std::map<std::string, double> published;
-    if (std::optional<TomlReader> paper = entry.table_if("paper")) {
-        published = read_paper(*paper);
-    }
-    if (law != own) {
-        published.clear();
-    }
-    if (std::optional<TomlReader> others = entry.table_if("paper_of")) {
-        for (const std::string &name : others->keys()) {
-            if (!is_law_name(name) || name == law_name(own)) {
-                others->fail(name, "is not the name of another law than the scenario's");
-            }
-            const std::map<std::string, double> values = read_paper(others->table(name));
-            if (name == law_name(law)) {
-                published = values;
-            }
-        }
-    }
-    return published;
-}
-
-std::vector<Measure> read_measures(TomlReader &t, Law law, Law own)
-{
-    std::vector<Measure>  measures;
-    std::set<std::string> names;
-    for (TomlReader &entry : t.tables("measure")) {
-        Measure m;
-        m.name         = entry.text("name");
-        m.time_s       = entry.number("time_s", time_range_s);
-        m.band_e_radps = entry.number("band_e_radps", band_range_e_radps);
-        if (entry.has("tail_s")) {
-            m.tail_s = entry.number("tail_s", duration_range_s);
-        }
-        m.paper = read_published(entry, law, own);
-        entry.reject_unknown_keys();
-        if (!names.insert(m.name).second) {
-            entry.fail("name", fmt::format("= \"{}\" is used twice", m.name));
-        }
-        measures.push_back(m);
-    }
-    require_sorted(t, "measure", measures);
-    return measures;
-}
-
-PlantChange read_change_set(TomlReader set, const PlantChange &before, const Drive &drive)
-{
-    PlantChange change;
-    change.sensors       = before.sensors;
-    change.inverter      = before.inverter;
-    change.load_sine     = before.load_sine;
-    const bool other     = set.has("sensors") || set.has("inverter") || set.has("load_sine");
-    change.changes_plant = set.has("plant_scale") || !other; // without any of them it is missing
-    if (change.changes_plant) {
-        change.plant_scale = read_scale(set.table("plant_scale"));
-    }
-    if (std::optional<TomlReader> sensors = set.table_if("sensors")) {
-        change.lost_counts = sensors->integer_or("lost_counts", counts_range, 0);
-        change.sensors     = read_sensors(*sensors, *before.sensors, drive);
-    }
-    if (std::optional<TomlReader> inverter = set.table_if("inverter")) {
-        change.inverter = read_board_inverter(*inverter, *before.inverter, drive);
-    }
-    if (std::optional<TomlReader> sine = set.table_if("load_sine")) {
-        change.load_sine = read_load_sine(*sine, *before.load_sine);
-    }
-    set.table_if("plant_scale");
-    set.reject_unknown_keys();
-    return change;
-}
-
-std::vector<PlantChange> read_changes(TomlReader &t, const Scenario &s)
-{
-    std::vector<PlantChange> changes;
-    PlantChange              now; // what a partial table adds to
-    now.sensors   = s.sensors;
-    now.inverter  = s.inverter;
-    now.load_sine = s.load_sine;
-    for (TomlReader &entry : t.tables("change")) {
-        const double time_s = entry.number("time_s", time_range_s);
-        now                 = read_change_set(entry.table("set"), now, s.drive);
-        now.time_s          = time_s;
-        entry.reject_unknown_keys();
-        changes.push_back(now);
-    }
-    require_sorted(t, "change", changes);
-    return changes;
 }
 
 /// A step in the middle of a ramp would leave open what the ramp does after it.
@@ -250,6 +94,14 @@ Drive read_drive(TomlReader &t, const std::filesystem::path &file,
     return drive;
 }
 
+/// The law of the drive that the scenario names, where another may stand in for it.
+Law own_law(TomlReader &t, const std::filesystem::path &file, const Drive &used,
+            const std::filesystem::path &instead)
+{
+    return instead.empty() ? used.law
+                           : read_drive_file(scenario_drive_path(file, t.text("drive"))).law;
+}
+
 void read_controller(TomlReader t, Scenario &s)
 {
     if (t.has("nosc_order")) {
@@ -270,46 +122,6 @@ std::filesystem::path scenario_drive_path(const std::filesystem::path &scenario,
     std::error_code             error;
     return std::filesystem::exists(beside, error) ? beside : std::filesystem::path(drive);
 }
-
-Motor scaled(Motor motor, const MotorScale &scale)
-{
-    for (const auto &[key, factor] : scale) {
-        motor_value(motor, key) *= factor;
-    }
-    return motor;
-}
-
-double value_at(const std::vector<Step> &steps, double time_s, double before)
-{
-    double value = before;
-    for (const Step &step : steps) {
-        if (step.time_s > time_s + 1e-12) {
-            break;
-        }
-        value = step.value;
-    }
-    return value;
-}
-
-double StepCursor::at(double time_s)
-{
-    for (; next_ < steps_.size() && steps_[next_].time_s <= time_s + 1e-12; next_++) {
-        value_ = steps_[next_].value;
-    }
-    return value_;
-}
-
-namespace {
-
-/// The law of the drive that the scenario names, where another may stand in for it.
-Law own_law(TomlReader &t, const std::filesystem::path &file, const Drive &used,
-            const std::filesystem::path &instead)
-{
-    return instead.empty() ? used.law
-                           : read_drive_file(scenario_drive_path(file, t.text("drive"))).law;
-}
-
-} // namespace
 
 Scenario read_scenario_file(const std::filesystem::path &file, const std::filesystem::path &drive)
 {
@@ -342,8 +154,12 @@ Scenario read_scenario_file(const std::filesystem::path &file, const std::filesy
     s.speed_reference = read_steps(t, "speed_reference", "value_e_radps", speed_range_e_radps);
     read_load(t, s);
     read_board(t, s);
-    s.changes  = read_changes(t, s);
-    s.measures = read_measures(t, s.drive.law, own);
+    PlantChange start;
+    start.sensors   = s.sensors;
+    start.inverter  = s.inverter;
+    start.load_sine = s.load_sine;
+    s.changes       = read_changes(t, start, s.drive);
+    s.measures      = read_measures(t, s.drive.law, own);
     if (!s.measures.empty() && s.measures.back().time_s >= s.duration_s) {
         t.fail("measure", fmt::format("\"{}\": time_s must be before duration_s = {:g}",
                                       s.measures.back().name, s.duration_s));

@@ -4,56 +4,19 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "common/toml_reader.hpp"
 #include "drive/drive_file.hpp"
-#include "sil/plant/load.hpp"
 #include "sil/setup/board_settings.hpp"
+#include "sil/setup/changes.hpp"
+#include "sil/setup/load_settings.hpp"
+#include "sil/setup/measures.hpp"
+#include "sil/setup/motor_scale.hpp"
+#include "sil/setup/steps.hpp"
 
 namespace sdre {
-
-/// A value from a time on.
-struct Step {
-    double time_s = 0.0;
-    double value  = 0.0;
-};
-
-/// Factors per motor key, e.g. {"inertia_kgm2", 2.0}.
-using MotorScale = std::map<std::string, double>;
-
-/// Factors that one random motor of `sdre-sil motors` is drawn with, relative to the drive file.
-struct MotorRanges {
-    Range resistance{1.0, 1.0};
-    Range inductance{1.0, 1.0}; ///< one factor for both axes
-    Range flux{1.0, 1.0};
-    Range inertia{1.0, 1.0};
-};
-
-struct Measure {
-    std::string name;
-    double      time_s =
-        0.0; ///< the event; the window ends at the next measure or at the end of the run
-    double band_e_radps = 0.0; ///< settled when the speed stays this close to the final reference
-    std::map<std::string, double> paper; ///< published for this drive's law, by metric name
-    std::optional<double>         tail_s =
-        std::nullopt; ///< the steady part; the window's last fifth unless given
-};
-
-/// Motor, board or load change at a time. A table that is there holds all values from then on, not only
-/// the keys that the file names.
-struct PlantChange {
-    double                          time_s = 0.0;
-    MotorScale                      plant_scale; ///< replaces the scale before when changes_plant
-    bool                            changes_plant = true;
-    std::optional<SensorSettings>   sensors;
-    int                             lost_counts = 0; ///< the encoder's counter misses these, now
-    std::optional<InverterSettings> inverter;
-    std::optional<LoadSine>         load_sine;
-};
 
 struct Scenario {
     std::string name; ///< the file's stem
@@ -87,23 +50,5 @@ Scenario read_scenario_file(const std::filesystem::path &file,
 /// Where the `drive` key of a scenario file points: beside the file when it is there, else as it stands.
 std::filesystem::path scenario_drive_path(const std::filesystem::path &scenario,
                                           const std::string           &drive);
-
-/// The motor with every factor applied.
-Motor scaled(Motor motor, const MotorScale &scale);
-
-/// The last step at or before a time; `before` when there is none.
-double value_at(const std::vector<Step> &steps, double time_s, double before);
-
-/// value_at() for times that rise: it goes on from where it was.
-class StepCursor {
-public:
-    StepCursor(const std::vector<Step> &steps, double before) : steps_(steps), value_(before) {}
-    double at(double time_s);
-
-private:
-    const std::vector<Step> &steps_;
-    std::size_t              next_ = 0;
-    double                   value_;
-};
 
 } // namespace sdre
