@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sil/plant/inverter.hpp"
+#include "sil/plant/bridge.hpp"
 
 #include <cmath>
 #include <fstream>

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sil/plant/inverter.hpp"
+
 namespace sdre {
 namespace {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "sil/plant/inverter.hpp"
+#include "sil/plant/bridge.hpp"
 #include "sil/plant/load.hpp"
 #include "sil/plant/plant.hpp"
 #include "sil/sensors/adc.hpp"
