@@ -205,3 +205,34 @@ TEST(Encoder, AStandingAngleStaysWithinItsCount)
         EXPECT_LE(read, cell + count + 1e-12);
     }
 }
+
+TEST(Encoder, IndexIsSeenWhenItsCountIsEnteredFromEitherSide)
+{
+    const auto middle_of = [](double count) {
+        return pairs * 2.0 * pi * (count + 0.5) / (4 * lines);
+    };
+    struct Step {
+        double before;
+        double now;
+        bool   index;
+    };
+    for (const Step &s : {Step{9999, 10000, true}, // forwards onto the mark
+                          {9990, 10005, true},     // and past it
+                          {10000, 10001, false},   // off it again
+                          {9990, 9999, false},
+                          {10001, 10000, true}, // backwards onto it
+                          {10005, 9990, true},
+                          {10000, 9999, false},
+                          {10005, 10001, false},
+                          {3, -2, true}}) {
+        QuadratureEncoder encoder = encoder_with({});
+        encoder.start(middle_of(s.before), 0.0);
+        encoder.lose(5);
+        const auto r = encoder.read(middle_of(s.now));
+        EXPECT_EQ(r.index, s.index) << s.before << " to " << s.now;
+        EXPECT_EQ(r.raw_count, static_cast<std::int64_t>(s.now) - 5); // no index puts it right
+        if (s.index) {
+            EXPECT_EQ(r.index_count, (s.now < 5000 ? 0 : 10000) - 5);
+        }
+    }
+}

@@ -348,3 +348,51 @@ TEST(Bridge, OpenGatesLetTheCurrentDieAway)
         EXPECT_LT(std::hypot(p.current_A().d, p.current_A().q), 0.02);
     }
 }
+
+TEST(Bridge, EachEdgeHasItsOwnDelayAndEachPathItsOwnDrop)
+{
+    InverterSettings s = model(InverterModel::switched);
+    s.switch_drop_V    = 1.0;
+    s.diode_drop_V     = 2.5;
+    LegTiming leg;
+    leg.changes      = {{{0.0, false}, {6e-5, true}, {1.4e-4, false}, {}}};
+    leg.count        = 3;
+    leg.duty         = 0.4;
+    leg.rise_delay_s = 3e-6;
+    leg.fall_delay_s = 9e-6;
+    for (InverterModel which : {InverterModel::switched, InverterModel::averaged}) {
+        s.model = which;
+        for (const bool out : {true, false}) {
+            Plant  p = plant_with(heavy(), {out ? 3.0 : -3.0, 0.0}); // the same duty: it stays
+            Bridge bridge(full, s, 0.0);
+            DcLink link(s, vdc_V);
+            for (int k = 0; k < 2; k++) { // the first period has no edge before it
+                bridge.begin_period({leg, leg, leg});
+                bridge.advance(p, link, {}, 0.0, period_s);
+            }
+            // Outwards the upper switch or the lower diode carries the current, inwards the others.
+            const double high_s = 8e-5 + (out ? -3e-6 : 9e-6);
+            const double low_s  = period_s - high_s;
+            const double wanted =
+                out ? (vdc_V - 1.0) * high_s - 2.5 * low_s : (vdc_V + 2.5) * high_s + 1.0 * low_s;
+            EXPECT_NEAR(bridge.volt_seconds()[0], wanted, 1e-9);
+        }
+    }
+}
+
+TEST(Plant, PhaseCurrentRateIsTheDerivativeOfThePhaseCurrents)
+{
+    Plant fast(motor());
+    fast.reset(600.0, 0.7);
+    fast.step(RotorVector{-200.0, 150.0}, 0.0, 1e-3, 100);
+    const StatorVector v{90.0, -40.0};
+    const double       h      = 1e-7;
+    const PhaseVector  rate   = fast.phase_current_rate_Aps(v);
+    const PhaseVector  before = fast.phase_current_A();
+    fast.advance(v, {}, h);
+    const PhaseVector after = fast.phase_current_A();
+    EXPECT_GT(std::abs(before.a), 0.5);
+    EXPECT_NEAR((after.a - before.a) / h, rate.a, 1.0); // w i alone is some 1000 A/s
+    EXPECT_NEAR((after.b - before.b) / h, rate.b, 1.0);
+    EXPECT_NEAR((after.c - before.c) / h, rate.c, 1.0);
+}

@@ -65,9 +65,10 @@ RotorVector inductance_H(const SaturationMap &map, RotorVector i)
 
 RotorVector saturated_current_A(const SaturationMap &map, RotorVector flux, RotorVector guess)
 {
-    const RotorVector L         = inductance_H(map, guess);
-    RotorVector       i         = {flux.d / L.d, flux.q / L.q}; // exact where L does not change
-    const double      tolerance = flux_tolerance * (1.0 + std::abs(flux.d) + std::abs(flux.q));
+    const RotorVector L = inductance_H(map, guess);
+    // The answer where L does not change, with the bits of the linear motor's reciprocals.
+    RotorVector  i         = {flux.d * (1.0 / L.d), flux.q * (1.0 / L.q)};
+    const double tolerance = flux_tolerance * (1.0 + std::abs(flux.d) + std::abs(flux.q));
     for (int n = 0; n < newton_steps; n++) {
         const RotorVector found = flux_of(map, i);
         const double      rd    = found.d - flux.d;

@@ -2,14 +2,28 @@
 #include "sil/sensors/adc.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
 
 namespace sdre {
 namespace {
 
+/// Codes of one sign: 2^(bits - 1).
+double half_codes(const AdcChannel &c)
+{
+    return static_cast<double>(std::int64_t{1} << (c.bits - 1));
+}
+
 double lsb_A(const AdcChannel &c)
 {
-    return std::ldexp(c.full_scale_A, 1 - c.bits);
+    return c.full_scale_A / half_codes(c);
+}
+
+/// std::round() of what is within the codes: quick, because it needs no library.
+int rounded(double x)
+{
+    const int    whole = static_cast<int>(x);
+    const double rest  = x - whole;
+    return whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
 }
 
 } // namespace
@@ -26,10 +40,11 @@ AdcChannel channel_b(const SensorSettings &s)
 
 int adc_code(const AdcChannel &c, double current_A, Noise &noise)
 {
-    const double signal  = c.gain * current_A + c.offset_A + c.noise_rms_A * noise.next();
-    const double highest = std::ldexp(1.0, c.bits - 1) - 1.0;
-    return static_cast<int>(
-        std::clamp(std::round(signal / lsb_A(c)), -highest - 1.0, highest)); // EQ-ADC-1
+    const double signal = c.gain * current_A + c.offset_A + c.noise_rms_A * noise.next();
+    const double lowest = -half_codes(c);
+    const double code   = signal / lsb_A(c);
+    // Written so that what is no number is a code too.
+    return rounded(code > lowest ? std::min(code, -lowest - 1.0) : lowest); // EQ-ADC-1
 }
 
 double adc_current_A(const AdcChannel &c, int code)
