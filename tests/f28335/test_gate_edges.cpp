@@ -149,4 +149,59 @@ TEST(GateEdges, SamePolarityOnBothOutputsIsAShootThrough)
     EXPECT_EQ(shortest_gap_cnt(gates_of(r, memory)), -1);
 }
 
+TEST(GateEdges, OfTwoComparesAtOnceBWins)
+{
+    LegRegisters r = leg(3000);
+    r.cmpb         = 3000;
+    r.aqctla       = 0x0480; // CAD sets, CBD clears
+    LegMemory memory;
+    for (const SignalEdge &e : leg_period(r, memory).a) {
+        EXPECT_FALSE(e.level) << e.time_cnt;
+    }
+
+    r.cmpa = prd; // both at the counter's top
+    r.cmpb = prd;
+    LegMemory other;
+    EXPECT_FALSE(leg_period(r, other).a.front().level);
+    r.aqctla = 0x0840; // the other way round: CAD clears, CBD sets
+    EXPECT_TRUE(leg_period(r, other).a.front().level);
+}
+
+TEST(GateEdges, ToggleChangesTheLevelOncePerPeriod)
+{
+    LegRegisters r = leg(3000);
+    r.aqctla       = 0x0030; // CAU toggles
+    LegMemory memory;
+    for (const bool rises : {true, false, true}) {
+        const std::vector<SignalEdge> a = leg_period(r, memory).a;
+        ASSERT_EQ(a.size(), 2U);
+        EXPECT_EQ(a[0].level, !rises);
+        EXPECT_EQ(a[1].level, rises);
+        EXPECT_EQ(a[1].time_cnt, prd + 3000);
+    }
+}
+
+TEST(GateEdges, EitherDelayCanTakeBAsItsInput)
+{
+    LegRegisters r = leg(3000);
+    r.cmpb         = 3000;
+    r.aqctlb       = 0x0904; // PRD clears, CBU clears, CBD sets
+    r.aqctla       = 0x0000; // A stays low
+
+    r.dbctl = 0x003B; // both from B
+    LegMemory both;
+    expect_gates(gates_of(r, both), {{0, false, true},
+                                     {4500, false, false},
+                                     {4725, true, false},
+                                     {10500, false, false},
+                                     {10725, false, true}});
+    r.dbctl = 0x001B; // the rising edge alone: the lower switch follows A and stays on
+    LegMemory rising;
+    expect_gates(gates_of(r, rising), {{0, false, true}, {4725, true, true}, {10500, false, true}});
+    r.dbctl = 0x002B; // the falling edge alone: the upper switch follows A and stays off
+    LegMemory falling;
+    expect_gates(gates_of(r, falling),
+                 {{0, false, true}, {4500, false, false}, {10725, false, true}});
+}
+
 } // namespace

@@ -10,16 +10,13 @@
 namespace sdre::f28335 {
 namespace {
 
-constexpr int pin_gate_enable = 6;
-constexpr int pin_trip        = 12;
-constexpr int top_vectors     = 128;
+constexpr int pin_trip    = 12;
+constexpr int top_vectors = 128;
 
 // Chosen: a poll of a register costs about this much; it makes a polling loop's time-out worth testing.
 constexpr std::int64_t poll_cycles = 20;
 // Chosen: a pass of the background loop, short beside the 96 us of an octet on the line.
 constexpr std::int64_t background_ticks = 3750;
-// Chosen: the unit timer follows the PWM within a few cycles; within this the shaft stands still.
-constexpr std::int64_t same_instant_ticks = 150;
 
 Device *the_device = nullptr; // hooks are plain functions, so they need one
 
@@ -96,144 +93,6 @@ void Device::sync()
     }
     guard_.remember();
     update_legs();
-}
-
-void Device::update_legs()
-{
-    std::array<bool, 3> now{};
-    for (int n = 0; n < 3; n++) {
-        const PwmUnit &unit   = pwm_[static_cast<std::size_t>(n)];
-        const bool     muxed  = Gpio::is_muxed(2 * n, 1) && Gpio::is_muxed(2 * n + 1, 1);
-        const bool     driver = gpio_.output_high(pin_gate_enable);
-        const int      a      = unit.trip_action_a();
-        const int      b      = unit.trip_action_b();
-        const bool     forced_off =
-            a != TZ_FORCE_HI && a != TZ_NO_CHANGE && b != TZ_FORCE_HI && b != TZ_NO_CHANGE;
-        now[static_cast<std::size_t>(n)] =
-            muxed && driver && !reset_ && !(unit.tripped() && forced_off);
-        if (unit.tripped() && muxed && (a == TZ_HIZ || b == TZ_HIZ)) {
-            findings_.add(Finding::trip,
-                          fmt::format("a trip leaves the gates of leg {} floating", n + 1),
-                          time_s());
-        }
-        if (fault_low_ && now[static_cast<std::size_t>(n)]) {
-            findings_.add(Finding::trip,
-                          fmt::format("the fault input is active and leg {} goes on", n + 1),
-                          time_s());
-        }
-    }
-    if (now != legs_) {
-        legs_ = now;
-        surroundings_.legs_change(legs_, into_period_s());
-    }
-}
-
-std::int64_t Device::ticks_to_event() const
-{
-    std::int64_t next = -1;
-    const auto   take = [&next](std::int64_t ticks) {
-        if (ticks >= 0 && (next < 0 || ticks < next)) {
-            next = ticks;
-        }
-    };
-    for (const PwmUnit &unit : pwm_) {
-        const std::int64_t cycles = unit.cycles_to_event();
-        take(cycles < 0 ? -1 : clock_.ticks_for(cycles));
-    }
-    const std::int64_t timeout = encoder_.cycles_to_timeout();
-    take(timeout < 0 ? -1 : clock_.ticks_for(timeout));
-    take(adc_.ticks_to_end(now_));
-    take(watchdog_.ticks_to_reset());
-    take(sci_.ticks_to_event(now_));
-    return next < 0 ? -1 : std::max<std::int64_t>(1, next);
-}
-
-void Device::begin_control_period()
-{
-    period_began_ = now_;
-    ControlPeriod period;
-    period.tbprd            = EPwm1Regs.TBPRD;
-    period.cycles_per_count = pwm_[0].cycles_per_count();
-    period.sysclk_Hz        = clock_.sysclk_Hz();
-    for (std::size_t n = 0; n < 3; n++) {
-        if (!pwm_[n].at_period()) {
-            findings_.add(Finding::unsupported, "the three legs are out of step", time_s());
-        }
-        period.legs[n]               = pwm_[n].begin_period();
-        const std::optional<int> gap = shortest_gap_cnt(period.legs[n].gates);
-        if (legs_[n] && !period.legs[n].complementary) {
-            findings_.add(Finding::unsupported,
-                          fmt::format("the gates of leg {} are not made from one signal", n + 1),
-                          time_s());
-        }
-        // Half a count: the wanted time need not be a whole number of counts.
-        if (legs_[n] && gap &&
-            period.seconds(*gap) + 0.5 * period.seconds(1) < options_.dead_time_s) {
-            findings_.add(Finding::dead_time,
-                          *gap < 0 ? fmt::format("both switches of leg {} are on", n + 1)
-                                   : fmt::format("dead time of leg {} is {:.2f} us", n + 1,
-                                                 1e6 * period.seconds(*gap)),
-                          time_s());
-        }
-    }
-    surroundings_.period_begins(period);
-    encoder_.move(surroundings_.shaft(0.0));
-}
-
-void Device::step_pwm(std::int64_t cycles)
-{
-    std::array<PwmEvents, 3> events;
-    for (std::size_t n = 0; n < 3; n++) {
-        events[n] = pwm_[n].step(cycles);
-    }
-    if (events[0].period) {
-        begin_control_period();
-    }
-    for (int n = 0; n < 3; n++) {
-        const PwmEvents &e = events[static_cast<std::size_t>(n)];
-        if (e.soc_a) {
-            adc_.start_of_conversion(now_, clock_, findings_, time_s());
-        }
-        if (e.interrupt) {
-            pie_.request(3, n + 1, intm_, findings_, time_s());
-        }
-    }
-}
-
-void Device::step_encoder(std::int64_t cycles)
-{
-    if (!encoder_.step(cycles)) {
-        return;
-    }
-    if (now_ - period_began_ > same_instant_ticks) {
-        encoder_.move(surroundings_.shaft(into_period_s()));
-    }
-    encoder_.latch();
-    if (encoder_.take_interrupt()) {
-        pie_.request(5, 1, intm_, findings_, time_s());
-    }
-}
-
-void Device::elapse(std::int64_t ticks)
-{
-    now_ += ticks;
-    const std::int64_t cycles = clock_.cycles(ticks);
-    watchdog_.pass(ticks);
-    step_pwm(cycles);
-    step_encoder(cycles);
-    if (timer_.step(cycles)) {
-        pie_.request(1, 7, intm_, findings_, time_s());
-    }
-    if (adc_.ticks_to_end(now_) == 0 && adc_.finish()) {
-        pie_.request(1, 1, intm_, findings_, time_s());
-    }
-    sci_.pass(now_, clock_);
-    guard_.remember();
-    if (watchdog_.reset_wanted()) {
-        reset_ = true;
-        findings_.add(Finding::watchdog_reset, "the watchdog has reset the device", time_s());
-        update_legs();
-    }
 }
 
 /// Lets time pass, on the firmware's stack, with the interrupts that fall into it.

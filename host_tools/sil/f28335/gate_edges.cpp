@@ -132,59 +132,92 @@ DeadBand dead_band_of(const LegRegisters &r)
             (pol & 1U) != 0U,     (pol & 2U) != 0U,     (in & 1U) != 0U,  (in & 2U) != 0U};
 }
 
+/// One output of the action qualifier over the period, and what it was before.
+struct Signal {
+    std::vector<SignalEdge> edges;
+    SignalMemory            before;
+
+    bool level(int t) const
+    {
+        return level_at(edges, t);
+    }
+    int since_rise(int t) const
+    {
+        return t - last_change(edges, t, true, before.last_rise, before.level);
+    }
+    int since_fall(int t) const
+    {
+        return t - last_change(edges, t, false, before.last_fall, before.level);
+    }
+};
+
+Signal signal_of(const LegRegisters &r, std::uint16_t aqctl, SignalMemory &memory)
+{
+    const SignalMemory before = memory;
+    return {qualified(r, aqctl, memory), before};
+}
+
+/// EQ-GATES-2
+bool upper_at(const DeadBand &d, const Signal &a, const Signal &b, int t)
+{
+    if (!d.a_delayed) {
+        return a.level(t);
+    }
+    const Signal &in = d.red_from_b ? b : a;
+    return (in.level(t) && in.since_rise(t) >= d.red) != d.a_inverted;
+}
+
+/// EQ-GATES-3
+bool lower_at(const DeadBand &d, const Signal &a, const Signal &b, int t)
+{
+    if (!d.b_delayed) {
+        return b.level(t);
+    }
+    const Signal &in = d.fed_from_b ? b : a;
+    return (in.level(t) || in.since_fall(t) < d.fed) != d.b_inverted;
+}
+
+/// All times at which a gate may change, in order; some are outside of the period.
+std::vector<int> possible_times(const DeadBand &d, const Signal &a, const Signal &b)
+{
+    std::vector<int> times{0};
+    for (const Signal *s : {&a, &b}) {
+        for (const SignalEdge &e : s->edges) {
+            times.insert(times.end(), {e.time_cnt, e.time_cnt + d.red, e.time_cnt + d.fed});
+        }
+        times.insert(times.end(), {s->before.last_rise + d.red, s->before.last_fall + d.fed});
+    }
+    std::sort(times.begin(), times.end());
+    return times;
+}
+
+std::vector<GateEdge> gates_of(const DeadBand &d, const Signal &a, const Signal &b, int period)
+{
+    std::vector<GateEdge> gates;
+    for (const int t : possible_times(d, a, b)) {
+        if (t < 0 || t >= period) {
+            continue;
+        }
+        const GateEdge now{t, upper_at(d, a, b, t), lower_at(d, a, b, t)};
+        if (gates.empty() || gates.back().upper != now.upper || gates.back().lower != now.lower) {
+            gates.push_back(now);
+        }
+    }
+    return gates;
+}
+
 } // namespace
 
 LegPeriod leg_period(const LegRegisters &r, LegMemory &memory)
 {
-    const LegMemory               before = memory;
-    const std::vector<SignalEdge> a      = qualified(r, r.aqctla, memory.a);
-    const std::vector<SignalEdge> b      = qualified(r, r.aqctlb, memory.b);
-    const DeadBand                d      = dead_band_of(r);
-    const int                     period = 2 * r.tbprd;
-
-    const auto rise = [&](bool of_b, int t) {
-        return of_b ? last_change(b, t, true, before.b.last_rise, before.b.level)
-                    : last_change(a, t, true, before.a.last_rise, before.a.level);
-    };
-    const auto fall = [&](bool of_b, int t) {
-        return of_b ? last_change(b, t, false, before.b.last_fall, before.b.level)
-                    : last_change(a, t, false, before.a.last_fall, before.a.level);
-    };
-    // EQ-GATES-2, EQ-GATES-3
-    const auto upper_at = [&](int t) {
-        const bool in    = level_at(d.red_from_b ? b : a, t);
-        const bool level = d.a_delayed ? in && t - rise(d.red_from_b, t) >= d.red : level_at(a, t);
-        return level != (d.a_delayed && d.a_inverted);
-    };
-    const auto lower_at = [&](int t) {
-        const bool in    = level_at(d.fed_from_b ? b : a, t);
-        const bool level = d.b_delayed ? in || t - fall(d.fed_from_b, t) < d.fed : level_at(b, t);
-        return level != (d.b_delayed && d.b_inverted);
-    };
-
-    std::vector<int> times{0};
-    for (const auto *edges : {&a, &b}) {
-        for (const SignalEdge &e : *edges) {
-            times.insert(times.end(), {e.time_cnt, e.time_cnt + d.red, e.time_cnt + d.fed});
-        }
-    }
-    for (const SignalMemory &m : {before.a, before.b}) {
-        times.insert(times.end(), {m.last_rise + d.red, m.last_fall + d.fed});
-    }
-    std::sort(times.begin(), times.end());
+    const Signal   a      = signal_of(r, r.aqctla, memory.a);
+    const Signal   b      = signal_of(r, r.aqctlb, memory.b);
+    const DeadBand d      = dead_band_of(r);
+    const int      period = 2 * r.tbprd;
 
     LegPeriod out;
-    out.a = a;
-    for (const int t : times) {
-        if (t < 0 || t >= period) {
-            continue;
-        }
-        const GateEdge now{t, upper_at(t), lower_at(t)};
-        if (out.gates.empty() || out.gates.back().upper != now.upper ||
-            out.gates.back().lower != now.lower) {
-            out.gates.push_back(now);
-        }
-    }
+    out.a             = a.edges;
+    out.gates         = gates_of(d, a, b, period);
     out.complementary = d.a_delayed && d.b_delayed && !d.a_inverted && d.b_inverted &&
                         !d.red_from_b && !d.fed_from_b;
     out.rise_delay_cnt = d.red;
