@@ -8,12 +8,24 @@
 
 #include "common/errors.hpp"
 
+extern "C" {
+#include "board_f28335.h"
+#include "board_limits.h"
+#include "f28335/clock_tree.h"
+}
+
 namespace sdre {
 namespace {
 
-constexpr double board_pwm_Hz      = 5000.0;
-constexpr double board_dead_time_s = 3e-6;
-constexpr int    board_lines       = 2500;
+constexpr double board_pwm_Hz      = CLOCK_PWM_Hz;
+constexpr double board_dead_time_s = CLOCK_DEAD_TIME_us * 1e-6;
+constexpr int    board_lines       = BOARD_POSITIONS / 4;
+
+/// Either way from the middle of the converter's codes.
+double board_full_scale_A()
+{
+    return 0.5 * BOARD_ADC_CODES * static_cast<double>(board_f28335_config.scale.current_A_per_cnt);
+}
 
 void require(bool ok, const std::string &what)
 {
@@ -24,13 +36,14 @@ void require(bool ok, const std::string &what)
 
 void check_sensors(const SensorSettings &s, int lines)
 {
-    const double board_full_scale_A = 10.0;
-    require(s.encoder_lines.value_or(lines) == board_lines, "the encoder has to have 2500 lines");
+    require(s.encoder_lines.value_or(lines) == board_lines,
+            fmt::format("the encoder has to have {} lines", board_lines));
     require(s.encoder_index, "the encoder has to have an index");
     require(!s.encoder_edge_time, "the board counts edges, it does not time them");
-    require(s.adc_bits == 12, "the converter has 12 bits");
-    require(std::abs(s.adc_full_scale_A - board_full_scale_A) < 1e-9,
-            "the currents' range is 10 A");
+    require(1U << static_cast<unsigned>(s.adc_bits) == BOARD_ADC_CODES,
+            "the converter has 12 bits");
+    require(std::abs(s.adc_full_scale_A - board_full_scale_A()) < 1e-6,
+            fmt::format("the currents' range is {:g} A", board_full_scale_A()));
     require(s.sampling_advance_s <= 0.0, "samples are taken when the period begins");
 }
 
@@ -38,7 +51,7 @@ void check_dead_time(const InverterSettings &i)
 {
     const double dead_s = i.dead_time_s.value_or(board_dead_time_s);
     require(dead_s <= 0.0 || std::abs(dead_s - board_dead_time_s) < 1e-12,
-            "the dead time is 3 us, or 0 for an ideal inverter");
+            fmt::format("the dead time is {} us, or 0 for an ideal inverter", CLOCK_DEAD_TIME_us));
 }
 
 } // namespace
@@ -47,9 +60,10 @@ BoardScenario for_board(const Scenario &scenario)
 {
     BoardScenario b{scenario, 0.0, {}};
     Scenario     &s = b.scenario;
-    require(std::abs(s.drive.inverter.pwm_frequency_Hz - board_pwm_Hz) < 1e-6 &&
-                s.drive.inverter.updates_per_period == 1,
-            "the board runs at 5 kHz with one update per period");
+    require(
+        std::abs(s.drive.inverter.pwm_frequency_Hz - board_pwm_Hz) < 1e-6 &&
+            s.drive.inverter.updates_per_period == 1,
+        fmt::format("the board runs at {:g} kHz with one update per period", 1e-3 * board_pwm_Hz));
     if (s.sensors.ideal) {
         const bool edge_time        = s.sensors.encoder_edge_time;
         s.sensors                   = SensorSettings{};
