@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "command.hpp"
@@ -354,4 +355,29 @@ TEST(RealisticScenario, BenchPrintsItsFigures)
     for (const char *piece : {"averaged inverter", "switched inverter", "drive_tick", "PI-FOC"}) {
         EXPECT_NE(bench.out.find(piece), std::string::npos) << bench.out;
     }
+}
+
+TEST(Runaway, ALoadThatDrivesTheTrippedMotorEndsTheRun)
+{
+    for (const std::string board : {"", "[sensors]\nsampling_advance_s = 5e-5\n",
+                                    "[sensors]\n[inverter]\nmodel = \"switched\"\n"}) {
+        for (const double load_Nm : {-60.0, 1e5}) { // in some periods, and within one
+            const Scenario s =
+                read(head + body + board +
+                     fmt::format("[[load_torque]]\ntime_s = 0.02\nvalue_Nm = {}\n", load_Nm));
+            const double           ts = control_period_s(s.drive);
+            const SimulationResult r  = simulate(s);
+
+            EXPECT_NE(r.fault, 0);
+            EXPECT_EQ(r.ended, runaway_fault);
+            ASSERT_LT(r.trace.size(), 250U);
+            EXPECT_GT(r.trace.back().time_s, 0.0199);
+            for (const TraceRow &row : r.trace) {
+                EXPECT_LT(std::abs(row.omega_e_radps) * ts, std::acos(-1.0)); // half a turn
+                EXPECT_TRUE(std::isfinite(row.peak_current_A) && std::isfinite(row.dc_link_V) &&
+                            std::isfinite(row.torque_Nm) && std::isfinite(row.vq_V));
+            }
+        }
+    }
+    EXPECT_NE(std::string(fault_name(runaway_fault)).find("runs away"), std::string::npos);
 }

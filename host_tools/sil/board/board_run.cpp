@@ -177,8 +177,11 @@ BoardResult simulate_on_board(const Scenario &scenario, BoardKind kind,
         const RawSample &raw = bench.sample();
         out.ticks.push_back({{raw.ia_code, raw.ib_code}, raw.count, run->duty_cnt()});
         commands.after(bench.tick() - start_tick, *run);
-        end.ended              = run->step() ? 0 : device_reset_fault;
-        end.row.peak_current_A = bench.peak_current_A();
+        const bool alive = run->step();
+        end.ended        = !alive ? device_reset_fault : bench.runaway() ? runaway_fault : 0;
+        if (end.ended != runaway_fault) {
+            end.row.peak_current_A = bench.peak_current_A();
+        }
         return end;
     });
     const app_status_t status = app_status_read();

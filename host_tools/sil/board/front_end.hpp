@@ -20,8 +20,8 @@ inline int current_code(int signed_code)
 
 inline int dc_link_code(double V)
 {
-    return static_cast<int>(
-        std::clamp(std::floor(adc_codes * V / dc_link_full_V), 0.0, adc_codes - 1.0));
+    const double code = std::floor(adc_codes * V / dc_link_full_V);
+    return static_cast<int>(code > 0.0 ? std::min(code, adc_codes - 1.0) : 0.0);
 }
 
 /// The middle of the voltages that give a code.

@@ -128,6 +128,10 @@ std::string result_text(const Scenario &scenario, const SimulationResult &result
     if (result.fault != 0) {
         s += fmt::format("FAULT at {:.4f} s: {}\n", result.fault_time_s, fault_name(result.fault));
     }
+    if (result.ended != 0 && result.ended != result.fault) {
+        s += fmt::format("the run ends at {:.4f} s: {}\n", result.trace.back().time_s,
+                         fault_name(result.ended));
+    }
     s += fmt::format("{:<26}", "");
     for (const Metrics &m : metrics) {
         s += fmt::format("{:>16}{:>10}", m.name, paper_of(scenario, m).empty() ? "" : "paper");

@@ -137,6 +137,11 @@ PlantState Board::plant_state() const
             dc_link_.voltage_V()};
 }
 
+bool Board::runaway() const
+{
+    return !(std::abs(plant_.omega_e_radps()) * period_s_ < std::acos(-1.0));
+}
+
 drive_sample_t Board::ideal_sample() const
 {
     const StatorVector i = to_stator(plant_.current_A(), plant_.theta_e_rad());

@@ -57,7 +57,10 @@ public:
         bridge_.advance(plant_, dc_link_, shaft_load_, from_s, to_s);
     }
 
-    PlantState   plant_state() const;
+    PlantState plant_state() const;
+    /// The motor turns half an electrical turn or more per control period, or its state is no number any more: samples
+    /// then say nothing about it, and the plant's steps are too long. A shaft that a load drives after a trip ends there.
+    bool         runaway() const;
     const Plant &plant() const
     {
         return plant_;

@@ -32,6 +32,9 @@ const char *fault_name(int fault)
     if (fault == device_reset_fault) {
         return "reset by the watchdog";
     }
+    if (fault == runaway_fault) {
+        return "the motor runs away: half an electrical turn or more per control period";
+    }
     if (fault >= app_fault_base) {
         return app_fault_name(fault - app_fault_base);
     }

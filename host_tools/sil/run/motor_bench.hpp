@@ -49,6 +49,10 @@ public:
     {
         return peak_current_A_;
     }
+    bool runaway() const
+    {
+        return board_ && board_->runaway();
+    }
     /// Somebody drove the motor while the shaft was held.
     bool driven_while_held() const
     {

@@ -17,8 +17,9 @@ namespace sdre {
 
 struct SimulationResult {
     std::vector<TraceRow> trace;
-    int                   fault                        = 0; ///< drive_fault_t; 0 = none
-    double                fault_time_s                 = 0.0;
+    int                   fault        = 0; ///< drive_fault_t; 0 = none
+    double                fault_time_s = 0.0;
+    int                   ended        = 0; ///< why the trace stops early; 0 = it does not
     double                simulated_seconds_per_second = 0.0; ///< wall clock
     bool compiled_table = false;          ///< the generated table was used, not gains solved here
     std::vector<std::string> uncertified; ///< why the gains would not have been written as a table
@@ -59,6 +60,7 @@ SimulationResult run_ticks(const Scenario &s, const Controller &controller, cons
             result.fault_time_s = t;
         }
         if (end.ended != 0) {
+            result.ended = end.ended;
             break;
         }
     }

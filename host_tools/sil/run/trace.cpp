@@ -55,6 +55,7 @@ TraceRow row_of(double time_s, double omega_ref_e_radps, const PlantState &plant
     row.load_torque_Nm    = plant.load_Nm;
     row.torque_Nm         = plant.torque_Nm;
     row.dc_link_V         = plant.dc_link_V;
+    row.peak_current_A    = std::hypot(plant.current_A.d, plant.current_A.q);
     return row;
 }
 

@@ -28,7 +28,7 @@ struct TraceRow {
     double peak_current_A      = 0.0; ///< largest |i| from this instant to the next
 };
 
-/// The plant's part of a row.
+/// The plant's part of a row; the peak is that of the instant.
 TraceRow row_of(double time_s, double omega_ref_e_radps, const PlantState &plant);
 /// The drive's part of a row: references, voltages, estimated disturbances.
 void add_drive(TraceRow &row, const drive_t &drive);

@@ -37,17 +37,19 @@ double QuadratureEncoder::shaft_turns(double theta_e_rad) const
     return shaft / two_pi;
 }
 
-std::int64_t QuadratureEncoder::counts_of(double theta_e_rad) const
+std::int64_t QuadratureEncoder::counts_of(double turns) const
 {
-    return static_cast<std::int64_t>(
-        std::floor(shaft_turns(theta_e_rad) * static_cast<double>(counts_per_turn_)));
+    // Further away a double has no single counts; a plant that runs away gets there before its run ends.
+    constexpr double furthest = 0x1p53;
+    const double     counts   = std::floor(turns * static_cast<double>(counts_per_turn_));
+    return std::abs(counts) < furthest ? static_cast<std::int64_t>(counts) : 0;
 }
 
 void QuadratureEncoder::start(double theta_e_rad, double omega_e_radps)
 {
     lost_          = 0;
     lost_at_turn_  = std::floor(shaft_turns(theta_e_rad));
-    before_        = counts_of(theta_e_rad - omega_e_radps * period_s_);
+    before_        = counts_of(shaft_turns(theta_e_rad - omega_e_radps * period_s_));
     lost_for_good_ = 0;
     true_before_   = before_;
     edge_speed_    = omega_e_radps;
@@ -120,14 +122,15 @@ double QuadratureEncoder::edge_angle_rad(std::int64_t count) const
 
 QuadratureEncoder::Reading QuadratureEncoder::read(double theta_e_rad, double omega_e_radps)
 {
-    const double turn = std::floor(shaft_turns(theta_e_rad));
+    const double turns = shaft_turns(theta_e_rad);
+    const double turn  = std::floor(turns);
     if (settings_.encoder_index && turn != lost_at_turn_) {
         lost_ = 0;
     }
     lost_at_turn_ = turn;
 
     Reading            r;
-    const std::int64_t now = counts_of(theta_e_rad);
+    const std::int64_t now = counts_of(turns);
     note_index(now, r);
     r.count = now - lost_; // EQ-ENCODER-2
 

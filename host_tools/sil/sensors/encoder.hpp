@@ -43,7 +43,7 @@ public:
 
 private:
     double       shaft_turns(double theta_e_rad) const;
-    std::int64_t counts_of(double theta_e_rad) const;
+    std::int64_t counts_of(double turns) const;
     void         note_index(std::int64_t now, Reading &r);
     double       since_edge_s(double theta_e_rad, double omega_e_radps) const;
     double       edge_angle_rad(std::int64_t count) const;
