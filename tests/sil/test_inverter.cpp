@@ -396,3 +396,34 @@ TEST(Plant, PhaseCurrentRateIsTheDerivativeOfThePhaseCurrents)
     EXPECT_NEAR((after.b - before.b) / h, rate.b, 1.0);
     EXPECT_NEAR((after.c - before.c) / h, rate.c, 1.0);
 }
+
+TEST(Bridge, TheCurrentOfAnOpenLegDiesOutAndStaysZero)
+{
+    const InverterSettings s = model(InverterModel::switched);
+    LegTiming              leg;
+    leg.changes = {{{0.0, false}, {5e-5, true}, {1.5e-4, false}, {}}};
+    leg.count   = 3;
+    leg.duty    = 0.5;
+    LegTiming idle;
+    idle.count = 1; // stays low: nothing ends the holding
+    Plant p(heavy());
+    p.step(RotorVector{100.0, 0.0}, 0.0, 1e-3,
+           20); // at rest: no EMF drives a current through a diode
+    ASSERT_GT(std::abs(p.phase_current_A().a), 0.5);
+    Bridge bridge(full, s, dead_time_s);
+    DcLink link(s, vdc_V);
+    for (int k = 0; k < 40; k++) {
+        bridge.begin_period({idle, leg, leg});
+        bridge.set_legs({false, true, true});
+        for (int n = 0; n < 20; n++) {
+            bridge.advance(p, link, {}, n * 1e-5, (n + 1) * 1e-5);
+            if (k >= 20) {
+                ASSERT_LT(std::abs(p.phase_current_A().a), 1e-3) << k;
+            }
+        }
+        if (k >= 20) { // the open terminal follows the other two
+            ASSERT_NEAR(bridge.volt_seconds()[0], bridge.volt_seconds()[1],
+                        1e-4 * vdc_V * period_s);
+        }
+    }
+}
