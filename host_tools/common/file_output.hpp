@@ -13,8 +13,9 @@ struct OutputFile {
     std::string           text;
 };
 
-/// Writes every file under a temporary name in its own directory, then renames all of them. InputError when
-/// one cannot be written; no target has changed then.
+/// Writes every file under a name of its own in the target's directory, then renames all of them; links are followed and a
+/// file that was there keeps its mode. What is no regular file (a device, a pipe) is written to as it is, before
+/// anything is renamed. InputError with the path as given when one cannot be written; no regular file has changed then.
 void write_files(const std::vector<OutputFile> &files);
 
 /// The whole file. InputError when it cannot be read.

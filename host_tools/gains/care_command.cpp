@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/errors.hpp"
+#include "gains/commands.hpp"
 
 namespace sdre {
 
@@ -211,6 +212,33 @@ std::string care_json(const CareSolution &solution)
                             i + 1 < modes.size() ? "," : "");
     }
     return text + "  ]\n}\n";
+}
+
+namespace {
+
+struct Options {
+    std::string problem;
+    bool        json = false;
+};
+
+void declare(OptionList &list, Options &o)
+{
+    list.required("PROBLEM", o.problem, "JSON file with A, Q and B, R (or G)");
+    list.flag("--json", o.json, "one JSON object");
+}
+
+int run(const Options &o)
+{
+    const CareSolution solution = solve_care_problem(read_care_problem(o.problem));
+    fmt::print("{}", o.json ? care_json(solution) : care_text(solution));
+    return exit_ok;
+}
+
+} // namespace
+
+Command care_command()
+{
+    return command<Options>("care", "solve A'X + XA - XBR^-1B'X + Q = 0", declare, run);
 }
 
 } // namespace sdre

@@ -44,16 +44,15 @@ std::map<std::string, CompareCell> cells_of(const SeedMeasure                   
     return cells;
 }
 
-CompareRun run_of(const Scenario &scenario, const std::string &column, const Comparison &c,
-                  int seeds)
+CompareRun run_of(const Scenario &scenario, const std::string &column, const SeedRuns &runs,
+                  const std::vector<std::string> &metrics)
 {
-    const SeedRuns runs = run_seeds(scenario, seeds);
-    CompareRun     out{scenario.name, column, runs.faults, runs.first.uncertified.empty(), {}, {}};
+    CompareRun out{scenario.name, column, runs.faults, runs.first.uncertified.empty(), {}, {}};
     for (const SeedMeasure &measure : runs.measures) {
         const auto same = std::find_if(scenario.measures.begin(), scenario.measures.end(),
                                        [&](const Measure &m) { return m.name == measure.name; });
         out.measures.push_back(measure.name);
-        out.cells[measure.name] = cells_of(measure, same->paper, c.metrics);
+        out.cells[measure.name] = cells_of(measure, same->paper, metrics);
     }
     return out;
 }
@@ -82,31 +81,23 @@ std::vector<std::pair<std::string, Scenario>> variants(const CompareRequest     
     return out;
 }
 
-void add_runs(Comparison &c, const CompareRequest &request, const std::filesystem::path &scenario)
+void require_different(const std::vector<std::string> &columns)
 {
-    std::vector<std::string> columns;
-    for (const auto &[column, s] : variants(request, scenario)) {
-        if (std::count(columns.begin(), columns.end(), column) > 0) {
+    for (const std::string &column : columns) {
+        if (std::count(columns.begin(), columns.end(), column) > 1) {
             throw InputError(
                 fmt::format("two columns are called \"{}\": every drive and order must "
                             "be there once",
                             column));
         }
-        columns.push_back(column);
-        c.runs.push_back(run_of(s, column, c, request.seeds));
     }
-    c.columns = columns;
 }
 
 std::string value_text(const CompareRun &run, const MetricLabel &label, const CompareCell &cell)
 {
-    std::string s = run.faulted > 0 ? "fault" : "never";
-    if (cell.value && run.faulted == 0) {
-        s = fmt::format(fmt::runtime(label.format), label.factor * *cell.value);
-    }
+    std::string s = run.faulted > 0 ? "fault" : metric_text(label, cell.value);
     if (cell.paper) {
-        s += fmt::format(" (paper {})",
-                         fmt::format(fmt::runtime(label.format), label.factor * *cell.paper));
+        s += fmt::format(" (paper {})", metric_text(label, cell.paper));
     }
     return s;
 }
@@ -124,14 +115,26 @@ const std::vector<std::string> &compare_default_metrics()
 Comparison compare(const CompareRequest &request)
 {
     require_metrics(request.metrics);
-    Comparison            c;
-    std::set<std::string> seen;
+    Comparison               c;
+    std::set<std::string>    seen;
+    std::vector<std::string> columns; ///< of all scenarios
+    std::vector<Scenario>    all;
     c.metrics = request.metrics.empty() ? compare_default_metrics() : request.metrics;
     for (const std::filesystem::path &scenario : request.scenarios) {
         if (!seen.insert(scenario.stem().string()).second) {
             throw InputError(fmt::format("scenario {} is there twice", scenario.stem().string()));
         }
-        add_runs(c, request, scenario);
+        c.columns.clear(); // the same of every scenario
+        for (const auto &[column, variant] : variants(request, scenario)) {
+            c.columns.push_back(column);
+            columns.push_back(column);
+            all.push_back(variant);
+        }
+        require_different(c.columns);
+    }
+    const std::vector<SeedRuns> runs = run_seeds(all, request.seeds);
+    for (std::size_t i = 0; i < all.size(); i++) {
+        c.runs.push_back(run_of(all[i], columns[i], runs[i], c.metrics));
     }
     return c;
 }
@@ -163,6 +166,9 @@ std::string compare_markdown(const Comparison &c)
         }
     }
     for (const CompareRun &run : c.runs) {
+        if (run.measures.empty()) {
+            s += fmt::format("\n{}: {}", run.scenario, no_measures);
+        }
         if (!run.certified) {
             s += fmt::format("\nnot certified: {} on {}\n", run.column, run.scenario);
         }

@@ -10,6 +10,7 @@ namespace {
 using Iterator = std::vector<TraceRow>::const_iterator;
 
 constexpr double tail_share       = 0.2;
+constexpr double current_share    = 0.01; // of the largest current: below it there is no distortion
 constexpr double time_tolerance_s = 1e-9; // far below a period: two times that mean the same tick
 
 template <typename Value> double mean(Iterator begin, Iterator end, Value value)
@@ -90,16 +91,20 @@ void add_paper_b(Metrics &m, Iterator begin, Iterator tail, Iterator end, int po
     m.within_1_percent_s = within(0.01);
 }
 
-double current_distortion_percent(Iterator tail, Iterator end, double id_A, double iq_A)
+std::optional<double> current_distortion_percent(Iterator tail, Iterator end, double id_A,
+                                                 double iq_A, double least_A)
 {
     const double fundamental = std::hypot(id_A, iq_A);
-    const double square      = mean(tail, end, [&](const TraceRow &r) {
+    if (!(fundamental > 0.0 && fundamental >= least_A)) {
+        return std::nullopt;
+    }
+    const double square = mean(tail, end, [&](const TraceRow &r) {
         return std::pow(r.id_A - id_A, 2) + std::pow(r.iq_A - iq_A, 2);
     });
-    return fundamental > 0.0 ? 100.0 * std::sqrt(square) / fundamental : 0.0;
+    return 100.0 * std::sqrt(square) / fundamental;
 }
 
-Metrics metrics_of(const Window &window, int pole_pairs)
+Metrics metrics_of(const Window &window, const Motor &motor)
 {
     const auto &[measure, begin, tail, end] = window;
 
@@ -130,8 +135,9 @@ Metrics metrics_of(const Window &window, int pole_pairs)
     m.id_A        = mean(tail, end, [](const TraceRow &r) { return r.id_A; });
     m.sensor_offset_hat_A =
         mean(tail, end, [](const TraceRow &r) { return r.sensor_offset_hat_A; });
-    m.current_distortion_percent = current_distortion_percent(tail, end, m.id_A, m.iq_A);
-    add_paper_b(m, begin, tail, end, pole_pairs);
+    m.current_distortion_percent =
+        current_distortion_percent(tail, end, m.id_A, m.iq_A, current_share * motor.max_current_A);
+    add_paper_b(m, begin, tail, end, motor.pole_pairs);
     return m;
 }
 
@@ -161,40 +167,40 @@ std::vector<Metrics> measure(const Scenario &scenario, const std::vector<TraceRo
 {
     std::vector<Metrics> out;
     for (const Window &window : windows_of(scenario, trace)) {
-        out.push_back(metrics_of(window, scenario.drive.motor.pole_pairs));
+        out.push_back(metrics_of(window, scenario.drive.motor));
     }
     return out;
 }
 
 std::vector<std::pair<std::string, double>> metric_values(const Metrics &m)
 {
+    const std::pair<const char *, std::optional<double>> all[] = {
+        {"settling_time_s", m.settling_time_s},
+        {"dip_e_radps", m.dip_e_radps},
+        {"overshoot_e_radps", m.overshoot_e_radps},
+        {"steady_state_error_e_radps", m.steady_state_error_e_radps},
+        {"ripple_e_radps", m.ripple_e_radps},
+        {"peak_current_A", m.peak_current_A},
+        {"steady_current_A", m.steady_current_A},
+        {"d_omega_hat", m.d_omega_hat},
+        {"d_q_hat", m.d_q_hat},
+        {"d_d_hat", m.d_d_hat},
+        {"iq_A", m.iq_A},
+        {"id_A", m.id_A},
+        {"sensor_offset_hat_A", m.sensor_offset_hat_A},
+        {"current_distortion_percent", m.current_distortion_percent},
+        {"fluctuation_rpm", m.fluctuation_rpm},
+        {"fluctuation_rate_percent", m.fluctuation_rate_percent},
+        {"offset_rpm", m.offset_rpm},
+        {"decrease_rpm", m.decrease_rpm},
+        {"overshoot_percent", m.overshoot_percent},
+        {"within_5_percent_s", m.within_5_percent_s},
+        {"within_2_percent_s", m.within_2_percent_s},
+        {"within_1_percent_s", m.within_1_percent_s}};
     std::vector<std::pair<std::string, double>> values;
-    if (m.settling_time_s) {
-        values.emplace_back("settling_time_s", *m.settling_time_s);
-    }
-    values.insert(values.end(), {{"dip_e_radps", m.dip_e_radps},
-                                 {"overshoot_e_radps", m.overshoot_e_radps},
-                                 {"steady_state_error_e_radps", m.steady_state_error_e_radps},
-                                 {"ripple_e_radps", m.ripple_e_radps},
-                                 {"peak_current_A", m.peak_current_A},
-                                 {"steady_current_A", m.steady_current_A},
-                                 {"d_omega_hat", m.d_omega_hat},
-                                 {"d_q_hat", m.d_q_hat},
-                                 {"d_d_hat", m.d_d_hat},
-                                 {"iq_A", m.iq_A},
-                                 {"id_A", m.id_A},
-                                 {"sensor_offset_hat_A", m.sensor_offset_hat_A},
-                                 {"current_distortion_percent", m.current_distortion_percent},
-                                 {"fluctuation_rpm", m.fluctuation_rpm},
-                                 {"fluctuation_rate_percent", m.fluctuation_rate_percent},
-                                 {"offset_rpm", m.offset_rpm},
-                                 {"decrease_rpm", m.decrease_rpm},
-                                 {"overshoot_percent", m.overshoot_percent}});
-    for (const auto &[name, time_s] : {std::pair("within_5_percent_s", &m.within_5_percent_s),
-                                       {"within_2_percent_s", &m.within_2_percent_s},
-                                       {"within_1_percent_s", &m.within_1_percent_s}}) {
-        if (*time_s) {
-            values.emplace_back(name, **time_s);
+    for (const auto &[name, value] : all) {
+        if (value) {
+            values.emplace_back(name, *value);
         }
     }
     return values;

@@ -36,8 +36,9 @@ struct Metrics {
     double id_A                       = 0.0;
     double sensor_offset_hat_A        = 0.0; ///< noc_h: estimate, mean in the tail
     /// All of the true phase currents but their fundamental, rms over that of the fundamental, in the tail. At constant
-    /// speed: the deviation of (id, iq) from its mean over that mean; 0 without current.
-    double current_distortion_percent = 0.0;
+    /// speed: the deviation of (id, iq) from its mean over that mean. None when the fundamental is below 1 % of the drive's
+    /// largest current (chosen: a ratio to less says nothing of the current).
+    std::optional<double> current_distortion_percent;
     // Paper B's figures, of the mechanical speed.
     double fluctuation_rpm          = 0.0; ///< (max - min) / 2 in the tail
     double fluctuation_rate_percent = 0.0; ///< (max - min) / (max + min) in the tail; 0 about 0
@@ -64,7 +65,7 @@ std::vector<Window> windows_of(const Scenario &scenario, const std::vector<Trace
 
 std::vector<Metrics> measure(const Scenario &scenario, const std::vector<TraceRow> &trace);
 
-/// The numeric metrics by their JSON name, in the order of metric_names(); a missing time is left out.
+/// The numeric metrics by their JSON name, in the order of metric_names(); one without a value is left out.
 std::vector<std::pair<std::string, double>> metric_values(const Metrics &metrics);
 
 } // namespace sdre

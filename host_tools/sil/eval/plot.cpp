@@ -30,27 +30,48 @@ int run(const std::array<std::string, 5> &arguments)
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-void plot(const char *script, const std::string &csv, const std::string &title,
-          const std::filesystem::path &picture)
-{
-    const std::string python = SDRE_PYTHON;
-    const std::string kind   = picture.extension().string();
-    require_plot(picture);
-    // Beside the target, so that a directory that cannot be written fails here, before anything is drawn.
-    const std::filesystem::path data = picture.string() + ".csv.tmp";
-    const std::filesystem::path part = picture.string() + ".tmp" + kind;
-    write_files({{data, csv}});
-    const int status = run(
-        {python, std::string(SDRE_PLOT_SCRIPTS "/") + script, data.string(), title, part.string()});
-    std::error_code error;
-    std::filesystem::remove(data, error);
-    if (status == 0) {
-        std::filesystem::rename(part, picture, error);
+/// A directory for what the script reads and writes.
+class Workplace {
+public:
+    Workplace()
+    {
+        std::error_code error;
+        std::string name = (std::filesystem::temp_directory_path(error) / "sdre-XXXXXX").string();
+        if (error || mkdtemp(name.data()) == nullptr) {
+            throw InputError("--plot: there is no directory for temporary files (TMPDIR)");
+        }
+        path_ = name;
     }
-    if (status != 0 || error) {
-        std::filesystem::remove(part, error);
+    ~Workplace()
+    {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    Workplace(const Workplace &)            = delete;
+    Workplace &operator=(const Workplace &) = delete;
+
+    std::filesystem::path operator/(const std::string &name) const
+    {
+        return path_ / name;
+    }
+
+private:
+    std::filesystem::path path_;
+};
+
+std::string drawn(const char *script, const std::string &csv, const std::string &title,
+                  const std::filesystem::path &picture)
+{
+    require_plot(picture);
+    const Workplace             work;
+    const std::filesystem::path data = work / "data.csv";
+    const std::filesystem::path out  = work / ("picture" + picture.extension().string());
+    write_files({{data, csv}});
+    if (run({SDRE_PYTHON, std::string(SDRE_PLOT_SCRIPTS "/") + script, data.string(), title,
+             out.string()}) != 0) {
         throw InputError(fmt::format("{}: cannot draw", picture.string()));
     }
+    return read_text_file(out);
 }
 
 } // namespace
@@ -66,16 +87,16 @@ void require_plot(const std::filesystem::path &picture)
     }
 }
 
-void plot_trace(const std::string &csv, const std::string &title,
-                const std::filesystem::path &picture)
+std::string trace_picture(const std::string &csv, const std::string &title,
+                          const std::filesystem::path &picture)
 {
-    plot("plot_trace.py", csv, title, picture);
+    return drawn("plot_trace.py", csv, title, picture);
 }
 
-void plot_spectrum(const std::string &csv, const std::string &title,
-                   const std::filesystem::path &picture)
+std::string spectrum_picture(const std::string &csv, const std::string &title,
+                             const std::filesystem::path &picture)
 {
-    plot("plot_spectrum.py", csv, title, picture);
+    return drawn("plot_spectrum.py", csv, title, picture);
 }
 
 } // namespace sdre

@@ -10,11 +10,11 @@ namespace sdre {
 /// InputError when this name or this build cannot become a plot. Lets a tool refuse before it writes anything.
 void require_plot(const std::filesystem::path &picture);
 
-/// Write a .png or .svg from what trace_csv() or spectrum_csv() gives. InputError when no Python with matplotlib was found
-/// at build time or it fails.
-void plot_trace(const std::string &csv, const std::string &title,
-                const std::filesystem::path &picture);
-void plot_spectrum(const std::string &csv, const std::string &title,
-                   const std::filesystem::path &picture);
+/// The bytes of a .png or .svg, as the name says, from what trace_csv() or spectrum_csv() gives. InputError when no Python
+/// with matplotlib was found at build time or it fails.
+std::string trace_picture(const std::string &csv, const std::string &title,
+                          const std::filesystem::path &picture);
+std::string spectrum_picture(const std::string &csv, const std::string &title,
+                             const std::filesystem::path &picture);
 
 } // namespace sdre

@@ -6,10 +6,11 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "common/errors.hpp"
-#include "common/file_output.hpp"
 #include "common/parallel.hpp"
+#include "common/progress.hpp"
 #include "common/random.hpp"
 #include "common/toml_reader.hpp"
 #include "design/sampled_model.hpp"
@@ -127,6 +128,7 @@ RandomMotors run_random_motors(const Scenario &scenario, int count)
     }
     const Controller          controller = prepare_controller(scenario);
     std::vector<MotorFailure> runs(static_cast<std::size_t>(count));
+    Progress                  progress(runs.size(), "motors");
 
     parallel_for(runs.size(), [&](std::size_t i) {
         Scenario  one   = scenario;
@@ -137,10 +139,14 @@ RandomMotors run_random_motors(const Scenario &scenario, int count)
         if (!runs[i].reasons.empty()) {
             runs[i].reasons.push_back(explain(one, controller.config));
         }
+        progress.step();
     });
 
     RandomMotors out;
     out.count = count;
+    for (const MotorFailure &run : runs) {
+        out.scales.push_back(run.scale);
+    }
     std::copy_if(runs.begin(), runs.end(), std::back_inserter(out.failures),
                  [](const MotorFailure &run) { return !run.reasons.empty(); });
     return out;
@@ -163,9 +169,43 @@ std::string random_motors_text(const Scenario &scenario, const RandomMotors &run
     return s;
 }
 
-void write_failed_motors(const std::filesystem::path &scenario_file,
-                         const std::filesystem::path &drive_file, const RandomMotors &runs,
-                         const std::filesystem::path &directory)
+std::string random_motors_csv(const RandomMotors &runs)
+{
+    std::string s       = "motor,resistance,inductance,flux,inertia,failed,reasons\n";
+    auto        failure = runs.failures.begin();
+    for (std::size_t i = 0; i < runs.scales.size(); i++) {
+        const MotorScale &scale = runs.scales[i];
+        const bool        failed =
+            failure != runs.failures.end() && failure->motor == static_cast<int>(i) + 1;
+        s += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{},\"{}\"\n", i + 1,
+                         scale.at("stator_resistance_Ohm"), scale.at("q_axis_inductance_H"),
+                         scale.at("pm_flux_Wb"), scale.at("inertia_kgm2"), failed ? 1 : 0,
+                         failed ? fmt::format("{}", fmt::join(failure->reasons, "; ")) : "");
+        failure += failed ? 1 : 0;
+    }
+    return s;
+}
+
+std::string random_motors_json(const Scenario &scenario, const RandomMotors &runs)
+{
+    using nlohmann::ordered_json;
+    ordered_json failures = ordered_json::array();
+    for (const MotorFailure &f : runs.failures) {
+        failures.push_back({{"motor", f.motor}, {"scale", f.scale}, {"reasons", f.reasons}});
+    }
+    return ordered_json{{"scenario", scenario.name},
+                        {"drive", scenario.drive.name},
+                        {"motors", runs.count},
+                        {"failed", runs.failures.size()},
+                        {"failures", failures}}
+               .dump(2) +
+           "\n";
+}
+
+std::vector<OutputFile> failed_motor_files(const std::filesystem::path &scenario_file,
+                                           const std::filesystem::path &drive_file,
+                                           const RandomMotors          &runs,
+                                           const std::filesystem::path &directory)
 {
     std::error_code error;
     std::filesystem::create_directories(directory, error); // write_files() names what is wrong
@@ -193,7 +233,7 @@ void write_failed_motors(const std::filesystem::path &scenario_file,
             {directory / fmt::format("{}_motor_{}.toml", scenario_file.stem().string(), f.motor),
              text.str()});
     }
-    write_files(files);
+    return files;
 }
 
 } // namespace sdre

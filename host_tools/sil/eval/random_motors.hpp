@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/file_output.hpp"
 #include "sil/run/simulation.hpp"
 #include "sil/setup/scenario.hpp"
 
@@ -21,6 +22,7 @@ struct MotorFailure {
 
 struct RandomMotors {
     int                       count = 0;
+    std::vector<MotorScale>   scales;   ///< of all motors; motor n is scales[n - 1]
     std::vector<MotorFailure> failures; ///< by number
 };
 
@@ -32,11 +34,15 @@ MotorScale draw_motor(const MotorRanges &ranges, std::uint64_t seed, int motor);
 RandomMotors run_random_motors(const Scenario &scenario, int count);
 
 std::string random_motors_text(const Scenario &scenario, const RandomMotors &runs);
+/// One row per motor: number, factors, 1 when it failed, reasons.
+std::string random_motors_csv(const RandomMotors &runs);
+std::string random_motors_json(const Scenario &scenario, const RandomMotors &runs);
 
-/// Writes every failed motor as DIR/<scenario>_motor_<n>.toml, a scenario for `sdre-sil run`; with `drive_file` in
-/// place of the scenario's unless it is empty.
-void write_failed_motors(const std::filesystem::path &scenario_file,
-                         const std::filesystem::path &drive_file, const RandomMotors &runs,
-                         const std::filesystem::path &directory);
+/// Every failed motor as DIR/<scenario>_motor_<n>.toml, a scenario for `sdre-sil run`; with `drive_file` in place of the
+/// scenario's unless it is empty. Makes the directory.
+std::vector<OutputFile> failed_motor_files(const std::filesystem::path &scenario_file,
+                                           const std::filesystem::path &drive_file,
+                                           const RandomMotors          &runs,
+                                           const std::filesystem::path &directory);
 
 } // namespace sdre

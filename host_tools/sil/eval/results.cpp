@@ -37,15 +37,15 @@ constexpr MetricLabel labels[] = {
     {"within_2_percent_s", "within 2 % [ms]", 1e3, "{:.1f}"},
     {"within_1_percent_s", "within 1 % [ms]", 1e3, "{:.1f}"}};
 
-std::string cell(const std::vector<std::pair<std::string, double>> &values,
-                 const MetricLabel &label, const char *missing)
+std::optional<double> value_of(const std::vector<std::pair<std::string, double>> &values,
+                               const MetricLabel                                 &label)
 {
     for (const auto &[name, value] : values) {
         if (name == label.metric) {
-            return fmt::format(fmt::runtime(label.format), label.factor * value);
+            return value;
         }
     }
-    return missing;
+    return std::nullopt;
 }
 
 /// The published values of a measure; found by name, as a measure without rows has no metrics.
@@ -61,6 +61,17 @@ const std::map<std::string, double> &paper_of(const Scenario &scenario, const Me
 }
 
 } // namespace
+
+const char *const no_measures = "no measures: the scenario has no [[measure]] with a row\n";
+
+std::string metric_text(const MetricLabel &label, const std::optional<double> &value)
+{
+    if (value) {
+        return fmt::format(fmt::runtime(label.format), label.factor * *value);
+    }
+    const std::string name = label.metric;
+    return name.size() > 2 && name.substr(name.size() - 2) == "_s" ? "never" : "-";
+}
 
 const MetricLabel &metric_label(const std::string &metric)
 {
@@ -96,7 +107,7 @@ std::string result_json(const Scenario &scenario, const SimulationResult &result
     for (const Metrics &m : metrics) {
         ordered_json entry{{"time_s", m.time_s}};
         for (const std::string &name : metric_names()) {
-            entry[name] = nullptr; // of a time: never
+            entry[name] = nullptr; // of a time: never; otherwise it cannot be told
         }
         for (const auto &[name, value] : metric_values(m)) {
             entry[name] = value;
@@ -112,8 +123,7 @@ std::string result_json(const Scenario &scenario, const SimulationResult &result
         {"fault", fault_name(result.fault)},
         {"fault_time_s",
          result.fault == 0 ? ordered_json(nullptr) : ordered_json(result.fault_time_s)},
-        {"measures", measures},
-        {"simulated_seconds_per_second", result.simulated_seconds_per_second}};
+        {"measures", measures}};
     return out.dump(2) + "\n";
 }
 
@@ -132,6 +142,9 @@ std::string result_text(const Scenario &scenario, const SimulationResult &result
         s += fmt::format("the run ends at {:.4f} s: {}\n", result.trace.back().time_s,
                          fault_name(result.ended));
     }
+    if (metrics.empty()) {
+        return s + no_measures;
+    }
     s += fmt::format("{:<26}", "");
     for (const Metrics &m : metrics) {
         s += fmt::format("{:>16}{:>10}", m.name, paper_of(scenario, m).empty() ? "" : "paper");
@@ -140,9 +153,10 @@ std::string result_text(const Scenario &scenario, const SimulationResult &result
     for (const MetricLabel &label : labels) {
         s += fmt::format("{:<26}", label.text);
         for (const Metrics &m : metrics) {
-            const auto &paper = paper_of(scenario, m);
-            s += fmt::format("{:>16}{:>10}", cell(metric_values(m), label, "never"),
-                             cell({paper.begin(), paper.end()}, label, ""));
+            const auto &paper     = paper_of(scenario, m);
+            const auto  published = value_of({paper.begin(), paper.end()}, label);
+            s += fmt::format("{:>16}{:>10}", metric_text(label, value_of(metric_values(m), label)),
+                             published ? metric_text(label, published) : "");
         }
         s += "\n";
     }

@@ -2,6 +2,7 @@
 /// A finished run as text: CSV for plots, JSON for programs, a table for people.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@ struct MetricLabel {
 
 /// InputError for what is not the name of a metric.
 const MetricLabel &metric_label(const std::string &metric);
+
+/// A value in the label's unit; none is "never" of a time, "-" of anything else.
+std::string metric_text(const MetricLabel &label, const std::optional<double> &value);
+
+/// What stands in place of a table without columns.
+extern const char *const no_measures;
 
 /// Header line, then one row per control period.
 std::string trace_csv(const std::vector<TraceRow> &trace);

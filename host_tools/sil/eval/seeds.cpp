@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "common/parallel.hpp"
+#include "common/progress.hpp"
+#include "sil/eval/results.hpp"
 
 namespace sdre {
 namespace {
@@ -53,37 +55,37 @@ ordered_json json_of(const std::optional<double> &value)
     return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
-std::string text_of(const std::optional<double> &value)
+/// What one seed leaves behind.
+struct SeedRun {
+    std::vector<Metrics> metrics;
+    bool                 faulted = false;
+    SimulationResult     result; ///< of seed 1 only: a trace is large
+};
+
+SeedRun run_seed(const Scenario &scenario, std::size_t seed, const Controller &controller,
+                 const Simulation &simulation)
 {
-    return value ? fmt::format("{:.5g}", *value) : "never";
+    Scenario seeded         = scenario;
+    seeded.seed             = seed;
+    SimulationResult result = simulation(seeded, controller);
+    SeedRun          run{measure(seeded, result.trace), result.fault != 0, {}};
+    if (seed == 1) {
+        run.result = std::move(result);
+    }
+    return run;
 }
 
-} // namespace
-
-SeedRuns run_seeds(const Scenario &scenario, int count)
+SeedRuns gathered(SeedRun *runs, std::size_t count)
 {
-    const Controller                  controller = prepare_controller(scenario);
-    const auto                        n          = static_cast<std::size_t>(count);
-    std::vector<std::vector<Metrics>> metrics(n);
-    std::vector<int>                  faults(n, 0);
     SeedRuns                          out;
-
-    parallel_for(n, [&](std::size_t i) {
-        Scenario seeded         = scenario;
-        seeded.seed             = i + 1;
-        SimulationResult result = simulate(seeded, controller);
-        metrics[i]              = measure(seeded, result.trace);
-        faults[i]               = result.fault != 0 ? 1 : 0;
-        if (i == 0) {
-            out.first = std::move(result);
-        }
-    });
-
-    out.seeds         = count;
-    out.first_metrics = metrics[0];
-    for (int fault : faults) {
-        out.faults += fault;
+    std::vector<std::vector<Metrics>> metrics;
+    for (std::size_t i = 0; i < count; i++) {
+        metrics.push_back(runs[i].metrics);
+        out.faults += runs[i].faulted ? 1 : 0;
     }
+    out.seeds         = static_cast<int>(count);
+    out.first         = std::move(runs[0].result);
+    out.first_metrics = metrics[0];
     for (std::size_t m = 0; m < metrics[0].size(); m++) {
         SeedMeasure entry{metrics[0][m].name, metrics[0][m].time_s, {}};
         for (const std::string &name : metric_names()) {
@@ -92,6 +94,50 @@ SeedRuns run_seeds(const Scenario &scenario, int count)
         out.measures.push_back(entry);
     }
     return out;
+}
+
+SimulationResult on_the_core(const Scenario &scenario, const Controller &controller)
+{
+    return simulate(scenario, controller);
+}
+
+} // namespace
+
+SeedRuns run_seeds(const Scenario &scenario, int count)
+{
+    return run_seeds(std::vector<Scenario>{scenario}, count).at(0);
+}
+
+std::vector<SeedRuns> run_seeds(const std::vector<Scenario> &scenarios, int count)
+{
+    const auto              n = static_cast<std::size_t>(count);
+    std::vector<Controller> controllers(scenarios.size());
+    std::vector<SeedRun>    runs(scenarios.size() * n);
+    Progress                progress(runs.size(), "runs");
+
+    parallel_for(scenarios.size(),
+                 [&](std::size_t i) { controllers[i] = prepare_controller(scenarios[i]); });
+    parallel_for(runs.size(), [&](std::size_t i) {
+        runs[i] = run_seed(scenarios[i / n], i % n + 1, controllers[i / n], on_the_core);
+        progress.step();
+    });
+    std::vector<SeedRuns> out;
+    for (std::size_t i = 0; i < scenarios.size(); i++) {
+        out.push_back(gathered(&runs[i * n], n));
+    }
+    return out;
+}
+
+SeedRuns run_seeds_in_turn(const Scenario &scenario, int count, const Simulation &simulation)
+{
+    const Controller     controller = prepare_controller(scenario);
+    std::vector<SeedRun> runs(static_cast<std::size_t>(count));
+    Progress             progress(runs.size(), "runs");
+    for (std::size_t i = 0; i < runs.size(); i++) {
+        runs[i] = run_seed(scenario, i + 1, controller, simulation);
+        progress.step();
+    }
+    return gathered(runs.data(), runs.size());
 }
 
 std::string seeds_json(const Scenario &scenario, const SeedRuns &runs)
@@ -128,17 +174,20 @@ std::string seeds_text(const Scenario &scenario, const SeedRuns &runs)
     if (runs.faults > 0) {
         s += fmt::format("FAULT in {} of {} seeds\n", runs.faults, runs.seeds);
     }
-    s += fmt::format("{:<28}", "");
+    if (runs.measures.empty()) {
+        return s + no_measures;
+    }
+    s += fmt::format("{:<26}", "");
     for (const SeedMeasure &m : runs.measures) {
         s += fmt::format("{:>16}{:>12}", m.name + " worst", "mean");
     }
     s += "\n";
-    for (std::size_t row = 0; !runs.measures.empty() && row < runs.measures[0].spread.size();
-         row++) {
-        s += fmt::format("{:<28}", runs.measures[0].spread[row].metric);
+    for (std::size_t row = 0; row < runs.measures[0].spread.size(); row++) {
+        const MetricLabel &label = metric_label(runs.measures[0].spread[row].metric);
+        s += fmt::format("{:<26}", label.text);
         for (const SeedMeasure &m : runs.measures) {
-            s += fmt::format("{:>16}{:>12}", text_of(m.spread[row].worst),
-                             text_of(m.spread[row].mean));
+            s += fmt::format("{:>16}{:>12}", metric_text(label, m.spread[row].worst),
+                             metric_text(label, m.spread[row].mean));
         }
         s += "\n";
     }

@@ -2,6 +2,7 @@
 /// One scenario under many noise seeds.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +12,7 @@
 
 namespace sdre {
 
-/// One metric over all seeds. Settling "never" in any seed leaves worst and mean of the time empty.
+/// One metric over all seeds. A seed without a value ("never" of a time) leaves worst and mean empty.
 struct SeedSpread {
     std::string metric;
     std::optional<double>
@@ -35,6 +36,13 @@ struct SeedRuns {
 
 /// Seeds 1 .. count, in parallel; the result does not depend on the number of threads.
 SeedRuns run_seeds(const Scenario &scenario, int count);
+/// The same of many scenarios at once.
+std::vector<SeedRuns> run_seeds(const std::vector<Scenario> &scenarios, int count);
+
+/// How one seeded scenario is run.
+using Simulation = std::function<SimulationResult(const Scenario &, const Controller &)>;
+/// Seeds 1 .. count one after the other, for what must not run twice at a time.
+SeedRuns run_seeds_in_turn(const Scenario &scenario, int count, const Simulation &simulation);
 
 /// Like result_json() and result_text(), with worst and mean in place of one run's values.
 std::string seeds_json(const Scenario &scenario, const SeedRuns &runs);

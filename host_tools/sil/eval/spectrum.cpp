@@ -5,6 +5,7 @@
 #include <complex>
 
 #include <fmt/format.h>
+#include <unsupported/Eigen/FFT>
 
 namespace sdre {
 namespace {
@@ -31,22 +32,19 @@ std::vector<double> swing_rpm(const Window &window, int pole_pairs)
 std::vector<SpectrumLine> speed_spectrum(const Window &window, int pole_pairs)
 {
     const std::vector<double> e = swing_rpm(window, pole_pairs);
-    const auto                n = static_cast<double>(e.size());
+    const std::size_t         n = e.size();
     std::vector<SpectrumLine> lines;
-    if (e.size() < 2) {
+    if (n < 2) {
         return lines;
     }
-    const double ts_s = (window.tail + 1)->time_s - window.tail->time_s;
-    for (std::size_t m = 1; m <= e.size() / 2; m++) { // EQ-SPECTRUM-1
-        const double               step = 2.0 * pi * static_cast<double>(m) / n;
-        const std::complex<double> turn = std::polar(1.0, -step);
-        std::complex<double>       at   = 1.0;
-        std::complex<double>       sum  = 0.0;
-        for (const double x : e) {
-            sum += x * at;
-            at *= turn;
-        }
-        lines.push_back({static_cast<double>(m) / (n * ts_s), 2.0 / n * std::abs(sum)});
+    const double                      ts_s = (window.tail + 1)->time_s - window.tail->time_s;
+    const auto                        rows = static_cast<double>(n);
+    Eigen::FFT<double>                transform;
+    std::vector<std::complex<double>> sums;
+    transform.fwd(sums, e);
+    for (std::size_t m = 1; m <= n / 2; m++) { // EQ-SPECTRUM-1
+        const double sides = 2 * m == n ? 1.0 : 2.0;
+        lines.push_back({static_cast<double>(m) / (rows * ts_s), sides / rows * std::abs(sums[m])});
     }
     return lines;
 }

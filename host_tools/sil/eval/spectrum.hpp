@@ -4,7 +4,8 @@
 ///     a(f) = 2/n |sum_k (e_k - mean e) exp(-2 pi i f k Ts)|,  f = m / (n Ts)              EQ-SPECTRUM-1
 ///
 /// e is the error of the mechanical speed over the n rows of a measure's tail; rectangular window. A swing whose period
-/// fits into the tail a whole number of times is one line of its own amplitude.
+/// fits into the tail a whole number of times is one line of its own amplitude; at half the sampling rate, where a line
+/// has no mirror image, the factor is 1/n.
 #pragma once
 
 #include <string>

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "design/design.hpp"
+#include "emit/emit_tables.hpp"
+#include "gains/commands.hpp"
+
+namespace sdre {
+namespace {
+
+constexpr int exit_check_mismatch = 3;
+
+struct Options {
+    std::string drive;
+    std::string out;
+    std::string check;
+    bool        uncertified = false;
+};
+
+void declare(OptionList &list, Options &o)
+{
+    list.required("DRIVE", o.drive, "drive file (TOML)");
+    list.text("--out", o.out, "directory to write to");
+    list.text("--check", o.check, "directory to compare with; exit code 3 on a mismatch");
+    list.flag("--uncertified", o.uncertified,
+              "write even what is not certified, with the reasons in the file");
+}
+
+int run(const Options &o)
+{
+    if (o.out.empty() == o.check.empty()) {
+        throw InputError("generate: give either --out DIR or --check DIR");
+    }
+    const Design design    = design_drive(read_drive_file(o.drive));
+    const bool   certified = design.certificate.passed();
+    if (!certified && !o.uncertified) {
+        throw DesignError(fmt::format("{}: not certified: {}", o.drive,
+                                      fmt::join(design.certificate.failures, "; ")));
+    }
+    const char     *verdict = certified ? "certified" : "NOT CERTIFIED";
+    const TableText text    = table_text(design);
+    if (!o.out.empty()) {
+        write_tables(text, o.out);
+        fmt::print("{}: {}; wrote gain_tables.h and gain_tables.c to {}\n", design.drive.name,
+                   verdict, o.out);
+        return exit_ok;
+    }
+    const std::string difference = compare_tables(text, o.check);
+    if (!difference.empty()) {
+        fmt::print(stderr, "sdre-gains: {}\n", difference);
+        return exit_check_mismatch;
+    }
+    fmt::print("{}: {}; {} matches\n", design.drive.name, verdict, o.check);
+    return exit_ok;
+}
+
+} // namespace
+
+Command generate_command()
+{
+    return command<Options>("generate",
+                            "write gain_tables.h and .c, or compare them with the drive file",
+                            declare, run);
+}
+
+} // namespace sdre

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "common/file_output.hpp"
+#include "sil/commands/commands.hpp"
+#include "sil/eval/compare.hpp"
+
+namespace sdre {
+namespace {
+
+struct Options {
+    std::vector<std::string> scenarios;
+    std::vector<std::string> drives;
+    std::vector<int>         orders;
+    std::vector<std::string> metrics;
+    int                      seeds = 1;
+    std::string              csv;
+    std::string              json;
+    std::string              markdown;
+};
+
+void declare(OptionList &list, Options &o)
+{
+    list.required("SCENARIO", o.scenarios, "scenario files (TOML)");
+    list.repeated("--drive", o.drives,
+                  "a column of its own; again for more (default: the scenario's)");
+    list.repeated("--order", o.orders, {0, 8},
+                  "order of both series, a column of its own; again for more");
+    list.repeated("--metric", o.metrics, "a metric by its JSON name; again for more");
+    list.number("--seeds", o.seeds, {1, 100000}, "worst of the seeds 1 .. N (default 1)");
+    list.text("--csv", o.csv, "write the values, one row each");
+    list.text("--json", o.json, "write the values");
+    list.text("--markdown", o.markdown, "write the printed table");
+}
+
+int run(const Options &o)
+{
+    const Comparison        comparison = compare({{o.scenarios.begin(), o.scenarios.end()},
+                                                  {o.drives.begin(), o.drives.end()},
+                                                  o.orders,
+                                                  o.metrics,
+                                                  o.seeds});
+    std::vector<OutputFile> files;
+    if (!o.csv.empty()) {
+        files.push_back({o.csv, compare_csv(comparison)});
+    }
+    if (!o.json.empty()) {
+        files.push_back({o.json, compare_json(comparison)});
+    }
+    if (!o.markdown.empty()) {
+        files.push_back({o.markdown, compare_markdown(comparison)});
+    }
+    write_files(files);
+    fmt::print("{}", compare_markdown(comparison));
+    const bool faulted = std::any_of(comparison.runs.begin(), comparison.runs.end(),
+                                     [](const CompareRun &r) { return r.faulted > 0; });
+    return faulted ? exit_fault : exit_ok;
+}
+
+} // namespace
+
+Command compare_command()
+{
+    return command<Options>("compare",
+                            "run several drives on the same scenarios and print one table; exit "
+                            "code 4 when one faults",
+                            declare, run);
+}
+
+} // namespace sdre
