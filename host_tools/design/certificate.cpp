@@ -153,7 +153,8 @@ std::string term_name(const GainSeries &g, std::size_t n)
     return fmt::format("{}", fmt::join(g.series.terms[n].powers, ","));
 }
 
-void judge(const char *name, const GainSeries &g, const SampledLoop &loop,
+/// `sampled` says what the spectral radius is of.
+void judge(const char *name, const char *sampled, const GainSeries &g, const SampledLoop &loop,
            std::vector<std::string> &failures)
 {
     for (std::size_t n = 0; n < g.residuals.size(); n++) {
@@ -171,7 +172,7 @@ void judge(const char *name, const GainSeries &g, const SampledLoop &loop,
         failures.push_back(fmt::format(
             "{}: the sampled loop is unstable in +-{:g} A: spectral radius {:.4f}, fastest "
             "pole times period {:.2f}",
-            name, loop.range_A, loop.spectral_radius, loop.fastest_pole_ts));
+            sampled, loop.range_A, loop.spectral_radius, loop.fastest_pole_ts));
     }
 }
 
@@ -181,10 +182,12 @@ Certificate certify(const Design &design)
 {
     Certificate certificate;
     certificate.nosc = sweep_nosc(design);
-    judge("nosc", design.nosc, certificate.nosc, certificate.failures);
+    judge("nosc", "nosc", design.nosc, certificate.nosc, certificate.failures);
     if (design.drive.law != Law::noc_h) { // which has an observer of its own
         certificate.nodo = sweep_nodo(design);
-        judge("nodo", design.nodo, certificate.nodo, certificate.failures);
+        const bool whole = design.drive.nodo.form == NodoForm::encoder; // EQ-CERT-3, else EQ-CERT-2
+        judge("nodo", whole ? "nosc, nodo and motor" : "nodo", design.nodo, certificate.nodo,
+              certificate.failures);
     }
     return certificate;
 }

@@ -5,6 +5,7 @@
 #include "common/file_output.hpp"
 #include "design/design.hpp"
 #include "gains/commands.hpp"
+#include "tune/drive_text.hpp"
 #include "tune/tune.hpp"
 
 namespace sdre {

@@ -749,7 +749,7 @@ TEST(Design, EncoderFormWithTooLongAPeriodIsNotCertified)
 
     const sdre::Design d = sdre::design_drive(drive);
 
-    EXPECT_TRUE(any_failure(d, "nodo: the sampled loop is unstable in +-8 A"));
+    EXPECT_TRUE(any_failure(d, "nosc, nodo and motor: the sampled loop is unstable in +-8 A"));
     EXPECT_LT(d.certificate.nodo.worst_pole_1ps, 0.0);
 }
 

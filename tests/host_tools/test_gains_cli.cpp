@@ -48,8 +48,11 @@ DriveText uncertified()
 TEST(GainsCli, WrongCommandLineIsOneLine)
 {
     expect_refused({}, 1, {"subcommand"});
-    expect_refused({"frobnicate"}, 1, {});
-    expect_refused({"--frobnicate"}, 1, {});
+    expect_refused({"frobnicate"}, 1, {"frobnicate", "no such subcommand", "generate, report"});
+    expect_refused({"--frobnicate"}, 1, {"--frobnicate", "no such option"});
+    expect_refused({"reprot", shipped}, 1, {"reprot", "report"});
+    expect_refused({"report", "--jsno"}, 1, {"--jsno"}); // though DRIVE is missing too
+    expect_refused({"report", "--jsno", shipped}, 1, {"--jsno", "sdre-gains report --help"});
     expect_refused({"report"}, 1, {"DRIVE"});
     expect_refused({"generate"}, 1, {"DRIVE"});
     expect_refused({"care"}, 1, {"PROBLEM"});
@@ -211,6 +214,30 @@ TEST(GainsCli, OutputThatCannotBeMadeIsBadInput)
     EXPECT_EQ(support::read_file(file), "kept");
 }
 
+TEST(GainsCli, StandardOutputThatIsFullIsBadInput)
+{
+    for (const std::string argument : {"--help", "report"}) {
+        const CommandResult r = support::run_command(
+            {"/bin/sh", "-c", "\"$@\" > /dev/full", "sh", SDRE_GAINS_EXE, argument, shipped});
+        EXPECT_EQ(r.exit_code, 1) << argument;
+        EXPECT_NE(r.err.find("standard output: cannot write: No space left"), std::string::npos);
+    }
+}
+
+TEST(GainsCli, TwoAtOnceDoNotDisturbEachOther)
+{
+    const TempDir       dir;
+    const std::string   out = dir / "out";
+    const CommandResult r   = support::run_command(
+          {"/bin/sh", "-c",
+           "for i in 1 2 3 4; do \"$@\" & p=\"$p $!\"; done; for i in $p; do wait $i || exit 9; done",
+           "sh", SDRE_GAINS_EXE, "generate", shipped, "--out", out});
+
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    EXPECT_EQ(gains({"generate", shipped, "--check", out}).exit_code, 0);
+    EXPECT_EQ(support::names_in(out), (std::set<std::string>{"gain_tables.c", "gain_tables.h"}));
+}
+
 TEST(GainsCli, RefusedDesignLeavesEarlierOutput)
 {
     const TempDir     dir;
@@ -248,10 +275,10 @@ TEST(GainsCli, ReportAnswersForAnUncertifiedDrive)
     const CommandResult text = gains({"report", drive});
     const CommandResult json = gains({"report", drive, "--json"});
 
-    EXPECT_EQ(text.exit_code, 0);
+    EXPECT_EQ(text.exit_code, 2);
     EXPECT_EQ(text.err, "");
     EXPECT_NE(text.out.find("verdict: refused"), std::string::npos);
-    EXPECT_EQ(json.exit_code, 0);
+    EXPECT_EQ(json.exit_code, 2);
     EXPECT_EQ(nlohmann::json::parse(json.out).at("certificate").at("certified"), false);
 }
 

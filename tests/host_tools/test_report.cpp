@@ -181,3 +181,17 @@ TEST(Report, TextHasTheFiguresOfTheJson)
     }
     EXPECT_FALSE(contains(text, "Lambda_3"));
 }
+
+TEST(Report, RoundingNoiseIsZeroAsInTheTables)
+{
+    sdre::Design d       = certified();
+    d.nodo.gain[0](0, 0) = 1e-13 * d.nodo.gain[0].norm();
+    d.nodo.gain[0](0, 1) = 1e-11 * d.nodo.gain[0].norm();
+
+    const json row = report_of(d).at("nodo").at("gain").at(0).at(0);
+
+    EXPECT_EQ(row.at(0), 0.0);
+    EXPECT_EQ(row.at(1), d.nodo.gain[0](0, 1));
+    EXPECT_EQ(row.at(2), d.nodo.gain[0](0, 2));
+    EXPECT_TRUE(contains(sdre::report_text(d), "\n                 0 ")) << sdre::report_text(d);
+}

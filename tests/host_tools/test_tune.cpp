@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tune/tune.hpp"
+#include "tune/drive_text.hpp"
 
 #include <string>
 #include <vector>
@@ -193,6 +193,19 @@ TEST(Tune, SectionsReplaceThoseOfTheShippedDriveOnly)
     EXPECT_EQ(sdre::with_sections(tuned, sections()), tuned);
 }
 
+TEST(Tune, WeightsThatWereKeptAreSaidSo)
+{
+    sdre::TuneResult r = found();
+    r.kept             = true;
+    const std::string kept =
+        sdre::with_sections(read_file(board_drive), sdre::tuned_sections(r, own_spec()));
+
+    EXPECT_NE(kept.find("were kept by `sdre-gains tune`"), std::string::npos);
+    const std::string again = sdre::with_sections(kept, sections());
+    EXPECT_EQ(again.find("were kept by"), std::string::npos);
+    EXPECT_EQ(again, sdre::with_sections(read_file(board_drive), sections()));
+}
+
 TEST(Tune, SectionsBeforeOthersKeepThemByteForByte)
 {
     const std::string head = "# a note\nschema = 1\nname = \"x\"\n\n";
@@ -253,6 +266,40 @@ TEST(Tune, SectionsReadBackAsTheResult)
                               "x2, R, L, flux x1.5", "form = \"encoder\""}) {
         EXPECT_NE(sections().find(piece), std::string::npos) << piece;
     }
+}
+
+TEST(Tune, ScoreDoesNotSeeTheLastDigits)
+{
+    const sdre::Drive    drive = sdre::read_drive_file(board_drive);
+    const sdre::TuneSpec spec  = own_spec();
+    sdre::Drive          other = drive;
+    other.motor.inertia_kgm2 *= 1.0 + 1e-13;
+    other.motor.q_axis_inductance_H *= 1.0 - 1e-13;
+    for (int i = 0; i < 10; i++) {
+        const double      d = 0.03 * i;
+        const sdre::Point x{0.6 + d, 1.2 - d, 8.2 - d, 3.6 + 2.0 * d, 3.0 - d, -0.5 + d};
+        const sdre::Score a = sdre::score(sdre::with_weights(drive, spec, x), spec);
+        const sdre::Score b = sdre::score(sdre::with_weights(other, spec, x), spec);
+        ASSERT_LT(a.worst, 10.0);
+        EXPECT_EQ(a.value, b.value) << i;
+        EXPECT_EQ(a.worst, b.worst) << i;
+    }
+}
+
+TEST(Tune, WeightsAreJudgedAsTheyAreWritten)
+{
+    const sdre::TuneSpec spec = own_spec();
+    const sdre::Point    x{0.61234567, 1.2345678, 8.2345678, 3.6543210, 3.0123456, -0.5432109};
+    sdre::TuneResult     r;
+    r.drive = sdre::with_weights(sdre::read_drive_file(board_drive), spec, x);
+    r.cases = sdre::score(r.drive, spec).cases;
+    const TempDir     dir;
+    const std::string text =
+        sdre::with_sections(read_file(board_drive), sdre::tuned_sections(r, spec));
+    const sdre::Drive back = sdre::read_drive_file(dir.write("drive.toml", text));
+
+    EXPECT_EQ(sdre::drive_digest(back), sdre::drive_digest(r.drive));
+    EXPECT_EQ(sdre::score(back, spec).value, sdre::score(r.drive, spec).value);
 }
 
 TEST(Tune, ShippedDriveIsWhatTheSearchFinds)

@@ -288,8 +288,30 @@ TEST(Metrics, DistortionIsWhatTurnsAgainstTheFundamental)
 
     const sdre::Metrics m = only(trace, 1.0);
 
-    EXPECT_NEAR(m.current_distortion_percent, 30.0, 1e-9);
+    EXPECT_NEAR(m.current_distortion_percent.value(), 30.0, 1e-9);
     EXPECT_NEAR(m.sensor_offset_hat_A, 0.25, 1e-12);
+}
+
+TEST(Metrics, DistortionOfNextToNoCurrentIsNone)
+{
+    const auto distortion = [](double iq_A) {
+        sdre::Scenario scenario;
+        sdre::Measure  m;
+        m.name                             = "m";
+        scenario.measures                  = {m};
+        scenario.drive.motor.pole_pairs    = 2;
+        scenario.drive.motor.max_current_A = 4.0;
+        std::vector<sdre::TraceRow> trace(1000);
+        for (std::size_t k = 0; k < trace.size(); k++) {
+            trace[k].time_s = ts_s * static_cast<double>(k);
+            trace[k].iq_A   = iq_A + (k % 2 == 0 ? 0.1 : -0.1);
+        }
+        return sdre::measure(scenario, trace).at(0).current_distortion_percent;
+    };
+
+    EXPECT_NEAR(distortion(0.041).value_or(0.0), 100.0 * 0.1 / 0.041, 1e-6);
+    EXPECT_FALSE(distortion(0.039)); // below 1 % of 4 A
+    EXPECT_FALSE(distortion(0.0));
 }
 
 TEST(Metrics, NamesAreTheJsonKeys)

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "command.hpp"
 #include "common/errors.hpp"
@@ -153,7 +154,7 @@ TEST(RandomMotors, SavedFailureIsTheSameRun)
     const Scenario         s    = read_scenario_file(file);
     const RandomMotors     runs = run_random_motors(s, 2);
 
-    write_failed_motors(file, "", runs, dir / "failed");
+    write_files(failed_motor_files(file, "", runs, dir / "failed"));
     const Scenario saved = read_scenario_file(dir / "failed" / "case_motor_2.toml");
 
     Scenario expected    = s;
@@ -178,7 +179,7 @@ TEST(RandomMotors, SavedFailureOfAnotherDriveNamesThatDrive)
         std::filesystem::path(SDRE_SOURCE_DIR) / "firmware/config/drives/ipmsm_390w_speed.toml";
     const RandomMotors runs = run_random_motors(read_scenario_file(file, other), 1);
 
-    write_failed_motors(file, other, runs, dir / "failed");
+    write_files(failed_motor_files(file, other, runs, dir / "failed"));
 
     ASSERT_EQ(runs.failures.size(), 1U);
     EXPECT_EQ(read_scenario_file(dir / "failed" / "case_motor_1.toml").drive.name,
@@ -199,10 +200,35 @@ TEST(RandomMotors, CommandPrintsTheShareAndSavesFailures)
     const auto             file = dir.write("case.toml", text(light)).string();
 
     const support::CommandResult r = support::run_command(
-        {SDRE_SIL_EXE, "motors", file, "--count", "2", "--failures", (dir / "out").string()});
+        {SDRE_SIL_EXE, "motors", file, "--count", "2", "--failures", (dir / "out").string(),
+         "--csv", dir / "m.csv", "--json", dir / "m.json"});
 
-    EXPECT_EQ(r.exit_code, 0) << r.err;
+    EXPECT_EQ(r.exit_code, 4) << r.err;
+    EXPECT_EQ(r.err, ""); // progress is for terminals
     EXPECT_NE(r.out.find("2 of 2 motors failed"), std::string::npos) << r.out;
     EXPECT_TRUE(std::filesystem::exists(dir / "out" / "case_motor_1.toml"));
     EXPECT_TRUE(std::filesystem::exists(dir / "out" / "case_motor_2.toml"));
+    const std::string csv = support::read_file(dir / "m.csv");
+    EXPECT_EQ(csv.rfind("motor,resistance,inductance,flux,inertia,failed,reasons\n1,1,1,1,0.02", 0),
+              0U)
+        << csv;
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
+    EXPECT_NE(csv.find(",1,\""), std::string::npos) << csv;
+    const auto json = nlohmann::json::parse(support::read_file(dir / "m.json"));
+    EXPECT_EQ(json.at("motors"), 2);
+    EXPECT_EQ(json.at("failed"), 2);
+    EXPECT_EQ(json.at("failures").at(1).at("motor"), 2);
+    EXPECT_EQ(json.at("failures").at(1).at("scale").at("pm_flux_Wb"), 1.0);
+}
+
+TEST(RandomMotors, CommandWithoutFailuresIsExitZero)
+{
+    const support::TempDir dir;
+    const auto             file = dir.write("case.toml", text(good)).string();
+
+    const support::CommandResult r = support::run_command(
+        {SDRE_SIL_EXE, "motors", file, "--count", "2", "--csv", dir / "m.csv"});
+
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    EXPECT_NE(support::read_file(dir / "m.csv").find(",0,\"\"\n"), std::string::npos);
 }

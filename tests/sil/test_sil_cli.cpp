@@ -71,7 +71,9 @@ TEST(SilCli, WrongCommandLineIsOneLine)
     const std::string scenario = dir.write("case.toml", scenario_text());
 
     expect_refused({}, 1, {"subcommand"});
-    expect_refused({"walk"}, 1, {});
+    expect_refused({"walk"}, 1, {"walk", "no such subcommand", "run, compare"});
+    expect_refused({"run", "--sceds", "3"}, 1, {"--sceds"});
+    expect_refused({"run", scenario, "--seed", "1", "--seeds", "2"}, 1, {"--seed"});
     expect_refused({"run"}, 1, {"SCENARIO"});
     expect_refused({"run", scenario, "--colour"}, 1, {"--colour"});
     expect_refused({"run", scenario, "--csv"}, 1, {"--csv"});
@@ -166,7 +168,9 @@ TEST(SilCli, JsonHasTheAgreedKeys)
     EXPECT_EQ(r.at("uncertified"), nlohmann::json::array());
     EXPECT_EQ(r.at("fault"), "none");
     EXPECT_TRUE(r.at("fault_time_s").is_null());
-    EXPECT_GT(r.at("simulated_seconds_per_second").get<double>(), 0.0);
+    EXPECT_EQ(keys_of(r),
+              (std::set<std::string>{"scenario", "drive", "seed", "gains", "uncertified", "fault",
+                                     "fault_time_s", "measures"})); // no clock: the same every time
     EXPECT_EQ(keys_of(r.at("measures").at("whole")),
               (std::set<std::string>{"time_s",
                                      "settling_time_s",
@@ -204,6 +208,72 @@ TEST(SilCli, JsonSaysNullWhereTheSpeedNeverSettles)
     const auto r = nlohmann::json::parse(support::read_file(dir / "r.json"));
     EXPECT_TRUE(r.at("measures").at("whole").at("settling_time_s").is_null());
     EXPECT_NE(sil({"run", scenario}).out.find("never"), std::string::npos);
+}
+
+TEST(SilCli, ScenarioWithoutMeasuresSaysSo)
+{
+    const TempDir     dir;
+    const std::string text     = scenario_text();
+    const std::string scenario = dir.write("case.toml", text.substr(0, text.find("[[measure]]")));
+
+    for (const std::vector<std::string> &arguments : {std::vector<std::string>{"run", scenario},
+                                                      {"run", scenario, "--seeds", "2"},
+                                                      {"compare", scenario}}) {
+        const CommandResult r = sil(arguments);
+        EXPECT_EQ(r.exit_code, 0) << r.err;
+        EXPECT_NE(r.out.find("no measures"), std::string::npos) << r.out;
+        EXPECT_EQ(r.out.find("settling"), std::string::npos) << r.out;
+    }
+}
+
+TEST(SilCli, SeedsPrintTheLabelsOfOneRun)
+{
+    const TempDir     dir;
+    const std::string scenario = dir.write("case.toml", scenario_text());
+
+    const std::string out = sil({"run", scenario, "--seeds", "2"}).out;
+
+    for (const char *piece : {"settling time [ms]", "peak current [A]", "whole worst", "mean"}) {
+        EXPECT_NE(out.find(piece), std::string::npos) << piece;
+    }
+    EXPECT_EQ(out.find("settling_time_s"), std::string::npos);
+}
+
+TEST(SilCli, DistortionOfNoCurrentIsNotShown)
+{
+    const TempDir     dir;
+    const std::string scenario =
+        dir.write("case.toml", replaced(scenario_text(), "value_Nm = 0.5", "value_Nm = 0.0"));
+
+    const CommandResult r = sil({"run", scenario, "--json", dir / "r.json"});
+
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    const auto json = nlohmann::json::parse(support::read_file(dir / "r.json"));
+    EXPECT_TRUE(json.at("measures").at("whole").at("current_distortion_percent").is_null())
+        << r.out;
+    const std::size_t row = r.out.find("current distortion [%]");
+    EXPECT_EQ(r.out.substr(row, 42), "current distortion [%]                   -") << r.out;
+}
+
+TEST(SilCli, SeedsRunOnABoardToo)
+{
+    const TempDir     dir;
+    const std::string scenario =
+        std::string(SDRE_SOURCE_DIR) + "/host_tools/sil/scenarios/board_load_step.toml";
+    const auto dip = [&](const std::vector<std::string> &more) {
+        std::vector<std::string> arguments{"run", scenario, "--board",
+                                           "api", "--json", dir / "r.json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const CommandResult r = sil(arguments);
+        EXPECT_EQ(r.exit_code, 0) << r.err;
+        EXPECT_EQ(r.out.rfind("board: api\n", 0), 0U) << r.out;
+        const auto m = nlohmann::json::parse(support::read_file(dir / "r.json"))
+                           .at("measures")
+                           .at("load_step");
+        return (m.contains("worst") ? m.at("worst") : m).at("dip_e_radps").get<double>();
+    };
+
+    EXPECT_EQ(dip({"--seeds", "2"}), std::max(dip({"--seed", "1"}), dip({"--seed", "2"})));
 }
 
 TEST(SilCli, AnotherDriveTakesThePlaceOfTheScenarios)
@@ -333,6 +403,65 @@ TEST(SilCli, TargetThatIsADirectoryLeavesEarlierFiles)
     EXPECT_TRUE(support::read_file(kept) == "earlier");
     EXPECT_EQ(support::names_in(dir.path()),
               (std::set<std::string>{"case.toml", "kept.csv", "taken"}));
+}
+
+TEST(SilCli, LinksAreFollowedAndModesKept)
+{
+    namespace fs = std::filesystem;
+    const TempDir     dir;
+    const std::string scenario = dir.write("case.toml", scenario_text());
+    const fs::path    real     = dir.write("real.csv", "earlier");
+    fs::permissions(real, fs::perms::owner_read | fs::perms::owner_write);
+    fs::create_symlink("real.csv", dir / "link.csv");
+    fs::create_symlink("new.json", dir / "link.json");
+
+    ASSERT_EQ(
+        sil({"run", scenario, "--csv", dir / "link.csv", "--json", dir / "link.json"}).exit_code,
+        0);
+
+    EXPECT_TRUE(fs::is_symlink(dir / "link.csv"));
+    EXPECT_TRUE(fs::is_symlink(dir / "link.json"));
+    EXPECT_EQ(support::read_file(real).rfind("time_s,", 0), 0U);
+    EXPECT_EQ(fs::status(real).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+    EXPECT_EQ(support::read_file(dir / "new.json").rfind("{", 0), 0U);
+    EXPECT_EQ(
+        support::names_in(dir.path()),
+        (std::set<std::string>{"case.toml", "link.csv", "link.json", "new.json", "real.csv"}));
+}
+
+TEST(SilCli, DevicesAndPipesAreWrittenToAsTheyAre)
+{
+    const TempDir     dir;
+    const std::string scenario = dir.write("case.toml", scenario_text());
+    const std::string kept     = dir.write("kept.json", "earlier");
+
+    expect_refused({"run", scenario, "--json", kept, "--csv", "/dev/full"}, 1,
+                   {"/dev/full: cannot write: No space left"});
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+    EXPECT_EQ(support::read_file(kept), "earlier");
+    EXPECT_EQ(support::names_in(dir.path()), (std::set<std::string>{"case.toml", "kept.json"}));
+    EXPECT_EQ(sil({"run", scenario, "--csv", "/dev/null"}).exit_code, 0);
+
+    const CommandResult r = support::run_command(
+        {"/bin/sh", "-c",
+         "mkfifo \"$1\"; cat \"$1\" & \"$2\" run \"$3\" --csv \"$1\" > /dev/null; wait", "sh",
+         (dir / "pipe").string(), SDRE_SIL_EXE, scenario});
+    EXPECT_EQ(std::count(r.out.begin(), r.out.end(), '\n'), 102);
+    EXPECT_TRUE(std::filesystem::is_fifo(dir / "pipe"));
+    const CommandResult both = sil({"run", scenario, "--csv", "/dev/stdout"});
+    EXPECT_EQ(both.out.rfind("time_s,", 0), 0U);
+    EXPECT_NE(both.out.find("\ncase on ipmsm_390w_speed"), std::string::npos);
+}
+
+TEST(SilCli, OneFileForTwoOutputsIsRefused)
+{
+    const TempDir     dir;
+    const std::string scenario = dir.write("case.toml", scenario_text());
+    const std::string kept     = dir.write("kept", "earlier");
+
+    expect_refused({"run", scenario, "--csv", kept, "--json", (dir / "./kept").string()}, 1,
+                   {"twice"});
+    EXPECT_EQ(support::read_file(kept), "earlier");
 }
 
 TEST(SilCli, PlotOfAnUnknownKindLeavesEarlierFiles)

@@ -2,6 +2,7 @@
 #include "sil/eval/spectrum.hpp"
 
 #include <cmath>
+#include <complex>
 
 #include <gtest/gtest.h>
 
@@ -58,6 +59,41 @@ TEST(Spectrum, WholePeriodsAreOneLineEach)
     }
     EXPECT_NEAR(lines.front().frequency_Hz, 1.0 / 0.09, 1e-6);
     EXPECT_NEAR(lines.back().frequency_Hz, 5000.0, 1e-6);
+}
+
+TEST(Spectrum, HalfTheSamplingRateIsCountedOnce)
+{
+    const Case c([](double t) { return std::lround(t / ts_s) % 2 == 0 ? 1.5 : -1.5; });
+
+    const auto lines = c.lines();
+
+    EXPECT_NEAR(lines.back().frequency_Hz, 5000.0, 1e-6);
+    EXPECT_NEAR(lines.back().amplitude_rpm, 1.5, 1e-9);
+    EXPECT_NEAR(lines.front().amplitude_rpm, 0.0, 1e-9);
+}
+
+TEST(Spectrum, OddNumberOfRowsIsTheSameSum)
+{
+    Case c([](double t) { return 3.0 * std::sin(2.0 * pi * 77.0 * t) + 100.0 * t; });
+    c.scenario.measures[0].tail_s = 0.0103; // 103 rows, a prime
+
+    const auto lines  = c.lines();
+    const auto window = sdre::windows_of(c.scenario, c.trace).at(0);
+
+    ASSERT_EQ(window.end - window.tail, 103);
+    ASSERT_EQ(lines.size(), 51U);
+    double mean = 0.0;
+    for (auto row = window.tail; row != window.end; ++row) {
+        mean += (500.0 - row->omega_e_radps / radps) / 103.0;
+    }
+    for (std::size_t m = 1; m <= 51; m++) { // EQ-SPECTRUM-1, term by term
+        std::complex<double> sum;
+        for (int k = 0; k < 103; k++) {
+            const double e = 500.0 - (window.tail + k)->omega_e_radps / radps - mean;
+            sum += e * std::polar(1.0, -2.0 * pi * static_cast<double>(m) * k / 103.0);
+        }
+        EXPECT_NEAR(lines[m - 1].amplitude_rpm, 2.0 / 103.0 * std::abs(sum), 1e-9) << m;
+    }
 }
 
 TEST(Spectrum, ConstantErrorHasNoLines)

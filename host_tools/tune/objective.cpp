@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include "tune/objective.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/parallel.hpp"
+#include "design/design.hpp"
+#include "design/firmware_config.hpp"
+#include "design/sampled_model.hpp"
+
+namespace sdre {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double pi          = 3.14159265358979323846;
+constexpr double horizon_s   = 0.06; // chosen: several times the settling times of interest
+constexpr double no_solution = 1e12; // of the Riccati equations: worse than any unstable loop
+
+enum Weight { speed_error, q_axis_error, load_drift, voltage_drift, speed_noise, current_noise };
+
+Motor believed_motor(Motor m, const RobustnessCase &c)
+{
+    m.inertia_kgm2 *= c.mechanical;
+    m.viscous_friction_Nms *= c.mechanical;
+    m.stator_resistance_Ohm *= c.electrical;
+    m.d_axis_inductance_H *= c.electrical;
+    m.q_axis_inductance_H *= c.electrical;
+    m.pm_flux_Wb *= c.electrical;
+    return m;
+}
+
+/// The steady operating point that carries a load torque on the MTPA curve.
+OperatingPoint operating_point(const ReducedParameters &l, double speed, double load_Nm)
+{
+    OperatingPoint at{speed, 0.0, 0.0};
+    for (int i = 0; i < 50; i++) { // contraction factor below 0.5
+        at.iq_A = (l[2] * speed + l[3] * load_Nm) / (l[1] + l[11] * at.id_A);
+        at.id_A = mtpa_id_A(l, at.iq_A);
+    }
+    return at;
+}
+
+/// Covariance of x+ = A x + B n with the given noise variances, by doubling.
+MatrixXd covariance(MatrixXd A, const MatrixXd &B, const VectorXd &variances)
+{
+    MatrixXd P = B * variances.asDiagonal() * B.transpose();
+    for (int i = 0; i < 30 && A.norm() > 1e-12; i++) {
+        P = P + A * P * A.transpose();
+        A = A * A;
+    }
+    return P;
+}
+
+void load_step(const SampledModel &m, const TuneSpec &spec, CaseResult &result)
+{
+    VectorXd  x     = VectorXd::Zero(m.A.rows());
+    const int steps = static_cast<int>(horizon_s / m.ts_s);
+    for (int k = 1; k <= steps; k++) {
+        x                  = m.A * x + m.b_load * spec.load_step_Nm;
+        result.dip_e_radps = std::max(result.dip_e_radps, std::abs(x(0)));
+        result.voltage_V   = std::max(result.voltage_V, (m.C_voltage * x).norm());
+        if (!(std::abs(x(0)) <= spec.band_e_radps)) {
+            result.settling_time_s = k * m.ts_s;
+        }
+    }
+}
+
+/// One robustness case: motor and what the controller believes, with the gains of what it believes.
+struct Loop {
+    ReducedParameters motor;
+    ReducedParameters model;
+    LoopGains         gains;
+    double            ts_s;
+
+    SampledModel at(const OperatingPoint &point) const
+    {
+        return sampled_model(motor, model, gains, point, ts_s);
+    }
+    double radius_at(const OperatingPoint &point) const
+    {
+        return spectral_radius(at(point).A);
+    }
+};
+
+/// Only the gains of order 0: near the operating point the others do nothing.
+Loop loop_of(const Drive &drive, const RobustnessCase &c)
+{
+    const ReducedParameters model = reduced_parameters(believed_motor(drive.motor, c));
+    const Eigen::Vector2d   T_nosc(drive.nosc.T[0], drive.nosc.T[1]);
+    const Eigen::Vector3d   T_nodo(drive.nodo.T[0], drive.nodo.T[1], drive.nodo.T[2]);
+    const SdreProblem       control  = nosc_problem(model, drive.nosc);
+    const SdreProblem       observer = nodo_problem(model, drive.nodo);
+    const MatrixXd          X        = solve_care(control.A0, control.G, control.Q).X;
+    const MatrixXd          Y        = solve_care(observer.A0, observer.G, observer.Q).X;
+    return {reduced_parameters(drive.motor),
+            model,
+            {T_nosc.cwiseInverse().asDiagonal() * nosc_input_matrix(model).transpose() * X,
+             Y * nodo_model(model, NodoForm::encoder).C.transpose() *
+                 T_nodo.cwiseInverse().asDiagonal()},
+            control_period_s(drive)};
+}
+
+/// Largest over speeds; of the nominal case also where the certificate asks for stability, up to twice the current limit
+/// at the trip speed.
+double worst_radius(const Loop &loop, const Drive &drive, const RobustnessCase &c,
+                    const OperatingPoint &at, double speed_e_radps)
+{
+    double worst = 0.0;
+    for (const double speed : {0.0, speed_e_radps, drive.motor.rated_speed_e_radps}) {
+        worst = std::max(worst, loop.radius_at({speed, at.iq_A, at.id_A}));
+    }
+    if (c.mechanical == 1.0 && c.electrical == 1.0) {
+        const double iq_A   = 2.0 * drive.motor.max_current_A;
+        const double radius = loop.radius_at({trip_speed_ratio * drive.motor.rated_speed_e_radps,
+                                              iq_A, mtpa_id_A(loop.motor, iq_A)});
+        worst               = radius < 1.0 ? worst : std::max(1.0, radius);
+    }
+    return worst;
+}
+
+CaseResult evaluate_case(const Drive &drive, const TuneSpec &spec, const RobustnessCase &c)
+{
+    const Loop           loop = loop_of(drive, c);
+    const OperatingPoint at   = operating_point(loop.motor, spec.speed_e_radps,
+                                                spec.load_before_Nm + 0.5 * spec.load_step_Nm);
+    CaseResult           result;
+    result.spectral_radius = worst_radius(loop, drive, c, at, spec.speed_e_radps);
+    if (result.spectral_radius < 1.0) {
+        const SampledModel m = loop.at(at);
+        load_step(m, spec, result);
+        const Sensors  sensors = sensors_of(drive, spec);
+        const double   i2      = sensors.current_A * sensors.current_A;
+        const MatrixXd P       = covariance(
+                  m.A, m.B_noise, Eigen::Vector3d(i2, i2, sensors.angle_rad * sensors.angle_rad));
+        const MatrixXd V = m.C_voltage * P * m.C_voltage.transpose();
+        result.voltage_V += 3.0 * std::sqrt(V.trace());
+        result.ripple_e_radps = 3.0 * std::sqrt(std::max(P(0, 0), 0.0));
+    }
+    return result;
+}
+
+/// Largest result / specification of one case; `unstable_score` and above when the loop is.
+double ratio(const CaseResult &r, const RobustnessCase &c, const TuneSpec &spec)
+{
+    if (!(r.spectral_radius < 1.0)) {
+        return unstable_score * r.spectral_radius;
+    }
+    return std::max({r.dip_e_radps / c.dip_e_radps, r.settling_time_s / c.settling_time_s,
+                     r.ripple_e_radps / c.ripple_e_radps,
+                     (1.0 - spec.largest_pole) / (1.0 - r.spectral_radius),
+                     r.voltage_V / spec.voltage_headroom_V});
+}
+
+double six_digits(double x)
+{
+    return std::strtod(fmt::format("{:.5e}", x).c_str(), nullptr);
+}
+
+} // namespace
+
+Sensors sensors_of(const Drive &drive, const TuneSpec &spec)
+{
+    const double count_rad = 2.0 * pi * drive.motor.pole_pairs / (4.0 * drive.encoder.lines);
+    return {std::hypot(spec.current_noise_A, spec.current_lsb_A / std::sqrt(12.0)),
+            count_rad / std::sqrt(12.0)};
+}
+
+double written(double weight)
+{
+    return std::strtod(fmt::format("{:.3g}", weight).c_str(), nullptr);
+}
+
+Drive with_weights(Drive drive, const TuneSpec &spec, const Point &x)
+{
+    const double  ts        = control_period_s(drive);
+    const Sensors sensors   = sensors_of(drive, spec);
+    const double  t_voltage = written(1.0 / (spec.voltage_V * spec.voltage_V));
+    // A sampled sensor with standard deviation s is white noise of density s^2 Ts.
+    const double t_current = written(sensors.current_A * sensors.current_A * ts);
+    const double t_angle   = written(sensors.angle_rad * sensors.angle_rad * ts);
+    const auto   value     = [&x](Weight w, double unit) {
+        return written(std::pow(10.0, x[static_cast<std::size_t>(w)]) * unit);
+    };
+    const double voltage = value(voltage_drift, 1.0);
+    const double current = value(current_noise, 1.0);
+
+    drive.nosc.T    = {t_voltage, t_voltage};
+    drive.nosc.Q    = {value(speed_error, 1e3 * t_voltage), value(q_axis_error, 1e3 * t_voltage),
+                       written(1.0 / (spec.d_axis_error_A * spec.d_axis_error_A))};
+    drive.nodo.form = NodoForm::encoder;
+    drive.nodo.T    = {t_current, t_current, t_angle};
+    drive.nodo.Q    = {
+           value(load_drift, 1.0), voltage, voltage, value(speed_noise, 1.0), current, current, 0.0};
+    return drive;
+}
+
+Score score(const Drive &drive, const TuneSpec &spec)
+{
+    Score               s;
+    std::vector<double> ratios(spec.cases.size(), no_solution);
+    s.cases.resize(spec.cases.size());
+    parallel_for(spec.cases.size(), [&](std::size_t i) {
+        try {
+            s.cases[i] = evaluate_case(drive, spec, spec.cases[i]);
+            ratios[i]  = ratio(s.cases[i], spec.cases[i], spec);
+        } catch (const DesignError &) { // no solution there: stay away
+        }
+    });
+    for (const double r : ratios) {
+        s.worst = std::max(s.worst, r);
+        s.value += 0.1 * r / static_cast<double>(ratios.size());
+    }
+    s.value = six_digits(s.value + s.worst);
+    s.worst = six_digits(s.worst);
+    return s;
+}
+
+} // namespace sdre

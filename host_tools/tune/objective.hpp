@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+/// What a set of weights is worth: the sampled closed loop (EQ-CERT-3) in every robustness case against the specification.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "drive/drive_file.hpp"
+#include "tune/tune_spec.hpp"
+
+namespace sdre {
+
+/// The searched weights as base-10 logarithms: speed and q-axis error of the controller; of the observer the drift of the
+/// load, the drift of both voltages, and the noise of speed and currents.
+constexpr std::size_t weight_count = 6;
+using Point                        = std::array<double, weight_count>;
+
+/// Standard deviations of one sample.
+struct Sensors {
+    double current_A; ///< noise and quantisation
+    double angle_rad; ///< of the quantisation
+};
+
+Sensors sensors_of(const Drive &drive, const TuneSpec &spec);
+
+/// The number that three digits on paper say: weights are searched, judged and written as that.
+double written(double weight);
+
+/// The drive with the weights of a point, each as written().
+Drive with_weights(Drive drive, const TuneSpec &spec, const Point &x);
+
+/// What one robustness case reaches in the linear model.
+struct CaseResult {
+    double dip_e_radps     = 0.0;
+    double settling_time_s = 0.0; ///< the whole simulated time when it does not settle
+    double ripple_e_radps  = 0.0; ///< three standard deviations
+    double voltage_V       = 0.0; ///< largest in the load step, plus three standard deviations
+    double spectral_radius = 0.0; ///< worst over speeds
+};
+
+struct Score {
+    double worst = 0.0; ///< largest result / specification; at most 1 when every one is met
+    double value =
+        0.0; ///< what is minimised: the worst, and a little of every case's so that none idles
+    std::vector<CaseResult> cases;
+};
+
+/// From here on a score's worst means that a loop is unstable or has no solution.
+constexpr double unstable_score = 1e9;
+
+/// All cases at once. `worst` and `value` have six digits: what differs from one compiler to the next is far below, and the
+/// search takes the same way everywhere.
+Score score(const Drive &drive, const TuneSpec &spec);
+
+} // namespace sdre
