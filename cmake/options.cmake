@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: MIT
 # Every option of the project is declared here; any other SDRE_* name stops configuration.
 set(sdre_bool_options SDRE_BOARD_CHECK SDRE_BUILD_TESTS SDRE_SANITIZE)
-set(sdre_path_options SDRE_IMAGE SDRE_PYTHON)
+set(sdre_path_options SDRE_IMAGE SDRE_PYTHON SDRE_TABLES)
 
 option(SDRE_BOARD_CHECK "Only compile the board layer against TI's headers, with this compiler" OFF)
 option(SDRE_BUILD_TESTS "Build the tests (needs Unity and GoogleTest)" ON)
 option(SDRE_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 set(SDRE_IMAGE "" CACHE STRING "Build the target's image: flash or ram (empty: host tools)")
 set(SDRE_PYTHON "" CACHE STRING "Python with matplotlib, for plots (empty: look for one)")
+set(SDRE_TABLES "" CACHE PATH "Directory with gain_tables.h and .c from sdre-gains (empty: firmware/config)")
 
 # A refused value leaves the cache, so that the corrected command works at once.
 get_cmake_property(sdre_cache_names CACHE_VARIABLES)
@@ -32,3 +33,15 @@ if(NOT SDRE_IMAGE MATCHES "^(flash|ram|)$")
     unset(SDRE_IMAGE CACHE)
     message(FATAL_ERROR "SDRE_IMAGE=${refused}: expected flash or ram")
 endif()
+
+if(SDRE_TABLES STREQUAL "")
+    set(sdre_tables_dir "${CMAKE_SOURCE_DIR}/firmware/config")
+else()
+    set(sdre_tables_dir "${SDRE_TABLES}")
+endif()
+foreach(name gain_tables.h gain_tables.c)
+    if(NOT EXISTS "${sdre_tables_dir}/${name}")
+        unset(SDRE_TABLES CACHE)
+        message(FATAL_ERROR "SDRE_TABLES=${sdre_tables_dir}: no ${name} there; write it with sdre-gains generate --out")
+    endif()
+endforeach()

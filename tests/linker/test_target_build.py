@@ -159,12 +159,37 @@ class TargetBuild(unittest.TestCase):
         self.assertIn("SDRE_IMAGE=rom: expected flash or ram", done.stdout)
         self.assertNotEqual(done.returncode, 0)
 
-    def test_board_check_without_headers_says_that_it_skipped(self):
+    def test_board_check_without_headers_says_so_and_fails(self):
         self.assertEqual(self.configure("board-check").returncode, 0)
         done = self.cmake("--build", self.build, "--target", "board_check")
 
-        self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertIn("board-check: skipped, C2000WARE_ROOT is not set", done.stdout)
+        self.assertNotEqual(done.returncode, 0, done.stdout)
+        self.assertIn("board-check: nothing checked, C2000WARE_ROOT is not set", done.stdout)
+
+    def test_tables_of_a_directory_take_the_place_of_the_shipped(self):
+        own = self.top / "own"
+        own.mkdir()
+        for name in ("gain_tables.h", "gain_tables.c"):
+            (own / name).write_text((ROOT / "firmware" / "config" / name).read_text())
+        cgt, ware = self.top / "cgt", self.top / "ware"
+        make_compiler(cgt)
+        make_headers(ware, fast_rts=False)
+        roots = [f"-DC2000_CGT_ROOT={cgt}", f"-DC2000WARE_ROOT={ware}"]
+
+        self.assertEqual(self.configure("f28335-flash", f"-DSDRE_TABLES={own}", *roots).returncode, 0)
+        commands = json.loads((self.build / "compile_commands.json").read_text())
+        sources = {command["file"] for command in commands}
+        self.assertIn(str(own / "gain_tables.c"), sources)
+        self.assertNotIn(str(ROOT / "firmware" / "config" / "gain_tables.c"), sources)
+        main = next(c["command"] for c in commands if c["file"].endswith("app/main.c"))
+        self.assertIn(str(own), main)
+        self.assertLess(main.index(str(own)), main.index(str(ROOT / "firmware" / "config")))
+
+    def test_directory_without_tables_is_refused(self):
+        done = self.configure("board-check", f"-DSDRE_TABLES={self.top}")
+
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn(f"SDRE_TABLES={self.top}: no gain_tables.h there", " ".join(done.stdout.split()))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "drive/drive_file.hpp"
+
+namespace sdre {
+namespace {
+
+std::string normalised_weights(const Drive &d)
+{
+    std::string s = fmt::format("nosc;{};", d.nosc.order);
+    for (double x : d.nosc.Q) {
+        s += fmt::format("{:.17g};", x);
+    }
+    for (double x : d.nosc.T) {
+        s += fmt::format("{:.17g};", x);
+    }
+    s += fmt::format("nodo;{};{};", nodo_form_name(d.nodo.form), d.nodo.order);
+    for (double x : d.nodo.Q) {
+        s += fmt::format("{:.17g};", x);
+    }
+    for (double x : d.nodo.T) {
+        s += fmt::format("{:.17g};", x);
+    }
+    return s;
+}
+
+std::string normalised_harmonics(const Drive &d)
+{
+    const HarmonicSpec &h = d.harmonics;
+    std::string         s = fmt::format("{};", law_name(d.law));
+    for (const auto *orders : {&h.sensor, &h.voltage, &h.cogging}) {
+        for (const double order : *orders) {
+            s += fmt::format("{:.17g};", order);
+        }
+        s += "|";
+    }
+    return s + fmt::format("{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{};",
+                           h.sensor_weight, h.voltage_weight, h.cogging_weight,
+                           h.cogging_voltage_weight, h.slope_weight, h.weight_speed_e_radps,
+                           h.leak_1ps, d.motor.slots);
+}
+
+std::string normalised_servo(const Drive &d)
+{
+    const DobcSpec &o = d.dobc;
+    std::string     s = fmt::format("{};{:.17g};{:.17g};", law_name(d.law),
+                                    d.d_axis.proportional_V_per_A, d.d_axis.integral_V_per_As);
+    if (d.law == Law::pid) {
+        return s + fmt::format("{:.17g};{:.17g};{:.17g};", d.pid.proportional_Vs_per_rad,
+                               d.pid.integral_V_per_rad, d.pid.derivative_Vs2_per_rad);
+    }
+    s += fmt::format("{};{};{:.17g};{:.17g};{:.17g};{:.17g};",
+                     o.preset == DobcPreset::printed ? "printed" : "repaired", o.polynomial_order,
+                     o.design_speed_e_radps, o.controller_pole_1ps, o.observer_pole_1ps,
+                     o.oscillator_damping_1ps);
+    for (const double order : o.harmonics_per_turn) {
+        s += fmt::format("{:.17g};", order);
+    }
+    return s;
+}
+
+std::string normalised(const Drive &d)
+{
+    const Motor    &m = d.motor;
+    const Inverter &i = d.inverter;
+    std::string     s = fmt::format("schema={};name={};", drive_schema, d.name);
+    s += fmt::format("{};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};",
+                     m.pole_pairs, m.stator_resistance_Ohm, m.d_axis_inductance_H,
+                     m.q_axis_inductance_H, m.pm_flux_Wb, m.inertia_kgm2, m.viscous_friction_Nms,
+                     m.rated_speed_e_radps, m.rated_torque_Nm, m.max_current_A);
+    s += fmt::format("{:.17g};{:.17g};{:.17g};{};{};", i.dc_link_V, i.pwm_frequency_Hz,
+                     i.dead_time_s, i.updates_per_period, d.encoder.lines);
+    s += i.dead_time_compensation ? "compensated;" : "uncompensated;";
+    s += i.overmodulation ? "hexagon;" : "circle;";
+    s += d.encoder.edge_times ? "edges;" : "";
+    if (d.law == Law::noc_h) {
+        return s + normalised_weights(d) + normalised_harmonics(d);
+    }
+    return s + (is_near_optimal(d.law) ? normalised_weights(d) : normalised_servo(d));
+}
+
+} // namespace
+
+std::string drive_digest(const Drive &drive)
+{
+    std::uint64_t hash = 0xcbf29ce484222325ULL; // FNV-1a, 64 bit
+    for (char c : normalised(drive)) {
+        hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+    }
+    return fmt::format("fnv1a64:{:016x}", hash);
+}
+
+} // namespace sdre
