@@ -18,9 +18,31 @@ ordered_json to_json(const Eigen::MatrixXd &M)
     for (Eigen::Index i = 0; i < M.rows(); i++) {
         ordered_json row = ordered_json::array();
         for (Eigen::Index j = 0; j < M.cols(); j++) {
-            row.push_back(report_entry(M, i, j));
+            row.push_back(M(i, j));
         }
         rows.push_back(row);
+    }
+    return rows;
+}
+
+/// A gain as the tables have it.
+ordered_json gain_to_json(const Eigen::MatrixXd &K)
+{
+    Eigen::MatrixXd clean = K;
+    for (Eigen::Index i = 0; i < K.rows(); i++) {
+        for (Eigen::Index j = 0; j < K.cols(); j++) {
+            clean(i, j) = report_entry(K, i, j);
+        }
+    }
+    return to_json(clean);
+}
+
+/// The same of a harmonic node, whose rows are of different sizes.
+ordered_json node_gain_to_json(const Eigen::MatrixXd &K)
+{
+    ordered_json rows = ordered_json::array();
+    for (Eigen::Index i = 0; i < K.rows(); i++) {
+        rows.push_back(gain_to_json(K.row(i)).at(0));
     }
     return rows;
 }
@@ -40,7 +62,7 @@ ordered_json gain_json(const GainSeries &g, const char *gain_key, const char *so
     ordered_json gains     = ordered_json::array();
     ordered_json solutions = ordered_json::array();
     for (std::size_t n = 0; n < g.gain.size(); n++) {
-        gains.push_back(to_json(g.gain[n]));
+        gains.push_back(gain_to_json(g.gain[n]));
         solutions.push_back(to_json(g.series.terms[n].X));
     }
     ordered_json out{{"order", series_order(g)},
@@ -111,8 +133,8 @@ ordered_json harmonics_json(const Design &d)
     }
     for (const HarmonicNode &node : d.harmonics->nodes) {
         nodes.push_back({{"omega_e_radps", node.omega_e_radps},
-                         {"K0", to_json(node.K0)},
-                         {"K1", to_json(node.K1)},
+                         {"K0", node_gain_to_json(node.K0)},
+                         {"K1", node_gain_to_json(node.K1)},
                          {"residual", node.residual}});
     }
     return {{"iq_max_A", static_cast<double>(t.iq_max_A)},
