@@ -185,8 +185,10 @@ TEST(Report, TextHasTheFiguresOfTheJson)
 TEST(Report, RoundingNoiseIsZeroAsInTheTables)
 {
     sdre::Design d       = certified();
-    d.nodo.gain[0](0, 0) = 1e-13 * d.nodo.gain[0].norm();
-    d.nodo.gain[0](0, 1) = 1e-11 * d.nodo.gain[0].norm();
+    const double size    = d.nodo.gain[0].norm();
+    d.nodo.gain[0](0, 0) = 1e-13 * size;
+    d.nodo.gain[0](0, 1) = 1e-11 * size;
+    d.nodo.gain[0](0, 2) = 0.5 * size;
 
     const json row = report_of(d).at("nodo").at("gain").at(0).at(0);
 
