@@ -107,15 +107,13 @@ SampledLoop sweep_nosc(const Design &d)
         return state_matrix(d.nosc.problem, s) - B * K;
     };
     const auto radius = [&](const MatrixXd &K, const Schedule &s) { // EQ-CERT-1
-        MatrixXd M             = MatrixXd::Zero(5, 5);
-        M.topLeftCorner(3, 3)  = state_matrix(d.nosc.problem, s) * ts;
-        M.topRightCorner(3, 2) = B * ts;
-        const MatrixXd E       = exponential(M);
+        const auto E = c2d(state_matrix(d.nosc.problem, s), B, ts);
         if (!delayed) { // the prediction takes the delay out
-            return spectral_radius(E.topLeftCorner(3, 3) - E.topRightCorner(3, 2) * K);
+            return spectral_radius(E.Phi - E.Gamma * K);
         }
         MatrixXd Z               = MatrixXd::Zero(5, 5);
-        Z.topRows(3)             = E.topRows(3);
+        Z.topLeftCorner(3, 3)    = E.Phi;
+        Z.topRightCorner(3, 2)   = E.Gamma;
         Z.bottomLeftCorner(2, 3) = -K;
         return spectral_radius(Z);
     };

@@ -45,15 +45,15 @@ MatrixXd encoder_form_law(const ReducedParameters &l, const MatrixXd &Lambda,
     return F;
 }
 
-HeldMotor held_motor(const ReducedParameters &l, const OperatingPoint &at, double ts)
+Held<MatrixXd> held_motor(const ReducedParameters &l, const OperatingPoint &at, double ts)
 {
-    MatrixXd M          = MatrixXd::Zero(7, 7);
-    M.block(0, 0, 3, 3) = motor_jacobian(l, at) * ts;
-    M(3, 0)             = ts;
-    M.block(0, 4, 3, 2) = nosc_input_matrix(l) * ts;
-    M(0, 6)             = -l[3] * ts;
-    const MatrixXd E    = exponential(M);
-    return {E.topLeftCorner(4, 4), E.topRightCorner(4, 3)};
+    MatrixXd A          = MatrixXd::Zero(4, 4);
+    MatrixXd B          = MatrixXd::Zero(4, 3);
+    A.block(0, 0, 3, 3) = motor_jacobian(l, at);
+    A(3, 0)             = 1.0;
+    B.block(0, 0, 3, 2) = nosc_input_matrix(l);
+    B(0, 2)             = -l[3];
+    return c2d(A, B, ts);
 }
 
 PredictedObserver predicted_encoder_form(const ReducedParameters &model, const OperatingPoint &at,
@@ -77,11 +77,11 @@ Eigen::Matrix3d motor_jacobian(const ReducedParameters &l, const OperatingPoint 
 SampledModel sampled_model(const ReducedParameters &motor, const ReducedParameters &model,
                            const LoopGains &gains, const OperatingPoint &at, double ts)
 {
-    const HeldMotor held = held_motor(motor, at, ts);
-    const auto [P, G]    = predicted_encoder_form(model, at, ts);
-    const MatrixXd F     = encoder_form_law(model, gains.Lambda, at);
-    const MatrixXd C     = nodo_model(model, NodoForm::encoder).C;
-    const MatrixXd PL    = ts * P * gains.L; // EQ-NODO-ENCODER-1, then the prediction
+    const Held<MatrixXd> held = held_motor(motor, at, ts);
+    const auto [P, G]         = predicted_encoder_form(model, at, ts);
+    const MatrixXd F          = encoder_form_law(model, gains.Lambda, at);
+    const MatrixXd C          = nodo_model(model, NodoForm::encoder).C;
+    const MatrixXd PL         = ts * P * gains.L; // EQ-NODO-ENCODER-1, then the prediction
 
     MatrixXd A                = MatrixXd::Zero(11, 11); // (w iq id theta | observer)
     A.topLeftCorner(4, 4)     = held.Phi;

@@ -4,7 +4,8 @@
 #pragma once
 
 #include "design/motor_model.hpp"
-#include "linalg/matrix_functions.hpp"
+#include "linalg/c2d.hpp"
+#include "linalg/eigenvalues.hpp"
 
 namespace sdre {
 
@@ -34,13 +35,8 @@ struct SampledModel {
 /// Jacobian of EQ-MOTOR-2 in (w, iq, id), 3 x 3.
 Eigen::Matrix3d motor_jacobian(const ReducedParameters &l, const OperatingPoint &at);
 
-/// The motor (w, iq, id, theta) over one period with held inputs, exactly.
-struct HeldMotor {
-    Eigen::MatrixXd Phi;   ///< 4 x 4
-    Eigen::MatrixXd Gamma; ///< 4 x 3: v_q, v_d, T_load
-};
-
-HeldMotor held_motor(const ReducedParameters &l, const OperatingPoint &at, double ts_s);
+/// The motor (w, iq, id, theta) over one period with v_q, v_d and T_load held.
+Held<Eigen::MatrixXd> held_motor(const ReducedParameters &l, const OperatingPoint &at, double ts_s);
 
 /// EQ-NODO-ENCODER-2 linearised: x^-(k+1) = P x^+ + G v.
 struct PredictedObserver {

@@ -10,6 +10,7 @@
 #include "common/errors.hpp"
 #include "linalg/extended.hpp"
 #include "linalg/linalg_checks.hpp"
+#include "linalg/lyapunov.hpp"
 
 namespace sdre {
 
@@ -81,7 +82,7 @@ Forcing forcing(const SdreProblem &problem, const Terms &terms, const Powers &al
         if (alpha[k] > 0) {
             Powers lower = alpha;
             --lower[k];
-            const Matrix XdA = terms.at(lower) * problem.dA[k].cast<Scalar>();
+            const Matrix XdA = terms.at(lower).lazyProduct(problem.dA[k].cast<Scalar>());
             f.W += XdA + XdA.transpose();
             f.size += 2 * XdA.norm();
         }
@@ -89,7 +90,7 @@ Forcing forcing(const SdreProblem &problem, const Terms &terms, const Powers &al
     Powers other;
     for (const auto &[beta, X] : terms) {
         if (degree(beta) > 0 && degree(beta) < degree(alpha) && difference(alpha, beta, other)) {
-            const Matrix XGX = X * G * terms.at(other);
+            const Matrix XGX = Matrix(X.lazyProduct(G)).lazyProduct(terms.at(other));
             f.W -= XGX;
             f.size += XGX.norm();
         }
@@ -101,6 +102,21 @@ Forcing forcing(const SdreProblem &problem, const Terms &terms, const Powers &al
 Matrix rounded(const Matrix &X)
 {
     return X.cast<double>().cast<Scalar>();
+}
+
+Matrix closed_loop_matrix(const SdreProblem &problem, const Matrix &X)
+{
+    return problem.A0.cast<Scalar>() - problem.G.cast<Scalar>().lazyProduct(X);
+}
+
+/// What the rounding of X to double has cut off, from the residual of EQ-CARE-1.
+Matrix newton_step(const SdreProblem &problem, const Matrix &X, const Matrix &Acl)
+{
+    const Matrix XA = X.lazyProduct(problem.A0.cast<Scalar>());
+    const Matrix R  = XA + XA.transpose() -
+                     Matrix(X.lazyProduct(problem.G.cast<Scalar>())).lazyProduct(X) +
+                     problem.Q.cast<Scalar>();
+    return X + extended::LyapunovSolver(Acl).solve(extended::symmetric_part(R));
 }
 
 void require_valid(const SdreProblem &problem)
@@ -163,35 +179,34 @@ Eigen::MatrixXd state_matrix(const SdreProblem &problem, const std::vector<doubl
     return A;
 }
 
-SdreSeries solve_sdre_series(const SdreProblem &problem, int order)
+SdreSeries solve_sdre_series(const SdreProblem &problem, int order, Precision precision)
 {
     if (order < 0) {
         throw InputError(fmt::format("order is {}, must be 0 or more", order));
     }
     require_valid(problem);
 
-    SdreSeries           series;
-    const Powers         zero(problem.dA.size(), 0);
-    extended::CareResult care = extended::solve_verified_care(problem.A0, problem.G, problem.Q);
-    series.care               = care.solution;
-    series.terms.push_back(make_term(zero, care.X));
+    SdreSeries   series;
+    const Powers zero(problem.dA.size(), 0);
+    series.care     = solve_care(problem.A0, problem.G, problem.Q, {precision});
+    const Matrix X0 = series.care.X.cast<Scalar>();
+    series.terms.push_back(make_term(zero, X0));
     series.terms.back().relative_residual = series.care.relative_residual;
 
     // Two sets of terms: the exact ones feed the recursion, the rounded ones are what the caller
     // gets, so the reported residual is theirs.
-    const Matrix Acl = problem.A0.cast<Scalar>() - problem.G.cast<Scalar>() * care.X;
-    const Matrix Acl_rounded =
-        problem.A0.cast<Scalar>() - problem.G.cast<Scalar>() * rounded(care.X);
-    const extended::LyapunovSolver closed_loop(Acl);
-    Terms                          exact{{zero, care.X}};
-    Terms                          delivered{{zero, rounded(care.X)}};
+    const Matrix                   Acl_rounded = closed_loop_matrix(problem, X0);
+    const Matrix                   X0_exact    = newton_step(problem, X0, Acl_rounded);
+    const extended::LyapunovSolver closed_loop(closed_loop_matrix(problem, X0_exact));
+    Terms                          exact{{zero, X0_exact}};
+    Terms                          delivered{{zero, X0}};
     for (int n = 1; n <= order; ++n) {
         for (const Powers &alpha : multi_indices(zero.size(), n)) {
             const Matrix X     = closed_loop.solve(forcing(problem, exact, alpha).W);
             SeriesTerm   term  = make_term(alpha, X);
             exact[alpha]       = X;
             delivered[alpha]   = rounded(X);
-            const Matrix  XA   = delivered[alpha] * Acl_rounded;
+            const Matrix  XA   = delivered[alpha].lazyProduct(Acl_rounded);
             const Forcing f    = forcing(problem, delivered, alpha);
             const Scalar  size = 2 * XA.norm() + f.size;
             if (size > 0) {

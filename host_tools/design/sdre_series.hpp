@@ -18,7 +18,7 @@
 
 #include <Eigen/Core>
 
-#include "linalg/riccati.hpp"
+#include "linalg/care.hpp"
 
 namespace sdre {
 
@@ -48,8 +48,10 @@ struct SdreSeries {
 /// A(s) of EQ-SERIES-1.
 Eigen::MatrixXd state_matrix(const SdreProblem &problem, const std::vector<double> &s);
 
-/// Throws InputError when order < 0 or shapes disagree, DesignError from the solvers.
-SdreSeries solve_sdre_series(const SdreProblem &problem, int order);
+/// Throws InputError when order < 0 or shapes disagree, DesignError from the solvers. X_0 is found with the given
+/// precision, the other terms in extended precision.
+SdreSeries solve_sdre_series(const SdreProblem &problem, int order,
+                             Precision precision = Precision::quick);
 
 /// The SDRE solved exactly at the frozen state s (the reference that the series approximates).
 CareSolution solve_sdre_exact(const SdreProblem &problem, const std::vector<double> &s);

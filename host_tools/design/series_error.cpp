@@ -30,11 +30,11 @@ void append_points(Schedule &head, std::size_t variables, double range, int per_
 } // namespace
 
 GainSeries solve_gain_series(const SdreProblem &problem, const Eigen::MatrixXd &left,
-                             const Eigen::MatrixXd &right, int order)
+                             const Eigen::MatrixXd &right, int order, Precision precision)
 {
     GainSeries out;
     out.problem = problem;
-    out.series  = solve_sdre_series(problem, order);
+    out.series  = solve_sdre_series(problem, order, precision);
     out.left    = left;
     out.right   = right;
     for (const SeriesTerm &term : out.series.terms) {

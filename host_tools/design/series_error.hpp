@@ -22,7 +22,8 @@ struct GainSeries {
 
 /// Solves the series and reads the gains off it, (26), (32), (39).
 GainSeries solve_gain_series(const SdreProblem &problem, const Eigen::MatrixXd &left,
-                             const Eigen::MatrixXd &right, int order);
+                             const Eigen::MatrixXd &right, int order,
+                             Precision precision = Precision::quick);
 
 /// Highest total degree.
 int series_order(const GainSeries &g);

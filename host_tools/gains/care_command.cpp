@@ -18,7 +18,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t max_size = 200; ///< rows or columns; a few seconds of work
+// Rows or columns. Chosen: Schur forms in long double take a few seconds then, and the time grows with the third power.
+constexpr std::size_t max_size = 200;
+
+constexpr CareOptions any_definiteness{Precision::quick, true};
 
 /// One matrix of the file, and the words that point at it in messages.
 struct Entry {
@@ -176,9 +179,9 @@ CareProblem read_care_problem(const std::filesystem::path &path)
 CareSolution solve_care_problem(const CareProblem &problem)
 {
     if (problem.B.size() > 0) {
-        return solve_care(problem.A, problem.B, problem.R, problem.Q);
+        return solve_care(problem.A, problem.B, problem.R, problem.Q, any_definiteness);
     }
-    return solve_care(problem.A, problem.G, problem.Q);
+    return solve_care(problem.A, problem.G, problem.Q, any_definiteness);
 }
 
 std::string care_text(const CareSolution &solution)
@@ -186,6 +189,9 @@ std::string care_text(const CareSolution &solution)
     std::string text = "X =\n";
     for (Eigen::Index i = 0; i < solution.X.rows(); ++i) {
         text += "  " + row_text(solution.X, i, "  ") + "\n";
+    }
+    if (!solution.semidefinite) {
+        text += "X is indefinite: Q is not positive semidefinite\n";
     }
     text += fmt::format("relative residual = {:.3g}\nclosed-loop eigenvalues =\n",
                         solution.relative_residual);
@@ -198,20 +204,24 @@ std::string care_text(const CareSolution &solution)
 
 std::string care_json(const CareSolution &solution)
 {
-    std::string text = "{\n  \"X\": [\n";
+    json rows = json::array();
     for (Eigen::Index i = 0; i < solution.X.rows(); ++i) {
-        text += fmt::format("    [{}]{}\n", row_text(solution.X, i, ", "),
-                            i + 1 < solution.X.rows() ? "," : "");
+        json row = json::array();
+        for (Eigen::Index j = 0; j < solution.X.cols(); ++j) {
+            row.push_back(solution.X(i, j));
+        }
+        rows.push_back(row);
     }
-    text +=
-        fmt::format("  ],\n  \"relative_residual\": {:.17g},\n  \"closed_loop_eigenvalues\": [\n",
-                    solution.relative_residual);
-    const Eigen::VectorXcd &modes = solution.closed_loop_eigenvalues;
-    for (Eigen::Index i = 0; i < modes.size(); ++i) {
-        text += fmt::format("    [{:.17g}, {:.17g}]{}\n", modes(i).real(), modes(i).imag(),
-                            i + 1 < modes.size() ? "," : "");
+    json modes = json::array();
+    for (const std::complex<double> &s : solution.closed_loop_eigenvalues) {
+        modes.push_back({s.real(), s.imag()});
     }
-    return text + "  ]\n}\n";
+    nlohmann::ordered_json out;
+    out["X"]                       = rows;
+    out["X_indefinite"]            = !solution.semidefinite;
+    out["relative_residual"]       = solution.relative_residual;
+    out["closed_loop_eigenvalues"] = modes;
+    return out.dump(2) + "\n";
 }
 
 namespace {

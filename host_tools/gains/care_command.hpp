@@ -13,7 +13,7 @@
 
 #include <Eigen/Core>
 
-#include "linalg/riccati.hpp"
+#include "linalg/care.hpp"
 
 namespace sdre {
 
@@ -32,14 +32,15 @@ CareProblem read_care_problem(const std::filesystem::path &path);
 /// The same for a text in memory; `name` stands for the file in messages.
 CareProblem parse_care_problem(const std::string &text, const std::string &name);
 
-/// From B and R when the problem has them, otherwise from G. Throws like solve_care().
+/// From B and R when the problem has them, otherwise from G. Throws like solve_care(), but an indefinite Q may have an
+/// indefinite X.
 CareSolution solve_care_problem(const CareProblem &problem);
 
 /// For people. Ends with a newline.
 std::string care_text(const CareSolution &solution);
 
-/// {"X": [[..]], "relative_residual": .., "closed_loop_eigenvalues": [[re, im], ..]}, 17
-/// significant digits. Ends with a newline.
+/// {"X": [[..]], "X_indefinite": .., "relative_residual": .., "closed_loop_eigenvalues": [[re, im], ..]} with as many
+/// digits as give every bit back. Ends with a newline.
 std::string care_json(const CareSolution &solution);
 
 } // namespace sdre

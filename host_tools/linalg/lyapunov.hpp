@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "linalg/schur.hpp"
+
 namespace sdre {
 
 struct LyapunovSolution {
@@ -15,4 +17,20 @@ struct LyapunovSolution {
 /// not Hurwitz.
 LyapunovSolution solve_lyapunov(const Eigen::MatrixXd &A, const Eigen::MatrixXd &W);
 
+namespace extended {
+
+/// Factorises A once, then solves EQ-LYAP-1 for any number of right-hand sides.
+class LyapunovSolver {
+public:
+    /// DesignError when the Schur iteration fails. Any A without eigenvalues s, -s is accepted.
+    explicit LyapunovSolver(const Matrix &A);
+
+    /// X of A'X + X A + W = 0, W symmetric.
+    Matrix solve(const Matrix &W) const;
+
+private:
+    SchurForm schur_;
+};
+
+} // namespace extended
 } // namespace sdre

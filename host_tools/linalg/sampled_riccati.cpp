@@ -3,23 +3,26 @@
 
 #include <cmath>
 
-#include <Eigen/LU>
-
 #include "common/errors.hpp"
-#include "linalg/matrix_functions.hpp"
+#include "linalg/eigenvalues.hpp"
+#include "linalg/inverse.hpp"
+#include "linalg/stein.hpp"
 
 namespace sdre {
 namespace {
 
-using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+using extended::Matrix;
+using extended::symmetric_part;
 
 // 2^60 periods: a mode that has not settled by then never does.
 constexpr int         doublings_max = 60;
 constexpr long double settled       = 1e-17L;
 
-Matrix symmetric(const Matrix &X)
+/// A B C, without the templates of large products.
+Matrix times(const Matrix &A, const Matrix &B, const Matrix &C)
 {
-    return 0.5L * (X + X.transpose());
+    const Matrix AB = A.lazyProduct(B);
+    return AB.lazyProduct(C);
 }
 
 /// P of EQ-DARE-1 by structure-preserving doubling: H after k steps is P after 2^k periods from nothing.
@@ -30,11 +33,11 @@ Matrix solve_riccati(const Matrix &A, const Matrix &G, const Matrix &Q)
     Matrix       g = G;
     Matrix       H = Q;
     for (int k = 0; k < doublings_max; k++) {
-        const Eigen::PartialPivLU<Matrix> W(I + g * H);
-        const Matrix                      WE   = W.solve(E);
-        const Matrix                      step = symmetric(E.transpose() * H * WE);
-        g += symmetric(E * W.solve(g) * E.transpose());
-        E = E * WE;
+        const Matrix W    = extended::inverse(Matrix(I + g.lazyProduct(H)));
+        const Matrix WE   = W.lazyProduct(E);
+        const Matrix step = symmetric_part(times(E.transpose(), H, WE));
+        g += symmetric_part(times(E, W.lazyProduct(g), E.transpose()));
+        E = Matrix(E.lazyProduct(WE));
         H += step;
         if (!std::isfinite(static_cast<double>(H.norm()))) {
             break;
@@ -44,21 +47,6 @@ Matrix solve_riccati(const Matrix &A, const Matrix &G, const Matrix &Q)
         }
     }
     throw DesignError("sampled Riccati equation: no stabilising solution found");
-}
-
-/// X = F X F' + W by squaring F.
-Matrix solve_stein(Matrix F, const Matrix &W)
-{
-    Matrix X = W;
-    for (int k = 0; k < doublings_max; k++) {
-        const Matrix step = symmetric(F * X * F.transpose());
-        X += step;
-        F = F * F;
-        if (step.norm() <= settled * X.norm()) {
-            return X;
-        }
-    }
-    throw DesignError("Stein equation: the sampled observer does not settle");
 }
 
 double relative(const Matrix &residual, const Matrix &a, const Matrix &b)
@@ -78,23 +66,25 @@ SampledObserverGain solve_sampled_observer(const SampledObserverProblem &p)
     const Matrix R  = p.R.cast<long double>();
     const Matrix I  = Matrix::Identity(A.rows(), A.cols());
 
-    const Matrix P         = solve_riccati(A, C.transpose() * R.inverse() * C, Q);
-    const Matrix S_inverse = Matrix(C * P * C.transpose() + R).inverse();
-    const Matrix K         = P * C.transpose() * S_inverse;
-    const Matrix left      = I - K * C;
-    const Matrix after     = symmetric(left * P);
-    const Matrix F         = A * left;
-    const Matrix W  = symmetric(2.0L * A1 * after * A.transpose()) + p.Q1.cast<long double>();
-    const Matrix P1 = solve_stein(F, W);
-    const Matrix K1 = left * P1 * C.transpose() * S_inverse;
+    const Matrix Ct        = C.transpose();
+    const Matrix P         = solve_riccati(A, times(Ct, extended::inverse(R), C), Q);
+    const Matrix S_inverse = extended::inverse(Matrix(times(C, P, Ct) + R));
+    const Matrix K         = times(P, Ct, S_inverse);
+    const Matrix left      = I - K.lazyProduct(C);
+    const Matrix after     = symmetric_part(left.lazyProduct(P));
+    const Matrix F         = A.lazyProduct(left);
+    const Matrix W =
+        symmetric_part(2.0L * times(A1, after, A.transpose())) + p.Q1.cast<long double>();
+    const Matrix P1 = extended::solve_stein(F, W);
+    const Matrix K1 = times(left, P1, Ct).lazyProduct(S_inverse);
 
     SampledObserverGain out;
     out.K0               = K.cast<double>();
     out.K1               = K1.cast<double>();
     out.P0               = P.cast<double>();
     out.P1               = P1.cast<double>();
-    out.riccati_residual = relative(P - (A * after * A.transpose() + Q), P, Q);
-    out.stein_residual   = relative(P1 - (F * P1 * F.transpose() + W), P1, W);
+    out.riccati_residual = relative(P - (times(A, after, A.transpose()) + Q), P, Q);
+    out.stein_residual   = relative(P1 - (times(F, P1, F.transpose()) + W), P1, W);
     out.spectral_radius  = spectral_radius(F.cast<double>());
     if (!(out.spectral_radius < 1.0)) {
         throw DesignError("sampled Riccati equation: no stabilising solution found");

@@ -100,7 +100,8 @@ TEST(care_command, json_output_gives_every_bit_back)
 
     const json output = json::parse(sdre::care_json(solution));
 
-    ASSERT_EQ(output.size(), 3U);
+    ASSERT_EQ(output.size(), 4U);
+    EXPECT_FALSE(output["X_indefinite"].get<bool>());
     for (Eigen::Index i = 0; i < 2; ++i) {
         const auto row = static_cast<std::size_t>(i);
         for (Eigen::Index j = 0; j < 2; ++j) {
@@ -120,6 +121,16 @@ TEST(care_command, text_output_shows_solution_residual_and_poles)
     const std::string text = sdre::care_text(sdre::solve_care_problem(
         sdre::parse_care_problem(R"({"A":[[0]],"G":[[1]],"Q":[[4]]})", "p")));
     EXPECT_EQ(text, "X =\n  2\nrelative residual = 0\nclosed-loop eigenvalues =\n  -2 + 0j\n");
+}
+
+TEST(care_command, an_indefinite_solution_is_given_and_named)
+{
+    // x^2 + 4 x + 1 = 0, x = -2 + sqrt(3): stabilises although Q and X are negative.
+    const sdre::CareSolution solution = sdre::solve_care_problem(
+        sdre::parse_care_problem(R"({"A":[[-2]],"G":[[1]],"Q":[[-1]]})", "p"));
+    EXPECT_NEAR(solution.X(0, 0), -2.0 + std::sqrt(3.0), 1e-15);
+    EXPECT_NE(sdre::care_text(solution).find("X is indefinite"), std::string::npos);
+    EXPECT_TRUE(json::parse(sdre::care_json(solution))["X_indefinite"].get<bool>());
 }
 
 TEST(care_command, integers_and_negative_zero_are_numbers)

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "common/errors.hpp"
-#include "linalg/matrix_functions.hpp"
+#include "linalg/eigenvalues.hpp"
 #include "reference_gains.hpp"
 
 namespace {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "common/errors.hpp"
-#include "linalg/matrix_functions.hpp"
+#include "linalg/eigenvalues.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "linalg/riccati.hpp"
+#include "linalg/care.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/errors.hpp"
-#include "linalg/matrix_functions.hpp"
+#include "linalg/eigenvalues.hpp"
 
 namespace {
 
@@ -358,6 +358,37 @@ TEST(riccati, indefinite_weight_is_accepted_only_with_a_semidefinite_solution)
     expect_design_error(care(scalar(1), scalar(1), scalar(-2)), "Q is not positive semidefinite");
     expect_design_error(care(scalar(1), scalar(1), scalar(-2)),
                         "Hamiltonian has eigenvalues on the imaginary axis (s = 0 + 1j)");
+}
+
+TEST(riccati, an_indefinite_solution_is_returned_only_to_who_allows_it)
+{
+    // x = a + sqrt(a^2 + q) = -2 + sqrt(3) with g = 1: stabilising, and negative.
+    const double x = -2.0 + std::sqrt(3.0);
+    for (const sdre::Precision precision : {sdre::Precision::quick, sdre::Precision::extended}) {
+        const sdre::CareSolution solution =
+            sdre::solve_care(scalar(-2), scalar(1), scalar(-1), {precision, true});
+        EXPECT_NEAR(solution.X(0, 0), x, 1e-15);
+        EXPECT_FALSE(solution.semidefinite);
+        EXPECT_LT(solution.closed_loop_eigenvalues(0).real(), 0.0);
+        EXPECT_TRUE(
+            sdre::solve_care(scalar(1), scalar(1), scalar(-0.75), {precision, true}).semidefinite);
+    }
+    expect_design_error(care(scalar(-2), scalar(1), scalar(-1)), "Q is not positive semidefinite");
+}
+
+TEST(riccati, both_precisions_give_the_same_double)
+{
+    std::mt19937 generator(23);
+    for (int trial = 0; trial < 100; ++trial) {
+        SCOPED_TRACE(trial);
+        const Eigen::Index n = 1 + trial % 16;
+        const MatrixXd     A = random_matrix(n, n, generator);
+        const MatrixXd     G = random_semidefinite(n, 1 + trial % 3, generator);
+        const MatrixXd     Q = random_semidefinite(n, n, generator);
+        const MatrixXd     X = sdre::solve_care(A, G, Q, {sdre::Precision::extended}).X;
+        // Measured: equal, or a last digit apart.
+        EXPECT_LE((sdre::solve_care(A, G, Q).X - X).norm(), 1e-15 * X.norm());
+    }
 }
 
 TEST(riccati_refuses, unsymmetric_weights)

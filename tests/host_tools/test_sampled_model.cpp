@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "design/design.hpp"
+#include "linalg/expm.hpp"
 #include "reference_gains.hpp"
 #include "sil/plant/plant.hpp"
 

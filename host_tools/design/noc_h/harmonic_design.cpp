@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linalg/c2d.hpp"
 #include "linalg/linalg_checks.hpp"
-#include "linalg/matrix_functions.hpp"
 #include "linalg/sampled_riccati.hpp"
 
 namespace sdre {
@@ -90,14 +90,10 @@ MatrixXd full_rows(const MatrixXd &kept, const std::vector<Index> &rows, Index n
 /// Discretised exactly, process noise as the mean of both ends of the period.        EQ-HARMONIC-7
 SampledObserverProblem sampled(const MatrixXd &A, const MatrixXd &dA, const MatrixXd &Q, double ts)
 {
-    const Index n = A.rows();
-    MatrixXd M = MatrixXd::Zero(2 * n, 2 * n); // its exponential holds that of A and the derivative
-    M.topLeftCorner(n, n) = M.bottomRightCorner(n, n) = A * ts;
-    M.topRightCorner(n, n)                            = dA * ts;
-    const MatrixXd         E                          = exponential(M);
+    const Transition       over = transition(A, dA, ts);
     SampledObserverProblem p;
-    p.A0              = E.topLeftCorner(n, n);
-    p.A1              = E.topRightCorner(n, n);
+    p.A0              = over.Phi;
+    p.A1              = over.dPhi;
     const MatrixXd Q1 = 0.5 * ts * p.A1 * Q * p.A0.transpose();
     p.Q0              = 0.5 * ts * (p.A0 * Q * p.A0.transpose() + Q);
     p.Q1              = Q1 + Q1.transpose();

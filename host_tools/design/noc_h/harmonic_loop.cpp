@@ -171,7 +171,7 @@ HarmonicSampled sampled_harmonic_model(const ReducedParameters &l, const nodo_ha
 {
     const HarmonicObserver o    = linear_harmonic_observer(l, t, Lambda, at, ts);
     const MatrixXd         K    = harmonic_gain(t, at.omega_e_radps, at.iq_A);
-    const HeldMotor        held = held_motor(l, at, ts);
+    const Held<MatrixXd>   held = held_motor(l, at, ts);
     const Index            n    = o.P.rows();
     const MatrixXd         PK   = o.P * K;
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <complex>
 
-#include <unsupported/Eigen/MatrixFunctions>
+#include "linalg/c2d.hpp"
 
 namespace sdre {
 namespace {
@@ -13,8 +13,8 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+using LongMatrix = extended::Matrix;
+using LongVector = extended::Vector;
 
 Polynomial product(const Polynomial &p, const Polynomial &q)
 {
@@ -176,12 +176,10 @@ void sample(DobcDesign &d, int N, double ts_s)
     const LongVector  scale = rate_scale(d.oscillators_radps.size(), N, ts);
     const LongMatrix  into  = scale.asDiagonal();
     const LongMatrix  back  = scale.cwiseInverse().asDiagonal();
-    LongMatrix        Z     = LongMatrix::Zero(2 * n, 2 * n);
-    Z.topLeftCorner(n, n)   = into * d.F.cast<long double>() * back * ts;
-    Z.topRightCorner(n, n)  = LongMatrix::Identity(n, n) * ts;
-    const LongMatrix X      = Z.exp();
-    const LongMatrix Phi    = back * X.topRightCorner(n, n) * into;
-    d.M                     = (back * X.topLeftCorner(n, n) * into).cast<double>();
+    const LongMatrix  F     = into * d.F.cast<long double>() * back;
+    const auto        over  = c2d(F, LongMatrix::Identity(n, n), ts);
+    const LongMatrix  Phi   = back * over.Gamma * into;
+    d.M                     = (back * over.Phi * into).cast<double>();
     d.g                     = (Phi * d.E.cast<long double>() / ts).cast<double>();
     d.h                     = (Phi * d.H.cast<long double>()).cast<double>();
 }

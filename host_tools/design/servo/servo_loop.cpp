@@ -27,22 +27,6 @@ constexpr double sweep_from     = 1e-4; // of the sampling rate
 constexpr int    peak_halvings  = 60;
 constexpr double golden_section = 0.6180339887498949;
 
-/// x' = A x + B u over one period with u held.
-struct Held {
-    MatrixXd Phi;
-    VectorXd Gamma;
-};
-
-Held held(const MatrixXd &A, const VectorXd &B, double ts_s)
-{
-    const Index n          = A.rows();
-    MatrixXd    Z          = MatrixXd::Zero(n + 1, n + 1);
-    Z.topLeftCorner(n, n)  = A * ts_s;
-    Z.topRightCorner(n, 1) = B * ts_s;
-    const MatrixXd X       = exponential(Z);
-    return {X.topLeftCorner(n, n), X.topRightCorner(n, 1)};
-}
-
 VectorXd values(const float *x, Index n)
 {
     return Eigen::Map<const Eigen::VectorXf>(x, n).cast<double>();
@@ -63,7 +47,7 @@ SampledServoLoop dobc_loop(const Motor &motor, const dobc_config_t &c, double ts
     const ServoPlant p = servo_plant(motor);
     MatrixXd         A(2, 2);
     A << 0.0, motor.pole_pairs * p.b, 0.0, -p.a;
-    const Held     plant = held(A, Eigen::Vector2d(0.0, -1.0 / p.L_H), ts_s);
+    const auto     plant = c2d(A, Eigen::Vector2d(0.0, -1.0 / p.L_H), ts_s);
     const Index    n     = c.n_x;
     const VectorXd g     = values(c.g, n);
 
@@ -87,7 +71,7 @@ SampledServoLoop dobc_loop(const Motor &motor, const dobc_config_t &c, double ts
 }
 
 /// State: plant (the first is minus the error), integral, error of the period before, voltage on its way.
-SampledServoLoop pid_loop(const Held &plant, const pid_law_config_t &c, double ts_s)
+SampledServoLoop pid_loop(const Held<MatrixXd> &plant, const pid_law_config_t &c, double ts_s)
 {
     const Index  n  = plant.Phi.rows();
     const double kp = static_cast<double>(c.kp);
@@ -123,7 +107,7 @@ SampledServoLoop speed_loop(const Motor &m, const drive_config_t &config)
     MatrixXd     A(2, 2);
     A << -m.viscous_friction_Nms / m.inertia_kgm2, m.pole_pairs * servo_plant(m).b, //
         -m.pm_flux_Wb / L, -m.stator_resistance_Ohm / L;
-    return pid_loop(held(A, Eigen::Vector2d(0.0, 1.0 / L), ts_s),
+    return pid_loop(c2d(A, Eigen::Vector2d(0.0, 1.0 / L), ts_s),
                     constants_of<law_pid_config_t>(config)->pid, ts_s);
 }
 
@@ -133,7 +117,7 @@ SampledServoLoop d_axis_loop(const Motor &m, const drive_config_t &config)
     const double   L    = m.d_axis_inductance_H;
     const MatrixXd A    = MatrixXd::Constant(1, 1, -m.stator_resistance_Ohm / L);
     const auto    *dobc = constants_of<law_dobc_config_t>(config);
-    return pid_loop(held(A, VectorXd::Constant(1, 1.0 / L), ts_s),
+    return pid_loop(c2d(A, VectorXd::Constant(1, 1.0 / L), ts_s),
                     dobc != nullptr ? dobc->id_pi : constants_of<law_pid_config_t>(config)->id_pi,
                     ts_s);
 }

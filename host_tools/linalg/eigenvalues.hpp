@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-/// Functions of square matrices whose templates are slow to compile: they are compiled here, once.
+/// Eigenvalues of real square matrices in double.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace sdre {
 
-Eigen::MatrixXd exponential(const Eigen::MatrixXd &A);
-
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd &A);
+
+/// By real, then imaginary part.
+Eigen::VectorXcd sorted_eigenvalues(const Eigen::MatrixXd &A);
 
 /// Largest |eigenvalue|.
 double spectral_radius(const Eigen::MatrixXd &A);

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+/// The quick way to the stabilising solution of EQ-CARE-1: structure-preserving doubling in double, corrected from
+/// residuals in extended precision until X is right to the last digits of a double.
+#pragma once
+
+#include <optional>
+
+#include "linalg/care.hpp"
+#include "linalg/extended.hpp"
+
+namespace sdre {
+
+/// A'X + XA - XGX + Q = 0 with checked shapes; G and Q symmetric.
+struct DoublingProblem {
+    const Eigen::MatrixXd  &A;
+    const Eigen::MatrixXd  &G;
+    const Eigen::MatrixXd  &Q;
+    const extended::Matrix *F = nullptr; ///< G = F F' to more digits, when B and R are known
+};
+
+/// None when the problem is too large or X cannot be vouched for: that is the extended solver's to decide. A solution
+/// has a small residual, stable closed-loop poles and a condition that leaves most of a double's digits.
+std::optional<CareSolution> solve_care_by_doubling(const DoublingProblem &problem);
+
+} // namespace sdre

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "linalg/care_refusal.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <Eigen/QR>
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "linalg/axis.hpp"
+#include "linalg/linalg_checks.hpp"
+#include "linalg/schur.hpp"
+
+namespace sdre::extended {
+
+namespace {
+
+/// How far [A - sI, W] is from losing rank, between 0 and 1 and blind to the size of the columns of
+/// W and to the scaling of single states: 0 means that the mode s is not connected to W.
+Scalar hautus_margin(const Matrix &A, const Matrix &W, Complex s)
+{
+    const Eigen::Index n = A.rows();
+    ComplexMatrix      M(n, 2 * n);
+    M << A.cast<Complex>(), W.cast<Complex>();
+    M.leftCols(n).diagonal().array() -= s;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const Scalar size = A.row(i).norm() + std::abs(s);
+        if (size > 0) {
+            M.row(i) /= Complex(size);
+        }
+    }
+    const Scalar floor =
+        M.rightCols(n).colwise().norm().maxCoeff() * std::numeric_limits<Scalar>::epsilon();
+    for (Eigen::Index j = n; j < 2 * n && floor > 0; ++j) {
+        M.col(j) /= Complex(std::max(floor, Scalar(M.col(j).norm())));
+    }
+    const Eigen::ColPivHouseholderQR<ComplexMatrix> qr(M.adjoint());
+    const Scalar                                    largest = std::abs(qr.matrixQR()(0, 0));
+    return largest > 0 ? std::abs(qr.matrixQR()(n - 1, n - 1)) / largest : Scalar(0);
+}
+
+std::string unstabilisable_text(Complex s)
+{
+    return fmt::format("(A,B) is not stabilisable: mode at s = {} cannot be moved",
+                       mode_text(std::complex<double>(s)));
+}
+
+/// The mode with Re s >= 0 that the input reaches least.
+struct WeakestMode {
+    Complex s{0, 0};
+    Scalar  margin = 1;
+};
+
+WeakestMode weakest_unstable_mode(const Problem &p)
+{
+    const ComplexVector modes = eigenvalues(p.A);
+    WeakestMode         weakest;
+    for (const Complex &s : modes) {
+        if (s.real() < 0 || s.imag() < 0) {
+            continue;
+        }
+        const Scalar margin = hautus_margin(p.A, p.weight.G, s);
+        if (margin < weakest.margin) {
+            weakest = {s, margin};
+        }
+    }
+    return weakest;
+}
+
+} // namespace
+
+void require_stabilisable(const Problem &p)
+{
+    const WeakestMode weakest = weakest_unstable_mode(p);
+    if (weakest.margin <= Scalar(4 * p.A.rows()) * Scalar(std::numeric_limits<double>::epsilon())) {
+        throw DesignError(unstabilisable_text(weakest.s));
+    }
+}
+
+/// For G, Q >= 0 the Hamiltonian has an eigenvalue on the axis exactly when a mode of A on the axis
+/// is out of reach of the input or out of sight of Q; the smaller margin tells which.
+void require_no_axis_eigenvalue(const Problem &p, const Matrix &hamiltonian)
+{
+    Complex s;
+    if (!find_axis_eigenvalue(hamiltonian, eigenvalues(hamiltonian), s)) {
+        return;
+    }
+    const std::string axis = fmt::format(
+        "Hamiltonian has eigenvalues on the imaginary axis (s = {}): no stabilising solution",
+        mode_text(std::complex<double>(s)));
+    constexpr Scalar lost  = 1e-6L;
+    const Scalar     reach = hautus_margin(p.A, p.weight.G, s);
+    const Scalar     sight = hautus_margin(p.A.transpose(), p.Q, std::conj(s));
+    if (reach < lost && reach <= sight) {
+        throw DesignError(unstabilisable_text(s) + "; " + axis);
+    }
+    if (sight < lost) {
+        throw DesignError(
+            fmt::format("(A,Q) is not detectable: mode at s = {} is not weighted by Q; {}",
+                        mode_text(std::complex<double>(s)), axis));
+    }
+    throw DesignError(axis);
+}
+
+void refuse(const Problem &balanced, const std::string &reason)
+{
+    constexpr Scalar  nearly_lost = 1e-9L;
+    const WeakestMode weakest     = weakest_unstable_mode(balanced);
+    if (weakest.margin < nearly_lost) {
+        throw DesignError(unstabilisable_text(weakest.s) + " to working precision; " + reason);
+    }
+    throw DesignError("no acceptable solution: " + reason);
+}
+
+} // namespace sdre::extended

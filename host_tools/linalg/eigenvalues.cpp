@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "linalg/eigenvalues.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include <Eigen/Eigenvalues>
+
+#include "common/errors.hpp"
+#include "linalg/hessenberg.hpp"
+
+namespace sdre {
+namespace {
+
+// Sizes up to here need no allocation.
+constexpr int small = 16;
+using Small         = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, small, small>;
+
+template <class Matrix> Eigen::VectorXcd eigenvalues_of(Matrix H)
+{
+    const Eigen::Index n = H.rows();
+    reduce_to_hessenberg(H);
+    Eigen::RealSchur<Matrix> schur(n);
+    schur.computeFromHessenberg(H, H, false);
+    if (schur.info() != Eigen::Success) {
+        throw DesignError("the eigenvalue iteration did not converge");
+    }
+    const Matrix    &T = schur.matrixT();
+    Eigen::VectorXcd values(n);
+    for (Eigen::Index k = 0; k < n; k++) {
+        if (k + 1 < n && T(k + 1, k) != 0.0) { // a conjugate pair
+            const double p    = 0.5 * (T(k, k) - T(k + 1, k + 1));
+            const double imag = std::sqrt(std::abs(p * p + T(k + 1, k) * T(k, k + 1)));
+            values(k)         = {T(k + 1, k + 1) + p, imag};
+            values(k + 1)     = std::conj(values(k));
+            k++;
+        } else {
+            values(k) = T(k, k);
+        }
+    }
+    return values;
+}
+
+} // namespace
+
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd &A)
+{
+    return A.rows() <= small ? eigenvalues_of(Small(A)) : eigenvalues_of(Eigen::MatrixXd(A));
+}
+
+Eigen::VectorXcd sorted_eigenvalues(const Eigen::MatrixXd &A)
+{
+    Eigen::VectorXcd sorted = eigenvalues(A);
+    std::sort(sorted.data(), sorted.data() + sorted.size(), [](const auto &a, const auto &b) {
+        return a.real() != b.real() ? a.real() < b.real() : a.imag() < b.imag();
+    });
+    return sorted;
+}
+
+double spectral_radius(const Eigen::MatrixXd &A)
+{
+    return eigenvalues(A).cwiseAbs().maxCoeff();
+}
+
+} // namespace sdre
