@@ -188,7 +188,7 @@ SdreSeries solve_sdre_series(const SdreProblem &problem, int order, Precision pr
 
     SdreSeries   series;
     const Powers zero(problem.dA.size(), 0);
-    series.care     = solve_care(problem.A0, problem.G, problem.Q, {precision});
+    series.care     = solve_care(problem.A0, problem.G, problem.Q, CareOptions{precision});
     const Matrix X0 = series.care.X.cast<Scalar>();
     series.terms.push_back(make_term(zero, X0));
     series.terms.back().relative_residual = series.care.relative_residual;

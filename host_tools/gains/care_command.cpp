@@ -21,7 +21,7 @@ using nlohmann::json;
 // Rows or columns. Chosen: Schur forms in long double take a few seconds then, and the time grows with the third power.
 constexpr std::size_t max_size = 200;
 
-constexpr CareOptions any_definiteness{Precision::quick, true};
+const CareOptions any_definiteness{Precision::quick, true};
 
 /// One matrix of the file, and the words that point at it in messages.
 struct Entry {

@@ -366,12 +366,12 @@ TEST(riccati, an_indefinite_solution_is_returned_only_to_who_allows_it)
     const double x = -2.0 + std::sqrt(3.0);
     for (const sdre::Precision precision : {sdre::Precision::quick, sdre::Precision::extended}) {
         const sdre::CareSolution solution =
-            sdre::solve_care(scalar(-2), scalar(1), scalar(-1), {precision, true});
+            sdre::solve_care(scalar(-2), scalar(1), scalar(-1), sdre::CareOptions{precision, true});
         EXPECT_NEAR(solution.X(0, 0), x, 1e-15);
         EXPECT_FALSE(solution.semidefinite);
         EXPECT_LT(solution.closed_loop_eigenvalues(0).real(), 0.0);
         EXPECT_TRUE(
-            sdre::solve_care(scalar(1), scalar(1), scalar(-0.75), {precision, true}).semidefinite);
+            sdre::solve_care(scalar(1), scalar(1), scalar(-0.75), sdre::CareOptions{precision, true}).semidefinite);
     }
     expect_design_error(care(scalar(-2), scalar(1), scalar(-1)), "Q is not positive semidefinite");
 }
@@ -385,7 +385,7 @@ TEST(riccati, both_precisions_give_the_same_double)
         const MatrixXd     A = random_matrix(n, n, generator);
         const MatrixXd     G = random_semidefinite(n, 1 + trial % 3, generator);
         const MatrixXd     Q = random_semidefinite(n, n, generator);
-        const MatrixXd     X = sdre::solve_care(A, G, Q, {sdre::Precision::extended}).X;
+        const MatrixXd     X = sdre::solve_care(A, G, Q, sdre::CareOptions{sdre::Precision::extended}).X;
         // Measured: equal, or a last digit apart.
         EXPECT_LE((sdre::solve_care(A, G, Q).X - X).norm(), 1e-15 * X.norm());
     }
