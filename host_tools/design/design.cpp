@@ -6,10 +6,11 @@
 
 namespace sdre {
 
-Design design_drive(const Drive &drive)
+Design design_drive(const Drive &drive, Precision precision)
 {
     Design design;
-    design.drive  = drive;
+    design.drive     = drive;
+    design.precision = precision;
     design.l      = reduced_parameters(drive.motor);
     design.config = common_config(design);
     law_design(drive).solve(design);

@@ -59,6 +59,7 @@ struct HarmonicCheck {
 
 struct Design {
     Drive                         drive;
+    Precision                     precision = Precision::quick; ///< of the Riccati equation's solver
     ReducedParameters             l{};
     GainSeries                    nosc; ///< and in the certificate: laws of near optimal control
     GainSeries                    nodo; ///< the same, but for noc_h
@@ -83,6 +84,8 @@ constexpr double matching_error_limit = 1e-9;
 
 /// Solves both problems and certifies them. DesignError when a Riccati or Lyapunov equation has no
 /// acceptable solution; a failed certificate is reported in Design::certificate, not thrown.
-Design design_drive(const Drive &drive);
+///
+/// `extended` is for tables that are written: several times slower, the same to nine digits.
+Design design_drive(const Drive &drive, Precision precision = Precision::quick);
 
 } // namespace sdre

@@ -34,7 +34,7 @@ int run(const Options &o)
     if (o.out.empty() == o.check.empty()) {
         throw InputError("generate: give either --out DIR or --check DIR");
     }
-    const Design design    = design_drive(read_drive_file(o.drive));
+    const Design design    = design_drive(read_drive_file(o.drive), Precision::extended);
     const bool   certified = design.certificate.passed();
     if (!certified && !o.uncertified) {
         throw DesignError(fmt::format("{}: not certified: {}", o.drive,

@@ -41,7 +41,7 @@ float single(double x)
     return static_cast<float>(x);
 }
 
-GainSeries solve_nosc(const ReducedParameters &l, const Drive &drive)
+GainSeries solve_nosc(const ReducedParameters &l, const Drive &drive, Precision precision)
 {
     const NoscSpec       &spec = drive.nosc;
     const Eigen::Vector2d T_inverse(1.0 / spec.T[0], 1.0 / spec.T[1]);
@@ -49,15 +49,15 @@ GainSeries solve_nosc(const ReducedParameters &l, const Drive &drive)
                                         ? conventional_nosc_problem(l, spec)
                                         : nosc_problem(l, spec);
     return solve_gain_series(problem, T_inverse.asDiagonal() * nosc_input_matrix(l).transpose(),
-                             Eigen::MatrixXd::Identity(3, 3), spec.order);
+                             Eigen::MatrixXd::Identity(3, 3), spec.order, precision);
 }
 
-GainSeries solve_nodo(const ReducedParameters &l, const NodoSpec &spec)
+GainSeries solve_nodo(const ReducedParameters &l, const NodoSpec &spec, Precision precision)
 {
     const Eigen::Vector3d T_inverse(1.0 / spec.T[0], 1.0 / spec.T[1], 1.0 / spec.T[2]);
     const Eigen::MatrixXd C = nodo_model(l, spec.form).C;
     return solve_gain_series(nodo_problem(l, spec), Eigen::MatrixXd::Identity(C.cols(), C.cols()),
-                             C.transpose() * T_inverse.asDiagonal(), spec.order);
+                             C.transpose() * T_inverse.asDiagonal(), spec.order, precision);
 }
 
 /// k of EQ-CURRENT-REF-2.
@@ -152,9 +152,9 @@ std::string nosc_block(const nosc_gains_t &g)
 
 void solve_near_optimal(Design &d)
 {
-    d.nosc = solve_nosc(d.l, d.drive);
+    d.nosc = solve_nosc(d.l, d.drive, d.precision);
     if (d.drive.law != Law::noc_h) {
-        d.nodo = solve_nodo(d.l, d.drive.nodo);
+        d.nodo = solve_nodo(d.l, d.drive.nodo, d.precision);
     }
     d.certificate = certify(d);
 }
