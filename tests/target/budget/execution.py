@@ -71,6 +71,8 @@ class Steps:
             counts[i.flow] += 1
         else:
             raise ValueError(f"{i.target_name}() has no cost")
+        if i.register and end != i.target:
+            raise ValueError(f"the call at {i.address:x} went to {end:x}, not to {i.target_name}")
 
 
 def log_of(image, directory, *options):
