@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 # Every option of the project is declared here; any other SDRE_* name stops configuration.
 set(sdre_bool_options SDRE_BOARD_CHECK SDRE_BUILD_TESTS SDRE_SANITIZE)
-set(sdre_path_options SDRE_IMAGE SDRE_PYTHON)
+set(sdre_text_options SDRE_BOARD SDRE_IMAGE SDRE_PYTHON)
 
 option(SDRE_BOARD_CHECK "Only compile the board layer against TI's headers, with this compiler" OFF)
 option(SDRE_BUILD_TESTS "Build the tests (needs Unity and GoogleTest)" ON)
 option(SDRE_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
+set(SDRE_BOARD f28335 CACHE STRING "Directory of firmware/board that is built: f28335 or host_stub")
 set(SDRE_IMAGE "" CACHE STRING "Build the target's image: flash or ram (empty: host tools)")
 set(SDRE_PYTHON "" CACHE STRING "Python with matplotlib, for plots (empty: look for one)")
 
@@ -20,10 +21,10 @@ foreach(name IN LISTS sdre_cache_names)
             unset(${name} CACHE)
             message(FATAL_ERROR "${name}=${refused}: expected ON or OFF")
         endif()
-    elseif(NOT name IN_LIST sdre_path_options)
+    elseif(NOT name IN_LIST sdre_text_options)
         unset(${name} CACHE)
         list(JOIN sdre_bool_options " " known)
-        message(FATAL_ERROR "unknown option ${name} (known: ${known} ${sdre_path_options})")
+        message(FATAL_ERROR "unknown option ${name} (known: ${known} ${sdre_text_options})")
     endif()
 endforeach()
 
@@ -31,4 +32,10 @@ if(NOT SDRE_IMAGE MATCHES "^(flash|ram|)$")
     set(refused "${SDRE_IMAGE}")
     unset(SDRE_IMAGE CACHE)
     message(FATAL_ERROR "SDRE_IMAGE=${refused}: expected flash or ram")
+endif()
+
+if(NOT SDRE_BOARD MATCHES "^(f28335|host_stub)$" OR (SDRE_IMAGE AND NOT SDRE_BOARD STREQUAL "f28335"))
+    set(refused "${SDRE_BOARD}")
+    unset(SDRE_BOARD CACHE)
+    message(FATAL_ERROR "SDRE_BOARD=${refused}: expected f28335 or host_stub, and f28335 for an image")
 endif()

@@ -4,9 +4,10 @@
 
 Usage: budget.py RECORDER IMAGES CORE_LIBRARY TABLES_LIBRARY SCENARIO...
 
-RECORDER runs the scenarios of one law on the host and records every tick; replay_LAW.elf in the directory IMAGES
-replays them on an emulated Cortex-M4F. Their answers must equal the host's, its instructions are counted, and the operations it
-executed are priced with the C28x's cycles of costs.toml. Exit code 1: a check failed.
+IMAGES is a directory. host_stub.elf must run to its end on an emulated Cortex-M4F. RECORDER runs the scenarios of one
+law on the host and records every tick; replay_LAW.elf replays them on that machine. The answers must equal the host's,
+instructions are counted, and the operations executed are priced with the C28x's cycles of costs.toml. Exit code 1: a
+check failed.
 """
 import re
 import sys
@@ -15,7 +16,7 @@ import tomllib
 from pathlib import Path
 
 from execution import (
-    COUNTS_PER_INSTRUCTION, TICKS, Steps, count_instructions, path_counts, run, single_steps, walk_ticks,
+    COUNTS_PER_INSTRUCTION, TICKS, Steps, count_instructions, exit_code, path_counts, run, single_steps, walk_ticks,
 )  # fmt: skip
 from longest_path import LongestPath
 from machine_code import law_functions, linked_sizes, read_code, section_sizes, stack_depth, symbols
@@ -260,6 +261,8 @@ class Replay:
 def main(recorder, images, core, tables, *scenarios):
     costs = Costs(Path(__file__).with_name("costs.toml"))
     check = Checks()
+    code = exit_code(f"{images}/host_stub.elf")
+    check(code == 0, f"the application on host_stub boots, aligns, holds a speed and stops: exit code {code}")
     replays = [Replay(law, images, recorder, scenarios, costs, check) for law in LAWS]
     print_operations(costs, replays)
     print_verdict(costs, check, replays)
