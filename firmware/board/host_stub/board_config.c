@@ -36,15 +36,16 @@ const app_config_t board_config = {
     /* The motor is that of the F28335's board; derivations stand in its board_config.c. Counts are of 8192 a turn. */
     .align =
         {
-            .current_A         = 2.0f,
-            .bandwidth_radps   = 100.0f,
-            .watch_ticks       = 100U * TICKS_PER_ms,
-            .ramp_ticks        = 300U * TICKS_PER_ms,
-            .sweep_ticks       = 1200U * TICKS_PER_ms,
-            .settle_ticks      = 1200U * TICKS_PER_ms,
-            .still_ticks       = 100U * TICKS_PER_ms,
-            .still_cnt         = 4U,
-            .quarter_error_cnt = 205U, /* a fifth of a quarter of an electrical turn, 1024 */
+            .current_A       = 2.0f,
+            .bandwidth_radps = 100.0f,
+            .watch_ticks     = 100U * TICKS_PER_ms,
+            .ramp_ticks      = 300U * TICKS_PER_ms,
+            .sweep_ticks     = 1200U * TICKS_PER_ms,
+            .settle_ticks    = 1200U * TICKS_PER_ms,
+            .still_ticks     = 100U * TICKS_PER_ms,
+            .still_cnt       = 4U,
+            .quarter_error_cnt =
+                102U, /* a tenth of a quarter of an electrical turn, 1024; the motor is ideal */
         },
     .temperature_limit_degC = 80.0f, /* as there */
     .temperature_trip_degC  = 90.0f,
