@@ -31,21 +31,20 @@ const app_config_t board_config = {
             .pole_pairs            = 2U, /* of the drive; app_init() compares */
             .index_theta_e_rad     = 0.0f,
             .index_tolerance_cnt   = 4U, /* no index pulse ever comes */
-            .index_correct_max_cnt = 80U,
+            .index_correct_max_cnt = 40U,
         },
-    /* The motor is that of the F28335's board; derivations stand in its board_config.c. Counts are of 8192 a turn. */
+    /* The motor is that of the F28335's board; derivations stand in its board_config.c. Counts are of 4096 a turn. */
     .align =
         {
-            .current_A       = 2.0f,
-            .bandwidth_radps = 100.0f,
-            .watch_ticks     = 100U * TICKS_PER_ms,
-            .ramp_ticks      = 300U * TICKS_PER_ms,
-            .sweep_ticks     = 1200U * TICKS_PER_ms,
-            .settle_ticks    = 1200U * TICKS_PER_ms,
-            .still_ticks     = 100U * TICKS_PER_ms,
-            .still_cnt       = 4U,
-            .quarter_error_cnt =
-                102U, /* a tenth of a quarter of an electrical turn, 1024; the motor is ideal */
+            .current_A         = 2.0f,
+            .bandwidth_radps   = 100.0f,
+            .watch_ticks       = 100U * TICKS_PER_ms,
+            .ramp_ticks        = 300U * TICKS_PER_ms,
+            .sweep_ticks       = 1200U * TICKS_PER_ms,
+            .settle_ticks      = 1200U * TICKS_PER_ms,
+            .still_ticks       = 100U * TICKS_PER_ms,
+            .still_cnt         = 4U,
+            .quarter_error_cnt = 102U, /* a fifth of a quarter of an electrical turn, 512 */
         },
     .temperature_limit_degC = 80.0f, /* as there */
     .temperature_trip_degC  = 90.0f,

@@ -23,8 +23,8 @@ enum {
 #define STOP_TICKS   3U
 
 #define SPEED_E_RADPS    150.0f /* chosen: a motor's rated speed is 523 */
-#define TOL_TRUE_E_RADPS 1.5f   /* worst 0.33 */
-#define TOL_TOLD_E_RADPS 10.0f  /* worst 1.8: a count of the encoder is 1.5 mrad */
+#define TOL_TRUE_E_RADPS 5.0f   /* worst 1.2 */
+#define TOL_TOLD_E_RADPS 15.0f  /* worst 3.8: a count of the encoder is 3.1 mrad electrical */
 
 static void period(void)
 {
