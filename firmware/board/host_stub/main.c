@@ -22,7 +22,7 @@ enum {
 #define WATCH_TICKS  500U
 #define STOP_TICKS   3U
 
-#define SPEED_E_RADPS    150.0f /* chosen: a motor's rated speed is 523 */
+#define SPEED_E_RADPS    150.0f /* chosen: a moderate speed; rated is 523 */
 #define TOL_TRUE_E_RADPS 5.0f   /* worst 1.2 */
 #define TOL_TOLD_E_RADPS 15.0f  /* worst 3.8: a count of the encoder is 3.1 mrad electrical */
 
