@@ -12,8 +12,8 @@ MEMORY
     RAMM0     : origin = 0x000050, length = 0x0003B0 /* below: stack of the boot ROM */
     RAMM1     : origin = 0x000400, length = 0x000400
     RAML012   : origin = 0x008000, length = 0x003000 /* no wait states, programs and data */
-    RAML3     : origin = 0x00B000, length = 0x001000 /* likewise; apart, to be read beside a fetch */
-    RAML4567  : origin = 0x00C000, length = 0x004000 /* no wait states for data */
+    RAML34    : origin = 0x00B000, length = 0x002000 /* no wait states for data; apart, to be read beside a fetch */
+    RAML567   : origin = 0x00D000, length = 0x003000 /* no wait states for data */
 
     FPUTABLES : origin = 0x3FEBDC, length = 0x0006A0 /* boot ROM */
     RESET     : origin = 0x3FFFC0, length = 0x000002 /* boot ROM */
@@ -40,15 +40,18 @@ SECTIONS
                    RUN_START(codestart_code_run),
                    ALIGN(2)
 
-    /* Gains and scalings, read in every period; copied likewise. */
+    /* Gains, the law's entry points and scalings, read in every period; copied likewise. Those of noc_h are longer than
+     * one block (tests/linker/test_table_sizes.py). */
     .tables      :
     {
         *(.const:gain_tables_*)
-        *(.const:board_f28335_*)
+        *(.const:constants*)
+        *(.const:law_*)
+        *(.const:board_config)
         *(.const:ntc_degC*)
     }
                    LOAD = FLASH,
-                   RUN = RAML3,
+                   RUN = RAML34,
                    LOAD_START(codestart_tables_load),
                    LOAD_SIZE(codestart_tables_words),
                    RUN_START(codestart_tables_run),
@@ -64,11 +67,11 @@ SECTIONS
     .args        : > FLASH
 
     .stack       : > RAMM1, RUN_START(codestart_stack), RUN_SIZE(codestart_stack_words)
-    .bss         : > RAML4567
+    .bss         : > RAML567
     .bss:cio     : > RAMM0
-    .data        : > RAML4567
+    .data        : > RAML567
     .sysmem      : > RAMM0
-    .TI.noinit   : > RAML4567
+    .TI.noinit   : > RAML567
 
     /* The fast math library's tables are in the ROM already; only their addresses are wanted. */
     FPUmathTables : > FPUTABLES, TYPE = NOLOAD

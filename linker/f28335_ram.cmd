@@ -34,7 +34,9 @@ SECTIONS
     .tables      :
     {
         *(.const:gain_tables_*)
-        *(.const:board_f28335_*)
+        *(.const:constants*)
+        *(.const:law_*)
+        *(.const:board_config)
         *(.const:ntc_degC*)
     }
                    > RAML4567,

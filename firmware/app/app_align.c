@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_align.h"
 
-#include "board_limits.h"
+#include "board.h"
 #include "dead_time.h"
 #include "frames.h"
 #include "svpwm.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_angle.h"
 
-#include "board_limits.h"
+#include "board.h"
 #include "nodo_encoder.h"
 
 #define HALF_COUNTS (2U * BOARD_POSITIONS) /* half counts per mechanical turn */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_config.h
- * @brief The constants of one board, by const pointer; made by hand, each with its derivation (firmware/config).
+ * @brief The constants of one board, by const pointer; made by hand, each with its derivation (board_config.h).
  */
 #ifndef APP_CONFIG_H
 #define APP_CONFIG_H

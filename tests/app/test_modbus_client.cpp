@@ -20,7 +20,7 @@
 
 extern "C" {
 #include "app.h"
-#include "board_f28335.h"
+#include "board_config.h"
 #include "gain_tables.h"
 }
 
@@ -83,7 +83,7 @@ public:
     explicit Server(int terminal) : terminal_(terminal)
     {
         fake_board_reset();
-        if (app_init(&board_f28335_config, &gain_tables_drive) != CTL_OK) {
+        if (app_init(&board_config, &gain_tables_drive) != CTL_OK) {
             throw std::runtime_error("the application refuses its constants");
         }
         for (int n = 0; n < 2000; n++) { // past the calibration

@@ -102,13 +102,18 @@ def check_symbols(sections):
         raise Refused(f"codestart.asm and the linker differ in {used ^ names}")
 
 
+def table_sources():
+    """Files whose constants are read in every period."""
+    firmware = ROOT / "firmware"
+    return [firmware / "config" / "gain_tables.c", BOARD / "board_config.c", *sorted((firmware / "control").glob("law_*.c"))]
+
+
 def check_tables(sections):
     """The patterns have to name what the sources define, or the tables would stay in flash."""
-    for name in ("gain_tables", "board_f28335"):
-        source = (ROOT / "firmware" / "config" / f"{name}.c").read_text()
-        constants = re.findall(r"^(?:static )?const \w+ (\w+)", source, flags=re.M)
+    for source in table_sources():
+        constants = re.findall(r"^(?:static )?const \w+ (\w+)(?:\[\w+\])? =", source.read_text(), flags=re.M)
         if not constants:
-            raise Refused(f"{name}.c defines nothing")
+            raise Refused(f"{source.name} defines nothing")
         for constant in constants:
             if not any(fnmatch.fnmatchcase(f"*(.const:{constant})", pattern.replace("*(", "[*](", 1))
                        for pattern in sections[".tables"].inputs):
@@ -148,21 +153,25 @@ MUTANTS = [
      "not memory"),
     ("flash", "origin = 0x008000, length = 0x003000", "origin = 0x008000, length = 0x003001",
      "overlap"),
-    ("flash", "RUN = RAML012", "RUN = RAML4567", "wait states"),
+    ("flash", "RUN = RAML012", "RUN = RAML567", "wait states"),
     ("flash", "RUN = RAML012", "RUN = FLASH", "wait states"),
-    ("flash", "RUN = RAML3", "RUN = RAML012", "shares a block"),
-    ("flash", "RUN = RAML3", "RUN = RAML9", "no range"),
+    ("flash", "RUN = RAML34", "RUN = RAML012", "shares a block"),
+    ("flash", "RUN = RAML34", "RUN = RAML9", "no range"),
     ("flash", ".init_array  : > FLASH", "", ".init_array has no place"),
-    ("flash", ".data        : > RAML4567", ".data        : > FLASH", ".data is not in RAM"),
-    ("flash", ".cinit       : > FLASH", ".cinit       : > RAML4567", "not stored where it lasts"),
+    ("flash", ".data        : > RAML567", ".data        : > FLASH", ".data is not in RAM"),
+    ("flash", ".cinit       : > FLASH", ".cinit       : > RAML567", "not stored where it lasts"),
     ("flash", ".const       : > FLASH", ".econst      : > FLASH", "has no place"),
-    ("flash", ".bss         : > RAML4567", ".bss         : > RAMM1", ".stack is not alone"),
+    ("flash", ".bss         : > RAML567", ".bss         : > RAMM1", ".stack is not alone"),
     ("flash", "TYPE = NOLOAD", "TYPE = COPY", "would be loaded"),
     ("flash", ", TYPE = DSECT", "", "would be loaded"),
     ("flash", "> FPUTABLES", "> RAMM0", "not at the ROM's tables"),
     ("flash", "LOAD_SIZE(codestart_code_words)", "RUN_START(codestart_code_words)", "defines"),
     ("flash", "LOAD_START(codestart_tables_load)", "LOAD_START(codestart_table_load)", "defines"),
     ("flash", "*(.const:gain_tables_*)", "*(.const:gains_*)", "leaves gain_tables_drive out"),
+    ("flash", "*(.const:constants*)", "", "leaves constants out"),
+    ("flash", "*(.const:law_*)", "*(.const:law)", "leaves law_conventional out"),
+    ("flash", "*(.const:board_config)", "*(.const:board_f28335)", "leaves board_config out"),
+    ("ram", "*(.const:ntc_degC*)", "", "leaves ntc_degC out"),
     ("flash", RTS, "", "takes"),
     ("flash", "#ifdef FAST_RTS", "#ifdef FASTRTS", "takes"),
     ("flash", "#endif", "", "without #endif"),

@@ -8,6 +8,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -31,7 +32,7 @@ std::uint32_t flag(bool set, std::uint32_t bit)
 }
 
 tick_file_tick_t file_tick(const drive_t &d, const drive_sample_t &s, const drive_command_t &c,
-                           const drive_output_t &law, const drive_output_t &pi)
+                           const bridge_t &law, const bridge_t &pi)
 {
     tick_file_tick_t t{};
     t.drive           = tick_file_from_drive(&d);
@@ -48,31 +49,43 @@ tick_file_tick_t file_tick(const drive_t &d, const drive_sample_t &s, const driv
     return t;
 }
 
-int highest_order(const drive_config_t &c)
+/// Fills in what only one law has; false: no image replays it.
+bool put_constants(tick_file_run_t &run, const drive_config_t &c)
 {
-    const int observer = c.form == DRIVE_FORM_ENCODER ? c.nodo_encoder.order : c.nodo.order;
-    return std::max<int>(c.nosc.order, observer);
+    if (const auto *noc = sdre::constants_of<law_noc_config_t>(c)) {
+        run.law           = TICK_FILE_NOC;
+        run.order         = std::max(noc->near_optimal.nosc.order, noc->nodo.order);
+        run.constants.noc = *noc;
+    } else if (const auto *speed = sdre::constants_of<law_noc_speed_config_t>(c)) {
+        run.law                 = TICK_FILE_NOC_SPEED;
+        run.order               = std::max(speed->near_optimal.nosc.order, speed->nodo.order);
+        run.constants.noc_speed = *speed;
+    } else if (const auto *harmonic = sdre::constants_of<law_noc_h_config_t>(c)) {
+        run.law             = TICK_FILE_NOC_H;
+        run.order           = harmonic->near_optimal.nosc.order;
+        run.constants.noc_h = *harmonic;
+    } else {
+        return false;
+    }
+    return true;
 }
 
-void write_run(std::ofstream &file, const std::string &law, const std::filesystem::path &path)
+void write_run(std::ofstream &file, std::uint32_t law, const std::filesystem::path &path)
 {
     const sdre::Scenario   scenario   = sdre::read_scenario_file(path);
     const sdre::Controller controller = sdre::prepare_controller(scenario);
-    if (law != sdre::law_name(scenario.drive.law)) {
+    static tick_file_run_t run; // static: its padding is zero, so equal runs give equal files
+    if (!put_constants(run, controller.config) || run.law != law) {
         return;
     }
     const sdre::Recording recording = sdre::record(scenario, controller);
 
-    static tick_file_run_t run; // static: its padding is zero, so equal runs give equal files
+    std::memset(run.name, 0, sizeof run.name);
     std::strncpy(run.name, path.stem().c_str(), TICK_FILE_NAME_SIZE - 1);
     run.layout    = TICK_FILE_LAYOUT;
     run.run_size  = sizeof run;
     run.tick_size = TICK_FILE_TICK_SIZE;
-    run.form      = static_cast<std::uint32_t>(controller.config.form);
-    run.order     = static_cast<std::uint32_t>(highest_order(controller.config));
     run.ticks     = static_cast<std::uint32_t>(recording.samples.size());
-    run.harmonic  = controller.config.law == DRIVE_LAW_NOC_H ? 1U : 0U;
-    run.table     = run.harmonic != 0U ? *controller.config.nodo_harmonic : nodo_harmonic_gains_t{};
     std::memcpy(run.config, &controller.config, sizeof run.config);
     run.pi = sdre::pi_foc_gains(scenario.drive);
     put(file, run);
@@ -87,6 +100,17 @@ void write_run(std::ofstream &file, const std::string &law, const std::filesyste
     }
 }
 
+/// The number of a law from its name on the command line.
+std::uint32_t law_number(const std::string &name)
+{
+    constexpr const char *names[] = {"noc", "noc_speed", "noc_h"}; // as tick_file_law_t counts
+    const auto *const     found   = std::find(std::begin(names), std::end(names), name);
+    if (found == std::end(names)) {
+        throw std::runtime_error("no image replays the law " + name);
+    }
+    return static_cast<std::uint32_t>(found - std::begin(names));
+}
+
 } // namespace
 
 int main(int argc, char **argv)
@@ -95,9 +119,10 @@ try {
         std::fprintf(stderr, "usage: record_ticks LAW FILE SCENARIO...\n");
         return 2;
     }
-    std::ofstream file(argv[2], std::ios::binary);
+    const std::uint32_t law = law_number(argv[1]);
+    std::ofstream       file(argv[2], std::ios::binary);
     for (int i = 3; i < argc; i++) {
-        write_run(file, argv[1], argv[i]);
+        write_run(file, law, argv[i]);
     }
     const tick_file_run_t end{};
     put(file, end);

@@ -17,14 +17,23 @@
 
 #define TICK_FILE_NAME_SIZE 64
 
-/** The constants without the pointer to a table, which the two machines cannot share, and what follows it: the
- * conventional law's. */
-#define TICK_FILE_CONFIG_SIZE (offsetof(drive_config_t, servo) + sizeof(servo_law_config_t))
+/** The drive's constants up to the pointers to the law and its own, which the two machines cannot share. */
+#define TICK_FILE_CONFIG_SIZE (offsetof(drive_config_t, dead_time) + sizeof(dead_time_config_t))
 
 /** What the two machines must agree on, as numbers. */
 #define TICK_FILE_LAYOUT                                                                           \
     ((uint32_t)TICK_FILE_CONFIG_SIZE + ((uint32_t)offsetof(drive_config_t, motor) << 16))
 #define TICK_FILE_TICK_SIZE ((uint32_t)sizeof(tick_file_tick_t))
+
+/** The laws that are replayed, an image each. */
+typedef enum { TICK_FILE_NOC = 0, TICK_FILE_NOC_SPEED, TICK_FILE_NOC_H } tick_file_law_t;
+
+/** The constants of any of them. */
+typedef union {
+    law_noc_config_t       noc;
+    law_noc_speed_config_t noc_speed;
+    law_noc_h_config_t     noc_h;
+} tick_file_constants_t;
 
 enum { TICK_FILE_VALID = 1, TICK_FILE_RUN = 2, TICK_FILE_GATE = 4 };
 
@@ -33,29 +42,22 @@ typedef struct {
     uint32_t layout;
     uint32_t run_size; /**< of this structure; with tick_size all a reader has to know of layouts */
     uint32_t tick_size;
-    uint32_t form;  /**< drive_form_t */
+    uint32_t law;   /**< tick_file_law_t */
     uint32_t order; /**< highest of the series in use */
     uint32_t ticks;
     uint32_t config[TICK_FILE_CONFIG_SIZE / sizeof(uint32_t)];
     pi_foc_gains_t        pi;
-    uint32_t              harmonic; /**< the law is DRIVE_LAW_NOC_H: */
-    nodo_harmonic_gains_t table;
+    tick_file_constants_t constants;
 } tick_file_run_t;
 
 /** The core's memory without its pointer, which the two machines cannot share. */
 typedef struct {
-    drive_state_t   state;
-    drive_fault_t   fault;
-    nodo_t          observer;
-    float           theta_hat_rad;
-    nodo_harmonic_t harmonic;
-    float           d_omega_dot;
-    nodo_meas_t     now;
-    speed_ref_t     speed_ref;
-    current_ref_t   current_ref;
-    servo_law_t     servo;
-    dq_t            v_V;
-    uint32_t        v_limited;
+    drive_state_t state;
+    drive_fault_t fault;
+    law_state_t   law;
+    law_output_t  wanted;
+    dq_t          v_V;
+    uint32_t      v_limited;
 } tick_file_drive_t;
 
 /**
@@ -89,18 +91,12 @@ static inline tick_file_drive_t tick_file_from_drive(const drive_t *d)
 {
     tick_file_drive_t x;
 
-    x.state         = d->state;
-    x.fault         = d->fault;
-    x.observer      = d->observer;
-    x.theta_hat_rad = d->theta_hat_rad;
-    x.harmonic      = d->harmonic;
-    x.d_omega_dot   = d->d_omega_dot;
-    x.now           = d->now;
-    x.speed_ref     = d->speed_ref;
-    x.current_ref   = d->current_ref;
-    x.servo         = d->servo;
-    x.v_V           = d->v_V;
-    x.v_limited     = d->v_limited ? 1u : 0u;
+    x.state     = d->state;
+    x.fault     = d->fault;
+    x.law       = d->law;
+    x.wanted    = d->wanted;
+    x.v_V       = d->v_V;
+    x.v_limited = d->v_limited ? 1u : 0u;
     return x;
 }
 
@@ -108,19 +104,13 @@ static inline drive_t tick_file_to_drive(const tick_file_drive_t *x, const drive
 {
     drive_t d;
 
-    d.config        = config;
-    d.state         = x->state;
-    d.fault         = x->fault;
-    d.observer      = x->observer;
-    d.theta_hat_rad = x->theta_hat_rad;
-    d.harmonic      = x->harmonic;
-    d.d_omega_dot   = x->d_omega_dot;
-    d.now           = x->now;
-    d.speed_ref     = x->speed_ref;
-    d.current_ref   = x->current_ref;
-    d.servo         = x->servo;
-    d.v_V           = x->v_V;
-    d.v_limited     = x->v_limited != 0u;
+    d.config    = config;
+    d.state     = x->state;
+    d.fault     = x->fault;
+    d.law       = x->law;
+    d.wanted    = x->wanted;
+    d.v_V       = x->v_V;
+    d.v_limited = x->v_limited != 0u;
     return d;
 }
 

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <sys/time.h>
 
-#include "board_f28335.h"
+#include "board_config.h"
 #include "fake_board.h"
 #include "gain_tables.h"
 #include "speed_tables.h"
@@ -34,7 +34,7 @@ static double       tolerance_radps;
 void setUp(void)
 {
     fake_board_reset();
-    config      = board_f28335_config;
+    config      = board_config;
     motor       = test_motor_390w();
     index_on    = true;
     offset_A[0] = 0.0;

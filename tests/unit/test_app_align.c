@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "board_f28335.h"
+#include "board_config.h"
 #include "gain_tables.h"
 #include "speed_tables.h"
 #include "test_motor.h"
@@ -26,7 +26,7 @@ static double             peak_A;
 void setUp(void)
 {
     (void)memset(&align, 0xFF, sizeof align); /* init has to set everything */
-    config    = board_f28335_config.align;
+    config    = board_config.align;
     motor     = test_motor_390w();
     direction = 1;
     peak_A    = 0.0;
@@ -95,7 +95,7 @@ static void test_dead_point_is_left_in_the_sweep(void)
     TEST_ASSERT_EQUAL_INT(APP_ALIGN_DONE, align.stage);
 }
 
-/* Derivation in board_f28335.c: T over 0.69 N m per electrical radian; 0.087 N m are 100 counts. */
+/* Derivation in board_config.c: T over 0.69 N m per electrical radian; 0.087 N m are 100 counts. */
 static void test_load_turns_the_result_by_the_stated_angle(void)
 {
     for (int step = -4; step <= 4; step++) {

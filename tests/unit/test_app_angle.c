@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "board_f28335.h"
+#include "board_config.h"
 #include "unit_support.h"
 #include "unity.h"
 
@@ -19,7 +19,7 @@ static app_angle_t        angle;
 void setUp(void)
 {
     (void)memset(&angle, 0xFF, sizeof angle); /* init has to set everything */
-    config = board_f28335_config.angle;
+    config = board_config.angle;
     TEST_ASSERT_EQUAL_INT(CTL_OK, app_angle_init(&angle, &config, TS_S));
 }
 

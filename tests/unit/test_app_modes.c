@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "board_f28335.h"
+#include "board_config.h"
 #include "gain_tables.h"
 #include "speed_tables.h"
 #include "unit_support.h"
@@ -35,7 +35,7 @@ static void init(void)
 
 void setUp(void)
 {
-    config       = board_f28335_config;
+    config       = board_config;
     drive_config = speed_tables_drive;
     init();
 }

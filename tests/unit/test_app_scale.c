@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_scale.h"
 
-#include "board_f28335.h"
+#include "board_config.h"
 #include "gain_tables.h"
 #include "unit_support.h"
 #include "unity.h"
@@ -24,7 +24,7 @@ void setUp(void)
                                  .temperature_cnt = 3357U,
                                  .valid           = true};
     raw                       = rest;
-    config                    = board_f28335_config.scale;
+    config                    = board_config.scale;
     TEST_ASSERT_EQUAL_INT(CTL_OK,
                           app_scale_init(&scale, &config, gain_tables_drive.trip_current_A));
 }

@@ -8,7 +8,7 @@
 extern "C" {
 #include "app.h"
 #include "app_registers.h"
-#include "board_f28335.h"
+#include "board_config.h"
 
 extern drive_config_t sil_drive_config;
 int                   firmware_main(void);
@@ -38,7 +38,7 @@ void set_firmware_drive(const drive_config_t &config)
 ApiRun::ApiRun(const Scenario &s, long start_tick, double dead_time_s)
     : BoardRun(s, start_tick), fake_(bench_, dead_time_s), choice_(fake_)
 {
-    if (!board_init() || app_init(&board_f28335_config, &sil_drive_config) != CTL_OK) {
+    if (!board_init() || app_init(&board_config, &sil_drive_config) != CTL_OK) {
         throw InputError("--board: the application refuses these constants");
     }
     board_start(app_tick);
@@ -78,7 +78,7 @@ std::array<int, 3> ApiRun::duty_cnt() const
 F28335Run::F28335Run(const Scenario &s, long start_tick, double dead_time_s)
     : BoardRun(s, start_tick), surroundings_(bench_, dead_time_s <= 0.0),
       device_(surroundings_, firmware_main, {{}, dead_time_s}),
-      master_(device_.serial(), static_cast<std::uint8_t>(board_f28335_config.modbus_address))
+      master_(device_.serial(), static_cast<std::uint8_t>(board_config.modbus_address))
 {
     if (!device_.run_until([this] { return bench_.tick() >= 0; }, longest_boot_s)) {
         std::string why = "--board: the firmware does not start";

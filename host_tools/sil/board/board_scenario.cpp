@@ -9,7 +9,7 @@
 #include "common/errors.hpp"
 
 extern "C" {
-#include "board_f28335.h"
+#include "board_config.h"
 #include "board_limits.h"
 #include "f28335/clock_tree.h"
 }
@@ -24,7 +24,7 @@ constexpr int    board_lines       = BOARD_POSITIONS / 4;
 /// Either way from the middle of the converter's codes.
 double board_full_scale_A()
 {
-    return 0.5 * BOARD_ADC_CODES * static_cast<double>(board_f28335_config.scale.current_A_per_cnt);
+    return 0.5 * BOARD_ADC_CODES * static_cast<double>(board_config.scale.current_A_per_cnt);
 }
 
 void require(bool ok, const std::string &what)

@@ -63,11 +63,11 @@ struct SeedRun {
 };
 
 SeedRun run_seed(const Scenario &scenario, std::size_t seed, const Controller &controller,
-                 const Simulation &simulation)
+                 const SeededRun &run_once)
 {
     Scenario seeded         = scenario;
     seeded.seed             = seed;
-    SimulationResult result = simulation(seeded, controller);
+    SimulationResult result = run_once(seeded, controller);
     SeedRun          run{measure(seeded, result.trace), result.fault != 0, {}};
     if (seed == 1) {
         run.result = std::move(result);
@@ -128,13 +128,13 @@ std::vector<SeedRuns> run_seeds(const std::vector<Scenario> &scenarios, int coun
     return out;
 }
 
-SeedRuns run_seeds_in_turn(const Scenario &scenario, int count, const Simulation &simulation)
+SeedRuns run_seeds_in_turn(const Scenario &scenario, int count, const SeededRun &run_once)
 {
     const Controller     controller = prepare_controller(scenario);
     std::vector<SeedRun> runs(static_cast<std::size_t>(count));
     Progress             progress(runs.size(), "runs");
     for (std::size_t i = 0; i < runs.size(); i++) {
-        runs[i] = run_seed(scenario, i + 1, controller, simulation);
+        runs[i] = run_seed(scenario, i + 1, controller, run_once);
         progress.step();
     }
     return gathered(runs.data(), runs.size());

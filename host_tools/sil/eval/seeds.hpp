@@ -40,9 +40,9 @@ SeedRuns run_seeds(const Scenario &scenario, int count);
 std::vector<SeedRuns> run_seeds(const std::vector<Scenario> &scenarios, int count);
 
 /// How one seeded scenario is run.
-using Simulation = std::function<SimulationResult(const Scenario &, const Controller &)>;
+using SeededRun = std::function<SimulationResult(const Scenario &, const Controller &)>;
 /// Seeds 1 .. count one after the other, for what must not run twice at a time.
-SeedRuns run_seeds_in_turn(const Scenario &scenario, int count, const Simulation &simulation);
+SeedRuns run_seeds_in_turn(const Scenario &scenario, int count, const SeededRun &run_once);
 
 /// Like result_json() and result_text(), with worst and mean in place of one run's values.
 std::string seeds_json(const Scenario &scenario, const SeedRuns &runs);

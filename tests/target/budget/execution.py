@@ -3,6 +3,7 @@
 import subprocess
 from collections import Counter
 
+
 def run(command, directory=None):
     status = subprocess.run(command, cwd=directory).returncode
     if status != 0:
@@ -19,6 +20,11 @@ COUNTS_PER_INSTRUCTION = 256e-9 * 25e6
 def count_instructions(image, directory):
     """Replays with every instruction taking the same virtual time; leaves results.bin."""
     run(EMULATOR + ["-icount", f"shift={ICOUNT_SHIFT}", "-kernel", image], directory)
+
+
+def exit_code(image):
+    """Of an image that ends by itself."""
+    return subprocess.run(EMULATOR + ["-kernel", image], timeout=60).returncode
 
 
 class Steps:
@@ -71,6 +77,8 @@ class Steps:
             counts[i.flow] += 1
         else:
             raise ValueError(f"{i.target_name}() has no cost")
+        if i.register and end != i.target:
+            raise ValueError(f"the call at {i.address:x} went to {end:x}, not to {i.target_name}")
 
 
 def log_of(image, directory, *options):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Disassembled Cortex-M4F code: what kind of operation each instruction is, and where control goes."""
 import re
+import struct
 import subprocess
 from collections import Counter
 from dataclasses import dataclass, field
@@ -28,6 +29,7 @@ KIND_OF = {name: kind for kind, names in KINDS.items() for name in names}
 MULTIPLE_LOAD = ("ldmia", "ldmdb", "ldm", "pop", "vpop", "vldmia", "vldmdb")
 MULTIPLE_STORE = ("stmia", "stmdb", "stm", "push", "vpush", "vstmia", "vstmdb")
 FLOAT_REGISTERS = 8  # of the C28x
+LAW = ("check", "reset", "step")  # members of law_t, in their order
 
 
 @dataclass
@@ -41,6 +43,7 @@ class Instruction:
     flow: str = ""  # "", branch, conditional, call, return
     target: int = 0
     target_name: str = ""
+    register: str = ""  # that holds the target of an indirect call
     next: "Instruction | None" = None
 
 
@@ -77,12 +80,12 @@ def list_length(operands):
 
 def classify(i):
     """Fills counts and flow; an instruction that is not known stops the budget."""
-    if i.name in ("b", "bl", "bx", "cbz", "cbnz"):
+    if i.name in ("b", "bl", "blx", "bx", "cbz", "cbnz"):
         if i.name == "bl":
             i.flow = "call"
+        elif i.name in ("blx", "bx") and i.operands.strip() != "lr":
+            i.flow, i.register = "call" if i.name == "blx" else "branch", i.operands.strip()
         elif i.name == "bx":
-            if i.operands.strip() != "lr":
-                raise ValueError(f"computed jump at {i.address:x}")
             i.flow = "return"
         else:
             i.flow = "conditional" if i.conditional or i.name != "b" else "branch"
@@ -118,14 +121,47 @@ def classify(i):
     i.counts[kind] += 2 if i.name in ("ldrd", "strd") else 1
 
 
-def read_code(prefix, image):
-    """{address: Instruction} of the section .core, linked within each function."""
+def law_functions(prefix, image):
+    """{offset in law_t: (address, name)} of the functions of the one law in an image."""
+    table = symbols(prefix, image)
+    laws = [name for name, (_, size) in table.items() if re.fullmatch(r"law_\w+", name) and size == 4 * len(LAW)]
+    if len(laws) != 1:
+        raise ValueError(f"one law is expected in the image, found {laws}")
+    start, size = table[laws[0]]
+    dump = run(f"{prefix}objdump", "-s", f"--start-address={start}", f"--stop-address={start + size}", image)
+    octets = bytes.fromhex("".join(re.findall(r"^ [0-9a-f]+ ((?:[0-9a-f]{2,8} )+)", dump, re.M)).replace(" ", ""))
+    addresses = [pointer & ~1 for (pointer,) in struct.iter_unpack("<I", octets)]  # the lowest bit says Thumb
+    return {4 * n: (address, name) for n, (address, name) in enumerate(zip(addresses, LAW))}
+
+
+def resolve(before, i, functions):
+    """Gives the indirect call i its target: a member of law_t, loaded into its register by what stands before."""
+    for earlier in reversed(before):
+        if earlier.name == "ldr" and (match := re.match(rf"{i.register}, \[\w+(?:, #(\d+))?\]$", earlier.operands)):
+            offset = int(match[1] or 0)
+            if offset in functions:
+                i.target, i.target_name = functions[offset]
+                return
+        if re.match(rf"{i.register}\b|.*\{{.*\b{i.register}\b", earlier.operands) and not is_read(earlier):
+            break
+    raise ValueError(f"computed jump at {i.address:x}")
+
+
+def is_read(i):
+    return i.name in ("cmp", "tst", "cbz", "cbnz", "push") or KIND_OF.get(i.name) == "store"
+
+
+def read_code(prefix, image, functions=()):
+    """{address: Instruction} of the section .core, linked within each function; functions: see law_functions()."""
     text = run(f"{prefix}objdump", "-d", "--no-show-raw-insn", "-j", ".core", image)
-    code, function, before = {}, "", None
+    code, function, before, names, block = {}, "", None, set(), []
     for line in text.splitlines():
         head = re.match(r"[0-9a-f]+ <(\S+)>:", line)
         if head:
-            function, before = head[1], None
+            function, before, block = head[1], None, []
+            if function in names:
+                raise ValueError(f"two functions are called {function}")
+            names.add(function)
             continue
         match = re.match(r"\s*([0-9a-f]+):\t(\S+)\s*([^@;]*)", line)
         if not match or match[2] in (".word", ".short"):
@@ -138,11 +174,14 @@ def read_code(prefix, image):
         i = Instruction(int(match[1], 16), function, name, conditional, match[3].strip())
         classify(i)
         goal = re.search(r"([0-9a-f]+) <(\w+)(\+0x[0-9a-f]+)?>", i.operands)
-        if i.flow in ("branch", "conditional", "call"):
+        if i.register:
+            resolve(block, i, functions)
+        elif i.flow in ("branch", "conditional", "call"):
             i.target, i.target_name = int(goal[1], 16), goal[2]
         if before:
             before.next = i
         code[i.address] = before = i
+        block.append(i)
     count_spills(code)
     return code
 
@@ -175,6 +214,17 @@ def section_sizes(prefix, archive):
         match = re.match(r"\s*\d+ \.(text|rodata|data|bss)\S*\s+([0-9a-f]{8})", line)
         if match:
             sizes[match[1]] += int(match[2], 16)
+    return sizes
+
+
+def linked_sizes(prefix, archive, image):
+    """The same of what an image took from an archive, known by name."""
+    wanted = {line.split()[-1] for line in run(f"{prefix}nm", "--defined-only", archive).splitlines() if " " in line}
+    sizes = Counter()
+    for line in run(f"{prefix}nm", "-S", image).splitlines():
+        fields = line.split()
+        if len(fields) == 4 and fields[-1] in wanted:
+            sizes["data" if fields[2] in "bBdD" else "flash"] += int(fields[1], 16)
     return sizes
 
 

@@ -34,10 +34,31 @@ LISTING = """
  136:	ldr.w	pc, [sp], #4
 """
 
+LAW_LISTING = """
+00000100 <tick>:
+ 100:	push	{r4, lr}
+ 102:	ldr	r3, [r1, #88]	@ 0x58
+ 104:	ldr.w	sl, [r3, #8]
+ 108:	str	sl, [sp, #0]
+ 10a:	mov	r1, r9
+ 10c:	blx	sl
+ 10e:	ldr	r3, [r0, #4]
+ 110:	bx	r3
 
-def code_of(listing):
+00000120 <reset>:
+ 120:	push	{r4, r5, lr}
+ 122:	pop	{r4, r5, pc}
+
+00000124 <step>:
+ 124:	vadd.f32	s0, s0, s1
+ 128:	bx	lr
+"""
+LAW_FUNCTIONS = {0: (0x130, "check"), 4: (0x120, "reset"), 8: (0x124, "step")}
+
+
+def code_of(listing, functions=()):
     with mock.patch.object(machine_code, "run", lambda *command: listing):
-        return machine_code.read_code("", "")
+        return machine_code.read_code("", "", functions)
 
 
 def unit_cost(counts):
@@ -103,6 +124,38 @@ class Counting(unittest.TestCase):
         lines = [f" {0x100 + 4 * n:x}:\tvadd.f32\ts{n}, s{n}, s{n}" for n in range(8)]
         listing = "00000100 <f>:\n" + "\n".join(lines) + "\n 120:\tvadd.f32\ts8, s0, s1\n 124:\tbx\tlr\n"
         self.assertEqual(sum(i.counts["spill"] for i in code_of(listing).values()), 1)
+
+    def test_calls_of_the_law_are_resolved(self):
+        code = code_of(LAW_LISTING, LAW_FUNCTIONS)
+        bound = LongestPath(code, set(), {}, unit_cost).function("tick")
+        self.assertEqual(counted(bound), {
+            "store": 6, "load": 5, "integer": 1, "call": 1, "branch": 1, "fp_add": 1, "return": 2})  # fmt: skip
+        self.assertEqual(machine_code.stack_depth(code, "tick"), 8 + 12)
+        steps = Steps(code, set(), (unit_cost,))
+        self.assertEqual(steps[(b"00000100", b"00000124")][2]["call"], 1)
+        with self.assertRaisesRegex(ValueError, "not to step"):
+            steps[(b"00000100", b"00000120")]
+
+    def test_a_call_through_anything_else_is_refused(self):
+        for old, new in (("#8]", "#12]"), ("mov\tr1, r9", "mov\tsl, r9"), ("mov\tr1, r9", "ldmia\tr0!, {r4, sl}")):
+            with self.subTest(new=new), self.assertRaisesRegex(ValueError, "computed jump at 10c"):
+                self.assertIn(old, LAW_LISTING)
+                code_of(LAW_LISTING.replace(old, new, 1), LAW_FUNCTIONS)
+        with self.assertRaisesRegex(ValueError, "computed jump"):
+            code_of(LAW_LISTING)
+
+    def test_the_law_of_an_image(self):
+        answers = {"nm": "00000200 0000000c T law_noc\n00000300 00000004 T law_other\n",
+                   "objdump": "\nContents of section .text:\n 0200 31010000 21010000 25010000           1...!...%...\n"}
+        with mock.patch.object(machine_code, "run", lambda command, *_: answers[command]):
+            self.assertEqual(machine_code.law_functions("", "image"), LAW_FUNCTIONS)
+            answers["nm"] += "00000210 0000000c T law_pid\n"
+            with self.assertRaisesRegex(ValueError, "law_pid"):
+                machine_code.law_functions("", "image")
+
+    def test_functions_of_one_name_are_refused(self):
+        with self.assertRaisesRegex(ValueError, "two functions are called step"):
+            code_of(LAW_LISTING.replace("<reset>", "<step>"), LAW_FUNCTIONS)
 
     def test_unknown_instruction_is_refused(self):
         for instruction in ("tbb\t[pc, r0]", "vcvt.f64.f32\td0, s0", "ldr.w\tpc, [pc, r0, lsl #2]"):

@@ -4,7 +4,7 @@ import struct
 from dataclasses import dataclass
 
 NAME_SIZE = 64
-HEAD = struct.Struct("<6I")  # layout, size of this head and all up to the ticks, tick size, form, order, ticks
+HEAD = struct.Struct("<6I")  # layout, size of this head and all up to the ticks, tick size, law, order, ticks
 PUBLIC = struct.Struct("<6f3f3fI")  # end of a tick, after the core's memory
 RESULT = struct.Struct("<III3f3f")
 GATE = 4
@@ -13,7 +13,6 @@ GATE = 4
 @dataclass
 class Run:
     name: str
-    encoder: bool
     order: int
     ticks: list  # tuples: sample and command, duties of the law and of the PI-FOC, flags
 
@@ -24,13 +23,13 @@ def read_runs(path):
     runs, at = [], 0
     while True:
         name = data[at : at + NAME_SIZE].rstrip(b"\0").decode()
-        _, run_size, tick_size, form, order, count = HEAD.unpack_from(data, at + NAME_SIZE)
+        _, run_size, tick_size, _, order, count = HEAD.unpack_from(data, at + NAME_SIZE)
         if count == 0:
             return runs
         at += run_size
         tick = struct.Struct(f"<{tick_size - PUBLIC.size}x{PUBLIC.format[1:]}")
         ticks = list(tick.iter_unpack(data[at : at + count * tick_size]))
-        runs.append(Run(name, form == 1, order, ticks))
+        runs.append(Run(name, order, ticks))
         at += count * tick_size
 
 

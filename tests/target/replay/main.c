@@ -3,6 +3,8 @@
  * @file main.c
  * @brief Replays recorded control periods (ticks.bin) and writes what came out (results.bin).
  *
+ * The build names the law of this image: REPLAY_LAW, its object, and REPLAY_TICKS, its number in tick_file.h.
+ *
  * The emulator gives every instruction the same virtual time and the timer counts that time, so the
  * timer's counts are instructions times a constant.
  */
@@ -43,11 +45,11 @@ static tick_file_result_t replay(const tick_file_tick_t *t)
 
     drive = tick_file_to_drive(&t->drive, &config);
 
-    const uint32_t       start  = SYST_CVR;
-    const drive_output_t law    = drive_tick(&drive, &sample, &command);
-    const uint32_t       middle = SYST_CVR;
-    const drive_output_t plain  = pi_foc_tick(&pi, &sample, &command);
-    const uint32_t       end    = SYST_CVR;
+    const uint32_t start  = SYST_CVR;
+    const bridge_t law    = drive_tick(&drive, &sample, &command);
+    const uint32_t middle = SYST_CVR;
+    const bridge_t plain  = pi_foc_tick(&pi, &sample, &command);
+    const uint32_t end    = SYST_CVR;
 
     const tick_file_result_t result = {.timer    = (start - middle) & SYST_MASK, /* counts down */
                                        .pi_timer = (middle - end) & SYST_MASK,
@@ -62,7 +64,8 @@ static bool replay_run(int32_t in, int32_t out)
     uint32_t left = run.ticks;
 
     memcpy(&config, run.config, sizeof(run.config));
-    config.nodo_harmonic = (run.harmonic != 0u) ? &run.table : NULL;
+    config.law       = &REPLAY_LAW;
+    config.constants = &run.constants;
     if (drive_init(&drive, &config) != CTL_OK) {
         return false;
     }
@@ -96,7 +99,7 @@ int main(void)
             return EXIT_DONE;
         }
         if ((run.layout != TICK_FILE_LAYOUT) || (run.run_size != sizeof(run)) ||
-            (run.tick_size != TICK_FILE_TICK_SIZE)) {
+            (run.tick_size != TICK_FILE_TICK_SIZE) || (run.law != (uint32_t)REPLAY_TICKS)) {
             return EXIT_LAYOUT;
         }
         if (!replay_run(in, out)) {

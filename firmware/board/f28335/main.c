@@ -2,7 +2,7 @@
 /* Start-up order: safe pins and armed trip (board_init), application, interrupts. The bridge stays off until a
  * run is commanded. */
 #include "app.h"
-#include "board_f28335.h"
+#include "board_config.h"
 #include "gain_tables.h"
 #include "yield.h"
 
@@ -21,7 +21,7 @@ int main(void)
     if (!board_init()) {
         stay_off();
     }
-    (void)app_init(&board_f28335_config,
+    (void)app_init(&board_config,
                    &gain_tables_drive); /* refused: runs, stays in FAULT, tells why */
     board_start(app_tick);
     for (;;) {

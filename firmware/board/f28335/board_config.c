@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "board_f28335.h"
+#include "board_config.h"
 
 #define TICKS_PER_ms 5U /* 200 us */
 
@@ -26,7 +26,7 @@ static const float ntc_degC[NTC_POINTS] = {
     78.96f,  74.46f,  70.11f,  65.87f,  61.70f,  57.57f,  53.44f, 49.28f, 45.04f, 40.69f,
     36.16f,  31.37f,  26.24f,  20.61f,  14.23f,  6.67f,   -3.00f, -17.59f};
 
-const app_config_t board_f28335_config = {
+const app_config_t board_config = {
     .ts_s = 200.0e-6f, /* BOARD_TICK_CYCLES at 150 MHz */
     .scale =
         {

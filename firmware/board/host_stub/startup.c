@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file startup.c
- * @brief Vectors and reset of the replay image. The emulator loads all sections where they run and
+ * @brief Vectors and reset of an image. The emulator loads all sections where they run and
  *        memory starts at zero, so nothing is copied or cleared.
  */
 #include <stdint.h>
@@ -12,7 +12,7 @@
 #define CPACR_FPU       (0xFu << 20) /* full access to coprocessors 10 and 11 */
 #define EXIT_UNEXPECTED 3u
 
-extern uint32_t image_stack_top; /* replay.ld */
+extern uint32_t image_stack_top; /* image.ld */
 int             main(void);
 void            startup_reset(void);
 

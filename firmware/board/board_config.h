@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file board_config.h
+ * @brief The constants of the board that is built; derivations stand beside the values, in its board_config.c.
+ */
+#ifndef BOARD_CONFIG_H
+#define BOARD_CONFIG_H
+
+#include "app_config.h"
+
+extern const app_config_t board_config;
+
+#endif /* BOARD_CONFIG_H */

@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: MIT */
+/* board.h with a motor that is calculated, from the constants of the drive. Time passes in host_stub_period() only, so
+ * that every run is the same. */
+#include "board.h"
+
+#include "board_config.h"
+#include "gain_tables.h"
+#include "host_stub.h"
+#include "motor_stub.h"
+
+#define DC_LINK_V       300.0f /* chosen: an ideal supply within the drive's range */
+#define TEMPERATURE_cnt 10240U /* 25 degC, board_config.c */
+#define START_rad       1.0f   /* chosen: anything but where alignment leads */
+
+static struct {
+    void (*tick)(void);
+    motor_stub_t motor;
+    board_duty_t written;
+    board_duty_t in_force;
+    bool         gate;
+    uint32_t     periods;
+} stub;
+
+bool board_init(void)
+{
+    const motor_stub_t rest = {.theta_m_rad = START_rad};
+    const board_duty_t half = {BOARD_DUTY_FULL / 2U, BOARD_DUTY_FULL / 2U, BOARD_DUTY_FULL / 2U};
+
+    stub.motor    = rest;
+    stub.written  = half;
+    stub.in_force = half;
+    stub.gate     = false;
+    stub.periods  = 0UL;
+    return true;
+}
+
+void board_start(void (*tick)(void))
+{
+    stub.tick = tick;
+}
+
+static float leg_V(uint16_t on_cnt)
+{
+    const float duty = (float)on_cnt / (float)BOARD_DUTY_FULL;
+    return DC_LINK_V * ((duty < 1.0f) ? duty : 1.0f);
+}
+
+void host_stub_period(void)
+{
+    const motor_reduced_t *l   = &gain_tables_drive.motor;
+    const uint16_t         n_p = board_config.angle.pole_pairs;
+    const abc_t            v_V = {leg_V(stub.in_force.a_cnt), leg_V(stub.in_force.b_cnt),
+                                  leg_V(stub.in_force.c_cnt)};
+
+    if (stub.gate) {
+        motor_stub_drive(&stub.motor, l, n_p, v_V, board_config.ts_s);
+    } else {
+        motor_stub_coast(&stub.motor, l, n_p, board_config.ts_s);
+    }
+    stub.in_force = stub.written;
+    stub.periods++;
+    stub.tick();
+}
+
+float host_stub_speed_e_radps(void)
+{
+    return stub.motor.omega_e_radps;
+}
+
+bool host_stub_gate(void)
+{
+    return stub.gate;
+}
+
+static uint16_t code(float value_cnt)
+{
+    const float top_cnt = (float)(BOARD_ADC_CODES - 1U);
+    return (uint16_t)(base_clamp(value_cnt, 0.0f, top_cnt) + 0.5f);
+}
+
+static uint16_t current_code(float i_A)
+{
+    const app_scale_config_t *s = &board_config.scale;
+    return code(s->current_zero_cnt + (i_A / s->current_A_per_cnt));
+}
+
+board_sample_t board_sample_read(void)
+{
+    const abc_t i_A     = motor_stub_current_A(&stub.motor, board_config.angle.pole_pairs);
+    const float turn    = stub.motor.theta_m_rad / BASE_TWO_PI;
+    const float edge    = turn * (float)BOARD_POSITIONS;
+    const float top_cnt = (float)(BOARD_POSITIONS - 1U);
+
+    const board_sample_t sample = {.ia_cnt = current_code(i_A.a),
+                                   .ib_cnt = current_code(i_A.b),
+                                   .dc_link_cnt =
+                                       code(DC_LINK_V / board_config.scale.dc_link_V_per_cnt),
+                                   .temperature_cnt = TEMPERATURE_cnt,
+                                   .position_cnt    = (uint16_t)base_clamp(edge, 0.0f, top_cnt),
+                                   .index_cnt       = 0U,
+                                   .index_seen      = false,
+                                   .valid           = true};
+    return sample;
+}
+
+void board_duty_write(const board_duty_t *duty)
+{
+    stub.written = *duty;
+}
+
+void board_gate_enable(void)
+{
+    stub.gate = true;
+}
+
+void board_gate_trip(void)
+{
+    stub.gate = false;
+}
+
+uint16_t board_fault_read(void)
+{
+    return (uint16_t)BOARD_FAULT_NONE;
+}
+
+uint32_t board_cycles(void)
+{
+    return stub.periods * (uint32_t)BOARD_TICK_CYCLES;
+}
+
+void board_watchdog_serve(void) {}
+
+bool board_serial_read(uint16_t *octet)
+{
+    (void)octet;
+    return false;
+}
+
+bool board_serial_write(uint16_t octet)
+{
+    (void)octet;
+    return true;
+}

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file board_limits.h
+ * @brief The numbers of the board interface: ranges of what board.h hands over, and the control period.
+ *
+ * Chosen unlike those of the F28335: the application must not know any of them by itself.
+ */
+#ifndef BOARD_LIMITS_H
+#define BOARD_LIMITS_H
+
+#define BOARD_ADC_CODES   16384U /**< 14-bit converter: codes 0 .. 16383 */
+#define BOARD_POSITIONS   4096U  /**< per turn: 1024 lines, four edges each */
+#define BOARD_DUTY_FULL   2500U  /**< compare counts of duty one: 25 MHz / (2 * 5 kHz) */
+#define BOARD_TICK_CYCLES 5000UL /**< processor cycles per control period: 25 MHz / 5 kHz */
+
+#endif /* BOARD_LIMITS_H */

@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# What the linker leaves out, seen by nm: check_linked_law.sh C_COMPILER. A program with the period and tables that name
+# one law gets nothing of the other laws' files, by the plain rules of a static library.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cc=$1
+status=0
+
+root=$PWD
+(cd "$work" && "$cc" -std=c99 -c "-I$root/firmware/control" "$root"/firmware/control/*.c)
+ar rc "$work/libcontrol_core.a" "$work"/*.o
+
+# The objects of the library that a program with this law contains
+linked()
+{
+    cat >"$work/program.c" <<END
+#include "drive_tick.h"
+static const law_$1_config_t constants;
+static const drive_config_t  config = {.law = &law_$1, .constants = &constants};
+int main(void)
+{
+    static drive_t        drive;
+    const drive_sample_t  sample  = {.valid = false};
+    const drive_command_t command = {.run = false};
+    (void)drive_init(&drive, &config);
+    return drive_tick(&drive, &sample, &command).gate_enable ? 1 : 0;
+}
+END
+    "$cc" -std=c99 -Ifirmware/control "$work/program.c" "$work/libcontrol_core.a" -lm -o "$work/program"
+    nm --defined-only "$work/program" | awk '{print $3}' | sort >"$work/symbols"
+    local object
+    for object in "$work"/*.o; do
+        nm --defined-only --extern-only "$object" | awk '{print $3}' | sort >"$work/own"
+        [[ -z $(comm -12 "$work/symbols" "$work/own") ]] || basename "$object" .o
+    done
+}
+
+# expect <law> <the objects of it that not every law needs, in alphabetical order>
+expect()
+{
+    local law=$1 found
+    shift
+    found=$(comm -23 "$work/$law.linked" "$work/common" | paste -sd' ')
+    if [[ $found != "$*" ]]; then
+        printf 'law_%s: linked: %s\n  expected: %s\n' "$law" "$found" "$*"
+        status=1
+    fi
+}
+
+laws=(noc noc_speed noc_h conventional dobc pid)
+for law in "${laws[@]}"; do
+    linked "$law" | sort >"$work/$law.linked"
+done
+cat "$work"/*.linked | sort | uniq -c | awk -v all="${#laws[@]}" '$1 == all {print $2}' >"$work/common"
+if grep -E '^(law_|nodo|dobc|nosc|pid_law|near_optimal)' "$work/common"; then
+    printf 'linked for every law\n'
+    status=1
+fi
+
+expect noc current_ref encoder_form law_noc near_optimal nodo nodo_encoder nosc speed_ref
+expect noc_speed current_ref law_noc_speed near_optimal nodo nosc speed_ref
+expect noc_h current_ref encoder_form law_noc_h near_optimal nodo nodo_encoder nodo_harmonic nosc speed_ref
+expect conventional conventional current_ref double_series law_conventional law_noc_speed near_optimal nodo nosc speed_ref
+expect dobc dobc law_dobc pid_law
+expect pid law_pid pid_law
+exit "$status"
