@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "design/design.hpp"
-#include "reference_gains.hpp"
+#include "shipped_drive.hpp"
 #include "sil/plant/plant.hpp"
 
 namespace {
