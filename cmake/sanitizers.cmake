@@ -1,18 +1,30 @@
 # SPDX-License-Identifier: MIT
-# Link PRIVATE to every target; empty unless SDRE_SANITIZE is on.
+# Link one of these PRIVATE to every target; they are empty unless SDRE_SANITIZE is on.
 #
-# C gets every check, and float division by zero besides: the core never divides by zero. C++ goes
-# without the per-access pointer checks, and has line tables only: Eigen's templates then compile
-# in half the time and memory, and AddressSanitizer still sees a bad access. Without -O1
+# sdre_sanitizers: C gets every check, and float division by zero besides: the core never divides by
+# zero. C++ goes without the per-access pointer checks, and has line tables only: Eigen's templates
+# then compile in half the time and memory, and AddressSanitizer still sees a bad access. Without -O1
 # closed-loop tests would take minutes.
+#
+# sdre_address_sanitizer: AddressSanitizer alone, for the solvers, whose arithmetic is Eigen's: with the
+# checks of undefined behaviour its templates take a quarter longer to compile. Eigen's own assertions
+# on sizes and indices stay.
+#
+# sdre_test_code: the same for what only tests do, and without -O1: such code is compiled longer than it runs.
 add_library(sdre_sanitizers INTERFACE)
+add_library(sdre_address_sanitizer INTERFACE)
+add_library(sdre_test_code INTERFACE)
 if(SDRE_SANITIZE)
-    set(sdre_sanitize_flags -fsanitize=address,undefined,float-cast-overflow)
+    foreach(target sdre_sanitizers sdre_address_sanitizer sdre_test_code)
+        target_compile_options(${target} INTERFACE
+            -fsanitize=address -fno-omit-frame-pointer $<$<COMPILE_LANGUAGE:CXX>:-g1>)
+        target_compile_definitions(${target} INTERFACE
+            $<$<COMPILE_LANGUAGE:CXX>:_GLIBCXX_ASSERTIONS>)
+        target_link_options(${target} INTERFACE -fsanitize=address,undefined,float-cast-overflow)
+    endforeach()
+    target_compile_options(sdre_address_sanitizer INTERFACE -O1)
     target_compile_options(sdre_sanitizers INTERFACE
-        ${sdre_sanitize_flags} -fno-sanitize-recover=all -fno-omit-frame-pointer -O1
+        -O1 -fsanitize=undefined,float-cast-overflow -fno-sanitize-recover=all
         $<$<COMPILE_LANGUAGE:C>:-fsanitize=float-divide-by-zero>
-        "$<$<COMPILE_LANGUAGE:CXX>:-g1;-fno-sanitize=null,alignment,object-size,vptr>")
-    target_compile_definitions(sdre_sanitizers INTERFACE
-        $<$<COMPILE_LANGUAGE:CXX>:_GLIBCXX_ASSERTIONS>)
-    target_link_options(sdre_sanitizers INTERFACE ${sdre_sanitize_flags})
+        $<$<COMPILE_LANGUAGE:CXX>:-fno-sanitize=null,alignment,object-size,vptr>)
 endif()

@@ -37,7 +37,7 @@ const sdre::Design &shipped(const std::string &name)
 }
 
 /// The designs of the reference cases, order 3; made once.
-const sdre::Design &reference_design(const std::string &name, const nlohmann::json &reference)
+const sdre::Design &reference_design(const std::string &name, const support::Json &reference)
 {
     static std::map<std::string, sdre::Design> designs;
     const auto                                 found = designs.find(name);
@@ -305,7 +305,7 @@ bool any_failure(const sdre::Design &design, const std::string &piece)
 
 TEST(Design, GainsEqualTheReference)
 {
-    const nlohmann::json cases = support::reference_gains();
+    const support::Json cases = support::reference_gains();
     ASSERT_EQ(cases.size(), 4U);
     for (const auto &[name, reference] : cases.items()) {
         const sdre::Design &d = reference_design(name, reference);
@@ -335,11 +335,11 @@ TEST(Design, GainsEqualTheReference)
 
 TEST(Design, ReducedParametersEqualTheReference)
 {
-    const nlohmann::json cases = support::reference_gains();
+    const support::Json cases = support::reference_gains();
     for (const auto &[name, reference] : cases.items()) {
         const auto l = sdre::reduced_parameters(support::drive_of(name, reference).motor);
         for (std::size_t i = 1; i <= 11; i++) {
-            const double expected = reference.at("l")[i - 1].get<double>();
+            const double expected = reference.at("l")[i - 1].number();
             EXPECT_NEAR(l[i], expected, exact_tolerance * std::abs(expected)) << name << " l" << i;
         }
     }
@@ -347,16 +347,16 @@ TEST(Design, ReducedParametersEqualTheReference)
 
 TEST(Design, EigenvaluesEqualTheReference)
 {
-    constexpr double     tolerance = 1e-7; // relative to the largest; measured 1e-11
-    const nlohmann::json cases     = support::reference_gains();
+    constexpr double    tolerance = 1e-7; // relative to the largest; measured 1e-11
+    const support::Json cases     = support::reference_gains();
     for (const auto &[name, reference] : cases.items()) {
         const sdre::Design &d = reference_design(name, reference);
         for (const auto &[key, care] :
              {std::pair{"eig_c", &d.nosc.series.care}, std::pair{"eig_o", &d.nodo.series.care}}) {
             const Eigen::VectorXcd &found = care->closed_loop_eigenvalues;
             const double            scale = found.cwiseAbs().maxCoeff();
-            for (const nlohmann::json &pole : reference.at(key)) {
-                const std::complex<double> expected(pole[0].get<double>(), pole[1].get<double>());
+            for (const support::Json &pole : reference.at(key)) {
+                const std::complex<double> expected(pole[0].number(), pole[1].number());
                 EXPECT_LT((found.array() - expected).abs().minCoeff(), tolerance * scale) << name;
             }
         }

@@ -8,7 +8,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "common/errors.hpp"
 #include "design/design.hpp"
@@ -16,7 +15,7 @@
 
 namespace {
 
-using nlohmann::json;
+using support::Json;
 
 constexpr double ts_s = 1e-4;
 
@@ -62,24 +61,21 @@ void expect_relative(const std::vector<double> &expected, const Eigen::VectorXd 
 
 void expect_vector_file(const std::string &file, const sdre::DobcDesign &d)
 {
-    const json r = json::parse(
-        support::read_file(std::string(SDRE_TEST_DATA_DIR) + "/cdobc/" + file + ".json"));
+    const Json       r = Json::read(std::string(SDRE_TEST_DATA_DIR) + "/cdobc/" + file + ".json");
     constexpr double tolerance = 1e-9;
-    const auto       vector = [&](const char *key) { return r.at(key).get<std::vector<double>>(); };
+    const auto       vector    = [&](const char *key) { return r.at(key).numbers(); };
     expect_relative(vector("l"), d.l, tolerance);
     expect_relative(vector("E"), d.E, tolerance);
     expect_relative(vector("H"), d.H, tolerance);
     expect_relative(vector("K"), d.K.transpose(), tolerance);
     expect_relative(vector("g"), d.g, tolerance);
     expect_relative(vector("h"), d.h, tolerance);
-    EXPECT_NEAR(d.k1 / r.at("k1").get<double>(), 1.0, tolerance);
-    EXPECT_NEAR(d.k2 / r.at("k2").get<double>(), 1.0, tolerance);
+    EXPECT_NEAR(d.k1 / r.at("k1").number(), 1.0, tolerance);
+    EXPECT_NEAR(d.k2 / r.at("k2").number(), 1.0, tolerance);
     for (Eigen::Index i = 0; i < d.M.rows(); i++) {
         const auto row = static_cast<std::size_t>(i);
-        expect_relative(r.at("M").at(row).get<std::vector<double>>(), d.M.row(i).transpose(),
-                        tolerance);
-        expect_relative(r.at("F").at(row).get<std::vector<double>>(), d.F.row(i).transpose(),
-                        tolerance);
+        expect_relative(r.at("M").at(row).numbers(), d.M.row(i).transpose(), tolerance);
+        expect_relative(r.at("F").at(row).numbers(), d.F.row(i).transpose(), tolerance);
     }
 }
 

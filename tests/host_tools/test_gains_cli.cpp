@@ -3,10 +3,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "command.hpp"
 #include "drive_text.hpp"
+#include "json.hpp"
 #include "temp_dir.hpp"
 
 namespace {
@@ -279,7 +279,7 @@ TEST(GainsCli, ReportAnswersForAnUncertifiedDrive)
     EXPECT_EQ(text.err, "");
     EXPECT_NE(text.out.find("verdict: refused"), std::string::npos);
     EXPECT_EQ(json.exit_code, 2);
-    EXPECT_EQ(nlohmann::json::parse(json.out).at("certificate").at("certified"), false);
+    EXPECT_EQ(support::Json::parse(json.out).at("certificate").at("certified"), false);
 }
 
 TEST(GainsCli, ReportOfTheShippedDriveIsCertified)
@@ -291,7 +291,7 @@ TEST(GainsCli, ReportOfTheShippedDriveIsCertified)
     EXPECT_NE(text.out.find("verdict: certified"), std::string::npos);
     EXPECT_EQ(json.exit_code, 0);
     EXPECT_EQ(json.err, "");
-    EXPECT_EQ(nlohmann::json::parse(json.out).at("certificate").at("certified"), true);
+    EXPECT_EQ(support::Json::parse(json.out).at("certificate").at("certified"), true);
 }
 
 TEST(GainsCli, CareSolvesAFile)
@@ -304,10 +304,10 @@ TEST(GainsCli, CareSolvesAFile)
     const CommandResult text = gains({"care", file});
 
     ASSERT_EQ(json.exit_code, 0) << json.err;
-    const nlohmann::json result = nlohmann::json::parse(json.out);
-    EXPECT_NEAR(result.at("X")[0][0].get<double>(), 2.0, 1e-15);
-    EXPECT_NEAR(result.at("closed_loop_eigenvalues")[0][0].get<double>(), -2.0, 1e-15);
-    EXPECT_LT(result.at("relative_residual").get<double>(), 1e-15);
+    const support::Json result = support::Json::parse(json.out);
+    EXPECT_NEAR(result.at("X")[0][0].number(), 2.0, 1e-15);
+    EXPECT_NEAR(result.at("closed_loop_eigenvalues")[0][0].number(), -2.0, 1e-15);
+    EXPECT_LT(result.at("relative_residual").number(), 1e-15);
     EXPECT_EQ(text.exit_code, 0);
     EXPECT_NE(text.out.find("X ="), std::string::npos);
     EXPECT_NE(text.out.find("residual"), std::string::npos);
@@ -345,7 +345,7 @@ TEST(GainsCli, CareWithHugeNumbersAnswersOrRefusesInOneLine)
           R"({"A": [[0]], "B": [[1]], "R": [[1]], "Q": [[1e999]]})"}) {
         const CommandResult r = gains({"care", dir.write("p.json", text), "--json"});
         if (r.exit_code == 0) {
-            EXPECT_FALSE(nlohmann::json::parse(r.out).at("X")[0][0].is_null()) << text;
+            EXPECT_FALSE(support::Json::parse(r.out).at("X")[0][0].is_null()) << text;
         } else {
             EXPECT_TRUE(r.exit_code == 1 || r.exit_code == 2) << text << r.err;
             support::expect_refused(r, r.exit_code, tool);

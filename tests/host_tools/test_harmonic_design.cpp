@@ -13,7 +13,7 @@
 
 #include "design/design.hpp"
 #include "design/noc_h/harmonic_loop.hpp"
-#include "reference_gains.hpp"
+#include "shipped_drive.hpp"
 
 extern "C" {
 #include "nodo_encoder.h"

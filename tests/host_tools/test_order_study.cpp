@@ -3,11 +3,11 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "command.hpp"
 #include "design/design.hpp"
 #include "gains/order_study.hpp"
+#include "json.hpp"
 #include "temp_dir.hpp"
 
 namespace {
@@ -77,7 +77,7 @@ TEST(OrderStudy, CommandPrintsAndWrites)
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 2 * 64);
     const auto json = support::run_command(
         {SDRE_GAINS_EXE, "orders", drives + "ipmsm_390w.toml", "--highest", "0", "--json"});
-    EXPECT_EQ(nlohmann::json::parse(json.out).at("loops").at("observer").at("errors").size(), 1U);
+    EXPECT_EQ(support::Json::parse(json.out).at("loops").at("observer").at("errors").size(), 1U);
 }
 
 TEST(OrderStudy, LawsWithoutASeriesAreRefused)

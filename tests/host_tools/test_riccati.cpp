@@ -4,23 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <fstream>
 #include <random>
 #include <string>
 #include <vector>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "common/errors.hpp"
+#include "json.hpp"
 #include "linalg/eigenvalues.hpp"
 
 namespace {
 
 using Eigen::MatrixXd;
 using Extended = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-using nlohmann::json;
+using support::Json;
 
 MatrixXd scalar(double value)
 {
@@ -89,19 +88,19 @@ MatrixXd matrix2(double a, double b, double c, double d)
     return M;
 }
 
-MatrixXd matrix_from(const json &rows)
+MatrixXd matrix_from(const Json &rows)
 {
     MatrixXd M(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(rows[0].size()));
     for (Eigen::Index i = 0; i < M.rows(); ++i) {
         for (Eigen::Index j = 0; j < M.cols(); ++j) {
-            M(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)].get<double>();
+            M(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)].number();
         }
     }
     return M;
 }
 
 /// EQ-CARE-2 with G never formed; independent of the solver's own figure.
-double residual_of(const json &problem, const MatrixXd &X)
+double residual_of(const Json &problem, const MatrixXd &X)
 {
     const Extended A = matrix_from(problem["A"]).cast<long double>();
     const Extended Q = matrix_from(problem["Q"]).cast<long double>();
@@ -114,18 +113,16 @@ double residual_of(const json &problem, const MatrixXd &X)
                                (2 * AX.norm() + XGX.norm() + Q.norm()));
 }
 
-json read_json(const std::string &name)
+Json read_json(const std::string &name)
 {
-    std::ifstream stream(std::string(SDRE_TEST_DATA_DIR) + "/carex/" + name + ".json");
-    EXPECT_TRUE(stream.good()) << name;
-    return json::parse(stream);
+    return Json::read(std::string(SDRE_TEST_DATA_DIR) + "/carex/" + name + ".json");
 }
 
-double best_of(const json &peers, const char *figure)
+double best_of(const Json &peers, const char *figure)
 {
     double best = HUGE_VAL;
-    for (const json &peer : peers) {
-        best = std::min(best, peer[figure].get<double>());
+    for (const auto &[name, peer] : peers.items()) {
+        best = std::min(best, peer[figure].number());
     }
     return best;
 }
@@ -159,11 +156,11 @@ TEST(riccati_benchmark, every_case_is_as_good_as_the_better_established_solver)
     // Measured on x86: at worst 7e-3 of the residual bound and 4e-4 of the error bound.
     constexpr double factor = 3.0;
     constexpr double floor  = 1e-13;
-    const json       peers  = read_json("peers");
+    const Json       peers  = read_json("peers");
     ASSERT_EQ(peers.size(), 29U);
     for (const auto &[id, peer] : peers.items()) {
         SCOPED_TRACE(id);
-        const json     problem = read_json(id);
+        const Json     problem = read_json(id);
         const MatrixXd X_ref   = matrix_from(problem["X_ref"]);
 
         const sdre::CareSolution solution =
@@ -181,10 +178,10 @@ TEST(riccati_benchmark, every_case_is_as_good_as_the_better_established_solver)
 
 TEST(riccati_benchmark, the_rounded_weight_loses_no_more_than_its_rounding)
 {
-    const json peers = read_json("peers");
+    const Json peers = read_json("peers");
     for (const auto &[id, peer] : peers.items()) {
         SCOPED_TRACE(id);
-        const json     problem = read_json(id);
+        const Json     problem = read_json(id);
         const MatrixXd X_ref   = matrix_from(problem["X_ref"]);
         const MatrixXd G =
             sdre::control_weight(matrix_from(problem["B"]), matrix_from(problem["R"]));

@@ -13,7 +13,7 @@
 
 #include "design/design.hpp"
 #include "linalg/expm.hpp"
-#include "reference_gains.hpp"
+#include "shipped_drive.hpp"
 #include "sil/plant/plant.hpp"
 
 namespace {

@@ -6,7 +6,6 @@
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "common/errors.hpp"
 #include "reference_gains.hpp"
@@ -24,13 +23,12 @@ constexpr double tolerance_K1 = 1e-6;
 
 /// Made with SciPy: P = solve_discrete_are(A', C', Q, R), K = P C' (C P C' + R)^-1; K1 is the difference quotient of
 /// fourth order, steps 1e-4 and 2e-4, of such K at A0 + s A1, Q0 + s Q1.
-nlohmann::json reference()
+support::Json reference()
 {
-    return nlohmann::json::parse(
-        support::read_file(std::string(SDRE_TEST_DATA_DIR) + "/sampled_riccati.json"));
+    return support::Json::read(std::string(SDRE_TEST_DATA_DIR) + "/sampled_riccati.json");
 }
 
-SampledObserverProblem problem_of(const nlohmann::json &c)
+SampledObserverProblem problem_of(const support::Json &c)
 {
     return {support::matrix_of(c.at("A0")), support::matrix_of(c.at("A1")),
             support::matrix_of(c.at("Q0")), support::matrix_of(c.at("Q1")),
@@ -53,10 +51,10 @@ double relative(const MatrixXd &found, const MatrixXd &expected)
 
 TEST(SampledRiccati, AgreesWithSciPy)
 {
-    const nlohmann::json cases = reference().at("cases");
+    const support::Json cases = reference().at("cases");
     ASSERT_EQ(cases.size(), 7U);
-    for (const nlohmann::json &c : cases) {
-        const std::string         name = c.at("name").get<std::string>();
+    for (const support::Json &c : cases) {
+        const std::string         name = c.at("name").text();
         const SampledObserverGain g    = sdre::solve_sampled_observer(problem_of(c));
 
         EXPECT_LT(relative(g.P0, support::matrix_of(c.at("P0"))), tolerance_K0) << name;

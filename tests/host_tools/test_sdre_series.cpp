@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "design/sdre_series.hpp"
+#include "json.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <random>
 #include <string>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "common/errors.hpp"
 
 namespace {
 
 using Eigen::MatrixXd;
-using nlohmann::json;
+using support::Json;
 
 MatrixXd random_matrix(Eigen::Index rows, Eigen::Index cols, std::mt19937 &generator)
 {
@@ -37,23 +36,23 @@ sdre::SdreProblem random_problem(Eigen::Index n, std::size_t variables, unsigned
     return problem;
 }
 
-MatrixXd matrix_from(const json &rows)
+MatrixXd matrix_from(const Json &rows)
 {
     MatrixXd M(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(rows[0].size()));
     for (Eigen::Index i = 0; i < M.rows(); ++i) {
         for (Eigen::Index j = 0; j < M.cols(); ++j) {
-            M(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)].get<double>();
+            M(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)].number();
         }
     }
     return M;
 }
 
-MatrixXd diagonal_from(const json &values, bool inverted)
+MatrixXd diagonal_from(const Json &values, bool inverted)
 {
     MatrixXd M = MatrixXd::Zero(static_cast<Eigen::Index>(values.size()),
                                 static_cast<Eigen::Index>(values.size()));
     for (Eigen::Index i = 0; i < M.rows(); ++i) {
-        const double value = values[static_cast<std::size_t>(i)].get<double>();
+        const double value = values[static_cast<std::size_t>(i)].number();
         M(i, i)            = inverted ? 1.0 / value : value;
     }
     return M;
@@ -61,9 +60,9 @@ MatrixXd diagonal_from(const json &values, bool inverted)
 
 /// The drive's error dynamics from the reduced parameters l1..l11 of the data set.
 struct DriveModel {
-    explicit DriveModel(const json &l_values)
+    explicit DriveModel(const Json &l_values)
     {
-        const auto l = [&](std::size_t i) { return l_values[i - 1].get<double>(); };
+        const auto l = [&](std::size_t i) { return l_values[i - 1].number(); };
         A0 << -l(2), l(1), 0, -l(5), -l(4), 0, 0, 0, -l(7);
         dA(0, 2)          = l(11);
         dA_observer       = dA;
@@ -91,16 +90,14 @@ double tolerance(int degree)
     return degree == 0 ? 1e-11 : 1e-10;
 }
 
-json gains_data()
+Json gains_data()
 {
-    std::ifstream stream(std::string(SDRE_TEST_DATA_DIR) + "/gains_public.json");
-    EXPECT_TRUE(stream.good());
-    return json::parse(stream);
+    return Json::read(std::string(SDRE_TEST_DATA_DIR) + "/gains_public.json");
 }
 
 TEST(sdre_series_drives, controller_gains_match_the_independent_solution)
 {
-    const json data = gains_data();
+    const Json data = gains_data();
     ASSERT_EQ(data.size(), 4U);
     for (const auto &[id, drive] : data.items()) {
         SCOPED_TRACE(id);
@@ -129,7 +126,7 @@ TEST(sdre_series_drives, controller_gains_match_the_independent_solution)
 
 TEST(sdre_series_drives, observer_gains_match_the_independent_solution)
 {
-    const json data = gains_data();
+    const Json data = gains_data();
     for (const auto &[id, drive] : data.items()) {
         SCOPED_TRACE(id);
         const DriveModel model(drive["l"]);

@@ -14,7 +14,7 @@
 
 #include "command.hpp"
 #include "common/errors.hpp"
-#include "reference_gains.hpp"
+#include "shipped_drive.hpp"
 
 extern "C" {
 #include "gain_tables.h"

@@ -9,7 +9,7 @@
 #include "command.hpp"
 #include "common/errors.hpp"
 #include "design/design.hpp"
-#include "reference_gains.hpp"
+#include "shipped_drive.hpp"
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "common/errors.hpp"
-#include "reference_gains.hpp"
 #include "scenario_text.hpp"
+#include "shipped_drive.hpp"
 #include "sil/eval/metrics.hpp"
 #include "sil/run/simulation.hpp"
 #include "temp_dir.hpp"

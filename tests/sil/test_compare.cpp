@@ -3,9 +3,9 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "json.hpp"
 #include "scenario_text.hpp"
 #include "sil/eval/compare.hpp"
 #include "sil/eval/seeds.hpp"
@@ -122,7 +122,7 @@ TEST(Compare, WritesOneTableThreeWaysAlwaysTheSame)
     const std::string csv = support::read_file(dir / "t.csv");
     EXPECT_EQ(lines(csv), 1 + 2 * 6 * 2);
     EXPECT_EQ(lines(r.out), 2 + 2 * 6);
-    const auto json = nlohmann::json::parse(support::read_file(dir / "t.json"));
+    const auto json = support::Json::read(dir / "t.json");
     EXPECT_EQ(json.at("runs").size(), 4U);
     EXPECT_EQ(json.at("runs").at(1).at("drive"), "ipmsm_390w_conventional");
     EXPECT_EQ(json.at("runs").at(3).at("scenario"), "b");

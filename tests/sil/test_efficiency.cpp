@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "reference_gains.hpp"
+#include "shipped_drive.hpp"
 #include "sil/eval/metrics.hpp"
 #include "sil/run/simulation.hpp"
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "json.hpp"
 #include "scenario_text.hpp"
 #include "temp_dir.hpp"
 
@@ -43,7 +43,7 @@ std::string faulting_scenario()
     return scenario_text() + "[inverter]\ndc_link_V = 50.0\n";
 }
 
-std::set<std::string> keys_of(const nlohmann::json &object)
+std::set<std::string> keys_of(const support::Json &object)
 {
     std::set<std::string> keys;
     for (const auto &[key, value] : object.items()) {
@@ -161,11 +161,11 @@ TEST(SilCli, JsonHasTheAgreedKeys)
 
     ASSERT_EQ(sil({"run", scenario, "--json", dir / "r.json"}).exit_code, 0);
 
-    const auto r = nlohmann::json::parse(support::read_file(dir / "r.json"));
+    const auto r = support::Json::read(dir / "r.json");
     EXPECT_EQ(r.at("scenario"), "case");
     EXPECT_EQ(r.at("drive"), "ipmsm_390w_speed");
     EXPECT_EQ(r.at("gains"), "solved in process");
-    EXPECT_EQ(r.at("uncertified"), nlohmann::json::array());
+    EXPECT_EQ(r.at("uncertified"), support::Json::array());
     EXPECT_EQ(r.at("fault"), "none");
     EXPECT_TRUE(r.at("fault_time_s").is_null());
     EXPECT_EQ(keys_of(r),
@@ -205,7 +205,7 @@ TEST(SilCli, JsonSaysNullWhereTheSpeedNeverSettles)
 
     ASSERT_EQ(sil({"run", scenario, "--json", dir / "r.json"}).exit_code, 0);
 
-    const auto r = nlohmann::json::parse(support::read_file(dir / "r.json"));
+    const auto r = support::Json::read(dir / "r.json");
     EXPECT_TRUE(r.at("measures").at("whole").at("settling_time_s").is_null());
     EXPECT_NE(sil({"run", scenario}).out.find("never"), std::string::npos);
 }
@@ -285,8 +285,7 @@ TEST(SilCli, AnotherDriveTakesThePlaceOfTheScenarios)
 
     ASSERT_EQ(sil({"run", scenario, "--drive", pid, "--json", dir / "r.json"}).exit_code, 0);
 
-    EXPECT_EQ(nlohmann::json::parse(support::read_file(dir / "r.json")).at("drive"),
-              "servo_200w_pid");
+    EXPECT_EQ(support::Json::read(dir / "r.json").at("drive"), "servo_200w_pid");
     expect_refused({"run", scenario, "--drive", dir / "none.toml"}, 1, {"none.toml"});
     const std::string paper_a = dir.write("case.toml", scenario_text());
     expect_refused({"run", paper_a, "--drive", pid}, 1, {"law", "\"pid\""});
@@ -324,8 +323,7 @@ TEST(SilCli, GainsSolvedInProcessAreSaidSo)
 
     EXPECT_EQ(r.exit_code, 0) << r.err;
     EXPECT_NE(r.out.find("gains: solved in process"), std::string::npos);
-    EXPECT_EQ(nlohmann::json::parse(support::read_file(dir / "r.json")).at("gains"),
-              "solved in process");
+    EXPECT_EQ(support::Json::read(dir / "r.json").at("gains"), "solved in process");
 }
 
 TEST(SilCli, FaultIsExitFourWithItsReasonAndTrace)
@@ -338,7 +336,7 @@ TEST(SilCli, FaultIsExitFourWithItsReasonAndTrace)
 
     EXPECT_EQ(r.exit_code, 4) << r.err;
     EXPECT_NE(r.out.find("FAULT at 0.0000 s: dc link out of range"), std::string::npos) << r.out;
-    const auto json = nlohmann::json::parse(support::read_file(dir / "r.json"));
+    const auto json = support::Json::read(dir / "r.json");
     EXPECT_EQ(json.at("fault"), "dc link out of range");
     EXPECT_EQ(json.at("fault_time_s"), 0.0);
     const std::string csv = support::read_file(dir / "t.csv");

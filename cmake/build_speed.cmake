@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: MIT
+# What makes a build on the host faster where it is installed: ccache, and a faster linker for the many
+# programs of the tests. Nothing here changes what is built.
+if(CMAKE_SYSTEM_NAME STREQUAL "Generic")
+    return()
+endif()
+
+# ccache takes a unit with precompiled headers only when told so. A launcher of the user's stays.
+find_program(CCACHE ccache)
+mark_as_advanced(CCACHE)
+foreach(language C CXX)
+    if(CCACHE AND NOT CMAKE_${language}_COMPILER_LAUNCHER)
+        set(CMAKE_${language}_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env
+            CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_ctime,include_file_mtime "${CCACHE}")
+    endif()
+endforeach()
+
+include(CheckLinkerFlag)
+foreach(linker mold lld gold)
+    check_linker_flag(C -fuse-ld=${linker} sdre_has_${linker})
+    if(sdre_has_${linker})
+        add_link_options(-fuse-ld=${linker})
+        break()
+    endif()
+endforeach()
