@@ -96,7 +96,7 @@ static bridge_t modulate(drive_t *d, float dc_link_V)
     const frames_angle_t  angle = frames_angle(out->theta_rad);
     const dq_t            i_A   = {.d = out->now.id_A, .q = out->now.iq_A};
 
-    const voltage_t v     = voltage_produce(c, out, angle, dc_link_V);
+    const voltage_t v     = voltage_produce(out->v_V, angle, dc_link_V, c->overmodulation);
     const abc_t     duty  = svpwm_duty(frames_inverse_park(v.v_V, angle), dc_link_V);
     const abc_t     i_abc = frames_inverse_clarke(frames_inverse_park(i_A, angle));
 

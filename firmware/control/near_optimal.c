@@ -2,6 +2,7 @@
 #include "near_optimal.h"
 
 #include "feedforward.h"
+#include "voltage.h"
 
 bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *drive)
 {
@@ -49,16 +50,43 @@ nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *
     return nosc_limit_speed_error(&c->nosc, e, ref->i_A.q, ref->iq_lo_A, ref->iq_hi_A);
 }
 
-law_output_t near_optimal_answer(const near_optimal_t *s, const motor_reduced_t *m,
-                                 const near_optimal_view_t *view, const nosc_error_t *e,
-                                 dq_t feedback_V)
+/* EQ-DRIVE-1 */
+static dq_t wanted_V(const near_optimal_t *s, const motor_reduced_t *m,
+                     const near_optimal_view_t *view, const nosc_error_t *e, dq_t feedback_V)
 {
     /* The reference as far as it is followed. */
     const float w_d  = view->now.omega_e_radps - e->omega_e_radps;
     const dq_t  ff_V = feedforward_V(m, &s->current_ref, w_d, &view->now, view->est);
+    const dq_t  u_V  = {.d = feedback_V.d + ff_V.d, .q = feedback_V.q + ff_V.q};
+    return u_V;
+}
 
-    const law_output_t out = {/* EQ-DRIVE-1 */
-                              .v_V       = {.d = feedback_V.d + ff_V.d, .q = feedback_V.q + ff_V.q},
+/* EQ-VOLTAGE-2: the voltage that holds the currents asked for, and one pull for both axes. */
+static dq_t out_of_reach_V(const near_optimal_t *s, const near_optimal_config_t *c,
+                           const motor_reduced_t *m, const near_optimal_view_t *view,
+                           const nosc_error_t *e)
+{
+    current_ref_t target = s->current_ref;
+    target.i_A.q -= c->nosc.speed_A_per_radps * e->omega_e_radps; /* EQ-NOSC-3 */
+
+    const nodo_meas_t held = {
+        .omega_e_radps = view->now.omega_e_radps, .iq_A = target.i_A.q, .id_A = target.i_A.d};
+    const dq_t  hold_V   = feedforward_V(m, &target, held.omega_e_radps, &held, view->est);
+    const float pull_1ps = nosc_current_gain(&c->nosc) * m->l6;
+
+    const dq_t u_V = {.d = hold_V.d - (pull_1ps * m->inv_l8 * (view->now.id_A - held.id_A)),
+                      .q = hold_V.q - (pull_1ps * m->inv_l6 * (view->now.iq_A - held.iq_A))};
+    return u_V;
+}
+
+law_output_t near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c,
+                                 const motor_reduced_t *m, const near_optimal_view_t *view,
+                                 const nosc_error_t *e, dq_t feedback_V, float dc_link_V)
+{
+    const dq_t u_V     = wanted_V(s, m, view, e, feedback_V);
+    const bool reached = !voltage_is_outside(u_V, dc_link_V);
+
+    const law_output_t out = {.v_V       = reached ? u_V : out_of_reach_V(s, c, m, view, e),
                               .theta_rad = view->theta_rad,
                               .now       = view->now,
                               .i_ref_A   = s->current_ref.i_A,

@@ -50,9 +50,16 @@ nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *
                                 const drive_config_t *drive, const near_optimal_view_t *view,
                                 const law_input_t *in);
 
-/** EQ-DRIVE-1: feedback plus feed-forward, with all that a law answers. Context: control ISR. No division. */
-law_output_t near_optimal_answer(const near_optimal_t *s, const motor_reduced_t *m,
-                                 const near_optimal_view_t *view, const nosc_error_t *e,
-                                 dq_t feedback_V);
+/**
+ * @brief Feedback plus feed-forward, EQ-DRIVE-1, with all that a law answers.
+ *
+ * Where that voltage lies outside the circle, EQ-VOLTAGE-2 takes its place: with it cutting the vector's length is
+ * stable (voltage.h).
+ *
+ * Context: control ISR. No division.
+ */
+law_output_t near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c,
+                                 const motor_reduced_t *m, const near_optimal_view_t *view,
+                                 const nosc_error_t *e, dq_t feedback_V, float dc_link_V);
 
 #endif /* NEAR_OPTIMAL_H */

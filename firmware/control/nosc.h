@@ -37,6 +37,12 @@ typedef struct {
 /** true when every constant is finite and within its documented range. Context: init. */
 bool nosc_check(const nosc_gains_t *g);
 
+/** k_iq of Lambda_0 [V/A]. */
+static inline float nosc_current_gain(const nosc_gains_t *g)
+{
+    return g->lambda[0][0][1];
+}
+
 /**
  * @brief The q current that the speed error asks for, -(k_w / k_iq) e_w within +-iq_speed_max_A (EQ-NOSC-3).
  *

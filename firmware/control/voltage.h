@@ -1,33 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file voltage.h
- * @brief Voltage limit on the vector: which axis gives way.
+ * @brief What the inverter can produce of a wanted voltage: the vector's length is cut, its direction stays.
  *
- * When the wanted vector leaves the circle, most of the q voltage that holds the q current is covered
- * first, then the d axis gets what it wants, then the q axis what is left:
+ *     v = c u,  c = min(1, reach / |u|)                                        EQ-VOLTAGE-1
  *
- *     keep = min(0.9 |hold_q|, 0.9 v_max, |u_q|)
- *     v_d  = clamp(u_d, +-sqrt(v_max^2 - keep^2)),  v_q = clamp(u_q, +-sqrt(v_max^2 - v_d^2))   EQ-VOLTAGE-1
+ * With flux errors x = (Ld e_id, Lq e_iq), the voltage h that holds the currents asked for, and any pull g > 0,
  *
- * The d axis comes before the rest because only a d current can make room again at high speed; it does not
- * come before the back-EMF because the q current would run away.
+ *     u = h - g x                                                              EQ-VOLTAGE-2
+ *
+ * makes the cut stable, motoring and generating, in both directions: |x| never grows as long as |h| <= reach, and
+ * falls unless v = h. Reason: docs/equations.md, "The voltage limit". A law has to see to EQ-VOLTAGE-2 itself
+ * (near_optimal.c).
  */
 #ifndef VOLTAGE_H
 #define VOLTAGE_H
 
 #include "base.h"
-#include "drive_config.h"
 #include "frames.h"
 
-/**
- * @param v_V      Wanted voltage; a NaN comes out as a vector inside the circle.
- * @param hold_q_V q voltage that keeps the q current where it is.
- * @param v_max_V  Radius of the circle [V], >= 0.
- * @return         Limited voltage, |v| <= v_max within rounding.
- *
- * Context: control ISR. No division; one square root when limiting.
- */
-dq_t voltage_limit(dq_t v_V, float hold_q_V, float v_max_V);
+/** true when a vector is longer than the radius of the circle, v_dc / sqrt(3). Context: control ISR. */
+bool voltage_is_outside(dq_t u_V, float dc_link_V);
 
 typedef struct {
     dq_t v_V;
@@ -35,19 +28,15 @@ typedef struct {
 } voltage_t;
 
 /**
- * @brief What the modulator can produce of the wanted voltage: up to the circle, or to the hexagon around it.
+ * @brief EQ-VOLTAGE-1 with the circle, or with the hexagon around it, as reach.
  *
- * In the hexagon EQ-VOLTAGE-1 uses its reach in the direction of the wanted vector. The limit turns the vector; what
- * cannot be produced in the new direction is cut off.
+ * @param u_V            Wanted; finite.
+ * @param angle          In which the voltage is produced.
+ * @param dc_link_V      Measured [V], > 0.
+ * @param overmodulation Whether the hexagon outside the circle may be used.
  *
- * @param c         Constants of the drive.
- * @param wanted    Answer of its law; finite.
- * @param angle     In which the voltage is produced.
- * @param dc_link_V Measured [V], > 0.
- *
- * Context: control ISR. Within the circle no division; else up to two, and two square roots.
+ * Context: control ISR. Within the circle no division; else one, and a square root for the circle.
  */
-voltage_t voltage_produce(const drive_config_t *c, const law_output_t *wanted, frames_angle_t angle,
-                          float dc_link_V);
+voltage_t voltage_produce(dq_t u_V, frames_angle_t angle, float dc_link_V, bool overmodulation);
 
 #endif /* VOLTAGE_H */

@@ -4,11 +4,11 @@
 #include <algorithm>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "command.hpp"
 #include "common/errors.hpp"
 #include "common/parallel.hpp"
+#include "json.hpp"
 #include "scenario_text.hpp"
 #include "sil/run/simulation.hpp"
 #include "temp_dir.hpp"
@@ -214,7 +214,7 @@ TEST(RandomMotors, CommandPrintsTheShareAndSavesFailures)
         << csv;
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
     EXPECT_NE(csv.find(",1,\""), std::string::npos) << csv;
-    const auto json = nlohmann::json::parse(support::read_file(dir / "m.json"));
+    const support::Json json = support::Json::read(dir / "m.json");
     EXPECT_EQ(json.at("motors"), 2);
     EXPECT_EQ(json.at("failed"), 2);
     EXPECT_EQ(json.at("failures").at(1).at("motor"), 2);

@@ -248,7 +248,7 @@ TEST(SilCli, DistortionOfNoCurrentIsNotShown)
     const CommandResult r = sil({"run", scenario, "--json", dir / "r.json"});
 
     EXPECT_EQ(r.exit_code, 0) << r.err;
-    const auto json = nlohmann::json::parse(support::read_file(dir / "r.json"));
+    const support::Json json = support::Json::read(dir / "r.json");
     EXPECT_TRUE(json.at("measures").at("whole").at("current_distortion_percent").is_null())
         << r.out;
     const std::size_t row = r.out.find("current distortion [%]");
@@ -267,10 +267,10 @@ TEST(SilCli, SeedsRunOnABoardToo)
         const CommandResult r = sil(arguments);
         EXPECT_EQ(r.exit_code, 0) << r.err;
         EXPECT_EQ(r.out.rfind("board: api\n", 0), 0U) << r.out;
-        const auto m = nlohmann::json::parse(support::read_file(dir / "r.json"))
-                           .at("measures")
-                           .at("load_step");
-        return (m.contains("worst") ? m.at("worst") : m).at("dip_e_radps").get<double>();
+        const support::Json file = support::Json::read(dir / "r.json");
+        const support::Json m    = file.at("measures").at("load_step");
+        const bool many = !more.empty() && more.front() == "--seeds";
+        return (many ? m.at("worst") : m).at("dip_e_radps").number();
     };
 
     EXPECT_EQ(dip({"--seeds", "2"}), std::max(dip({"--seed", "1"}), dip({"--seed", "2"})));
