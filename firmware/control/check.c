@@ -30,3 +30,14 @@ bool check_rows(const float row[][CHECK_COLUMNS], int16_t rows)
     }
     return finite;
 }
+
+bool check_parity(const float row[CHECK_COLUMNS], int16_t id_column, bool odd_signals)
+{
+    bool zero = true;
+
+    for (int16_t column = 0; column < CHECK_COLUMNS; column++) {
+        const bool used = (column == id_column) != odd_signals;
+        zero            = zero && (used || base_within(row[column], 0.0f));
+    }
+    return zero;
+}

@@ -25,4 +25,11 @@ bool check_finite(const float *x, int16_t count);
 /** The same for the first rows of a table with three columns. */
 bool check_rows(const float row[][CHECK_COLUMNS], int16_t rows);
 
+/**
+ * @brief Whether a row of a series holds zeros where its parity says so (nodo_innovation_t): those are not multiplied.
+ *
+ * @param odd_signals true: the row takes the odd signals, so that id's column is zero; false: the other two are.
+ */
+bool check_parity(const float row[CHECK_COLUMNS], int16_t id_column, bool odd_signals);
+
 #endif /* CHECK_H */

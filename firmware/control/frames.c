@@ -20,7 +20,7 @@ frames_angle_t frames_angle(float theta_e_rad)
     const float    quarters = theta * QUARTERS_1prad;
     const int16_t  nearest  = (int16_t)((quarters < 0.0f) ? (quarters - 0.5f) : (quarters + 0.5f));
     const float    n        = (float)nearest;
-    const float    r        = (theta - (n * HALF_PI_UPPER)) - (n * HALF_PI_LOWER);
+    const float    r        = (theta_e_rad - (n * HALF_PI_UPPER)) - (n * HALF_PI_LOWER);
     const float    r2       = r * r;
     const float    sine     = r + ((r * r2) * (S1 + (r2 * (S2 + (r2 * S3))))); /* EQ-FRAMES-3 */
     const float    cosine   = (1.0f - (0.5f * r2)) + ((r2 * r2) * (C1 + (r2 * (C2 + (r2 * C3)))));

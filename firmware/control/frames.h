@@ -14,7 +14,7 @@
 
 #include "base.h"
 
-#define FRAMES_ANGLE_MAX (4.0f * BASE_TWO_PI)
+#define FRAMES_ANGLE_MAX 5.0e4f /**< whose quarter turns an int16_t counts */
 
 /* Inline, because a call costs more than the arithmetic. In C and C++: members are set in their order. */
 
@@ -31,10 +31,10 @@ typedef struct {
  *
  *     sin r = r + r^3 (s_1 + s_2 r^2 + s_3 r^4),  cos r = 1 - r^2 / 2 + r^4 (c_1 + c_2 r^2 + c_3 r^4)   EQ-FRAMES-3
  *
- * Worst error 9e-8 (tests/unit/test_frames.c), as that of a correctly rounded result twice.
+ * Worst error within +-2 turns 9e-8, further out half a digit of the angle more (tests/unit/test_frames.c).
  *
- * @param theta_e_rad electrical angle of the d axis from phase a, +-FRAMES_ANGLE_MAX; beyond it, and for a NaN, the
- *                    result is a unit vector of no meaning.
+ * @param theta_e_rad electrical angle of the d axis from phase a, +-FRAMES_ANGLE_MAX; beyond it the result has no
+ *                    meaning, and of a NaN it is none.
  *
  * Context: control ISR. No division.
  */

@@ -4,6 +4,7 @@
 #include "check.h"
 
 enum { COLUMN_ID = 2 };
+enum { ROW_D_D = 2, ROW_ID = 5 };
 
 void nodo_reset(nodo_t *x, const nodo_meas_t *y)
 {
@@ -40,6 +41,17 @@ void nodo_update(nodo_t *x, const nodo_gains_t *g, const motor_reduced_t *m, con
     }
 }
 
+bool nodo_parity_check(const float (*l)[NODO_N_Y], int16_t rows, bool even, int16_t id_column)
+{
+    bool ok = true;
+
+    for (int16_t row = 0; row < rows; row++) {
+        const bool odd_state = (row != ROW_D_D) && (row != ROW_ID);
+        ok                   = ok && check_parity(l[row], id_column, odd_state == even);
+    }
+    return ok;
+}
+
 bool nodo_check(const nodo_gains_t *g)
 {
     const bool order_ok = (g->order >= 0) && (g->order <= NODO_ORDER_MAX);
@@ -47,7 +59,8 @@ bool nodo_check(const nodo_gains_t *g)
               base_in_range(g->iq_certified_A, g->iq_max_A, CHECK_LARGEST) && order_ok;
 
     for (int16_t n = 0; ok && (n <= g->order); n++) {
-        ok = check_rows(g->gain[n], NODO_N_X);
+        ok = check_rows(g->gain[n], NODO_N_X) &&
+             nodo_parity_check(g->gain[n], NODO_N_X, ((uint16_t)n & 1U) == 0U, COLUMN_ID);
     }
     return ok;
 }

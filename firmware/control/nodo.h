@@ -85,6 +85,9 @@ static inline void nodo_add_correction(nodo_t *x, const float (*l)[NODO_N_Y], bo
     }
 }
 
+/** true when the first rows of an even or odd L_n are zero where its parity says so. Context: init. */
+bool nodo_parity_check(const float (*l)[NODO_N_Y], int16_t rows, bool even, int16_t id_column);
+
 /** The innovation of the next power of iq^. */
 static inline nodo_innovation_t nodo_next_power(nodo_innovation_t r, float iq_A)
 {

@@ -68,7 +68,8 @@ bool nodo_encoder_check(const nodo_encoder_gains_t *g)
     bool       ok       = check_positive(g->iq_max_A) && order_ok;
 
     for (int16_t n = 0; ok && (n <= g->order); n++) {
-        ok = check_rows(g->gain[n], NODO_ENCODER_N_X);
+        ok = check_rows(g->gain[n], NODO_ENCODER_N_X) &&
+             nodo_parity_check(g->gain[n], NODO_ENCODER_N_X, ((uint16_t)n & 1U) == 0U, COLUMN_ID);
     }
     return ok;
 }

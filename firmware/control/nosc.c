@@ -70,7 +70,10 @@ bool nosc_check(const nosc_gains_t *g)
               quotients_ok(g) && order_ok;
 
     for (int16_t n = 0; ok && (n <= g->order); n++) {
-        ok = check_rows(g->lambda[n], NOSC_N_U);
+        const bool even = ((uint16_t)n & 1U) == 0U;
+        ok              = check_rows(g->lambda[n], NOSC_N_U) &&
+             check_parity(g->lambda[n][ROW_Q], COLUMN_ID, even) &&
+             check_parity(g->lambda[n][ROW_D], COLUMN_ID, !even);
     }
     return ok && check_positive(g->lambda[0][ROW_Q][COLUMN_IQ]); /* the current loop's gain */
 }

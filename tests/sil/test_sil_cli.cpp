@@ -269,7 +269,7 @@ TEST(SilCli, SeedsRunOnABoardToo)
         EXPECT_EQ(r.out.rfind("board: api\n", 0), 0U) << r.out;
         const support::Json file = support::Json::read(dir / "r.json");
         const support::Json m    = file.at("measures").at("load_step");
-        const bool many = !more.empty() && more.front() == "--seeds";
+        const bool          many = !more.empty() && more.front() == "--seeds";
         return (many ? m.at("worst") : m).at("dip_e_radps").number();
     };
 

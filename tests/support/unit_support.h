@@ -32,6 +32,13 @@ static inline float support_uniform(support_random_t *random, float lo, float hi
     return base_clamp(lo + (x * (hi - lo)), lo, hi);
 }
 
+/** Whether an entry of L_n is one that parity leaves (nodo.h): rows 2 and 5 are the even states. */
+static inline bool support_parity(int row, int column, int id_column, int n)
+{
+    const bool even_state = (row == 2) || (row == 5);
+    return ((column == id_column) == even_state) == ((n % 2) == 0);
+}
+
 static inline double support_limit(double x, double lo, double hi)
 {
     return (x < lo) ? lo : ((x > hi) ? hi : x);

@@ -178,17 +178,6 @@ static void test_duty_becomes_the_nearest_compare_value(void)
     }
 }
 
-static void test_duty_out_of_range_or_not_a_number_is_limited(void)
-{
-    const abc_t        wild = {.a = -1.0e30f, .b = 1.0e30f, .c = 1.0001f};
-    const abc_t        bad  = {.a = NAN, .b = INFINITY, .c = -INFINITY};
-    const board_duty_t w    = app_scale_duty(wild);
-    const board_duty_t b    = app_scale_duty(bad);
-
-    TEST_ASSERT_TRUE((w.a_cnt == 0U) && (w.b_cnt == 7500U) && (w.c_cnt == 7500U));
-    TEST_ASSERT_TRUE((b.a_cnt == 0U) && (b.b_cnt == 7500U) && (b.c_cnt == 0U));
-}
-
 static void test_every_constant_out_of_range_is_refused(void)
 {
     float *const fields[] = {&config.current_A_per_cnt, &config.current_zero_cnt,
@@ -271,7 +260,6 @@ int main(void)
     RUN_TEST(test_measured_zero_takes_the_place_of_the_nominal_one);
     RUN_TEST(test_zero_beyond_its_bound_is_refused_and_changes_nothing);
     RUN_TEST(test_duty_becomes_the_nearest_compare_value);
-    RUN_TEST(test_duty_out_of_range_or_not_a_number_is_limited);
     RUN_TEST(test_every_constant_out_of_range_is_refused);
     RUN_TEST(test_trip_current_that_the_converter_cannot_show_is_refused);
     RUN_TEST(test_table_that_is_no_curve_is_refused);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "dead_time.h"
 
+#include "bridge.h"
 #include "unit_support.h"
 #include "unity.h"
 
@@ -37,6 +38,12 @@ static abc_t draw(float lo, float hi)
 
 /* Oracle: EQ-DEAD-TIME-1 as a time: the gate loses the dead time when the current flows out of the phase,
  * in proportion below the fading current. */
+/* As the bridge gets it. */
+static abc_t compensated(const dead_time_config_t *c, abc_t duty, abc_t i_A)
+{
+    return bridge_closed(dead_time_compensate(c, duty, i_A)).duty;
+}
+
 static double oracle(float duty, float i_A)
 {
     const double fade_A = 1.0 / (double)config.inv_fade_1pA;
@@ -55,7 +62,7 @@ static void test_every_phase_matches_the_rule(void)
         const abc_t i_A  = (n % 2 == 0) ? draw(-8.0f, 8.0f) : draw(-0.15f, 0.15f);
         config.share     = support_uniform(&random_state, 0.0f, 0.1f);
 
-        const abc_t out = dead_time_compensate(&config, duty, i_A);
+        const abc_t out = compensated(&config, duty, i_A);
 
         TEST_ASSERT_DOUBLE_WITHIN(TOL_DUTY, oracle(duty.a, i_A.a), (double)out.a);
         TEST_ASSERT_DOUBLE_WITHIN(TOL_DUTY, oracle(duty.b, i_A.b), (double)out.b);
@@ -67,7 +74,7 @@ static void test_positive_current_lengthens_and_negative_shortens(void)
 {
     const abc_t i_A = {.a = 2.0f, .b = -1.0f, .c = -1.0f};
 
-    const abc_t out = dead_time_compensate(&config, same(0.5f), i_A);
+    const abc_t out = compensated(&config, same(0.5f), i_A);
 
     TEST_ASSERT_TRUE(out.a == 0.5f + 0.015f);
     TEST_ASSERT_TRUE((out.b == 0.5f - 0.015f) && (out.c == 0.5f - 0.015f));
@@ -78,7 +85,7 @@ static void test_no_current_changes_nothing(void)
     for (int n = 0; n < CASES; n++) {
         const abc_t duty = draw(0.0f, 1.0f);
 
-        const abc_t out = dead_time_compensate(&config, duty, same(0.0f));
+        const abc_t out = compensated(&config, duty, same(0.0f));
 
         TEST_ASSERT_TRUE((out.a == duty.a) && (out.b == duty.b) && (out.c == duty.c));
     }
@@ -89,13 +96,11 @@ static void test_compensation_is_full_from_the_fading_current_on(void)
     for (int sign = -1; sign <= 1; sign += 2) {
         const float full = 0.5f + (0.015f * (float)sign);
 
-        TEST_ASSERT_TRUE(dead_time_compensate(&config, same(0.5f), same(0.101f * (float)sign)).a ==
-                         full);
-        TEST_ASSERT_TRUE(dead_time_compensate(&config, same(0.5f), same(8.0f * (float)sign)).a ==
-                         full);
+        TEST_ASSERT_TRUE(compensated(&config, same(0.5f), same(0.101f * (float)sign)).a == full);
+        TEST_ASSERT_TRUE(compensated(&config, same(0.5f), same(8.0f * (float)sign)).a == full);
         TEST_ASSERT_DOUBLE_WITHIN(
             TOL_DUTY, 0.5 + (0.0075 * (double)sign),
-            (double)dead_time_compensate(&config, same(0.5f), same(0.05f * (float)sign)).a);
+            (double)compensated(&config, same(0.5f), same(0.05f * (float)sign)).a);
     }
 }
 
@@ -103,7 +108,7 @@ static void test_compensation_grows_with_the_current(void)
 {
     float before = 0.0f;
     for (int step = -200; step <= 200; step++) {
-        const float out = dead_time_compensate(&config, same(0.5f), same(1.0e-3f * (float)step)).b;
+        const float out = compensated(&config, same(0.5f), same(1.0e-3f * (float)step)).b;
 
         TEST_ASSERT_TRUE(out >= before);
         before = out;
@@ -116,8 +121,8 @@ static void test_opposite_currents_give_opposite_changes(void)
         const abc_t i_A     = draw(-0.2f, 0.2f);
         const abc_t minus_A = {-i_A.a, -i_A.b, -i_A.c};
 
-        const abc_t plus  = dead_time_compensate(&config, same(0.5f), i_A);
-        const abc_t minus = dead_time_compensate(&config, same(0.5f), minus_A);
+        const abc_t plus  = compensated(&config, same(0.5f), i_A);
+        const abc_t minus = compensated(&config, same(0.5f), minus_A);
 
         TEST_ASSERT_DOUBLE_WITHIN(TOL_DUTY, 1.0, (double)plus.a + (double)minus.a);
         TEST_ASSERT_DOUBLE_WITHIN(TOL_DUTY, 1.0, (double)plus.b + (double)minus.b);
@@ -133,8 +138,8 @@ static void test_phases_do_not_influence_each_other(void)
         const abc_t turned_duty = {duty.b, duty.c, duty.a};
         const abc_t turned_i_A  = {i_A.b, i_A.c, i_A.a};
 
-        const abc_t out    = dead_time_compensate(&config, duty, i_A);
-        const abc_t turned = dead_time_compensate(&config, turned_duty, turned_i_A);
+        const abc_t out    = compensated(&config, duty, i_A);
+        const abc_t turned = compensated(&config, turned_duty, turned_i_A);
 
         TEST_ASSERT_TRUE((turned.a == out.b) && (turned.b == out.c) && (turned.c == out.a));
     }
@@ -142,10 +147,10 @@ static void test_phases_do_not_influence_each_other(void)
 
 static void test_duties_stay_in_range(void)
 {
-    TEST_ASSERT_TRUE(dead_time_compensate(&config, same(1.0f), same(5.0f)).a == 1.0f);
-    TEST_ASSERT_TRUE(dead_time_compensate(&config, same(0.99f), same(5.0f)).b == 1.0f);
-    TEST_ASSERT_TRUE(dead_time_compensate(&config, same(0.0f), same(-5.0f)).c == 0.0f);
-    TEST_ASSERT_TRUE(dead_time_compensate(&config, same(0.01f), same(-5.0f)).a == 0.0f);
+    TEST_ASSERT_TRUE(compensated(&config, same(1.0f), same(5.0f)).a == 1.0f);
+    TEST_ASSERT_TRUE(compensated(&config, same(0.99f), same(5.0f)).b == 1.0f);
+    TEST_ASSERT_TRUE(compensated(&config, same(0.0f), same(-5.0f)).c == 0.0f);
+    TEST_ASSERT_TRUE(compensated(&config, same(0.01f), same(-5.0f)).a == 0.0f);
 }
 
 static void test_no_share_switches_the_compensation_off(void)
@@ -154,7 +159,7 @@ static void test_no_share_switches_the_compensation_off(void)
     for (int n = 0; n < CASES; n++) {
         const abc_t duty = draw(0.0f, 1.0f);
 
-        const abc_t out = dead_time_compensate(&config, duty, draw(-8.0f, 8.0f));
+        const abc_t out = compensated(&config, duty, draw(-8.0f, 8.0f));
 
         TEST_ASSERT_TRUE((out.a == duty.a) && (out.b == duty.b) && (out.c == duty.c));
     }
@@ -165,8 +170,8 @@ static void test_bad_numbers_never_leave_the_range_of_a_duty(void)
     for (int i = 0; i < SUPPORT_COUNT(support_not_finite); i++) {
         const float bad = support_not_finite[i];
 
-        const abc_t of_current = dead_time_compensate(&config, same(0.5f), same(bad));
-        const abc_t of_duty    = dead_time_compensate(&config, same(bad), same(1.0f));
+        const abc_t of_current = compensated(&config, same(0.5f), same(bad));
+        const abc_t of_duty    = compensated(&config, same(bad), same(1.0f));
 
         TEST_ASSERT_TRUE(base_in_range(of_current.a, 0.485f - 1.0e-6f, 0.515f + 1.0e-6f));
         TEST_ASSERT_TRUE(base_in_range(of_duty.b, 0.0f, 1.0f));

@@ -90,7 +90,8 @@ static void test_step_is_made_of_its_parts(void)
             near_optimal_error(&want.near_optimal, &config->near_optimal, drive, &view, &in);
         const dq_t         fb = nosc_feedback_V(&config->near_optimal.nosc, &e);
         const law_output_t all =
-            near_optimal_answer(&want.near_optimal, &drive->motor, &view, &e, fb);
+            near_optimal_answer(&want.near_optimal, &config->near_optimal, &drive->motor, &view, &e,
+                                fb, in.sample->dc_link_V);
 
         const law_output_t out = drive->law->step(&state, drive, &in);
 

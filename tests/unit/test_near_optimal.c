@@ -6,9 +6,11 @@
 #include "speed_tables.h"
 #include "unit_support.h"
 #include "unity.h"
+#include "voltage.h"
 
 #define TOL_V     8.0e-5 /* V, summands up to 400 V; worst 1.6e-5 */
 #define TOL_RADPS 2.0e-6 /* rad/s, errors up to 0.3 rad/s; worst 3.8e-7 */
+#define TOL_FAR_V 2.0e-2 /* V, summands up to 2 kV; worst 3e-3 */
 #define TOL_A     6.0e-7 /* A; worst 1.2e-7 */
 
 #define CASES 2000
@@ -62,6 +64,12 @@ void tearDown(void) {}
 static nosc_error_t error(void)
 {
     return near_optimal_error(&state, config, &drive, &view, &in);
+}
+
+static law_output_t answer(const nosc_error_t *e, dq_t feedback_V)
+{
+    return near_optimal_answer(&state, config, &drive.motor, &view, e, feedback_V,
+                               sample.dc_link_V);
 }
 
 static void test_references_start_at_the_present_speed_without_current(void)
@@ -159,11 +167,75 @@ static void test_answer_is_feedback_plus_feedforward(void)
         const float        w_d = view.now.omega_e_radps - e.omega_e_radps;
         const dq_t ff = feedforward_V(&drive.motor, &state.current_ref, w_d, &view.now, &est);
 
-        const law_output_t out = near_optimal_answer(&state, &drive.motor, &view, &e, fb);
+        sample.dc_link_V       = 5000.0f; /* nothing lies outside */
+        const law_output_t out = answer(&e, fb);
 
         TEST_ASSERT_DOUBLE_WITHIN(TOL_V, (double)fb.d + (double)ff.d, (double)out.v_V.d);
         TEST_ASSERT_DOUBLE_WITHIN(TOL_V, (double)fb.q + (double)ff.q, (double)out.v_V.q);
     }
+}
+
+/* The voltage that holds the currents asked for, (4) at rest, in double. */
+static dq_t oracle_hold_V(const nosc_error_t *e, dq_t *asked_A)
+{
+    const support_motor_t m = support_motor(&drive.motor);
+    const double          w = (double)view.now.omega_e_radps;
+    const double k  = (double)config->nosc.lambda[0][0][0] / (double)config->nosc.lambda[0][0][1];
+    const double iq = (double)state.current_ref.i_A.q - (k * (double)e->omega_e_radps);
+    const double id = (double)state.current_ref.i_A.d;
+    const double vq = (m.rs_Ohm * iq) + (w * (m.flux_Wb + (m.ld_H * id))) +
+                      (m.lq_H * ((double)state.current_ref.i_dot_Aps.q - (double)est.d_q));
+    const double vd = (m.rs_Ohm * id) - (w * m.lq_H * iq) +
+                      (m.ld_H * ((double)state.current_ref.i_dot_Aps.d - (double)est.d_d));
+    asked_A->d     = (float)id;
+    asked_A->q     = (float)iq;
+    const dq_t h_V = {.d = (float)vd, .q = (float)vq};
+    return h_V;
+}
+
+/* EQ-VOLTAGE-2 with the pull of the q axis for both, and what makes the limit stable: wherever the held voltage can be
+ * produced, the cut vector does not drive the flux error away. */
+static void test_answer_out_of_reach_pulls_both_axes_alike(void)
+{
+    const support_motor_t m      = support_motor(&drive.motor);
+    const double          pull   = (double)config->nosc.lambda[0][0][1] / m.lq_H;
+    int                   beyond = 0;
+    int                   held   = 0;
+
+    for (int n = 0; n < 20 * CASES; n++) {
+        draw();
+        view.now.iq_A          = support_uniform(&random_state, -8.0f, 8.0f);
+        view.now.id_A          = support_uniform(&random_state, -8.0f, 2.0f);
+        const nosc_error_t e   = error();
+        const dq_t         fb  = nosc_feedback_V(&config->nosc, &e);
+        const float        w_d = view.now.omega_e_radps - e.omega_e_radps;
+        const dq_t ff = feedforward_V(&drive.motor, &state.current_ref, w_d, &view.now, &est);
+        const dq_t u  = {.d = fb.d + ff.d, .q = fb.q + ff.q};
+        if (!voltage_is_outside(u, sample.dc_link_V)) {
+            continue;
+        }
+        dq_t         asked_A;
+        const dq_t   h   = oracle_hold_V(&e, &asked_A);
+        const double x_d = m.ld_H * ((double)view.now.id_A - (double)asked_A.d);
+        const double x_q = m.lq_H * ((double)view.now.iq_A - (double)asked_A.q);
+
+        const law_output_t out = answer(&e, fb);
+
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_FAR_V, (double)h.d - (pull * x_d), (double)out.v_V.d);
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_FAR_V, (double)h.q - (pull * x_q), (double)out.v_V.q);
+        beyond++;
+        if (!voltage_is_outside(h, sample.dc_link_V)) {
+            for (int turn = 0; turn < 8; turn++) {
+                const frames_angle_t at = frames_angle(0.5f * (float)turn);
+                const dq_t   v = voltage_produce(out.v_V, at, sample.dc_link_V, turn % 2 == 0).v_V;
+                const double grows =
+                    (x_d * ((double)v.d - (double)h.d)) + (x_q * ((double)v.q - (double)h.q));
+                TEST_ASSERT_TRUE(grows <= 1.0e-4); /* V Wb of up to 900 */
+            }
+            held++;
+        }
+    }
+    TEST_ASSERT_TRUE((beyond > CASES) && (held > CASES));
 }
 
 static void test_answer_tells_what_the_law_knows(void)
@@ -176,7 +248,7 @@ static void test_answer_tells_what_the_law_knows(void)
         view.plausible       = (n % 2) == 0;
         const nosc_error_t e = error();
 
-        const law_output_t out = near_optimal_answer(&state, &drive.motor, &view, &e, no_V);
+        const law_output_t out = answer(&e, no_V);
 
         TEST_ASSERT_TRUE(out.theta_rad == view.theta_rad);
         TEST_ASSERT_TRUE(out.plausible == view.plausible);
@@ -195,7 +267,7 @@ static void test_not_a_number_is_not_hidden(void)
     const dq_t         fb = {.d = NAN, .q = 0.0f};
     const nosc_error_t e  = error();
 
-    const law_output_t out = near_optimal_answer(&state, &drive.motor, &view, &e, fb);
+    const law_output_t out = answer(&e, fb);
 
     TEST_ASSERT_TRUE(isnan(out.v_V.d) && isnan(out.v_V.q));
 }
@@ -223,6 +295,7 @@ int main(void)
     RUN_TEST(test_references_are_made_of_the_view);
     RUN_TEST(test_error_is_what_is_seen_less_the_reference);
     RUN_TEST(test_answer_is_feedback_plus_feedforward);
+    RUN_TEST(test_answer_out_of_reach_pulls_both_axes_alike);
     RUN_TEST(test_answer_tells_what_the_law_knows);
     RUN_TEST(test_not_a_number_is_not_hidden);
     RUN_TEST(test_check_wants_references_feedback_and_the_limit_of_the_drive);

@@ -18,7 +18,7 @@ static support_random_t random_state;
 static nodo_gains_t     gains;
 static motor_reduced_t  motor;
 
-/* No zero anywhere: an exchange of rows, columns or powers shows. */
+/* No zero but those of parity: an exchange of rows, columns or powers shows. */
 static void fill_gains(int16_t order)
 {
     gains.order          = order;
@@ -27,7 +27,9 @@ static void fill_gains(int16_t order)
     for (int16_t n = 0; n <= NODO_ORDER_MAX; n++) {
         for (int row = 0; row < NODO_N_X; row++) {
             for (int column = 0; column < NODO_N_Y; column++) {
-                gains.gain[n][row][column] = support_uniform(&random_state, -1.0e4f, 1.0e4f);
+                gains.gain[n][row][column] = support_parity(row, column, 2, n)
+                                                 ? support_uniform(&random_state, -1.0e4f, 1.0e4f)
+                                                 : 0.0f;
             }
         }
     }

@@ -69,8 +69,10 @@ static void draw_gains(int16_t order)
     gains.iq_max_A = support_uniform(&random_state, 2.0f, 8.0f);
     for (int n = 0; n <= NODO_ORDER_MAX; n++) {
         for (int i = 0; i < N_X * N_Y; i++) {
-            gains.gain[n][i / N_Y][i % N_Y] =
-                (n <= order) ? support_uniform(&random_state, -3.0e3f, 3.0e3f) : NAN;
+            gains.gain[n][i / N_Y][i % N_Y] = (n > order) ? NAN
+                                              : support_parity(i / N_Y, i % N_Y, 1, n)
+                                                  ? support_uniform(&random_state, -3.0e3f, 3.0e3f)
+                                                  : 0.0f;
         }
     }
 }

@@ -18,7 +18,7 @@ enum { ROW_Q = 0, ROW_D = 1 };
 static support_random_t random_state;
 static nosc_gains_t     gains;
 
-/* No zero anywhere: an exchange of rows, columns or powers shows. */
+/* No zero but those of parity: an exchange of rows, columns or powers shows. */
 static void fill_gains(int16_t order)
 {
     gains.order          = order;
@@ -27,7 +27,9 @@ static void fill_gains(int16_t order)
     for (int n = 0; n <= NOSC_ORDER_MAX; n++) {
         for (int row = 0; row < NOSC_N_U; row++) {
             for (int column = 0; column < NOSC_N_E; column++) {
-                gains.lambda[n][row][column] = support_uniform(&random_state, -100.0f, 100.0f);
+                const bool used = ((column == 2) == (row == ROW_D)) == ((n % 2) == 0);
+                gains.lambda[n][row][column] =
+                    used ? support_uniform(&random_state, -100.0f, 100.0f) : 0.0f;
             }
         }
     }
@@ -40,6 +42,15 @@ void setUp(void)
 }
 
 void tearDown(void) {}
+
+/* Gains of the speed error's current, with the quotients that the tables hold. */
+static void set_speed_gains(float k_w, float k_iq)
+{
+    gains.lambda[0][ROW_Q][0] = k_w;
+    gains.lambda[0][ROW_Q][1] = k_iq;
+    gains.speed_A_per_radps   = (k_w > 0.0f) ? (k_w / k_iq) : 0.0f;
+    gains.speed_radps_per_A   = (k_w > 0.0f) ? (k_iq / k_w) : 0.0f;
+}
 
 static nosc_error_t random_error(float iq_max_A)
 {
@@ -185,8 +196,7 @@ static void test_not_a_number_is_not_hidden(void)
 /* Oracle for EQ-NOSC-3: without a speed error term, the q current that gives the same v_q at n = 0. */
 static void test_speed_current_gives_the_voltage_of_the_speed_error(void)
 {
-    gains.lambda[0][ROW_Q][0] = 44.5f;
-    gains.lambda[0][ROW_Q][1] = 187.0f;
+    set_speed_gains(44.5f, 187.0f);
     for (int step = -100; step <= 100; step++) {
         const float e_w = 0.5f * (float)step;
 
@@ -196,14 +206,35 @@ static void test_speed_current_gives_the_voltage_of_the_speed_error(void)
     }
 }
 
-static void test_law_without_current_gain_asks_for_no_speed_current(void)
+static void test_quotients_are_those_of_the_gains_or_nothing(void)
 {
-    gains.lambda[0][ROW_Q][0] = 44.5f;
-    gains.lambda[0][ROW_Q][1] = 0.0f;
-    TEST_ASSERT_TRUE(nosc_speed_current_A(&gains, 10.0f) == 0.0f);
+    nosc_gains_t g = law_constants_near_optimal(&speed_tables_drive)->nosc;
+    TEST_ASSERT_TRUE(nosc_check(&g));
+    TEST_ASSERT_DOUBLE_WITHIN(1.0e-6, (double)g.lambda[0][ROW_Q][0] / (double)g.lambda[0][ROW_Q][1],
+                              (double)g.speed_A_per_radps);
+    g.speed_radps_per_A *= 1.01f;
+    TEST_ASSERT_FALSE(nosc_check(&g));
+    g.speed_radps_per_A = 0.0f;
+    TEST_ASSERT_FALSE(nosc_check(&g));
+    g.speed_A_per_radps = 0.0f;
+    TEST_ASSERT_TRUE(nosc_check(&g));
+    g.lambda[0][ROW_Q][1] = 0.0f;
+    TEST_ASSERT_FALSE(nosc_check(&g));
+}
 
-    gains.lambda[0][ROW_Q][1] = -1.0f;
-    TEST_ASSERT_TRUE(nosc_speed_current_A(&gains, 10.0f) == 0.0f);
+/* A number where parity says zero would not be multiplied: the table is of something else. */
+static void test_table_against_parity_is_refused(void)
+{
+    for (int n = 0; n <= 2; n++) {
+        for (int i = 0; i < NOSC_N_U * NOSC_N_E; i++) {
+            nosc_gains_t g           = law_constants_near_optimal(&speed_tables_drive)->nosc;
+            const int    row         = i / NOSC_N_E;
+            const int    column      = i % NOSC_N_E;
+            const bool   used        = ((column == 2) == (row == ROW_D)) == ((n % 2) == 0);
+            g.lambda[n][row][column] = 1.0f;
+            TEST_ASSERT_TRUE(nosc_check(&g) == used);
+        }
+    }
 }
 
 /* The q current that row v_q of EQ-NOSC-3 commands, in double. */
@@ -257,10 +288,9 @@ static void test_empty_range_leaves_only_the_reference(void)
 
 static void test_law_without_speed_gain_limits_nothing(void)
 {
-    gains.lambda[0][ROW_Q][1] = 187.0f;
     for (int sign = -1; sign <= 0; sign++) {
-        const nosc_error_t e      = {25.0f, 0.3f, -0.2f};
-        gains.lambda[0][ROW_Q][0] = (float)sign;
+        const nosc_error_t e = {25.0f, 0.3f, -0.2f};
+        set_speed_gains((float)sign, 187.0f);
 
         const nosc_error_t limited = nosc_limit_speed_error(&gains, e, 1.0f, 2.0f, 3.0f);
 
@@ -270,9 +300,8 @@ static void test_law_without_speed_gain_limits_nothing(void)
 
 static void test_small_gains_limit_and_ask_like_large_ones(void)
 {
-    const nosc_error_t e      = {25.0f, 0.3f, -0.2f};
-    gains.lambda[0][ROW_Q][0] = 0.01f;
-    gains.lambda[0][ROW_Q][1] = 0.02f;
+    const nosc_error_t e = {25.0f, 0.3f, -0.2f};
+    set_speed_gains(0.01f, 0.02f);
 
     const nosc_error_t limited = nosc_limit_speed_error(&gains, e, 1.0f, 0.0f, 2.0f);
     const float        iq_A    = nosc_speed_current_A(&gains, e.omega_e_radps);
@@ -309,7 +338,8 @@ int main(void)
     RUN_TEST(test_infinite_current_error_does_not_reach_the_powers);
     RUN_TEST(test_not_a_number_is_not_hidden);
     RUN_TEST(test_speed_current_gives_the_voltage_of_the_speed_error);
-    RUN_TEST(test_law_without_current_gain_asks_for_no_speed_current);
+    RUN_TEST(test_quotients_are_those_of_the_gains_or_nothing);
+    RUN_TEST(test_table_against_parity_is_refused);
     RUN_TEST(test_limited_speed_error_limits_the_commanded_current);
     RUN_TEST(test_speed_error_within_the_range_is_untouched);
     RUN_TEST(test_empty_range_leaves_only_the_reference);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "svpwm.h"
 
+#include "bridge.h"
 #include "unit_support.h"
 #include "unity.h"
 
@@ -136,7 +137,7 @@ static void test_overmodulation_is_clipped_phase_by_phase(void)
                 0.5 + ((phase[x] - (0.5 * (top + bottom))) / (double)V_DC_V), 0.0, 1.0);
         }
 
-        const abc_t duty = svpwm_duty(vector_at(400.0, angle), V_DC_V);
+        const abc_t duty = bridge_closed(svpwm_duty(vector_at(400.0, angle), V_DC_V)).duty;
 
         TEST_ASSERT_DOUBLE_WITHIN(TOL_DUTY, expected[0], (double)duty.a);
         TEST_ASSERT_DOUBLE_WITHIN(TOL_DUTY, expected[1], (double)duty.b);
@@ -148,7 +149,9 @@ static void test_overmodulation_stays_within_the_period(void)
 {
     for (int step = 0; step < ANGLE_STEPS; step++) {
         const abc_t duty =
-            svpwm_duty(vector_at(1.0e6, 2.0 * pi * (double)step / ANGLE_STEPS), V_DC_V);
+            bridge_closed(
+                svpwm_duty(vector_at(1.0e6, 2.0 * pi * (double)step / ANGLE_STEPS), V_DC_V))
+                .duty;
 
         TEST_ASSERT_TRUE(base_in_range(duty.a, 0.0f, 1.0f));
         TEST_ASSERT_TRUE(base_in_range(duty.b, 0.0f, 1.0f));
@@ -163,7 +166,7 @@ static void test_bad_numbers_never_leave_the_range_of_a_duty(void)
                             {.alpha = 1.0f, .beta = support_not_finite[i]},
                             {.alpha = support_not_finite[i], .beta = support_not_finite[i]}};
         for (int k = 0; k < SUPPORT_COUNT(bad); k++) {
-            const abc_t duty = svpwm_duty(bad[k], V_DC_V);
+            const abc_t duty = bridge_closed(svpwm_duty(bad[k], V_DC_V)).duty;
 
             TEST_ASSERT_TRUE(base_in_range(duty.a, 0.0f, 1.0f));
             TEST_ASSERT_TRUE(base_in_range(duty.b, 0.0f, 1.0f));
