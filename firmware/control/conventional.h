@@ -46,7 +46,7 @@ bool conventional_check(const conventional_gains_t *g);
  *
  * Beyond g->i_error_max_A the gain is held at its boundary value.
  *
- * Context: control ISR. Pure, no division, 4 (N+1)(N+2) + 2 N + 8 multiply-adds.
+ * Context: control ISR. Pure, no division, 4 (N+1)(N+2) + 2 N + 8 multiplications.
  */
 dq_t conventional_feedback_V(const conventional_gains_t *g, const motor_reduced_t *m,
                              const nosc_error_t *e);
@@ -54,7 +54,7 @@ dq_t conventional_feedback_V(const conventional_gains_t *g, const motor_reduced_
 /**
  * @brief One step of EQ-CONVENTIONAL-3 by explicit Euler, as nodo_update().
  *
- * Context: control ISR. No division, 12 (Nd+1)(Nd+2) + 6 Nd + 36 multiply-adds.
+ * Context: control ISR. No division, 12 (Nd+1)(Nd+2) + 6 Nd + 25 multiplications.
  */
 void conventional_update(nodo_t *x, const conventional_gains_t *g, const motor_reduced_t *m,
                          const nodo_meas_t *y, dq_t v_V, float ts_s);

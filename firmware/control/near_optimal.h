@@ -44,7 +44,7 @@ void near_optimal_reset(near_optimal_t *s, float omega_e_radps);
 /**
  * @brief References of this period and the error to them, its speed part as far as the limits let it be followed.
  *
- * Context: control ISR. The cost of speed_ref_update() and current_ref_update(), two divisions.
+ * Context: control ISR. The cost of speed_ref_update() and current_ref_update(), no other division.
  */
 nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *c,
                                 const drive_config_t *drive, const near_optimal_view_t *view,

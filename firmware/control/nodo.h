@@ -113,7 +113,7 @@ void nodo_reset(nodo_t *x, const nodo_meas_t *y);
  * @param v_V   Voltage in force during the coming period (after every limit).
  * @param ts_s  Control period [s].
  *
- * Context: control ISR. No division, 13 (Nd+1) + 18 multiplications, one more for every even n.
+ * Context: control ISR. No division, 13 (Nd+1) + 19 multiplications at most.
  */
 void nodo_update(nodo_t *x, const nodo_gains_t *g, const motor_reduced_t *m, const nodo_meas_t *y,
                  dq_t v_V, float ts_s);

@@ -49,7 +49,7 @@ void nodo_encoder_correct(nodo_t *x, float *theta_rad, const nodo_encoder_gains_
 /**
  * @brief EQ-NODO-ENCODER-2: one period ahead with the voltage in force.
  *
- * Context: control ISR. No division, 29 multiplications.
+ * Context: control ISR. No division, 28 multiplications.
  */
 void nodo_encoder_predict(nodo_t *x, float *theta_rad, const motor_reduced_t *m, dq_t v_V,
                           float ts_s);

@@ -103,7 +103,7 @@ void nodo_harmonic_correct(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, d
 /**
  * @brief EQ-HARMONIC-1, 4: one period ahead with the voltage in force; returns what the law needs there.
  *
- * Context: control ISR. One sine and one cosine per pair, less where neighbours have one order.
+ * Context: control ISR. One sine and cosine per pair, less where neighbours have one order.
  */
 nodo_harmonic_view_t nodo_harmonic_predict(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g,
                                            const motor_reduced_t *m, dq_t v_V, float ts_s);

@@ -11,8 +11,7 @@
  *     w_d'' = +-j towards clamp(+-a*, lowest, highest acceleration)             EQ-SPEED-REF-2
  *
  * The last step may pass the command by j Ts^2 / 8; the end is exact. Both derivatives are known,
- * so that w_d' and w_d'' are known and nothing has to be differentiated. The last step may pass the
- * command by j Ts^2 / 8; the end is exact.
+ * so that nothing has to be differentiated.
  */
 #ifndef SPEED_REF_H
 #define SPEED_REF_H
