@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "f28335_names.h"
+#include "sil/f28335/f28335_names.h"
 
 #include "board.h"
 
