@@ -189,7 +189,7 @@ TEST(Report, RoundingNoiseIsZeroAsInTheTables)
     d.nodo.gain[0](0, 1) = 1e-11 * size;
     d.nodo.gain[0](0, 2) = 0.5 * size;
 
-    const json row = report_of(d).at("nodo").at("gain").at(0).at(0);
+    const support::Json row = report_of(d).at("nodo").at("gain").at(0).at(0);
 
     EXPECT_EQ(row.at(0), 0.0);
     EXPECT_EQ(row.at(1), d.nodo.gain[0](0, 1));
