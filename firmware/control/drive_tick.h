@@ -21,8 +21,6 @@
 #include "laws.h"
 #include "sample.h"
 
-typedef bridge_t drive_output_t;
-
 typedef struct {
     float omega_e_radps; /**< wanted electrical speed, within +-trip_speed_e_radps */
     bool  run;           /**< false opens the bridge */

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "design/core_types.hpp"
+#include "drive/core_types.hpp"
 #include "design/motor_model.hpp"
 #include "design/noc_h/harmonic_design.hpp"
 #include "design/series_error.hpp"

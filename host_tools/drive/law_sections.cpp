@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "design/core_types.hpp"
+#include "drive/core_types.hpp"
 
 namespace sdre {
 namespace {

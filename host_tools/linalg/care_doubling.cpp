@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "linalg/eigenvalues.hpp"
+#include "linalg/smith.hpp"
 #include "linalg/square.hpp"
 
 namespace sdre {
@@ -23,66 +24,6 @@ constexpr double newton_enough = 1e-9;
 constexpr double condition_limit = 1e7;
 // Measured on drives and benchmark cases: 2e-16 at most.
 constexpr long double residual_limit = 1e-15L;
-
-/// sum of a[i] b[i] in extended precision, in four sums that do not wait for each other.
-template <class T> long double dot(const double *a, const T *b, std::size_t n)
-{
-    std::array<long double, 4> sum{};
-    std::size_t                i = 0;
-    for (; i + 4 <= n; i += 4) {
-        for (std::size_t k = 0; k < 4; k++) {
-            sum[k] += static_cast<long double>(a[i + k]) * static_cast<long double>(b[i + k]);
-        }
-    }
-    for (; i < n; i++) {
-        sum[0] += static_cast<long double>(a[i]) * static_cast<long double>(b[i]);
-    }
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
-/// X of A'X + X A + W = 0 for any number of W: X = sum of (F')^k V F^k, F = (A + gI)(A - gI)^-1, summed by squaring F.
-template <std::size_t N> class Smith {
-public:
-    /// False when A is not Hurwitz, or close to it.
-    bool prepare(const Square<N> &A, double shift)
-    {
-        shift_    = shift;
-        resolved_ = A;
-        add(resolved_, -shift, diagonal<N>(1.0));
-        if (!invert(resolved_)) {
-            return false;
-        }
-        Square<N> F = diagonal<N>(1.0);
-        add(F, 2.0 * shift, resolved_);
-        for (count_ = 0; count_ < doublings_max; count_++) {
-            powers_[count_]   = F;
-            const double size = norm(F);
-            if (size * size < settled * settled) {
-                return true;
-            }
-            F = product(F, F);
-        }
-        return false;
-    }
-
-    Square<N> solve(const Square<N> &W) const
-    {
-        Square<N> X = product(transposed(resolved_), product(W, resolved_));
-        for (double &x : X.x) {
-            x *= 2.0 * shift_;
-        }
-        for (std::size_t k = 0; k < count_; k++) {
-            add(X, 1.0, product(transposed(powers_[k]), product(X, powers_[k])));
-        }
-        return symmetric_part(X);
-    }
-
-private:
-    double                               shift_ = 0.0;
-    std::size_t                          count_ = 0;
-    Square<N>                            resolved_;
-    std::array<Square<N>, doublings_max> powers_;
-};
 
 /// The problem in the states z, x = diag(d) z, with padding that is stable and coupled to nothing.
 template <std::size_t N> class Doubling {

@@ -167,4 +167,20 @@ template <std::size_t N> double log2_determinant(Square<N> A)
     return sum;
 }
 
+/// sum of a[i] b[i] in extended precision, in four sums that do not wait for each other.
+template <class T> long double dot(const double *a, const T *b, std::size_t n)
+{
+    std::array<long double, 4> sum{};
+    std::size_t                i = 0;
+    for (; i + 4 <= n; i += 4) {
+        for (std::size_t k = 0; k < 4; k++) {
+            sum[k] += static_cast<long double>(a[i + k]) * static_cast<long double>(b[i + k]);
+        }
+    }
+    for (; i < n; i++) {
+        sum[0] += static_cast<long double>(a[i]) * static_cast<long double>(b[i]);
+    }
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
 } // namespace sdre

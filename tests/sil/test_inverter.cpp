@@ -48,7 +48,7 @@ InverterSettings model(InverterModel which)
     return s;
 }
 
-drive_output_t duties(double a, double b, double c)
+bridge_t duties(double a, double b, double c)
 {
     return {{static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)}, true};
 }
@@ -64,7 +64,7 @@ Plant plant_with(const Motor &m, StatorVector i)
     return plant;
 }
 
-std::array<double, 3> mean_V(Bridge &bridge, Plant &plant, const drive_output_t &output,
+std::array<double, 3> mean_V(Bridge &bridge, Plant &plant, const bridge_t &output,
                              const InverterSettings &s = {})
 {
     DcLink link(s, vdc_V);
@@ -88,7 +88,7 @@ TEST(Bridge, WithoutDeadTimeBothModelsHaveTheDutyAsMean)
     Plant                            p = plant_with(motor(), {1.0, -0.5});
     Plant                            q = p;
     for (int k = 0; k < 500; k++) {
-        const drive_output_t        out = duties(any(random), any(random), any(random));
+        const bridge_t              out = duties(any(random), any(random), any(random));
         const std::array<double, 3> s   = mean_V(switched, p, out);
         const std::array<double, 3> a   = mean_V(averaged, q, out);
         const float                 d[] = {out.duty.a, out.duty.b, out.duty.c};
@@ -107,7 +107,7 @@ TEST(Bridge, HalfPeriodsHaveTheDutyAsMeanToo)
     Bridge bridge({period_s, 2500.0, 0.07498, true}, model(InverterModel::switched), 0.0);
     Plant  p = plant_with(motor(), {1.0, -0.5});
     for (int k = 0; k < 200; k++) {
-        const drive_output_t out = duties(any(random), any(random), any(random));
+        const bridge_t out = duties(any(random), any(random), any(random));
         ASSERT_NEAR(mean_V(bridge, p, out)[0], vdc_V * static_cast<double>(out.duty.a), 1e-7);
     }
 }
@@ -196,9 +196,9 @@ TEST(Bridge, ModelsAgreeInClosedMotion)
     ps.reset(300.0);
     double worst_A = 0.0;
     for (int k = 0; k < 2000; k++) {
-        const double angle = 300.0 * period_s * k + 1.9;
-        const auto   leg   = [&](double shift) { return 0.5 + 0.25 * std::cos(angle - shift); };
-        const drive_output_t out = duties(leg(0.0), leg(2.0943951), leg(4.1887902));
+        const double   angle = 300.0 * period_s * k + 1.9;
+        const auto     leg   = [&](double shift) { return 0.5 + 0.25 * std::cos(angle - shift); };
+        const bridge_t out   = duties(leg(0.0), leg(2.0943951), leg(4.1887902));
         mean_V(a, pa, out);
         mean_V(s, ps, out);
         worst_A = std::max(worst_A, std::hypot(pa.current_A().d - ps.current_A().d,
@@ -219,9 +219,9 @@ TEST(Bridge, TwoStepsPerPeriodAreEnough)
     DcLink link({}, vdc_V);
     double worst_A = 0.0;
     for (int k = 0; k < 1000; k++) {
-        const double angle = 850.0 * period_s * k + 1.9;
-        const auto   leg   = [&](double shift) { return 0.5 + 0.45 * std::cos(angle - shift); };
-        const drive_output_t out = duties(leg(0.0), leg(2.0943951), leg(4.1887902));
+        const double   angle = 850.0 * period_s * k + 1.9;
+        const auto     leg   = [&](double shift) { return 0.5 + 0.45 * std::cos(angle - shift); };
+        const bridge_t out   = duties(leg(0.0), leg(2.0943951), leg(4.1887902));
         coarse.begin_period(out);
         coarse.advance(p, link, {}, 0.0, period_s);
         for (int n = 0; n < 20; n++) {
@@ -278,7 +278,7 @@ TEST(Bridge, SplittingAPeriodChangesNothing)
         Plant  q = p;
         DcLink link({}, vdc_V);
         for (int k = 0; k < 50; k++) {
-            const drive_output_t out = duties(0.62, 0.5, 0.41);
+            const bridge_t out = duties(0.62, 0.5, 0.41);
             whole.begin_period(out);
             whole.advance(p, link, {}, 0.0, period_s);
             split.begin_period(out);

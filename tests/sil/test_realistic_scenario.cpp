@@ -51,7 +51,7 @@ bool same(const SimulationResult &a, const SimulationResult &b)
 }
 
 /// Period by period without a controller: a constant duty vector that turns with the rotor.
-drive_output_t open_loop(double angle)
+bridge_t open_loop(double angle)
 {
     const auto leg = [&](double shift) {
         return static_cast<float>(0.5 + 0.2 * std::cos(angle - shift));
@@ -274,12 +274,12 @@ TEST(RealisticScenario, PiFocHoldsTheSpeed)
     const pi_foc_gains_t gains = pi_foc_gains(s.drive);
     pi_foc_t             pi{};
     pi_foc_init(&pi, &gains);
-    drive_output_t in_force{{0.5F, 0.5F, 0.5F}, true};
+    bridge_t in_force{{0.5F, 0.5F, 0.5F}, true};
     for (int k = 0; k < 4000; k++) {
         board.begin_tick(2e-4 * k);
         const drive_sample_t  sample  = board.sample();
         const drive_command_t command = {300.0F, true};
-        const drive_output_t  out     = pi_foc_tick(&pi, &sample, &command);
+        const bridge_t        out     = pi_foc_tick(&pi, &sample, &command);
         board.run_period(in_force);
         in_force = out;
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "design/noc_h/harmonic_rows.hpp"
 #include "linalg/c2d.hpp"
 #include "linalg/linalg_checks.hpp"
 #include "linalg/sampled_riccati.hpp"
@@ -11,13 +12,11 @@
 namespace sdre {
 namespace {
 
+using namespace harmonic_rows;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-constexpr Index n_base = NODO_HARMONIC_N_BASE;
-enum Row : Index { d_omega, d_q, d_d, omega, iq, id, theta, slope };
 
 // Chosen: gains half-way between two nodes are within 1 % of the exact ones, 7 % where edges come to be trusted.
 constexpr int nodes_in_table = NODO_HARMONIC_NODES_MAX;

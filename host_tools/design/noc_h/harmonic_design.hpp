@@ -14,8 +14,8 @@
 #include <memory>
 #include <vector>
 
-#include "design/core_types.hpp"
 #include "design/motor_model.hpp"
+#include "drive/core_types.hpp"
 #include "drive/drive_file.hpp"
 
 namespace sdre {

@@ -5,17 +5,18 @@
 #include <cmath>
 #include <vector>
 
+#include "design/noc_h/harmonic_rows.hpp"
+
 namespace sdre {
 namespace {
 
+using namespace harmonic_rows;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-constexpr Index n_base  = NODO_HARMONIC_N_BASE;
 constexpr Index n_motor = 4; // w, iq, id, theta
-enum Row : Index { d_omega, d_q, d_d, omega, iq, id, theta, slope };
 
 Index first_row(int pair)
 {

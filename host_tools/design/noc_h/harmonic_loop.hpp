@@ -2,9 +2,9 @@
 /// The sampled closed loop of noc_h, linearised at an operating point, with the gains that the firmware interpolates.
 #pragma once
 
-#include "design/core_types.hpp"
 #include "design/motor_model.hpp"
 #include "design/sampled_model.hpp"
+#include "drive/core_types.hpp"
 
 namespace sdre {
 

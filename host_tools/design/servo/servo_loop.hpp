@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "design/core_types.hpp"
+#include "drive/core_types.hpp"
 #include "drive/drive_file.hpp"
 
 #include <Eigen/Core>

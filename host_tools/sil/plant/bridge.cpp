@@ -24,7 +24,7 @@ void Bridge::configure(const InverterSettings &settings, double dead_time_s)
     dead_time_s_ = dead_time_s;
 }
 
-void Bridge::begin_period(const drive_output_t &output)
+void Bridge::begin_period(const bridge_t &output)
 {
     const std::array<double, 3> asked{static_cast<double>(output.duty.a),
                                       static_cast<double>(output.duty.b),

@@ -17,7 +17,7 @@
 
 #include <array>
 
-#include "design/core_types.hpp"
+#include "drive/core_types.hpp"
 #include "sil/plant/dc_link.hpp"
 #include "sil/plant/leg.hpp"
 #include "sil/plant/plant.hpp"
@@ -44,7 +44,7 @@ public:
     /// Changes in flight, between two periods.
     void configure(const InverterSettings &settings, double dead_time_s);
     /// Fixes the switching instants of the coming period.
-    void begin_period(const drive_output_t &output);
+    void begin_period(const bridge_t &output);
     /// The same from the edges themselves; the dead time is then that of the edges.
     void begin_period(const std::array<LegTiming, 3> &legs);
     /// Opens (false: both switches off) or frees legs, now.

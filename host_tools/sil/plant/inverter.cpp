@@ -15,7 +15,7 @@ double diode_share(double current_A)
 
 } // namespace
 
-StatorVector inverter_voltage(const drive_output_t &output, double dc_link_V, StatorVector i)
+StatorVector inverter_voltage(const bridge_t &output, double dc_link_V, StatorVector i)
 {
     StatorVector share;
     if (output.gate_enable) { // EQ-INVERTER-1

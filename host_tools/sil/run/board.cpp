@@ -215,7 +215,7 @@ bool Board::plain_period() const
     return plain_inverter_ && plain_motor_ && sensors_.ideal;
 }
 
-void Board::run_period(const drive_output_t &in_force)
+void Board::run_period(const bridge_t &in_force)
 {
     plant_.reset_peak();
     if (plain_period()) {

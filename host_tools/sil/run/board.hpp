@@ -42,7 +42,7 @@ public:
     /// What the core gets at this tick.
     drive_sample_t sample();
     /// One period with the duty ratios in force; ends at the next tick.
-    void run_period(const drive_output_t &in_force);
+    void run_period(const bridge_t &in_force);
 
     /// The same for a board that is simulated down to its codes and edges: instead of sample(), ...
     RawSample raw_sample();

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "design/core_types.hpp"
+#include "drive/core_types.hpp"
 #include "sil/setup/scenario.hpp"
 
 namespace sdre {

@@ -3,7 +3,7 @@
 
 #include <iterator>
 
-#include "design/core_types.hpp"
+#include "drive/core_types.hpp"
 
 namespace sdre {
 namespace {

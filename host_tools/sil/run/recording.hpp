@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "design/core_types.hpp"
+#include "drive/core_types.hpp"
 #include "sil/run/simulation.hpp"
 #include "sil/setup/scenario.hpp"
 
@@ -14,7 +14,7 @@ struct Recording {
     std::vector<drive_t>         drives; ///< the core before each tick
     std::vector<drive_sample_t>  samples;
     std::vector<drive_command_t> commands;
-    std::vector<drive_output_t>  outputs; ///< what the core answered here
+    std::vector<bridge_t>        outputs; ///< what the core answered here
 };
 
 /// One run of the scenario. DesignError when the core refuses the controller's constants.

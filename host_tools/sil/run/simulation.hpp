@@ -5,7 +5,7 @@
 /// on a motor that turns at the initial speed without current.
 #pragma once
 
-#include "design/core_types.hpp"
+#include "drive/core_types.hpp"
 #include "sil/run/board.hpp"
 #include "sil/run/controller.hpp"
 #include "sil/run/faults.hpp"
@@ -29,7 +29,7 @@ public:
     struct CoreTick {
         drive_sample_t  sample;
         drive_command_t command;
-        drive_output_t  output;
+        bridge_t        output;
     };
     const CoreTick &core_tick() const
     {
@@ -42,12 +42,12 @@ public:
     }
 
 private:
-    double         period_s_;
-    Board          board_;
-    drive_t        drive_{};
-    CoreTick       core_tick_{};
-    drive_output_t in_force_{{0.5F, 0.5F, 0.5F}, true}; ///< no voltage until the first result acts
-    long           tick_ = 0;
+    double   period_s_;
+    Board    board_;
+    drive_t  drive_{};
+    CoreTick core_tick_{};
+    bridge_t in_force_{{0.5F, 0.5F, 0.5F}, true}; ///< no voltage until the first result acts
+    long     tick_ = 0;
 };
 
 /// Runs a scenario. DesignError when the controller's gains cannot be solved.

@@ -2,7 +2,7 @@
 /// What a run leaves of each control period.
 #pragma once
 
-#include "design/core_types.hpp"
+#include "drive/core_types.hpp"
 #include "sil/run/board.hpp"
 
 namespace sdre {
