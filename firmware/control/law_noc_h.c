@@ -41,10 +41,7 @@ static law_output_t step(law_state_t *state, const drive_config_t *drive, const 
     const law_noc_h_config_t *c    = drive->constants;
     law_noc_h_state_t        *s    = &state->noc_h;
     const near_optimal_view_t view = observe(s, c, drive, in);
-    const nosc_error_t e = near_optimal_error(&s->near_optimal, &c->near_optimal, drive, &view, in);
-
-    return near_optimal_answer(&s->near_optimal, &c->near_optimal, &drive->motor, &view, &e,
-                               nosc_feedback_V(&c->near_optimal.nosc, &e), in->sample->dc_link_V);
+    return near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in);
 }
 
 const law_t law_noc_h = {.check = check, .reset = reset, .step = step};

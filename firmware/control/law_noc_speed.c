@@ -42,10 +42,7 @@ static law_output_t step(law_state_t *state, const drive_config_t *drive, const 
     nodo_update(&s->observer, &c->nodo, &drive->motor, &y, in->v_V, drive->ts_s);
 
     const near_optimal_view_t view = law_noc_speed_view(s, &y, in->sample, drive->ts_s);
-    const nosc_error_t e = near_optimal_error(&s->near_optimal, &c->near_optimal, drive, &view, in);
-
-    return near_optimal_answer(&s->near_optimal, &c->near_optimal, &drive->motor, &view, &e,
-                               nosc_feedback_V(&c->near_optimal.nosc, &e), in->sample->dc_link_V);
+    return near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in);
 }
 
 const law_t law_noc_speed = {.check = check, .reset = reset, .step = step};

@@ -62,4 +62,9 @@ law_output_t near_optimal_answer(const near_optimal_t *s, const near_optimal_con
                                  const motor_reduced_t *m, const near_optimal_view_t *view,
                                  const nosc_error_t *e, dq_t feedback_V, float dc_link_V);
 
+/** Both, with the feedback of nosc.h between them: the rest of a period after the observer. Context: control ISR. */
+law_output_t near_optimal_step(near_optimal_t *s, const near_optimal_config_t *c,
+                               const drive_config_t *drive, const near_optimal_view_t *view,
+                               const law_input_t *in);
+
 #endif /* NEAR_OPTIMAL_H */
