@@ -92,7 +92,7 @@ static bool background_lost(void)
 /* Off before anything else; on after everything else. */
 static void drive_bridge(const bridge_t *out, bool was_on)
 {
-    const board_duty_t duty = app_scale_duty(out->duty);
+    const board_duty_t duty = app_gate_duty(&tick_side.modes.config->gate, out->duty);
 
     if (!out->gate_enable) {
         board_gate_trip();
@@ -108,6 +108,7 @@ static void publish(uint16_t board_faults, uint32_t start_cycles)
     app_status_t   status = app_modes_status(&tick_side.modes, board_faults);
     const uint32_t cycles = (uint32_t)(board_cycles() - start_cycles);
 
+    status.reset_cause = board_reset_cause();
     status.tick_cycles = (uint16_t)((cycles < CYCLES_SHOWN_MAX) ? cycles : CYCLES_SHOWN_MAX);
     if (status.tick_cycles > tick_side.cycles_worst) {
         tick_side.cycles_worst = status.tick_cycles;

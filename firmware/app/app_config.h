@@ -8,6 +8,7 @@
 
 #include "app_align.h"
 #include "app_angle.h"
+#include "app_gate.h"
 #include "app_scale.h"
 
 typedef struct {
@@ -15,6 +16,7 @@ typedef struct {
     app_scale_config_t scale;
     app_angle_config_t angle;
     app_align_config_t align;
+    app_gate_config_t  gate;
     float              temperature_limit_degC; /**< no start above */
     float              temperature_trip_degC;  /**< fault above; > the limit */
     uint16_t           boot_ticks;

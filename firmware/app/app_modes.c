@@ -36,24 +36,28 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *c, const drive_c
     const bool scale_ok = app_scale_init(&m->scale, &c->scale, d->trip_current_A) == CTL_OK;
     const bool angle_ok = app_angle_init(&m->angle, &c->angle, d->ts_s) == CTL_OK;
     const bool align_ok = app_align_init(&m->align, &c->align, c->angle.pole_pairs, d) == CTL_OK;
+    const bool gate_ok  = app_gate_check(&c->gate) == CTL_OK;
     const bool ok =
-        drive_ok && scale_ok && angle_ok && align_ok && drive_fits(c, d) && values_ok(c);
+        drive_ok && scale_ok && angle_ok && align_ok && gate_ok && drive_fits(c, d) && values_ok(c);
     const app_scale_sample_t  no_sample  = {.valid = false};
     const app_angle_reading_t no_reading = {.speed_valid = false};
 
-    m->config      = c;
-    m->mode        = ok ? APP_MODE_BOOT : APP_MODE_FAULT;
-    m->fault       = ok ? APP_FAULT_NONE : APP_FAULT_CONFIG;
-    m->sample      = no_sample;
-    m->reading     = no_reading;
-    m->ticks       = 0UL;
-    m->sum_a_cnt   = 0UL;
-    m->sum_b_cnt   = 0UL;
-    m->timer_ticks = 0U;
-    m->calibrated  = false;
-    m->armed       = false;
-    m->hot         = true;
-    m->gate_on     = false;
+    m->config       = c;
+    m->mode         = ok ? APP_MODE_BOOT : APP_MODE_FAULT;
+    m->fault        = ok ? APP_FAULT_NONE : APP_FAULT_CONFIG;
+    m->sample       = no_sample;
+    m->reading      = no_reading;
+    m->ticks        = 0UL;
+    m->sum_a_cnt    = 0UL;
+    m->sum_b_cnt    = 0UL;
+    m->timer_ticks  = 0U;
+    m->calibrated   = false;
+    m->armed        = false;
+    m->hot          = true;
+    m->dc_link_out  = true;
+    m->tripped      = false;
+    m->gate_on      = false;
+    m->phase_errors = 0U;
     clear_snapshot(&m->snapshot);
     m->snapshot.fault = m->fault;
     return ok ? CTL_OK : CTL_BAD_CONFIG;
@@ -77,6 +81,9 @@ static void measure(app_modes_t *m, const board_sample_t *raw)
             app_angle_update(&m->angle, raw->position_cnt, raw->index_seen, raw->index_cnt);
         m->hot = !m->sample.temperature_valid ||
                  !(m->sample.temperature_degC <= m->config->temperature_limit_degC);
+        m->dc_link_out  = !base_in_range(m->sample.dc_link_V, m->drive.config->dc_link_min_V,
+                                         m->drive.config->dc_link_max_V);
+        m->phase_errors = raw->phase_errors;
     } else {
         app_angle_drop(&m->angle);
         m->reading.speed_valid = false;
@@ -98,7 +105,8 @@ static drive_sample_t drive_sample(const app_modes_t *m)
 /* What would be wrong in any mode, then what matters as soon as samples are used, then what needs the bridge. */
 static app_fault_t watch(const app_modes_t *m, const app_modes_input_t *in)
 {
-    const bool driving = (m->mode == APP_MODE_ALIGN) || (m->mode == APP_MODE_RUN);
+    const bool driving =
+        (m->mode == APP_MODE_ALIGN) || (m->mode == APP_MODE_PRECHARGE) || (m->mode == APP_MODE_RUN);
 
     if (in->background_lost) {
         return APP_FAULT_BACKGROUND;
@@ -168,17 +176,31 @@ static bridge_t calibrate(app_modes_t *m, const app_modes_input_t *in)
     return bridge_open();
 }
 
+/* What is in the way of a start and may go again. An unknown temperature is a fault of the run instead. */
+static bool in_the_way(const app_modes_t *m)
+{
+    return (m->hot && m->sample.temperature_valid) || m->dc_link_out || m->tripped ||
+           !app_gate_may_start(&m->config->gate, m->reading.omega_e_radps);
+}
+
+static void enter_run(app_modes_t *m)
+{
+    const bool precharge = !m->gate_on && (m->config->gate.precharge_ticks > 0U);
+    enter(m, precharge ? APP_MODE_PRECHARGE : APP_MODE_RUN);
+}
+
 /* The bridge stays open in this tick: the next one looks at everything again in the new mode. */
 static bridge_t ready(app_modes_t *m, const app_modes_input_t *in)
 {
+    m->tripped = (in->board_faults & (uint16_t)BOARD_FAULT_INPUT) != 0U;
     if (!in->command.run) {
         m->armed = true;
         return bridge_open();
     }
-    const bool start = m->armed && !(m->hot && m->sample.temperature_valid);
+    const bool start = m->armed && !in_the_way(m);
     m->armed         = false; /* a refused start is not made up for later */
     if (start && (m->angle.reference != APP_ANGLE_NONE)) {
-        enter(m, APP_MODE_RUN);
+        enter_run(m);
     } else if (start) {
         app_align_start(&m->align, in->raw.position_cnt);
         enter(m, APP_MODE_ALIGN);
@@ -191,6 +213,13 @@ static bridge_t drive(app_modes_t *m, const app_command_t *wanted, bool run)
     const drive_sample_t  sample  = drive_sample(m);
     const drive_command_t command = {.omega_e_radps = wanted->omega_e_radps, .run = run};
     return drive_tick(&m->drive, &sample, &command);
+}
+
+/* The drive itself stays off: it only checks samples and command against its limits. False: one of them is wrong. */
+static bool drive_watches(app_modes_t *m, const app_modes_input_t *in)
+{
+    (void)drive(m, &in->command, false);
+    return m->drive.state != DRIVE_FAULT;
 }
 
 static bridge_t run(app_modes_t *m, const app_modes_input_t *in)
@@ -206,20 +235,37 @@ static bridge_t run(app_modes_t *m, const app_modes_input_t *in)
     return out;
 }
 
-/* The drive itself stays off: it only checks samples and command against its limits. */
+static bridge_t precharge(app_modes_t *m, const app_modes_input_t *in)
+{
+    const abc_t lower_on = {0.0f, 0.0f, 0.0f};
+
+    if (!in->command.run) {
+        enter(m, APP_MODE_READY);
+        return bridge_open();
+    }
+    if (!drive_watches(m, in)) {
+        return trip(m, in, APP_FAULT_DRIVE);
+    }
+    if (m->timer_ticks >= m->config->gate.precharge_ticks) {
+        enter(m, APP_MODE_RUN);
+        return run(m, in);
+    }
+    m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
+    return bridge_closed(lower_on);
+}
+
 static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
 {
     if (!in->command.run) {
         enter(m, APP_MODE_READY);
         return bridge_open();
     }
-    (void)drive(m, &in->command, false);
-    if (m->drive.state == DRIVE_FAULT) {
+    if (!drive_watches(m, in)) {
         return trip(m, in, APP_FAULT_DRIVE);
     }
     if (m->angle.reference == APP_ANGLE_INDEX) { /* the mark came by: better than alignment */
-        enter(m, APP_MODE_RUN);
-        return run(m, in);
+        enter_run(m);
+        return (m->mode == APP_MODE_RUN) ? run(m, in) : bridge_open();
     }
     const bridge_t out = app_align_tick(&m->align, m->sample.ia_A, m->sample.ib_A,
                                         m->sample.dc_link_V, in->raw.position_cnt);
@@ -251,6 +297,8 @@ static bridge_t act(app_modes_t *m, const app_modes_input_t *in)
         return ready(m, in);
     case APP_MODE_ALIGN:
         return align(m, in);
+    case APP_MODE_PRECHARGE:
+        return precharge(m, in);
     case APP_MODE_RUN:
         return run(m, in);
     case APP_MODE_FAULT:
@@ -275,36 +323,4 @@ bridge_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in)
     const bridge_t    out   = (fault == APP_FAULT_NONE) ? act(m, in) : trip(m, in, fault);
     m->gate_on              = out.gate_enable;
     return out;
-}
-
-app_status_t app_modes_status(const app_modes_t *m, uint16_t board_faults)
-{
-    const bool   running = m->mode == APP_MODE_RUN;
-    const dq_t   zero    = {0.0f, 0.0f};
-    const dq_t   now_A   = {.d = m->drive.wanted.now.id_A, .q = m->drive.wanted.now.iq_A};
-    app_status_t s       = {.mode              = m->mode,
-                            .fault             = m->fault,
-                            .drive_fault       = m->drive.fault,
-                            .board_faults      = board_faults,
-                            .hot               = m->hot,
-                            .gate_enable       = m->gate_on,
-                            .reference         = m->angle.reference,
-                            .align_stage       = m->align.stage,
-                            .position_cnt      = m->angle.before_cnt,
-                            .index_corrections = m->angle.corrections,
-                            .theta_e_rad       = m->reading.theta_e_rad,
-                            .speed_e_radps =
-                          running ? m->drive.wanted.now.omega_e_radps : m->reading.omega_e_radps,
-                            .dc_link_V         = m->sample.dc_link_V,
-                            .temperature_degC  = m->sample.temperature_degC,
-                            .i_A               = running ? now_A : zero,
-                            .i_ref_A           = running ? m->drive.wanted.i_ref_A : zero,
-                            .v_V               = running ? m->drive.v_V : zero,
-                            .zero_a_cnt        = m->scale.zero_a_cnt,
-                            .zero_b_cnt        = m->scale.zero_b_cnt,
-                            .tick_cycles       = 0U,
-                            .tick_cycles_worst = 0U,
-                            .ticks             = m->ticks,
-                            .snapshot          = m->snapshot};
-    return s;
 }

@@ -3,10 +3,11 @@
  * @file app_modes.h
  * @brief The application's state machine: one period from raw samples to duty ratios and a gate request.
  *
- *     BOOT -> CALIBRATE -> READY -> (ALIGN, unless the angle is referenced) -> RUN
+ *     BOOT -> CALIBRATE -> READY -> (ALIGN, unless the angle is referenced) -> (PRECHARGE, if needed) -> RUN
  *
  * Anything wrong in a mode that uses it leads to FAULT in the same call, with the bridge open. FAULT ends by a reset
- * command without run. A run starts when run rises in READY, never by itself.
+ * command without run. A run starts when run rises in READY, never by itself, and not while something is in its way
+ * that may go again: heat, a dc link out of range, an active trip input, a shaft too fast for a precharge.
  *
  * The board's fault flags count while the gates are enabled: enabling is what clears them.
  * Hardware is not touched here: app.c does what the output says.
@@ -37,11 +38,14 @@ typedef struct {
     uint32_t            ticks;
     uint32_t            sum_a_cnt;
     uint32_t            sum_b_cnt;
-    uint16_t            timer_ticks; /**< BOOT, CALIBRATE: since the mode began */
+    uint16_t            timer_ticks; /**< BOOT, CALIBRATE, PRECHARGE: since the mode began */
     bool                calibrated;
-    bool                armed;   /**< READY has seen run = false */
-    bool                hot;     /**< above the temperature limit, or temperature unknown */
-    bool                gate_on; /**< gates were enabled by an earlier tick */
+    bool                armed;       /**< READY has seen run = false */
+    bool                hot;         /**< above the temperature limit, or temperature unknown */
+    bool                dc_link_out; /**< outside the drive's range */
+    bool                tripped;     /**< READY: the trip input is active */
+    bool                gate_on;     /**< gates were enabled by an earlier tick */
+    uint16_t            phase_errors;
     app_snapshot_t      snapshot;
 } app_modes_t;
 

@@ -56,7 +56,9 @@ static uint16_t conditions(const app_registers_t *r)
     const uint16_t hot    = r->status.hot ? (uint16_t)APP_REGISTERS_HOT : 0U;
     const uint16_t silent = r->silent ? (uint16_t)APP_REGISTERS_SILENT : 0U;
     const uint16_t gate   = r->status.gate_enable ? (uint16_t)APP_REGISTERS_GATE : 0U;
-    return (uint16_t)(hot | silent | gate);
+    const uint16_t dc     = r->status.dc_link_out ? (uint16_t)APP_REGISTERS_DC_OUT : 0U;
+    const uint16_t trip   = r->status.tripped ? (uint16_t)APP_REGISTERS_TRIPPED : 0U;
+    return (uint16_t)(hot | silent | gate | dc | trip);
 }
 
 static void state_values(const app_registers_t *r, uint16_t all[APP_REGISTERS_INPUT_COUNT])
@@ -72,6 +74,8 @@ static void state_values(const app_registers_t *r, uint16_t all[APP_REGISTERS_IN
     all[APP_REGISTERS_ALIGN_STAGE]  = (uint16_t)s->align_stage;
     all[APP_REGISTERS_POSITION]     = s->position_cnt;
     all[APP_REGISTERS_CORRECTIONS]  = s->index_corrections;
+    all[APP_REGISTERS_RESET_CAUSE]  = (uint16_t)s->reset_cause;
+    all[APP_REGISTERS_PHASE_ERRORS] = s->phase_errors;
     all[APP_REGISTERS_CYCLES]       = s->tick_cycles;
     all[APP_REGISTERS_CYCLES_WORST] = s->tick_cycles_worst;
     all[APP_REGISTERS_TICKS_HI]     = high_word(s->ticks);

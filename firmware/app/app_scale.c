@@ -108,15 +108,3 @@ app_scale_sample_t app_scale_sample(const app_scale_t *s, const board_sample_t *
     out.valid = true;
     return out;
 }
-
-static uint16_t compare_cnt(float duty)
-{
-    return (uint16_t)((duty * (float)BOARD_DUTY_FULL) + 0.5f);
-}
-
-board_duty_t app_scale_duty(abc_t duty)
-{
-    const board_duty_t out = {
-        .a_cnt = compare_cnt(duty.a), .b_cnt = compare_cnt(duty.b), .c_cnt = compare_cnt(duty.c)};
-    return out;
-}

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_scale.h
- * @brief Raw codes to SI units and duty ratios to compare values.
+ * @brief Raw codes to SI units.
  *
  *     i = A_per_cnt (code - zero),   v_dc = V_per_cnt code                     EQ-APP-SCALE-1
  *
@@ -60,8 +60,5 @@ bool app_scale_set_zero(app_scale_t *s, uint32_t sum_a_cnt, uint32_t sum_b_cnt, 
 
 /** Context: control ISR. No division of floats. */
 app_scale_sample_t app_scale_sample(const app_scale_t *s, const board_sample_t *raw);
-
-/** Nearest compare values of the ratios of a bridge_t, which are in [0, 1]. Context: control ISR. */
-board_duty_t app_scale_duty(abc_t duty);
 
 #endif /* APP_SCALE_H */

@@ -17,7 +17,8 @@ typedef enum {
     APP_MODE_READY,     /**< bridge off, waits for run to rise */
     APP_MODE_ALIGN,     /**< finds the angle */
     APP_MODE_RUN,       /**< drive_tick() has the bridge */
-    APP_MODE_FAULT      /**< bridge off until a reset without run */
+    APP_MODE_FAULT,     /**< bridge off until a reset without run */
+    APP_MODE_PRECHARGE  /**< all lower switches on: the gate drivers' supplies are charged */
 } app_mode_t;
 
 /** Why the mode is FAULT; the first reason is kept. */
@@ -53,11 +54,15 @@ typedef struct {
     drive_fault_t         drive_fault;
     uint16_t              board_faults; /**< flags of this tick */
     bool                  hot;          /**< above the temperature limit: no start */
+    bool                  dc_link_out;  /**< outside the drive's range: no start */
+    bool                  tripped;      /**< the trip input is active: no start */
     bool                  gate_enable;
     app_angle_reference_t reference;
     app_align_stage_t     align_stage;
     uint16_t              position_cnt;
     uint16_t              index_corrections;
+    uint16_t              phase_errors; /**< of the encoder since the start */
+    board_reset_t         reset_cause;
     float                 theta_e_rad;
     float                 speed_e_radps; /**< RUN: estimate of the drive; otherwise by difference */
     float                 dc_link_V;

@@ -23,9 +23,13 @@ typedef struct {
     uint16_t dc_link_cnt;     /**< dc-link voltage */
     uint16_t temperature_cnt; /**< heat sink */
     uint16_t position_cnt;    /**< 0 .. BOARD_POSITIONS - 1, latched with the currents */
+    uint16_t edge_age_cnt;    /**< from the last edge to the latch, ticks of BOARD_CAPTURE_Hz */
     uint16_t index_cnt;       /**< position latched at the last index pulse */
+    uint16_t phase_errors;    /**< of the encoder since the start; wraps */
     bool     index_seen;      /**< an index pulse came since the sample before */
-    bool     valid; /**< measured in this period, and the encoder reports no phase error in it */
+    bool edge_seen; /**< the position differs from the sample before, all the way in one direction:
+                             edge_age_cnt holds, and the edge is the one passed last */
+    bool valid;     /**< measured in this period */
 } board_sample_t;
 
 /** On-time of the upper switches, 0 .. BOARD_DUTY_FULL; more counts as full. */
@@ -41,8 +45,15 @@ enum {
     BOARD_FAULT_TRIP    = 1, /**< the hardware opened the bridge, or its trip input is active */
     BOARD_FAULT_OVERRUN = 2, /**< a tick outlasted its control period, or a period got no tick */
     BOARD_FAULT_CLOCK   = 4, /**< the crystal is missing, or the PLL did not lock */
-    BOARD_FAULT_ENCODER = 8  /**< both encoder tracks changed at once */
+    BOARD_FAULT_ENCODER = 8, /**< both encoder tracks changed at once, again and again */
+    BOARD_FAULT_INPUT   = 16 /**< the trip input is active; the only one that is not latched */
 };
+
+/** What started the program. */
+typedef enum {
+    BOARD_RESET_PIN = 0, /**< power, or the reset pin */
+    BOARD_RESET_WATCHDOG /**< the program before hung */
+} board_reset_t;
 
 /**
  * @brief Makes the pins safe, then sets clock, peripherals and trip up; all six switches stay off.
@@ -69,10 +80,11 @@ board_sample_t board_sample_read(void);
 void board_duty_write(const board_duty_t *duty);
 
 /**
- * @brief Lets the switches follow the duty ratios; the last thing to do on the way to running.
+ * @brief Lets the switches follow the duty ratios from the start of the next period on, where those of this
+ *        period's board_duty_write() begin; the last thing to do on the way to running.
  *
  * Forgets latched faults whose cause is gone. Where a cause is left, its fault is latched and the bridge
- * stays off: check board_fault_read() afterwards. Nothing happens while the gates are enabled.
+ * stays off: check board_fault_read() in the next tick. Nothing happens while the gates are enabled.
  *
  * Context: control ISR.
  */
@@ -82,13 +94,16 @@ void board_gate_enable(void);
 void board_gate_trip(void);
 
 /**
- * @brief BOARD_FAULT_ bits latched since board_gate_enable() last reset them.
+ * @brief BOARD_FAULT_ bits latched since board_gate_enable() last reset them, and BOARD_FAULT_INPUT.
  *
- * All but BOARD_FAULT_ENCODER, which makes the sample invalid instead, have opened the bridge already.
+ * Each of them has opened the bridge already.
  *
  * Context: any.
  */
 uint16_t board_fault_read(void);
+
+/** Context: any, after board_init(). */
+board_reset_t board_reset_cause(void);
 
 /** Processor cycles, free running, wraps; BOARD_TICK_CYCLES per period. Context: any. */
 uint32_t board_cycles(void);

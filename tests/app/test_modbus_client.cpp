@@ -36,7 +36,7 @@ constexpr int input_fault       = 1;
 constexpr int input_drive_fault = 2;
 constexpr int input_dc_link     = 14;
 constexpr int input_first_fault = 25;
-constexpr int input_count       = 40;
+constexpr int input_count       = 42;
 constexpr int holding_run       = 0;
 constexpr int holding_reset     = 1;
 constexpr int holding_speed     = 2;
@@ -270,7 +270,7 @@ TEST_F(ModbusClient, RefusesWithTheExceptionThatSaysWhy)
 {
     std::array<std::uint16_t, 125> values{};
     std::array<std::uint8_t, 8>    bits{};
-    expect_exception(modbus_read_input_registers(client_, 40, 1, values.data()), EMBXILADD);
+    expect_exception(modbus_read_input_registers(client_, 42, 1, values.data()), EMBXILADD);
     expect_exception(modbus_read_registers(client_, 2, 2, values.data()), EMBXILADD);
     expect_exception(modbus_write_register(client_, 3, 0), EMBXILADD);
     expect_exception(modbus_write_register(client_, holding_run, 2), EMBXILVAL);

@@ -31,10 +31,24 @@ static void tick(void)
     board_firmware.faults = board_fault_read();
 }
 
+static void talk(void)
+{
+    uint16_t octet = 0U;
+
+    for (int n = 0; n < board_firmware.says; n++) {
+        (void)board_serial_write(board_firmware.say[n]);
+    }
+    board_firmware.says = 0;
+    if (board_firmware.hear && board_serial_read(&octet)) {
+        board_firmware.heard = octet;
+    }
+}
+
 int board_firmware_main(void)
 {
     board_firmware.init_result = board_init();
     board_firmware.faults      = board_fault_read();
+    board_firmware.reset_cause = board_reset_cause();
     if (board_firmware.init_result) {
         board_start(tick);
         board_firmware.started = true;
@@ -43,6 +57,7 @@ int board_firmware_main(void)
         if (board_firmware.serve && board_firmware.started) {
             board_watchdog_serve();
         }
+        talk();
         asm(" NOP");
     }
 }

@@ -24,6 +24,9 @@ typedef struct {
     bool         serve;         /**< the background serves the watchdog */
     double       tick_lasts_us; /**< more than nothing: the next tick takes this long, once */
     board_duty_t duty;
+    uint16_t     say[16]; /**< the background sends these octets ... */
+    int          says;    /**< ... so many of them */
+    bool         hear;    /**< the background listens */
     /* Seen by the firmware. */
     bool           init_result;
     bool           started;
@@ -31,6 +34,8 @@ typedef struct {
     board_sample_t first_sample;
     board_sample_t sample;
     uint16_t       faults;
+    board_reset_t  reset_cause;
+    uint16_t       heard; /**< octet */
 } board_firmware_t;
 
 extern volatile board_firmware_t board_firmware;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdlib>
 
 #include "sil/f28335/surroundings.hpp"
 
@@ -30,8 +31,20 @@ public:
         now.index       = count / turn != seen_count / turn;
         now.index_count = count / turn * turn;
         now.phase_error = phase_error;
-        seen_count      = count;
-        phase_error     = false;
+        for (std::int64_t n = std::abs(count - seen_count); n > 0; n--) { // the last one first
+            now.edges.insert(now.edges.begin(),
+                             {edge_age_s + 1e-6 * static_cast<double>(now.edges.size()),
+                              count > seen_count ? 1 : -1});
+        }
+        if (turns_back && now.edges.size() > 2) { // two edges more, forth and back
+            turns_back = false;
+            now.edges.insert(now.edges.end() - 1,
+                             {1.5e-6 + edge_age_s, now.edges.back().direction});
+            now.edges.insert(now.edges.end() - 1,
+                             {1.2e-6 + edge_age_s, -now.edges.back().direction});
+        }
+        seen_count  = count;
+        phase_error = false;
         return now;
     }
 
@@ -45,4 +58,6 @@ public:
     std::int64_t                         counts_per_period = 0;
     std::int64_t                         seen_count        = 0;
     bool                                 phase_error       = false;
+    bool                                 turns_back        = false; ///< once, in the next period
+    double                               edge_age_s        = 1e-6;  ///< of the last edge
 };

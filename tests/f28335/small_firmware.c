@@ -109,7 +109,7 @@ static void start_adc(void)
     }
     AdcRegs.ADCTRL3.all = 0xE1U; /* powered, simultaneous */
     DELAY_US(unless(MISTAKE_ADC_COLD, 5000U, 100U));
-    AdcRegs.ADCTRL1.all      = 0x0300U;
+    AdcRegs.ADCTRL1.all      = unless(MISTAKE_SHORT_WINDOW, 0x0500U, 0x0300U);
     AdcRegs.ADCMAXCONV.all   = 1U;
     AdcRegs.ADCCHSELSEQ1.all = 0x0010U;
     AdcRegs.ADCTRL2.all      = 0x0900U;

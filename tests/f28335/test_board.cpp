@@ -114,15 +114,15 @@ TEST_F(F28335Board, PwmRegisters)
 TEST_F(F28335Board, ConverterRegisters)
 {
     start();
-    // Window of 4 clocks (11:8 = 3), no prescaler, two sequencers.
-    EXPECT_EQ(AdcRegs.ADCTRL1.all, 3U << 8);
+    // Window of 6 clocks (11:8 = 5), no prescaler, two sequencers.
+    EXPECT_EQ(AdcRegs.ADCTRL1.all, 5U << 8);
     // SOCA starts sequencer 1 (8), interrupt at its end (11).
     EXPECT_EQ(AdcRegs.ADCTRL2.all, (1U << 8) | (1U << 11));
     // Powered (7:5), undivided (4:1), simultaneous (0).
     EXPECT_EQ(AdcRegs.ADCTRL3.all, 0xE0U | 1U);
-    // Two pairs: 0, then 1.
-    EXPECT_EQ(AdcRegs.ADCMAXCONV.all, 1U);
-    EXPECT_EQ(AdcRegs.ADCCHSELSEQ1.all, 1U << 4);
+    // Three pairs: 0, 0 again, then 1.
+    EXPECT_EQ(AdcRegs.ADCMAXCONV.all, 2U);
+    EXPECT_EQ(AdcRegs.ADCCHSELSEQ1.all, 1U << 8);
 }
 
 TEST_F(F28335Board, EncoderRegisters)
@@ -135,7 +135,8 @@ TEST_F(F28335Board, EncoderRegisters)
     EXPECT_EQ(EQep1Regs.QEPCTL.all,
               (1U << 1) | (1U << 2) | (1U << 3) | (1U << 4) | (1U << 12) | (2U << 14));
     EXPECT_EQ(EQep1Regs.QEINT.all, 0U);
-    EXPECT_EQ(EQep1Regs.QCAPCTL.all, 0U);
+    // Capture on (15), SYSCLK / 2 (6:4 = 1), every edge (3:0).
+    EXPECT_EQ(EQep1Regs.QCAPCTL.all, (1U << 15) | (1U << 4));
     EXPECT_EQ(EQep1Regs.QPOSCTL.all, 0U);
 }
 
@@ -249,12 +250,18 @@ TEST_F(F28335Board, DutyReachesTheGatesWithThreeMicrosecondsOfDeadTime)
     EXPECT_TRUE(p.legs[2].gates[0].upper);
 }
 
-TEST_F(F28335Board, GatesComeOnWithinAMicrosecondOfTheSample)
+// And with the duty ratios of the tick that enabled them.
+TEST_F(F28335Board, GatesComeOnAtTheStartOfThePeriodAfterTheTick)
 {
-    start();
-    enable_gates();
-    // 2.5 + 4 + 5 + 6 clocks of 40 ns.
-    EXPECT_NEAR(around.legs_changed_s, 0.7e-6, 1e-12);
+    Device             &d    = start();
+    const std::uint32_t tick = board_firmware.ticks;
+    board_firmware.enable    = true;
+    d.run_until([&] { return board_firmware.ticks > tick; }, 2 * period_s, 1e-6);
+    EXPECT_TRUE(all_legs(false));
+    d.run_for(period_s);
+    EXPECT_TRUE(all_legs(true));
+    // 2.5 + 6 + 5 + 2 * 8 clocks of 40 ns.
+    EXPECT_NEAR(around.legs_changed_s, 1.18e-6, 1e-12);
 }
 
 TEST_F(F28335Board, FaultPinTripsAndIsReported)
@@ -354,16 +361,129 @@ TEST_F(F28335Board, LateInterruptIsAnOverrun)
     EXPECT_TRUE(all_legs(false));
 }
 
-TEST_F(F28335Board, PhaseErrorMakesTheSampleInvalid)
+TEST_F(F28335Board, OnePhaseErrorIsCountedAndTripsNothing)
+{
+    Device &d = start();
+    enable_gates();
+    const int before   = board_firmware.sample.phase_errors;
+    around.phase_error = true;
+    d.run_for(2 * period_s);
+    EXPECT_EQ(board_firmware.sample.phase_errors, before + 1);
+    EXPECT_TRUE(board_firmware.sample.valid);
+    EXPECT_EQ(board_firmware.faults, BOARD_FAULT_NONE);
+    EXPECT_TRUE(all_legs(true));
+}
+
+TEST_F(F28335Board, ThreePhaseErrorsWithinTenMillisecondsTrip)
+{
+    for (const int apart : {1, 10, 25}) { // periods: three in up to 10 ms
+        Device &d = start();
+        enable_gates();
+        for (int n = 0; n < 2; n++) {
+            around.phase_error = true;
+            d.run_for(apart * period_s);
+        }
+        EXPECT_TRUE(all_legs(true)) << apart;
+        around.phase_error = true;
+        d.run_for(2 * period_s);
+        EXPECT_EQ(board_firmware.faults & BOARD_FAULT_ENCODER, BOARD_FAULT_ENCODER) << apart;
+        EXPECT_TRUE(all_legs(false)) << apart;
+    }
+}
+
+TEST_F(F28335Board, RarePhaseErrorsNeverTrip)
+{
+    Device &d = start();
+    enable_gates();
+    for (int n = 0; n < 20; n++) {
+        around.phase_error = true;
+        d.run_for(10.2e-3);
+    }
+    EXPECT_EQ(board_firmware.faults, BOARD_FAULT_NONE);
+    EXPECT_TRUE(all_legs(true));
+}
+
+TEST_F(F28335Board, EdgeTimesComeWithThePosition)
 {
     Device &d                = start();
-    around.phase_error       = true;
-    const std::uint32_t tick = board_firmware.ticks;
-    d.run_until([&] { return board_firmware.ticks > tick; }, 2 * period_s, 5e-6);
-    EXPECT_FALSE(board_firmware.sample.valid);
-    EXPECT_EQ(board_firmware.faults & BOARD_FAULT_ENCODER, BOARD_FAULT_ENCODER);
+    around.counts_per_period = 7;
+    for (const double age_s : {13.3e-9, 1e-6, 199e-6}) {
+        around.edge_age_s = age_s;
+        d.run_for(3 * period_s);
+        EXPECT_TRUE(board_firmware.sample.edge_seen);
+        EXPECT_NEAR(board_firmware.sample.edge_age_cnt, age_s * 75e6, 1.0) << age_s;
+    }
+    around.counts_per_period = 0; // no edge: the age says nothing
+    d.run_for(3 * period_s);
+    EXPECT_FALSE(board_firmware.sample.edge_seen);
+    around.counts_per_period = -7;
+    d.run_for(3 * period_s);
+    EXPECT_TRUE(board_firmware.sample.edge_seen);
+    around.turns_back = true; // which of the edges was the last cannot be told
     d.run_for(period_s);
-    EXPECT_TRUE(board_firmware.sample.valid);
+    EXPECT_FALSE(board_firmware.sample.edge_seen);
+    d.run_for(3 * period_s);
+    EXPECT_TRUE(board_firmware.sample.edge_seen);
+}
+
+TEST_F(F28335Board, FirstPairOfASequenceIsNotUsed)
+{
+    around.input_V[0][0]       = 1.0;
+    around.input_V[1][0]       = 2.0;
+    Device &d                  = start();
+    AdcRegs.ADCTRL1.bit.ACQ_PS = 3; // 160 ns: the first pair reads full scale now
+    d.run_for(3 * period_s);
+    EXPECT_EQ(AdcMirror.ADCRESULT0, 4095);
+    EXPECT_EQ(board_firmware.sample.ia_cnt, 1365);
+    EXPECT_EQ(board_firmware.sample.ib_cnt, 2730);
+}
+
+TEST_F(F28335Board, WindowIsLongEnoughForTheFirstPairToo)
+{
+    around.input_V[0][0] = 1.0;
+    Device &d            = start();
+    d.run_for(3 * period_s);
+    EXPECT_EQ(AdcMirror.ADCRESULT0, 1365);
+}
+
+TEST_F(F28335Board, ResetCauseIsReported)
+{
+    start();
+    EXPECT_EQ(board_firmware.reset_cause, BOARD_RESET_PIN);
+    options.watchdog_has_reset = true;
+    start();
+    EXPECT_EQ(board_firmware.reset_cause, BOARD_RESET_WATCHDOG);
+    EXPECT_EQ(SysCtrlRegs.WDCR & 0x80U, 0U); // cleared, for the next one
+}
+
+TEST_F(F28335Board, TripInputShowsWhileTheGatesAreOff)
+{
+    Device &d = start();
+    d.set_fault_pin(true);
+    d.run_for(2 * period_s);
+    EXPECT_EQ(board_firmware.faults, BOARD_FAULT_INPUT);
+    d.set_fault_pin(false);
+    d.run_for(2 * period_s);
+    EXPECT_EQ(board_firmware.faults, BOARD_FAULT_NONE);
+}
+
+TEST_F(F28335Board, ReceiveErrorCutsNoAnswer)
+{
+    Device &d = start();
+    for (int n = 0; n < 10; n++) {
+        board_firmware.say[n] = static_cast<std::uint16_t>('a' + n);
+    }
+    board_firmware.says = 10;
+    board_firmware.hear = true;
+    d.run_for(0.2e-3); // two octets
+    d.serial().fail_receiver();
+    d.run_for(2e-3);
+    for (int n = 0; n < 10; n++) {
+        EXPECT_EQ(d.serial().take(), 'a' + n);
+    }
+    d.serial().send('z'); // and the receiver works again
+    d.run_for(0.3e-3);
+    EXPECT_EQ(board_firmware.heard, 'z');
 }
 
 TEST_F(F28335Board, FailedLockIsReportedAndNothingStarts)

@@ -79,6 +79,20 @@ TEST_F(F28335Device, ResultsAppearInBothViewsInOrderABAB)
     EXPECT_EQ(AdcMirror.ADCRESULT2, AdcRegs.ADCRESULT2 >> 4);
 }
 
+// Device advisory.
+TEST_F(F28335Device, FirstPairNeedsALongWindow)
+{
+    around.input_V[0][0]   = 0.3;
+    around.input_V[0][1]   = 0.3;
+    small_firmware_mistake = MISTAKE_SHORT_WINDOW;
+    Device device(around, small_firmware_main, options);
+    device.run_for(booted_s);
+
+    EXPECT_EQ(small_firmware_codes[0], 4095);
+    EXPECT_EQ(small_firmware_codes[1], 4095);
+    EXPECT_EQ(small_firmware_codes[2], 409);
+}
+
 TEST_F(F28335Device, CompareActsFromTheNextTopOfTheCounterOn)
 {
     Device device(around, small_firmware_main, options);

@@ -101,6 +101,11 @@ uint16_t board_fault_read(void)
     return fake_board.faults;
 }
 
+board_reset_t board_reset_cause(void)
+{
+    return BOARD_RESET_PIN;
+}
+
 uint32_t board_cycles(void)
 {
     fake_board.cycles += fake_board.cycles_per_read;

@@ -141,8 +141,8 @@ static void test_input_registers_are_read(void)
     ASSERT_ANSWER(ADDRESS, 4, 2, 0, 0xA5);
     REQUEST(ADDRESS, 4, 0, 23, 0, 2);
     ASSERT_ANSWER(ADDRESS, 4, 4, 1, 2, 3, 4);
-    REQUEST(ADDRESS, 4, 0, 0, 0, 40);
-    TEST_ASSERT_EQUAL_INT(5 + 80, answer_count);
+    REQUEST(ADDRESS, 4, 0, 0, 0, 42);
+    TEST_ASSERT_EQUAL_INT(5 + 84, answer_count);
 }
 
 static void test_holding_registers_are_written_and_read(void)
@@ -172,7 +172,7 @@ static void test_registers_that_do_not_exist_are_refused(void)
 {
     REQUEST(ADDRESS, 3, 0, 3, 0, 1);
     ASSERT_ANSWER(ADDRESS, 0x83, 2);
-    REQUEST(ADDRESS, 4, 0, 39, 0, 2);
+    REQUEST(ADDRESS, 4, 0, 41, 0, 2);
     ASSERT_ANSWER(ADDRESS, 0x84, 2);
     REQUEST(ADDRESS, 4, 1, 0, 0, 1); /* high octet of the address */
     ASSERT_ANSWER(ADDRESS, 0x84, 2);

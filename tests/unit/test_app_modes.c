@@ -298,6 +298,111 @@ static void test_board_faults_are_ignored_until_the_gates_were_enabled(void)
     assert_fault(APP_FAULT_BOARD);
 }
 
+/* Not ready, instead of a fault that has to be reset; a start that was refused is not made up for. */
+static void assert_refused_until(uint16_t *at, uint16_t healthy, uint16_t bad)
+{
+    *at            = bad;
+    in.command.run = false;
+    ticks(2);
+    in.command.run = true;
+    ticks(5);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    *at = healthy;
+    ticks(5);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    in.command.run = false;
+    ticks(2);
+    in.command.run = true;
+    ticks(2);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+    TEST_ASSERT_TRUE(out.gate_enable);
+    in.command.run = false;
+    ticks(2);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+}
+
+static void test_dc_link_out_of_range_is_not_ready(void)
+{
+    go_ready();
+    see_index();
+    TEST_ASSERT_FALSE(modes.dc_link_out);
+    /* 88.5 V and 398 V at 0.11 V a code */
+    assert_refused_until(&in.raw.dc_link_cnt, 2685U, 804U);
+    assert_refused_until(&in.raw.dc_link_cnt, 2685U, 3626U);
+    assert_refused_until(&in.raw.dc_link_cnt, 807U, 0U);
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_NONE, modes.fault);
+}
+
+static void test_active_trip_input_is_not_ready(void)
+{
+    go_ready();
+    see_index();
+    assert_refused_until(&in.board_faults, 0U, BOARD_FAULT_INPUT);
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_NONE, modes.fault);
+    in.board_faults = BOARD_FAULT_INPUT;
+    tick();
+    TEST_ASSERT_TRUE(app_modes_status(&modes, in.board_faults).tripped);
+}
+
+static void test_bootstrap_supplies_are_charged_before_a_run(void)
+{
+    config.gate.precharge_ticks         = 7U;
+    config.gate.precharge_speed_e_radps = 50.0f;
+    init();
+    go_ready();
+    see_index();
+    in.command.run = true;
+    tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_PRECHARGE, modes.mode);
+    for (int n = 0; n < 7; n++) {
+        out = app_modes_tick(&modes, &in);
+        TEST_ASSERT_EQUAL_INT(APP_MODE_PRECHARGE, modes.mode);
+        TEST_ASSERT_TRUE(out.gate_enable);
+        TEST_ASSERT_TRUE((out.duty.a == 0.0f) && (out.duty.b == 0.0f) && (out.duty.c == 0.0f));
+    }
+    out = app_modes_tick(&modes, &in);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+    TEST_ASSERT_TRUE(out.gate_enable && (out.duty.a > 0.0f));
+}
+
+static void test_a_precharge_ends_at_once_when_something_is_wrong(void)
+{
+    config.gate.precharge_ticks         = 7U;
+    config.gate.precharge_speed_e_radps = 50.0f;
+    for (int way = 0; way < 3; way++) {
+        init();
+        go_ready();
+        see_index();
+        in.command.run = true;
+        tick();
+        out = app_modes_tick(&modes, &in);
+        TEST_ASSERT_TRUE(out.gate_enable);
+        if (way == 0) {
+            in.raw.ia_cnt = 4000U; /* the shorted motor's current */
+        } else if (way == 1) {
+            in.board_faults = BOARD_FAULT_TRIP;
+        } else {
+            in.command.run = false;
+        }
+        tick();
+        assert_open();
+        TEST_ASSERT_EQUAL_INT((way == 2) ? APP_MODE_READY : APP_MODE_FAULT, modes.mode);
+    }
+}
+
+static void test_no_precharge_at_speed(void)
+{
+    config.gate.precharge_ticks         = 7U;
+    config.gate.precharge_speed_e_radps = 50.0f;
+    init();
+    go_ready();
+    see_index();
+    in.command.run      = true;
+    in.raw.position_cnt = (uint16_t)(in.raw.position_cnt + 10U); /* 63 rad/s */
+    tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+}
+
 static void test_lost_background_trips_in_every_mode(void)
 {
     for (int mode = 0; mode < 5; mode++) {
@@ -658,6 +763,11 @@ int main(void)
     RUN_TEST(test_invalid_sample_in_ready_costs_the_angle_only);
     RUN_TEST(test_every_board_fault_trips_while_the_gates_are_on);
     RUN_TEST(test_board_faults_are_ignored_until_the_gates_were_enabled);
+    RUN_TEST(test_dc_link_out_of_range_is_not_ready);
+    RUN_TEST(test_active_trip_input_is_not_ready);
+    RUN_TEST(test_bootstrap_supplies_are_charged_before_a_run);
+    RUN_TEST(test_a_precharge_ends_at_once_when_something_is_wrong);
+    RUN_TEST(test_no_precharge_at_speed);
     RUN_TEST(test_lost_background_trips_in_every_mode);
     RUN_TEST(test_temperature_beyond_the_trip_level_trips);
     RUN_TEST(test_broken_temperature_sensor_trips);

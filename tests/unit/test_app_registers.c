@@ -107,7 +107,7 @@ static void test_snapshot_registers_are_what_the_table_says(void)
 
 static void test_registers_are_zero_at_the_start(void)
 {
-    for (int address = 0; address < 40; address++) {
+    for (int address = 0; address < 42; address++) {
         TEST_ASSERT_EQUAL_UINT(0U, input(address));
     }
     for (int address = 0; address < 3; address++) {
@@ -130,9 +130,21 @@ static void test_values_are_held_at_the_ends_of_16_bits(void)
     TEST_ASSERT_EQUAL_HEX16(0x8000U, input(7));
 }
 
+static void test_conditions_reset_and_phase_errors(void)
+{
+    registers.status.dc_link_out = true;
+    TEST_ASSERT_EQUAL_UINT(8U, input(4));
+    registers.status.tripped = true;
+    TEST_ASSERT_EQUAL_UINT(24U, input(4));
+    registers.status.reset_cause  = BOARD_RESET_WATCHDOG;
+    registers.status.phase_errors = 1234U;
+    TEST_ASSERT_EQUAL_UINT(1U, input(40));
+    TEST_ASSERT_EQUAL_UINT(1234U, input(41));
+}
+
 static void test_blocks_that_do_not_exist_as_a_whole_are_refused(void)
 {
-    static const uint32_t inputs[][2]   = {{40UL, 1UL},    {39UL, 2UL},    {0UL, 41UL},
+    static const uint32_t inputs[][2]   = {{42UL, 1UL},    {41UL, 2UL},    {0UL, 43UL},
                                            {65535UL, 1UL}, {65535UL, 2UL}, {1UL, 65535UL}};
     static const uint32_t holdings[][2] = {{3UL, 1UL}, {2UL, 2UL}, {0UL, 4UL}, {65535UL, 2UL}};
     uint16_t              values[64]    = {0U};
@@ -150,7 +162,7 @@ static void test_blocks_that_do_not_exist_as_a_whole_are_refused(void)
                                                   (uint16_t)holdings[i][1], values));
     }
     TEST_ASSERT_FALSE(registers.changed);
-    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, app_registers_read_input(&registers, 0U, 40U, values));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, app_registers_read_input(&registers, 0U, 42U, values));
     TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, app_registers_read_holding(&registers, 0U, 3U, values));
 }
 
@@ -221,6 +233,7 @@ int main(void)
     RUN_TEST(test_snapshot_registers_are_what_the_table_says);
     RUN_TEST(test_registers_are_zero_at_the_start);
     RUN_TEST(test_values_are_held_at_the_ends_of_16_bits);
+    RUN_TEST(test_conditions_reset_and_phase_errors);
     RUN_TEST(test_blocks_that_do_not_exist_as_a_whole_are_refused);
     RUN_TEST(test_every_speed_in_range_is_taken_and_read_back);
     RUN_TEST(test_value_out_of_range_is_refused_and_changes_nothing);

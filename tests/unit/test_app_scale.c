@@ -166,18 +166,6 @@ static void test_zero_beyond_its_bound_is_refused_and_changes_nothing(void)
     TEST_ASSERT_FALSE(app_scale_set_zero(&scale, 0UL, 0UL, 0U));
 }
 
-static void test_duty_becomes_the_nearest_compare_value(void)
-{
-    for (int n = 0; n <= 30000; n++) {
-        const double       ratio = (double)n / 30000.0;
-        const abc_t        d     = {.a = (float)ratio, .b = (float)(1.0 - ratio), .c = 0.5f};
-        const board_duty_t got   = app_scale_duty(d);
-        TEST_ASSERT_DOUBLE_WITHIN(0.501, 7500.0 * ratio, (double)got.a_cnt);
-        TEST_ASSERT_DOUBLE_WITHIN(0.501, 7500.0 * (1.0 - ratio), (double)got.b_cnt);
-        TEST_ASSERT_EQUAL_UINT(3750U, got.c_cnt);
-    }
-}
-
 static void test_every_constant_out_of_range_is_refused(void)
 {
     float *const fields[] = {&config.current_A_per_cnt, &config.current_zero_cnt,
@@ -259,7 +247,6 @@ int main(void)
     RUN_TEST(test_index_position_counts_only_with_its_pulse);
     RUN_TEST(test_measured_zero_takes_the_place_of_the_nominal_one);
     RUN_TEST(test_zero_beyond_its_bound_is_refused_and_changes_nothing);
-    RUN_TEST(test_duty_becomes_the_nearest_compare_value);
     RUN_TEST(test_every_constant_out_of_range_is_refused);
     RUN_TEST(test_trip_current_that_the_converter_cannot_show_is_refused);
     RUN_TEST(test_table_that_is_no_curve_is_refused);

@@ -69,6 +69,13 @@ const app_config_t board_config = {
             .still_cnt         = 4U,
             .quarter_error_cnt = 250U,
         },
+    .gate = /* isolated supplies; the drivers pass any pulse that is longer than the dead time */
+    {
+        .precharge_ticks         = 0U,
+        .precharge_speed_e_radps = 0.0f,
+        .duty_max_cnt            = BOARD_DUTY_FULL,
+        .pulse_min_cnt           = 0U,
+    },
     .temperature_limit_degC = 80.0f, /* chosen: heat sink of modules for 125 degC junction */
     .temperature_trip_degC  = 90.0f,
     .boot_ticks      = 50U * TICKS_PER_ms,  /* chosen: filters of the analog inputs (RC of 1 ms) */

@@ -30,6 +30,9 @@
 #define CLOCK_SYSCLK_PER_TBCLK 2UL
 #define CLOCK_TBCLK_Hz         (CLOCK_SYSCLK_Hz / CLOCK_SYSCLK_PER_TBCLK)
 
+/** The encoder's capture timer: SYSCLK / 2^this. */
+#define CLOCK_CAPTURE_SHIFT 1U
+
 #define CLOCK_PWM_Hz  5000UL /**< control rate that the gain tables are made for */
 #define CLOCK_PWM_cnt (CLOCK_TBCLK_Hz / (2UL * CLOCK_PWM_Hz)) /**< TBPRD, counted up and down */
 

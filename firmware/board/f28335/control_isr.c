@@ -11,7 +11,7 @@ static bool           first;
 
 void control_isr_init(void (*tick)(void))
 {
-    static const board_sample_t nothing = {0U, 0U, 0U, 0U, 0U, 0U, false, false};
+    static const board_sample_t nothing = {.valid = false};
 
     control_tick = tick;
     sample       = nothing;
@@ -42,8 +42,8 @@ static void check_entry(void)
 __interrupt void control_isr(void)
 {
     check_entry();
-    take_sample();
     trip_check();
+    take_sample();
     control_tick();
     if (adc_is_done()) { /* the next period's conversion, already */
         trip_latch(BOARD_FAULT_OVERRUN);

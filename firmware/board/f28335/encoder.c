@@ -7,12 +7,33 @@
 #define RESET_AT_MAX     1U /* PCRM; the index is compared in software, never jumped to */
 #define LATCH_RISING     1U /* IEL */
 #define LATCH_AT_TIMEOUT 1U /* QCLM */
+#define EVERY_EDGE       0U /* UPPS */
+
+/* An edge is timed only when it came in the period before the latch: the capture timer must not run over in that time.
+ * (16 bits; a period more, for the interrupt that comes late.) */
+#if (BOARD_CAPTURE_Hz << CLOCK_CAPTURE_SHIFT) != CLOCK_SYSCLK_Hz
+#error "BOARD_CAPTURE_Hz is not the capture clock of this board"
+#endif
+#if (2UL * (BOARD_TICK_CYCLES >> CLOCK_CAPTURE_SHIFT)) > 65535UL
+#error "the capture timer runs over within two control periods"
+#endif
 
 /* QFLG and QCLR. */
 #define PHASE_ERROR 0x0004U
 #define INDEX       0x0400U
 #define TIMEOUT     0x0800U
 #define SUMMARY     0x0001U
+
+#define TURNED_BACK 0x0004U /* QEPSTS: CDEF, written 1 to clear */
+
+/* Three phase errors within 10 ms trip, a single one does not: each adds 10 ms to what runs off again with time. */
+#define PERIODS_PER_10_ms (CLOCK_PWM_Hz / 100UL)
+#define ERROR_STEP        ((uint16_t)PERIODS_PER_10_ms)
+#define ERROR_MOST        ((uint16_t)(2UL * PERIODS_PER_10_ms))
+
+static uint16_t before_cnt;   /* position of the sample before */
+static uint16_t phase_errors; /* since the start */
+static uint16_t error_level;  /* periods */
 
 void encoder_init(void)
 {
@@ -28,6 +49,13 @@ void encoder_init(void)
     EQep1Regs.QEPCTL.bit.IEL       = LATCH_RISING;
     EQep1Regs.QEPCTL.bit.QCLM      = LATCH_AT_TIMEOUT;
     EQep1Regs.QEPCTL.bit.QPEN      = 1U;
+    EQep1Regs.QCAPCTL.all          = 0U; /* its settings must not change while it runs */
+    EQep1Regs.QCAPCTL.bit.CCPS     = CLOCK_CAPTURE_SHIFT;
+    EQep1Regs.QCAPCTL.bit.UPPS     = EVERY_EDGE;
+    EQep1Regs.QCAPCTL.bit.CEN      = 1U;
+    before_cnt                     = 0U;
+    phase_errors                   = 0U;
+    error_level                    = 0U;
     EQep1Regs.QCLR.all             = PHASE_ERROR | INDEX | TIMEOUT | SUMMARY;
 }
 
@@ -47,18 +75,34 @@ static void align(void)
     }
 }
 
+static void count_phase_errors(bool error)
+{
+    error_level = (uint16_t)(error_level - ((error_level > 0U) ? 1U : 0U));
+    if (error) {
+        phase_errors = (uint16_t)(phase_errors + 1U);
+        error_level  = (uint16_t)(error_level + ERROR_STEP);
+    }
+    if (error_level >= ERROR_MOST) {
+        error_level = ERROR_MOST;
+        trip_latch(BOARD_FAULT_ENCODER);
+    }
+}
+
 bool encoder_read(board_sample_t *sample)
 {
-    const uint16_t flags = EQep1Regs.QFLG.all;
-    EQep1Regs.QCLR.all   = (uint16_t)(flags & (PHASE_ERROR | INDEX | TIMEOUT | SUMMARY));
+    const uint16_t flags  = EQep1Regs.QFLG.all;
+    const uint16_t status = EQep1Regs.QEPSTS.all;
+    EQep1Regs.QCLR.all    = (uint16_t)(flags & (PHASE_ERROR | INDEX | TIMEOUT | SUMMARY));
+    EQep1Regs.QEPSTS.all  = TURNED_BACK;
     align();
+    count_phase_errors((flags & PHASE_ERROR) != 0U);
 
     sample->position_cnt = (uint16_t)EQep1Regs.QPOSLAT;
+    sample->edge_age_cnt = EQep1Regs.QCTMRLAT;
+    sample->edge_seen    = (sample->position_cnt != before_cnt) && ((status & TURNED_BACK) == 0U);
     sample->index_cnt    = (uint16_t)EQep1Regs.QPOSILAT;
     sample->index_seen   = (flags & INDEX) != 0U;
-    if ((flags & PHASE_ERROR) != 0U) {
-        trip_remember(BOARD_FAULT_ENCODER);
-        return false;
-    }
+    sample->phase_errors = phase_errors;
+    before_cnt           = sample->position_cnt;
     return (flags & TIMEOUT) != 0U;
 }

@@ -23,10 +23,9 @@ void flash_init(void); /**< wait states and pipeline; runs from RAM */
 void pie_init(void);  /**< every vector stops the drive, but that of the control ISR */
 void pie_start(void); /**< control interrupt on */
 
-void trip_init(void);               /**< armed and tripped; before the PWM runs */
-void trip_check(void);              /**< context: control ISR, every period */
-void trip_latch(uint16_t fault);    /**< remembers and opens the bridge. Context: any */
-void trip_remember(uint16_t fault); /**< remembers only. Context: control ISR */
+void trip_init(void);            /**< armed and tripped; before the PWM runs */
+void trip_check(void);           /**< enables wanted gates. Context: start of the control ISR */
+void trip_latch(uint16_t fault); /**< remembers and opens the bridge. Context: any */
 
 void pwm_init(void);
 void pwm_start(void); /**< all three legs at once */
@@ -38,13 +37,13 @@ void adc_read(board_sample_t *sample); /**< context: control ISR */
 
 void encoder_init(void);
 void encoder_start(void); /**< next to pwm_start() */
-/** False: nothing was latched in this period, or a phase error. Context: control ISR. */
+/** False: nothing was latched in this period. Context: control ISR. */
 bool encoder_read(board_sample_t *sample);
 
 void cycles_init(void);
 void cycles_wait(uint32_t cycles);
 
-void watchdog_stop(void);
+void watchdog_stop(void); /**< first reads what has reset the device */
 void watchdog_start(void);
 
 void serial_init(void);

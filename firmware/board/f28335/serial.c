@@ -14,7 +14,7 @@
 #define FIFO_DEPTH   16U
 #define OCTET        0x00FFU
 
-/* An error stops the receiver until this. */
+/* An error stops the receiver until this, which stops the transmitter too. */
 static void restart_receiver(void)
 {
     SciaRegs.SCICTL1.all = ENABLE;
@@ -39,11 +39,18 @@ void serial_init(void)
     restart_receiver();
 }
 
+static bool is_sending(void)
+{
+    return (SciaRegs.SCIFFTX.bit.TXFFST != 0U) || (SciaRegs.SCICTL2.bit.TXEMPTY == 0U);
+}
+
 bool board_serial_read(uint16_t *octet)
 {
     if ((SciaRegs.SCIRXST.bit.RXERROR != 0U) || (SciaRegs.SCIFFRX.bit.RXFFOVF != 0U)) {
-        restart_receiver(); /* the rest of a broken frame is worth nothing */
-        return false;
+        if (!is_sending()) { /* an answer on its way is not cut */
+            restart_receiver();
+        }
+        return false; /* the rest of a broken frame is worth nothing */
     }
     if (SciaRegs.SCIFFRX.bit.RXFFST == 0U) {
         return false;

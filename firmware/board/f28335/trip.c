@@ -7,6 +7,7 @@
 
 static volatile uint16_t latched;
 static volatile bool     enabled; /* false: the bridge is off on our own account */
+static volatile bool     wanted;  /* to be enabled at the start of the next period */
 
 static void arm(volatile struct EPWM_REGS *leg)
 {
@@ -34,59 +35,27 @@ static bool pin_is_active(void)
 void trip_init(void)
 {
     enabled = false;
+    wanted  = false;
     latched = BOARD_FAULT_NONE;
     arm(&EPwm1Regs);
     arm(&EPwm2Regs);
     arm(&EPwm3Regs);
 }
 
-void trip_remember(uint16_t fault)
-{
-    latched |= fault;
-}
-
 void trip_latch(uint16_t fault)
 {
     board_gate_trip();
-    trip_remember(fault);
+    latched |= fault;
 }
 
-void trip_check(void)
+/* With all lower switches on, just after PRD, where the duty ratios of the tick before have become active. */
+static void enable(void)
 {
     if (!clock_is_good()) {
-        trip_latch(BOARD_FAULT_CLOCK);
-    }
-    if (enabled && is_tripped()) {
-        trip_latch(BOARD_FAULT_TRIP);
-    }
-    if (!enabled) {
-        board_gate_trip(); /* mends a trip of the background that board_gate_enable() interrupted */
-    }
-}
-
-void board_gate_trip(void)
-{
-    GpioDataRegs.GPACLEAR.all = GATE_ENABLE_PIN;
-    EALLOW;
-    EPwm1Regs.TZFRC.bit.OST = 1U;
-    EPwm2Regs.TZFRC.bit.OST = 1U;
-    EPwm3Regs.TZFRC.bit.OST = 1U;
-    EDIS;
-    enabled = false;
-}
-
-void board_gate_enable(void)
-{
-    if (enabled) {
-        return; /* a trip of this very moment must not be cleared */
-    }
-
-    latched = BOARD_FAULT_NONE;
-    if (!clock_is_good()) {
-        trip_remember(BOARD_FAULT_CLOCK);
+        latched |= BOARD_FAULT_CLOCK;
     }
     if (pin_is_active()) {
-        trip_remember(BOARD_FAULT_TRIP);
+        latched |= BOARD_FAULT_TRIP;
     }
     if (latched != BOARD_FAULT_NONE) {
         return;
@@ -106,7 +75,46 @@ void board_gate_enable(void)
     GpioDataRegs.GPASET.all = GATE_ENABLE_PIN; /* last: now the bridge follows the PWM */
 }
 
+void trip_check(void)
+{
+    if (!clock_is_good()) {
+        trip_latch(BOARD_FAULT_CLOCK);
+    }
+    if (enabled && is_tripped()) {
+        trip_latch(BOARD_FAULT_TRIP);
+    }
+    if (wanted) {
+        wanted = false;
+        enable();
+    }
+    if (!enabled) {
+        board_gate_trip(); /* mends a trip of the background that enable() interrupted */
+    }
+}
+
+void board_gate_trip(void)
+{
+    GpioDataRegs.GPACLEAR.all = GATE_ENABLE_PIN;
+    EALLOW;
+    EPwm1Regs.TZFRC.bit.OST = 1U;
+    EPwm2Regs.TZFRC.bit.OST = 1U;
+    EPwm3Regs.TZFRC.bit.OST = 1U;
+    EDIS;
+    enabled = false;
+    wanted  = false;
+}
+
+void board_gate_enable(void)
+{
+    if (enabled) {
+        return; /* a trip of this very moment must not be cleared */
+    }
+
+    latched = BOARD_FAULT_NONE;
+    wanted  = true;
+}
+
 uint16_t board_fault_read(void)
 {
-    return latched;
+    return (uint16_t)(latched | (pin_is_active() ? (uint16_t)BOARD_FAULT_INPUT : 0U));
 }

@@ -123,6 +123,11 @@ uint16_t board_fault_read(void)
     return (uint16_t)BOARD_FAULT_NONE;
 }
 
+board_reset_t board_reset_cause(void)
+{
+    return BOARD_RESET_PIN;
+}
+
 uint32_t board_cycles(void)
 {
     return stub.periods * (uint32_t)BOARD_TICK_CYCLES;

@@ -46,6 +46,13 @@ const app_config_t board_config = {
             .still_cnt         = 4U,
             .quarter_error_cnt = 102U, /* a fifth of a quarter of an electrical turn, 512 */
         },
+    .gate = /* isolated supplies; the drivers pass any pulse that is longer than the dead time */
+    {
+        .precharge_ticks         = 0U,
+        .precharge_speed_e_radps = 0.0f,
+        .duty_max_cnt            = BOARD_DUTY_FULL,
+        .pulse_min_cnt           = 0U,
+    },
     .temperature_limit_degC = 80.0f, /* as there */
     .temperature_trip_degC  = 90.0f,
     .boot_ticks             = 10U * TICKS_PER_ms, /* chosen: nothing has to settle */

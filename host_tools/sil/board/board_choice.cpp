@@ -34,6 +34,7 @@ void           f28335_board_duty_write(const board_duty_t *duty);
 void           f28335_board_gate_enable(void);
 void           f28335_board_gate_trip(void);
 uint16_t       f28335_board_fault_read(void);
+board_reset_t  f28335_board_reset_cause(void);
 uint32_t       f28335_board_cycles(void);
 void           f28335_board_watchdog_serve(void);
 bool           f28335_board_serial_read(uint16_t *octet);
@@ -89,6 +90,11 @@ uint16_t board_fault_read(void)
 {
     return the_fake != nullptr ? static_cast<uint16_t>(BOARD_FAULT_NONE)
                                : f28335_board_fault_read();
+}
+
+board_reset_t board_reset_cause(void)
+{
+    return the_fake != nullptr ? BOARD_RESET_PIN : f28335_board_reset_cause();
 }
 
 uint32_t board_cycles(void)

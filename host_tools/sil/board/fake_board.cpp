@@ -8,8 +8,8 @@
 namespace sdre::f28335 {
 namespace {
 
-// Two pairs at 25 MHz: 2.5 + 4 + 5 + 6 clocks from the trigger to the tick (EQ-CONVERTER-2).
-constexpr double tick_delay_s = 17.5 / 25e6;
+// Three pairs at 25 MHz: 2.5 + 6 + 5 + 2 * 8 clocks from the trigger to the tick (EQ-CONVERTER-2).
+constexpr double tick_delay_s = 29.5 / 25e6;
 constexpr double count_Hz     = 75e6;
 constexpr int    full         = BOARD_DUTY_FULL;
 
@@ -63,6 +63,10 @@ void FakeBoard::tick()
     bench_.begin_tick();
     bench_.begin_period({pulse(active_cnt_[0], dead_time_s_), pulse(active_cnt_[1], dead_time_s_),
                          pulse(active_cnt_[2], dead_time_s_)});
+    if (enable_) { // as the board does: at the start of the period, with the duty ratios of the tick before
+        enable_ = false;
+        set_gates(true);
+    }
     take_sample();
     tick_();
 }
@@ -74,6 +78,14 @@ void FakeBoard::write_duty(const board_duty_t &duty)
 }
 
 void FakeBoard::enable_gates(bool on)
+{
+    enable_ = on;
+    if (!on) {
+        set_gates(false);
+    }
+}
+
+void FakeBoard::set_gates(bool on)
 {
     if (on != gates_) {
         gates_ = on;

@@ -37,6 +37,7 @@ public:
 
 private:
     void take_sample();
+    void set_gates(bool on);
 
     MotorBench &bench_;
     double      dead_time_s_;
@@ -44,7 +45,8 @@ private:
     board_sample_t     sample_{};
     std::array<int, 3> shadow_cnt_{};
     std::array<int, 3> active_cnt_{};
-    bool               gates_ = false;
+    bool               gates_  = false;
+    bool               enable_ = false; ///< wanted for the next period
 };
 
 } // namespace sdre::f28335

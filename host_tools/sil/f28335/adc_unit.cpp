@@ -14,6 +14,8 @@ constexpr std::int64_t power_up_ticks = 750000; // 5 ms
 constexpr unsigned     all_powered    = 0xE0;
 constexpr double       fastest_Hz     = 25e6;
 constexpr int          states         = 8;
+constexpr double       window_s       = 160e-9; // advisory: a first pair needs a longer one
+constexpr unsigned     overstated     = 4095;   // and is often read as full scale otherwise
 
 std::uint16_t code_of(double V)
 {
@@ -99,17 +101,18 @@ void AdcUnit::start_of_conversion(std::int64_t now, const Clock &clock, Findings
     if (busy_) {
         return;
     }
-    busy_          = true;
-    first_         = state_;
-    running_pairs_ = pairs();
+    busy_                     = true;
+    first_                    = state_;
+    running_pairs_            = pairs();
+    const double acq          = AdcRegs.ADCTRL1.bit.ACQ_PS;
+    const bool   short_window = (1.0 + acq) / adcclk_Hz(clock) < 1.0001 * window_s;
     for (int n = 0; n < running_pairs_; n++) {
         const int state = (first_ + n) % states;
         for (int side = 0; side < 2; side++) {
             codes_[static_cast<std::size_t>(2 * state + side)] =
-                code_of(input_(side, channel_of(state)));
+                n == 0 && short_window ? overstated : code_of(input_(side, channel_of(state)));
         }
     }
-    const double acq    = AdcRegs.ADCTRL1.bit.ACQ_PS;
     const double clocks = 2.5 + (1.0 + acq) + 5.0 + (running_pairs_ - 1) * (3.0 + acq);
     end_ticks_          = now + static_cast<std::int64_t>(
                            std::ceil(clocks / adcclk_Hz(clock) * tick_Hz)); // EQ-CONVERTER-2

@@ -30,9 +30,9 @@ Surroundings &after_reset(Surroundings &s)
 } // namespace
 
 Device::Device(Surroundings &surroundings, Firmware firmware, const DeviceOptions &options)
-    : surroundings_(after_reset(surroundings)), options_(options),
-      clock_(options.clock), pwm_{PwmUnit(EPwm1Regs, 1), PwmUnit(EPwm2Regs, 2),
-                                  PwmUnit(EPwm3Regs, 3)},
+    : surroundings_(after_reset(surroundings)), options_(options), clock_(options.clock),
+      watchdog_(options.watchdog_has_reset), pwm_{PwmUnit(EPwm1Regs, 1), PwmUnit(EPwm2Regs, 2),
+                                                  PwmUnit(EPwm3Regs, 3)},
       adc_([this](int side, int number) { return surroundings_.analog_V(side, number); }),
       main_([firmware] { firmware(); })
 {

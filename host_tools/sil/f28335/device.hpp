@@ -30,7 +30,8 @@ namespace sdre::f28335 {
 
 struct DeviceOptions {
     ClockFaults clock;
-    double      dead_time_s = 0.0; ///< what the bridge needs; less is reported
+    double      dead_time_s        = 0.0;   ///< what the bridge needs; less is reported
+    bool        watchdog_has_reset = false; ///< what started the firmware
 };
 
 class Device {

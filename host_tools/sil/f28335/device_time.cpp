@@ -95,7 +95,7 @@ void Device::begin_control_period()
         }
     }
     surroundings_.period_begins(period);
-    encoder_.move(surroundings_.shaft(0.0));
+    encoder_.move(surroundings_.shaft(0.0), now_);
 }
 
 void Device::step_pwm(std::int64_t cycles)
@@ -124,9 +124,9 @@ void Device::step_encoder(std::int64_t cycles)
         return;
     }
     if (now_ - period_began_ > same_instant_ticks) {
-        encoder_.move(surroundings_.shaft(into_period_s()));
+        encoder_.move(surroundings_.shaft(into_period_s()), now_);
     }
-    encoder_.latch();
+    encoder_.latch(now_);
     if (encoder_.take_interrupt()) {
         pie_.request(5, 1, intm_, findings_, time_s());
     }

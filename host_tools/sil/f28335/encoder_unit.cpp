@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "sil/f28335/encoder_unit.hpp"
 
+#include <cmath>
+#include <cstdlib>
+
+#include "sil/f28335/clock.hpp"
 #include "sil/f28335/gpio.hpp"
 #include "sil/f28335/registers.hpp"
 
@@ -11,6 +15,13 @@ constexpr std::uint16_t flag_int   = 0x0001;
 constexpr std::uint16_t flag_phase = 0x0004;
 constexpr std::uint16_t flag_index = 0x0400;
 constexpr std::uint16_t flag_unit  = 0x0800;
+
+constexpr std::uint16_t status_direction = 0x0004; // CDEF
+constexpr std::uint16_t status_overflow  = 0x0008; // COEF
+constexpr std::uint16_t status_event     = 0x0080; // UPEVNT
+constexpr std::uint16_t status_forward   = 0x0020; // QDF
+constexpr std::int64_t  timer_most       = 65535;
+constexpr std::uint16_t capture_enable   = 0x8000; // QCAPCTL
 
 constexpr int pin_a     = 20;
 constexpr int pin_b     = 21;
@@ -45,7 +56,11 @@ void EncoderUnit::present()
     r.QPOSLAT           = latch_;
     r.QPOSILAT          = index_latch_;
     r.QFLG.all          = flags_;
-    r.QEPSTS.bit.QDF    = forward_ ? 1U : 0U;
+    presented_status_   = static_cast<std::uint16_t>(status_ | (forward_ ? status_forward : 0U));
+    r.QEPSTS.all        = presented_status_;
+    r.QCTMRLAT          = timer_latch_;
+    r.QCPRDLAT          = period_latch_;
+    r.QCPRD             = capture_period_;
 }
 
 void EncoderUnit::raise(std::uint16_t flag)
@@ -69,7 +84,13 @@ void EncoderUnit::sync(Findings &findings, double time_s)
     refuse(r.QDECCTL.bit.QSRC != 0U, "EQep1Regs: only quadrature counting is modelled");
     refuse(r.QEPCTL.bit.IEL > 1U,
            "EQep1Regs: of the index latches only the rising edge is modelled");
-    refuse(r.QCAPCTL.bit.CEN != 0U, "EQep1Regs: the capture unit is not modelled");
+    const std::uint16_t settings = r.QCAPCTL.all;
+    refuse((settings & capture_settings_ & capture_enable) != 0U && settings != capture_settings_,
+           "EQep1Regs: QCAPCTL changed while the capture runs");
+    capture_settings_ = settings;
+    if (r.QEPSTS.all != presented_status_) { // written: ones clear
+        status_ = static_cast<std::uint16_t>(status_ & ~r.QEPSTS.all);
+    }
     if (r.QPOSCNT != presented_position_) {
         position_ = r.QPOSCNT;
     }
@@ -81,7 +102,30 @@ void EncoderUnit::sync(Findings &findings, double time_s)
     present();
 }
 
-void EncoderUnit::move(const ShaftCount &shaft)
+std::int64_t EncoderUnit::capture_timer(std::int64_t now_ticks) const
+{
+    return (now_ticks - event_ticks_) >> EQep1Regs.QCAPCTL.bit.CCPS;
+}
+
+void EncoderUnit::capture(std::int64_t edge_ticks, bool forward)
+{
+    if (EQep1Regs.QCAPCTL.bit.CEN == 0U || ++edges_to_event_ < 1 << EQep1Regs.QCAPCTL.bit.UPPS) {
+        return;
+    }
+    const std::int64_t passed = capture_timer(edge_ticks);
+    const auto         set    = [this](bool wrong, std::uint16_t flag) {
+        status_ = static_cast<std::uint16_t>(status_ | (wrong ? flag : 0U));
+    };
+    set(true, status_event);
+    set(passed > timer_most, status_overflow);
+    set(forward != event_forward_, status_direction);
+    capture_period_ = static_cast<std::uint16_t>(passed & timer_most);
+    edges_to_event_ = 0;
+    event_ticks_    = edge_ticks;
+    event_forward_  = forward;
+}
+
+void EncoderUnit::move(const ShaftCount &shaft, std::int64_t now_ticks)
 {
     const std::int64_t sign        = EQep1Regs.QDECCTL.bit.SWAP != 0U ? -1 : 1;
     const std::int64_t moved       = have_last_ ? shaft.count - last_ : 0;
@@ -95,6 +139,13 @@ void EncoderUnit::move(const ShaftCount &shaft)
         position_ = wrapped(position_ + sign * moved);
         if (moved != 0) {
             forward_ = sign * moved > 0;
+        }
+        for (const ShaftEdge &edge : shaft.edges) {
+            forward_ = sign * edge.direction > 0;
+            capture(now_ticks - std::llround(edge.age_s * tick_Hz), forward_);
+        }
+        for (std::int64_t n = 0; shaft.edges.empty() && n < std::abs(moved); n++) {
+            capture(now_ticks, forward_);
         }
         if (shaft.phase_error) {
             raise(flag_phase);
@@ -130,10 +181,12 @@ bool EncoderUnit::step(std::int64_t cycles)
     return out;
 }
 
-void EncoderUnit::latch()
+void EncoderUnit::latch(std::int64_t now_ticks)
 {
     if (EQep1Regs.QEPCTL.bit.QCLM != 0U) {
-        latch_ = static_cast<std::uint32_t>(position_);
+        latch_        = static_cast<std::uint32_t>(position_);
+        timer_latch_  = static_cast<std::uint16_t>(capture_timer(now_ticks) & timer_most);
+        period_latch_ = capture_period_;
     }
     raise(flag_unit);
     present();

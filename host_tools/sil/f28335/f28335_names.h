@@ -11,6 +11,7 @@
 #define board_gate_enable    f28335_board_gate_enable
 #define board_gate_trip      f28335_board_gate_trip
 #define board_fault_read     f28335_board_fault_read
+#define board_reset_cause    f28335_board_reset_cause
 #define board_cycles         f28335_board_cycles
 #define board_watchdog_serve f28335_board_watchdog_serve
 #define board_serial_read    f28335_board_serial_read

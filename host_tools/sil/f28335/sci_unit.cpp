@@ -46,6 +46,7 @@ void SciUnit::present()
     SciaRegs.SCICTL2.bit.TXRDY   = tx_.size() < depth ? 1U : 0U;
     SciaRegs.SCICTL2.bit.TXEMPTY = tx_.empty() && !shifting_ ? 1U : 0U;
     SciaRegs.SCIRXST.bit.RXRDY   = rx_.empty() ? 0U : 1U;
+    SciaRegs.SCIRXST.bit.RXERROR = error_ ? 1U : 0U;
 }
 
 void SciUnit::take_written()
@@ -66,6 +67,10 @@ void SciUnit::sync(Findings &findings, double time_s)
     }
     if ((SciaRegs.SCIFFTX.all & not_reset) == 0U) {
         tx_.clear();
+    }
+    if (SciaRegs.SCICTL1.bit.SWRESET == 0U) { // and cuts what is on the line
+        error_    = false;
+        shifting_ = false;
     }
     // Hold and release within one stretch of the firmware leave only the release: a write that
     // finds the overflow flag counts as both.
@@ -97,9 +102,9 @@ void SciUnit::pass(std::int64_t now, const Clock &clock)
 {
     const std::int64_t octet = octet_ticks(clock);
     if (receiving_ && now >= received_at_) {
-        receiving_ = false;
-        const bool heard =
-            connected(28) && SciaRegs.SCICTL1.bit.RXENA != 0U && SciaRegs.SCICTL1.bit.SWRESET != 0U;
+        receiving_       = false;
+        const bool heard = connected(28) && SciaRegs.SCICTL1.bit.RXENA != 0U &&
+                           SciaRegs.SCICTL1.bit.SWRESET != 0U && !error_;
         if (heard && rx_.size() < depth) {
             rx_.push_back(coming_.front());
         } else if (heard) {

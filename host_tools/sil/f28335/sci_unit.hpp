@@ -26,6 +26,11 @@ public:
     {
         coming_.push_back(octet);
     }
+    /// A receive error, now: nothing more is received until a software reset of the port.
+    void fail_receiver()
+    {
+        error_ = true;
+    }
     /// An octet that the firmware has sent; -1: none.
     int          take();
     std::int64_t octet_ticks(const Clock &clock) const;
@@ -46,6 +51,7 @@ private:
     std::int64_t              shifted_at_     = 0;
     bool                      write_pending_  = false;
     bool                      overflow_       = false;
+    bool                      error_          = false;
     std::uint16_t             presented_ffrx_ = 0x201F;
 };
 

@@ -8,7 +8,8 @@ namespace sdre::f28335 {
 
 class Watchdog {
 public:
-    Watchdog();
+    /// @param has_reset The reset before this start was its own.
+    explicit Watchdog(bool has_reset);
 
     /// Takes a change of WDCR and SCSR.
     void sync();
@@ -28,6 +29,7 @@ private:
     bool          locked_         = false; ///< WDOVERRIDE was cleared: cannot be stopped any more
     bool          half_key_       = false;
     bool          reset_          = false;
+    bool          has_reset_      = false; ///< WDFLAG
     unsigned      prescale_       = 0;
     std::int64_t  counter_ticks_  = 0;
     std::uint16_t presented_wdcr_ = 0;

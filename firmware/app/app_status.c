@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT */
+#include "app_modes.h"
+
+app_status_t app_modes_status(const app_modes_t *m, uint16_t board_faults)
+{
+    const bool   running = m->mode == APP_MODE_RUN;
+    const dq_t   zero    = {0.0f, 0.0f};
+    const dq_t   now_A   = {.d = m->drive.wanted.now.id_A, .q = m->drive.wanted.now.iq_A};
+    app_status_t s       = {.mode              = m->mode,
+                            .fault             = m->fault,
+                            .drive_fault       = m->drive.fault,
+                            .board_faults      = board_faults,
+                            .hot               = m->hot,
+                            .dc_link_out       = m->dc_link_out,
+                            .tripped           = m->tripped,
+                            .gate_enable       = m->gate_on,
+                            .reference         = m->angle.reference,
+                            .align_stage       = m->align.stage,
+                            .position_cnt      = m->angle.before_cnt,
+                            .index_corrections = m->angle.corrections,
+                            .phase_errors      = m->phase_errors,
+                            .reset_cause       = BOARD_RESET_PIN,
+                            .theta_e_rad       = m->reading.theta_e_rad,
+                            .speed_e_radps =
+                          running ? m->drive.wanted.now.omega_e_radps : m->reading.omega_e_radps,
+                            .dc_link_V         = m->sample.dc_link_V,
+                            .temperature_degC  = m->sample.temperature_degC,
+                            .i_A               = running ? now_A : zero,
+                            .i_ref_A           = running ? m->drive.wanted.i_ref_A : zero,
+                            .v_V               = running ? m->drive.v_V : zero,
+                            .zero_a_cnt        = m->scale.zero_a_cnt,
+                            .zero_b_cnt        = m->scale.zero_b_cnt,
+                            .tick_cycles       = 0U,
+                            .tick_cycles_worst = 0U,
+                            .ticks             = m->ticks,
+                            .snapshot          = m->snapshot};
+    return s;
+}
