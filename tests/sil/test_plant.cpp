@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sil/plant/bridge.hpp"
 #include "sil/plant/inverter.hpp"
 
 namespace {
@@ -317,7 +318,7 @@ TEST(Plant, RotationsAreInverseAndKeepLength)
 TEST(Inverter, DutyRatiosMakeTheVoltageVector)
 {
     const auto voltage = [](float a, float b, float c) {
-        return sdre::inverter_voltage({{a, b, c}, true}, 300.0, {5.0, -7.0});
+        return sdre::inverter_voltage({{a, b, c}, true}, 300.0);
     };
 
     EXPECT_NEAR(voltage(1.0F, 0.0F, 0.0F).alpha, 200.0, 1e-9); // 2/3 of the dc link
@@ -329,27 +330,46 @@ TEST(Inverter, DutyRatiosMakeTheVoltageVector)
     EXPECT_NEAR(voltage(0.0F, 0.5F, 0.25F).alpha, -75.0, 1e-9);
 }
 
+namespace {
+
+/// Mean phase voltages of an open bridge over a microsecond, in the stator frame.
+StatorVector open_bridge_V(Plant &plant)
+{
+    sdre::Bridge bridge({1e-6, 5000.0, 0.07498, false}, {}, 0.0);
+    sdre::DcLink link({}, 300.0);
+    bridge.begin_period({{1.0F, 0.0F, 0.0F}, false});
+    bridge.advance(plant, link, {}, 0.0, 1e-6);
+    StatorVector v = sdre::clarke(bridge.volt_seconds());
+    return {v.alpha / 1e-6, v.beta / 1e-6};
+}
+
+} // namespace
+
 TEST(Inverter, OpenBridgeOpposesTheCurrent)
 {
     for (int k = 0; k < 24; k++) {
-        const double       angle = 0.13 + k * std::acos(-1.0) / 12.0;
-        const StatorVector i{4.0 * std::cos(angle), 4.0 * std::sin(angle)};
+        const double      angle = 0.13 + k * std::acos(-1.0) / 12.0;
+        Plant             plant(reference_motor());
+        const sdre::Motor m = reference_motor();
+        plant.step(RotorVector{m.d_axis_inductance_H * 4.0 * std::cos(angle) / 1e-6,
+                               m.q_axis_inductance_H * 4.0 * std::sin(angle) / 1e-6},
+                   0.0, 1e-6, 1);
+        const StatorVector i = sdre::to_stator(plant.current_A(), plant.theta_e_rad());
 
-        const StatorVector v = sdre::inverter_voltage({{1.0F, 0.0F, 0.0F}, false}, 300.0, i);
+        const StatorVector v = open_bridge_V(plant);
 
         EXPECT_NEAR(std::hypot(v.alpha, v.beta), 200.0, 1e-9); // one of the six corners
-        EXPECT_LE(v.alpha * i.alpha + v.beta * i.beta, -200.0 * 4.0 * std::sqrt(0.75));
+        EXPECT_LE(v.alpha * i.alpha + v.beta * i.beta, -200.0 * 3.99 * std::sqrt(0.75));
     }
 }
 
 TEST(Inverter, OpenBridgeWithoutCurrentGivesNoVoltage)
 {
-    const StatorVector none  = sdre::inverter_voltage({{1.0F, 0.0F, 0.0F}, false}, 300.0, {});
-    const StatorVector small = sdre::inverter_voltage({{}, false}, 300.0, {0.025, 0.0});
+    Plant              plant(reference_motor());
+    const StatorVector none = open_bridge_V(plant);
 
-    EXPECT_EQ(none.alpha, 0.0);
-    EXPECT_EQ(none.beta, 0.0);
-    EXPECT_NEAR(small.alpha, -75.0, 1e-9); // half way: shares -1/4, 1/8, 1/8
+    EXPECT_NEAR(none.alpha, 0.0, 1e-12);
+    EXPECT_NEAR(none.beta, 0.0, 1e-12);
 }
 
 TEST(Inverter, OpenBridgeBringsTheCurrentToRest)
@@ -358,10 +378,9 @@ TEST(Inverter, OpenBridgeBringsTheCurrentToRest)
     plant.step(RotorVector{0.0, 100.0}, 0.0, 2e-3, 40);
     ASSERT_GT(std::abs(plant.current_A().q), 1.0);
 
-    for (int k = 0; k < 400; k++) {
-        const StatorVector i = sdre::to_stator(plant.current_A(), plant.theta_e_rad());
-        plant.step(sdre::inverter_voltage({{}, false}, 300.0, i), 0.0, 10e-6, 1);
+    for (int k = 0; k < 4000; k++) {
+        open_bridge_V(plant);
     }
 
-    EXPECT_LT(std::hypot(plant.current_A().d, plant.current_A().q), 0.1);
+    EXPECT_EQ(std::hypot(plant.current_A().d, plant.current_A().q), 0.0);
 }

@@ -10,6 +10,12 @@ namespace {
 // Measured: at 850 rad/s two RK4 steps of 100 us stay within 5e-6 A of steps of 5 us.
 constexpr double steps_per_period = 2.0;
 
+// Measured: with diodes conducting at 1400 rad/s steps of 10 us stay within 7e-5 A (mean) of steps of 1 us.
+constexpr double diode_step_s = 1e-5;
+
+// Chosen: more zeros of a current than this in one piece are rounding.
+constexpr int most_zeros = 8;
+
 } // namespace
 
 Bridge::Bridge(const BridgeTiming &timing, const InverterSettings &settings, double dead_time_s)
@@ -74,13 +80,69 @@ void Bridge::advance(Plant &plant, DcLink &dc_link, const ShaftLoad &load, doubl
         const double pieces =
             all_s <= longest_s ? 1.0 : std::max(1.0, std::ceil(all_s / longest_s - 1e-9));
         for (int n = 0; n < static_cast<int>(pieces); n++) {
-            if (edges) {
-                advance_switched(circuit, now_s, all_s / pieces);
-            } else {
-                advance_averaged(circuit, all_s / pieces);
-            }
+            advance_piece(circuit, now_s, all_s / pieces);
         }
         now_s = event_s;
+    }
+}
+
+Bridge::Terminals Bridge::terminals_at(const Circuit &c, const std::array<double, 3> &i,
+                                       double now_s)
+{
+    const double dc_link_V = c.dc_link.voltage_V();
+    const bool   edges     = settings_.model == InverterModel::switched;
+    Terminals    t;
+    for (std::size_t x = 0; x < 3; x++) {
+        t.open[x]  = !enabled_[x] || (edges && legs_[x].in_dead_time(now_s));
+        t.any_open = t.any_open || t.open[x];
+        if (!t.open[x] && edges) {
+            switch_leg(t, x, i[x], dc_link_V);
+        } else if (!t.open[x]) {
+            average_leg(t, x, i[x], dc_link_V);
+        }
+    }
+    if (t.any_open) {
+        place_diodes(c, t, i);
+    } else {
+        was_open_ = {};
+    }
+    return t;
+}
+
+/// No edge and no end of a dead time is inside; zeros of currents may be.
+void Bridge::advance_piece(const Circuit &c, double now_s, double dt_s)
+{
+    double left_s = dt_s;
+    int    zeros  = 0;
+    while (left_s > no_time_s) {
+        const std::array<double, 3> i = as_array(c.plant.phase_current_A());
+        const Terminals             t = terminals_at(c, i, now_s);
+        Piece                       piece{left_s, -1};
+        if (t.any_open) {
+            piece.dt_s = std::min(left_s, diode_step_s);
+            piece      = zeros < most_zeros ? piece_of(c, t, i, piece.dt_s) : piece;
+        }
+        if (piece.dt_s > 0.0) {
+            apply(c, t, piece.dt_s);
+        }
+        left_s -= piece.dt_s;
+        if (piece.dying >= 0) {
+            end_current(c, t, static_cast<std::size_t>(piece.dying));
+            zeros++;
+        }
+    }
+}
+
+void Bridge::move_plant(const Circuit &c, const Terminals &t, double dt_s)
+{
+    const int floating = t.floating_count();
+    if (floating == 0) {
+        c.plant.advance(clarke(t.v_V), c.load, dt_s);
+    } else if (floating == 1) {
+        const auto x = std::find(t.floats.begin(), t.floats.end(), true) - t.floats.begin();
+        c.plant.advance_floating(clarke(t.v_V), static_cast<std::size_t>(x), c.load, dt_s);
+    } else {
+        c.plant.coast(c.load, dt_s);
     }
 }
 
@@ -90,7 +152,7 @@ void Bridge::apply(const Circuit &c, const Terminals &t, double dt_s)
         volt_seconds_[x] += t.v_V[x] * dt_s;
     }
     if (c.dc_link.stiff()) {
-        c.plant.advance(clarke(t.v_V), c.load, dt_s);
+        move_plant(c, t, dt_s);
         return;
     }
     const auto bridge_A = [&] {
@@ -98,7 +160,7 @@ void Bridge::apply(const Circuit &c, const Terminals &t, double dt_s)
         return t.share[0] * i.a + t.share[1] * i.b + t.share[2] * i.c;
     };
     const double before_A = bridge_A();
-    c.plant.advance(clarke(t.v_V), c.load, dt_s);
+    move_plant(c, t, dt_s);
     c.dc_link.advance(0.5 * (before_A + bridge_A()), dt_s);
 }
 

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: MIT
 /// Three-phase two-level inverter: averaged over a period, or with every edge.
 ///
-/// Phase currents are positive into the motor. A leg whose switches are both off (dead time) is at the
-/// rail of the diode that carries its current; when the current dies out within the dead time it stays zero
-/// until the next switch closes.
+/// Phase currents are positive into the motor. A leg whose switches are both off (dead time, bridge open) is at the
+/// rail of the diode that carries its current. When that current has died out the terminal floats where it keeps
+/// the phase without current,
+///
+///     axis . di/dt = 0 solved for v_x, axis: the phase's direction             EQ-OPEN-1
+///
+/// and a diode takes over again as soon as v_x is beyond its rail:
+///
+///     v_x > v_dc + drop: the upper one,  v_x < -drop: the lower one            EQ-OPEN-2
+///
+/// With all legs open and no current these are the two lines whose EMF exceeds v_dc + 2 drops, else none.
 ///
 /// Averaged, per phase with duty d in (0, 1) and sat(x) = x held in [-1, 1]:
 ///
@@ -24,9 +32,6 @@
 #include "sil/setup/board_settings.hpp"
 
 namespace sdre {
-
-// Chosen: below this current the diodes' rail voltage fades out, so that the averaged model comes to rest.
-constexpr double diode_fade_A = 0.05;
 
 /// Everything of the bridge that is the same for all periods.
 struct BridgeTiming {
@@ -71,10 +76,14 @@ private:
     /// What the terminals are at for a while.
     struct Terminals {
         std::array<double, 3> v_V{};
-        std::array<double, 3> share{}; ///< of the phase's current that the dc link carries
-        std::array<bool, 3>   off{};   ///< both switches
-        bool                  any_off = false;
+        std::array<double, 3> share{};  ///< of the phase's current that the dc link carries
+        std::array<bool, 3>   open{};   ///< both switches off
+        std::array<bool, 3>   floats{}; ///< open, and no diode carries a current
+        bool                  any_open = false;
+        int                   floating_count() const;
     };
+    /// Which diode of an open leg carries the phase's current.
+    enum class Diode { none, upper, lower };
     /// The time until a phase current that a diode carries dies out, at most the time asked for.
     struct Piece {
         double dt_s;
@@ -83,17 +92,20 @@ private:
 
     bool      switched() const;
     double    next_event_s(double now_s, double to_s);
-    void      advance_averaged(const Circuit &c, double dt_s);
+    void      advance_piece(const Circuit &c, double now_s, double dt_s);
     void      average_leg(Terminals &t, std::size_t x, double current_A, double dc_link_V) const;
-    void      average_diodes(Terminals &t, std::size_t x, double current_A, double dc_link_V,
-                             double dt_s) const;
-    void      advance_switched(const Circuit &c, double now_s, double dt_s);
-    Terminals terminals_at(const Circuit &c, const std::array<double, 3> &i, double now_s) const;
-    Piece     piece_of(const Circuit &c, const Terminals &t, const std::array<double, 3> &i,
-                       double longest_s) const;
-    double    hold_voltage_V(const Plant &plant, const Terminals &t, std::size_t phase,
-                             double dc_link_V) const;
-    void      apply(const Circuit &c, const Terminals &t, double dt_s);
+    void      switch_leg(Terminals &t, std::size_t x, double current_A, double dc_link_V) const;
+    Terminals terminals_at(const Circuit &c, const std::array<double, 3> &i, double now_s);
+    void      note_openings(const Terminals &t, const std::array<double, 3> &i);
+    void      place_diodes(const Circuit &c, Terminals &t, const std::array<double, 3> &i);
+    void      place_by_emf(const Circuit &c, Terminals &t);
+    void place(Terminals &t, std::size_t x, Diode diode, double floating_V, double dc_link_V) const;
+    Diode diode_at(double floating_V, double dc_link_V) const;
+    Piece piece_of(const Circuit &c, const Terminals &t, const std::array<double, 3> &i,
+                   double longest_s) const;
+    void  end_current(const Circuit &c, const Terminals &t, std::size_t phase);
+    void  move_plant(const Circuit &c, const Terminals &t, double dt_s);
+    void  apply(const Circuit &c, const Terminals &t, double dt_s);
 
     BridgeTiming          timing_;
     InverterSettings      settings_;
@@ -102,6 +114,8 @@ private:
     std::array<bool, 3>   enabled_{true, true, true};
     bool rising_half_ = true; ///< with half_periods: the carrier runs down, switches close
     std::array<Leg, 3>    legs_{};
+    std::array<Diode, 3>  diode_{};
+    std::array<bool, 3>   was_open_{};
     std::array<double, 3> volt_seconds_{};
 };
 

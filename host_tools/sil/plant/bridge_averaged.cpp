@@ -5,21 +5,6 @@
 
 namespace sdre {
 
-void Bridge::advance_averaged(const Circuit &c, double dt_s)
-{
-    const std::array<double, 3> i         = as_array(c.plant.phase_current_A());
-    const double                dc_link_V = c.dc_link.voltage_V();
-    Terminals                   t;
-    for (std::size_t x = 0; x < 3; x++) {
-        if (enabled_[x]) {
-            average_leg(t, x, i[x], dc_link_V);
-        } else {
-            average_diodes(t, x, i[x], dc_link_V, dt_s);
-        }
-    }
-    apply(c, t, dt_s);
-}
-
 void Bridge::average_leg(Terminals &t, std::size_t x, double current_A, double dc_link_V) const
 {
     const Leg &leg = legs_[x];
@@ -37,16 +22,6 @@ void Bridge::average_leg(Terminals &t, std::size_t x, double current_A, double d
     const double drop_V = out * settings_.switch_drop_V + (1.0 - out) * settings_.diode_drop_V;
     t.share[x]          = share;
     t.v_V[x]            = share * dc_link_V - sign * drop_V; // EQ-INVERTER-3
-}
-
-/// Both switches off: the rails fade so that one step cannot turn a current around.
-void Bridge::average_diodes(Terminals &t, std::size_t x, double current_A, double dc_link_V,
-                            double dt_s) const
-{
-    const double width_A = std::max(diode_fade_A, dt_s * dc_link_V / timing_.inductance_H);
-    const double sign    = std::clamp(current_A / width_A, -1.0, 1.0);
-    t.share[x]           = 0.5 - 0.5 * sign;
-    t.v_V[x]             = t.share[x] * dc_link_V - sign * settings_.diode_drop_V;
 }
 
 } // namespace sdre

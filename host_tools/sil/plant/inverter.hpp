@@ -7,8 +7,7 @@
 
 namespace sdre {
 
-/// Stator voltage over one period from three duty ratios (EQ-INVERTER-1). With the gates off the diodes
-/// conduct: each phase is at the rail that opposes its current; a phase without current floats.
-StatorVector inverter_voltage(const bridge_t &output, double dc_link_V, StatorVector current_A);
+/// Stator voltage over one period from the duty ratios of a closed bridge (EQ-INVERTER-1).
+StatorVector inverter_voltage(const bridge_t &closed, double dc_link_V);
 
 } // namespace sdre

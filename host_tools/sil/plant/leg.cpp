@@ -51,7 +51,6 @@ void Leg::move_to(double now_s)
 {
     for (; next_ < count_ && changes_[next_].time_s <= now_s + no_time_s; next_++) {
         high_         = changes_[next_].high;
-        held_         = false;
         dead_until_s_ = changes_[next_].time_s + (high_ ? rise_delay_s_ : fall_delay_s_);
     }
 }

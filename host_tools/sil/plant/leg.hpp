@@ -57,14 +57,6 @@ public:
     {
         return fall_delay_s_;
     }
-    bool held() const ///< its current has died out in this dead time
-    {
-        return held_;
-    }
-    void hold()
-    {
-        held_ = true;
-    }
 
 private:
     void                             plan_change(double time_s, bool to_high);
@@ -72,7 +64,6 @@ private:
     std::size_t                      count_        = 0;
     std::size_t                      next_         = 0;
     bool                             high_         = false;
-    bool                             held_         = false;
     double                           dead_until_s_ = 0.0;
     double                           rise_delay_s_ = 0.0;
     double                           fall_delay_s_ = 0.0;

@@ -7,6 +7,13 @@
 #include "sil/plant/rk4.hpp"
 
 namespace sdre {
+namespace {
+
+// Directions of the phases in the stator's frame.
+const std::array<StatorVector, 3> phase_axes{
+    {{1.0, 0.0}, {-0.5, 0.5 * std::sqrt(3.0)}, {-0.5, -0.5 * std::sqrt(3.0)}}};
+
+} // namespace
 
 Plant::Plant(const Motor &motor) : motor_(motor), equations_(motor)
 {
@@ -86,7 +93,7 @@ double Plant::shaft_Nm(const MotorState &x, RotorVector i, const ShaftLoad &load
     return torque;
 }
 
-/// voltage(turned_rad) is the voltage seen from the rotor once it has turned this far in the step.
+/// voltage(turned_rad, x, i) is the voltage seen from the rotor once it has turned this far in the step.
 template <bool with_effects, typename Voltage>
 void Plant::move(const Voltage &voltage, const ShaftLoad &load, double dt_s)
 {
@@ -97,7 +104,7 @@ void Plant::move(const Voltage &voltage, const ShaftLoad &load, double dt_s)
         if (with_effects && friction_Nm != 0.0) {
             torque = slide_ != 0.0 ? torque - slide_ * friction_Nm : 0.0;
         }
-        return equations_.rate(x, i, voltage(turned_rad), torque);
+        return equations_.rate(x, i, voltage(turned_rad, x, i), torque);
     });
     x_                           = along(x_, gain, 1.0);
     angle_                       = turned(angle_, small_rotation(gain.theta_e));
@@ -123,8 +130,47 @@ void Plant::move(const Voltage &voltage, const ShaftLoad &load, double dt_s)
 void Plant::advance(StatorVector v, const ShaftLoad &load, double dt_s)
 {
     const RotorVector v_V = to_rotor(v, angle_); // at the start of the step
-    move([v_V](double turned_rad) { return seen_from(small_rotation(turned_rad), v_V.d, v_V.q); },
+    move([v_V](double turned_rad, const MotorState &,
+               RotorVector) { return seen_from(small_rotation(turned_rad), v_V.d, v_V.q); },
          load, dt_s);
+}
+
+void Plant::advance_floating(StatorVector v, std::size_t phase, const ShaftLoad &load, double dt_s)
+{
+    const RotorVector v_V  = to_rotor(v, angle_);
+    const RotorVector axis = to_rotor(phase_axes[phase], angle_);
+    move(
+        [&](double turned_rad, const MotorState &x, RotorVector i) {
+            const Rotation    turn = small_rotation(turned_rad);
+            const RotorVector u    = seen_from(turn, axis.d, axis.q);
+            const RotorVector w    = seen_from(turn, v_V.d, v_V.q);
+            const double      more = 2.0 / 3.0 * floating_V(x, i, w, u);
+            return RotorVector{w.d + more * u.d, w.q + more * u.q};
+        },
+        load, dt_s);
+    clear_current(phase);
+}
+
+void Plant::coast(const ShaftLoad &load, double dt_s)
+{
+    move(
+        [&](double, const MotorState &x, RotorVector) {
+            const double w = equations_.omega_e_radps(x);
+            return RotorVector{-w * x.psi_q, w * x.psi_d};
+        },
+        load, dt_s);
+}
+
+void Plant::clear_current(std::size_t phase)
+{
+    const RotorVector u    = to_rotor(phase_axes[phase], angle_);
+    const double      rest = u.d * i_.d + u.q * i_.q;
+    set_current({i_.d - rest * u.d, i_.q - rest * u.q});
+}
+
+void Plant::clear_current()
+{
+    set_current({});
 }
 
 void Plant::step(StatorVector v_V, double load_Nm, double dt_s, int substeps)
@@ -139,7 +185,8 @@ void Plant::step(RotorVector v_V, double load_Nm, double dt_s, int substeps)
 {
     align_angle();
     for (int n = 0; n < substeps; n++) {
-        move([v_V](double) { return v_V; }, {load_Nm, 0.0}, dt_s / substeps);
+        move([v_V](double, const MotorState &, RotorVector) { return v_V; }, {load_Nm, 0.0},
+             dt_s / substeps);
     }
 }
 
@@ -179,6 +226,29 @@ PhaseVector Plant::phase_current_rate_Aps(StatorVector v) const
     const double      w    = omega_e_radps();
     // The rotor frame's own rotation comes in: d/dt (P i) = P (i' + w J i).
     return phases_of(to_stator({flux.d / L.d - w * i_.q, flux.q / L.q + w * i_.d}, angle_));
+}
+
+/// EQ-OPEN-1: u (L^-1 (v - R i + w ..) + w J i) = 0, solved for what the terminal adds to v.
+double Plant::floating_V(const MotorState &x, RotorVector i, RotorVector v, RotorVector u) const
+{
+    const RotorVector L    = inductances_H(i);
+    const RotorVector flux = equations_.flux_rate_V(x, i, v);
+    const double      w    = equations_.omega_e_radps(x);
+    const double      rate = u.d * (flux.d / L.d - w * i.q) + u.q * (flux.q / L.q + w * i.d);
+    return -1.5 * rate / (u.d * u.d / L.d + u.q * u.q / L.q);
+}
+
+double Plant::floating_V(std::array<double, 3> others_V, std::size_t phase) const
+{
+    others_V[phase] = 0.0;
+    return floating_V(x_, i_, to_rotor(clarke(others_V), angle_),
+                      to_rotor(phase_axes[phase], angle_));
+}
+
+PhaseVector Plant::emf_V() const
+{
+    const double w = omega_e_radps();
+    return phases_of(to_stator(RotorVector{-w * x_.psi_q, w * x_.psi_d}, angle_));
 }
 
 } // namespace sdre

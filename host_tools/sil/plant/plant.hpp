@@ -6,6 +6,7 @@
 /// of the torque exceeds it.
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "drive/drive_file.hpp"
@@ -31,6 +32,13 @@ public:
     /// One RK4 step with the voltage constant in the stator frame (an inverter). Within a step the angle moves so
     /// little that a short series rotates the voltage.
     void advance(StatorVector v_V, const ShaftLoad &load, double dt_s);
+    /// The same with one phase (0 .. 2) that carries no current: its terminal floats, whatever v_V says of it.
+    void advance_floating(StatorVector v_V, std::size_t phase, const ShaftLoad &load, double dt_s);
+    /// The same without any current.
+    void coast(const ShaftLoad &load, double dt_s);
+    /// Ends what is left of a current that has died out: of one phase, of all.
+    void clear_current(std::size_t phase);
+    void clear_current();
     /// Advances by dt_s in `substeps` of them.
     void step(StatorVector v_V, double load_Nm, double dt_s, int substeps);
     /// The same with the voltage constant in the rotor frame.
@@ -46,6 +54,10 @@ public:
     }
     /// d/dt of the phase currents under a voltage.
     PhaseVector phase_current_rate_Aps(StatorVector v_V) const;
+    /// Where a floating terminal is, with the other two (0 in its own place) as given and no current in its phase.
+    double floating_V(std::array<double, 3> others_V, std::size_t phase) const;
+    /// Phase voltages of a motor whose terminals all float.
+    PhaseVector emf_V() const;
     /// Largest |i| at the end of any step since the last reset_peak().
     double peak_current_A() const
     {
@@ -76,10 +88,11 @@ private:
     template <typename Voltage>
     void        move(const Voltage &voltage, const ShaftLoad &load, double dt_s);
     RotorVector inductances_H(RotorVector i) const;
-    double      cogging_Nm(double theta_e_rad) const;
-    void        choose_friction(const ShaftLoad &load);
-    void        note_peak();
-    void        set_current(RotorVector i);
+    double floating_V(const MotorState &x, RotorVector i, RotorVector v_V, RotorVector axis) const;
+    double cogging_Nm(double theta_e_rad) const;
+    void   choose_friction(const ShaftLoad &load);
+    void   note_peak();
+    void   set_current(RotorVector i);
 
     Motor          motor_;
     MotorEquations equations_;

@@ -218,9 +218,8 @@ bool Board::plain_period() const
 void Board::run_period(const bridge_t &in_force)
 {
     plant_.reset_peak();
-    if (plain_period()) {
-        const StatorVector i = to_stator(plant_.current_A(), plant_.theta_e_rad());
-        plant_.step(inverter_voltage(in_force, dc_link_.voltage_V(), i), shaft_load_.torque_Nm,
+    if (plain_period() && in_force.gate_enable) {
+        plant_.step(inverter_voltage(in_force, dc_link_.voltage_V()), shaft_load_.torque_Nm,
                     period_s_, substeps_per_period);
         return;
     }
