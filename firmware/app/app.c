@@ -21,6 +21,7 @@ static volatile struct {
 
 /* Only the tick. */
 static struct {
+    app_config_t  config;
     app_modes_t   modes;
     app_command_t command;
     uint16_t      background_count;
@@ -44,15 +45,16 @@ static ctl_status_t init_tick_side(const app_config_t *config, const drive_confi
     tick_side.background_count     = 0U;
     tick_side.background_age_ticks = 0U;
     tick_side.cycles_worst         = 0U;
-    return app_modes_init(&tick_side.modes, config, drive);
+    tick_side.config               = app_config_for(config, drive->hardware.updates_per_period);
+    return app_modes_init(&tick_side.modes, &tick_side.config, drive);
 }
 
 ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
 {
     const ctl_status_t modes = init_tick_side(config, drive);
     const ctl_status_t modbus =
-        app_modbus_init(&background_side.modbus, config->modbus_address, config->modbus_gap_ticks,
-                        config->modbus_timeout_ticks);
+        app_modbus_init(&background_side.modbus, tick_side.config.modbus_address,
+                        tick_side.config.modbus_gap_ticks, tick_side.config.modbus_timeout_ticks);
 
     app_registers_init(&background_side.registers, drive->trip_speed_e_radps);
     background_side.status       = app_modes_status(&tick_side.modes, 0U);

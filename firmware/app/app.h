@@ -26,7 +26,7 @@
 /**
  * @brief Everything to its start; the bridge stays off.
  *
- * @param config Board constants, must stay.
+ * @param config Board constants.
  * @param drive  Drive constants, must stay.
  * @return CTL_BAD_CONFIG: the application runs and answers, but stays in APP_MODE_FAULT.
  *

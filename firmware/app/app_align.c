@@ -6,11 +6,12 @@
 #include "frames.h"
 #include "svpwm.h"
 
-ctl_status_t app_align_init(app_align_t *a, const app_align_config_t *c, uint16_t pole_pairs,
+ctl_status_t app_align_init(app_align_t *a, const app_align_config_t *c,
                             const drive_config_t *drive)
 {
-    const float current_max_A = drive->current_max_A;
-    const bool  times_ok = (c->watch_ticks > 0U) && (c->ramp_ticks > 0U) && (c->sweep_ticks > 0U) &&
+    const uint16_t pole_pairs    = drive->hardware.pole_pairs;
+    const float    current_max_A = drive->current_max_A;
+    const bool times_ok = (c->watch_ticks > 0U) && (c->ramp_ticks > 0U) && (c->sweep_ticks > 0U) &&
                           (c->still_ticks > 0U) && (c->settle_ticks > c->still_ticks);
     const bool ok = times_ok && (pole_pairs > 0U) &&
                     base_in_range(c->current_A, 1.0e-3f, 0.5f * current_max_A) &&

@@ -66,7 +66,7 @@ typedef struct {
 } app_align_t;
 
 /** @return CTL_BAD_CONFIG, a unusable, when a constant is out of range. Context: init. */
-ctl_status_t app_align_init(app_align_t *a, const app_align_config_t *config, uint16_t pole_pairs,
+ctl_status_t app_align_init(app_align_t *a, const app_align_config_t *config,
                             const drive_config_t *drive);
 
 /** Begin at the first stage. Context: control ISR. */

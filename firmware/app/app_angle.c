@@ -1,30 +1,40 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_angle.h"
 
-#include "board.h"
-#include "nodo_encoder.h"
+#include "frames.h"
 
 #define HALF_COUNTS (2U * BOARD_POSITIONS) /* half counts per mechanical turn */
 #define POLE_PAIRS  64U                    /* keeps half counts times pole pairs within 32 bits */
 
-ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c, float ts_s)
+ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c,
+                            const drive_config_t *drive)
 {
-    const bool ok = (c->pole_pairs >= 1U) && (c->pole_pairs <= POLE_PAIRS) &&
+    const uint16_t pole_pairs = drive->hardware.pole_pairs;
+    const float    ts_s       = drive->ts_s;
+    const bool     ok         = (pole_pairs >= 1U) && (pole_pairs <= POLE_PAIRS) &&
                     base_in_range(c->index_theta_e_rad, 0.0f, BASE_TWO_PI) &&
                     (c->index_theta_e_rad < BASE_TWO_PI) &&
                     (c->index_correct_max_cnt >= c->index_tolerance_cnt) &&
                     (c->index_correct_max_cnt < (BOARD_POSITIONS / 4U)) &&
                     base_in_range(ts_s, 1.0e-5f, 1.0e-2f);
 
-    a->config           = c;
-    a->rad_per_half_cnt = BASE_TWO_PI / (float)HALF_COUNTS;
-    a->radps_per_cnt    = ok ? (2.0f * (float)c->pole_pairs * a->rad_per_half_cnt / ts_s) : 0.0f;
-    a->reference        = APP_ANGLE_NONE;
-    a->zero_cnt         = 0U;
-    a->zero_theta_rad   = 0.0f;
-    a->before_cnt       = 0U;
-    a->have_before      = false;
-    a->corrections      = 0U;
+    a->config             = c;
+    a->pole_pairs         = pole_pairs;
+    a->edge_times         = drive->hardware.edge_times;
+    a->ts_s               = ts_s;
+    a->rad_per_half_cnt   = BASE_TWO_PI / (float)HALF_COUNTS;
+    a->rad_per_cnt        = 2.0f * (float)pole_pairs * a->rad_per_half_cnt;
+    a->radps_per_cnt      = ok ? (a->rad_per_cnt / ts_s) : 0.0f;
+    a->have_edge          = false;
+    a->edge_cnt           = 0U;
+    a->edge_age_s         = 0.0f;
+    a->edge_speed_e_radps = 0.0f;
+    a->reference          = APP_ANGLE_NONE;
+    a->zero_cnt           = 0U;
+    a->zero_theta_rad     = 0.0f;
+    a->before_cnt         = 0U;
+    a->have_before        = false;
+    a->corrections        = 0U;
     return ok ? CTL_OK : CTL_BAD_CONFIG;
 }
 
@@ -48,7 +58,7 @@ static float theta_at(const app_angle_t *a, uint16_t position_cnt, uint32_t half
             ? ((uint32_t)position_cnt - (uint32_t)a->zero_cnt)
             : ((uint32_t)position_cnt + (uint32_t)BOARD_POSITIONS - (uint32_t)a->zero_cnt);
     const uint32_t half_counts =
-        (((2U * from_zero_cnt) + half) * (uint32_t)a->config->pole_pairs) % HALF_COUNTS;
+        (((2U * from_zero_cnt) + half) * (uint32_t)a->pole_pairs) % HALF_COUNTS;
     const float theta_rad = a->zero_theta_rad + ((float)half_counts * a->rad_per_half_cnt);
 
     return (theta_rad >= BASE_TWO_PI) ? (theta_rad - BASE_TWO_PI) : theta_rad;
@@ -69,7 +79,7 @@ static float index_error_cnt(const app_angle_t *a, uint16_t index_cnt)
         return (float)app_angle_turned_cnt(a->zero_cnt, index_cnt);
     }
     const float error_rad = frames_wrap(theta_at(a, index_cnt, 0U) - a->config->index_theta_e_rad);
-    return error_rad / (2.0f * (float)a->config->pole_pairs * a->rad_per_half_cnt);
+    return error_rad / a->rad_per_cnt;
 }
 
 /* False when the index came where it cannot be. */
@@ -94,26 +104,92 @@ static bool take_index(app_angle_t *a, uint16_t index_cnt)
     return true;
 }
 
-app_angle_reading_t app_angle_update(app_angle_t *a, uint16_t position_cnt, bool index_seen,
-                                     uint16_t index_cnt)
+static float within_turn(float theta_rad)
 {
-    app_angle_reading_t reading = {.theta_e_rad   = 0.0f,
-                                   .omega_e_radps = 0.0f,
-                                   .speed_valid   = a->have_before,
-                                   .index_fault   = false};
-
-    if (a->have_before) {
-        reading.omega_e_radps =
-            (float)app_angle_turned_cnt(a->before_cnt, position_cnt) * a->radps_per_cnt;
+    if (theta_rad < 0.0f) {
+        return theta_rad + BASE_TWO_PI;
     }
-    a->before_cnt  = position_cnt;
-    a->have_before = true;
+    return (theta_rad >= BASE_TWO_PI) ? (theta_rad - BASE_TWO_PI) : theta_rad;
+}
 
-    if (index_seen && !take_index(a, index_cnt)) {
+/* EQ-APP-ANGLE-3, for the last edge of this period, which begins the position `edge_cnt` from below. */
+static void take_edge(app_angle_t *a, uint16_t edge_cnt, float age_s)
+{
+    const float turned_cnt = (float)app_angle_turned_cnt(a->edge_cnt, edge_cnt);
+    const float between_s  = a->edge_age_s - age_s; /* edge_age_s counts up to now */
+
+    if (a->have_edge && (between_s > 0.0f)) {
+        a->edge_speed_e_radps = turned_cnt * a->rad_per_cnt / between_s;
+    }
+    a->have_edge  = true;
+    a->edge_cnt   = edge_cnt;
+    a->edge_age_s = age_s;
+}
+
+/* A speed that would have brought the next edge by now was too high. */
+static void wait_for_edge(app_angle_t *a)
+{
+    const float most_radps = a->rad_per_cnt / a->edge_age_s;
+
+    a->edge_speed_e_radps = base_clamp(a->edge_speed_e_radps, -most_radps, most_radps);
+}
+
+/* EQ-APP-ANGLE-3, 4. */
+static void read_edges(app_angle_t *a, const board_sample_t *raw, app_angle_reading_t *reading)
+{
+    const int16_t turned_cnt = app_angle_turned_cnt(a->before_cnt, raw->position_cnt);
+    const float   age_s      = (float)raw->edge_age_cnt * (1.0f / (float)BOARD_CAPTURE_Hz);
+    const bool    timed      = raw->edge_seen && (turned_cnt != 0) && (age_s <= a->ts_s);
+    const float   half_rad   = 0.5f * a->rad_per_cnt;
+
+    a->edge_age_s += a->ts_s;
+    if (timed) {
+        const bool     forward = turned_cnt > 0;
+        const uint32_t edge    = (uint32_t)raw->position_cnt + (forward ? 0U : 1U);
+
+        take_edge(a, (uint16_t)((edge < BOARD_POSITIONS) ? edge : 0U), age_s);
+        const float beyond_rad =
+            base_min(age_s * fabsf(a->edge_speed_e_radps), a->rad_per_cnt) - half_rad;
+        reading->theta_e_rad =
+            within_turn(reading->theta_e_rad + (forward ? beyond_rad : -beyond_rad));
+    } else {
+        if (turned_cnt != 0) {
+            a->have_edge = false; /* forth and back: which edge it was is not known */
+        } else if (a->have_edge) {
+            wait_for_edge(a);
+        } else {
+            /* no edge yet */
+        }
+        reading->band_rad = half_rad;
+    }
+    if (a->have_edge) {
+        reading->omega_e_radps = a->edge_speed_e_radps;
+    }
+}
+
+app_angle_reading_t app_angle_update(app_angle_t *a, const board_sample_t *raw)
+{
+    const uint16_t      position_cnt = raw->position_cnt;
+    app_angle_reading_t reading      = {.theta_e_rad   = 0.0f,
+                                        .band_rad      = 0.0f,
+                                        .omega_e_radps = 0.0f,
+                                        .speed_valid   = a->have_before,
+                                        .index_fault   = false};
+
+    if (raw->index_seen && !take_index(a, raw->index_cnt)) {
         reading.index_fault = true;
         a->reference        = APP_ANGLE_NONE;
     }
     reading.theta_e_rad = theta_at(a, position_cnt, 1U);
+    if (a->have_before) {
+        reading.omega_e_radps =
+            (float)app_angle_turned_cnt(a->before_cnt, position_cnt) * a->radps_per_cnt;
+        if (a->edge_times) {
+            read_edges(a, raw, &reading);
+        }
+    }
+    a->before_cnt  = position_cnt;
+    a->have_before = true;
     return reading;
 }
 
@@ -128,4 +204,5 @@ void app_angle_drop(app_angle_t *a)
 {
     a->reference   = APP_ANGLE_NONE;
     a->have_before = false;
+    a->have_edge   = false;
 }

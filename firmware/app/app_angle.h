@@ -6,7 +6,14 @@
  *     theta_e = theta_zero + n_p (2 (position - zero) + 1) pi / N, in [0, 2 pi)     EQ-APP-ANGLE-1
  *     omega_e = n_p (position - position before) 2 pi / (N Ts)                     EQ-APP-ANGLE-2
  *
- * with N = BOARD_POSITIONS.
+ * with N = BOARD_POSITIONS. With the times of the edges, those of the last edge of a period at the age a, and of the last
+ * one before it at t_before earlier,
+ *
+ *     omega_e = n_p (edge - edge before) 2 pi / (N t_before)                       EQ-APP-ANGLE-3
+ *     theta_e = theta at that edge + omega_e a, within the count                   EQ-APP-ANGLE-4
+ *
+ * A period without an edge says that the angle is within the count, and that the speed is at most one count in the time
+ * since the last edge.
  *
  * A count stands for its middle. The angle means nothing until it is referenced: by the index mark, whose
  * electrical angle is a constant of the motor and its encoder, or by alignment.
@@ -20,9 +27,10 @@
 #define APP_ANGLE_H
 
 #include "base.h"
+#include "board.h"
+#include "drive_config.h"
 
 typedef struct {
-    uint16_t pole_pairs;            /**< 1 .. 64 */
     float    index_theta_e_rad;     /**< electrical angle at the index mark, [0, 2 pi) */
     uint16_t index_tolerance_cnt;   /**< width of the mark: no correction up to here */
     uint16_t index_correct_max_cnt; /**< a larger difference is a fault; >= the tolerance */
@@ -36,37 +44,42 @@ typedef enum {
 
 typedef struct {
     const app_angle_config_t *config;
+    uint16_t                  pole_pairs;
+    bool                      edge_times;
+    float                     ts_s;
     float                     rad_per_half_cnt; /**< electrical, without the pole pairs */
+    float                     rad_per_cnt;      /**< electrical */
     float                     radps_per_cnt;
     app_angle_reference_t     reference;
     uint16_t                  zero_cnt;       /**< position at which the angle is zero_theta_rad */
     float                     zero_theta_rad; /**< [0, 2 pi) */
     uint16_t                  before_cnt;
     bool                      have_before;
+    bool                      have_edge; /**< the next three mean something */
+    uint16_t                  edge_cnt;  /**< position that the last edge with a time begins */
+    float                     edge_age_s;
+    float                     edge_speed_e_radps;
     uint16_t                  corrections; /**< by later index pulses since the start; wraps */
 } app_angle_t;
 
 typedef struct {
     float theta_e_rad;   /**< 0 .. 2 pi */
+    float band_rad;      /**< the angle is certainly this near; 0: theta_e_rad is a measurement */
     float omega_e_radps; /**< 0 unless speed_valid */
     bool  speed_valid;   /**< the sample before was valid too */
     bool  index_fault;   /**< the index came where it cannot be; the reference is dropped */
 } app_angle_reading_t;
 
 /** @return CTL_BAD_CONFIG, a unusable, when a constant is out of range. Context: init. */
-ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *config, float ts_s);
+ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *config,
+                            const drive_config_t *drive);
 
 /**
- * @brief One valid sample.
+ * @brief One sample, valid and with positions below BOARD_POSITIONS.
  *
- * @param position_cnt Position, < BOARD_POSITIONS.
- * @param index_seen   An index pulse came since the sample before.
- * @param index_cnt    Position at that pulse, < BOARD_POSITIONS; ignored otherwise.
- *
- * Context: control ISR, once per tick. One integer division.
+ * Context: control ISR, once per tick. One integer division; with edge times two divisions more.
  */
-app_angle_reading_t app_angle_update(app_angle_t *a, uint16_t position_cnt, bool index_seen,
-                                     uint16_t index_cnt);
+app_angle_reading_t app_angle_update(app_angle_t *a, const board_sample_t *raw);
 
 /** The rotor's d axis stands at phase a, here. Context: control ISR. */
 void app_angle_align(app_angle_t *a, uint16_t position_cnt);

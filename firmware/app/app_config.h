@@ -2,6 +2,9 @@
 /**
  * @file app_config.h
  * @brief The constants of one board, by const pointer; made by hand, each with its derivation (board_config.h).
+ *
+ * Times are counted in ticks. board_config.c means PWM periods, and app_init() makes control periods of them where a
+ * drive has two updates per PWM period.
  */
 #ifndef APP_CONFIG_H
 #define APP_CONFIG_H
@@ -12,7 +15,8 @@
 #include "app_scale.h"
 
 typedef struct {
-    float              ts_s; /**< control period of the board; the drive's must be the same */
+    float              pwm_period_s; /**< the drive's control period times its updates */
+    float              dead_time_s;  /**< of the gates; the drive's must be the same */
     app_scale_config_t scale;
     app_angle_config_t angle;
     app_align_config_t align;
@@ -26,5 +30,8 @@ typedef struct {
     uint16_t           modbus_gap_ticks; /**< silence that ends a frame, > 0 */
     uint16_t           modbus_timeout_ticks; /**< silence that withdraws run, > 0 */
 } app_config_t;
+
+/** The same with its times in control periods, where board_config.c counts PWM periods. Context: init. */
+app_config_t app_config_for(const app_config_t *config, uint16_t updates_per_period);
 
 #endif /* APP_CONFIG_H */

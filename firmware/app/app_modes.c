@@ -9,12 +9,15 @@ static bool same(float x, float y)
     return base_in_range(x, y * (1.0f - SAME_RATIO), y * (1.0f + SAME_RATIO));
 }
 
-/* l1 = 1.5 n_p^2 flux / J, l3 = n_p / J, l5 / l6 = flux (EQ-MOTOR-1), so n_p = l1 l6 / (1.5 l3 l5). */
 static bool drive_fits(const app_config_t *c, const drive_config_t *d)
 {
-    const motor_reduced_t *l = &d->motor;
-    return same(d->ts_s, c->ts_s) &&
-           same(l->l1 * l->l6, (float)c->angle.pole_pairs * 1.5f * l->l3 * l->l5);
+    const drive_hardware_t *h       = &d->hardware;
+    const float             top_cnt = (float)(BOARD_ADC_CODES - 1U);
+
+    return (h->updates_per_period >= 1U) && (h->updates_per_period <= BOARD_UPDATES_MAX) &&
+           same(d->ts_s * (float)h->updates_per_period, c->pwm_period_s) &&
+           (h->encoder_positions == BOARD_POSITIONS) && same(h->dead_time_s, c->dead_time_s) &&
+           (d->dc_link_max_V <= (top_cnt * c->scale.dc_link_V_per_cnt));
 }
 
 static bool values_ok(const app_config_t *c)
@@ -34,8 +37,8 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *c, const drive_c
 {
     const bool drive_ok = drive_init(&m->drive, d) == CTL_OK;
     const bool scale_ok = app_scale_init(&m->scale, &c->scale, d->trip_current_A) == CTL_OK;
-    const bool angle_ok = app_angle_init(&m->angle, &c->angle, d->ts_s) == CTL_OK;
-    const bool align_ok = app_align_init(&m->align, &c->align, c->angle.pole_pairs, d) == CTL_OK;
+    const bool angle_ok = app_angle_init(&m->angle, &c->angle, d) == CTL_OK;
+    const bool align_ok = app_align_init(&m->align, &c->align, d) == CTL_OK;
     const bool gate_ok  = app_gate_check(&c->gate) == CTL_OK;
     const bool ok =
         drive_ok && scale_ok && angle_ok && align_ok && gate_ok && drive_fits(c, d) && values_ok(c);
@@ -77,9 +80,8 @@ static void measure(app_modes_t *m, const board_sample_t *raw)
 {
     m->sample = app_scale_sample(&m->scale, raw);
     if (m->sample.valid) {
-        m->reading =
-            app_angle_update(&m->angle, raw->position_cnt, raw->index_seen, raw->index_cnt);
-        m->hot = !m->sample.temperature_valid ||
+        m->reading = app_angle_update(&m->angle, raw);
+        m->hot     = !m->sample.temperature_valid ||
                  !(m->sample.temperature_degC <= m->config->temperature_limit_degC);
         m->dc_link_out  = !base_in_range(m->sample.dc_link_V, m->drive.config->dc_link_min_V,
                                          m->drive.config->dc_link_max_V);
@@ -97,6 +99,7 @@ static drive_sample_t drive_sample(const app_modes_t *m)
                               .ib_A          = m->sample.ib_A,
                               .dc_link_V     = m->sample.dc_link_V,
                               .theta_e_rad   = m->reading.theta_e_rad,
+                              .band_rad      = m->reading.band_rad,
                               .omega_e_radps = m->reading.omega_e_radps,
                               .valid         = m->sample.valid && m->reading.speed_valid};
     return s;

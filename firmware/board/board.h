@@ -67,11 +67,12 @@ bool board_init(void);
 /**
  * @brief Starts the control periods and the watchdog.
  *
- * @param tick Called once per control period, in the control ISR.
+ * @param tick               Called once per control period, in the control ISR.
+ * @param updates_per_period 1: a control period is a PWM period; 2: half of one; anything else counts as 1.
  *
  * Context: init, once, after board_init().
  */
-void board_start(void (*tick)(void));
+void board_start(void (*tick)(void), uint16_t updates_per_period);
 
 /** The sample of this period; the same one for the whole tick. Context: control ISR. */
 board_sample_t board_sample_read(void);
@@ -105,7 +106,7 @@ uint16_t board_fault_read(void);
 /** Context: any, after board_init(). */
 board_reset_t board_reset_cause(void);
 
-/** Processor cycles, free running, wraps; BOARD_TICK_CYCLES per period. Context: any. */
+/** Processor cycles, free running, wraps; BOARD_PWM_CYCLES per PWM period. Context: any. */
 uint32_t board_cycles(void);
 
 /** Without it the processor is reset after 17 ms. Context: background. */

@@ -126,6 +126,13 @@ const drive_config_t gain_tables_drive = {
         .share = 1.49999997e-02f,
         .inv_fade_1pA = 1.00000000e+01f,
     },
+    .hardware = {
+        .encoder_positions = 10000UL,
+        .pole_pairs = 2U,
+        .updates_per_period = 1U,
+        .dead_time_s = 3.00000011e-06f,
+        .edge_times = false,
+    },
     .law = &law_noc,
     .constants = &constants,
 };

@@ -43,9 +43,12 @@ typedef enum {
     CTL_BAD_CONFIG /**< a constant is missing, not finite or out of its documented range */
 } ctl_status_t;
 
-/* Inline, because a call costs more than the comparison and the tick makes about sixty of them. */
+/* Inline, because a call costs more than the comparison and the tick makes about sixty of them.
+ *
+ * A NaN compares false everywhere but on the C28x, where it is an infinity of its sign. What is said of a NaN below holds
+ * under both rules (tests/target/test_c28x_floats.cpp). */
 
-/** x limited to [lo, hi]; a NaN comes out as lo, so that no NaN passes a limit. */
+/** x limited to [lo, hi]; a NaN comes out as one of the two, so that no NaN passes a limit. */
 static inline float base_clamp(float x, float lo, float hi)
 {
     if (x > hi) {
@@ -66,13 +69,13 @@ static inline bool base_within(float x, float limit)
     return fabsf(x) <= limit;
 }
 
-/** The smaller one; b when a is NaN. */
+/** The smaller one of two numbers. */
 static inline float base_min(float a, float b)
 {
     return (a < b) ? a : b;
 }
 
-/** The larger one; b when a is NaN. */
+/** The larger one of two numbers. */
 static inline float base_max(float a, float b)
 {
     return (a > b) ? a : b;

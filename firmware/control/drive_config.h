@@ -11,6 +11,15 @@
 #include "law.h"
 #include "motor.h"
 
+/** What the constants take board, bridge and encoder for; the application compares them with its own. */
+typedef struct {
+    uint32_t encoder_positions;  /**< per mechanical turn */
+    uint16_t pole_pairs;         /**< 1 .. 64 */
+    uint16_t updates_per_period; /**< control periods per PWM period, 1 or 2 */
+    float    dead_time_s;        /**< of the bridge, 0 or more */
+    bool     edge_times;         /**< angle and speed from the times of the encoder's edges */
+} drive_hardware_t;
+
 /** Everything that depends on the motor and the board: generated, constant, checked by drive_init(). */
 typedef struct drive_config {
     float           ts_s;           /**< control period [s], 1e-5 .. 1e-2 */
@@ -22,6 +31,7 @@ typedef struct drive_config {
     bool            overmodulation;     /**< voltages may use the hexagon outside the circle */
     motor_reduced_t motor;
     dead_time_config_t dead_time;
+    drive_hardware_t   hardware;
     const law_t       *law;       /**< what turns samples into a voltage */
     const void        *constants; /**< of that law: law_noc_config_t for law_noc and so on */
 } drive_config_t;

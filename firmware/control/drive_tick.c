@@ -35,7 +35,8 @@ void drive_reset(drive_t *d)
 static drive_fault_t find_fault(const drive_config_t *c, const drive_sample_t *s,
                                 const drive_command_t *command)
 {
-    if (!s->valid || !base_within(s->theta_e_rad, BASE_TWO_PI)) {
+    if (!s->valid || !base_within(s->theta_e_rad, BASE_TWO_PI) ||
+        !base_in_range(s->band_rad, 0.0f, BASE_PI)) {
         return DRIVE_FAULT_SAMPLE;
     }
     if (!base_within(s->ia_A, c->trip_current_A) || !base_within(s->ib_A, c->trip_current_A) ||

@@ -20,10 +20,17 @@ typedef struct {
 /** true when both are in range. Context: init. */
 bool encoder_form_check(const encoder_form_limits_t *limits);
 
-/** Measured minus estimated angle, within +-pi. Context: control ISR. */
+/**
+ * @brief Measured minus estimated angle, within +-pi; less the band in which the sample does not know better.
+ *
+ *     e = wrap(theta - theta^) - clamp(wrap(theta - theta^), -band, band)          EQ-ENCODER-FORM-1
+ *
+ * Context: control ISR.
+ */
 static inline float encoder_form_error_rad(const drive_sample_t *s, float theta_hat_rad)
 {
-    return frames_wrap(s->theta_e_rad - theta_hat_rad);
+    const float error = frames_wrap(s->theta_e_rad - theta_hat_rad);
+    return error - base_clamp(error, -s->band_rad, s->band_rad);
 }
 
 /**

@@ -17,6 +17,7 @@ typedef struct {
     float ib_A;        /**< phase current, positive into the motor */
     float dc_link_V;   /**< dc-link voltage */
     float theta_e_rad; /**< electrical angle, -2 pi .. 2 pi */
+    float band_rad; /**< the angle is certainly this near to it, 0 .. pi; 0: it is a measurement */
     float
         omega_e_radps; /**< electrical speed; a law that observes the angle reads it only when it starts */
     bool valid;        /**< all of the above were measured in this period */

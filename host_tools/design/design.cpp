@@ -11,8 +11,8 @@ Design design_drive(const Drive &drive, Precision precision)
     Design design;
     design.drive     = drive;
     design.precision = precision;
-    design.l      = reduced_parameters(drive.motor);
-    design.config = common_config(design);
+    design.l         = reduced_parameters(drive.motor);
+    design.config    = common_config(design);
     law_design(drive).solve(design);
     if (drive_config_check(&design.config) != CTL_OK) {
         design.certificate.failures.emplace_back(

@@ -40,6 +40,12 @@ drive_config_t common_config(const Design &d)
     c.dead_time.share =
         single(inv.dead_time_compensation ? inv.dead_time_s * inv.pwm_frequency_Hz : 0.0);
     c.dead_time.inv_fade_1pA = single(1.0 / (dead_time_fade_ratio * m.max_current_A));
+
+    c.hardware.encoder_positions  = 4U * static_cast<std::uint32_t>(d.drive.encoder.lines);
+    c.hardware.pole_pairs         = static_cast<std::uint16_t>(m.pole_pairs);
+    c.hardware.updates_per_period = static_cast<std::uint16_t>(inv.updates_per_period);
+    c.hardware.dead_time_s        = single(inv.dead_time_s);
+    c.hardware.edge_times         = d.drive.encoder.edge_times;
     return c;
 }
 

@@ -59,6 +59,16 @@ std::string motor_block(const motor_reduced_t &m)
                                 c_field("inv_l6", m.inv_l6) + c_field("inv_l8", m.inv_l8));
 }
 
+std::string hardware_block(const drive_hardware_t &h)
+{
+    return c_block("hardware",
+                   c_field("encoder_positions", fmt::format("{}UL", h.encoder_positions)) +
+                       c_field("pole_pairs", fmt::format("{}U", h.pole_pairs)) +
+                       c_field("updates_per_period", fmt::format("{}U", h.updates_per_period)) +
+                       c_field("dead_time_s", h.dead_time_s) +
+                       c_field("edge_times", std::string(h.edge_times ? "true" : "false")));
+}
+
 std::string config_fields(const drive_config_t &c, const char *law)
 {
     return c_field("ts_s", c.ts_s) + c_field("current_max_A", c.current_max_A) +
@@ -69,7 +79,7 @@ std::string config_fields(const drive_config_t &c, const char *law)
            motor_block(c.motor) +
            c_block("dead_time", c_field("share", c.dead_time.share) +
                                     c_field("inv_fade_1pA", c.dead_time.inv_fade_1pA)) +
-           c_field("law", "&" + std::string(law)) +
+           hardware_block(c.hardware) + c_field("law", "&" + std::string(law)) +
            c_field("constants", "&" + std::string(constants_name));
 }
 

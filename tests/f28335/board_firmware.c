@@ -50,7 +50,7 @@ int board_firmware_main(void)
     board_firmware.faults      = board_fault_read();
     board_firmware.reset_cause = board_reset_cause();
     if (board_firmware.init_result) {
-        board_start(tick);
+        board_start(tick, board_firmware.updates);
         board_firmware.started = true;
     }
     for (;;) {

@@ -23,6 +23,7 @@ typedef struct {
     bool         trip;          /**< gates off from the next tick */
     bool         serve;         /**< the background serves the watchdog */
     double       tick_lasts_us; /**< more than nothing: the next tick takes this long, once */
+    uint16_t     updates;       /**< per PWM period */
     board_duty_t duty;
     uint16_t     say[16]; /**< the background sends these octets ... */
     int          says;    /**< ... so many of them */

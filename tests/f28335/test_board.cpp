@@ -23,12 +23,14 @@ protected:
         auto &b              = const_cast<board_firmware_t &>(board_firmware);
         b                    = board_firmware_t{};
         b.serve              = true;
+        b.updates            = 1;
         b.duty               = {3000, 3750, 7500};
         around.input_V[1][1] = 1.0;
     }
 
     Device &start()
     {
+        device.reset(); // the registers exist once
         device = std::make_unique<Device>(around, board_firmware_main, options);
         EXPECT_TRUE(device->run_until([] { return board_firmware.ticks >= 1U; }, 50e-3));
         return *device;
@@ -87,8 +89,8 @@ TEST_F(F28335Board, PwmRegisters)
         EXPECT_EQ(leg->TBPHS.all, 0U);
         // Shadow, loaded at PRD.
         EXPECT_EQ(leg->CMPCTL.all, 1U);
-        // PRD (3:2) clear 1, CAU (5:4) clear 1, CAD (7:6) set 2.
-        EXPECT_EQ(leg->AQCTLA.all, (1U << 2) | (1U << 4) | (2U << 6));
+        // ZERO (1:0) set 2, PRD (3:2) clear 1, CAU (5:4) clear 1, CAD (7:6) set 2.
+        EXPECT_EQ(leg->AQCTLA.all, 2U | (1U << 2) | (1U << 4) | (2U << 6));
         EXPECT_EQ(leg->AQCTLB.all, 0U);
         EXPECT_EQ(leg->AQSFRC.all, 0U);
         EXPECT_EQ(leg->AQCSFRC.all, 0U);
@@ -444,6 +446,88 @@ TEST_F(F28335Board, WindowIsLongEnoughForTheFirstPairToo)
     Device &d            = start();
     d.run_for(3 * period_s);
     EXPECT_EQ(AdcMirror.ADCRESULT0, 1365);
+}
+
+TEST_F(F28335Board, TwoUpdatesSampleAndLoadAtBothEndsOfTheCounter)
+{
+    board_firmware.updates = 2;
+    Device &d              = start();
+    // Loaded at ZERO and PRD; unit 1 triggers at PRD (2), unit 2 at ZERO (1).
+    EXPECT_EQ(EPwm3Regs.CMPCTL.all, 2U);
+    EXPECT_EQ(EPwm1Regs.ETSEL.all, (2U << 8) | (1U << 11));
+    EXPECT_EQ(EPwm2Regs.ETSEL.all, (1U << 8) | (1U << 11));
+    EXPECT_EQ(EQep1Regs.QUPRD, 15000U);
+    const std::uint32_t tick = board_firmware.ticks;
+    d.run_for(20 * period_s);
+    EXPECT_EQ(board_firmware.ticks - tick, 40U);
+    EXPECT_TRUE(board_firmware.sample.valid);
+    EXPECT_EQ(board_firmware.faults, BOARD_FAULT_NONE);
+    for (const Findings::Entry &e : d.findings().all()) {
+        ADD_FAILURE() << e.text;
+    }
+}
+
+TEST_F(F28335Board, TwoUpdatesGiveEachHalfItsOwnDuty)
+{
+    board_firmware.updates = 2;
+    Device &d              = start();
+    enable_gates();
+    for (const int duty : {0, 1500, 7500}) {
+        board_firmware.duty.a_cnt = static_cast<std::uint16_t>(duty);
+        for (int half = 0; half < 4; half++) {
+            d.run_for(0.5 * period_s);
+            if (half < 2) {
+                continue; // the duty before
+            }
+            const ControlPeriod &p    = around.period;
+            double               high = 0.0;
+            for (std::size_t n = 0; n < p.legs[0].a.size(); n++) {
+                const int until =
+                    n + 1 < p.legs[0].a.size() ? p.legs[0].a[n + 1].time_cnt : p.counts;
+                high += p.legs[0].a[n].level ? until - p.legs[0].a[n].time_cnt : 0;
+            }
+            EXPECT_EQ(p.counts, 7500);
+            EXPECT_EQ(high, duty);
+        }
+    }
+    EXPECT_FALSE(d.findings().has(Finding::dead_time));
+}
+
+// A half that begins at ZERO after one without a pulse: the pulse starts there, after the dead time.
+TEST_F(F28335Board, TwoUpdatesAfterAnEmptyHalf)
+{
+    board_firmware.updates = 2;
+    Device &d              = start();
+    enable_gates();
+    int pulses = 0;
+    for (int half = 0; half < 12; half++) {
+        board_firmware.duty.a_cnt = static_cast<std::uint16_t>(half % 3 == 0 ? 3000 : 0);
+        d.run_for(0.5 * period_s);
+        int high = 0;
+        for (std::size_t n = 0; n < around.period.legs[0].a.size(); n++) {
+            const auto &a     = around.period.legs[0].a;
+            const int   until = n + 1 < a.size() ? a[n + 1].time_cnt : around.period.counts;
+            high += a[n].level ? until - a[n].time_cnt : 0;
+        }
+        EXPECT_TRUE(high == 0 || high == 3000) << high;
+        pulses += high == 3000 ? 1 : 0;
+    }
+    EXPECT_GE(pulses, 3);
+    EXPECT_FALSE(d.findings().has(Finding::dead_time));
+}
+
+TEST_F(F28335Board, TwoUpdatesTimeTheEdgesOfEachHalf)
+{
+    board_firmware.updates   = 2;
+    Device &d                = start();
+    around.counts_per_period = 3;
+    around.edge_age_s        = 50e-6;
+    d.run_for(5 * period_s);
+    EXPECT_TRUE(board_firmware.sample.edge_seen);
+    EXPECT_NEAR(board_firmware.sample.edge_age_cnt, 50e-6 * 75e6, 1.0);
+    const int from = board_firmware.sample.position_cnt;
+    d.run_for(5 * period_s);
+    EXPECT_EQ(board_firmware.sample.position_cnt - from, 30);
 }
 
 TEST_F(F28335Board, ResetCauseIsReported)

@@ -25,7 +25,7 @@ LegRegisters leg(int compare)
 
 std::vector<GateEdge> gates_of(const LegRegisters &r, LegMemory &memory)
 {
-    return leg_period(r, memory).gates;
+    return leg_period(r, Count::down_up, memory).gates;
 }
 
 void expect_gates(const std::vector<GateEdge> &got, const std::vector<GateEdge> &want)
@@ -102,16 +102,16 @@ TEST(GateEdges, AfterFullDutyThePeriodActionEndsThePulse)
 {
     LegMemory memory;
     gates_of(leg(prd), memory);
-    const LegPeriod with = leg_period(leg(3000), memory);
+    const LegPeriod with = leg_period(leg(3000), Count::down_up, memory);
     EXPECT_FALSE(with.a.front().level);
 
     // Without that action the output would stay high until the counter comes up again.
     LegRegisters r = leg(prd);
     r.aqctla       = 0x0090;
     LegMemory other;
-    leg_period(r, other);
+    leg_period(r, Count::down_up, other);
     r.cmpa                  = 3000;
-    const LegPeriod without = leg_period(r, other);
+    const LegPeriod without = leg_period(r, Count::down_up, other);
     ASSERT_EQ(without.a.size(), 2U);
     EXPECT_TRUE(without.a[0].level);
     EXPECT_EQ(without.a[1].time_cnt, 10500);
@@ -132,7 +132,7 @@ TEST(GateEdges, WithoutDeadBandBothSwitchesAreNeverOffTogether)
     LegRegisters r = leg(3000);
     r.dbctl        = 0x0008; // polarity set, but both outputs pass
     LegMemory       memory;
-    const LegPeriod period = leg_period(r, memory);
+    const LegPeriod period = leg_period(r, Count::down_up, memory);
 
     EXPECT_FALSE(period.complementary);
     for (const GateEdge &e : period.gates) {
@@ -155,16 +155,16 @@ TEST(GateEdges, OfTwoComparesAtOnceBWins)
     r.cmpb         = 3000;
     r.aqctla       = 0x0480; // CAD sets, CBD clears
     LegMemory memory;
-    for (const SignalEdge &e : leg_period(r, memory).a) {
+    for (const SignalEdge &e : leg_period(r, Count::down_up, memory).a) {
         EXPECT_FALSE(e.level) << e.time_cnt;
     }
 
     r.cmpa = prd; // both at the counter's top
     r.cmpb = prd;
     LegMemory other;
-    EXPECT_FALSE(leg_period(r, other).a.front().level);
+    EXPECT_FALSE(leg_period(r, Count::down_up, other).a.front().level);
     r.aqctla = 0x0840; // the other way round: CAD clears, CBD sets
-    EXPECT_TRUE(leg_period(r, other).a.front().level);
+    EXPECT_TRUE(leg_period(r, Count::down_up, other).a.front().level);
 }
 
 TEST(GateEdges, ToggleChangesTheLevelOncePerPeriod)
@@ -173,7 +173,7 @@ TEST(GateEdges, ToggleChangesTheLevelOncePerPeriod)
     r.aqctla       = 0x0030; // CAU toggles
     LegMemory memory;
     for (const bool rises : {true, false, true}) {
-        const std::vector<SignalEdge> a = leg_period(r, memory).a;
+        const std::vector<SignalEdge> a = leg_period(r, Count::down_up, memory).a;
         ASSERT_EQ(a.size(), 2U);
         EXPECT_EQ(a[0].level, !rises);
         EXPECT_EQ(a[1].level, rises);

@@ -64,10 +64,11 @@ bool board_init(void)
     return fake_board.init_result;
 }
 
-void board_start(void (*tick)(void))
+void board_start(void (*tick)(void), uint16_t updates_per_period)
 {
     note(FAKE_BOARD_START);
-    fake_board.tick = tick;
+    fake_board.tick    = tick;
+    fake_board.updates = updates_per_period;
 }
 
 board_sample_t board_sample_read(void)

@@ -228,7 +228,7 @@ static void test_bad_constants_keep_the_bridge_off_and_are_told(void)
     config.modbus_address = 0U;
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_init(&config, &speed_tables_drive));
     setUp();
-    config.angle.pole_pairs = 7U;
+    config.dead_time_s = 1.0e-6f;
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_init(&config, &speed_tables_drive));
     both(READY_TICKS);
     command(0.0f, true);

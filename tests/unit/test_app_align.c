@@ -31,7 +31,7 @@ void setUp(void)
     direction = 1;
     peak_A    = 0.0;
     load_Nm   = 0.0;
-    TEST_ASSERT_EQUAL_INT(CTL_OK, app_align_init(&align, &config, 2U, &speed_tables_drive));
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_align_init(&align, &config, &speed_tables_drive));
     TEST_ASSERT_EQUAL_INT(APP_ALIGN_WATCH, align.stage);
 }
 
@@ -261,7 +261,7 @@ static void test_gains_follow_the_winding(void)
 
 static ctl_status_t init(void)
 {
-    return app_align_init(&align, &config, 2U, &gain_tables_drive);
+    return app_align_init(&align, &config, &gain_tables_drive);
 }
 
 static void test_constants_out_of_range_are_refused(void)
@@ -292,8 +292,11 @@ static void test_constants_out_of_range_are_refused(void)
     config.bandwidth_radps = -1.0f;
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, init());
     setUp();
-    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_align_init(&align, &config, 0U, &speed_tables_drive));
-    TEST_ASSERT_EQUAL_INT(CTL_OK, app_align_init(&align, &config, 1U, &speed_tables_drive));
+    drive_config_t drive      = speed_tables_drive;
+    drive.hardware.pole_pairs = 0U;
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_align_init(&align, &config, &drive));
+    drive.hardware.pole_pairs = 1U;
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_align_init(&align, &config, &drive));
 }
 
 int main(void)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_angle.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "board_config.h"
@@ -14,32 +15,41 @@
 static const double two_pi = 6.283185307179586;
 
 static app_angle_config_t config;
+static drive_config_t     drive;
 static app_angle_t        angle;
 
 void setUp(void)
 {
     (void)memset(&angle, 0xFF, sizeof angle); /* init has to set everything */
-    config = board_config.angle;
-    TEST_ASSERT_EQUAL_INT(CTL_OK, app_angle_init(&angle, &config, TS_S));
+    config                    = board_config.angle;
+    drive.ts_s                = TS_S;
+    drive.hardware.pole_pairs = 2U;
+    drive.hardware.edge_times = false;
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_angle_init(&angle, &config, &drive));
 }
 
 void tearDown(void) {}
 
 static app_angle_reading_t at(int position)
 {
-    return app_angle_update(&angle, (uint16_t)position, false, 0U);
+    const board_sample_t raw = {.position_cnt = (uint16_t)position, .valid = true};
+    return app_angle_update(&angle, &raw);
 }
 
 static app_angle_reading_t at_with_index(int position, int index)
 {
-    return app_angle_update(&angle, (uint16_t)position, true, (uint16_t)index);
+    const board_sample_t raw = {.position_cnt = (uint16_t)position,
+                                .index_cnt    = (uint16_t)index,
+                                .index_seen   = true,
+                                .valid        = true};
+    return app_angle_update(&angle, &raw);
 }
 
 static void start_over(uint16_t pole_pairs, float index_theta_rad)
 {
-    config.pole_pairs        = pole_pairs;
-    config.index_theta_e_rad = index_theta_rad;
-    TEST_ASSERT_EQUAL_INT(CTL_OK, app_angle_init(&angle, &config, TS_S));
+    drive.hardware.pole_pairs = pole_pairs;
+    config.index_theta_e_rad  = index_theta_rad;
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_angle_init(&angle, &config, &drive));
 }
 
 static void assert_angle(double expected_rad, float actual_rad)
@@ -228,16 +238,104 @@ static void test_index_fault_lasts_one_sample(void)
     TEST_ASSERT_EQUAL_INT(APP_ANGLE_INDEX, angle.reference);
 }
 
+/* A shaft that passes whole positions as the test says: samples with the times of its last edges. */
+static double shaft_cnt; /* positions, real */
+static double edge_time; /* of the last edge */
+static double now_time;
+
+static app_angle_reading_t turn(double radps_e)
+{
+    const double per_cnt = 2.0 * two_pi / 10000.0;
+    const double before  = shaft_cnt;
+
+    now_time += (double)TS_S;
+    shaft_cnt += radps_e * (double)TS_S / per_cnt;
+    const bool   moved = floor(shaft_cnt) < floor(before) || floor(shaft_cnt) > floor(before);
+    const double edge  = (radps_e > 0.0) ? floor(shaft_cnt) : (floor(shaft_cnt) + 1.0);
+    if (moved) {
+        edge_time = now_time - ((shaft_cnt - edge) * per_cnt / radps_e);
+    }
+    const double         wrapped = fmod(fmod(floor(shaft_cnt), 10000.0) + 10000.0, 10000.0);
+    const board_sample_t raw     = {.position_cnt = (uint16_t)wrapped,
+                                    .edge_age_cnt = (uint16_t)fmod((now_time - edge_time) * 75.0e6, 65536.0),
+                                    .edge_seen    = moved,
+                                    .valid        = true};
+    return app_angle_update(&angle, &raw);
+}
+
+static void start_edges(double at_cnt)
+{
+    drive.hardware.edge_times = true;
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_angle_init(&angle, &config, &drive));
+    app_angle_align(&angle, 0U);
+    shaft_cnt = at_cnt;
+    edge_time = 0.0;
+    now_time  = 0.0;
+    (void)turn(0.0);
+}
+
+/* One tick of the capture timer is 13 ns: at 1500 rad/s 2e-5 rad, and 1e-4 of the speed of one count per period. */
+static void test_edge_times_give_angle_and_speed(void)
+{
+    static const double speeds[] = {1500.0, 400.0, 50.0, 6.5, -6.5, -400.0, -1500.0};
+    for (int i = 0; i < SUPPORT_COUNT(speeds); i++) {
+        start_edges(4321.7);
+        for (int n = 0; n < 2000; n++) {
+            const app_angle_reading_t r     = turn(speeds[i]);
+            const double              theta = shaft_cnt * 2.0 * two_pi / 10000.0;
+            const double              off   = remainder((double)r.theta_e_rad - theta, two_pi);
+            if (r.band_rad > 0.0f) { /* no edge in this period */
+                TEST_ASSERT_TRUE((fabs(speeds[i]) < 10.0) || (n < 3));
+                TEST_ASSERT_TRUE(fabs(off) <= (double)r.band_rad + TOL_RAD);
+            } else if (n > 3) {
+                TEST_ASSERT_DOUBLE_WITHIN(TOL_RAD + (fabs(speeds[i]) * 1.4e-8), 0.0, off);
+                TEST_ASSERT_DOUBLE_WITHIN(fabs(speeds[i]) * 2.0e-4, speeds[i],
+                                          (double)r.omega_e_radps);
+            }
+        }
+    }
+}
+
+/* Slower than one count per period the speed comes from edge to edge, and without edges it goes to nothing. */
+static void test_speed_without_edges_is_bounded_by_their_absence(void)
+{
+    start_edges(100.3);
+    for (int n = 0; n < 3000; n++) {
+        const app_angle_reading_t r = turn(1.0);
+        if (n > 50) {
+            TEST_ASSERT_DOUBLE_WITHIN(2.0e-3, 1.0, (double)r.omega_e_radps);
+        }
+    }
+    float before = 2.0f;
+    for (int n = 0; n < 5000; n++) {
+        const app_angle_reading_t r = turn(0.0);
+        TEST_ASSERT_TRUE(r.omega_e_radps <= before);
+        TEST_ASSERT_TRUE(r.band_rad > 0.0f);
+        before = r.omega_e_radps;
+    }
+    TEST_ASSERT_TRUE(before <= 1.3e-3f); /* a count in a second */
+}
+
+/* The edge on the way back is the one on the way forth: no count in between. */
+static void test_a_shaft_that_turns_back_and_forth_has_no_speed_that_grows(void)
+{
+    start_edges(100.9);
+    for (int n = 0; n < 400; n++) {
+        const app_angle_reading_t r = turn(((n / 2) % 2 == 0) ? 0.8 : -0.8);
+        TEST_ASSERT_TRUE(base_within(r.omega_e_radps, 6.3f));
+    }
+}
+
 static ctl_status_t init(void)
 {
-    return app_angle_init(&angle, &config, TS_S);
+    return app_angle_init(&angle, &config, &drive);
 }
 
 static void test_constants_out_of_range_are_refused(void)
 {
-    config.pole_pairs = 0U;
+    drive.hardware.pole_pairs = 0U;
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, init());
-    config.pole_pairs = 65U;
+    drive.hardware.pole_pairs = 65U;
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, init());
     setUp();
     config.index_theta_e_rad = BASE_TWO_PI;
@@ -254,8 +352,10 @@ static void test_constants_out_of_range_are_refused(void)
     config.index_correct_max_cnt = 2500U;
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, init());
     setUp();
-    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_angle_init(&angle, &config, 0.0f));
-    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_angle_init(&angle, &config, NAN));
+    drive.ts_s = 0.0f;
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, init());
+    drive.ts_s = NAN;
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, init());
 }
 
 int main(void)
@@ -275,6 +375,9 @@ int main(void)
     RUN_TEST(test_correction_does_not_show_in_the_speed);
     RUN_TEST(test_corrections_are_counted_until_the_start);
     RUN_TEST(test_index_fault_lasts_one_sample);
+    RUN_TEST(test_edge_times_give_angle_and_speed);
+    RUN_TEST(test_speed_without_edges_is_bounded_by_their_absence);
+    RUN_TEST(test_a_shaft_that_turns_back_and_forth_has_no_speed_that_grows);
     RUN_TEST(test_constants_out_of_range_are_refused);
     return UNITY_END();
 }

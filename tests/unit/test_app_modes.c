@@ -719,9 +719,21 @@ static void test_bad_constants_end_in_fault_for_good(void)
     assert_config_refused();
     drive_config.ts_s = 1.0e-4f; /* of another board */
     assert_config_refused();
-    config.angle.pole_pairs = 3U; /* of another motor */
+    drive_config.hardware.pole_pairs = 0U;
     assert_config_refused();
-    config.angle.pole_pairs = 1U;
+    drive_config.hardware.pole_pairs = 65U;
+    assert_config_refused();
+    drive_config.hardware.updates_per_period = 2U; /* but not its control period */
+    assert_config_refused();
+    drive_config.hardware.updates_per_period = 0U;
+    assert_config_refused();
+    drive_config.hardware.encoder_positions = 4096UL;
+    assert_config_refused();
+    drive_config.hardware.dead_time_s = 2.0e-6f;
+    assert_config_refused();
+    drive_config.dc_link_max_V = 451.0f; /* beyond what the converter can show */
+    assert_config_refused();
+    drive_config.trip_current_A = 9.6f;
     assert_config_refused();
     config.angle.index_theta_e_rad = -1.0f;
     assert_config_refused();
@@ -739,6 +751,9 @@ static void test_bad_constants_end_in_fault_for_good(void)
     assert_config_refused();
     config.calibrate_ticks  = 1U;
     config.background_ticks = 1U;
+    init();
+    drive_config.hardware.updates_per_period = 2U;
+    drive_config.ts_s                        = 100.0e-6f;
     init();
 }
 

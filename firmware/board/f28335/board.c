@@ -25,11 +25,13 @@ bool board_init(void)
     return true;
 }
 
-void board_start(void (*tick)(void))
+void board_start(void (*tick)(void), uint16_t updates_per_period)
 {
-    control_isr_init(tick);
+    const uint16_t updates = (updates_per_period == 2U) ? 2U : 1U;
+
+    control_isr_init(tick, updates);
     watchdog_start();
-    encoder_start();
-    pwm_start();
+    encoder_start(updates);
+    pwm_start(updates);
     pie_start();
 }

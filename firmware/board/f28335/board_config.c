@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "board_config.h"
 
+#include "clock_tree.h"
+
 #define TICKS_PER_ms 5U /* 200 us */
 
 /* -10 A .. 10 A as 0 V .. 3 V over 4096 codes: 150 mV/A about 1.5 V. */
@@ -27,7 +29,8 @@ static const float ntc_degC[NTC_POINTS] = {
     36.16f,  31.37f,  26.24f,  20.61f,  14.23f,  6.67f,   -3.00f, -17.59f};
 
 const app_config_t board_config = {
-    .ts_s = 200.0e-6f, /* BOARD_TICK_CYCLES at 150 MHz */
+    .pwm_period_s = 200.0e-6f, /* BOARD_PWM_CYCLES at 150 MHz */
+    .dead_time_s  = (float)CLOCK_DEAD_TIME_us * 1.0e-6f,
     .scale =
         {
             .current_A_per_cnt = CURRENT_SPAN_A / (float)BOARD_ADC_CODES, /* 4.88 mA, EQ-ADC-1 */
@@ -43,7 +46,6 @@ const app_config_t board_config = {
         },
     .angle =
         {
-            .pole_pairs = 2U, /* of the drive; app_init() compares */
             .index_theta_e_rad =
                 0.0f, /* encoder mounted with its mark at the d axis; measure it (docs/hardware.md) */
             /* The mark is up to one line = 4 counts wide and is entered from either side. */

@@ -63,8 +63,8 @@
 #if CLOCK_PWM_cnt != BOARD_DUTY_FULL
 #error "BOARD_DUTY_FULL is not the PWM period of this board"
 #endif
-#if (CLOCK_SYSCLK_Hz / CLOCK_PWM_Hz) != BOARD_TICK_CYCLES
-#error "BOARD_TICK_CYCLES is not the control period of this board"
+#if (CLOCK_SYSCLK_Hz / CLOCK_PWM_Hz) != BOARD_PWM_CYCLES
+#error "BOARD_PWM_CYCLES is not the control period of this board"
 #endif
 #if (CLOCK_BAUD_BRR > 65535UL) || ((CLOCK_BAUD_ACTUAL_Hz * 100UL) > (CLOCK_BAUD_Hz * 102UL)) ||    \
     ((CLOCK_BAUD_ACTUAL_Hz * 100UL) < (CLOCK_BAUD_Hz * 98UL))

@@ -2,18 +2,20 @@
 #include "DSP28x_Project.h"
 #include "peripherals.h"
 
-#define LATE_CYCLES (BOARD_TICK_CYCLES + (BOARD_TICK_CYCLES / 2UL)) /* a period was left out */
-
 static void (*control_tick)(void);
 static board_sample_t sample;
 static uint32_t       entry_cycles;
+static uint32_t       late_cycles; /* one and a half control periods: one was left out */
 static bool           first;
 
-void control_isr_init(void (*tick)(void))
+void control_isr_init(void (*tick)(void), uint16_t updates_per_period)
 {
     static const board_sample_t nothing = {.valid = false};
 
+    const uint32_t period_cycles = BOARD_PWM_CYCLES / updates_per_period;
+
     control_tick = tick;
+    late_cycles  = period_cycles + (period_cycles / 2UL);
     sample       = nothing;
     first        = true;
 }
@@ -32,7 +34,7 @@ static void take_sample(void)
 static void check_entry(void)
 {
     const uint32_t now = board_cycles();
-    if (!first && ((now - entry_cycles) > LATE_CYCLES)) {
+    if (!first && ((now - entry_cycles) > late_cycles)) {
         trip_latch(BOARD_FAULT_OVERRUN);
     }
     first        = false;

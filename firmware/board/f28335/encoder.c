@@ -14,7 +14,7 @@
 #if (BOARD_CAPTURE_Hz << CLOCK_CAPTURE_SHIFT) != CLOCK_SYSCLK_Hz
 #error "BOARD_CAPTURE_Hz is not the capture clock of this board"
 #endif
-#if (2UL * (BOARD_TICK_CYCLES >> CLOCK_CAPTURE_SHIFT)) > 65535UL
+#if (2UL * (BOARD_PWM_CYCLES >> CLOCK_CAPTURE_SHIFT)) > 65535UL
 #error "the capture timer runs over within two control periods"
 #endif
 
@@ -27,13 +27,13 @@
 #define TURNED_BACK 0x0004U /* QEPSTS: CDEF, written 1 to clear */
 
 /* Three phase errors within 10 ms trip, a single one does not: each adds 10 ms to what runs off again with time. */
-#define PERIODS_PER_10_ms (CLOCK_PWM_Hz / 100UL)
-#define ERROR_STEP        ((uint16_t)PERIODS_PER_10_ms)
-#define ERROR_MOST        ((uint16_t)(2UL * PERIODS_PER_10_ms))
+#define PERIODS_PER_10_ms ((uint16_t)(CLOCK_PWM_Hz / 100UL))
 
 static uint16_t before_cnt;   /* position of the sample before */
 static uint16_t phase_errors; /* since the start */
-static uint16_t error_level;  /* periods */
+static uint16_t error_level;  /* control periods */
+static uint16_t error_step;   /* control periods in 10 ms */
+static bool     at_zero_too;  /* control periods begin at ZERO and PRD */
 
 void encoder_init(void)
 {
@@ -43,7 +43,6 @@ void encoder_init(void)
     EQep1Regs.QPOSCNT     = 0UL;
     EQep1Regs.QPOSINIT    = 0UL;
     EQep1Regs.QPOSMAX     = BOARD_POSITIONS - 1U; /* the highest position, not their number */
-    EQep1Regs.QUPRD       = BOARD_TICK_CYCLES;
     EQep1Regs.QEPCTL.bit.FREE_SOFT = FREE_RUN;
     EQep1Regs.QEPCTL.bit.PCRM      = RESET_AT_MAX;
     EQep1Regs.QEPCTL.bit.IEL       = LATCH_RISING;
@@ -59,9 +58,13 @@ void encoder_init(void)
     EQep1Regs.QCLR.all             = PHASE_ERROR | INDEX | TIMEOUT | SUMMARY;
 }
 
-void encoder_start(void)
+/* The PWM starts at ZERO, half a period before PRD. */
+void encoder_start(uint16_t updates_per_period)
 {
-    EQep1Regs.QUTMR = BOARD_TICK_CYCLES / 2UL; /* the PWM starts half a period before PRD */
+    EQep1Regs.QUPRD          = BOARD_PWM_CYCLES / updates_per_period;
+    EQep1Regs.QUTMR          = (updates_per_period == 1U) ? (BOARD_PWM_CYCLES / 2UL) : 0UL;
+    at_zero_too              = updates_per_period == 2U;
+    error_step               = (uint16_t)(PERIODS_PER_10_ms * updates_per_period);
     EQep1Regs.QEPCTL.bit.UTE = 1U;
 }
 
@@ -69,8 +72,11 @@ void encoder_start(void)
  * cycle more or less in the timer's period adds up. */
 static void align(void)
 {
-    if (EPwm1Regs.TBSTS.bit.CTRDIR == 0U) { /* counting down: less than half a period since PRD */
-        const uint32_t since_cnt = CLOCK_PWM_cnt - EPwm1Regs.TBCTR;
+    const bool down = EPwm1Regs.TBSTS.bit.CTRDIR == 0U; /* less than half a period since PRD */
+
+    if (down || at_zero_too) {
+        const uint32_t count     = EPwm1Regs.TBCTR;
+        const uint32_t since_cnt = down ? (CLOCK_PWM_cnt - count) : count;
         EQep1Regs.QUTMR          = CLOCK_SYSCLK_PER_TBCLK * since_cnt;
     }
 }
@@ -80,10 +86,10 @@ static void count_phase_errors(bool error)
     error_level = (uint16_t)(error_level - ((error_level > 0U) ? 1U : 0U));
     if (error) {
         phase_errors = (uint16_t)(phase_errors + 1U);
-        error_level  = (uint16_t)(error_level + ERROR_STEP);
+        error_level  = (uint16_t)(error_level + error_step);
     }
-    if (error_level >= ERROR_MOST) {
-        error_level = ERROR_MOST;
+    if (error_level >= (2U * error_step)) {
+        error_level = (uint16_t)(2U * error_step);
         trip_latch(BOARD_FAULT_ENCODER);
     }
 }

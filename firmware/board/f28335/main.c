@@ -23,7 +23,7 @@ int main(void)
     }
     (void)app_init(&board_config,
                    &gain_tables_drive); /* refused: runs, stays in FAULT, tells why */
-    board_start(app_tick);
+    board_start(app_tick, gain_tables_drive.hardware.updates_per_period);
     for (;;) {
         app_background();
         BOARD_YIELD();

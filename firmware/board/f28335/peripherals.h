@@ -28,7 +28,7 @@ void trip_check(void);           /**< enables wanted gates. Context: start of th
 void trip_latch(uint16_t fault); /**< remembers and opens the bridge. Context: any */
 
 void pwm_init(void);
-void pwm_start(void); /**< all three legs at once */
+void pwm_start(uint16_t updates_per_period); /**< all three legs at once */
 
 void adc_init(void);                   /**< about 5 ms */
 bool adc_is_done(void);                /**< a conversion is complete. Context: control ISR */
@@ -36,7 +36,7 @@ void adc_rewind(void);                 /**< ready for the next one. Context: con
 void adc_read(board_sample_t *sample); /**< context: control ISR */
 
 void encoder_init(void);
-void encoder_start(void); /**< next to pwm_start() */
+void encoder_start(uint16_t updates_per_period); /**< next to pwm_start() */
 /** False: nothing was latched in this period. Context: control ISR. */
 bool encoder_read(board_sample_t *sample);
 
@@ -48,7 +48,7 @@ void watchdog_start(void);
 
 void serial_init(void);
 
-void             control_isr_init(void (*tick)(void));
+void             control_isr_init(void (*tick)(void), uint16_t updates_per_period);
 __interrupt void control_isr(void);
 
 #endif /* PERIPHERALS_H */

@@ -22,15 +22,14 @@ static void set_up_leg(volatile struct EPWM_REGS *leg)
     leg->TBPHS.all           = 0U;
 
     leg->CMPCTL.bit.SHDWAMODE = CC_SHADOW;
-    leg->CMPCTL.bit.LOADAMODE = CC_CTR_PRD; /* a new duty acts from the next control period on */
     leg->CMPA.half.CMPA       = 0U;
 
     leg->AQCTLA.all     = 0U;
     leg->AQCTLA.bit.CAU = AQ_CLEAR;
     leg->AQCTLA.bit.CAD = AQ_SET; /* at full duty it meets PRD, and goes before it */
-    leg->AQCTLA.bit.PRD =
-        AQ_CLEAR;         /* full duty leaves the output high: the next period starts low */
-    leg->AQCTLB.all = 0U; /* output B is made from A by the dead band */
+    leg->AQCTLA.bit.ZRO = AQ_SET; /* a half that begins here starts high, at no duty CAU beats it */
+    leg->AQCTLA.bit.PRD = AQ_CLEAR; /* and one that begins there low: full duty leaves it high */
+    leg->AQCTLB.all     = 0U;       /* output B is made from A by the dead band */
 
     leg->DBCTL.bit.IN_MODE  = DBA_ALL;
     leg->DBCTL.bit.POLSEL   = DB_ACTV_HIC;
@@ -52,14 +51,40 @@ void pwm_init(void)
     set_up_leg(&EPwm1Regs);
     set_up_leg(&EPwm2Regs);
     set_up_leg(&EPwm3Regs);
-
-    EPwm1Regs.ETPS.bit.SOCAPRD  = ET_1ST;
-    EPwm1Regs.ETSEL.bit.SOCASEL = ET_CTR_PRD; /* sample while all lower switches are on */
-    EPwm1Regs.ETSEL.bit.SOCAEN  = 1U;
 }
 
-void pwm_start(void)
+/* Samples are taken while all lower switches are on; with two updates also while all upper ones are, for which a unit
+ * has no second trigger of its own. A new duty acts from the start of the next control period on. */
+static void one_update(void)
 {
+    EPwm1Regs.CMPCTL.bit.LOADAMODE = CC_CTR_PRD;
+    EPwm2Regs.CMPCTL.bit.LOADAMODE = CC_CTR_PRD;
+    EPwm3Regs.CMPCTL.bit.LOADAMODE = CC_CTR_PRD;
+}
+
+static void two_updates(void)
+{
+    EPwm1Regs.CMPCTL.bit.LOADAMODE = CC_CTR_ZERO_PRD;
+    EPwm2Regs.CMPCTL.bit.LOADAMODE = CC_CTR_ZERO_PRD;
+    EPwm3Regs.CMPCTL.bit.LOADAMODE = CC_CTR_ZERO_PRD;
+
+    EPwm2Regs.ETPS.bit.SOCAPRD  = ET_1ST;
+    EPwm2Regs.ETSEL.bit.SOCASEL = ET_CTR_ZERO;
+    EPwm2Regs.ETSEL.bit.SOCAEN  = 1U;
+}
+
+void pwm_start(uint16_t updates_per_period)
+{
+    if (updates_per_period == 2U) {
+        two_updates();
+    } else {
+        one_update();
+    }
+
+    EPwm1Regs.ETPS.bit.SOCAPRD  = ET_1ST;
+    EPwm1Regs.ETSEL.bit.SOCASEL = ET_CTR_PRD;
+    EPwm1Regs.ETSEL.bit.SOCAEN  = 1U;
+
     EALLOW;
     SysCtrlRegs.PCLKCR0.bit.TBCLKSYNC = 1U;
     EDIS;

@@ -34,8 +34,9 @@ bool board_init(void)
     return true;
 }
 
-void board_start(void (*tick)(void))
+void board_start(void (*tick)(void), uint16_t updates_per_period)
 {
+    (void)updates_per_period; /* one: app_init() refuses others */
     stub.tick = tick;
 }
 
@@ -48,14 +49,14 @@ static float leg_V(uint16_t on_cnt)
 void host_stub_period(void)
 {
     const motor_reduced_t *l   = &gain_tables_drive.motor;
-    const uint16_t         n_p = board_config.angle.pole_pairs;
+    const uint16_t         n_p = gain_tables_drive.hardware.pole_pairs;
     const abc_t            v_V = {leg_V(stub.in_force.a_cnt), leg_V(stub.in_force.b_cnt),
                                   leg_V(stub.in_force.c_cnt)};
 
     if (stub.gate) {
-        motor_stub_drive(&stub.motor, l, n_p, v_V, board_config.ts_s);
+        motor_stub_drive(&stub.motor, l, n_p, v_V, board_config.pwm_period_s);
     } else {
-        motor_stub_coast(&stub.motor, l, n_p, board_config.ts_s);
+        motor_stub_coast(&stub.motor, l, n_p, board_config.pwm_period_s);
     }
     stub.in_force = stub.written;
     stub.periods++;
@@ -86,7 +87,7 @@ static uint16_t current_code(float i_A)
 
 board_sample_t board_sample_read(void)
 {
-    const abc_t i_A     = motor_stub_current_A(&stub.motor, board_config.angle.pole_pairs);
+    const abc_t i_A     = motor_stub_current_A(&stub.motor, gain_tables_drive.hardware.pole_pairs);
     const float turn    = stub.motor.theta_m_rad / BASE_TWO_PI;
     const float edge    = turn * (float)BOARD_POSITIONS;
     const float top_cnt = (float)(BOARD_POSITIONS - 1U);
@@ -130,7 +131,7 @@ board_reset_t board_reset_cause(void)
 
 uint32_t board_cycles(void)
 {
-    return stub.periods * (uint32_t)BOARD_TICK_CYCLES;
+    return stub.periods * (uint32_t)BOARD_PWM_CYCLES;
 }
 
 void board_watchdog_serve(void) {}

@@ -14,7 +14,8 @@
 static const float ntc_degC[NTC_POINTS] = {100.0f, 0.0f};
 
 const app_config_t board_config = {
-    .ts_s = 200.0e-6f, /* BOARD_TICK_CYCLES at 25 MHz */
+    .pwm_period_s = 200.0e-6f, /* BOARD_PWM_CYCLES at 25 MHz */
+    .dead_time_s  = 3.0e-6f,
     .scale =
         {
             .current_A_per_cnt = CURRENT_SPAN_A / (float)BOARD_ADC_CODES,

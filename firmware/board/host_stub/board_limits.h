@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file board_limits.h
- * @brief The numbers of the board interface: ranges of what board.h hands over, and the control period.
+ * @brief The numbers of the board interface: ranges of what board.h hands over, and the PWM period.
  *
  * Chosen unlike those of the F28335: the application must not know any of them by itself.
  */
@@ -12,6 +12,7 @@
 #define BOARD_POSITIONS   4096U      /**< per turn: 1024 lines, four edges each */
 #define BOARD_DUTY_FULL   2500U      /**< compare counts of duty one: 25 MHz / (2 * 5 kHz) */
 #define BOARD_CAPTURE_Hz  12500000UL /**< of the encoder's edge times: half the clock */
-#define BOARD_TICK_CYCLES 5000UL     /**< processor cycles per control period: 25 MHz / 5 kHz */
+#define BOARD_UPDATES_MAX 1U         /**< control periods per PWM period */
+#define BOARD_PWM_CYCLES  5000UL     /**< processor cycles per PWM period: 25 MHz / 5 kHz */
 
 #endif /* BOARD_LIMITS_H */

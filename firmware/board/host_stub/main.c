@@ -71,7 +71,7 @@ int main(void)
     if (app_init(&board_config, &gain_tables_drive) != CTL_OK) {
         return EXIT_CONFIG;
     }
-    board_start(app_tick);
+    board_start(app_tick, 1U);
     if (!reaches(APP_MODE_READY, READY_TICKS) || host_stub_gate()) {
         return EXIT_READY;
     }

@@ -28,7 +28,7 @@ FakeBoardChoice::~FakeBoardChoice()
 extern "C" {
 
 bool           f28335_board_init(void);
-void           f28335_board_start(void (*tick)(void));
+void           f28335_board_start(void (*tick)(void), uint16_t updates_per_period);
 board_sample_t f28335_board_sample_read(void);
 void           f28335_board_duty_write(const board_duty_t *duty);
 void           f28335_board_gate_enable(void);
@@ -45,12 +45,12 @@ bool board_init(void)
     return the_fake != nullptr || f28335_board_init();
 }
 
-void board_start(void (*tick)(void))
+void board_start(void (*tick)(void), uint16_t updates_per_period)
 {
     if (the_fake != nullptr) {
-        the_fake->start(tick);
+        the_fake->start(tick, updates_per_period);
     } else {
-        f28335_board_start(tick);
+        f28335_board_start(tick, updates_per_period);
     }
 }
 

@@ -11,18 +11,19 @@
 
 extern "C" {
 #include "app.h"
+#include "board_config.h"
 }
 
 namespace sdre {
 namespace {
 
-// Ticks at which the commands go out. The application is ready after 306 ms = 1530 ticks.
-constexpr long speed_tick = 1560;
-constexpr long run_tick   = 1640;
-// A command has arrived and been answered well within this.
-constexpr long command_ticks = 60;
+// PWM periods at which the commands go out. The application is ready after 306 ms = 1530 periods.
+constexpr long speed_period = 1560;
+constexpr long run_period   = 1640;
+// A command has arrived and been answered well within so many PWM periods.
+constexpr long command_periods = 60;
 // Chosen: ten polls a second, as an operator's display would.
-constexpr long chat_ticks = 500;
+constexpr long chat_periods = 500;
 
 std::unique_ptr<BoardRun> make_run(const BoardScenario &b, BoardKind kind, long start_tick)
 {
@@ -38,8 +39,11 @@ bool running()
 }
 
 /// From power-up to the first tick in RUN; its number.
-long bring_to_run(BoardRun &run, int speed_tenths)
+long bring_to_run(BoardRun &run, int speed_tenths, long updates)
 {
+    const long speed_tick    = speed_period * updates;
+    const long run_tick      = run_period * updates;
+    const long command_ticks = command_periods * updates;
     while (!running()) {
         const long tick = run.bench().tick();
         if (tick == speed_tick) {
@@ -68,8 +72,10 @@ class Commands {
 public:
     Commands(const Scenario &s, long ticks, long latency_ticks)
         : reference_(s.speed_reference, s.initial_speed_e_radps), ticks_(ticks),
-          latency_ticks_(latency_ticks), now_tenths_(tenths_of(reference_.at(0.0))),
-          period_s_(control_period_s(s.drive))
+          latency_ticks_(latency_ticks),
+          command_ticks_(command_periods * s.drive.inverter.updates_per_period),
+          chat_ticks_(chat_periods * s.drive.inverter.updates_per_period),
+          now_tenths_(tenths_of(reference_.at(0.0))), period_s_(control_period_s(s.drive))
     {
         find_next(1);
     }
@@ -84,7 +90,7 @@ public:
             run.set_speed(next_tenths_);
             now_tenths_ = next_tenths_;
             find_next(next_tick_ + 1);
-        } else if (k % chat_ticks == 0 && k + latency_ticks_ + command_ticks < next_tick_ &&
+        } else if (k % chat_ticks_ == 0 && k + latency_ticks_ + command_ticks_ < next_tick_ &&
                    run.can_command()) {
             run.chat();
         }
@@ -93,7 +99,7 @@ public:
 private:
     void find_next(long from)
     {
-        next_tick_ = ticks_ + latency_ticks_ + command_ticks + 1;
+        next_tick_ = ticks_ + latency_ticks_ + command_ticks_ + 1;
         for (long k = from; k < ticks_; k++) {
             const int tenths = tenths_of(reference_.at(static_cast<double>(k) * period_s_));
             if (tenths != now_tenths_) {
@@ -107,6 +113,8 @@ private:
     StepCursor reference_;
     long       ticks_;
     long       latency_ticks_;
+    long       command_ticks_;
+    long       chat_ticks_;
     int        now_tenths_;
     int        next_tenths_ = 0;
     double     period_s_;
@@ -123,6 +131,15 @@ drive_config_t for_converter(drive_config_t config, std::vector<std::string> &no
                                     "can show",
                                     config.trip_current_A, highest_A));
         config.trip_current_A = highest_A;
+    }
+    const float highest_V =
+        static_cast<float>(BOARD_ADC_CODES - 1) * board_config.scale.dc_link_V_per_cnt;
+    if (config.dc_link_max_V > highest_V) {
+        notes.push_back(
+            fmt::format("largest dc link lowered from {} V to {} V, which the converter "
+                        "can show",
+                        config.dc_link_max_V, highest_V));
+        config.dc_link_max_V = highest_V;
     }
     return config;
 }
@@ -145,29 +162,24 @@ BoardResult simulate_on_board(const Scenario &s, BoardKind kind)
 BoardResult simulate_on_board(const Scenario &scenario, BoardKind kind,
                               const Controller &controller)
 {
-    if (!is_near_optimal(scenario.drive.law)) {
-        throw InputError(
-            fmt::format("--board: law = \"{}\" needs the speed from edge times, which the "
-                        "application does not measure",
-                        law_name(scenario.drive.law)));
-    }
     const BoardScenario b = for_board(scenario);
     const Scenario     &s = b.scenario;
 
     StepCursor  reference(s.speed_reference, s.initial_speed_e_radps);
     const int   first_tenths = tenths_of(reference.at(0.0));
+    const long  updates      = s.drive.inverter.updates_per_period;
     BoardResult out;
     out.notes = b.notes;
     set_firmware_drive(for_converter(controller.config, out.notes));
     const long start_tick =
-        bring_to_run(*make_run(b, kind, MotorBench::never), first_tenths); // rehearsal
+        bring_to_run(*make_run(b, kind, MotorBench::never), first_tenths, updates); // rehearsal
 
     const std::unique_ptr<BoardRun> run   = make_run(b, kind, start_tick);
     const MotorBench               &bench = run->bench();
-    if (bring_to_run(*run, first_tenths) != start_tick) {
+    if (bring_to_run(*run, first_tenths, updates) != start_tick) {
         throw InputError("--board: the start of the firmware does not repeat itself");
     }
-    Commands commands(s, ticks_of(s), start_tick - run_tick);
+    Commands commands(s, ticks_of(s), start_tick - run_period * updates);
     out.result                = run_ticks(s, controller, [&](double time_s, double omega_ref) {
         // The board stands at the tick: the application has answered its samples.
         TickEnd end;

@@ -41,7 +41,7 @@ ApiRun::ApiRun(const Scenario &s, long start_tick, double dead_time_s)
     if (!board_init() || app_init(&board_config, &sil_drive_config) != CTL_OK) {
         throw InputError("--board: the application refuses these constants");
     }
-    board_start(app_tick);
+    board_start(app_tick, sil_drive_config.hardware.updates_per_period);
     step();
 }
 
@@ -92,7 +92,8 @@ F28335Run::F28335Run(const Scenario &s, long start_tick, double dead_time_s)
 
 bool F28335Run::step()
 {
-    device_.run_for(BOARD_TICK_CYCLES / f28335::tick_Hz);
+    device_.run_for(static_cast<double>(BOARD_PWM_CYCLES) /
+                    sil_drive_config.hardware.updates_per_period / f28335::tick_Hz);
     master_.poll();
     return !device_.stopped();
 }

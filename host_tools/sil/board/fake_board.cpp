@@ -13,18 +13,26 @@ constexpr double tick_delay_s = 29.5 / 25e6;
 constexpr double count_Hz     = 75e6;
 constexpr int    full         = BOARD_DUTY_FULL;
 
-LegTiming pulse(int duty_cnt, double dead_time_s)
+/// The counter runs down, then up; a period with two updates is one of the ways.
+LegTiming pulse(int duty_cnt, double dead_time_s, Count count)
 {
     LegTiming leg;
     leg.duty         = static_cast<double>(2 * duty_cnt) / (2 * full);
     leg.rise_delay_s = dead_time_s;
     leg.fall_delay_s = dead_time_s;
-    leg.changes[0]   = {0.0, duty_cnt >= full};
+    leg.changes[0]   = {0.0, count == Count::up ? duty_cnt > 0 : duty_cnt >= full};
     leg.count        = 1;
-    if (duty_cnt > 0 && duty_cnt < full) {
-        leg.changes[1] = {(full - duty_cnt) / count_Hz, true};
-        leg.changes[2] = {(full + duty_cnt) / count_Hz, false};
-        leg.count      = 3;
+    if (duty_cnt <= 0 || duty_cnt >= full) {
+        return leg;
+    }
+    const auto add = [&leg](int time_cnt, bool high) {
+        leg.changes.at(static_cast<std::size_t>(leg.count++)) = {time_cnt / count_Hz, high};
+    };
+    if (count != Count::up) {
+        add(full - duty_cnt, true);
+    }
+    if (count != Count::down) {
+        add(count == Count::up ? duty_cnt : full + duty_cnt, false);
     }
     return leg;
 }
@@ -60,9 +68,11 @@ void FakeBoard::take_sample()
 void FakeBoard::tick()
 {
     active_cnt_ = shadow_cnt_;
+    count_      = updates_ == 1 ? Count::down_up : count_ == Count::down ? Count::up : Count::down;
     bench_.begin_tick();
-    bench_.begin_period({pulse(active_cnt_[0], dead_time_s_), pulse(active_cnt_[1], dead_time_s_),
-                         pulse(active_cnt_[2], dead_time_s_)});
+    bench_.begin_period({pulse(active_cnt_[0], dead_time_s_, count_),
+                         pulse(active_cnt_[1], dead_time_s_, count_),
+                         pulse(active_cnt_[2], dead_time_s_, count_)});
     if (enable_) { // as the board does: at the start of the period, with the duty ratios of the tick before
         enable_ = false;
         set_gates(true);
@@ -96,7 +106,7 @@ void FakeBoard::set_gates(bool on)
 std::uint32_t FakeBoard::cycles() const
 {
     return static_cast<std::uint32_t>(static_cast<std::uint64_t>(bench_.tick()) *
-                                      BOARD_TICK_CYCLES);
+                                      (BOARD_PWM_CYCLES / updates_));
 }
 
 } // namespace sdre::f28335

@@ -2,6 +2,7 @@
 /// firmware/board/board.h on the motor bench, without registers: same codes, same counts, same duty counts.
 #pragma once
 
+#include "sil/f28335/gate_edges.hpp"
 #include "sil/run/motor_bench.hpp"
 
 extern "C" {
@@ -23,9 +24,10 @@ public:
     }
 
     // board.h
-    void start(void (*control_tick)(void))
+    void start(void (*control_tick)(void), unsigned updates_per_period)
     {
-        tick_ = control_tick;
+        tick_    = control_tick;
+        updates_ = updates_per_period;
     }
     board_sample_t sample() const
     {
@@ -41,7 +43,9 @@ private:
 
     MotorBench &bench_;
     double      dead_time_s_;
-    void (*tick_)(void) = nullptr;
+    void (*tick_)(void)         = nullptr;
+    unsigned           updates_ = 1;
+    Count              count_   = Count::up; ///< the first period begins at the top
     board_sample_t     sample_{};
     std::array<int, 3> shadow_cnt_{};
     std::array<int, 3> active_cnt_{};

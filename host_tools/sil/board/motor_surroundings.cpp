@@ -3,6 +3,10 @@
 
 #include "sil/board/front_end.hpp"
 
+extern "C" {
+#include "board_limits.h"
+}
+
 namespace sdre::f28335 {
 namespace {
 
@@ -33,9 +37,9 @@ void MotorSurroundings::period_begins(const ControlPeriod &period)
             timing.changes.at(static_cast<std::size_t>(timing.count++)) = {
                 period.seconds(e.time_cnt), e.level};
         }
-        const int high = high_counts(leg, 2 * period.tbprd);
-        duty_cnt_[n]   = high / 2;
-        timing.duty    = static_cast<double>(high) / static_cast<double>(2 * period.tbprd);
+        const int high = high_counts(leg, period.counts);
+        timing.duty    = static_cast<double>(high) / period.counts;
+        duty_cnt_[n]   = high * BOARD_DUTY_FULL / period.counts;
         if (!ideal_inverter_) {
             timing.rise_delay_s = period.seconds(leg.rise_delay_cnt);
             timing.fall_delay_s = period.seconds(leg.fall_delay_cnt);

@@ -17,7 +17,7 @@ public:
     double     analog_V(int side, int number) override;
     ShaftCount shaft(double into_period_s) override;
 
-    /// Duty ratios of the present period, in counts of TBPRD, from the edges.
+    /// Duty ratios of the present period, in counts of BOARD_DUTY_FULL, from the edges.
     const std::array<int, 3> &duty_cnt() const
     {
         return duty_cnt_;

@@ -113,7 +113,7 @@ private:
     std::int64_t ticks_to_event() const;
     void         elapse(std::int64_t ticks);
     void         step_pwm(std::int64_t cycles);
-    void         begin_control_period();
+    void         begin_control_period(Count count);
     void         step_encoder(std::int64_t cycles);
     void         dispatch();
     void         serve(int vector);

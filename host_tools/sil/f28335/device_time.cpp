@@ -66,18 +66,18 @@ std::int64_t Device::ticks_to_event() const
     return next < 0 ? -1 : std::max<std::int64_t>(1, next);
 }
 
-void Device::begin_control_period()
+void Device::begin_control_period(Count count)
 {
     period_began_ = now_;
     ControlPeriod period;
-    period.tbprd            = EPwm1Regs.TBPRD;
+    period.counts           = period_counts(EPwm1Regs.TBPRD, count);
     period.cycles_per_count = pwm_[0].cycles_per_count();
     period.sysclk_Hz        = clock_.sysclk_Hz();
     for (std::size_t n = 0; n < 3; n++) {
-        if (!pwm_[n].at_period()) {
+        if (count == Count::up ? !pwm_[n].at_zero() : !pwm_[n].at_period()) {
             findings_.add(Finding::unsupported, "the three legs are out of step", time_s());
         }
-        period.legs[n]               = pwm_[n].begin_period();
+        period.legs[n]               = pwm_[n].begin_period(count);
         const std::optional<int> gap = shortest_gap_cnt(period.legs[n].gates);
         if (legs_[n] && !period.legs[n].complementary) {
             findings_.add(Finding::unsupported,
@@ -104,8 +104,11 @@ void Device::step_pwm(std::int64_t cycles)
     for (std::size_t n = 0; n < 3; n++) {
         events[n] = pwm_[n].step(cycles);
     }
+    const bool two = pwm_[0].two_updates();
     if (events[0].period) {
-        begin_control_period();
+        begin_control_period(two ? Count::down : Count::down_up);
+    } else if (events[0].zero && two) {
+        begin_control_period(Count::up);
     }
     for (int n = 0; n < 3; n++) {
         const PwmEvents &e = events[static_cast<std::size_t>(n)];

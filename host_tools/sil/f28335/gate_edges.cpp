@@ -45,32 +45,51 @@ int field_at_end(std::uint16_t aqctl, bool a_equal, int a_field, bool b_equal, i
     return a_equal && has_action(aqctl, a_field) ? a_field : counter_field;
 }
 
-/// EQ-GATES-1
-std::vector<SignalEdge> qualified(const LegRegisters &r, std::uint16_t aqctl, SignalMemory &memory)
+struct Action {
+    int time_cnt;
+    int field;
+};
+
+/// All that may happen to a signal in the period, in order.
+std::vector<Action> actions_of(const LegRegisters &r, std::uint16_t aqctl, Count count)
 {
-    struct Action {
-        int time_cnt;
-        int field;
-    };
     std::vector<Action> actions;
-    actions.push_back(
-        {0, field_at_end(aqctl, r.cmpa >= r.tbprd, aq_cad, r.cmpb >= r.tbprd, aq_cbd, aq_prd)});
-    actions.push_back(
-        {r.tbprd, field_at_end(aqctl, r.cmpa == 0, aq_cau, r.cmpb == 0, aq_cbu, aq_zero)});
-    const auto add_compare = [&](int value, int down, int up) {
-        if (value > 0 && value < r.tbprd) {
-            actions.push_back({r.tbprd - value, down});
-            actions.push_back({r.tbprd + value, up});
+    const bool          down = count != Count::up;
+    const bool          up   = count != Count::down;
+    const int           zero = down ? r.tbprd : 0; // time of ZERO
+    if (down) {
+        actions.push_back(
+            {0, field_at_end(aqctl, r.cmpa >= r.tbprd, aq_cad, r.cmpb >= r.tbprd, aq_cbd, aq_prd)});
+    }
+    if (up) {
+        actions.push_back(
+            {zero, field_at_end(aqctl, r.cmpa == 0, aq_cau, r.cmpb == 0, aq_cbu, aq_zero)});
+    }
+    const auto add_compare = [&](int value, int field_down, int field_up) {
+        if (value <= 0 || value >= r.tbprd) {
+            return;
+        }
+        if (down) {
+            actions.push_back({zero - value, field_down});
+        }
+        if (up) {
+            actions.push_back({zero + value, field_up});
         }
     };
     add_compare(r.cmpa, aq_cad, aq_cau);
     add_compare(r.cmpb, aq_cbd, aq_cbu);
     std::stable_sort(actions.begin(), actions.end(),
                      [](const Action &x, const Action &y) { return x.time_cnt < y.time_cnt; });
+    return actions;
+}
 
+/// EQ-GATES-1
+std::vector<SignalEdge> qualified(const LegRegisters &r, std::uint16_t aqctl, Count count,
+                                  SignalMemory &memory)
+{
     std::vector<SignalEdge> edges;
     edges.push_back({0, memory.level});
-    for (const Action &action : actions) {
+    for (const Action &action : actions_of(r, aqctl, count)) {
         const bool level = acted(aqctl, action.field, memory.level);
         if (level == memory.level) {
             continue;
@@ -151,10 +170,10 @@ struct Signal {
     }
 };
 
-Signal signal_of(const LegRegisters &r, std::uint16_t aqctl, SignalMemory &memory)
+Signal signal_of(const LegRegisters &r, std::uint16_t aqctl, Count count, SignalMemory &memory)
 {
     const SignalMemory before = memory;
-    return {qualified(r, aqctl, memory), before};
+    return {qualified(r, aqctl, count, memory), before};
 }
 
 /// EQ-GATES-2
@@ -208,12 +227,12 @@ std::vector<GateEdge> gates_of(const DeadBand &d, const Signal &a, const Signal 
 
 } // namespace
 
-LegPeriod leg_period(const LegRegisters &r, LegMemory &memory)
+LegPeriod leg_period(const LegRegisters &r, Count count, LegMemory &memory)
 {
-    const Signal   a      = signal_of(r, r.aqctla, memory.a);
-    const Signal   b      = signal_of(r, r.aqctlb, memory.b);
+    const Signal   a      = signal_of(r, r.aqctla, count, memory.a);
+    const Signal   b      = signal_of(r, r.aqctlb, count, memory.b);
     const DeadBand d      = dead_band_of(r);
-    const int      period = 2 * r.tbprd;
+    const int      period = period_counts(r.tbprd, count);
 
     LegPeriod out;
     out.a             = a.edges;

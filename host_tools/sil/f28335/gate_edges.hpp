@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// From register values to the gates of one leg: action qualifier and dead band over one control period.
 ///
-/// Counter values count up and down; a control period runs from TBPRD to TBPRD, so ZERO is in its middle.
+/// Counter values count up and down; a control period runs from TBPRD to TBPRD, so ZERO is in its middle; with two
+/// updates per PWM period it is one way of the counter.
 ///
 ///     output(t) = last action at or before t;  compare beats ZERO and PRD          EQ-GATES-1
 ///     delayed rise:  in(t) and t - last rise >= DBRED                              EQ-GATES-2
@@ -14,6 +15,9 @@
 #include <vector>
 
 namespace sdre::f28335 {
+
+/// The way of the counter in a control period.
+enum class Count { down_up, down, up };
 
 /// What the registers of a leg hold, the compare values being the active ones.
 struct LegRegisters {
@@ -58,8 +62,14 @@ struct LegPeriod {
     int  fall_delay_cnt = 0;
 };
 
+/// Length of a control period in counts.
+inline int period_counts(int tbprd, Count count)
+{
+    return count == Count::down_up ? 2 * tbprd : tbprd;
+}
+
 /// One control period; the memory goes on to the next.
-LegPeriod leg_period(const LegRegisters &registers, LegMemory &memory);
+LegPeriod leg_period(const LegRegisters &registers, Count count, LegMemory &memory);
 
 /// Shortest time between one switch off and the other on [counts]; negative: both were on at once. None: the leg does
 /// not change over. `before` is the last state of the period before.

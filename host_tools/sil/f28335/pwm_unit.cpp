@@ -173,11 +173,16 @@ bool PwmUnit::take_trip_interrupt()
     return now;
 }
 
-LegPeriod PwmUnit::begin_period()
+bool PwmUnit::at_zero() const
+{
+    return running() && position_ == 0;
+}
+
+LegPeriod PwmUnit::begin_period(Count count)
 {
     return leg_period(
         {r_.TBPRD, cmpa_, cmpb_, r_.AQCTLA.all, r_.AQCTLB.all, r_.DBCTL.all, r_.DBRED, r_.DBFED},
-        memory_);
+        count, memory_);
 }
 
 int PwmUnit::trip_action_a() const

@@ -37,8 +37,14 @@ public:
     bool take_trip_interrupt();
     bool at_period() const; ///< the counter has its top value at this very cycle
     int  cycles_per_count() const;
+    /// The active compare values change at ZERO and at PRD.
+    bool two_updates() const
+    {
+        return r_.CMPCTL.bit.LOADAMODE == CC_CTR_ZERO_PRD;
+    }
+    bool at_zero() const; ///< the counter is at 0 at this very cycle
     /// Gates over the control period that begins now.
-    LegPeriod begin_period();
+    LegPeriod begin_period(Count count);
     /// What trip does to the outputs, 0 HiZ, 1 high, 2 low, 3 nothing; the worse of A and B.
     int trip_action_a() const;
     int trip_action_b() const;

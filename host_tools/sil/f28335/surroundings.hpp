@@ -9,16 +9,16 @@
 
 namespace sdre::f28335 {
 
-/// The three legs over one control period, counter top to counter top.
+/// The three legs over one control period.
 struct ControlPeriod {
     std::array<LegPeriod, 3> legs;
-    int                      tbprd            = 0;
+    int                      counts           = 0; ///< length
     int                      cycles_per_count = 1;
     double                   sysclk_Hz        = 150e6;
 
-    double seconds(int counts) const
+    double seconds(int time_cnt) const
     {
-        return static_cast<double>(counts * cycles_per_count) / sysclk_Hz;
+        return static_cast<double>(time_cnt * cycles_per_count) / sysclk_Hz;
     }
 };
 
