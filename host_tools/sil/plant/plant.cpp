@@ -125,6 +125,7 @@ void Plant::move(const Voltage &voltage, const ShaftLoad &load, double dt_s)
         i_ = current_at<true>(x_);
     }
     note_peak();
+    path_.add(dt_s, x_.theta_e, omega_e_radps());
 }
 
 void Plant::advance(StatorVector v, const ShaftLoad &load, double dt_s)

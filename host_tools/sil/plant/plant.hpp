@@ -14,6 +14,7 @@
 #include "sil/plant/motor_effects.hpp"
 #include "sil/plant/motor_equations.hpp"
 #include "sil/plant/rotation.hpp"
+#include "sil/plant/shaft_path.hpp"
 #include "sil/plant/vectors.hpp"
 
 namespace sdre {
@@ -64,6 +65,11 @@ public:
         return std::sqrt(peak_A2_);
     }
     void reset_peak();
+    /// Angles and speeds since the path was last restarted.
+    ShaftPath &path()
+    {
+        return path_;
+    }
     /// Takes sine and cosine from the library again. Call now and then, so that rounding does not pile up.
     void   align_angle();
     double torque_Nm() const
@@ -101,6 +107,7 @@ private:
     MotorState     x_;
     RotorVector    i_;     ///< of x_; Newton's guess with saturation
     Rotation       angle_; ///< by x_.theta_e
+    ShaftPath      path_;
     double         peak_A2_ = 0.0;
     double slide_ = 0.0; ///< direction of the sliding friction in this step: -1, 0 (held), 1
 };

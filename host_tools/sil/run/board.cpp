@@ -56,6 +56,7 @@ Board::Board(const Scenario &s)
         update_motor();
     }
     configure_inverter();
+    plant_.path().lead_to(plant_.theta_e_rad(), s.initial_speed_e_radps, period_s_);
     encoder_.start(plant_.theta_e_rad(), s.initial_speed_e_radps);
 }
 
@@ -157,8 +158,8 @@ drive_sample_t Board::ideal_sample() const
 
 drive_sample_t Board::measured_sample()
 {
-    const QuadratureEncoder::Reading position =
-        encoder_.read(plant_.theta_e_rad(), plant_.omega_e_radps());
+    const QuadratureEncoder::Reading position = encoder_.read(plant_.path());
+    plant_.path().restart();
     if (sensors_.ideal) {
         return ideal_sample();
     }
@@ -186,9 +187,10 @@ drive_sample_t Board::sample()
 
 RawSample Board::raw_sample()
 {
-    const QuadratureEncoder::Reading position = encoder_.read(plant_.theta_e_rad());
-    const PhaseVector                i        = plant_.phase_current_A();
-    RawSample                        s;
+    const QuadratureEncoder::Reading position = encoder_.read(plant_.path(), edges_);
+    plant_.path().restart();
+    const PhaseVector i = plant_.phase_current_A();
+    RawSample         s;
     s.ia_code     = adc_code(channel_a(sensors_), i.a, noise_a_);
     s.ib_code     = adc_code(channel_b(sensors_), i.b, noise_b_);
     s.dc_link_V   = dc_link_.voltage_V();

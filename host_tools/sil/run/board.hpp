@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "sil/plant/bridge.hpp"
 #include "sil/plant/load.hpp"
@@ -46,6 +47,11 @@ public:
 
     /// The same for a board that is simulated down to its codes and edges: instead of sample(), ...
     RawSample raw_sample();
+    /// The encoder's edges in the period that raw_sample() has ended.
+    const std::vector<EncoderEdge> &edges() const
+    {
+        return edges_;
+    }
     /// ... and instead of run_period(), in pieces.
     void begin_raw_period(const std::array<LegTiming, 3> &legs);
     void set_legs(const std::array<bool, 3> &enabled)
@@ -79,27 +85,28 @@ private:
     drive_sample_t ideal_sample() const;
     drive_sample_t measured_sample();
 
-    const Scenario   &scenario_;
-    double            period_s_;
-    Motor             motor_; ///< scaled, before any drift
-    MotorScale        scale_;
-    SensorSettings    sensors_;
-    InverterSettings  inverter_;
-    double            source_V_;
-    Plant             plant_;
-    Bridge            bridge_;
-    DcLink            dc_link_;
-    QuadratureEncoder encoder_;
-    Noise             noise_a_;
-    Noise             noise_b_;
-    LoadProfile       load_;
-    ShaftLoad         shaft_load_;
-    double            time_s_         = 0.0;
-    std::size_t       next_change_    = 0;
-    bool              plain_inverter_ = true;
-    bool              plain_motor_    = true;
-    bool              have_early_     = false; ///< early_sample_ was taken before this tick
-    drive_sample_t    early_sample_{};
+    const Scenario          &scenario_;
+    double                   period_s_;
+    Motor                    motor_; ///< scaled, before any drift
+    MotorScale               scale_;
+    SensorSettings           sensors_;
+    InverterSettings         inverter_;
+    double                   source_V_;
+    Plant                    plant_;
+    Bridge                   bridge_;
+    DcLink                   dc_link_;
+    QuadratureEncoder        encoder_;
+    std::vector<EncoderEdge> edges_;
+    Noise                    noise_a_;
+    Noise                    noise_b_;
+    LoadProfile              load_;
+    ShaftLoad                shaft_load_;
+    double                   time_s_         = 0.0;
+    std::size_t              next_change_    = 0;
+    bool                     plain_inverter_ = true;
+    bool                     plain_motor_    = true;
+    bool                     have_early_     = false; ///< early_sample_ was taken before this tick
+    drive_sample_t           early_sample_{};
 };
 
 } // namespace sdre

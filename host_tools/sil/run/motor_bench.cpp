@@ -50,7 +50,10 @@ double MotorBench::held_theta_e_rad(long tick) const
 
 void MotorBench::hold()
 {
-    const QuadratureEncoder::Reading position = held_encoder_.read(held_theta_e_rad(tick_));
+    const double theta = held_theta_e_rad(tick_);
+    ShaftPath    path;
+    path.lead_to(theta, (theta - held_theta_e_rad(tick_ - 1)) / period_s_, period_s_);
+    const QuadratureEncoder::Reading position = held_encoder_.read(path, edges_);
     sample_.ia_code     = adc_code(channel_a(scenario_.sensors), 0.0, held_noise_a_);
     sample_.ib_code     = adc_code(channel_b(scenario_.sensors), 0.0, held_noise_b_);
     sample_.dc_link_V   = scenario_.dc_link_V;
@@ -75,6 +78,7 @@ void MotorBench::begin_tick()
     if (board_) {
         board_->begin_tick(static_cast<double>(tick_ - start_tick_) * period_s_);
         sample_      = board_->raw_sample();
+        edges_       = board_->edges();
         plant_state_ = board_->plant_state();
     } else {
         hold();
@@ -82,6 +86,7 @@ void MotorBench::begin_tick()
     if (stuck_) {
         sample_.count = before.count;
         sample_.index = false;
+        edges_.clear();
     }
 }
 

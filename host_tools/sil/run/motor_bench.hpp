@@ -9,6 +9,7 @@
 #include <array>
 #include <climits>
 #include <memory>
+#include <vector>
 
 #include "sil/run/board.hpp"
 
@@ -36,6 +37,11 @@ public:
     const RawSample &sample() const
     {
         return sample_;
+    }
+    /// The encoder's edges in the period that the present tick has ended; the shaft may be held.
+    const std::vector<EncoderEdge> &edges() const
+    {
+        return edges_;
     }
     /// The encoder's count within the period; the shaft turns evenly so far.
     std::int64_t count_after(double into_period_s) const;
@@ -69,21 +75,22 @@ private:
     double held_theta_e_rad(long tick) const;
     void   hold();
 
-    Scenario               scenario_;
-    double                 period_s_;
-    long                   start_tick_;
-    long                   tick_ = -1;
-    RawSample              sample_;
-    PlantState             plant_state_;
-    double                 peak_current_A_ = 0.0;
-    std::array<bool, 3>    legs_{};
-    double                 reached_s_         = 0.0; ///< how far into the period the plant is
-    bool                   driven_while_held_ = false;
-    bool                   stuck_             = false;
-    QuadratureEncoder      held_encoder_;
-    Noise                  held_noise_a_;
-    Noise                  held_noise_b_;
-    std::unique_ptr<Board> board_;
+    Scenario                 scenario_;
+    double                   period_s_;
+    long                     start_tick_;
+    long                     tick_ = -1;
+    RawSample                sample_;
+    std::vector<EncoderEdge> edges_;
+    PlantState               plant_state_;
+    double                   peak_current_A_ = 0.0;
+    std::array<bool, 3>      legs_{};
+    double                   reached_s_         = 0.0; ///< how far into the period the plant is
+    bool                     driven_while_held_ = false;
+    bool                     stuck_             = false;
+    QuadratureEncoder        held_encoder_;
+    Noise                    held_noise_a_;
+    Noise                    held_noise_b_;
+    std::unique_ptr<Board>   board_;
 };
 
 } // namespace sdre

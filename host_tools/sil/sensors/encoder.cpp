@@ -37,26 +37,38 @@ double QuadratureEncoder::shaft_turns(double theta_e_rad) const
     return shaft / two_pi;
 }
 
-std::int64_t QuadratureEncoder::counts_of(double turns) const
+double QuadratureEncoder::position_cnt(double theta_e_rad) const
+{
+    return shaft_turns(theta_e_rad) * static_cast<double>(counts_per_turn_);
+}
+
+double QuadratureEncoder::edge_cnt(std::int64_t count) const
+{
+    return static_cast<double>(count);
+}
+
+std::int64_t QuadratureEncoder::count_at(double theta_e_rad) const
 {
     // Further away a double has no single counts; a plant that runs away gets there before its run ends.
     constexpr double furthest = 0x1p53;
-    const double     counts   = std::floor(turns * static_cast<double>(counts_per_turn_));
+    const double     counts   = std::floor(position_cnt(theta_e_rad));
     return std::abs(counts) < furthest ? static_cast<std::int64_t>(counts) : 0;
 }
 
 void QuadratureEncoder::start(double theta_e_rad, double omega_e_radps)
 {
-    lost_          = 0;
-    lost_at_turn_  = std::floor(shaft_turns(theta_e_rad));
-    before_        = counts_of(shaft_turns(theta_e_rad - omega_e_radps * period_s_));
-    lost_for_good_ = 0;
-    true_before_   = before_;
-    edge_speed_    = omega_e_radps;
-    edge_          = omega_e_radps < 0.0 ? before_ + 1 : before_;
-    edge_age_s_    = omega_e_radps == 0.0
-                         ? no_edge_s
-                         : since_edge_s(theta_e_rad - omega_e_radps * period_s_, omega_e_radps);
+    const double before = theta_e_rad - omega_e_radps * period_s_;
+    lost_               = 0;
+    lost_at_turn_       = std::floor(shaft_turns(theta_e_rad));
+    before_             = count_at(before);
+    lost_for_good_      = 0;
+    true_before_        = before_;
+    edge_speed_         = omega_e_radps;
+    edge_               = omega_e_radps < 0.0 ? before_ + 1 : before_;
+    const double rate   = (position_cnt(theta_e_rad) - position_cnt(before)) / period_s_;
+    edge_age_s_         = rate == 0.0
+                              ? no_edge_s
+                              : std::min((position_cnt(before) - edge_cnt(edge_)) / rate, no_edge_s);
 }
 
 void QuadratureEncoder::lose(int counts)
@@ -66,7 +78,7 @@ void QuadratureEncoder::lose(int counts)
 }
 
 /// The index is high within the count that begins a turn; it has gone high when that count was entered.
-void QuadratureEncoder::note_index(std::int64_t now, Reading &r)
+void QuadratureEncoder::note_index(std::int64_t now, Reading &r) const
 {
     const auto turn_below = [this](std::int64_t count) {
         const std::int64_t rest = count % counts_per_turn_;
@@ -78,42 +90,70 @@ void QuadratureEncoder::note_index(std::int64_t now, Reading &r)
     r.raw_count                = now - lost_for_good_;
     r.index                    = settings_.encoder_index && passed;
     r.index_count              = mark - lost_for_good_;
-    true_before_               = now;
 }
 
-/// How long ago the shaft passed the edge of its count, at the speed it has now.
-double QuadratureEncoder::since_edge_s(double theta_e_rad, double omega_e_radps) const
+/// When the shaft passes the edge below a count, in a piece over which it does.
+double QuadratureEncoder::edge_time_s(const PathPiece &piece, std::int64_t edge) const
 {
-    const double counts = static_cast<double>(counts_per_turn_);
-    const double step_s = 1e-3 * period_s_; // short enough for a straight line
-    const double now    = counts * shaft_turns(theta_e_rad);
-    const double rate = (now - counts * shaft_turns(theta_e_rad - omega_e_radps * step_s)) / step_s;
-    const double beyond = rate >= 0.0 ? now - std::floor(now) : std::floor(now) + 1.0 - now;
-    return rate == 0.0 ? period_s_ : std::min(beyond / std::abs(rate), period_s_);
+    const double at = edge_cnt(edge);
+    return piece.time_s(
+        zero_of(piece, [&](double share) { return position_cnt(piece.theta_e_rad(share)) - at; }));
 }
 
-void QuadratureEncoder::time_edges(const Reading &r, double since_edge_s, bool forward)
+/// The last edge that the shaft has passed and the speed from there to the one noted before.
+void QuadratureEncoder::note_last_edge(const ShaftPath &path, std::int64_t now)
 {
     const double per_count = pole_pairs_ * two_pi / static_cast<double>(counts_per_turn_);
-    edge_age_s_ += period_s_;
-    if (r.count == before_) {
+    const std::vector<PathPiece> pieces      = pieces_of(path);
+    const double                 beginning_s = edge_age_s_;
+    edge_age_s_ += path.duration_s();
+    double       passed_s = 0.0; // where the counter jumps
+    std::int64_t from     = true_before_;
+    for (auto p = pieces.rbegin(); p != pieces.rend(); ++p) {
+        const std::int64_t begins = count_at(p->theta_e_rad(p->from));
+        if (begins != now) {
+            from     = begins;
+            passed_s = edge_time_s(*p, begins < now ? now : now + 1);
+            break;
+        }
+    }
+    const double since_s = beginning_s + passed_s; // the edge before
+    if (from == now || since_s <= 0.0) {
         const double most = per_count / edge_age_s_;
         edge_speed_       = std::clamp(edge_speed_, -most, most);
         return;
     }
-    const std::int64_t edge = forward ? r.count : r.count + 1;
-    edge_speed_             = per_count * static_cast<double>(edge - edge_) /
-                  (edge_age_s_ - since_edge_s); // EQ-ENCODER-5
+    const std::int64_t edge = from < now ? now : now + 1;
+    edge_speed_ = per_count * static_cast<double>(edge - edge_) / since_s; // EQ-ENCODER-5
     edge_       = edge;
-    edge_age_s_ = since_edge_s;
+    edge_age_s_ = path.duration_s() - passed_s;
+}
+
+void QuadratureEncoder::list_edges(const ShaftPath &path, std::vector<EncoderEdge> &edges) const
+{
+    edges.clear();
+    std::int64_t count = true_before_;
+    const auto   step  = [&](std::int64_t to, const PathPiece *piece) {
+        const int direction = to > count ? 1 : -1;
+        while (count != to) {
+            const double time_s =
+                piece == nullptr ? 0.0 : edge_time_s(*piece, direction > 0 ? count + 1 : count);
+            count += direction;
+            edges.push_back({time_s, count - lost_for_good_, direction});
+        }
+    };
+    step(count_at(path.points().front().theta_e_rad), nullptr);
+    for (const PathPiece &piece : pieces_of(path)) {
+        step(count_at(piece.theta_e_rad(piece.to)), &piece);
+    }
 }
 
 /// EQ-ENCODER-6: from the last edge on with the speed of the edges, but within the count.
-double QuadratureEncoder::edge_angle_rad(std::int64_t count) const
+double QuadratureEncoder::edge_angle_rad(std::int64_t count, double edge_above_cnt) const
 {
     const double per_count = pole_pairs_ * two_pi / static_cast<double>(counts_per_turn_);
-    const double beyond    = std::clamp(
-           static_cast<double>(edge_ - count) + edge_speed_ * edge_age_s_ / per_count, 0.0, 1.0);
+    const double beyond =
+        std::clamp(edge_above_cnt + edge_speed_ * edge_age_s_ / per_count, 0.0, 1.0);
     const double theta =
         per_count * static_cast<double>(count % counts_per_turn_) + per_count * beyond;
     const double wrapped = std::fmod(theta, two_pi);
@@ -122,15 +162,29 @@ double QuadratureEncoder::edge_angle_rad(std::int64_t count) const
 
 QuadratureEncoder::Reading QuadratureEncoder::read(double theta_e_rad, double omega_e_radps)
 {
-    const double turns = shaft_turns(theta_e_rad);
-    const double turn  = std::floor(turns);
+    ShaftPath path;
+    path.lead_to(theta_e_rad, omega_e_radps, period_s_);
+    return read(path);
+}
+
+QuadratureEncoder::Reading QuadratureEncoder::read(const ShaftPath          &path,
+                                                   std::vector<EncoderEdge> &edges)
+{
+    list_edges(path, edges);
+    return read(path);
+}
+
+QuadratureEncoder::Reading QuadratureEncoder::read(const ShaftPath &path)
+{
+    const double theta_e_rad = path.points().back().theta_e_rad;
+    const double turn        = std::floor(shaft_turns(theta_e_rad));
     if (settings_.encoder_index && turn != lost_at_turn_) {
         lost_ = 0;
     }
     lost_at_turn_ = turn;
 
     Reading            r;
-    const std::int64_t now = counts_of(turns);
+    const std::int64_t now = count_at(theta_e_rad);
     note_index(now, r);
     r.count = now - lost_; // EQ-ENCODER-2
 
@@ -144,12 +198,17 @@ QuadratureEncoder::Reading QuadratureEncoder::read(double theta_e_rad, double om
     const auto per_turn = static_cast<double>(counts_per_turn_);
     r.omega_e_radps     = pole_pairs_ * static_cast<double>(r.count - before_) * two_pi /
                       (per_turn * period_s_); // EQ-ENCODER-4
-    time_edges(r, since_edge_s(theta_e_rad, omega_e_radps), omega_e_radps >= 0.0);
     if (settings_.encoder_edge_time) {
+        note_last_edge(path, now);
         r.omega_e_radps = edge_speed_;
-        r.theta_e_rad   = edge_angle_rad(r.count);
+        r.theta_e_rad   = edge_angle_rad(r.count, static_cast<double>(edge_ - now));
+    } else { // should edges be timed from the next reading on
+        edge_       = now;
+        edge_age_s_ = 0.0;
+        edge_speed_ = r.omega_e_radps;
     }
-    before_ = r.count;
+    true_before_ = now;
+    before_      = r.count;
     return r;
 }
 

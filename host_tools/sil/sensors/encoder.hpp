@@ -9,13 +9,24 @@
 ///     omega_e = n_p (edge - edge before) 2 pi / (4 lines (t_edge - t_edge before))  EQ-ENCODER-5
 ///
 /// A period without an edge keeps the speed of EQ-ENCODER-5, but at most one count in the time since the edge.
+/// Edges have the time at which the shaft passes them on its path.
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
+#include "sil/plant/shaft_path.hpp"
+#include "sil/sensors/path_pieces.hpp"
 #include "sil/setup/board_settings.hpp"
 
 namespace sdre {
+
+/// The shaft has passed from one count to the next.
+struct EncoderEdge {
+    double       time_s    = 0.0; ///< since the reading before
+    std::int64_t count     = 0;   ///< of a plain counter (Reading::raw_count), after the edge
+    int          direction = 1;   ///< 1: the count rose, -1: it fell
+};
 
 class QuadratureEncoder {
 public:
@@ -38,16 +49,24 @@ public:
     /// The counter misses this many counts, now. An index mark puts it right.
     void lose(int counts);
 
-    /// Call once per period. The true speed places the edges in time; EQ-ENCODER-4 does not look at it.
+    /// Call at every sample, with the shaft's path since the one before.
+    Reading read(const ShaftPath &path);
+    /// The same, and every edge since the reading before. Where the counter jumps (a change of the settings), its edges
+    /// are at the beginning.
+    Reading read(const ShaftPath &path, std::vector<EncoderEdge> &edges);
+    /// Once per period, for a shaft that got here at this speed.
     Reading read(double theta_e_rad, double omega_e_radps = 0.0);
 
 private:
     double       shaft_turns(double theta_e_rad) const;
-    std::int64_t counts_of(double turns) const;
-    void         note_index(std::int64_t now, Reading &r);
-    double       since_edge_s(double theta_e_rad, double omega_e_radps) const;
-    double       edge_angle_rad(std::int64_t count) const;
-    void         time_edges(const Reading &r, double since_edge_s, bool forward);
+    std::int64_t count_at(double theta_e_rad) const;
+    double       edge_cnt(std::int64_t count) const; ///< where the edge below a count is
+    void         note_index(std::int64_t now, Reading &r) const;
+    double       position_cnt(double theta_e_rad) const;
+    double       edge_time_s(const PathPiece &piece, std::int64_t edge) const;
+    void         note_last_edge(const ShaftPath &path, std::int64_t now);
+    void         list_edges(const ShaftPath &path, std::vector<EncoderEdge> &edges) const;
+    double       edge_angle_rad(std::int64_t count, double edge_above_cnt) const;
 
     SensorSettings settings_;
     int            drive_lines_;
@@ -59,7 +78,7 @@ private:
     std::int64_t   lost_for_good_   = 0; ///< by a counter that the index does not put right
     std::int64_t   true_before_     = 0;
     double         lost_at_turn_    = 0.0; ///< whole turns when they were last lost or read
-    std::int64_t   edge_            = 0;   ///< the last edge, as the count above it
+    std::int64_t   edge_            = 0;   ///< the last edge, as the true count above it
     double         edge_age_s_      = 0.0; ///< since that edge, at the last reading
     double         edge_speed_      = 0.0; ///< EQ-ENCODER-5, electrical
 };
