@@ -58,11 +58,27 @@ void FakeBoard::take_sample()
     sample_.dc_link_cnt     = static_cast<std::uint16_t>(dc_link_code(s.dc_link_V));
     sample_.temperature_cnt = temperature_code;
     sample_.position_cnt    = position_of(s.count);
-    sample_.index_seen      = s.index;
+    take_edge();
+    sample_.index_seen = s.index;
     if (s.index) {
         sample_.index_cnt = position_of(s.index_count);
     }
     sample_.valid = true;
+}
+
+/// The age of the last edge; none when the shaft has turned back, or is where it was.
+void FakeBoard::take_edge()
+{
+    const std::vector<EncoderEdge> &edges = bench_.edges();
+    const bool same_way = std::all_of(edges.begin(), edges.end(), [&](const EncoderEdge &e) {
+        return e.direction == direction_;
+    });
+    if (!edges.empty()) {
+        const double age_s   = bench_.period_s() - edges.back().time_s;
+        sample_.edge_age_cnt = static_cast<std::uint16_t>(age_s * BOARD_CAPTURE_Hz);
+        direction_           = edges.back().direction;
+    }
+    sample_.edge_seen = !edges.empty() && same_way;
 }
 
 void FakeBoard::tick()

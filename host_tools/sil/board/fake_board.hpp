@@ -39,6 +39,7 @@ public:
 
 private:
     void take_sample();
+    void take_edge();
     void set_gates(bool on);
 
     MotorBench &bench_;
@@ -49,8 +50,9 @@ private:
     board_sample_t     sample_{};
     std::array<int, 3> shadow_cnt_{};
     std::array<int, 3> active_cnt_{};
-    bool               gates_  = false;
-    bool               enable_ = false; ///< wanted for the next period
+    int                direction_ = 1; ///< of the last edge
+    bool               gates_     = false;
+    bool               enable_    = false; ///< wanted for the next period
 };
 
 } // namespace sdre::f28335

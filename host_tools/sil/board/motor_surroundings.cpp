@@ -73,6 +73,11 @@ ShaftCount MotorSurroundings::shaft(double into_period_s)
     now.count       = into_period_s > 0.0 ? bench_.count_after(into_period_s) : s.count;
     now.index       = into_period_s <= 0.0 && s.index;
     now.index_count = s.index_count;
+    if (into_period_s <= 0.0) {
+        for (const EncoderEdge &edge : bench_.edges()) {
+            now.edges.push_back({bench_.period_s() - edge.time_s, edge.direction});
+        }
+    }
     return now;
 }
 

@@ -38,6 +38,10 @@ public:
     {
         return sample_;
     }
+    double period_s() const
+    {
+        return period_s_;
+    }
     /// The encoder's edges in the period that the present tick has ended; the shaft may be held.
     const std::vector<EncoderEdge> &edges() const
     {
