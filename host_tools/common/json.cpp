@@ -87,6 +87,7 @@ Json Json::object()
 
 void Json::push_back(Json value)
 {
+    kind_ = Kind::array;
     elements_.push_back(std::move(value));
 }
 

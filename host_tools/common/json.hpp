@@ -52,6 +52,7 @@ public:
     static Json array();
     static Json object();
 
+    /// To an array; null becomes one.
     void push_back(Json value);
 
     /// The value of an object's key; null becomes an object, and a new key comes last.
