@@ -2,31 +2,30 @@
 #include "emit/report.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include "common/json.hpp"
 #include "common/version.hpp"
 #include "emit/report_parts.hpp"
 
 namespace sdre {
 namespace {
 
-using nlohmann::ordered_json;
-
-ordered_json to_json(const Eigen::MatrixXd &M)
+Json row_to_json(const Eigen::RowVectorXd &row)
 {
-    ordered_json rows = ordered_json::array();
+    return std::vector<double>(row.begin(), row.end());
+}
+
+Json to_json(const Eigen::MatrixXd &M)
+{
+    Json rows = Json::array();
     for (Eigen::Index i = 0; i < M.rows(); i++) {
-        ordered_json row = ordered_json::array();
-        for (Eigen::Index j = 0; j < M.cols(); j++) {
-            row.push_back(M(i, j));
-        }
-        rows.push_back(row);
+        rows.push_back(row_to_json(M.row(i)));
     }
     return rows;
 }
 
 /// A gain as the tables have it.
-ordered_json gain_to_json(const Eigen::MatrixXd &K)
+Eigen::MatrixXd as_reported(const Eigen::MatrixXd &K)
 {
     Eigen::MatrixXd clean = K;
     for (Eigen::Index i = 0; i < K.rows(); i++) {
@@ -34,42 +33,42 @@ ordered_json gain_to_json(const Eigen::MatrixXd &K)
             clean(i, j) = report_entry(K, i, j);
         }
     }
-    return to_json(clean);
+    return clean;
 }
 
 /// The same of a harmonic node, whose rows are of different sizes.
-ordered_json node_gain_to_json(const Eigen::MatrixXd &K)
+Json node_gain_to_json(const Eigen::MatrixXd &K)
 {
-    ordered_json rows = ordered_json::array();
+    Json rows = Json::array();
     for (Eigen::Index i = 0; i < K.rows(); i++) {
-        rows.push_back(gain_to_json(K.row(i)).at(0));
+        rows.push_back(row_to_json(as_reported(K.row(i))));
     }
     return rows;
 }
 
-ordered_json to_json(const Eigen::VectorXcd &v)
+Json to_json(const Eigen::VectorXcd &v)
 {
-    ordered_json out = ordered_json::array();
+    Json out = Json::array();
     for (Eigen::Index i = 0; i < v.size(); i++) {
         out.push_back({v(i).real(), v(i).imag()});
     }
     return out;
 }
 
-ordered_json gain_json(const GainSeries &g, const char *gain_key, const char *solution_key,
-                       const char *poles_key)
+Json gain_json(const GainSeries &g, const char *gain_key, const char *solution_key,
+               const char *poles_key)
 {
-    ordered_json gains     = ordered_json::array();
-    ordered_json solutions = ordered_json::array();
+    Json gains     = Json::array();
+    Json solutions = Json::array();
     for (std::size_t n = 0; n < g.gain.size(); n++) {
-        gains.push_back(gain_to_json(g.gain[n]));
+        gains.push_back(to_json(as_reported(g.gain[n])));
         solutions.push_back(to_json(g.series.terms[n].X));
     }
-    ordered_json out{{"order", series_order(g)},
-                     {gain_key, gains},
-                     {solution_key, solutions},
-                     {poles_key, to_json(g.series.care.closed_loop_eigenvalues)},
-                     {"residuals", g.residuals}};
+    Json out{{"order", series_order(g)},
+             {gain_key, gains},
+             {solution_key, solutions},
+             {poles_key, to_json(g.series.care.closed_loop_eigenvalues)},
+             {"residuals", g.residuals}};
     if (g.problem.dA.size() > 1) {
         for (const SeriesTerm &term : g.series.terms) {
             out["powers"].push_back(term.powers);
@@ -78,14 +77,14 @@ ordered_json gain_json(const GainSeries &g, const char *gain_key, const char *so
     return out;
 }
 
-ordered_json nodo_json(const Design &d)
+Json nodo_json(const Design &d)
 {
-    ordered_json out = gain_json(d.nodo, "gain", "pi", "eigenvalues");
-    out["form"]      = nodo_form_name(d.drive.nodo.form);
+    Json out    = gain_json(d.nodo, "gain", "pi", "eigenvalues");
+    out["form"] = nodo_form_name(d.drive.nodo.form);
     return out;
 }
 
-ordered_json loop_json(const SampledLoop &loop, const char *variable)
+Json loop_json(const SampledLoop &loop, const char *variable)
 {
     return {{"range", {{"variable", variable}, {"min_A", -loop.range_A}, {"max_A", loop.range_A}}},
             {"series_range_A", loop.series_range_A},
@@ -96,9 +95,9 @@ ordered_json loop_json(const SampledLoop &loop, const char *variable)
             {"series_error_full_range", loop.series_error_full}};
 }
 
-ordered_json loop_json(const LoopCheck &loop)
+Json loop_json(const LoopCheck &loop)
 {
-    ordered_json at = ordered_json::object();
+    Json at = Json::object();
     for (const SensitivityAt &x : loop.at) {
         at[x.name] = {{"frequency_Hz", x.frequency_Hz}, {"sensitivity", x.value}};
     }
@@ -108,7 +107,7 @@ ordered_json loop_json(const LoopCheck &loop)
             {"disturbances", at}};
 }
 
-ordered_json dobc_json(const DobcDesign &d)
+Json dobc_json(const DobcDesign &d)
 {
     return {{"oscillators_radps", d.oscillators_radps},
             {"wanted_polynomial", d.wanted},
@@ -122,11 +121,11 @@ ordered_json dobc_json(const DobcDesign &d)
             {"h", std::vector<double>(d.h.begin(), d.h.end())}};
 }
 
-ordered_json harmonics_json(const Design &d)
+Json harmonics_json(const Design &d)
 {
     const nodo_harmonic_gains_t &t     = *d.harmonics->table;
-    ordered_json                 pairs = ordered_json::array();
-    ordered_json                 nodes = ordered_json::array();
+    Json                         pairs = Json::array();
+    Json                         nodes = Json::array();
     for (int i = 0; i < t.n_pairs; i++) {
         pairs.push_back({{"channel", report_channel_name(t.pair[i].channel)},
                          {"order", static_cast<double>(t.pair[i].order)}});
@@ -144,7 +143,7 @@ ordered_json harmonics_json(const Design &d)
             {"nodes", nodes}};
 }
 
-ordered_json harmonic_check_json(const HarmonicCheck &check)
+Json harmonic_check_json(const HarmonicCheck &check)
 {
     return {{"spectral_radius", check.spectral_radius},
             {"worst_speed_e_radps", check.worst_speed_e_radps},
@@ -153,7 +152,7 @@ ordered_json harmonic_check_json(const HarmonicCheck &check)
             {"speed_loop", loop_json(check.speed_loop)}};
 }
 
-ordered_json noc_h_json(const Design &d)
+Json noc_h_json(const Design &d)
 {
     const Certificate &c = d.certificate;
     return {{"law", law_name(d.drive.law)},
@@ -166,9 +165,9 @@ ordered_json noc_h_json(const Design &d)
               {"nosc", loop_json(c.nosc, "e_iq")}}}};
 }
 
-ordered_json heading_json(const Design &d)
+Json heading_json(const Design &d)
 {
-    ordered_json reduced;
+    Json reduced;
     for (int i = 1; i <= 11; i++) {
         reduced[fmt::format("l{}", i)] = d.l[static_cast<std::size_t>(i)];
     }
@@ -179,10 +178,10 @@ ordered_json heading_json(const Design &d)
             {"reduced_parameters", reduced}};
 }
 
-ordered_json servo_json(const Design &d)
+Json servo_json(const Design &d)
 {
     const ServoDesign &servo = *d.servo;
-    ordered_json       out   = {{"law", law_name(d.drive.law)}};
+    Json               out   = {{"law", law_name(d.drive.law)}};
     if (servo.dobc) {
         out["dobc"] = dobc_json(*servo.dobc);
     }
@@ -197,31 +196,31 @@ ordered_json servo_json(const Design &d)
 
 std::string report_json(const Design &d)
 {
-    ordered_json report = heading_json(d);
+    Json report = heading_json(d);
     if (d.servo) {
         report.update(servo_json(d));
-        return report.dump(2) + "\n";
+        return report.text();
     }
     if (d.harmonics) {
         report.update(noc_h_json(d));
-        return report.dump(2) + "\n";
+        return report.text();
     }
     const Certificate &c = d.certificate;
-    report.update(ordered_json{
-        {"nosc", gain_json(d.nosc, "lambda", "gamma", "closed_loop_eigenvalues")},
-        {"nodo", nodo_json(d)},
-        {"certificate",
-         {{"certified", c.passed()},
-          {"failures", c.failures},
-          {"range",
-           {{"e_iq_A", {-c.nosc.range_A, c.nosc.range_A}},
-            {"i_q_hat_A", {-c.nodo.range_A, c.nodo.range_A}}}},
-          {"worst_pole",
-           {{"nosc_1ps", c.nosc.worst_pole_1ps}, {"nodo_1ps", c.nodo.worst_pole_1ps}}},
-          {"series_error", {{"nosc", c.nosc.series_error}, {"nodo", c.nodo.series_error}}},
-          {"nosc", loop_json(c.nosc, "e_iq")},
-          {"nodo", loop_json(c.nodo, "i_q_hat")}}}});
-    return report.dump(2) + "\n";
+    report.update(
+        Json{{"nosc", gain_json(d.nosc, "lambda", "gamma", "closed_loop_eigenvalues")},
+             {"nodo", nodo_json(d)},
+             {"certificate",
+              {{"certified", c.passed()},
+               {"failures", c.failures},
+               {"range",
+                {{"e_iq_A", {-c.nosc.range_A, c.nosc.range_A}},
+                 {"i_q_hat_A", {-c.nodo.range_A, c.nodo.range_A}}}},
+               {"worst_pole",
+                {{"nosc_1ps", c.nosc.worst_pole_1ps}, {"nodo_1ps", c.nodo.worst_pole_1ps}}},
+               {"series_error", {{"nosc", c.nosc.series_error}, {"nodo", c.nodo.series_error}}},
+               {"nosc", loop_json(c.nosc, "e_iq")},
+               {"nodo", loop_json(c.nodo, "i_q_hat")}}}});
+    return report.text();
 }
 
 } // namespace sdre

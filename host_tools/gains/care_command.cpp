@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/errors.hpp"
+#include "common/json.hpp"
 #include "gains/commands.hpp"
 
 namespace sdre {
@@ -204,24 +205,24 @@ std::string care_text(const CareSolution &solution)
 
 std::string care_json(const CareSolution &solution)
 {
-    json rows = json::array();
+    Json rows = Json::array();
     for (Eigen::Index i = 0; i < solution.X.rows(); ++i) {
-        json row = json::array();
+        Json row = Json::array();
         for (Eigen::Index j = 0; j < solution.X.cols(); ++j) {
             row.push_back(solution.X(i, j));
         }
         rows.push_back(row);
     }
-    json modes = json::array();
+    Json modes = Json::array();
     for (const std::complex<double> &s : solution.closed_loop_eigenvalues) {
         modes.push_back({s.real(), s.imag()});
     }
-    nlohmann::ordered_json out;
+    Json out;
     out["X"]                       = rows;
     out["X_indefinite"]            = !solution.semidefinite;
     out["relative_residual"]       = solution.relative_residual;
     out["closed_loop_eigenvalues"] = modes;
-    return out.dump(2) + "\n";
+    return out.text();
 }
 
 namespace {

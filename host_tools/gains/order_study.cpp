@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "common/errors.hpp"
+#include "common/json.hpp"
 #include "design/design.hpp"
 
 namespace sdre {
@@ -115,17 +115,15 @@ std::string orders_csv(const OrderStudy &study)
 
 std::string orders_json(const OrderStudy &study)
 {
-    nlohmann::ordered_json loops;
+    Json loops;
     for (const LoopOrders &loop : study.loops) {
         loops[loop.name] = {{"variable", loop.variable},
                             {"lyapunov_equations", loop.lyapunov},
                             {"within_A", loop.within_A},
                             {"errors", loop.errors}};
     }
-    return nlohmann::ordered_json{
-               {"drive", study.drive}, {"max_current_A", study.max_current_A}, {"loops", loops}}
-               .dump(2) +
-           "\n";
+    return Json{{"drive", study.drive}, {"max_current_A", study.max_current_A}, {"loops", loops}}
+        .text();
 }
 
 } // namespace sdre

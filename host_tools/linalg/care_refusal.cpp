@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
@@ -15,6 +14,34 @@
 namespace sdre::extended {
 
 namespace {
+
+/// Last over first pivot of M = Q R with the longest remaining column first, by Gram and Schmidt.
+Scalar pivot_ratio(ComplexMatrix M)
+{
+    const Eigen::Index n       = M.cols();
+    Scalar             largest = 0;
+    for (Eigen::Index k = 0; k < n; k++) {
+        Eigen::Index pivot  = k;
+        Scalar       length = -1;
+        for (Eigen::Index j = k; j < n; j++) {
+            if (const Scalar size = M.col(j).norm(); size > length) {
+                length = size;
+                pivot  = j;
+            }
+        }
+        largest = std::max(largest, length);
+        if (!(length > 0) || k == n - 1) {
+            return largest > 0 ? length / largest : Scalar(0);
+        }
+        M.col(k).swap(M.col(pivot));
+        M.col(k) /= Complex(length);
+        for (Eigen::Index j = k + 1; j < n; j++) {
+            const Complex along = M.col(k).dot(M.col(j));
+            M.col(j) -= along * M.col(k);
+        }
+    }
+    return 0;
+}
 
 /// How far [A - sI, W] is from losing rank, between 0 and 1 and blind to the size of the columns of
 /// W and to the scaling of single states: 0 means that the mode s is not connected to W.
@@ -35,9 +62,7 @@ Scalar hautus_margin(const Matrix &A, const Matrix &W, Complex s)
     for (Eigen::Index j = n; j < 2 * n && floor > 0; ++j) {
         M.col(j) /= Complex(std::max(floor, Scalar(M.col(j).norm())));
     }
-    const Eigen::ColPivHouseholderQR<ComplexMatrix> qr(M.adjoint());
-    const Scalar                                    largest = std::abs(qr.matrixQR()(0, 0));
-    return largest > 0 ? std::abs(qr.matrixQR()(n - 1, n - 1)) / largest : Scalar(0);
+    return pivot_ratio(M.adjoint());
 }
 
 std::string unstabilisable_text(Complex s)

@@ -9,24 +9,25 @@
 
 #include "common/errors.hpp"
 #include "linalg/hessenberg.hpp"
+#include "linalg/schur.hpp"
 
 namespace sdre {
 namespace {
 
-// Sizes up to here need no allocation.
-constexpr int small = 16;
+// The sampled loops of all laws fit without an allocation; what is larger has time for long double.
+constexpr int small = 32;
 using Small         = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, small, small>;
 
-template <class Matrix> Eigen::VectorXcd eigenvalues_of(Matrix H)
+Eigen::VectorXcd eigenvalues_of(Small H)
 {
     const Eigen::Index n = H.rows();
     reduce_to_hessenberg(H);
-    Eigen::RealSchur<Matrix> schur(n);
+    Eigen::RealSchur<Small> schur(n);
     schur.computeFromHessenberg(H, H, false);
     if (schur.info() != Eigen::Success) {
         throw DesignError("the eigenvalue iteration did not converge");
     }
-    const Matrix    &T = schur.matrixT();
+    const Small     &T = schur.matrixT();
     Eigen::VectorXcd values(n);
     for (Eigen::Index k = 0; k < n; k++) {
         if (k + 1 < n && T(k + 1, k) != 0.0) { // a conjugate pair
@@ -46,7 +47,10 @@ template <class Matrix> Eigen::VectorXcd eigenvalues_of(Matrix H)
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd &A)
 {
-    return A.rows() <= small ? eigenvalues_of(Small(A)) : eigenvalues_of(Eigen::MatrixXd(A));
+    if (A.rows() <= small) {
+        return eigenvalues_of(A);
+    }
+    return extended::eigenvalues(A.cast<long double>()).cast<std::complex<double>>();
 }
 
 Eigen::VectorXcd sorted_eigenvalues(const Eigen::MatrixXd &A)

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "linalg/eigenvalues.hpp"
 
 namespace sdre {
 
@@ -119,9 +119,8 @@ std::string semidefinite_defect(const Eigen::MatrixXd &M, const std::string &nam
     if (has_a_factor(scaled, noise)) {
         return "";
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled, Eigen::EigenvaluesOnly);
-    const double                                         smallest = eigen.eigenvalues().minCoeff();
-    if (eigen.info() != Eigen::Success || !(smallest >= -noise)) {
+    const double smallest = eigenvalues(scaled).real().minCoeff();
+    if (!(smallest >= -noise)) {
         return fmt::format("{} is not positive semidefinite: smallest eigenvalue {:.6g}", name,
                            smallest * size);
     }

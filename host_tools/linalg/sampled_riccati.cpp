@@ -6,23 +6,23 @@
 #include "common/errors.hpp"
 #include "linalg/eigenvalues.hpp"
 #include "linalg/inverse.hpp"
+#include "linalg/product.hpp"
 #include "linalg/stein.hpp"
 
 namespace sdre {
 namespace {
 
 using extended::Matrix;
+using extended::product;
 using extended::symmetric_part;
 
 // 2^60 periods: a mode that has not settled by then never does.
 constexpr int         doublings_max = 60;
 constexpr long double settled       = 1e-17L;
 
-/// A B C, without the templates of large products.
 Matrix times(const Matrix &A, const Matrix &B, const Matrix &C)
 {
-    const Matrix AB = A.lazyProduct(B);
-    return AB.lazyProduct(C);
+    return product(product(A, B), C);
 }
 
 /// P of EQ-DARE-1 by structure-preserving doubling: H after k steps is P after 2^k periods from nothing.
@@ -33,11 +33,11 @@ Matrix solve_riccati(const Matrix &A, const Matrix &G, const Matrix &Q)
     Matrix       g = G;
     Matrix       H = Q;
     for (int k = 0; k < doublings_max; k++) {
-        const Matrix W    = extended::inverse(Matrix(I + g.lazyProduct(H)));
-        const Matrix WE   = W.lazyProduct(E);
+        const Matrix W    = extended::inverse(Matrix(I + product(g, H)));
+        const Matrix WE   = product(W, E);
         const Matrix step = symmetric_part(times(E.transpose(), H, WE));
-        g += symmetric_part(times(E, W.lazyProduct(g), E.transpose()));
-        E = Matrix(E.lazyProduct(WE));
+        g += symmetric_part(times(E, product(W, g), E.transpose()));
+        E = product(E, WE);
         H += step;
         if (!std::isfinite(static_cast<double>(H.norm()))) {
             break;
@@ -70,13 +70,13 @@ SampledObserverGain solve_sampled_observer(const SampledObserverProblem &p)
     const Matrix P         = solve_riccati(A, times(Ct, extended::inverse(R), C), Q);
     const Matrix S_inverse = extended::inverse(Matrix(times(C, P, Ct) + R));
     const Matrix K         = times(P, Ct, S_inverse);
-    const Matrix left      = I - K.lazyProduct(C);
-    const Matrix after     = symmetric_part(left.lazyProduct(P));
-    const Matrix F         = A.lazyProduct(left);
+    const Matrix left      = I - product(K, C);
+    const Matrix after     = symmetric_part(product(left, P));
+    const Matrix F         = product(A, left);
     const Matrix W =
         symmetric_part(2.0L * times(A1, after, A.transpose())) + p.Q1.cast<long double>();
     const Matrix P1 = extended::solve_stein(F, W);
-    const Matrix K1 = times(left, P1, Ct).lazyProduct(S_inverse);
+    const Matrix K1 = product(times(left, P1, Ct), S_inverse);
 
     SampledObserverGain out;
     out.K0               = K.cast<double>();

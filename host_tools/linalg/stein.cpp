@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/errors.hpp"
+#include "linalg/product.hpp"
 
 namespace sdre::extended {
 namespace {
@@ -18,10 +19,10 @@ Matrix solve_stein(Matrix F, const Matrix &W)
 {
     Matrix X = W;
     for (int k = 0; k < doublings_max; k++) {
-        const Matrix FX   = F.lazyProduct(X);
-        const Matrix step = symmetric_part(FX.lazyProduct(F.transpose()));
+        const Matrix FX   = product(F, X);
+        const Matrix step = symmetric_part(product(FX, F.transpose()));
         X += step;
-        F = Matrix(F.lazyProduct(F));
+        F = product(F, F);
         if (step.norm() <= settled * X.norm()) {
             return X;
         }

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "command.hpp"
 #include "common/errors.hpp"
 
 namespace {
@@ -131,6 +132,17 @@ TEST(care_command, an_indefinite_solution_is_given_and_named)
     EXPECT_NEAR(solution.X(0, 0), -2.0 + std::sqrt(3.0), 1e-15);
     EXPECT_NE(sdre::care_text(solution).find("X is indefinite"), std::string::npos);
     EXPECT_TRUE(json::parse(sdre::care_json(solution))["X_indefinite"].get<bool>());
+}
+
+TEST(care_command, benchmark_1_4_is_solved_and_said_to_be_indefinite)
+{
+    const std::string file = std::string(SDRE_TEST_DATA_DIR) + "/carex/carex-1.4.json";
+    const auto        run  = support::run_command({SDRE_GAINS_EXE, "care", file, "--json"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const json output = json::parse(run.out);
+    EXPECT_TRUE(output["X_indefinite"].get<bool>());
+    EXPECT_NEAR(output["X"][7][7].get<double>(), 0.079489693942803, 1e-15); // the file's X_ref
+    EXPECT_LT(output["closed_loop_eigenvalues"].back()[0].get<double>(), 0.0);
 }
 
 TEST(care_command, integers_and_negative_zero_are_numbers)

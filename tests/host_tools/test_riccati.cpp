@@ -374,6 +374,24 @@ TEST(riccati, an_indefinite_solution_is_returned_only_to_who_allows_it)
     expect_design_error(care(scalar(-2), scalar(1), scalar(-1)), "Q is not positive semidefinite");
 }
 
+TEST(riccati_benchmark, case_1_4_has_an_indefinite_weight_and_solution)
+{
+    const Json     problem = read_json("carex-1.4");
+    const MatrixXd A       = matrix_from(problem["A"]);
+    const MatrixXd B       = matrix_from(problem["B"]);
+    const MatrixXd R       = matrix_from(problem["R"]);
+    const MatrixXd Q       = matrix_from(problem["Q"]);
+    const MatrixXd X_ref   = matrix_from(problem["X_ref"]);
+    for (const sdre::Precision precision : {sdre::Precision::quick, sdre::Precision::extended}) {
+        const sdre::CareSolution solution =
+            sdre::solve_care(A, B, R, Q, sdre::CareOptions{precision, true});
+        EXPECT_LE((solution.X - X_ref).norm(), 1e-15 * X_ref.norm()); // measured 1e-16
+        EXPECT_FALSE(solution.semidefinite);
+        EXPECT_LT(solution.closed_loop_eigenvalues.real().maxCoeff(), 0.0);
+    }
+    expect_design_error(care(A, B, R, Q), "Q is not positive semidefinite");
+}
+
 TEST(riccati, both_precisions_give_the_same_double)
 {
     std::mt19937 generator(23);

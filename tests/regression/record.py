@@ -73,17 +73,21 @@ def statistics(values):
             ranked[-1 - n // 50] - ranked[n // 50]]
 
 
-def trace(sil, arguments):
-    """Digest and statistics of a run; of a refused one, the exit code and its words."""
+def trace(sil, arguments, was):
+    """Digest and statistics of a run; of a refused one, the exit code and its words. With the digest that was recorded it
+    has the statistics that were."""
     with tempfile.TemporaryDirectory() as directory:
         path = pathlib.Path(directory) / "trace.csv"
         done = call([sil, *arguments, "--csv", path])
         if not path.exists():
             return {"exit": done.returncode, "says": done.stderr.strip().replace(str(ROOT) + "/", "")}
         data = path.read_bytes()
+    digest = hashlib.sha256(data).hexdigest()
+    if was.get("sha256") == digest and was["exit"] == done.returncode:
+        return was
     rows = list(csv.reader(data.decode().splitlines()))
     columns = {name: statistics([float(row[i]) for row in rows[1:]]) for i, name in enumerate(rows[0])}
-    return {"exit": done.returncode, "sha256": hashlib.sha256(data).hexdigest(), "rows": len(rows) - 1,
+    return {"exit": done.returncode, "sha256": digest, "rows": len(rows) - 1,
             "columns": {name: [float(f"{v:.6g}") for v in values] for name, values in columns.items()}}
 
 
@@ -124,9 +128,9 @@ def tables(gains, drive):
     return summary(sorted(found))
 
 
-def record(sil, gains):
+def record(sil, gains, expected):
     """All cases; a process each, so that threads suffice."""
-    jobs = {f"trace {name}": (trace, sil, arguments) for name, arguments in cases()}
+    jobs = {f"trace {name}": (trace, sil, arguments, expected.get(f"trace {name}", {})) for name, arguments in cases()}
     for drive in sorted(DRIVES.glob("*.toml")):
         jobs[f"report {drive.stem}"] = (report, gains, drive)
         jobs[f"tables {drive.stem}"] = (tables, gains, drive)
@@ -183,11 +187,11 @@ def main():
     parser.add_argument("--exact", action="store_true", help="digests have to agree")
     parser.add_argument("--write", action="store_true", help="record anew")
     options = parser.parse_args()
-    recorded = record(options.sil, options.gains)
+    expected = {} if options.write else json.loads(EXPECTED.read_text())
+    recorded = record(options.sil, options.gains, expected)
     if options.write:
         write(recorded)
         return 0
-    expected = json.loads(EXPECTED.read_text())
     failed = digits = 0
     for name in sorted(set(expected) | set(recorded)):
         if name not in expected or name not in recorded:

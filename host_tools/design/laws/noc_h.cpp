@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
+#include "common/parallel.hpp"
 #include "design/firmware_config.hpp"
 #include "design/laws/near_optimal.hpp"
 #include "design/noc_h/harmonic_loop.hpp"
@@ -23,24 +25,33 @@ bool is_for(const Drive &drive)
 /// Stability wherever the firmware can be, with the table's interpolated gains; negative speeds are mirror images.
 void sweep(Design &d)
 {
-    const nodo_harmonic_gains_t &table = *d.harmonics->table;
-    HarmonicCheck               &check = d.harmonic_check;
-    const double                 ts    = control_period_s(d.drive);
-    const double                 trip  = d.harmonics->nodes.back().omega_e_radps;
-    const double                 range = 2.0 * d.drive.motor.max_current_A;
-    for (int k = 0; k <= speed_points; k++) {
+    const nodo_harmonic_gains_t &table    = *d.harmonics->table;
+    HarmonicCheck               &check    = d.harmonic_check;
+    const double                 ts       = control_period_s(d.drive);
+    const double                 trip     = d.harmonics->nodes.back().omega_e_radps;
+    const double                 range    = 2.0 * d.drive.motor.max_current_A;
+    const auto                   at_speed = [&](std::size_t k) {
+        HarmonicCheck worst;
         for (int j = -current_points; j <= current_points; j++) {
             const double         iq = range * j / current_points;
-            const OperatingPoint at{trip * k / speed_points, iq, mtpa_id_A(d.l, iq)};
+            const OperatingPoint at{trip * static_cast<double>(k) / speed_points, iq,
+                                    mtpa_id_A(d.l, iq)};
             const double         radius =
                 spectral_radius(sampled_harmonic_model(d.l, table, d.nosc.gain[0], at, ts).A);
-            if (radius > check.spectral_radius) {
-                check.spectral_radius     = radius;
-                check.worst_speed_e_radps = at.omega_e_radps;
-                check.worst_iq_A          = iq;
+            if (radius > worst.spectral_radius) {
+                worst.spectral_radius     = radius;
+                worst.worst_speed_e_radps = at.omega_e_radps;
+                worst.worst_iq_A          = iq;
             }
         }
-    }
+        return worst;
+    };
+    std::array<HarmonicCheck, speed_points + 1> found;
+    parallel_for(found.size(), [&](std::size_t k) { found[k] = at_speed(k); });
+    const auto smaller = [](const HarmonicCheck &a, const HarmonicCheck &b) {
+        return a.spectral_radius < b.spectral_radius;
+    };
+    check = *std::max_element(found.begin(), found.end(), smaller);
     const OperatingPoint  at{d.drive.harmonics.weight_speed_e_radps, 0.0, 0.0};
     const HarmonicSampled loop = sampled_harmonic_model(d.l, table, d.nosc.gain[0], at, ts);
     check.speed_loop =

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/parallel.hpp"
 #include "design/noc_h/harmonic_rows.hpp"
 #include "linalg/c2d.hpp"
 #include "linalg/linalg_checks.hpp"
@@ -229,10 +230,11 @@ HarmonicDesign design_harmonics(const ReducedParameters &l, const Drive &drive,
                                 double largest_speed, double iq_max_A)
 {
     HarmonicDesign design;
-    for (int k = 0; k < nodes_in_table; k++) {
+    design.nodes.resize(nodes_in_table);
+    parallel_for(nodes_in_table, [&](std::size_t k) {
         const double root = static_cast<double>(k) / (nodes_in_table - 1);
-        design.nodes.push_back(solve_node(l, drive, largest_speed * root * root));
-    }
+        design.nodes[k]   = solve_node(l, drive, largest_speed * root * root);
+    });
     design.table = std::make_shared<nodo_harmonic_gains_t>();
     fill_table(design, drive, largest_speed, iq_max_A, *design.table);
     return design;

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <complex>
 
-#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "design/sampled_model.hpp"
 #include "design/servo/dobc_design.hpp"
+#include "linalg/transfer_function.hpp"
 
 namespace sdre {
 namespace {
@@ -95,6 +95,11 @@ SampledServoLoop pid_loop(const Held<MatrixXd> &plant, const pid_law_config_t &c
     return loop;
 }
 
+double sensitivity(const TransferFunction &loop, double frequency_Hz, double ts_s) // EQ-CERT-4
+{
+    return std::abs(1.0 + loop.at(std::polar(1.0, 2.0 * pi * frequency_Hz * ts_s)));
+}
+
 } // namespace
 
 SampledServoLoop speed_loop(const Motor &m, const drive_config_t &config)
@@ -122,13 +127,9 @@ SampledServoLoop d_axis_loop(const Motor &m, const drive_config_t &config)
                     ts_s);
 }
 
-double sensitivity(const SampledServoLoop &loop, double frequency_Hz) // EQ-CERT-4
+double sensitivity(const SampledServoLoop &loop, double frequency_Hz)
 {
-    const std::complex<double> z = std::polar(1.0, 2.0 * pi * frequency_Hz * loop.ts_s);
-    const Eigen::MatrixXcd     Z = z * Eigen::MatrixXcd::Identity(loop.A.rows(), loop.A.cols()) -
-                               loop.A.cast<std::complex<double>>();
-    const Eigen::VectorXcd s = Z.partialPivLu().solve(loop.B.cast<std::complex<double>>());
-    return std::abs(1.0 + (loop.c.cast<std::complex<double>>() * s).value());
+    return sensitivity(TransferFunction(loop.A, loop.B, loop.c), frequency_Hz, loop.ts_s);
 }
 
 LoopCheck check_loop(const SampledServoLoop &loop, std::vector<SensitivityAt> disturbances)
@@ -136,10 +137,13 @@ LoopCheck check_loop(const SampledServoLoop &loop, std::vector<SensitivityAt> di
     const double rate_Hz = 1.0 / loop.ts_s;
     const double step    = std::pow(0.5 / sweep_from, 1.0 / sweep_points);
     LoopCheck    out;
-    out.spectral_radius = spectral_radius(loop.A);
+
+    const TransferFunction transfer(loop.A, loop.B, loop.c);
+    const auto             at_Hz = [&](double f) { return sensitivity(transfer, f, loop.ts_s); };
+    out.spectral_radius          = spectral_radius(loop.A);
     for (int i = 0; i <= sweep_points; i++) {
         const double f = rate_Hz * sweep_from * std::pow(step, i);
-        const double s = sensitivity(loop, f);
+        const double s = at_Hz(f);
         if (s > out.peak) {
             out.peak    = s;
             out.peak_Hz = f;
@@ -150,15 +154,15 @@ LoopCheck check_loop(const SampledServoLoop &loop, std::vector<SensitivityAt> di
     for (int i = 0; i < peak_halvings; i++) {
         const double left  = hi - golden_section * (hi - lo);
         const double right = lo + golden_section * (hi - lo);
-        const bool   lower = sensitivity(loop, left) > sensitivity(loop, right);
+        const bool   lower = at_Hz(left) > at_Hz(right);
         lo                 = lower ? lo : left;
         hi                 = lower ? right : hi;
     }
     out.peak_Hz = 0.5 * (lo + hi);
-    out.peak    = std::max(out.peak, sensitivity(loop, out.peak_Hz));
+    out.peak    = std::max(out.peak, at_Hz(out.peak_Hz));
     out.at      = std::move(disturbances);
     for (SensitivityAt &x : out.at) {
-        x.value = sensitivity(loop, x.frequency_Hz);
+        x.value = at_Hz(x.frequency_Hz);
     }
     return out;
 }

@@ -5,16 +5,14 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "common/errors.hpp"
+#include "common/json.hpp"
 #include "sil/eval/results.hpp"
 #include "sil/eval/seeds.hpp"
 
 namespace sdre {
 namespace {
-
-using nlohmann::ordered_json;
 
 void require_metrics(const std::vector<std::string> &metrics)
 {
@@ -197,17 +195,13 @@ std::string compare_csv(const Comparison &c)
 
 std::string compare_json(const Comparison &c)
 {
-    const auto number = [](const std::optional<double> &x) {
-        return x ? ordered_json(*x) : ordered_json(nullptr);
-    };
-    ordered_json runs = ordered_json::array();
+    Json runs = Json::array();
     for (const CompareRun &run : c.runs) {
-        ordered_json measures = ordered_json::object();
+        Json measures = Json::object();
         for (const std::string &measure : run.measures) {
             for (const std::string &metric : c.metrics) {
                 const CompareCell &cell   = run.cells.at(measure).at(metric);
-                measures[measure][metric] = {{"value", number(cell.value)},
-                                             {"paper", number(cell.paper)}};
+                measures[measure][metric] = {{"value", cell.value}, {"paper", cell.paper}};
             }
         }
         runs.push_back({{"scenario", run.scenario},
@@ -216,7 +210,7 @@ std::string compare_json(const Comparison &c)
                         {"certified", run.certified},
                         {"measures", measures}});
     }
-    return ordered_json{{"metrics", c.metrics}, {"runs", runs}}.dump(2) + "\n";
+    return Json{{"metrics", c.metrics}, {"runs", runs}}.text();
 }
 
 } // namespace sdre

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "common/errors.hpp"
+#include "common/json.hpp"
 #include "common/parallel.hpp"
 #include "common/progress.hpp"
 #include "common/random.hpp"
@@ -188,18 +188,16 @@ std::string random_motors_csv(const RandomMotors &runs)
 
 std::string random_motors_json(const Scenario &scenario, const RandomMotors &runs)
 {
-    using nlohmann::ordered_json;
-    ordered_json failures = ordered_json::array();
+    Json failures = Json::array();
     for (const MotorFailure &f : runs.failures) {
         failures.push_back({{"motor", f.motor}, {"scale", f.scale}, {"reasons", f.reasons}});
     }
-    return ordered_json{{"scenario", scenario.name},
-                        {"drive", scenario.drive.name},
-                        {"motors", runs.count},
-                        {"failed", runs.failures.size()},
-                        {"failures", failures}}
-               .dump(2) +
-           "\n";
+    return Json{{"scenario", scenario.name},
+                {"drive", scenario.drive.name},
+                {"motors", runs.count},
+                {"failed", runs.failures.size()},
+                {"failures", failures}}
+        .text();
 }
 
 std::vector<OutputFile> failed_motor_files(const std::filesystem::path &scenario_file,

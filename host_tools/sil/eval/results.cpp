@@ -4,14 +4,12 @@
 #include <map>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "common/errors.hpp"
+#include "common/json.hpp"
 
 namespace sdre {
 namespace {
-
-using nlohmann::ordered_json;
 
 constexpr MetricLabel labels[] = {
     {"settling_time_s", "settling time [ms]", 1e3, "{:.1f}"},
@@ -103,9 +101,9 @@ std::string trace_csv(const std::vector<TraceRow> &trace)
 std::string result_json(const Scenario &scenario, const SimulationResult &result,
                         const std::vector<Metrics> &metrics)
 {
-    ordered_json measures = ordered_json::object();
+    Json measures = Json::object();
     for (const Metrics &m : metrics) {
-        ordered_json entry{{"time_s", m.time_s}};
+        Json entry{{"time_s", m.time_s}};
         for (const std::string &name : metric_names()) {
             entry[name] = nullptr; // of a time: never; otherwise it cannot be told
         }
@@ -114,17 +112,15 @@ std::string result_json(const Scenario &scenario, const SimulationResult &result
         }
         measures[m.name] = entry;
     }
-    const ordered_json out{
-        {"scenario", scenario.name},
-        {"drive", scenario.drive.name},
-        {"seed", scenario.seed},
-        {"gains", result.compiled_table ? "compiled table" : "solved in process"},
-        {"uncertified", result.uncertified},
-        {"fault", fault_name(result.fault)},
-        {"fault_time_s",
-         result.fault == 0 ? ordered_json(nullptr) : ordered_json(result.fault_time_s)},
-        {"measures", measures}};
-    return out.dump(2) + "\n";
+    const Json out{{"scenario", scenario.name},
+                   {"drive", scenario.drive.name},
+                   {"seed", scenario.seed},
+                   {"gains", result.compiled_table ? "compiled table" : "solved in process"},
+                   {"uncertified", result.uncertified},
+                   {"fault", fault_name(result.fault)},
+                   {"fault_time_s", result.fault == 0 ? Json(nullptr) : Json(result.fault_time_s)},
+                   {"measures", measures}};
+    return out.text();
 }
 
 std::string result_text(const Scenario &scenario, const SimulationResult &result,

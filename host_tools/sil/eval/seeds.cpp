@@ -5,16 +5,14 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include "common/json.hpp"
 #include "common/parallel.hpp"
 #include "common/progress.hpp"
 #include "sil/eval/results.hpp"
 
 namespace sdre {
 namespace {
-
-using nlohmann::ordered_json;
 
 /// Metrics that have a value of their own rather than a size: their worst is the one furthest from the mean.
 bool is_signed(const std::string &metric)
@@ -48,11 +46,6 @@ SeedSpread spread_of(const std::string &metric, const std::vector<std::vector<Me
         return std::abs(a - centre) < std::abs(b - centre);
     });
     return s;
-}
-
-ordered_json json_of(const std::optional<double> &value)
-{
-    return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
 /// What one seed leaves behind.
@@ -142,25 +135,24 @@ SeedRuns run_seeds_in_turn(const Scenario &scenario, int count, const SeededRun 
 
 std::string seeds_json(const Scenario &scenario, const SeedRuns &runs)
 {
-    ordered_json measures = ordered_json::object();
+    Json measures = Json::object();
     for (const SeedMeasure &m : runs.measures) {
-        ordered_json worst = ordered_json::object();
-        ordered_json mean  = ordered_json::object();
+        Json worst = Json::object();
+        Json mean  = Json::object();
         for (const SeedSpread &s : m.spread) {
-            worst[s.metric] = json_of(s.worst);
-            mean[s.metric]  = json_of(s.mean);
+            worst[s.metric] = s.worst;
+            mean[s.metric]  = s.mean;
         }
         measures[m.name] = {{"time_s", m.time_s}, {"worst", worst}, {"mean", mean}};
     }
-    const ordered_json out{
-        {"scenario", scenario.name},
-        {"drive", scenario.drive.name},
-        {"gains", runs.first.compiled_table ? "compiled table" : "solved in process"},
-        {"uncertified", runs.first.uncertified},
-        {"seeds", runs.seeds},
-        {"faults", runs.faults},
-        {"measures", measures}};
-    return out.dump(2) + "\n";
+    const Json out{{"scenario", scenario.name},
+                   {"drive", scenario.drive.name},
+                   {"gains", runs.first.compiled_table ? "compiled table" : "solved in process"},
+                   {"uncertified", runs.first.uncertified},
+                   {"seeds", runs.seeds},
+                   {"faults", runs.faults},
+                   {"measures", measures}};
+    return out.text();
 }
 
 std::string seeds_text(const Scenario &scenario, const SeedRuns &runs)
