@@ -201,7 +201,11 @@ QuadratureEncoder::Reading QuadratureEncoder::read(const ShaftPath &path)
     if (settings_.encoder_edge_time) {
         note_last_edge(path, now);
         r.omega_e_radps = edge_speed_;
-        r.theta_e_rad   = edge_angle_rad(r.count, static_cast<double>(edge_ - now));
+        if (edge_age_s_ <= period_s_) {
+            r.theta_e_rad = edge_angle_rad(r.count, static_cast<double>(edge_ - now));
+        } else { // no edge in this period: within the count
+            r.band_e_rad = pole_pairs_ * two_pi / (2.0 * per_turn);
+        }
     } else { // should edges be timed from the next reading on
         edge_       = now;
         edge_age_s_ = 0.0;

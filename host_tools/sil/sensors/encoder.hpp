@@ -33,6 +33,7 @@ public:
     struct Reading {
         std::int64_t count         = 0; ///< since the start, not wrapped
         double       theta_e_rad   = 0.0;
+        double       band_e_rad    = 0.0; ///< the angle is this near; 0: a measurement
         double       omega_e_radps = 0.0;
         std::int64_t raw_count     = 0;     ///< what a plain counter shows: never put right
         bool         index         = false; ///< the mark was passed since the read before
