@@ -36,12 +36,13 @@ static near_optimal_view_t observe(law_noc_h_state_t *s, const law_noc_h_config_
     return view;
 }
 
-static law_output_t step(law_state_t *state, const drive_config_t *drive, const law_input_t *in)
+static void step(law_state_t *state, const drive_config_t *drive, const law_input_t *in,
+                 law_output_t *out)
 {
     const law_noc_h_config_t *c    = drive->constants;
     law_noc_h_state_t        *s    = &state->noc_h;
     const near_optimal_view_t view = observe(s, c, drive, in);
-    return near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in);
+    near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in, out);
 }
 
 const law_t law_noc_h = {.check = check, .reset = reset, .step = step};

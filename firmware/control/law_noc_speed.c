@@ -33,7 +33,8 @@ static void reset(law_state_t *state, const drive_config_t *drive, const drive_s
     law_noc_speed_reset(&state->noc_speed, sample);
 }
 
-static law_output_t step(law_state_t *state, const drive_config_t *drive, const law_input_t *in)
+static void step(law_state_t *state, const drive_config_t *drive, const law_input_t *in,
+                 law_output_t *out)
 {
     const law_noc_speed_config_t *c = drive->constants;
     law_noc_speed_state_t        *s = &state->noc_speed;
@@ -42,7 +43,7 @@ static law_output_t step(law_state_t *state, const drive_config_t *drive, const 
     nodo_update(&s->observer, &c->nodo, &drive->motor, &y, in->v_V, drive->ts_s);
 
     const near_optimal_view_t view = law_noc_speed_view(s, &y, in->sample, drive->ts_s);
-    return near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in);
+    near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in, out);
 }
 
 const law_t law_noc_speed = {.check = check, .reset = reset, .step = step};

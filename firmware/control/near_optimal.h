@@ -58,13 +58,14 @@ nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *
  *
  * Context: control ISR. No division.
  */
-law_output_t near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c,
-                                 const motor_reduced_t *m, const near_optimal_view_t *view,
-                                 const nosc_error_t *e, dq_t feedback_V, float dc_link_V);
+void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c,
+                         const motor_reduced_t *m, const near_optimal_view_t *view,
+                         const nosc_error_t *e, dq_t feedback_V, float dc_link_V,
+                         law_output_t *out);
 
 /** Both, with the feedback of nosc.h between them: the rest of a period after the observer. Context: control ISR. */
-law_output_t near_optimal_step(near_optimal_t *s, const near_optimal_config_t *c,
-                               const drive_config_t *drive, const near_optimal_view_t *view,
-                               const law_input_t *in);
+void near_optimal_step(near_optimal_t *s, const near_optimal_config_t *c,
+                       const drive_config_t *drive, const near_optimal_view_t *view,
+                       const law_input_t *in, law_output_t *out);
 
 #endif /* NEAR_OPTIMAL_H */

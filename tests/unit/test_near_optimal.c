@@ -68,8 +68,10 @@ static nosc_error_t error(void)
 
 static law_output_t answer(const nosc_error_t *e, dq_t feedback_V)
 {
-    return near_optimal_answer(&state, config, &drive.motor, &view, e, feedback_V,
-                               sample.dc_link_V);
+    law_output_t out;
+
+    near_optimal_answer(&state, config, &drive.motor, &view, e, feedback_V, sample.dc_link_V, &out);
+    return out;
 }
 
 static void test_references_start_at_the_present_speed_without_current(void)
