@@ -45,13 +45,12 @@ typedef enum {
 
 /* Inline, because a call costs more than the comparison and the tick makes about sixty of them. */
 
-/** x limited to [lo, hi]; a NaN comes out as lo, so that no NaN passes a limit. */
+/** x limited to [lo, hi]; a NaN comes out as lo, so that no NaN passes a limit. As the larger and the smaller of two
+ * numbers, for which processors have one instruction each. */
 static inline float base_clamp(float x, float lo, float hi)
 {
-    if (x > hi) {
-        return hi;
-    }
-    return (x >= lo) ? x : lo;
+    const float at_least = (x >= lo) ? x : lo;
+    return (at_least > hi) ? hi : at_least;
 }
 
 /** true when lo <= x <= hi; false for NaN, so it is the one check for untrusted numbers. */

@@ -28,7 +28,7 @@ static near_optimal_view_t observe(law_noc_h_state_t *s, const law_noc_h_config_
     const float angle_error = encoder_form_error_rad(in->sample, s->observer.theta_rad);
 
     nodo_harmonic_correct(&s->observer, &c->nodo, i_A, angle_error);
-    s->known = nodo_harmonic_predict(&s->observer, &c->nodo, &drive->motor, in->v_V, drive->ts_s);
+    nodo_harmonic_predict(&s->observer, &c->nodo, &drive->motor, in->v_V, drive->ts_s, &s->known);
 
     near_optimal_view_t view = encoder_form_view(&c->plausible, &s->known.total,
                                                  s->observer.theta_rad, angle_error, drive->ts_s);

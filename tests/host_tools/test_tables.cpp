@@ -98,9 +98,9 @@ std::vector<float> values_of(const nodo_harmonic_gains_t &g)
     for (int i = 0; i < g.n_pairs; i++) {
         v.push_back(g.pair[i].order);
     }
-    for (int node = 0; node < g.n_nodes; node++) {
-        for (int row = 0; row < NODO_HARMONIC_N_BASE + 2 * g.n_pairs; row++) {
-            v.insert(v.end(), std::begin(g.gain[node][row]), std::end(g.gain[node][row]));
+    for (int row = 0; row < NODO_HARMONIC_N_BASE + 2 * g.n_pairs; row++) {
+        for (int node = 0; node < g.n_nodes; node++) {
+            v.insert(v.end(), std::begin(g.gain[row][node]), std::end(g.gain[row][node]));
         }
     }
     return v;

@@ -391,6 +391,17 @@ static void test_orders_of_the_pairs_in_use_are_checked(void)
     assert_harmonics(CTL_OK);
 }
 
+static void test_channels_of_the_pairs_are_checked(void)
+{
+    use_harmonics();
+    for (int i = 0; i < table->n_pairs; i++) {
+        use_harmonics();
+        table->pair[i].channel = (nodo_harmonic_channel_t)((int)NODO_HARMONIC_VOLTAGE_D +
+                                                           1); /* the first that is none */
+        assert_harmonics(CTL_BAD_CONFIG);
+    }
+}
+
 static void test_every_gain_of_the_harmonics_in_use_is_checked(void)
 {
     use_harmonics();
@@ -398,8 +409,8 @@ static void test_every_gain_of_the_harmonics_in_use_is_checked(void)
     const int nodes = table->n_nodes;
 
     for (int n = 0; n < nodes * rows * NODO_HARMONIC_N_G; n++) {
-        float *const gain = &table->gain[n / (rows * NODO_HARMONIC_N_G)]
-                                        [(n / NODO_HARMONIC_N_G) % rows][n % NODO_HARMONIC_N_G];
+        float *const gain = &table->gain[(n / NODO_HARMONIC_N_G) % rows]
+                                        [n / (rows * NODO_HARMONIC_N_G)][n % NODO_HARMONIC_N_G];
         const float good = *gain;
         for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
             *gain = support_not_finite[k];
@@ -410,7 +421,7 @@ static void test_every_gain_of_the_harmonics_in_use_is_checked(void)
         *gain = good;
     }
     table->n_pairs--; /* the last two rows are no longer in use */
-    table->gain[0][rows - 1][0] = NAN;
+    table->gain[rows - 1][0][0] = NAN;
     assert_harmonics(CTL_OK);
 }
 
@@ -507,6 +518,7 @@ int main(void)
     RUN_TEST(test_counts_of_harmonics_are_those_of_a_table);
     RUN_TEST(test_constants_of_harmonics_are_checked);
     RUN_TEST(test_orders_of_the_pairs_in_use_are_checked);
+    RUN_TEST(test_channels_of_the_pairs_are_checked);
     RUN_TEST(test_every_gain_of_the_harmonics_in_use_is_checked);
     return UNITY_END();
 }

@@ -85,8 +85,9 @@ static void test_step_is_made_of_its_parts(void)
         const dq_t        i_A   = sample_current_A(&sample, want.observer.theta_rad);
         const float       error = encoder_form_error_rad(&sample, want.observer.theta_rad);
         nodo_harmonic_correct(&want.observer, &config->nodo, i_A, error);
-        const nodo_harmonic_view_t known = nodo_harmonic_predict(
-            &want.observer, &config->nodo, &drive->motor, in.v_V, drive->ts_s);
+        nodo_harmonic_view_t known;
+        nodo_harmonic_predict(&want.observer, &config->nodo, &drive->motor, in.v_V, drive->ts_s,
+                              &known);
         near_optimal_view_t view = encoder_form_view(&config->plausible, &known.total,
                                                      want.observer.theta_rad, error, drive->ts_s);
         view.d_omega_dot         = known.d_omega_dot;
