@@ -5,7 +5,7 @@
  * drive      ipmsm_390w
  * digest     fnv1a64:ddecec8e8c5545f9 (of the normalised drive file)
  * method     EQ-NOSC-2 with N = 2, EQ-NODO-ENCODER-3 with Nd = 2
- * checked    relative residuals <= 1e-16
+ * checked    relative residuals <= 1e-14
  *            controller: slowest pole -1064 1/s, sampled spectral radius 0.780, |e_iq| <= 8 A
  *            observer:   slowest pole -177 1/s, sampled spectral radius 0.966, |iq| <= 8 A
  */

@@ -10,8 +10,9 @@ static bool check(const drive_config_t *drive)
 
 static void reset(law_state_t *state, const drive_config_t *drive, const drive_sample_t *sample)
 {
-    (void)drive;
-    law_noc_speed_reset(&state->conventional, sample);
+    const law_conventional_config_t *c = drive->constants;
+
+    law_noc_speed_reset(&state->conventional, &c->near_optimal, sample);
 }
 
 static void step(law_state_t *state, const drive_config_t *drive, const law_input_t *in,

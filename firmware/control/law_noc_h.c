@@ -11,14 +11,14 @@ static bool check(const drive_config_t *drive)
 
 static void reset(law_state_t *state, const drive_config_t *drive, const drive_sample_t *sample)
 {
-    law_noc_h_state_t *s = &state->noc_h;
-    const nodo_meas_t  y = sample_measurement(sample);
+    const law_noc_h_config_t *c = drive->constants;
+    law_noc_h_state_t        *s = &state->noc_h;
+    const nodo_meas_t         y = sample_measurement(sample);
 
-    (void)drive;
     nodo_harmonic_reset(&s->observer, &y, sample->theta_e_rad);
     nodo_reset(&s->known.total, &y);
     s->known.d_omega_dot = 0.0f;
-    near_optimal_reset(&s->near_optimal, y.omega_e_radps);
+    near_optimal_reset(&s->near_optimal, &c->near_optimal, y.omega_e_radps);
 }
 
 static near_optimal_view_t observe(law_noc_h_state_t *s, const law_noc_h_config_t *c,

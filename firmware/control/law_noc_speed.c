@@ -8,12 +8,13 @@ static bool check(const drive_config_t *drive)
     return near_optimal_check(&c->near_optimal, drive) && nodo_check(&c->nodo);
 }
 
-void law_noc_speed_reset(law_noc_speed_state_t *s, const drive_sample_t *sample)
+void law_noc_speed_reset(law_noc_speed_state_t *s, const near_optimal_config_t *c,
+                         const drive_sample_t *sample)
 {
     const nodo_meas_t y = sample_measurement(sample);
 
     nodo_reset(&s->observer, &y);
-    near_optimal_reset(&s->near_optimal, y.omega_e_radps);
+    near_optimal_reset(&s->near_optimal, c, y.omega_e_radps);
 }
 
 near_optimal_view_t law_noc_speed_view(const law_noc_speed_state_t *s, const nodo_meas_t *y,
@@ -29,8 +30,9 @@ near_optimal_view_t law_noc_speed_view(const law_noc_speed_state_t *s, const nod
 
 static void reset(law_state_t *state, const drive_config_t *drive, const drive_sample_t *sample)
 {
-    (void)drive;
-    law_noc_speed_reset(&state->noc_speed, sample);
+    const law_noc_speed_config_t *c = drive->constants;
+
+    law_noc_speed_reset(&state->noc_speed, &c->near_optimal, sample);
 }
 
 static void step(law_state_t *state, const drive_config_t *drive, const law_input_t *in,

@@ -9,13 +9,14 @@ bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *dr
     const float max_A = c->current_ref.current_max_A;
 
     return current_ref_check(&c->current_ref) && nosc_check(&c->nosc) &&
-           base_in_range(max_A, drive->current_max_A, drive->current_max_A);
+           base_in_range(max_A, drive->current_max_A, drive->current_max_A) &&
+           base_in_range(c->current_ref.samples_1ps * drive->ts_s, 0.999f, 1.001f);
 }
 
-void near_optimal_reset(near_optimal_t *s, float omega_e_radps)
+void near_optimal_reset(near_optimal_t *s, const near_optimal_config_t *c, float omega_e_radps)
 {
     speed_ref_reset(&s->speed_ref, omega_e_radps);
-    current_ref_reset(&s->current_ref);
+    current_ref_reset(&s->current_ref, &c->current_ref);
 }
 
 static void update_references(near_optimal_t *s, const near_optimal_config_t *c,

@@ -56,7 +56,7 @@ void setUp(void)
     view               = of_est;
     sample             = of_295V;
     in                 = hold;
-    near_optimal_reset(&state, 300.0f);
+    near_optimal_reset(&state, config, 300.0f);
 }
 
 void tearDown(void) {}
@@ -82,7 +82,7 @@ static void test_references_start_at_the_present_speed_without_current(void)
     }
     TEST_ASSERT_TRUE(state.speed_ref.omega_e_radps > 300.0f);
 
-    near_optimal_reset(&state, -250.0f);
+    near_optimal_reset(&state, config, -250.0f);
 
     TEST_ASSERT_TRUE(state.speed_ref.omega_e_radps == -250.0f);
     TEST_ASSERT_TRUE((state.speed_ref.omega_dot_e_radps2 == 0.0f) &&
