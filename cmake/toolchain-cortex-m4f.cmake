@@ -10,5 +10,5 @@ set(CMAKE_C_COMPILER arm-none-eabi-gcc)
 # Square roots as one instruction: nobody reads errno. Enumerations as on the host: the replay reads
 # structures that the host wrote.
 set(CMAKE_C_FLAGS_INIT
-    "-mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16 -fno-math-errno -fno-short-enums")
+    "-mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16 -fno-math-errno -fno-short-enums -ffinite-math-only -fno-signed-zeros")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-nostartfiles -Wl,--no-enum-size-warning,--fatal-warnings")

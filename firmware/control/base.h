@@ -48,13 +48,12 @@ typedef enum {
  * A NaN compares false everywhere but on the C28x, where it is an infinity of its sign. What is said of a NaN below holds
  * under both rules (tests/target/test_c28x_floats.cpp). */
 
-/** x limited to [lo, hi]; a NaN comes out as one of the two, so that no NaN passes a limit. */
+/** x limited to [lo, hi]; a NaN comes out as one of the two, so that no NaN passes a limit. As the larger and the smaller
+ * of two numbers, for which processors have one instruction each. */
 static inline float base_clamp(float x, float lo, float hi)
 {
-    if (x > hi) {
-        return hi;
-    }
-    return (x >= lo) ? x : lo;
+    const float at_least = (x >= lo) ? x : lo;
+    return (at_least > hi) ? hi : at_least;
 }
 
 /** true when lo <= x <= hi; false for NaN, so it is the one check for untrusted numbers. */

@@ -20,18 +20,32 @@ typedef struct {
     float x_A;         /**< the same on the q axis */
 } circle_t;
 
-void current_ref_reset(current_ref_t *r)
+void current_ref_reset(current_ref_t *r, const current_ref_config_t *c)
 {
     const dq_t zero = {0.0f, 0.0f};
     r->i_A          = zero;
     r->i_dot_Aps    = zero;
     r->iq_lo_A      = 0.0f;
     r->iq_hi_A      = 0.0f;
+    r->iq_circle_A  = c->current_max_A;
 }
 
 static float positive_sqrt(float x)
 {
     return (x > 0.0f) ? sqrtf(x) : 0.0f;
+}
+
+/* Below this share of k^2 two terms of the series are nearer to the difference than what single precision leaves of it. */
+#define SERIES_SHARE 1.0e-3f
+
+/* sqrt(k^2 + x) - k, x >= 0. */
+static float root_beyond_k(const current_ref_config_t *c, float x)
+{
+    const float half  = c->mtpa_half_1pA * x;
+    const float share = c->mtpa_half_1pA * half; /* x / (2 k)^2 */
+
+    return (share < (0.25f * SERIES_SHARE)) ? (half * (1.0f - share))
+                                            : (sqrtf((c->mtpa_A * c->mtpa_A) + x) - c->mtpa_A);
 }
 
 /* Acceleration per ampere of iq. It vanishes at id = l1 / -l11 > 0; it is held well above. */
@@ -68,7 +82,7 @@ static float id_weakening_A(const current_ref_config_t *c, const motor_reduced_t
     float       q_flux;
 
     if (dq > v->f_A) {
-        const float u = f2 / (c->mtpa_A + sqrtf((c->mtpa_A * c->mtpa_A) + (2.0f * f2)));
+        const float u = 0.5f * root_beyond_k(c, 2.0f * f2);
         q_flux        = -base_min(dq - v->f_A, u);
     } else {
         q_flux = positive_sqrt(f2 - (dq * dq));
@@ -81,8 +95,7 @@ static float id_target_A(const current_ref_config_t *c, const motor_reduced_t *m
                          float iq_A, float iq_wanted_A)
 {
     const float iq2  = iq_A * iq_A;
-    const float root = c->mtpa_exact ? sqrtf((c->mtpa_A * c->mtpa_A) + iq2) : c->mtpa_A;
-    float       id_A = -iq2 / (c->mtpa_A + root);
+    float       id_A = -(c->mtpa_exact ? root_beyond_k(c, iq2) : (c->mtpa_half_1pA * iq2));
 
     if (v->active) {
         id_A = base_min(id_weakening_A(c, m, v, iq_wanted_A), id_A);
@@ -108,11 +121,13 @@ static float limit_regeneration(const current_ref_config_t *c, const circle_t *v
 static void limit_iq(current_ref_t *r, const current_ref_config_t *c, const motor_reduced_t *m,
                      const circle_t *v, float accel, const current_ref_input_t *in)
 {
-    const float w       = in->state->omega_e_radps;
-    const float room_A2 = (c->current_max_A * c->current_max_A) - (r->i_A.d * r->i_A.d);
-    const float hi_A    = base_min(positive_sqrt(room_A2), c->iq_max_A);
-    r->iq_lo_A          = -hi_A;
-    r->iq_hi_A          = hi_A;
+    const float w        = in->state->omega_e_radps;
+    const float room_A2  = (c->current_max_A * c->current_max_A) - (r->i_A.d * r->i_A.d);
+    const float circle_A = positive_sqrt(room_A2);
+    const float hi_A     = base_min(circle_A, c->iq_max_A);
+    r->iq_circle_A       = circle_A;
+    r->iq_lo_A           = -hi_A;
+    r->iq_hi_A           = hi_A;
 
     if (v->active) {
         const float q_A    = m->l5 + (m->l10 * in->state->id_A) + v->x_A;
@@ -144,7 +159,8 @@ speed_ref_limits_t current_ref_speed_limits(const current_ref_t *r, const curren
         .accel_hi_e_radps2 = base_max(unforced + (accel * r->iq_hi_A), 0.0f),
         .accel_lo_e_radps2 = base_min(unforced + (accel * r->iq_lo_A), 0.0f),
         .jerk_e_radps3     = m->l1 * slew,
-        .near_e_radps      = c->near_e_radps};
+        .near_e_radps      = c->near_e_radps,
+        .samples_1ps       = c->samples_1ps};
     return limits;
 }
 
@@ -157,7 +173,7 @@ void current_ref_update(current_ref_t *r, const current_ref_config_t *c, const m
     const float    load  = (m->l2 * w->omega_e_radps) - in->est->d_omega;
     const float    iq_A  = inv * (load + w->omega_dot_e_radps2); /* EQ-CURRENT-REF-1 */
     const float    all_A = inv * (load + w->accel_wanted_e_radps2) + in->iq_speed_A;
-    const float hi_A = positive_sqrt((c->current_max_A * c->current_max_A) - (r->i_A.d * r->i_A.d));
+    const float    hi_A  = r->iq_circle_A; /* of the id_ref before */
 
     /* id_ref is a first-order filter's output, so its derivative is exact. */
     const float id_A      = id_target_A(c, m, &v, r->i_A.q, base_clamp(all_A, -hi_A, hi_A));
@@ -176,10 +192,11 @@ bool current_ref_check(const current_ref_config_t *c)
 {
     return check_positive(c->current_max_A) && check_positive(c->iq_max_A) &&
            (c->iq_max_A <= c->current_max_A) && check_positive(c->mtpa_A) &&
+           base_in_range(2.0f * c->mtpa_A * c->mtpa_half_1pA, 0.999f, 1.001f) &&
            base_in_range(c->voltage_share, 1.0e-3f, 1.0f) &&
            base_in_range(c->torque_share, 1.0e-3f, 1.0f) && check_positive(c->near_e_radps) &&
            check_positive(c->l1_min) && base_in_range(c->filter_per_period, 1.0e-6f, 1.0f) &&
-           check_positive(c->filter_1ps) &&
+           check_positive(c->filter_1ps) && check_positive(c->samples_1ps) &&
            base_in_range(c->regen_max_W_norm, 0.0f, CHECK_LARGEST) &&
            check_positive(c->regen_start_V) && check_positive(c->regen_per_V);
 }

@@ -5,7 +5,7 @@
  *
  *     iq_ref  = (l2 w_d + w_d' - d_w) / (l1 + l11 id),  iq_ref' = (w_d'' - d_w') / (l1 + l11 id)
  *                                                                           EQ-CURRENT-REF-1, paper A (40)
- *     id_mtpa = -iq^2 / (k + sqrt(k^2 + iq^2)),  k = l5 / (2 (1 - l10))     EQ-CURRENT-REF-2, for (7b)
+ *     id_mtpa = k - sqrt(k^2 + iq^2),  k = l5 / (2 (1 - l10))               EQ-CURRENT-REF-2, for (7b)
  *     (speed form: its second-order term -iq^2 / (2 k), as the paper prints it)
  *
  * With y = l10 (l7 id - d_d) / w and x = (l4 iq - d_q) / w, the voltage that holds a current is
@@ -13,7 +13,7 @@
  *
  *     id_fw   = l9 (sqrt(f^2 - (iq - y)^2) - l5 - x)                        EQ-CURRENT-REF-3, for (7b)
  *     beyond |iq - y| = f:  id_fw = -l9 (l5 + x + min(|iq - y| - f, u)),
- *     u = f^2 / (k + sqrt(k^2 + 2 f^2)) at maximum torque per volt          EQ-CURRENT-REF-4
+ *     u = (sqrt(k^2 + 2 f^2) - k) / 2 at maximum torque per volt            EQ-CURRENT-REF-4
  *     id_ref  = min(id_mtpa, id_fw)                                         EQ-CURRENT-REF-5, for (7a)
  *     |iq_ref - y| <= sqrt(f^2 - (l5 + l10 id + x)^2)                       EQ-CURRENT-REF-6
  *     iq_ref w (l1 + l11 id) >= -P(v_dc) / (J / np^2)                       EQ-CURRENT-REF-7
@@ -32,6 +32,7 @@ typedef struct {
     float current_max_A; /**< radius of the current circle [A peak], > 0 */
     float iq_max_A;      /**< |iq| where the MTPA curve meets the circle [A], > 0 */
     float mtpa_A;        /**< k of EQ-CURRENT-REF-2 [A], > 0; large without saliency */
+    float mtpa_half_1pA; /**< 1 / (2 k) */
     bool  mtpa_exact;    /**< false: the second-order term only */
     float voltage_share; /**< of the voltage circle that steady currents may need, (0, 1] */
     float torque_share;  /**< of the available torque that the speed reference may use, (0, 1] */
@@ -39,6 +40,7 @@ typedef struct {
     float l1_min;        /**< smallest l1 + l11 id [rad/s^2/A], > 0 */
     float filter_per_period; /**< Ts / time constant of the id filter, (0, 1] */
     float filter_1ps;        /**< 1 / that time constant [1/s], > 0 */
+    float samples_1ps;       /**< 1 / Ts, for the speed reference [1/s], > 0 */
     float regen_max_W_norm;  /**< np^2 / J times the largest power fed back to the dc link, >= 0 */
     float regen_start_V;     /**< dc link at which that power begins to fall, > 0 */
     float regen_per_V; /**< its slope [1/V]: nothing is fed back 1 / slope above the start, > 0 */
@@ -49,6 +51,7 @@ typedef struct {
     dq_t  i_dot_Aps; /**< their derivatives */
     float iq_lo_A;   /**< the q current may be commanded in iq_lo_A .. iq_hi_A now */
     float iq_hi_A;
+    float iq_circle_A; /**< what id leaves of the current circle */
 } current_ref_t;
 
 /** What the references are made of, all of one instant. */
@@ -65,7 +68,7 @@ typedef struct {
 bool current_ref_check(const current_ref_config_t *c);
 
 /** References and derivatives start at zero current, the range at nothing. */
-void current_ref_reset(current_ref_t *r);
+void current_ref_reset(current_ref_t *r, const current_ref_config_t *c);
 
 /** The accelerations and the jerk that the limits leave to the speed reference. Context: control ISR. */
 speed_ref_limits_t current_ref_speed_limits(const current_ref_t *r, const current_ref_config_t *c,
@@ -81,7 +84,7 @@ speed_ref_limits_t current_ref_speed_limits(const current_ref_t *r, const curren
  * @param w   Speed reference and its derivatives.
  * @param in  State and estimates.
  *
- * Context: control ISR. Up to three divisions and five square roots.
+ * Context: control ISR. One division, up to four square roots.
  */
 void current_ref_update(current_ref_t *r, const current_ref_config_t *c, const motor_reduced_t *m,
                         const speed_ref_t *w, const current_ref_input_t *in);

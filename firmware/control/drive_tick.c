@@ -110,7 +110,7 @@ static bridge_t run(drive_t *d, const drive_sample_t *sample, float command_e_ra
 {
     const law_input_t in = {.sample = sample, .command_e_radps = command_e_radps, .v_V = d->v_V};
 
-    d->wanted = d->config->law->step(&d->law, d->config, &in);
+    d->config->law->step(&d->law, d->config, &in, &d->wanted);
 
     const drive_fault_t wrong = find_wrong(d->config, &d->wanted);
     return (wrong == DRIVE_FAULT_NONE) ? modulate(d, sample->dc_link_V) : trip(d, wrong);

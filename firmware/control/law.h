@@ -47,9 +47,9 @@ typedef struct {
     void (*reset)(law_state_t *state, const struct drive_config *config,
                   const drive_sample_t *sample);
 
-    /** One period. Context: control ISR, bounded. */
-    law_output_t (*step)(law_state_t *state, const struct drive_config *config,
-                         const law_input_t *in);
+    /** One period; sets every member of out, which is not read. Context: control ISR, bounded. */
+    void (*step)(law_state_t *state, const struct drive_config *config, const law_input_t *in,
+                 law_output_t *out);
 } law_t;
 
 #endif /* LAW_H */

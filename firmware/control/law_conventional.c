@@ -10,11 +10,13 @@ static bool check(const drive_config_t *drive)
 
 static void reset(law_state_t *state, const drive_config_t *drive, const drive_sample_t *sample)
 {
-    (void)drive;
-    law_noc_speed_reset(&state->conventional, sample);
+    const law_conventional_config_t *c = drive->constants;
+
+    law_noc_speed_reset(&state->conventional, &c->near_optimal, sample);
 }
 
-static law_output_t step(law_state_t *state, const drive_config_t *drive, const law_input_t *in)
+static void step(law_state_t *state, const drive_config_t *drive, const law_input_t *in,
+                 law_output_t *out)
 {
     const law_conventional_config_t *c = drive->constants;
     law_conventional_state_t        *s = &state->conventional;
@@ -26,8 +28,8 @@ static law_output_t step(law_state_t *state, const drive_config_t *drive, const 
     const near_optimal_view_t view = law_noc_speed_view(s, &y, in->sample, drive->ts_s);
     const nosc_error_t e = near_optimal_error(&s->near_optimal, &c->near_optimal, drive, &view, in);
 
-    return near_optimal_answer(&s->near_optimal, &c->near_optimal, m, &view, &e,
-                               conventional_feedback_V(&c->gains, m, &e), in->sample->dc_link_V);
+    near_optimal_answer(&s->near_optimal, &c->near_optimal, m, &view, &e,
+                        conventional_feedback_V(&c->gains, m, &e), in->sample->dc_link_V, out);
 }
 
 const law_t law_conventional = {.check = check, .reset = reset, .step = step};

@@ -20,7 +20,8 @@ static void reset(law_state_t *state, const drive_config_t *drive, const drive_s
     s->direct_V = 0.0f;
 }
 
-static law_output_t step(law_state_t *state, const drive_config_t *drive, const law_input_t *in)
+static void step(law_state_t *state, const drive_config_t *drive, const law_input_t *in,
+                 law_output_t *out)
 {
     const law_dobc_config_t *c       = drive->constants;
     law_dobc_state_t        *s       = &state->dobc;
@@ -32,7 +33,7 @@ static law_output_t step(law_state_t *state, const drive_config_t *drive, const 
     dobc_realise(&s->dobc, in->v_V.q - s->direct_V);
     s->direct_V = dobc_direct_V(&c->dobc, y.omega_e_radps, y.id_A);
     v_V.q       = s->direct_V + dobc_update(&s->dobc, &c->dobc, e_radps);
-    return servo_answer(drive, in, &y, v_V);
+    servo_answer(drive, in, &y, v_V, out);
 }
 
 const law_t law_dobc = {.check = check, .reset = reset, .step = step};

@@ -11,13 +11,13 @@ static bool check(const drive_config_t *drive)
 
 static void reset(law_state_t *state, const drive_config_t *drive, const drive_sample_t *sample)
 {
-    law_noc_state_t  *s = &state->noc;
-    const nodo_meas_t y = sample_measurement(sample);
+    const law_noc_config_t *c = drive->constants;
+    law_noc_state_t        *s = &state->noc;
+    const nodo_meas_t       y = sample_measurement(sample);
 
-    (void)drive;
     nodo_reset(&s->observer, &y);
     s->theta_hat_rad = frames_wrap(sample->theta_e_rad);
-    near_optimal_reset(&s->near_optimal, y.omega_e_radps);
+    near_optimal_reset(&s->near_optimal, &c->near_optimal, y.omega_e_radps);
 }
 
 static near_optimal_view_t observe(law_noc_state_t *s, const law_noc_config_t *c,
@@ -32,12 +32,13 @@ static near_optimal_view_t observe(law_noc_state_t *s, const law_noc_config_t *c
                              drive->ts_s);
 }
 
-static law_output_t step(law_state_t *state, const drive_config_t *drive, const law_input_t *in)
+static void step(law_state_t *state, const drive_config_t *drive, const law_input_t *in,
+                 law_output_t *out)
 {
     const law_noc_config_t   *c    = drive->constants;
     law_noc_state_t          *s    = &state->noc;
     const near_optimal_view_t view = observe(s, c, drive, in);
-    return near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in);
+    near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in, out);
 }
 
 const law_t law_noc = {.check = check, .reset = reset, .step = step};

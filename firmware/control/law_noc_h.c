@@ -11,14 +11,14 @@ static bool check(const drive_config_t *drive)
 
 static void reset(law_state_t *state, const drive_config_t *drive, const drive_sample_t *sample)
 {
-    law_noc_h_state_t *s = &state->noc_h;
-    const nodo_meas_t  y = sample_measurement(sample);
+    const law_noc_h_config_t *c = drive->constants;
+    law_noc_h_state_t        *s = &state->noc_h;
+    const nodo_meas_t         y = sample_measurement(sample);
 
-    (void)drive;
     nodo_harmonic_reset(&s->observer, &y, sample->theta_e_rad);
     nodo_reset(&s->known.total, &y);
     s->known.d_omega_dot = 0.0f;
-    near_optimal_reset(&s->near_optimal, y.omega_e_radps);
+    near_optimal_reset(&s->near_optimal, &c->near_optimal, y.omega_e_radps);
 }
 
 static near_optimal_view_t observe(law_noc_h_state_t *s, const law_noc_h_config_t *c,
@@ -28,7 +28,7 @@ static near_optimal_view_t observe(law_noc_h_state_t *s, const law_noc_h_config_
     const float angle_error = encoder_form_error_rad(in->sample, s->observer.theta_rad);
 
     nodo_harmonic_correct(&s->observer, &c->nodo, i_A, angle_error);
-    s->known = nodo_harmonic_predict(&s->observer, &c->nodo, &drive->motor, in->v_V, drive->ts_s);
+    nodo_harmonic_predict(&s->observer, &c->nodo, &drive->motor, in->v_V, drive->ts_s, &s->known);
 
     near_optimal_view_t view = encoder_form_view(&c->plausible, &s->known.total,
                                                  s->observer.theta_rad, angle_error, drive->ts_s);
@@ -36,12 +36,13 @@ static near_optimal_view_t observe(law_noc_h_state_t *s, const law_noc_h_config_
     return view;
 }
 
-static law_output_t step(law_state_t *state, const drive_config_t *drive, const law_input_t *in)
+static void step(law_state_t *state, const drive_config_t *drive, const law_input_t *in,
+                 law_output_t *out)
 {
     const law_noc_h_config_t *c    = drive->constants;
     law_noc_h_state_t        *s    = &state->noc_h;
     const near_optimal_view_t view = observe(s, c, drive, in);
-    return near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in);
+    near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in, out);
 }
 
 const law_t law_noc_h = {.check = check, .reset = reset, .step = step};

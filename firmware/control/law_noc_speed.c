@@ -8,12 +8,13 @@ static bool check(const drive_config_t *drive)
     return near_optimal_check(&c->near_optimal, drive) && nodo_check(&c->nodo);
 }
 
-void law_noc_speed_reset(law_noc_speed_state_t *s, const drive_sample_t *sample)
+void law_noc_speed_reset(law_noc_speed_state_t *s, const near_optimal_config_t *c,
+                         const drive_sample_t *sample)
 {
     const nodo_meas_t y = sample_measurement(sample);
 
     nodo_reset(&s->observer, &y);
-    near_optimal_reset(&s->near_optimal, y.omega_e_radps);
+    near_optimal_reset(&s->near_optimal, c, y.omega_e_radps);
 }
 
 near_optimal_view_t law_noc_speed_view(const law_noc_speed_state_t *s, const nodo_meas_t *y,
@@ -29,11 +30,13 @@ near_optimal_view_t law_noc_speed_view(const law_noc_speed_state_t *s, const nod
 
 static void reset(law_state_t *state, const drive_config_t *drive, const drive_sample_t *sample)
 {
-    (void)drive;
-    law_noc_speed_reset(&state->noc_speed, sample);
+    const law_noc_speed_config_t *c = drive->constants;
+
+    law_noc_speed_reset(&state->noc_speed, &c->near_optimal, sample);
 }
 
-static law_output_t step(law_state_t *state, const drive_config_t *drive, const law_input_t *in)
+static void step(law_state_t *state, const drive_config_t *drive, const law_input_t *in,
+                 law_output_t *out)
 {
     const law_noc_speed_config_t *c = drive->constants;
     law_noc_speed_state_t        *s = &state->noc_speed;
@@ -42,7 +45,7 @@ static law_output_t step(law_state_t *state, const drive_config_t *drive, const 
     nodo_update(&s->observer, &c->nodo, &drive->motor, &y, in->v_V, drive->ts_s);
 
     const near_optimal_view_t view = law_noc_speed_view(s, &y, in->sample, drive->ts_s);
-    return near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in);
+    near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in, out);
 }
 
 const law_t law_noc_speed = {.check = check, .reset = reset, .step = step};

@@ -23,7 +23,8 @@ typedef struct {
 extern const law_t law_noc_speed;
 
 /** Start of a run from the measured speed. Context: control ISR. */
-void law_noc_speed_reset(law_noc_speed_state_t *s, const drive_sample_t *sample);
+void law_noc_speed_reset(law_noc_speed_state_t *s, const near_optimal_config_t *c,
+                         const drive_sample_t *sample);
 
 /** The measurement as the law sees it; every angle is plausible. Context: control ISR. */
 near_optimal_view_t law_noc_speed_view(const law_noc_speed_state_t *s, const nodo_meas_t *y,

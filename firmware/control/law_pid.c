@@ -20,7 +20,8 @@ static void reset(law_state_t *state, const drive_config_t *drive, const drive_s
     pid_law_reset(&s->id_pi, 0.0f);
 }
 
-static law_output_t step(law_state_t *state, const drive_config_t *drive, const law_input_t *in)
+static void step(law_state_t *state, const drive_config_t *drive, const law_input_t *in,
+                 law_output_t *out)
 {
     const law_pid_config_t *c       = drive->constants;
     law_pid_state_t        *s       = &state->pid;
@@ -31,7 +32,7 @@ static law_output_t step(law_state_t *state, const drive_config_t *drive, const 
     v_V.d = servo_d_voltage_V(&s->id_pi, &c->id_pi, in, y.id_A);
     pid_law_realise(&s->pid, &c->pid, in->v_V.q);
     v_V.q = pid_law_update(&s->pid, &c->pid, e_radps);
-    return servo_answer(drive, in, &y, v_V);
+    servo_answer(drive, in, &y, v_V, out);
 }
 
 const law_t law_pid = {.check = check, .reset = reset, .step = step};

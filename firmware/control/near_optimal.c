@@ -9,13 +9,14 @@ bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *dr
     const float max_A = c->current_ref.current_max_A;
 
     return current_ref_check(&c->current_ref) && nosc_check(&c->nosc) &&
-           base_in_range(max_A, drive->current_max_A, drive->current_max_A);
+           base_in_range(max_A, drive->current_max_A, drive->current_max_A) &&
+           base_in_range(c->current_ref.samples_1ps * drive->ts_s, 0.999f, 1.001f);
 }
 
-void near_optimal_reset(near_optimal_t *s, float omega_e_radps)
+void near_optimal_reset(near_optimal_t *s, const near_optimal_config_t *c, float omega_e_radps)
 {
     speed_ref_reset(&s->speed_ref, omega_e_radps);
-    current_ref_reset(&s->current_ref);
+    current_ref_reset(&s->current_ref, &c->current_ref);
 }
 
 static void update_references(near_optimal_t *s, const near_optimal_config_t *c,
@@ -79,30 +80,29 @@ static dq_t out_of_reach_V(const near_optimal_t *s, const near_optimal_config_t 
     return u_V;
 }
 
-law_output_t near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c,
-                                 const motor_reduced_t *m, const near_optimal_view_t *view,
-                                 const nosc_error_t *e, dq_t feedback_V, float dc_link_V)
+void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c,
+                         const motor_reduced_t *m, const near_optimal_view_t *view,
+                         const nosc_error_t *e, dq_t feedback_V, float dc_link_V, law_output_t *out)
 {
     const dq_t u_V     = wanted_V(s, m, view, e, feedback_V);
     const bool reached = !voltage_is_outside(u_V, dc_link_V);
 
-    const law_output_t out = {.v_V       = reached ? u_V : out_of_reach_V(s, c, m, view, e),
-                              .theta_rad = view->theta_rad,
-                              .now       = view->now,
-                              .i_ref_A   = s->current_ref.i_A,
-                              .d_omega   = view->est->d_omega,
-                              .d_q       = view->est->d_q,
-                              .d_d       = view->est->d_d,
-                              .plausible = view->plausible};
-    return out;
+    out->v_V       = reached ? u_V : out_of_reach_V(s, c, m, view, e);
+    out->theta_rad = view->theta_rad;
+    out->now       = view->now;
+    out->i_ref_A   = s->current_ref.i_A;
+    out->d_omega   = view->est->d_omega;
+    out->d_q       = view->est->d_q;
+    out->d_d       = view->est->d_d;
+    out->plausible = view->plausible;
 }
 
-law_output_t near_optimal_step(near_optimal_t *s, const near_optimal_config_t *c,
-                               const drive_config_t *drive, const near_optimal_view_t *view,
-                               const law_input_t *in)
+void near_optimal_step(near_optimal_t *s, const near_optimal_config_t *c,
+                       const drive_config_t *drive, const near_optimal_view_t *view,
+                       const law_input_t *in, law_output_t *out)
 {
     const nosc_error_t e = near_optimal_error(s, c, drive, view, in);
 
-    return near_optimal_answer(s, c, &drive->motor, view, &e, nosc_feedback_V(&c->nosc, &e),
-                               in->sample->dc_link_V);
+    near_optimal_answer(s, c, &drive->motor, view, &e, nosc_feedback_V(&c->nosc, &e),
+                        in->sample->dc_link_V, out);
 }

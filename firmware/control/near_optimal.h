@@ -35,11 +35,11 @@ typedef struct {
     bool          plausible;   /**< as law_output_t */
 } near_optimal_view_t;
 
-/** true when all constants are in range and the current limit is that of the drive. Context: init. */
+/** true when all constants are in range, current limit and sampling rate those of the drive. Context: init. */
 bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *drive);
 
 /** References start at the present speed without current. */
-void near_optimal_reset(near_optimal_t *s, float omega_e_radps);
+void near_optimal_reset(near_optimal_t *s, const near_optimal_config_t *c, float omega_e_radps);
 
 /**
  * @brief References of this period and the error to them, its speed part as far as the limits let it be followed.
@@ -58,13 +58,14 @@ nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *
  *
  * Context: control ISR. No division.
  */
-law_output_t near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c,
-                                 const motor_reduced_t *m, const near_optimal_view_t *view,
-                                 const nosc_error_t *e, dq_t feedback_V, float dc_link_V);
+void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c,
+                         const motor_reduced_t *m, const near_optimal_view_t *view,
+                         const nosc_error_t *e, dq_t feedback_V, float dc_link_V,
+                         law_output_t *out);
 
 /** Both, with the feedback of nosc.h between them: the rest of a period after the observer. Context: control ISR. */
-law_output_t near_optimal_step(near_optimal_t *s, const near_optimal_config_t *c,
-                               const drive_config_t *drive, const near_optimal_view_t *view,
-                               const law_input_t *in);
+void near_optimal_step(near_optimal_t *s, const near_optimal_config_t *c,
+                       const drive_config_t *drive, const near_optimal_view_t *view,
+                       const law_input_t *in, law_output_t *out);
 
 #endif /* NEAR_OPTIMAL_H */

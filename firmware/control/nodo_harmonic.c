@@ -24,13 +24,17 @@ void nodo_harmonic_reset(nodo_harmonic_t *s, const nodo_meas_t *y, float theta_r
 /* Harmonics beyond this have no angle left at any speed that a drive runs at. */
 #define ORDER_MAX 1.0e3f
 
-/* Two neighbouring nodes of the table and what their columns are multiplied by. */
+/* A node of the table and the one above it, and what their columns are multiplied by. */
 typedef struct {
-    const float (*lower)[NODO_HARMONIC_N_G];
-    const float (*upper)[NODO_HARMONIC_N_G];
-    float by_lower[NODO_HARMONIC_N_G];
-    float by_upper[NODO_HARMONIC_N_G];
+    int16_t below;
+    float   by_lower[NODO_HARMONIC_N_G];
+    float   by_upper[NODO_HARMONIC_N_G];
 } lookup_t;
+
+/* K times the innovation, row by row. */
+typedef struct {
+    float row[NODO_HARMONIC_N_X_MAX];
+} change_t;
 
 /* EQ-HARMONIC-3 for the innovation r of measured iq, id, theta, which with iq are those of the mirror image. */
 static void look_up(lookup_t *at, const nodo_harmonic_gains_t *g, float omega_e_radps, float iq_A,
@@ -43,8 +47,7 @@ static void look_up(lookup_t *at, const nodo_harmonic_gains_t *g, float omega_e_
     const int16_t below = (whole < last) ? whole : (int16_t)(last - 1);
     const float   share = place - (float)below;
 
-    at->lower = g->gain[below];
-    at->upper = g->gain[below + 1];
+    at->below = below;
     for (int16_t i = 0; i < 3; i++) {
         const float r_upper = share * r[i];
         const float r_lower = r[i] - r_upper;
@@ -56,16 +59,21 @@ static void look_up(lookup_t *at, const nodo_harmonic_gains_t *g, float omega_e_
     }
 }
 
-static float row_of(const lookup_t *at, int16_t row)
+/* In one loop over rows whose two nodes lie side by side: half of the cost of this observer. */
+static void multiply(change_t *out, const nodo_harmonic_gains_t *g, const lookup_t *at)
 {
-    const float *l = at->lower[row];
-    const float *u = at->upper[row];
-    const float *x = at->by_lower;
-    const float *y = at->by_upper;
+    const int16_t rows = (int16_t)(NODO_HARMONIC_N_BASE + (2 * g->n_pairs));
+    const float  *x    = at->by_lower;
+    const float  *y    = at->by_upper;
 
-    return (l[0] * x[0]) + (l[1] * x[1]) + (l[2] * x[2]) + (l[3] * x[3]) + (l[4] * x[4]) +
-           (l[5] * x[5]) + (u[0] * y[0]) + (u[1] * y[1]) + (u[2] * y[2]) + (u[3] * y[3]) +
-           (u[4] * y[4]) + (u[5] * y[5]);
+    for (int16_t row = 0; row < rows; row++) {
+        const float *l = g->gain[row][at->below];
+        const float *u = g->gain[row][at->below + 1];
+
+        out->row[row] = (l[0] * x[0]) + (l[1] * x[1]) + (l[2] * x[2]) + (l[3] * x[3]) +
+                        (l[4] * x[4]) + (l[5] * x[5]) + (u[0] * y[0]) + (u[1] * y[1]) +
+                        (u[2] * y[2]) + (u[3] * y[3]) + (u[4] * y[4]) + (u[5] * y[5]);
+    }
 }
 
 /* The mirror image of a pair changes the sign of a in the odd channels and of b in the others. */
@@ -74,26 +82,27 @@ static bool a_is_odd(nodo_harmonic_channel_t channel)
     return (channel == NODO_HARMONIC_TORQUE) || (channel == NODO_HARMONIC_VOLTAGE_Q);
 }
 
-/* Adds K times the innovation; sign turns the odd signals back from the mirror image. */
-static void apply(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, const lookup_t *at,
+/* sign turns the odd signals back from the mirror image. */
+static void apply(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, const change_t *change,
                   float sign)
 {
-    nodo_t *x = &s->base;
+    nodo_t      *x   = &s->base;
+    const float *row = change->row;
 
-    x->d_omega += sign * row_of(at, 0);
-    x->d_q += sign * row_of(at, 1);
-    x->d_d += row_of(at, 2);
-    x->omega_e_radps += sign * row_of(at, 3);
-    x->iq_A += sign * row_of(at, 4);
-    x->id_A += row_of(at, 5);
-    s->theta_rad = frames_wrap(s->theta_rad + (sign * row_of(at, 6)));
-    s->slope += sign * row_of(at, 7);
+    x->d_omega += sign * row[0];
+    x->d_q += sign * row[1];
+    x->d_d += row[2];
+    x->omega_e_radps += sign * row[3];
+    x->iq_A += sign * row[4];
+    x->id_A += row[5];
+    s->theta_rad = frames_wrap(s->theta_rad + (sign * row[6]));
+    s->slope += sign * row[7];
     for (int16_t i = 0; i < g->n_pairs; i++) {
-        const int16_t row = (int16_t)(NODO_HARMONIC_N_BASE + (2 * i));
-        const bool    odd = a_is_odd(g->pair[i].channel);
+        const float *of_pair = &row[NODO_HARMONIC_N_BASE + (2 * i)];
+        const bool   odd     = a_is_odd(g->pair[i].channel);
 
-        s->pair[i].a += (odd ? sign : 1.0f) * row_of(at, row);
-        s->pair[i].b += (odd ? 1.0f : sign) * row_of(at, (int16_t)(row + 1));
+        s->pair[i].a += (odd ? sign : 1.0f) * of_pair[0];
+        s->pair[i].b += (odd ? 1.0f : sign) * of_pair[1];
     }
 }
 
@@ -106,6 +115,7 @@ void nodo_harmonic_correct(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, d
     float         r_iq = i_A.q - x->iq_A;
     float         r_id = i_A.d - x->id_A;
     lookup_t      at;
+    change_t      change;
 
     for (int16_t i = 0; i < g->n_pairs; i++) { /* EQ-HARMONIC-2 */
         if (g->pair[i].channel == NODO_HARMONIC_SENSOR) {
@@ -116,97 +126,145 @@ void nodo_harmonic_correct(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, d
     const float r[3] = {sign * r_iq, r_id, sign * angle_error};
 
     look_up(&at, g, x->omega_e_radps, iq_A, r);
-    apply(s, g, &at, sign);
+    multiply(&change, g, &at);
+    apply(s, g, &change, sign);
 }
 
-static nodo_harmonic_pair_t turned(nodo_harmonic_pair_t p, frames_angle_t by)
-{
-    const nodo_harmonic_pair_t out = {.a = (p.a * by.cos) - (p.b * by.sin),
-                                      .b = (p.a * by.sin) + (p.b * by.cos)};
-    return out;
-}
-
-/* What the pairs add to the disturbances. */
+/* The turn of a pair of order one in half a period, and that of orders 2, 4, 8, 16. */
+#define POWERS 5
 typedef struct {
-    nodo_meas_t middle;  /* in the derivatives of w, iq, id, middle of this period */
-    nodo_meas_t after;   /* at its end; currents: middle of the next one */
-    float       d_w_dot; /* middle of the next one */
+    float          dtheta_rad; /* of a whole period */
+    frames_angle_t power[POWERS];
+} half_turn_t;
+
+static frames_angle_t joined(frames_angle_t x, frames_angle_t y)
+{
+    const frames_angle_t z = {.cos = (x.cos * y.cos) - (x.sin * y.sin),
+                              .sin = (x.sin * y.cos) + (x.cos * y.sin)};
+    return z;
+}
+
+static frames_angle_t doubled(frames_angle_t x)
+{
+    const float          two_sin = 2.0f * x.sin;
+    const frames_angle_t z       = {.cos = 1.0f - (two_sin * x.sin), .sin = two_sin * x.cos};
+    return z;
+}
+
+static void half_turn_of_order_one(half_turn_t *turn, float dtheta_rad)
+{
+    turn->dtheta_rad = dtheta_rad;
+    turn->power[0]   = frames_angle(0.5f * dtheta_rad);
+    for (int16_t i = 1; i < POWERS; i++) {
+        turn->power[i] = doubled(turn->power[i - 1]);
+    }
+}
+
+/* A whole order is a product of powers, which costs half of a sine and cosine. */
+static frames_angle_t half_turn_of(const half_turn_t *turn, float order)
+{
+    const float    size  = fabsf(order);
+    uint16_t       bits  = (uint16_t)size;
+    frames_angle_t angle = {.cos = 1.0f, .sin = 0.0f};
+
+    if (((float)bits < size) || ((bits >> POWERS) != 0U)) {
+        return frames_angle(0.5f * order * turn->dtheta_rad);
+    }
+    for (int16_t i = 0; bits != 0U; i++) {
+        if ((bits & 1U) != 0U) {
+            angle = joined(angle, turn->power[i]);
+        }
+        bits = (uint16_t)(bits >> 1);
+    }
+    angle.sin = (order < 0.0f) ? -angle.sin : angle.sin;
+    return angle;
+}
+
+/* What the pairs add to the disturbances; current sensors disturb nothing. */
+enum { OMEGA, Q, D, DISTURBANCES };
+typedef struct {
+    float middle[DISTURBANCES]; /* in the middle of this period */
+    float after[DISTURBANCES];  /* torque: at its end; voltages: middle of the next one */
+    float d_w_dot;              /* middle of the next one */
 } added_t;
 
-static void add(nodo_meas_t *to, nodo_harmonic_channel_t channel, float a)
+/* One pair by one period, EQ-HARMONIC-1: by half of it, and by the whole with what is kept. */
+static void turn_pair(nodo_harmonic_pair_t *pair, frames_angle_t half, frames_angle_t whole,
+                      const nodo_harmonic_order_t *of, float w, added_t *sum)
 {
-    if (channel == NODO_HARMONIC_TORQUE) {
-        to->omega_e_radps += a;
-    } else if (channel == NODO_HARMONIC_VOLTAGE_Q) {
-        to->iq_A += a;
-    } else if (channel == NODO_HARMONIC_VOLTAGE_D) {
-        to->id_A += a;
+    const nodo_harmonic_pair_t p   = *pair;
+    const nodo_harmonic_pair_t end = {.a = (p.a * whole.cos) - (p.b * whole.sin),
+                                      .b = (p.a * whole.sin) + (p.b * whole.cos)};
+
+    *pair = end;
+    if (of->channel == NODO_HARMONIC_SENSOR) {
+        return;
+    }
+    const int16_t to = (int16_t)of->channel - (int16_t)NODO_HARMONIC_TORQUE;
+
+    sum->middle[to] += (p.a * half.cos) - (p.b * half.sin);
+    if (to == OMEGA) {
+        sum->after[to] += end.a;
+        sum->d_w_dot -= of->order * w * ((end.a * half.sin) + (end.b * half.cos));
     } else {
-        /* current sensors disturb nothing */
+        sum->after[to] += (end.a * half.cos) - (end.b * half.sin);
     }
 }
 
-/* EQ-HARMONIC-1, and what the turning pairs add on their way. Neighbours of one order share the turn. */
-static added_t turn_pairs(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, float dtheta_rad)
+/* Neighbours of one order share the turn. */
+static void turn_pairs(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, float dtheta_rad,
+                       added_t *sum)
 {
-    const float    w      = s->base.omega_e_radps;
-    added_t        sum    = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f};
+    half_turn_t    turn;
     frames_angle_t half   = {.cos = 1.0f, .sin = 0.0f};
+    frames_angle_t whole  = {.cos = g->keep, .sin = 0.0f};
     float          before = 0.0f; /* a pair of order 0 does not turn */
 
+    half_turn_of_order_one(&turn, dtheta_rad);
     for (int16_t i = 0; i < g->n_pairs; i++) {
-        const nodo_harmonic_channel_t channel = g->pair[i].channel;
-        const float                   order   = g->pair[i].order;
+        const float order = g->pair[i].order;
 
         if ((order < before) || (order > before)) {
-            half   = frames_angle(0.5f * order * dtheta_rad);
-            before = order;
-        }
-        const nodo_harmonic_pair_t middle = turned(s->pair[i], half);
-        nodo_harmonic_pair_t       end    = turned(middle, half);
+            const float keep =
+                (fabsf(order * dtheta_rad) < NODO_HARMONIC_TURN_MAX) ? g->keep : g->keep_fast;
 
-        const float keep =
-            (fabsf(order * dtheta_rad) < NODO_HARMONIC_TURN_MAX) ? g->keep : g->keep_fast;
-        end.a      = keep * end.a;
-        end.b      = keep * end.b;
-        s->pair[i] = end;
-        if (channel == NODO_HARMONIC_SENSOR) {
-            continue;
+            half      = half_turn_of(&turn, order);
+            whole     = doubled(half);
+            whole.cos = keep * whole.cos;
+            whole.sin = keep * whole.sin;
+            before    = order;
         }
-        const nodo_harmonic_pair_t next   = turned(end, half);
-        const bool                 torque = channel == NODO_HARMONIC_TORQUE;
-
-        add(&sum.middle, channel, middle.a);
-        add(&sum.after, channel, torque ? end.a : next.a);
-        sum.d_w_dot -= torque ? (order * w * next.b) : 0.0f;
+        turn_pair(&s->pair[i], half, whole, &g->pair[i], s->base.omega_e_radps, sum);
     }
-    return sum;
 }
 
-nodo_harmonic_view_t nodo_harmonic_predict(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g,
-                                           const motor_reduced_t *m, dq_t v_V, float ts_s)
+void nodo_harmonic_predict(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g,
+                           const motor_reduced_t *m, dq_t v_V, float ts_s,
+                           nodo_harmonic_view_t *view)
 {
-    const float   advanced   = s->theta_rad + (ts_s * s->base.omega_e_radps);
-    const float   dtheta_rad = frames_wrap(advanced - s->theta_pairs_rad);
-    const added_t pairs      = turn_pairs(s, g, dtheta_rad);
-    nodo_t        x          = s->base;
+    const float advanced   = s->theta_rad + (ts_s * s->base.omega_e_radps);
+    const float dtheta_rad = frames_wrap(advanced - s->theta_pairs_rad);
+    added_t     pairs      = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f};
+    nodo_t      x;
 
+    turn_pairs(s, g, dtheta_rad, &pairs);
     s->theta_pairs_rad = frames_wrap(s->theta_pairs_rad + dtheta_rad);
 
-    x.d_omega += (0.5f * ts_s * s->slope) + pairs.middle.omega_e_radps;
-    x.d_q += pairs.middle.iq_A;
-    x.d_d += pairs.middle.id_A;
+    x = s->base;
+    x.d_omega += (0.5f * ts_s * s->slope) + pairs.middle[OMEGA];
+    x.d_q += pairs.middle[Q];
+    x.d_d += pairs.middle[D];
     nodo_encoder_predict(&x, &s->theta_rad, m, v_V, ts_s); /* EQ-HARMONIC-4 */
     s->base.omega_e_radps = x.omega_e_radps;
     s->base.iq_A          = x.iq_A;
     s->base.id_A          = x.id_A;
     s->base.d_omega += ts_s * s->slope;
 
-    nodo_harmonic_view_t view = {.total = s->base, .d_omega_dot = s->slope + pairs.d_w_dot};
-    view.total.d_omega += pairs.after.omega_e_radps;
-    view.total.d_q += pairs.after.iq_A;
-    view.total.d_d += pairs.after.id_A;
-    return view;
+    view->total = s->base;
+    view->total.d_omega += pairs.after[OMEGA];
+    view->total.d_q += pairs.after[Q];
+    view->total.d_d += pairs.after[D];
+    view->d_omega_dot = s->slope + pairs.d_w_dot;
 }
 
 static bool numbers_ok(const nodo_harmonic_gains_t *g)
@@ -221,14 +279,17 @@ bool nodo_harmonic_check(const nodo_harmonic_gains_t *g)
 {
     bool ok = numbers_ok(g);
 
-    for (int16_t node = 0; ok && (node < g->n_nodes); node++) {
-        const int16_t rows = (int16_t)(NODO_HARMONIC_N_BASE + (2 * g->n_pairs));
-        for (int16_t row = 0; row < rows; row++) {
-            ok = ok && check_finite(g->gain[node][row], NODO_HARMONIC_N_G);
+    for (int16_t row = 0; ok && (row < (NODO_HARMONIC_N_BASE + (2 * g->n_pairs))); row++) {
+        for (int16_t node = 0; node < g->n_nodes; node++) {
+            ok = ok && check_finite(g->gain[row][node], NODO_HARMONIC_N_G);
         }
     }
     for (int16_t i = 0; ok && (i < g->n_pairs); i++) {
-        ok = base_within(g->pair[i].order, ORDER_MAX);
+        const int16_t channel = (int16_t)g->pair[i].channel;
+
+        ok = base_within(g->pair[i].order, ORDER_MAX) &&
+             (channel >= (int16_t)NODO_HARMONIC_SENSOR) &&
+             (channel <= (int16_t)NODO_HARMONIC_VOLTAGE_D);
     }
     return ok;
 }

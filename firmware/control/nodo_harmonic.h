@@ -57,7 +57,8 @@ typedef struct {
     float                 keep;      /**< share of a pair that is left after a period, (0, 1] */
     float                 keep_fast; /**< the same beyond NODO_HARMONIC_TURN_MAX, (0, 1] */
     nodo_harmonic_order_t pair[NODO_HARMONIC_PAIRS_MAX];
-    float gain[NODO_HARMONIC_NODES_MAX][NODO_HARMONIC_N_X_MAX][NODO_HARMONIC_N_G]; /**< K */
+    /** K: a row for every state; in it the nodes side by side. */
+    float gain[NODO_HARMONIC_N_X_MAX][NODO_HARMONIC_NODES_MAX][NODO_HARMONIC_N_G];
 } nodo_harmonic_gains_t;
 
 /** A pair turned to one instant. */
@@ -101,11 +102,12 @@ void nodo_harmonic_correct(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, d
                            float angle_error);
 
 /**
- * @brief EQ-HARMONIC-1, 4: one period ahead with the voltage in force; returns what the law needs there.
+ * @brief EQ-HARMONIC-1, 4: one period ahead with the voltage in force; view: what the law needs there.
  *
- * Context: control ISR. One sine and cosine per pair, less where neighbours have one order.
+ * Context: control ISR. One sine and cosine, and one more for every order that is no whole number or beyond 31.
  */
-nodo_harmonic_view_t nodo_harmonic_predict(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g,
-                                           const motor_reduced_t *m, dq_t v_V, float ts_s);
+void nodo_harmonic_predict(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g,
+                           const motor_reduced_t *m, dq_t v_V, float ts_s,
+                           nodo_harmonic_view_t *view);
 
 #endif /* NODO_HARMONIC_H */

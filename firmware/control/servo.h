@@ -15,18 +15,19 @@
 #include "sample.h"
 
 /** The answer of a law that wants this voltage for this measurement. Context: control ISR. */
-static inline law_output_t servo_answer(const drive_config_t *drive, const law_input_t *in,
-                                        const nodo_meas_t *y, dq_t v_V)
+static inline void servo_answer(const drive_config_t *drive, const law_input_t *in,
+                                const nodo_meas_t *y, dq_t v_V, law_output_t *out)
 {
-    const law_output_t out = {.v_V       = v_V,
-                              .theta_rad = sample_middle_angle_rad(in->sample, drive->ts_s),
-                              .now       = *y,
-                              .i_ref_A   = {0.0f, 0.0f},
-                              .d_omega   = 0.0f,
-                              .d_q       = 0.0f,
-                              .d_d       = 0.0f,
-                              .plausible = true};
-    return out;
+    const dq_t none = {0.0f, 0.0f};
+
+    out->v_V       = v_V;
+    out->theta_rad = sample_middle_angle_rad(in->sample, drive->ts_s);
+    out->now       = *y;
+    out->i_ref_A   = none;
+    out->d_omega   = 0.0f;
+    out->d_q       = 0.0f;
+    out->d_d       = 0.0f;
+    out->plausible = true;
 }
 
 /** d voltage of EQ-PID-1 for id = 0, after what the limits left of the one before. Context: control ISR. */

@@ -5,7 +5,7 @@
  *
  * With jerk j and period Ts, the acceleration that still stops at the command is
  *
- *     a* = (j Ts / 2) (sqrt(1 + 8 |command - w_d| / (j Ts^2)) - 1)              EQ-SPEED-REF-1
+ *     a* = sqrt((j Ts / 2)^2 + 2 j |command - w_d|) - j Ts / 2                  EQ-SPEED-REF-1
  * (|command - w_d| / Ts when that is less), and
  *
  *     w_d'' = +-j towards clamp(+-a*, lowest, highest acceleration)             EQ-SPEED-REF-2
@@ -31,6 +31,7 @@ typedef struct {
     float accel_lo_e_radps2; /**< lowest (most negative) acceleration */
     float jerk_e_radps3;     /**< largest |w_d''|, > 0 */
     float near_e_radps;      /**< w_d stays this close to the speed, > 0 */
+    float samples_1ps;       /**< 1 / Ts */
 } speed_ref_limits_t;
 
 /** Starts at the given speed, without acceleration. */
@@ -45,7 +46,7 @@ void speed_ref_reset(speed_ref_t *r, float omega_e_radps);
  * @param omega_e_radps   Actual speed: a reference further away than limits->near_e_radps waits for it.
  * @param ts_s            Control period [s].
  *
- * Context: control ISR. One division, one square root.
+ * Context: control ISR. No division, one square root.
  */
 void speed_ref_update(speed_ref_t *r, const speed_ref_limits_t *limits, float command_e_radps,
                       float omega_e_radps, float ts_s);

@@ -89,8 +89,8 @@ VectorXd firmware_step(const sdre::Design &d, const VectorXd &x, const dq_t &i_A
     const nodo_harmonic_gains_t &t = *d.harmonics->table;
     nodo_harmonic_t              s = state_of(x, t.n_pairs);
     nodo_harmonic_correct(&s, &t, i_A, frames_wrap(static_cast<float>(theta_rad) - s.theta_rad));
-    const nodo_harmonic_view_t view =
-        nodo_harmonic_predict(&s, &t, &d.config.motor, voltage_V, d.config.ts_s);
+    nodo_harmonic_view_t view;
+    nodo_harmonic_predict(&s, &t, &d.config.motor, voltage_V, d.config.ts_s, &view);
     const VectorXd after = rows_of(s, t.n_pairs);
     VectorXd       out(after.size() + 8);
     out << after, view.total.d_omega, view.total.d_q, view.total.d_d, view.total.omega_e_radps,
@@ -353,9 +353,9 @@ TEST(HarmonicDesign, TenfoldGainsAreUnstable)
     for (const std::string &name : drives) {
         const sdre::Design   &d = design_of(name);
         nodo_harmonic_gains_t t = *d.harmonics->table;
-        for (auto &node : t.gain) {
-            for (auto &row : node) {
-                for (float &g : row) {
+        for (auto &row : t.gain) {
+            for (auto &node : row) {
+                for (float &g : node) {
                     g *= 10.0F;
                 }
             }

@@ -75,10 +75,11 @@ void add_observer(std::vector<float> &v, const std::vector<float> &ranges, int o
 void add_near_optimal(std::vector<float> &v, const near_optimal_config_t &c)
 {
     const current_ref_config_t &r = c.current_ref;
-    v.insert(v.end(), {r.current_max_A, r.iq_max_A, r.mtpa_A, r.voltage_share, r.torque_share,
-                       r.near_e_radps, r.l1_min, r.filter_per_period, r.filter_1ps,
-                       r.regen_max_W_norm, r.regen_start_V, r.regen_per_V, c.nosc.iq_error_max_A,
-                       c.nosc.iq_speed_max_A, c.nosc.speed_A_per_radps, c.nosc.speed_radps_per_A});
+    v.insert(v.end(), {r.current_max_A, r.iq_max_A, r.mtpa_A, r.mtpa_half_1pA, r.voltage_share,
+                       r.torque_share, r.near_e_radps, r.l1_min, r.filter_per_period, r.filter_1ps,
+                       r.samples_1ps, r.regen_max_W_norm, r.regen_start_V, r.regen_per_V,
+                       c.nosc.iq_error_max_A, c.nosc.iq_speed_max_A, c.nosc.speed_A_per_radps,
+                       c.nosc.speed_radps_per_A});
     for (int n = 0; n <= c.nosc.order; n++) {
         for (const auto &row : c.nosc.lambda[n]) {
             v.insert(v.end(), std::begin(row), std::end(row));
@@ -98,9 +99,9 @@ std::vector<float> values_of(const nodo_harmonic_gains_t &g)
     for (int i = 0; i < g.n_pairs; i++) {
         v.push_back(g.pair[i].order);
     }
-    for (int node = 0; node < g.n_nodes; node++) {
-        for (int row = 0; row < NODO_HARMONIC_N_BASE + 2 * g.n_pairs; row++) {
-            v.insert(v.end(), std::begin(g.gain[node][row]), std::end(g.gain[node][row]));
+    for (int row = 0; row < NODO_HARMONIC_N_BASE + 2 * g.n_pairs; row++) {
+        for (int node = 0; node < g.n_nodes; node++) {
+            v.insert(v.end(), std::begin(g.gain[row][node]), std::end(g.gain[row][node]));
         }
     }
     return v;

@@ -37,6 +37,7 @@ static void use_motor(motor_reduced_t m)
     motor                = m;
     si                   = support_motor(&motor);
     config.mtpa_A        = m.l5 / (2.0f * saliency);
+    config.mtpa_half_1pA = saliency / m.l5;
 }
 
 void setUp(void)
@@ -56,10 +57,17 @@ void setUp(void)
     y           = rest;
     iq_speed_A  = 0.0f;
     speed_ref_reset(&w_ref, 0.0f);
-    current_ref_reset(&r);
+    current_ref_reset(&r, &config);
 }
 
 void tearDown(void) {}
+
+/* What the current circle leaves beside i_A.d. */
+static double circle_A(const current_ref_t *of)
+{
+    const double max_A = (double)config.current_max_A;
+    return sqrt(fmax((max_A * max_A) - ((double)of->i_A.d * (double)of->i_A.d), 0.0));
+}
 
 static void update(void)
 {
@@ -69,6 +77,8 @@ static void update(void)
                                     .dc_link_V   = dc_link_V,
                                     .v_max_V     = V_MAX_V,
                                     .d_omega_dot = d_omega_dot};
+    /* The tests set i_A.d themselves. */
+    r.iq_circle_A = (float)circle_A(&r);
     current_ref_update(&r, &config, &motor, &w_ref, &in);
 }
 
@@ -205,14 +215,25 @@ static void assert_inside_current_circle(void)
     TEST_ASSERT_DOUBLE_WITHIN(TOL_CIRCLE_A, 0.0, fmax(beyond_A, 0.0));
 }
 
+static void test_room_on_the_circle_is_told_for_the_next_period(void)
+{
+    config.filter_per_period = 0.2f; /* id moves */
+    for (int n = 0; n < CASES; n++) {
+        draw_fast_case();
+        update();
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_CIRCLE_A, circle_A(&r), (double)r.iq_circle_A);
+    }
+}
+
 static void test_reset_starts_everything_at_zero(void)
 {
-    current_ref_t used = {{1.0f, 2.0f}, {3.0f, 4.0f}, 5.0f, 6.0f};
+    current_ref_t used = {{1.0f, 2.0f}, {3.0f, 4.0f}, 5.0f, 6.0f, 7.0f};
 
-    current_ref_reset(&used);
+    current_ref_reset(&used, &config);
 
     TEST_ASSERT_TRUE((used.i_A.d == 0.0f) && (used.i_A.q == 0.0f));
     TEST_ASSERT_TRUE((used.iq_lo_A == 0.0f) && (used.iq_hi_A == 0.0f));
+    TEST_ASSERT_TRUE(used.iq_circle_A == config.current_max_A); /* all of it is left */
     TEST_ASSERT_TRUE((used.i_dot_Aps.d == 0.0f) && (used.i_dot_Aps.q == 0.0f));
 }
 
@@ -768,6 +789,7 @@ static void test_bad_estimates_give_finite_references_inside_the_circle(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_room_on_the_circle_is_told_for_the_next_period);
     RUN_TEST(test_reset_starts_everything_at_zero);
     RUN_TEST(test_rest_without_disturbance_asks_for_no_current);
     RUN_TEST(test_id_at_low_speed_gives_the_most_torque_per_ampere);

@@ -46,12 +46,14 @@ static const entry_t entries[] = {
     {&constants.near_optimal.current_ref.current_max_A, POSITIVE},
     {&constants.near_optimal.current_ref.iq_max_A, POSITIVE},
     {&constants.near_optimal.current_ref.mtpa_A, POSITIVE},
+    {&constants.near_optimal.current_ref.mtpa_half_1pA, POSITIVE},
     {&constants.near_optimal.current_ref.voltage_share, POSITIVE},
     {&constants.near_optimal.current_ref.torque_share, POSITIVE},
     {&constants.near_optimal.current_ref.near_e_radps, POSITIVE},
     {&constants.near_optimal.current_ref.l1_min, POSITIVE},
     {&constants.near_optimal.current_ref.filter_per_period, POSITIVE},
     {&constants.near_optimal.current_ref.filter_1ps, POSITIVE},
+    {&constants.near_optimal.current_ref.samples_1ps, POSITIVE},
     {&constants.near_optimal.current_ref.regen_max_W_norm, ZERO_OR_MORE},
     {&constants.near_optimal.current_ref.regen_start_V, POSITIVE},
     {&constants.near_optimal.current_ref.regen_per_V, POSITIVE},
@@ -188,9 +190,35 @@ static void assert_bounds(float *constant, float lo, float hi)
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(constant, nextafterf(hi, INFINITY)));
 }
 
+static ctl_status_t check_with_period(float ts_s)
+{
+    setUp();
+    config.ts_s                                    = ts_s;
+    constants.near_optimal.current_ref.samples_1ps = 1.0f / ts_s;
+    return drive_config_check(&config);
+}
+
 static void test_control_period_has_its_documented_bounds(void)
 {
-    assert_bounds(&config.ts_s, 1.0e-5f, 1.0e-2f);
+    TEST_ASSERT_EQUAL_INT(CTL_OK, check_with_period(1.0e-5f));
+    TEST_ASSERT_EQUAL_INT(CTL_OK, check_with_period(1.0e-2f));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with_period(nextafterf(1.0e-5f, 0.0f)));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with_period(nextafterf(1.0e-2f, INFINITY)));
+}
+
+/* The same number in two places, one the inverse of the other. */
+static void test_inverses_are_those_of_their_constants(void)
+{
+    current_ref_config_t *const ref     = &constants.near_optimal.current_ref;
+    float *const                again[] = {&ref->samples_1ps, &ref->mtpa_half_1pA};
+
+    for (int i = 0; i < SUPPORT_COUNT(again); i++) {
+        const float good = *again[i];
+
+        TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(again[i], 1.002f * good));
+        TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(again[i], 0.998f * good));
+        TEST_ASSERT_EQUAL_INT(CTL_OK, check_with(again[i], good));
+    }
 }
 
 static void test_shares_end_at_one(void)
@@ -391,6 +419,17 @@ static void test_orders_of_the_pairs_in_use_are_checked(void)
     assert_harmonics(CTL_OK);
 }
 
+static void test_channels_of_the_pairs_are_checked(void)
+{
+    use_harmonics();
+    for (int i = 0; i < table->n_pairs; i++) {
+        use_harmonics();
+        table->pair[i].channel = (nodo_harmonic_channel_t)((int)NODO_HARMONIC_VOLTAGE_D +
+                                                           1); /* the first that is none */
+        assert_harmonics(CTL_BAD_CONFIG);
+    }
+}
+
 static void test_every_gain_of_the_harmonics_in_use_is_checked(void)
 {
     use_harmonics();
@@ -398,8 +437,8 @@ static void test_every_gain_of_the_harmonics_in_use_is_checked(void)
     const int nodes = table->n_nodes;
 
     for (int n = 0; n < nodes * rows * NODO_HARMONIC_N_G; n++) {
-        float *const gain = &table->gain[n / (rows * NODO_HARMONIC_N_G)]
-                                        [(n / NODO_HARMONIC_N_G) % rows][n % NODO_HARMONIC_N_G];
+        float *const gain = &table->gain[(n / NODO_HARMONIC_N_G) % rows]
+                                        [n / (rows * NODO_HARMONIC_N_G)][n % NODO_HARMONIC_N_G];
         const float good = *gain;
         for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
             *gain = support_not_finite[k];
@@ -410,7 +449,7 @@ static void test_every_gain_of_the_harmonics_in_use_is_checked(void)
         *gain = good;
     }
     table->n_pairs--; /* the last two rows are no longer in use */
-    table->gain[0][rows - 1][0] = NAN;
+    table->gain[rows - 1][0][0] = NAN;
     assert_harmonics(CTL_OK);
 }
 
@@ -490,6 +529,7 @@ int main(void)
     RUN_TEST(test_drive_without_a_law_is_refused);
     RUN_TEST(test_current_limit_of_the_references_is_that_of_the_drive);
     RUN_TEST(test_control_period_has_its_documented_bounds);
+    RUN_TEST(test_inverses_are_those_of_their_constants);
     RUN_TEST(test_shares_end_at_one);
     RUN_TEST(test_implausible_angle_ends_at_half_a_turn);
     RUN_TEST(test_dead_time_ends_at_a_tenth_of_the_period);
@@ -507,6 +547,7 @@ int main(void)
     RUN_TEST(test_counts_of_harmonics_are_those_of_a_table);
     RUN_TEST(test_constants_of_harmonics_are_checked);
     RUN_TEST(test_orders_of_the_pairs_in_use_are_checked);
+    RUN_TEST(test_channels_of_the_pairs_are_checked);
     RUN_TEST(test_every_gain_of_the_harmonics_in_use_is_checked);
     return UNITY_END();
 }

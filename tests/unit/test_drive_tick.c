@@ -856,11 +856,11 @@ static void test_encoder_loop_settles_at_the_command_and_finds_the_load(void)
         double mean  = 0.0;
         double d_w   = 0.0;
         double worst = 0.0;
-        for (int n = 0; n < 500; n++) {
+        for (int n = 0; n < 2000; n++) {
             sample = encoder_sample(&loop.plant);
             (void)loop_step(&loop, loads[i]);
-            mean += loop.plant.omega / 500.0;
-            d_w += (double)encoder_form->observer.d_omega / 500.0;
+            mean += loop.plant.omega / 2000.0;
+            d_w += (double)encoder_form->observer.d_omega / 2000.0;
             worst = fmax(worst, fabs(loop.plant.omega - speeds[i]));
         }
 

@@ -32,7 +32,6 @@ void setUp(void)
 {
     random_state.state = 7u;
     motor              = support_odd_motor();
-    current_ref_reset(&ref);
     draw_case();
 }
 
@@ -165,9 +164,10 @@ static void test_feedforward_without_errors_or_derivatives_is_the_hold_voltage(v
 
 static void test_rest_without_disturbance_needs_no_voltage(void)
 {
-    const nodo_meas_t rest    = {0.0f, 0.0f, 0.0f};
-    const nodo_t      nothing = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-    current_ref_reset(&ref);
+    const nodo_meas_t   rest          = {0.0f, 0.0f, 0.0f};
+    const nodo_t        nothing       = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    const current_ref_t nothing_asked = {.iq_circle_A = 1.0f};
+    ref                               = nothing_asked;
 
     const dq_t  u_V   = feedforward_V(&motor, &ref, 0.0f, &rest, &nothing);
     const float h_q_V = feedforward_hold_q_V(&motor, &rest, 0.0f);

@@ -49,22 +49,23 @@ static void own_reset(law_state_t *state, const drive_config_t *c, const drive_s
     state->own[OWN_START_e_radps] = s->omega_e_radps;
 }
 
-static law_output_t own_step(law_state_t *state, const drive_config_t *c, const law_input_t *in)
+static void own_step(law_state_t *state, const drive_config_t *c, const law_input_t *in,
+                     law_output_t *out)
 {
-    const own_config_t *mine = (const own_config_t *)c->constants;
-    const float         e    = in->command_e_radps - in->sample->omega_e_radps;
-    const law_output_t  out  = {
-          .v_V       = {.d = mine->d_V, .q = mine->gain_Vs * e},
-          .theta_rad = mine->theta_rad,
-          .now       = {.omega_e_radps = mine->now_e_radps, .iq_A = mine->iq_A, .id_A = mine->id_A},
-          .plausible = mine->plausible};
+    const own_config_t *mine   = (const own_config_t *)c->constants;
+    const float         e      = in->command_e_radps - in->sample->omega_e_radps;
+    const law_output_t  answer = {
+         .v_V       = {.d = mine->d_V, .q = mine->gain_Vs * e},
+         .theta_rad = mine->theta_rad,
+         .now       = {.omega_e_radps = mine->now_e_radps, .iq_A = mine->iq_A, .id_A = mine->id_A},
+         .plausible = mine->plausible};
 
     state->own[OWN_STEPS] += 1.0f;
     state->own[OWN_V_D]     = in->v_V.d;
     state->own[OWN_V_Q]     = in->v_V.q;
     state->own[OWN_COMMAND] = in->command_e_radps;
     state->own[OWN_IA]      = in->sample->ia_A;
-    return out;
+    *out                    = answer;
 }
 
 static const law_t law_of_its_own = {.check = own_check, .reset = own_reset, .step = own_step};

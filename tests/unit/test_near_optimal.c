@@ -56,7 +56,7 @@ void setUp(void)
     view               = of_est;
     sample             = of_295V;
     in                 = hold;
-    near_optimal_reset(&state, 300.0f);
+    near_optimal_reset(&state, config, 300.0f);
 }
 
 void tearDown(void) {}
@@ -68,8 +68,10 @@ static nosc_error_t error(void)
 
 static law_output_t answer(const nosc_error_t *e, dq_t feedback_V)
 {
-    return near_optimal_answer(&state, config, &drive.motor, &view, e, feedback_V,
-                               sample.dc_link_V);
+    law_output_t out;
+
+    near_optimal_answer(&state, config, &drive.motor, &view, e, feedback_V, sample.dc_link_V, &out);
+    return out;
 }
 
 static void test_references_start_at_the_present_speed_without_current(void)
@@ -80,7 +82,7 @@ static void test_references_start_at_the_present_speed_without_current(void)
     }
     TEST_ASSERT_TRUE(state.speed_ref.omega_e_radps > 300.0f);
 
-    near_optimal_reset(&state, -250.0f);
+    near_optimal_reset(&state, config, -250.0f);
 
     TEST_ASSERT_TRUE(state.speed_ref.omega_e_radps == -250.0f);
     TEST_ASSERT_TRUE((state.speed_ref.omega_dot_e_radps2 == 0.0f) &&

@@ -21,6 +21,7 @@ void setUp(void)
     limits.accel_lo_e_radps2 = -6000.0f;
     limits.jerk_e_radps3     = 1.0e6f;
     limits.near_e_radps      = FAR_e_radps;
+    limits.samples_1ps       = (float)(1.0 / (double)TS_s);
 }
 
 void tearDown(void) {}
@@ -307,8 +308,8 @@ static void test_opposite_commands_give_opposite_references(void)
         const float              speed    = support_uniform(&random_state, -20.0f, 20.0f);
         const float              hi       = support_uniform(&random_state, 0.0f, 9000.0f);
         const float              lo       = -support_uniform(&random_state, 0.0f, 9000.0f);
-        const speed_ref_limits_t forward  = {hi, lo, 1.0e6f, 30.0f};
-        const speed_ref_limits_t mirrored = {-lo, -hi, 1.0e6f, 30.0f};
+        const speed_ref_limits_t forward  = {hi, lo, 1.0e6f, 30.0f, limits.samples_1ps};
+        const speed_ref_limits_t mirrored = {-lo, -hi, 1.0e6f, 30.0f, limits.samples_1ps};
 
         speed_ref_update(&plus, &forward, command, speed, TS_s);
         speed_ref_update(&minus, &mirrored, -command, -speed, TS_s);

@@ -107,6 +107,7 @@ current_ref_config_t current_ref_constants(const Design &d, bool exact)
     c.current_max_A     = single(m.max_current_A);
     c.iq_max_A          = single(largest_iq_A(m, k, exact));
     c.mtpa_A            = single(k);
+    c.mtpa_half_1pA     = single(0.5 / k);
     c.mtpa_exact        = exact;
     c.voltage_share     = single(voltage_share);
     c.torque_share      = single(torque_share);
@@ -114,6 +115,7 @@ current_ref_config_t current_ref_constants(const Design &d, bool exact)
     c.l1_min            = single(smallest_l1_ratio * d.l[1]);
     c.filter_per_period = single(1.0 / reference_filter_periods);
     c.filter_1ps        = single(1.0 / (reference_filter_periods * ts));
+    c.samples_1ps       = single(1.0 / ts);
     c.regen_max_W_norm  = single(np * np / m.inertia_kgm2 * full_W); // EQ-CURRENT-REF-7
     c.regen_start_V     = single(regen_start_ratio * v_dc);
     c.regen_per_V       = single(1.0 / ((regen_end_ratio - regen_start_ratio) * v_dc));
@@ -125,12 +127,13 @@ std::string current_ref_block(const current_ref_config_t &c)
     return c_block(
         "current_ref",
         c_field("current_max_A", c.current_max_A) + c_field("iq_max_A", c.iq_max_A) +
-            c_field("mtpa_A", c.mtpa_A) +
+            c_field("mtpa_A", c.mtpa_A) + c_field("mtpa_half_1pA", c.mtpa_half_1pA) +
             c_field("mtpa_exact", std::string(c.mtpa_exact ? "true" : "false")) +
             c_field("voltage_share", c.voltage_share) + c_field("torque_share", c.torque_share) +
             c_field("near_e_radps", c.near_e_radps) + c_field("l1_min", c.l1_min) +
             c_field("filter_per_period", c.filter_per_period) +
-            c_field("filter_1ps", c.filter_1ps) + c_field("regen_max_W_norm", c.regen_max_W_norm) +
+            c_field("filter_1ps", c.filter_1ps) + c_field("samples_1ps", c.samples_1ps) +
+            c_field("regen_max_W_norm", c.regen_max_W_norm) +
             c_field("regen_start_V", c.regen_start_V) + c_field("regen_per_V", c.regen_per_V));
 }
 

@@ -148,13 +148,14 @@ std::string row_label(int row)
 std::string nodes_block(const nodo_harmonic_gains_t &g)
 {
     std::string s = "/* columns iq_A, id_A, theta_e_rad; then the same per ampere of iq */\n";
-    for (int node = 0; node < g.n_nodes; node++) {
-        const double root = node / static_cast<double>(g.nodes_per_root);
-        std::string  rows;
-        for (int i = 0; i < NODO_HARMONIC_N_BASE + 2 * g.n_pairs; i++) {
-            rows += c_row(row_label(i), g.gain[node][i], NODO_HARMONIC_N_G);
+    for (int i = 0; i < NODO_HARMONIC_N_BASE + 2 * g.n_pairs; i++) {
+        std::string nodes;
+        for (int node = 0; node < g.n_nodes; node++) {
+            const double root = node / static_cast<double>(g.nodes_per_root);
+            nodes +=
+                c_row(fmt::format("{:.1f} rad/s", root * root), g.gain[i][node], NODO_HARMONIC_N_G);
         }
-        s += fmt::format("{{ /* {:.1f} rad/s */\n", root * root) + c_indented(rows) + "},\n";
+        s += fmt::format("{{ /* {} */\n", row_label(i)) + c_indented(nodes) + "},\n";
     }
     return c_block("gain", s);
 }

@@ -140,8 +140,8 @@ void fill_table(const HarmonicDesign &design, const Drive &drive, double largest
         for (Index row = 0; row < node.K0.rows(); row++) {
             // rows differ by 1e12 and more: what is noise depends on the row
             for (Index column = 0; column < 3; column++) {
-                t.gain[k][row][column]     = gain_entry(node.K0.row(row), 0, column);
-                t.gain[k][row][column + 3] = gain_entry(node.K1.row(row), 0, column);
+                t.gain[row][k][column]     = gain_entry(node.K0.row(row), 0, column);
+                t.gain[row][k][column + 3] = gain_entry(node.K1.row(row), 0, column);
             }
         }
     }

@@ -146,8 +146,8 @@ MatrixXd harmonic_gain(const nodo_harmonic_gains_t &t, double w, double iq_A)
     for (Index row = 0; row < L.rows(); row++) {
         for (Index j = 0; j < 3; j++) {
             const auto at = [&](std::size_t node) {
-                return static_cast<double>(t.gain[node][row][j]) +
-                       s * static_cast<double>(t.gain[node][row][j + 3]);
+                return static_cast<double>(t.gain[row][node][j]) +
+                       s * static_cast<double>(t.gain[row][node][j + 3]);
             };
             L(row, j) = (1.0 - share) * at(k) + share * at(k + 1);
         }
