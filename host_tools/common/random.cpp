@@ -14,10 +14,12 @@ std::uint64_t mix(std::uint64_t z)
     return z ^ (z >> 31U);
 }
 
+// Of splitmix64: its sequence is mix(seed + n step).
+constexpr std::uint64_t step = 0x9e3779b97f4a7c15ULL;
+
 } // namespace
 
-Uniform::Uniform(std::uint64_t seed, std::uint64_t stream)
-    : generator_(mix(seed + 0x9e3779b97f4a7c15ULL * stream))
+Uniform::Uniform(std::uint64_t seed, std::uint64_t stream) : generator_(mix(seed + step * stream))
 {
 }
 
@@ -26,6 +28,12 @@ double Uniform::next(double lo, double hi)
     // 53 random bits fill a double's mantissa; + 1 keeps 0 out, which has no logarithm.
     const double share = static_cast<double>((generator_() >> 11U) + 1U) * 0x1p-53;
     return lo + (hi - lo) * share;
+}
+
+double even_number(std::uint64_t seed, NoiseStream stream, std::uint64_t index)
+{
+    const std::uint64_t begin = mix(seed + step * static_cast<std::uint64_t>(stream));
+    return static_cast<double>(mix(begin + step * (index + 1U)) >> 11U) * 0x1p-52 - 1.0;
 }
 
 Noise::Noise(std::uint64_t seed, NoiseStream stream)

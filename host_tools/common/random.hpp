@@ -8,7 +8,7 @@
 namespace sdre {
 
 /// Who draws; each source has a generator of its own, so that one does not shift another.
-enum class NoiseStream : std::uint64_t { adc_a = 1, adc_b = 2 };
+enum class NoiseStream : std::uint64_t { adc_a = 1, adc_b = 2, encoder_disc = 3 };
 
 /// Evenly distributed numbers, a sequence per seed and stream.
 class Uniform {
@@ -21,6 +21,9 @@ public:
 private:
     std::mt19937_64 generator_;
 };
+
+/// An evenly distributed number of -1 .. 1 for every index, without a generator's state.
+double even_number(std::uint64_t seed, NoiseStream stream, std::uint64_t index);
 
 /// Gaussian numbers: std::mt19937_64, whose sequence the standard fixes, and Box-Muller.
 class Noise {

@@ -16,8 +16,10 @@ constexpr int    lines    = 2500;
 constexpr int    pairs    = 2;
 constexpr double period_s = 2e-4;
 
-QuadratureEncoder encoder_with(const SensorSettings &settings)
+/// With a perfect disc.
+QuadratureEncoder encoder_with(SensorSettings settings)
 {
+    settings.encoder_disc = {0.0, 0.0, 0.0};
     QuadratureEncoder encoder(settings, lines, pairs, period_s);
     encoder.start(0.0, 0.0);
     return encoder;
@@ -84,7 +86,7 @@ TEST(Encoder, ReversalAtACountEdgeTogglesOneCount)
 
 TEST(Encoder, StartsWithTheSpeedItHad)
 {
-    QuadratureEncoder encoder({}, lines, pairs, period_s);
+    QuadratureEncoder encoder = encoder_with({});
     encoder.start(1.0, 300.0);
     EXPECT_NEAR(encoder.read(1.0).omega_e_radps, 300.0, 6.3); // one count
 }

@@ -44,6 +44,12 @@ struct Motion {
     }
 };
 
+QuadratureEncoder encoder_with(SensorSettings settings)
+{
+    settings.encoder_disc = {0.0, 0.0, 0.0};
+    return {settings, lines, pairs, period_s};
+}
+
 ShaftPath path_of(const Motion &m)
 {
     ShaftPath path;
@@ -62,7 +68,7 @@ TEST(EncoderEdges, AreAtTheTimesOfAnAcceleratedShaft)
 {
     for (const double direction : {1.0, -1.0}) {
         const Motion m{0.3, direction * 800.0, direction * 2e5}; // 40 rad/s more within the period
-        QuadratureEncoder encoder({}, lines, pairs, period_s);
+        QuadratureEncoder encoder = encoder_with({});
         encoder.start(m.start, m.speed);
         ShaftPath before;
         before.lead_to(m.start, m.speed, period_s);
@@ -86,7 +92,7 @@ TEST(EncoderEdges, AreAtTheTimesOfAnAcceleratedShaft)
 TEST(EncoderEdges, AReversalPassesTheSameEdgesTwice)
 {
     const Motion      m{0.3 * count_rad, 50.0, -5e5}; // turns around at 100 us, 1.99 counts further
-    QuadratureEncoder encoder({}, lines, pairs, period_s);
+    QuadratureEncoder encoder = encoder_with({});
     encoder.start(m.start, 0.0);
     std::vector<EncoderEdge> edges;
     encoder.read(path_of(m), edges);
@@ -106,7 +112,7 @@ TEST(EncoderEdges, ChangingSpeedIsMeasuredFromEdgeToEdge)
     SensorSettings s;
     s.encoder_edge_time = true;
     const Motion      m{0.25 * count_rad, 300.0, 3e5};
-    QuadratureEncoder encoder(s, lines, pairs, period_s);
+    QuadratureEncoder encoder = encoder_with(s);
     encoder.start(m.start, m.speed);
     ShaftPath before;
     before.lead_to(m.start, m.speed, period_s);
@@ -123,7 +129,7 @@ TEST(EncoderEdges, EccentricityMovesThem)
 {
     SensorSettings s;
     s.encoder_eccentricity_rad = 0.01;
-    QuadratureEncoder encoder(s, lines, pairs, period_s);
+    QuadratureEncoder encoder  = encoder_with(s);
     encoder.start(1.0, 500.0);
     ShaftPath path;
     path.lead_to(1.0, 500.0, period_s);

@@ -78,7 +78,9 @@ TEST(RealisticScenario, DefaultsAreTheShippedBoard)
 
 TEST(RealisticScenario, SamplesAreQuantised)
 {
-    const Scenario s = read(head + body + "[sensors]\nadc_noise_rms_A = 0.0\n");
+    const Scenario s = read(head + body +
+                            "[sensors]\nadc_noise_rms_A = 0.0\nencoder_quadrature_error_cnt = 0.0\n"
+                            "encoder_duty_error_cnt = 0.0\nencoder_jitter_rms_cnt = 0.0\n");
     Board          board(s);
     double         angle = 2.0;
     for (int k = 0; k < 500; k++) {

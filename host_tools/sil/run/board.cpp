@@ -45,7 +45,7 @@ Board::Board(const Scenario &s)
       inverter_(s.inverter), source_V_(s.dc_link_V), plant_(motor_),
       bridge_(timing_of(s), s.inverter, dead_time_of(s.sensors, s.inverter, s.drive)),
       dc_link_(s.inverter, s.dc_link_V),
-      encoder_(s.sensors, s.drive.encoder.lines, s.drive.motor.pole_pairs, period_s_),
+      encoder_(s.sensors, s.drive.encoder.lines, s.drive.motor.pole_pairs, period_s_, s.seed),
       noise_a_(s.seed, NoiseStream::adc_a), noise_b_(s.seed, NoiseStream::adc_b),
       load_(s.load_torque, s.load_ramps, s.load_sine)
 {

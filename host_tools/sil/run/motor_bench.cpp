@@ -27,7 +27,7 @@ double smooth(double x)
 
 MotorBench::MotorBench(const Scenario &s, long start_tick)
     : scenario_(s), period_s_(control_period_s(s.drive)), start_tick_(start_tick),
-      held_encoder_(s.sensors, s.drive.encoder.lines, s.drive.motor.pole_pairs, period_s_),
+      held_encoder_(s.sensors, s.drive.encoder.lines, s.drive.motor.pole_pairs, period_s_, s.seed),
       held_noise_a_(s.seed, NoiseStream::adc_a), held_noise_b_(s.seed, NoiseStream::adc_b)
 {
     held_encoder_.start(held_theta_e_rad(0), 0.0);

@@ -15,8 +15,8 @@ constexpr double no_edge_s = 1.0;
 } // namespace
 
 QuadratureEncoder::QuadratureEncoder(const SensorSettings &settings, int lines, int pole_pairs,
-                                     double period_s)
-    : drive_lines_(lines), pole_pairs_(pole_pairs), period_s_(period_s)
+                                     double period_s, std::uint64_t seed)
+    : drive_lines_(lines), pole_pairs_(pole_pairs), period_s_(period_s), seed_(seed)
 {
     configure(settings);
 }
@@ -25,6 +25,7 @@ void QuadratureEncoder::configure(const SensorSettings &settings)
 {
     settings_        = settings;
     counts_per_turn_ = 4 * static_cast<std::int64_t>(settings.encoder_lines.value_or(drive_lines_));
+    disc_            = EncoderDisc(settings.encoder_disc, counts_per_turn_, seed_);
 }
 
 double QuadratureEncoder::shaft_turns(double theta_e_rad) const
@@ -42,24 +43,23 @@ double QuadratureEncoder::position_cnt(double theta_e_rad) const
     return shaft_turns(theta_e_rad) * static_cast<double>(counts_per_turn_);
 }
 
-double QuadratureEncoder::edge_cnt(std::int64_t count) const
-{
-    return static_cast<double>(count);
-}
-
 std::int64_t QuadratureEncoder::count_at(double theta_e_rad) const
 {
-    // Further away a double has no single counts; a plant that runs away gets there before its run ends.
-    constexpr double furthest = 0x1p53;
-    const double     counts   = std::floor(position_cnt(theta_e_rad));
-    return std::abs(counts) < furthest ? static_cast<std::int64_t>(counts) : 0;
+    return disc_.count_at(position_cnt(theta_e_rad));
+}
+
+/// Whole turns, rounded down.
+std::int64_t QuadratureEncoder::turn_of(std::int64_t count) const
+{
+    const std::int64_t turns = count / counts_per_turn_;
+    return turns * counts_per_turn_ > count ? turns - 1 : turns;
 }
 
 void QuadratureEncoder::start(double theta_e_rad, double omega_e_radps)
 {
     const double before = theta_e_rad - omega_e_radps * period_s_;
     lost_               = 0;
-    lost_at_turn_       = std::floor(shaft_turns(theta_e_rad));
+    lost_at_turn_       = turn_of(count_at(theta_e_rad));
     before_             = count_at(before);
     lost_for_good_      = 0;
     true_before_        = before_;
@@ -68,7 +68,7 @@ void QuadratureEncoder::start(double theta_e_rad, double omega_e_radps)
     const double rate   = (position_cnt(theta_e_rad) - position_cnt(before)) / period_s_;
     edge_age_s_         = rate == 0.0
                               ? no_edge_s
-                              : std::min((position_cnt(before) - edge_cnt(edge_)) / rate, no_edge_s);
+                              : std::min((position_cnt(before) - disc_.edge_cnt(edge_)) / rate, no_edge_s);
 }
 
 void QuadratureEncoder::lose(int counts)
@@ -80,12 +80,9 @@ void QuadratureEncoder::lose(int counts)
 /// The index is high within the count that begins a turn; it has gone high when that count was entered.
 void QuadratureEncoder::note_index(std::int64_t now, Reading &r) const
 {
-    const auto turn_below = [this](std::int64_t count) {
-        const std::int64_t rest = count % counts_per_turn_;
-        return count - (rest < 0 ? rest + counts_per_turn_ : rest);
-    };
     const bool         forward = now > true_before_;
-    const std::int64_t mark    = forward ? turn_below(now) : turn_below(now + counts_per_turn_ - 1);
+    const std::int64_t mark    = forward ? counts_per_turn_ * turn_of(now)
+                                         : counts_per_turn_ * turn_of(now + counts_per_turn_ - 1);
     const bool         passed  = forward ? mark > true_before_ : mark < true_before_;
     r.raw_count                = now - lost_for_good_;
     r.index                    = settings_.encoder_index && passed;
@@ -95,7 +92,7 @@ void QuadratureEncoder::note_index(std::int64_t now, Reading &r) const
 /// When the shaft passes the edge below a count, in a piece over which it does.
 double QuadratureEncoder::edge_time_s(const PathPiece &piece, std::int64_t edge) const
 {
-    const double at = edge_cnt(edge);
+    const double at = disc_.edge_cnt(edge);
     return piece.time_s(
         zero_of(piece, [&](double share) { return position_cnt(piece.theta_e_rad(share)) - at; }));
 }
@@ -176,15 +173,15 @@ QuadratureEncoder::Reading QuadratureEncoder::read(const ShaftPath          &pat
 
 QuadratureEncoder::Reading QuadratureEncoder::read(const ShaftPath &path)
 {
-    const double theta_e_rad = path.points().back().theta_e_rad;
-    const double turn        = std::floor(shaft_turns(theta_e_rad));
+    const double       theta_e_rad = path.points().back().theta_e_rad;
+    const std::int64_t now         = count_at(theta_e_rad);
+    const std::int64_t turn        = turn_of(now);
     if (settings_.encoder_index && turn != lost_at_turn_) {
         lost_ = 0;
     }
     lost_at_turn_ = turn;
 
-    Reading            r;
-    const std::int64_t now = count_at(theta_e_rad);
+    Reading r;
     note_index(now, r);
     r.count = now - lost_; // EQ-ENCODER-2
 

@@ -2,7 +2,7 @@
 /// Incremental encoder with a quadrature counter (x4) on the motor's shaft.
 ///
 ///     shaft = theta_m + offset_e / n_p + eccentricity sin(theta_m)             EQ-ENCODER-1
-///     count = floor(4 lines shaft / 2 pi) - lost                               EQ-ENCODER-2
+///     count = edges of the disc below 4 lines shaft / 2 pi - lost              EQ-ENCODER-2
 ///     theta_e = n_p (count + 1/2) 2 pi / (4 lines), wrapped to [0, 2 pi)       EQ-ENCODER-3
 ///     omega_e = n_p (count - count before) 2 pi / (4 lines Ts)                 EQ-ENCODER-4
 ///     or, with the times of the last edges of this period and of the one before them,
@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "sil/plant/shaft_path.hpp"
+#include "sil/sensors/encoder_disc.hpp"
 #include "sil/sensors/path_pieces.hpp"
 #include "sil/setup/board_settings.hpp"
 
@@ -41,7 +42,9 @@ public:
     };
 
     /// @param lines of the drive file, unless the settings name others.
-    QuadratureEncoder(const SensorSettings &settings, int lines, int pole_pairs, double period_s);
+    /// @param seed of the disc's jitter
+    QuadratureEncoder(const SensorSettings &settings, int lines, int pole_pairs, double period_s,
+                      std::uint64_t seed = 1);
 
     /// Changes in flight; the counter keeps what it has lost.
     void configure(const SensorSettings &settings);
@@ -61,7 +64,7 @@ public:
 private:
     double       shaft_turns(double theta_e_rad) const;
     std::int64_t count_at(double theta_e_rad) const;
-    double       edge_cnt(std::int64_t count) const; ///< where the edge below a count is
+    std::int64_t turn_of(std::int64_t count) const;
     void         note_index(std::int64_t now, Reading &r) const;
     double       position_cnt(double theta_e_rad) const;
     double       edge_time_s(const PathPiece &piece, std::int64_t edge) const;
@@ -73,15 +76,17 @@ private:
     int            drive_lines_;
     double         pole_pairs_;
     double         period_s_;
+    std::uint64_t  seed_;
     std::int64_t   counts_per_turn_ = 0;
-    std::int64_t   before_          = 0;
-    std::int64_t   lost_            = 0;
-    std::int64_t   lost_for_good_   = 0; ///< by a counter that the index does not put right
-    std::int64_t   true_before_     = 0;
-    double         lost_at_turn_    = 0.0; ///< whole turns when they were last lost or read
-    std::int64_t   edge_            = 0;   ///< the last edge, as the true count above it
-    double         edge_age_s_      = 0.0; ///< since that edge, at the last reading
-    double         edge_speed_      = 0.0; ///< EQ-ENCODER-5, electrical
+    EncoderDisc    disc_{{}, 4, 1};
+    std::int64_t   before_        = 0;
+    std::int64_t   lost_          = 0;
+    std::int64_t   lost_for_good_ = 0; ///< by a counter that the index does not put right
+    std::int64_t   true_before_   = 0;
+    std::int64_t   lost_at_turn_  = 0;   ///< whole turns when they were last lost or read
+    std::int64_t   edge_          = 0;   ///< the last edge, as the true count above it
+    double         edge_age_s_    = 0.0; ///< since that edge, at the last reading
+    double         edge_speed_    = 0.0; ///< EQ-ENCODER-5, electrical
 };
 
 } // namespace sdre

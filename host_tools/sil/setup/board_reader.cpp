@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sil/setup/board_reader.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "drive/drive_file.hpp"
@@ -11,6 +13,8 @@ namespace {
 // Allowed values: wide enough for any board, narrow enough that a slipped unit is caught.
 constexpr Range encoder_lines{1, 1e6};
 constexpr Range eccentricity_rad{0.0, 0.5};
+constexpr Range edge_error_cnt{-0.9, 0.9};
+constexpr Range edge_jitter_cnt{0.0, 0.28};
 constexpr Range angle_e_rad{-3.2, 3.2};
 constexpr Range adc_bits{4, 24};
 constexpr Range current_A{1e-3, 1e4};
@@ -58,6 +62,23 @@ SaturationMap read_saturation(TomlReader &t)
     return map;
 }
 
+EncoderDiscSettings read_disc(TomlReader &t, EncoderDiscSettings s)
+{
+    s.quadrature_error_cnt =
+        t.number_or("encoder_quadrature_error_cnt", edge_error_cnt, s.quadrature_error_cnt);
+    s.duty_error_cnt = t.number_or("encoder_duty_error_cnt", edge_error_cnt, s.duty_error_cnt);
+    s.jitter_rms_cnt = t.number_or("encoder_jitter_rms_cnt", edge_jitter_cnt, s.jitter_rms_cnt);
+    const double most_cnt = 0.5 * (std::abs(s.quadrature_error_cnt) + std::abs(s.duty_error_cnt)) +
+                            std::sqrt(3.0) * s.jitter_rms_cnt;
+    if (most_cnt >= 0.5) {
+        t.fail("encoder_jitter_rms_cnt",
+               fmt::format("is not allowed with the other errors: an edge would be off by {:.3g} "
+                           "counts, must be below 0.5",
+                           most_cnt));
+    }
+    return s;
+}
+
 } // namespace
 
 SensorSettings read_sensors(TomlReader t, SensorSettings s, const Drive &drive)
@@ -72,6 +93,7 @@ SensorSettings read_sensors(TomlReader t, SensorSettings s, const Drive &drive)
         t.number_or("encoder_eccentricity_rad", eccentricity_rad, s.encoder_eccentricity_rad);
     s.encoder_offset_e_rad =
         t.number_or("encoder_offset_e_rad", angle_e_rad, s.encoder_offset_e_rad);
+    s.encoder_disc     = read_disc(t, s.encoder_disc);
     s.adc_bits         = t.integer_or("adc_bits", adc_bits, s.adc_bits);
     s.adc_full_scale_A = t.number_or("adc_full_scale_A", current_A, s.adc_full_scale_A);
     s.adc_noise_rms_A  = t.number_or("adc_noise_rms_A", noise_A, s.adc_noise_rms_A);

@@ -8,6 +8,15 @@
 
 namespace sdre {
 
+/// In counts: a quarter of a line, 90 electrical degrees of it. Data sheets allow +-10 to +-45 degrees of state width,
+/// +-10 to +-35 of pulse width and +-1 to +-5 of a line's length. Chosen: near the better end, an edge off by
+/// 0.10 counts rms and 0.175 at most.
+struct EncoderDiscSettings {
+    double quadrature_error_cnt = 0.14; ///< of the width of a state: 12.6 degrees
+    double duty_error_cnt       = 0.14; ///< of the width of a pulse: 12.6 degrees
+    double jitter_rms_cnt       = 0.02; ///< of each edge: 1.8 degrees, 3.1 at most
+};
+
 struct SensorSettings {
     bool ideal = true; ///< exact signals; every other key of this table is then without effect
     std::optional<int> encoder_lines;             ///< the drive file's unless given
@@ -15,14 +24,15 @@ struct SensorSettings {
     bool               encoder_edge_time = false; ///< the drive file's unless given
     double encoder_eccentricity_rad      = 0.0;   ///< mechanical, amplitude of one sine per turn
     double encoder_offset_e_rad          = 0.0;   ///< alignment error, electrical
-    int    adc_bits                      = 12;    ///< the F28335's converter
-    double adc_full_scale_A   = 10.0;  ///< chosen: 2.5 x the 4 A limit, so that a trip is seen
-    double adc_noise_rms_A    = 0.010; ///< chosen: 2 codes, a Hall sensor with its amplifier
-    double adc_offset_a_A     = 0.0;   ///< calibrated before the start
-    double adc_offset_b_A     = 0.0;
-    double adc_gain_a         = 1.0;
-    double adc_gain_b         = 1.0;
-    double sampling_advance_s = 0.0; ///< samples are taken this long before the period starts
+    EncoderDiscSettings encoder_disc;
+    int                 adc_bits = 12;    ///< the F28335's converter
+    double adc_full_scale_A      = 10.0;  ///< chosen: 2.5 x the 4 A limit, so that a trip is seen
+    double adc_noise_rms_A       = 0.010; ///< chosen: 2 codes, a Hall sensor with its amplifier
+    double adc_offset_a_A        = 0.0;   ///< calibrated before the start
+    double adc_offset_b_A        = 0.0;
+    double adc_gain_a            = 1.0;
+    double adc_gain_b            = 1.0;
+    double sampling_advance_s    = 0.0; ///< samples are taken this long before the period starts
 };
 
 enum class InverterModel { averaged, switched };

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+/// The edges of an incremental encoder's disc, where they really are: the same in every turn.
+///
+///     edge n is at n + e(n) counts, n of the turn                              EQ-ENCODER-7
+///     e(n) = -+ quadrature/2 (track A, B) -+ duty/2 (rising, falling) + jitter u(n)
+///
+/// quadrature: how much track B is late, so that the states of a line are 1 +- quadrature counts wide. duty: how much
+/// longer the tracks' pulses are than their gaps are. u(n): even, of mean 0 and standard deviation 1.
+#pragma once
+
+#include <cstdint>
+
+#include "sil/setup/board_settings.hpp"
+
+namespace sdre {
+
+class EncoderDisc {
+public:
+    EncoderDisc(const EncoderDiscSettings &settings, std::int64_t counts_per_turn,
+                std::uint64_t seed);
+
+    /// Position of the edge below a count.
+    double edge_cnt(std::int64_t count) const;
+    /// The count of a position: the last edge that is not beyond it. Too far away for single counts: 0.
+    std::int64_t count_at(double position_cnt) const;
+
+private:
+    EncoderDiscSettings settings_;
+    std::int64_t        counts_per_turn_;
+    std::uint64_t       seed_;
+    bool                perfect_;
+};
+
+} // namespace sdre
