@@ -29,6 +29,7 @@ KIND_OF = {name: kind for kind, names in KINDS.items() for name in names}
 MULTIPLE_LOAD = ("ldmia", "ldmdb", "ldm", "pop", "vpop", "vldmia", "vldmdb")
 MULTIPLE_STORE = ("stmia", "stmdb", "stm", "push", "vpush", "vstmia", "vstmdb")
 FLOAT_REGISTERS = 8  # of the C28x
+NEAR_OCTETS = 16  # of a structure: eight words, what an instruction of the C28x reaches without an index register
 LAW = ("check", "reset", "step")  # members of law_t, in their order
 
 
@@ -119,6 +120,9 @@ def classify(i):
     if kind == "load" and "[pc" in i.operands or i.name == "vmov" and "#" in i.operands:
         kind = "constant"
     i.counts[kind] += 2 if i.name in ("ldrd", "strd") else 1
+    if kind in ("load", "store") and (match := re.search(r"\[(\w+), #(-?\d+)\]", i.operands)):
+        if match[1] != "sp" and not 0 <= int(match[2]) < NEAR_OCTETS:
+            i.counts["far"] += 1
 
 
 def law_functions(prefix, image):
@@ -183,7 +187,21 @@ def read_code(prefix, image, functions=()):
         code[i.address] = before = i
         block.append(i)
     count_spills(code)
+    count_limits(code)
     return code
+
+
+def count_limits(code):
+    """A comparison with a conditional move of one of its operands is the smaller or larger of two: one instruction there."""
+    ordered = list(code.values())
+    for compare, flags, condition, move in zip(ordered, ordered[1:], ordered[2:], ordered[3:]):
+        chain = compare.next is flags and flags.next is condition and condition.next is move
+        if not chain or flags.name != "vmrs" or condition.name != "it" or not (move.name == "vmov" and move.conditional):
+            continue
+        if sorted(float_registers(compare.operands)) == sorted(float_registers(move.operands)):
+            for part in (compare, flags, condition):
+                part.counts.clear()
+            move.counts = Counter(limit=1)
 
 
 def count_spills(code):

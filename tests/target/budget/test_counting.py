@@ -2,6 +2,7 @@
 """Counting and pricing on code small enough to count by hand; needs no cross compiler."""
 import sys
 import unittest
+from collections import Counter
 from pathlib import Path
 from unittest import mock
 
@@ -125,11 +126,31 @@ class Counting(unittest.TestCase):
         listing = "00000100 <f>:\n" + "\n".join(lines) + "\n 120:\tvadd.f32\ts8, s0, s1\n 124:\tbx\tlr\n"
         self.assertEqual(sum(i.counts["spill"] for i in code_of(listing).values()), 1)
 
+    def test_a_compare_with_a_conditional_move_is_a_limit(self):
+        lines = ("vcmpe.f32\ts0, s1", "vmrs\tAPSR_nzcv, fpscr", "it\tgt", "vmovgt.f32\ts0, s1", "bx\tlr")
+
+        def counts_of(lines):
+            text = "\n".join(f" {0x100 + 4 * n:x}:\t{line}" for n, line in enumerate(lines))
+            return counted(sum((i.counts for i in code_of(f"00000100 <f>:\n{text}\n").values()), Counter()))
+
+        self.assertEqual(counts_of(lines), {"limit": 1})
+        for n, other in ((3, "vmovgt.f32\ts0, s2"), (3, "vnegmi.f32\ts0, s1"), (2, "ite\tgt"), (1, "nop")):
+            with self.subTest(other=other):
+                self.assertNotIn("limit", counts_of(lines[:n] + (other,) + lines[n + 1 :]))
+
+    def test_only_the_first_eight_words_of_a_structure_are_near(self):
+        code = code_of(
+            "00000100 <f>:\n 100:\tvldr\ts0, [r0, #12]\n 104:\tvstr\ts0, [r0, #16]\n 108:\tvldr\ts1, [sp, #64]\n"
+            " 10c:\tldr\tr1, [r2]\n 110:\tvldr\ts2, [r0, #-4]\n 114:\tbx\tlr\n"
+        )
+        self.assertEqual([i.counts["far"] for i in code.values()], [0, 1, 0, 0, 1, 0])
+
     def test_calls_of_the_law_are_resolved(self):
         code = code_of(LAW_LISTING, LAW_FUNCTIONS)
         bound = LongestPath(code, set(), {}, unit_cost).function("tick")
         self.assertEqual(counted(bound), {
-            "store": 6, "load": 5, "integer": 1, "call": 1, "branch": 1, "fp_add": 1, "return": 2})  # fmt: skip
+            "store": 6, "load": 5, "far": 1, "integer": 1, "call": 1, "branch": 1, "fp_add": 1,
+            "return": 2})  # fmt: skip
         self.assertEqual(machine_code.stack_depth(code, "tick"), 8 + 12)
         steps = Steps(code, set(), (unit_cost,))
         self.assertEqual(steps[(b"00000100", b"00000124")][2]["call"], 1)
