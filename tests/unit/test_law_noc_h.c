@@ -33,7 +33,7 @@ static void draw(void)
 
 static void start(void)
 {
-    const drive_sample_t at = {0.4f, -0.3f, 295.0f, 5.0f, 300.0f, true};
+    const drive_sample_t at = {0.4f, -0.3f, 295.0f, 5.0f, 0.0f, 300.0f, true};
 
     sample = at;
     drive->law->reset(&state, drive, &sample);

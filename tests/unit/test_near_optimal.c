@@ -46,7 +46,7 @@ void setUp(void)
                                          .theta_rad   = 0.7f,
                                          .plausible   = true};
     const nodo_t              nothing = {0.0f, 0.0f, 0.0f, 300.0f, 0.5f, -0.1f};
-    const drive_sample_t      of_295V = {0.0f, 0.0f, 295.0f, 0.0f, 300.0f, true};
+    const drive_sample_t      of_295V = {0.0f, 0.0f, 295.0f, 0.0f, 0.0f, 300.0f, true};
     const law_input_t         hold    = {
                    .sample = &sample, .command_e_radps = 300.0f, .v_V = {.d = 0.0f, .q = 0.0f}};
 
