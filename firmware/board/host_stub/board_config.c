@@ -29,7 +29,6 @@ const app_config_t board_config = {
         },
     .angle =
         {
-            .pole_pairs            = 2U, /* of the drive; app_init() compares */
             .index_theta_e_rad     = 0.0f,
             .index_tolerance_cnt   = 4U, /* no index pulse ever comes */
             .index_correct_max_cnt = 40U,

@@ -26,6 +26,8 @@ enum {
 #define TOL_TRUE_E_RADPS 5.0f   /* worst 1.2 */
 #define TOL_TOLD_E_RADPS 15.0f  /* worst 3.8: a count of the encoder is 3.1 mrad electrical */
 
+static drive_config_t drive;
+
 static void period(void)
 {
     host_stub_period();
@@ -68,7 +70,9 @@ int main(void)
     if (!board_init()) {
         return EXIT_BOARD;
     }
-    if (app_init(&board_config, &gain_tables_drive) != CTL_OK) {
+    drive                            = gain_tables_drive;
+    drive.hardware.encoder_positions = BOARD_POSITIONS; /* the tables are of another encoder */
+    if (app_init(&board_config, &drive) != CTL_OK) {
         return EXIT_CONFIG;
     }
     board_start(app_tick, 1U);
