@@ -56,7 +56,7 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
         app_modbus_init(&background_side.modbus, tick_side.config.modbus_address,
                         tick_side.config.modbus_gap_ticks, tick_side.config.modbus_timeout_ticks);
 
-    app_registers_init(&background_side.registers, drive->trip_speed_e_radps);
+    app_registers_init(&background_side.registers, drive->speed_max_e_radps);
     background_side.status       = app_modes_status(&tick_side.modes, 0U);
     background_side.served_ticks = 0UL;
 

@@ -106,6 +106,7 @@ const drive_config_t gain_tables_drive = {
     .current_max_A = 4.00000000e+00f,
     .trip_current_A = 8.00000000e+00f,
     .trip_speed_e_radps = 1.56900000e+03f,
+    .speed_max_e_radps = 1.19134583e+03f,
     .dc_link_min_V = 8.85000000e+01f,
     .dc_link_max_V = 3.98250000e+02f,
     .overmodulation = true,

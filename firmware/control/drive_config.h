@@ -22,14 +22,15 @@ typedef struct {
 
 /** Everything that depends on the motor and the board: generated, constant, checked by drive_init(). */
 typedef struct drive_config {
-    float           ts_s;           /**< control period [s], 1e-5 .. 1e-2 */
-    float           current_max_A;  /**< what the drive may ask for, peak; > 0 */
-    float           trip_current_A; /**< a phase current beyond this is a fault, > current_max_A */
-    float           trip_speed_e_radps; /**< a speed beyond this is a fault, > 0 */
-    float           dc_link_min_V;      /**< accepted dc link, > 0 */
-    float           dc_link_max_V;      /**< > dc_link_min_V */
-    bool            overmodulation;     /**< voltages may use the hexagon outside the circle */
-    motor_reduced_t motor;
+    float ts_s;               /**< control period [s], 1e-5 .. 1e-2 */
+    float current_max_A;      /**< what the drive may ask for, peak; > 0 */
+    float trip_current_A;     /**< a phase current beyond this is a fault, > current_max_A */
+    float trip_speed_e_radps; /**< a speed beyond this is a fault, > 0 */
+    float speed_max_e_radps;  /**< a command beyond this is a fault, > 0, <= trip_speed_e_radps */
+    float dc_link_min_V;      /**< accepted dc link, > 0 */
+    float dc_link_max_V;      /**< > dc_link_min_V */
+    bool  overmodulation;     /**< voltages may use the hexagon outside the circle */
+    motor_reduced_t    motor;
     dead_time_config_t dead_time;
     drive_hardware_t   hardware;
     const law_t       *law;       /**< what turns samples into a voltage */

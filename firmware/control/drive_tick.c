@@ -49,7 +49,7 @@ static drive_fault_t find_fault(const drive_config_t *c, const drive_sample_t *s
     if (!base_within(s->omega_e_radps, c->trip_speed_e_radps)) {
         return DRIVE_FAULT_OVER_SPEED;
     }
-    if (!base_within(command->omega_e_radps, c->trip_speed_e_radps)) {
+    if (!base_within(command->omega_e_radps, c->speed_max_e_radps)) {
         return DRIVE_FAULT_COMMAND;
     }
     return DRIVE_FAULT_NONE;

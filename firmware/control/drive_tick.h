@@ -22,7 +22,7 @@
 #include "sample.h"
 
 typedef struct {
-    float omega_e_radps; /**< wanted electrical speed, within +-trip_speed_e_radps */
+    float omega_e_radps; /**< wanted electrical speed, within +-speed_max_e_radps */
     bool  run;           /**< false opens the bridge */
 } drive_command_t;
 

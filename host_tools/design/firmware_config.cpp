@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "design/firmware_config.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace sdre {
 namespace {
 
@@ -16,6 +19,12 @@ float single(double x)
     return static_cast<float>(x);
 }
 
+/// The speed at which the line EMF alone reaches the dc link's trip level through the diodes of an open bridge.
+double emf_limit_e_radps(const Drive &d) // EQ-OPEN-3
+{
+    return dc_link_max_ratio * d.inverter.dc_link_V / (std::sqrt(3.0) * d.motor.pm_flux_Wb);
+}
+
 } // namespace
 
 drive_config_t common_config(const Design &d)
@@ -29,6 +38,9 @@ drive_config_t common_config(const Design &d)
     c.current_max_A      = single(m.max_current_A);
     c.trip_current_A     = single(trip_current_ratio * m.max_current_A);
     c.trip_speed_e_radps = single(trip_speed_ratio * m.rated_speed_e_radps);
+    c.speed_max_e_radps  = inv.regeneration == DcLinkSink::none
+                               ? std::min(c.trip_speed_e_radps, single(emf_limit_e_radps(d.drive)))
+                               : c.trip_speed_e_radps;
     c.dc_link_min_V      = single(dc_link_min_ratio * inv.dc_link_V);
     c.dc_link_max_V      = single(dc_link_max_ratio * inv.dc_link_V);
     c.overmodulation     = inv.overmodulation;

@@ -75,6 +75,8 @@ std::string normalised(const Drive &d)
                      i.dead_time_s, i.updates_per_period, d.encoder.lines);
     s += i.dead_time_compensation ? "compensated;" : "uncompensated;";
     s += i.overmodulation ? "hexagon;" : "circle;";
+    s += i.regeneration != DcLinkSink::none ? fmt::format("{};", dc_link_sink_name(i.regeneration))
+                                            : "";
     s += d.encoder.edge_times ? "edges;" : "";
     if (d.law == Law::noc_h) {
         return s + normalised_weights(d) + normalised_harmonics(d);

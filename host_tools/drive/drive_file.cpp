@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "drive/drive_file.hpp"
 
+#include <array>
 #include <map>
 
 #include <fmt/format.h>
@@ -53,6 +54,20 @@ Motor read_motor(TomlReader t)
     return m;
 }
 
+DcLinkSink read_regeneration(TomlReader &t)
+{
+    constexpr std::array all{DcLinkSink::none, DcLinkSink::brake_chopper, DcLinkSink::supply};
+    const std::string    name = t.text_or("regeneration", dc_link_sink_name(DcLinkSink::none));
+    for (const DcLinkSink sink : all) {
+        if (name == dc_link_sink_name(sink)) {
+            return sink;
+        }
+    }
+    t.fail("regeneration", fmt::format("= \"{}\" is not allowed: must be \"none\", "
+                                       "\"brake_chopper\" or \"supply\"",
+                                       name));
+}
+
 Inverter read_inverter(TomlReader t)
 {
     Inverter inverter;
@@ -62,6 +77,7 @@ Inverter read_inverter(TomlReader t)
     inverter.updates_per_period     = t.integer_or("updates_per_period", {1, 2}, 1);
     inverter.dead_time_compensation = t.boolean_or("dead_time_compensation", true);
     inverter.overmodulation         = t.boolean_or("overmodulation", false);
+    inverter.regeneration           = read_regeneration(t);
     t.reject_unknown_keys();
     return inverter;
 }
@@ -105,6 +121,13 @@ Drive read_drive_file(const std::filesystem::path &file)
                "is not allowed: must be at most a tenth of the PWM period");
     }
     return drive;
+}
+
+const char *dc_link_sink_name(DcLinkSink sink)
+{
+    return sink == DcLinkSink::brake_chopper ? "brake_chopper"
+           : sink == DcLinkSink::supply      ? "supply"
+                                             : "none";
 }
 
 double control_period_s(const Drive &drive)

@@ -24,13 +24,21 @@ struct Motor {
     int    slots = 0; ///< stator slots, periods of cogging per turn; 0 when not given
 };
 
+/// What takes the energy that a braking motor, or with an open bridge its EMF, drives into the dc link.
+enum class DcLinkSink {
+    none,          ///< nothing: the capacitor charges
+    brake_chopper, ///< a resistor that is switched on by the link's voltage
+    supply         ///< the supply, down to zero speed
+};
+
 struct Inverter {
-    double dc_link_V              = 0.0;
-    double pwm_frequency_Hz       = 0.0;
-    double dead_time_s            = 0.0;
-    int    updates_per_period     = 1; ///< control runs at pwm_frequency_Hz times this
-    bool   dead_time_compensation = true;
-    bool   overmodulation         = false; ///< transient voltages may use the hexagon's corners
+    double     dc_link_V              = 0.0;
+    double     pwm_frequency_Hz       = 0.0;
+    double     dead_time_s            = 0.0;
+    int        updates_per_period     = 1; ///< control runs at pwm_frequency_Hz times this
+    bool       dead_time_compensation = true;
+    bool       overmodulation         = false; ///< transient voltages may use the hexagon's corners
+    DcLinkSink regeneration           = DcLinkSink::none;
 };
 
 struct Encoder {
@@ -134,6 +142,9 @@ constexpr int drive_schema = 1;
 
 /// InputError in one line on anything missing, unknown, not finite or out of range.
 Drive read_drive_file(const std::filesystem::path &file);
+
+/// "none", "brake_chopper", "supply".
+const char *dc_link_sink_name(DcLinkSink sink);
 
 /// Control period: 1 / (pwm_frequency_Hz * updates_per_period).
 double control_period_s(const Drive &drive);

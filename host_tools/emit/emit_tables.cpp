@@ -74,6 +74,7 @@ std::string config_fields(const drive_config_t &c, const char *law)
     return c_field("ts_s", c.ts_s) + c_field("current_max_A", c.current_max_A) +
            c_field("trip_current_A", c.trip_current_A) +
            c_field("trip_speed_e_radps", c.trip_speed_e_radps) +
+           c_field("speed_max_e_radps", c.speed_max_e_radps) +
            c_field("dc_link_min_V", c.dc_link_min_V) + c_field("dc_link_max_V", c.dc_link_max_V) +
            c_field("overmodulation", std::string(c.overmodulation ? "true" : "false")) +
            motor_block(c.motor) +

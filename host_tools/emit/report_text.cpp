@@ -127,6 +127,17 @@ std::string noc_text(const Design &d)
            loop_text("observer", two ? "iq_hat and id_hat" : "iq_hat", d.certificate.nodo);
 }
 
+std::string limits_text(const Design &d)
+{
+    const drive_config_t &c      = d.config;
+    const bool            by_emf = c.speed_max_e_radps < c.trip_speed_e_radps;
+    return fmt::format(
+        "\nlimits\n  command +-{:.1f} rad/s{}, trip at {:.1f} rad/s, dc link {:.1f} to {:.1f} V\n",
+        c.speed_max_e_radps,
+        by_emf ? ", whose line EMF is the highest dc link (regeneration = \"none\")" : "",
+        c.trip_speed_e_radps, c.dc_link_min_V, c.dc_link_max_V);
+}
+
 } // namespace
 
 std::string report_text(const Design &d)
@@ -137,6 +148,7 @@ std::string report_text(const Design &d)
     for (std::size_t i = 1; i <= 11; i++) {
         s += fmt::format("  l{:<3} {:.9g}\n", i, d.l[i]);
     }
+    s += limits_text(d);
     s += d.servo ? servo_text(d) : noc_text(d);
     s += d.certificate.passed() ? "\nverdict: certified\n" : "\nverdict: refused\n";
     for (const std::string &failure : d.certificate.failures) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "design/design.hpp"
+#include "design/firmware_config.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -536,6 +537,22 @@ TEST(Design, UnsolvableWeightsAreADesignError)
     EXPECT_THROW(sdre::design_drive(drive), sdre::DesignError);
 }
 
+TEST(Design, CommandsEndWhereTheEmfReachesTheDcLinkTripUnlessSomethingTakesTheEnergy)
+{
+    const double trip = 3.0 * 523.0;
+    sdre::Design d    = shipped("ipmsm_390w_speed");
+    const auto   most = [&d](sdre::DcLinkSink sink, double flux_Wb) {
+        d.drive.inverter.regeneration = sink;
+        d.drive.motor.pm_flux_Wb      = flux_Wb;
+        return static_cast<double>(sdre::common_config(d).speed_max_e_radps);
+    };
+    EXPECT_NEAR(most(sdre::DcLinkSink::none, 0.193), 398.25 / (std::sqrt(3.0) * 0.193), 1e-3);
+    EXPECT_NEAR(most(sdre::DcLinkSink::none, 0.386), 398.25 / (std::sqrt(3.0) * 0.386), 1e-3);
+    EXPECT_EQ(most(sdre::DcLinkSink::none, 0.1), trip); // 2299 rad/s
+    EXPECT_EQ(most(sdre::DcLinkSink::brake_chopper, 0.193), trip);
+    EXPECT_EQ(most(sdre::DcLinkSink::supply, 0.193), trip);
+}
+
 TEST(Design, FirmwareConstantsFollowTheirDefinitions)
 {
     constexpr double     single = 2e-7; // rounding to single precision
@@ -549,6 +566,7 @@ TEST(Design, FirmwareConstantsFollowTheirDefinitions)
     near(c.ts_s, 200e-6);
     near(c.trip_current_A, 8.0);
     near(c.trip_speed_e_radps, 3.0 * 523.0);
+    near(c.speed_max_e_radps, 1191.3458); // 398.25 V / (sqrt 3 0.193 Wb)
     near(c.dc_link_min_V, 0.3 * 295.0);
     near(c.dc_link_max_V, 1.35 * 295.0);
     near(c.current_max_A, 4.0);

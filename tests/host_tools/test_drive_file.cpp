@@ -592,6 +592,24 @@ TEST(DriveFile, OvermodulationDefaultsToOff)
                      {"[inverter] overmodulation"});
 }
 
+TEST(DriveFile, RegenerationIsNoneUnlessTheFileSaysWhatTakesIt)
+{
+    const auto with = [](const char *sink) {
+        return read(DriveText().set("inverter", "regeneration", sink).str());
+    };
+    EXPECT_EQ(read(DriveText().str()).inverter.regeneration, sdre::DcLinkSink::none);
+    EXPECT_EQ(with("\"none\"").inverter.regeneration, sdre::DcLinkSink::none);
+    EXPECT_EQ(with("\"brake_chopper\"").inverter.regeneration, sdre::DcLinkSink::brake_chopper);
+    EXPECT_EQ(with("\"supply\"").inverter.regeneration, sdre::DcLinkSink::supply);
+    EXPECT_NE(sdre::drive_digest(with("\"supply\"")),
+              sdre::drive_digest(with("\"brake_chopper\"")));
+    EXPECT_NE(sdre::drive_digest(with("\"supply\"")), sdre::drive_digest(with("\"none\"")));
+    expect_complaint(DriveText().set("inverter", "regeneration", "\"sinks\""),
+                     {"[inverter] regeneration", "sinks", "brake_chopper"});
+    expect_complaint(DriveText().set("inverter", "regeneration", "true"),
+                     {"[inverter] regeneration"});
+}
+
 TEST(DriveFile, DeadTimeCompensationDefaultsToOn)
 {
     const sdre::Drive absent = read(DriveText().str());

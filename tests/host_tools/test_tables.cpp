@@ -135,7 +135,7 @@ std::vector<float> values_of(const drive_config_t &c)
     const motor_reduced_t &m = c.motor;
     std::vector<float>     v = constants_in(c);
     v.insert(v.end(), {c.ts_s, c.current_max_A, c.trip_current_A, c.trip_speed_e_radps,
-                       c.dc_link_min_V, c.dc_link_max_V});
+                       c.speed_max_e_radps, c.dc_link_min_V, c.dc_link_max_V});
     v.insert(v.end(), {m.l1, m.l2, m.l3, m.l4, m.l5, m.l6, m.l7, m.l8, m.l9, m.l10, m.l11, m.inv_l6,
                        m.inv_l8});
     v.insert(v.end(), {c.dead_time.share, c.dead_time.inv_fade_1pA});

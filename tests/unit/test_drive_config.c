@@ -28,6 +28,7 @@ static const entry_t entries[] = {
     {&config.current_max_A, POSITIVE},
     {&config.trip_current_A, POSITIVE},
     {&config.trip_speed_e_radps, POSITIVE},
+    {&config.speed_max_e_radps, POSITIVE},
     {&config.dc_link_min_V, POSITIVE},
     {&config.dc_link_max_V, POSITIVE},
     {&config.motor.l1, POSITIVE},
@@ -267,6 +268,15 @@ static void test_trip_current_lies_beyond_the_current_limit(void)
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(&config.trip_current_A, limit_A));
     TEST_ASSERT_EQUAL_INT(CTL_OK,
                           check_with(&config.trip_current_A, nextafterf(limit_A, INFINITY)));
+}
+
+static void test_no_command_may_lead_to_the_trip_speed(void)
+{
+    const float trip = config.trip_speed_e_radps;
+
+    TEST_ASSERT_EQUAL_INT(CTL_OK, check_with(&config.speed_max_e_radps, trip));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG,
+                          check_with(&config.speed_max_e_radps, nextafterf(trip, INFINITY)));
 }
 
 static void test_dc_link_range_is_not_empty(void)
@@ -535,6 +545,7 @@ int main(void)
     RUN_TEST(test_dead_time_ends_at_a_tenth_of_the_period);
     RUN_TEST(test_certified_range_contains_the_range_of_the_series);
     RUN_TEST(test_trip_current_lies_beyond_the_current_limit);
+    RUN_TEST(test_no_command_may_lead_to_the_trip_speed);
     RUN_TEST(test_dc_link_range_is_not_empty);
     RUN_TEST(test_iq_limit_lies_within_the_current_circle);
     RUN_TEST(test_orders_that_no_table_can_hold_are_refused);

@@ -115,7 +115,7 @@ static void draw_inputs(void)
     walk_radps            = support_limit(walk_radps + step, -1560.0, 1560.0);
     sample                = sample_at(i_A * cos(at), i_A * sin(at), angle, walk_radps);
     sample.dc_link_V      = support_uniform(&random_state, 88.5f, 398.25f);
-    command.omega_e_radps = support_uniform(&random_state, -1569.0f, 1569.0f);
+    command.omega_e_radps = support_uniform(&random_state, -1191.3f, 1191.3f);
 }
 
 /* Samples a motor would give: near 300 rad/s, errors within the linear range of the voltage. */
@@ -285,7 +285,7 @@ static const input_t inputs[] = {
     {&sample.ib_A, -8.0f, 8.0f, DRIVE_FAULT_OVER_CURRENT},
     {&sample.dc_link_V, 88.5f, 398.25f, DRIVE_FAULT_DC_LINK},
     {&sample.omega_e_radps, -1569.0f, 1569.0f, DRIVE_FAULT_OVER_SPEED},
-    {&command.omega_e_radps, -1569.0f, 1569.0f, DRIVE_FAULT_COMMAND},
+    {&command.omega_e_radps, -1.19134583e+03f, 1.19134583e+03f, DRIVE_FAULT_COMMAND},
 };
 
 /* The bridge opens at once, the reason is latched through good samples and other faults, a reset clears. */
