@@ -3,8 +3,9 @@
 
 #include "frames.h"
 
-#define HALF_COUNTS (2U * BOARD_POSITIONS) /* half counts per mechanical turn */
-#define POLE_PAIRS  64U                    /* keeps half counts times pole pairs within 32 bits */
+#define HALF_COUNTS    (2U * BOARD_POSITIONS) /* half counts per mechanical turn */
+#define EDGE_AGE_MAX_s 1.0f /* chosen: a count per second is a shaft that stands */
+#define POLE_PAIRS     64U  /* keeps half counts times pole pairs within 32 bits */
 
 ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c,
                             const drive_config_t *drive)
@@ -142,19 +143,23 @@ static void read_edges(app_angle_t *a, const board_sample_t *raw, app_angle_read
     const bool    timed      = raw->edge_seen && (turned_cnt != 0) && (age_s <= a->ts_s);
     const float   half_rad   = 0.5f * a->rad_per_cnt;
 
-    a->edge_age_s += a->ts_s;
+    a->edge_age_s       = base_min(a->edge_age_s + a->ts_s, EDGE_AGE_MAX_s);
+    reading->edge_gap_s = a->edge_age_s;
     if (timed) {
         const bool     forward = turned_cnt > 0;
         const uint32_t edge    = (uint32_t)raw->position_cnt + (forward ? 0U : 1U);
 
         take_edge(a, (uint16_t)((edge < BOARD_POSITIONS) ? edge : 0U), age_s);
+        reading->edge_gap_s -= age_s;
         const float beyond_rad =
             base_min(age_s * fabsf(a->edge_speed_e_radps), a->rad_per_cnt) - half_rad;
         reading->theta_e_rad =
             within_turn(reading->theta_e_rad + (forward ? beyond_rad : -beyond_rad));
     } else {
         if (turned_cnt != 0) {
-            a->have_edge = false; /* forth and back: which edge it was is not known */
+            a->have_edge        = false; /* forth and back: which edge it was is not known */
+            a->edge_age_s       = a->ts_s;
+            reading->edge_gap_s = a->ts_s;
         } else if (a->have_edge) {
             wait_for_edge(a);
         } else {
@@ -172,6 +177,7 @@ app_angle_reading_t app_angle_update(app_angle_t *a, const board_sample_t *raw)
     const uint16_t      position_cnt = raw->position_cnt;
     app_angle_reading_t reading      = {.theta_e_rad   = 0.0f,
                                         .band_rad      = 0.0f,
+                                        .edge_gap_s    = 0.0f,
                                         .omega_e_radps = 0.0f,
                                         .speed_valid   = a->have_before,
                                         .index_fault   = false};

@@ -63,8 +63,10 @@ typedef struct {
 } app_angle_t;
 
 typedef struct {
-    float theta_e_rad;   /**< 0 .. 2 pi */
-    float band_rad;      /**< the angle is certainly this near; 0: theta_e_rad is a measurement */
+    float theta_e_rad; /**< 0 .. 2 pi */
+    float band_rad;    /**< the angle is certainly this near; 0: theta_e_rad is a measurement */
+    float
+        edge_gap_s; /**< between the last two edges, or since the last one; 0 without edge times */
     float omega_e_radps; /**< 0 unless speed_valid */
     bool  speed_valid;   /**< the sample before was valid too */
     bool  index_fault;   /**< the index came where it cannot be; the reference is dropped */

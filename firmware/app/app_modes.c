@@ -100,6 +100,7 @@ static drive_sample_t drive_sample(const app_modes_t *m)
                               .dc_link_V     = m->sample.dc_link_V,
                               .theta_e_rad   = m->reading.theta_e_rad,
                               .band_rad      = m->reading.band_rad,
+                              .edge_gap_s    = m->reading.edge_gap_s,
                               .omega_e_radps = m->reading.omega_e_radps,
                               .valid         = m->sample.valid && m->reading.speed_valid};
     return s;

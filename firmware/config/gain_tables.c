@@ -63,6 +63,11 @@ static const law_noc_config_t constants = {
         .angle_rad = 4.49999988e-01f,
         .d_omega = 2.68539785e+04f,
     },
+    .rare = {
+        .theta = 8.16983938e-01f,
+        .omega_1ps = 1.66894995e+03f,
+        .d_omega_1ps2 = 4.67823469e+05f,
+    },
     .nodo = {
         .order = 2,
         .iq_max_A = 8.00000000e+00f,

@@ -10,6 +10,9 @@
 /* Beyond anything a law asks for, and below where squares overflow. */
 #define VOLTAGE_ANY_V 1.0e9f
 
+/* Longer than any drive stands still; a number, for all that is divided by it. */
+#define EDGE_GAP_MAX_s 1.0e9f
+
 static const dq_t zero_dq = {0.0f, 0.0f};
 
 ctl_status_t drive_init(drive_t *d, const drive_config_t *config)
@@ -36,7 +39,8 @@ static drive_fault_t find_fault(const drive_config_t *c, const drive_sample_t *s
                                 const drive_command_t *command)
 {
     if (!s->valid || !base_within(s->theta_e_rad, BASE_TWO_PI) ||
-        !base_in_range(s->band_rad, 0.0f, BASE_PI)) {
+        !base_in_range(s->band_rad, 0.0f, BASE_PI) ||
+        !base_in_range(s->edge_gap_s, 0.0f, EDGE_GAP_MAX_s)) {
         return DRIVE_FAULT_SAMPLE;
     }
     if (!base_within(s->ia_A, c->trip_current_A) || !base_within(s->ib_A, c->trip_current_A) ||

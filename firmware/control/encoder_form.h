@@ -17,8 +17,18 @@ typedef struct {
                           [rad/s^2], > 0 */
 } encoder_form_limits_t;
 
+/** Gains of one sample, current zero: what an angle error of 1 rad adds to the estimates. */
+typedef struct {
+    float theta;        /**< (0, 1] */
+    float omega_1ps;    /**< > 0 */
+    float d_omega_1ps2; /**< > 0 */
+} encoder_form_gains_t;
+
 /** true when both are in range. Context: init. */
 bool encoder_form_check(const encoder_form_limits_t *limits);
+
+/** true when all are in range. Context: init. */
+bool encoder_form_gains_check(const encoder_form_gains_t *gains);
 
 /**
  * @brief Measured minus estimated angle, within +-pi; less the band in which the sample does not know better.
@@ -32,6 +42,34 @@ static inline float encoder_form_error_rad(const drive_sample_t *s, float theta_
     const float error = frames_wrap(s->theta_e_rad - theta_hat_rad);
     return error - base_clamp(error, -s->band_rad, s->band_rad);
 }
+
+/** Whether edges come less often than samples, so that encoder_form_correct_rare() takes the angle. */
+static inline bool encoder_form_is_rare(const drive_sample_t *s, float ts_s)
+{
+    return s->edge_gap_s > ts_s;
+}
+
+/**
+ * @brief Correction with an edge that comes once in T > Ts, or with the band after it.
+ *
+ * The gains of one sample, times the samples that an edge stands for, but never more than explains the error e by itself:
+ * as an error of the angle, of the speed since the edge before, or of the acceleration since then.
+ *
+ *     theta^ += min(k_theta T / Ts, 1) e
+ *     w^     += min(k_w T / Ts, 1 / T) e
+ *     d_w^   += min(k_d T / Ts, 1 / (2 T^2)) e                                     EQ-ENCODER-FORM-2
+ *
+ * @param est           Estimates, corrected in place.
+ * @param theta_hat_rad Estimated angle, corrected in place.
+ * @param gains         Of one sample.
+ * @param error_rad     encoder_form_error_rad().
+ * @param gap_s         T.
+ * @param ts_s          Control period [s].
+ *
+ * Context: control ISR. Two divisions.
+ */
+void encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad, const encoder_form_gains_t *gains,
+                               float error_rad, float gap_s, float ts_s);
 
 /**
  * @brief The prediction as the law sees it.

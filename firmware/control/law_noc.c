@@ -6,7 +6,7 @@ static bool check(const drive_config_t *drive)
     const law_noc_config_t *c = drive->constants;
 
     return near_optimal_check(&c->near_optimal, drive) && encoder_form_check(&c->plausible) &&
-           nodo_encoder_check(&c->nodo);
+           encoder_form_gains_check(&c->rare) && nodo_encoder_check(&c->nodo);
 }
 
 static void reset(law_state_t *state, const drive_config_t *drive, const drive_sample_t *sample)
@@ -25,8 +25,14 @@ static near_optimal_view_t observe(law_noc_state_t *s, const law_noc_config_t *c
 {
     const dq_t  i_A         = sample_current_A(in->sample, s->theta_hat_rad);
     const float angle_error = encoder_form_error_rad(in->sample, s->theta_hat_rad);
+    const bool  rare        = encoder_form_is_rare(in->sample, drive->ts_s);
 
-    nodo_encoder_correct(&s->observer, &s->theta_hat_rad, &c->nodo, i_A, angle_error, drive->ts_s);
+    nodo_encoder_correct(&s->observer, &s->theta_hat_rad, &c->nodo, i_A, rare ? 0.0f : angle_error,
+                         drive->ts_s);
+    if (rare) {
+        encoder_form_correct_rare(&s->observer, &s->theta_hat_rad, &c->rare, angle_error,
+                                  in->sample->edge_gap_s, drive->ts_s);
+    }
     nodo_encoder_predict(&s->observer, &s->theta_hat_rad, &drive->motor, in->v_V, drive->ts_s);
     return encoder_form_view(&c->plausible, &s->observer, s->theta_hat_rad, angle_error,
                              drive->ts_s);

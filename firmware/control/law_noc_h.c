@@ -6,7 +6,7 @@ static bool check(const drive_config_t *drive)
     const law_noc_h_config_t *c = drive->constants;
 
     return near_optimal_check(&c->near_optimal, drive) && encoder_form_check(&c->plausible) &&
-           nodo_harmonic_check(&c->nodo);
+           encoder_form_gains_check(&c->rare) && nodo_harmonic_check(&c->nodo);
 }
 
 static void reset(law_state_t *state, const drive_config_t *drive, const drive_sample_t *sample)
@@ -26,8 +26,13 @@ static near_optimal_view_t observe(law_noc_h_state_t *s, const law_noc_h_config_
 {
     const dq_t  i_A         = sample_current_A(in->sample, s->observer.theta_rad);
     const float angle_error = encoder_form_error_rad(in->sample, s->observer.theta_rad);
+    const bool  rare        = encoder_form_is_rare(in->sample, drive->ts_s);
 
-    nodo_harmonic_correct(&s->observer, &c->nodo, i_A, angle_error);
+    nodo_harmonic_correct(&s->observer, &c->nodo, i_A, rare ? 0.0f : angle_error);
+    if (rare) {
+        encoder_form_correct_rare(&s->observer.base, &s->observer.theta_rad, &c->rare, angle_error,
+                                  in->sample->edge_gap_s, drive->ts_s);
+    }
     nodo_harmonic_predict(&s->observer, &c->nodo, &drive->motor, in->v_V, drive->ts_s, &s->known);
 
     near_optimal_view_t view = encoder_form_view(&c->plausible, &s->known.total,

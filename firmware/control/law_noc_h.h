@@ -13,6 +13,7 @@
 typedef struct {
     near_optimal_config_t near_optimal;
     encoder_form_limits_t plausible;
+    encoder_form_gains_t  rare; /**< for edges that come less often than samples */
     nodo_harmonic_gains_t nodo;
 } law_noc_h_config_t;
 

@@ -19,6 +19,9 @@ typedef struct {
     float theta_e_rad; /**< electrical angle, -2 pi .. 2 pi */
     float band_rad; /**< the angle is certainly this near to it, 0 .. pi; 0: it is a measurement */
     float
+        edge_gap_s; /**< what the angle rests on: time between the last two edges of the encoder, or since
+                           the last one; 0: another measurement, or an edge in every period */
+    float
         omega_e_radps; /**< electrical speed; a law that observes the angle reads it only when it starts */
     bool valid;        /**< all of the above were measured in this period */
 } drive_sample_t;

@@ -80,9 +80,10 @@ TEST_F(C28xFloats, NanIsAnInfinityOfItsSign)
 
 TEST_F(C28xFloats, EveryConstantIsChecked)
 {
-    drive_config_t   config    = gain_tables_drive;
-    law_noc_config_t constants = *static_cast<const law_noc_config_t *>(gain_tables_drive.constants);
-    config.constants           = &constants;
+    drive_config_t   config = gain_tables_drive;
+    law_noc_config_t constants =
+        *static_cast<const law_noc_config_t *>(gain_tables_drive.constants);
+    config.constants = &constants;
     ASSERT_EQ(drive_config_check(&config), CTL_OK);
 
     const law_noc_config_t good = constants;
@@ -111,9 +112,9 @@ TEST_F(C28xFloats, EveryConstantIsChecked)
 
 TEST_F(C28xFloats, EverySampleAndCommandIsChecked)
 {
-    c28x_float *const values[] = {&sample.ia_A,          &sample.ib_A,        &sample.dc_link_V,
-                                  &sample.theta_e_rad,   &sample.band_rad,    &sample.omega_e_radps,
-                                  &command.omega_e_radps};
+    c28x_float *const values[] = {&sample.ia_A,          &sample.ib_A,          &sample.dc_link_V,
+                                  &sample.theta_e_rad,   &sample.band_rad,      &sample.edge_gap_s,
+                                  &sample.omega_e_radps, &command.omega_e_radps};
     const drive_t     running  = drive;
     for (c28x_float *value : values) {
         const c28x_float good = *value;

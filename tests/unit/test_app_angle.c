@@ -257,9 +257,10 @@ static app_angle_reading_t turn(double radps_e)
     }
     const double         wrapped = fmod(fmod(floor(shaft_cnt), 10000.0) + 10000.0, 10000.0);
     const board_sample_t raw     = {.position_cnt = (uint16_t)wrapped,
-                                    .edge_age_cnt = (uint16_t)fmod((now_time - edge_time) * 75.0e6, 65536.0),
-                                    .edge_seen    = moved,
-                                    .valid        = true};
+                                    .edge_age_cnt =
+                                        (uint16_t)fmod((now_time - edge_time) * 75.0e6, 65536.0),
+                                    .edge_seen = moved,
+                                    .valid     = true};
     return app_angle_update(&angle, &raw);
 }
 

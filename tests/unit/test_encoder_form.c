@@ -29,7 +29,7 @@ static bool plausible(float angle_error_rad)
 
 static void test_angle_error_is_measured_minus_estimated(void)
 {
-    drive_sample_t sample = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, true};
+    drive_sample_t sample = {.valid = true};
 
     for (int measured = -62; measured <= 62; measured++) {
         for (int estimated = -31; estimated <= 31; estimated++) {
@@ -44,6 +44,105 @@ static void test_angle_error_is_measured_minus_estimated(void)
                                       remainder((double)e - want, 2.0 * 3.141592653589793));
         }
     }
+}
+
+/* Inside the band the sample knows nothing better; beyond, the error is that to its edge. */
+static void test_angle_error_is_less_the_band(void)
+{
+    drive_sample_t sample = {.theta_e_rad = 3.1f, .band_rad = 0.01f, .valid = true};
+
+    for (int n = -100; n <= 100; n++) {
+        const double hat  = (double)sample.theta_e_rad - (0.001 * n);
+        const double want = fmax(fabs(0.001 * n) - (double)sample.band_rad, 0.0);
+        const float  e    = encoder_form_error_rad(&sample, (float)hat);
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_RAD, copysign(want, n), (double)e);
+    }
+}
+
+static encoder_form_gains_t gains = {.theta = 0.8f, .omega_1ps = 1700.0f, .d_omega_1ps2 = 4.7e5f};
+
+static void test_rare_edges_are_those_further_apart_than_samples(void)
+{
+    drive_sample_t sample = {.edge_gap_s = TS_s};
+    TEST_ASSERT_FALSE(encoder_form_is_rare(&sample, TS_s));
+    sample.edge_gap_s = nextafterf(TS_s, 1.0f);
+    TEST_ASSERT_TRUE(encoder_form_is_rare(&sample, TS_s));
+    sample.edge_gap_s = 0.0f;
+    TEST_ASSERT_FALSE(encoder_form_is_rare(&sample, TS_s));
+}
+
+/* EQ-ENCODER-FORM-2 in double. */
+static void test_rare_edges_correct_as_their_time_allows(void)
+{
+    static const double gaps_s[] = {2.0e-4, 3.0e-4, 5.0e-4, 1.0e-3, 1.0e-2, 0.1, 1.0};
+    for (int i = 0; i < SUPPORT_COUNT(gaps_s); i++) {
+        nodo_t       x     = est;
+        float        theta = 0.3f;
+        const double T     = gaps_s[i];
+        const double ratio = T / (double)TS_s;
+        encoder_form_correct_rare(&x, &theta, &gains, -0.004f, (float)T, TS_s);
+        TEST_ASSERT_DOUBLE_WITHIN(1.0e-6, 0.3 - (0.004 * fmin(0.8 * ratio, 1.0)), (double)theta);
+        const double dw  = -0.004 * fmin(1700.0 * ratio, 1.0 / T);
+        const double ddw = -0.004 * fmin(4.7e5 * ratio, 0.5 / (T * T));
+        TEST_ASSERT_DOUBLE_WITHIN(1.0e-4 + fabs(1e-5 * dw), dw,
+                                  (double)x.omega_e_radps - (double)est.omega_e_radps);
+        TEST_ASSERT_DOUBLE_WITHIN(2.0e-3 + fabs(1e-5 * ddw), ddw,
+                                  (double)x.d_omega - (double)est.d_omega);
+        TEST_ASSERT_TRUE((x.iq_A == est.iq_A) && (x.id_A == est.id_A) && (x.d_q == est.d_q) &&
+                         (x.d_d == est.d_d));
+    }
+}
+
+/* A shaft at constant speed far below one edge per period, started with a wrong speed and load: the estimate comes to it. */
+static void test_rare_edges_find_a_slow_speed(void)
+{
+    const double per_count = 2.0 * 2.0 * 3.141592653589793 / 10000.0;
+    const double w         = 0.4; /* an edge every 16 periods */
+    nodo_t       x         = {.omega_e_radps = 1.0f, .d_omega = 40.0f};
+    float        hat       = 0.0f;
+    double       edge_s    = 0.0;
+    double       theta     = 0.0;
+    for (int n = 1; n < 20000; n++) {
+        const double   before = theta;
+        drive_sample_t sample = {.valid = true};
+        theta += w * (double)TS_s;
+        hat = frames_wrap(hat + (TS_s * (x.omega_e_radps + (0.5f * TS_s * x.d_omega))));
+        x.omega_e_radps += TS_s * x.d_omega;
+        const double count = floor(theta / per_count);
+        edge_s += (double)TS_s;
+        if (count > floor(before / per_count)) {
+            const double age   = (theta - (count * per_count)) / w;
+            sample.theta_e_rad = (float)fmod(theta, 6.283185307179586);
+            sample.edge_gap_s  = (float)(edge_s - age);
+            edge_s             = age;
+        } else {
+            sample.theta_e_rad = (float)fmod((count + 0.5) * per_count, 6.283185307179586);
+            sample.band_rad    = (float)(0.5 * per_count);
+            sample.edge_gap_s  = (float)edge_s;
+        }
+        encoder_form_correct_rare(&x, &hat, &gains, encoder_form_error_rad(&sample, hat),
+                                  sample.edge_gap_s, TS_s);
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, w, (double)x.omega_e_radps);
+    TEST_ASSERT_DOUBLE_WITHIN(1.0, 0.0, (double)x.d_omega);
+}
+
+static void test_gains_out_of_range_are_refused(void)
+{
+    float *const fields[] = {&gains.theta, &gains.omega_1ps, &gains.d_omega_1ps2};
+    TEST_ASSERT_TRUE(encoder_form_gains_check(&gains));
+    for (int i = 0; i < SUPPORT_COUNT(fields); i++) {
+        const float good  = *fields[i];
+        const float bad[] = {NAN, INFINITY, -INFINITY, 0.0f, -1.0f};
+        for (int k = 0; k < SUPPORT_COUNT(bad); k++) {
+            *fields[i] = bad[k];
+            TEST_ASSERT_FALSE(encoder_form_gains_check(&gains));
+        }
+        *fields[i] = good;
+    }
+    gains.theta = 1.1f;
+    TEST_ASSERT_FALSE(encoder_form_gains_check(&gains));
+    gains.theta = 0.8f;
 }
 
 static void test_view_is_the_prediction(void)
@@ -120,6 +219,11 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_angle_error_is_measured_minus_estimated);
+    RUN_TEST(test_angle_error_is_less_the_band);
+    RUN_TEST(test_rare_edges_are_those_further_apart_than_samples);
+    RUN_TEST(test_rare_edges_correct_as_their_time_allows);
+    RUN_TEST(test_rare_edges_find_a_slow_speed);
+    RUN_TEST(test_gains_out_of_range_are_refused);
     RUN_TEST(test_view_is_the_prediction);
     RUN_TEST(test_middle_angle_is_half_a_period_after_the_prediction);
     RUN_TEST(test_angle_is_plausible_up_to_its_limit);

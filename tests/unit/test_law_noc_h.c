@@ -33,7 +33,12 @@ static void draw(void)
 
 static void start(void)
 {
-    const drive_sample_t at = {0.4f, -0.3f, 295.0f, 5.0f, 0.0f, 300.0f, true};
+    const drive_sample_t at = {.ia_A          = 0.4f,
+                               .ib_A          = -0.3f,
+                               .dc_link_V     = 295.0f,
+                               .theta_e_rad   = 5.0f,
+                               .omega_e_radps = 300.0f,
+                               .valid         = true};
 
     sample = at;
     drive->law->reset(&state, drive, &sample);

@@ -229,6 +229,12 @@ std::string limits_block(const encoder_form_limits_t &limits)
                    c_field("angle_rad", limits.angle_rad) + c_field("d_omega", limits.d_omega));
 }
 
+std::string rare_block(const encoder_form_gains_t &gains)
+{
+    return c_block("rare", c_field("theta", gains.theta) + c_field("omega_1ps", gains.omega_1ps) +
+                               c_field("d_omega_1ps2", gains.d_omega_1ps2));
+}
+
 std::string term_block(int n, const char *columns, const std::vector<std::string> &labels,
                        const float (*rows)[3])
 {

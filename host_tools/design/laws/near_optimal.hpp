@@ -51,6 +51,9 @@ std::string near_optimal_block(const near_optimal_config_t &c);
 /// ".plausible = {..},\n"
 std::string limits_block(const encoder_form_limits_t &limits);
 
+/// ".rare = {..},\n"
+std::string rare_block(const encoder_form_gains_t &gains);
+
 /// A term of a series: a comment, the columns' names, rows with labels.
 std::string term_block(int n, const char *columns, const std::vector<std::string> &labels,
                        const float (*rows)[3]);

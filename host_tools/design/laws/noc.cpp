@@ -11,6 +11,15 @@ bool is_for(const Drive &drive)
     return drive.law == Law::noc && drive.nodo.form == NodoForm::encoder;
 }
 
+/// L_0 Ts, of the angle.
+encoder_form_gains_t sample_gains(const nodo_encoder_gains_t &g, double ts_s)
+{
+    const auto gain = [&](int row) {
+        return static_cast<float>(ts_s * static_cast<double>(g.gain[0][row][2]));
+    };
+    return {gain(6), gain(3), gain(0)};
+}
+
 void solve(Design &d)
 {
     solve_near_optimal(d);
@@ -20,6 +29,7 @@ void solve(Design &d)
     c.nodo.order    = static_cast<int16_t>(d.drive.nodo.order);
     c.nodo.iq_max_A = static_cast<float>(d.certificate.nodo.series_range_A);
     copy_series(d.nodo, c.nodo.gain);
+    c.rare = sample_gains(c.nodo, control_period_s(d.drive));
     keep_constants(d, c);
 }
 
@@ -43,7 +53,7 @@ std::vector<std::string> mismatches(const Design &d)
 std::string table(const Design &d)
 {
     const auto &c = *constants_of<law_noc_config_t>(d.config);
-    return near_optimal_block(c.near_optimal) + limits_block(c.plausible) +
+    return near_optimal_block(c.near_optimal) + limits_block(c.plausible) + rare_block(c.rare) +
            c_block("nodo", c_field("order", c.nodo.order) + c_field("iq_max_A", c.nodo.iq_max_A) +
                                gain_block("         iq_A             id_A      theta_e_rad",
                                           {"d_w", "d_q", "d_d", "w", "iq", "id", "theta"},

@@ -78,6 +78,17 @@ void certify_harmonics(Design &d)
     }
 }
 
+/// Those of the first node at which the edges are trusted; of the last one where none is.
+encoder_form_gains_t sample_gains(const Design &d)
+{
+    const double trusted = edges_trusted_from_e_radps(d.drive);
+    const auto  &nodes   = d.harmonics->nodes;
+    const auto   at      = std::find_if(nodes.begin(), nodes.end() - 1,
+                                        [&](const HarmonicNode &n) { return n.omega_e_radps >= trusted; });
+    const auto   gain    = [&](int row) { return static_cast<float>(at->K0(row, 2)); };
+    return {gain(6), gain(3), gain(0)};
+}
+
 void solve(Design &d)
 {
     const Motor &m    = d.drive.motor;
@@ -89,6 +100,7 @@ void solve(Design &d)
     c.near_optimal = near_optimal_constants(d, true, true);
     c.plausible    = encoder_limits(d);
     c.nodo         = *d.harmonics->table;
+    c.rare         = sample_gains(d);
     keep_constants(d, c);
 }
 
@@ -169,7 +181,7 @@ std::string table(const Design &d)
         pairs += fmt::format("{{ .channel = {}, .order = {} }},\n",
                              channel_symbol(g.pair[i].channel), c_number(g.pair[i].order));
     }
-    return near_optimal_block(c.near_optimal) + limits_block(c.plausible) +
+    return near_optimal_block(c.near_optimal) + limits_block(c.plausible) + rare_block(c.rare) +
            c_block("nodo", c_field("n_pairs", g.n_pairs) + c_field("n_nodes", g.n_nodes) +
                                c_field("iq_max_A", g.iq_max_A) +
                                c_field("nodes_per_root", g.nodes_per_root) +

@@ -217,6 +217,12 @@ VectorXd harmonic_weights(const Drive &drive, double w)
     return Q;
 }
 
+double edges_trusted_from_e_radps(const Drive &drive)
+{
+    const double count = 4.0 * half_pi * drive.motor.pole_pairs / (4.0 * drive.encoder.lines);
+    return counts_for_edges * count / control_period_s(drive);
+}
+
 double angle_weight(const Drive &drive, double w)
 { // edge times tell nothing while there is no edge in a period: the angle is then one of a count's
     const double ts       = control_period_s(drive);

@@ -196,10 +196,13 @@ QuadratureEncoder::Reading QuadratureEncoder::read(const ShaftPath &path)
     r.omega_e_radps     = pole_pairs_ * static_cast<double>(r.count - before_) * two_pi /
                       (per_turn * period_s_); // EQ-ENCODER-4
     if (settings_.encoder_edge_time) {
+        const double before_s = edge_age_s_ + path.duration_s();
         note_last_edge(path, now);
         r.omega_e_radps = edge_speed_;
+        r.edge_gap_s    = edge_age_s_;
         if (edge_age_s_ <= period_s_) {
             r.theta_e_rad = edge_angle_rad(r.count, static_cast<double>(edge_ - now));
+            r.edge_gap_s  = before_s - edge_age_s_;
         } else { // no edge in this period: within the count
             r.band_e_rad = pole_pairs_ * two_pi / (2.0 * per_turn);
         }
