@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sil/plant/dc_link.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -81,4 +82,66 @@ TEST(DcLink, SourceStepChargesThroughTheResistance)
     EXPECT_DOUBLE_EQ(link.voltage_V(), 300.0);
     link.advance(0.0, 1e-3);
     EXPECT_NEAR(link.voltage_V(), 250.0 + 50.0 * std::exp(-1.0), 1e-9);
+}
+
+namespace {
+
+InverterSettings with_chopper(double on_V, double hysteresis_V, double resistance_Ohm)
+{
+    InverterSettings s       = link_with(Regeneration::blocks, 0.0, 1e-3);
+    s.chopper_on_V           = on_V;
+    s.chopper_hysteresis_V   = hysteresis_V;
+    s.chopper_resistance_Ohm = resistance_Ohm;
+    return s;
+}
+
+} // namespace
+
+TEST(DcLink, ChopperSwitchesAtItsLevelsWithTheTimesOfItsCircuit)
+{
+    // 2 A come back: up in a straight line to 380 V, down towards 2 A x 100 Ohm to 370 V, up again.
+    const double up_s   = (380.0 - 300.0) * 1e-3 / 2.0;
+    const double down_s = 0.1 * std::log((380.0 - 200.0) / (370.0 - 200.0));
+    const double back_s = 10.0 * 1e-3 / 2.0;
+    for (const double step_s : {1e-6, 1e-4, 1.0}) { // no step is too long
+        const auto at = [&](double time_s) {
+            DcLink link(with_chopper(380.0, 10.0, 100.0), 300.0);
+            for (double t = 0.0; t < time_s - 1e-12; t += step_s) {
+                link.advance(-2.0, std::min(step_s, time_s - t));
+            }
+            return link;
+        };
+        EXPECT_NEAR(at(0.5 * up_s).voltage_V(), 340.0, 1e-6);
+        EXPECT_FALSE(at(0.99 * up_s).chopping());
+        EXPECT_TRUE(at(1.01 * up_s).chopping());
+        EXPECT_NEAR(at(up_s + 0.5 * down_s).voltage_V(), 200.0 + 180.0 * std::exp(-5.0 * down_s),
+                    1e-3);
+        EXPECT_TRUE(at(up_s + 0.99 * down_s).chopping());
+        EXPECT_FALSE(at(up_s + 1.01 * down_s).chopping());
+        EXPECT_NEAR(at(up_s + down_s + 0.5 * back_s).voltage_V(), 375.0, 1e-3);
+        EXPECT_TRUE(at(up_s + down_s + 1.01 * back_s).chopping());
+    }
+}
+
+TEST(DcLink, ChopperTurnsIntoHeatWhatTheLinkDoesNotHold)
+{
+    DcLink link(with_chopper(380.0, 10.0, 100.0), 300.0);
+    double in_J = 0.0;
+    for (int k = 0; k < 100000; k++) {
+        const double before = link.voltage_V();
+        link.advance(-2.0, 1e-5);
+        in_J += 2.0 * 1e-5 * 0.5 * (before + link.voltage_V());
+        EXPECT_LE(link.voltage_V(), 380.0 + 1e-9);
+    }
+    const double held_J = 0.5e-3 * (std::pow(link.voltage_V(), 2) - 300.0 * 300.0);
+    EXPECT_GT(link.chopper_J(), 600.0);
+    EXPECT_NEAR(link.chopper_J() + held_J, in_J, 1e-3 * in_J);
+}
+
+TEST(DcLink, AChopperThatIsTooWeakLetsTheLinkRiseToItsBalance)
+{
+    DcLink link(with_chopper(380.0, 10.0, 250.0), 300.0);
+    link.advance(-2.0, 10.0);
+    EXPECT_TRUE(link.chopping());
+    EXPECT_NEAR(link.voltage_V(), 500.0, 1e-3); // 2 A x 250 Ohm
 }

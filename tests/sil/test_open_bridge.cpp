@@ -280,6 +280,24 @@ TEST(OpenBridge, AfterATripAtHighSpeedTheLinkRisesAsInAFineSimulation)
     EXPECT_LT(link.voltage_V(), 388.0); // rotor and link at rest with each other, without losses
 }
 
+TEST(OpenBridge, ABrakeChopperHoldsTheLinkAfterATrip)
+{
+    InverterSettings s       = model(InverterModel::averaged);
+    s.regeneration           = Regeneration::blocks;
+    s.capacitance_F          = 1e-3;
+    s.chopper_on_V           = 340.0;
+    s.chopper_resistance_Ohm = 100.0;
+    Bridge bridge(timing, s, 3e-6);
+    Plant  plant = turning(motor(0.00042), 1400.0, {-1.27, 0.14});
+    DcLink link(s, vdc_V);
+    for (int k = 0; k < 1000; k++) {
+        run(bridge, plant, link, period_s);
+        ASSERT_LE(link.voltage_V(), 340.0 + 1e-9);
+    }
+    EXPECT_GT(link.chopper_J(), 20.0);
+    EXPECT_LT(plant.omega_e_radps(), speed_of(370.0)); // the EMF follows the link down
+}
+
 TEST(OpenBridge, ALegThatOpensAloneIsTheSameInBothModels)
 {
     // Two legs switch, the third is open: its phase carries what the diodes let it.

@@ -383,3 +383,21 @@ TEST(Runaway, ALoadThatDrivesTheTrippedMotorEndsTheRun)
     }
     EXPECT_NE(std::string(fault_name(runaway_fault)).find("runs away"), std::string::npos);
 }
+
+TEST(RealisticScenario, ChopperIsReadAndNeedsALinkThatCanRise)
+{
+    const auto with = [](const std::string &keys) { return head + body + "[inverter]\n" + keys; };
+    const std::string      blocks = "regeneration = \"blocks\"\n";
+    const InverterSettings none   = read(with(blocks)).inverter;
+    EXPECT_FALSE(none.chopper_on_V);
+    const InverterSettings some =
+        read(with(blocks + "chopper_on_V = 380.0\nchopper_hysteresis_V = 8.0\n"
+                           "chopper_resistance_Ohm = 47.0\n"))
+            .inverter;
+    EXPECT_EQ(some.chopper_on_V.value_or(0.0), 380.0);
+    EXPECT_EQ(some.chopper_hysteresis_V, 8.0);
+    EXPECT_EQ(some.chopper_resistance_Ohm, 47.0);
+    EXPECT_NE(error_of(with(blocks + "chopper_on_V = 299.0\n")).find("chopper_on_V"),
+              std::string::npos); // off at 294 V: below the source
+    EXPECT_NE(error_of(with("chopper_on_V = 380.0\n")).find("stiff"), std::string::npos);
+}

@@ -5,6 +5,12 @@
 #include <cmath>
 
 namespace sdre {
+namespace {
+
+// Chosen: the chopper's current is constant over this share of R C; 1e-7 of a voltage's change is lost.
+constexpr double chopper_step = 1e-3;
+
+} // namespace
 
 DcLink::DcLink(const InverterSettings &settings, double source_V) : v_V_(source_V)
 {
@@ -18,6 +24,10 @@ void DcLink::configure(const InverterSettings &s, double source_V)
     capacitance_F_  = s.capacitance_F;
     blocks_         = s.regeneration == Regeneration::blocks;
     stiff_          = !blocks_ && resistance_Ohm_ <= 0.0;
+    chopper_Ohm_    = s.chopper_on_V ? s.chopper_resistance_Ohm : 0.0;
+    chopper_on_V_   = s.chopper_on_V.value_or(0.0);
+    chopper_off_V_  = chopper_on_V_ - s.chopper_hysteresis_V;
+    chopping_       = chopping_ && chopper_Ohm_ > 0.0;
     settle();
 }
 
@@ -35,6 +45,35 @@ void DcLink::advance(double bridge_A, double dt_s)
     if (stiff_) {
         return;
     }
+    if (chopper_Ohm_ <= 0.0) {
+        charge(bridge_A, dt_s);
+        return;
+    }
+    double left_s = dt_s;
+    while (left_s > 0.0) {
+        chopping_            = v_V_ >= chopper_on_V_ || (chopping_ && v_V_ > chopper_off_V_);
+        const double piece_s = std::min(left_s, chopper_step * chopper_Ohm_ * capacitance_F_);
+        const double before  = v_V_;
+        double       load_V  = chopping_ ? before : 0.0;
+        if (chopping_) { // the mean of the voltages at both ends
+            charge(bridge_A + load_V / chopper_Ohm_, piece_s);
+            load_V = 0.5 * (before + v_V_);
+            v_V_   = before;
+        }
+        charge(bridge_A + load_V / chopper_Ohm_, piece_s); // EQ-DC-LINK-2
+        const double level_V = chopping_ ? chopper_off_V_ : chopper_on_V_;
+        double       used_s  = piece_s;
+        if (chopping_ ? v_V_ < level_V : v_V_ > level_V) { // over a piece a straight line
+            used_s *= (level_V - before) / (v_V_ - before);
+            v_V_ = level_V;
+        }
+        chopper_J_ += load_V * load_V / chopper_Ohm_ * used_s;
+        left_s -= used_s;
+    }
+}
+
+void DcLink::charge(double bridge_A, double dt_s)
+{
     const double slope_Vps = -bridge_A / capacitance_F_;
     double       left_s    = dt_s;
     if (blocks_ && v_V_ >= source_V_) { // the rectifier is off

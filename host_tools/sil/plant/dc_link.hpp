@@ -3,6 +3,10 @@
 ///
 ///     C v' = i_source - i_bridge,   i_source = (v_source - v) / R              EQ-DC-LINK-1
 ///
+/// A brake chopper puts a resistor across the link while it is on,
+///
+///     i_bridge + v / R_chopper in place of i_bridge: on at chopper_on_V, off chopper_hysteresis_V lower   EQ-DC-LINK-2
+///
 /// A rectifier (Regeneration::blocks) gives no negative i_source. Solved exactly for a constant i_bridge,
 /// so that no time step is too long for a small R C.
 #pragma once
@@ -28,8 +32,18 @@ public:
     {
         return stiff_;
     }
+    bool chopping() const
+    {
+        return chopping_;
+    }
+    /// What the chopper's resistor has turned into heat.
+    double chopper_J() const
+    {
+        return chopper_J_;
+    }
 
 private:
+    void charge(double current_A, double dt_s); ///< without chopper
     void settle(); ///< a source without resistance holds the voltage at or above its own
 
     double source_V_       = 0.0;
@@ -37,6 +51,11 @@ private:
     double capacitance_F_  = 0.0;
     bool   blocks_         = false;
     bool   stiff_          = true;
+    double chopper_Ohm_    = 0.0; ///< 0: none
+    double chopper_on_V_   = 0.0;
+    double chopper_off_V_  = 0.0;
+    bool   chopping_       = false;
+    double chopper_J_      = 0.0;
     double v_V_            = 0.0;
 };
 

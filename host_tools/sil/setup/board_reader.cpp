@@ -26,6 +26,8 @@ constexpr Range dead_time_s{0.0, 2e-5};
 constexpr Range drop_V{0.0, 20.0};
 constexpr Range duty{0.0, 1.0};
 constexpr Range resistance_Ohm{0.0, 1e3};
+constexpr Range hysteresis_V{0.1, 1e3};
+constexpr Range chopper_Ohm{0.1, 1e4};
 constexpr Range capacitance_F{1e-6, 10.0};
 constexpr Range torque_Nm{-1e5, 1e5};
 constexpr Range positive_torque_Nm{0.0, 1e5};
@@ -77,6 +79,28 @@ EncoderDiscSettings read_disc(TomlReader &t, EncoderDiscSettings s)
                            most_cnt));
     }
     return s;
+}
+
+void read_chopper(TomlReader &t, InverterSettings &s, const Drive &drive)
+{
+    if (t.has("chopper_on_V")) {
+        s.chopper_on_V = t.number("chopper_on_V", dc_link_V);
+    }
+    s.chopper_hysteresis_V =
+        t.number_or("chopper_hysteresis_V", hysteresis_V, s.chopper_hysteresis_V);
+    s.chopper_resistance_Ohm =
+        t.number_or("chopper_resistance_Ohm", chopper_Ohm, s.chopper_resistance_Ohm);
+    const double source_V = s.dc_link_V.value_or(drive.inverter.dc_link_V);
+    if (s.chopper_on_V && *s.chopper_on_V - s.chopper_hysteresis_V <= source_V) {
+        t.fail("chopper_on_V",
+               fmt::format("= {:g} is not allowed: less chopper_hysteresis_V = {:g} it must be "
+                           "above the source's {:g} V",
+                           *s.chopper_on_V, s.chopper_hysteresis_V, source_V));
+    }
+    if (s.chopper_on_V && s.regeneration == Regeneration::sinks && s.source_resistance_Ohm <= 0.0) {
+        t.fail("chopper_on_V", "is not allowed with a stiff source: it needs regeneration = "
+                               "\"blocks\" or a source_resistance_Ohm");
+    }
 }
 
 } // namespace
@@ -144,6 +168,7 @@ InverterSettings read_board_inverter(TomlReader t, InverterSettings s, const Dri
             fmt::format("= \"{}\" is not allowed: must be \"blocks\" or \"sinks\"", regeneration));
     }
     s.regeneration = regeneration == "blocks" ? Regeneration::blocks : Regeneration::sinks;
+    read_chopper(t, s, drive);
     t.reject_unknown_keys();
     return s;
 }

@@ -53,6 +53,9 @@ struct InverterSettings {
     double       source_resistance_Ohm = 0.0;                 ///< 0 = stiff
     double       capacitance_F         = 1e-3;                ///< chosen: 295 V then hold 44 J
     Regeneration regeneration          = Regeneration::sinks; ///< a laboratory supply with a load
+    std::optional<double> chopper_on_V;                       ///< none: no brake chopper
+    double                chopper_hysteresis_V = 5.0; ///< chosen: some 4 us of delay would be 0.1 V
+    double                chopper_resistance_Ohm = 100.0; ///< chosen: 1.4 kW at 380 V
 };
 
 /// Inductances over the currents; flux = L(i_d, i_q) i + magnet.
