@@ -13,6 +13,7 @@
 #include "app_angle.h"
 #include "app_gate.h"
 #include "app_scale.h"
+#include "app_stop.h"
 
 typedef struct {
     float              pwm_period_s; /**< the drive's control period times its updates */
@@ -21,6 +22,7 @@ typedef struct {
     app_angle_config_t angle;
     app_align_config_t align;
     app_gate_config_t  gate;
+    app_stop_config_t  stop;
     float              temperature_limit_degC; /**< no start above */
     float              temperature_trip_degC;  /**< fault above; > the limit */
     uint16_t           boot_ticks;

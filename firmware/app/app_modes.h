@@ -4,8 +4,10 @@
  * @brief The application's state machine: one period from raw samples to duty ratios and a gate request.
  *
  *     BOOT -> CALIBRATE -> READY -> (ALIGN, unless the angle is referenced) -> (PRECHARGE, if needed) -> RUN
+ *     RUN -> (STOP, while an open bridge would not be safe, or when it is asked for) -> READY
  *
- * Anything wrong in a mode that uses it leads to FAULT in the same call, with the bridge open. FAULT ends by a reset
+ * Anything wrong in a mode that uses it leads to FAULT in the same call, with the bridge open or, at a speed at which that
+ * is not safe, the motor shorted (app_stop.h). FAULT ends by a reset
  * command without run. A run starts when run rises in READY, never by itself, and not while something is in its way
  * that may go again: heat, a dc link out of range, an active trip input, a shaft too fast for a precharge.
  *
@@ -33,6 +35,7 @@ typedef struct {
     app_scale_t         scale;
     app_angle_t         angle;
     app_align_t         align;
+    app_stop_t          stop;
     app_scale_sample_t  sample;
     app_angle_reading_t reading;
     uint32_t            ticks;

@@ -53,12 +53,13 @@ static void holding_values(const app_registers_t *r, uint16_t all[APP_REGISTERS_
 
 static uint16_t conditions(const app_registers_t *r)
 {
-    const uint16_t hot    = r->status.hot ? (uint16_t)APP_REGISTERS_HOT : 0U;
-    const uint16_t silent = r->silent ? (uint16_t)APP_REGISTERS_SILENT : 0U;
-    const uint16_t gate   = r->status.gate_enable ? (uint16_t)APP_REGISTERS_GATE : 0U;
-    const uint16_t dc     = r->status.dc_link_out ? (uint16_t)APP_REGISTERS_DC_OUT : 0U;
-    const uint16_t trip   = r->status.tripped ? (uint16_t)APP_REGISTERS_TRIPPED : 0U;
-    return (uint16_t)(hot | silent | gate | dc | trip);
+    const uint16_t hot     = r->status.hot ? (uint16_t)APP_REGISTERS_HOT : 0U;
+    const uint16_t silent  = r->silent ? (uint16_t)APP_REGISTERS_SILENT : 0U;
+    const uint16_t gate    = r->status.gate_enable ? (uint16_t)APP_REGISTERS_GATE : 0U;
+    const uint16_t dc      = r->status.dc_link_out ? (uint16_t)APP_REGISTERS_DC_OUT : 0U;
+    const uint16_t trip    = r->status.tripped ? (uint16_t)APP_REGISTERS_TRIPPED : 0U;
+    const uint16_t shorted = r->status.shorted ? (uint16_t)APP_REGISTERS_SHORTED : 0U;
+    return (uint16_t)(hot | silent | gate | dc | trip | shorted);
 }
 
 static void state_values(const app_registers_t *r, uint16_t all[APP_REGISTERS_INPUT_COUNT])

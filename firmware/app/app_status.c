@@ -3,7 +3,7 @@
 
 app_status_t app_modes_status(const app_modes_t *m, uint16_t board_faults)
 {
-    const bool   running = m->mode == APP_MODE_RUN;
+    const bool   running = (m->mode == APP_MODE_RUN) || (m->mode == APP_MODE_STOP);
     const dq_t   zero    = {0.0f, 0.0f};
     const dq_t   now_A   = {.d = m->drive.wanted.now.id_A, .q = m->drive.wanted.now.iq_A};
     app_status_t s       = {.mode              = m->mode,
@@ -13,6 +13,7 @@ app_status_t app_modes_status(const app_modes_t *m, uint16_t board_faults)
                             .hot               = m->hot,
                             .dc_link_out       = m->dc_link_out,
                             .tripped           = m->tripped,
+                            .shorted           = m->stop.shorted,
                             .gate_enable       = m->gate_on,
                             .reference         = m->angle.reference,
                             .align_stage       = m->align.stage,

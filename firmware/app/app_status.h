@@ -18,7 +18,8 @@ typedef enum {
     APP_MODE_ALIGN,     /**< finds the angle */
     APP_MODE_RUN,       /**< drive_tick() has the bridge */
     APP_MODE_FAULT,     /**< bridge off until a reset without run */
-    APP_MODE_PRECHARGE  /**< all lower switches on: the gate drivers' supplies are charged */
+    APP_MODE_PRECHARGE, /**< all lower switches on: the gate drivers' supplies are charged */
+    APP_MODE_STOP       /**< run was withdrawn; the drive brakes before the bridge opens */
 } app_mode_t;
 
 /** Why the mode is FAULT; the first reason is kept. */
@@ -56,6 +57,7 @@ typedef struct {
     bool                  hot;          /**< above the temperature limit: no start */
     bool                  dc_link_out;  /**< outside the drive's range: no start */
     bool                  tripped;      /**< the trip input is active: no start */
+    bool                  shorted;      /**< FAULT: the lower switches short the motor */
     bool                  gate_enable;
     app_angle_reference_t reference;
     app_align_stage_t     align_stage;

@@ -110,15 +110,15 @@ public:
     {
         const sdre::StatorVector i = sdre::to_stator(plant_.current_A(), plant_.theta_e_rad());
         const double             b = 0.5 * (-i.alpha + std::sqrt(3.0) * i.beta);
-        const drive_sample_t     sample{
-            static_cast<float>(i.alpha),
-            static_cast<float>(b),
-            static_cast<float>(dc_V_),
-            static_cast<float>(std::remainder(plant_.theta_e_rad(), 2 * pi)),
-            static_cast<float>(plant_.omega_e_radps()),
-            true};
-        const bridge_t out = drive_tick(&drive_, &sample, &command_);
-        limited_           = limited_ || drive_.v_limited;
+        drive_sample_t           sample{};
+        sample.ia_A          = static_cast<float>(i.alpha);
+        sample.ib_A          = static_cast<float>(b);
+        sample.dc_link_V     = static_cast<float>(dc_V_);
+        sample.theta_e_rad   = static_cast<float>(std::remainder(plant_.theta_e_rad(), 2 * pi));
+        sample.omega_e_radps = static_cast<float>(plant_.omega_e_radps());
+        sample.valid         = true;
+        const bridge_t out   = drive_tick(&drive_, &sample, &command_);
+        limited_             = limited_ || drive_.v_limited;
         plant_.step(voltage_, load_Nm, static_cast<double>(config_.ts_s), 20);
         const auto a = static_cast<double>(out.duty.a);
         const auto c = static_cast<double>(out.duty.c);

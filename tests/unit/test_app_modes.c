@@ -403,6 +403,146 @@ static void test_no_precharge_at_speed(void)
     TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
 }
 
+/* The shaft turns at so many counts per period, forward. */
+static void turn_ticks(int count, uint16_t step_cnt)
+{
+    for (int n = 0; n < count; n++) {
+        in.raw.position_cnt = (uint16_t)((in.raw.position_cnt + step_cnt) % 10000U);
+        out                 = app_modes_tick(&modes, &in);
+    }
+}
+
+/* 398 V / (sqrt(3) 0.193 V s) = 1191 rad/s; a count per period is 6.283 rad/s. */
+#define FAST_cnt 192U /* 1206 rad/s */
+#define SLOW_cnt 150U /* 942 rad/s, below 0.8 of it */
+
+static void run_fast(void)
+{
+    drive_config                    = gain_tables_drive;
+    drive_config.trip_speed_e_radps = 1500.0f;
+    init();
+    go_ready();
+    see_index();
+    turn_ticks(3, FAST_cnt);
+    in.command.run           = true;
+    in.command.omega_e_radps = 1190.0f;
+    turn_ticks(3, FAST_cnt);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+    TEST_ASSERT_TRUE(out.gate_enable);
+}
+
+static bool is_short(void)
+{
+    return out.gate_enable && (out.duty.a == 0.0f) && (out.duty.b == 0.0f) && (out.duty.c == 0.0f);
+}
+
+static void test_a_fault_at_speed_shorts_the_motor_until_it_is_slow(void)
+{
+    run_fast();
+    in.raw.temperature_cnt = 0U; /* broken sensor */
+    turn_ticks(1, FAST_cnt);
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_TEMPERATURE_SENSOR, modes.fault);
+    TEST_ASSERT_TRUE(is_short());
+    TEST_ASSERT_TRUE(app_modes_status(&modes, 0U).shorted);
+    in.command.run   = false;
+    in.command.reset = true;
+    turn_ticks(50, FAST_cnt);
+    TEST_ASSERT_TRUE(is_short()); /* no reset before it is safe */
+    TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, modes.mode);
+    in.command.reset = false;
+    turn_ticks(2, SLOW_cnt);
+    TEST_ASSERT_FALSE(out.gate_enable);
+    turn_ticks(2, FAST_cnt); /* and does not come back */
+    TEST_ASSERT_FALSE(out.gate_enable);
+}
+
+static void test_a_fault_at_low_speed_opens(void)
+{
+    run_fast();
+    turn_ticks(3, SLOW_cnt);
+    in.raw.temperature_cnt = 0U;
+    turn_ticks(1, SLOW_cnt);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, modes.mode);
+    TEST_ASSERT_FALSE(out.gate_enable);
+}
+
+static void test_board_faults_and_over_current_open_at_any_speed(void)
+{
+    for (int way = 0; way < 4; way++) {
+        run_fast();
+        if (way == 0) {
+            in.board_faults = BOARD_FAULT_TRIP;
+        } else if (way == 1) {
+            in.raw.ia_cnt = 4000U;
+        } else {
+            in.raw.temperature_cnt = 0U;
+            turn_ticks(2, FAST_cnt);
+            TEST_ASSERT_TRUE(is_short());
+            if (way == 2) {
+                in.board_faults = BOARD_FAULT_TRIP;
+            } else {
+                in.raw.ib_cnt = 200U;
+            }
+        }
+        turn_ticks(1, FAST_cnt);
+        TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, modes.mode);
+        TEST_ASSERT_FALSE(out.gate_enable);
+    }
+    setUp();
+    config.stop.short_circuit = false; /* a dc link that takes all of it */
+    run_fast();
+    in.raw.temperature_cnt = 0U;
+    turn_ticks(1, FAST_cnt);
+    TEST_ASSERT_FALSE(out.gate_enable);
+}
+
+/* The speed is not known any more: the short stays, until the operator ends it. */
+static void test_a_lost_encoder_at_speed_leaves_the_motor_shorted(void)
+{
+    run_fast();
+    in.raw.valid = false;
+    turn_ticks(100, 0U);
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_SAMPLE, modes.fault);
+    TEST_ASSERT_TRUE(is_short());
+    in.command.run   = false;
+    in.command.reset = true;
+    turn_ticks(1, 0U);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    TEST_ASSERT_FALSE(out.gate_enable);
+}
+
+static void test_a_stop_at_speed_brakes_before_it_opens(void)
+{
+    run_fast();
+    in.command.run = false;
+    turn_ticks(5, FAST_cnt);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_STOP, modes.mode);
+    TEST_ASSERT_TRUE(out.gate_enable);
+    in.command.run = true; /* on again */
+    turn_ticks(1, FAST_cnt);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+    in.command.run = false;
+    turn_ticks(5, FAST_cnt);
+    turn_ticks(2, 189U); /* 1187.5 rad/s */
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    TEST_ASSERT_FALSE(out.gate_enable);
+}
+
+static void test_a_ramp_brakes_to_standstill(void)
+{
+    config.stop.reaction = APP_STOP_RAMP;
+    init();
+    go_run();
+    turn_ticks(3, 4U); /* 25 rad/s */
+    in.command.run = false;
+    turn_ticks(3, 4U);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_STOP, modes.mode);
+    TEST_ASSERT_TRUE(out.gate_enable);
+    turn_ticks(2, 3U); /* 19 rad/s */
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    TEST_ASSERT_FALSE(out.gate_enable);
+}
+
 static void test_lost_background_trips_in_every_mode(void)
 {
     for (int mode = 0; mode < 5; mode++) {
@@ -753,7 +893,7 @@ static void test_bad_constants_end_in_fault_for_good(void)
     config.background_ticks = 1U;
     init();
     drive_config.hardware.updates_per_period = 2U;
-    drive_config.ts_s                        = 100.0e-6f;
+    config.pwm_period_s                      = 400.0e-6f;
     init();
 }
 
@@ -783,6 +923,12 @@ int main(void)
     RUN_TEST(test_bootstrap_supplies_are_charged_before_a_run);
     RUN_TEST(test_a_precharge_ends_at_once_when_something_is_wrong);
     RUN_TEST(test_no_precharge_at_speed);
+    RUN_TEST(test_a_fault_at_speed_shorts_the_motor_until_it_is_slow);
+    RUN_TEST(test_a_fault_at_low_speed_opens);
+    RUN_TEST(test_board_faults_and_over_current_open_at_any_speed);
+    RUN_TEST(test_a_lost_encoder_at_speed_leaves_the_motor_shorted);
+    RUN_TEST(test_a_stop_at_speed_brakes_before_it_opens);
+    RUN_TEST(test_a_ramp_brakes_to_standstill);
     RUN_TEST(test_lost_background_trips_in_every_mode);
     RUN_TEST(test_temperature_beyond_the_trip_level_trips);
     RUN_TEST(test_broken_temperature_sensor_trips);

@@ -46,9 +46,9 @@ void setUp(void)
                                          .theta_rad   = 0.7f,
                                          .plausible   = true};
     const nodo_t              nothing = {0.0f, 0.0f, 0.0f, 300.0f, 0.5f, -0.1f};
-    const drive_sample_t      of_295V = {0.0f, 0.0f, 295.0f, 0.0f, 0.0f, 300.0f, true};
-    const law_input_t         hold    = {
-                   .sample = &sample, .command_e_radps = 300.0f, .v_V = {.d = 0.0f, .q = 0.0f}};
+    const drive_sample_t of_295V = {.dc_link_V = 295.0f, .omega_e_radps = 300.0f, .valid = true};
+    const law_input_t    hold    = {
+              .sample = &sample, .command_e_radps = 300.0f, .v_V = {.d = 0.0f, .q = 0.0f}};
 
     random_state.state = 47u;
     drive              = law_constants_copy(&constants, &speed_tables_drive);

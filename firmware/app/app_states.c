@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: MIT */
+#include "app_states.h"
+
+static void enter(app_modes_t *m, app_mode_t mode)
+{
+    m->mode        = mode;
+    m->timer_ticks = 0U;
+    m->sum_a_cnt   = 0UL;
+    m->sum_b_cnt   = 0UL;
+    m->armed       = false;
+}
+
+static drive_sample_t drive_sample(const app_modes_t *m)
+{
+    const drive_sample_t s = {.ia_A          = m->sample.ia_A,
+                              .ib_A          = m->sample.ib_A,
+                              .dc_link_V     = m->sample.dc_link_V,
+                              .theta_e_rad   = m->reading.theta_e_rad,
+                              .band_rad      = m->reading.band_rad,
+                              .edge_gap_s    = m->reading.edge_gap_s,
+                              .omega_e_radps = m->reading.omega_e_radps,
+                              .valid         = m->sample.valid && m->reading.speed_valid};
+    return s;
+}
+
+static bridge_t fault_bridge(app_modes_t *m, const app_modes_input_t *in)
+{
+    const app_stop_input_t now = {.omega_e_radps = m->reading.omega_e_radps,
+                                  .ia_A          = m->sample.ia_A,
+                                  .ib_A          = m->sample.ib_A,
+                                  .valid         = m->sample.valid && m->reading.speed_valid,
+                                  .board_faults  = in->board_faults};
+    return app_stop_bridge(&m->stop, &now);
+}
+
+/* Of a running drive the estimate: a sample that is not valid has no speed, and an encoder that fails has a wrong one. */
+bridge_t app_states_trip(app_modes_t *m, const app_modes_input_t *in, app_fault_t fault)
+{
+    const float          speed_e_radps = (m->drive.state == DRIVE_OFF) ? m->reading.omega_e_radps
+                                                                       : m->drive.wanted.now.omega_e_radps;
+    const app_snapshot_t snapshot      = {.fault          = fault,
+                                          .mode           = m->mode,
+                                          .drive_fault    = m->drive.fault,
+                                          .board_faults   = in->board_faults,
+                                          .raw            = in->raw,
+                                          .speed_e_radps  = m->reading.omega_e_radps,
+                                          .wanted_e_radps = in->command.omega_e_radps,
+                                          .ticks          = m->ticks};
+    const bool           encoder = ((in->board_faults & (uint16_t)BOARD_FAULT_ENCODER) != 0U) ||
+                         (m->drive.fault == DRIVE_FAULT_ENCODER);
+
+    if (encoder) {
+        app_angle_drop(&m->angle);
+    }
+    m->snapshot = snapshot;
+    m->fault    = fault;
+    enter(m, APP_MODE_FAULT);
+    if (m->gate_on) {
+        app_stop_fault(&m->stop, speed_e_radps, m->drive.fault, in->board_faults);
+    }
+    return fault_bridge(m, in);
+}
+
+static bridge_t boot(app_modes_t *m)
+{
+    m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
+    if (m->timer_ticks >= m->config->boot_ticks) {
+        enter(m, APP_MODE_CALIBRATE);
+    }
+    return bridge_open();
+}
+
+static bridge_t calibrate(app_modes_t *m, const app_modes_input_t *in)
+{
+    m->sum_a_cnt += in->raw.ia_cnt;
+    m->sum_b_cnt += in->raw.ib_cnt;
+    m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
+    if (m->timer_ticks < m->config->calibrate_ticks) {
+        return bridge_open();
+    }
+    if (!app_scale_set_zero(&m->scale, m->sum_a_cnt, m->sum_b_cnt, m->timer_ticks)) {
+        return app_states_trip(m, in, APP_FAULT_OFFSET);
+    }
+    m->calibrated = true;
+    enter(m, APP_MODE_READY);
+    return bridge_open();
+}
+
+/* What is in the way of a start and may go again. An unknown temperature is a fault of the run instead. */
+static bool in_the_way(const app_modes_t *m)
+{
+    return (m->hot && m->sample.temperature_valid) || m->dc_link_out || m->tripped ||
+           !app_gate_may_start(&m->config->gate, m->reading.omega_e_radps);
+}
+
+static void enter_run(app_modes_t *m)
+{
+    const bool precharge = !m->gate_on && (m->config->gate.precharge_ticks > 0U);
+    enter(m, precharge ? APP_MODE_PRECHARGE : APP_MODE_RUN);
+}
+
+/* The bridge stays open in this tick: the next one looks at everything again in the new mode. */
+static bridge_t ready(app_modes_t *m, const app_modes_input_t *in)
+{
+    m->tripped = (in->board_faults & (uint16_t)BOARD_FAULT_INPUT) != 0U;
+    if (!in->command.run) {
+        m->armed = true;
+        return bridge_open();
+    }
+    const bool start = m->armed && !in_the_way(m);
+    m->armed         = false; /* a refused start is not made up for later */
+    if (start && (m->angle.reference != APP_ANGLE_NONE)) {
+        enter_run(m);
+    } else if (start) {
+        app_align_start(&m->align, in->raw.position_cnt);
+        enter(m, APP_MODE_ALIGN);
+    }
+    return bridge_open();
+}
+
+static bridge_t drive(app_modes_t *m, const app_command_t *wanted, bool run)
+{
+    const drive_sample_t  sample  = drive_sample(m);
+    const drive_command_t command = {.omega_e_radps = wanted->omega_e_radps, .run = run};
+    return drive_tick(&m->drive, &sample, &command);
+}
+
+/* The drive itself stays off: it only checks samples and command against its limits. False: one of them is wrong. */
+static bool drive_watches(app_modes_t *m, const app_modes_input_t *in)
+{
+    (void)drive(m, &in->command, false);
+    return m->drive.state != DRIVE_FAULT;
+}
+
+/* RUN and STOP. */
+static bridge_t run(app_modes_t *m, const app_modes_input_t *in)
+{
+    const app_command_t stop  = {.omega_e_radps = 0.0f, .run = false, .reset = false};
+    const bool          brake = !in->command.run && (m->drive.state == DRIVE_RUN) &&
+                       app_stop_is_braking(&m->stop, m->reading.omega_e_radps);
+    const bridge_t out = drive(m, brake ? &stop : &in->command, brake || in->command.run);
+
+    if (m->drive.state == DRIVE_FAULT) {
+        return app_states_trip(m, in, APP_FAULT_DRIVE);
+    }
+    if (in->command.run) {
+        m->mode = APP_MODE_RUN;
+    } else if (brake) {
+        m->mode = APP_MODE_STOP;
+    } else {
+        enter(m, APP_MODE_READY);
+    }
+    return out;
+}
+
+static bridge_t precharge(app_modes_t *m, const app_modes_input_t *in)
+{
+    const abc_t lower_on = {0.0f, 0.0f, 0.0f};
+
+    if (!in->command.run) {
+        enter(m, APP_MODE_READY);
+        return bridge_open();
+    }
+    if (!drive_watches(m, in)) {
+        return app_states_trip(m, in, APP_FAULT_DRIVE);
+    }
+    if (m->timer_ticks >= m->config->gate.precharge_ticks) {
+        enter(m, APP_MODE_RUN);
+        return run(m, in);
+    }
+    m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
+    return bridge_closed(lower_on);
+}
+
+static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
+{
+    if (!in->command.run) {
+        enter(m, APP_MODE_READY);
+        return bridge_open();
+    }
+    if (!drive_watches(m, in)) {
+        return app_states_trip(m, in, APP_FAULT_DRIVE);
+    }
+    if (m->angle.reference == APP_ANGLE_INDEX) { /* the mark came by: better than alignment */
+        enter_run(m);
+        return (m->mode == APP_MODE_RUN) ? run(m, in) : bridge_open();
+    }
+    const bridge_t out = app_align_tick(&m->align, m->sample.ia_A, m->sample.ib_A,
+                                        m->sample.dc_link_V, in->raw.position_cnt);
+    if (m->align.stage == APP_ALIGN_FAILED) {
+        return app_states_trip(m, in, APP_FAULT_ALIGN);
+    }
+    if (m->align.stage == APP_ALIGN_DONE) {
+        app_angle_align(&m->angle, in->raw.position_cnt);
+        enter(m, APP_MODE_RUN);
+    }
+    return out;
+}
+
+static void leave_fault(app_modes_t *m)
+{
+    m->fault        = APP_FAULT_NONE;
+    m->stop.shorted = false;
+    drive_reset(&m->drive);
+    enter(m, m->calibrated ? APP_MODE_READY : APP_MODE_BOOT);
+}
+
+/* A shorted motor whose speed nobody knows is the operator's to open. */
+static bridge_t in_fault(app_modes_t *m, const app_modes_input_t *in)
+{
+    const bridge_t out   = fault_bridge(m, in);
+    const bool     known = m->sample.valid && m->reading.speed_valid;
+
+    if (in->command.reset && !in->command.run && !(m->stop.shorted && known)) {
+        leave_fault(m);
+        return bridge_open();
+    }
+    return out;
+}
+
+bridge_t app_states_act(app_modes_t *m, const app_modes_input_t *in)
+{
+    switch (m->mode) {
+    case APP_MODE_BOOT:
+        return boot(m);
+    case APP_MODE_CALIBRATE:
+        return calibrate(m, in);
+    case APP_MODE_READY:
+        return ready(m, in);
+    case APP_MODE_ALIGN:
+        return align(m, in);
+    case APP_MODE_PRECHARGE:
+        return precharge(m, in);
+    case APP_MODE_RUN:
+    case APP_MODE_STOP:
+        return run(m, in);
+    case APP_MODE_FAULT:
+    default:
+        break;
+    }
+    return in_fault(m, in);
+}

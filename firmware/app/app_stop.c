@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: MIT */
+#include "app_stop.h"
+
+#include "check.h"
+
+/* Chosen: leaves the short well before the EMF reaches the dc link's largest voltage. */
+#define OPEN_BELOW 0.8f
+
+ctl_status_t app_stop_init(app_stop_t *s, const app_stop_config_t *c, const drive_config_t *drive)
+{
+    const float flux_Wb = drive->motor.l5 * drive->motor.inv_l6;
+    const bool  ok      = check_positive(c->still_e_radps) && check_positive(flux_Wb) &&
+                    ((c->reaction == APP_STOP_COAST) || (c->reaction == APP_STOP_RAMP));
+
+    s->config         = c;
+    s->link_e_radps   = ok ? (drive->dc_link_max_V * BASE_1_SQRT3 / flux_Wb) : 0.0f;
+    s->trip_current_A = drive->trip_current_A;
+    s->shorted        = false;
+    return ok ? CTL_OK : CTL_BAD_CONFIG;
+}
+
+bool app_stop_is_braking(const app_stop_t *s, float omega_e_radps)
+{
+    const float until_radps =
+        (s->config->reaction == APP_STOP_RAMP) ? s->config->still_e_radps : s->link_e_radps;
+
+    return !base_within(omega_e_radps, until_radps);
+}
+
+void app_stop_fault(app_stop_t *s, float omega_e_radps, drive_fault_t drive_fault,
+                    uint16_t board_faults)
+{
+    s->shorted = s->config->short_circuit && !base_within(omega_e_radps, s->link_e_radps) &&
+                 (drive_fault != DRIVE_FAULT_OVER_CURRENT) &&
+                 (board_faults == (uint16_t)BOARD_FAULT_NONE);
+}
+
+static bool is_over_current(const app_stop_t *s, const app_stop_input_t *in)
+{
+    return in->valid && (!base_within(in->ia_A, s->trip_current_A) ||
+                         !base_within(in->ib_A, s->trip_current_A) ||
+                         !base_within(in->ia_A + in->ib_A, s->trip_current_A));
+}
+
+bridge_t app_stop_bridge(app_stop_t *s, const app_stop_input_t *in)
+{
+    const abc_t lower_on = {0.0f, 0.0f, 0.0f};
+    const bool  slow = in->valid && base_within(in->omega_e_radps, OPEN_BELOW * s->link_e_radps);
+
+    s->shorted = s->shorted && !slow && !is_over_current(s, in) &&
+                 (in->board_faults == (uint16_t)BOARD_FAULT_NONE);
+    return s->shorted ? bridge_closed(lower_on) : bridge_open();
+}
