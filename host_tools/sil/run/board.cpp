@@ -47,7 +47,8 @@ Board::Board(const Scenario &s)
       dc_link_(s.inverter, s.dc_link_V),
       encoder_(s.sensors, s.drive.encoder.lines, s.drive.motor.pole_pairs, period_s_, s.seed),
       noise_a_(s.seed, NoiseStream::adc_a), noise_b_(s.seed, NoiseStream::adc_b),
-      load_(s.load_torque, s.load_ramps, s.load_sine)
+      load_(s.load_torque, s.load_ramps, s.load_sine),
+      first_dead_time_s_(dead_time_of(s.sensors, s.inverter, s.drive))
 {
     plant_.reset(s.initial_speed_e_radps);
     shaft_load_.fan_Nm_per_radps2 = s.load_fan_Nm_per_radps2;
@@ -204,9 +205,14 @@ RawSample Board::raw_sample()
 
 void Board::begin_raw_period(const std::array<LegTiming, 3> &legs)
 {
+    // A dead time that has grown since the start: switches that have become slower than the gates' dead band knows.
+    const double late_s =
+        std::max(0.0, dead_time_of(sensors_, inverter_, scenario_.drive) - first_dead_time_s_);
     std::array<LegTiming, 3> limited = legs;
     for (LegTiming &leg : limited) {
         leg.duty = std::clamp(leg.duty, inverter_.duty_min, inverter_.duty_max);
+        leg.rise_delay_s += late_s;
+        leg.fall_delay_s += late_s;
     }
     plant_.reset_peak();
     plant_.align_angle();

@@ -100,6 +100,7 @@ private:
     Noise                    noise_a_;
     Noise                    noise_b_;
     LoadProfile              load_;
+    double                   first_dead_time_s_; ///< the gates\'
     ShaftLoad                shaft_load_;
     double                   time_s_         = 0.0;
     std::size_t              next_change_    = 0;
