@@ -11,7 +11,7 @@ bool encoder_form_check(const encoder_form_limits_t *limits)
 bool encoder_form_gains_check(const encoder_form_gains_t *gains)
 {
     return base_in_range(gains->theta, 1.0e-6f, 1.0f) && check_positive(gains->omega_1ps) &&
-           check_positive(gains->d_omega_1ps2);
+           check_positive(gains->d_omega_1ps2) && check_positive(gains->count_rad);
 }
 
 /* 2 would explain all of the error by the acceleration. Chosen by simulation of a load step at standstill: settled after
@@ -21,8 +21,9 @@ bool encoder_form_gains_check(const encoder_form_gains_t *gains)
 void encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad, const encoder_form_gains_t *gains,
                                float error_rad, float gap_s, float ts_s)
 {
-    const float samples = gap_s / ts_s;
-    const float per_s   = 1.0f / gap_s;
+    const float at_speed_1ps = fabsf(est->omega_e_radps) / (2.0f * gains->count_rad);
+    const float per_s        = base_min(base_max(1.0f / gap_s, at_speed_1ps), 1.0f / ts_s);
+    const float samples      = 1.0f / (per_s * ts_s);
     const float theta   = base_min(gains->theta * samples, 1.0f);
     const float omega   = base_min(gains->omega_1ps * samples, per_s);
     const float d_omega = base_min(gains->d_omega_1ps2 * samples, D_OMEGA_SHARE * per_s * per_s);
@@ -30,17 +31,4 @@ void encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad, const encoder_
     est->omega_e_radps += omega * error_rad;
     est->d_omega += d_omega * error_rad;
     *theta_hat_rad = frames_wrap(*theta_hat_rad + (theta * error_rad));
-}
-
-near_optimal_view_t encoder_form_view(const encoder_form_limits_t *limits, const nodo_t *est,
-                                      float theta_hat_rad, float angle_error_rad, float ts_s)
-{
-    const near_optimal_view_t view = {
-        .est         = est,
-        .now         = {.omega_e_radps = est->omega_e_radps, .iq_A = est->iq_A, .id_A = est->id_A},
-        .d_omega_dot = 0.0f,
-        .theta_rad   = theta_hat_rad + (0.5f * ts_s * est->omega_e_radps), /* EQ-DRIVE-2 */
-        .plausible   = base_within(angle_error_rad, limits->angle_rad) &&
-                     base_within(est->d_omega, limits->d_omega)};
-    return view;
 }

@@ -17,11 +17,12 @@ typedef struct {
                           [rad/s^2], > 0 */
 } encoder_form_limits_t;
 
-/** Gains of one sample, current zero: what an angle error of 1 rad adds to the estimates. */
+/** Gains of one sample, current zero: what an angle error of 1 rad adds to the estimates; and the encoder's count. */
 typedef struct {
     float theta;        /**< (0, 1] */
     float omega_1ps;    /**< > 0 */
     float d_omega_1ps2; /**< > 0 */
+    float count_rad;    /**< from edge to edge, electrical [rad], > 0 */
 } encoder_form_gains_t;
 
 /** true when both are in range. Context: init. */
@@ -58,15 +59,18 @@ static inline bool encoder_form_is_rare(const drive_sample_t *s, float ts_s)
  *     theta^ += min(k_theta T / Ts, 1) e
  *     w^     += min(k_w T / Ts, 1 / T) e
  *     d_w^   += min(k_d T / Ts, 1 / (2 T^2)) e                                     EQ-ENCODER-FORM-2
+ *     T = min(gap, 2 count / |w^|), at least Ts
+ *
+ * A shaft that starts after a long rest has not taken all of the gap for its count.
  *
  * @param est           Estimates, corrected in place.
  * @param theta_hat_rad Estimated angle, corrected in place.
  * @param gains         Of one sample.
  * @param error_rad     encoder_form_error_rad().
- * @param gap_s         T.
+ * @param gap_s         drive_sample_t.edge_gap_s, > 0.
  * @param ts_s          Control period [s].
  *
- * Context: control ISR. Two divisions.
+ * Context: control ISR. Three divisions.
  */
 void encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad, const encoder_form_gains_t *gains,
                                float error_rad, float gap_s, float ts_s);
@@ -84,7 +88,18 @@ void encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad, const encoder_
  *
  * Context: control ISR.
  */
-near_optimal_view_t encoder_form_view(const encoder_form_limits_t *limits, const nodo_t *est,
-                                      float theta_hat_rad, float angle_error_rad, float ts_s);
+static inline near_optimal_view_t encoder_form_view(const encoder_form_limits_t *limits,
+                                                    const nodo_t *est, float theta_hat_rad,
+                                                    float angle_error_rad, float ts_s)
+{
+    const near_optimal_view_t view = {est,
+                                      {est->omega_e_radps, est->iq_A, est->id_A},
+                                      0.0f,
+                                      theta_hat_rad +
+                                          (0.5f * ts_s * est->omega_e_radps), /* EQ-DRIVE-2 */
+                                      base_within(angle_error_rad, limits->angle_rad) &&
+                                          base_within(est->d_omega, limits->d_omega)};
+    return view;
+}
 
 #endif /* ENCODER_FORM_H */

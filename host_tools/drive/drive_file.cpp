@@ -135,6 +135,11 @@ double control_period_s(const Drive &drive)
     return 1.0 / (drive.inverter.pwm_frequency_Hz * drive.inverter.updates_per_period);
 }
 
+double count_e_rad(const Drive &drive)
+{
+    return 4.0 * std::acos(0.0) * drive.motor.pole_pairs / (4.0 * drive.encoder.lines);
+}
+
 double &motor_value(Motor &m, const std::string &key)
 {
     const std::map<std::string, double *> values{

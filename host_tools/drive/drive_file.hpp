@@ -148,6 +148,8 @@ const char *dc_link_sink_name(DcLinkSink sink);
 
 /// Control period: 1 / (pwm_frequency_Hz * updates_per_period).
 double control_period_s(const Drive &drive);
+/// From one edge of the encoder to the next, electrical [rad].
+double count_e_rad(const Drive &drive);
 
 /// "fnv1a64:<16 hex digits>" of every value of the drive; independent of layout and comments.
 std::string drive_digest(const Drive &drive);

@@ -92,6 +92,11 @@ void add_limits(std::vector<float> &v, const encoder_form_limits_t &limits)
     v.insert(v.end(), {limits.angle_rad, limits.d_omega});
 }
 
+void add_gains(std::vector<float> &v, const encoder_form_gains_t &gains)
+{
+    v.insert(v.end(), {gains.theta, gains.omega_1ps, gains.d_omega_1ps2, gains.count_rad});
+}
+
 /// The numbers of the table of noc_h in the order of the structure.
 std::vector<float> values_of(const nodo_harmonic_gains_t &g)
 {
@@ -114,6 +119,7 @@ std::vector<float> constants_in(const drive_config_t &c)
     if (const auto *noc = sdre::constants_of<law_noc_config_t>(c)) {
         add_near_optimal(v, noc->near_optimal);
         add_limits(v, noc->plausible);
+        add_gains(v, noc->rare);
         add_observer(v, {noc->nodo.iq_max_A}, noc->nodo.order, noc->nodo.gain);
     } else if (const auto *speed = sdre::constants_of<law_noc_speed_config_t>(c)) {
         add_near_optimal(v, speed->near_optimal);
@@ -123,6 +129,7 @@ std::vector<float> constants_in(const drive_config_t &c)
         const auto &noc_h = *sdre::constants_of<law_noc_h_config_t>(c);
         add_near_optimal(v, noc_h.near_optimal);
         add_limits(v, noc_h.plausible);
+        add_gains(v, noc_h.rare);
         const std::vector<float> nodo = values_of(noc_h.nodo);
         v.insert(v.end(), nodo.begin(), nodo.end());
     }
@@ -138,7 +145,7 @@ std::vector<float> values_of(const drive_config_t &c)
                        c.speed_max_e_radps, c.dc_link_min_V, c.dc_link_max_V});
     v.insert(v.end(), {m.l1, m.l2, m.l3, m.l4, m.l5, m.l6, m.l7, m.l8, m.l9, m.l10, m.l11, m.inv_l6,
                        m.inv_l8});
-    v.insert(v.end(), {c.dead_time.share, c.dead_time.inv_fade_1pA});
+    v.insert(v.end(), {c.dead_time.share, c.dead_time.inv_fade_1pA, c.hardware.dead_time_s});
     return v;
 }
 

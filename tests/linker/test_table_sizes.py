@@ -49,8 +49,9 @@ class TableSizes(unittest.TestCase):
         self.sizes = words()
 
     def test_sizes_are_those_of_16_bit_words(self):
-        # motor: 13 floats; dead time: 2; seven scalars, a flag with a pad before the floats, two pointers.
-        self.assertEqual(self.sizes["drive"], 2 * 13 + 2 * 2 + 2 * 6 + 2 + 2 * 2)
+        # motor: 13 floats; dead time: 2; seven scalars, a flag with a pad before the floats; hardware: two long ones, two
+        # integers, a flag with a pad; two pointers.
+        self.assertEqual(self.sizes["drive"], 2 * 13 + 2 * 2 + 2 * 7 + 2 + (2 * 2 + 2 + 2) + 2 * 2)
         self.assertEqual(self.sizes["law"], 3 * 2)
 
     def test_every_law_fits(self):

@@ -289,11 +289,6 @@ TEST(SilCli, AnotherDriveTakesThePlaceOfTheScenarios)
     expect_refused({"run", scenario, "--drive", dir / "none.toml"}, 1, {"none.toml"});
     const std::string paper_a = dir.write("case.toml", scenario_text());
     expect_refused({"run", paper_a, "--drive", pid}, 1, {"law", "\"pid\""});
-    expect_refused({"run", scenario, "--board", "api"}, 1, {"--board", "cdobc", "edge times"});
-    const std::string board = root + "/host_tools/sil/scenarios/board_load_step.toml";
-    const std::string edges = root + "/firmware/config/drives/ipmsm_390w_noc_h_edges.toml";
-    expect_refused({"run", board, "--drive", edges, "--board", "f28335"}, 1,
-                   {"counts edges", "does not time them"});
 }
 
 TEST(SilCli, SpectrumIsATableOrAPicture)

@@ -59,7 +59,7 @@ static void test_angle_error_is_less_the_band(void)
     }
 }
 
-static encoder_form_gains_t gains = {.theta = 0.8f, .omega_1ps = 1700.0f, .d_omega_1ps2 = 4.7e5f};
+static encoder_form_gains_t gains = {.theta = 0.8f, .omega_1ps = 1700.0f, .d_omega_1ps2 = 4.7e5f, .count_rad = 1.2566371e-3f};
 
 static void test_rare_edges_are_those_further_apart_than_samples(void)
 {
@@ -76,16 +76,21 @@ static void test_rare_edges_correct_as_their_time_allows(void)
 {
     static const double gaps_s[] = {2.0e-4, 3.0e-4, 5.0e-4, 1.0e-3, 1.0e-2, 0.1, 1.0};
     for (int i = 0; i < SUPPORT_COUNT(gaps_s); i++) {
-        nodo_t       x     = est;
-        float        theta = 0.3f;
-        const double T     = gaps_s[i];
-        const double ratio = T / (double)TS_s;
-        encoder_form_correct_rare(&x, &theta, &gains, -0.004f, (float)T, TS_s);
+        static const float speeds[] = {0.0f, 0.5f, -3.0f, 50.0f};
+        nodo_t             x        = est;
+        float              theta    = 0.3f;
+        x.omega_e_radps             = speeds[i % SUPPORT_COUNT(speeds)];
+        const double w0             = (double)x.omega_e_radps;
+        const double count          = 2.0 * 2.0 * 3.141592653589793 / 10000.0;
+        const double moving         = (w0 == 0.0) ? gaps_s[i] : (2.0 * count / fabs(w0));
+        const double T              = fmax(fmin(gaps_s[i], moving), (double)TS_s);
+        const double ratio          = T / (double)TS_s;
+        encoder_form_correct_rare(&x, &theta, &gains, -0.004f, (float)gaps_s[i], TS_s);
         TEST_ASSERT_DOUBLE_WITHIN(1.0e-6, 0.3 - (0.004 * fmin(0.8 * ratio, 1.0)), (double)theta);
         const double dw  = -0.004 * fmin(1700.0 * ratio, 1.0 / T);
         const double ddw = -0.004 * fmin(4.7e5 * ratio, 0.5 / (T * T));
         TEST_ASSERT_DOUBLE_WITHIN(1.0e-4 + fabs(1e-5 * dw), dw,
-                                  (double)x.omega_e_radps - (double)est.omega_e_radps);
+                                  (double)x.omega_e_radps - w0);
         TEST_ASSERT_DOUBLE_WITHIN(2.0e-3 + fabs(1e-5 * ddw), ddw,
                                   (double)x.d_omega - (double)est.d_omega);
         TEST_ASSERT_TRUE((x.iq_A == est.iq_A) && (x.id_A == est.id_A) && (x.d_q == est.d_q) &&
@@ -129,7 +134,7 @@ static void test_rare_edges_find_a_slow_speed(void)
 
 static void test_gains_out_of_range_are_refused(void)
 {
-    float *const fields[] = {&gains.theta, &gains.omega_1ps, &gains.d_omega_1ps2};
+    float *const fields[] = {&gains.theta, &gains.omega_1ps, &gains.d_omega_1ps2, &gains.count_rad};
     TEST_ASSERT_TRUE(encoder_form_gains_check(&gains));
     for (int i = 0; i < SUPPORT_COUNT(fields); i++) {
         const float good  = *fields[i];

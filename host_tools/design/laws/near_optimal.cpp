@@ -232,7 +232,8 @@ std::string limits_block(const encoder_form_limits_t &limits)
 std::string rare_block(const encoder_form_gains_t &gains)
 {
     return c_block("rare", c_field("theta", gains.theta) + c_field("omega_1ps", gains.omega_1ps) +
-                               c_field("d_omega_1ps2", gains.d_omega_1ps2));
+                               c_field("d_omega_1ps2", gains.d_omega_1ps2) +
+                               c_field("count_rad", gains.count_rad));
 }
 
 std::string term_block(int n, const char *columns, const std::vector<std::string> &labels,

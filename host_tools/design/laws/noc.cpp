@@ -12,12 +12,13 @@ bool is_for(const Drive &drive)
 }
 
 /// L_0 Ts, of the angle.
-encoder_form_gains_t sample_gains(const nodo_encoder_gains_t &g, double ts_s)
+encoder_form_gains_t sample_gains(const nodo_encoder_gains_t &g, const Drive &drive)
 {
+    const double ts_s = control_period_s(drive);
     const auto gain = [&](int row) {
         return static_cast<float>(ts_s * static_cast<double>(g.gain[0][row][2]));
     };
-    return {gain(6), gain(3), gain(0)};
+    return {gain(6), gain(3), gain(0), static_cast<float>(count_e_rad(drive))};
 }
 
 void solve(Design &d)
@@ -29,7 +30,7 @@ void solve(Design &d)
     c.nodo.order    = static_cast<int16_t>(d.drive.nodo.order);
     c.nodo.iq_max_A = static_cast<float>(d.certificate.nodo.series_range_A);
     copy_series(d.nodo, c.nodo.gain);
-    c.rare = sample_gains(c.nodo, control_period_s(d.drive));
+    c.rare = sample_gains(c.nodo, d.drive);
     keep_constants(d, c);
 }
 

@@ -86,7 +86,7 @@ encoder_form_gains_t sample_gains(const Design &d)
     const auto   at      = std::find_if(nodes.begin(), nodes.end() - 1,
                                         [&](const HarmonicNode &n) { return n.omega_e_radps >= trusted; });
     const auto   gain    = [&](int row) { return static_cast<float>(at->K0(row, 2)); };
-    return {gain(6), gain(3), gain(0)};
+    return {gain(6), gain(3), gain(0), static_cast<float>(count_e_rad(d.drive))};
 }
 
 void solve(Design &d)

@@ -219,14 +219,13 @@ VectorXd harmonic_weights(const Drive &drive, double w)
 
 double edges_trusted_from_e_radps(const Drive &drive)
 {
-    const double count = 4.0 * half_pi * drive.motor.pole_pairs / (4.0 * drive.encoder.lines);
-    return counts_for_edges * count / control_period_s(drive);
+    return counts_for_edges * count_e_rad(drive) / control_period_s(drive);
 }
 
 double angle_weight(const Drive &drive, double w)
 { // edge times tell nothing while there is no edge in a period: the angle is then one of a count's
     const double ts       = control_period_s(drive);
-    const double count    = 4.0 * half_pi * drive.motor.pole_pairs / (4.0 * drive.encoder.lines);
+    const double count    = count_e_rad(drive);
     const double counted  = std::max(count * count / 12.0 * ts, drive.nodo.T[2]);
     const double by_edges = std::clamp((w * ts / count - 1.0) / (counts_for_edges - 1.0), 0.0, 1.0);
     return std::pow(counted, 1.0 - by_edges) * std::pow(drive.nodo.T[2], by_edges);
