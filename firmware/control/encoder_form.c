@@ -24,8 +24,8 @@ void encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad, const encoder_
     const float at_speed_1ps = fabsf(est->omega_e_radps) / (2.0f * gains->count_rad);
     const float per_s        = base_min(base_max(1.0f / gap_s, at_speed_1ps), 1.0f / ts_s);
     const float samples      = 1.0f / (per_s * ts_s);
-    const float theta   = base_min(gains->theta * samples, 1.0f);
-    const float omega   = base_min(gains->omega_1ps * samples, per_s);
+    const float theta        = base_min(gains->theta * samples, 1.0f);
+    const float omega        = base_min(gains->omega_1ps * samples, per_s);
     const float d_omega = base_min(gains->d_omega_1ps2 * samples, D_OMEGA_SHARE * per_s * per_s);
 
     est->omega_e_radps += omega * error_rad;

@@ -49,7 +49,8 @@ sdre::Scenario steady(double torque_Nm, bool ideal)
     s.load_torque           = {{0.0, torque_Nm}};
     s.dc_link_V             = s.drive.inverter.dc_link_V;
     s.sensors.ideal         = ideal;
-    s.sensors.encoder_disc  = {0.0, 0.0, 0.0}; // its noise at light load is no matter of the reference
+    s.sensors.encoder_disc  = {0.0, 0.0,
+                               0.0}; // its noise at light load is no matter of the reference
     s.measures              = {{"steady", 0.1, 3.0, {}}};
     return s;
 }

@@ -72,8 +72,7 @@ static const entry_t speed_entries[] = {
 static const entry_t encoder_entries[] = {
     {&constants.noc.nodo.iq_max_A, POSITIVE},     {&constants.noc.plausible.angle_rad, POSITIVE},
     {&constants.noc.plausible.d_omega, POSITIVE}, {&constants.noc.rare.omega_1ps, POSITIVE},
-    {&constants.noc.rare.d_omega_1ps2, POSITIVE},
-    {&constants.noc.rare.count_rad, POSITIVE},
+    {&constants.noc.rare.d_omega_1ps2, POSITIVE}, {&constants.noc.rare.count_rad, POSITIVE},
 };
 
 static const entry_t harmonic_entries[] = {

@@ -59,7 +59,8 @@ static void test_angle_error_is_less_the_band(void)
     }
 }
 
-static encoder_form_gains_t gains = {.theta = 0.8f, .omega_1ps = 1700.0f, .d_omega_1ps2 = 4.7e5f, .count_rad = 1.2566371e-3f};
+static encoder_form_gains_t gains = {
+    .theta = 0.8f, .omega_1ps = 1700.0f, .d_omega_1ps2 = 4.7e5f, .count_rad = 1.2566371e-3f};
 
 static void test_rare_edges_are_those_further_apart_than_samples(void)
 {
@@ -89,8 +90,7 @@ static void test_rare_edges_correct_as_their_time_allows(void)
         TEST_ASSERT_DOUBLE_WITHIN(1.0e-6, 0.3 - (0.004 * fmin(0.8 * ratio, 1.0)), (double)theta);
         const double dw  = -0.004 * fmin(1700.0 * ratio, 1.0 / T);
         const double ddw = -0.004 * fmin(4.7e5 * ratio, 0.5 / (T * T));
-        TEST_ASSERT_DOUBLE_WITHIN(1.0e-4 + fabs(1e-5 * dw), dw,
-                                  (double)x.omega_e_radps - w0);
+        TEST_ASSERT_DOUBLE_WITHIN(1.0e-4 + fabs(1e-5 * dw), dw, (double)x.omega_e_radps - w0);
         TEST_ASSERT_DOUBLE_WITHIN(2.0e-3 + fabs(1e-5 * ddw), ddw,
                                   (double)x.d_omega - (double)est.d_omega);
         TEST_ASSERT_TRUE((x.iq_A == est.iq_A) && (x.id_A == est.id_A) && (x.d_q == est.d_q) &&

@@ -15,7 +15,7 @@ bool is_for(const Drive &drive)
 encoder_form_gains_t sample_gains(const nodo_encoder_gains_t &g, const Drive &drive)
 {
     const double ts_s = control_period_s(drive);
-    const auto gain = [&](int row) {
+    const auto   gain = [&](int row) {
         return static_cast<float>(ts_s * static_cast<double>(g.gain[0][row][2]));
     };
     return {gain(6), gain(3), gain(0), static_cast<float>(count_e_rad(drive))};
