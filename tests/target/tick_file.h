@@ -71,6 +71,7 @@ typedef struct {
     float             ib_A;
     float             dc_link_V;
     float             theta_e_rad;
+    float             band_rad;
     float             omega_e_radps;
     float             command_e_radps;
     abc_t             duty;

@@ -13,10 +13,12 @@ import re
 import sys
 import tempfile
 import tomllib
+from collections import Counter
 from pathlib import Path
 
 from execution import (
-    COUNTS_PER_INSTRUCTION, TICKS, Steps, count_instructions, exit_code, path_counts, run, single_steps, walk_ticks,
+    COUNTS_PER_INSTRUCTION, TICKS, Steps, count_instructions, exit_code, path_counts, run, single_steps, walk_calls,
+    walk_ticks,
 )  # fmt: skip
 from longest_path import LongestPath
 from machine_code import law_functions, linked_sizes, read_code, section_sizes, stack_depth, symbols
@@ -46,11 +48,12 @@ OPERATIONS = (
     ("constant", ("constant",)),
     ("load", ("load",)),
     ("store", ("store",)),
-    ("integer", ("integer",)),
+    ("integer", ("integer", "int_div")),
     ("branch", ("branch", "taken", "not_taken")),
     ("call and return", ("call", "return")),
     ("sine, cosine", ("sinf", "cosf")),
     ("minimum, maximum", ("fminf", "fmaxf")),
+    ("copy", ("memcpy",)),
 )
 
 
@@ -60,11 +63,12 @@ class Costs:
             data = tomllib.load(file)
         self.cycles_per_tick = data["cycles_per_tick"]
         self.target_share = data["target_share"]
-        self.library = set(data["library"])
-        self.around = sum(data["around"].values())
+        self.board = set(data["board"])
+        self.library = set(data["library"]) | self.board
+        self.interrupt = sum(data["interrupt"].values())
         self.loops = data["loops"]
         self.band = data["band"]
-        self.of = {**data["cost"], **data["library"]}
+        self.of = {**data["cost"], **data["library"], **data["board"]}
         self.slow_division = data["without_fast_rts"]["fp_div"]
 
     def cycles(self, counts):
@@ -101,9 +105,9 @@ def compare(check, runs, results):
     gates = True
     for recorded, replayed in zip(runs, results):
         for tick, result in zip(recorded.ticks, replayed):
-            worst = max(worst, *(abs(tick[6 + i] - result[3 + i]) for i in range(3)))
-            pi_worst = max(pi_worst, *(abs(tick[9 + i] - result[6 + i]) for i in range(3)))
-            gates &= tick[12] & GATE == result[2]
+            worst = max(worst, *(abs(tick[7 + i] - result[3 + i]) for i in range(3)))
+            pi_worst = max(pi_worst, *(abs(tick[10 + i] - result[6 + i]) for i in range(3)))
+            gates &= tick[13] & GATE == result[2]
     check(gates, "gates as on the host")
     check(worst <= DUTY_TOLERANCE, f"duties as on the host: worst {worst:.1e}, allowed {DUTY_TOLERANCE:.0e}")
     check(pi_worst <= DUTY_TOLERANCE, f"those of the PI-FOC: worst {pi_worst:.1e}, allowed {DUTY_TOLERANCE:.0e}")
@@ -174,30 +178,33 @@ def share(costs, cycles):
     return f"{low:.1f} .. {high:.1f} %"
 
 
-def print_operations(costs, replays):
+def print_operations(costs, replays, app):
     """The dearest executed tick of each kind, and the bound over all ways through the code."""
     columns = {kind: path_counts(worst.path, r.steps) for r in replays for kind, worst in r.kinds.items()}
     columns |= {f"bound, {r.law}": r.bound for r in replays}
-    named = {name for _, names in OPERATIONS for name in names} | {"far", "spill"}
+    columns["application"] = app
+    named = {name for _, names in OPERATIONS for name in names} | {"far", "spill"} | costs.board
     assert all(name in named for counts in columns.values() for name in counts)
     rows = [
         (text, *(str(sum(counts.get(name, 0) for name in names)) for counts in columns.values()))
         for text, names in OPERATIONS
     ]
-    around = costs.around
+    around = costs.cycles(app) + costs.interrupt
     cycles = [costs.cycles(counts) for counts in columns.values()]
     rows += [
         ("beyond seven words", *(str(counts.get("far", 0)) for counts in columns.values())),
         ("cycles", *(span(costs, c) for c in cycles)),
         ("  share of the period", *(share(costs, c) for c in cycles)),
         ("  with plain division", *(f"{costs.slow(counts):.0f}" for counts in columns.values())),
-        ("with the pass around", *(span(costs, c + around) for c in cycles)),
-        ("  share of the period", *(share(costs, c + around) for c in cycles)),
+        ("whole period", *(span(costs, c + around) for c in cycles[:-1]), ""),
+        ("  share of the period", *(share(costs, c + around) for c in cycles[:-1]), ""),
     ]
     title = f"Dearest tick, operations and estimated C28x cycles (+-{100 * costs.band:.0f} %)"
     print_table(title, list(columns), rows)
     for kind, worst in (pair for r in replays for pair in r.kinds.items()):
         print(f"  {kind}: {worst.where}")
+    print("  application: dearest of app_tick() on host_stub while the law runs, without the core, with the calls of board.h")
+    print(f"  whole period: with application and interrupt, {around:.0f} cycles")
     print("  bound: dearest way through the compiled code, whether or not anything can take it")
 
 
@@ -208,7 +215,7 @@ def print_verdict(costs, check, replays):
         cycles[r.law] = costs.cycles(path_counts(r.kinds[r.law].path, r.steps))
         low, high = costs.span(cycles[r.law])
         verdict = "met" if high <= limit else "missed" if low > limit else "within the uncertainty of the estimate"
-        print(f"  target of {limit:.0f} cycles ({100 * costs.target_share:.0f} %), {r.law} without the pass around: {verdict}")
+        print(f"  target of {limit:.0f} cycles ({100 * costs.target_share:.0f} %), {r.law} without the application: {verdict}")
     ratio = cycles[HARMONIC] / cycles[SHIPPED]
     check(ratio <= HARMONIC_RATIO, f"{HARMONIC} costs {ratio:.2f} of {SHIPPED}, allowed {HARMONIC_RATIO}")
 
@@ -241,6 +248,25 @@ def print_memory(replays, core, tables):
     )
 
 
+def application(costs, image):
+    """The dearest way of app_tick() with the law running, without the core: counts."""
+    code = read_code(PREFIX, image, law_functions(PREFIX, image))
+    table = symbols(PREFIX, image)
+    steps = Steps(code, costs.library, (costs.cycles,))
+    core = table["image_app_end"][0]
+    dearest, ways = Counter(), 0
+    with tempfile.TemporaryDirectory() as directory:
+        for path in set(walk_calls(image, directory, table, "app_tick", steps)):
+            if any(code[int(block, 16)].function == "step" for block in path):
+                edges = (edge for edge in zip(path, path[1:] + (None,)) if int(edge[0], 16) < core)
+                counts = sum((steps[edge][2] for edge in edges), Counter())
+                dearest = max(dearest, counts, key=costs.cycles)
+                ways += 1
+    if not ways:
+        raise RuntimeError("the application on host_stub never ran the law")
+    return dearest
+
+
 class Replay:
     """One image with the ticks of its law."""
 
@@ -271,7 +297,7 @@ def main(recorder, images, core, tables, *scenarios):
     code = exit_code(f"{images}/host_stub.elf")
     check(code == 0, f"the application on host_stub boots, aligns, holds a speed and stops: exit code {code}")
     replays = [Replay(law, images, recorder, scenarios, costs, check) for law in LAWS]
-    print_operations(costs, replays)
+    print_operations(costs, replays, application(costs, str(Path(images, "host_stub.elf").resolve())))
     print_verdict(costs, check, replays)
     kinds = {kind: worst for r in replays for kind, worst in r.kinds.items()}
     print_instructions(kinds, {name: worst for r in replays for name, worst in r.by_run.items()})

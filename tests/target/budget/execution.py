@@ -117,6 +117,52 @@ def walk_ticks(image, directory, symbols, steps):
         raise RuntimeError(f"the logged replay ended with {emulator.returncode}")
 
 
+class Away:
+    """Where control comes back to after a block that ends in a call of a library function; None for any other block."""
+
+    def __init__(self, code, library):
+        self.code, self.library, self.known = code, library, {}
+
+    def __getitem__(self, block):
+        if block not in self.known:
+            i = self.code[int(block, 16)]
+            while not i.flow:
+                i = i.next
+            away = i.flow == "call" and i.target_name in self.library
+            self.known[block] = b"%08x" % i.next.address if away else None
+        return self.known[block]
+
+
+def calls_in(log, start, steps, away):
+    """Yields the path of each call of the function at start. The log may hold anything before and after a call, and in it
+    what a library function calls in turn: both are left out."""
+    path, depth, back = [], 0, None
+    for block in log:
+        if path:
+            if back and block != back:
+                continue
+            counts = steps[path[-1], block][2]
+            depth += counts["call"] - counts["return"]
+            if depth < 0:
+                yield tuple(path)
+                path = []
+        if path or block == start:
+            if not path:
+                depth = 0
+            path.append(block)
+            back = away[block]
+
+
+def walk_calls(image, directory, symbols, name, steps):
+    """Yields the path of each call of a function of the image; away from it is all that is not in its code."""
+    begin, end = symbols["image_core_begin"][0], symbols["image_core_end"][0]
+    with log_of(image, directory, "-dfilter", f"{begin:#x}..{end - 1:#x}") as emulator:
+        log = (line.split(b"/", 2)[1] for line in emulator.stdout)
+        yield from calls_in(log, b"%08x" % symbols[name][0], steps, Away(steps.code, steps.library))
+    if emulator.returncode != 0:
+        raise RuntimeError(f"{image} ended with {emulator.returncode}")
+
+
 def single_steps(image, directory, symbols, calls):
     """[(all instructions, those of the core)] of the first calls of a tick, one log line per instruction."""
     begin, end = symbols["image_core_begin"][0], symbols["image_core_end"][0]

@@ -20,10 +20,11 @@ KINDS = {
     "load": ("vldr", "ldr", "ldrh", "ldrsh", "ldrb", "ldrsb", "ldrd"),
     "store": ("vstr", "str", "strh", "strb", "strd"),
     "integer": (
-        "adc add adds addw and ands asr asrs bic bics clz cmn cmp eor eors lsl lsls lsr lsrs mla mov movs "
-        "movt movw mul muls mvn mvns orr orrs ror rsb rsbs sbc sbfx smlabb smlal smulbb smull sub subs subw sxtb sxth teq tst "
-        "ubfx umlal umull uxtb uxth"
+        "adc adcs add adds addw and ands asr asrs bfc bfi bic bics clz cmn cmp eor eors lsl lsls lsr lsrs mla mls mov movs "
+        "movt movw mul muls mvn mvns neg negs orr orrs ror rsb rsbs sbc sbfx smlabb smlal smulbb smull sub subs subw sxtab sxtah sxtb sxth teq tst "
+        "ubfx umlal umull uxtab uxtah uxtb uxth"
     ).split(),
+    "int_div": ("udiv", "sdiv"),
 }
 KIND_OF = {name: kind for kind, names in KINDS.items() for name in names}
 MULTIPLE_LOAD = ("ldmia", "ldmdb", "ldm", "pop", "vpop", "vldmia", "vldmdb")
@@ -177,7 +178,7 @@ def read_code(prefix, image, functions=()):
         name, conditional = base_name(match[2])
         i = Instruction(int(match[1], 16), function, name, conditional, match[3].strip())
         classify(i)
-        goal = re.search(r"([0-9a-f]+) <(\w+)(\+0x[0-9a-f]+)?>", i.operands)
+        goal = re.search(r"([0-9a-f]+) <([\w.]+?)(\+0x[0-9a-f]+)?>", i.operands)
         if i.register:
             resolve(block, i, functions)
         elif i.flow in ("branch", "conditional", "call"):

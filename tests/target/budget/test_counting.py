@@ -9,7 +9,7 @@ from unittest import mock
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).parent))
 import machine_code  # noqa: E402
-from execution import Steps, path_counts  # noqa: E402
+from execution import Away, Steps, calls_in, path_counts  # noqa: E402
 from longest_path import LongestPath  # noqa: E402
 
 LISTING = """
@@ -97,6 +97,18 @@ class Counting(unittest.TestCase):
     def test_library_function_without_a_price_is_refused(self):
         with self.assertRaisesRegex(ValueError, "sinf"):
             Steps(self.code, set(), (unit_cost,))[(b"0000010e", b"00000116")]
+
+    def test_calls_are_found_among_whatever_else_runs(self):
+        # tick twice, with what sinf calls and with other callers of sum before and between them.
+        before = (0x100, 0x10E, 0x116)
+        first = (0x120, 0x12E, 0x100, 0x106, 0x10E)
+        away = (0x100, 0x116, 0x120)  # while sinf has control
+        second = (0x120, 0x126, 0x132)
+        log = trace(*before, *first, *away[:1], *away[2:], 0x116, 0x132, *before, *second, *before)
+
+        paths = list(calls_in(log, b"00000120", self.steps, Away(self.code, {"sinf"})))
+
+        self.assertEqual(paths, [trace(*first, 0x116, 0x132), trace(*second)])
 
     def test_bound_takes_the_dearest_way_and_all_passes(self):
         bound = LongestPath(self.code, {"sinf"}, {"sum": [5]}, unit_cost).function("tick")
