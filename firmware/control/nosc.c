@@ -5,25 +5,6 @@
 
 enum { ROW_Q = 0, ROW_D = 1, COLUMN_OMEGA = 0, COLUMN_IQ = 1, COLUMN_ID = 2 };
 
-float nosc_speed_current_A(const nosc_gains_t *g, float omega_error_e_radps)
-{
-    return base_clamp(-g->speed_A_per_radps * omega_error_e_radps, -g->iq_speed_max_A,
-                      g->iq_speed_max_A);
-}
-
-nosc_error_t nosc_limit_speed_error(const nosc_gains_t *g, nosc_error_t e, float iq_ref_A,
-                                    float iq_lo_A, float iq_hi_A)
-{
-    const float lo_A = base_max(iq_ref_A - iq_hi_A, -g->iq_speed_max_A); /* EQ-NOSC-3 */
-    const float hi_A = base_min(iq_ref_A - iq_lo_A, g->iq_speed_max_A);
-
-    if (g->speed_radps_per_A > 0.0f) {
-        e.omega_e_radps =
-            base_clamp(e.omega_e_radps, g->speed_radps_per_A * lo_A, g->speed_radps_per_A * hi_A);
-    }
-    return e;
-}
-
 /* What speed and iq, and what id contribute to a row. */
 static float of_speed_and_iq(const float row[NOSC_N_E], const nosc_error_t *e)
 {

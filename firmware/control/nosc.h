@@ -37,6 +37,8 @@ typedef struct {
 /** true when every constant is finite and within its documented range. Context: init. */
 bool nosc_check(const nosc_gains_t *g);
 
+/* Inline, because a call costs more than the arithmetic. */
+
 /** k_iq of Lambda_0 [V/A]. */
 static inline float nosc_current_gain(const nosc_gains_t *g)
 {
@@ -48,7 +50,11 @@ static inline float nosc_current_gain(const nosc_gains_t *g)
  *
  * Context: control ISR. No division.
  */
-float nosc_speed_current_A(const nosc_gains_t *g, float omega_error_e_radps);
+static inline float nosc_speed_current_A(const nosc_gains_t *g, float omega_error_e_radps)
+{
+    return base_clamp(-g->speed_A_per_radps * omega_error_e_radps, -g->iq_speed_max_A,
+                      g->iq_speed_max_A);
+}
 
 /**
  * @brief The error with its speed part limited so that the q current it asks for stays in a range.
@@ -64,8 +70,18 @@ float nosc_speed_current_A(const nosc_gains_t *g, float omega_error_e_radps);
  * @param iq_lo_A   Lowest q current allowed now.
  * @param iq_hi_A   Highest q current allowed now.
  */
-nosc_error_t nosc_limit_speed_error(const nosc_gains_t *g, nosc_error_t e, float iq_ref_A,
-                                    float iq_lo_A, float iq_hi_A);
+static inline nosc_error_t nosc_limit_speed_error(const nosc_gains_t *g, nosc_error_t e,
+                                                  float iq_ref_A, float iq_lo_A, float iq_hi_A)
+{
+    const float lo_A = base_max(iq_ref_A - iq_hi_A, -g->iq_speed_max_A); /* EQ-NOSC-3 */
+    const float hi_A = base_min(iq_ref_A - iq_lo_A, g->iq_speed_max_A);
+
+    if (g->speed_radps_per_A > 0.0f) {
+        e.omega_e_radps =
+            base_clamp(e.omega_e_radps, g->speed_radps_per_A * lo_A, g->speed_radps_per_A * hi_A);
+    }
+    return e;
+}
 
 /**
  * @brief Feedback voltage, EQ-NOSC-1.

@@ -19,8 +19,21 @@
 #include "base.h"
 #include "frames.h"
 
+/* Inline, because a call costs more than the arithmetic. */
+
+/** Square of a vector's length. */
+static inline float voltage_square(dq_t u_V)
+{
+    return (u_V.d * u_V.d) + (u_V.q * u_V.q);
+}
+
 /** true when a vector is longer than the radius of the circle, v_dc / sqrt(3). Context: control ISR. */
-bool voltage_is_outside(dq_t u_V, float dc_link_V);
+static inline bool voltage_is_outside(dq_t u_V, float dc_link_V)
+{
+    const float circle_V = dc_link_V * BASE_1_SQRT3;
+
+    return voltage_square(u_V) > (circle_V * circle_V);
+}
 
 typedef struct {
     dq_t v_V;
