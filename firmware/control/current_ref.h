@@ -84,7 +84,7 @@ speed_ref_limits_t current_ref_speed_limits(const current_ref_t *r, const curren
  * @param w   Speed reference and its derivatives.
  * @param in  State and estimates.
  *
- * Context: control ISR. One division, up to four square roots.
+ * Context: control ISR. Up to two divisions and four square roots.
  */
 void current_ref_update(current_ref_t *r, const current_ref_config_t *c, const motor_reduced_t *m,
                         const speed_ref_t *w, const current_ref_input_t *in);
