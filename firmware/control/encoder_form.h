@@ -84,7 +84,18 @@ void encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad, const encoder_
  *
  * Context: control ISR.
  */
-near_optimal_view_t encoder_form_view(const encoder_form_limits_t *limits, const nodo_t *est,
-                                      float theta_hat_rad, float angle_error_rad, float ts_s);
+static inline near_optimal_view_t encoder_form_view(const encoder_form_limits_t *limits,
+                                                    const nodo_t *est, float theta_hat_rad,
+                                                    float angle_error_rad, float ts_s)
+{
+    const near_optimal_view_t view = {est,
+                                      {est->omega_e_radps, est->iq_A, est->id_A},
+                                      0.0f,
+                                      theta_hat_rad +
+                                          (0.5f * ts_s * est->omega_e_radps), /* EQ-DRIVE-2 */
+                                      base_within(angle_error_rad, limits->angle_rad) &&
+                                          base_within(est->d_omega, limits->d_omega)};
+    return view;
+}
 
 #endif /* ENCODER_FORM_H */

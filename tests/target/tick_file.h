@@ -72,6 +72,7 @@ typedef struct {
     float             dc_link_V;
     float             theta_e_rad;
     float             band_rad;
+    float             edge_gap_s;
     float             omega_e_radps;
     float             command_e_radps;
     abc_t             duty;

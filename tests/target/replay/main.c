@@ -39,6 +39,7 @@ static tick_file_result_t replay(const tick_file_tick_t *t)
                                      .dc_link_V     = t->dc_link_V,
                                      .theta_e_rad   = t->theta_e_rad,
                                      .band_rad      = t->band_rad,
+                                     .edge_gap_s    = t->edge_gap_s,
                                      .omega_e_radps = t->omega_e_radps,
                                      .valid         = (t->flags & TICK_FILE_VALID) != 0u};
     const drive_command_t command = {.omega_e_radps = t->command_e_radps,
