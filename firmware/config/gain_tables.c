@@ -67,6 +67,7 @@ static const law_noc_config_t constants = {
         .theta = 8.16983938e-01f,
         .omega_1ps = 1.66894995e+03f,
         .d_omega_1ps2 = 4.67823469e+05f,
+        .count_rad = 1.25663704e-03f,
     },
     .nodo = {
         .order = 2,

@@ -18,17 +18,18 @@ bool encoder_form_gains_check(const encoder_form_gains_t *gains)
  * 17 ms with 0.2, after 7 ms with 0.5, after 9 ms and with more noise with 1. */
 #define D_OMEGA_SHARE 0.5f
 
-void encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad, const encoder_form_gains_t *gains,
-                               float error_rad, float gap_s, float ts_s)
+float encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad,
+                                const encoder_form_gains_t *gains, float error_rad, float gap_s,
+                                float ts_s)
 {
     const float at_speed_1ps = fabsf(est->omega_e_radps) / (2.0f * gains->count_rad);
     const float per_s        = base_min(base_max(1.0f / gap_s, at_speed_1ps), 1.0f / ts_s);
     const float samples      = 1.0f / (per_s * ts_s);
-    const float theta        = base_min(gains->theta * samples, 1.0f);
-    const float omega        = base_min(gains->omega_1ps * samples, per_s);
-    const float d_omega = base_min(gains->d_omega_1ps2 * samples, D_OMEGA_SHARE * per_s * per_s);
+    const float share = base_min(samples, D_OMEGA_SHARE * per_s * per_s / gains->d_omega_1ps2);
+    const float theta = base_min(gains->theta * samples, 1.0f) - (share * gains->theta);
+    const float omega = base_min(gains->omega_1ps * samples, per_s) - (share * gains->omega_1ps);
 
     est->omega_e_radps += omega * error_rad;
-    est->d_omega += d_omega * error_rad;
     *theta_hat_rad = frames_wrap(*theta_hat_rad + (theta * error_rad));
+    return share;
 }

@@ -44,7 +44,7 @@ static inline float encoder_form_error_rad(const drive_sample_t *s, float theta_
     return error - base_clamp(error, -s->band_rad, s->band_rad);
 }
 
-/** Whether edges come less often than samples, so that encoder_form_correct_rare() takes the angle. */
+/** Whether edges come less often than samples, so that encoder_form_correct_rare() applies. */
 static inline bool encoder_form_is_rare(const drive_sample_t *s, float ts_s)
 {
     return s->edge_gap_s > ts_s;
@@ -58,22 +58,24 @@ static inline bool encoder_form_is_rare(const drive_sample_t *s, float ts_s)
  *
  *     theta^ += min(k_theta T / Ts, 1) e
  *     w^     += min(k_w T / Ts, 1 / T) e
- *     d_w^   += min(k_d T / Ts, 1 / (2 T^2)) e                                     EQ-ENCODER-FORM-2
+ *     d_w^   += min(k_d T / Ts, 1 / (2 T^2)) e, the other estimates in proportion    EQ-ENCODER-FORM-2
  *     T = min(gap, 2 count / |w^|), at least Ts
  *
  * A shaft that starts after a long rest has not taken all of the gap for its count.
  *
- * @param est           Estimates, corrected in place.
- * @param theta_hat_rad Estimated angle, corrected in place.
+ * @param est           Estimates; the speed gets what is more than its gain of one sample.
+ * @param theta_hat_rad Estimated angle, the same.
  * @param gains         Of one sample.
  * @param error_rad     encoder_form_error_rad().
  * @param gap_s         drive_sample_t.edge_gap_s, > 0.
  * @param ts_s          Control period [s].
+ * @return The share of the error that the observer's correction takes with its gains of one sample.
  *
- * Context: control ISR. Three divisions.
+ * Context: control ISR. Five divisions.
  */
-void encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad, const encoder_form_gains_t *gains,
-                               float error_rad, float gap_s, float ts_s);
+float encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad,
+                                const encoder_form_gains_t *gains, float error_rad, float gap_s,
+                                float ts_s);
 
 /**
  * @brief The prediction as the law sees it.

@@ -25,14 +25,13 @@ static near_optimal_view_t observe(law_noc_state_t *s, const law_noc_config_t *c
 {
     const dq_t  i_A         = sample_current_A(in->sample, s->theta_hat_rad);
     const float angle_error = encoder_form_error_rad(in->sample, s->theta_hat_rad);
-    const bool  rare        = encoder_form_is_rare(in->sample, drive->ts_s);
+    float       used_error  = angle_error;
 
-    nodo_encoder_correct(&s->observer, &s->theta_hat_rad, &c->nodo, i_A, rare ? 0.0f : angle_error,
-                         drive->ts_s);
-    if (rare) {
-        encoder_form_correct_rare(&s->observer, &s->theta_hat_rad, &c->rare, angle_error,
-                                  in->sample->edge_gap_s, drive->ts_s);
+    if (encoder_form_is_rare(in->sample, drive->ts_s)) {
+        used_error *= encoder_form_correct_rare(&s->observer, &s->theta_hat_rad, &c->rare,
+                                                angle_error, in->sample->edge_gap_s, drive->ts_s);
     }
+    nodo_encoder_correct(&s->observer, &s->theta_hat_rad, &c->nodo, i_A, used_error, drive->ts_s);
     nodo_encoder_predict(&s->observer, &s->theta_hat_rad, &drive->motor, in->v_V, drive->ts_s);
     return encoder_form_view(&c->plausible, &s->observer, s->theta_hat_rad, angle_error,
                              drive->ts_s);

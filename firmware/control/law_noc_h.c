@@ -26,13 +26,13 @@ static near_optimal_view_t observe(law_noc_h_state_t *s, const law_noc_h_config_
 {
     const dq_t  i_A         = sample_current_A(in->sample, s->observer.theta_rad);
     const float angle_error = encoder_form_error_rad(in->sample, s->observer.theta_rad);
-    const bool  rare        = encoder_form_is_rare(in->sample, drive->ts_s);
+    float       used_error  = angle_error;
 
-    nodo_harmonic_correct(&s->observer, &c->nodo, i_A, rare ? 0.0f : angle_error);
-    if (rare) {
-        encoder_form_correct_rare(&s->observer.base, &s->observer.theta_rad, &c->rare, angle_error,
-                                  in->sample->edge_gap_s, drive->ts_s);
+    if (encoder_form_is_rare(in->sample, drive->ts_s)) {
+        used_error *= encoder_form_correct_rare(&s->observer.base, &s->observer.theta_rad, &c->rare,
+                                                angle_error, in->sample->edge_gap_s, drive->ts_s);
     }
+    nodo_harmonic_correct(&s->observer, &c->nodo, i_A, used_error);
     nodo_harmonic_predict(&s->observer, &c->nodo, &drive->motor, in->v_V, drive->ts_s, &s->known);
 
     near_optimal_view_t view = encoder_form_view(&c->plausible, &s->known.total,

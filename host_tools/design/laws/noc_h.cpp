@@ -78,14 +78,11 @@ void certify_harmonics(Design &d)
     }
 }
 
-/// Those of the first node at which the edges are trusted; of the last one where none is.
+/// Those of standstill, where edges are rare.
 encoder_form_gains_t sample_gains(const Design &d)
 {
-    const double trusted = edges_trusted_from_e_radps(d.drive);
-    const auto  &nodes   = d.harmonics->nodes;
-    const auto   at      = std::find_if(nodes.begin(), nodes.end() - 1,
-                                        [&](const HarmonicNode &n) { return n.omega_e_radps >= trusted; });
-    const auto   gain    = [&](int row) { return static_cast<float>(at->K0(row, 2)); };
+    const HarmonicNode &node = d.harmonics->nodes.front();
+    const auto          gain = [&](int row) { return static_cast<float>(node.K0(row, 2)); };
     return {gain(6), gain(3), gain(0), static_cast<float>(count_e_rad(d.drive))};
 }
 

@@ -217,11 +217,6 @@ VectorXd harmonic_weights(const Drive &drive, double w)
     return Q;
 }
 
-double edges_trusted_from_e_radps(const Drive &drive)
-{
-    return counts_for_edges * count_e_rad(drive) / control_period_s(drive);
-}
-
 double angle_weight(const Drive &drive, double w)
 { // edge times tell nothing while there is no edge in a period: the angle is then one of a count's
     const double ts       = control_period_s(drive);

@@ -41,9 +41,6 @@ ObserverModel harmonic_model(const ReducedParameters &l, const Drive &drive, dou
 /// Diagonal of Q at a speed, EQ-HARMONIC-6.
 Eigen::VectorXd harmonic_weights(const Drive &drive, double omega_e_radps);
 
-/// From this speed on the edges come often enough for their times to be taken at their word.
-double edges_trusted_from_e_radps(const Drive &drive);
-
 /// T of the angle at a speed, EQ-HARMONIC-8.
 double angle_weight(const Drive &drive, double omega_e_radps);
 
