@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The application with its drivers on the virtual device against the same application on board.h: the same codes and counts
 // go in, so the same duty ratios have to come out, bit for bit.
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -60,6 +63,49 @@ INSTANTIATE_TEST_SUITE_P(Shipped, BoardRuns,
                                            "fig4_parameter_steps_nd2", "fig4_parameter_steps_nd3",
                                            "fig5_load_step", "fig6_load_step_varied",
                                            "fig7_speed_step", "fig8_flux_weakening"));
+
+/// Drivers and fake round the age of an edge each in its own way, by one tick of the capture timer: 13 ns.
+class EdgeTimes : public ::testing::TestWithParam<std::pair<const char *, const char *>> {};
+
+TEST_P(EdgeTimes, DriversAndFakeAndCoreAgree)
+{
+    const auto [scenario, drive] = GetParam();
+    Scenario s                   = shipped(scenario);
+    s.drive = read_drive_file(std::string(SDRE_SOURCE_DIR) + "/firmware/config/drives/" + drive +
+                              ".toml");
+    s.sensors.encoder_edge_time       = s.drive.encoder.edge_times;
+    s.duration_s                      = 0.1;
+    const Controller       controller = prepare_controller(s);
+    const SimulationResult core       = simulate(s, controller);
+    const BoardResult      api        = simulate_on_board(s, BoardKind::api, controller);
+    const BoardResult      device     = simulate_on_board(s, BoardKind::f28335, controller);
+
+    EXPECT_EQ(device.findings, std::vector<std::string>{});
+    EXPECT_EQ(core.fault, 0);
+    EXPECT_EQ(api.result.fault, 0);
+    EXPECT_EQ(device.result.fault, 0);
+    ASSERT_EQ(device.result.trace.size(), core.trace.size());
+    ASSERT_EQ(device.result.trace.size(), api.result.trace.size());
+    double to_api  = 0.0;
+    double to_core = 0.0;
+    for (std::size_t k = core.trace.size() / 2; k < core.trace.size(); k++) {
+        const double w = device.result.trace[k].omega_e_radps;
+        to_api         = std::max(to_api, std::abs(w - api.result.trace[k].omega_e_radps));
+        to_core        = std::max(to_core, std::abs(w - core.trace[k].omega_e_radps));
+    }
+    std::printf("%s on %s: %.3f rad/s to the fake, %.3f to the core\n", scenario, drive, to_api,
+                to_core);
+    EXPECT_LE(to_api, 0.5);
+    EXPECT_LE(to_core, 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, EdgeTimes,
+                         ::testing::Values(std::pair{"board_load_step", "ipmsm_390w_noc_h_edges"},
+                                           std::pair{"servo_case_1_2", "servo_200w_cdobc"},
+                                           std::pair{"servo_case_1_2", "servo_200w_gpiobc"},
+                                           std::pair{"servo_case_1_2", "servo_200w_hdobc"},
+                                           std::pair{"servo_case_1_2", "servo_200w_pid"},
+                                           std::pair{"servo_case_1_2", "servo_200w_noc_h"}));
 
 TEST(BoardRunsMore, SwitchedInverterToo)
 {
