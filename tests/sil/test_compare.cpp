@@ -120,8 +120,8 @@ TEST(Compare, WritesOneTableThreeWaysAlwaysTheSame)
         return std::count(text.begin(), text.end(), '\n');
     };
     const std::string csv = support::read_file(dir / "t.csv");
-    EXPECT_EQ(lines(csv), 1 + 2 * 6 * 2);
-    EXPECT_EQ(lines(r.out), 2 + 2 * 6);
+    EXPECT_EQ(lines(csv), 1 + 2 * 7 * 2);
+    EXPECT_EQ(lines(r.out), 2 + 2 * 7);
     const auto json = support::Json::read(dir / "t.json");
     EXPECT_EQ(json.at("runs").size(), 4U);
     EXPECT_EQ(json.at("runs").at(1).at("drive"), "ipmsm_390w_conventional");

@@ -314,6 +314,21 @@ TEST(Metrics, DistortionOfNextToNoCurrentIsNone)
     EXPECT_FALSE(distortion(0.0));
 }
 
+TEST(Metrics, NoiseOfTheVoltagesIsTheirDeviationFromTheMeanInTheTail)
+{
+    auto trace = trace_of(
+        1000, [](double) { return 100.0; }, 100.0);
+    for (std::size_t k = 0; k < trace.size(); k++) {
+        const bool tail = k >= 800;
+        trace[k].vq_V   = 60.0 + (tail ? (k % 2 == 0 ? 3.0 : -3.0) : 90.0);
+        trace[k].vd_V =
+            -20.0 + (tail ? 2.0 * std::sin(0.1 * std::acos(-1.0) * static_cast<double>(k)) : 0.0);
+    }
+    const sdre::Metrics m = only(trace, 1.0);
+    EXPECT_NEAR(m.vq_noise_V, 3.0, 1e-9);
+    EXPECT_NEAR(m.vd_noise_V, std::sqrt(2.0), 1e-9);
+}
+
 TEST(Metrics, NamesAreTheJsonKeys)
 {
     sdre::Metrics m;
@@ -324,6 +339,8 @@ TEST(Metrics, NamesAreTheJsonKeys)
     m.ripple_e_radps             = 5.0;
     m.peak_current_A             = 6.0;
     m.steady_current_A           = 6.5;
+    m.vq_noise_V                 = 6.7;
+    m.vd_noise_V                 = 6.8;
     m.d_omega_hat                = 7.0;
     m.d_q_hat                    = 8.0;
     m.d_d_hat                    = 9.0;
@@ -347,6 +364,8 @@ TEST(Metrics, NamesAreTheJsonKeys)
                                                                {"ripple_e_radps", 5.0},
                                                                {"peak_current_A", 6.0},
                                                                {"steady_current_A", 6.5},
+                                                               {"vq_noise_V", 6.7},
+                                                               {"vd_noise_V", 6.8},
                                                                {"d_omega_hat", 7.0},
                                                                {"d_q_hat", 8.0},
                                                                {"d_d_hat", 9.0},

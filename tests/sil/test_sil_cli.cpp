@@ -180,6 +180,8 @@ TEST(SilCli, JsonHasTheAgreedKeys)
                                      "ripple_e_radps",
                                      "peak_current_A",
                                      "steady_current_A",
+                                     "vq_noise_V",
+                                     "vd_noise_V",
                                      "current_distortion_percent",
                                      "sensor_offset_hat_A",
                                      "d_omega_hat",

@@ -104,9 +104,9 @@ std::string value_text(const CompareRun &run, const MetricLabel &label, const Co
 
 const std::vector<std::string> &compare_default_metrics()
 {
-    static const std::vector<std::string> names{"settling_time_s",   "dip_e_radps",
-                                                "overshoot_e_radps", "steady_state_error_e_radps",
-                                                "ripple_e_radps",    "peak_current_A"};
+    static const std::vector<std::string> names{
+        "settling_time_s", "dip_e_radps",    "overshoot_e_radps", "steady_state_error_e_radps",
+        "ripple_e_radps",  "peak_current_A", "vq_noise_V"};
     return names;
 }
 

@@ -104,6 +104,14 @@ std::optional<double> current_distortion_percent(Iterator tail, Iterator end, do
     return 100.0 * std::sqrt(square) / fundamental;
 }
 
+/// Rms deviation from the mean.
+template <typename Value> double noise(Iterator tail, Iterator end, Value value)
+{
+    const double middle = mean(tail, end, value);
+    return std::sqrt(
+        mean(tail, end, [&](const TraceRow &r) { return std::pow(value(r) - middle, 2); }));
+}
+
 Metrics metrics_of(const Window &window, const Motor &motor)
 {
     const auto &[measure, begin, tail, end] = window;
@@ -128,6 +136,8 @@ Metrics metrics_of(const Window &window, const Motor &motor)
     }
     m.steady_current_A =
         mean(tail, end, [](const TraceRow &r) { return std::hypot(r.id_A, r.iq_A); });
+    m.vq_noise_V  = noise(tail, end, [](const TraceRow &r) { return r.vq_V; });
+    m.vd_noise_V  = noise(tail, end, [](const TraceRow &r) { return r.vd_V; });
     m.d_omega_hat = mean(tail, end, [](const TraceRow &r) { return r.d_omega_hat; });
     m.d_q_hat     = mean(tail, end, [](const TraceRow &r) { return r.d_q_hat; });
     m.d_d_hat     = mean(tail, end, [](const TraceRow &r) { return r.d_d_hat; });
@@ -182,6 +192,8 @@ std::vector<std::pair<std::string, double>> metric_values(const Metrics &m)
         {"ripple_e_radps", m.ripple_e_radps},
         {"peak_current_A", m.peak_current_A},
         {"steady_current_A", m.steady_current_A},
+        {"vq_noise_V", m.vq_noise_V},
+        {"vd_noise_V", m.vd_noise_V},
         {"d_omega_hat", m.d_omega_hat},
         {"d_q_hat", m.d_q_hat},
         {"d_d_hat", m.d_d_hat},

@@ -29,6 +29,8 @@ struct Metrics {
     double ripple_e_radps             = 0.0; ///< (max - min) / 2 in the tail
     double peak_current_A             = 0.0; ///< largest |i| in the window, between instants too
     double steady_current_A           = 0.0; ///< mean |i| in the tail
+    double vq_noise_V = 0.0; ///< effort: rms deviation of v_q from its mean in the tail
+    double vd_noise_V = 0.0;
     double d_omega_hat                = 0.0; ///< means in the tail [rad/s^2]
     double d_q_hat                    = 0.0; ///< [A/s]
     double d_d_hat                    = 0.0; ///< [A/s]

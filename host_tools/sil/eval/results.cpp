@@ -19,6 +19,8 @@ constexpr MetricLabel labels[] = {
     {"ripple_e_radps", "ripple [rad/s el.]", 1.0, "{:.3f}"},
     {"peak_current_A", "peak current [A]", 1.0, "{:.2f}"},
     {"steady_current_A", "steady current [A]", 1.0, "{:.3f}"},
+    {"vq_noise_V", "v_q noise [V rms]", 1.0, "{:.1f}"},
+    {"vd_noise_V", "v_d noise [V rms]", 1.0, "{:.1f}"},
     {"d_omega_hat", "d_omega [rad/s^2]", 1.0, "{:.0f}"},
     {"d_q_hat", "d_q [A/s]", 1.0, "{:.1f}"},
     {"d_d_hat", "d_d [A/s]", 1.0, "{:.1f}"},

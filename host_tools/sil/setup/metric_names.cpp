@@ -14,6 +14,8 @@ const std::vector<std::string> &metric_names()
                                                 "ripple_e_radps",
                                                 "peak_current_A",
                                                 "steady_current_A",
+                                                "vq_noise_V",
+                                                "vd_noise_V",
                                                 "d_omega_hat",
                                                 "d_q_hat",
                                                 "d_d_hat",
