@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_angle.h"
 
-#include "frames.h"
+#include "encoder_form.h"
+
+#if (BOARD_POSITIONS % 4U) != 0U
+#error "a turn is a whole number of lines of four edges"
+#endif
 
 #define HALF_COUNTS    (2U * BOARD_POSITIONS) /* half counts per mechanical turn */
 #define EDGE_AGE_MAX_s 1.0f /* chosen: a count per second is a shaft that stands */
@@ -151,6 +155,7 @@ static void read_edges(app_angle_t *a, const board_sample_t *raw, app_angle_read
 
         take_edge(a, (uint16_t)((edge < BOARD_POSITIONS) ? edge : 0U), age_s);
         reading->edge_gap_s -= age_s;
+        reading->edge_of_line = (int16_t)(1U + (a->edge_cnt % (uint16_t)ENCODER_FORM_EDGES));
         const float beyond_rad =
             base_min(age_s * fabsf(a->edge_speed_e_radps), a->rad_per_cnt) - half_rad;
         reading->theta_e_rad =
@@ -177,6 +182,7 @@ app_angle_reading_t app_angle_update(app_angle_t *a, const board_sample_t *raw)
     const uint16_t      position_cnt = raw->position_cnt;
     app_angle_reading_t reading      = {.theta_e_rad   = 0.0f,
                                         .band_rad      = 0.0f,
+                                        .edge_of_line  = 0,
                                         .edge_gap_s    = 0.0f,
                                         .omega_e_radps = 0.0f,
                                         .speed_valid   = a->have_before,

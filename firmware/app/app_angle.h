@@ -63,8 +63,9 @@ typedef struct {
 } app_angle_t;
 
 typedef struct {
-    float theta_e_rad; /**< 0 .. 2 pi */
-    float band_rad;    /**< the angle is certainly this near; 0: theta_e_rad is a measurement */
+    float   theta_e_rad;  /**< 0 .. 2 pi */
+    float   band_rad;     /**< the angle is certainly this near; 0: theta_e_rad is a measurement */
+    int16_t edge_of_line; /**< which of a line's edges theta_e_rad rests on, 1 .. 4; 0: none */
     float
         edge_gap_s; /**< between the last two edges, or since the last one; 0 without edge times */
     float omega_e_radps; /**< 0 unless speed_valid */

@@ -33,3 +33,55 @@ float encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad,
     *theta_hat_rad = frames_wrap(*theta_hat_rad + (theta * error_rad));
     return share;
 }
+
+void encoder_form_edges_reset(encoder_form_edges_t *edges)
+{
+    const encoder_form_edges_t nothing = {{0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f}, {0, 0}};
+
+    *edges = nothing;
+}
+
+/* Chosen: known to a tenth within some tens of lines that were sampled at all of their edges. */
+#define LEARN 0.02f
+
+static float offset_of(const encoder_form_edges_t *edges, int16_t edge)
+{
+    return edges->offset_rad[edge - 1];
+}
+
+static void add_offset(encoder_form_edges_t *edges, int16_t edge, float step_rad, float most_rad)
+{
+    float *const at_rad = &edges->offset_rad[edge - 1];
+
+    *at_rad = base_clamp(*at_rad + step_rad, -most_rad, most_rad);
+}
+
+static void learn(encoder_form_edges_t *edges, const drive_sample_t *s, float most_rad)
+{
+    const int16_t now      = s->edge_of_line;
+    const int16_t before   = edges->edge[0];
+    const int16_t first    = edges->edge[1];
+    const float   bend_rad = frames_wrap(frames_wrap(s->theta_e_rad - edges->theta_rad[0]) -
+                                         frames_wrap(edges->theta_rad[0] - edges->theta_rad[1]));
+    const float   known_rad =
+        offset_of(edges, now) - (2.0f * offset_of(edges, before)) + offset_of(edges, first);
+    const float step_rad = LEARN * base_clamp(bend_rad - known_rad, -most_rad, most_rad);
+
+    add_offset(edges, now, step_rad, most_rad);
+    add_offset(edges, before, -2.0f * step_rad, most_rad);
+    add_offset(edges, first, step_rad, most_rad);
+}
+
+float encoder_form_learn(encoder_form_edges_t *edges, const drive_sample_t *s, float count_rad)
+{
+    const bool timed = (s->edge_of_line >= 1) && (s->edge_of_line <= ENCODER_FORM_EDGES);
+
+    if (timed && (edges->edge[0] != 0) && (edges->edge[1] != 0)) {
+        learn(edges, s, 0.5f * count_rad);
+    }
+    edges->theta_rad[1] = edges->theta_rad[0];
+    edges->edge[1]      = edges->edge[0];
+    edges->theta_rad[0] = s->theta_e_rad;
+    edges->edge[0]      = timed ? s->edge_of_line : 0;
+    return timed ? offset_of(edges, s->edge_of_line) : 0.0f;
+}

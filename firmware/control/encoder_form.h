@@ -11,6 +11,8 @@
 #include "near_optimal.h"
 #include "sample.h"
 
+#define ENCODER_FORM_EDGES 4 /**< of a line */
+
 typedef struct {
     float angle_rad; /**< an angle this far from its estimate cannot be right, (0, pi] */
     float d_omega;   /**< an estimated speed disturbance beyond this is no load but a wrong angle
@@ -42,6 +44,43 @@ static inline float encoder_form_error_rad(const drive_sample_t *s, float theta_
 {
     const float error = frames_wrap(s->theta_e_rad - theta_hat_rad);
     return error - base_clamp(error, -s->band_rad, s->band_rad);
+}
+
+/** Where the four edges of a line are, learned in the run: their spacing differs by tens of per cent of a count. */
+typedef struct {
+    float   offset_rad[ENCODER_FORM_EDGES]; /**< electrical; their sum is zero */
+    float   theta_rad[2];                   /**< as measured, one and two samples ago */
+    int16_t edge[2];                        /**< that they were timed with, 1 .. 4; 0: none */
+} encoder_form_edges_t;
+
+/** Nothing known of any edge. */
+void encoder_form_edges_reset(encoder_form_edges_t *edges);
+
+/**
+ * @brief What the edge of this sample is off; learns from three samples in a row that edges timed.
+ *
+ *     r = theta - 2 theta_1 + theta_2 - (o_c - 2 o_c1 + o_c2)
+ *     o_c += mu r,  o_c1 -= 2 mu r,  o_c2 += mu r                                   EQ-ENCODER-FORM-3
+ *
+ * theta_1, theta_2 one and two samples ago, c the edge of each. No estimate takes part: an observer would follow the
+ * offsets and hide them. The shaft's acceleration is no share of any edge, so that it averages out.
+ *
+ * @param edges     Learned offsets.
+ * @param s         This sample.
+ * @param count_rad From edge to edge; an offset is at most half of it.
+ * @return The offset [rad] in the sample's angle; 0 without an edge.
+ *
+ * Context: control ISR.
+ */
+float encoder_form_learn(encoder_form_edges_t *edges, const drive_sample_t *s, float count_rad);
+
+/** encoder_form_error_rad() without what the edge is off. Counts have no edge and stay as they are. */
+static inline float encoder_form_learned_error_rad(encoder_form_edges_t *edges,
+                                                   const drive_sample_t *s, float count_rad,
+                                                   float theta_hat_rad)
+{
+    const float error = encoder_form_error_rad(s, theta_hat_rad);
+    return (s->edge_gap_s > 0.0f) ? (error - encoder_form_learn(edges, s, count_rad)) : error;
 }
 
 /** Whether edges come less often than samples, so that encoder_form_correct_rare() applies. */

@@ -17,15 +17,17 @@ static void reset(law_state_t *state, const drive_config_t *drive, const drive_s
 
     nodo_reset(&s->observer, &y);
     s->theta_hat_rad = frames_wrap(sample->theta_e_rad);
+    encoder_form_edges_reset(&s->edges);
     near_optimal_reset(&s->near_optimal, &c->near_optimal, y.omega_e_radps);
 }
 
 static near_optimal_view_t observe(law_noc_state_t *s, const law_noc_config_t *c,
                                    const drive_config_t *drive, const law_input_t *in)
 {
-    const dq_t  i_A         = sample_current_A(in->sample, s->theta_hat_rad);
-    const float angle_error = encoder_form_error_rad(in->sample, s->theta_hat_rad);
-    float       used_error  = angle_error;
+    const dq_t  i_A = sample_current_A(in->sample, s->theta_hat_rad);
+    const float angle_error =
+        encoder_form_learned_error_rad(&s->edges, in->sample, c->rare.count_rad, s->theta_hat_rad);
+    float used_error = angle_error;
 
     if (encoder_form_is_rare(in->sample, drive->ts_s)) {
         used_error *= encoder_form_correct_rare(&s->observer, &s->theta_hat_rad, &c->rare,

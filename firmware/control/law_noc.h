@@ -21,9 +21,10 @@ typedef struct {
 } law_noc_config_t;
 
 typedef struct {
-    nodo_t         observer;
-    float          theta_hat_rad; /**< estimated electrical angle, within +-pi */
-    near_optimal_t near_optimal;
+    nodo_t               observer;
+    float                theta_hat_rad; /**< estimated electrical angle, within +-pi */
+    near_optimal_t       near_optimal;
+    encoder_form_edges_t edges;
 } law_noc_state_t;
 
 extern const law_t law_noc;

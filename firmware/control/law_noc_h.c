@@ -18,6 +18,7 @@ static void reset(law_state_t *state, const drive_config_t *drive, const drive_s
     nodo_harmonic_reset(&s->observer, &y, sample->theta_e_rad);
     nodo_reset(&s->known.total, &y);
     s->known.d_omega_dot = 0.0f;
+    encoder_form_edges_reset(&s->edges);
     near_optimal_reset(&s->near_optimal, &c->near_optimal, y.omega_e_radps);
 }
 
@@ -25,8 +26,9 @@ static near_optimal_view_t observe(law_noc_h_state_t *s, const law_noc_h_config_
                                    const drive_config_t *drive, const law_input_t *in)
 {
     const dq_t  i_A         = sample_current_A(in->sample, s->observer.theta_rad);
-    const float angle_error = encoder_form_error_rad(in->sample, s->observer.theta_rad);
-    float       used_error  = angle_error;
+    const float angle_error = encoder_form_learned_error_rad(
+        &s->edges, in->sample, c->rare.count_rad, s->observer.theta_rad);
+    float used_error = angle_error;
 
     if (encoder_form_is_rare(in->sample, drive->ts_s)) {
         used_error *= encoder_form_correct_rare(&s->observer.base, &s->observer.theta_rad, &c->rare,

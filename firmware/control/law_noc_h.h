@@ -21,6 +21,7 @@ typedef struct {
     nodo_harmonic_t      observer;
     nodo_harmonic_view_t known; /**< what the law needs of it */
     near_optimal_t       near_optimal;
+    encoder_form_edges_t edges;
 } law_noc_h_state_t;
 
 extern const law_t law_noc_h;

@@ -24,6 +24,8 @@ typedef struct {
     float
         omega_e_radps; /**< electrical speed; a law that observes the angle reads it only when it starts */
     bool valid;        /**< all of the above were measured in this period */
+    int16_t
+        edge_of_line; /**< the one of a line's four edges that the angle was timed with, 1 .. 4; 0: none */
 } drive_sample_t;
 
 /** Currents in the frame of an angle. Context: control ISR. */

@@ -286,9 +286,13 @@ static void test_edge_times_give_angle_and_speed(void)
             const double              theta = shaft_cnt * 2.0 * two_pi / 10000.0;
             const double              off   = remainder((double)r.theta_e_rad - theta, two_pi);
             if (r.band_rad > 0.0f) { /* no edge in this period */
+                TEST_ASSERT_EQUAL_INT(0, r.edge_of_line);
                 TEST_ASSERT_TRUE((fabs(speeds[i]) < 10.0) || (n < 3));
                 TEST_ASSERT_TRUE(fabs(off) <= (double)r.band_rad + TOL_RAD);
             } else if (n > 3) {
+                const double passed =
+                    (speeds[i] > 0.0) ? floor(shaft_cnt) : (floor(shaft_cnt) + 1.0);
+                TEST_ASSERT_EQUAL_INT(1 + (int)fmod(fmod(passed, 4.0) + 4.0, 4.0), r.edge_of_line);
                 TEST_ASSERT_DOUBLE_WITHIN(TOL_RAD + (fabs(speeds[i]) * 1.4e-8), 0.0, off);
                 TEST_ASSERT_DOUBLE_WITHIN(fabs(speeds[i]) * 2.0e-4, speeds[i],
                                           (double)r.omega_e_radps);

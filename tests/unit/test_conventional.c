@@ -189,8 +189,13 @@ static void test_tick_runs_the_observer_and_the_feedback_of_this_law(void)
 {
     const law_conventional_config_t constants = conventional_constants();
     const drive_config_t            c         = conventional_drive(&constants);
-    const drive_sample_t            sample  = {0.3f, -0.1f, 295.0f, 0.2f, 0.0f, 0.0f, 300.0f, true};
-    const drive_command_t           command = {305.0f, true};
+    const drive_sample_t            sample    = {.ia_A          = 0.3f,
+                                                 .ib_A          = -0.1f,
+                                                 .dc_link_V     = 295.0f,
+                                                 .theta_e_rad   = 0.2f,
+                                                 .omega_e_radps = 300.0f,
+                                                 .valid         = true};
+    const drive_command_t           command   = {305.0f, true};
     law_constants_t                 plain;
     const drive_config_t            noc = law_constants_copy(&plain, &speed_tables_drive);
     drive_t                         a;
@@ -221,8 +226,13 @@ static void test_tick_runs_the_observer_and_the_feedback_of_this_law(void)
 
 static void test_tick_takes_its_feedback_from_the_table_of_this_law(void)
 {
-    const drive_sample_t            sample  = {0.3f, -0.1f, 295.0f, 0.2f, 0.0f, 0.0f, 300.0f, true};
-    const drive_command_t           command = {305.0f, true};
+    const drive_sample_t            sample    = {.ia_A          = 0.3f,
+                                                 .ib_A          = -0.1f,
+                                                 .dc_link_V     = 295.0f,
+                                                 .theta_e_rad   = 0.2f,
+                                                 .omega_e_radps = 300.0f,
+                                                 .valid         = true};
+    const drive_command_t           command   = {305.0f, true};
     const law_conventional_config_t constants = conventional_constants();
     law_conventional_config_t       stiffer   = constants;
     const drive_config_t            c         = conventional_drive(&constants);

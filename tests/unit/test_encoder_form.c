@@ -140,6 +140,59 @@ static void test_rare_edges_find_a_slow_speed(void)
     TEST_ASSERT_DOUBLE_WITHIN(1.0, 0.0, (double)x.d_omega);
 }
 
+/* EQ-ENCODER-FORM-3: a disc whose four edges are off, at speeds that meet them in different orders. */
+static void test_edges_of_a_line_are_learned(void)
+{
+    static const double off_cnt[4]   = {0.20, -0.05, -0.12, -0.03};
+    static const double per_period[] = {47.75, -47.75, 13.3, 2.6, 101.1};
+    const double        count        = 2.0 * 2.0 * 3.141592653589793 / 10000.0;
+    for (int i = 0; i < SUPPORT_COUNT(per_period); i++) {
+        encoder_form_edges_t edges;
+        double               at_cnt = 1000.3;
+        encoder_form_edges_reset(&edges);
+        for (int n = 0; n < 20000; n++) {
+            at_cnt += per_period[i];
+            const double         edge = (per_period[i] > 0.0) ? floor(at_cnt) : ceil(at_cnt);
+            const int            of   = (int)fmod(fmod(edge, 4.0) + 4.0, 4.0);
+            const drive_sample_t s    = {
+                   .theta_e_rad  = (float)fmod((at_cnt + off_cnt[of]) * count, 6.283185307179586),
+                   .edge_of_line = (int16_t)(of + 1)};
+            (void)encoder_form_learn(&edges, &s, (float)count);
+        }
+        for (int k = 0; k < 4; k++) {
+            TEST_ASSERT_DOUBLE_WITHIN(0.01 * count, off_cnt[k] * count,
+                                      (double)edges.offset_rad[k]);
+        }
+    }
+}
+
+/* Whole lines per period meet one edge only: there is nothing to tell it from the others, and nothing is made up. */
+static void test_one_edge_alone_teaches_nothing(void)
+{
+    encoder_form_edges_t edges;
+    encoder_form_edges_reset(&edges);
+    for (int n = 0; n < 1000; n++) {
+        const drive_sample_t s = {.theta_e_rad  = (float)fmod(0.01 * n, 6.2831853),
+                                  .edge_of_line = 2};
+        TEST_ASSERT_FLOAT_WITHIN(2.0e-6f, 0.0f, encoder_form_learn(&edges, &s, 1.2566371e-3f));
+    }
+}
+
+/* Samples without an edge, edges that do not exist, and a shaft that jumps leave offsets within half a count. */
+static void test_learned_offsets_are_bounded(void)
+{
+    support_random_t     random = {.state = 7u};
+    encoder_form_edges_t edges;
+    encoder_form_edges_reset(&edges);
+    for (int n = 0; n < 100000; n++) {
+        const drive_sample_t s   = {.theta_e_rad  = support_uniform(&random, -6.28f, 6.28f),
+                                    .edge_of_line = (int16_t)support_uniform(&random, -3.0f, 8.0f)};
+        const float          off = encoder_form_learn(&edges, &s, 1.0e-3f);
+        TEST_ASSERT_TRUE(base_within(off, 0.5e-3f));
+        TEST_ASSERT_TRUE(((s.edge_of_line >= 1) && (s.edge_of_line <= 4)) || (off == 0.0f));
+    }
+}
+
 static void test_gains_out_of_range_are_refused(void)
 {
     float *const fields[] = {&gains.theta, &gains.omega_1ps, &gains.d_omega_1ps2, &gains.count_rad};
@@ -236,6 +289,9 @@ int main(void)
     RUN_TEST(test_rare_edges_are_those_further_apart_than_samples);
     RUN_TEST(test_rare_edges_correct_as_their_time_allows);
     RUN_TEST(test_rare_edges_find_a_slow_speed);
+    RUN_TEST(test_edges_of_a_line_are_learned);
+    RUN_TEST(test_one_edge_alone_teaches_nothing);
+    RUN_TEST(test_learned_offsets_are_bounded);
     RUN_TEST(test_gains_out_of_range_are_refused);
     RUN_TEST(test_view_is_the_prediction);
     RUN_TEST(test_middle_angle_is_half_a_period_after_the_prediction);

@@ -174,6 +174,7 @@ drive_sample_t Board::measured_sample()
     s.theta_e_rad   = static_cast<float>(position.theta_e_rad);
     s.band_rad      = static_cast<float>(position.band_e_rad);
     s.edge_gap_s    = static_cast<float>(position.edge_gap_s);
+    s.edge_of_line  = static_cast<std::int16_t>(position.edge_of_line);
     s.omega_e_radps = static_cast<float>(position.omega_e_radps);
     s.valid         = true;
     return s;

@@ -201,8 +201,9 @@ QuadratureEncoder::Reading QuadratureEncoder::read(const ShaftPath &path)
         r.omega_e_radps = edge_speed_;
         r.edge_gap_s    = edge_age_s_;
         if (edge_age_s_ <= period_s_) {
-            r.theta_e_rad = edge_angle_rad(r.count, static_cast<double>(edge_ - now));
-            r.edge_gap_s  = before_s - edge_age_s_;
+            r.theta_e_rad  = edge_angle_rad(r.count, static_cast<double>(edge_ - now));
+            r.edge_gap_s   = before_s - edge_age_s_;
+            r.edge_of_line = 1 + static_cast<int>(((edge_ % 4) + 4) % 4);
         } else { // no edge in this period: within the count
             r.band_e_rad = pole_pairs_ * two_pi / (2.0 * per_turn);
         }

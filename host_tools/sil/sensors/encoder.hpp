@@ -32,10 +32,11 @@ struct EncoderEdge {
 class QuadratureEncoder {
 public:
     struct Reading {
-        std::int64_t count       = 0; ///< since the start, not wrapped
-        double       theta_e_rad = 0.0;
-        double       edge_gap_s  = 0.0; ///< time between the last two edges, or since the last one
-        double       band_e_rad  = 0.0; ///< the angle is this near; 0: a measurement
+        std::int64_t count        = 0; ///< since the start, not wrapped
+        double       theta_e_rad  = 0.0;
+        int          edge_of_line = 0;   ///< of the edge that theta_e_rad rests on, 1 .. 4
+        double       edge_gap_s   = 0.0; ///< time between the last two edges, or since the last one
+        double       band_e_rad   = 0.0; ///< the angle is this near; 0: a measurement
         double       omega_e_radps = 0.0;
         std::int64_t raw_count     = 0;     ///< what a plain counter shows: never put right
         bool         index         = false; ///< the mark was passed since the read before
