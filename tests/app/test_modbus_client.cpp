@@ -274,7 +274,7 @@ TEST_F(ModbusClient, RefusesWithTheExceptionThatSaysWhy)
     expect_exception(modbus_read_registers(client_, 2, 2, values.data()), EMBXILADD);
     expect_exception(modbus_write_register(client_, 3, 0), EMBXILADD);
     expect_exception(modbus_write_register(client_, holding_run, 2), EMBXILVAL);
-    expect_exception(modbus_write_register(client_, holding_speed, 15691), EMBXILVAL);
+    expect_exception(modbus_write_register(client_, holding_speed, 11914), EMBXILVAL);
     values = {1, 0, 20000};
     expect_exception(modbus_write_registers(client_, 0, 3, values.data()), EMBXILVAL);
     expect_exception(modbus_read_bits(client_, 0, 1, bits.data()), EMBXILFUN);
