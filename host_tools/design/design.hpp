@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "drive/core_types.hpp"
 #include "design/motor_model.hpp"
 #include "design/noc_h/harmonic_design.hpp"
 #include "design/series_error.hpp"
 #include "design/servo/dobc_design.hpp"
 #include "design/servo/servo_loop.hpp"
+#include "drive/core_types.hpp"
 #include "drive/drive_file.hpp"
 
 namespace sdre {
@@ -58,11 +58,11 @@ struct HarmonicCheck {
 };
 
 struct Design {
-    Drive                         drive;
-    Precision                     precision = Precision::quick; ///< of the Riccati equation's solver
-    ReducedParameters             l{};
-    GainSeries                    nosc; ///< and in the certificate: laws of near optimal control
-    GainSeries                    nodo; ///< the same, but for noc_h
+    Drive             drive;
+    Precision         precision = Precision::quick; ///< of the Riccati equation's solver
+    ReducedParameters l{};
+    GainSeries        nosc; ///< and in the certificate: laws of near optimal control
+    GainSeries        nodo; ///< the same, but for noc_h
     std::optional<HarmonicDesign> harmonics; ///< noc_h only
     HarmonicCheck                 harmonic_check;
     std::optional<ServoDesign>    servo;    ///< laws of paper B

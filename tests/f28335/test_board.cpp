@@ -32,7 +32,7 @@ protected:
     {
         device.reset(); // the registers exist once
         board_firmware.ticks = 0;
-        device = std::make_unique<Device>(around, board_firmware_main, options);
+        device               = std::make_unique<Device>(around, board_firmware_main, options);
         EXPECT_TRUE(device->run_until([] { return board_firmware.ticks >= 1U; }, 50e-3));
         return *device;
     }

@@ -98,7 +98,7 @@ TEST_P(EdgeTimes, DriversAndFakeAndCoreAgree)
     }
     std::printf("%s on %s: %.3f rad/s to the fake, %.3f to the core\n", scenario, drive, to_api,
                 to_core);
-    EXPECT_LE(to_api, 0.05); // measured 0.02
+    EXPECT_LE(to_api, 0.05);  // measured 0.02
     EXPECT_LE(to_core, 0.25); // measured 0.11
 }
 

@@ -79,11 +79,11 @@ const app_config_t board_config = {
         .pulse_min_cnt           = 0U,
     },
     .stop = /* a commanded stop coasts; 20 rad/s electrical is 1.6 turns per second */
-        {
-            .reaction      = APP_STOP_COAST,
-            .still_e_radps = 20.0f,
-            .short_circuit = true,
-        },
+    {
+        .reaction      = APP_STOP_COAST,
+        .still_e_radps = 20.0f,
+        .short_circuit = true,
+    },
     .temperature_limit_degC = 80.0f, /* chosen: heat sink of modules for 125 degC junction */
     .temperature_trip_degC  = 90.0f,
     .boot_ticks      = 50U * TICKS_PER_ms,  /* chosen: filters of the analog inputs (RC of 1 ms) */

@@ -54,11 +54,11 @@ const app_config_t board_config = {
         .pulse_min_cnt           = 0U,
     },
     .stop = /* a commanded stop coasts; 20 rad/s electrical is 1.6 turns per second */
-        {
-            .reaction      = APP_STOP_COAST,
-            .still_e_radps = 20.0f,
-            .short_circuit = true,
-        },
+    {
+        .reaction      = APP_STOP_COAST,
+        .still_e_radps = 20.0f,
+        .short_circuit = true,
+    },
     .temperature_limit_degC = 80.0f, /* as there */
     .temperature_trip_degC  = 90.0f,
     .boot_ticks             = 10U * TICKS_PER_ms, /* chosen: nothing has to settle */

@@ -29,14 +29,14 @@ struct Metrics {
     double ripple_e_radps             = 0.0; ///< (max - min) / 2 in the tail
     double peak_current_A             = 0.0; ///< largest |i| in the window, between instants too
     double steady_current_A           = 0.0; ///< mean |i| in the tail
-    double vq_noise_V = 0.0; ///< effort: rms deviation of v_q from its mean in the tail
-    double vd_noise_V = 0.0;
-    double d_omega_hat                = 0.0; ///< means in the tail [rad/s^2]
-    double d_q_hat                    = 0.0; ///< [A/s]
-    double d_d_hat                    = 0.0; ///< [A/s]
-    double iq_A                       = 0.0;
-    double id_A                       = 0.0;
-    double sensor_offset_hat_A        = 0.0; ///< noc_h: estimate, mean in the tail
+    double vq_noise_V          = 0.0; ///< effort: rms deviation of v_q from its mean in the tail
+    double vd_noise_V          = 0.0;
+    double d_omega_hat         = 0.0; ///< means in the tail [rad/s^2]
+    double d_q_hat             = 0.0; ///< [A/s]
+    double d_d_hat             = 0.0; ///< [A/s]
+    double iq_A                = 0.0;
+    double id_A                = 0.0;
+    double sensor_offset_hat_A = 0.0; ///< noc_h: estimate, mean in the tail
     /// All of the true phase currents but their fundamental, rms over that of the fundamental, in the tail. At constant
     /// speed: the deviation of (id, iq) from its mean over that mean. None when the fundamental is below 1 % of the drive's
     /// largest current (chosen: a ratio to less says nothing of the current).
