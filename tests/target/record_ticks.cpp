@@ -47,7 +47,8 @@ tick_file_tick_t file_tick(const drive_t &d, const drive_sample_t &s, const driv
     t.duty            = law.duty;
     t.pi_duty         = pi.duty;
     t.flags           = flag(s.valid, TICK_FILE_VALID) | flag(c.run, TICK_FILE_RUN) |
-              flag(law.gate_enable, TICK_FILE_GATE);
+              flag(law.gate_enable, TICK_FILE_GATE) |
+              static_cast<std::uint32_t>(s.edge_of_line) << TICK_FILE_EDGE_SHIFT;
     return t;
 }
 

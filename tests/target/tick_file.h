@@ -77,8 +77,13 @@ typedef struct {
     float             command_e_radps;
     abc_t             duty;
     abc_t             pi_duty;
-    uint32_t flags; /**< TICK_FILE_VALID, TICK_FILE_RUN, and of the answer TICK_FILE_GATE */
+    uint32_t
+        flags; /**< TICK_FILE_VALID, TICK_FILE_RUN, of the answer TICK_FILE_GATE, and the edge of the line */
 } tick_file_tick_t;
+
+/** The edge of the line, 0 .. 4, in the flags. */
+#define TICK_FILE_EDGE_SHIFT 8u
+#define TICK_FILE_EDGE_MASK  7u
 
 /** What the replay answers to one tick. */
 typedef struct {
