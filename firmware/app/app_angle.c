@@ -55,6 +55,14 @@ int16_t app_angle_turned_cnt(uint16_t from_cnt, uint16_t to_cnt)
     return (int16_t)turned_cnt;
 }
 
+static float within_turn(float theta_rad)
+{
+    if (theta_rad < 0.0f) {
+        return theta_rad + BASE_TWO_PI;
+    }
+    return (theta_rad >= BASE_TWO_PI) ? (theta_rad - BASE_TWO_PI) : theta_rad;
+}
+
 /* Angle at `half` half counts past the lower edge of a position; whole half counts, so that the wrap is exact. */
 static float theta_at(const app_angle_t *a, uint16_t position_cnt, uint32_t half)
 {
@@ -66,7 +74,7 @@ static float theta_at(const app_angle_t *a, uint16_t position_cnt, uint32_t half
         (((2U * from_zero_cnt) + half) * (uint32_t)a->pole_pairs) % HALF_COUNTS;
     const float theta_rad = a->zero_theta_rad + ((float)half_counts * a->rad_per_half_cnt);
 
-    return (theta_rad >= BASE_TWO_PI) ? (theta_rad - BASE_TWO_PI) : theta_rad;
+    return within_turn(theta_rad);
 }
 
 static void refer_to_index(app_angle_t *a, uint16_t index_cnt)
@@ -107,14 +115,6 @@ static bool take_index(app_angle_t *a, uint16_t index_cnt)
         a->corrections = (uint16_t)(a->corrections + 1U);
     }
     return true;
-}
-
-static float within_turn(float theta_rad)
-{
-    if (theta_rad < 0.0f) {
-        return theta_rad + BASE_TWO_PI;
-    }
-    return (theta_rad >= BASE_TWO_PI) ? (theta_rad - BASE_TWO_PI) : theta_rad;
 }
 
 /* EQ-APP-ANGLE-3, for the last edge of this period, which begins the position `edge_cnt` from below. */
