@@ -140,12 +140,12 @@ static void wait_for_edge(app_angle_t *a)
 }
 
 /* EQ-APP-ANGLE-3, 4. */
-static void read_edges(app_angle_t *a, const board_sample_t *raw, app_angle_reading_t *reading)
+static void read_edges(app_angle_t *a, const board_sample_t *raw, int16_t turned_cnt,
+                       app_angle_reading_t *reading)
 {
-    const int16_t turned_cnt = app_angle_turned_cnt(a->before_cnt, raw->position_cnt);
-    const float   age_s      = (float)raw->edge_age_cnt * (1.0f / (float)BOARD_CAPTURE_Hz);
-    const bool    timed      = raw->edge_seen && (turned_cnt != 0) && (age_s <= a->ts_s);
-    const float   half_rad   = 0.5f * a->rad_per_cnt;
+    const float age_s    = (float)raw->edge_age_cnt * (1.0f / (float)BOARD_CAPTURE_Hz);
+    const bool  timed    = raw->edge_seen && (turned_cnt != 0) && (age_s <= a->ts_s);
+    const float half_rad = 0.5f * a->rad_per_cnt;
 
     a->edge_age_s       = base_min(a->edge_age_s + a->ts_s, EDGE_AGE_MAX_s);
     reading->edge_gap_s = a->edge_age_s;
@@ -194,10 +194,11 @@ app_angle_reading_t app_angle_update(app_angle_t *a, const board_sample_t *raw)
     }
     reading.theta_e_rad = theta_at(a, position_cnt, 1U);
     if (a->have_before) {
-        reading.omega_e_radps =
-            (float)app_angle_turned_cnt(a->before_cnt, position_cnt) * a->radps_per_cnt;
+        const int16_t turned_cnt = app_angle_turned_cnt(a->before_cnt, position_cnt);
+
+        reading.omega_e_radps = (float)turned_cnt * a->radps_per_cnt;
         if (a->edge_times) {
-            read_edges(a, raw, &reading);
+            read_edges(a, raw, turned_cnt, &reading);
         }
     }
     a->before_cnt  = position_cnt;

@@ -156,8 +156,6 @@ static bridge_t run(app_modes_t *m, const app_modes_input_t *in)
 
 static bridge_t precharge(app_modes_t *m, const app_modes_input_t *in)
 {
-    const abc_t lower_on = {0.0f, 0.0f, 0.0f};
-
     if (!in->command.run) {
         enter(m, APP_MODE_READY);
         return bridge_open();
@@ -170,7 +168,7 @@ static bridge_t precharge(app_modes_t *m, const app_modes_input_t *in)
         return run(m, in);
     }
     m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
-    return bridge_closed(lower_on);
+    return bridge_shorted();
 }
 
 static bridge_t align(app_modes_t *m, const app_modes_input_t *in)

@@ -35,19 +35,13 @@ void app_stop_fault(app_stop_t *s, float omega_e_radps, drive_fault_t drive_faul
                  (board_faults == (uint16_t)BOARD_FAULT_NONE);
 }
 
-static bool is_over_current(const app_stop_t *s, const app_stop_input_t *in)
-{
-    return in->valid && (!base_within(in->ia_A, s->trip_current_A) ||
-                         !base_within(in->ib_A, s->trip_current_A) ||
-                         !base_within(in->ia_A + in->ib_A, s->trip_current_A));
-}
-
 bridge_t app_stop_bridge(app_stop_t *s, const app_stop_input_t *in)
 {
-    const abc_t lower_on = {0.0f, 0.0f, 0.0f};
-    const bool  slow = in->valid && base_within(in->omega_e_radps, OPEN_BELOW * s->link_e_radps);
+    const bool slow = in->valid && base_within(in->omega_e_radps, OPEN_BELOW * s->link_e_radps);
+    const bool over_current =
+        in->valid && sample_over_current(in->ia_A, in->ib_A, s->trip_current_A);
 
-    s->shorted = s->shorted && !slow && !is_over_current(s, in) &&
-                 (in->board_faults == (uint16_t)BOARD_FAULT_NONE);
-    return s->shorted ? bridge_closed(lower_on) : bridge_open();
+    s->shorted =
+        s->shorted && !slow && !over_current && (in->board_faults == (uint16_t)BOARD_FAULT_NONE);
+    return s->shorted ? bridge_shorted() : bridge_open();
 }

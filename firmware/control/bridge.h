@@ -31,4 +31,11 @@ static inline bridge_t bridge_closed(abc_t duty)
     return closed;
 }
 
+/** All lower switches on: the motor is shorted. Context: control ISR. */
+static inline bridge_t bridge_shorted(void)
+{
+    const abc_t lower_on = {0.0f, 0.0f, 0.0f};
+    return bridge_closed(lower_on);
+}
+
 #endif /* BRIDGE_H */

@@ -43,8 +43,7 @@ static drive_fault_t find_fault(const drive_config_t *c, const drive_sample_t *s
         !base_in_range(s->edge_gap_s, 0.0f, EDGE_GAP_MAX_s)) {
         return DRIVE_FAULT_SAMPLE;
     }
-    if (!base_within(s->ia_A, c->trip_current_A) || !base_within(s->ib_A, c->trip_current_A) ||
-        !base_within(s->ia_A + s->ib_A, c->trip_current_A)) { /* phase c */
+    if (sample_over_current(s->ia_A, s->ib_A, c->trip_current_A)) {
         return DRIVE_FAULT_OVER_CURRENT;
     }
     if (!base_in_range(s->dc_link_V, c->dc_link_min_V, c->dc_link_max_V)) {

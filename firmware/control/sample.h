@@ -28,6 +28,13 @@ typedef struct {
         edge_of_line; /**< the one of a line's four edges that the angle was timed with, 1 .. 4; 0: none */
 } drive_sample_t;
 
+/** Whether one of the three phase currents, c from the other two, is beyond a limit or no number. Context: control ISR. */
+static inline bool sample_over_current(float ia_A, float ib_A, float limit_A)
+{
+    return !base_within(ia_A, limit_A) || !base_within(ib_A, limit_A) ||
+           !base_within(ia_A + ib_A, limit_A);
+}
+
 /** Currents in the frame of an angle. Context: control ISR. */
 static inline dq_t sample_current_A(const drive_sample_t *s, float theta_e_rad)
 {

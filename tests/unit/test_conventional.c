@@ -185,16 +185,17 @@ static drive_config_t conventional_drive(const law_conventional_config_t *consta
     return c;
 }
 
+static const drive_sample_t sample = {.ia_A          = 0.3f,
+                                      .ib_A          = -0.1f,
+                                      .dc_link_V     = 295.0f,
+                                      .theta_e_rad   = 0.2f,
+                                      .omega_e_radps = 300.0f,
+                                      .valid         = true};
+
 static void test_tick_runs_the_observer_and_the_feedback_of_this_law(void)
 {
     const law_conventional_config_t constants = conventional_constants();
     const drive_config_t            c         = conventional_drive(&constants);
-    const drive_sample_t            sample    = {.ia_A          = 0.3f,
-                                                 .ib_A          = -0.1f,
-                                                 .dc_link_V     = 295.0f,
-                                                 .theta_e_rad   = 0.2f,
-                                                 .omega_e_radps = 300.0f,
-                                                 .valid         = true};
     const drive_command_t           command   = {305.0f, true};
     law_constants_t                 plain;
     const drive_config_t            noc = law_constants_copy(&plain, &speed_tables_drive);
@@ -226,12 +227,6 @@ static void test_tick_runs_the_observer_and_the_feedback_of_this_law(void)
 
 static void test_tick_takes_its_feedback_from_the_table_of_this_law(void)
 {
-    const drive_sample_t            sample    = {.ia_A          = 0.3f,
-                                                 .ib_A          = -0.1f,
-                                                 .dc_link_V     = 295.0f,
-                                                 .theta_e_rad   = 0.2f,
-                                                 .omega_e_radps = 300.0f,
-                                                 .valid         = true};
     const drive_command_t           command   = {305.0f, true};
     const law_conventional_config_t constants = conventional_constants();
     law_conventional_config_t       stiffer   = constants;
