@@ -9,6 +9,7 @@
 
 #define HALF_COUNTS    (2U * BOARD_POSITIONS) /* half counts per mechanical turn */
 #define EDGE_AGE_MAX_s 1.0f /* chosen: a count per second is a shaft that stands */
+#define WIDEST_cnt     1.5f /* chosen: a state of the disc is at most so wide */
 #define POLE_PAIRS     64U  /* keeps half counts times pole pairs within 32 bits */
 
 ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c,
@@ -33,6 +34,7 @@ ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c,
     a->have_edge          = false;
     a->edge_cnt           = 0U;
     a->edge_age_s         = 0.0f;
+    a->edge_gap_s         = 0.0f;
     a->edge_speed_e_radps = 0.0f;
     a->reference          = APP_ANGLE_NONE;
     a->zero_cnt           = 0U;
@@ -148,22 +150,28 @@ static void read_edges(app_angle_t *a, const board_sample_t *raw, int16_t turned
     const float half_rad = 0.5f * a->rad_per_cnt;
 
     a->edge_age_s       = base_min(a->edge_age_s + a->ts_s, EDGE_AGE_MAX_s);
-    reading->edge_gap_s = a->edge_age_s;
+    reading->edge_gap_s = base_max(a->edge_age_s, a->edge_gap_s);
     if (timed) {
         const bool     forward = turned_cnt > 0;
         const uint32_t edge    = (uint32_t)raw->position_cnt + (forward ? 0U : 1U);
 
+        const bool after_edge = a->have_edge; /* else the gap is none between edges */
+        a->edge_gap_s         = a->edge_age_s - age_s;
         take_edge(a, (uint16_t)((edge < BOARD_POSITIONS) ? edge : 0U), age_s);
-        reading->edge_gap_s -= age_s;
-        reading->edge_of_line = (int16_t)(1U + (a->edge_cnt % (uint16_t)ENCODER_FORM_EDGES));
+        reading->edge_gap_s = a->edge_gap_s;
+        reading->edge_age_s = age_s;
+        if (after_edge) {
+            reading->edge_of_line = (int16_t)(1U + (a->edge_cnt % (uint16_t)ENCODER_FORM_EDGES));
+        }
         const float beyond_rad =
-            base_min(age_s * fabsf(a->edge_speed_e_radps), a->rad_per_cnt) - half_rad;
+            base_min(age_s * fabsf(a->edge_speed_e_radps), WIDEST_cnt * a->rad_per_cnt) - half_rad;
         reading->theta_e_rad =
             within_turn(reading->theta_e_rad + (forward ? beyond_rad : -beyond_rad));
     } else {
         if (turned_cnt != 0) {
             a->have_edge        = false; /* forth and back: which edge it was is not known */
             a->edge_age_s       = a->ts_s;
+            a->edge_gap_s       = 0.0f;
             reading->edge_gap_s = a->ts_s;
         } else if (a->have_edge) {
             wait_for_edge(a);
@@ -184,6 +192,7 @@ app_angle_reading_t app_angle_update(app_angle_t *a, const board_sample_t *raw)
                                         .band_rad      = 0.0f,
                                         .edge_of_line  = 0,
                                         .edge_gap_s    = 0.0f,
+                                        .edge_age_s    = 0.0f,
                                         .omega_e_radps = 0.0f,
                                         .speed_valid   = a->have_before,
                                         .index_fault   = false};

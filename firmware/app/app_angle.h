@@ -58,6 +58,7 @@ typedef struct {
     bool                      have_edge; /**< the next three mean something */
     uint16_t                  edge_cnt;  /**< position that the last edge with a time begins */
     float                     edge_age_s;
+    float                     edge_gap_s; /**< between the last two edges; 0: not known */
     float                     edge_speed_e_radps;
     uint16_t                  corrections; /**< by later index pulses since the start; wraps */
 } app_angle_t;
@@ -67,7 +68,8 @@ typedef struct {
     float   band_rad;     /**< the angle is certainly this near; 0: theta_e_rad is a measurement */
     int16_t edge_of_line; /**< which of a line's edges theta_e_rad rests on, 1 .. 4; 0: none */
     float
-        edge_gap_s; /**< between the last two edges, or since the last one; 0 without edge times */
+          edge_gap_s; /**< between the last two edges, or since the last one when that is longer; 0 without edge times */
+    float edge_age_s;    /**< since the edge of edge_of_line; 0: none */
     float omega_e_radps; /**< 0 unless speed_valid */
     bool  speed_valid;   /**< the sample before was valid too */
     bool  index_fault;   /**< the index came where it cannot be; the reference is dropped */

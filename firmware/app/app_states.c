@@ -19,6 +19,7 @@ static drive_sample_t drive_sample(const app_modes_t *m)
                               .band_rad      = m->reading.band_rad,
                               .edge_gap_s    = m->reading.edge_gap_s,
                               .omega_e_radps = m->reading.omega_e_radps,
+                              .edge_age_s    = m->reading.edge_age_s,
                               .valid         = m->sample.valid && m->reading.speed_valid,
                               .edge_of_line  = m->reading.edge_of_line};
     return s;

@@ -40,7 +40,8 @@ static drive_fault_t find_fault(const drive_config_t *c, const drive_sample_t *s
 {
     if (!s->valid || !base_within(s->theta_e_rad, BASE_TWO_PI) ||
         !base_in_range(s->band_rad, 0.0f, BASE_PI) ||
-        !base_in_range(s->edge_gap_s, 0.0f, EDGE_GAP_MAX_s)) {
+        !base_in_range(s->edge_gap_s, 0.0f, EDGE_GAP_MAX_s) ||
+        !base_in_range(s->edge_age_s, 0.0f, EDGE_GAP_MAX_s)) {
         return DRIVE_FAULT_SAMPLE;
     }
     if (sample_over_current(s->ia_A, s->ib_A, c->trip_current_A)) {

@@ -46,47 +46,52 @@ static inline float encoder_form_error_rad(const drive_sample_t *s, float theta_
     return error - base_clamp(error, -s->band_rad, s->band_rad);
 }
 
+/** Whether edges come less often than samples, so that encoder_form_correct_rare() applies. */
+static inline bool encoder_form_is_rare(const drive_sample_t *s, float ts_s)
+{
+    return s->edge_gap_s > ts_s;
+}
+
 /** Where the four edges of a line are, learned in the run: their spacing differs by tens of per cent of a count. */
 typedef struct {
     float   offset_rad[ENCODER_FORM_EDGES]; /**< electrical; their sum is zero */
-    float   theta_rad[2];                   /**< as measured, one and two samples ago */
-    int16_t edge[2];                        /**< that they were timed with, 1 .. 4; 0: none */
+    float   omega_e_radps;                  /**< between the last two edges, as measured */
+    float   per_gap_1ps;                    /**< one over the time between them */
+    int16_t edge[2];                        /**< the last two, 1 .. 4; 0: none */
 } encoder_form_edges_t;
 
 /** Nothing known of any edge. */
 void encoder_form_edges_reset(encoder_form_edges_t *edges);
 
 /**
- * @brief What the edge of this sample is off; learns from three samples in a row that edges timed.
+ * @brief What the edges are off that this sample's angle rests on; learns from three edges in a row.
  *
- *     r = theta - 2 theta_1 + theta_2 - (o_c - 2 o_c1 + o_c2)
- *     o_c += mu r,  o_c1 -= 2 mu r,  o_c2 += mu r                                   EQ-ENCODER-FORM-3
+ *     r = (w - w_1) T - (o_c - o_c1) + rho (o_c1 - o_c2),   rho = T / T_1
+ *     o_c += mu r,  o_c1 -= (1 + rho) mu r,  o_c2 += rho mu r                       EQ-ENCODER-FORM-3
+ *     off = o_c + (o_c - o_c1) age / T
  *
- * theta_1, theta_2 one and two samples ago, c the edge of each. No estimate takes part: an observer would follow the
- * offsets and hide them. The shaft's acceleration is no share of any edge, so that it averages out.
+ * w = w_e of the sample, turned between two edges in the time T between them; c the edge; 1, 2: one and two edges before.
+ * The angle was carried from the edge to the sample with w, hence the second share. No estimate takes part: an observer
+ * would follow the offsets and hide them. The shaft's acceleration is no share of any edge, so that it averages out.
  *
  * @param edges     Learned offsets.
- * @param s         This sample.
+ * @param s         This sample, with edge_gap_s > 0.
  * @param count_rad From edge to edge; an offset is at most half of it.
- * @return The offset [rad] in the sample's angle; 0 without an edge.
+ * @param ts_s      Control period [s].
+ * @return The offset [rad] in the sample's angle, at most 2 counts; 0 without an edge.
  *
- * Context: control ISR.
+ * Context: control ISR. One division.
  */
-float encoder_form_learn(encoder_form_edges_t *edges, const drive_sample_t *s, float count_rad);
+float encoder_form_learn(encoder_form_edges_t *edges, const drive_sample_t *s, float count_rad,
+                         float ts_s);
 
 /** encoder_form_error_rad() without what the edge is off. Counts have no edge and stay as they are. */
 static inline float encoder_form_learned_error_rad(encoder_form_edges_t *edges,
                                                    const drive_sample_t *s, float count_rad,
-                                                   float theta_hat_rad)
+                                                   float theta_hat_rad, float ts_s)
 {
     const float error = encoder_form_error_rad(s, theta_hat_rad);
-    return (s->edge_gap_s > 0.0f) ? (error - encoder_form_learn(edges, s, count_rad)) : error;
-}
-
-/** Whether edges come less often than samples, so that encoder_form_correct_rare() applies. */
-static inline bool encoder_form_is_rare(const drive_sample_t *s, float ts_s)
-{
-    return s->edge_gap_s > ts_s;
+    return (s->edge_gap_s > 0.0f) ? (error - encoder_form_learn(edges, s, count_rad, ts_s)) : error;
 }
 
 /**

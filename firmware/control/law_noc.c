@@ -24,9 +24,9 @@ static void reset(law_state_t *state, const drive_config_t *drive, const drive_s
 static near_optimal_view_t observe(law_noc_state_t *s, const law_noc_config_t *c,
                                    const drive_config_t *drive, const law_input_t *in)
 {
-    const dq_t  i_A = sample_current_A(in->sample, s->theta_hat_rad);
-    const float angle_error =
-        encoder_form_learned_error_rad(&s->edges, in->sample, c->rare.count_rad, s->theta_hat_rad);
+    const dq_t  i_A         = sample_current_A(in->sample, s->theta_hat_rad);
+    const float angle_error = encoder_form_learned_error_rad(
+        &s->edges, in->sample, c->rare.count_rad, s->theta_hat_rad, drive->ts_s);
     float used_error = angle_error;
 
     if (encoder_form_is_rare(in->sample, drive->ts_s)) {

@@ -27,7 +27,7 @@ static near_optimal_view_t observe(law_noc_h_state_t *s, const law_noc_h_config_
 {
     const dq_t  i_A         = sample_current_A(in->sample, s->observer.theta_rad);
     const float angle_error = encoder_form_learned_error_rad(
-        &s->edges, in->sample, c->rare.count_rad, s->observer.theta_rad);
+        &s->edges, in->sample, c->rare.count_rad, s->observer.theta_rad, drive->ts_s);
     float used_error = angle_error;
 
     if (encoder_form_is_rare(in->sample, drive->ts_s)) {

@@ -20,10 +20,11 @@ typedef struct {
     float band_rad; /**< the angle is certainly this near to it, 0 .. pi; 0: it is a measurement */
     float
         edge_gap_s; /**< what the angle rests on: time between the last two edges of the encoder, or since
-                           the last one; 0: another measurement, or an edge in every period */
+                           the last one when that is longer; 0: another measurement, or an edge in every period */
     float
         omega_e_radps; /**< electrical speed; a law that observes the angle reads it only when it starts */
-    bool valid;        /**< all of the above were measured in this period */
+    float edge_age_s; /**< time since the edge that the angle was timed with; 0: none */
+    bool  valid;      /**< all of the above were measured in this period */
     int16_t
         edge_of_line; /**< the one of a line's four edges that the angle was timed with, 1 .. 4; 0: none */
 } drive_sample_t;

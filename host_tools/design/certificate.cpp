@@ -9,6 +9,7 @@
 
 #include "design/firmware_config.hpp"
 #include "design/sampled_model.hpp"
+#include "design/sampled_observer.hpp"
 
 namespace sdre {
 namespace {
@@ -30,8 +31,8 @@ double certified_range_A(const Motor &motor)
 
 /// The spectral radius of the sampled loop with gain K at the scheduling currents s.
 using Radius = std::function<double(const MatrixXd &K, const Schedule &s)>;
-/// The continuous closed loop.
-using ClosedLoop = std::function<MatrixXd(const MatrixXd &K, const Schedule &s)>;
+/// The poles of the closed loop with gain K at s, as those of a continuous system.
+using Poles = std::function<Eigen::VectorXcd(const MatrixXd &K, const Schedule &s)>;
 
 /// Largest r such that the full series is within series_error_limit at every grid point in +-r.
 double usable_range(const std::vector<double> &error, const std::vector<Schedule> &s, double range,
@@ -55,7 +56,7 @@ Schedule held(Schedule s, double limit)
 }
 
 SampledLoop sweep(const GainSeries &g, double range, double ts, const Radius &radius_of,
-                  const ClosedLoop &closed_loop)
+                  const Poles &poles_of)
 {
     SampledLoop loop;
     loop.range_A                          = range;
@@ -77,7 +78,7 @@ SampledLoop sweep(const GainSeries &g, double range, double ts, const Radius &ra
             }
         }
         const MatrixXd K = series_gain(g, held(s[i], loop.series_range_A), series_order(g));
-        for (const auto &pole : eigenvalues(closed_loop(K, s[i]))) {
+        for (const auto &pole : poles_of(K, s[i])) {
             loop.worst_pole_1ps  = std::max(loop.worst_pole_1ps, pole.real());
             loop.fastest_pole_ts = std::max(loop.fastest_pole_ts, std::abs(pole) * ts);
         }
@@ -103,8 +104,8 @@ SampledLoop sweep_nosc(const Design &d)
     const bool     delayed = d.drive.nodo.form != NodoForm::encoder;
     const MatrixXd B       = nosc_input_matrix(d.l);
 
-    const auto loop = [&](const MatrixXd &K, const Schedule &s) -> MatrixXd {
-        return state_matrix(d.nosc.problem, s) - B * K;
+    const auto poles = [&](const MatrixXd &K, const Schedule &s) {
+        return eigenvalues(state_matrix(d.nosc.problem, s) - B * K);
     };
     const auto radius = [&](const MatrixXd &K, const Schedule &s) { // EQ-CERT-1
         const auto E = c2d(state_matrix(d.nosc.problem, s), B, ts);
@@ -117,21 +118,26 @@ SampledLoop sweep_nosc(const Design &d)
         Z.bottomLeftCorner(2, 3) = -K;
         return spectral_radius(Z);
     };
-    return sweep(d.nosc, certified_range_A(d.drive.motor), ts, radius, loop);
+    return sweep(d.nosc, certified_range_A(d.drive.motor), ts, radius, poles);
 }
 
 SampledLoop sweep_nodo(const Design &d)
 {
-    const double              ts     = control_period_s(d.drive);
-    const MatrixXd            C      = nodo_model(d.l, d.drive.nodo.form).C;
-    const MatrixXd            I      = MatrixXd::Identity(C.cols(), C.cols());
-    const std::vector<double> speeds = speed_grid(d);
+    const double              ts      = control_period_s(d.drive);
+    const bool                encoder = d.drive.nodo.form == NodoForm::encoder;
+    const ObserverModel       model   = nodo_model(d.l, d.drive.nodo.form);
+    const MatrixXd           &C       = model.C;
+    const MatrixXd            I       = MatrixXd::Identity(C.cols(), C.cols());
+    const std::vector<double> speeds  = speed_grid(d);
 
     const auto loop = [&](const MatrixXd &L, const Schedule &s) -> MatrixXd {
         return state_matrix(d.nodo.problem, s).transpose() - L * C;
     };
+    const auto poles = [&](const MatrixXd &L, const Schedule &s) {
+        return encoder ? encoder_form_poles(model, L, s[0], ts) : eigenvalues(loop(L, s));
+    };
     const auto radius = [&](const MatrixXd &L, const Schedule &s) {
-        if (d.drive.nodo.form != NodoForm::encoder) { // EQ-CERT-2
+        if (!encoder) { // EQ-CERT-2
             return spectral_radius(I + ts * loop(L, s));
         }
         double worst = 0.0;
@@ -142,7 +148,7 @@ SampledLoop sweep_nodo(const Design &d)
         }
         return worst;
     };
-    return sweep(d.nodo, certified_range_A(d.drive.motor), ts, radius, loop);
+    return sweep(d.nodo, certified_range_A(d.drive.motor), ts, radius, poles);
 }
 
 /// "2", or "1,0" in two variables.

@@ -35,8 +35,9 @@ GainSeries solve_gain_series(const SdreProblem &problem, const Eigen::MatrixXd &
     GainSeries out;
     out.problem = problem;
     out.series  = solve_sdre_series(problem, order, precision);
-    out.left    = left;
-    out.right   = right;
+    out.exact   = [=](const Schedule &s) -> Eigen::MatrixXd {
+        return left * solve_sdre_exact(problem, s).X * right;
+    };
     for (const SeriesTerm &term : out.series.terms) {
         out.gain.emplace_back(left * term.X * right);
         out.residuals.push_back(term.relative_residual);
@@ -86,7 +87,7 @@ std::vector<std::vector<double>> series_errors(const GainSeries            &g,
     std::vector<std::vector<double>> errors(static_cast<std::size_t>(orders),
                                             std::vector<double>(points.size()));
     for (std::size_t i = 0; i < points.size(); i++) {
-        const Eigen::MatrixXd exact = g.left * solve_sdre_exact(g.problem, points[i]).X * g.right;
+        const Eigen::MatrixXd exact = g.exact(points[i]);
         const double          norm  = std::max(exact.norm(), 1e-300);
         for (int order = 0; order < orders; order++) {
             errors[static_cast<std::size_t>(order)][i] =

@@ -2,22 +2,25 @@
 /// How far a truncated series of gains is from the exact point-wise solution of its SDRE.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "design/sdre_series.hpp"
 
 namespace sdre {
 
+/// Values of the scheduling variables.
+using Schedule = std::vector<double>;
+
 /// A solved series with the gain matrices read off it.
 struct GainSeries {
-    SdreProblem     problem;
-    SdreSeries      series;
-    Eigen::MatrixXd left; ///< a gain is left X right
-    Eigen::MatrixXd right;
+    SdreProblem problem;
+    SdreSeries  series;
     std::vector<Eigen::MatrixXd>
         gain; ///< per term. NOSC: Lambda, 2 x 3. NODO: L, 6 x 3; encoder form 7 x 3, load only 4 x 3.
     std::vector<double>
-        residuals; ///< per term, relative: of the Riccati, then of the Lyapunov equations
+        residuals; ///< per term, relative: of the Riccati, then of the Lyapunov or Stein equations
+    std::function<Eigen::MatrixXd(const Schedule &)> exact; ///< the gain without a series
 };
 
 /// Solves the series and reads the gains off it, (26), (32), (39).
@@ -30,9 +33,6 @@ int series_order(const GainSeries &g);
 
 /// The gain at s from all terms up to a total degree.
 Eigen::MatrixXd series_gain(const GainSeries &g, const std::vector<double> &s, int order);
-
-/// Values of the scheduling variables.
-using Schedule = std::vector<double>;
 
 /// The box +-range of any number of variables, (2 per_side + 1) values of each.
 std::vector<Schedule> box_grid(std::size_t variables, double range, int per_side);

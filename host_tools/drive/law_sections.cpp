@@ -15,6 +15,7 @@ constexpr Range sensor_order{1.0, 2.0};
 constexpr Range slot_multiple{1.0, 3.0};
 constexpr Range leak_1ps{1e-3, 1e2};
 constexpr Range series_order{0, 8};
+constexpr Range sampled_order{0, 1};
 constexpr Range double_series_order{0, DOUBLE_SERIES_ORDER_MAX};
 constexpr Range state_weight{0.0, 1e15};
 constexpr Range input_weight{1e-18, 1e12};
@@ -51,7 +52,7 @@ NodoSpec read_nodo(TomlReader t)
     }
     const bool speed = form == "speed";
     spec.form        = speed ? NodoForm::speed : NodoForm::encoder;
-    spec.order       = t.integer("order", series_order);
+    spec.order       = t.integer("order", speed ? series_order : sampled_order);
     spec.Q           = t.numbers("Q", {speed ? 6U : 7U}, state_weight);
     // The paper writes six weights; its C_d is zero for the first three, so only the last three act.
     const std::vector<std::size_t> lengths =

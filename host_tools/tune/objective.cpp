@@ -12,6 +12,7 @@
 #include "design/design.hpp"
 #include "design/firmware_config.hpp"
 #include "design/sampled_model.hpp"
+#include "design/sampled_observer.hpp"
 
 namespace sdre {
 namespace {
@@ -94,17 +95,14 @@ Loop loop_of(const Drive &drive, const RobustnessCase &c)
 {
     const ReducedParameters model = reduced_parameters(believed_motor(drive.motor, c));
     const Eigen::Vector2d   T_nosc(drive.nosc.T[0], drive.nosc.T[1]);
-    const Eigen::Vector3d   T_nodo(drive.nodo.T[0], drive.nodo.T[1], drive.nodo.T[2]);
-    const SdreProblem       control  = nosc_problem(model, drive.nosc);
-    const SdreProblem       observer = nodo_problem(model, drive.nodo);
-    const MatrixXd          X        = solve_care(control.A0, control.G, control.Q).X;
-    const MatrixXd          Y        = solve_care(observer.A0, observer.G, observer.Q).X;
+    const SdreProblem       control = nosc_problem(model, drive.nosc);
+    const MatrixXd          X       = solve_care(control.A0, control.G, control.Q).X;
+    const double            ts      = control_period_s(drive);
     return {reduced_parameters(drive.motor),
             model,
             {T_nosc.cwiseInverse().asDiagonal() * nosc_input_matrix(model).transpose() * X,
-             Y * nodo_model(model, NodoForm::encoder).C.transpose() *
-                 T_nodo.cwiseInverse().asDiagonal()},
-            control_period_s(drive)};
+             solve_encoder_form(model, drive.nodo, ts).gain[0]},
+            ts};
 }
 
 /// Largest over speeds; of the nominal case also where the certificate asks for stability, up to twice the current limit

@@ -135,7 +135,7 @@ TEST(HarmonicDesign, WithoutPairsTheLoopIsThatOfTheEncoderForm)
     }
 }
 
-/// As the period falls, K / Ts approaches the gain of the continuous equation with the same weights: EQ-HARMONIC-7.
+/// As the period falls, K / Ts approaches the gain of the continuous equation with the same weights: EQ-SAMPLED-OBSERVER-1.
 TEST(HarmonicDesign, ShortPeriodsGiveTheContinuousGain)
 {
     sdre::Drive drive   = plain_drive();

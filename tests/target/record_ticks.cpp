@@ -42,6 +42,7 @@ tick_file_tick_t file_tick(const drive_t &d, const drive_sample_t &s, const driv
     t.theta_e_rad     = s.theta_e_rad;
     t.band_rad        = s.band_rad;
     t.edge_gap_s      = s.edge_gap_s;
+    t.edge_age_s      = s.edge_age_s;
     t.omega_e_radps   = s.omega_e_radps;
     t.command_e_radps = c.omega_e_radps;
     t.duty            = law.duty;

@@ -112,10 +112,11 @@ TEST_F(C28xFloats, EveryConstantIsChecked)
 
 TEST_F(C28xFloats, EverySampleAndCommandIsChecked)
 {
-    c28x_float *const values[] = {&sample.ia_A,          &sample.ib_A,          &sample.dc_link_V,
-                                  &sample.theta_e_rad,   &sample.band_rad,      &sample.edge_gap_s,
-                                  &sample.omega_e_radps, &command.omega_e_radps};
-    const drive_t     running  = drive;
+    c28x_float *const values[] = {
+        &sample.ia_A,          &sample.ib_A,       &sample.dc_link_V,
+        &sample.theta_e_rad,   &sample.band_rad,   &sample.edge_gap_s,
+        &sample.omega_e_radps, &sample.edge_age_s, &command.omega_e_radps};
+    const drive_t running = drive;
     for (c28x_float *value : values) {
         const c28x_float good = *value;
         for (const std::uint32_t bits : not_numbers) {

@@ -73,6 +73,7 @@ typedef struct {
     float             theta_e_rad;
     float             band_rad;
     float             edge_gap_s;
+    float             edge_age_s;
     float             omega_e_radps;
     float             command_e_radps;
     abc_t             duty;

@@ -140,27 +140,79 @@ static void test_rare_edges_find_a_slow_speed(void)
     TEST_ASSERT_DOUBLE_WITHIN(1.0, 0.0, (double)x.d_omega);
 }
 
-/* EQ-ENCODER-FORM-3: a disc whose four edges are off, at speeds that meet them in different orders. */
+/* A shaft at constant speed [count/s] whose edges are off, timed at every sample. */
+typedef struct {
+    const double *off_cnt; /* of the four edges, mean zero */
+    double        per_s;
+    double        at_cnt;
+    double        time_s;
+    double        edge_s; /* of the last edge sampled */
+    double        edge_cnt;
+} disc_t;
+
+#define COUNT_RAD (2.0 * 2.0 * 3.141592653589793 / 10000.0)
+
+static int edge_of(double edge_cnt)
+{
+    return (int)fmod(fmod(edge_cnt, 4.0) + 4.0, 4.0);
+}
+
+static double edge_at_cnt(const disc_t *d, double edge_cnt)
+{
+    return edge_cnt + d->off_cnt[edge_of(edge_cnt)];
+}
+
+/* The next sample; theta is the one that the edges seem to say. */
+static drive_sample_t next_sample(disc_t *d)
+{
+    const double way = (d->per_s > 0.0) ? 1.0 : -1.0;
+    d->time_s += (double)TS_s;
+    d->at_cnt += d->per_s * (double)TS_s;
+    double edge = d->edge_cnt;
+    while (((edge_at_cnt(d, edge + way) - d->at_cnt) * way) <= 0.0) {
+        edge += way;
+    }
+    const double   age    = (d->at_cnt - edge_at_cnt(d, edge)) / d->per_s;
+    const double   edge_s = d->time_s - age;
+    drive_sample_t s      = {.edge_gap_s = (float)(d->time_s - d->edge_s)};
+    if (fabs(edge - d->edge_cnt) > 0.5) {
+        const double gap   = edge_s - d->edge_s;
+        const double speed = (edge - d->edge_cnt) / gap;
+        /* whole turns away: exact in single precision */
+        s.theta_e_rad   = (float)(fmod(edge + (speed * age), 5000.0) * COUNT_RAD);
+        s.omega_e_radps = (float)(speed * COUNT_RAD);
+        s.edge_gap_s    = (float)gap;
+        s.edge_age_s    = (float)age;
+        s.edge_of_line  = (int16_t)(edge_of(edge) + 1);
+        d->edge_cnt     = edge;
+        d->edge_s       = edge_s;
+    }
+    return s;
+}
+
+/* EQ-ENCODER-FORM-3: at speeds that meet the edges in different orders, from one edge in three samples on. An edge is early
+ * in the angle when it lies late. */
 static void test_edges_of_a_line_are_learned(void)
 {
-    static const double off_cnt[4]   = {0.20, -0.05, -0.12, -0.03};
-    static const double per_period[] = {47.75, -47.75, 13.3, 2.6, 101.1};
-    const double        count        = 2.0 * 2.0 * 3.141592653589793 / 10000.0;
+    static const double off_cnt[4]   = {-0.20, 0.05, 0.12, 0.03};
+    static const double per_period[] = {47.75, -47.75, 13.3, 2.6, 101.1, 0.4, -0.4};
     for (int i = 0; i < SUPPORT_COUNT(per_period); i++) {
+        disc_t               d = {.off_cnt  = off_cnt,
+                                  .per_s    = per_period[i] / (double)TS_s,
+                                  .at_cnt   = 1000.3,
+                                  .edge_cnt = 1000.0};
         encoder_form_edges_t edges;
-        double               at_cnt = 1000.3;
         encoder_form_edges_reset(&edges);
-        for (int n = 0; n < 20000; n++) {
-            at_cnt += per_period[i];
-            const double         edge = (per_period[i] > 0.0) ? floor(at_cnt) : ceil(at_cnt);
-            const int            of   = (int)fmod(fmod(edge, 4.0) + 4.0, 4.0);
-            const drive_sample_t s    = {
-                   .theta_e_rad  = (float)fmod((at_cnt + off_cnt[of]) * count, 6.283185307179586),
-                   .edge_of_line = (int16_t)(of + 1)};
-            (void)encoder_form_learn(&edges, &s, (float)count);
+        for (int n = 0; n < 3000; n++) {
+            const drive_sample_t s = next_sample(&d);
+            const double off       = (double)encoder_form_learn(&edges, &s, (float)COUNT_RAD, TS_s);
+            if ((n > 2000) && (s.edge_of_line != 0)) {
+                const double seen = ((double)s.theta_e_rad / COUNT_RAD) - fmod(d.at_cnt, 5000.0);
+                TEST_ASSERT_DOUBLE_WITHIN(0.004, remainder(seen, 5000.0), off / COUNT_RAD);
+            }
         }
         for (int k = 0; k < 4; k++) {
-            TEST_ASSERT_DOUBLE_WITHIN(0.01 * count, off_cnt[k] * count,
+            TEST_ASSERT_DOUBLE_WITHIN(0.003 * COUNT_RAD, -off_cnt[k] * COUNT_RAD,
                                       (double)edges.offset_rad[k]);
         }
     }
@@ -169,12 +221,37 @@ static void test_edges_of_a_line_are_learned(void)
 /* Whole lines per period meet one edge only: there is nothing to tell it from the others, and nothing is made up. */
 static void test_one_edge_alone_teaches_nothing(void)
 {
+    static const double  off_cnt[4] = {-0.20, 0.05, 0.12, 0.03};
+    disc_t               d = {.off_cnt = off_cnt, .per_s = 8.0 / (double)TS_s, .at_cnt = 0.5};
     encoder_form_edges_t edges;
     encoder_form_edges_reset(&edges);
     for (int n = 0; n < 1000; n++) {
-        const drive_sample_t s = {.theta_e_rad  = (float)fmod(0.01 * n, 6.2831853),
-                                  .edge_of_line = 2};
-        TEST_ASSERT_FLOAT_WITHIN(2.0e-6f, 0.0f, encoder_form_learn(&edges, &s, 1.2566371e-3f));
+        const drive_sample_t s   = next_sample(&d);
+        const float          off = encoder_form_learn(&edges, &s, (float)COUNT_RAD, TS_s);
+        TEST_ASSERT_FLOAT_WITHIN((n > 2) ? 4.0e-6f : 2.0e-4f, 0.0f, off);
+    }
+}
+
+/* A shaft that turns round, stops or starts is no witness: its speed is not the same between all three edges. */
+static void test_edges_far_apart_and_reversals_teach_nothing(void)
+{
+    static const struct {
+        float gap_s;
+        float omega_e_radps;
+    } last[] = {{4.1f * TS_s, 3.0f}, {TS_s, -3.0f}, {0.2f * TS_s, 3.0f}, {3.0f * TS_s, 0.0f}};
+    for (int i = 0; i < SUPPORT_COUNT(last); i++) {
+        const float          gap_s = (i == 0) ? (3.0f * TS_s) : ((i == 3) ? (0.7f * TS_s) : TS_s);
+        encoder_form_edges_t edges;
+        encoder_form_edges_reset(&edges);
+        for (int n = 0; n < 3; n++) {
+            const drive_sample_t s = {.edge_gap_s    = (n < 2) ? gap_s : last[i].gap_s,
+                                      .omega_e_radps = (n < 2) ? 2.0f : last[i].omega_e_radps,
+                                      .edge_of_line  = (int16_t)(n + 1)};
+            (void)encoder_form_learn(&edges, &s, 1.0e-3f, TS_s);
+        }
+        for (int k = 0; k < 4; k++) {
+            TEST_ASSERT_FLOAT_WITHIN(1.0e-12f, 0.0f, edges.offset_rad[k]);
+        }
     }
 }
 
@@ -185,11 +262,16 @@ static void test_learned_offsets_are_bounded(void)
     encoder_form_edges_t edges;
     encoder_form_edges_reset(&edges);
     for (int n = 0; n < 100000; n++) {
-        const drive_sample_t s   = {.theta_e_rad  = support_uniform(&random, -6.28f, 6.28f),
-                                    .edge_of_line = (int16_t)support_uniform(&random, -3.0f, 8.0f)};
-        const float          off = encoder_form_learn(&edges, &s, 1.0e-3f);
-        TEST_ASSERT_TRUE(base_within(off, 0.5e-3f));
+        const drive_sample_t s   = {.omega_e_radps = support_uniform(&random, -100.0f, 500.0f),
+                                    .edge_gap_s    = support_uniform(&random, 0.0f, 2.0f * TS_s),
+                                    .edge_age_s    = support_uniform(&random, 0.0f, TS_s),
+                                    .edge_of_line  = (int16_t)support_uniform(&random, -3.0f, 8.0f)};
+        const float          off = encoder_form_learn(&edges, &s, 1.0e-3f, TS_s);
+        TEST_ASSERT_TRUE(base_within(off, 2.0e-3f));
         TEST_ASSERT_TRUE(((s.edge_of_line >= 1) && (s.edge_of_line <= 4)) || (off == 0.0f));
+        for (int k = 0; k < 4; k++) {
+            TEST_ASSERT_TRUE(base_within(edges.offset_rad[k], 0.5e-3f));
+        }
     }
 }
 
@@ -291,6 +373,7 @@ int main(void)
     RUN_TEST(test_rare_edges_find_a_slow_speed);
     RUN_TEST(test_edges_of_a_line_are_learned);
     RUN_TEST(test_one_edge_alone_teaches_nothing);
+    RUN_TEST(test_edges_far_apart_and_reversals_teach_nothing);
     RUN_TEST(test_learned_offsets_are_bounded);
     RUN_TEST(test_gains_out_of_range_are_refused);
     RUN_TEST(test_view_is_the_prediction);

@@ -9,6 +9,7 @@
 #include "design/certificate.hpp"
 #include "design/firmware_config.hpp"
 #include "design/sampled_model.hpp"
+#include "design/sampled_observer.hpp"
 
 namespace sdre {
 namespace {
@@ -52,8 +53,12 @@ GainSeries solve_nosc(const ReducedParameters &l, const Drive &drive, Precision 
                              Eigen::MatrixXd::Identity(3, 3), spec.order, precision);
 }
 
-GainSeries solve_nodo(const ReducedParameters &l, const NodoSpec &spec, Precision precision)
+GainSeries solve_nodo(const ReducedParameters &l, const Drive &drive, Precision precision)
 {
+    const NodoSpec &spec = drive.nodo;
+    if (spec.form == NodoForm::encoder) {
+        return solve_encoder_form(l, spec, control_period_s(drive));
+    }
     const Eigen::Vector3d T_inverse(1.0 / spec.T[0], 1.0 / spec.T[1], 1.0 / spec.T[2]);
     const Eigen::MatrixXd C = nodo_model(l, spec.form).C;
     return solve_gain_series(nodo_problem(l, spec), Eigen::MatrixXd::Identity(C.cols(), C.cols()),
@@ -157,7 +162,7 @@ void solve_near_optimal(Design &d)
 {
     d.nosc = solve_nosc(d.l, d.drive, d.precision);
     if (d.drive.law != Law::noc_h) {
-        d.nodo = solve_nodo(d.l, d.drive.nodo, d.precision);
+        d.nodo = solve_nodo(d.l, d.drive, d.precision);
     }
     d.certificate = certify(d);
 }

@@ -6,9 +6,8 @@
 
 #include "common/parallel.hpp"
 #include "design/noc_h/harmonic_rows.hpp"
-#include "linalg/c2d.hpp"
+#include "design/sampled_observer.hpp"
 #include "linalg/linalg_checks.hpp"
-#include "linalg/sampled_riccati.hpp"
 
 namespace sdre {
 namespace {
@@ -87,19 +86,6 @@ MatrixXd full_rows(const MatrixXd &kept, const std::vector<Index> &rows, Index n
     return out;
 }
 
-/// Discretised exactly, process noise as the mean of both ends of the period.        EQ-HARMONIC-7
-SampledObserverProblem sampled(const MatrixXd &A, const MatrixXd &dA, const MatrixXd &Q, double ts)
-{
-    const Transition       over = transition(A, dA, ts);
-    SampledObserverProblem p;
-    p.A0              = over.Phi;
-    p.A1              = over.dPhi;
-    const MatrixXd Q1 = 0.5 * ts * p.A1 * Q * p.A0.transpose();
-    p.Q0              = 0.5 * ts * (p.A0 * Q * p.A0.transpose() + Q);
-    p.Q1              = Q1 + Q1.transpose();
-    return p;
-}
-
 // Chosen by simulation: while the motor accelerates, the speed between two edges is not yet that of the next ones. With
 // 2 the current overshoots its limit by 14 % in a start of the shipped servo, with 8 by 5 %.
 constexpr double counts_for_edges = 8.0;
@@ -112,11 +98,8 @@ HarmonicNode solve_node(const ReducedParameters &l, const Drive &drive, double w
     const VectorXd           Q    = harmonic_weights(drive, w)(rows);
     const Vector3d           T(drive.nodo.T[0], drive.nodo.T[1], angle_weight(drive, w));
 
-    SampledObserverProblem problem =
-        sampled(full.A0(rows, rows), full.dA(rows, rows), Q.asDiagonal(), ts);
-    problem.C                      = full.C(Eigen::all, rows);
-    problem.R                      = (T / ts).asDiagonal();
-    const SampledObserverGain gain = solve_sampled_observer(problem);
+    const SampledObserverGain gain = solve_sampled_observer(sampled_observer(
+        full.A0(rows, rows), full.dA(rows, rows), full.C(Eigen::all, rows), Q, T, ts));
     const Index               n    = full.A0.rows();
     return {w, full_rows(gain.K0, rows, n), full_rows(gain.K1, rows, n),
             std::max(gain.riccati_residual, gain.stein_residual)};

@@ -50,7 +50,7 @@ Board::Board(const Scenario &s)
       load_(s.load_torque, s.load_ramps, s.load_sine),
       first_dead_time_s_(dead_time_of(s.sensors, s.inverter, s.drive))
 {
-    plant_.reset(s.initial_speed_e_radps);
+    plant_.reset(s.initial_speed_e_radps, start_theta_e_rad(s));
     shaft_load_.fan_Nm_per_radps2 = s.load_fan_Nm_per_radps2;
     plain_motor_ = !has_effects(s.motor_effects) && s.load_fan_Nm_per_radps2 == 0.0;
     if (has_effects(s.motor_effects)) {
@@ -174,6 +174,7 @@ drive_sample_t Board::measured_sample()
     s.theta_e_rad   = static_cast<float>(position.theta_e_rad);
     s.band_rad      = static_cast<float>(position.band_e_rad);
     s.edge_gap_s    = static_cast<float>(position.edge_gap_s);
+    s.edge_age_s    = static_cast<float>(position.edge_age_s);
     s.edge_of_line  = static_cast<std::int16_t>(position.edge_of_line);
     s.omega_e_radps = static_cast<float>(position.omega_e_radps);
     s.valid         = true;

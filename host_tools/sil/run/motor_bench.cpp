@@ -38,7 +38,8 @@ double MotorBench::held_theta_e_rad(long tick) const
     const double omega = scenario_.initial_speed_e_radps;
     const double pp    = scenario_.drive.motor.pole_pairs;
     const long   zero  = start_tick_ == never ? any_start : start_tick_;
-    double       theta = static_cast<double>(tick - zero) * period_s_ * omega;
+    double       theta =
+        start_theta_e_rad(scenario_) + static_cast<double>(tick - zero) * period_s_ * omega;
     const bool   turns = std::abs(omega) * turning_s > two_pi * pp;
     const double missed =
         1.0 - smooth(static_cast<double>(tick) / static_cast<double>(index_ticks));

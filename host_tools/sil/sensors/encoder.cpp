@@ -11,6 +11,8 @@ const double two_pi = 2.0 * std::acos(-1.0);
 
 // Chosen: the age of an edge that nobody has seen; a speed from it is next to zero.
 constexpr double no_edge_s = 1.0;
+// Chosen: a state of the disc is at most so wide.
+constexpr double widest_cnt = 1.5;
 
 } // namespace
 
@@ -145,12 +147,12 @@ void QuadratureEncoder::list_edges(const ShaftPath &path, std::vector<EncoderEdg
     }
 }
 
-/// EQ-ENCODER-6: from the last edge on with the speed of the edges, but within the count.
+/// EQ-ENCODER-6: from the last edge on with the speed of the edges, at most a wide count.
 double QuadratureEncoder::edge_angle_rad(std::int64_t count, double edge_above_cnt) const
 {
     const double per_count = pole_pairs_ * two_pi / static_cast<double>(counts_per_turn_);
     const double beyond =
-        std::clamp(edge_above_cnt + edge_speed_ * edge_age_s_ / per_count, 0.0, 1.0);
+        edge_above_cnt + std::clamp(edge_speed_ * edge_age_s_ / per_count, -widest_cnt, widest_cnt);
     const double theta =
         per_count * static_cast<double>(count % counts_per_turn_) + per_count * beyond;
     const double wrapped = std::fmod(theta, two_pi);
@@ -199,10 +201,12 @@ QuadratureEncoder::Reading QuadratureEncoder::read(const ShaftPath &path)
         const double before_s = edge_age_s_ + path.duration_s();
         note_last_edge(path, now);
         r.omega_e_radps = edge_speed_;
-        r.edge_gap_s    = edge_age_s_;
+        r.edge_gap_s    = std::max(edge_age_s_, edge_gap_s_);
         if (edge_age_s_ <= period_s_) {
             r.theta_e_rad  = edge_angle_rad(r.count, static_cast<double>(edge_ - now));
-            r.edge_gap_s   = before_s - edge_age_s_;
+            edge_gap_s_    = before_s - edge_age_s_;
+            r.edge_gap_s   = edge_gap_s_;
+            r.edge_age_s   = edge_age_s_;
             r.edge_of_line = 1 + static_cast<int>(((edge_ % 4) + 4) % 4);
         } else { // no edge in this period: within the count
             r.band_e_rad = pole_pairs_ * two_pi / (2.0 * per_turn);
@@ -210,6 +214,7 @@ QuadratureEncoder::Reading QuadratureEncoder::read(const ShaftPath &path)
     } else { // should edges be timed from the next reading on
         edge_       = now;
         edge_age_s_ = 0.0;
+        edge_gap_s_ = 0.0;
         edge_speed_ = r.omega_e_radps;
     }
     true_before_ = now;

@@ -34,9 +34,11 @@ public:
     struct Reading {
         std::int64_t count        = 0; ///< since the start, not wrapped
         double       theta_e_rad  = 0.0;
-        int          edge_of_line = 0;   ///< of the edge that theta_e_rad rests on, 1 .. 4
-        double       edge_gap_s   = 0.0; ///< time between the last two edges, or since the last one
-        double       band_e_rad   = 0.0; ///< the angle is this near; 0: a measurement
+        int          edge_of_line = 0; ///< of the edge that theta_e_rad rests on, 1 .. 4
+        double       edge_gap_s =
+            0.0; ///< time between the last two edges, or since the last one when that is longer
+        double       edge_age_s    = 0.0; ///< since the edge that theta_e_rad rests on
+        double       band_e_rad    = 0.0; ///< the angle is this near; 0: a measurement
         double       omega_e_radps = 0.0;
         std::int64_t raw_count     = 0;     ///< what a plain counter shows: never put right
         bool         index         = false; ///< the mark was passed since the read before
@@ -88,6 +90,7 @@ private:
     std::int64_t   lost_at_turn_  = 0;   ///< whole turns when they were last lost or read
     std::int64_t   edge_          = 0;   ///< the last edge, as the true count above it
     double         edge_age_s_    = 0.0; ///< since that edge, at the last reading
+    double         edge_gap_s_    = 0.0; ///< between the last two edges
     double         edge_speed_    = 0.0; ///< EQ-ENCODER-5, electrical
 };
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "sil/setup/scenario.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "common/random.hpp"
 #include "common/toml_reader.hpp"
 #include "sil/setup/board_reader.hpp"
 #include "sil/setup/sorted_times.hpp"
@@ -166,6 +169,15 @@ Scenario read_scenario_file(const std::filesystem::path &file, const std::filesy
     }
     t.reject_unknown_keys();
     return s;
+}
+
+double start_theta_e_rad(const Scenario &s)
+{
+    if (s.sensors.ideal) {
+        return 0.0;
+    }
+    const double half_turn = std::acos(-1.0) * s.drive.motor.pole_pairs;
+    return half_turn * even_number(s.seed, NoiseStream::start_angle, 0);
 }
 
 } // namespace sdre

@@ -51,4 +51,8 @@ Scenario read_scenario_file(const std::filesystem::path &file,
 std::filesystem::path scenario_drive_path(const std::filesystem::path &scenario,
                                           const std::string           &drive);
 
+/// Where the rotor stands at the start, electrical, over a whole turn of the shaft: drawn from the seed, zero with ideal
+/// sensors, which no angle troubles.
+double start_theta_e_rad(const Scenario &scenario);
+
 } // namespace sdre

@@ -42,6 +42,7 @@ static tick_file_result_t replay(const tick_file_tick_t *t)
         .band_rad      = t->band_rad,
         .edge_gap_s    = t->edge_gap_s,
         .omega_e_radps = t->omega_e_radps,
+        .edge_age_s    = t->edge_age_s,
         .valid         = (t->flags & TICK_FILE_VALID) != 0u,
         .edge_of_line  = (int16_t)((t->flags >> TICK_FILE_EDGE_SHIFT) & TICK_FILE_EDGE_MASK)};
     const drive_command_t command = {.omega_e_radps = t->command_e_radps,
