@@ -141,19 +141,17 @@ static void wait_for_edge(app_angle_t *a)
     a->edge_speed_e_radps = base_clamp(a->edge_speed_e_radps, -most_radps, most_radps);
 }
 
-/* EQ-APP-ANGLE-3, 4. */
-static void read_edges(app_angle_t *a, const board_sample_t *raw, int16_t turned_cnt,
-                       app_angle_reading_t *reading)
+/* EQ-APP-ANGLE-3, 4, with the last edge of the period at the age age_s; without one, `timed` is false. */
+static void read_edges(app_angle_t *a, uint16_t position_cnt, bool timed, float age_s,
+                       int16_t turned_cnt, app_angle_reading_t *reading)
 {
-    const float age_s    = (float)raw->edge_age_cnt * (1.0f / (float)BOARD_CAPTURE_Hz);
-    const bool  timed    = raw->edge_seen && (turned_cnt != 0) && (age_s <= a->ts_s);
     const float half_rad = 0.5f * a->rad_per_cnt;
 
     a->edge_age_s       = base_min(a->edge_age_s + a->ts_s, EDGE_AGE_MAX_s);
     reading->edge_gap_s = base_max(a->edge_age_s, a->edge_gap_s);
     if (timed) {
         const bool     forward = turned_cnt > 0;
-        const uint32_t edge    = (uint32_t)raw->position_cnt + (forward ? 0U : 1U);
+        const uint32_t edge    = (uint32_t)position_cnt + (forward ? 0U : 1U);
 
         const bool after_edge = a->have_edge; /* else the gap is none between edges */
         a->edge_gap_s         = a->edge_age_s - age_s;
@@ -185,6 +183,30 @@ static void read_edges(app_angle_t *a, const board_sample_t *raw, int16_t turned
     }
 }
 
+static void read_times(app_angle_t *a, const board_sample_t *raw, int16_t turned_cnt,
+                       app_angle_reading_t *reading)
+{
+    const float age_s = (float)raw->edge_age_cnt * (1.0f / (float)BOARD_CAPTURE_Hz);
+    const bool  timed = raw->edge_seen && (turned_cnt != 0) && (age_s <= a->ts_s);
+
+    read_edges(a, raw->position_cnt, timed, age_s, turned_cnt, reading);
+}
+
+/* EQ-APP-ANGLE-5. */
+static void read_counts(app_angle_t *a, uint16_t position_cnt, int16_t turned_cnt,
+                        app_angle_reading_t *reading)
+{
+    const app_angle_reading_t plain      = *reading;
+    const bool                after_edge = a->have_edge;
+
+    read_edges(a, position_cnt, turned_cnt != 0, 0.5f * a->ts_s, turned_cnt, reading);
+    if ((turned_cnt < -1) || (turned_cnt > 1) || ((turned_cnt != 0) && !after_edge)) {
+        *reading = plain;
+    }
+    reading->edge_of_line  = 0;
+    reading->omega_e_radps = plain.omega_e_radps;
+}
+
 app_angle_reading_t app_angle_update(app_angle_t *a, const board_sample_t *raw)
 {
     const uint16_t      position_cnt = raw->position_cnt;
@@ -207,7 +229,9 @@ app_angle_reading_t app_angle_update(app_angle_t *a, const board_sample_t *raw)
 
         reading.omega_e_radps = (float)turned_cnt * a->radps_per_cnt;
         if (a->edge_times) {
-            read_edges(a, raw, turned_cnt, &reading);
+            read_times(a, raw, turned_cnt, &reading);
+        } else {
+            read_counts(a, position_cnt, turned_cnt, &reading);
         }
     }
     a->before_cnt  = position_cnt;

@@ -12,6 +12,9 @@
  *     omega_e = n_p (edge - edge before) 2 pi / (N t_before)                       EQ-APP-ANGLE-3
  *     theta_e = theta at that edge + omega_e a, within the count                   EQ-APP-ANGLE-4
  *
+ * Without times, a period with one count has its edge in the middle of the period: EQ-APP-ANGLE-3, 4 with a = Ts / 2, and
+ * one with more stays as EQ-APP-ANGLE-1 says.                                         EQ-APP-ANGLE-5
+ *
  * A period without an edge says that the angle is within the count, and that the speed is at most one count in the time
  * since the last edge.
  *

@@ -25,12 +25,14 @@ static float stopping_acceleration(float distance, float jerk_step, float sample
 void speed_ref_update(speed_ref_t *r, const speed_ref_limits_t *limits, float command_e_radps,
                       float omega_e_radps, float ts_s)
 {
-    const float jerk_step = limits->jerk_e_radps3 * ts_s;
+    const float up_step   = limits->jerk_up_e_radps3 * ts_s;
+    const float down_step = limits->jerk_down_e_radps3 * ts_s;
     const float before    = r->omega_dot_e_radps2;
-    const float wanted =
-        stopping_acceleration(command_e_radps - r->omega_e_radps, jerk_step, limits->samples_1ps);
+    const float distance  = command_e_radps - r->omega_e_radps;
+    const float wanted    = stopping_acceleration(distance, (distance > 0.0f) ? down_step : up_step,
+                                                  limits->samples_1ps);
     const float allowed = base_clamp(wanted, limits->accel_lo_e_radps2, limits->accel_hi_e_radps2);
-    const float accel   = base_clamp(allowed, before - jerk_step, before + jerk_step);
+    const float accel   = base_clamp(allowed, before - down_step, before + up_step);
 
     r->accel_wanted_e_radps2 = wanted;
     r->omega_2dot_e_radps3   = (accel - before) * limits->samples_1ps; /* EQ-SPEED-REF-2: over Ts */

@@ -3,12 +3,14 @@
  * @file speed_ref.h
  * @brief Reference model: the fastest speed profile within given limits of acceleration and jerk.
  *
- * With jerk j and period Ts, the acceleration that still stops at the command is
+ * The voltage that changes the q current is the limit less the back-EMF one way, and the limit and the back-EMF the other
+ * way: w_d'' goes from -j_down to j_up. With period Ts, and j the one that ends the acceleration, which is j_down below the
+ * command and j_up above, the acceleration that still stops at the command is
  *
  *     a* = sqrt((j Ts / 2)^2 + 2 j |command - w_d|) - j Ts / 2                  EQ-SPEED-REF-1
  * (|command - w_d| / Ts when that is less), and
  *
- *     w_d'' = +-j towards clamp(+-a*, lowest, highest acceleration)             EQ-SPEED-REF-2
+ *     w_d'' = j_up or -j_down towards clamp(+-a*, lowest, highest acceleration) EQ-SPEED-REF-2
  *
  * The last step may pass the command by j Ts^2 / 8; the end is exact. Both derivatives are known,
  * so that nothing has to be differentiated.
@@ -27,11 +29,12 @@ typedef struct {
 
 /** What the drive can do now. */
 typedef struct {
-    float accel_hi_e_radps2; /**< highest acceleration */
-    float accel_lo_e_radps2; /**< lowest (most negative) acceleration */
-    float jerk_e_radps3;     /**< largest |w_d''|, > 0 */
-    float near_e_radps;      /**< w_d stays this close to the speed, > 0 */
-    float samples_1ps;       /**< 1 / Ts */
+    float accel_hi_e_radps2;  /**< highest acceleration */
+    float accel_lo_e_radps2;  /**< lowest (most negative) acceleration */
+    float jerk_up_e_radps3;   /**< highest w_d'', > 0 */
+    float jerk_down_e_radps3; /**< highest -w_d'', > 0 */
+    float near_e_radps;       /**< w_d stays this close to the speed, > 0 */
+    float samples_1ps;        /**< 1 / Ts */
 } speed_ref_limits_t;
 
 /** Starts at the given speed, without acceleration. */

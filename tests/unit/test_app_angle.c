@@ -301,6 +301,36 @@ static void test_edge_times_give_angle_and_speed(void)
     }
 }
 
+/* EQ-APP-ANGLE-5: counts alone tell the angle to what the shaft turns in half a period; without one it is within the count. */
+static void test_counts_that_come_one_at_a_time_tell_more_than_their_middle(void)
+{
+    static const double speeds[] = {6.2, 3.0, 0.5, -0.5, -3.0, -6.2};
+    for (int i = 0; i < SUPPORT_COUNT(speeds); i++) {
+        start_edges(4321.7);
+        drive.hardware.edge_times = false;
+        angle.edge_times          = false;
+        int singles               = 0;
+        for (int n = 0; n < 4000; n++) {
+            const app_angle_reading_t r     = turn(speeds[i]);
+            const double              theta = shaft_cnt * 2.0 * two_pi / 10000.0;
+            const double              off   = remainder((double)r.theta_e_rad - theta, two_pi);
+            const double              count = 2.0 * two_pi / 10000.0;
+            TEST_ASSERT_EQUAL_INT(0, r.edge_of_line);
+            if (r.band_rad > 0.0f) {
+                TEST_ASSERT_DOUBLE_WITHIN(TOL_RAD, 0.5 * count, (double)r.band_rad);
+                TEST_ASSERT_TRUE(fabs(off) <= (double)r.band_rad + TOL_RAD);
+                TEST_ASSERT_TRUE((r.edge_gap_s > 0.0f) || (n == 0));
+            } else if (n > 10000 / (int)(1000.0 * fabs(speeds[i]))) {
+                singles++;
+                const double gap_s = count / fabs(speeds[i]);
+                TEST_ASSERT_TRUE(fabs(off) <= (1.0 * fabs(speeds[i]) * (double)TS_S) + TOL_RAD);
+                TEST_ASSERT_DOUBLE_WITHIN((double)TS_S, gap_s, (double)r.edge_gap_s);
+            }
+        }
+        TEST_ASSERT_TRUE(singles > 100);
+    }
+}
+
 /* Slower than one count per period the speed comes from edge to edge, and without edges it goes to nothing. */
 static void test_speed_without_edges_is_bounded_by_their_absence(void)
 {
@@ -381,6 +411,7 @@ int main(void)
     RUN_TEST(test_corrections_are_counted_until_the_start);
     RUN_TEST(test_index_fault_lasts_one_sample);
     RUN_TEST(test_edge_times_give_angle_and_speed);
+    RUN_TEST(test_counts_that_come_one_at_a_time_tell_more_than_their_middle);
     RUN_TEST(test_speed_without_edges_is_bounded_by_their_absence);
     RUN_TEST(test_a_shaft_that_turns_back_and_forth_has_no_speed_that_grows);
     RUN_TEST(test_constants_out_of_range_are_refused);

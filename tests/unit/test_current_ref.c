@@ -707,9 +707,10 @@ static void test_speed_limits_are_the_accelerations_of_the_current_range(void)
                             (double)config.torque_share;
         const double free_radps2 =
             (double)est.d_omega - ((double)motor.l2 * (double)y.omega_e_radps);
-        const double fastest         = fmax(fabs((double)y.omega_e_radps), fabs((double)command));
-        const double spare_V         = fmax(usable_V() - (si.flux_Wb * fastest),
-                                            0.4 * usable_V()); /* what is left for diq/dt */
+        const double highest = fmax((double)y.omega_e_radps, (double)command);
+        const double lowest  = fmin((double)y.omega_e_radps, (double)command);
+        const double up_V    = usable_V() - (si.flux_Wb * highest); /* left for diq/dt > 0 */
+        const double down_V  = usable_V() + (si.flux_Wb * lowest);
         const current_ref_input_t in = {&est, &y, iq_speed_A, dc_link_V, V_MAX_V, 0.0f};
 
         const speed_ref_limits_t limits =
@@ -719,8 +720,11 @@ static void test_speed_limits_are_the_accelerations_of_the_current_range(void)
                                   (double)limits.accel_hi_e_radps2);
         TEST_ASSERT_DOUBLE_WITHIN(1.0e-2, fmin(free_radps2 + (gain * (double)r.iq_lo_A), 0.0),
                                   (double)limits.accel_lo_e_radps2);
-        TEST_ASSERT_DOUBLE_WITHIN(
-            1.0e-5, 1.0, (double)limits.jerk_e_radps3 / ((double)motor.l1 * spare_V / si.lq_H));
+        const double per_V = (double)motor.l1 / si.lq_H;
+        TEST_ASSERT_DOUBLE_WITHIN(1.0e-5, fmin(fmax(up_V / usable_V(), 0.4), 1.0),
+                                  (double)limits.jerk_up_e_radps3 / (per_V * usable_V()));
+        TEST_ASSERT_DOUBLE_WITHIN(1.0e-5, fmin(fmax(down_V / usable_V(), 0.4), 1.0),
+                                  (double)limits.jerk_down_e_radps3 / (per_V * usable_V()));
         TEST_ASSERT_TRUE(limits.near_e_radps == config.near_e_radps);
     }
 }

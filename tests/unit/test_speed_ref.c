@@ -14,14 +14,26 @@
 static support_random_t   random_state;
 static speed_ref_limits_t limits;
 
+static void set_jerk(float up, float down)
+{
+    limits.jerk_up_e_radps3   = up;
+    limits.jerk_down_e_radps3 = down;
+}
+
+/* The one that ends the acceleration on the way. */
+static double stopping_jerk(double direction)
+{
+    return (double)((direction > 0.0) ? limits.jerk_down_e_radps3 : limits.jerk_up_e_radps3);
+}
+
 void setUp(void)
 {
     random_state.state       = 3u;
     limits.accel_hi_e_radps2 = 6000.0f;
     limits.accel_lo_e_radps2 = -6000.0f;
-    limits.jerk_e_radps3     = 1.0e6f;
-    limits.near_e_radps      = FAR_e_radps;
-    limits.samples_1ps       = (float)(1.0 / (double)TS_s);
+    set_jerk(1.0e6f, 1.0e6f);
+    limits.near_e_radps = FAR_e_radps;
+    limits.samples_1ps  = (float)(1.0 / (double)TS_s);
 }
 
 void tearDown(void) {}
@@ -47,13 +59,17 @@ static double ulps(double speed)
 /* Relative rounding of accelerations and of the quotient that gives w_d''. */
 static void assert_within_limits(const speed_ref_t *before, const speed_ref_t *after)
 {
-    const double jerk   = (double)limits.jerk_e_radps3;
+    const double up     = (double)limits.jerk_up_e_radps3;
+    const double down   = (double)limits.jerk_down_e_radps3;
     const double top    = fmax((double)limits.accel_hi_e_radps2, -(double)limits.accel_lo_e_radps2);
     const double change = (double)after->omega_dot_e_radps2 - (double)before->omega_dot_e_radps2;
 
-    TEST_ASSERT_TRUE(fabs(change) <= (jerk * (double)TS_s) + (1.0e-6 * top));
-    TEST_ASSERT_TRUE(fabs((double)after->omega_2dot_e_radps3) <=
-                     (jerk * (1.0 + 1.0e-6)) + (1.0e-6 * top / (double)TS_s));
+    TEST_ASSERT_TRUE(change <= (up * (double)TS_s) + (1.0e-6 * top));
+    TEST_ASSERT_TRUE(-change <= (down * (double)TS_s) + (1.0e-6 * top));
+    TEST_ASSERT_TRUE((double)after->omega_2dot_e_radps3 <=
+                     (up * (1.0 + 1.0e-6)) + (1.0e-6 * top / (double)TS_s));
+    TEST_ASSERT_TRUE(-(double)after->omega_2dot_e_radps3 <=
+                     (down * (1.0 + 1.0e-6)) + (1.0e-6 * top / (double)TS_s));
     TEST_ASSERT_TRUE((double)after->omega_dot_e_radps2 <=
                      (double)limits.accel_hi_e_radps2 + (1.0e-6 * top));
     TEST_ASSERT_TRUE((double)after->omega_dot_e_radps2 >=
@@ -86,11 +102,12 @@ static void test_command_at_the_reference_changes_nothing(void)
  * j Ts^2 n (n + 1) / 2; between them the wish is the positive root of that quadratic in n. */
 static void test_wanted_acceleration_is_the_one_that_still_stops(void)
 {
-    const double step = (double)limits.jerk_e_radps3 * (double)TS_s;
+    set_jerk(1.0e6f, 1.7e6f);
     for (int n = 1; n <= 400; n++) {
-        const double distance = step * (double)TS_s * 0.5 * (double)n * (double)(n + 1);
         for (int direction = -1; direction <= 1; direction += 2) {
-            speed_ref_t r = started_at(0.0f);
+            const double step     = stopping_jerk(direction) * (double)TS_s;
+            const double distance = step * (double)TS_s * 0.5 * (double)n * (double)(n + 1);
+            speed_ref_t  r        = started_at(0.0f);
 
             update(&r, (float)(distance * (double)direction));
 
@@ -104,7 +121,7 @@ static void test_wish_of_the_last_step_lands_on_the_command(void)
 {
     for (int part = 1; part <= 100; part++) {
         const double distance =
-            0.01 * (double)part * (double)limits.jerk_e_radps3 * (double)TS_s * (double)TS_s;
+            0.01 * (double)part * stopping_jerk(1.0) * (double)TS_s * (double)TS_s;
         speed_ref_t r = started_at(0.0f);
 
         update(&r, (float)distance);
@@ -138,8 +155,11 @@ static void assert_travels(float start, float distance)
     const float  direction = (command < start) ? -1.0f : 1.0f;
     speed_ref_t  r         = started_at(start);
     const double rounding  = TOL_ULP * ulps(fmax(fabs((double)start), fabs((double)command)));
-    const double allowed =
-        rounding + (0.125 * (double)limits.jerk_e_radps3 * (double)TS_s * (double)TS_s);
+    /* Every period of the stop rounds the speed by half a spacing. */
+    const double step = stopping_jerk((double)direction) * (double)TS_s;
+    const double stop = fmax((double)limits.accel_hi_e_radps2, -(double)limits.accel_lo_e_radps2);
+    const double most = (0.125 * step * (double)TS_s) + (0.5 * (stop / step) * rounding / TOL_ULP);
+    const double allowed = rounding + most;
 
     for (int n = 0; n < 6000; n++) {
         const speed_ref_t before = r;
@@ -169,8 +189,9 @@ static void test_any_limits_are_kept_without_overshoot(void)
     for (int n = 0; n < 60; n++) {
         limits.accel_hi_e_radps2 = support_uniform(&random_state, 3000.0f, 10000.0f);
         limits.accel_lo_e_radps2 = -support_uniform(&random_state, 3000.0f, 10000.0f);
-        limits.jerk_e_radps3 =
-            powf(10.0f, support_uniform(&random_state, 5.0f, 7.5f)); /* from soft to one step */
+        /* from soft to one step; the two differ by at most the share of current_ref_speed_limits() */
+        const float jerk = powf(10.0f, support_uniform(&random_state, 5.0f, 7.5f));
+        set_jerk(jerk, jerk * support_uniform(&random_state, 0.4f, 2.5f));
         assert_travels(support_uniform(&random_state, -500.0f, 500.0f),
                        support_uniform(&random_state, -500.0f, 500.0f));
     }
@@ -206,7 +227,8 @@ static void test_derivatives_are_those_of_the_reference(void)
         const speed_ref_t before = r;
         limits.accel_hi_e_radps2 = support_uniform(&random_state, 0.0f, 9000.0f);
         limits.accel_lo_e_radps2 = -support_uniform(&random_state, 0.0f, 9000.0f);
-        limits.jerk_e_radps3     = support_uniform(&random_state, 1.0e5f, 3.0e6f);
+        set_jerk(support_uniform(&random_state, 1.0e5f, 3.0e6f),
+                 support_uniform(&random_state, 1.0e5f, 3.0e6f));
 
         update(&r, support_uniform(&random_state, -100.0f, 100.0f));
 
@@ -308,8 +330,8 @@ static void test_opposite_commands_give_opposite_references(void)
         const float              speed    = support_uniform(&random_state, -20.0f, 20.0f);
         const float              hi       = support_uniform(&random_state, 0.0f, 9000.0f);
         const float              lo       = -support_uniform(&random_state, 0.0f, 9000.0f);
-        const speed_ref_limits_t forward  = {hi, lo, 1.0e6f, 30.0f, limits.samples_1ps};
-        const speed_ref_limits_t mirrored = {-lo, -hi, 1.0e6f, 30.0f, limits.samples_1ps};
+        const speed_ref_limits_t forward  = {hi, lo, 1.0e6f, 1.7e6f, 30.0f, limits.samples_1ps};
+        const speed_ref_limits_t mirrored = {-lo, -hi, 1.7e6f, 1.0e6f, 30.0f, limits.samples_1ps};
 
         speed_ref_update(&plus, &forward, command, speed, TS_s);
         speed_ref_update(&minus, &mirrored, -command, -speed, TS_s);

@@ -24,15 +24,15 @@ constexpr double smallest_l1_ratio = 0.5;
 constexpr double trip_torque_ratio = 2.0;
 // Chosen: an encoder wrong by this much turns a tenth of the torque into flux.
 constexpr double trip_angle_rad = 0.45;
-// Chosen: 2 % of the torque stays for the feedback while the reference accelerates.
-constexpr double torque_share = 0.98;
+// Chosen: 0.5 % of the torque stays for the feedback while the reference accelerates.
+constexpr double torque_share = 0.995;
 // Chosen: regeneration is full up to 10 % above the nominal dc link and nothing at 25 %, below the trip.
 constexpr double regen_start_ratio = 1.10;
 constexpr double regen_end_ratio   = 1.25;
 // A surface magnet motor has no saliency; this many amperes stand for its infinite k of EQ-CURRENT-REF-2.
 constexpr double largest_mtpa_A = 1e6;
-// Chosen: 1 % of the voltage circle, and what the hexagon holds outside it, stay free for transients.
-constexpr double voltage_share = 0.99;
+// Chosen: 0.5 % of the voltage circle, and what the hexagon holds outside it, stay free for transients.
+constexpr double voltage_share = 0.995;
 // Chosen by simulation: of 10,000 random motors (docs/errata.md) 48 failed without this limit and 36 with it;
 // a smaller share deepens the dip after a load step.
 constexpr double speed_current_ratio = 0.25;

@@ -159,6 +159,30 @@ double QuadratureEncoder::edge_angle_rad(std::int64_t count, double edge_above_c
     return wrapped < 0.0 ? wrapped + two_pi : wrapped;
 }
 
+/// EQ-ENCODER-8: an edge alone in its period is in the middle of it. Should edges be timed from the next reading on, they
+/// follow this one.
+void QuadratureEncoder::read_counts(Reading &r, std::int64_t now)
+{
+    const double       per_count = pole_pairs_ * two_pi / static_cast<double>(counts_per_turn_);
+    const std::int64_t turned    = r.count - before_;
+    edge_age_s_                  = std::min(edge_age_s_ + period_s_, no_edge_s);
+    if (turned == 0) {
+        r.edge_gap_s = std::max(edge_age_s_, edge_gap_s_);
+        r.band_e_rad = 0.5 * per_count;
+    } else {
+        edge_gap_s_ = edge_age_s_ - 0.5 * period_s_;
+        edge_age_s_ = 0.5 * period_s_;
+        edge_       = turned > 0 ? now : now + 1;
+        edge_speed_ = r.omega_e_radps;
+    }
+    if (std::abs(turned) == 1) {
+        edge_speed_   = static_cast<double>(turned) * per_count / edge_gap_s_;
+        r.theta_e_rad = edge_angle_rad(r.count, turned > 0 ? 0.0 : 1.0);
+        r.edge_gap_s  = edge_gap_s_;
+        r.edge_age_s  = edge_age_s_;
+    }
+}
+
 QuadratureEncoder::Reading QuadratureEncoder::read(double theta_e_rad, double omega_e_radps)
 {
     ShaftPath path;
@@ -211,11 +235,8 @@ QuadratureEncoder::Reading QuadratureEncoder::read(const ShaftPath &path)
         } else { // no edge in this period: within the count
             r.band_e_rad = pole_pairs_ * two_pi / (2.0 * per_turn);
         }
-    } else { // should edges be timed from the next reading on
-        edge_       = now;
-        edge_age_s_ = 0.0;
-        edge_gap_s_ = 0.0;
-        edge_speed_ = r.omega_e_radps;
+    } else {
+        read_counts(r, now);
     }
     true_before_ = now;
     before_      = r.count;

@@ -9,6 +9,7 @@
 ///     omega_e = n_p (edge - edge before) 2 pi / (4 lines (t_edge - t_edge before))  EQ-ENCODER-5
 ///
 /// A period without an edge keeps the speed of EQ-ENCODER-5, but at most one count in the time since the edge.
+/// Without times an edge alone in its period is in the middle of it: EQ-ENCODER-5 and 6 with that (EQ-ENCODER-8).
 /// Edges have the time at which the shaft passes them on its path.
 #pragma once
 
@@ -74,6 +75,7 @@ private:
     double       edge_time_s(const PathPiece &piece, std::int64_t edge) const;
     void         note_last_edge(const ShaftPath &path, std::int64_t now);
     void         list_edges(const ShaftPath &path, std::vector<EncoderEdge> &edges) const;
+    void         read_counts(Reading &r, std::int64_t now);
     double       edge_angle_rad(std::int64_t count, double edge_above_cnt) const;
 
     SensorSettings settings_;
