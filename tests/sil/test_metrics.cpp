@@ -2,6 +2,7 @@
 #include "sil/eval/metrics.hpp"
 
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <set>
 #include <string>
@@ -325,8 +326,65 @@ TEST(Metrics, NoiseOfTheVoltagesIsTheirDeviationFromTheMeanInTheTail)
             -20.0 + (tail ? 2.0 * std::sin(0.1 * std::acos(-1.0) * static_cast<double>(k)) : 0.0);
     }
     const sdre::Metrics m = only(trace, 1.0);
-    EXPECT_NEAR(m.vq_noise_V, 3.0, 1e-9);
-    EXPECT_NEAR(m.vd_noise_V, std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(m.effort.vq_noise_V, 3.0, 1e-9);
+    EXPECT_NEAR(m.effort.vd_noise_V, std::sqrt(2.0), 1e-9);
+}
+
+/// Sines of torque and currents, half of them below 100 Hz: closed forms of the deviations and of the high-pass.
+TEST(Metrics, EffortIsTheDeviationOfTorqueAndCurrentAndItsPartAbove100Hz)
+{
+    const double two_pi = 2.0 * std::acos(-1.0);
+    auto         trace  = trace_of(
+                 5000, [](double) { return 100.0; }, 100.0);
+    const double ts = trace[1].time_s - trace[0].time_s;
+    for (sdre::TraceRow &r : trace) {
+        r.dc_link_V = 300.0;
+        r.vq_V      = 10.0 * std::sin(two_pi * 10.0 * r.time_s);
+        r.torque_Nm = 1.0 + 0.03 * std::sin(two_pi * 10.0 * r.time_s) +
+                      0.02 * std::sin(two_pi * 0.1 / ts * r.time_s);
+        r.iq_A = 2.0 + 0.05 * std::sin(two_pi * 0.1 / ts * r.time_s);
+        r.id_A = 0.02 * std::sin(two_pi * 0.1 / ts * r.time_s);
+    }
+    sdre::Motor motor;
+    motor.rated_torque_Nm = 2.0;
+    const sdre::Effort e  = sdre::effort_of(trace.begin(), trace.end(), motor, ts);
+
+    const double rms = std::sqrt(0.5);
+    EXPECT_NEAR(e.vq_noise_V, 10.0 * rms, 1e-3);
+    EXPECT_NEAR(e.vq_noise_percent, 100.0 * 10.0 * rms / (300.0 / std::sqrt(3.0)), 1e-2);
+    EXPECT_NEAR(e.iq_noise_A, 0.05 * rms, 1e-4);
+    EXPECT_NEAR(e.torque_noise_percent, 100.0 * std::hypot(0.03, 0.02) * rms / 2.0, 1e-2);
+    // |1 - (1 - p) / (z - p)| of the high-pass that takes the difference to the value before
+    const auto gain = [&](double hz) {
+        const double               p = std::exp(-two_pi * 100.0 * ts);
+        const std::complex<double> z = std::exp(std::complex<double>(0.0, two_pi * hz * ts));
+        return std::abs(1.0 - (1.0 - p) / (z - p));
+    };
+    const double slow = 0.03 * gain(10.0);
+    const double fast = gain(0.1 / ts);
+    EXPECT_NEAR(e.audible_torque_percent, 100.0 * std::hypot(slow, 0.02 * fast) * rms / 2.0, 1e-2);
+    EXPECT_NEAR(e.audible_current_A, std::hypot(0.05, 0.02) * fast * rms, 1e-4);
+}
+
+TEST(Metrics, EquivalentDelayIsTheDipOverTheUnansweredDeceleration)
+{
+    auto trace = trace_of(
+        100, [](double) { return 100.0; }, 100.0);
+    for (sdre::TraceRow &r : trace) {
+        r.load_torque_Nm = 1.5;
+    }
+    sdre::Motor motor;
+    motor.rated_torque_Nm = 1.5;
+    motor.inertia_kgm2    = 4.2e-4;
+    motor.pole_pairs      = 2;
+    const auto delay      = [&](double before_Nm) {
+        return sdre::equivalent_delay_s(trace.begin(), trace.end(), before_Nm, 5.0, motor);
+    };
+    EXPECT_NEAR(delay(0.75).value_or(0.0), 5.0 * 4.2e-4 / (2 * 0.75), 1e-12);
+    EXPECT_FALSE(delay(1.5)); // no step
+    EXPECT_FALSE(delay(2.0)); // relieved: no dip
+    trace.back().load_torque_Nm = 1.4;
+    EXPECT_FALSE(delay(0.75)); // another change follows
 }
 
 TEST(Metrics, NamesAreTheJsonKeys)
@@ -339,8 +397,8 @@ TEST(Metrics, NamesAreTheJsonKeys)
     m.ripple_e_radps             = 5.0;
     m.peak_current_A             = 6.0;
     m.steady_current_A           = 6.5;
-    m.vq_noise_V                 = 6.7;
-    m.vd_noise_V                 = 6.8;
+    m.effort                     = {6.7, 6.8, 6.81, 6.82, 6.83, 6.84, 6.85};
+    m.equivalent_delay_s         = 6.9;
     m.d_omega_hat                = 7.0;
     m.d_q_hat                    = 8.0;
     m.d_d_hat                    = 9.0;
@@ -366,6 +424,12 @@ TEST(Metrics, NamesAreTheJsonKeys)
                                                                {"steady_current_A", 6.5},
                                                                {"vq_noise_V", 6.7},
                                                                {"vd_noise_V", 6.8},
+                                                               {"vq_noise_percent", 6.81},
+                                                               {"iq_noise_A", 6.82},
+                                                               {"torque_noise_percent", 6.83},
+                                                               {"audible_torque_percent", 6.84},
+                                                               {"audible_current_A", 6.85},
+                                                               {"equivalent_delay_s", 6.9},
                                                                {"d_omega_hat", 7.0},
                                                                {"d_q_hat", 8.0},
                                                                {"d_d_hat", 9.0},

@@ -104,16 +104,9 @@ std::optional<double> current_distortion_percent(Iterator tail, Iterator end, do
     return 100.0 * std::sqrt(square) / fundamental;
 }
 
-/// Rms deviation from the mean.
-template <typename Value> double noise(Iterator tail, Iterator end, Value value)
+Metrics metrics_of(const Window &window, const Drive &drive, double load_before_Nm)
 {
-    const double middle = mean(tail, end, value);
-    return std::sqrt(
-        mean(tail, end, [&](const TraceRow &r) { return std::pow(value(r) - middle, 2); }));
-}
-
-Metrics metrics_of(const Window &window, const Motor &motor)
-{
+    const Motor &motor                      = drive.motor;
     const auto &[measure, begin, tail, end] = window;
 
     const double target     = (end - 1)->omega_ref_e_radps;
@@ -136,8 +129,7 @@ Metrics metrics_of(const Window &window, const Motor &motor)
     }
     m.steady_current_A =
         mean(tail, end, [](const TraceRow &r) { return std::hypot(r.id_A, r.iq_A); });
-    m.vq_noise_V  = noise(tail, end, [](const TraceRow &r) { return r.vq_V; });
-    m.vd_noise_V  = noise(tail, end, [](const TraceRow &r) { return r.vd_V; });
+    m.effort      = effort_of(tail, end, drive.motor, control_period_s(drive));
     m.d_omega_hat = mean(tail, end, [](const TraceRow &r) { return r.d_omega_hat; });
     m.d_q_hat     = mean(tail, end, [](const TraceRow &r) { return r.d_q_hat; });
     m.d_d_hat     = mean(tail, end, [](const TraceRow &r) { return r.d_d_hat; });
@@ -147,6 +139,8 @@ Metrics metrics_of(const Window &window, const Motor &motor)
         mean(tail, end, [](const TraceRow &r) { return r.sensor_offset_hat_A; });
     m.current_distortion_percent =
         current_distortion_percent(tail, end, m.id_A, m.iq_A, current_share * motor.max_current_A);
+    m.equivalent_delay_s =
+        equivalent_delay_s(begin, end, load_before_Nm, m.dip_e_radps, drive.motor);
     add_paper_b(m, begin, tail, end, motor.pole_pairs);
     return m;
 }
@@ -177,7 +171,8 @@ std::vector<Metrics> measure(const Scenario &scenario, const std::vector<TraceRo
 {
     std::vector<Metrics> out;
     for (const Window &window : windows_of(scenario, trace)) {
-        out.push_back(metrics_of(window, scenario.drive.motor));
+        const Iterator before = window.begin == trace.begin() ? window.begin : window.begin - 1;
+        out.push_back(metrics_of(window, scenario.drive, before->load_torque_Nm));
     }
     return out;
 }
@@ -192,8 +187,14 @@ std::vector<std::pair<std::string, double>> metric_values(const Metrics &m)
         {"ripple_e_radps", m.ripple_e_radps},
         {"peak_current_A", m.peak_current_A},
         {"steady_current_A", m.steady_current_A},
-        {"vq_noise_V", m.vq_noise_V},
-        {"vd_noise_V", m.vd_noise_V},
+        {"vq_noise_V", m.effort.vq_noise_V},
+        {"vd_noise_V", m.effort.vd_noise_V},
+        {"vq_noise_percent", m.effort.vq_noise_percent},
+        {"iq_noise_A", m.effort.iq_noise_A},
+        {"torque_noise_percent", m.effort.torque_noise_percent},
+        {"audible_torque_percent", m.effort.audible_torque_percent},
+        {"audible_current_A", m.effort.audible_current_A},
+        {"equivalent_delay_s", m.equivalent_delay_s},
         {"d_omega_hat", m.d_omega_hat},
         {"d_q_hat", m.d_q_hat},
         {"d_d_hat", m.d_d_hat},

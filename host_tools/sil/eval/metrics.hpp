@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "sil/eval/effort.hpp"
 #include "sil/run/simulation.hpp"
 #include "sil/setup/metric_names.hpp"
 
@@ -23,20 +24,20 @@ struct Metrics {
         settling_time_s; ///< last entry into the band; none when outside at the end
     /// Step: how far the speed falls back from the target after first reaching the band, and how far it goes
     /// beyond. Disturbance: largest deviation below and above the target.
-    double dip_e_radps                = 0.0;
-    double overshoot_e_radps          = 0.0;
-    double steady_state_error_e_radps = 0.0; ///< |mean error| in the tail
-    double ripple_e_radps             = 0.0; ///< (max - min) / 2 in the tail
-    double peak_current_A             = 0.0; ///< largest |i| in the window, between instants too
-    double steady_current_A           = 0.0; ///< mean |i| in the tail
-    double vq_noise_V          = 0.0; ///< effort: rms deviation of v_q from its mean in the tail
-    double vd_noise_V          = 0.0;
-    double d_omega_hat         = 0.0; ///< means in the tail [rad/s^2]
-    double d_q_hat             = 0.0; ///< [A/s]
-    double d_d_hat             = 0.0; ///< [A/s]
-    double iq_A                = 0.0;
-    double id_A                = 0.0;
-    double sensor_offset_hat_A = 0.0; ///< noc_h: estimate, mean in the tail
+    double                dip_e_radps                = 0.0;
+    double                overshoot_e_radps          = 0.0;
+    double                steady_state_error_e_radps = 0.0; ///< |mean error| in the tail
+    double                ripple_e_radps             = 0.0; ///< (max - min) / 2 in the tail
+    double                peak_current_A = 0.0; ///< largest |i| in the window, between instants too
+    double                steady_current_A = 0.0;    ///< mean |i| in the tail
+    Effort                effort;                    ///< of the tail
+    std::optional<double> equivalent_delay_s;        ///< of a load step at the measure's time
+    double                d_omega_hat         = 0.0; ///< means in the tail [rad/s^2]
+    double                d_q_hat             = 0.0; ///< [A/s]
+    double                d_d_hat             = 0.0; ///< [A/s]
+    double                iq_A                = 0.0;
+    double                id_A                = 0.0;
+    double                sensor_offset_hat_A = 0.0; ///< noc_h: estimate, mean in the tail
     /// All of the true phase currents but their fundamental, rms over that of the fundamental, in the tail. At constant
     /// speed: the deviation of (id, iq) from its mean over that mean. None when the fundamental is below 1 % of the drive's
     /// largest current (chosen: a ratio to less says nothing of the current).

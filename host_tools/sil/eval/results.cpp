@@ -21,6 +21,12 @@ constexpr MetricLabel labels[] = {
     {"steady_current_A", "steady current [A]", 1.0, "{:.3f}"},
     {"vq_noise_V", "v_q noise [V rms]", 1.0, "{:.1f}"},
     {"vd_noise_V", "v_d noise [V rms]", 1.0, "{:.1f}"},
+    {"vq_noise_percent", "v_q noise [% of circle]", 1.0, "{:.1f}"},
+    {"iq_noise_A", "i_q noise [A rms]", 1.0, "{:.3f}"},
+    {"torque_noise_percent", "torque noise [% rms]", 1.0, "{:.2f}"},
+    {"audible_torque_percent", "above 100 Hz [% rms]", 1.0, "{:.2f}"},
+    {"audible_current_A", "above 100 Hz [A rms]", 1.0, "{:.3f}"},
+    {"equivalent_delay_s", "equivalent delay [ms]", 1e3, "{:.2f}"},
     {"d_omega_hat", "d_omega [rad/s^2]", 1.0, "{:.0f}"},
     {"d_q_hat", "d_q [A/s]", 1.0, "{:.1f}"},
     {"d_d_hat", "d_d [A/s]", 1.0, "{:.1f}"},
@@ -69,8 +75,8 @@ std::string metric_text(const MetricLabel &label, const std::optional<double> &v
     if (value) {
         return fmt::format(fmt::runtime(label.format), label.factor * *value);
     }
-    const std::string name = label.metric;
-    return name.size() > 2 && name.substr(name.size() - 2) == "_s" ? "never" : "-";
+    const std::string name = label.metric; // what has not come by the end, or what there is none of
+    return name.rfind("settling", 0) == 0 || name.rfind("within", 0) == 0 ? "never" : "-";
 }
 
 const MetricLabel &metric_label(const std::string &metric)

@@ -14,6 +14,9 @@
 namespace sdre {
 namespace {
 
+// Fewer leave nothing beyond the quantile.
+constexpr int seeds_for_99_percent = 100;
+
 /// Metrics that have a value of their own rather than a size: their worst is the one furthest from the mean.
 bool is_signed(const std::string &metric)
 {
@@ -21,10 +24,17 @@ bool is_signed(const std::string &metric)
            metric == "iq_A" || metric == "id_A" || metric == "offset_rpm";
 }
 
+/// The value that this share of the sorted ones does not pass.
+double quantile(const std::vector<double> &sorted, double share)
+{
+    const double rank = std::ceil(share * static_cast<double>(sorted.size()));
+    return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
 SeedSpread spread_of(const std::string &metric, const std::vector<std::vector<Metrics>> &runs,
                      std::size_t measure)
 {
-    SeedSpread          s{metric, std::nullopt, std::nullopt};
+    SeedSpread          s{metric, {}, {}, {}, {}, {}};
     std::vector<double> values;
     for (const std::vector<Metrics> &run : runs) {
         for (const auto &[name, value] : metric_values(run[measure])) {
@@ -42,9 +52,12 @@ SeedSpread spread_of(const std::string &metric, const std::vector<std::vector<Me
     }
     s.mean              = sum / static_cast<double>(values.size());
     const double centre = is_signed(metric) ? *s.mean : 0.0;
-    s.worst = *std::max_element(values.begin(), values.end(), [centre](double a, double b) {
-        return std::abs(a - centre) < std::abs(b - centre);
-    });
+    std::sort(values.begin(), values.end(),
+              [centre](double a, double b) { return std::abs(a - centre) < std::abs(b - centre); });
+    s.worst  = values.back();
+    s.median = quantile(values, 0.5);
+    s.q95    = quantile(values, 0.95);
+    s.q99    = quantile(values, 0.99);
     return s;
 }
 
@@ -137,13 +150,20 @@ std::string seeds_json(const Scenario &scenario, const SeedRuns &runs)
 {
     Json measures = Json::object();
     for (const SeedMeasure &m : runs.measures) {
-        Json worst = Json::object();
-        Json mean  = Json::object();
+        Json worst  = Json::object();
+        Json q99    = Json::object();
+        Json q95    = Json::object();
+        Json median = Json::object();
+        Json mean   = Json::object();
         for (const SeedSpread &s : m.spread) {
-            worst[s.metric] = s.worst;
-            mean[s.metric]  = s.mean;
+            worst[s.metric]  = s.worst;
+            q99[s.metric]    = s.q99;
+            q95[s.metric]    = s.q95;
+            median[s.metric] = s.median;
+            mean[s.metric]   = s.mean;
         }
-        measures[m.name] = {{"time_s", m.time_s}, {"worst", worst}, {"mean", mean}};
+        measures[m.name] = {{"time_s", m.time_s}, {"worst", worst},   {"q99", q99},
+                            {"q95", q95},         {"median", median}, {"mean", mean}};
     }
     const Json out{{"scenario", scenario.name},
                    {"drive", scenario.drive.name},
@@ -169,17 +189,22 @@ std::string seeds_text(const Scenario &scenario, const SeedRuns &runs)
     if (runs.measures.empty()) {
         return s + no_measures;
     }
+    const bool many = runs.seeds >= seeds_for_99_percent;
     s += fmt::format("{:<26}", "");
     for (const SeedMeasure &m : runs.measures) {
-        s += fmt::format("{:>16}{:>12}", m.name + " worst", "mean");
+        s += fmt::format("{:>18}{:>9}{:>9}{:>9}", m.name + " worst", many ? "99 %" : "95 %",
+                         many ? "95 %" : "median", many ? "median" : "mean");
     }
     s += "\n";
     for (std::size_t row = 0; row < runs.measures[0].spread.size(); row++) {
         const MetricLabel &label = metric_label(runs.measures[0].spread[row].metric);
         s += fmt::format("{:<26}", label.text);
         for (const SeedMeasure &m : runs.measures) {
-            s += fmt::format("{:>16}{:>12}", metric_text(label, m.spread[row].worst),
-                             metric_text(label, m.spread[row].mean));
+            const SeedSpread &x = m.spread[row];
+            s += fmt::format("{:>18}{:>9}{:>9}{:>9}", metric_text(label, x.worst),
+                             metric_text(label, many ? x.q99 : x.q95),
+                             metric_text(label, many ? x.q95 : x.median),
+                             metric_text(label, many ? x.median : x.mean));
         }
         s += "\n";
     }

@@ -18,6 +18,9 @@ struct SeedSpread {
     std::optional<double>
         worst; ///< the value furthest from zero; of estimates and axis currents: from the mean
     std::optional<double> mean;
+    std::optional<double> median;
+    std::optional<double> q95; ///< 95 % of the seeds are nearer to zero, or to the mean
+    std::optional<double> q99;
 };
 
 struct SeedMeasure {

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+/// What a drive spends to hold a speed: read off the steady part of a measure.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "drive/drive_file.hpp"
+#include "sil/run/trace.hpp"
+
+namespace sdre {
+
+struct Effort {
+    double vq_noise_V           = 0.0; ///< rms deviation from the mean
+    double vd_noise_V           = 0.0;
+    double vq_noise_percent     = 0.0; ///< vq_noise_V of the voltage circle's radius
+    double iq_noise_A           = 0.0;
+    double torque_noise_percent = 0.0; ///< rms deviation from the mean, of the rated torque
+    /// Above 100 Hz (first-order high-pass), which is what one hears.
+    double audible_torque_percent = 0.0; ///< rms, of the rated torque
+    double audible_current_A      = 0.0; ///< rms of the vector (id, iq)
+};
+
+/// Rows from begin to end, one per control period.
+Effort effort_of(std::vector<TraceRow>::const_iterator begin,
+                 std::vector<TraceRow>::const_iterator end, const Motor &motor, double period_s);
+
+/// dip / (n_p dT / J), what the dip of a load step dT would take without any answer: no drive can answer before its sensor
+/// shows the step and its inverter has changed the current. None without a step at `begin`.
+std::optional<double> equivalent_delay_s(std::vector<TraceRow>::const_iterator begin,
+                                         std::vector<TraceRow>::const_iterator end,
+                                         double load_before_Nm, double dip_e_radps,
+                                         const Motor &motor);
+
+} // namespace sdre
