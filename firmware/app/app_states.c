@@ -137,15 +137,15 @@ static bool drive_watches(app_modes_t *m, const app_modes_input_t *in)
 /* RUN and STOP. */
 static bridge_t run(app_modes_t *m, const app_modes_input_t *in)
 {
-    const app_command_t stop  = {.omega_e_radps = 0.0f, .run = false, .reset = false};
-    const bool          brake = !in->command.run && (m->drive.state == DRIVE_RUN) &&
+    static const app_command_t stop = {.omega_e_radps = 0.0f, .run = false, .reset = false};
+
+    const bool brake = !in->command.run && (m->drive.state == DRIVE_RUN) &&
                        app_stop_is_braking(&m->stop, m->reading.omega_e_radps);
-    const bridge_t out = drive(m, brake ? &stop : &in->command, brake || in->command.run);
+    bridge_t out = drive(m, brake ? &stop : &in->command, brake || in->command.run);
 
     if (m->drive.state == DRIVE_FAULT) {
-        return app_states_trip(m, in, APP_FAULT_DRIVE);
-    }
-    if (in->command.run) {
+        out = app_states_trip(m, in, APP_FAULT_DRIVE);
+    } else if (in->command.run) {
         m->mode = APP_MODE_RUN;
     } else if (brake) {
         m->mode = APP_MODE_STOP;
@@ -220,6 +220,10 @@ static bridge_t in_fault(app_modes_t *m, const app_modes_input_t *in)
 
 bridge_t app_states_act(app_modes_t *m, const app_modes_input_t *in)
 {
+    if ((m->mode == APP_MODE_RUN) ||
+        (m->mode == APP_MODE_STOP)) { /* first: these ticks are the dearest */
+        return run(m, in);
+    }
     switch (m->mode) {
     case APP_MODE_BOOT:
         return boot(m);
@@ -233,7 +237,6 @@ bridge_t app_states_act(app_modes_t *m, const app_modes_input_t *in)
         return precharge(m, in);
     case APP_MODE_RUN:
     case APP_MODE_STOP:
-        return run(m, in);
     case APP_MODE_FAULT:
     default:
         break;
