@@ -4,8 +4,8 @@
 #include "app_modbus.h"
 #include "app_modes.h"
 
-/* A copy takes less than a hundredth of a period: the second one succeeds unless ticks overrun. */
-#define STATUS_COPIES 3U
+/* Reading takes less than a twentieth of a period: the second one succeeds unless ticks overrun. */
+#define STATUS_READS 3U
 
 #define CYCLES_SHOWN_MAX 65535UL
 
@@ -15,18 +15,18 @@ static volatile struct {
     uint32_t      ticks;            /* tick, at its end */
     bool          command_full;     /* background raises, tick lowers */
     app_command_t command;          /* background, while command_full is false */
-    uint16_t      status_sequence;  /* tick */
-    app_status_t  status;           /* tick */
+    uint16_t      board_faults;     /* tick, as the rest: for the status */
+    uint16_t      cycles;
+    uint16_t      cycles_worst;
 } shared;
 
-/* Only the tick. */
+/* Written by the tick only; app_status_read() looks at it. */
 static struct {
-    app_config_t  config;
-    app_modes_t   modes;
-    app_command_t command;
-    uint16_t      background_count;
-    uint16_t      background_age_ticks;
-    uint16_t      cycles_worst;
+    app_config_t      config;
+    app_modes_t       modes;
+    app_modes_input_t in;
+    uint16_t          background_count;
+    uint16_t          background_age_ticks;
 } tick_side;
 
 /* Only the background. */
@@ -41,10 +41,9 @@ static ctl_status_t init_tick_side(const app_config_t *config, const drive_confi
 {
     const app_command_t none = {.omega_e_radps = 0.0f, .run = false, .reset = false};
 
-    tick_side.command              = none;
+    tick_side.in.command           = none;
     tick_side.background_count     = 0U;
     tick_side.background_age_ticks = 0U;
-    tick_side.cycles_worst         = 0U;
     tick_side.config               = app_config_for(config, drive->hardware.updates_per_period);
     return app_modes_init(&tick_side.modes, &tick_side.config, drive);
 }
@@ -57,24 +56,25 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
                         tick_side.config.modbus_gap_ticks, tick_side.config.modbus_timeout_ticks);
 
     app_registers_init(&background_side.registers, drive->speed_max_e_radps);
-    background_side.status       = app_modes_status(&tick_side.modes, 0U);
     background_side.served_ticks = 0UL;
 
     shared.background_count = 0U;
     shared.ticks            = 0UL;
     shared.command_full     = false;
-    shared.command          = tick_side.command;
-    shared.status_sequence  = 0U;
-    shared.status           = background_side.status;
+    shared.command          = tick_side.in.command;
+    shared.board_faults     = 0U;
+    shared.cycles           = 0U;
+    shared.cycles_worst     = 0U;
+    background_side.status  = app_status_read();
     return ((modes == CTL_OK) && (modbus == CTL_OK)) ? CTL_OK : CTL_BAD_CONFIG;
 }
 
 static void take_command(void)
 {
-    tick_side.command.reset = false;
+    tick_side.in.command.reset = false;
     if (shared.command_full) {
-        tick_side.command   = shared.command;
-        shared.command_full = false;
+        tick_side.in.command = shared.command;
+        shared.command_full  = false;
     }
 }
 
@@ -105,36 +105,33 @@ static void drive_bridge(const bridge_t *out, bool was_on)
     }
 }
 
-static void publish(uint16_t board_faults, uint32_t start_cycles)
+/* The last thing of a tick: the count tells the background that what it was reading is old. */
+static void finish(uint16_t board_faults, uint32_t start_cycles)
 {
-    app_status_t   status = app_modes_status(&tick_side.modes, board_faults);
     const uint32_t cycles = (uint32_t)(board_cycles() - start_cycles);
+    const uint16_t shown  = (uint16_t)((cycles < CYCLES_SHOWN_MAX) ? cycles : CYCLES_SHOWN_MAX);
 
-    status.reset_cause = board_reset_cause();
-    status.tick_cycles = (uint16_t)((cycles < CYCLES_SHOWN_MAX) ? cycles : CYCLES_SHOWN_MAX);
-    if (status.tick_cycles > tick_side.cycles_worst) {
-        tick_side.cycles_worst = status.tick_cycles;
+    shared.board_faults = board_faults;
+    shared.cycles       = shown;
+    if (shown > shared.cycles_worst) {
+        shared.cycles_worst = shown;
     }
-    status.tick_cycles_worst = tick_side.cycles_worst;
-
-    shared.status          = status;
-    shared.status_sequence = (uint16_t)(shared.status_sequence + 1U);
-    shared.ticks           = shared.ticks + 1UL;
+    shared.ticks = shared.ticks + 1UL;
 }
 
 void app_tick(void)
 {
-    const uint32_t start_cycles = board_cycles();
+    const uint32_t           start_cycles = board_cycles();
+    app_modes_input_t *const in           = &tick_side.in;
 
     take_command();
-    const app_modes_input_t in     = {.raw             = board_sample_read(),
-                                      .board_faults    = board_fault_read(),
-                                      .background_lost = background_lost(),
-                                      .command         = tick_side.command};
-    const bool              was_on = tick_side.modes.gate_on;
-    const bridge_t          out    = app_modes_tick(&tick_side.modes, &in);
+    in->raw               = board_sample();
+    in->board_faults      = board_fault_read();
+    in->background_lost   = background_lost();
+    const bool     was_on = tick_side.modes.gate_on;
+    const bridge_t out    = app_modes_tick(&tick_side.modes, in);
     drive_bridge(&out, was_on);
-    publish(in.board_faults, start_cycles);
+    finish(in->board_faults, start_cycles);
 }
 
 static void serve_watchdog(uint32_t now_ticks)
@@ -171,13 +168,23 @@ bool app_command_write(const app_command_t *command)
     return true;
 }
 
+static app_status_t status_now(void)
+{
+    app_status_t status = app_modes_status(&tick_side.modes, shared.board_faults);
+
+    status.reset_cause       = board_reset_cause();
+    status.tick_cycles       = shared.cycles;
+    status.tick_cycles_worst = shared.cycles_worst;
+    return status;
+}
+
 app_status_t app_status_read(void)
 {
-    for (uint16_t copies = 0U; copies < STATUS_COPIES; copies++) {
-        const uint16_t     before = shared.status_sequence;
-        const app_status_t copy   = shared.status;
-        if (before == shared.status_sequence) {
-            background_side.status = copy;
+    for (uint16_t reads = 0U; reads < STATUS_READS; reads++) {
+        const uint32_t     before = shared.ticks;
+        const app_status_t status = status_now();
+        if (before == shared.ticks) {
+            background_side.status = status;
             break;
         }
     }

@@ -10,7 +10,7 @@
  * |---|---|---|
  * | life sign of the background, tick count | one side each | one aligned access, which the C28x does not split |
  * | command | background | written only while its flag is down, then raised; the tick takes it and lowers the flag |
- * | status | tick | a sequence number moves with every write; the background copies again when it moved |
+ * | status | tick | the background reads what the tick keeps, and again when the tick count has moved meanwhile |
  *
  * The tick interrupts the background, never the other way round.
  *
@@ -48,7 +48,7 @@ void app_background(void);
  */
 bool app_command_write(const app_command_t *command);
 
-/** The status of the last tick that could be copied whole. Context: background. */
+/** The status after the last tick during which nothing was read: of one instant. Context: background. */
 app_status_t app_status_read(void);
 
 /** The drive, for tracing; consistent only where no tick can interrupt. */

@@ -207,36 +207,33 @@ static void read_counts(app_angle_t *a, uint16_t position_cnt, int16_t turned_cn
     reading->omega_e_radps = plain.omega_e_radps;
 }
 
-app_angle_reading_t app_angle_update(app_angle_t *a, const board_sample_t *raw)
+void app_angle_update(app_angle_t *a, const board_sample_t *raw, app_angle_reading_t *reading)
 {
-    const uint16_t      position_cnt = raw->position_cnt;
-    app_angle_reading_t reading      = {.theta_e_rad   = 0.0f,
-                                        .band_rad      = 0.0f,
-                                        .edge_of_line  = 0,
-                                        .edge_gap_s    = 0.0f,
-                                        .edge_age_s    = 0.0f,
-                                        .omega_e_radps = 0.0f,
-                                        .speed_valid   = a->have_before,
-                                        .index_fault   = false};
+    const uint16_t position_cnt = raw->position_cnt;
 
-    if (raw->index_seen && !take_index(a, raw->index_cnt)) {
-        reading.index_fault = true;
-        a->reference        = APP_ANGLE_NONE;
+    reading->index_fault = raw->index_seen && !take_index(a, raw->index_cnt);
+    if (reading->index_fault) {
+        a->reference = APP_ANGLE_NONE;
     }
-    reading.theta_e_rad = theta_at(a, position_cnt, 1U);
+    reading->theta_e_rad   = theta_at(a, position_cnt, 1U);
+    reading->band_rad      = 0.0f;
+    reading->edge_of_line  = 0;
+    reading->edge_gap_s    = 0.0f;
+    reading->edge_age_s    = 0.0f;
+    reading->omega_e_radps = 0.0f;
+    reading->speed_valid   = a->have_before;
     if (a->have_before) {
         const int16_t turned_cnt = app_angle_turned_cnt(a->before_cnt, position_cnt);
 
-        reading.omega_e_radps = (float)turned_cnt * a->radps_per_cnt;
+        reading->omega_e_radps = (float)turned_cnt * a->radps_per_cnt;
         if (a->edge_times) {
-            read_times(a, raw, turned_cnt, &reading);
+            read_times(a, raw, turned_cnt, reading);
         } else {
-            read_counts(a, position_cnt, turned_cnt, &reading);
+            read_counts(a, position_cnt, turned_cnt, reading);
         }
     }
     a->before_cnt  = position_cnt;
     a->have_before = true;
-    return reading;
 }
 
 void app_angle_align(app_angle_t *a, uint16_t position_cnt)

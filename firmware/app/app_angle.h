@@ -87,7 +87,7 @@ ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *config,
  *
  * Context: control ISR, once per tick. One integer division; with edge times two divisions more.
  */
-app_angle_reading_t app_angle_update(app_angle_t *a, const board_sample_t *raw);
+void app_angle_update(app_angle_t *a, const board_sample_t *raw, app_angle_reading_t *reading);
 
 /** The rotor's d axis stands at phase a, here. Context: control ISR. */
 void app_angle_align(app_angle_t *a, uint16_t position_cnt);

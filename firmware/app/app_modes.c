@@ -72,10 +72,10 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *c, const drive_c
 /* SI units and angle of this tick. After an invalid sample the count cannot be trusted any more. */
 static void measure(app_modes_t *m, const board_sample_t *raw)
 {
-    m->sample = app_scale_sample(&m->scale, raw);
+    app_scale_sample(&m->scale, raw, &m->sample);
     if (m->sample.valid) {
-        m->reading = app_angle_update(&m->angle, raw);
-        m->hot     = !m->sample.temperature_valid ||
+        app_angle_update(&m->angle, raw, &m->reading);
+        m->hot = !m->sample.temperature_valid ||
                  !(m->sample.temperature_degC <= m->config->temperature_limit_degC);
         m->dc_link_out  = !base_in_range(m->sample.dc_link_V, m->drive.config->dc_link_min_V,
                                          m->drive.config->dc_link_max_V);
@@ -120,7 +120,7 @@ bridge_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in)
         return bridge_open();
     }
     m->ticks++;
-    measure(m, &in->raw);
+    measure(m, in->raw);
 
     const app_fault_t fault = (m->mode == APP_MODE_FAULT) ? APP_FAULT_NONE : watch(m, in);
     const bridge_t    out =

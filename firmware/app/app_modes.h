@@ -21,10 +21,10 @@
 #include "app_status.h"
 
 typedef struct {
-    board_sample_t raw;
-    uint16_t       board_faults;
-    bool           background_lost; /**< the background has not run for too long */
-    app_command_t  command;         /**< reset is true for one tick only */
+    const board_sample_t *raw;
+    uint16_t              board_faults;
+    bool                  background_lost; /**< the background has not run for too long */
+    app_command_t         command;         /**< reset is true for one tick only */
 } app_modes_input_t;
 
 typedef struct {
@@ -64,7 +64,7 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *config,
 /** Context: control ISR. Bounded: drive_tick() or app_align_tick() and about as much again. */
 bridge_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in);
 
-/** Everything but the cycle counts. Context: control ISR, after app_modes_tick(). */
-app_status_t app_modes_status(const app_modes_t *m, uint16_t board_faults);
+/** Everything but the reset's cause and the cycle counts; of one tick, unless one interrupts. Context: background. */
+app_status_t app_modes_status(const volatile app_modes_t *m, uint16_t board_faults);
 
 #endif /* APP_MODES_H */

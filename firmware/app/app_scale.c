@@ -77,7 +77,8 @@ static void convert_temperature(const app_scale_t *s, uint16_t code_cnt, app_sca
         return;
     }
     const uint16_t from_cnt = (uint16_t)(code_cnt - c->ntc_first_cnt);
-    const uint16_t point    = (uint16_t)(from_cnt / c->ntc_step_cnt);
+    /* The quotient is at least half a code from a whole number, so that rounding cannot move it across. */
+    const uint16_t point = (uint16_t)(((float)from_cnt + 0.5f) * s->inv_ntc_step);
     if ((uint16_t)(point + 1U) >= c->ntc_points) { /* nothing to draw the line to */
         return;
     }
@@ -88,23 +89,21 @@ static void convert_temperature(const app_scale_t *s, uint16_t code_cnt, app_sca
     out->temperature_valid  = true;
 }
 
-app_scale_sample_t app_scale_sample(const app_scale_t *s, const board_sample_t *raw)
+void app_scale_sample(const app_scale_t *s, const board_sample_t *raw, app_scale_sample_t *out)
 {
-    const app_scale_config_t *c   = s->config;
-    app_scale_sample_t        out = {.ia_A              = 0.0f,
-                                     .ib_A              = 0.0f,
-                                     .dc_link_V         = 0.0f,
-                                     .temperature_degC  = 0.0f,
-                                     .temperature_valid = false,
-                                     .valid             = false};
+    const app_scale_config_t *c = s->config;
 
-    if (!raw_ok(raw)) {
-        return out;
+    out->valid             = raw_ok(raw);
+    out->temperature_valid = false;
+    out->temperature_degC  = 0.0f;
+    if (!out->valid) {
+        out->ia_A      = 0.0f;
+        out->ib_A      = 0.0f;
+        out->dc_link_V = 0.0f;
+        return;
     }
-    out.ia_A      = c->current_A_per_cnt * ((float)raw->ia_cnt - s->zero_a_cnt);
-    out.ib_A      = c->current_A_per_cnt * ((float)raw->ib_cnt - s->zero_b_cnt);
-    out.dc_link_V = c->dc_link_V_per_cnt * (float)raw->dc_link_cnt;
-    convert_temperature(s, raw->temperature_cnt, &out);
-    out.valid = true;
-    return out;
+    out->ia_A      = c->current_A_per_cnt * ((float)raw->ia_cnt - s->zero_a_cnt);
+    out->ib_A      = c->current_A_per_cnt * ((float)raw->ib_cnt - s->zero_b_cnt);
+    out->dc_link_V = c->dc_link_V_per_cnt * (float)raw->dc_link_cnt;
+    convert_temperature(s, raw->temperature_cnt, out);
 }

@@ -58,7 +58,7 @@ ctl_status_t app_scale_init(app_scale_t *s, const app_scale_config_t *config, fl
  */
 bool app_scale_set_zero(app_scale_t *s, uint32_t sum_a_cnt, uint32_t sum_b_cnt, uint16_t count);
 
-/** Context: control ISR. No division of floats. */
-app_scale_sample_t app_scale_sample(const app_scale_t *s, const board_sample_t *raw);
+/** Context: control ISR. No division. */
+void app_scale_sample(const app_scale_t *s, const board_sample_t *raw, app_scale_sample_t *out);
 
 #endif /* APP_SCALE_H */

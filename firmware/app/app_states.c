@@ -44,7 +44,7 @@ bridge_t app_states_trip(app_modes_t *m, const app_modes_input_t *in, app_fault_
                                           .mode           = m->mode,
                                           .drive_fault    = m->drive.fault,
                                           .board_faults   = in->board_faults,
-                                          .raw            = in->raw,
+                                          .raw            = *in->raw,
                                           .speed_e_radps  = m->reading.omega_e_radps,
                                           .wanted_e_radps = in->command.omega_e_radps,
                                           .ticks          = m->ticks};
@@ -74,8 +74,8 @@ static bridge_t boot(app_modes_t *m)
 
 static bridge_t calibrate(app_modes_t *m, const app_modes_input_t *in)
 {
-    m->sum_a_cnt += in->raw.ia_cnt;
-    m->sum_b_cnt += in->raw.ib_cnt;
+    m->sum_a_cnt += in->raw->ia_cnt;
+    m->sum_b_cnt += in->raw->ib_cnt;
     m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
     if (m->timer_ticks < m->config->calibrate_ticks) {
         return bridge_open();
@@ -114,7 +114,7 @@ static bridge_t ready(app_modes_t *m, const app_modes_input_t *in)
     if (start && (m->angle.reference != APP_ANGLE_NONE)) {
         enter_run(m);
     } else if (start) {
-        app_align_start(&m->align, in->raw.position_cnt);
+        app_align_start(&m->align, in->raw->position_cnt);
         enter(m, APP_MODE_ALIGN);
     }
     return bridge_open();
@@ -137,15 +137,15 @@ static bool drive_watches(app_modes_t *m, const app_modes_input_t *in)
 /* RUN and STOP. */
 static bridge_t run(app_modes_t *m, const app_modes_input_t *in)
 {
-    const app_command_t stop  = {.omega_e_radps = 0.0f, .run = false, .reset = false};
-    const bool          brake = !in->command.run && (m->drive.state == DRIVE_RUN) &&
+    static const app_command_t stop = {.omega_e_radps = 0.0f, .run = false, .reset = false};
+
+    const bool brake = !in->command.run && (m->drive.state == DRIVE_RUN) &&
                        app_stop_is_braking(&m->stop, m->reading.omega_e_radps);
-    const bridge_t out = drive(m, brake ? &stop : &in->command, brake || in->command.run);
+    bridge_t out = drive(m, brake ? &stop : &in->command, brake || in->command.run);
 
     if (m->drive.state == DRIVE_FAULT) {
-        return app_states_trip(m, in, APP_FAULT_DRIVE);
-    }
-    if (in->command.run) {
+        out = app_states_trip(m, in, APP_FAULT_DRIVE);
+    } else if (in->command.run) {
         m->mode = APP_MODE_RUN;
     } else if (brake) {
         m->mode = APP_MODE_STOP;
@@ -186,12 +186,12 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
         return (m->mode == APP_MODE_RUN) ? run(m, in) : bridge_open();
     }
     const bridge_t out = app_align_tick(&m->align, m->sample.ia_A, m->sample.ib_A,
-                                        m->sample.dc_link_V, in->raw.position_cnt);
+                                        m->sample.dc_link_V, in->raw->position_cnt);
     if (m->align.stage == APP_ALIGN_FAILED) {
         return app_states_trip(m, in, APP_FAULT_ALIGN);
     }
     if (m->align.stage == APP_ALIGN_DONE) {
-        app_angle_align(&m->angle, in->raw.position_cnt);
+        app_angle_align(&m->angle, in->raw->position_cnt);
         enter(m, APP_MODE_RUN);
     }
     return out;
@@ -220,6 +220,10 @@ static bridge_t in_fault(app_modes_t *m, const app_modes_input_t *in)
 
 bridge_t app_states_act(app_modes_t *m, const app_modes_input_t *in)
 {
+    if ((m->mode == APP_MODE_RUN) ||
+        (m->mode == APP_MODE_STOP)) { /* first: these ticks are the dearest */
+        return run(m, in);
+    }
     switch (m->mode) {
     case APP_MODE_BOOT:
         return boot(m);
@@ -233,7 +237,6 @@ bridge_t app_states_act(app_modes_t *m, const app_modes_input_t *in)
         return precharge(m, in);
     case APP_MODE_RUN:
     case APP_MODE_STOP:
-        return run(m, in);
     case APP_MODE_FAULT:
     default:
         break;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_modes.h"
 
-app_status_t app_modes_status(const app_modes_t *m, uint16_t board_faults)
+app_status_t app_modes_status(const volatile app_modes_t *m, uint16_t board_faults)
 {
     const bool   running = (m->mode == APP_MODE_RUN) || (m->mode == APP_MODE_STOP);
     const dq_t   zero    = {0.0f, 0.0f};

@@ -74,8 +74,8 @@ bool board_init(void);
  */
 void board_start(void (*tick)(void), uint16_t updates_per_period);
 
-/** The sample of this period; the same one for the whole tick. Context: control ISR. */
-board_sample_t board_sample_read(void);
+/** The sample of this period; it stays as it is for the whole tick. Context: control ISR. */
+const board_sample_t *board_sample(void);
 
 /** Duty ratios that act from the start of the next period. Context: control ISR. */
 void board_duty_write(const board_duty_t *duty);

@@ -23,7 +23,21 @@ typedef struct {
 /** true when every constant is finite and within its documented range. Context: init. */
 bool dead_time_check(const dead_time_config_t *c);
 
+/* Inline, because a call costs more than the arithmetic. In C and C++: members are set in their order. */
+
+/** EQ-DEAD-TIME-1 of one phase. */
+static inline float dead_time_duty(const dead_time_config_t *c, float duty, float i_A)
+{
+    const float direction = base_clamp(i_A * c->inv_fade_1pA, -1.0f, 1.0f);
+    return duty + (c->share * direction);
+}
+
 /** Duty ratios with EQ-DEAD-TIME-1 added; bridge_closed() limits them. Context: control ISR. No division. */
-abc_t dead_time_compensate(const dead_time_config_t *c, abc_t duty, abc_t i_A);
+static inline abc_t dead_time_compensate(const dead_time_config_t *c, abc_t duty, abc_t i_A)
+{
+    const abc_t out = {dead_time_duty(c, duty.a, i_A.a), dead_time_duty(c, duty.b, i_A.b),
+                       dead_time_duty(c, duty.c, i_A.c)};
+    return out;
+}
 
 #endif /* DEAD_TIME_H */

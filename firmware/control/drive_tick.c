@@ -4,7 +4,6 @@
 #include <stddef.h>
 
 #include "frames.h"
-#include "svpwm.h"
 #include "voltage.h"
 
 /* Beyond anything a law asks for, and below where squares overflow. */
@@ -102,12 +101,11 @@ static bridge_t modulate(drive_t *d, float dc_link_V)
     const dq_t            i_A   = {.d = out->now.id_A, .q = out->now.iq_A};
 
     const voltage_t v     = voltage_produce(out->v_V, angle, dc_link_V, c->overmodulation);
-    const abc_t     duty  = svpwm_duty(frames_inverse_park(v.v_V, angle), dc_link_V);
     const abc_t     i_abc = frames_inverse_clarke(frames_inverse_park(i_A, angle));
 
     d->v_V       = v.v_V;
     d->v_limited = v.limited;
-    return bridge_closed(dead_time_compensate(&c->dead_time, duty, i_abc));
+    return bridge_closed(dead_time_compensate(&c->dead_time, v.duty, i_abc));
 }
 
 static bridge_t run(drive_t *d, const drive_sample_t *sample, float command_e_radps)

@@ -16,6 +16,8 @@
 #include "motor.h"
 #include "nodo.h"
 
+/* Inline, because a law asks twice for it when a voltage is out of reach. In C and C++: members are set in their order. */
+
 /**
  * @param m           Reduced parameters.
  * @param ref         Current references and derivatives.
@@ -26,8 +28,17 @@
  *
  * Context: control ISR. Pure, no division.
  */
-dq_t feedforward_V(const motor_reduced_t *m, const current_ref_t *ref, float w_d_e_radps,
-                   const nodo_meas_t *y, const nodo_t *est);
+static inline dq_t feedforward_V(const motor_reduced_t *m, const current_ref_t *ref,
+                                 float w_d_e_radps, const nodo_meas_t *y, const nodo_t *est)
+{
+    const float w   = y->omega_e_radps;
+    const dq_t  u_V = {
+         /* EQ-FEEDFORWARD-2, EQ-FEEDFORWARD-1 */
+        m->inv_l8 * ((m->l7 * ref->i_A.d) + ref->i_dot_Aps.d - (m->l9 * w * y->iq_A) - est->d_d),
+        m->inv_l6 * ((m->l4 * ref->i_A.q) + (m->l5 * w_d_e_radps) + ref->i_dot_Aps.q +
+                     (m->l10 * w * y->id_A) - est->d_q)};
+    return u_V;
+}
 
 /**
  * @brief q voltage that keeps the q current where it is at the present speed:

@@ -96,13 +96,3 @@ void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c
     out->d_d       = view->est->d_d;
     out->plausible = view->plausible;
 }
-
-void near_optimal_step(near_optimal_t *s, const near_optimal_config_t *c,
-                       const drive_config_t *drive, const near_optimal_view_t *view,
-                       const law_input_t *in, law_output_t *out)
-{
-    const nosc_error_t e = near_optimal_error(s, c, drive, view, in);
-
-    near_optimal_answer(s, c, &drive->motor, view, &e, nosc_feedback_V(&c->nosc, &e),
-                        in->sample->dc_link_V, out);
-}

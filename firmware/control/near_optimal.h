@@ -63,9 +63,19 @@ void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c
                          const nosc_error_t *e, dq_t feedback_V, float dc_link_V,
                          law_output_t *out);
 
-/** Both, with the feedback of nosc.h between them: the rest of a period after the observer. Context: control ISR. */
-void near_optimal_step(near_optimal_t *s, const near_optimal_config_t *c,
-                       const drive_config_t *drive, const near_optimal_view_t *view,
-                       const law_input_t *in, law_output_t *out);
+/**
+ * @brief Both, with the feedback of nosc.h between them: the rest of a period after the observer.
+ *
+ * Inline, because it is no more than three calls. Context: control ISR.
+ */
+static inline void near_optimal_step(near_optimal_t *s, const near_optimal_config_t *c,
+                                     const drive_config_t *drive, const near_optimal_view_t *view,
+                                     const law_input_t *in, law_output_t *out)
+{
+    const nosc_error_t e = near_optimal_error(s, c, drive, view, in);
+
+    near_optimal_answer(s, c, &drive->motor, view, &e, nosc_feedback_V(&c->nosc, &e),
+                        in->sample->dc_link_V, out);
+}
 
 #endif /* NEAR_OPTIMAL_H */

@@ -35,9 +35,13 @@ void nodo_update(nodo_t *x, const nodo_gains_t *g, const motor_reduced_t *m, con
     x->id_A += ts_s * ((m->l8 * v_V.d) - (m->l7 * id) + (m->l9 * iq_s * w) + x->d_d);
 
     /* EQ-NODO-2: L_n meets iq^^n Ts (y - C_d x^); L itself is never formed. */
-    for (int16_t n = 0; n <= g->order; n++) {
-        nodo_add_correction(x, g->gain[n], ((uint16_t)n & 1U) == 0U, COLUMN_ID, &r);
-        r = nodo_next_power(r, iq_A);
+    for (int16_t n = 0; n <= g->order; n = (int16_t)(n + 2)) {
+        nodo_add_even(x, g->gain[n], COLUMN_ID, &r);
+        if (n < g->order) {
+            r = nodo_next_power(r, iq_A);
+            nodo_add_odd(x, g->gain[n + 1], COLUMN_ID, &r);
+            r = nodo_next_power(r, iq_A);
+        }
     }
 }
 

@@ -57,32 +57,45 @@ typedef struct {
     float id;
 } nodo_innovation_t;
 
-/** Adds L_n r to the six estimates; l holds at least the rows of nodo_t, id stands in column id_column. Inline: the
+/* Adds L_n r to the six estimates; l holds at least the rows of nodo_t, id stands in column id_column. Inline: the
  * heart of both observers, and the column is known to each. */
-static inline void nodo_add_correction(nodo_t *x, const float (*l)[NODO_N_Y], bool even,
-                                       int16_t id_column, const nodo_innovation_t *r)
+
+/** Column of the second odd signal: 2 of (iq, id, theta), 1 of (w, iq, id); the first one stands in column 0. */
+static inline int16_t nodo_second_column(int16_t id_column)
 {
-    const int16_t first  = 0;
-    const int16_t second = (int16_t)(3 - id_column); /* 2 of (iq, id, theta), 1 of (w, iq, id) */
+    return (int16_t)(3 - id_column);
+}
+
+/** L_n r of an even n. */
+static inline void nodo_add_even(nodo_t *x, const float (*l)[NODO_N_Y], int16_t id_column,
+                                 const nodo_innovation_t *r)
+{
+    const int16_t second = nodo_second_column(id_column);
     const float   a      = r->odd[0];
     const float   b      = r->odd[1];
-    const float   c      = r->id;
 
-    if (even) {
-        x->d_omega += (l[0][first] * a) + (l[0][second] * b);
-        x->d_q += (l[1][first] * a) + (l[1][second] * b);
-        x->d_d += l[2][id_column] * c;
-        x->omega_e_radps += (l[3][first] * a) + (l[3][second] * b);
-        x->iq_A += (l[4][first] * a) + (l[4][second] * b);
-        x->id_A += l[5][id_column] * c;
-    } else {
-        x->d_omega += l[0][id_column] * c;
-        x->d_q += l[1][id_column] * c;
-        x->d_d += (l[2][first] * a) + (l[2][second] * b);
-        x->omega_e_radps += l[3][id_column] * c;
-        x->iq_A += l[4][id_column] * c;
-        x->id_A += (l[5][first] * a) + (l[5][second] * b);
-    }
+    x->d_omega += (l[0][0] * a) + (l[0][second] * b);
+    x->d_q += (l[1][0] * a) + (l[1][second] * b);
+    x->d_d += l[2][id_column] * r->id;
+    x->omega_e_radps += (l[3][0] * a) + (l[3][second] * b);
+    x->iq_A += (l[4][0] * a) + (l[4][second] * b);
+    x->id_A += l[5][id_column] * r->id;
+}
+
+/** L_n r of an odd n. */
+static inline void nodo_add_odd(nodo_t *x, const float (*l)[NODO_N_Y], int16_t id_column,
+                                const nodo_innovation_t *r)
+{
+    const int16_t second = nodo_second_column(id_column);
+    const float   a      = r->odd[0];
+    const float   b      = r->odd[1];
+
+    x->d_omega += l[0][id_column] * r->id;
+    x->d_q += l[1][id_column] * r->id;
+    x->d_d += (l[2][0] * a) + (l[2][second] * b);
+    x->omega_e_radps += l[3][id_column] * r->id;
+    x->iq_A += l[4][id_column] * r->id;
+    x->id_A += (l[5][0] * a) + (l[5][second] * b);
 }
 
 /** true when the first rows of an even or odd L_n are zero where its parity says so. Context: init. */

@@ -11,19 +11,25 @@ void nodo_encoder_correct(nodo_t *x, float *theta_rad, const nodo_encoder_gains_
 {
     const float       iq_A  = base_clamp(x->iq_A, -g->iq_max_A, g->iq_max_A);
     float             theta = *theta_rad;
+    nodo_t            sum   = *x; /* in registers, as far as they go */
     nodo_innovation_t r     = {.odd = {ts_s * (i_A.q - x->iq_A), ts_s * angle_error},
                                .id  = ts_s * (i_A.d - x->id_A)};
 
     /* EQ-NODO-ENCODER-1 and 3: L_n meets iq^^n Ts (y - C x^); L itself is never formed. */
-    for (int16_t n = 0; n <= g->order; n++) {
-        const bool   even = ((uint16_t)n & 1U) == 0U;
-        const float *l    = g->gain[n][ROW_THETA];
+    for (int16_t n = 0; n <= g->order; n = (int16_t)(n + 2)) {
+        const float(*l)[NODO_ENCODER_N_Y] = g->gain[n];
 
-        nodo_add_correction(x, g->gain[n], even, COLUMN_ID, &r);
-        theta += even ? ((l[COLUMN_IQ] * r.odd[0]) + (l[COLUMN_THETA] * r.odd[1]))
-                      : (l[COLUMN_ID] * r.id);
-        r = nodo_next_power(r, iq_A);
+        nodo_add_even(&sum, l, COLUMN_ID, &r);
+        theta += (l[ROW_THETA][COLUMN_IQ] * r.odd[0]) + (l[ROW_THETA][COLUMN_THETA] * r.odd[1]);
+        if (n < g->order) {
+            l = g->gain[n + 1];
+            r = nodo_next_power(r, iq_A);
+            nodo_add_odd(&sum, l, COLUMN_ID, &r);
+            theta += l[ROW_THETA][COLUMN_ID] * r.id;
+            r = nodo_next_power(r, iq_A);
+        }
     }
+    *x         = sum;
     *theta_rad = frames_wrap(theta);
 }
 

@@ -16,18 +16,39 @@ static float of_id(const float row[NOSC_N_E], const nosc_error_t *e)
     return row[COLUMN_ID] * e->id_A;
 }
 
+/* A step of Horner: the sum so far times e_iq, and Lambda_n e of an even or odd n. */
+static dq_t even_terms_V(dq_t sum_V, const float l[NOSC_N_U][NOSC_N_E], float eiq_A,
+                         const nosc_error_t *e)
+{
+    const dq_t next_V = {.d = (sum_V.d * eiq_A) + of_id(l[ROW_D], e),
+                         .q = (sum_V.q * eiq_A) + of_speed_and_iq(l[ROW_Q], e)};
+    return next_V;
+}
+
+static dq_t odd_terms_V(dq_t sum_V, const float l[NOSC_N_U][NOSC_N_E], float eiq_A,
+                        const nosc_error_t *e)
+{
+    const dq_t next_V = {.d = (sum_V.d * eiq_A) + of_speed_and_iq(l[ROW_D], e),
+                         .q = (sum_V.q * eiq_A) + of_id(l[ROW_Q], e)};
+    return next_V;
+}
+
 dq_t nosc_feedback_V(const nosc_gains_t *g, const nosc_error_t *e)
 {
     const float eiq_A = base_clamp(e->iq_A, -g->iq_error_max_A, g->iq_error_max_A);
+    int16_t     n     = g->order;
     dq_t        ke_V  = {0.0f, 0.0f};
 
-    /* EQ-NOSC-2 by Horner on the vectors Lambda_n e: Lambda itself is never formed. */
-    for (int16_t n = g->order; n >= 0; n--) {
-        const float(*l)[NOSC_N_E] = g->lambda[n];
-        const bool even           = ((uint16_t)n & 1U) == 0U;
-
-        ke_V.q = (ke_V.q * eiq_A) + (even ? of_speed_and_iq(l[ROW_Q], e) : of_id(l[ROW_Q], e));
-        ke_V.d = (ke_V.d * eiq_A) + (even ? of_id(l[ROW_D], e) : of_speed_and_iq(l[ROW_D], e));
+    /* EQ-NOSC-2 by Horner on the vectors Lambda_n e: Lambda itself is never formed. An even n in every pass. */
+    if (((uint16_t)n & 1U) != 0U) {
+        ke_V = odd_terms_V(ke_V, g->lambda[n], eiq_A, e);
+        n--;
+    }
+    ke_V = even_terms_V(ke_V, g->lambda[n], eiq_A, e);
+    while (n > 0) {
+        ke_V = odd_terms_V(ke_V, g->lambda[n - 1], eiq_A, e);
+        ke_V = even_terms_V(ke_V, g->lambda[n - 2], eiq_A, e);
+        n    = (int16_t)(n - 2);
     }
 
     const dq_t u_V = {.d = -ke_V.d, .q = -ke_V.q}; /* EQ-NOSC-1 */

@@ -26,11 +26,17 @@
  */
 abc_t svpwm_duty(ab_t v_V, float v_dc_V);
 
+/** What the inverter can produce of a vector. */
+typedef struct {
+    abc_t duty;  /**< of share times the vector, in [0, 1] */
+    float share; /**< EQ-SVPWM-2, at most 1 */
+} svpwm_t;
+
 /**
- * @brief The share of a vector that the inverter can produce, EQ-SVPWM-2, at most 1.
+ * @brief As svpwm_duty() for the part of a vector within the hexagon: there v_dc cancels, and one division makes both.
  *
  * Context: control ISR. One division.
  */
-float svpwm_share(ab_t v_V, float v_dc_V);
+svpwm_t svpwm_within(ab_t v_V, float v_dc_V);
 
 #endif /* SVPWM_H */

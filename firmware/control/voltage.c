@@ -7,15 +7,14 @@
 
 voltage_t voltage_produce(dq_t u_V, frames_angle_t angle, float dc_link_V, bool overmodulation)
 {
-    voltage_t out = {.v_V = u_V, .limited = false};
+    const bool  round    = !overmodulation && voltage_is_outside(u_V, dc_link_V);
+    const float circle   = round ? (dc_link_V * BASE_1_SQRT3 / sqrtf(voltage_square(u_V))) : 1.0f;
+    const dq_t  within_V = {.d = circle * u_V.d, .q = circle * u_V.q};
 
-    if (voltage_is_outside(u_V, dc_link_V)) { /* EQ-VOLTAGE-1 */
-        const float share = overmodulation
-                                ? svpwm_share(frames_inverse_park(u_V, angle), dc_link_V)
-                                : (dc_link_V * BASE_1_SQRT3 / sqrtf(voltage_square(u_V)));
-        out.v_V.d         = share * u_V.d;
-        out.v_V.q         = share * u_V.q;
-        out.limited       = share < 1.0f;
-    }
+    const svpwm_t   pwm   = svpwm_within(frames_inverse_park(within_V, angle), dc_link_V);
+    const float     share = overmodulation ? pwm.share : 1.0f;
+    const voltage_t out   = {.v_V     = {.d = share * within_V.d, .q = share * within_V.q},
+                             .duty    = pwm.duty,
+                             .limited = round || (share < 1.0f)}; /* EQ-VOLTAGE-1 */
     return out;
 }

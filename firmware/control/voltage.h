@@ -36,19 +36,20 @@ static inline bool voltage_is_outside(dq_t u_V, float dc_link_V)
 }
 
 typedef struct {
-    dq_t v_V;
-    bool limited; /**< it is not the voltage that was wanted */
+    dq_t  v_V;
+    abc_t duty;    /**< that produce it, EQ-SVPWM-1 */
+    bool  limited; /**< it is not the voltage that was wanted */
 } voltage_t;
 
 /**
- * @brief EQ-VOLTAGE-1 with the circle, or with the hexagon around it, as reach.
+ * @brief EQ-VOLTAGE-1 with the circle, or with the hexagon around it, as reach, and its duty ratios.
  *
  * @param u_V            Wanted; finite.
  * @param angle          In which the voltage is produced.
  * @param dc_link_V      Measured [V], > 0.
  * @param overmodulation Whether the hexagon outside the circle may be used.
  *
- * Context: control ISR. Within the circle no division; else one, and a square root for the circle.
+ * Context: control ISR. One division; outside the circle, where that is the reach, one more and a square root.
  */
 voltage_t voltage_produce(dq_t u_V, frames_angle_t angle, float dc_link_V, bool overmodulation);
 

@@ -9,9 +9,9 @@ static void tick(void)
 {
     const board_duty_t duty = board_firmware.duty;
 
-    board_firmware.sample = board_sample_read();
+    board_firmware.sample = *board_sample();
     if (board_firmware.ticks == 0U) {
-        board_firmware.first_sample = board_sample_read();
+        board_firmware.first_sample = *board_sample();
     }
     board_firmware.ticks = board_firmware.ticks + 1U;
     if (board_firmware.tick_lasts_us > 0.0) {

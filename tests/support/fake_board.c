@@ -71,10 +71,10 @@ void board_start(void (*tick)(void), uint16_t updates_per_period)
     fake_board.updates = updates_per_period;
 }
 
-board_sample_t board_sample_read(void)
+const board_sample_t *board_sample(void)
 {
     note(FAKE_BOARD_SAMPLE);
-    return fake_board.sample;
+    return &fake_board.sample;
 }
 
 void board_duty_write(const board_duty_t *duty)

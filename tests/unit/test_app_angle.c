@@ -30,10 +30,19 @@ void setUp(void)
 
 void tearDown(void) {}
 
+static app_angle_reading_t read_angle(const board_sample_t *raw)
+{
+    app_angle_reading_t reading;
+
+    (void)memset(&reading, 0xFF, sizeof reading); /* an update has to set everything */
+    app_angle_update(&angle, raw, &reading);
+    return reading;
+}
+
 static app_angle_reading_t at(int position)
 {
     const board_sample_t raw = {.position_cnt = (uint16_t)position, .valid = true};
-    return app_angle_update(&angle, &raw);
+    return read_angle(&raw);
 }
 
 static app_angle_reading_t at_with_index(int position, int index)
@@ -42,7 +51,7 @@ static app_angle_reading_t at_with_index(int position, int index)
                                 .index_cnt    = (uint16_t)index,
                                 .index_seen   = true,
                                 .valid        = true};
-    return app_angle_update(&angle, &raw);
+    return read_angle(&raw);
 }
 
 static void start_over(uint16_t pole_pairs, float index_theta_rad)
@@ -261,7 +270,7 @@ static app_angle_reading_t turn(double radps_e)
                                         (uint16_t)fmod((now_time - edge_time) * 75.0e6, 65536.0),
                                     .edge_seen = moved,
                                     .valid     = true};
-    return app_angle_update(&angle, &raw);
+    return read_angle(&raw);
 }
 
 static void start_edges(double at_cnt)

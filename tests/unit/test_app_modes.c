@@ -17,6 +17,7 @@
 static app_config_t      config;
 static drive_config_t    drive_config;
 static app_modes_t       modes;
+static board_sample_t    raw;
 static app_modes_input_t in;
 static bridge_t          out;
 
@@ -27,7 +28,8 @@ static void init(void)
                                      .dc_link_cnt     = 2685U,
                                      .temperature_cnt = 3357U,
                                      .valid           = true};
-    const app_modes_input_t quiet = {.raw = rest};
+    const app_modes_input_t quiet = {.raw = &raw};
+    raw                           = rest;
     in                            = quiet;
     (void)memset(&modes, 0xFF, sizeof modes); /* init has to set everything */
     TEST_ASSERT_EQUAL_INT(CTL_OK, app_modes_init(&modes, &config, &drive_config));
@@ -72,9 +74,9 @@ static void go_ready(void)
 
 static void see_index(void)
 {
-    in.raw.index_seen = true;
+    raw.index_seen = true;
     tick();
-    in.raw.index_seen = false;
+    raw.index_seen = false;
 }
 
 static void go_run(void)
@@ -110,12 +112,12 @@ static void assert_fault(app_fault_t fault)
 /* Healthy samples again: the fault stays until a reset without run. */
 static void assert_latched_until_reset(app_fault_t fault, app_mode_t after)
 {
-    in.raw.valid           = true;
-    in.raw.ia_cnt          = 2048U;
-    in.raw.temperature_cnt = 3357U;
-    in.board_faults        = 0U;
-    in.background_lost     = false;
-    in.command.run         = true;
+    raw.valid           = true;
+    raw.ia_cnt          = 2048U;
+    raw.temperature_cnt = 3357U;
+    in.board_faults     = 0U;
+    in.background_lost  = false;
+    in.command.run      = true;
     ticks(3);
     assert_fault(fault);
     in.command.reset = true;
@@ -152,8 +154,8 @@ static void test_calibration_takes_the_mean_of_each_phase(void)
 {
     ticks(BOOT_TICKS);
     for (int n = 0; n < CALIBRATE_TICKS; n++) {
-        in.raw.ia_cnt = (uint16_t)(2040 + (n % 5)); /* mean 2042 */
-        in.raw.ib_cnt = (uint16_t)(2060 - (n % 2)); /* mean 2059.5 */
+        raw.ia_cnt = (uint16_t)(2040 + (n % 5)); /* mean 2042 */
+        raw.ib_cnt = (uint16_t)(2060 - (n % 2)); /* mean 2059.5 */
         tick();
     }
     TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
@@ -163,10 +165,10 @@ static void test_calibration_takes_the_mean_of_each_phase(void)
 
 static void test_zero_beyond_its_bound_faults_and_can_be_tried_again(void)
 {
-    in.raw.ib_cnt = 2149U;
+    raw.ib_cnt = 2149U;
     ticks(BOOT_TICKS + CALIBRATE_TICKS);
     assert_fault(APP_FAULT_OFFSET);
-    in.raw.ib_cnt = 2048U;
+    raw.ib_cnt = 2048U;
     assert_latched_until_reset(APP_FAULT_OFFSET, APP_MODE_BOOT);
     go_ready();
 }
@@ -243,7 +245,7 @@ static void test_invalid_sample_trips_in_the_same_tick_and_costs_the_angle(void)
     for (int i = 0; i < SUPPORT_COUNT(ways); i++) {
         init();
         ways[i]();
-        in.raw.valid = false;
+        raw.valid = false;
         tick();
         assert_fault(APP_FAULT_SAMPLE);
         TEST_ASSERT_EQUAL_INT(APP_ANGLE_NONE, modes.angle.reference);
@@ -251,7 +253,7 @@ static void test_invalid_sample_trips_in_the_same_tick_and_costs_the_angle(void)
     }
     init();
     ticks(BOOT_TICKS + 10);
-    in.raw.ia_cnt = 4096U;
+    raw.ia_cnt = 4096U;
     tick();
     assert_fault(APP_FAULT_SAMPLE);
 }
@@ -260,7 +262,7 @@ static void test_invalid_sample_in_ready_costs_the_angle_only(void)
 {
     go_ready();
     see_index();
-    in.raw.valid = false;
+    raw.valid = false;
     tick();
     TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
     TEST_ASSERT_EQUAL_INT(APP_ANGLE_NONE, modes.angle.reference);
@@ -327,9 +329,9 @@ static void test_dc_link_out_of_range_is_not_ready(void)
     see_index();
     TEST_ASSERT_FALSE(modes.dc_link_out);
     /* 88.5 V and 398 V at 0.11 V a code */
-    assert_refused_until(&in.raw.dc_link_cnt, 2685U, 804U);
-    assert_refused_until(&in.raw.dc_link_cnt, 2685U, 3626U);
-    assert_refused_until(&in.raw.dc_link_cnt, 807U, 0U);
+    assert_refused_until(&raw.dc_link_cnt, 2685U, 804U);
+    assert_refused_until(&raw.dc_link_cnt, 2685U, 3626U);
+    assert_refused_until(&raw.dc_link_cnt, 807U, 0U);
     TEST_ASSERT_EQUAL_INT(APP_FAULT_NONE, modes.fault);
 }
 
@@ -378,7 +380,7 @@ static void test_a_precharge_ends_at_once_when_something_is_wrong(void)
         out = app_modes_tick(&modes, &in);
         TEST_ASSERT_TRUE(out.gate_enable);
         if (way == 0) {
-            in.raw.ia_cnt = 4000U; /* the shorted motor's current */
+            raw.ia_cnt = 4000U; /* the shorted motor's current */
         } else if (way == 1) {
             in.board_faults = BOARD_FAULT_TRIP;
         } else {
@@ -397,8 +399,8 @@ static void test_no_precharge_at_speed(void)
     init();
     go_ready();
     see_index();
-    in.command.run      = true;
-    in.raw.position_cnt = (uint16_t)(in.raw.position_cnt + 10U); /* 63 rad/s */
+    in.command.run   = true;
+    raw.position_cnt = (uint16_t)(raw.position_cnt + 10U); /* 63 rad/s */
     tick();
     TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
 }
@@ -407,8 +409,8 @@ static void test_no_precharge_at_speed(void)
 static void turn_ticks(int count, uint16_t step_cnt)
 {
     for (int n = 0; n < count; n++) {
-        in.raw.position_cnt = (uint16_t)((in.raw.position_cnt + step_cnt) % 10000U);
-        out                 = app_modes_tick(&modes, &in);
+        raw.position_cnt = (uint16_t)((raw.position_cnt + step_cnt) % 10000U);
+        out              = app_modes_tick(&modes, &in);
     }
 }
 
@@ -439,7 +441,7 @@ static bool is_short(void)
 static void test_a_fault_at_speed_shorts_the_motor_until_it_is_slow(void)
 {
     run_fast();
-    in.raw.temperature_cnt = 0U; /* broken sensor */
+    raw.temperature_cnt = 0U; /* broken sensor */
     turn_ticks(1, FAST_cnt);
     TEST_ASSERT_EQUAL_INT(APP_FAULT_TEMPERATURE_SENSOR, modes.fault);
     TEST_ASSERT_TRUE(is_short());
@@ -460,7 +462,7 @@ static void test_a_fault_at_low_speed_opens(void)
 {
     run_fast();
     turn_ticks(3, SLOW_cnt);
-    in.raw.temperature_cnt = 0U;
+    raw.temperature_cnt = 0U;
     turn_ticks(1, SLOW_cnt);
     TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, modes.mode);
     TEST_ASSERT_FALSE(out.gate_enable);
@@ -473,15 +475,15 @@ static void test_board_faults_and_over_current_open_at_any_speed(void)
         if (way == 0) {
             in.board_faults = BOARD_FAULT_TRIP;
         } else if (way == 1) {
-            in.raw.ia_cnt = 4000U;
+            raw.ia_cnt = 4000U;
         } else {
-            in.raw.temperature_cnt = 0U;
+            raw.temperature_cnt = 0U;
             turn_ticks(2, FAST_cnt);
             TEST_ASSERT_TRUE(is_short());
             if (way == 2) {
                 in.board_faults = BOARD_FAULT_TRIP;
             } else {
-                in.raw.ib_cnt = 200U;
+                raw.ib_cnt = 200U;
             }
         }
         turn_ticks(1, FAST_cnt);
@@ -491,7 +493,7 @@ static void test_board_faults_and_over_current_open_at_any_speed(void)
     setUp();
     config.stop.short_circuit = false; /* a dc link that takes all of it */
     run_fast();
-    in.raw.temperature_cnt = 0U;
+    raw.temperature_cnt = 0U;
     turn_ticks(1, FAST_cnt);
     TEST_ASSERT_FALSE(out.gate_enable);
 }
@@ -500,7 +502,7 @@ static void test_board_faults_and_over_current_open_at_any_speed(void)
 static void test_a_lost_encoder_at_speed_leaves_the_motor_shorted(void)
 {
     run_fast();
-    in.raw.valid = false;
+    raw.valid = false;
     turn_ticks(100, 0U);
     TEST_ASSERT_EQUAL_INT(APP_FAULT_SAMPLE, modes.fault);
     TEST_ASSERT_TRUE(is_short());
@@ -567,11 +569,11 @@ static void test_temperature_beyond_the_trip_level_trips(void)
     for (int i = 0; i < SUPPORT_COUNT(ways); i++) {
         init();
         ways[i]();
-        in.raw.temperature_cnt = CODE_90_degC + 1;
+        raw.temperature_cnt = CODE_90_degC + 1;
         tick();
         TEST_ASSERT_TRUE(out.gate_enable);
         TEST_ASSERT_TRUE(modes.hot);
-        in.raw.temperature_cnt = CODE_90_degC;
+        raw.temperature_cnt = CODE_90_degC;
         tick();
         assert_fault(APP_FAULT_TEMPERATURE);
         assert_latched_until_reset(APP_FAULT_TEMPERATURE, APP_MODE_READY);
@@ -585,7 +587,7 @@ static void test_broken_temperature_sensor_trips(void)
         for (int k = 0; k < SUPPORT_COUNT(broken); k++) {
             init();
             ways[i]();
-            in.raw.temperature_cnt = (uint16_t)broken[k];
+            raw.temperature_cnt = (uint16_t)broken[k];
             tick();
             assert_fault(APP_FAULT_TEMPERATURE_SENSOR);
             assert_latched_until_reset(APP_FAULT_TEMPERATURE_SENSOR, APP_MODE_READY);
@@ -597,13 +599,13 @@ static void test_hot_drive_refuses_to_start_until_asked_again(void)
 {
     go_ready();
     see_index();
-    in.raw.temperature_cnt = CODE_80_degC;
+    raw.temperature_cnt = CODE_80_degC;
     tick();
     TEST_ASSERT_TRUE(modes.hot);
     in.command.run = true;
     ticks(5);
     TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
-    in.raw.temperature_cnt = CODE_80_degC + 1;
+    raw.temperature_cnt = CODE_80_degC + 1;
     ticks(5);
     TEST_ASSERT_FALSE(modes.hot);
     TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
@@ -619,8 +621,8 @@ static void test_start_with_a_broken_sensor_faults_before_the_gates(void)
 {
     go_ready();
     see_index();
-    in.raw.temperature_cnt = 0U;
-    in.command.run         = true;
+    raw.temperature_cnt = 0U;
+    in.command.run      = true;
     tick();
     assert_open();
     tick();
@@ -630,7 +632,7 @@ static void test_start_with_a_broken_sensor_faults_before_the_gates(void)
 static void test_index_far_off_trips_and_costs_the_angle(void)
 {
     go_run();
-    in.raw.index_cnt = 101U;
+    raw.index_cnt = 101U;
     see_index();
     assert_fault(APP_FAULT_INDEX);
     TEST_ASSERT_EQUAL_INT(APP_ANGLE_NONE, modes.angle.reference);
@@ -640,10 +642,10 @@ static void test_index_far_off_trips_and_costs_the_angle(void)
 static void test_index_fault_is_not_seen_again_in_invalid_samples(void)
 {
     go_run();
-    in.raw.index_cnt = 101U;
+    raw.index_cnt = 101U;
     see_index();
     assert_fault(APP_FAULT_INDEX);
-    in.raw.valid     = false;
+    raw.valid        = false;
     in.command.run   = false;
     in.command.reset = true;
     tick();
@@ -655,7 +657,7 @@ static void test_index_fault_is_not_seen_again_in_invalid_samples(void)
 static void test_index_a_little_off_is_corrected_on_the_run(void)
 {
     go_run();
-    in.raw.index_cnt = 20U;
+    raw.index_cnt = 20U;
     see_index();
     TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
     TEST_ASSERT_EQUAL_UINT(1U, modes.angle.corrections);
@@ -666,7 +668,7 @@ static void test_faults_of_the_drive_trip_and_are_named(void)
     for (int i = 0; i < SUPPORT_COUNT(ways); i++) {
         init();
         ways[i]();
-        in.raw.ia_cnt = (uint16_t)(2048 + 1640); /* 8.008 A */
+        raw.ia_cnt = (uint16_t)(2048 + 1640); /* 8.008 A */
         tick();
         assert_fault(APP_FAULT_DRIVE);
         TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_OVER_CURRENT, modes.snapshot.drive_fault);
@@ -679,7 +681,7 @@ static void test_faults_of_the_drive_trip_and_are_named(void)
 
         init();
         ways[i]();
-        in.raw.dc_link_cnt = 0U;
+        raw.dc_link_cnt = 0U;
         tick();
         assert_fault(APP_FAULT_DRIVE);
         TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_DC_LINK, modes.snapshot.drive_fault);
@@ -707,7 +709,7 @@ static void test_encoder_fault_of_the_drive_costs_the_angle(void)
     drive_config = gain_tables_drive;
     init();
     go_run();
-    in.raw.position_cnt = 240U;
+    raw.position_cnt = 240U;
     tick();
     assert_fault(APP_FAULT_DRIVE);
     TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_ENCODER, modes.snapshot.drive_fault);
@@ -726,13 +728,13 @@ static void test_align_without_a_motor_fails(void)
 static void test_align_ends_in_run_with_the_angle_zero_here(void)
 {
     go_ready();
-    in.raw.position_cnt = 9000U;
+    raw.position_cnt = 9000U;
     tick();
     in.command.run = true;
     tick();
     for (int n = 1; (n < 14000) && (modes.mode == APP_MODE_ALIGN); n++) {
-        const int swept     = (n > 2000) ? ((n < 8000) ? n - 2000 : 6000) : 0;
-        in.raw.position_cnt = (uint16_t)((9000 + ((2500 * swept) / 6000)) % 10000);
+        const int swept  = (n > 2000) ? ((n < 8000) ? n - 2000 : 6000) : 0;
+        raw.position_cnt = (uint16_t)((9000 + ((2500 * swept) / 6000)) % 10000);
         tick();
     }
     TEST_ASSERT_EQUAL_INT(APP_MODE_ALIGN, modes.mode);
@@ -772,11 +774,11 @@ static void test_snapshot_keeps_the_first_fault(void)
 {
     go_run();
     in.command.omega_e_radps = 12.5f;
-    in.raw.valid             = false;
-    in.raw.ib_cnt            = 77U;
+    raw.valid                = false;
+    raw.ib_cnt               = 77U;
     tick();
     const uint32_t at = modes.ticks;
-    in.raw.ib_cnt     = 88U;
+    raw.ib_cnt        = 88U;
     in.board_faults   = BOARD_FAULT_CLOCK;
     ticks(10);
 
@@ -807,11 +809,11 @@ static void test_status_before_the_first_tick_promises_nothing(void)
 
 static void test_status_repeats_what_is_inside(void)
 {
-    in.raw.ia_cnt = 2050U;
-    in.raw.ib_cnt = 2041U;
+    raw.ia_cnt = 2050U;
+    raw.ib_cnt = 2041U;
     go_run();
-    in.raw.ia_cnt       = 2100U;
-    in.raw.position_cnt = 3U;
+    raw.ia_cnt       = 2100U;
+    raw.position_cnt = 3U;
     tick();
     const app_status_t s = app_modes_status(&modes, 5U);
 
@@ -830,8 +832,8 @@ static void test_status_repeats_what_is_inside(void)
     TEST_ASSERT_FLOAT_WITHIN(0.1f, 295.0f, s.dc_link_V);
     TEST_ASSERT_TRUE(s.ticks == modes.ticks);
 
-    in.command.run      = false;
-    in.raw.position_cnt = 4U;
+    in.command.run   = false;
+    raw.position_cnt = 4U;
     tick();
     const app_status_t off = app_modes_status(&modes, 0U);
     TEST_ASSERT_FLOAT_WITHIN(0.01f, 6.283f, off.speed_e_radps);

@@ -185,7 +185,7 @@ static void test_share_reaches_the_hexagon_in_every_direction(void)
             const double reach_V =
                 (double)V_DC_V / sqrt(3.0) / cos(fmod(angle, pi / 3.0) - (pi / 6.0));
 
-            const float share = svpwm_share(vector_at(length_V, angle), V_DC_V);
+            const float share = svpwm_within(vector_at(length_V, angle), V_DC_V).share;
 
             TEST_ASSERT_DOUBLE_WITHIN(TOL_DUTY, fmin(reach_V / length_V, 1.0), (double)share);
         }
@@ -196,7 +196,7 @@ static void test_share_of_a_vector_is_what_the_duty_ratios_produce(void)
 {
     for (int step = 0; step < ANGLE_STEPS; step++) {
         const double angle = 2.0 * pi * (double)step / ANGLE_STEPS;
-        const float  share = svpwm_share(vector_at(250.0, angle), V_DC_V);
+        const float  share = svpwm_within(vector_at(250.0, angle), V_DC_V).share;
 
         const abc_t duty = svpwm_duty(vector_at(250.0 * (double)share, angle), V_DC_V);
 
@@ -207,12 +207,30 @@ static void test_share_of_a_vector_is_what_the_duty_ratios_produce(void)
     }
 }
 
+static void test_duty_within_the_hexagon_is_that_of_the_share(void)
+{
+    for (int length = 0; length <= 40; length++) {
+        for (int step = 0; step < ANGLE_STEPS; step++) {
+            const double  angle    = 2.0 * pi * (double)step / ANGLE_STEPS;
+            const double  length_V = 10.0 * (double)length;
+            const svpwm_t within   = svpwm_within(vector_at(length_V, angle), V_DC_V);
+
+            const abc_t duty =
+                svpwm_duty(vector_at(length_V * (double)within.share, angle), V_DC_V);
+
+            TEST_ASSERT_DOUBLE_WITHIN(TOL_DUTY, (double)duty.a, (double)within.duty.a);
+            TEST_ASSERT_DOUBLE_WITHIN(TOL_DUTY, (double)duty.b, (double)within.duty.b);
+            TEST_ASSERT_DOUBLE_WITHIN(TOL_DUTY, (double)duty.c, (double)within.duty.c);
+        }
+    }
+}
+
 static void test_share_inside_the_hexagon_is_exactly_one(void)
 {
     const ab_t zero = {0.0f, 0.0f};
 
-    TEST_ASSERT_TRUE(svpwm_share(zero, V_DC_V) == 1.0f);
-    TEST_ASSERT_TRUE(svpwm_share(vector_at(170.0, 0.4), V_DC_V) == 1.0f);
+    TEST_ASSERT_TRUE(svpwm_within(zero, V_DC_V).share == 1.0f);
+    TEST_ASSERT_TRUE(svpwm_within(vector_at(170.0, 0.4), V_DC_V).share == 1.0f);
 }
 
 int main(void)
@@ -229,6 +247,7 @@ int main(void)
     RUN_TEST(test_bad_numbers_never_leave_the_range_of_a_duty);
     RUN_TEST(test_share_reaches_the_hexagon_in_every_direction);
     RUN_TEST(test_share_of_a_vector_is_what_the_duty_ratios_produce);
+    RUN_TEST(test_duty_within_the_hexagon_is_that_of_the_share);
     RUN_TEST(test_share_inside_the_hexagon_is_exactly_one);
     return UNITY_END();
 }

@@ -57,6 +57,22 @@ static void test_what_fits_the_circle_is_produced_as_it_is(void)
     }
 }
 
+/* The phase voltages, less what all three have in common: line to line. */
+static void assert_duty_produces(const voltage_t *v)
+{
+    const double third  = 2.0943951023931953;
+    const double angle  = theta_rad + atan2((double)v->v_V.q, (double)v->v_V.d);
+    const double length = support_length(v->v_V);
+    const double a_V    = length * cos(angle);
+    const double b_V    = length * cos(angle - third);
+    const double c_V    = length * cos(angle + third);
+    const abc_t  duty   = v->duty;
+    const double dc_V   = 295.0;
+
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_V, a_V - b_V, dc_V * ((double)duty.a - (double)duty.b));
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_V, b_V - c_V, dc_V * ((double)duty.b - (double)duty.c));
+}
+
 /* EQ-VOLTAGE-1 with the reach worked out from geometry. */
 static void assert_cut_to_reach(bool hexagon)
 {
@@ -75,6 +91,7 @@ static void assert_cut_to_reach(bool hexagon)
         TEST_ASSERT_DOUBLE_WITHIN(TOL_V, cut * (double)wanted_V.d, (double)v.v_V.d);
         TEST_ASSERT_DOUBLE_WITHIN(TOL_V, cut * (double)wanted_V.q, (double)v.v_V.q);
         TEST_ASSERT_TRUE(support_length(v.v_V) <= fmax(reach_V, 0.0) * (1.0 + TOL_REACH));
+        assert_duty_produces(&v);
         limited += v.limited ? 1 : 0;
     }
     TEST_ASSERT_TRUE(limited > 1000);

@@ -53,7 +53,7 @@ __interrupt void control_isr(void)
     PieCtrlRegs.PIEACK.all = PIEACK_GROUP1;
 }
 
-board_sample_t board_sample_read(void)
+const board_sample_t *board_sample(void)
 {
-    return sample;
+    return &sample;
 }

@@ -14,11 +14,12 @@
 
 static struct {
     void (*tick)(void);
-    motor_stub_t motor;
-    board_duty_t written;
-    board_duty_t in_force;
-    bool         gate;
-    uint32_t     periods;
+    motor_stub_t   motor;
+    board_sample_t sample;
+    board_duty_t   written;
+    board_duty_t   in_force;
+    bool           gate;
+    uint32_t       periods;
 } stub;
 
 bool board_init(void)
@@ -85,23 +86,24 @@ static uint16_t current_code(float i_A)
     return code(s->current_zero_cnt + (i_A / s->current_A_per_cnt));
 }
 
-board_sample_t board_sample_read(void)
+const board_sample_t *board_sample(void)
 {
     const abc_t i_A     = motor_stub_current_A(&stub.motor, gain_tables_drive.hardware.pole_pairs);
     const float turn    = stub.motor.theta_m_rad / BASE_TWO_PI;
     const float edge    = turn * (float)BOARD_POSITIONS;
     const float top_cnt = (float)(BOARD_POSITIONS - 1U);
 
-    const board_sample_t sample = {.ia_cnt = current_code(i_A.a),
-                                   .ib_cnt = current_code(i_A.b),
-                                   .dc_link_cnt =
-                                       code(DC_LINK_V / board_config.scale.dc_link_V_per_cnt),
-                                   .temperature_cnt = TEMPERATURE_cnt,
-                                   .position_cnt    = (uint16_t)base_clamp(edge, 0.0f, top_cnt),
-                                   .index_cnt       = 0U,
-                                   .index_seen      = false,
-                                   .valid           = true};
-    return sample;
+    const board_sample_t now = {.ia_cnt = current_code(i_A.a),
+                                .ib_cnt = current_code(i_A.b),
+                                .dc_link_cnt =
+                                    code(DC_LINK_V / board_config.scale.dc_link_V_per_cnt),
+                                .temperature_cnt = TEMPERATURE_cnt,
+                                .position_cnt    = (uint16_t)base_clamp(edge, 0.0f, top_cnt),
+                                .index_cnt       = 0U,
+                                .index_seen      = false,
+                                .valid           = true};
+    stub.sample              = now;
+    return &stub.sample;
 }
 
 void board_duty_write(const board_duty_t *duty)

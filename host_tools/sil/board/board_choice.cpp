@@ -27,18 +27,18 @@ FakeBoardChoice::~FakeBoardChoice()
 
 extern "C" {
 
-bool           f28335_board_init(void);
-void           f28335_board_start(void (*tick)(void), uint16_t updates_per_period);
-board_sample_t f28335_board_sample_read(void);
-void           f28335_board_duty_write(const board_duty_t *duty);
-void           f28335_board_gate_enable(void);
-void           f28335_board_gate_trip(void);
-uint16_t       f28335_board_fault_read(void);
-board_reset_t  f28335_board_reset_cause(void);
-uint32_t       f28335_board_cycles(void);
-void           f28335_board_watchdog_serve(void);
-bool           f28335_board_serial_read(uint16_t *octet);
-bool           f28335_board_serial_write(uint16_t octet);
+bool                  f28335_board_init(void);
+void                  f28335_board_start(void (*tick)(void), uint16_t updates_per_period);
+const board_sample_t *f28335_board_sample(void);
+void                  f28335_board_duty_write(const board_duty_t *duty);
+void                  f28335_board_gate_enable(void);
+void                  f28335_board_gate_trip(void);
+uint16_t              f28335_board_fault_read(void);
+board_reset_t         f28335_board_reset_cause(void);
+uint32_t              f28335_board_cycles(void);
+void                  f28335_board_watchdog_serve(void);
+bool                  f28335_board_serial_read(uint16_t *octet);
+bool                  f28335_board_serial_write(uint16_t octet);
 
 bool board_init(void)
 {
@@ -54,9 +54,9 @@ void board_start(void (*tick)(void), uint16_t updates_per_period)
     }
 }
 
-board_sample_t board_sample_read(void)
+const board_sample_t *board_sample(void)
 {
-    return the_fake != nullptr ? the_fake->sample() : f28335_board_sample_read();
+    return the_fake != nullptr ? &the_fake->sample() : f28335_board_sample();
 }
 
 void board_duty_write(const board_duty_t *duty)

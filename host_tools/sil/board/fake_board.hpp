@@ -29,7 +29,7 @@ public:
         tick_    = control_tick;
         updates_ = updates_per_period;
     }
-    board_sample_t sample() const
+    const board_sample_t &sample() const
     {
         return sample_;
     }

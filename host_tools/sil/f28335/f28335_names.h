@@ -6,7 +6,7 @@
 
 #define board_init           f28335_board_init
 #define board_start          f28335_board_start
-#define board_sample_read    f28335_board_sample_read
+#define board_sample         f28335_board_sample
 #define board_duty_write     f28335_board_duty_write
 #define board_gate_enable    f28335_board_gate_enable
 #define board_gate_trip      f28335_board_gate_trip

@@ -53,7 +53,6 @@ OPERATIONS = (
     ("call and return", ("call", "return")),
     ("sine, cosine", ("sinf", "cosf")),
     ("minimum, maximum", ("fminf", "fmaxf")),
-    ("copy", ("memcpy",)),
 )
 
 
