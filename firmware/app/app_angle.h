@@ -13,7 +13,8 @@
  *     theta_e = theta at that edge + omega_e a, within the count                   EQ-APP-ANGLE-4
  *
  * Without times, a period with one count has its edge in the middle of the period: EQ-APP-ANGLE-3, 4 with a = Ts / 2, and
- * one with more stays as EQ-APP-ANGLE-1 says.                                         EQ-APP-ANGLE-5
+ * one with more has EQ-APP-ANGLE-1, whose error is even within half a count: a difference below a quarter of one says little
+ * and is let go.                                                                     EQ-APP-ANGLE-5
  *
  * A period without an edge says that the angle is within the count, and that the speed is at most one count in the time
  * since the last edge.
@@ -67,8 +68,8 @@ typedef struct {
 } app_angle_t;
 
 typedef struct {
-    float   theta_e_rad;  /**< 0 .. 2 pi */
-    float   band_rad;     /**< the angle is certainly this near; 0: theta_e_rad is a measurement */
+    float   theta_e_rad; /**< 0 .. 2 pi */
+    float   band_rad;    /**< differences up to here say nothing; 0: theta_e_rad is a measurement */
     int16_t edge_of_line; /**< which of a line's edges theta_e_rad rests on, 1 .. 4; 0: none */
     float
           edge_gap_s; /**< between the last two edges, or since the last one when that is longer; 0 without edge times */

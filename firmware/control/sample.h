@@ -17,7 +17,8 @@ typedef struct {
     float ib_A;        /**< phase current, positive into the motor */
     float dc_link_V;   /**< dc-link voltage */
     float theta_e_rad; /**< electrical angle, -2 pi .. 2 pi */
-    float band_rad; /**< the angle is certainly this near to it, 0 .. pi; 0: it is a measurement */
+    float
+        band_rad; /**< differences to it up to here say nothing, 0 .. pi; 0: it is a measurement */
     float
         edge_gap_s; /**< what the angle rests on: time between the last two edges of the encoder, or since
                            the last one when that is longer; 0: another measurement, or an edge in every period */

@@ -325,10 +325,10 @@ static void test_counts_that_come_one_at_a_time_tell_more_than_their_middle(void
             const double              off   = remainder((double)r.theta_e_rad - theta, two_pi);
             const double              count = 2.0 * two_pi / 10000.0;
             TEST_ASSERT_EQUAL_INT(0, r.edge_of_line);
-            if (r.band_rad > 0.0f) {
+            if ((n > 0) && (r.band_rad > 0.0f)) {
                 TEST_ASSERT_DOUBLE_WITHIN(TOL_RAD, 0.5 * count, (double)r.band_rad);
                 TEST_ASSERT_TRUE(fabs(off) <= (double)r.band_rad + TOL_RAD);
-                TEST_ASSERT_TRUE((r.edge_gap_s > 0.0f) || (n == 0));
+                TEST_ASSERT_TRUE(r.edge_gap_s > 0.0f);
             } else if (n > 10000 / (int)(1000.0 * fabs(speeds[i]))) {
                 singles++;
                 const double gap_s = count / fabs(speeds[i]);
@@ -337,6 +337,18 @@ static void test_counts_that_come_one_at_a_time_tell_more_than_their_middle(void
             }
         }
         TEST_ASSERT_TRUE(singles > 100);
+    }
+}
+
+static void test_counts_that_come_in_plenty_have_a_band_of_a_quarter(void)
+{
+    const double count = 2.0 * two_pi / 10000.0;
+    (void)at(100);
+    for (int n = 1; n < 50; n++) {
+        const app_angle_reading_t r = at(100 + (n * (1 + n)));
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_RAD, 0.25 * count, (double)r.band_rad);
+        TEST_ASSERT_TRUE((r.edge_gap_s <= 0.0f) && (r.edge_age_s <= 0.0f));
+        assert_angle((100.5 + (n * (1 + n))) * count, r.theta_e_rad);
     }
 }
 
@@ -420,6 +432,7 @@ int main(void)
     RUN_TEST(test_corrections_are_counted_until_the_start);
     RUN_TEST(test_index_fault_lasts_one_sample);
     RUN_TEST(test_edge_times_give_angle_and_speed);
+    RUN_TEST(test_counts_that_come_in_plenty_have_a_band_of_a_quarter);
     RUN_TEST(test_counts_that_come_one_at_a_time_tell_more_than_their_middle);
     RUN_TEST(test_speed_without_edges_is_bounded_by_their_absence);
     RUN_TEST(test_a_shaft_that_turns_back_and_forth_has_no_speed_that_grows);

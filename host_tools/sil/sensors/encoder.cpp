@@ -159,7 +159,8 @@ double QuadratureEncoder::edge_angle_rad(std::int64_t count, double edge_above_c
     return wrapped < 0.0 ? wrapped + two_pi : wrapped;
 }
 
-/// EQ-ENCODER-8: an edge alone in its period is in the middle of it. Should edges be timed from the next reading on, they
+/// EQ-ENCODER-8: an edge alone in its period is in the middle of it; among more the count is read as EQ-APP-ANGLE-5 says.
+/// Should edges be timed from the next reading on, they
 /// follow this one.
 void QuadratureEncoder::read_counts(Reading &r, std::int64_t now)
 {
@@ -170,12 +171,14 @@ void QuadratureEncoder::read_counts(Reading &r, std::int64_t now)
         r.edge_gap_s = std::max(edge_age_s_, edge_gap_s_);
         r.band_e_rad = 0.5 * per_count;
     } else {
-        edge_gap_s_ = edge_age_s_ - 0.5 * period_s_;
-        edge_age_s_ = 0.5 * period_s_;
-        edge_       = turned > 0 ? now : now + 1;
-        edge_speed_ = r.omega_e_radps;
+        edge_gap_s_  = edge_age_s_ - 0.5 * period_s_;
+        edge_age_s_  = 0.5 * period_s_;
+        edge_        = turned > 0 ? now : now + 1;
+        edge_speed_  = r.omega_e_radps;
+        r.band_e_rad = 0.25 * per_count;
     }
     if (std::abs(turned) == 1) {
+        r.band_e_rad  = 0.0;
         edge_speed_   = static_cast<double>(turned) * per_count / edge_gap_s_;
         r.theta_e_rad = edge_angle_rad(r.count, turned > 0 ? 0.0 : 1.0);
         r.edge_gap_s  = edge_gap_s_;
