@@ -52,12 +52,15 @@ std::string tuned_sections(const TuneResult &r, const TuneSpec &spec)
     for (std::size_t i = 0; i < r.cases.size(); i++) {
         const CaseResult     &c = r.cases[i];
         const RobustnessCase &w = spec.cases[i];
-        s += fmt::format("#   J, B x{:g}, R, L, flux x{:g}: dip {:.2f} (wanted {:g}), settled "
+        const std::string     inductance =
+            w.inductance == 1.0 ? "" : fmt::format(", L x{:g} more", w.inductance);
+        s += fmt::format("#   J, B x{:g}, R, L, flux x{:g}{}: dip {:.2f} (wanted {:g}), settled "
                          "{:.1f} ms ({:g}), 3 sigma {:.2f} ({:g}) rad/s, "
-                         "{:.0f} V ({:g}), pole {:.3f}\n",
-                         w.mechanical, w.electrical, c.dip_e_radps, w.dip_e_radps,
+                         "{:.0f} V ({:g}), v_q noise {:.1f} V, pole {:.3f}\n",
+                         w.mechanical, w.electrical, inductance, c.dip_e_radps, w.dip_e_radps,
                          1e3 * c.settling_time_s, 1e3 * w.settling_time_s, c.ripple_e_radps,
-                         w.ripple_e_radps, c.voltage_V, spec.voltage_headroom_V, c.spectral_radius);
+                         w.ripple_e_radps, c.voltage_V, spec.voltage_headroom_V, c.voltage_noise_V,
+                         c.spectral_radius);
     }
     s += fmt::format("[nosc]\norder = {}\n", d.nosc.order);
     s += fmt::format("Q = [{:.3g}, {:.3g}, {:.3g}] # speed, i_q: searched; i_d: 1 / ({:g} A)^2\n",
@@ -69,9 +72,9 @@ std::string tuned_sections(const TuneResult &r, const TuneSpec &spec)
                      "= w is exact: 0\n");
     s += fmt::format("Q = [{:.3g}, {:.3g}, {:.3g}, {:.3g}, {:.3g}, {:.3g}, 0.0]\n", d.nodo.Q[0],
                      d.nodo.Q[1], d.nodo.Q[2], d.nodo.Q[3], d.nodo.Q[4], d.nodo.Q[5]);
-    s += fmt::format("# variance x period of one sample: currents {:.3g} A, angle {:.3g} rad (a "
-                     "count / sqrt 12)\n",
-                     sensors.current_A, sensors.angle_rad);
+    s += fmt::format("# variance x period of one sample: currents {:.3g} A, angle {:.3g} rad "
+                     "({:.3g} counts)\n",
+                     sensors.current_A, sensors.angle_rad, spec.angle_error_cnt);
     s += fmt::format("T = [{:.3g}, {:.3g}, {:.3g}]\n", d.nodo.T[0], d.nodo.T[1], d.nodo.T[2]);
     return s;
 }

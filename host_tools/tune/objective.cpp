@@ -31,8 +31,8 @@ Motor believed_motor(Motor m, const RobustnessCase &c)
     m.inertia_kgm2 *= c.mechanical;
     m.viscous_friction_Nms *= c.mechanical;
     m.stator_resistance_Ohm *= c.electrical;
-    m.d_axis_inductance_H *= c.electrical;
-    m.q_axis_inductance_H *= c.electrical;
+    m.d_axis_inductance_H *= c.electrical * c.inductance;
+    m.q_axis_inductance_H *= c.electrical * c.inductance;
     m.pm_flux_Wb *= c.electrical;
     return m;
 }
@@ -114,7 +114,7 @@ double worst_radius(const Loop &loop, const Drive &drive, const RobustnessCase &
     for (const double speed : {0.0, speed_e_radps, drive.motor.rated_speed_e_radps}) {
         worst = std::max(worst, loop.radius_at({speed, at.iq_A, at.id_A}));
     }
-    if (c.mechanical == 1.0 && c.electrical == 1.0) {
+    if (is_nominal(c)) {
         const double iq_A   = 2.0 * drive.motor.max_current_A;
         const double radius = loop.radius_at({trip_speed_ratio * drive.motor.rated_speed_e_radps,
                                               iq_A, mtpa_id_A(loop.motor, iq_A)});
@@ -139,7 +139,8 @@ CaseResult evaluate_case(const Drive &drive, const TuneSpec &spec, const Robustn
                   m.A, m.B_noise, Eigen::Vector3d(i2, i2, sensors.angle_rad * sensors.angle_rad));
         const MatrixXd V = m.C_voltage * P * m.C_voltage.transpose();
         result.voltage_V += 3.0 * std::sqrt(V.trace());
-        result.ripple_e_radps = 3.0 * std::sqrt(std::max(P(0, 0), 0.0));
+        result.voltage_noise_V = std::sqrt(V(0, 0));
+        result.ripple_e_radps  = 3.0 * std::sqrt(std::max(P(0, 0), 0.0));
     }
     return result;
 }
@@ -150,7 +151,10 @@ double ratio(const CaseResult &r, const RobustnessCase &c, const TuneSpec &spec)
     if (!(r.spectral_radius < 1.0)) {
         return unstable_score * r.spectral_radius;
     }
-    return std::max({r.dip_e_radps / c.dip_e_radps, r.settling_time_s / c.settling_time_s,
+    const double noise = is_nominal(c) && spec.voltage_noise_V > 0.0
+                             ? r.voltage_noise_V / spec.voltage_noise_V
+                             : 0.0;
+    return std::max({noise, r.dip_e_radps / c.dip_e_radps, r.settling_time_s / c.settling_time_s,
                      r.ripple_e_radps / c.ripple_e_radps,
                      (1.0 - spec.largest_pole) / (1.0 - r.spectral_radius),
                      r.voltage_V / spec.voltage_headroom_V});
@@ -167,7 +171,7 @@ Sensors sensors_of(const Drive &drive, const TuneSpec &spec)
 {
     const double count_rad = 2.0 * pi * drive.motor.pole_pairs / (4.0 * drive.encoder.lines);
     return {std::hypot(spec.current_noise_A, spec.current_lsb_A / std::sqrt(12.0)),
-            count_rad / std::sqrt(12.0)};
+            count_rad * spec.angle_error_cnt};
 }
 
 double written(double weight)

@@ -18,7 +18,7 @@ using Point                        = std::array<double, weight_count>;
 /// Standard deviations of one sample.
 struct Sensors {
     double current_A; ///< noise and quantisation
-    double angle_rad; ///< of the quantisation
+    double angle_rad; ///< quantisation, or what the edges are off
 };
 
 Sensors sensors_of(const Drive &drive, const TuneSpec &spec);
@@ -35,6 +35,7 @@ struct CaseResult {
     double settling_time_s = 0.0; ///< the whole simulated time when it does not settle
     double ripple_e_radps  = 0.0; ///< three standard deviations
     double voltage_V       = 0.0; ///< largest in the load step, plus three standard deviations
+    double voltage_noise_V = 0.0; ///< rms of v_q
     double spectral_radius = 0.0; ///< worst over speeds
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tune/tune_spec.hpp"
 
+#include <cmath>
+
 #include "common/toml_reader.hpp"
 
 namespace sdre {
@@ -14,12 +16,16 @@ constexpr Range time_s{1e-5, 10.0};
 constexpr Range current_A{1e-6, 1e4};
 constexpr Range voltage_V{1e-3, 1e4};
 constexpr Range pole{0.1, 0.9999};
+constexpr Range error_cnt{1e-4, 1.0};
+// Standard deviation of a number that is rounded to whole ones.
+const double a_count = 1.0 / std::sqrt(12.0);
 
 RobustnessCase read_case(TomlReader &t)
 {
     RobustnessCase c;
     c.mechanical      = t.number("mechanical", factor);
     c.electrical      = t.number("electrical", factor);
+    c.inductance      = t.number_or("inductance", factor, 1.0);
     c.dip_e_radps     = t.number("dip_e_radps", deviation_e_radps);
     c.settling_time_s = t.number("settling_time_s", time_s);
     c.ripple_e_radps  = t.number("ripple_e_radps", deviation_e_radps);
@@ -28,6 +34,11 @@ RobustnessCase read_case(TomlReader &t)
 }
 
 } // namespace
+
+bool is_nominal(const RobustnessCase &c)
+{
+    return c.mechanical == 1.0 && c.electrical == 1.0 && c.inductance == 1.0;
+}
 
 TuneSpec read_tune_spec(const std::filesystem::path &file)
 {
@@ -44,10 +55,12 @@ TuneSpec read_tune_spec(const std::filesystem::path &file)
     spec.d_axis_error_A     = t.number("d_axis_error_A", current_A);
     spec.current_noise_A    = t.number("current_noise_A", current_A);
     spec.current_lsb_A      = t.number("current_lsb_A", current_A);
+    spec.voltage_noise_V    = t.number_or("voltage_noise_V", voltage_V, 0.0);
+    spec.angle_error_cnt    = t.number_or("angle_error_cnt", error_cnt, a_count);
     for (TomlReader &entry : t.tables("case")) {
         spec.cases.push_back(read_case(entry));
     }
-    if (spec.cases.empty() || spec.cases[0].mechanical != 1.0 || spec.cases[0].electrical != 1.0) {
+    if (spec.cases.empty() || !is_nominal(spec.cases[0])) {
         t.fail("case", "number 1 must be the nominal one: mechanical = 1, electrical = 1");
     }
     t.reject_unknown_keys();

@@ -11,6 +11,7 @@ namespace sdre {
 struct RobustnessCase {
     double mechanical      = 1.0; ///< on J and B
     double electrical      = 1.0; ///< on Rs, Ld, Lq and flux
+    double inductance      = 1.0; ///< on Ld and Lq once more
     double dip_e_radps     = 0.0; ///< largest speed deviation after the load step
     double settling_time_s = 0.0;
     double ripple_e_radps  = 0.0; ///< three standard deviations of the speed
@@ -28,11 +29,17 @@ struct TuneSpec {
     double d_axis_error_A = 0.0;
     double voltage_headroom_V =
         0.0; ///< what the load step and three deviations of noise may ask for
+    double voltage_noise_V =
+        0.0; ///< rms of v_q at constant speed and load, nominal case; 0: whatever the headroom allows
     // Sensors: standard deviations of one sample, quantisation included by the tool.
     double                      current_noise_A = 0.0;
     double                      current_lsb_A   = 0.0;
-    std::vector<RobustnessCase> cases; ///< the first is the nominal one
+    double                      angle_error_cnt = 0.0; ///< of the encoder's angle
+    std::vector<RobustnessCase> cases;                 ///< the first is the nominal one
 };
+
+/// The controller believes what the motor is.
+bool is_nominal(const RobustnessCase &c);
 
 /// InputError in one line on anything missing, unknown or out of range.
 TuneSpec read_tune_spec(const std::filesystem::path &file);
