@@ -63,6 +63,11 @@ static const law_noc_config_t constants = {
         .angle_rad = 4.49999988e-01f,
         .d_omega = 2.68539785e+04f,
     },
+    .gate = {
+        .gate_rad = 7.84052443e-03f,
+        .count_rad = 1.25663704e-03f,
+        .slow_e_radps2 = 2.68539785e+04f,
+    },
     .rare = {
         .theta = 8.16983938e-01f,
         .omega_1ps = 1.66894995e+03f,

@@ -31,6 +31,7 @@ void solve(Design &d)
     c.nodo.iq_max_A = static_cast<float>(d.certificate.nodo.series_range_A);
     copy_series(d.nodo, c.nodo.gain);
     c.rare = sample_gains(c.nodo, d.drive);
+    c.gate = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
     keep_constants(d, c);
 }
 
@@ -54,7 +55,8 @@ std::vector<std::string> mismatches(const Design &d)
 std::string table(const Design &d)
 {
     const auto &c = *constants_of<law_noc_config_t>(d.config);
-    return near_optimal_block(c.near_optimal) + limits_block(c.plausible) + rare_block(c.rare) +
+    return near_optimal_block(c.near_optimal) + limits_block(c.plausible) + gate_block(c.gate) +
+           rare_block(c.rare) +
            c_block("nodo", c_field("order", c.nodo.order) + c_field("iq_max_A", c.nodo.iq_max_A) +
                                gain_block("         iq_A             id_A      theta_e_rad",
                                           {"d_w", "d_q", "d_d", "w", "iq", "id", "theta"},
