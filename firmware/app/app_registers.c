@@ -59,7 +59,8 @@ static uint16_t conditions(const app_registers_t *r)
     const uint16_t dc      = r->status.dc_link_out ? (uint16_t)APP_REGISTERS_DC_OUT : 0U;
     const uint16_t trip    = r->status.tripped ? (uint16_t)APP_REGISTERS_TRIPPED : 0U;
     const uint16_t shorted = r->status.shorted ? (uint16_t)APP_REGISTERS_SHORTED : 0U;
-    return (uint16_t)(hot | silent | gate | dc | trip | shorted);
+    const uint16_t lost    = r->status.without_angle ? (uint16_t)APP_REGISTERS_WITHOUT_ANGLE : 0U;
+    return (uint16_t)(hot | silent | gate | dc | trip | shorted | lost);
 }
 
 static void state_values(const app_registers_t *r, uint16_t all[APP_REGISTERS_INPUT_COUNT])

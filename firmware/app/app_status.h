@@ -65,7 +65,8 @@ typedef struct {
     uint16_t              index_corrections;
     uint16_t              phase_errors;   /**< of the encoder since the start */
     uint16_t              ignored_angles; /**< samples of this run, angle_gate.h */
-    uint16_t       ignored_currents;      /**< samples since the start or a reset, current_gate.h */
+    bool           without_angle; /**< the encoder is lost: the drive stops by the currents alone */
+    uint16_t       ignored_currents; /**< samples since the start or a reset, current_gate.h */
     board_reset_t  reset_cause;
     float          theta_e_rad;
     float          speed_e_radps; /**< RUN: estimate of the drive; otherwise by difference */

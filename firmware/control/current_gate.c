@@ -30,7 +30,7 @@ current_gate_verdict_t current_gate_judge(current_gate_t *s, float ia_A, float i
 
     s->recent = (uint16_t)(before | (beyond ? 1U : 0U));
     s->jumped = far;
-    if (beyond && (!number || (before != 0U))) {
+    if (beyond && (!number || !in->expected || (before != 0U))) {
         return CURRENT_GATE_TRIP;
     }
     if (spike && (s->ignored < UINT16_MAX)) {

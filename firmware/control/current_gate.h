@@ -34,7 +34,7 @@ typedef struct {
     float trip_A;   /**< of a phase */
     float jump_A;   /**< of a phase, from what was expected */
     abc_t i_hat_A;  /**< expected */
-    bool  expected; /**< false: nothing is expected */
+    bool  expected; /**< false: no law runs that expects any; one sample is enough then */
 } current_gate_input_t;
 
 void current_gate_reset(current_gate_t *s);

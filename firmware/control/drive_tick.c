@@ -122,8 +122,7 @@ static bridge_t run(drive_t *d, const drive_sample_t *sample, float command_e_ra
     return (wrong == DRIVE_FAULT_NONE) ? modulate(d, sample->dc_link_V) : trip(d, wrong);
 }
 
-/* With the currents that the law expects at this instant, for laws without a prediction those of the period before. A
- * run does not start without measured ones. */
+/* With the currents that the law expects at this instant, for laws without a prediction those of the period before. */
 static bridge_t run_without_currents(drive_t *d, const drive_sample_t *sample,
                                      float command_e_radps)
 {
@@ -131,9 +130,6 @@ static bridge_t run_without_currents(drive_t *d, const drive_sample_t *sample,
     const dq_t          i_A = {.d = out->now.id_A, .q = out->now.iq_A};
     const float theta_rad   = out->theta_rad - (0.5f * d->config->ts_s * out->now.omega_e_radps);
 
-    if (d->state == DRIVE_OFF) {
-        return bridge_open();
-    }
     const drive_sample_t replaced = current_gate_replaced(sample, i_A, theta_rad);
     return run(d, &replaced, command_e_radps);
 }

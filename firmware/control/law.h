@@ -38,6 +38,7 @@ typedef struct {
     float d_d;
     uint16_t
          ignored_angles; /**< samples since the start of the run; zero where a law believes all */
+    bool without_angle;  /**< the encoder is lost; the law goes on without it, for a stop */
     bool plausible;      /**< false: the angle cannot be right */
 } law_output_t;
 

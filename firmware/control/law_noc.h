@@ -11,6 +11,7 @@
 
 #include "encoder_form.h"
 #include "near_optimal.h"
+#include "nodo_current.h"
 #include "nodo_encoder.h"
 
 typedef struct {
@@ -19,6 +20,7 @@ typedef struct {
     angle_gate_config_t   gate;
     encoder_form_gains_t  rare; /**< for edges that come less often than samples */
     nodo_encoder_gains_t  nodo;
+    nodo_current_gains_t  currents; /**< for a lost encoder */
 } law_noc_config_t;
 
 typedef struct {

@@ -56,6 +56,7 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     const near_optimal_view_t view = observe(s, c, drive, in);
     near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in, out);
     out->ignored_angles = s->gate.ignored;
+    out->without_angle  = s->gate.lost;
 }
 
 const law_t law_noc_h = {.check = check, .reset = reset, .step = step};

@@ -95,5 +95,6 @@ void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c
     out->d_q            = view->est->d_q;
     out->d_d            = view->est->d_d;
     out->ignored_angles = 0U;
+    out->without_angle  = false;
     out->plausible      = view->plausible;
 }

@@ -28,6 +28,7 @@ static inline void servo_answer(const drive_config_t *drive, const law_input_t *
     out->d_q            = 0.0f;
     out->d_d            = 0.0f;
     out->ignored_angles = 0U;
+    out->without_angle  = false;
     out->plausible      = true;
 }
 

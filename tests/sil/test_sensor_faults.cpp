@@ -61,6 +61,9 @@ Outcome worst_of(double speed, const std::string &fault)
     return worst;
 }
 
+const std::string dead_encoder = fmt::format(
+    "[[change]]\ntime_s = {}\nset = {{ sensors = {{ encoder_dead = true }} }}\n", when_s);
+
 std::string encoder_glitch(int counts, int samples = 1)
 {
     return fmt::format("[[glitch]]\ntime_s = {}\nencoder_cnt = {}\nsamples = {}\n", when_s, counts,
@@ -97,16 +100,51 @@ TEST(SensorFaults, LostCountsMoveTheAngleOnly)
     }
 }
 
-/// EQ-ANGLE-GATE-2
-TEST(SensorFaults, DeadEncoderIsFoundWithinMilliseconds)
+/// EQ-ANGLE-GATE-2: too slow for the currents to take its place.
+TEST(SensorFaults, DeadEncoderOfASlowShaftTripsWithinMilliseconds)
 {
-    for (const double speed : {20.0, -20.0, 40.0, 60.0, 100.0, 150.0, 300.0, -300.0, 500.0}) {
-        const Outcome o = worst_of(
-            speed, fmt::format("[[change]]\ntime_s = {}\nset = {{ sensors = {{ encoder_dead = true "
-                               "}} }}\n",
-                               when_s));
+    for (const double speed : {20.0, -20.0, 30.0, 40.0, -45.0}) {
+        const Outcome o = worst_of(speed, dead_encoder);
         EXPECT_EQ(o.fault, static_cast<int>(DRIVE_FAULT_ENCODER)) << speed;
         EXPECT_LT(o.fault_time_s, when_s + 2e-3) << speed;
+    }
+}
+
+/// EQ-NODO-CURRENT-1: the drive goes on, also with a motor that is not as believed.
+TEST(SensorFaults, DriveGoesOnWithoutItsEncoder)
+{
+    for (const double speed : {60.0, 100.0, 150.0, 300.0, -300.0, 500.0}) {
+        const Outcome o = worst_of(speed, dead_encoder);
+        EXPECT_EQ(o.fault, 0) << speed;
+        EXPECT_LT(o.peak_A, limit_A) << speed;
+        EXPECT_LT(o.off_e_radps, 4.0) << speed;
+    }
+    for (const char *scale : {"stator_resistance_Ohm = 0.5", "stator_resistance_Ohm = 1.5",
+                              "d_axis_inductance_H = 1.5\nq_axis_inductance_H = 1.5",
+                              "pm_flux_Wb = 0.8", "pm_flux_Wb = 1.2", "inertia_kgm2 = 3.0"}) {
+        const Outcome o =
+            worst_of(300.0, fmt::format("[plant_scale]\n{}\n{}", scale, dead_encoder));
+        EXPECT_EQ(o.fault, 0) << scale;
+        EXPECT_LT(o.off_e_radps, 20.0) << scale;
+    }
+}
+
+/// As the application stops it: by the speed of the model, and the fault where that ends.
+TEST(SensorFaults, DriveStopsWithoutItsEncoder)
+{
+    Scenario s = read(text_of(300.0, dead_encoder));
+    s.speed_reference.push_back({when_s + 0.01, 0.0});
+    const SimulationResult result = simulate(s);
+    EXPECT_EQ(result.fault, static_cast<int>(DRIVE_FAULT_ENCODER));
+    EXPECT_GT(result.fault_time_s, when_s + 0.01);
+    for (const TraceRow &row : result.trace) {
+        if (row.time_s < result.fault_time_s) {
+            EXPECT_LT(row.peak_current_A, 1.05 * limit_A) << row.time_s;
+            EXPECT_GT(row.omega_e_radps, 40.0) << row.time_s;
+        } else {
+            EXPECT_LT(row.omega_e_radps, 60.0) << row.time_s;
+            break;
+        }
     }
 }
 

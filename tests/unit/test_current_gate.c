@@ -29,7 +29,7 @@ static int judge(float ia_A, float ib_A)
 /* Every sequence of eight samples, beyond the trip level or not, against what the definition says. */
 static void test_two_of_three_trip(void)
 {
-    in.expected = false;
+    in.jump_A = 100.0f;
     for (int pattern = 0; pattern < 256; pattern++) {
         current_gate_reset(&gate);
         for (int n = 0; n < 8; n++) {
@@ -47,7 +47,7 @@ static void test_every_phase_counts(void)
 {
     static const float ia_A[] = {8.1f, -8.1f, 0.0f, 0.0f, 4.1f, -4.1f};
     static const float ib_A[] = {0.0f, 0.0f, 8.1f, -8.1f, 4.1f, -4.1f};
-    in.expected               = false;
+    in.jump_A                 = 100.0f;
     for (int i = 0; i < SUPPORT_COUNT(ia_A); i++) {
         current_gate_reset(&gate);
         TEST_ASSERT_EQUAL_INT(CURRENT_GATE_SPIKE, judge(ia_A[i], ib_A[i]));
@@ -77,6 +77,7 @@ static void test_a_jump_is_believed_when_it_stays(void)
     TEST_ASSERT_EQUAL_UINT16(2U, gate.ignored);
     in.expected = false;
     TEST_ASSERT_EQUAL_INT(CURRENT_GATE_GOOD, judge(5.0f, -0.5f));
+    TEST_ASSERT_EQUAL_INT(CURRENT_GATE_TRIP, judge(8.1f, -0.5f)); /* no law runs */
 }
 
 static void test_count_stays_at_its_end(void)

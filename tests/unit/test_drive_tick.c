@@ -437,13 +437,16 @@ static void test_two_of_three_samples_beyond_the_trip_level_trip(void)
     }
 }
 
-static void test_a_run_does_not_start_on_a_spike(void)
+static void test_a_drive_that_does_not_run_trips_on_one_sample(void)
 {
+    command.run = false;
     sample.ia_A = 9.0f;
     assert_open(tick());
-    TEST_ASSERT_EQUAL_INT(DRIVE_OFF, drive.state);
-    sample = sample_at(-0.1, 0.5, 1.0, 300.0);
-    TEST_ASSERT_TRUE(tick().gate_enable);
+    TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_OVER_CURRENT, drive.fault);
+    start_over();
+    sample.ia_A = 9.0f;
+    assert_open(tick());
+    TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_OVER_CURRENT, drive.fault);
 }
 
 static void test_current_of_the_third_phase_trips(void)
@@ -944,10 +947,11 @@ static void test_standing_angle_of_a_turning_motor_trips(void)
     static const double speeds[] = {300.0, -300.0, 800.0, -800.0, 150.0};
     for (int i = 0; i < SUPPORT_COUNT(speeds); i++) {
         use_encoder_form();
-        loop_t      loop  = settled_loop(speeds[i], 0.2);
-        const float stuck = encoder_sample(&loop.plant).theta_e_rad;
-        bridge_t    out   = {{0.0f, 0.0f, 0.0f}, true};
-        int         n     = 0;
+        constants.noc.currents.from_e_radps = 1.0e6f; /* the currents do not take its place */
+        loop_t      loop                    = settled_loop(speeds[i], 0.2);
+        const float stuck                   = encoder_sample(&loop.plant).theta_e_rad;
+        bridge_t    out                     = {{0.0f, 0.0f, 0.0f}, true};
+        int         n                       = 0;
         for (; (n < 100) && out.gate_enable; n++) {
             sample             = encoder_sample(&loop.plant);
             sample.theta_e_rad = stuck;
@@ -965,10 +969,11 @@ static void test_standing_angle_of_a_slow_motor_trips_at_once(void)
     static const double speeds[] = {20.0, -20.0, 40.0, -60.0, 100.0, 300.0, -800.0};
     for (int i = 0; i < SUPPORT_COUNT(speeds); i++) {
         use_encoder_form();
-        loop_t      loop  = settled_loop(speeds[i], 0.2);
-        const float stuck = encoder_sample(&loop.plant).theta_e_rad;
-        bridge_t    out   = {{0.0f, 0.0f, 0.0f}, true};
-        int         n     = 0;
+        constants.noc.currents.from_e_radps = 1.0e6f; /* the currents do not take its place */
+        loop_t      loop                    = settled_loop(speeds[i], 0.2);
+        const float stuck                   = encoder_sample(&loop.plant).theta_e_rad;
+        bridge_t    out                     = {{0.0f, 0.0f, 0.0f}, true};
+        int         n                       = 0;
         for (; (n < 100) && out.gate_enable; n++) {
             sample             = encoder_sample(&loop.plant);
             sample.theta_e_rad = stuck;
@@ -978,6 +983,38 @@ static void test_standing_angle_of_a_slow_motor_trips_at_once(void)
         assert_open(out);
         TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_ENCODER, drive.fault);
         TEST_ASSERT_LESS_OR_EQUAL_INT(8, n);
+    }
+}
+
+/* Above a speed the currents alone hold it, and the drive says so; slower it trips. */
+static void test_drive_goes_on_without_its_encoder_until_it_is_slow(void)
+{
+    static const double speeds[] = {300.0, -300.0, 100.0};
+    for (int i = 0; i < SUPPORT_COUNT(speeds); i++) {
+        use_encoder_form();
+        loop_t      loop  = settled_loop(speeds[i], 0.75);
+        const float stuck = encoder_sample(&loop.plant).theta_e_rad;
+        for (int n = 0; n < 2000; n++) {
+            sample             = encoder_sample(&loop.plant);
+            sample.theta_e_rad = stuck;
+            TEST_ASSERT_TRUE(loop_step(&loop, 0.75).gate_enable);
+            TEST_ASSERT_DOUBLE_WITHIN(20.0, speeds[i], loop.plant.omega);
+            TEST_ASSERT_TRUE((n < 10) || drive.wanted.without_angle);
+            TEST_ASSERT_DOUBLE_WITHIN(
+                0.17, 0.0, /* 10 degrees; the estimate is a period ahead */
+                remainder((double)encoder_form->theta_hat_rad - loop.plant.theta,
+                          2.0 * 3.141592653589793));
+        }
+        command.omega_e_radps = 0.0f;
+        bridge_t out          = {{0.0f, 0.0f, 0.0f}, true};
+        for (int n = 0; (n < 2000) && out.gate_enable; n++) {
+            sample             = encoder_sample(&loop.plant);
+            sample.theta_e_rad = stuck;
+            out                = loop_step(&loop, 0.75);
+        }
+        assert_open(out);
+        TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_ENCODER, drive.fault);
+        TEST_ASSERT_DOUBLE_WITHIN(10.0, 51.4, fabs(loop.plant.omega));
     }
 }
 
@@ -1228,7 +1265,7 @@ int main(void)
     RUN_TEST(test_current_of_one_phase_trips_when_the_others_share_its_return);
     RUN_TEST(test_a_single_spike_of_the_currents_is_not_used);
     RUN_TEST(test_two_of_three_samples_beyond_the_trip_level_trip);
-    RUN_TEST(test_a_run_does_not_start_on_a_spike);
+    RUN_TEST(test_a_drive_that_does_not_run_trips_on_one_sample);
     RUN_TEST(test_current_of_the_third_phase_trips);
     RUN_TEST(test_opposite_currents_of_two_phases_leave_the_third_empty);
     RUN_TEST(test_bad_input_trips_while_the_drive_is_off);
@@ -1249,6 +1286,7 @@ int main(void)
     RUN_TEST(test_encoder_loop_settles_at_the_command_and_finds_the_load);
     RUN_TEST(test_standing_angle_of_a_turning_motor_trips);
     RUN_TEST(test_standing_angle_of_a_slow_motor_trips_at_once);
+    RUN_TEST(test_drive_goes_on_without_its_encoder_until_it_is_slow);
     RUN_TEST(test_jumping_angle_trips_in_the_same_call);
     RUN_TEST(test_angle_of_another_turn_is_accepted);
     RUN_TEST(test_encoder_form_trips_on_every_input_that_is_not_finite);
