@@ -617,7 +617,7 @@ TEST(Design, GateIsFourCountsAndTheWorstLoadStep)
     }
     const double count = 2.0 * 2.0 * std::acos(-1.0) / 10000.0;
     EXPECT_NEAR(static_cast<double>(c.gate.gate_rad), 4.0 * count + worst, 1e-8);
-    EXPECT_NEAR(static_cast<double>(c.gate.gate_rad), 7.84e-3, 1e-5);
+    EXPECT_NEAR(static_cast<double>(c.gate.gate_rad), 9.58e-3, 1e-5);
     EXPECT_NEAR(static_cast<double>(c.gate.count_rad), count, 1e-9);
     EXPECT_EQ(c.gate.slow_e_radps2, c.plausible.d_omega);
 }

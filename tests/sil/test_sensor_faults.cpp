@@ -72,7 +72,7 @@ std::string encoder_glitch(int counts, int samples = 1)
 
 } // namespace
 
-/// EQ-ANGLE-GATE-1: beyond the gate of 6.2 counts nothing is seen of a wrong reading.
+/// EQ-ANGLE-GATE-1: beyond the gate of 7.6 counts nothing is seen of a wrong reading.
 TEST(SensorFaults, SingleEncoderGlitchesDoNotTrip)
 {
     for (const int counts : {1, 2, 3, 4, 5, 6, 7, 8, 12, 20, 30, 40, 150}) {
@@ -80,7 +80,7 @@ TEST(SensorFaults, SingleEncoderGlitchesDoNotTrip)
             const Outcome o = worst_of(300.0, encoder_glitch(sign * counts));
             EXPECT_EQ(o.fault, 0) << sign * counts;
             EXPECT_LT(o.peak_A, 1.05 * limit_A) << sign * counts;
-            EXPECT_LT(o.off_e_radps, counts > 7 ? 1.0 : 10.0) << sign * counts;
+            EXPECT_LT(o.off_e_radps, counts > 8 ? 1.5 : 10.0) << sign * counts;
         }
     }
     EXPECT_LT(worst_of(300.0, encoder_glitch(40, 3)).off_e_radps, 1.5);
