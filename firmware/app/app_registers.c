@@ -59,28 +59,31 @@ static uint16_t conditions(const app_registers_t *r)
     const uint16_t dc      = r->status.dc_link_out ? (uint16_t)APP_REGISTERS_DC_OUT : 0U;
     const uint16_t trip    = r->status.tripped ? (uint16_t)APP_REGISTERS_TRIPPED : 0U;
     const uint16_t shorted = r->status.shorted ? (uint16_t)APP_REGISTERS_SHORTED : 0U;
-    return (uint16_t)(hot | silent | gate | dc | trip | shorted);
+    const uint16_t lost    = r->status.without_angle ? (uint16_t)APP_REGISTERS_WITHOUT_ANGLE : 0U;
+    return (uint16_t)(hot | silent | gate | dc | trip | shorted | lost);
 }
 
 static void state_values(const app_registers_t *r, uint16_t all[APP_REGISTERS_INPUT_COUNT])
 {
     const app_status_t *s = &r->status;
 
-    all[APP_REGISTERS_MODE]         = (uint16_t)s->mode;
-    all[APP_REGISTERS_FAULT]        = (uint16_t)s->fault;
-    all[APP_REGISTERS_DRIVE_FAULT]  = (uint16_t)s->drive_fault;
-    all[APP_REGISTERS_BOARD_FAULTS] = s->board_faults;
-    all[APP_REGISTERS_CONDITIONS]   = conditions(r);
-    all[APP_REGISTERS_REFERENCE]    = (uint16_t)s->reference;
-    all[APP_REGISTERS_ALIGN_STAGE]  = (uint16_t)s->align_stage;
-    all[APP_REGISTERS_POSITION]     = s->position_cnt;
-    all[APP_REGISTERS_CORRECTIONS]  = s->index_corrections;
-    all[APP_REGISTERS_RESET_CAUSE]  = (uint16_t)s->reset_cause;
-    all[APP_REGISTERS_PHASE_ERRORS] = s->phase_errors;
-    all[APP_REGISTERS_CYCLES]       = s->tick_cycles;
-    all[APP_REGISTERS_CYCLES_WORST] = s->tick_cycles_worst;
-    all[APP_REGISTERS_TICKS_HI]     = high_word(s->ticks);
-    all[APP_REGISTERS_TICKS_LO]     = low_word(s->ticks);
+    all[APP_REGISTERS_MODE]             = (uint16_t)s->mode;
+    all[APP_REGISTERS_FAULT]            = (uint16_t)s->fault;
+    all[APP_REGISTERS_DRIVE_FAULT]      = (uint16_t)s->drive_fault;
+    all[APP_REGISTERS_BOARD_FAULTS]     = s->board_faults;
+    all[APP_REGISTERS_CONDITIONS]       = conditions(r);
+    all[APP_REGISTERS_REFERENCE]        = (uint16_t)s->reference;
+    all[APP_REGISTERS_ALIGN_STAGE]      = (uint16_t)s->align_stage;
+    all[APP_REGISTERS_POSITION]         = s->position_cnt;
+    all[APP_REGISTERS_CORRECTIONS]      = s->index_corrections;
+    all[APP_REGISTERS_RESET_CAUSE]      = (uint16_t)s->reset_cause;
+    all[APP_REGISTERS_PHASE_ERRORS]     = s->phase_errors;
+    all[APP_REGISTERS_IGNORED_ANGLES]   = s->ignored_angles;
+    all[APP_REGISTERS_IGNORED_CURRENTS] = s->ignored_currents;
+    all[APP_REGISTERS_CYCLES]           = s->tick_cycles;
+    all[APP_REGISTERS_CYCLES_WORST]     = s->tick_cycles_worst;
+    all[APP_REGISTERS_TICKS_HI]         = high_word(s->ticks);
+    all[APP_REGISTERS_TICKS_LO]         = low_word(s->ticks);
 }
 
 static void measured_values(const app_status_t *s, uint16_t all[APP_REGISTERS_INPUT_COUNT])

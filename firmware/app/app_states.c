@@ -134,21 +134,23 @@ static bool drive_watches(app_modes_t *m, const app_modes_input_t *in)
     return m->drive.state != DRIVE_FAULT;
 }
 
-/* RUN and STOP. */
+/* RUN and STOP. A drive whose encoder is lost brakes until it is too slow to go on without, which is its fault. */
 static bridge_t run(app_modes_t *m, const app_modes_input_t *in)
 {
     static const app_command_t stop = {.omega_e_radps = 0.0f, .run = false, .reset = false};
 
-    const bool brake = !in->command.run && (m->drive.state == DRIVE_RUN) &&
-                       app_stop_is_braking(&m->stop, m->reading.omega_e_radps);
+    const bool lost = m->drive.wanted.without_angle;
+    const bool brake =
+        (m->drive.state == DRIVE_RUN) &&
+        (lost || (!in->command.run && app_stop_is_braking(&m->stop, m->reading.omega_e_radps)));
     bridge_t out = drive(m, brake ? &stop : &in->command, brake || in->command.run);
 
     if (m->drive.state == DRIVE_FAULT) {
         out = app_states_trip(m, in, APP_FAULT_DRIVE);
-    } else if (in->command.run) {
-        m->mode = APP_MODE_RUN;
     } else if (brake) {
         m->mode = APP_MODE_STOP;
+    } else if (in->command.run) {
+        m->mode = APP_MODE_RUN;
     } else {
         enter(m, APP_MODE_READY);
     }

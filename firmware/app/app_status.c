@@ -20,6 +20,9 @@ app_status_t app_modes_status(const volatile app_modes_t *m, uint16_t board_faul
                             .position_cnt      = m->angle.before_cnt,
                             .index_corrections = m->angle.corrections,
                             .phase_errors      = m->phase_errors,
+                            .ignored_angles    = m->drive.wanted.ignored_angles,
+                            .without_angle     = running && m->drive.wanted.without_angle,
+                            .ignored_currents  = m->drive.current_gate.ignored,
                             .reset_cause       = BOARD_RESET_PIN,
                             .theta_e_rad       = m->reading.theta_e_rad,
                             .speed_e_radps =

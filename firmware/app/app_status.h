@@ -63,21 +63,24 @@ typedef struct {
     app_align_stage_t     align_stage;
     uint16_t              position_cnt;
     uint16_t              index_corrections;
-    uint16_t              phase_errors; /**< of the encoder since the start */
-    board_reset_t         reset_cause;
-    float                 theta_e_rad;
-    float                 speed_e_radps; /**< RUN: estimate of the drive; otherwise by difference */
-    float                 dc_link_V;
-    float                 temperature_degC;
-    dq_t                  i_A;     /**< RUN only */
-    dq_t                  i_ref_A; /**< RUN only */
-    dq_t                  v_V;     /**< RUN only */
-    float                 zero_a_cnt;
-    float                 zero_b_cnt;
-    uint16_t              tick_cycles;       /**< of the last tick; 65535 if more */
-    uint16_t              tick_cycles_worst; /**< since the start */
-    uint32_t              ticks;
-    app_snapshot_t        snapshot;
+    uint16_t              phase_errors;   /**< of the encoder since the start */
+    uint16_t              ignored_angles; /**< samples of this run, angle_gate.h */
+    bool           without_angle; /**< the encoder is lost: the drive stops by the currents alone */
+    uint16_t       ignored_currents; /**< samples since the start or a reset, current_gate.h */
+    board_reset_t  reset_cause;
+    float          theta_e_rad;
+    float          speed_e_radps; /**< RUN: estimate of the drive; otherwise by difference */
+    float          dc_link_V;
+    float          temperature_degC;
+    dq_t           i_A;     /**< RUN only */
+    dq_t           i_ref_A; /**< RUN only */
+    dq_t           v_V;     /**< RUN only */
+    float          zero_a_cnt;
+    float          zero_b_cnt;
+    uint16_t       tick_cycles;       /**< of the last tick; 65535 if more */
+    uint16_t       tick_cycles_worst; /**< since the start */
+    uint32_t       ticks;
+    app_snapshot_t snapshot;
 } app_status_t;
 
 /** What the operator wants. */

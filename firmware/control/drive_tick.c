@@ -12,7 +12,8 @@
 /* Longer than any drive stands still; a number, for all that is divided by it. */
 #define EDGE_GAP_MAX_s 1.0e9f
 
-static const dq_t zero_dq = {0.0f, 0.0f};
+static const dq_t  zero_dq  = {0.0f, 0.0f};
+static const abc_t zero_abc = {0.0f, 0.0f, 0.0f};
 
 ctl_status_t drive_init(drive_t *d, const drive_config_t *config)
 {
@@ -32,10 +33,12 @@ void drive_reset(drive_t *d)
     d->wanted    = nothing;
     d->v_V       = zero_dq;
     d->v_limited = false;
+    d->i_hat_A   = zero_abc;
+    current_gate_reset(&d->current_gate);
 }
 
 static drive_fault_t find_fault(const drive_config_t *c, const drive_sample_t *s,
-                                const drive_command_t *command)
+                                const drive_command_t *command, current_gate_verdict_t currents)
 {
     if (!s->valid || !base_within(s->theta_e_rad, BASE_TWO_PI) ||
         !base_in_range(s->band_rad, 0.0f, BASE_PI) ||
@@ -43,7 +46,7 @@ static drive_fault_t find_fault(const drive_config_t *c, const drive_sample_t *s
         !base_in_range(s->edge_age_s, 0.0f, EDGE_GAP_MAX_s)) {
         return DRIVE_FAULT_SAMPLE;
     }
-    if (sample_over_current(s->ia_A, s->ib_A, c->trip_current_A)) {
+    if (currents == CURRENT_GATE_TRIP) {
         return DRIVE_FAULT_OVER_CURRENT;
     }
     if (!base_in_range(s->dc_link_V, c->dc_link_min_V, c->dc_link_max_V)) {
@@ -105,6 +108,7 @@ static bridge_t modulate(drive_t *d, float dc_link_V)
 
     d->v_V       = v.v_V;
     d->v_limited = v.limited;
+    d->i_hat_A   = i_abc;
     return bridge_closed(dead_time_compensate(&c->dead_time, v.duty, i_abc));
 }
 
@@ -118,18 +122,47 @@ static bridge_t run(drive_t *d, const drive_sample_t *sample, float command_e_ra
     return (wrong == DRIVE_FAULT_NONE) ? modulate(d, sample->dc_link_V) : trip(d, wrong);
 }
 
+/* With the currents that the law expects at this instant, for laws without a prediction those of the period before. */
+static bridge_t run_without_currents(drive_t *d, const drive_sample_t *sample,
+                                     float command_e_radps)
+{
+    const law_output_t *out = &d->wanted; /* its angle is that of the middle of this period */
+    const dq_t          i_A = {.d = out->now.id_A, .q = out->now.iq_A};
+    const float theta_rad   = out->theta_rad - (0.5f * d->config->ts_s * out->now.omega_e_radps);
+
+    const drive_sample_t replaced = current_gate_replaced(sample, i_A, theta_rad);
+    return run(d, &replaced, command_e_radps);
+}
+
+/* Expected are the currents of the middle of this period, a twentieth of a turn ahead at the most. */
+static current_gate_verdict_t judge_currents(drive_t *d, const drive_sample_t *sample)
+{
+    const drive_config_t      *c  = d->config;
+    const current_gate_input_t in = {.trip_A = c->trip_current_A,
+                                     .jump_A = 2.0f * c->ts_s * base_max(c->motor.l6, c->motor.l8) *
+                                               sample->dc_link_V, /* EQ-CURRENT-GATE-2 */
+                                     .i_hat_A  = d->i_hat_A,
+                                     .expected = d->state == DRIVE_RUN};
+
+    return current_gate_judge(&d->current_gate, sample->ia_A, sample->ib_A, &in);
+}
+
 bridge_t drive_tick(drive_t *d, const drive_sample_t *sample, const drive_command_t *command)
 {
     if ((d->config == NULL) || (d->state == DRIVE_FAULT)) {
         return bridge_open();
     }
-    const drive_fault_t fault = find_fault(d->config, sample, command);
+    const current_gate_verdict_t currents = judge_currents(d, sample);
+    const drive_fault_t          fault    = find_fault(d->config, sample, command, currents);
     if (fault != DRIVE_FAULT_NONE) {
         return trip(d, fault);
     }
     if (!command->run) {
         d->state = DRIVE_OFF;
         return bridge_open();
+    }
+    if (currents == CURRENT_GATE_SPIKE) {
+        return run_without_currents(d, sample, command->omega_e_radps);
     }
     if (d->state == DRIVE_OFF) {
         start(d, sample);

@@ -10,13 +10,15 @@
  * modulator stand here and are the same for all.
  *
  * Nothing received is trusted: an invalid, non-finite or out-of-range sample or command opens the bridge
- * in the same call and latches the first reason until drive_reset().
+ * in the same call and latches the first reason until drive_reset(). A single sample of the currents beyond the trip
+ * level is not used instead, current_gate.h.
  */
 #ifndef DRIVE_TICK_H
 #define DRIVE_TICK_H
 
 #include "base.h"
 #include "bridge.h"
+#include "current_gate.h"
 #include "drive_config.h"
 #include "laws.h"
 #include "sample.h"
@@ -31,13 +33,13 @@ typedef enum { DRIVE_OFF = 0, DRIVE_RUN, DRIVE_FAULT } drive_state_t;
 /** Why the bridge was opened; the first reason is kept. */
 typedef enum {
     DRIVE_FAULT_NONE = 0,
-    DRIVE_FAULT_SAMPLE,       /**< sample marked invalid, or angle not a number in range */
-    DRIVE_FAULT_OVER_CURRENT, /**< phase current beyond the trip level, or not a number */
-    DRIVE_FAULT_DC_LINK,      /**< dc link outside its accepted range, or not a number */
-    DRIVE_FAULT_OVER_SPEED,   /**< speed beyond the trip level, or not a number */
-    DRIVE_FAULT_ENCODER,      /**< the angle jumped, or stands still while the motor turns fast */
-    DRIVE_FAULT_COMMAND,      /**< commanded speed out of range, or not a number */
-    DRIVE_FAULT_NUMERIC       /**< the law produced a voltage that is not a number */
+    DRIVE_FAULT_SAMPLE, /**< sample marked invalid, or angle not a number in range */
+    DRIVE_FAULT_OVER_CURRENT, /**< phase current beyond the trip level in two of three samples, or not a number */
+    DRIVE_FAULT_DC_LINK,    /**< dc link outside its accepted range, or not a number */
+    DRIVE_FAULT_OVER_SPEED, /**< speed beyond the trip level, or not a number */
+    DRIVE_FAULT_ENCODER,    /**< the angle jumped, or stands still while the motor turns fast */
+    DRIVE_FAULT_COMMAND,    /**< commanded speed out of range, or not a number */
+    DRIVE_FAULT_NUMERIC     /**< the law produced a voltage that is not a number */
 } drive_fault_t;
 
 typedef struct {
@@ -48,6 +50,8 @@ typedef struct {
     law_output_t          wanted; /**< what the law answered last */
     dq_t                  v_V;    /**< limited voltage computed last; in force from the next tick */
     bool                  v_limited; /**< v_V was limited */
+    abc_t                 i_hat_A;   /**< phase currents that the law expects */
+    current_gate_t        current_gate;
 } drive_t;
 
 /**

@@ -111,3 +111,27 @@ float encoder_form_learn(encoder_form_edges_t *edges, const drive_sample_t *s, f
     const float turned  = (before != 0) ? (off_rad - offset_of(edges, before)) : 0.0f;
     return off_rad + (turned * base_min(s->edge_age_s * per_gap_1ps, WIDEST));
 }
+
+void encoder_form_skip(encoder_form_edges_t *edges)
+{
+    edges->edge[1] = 0;
+    edges->edge[0] = 0;
+}
+
+angle_gate_result_t encoder_form_innovation(angle_gate_t *gate, encoder_form_edges_t *edges,
+                                            const angle_gate_config_t *c, const drive_sample_t *s,
+                                            const nodo_t *est, float theta_hat_rad, float ts_s)
+{
+    const float         error_rad = encoder_form_error_rad(s, theta_hat_rad);
+    angle_gate_result_t angle =
+        angle_gate_pass(gate, c, s->theta_e_rad, error_rad, est->omega_e_radps, ts_s);
+
+    if (!angle.used) {
+        encoder_form_skip(edges);
+    } else if (s->edge_gap_s > 0.0f) {
+        angle.innovation_rad -= encoder_form_learn(edges, s, c->count_rad, ts_s);
+    } else {
+        /* counts */
+    }
+    return angle;
+}

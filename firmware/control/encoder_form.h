@@ -6,6 +6,7 @@
 #ifndef ENCODER_FORM_H
 #define ENCODER_FORM_H
 
+#include "angle_gate.h"
 #include "base.h"
 #include "frames.h"
 #include "near_optimal.h"
@@ -85,14 +86,27 @@ void encoder_form_edges_reset(encoder_form_edges_t *edges);
 float encoder_form_learn(encoder_form_edges_t *edges, const drive_sample_t *s, float count_rad,
                          float ts_s);
 
-/** encoder_form_error_rad() without what the edge is off. Counts have no edge and stay as they are. */
-static inline float encoder_form_learned_error_rad(encoder_form_edges_t *edges,
-                                                   const drive_sample_t *s, float count_rad,
-                                                   float theta_hat_rad, float ts_s)
-{
-    const float error = encoder_form_error_rad(s, theta_hat_rad);
-    return (s->edge_gap_s > 0.0f) ? (error - encoder_form_learn(edges, s, count_rad, ts_s)) : error;
-}
+/** The next edge is no neighbour of the last ones, from which nothing is to be learned. */
+void encoder_form_skip(encoder_form_edges_t *edges);
+
+/**
+ * @brief encoder_form_error_rad() as far as the gate believes it, without what the edge is off.
+ *
+ * Counts have no edge and stay as they are. From a sample that the gate holds nothing is learned.
+ *
+ * @param gate          State of the gate.
+ * @param edges         Learned offsets.
+ * @param c             The gate's constants; count_rad is that of the edges too.
+ * @param s             This sample.
+ * @param est           Estimates, not yet corrected.
+ * @param theta_hat_rad Estimated angle.
+ * @param ts_s          Control period [s].
+ *
+ * Context: control ISR. The cost of encoder_form_learn().
+ */
+angle_gate_result_t encoder_form_innovation(angle_gate_t *gate, encoder_form_edges_t *edges,
+                                            const angle_gate_config_t *c, const drive_sample_t *s,
+                                            const nodo_t *est, float theta_hat_rad, float ts_s);
 
 /**
  * @brief Correction with an edge that comes once in T > Ts, or with the band after it.

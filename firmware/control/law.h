@@ -36,7 +36,10 @@ typedef struct {
     float d_omega; /**< estimated disturbances as in nodo.h; zero without an observer of them */
     float d_q;
     float d_d;
-    bool  plausible; /**< false: the angle cannot be right */
+    uint16_t
+         ignored_angles; /**< samples since the start of the run; zero where a law believes all */
+    bool without_angle;  /**< the encoder is lost; the law goes on without it, for a stop */
+    bool plausible;      /**< false: the angle cannot be right */
 } law_output_t;
 
 typedef struct {

@@ -6,7 +6,8 @@ static bool check(const drive_config_t *drive)
     const law_noc_config_t *c = drive->constants;
 
     return near_optimal_check(&c->near_optimal, drive) && encoder_form_check(&c->plausible) &&
-           encoder_form_gains_check(&c->rare) && nodo_encoder_check(&c->nodo);
+           angle_gate_check(&c->gate) && encoder_form_gains_check(&c->rare) &&
+           nodo_encoder_check(&c->nodo) && nodo_current_check(&c->currents);
 }
 
 static void reset(law_state_t *state, const drive_config_t *drive, const drive_sample_t *sample)
@@ -18,25 +19,45 @@ static void reset(law_state_t *state, const drive_config_t *drive, const drive_s
     nodo_reset(&s->observer, &y);
     s->theta_hat_rad = frames_wrap(sample->theta_e_rad);
     encoder_form_edges_reset(&s->edges);
+    angle_gate_reset(&s->gate, sample->theta_e_rad);
     near_optimal_reset(&s->near_optimal, &c->near_optimal, y.omega_e_radps);
+}
+
+/* With an encoder whose angle is believed, or held for some samples. */
+static void correct(law_noc_state_t *s, const law_noc_config_t *c, const drive_config_t *drive,
+                    const drive_sample_t *sample, const angle_gate_result_t *angle)
+{
+    float used_error = angle->innovation_rad;
+
+    s->theta_hat_rad = frames_wrap(s->theta_hat_rad + angle->jump_rad);
+    const dq_t i_A   = sample_current_A(sample, s->theta_hat_rad);
+    if (encoder_form_is_rare(sample, drive->ts_s)) {
+        used_error *= encoder_form_correct_rare(&s->observer, &s->theta_hat_rad, &c->rare,
+                                                used_error, sample->edge_gap_s, drive->ts_s);
+    }
+    nodo_encoder_correct(&s->observer, &s->theta_hat_rad, &c->nodo, i_A, used_error, drive->ts_s);
 }
 
 static near_optimal_view_t observe(law_noc_state_t *s, const law_noc_config_t *c,
                                    const drive_config_t *drive, const law_input_t *in)
 {
-    const dq_t  i_A         = sample_current_A(in->sample, s->theta_hat_rad);
-    const float angle_error = encoder_form_learned_error_rad(
-        &s->edges, in->sample, c->rare.count_rad, s->theta_hat_rad, drive->ts_s);
-    float used_error = angle_error;
+    const angle_gate_result_t angle = encoder_form_innovation(
+        &s->gate, &s->edges, &c->gate, in->sample, &s->observer, s->theta_hat_rad, drive->ts_s);
 
-    if (encoder_form_is_rare(in->sample, drive->ts_s)) {
-        used_error *= encoder_form_correct_rare(&s->observer, &s->theta_hat_rad, &c->rare,
-                                                angle_error, in->sample->edge_gap_s, drive->ts_s);
+    if (s->gate.lost) {
+        nodo_current_correct(&s->observer, &s->theta_hat_rad, &c->currents,
+                             sample_current_A(in->sample, s->theta_hat_rad));
+    } else {
+        correct(s, c, drive, in->sample, &angle);
     }
-    nodo_encoder_correct(&s->observer, &s->theta_hat_rad, &c->nodo, i_A, used_error, drive->ts_s);
     nodo_encoder_predict(&s->observer, &s->theta_hat_rad, &drive->motor, in->v_V, drive->ts_s);
-    return encoder_form_view(&c->plausible, &s->observer, s->theta_hat_rad, angle_error,
-                             drive->ts_s);
+
+    const bool          held = s->gate.lost || (s->gate.beyond > 1); /* and found out about */
+    near_optimal_view_t view = encoder_form_view(&c->plausible, &s->observer, s->theta_hat_rad,
+                                                 held ? 0.0f : angle.error_rad, drive->ts_s);
+    view.plausible           = view.plausible &&
+                     (!s->gate.lost || nodo_current_knows(&c->currents, s->observer.omega_e_radps));
+    return view;
 }
 
 static void step(law_state_t *state, const drive_config_t *drive, const law_input_t *in,
@@ -46,6 +67,8 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     law_noc_state_t          *s    = &state->noc;
     const near_optimal_view_t view = observe(s, c, drive, in);
     near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in, out);
+    out->ignored_angles = s->gate.ignored;
+    out->without_angle  = s->gate.lost;
 }
 
 const law_t law_noc = {.check = check, .reset = reset, .step = step};

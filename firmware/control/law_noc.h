@@ -11,13 +11,16 @@
 
 #include "encoder_form.h"
 #include "near_optimal.h"
+#include "nodo_current.h"
 #include "nodo_encoder.h"
 
 typedef struct {
     near_optimal_config_t near_optimal;
     encoder_form_limits_t plausible;
+    angle_gate_config_t   gate;
     encoder_form_gains_t  rare; /**< for edges that come less often than samples */
     nodo_encoder_gains_t  nodo;
+    nodo_current_gains_t  currents; /**< for a lost encoder */
 } law_noc_config_t;
 
 typedef struct {
@@ -25,6 +28,7 @@ typedef struct {
     float                theta_hat_rad; /**< estimated electrical angle, within +-pi */
     near_optimal_t       near_optimal;
     encoder_form_edges_t edges;
+    angle_gate_t         gate;
 } law_noc_state_t;
 
 extern const law_t law_noc;

@@ -6,7 +6,8 @@ static bool check(const drive_config_t *drive)
     const law_noc_h_config_t *c = drive->constants;
 
     return near_optimal_check(&c->near_optimal, drive) && encoder_form_check(&c->plausible) &&
-           encoder_form_gains_check(&c->rare) && nodo_harmonic_check(&c->nodo);
+           angle_gate_check(&c->gate) && encoder_form_gains_check(&c->rare) &&
+           nodo_harmonic_check(&c->nodo);
 }
 
 static void reset(law_state_t *state, const drive_config_t *drive, const drive_sample_t *sample)
@@ -19,27 +20,31 @@ static void reset(law_state_t *state, const drive_config_t *drive, const drive_s
     nodo_reset(&s->known.total, &y);
     s->known.d_omega_dot = 0.0f;
     encoder_form_edges_reset(&s->edges);
+    angle_gate_reset(&s->gate, sample->theta_e_rad);
     near_optimal_reset(&s->near_optimal, &c->near_optimal, y.omega_e_radps);
 }
 
 static near_optimal_view_t observe(law_noc_h_state_t *s, const law_noc_h_config_t *c,
                                    const drive_config_t *drive, const law_input_t *in)
 {
-    const dq_t  i_A         = sample_current_A(in->sample, s->observer.theta_rad);
-    const float angle_error = encoder_form_learned_error_rad(
-        &s->edges, in->sample, c->rare.count_rad, s->observer.theta_rad, drive->ts_s);
-    float used_error = angle_error;
+    const angle_gate_result_t angle =
+        encoder_form_innovation(&s->gate, &s->edges, &c->gate, in->sample, &s->observer.base,
+                                s->observer.theta_rad, drive->ts_s);
+    float used_error = angle.innovation_rad;
 
+    s->observer.theta_rad = frames_wrap(s->observer.theta_rad + angle.jump_rad);
+    const dq_t i_A        = sample_current_A(in->sample, s->observer.theta_rad);
     if (encoder_form_is_rare(in->sample, drive->ts_s)) {
         used_error *= encoder_form_correct_rare(&s->observer.base, &s->observer.theta_rad, &c->rare,
-                                                angle_error, in->sample->edge_gap_s, drive->ts_s);
+                                                used_error, in->sample->edge_gap_s, drive->ts_s);
     }
     nodo_harmonic_correct(&s->observer, &c->nodo, i_A, used_error);
     nodo_harmonic_predict(&s->observer, &c->nodo, &drive->motor, in->v_V, drive->ts_s, &s->known);
 
-    near_optimal_view_t view = encoder_form_view(&c->plausible, &s->known.total,
-                                                 s->observer.theta_rad, angle_error, drive->ts_s);
-    view.d_omega_dot         = s->known.d_omega_dot;
+    near_optimal_view_t view = encoder_form_view(
+        &c->plausible, &s->known.total, s->observer.theta_rad, angle.error_rad, drive->ts_s);
+    view.plausible   = view.plausible && !s->gate.lost;
+    view.d_omega_dot = s->known.d_omega_dot;
     return view;
 }
 
@@ -50,6 +55,8 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     law_noc_h_state_t        *s    = &state->noc_h;
     const near_optimal_view_t view = observe(s, c, drive, in);
     near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in, out);
+    out->ignored_angles = s->gate.ignored;
+    out->without_angle  = s->gate.lost;
 }
 
 const law_t law_noc_h = {.check = check, .reset = reset, .step = step};

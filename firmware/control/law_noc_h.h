@@ -13,6 +13,7 @@
 typedef struct {
     near_optimal_config_t near_optimal;
     encoder_form_limits_t plausible;
+    angle_gate_config_t   gate;
     encoder_form_gains_t  rare; /**< for edges that come less often than samples */
     nodo_harmonic_gains_t nodo;
 } law_noc_h_config_t;
@@ -22,6 +23,7 @@ typedef struct {
     nodo_harmonic_view_t known; /**< what the law needs of it */
     near_optimal_t       near_optimal;
     encoder_form_edges_t edges;
+    angle_gate_t         gate;
 } law_noc_h_state_t;
 
 extern const law_t law_noc_h;

@@ -87,12 +87,14 @@ void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c
     const dq_t u_V     = wanted_V(s, m, view, e, feedback_V);
     const bool reached = !voltage_is_outside(u_V, dc_link_V);
 
-    out->v_V       = reached ? u_V : out_of_reach_V(s, c, m, view, e);
-    out->theta_rad = view->theta_rad;
-    out->now       = view->now;
-    out->i_ref_A   = s->current_ref.i_A;
-    out->d_omega   = view->est->d_omega;
-    out->d_q       = view->est->d_q;
-    out->d_d       = view->est->d_d;
-    out->plausible = view->plausible;
+    out->v_V            = reached ? u_V : out_of_reach_V(s, c, m, view, e);
+    out->theta_rad      = view->theta_rad;
+    out->now            = view->now;
+    out->i_ref_A        = s->current_ref.i_A;
+    out->d_omega        = view->est->d_omega;
+    out->d_q            = view->est->d_q;
+    out->d_d            = view->est->d_d;
+    out->ignored_angles = 0U;
+    out->without_angle  = false;
+    out->plausible      = view->plausible;
 }

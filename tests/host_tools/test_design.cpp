@@ -597,6 +597,31 @@ TEST(Design, FirmwareConstantsFollowTheirDefinitions)
     near(ref.regen_per_V, 1.0 / (0.15 * 295.0));
 }
 
+/// EQ-ANGLE-GATE-3 by the same three states as a matrix recursion.
+TEST(Design, GateIsFourCountsAndTheWorstLoadStep)
+{
+    const sdre::Design d = shipped("ipmsm_390w");
+    const auto        &c = of_encoder_form(d.config);
+    const double       a = static_cast<double>(c.plausible.d_omega);
+    Eigen::Matrix3d    predict;
+    predict << 1.0, 2e-4, 2e-8, 0.0, 1.0, 2e-4, 0.0, 0.0, 1.0;
+    const Eigen::Vector3d K(static_cast<double>(c.rare.theta),
+                            static_cast<double>(c.rare.omega_1ps),
+                            static_cast<double>(c.rare.d_omega_1ps2));
+    Eigen::Vector3d       e(0.0, 0.0, a);
+    double                worst = 0.0;
+    for (int k = 0; k < 200; k++) {
+        e     = predict * e;
+        worst = std::max(worst, std::abs(e(0)));
+        e -= K * e(0);
+    }
+    const double count = 2.0 * 2.0 * std::acos(-1.0) / 10000.0;
+    EXPECT_NEAR(static_cast<double>(c.gate.gate_rad), 4.0 * count + worst, 1e-8);
+    EXPECT_NEAR(static_cast<double>(c.gate.gate_rad), 9.58e-3, 1e-5);
+    EXPECT_NEAR(static_cast<double>(c.gate.count_rad), count, 1e-9);
+    EXPECT_EQ(c.gate.slow_e_radps2, c.plausible.d_omega);
+}
+
 TEST(Design, OvermodulationIsPassedOn)
 {
     EXPECT_TRUE(shipped("ipmsm_390w").config.overmodulation);

@@ -97,6 +97,11 @@ void add_gains(std::vector<float> &v, const encoder_form_gains_t &gains)
     v.insert(v.end(), {gains.theta, gains.omega_1ps, gains.d_omega_1ps2, gains.count_rad});
 }
 
+void add_gate(std::vector<float> &v, const angle_gate_config_t &gate)
+{
+    v.insert(v.end(), {gate.gate_rad, gate.count_rad, gate.slow_e_radps2});
+}
+
 /// The numbers of the table of noc_h in the order of the structure.
 std::vector<float> values_of(const nodo_harmonic_gains_t &g)
 {
@@ -119,6 +124,7 @@ std::vector<float> constants_in(const drive_config_t &c)
     if (const auto *noc = sdre::constants_of<law_noc_config_t>(c)) {
         add_near_optimal(v, noc->near_optimal);
         add_limits(v, noc->plausible);
+        add_gate(v, noc->gate);
         add_gains(v, noc->rare);
         add_observer(v, {noc->nodo.iq_max_A}, noc->nodo.order, noc->nodo.gain);
     } else if (const auto *speed = sdre::constants_of<law_noc_speed_config_t>(c)) {
@@ -129,6 +135,7 @@ std::vector<float> constants_in(const drive_config_t &c)
         const auto &noc_h = *sdre::constants_of<law_noc_h_config_t>(c);
         add_near_optimal(v, noc_h.near_optimal);
         add_limits(v, noc_h.plausible);
+        add_gate(v, noc_h.gate);
         add_gains(v, noc_h.rare);
         const std::vector<float> nodo = values_of(noc_h.nodo);
         v.insert(v.end(), nodo.begin(), nodo.end());

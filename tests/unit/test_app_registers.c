@@ -140,11 +140,17 @@ static void test_conditions_reset_and_phase_errors(void)
     registers.status.phase_errors = 1234U;
     TEST_ASSERT_EQUAL_UINT(1U, input(40));
     TEST_ASSERT_EQUAL_UINT(1234U, input(41));
+    registers.status.ignored_angles   = 65535U;
+    registers.status.ignored_currents = 7U;
+    registers.status.without_angle    = true;
+    TEST_ASSERT_EQUAL_UINT(65535U, input(42));
+    TEST_ASSERT_EQUAL_UINT(7U, input(43));
+    TEST_ASSERT_EQUAL_UINT(88U, input(4));
 }
 
 static void test_blocks_that_do_not_exist_as_a_whole_are_refused(void)
 {
-    static const uint32_t inputs[][2]   = {{42UL, 1UL},    {41UL, 2UL},    {0UL, 43UL},
+    static const uint32_t inputs[][2]   = {{44UL, 1UL},    {43UL, 2UL},    {0UL, 45UL},
                                            {65535UL, 1UL}, {65535UL, 2UL}, {1UL, 65535UL}};
     static const uint32_t holdings[][2] = {{3UL, 1UL}, {2UL, 2UL}, {0UL, 4UL}, {65535UL, 2UL}};
     uint16_t              values[64]    = {0U};
@@ -162,7 +168,7 @@ static void test_blocks_that_do_not_exist_as_a_whole_are_refused(void)
                                                   (uint16_t)holdings[i][1], values));
     }
     TEST_ASSERT_FALSE(registers.changed);
-    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, app_registers_read_input(&registers, 0U, 42U, values));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, app_registers_read_input(&registers, 0U, 44U, values));
     TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, app_registers_read_holding(&registers, 0U, 3U, values));
 }
 

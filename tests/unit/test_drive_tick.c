@@ -256,6 +256,10 @@ static void test_reset_while_running_forgets_the_past(void)
 static void test_reset_zeroes_everything_that_is_published(void)
 {
     run_wildly();
+    for (int n = 0; n < 100; n++) { /* until a current is asked for again */
+        draw_calm_inputs();
+        (void)tick();
+    }
     drive.v_limited = true;
     TEST_ASSERT_TRUE((drive.wanted.d_omega != 0.0f) && (drive.wanted.i_ref_A.q != 0.0f) &&
                      (drive.wanted.theta_rad != 0.0f) && drive.wanted.plausible);
@@ -291,6 +295,10 @@ static const input_t inputs[] = {
 /* The bridge opens at once, the reason is latched through good samples and other faults, a reset clears. */
 static void assert_trips(drive_fault_t reason)
 {
+    if ((reason == DRIVE_FAULT_OVER_CURRENT) && base_within(sample.ia_A, 1.0e12f) &&
+        base_within(sample.ib_A, 1.0e12f)) { /* one alone would be a spike */
+        TEST_ASSERT_TRUE(tick().gate_enable);
+    }
     assert_open(tick());
     TEST_ASSERT_EQUAL_INT(DRIVE_FAULT, drive.state);
     TEST_ASSERT_EQUAL_INT(reason, drive.fault);
@@ -374,10 +382,71 @@ static void test_current_of_one_phase_trips_when_the_others_share_its_return(voi
         sample.ib_A = -4.01f * (float)sign;
         assert_trips(DRIVE_FAULT_OVER_CURRENT);
 
+        (void)tick();
         sample.ia_A = -4.01f * (float)sign;
         sample.ib_A = 8.02f * (float)sign;
         assert_trips(DRIVE_FAULT_OVER_CURRENT);
     }
+}
+
+/* EQ-CURRENT-GATE-1: the drive goes on as with the currents that it expects. */
+static void test_a_single_spike_of_the_currents_is_not_used(void)
+{
+    static const float spikes[] = {10.0f, -10.0f, 8.01f, 3.0f};
+    for (int i = 0; i < SUPPORT_COUNT(spikes); i++) {
+        use_encoder_form();
+        for (int n = 0; n < 50; n++) {
+            sample = sample_at(-0.1, 0.5, 1.0 + (0.06 * n), 300.0);
+            (void)tick();
+        }
+        const nodo_t x = encoder_form->observer;
+        sample         = sample_at(-0.1, 0.5, 1.0 + (0.06 * 50), 300.0);
+        drive_t with   = drive;
+        sample.ia_A += spikes[i];
+
+        TEST_ASSERT_TRUE(tick().gate_enable);
+        const nodo_t got = encoder_form->observer;
+        sample =
+            sample_at((double)x.id_A, (double)x.iq_A, (double)with.law.noc.theta_hat_rad, 300.0);
+        sample.theta_e_rad = (float)(1.0 + (0.06 * 50));
+        drive              = with;
+        (void)tick();
+
+        TEST_ASSERT_FLOAT_WITHIN(0.1f, encoder_form->observer.d_omega, got.d_omega);
+        TEST_ASSERT_FLOAT_WITHIN(1.0e-5f, encoder_form->observer.iq_A, got.iq_A);
+        TEST_ASSERT_FLOAT_WITHIN(1.0e-5f, encoder_form->observer.id_A, got.id_A);
+    }
+}
+
+static void test_two_of_three_samples_beyond_the_trip_level_trip(void)
+{
+    static const int  patterns[] = {3, 5, 9, 1}; /* bit n: sample n is beyond */
+    static const bool trips[]    = {true, true, false, false};
+    for (int i = 0; i < SUPPORT_COUNT(patterns); i++) {
+        start_over();
+        (void)tick();
+        for (int n = 0; n < 4; n++) {
+            sample = sample_at(-0.1, 0.5, 1.0, 300.0);
+            if (((patterns[i] >> n) & 1) != 0) {
+                sample.ib_A = -8.5f;
+            }
+            (void)tick();
+        }
+        TEST_ASSERT_EQUAL_INT(trips[i] ? DRIVE_FAULT : DRIVE_RUN, drive.state);
+        TEST_ASSERT_EQUAL_INT(trips[i] ? DRIVE_FAULT_OVER_CURRENT : DRIVE_FAULT_NONE, drive.fault);
+    }
+}
+
+static void test_a_drive_that_does_not_run_trips_on_one_sample(void)
+{
+    command.run = false;
+    sample.ia_A = 9.0f;
+    assert_open(tick());
+    TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_OVER_CURRENT, drive.fault);
+    start_over();
+    sample.ia_A = 9.0f;
+    assert_open(tick());
+    TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_OVER_CURRENT, drive.fault);
 }
 
 static void test_current_of_the_third_phase_trips(void)
@@ -878,10 +947,11 @@ static void test_standing_angle_of_a_turning_motor_trips(void)
     static const double speeds[] = {300.0, -300.0, 800.0, -800.0, 150.0};
     for (int i = 0; i < SUPPORT_COUNT(speeds); i++) {
         use_encoder_form();
-        loop_t      loop  = settled_loop(speeds[i], 0.2);
-        const float stuck = encoder_sample(&loop.plant).theta_e_rad;
-        bridge_t    out   = {{0.0f, 0.0f, 0.0f}, true};
-        int         n     = 0;
+        constants.noc.currents.from_e_radps = 1.0e6f; /* the currents do not take its place */
+        loop_t      loop                    = settled_loop(speeds[i], 0.2);
+        const float stuck                   = encoder_sample(&loop.plant).theta_e_rad;
+        bridge_t    out                     = {{0.0f, 0.0f, 0.0f}, true};
+        int         n                       = 0;
         for (; (n < 100) && out.gate_enable; n++) {
             sample             = encoder_sample(&loop.plant);
             sample.theta_e_rad = stuck;
@@ -890,6 +960,61 @@ static void test_standing_angle_of_a_turning_motor_trips(void)
 
         assert_open(out);
         TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_ENCODER, drive.fault);
+    }
+}
+
+/* EQ-ANGLE-GATE-1, 2: slower ones are found too, within some periods. */
+static void test_standing_angle_of_a_slow_motor_trips_at_once(void)
+{
+    static const double speeds[] = {20.0, -20.0, 40.0, -60.0, 100.0, 300.0, -800.0};
+    for (int i = 0; i < SUPPORT_COUNT(speeds); i++) {
+        use_encoder_form();
+        constants.noc.currents.from_e_radps = 1.0e6f; /* the currents do not take its place */
+        loop_t      loop                    = settled_loop(speeds[i], 0.2);
+        const float stuck                   = encoder_sample(&loop.plant).theta_e_rad;
+        bridge_t    out                     = {{0.0f, 0.0f, 0.0f}, true};
+        int         n                       = 0;
+        for (; (n < 100) && out.gate_enable; n++) {
+            sample             = encoder_sample(&loop.plant);
+            sample.theta_e_rad = stuck;
+            out                = loop_step(&loop, 0.2);
+        }
+
+        assert_open(out);
+        TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_ENCODER, drive.fault);
+        TEST_ASSERT_LESS_OR_EQUAL_INT(8, n);
+    }
+}
+
+/* Above a speed the currents alone hold it, and the drive says so; slower it trips. */
+static void test_drive_goes_on_without_its_encoder_until_it_is_slow(void)
+{
+    static const double speeds[] = {300.0, -300.0, 100.0};
+    for (int i = 0; i < SUPPORT_COUNT(speeds); i++) {
+        use_encoder_form();
+        loop_t      loop  = settled_loop(speeds[i], 0.75);
+        const float stuck = encoder_sample(&loop.plant).theta_e_rad;
+        for (int n = 0; n < 2000; n++) {
+            sample             = encoder_sample(&loop.plant);
+            sample.theta_e_rad = stuck;
+            TEST_ASSERT_TRUE(loop_step(&loop, 0.75).gate_enable);
+            TEST_ASSERT_DOUBLE_WITHIN(20.0, speeds[i], loop.plant.omega);
+            TEST_ASSERT_TRUE((n < 10) || drive.wanted.without_angle);
+            TEST_ASSERT_DOUBLE_WITHIN(
+                0.17, 0.0, /* 10 degrees; the estimate is a period ahead */
+                remainder((double)encoder_form->theta_hat_rad - loop.plant.theta,
+                          2.0 * 3.141592653589793));
+        }
+        command.omega_e_radps = 0.0f;
+        bridge_t out          = {{0.0f, 0.0f, 0.0f}, true};
+        for (int n = 0; (n < 2000) && out.gate_enable; n++) {
+            sample             = encoder_sample(&loop.plant);
+            sample.theta_e_rad = stuck;
+            out                = loop_step(&loop, 0.75);
+        }
+        assert_open(out);
+        TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_ENCODER, drive.fault);
+        TEST_ASSERT_DOUBLE_WITHIN(10.0, 51.4, fabs(loop.plant.omega));
     }
 }
 
@@ -1138,6 +1263,9 @@ int main(void)
     RUN_TEST(test_every_input_just_out_of_range_trips);
     RUN_TEST(test_every_input_at_the_end_of_its_range_is_accepted);
     RUN_TEST(test_current_of_one_phase_trips_when_the_others_share_its_return);
+    RUN_TEST(test_a_single_spike_of_the_currents_is_not_used);
+    RUN_TEST(test_two_of_three_samples_beyond_the_trip_level_trip);
+    RUN_TEST(test_a_drive_that_does_not_run_trips_on_one_sample);
     RUN_TEST(test_current_of_the_third_phase_trips);
     RUN_TEST(test_opposite_currents_of_two_phases_leave_the_third_empty);
     RUN_TEST(test_bad_input_trips_while_the_drive_is_off);
@@ -1157,6 +1285,8 @@ int main(void)
     RUN_TEST(test_loop_around_a_motor_settles_at_the_command_and_finds_the_load);
     RUN_TEST(test_encoder_loop_settles_at_the_command_and_finds_the_load);
     RUN_TEST(test_standing_angle_of_a_turning_motor_trips);
+    RUN_TEST(test_standing_angle_of_a_slow_motor_trips_at_once);
+    RUN_TEST(test_drive_goes_on_without_its_encoder_until_it_is_slow);
     RUN_TEST(test_jumping_angle_trips_in_the_same_call);
     RUN_TEST(test_angle_of_another_turn_is_accepted);
     RUN_TEST(test_encoder_form_trips_on_every_input_that_is_not_finite);

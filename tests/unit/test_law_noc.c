@@ -83,16 +83,28 @@ static void test_step_is_made_of_its_parts(void)
 {
     for (int n = 0; n < CASES; n++) {
         draw();
-        law_noc_state_t want  = *s;
-        const dq_t      i_A   = sample_current_A(&sample, want.theta_hat_rad);
-        const float     error = encoder_form_error_rad(&sample, want.theta_hat_rad);
-        nodo_encoder_correct(&want.observer, &want.theta_hat_rad, &config->nodo, i_A, error,
-                             drive->ts_s);
+        law_noc_state_t           want  = *s;
+        const float               error = encoder_form_error_rad(&sample, want.theta_hat_rad);
+        const angle_gate_result_t angle =
+            angle_gate_pass(&want.gate, &config->gate, sample.theta_e_rad, error,
+                            want.observer.omega_e_radps, drive->ts_s);
+        want.theta_hat_rad = frames_wrap(want.theta_hat_rad + angle.jump_rad);
+        const dq_t i_A     = sample_current_A(&sample, want.theta_hat_rad);
+        if (want.gate.lost) {
+            nodo_current_correct(&want.observer, &want.theta_hat_rad, &config->currents, i_A);
+        } else {
+            nodo_encoder_correct(&want.observer, &want.theta_hat_rad, &config->nodo, i_A,
+                                 angle.innovation_rad, drive->ts_s);
+        }
         nodo_encoder_predict(&want.observer, &want.theta_hat_rad, &drive->motor, in.v_V,
                              drive->ts_s);
-        const near_optimal_view_t view = encoder_form_view(&config->plausible, &want.observer,
-                                                           want.theta_hat_rad, error, drive->ts_s);
-        const nosc_error_t        e =
+        near_optimal_view_t view = encoder_form_view(
+            &config->plausible, &want.observer, want.theta_hat_rad,
+            (want.gate.lost || (want.gate.beyond > 1)) ? 0.0f : error, drive->ts_s);
+        view.plausible =
+            view.plausible &&
+            (!want.gate.lost || nodo_current_knows(&config->currents, want.observer.omega_e_radps));
+        const nosc_error_t e =
             near_optimal_error(&want.near_optimal, &config->near_optimal, drive, &view, &in);
         const dq_t   fb = nosc_feedback_V(&config->near_optimal.nosc, &e);
         law_output_t all;
@@ -110,6 +122,8 @@ static void test_step_is_made_of_its_parts(void)
         TEST_ASSERT_TRUE(
             (s->theta_hat_rad == want.theta_hat_rad) &&
             (s->near_optimal.current_ref.i_dot_Aps.q == want.near_optimal.current_ref.i_dot_Aps.q));
+        TEST_ASSERT_EQUAL_UINT16(want.gate.ignored, out.ignored_angles);
+        TEST_ASSERT_TRUE(out.without_angle == want.gate.lost);
         if ((n % 50) == 49) { /* random samples drive the estimates away */
             start();
         }

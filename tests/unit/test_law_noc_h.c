@@ -86,16 +86,21 @@ static void test_step_is_made_of_its_parts(void)
 {
     for (int n = 0; n < CASES; n++) {
         draw();
-        law_noc_h_state_t want  = *s;
-        const dq_t        i_A   = sample_current_A(&sample, want.observer.theta_rad);
-        const float       error = encoder_form_error_rad(&sample, want.observer.theta_rad);
-        nodo_harmonic_correct(&want.observer, &config->nodo, i_A, error);
+        law_noc_h_state_t         want  = *s;
+        const float               error = encoder_form_error_rad(&sample, want.observer.theta_rad);
+        const angle_gate_result_t angle =
+            angle_gate_pass(&want.gate, &config->gate, sample.theta_e_rad, error,
+                            want.observer.base.omega_e_radps, drive->ts_s);
+        want.observer.theta_rad = frames_wrap(want.observer.theta_rad + angle.jump_rad);
+        const dq_t i_A          = sample_current_A(&sample, want.observer.theta_rad);
+        nodo_harmonic_correct(&want.observer, &config->nodo, i_A, angle.innovation_rad);
         nodo_harmonic_view_t known;
         nodo_harmonic_predict(&want.observer, &config->nodo, &drive->motor, in.v_V, drive->ts_s,
                               &known);
         near_optimal_view_t view = encoder_form_view(&config->plausible, &known.total,
                                                      want.observer.theta_rad, error, drive->ts_s);
         view.d_omega_dot         = known.d_omega_dot;
+        view.plausible           = view.plausible && !want.gate.lost;
         const nosc_error_t e =
             near_optimal_error(&want.near_optimal, &config->near_optimal, drive, &view, &in);
         const dq_t   fb = nosc_feedback_V(&config->near_optimal.nosc, &e);
@@ -114,6 +119,7 @@ static void test_step_is_made_of_its_parts(void)
         TEST_ASSERT_TRUE(
             (s->observer.theta_rad == want.observer.theta_rad) &&
             (s->near_optimal.current_ref.i_dot_Aps.q == want.near_optimal.current_ref.i_dot_Aps.q));
+        TEST_ASSERT_EQUAL_UINT16(want.gate.ignored, out.ignored_angles);
         if ((n % 50) == 49) { /* random samples drive the estimates away */
             start();
         }

@@ -20,7 +20,7 @@ constexpr double reference_filter_periods = 8.0;
 // Chosen: half the nominal l1, reached at e_id = l1 / (2 |l11|).
 constexpr double smallest_l1_ratio = 0.5;
 // Chosen: twice the torque the motor has, so that a motor with half the believed inertia does not trip.
-// Measured: a standing encoder is found above about 120 rad/s.
+// A shaft that stops sooner than by this has an encoder that stands (EQ-ANGLE-GATE-2).
 constexpr double trip_torque_ratio = 2.0;
 // Chosen: an encoder wrong by this much turns a tenth of the torque into flux.
 constexpr double trip_angle_rad = 0.45;

@@ -17,6 +17,10 @@ near_optimal_config_t near_optimal_constants(const Design &design, bool exact_mt
 
 encoder_form_limits_t encoder_limits(const Design &design);
 
+/// What of a measured angle the observer with these gains may believe, EQ-ANGLE-GATE-3.
+angle_gate_config_t angle_gate_constants(const encoder_form_limits_t &limits,
+                                         const encoder_form_gains_t &gains, double ts_s);
+
 /// Entries in single precision; zeros where exact arithmetic has zeros.
 template <std::size_t Rows, std::size_t Columns>
 void copy_matrix(const Eigen::MatrixXd &from, float (&to)[Rows][Columns])
@@ -50,6 +54,9 @@ std::string observer_line(const SampledLoop &observer);
 std::string near_optimal_block(const near_optimal_config_t &c);
 /// ".plausible = {..},\n"
 std::string limits_block(const encoder_form_limits_t &limits);
+
+/// ".gate = {..},\n"
+std::string gate_block(const angle_gate_config_t &gate);
 
 /// ".rare = {..},\n"
 std::string rare_block(const encoder_form_gains_t &gains);

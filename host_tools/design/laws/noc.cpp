@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "design/firmware_config.hpp"
 #include "design/laws/near_optimal.hpp"
+#include "design/laws/nodo_current.hpp"
 
 namespace sdre {
 namespace {
@@ -21,6 +23,15 @@ encoder_form_gains_t sample_gains(const nodo_encoder_gains_t &g, const Drive &dr
     return {gain(6), gain(3), gain(0), static_cast<float>(count_e_rad(drive))};
 }
 
+void certify_currents(Design &d, const CurrentObserver &o)
+{
+    if (!(o.spectral_radius < 1.0) || !(o.worst_residual <= residual_limit)) {
+        d.certificate.failures.push_back(fmt::format(
+            "observer without encoder: spectral radius {:.5f}, relative residual {:.1e}",
+            o.spectral_radius, o.worst_residual));
+    }
+}
+
 void solve(Design &d)
 {
     solve_near_optimal(d);
@@ -31,6 +42,11 @@ void solve(Design &d)
     c.nodo.iq_max_A = static_cast<float>(d.certificate.nodo.series_range_A);
     copy_series(d.nodo, c.nodo.gain);
     c.rare = sample_gains(c.nodo, d.drive);
+    c.gate = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
+    const CurrentObserver currents =
+        design_nodo_current(d.l, d.drive, trip_speed_ratio * d.drive.motor.rated_speed_e_radps);
+    c.currents = currents.gains;
+    certify_currents(d, currents);
     keep_constants(d, c);
 }
 
@@ -54,11 +70,13 @@ std::vector<std::string> mismatches(const Design &d)
 std::string table(const Design &d)
 {
     const auto &c = *constants_of<law_noc_config_t>(d.config);
-    return near_optimal_block(c.near_optimal) + limits_block(c.plausible) + rare_block(c.rare) +
+    return near_optimal_block(c.near_optimal) + limits_block(c.plausible) + gate_block(c.gate) +
+           rare_block(c.rare) +
            c_block("nodo", c_field("order", c.nodo.order) + c_field("iq_max_A", c.nodo.iq_max_A) +
                                gain_block("         iq_A             id_A      theta_e_rad",
                                           {"d_w", "d_q", "d_d", "w", "iq", "id", "theta"},
-                                          c.nodo.order, c.nodo.gain));
+                                          c.nodo.order, c.nodo.gain)) +
+           nodo_current_block(c.currents);
 }
 
 } // namespace

@@ -98,6 +98,7 @@ void solve(Design &d)
     c.plausible    = encoder_limits(d);
     c.nodo         = *d.harmonics->table;
     c.rare         = sample_gains(d);
+    c.gate         = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
     keep_constants(d, c);
 }
 
@@ -178,7 +179,8 @@ std::string table(const Design &d)
         pairs += fmt::format("{{ .channel = {}, .order = {} }},\n",
                              channel_symbol(g.pair[i].channel), c_number(g.pair[i].order));
     }
-    return near_optimal_block(c.near_optimal) + limits_block(c.plausible) + rare_block(c.rare) +
+    return near_optimal_block(c.near_optimal) + limits_block(c.plausible) + gate_block(c.gate) +
+           rare_block(c.rare) +
            c_block("nodo", c_field("n_pairs", g.n_pairs) + c_field("n_nodes", g.n_nodes) +
                                c_field("iq_max_A", g.iq_max_A) +
                                c_field("nodes_per_root", g.nodes_per_root) +

@@ -128,6 +128,7 @@ void Board::begin_tick(double time_s)
         update_motor();
     }
     shaft_load_.torque_Nm = load_.at(time_s, 0.5 * period_s_);
+    glitch_               = glitch_at(scenario_.glitches, time_s, period_s_);
 }
 
 PlantState Board::plant_state() const
@@ -159,6 +160,7 @@ drive_sample_t Board::ideal_sample() const
 
 drive_sample_t Board::measured_sample()
 {
+    encoder_.misread(glitch_.encoder_cnt);
     const QuadratureEncoder::Reading position = encoder_.read(plant_.path());
     plant_.path().restart();
     if (sensors_.ideal) {
@@ -168,13 +170,13 @@ drive_sample_t Board::measured_sample()
     const AdcChannel  a = channel_a(sensors_);
     const AdcChannel  b = channel_b(sensors_);
     drive_sample_t    s{};
-    s.ia_A          = static_cast<float>(adc_current_A(a, adc_code(a, i.a, noise_a_)));
-    s.ib_A          = static_cast<float>(adc_current_A(b, adc_code(b, i.b, noise_b_)));
-    s.dc_link_V     = static_cast<float>(dc_link_.voltage_V());
-    s.theta_e_rad   = static_cast<float>(position.theta_e_rad);
-    s.band_rad      = static_cast<float>(position.band_e_rad);
-    s.edge_gap_s    = static_cast<float>(position.edge_gap_s);
-    s.edge_age_s    = static_cast<float>(position.edge_age_s);
+    s.ia_A        = static_cast<float>(adc_current_A(a, adc_code(a, i.a + glitch_.ia_A, noise_a_)));
+    s.ib_A        = static_cast<float>(adc_current_A(b, adc_code(b, i.b + glitch_.ib_A, noise_b_)));
+    s.dc_link_V   = static_cast<float>(dc_link_.voltage_V());
+    s.theta_e_rad = static_cast<float>(position.theta_e_rad);
+    s.band_rad    = static_cast<float>(position.band_e_rad);
+    s.edge_gap_s  = static_cast<float>(position.edge_gap_s);
+    s.edge_age_s  = static_cast<float>(position.edge_age_s);
     s.edge_of_line  = static_cast<std::int16_t>(position.edge_of_line);
     s.omega_e_radps = static_cast<float>(position.omega_e_radps);
     s.valid         = true;
@@ -192,12 +194,13 @@ drive_sample_t Board::sample()
 
 RawSample Board::raw_sample()
 {
+    encoder_.misread(glitch_.encoder_cnt);
     const QuadratureEncoder::Reading position = encoder_.read(plant_.path(), edges_);
     plant_.path().restart();
     const PhaseVector i = plant_.phase_current_A();
     RawSample         s;
-    s.ia_code     = adc_code(channel_a(sensors_), i.a, noise_a_);
-    s.ib_code     = adc_code(channel_b(sensors_), i.b, noise_b_);
+    s.ia_code     = adc_code(channel_a(sensors_), i.a + glitch_.ia_A, noise_a_);
+    s.ib_code     = adc_code(channel_b(sensors_), i.b + glitch_.ib_A, noise_b_);
     s.dc_link_V   = dc_link_.voltage_V();
     s.count       = position.raw_count;
     s.index       = position.index;

@@ -102,6 +102,7 @@ private:
     LoadProfile              load_;
     double                   first_dead_time_s_; ///< the gates\'
     ShaftLoad                shaft_load_;
+    Glitch                   glitch_; ///< of the sample of this tick
     double                   time_s_         = 0.0;
     std::size_t              next_change_    = 0;
     bool                     plain_inverter_ = true;

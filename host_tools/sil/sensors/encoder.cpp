@@ -63,6 +63,7 @@ void QuadratureEncoder::start(double theta_e_rad, double omega_e_radps)
     lost_               = 0;
     lost_at_turn_       = turn_of(count_at(theta_e_rad));
     before_             = count_at(before);
+    seen_e_rad_         = theta_e_rad;
     lost_for_good_      = 0;
     true_before_        = before_;
     edge_speed_         = omega_e_radps;
@@ -86,7 +87,7 @@ void QuadratureEncoder::note_index(std::int64_t now, Reading &r) const
     const std::int64_t mark    = forward ? counts_per_turn_ * turn_of(now)
                                          : counts_per_turn_ * turn_of(now + counts_per_turn_ - 1);
     const bool         passed  = forward ? mark > true_before_ : mark < true_before_;
-    r.raw_count                = now - lost_for_good_;
+    r.raw_count                = now - lost_for_good_ + misread_;
     r.index                    = settings_.encoder_index && passed;
     r.index_count              = mark - lost_for_good_;
 }
@@ -196,11 +197,28 @@ QuadratureEncoder::Reading QuadratureEncoder::read(double theta_e_rad, double om
 QuadratureEncoder::Reading QuadratureEncoder::read(const ShaftPath          &path,
                                                    std::vector<EncoderEdge> &edges)
 {
-    list_edges(path, edges);
-    return read(path);
+    const ShaftPath &shown = seen(path);
+    list_edges(shown, edges);
+    return read_path(shown);
 }
 
 QuadratureEncoder::Reading QuadratureEncoder::read(const ShaftPath &path)
+{
+    return read_path(seen(path));
+}
+
+/// A dead encoder's shaft stands where it was read last.
+const ShaftPath &QuadratureEncoder::seen(const ShaftPath &path)
+{
+    if (!settings_.encoder_dead) {
+        seen_e_rad_ = path.points().back().theta_e_rad;
+        return path;
+    }
+    standing_.lead_to(seen_e_rad_, 0.0, path.duration_s());
+    return standing_;
+}
+
+QuadratureEncoder::Reading QuadratureEncoder::read_path(const ShaftPath &path)
 {
     const double       theta_e_rad = path.points().back().theta_e_rad;
     const std::int64_t now         = count_at(theta_e_rad);
@@ -212,7 +230,7 @@ QuadratureEncoder::Reading QuadratureEncoder::read(const ShaftPath &path)
 
     Reading r;
     note_index(now, r);
-    r.count = now - lost_; // EQ-ENCODER-2
+    r.count = now - lost_ + misread_; // EQ-ENCODER-2
 
     // EQ-ENCODER-3 in whole half counts, so that the wrap is exact.
     const std::int64_t half_turn = 2 * counts_per_turn_;

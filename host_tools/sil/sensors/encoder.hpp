@@ -58,6 +58,12 @@ public:
     /// The counter misses this many counts, now. An index mark puts it right.
     void lose(int counts);
 
+    /// The next reading is off by this many counts; the counter itself is not.
+    void misread(int counts)
+    {
+        misread_ = counts;
+    }
+
     /// Call at every sample, with the shaft's path since the one before.
     Reading read(const ShaftPath &path);
     /// The same, and every edge since the reading before. Where the counter jumps (a change of the settings), its edges
@@ -67,16 +73,18 @@ public:
     Reading read(double theta_e_rad, double omega_e_radps = 0.0);
 
 private:
-    double       shaft_turns(double theta_e_rad) const;
-    std::int64_t count_at(double theta_e_rad) const;
-    std::int64_t turn_of(std::int64_t count) const;
-    void         note_index(std::int64_t now, Reading &r) const;
-    double       position_cnt(double theta_e_rad) const;
-    double       edge_time_s(const PathPiece &piece, std::int64_t edge) const;
-    void         note_last_edge(const ShaftPath &path, std::int64_t now);
-    void         list_edges(const ShaftPath &path, std::vector<EncoderEdge> &edges) const;
-    void         read_counts(Reading &r, std::int64_t now);
-    double       edge_angle_rad(std::int64_t count, double edge_above_cnt) const;
+    double           shaft_turns(double theta_e_rad) const;
+    std::int64_t     count_at(double theta_e_rad) const;
+    std::int64_t     turn_of(std::int64_t count) const;
+    Reading          read_path(const ShaftPath &path);
+    const ShaftPath &seen(const ShaftPath &path);
+    void             note_index(std::int64_t now, Reading &r) const;
+    double           position_cnt(double theta_e_rad) const;
+    double           edge_time_s(const PathPiece &piece, std::int64_t edge) const;
+    void             note_last_edge(const ShaftPath &path, std::int64_t now);
+    void             list_edges(const ShaftPath &path, std::vector<EncoderEdge> &edges) const;
+    void             read_counts(Reading &r, std::int64_t now);
+    double           edge_angle_rad(std::int64_t count, double edge_above_cnt) const;
 
     SensorSettings settings_;
     int            drive_lines_;
@@ -88,12 +96,15 @@ private:
     std::int64_t   before_        = 0;
     std::int64_t   lost_          = 0;
     std::int64_t   lost_for_good_ = 0; ///< by a counter that the index does not put right
-    std::int64_t   true_before_   = 0;
-    std::int64_t   lost_at_turn_  = 0;   ///< whole turns when they were last lost or read
-    std::int64_t   edge_          = 0;   ///< the last edge, as the true count above it
-    double         edge_age_s_    = 0.0; ///< since that edge, at the last reading
-    double         edge_gap_s_    = 0.0; ///< between the last two edges
-    double         edge_speed_    = 0.0; ///< EQ-ENCODER-5, electrical
+    std::int64_t   misread_       = 0;
+    double         seen_e_rad_    = 0.0; ///< where the shaft was read last
+    ShaftPath      standing_;            ///< there: what a dead encoder sees
+    std::int64_t   true_before_  = 0;
+    std::int64_t   lost_at_turn_ = 0;   ///< whole turns when they were last lost or read
+    std::int64_t   edge_         = 0;   ///< the last edge, as the true count above it
+    double         edge_age_s_   = 0.0; ///< since that edge, at the last reading
+    double         edge_gap_s_   = 0.0; ///< between the last two edges
+    double         edge_speed_   = 0.0; ///< EQ-ENCODER-5, electrical
 };
 
 } // namespace sdre

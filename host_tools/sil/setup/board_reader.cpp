@@ -113,6 +113,7 @@ SensorSettings read_sensors(TomlReader t, SensorSettings s, const Drive &drive)
     }
     s.encoder_index     = t.boolean_or("encoder_index", s.encoder_index);
     s.encoder_edge_time = t.boolean_or("encoder_edge_time", s.encoder_edge_time);
+    s.encoder_dead      = t.boolean_or("encoder_dead", s.encoder_dead);
     s.encoder_eccentricity_rad =
         t.number_or("encoder_eccentricity_rad", eccentricity_rad, s.encoder_eccentricity_rad);
     s.encoder_offset_e_rad =

@@ -22,6 +22,7 @@ struct SensorSettings {
     std::optional<int> encoder_lines;             ///< the drive file's unless given
     bool               encoder_index     = true;  ///< lost counts come back once per turn
     bool               encoder_edge_time = false; ///< the drive file's unless given
+    bool               encoder_dead      = false; ///< the counter stands where it is
     double encoder_eccentricity_rad      = 0.0;   ///< mechanical, amplitude of one sine per turn
     double encoder_offset_e_rad          = 0.0;   ///< alignment error, electrical
     EncoderDiscSettings encoder_disc;

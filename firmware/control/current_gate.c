@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT */
+#include "current_gate.h"
+
+#include "check.h"
+#include "frames.h"
+
+#define LAST_THREE 7U
+
+void current_gate_reset(current_gate_t *s)
+{
+    const current_gate_t quiet = {.recent = 0U, .jumped = false, .ignored = 0U};
+
+    *s = quiet;
+}
+
+static bool is_far(float ia_A, float ib_A, const current_gate_input_t *in)
+{
+    return in->expected && (!base_within(ia_A - in->i_hat_A.a, in->jump_A) ||
+                            !base_within(ib_A - in->i_hat_A.b, in->jump_A));
+}
+
+current_gate_verdict_t current_gate_judge(current_gate_t *s, float ia_A, float ib_A,
+                                          const current_gate_input_t *in)
+{
+    const bool     number = base_within(ia_A, CHECK_LARGEST) && base_within(ib_A, CHECK_LARGEST);
+    const bool     beyond = sample_over_current(ia_A, ib_A, in->trip_A);
+    const bool     far    = is_far(ia_A, ib_A, in);
+    const bool     spike  = beyond || (far && !s->jumped);
+    const uint16_t before = (uint16_t)(((uint16_t)(s->recent << 1)) & LAST_THREE);
+
+    s->recent = (uint16_t)(before | (beyond ? 1U : 0U));
+    s->jumped = far;
+    if (beyond && (!number || !in->expected || (before != 0U))) {
+        return CURRENT_GATE_TRIP;
+    }
+    if (spike && (s->ignored < UINT16_MAX)) {
+        s->ignored = (uint16_t)(s->ignored + 1U);
+    }
+    return spike ? CURRENT_GATE_SPIKE : CURRENT_GATE_GOOD;
+}
+
+drive_sample_t current_gate_replaced(const drive_sample_t *s, dq_t i_A, float theta_rad)
+{
+    const abc_t    i_abc = frames_inverse_clarke(frames_inverse_park(i_A, frames_angle(theta_rad)));
+    drive_sample_t out   = *s;
+
+    out.ia_A = i_abc.a;
+    out.ib_A = i_abc.b;
+    return out;
+}

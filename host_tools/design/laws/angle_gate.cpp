@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "design/laws/near_optimal.hpp"
+
+namespace sdre {
+namespace {
+
+// Chosen: the count is rounded by half of one, an edge is off by up to another half, and so is the estimate that follows
+// both; the rest is for eccentric discs and motors that are not as believed.
+constexpr double quiet_cnt = 4.0;
+// Long against any observer that is certified: its slowest pole forgets within this.
+constexpr int periods = 10000;
+
+/// Largest innovation after a step of the speed's disturbance, with currents that are known.
+double step_innovation_rad(double step_e_radps2, const encoder_form_gains_t &gains, double ts_s)
+{
+    double theta   = 0.0; // errors of the estimates
+    double omega   = 0.0;
+    double d_omega = step_e_radps2;
+    double worst   = 0.0;
+    for (int k = 0; k < periods; k++) {
+        theta += ts_s * (omega + 0.5 * ts_s * d_omega);
+        omega += ts_s * d_omega;
+        const double innovation = theta;
+        theta -= static_cast<double>(gains.theta) * innovation;
+        omega -= static_cast<double>(gains.omega_1ps) * innovation;
+        d_omega -= static_cast<double>(gains.d_omega_1ps2) * innovation;
+        worst = std::max(worst, std::abs(innovation));
+    }
+    return worst;
+}
+
+} // namespace
+
+angle_gate_config_t angle_gate_constants(const encoder_form_limits_t &limits,
+                                         const encoder_form_gains_t &gains, double ts_s)
+{
+    const double count_rad = static_cast<double>(gains.count_rad);
+    const double gate_rad =
+        quiet_cnt * count_rad +
+        step_innovation_rad(static_cast<double>(limits.d_omega), gains, ts_s); // EQ-ANGLE-GATE-3
+    return {static_cast<float>(std::min(gate_rad, static_cast<double>(limits.angle_rad))),
+            gains.count_rad, limits.d_omega};
+}
+
+std::string gate_block(const angle_gate_config_t &gate)
+{
+    return c_block("gate", c_field("gate_rad", gate.gate_rad) +
+                               c_field("count_rad", gate.count_rad) +
+                               c_field("slow_e_radps2", gate.slow_e_radps2));
+}
+
+} // namespace sdre
