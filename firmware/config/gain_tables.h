@@ -3,11 +3,11 @@
  *
  * generator  sdre-gains 1.0.0, schema 1
  * drive      ipmsm_390w
- * digest     fnv1a64:8e9083b45a26cf36 (of the normalised drive file)
+ * digest     fnv1a64:8f5c6c37d16d6750 (of the normalised drive file)
  * method     EQ-NOSC-2 with N = 2, EQ-NODO-ENCODER-3 with Nd = 1
  * checked    relative residuals <= 1e-16
- *            controller: slowest pole -1064 1/s, sampled spectral radius 0.780, |e_iq| <= 8 A
- *            observer:   slowest pole -177 1/s, sampled spectral radius 0.967, |iq| <= 8 A
+ *            controller: slowest pole -551 1/s, sampled spectral radius 0.890, |e_iq| <= 8 A
+ *            observer:   slowest pole -621 1/s, sampled spectral radius 0.924, |iq| <= 8 A
  */
 #ifndef GAIN_TABLES_H
 #define GAIN_TABLES_H
@@ -16,7 +16,7 @@
 
 #define GAIN_TABLES_SCHEMA 1
 #define GAIN_TABLES_NAME   "ipmsm_390w"
-#define GAIN_TABLES_DIGEST "fnv1a64:8e9083b45a26cf36"
+#define GAIN_TABLES_DIGEST "fnv1a64:8f5c6c37d16d6750"
 
 extern const drive_config_t gain_tables_drive;
 
