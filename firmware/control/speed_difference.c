@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT */
+#include "speed_difference.h"
+
+bool speed_difference_check(const speed_difference_config_t *c, float ts_s)
+{
+    return (c->periods >= 1) && (c->periods <= SPEED_DIFFERENCE_PERIODS_MAX) &&
+           base_in_range(c->inv_span_1ps * ts_s * (float)c->periods, 0.999f, 1.001f) &&
+           (c->edge_speeds >= 1) && (c->edge_speeds <= 2);
+}
+
+void speed_difference_reset(speed_difference_t *s, const speed_difference_config_t *c,
+                            const drive_sample_t *sample, float ts_s)
+{
+    const float step_rad = ts_s * sample->omega_e_radps;
+    float       theta    = frames_wrap(sample->theta_e_rad);
+
+    for (int16_t i = c->periods; i > 0; i--) { /* the first one is the oldest */
+        theta               = frames_wrap(theta - step_rad);
+        s->theta_rad[i - 1] = theta;
+    }
+    s->oldest             = 0;
+    s->edge_speed_e_radps = sample->omega_e_radps;
+}
+
+/* EQ-SPEED-DIFFERENCE-1 */
+static float difference(speed_difference_t *s, const speed_difference_config_t *c,
+                        float theta_e_rad)
+{
+    const float now_rad   = frames_wrap(theta_e_rad);
+    const float moved_rad = frames_wrap(now_rad - s->theta_rad[s->oldest]);
+
+    s->theta_rad[s->oldest] = now_rad;
+    s->oldest               = ((s->oldest + 1) < c->periods) ? (int16_t)(s->oldest + 1) : 0;
+    return moved_rad * c->inv_span_1ps;
+}
+
+float speed_difference_update(speed_difference_t *s, const speed_difference_config_t *c,
+                              const drive_sample_t *sample)
+{
+    const float counted = difference(s, c, sample->theta_e_rad);
+    const float last    = s->edge_speed_e_radps;
+
+    s->edge_speed_e_radps = sample->omega_e_radps;
+    if (sample->edge_gap_s > 0.0f) {
+        return (c->edge_speeds > 1) ? (0.5f * (last + sample->omega_e_radps))
+                                    : sample->omega_e_radps;
+    }
+    return counted;
+}
