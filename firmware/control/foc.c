@@ -9,6 +9,9 @@
 /* Chosen: a current step asks for several times the voltage circle; what is beyond this share of it does not weaken more. */
 #define WEAKENING_SHARE 0.25f
 
+/* Chosen: a q current this share of the largest one away from its reference, with the voltage at its limit, is short of it. */
+#define SHORT_SHARE 0.1f
+
 static bool axis_check(const foc_axis_t *a)
 {
     return check_positive(a->kp_V_per_A) && check_not_negative(a->ki_tick) &&
@@ -29,13 +32,13 @@ void foc_reset(foc_t *s)
 {
     const dq_t none = {0.0f, 0.0f};
 
-    s->sum_V          = none;
-    s->e_A            = none;
-    s->u_V            = none;
-    s->i_ref_A        = none;
-    s->id_fw_A        = 0.0f;
-    s->iq_most_A      = 0.0f;
-    s->accel_e_radps2 = 0.0f;
+    s->sum_V     = none;
+    s->e_A       = none;
+    s->u_V       = none;
+    s->i_ref_A   = none;
+    s->id_fw_A   = 0.0f;
+    s->iq_most_A = 0.0f;
+    s->limit     = 0.0f;
 }
 
 /* EQ-FOC-6 */
@@ -61,27 +64,75 @@ void foc_realise(foc_t *s, const foc_config_t *c, const law_input_t *in)
     s->iq_most_A = (room_A2 > 0.0f) ? base_min(sqrtf(room_A2), c->iq_max_A) : 0.0f;
 }
 
-static void set_references(foc_t *s, const foc_config_t *c, const motor_reduced_t *m,
-                           float accel_wanted_e_radps2)
+static void set_references(foc_t *s, const foc_config_t *c, float iq_wanted_A)
 {
-    const float per_A = m->l1 + (m->l11 * s->i_ref_A.d); /* at least l1: id_ref <= 0 */
-    const float iq_ref_A =
-        base_clamp(accel_wanted_e_radps2 / per_A, -s->iq_most_A, s->iq_most_A); /* EQ-FOC-1 */
-    const float iq2    = iq_ref_A * iq_ref_A;
+    const float iq_A   = base_clamp(iq_wanted_A, -s->iq_most_A, s->iq_most_A); /* EQ-FOC-1 */
+    const float iq2    = iq_A * iq_A;
     const float mtpa_A = -iq2 / (c->mtpa_A + sqrtf((c->mtpa_A * c->mtpa_A) + iq2)); /* EQ-FOC-2 */
 
-    s->accel_e_radps2 = per_A * iq_ref_A;
-    s->i_ref_A.d      = base_max(mtpa_A + s->id_fw_A, base_min(c->id_min_A, mtpa_A));
-    s->i_ref_A.q      = iq_ref_A;
+    s->i_ref_A.d = base_max(mtpa_A + s->id_fw_A, base_min(c->id_min_A, mtpa_A));
+    s->i_ref_A.q = iq_A;
+}
+
+static float sign_of(float x)
+{
+    return (x < 0.0f) ? -1.0f : 1.0f;
+}
+
+/* The direction in which the current limit, or the voltage limit, stops the q current. */
+static float limit_of(const foc_t *s, const foc_config_t *c, float iq_wanted_A, float dc_link_V)
+{
+    float limit = 0.0f;
+
+    if (!base_within(iq_wanted_A, s->iq_most_A)) {
+        limit = sign_of(iq_wanted_A);
+    } else if (voltage_is_outside(s->u_V, dc_link_V) &&
+               !base_within(s->e_A.q, SHORT_SHARE * c->current_max_A)) {
+        limit = sign_of(s->e_A.q);
+    } else {
+        /* the q current goes where it is wanted */
+    }
+    return limit;
+}
+
+/* The d axis comes first. */
+static dq_t in_circle_V(dq_t u_V, float dc_link_V)
+{
+    const float circle_V = dc_link_V * BASE_1_SQRT3;
+    dq_t        v_V      = u_V;
+
+    if (voltage_is_outside(u_V, dc_link_V)) {
+        v_V.d             = base_clamp(u_V.d, -circle_V, circle_V);
+        const float q_max = sqrtf((circle_V * circle_V) - (v_V.d * v_V.d));
+        v_V.q             = base_clamp(u_V.q, -q_max, q_max);
+    }
+    return v_V;
+}
+
+/* A limit would turn a NaN into full current or voltage. */
+static dq_t answer_V(dq_t u_V, float accel_wanted_e_radps2, float dc_link_V)
+{
+    dq_t v_V = u_V;
+
+    if (!base_within(accel_wanted_e_radps2, CHECK_LARGEST)) {
+        v_V.q = accel_wanted_e_radps2;
+    } else if (base_within(u_V.d, CHECK_LARGEST) && base_within(u_V.q, CHECK_LARGEST)) {
+        v_V = in_circle_V(u_V, dc_link_V);
+    } else {
+        /* drive_tick() refuses it */
+    }
+    return v_V;
 }
 
 void foc_answer(foc_t *s, const foc_config_t *c, const drive_config_t *drive, const law_input_t *in,
                 const nodo_meas_t *y, float accel_wanted_e_radps2, law_output_t *out)
 {
-    const motor_reduced_t *m = &drive->motor;
-    const float            w = y->omega_e_radps;
+    const motor_reduced_t *m     = &drive->motor;
+    const float            w     = y->omega_e_radps;
+    const float            per_A = m->l1 + (m->l11 * s->i_ref_A.d); /* id_ref <= 0: at least l1 */
+    const float            iq_wanted_A = accel_wanted_e_radps2 / per_A;
 
-    set_references(s, c, m, accel_wanted_e_radps2);
+    set_references(s, c, iq_wanted_A);
     s->e_A.d = s->i_ref_A.d - y->id_A;
     s->e_A.q = s->i_ref_A.q - y->iq_A;
     /* EQ-FOC-5; 1 / l6 and 1 / l8 are Lq and Ld, l5 / l6 is the flux */
@@ -89,10 +140,9 @@ void foc_answer(foc_t *s, const foc_config_t *c, const drive_config_t *drive, co
     s->u_V.q = (c->q.kp_V_per_A * s->e_A.q) + s->sum_V.q +
                (w * ((m->inv_l8 * y->id_A) + (m->inv_l6 * m->l5)));
 
-    /* The limit would turn a NaN into full current. */
-    out->v_V.d = s->u_V.d;
-    out->v_V.q =
-        base_within(accel_wanted_e_radps2, CHECK_LARGEST) ? s->u_V.q : accel_wanted_e_radps2;
+    s->limit = limit_of(s, c, iq_wanted_A, in->sample->dc_link_V);
+
+    out->v_V       = answer_V(s->u_V, accel_wanted_e_radps2, in->sample->dc_link_V);
     out->theta_rad = in->sample->theta_e_rad + (1.5f * drive->ts_s * w); /* EQ-DRIVE-2 */
     out->now       = *y;
     out->i_ref_A   = s->i_ref_A;

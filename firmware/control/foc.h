@@ -11,7 +11,8 @@
  *     u = k_p e + s + (-w Lq iq, w (Ld id + flux)),  e = i_ref - i          EQ-FOC-5
  *     s(k+1) = s + k_i (e + (v - u) / k_p)                                  EQ-FOC-6, v: what the limits left of u
  *
- * u is the voltage that was wanted. The reference id moves with the one of iq at once; flux weakening is the integrator's.
+ * u is the voltage that was wanted; outside the circle of v_dc / sqrt(3) the d axis comes first, so that flux weakening gets
+ * its current, and q has what is left. The reference id moves with the one of iq at once; flux weakening is the integrator's.
  */
 #ifndef FOC_H
 #define FOC_H
@@ -44,8 +45,8 @@ typedef struct {
     dq_t  u_V;   /**< wanted in the period before, with no limit */
     dq_t  i_ref_A;
     float id_fw_A;
-    float iq_most_A;      /**< the largest |iq_ref| now */
-    float accel_e_radps2; /**< what the limit left of the acceleration wanted last */
+    float iq_most_A; /**< the largest |iq_ref| now */
+    float limit;     /**< 1, -1: more torque in this direction is not to be had now; 0: no limit */
 } foc_t;
 
 /** true when every constant is finite and within its documented range. Context: init. */

@@ -2,13 +2,19 @@
 #include "check.h"
 #include "laws.h"
 
+static bool gains_check(const law_ladrc_gains_t *g)
+{
+    return base_in_range(g->gain_w, 1.0e-9f, 1.0f) && check_positive(g->gain_f_1ps) &&
+           check_positive(g->w_c_1ps);
+}
+
 static bool check(const drive_config_t *drive)
 {
     const law_ladrc_config_t *c = drive->constants;
 
     return foc_check(&c->foc, drive) && speed_difference_check(&c->speed, drive->ts_s) &&
-           base_in_range(c->gain_w, 1.0e-9f, 1.0f) && check_positive(c->gain_f_1ps) &&
-           check_positive(c->w_c_1ps);
+           gains_check(&c->gains[SPEED_DIFFERENCE_COUNTED]) &&
+           gains_check(&c->gains[SPEED_DIFFERENCE_TIMED]);
 }
 
 static float accel_e_radps2(const motor_reduced_t *m, const nodo_meas_t *y)
@@ -29,7 +35,7 @@ static void reset(law_state_t *state, const drive_config_t *drive, const drive_s
     s->accel_e_radps2 = accel_e_radps2(&drive->motor, &y);
 }
 
-static void observe(law_ladrc_state_t *s, const law_ladrc_config_t *c, const nodo_meas_t *y,
+static void observe(law_ladrc_state_t *s, const law_ladrc_gains_t *g, const nodo_meas_t *y,
                     const drive_config_t *drive)
 {
     const float a = accel_e_radps2(&drive->motor, y);
@@ -38,8 +44,8 @@ static void observe(law_ladrc_state_t *s, const law_ladrc_config_t *c, const nod
         (drive->ts_s * (s->z_f_e_radps2 + (0.5f * (s->accel_e_radps2 + a)))); /* EQ-LADRC-1 */
     const float e = y->omega_e_radps - z_w;
 
-    s->z_e_radps = z_w + (c->gain_w * e); /* EQ-LADRC-2 */
-    s->z_f_e_radps2 += c->gain_f_1ps * e;
+    s->z_e_radps = z_w + (g->gain_w * e); /* EQ-LADRC-2 */
+    s->z_f_e_radps2 += g->gain_f_1ps * e;
     s->accel_e_radps2 = a;
 }
 
@@ -50,11 +56,12 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     law_ladrc_state_t        *s = &state->ladrc;
     nodo_meas_t               y = sample_measurement(in->sample);
 
-    y.omega_e_radps = speed_difference_update(&s->speed, &c->speed, in->sample);
-    observe(s, c, &y, drive);
+    const law_ladrc_gains_t *g =
+        &c->gains[speed_difference_update(&s->speed, &c->speed, in->sample, &y.omega_e_radps)];
+    observe(s, g, &y, drive);
 
     const float wanted_e_radps2 =
-        (c->w_c_1ps * (in->command_e_radps - s->z_e_radps)) - s->z_f_e_radps2; /* EQ-LADRC-3 */
+        (g->w_c_1ps * (in->command_e_radps - s->z_e_radps)) - s->z_f_e_radps2; /* EQ-LADRC-3 */
     foc_realise(&s->foc, &c->foc, in);
     foc_answer(&s->foc, &c->foc, drive, in, &y, wanted_e_radps2, out);
     out->d_omega = s->z_f_e_radps2;

@@ -19,12 +19,17 @@
 #include "foc.h"
 #include "speed_difference.h"
 
+/** Of observer and speed loop. */
+typedef struct {
+    float gain_w;     /**< 1 - beta^2, (0, 1] */
+    float gain_f_1ps; /**< (1 - beta)^2 / Ts, > 0 */
+    float w_c_1ps;    /**< > 0 */
+} law_ladrc_gains_t;
+
 typedef struct {
     foc_config_t              foc;
     speed_difference_config_t speed;
-    float                     gain_w;     /**< 1 - beta^2, (0, 1) */
-    float                     gain_f_1ps; /**< (1 - beta)^2 / Ts, > 0 */
-    float                     w_c_1ps;    /**< > 0 */
+    law_ladrc_gains_t         gains[SPEED_DIFFERENCE_MODES];
 } law_ladrc_config_t;
 
 typedef struct {

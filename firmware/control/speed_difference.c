@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "speed_difference.h"
 
+#include "check.h"
+
 bool speed_difference_check(const speed_difference_config_t *c, float ts_s)
 {
     return (c->periods >= 1) && (c->periods <= SPEED_DIFFERENCE_PERIODS_MAX) &&
            base_in_range(c->inv_span_1ps * ts_s * (float)c->periods, 0.999f, 1.001f) &&
-           (c->edge_speeds >= 1) && (c->edge_speeds <= 2);
+           check_positive(c->edge_gap_max_s);
 }
 
 void speed_difference_reset(speed_difference_t *s, const speed_difference_config_t *c,
@@ -18,8 +20,7 @@ void speed_difference_reset(speed_difference_t *s, const speed_difference_config
         theta               = frames_wrap(theta - step_rad);
         s->theta_rad[i - 1] = theta;
     }
-    s->oldest             = 0;
-    s->edge_speed_e_radps = sample->omega_e_radps;
+    s->oldest = 0;
 }
 
 /* EQ-SPEED-DIFFERENCE-1 */
@@ -34,16 +35,13 @@ static float difference(speed_difference_t *s, const speed_difference_config_t *
     return moved_rad * c->inv_span_1ps;
 }
 
-float speed_difference_update(speed_difference_t *s, const speed_difference_config_t *c,
-                              const drive_sample_t *sample)
+speed_difference_mode_t speed_difference_update(speed_difference_t              *s,
+                                                const speed_difference_config_t *c,
+                                                const drive_sample_t *sample, float *omega_e_radps)
 {
     const float counted = difference(s, c, sample->theta_e_rad);
-    const float last    = s->edge_speed_e_radps;
+    const bool  timed   = (sample->edge_gap_s > 0.0f) && (sample->edge_gap_s <= c->edge_gap_max_s);
 
-    s->edge_speed_e_radps = sample->omega_e_radps;
-    if (sample->edge_gap_s > 0.0f) {
-        return (c->edge_speeds > 1) ? (0.5f * (last + sample->omega_e_radps))
-                                    : sample->omega_e_radps;
-    }
-    return counted;
+    *omega_e_radps = timed ? sample->omega_e_radps : counted;
+    return timed ? SPEED_DIFFERENCE_TIMED : SPEED_DIFFERENCE_COUNTED;
 }

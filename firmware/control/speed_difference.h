@@ -6,7 +6,8 @@
  *     w = wrap(theta(k) - theta(k-n)) / (n Ts)                              EQ-SPEED-DIFFERENCE-1
  *
  * It is the mean of the last n periods, so late by half of them. A sample whose angle rests on the times of edges brings
- * the speed between those edges along (drive_sample_t.omega_e_radps); then the mean of the last m of these is taken.
+ * the speed between those edges along (drive_sample_t.omega_e_radps), late by half of a period as long as there is an edge in
+ * about every period. A law has gains for either.
  */
 #ifndef SPEED_DIFFERENCE_H
 #define SPEED_DIFFERENCE_H
@@ -18,14 +19,13 @@
 
 typedef struct {
     int16_t periods; /**< n, 1 .. SPEED_DIFFERENCE_PERIODS_MAX; no half turn in them at any speed */
-    float   inv_span_1ps; /**< 1 / (n Ts) */
-    int16_t edge_speeds;  /**< m, 1 or 2 */
+    float   inv_span_1ps;   /**< 1 / (n Ts) */
+    float   edge_gap_max_s; /**< edges further apart are rare: the difference counts, > 0 */
 } speed_difference_config_t;
 
 typedef struct {
     float   theta_rad[SPEED_DIFFERENCE_PERIODS_MAX]; /**< the last n, within +-pi */
     int16_t oldest;
-    float   edge_speed_e_radps; /**< of the sample before */
 } speed_difference_t;
 
 /** true when every constant is within its range for this control period. Context: init. */
@@ -35,8 +35,16 @@ bool speed_difference_check(const speed_difference_config_t *c, float ts_s);
 void speed_difference_reset(speed_difference_t *s, const speed_difference_config_t *c,
                             const drive_sample_t *sample, float ts_s);
 
+/** How a speed was measured: an index of a law's gains. */
+typedef enum {
+    SPEED_DIFFERENCE_COUNTED = 0,
+    SPEED_DIFFERENCE_TIMED, /**< between edges */
+    SPEED_DIFFERENCE_MODES
+} speed_difference_mode_t;
+
 /** The speed of this sample. Once a period. Context: control ISR. No division. */
-float speed_difference_update(speed_difference_t *s, const speed_difference_config_t *c,
-                              const drive_sample_t *sample);
+speed_difference_mode_t speed_difference_update(speed_difference_t              *s,
+                                                const speed_difference_config_t *c,
+                                                const drive_sample_t *sample, float *omega_e_radps);
 
 #endif /* SPEED_DIFFERENCE_H */

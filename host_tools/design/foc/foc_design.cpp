@@ -18,8 +18,8 @@ constexpr double voltage_share = 0.95;
 constexpr double weakening_1ps = 100.0;
 // Chosen: the speed has no alias up to the trip speed, with a tenth to spare.
 constexpr double half_turn_share = 0.9;
-// Chosen: the edges' own spread is halved by a second period (docs/architecture.md, "Simulated board").
-constexpr int edge_speeds = 1;
+// Chosen: with an edge in every period two of them are at most two periods apart.
+constexpr double edge_gap_periods = 2.0;
 
 float single(double x)
 {
@@ -70,20 +70,22 @@ speed_difference_config_t speed_difference_constants(const Drive &d, double wind
                                static_cast<double>(SPEED_DIFFERENCE_PERIODS_MAX)});
 
     speed_difference_config_t c{};
-    c.periods      = static_cast<int16_t>(std::max(n, 1.0));
-    c.inv_span_1ps = single(1.0 / (c.periods * ts));
-    c.edge_speeds  = edge_speeds;
+    c.periods        = static_cast<int16_t>(std::max(n, 1.0));
+    c.inv_span_1ps   = single(1.0 / (c.periods * ts));
+    c.edge_gap_max_s = single(edge_gap_periods * ts);
     return c;
 }
 
-double speed_window_s(const Drive &d, const speed_difference_config_t &c)
+int speed_periods(const Drive &d, const speed_difference_config_t &c, speed_difference_mode_t mode)
 {
-    return control_period_s(d) * (d.encoder.edge_times ? c.edge_speeds : c.periods);
+    return mode == SPEED_DIFFERENCE_TIMED && d.encoder.edge_times ? 1 : c.periods;
 }
 
-double small_time_s(const Drive &d, const speed_difference_config_t &c) // EQ-FOC-8
+double small_time_s(const Drive &d, const speed_difference_config_t &c,
+                    speed_difference_mode_t mode)
 {
-    return 1.0 / bandwidth_radps(d) + 0.5 * speed_window_s(d, c);
+    const double window_s = control_period_s(d) * speed_periods(d, c, mode);
+    return 1.0 / bandwidth_radps(d) + 0.5 * window_s; // EQ-FOC-8
 }
 
 } // namespace sdre

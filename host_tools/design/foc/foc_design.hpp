@@ -18,10 +18,12 @@ foc_config_t foc_constants(const Drive &drive, const ReducedParameters &l);
 /// With counts over window_s, fewer periods where the trip speed would turn half an electrical turn in it, one at least.
 speed_difference_config_t speed_difference_constants(const Drive &drive, double window_s);
 
-/// T_m: what the speed is the mean of.
-double speed_window_s(const Drive &drive, const speed_difference_config_t &c);
+/// EQ-FOC-8. Counts and times of edges have gains of their own; without edge times both are those of counts.
+double small_time_s(const Drive &drive, const speed_difference_config_t &c,
+                    speed_difference_mode_t mode);
 
-/// EQ-FOC-8.
-double small_time_s(const Drive &drive, const speed_difference_config_t &c);
+/// Periods that the speed is the mean of.
+int speed_periods(const Drive &drive, const speed_difference_config_t &c,
+                  speed_difference_mode_t mode);
 
 } // namespace sdre

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "design/foc/foc_design.hpp"
+
 namespace sdre {
 namespace {
 
@@ -44,7 +46,7 @@ struct SpeedLaw {
 };
 
 /// State: the sum, in the last column.
-SpeedLaw pi_law(const law_pi_foc_config_t &c, const RowVectorXd &speed)
+SpeedLaw pi_law(const law_pi_foc_gains_t &c, const RowVectorXd &speed)
 {
     const RowVectorXd sum   = RowVectorXd::Unit(speed.size(), speed.size() - 1);
     const RowVectorXd accel = sum - wide(c.kp_1ps) * speed;  // EQ-PI-FOC-2
@@ -52,7 +54,7 @@ SpeedLaw pi_law(const law_pi_foc_config_t &c, const RowVectorXd &speed)
 }
 
 /// States: z_w, z_f and the acceleration of the period before, in the last columns.
-SpeedLaw ladrc_law(const law_ladrc_config_t &c, const RowVectorXd &speed, const RowVectorXd &torque,
+SpeedLaw ladrc_law(const law_ladrc_gains_t &c, const RowVectorXd &speed, const RowVectorXd &torque,
                    double ts_s)
 {
     const Index       n   = speed.size();
@@ -82,7 +84,8 @@ struct Signals {
     double      bend = 0.0; ///< of id_ref over iq_ref
 };
 
-Signals signals(const Design &d, const OperatingPoint &at, Index n, Index steps)
+Signals signals(const Design &d, const OperatingPoint &at, speed_difference_mode_t mode, Index n,
+                Index steps)
 {
     const Motor        &m     = d.drive.motor;
     const foc_config_t &foc   = *parts_of(d.config).foc;
@@ -96,7 +99,8 @@ Signals signals(const Design &d, const OperatingPoint &at, Index n, Index steps)
 
     const auto    *pi    = constants_of<law_pi_foc_config_t>(d.config);
     const auto    *ladrc = constants_of<law_ladrc_config_t>(d.config);
-    const SpeedLaw law = pi != nullptr ? pi_law(*pi, speed) : ladrc_law(*ladrc, speed, torque, ts);
+    const SpeedLaw law   = pi != nullptr ? pi_law(pi->gains[mode], speed)
+                                         : ladrc_law(ladrc->gains[mode], speed, torque, ts);
 
     Signals s;
     s.bend   = -at.iq_A / std::hypot(wide(foc.mtpa_A), at.iq_A);
@@ -115,15 +119,14 @@ Signals signals(const Design &d, const OperatingPoint &at, Index n, Index steps)
 
 } // namespace
 
-FocLoop foc_loop(const Design &d, const OperatingPoint &at)
+FocLoop foc_loop(const Design &d, const OperatingPoint &at, speed_difference_mode_t mode)
 {
     const double        ts    = control_period_s(d.drive);
     const Parts         parts = parts_of(d.config);
     const foc_config_t &foc   = *parts.foc;
-    const Index         steps =
-        d.drive.encoder.edge_times ? parts.speed->edge_speeds : parts.speed->periods;
-    const Index   n = first_step + steps + parts.own;
-    const Signals s = signals(d, at, n, steps);
+    const Index         steps = speed_periods(d.drive, *parts.speed, mode);
+    const Index         n     = first_step + steps + parts.own;
+    const Signals       s     = signals(d, at, mode, n, steps);
 
     const auto plant        = held_motor(d.l, at, ts);
     MatrixXd   motor        = MatrixXd::Zero(4, n);
@@ -169,10 +172,12 @@ CascadeCheck check_foc_loops(const Design &d)
     };
     for (const double speed : {0.0, rated}) {
         for (const double current : {0.0, most, -most}) {
-            const FocLoop loop = foc_loop(d, {speed, current, mtpa_id_A(d.l, current)});
-            keep(worst.speed, loop.speed);
-            keep(worst.q_axis, loop.q_axis);
-            keep(worst.d_axis, loop.d_axis);
+            for (const auto mode : {SPEED_DIFFERENCE_COUNTED, SPEED_DIFFERENCE_TIMED}) {
+                const FocLoop loop = foc_loop(d, {speed, current, mtpa_id_A(d.l, current)}, mode);
+                keep(worst.speed, loop.speed);
+                keep(worst.q_axis, loop.q_axis);
+                keep(worst.d_axis, loop.d_axis);
+            }
         }
     }
     return worst;

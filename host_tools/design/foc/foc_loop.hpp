@@ -17,9 +17,10 @@ struct FocLoop {
     SampledServoLoop d_axis; ///< r on the d voltage
 };
 
-FocLoop foc_loop(const Design &design, const OperatingPoint &at);
+FocLoop foc_loop(const Design &design, const OperatingPoint &at, speed_difference_mode_t mode);
 
-/// Worst peak and radius at standstill and at rated speed, without current and at both ends of the MTPA curve.
+/// Worst peak and radius at standstill and at rated speed, without current and at both ends of the MTPA curve, for both ways to
+/// measure the speed.
 CascadeCheck check_foc_loops(const Design &design);
 
 } // namespace sdre

@@ -43,7 +43,7 @@ std::string cascade_blocks(const foc_config_t &foc, const speed_difference_confi
                               c_field("weakening_A_per_V", foc.weakening_A_per_V)) +
            c_block("speed", c_field("periods", speed.periods) +
                                 c_field("inv_span_1ps", speed.inv_span_1ps) +
-                                c_field("edge_speeds", speed.edge_speeds));
+                                c_field("edge_gap_max_s", speed.edge_gap_max_s));
 }
 
 } // namespace sdre

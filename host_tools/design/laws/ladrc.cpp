@@ -19,13 +19,17 @@ void solve(Design &d)
 {
     const CascadeSpec &spec = d.drive.cascade;
     const double       ts   = control_period_s(d.drive);
-    const double       beta = std::exp(-spec.observer_radps * ts);
     law_ladrc_config_t c{};
-    c.foc        = foc_constants(d.drive, d.l);
-    c.speed      = speed_difference_constants(d.drive, window_s);
-    c.gain_w     = static_cast<float>(1.0 - beta * beta); // EQ-LADRC-2
-    c.gain_f_1ps = static_cast<float>((1.0 - beta) * (1.0 - beta) / ts);
-    c.w_c_1ps    = static_cast<float>(spec.controller_radps);
+    c.foc                  = foc_constants(d.drive, d.l);
+    c.speed                = speed_difference_constants(d.drive, window_s);
+    const double fastest_s = small_time_s(d.drive, c.speed, SPEED_DIFFERENCE_TIMED);
+    for (const auto mode : {SPEED_DIFFERENCE_COUNTED, SPEED_DIFFERENCE_TIMED}) {
+        const double scale = fastest_s / small_time_s(d.drive, c.speed, mode);
+        const double beta  = std::exp(-scale * spec.observer_radps * ts);
+        c.gains[mode]      = {static_cast<float>(1.0 - beta * beta),
+                              static_cast<float>((1.0 - beta) * (1.0 - beta) / ts),
+                              static_cast<float>(scale * spec.controller_radps)}; // EQ-LADRC-2
+    }
     keep_constants(d, c);
     certify_cascade(d);
 }
@@ -43,8 +47,10 @@ std::vector<std::string> mismatches(const Design &)
 std::string table(const Design &d)
 {
     const auto &c = *constants_of<law_ladrc_config_t>(d.config);
-    return cascade_blocks(c.foc, c.speed) + c_field("gain_w", c.gain_w) +
-           c_field("gain_f_1ps", c.gain_f_1ps) + c_field("w_c_1ps", c.w_c_1ps);
+    return cascade_blocks(c.foc, c.speed) + gains_block(c.gains, [](const law_ladrc_gains_t &g) {
+               return c_field("gain_w", g.gain_w) + c_field("gain_f_1ps", g.gain_f_1ps) +
+                      c_field("w_c_1ps", g.w_c_1ps);
+           });
 }
 
 } // namespace

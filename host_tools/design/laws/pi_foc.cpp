@@ -21,11 +21,13 @@ void solve(Design &d)
 {
     const double        a = d.drive.cascade.symmetrical_optimum_a;
     law_pi_foc_config_t c{};
-    c.foc           = foc_constants(d.drive, d.l);
-    c.speed         = speed_difference_constants(d.drive, window_s);
-    const double ts = small_time_s(d.drive, c.speed);
-    c.kp_1ps        = static_cast<float>(1.0 / (a * ts));
-    c.ki_per_kp     = static_cast<float>(control_period_s(d.drive) / (a * a * ts));
+    c.foc   = foc_constants(d.drive, d.l);
+    c.speed = speed_difference_constants(d.drive, window_s);
+    for (const auto mode : {SPEED_DIFFERENCE_COUNTED, SPEED_DIFFERENCE_TIMED}) {
+        const double lag_s = small_time_s(d.drive, c.speed, mode);
+        c.gains[mode]      = {static_cast<float>(1.0 / (a * lag_s)),
+                              static_cast<float>(control_period_s(d.drive) / (a * a * lag_s))};
+    }
     keep_constants(d, c);
     certify_cascade(d);
 }
@@ -43,8 +45,9 @@ std::vector<std::string> mismatches(const Design &)
 std::string table(const Design &d)
 {
     const auto &c = *constants_of<law_pi_foc_config_t>(d.config);
-    return cascade_blocks(c.foc, c.speed) + c_field("kp_1ps", c.kp_1ps) +
-           c_field("ki_per_kp", c.ki_per_kp);
+    return cascade_blocks(c.foc, c.speed) + gains_block(c.gains, [](const law_pi_foc_gains_t &g) {
+               return c_field("kp_1ps", g.kp_1ps) + c_field("ki_per_kp", g.ki_per_kp);
+           });
 }
 
 } // namespace
