@@ -10,7 +10,7 @@
 #define WEAKENING_SHARE 0.25f
 
 /* Chosen: a q current this share of the largest one away from its reference, with the voltage at its limit, is short of it. */
-#define SHORT_SHARE 0.1f
+#define SHORT_SHARE 0.05f
 
 static bool axis_check(const foc_axis_t *a)
 {
@@ -95,31 +95,31 @@ static float limit_of(const foc_t *s, const foc_config_t *c, float iq_wanted_A, 
     return limit;
 }
 
-/* The d axis comes first. */
-static dq_t in_circle_V(dq_t u_V, float dc_link_V)
+/* The d axis first. */
+static dq_t d_first_V(dq_t u_V, float dc_link_V)
 {
     const float circle_V = dc_link_V * BASE_1_SQRT3;
-    dq_t        v_V      = u_V;
-
-    if (voltage_is_outside(u_V, dc_link_V)) {
-        v_V.d             = base_clamp(u_V.d, -circle_V, circle_V);
-        const float q_max = sqrtf((circle_V * circle_V) - (v_V.d * v_V.d));
-        v_V.q             = base_clamp(u_V.q, -q_max, q_max);
-    }
+    const float d_V      = base_clamp(u_V.d, -circle_V, circle_V);
+    const float q_max_V  = sqrtf((circle_V * circle_V) - (d_V * d_V));
+    const dq_t  v_V      = {d_V, base_clamp(u_V.q, -q_max_V, q_max_V)};
     return v_V;
 }
 
-/* A limit would turn a NaN into full current or voltage. */
-static dq_t answer_V(dq_t u_V, float accel_wanted_e_radps2, float dc_link_V)
+/* A limit would turn a NaN into full current or voltage; drive_tick() refuses it. */
+static dq_t answer_V(const foc_t *s, const foc_config_t *c, float accel_wanted_e_radps2,
+                     float dc_link_V)
 {
-    dq_t v_V = u_V;
+    const bool numbers =
+        base_within(s->u_V.d, CHECK_LARGEST) && base_within(s->u_V.q, CHECK_LARGEST);
+    const bool short_of_d = !base_within(s->e_A.d, SHORT_SHARE * c->current_max_A);
+    dq_t       v_V        = s->u_V;
 
     if (!base_within(accel_wanted_e_radps2, CHECK_LARGEST)) {
         v_V.q = accel_wanted_e_radps2;
-    } else if (base_within(u_V.d, CHECK_LARGEST) && base_within(u_V.q, CHECK_LARGEST)) {
-        v_V = in_circle_V(u_V, dc_link_V);
+    } else if (numbers && short_of_d && voltage_is_outside(s->u_V, dc_link_V)) {
+        v_V = d_first_V(s->u_V, dc_link_V);
     } else {
-        /* drive_tick() refuses it */
+        /* drive_tick() cuts the length */
     }
     return v_V;
 }
@@ -142,7 +142,7 @@ void foc_answer(foc_t *s, const foc_config_t *c, const drive_config_t *drive, co
 
     s->limit = limit_of(s, c, iq_wanted_A, in->sample->dc_link_V);
 
-    out->v_V       = answer_V(s->u_V, accel_wanted_e_radps2, in->sample->dc_link_V);
+    out->v_V       = answer_V(s, c, accel_wanted_e_radps2, in->sample->dc_link_V);
     out->theta_rad = in->sample->theta_e_rad + (1.5f * drive->ts_s * w); /* EQ-DRIVE-2 */
     out->now       = *y;
     out->i_ref_A   = s->i_ref_A;

@@ -14,8 +14,8 @@ const double pi = std::acos(-1.0);
 
 // Chosen: 5 % of the voltage circle stay free for the current loops.
 constexpr double voltage_share = 0.95;
-// Chosen by simulation of the speed steps into flux weakening: slow against the current loops.
-constexpr double weakening_1ps = 100.0;
+// Chosen by simulation of speed steps into flux weakening and of loads that drive: slower is worse in both.
+constexpr double weakening_1ps = 300.0;
 // Chosen: the speed has no alias up to the trip speed, with a tenth to spare.
 constexpr double half_turn_share = 0.9;
 // Chosen: with an edge in every period two of them are at most two periods apart.
