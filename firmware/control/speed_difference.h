@@ -31,7 +31,7 @@ typedef struct {
 /** true when every constant is within its range for this control period. Context: init. */
 bool speed_difference_check(const speed_difference_config_t *c, float ts_s);
 
-/** As if the shaft had turned at the sample's speed before. Context: control ISR. */
+/** As if the shaft had turned at the sample's speed before; the first update is of the same sample. Context: control ISR. */
 void speed_difference_reset(speed_difference_t *s, const speed_difference_config_t *c,
                             const drive_sample_t *sample, float ts_s);
 
