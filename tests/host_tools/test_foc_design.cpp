@@ -115,6 +115,7 @@ TEST(FocDesign, SpeedGainsAreTheSymmetricalOptimum)
     for (const bool edges : {false, true}) {
         const Drive  d      = shipped(edges ? "pi_foc_edges" : "pi_foc");
         const Design x      = design_drive(d);
+        const double a      = edges ? 2.4 : 2.0;
         const auto  &c      = *constants_of<law_pi_foc_config_t>(x.config);
         const double lag[2] = {1.0 / (2.0 * pi * 400.0) + 0.5e-3,
                                1.0 / (2.0 * pi * 400.0) + (edges ? 0.1e-3 : 0.5e-3)};
@@ -125,9 +126,10 @@ TEST(FocDesign, SpeedGainsAreTheSymmetricalOptimum)
                 const std::complex<double> s(0.0, w);
                 return kp * (1.0 + 1.0 / (s * ti)) / (s * (1.0 + s * lag[mode]));
             };
-            const double crossover = 1.0 / (2.0 * lag[mode]);
+            const double crossover = 1.0 / (a * lag[mode]);
             EXPECT_NEAR(std::abs(loop(crossover)), 1.0, 1e-5);
-            EXPECT_NEAR(pi + std::arg(loop(crossover)), std::asin(3.0 / 5.0), 1e-5);
+            EXPECT_NEAR(pi + std::arg(loop(crossover)), std::asin((a * a - 1.0) / (a * a + 1.0)),
+                        1e-5);
             EXPECT_LT(std::arg(loop(0.9 * crossover)), std::arg(loop(crossover)));
             EXPECT_LT(std::arg(loop(1.1 * crossover)), std::arg(loop(crossover)));
         }

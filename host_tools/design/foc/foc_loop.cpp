@@ -163,6 +163,8 @@ CascadeCheck check_foc_loops(const Design &d)
 {
     const double rated = d.drive.motor.rated_speed_e_radps;
     const double most  = wide(parts_of(d.config).foc->iq_max_A);
+    // Without edge times both ways are the same.
+    const int    modes = d.drive.encoder.edge_times ? SPEED_DIFFERENCE_MODES : 1;
     CascadeCheck worst;
     const auto   keep = [&d](LoopCheck &kept, const SampledServoLoop &loop) {
         LoopCheck    now     = check_loop(loop, disturbance_frequencies(d.drive));
@@ -172,8 +174,9 @@ CascadeCheck check_foc_loops(const Design &d)
     };
     for (const double speed : {0.0, rated}) {
         for (const double current : {0.0, most, -most}) {
-            for (const auto mode : {SPEED_DIFFERENCE_COUNTED, SPEED_DIFFERENCE_TIMED}) {
-                const FocLoop loop = foc_loop(d, {speed, current, mtpa_id_A(d.l, current)}, mode);
+            for (int mode = 0; mode < modes; mode++) {
+                const FocLoop loop = foc_loop(d, {speed, current, mtpa_id_A(d.l, current)},
+                                              static_cast<speed_difference_mode_t>(mode));
                 keep(worst.speed, loop.speed);
                 keep(worst.q_axis, loop.q_axis);
                 keep(worst.d_axis, loop.d_axis);

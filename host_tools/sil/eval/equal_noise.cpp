@@ -17,7 +17,7 @@ constexpr double smallest_a = 1.05;
 // Chosen: the observer's bandwidth goes with a root of its weights; 1.6^30 is beyond any use.
 constexpr double first_step    = 1.6;
 constexpr int    steps_most    = 30;
-constexpr int    halvings_most = 20;
+constexpr int    halvings_most = 12;
 
 bool near(double noise, double wanted)
 {
