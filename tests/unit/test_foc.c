@@ -127,7 +127,12 @@ static void test_current_stays_in_its_circle(void)
         (void)answer((k < 200) ? 1.0e6f : -1.0e6f);
         s.id_fw_A = (k % 50 < 25) ? -2.0f : 0.0f;
     }
-    TEST_ASSERT_TRUE(hypotf(s.i_ref_A.d, s.iq_most_A) <= 4.0f + 0.8f);
+    s.i_ref_A.d = -3.2f;
+    foc_realise(&s, &config, &in);
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, 2.4, (double)s.iq_most_A); /* 3.2^2 + 2.4^2 = 4^2 */
+    s.i_ref_A.d = -4.5f;
+    foc_realise(&s, &config, &in);
+    TEST_ASSERT_TRUE(s.iq_most_A == 0.0f);
     for (int k = 0; k < 5; k++) { /* id_ref of the period before is that of this one */
         (void)answer(1.0e6f);
         s.id_fw_A = 0.0f;

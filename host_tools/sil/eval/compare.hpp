@@ -18,8 +18,8 @@ struct CompareRequest {
     int                      seeds = 1; ///< worst of the seeds 1 .. this
     bool                     equal_noise =
         false; ///< every drive's bandwidth is turned until it is as noisy (equal_noise.hpp)
-    std::optional<double>
-        noise_V; ///< as this, in the first scenario's last measure; none: as the first drive
+    std::optional<double> noise_V =
+        std::nullopt; ///< as this, in the first scenario's last measure; none: as the first drive
 };
 
 /// One metric of one measure.
