@@ -12,6 +12,10 @@
 /* Chosen: a q current this share of the largest one away from its reference, with the voltage at its limit, is short of it. */
 #define SHORT_SHARE 0.05f
 
+/* Chosen by simulation: what the d axis takes at most of the circle leaves 31 % of it to brake the q current with. With all
+ * of it, the speed overshoots by 39 rad/s after a step to 400 rad/s with 5 A; less is slower into flux weakening. */
+#define D_SHARE 0.95f
+
 static bool axis_check(const foc_axis_t *a)
 {
     return check_positive(a->kp_V_per_A) && check_not_negative(a->ki_tick) &&
@@ -99,7 +103,8 @@ static float limit_of(const foc_t *s, const foc_config_t *c, float iq_wanted_A, 
 static dq_t d_first_V(dq_t u_V, float dc_link_V)
 {
     const float circle_V = dc_link_V * BASE_1_SQRT3;
-    const float d_V      = base_clamp(u_V.d, -circle_V, circle_V);
+    const float d_max_V  = D_SHARE * circle_V;
+    const float d_V      = base_clamp(u_V.d, -d_max_V, d_max_V);
     const float q_max_V  = sqrtf((circle_V * circle_V) - (d_V * d_V));
     const dq_t  v_V      = {d_V, base_clamp(u_V.q, -q_max_V, q_max_V)};
     return v_V;

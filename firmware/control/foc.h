@@ -11,8 +11,9 @@
  *     u = k_p e + s + (-w Lq iq, w (Ld id + flux)),  e = i_ref - i          EQ-FOC-5
  *     s(k+1) = s + k_i (e + (v - u) / k_p)                                  EQ-FOC-6, v: what the limits left of u
  *
- * u is the voltage that was wanted; outside the circle of v_dc / sqrt(3) the d axis comes first, so that flux weakening gets
- * its current, and q has what is left. The reference id moves with the one of iq at once; flux weakening is the integrator's.
+ * u is the voltage that was wanted. Where it is outside the circle of v_dc / sqrt(3) while id is short of its reference, the d
+ * axis comes first, so that flux weakening gets its current, and q has what is left; else drive_tick() cuts the length.
+ * The reference id moves with the one of iq at once; flux weakening is the integrator's.
  */
 #ifndef FOC_H
 #define FOC_H

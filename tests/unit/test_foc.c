@@ -174,9 +174,15 @@ static void test_d_axis_comes_first_while_it_is_short(void)
     y.id_A           = 0.0f;
     law_output_t out = answer(1.0e5f);
     TEST_ASSERT_TRUE(s.u_V.q > circle_V);
-    TEST_ASSERT_TRUE(out.v_V.d == base_clamp(s.u_V.d, -circle_V, circle_V));
+    TEST_ASSERT_TRUE(out.v_V.d == s.u_V.d);
     TEST_ASSERT_DOUBLE_WITHIN(1.0e-3, (double)circle_V,
                               hypot((double)out.v_V.d, (double)out.v_V.q));
+    y.id_A = 4.0f; /* never so much that q has nothing */
+    out    = answer(1.0e5f);
+    TEST_ASSERT_TRUE(s.u_V.d < -circle_V);
+    TEST_ASSERT_DOUBLE_WITHIN(1.0e-3, -0.95 * (double)circle_V, (double)out.v_V.d);
+    TEST_ASSERT_DOUBLE_WITHIN(1.0e-3, sqrt(1.0 - (0.95 * 0.95)) * (double)circle_V,
+                              (double)out.v_V.q);
     y.id_A = s.i_ref_A.d;
     out    = answer(1.0e5f);
     TEST_ASSERT_TRUE((out.v_V.d == s.u_V.d) && (out.v_V.q == s.u_V.q));
