@@ -7,7 +7,7 @@
 #include "unit_support.h"
 #include "unity.h"
 
-#define TOL_radps2 0.25 /* rad/s^2, of some thousands: the speed has the digits of an angle; worst 0.042 */
+#define TOL_radps2 0.25 /* rad/s^2, of some thousands: digits of an angle; worst 0.042 */
 
 static law_pi_foc_config_t config;
 static drive_config_t drive; /* the shipped motor's limits and constants around the law above */
