@@ -171,7 +171,7 @@ static void test_d_axis_comes_first_while_it_is_short(void)
     const float circle_V = 295.0f / sqrtf(3.0f);
 
     s.id_fw_A        = -0.6f;
-    y.id_A           = -1.5f;
+    y.id_A           = -1.7f;
     law_output_t out = answer(1.0e5f);
     TEST_ASSERT_TRUE(s.u_V.q > circle_V);
     TEST_ASSERT_TRUE(out.v_V.d == s.u_V.d);
