@@ -113,6 +113,8 @@ static void test_wish_cancels_the_disturbance(void)
 
     TEST_ASSERT_DOUBLE_WITHIN(1.0e-4, ((700.0 * 2.0) + 1500.0) / l1, (double)out.i_ref_A.q);
     TEST_ASSERT_DOUBLE_WITHIN(0.1, -1500.0, (double)out.d_omega);
+    TEST_ASSERT_TRUE((out.d_q == 0.0f) && (out.d_d == 0.0f));
+    TEST_ASSERT_TRUE(out.plausible && !out.without_angle && (out.ignored_angles == 0U));
 }
 
 static void test_rare_edges_take_the_other_gains(void)

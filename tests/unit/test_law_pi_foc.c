@@ -95,6 +95,7 @@ static void test_gains_are_those_of_the_measurement(void)
     const law_output_t out = law_answer(&drive, &state, &in);
 
     TEST_ASSERT_TRUE(out.now.omega_e_radps == 202.0f);
+    TEST_ASSERT_TRUE(out.plausible && !out.without_angle && (out.ignored_angles == 0U));
     TEST_ASSERT_DOUBLE_WITHIN(TOL_radps2, 0.1 * 900.0 * 1.0, (double)s->sum_e_radps2);
     TEST_ASSERT_DOUBLE_WITHIN(1.0e-4, 203.0 - (0.1 * 3.0), (double)s->r_e_radps);
 }
