@@ -11,9 +11,11 @@
 #include "law.h"
 #include "law_conventional.h"
 #include "law_dobc.h"
+#include "law_ladrc.h"
 #include "law_noc.h"
 #include "law_noc_h.h"
 #include "law_noc_speed.h"
+#include "law_pi_foc.h"
 #include "law_pid.h"
 
 #define LAW_OWN_FLOATS 16 /**< chosen: room for a law that is tried out before it is listed */
@@ -25,6 +27,8 @@ union law_state {
     law_conventional_state_t conventional;
     law_dobc_state_t         dobc;
     law_pid_state_t          pid;
+    law_pi_foc_state_t       pi_foc;
+    law_ladrc_state_t        ladrc;
     float                    own[LAW_OWN_FLOATS];
 };
 

@@ -48,6 +48,13 @@ struct ServoDesign {
     LoopCheck                 d_axis;
 };
 
+/// A speed law around current loops, sampled; worst of the operating points that its design names.
+struct CascadeCheck {
+    LoopCheck speed;  ///< broken at the current reference
+    LoopCheck q_axis; ///< broken at the q voltage, everything else closed
+    LoopCheck d_axis; ///< the same of the d voltage
+};
+
 /// How the loop of noc_h behaves from standstill to the trip speed, over the observer's current range.
 struct HarmonicCheck {
     double    spectral_radius     = 0.0; ///< worst, at:
@@ -66,6 +73,7 @@ struct Design {
     std::optional<HarmonicDesign> harmonics; ///< noc_h only
     HarmonicCheck                 harmonic_check;
     std::optional<ServoDesign>    servo;    ///< laws of paper B
+    std::optional<CascadeCheck>   cascade;  ///< pi_foc and ladrc
     drive_config_t                config{}; ///< what the firmware gets, in its own single precision
     std::shared_ptr<const void>   constants; ///< what config.constants points to
     Certificate                   certificate;

@@ -33,6 +33,14 @@ inline const law_t *law_of(const law_pid_config_t *)
 {
     return &law_pid;
 }
+inline const law_t *law_of(const law_pi_foc_config_t *)
+{
+    return &law_pi_foc;
+}
+inline const law_t *law_of(const law_ladrc_config_t *)
+{
+    return &law_ladrc;
+}
 
 /// The constants of the configuration's law when it is the one that takes this type, else nullptr.
 template <typename Constants> const Constants *constants_of(const drive_config_t &config)

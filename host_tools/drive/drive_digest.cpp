@@ -62,6 +62,14 @@ std::string normalised_servo(const Drive &d)
     return s;
 }
 
+std::string normalised_cascade(const Drive &d)
+{
+    const CascadeSpec &c = d.cascade;
+    return fmt::format("{};{:.17g};{:.17g};{:.17g};{:.17g};", law_name(d.law),
+                       c.current_bandwidth_Hz, c.symmetrical_optimum_a, c.controller_radps,
+                       c.observer_radps);
+}
+
 std::string normalised(const Drive &d)
 {
     const Motor    &m = d.motor;
@@ -80,6 +88,9 @@ std::string normalised(const Drive &d)
     s += d.encoder.edge_times ? "edges;" : "";
     if (d.law == Law::noc_h) {
         return s + normalised_weights(d) + normalised_harmonics(d);
+    }
+    if (is_cascade(d.law)) {
+        return s + normalised_cascade(d);
     }
     return s + (is_near_optimal(d.law) ? normalised_weights(d) : normalised_servo(d));
 }

@@ -68,11 +68,14 @@ struct NodoSpec {
     std::array<double, 3> T{};
 };
 
-/// The control law; paper A's, the same with a harmonic observer, the one paper A compares with, or one of paper B's.
-enum class Law { noc, noc_h, conventional_noc, cdobc, gpiobc, hdobc, pid };
+/// The control law; paper A's, the same with a harmonic observer, the one paper A compares with, one of paper B's, or what
+/// drives usually have.
+enum class Law { noc, noc_h, conventional_noc, cdobc, gpiobc, hdobc, pid, pi_foc, ladrc };
 
 /// The laws with a controller and an observer from a state-dependent Riccati equation.
 bool is_near_optimal(Law law);
+/// The laws with a speed loop around current loops.
+bool is_cascade(Law law);
 
 const char *law_name(Law law);
 bool        is_law_name(const std::string &name);
@@ -107,6 +110,15 @@ struct DAxisSpec {
     double integral_V_per_As    = 0.0;
 };
 
+/// A speed law around current loops.
+struct CascadeSpec {
+    double current_bandwidth_Hz = 0.0; ///< of the current loops
+    double symmetrical_optimum_a =
+        0.0;                       ///< pi_foc: ratio of the speed loop's crossover to its corners
+    double controller_radps = 0.0; ///< ladrc: pole of the speed loop, distance from 0
+    double observer_radps   = 0.0; ///< ladrc: the same of both poles of the observer
+};
+
 /// What noc_h's observer knows of repeating disturbances; weights are those of the observer's Q.
 struct HarmonicSpec {
     std::vector<double>
@@ -136,6 +148,7 @@ struct Drive {
     DobcSpec     dobc;      ///< cdobc, gpiobc, hdobc only
     PidSpec      pid;       ///< pid only
     DAxisSpec    d_axis;    ///< laws of paper B
+    CascadeSpec  cascade;   ///< pi_foc and ladrc only
 };
 
 constexpr int drive_schema = 1;

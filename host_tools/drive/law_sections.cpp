@@ -24,6 +24,8 @@ constexpr Range harmonic_order{1.0, 1e3};
 constexpr Range pole_1ps{1.0, 1e5};
 constexpr Range speed_gain{0.0, 1e6};
 constexpr Range current_gain{0.0, 1e9};
+constexpr Range bandwidth_Hz{1.0, 1e4};
+constexpr Range optimum_a{1.05, 20.0};
 
 template <std::size_t N> std::array<double, N> last_of(const std::vector<double> &values)
 {
@@ -85,7 +87,8 @@ const std::map<std::string, Law> &laws()
         {"noc", Law::noc},     {"conventional_noc", Law::conventional_noc},
         {"noc_h", Law::noc_h}, {"cdobc", Law::cdobc},
         {"hdobc", Law::hdobc}, {"gpiobc", Law::gpiobc},
-        {"pid", Law::pid}};
+        {"pid", Law::pid},     {"pi_foc", Law::pi_foc},
+        {"ladrc", Law::ladrc}};
     return names;
 }
 
@@ -146,6 +149,20 @@ DAxisSpec read_d_axis(TomlReader t)
     return spec;
 }
 
+CascadeSpec read_cascade(TomlReader t, Law law)
+{
+    CascadeSpec spec;
+    spec.current_bandwidth_Hz = t.number("current_bandwidth_Hz", bandwidth_Hz);
+    if (law == Law::pi_foc) {
+        spec.symmetrical_optimum_a = t.number("symmetrical_optimum_a", optimum_a);
+    } else {
+        spec.controller_radps = t.number("controller_radps", pole_1ps);
+        spec.observer_radps   = t.number("observer_radps", pole_1ps);
+    }
+    t.reject_unknown_keys();
+    return spec;
+}
+
 HarmonicSpec read_harmonic_spec(TomlReader t, const Motor &motor)
 {
     const auto orders = [&t](const char *key, const Range &allowed) {
@@ -191,7 +208,8 @@ Law read_law(TomlReader &t)
     if (found == laws().end()) {
         t.fail("law",
                fmt::format("= \"{}\" is not allowed: must be \"noc\", \"noc_h\", "
-                           "\"conventional_noc\", \"cdobc\", \"gpiobc\", \"hdobc\" or \"pid\"",
+                           "\"conventional_noc\", \"cdobc\", \"gpiobc\", \"hdobc\", \"pid\", "
+                           "\"pi_foc\" or \"ladrc\"",
                            name));
     }
     return found->second;
@@ -217,6 +235,10 @@ void read_law_sections(TomlReader &t, Drive &drive)
         }
         return;
     }
+    if (is_cascade(drive.law)) {
+        drive.cascade = read_cascade(t.table(law_name(drive.law)), drive.law);
+        return;
+    }
     drive.d_axis = read_d_axis(t.table("d_axis"));
     if (drive.law == Law::pid) {
         drive.pid = read_pid(t.table("pid"));
@@ -228,6 +250,11 @@ void read_law_sections(TomlReader &t, Drive &drive)
 bool is_near_optimal(Law law)
 {
     return law == Law::noc || law == Law::noc_h || law == Law::conventional_noc;
+}
+
+bool is_cascade(Law law)
+{
+    return law == Law::pi_foc || law == Law::ladrc;
 }
 
 const char *nodo_form_name(NodoForm form)

@@ -192,6 +192,17 @@ Json servo_json(const Design &d)
     return out;
 }
 
+Json cascade_json(const Design &d)
+{
+    const CascadeCheck &check = *d.cascade;
+    return {{"law", law_name(d.drive.law)},
+            {"speed_loop", loop_json(check.speed)},
+            {"q_axis_loop", loop_json(check.q_axis)},
+            {"d_axis_loop", loop_json(check.d_axis)},
+            {"certificate",
+             {{"certified", d.certificate.passed()}, {"failures", d.certificate.failures}}}};
+}
+
 } // namespace
 
 std::string report_json(const Design &d)
@@ -199,6 +210,10 @@ std::string report_json(const Design &d)
     Json report = heading_json(d);
     if (d.servo) {
         report.update(servo_json(d));
+        return report.text();
+    }
+    if (d.cascade) {
+        report.update(cascade_json(d));
         return report.text();
     }
     if (d.harmonics) {

@@ -83,6 +83,20 @@ std::string servo_text(const Design &d)
            loop_text("speed", servo.speed) + loop_text("d axis", servo.d_axis);
 }
 
+std::string cascade_text(const Design &d)
+{
+    const CascadeCheck &check = *d.cascade;
+    const CascadeSpec  &spec  = d.drive.cascade;
+    std::string         s =
+        fmt::format("\ncontroller\n  current loops {:g} Hz, ", spec.current_bandwidth_Hz);
+    s += d.drive.law == Law::pi_foc
+             ? fmt::format("symmetrical optimum with a = {:g}\n", spec.symmetrical_optimum_a)
+             : fmt::format("speed loop {:g} rad/s, observer {:g} rad/s\n", spec.controller_radps,
+                           spec.observer_radps);
+    return s + "\nsampled loops\n" + loop_text("speed", check.speed) +
+           loop_text("q axis", check.q_axis) + loop_text("d axis", check.d_axis);
+}
+
 std::string harmonic_text(const Design &d)
 {
     const nodo_harmonic_gains_t &t     = *d.harmonics->table;
@@ -149,7 +163,7 @@ std::string report_text(const Design &d)
         s += fmt::format("  l{:<3} {:.9g}\n", i, d.l[i]);
     }
     s += limits_text(d);
-    s += d.servo ? servo_text(d) : noc_text(d);
+    s += d.servo ? servo_text(d) : d.cascade ? cascade_text(d) : noc_text(d);
     s += d.certificate.passed() ? "\nverdict: certified\n" : "\nverdict: refused\n";
     for (const std::string &failure : d.certificate.failures) {
         s += "  " + failure + "\n";

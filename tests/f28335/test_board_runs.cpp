@@ -104,6 +104,8 @@ TEST_P(EdgeTimes, DriversAndFakeAndCoreAgree)
 
 INSTANTIATE_TEST_SUITE_P(Shipped, EdgeTimes,
                          ::testing::Values(std::pair{"board_load_step", "ipmsm_390w_noc_h_edges"},
+                                           std::pair{"board_load_step", "ipmsm_390w_pi_foc_edges"},
+                                           std::pair{"board_load_step", "ipmsm_390w_ladrc_edges"},
                                            std::pair{"servo_case_1_2", "servo_200w_cdobc"},
                                            std::pair{"servo_case_1_2", "servo_200w_gpiobc"},
                                            std::pair{"servo_case_1_2", "servo_200w_hdobc"},

@@ -50,12 +50,12 @@ expect()
     fi
 }
 
-laws=(noc noc_speed noc_h conventional dobc pid)
+laws=(noc noc_speed noc_h conventional dobc pid pi_foc ladrc)
 for law in "${laws[@]}"; do
     linked "$law" | sort >"$work/$law.linked"
 done
 cat "$work"/*.linked | sort | uniq -c | awk -v all="${#laws[@]}" '$1 == all {print $2}' >"$work/common"
-if grep -E '^(law_|nodo|dobc|nosc|pid_law|near_optimal)' "$work/common"; then
+if grep -E '^(law_|nodo|dobc|nosc|pid_law|near_optimal|foc|speed_difference)' "$work/common"; then
     printf 'linked for every law\n'
     status=1
 fi
@@ -66,4 +66,6 @@ expect noc_h angle_gate current_ref encoder_form feedforward law_noc_h near_opti
 expect conventional conventional current_ref double_series feedforward law_conventional law_noc_speed near_optimal nodo nosc speed_ref
 expect dobc dobc law_dobc pid_law
 expect pid feedforward law_pid pid_law
+expect pi_foc foc law_pi_foc speed_difference
+expect ladrc foc law_ladrc speed_difference
 exit "$status"

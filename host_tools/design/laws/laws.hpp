@@ -12,5 +12,7 @@ extern const LawDesign noc_h_design;
 extern const LawDesign conventional_design;
 extern const LawDesign dobc_design;
 extern const LawDesign pid_design;
+extern const LawDesign pi_foc_design;
+extern const LawDesign ladrc_design;
 
 } // namespace sdre

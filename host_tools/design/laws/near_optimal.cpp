@@ -65,24 +65,6 @@ GainSeries solve_nodo(const ReducedParameters &l, const Drive &drive, Precision 
                              C.transpose() * T_inverse.asDiagonal(), spec.order, precision);
 }
 
-/// k of EQ-CURRENT-REF-2.
-double mtpa_A(const ReducedParameters &l)
-{
-    return std::min(0.5 * l[5] / std::max(1.0 - l[10], 1e-9), largest_mtpa_A);
-}
-
-/// The iq at which the MTPA curve meets the current circle. Exact: id = k/2 - sqrt(k^2/4 + max^2/2); second order:
-/// iq^2 + iq^4 / (2 k)^2 = max^2.
-double largest_iq_A(const Motor &motor, double k, bool exact)
-{
-    const double i2 = motor.max_current_A * motor.max_current_A;
-    if (exact) {
-        const double id_A = -0.5 * i2 / (0.5 * k + std::sqrt(0.25 * k * k + 0.5 * i2));
-        return std::sqrt(i2 - id_A * id_A);
-    }
-    return std::sqrt(2.0 * i2 / (1.0 + std::sqrt(1.0 + i2 / (k * k))));
-}
-
 /// On the MTPA curve at the current limit.
 double largest_torque_Nm(const Motor &motor, const ReducedParameters &l)
 {
@@ -157,6 +139,23 @@ std::string nosc_block(const nosc_gains_t &g)
 }
 
 } // namespace
+
+double mtpa_A(const ReducedParameters &l)
+{
+    return std::min(0.5 * l[5] / std::max(1.0 - l[10], 1e-9), largest_mtpa_A);
+}
+
+// Exact: id = k/2 - sqrt(k^2/4 + max^2/2); second order:
+// iq^2 + iq^4 / (2 k)^2 = max^2.
+double largest_iq_A(const Motor &motor, double k, bool exact)
+{
+    const double i2 = motor.max_current_A * motor.max_current_A;
+    if (exact) {
+        const double id_A = -0.5 * i2 / (0.5 * k + std::sqrt(0.25 * k * k + 0.5 * i2));
+        return std::sqrt(i2 - id_A * id_A);
+    }
+    return std::sqrt(2.0 * i2 / (1.0 + std::sqrt(1.0 + i2 / (k * k))));
+}
 
 void solve_near_optimal(Design &d)
 {

@@ -15,6 +15,11 @@ void solve_near_optimal(Design &design);
 near_optimal_config_t near_optimal_constants(const Design &design, bool exact_mtpa,
                                              bool nosc_series);
 
+/// k of EQ-CURRENT-REF-2.
+double mtpa_A(const ReducedParameters &l);
+/// The iq at which the MTPA curve meets the current circle.
+double largest_iq_A(const Motor &motor, double k, bool exact);
+
 encoder_form_limits_t encoder_limits(const Design &design);
 
 /// What of a measured angle the observer with these gains may believe, EQ-ANGLE-GATE-3.

@@ -4,9 +4,8 @@
 #include <fmt/format.h>
 
 namespace sdre {
-namespace {
 
-void judge(const char *name, const LoopCheck &loop, std::vector<std::string> &failures)
+void judge_loop(const char *name, const LoopCheck &loop, std::vector<std::string> &failures)
 {
     if (!(loop.spectral_radius < 1.0)) {
         failures.push_back(fmt::format("{}: the sampled loop is unstable: spectral radius {:.5f}",
@@ -18,7 +17,12 @@ void judge(const char *name, const LoopCheck &loop, std::vector<std::string> &fa
     }
 }
 
-} // namespace
+std::string loop_line(const char *name, const LoopCheck &loop)
+{
+    return fmt::format(" * checked    {:<11} sensitivity peak {:.3g} at {:.0f} Hz, sampled "
+                       "spectral radius {:.4f}\n",
+                       name, loop.peak, loop.peak_Hz, loop.spectral_radius);
+}
 
 pid_law_config_t d_axis_constants(const Drive &drive)
 {
@@ -32,21 +36,15 @@ void certify_servo(Design &d)
     servo.speed = check_loop(speed_loop(d.drive.motor, d.config), disturbance_frequencies(d.drive));
     servo.d_axis =
         check_loop(d_axis_loop(d.drive.motor, d.config), disturbance_frequencies(d.drive));
-    judge("speed loop", servo.speed, d.certificate.failures);
-    judge("d axis", servo.d_axis, d.certificate.failures);
+    judge_loop("speed loop", servo.speed, d.certificate.failures);
+    judge_loop("d axis", servo.d_axis, d.certificate.failures);
 }
 
 std::string servo_summary(const Design &d, const std::string &method)
 {
     const ServoDesign &servo = *d.servo;
-    std::string        s     = fmt::format(" * method     {}, {}\n", law_name(d.drive.law), method);
-    for (const auto &[name, loop] :
-         {std::pair("speed loop:", &servo.speed), {"d axis:", &servo.d_axis}}) {
-        s += fmt::format(" * checked    {:<11} sensitivity peak {:.3g} at {:.0f} Hz, sampled "
-                         "spectral radius {:.4f}\n",
-                         name, loop->peak, loop->peak_Hz, loop->spectral_radius);
-    }
-    return s;
+    return fmt::format(" * method     {}, {}\n", law_name(d.drive.law), method) +
+           loop_line("speed loop:", servo.speed) + loop_line("d axis:", servo.d_axis);
 }
 
 std::string pid_block(const char *name, const pid_law_config_t &c)

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "common/errors.hpp"
 #include "common/file_output.hpp"
 #include "sil/commands/commands.hpp"
 #include "sil/eval/compare.hpp"
@@ -15,7 +16,9 @@ struct Options {
     std::vector<std::string> drives;
     std::vector<int>         orders;
     std::vector<std::string> metrics;
-    int                      seeds = 1;
+    int                      seeds       = 1;
+    bool                     equal_noise = false;
+    int                      noise_V     = 0; ///< 0: that of the first drive
     std::string              csv;
     std::string              json;
     std::string              markdown;
@@ -30,6 +33,10 @@ void declare(OptionList &list, Options &o)
                   "order of both series, a column of its own; again for more");
     list.repeated("--metric", o.metrics, "a metric by its JSON name; again for more");
     list.number("--seeds", o.seeds, {1, 100000}, "worst of the seeds 1 .. N (default 1)");
+    list.flag("--equal-noise", o.equal_noise,
+              "turn each drive's bandwidth until v_q is as noisy as the first drive's in the first "
+              "scenario's last measure, mean of the seeds");
+    list.number("--noise", o.noise_V, {1, 10000}, "with --equal-noise: this many V rms instead");
     list.text("--csv", o.csv, "write the values, one row each");
     list.text("--json", o.json, "write the values");
     list.text("--markdown", o.markdown, "write the printed table");
@@ -37,11 +44,20 @@ void declare(OptionList &list, Options &o)
 
 int run(const Options &o)
 {
-    const Comparison        comparison = compare({{o.scenarios.begin(), o.scenarios.end()},
-                                                  {o.drives.begin(), o.drives.end()},
-                                                  o.orders,
-                                                  o.metrics,
-                                                  o.seeds});
+    if (o.noise_V > 0 && !o.equal_noise) {
+        throw InputError("--noise: needs --equal-noise");
+    }
+    CompareRequest request{{o.scenarios.begin(), o.scenarios.end()},
+                           {o.drives.begin(), o.drives.end()},
+                           o.orders,
+                           o.metrics,
+                           o.seeds,
+                           o.equal_noise,
+                           {}};
+    if (o.noise_V > 0) {
+        request.noise_V = o.noise_V;
+    }
+    const Comparison        comparison = compare(request);
     std::vector<OutputFile> files;
     if (!o.csv.empty()) {
         files.push_back({o.csv, compare_csv(comparison)});
@@ -56,7 +72,7 @@ int run(const Options &o)
     fmt::print("{}", compare_markdown(comparison));
     const bool faulted = std::any_of(comparison.runs.begin(), comparison.runs.end(),
                                      [](const CompareRun &r) { return r.faulted > 0; });
-    return faulted ? exit_fault : exit_ok;
+    return faulted ? exit_fault : comparison.missed.empty() ? exit_ok : exit_design_failed;
 }
 
 } // namespace

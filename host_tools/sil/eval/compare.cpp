@@ -8,6 +8,7 @@
 
 #include "common/errors.hpp"
 #include "common/json.hpp"
+#include "sil/eval/equal_noise.hpp"
 #include "sil/eval/results.hpp"
 #include "sil/eval/seeds.hpp"
 
@@ -79,6 +80,31 @@ std::vector<std::pair<std::string, Scenario>> variants(const CompareRequest     
     return out;
 }
 
+/// The factor of every column, found on the first scenario.
+std::vector<double> equal_factors(const CompareRequest &request, Comparison &c)
+{
+    std::optional<double> wanted_V = request.noise_V;
+    std::vector<double>   factors;
+    const auto            columns = variants(request, request.scenarios.front());
+    for (const auto &[column, scenario] : columns) {
+        (void)with_bandwidth(scenario.drive, 1.0); // refuses before anything runs
+    }
+    for (const auto &[column, scenario] : columns) {
+        if (!wanted_V) {
+            wanted_V = noise_V(scenario, request.seeds);
+        }
+        const NoiseMatch match = match_noise(scenario, wanted_V.value_or(0.0), request.seeds);
+        factors.push_back(match.factor);
+        if (!match.reached) {
+            c.missed.push_back(fmt::format(
+                "{}: {:.3g} V of noise in v_q cannot be reached; nearest is {:.3g} V with {}",
+                column, *wanted_V, match.noise_V,
+                knob_text(with_bandwidth(scenario.drive, match.factor))));
+        }
+    }
+    return factors;
+}
+
 void require_different(const std::vector<std::string> &columns)
 {
     for (const std::string &column : columns) {
@@ -118,12 +144,18 @@ Comparison compare(const CompareRequest &request)
     std::vector<std::string> columns; ///< of all scenarios
     std::vector<Scenario>    all;
     c.metrics = request.metrics.empty() ? compare_default_metrics() : request.metrics;
+    const std::vector<double> factors =
+        request.equal_noise ? equal_factors(request, c) : std::vector<double>{};
     for (const std::filesystem::path &scenario : request.scenarios) {
         if (!seen.insert(scenario.stem().string()).second) {
             throw InputError(fmt::format("scenario {} is there twice", scenario.stem().string()));
         }
         c.columns.clear(); // the same of every scenario
-        for (const auto &[column, variant] : variants(request, scenario)) {
+        for (auto [column, variant] : variants(request, scenario)) {
+            if (request.equal_noise) {
+                variant.drive = with_bandwidth(variant.drive, factors[c.columns.size()]);
+                column += ", " + knob_text(variant.drive);
+            }
             c.columns.push_back(column);
             columns.push_back(column);
             all.push_back(variant);
@@ -170,6 +202,9 @@ std::string compare_markdown(const Comparison &c)
         if (!run.certified) {
             s += fmt::format("\nnot certified: {} on {}\n", run.column, run.scenario);
         }
+    }
+    for (const std::string &line : c.missed) {
+        s += "\n" + line + "\n";
     }
     return s;
 }

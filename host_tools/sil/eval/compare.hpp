@@ -16,6 +16,10 @@ struct CompareRequest {
     std::vector<int> orders; ///< of both series, every drive with each; empty: the drive file's
     std::vector<std::string> metrics;   ///< empty: compare_default_metrics()
     int                      seeds = 1; ///< worst of the seeds 1 .. this
+    bool                     equal_noise =
+        false; ///< every drive's bandwidth is turned until it is as noisy (equal_noise.hpp)
+    std::optional<double> noise_V =
+        std::nullopt; ///< as this, in the first scenario's last measure; none: as the first drive
 };
 
 /// One metric of one measure.
@@ -38,6 +42,8 @@ struct Comparison {
     std::vector<std::string> columns;
     std::vector<std::string> metrics;
     std::vector<CompareRun>  runs; ///< scenario by scenario, columns in order
+    std::vector<std::string>
+        missed; ///< a line for each drive that cannot be as noisy as the others
 };
 
 /// settling time, dip, overshoot, steady error, ripple, peak current.

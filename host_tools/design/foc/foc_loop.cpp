@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "design/foc/foc_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "design/foc/foc_design.hpp"
+
+namespace sdre {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::RowVectorXd;
+using Eigen::VectorXd;
+
+// Columns of the state: motor (w, iq, id), voltage in force, sums of the current loops, id_ref of the period before; then
+// the angle's steps of the last periods, and the speed law's own.
+enum : Index { iq = 1, id, vq, vd, sum_q, sum_d, id_before, first_step };
+
+double wide(float x)
+{
+    return static_cast<double>(x);
+}
+
+/// Constants that both laws have, and the number of the law's own states.
+struct Parts {
+    const foc_config_t              *foc;
+    const speed_difference_config_t *speed;
+    Index                            own;
+};
+
+Parts parts_of(const drive_config_t &config)
+{
+    if (const auto *c = constants_of<law_pi_foc_config_t>(config)) {
+        return {&c->foc, &c->speed, 1};
+    }
+    const auto *c = constants_of<law_ladrc_config_t>(config);
+    return {&c->foc, &c->speed, 3};
+}
+
+/// The wanted acceleration from the state, and the rows of the law's own states in the next period.
+struct SpeedLaw {
+    RowVectorXd accel;
+    MatrixXd    next;
+};
+
+/// State: the sum, in the last column.
+SpeedLaw pi_law(const law_pi_foc_gains_t &c, const RowVectorXd &speed)
+{
+    const RowVectorXd sum   = RowVectorXd::Unit(speed.size(), speed.size() - 1);
+    const RowVectorXd accel = sum - wide(c.kp_1ps) * speed;  // EQ-PI-FOC-2
+    return {accel, sum + wide(c.ki_per_kp) * (accel - sum)}; // EQ-PI-FOC-3
+}
+
+/// States: z_w, z_f and the acceleration of the period before, in the last columns.
+SpeedLaw ladrc_law(const law_ladrc_gains_t &c, const RowVectorXd &speed, const RowVectorXd &torque,
+                   double ts_s)
+{
+    const Index       n   = speed.size();
+    const RowVectorXd z_f = RowVectorXd::Unit(n, n - 2);
+    const RowVectorXd z_w = RowVectorXd::Unit(n, n - 3) + ts_s * z_f +
+                            0.5 * ts_s * (RowVectorXd::Unit(n, n - 1) + torque); // EQ-LADRC-1
+    const RowVectorXd e = speed - z_w;
+
+    SpeedLaw law;
+    law.next.resize(3, n);
+    law.next.row(0) = z_w + wide(c.gain_w) * e; // EQ-LADRC-2
+    law.next.row(1) = z_f + wide(c.gain_f_1ps) * e;
+    law.next.row(2) = torque;
+    law.accel       = -wide(c.w_c_1ps) * law.next.row(0) - law.next.row(1); // EQ-LADRC-3
+    return law;
+}
+
+/// Everything of a period as rows on the state.
+struct Signals {
+    RowVectorXd iq_ref;
+    RowVectorXd id_ref;
+    RowVectorXd e_q;
+    RowVectorXd e_d;
+    RowVectorXd u_q;
+    RowVectorXd u_d;
+    MatrixXd    own;        ///< the speed law's next states
+    double      bend = 0.0; ///< of id_ref over iq_ref
+};
+
+Signals signals(const Design &d, const OperatingPoint &at, speed_difference_mode_t mode, Index n,
+                Index steps)
+{
+    const Motor        &m     = d.drive.motor;
+    const foc_config_t &foc   = *parts_of(d.config).foc;
+    const double        ts    = control_period_s(d.drive);
+    const double        per_A = d.l[1] + d.l[11] * at.id_A;
+    const auto          unit  = [n](Index i) -> RowVectorXd { return RowVectorXd::Unit(n, i); };
+
+    const RowVectorXd torque = per_A * unit(iq) + d.l[11] * at.iq_A * unit(id);
+    RowVectorXd       speed  = RowVectorXd::Zero(n); // EQ-SPEED-DIFFERENCE-1
+    speed.segment(first_step, steps).setConstant(1.0 / (static_cast<double>(steps) * ts));
+
+    const auto    *pi    = constants_of<law_pi_foc_config_t>(d.config);
+    const auto    *ladrc = constants_of<law_ladrc_config_t>(d.config);
+    const SpeedLaw law   = pi != nullptr ? pi_law(pi->gains[mode], speed)
+                                         : ladrc_law(ladrc->gains[mode], speed, torque, ts);
+
+    Signals s;
+    s.bend   = -at.iq_A / std::hypot(wide(foc.mtpa_A), at.iq_A);
+    s.iq_ref = (law.accel - d.l[11] * at.iq_A * unit(id_before)) / per_A; // EQ-FOC-1
+    s.id_ref = s.bend * s.iq_ref;                                         // EQ-FOC-2
+    s.e_q    = s.iq_ref - unit(iq);
+    s.e_d    = s.id_ref - unit(id);
+    s.u_q    = wide(foc.q.kp_V_per_A) * s.e_q + unit(sum_q) +
+            at.omega_e_radps * m.d_axis_inductance_H * unit(id) +
+            (m.d_axis_inductance_H * at.id_A + m.pm_flux_Wb) * speed; // EQ-FOC-5
+    s.u_d = wide(foc.d.kp_V_per_A) * s.e_d + unit(sum_d) -
+            m.q_axis_inductance_H * (at.omega_e_radps * unit(iq) + at.iq_A * speed);
+    s.own = law.next;
+    return s;
+}
+
+} // namespace
+
+FocLoop foc_loop(const Design &d, const OperatingPoint &at, speed_difference_mode_t mode)
+{
+    const double        ts    = control_period_s(d.drive);
+    const Parts         parts = parts_of(d.config);
+    const foc_config_t &foc   = *parts.foc;
+    const Index         steps = speed_periods(d.drive, *parts.speed, mode);
+    const Index         n     = first_step + steps + parts.own;
+    const Signals       s     = signals(d, at, mode, n, steps);
+
+    const auto plant        = held_motor(d.l, at, ts);
+    MatrixXd   motor        = MatrixXd::Zero(4, n);
+    motor.leftCols(3)       = plant.Phi.leftCols(3);
+    motor.middleCols(vq, 2) = plant.Gamma.leftCols(2);
+
+    MatrixXd A        = MatrixXd::Zero(n, n);
+    A.topRows(3)      = motor.topRows(3);
+    A.row(vq)         = s.u_q;
+    A.row(vd)         = s.u_d;
+    A.row(sum_q)      = wide(foc.q.ki_tick) * s.e_q; // EQ-FOC-6
+    A.row(sum_d)      = wide(foc.d.ki_tick) * s.e_d;
+    A.row(id_before)  = s.id_ref;
+    A.row(first_step) = motor.row(3);
+    A(sum_q, sum_q) += 1.0;
+    A(sum_d, sum_d) += 1.0;
+    for (Index i = 1; i < steps; i++) {
+        A(first_step + i, first_step + i - 1) = 1.0;
+    }
+    A.bottomRows(parts.own) = s.own;
+
+    VectorXd on_current   = VectorXd::Zero(n);
+    on_current(vq)        = wide(foc.q.kp_V_per_A);
+    on_current(vd)        = wide(foc.d.kp_V_per_A) * s.bend;
+    on_current(sum_q)     = wide(foc.q.ki_tick);
+    on_current(sum_d)     = wide(foc.d.ki_tick) * s.bend;
+    on_current(id_before) = s.bend;
+    return {{A, on_current, s.iq_ref, ts},
+            {A, VectorXd::Unit(n, vq), s.u_q, ts},
+            {A, VectorXd::Unit(n, vd), s.u_d, ts}};
+}
+
+CascadeCheck check_foc_loops(const Design &d)
+{
+    const double rated = d.drive.motor.rated_speed_e_radps;
+    const double most  = wide(parts_of(d.config).foc->iq_max_A);
+    // Without edge times both ways are the same.
+    const int    modes = d.drive.encoder.edge_times ? SPEED_DIFFERENCE_MODES : 1;
+    CascadeCheck worst;
+    const auto   keep = [&d](LoopCheck &kept, const SampledServoLoop &loop) {
+        LoopCheck    now     = check_loop(loop, disturbance_frequencies(d.drive));
+        const double radius  = std::max(kept.spectral_radius, now.spectral_radius);
+        kept                 = now.peak > kept.peak ? std::move(now) : std::move(kept);
+        kept.spectral_radius = radius;
+    };
+    for (const double speed : {0.0, rated}) {
+        for (const double current : {0.0, most, -most}) {
+            for (int mode = 0; mode < modes; mode++) {
+                const FocLoop loop = foc_loop(d, {speed, current, mtpa_id_A(d.l, current)},
+                                              static_cast<speed_difference_mode_t>(mode));
+                keep(worst.speed, loop.speed);
+                keep(worst.q_axis, loop.q_axis);
+                keep(worst.d_axis, loop.d_axis);
+            }
+        }
+    }
+    return worst;
+}
+
+} // namespace sdre

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "design/foc/foc_design.hpp"
+#include "design/laws/cascade.hpp"
+
+namespace sdre {
+namespace {
+
+// Chosen: at 300 rad/s of the shipped encoder a count is 0.4 % of the angle turned in it.
+constexpr double window_s = 1e-3;
+
+bool is_for(const Drive &drive)
+{
+    return drive.law == Law::pi_foc;
+}
+
+/// Symmetrical optimum of an integrator behind a small lag T_s: the corners of the PI and of the lag lie a to either side of
+/// the crossover 1 / (a T_s), so that the phase is largest there.
+///
+///     k_p = 1 / (a T_s),     T_i = a^2 T_s                                  EQ-PI-FOC-4
+void solve(Design &d)
+{
+    const double        a = d.drive.cascade.symmetrical_optimum_a;
+    law_pi_foc_config_t c{};
+    c.foc   = foc_constants(d.drive, d.l);
+    c.speed = speed_difference_constants(d.drive, window_s);
+    for (const auto mode : {SPEED_DIFFERENCE_COUNTED, SPEED_DIFFERENCE_TIMED}) {
+        const double lag_s = small_time_s(d.drive, c.speed, mode);
+        c.gains[mode]      = {static_cast<float>(1.0 / (a * lag_s)),
+                              static_cast<float>(control_period_s(d.drive) / (a * a * lag_s))};
+    }
+    keep_constants(d, c);
+    certify_cascade(d);
+}
+
+std::string summary(const Design &d)
+{
+    return cascade_summary(d, "EQ-FOC-1 to 8, EQ-PI-FOC-1 to 4");
+}
+
+std::vector<std::string> mismatches(const Design &)
+{
+    return {};
+}
+
+std::string table(const Design &d)
+{
+    const auto &c = *constants_of<law_pi_foc_config_t>(d.config);
+    return cascade_blocks(c.foc, c.speed) + gains_block(c.gains, [](const law_pi_foc_gains_t &g) {
+               return c_field("kp_1ps", g.kp_1ps) + c_field("ki_per_kp", g.ki_per_kp);
+           });
+}
+
+} // namespace
+
+const LawDesign pi_foc_design = {
+    "law_pi_foc", "law_pi_foc_config_t", is_for, solve, summary, mismatches, table};
+
+} // namespace sdre

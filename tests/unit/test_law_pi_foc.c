@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: MIT */
+#include "law_pi_foc.h"
+
+#include "drive_tick.h"
+#include "gain_tables.h"
+#include "law_answer.h"
+#include "unit_support.h"
+#include "unity.h"
+
+#define TOL_radps2 0.25 /* rad/s^2, of some thousands: digits of an angle; worst 0.042 */
+
+static law_pi_foc_config_t config;
+static drive_config_t drive; /* the shipped motor's limits and constants around the law above */
+static law_state_t    state;
+static law_pi_foc_state_t *const s = &state.pi_foc;
+static drive_sample_t            sample;
+static law_input_t               in;
+
+void setUp(void)
+{
+    const law_pi_foc_config_t c = {
+        .foc   = {.d                 = {190.0f, 1.2f, 0.0063f},
+                  .q                 = {280.0f, 1.2f, 0.0043f},
+                  .current_max_A     = 4.0f,
+                  .iq_max_A          = 3.3f,
+                  .mtpa_A            = 2.5f,
+                  .id_min_A          = -2.5f,
+                  .voltage_share     = 0.95f,
+                  .weakening_A_per_V = 1.0e-3f},
+        .speed = {.periods = 5, .inv_span_1ps = 1000.0f, .edge_gap_max_s = 4.0e-4f},
+        .gains = {{.kp_1ps = 500.0f, .ki_per_kp = 0.05f}, {.kp_1ps = 900.0f, .ki_per_kp = 0.1f}}};
+    const drive_sample_t at      = {.ia_A          = 0.0f,
+                                    .ib_A          = 0.0f,
+                                    .dc_link_V     = 295.0f,
+                                    .theta_e_rad   = 0.0f,
+                                    .omega_e_radps = 200.0f,
+                                    .valid         = true};
+    const law_input_t    no_past = {
+           .sample = &sample, .command_e_radps = 205.0f, .v_V = {.d = 0.0f, .q = 0.0f}};
+
+    config          = c;
+    sample          = at;
+    in              = no_past;
+    drive           = gain_tables_drive;
+    drive.law       = &law_pi_foc;
+    drive.constants = &config;
+    drive.law->reset(&state, &drive, &sample);
+}
+
+void tearDown(void) {}
+
+/* A shaft that turns at 200 rad/s whatever the law wants, with the currents that it asked for a period ago. */
+static double wanted_after(int periods)
+{
+    double a = NAN;
+
+    for (int k = 0; k < periods; k++) {
+        const float        sum = s->sum_e_radps2;
+        const float        r   = s->r_e_radps;
+        const law_output_t out = law_answer(&drive, &state, &in);
+
+        a                  = (500.0 * ((double)r - (double)out.now.omega_e_radps)) + (double)sum;
+        sample.theta_e_rad = frames_wrap(sample.theta_e_rad + (200.0f * drive.ts_s));
+        const abc_t i_A    = frames_inverse_clarke(
+               frames_inverse_park(out.i_ref_A, frames_angle(sample.theta_e_rad)));
+        sample.ia_A = i_A.a;
+        sample.ib_A = i_A.b;
+        in.v_V      = s->foc.u_V; /* nothing is cut */
+    }
+    return a;
+}
+
+/* The filtered command r(t) = 200 + 5 (1 - q^k), and the PI of what is left of it: sums in closed form. */
+static void test_wish_is_a_pi_of_the_filtered_error(void)
+{
+    const int    n = 20;
+    const double q = 1.0 - 0.05;
+    const double e = 5.0 * (1.0 - pow(q, n - 1));
+    const double before =
+        5.0 *
+        ((double)(n - 1) - ((1.0 - pow(q, n - 1)) / (1.0 - q))); /* sum of all errors before */
+
+    const double a = wanted_after(n);
+
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_radps2, (500.0 * e) + (500.0 * 0.05 * before), a);
+    TEST_ASSERT_TRUE(s->foc.limit == 0.0f);
+}
+
+static void test_gains_are_those_of_the_measurement(void)
+{
+    in.command_e_radps     = 200.0f;
+    s->r_e_radps           = 203.0f;
+    sample.edge_gap_s      = 2.0e-4f;
+    sample.omega_e_radps   = 202.0f;
+    const law_output_t out = law_answer(&drive, &state, &in);
+
+    TEST_ASSERT_TRUE(out.now.omega_e_radps == 202.0f);
+    TEST_ASSERT_TRUE(out.plausible && !out.without_angle && (out.ignored_angles == 0U));
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_radps2, 0.1 * 900.0 * 1.0, (double)s->sum_e_radps2);
+    TEST_ASSERT_DOUBLE_WITHIN(1.0e-4, 203.0 - (0.1 * 3.0), (double)s->r_e_radps);
+}
+
+/* After any time at the current limit the sum is what it was; an error the other way is taken at once. */
+static void test_sum_rests_at_the_limit(void)
+{
+    in.command_e_radps = 900.0f;
+    (void)wanted_after(100);
+    const float at_limit = s->sum_e_radps2;
+    (void)wanted_after(100);
+    TEST_ASSERT_TRUE(s->foc.limit > 0.0f);
+    TEST_ASSERT_TRUE(s->sum_e_radps2 == at_limit);
+    in.command_e_radps = 100.0f;
+    s->r_e_radps       = 190.0f;
+    s->sum_e_radps2    = 50000.0f; /* still at the limit above */
+    (void)wanted_after(1);
+    TEST_ASSERT_TRUE(s->foc.limit > 0.0f);
+    TEST_ASSERT_DOUBLE_WITHIN(0.5, 50000.0 - (0.05 * 500.0 * 10.0), (double)s->sum_e_radps2);
+}
+
+static void test_mirror_image_gives_the_mirror_image(void)
+{
+    law_state_t    mirror;
+    drive_sample_t left = sample;
+
+    left.omega_e_radps      = -200.0f;
+    law_input_t in_left     = in;
+    in_left.sample          = &left;
+    in_left.command_e_radps = -205.0f;
+    drive.law->reset(&mirror, &drive, &left);
+    for (int k = 0; k < 30; k++) {
+        const law_output_t a = law_answer(&drive, &state, &in);
+        const law_output_t b = law_answer(&drive, &mirror, &in_left);
+
+        TEST_ASSERT_DOUBLE_WITHIN(1.0e-4, (double)a.v_V.q, -(double)b.v_V.q);
+        TEST_ASSERT_DOUBLE_WITHIN(1.0e-4, (double)a.v_V.d, (double)b.v_V.d);
+        sample.theta_e_rad = frames_wrap(sample.theta_e_rad + 0.04f);
+        left.theta_e_rad   = -sample.theta_e_rad;
+    }
+}
+
+static void test_check_wants_every_constant(void)
+{
+    float *const constants[] = {&config.foc.q.kp_V_per_A,   &config.speed.inv_span_1ps,
+                                &config.gains[0].kp_1ps,    &config.gains[1].kp_1ps,
+                                &config.gains[0].ki_per_kp, &config.gains[1].ki_per_kp};
+
+    TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&drive));
+    for (int i = 0; i < SUPPORT_COUNT(constants); i++) {
+        const float kept = *constants[i];
+        for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
+            *constants[i] = support_not_finite[k];
+            TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, drive_config_check(&drive));
+        }
+        *constants[i] = 0.0f;
+        TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, drive_config_check(&drive));
+        *constants[i] = kept;
+    }
+}
+
+static void test_tick_trips_when_the_law_gives_no_number(void)
+{
+    const drive_command_t command = {.omega_e_radps = 205.0f, .run = true};
+    drive_t               d;
+
+    for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
+        (void)drive_init(&d, &drive);
+        TEST_ASSERT_TRUE(drive_tick(&d, &sample, &command).gate_enable);
+        d.law.pi_foc.sum_e_radps2 = support_not_finite[k];
+        TEST_ASSERT_FALSE(drive_tick(&d, &sample, &command).gate_enable);
+        TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_NUMERIC, d.fault);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_wish_is_a_pi_of_the_filtered_error);
+    RUN_TEST(test_gains_are_those_of_the_measurement);
+    RUN_TEST(test_sum_rests_at_the_limit);
+    RUN_TEST(test_mirror_image_gives_the_mirror_image);
+    RUN_TEST(test_check_wants_every_constant);
+    RUN_TEST(test_tick_trips_when_the_law_gives_no_number);
+    return UNITY_END();
+}

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: MIT */
+#include "speed_difference.h"
+
+#include "unit_support.h"
+#include "unity.h"
+
+#define TS_s 2.0e-4f
+#define TOL_radps                                                                                  \
+    2.0e-3 /* rad/s: angles of some radians in single precision over 1 ms; worst 7e-4 */
+
+static const speed_difference_config_t config = {
+    .periods = 5, .inv_span_1ps = 1000.0f, .edge_gap_max_s = 4.0e-4f};
+static speed_difference_t s;
+static drive_sample_t     sample;
+
+void setUp(void)
+{
+    const drive_sample_t at = {.theta_e_rad = 6.0f, .omega_e_radps = 300.0f, .valid = true};
+
+    sample = at;
+    speed_difference_reset(&s, &config, &sample, TS_s);
+}
+
+void tearDown(void) {}
+
+static double next(double theta_rad)
+{
+    const double turn = 2.0 * 3.14159265358979;
+    float        w    = NAN;
+
+    sample.theta_e_rad = (float)(theta_rad - (turn * floor(theta_rad / turn)));
+    (void)speed_difference_update(&s, &config, &sample, &w);
+    return (double)w;
+}
+
+/* The mean of the last five periods of a shaft that accelerates is its speed half of them ago; turns do not show. */
+static void test_it_is_the_speed_half_a_window_ago(void)
+{
+    for (int k = 0; k <= 500; k++) {
+        const double t    = 2.0e-4 * k;
+        const double w    = next(6.0 + (300.0 * t) + (0.5 * 5000.0 * t * t));
+        const double then = 300.0 + (5000.0 * (t - 5.0e-4));
+
+        if (k >= 5) {
+            TEST_ASSERT_DOUBLE_WITHIN(TOL_radps, then, w);
+        }
+    }
+}
+
+static void test_backwards_as_forwards(void)
+{
+    sample.omega_e_radps = -900.0f;
+    sample.theta_e_rad   = -6.0f;
+    speed_difference_reset(&s, &config, &sample, TS_s);
+
+    for (int k = 0; k <= 100; k++) {
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_radps, -900.0, next(-6.0 - (900.0 * 2.0e-4 * k)));
+    }
+}
+
+/* As if it had turned at the sample's speed before: no transient. */
+static void test_it_starts_at_the_samples_speed(void)
+{
+    for (int k = 0; k <= 10; k++) {
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_radps, 300.0, next(6.0 + (0.06 * k)));
+    }
+}
+
+static void test_edges_are_taken_while_they_are_frequent(void)
+{
+    float w = 0.0f;
+
+    sample.omega_e_radps = 123.0f;
+    sample.edge_gap_s    = 4.0e-4f;
+    TEST_ASSERT_EQUAL_INT(SPEED_DIFFERENCE_TIMED,
+                          speed_difference_update(&s, &config, &sample, &w));
+    TEST_ASSERT_TRUE(w == 123.0f);
+    sample.edge_gap_s = 4.1e-4f;
+    TEST_ASSERT_EQUAL_INT(SPEED_DIFFERENCE_COUNTED,
+                          speed_difference_update(&s, &config, &sample, &w));
+    TEST_ASSERT_FALSE(w == 123.0f);
+    sample.edge_gap_s = 0.0f; /* not from edges */
+    TEST_ASSERT_EQUAL_INT(SPEED_DIFFERENCE_COUNTED,
+                          speed_difference_update(&s, &config, &sample, &w));
+}
+
+static void test_check_wants_every_constant(void)
+{
+    speed_difference_config_t c = config;
+    TEST_ASSERT_TRUE(speed_difference_check(&c, TS_s));
+    c.periods = 0;
+    TEST_ASSERT_FALSE(speed_difference_check(&c, TS_s));
+    c.periods      = SPEED_DIFFERENCE_PERIODS_MAX + 1;
+    c.inv_span_1ps = 1.0f / (TS_s * (float)c.periods);
+    TEST_ASSERT_FALSE(speed_difference_check(&c, TS_s));
+    c = config;
+    TEST_ASSERT_FALSE(speed_difference_check(&c, 1.01f * TS_s));
+    for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
+        c.inv_span_1ps = support_not_finite[k];
+        TEST_ASSERT_FALSE(speed_difference_check(&c, TS_s));
+        c.inv_span_1ps   = config.inv_span_1ps;
+        c.edge_gap_max_s = support_not_finite[k];
+        TEST_ASSERT_FALSE(speed_difference_check(&c, TS_s));
+        c = config;
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_it_is_the_speed_half_a_window_ago);
+    RUN_TEST(test_backwards_as_forwards);
+    RUN_TEST(test_it_starts_at_the_samples_speed);
+    RUN_TEST(test_edges_are_taken_while_they_are_frequent);
+    RUN_TEST(test_check_wants_every_constant);
+    return UNITY_END();
+}
