@@ -12,8 +12,11 @@
 /* Chosen by simulation: the noise of v_q falls to three fifths, the dip grows by a sixteenth; with half a count a limit
  * cycle comes. */
 #define QUARTER_cnt 0.25f
-#define WIDEST_cnt  1.5f /* chosen: a state of the disc is at most so wide */
-#define POLE_PAIRS  64U  /* keeps half counts times pole pairs within 32 bits */
+/* Chosen by simulation: counts that come more often are better taken for their middle. With 1 a crawl of a count in three
+ * periods is a fifth too fast, with 8 a limit cycle comes at standstill. */
+#define ALONE_PERIODS 3.5f
+#define WIDEST_cnt    1.5f /* chosen: a state of the disc is at most so wide */
+#define POLE_PAIRS    64U  /* keeps half counts times pole pairs within 32 bits */
 
 ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c,
                             const drive_config_t *drive)
@@ -203,7 +206,8 @@ static void read_counts(app_angle_t *a, uint16_t position_cnt, int16_t turned_cn
     const bool          after_edge = a->have_edge;
 
     read_edges(a, position_cnt, turned_cnt != 0, 0.5f * a->ts_s, turned_cnt, reading);
-    if ((turned_cnt < -1) || (turned_cnt > 1) || ((turned_cnt != 0) && !after_edge)) {
+    if ((turned_cnt < -1) || (turned_cnt > 1) || ((turned_cnt != 0) && !after_edge) ||
+        (base_max(a->edge_age_s, a->edge_gap_s) < (ALONE_PERIODS * a->ts_s))) {
         plain.band_rad = QUARTER_cnt * a->rad_per_cnt;
         *reading       = plain;
     }

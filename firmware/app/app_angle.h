@@ -12,8 +12,8 @@
  *     omega_e = n_p (edge - edge before) 2 pi / (N t_before)                       EQ-APP-ANGLE-3
  *     theta_e = theta at that edge + omega_e a, within the count                   EQ-APP-ANGLE-4
  *
- * Without times, a period with one count has its edge in the middle of the period: EQ-APP-ANGLE-3, 4 with a = Ts / 2, and
- * one with more has EQ-APP-ANGLE-1, whose error is even within half a count: a difference below a quarter of one says little
+ * Without times, a count alone in four periods has its edge in the middle of its own: EQ-APP-ANGLE-3, 4 with a = Ts / 2.
+ * Where counts come more often they have EQ-APP-ANGLE-1, whose error is even within half a count: a difference below a quarter of one says little
  * and is let go.                                                                     EQ-APP-ANGLE-5
  *
  * A period without an edge says that the angle is within the count, and that the speed is at most one count in the time

@@ -45,7 +45,7 @@ dq_t nosc_feedback_V(const nosc_gains_t *g, const nosc_error_t *e)
         n--;
     }
     ke_V = even_terms_V(ke_V, g->lambda[n], eiq_A, e);
-    while (n > 0) {
+    while (n >= 2) {
         ke_V = odd_terms_V(ke_V, g->lambda[n - 1], eiq_A, e);
         ke_V = even_terms_V(ke_V, g->lambda[n - 2], eiq_A, e);
         n    = (int16_t)(n - 2);

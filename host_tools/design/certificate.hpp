@@ -10,6 +10,10 @@ namespace sdre {
 ///
 /// NOSC: the error dynamics held by a zero-order hold, the voltage one period late (EQ-CERT-1).
 /// NODO: explicit Euler, I + Ts (A - L C), as the firmware steps it (EQ-CERT-2).
-Certificate certify(const Design &design);
+/// Encoder form: motor, observer, law and delay together, and in the box of motors of EQ-CERT-5.
+void certify(Design &design);
+
+/// A failure when the share is below box_share_limit.
+void judge_box(const RobustBox &box, std::vector<std::string> &failures);
 
 } // namespace sdre

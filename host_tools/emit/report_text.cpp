@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "emit/report.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "emit/report_parts.hpp"
@@ -97,6 +99,18 @@ std::string cascade_text(const Design &d)
            loop_text("q axis", check.q_axis) + loop_text("d axis", check.d_axis);
 }
 
+std::string box_text(const Certificate &c)
+{
+    if (!c.box) {
+        return "";
+    }
+    return fmt::format("  motors: stable with R, L, flux x{:.2f} .. {:.2f} and J x{:.2f} .. {:.2f} "
+                       "all at once{}\n",
+                       std::pow(0.5, c.box->share), std::pow(1.5, c.box->share),
+                       std::pow(0.5, c.box->share), std::pow(3.0, c.box->share),
+                       c.box->corner.empty() ? "" : "; first unstable: " + c.box->corner);
+}
+
 std::string harmonic_text(const Design &d)
 {
     const nodo_harmonic_gains_t &t     = *d.harmonics->table;
@@ -114,7 +128,7 @@ std::string harmonic_text(const Design &d)
         "  observer, law and motor: relative residuals <= {:.1e}, sampled spectral radius {:.5f} "
         "(at {:.0f} rad/s, iq {:.2f} A)\n",
         check.worst_residual, check.spectral_radius, check.worst_speed_e_radps, check.worst_iq_A);
-    return s + loop_text("speed loop", check.speed_loop);
+    return s + loop_text("speed loop", check.speed_loop) + box_text(d.certificate);
 }
 
 std::string observer_heading(NodoForm form)
@@ -138,7 +152,8 @@ std::string noc_text(const Design &d)
     s += "  poles" + poles_text(d.nodo.series.care.closed_loop_eigenvalues) + " 1/s\n";
     return s + "\ncertificate\n" +
            loop_text("controller", two ? "e_iq and e_id" : "e_iq", d.certificate.nosc) +
-           loop_text("observer", two ? "iq_hat and id_hat" : "iq_hat", d.certificate.nodo);
+           loop_text("observer", two ? "iq_hat and id_hat" : "iq_hat", d.certificate.nodo) +
+           box_text(d.certificate);
 }
 
 std::string limits_text(const Design &d)

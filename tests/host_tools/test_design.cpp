@@ -19,6 +19,7 @@ namespace {
 
 using Eigen::MatrixXd;
 using support::relative_error;
+using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
 constexpr double gain_tolerance_0 = 1e-9; // asked for; measured 1e-12
 constexpr double gain_tolerance_n = 1e-7; // asked for; measured 1e-12
@@ -265,16 +266,43 @@ MatrixXd encoder_gain(const drive_config_t &c, double s)
     return L;
 }
 
+/// e^(A ts) of a matrix with a small norm, by its own series.
+LongMatrix over_a_period(const MatrixXd &A, double ts)
+{
+    const LongMatrix At   = A.cast<long double>() * static_cast<long double>(ts);
+    LongMatrix       term = LongMatrix::Identity(A.rows(), A.cols());
+    LongMatrix       sum  = term;
+    for (int n = 1; n < 40; n++) {
+        term = LongMatrix(term * At / static_cast<long double>(n));
+        sum += term;
+    }
+    return sum;
+}
+
+/// The steady gain of a Kalman filter that runs: the sampled problem without any equation solved.
 MatrixXd exact_encoder_gain(const sdre::Drive &drive, double s)
 {
-    const MatrixXd C = encoder_output();
-    const MatrixXd R =
-        Eigen::Vector3d(drive.nodo.T[0], drive.nodo.T[1], drive.nodo.T[2]).asDiagonal();
-    const MatrixXd Q =
-        Eigen::Map<const Eigen::VectorXd>(drive.nodo.Q.data(), 7).asDiagonal().toDenseMatrix();
-    const MatrixXd A = encoder_matrix(drive.motor, s).transpose();
-    const MatrixXd X = sdre::solve_care(A, C.transpose(), R, Q).X;
-    return X * C.transpose() * R.inverse();
+    const double     ts = sdre::control_period_s(drive);
+    const LongMatrix C  = encoder_output().cast<long double>();
+    const LongMatrix A  = over_a_period(encoder_matrix(drive.motor, s), ts);
+    const LongMatrix Q  = Eigen::Map<const Eigen::VectorXd>(drive.nodo.Q.data(), 7)
+                             .asDiagonal()
+                             .toDenseMatrix()
+                             .cast<long double>();
+    const LongMatrix R = (Eigen::Vector3d(drive.nodo.T[0], drive.nodo.T[1], drive.nodo.T[2]) / ts)
+                             .asDiagonal()
+                             .toDenseMatrix()
+                             .cast<long double>();
+    const LongMatrix drift = 0.5L * static_cast<long double>(ts) * (A * Q * A.transpose() + Q);
+    const LongMatrix I     = LongMatrix::Identity(7, 7);
+    LongMatrix       P     = drift;
+    LongMatrix       K;
+    for (int k = 0; k < 3000; k++) { // the slowest mode of the estimation error: 0.97
+        K = P * C.transpose() * (C * P * C.transpose() + R).inverse();
+        P = A * (I - K * C) * P * A.transpose() + drift;
+        P = LongMatrix(0.5L * (P + P.transpose()));
+    }
+    return K.cast<double>() / ts;
 }
 
 /// The estimation error from one sample to the next at a steady state: corrected, then predicted by the
@@ -745,23 +773,22 @@ TEST(Design, EncoderFormSeriesAgainstTheExactSdre)
         return gain_error(d.nodo.gain, order, s, exact_encoder_gain(d.drive, s));
     };
 
-    ASSERT_EQ(loop.series_error.size(), 3U);
+    ASSERT_EQ(loop.series_error.size(), 2U);
     EXPECT_LT(error(0, 0.0), 1e-9);
-    for (std::size_t n = 0; n < 3; n++) {
+    for (std::size_t n = 0; n < 2; n++) {
         double worst = 0.0;
-        for (double s = 0.0; s <= loop.series_range_A + 0.5 * step; s += step) {
+        for (double s = 0.0; s <= loop.series_range_A + 0.5 * step; s += 8.0 * step) {
             worst = std::max({worst, error(n, s), error(n, -s)});
         }
         EXPECT_NEAR(loop.series_error[n] / worst, 1.0, tolerance) << n;
     }
-    EXPECT_LE(loop.series_error[2], sdre::series_error_limit);
-    EXPECT_LE(loop.series_error[2], loop.series_error[1]);
+    EXPECT_LE(loop.series_error[1], sdre::series_error_limit);
     EXPECT_LE(loop.series_error[1], loop.series_error[0]);
     if (loop.series_range_A < loop.range_A) {
-        EXPECT_GT(error(2, loop.series_range_A + step), sdre::series_error_limit);
+        EXPECT_GT(error(1, loop.series_range_A + step), sdre::series_error_limit);
     }
     // Small currents: what is left falls with the power that follows the order.
-    for (std::size_t n = 0; n < 3; n++) {
+    for (std::size_t n = 0; n < 2; n++) {
         const double ratio = error(n, 0.02) / error(n, 0.01);
         EXPECT_NEAR(std::log2(ratio), static_cast<double>(n + 1), 0.2) << n;
     }
@@ -774,8 +801,6 @@ TEST(Design, EncoderFormIsStableInAnIndependentModel)
     const double        trip  = 3.0 * m.rated_speed_e_radps;
     double              worst = 0.0;
     for (const double s : some_currents(d.certificate.nodo.range_A)) {
-        const MatrixXd A = encoder_matrix(m, s) - encoder_gain(d.config, s) * encoder_output();
-        EXPECT_LT(worst_real(A), 0.0) << s;
         const double k  = m.pm_flux_Wb / (2.0 * (m.q_axis_inductance_H - m.d_axis_inductance_H));
         const double id = k - std::hypot(k, s); // most torque per ampere
         for (int i = -4; i <= 4; i++) {
@@ -806,10 +831,47 @@ TEST(Design, EncoderFormOfTheServoIsStableToo)
     const sdre::Design d = sdre::design_drive(drive);
 
     for (const double s : some_currents(d.certificate.nodo.range_A)) {
-        EXPECT_LT(worst_real(encoder_matrix(drive.motor, s) -
-                             encoder_gain(d.config, s) * encoder_output()),
-                  0.0)
-            << s;
+        EXPECT_LT(radius(sampled_encoder_observer(d, 0.0, s, 0.0)), 1.0) << s;
     }
-    EXPECT_EQ(d.nodo.gain[0].rows(), 7);
+}
+
+/// EQ-CERT-5 against closed forms: a loop that bears so much flux, so little inertia, or both.
+TEST(Design, BoxOfMotorsEndsAtItsFirstUnstableCorner)
+{
+    const sdre::Motor            &m  = shipped("ipmsm_390w").drive.motor;
+    const sdre::ReducedParameters l  = sdre::reduced_parameters(m);
+    const auto                    of = [&](const auto &radius) {
+        return sdre::robust_box(m, [&](const sdre::ReducedParameters &x) { return radius(x); });
+    };
+    EXPECT_EQ(of([](const auto &) { return 0.99; }).share, 1.0);
+    EXPECT_EQ(of([](const auto &) { return 1.01; }).share, 0.0);
+    // l3 = n_p / J; the largest is 2^s
+    const sdre::RobustBox light = of([&](const auto &x) { return 0.8 * x[3] / l[3]; });
+    EXPECT_NEAR(light.share, std::log(1.25) / std::log(2.0), 0.01);
+    EXPECT_NE(light.corner.find("J x0.8"), std::string::npos) << light.corner;
+    const sdre::RobustBox heavy = of([&](const auto &x) { return 0.5 * l[3] / x[3]; });
+    EXPECT_NEAR(heavy.share, std::log(2.0) / std::log(3.0), 0.01);
+    // l1 = 1.5 n_p^2 flux / J
+    const sdre::RobustBox both = of([&](const auto &x) { return 0.5 * x[1] / l[1]; });
+    EXPECT_NEAR(both.share, std::log(2.0) / std::log(3.0), 0.01);
+    EXPECT_NE(both.corner.find("flux x1.2"), std::string::npos) << both.corner;
+    // l6 = 1 / Lq, l4 = R / Lq
+    EXPECT_NEAR(of([&](const auto &x) { return 0.8 * x[6] / l[6]; }).share,
+                std::log(1.25) / std::log(2.0), 0.01);
+    EXPECT_NEAR(of([&](const auto &x) { return 0.9 * x[4] / l[4] / (x[6] / l[6]); }).share,
+                std::log(1.0 / 0.9) / std::log(1.5), 0.01);
+}
+
+/// Stable as believed, unstable with a motor a little beside it.
+TEST(Design, LoopThatHoldsOnlyForTheBelievedMotorIsNotCertified)
+{
+    sdre::Drive drive = shipped("ipmsm_390w").drive;
+    drive.nosc.Q[0] *= 300.0;
+    drive.nodo.Q[0] *= 30.0;
+
+    const sdre::Design d = sdre::design_drive(drive);
+
+    EXPECT_LT(d.certificate.nodo.spectral_radius, 1.0);
+    EXPECT_TRUE(any_failure(d, "unstable with a motor of R x"));
+    EXPECT_GE(shipped("ipmsm_390w").certificate.box->share, 0.5);
 }

@@ -124,7 +124,7 @@ TEST(HarmonicDesign, WithoutPairsTheLoopIsThatOfTheEncoderForm)
          {sdre::OperatingPoint{0.0, 0.0, 0.0}, {300.0, 1.5, -0.4}, {900.0, -3.0, -2.0}}) {
         const MatrixXd K = sdre::harmonic_gain(*d.harmonics->table, at.omega_e_radps, at.iq_A);
         const sdre::HarmonicSampled found =
-            sdre::sampled_harmonic_model(d.l, *d.harmonics->table, gains_any.Lambda, at, ts);
+            sdre::sampled_harmonic_model(d.l, d.l, *d.harmonics->table, gains_any.Lambda, at, ts);
         const sdre::SampledModel expected =
             sdre::sampled_model(d.l, d.l, {gains_any.Lambda, K.topRows(7) / ts}, at, ts);
 
@@ -361,7 +361,8 @@ TEST(HarmonicDesign, TenfoldGainsAreUnstable)
             }
         }
         const auto A =
-            sdre::sampled_harmonic_model(d.l, t, d.nosc.gain[0], {300.0, 0.0, 0.0}, ts_of(d)).A;
+            sdre::sampled_harmonic_model(d.l, d.l, t, d.nosc.gain[0], {300.0, 0.0, 0.0}, ts_of(d))
+                .A;
         EXPECT_GT(sdre::spectral_radius(A), 1.0);
     }
 }

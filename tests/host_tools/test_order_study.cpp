@@ -28,7 +28,15 @@ TEST(OrderStudy, ErrorsAreThoseOfTheGainAgainstTheExactSolution)
     ASSERT_EQ(study.loops.size(), 2U);
     sdre::Drive cubic = drive;
     cubic.nosc.order = cubic.nodo.order = 3;
-    const sdre::Design d                = sdre::design_drive(cubic);
+    const sdre::Design    d             = sdre::design_drive(cubic);
+    const Eigen::MatrixXd controller =
+        Eigen::Vector2d(drive.nosc.T[0], drive.nosc.T[1]).cwiseInverse().asDiagonal() *
+        sdre::nosc_input_matrix(d.l).transpose();
+    const Eigen::MatrixXd observer =
+        sdre::nodo_model(d.l, drive.nodo.form).C.transpose() *
+        Eigen::Vector3d(drive.nodo.T[0], drive.nodo.T[1], drive.nodo.T[2])
+            .cwiseInverse()
+            .asDiagonal();
     for (std::size_t i = 0; i < 2; i++) {
         const sdre::GainSeries &g    = i == 0 ? d.nosc : d.nodo;
         const sdre::LoopOrders &loop = study.loops[i];
@@ -38,10 +46,10 @@ TEST(OrderStudy, ErrorsAreThoseOfTheGainAgainstTheExactSolution)
         for (std::size_t order = 0; order < 4; order++) {
             double worst = 0.0; // at 2 A the error is largest at an end of the range or inside it
             for (int k = -16; k <= 16; k++) {
-                const double          s = 0.125 * k;
-                const Eigen::MatrixXd exact =
-                    g.left * sdre::solve_sdre_exact(g.problem, {s}).X * g.right;
-                Eigen::MatrixXd K = Eigen::MatrixXd::Zero(exact.rows(), exact.cols());
+                const double          s     = 0.125 * k;
+                const Eigen::MatrixXd X     = sdre::solve_sdre_exact(g.problem, {s}).X;
+                const Eigen::MatrixXd exact = i == 0 ? controller * X : X * observer;
+                Eigen::MatrixXd       K     = Eigen::MatrixXd::Zero(exact.rows(), exact.cols());
                 for (std::size_t n = 0; n <= order; n++) {
                     K += std::pow(s, n) * g.gain[n];
                 }

@@ -163,7 +163,7 @@ void solve_near_optimal(Design &d)
     if (d.drive.law != Law::noc_h) {
         d.nodo = solve_nodo(d.l, d.drive, d.precision);
     }
-    d.certificate = certify(d);
+    certify(d);
 }
 
 near_optimal_config_t near_optimal_constants(const Design &d, bool exact_mtpa, bool nosc_series)
@@ -220,6 +220,12 @@ std::string observer_line(const SampledLoop &o)
     return fmt::format(" *            observer:   slowest pole {:.0f} 1/s, sampled spectral radius "
                        "{:.3f}, |iq| <= {:g} A\n",
                        o.worst_pole_1ps, o.spectral_radius, o.range_A);
+}
+
+std::string box_line(const RobustBox &box)
+{
+    return fmt::format(" *            motors:     stable in {:.2f} of EQ-CERT-5's box\n",
+                       box.share);
 }
 
 std::string near_optimal_block(const near_optimal_config_t &c)

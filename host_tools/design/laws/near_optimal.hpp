@@ -54,6 +54,7 @@ std::string method_line(const std::string &method);
 std::string residual_line(double worst);
 std::string controller_line(const SampledLoop &controller);
 std::string observer_line(const SampledLoop &observer);
+std::string box_line(const RobustBox &box);
 
 /// ".near_optimal = {..},\n"
 std::string near_optimal_block(const near_optimal_config_t &c);

@@ -55,7 +55,7 @@ std::string summary(const Design &d)
     return method_line(fmt::format("EQ-NOSC-2 with N = {}, EQ-NODO-ENCODER-3 with Nd = {}",
                                    d.drive.nosc.order, d.drive.nodo.order)) +
            residual_line(worst_residual(d)) + controller_line(d.certificate.nosc) +
-           observer_line(d.certificate.nodo);
+           observer_line(d.certificate.nodo) + box_line(*d.certificate.box);
 }
 
 std::vector<std::string> mismatches(const Design &d)

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "common/parallel.hpp"
+#include "design/certificate.hpp"
 #include "design/firmware_config.hpp"
 #include "design/laws/near_optimal.hpp"
 #include "design/noc_h/harmonic_loop.hpp"
@@ -37,7 +38,7 @@ void sweep(Design &d)
             const OperatingPoint at{trip * static_cast<double>(k) / speed_points, iq,
                                     mtpa_id_A(d.l, iq)};
             const double         radius =
-                spectral_radius(sampled_harmonic_model(d.l, table, d.nosc.gain[0], at, ts).A);
+                spectral_radius(sampled_harmonic_model(d.l, d.l, table, d.nosc.gain[0], at, ts).A);
             if (radius > worst.spectral_radius) {
                 worst.spectral_radius     = radius;
                 worst.worst_speed_e_radps = at.omega_e_radps;
@@ -53,9 +54,27 @@ void sweep(Design &d)
     };
     check = *std::max_element(found.begin(), found.end(), smaller);
     const OperatingPoint  at{d.drive.harmonics.weight_speed_e_radps, 0.0, 0.0};
-    const HarmonicSampled loop = sampled_harmonic_model(d.l, table, d.nosc.gain[0], at, ts);
+    const HarmonicSampled loop = sampled_harmonic_model(d.l, d.l, table, d.nosc.gain[0], at, ts);
     check.speed_loop =
         check_loop({loop.A, loop.b_voltage, loop.c_voltage, ts}, disturbance_frequencies(d.drive));
+}
+
+RobustBox harmonic_box(const Design &d)
+{
+    const nodo_harmonic_gains_t &table    = *d.harmonics->table;
+    const double                 iq_A     = d.drive.motor.max_current_A;
+    const OperatingPoint         points[] = {
+                {0.0, 0.0, 0.0}, {d.drive.motor.rated_speed_e_radps, iq_A, mtpa_id_A(d.l, iq_A)}};
+    return robust_box(d.drive.motor, [&](const ReducedParameters &motor) {
+        double worst = 0.0;
+        for (const OperatingPoint &at : points) {
+            worst = std::max(
+                worst, spectral_radius(sampled_harmonic_model(motor, d.l, table, d.nosc.gain[0], at,
+                                                              control_period_s(d.drive))
+                                           .A));
+        }
+        return worst;
+    });
 }
 
 void certify_harmonics(Design &d)
@@ -66,6 +85,8 @@ void certify_harmonics(Design &d)
         check.worst_residual = std::max(check.worst_residual, node.residual);
     }
     std::vector<std::string> &failures = d.certificate.failures;
+    d.certificate.box                  = harmonic_box(d);
+    judge_box(*d.certificate.box, failures);
     if (!(check.spectral_radius < 1.0)) {
         failures.push_back(fmt::format("noc_h: the sampled loop is unstable at {:.0f} rad/s, iq "
                                        "{:.2f} A: spectral radius {:.5f}",
@@ -110,6 +131,7 @@ std::string summary(const Design &d)
                fmt::format("EQ-NOSC-2 with N = {}, EQ-HARMONIC-3 with {} pairs and {} nodes",
                            d.drive.nosc.order, t.n_pairs, t.n_nodes)) +
            residual_line(worst_residual(d)) + controller_line(d.certificate.nosc) +
+           box_line(*d.certificate.box) +
            fmt::format(" *            loop:       sampled spectral radius {:.5f} at {:.0f} rad/s, "
                        "iq {:.2f} A, worst up to {:.0f} rad/s\n"
                        " *            speed loop: sensitivity peak {:.3g} at {:.0f} Hz\n",

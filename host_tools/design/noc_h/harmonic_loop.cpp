@@ -167,12 +167,13 @@ HarmonicObserver linear_harmonic_observer(const ReducedParameters     &l,
             shown_law(l, t, H, Lambda, at)};
 }
 
-HarmonicSampled sampled_harmonic_model(const ReducedParameters &l, const nodo_harmonic_gains_t &t,
-                                       const MatrixXd &Lambda, const OperatingPoint &at, double ts)
+HarmonicSampled sampled_harmonic_model(const ReducedParameters &motor, const ReducedParameters &l,
+                                       const nodo_harmonic_gains_t &t, const MatrixXd &Lambda,
+                                       const OperatingPoint &at, double ts)
 {
     const HarmonicObserver o    = linear_harmonic_observer(l, t, Lambda, at, ts);
     const MatrixXd         K    = harmonic_gain(t, at.omega_e_radps, at.iq_A);
-    const Held<MatrixXd>   held = held_motor(l, at, ts);
+    const Held<MatrixXd>   held = held_motor(motor, at, ts);
     const Index            n    = o.P.rows();
     const MatrixXd         PK   = o.P * K;
 

@@ -33,7 +33,8 @@ HarmonicObserver linear_harmonic_observer(const ReducedParameters     &l,
                                           const Eigen::MatrixXd &Lambda, const OperatingPoint &at,
                                           double ts_s);
 
-HarmonicSampled sampled_harmonic_model(const ReducedParameters     &l,
+/// @param motor what the motor is, @param l what the controller believes.
+HarmonicSampled sampled_harmonic_model(const ReducedParameters &motor, const ReducedParameters &l,
                                        const nodo_harmonic_gains_t &table,
                                        const Eigen::MatrixXd &Lambda, const OperatingPoint &at,
                                        double ts_s);

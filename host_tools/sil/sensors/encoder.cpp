@@ -13,6 +13,8 @@ const double two_pi = 2.0 * std::acos(-1.0);
 constexpr double no_edge_s = 1.0;
 // Chosen: a state of the disc is at most so wide.
 constexpr double widest_cnt = 1.5;
+// As in app_angle.c.
+constexpr double alone_periods = 3.5;
 
 } // namespace
 
@@ -160,7 +162,8 @@ double QuadratureEncoder::edge_angle_rad(std::int64_t count, double edge_above_c
     return wrapped < 0.0 ? wrapped + two_pi : wrapped;
 }
 
-/// EQ-ENCODER-8: an edge alone in its period is in the middle of it; among more the count is read as EQ-APP-ANGLE-5 says.
+/// EQ-ENCODER-8: an edge alone in four periods is in the middle of its own; among more the count is read as
+/// EQ-APP-ANGLE-5 says.
 /// Should edges be timed from the next reading on, they
 /// follow this one.
 void QuadratureEncoder::read_counts(Reading &r, std::int64_t now)

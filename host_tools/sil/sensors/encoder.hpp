@@ -9,7 +9,7 @@
 ///     omega_e = n_p (edge - edge before) 2 pi / (4 lines (t_edge - t_edge before))  EQ-ENCODER-5
 ///
 /// A period without an edge keeps the speed of EQ-ENCODER-5, but at most one count in the time since the edge.
-/// Without times an edge alone in its period is in the middle of it: EQ-ENCODER-5 and 6 with that (EQ-ENCODER-8).
+/// Without times an edge alone in four periods is in the middle of its own: EQ-ENCODER-5, 6 with that (EQ-ENCODER-8).
 /// Edges have the time at which the shaft passes them on its path.
 #pragma once
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+/// How far the motor may be from what the controller believes, all parameters at once.
+///
+///     R, L, flux x 0.5^s .. 1.5^s,  J x 0.5^s .. 3^s,  0 <= s <= 1                         EQ-CERT-5
+///
+/// The share s of the box is the largest at which the sampled loop is stable in all 16 corners. The whole box (s = 1) holds
+/// motors with 9 times the acceleration per volt that is believed: no fixed gain is fast and stable there.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "design/motor_model.hpp"
+
+namespace sdre {
+
+/// Spectral radius of the loop with this motor, the worst over the operating points; the controller stays.
+using MotorRadius = std::function<double(const ReducedParameters &motor)>;
+
+struct RobustBox {
+    double      share = 0.0; ///< s
+    std::string corner;      ///< the first to become unstable, "" when the whole box is stable
+};
+
+/// By bisection to one hundredth.
+RobustBox robust_box(const Motor &motor, const MotorRadius &radius);
+
+/// The corner with the largest radius at a share; its radius.
+double worst_corner(const Motor &motor, const MotorRadius &radius, double share,
+                    std::string *corner = nullptr);
+
+} // namespace sdre
