@@ -65,6 +65,7 @@ static const law_noc_config_t constants = {
     },
     .gate = {
         .gate_rad = 6.75855298e-03f,
+        .step_rad = 1.73200469e-03f,
         .count_rad = 1.25663704e-03f,
         .slow_e_radps2 = 2.68539785e+04f,
     },

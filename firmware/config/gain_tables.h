@@ -8,6 +8,7 @@
  * checked    relative residuals <= 1e-16
  *            controller: slowest pole -551 1/s, sampled spectral radius 0.890, |e_iq| <= 8 A
  *            observer:   slowest pole -621 1/s, sampled spectral radius 0.924, |iq| <= 8 A
+ *            motors:     stable in 0.64 of EQ-CERT-5's box
  */
 #ifndef GAIN_TABLES_H
 #define GAIN_TABLES_H

@@ -16,6 +16,7 @@
 bool angle_gate_check(const angle_gate_config_t *c)
 {
     return base_in_range(c->gate_rad, 1.0e-6f, BASE_PI) &&
+           base_in_range(c->step_rad, 1.0e-9f, c->gate_rad) &&
            base_in_range(c->count_rad, 1.0e-6f, BASE_PI) && check_positive(c->slow_e_radps2);
 }
 
@@ -65,14 +66,14 @@ angle_gate_result_t angle_gate_pass(angle_gate_t *s, const angle_gate_config_t *
         .error_rad = error_rad, .jump_rad = 0.0f, .innovation_rad = 0.0f, .used = false};
 
     if (stands(s, c, theta_e_rad, omega_e_radps, ts_s)) {
-        s->lost = true;
+        s->lost = 1;
     }
-    if (s->lost) {
+    if (s->lost != 0) {
         return out;
     }
     if (base_within(error_rad, c->gate_rad)) { /* EQ-ANGLE-GATE-1 */
         s->beyond          = 0;
-        out.innovation_rad = error_rad;
+        out.innovation_rad = base_clamp(error_rad, -c->step_rad, c->step_rad); /* EQ-ANGLE-GATE-4 */
         out.used           = true;
     } else if (s->beyond < ANGLE_GATE_HOLD) {
         ignore(s, error_rad);
@@ -80,9 +81,9 @@ angle_gate_result_t angle_gate_pass(angle_gate_t *s, const angle_gate_config_t *
         s->beyond    = 0;
         out.jump_rad = s->first_rad;
         out.innovation_rad =
-            base_clamp(frames_wrap(error_rad - s->first_rad), -c->gate_rad, c->gate_rad);
+            base_clamp(frames_wrap(error_rad - s->first_rad), -c->step_rad, c->step_rad);
     } else {
-        s->lost = true;
+        s->lost = 1;
     }
     return out;
 }

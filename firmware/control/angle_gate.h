@@ -4,10 +4,12 @@
  * @brief What of a measured angle an observer may believe.
  *
  *     beyond:  abs(e) > gate                                                       EQ-ANGLE-GATE-1
+ *     within:  used as clamp(e, -step, step)                                       EQ-ANGLE-GATE-4
  *     stands:  abs(theta - theta_0) <= band over n periods, while the motor must have turned further:
  *              sum_k max(abs(w_0) - k a Ts, 0) Ts > band + 2 counts                EQ-ANGLE-GATE-2
  *
- * e is the innovation, measured less estimated angle. Between two samples no load turns the shaft further than the gate
+ * e is the innovation, measured less estimated angle; step is the largest that a load causes. A wrong reading within the gate
+ * then cannot move the estimates so far that the right ones after it are beyond. Between two samples no load turns the shaft further than the gate
  * from where the observer expects it, so that a larger innovation is an error of the reading. It is ignored for three
  * samples. If it is still there, and is the same error, the counter has lost its place: the estimated angle takes the
  * jump over, and the speed does not. If it is another error each time, or the angle stands although no load could have
@@ -27,6 +29,7 @@
 
 typedef struct {
     float gate_rad;      /**< an innovation beyond this is no motion, > 0, <= pi */
+    float step_rad;      /**< the largest innovation that a load causes, > 0, <= gate */
     float count_rad;     /**< from edge to edge, electrical, > 0, <= pi */
     float slow_e_radps2; /**< no load stops the shaft faster, > 0 */
 } angle_gate_config_t;
@@ -39,7 +42,7 @@ typedef struct {
     float    speed_e_radps; /**< of a shaft that has slowed down since as fast as it could */
     float    turned_rad;    /**< by how much it has turned since, at the least */
     uint16_t ignored;       /**< samples since the start of the run; stays at 65535 */
-    bool     lost;          /**< the angle says nothing any more; until the next run */
+    int16_t  lost;          /**< 1: the angle says nothing any more; until the next run */
 } angle_gate_t;
 
 /** What there is to do with a sample. */

@@ -44,7 +44,7 @@ static near_optimal_view_t observe(law_noc_state_t *s, const law_noc_config_t *c
     const angle_gate_result_t angle = encoder_form_innovation(
         &s->gate, &s->edges, &c->gate, in->sample, &s->observer, s->theta_hat_rad, drive->ts_s);
 
-    if (s->gate.lost) {
+    if (s->gate.lost != 0) {
         nodo_current_correct(&s->observer, &s->theta_hat_rad, &c->currents,
                              sample_current_A(in->sample, s->theta_hat_rad));
     } else {
@@ -52,11 +52,12 @@ static near_optimal_view_t observe(law_noc_state_t *s, const law_noc_config_t *c
     }
     nodo_encoder_predict(&s->observer, &s->theta_hat_rad, &drive->motor, in->v_V, drive->ts_s);
 
-    const bool          held = s->gate.lost || (s->gate.beyond > 1); /* and found out about */
+    const bool held = (s->gate.lost != 0) || (s->gate.beyond > 1); /* and found out about */
     near_optimal_view_t view = encoder_form_view(&c->plausible, &s->observer, s->theta_hat_rad,
                                                  held ? 0.0f : angle.error_rad, drive->ts_s);
-    view.plausible           = view.plausible &&
-                     (!s->gate.lost || nodo_current_knows(&c->currents, s->observer.omega_e_radps));
+    view.plausible =
+        view.plausible &&
+        ((s->gate.lost == 0) || nodo_current_knows(&c->currents, s->observer.omega_e_radps));
     return view;
 }
 
@@ -68,7 +69,7 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     const near_optimal_view_t view = observe(s, c, drive, in);
     near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in, out);
     out->ignored_angles = s->gate.ignored;
-    out->without_angle  = s->gate.lost;
+    out->without_angle  = s->gate.lost != 0;
 }
 
 const law_t law_noc = {.check = check, .reset = reset, .step = step};

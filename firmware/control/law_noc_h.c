@@ -43,7 +43,7 @@ static near_optimal_view_t observe(law_noc_h_state_t *s, const law_noc_h_config_
 
     near_optimal_view_t view = encoder_form_view(
         &c->plausible, &s->known.total, s->observer.theta_rad, angle.error_rad, drive->ts_s);
-    view.plausible   = view.plausible && !s->gate.lost;
+    view.plausible   = view.plausible && (s->gate.lost == 0);
     view.d_omega_dot = s->known.d_omega_dot;
     return view;
 }
@@ -56,7 +56,7 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     const near_optimal_view_t view = observe(s, c, drive, in);
     near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in, out);
     out->ignored_angles = s->gate.ignored;
-    out->without_angle  = s->gate.lost;
+    out->without_angle  = s->gate.lost != 0;
 }
 
 const law_t law_noc_h = {.check = check, .reset = reset, .step = step};

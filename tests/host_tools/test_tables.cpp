@@ -99,7 +99,17 @@ void add_gains(std::vector<float> &v, const encoder_form_gains_t &gains)
 
 void add_gate(std::vector<float> &v, const angle_gate_config_t &gate)
 {
-    v.insert(v.end(), {gate.gate_rad, gate.count_rad, gate.slow_e_radps2});
+    v.insert(v.end(), {gate.gate_rad, gate.step_rad, gate.count_rad, gate.slow_e_radps2});
+}
+
+void add_currents(std::vector<float> &v, const nodo_current_gains_t &g)
+{
+    v.insert(v.end(), {g.from_e_radps, g.root, g.nodes_per_root});
+    for (const auto &node : g.gain) {
+        for (const auto &row : node) {
+            v.insert(v.end(), std::begin(row), std::end(row));
+        }
+    }
 }
 
 /// The numbers of the table of noc_h in the order of the structure.
@@ -127,6 +137,7 @@ std::vector<float> constants_in(const drive_config_t &c)
         add_gate(v, noc->gate);
         add_gains(v, noc->rare);
         add_observer(v, {noc->nodo.iq_max_A}, noc->nodo.order, noc->nodo.gain);
+        add_currents(v, noc->currents);
     } else if (const auto *speed = sdre::constants_of<law_noc_speed_config_t>(c)) {
         add_near_optimal(v, speed->near_optimal);
         add_observer(v, {speed->nodo.iq_max_A, speed->nodo.iq_certified_A}, speed->nodo.order,

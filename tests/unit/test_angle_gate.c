@@ -9,7 +9,7 @@
 #define GATE_rad  7.8e-3f
 
 static const angle_gate_config_t config = {
-    .gate_rad = GATE_rad, .count_rad = COUNT_rad, .slow_e_radps2 = 2.7e4f};
+    .gate_rad = GATE_rad, .step_rad = GATE_rad, .count_rad = COUNT_rad, .slow_e_radps2 = 2.7e4f};
 static angle_gate_t gate;
 
 void setUp(void)
@@ -49,7 +49,7 @@ static void test_single_errors_are_ignored_and_counted(void)
         TEST_ASSERT_TRUE(moving(1.0e-3f).used);
         TEST_ASSERT_EQUAL_UINT16(i + 1, gate.ignored);
     }
-    TEST_ASSERT_FALSE(gate.lost);
+    TEST_ASSERT_EQUAL_INT(0, gate.lost);
 }
 
 static void test_count_of_ignored_samples_stays_at_its_end(void)
@@ -73,7 +73,7 @@ static void test_an_error_that_stays_is_taken_over(void)
     TEST_ASSERT_FLOAT_WITHIN(1.0e-7f, 3.0e-3f, r.innovation_rad);
     TEST_ASSERT_FALSE(r.used);
     TEST_ASSERT_TRUE(moving(1.0e-3f).used);
-    TEST_ASSERT_FALSE(gate.lost);
+    TEST_ASSERT_EQUAL_INT(0, gate.lost);
     TEST_ASSERT_EQUAL_UINT16(3U, gate.ignored);
 }
 
@@ -99,13 +99,13 @@ static void test_a_jump_of_half_a_turn_is_one_jump(void)
 static void test_an_error_that_grows_is_a_lost_angle(void)
 {
     for (int n = 1; n <= 4; n++) {
-        TEST_ASSERT_FALSE(gate.lost);
+        TEST_ASSERT_EQUAL_INT(0, gate.lost);
         assert_ignored(moving(0.012f * (float)n));
     }
-    TEST_ASSERT_TRUE(gate.lost);
+    TEST_ASSERT_EQUAL_INT(1, gate.lost);
     assert_ignored(moving(0.0f)); /* until the next run */
     angle_gate_reset(&gate, 1.0f);
-    TEST_ASSERT_FALSE(gate.lost);
+    TEST_ASSERT_EQUAL_INT(0, gate.lost);
 }
 
 /* Periods until a shaft at this speed, whose angle stays within a count, is lost; 0: never. */
@@ -116,7 +116,7 @@ static int periods_until_lost(double omega, float toggle_rad)
     for (int n = 1; n <= 100; n++) {
         const float theta_rad = 2.0f + ((n % 2 == 0) ? toggle_rad : 0.0f);
         (void)angle_gate_pass(&gate, &config, theta_rad, 0.0f, 0.0f, TS_s);
-        if (gate.lost) {
+        if (gate.lost != 0) {
             return n;
         }
     }
@@ -160,7 +160,7 @@ static void test_a_shaft_that_a_load_stops_is_not_lost(void)
             const double count = floor(theta / 1.2566371e-3) + 0.5;
             (void)angle_gate_pass(&gate, &config, (float)remainder(count * 1.2566371e-3, 6.2831853),
                                   0.0f, (float)w, TS_s);
-            TEST_ASSERT_FALSE(gate.lost);
+            TEST_ASSERT_EQUAL_INT(0, gate.lost);
             if (n > 1000) {
                 w = copysign(fmax(fabs(w) - (2.7e4 * 2.0e-4), 0.0), w);
             }
@@ -169,10 +169,26 @@ static void test_a_shaft_that_a_load_stops_is_not_lost(void)
     }
 }
 
+/* EQ-ANGLE-GATE-4 */
+static void test_no_more_is_used_than_a_load_causes(void)
+{
+    angle_gate_config_t c = config;
+    c.step_rad            = 1.7e-3f;
+    for (int n = -40; n <= 40; n++) {
+        const float               error = 0.024f * GATE_rad * (float)n;
+        const angle_gate_result_t r =
+            angle_gate_pass(&gate, &c, gate.stood_rad + 0.06f, error, 300.0f, TS_s);
+        TEST_ASSERT_TRUE(r.used);
+        TEST_ASSERT_FLOAT_WITHIN(1.0e-9f, fmaxf(fminf(error, 1.7e-3f), -1.7e-3f), r.innovation_rad);
+    }
+    c.step_rad = 1.1f * GATE_rad; /* beyond the gate there is nothing to use */
+    TEST_ASSERT_FALSE(angle_gate_check(&c));
+}
+
 static void test_constants_out_of_range_are_refused(void)
 {
     angle_gate_config_t c        = config;
-    float *const        fields[] = {&c.gate_rad, &c.count_rad, &c.slow_e_radps2};
+    float *const        fields[] = {&c.gate_rad, &c.step_rad, &c.count_rad, &c.slow_e_radps2};
     const float         bad[]    = {NAN, INFINITY, -INFINITY, 0.0f, -1.0f, 1.0e13f};
     TEST_ASSERT_TRUE(angle_gate_check(&c));
     for (int i = 0; i < SUPPORT_COUNT(fields) * SUPPORT_COUNT(bad); i++) {
@@ -195,6 +211,7 @@ int main(void)
     RUN_TEST(test_an_error_that_grows_is_a_lost_angle);
     RUN_TEST(test_an_angle_that_stands_too_soon_is_lost);
     RUN_TEST(test_a_shaft_that_a_load_stops_is_not_lost);
+    RUN_TEST(test_no_more_is_used_than_a_load_causes);
     RUN_TEST(test_constants_out_of_range_are_refused);
     return UNITY_END();
 }

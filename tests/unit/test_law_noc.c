@@ -90,7 +90,7 @@ static void test_step_is_made_of_its_parts(void)
                             want.observer.omega_e_radps, drive->ts_s);
         want.theta_hat_rad = frames_wrap(want.theta_hat_rad + angle.jump_rad);
         const dq_t i_A     = sample_current_A(&sample, want.theta_hat_rad);
-        if (want.gate.lost) {
+        if (want.gate.lost != 0) {
             nodo_current_correct(&want.observer, &want.theta_hat_rad, &config->currents, i_A);
         } else {
             nodo_encoder_correct(&want.observer, &want.theta_hat_rad, &config->nodo, i_A,
@@ -100,10 +100,10 @@ static void test_step_is_made_of_its_parts(void)
                              drive->ts_s);
         near_optimal_view_t view = encoder_form_view(
             &config->plausible, &want.observer, want.theta_hat_rad,
-            (want.gate.lost || (want.gate.beyond > 1)) ? 0.0f : error, drive->ts_s);
+            ((want.gate.lost != 0) || (want.gate.beyond > 1)) ? 0.0f : error, drive->ts_s);
         view.plausible =
-            view.plausible &&
-            (!want.gate.lost || nodo_current_knows(&config->currents, want.observer.omega_e_radps));
+            view.plausible && ((want.gate.lost == 0) ||
+                               nodo_current_knows(&config->currents, want.observer.omega_e_radps));
         const nosc_error_t e =
             near_optimal_error(&want.near_optimal, &config->near_optimal, drive, &view, &in);
         const dq_t   fb = nosc_feedback_V(&config->near_optimal.nosc, &e);

@@ -100,7 +100,7 @@ static void test_step_is_made_of_its_parts(void)
         near_optimal_view_t view = encoder_form_view(&config->plausible, &known.total,
                                                      want.observer.theta_rad, error, drive->ts_s);
         view.d_omega_dot         = known.d_omega_dot;
-        view.plausible           = view.plausible && !want.gate.lost;
+        view.plausible           = view.plausible && (want.gate.lost == 0);
         const nosc_error_t e =
             near_optimal_error(&want.near_optimal, &config->near_optimal, drive, &view, &in);
         const dq_t   fb = nosc_feedback_V(&config->near_optimal.nosc, &e);

@@ -38,16 +38,16 @@ angle_gate_config_t angle_gate_constants(const encoder_form_limits_t &limits,
                                          const encoder_form_gains_t &gains, double ts_s)
 {
     const double count_rad = static_cast<double>(gains.count_rad);
-    const double gate_rad =
-        quiet_cnt * count_rad +
+    const double step_rad =
         step_innovation_rad(static_cast<double>(limits.d_omega), gains, ts_s); // EQ-ANGLE-GATE-3
-    return {static_cast<float>(std::min(gate_rad, static_cast<double>(limits.angle_rad))),
-            gains.count_rad, limits.d_omega};
+    const auto most_rad = static_cast<double>(limits.angle_rad);
+    return {static_cast<float>(std::min(quiet_cnt * count_rad + step_rad, most_rad)),
+            static_cast<float>(std::min(step_rad, most_rad)), gains.count_rad, limits.d_omega};
 }
 
 std::string gate_block(const angle_gate_config_t &gate)
 {
-    return c_block("gate", c_field("gate_rad", gate.gate_rad) +
+    return c_block("gate", c_field("gate_rad", gate.gate_rad) + c_field("step_rad", gate.step_rad) +
                                c_field("count_rad", gate.count_rad) +
                                c_field("slow_e_radps2", gate.slow_e_radps2));
 }
