@@ -610,7 +610,7 @@ TEST(Design, FirmwareConstantsFollowTheirDefinitions)
     near(ref.filter_per_period, 0.125);
     near(ref.filter_1ps, 625.0);
     near(ref.samples_1ps, 5000.0);
-    near(ref.near_e_radps, 2.0 * 4.0 * d.nosc.gain[0](0, 1) / d.nosc.gain[0](0, 0));
+    near(ref.near_e_radps, 2.0 * 0.25 * 4.0 * d.nosc.gain[0](0, 1) / d.nosc.gain[0](0, 0));
     near(ref.l1_min, 0.5 * 1.5 * 4 * m.pm_flux_Wb / m.inertia_kgm2);
     near(c.dead_time.share, 3e-6 * 5000.0);
     near(c.dead_time.inv_fade_1pA, 1.0 / (0.025 * 4.0));

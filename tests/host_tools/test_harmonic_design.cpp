@@ -138,12 +138,16 @@ TEST(HarmonicDesign, WithoutPairsTheLoopIsThatOfTheEncoderForm)
 /// As the period falls, K / Ts approaches the gain of the continuous equation with the same weights: EQ-SAMPLED-OBSERVER-1.
 TEST(HarmonicDesign, ShortPeriodsGiveTheContinuousGain)
 {
-    sdre::Drive drive   = plain_drive();
-    drive.encoder.lines = 1000000; // EQ-HARMONIC-8 then leaves the angle's weight alone
-    drive.law           = sdre::Law::noc;
-    const MatrixXd L    = sdre::design_drive(drive).nodo.gain[0];
-    drive.law           = sdre::Law::noc_h;
-    const auto off      = [&](double frequency_Hz) {
+    sdre::Drive drive               = plain_drive();
+    drive.encoder.lines             = 1000000; // EQ-HARMONIC-8 then leaves the angle's weight alone
+    const auto              l       = sdre::reduced_parameters(drive.motor);
+    const sdre::SdreProblem problem = sdre::nodo_problem(l, drive.nodo);
+    const MatrixXd          L       = sdre::solve_care(problem.A0, problem.G, problem.Q).X *
+                       sdre::nodo_model(l, sdre::NodoForm::encoder).C.transpose() *
+                       Eigen::Vector3d(drive.nodo.T[0], drive.nodo.T[1], drive.nodo.T[2])
+                           .cwiseInverse()
+                           .asDiagonal();
+    const auto off = [&](double frequency_Hz) {
         drive.inverter.pwm_frequency_Hz = frequency_Hz;
         const sdre::HarmonicDesign h =
             sdre::design_harmonics(sdre::reduced_parameters(drive.motor), drive, 100.0, 4.0);

@@ -97,4 +97,14 @@ static inline int test_motor_position(const test_motor_t *m, double mark_m_rad)
     return (int)floor((turns - floor(turns)) * 10000.0) % 10000;
 }
 
+/* Since the last edge of the counter, at constant speed [s]; a second when it stands. */
+static inline double test_motor_edge_age_s(const test_motor_t *m, double mark_m_rad)
+{
+    const double counts  = (m->theta_m_rad - mark_m_rad) / 6.283185307179586 * 10000.0;
+    const double per_s   = m->omega_m_radps / 6.283185307179586 * 10000.0;
+    const double in_cnt  = counts - floor(counts);
+    const double way_cnt = (per_s > 0.0) ? in_cnt : (1.0 - in_cnt);
+    return (fabs(per_s) > 1.0) ? fmin(way_cnt / fabs(per_s), 1.0) : 1.0;
+}
+
 #endif /* TEST_MOTOR_H */

@@ -375,6 +375,9 @@ static void period(void)
     fake_board.sample.index_seen   = index_on && (abs(now - before) > 5000);
     fake_board.sample.index_cnt    = 0U;
     fake_board.sample.position_cnt = (uint16_t)now;
+    fake_board.sample.edge_seen    = now != before;
+    fake_board.sample.edge_age_cnt =
+        (uint16_t)fmin(test_motor_edge_age_s(&motor, MARK_RAD) * BOARD_CAPTURE_Hz, 65535.0);
     both(1);
     test_motor_period(&motor, in_force, fake_board.gate);
     in_force[0] = (double)fake_board.duty.a_cnt / 7500.0;

@@ -172,7 +172,7 @@ static void test_registers_that_do_not_exist_are_refused(void)
 {
     REQUEST(ADDRESS, 3, 0, 3, 0, 1);
     ASSERT_ANSWER(ADDRESS, 0x83, 2);
-    REQUEST(ADDRESS, 4, 0, 41, 0, 2);
+    REQUEST(ADDRESS, 4, 0, 43, 0, 2);
     ASSERT_ANSWER(ADDRESS, 0x84, 2);
     REQUEST(ADDRESS, 4, 1, 0, 0, 1); /* high octet of the address */
     ASSERT_ANSWER(ADDRESS, 0x84, 2);

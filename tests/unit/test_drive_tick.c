@@ -888,9 +888,7 @@ typedef struct {
 
 static drive_sample_t encoder_sample(const plant_t *p)
 {
-    drive_sample_t s = sample_at(p->id, p->iq, p->theta, p->omega);
-    s.theta_e_rad    = (float)(floor(p->theta / COUNT_e_rad) * COUNT_e_rad);
-    return s;
+    return sample_at(p->id, p->iq, p->theta, p->omega); /* timed edges: the angle itself */
 }
 
 static bridge_t loop_step(loop_t *loop, double load_Nm)

@@ -72,12 +72,13 @@ double largest_torque_Nm(const Motor &motor, const ReducedParameters &l)
     return torque_Nm(motor, mtpa_id_A(l, iq_A), iq_A);
 }
 
-/// The speed error whose feedback asks for the current to go from one limit to the other.
+/// Twice the speed error whose feedback asks for all the current that a speed error may ask for: a reference further ahead
+/// is of no use, and has arrived long before the speed.
 double near_e_radps(const Design &d)
 {
     const Eigen::MatrixXd &Lambda = d.nosc.gain[0];
-    const double           full =
-        2.0 * d.drive.motor.max_current_A * Lambda(0, 1) / std::max(Lambda(0, 0), 1e-9);
+    const double full = 2.0 * speed_current_ratio * d.drive.motor.max_current_A * Lambda(0, 1) /
+                        std::max(Lambda(0, 0), 1e-9);
     return std::min(full, trip_speed_ratio * d.drive.motor.rated_speed_e_radps);
 }
 

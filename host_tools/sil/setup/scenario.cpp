@@ -17,6 +17,7 @@ namespace {
 constexpr Range time_range_s{0.0, 1e4};
 constexpr Range duration_range_s{1e-3, 1e4};
 constexpr Range speed_range_e_radps{-1e5, 1e5};
+constexpr Range angle_range_e_rad{-1e3, 1e3};
 constexpr Range torque_range_Nm{-1e5, 1e5};
 constexpr Range current_range_A{1e-3, 1e4};
 constexpr Range updates_range{1, 2};
@@ -142,6 +143,9 @@ Scenario read_scenario_file(const std::filesystem::path &file, const std::filesy
     s.seed                  = static_cast<std::uint64_t>(t.integer_or("seed", seed_range, 1));
     s.duration_s            = t.number("duration_s", duration_range_s);
     s.initial_speed_e_radps = t.number_or("initial_speed_e_radps", speed_range_e_radps, 0.0);
+    if (t.has("initial_angle_e_rad")) {
+        s.initial_angle_e_rad = t.number("initial_angle_e_rad", angle_range_e_rad);
+    }
     if (std::optional<TomlReader> scale = t.table_if("controller_scale")) {
         s.controller_scale = read_scale(*scale);
     }
@@ -174,8 +178,8 @@ Scenario read_scenario_file(const std::filesystem::path &file, const std::filesy
 
 double start_theta_e_rad(const Scenario &s)
 {
-    if (s.sensors.ideal) {
-        return 0.0;
+    if (s.initial_angle_e_rad || s.sensors.ideal) {
+        return s.initial_angle_e_rad.value_or(0.0);
     }
     const double half_turn = std::acos(-1.0) * s.drive.motor.pole_pairs;
     return half_turn * even_number(s.seed, NoiseStream::start_angle, 0);

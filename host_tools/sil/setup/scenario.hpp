@@ -24,8 +24,10 @@ struct Scenario {
     Drive       drive;
     double      duration_s            = 0.0;
     double      initial_speed_e_radps = 0.0;
-    MotorScale  controller_scale; ///< what the controller believes, relative to the drive file
-    MotorScale  plant_scale;      ///< what the motor is, relative to the drive file
+    std::optional<double>
+               initial_angle_e_rad; ///< of the rotor, electrical; drawn from the seed without it
+    MotorScale controller_scale;    ///< what the controller believes, relative to the drive file
+    MotorScale plant_scale;         ///< what the motor is, relative to the drive file
     std::optional<MotorRanges> motor_ranges;
     std::optional<int>         nosc_order; ///< instead of the drive file's
     std::optional<int>         nodo_order;
@@ -53,8 +55,8 @@ Scenario read_scenario_file(const std::filesystem::path &file,
 std::filesystem::path scenario_drive_path(const std::filesystem::path &scenario,
                                           const std::string           &drive);
 
-/// Where the rotor stands at the start, electrical, over a whole turn of the shaft: drawn from the seed, zero with ideal
-/// sensors, which no angle troubles.
+/// Where the rotor stands at the start, electrical: as the scenario says, else drawn from the seed over a whole turn of the
+/// shaft; zero with ideal sensors, which no angle troubles.
 double start_theta_e_rad(const Scenario &scenario);
 
 } // namespace sdre
