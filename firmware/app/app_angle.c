@@ -9,6 +9,8 @@
 
 #define HALF_COUNTS    (2U * BOARD_POSITIONS) /* half counts per mechanical turn */
 #define EDGE_AGE_MAX_s 1.0f /* chosen: a count per second is a shaft that stands */
+#define EDGE_GAP_MAX_s                                                                             \
+    0.05f /* chosen: what a longer time would tell of speed and load is next to nothing */
 /* Chosen by simulation: the noise of v_q falls to three fifths, the dip grows by a sixteenth; with half a count a limit
  * cycle comes. */
 #define QUARTER_cnt 0.25f
@@ -154,13 +156,13 @@ static void read_edges(app_angle_t *a, uint16_t position_cnt, bool timed, float 
     const float half_rad = 0.5f * a->rad_per_cnt;
 
     a->edge_age_s       = base_min(a->edge_age_s + a->ts_s, EDGE_AGE_MAX_s);
-    reading->edge_gap_s = base_max(a->edge_age_s, a->edge_gap_s);
+    reading->edge_gap_s = base_min(base_max(a->edge_age_s, a->edge_gap_s), EDGE_GAP_MAX_s);
     if (timed) {
         const bool     forward = turned_cnt > 0;
         const uint32_t edge    = (uint32_t)position_cnt + (forward ? 0U : 1U);
 
         const bool after_edge = a->have_edge; /* else the gap is none between edges */
-        a->edge_gap_s         = a->edge_age_s - age_s;
+        a->edge_gap_s         = base_min(a->edge_age_s - age_s, EDGE_GAP_MAX_s);
         take_edge(a, (uint16_t)((edge < BOARD_POSITIONS) ? edge : 0U), age_s);
         reading->edge_gap_s = a->edge_gap_s;
         reading->edge_age_s = age_s;
@@ -189,13 +191,20 @@ static void read_edges(app_angle_t *a, uint16_t position_cnt, bool timed, float 
     }
 }
 
+/* An edge after a change of direction has no time: it is taken as EQ-APP-ANGLE-5 says. */
 static void read_times(app_angle_t *a, const board_sample_t *raw, int16_t turned_cnt,
                        app_angle_reading_t *reading)
 {
     const float age_s = (float)raw->edge_age_cnt * (1.0f / (float)BOARD_CAPTURE_Hz);
     const bool  timed = raw->edge_seen && (turned_cnt != 0) && (age_s <= a->ts_s);
+    const bool  alone = (turned_cnt == 1) || (turned_cnt == -1);
 
-    read_edges(a, raw->position_cnt, timed, age_s, turned_cnt, reading);
+    if (timed || !alone || !a->have_edge) {
+        read_edges(a, raw->position_cnt, timed, age_s, turned_cnt, reading);
+    } else {
+        read_edges(a, raw->position_cnt, true, 0.5f * a->ts_s, turned_cnt, reading);
+        reading->edge_of_line = 0;
+    }
 }
 
 /* EQ-APP-ANGLE-5. */

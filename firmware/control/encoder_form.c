@@ -92,7 +92,8 @@ float encoder_form_learn(encoder_form_edges_t *edges, const drive_sample_t *s, f
     const int16_t edge = s->edge_of_line;
 
     if ((edge < 1) || (edge > ENCODER_FORM_EDGES)) {
-        if (!encoder_form_is_rare(s, ts_s)) { /* which edges it passed is not known */
+        /* An edge without a time, or edges of which nothing is known. */
+        if ((s->edge_age_s > 0.0f) || !encoder_form_is_rare(s, ts_s)) {
             edges->edge[0] = 0;
         }
         return 0.0f;

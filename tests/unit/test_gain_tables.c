@@ -101,13 +101,13 @@ static void test_tables_name_the_law_of_their_form(void)
     TEST_ASSERT_TRUE(!law_constants_near_optimal(&speed_tables_drive)->current_ref.mtpa_exact);
 }
 
-/* Through EQ-NOSC-3 that speed error turns the whole current round, from one limit to the other. */
-static void test_near_speed_asks_for_the_whole_current(void)
+/* Twice the speed error that asks for all the current which EQ-NOSC-3 lets it ask for. */
+static void test_near_speed_is_twice_what_asks_for_all_its_current(void)
 {
     const double ratio =
         (double)shared->nosc.lambda[0][0][0] / (double)shared->nosc.lambda[0][0][1];
 
-    assert_constant(2.0 * (double)shared->current_ref.current_max_A / ratio,
+    assert_constant(2.0 * (double)shared->nosc.iq_speed_max_A / ratio,
                     shared->current_ref.near_e_radps);
 }
 
@@ -313,7 +313,7 @@ int main(void)
     RUN_BOTH_FORMS(test_reduced_parameters_are_those_of_the_motor);
     RUN_BOTH_FORMS(test_constants_of_the_references_agree_with_the_motor);
     RUN_TEST(test_tables_name_the_law_of_their_form);
-    RUN_BOTH_FORMS(test_near_speed_asks_for_the_whole_current);
+    RUN_BOTH_FORMS(test_near_speed_is_twice_what_asks_for_all_its_current);
     RUN_BOTH_FORMS(test_regeneration_ends_before_the_dc_link_trips);
     RUN_BOTH_FORMS(test_dead_time_is_its_share_of_the_pwm_period);
     RUN_BOTH_FORMS(test_largest_q_current_lies_on_the_current_circle);

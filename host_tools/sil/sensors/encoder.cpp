@@ -11,6 +11,8 @@ const double two_pi = 2.0 * std::acos(-1.0);
 
 // Chosen: the age of an edge that nobody has seen; a speed from it is next to zero.
 constexpr double no_edge_s = 1.0;
+// As in app_angle.c.
+constexpr double gap_max_s = 0.05;
 // Chosen: a state of the disc is at most so wide.
 constexpr double widest_cnt = 1.5;
 // As in app_angle.c.
@@ -172,7 +174,7 @@ void QuadratureEncoder::read_counts(Reading &r, std::int64_t now)
     const std::int64_t turned    = r.count - before_;
     edge_age_s_                  = std::min(edge_age_s_ + period_s_, no_edge_s);
     if (turned == 0) {
-        r.edge_gap_s = std::max(edge_age_s_, edge_gap_s_);
+        r.edge_gap_s = std::min(std::max(edge_age_s_, edge_gap_s_), gap_max_s);
         r.band_e_rad = 0.5 * per_count;
     } else {
         edge_gap_s_  = edge_age_s_ - 0.5 * period_s_;
@@ -249,10 +251,10 @@ QuadratureEncoder::Reading QuadratureEncoder::read_path(const ShaftPath &path)
         const double before_s = edge_age_s_ + path.duration_s();
         note_last_edge(path, now);
         r.omega_e_radps = edge_speed_;
-        r.edge_gap_s    = std::max(edge_age_s_, edge_gap_s_);
+        r.edge_gap_s    = std::min(std::max(edge_age_s_, edge_gap_s_), gap_max_s);
         if (edge_age_s_ <= period_s_) {
             r.theta_e_rad  = edge_angle_rad(r.count, static_cast<double>(edge_ - now));
-            edge_gap_s_    = before_s - edge_age_s_;
+            edge_gap_s_    = std::min(before_s - edge_age_s_, gap_max_s);
             r.edge_gap_s   = edge_gap_s_;
             r.edge_age_s   = edge_age_s_;
             r.edge_of_line = 1 + static_cast<int>(((edge_ % 4) + 4) % 4);
