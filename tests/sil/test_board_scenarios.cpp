@@ -139,7 +139,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(
     BoardScenarios, Drives,
     ::testing::Values(plain, Case{"ipmsm_390w_noc_h", 20, 6.7, 0.018, 200, 1, 0.9, 15.0, true},
-                      Case{"ipmsm_390w_noc_h_edges", 6, 5.5, 0.016, 200, 20}),
+                      Case{"ipmsm_390w_noc_h_edges", 6, 5.5, 0.016, 200, 20, 1.0, 50.0, true}),
     [](const auto &c) { return std::string(c.param.drive); });
 
 TEST_P(Drives, LoadStep)

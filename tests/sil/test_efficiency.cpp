@@ -41,17 +41,18 @@ double optimum_A(const sdre::Motor &m, double torque_Nm)
 sdre::Scenario steady(double torque_Nm, bool ideal)
 {
     sdre::Scenario s;
-    s.name                  = "steady";
-    s.drive                 = sdre::read_drive_file(support::shipped_drive("ipmsm_390w"));
-    s.duration_s            = 0.6;
-    s.initial_speed_e_radps = 300.0;
-    s.speed_reference       = {{0.0, 300.0}};
-    s.load_torque           = {{0.0, torque_Nm}};
-    s.dc_link_V             = s.drive.inverter.dc_link_V;
-    s.sensors.ideal         = ideal;
-    s.sensors.encoder_disc  = {0.0, 0.0,
-                               0.0}; // its noise at light load is no matter of the reference
-    s.measures              = {{"steady", 0.1, 3.0, {}}};
+    s.name                      = "steady";
+    s.drive                     = sdre::read_drive_file(support::shipped_drive("ipmsm_390w"));
+    s.duration_s                = 0.6;
+    s.initial_speed_e_radps     = 300.0;
+    s.speed_reference           = {{0.0, 300.0}};
+    s.load_torque               = {{0.0, torque_Nm}};
+    s.dc_link_V                 = s.drive.inverter.dc_link_V;
+    s.sensors.ideal             = ideal;
+    s.sensors.encoder_edge_time = s.drive.encoder.edge_times;
+    s.sensors.encoder_disc      = {0.0, 0.0,
+                                   0.0}; // its noise at light load is no matter of the reference
+    s.measures                  = {{"steady", 0.1, 3.0, {}}};
     return s;
 }
 

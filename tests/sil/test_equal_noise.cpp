@@ -17,7 +17,7 @@ using namespace sdre;
 using support::TempDir;
 
 const std::string drives = std::string(SDRE_SOURCE_DIR) + "/firmware/config/drives/";
-const std::string noc    = drives + "ipmsm_390w.toml";
+const std::string noc    = drives + "ipmsm_390w_counts.toml";
 const std::string pi_foc = drives + "ipmsm_390w_pi_foc.toml";
 const std::string ladrc  = drives + "ipmsm_390w_ladrc.toml";
 

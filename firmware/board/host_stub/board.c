@@ -93,12 +93,21 @@ const board_sample_t *board_sample(void)
     const float edge    = turn * (float)BOARD_POSITIONS;
     const float top_cnt = (float)(BOARD_POSITIONS - 1U);
 
+    const uint16_t position = (uint16_t)base_clamp(edge, 0.0f, top_cnt);
+    const float    per_s    = stub.motor.omega_e_radps * (float)BOARD_POSITIONS /
+                        (BASE_TWO_PI * (float)gain_tables_drive.hardware.pole_pairs);
+    const float beyond = edge - (float)position; /* counts since the edge below */
+    const float age_s  = ((per_s > 0.0f) ? beyond : (1.0f - beyond)) / base_max(fabsf(per_s), 1.0f);
+    const float age_cnt = base_min(age_s * (float)BOARD_CAPTURE_Hz, 65535.0f);
+
     const board_sample_t now = {.ia_cnt = current_code(i_A.a),
                                 .ib_cnt = current_code(i_A.b),
                                 .dc_link_cnt =
                                     code(DC_LINK_V / board_config.scale.dc_link_V_per_cnt),
                                 .temperature_cnt = TEMPERATURE_cnt,
-                                .position_cnt    = (uint16_t)base_clamp(edge, 0.0f, top_cnt),
+                                .position_cnt    = position,
+                                .edge_age_cnt    = (uint16_t)age_cnt,
+                                .edge_seen       = position != stub.sample.position_cnt,
                                 .index_cnt       = 0U,
                                 .index_seen      = false,
                                 .valid           = true};
