@@ -37,7 +37,7 @@ void PrintTo(const Case &c, std::ostream *out)
     *out << c.drive;
 }
 
-constexpr Case plain{"ipmsm_390w", 20, 4.8, 0.009, 1000, 2, 1.0, 12.0};
+constexpr Case plain{"ipmsm_390w", 20, 4.8, 0.009, 500, 1, 1.0, 12.0};
 
 sdre::Scenario shipped(const std::string &name, const Case &c = plain)
 {
