@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "sil/eval/rows.hpp"
+
 namespace sdre {
 namespace {
 
@@ -11,15 +13,6 @@ using Iterator = std::vector<TraceRow>::const_iterator;
 constexpr double audible_Hz = 100.0;
 // Of the rated torque: below it a change of the load is no step.
 constexpr double step_share = 0.01;
-
-template <typename Value> double mean(Iterator begin, Iterator end, const Value &value)
-{
-    double sum = 0.0;
-    for (Iterator row = begin; row != end; ++row) {
-        sum += value(*row);
-    }
-    return sum / static_cast<double>(end - begin);
-}
 
 /// Mean square of the deviation from the mean.
 template <typename Value> double variance(Iterator begin, Iterator end, const Value &value)

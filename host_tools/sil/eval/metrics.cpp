@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sil/eval/rows.hpp"
+
 namespace sdre {
 namespace {
 
@@ -12,15 +14,6 @@ using Iterator = std::vector<TraceRow>::const_iterator;
 constexpr double tail_share       = 0.2;
 constexpr double current_share    = 0.01; // of the largest current: below it there is no distortion
 constexpr double time_tolerance_s = 1e-9; // far below a period: two times that mean the same tick
-
-template <typename Value> double mean(Iterator begin, Iterator end, Value value)
-{
-    double sum = 0.0;
-    for (Iterator row = begin; row != end; ++row) {
-        sum += value(*row);
-    }
-    return sum / static_cast<double>(end - begin);
-}
 
 std::optional<double> settling_time_s(Iterator begin, Iterator end, double target, double band)
 {

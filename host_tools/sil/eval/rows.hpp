@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+/// Statistics over the rows of a trace.
+#pragma once
+
+#include <vector>
+
+#include "sil/run/trace.hpp"
+
+namespace sdre {
+
+/// Mean of a value of the rows, of which there is one at least.
+template <typename Value>
+double mean(std::vector<TraceRow>::const_iterator begin, std::vector<TraceRow>::const_iterator end,
+            const Value &value)
+{
+    double sum = 0.0;
+    for (auto row = begin; row != end; ++row) {
+        sum += value(*row);
+    }
+    return sum / static_cast<double>(end - begin);
+}
+
+} // namespace sdre
