@@ -1,47 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* When the gates are on, for the analyser (docs/assurance.md): under a law that answers anything, and leaves anything in its
  * state, on a drive in any state. What holds here holds under every law. */
-#include "drive_tick.h"
+#include "any_law.h"
 
-/* The analyser reads any bits from what is volatile; in what is not it starts with any value of its type. */
-volatile int             any_int;
-volatile law_output_t    any_answer;
 volatile drive_t         any_drive;
 volatile drive_sample_t  any_sample;
 volatile drive_command_t any_command;
 drive_config_t           config;
 drive_t                  drive;
-
-static bool any_bool(void)
-{
-    return any_int != 0;
-}
-
-static bool check(const drive_config_t *c)
-{
-    (void)c;
-    return any_bool();
-}
-
-static void reset(law_state_t *state, const drive_config_t *c, const drive_sample_t *sample)
-{
-    (void)c;
-    (void)sample;
-    state->own[0] = 0.0f;
-}
-
-static void step(law_state_t *state, const drive_config_t *c, const law_input_t *in,
-                 law_output_t *out)
-{
-    (void)state;
-    (void)c;
-    (void)in;
-    *out               = any_answer;
-    out->plausible     = any_bool();
-    out->without_angle = any_bool();
-}
-
-static const law_t any_law = {.check = check, .reset = reset, .step = step};
 
 void prove_gate(void)
 {
