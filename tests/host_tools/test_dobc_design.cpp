@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Paper B's observer and its sampled loops (EQ-DOBC-4 to 7, EQ-CERT-4) against reference numbers and their own properties.
 #include "design/servo/dobc_design.hpp"
+#include "design/servo/servo_loop.hpp"
 
 #include <cmath>
 #include <string>
