@@ -21,7 +21,8 @@ const char *app_fault_name(int fault)
                                         "application: temperature",
                                         "application: index out of place",
                                         "application: alignment",
-                                        "application: drive"};
+                                        "application: drive",
+                                        "application: ticks stood still"};
     return fault >= 0 && fault < static_cast<int>(std::size(names)) ? names[fault] : "unknown";
 }
 
