@@ -56,6 +56,10 @@ const char *fault_name(int fault)
         return "command out of range";
     case DRIVE_FAULT_NUMERIC:
         return "law not a number";
+    case DRIVE_FAULT_CURRENT_SENSOR:
+        return "current sensor implausible";
+    case DRIVE_FAULT_PHASE:
+        return "phase without current";
     }
     return "unknown";
 }
