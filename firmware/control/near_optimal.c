@@ -97,4 +97,5 @@ void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c
     out->ignored_angles = 0U;
     out->without_angle  = false;
     out->plausible      = view->plausible;
+    out->predicted      = false;
 }
