@@ -116,7 +116,7 @@ double worst_radius(const Loop &loop, const Drive &drive, const RobustnessCase &
     }
     if (is_nominal(c)) {
         const double iq_A   = 2.0 * drive.motor.max_current_A;
-        const double radius = loop.radius_at({trip_speed_ratio * drive.motor.rated_speed_e_radps,
+        const double radius = loop.radius_at({trip_speed_e_radps(drive),
                                               iq_A, mtpa_id_A(loop.motor, iq_A)});
         worst               = radius < 1.0 ? worst : std::max(1.0, radius);
     }

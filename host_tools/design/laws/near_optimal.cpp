@@ -79,7 +79,7 @@ double near_e_radps(const Design &d)
     const Eigen::MatrixXd &Lambda = d.nosc.gain[0];
     const double full = 2.0 * speed_current_ratio * d.drive.motor.max_current_A * Lambda(0, 1) /
                         std::max(Lambda(0, 0), 1e-9);
-    return std::min(full, trip_speed_ratio * d.drive.motor.rated_speed_e_radps);
+    return std::min(full, trip_speed_e_radps(d.drive));
 }
 
 current_ref_config_t current_ref_constants(const Design &d, bool exact)

@@ -44,7 +44,7 @@ void solve(Design &d)
     c.rare = sample_gains(c.nodo, d.drive);
     c.gate = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
     const CurrentObserver currents =
-        design_nodo_current(d.l, d.drive, trip_speed_ratio * d.drive.motor.rated_speed_e_radps);
+        design_nodo_current(d.l, d.drive, trip_speed_e_radps(d.drive));
     c.currents = currents.gains;
     certify_currents(d, currents);
     keep_constants(d, c);

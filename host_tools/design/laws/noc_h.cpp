@@ -110,7 +110,7 @@ encoder_form_gains_t sample_gains(const Design &d)
 void solve(Design &d)
 {
     const Motor &m    = d.drive.motor;
-    const double trip = trip_speed_ratio * m.rated_speed_e_radps;
+    const double trip = trip_speed_e_radps(d.drive);
     solve_near_optimal(d);
     d.harmonics = design_harmonics(d.l, d.drive, trip, m.max_current_A);
     certify_harmonics(d);
