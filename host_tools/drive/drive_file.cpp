@@ -108,8 +108,7 @@ Encoder read_encoder(TomlReader t)
 
 CurrentSensors read_current_sensors(std::optional<TomlReader> t, const Motor &motor)
 {
-    CurrentSensors s;
-    s.range_A = range_per_limit * motor.max_current_A;
+    CurrentSensors s = default_current_sensors(motor);
     if (t) {
         s.range_A  = t->number_or("range_A", current_A, s.range_A);
         s.adc_bits = t->integer_or("adc_bits", adc_bits, s.adc_bits);
@@ -127,12 +126,9 @@ CurrentSensors read_current_sensors(std::optional<TomlReader> t, const Motor &mo
     return s;
 }
 
-} // namespace
-
-Drive read_drive_file(const std::filesystem::path &file)
+Drive read_drive(const toml::table &root, const std::string &source)
 {
-    const toml::table root = parse_toml_file(file);
-    TomlReader        t(file.string(), "", root);
+    TomlReader        t(source, "", root);
     Drive             drive;
     const int         schema = t.integer("schema", {0, 1e6});
     if (schema != drive_schema) {
@@ -158,6 +154,24 @@ Drive read_drive_file(const std::filesystem::path &file)
                "is not allowed: must be at most a tenth of the PWM period");
     }
     return drive;
+}
+
+} // namespace
+
+Drive read_drive_file(const std::filesystem::path &file)
+{
+    return read_drive(parse_toml_file(file), file.string());
+}
+
+Drive read_drive_text(const std::string &text, const std::string &source)
+{
+    return read_drive(toml::parse(text), source);
+}
+
+CurrentSensors default_current_sensors(const Motor &motor)
+{
+    const double range_A = range_per_limit * motor.max_current_A;
+    return {range_A, noise_per_range * range_A};
 }
 
 const char *dc_link_sink_name(DcLinkSink sink)

@@ -164,6 +164,11 @@ constexpr int drive_schema = 1;
 
 /// InputError in one line on anything missing, unknown, not finite or out of range.
 Drive read_drive_file(const std::filesystem::path &file);
+/// The same of a text; `source` names it in messages.
+Drive read_drive_text(const std::string &text, const std::string &source);
+
+/// What a drive file without [current_sensors] has.
+CurrentSensors default_current_sensors(const Motor &motor);
 
 /// "none", "brake_chopper", "supply".
 const char *dc_link_sink_name(DcLinkSink sink);
