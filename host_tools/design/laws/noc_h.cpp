@@ -120,6 +120,7 @@ void solve(Design &d)
     c.nodo         = *d.harmonics->table;
     c.rare         = sample_gains(d);
     c.gate         = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
+    c.plausible.d_omega = believed_d_omega(c.plausible, c.rare, control_period_s(d.drive));
     keep_constants(d, c);
 }
 
