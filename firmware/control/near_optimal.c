@@ -83,7 +83,8 @@ static dq_t out_of_reach_V(const near_optimal_t *s, const near_optimal_config_t 
     return u_V;
 }
 
-/* Within reach, and without a current beyond the limit; a voltage that needs no clamp stays as it was asked for. */
+/* Without a current beyond the limit, where a voltage in reach can see to that: beyond, EQ-VOLTAGE-2 is the stable one. A
+ * voltage that needs no clamp stays as it was asked for. */
 static dq_t clamped_V(const near_optimal_config_t *c, const motor_reduced_t *m,
                       const near_optimal_view_t *view, dq_t u_V, bool reached,
                       const law_input_t *in)
@@ -95,7 +96,7 @@ static dq_t clamped_V(const near_optimal_config_t *c, const motor_reduced_t *m,
                                       c->current_ref.current_max_A, c->current_ref.samples_1ps);
     const bool same = base_within(held.d - v_V.d, 0.0f) && base_within(held.q - v_V.q, 0.0f);
 
-    return same ? u_V : held;
+    return (same || voltage_is_outside(held, in->sample->dc_link_V)) ? u_V : held;
 }
 
 void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c,

@@ -2,6 +2,7 @@
 #include "current_clamp.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "unit_support.h"
 #include "unity.h"
@@ -45,7 +46,8 @@ typedef struct {
 
 static case_t random_case(void)
 {
-    case_t c            = {{0.0f, 0.0f, 0.0f}, {0}, {0.0f, 0.0f}, {0.0f, 0.0f}};
+    case_t c;
+    memset(&c, 0, sizeof c);
     c.now.omega_e_radps = support_uniform(&random_state, -5000.0f, 5000.0f);
     c.now.iq_A          = support_uniform(&random_state, -30.0f, 30.0f);
     c.now.id_A          = support_uniform(&random_state, -20.0f, 5.0f);
