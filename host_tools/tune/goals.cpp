@@ -28,8 +28,8 @@ constexpr double noise_share = 0.03;
 // Chosen: a step may ask for this much of the circle; what is beyond is cut.
 constexpr double headroom_share = 2.5;
 // Motors that are not as believed may be slower by this.
-constexpr double robust_dip      = 1.6;
-constexpr double robust_settling = 4.0;
+constexpr double robust_dip      = 2.0;
+constexpr double robust_settling = 6.0;
 // Chosen: voltage left for the current's way is never counted as less than this share of the circle.
 constexpr double least_reserve = 0.3;
 
@@ -85,8 +85,10 @@ PhysicalBound physical_bound(const Drive &d)
     const double reserve_V = std::max(circle - hold_V(d, before, speed), least_reserve * circle);
     const double way_s =
         (after.iq_A - before.iq_A) * d.motor.q_axis_inductance_H / reserve_V;
-    const double reaction_s = 1.5 * ts + 0.5 * way_s;
-    return {reaction_s, l[3] * (1.0 - load_share) * rated * reaction_s};
+    const double accel = l[3] * (1.0 - load_share) * rated;
+    const double seen_s = std::sqrt(2.0 * sample_noise(d).angle_rad / accel);
+    const double reaction_s = 1.5 * ts + 0.5 * way_s + seen_s;
+    return {reaction_s, accel * reaction_s};
 }
 
 void require_torque(const Drive &d, double load_Nm, const std::string &what)

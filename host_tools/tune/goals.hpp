@@ -10,10 +10,11 @@
 
 namespace sdre {
 
-/// Of a step from half to all of the rated torque at half the rated speed: what no controller can do better, because a
-/// new voltage acts after one and a half periods and the current needs its time at full voltage.
+/// Of a step from half to all of the rated torque at half the rated speed: what no controller can do much better, because
+/// the shaft has to turn by the encoder's error before anything shows, a new voltage acts after one and a half periods and
+/// the current needs its time at full voltage.
 struct PhysicalBound {
-    double reaction_s;  ///< delay and half of the current's way
+    double reaction_s;  ///< the shaft's way, delay and half of the current's way
     double dip_e_radps; ///< acceleration of the step times that
 };
 

@@ -23,10 +23,11 @@ constexpr double load_drift        = 6.0e-2;
 constexpr double voltage_drift     = 5.7e-5;
 constexpr double speed_noise       = 0.13;
 constexpr double current_noise     = 3.7e-3;
-constexpr double angle_error_units = 0.76;
+constexpr double angle_error_units = 0.38;
 
-// Edges of a disc that are not where they were learned, and what the learning leaves: 4.5 degrees of a line.
-constexpr double edge_error_cnt = 0.05;
+// Edges of a disc that are not where they were learned, and what the learning leaves: 2.3 degrees of a line. On a real
+// disc (docs/architecture.md) the noise of v_q is then what the linear model says, on every motor of docs/motors.md.
+constexpr double edge_error_cnt = 0.025;
 
 /// Acceleration per ampere, with the reluctance torque of the largest current.
 double accel_per_A(const Drive &d, const ReducedParameters &l)
