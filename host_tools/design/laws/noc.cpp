@@ -42,7 +42,7 @@ SampledModel model_at(const Design &d, const Motor &motor, const OperatingPoint 
     return sampled_model(reduced_parameters(motor), d.l, gains, at, control_period_s(d.drive));
 }
 
-void certify_whole(Design &d)
+void certify_whole(Design &d, const encoder_form_limits_t &limits)
 {
     LoopFamily f;
     f.channels   = {"q axis", "d axis"};
@@ -54,7 +54,7 @@ void certify_whole(Design &d)
     };
     const SampledModel m =
         model_at(d, d.drive.motor, {d.drive.motor.rated_speed_e_radps, 0.0, 0.0});
-    certify_loop(d, f, {disturbance_margin(d, m.A, m.B_noise, d.drive.nodo.T[2])});
+    certify_loop(d, f, {disturbance_margin(d, limits, m.A, m.B_noise, d.drive.nodo.T[2])});
 }
 
 void solve(Design &d)
@@ -66,13 +66,13 @@ void solve(Design &d)
     c.nodo.order    = static_cast<int16_t>(d.drive.nodo.order);
     c.nodo.iq_max_A = static_cast<float>(d.certificate.nodo.series_range_A);
     copy_series(d.nodo, c.nodo.gain);
-    c.rare = sample_gains(c.nodo, d.drive);
-    c.gate = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
-    const CurrentObserver currents =
-        design_nodo_current(d.l, d.drive, trip_speed_ratio * d.drive.motor.rated_speed_e_radps);
-    c.currents = currents.gains;
+    c.rare              = sample_gains(c.nodo, d.drive);
+    c.gate              = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
+    c.plausible.d_omega = believed_d_omega(c.plausible, c.rare, control_period_s(d.drive));
+    const CurrentObserver currents = design_nodo_current(d.l, d.drive, trip_speed_e_radps(d.drive));
+    c.currents                     = currents.gains;
     certify_currents(d, currents);
-    certify_whole(d);
+    certify_whole(d, c.plausible);
     keep_constants(d, c);
 }
 

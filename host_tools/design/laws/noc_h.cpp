@@ -65,7 +65,7 @@ HarmonicSampled model_at(const Design &d, const Motor &motor, const OperatingPoi
                                   d.nosc.gain[0], at, control_period_s(d.drive));
 }
 
-void certify_whole(Design &d)
+void certify_whole(Design &d, const encoder_form_limits_t &limits)
 {
     LoopFamily f;
     f.channels   = {"q axis", "d axis"};
@@ -77,7 +77,8 @@ void certify_whole(Design &d)
     };
     const double          rated = d.drive.motor.rated_speed_e_radps;
     const HarmonicSampled m     = model_at(d, d.drive.motor, {rated, 0.0, 0.0});
-    certify_loop(d, f, {disturbance_margin(d, m.A, m.B_noise, angle_weight(d.drive, rated))});
+    certify_loop(d, f,
+                 {disturbance_margin(d, limits, m.A, m.B_noise, angle_weight(d.drive, rated))});
 }
 
 void certify_harmonics(Design &d)
@@ -88,7 +89,6 @@ void certify_harmonics(Design &d)
         check.worst_residual = std::max(check.worst_residual, node.residual);
     }
     std::vector<std::string> &failures = d.certificate.failures;
-    certify_whole(d);
     if (!(check.spectral_radius < 1.0)) {
         failures.push_back(fmt::format("noc_h: the sampled loop is unstable at {:.0f} rad/s, iq "
                                        "{:.2f} A: spectral radius {:.5f}",
@@ -112,16 +112,18 @@ encoder_form_gains_t sample_gains(const Design &d)
 void solve(Design &d)
 {
     const Motor &m    = d.drive.motor;
-    const double trip = trip_speed_ratio * m.rated_speed_e_radps;
+    const double trip = trip_speed_e_radps(d.drive);
     solve_near_optimal(d);
     d.harmonics = design_harmonics(d.l, d.drive, trip, m.max_current_A);
     certify_harmonics(d);
     law_noc_h_config_t c{};
-    c.near_optimal = near_optimal_constants(d, true, true);
-    c.plausible    = encoder_limits(d);
-    c.nodo         = *d.harmonics->table;
-    c.rare         = sample_gains(d);
-    c.gate         = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
+    c.near_optimal      = near_optimal_constants(d, true, true);
+    c.plausible         = encoder_limits(d);
+    c.nodo              = *d.harmonics->table;
+    c.rare              = sample_gains(d);
+    c.gate              = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
+    c.plausible.d_omega = believed_d_omega(c.plausible, c.rare, control_period_s(d.drive));
+    certify_whole(d, c.plausible);
     keep_constants(d, c);
 }
 
