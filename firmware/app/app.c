@@ -3,6 +3,7 @@
 
 #include "app_modbus.h"
 #include "app_modes.h"
+#include "app_watch_tick.h"
 
 /* Reading takes less than a twentieth of a period: the second one succeeds unless ticks overrun. */
 #define STATUS_READS 3U
@@ -14,6 +15,7 @@ static volatile struct {
     uint16_t      background_count; /* background */
     uint32_t      ticks;            /* tick, at its end */
     bool          command_full;     /* background raises, tick lowers */
+    bool          tick_missing;     /* the same */
     app_command_t command;          /* background, while command_full is false */
     uint16_t      board_faults;     /* tick, as the rest: for the status */
     uint16_t      cycles;
@@ -31,10 +33,11 @@ static struct {
 
 /* Only the background. */
 static struct {
-    app_modbus_t    modbus;
-    app_registers_t registers;
-    app_status_t    status;
-    uint32_t        served_ticks;
+    app_modbus_t     modbus;
+    app_registers_t  registers;
+    app_status_t     status;
+    app_watch_tick_t watch;
+    uint32_t         served_ticks;
 } background_side;
 
 static ctl_status_t init_tick_side(const app_config_t *config, const drive_config_t *drive)
@@ -57,10 +60,12 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
 
     app_registers_init(&background_side.registers, drive->speed_max_e_radps);
     background_side.served_ticks = 0UL;
+    app_watch_tick_reset(&background_side.watch);
 
     shared.background_count = 0U;
     shared.ticks            = 0UL;
     shared.command_full     = false;
+    shared.tick_missing     = false;
     shared.command          = tick_side.in.command;
     shared.board_faults     = 0U;
     shared.cycles           = 0U;
@@ -128,6 +133,8 @@ void app_tick(void)
     in->raw               = board_sample();
     in->board_faults      = board_fault_read();
     in->background_lost   = background_lost();
+    in->tick_missing      = shared.tick_missing;
+    shared.tick_missing   = false;
     const bool     was_on = tick_side.modes.gate_on;
     const bridge_t out    = app_modes_tick(&tick_side.modes, in);
     drive_bridge(&out, was_on);
@@ -147,6 +154,10 @@ void app_background(void)
     app_registers_t *r         = &background_side.registers;
     const uint32_t   now_ticks = shared.ticks;
 
+    if (app_watch_tick_is_missing(&background_side.watch, now_ticks, board_cycles())) {
+        board_gate_trip();
+        shared.tick_missing = true;
+    }
     shared.background_count = (uint16_t)(shared.background_count + 1U);
     serve_watchdog(now_ticks);
 

@@ -99,6 +99,9 @@ static app_fault_t watch(const app_modes_t *m, const app_modes_input_t *in)
     if (m->gate_on && (in->board_faults != (uint16_t)BOARD_FAULT_NONE)) {
         return APP_FAULT_BOARD;
     }
+    if (m->gate_on && in->tick_missing) {
+        return APP_FAULT_TICK;
+    }
     if (m->reading.index_fault) {
         return APP_FAULT_INDEX;
     }

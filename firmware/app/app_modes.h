@@ -24,7 +24,8 @@ typedef struct {
     const board_sample_t *raw;
     uint16_t              board_faults;
     bool                  background_lost; /**< the background has not run for too long */
-    app_command_t         command;         /**< reset is true for one tick only */
+    bool          tick_missing; /**< ticks stood still, and the background opened the bridge */
+    app_command_t command;      /**< reset is true for one tick only */
 } app_modes_input_t;
 
 typedef struct {

@@ -34,7 +34,8 @@ typedef enum {
     APP_FAULT_TEMPERATURE,        /**< heat sink too hot */
     APP_FAULT_INDEX,              /**< index pulse far from where it should be */
     APP_FAULT_ALIGN,              /**< alignment failed */
-    APP_FAULT_DRIVE               /**< see the drive's fault */
+    APP_FAULT_DRIVE,              /**< see the drive's fault */
+    APP_FAULT_TICK                /**< no tick for too long; the background opened the bridge */
 } app_fault_t;
 
 /** The tick of the first fault; kept, also after a reset, until the next fault. */

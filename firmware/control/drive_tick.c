@@ -91,6 +91,7 @@ static bridge_t trip(drive_t *d, drive_fault_t fault)
 static void start(drive_t *d, const drive_sample_t *sample)
 {
     d->config->law->reset(&d->law, d->config, sample);
+    current_watch_reset(&d->current_watch, sample->ia_A, sample->ib_A);
     d->v_V   = zero_dq;
     d->state = DRIVE_RUN;
 }
@@ -106,14 +107,39 @@ static bridge_t modulate(drive_t *d, float dc_link_V)
     const voltage_t v     = voltage_produce(out->v_V, angle, dc_link_V, c->overmodulation);
     const abc_t     i_abc = frames_inverse_clarke(frames_inverse_park(i_A, angle));
 
+    const current_watch_expected_t expected = {.angle     = angle,
+                                               .ahead_rad = 0.5f * c->ts_s * out->now.omega_e_radps,
+                                               .i_A       = i_A,
+                                               .d_Aps     = {.d = out->d_d, .q = out->d_q},
+                                               .i_ref_A   = out->i_ref_A,
+                                               .predicted = out->predicted};
+    current_watch_expect(&d->current_watch, &expected, c->ts_s);
     d->v_V       = v.v_V;
     d->v_limited = v.limited;
     d->i_hat_A   = i_abc;
     return bridge_closed(dead_time_compensate(&c->dead_time, v.duty, i_abc));
 }
 
+static drive_fault_t watch_currents(drive_t *d, const drive_sample_t *sample)
+{
+    const current_watch_scale_t   scale = {.ts_s          = d->config->ts_s,
+                                           .current_max_A = d->config->current_max_A};
+    const current_watch_verdict_t found =
+        current_watch_judge(&d->current_watch, sample->ia_A, sample->ib_A, &scale);
+
+    if (found == CURRENT_WATCH_GOOD) {
+        return DRIVE_FAULT_NONE;
+    }
+    return (found == CURRENT_WATCH_OPEN) ? DRIVE_FAULT_PHASE : DRIVE_FAULT_CURRENT_SENSOR;
+}
+
 static bridge_t run(drive_t *d, const drive_sample_t *sample, float command_e_radps)
 {
+    const drive_fault_t currents = watch_currents(d, sample);
+    if (currents != DRIVE_FAULT_NONE) {
+        return trip(d, currents);
+    }
+
     const law_input_t in = {.sample = sample, .command_e_radps = command_e_radps, .v_V = d->v_V};
 
     d->config->law->step(&d->law, d->config, &in, &d->wanted);

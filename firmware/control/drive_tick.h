@@ -11,7 +11,7 @@
  *
  * Nothing received is trusted: an invalid, non-finite or out-of-range sample or command opens the bridge
  * in the same call and latches the first reason until drive_reset(). A single sample of the currents beyond the trip
- * level is not used instead, current_gate.h.
+ * level is not used instead, current_gate.h. Currents that are not those of the motor trip, current_watch.h.
  */
 #ifndef DRIVE_TICK_H
 #define DRIVE_TICK_H
@@ -19,6 +19,7 @@
 #include "base.h"
 #include "bridge.h"
 #include "current_gate.h"
+#include "current_watch.h"
 #include "drive_config.h"
 #include "laws.h"
 #include "sample.h"
@@ -35,11 +36,13 @@ typedef enum {
     DRIVE_FAULT_NONE = 0,
     DRIVE_FAULT_SAMPLE, /**< sample marked invalid, or angle not a number in range */
     DRIVE_FAULT_OVER_CURRENT, /**< phase current beyond the trip level in two of three samples, or not a number */
-    DRIVE_FAULT_DC_LINK,    /**< dc link outside its accepted range, or not a number */
-    DRIVE_FAULT_OVER_SPEED, /**< speed beyond the trip level, or not a number */
-    DRIVE_FAULT_ENCODER,    /**< the angle jumped, or stands still while the motor turns fast */
-    DRIVE_FAULT_COMMAND,    /**< commanded speed out of range, or not a number */
-    DRIVE_FAULT_NUMERIC     /**< the law produced a voltage that is not a number */
+    DRIVE_FAULT_DC_LINK,        /**< dc link outside its accepted range, or not a number */
+    DRIVE_FAULT_OVER_SPEED,     /**< speed beyond the trip level, or not a number */
+    DRIVE_FAULT_ENCODER,        /**< the angle jumped, or stands still while the motor turns fast */
+    DRIVE_FAULT_COMMAND,        /**< commanded speed out of range, or not a number */
+    DRIVE_FAULT_NUMERIC,        /**< the law produced a voltage that is not a number */
+    DRIVE_FAULT_CURRENT_SENSOR, /**< a phase current is not that of the motor, current_watch.h */
+    DRIVE_FAULT_PHASE           /**< a phase carries no current, current_watch.h */
 } drive_fault_t;
 
 typedef struct {
@@ -52,6 +55,7 @@ typedef struct {
     bool                  v_limited; /**< v_V was limited */
     abc_t                 i_hat_A;   /**< phase currents that the law expects */
     current_gate_t        current_gate;
+    current_watch_t       current_watch;
 } drive_t;
 
 /**

@@ -40,6 +40,9 @@ typedef struct {
          ignored_angles; /**< samples since the start of the run; zero where a law believes all */
     bool without_angle;  /**< the encoder is lost; the law goes on without it, for a stop */
     bool plausible;      /**< false: the angle cannot be right */
+    bool
+        predicted; /**< now is of the instant from which v_V acts, predicted with d_q and d_d, which take up within
+                         some ms what the motor is other than believed */
 } law_output_t;
 
 typedef struct {

@@ -70,6 +70,7 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in, out);
     out->ignored_angles = s->gate.ignored;
     out->without_angle  = s->gate.lost != 0;
+    out->predicted      = true;
 }
 
 const law_t law_noc = {.check = check, .reset = reset, .step = step};

@@ -186,3 +186,79 @@ TEST(SensorFaults, OverCurrentOfTwoSamplesTrips)
     EXPECT_EQ(o.fault, static_cast<int>(DRIVE_FAULT_OVER_CURRENT));
     EXPECT_NEAR(o.fault_time_s, when_s + 2e-4, 1e-9);
 }
+
+namespace {
+
+std::string broken(const std::string &keys)
+{
+    return fmt::format("[[fault]]\ntime_s = {}\n{}\n", when_s, keys);
+}
+
+/// Every case trips, in time and without too much current.
+void expect_found(const std::string &keys, double within_s, double share,
+                  std::initializer_list<double> speeds)
+{
+    for (const double speed : speeds) {
+        const Outcome o = worst_of(speed, broken(keys));
+        EXPECT_NE(o.fault, 0) << keys << " " << speed;
+        EXPECT_LE(o.fault_time_s, when_s + within_s) << keys << " " << speed;
+        EXPECT_LE(o.peak_A, share * limit_A) << keys << " " << speed;
+    }
+}
+
+} // namespace
+
+/// EQ-CURRENT-WATCH-3: the residual of the observer.
+TEST(SensorFaults, CurrentSensorsThatLieAreFound)
+{
+    for (const char *phase : {"phase = \"a\"\n", "phase = \"b\"\n"}) {
+        const std::string at = phase;
+        expect_found(at + "kind = \"current_zero\"", 5e-3, 1.5, {100.0, 300.0, -523.0});
+        expect_found(at + "kind = \"current_frozen\"", 15e-3, 1.5, {100.0, 300.0, -523.0});
+        expect_found(at + "kind = \"current_drift\"\nrate_Aps = 1e6\nuntil_A = 4.0", 5e-3, 1.5,
+                     {0.0, 20.0, 100.0, -300.0, 523.0});
+        expect_found(at + "kind = \"current_drift\"\nrate_Aps = -1e6\nuntil_A = 6.0", 5e-3, 1.5,
+                     {0.0, 20.0, 100.0, -300.0, 523.0});
+        expect_found(at + "kind = \"current_drift\"\nrate_Aps = 1000.0\nuntil_A = 6.0", 10e-3, 1.5,
+                     {0.0, 20.0, 100.0, -300.0, 523.0});
+        expect_found(at + "kind = \"current_gain\"\ngain = 0.3", 10e-3, 1.5, {100.0, 300.0});
+    }
+}
+
+/// An offset of half the limit that comes at once never drives more than 1.5 times the limit, found or not.
+TEST(SensorFaults, SmallOffsetsStayBelowTheLimit)
+{
+    for (const double speed : {0.0, 20.0, 100.0, 300.0, -523.0}) {
+        const Outcome o = worst_of(
+            speed,
+            broken("kind = \"current_drift\"\nphase = \"b\"\nrate_Aps = 1e6\nuntil_A = 2.0"));
+        EXPECT_LE(o.peak_A, 1.5 * limit_A) << speed;
+    }
+}
+
+TEST(SensorFaults, BrokenMotorWireIsFound)
+{
+    for (const char *phase : {"a", "b", "c"}) {
+        const std::string keys = fmt::format("kind = \"phase_open\"\nphase = \"{}\"", phase);
+        expect_found(keys, 20e-3, 1.05, {100.0, 300.0, -523.0});
+        const Outcome light = [&] {
+            std::string text = text_of(300.0, broken(keys));
+            text.replace(text.find("value_Nm = 1.5"), 14, "value_Nm = 0.2");
+            const SimulationResult r = simulate(read(text));
+            return Outcome{r.fault, r.fault_time_s, 0.0, 0.0};
+        }();
+        EXPECT_NE(light.fault, 0) << phase;
+        EXPECT_LE(light.fault_time_s, when_s + 20e-3) << phase;
+    }
+}
+
+/// EQ-CURRENT-WATCH-4, for laws without a prediction.
+TEST(SensorFaults, BrokenMotorWireIsFoundByEveryLawWithReferences)
+{
+    Scenario s = read(text_of(300.0, broken("kind = \"phase_open\"\nphase = \"a\"")));
+    s.drive =
+        read_drive_file(SDRE_SOURCE_DIR "/firmware/config/drives/ipmsm_390w_pi_foc_edges.toml");
+    const SimulationResult r = simulate(s);
+    EXPECT_EQ(r.fault, static_cast<int>(DRIVE_FAULT_PHASE));
+    EXPECT_LE(r.fault_time_s, when_s + 30e-3);
+}

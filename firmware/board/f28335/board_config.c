@@ -89,8 +89,8 @@ const app_config_t board_config = {
     .boot_ticks      = 50U * TICKS_PER_ms,  /* chosen: filters of the analog inputs (RC of 1 ms) */
     .calibrate_ticks = 256U * TICKS_PER_ms, /* 10 mA of noise: mean good to 0.3 mA */
     /* A pass of the background is below 1 ms (twice the CRC of the longest frame, 0.2 ms each). The watchdog resets
-     * after 17 ms, so that the trip, with its record, comes first. */
-    .background_ticks     = 10U * TICKS_PER_ms,
+     * after 4.4 ms, so that the trip, with its record, comes first. */
+    .background_ticks     = 3U * TICKS_PER_ms,
     .modbus_address       = 1U,
     .modbus_gap_ticks     = 10U, /* 1.75 ms at 115200 Bd by the protocol, rounded up, and one */
     .modbus_timeout_ticks = 500U * TICKS_PER_ms, /* chosen: five lost polls at 10 Hz */

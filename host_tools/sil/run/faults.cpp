@@ -21,7 +21,8 @@ const char *app_fault_name(int fault)
                                         "application: temperature",
                                         "application: index out of place",
                                         "application: alignment",
-                                        "application: drive"};
+                                        "application: drive",
+                                        "application: ticks stood still"};
     return fault >= 0 && fault < static_cast<int>(std::size(names)) ? names[fault] : "unknown";
 }
 
@@ -55,6 +56,10 @@ const char *fault_name(int fault)
         return "command out of range";
     case DRIVE_FAULT_NUMERIC:
         return "law not a number";
+    case DRIVE_FAULT_CURRENT_SENSOR:
+        return "current sensor implausible";
+    case DRIVE_FAULT_PHASE:
+        return "phase without current";
     }
     return "unknown";
 }

@@ -8,6 +8,11 @@ namespace sdre {
 Simulation::Simulation(const Scenario &scenario, const Controller &controller)
     : period_s_(control_period_s(scenario.drive)), board_(scenario)
 {
+    for (const InjectedFault &f : scenario.faults) {
+        if (needs_processor(f.kind)) {
+            throw InputError("[[fault]] of the processor needs --board f28335");
+        }
+    }
     if (drive_init(&drive_, &controller.config) != CTL_OK) {
         throw DesignError("the control core refuses these constants");
     }

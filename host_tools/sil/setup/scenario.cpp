@@ -67,8 +67,8 @@ void read_load(TomlReader &t, Scenario &s)
 
 void read_board(TomlReader &t, Scenario &s)
 {
-    s.dc_link_V                 = s.drive.inverter.dc_link_V;
-    s.sensors.encoder_edge_time = s.drive.encoder.edge_times;
+    s.dc_link_V = s.drive.inverter.dc_link_V;
+    s.sensors   = sensors_of_drive(s.drive);
     if (std::optional<TomlReader> inverter = t.table_if("inverter")) {
         inverter->integer_or("updates_per_period", updates_range, 1); // read with the drive
         s.inverter  = read_board_inverter(*inverter, s.inverter, s.drive);
@@ -167,6 +167,7 @@ Scenario read_scenario_file(const std::filesystem::path &file, const std::filesy
     start.load_sine = s.load_sine;
     s.changes       = read_changes(t, start, s.drive);
     s.glitches      = read_glitches(t);
+    s.faults        = read_injected_faults(t);
     s.measures      = read_measures(t, s.drive.law, own);
     if (!s.measures.empty() && s.measures.back().time_s >= s.duration_s) {
         t.fail("measure", fmt::format("\"{}\": time_s must be before duration_s = {:g}",
