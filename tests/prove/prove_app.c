@@ -39,24 +39,27 @@ static void any_state(void)
     config.law            = &any_law;
     config.overmodulation = any_bool();
 
-    modes                            = any_modes;
-    modes.config                     = &board_config;
-    modes.mode                       = any_between(APP_MODE_BOOT, APP_MODE_STOP);
-    modes.fault                      = any_between(APP_FAULT_NONE, APP_FAULT_DRIVE);
-    modes.calibrated                 = any_bool();
-    modes.armed                      = any_bool();
-    modes.hot                        = any_bool();
-    modes.dc_link_out                = any_bool();
-    modes.tripped                    = any_bool();
-    modes.gate_on                    = any_bool();
-    modes.drive.config               = &config;
-    modes.drive.state                = any_between(DRIVE_OFF, DRIVE_FAULT);
-    modes.drive.fault                = any_between(DRIVE_FAULT_NONE, DRIVE_FAULT_NUMERIC);
-    modes.drive.v_limited            = any_bool();
-    modes.drive.wanted.plausible     = any_bool();
-    modes.drive.wanted.without_angle = any_bool();
-    modes.drive.current_gate.jumped  = any_bool();
-    modes.scale.config               = &board_config.scale;
+    modes                             = any_modes;
+    modes.config                      = &board_config;
+    modes.mode                        = any_between(APP_MODE_BOOT, APP_MODE_STOP);
+    modes.fault                       = any_between(APP_FAULT_NONE, APP_FAULT_TICK);
+    modes.calibrated                  = any_bool();
+    modes.armed                       = any_bool();
+    modes.hot                         = any_bool();
+    modes.dc_link_out                 = any_bool();
+    modes.tripped                     = any_bool();
+    modes.gate_on                     = any_bool();
+    modes.drive.config                = &config;
+    modes.drive.state                 = any_between(DRIVE_OFF, DRIVE_FAULT);
+    modes.drive.fault                 = any_between(DRIVE_FAULT_NONE, DRIVE_FAULT_PHASE);
+    modes.drive.v_limited             = any_bool();
+    modes.drive.wanted.plausible      = any_bool();
+    modes.drive.wanted.without_angle  = any_bool();
+    modes.drive.current_gate.jumped   = any_bool();
+    modes.drive.current_watch.expects = any_bool();
+    modes.drive.current_watch.models  = any_bool();
+    modes.drive.wanted.predicted      = any_bool();
+    modes.scale.config                = &board_config.scale;
     modes.scale.inv_ntc_step = 1.0f / (float)board_config.scale.ntc_step_cnt; /* by its init */
     modes.angle.config       = &board_config.angle;
     modes.angle.edge_times   = any_bool();
@@ -96,7 +99,7 @@ void prove_app_tick(void)
     is_count(duty.b_cnt);
     is_count(duty.c_cnt);
     //@ check mode: APP_MODE_BOOT <= modes.mode <= APP_MODE_STOP;
-    //@ check fault: APP_FAULT_NONE <= modes.fault <= APP_FAULT_DRIVE;
+    //@ check fault: APP_FAULT_NONE <= modes.fault <= APP_FAULT_TICK;
     //@ check stage: APP_ALIGN_WATCH <= modes.align.stage <= APP_ALIGN_FAILED;
     //@ check reference: APP_ANGLE_NONE <= modes.angle.reference <= APP_ANGLE_INDEX;
 }
