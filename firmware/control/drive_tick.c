@@ -124,10 +124,17 @@ static bridge_t modulate(drive_t *d, float dc_link_V)
     return bridge_closed(dead_time_compensate(&c->dead_time, v.duty, i_abc));
 }
 
+/* EQ-CURRENT-GATE-2 */
+static float jump_A(const drive_config_t *c, float dc_link_V)
+{
+    return 2.0f * c->ts_s * base_max(c->motor.l6, c->motor.l8) * dc_link_V;
+}
+
 static drive_fault_t watch_currents(drive_t *d, const drive_sample_t *sample)
 {
     const current_watch_scale_t   scale = {.ts_s          = d->config->ts_s,
-                                           .current_max_A = d->config->current_max_A};
+                                           .current_max_A = d->config->current_max_A,
+                                           .jump_A        = jump_A(d->config, sample->dc_link_V)};
     const current_watch_verdict_t found =
         current_watch_judge(&d->current_watch, sample->ia_A, sample->ib_A, &scale);
 
@@ -191,9 +198,8 @@ static bridge_t run_without_currents(drive_t *d, const drive_sample_t *sample,
 static current_gate_verdict_t judge_currents(drive_t *d, const drive_sample_t *sample)
 {
     const drive_config_t      *c  = d->config;
-    const current_gate_input_t in = {.trip_A = c->trip_current_A,
-                                     .jump_A = 2.0f * c->ts_s * base_max(c->motor.l6, c->motor.l8) *
-                                               sample->dc_link_V, /* EQ-CURRENT-GATE-2 */
+    const current_gate_input_t in = {.trip_A   = c->trip_current_A,
+                                     .jump_A   = jump_A(c, sample->dc_link_V),
                                      .i_hat_A  = d->i_hat_A,
                                      .expected = d->state == DRIVE_RUN};
 

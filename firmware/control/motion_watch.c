@@ -32,12 +32,12 @@ static float counted(float so_far_s, bool on, float ts_s)
 /* EQ-MOTION-WATCH-1; a NaN is odd. */
 static bool is_odd(const motion_watch_input_t *in)
 {
-    const motor_reduced_t *m      = in->motor;
-    const float            r_Ohm  = m->l4 * m->inv_l6;
-    const float            emf_Wb = m->inv_l6 * (m->l5 + in->current_max_A);
-    const float            most_V =
-        (HALF_OFF * ((r_Ohm * in->current_max_A) + (emf_Wb * fabsf(in->now.omega_e_radps)))) +
-        (DEAD_TIME * in->dc_link_V);
+    const motor_reduced_t *m = in->motor;
+    const float i_A          = fabsf(in->now.id_A) + fabsf(in->now.iq_A); /* at least the length */
+    const float r_Ohm        = m->l4 * m->inv_l6;
+    const float emf_Wb       = m->inv_l6 * (m->l5 + i_A);
+    const float mine_V       = (r_Ohm * i_A) + (emf_Wb * fabsf(in->now.omega_e_radps));
+    const float most_V       = (HALF_OFF * mine_V) + (DEAD_TIME * in->dc_link_V);
 
     return !base_within(in->d_Aps.q * m->inv_l6, most_V) ||
            !base_within(in->d_Aps.d * m->inv_l8, most_V);

@@ -4,7 +4,7 @@
  * @brief A motor that does not move as it should: jammed, dragged away, or with an encoder that does not show its motion.
  *
  *     odd:     the voltage that the model does not know of,
- *              max(Lq abs(d_q), Ld abs(d_d)) > 0.6 (R i_max + (flux + Lq i_max) abs(w)) + 0.02 v_dc,
+ *              max(Lq abs(d_q), Ld abs(d_d)) > 0.6 (R j + (flux + Lq j) abs(w)) + 0.02 v_dc,  j = abs(id) + abs(iq)
  *              for 10 ms                                                           EQ-MOTION-WATCH-1
  *     stall:   abs(i) > 0.9 i_max and abs(w* - w) > 10 rad/s, and for 50 ms no edge of the encoder, or for 0.5 s
  *              abs(w) < 10 rad/s                                                   EQ-MOTION-WATCH-2

@@ -42,7 +42,7 @@ static void test_a_motor_that_runs_as_it_should_is_good(void)
     TEST_ASSERT_EQUAL_INT(0, found_after(MOTION_WATCH_GOOD, 10000));
 }
 
-/* 0.6 (2.48 Ohm 4 A + (0.193 Wb + 0.11391 H 4 A) w) + 5.9 V */
+/* With 2.8 A: 0.6 (2.48 Ohm 2.8 A + (0.193 Wb + 0.11391 H 2.8 A) w) + 5.9 V */
 static void test_a_voltage_beyond_what_a_wrong_motor_explains_is_odd(void)
 {
     const float lq_H = 0.11391f;
@@ -50,7 +50,7 @@ static void test_a_voltage_beyond_what_a_wrong_motor_explains_is_odd(void)
     for (int way = 0; way < 4; way++) {
         setUp();
         in.now.omega_e_radps = (way < 2) ? 0.0f : -200.0f;
-        const float most_V   = (0.6f * (9.92f + (0.64864f * ((way < 2) ? 0.0f : 200.0f)))) + 5.9f;
+        const float most_V   = (0.6f * (6.944f + (0.511948f * ((way < 2) ? 0.0f : 200.0f)))) + 5.9f;
         in.command_e_radps   = in.now.omega_e_radps;
         float *const d       = ((way & 1) != 0) ? &in.d_Aps.d : &in.d_Aps.q;
         const float  l_H     = ((way & 1) != 0) ? ld_H : lq_H;
