@@ -29,7 +29,7 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     const nosc_error_t e = near_optimal_error(&s->near_optimal, &c->near_optimal, drive, &view, in);
 
     near_optimal_answer(&s->near_optimal, &c->near_optimal, m, &view, &e,
-                        conventional_feedback_V(&c->gains, m, &e), in->sample->dc_link_V, out);
+                        conventional_feedback_V(&c->gains, m, &e), in, out);
 }
 
 static bool counts_ok(const drive_config_t *drive)

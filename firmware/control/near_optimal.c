@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "near_optimal.h"
 
+#include <math.h>
+
+#include "current_clamp.h"
 #include "feedforward.h"
 #include "voltage.h"
 
@@ -81,14 +84,34 @@ static dq_t out_of_reach_V(const near_optimal_t *s, const near_optimal_config_t 
     return u_V;
 }
 
+/* Without a current beyond the limit, where a voltage in reach can see to that: beyond, EQ-VOLTAGE-2 is the stable one. A
+ * voltage that needs no clamp stays as it was asked for. */
+static dq_t clamped_V(const near_optimal_config_t *c, const motor_reduced_t *m,
+                      const near_optimal_view_t *view, dq_t u_V, bool reached,
+                      const law_input_t *in)
+{
+    const float share =
+        reached ? 1.0f : (in->sample->dc_link_V * BASE_1_SQRT3 / sqrtf(voltage_square(u_V)));
+    const dq_t v_V  = {.d = share * u_V.d, .q = share * u_V.q};
+    const dq_t held = current_clamp_V(m, view->est, &view->now, v_V, in->v_V,
+                                      c->current_ref.current_max_A, c->current_ref.samples_1ps);
+    const bool same = base_within(held.d - v_V.d, 0.0f) && base_within(held.q - v_V.q, 0.0f);
+
+    return (same || voltage_is_outside(held, in->sample->dc_link_V)) ? u_V : held;
+}
+
 void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c,
                          const motor_reduced_t *m, const near_optimal_view_t *view,
-                         const nosc_error_t *e, dq_t feedback_V, float dc_link_V, law_output_t *out)
+                         const nosc_error_t *e, dq_t feedback_V, const law_input_t *in,
+                         law_output_t *out)
 {
-    const dq_t u_V     = wanted_V(s, m, view, e, feedback_V);
-    const bool reached = !voltage_is_outside(u_V, dc_link_V);
+    const float dc_link_V = in->sample->dc_link_V;
+    const dq_t  u_V       = wanted_V(s, m, view, e, feedback_V);
+    const bool  reached   = !voltage_is_outside(u_V, dc_link_V);
 
-    out->v_V            = reached ? u_V : out_of_reach_V(s, c, m, view, e);
+    const dq_t any_V = reached ? u_V : out_of_reach_V(s, c, m, view, e);
+
+    out->v_V            = clamped_V(c, m, view, any_V, !voltage_is_outside(any_V, dc_link_V), in);
     out->theta_rad      = view->theta_rad;
     out->now            = view->now;
     out->i_ref_A        = s->current_ref.i_A;

@@ -54,13 +54,13 @@ nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *
  * @brief Feedback plus feed-forward, EQ-DRIVE-1, with all that a law answers.
  *
  * Where that voltage lies outside the circle, EQ-VOLTAGE-2 takes its place: with it cutting the vector's length is
- * stable (voltage.h).
+ * stable (voltage.h). Either is held back from currents beyond the limit (current_clamp.h).
  *
- * Context: control ISR. No division.
+ * Context: control ISR. Outside the circle a division and a square root, beyond the current limit one more of each.
  */
 void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c,
                          const motor_reduced_t *m, const near_optimal_view_t *view,
-                         const nosc_error_t *e, dq_t feedback_V, float dc_link_V,
+                         const nosc_error_t *e, dq_t feedback_V, const law_input_t *in,
                          law_output_t *out);
 
 /**
@@ -74,8 +74,7 @@ static inline void near_optimal_step(near_optimal_t *s, const near_optimal_confi
 {
     const nosc_error_t e = near_optimal_error(s, c, drive, view, in);
 
-    near_optimal_answer(s, c, &drive->motor, view, &e, nosc_feedback_V(&c->nosc, &e),
-                        in->sample->dc_link_V, out);
+    near_optimal_answer(s, c, &drive->motor, view, &e, nosc_feedback_V(&c->nosc, &e), in, out);
 }
 
 #endif /* NEAR_OPTIMAL_H */

@@ -167,7 +167,7 @@ static frames_angle_t half_turn_of(const half_turn_t *turn, float order)
     uint16_t       bits  = (uint16_t)size;
     frames_angle_t angle = {.cos = 1.0f, .sin = 0.0f};
 
-    if (((float)bits < size) || ((bits >> POWERS) != 0U)) {
+    if (((float)bits < size) || (bits >= (1U << POWERS))) {
         return frames_angle(0.5f * order * turn->dtheta_rad);
     }
     for (int16_t i = 0; bits != 0U; i++) {

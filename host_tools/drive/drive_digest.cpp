@@ -86,6 +86,7 @@ std::string normalised(const Drive &d)
     s += i.regeneration != DcLinkSink::none ? fmt::format("{};", dc_link_sink_name(i.regeneration))
                                             : "";
     s += d.encoder.edge_times ? "edges;" : "";
+    s += m.max_speed_e_radps > 0.0 ? fmt::format("{:.17g};", m.max_speed_e_radps) : "";
     if (d.law == Law::noc_h) {
         return s + normalised_weights(d) + normalised_harmonics(d);
     }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -27,6 +28,17 @@ constexpr Range pwm_frequency_Hz{1e3, 1e5};
 constexpr Range dead_time_s{0.0, 2e-5};
 constexpr Range encoder_lines{1, 1e6};
 constexpr Range slots{3, 1000};
+constexpr Range adc_bits{8, 16};
+constexpr Range noise_A{0.0, 1e2};
+
+// Chosen: a trip at twice the limit is then seen. The 390 W motor's board has +-10 A.
+constexpr double range_per_limit = 2.5;
+// Chosen: two codes of 12 bits, a Hall sensor with its amplifier.
+constexpr double noise_per_range = 1e-3;
+// Chosen: room for what the speed does beyond a reference that is the largest command.
+constexpr double trip_per_max_speed = 1.2;
+// Chosen: the flux-weakening range of the shipped motors ends below twice the rated speed.
+constexpr double trip_per_rated_speed = 3.0;
 
 Motor read_motor(TomlReader t)
 {
@@ -41,6 +53,9 @@ Motor read_motor(TomlReader t)
     m.rated_speed_e_radps   = t.number("rated_speed_e_radps", allowed_speed_e_radps);
     m.rated_torque_Nm       = t.number("rated_torque_Nm", torque_Nm);
     m.max_current_A         = t.number("max_current_A", current_A);
+    if (t.has("max_speed_e_radps")) {
+        m.max_speed_e_radps = t.number("max_speed_e_radps", allowed_speed_e_radps);
+    }
     if (t.has("slots")) {
         m.slots = t.integer("slots", slots);
     }
@@ -91,12 +106,29 @@ Encoder read_encoder(TomlReader t)
     return encoder;
 }
 
-} // namespace
-
-Drive read_drive_file(const std::filesystem::path &file)
+CurrentSensors read_current_sensors(std::optional<TomlReader> t, const Motor &motor)
 {
-    const toml::table root = parse_toml_file(file);
-    TomlReader        t(file.string(), "", root);
+    CurrentSensors s = default_current_sensors(motor);
+    if (t) {
+        s.range_A  = t->number_or("range_A", current_A, s.range_A);
+        s.adc_bits = t->integer_or("adc_bits", adc_bits, s.adc_bits);
+    }
+    s.noise_rms_A = noise_per_range * s.range_A;
+    if (t) {
+        s.noise_rms_A = t->number_or("noise_rms_A", noise_A, s.noise_rms_A);
+        t->reject_unknown_keys();
+        if (s.range_A < motor.max_current_A) {
+            t->fail("range_A", fmt::format("= {:g} is not allowed: must not be below [motor] "
+                                           "max_current_A = {:g}",
+                                           s.range_A, motor.max_current_A));
+        }
+    }
+    return s;
+}
+
+Drive read_drive(const toml::table &root, const std::string &source)
+{
+    TomlReader        t(source, "", root);
     Drive             drive;
     const int         schema = t.integer("schema", {0, 1e6});
     if (schema != drive_schema) {
@@ -113,7 +145,8 @@ Drive read_drive_file(const std::filesystem::path &file)
     drive.motor    = read_motor(t.table("motor"));
     drive.inverter = read_inverter(t.table("inverter"));
     drive.encoder  = read_encoder(t.table("encoder"));
-    drive.law      = read_law(t);
+    drive.current_sensors = read_current_sensors(t.table_if("current_sensors"), drive.motor);
+    drive.law             = read_law(t);
     read_law_sections(t, drive);
     t.reject_unknown_keys();
     if (drive.inverter.dead_time_s * drive.inverter.pwm_frequency_Hz > 0.1) {
@@ -121,6 +154,24 @@ Drive read_drive_file(const std::filesystem::path &file)
                "is not allowed: must be at most a tenth of the PWM period");
     }
     return drive;
+}
+
+} // namespace
+
+Drive read_drive_file(const std::filesystem::path &file)
+{
+    return read_drive(parse_toml_file(file), file.string());
+}
+
+Drive read_drive_text(const std::string &text, const std::string &source)
+{
+    return read_drive(toml::parse(text), source);
+}
+
+CurrentSensors default_current_sensors(const Motor &motor)
+{
+    const double range_A = range_per_limit * motor.max_current_A;
+    return {range_A, noise_per_range * range_A};
 }
 
 const char *dc_link_sink_name(DcLinkSink sink)
@@ -133,6 +184,13 @@ const char *dc_link_sink_name(DcLinkSink sink)
 double control_period_s(const Drive &drive)
 {
     return 1.0 / (drive.inverter.pwm_frequency_Hz * drive.inverter.updates_per_period);
+}
+
+double trip_speed_e_radps(const Drive &drive)
+{
+    const Motor &m = drive.motor;
+    return m.max_speed_e_radps > 0.0 ? trip_per_max_speed * m.max_speed_e_radps
+                                     : trip_per_rated_speed * m.rated_speed_e_radps;
 }
 
 double count_e_rad(const Drive &drive)

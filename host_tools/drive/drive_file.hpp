@@ -21,6 +21,7 @@ struct Motor {
     double rated_speed_e_radps   = 0.0; ///< electrical
     double rated_torque_Nm       = 0.0;
     double max_current_A         = 0.0; ///< peak of the phase current
+    double max_speed_e_radps = 0.0; ///< largest command, electrical; 0 when not given
     int    slots = 0; ///< stator slots, periods of cogging per turn; 0 when not given
 };
 
@@ -44,6 +45,13 @@ struct Inverter {
 struct Encoder {
     int  lines      = 0;
     bool edge_times = false; ///< angle and speed from the times of the edges; else from counts
+};
+
+/// What measures the phase currents. The defaults follow the motor: a range that shows a trip at twice the limit.
+struct CurrentSensors {
+    double range_A     = 0.0; ///< full scale of the converter, either way
+    double noise_rms_A = 0.0;
+    int    adc_bits    = 12; ///< the F28335's converter
 };
 
 /// Weights of the speed controller: speed, i_q, i_d error; v_q, v_d.
@@ -141,6 +149,7 @@ struct Drive {
     Motor        motor;
     Inverter     inverter;
     Encoder      encoder;
+    CurrentSensors current_sensors;
     Law          law = Law::noc;
     NoscSpec     nosc; ///< nosc and nodo: laws of near optimal control
     NodoSpec     nodo;
@@ -155,12 +164,19 @@ constexpr int drive_schema = 1;
 
 /// InputError in one line on anything missing, unknown, not finite or out of range.
 Drive read_drive_file(const std::filesystem::path &file);
+/// The same of a text; `source` names it in messages.
+Drive read_drive_text(const std::string &text, const std::string &source);
+
+/// What a drive file without [current_sensors] has.
+CurrentSensors default_current_sensors(const Motor &motor);
 
 /// "none", "brake_chopper", "supply".
 const char *dc_link_sink_name(DcLinkSink sink);
 
 /// Control period: 1 / (pwm_frequency_Hz * updates_per_period).
 double control_period_s(const Drive &drive);
+/// Where the drive trips: beyond the largest command when the file says one, else three times the rated speed.
+double trip_speed_e_radps(const Drive &drive);
 /// From one edge of the encoder to the next, electrical [rad].
 double count_e_rad(const Drive &drive);
 

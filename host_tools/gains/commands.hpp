@@ -10,6 +10,7 @@ Command generate_command();
 Command report_command();
 Command orders_command();
 Command tune_command();
+Command new_command();
 Command care_command();
 
 } // namespace sdre

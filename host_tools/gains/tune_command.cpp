@@ -5,7 +5,9 @@
 #include "common/file_output.hpp"
 #include "design/design.hpp"
 #include "gains/commands.hpp"
+#include "tune/auto_tune.hpp"
 #include "tune/drive_text.hpp"
+#include "tune/goals.hpp"
 #include "tune/tune.hpp"
 
 namespace sdre {
@@ -20,36 +22,67 @@ struct Options {
 void declare(OptionList &list, Options &o)
 {
     list.required("DRIVE", o.drive, "drive file (TOML)");
-    list.required("--spec", o.spec, "specification (TOML)");
+    list.text("--spec", o.spec, "specification (TOML); without one the goals follow from physics");
     list.text("--out", o.out, "drive file to write instead");
 }
 
-int run(const Options &o)
+void say_progress(int evaluations, double worst)
 {
-    const Drive drive = read_drive_file(o.drive);
-    if (drive.law != Law::noc) {
-        throw InputError(
-            fmt::format("{}: law = \"{}\" has no weights to tune", o.drive, law_name(drive.law)));
-    }
-    const TuneSpec    spec = read_tune_spec(o.spec);
-    const std::string text = read_text_file(o.drive);
-    require_rewritable(o.drive, text);
-    const auto progress = [](int evaluations, double worst) {
-        fmt::print(stderr, "{} evaluations, worst result {:.3f} of its specification\n",
-                   evaluations, worst);
-    };
-    const TuneResult  result      = tune_drive(drive, spec, progress);
-    const Certificate certificate = design_drive(result.drive).certificate;
+    fmt::print(stderr, "{} evaluations, worst result {:.3f} of its goal\n", evaluations, worst);
+}
+
+/// Weights, what was wanted of them, and a line about it.
+struct Tuned {
+    TuneResult  result;
+    TuneSpec    spec;
+    std::string remark;
+};
+
+Tuned by_specification(const Options &o, const Drive &drive)
+{
+    Tuned t;
+    t.spec = read_tune_spec(o.spec);
+    require_torque(drive, t.spec.load_before_Nm + t.spec.load_step_Nm,
+                   fmt::format("{}: load_before_Nm + load_step_Nm", o.spec));
+    t.result                      = tune_drive(drive, t.spec, say_progress);
+    const Certificate certificate = design_drive(t.result.drive).certificate;
     if (!certificate.passed()) {
         throw DesignError(
             fmt::format("{}: the best weights found are not certified, nothing written: {}", o.spec,
                         fmt::join(certificate.failures, "; ")));
     }
-    const std::string sections = tuned_sections(result, spec);
+    t.remark = fmt::format("worst result / specification {:.2f}{}", t.result.worst_ratio,
+                           t.result.worst_ratio > 1.0 ? " (not all are met)" : "");
+    return t;
+}
+
+Tuned by_physics(const Options &o, const Drive &drive)
+{
+    try {
+        const AutoTuneResult r = auto_tune(drive, say_progress);
+        return {r.tuned, r.goals, r.binding};
+    } catch (const InputError &e) {
+        throw InputError(fmt::format("{}: {}", o.drive, e.what()));
+    } catch (const DesignError &e) {
+        throw DesignError(fmt::format("{}: {}, nothing written", o.drive, e.what()));
+    }
+}
+
+int run(const Options &o)
+{
+    const Drive drive  = read_drive_file(o.drive);
+    const bool  angles = drive.nodo.form == NodoForm::encoder;
+    if (drive.law != Law::noc && !(drive.law == Law::noc_h && o.spec.empty() && angles)) {
+        throw InputError(
+            fmt::format("{}: law = \"{}\" has no weights to tune", o.drive, law_name(drive.law)));
+    }
+    const std::string text = read_text_file(o.drive);
+    require_rewritable(o.drive, text);
+    const Tuned       tuned    = o.spec.empty() ? by_physics(o, drive) : by_specification(o, drive);
+    const std::string sections = tuned_sections(tuned.result, tuned.spec);
     const std::string out      = o.out.empty() ? o.drive : o.out;
     write_files({{out, with_sections(text, sections)}});
-    fmt::print("{}{}: written; worst result / specification {:.2f}{}\n", sections, out,
-               result.worst_ratio, result.worst_ratio > 1.0 ? " (not all are met)" : "");
+    fmt::print("{}{}: written; {}\n", sections, out, tuned.remark);
     return exit_ok;
 }
 

@@ -13,6 +13,7 @@
 #include "design/firmware_config.hpp"
 #include "design/sampled_model.hpp"
 #include "design/sampled_observer.hpp"
+#include "linalg/covariance.hpp"
 
 namespace sdre {
 namespace {
@@ -21,7 +22,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double pi          = 3.14159265358979323846;
-constexpr double horizon_s   = 0.06; // chosen: several times the settling times of interest
+// Chosen: a load step is followed for this many time constants of the slowest mode, and so long at least.
+constexpr double horizon_modes = 12.0;
+constexpr double horizon_s     = 0.06;
+constexpr double most_steps    = 20000.0; // a mode slower than that is told from its pole
+constexpr double noise_slope = 3.0;  // a limit: beyond it nothing else counts
 constexpr double no_solution = 1e12; // of the Riccati equations: worse than any unstable loop
 
 enum Weight { speed_error, q_axis_error, load_drift, voltage_drift, speed_noise, current_noise };
@@ -48,21 +53,17 @@ OperatingPoint operating_point(const ReducedParameters &l, double speed, double 
     return at;
 }
 
-/// Covariance of x+ = A x + B n with the given noise variances, by doubling.
-MatrixXd covariance(MatrixXd A, const MatrixXd &B, const VectorXd &variances)
+int horizon_steps(const SampledModel &m)
 {
-    MatrixXd P = B * variances.asDiagonal() * B.transpose();
-    for (int i = 0; i < 30 && A.norm() > 1e-12; i++) {
-        P = P + A * P * A.transpose();
-        A = A * A;
-    }
-    return P;
+    const double slowest = -1.0 / std::log(std::min(spectral_radius(m.A), 0.99999)); // periods
+    return static_cast<int>(
+        std::min(std::max(horizon_s / m.ts_s, horizon_modes * slowest), most_steps));
 }
 
 void load_step(const SampledModel &m, const TuneSpec &spec, CaseResult &result)
 {
     VectorXd  x     = VectorXd::Zero(m.A.rows());
-    const int steps = static_cast<int>(horizon_s / m.ts_s);
+    const int steps = horizon_steps(m);
     for (int k = 1; k <= steps; k++) {
         x                  = m.A * x + m.b_load * spec.load_step_Nm;
         result.dip_e_radps = std::max(result.dip_e_radps, std::abs(x(0)));
@@ -116,7 +117,7 @@ double worst_radius(const Loop &loop, const Drive &drive, const RobustnessCase &
     }
     if (is_nominal(c)) {
         const double iq_A   = 2.0 * drive.motor.max_current_A;
-        const double radius = loop.radius_at({trip_speed_ratio * drive.motor.rated_speed_e_radps,
+        const double radius = loop.radius_at({trip_speed_e_radps(drive),
                                               iq_A, mtpa_id_A(loop.motor, iq_A)});
         worst               = radius < 1.0 ? worst : std::max(1.0, radius);
     }
@@ -151,13 +152,11 @@ double ratio(const CaseResult &r, const RobustnessCase &c, const TuneSpec &spec)
     if (!(r.spectral_radius < 1.0)) {
         return unstable_score * r.spectral_radius;
     }
-    const double noise = is_nominal(c) && spec.voltage_noise_V > 0.0
-                             ? r.voltage_noise_V / spec.voltage_noise_V
-                             : 0.0;
-    return std::max({noise, r.dip_e_radps / c.dip_e_radps, r.settling_time_s / c.settling_time_s,
-                     r.ripple_e_radps / c.ripple_e_radps,
-                     (1.0 - spec.largest_pole) / (1.0 - r.spectral_radius),
-                     r.voltage_V / spec.voltage_headroom_V});
+    double worst = 0.0;
+    for (const GoalRatio &goal : goal_ratios(r, c, spec)) {
+        worst = std::max(worst, goal.ratio);
+    }
+    return worst;
 }
 
 double six_digits(double x)
@@ -166,6 +165,23 @@ double six_digits(double x)
 }
 
 } // namespace
+
+std::vector<GoalRatio> goal_ratios(const CaseResult &r, const RobustnessCase &c,
+                                   const TuneSpec &spec)
+{
+    double noise = is_nominal(c) && spec.voltage_noise_V > 0.0
+                       ? r.voltage_noise_V / spec.voltage_noise_V
+                       : 0.0;
+    if (spec.noise_is_a_limit && noise > 1.0) {
+        noise *= noise_slope * noise * noise * noise;
+    }
+    return {{"noise of v_q", noise},
+            {"dip", r.dip_e_radps / c.dip_e_radps},
+            {"settling time", r.settling_time_s / c.settling_time_s},
+            {"ripple", r.ripple_e_radps / c.ripple_e_radps},
+            {"slowest mode", (1.0 - spec.largest_pole) / (1.0 - r.spectral_radius)},
+            {"voltage", r.voltage_V / spec.voltage_headroom_V}};
+}
 
 Sensors sensors_of(const Drive &drive, const TuneSpec &spec)
 {

@@ -39,6 +39,15 @@ struct CaseResult {
     double spectral_radius = 0.0; ///< worst over speeds
 };
 
+/// One result over what is wanted of it; at most 1 when it is met.
+struct GoalRatio {
+    const char *name;
+    double      ratio;
+};
+
+std::vector<GoalRatio> goal_ratios(const CaseResult &result, const RobustnessCase &wanted,
+                                   const TuneSpec &spec);
+
 struct Score {
     double worst = 0.0; ///< largest result / specification; at most 1 when every one is met
     double value =

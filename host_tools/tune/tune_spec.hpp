@@ -31,6 +31,8 @@ struct TuneSpec {
         0.0; ///< what the load step and three deviations of noise may ask for
     double voltage_noise_V =
         0.0; ///< rms of v_q at constant speed and load, nominal case; 0: whatever the headroom allows
+    bool noise_is_a_limit =
+        false; ///< more noise is worse than any other goal missed; else one goal of several
     // Sensors: standard deviations of one sample, quantisation included by the tool.
     double                      current_noise_A = 0.0;
     double                      current_lsb_A   = 0.0;

@@ -109,7 +109,7 @@ static void test_step_is_made_of_its_parts(void)
         const dq_t   fb = nosc_feedback_V(&config->near_optimal.nosc, &e);
         law_output_t all;
         near_optimal_answer(&want.near_optimal, &config->near_optimal, &drive->motor, &view, &e, fb,
-                            in.sample->dc_link_V, &all);
+                            &in, &all);
 
         const law_output_t out = law_answer(drive, &state, &in);
 

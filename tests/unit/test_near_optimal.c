@@ -70,7 +70,7 @@ static law_output_t answer(const nosc_error_t *e, dq_t feedback_V)
 {
     law_output_t out;
 
-    near_optimal_answer(&state, config, &drive.motor, &view, e, feedback_V, sample.dc_link_V, &out);
+    near_optimal_answer(&state, config, &drive.motor, &view, e, feedback_V, &in, &out);
     return out;
 }
 

@@ -65,7 +65,7 @@ speed_difference_config_t speed_difference_constants(const Drive &d, double wind
 {
     const double ts = control_period_s(d);
     const double most =
-        half_turn_share * pi / (trip_speed_ratio * d.motor.rated_speed_e_radps * ts);
+        half_turn_share * pi / (trip_speed_e_radps(d) * ts);
     const double n = std::min({std::round(window_s / ts), std::floor(most),
                                static_cast<double>(SPEED_DIFFERENCE_PERIODS_MAX)});
 

@@ -10,6 +10,9 @@ namespace {
 // Chosen: the count is rounded by half of one, an edge is off by up to another half, and so is the estimate that follows
 // both; the rest is for eccentric discs and motors that are not as believed.
 constexpr double quiet_cnt = 4.0;
+// Chosen: an edge is off by less than 0.5 counts and a reading by half of one more; a step below that would cut the
+// encoder's own error, which is not the same to both sides, and leave a bias. Loads cause less with much inertia.
+constexpr double least_step_cnt = 0.8;
 // Long against any observer that is certified: its slowest pole forgets within this.
 constexpr int periods = 10000;
 
@@ -39,7 +42,8 @@ angle_gate_config_t angle_gate_constants(const encoder_form_limits_t &limits,
 {
     const double count_rad = static_cast<double>(gains.count_rad);
     const double step_rad =
-        step_innovation_rad(static_cast<double>(limits.d_omega), gains, ts_s); // EQ-ANGLE-GATE-3
+        std::max(step_innovation_rad(static_cast<double>(limits.d_omega), gains, ts_s),
+                 least_step_cnt * count_rad); // EQ-ANGLE-GATE-3
     const auto most_rad = static_cast<double>(limits.angle_rad);
     return {static_cast<float>(std::min(quiet_cnt * count_rad + step_rad, most_rad)),
             static_cast<float>(std::min(step_rad, most_rad)), gains.count_rad, limits.d_omega};

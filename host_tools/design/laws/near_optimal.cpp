@@ -10,6 +10,7 @@
 #include "design/firmware_config.hpp"
 #include "design/sampled_model.hpp"
 #include "design/sampled_observer.hpp"
+#include "linalg/covariance.hpp"
 
 namespace sdre {
 namespace {
@@ -22,6 +23,11 @@ constexpr double smallest_l1_ratio = 0.5;
 // Chosen: twice the torque the motor has, so that a motor with half the believed inertia does not trip.
 // A shaft that stops sooner than by this has an encoder that stands (EQ-ANGLE-GATE-2).
 constexpr double trip_torque_ratio = 2.0;
+// Chosen: what one count off does to the estimate of the load, once and a half, beside the whole torque. With much inertia
+// or few lines that is more than the torque again.
+constexpr double trip_kick_ratio = 1.5;
+// Two edges of a disc are off by this at most, and so is the speed between them with which a run starts.
+constexpr double start_error_cnt = 0.35;
 // Chosen: an encoder wrong by this much turns a tenth of the torque into flux.
 constexpr double trip_angle_rad = 0.45;
 // Chosen: 0.5 % of the torque stays for the feedback while the reference accelerates.
@@ -79,7 +85,7 @@ double near_e_radps(const Design &d)
     const Eigen::MatrixXd &Lambda = d.nosc.gain[0];
     const double full = 2.0 * speed_current_ratio * d.drive.motor.max_current_A * Lambda(0, 1) /
                         std::max(Lambda(0, 0), 1e-9);
-    return std::min(full, trip_speed_ratio * d.drive.motor.rated_speed_e_radps);
+    return std::min(full, trip_speed_e_radps(d.drive));
 }
 
 current_ref_config_t current_ref_constants(const Design &d, bool exact)
@@ -190,6 +196,31 @@ encoder_form_limits_t encoder_limits(const Design &d)
             single(trip_torque_ratio * d.l[3] * largest_torque_Nm(d.drive.motor, d.l))};
 }
 
+TripMargin disturbance_margin(const Design &d, const encoder_form_limits_t &limits,
+                              const Eigen::MatrixXd &A, const Eigen::MatrixXd &B_noise,
+                              double angle_weight)
+{
+    constexpr Eigen::Index d_omega  = 4;   // of EQ-CERT-3's state
+    constexpr double       as_noise = 6.0; // chosen: once in two days of samples, if it is normal
+    const double           ts       = control_period_s(d.drive);
+    const Eigen::MatrixXd  P        = covariance(
+                A, B_noise, Eigen::Vector3d(d.drive.nodo.T[0], d.drive.nodo.T[1], angle_weight) / ts);
+    return {"disturbance of the speed [rad/s2]", static_cast<double>(limits.d_omega),
+            d.l[3] * largest_torque_Nm(d.drive.motor, d.l) +
+                as_noise * std::sqrt(P(d_omega, d_omega))};
+}
+
+float believed_d_omega(const encoder_form_limits_t &limits, const encoder_form_gains_t &gains,
+                       double ts_s)
+{
+    const double torque = static_cast<double>(limits.d_omega) / trip_torque_ratio;
+    const double count  = static_cast<double>(gains.count_rad);
+    const double kick   = static_cast<double>(gains.d_omega_1ps2) * count;
+    const double pace = std::cbrt(static_cast<double>(gains.d_omega_1ps2) / ts_s); // of three poles
+    const double start = 0.5 * pace * start_error_cnt * count / ts_s;
+    return std::max(limits.d_omega, single(torque + trip_kick_ratio * kick + start));
+}
+
 double worst_residual(const Design &d)
 {
     const auto worst = [](const GainSeries &g) {
@@ -221,12 +252,6 @@ std::string observer_line(const SampledLoop &o)
     return fmt::format(" *            observer:   slowest pole {:.0f} 1/s, sampled spectral radius "
                        "{:.3f}, |iq| <= {:g} A\n",
                        o.worst_pole_1ps, o.spectral_radius, o.range_A);
-}
-
-std::string box_line(const RobustBox &box)
-{
-    return fmt::format(" *            motors:     stable in {:.2f} of EQ-CERT-5's box\n",
-                       box.share);
 }
 
 std::string near_optimal_block(const near_optimal_config_t &c)

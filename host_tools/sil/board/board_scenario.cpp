@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "sil/setup/board_reader.hpp"
 
 extern "C" {
 #include "board_config.h"
@@ -64,7 +65,7 @@ BoardScenario for_board(const Scenario &scenario)
             fmt::format("the board's PWM runs at {:g} kHz", 1e-3 * board_pwm_Hz));
     if (s.sensors.ideal) {
         const bool edge_time        = s.sensors.encoder_edge_time;
-        s.sensors                   = SensorSettings{};
+        s.sensors                   = sensors_of_drive(s.drive);
         s.sensors.ideal             = false;
         s.sensors.encoder_edge_time = edge_time;
         s.inverter.dead_time_s      = s.inverter.dead_time_s.value_or(0.0);

@@ -105,6 +105,16 @@ void read_chopper(TomlReader &t, InverterSettings &s, const Drive &drive)
 
 } // namespace
 
+SensorSettings sensors_of_drive(const Drive &drive)
+{
+    SensorSettings s;
+    s.encoder_edge_time = drive.encoder.edge_times;
+    s.adc_bits          = drive.current_sensors.adc_bits;
+    s.adc_full_scale_A  = drive.current_sensors.range_A;
+    s.adc_noise_rms_A   = drive.current_sensors.noise_rms_A;
+    return s;
+}
+
 SensorSettings read_sensors(TomlReader t, SensorSettings s, const Drive &drive)
 {
     s.ideal = t.boolean_or("ideal", s.ideal);

@@ -13,6 +13,9 @@ namespace sdre {
 
 struct Drive;
 
+/// Exact signals; everything else as the drive file says.
+SensorSettings sensors_of_drive(const Drive &drive);
+
 SensorSettings        read_sensors(TomlReader t, SensorSettings now, const Drive &drive);
 InverterSettings      read_board_inverter(TomlReader t, InverterSettings now, const Drive &drive);
 MotorEffects          read_motor_effects(TomlReader t);

@@ -26,9 +26,9 @@ struct SensorSettings {
     double encoder_eccentricity_rad      = 0.0;   ///< mechanical, amplitude of one sine per turn
     double encoder_offset_e_rad          = 0.0;   ///< alignment error, electrical
     EncoderDiscSettings encoder_disc;
-    int                 adc_bits = 12;    ///< the F28335's converter
-    double adc_full_scale_A      = 10.0;  ///< chosen: 2.5 x the 4 A limit, so that a trip is seen
-    double adc_noise_rms_A       = 0.010; ///< chosen: 2 codes, a Hall sensor with its amplifier
+    int                 adc_bits = 12; ///< this and the next two: the drive file's unless given
+    double adc_full_scale_A      = 10.0;
+    double adc_noise_rms_A       = 0.010;
     double adc_offset_a_A        = 0.0;   ///< calibrated before the start
     double adc_offset_b_A        = 0.0;
     double adc_gain_a            = 1.0;

@@ -67,8 +67,8 @@ void read_load(TomlReader &t, Scenario &s)
 
 void read_board(TomlReader &t, Scenario &s)
 {
-    s.dc_link_V                 = s.drive.inverter.dc_link_V;
-    s.sensors.encoder_edge_time = s.drive.encoder.edge_times;
+    s.dc_link_V = s.drive.inverter.dc_link_V;
+    s.sensors   = sensors_of_drive(s.drive);
     if (std::optional<TomlReader> inverter = t.table_if("inverter")) {
         inverter->integer_or("updates_per_period", updates_range, 1); // read with the drive
         s.inverter  = read_board_inverter(*inverter, s.inverter, s.drive);

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+/// Whether what a data sheet says goes together, and with the inverter: each contradiction names both values.
+#pragma once
+
+#include "facts/machine.hpp"
+
+namespace sdre {
+
+/// What the sheet says more than once: torque, power, time constants against the values that were read.
+void check_ratings(const Facts &facts, const Machine &m, Findings &findings);
+
+/// What physics needs: voltage, current slope, acceleration, counts of the encoder, flux of the iron.
+void check_machine(const Machine &m, Findings &findings);
+
+} // namespace sdre

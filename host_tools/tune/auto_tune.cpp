@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "tune/auto_tune.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "design/design.hpp"
+#include "tune/goals.hpp"
+#include "tune/search.hpp"
+#include "tune/start_weights.hpp"
+
+namespace sdre {
+namespace {
+
+// Chosen: the best pace of these, relative to that of the sensors, is within a fifth of the best there is.
+constexpr std::array paces{0.6, 0.8, 1.0, 1.3, 1.7, 2.2, 3.0};
+// Chosen: weights that are not certified are searched anew from a slower start, so often.
+constexpr int    attempts = 4;
+constexpr double slower   = 1.4;
+constexpr int    report_every = 100; // evaluations
+
+/// The start weights with the searched ones changed by decades.
+Drive moved(const Drive &start, const Point &decades)
+{
+    const auto x = [&](std::size_t i) { return std::pow(10.0, decades[i]); };
+    Drive      d = start;
+    d.nosc.Q[0]  = written(x(0) * start.nosc.Q[0]);
+    d.nosc.Q[1]  = written(x(1) * start.nosc.Q[1]);
+    d.nodo.Q[0]  = written(x(2) * start.nodo.Q[0]);
+    d.nodo.Q[1] = d.nodo.Q[2] = written(x(3) * start.nodo.Q[1]);
+    d.nodo.Q[3]               = written(x(4) * start.nodo.Q[3]);
+    d.nodo.Q[4] = d.nodo.Q[5] = written(x(5) * start.nodo.Q[4]);
+    return d;
+}
+
+class Search {
+public:
+    Search(const Drive &drive, const TuneSpec &goals, const TuneProgress &progress)
+        : drive_(drive), goals_(goals), progress_(progress)
+    {
+    }
+
+    double best_pace()
+    {
+        const double sensors = pace_of_sensors(drive_);
+        double       best    = sensors;
+        double       least   = 1e300;
+        for (const double pace : paces) {
+            const double value = evaluate(start_weights(drive_, pace * sensors));
+            if (value < least) {
+                least = value;
+                best  = pace * sensors;
+            }
+        }
+        return best;
+    }
+    Drive from(double pace)
+    {
+        const Drive start = start_weights(drive_, pace);
+        return moved(start, minimise({}, [&](const Point &x) { return evaluate(moved(start, x)); }));
+    }
+    int evaluations() const
+    {
+        return evaluations_;
+    }
+
+private:
+    double evaluate(const Drive &d)
+    {
+        const Score s = score(d, goals_);
+        best_         = std::min(best_, s.worst);
+        if (++evaluations_ % report_every == 0) {
+            progress_(evaluations_, best_);
+        }
+        return s.value;
+    }
+
+    const Drive        &drive_;
+    const TuneSpec     &goals_;
+    const TuneProgress &progress_;
+    double              best_        = 1e300;
+    int                 evaluations_ = 0;
+};
+
+const char *what_relaxes(const std::string &goal)
+{
+    if (goal == "noise of v_q") {
+        return "a finer encoder, current sensors with less noise or range";
+    }
+    if (goal == "voltage") {
+        return "a higher dc link";
+    }
+    if (goal == "ripple") {
+        return "a finer encoder";
+    }
+    return "a higher PWM frequency, two updates a period, finer sensors";
+}
+
+std::string binding_goal(const Score &s, const TuneSpec &goals)
+{
+    std::string name;
+    std::size_t at    = 0;
+    double      worst = 0.0;
+    for (std::size_t i = 0; i < goals.cases.size(); i++) {
+        for (const GoalRatio &g : goal_ratios(s.cases[i], goals.cases[i], goals)) {
+            if (g.ratio > worst) {
+                worst = g.ratio;
+                name  = g.name;
+                at    = i;
+            }
+        }
+    }
+    const double noise = s.cases[0].voltage_noise_V / goals.voltage_noise_V;
+    return fmt::format("{}{} binds, {:.2f} of its goal; v_q noise at {:.2f} of its limit. What would "
+                       "relax it: {}",
+                       name, at == 0 ? "" : " of a motor that is not as believed", worst, noise,
+                       what_relaxes(noise > 0.9 ? "noise of v_q" : name));
+}
+
+} // namespace
+
+AutoTuneResult auto_tune(const Drive &drive, const TuneProgress &progress)
+{
+    AutoTuneResult r;
+    r.goals = goals_from_physics(drive);
+    Search      search(drive, r.goals, progress);
+    double      pace = search.best_pace();
+    std::string refused;
+    for (int i = 0; i < attempts; i++, pace *= slower) {
+        Drive found = search.from(pace);
+        found.law   = drive.law;
+        const Score s = score(found, r.goals);
+        if (!(s.worst < unstable_score)) {
+            refused = "no stable design found";
+            continue;
+        }
+        const Certificate certificate = design_drive(found).certificate;
+        if (certificate.passed()) {
+            r.tuned = {found, s.cases, s.worst, search.evaluations(), false};
+            r.goals.voltage_V      = 1.0 / std::sqrt(found.nosc.T[0]);
+            r.goals.d_axis_error_A = 1.0 / std::sqrt(found.nosc.Q[2]);
+            r.binding              = binding_goal(s, r.goals);
+            return r;
+        }
+        refused = fmt::format("{}", fmt::join(certificate.failures, "; "));
+    }
+    throw DesignError(fmt::format("nothing certified was found: {}", refused));
+}
+
+} // namespace sdre

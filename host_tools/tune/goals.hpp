@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+/// What a drive can be asked for, from its motor, inverter and sensors alone: the input of `sdre-gains tune` without a
+/// specification.
+#pragma once
+
+#include <string>
+
+#include "drive/drive_file.hpp"
+#include "tune/tune_spec.hpp"
+
+namespace sdre {
+
+/// Of a step from half to all of the rated torque at half the rated speed: what no controller can do much better, because
+/// the shaft has to turn by the encoder's error before anything shows, a new voltage acts after one and a half periods and
+/// the current needs its time at full voltage.
+struct PhysicalBound {
+    double reaction_s;  ///< the shaft's way, delay and half of the current's way
+    double dip_e_radps; ///< acceleration of the step times that
+};
+
+PhysicalBound physical_bound(const Drive &drive);
+
+/// Goals and robustness cases. InputError when the motor cannot have its ratings: torque beyond the current limit, speed
+/// beyond the dc link.
+TuneSpec goals_from_physics(const Drive &drive);
+
+/// InputError when a load is more than the current limit carries, in one line that names both.
+void require_torque(const Drive &drive, double load_Nm, const std::string &what);
+
+} // namespace sdre

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "tune/start_weights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "design/laws/near_optimal.hpp"
+#include "design/motor_model.hpp"
+#include "design/sampled_model.hpp"
+#include "tune/objective.hpp"
+
+namespace sdre {
+namespace {
+
+// The weights of ipmsm_390w.toml in motor_units() with pace 1.
+constexpr double speed_weight      = 1.73e-2;
+constexpr double q_current_weight  = 1.90e-5;
+constexpr double d_current_weight  = 0.99;
+constexpr double voltage_weight    = 29.0;
+constexpr double load_drift        = 6.0e-2;
+constexpr double voltage_drift     = 5.7e-5;
+constexpr double speed_noise       = 0.13;
+constexpr double current_noise     = 3.7e-3;
+constexpr double angle_error_units = 0.38;
+
+// Edges of a disc that are not where they were learned, and what the learning leaves: 2.3 degrees of a line. On a real
+// disc (docs/architecture.md) the noise of v_q is then what the linear model says, on every motor of docs/motors.md.
+constexpr double edge_error_cnt = 0.025;
+
+/// Acceleration per ampere, with the reluctance torque of the largest current.
+double accel_per_A(const Drive &d, const ReducedParameters &l)
+{
+    const double iq_A = largest_iq_A(d.motor, mtpa_A(l), true);
+    return l[3] * torque_Nm(d.motor, mtpa_id_A(l, iq_A), iq_A) / d.motor.max_current_A;
+}
+
+} // namespace
+
+MotorUnits motor_units(const Drive &d, double pace)
+{
+    const ReducedParameters l = reduced_parameters(d.motor);
+    MotorUnits              u{};
+    u.time_s        = pace * control_period_s(d);
+    u.voltage_V     = d.inverter.dc_link_V / std::sqrt(3.0);
+    u.current_A     = u.voltage_V * u.time_s / d.motor.q_axis_inductance_H;
+    u.speed_e_radps = accel_per_A(d, l) * u.current_A * u.time_s;
+    return u;
+}
+
+SampleNoise sample_noise(const Drive &d)
+{
+    const CurrentSensors &s     = d.current_sensors;
+    const double          lsb_A = 2.0 * s.range_A / std::exp2(s.adc_bits);
+    const double          whole = 1.0 / std::sqrt(12.0); // standard deviation of a rounded number
+    return {std::hypot(s.noise_rms_A, lsb_A * whole),
+            count_e_rad(d) * (d.encoder.edge_times ? edge_error_cnt : whole)};
+}
+
+double pace_of_sensors(const Drive &d)
+{
+    const MotorUnits u     = motor_units(d, 1.0);
+    const double     units = sample_noise(d).angle_rad / (u.speed_e_radps * u.time_s);
+    return std::max(1.0, std::cbrt(units / angle_error_units)); // an angle unit grows with pace^3
+}
+
+Drive start_weights(Drive d, double pace)
+{
+    const MotorUnits  u     = motor_units(d, pace);
+    const SampleNoise n     = sample_noise(d);
+    const double      ts    = control_period_s(d);
+    const auto per_square   = [](double weight, double unit) { return written(weight / (unit * unit)); };
+    const auto drift        = [&](double weight, double unit) {
+        return written(weight * unit * unit / u.time_s);
+    };
+    const double t_voltage = per_square(voltage_weight, u.voltage_V);
+    const double d_iq      = drift(voltage_drift, u.current_A / u.time_s);
+    const double i         = drift(current_noise, u.current_A);
+    const double t_current = written(n.current_A * n.current_A * ts);
+
+    d.law        = Law::noc;
+    d.nosc.order = 2;
+    d.nosc.Q     = {per_square(speed_weight, u.speed_e_radps),
+                    per_square(q_current_weight, u.current_A),
+                    per_square(d_current_weight, u.current_A)};
+    d.nosc.T     = {t_voltage, t_voltage};
+    d.nodo.form  = NodoForm::encoder;
+    d.nodo.order = 1;
+    d.nodo.Q     = {drift(load_drift, u.speed_e_radps / u.time_s), d_iq, d_iq,
+                    drift(speed_noise, u.speed_e_radps), i, i, 0.0};
+    d.nodo.T     = {t_current, t_current, written(n.angle_rad * n.angle_rad * ts)};
+    return d;
+}
+
+Drive start_weights(const Drive &d)
+{
+    return start_weights(d, pace_of_sensors(d));
+}
+
+std::string start_sections(const Drive &d)
+{
+    return fmt::format(
+        "[nosc]\norder = {}\nQ = [{:.3g}, {:.3g}, {:.3g}] # speed, i_q, i_d\nT = [{:.3g}, {:.3g}] "
+        "# v_q, v_d\n\n"
+        "[nodo]\nform = \"encoder\"\norder = {}\n"
+        "# drift of d_w, d_q, d_d; noise of w, i_q, i_d; theta' = w is exact: 0\n"
+        "Q = [{:.3g}, {:.3g}, {:.3g}, {:.3g}, {:.3g}, {:.3g}, 0.0]\n"
+        "T = [{:.3g}, {:.3g}, {:.3g}] # variance x period of a sample: currents, angle\n",
+        d.nosc.order, d.nosc.Q[0], d.nosc.Q[1], d.nosc.Q[2], d.nosc.T[0], d.nosc.T[1], d.nodo.order,
+        d.nodo.Q[0], d.nodo.Q[1], d.nodo.Q[2], d.nodo.Q[3], d.nodo.Q[4], d.nodo.Q[5], d.nodo.T[0],
+        d.nodo.T[1], d.nodo.T[2]);
+}
+
+} // namespace sdre

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+/// Weights for any motor: those of the 390 W motor in the units in which all motors look alike.
+///
+/// A unit of time T = pace * Ts, of voltage the circle v_dc / sqrt(3), of current what that voltage adds in T to the q axis,
+/// of speed what that current adds in T. A larger pace is a slower loop, for sensors that know less.
+#pragma once
+
+#include <string>
+
+#include "drive/drive_file.hpp"
+
+namespace sdre {
+
+/// What a unit is in SI.
+struct MotorUnits {
+    double time_s;
+    double voltage_V;
+    double current_A;
+    double speed_e_radps;
+};
+
+MotorUnits motor_units(const Drive &drive, double pace);
+
+/// Variances of a sample that the observer is told of.
+struct SampleNoise {
+    double current_A; ///< standard deviation, quantisation included
+    double angle_rad; ///< the same, electrical
+};
+
+SampleNoise sample_noise(const Drive &drive);
+
+/// The pace at which the encoder's error is as large in motor_units() as on the 390 W motor; at least 1.
+double pace_of_sensors(const Drive &drive);
+
+/// The drive as law noc in its encoder form with these weights, each with three digits.
+Drive start_weights(Drive drive, double pace);
+Drive start_weights(const Drive &drive);
+
+/// Its [nosc] and [nodo] sections.
+std::string start_sections(const Drive &drive);
+
+} // namespace sdre
