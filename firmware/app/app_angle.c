@@ -244,18 +244,18 @@ static void drop_after_jump(app_angle_t *a, int16_t turned_cnt)
     a->have_turned = true;
 }
 
-/* More than a turn, and what a correction may put right, without the mark. */
+/* More than a turn, and what a correction may put right, without the mark. Begins anew with the complaint. */
 static bool index_is_missing(app_angle_t *a, bool seen, int16_t turned_cnt)
 {
     const int32_t most_cnt = (int32_t)BOARD_POSITIONS + (int32_t)a->config->index_correct_max_cnt;
 
     a->have_index      = a->have_index || seen;
     a->since_index_cnt = seen ? 0L : (a->since_index_cnt + (int32_t)turned_cnt);
-    if (!a->have_index || ((a->since_index_cnt <= most_cnt) && (a->since_index_cnt >= -most_cnt))) {
+    if ((a->since_index_cnt <= most_cnt) && (a->since_index_cnt >= -most_cnt)) {
         return false;
     }
-    a->since_index_cnt = 0L; /* a turn more until the next complaint */
-    return true;
+    a->since_index_cnt = 0L;
+    return a->have_index;
 }
 
 /* What two positions in a row say of the counter. */

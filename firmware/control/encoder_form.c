@@ -52,12 +52,6 @@ void encoder_form_edges_reset(encoder_form_edges_t *edges)
 #define WIDEST    1.5f
 #define GAP_MIN_s 1.0e-7f
 
-/* A place in offset_rad, and no flipped bit. */
-static bool is_edge(int16_t edge)
-{
-    return (edge >= 1) && (edge <= ENCODER_FORM_EDGES);
-}
-
 static float offset_of(const encoder_form_edges_t *edges, int16_t edge)
 {
     return edges->offset_rad[edge - 1];
@@ -92,20 +86,28 @@ static void learn(encoder_form_edges_t *edges, const drive_sample_t *s, float mo
     add_offset(edges, first, rho * step_rad, most_rad);
 }
 
+/* A place in offset_rad, or none; what else it were would be a flipped bit. */
+static int16_t place(int16_t edge)
+{
+    return ((edge >= 0) && (edge <= ENCODER_FORM_EDGES)) ? edge : 0;
+}
+
 float encoder_form_learn(encoder_form_edges_t *edges, const drive_sample_t *s, float count_rad,
                          float ts_s)
 {
     const int16_t edge = s->edge_of_line;
 
-    if (!is_edge(edge)) {
+    if ((edge < 1) || (edge > ENCODER_FORM_EDGES)) {
         /* An edge without a time, or edges of which nothing is known. */
         if ((s->edge_age_s > 0.0f) || !encoder_form_is_rare(s, ts_s)) {
             edges->edge[0] = 0;
         }
         return 0.0f;
     }
+    edges->edge[0]       = place(edges->edge[0]);
+    edges->edge[1]       = place(edges->edge[1]);
     const int16_t before = edges->edge[0];
-    if (is_edge(before) && is_edge(edges->edge[1])) {
+    if ((before != 0) && (edges->edge[1] != 0)) {
         learn(edges, s, 0.5f * count_rad, LEARN_PERIODS * ts_s);
     }
     const float per_gap_1ps = 1.0f / base_max(s->edge_gap_s, GAP_MIN_s);
@@ -115,7 +117,7 @@ float encoder_form_learn(encoder_form_edges_t *edges, const drive_sample_t *s, f
     edges->edge[0]          = edge;
 
     const float off_rad = offset_of(edges, edge);
-    const float turned  = is_edge(before) ? (off_rad - offset_of(edges, before)) : 0.0f;
+    const float turned  = (before != 0) ? (off_rad - offset_of(edges, before)) : 0.0f;
     return off_rad + (turned * base_min(s->edge_age_s * per_gap_1ps, WIDEST));
 }
 

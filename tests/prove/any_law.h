@@ -39,6 +39,7 @@ static void step(law_state_t *state, const drive_config_t *c, const law_input_t 
     *out               = any_answer;
     out->plausible     = any_bool();
     out->without_angle = any_bool();
+    out->predicted     = any_bool();
 }
 
 static const law_t any_law = {.check = check, .reset = reset, .step = step};

@@ -213,22 +213,22 @@ TEST(SensorFaults, CurrentSensorsThatLieAreFound)
 {
     for (const char *phase : {"phase = \"a\"\n", "phase = \"b\"\n"}) {
         const std::string at = phase;
-        expect_found(at + "kind = \"current_zero\"", 5e-3, 1.5, {100.0, 300.0, -523.0});
-        expect_found(at + "kind = \"current_frozen\"", 15e-3, 1.5, {100.0, 300.0, -523.0});
-        expect_found(at + "kind = \"current_drift\"\nrate_Aps = -1e6\nuntil_A = 6.0", 5e-3, 1.5,
-                     {0.0, 20.0, 100.0, -300.0, 523.0});
-        expect_found(at + "kind = \"current_gain\"\ngain = 0.3", 20e-3, 1.5, {100.0, 300.0});
+        expect_found(at + "kind = \"current_zero\"", 5e-3, 1.05, {100.0, 300.0, -523.0});
+        expect_found(at + "kind = \"current_frozen\"", 15e-3, 1.05, {100.0, 300.0, -523.0});
+        expect_found(at + "kind = \"current_gain\"\ngain = 0.3", 20e-3, 1.25, {100.0, 300.0});
     }
 }
 
-/// An offset of half the limit that comes at once never drives more than 1.5 times the limit, found or not.
-TEST(SensorFaults, SmallOffsetsStayBelowTheLimit)
+/// EQ-CURRENT-GATE-2, twice in a row.
+TEST(SensorFaults, OffsetsThatComeAtOnceAreFoundAtOnce)
 {
-    for (const double speed : {0.0, 20.0, 100.0, 300.0, -523.0}) {
-        const Outcome o = worst_of(
-            speed,
-            broken("kind = \"current_drift\"\nphase = \"b\"\nrate_Aps = 1e6\nuntil_A = 2.0"));
-        EXPECT_LE(o.peak_A, 1.5 * limit_A) << speed;
+    for (const char *phase : {"a", "b"}) {
+        for (const double offset_A : {-6.0, -4.0, -2.0, 2.0, 4.0, 6.0}) {
+            const std::string keys =
+                fmt::format("kind = \"current_drift\"\nphase = \"{}\"\nrate_Aps = {}\nuntil_A = {}",
+                            phase, std::copysign(1e6, offset_A), std::abs(offset_A));
+            expect_found(keys, 1e-3, 1.05, {0.0, 20.0, 300.0, -523.0});
+        }
     }
 }
 
