@@ -201,8 +201,8 @@ float believed_d_omega(const encoder_form_limits_t &limits, const encoder_form_g
     const double torque = static_cast<double>(limits.d_omega) / trip_torque_ratio;
     const double count  = static_cast<double>(gains.count_rad);
     const double kick   = static_cast<double>(gains.d_omega_1ps2) * count;
-    const double pace   = std::cbrt(static_cast<double>(gains.d_omega_1ps2) / ts_s); // of three poles
-    const double start  = 0.5 * pace * start_error_cnt * count / ts_s;
+    const double pace = std::cbrt(static_cast<double>(gains.d_omega_1ps2) / ts_s); // of three poles
+    const double start = 0.5 * pace * start_error_cnt * count / ts_s;
     return std::max(limits.d_omega, single(torque + trip_kick_ratio * kick + start));
 }
 

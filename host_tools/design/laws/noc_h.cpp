@@ -115,11 +115,11 @@ void solve(Design &d)
     d.harmonics = design_harmonics(d.l, d.drive, trip, m.max_current_A);
     certify_harmonics(d);
     law_noc_h_config_t c{};
-    c.near_optimal = near_optimal_constants(d, true, true);
-    c.plausible    = encoder_limits(d);
-    c.nodo         = *d.harmonics->table;
-    c.rare         = sample_gains(d);
-    c.gate         = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
+    c.near_optimal      = near_optimal_constants(d, true, true);
+    c.plausible         = encoder_limits(d);
+    c.nodo              = *d.harmonics->table;
+    c.rare              = sample_gains(d);
+    c.gate              = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
     c.plausible.d_omega = believed_d_omega(c.plausible, c.rare, control_period_s(d.drive));
     keep_constants(d, c);
 }
