@@ -38,13 +38,14 @@ void check_voltage(const Machine &m, Findings &out)
     const double      circle_V = m.dc_link_V.si / std::sqrt(3.0);
     const double      need_V   = needed_voltage_V(m, m.rated_torque_Nm.si, m.rated_speed_radps.si);
     const double      share    = need_V / circle_V;
-    const std::string both =
-        fmt::format("{} ({:.4g} rad/s electrical) with {} needs {:.4g} V peak of a phase, {} gives "
-                    "{:.4g} V",
-                    m.rated_speed_radps.origin, m.pole_pairs.si * m.rated_speed_radps.si,
-                    m.flux_Wb.origin, need_V, m.dc_link_V.origin, circle_V);
+    const std::string both     = fmt::format(
+            "{} with {} ({:.4g} rad/s electrical) and {} needs {:.4g} V peak of a phase, {} gives "
+                "{:.4g} V",
+            m.rated_speed_radps.origin, m.pole_pairs.origin, m.pole_pairs.si * m.rated_speed_radps.si,
+            m.flux_Wb.origin, need_V, m.dc_link_V.origin, circle_V);
     if (share > most_voltage || share < least_voltage) {
-        out.contradictions.push_back(both + usual_mistake(share));
+        out.contradictions.push_back(both +
+                                     ": poles and pole pairs, r/min and rad/s, rms and peak?");
     } else if (share < low_voltage) {
         out.notes.push_back(both);
     }

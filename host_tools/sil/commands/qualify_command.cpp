@@ -17,6 +17,7 @@ struct Options {
     std::string json;
     int         seeds  = 0;
     int         motors = -1;
+    int         noise  = 4;
     bool        quick  = false;
     bool        alone  = false;
 };
@@ -27,6 +28,8 @@ void declare(OptionList &list, Options &o)
     list.text("--json", o.json, "write the table");
     list.number("--seeds", o.seeds, {1, 100000}, "worst of so many seeds (default 10)");
     list.number("--motors", o.motors, {0, 1000000}, "random motors (default 1000)");
+    list.number("--noise", o.noise, {1, 100},
+                "largest noise of v_q, per cent of the circle (default 4)");
     list.flag("--short", o.quick, "3 seeds, 40 motors, no comparison: seconds");
     list.flag("--alone", o.alone, "without the comparison with pi_foc");
 }
@@ -35,8 +38,11 @@ int run(const Options &o)
 {
     QualifyOptions q;
     if (o.quick) {
-        q = {short_seeds, short_motors, false};
+        q.seeds   = short_seeds;
+        q.motors  = short_motors;
+        q.against = false;
     }
+    q.noise_share              = 0.01 * o.noise;
     q.seeds                    = o.seeds > 0 ? o.seeds : q.seeds;
     q.motors                   = o.motors >= 0 ? o.motors : q.motors;
     q.against                  = q.against && !o.alone;

@@ -26,6 +26,7 @@ struct Plan {
     Scenario wide_motors; ///< the same with +-50 % and J x0.5 .. 3
 };
 
-Plan qualification_plan(const Drive &drive);
+/// `noise_share` is the largest noise of v_q, of the circle.
+Plan qualification_plan(const Drive &drive, double noise_share);
 
 } // namespace sdre

@@ -116,7 +116,7 @@ std::optional<Rival> best_rival(const Drive &drive, const Trial &load_step, doub
     std::optional<Rival>           best;
     for (std::size_t i = 0; i < rivals.size(); i++) {
         const TrialResult &r = results[i];
-        const bool quiet     = r.voltage_noise_V <= noise_V && r.faults == 0 && r.settling_time_s;
+        const bool quiet = r.voltage_noise_V <= noise_V && r.settling_time_s && r.reasons.empty();
         if (quiet &&
             (!best || r.dip_e_radps * *r.settling_time_s <
                           best->load_step.dip_e_radps * *best->load_step.settling_time_s)) {
@@ -149,7 +149,7 @@ void compare(Qualification &q, const Drive &drive, const Trial &load_step, int s
 
 Qualification qualify(const Drive &drive, const QualifyOptions &o)
 {
-    const Plan    plan = qualification_plan(drive);
+    const Plan    plan = qualification_plan(drive, o.noise_share);
     Qualification q;
     q.drive                       = drive.name;
     q.limit_A                     = drive.motor.max_current_A;
