@@ -24,12 +24,17 @@ constexpr double after_reactions  = 60.0;
 constexpr double least_periods    = 300.0;
 // Chosen: a speed step takes at most this long at full torque in a trial of random motors.
 constexpr double short_way_s = 0.08;
+// A run begins with the speed between two edges of a disc, which are off by this much; it is corrected with some of the
+// torque. With few lines and much inertia that lasts.
+constexpr double start_error_cnt = 0.35;
+constexpr double start_share     = 0.3;
 // Chosen: of the current limit, for flux weakening that leaves some torque.
 constexpr double weakening_share = 0.8;
 
 struct Numbers {
     PhysicalBound bound;
     double        ts_s;
+    double        start_s; ///< to correct the speed that a run begins with
     double        rated_e_radps;
     double        rated_Nm;
     double        circle_V;
@@ -38,7 +43,7 @@ struct Numbers {
 
     double before_s() const
     {
-        return std::max(before_reactions * bound.reaction_s, least_periods * ts_s);
+        return std::max(before_reactions * bound.reaction_s, least_periods * ts_s) + start_s;
     }
     double after_s() const
     {
@@ -203,6 +208,8 @@ Plan qualification_plan(const Drive &d, double noise_share)
     n.circle_V      = d.inverter.dc_link_V / std::sqrt(3.0);
     n.noise_V       = noise_share * n.circle_V;
     n.accel         = l[3] * largest_torque(d, l);
+
+    n.start_s = start_error_cnt * count_e_rad(d) / n.ts_s / (start_share * n.accel);
 
     Plan         plan;
     const double half = 0.5 * n.rated_e_radps;
