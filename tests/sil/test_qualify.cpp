@@ -42,7 +42,7 @@ TEST(Qualify, TheShippedDriveIsGood)
     EXPECT_EQ(r.json.at("motors").at("good"), 40);
     EXPECT_EQ(r.json.at("trials").size(), 12U);
     for (const Json &trial : r.json.at("trials")) {
-        EXPECT_LE(trial.at("peak_current_A").number(), 4.4) << trial.at("what");
+        EXPECT_LE(trial.at("peak_current_A").number(), 4.4) << trial.at("what").text();
     }
 }
 
@@ -67,10 +67,10 @@ TEST(Qualify, TrialsAreMadeOfTheDrivesNumbers)
 
     EXPECT_DOUBLE_EQ(plan.trials[0].scenario.load_torque.back().value, 1.5);
     EXPECT_DOUBLE_EQ(plan.trials[0].scenario.initial_speed_e_radps, 261.5);
-    // 6.283 rad/s of the field is a count a period: 0.4 pi / 2500 of a turn, 2 pole pairs, 200 us.
+    // A count a period is 2 pi rad/s of the field: a ten thousandth of a turn, 2 pole pairs, 200 us.
     const double counts = plan.trials[1].scenario.initial_speed_e_radps / (2.0 * std::acos(-1.0));
     EXPECT_NEAR(counts, std::round(counts), 1e-9);
-    EXPECT_GT(heavy.trials[3].scenario.duration_s, 5.0 * plan.trials[3].scenario.duration_s);
+    EXPECT_GT(heavy.trials[3].scenario.duration_s, 2.0 * plan.trials[3].scenario.duration_s);
     EXPECT_LT(heavy.trials[0].most_dip_e_radps, 0.3 * plan.trials[0].most_dip_e_radps);
     EXPECT_DOUBLE_EQ(plan.trials[0].scenario.sensors.adc_full_scale_A, 10.0);
 }
