@@ -11,13 +11,16 @@ drive_t                  drive;
 
 void prove_gate(void)
 {
-    drive                     = any_drive;
-    drive.config              = any_bool() ? &config : NULL;
-    drive.state               = any_bool() ? DRIVE_OFF : (any_bool() ? DRIVE_RUN : DRIVE_FAULT);
-    drive.wanted.plausible    = any_bool();
-    drive.current_gate.jumped = any_bool();
-    config.law                = &any_law;
-    config.overmodulation     = any_bool();
+    drive                       = any_drive;
+    drive.config                = any_bool() ? &config : NULL;
+    drive.state                 = any_bool() ? DRIVE_OFF : (any_bool() ? DRIVE_RUN : DRIVE_FAULT);
+    drive.wanted.plausible      = any_bool();
+    drive.current_gate.jumped   = any_bool();
+    drive.current_watch.expects = any_bool();
+    drive.current_watch.models  = any_bool();
+    drive.wanted.predicted      = any_bool();
+    config.law                  = &any_law;
+    config.overmodulation       = any_bool();
 
     const drive_state_t before  = drive.state;
     drive_sample_t      sample  = any_sample;
