@@ -54,8 +54,10 @@ static bool lies(current_watch_phase_t *p, float i_A, const current_watch_scale_
     const float forget   = FORGET_1ps * scale->ts_s;
     const float change_A = i_A - p->slow_A;
 
+    const float residual_A = i_A - p->model_A;
+
     p->slow_A += forget * change_A;
-    p->residual_A += (i_A - p->model_A) - (forget * p->residual_A);
+    p->residual_A += residual_A - (forget * p->residual_A);
 
     const float beyond_A = fabsf(p->residual_A) - (EXPLAINED * fabsf(change_A));
     if (beyond_A > (LONG_share * scale->current_max_A)) {
@@ -63,7 +65,8 @@ static bool lies(current_watch_phase_t *p, float i_A, const current_watch_scale_
     } else {
         p->lying_s = base_max(p->lying_s - (RECOVERS * scale->ts_s), 0.0f);
     }
-    return !(beyond_A <= (LIES_share * scale->current_max_A)) || (p->lying_s > LONG_s);
+    return !(beyond_A <= (LIES_share * scale->current_max_A)) || (p->lying_s > LONG_s) ||
+           !base_within(residual_A, scale->jump_A);
 }
 
 /* EQ-CURRENT-WATCH-4 */

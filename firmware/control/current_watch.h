@@ -9,6 +9,8 @@
  *     R+ = (1 - Ts / tau) R + r,  D = i - i_slow                                   EQ-CURRENT-WATCH-2
  *     lies:  x = abs(R) - 0.6 abs(D) > 3/8 i_max, or > 0.15 i_max for 6 ms, in phase a or b    EQ-CURRENT-WATCH-3
  *
+ *     or abs(r) > jump, in a sample that the gate (current_gate.h) let pass: the second one in a row
+ *
  * i^ is what the law's observer predicts with its disturbances d of the two current equations; d_slow and i_slow are behind
  * low-passes. A motor that is not as believed leaves an r in proportion to what the current changes by itself, D, or
  * disturbances that stand still in the rotor's frame, d_slow. What stands still in the stator's frame is a sensor. Laws
@@ -36,6 +38,7 @@ typedef enum {
 typedef struct {
     float ts_s;
     float current_max_A; /**< i_max, of the drive */
+    float jump_A; /**< no current changes so far from the model in a period, EQ-CURRENT-GATE-2 */
 } current_watch_scale_t;
 
 /** A phase with a sensor. */

@@ -90,7 +90,7 @@ SampledLoop sweep(const GainSeries &g, double range, double ts, const Radius &ra
 /// Speeds at which the encoder form is checked: standstill to the trip speed, both directions.
 std::vector<double> speed_grid(const Design &d)
 {
-    const double trip = trip_speed_e_radps(d.drive);
+    const double        trip = trip_speed_e_radps(d.drive);
     std::vector<double> w;
     for (int i = -speed_points; i <= speed_points; i++) {
         w.push_back(trip * i / speed_points);

@@ -27,6 +27,14 @@ double emf_limit_e_radps(const Drive &d) // EQ-OPEN-3
 
 } // namespace
 
+double largest_command_e_radps(const Drive &d)
+{
+    const double said =
+        d.motor.max_speed_e_radps > 0.0 ? d.motor.max_speed_e_radps : trip_speed_e_radps(d);
+    return d.inverter.regeneration == DcLinkSink::none ? std::min(said, emf_limit_e_radps(d))
+                                                       : said;
+}
+
 drive_config_t common_config(const Design &d)
 {
     const Motor             &m   = d.drive.motor;
@@ -38,11 +46,7 @@ drive_config_t common_config(const Design &d)
     c.current_max_A      = single(m.max_current_A);
     c.trip_current_A     = single(trip_current_ratio * m.max_current_A);
     c.trip_speed_e_radps = single(trip_speed_e_radps(d.drive));
-    c.speed_max_e_radps =
-        m.max_speed_e_radps > 0.0 ? single(m.max_speed_e_radps) : c.trip_speed_e_radps;
-    if (inv.regeneration == DcLinkSink::none) {
-        c.speed_max_e_radps = std::min(c.speed_max_e_radps, single(emf_limit_e_radps(d.drive)));
-    }
+    c.speed_max_e_radps  = single(largest_command_e_radps(d.drive));
     c.dc_link_min_V      = single(dc_link_min_ratio * inv.dc_link_V);
     c.dc_link_max_V      = single(dc_link_max_ratio * inv.dc_link_V);
     c.overmodulation     = inv.overmodulation;

@@ -128,9 +128,9 @@ CurrentSensors read_current_sensors(std::optional<TomlReader> t, const Motor &mo
 
 Drive read_drive(const toml::table &root, const std::string &source)
 {
-    TomlReader        t(source, "", root);
-    Drive             drive;
-    const int         schema = t.integer("schema", {0, 1e6});
+    TomlReader t(source, "", root);
+    Drive      drive;
+    const int  schema = t.integer("schema", {0, 1e6});
     if (schema != drive_schema) {
         t.fail("schema",
                fmt::format("= {} is not allowed: this tool reads schema {}", schema, drive_schema));
@@ -142,9 +142,9 @@ Drive read_drive(const toml::table &root, const std::string &source)
             std::string::npos) {
         t.fail("name", "must be one or more of A-Z a-z 0-9 _ - .");
     }
-    drive.motor    = read_motor(t.table("motor"));
-    drive.inverter = read_inverter(t.table("inverter"));
-    drive.encoder  = read_encoder(t.table("encoder"));
+    drive.motor           = read_motor(t.table("motor"));
+    drive.inverter        = read_inverter(t.table("inverter"));
+    drive.encoder         = read_encoder(t.table("encoder"));
     drive.current_sensors = read_current_sensors(t.table_if("current_sensors"), drive.motor);
     drive.law             = read_law(t);
     read_law_sections(t, drive);

@@ -21,7 +21,7 @@ struct Motor {
     double rated_speed_e_radps   = 0.0; ///< electrical
     double rated_torque_Nm       = 0.0;
     double max_current_A         = 0.0; ///< peak of the phase current
-    double max_speed_e_radps = 0.0; ///< largest command, electrical; 0 when not given
+    double max_speed_e_radps     = 0.0; ///< largest command, electrical; 0 when not given
     int    slots = 0; ///< stator slots, periods of cogging per turn; 0 when not given
 };
 
@@ -145,19 +145,19 @@ struct HarmonicSpec {
 };
 
 struct Drive {
-    std::string  name;
-    Motor        motor;
-    Inverter     inverter;
-    Encoder      encoder;
+    std::string    name;
+    Motor          motor;
+    Inverter       inverter;
+    Encoder        encoder;
     CurrentSensors current_sensors;
-    Law          law = Law::noc;
-    NoscSpec     nosc; ///< nosc and nodo: laws of near optimal control
-    NodoSpec     nodo;
-    HarmonicSpec harmonics; ///< noc_h only
-    DobcSpec     dobc;      ///< cdobc, gpiobc, hdobc only
-    PidSpec      pid;       ///< pid only
-    DAxisSpec    d_axis;    ///< laws of paper B
-    CascadeSpec  cascade;   ///< pi_foc and ladrc only
+    Law            law = Law::noc;
+    NoscSpec       nosc; ///< nosc and nodo: laws of near optimal control
+    NodoSpec       nodo;
+    HarmonicSpec   harmonics; ///< noc_h only
+    DobcSpec       dobc;      ///< cdobc, gpiobc, hdobc only
+    PidSpec        pid;       ///< pid only
+    DAxisSpec      d_axis;    ///< laws of paper B
+    CascadeSpec    cascade;   ///< pi_foc and ladrc only
 };
 
 constexpr int drive_schema = 1;

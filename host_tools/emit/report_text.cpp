@@ -178,11 +178,11 @@ std::string noc_text(const Design &d)
 
 std::string limits_text(const Design &d)
 {
-    const drive_config_t &c      = d.config;
-    const Motor          &m      = d.drive.motor;
-    const bool            by_emf = static_cast<double>(c.speed_max_e_radps) <
-                        0.9999 * (m.max_speed_e_radps > 0.0 ? m.max_speed_e_radps
-                                                            : trip_speed_e_radps(d.drive));
+    const drive_config_t &c = d.config;
+    const Motor          &m = d.drive.motor;
+    const bool            by_emf =
+        static_cast<double>(c.speed_max_e_radps) <
+        0.9999 * (m.max_speed_e_radps > 0.0 ? m.max_speed_e_radps : trip_speed_e_radps(d.drive));
     return fmt::format(
         "\nlimits\n  command +-{:.1f} rad/s{}, trip at {:.1f} rad/s, dc link {:.1f} to {:.1f} V\n",
         c.speed_max_e_radps,

@@ -65,11 +65,12 @@ void check_torque(const Facts &facts, const Machine &m, Checks &checks)
                                              usual_mistake(most_Nm / f.si)));
         }
     }
-    if (!(most_Nm > 0.98 * m.rated_torque_Nm.si && most_Nm < largest_overload * m.rated_torque_Nm.si)) {
-        checks.contradiction(fmt::format(
-            "{} ({:.4g} N m) against {:.4g} N m from {} and {}{}", m.rated_torque_Nm.origin,
-            m.rated_torque_Nm.si, most_Nm, m.max_current_A.origin, m.flux_Wb.origin,
-            usual_mistake(most_Nm / m.rated_torque_Nm.si)));
+    if (!(most_Nm > 0.98 * m.rated_torque_Nm.si &&
+          most_Nm < largest_overload * m.rated_torque_Nm.si)) {
+        checks.contradiction(fmt::format("{} ({:.4g} N m) against {:.4g} N m from {} and {}{}",
+                                         m.rated_torque_Nm.origin, m.rated_torque_Nm.si, most_Nm,
+                                         m.max_current_A.origin, m.flux_Wb.origin,
+                                         usual_mistake(most_Nm / m.rated_torque_Nm.si)));
     }
 }
 
@@ -77,10 +78,10 @@ void check_power(const Facts &facts, const Machine &m, Checks &checks)
 {
     for (const Fact &f : facts.of("rated_power")) {
         if (facts.has("rated_torque") && facts.has("rated_speed")) {
-            checks.same(f.text, f.si,
-                        fmt::format("{} and {}", m.rated_torque_Nm.origin,
-                                    m.rated_speed_radps.origin),
-                        m.rated_torque_Nm.si * m.rated_speed_radps.si, "W", power_within);
+            checks.same(
+                f.text, f.si,
+                fmt::format("{} and {}", m.rated_torque_Nm.origin, m.rated_speed_radps.origin),
+                m.rated_torque_Nm.si * m.rated_speed_radps.si, "W", power_within);
         }
         for (const Fact &i : facts.of("rated_current")) {
             const double loss_W = 1.5 * m.resistance_Ohm.si * peak_A(i) * peak_A(i);
@@ -96,8 +97,7 @@ void check_times(const Facts &facts, const Machine &m, Checks &checks)
 {
     const double kt = 1.5 * m.pole_pairs.si * m.flux_Wb.si;
     for (const Fact &f : facts.of("electrical_time_constant")) {
-        checks.same(f.text, f.si,
-                    fmt::format("{} and {}", m.lq_H.origin, m.resistance_Ohm.origin),
+        checks.same(f.text, f.si, fmt::format("{} and {}", m.lq_H.origin, m.resistance_Ohm.origin),
                     m.lq_H.si / m.resistance_Ohm.si, "s", time_within);
     }
     for (const Fact &f : facts.of("mechanical_time_constant")) {

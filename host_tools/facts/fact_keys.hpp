@@ -14,8 +14,8 @@ enum class Connection { unsaid, phase, line_to_line };
 enum class Amplitude { unsaid, peak, rms };
 
 struct Fact {
-    std::string quantity; ///< "resistance", "rated_speed": a name of quantity_names()
-    double      si = 0.0; ///< in SI units, as it is meant: not yet per phase or peak
+    std::string quantity;         ///< "resistance", "rated_speed": a name of quantity_names()
+    double      si         = 0.0; ///< in SI units, as it is meant: not yet per phase or peak
     Connection  connection = Connection::unsaid;
     Amplitude   amplitude  = Amplitude::unsaid;
     bool        electrical = false; ///< a speed of the field

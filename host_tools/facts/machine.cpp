@@ -18,11 +18,11 @@ namespace {
 // Chosen: what two data sheets of one motor differ by.
 constexpr double same_within = 1.12;
 // Chosen: a motor without a rated current is loaded with half of what it can.
-constexpr double rated_share = 0.5;
-constexpr double default_pwm_Hz = 10e3;
+constexpr double rated_share        = 0.5;
+constexpr double default_pwm_Hz     = 10e3;
 constexpr double default_dead_share = 0.015; ///< of a PWM period: 3 us at 5 kHz
-constexpr int    default_lines = 2500;
-constexpr int    counts_per_line = 4;
+constexpr int    default_lines      = 2500;
+constexpr int    counts_per_line    = 4;
 
 /// Reads facts into values, keeping what does not fit together.
 class Reader {
@@ -35,10 +35,9 @@ public:
         for (std::size_t i = 1; i < values.size(); i++) {
             const double ratio = values[i].si / values[0].si;
             if (!(std::max(ratio, 1.0 / ratio) <= same_within)) {
-                findings_.contradictions.push_back(
-                    fmt::format("{} and {} disagree: {} {:.4g} and {:.4g}{}", values[0].origin,
-                                values[i].origin, what, values[0].si, values[i].si,
-                                usual_mistake(ratio)));
+                findings_.contradictions.push_back(fmt::format(
+                    "{} and {} disagree: {} {:.4g} and {:.4g}{}", values[0].origin,
+                    values[i].origin, what, values[0].si, values[i].si, usual_mistake(ratio)));
             }
         }
         return values[0];
@@ -54,8 +53,7 @@ public:
     Value required(const char *quantity, const char *instead = "")
     {
         if (!facts_.has(quantity)) {
-            throw InputError(
-                fmt::format("{}: {}{} is missing", facts_.source, quantity, instead));
+            throw InputError(fmt::format("{}: {}{} is missing", facts_.source, quantity, instead));
         }
         return plain(quantity);
     }
@@ -82,8 +80,8 @@ Value pole_pairs(Reader &r)
     std::vector<Value> values;
     for (const Fact &f : r.facts().of("poles")) {
         if (std::fmod(f.si, 2.0) != 0.0) {
-            throw InputError(fmt::format("{}: {} is not allowed: must be even", r.facts().source,
-                                         f.text));
+            throw InputError(
+                fmt::format("{}: {} is not allowed: must be even", r.facts().source, f.text));
         }
         values.push_back({0.5 * f.si, f.text});
     }
@@ -91,8 +89,7 @@ Value pole_pairs(Reader &r)
         values.push_back({f.si, f.text});
     }
     if (values.empty()) {
-        throw InputError(
-            fmt::format("{}: poles or pole_pairs is missing", r.facts().source));
+        throw InputError(fmt::format("{}: poles or pole_pairs is missing", r.facts().source));
     }
     return r.agreed("pole pairs", values);
 }
@@ -120,7 +117,8 @@ void inductances(Reader &r, Machine &m)
     const auto  axis = [&](const char *name) {
         std::vector<Value> values;
         for (const Fact &f : r.facts().of(name)) {
-            values.push_back({f.connection == Connection::line_to_line ? 0.5 * f.si : f.si, f.text});
+            values.push_back(
+                 {f.connection == Connection::line_to_line ? 0.5 * f.si : f.si, f.text});
         }
         return values.empty() ? both : r.agreed(name, values);
     };
@@ -132,9 +130,10 @@ void inductances(Reader &r, Machine &m)
                                      r.facts().source));
     }
     if (both.si > 0.0) {
-        r.agreed("inductance", {both, {std::clamp(both.si, std::min(m.ld_H.si, m.lq_H.si),
-                                                  std::max(m.ld_H.si, m.lq_H.si)),
-                                       m.ld_H.origin + ", " + m.lq_H.origin}});
+        r.agreed("inductance", {both,
+                                {std::clamp(both.si, std::min(m.ld_H.si, m.lq_H.si),
+                                            std::max(m.ld_H.si, m.lq_H.si)),
+                                 m.ld_H.origin + ", " + m.lq_H.origin}});
     }
 }
 
@@ -152,11 +151,9 @@ Value unsaid_flux(Reader &r, Fact f, double pairs, const std::vector<Value> &oth
             return {flux_of(peak, pairs), f.text};
         }
     }
-    r.note(fmt::format("{}: taken as rms{}, as data sheets give it; write _peak if it is not",
-                       f.text,
-                       f.quantity == "ke" && f.connection == Connection::unsaid
-                           ? " between two terminals"
-                           : ""));
+    r.note(fmt::format(
+        "{}: taken as rms{}, as data sheets give it; write _peak if it is not", f.text,
+        f.quantity == "ke" && f.connection == Connection::unsaid ? " between two terminals" : ""));
     return {flux_of(f, pairs), f.text};
 }
 
@@ -265,7 +262,7 @@ Value base_speed(const Machine &m)
     double       lo       = 0.0;
     double       hi       = 1e5 / m.pole_pairs.si;
     for (int i = 0; i < 60; i++) {
-        const double middle = 0.5 * (lo + hi);
+        const double middle                                                      = 0.5 * (lo + hi);
         (needed_voltage_V(m, m.rated_torque_Nm.si, middle) < circle_V ? lo : hi) = middle;
     }
     const bool slow = m.max_speed_radps.si > 0.0 && m.max_speed_radps.si < lo;
@@ -277,12 +274,12 @@ Value base_speed(const Machine &m)
 
 double flux_of(const Fact &f, double pairs)
 {
-    const bool   peak       = f.amplitude == Amplitude::peak;
-    const bool   rms        = f.amplitude == Amplitude::rms;
-    const bool   line       = f.connection == Connection::line_to_line;
-    const bool   phase      = f.connection == Connection::phase;
-    const double root2      = std::sqrt(2.0);
-    const double root3      = std::sqrt(3.0);
+    const bool   peak  = f.amplitude == Amplitude::peak;
+    const bool   rms   = f.amplitude == Amplitude::rms;
+    const bool   line  = f.connection == Connection::line_to_line;
+    const bool   phase = f.connection == Connection::phase;
+    const double root2 = std::sqrt(2.0);
+    const double root3 = std::sqrt(3.0);
     if (f.quantity == "kt") { // torque per ampere of the phase current
         return f.si / (1.5 * pairs) / (peak ? 1.0 : root2);
     }
@@ -314,7 +311,7 @@ std::string usual_mistake(double ratio)
                                   Mistake{1e3, "a prefix of the unit"},
                                   Mistake{1e4, "cm2 and m2"},
                                   Mistake{1e7, "gcm2 and kgm2"}};
-    const double up = std::max(ratio, 1.0 / ratio);
+    const double         up = std::max(ratio, 1.0 / ratio);
     for (const Mistake &m : mistakes) {
         if (std::abs(up / m.factor - 1.0) < 0.07) {
             return fmt::format(", a factor of {:.3g}: {}?", up, m.what);
@@ -341,9 +338,9 @@ Motor motor_of(const Machine &m)
 
 double mtpa_torque_Nm(const Machine &m, double current_A)
 {
-    Motor motor               = motor_of(m);
-    motor.max_current_A       = current_A;
-    const ReducedParameters l = reduced_parameters(motor);
+    Motor motor                  = motor_of(m);
+    motor.max_current_A          = current_A;
+    const ReducedParameters l    = reduced_parameters(motor);
     const double            iq_A = largest_iq_A(motor, mtpa_A(l), true);
     return torque_Nm(motor, mtpa_id_A(l, iq_A), iq_A);
 }
@@ -355,7 +352,7 @@ double needed_voltage_V(const Machine &m, double torque, double speed_radps)
     double                  lo    = 0.0;
     double                  hi    = 10.0 * m.max_current_A.si;
     for (int i = 0; i < 60; i++) { // the q current that gives the torque
-        const double iq_A                                              = 0.5 * (lo + hi);
+        const double iq_A                                               = 0.5 * (lo + hi);
         (torque_Nm(motor, mtpa_id_A(l, iq_A), iq_A) < torque ? lo : hi) = iq_A;
     }
     const double w    = m.pole_pairs.si * speed_radps;
@@ -383,15 +380,15 @@ Machine machine_of(const Facts &facts, const std::string &default_name, Findings
     m.dc_link_V          = r.required("dc_link");
     m.pwm_Hz             = r.or_chosen("pwm", default_pwm_Hz, "not given");
     m.updates_per_period = r.or_chosen("updates_per_period", 1.0, "one a PWM period");
-    m.dead_time_s = r.or_chosen("dead_time", default_dead_share / m.pwm_Hz.si,
-                                "1.5 % of a PWM period, not given");
-    m.lines       = encoder_lines(r);
-    m.range_A     = r.plain("current_range");
-    m.noise_A     = r.plain("current_noise");
-    m.adc_bits    = r.plain("adc_bits");
-    m.slots       = r.plain("slots");
-    m.regeneration = facts.regeneration;
-    m.edge_times   = facts.edge_times;
+    m.dead_time_s        = r.or_chosen("dead_time", default_dead_share / m.pwm_Hz.si,
+                                       "1.5 % of a PWM period, not given");
+    m.lines              = encoder_lines(r);
+    m.range_A            = r.plain("current_range");
+    m.noise_A            = r.plain("current_noise");
+    m.adc_bits           = r.plain("adc_bits");
+    m.slots              = r.plain("slots");
+    m.regeneration       = facts.regeneration;
+    m.edge_times         = facts.edge_times;
     if (m.ld_H.si > m.lq_H.si && m.flux_Wb.si <= 0.0) {
         std::swap(m.ld_H, m.lq_H);
         findings.notes.push_back("Ld above Lq without a magnet: the axes are exchanged, here d is "
@@ -400,6 +397,12 @@ Machine machine_of(const Facts &facts, const std::string &default_name, Findings
     if (m.ld_H.si > m.lq_H.si) {
         throw InputError(fmt::format("{}: {} must not exceed {} (the magnet's axis is d)",
                                      facts.source, m.ld_H.origin, m.lq_H.origin));
+    }
+    if (m.flux_Wb.si <= 0.0) {
+        throw InputError(fmt::format(
+            "{}: {}: a motor without a magnet has no torque without a d current, and these laws let "
+            "that go to zero; from 0.2 of the largest flux linkage on they can",
+            facts.source, m.flux_Wb.origin));
     }
     ratings(r, m);
     if (m.rated_speed_radps.si <= 0.0) {

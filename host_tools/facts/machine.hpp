@@ -34,7 +34,7 @@ struct Machine {
     Value       updates_per_period;
     Value       dead_time_s;
     Value       lines;
-    Value       range_A;  ///< 0: not given, as the next three
+    Value       range_A; ///< 0: not given, as the next three
     Value       noise_A;
     Value       adc_bits;
     Value       slots;

@@ -35,16 +35,17 @@ double r_min(double radps)
 
 void check_voltage(const Machine &m, Findings &out)
 {
-    const double circle_V = m.dc_link_V.si / std::sqrt(3.0);
-    const double need_V   = needed_voltage_V(m, m.rated_torque_Nm.si, m.rated_speed_radps.si);
-    const double share    = need_V / circle_V;
-    const std::string both =
-        fmt::format("{} ({:.4g} rad/s electrical) with {} needs {:.4g} V peak of a phase, {} gives "
-                    "{:.4g} V",
-                    m.rated_speed_radps.origin, m.pole_pairs.si * m.rated_speed_radps.si,
-                    m.flux_Wb.origin, need_V, m.dc_link_V.origin, circle_V);
+    const double      circle_V = m.dc_link_V.si / std::sqrt(3.0);
+    const double      need_V   = needed_voltage_V(m, m.rated_torque_Nm.si, m.rated_speed_radps.si);
+    const double      share    = need_V / circle_V;
+    const std::string both     = fmt::format(
+            "{} with {} ({:.4g} rad/s electrical) and {} needs {:.4g} V peak of a phase, {} gives "
+                "{:.4g} V",
+            m.rated_speed_radps.origin, m.pole_pairs.origin, m.pole_pairs.si * m.rated_speed_radps.si,
+            m.flux_Wb.origin, need_V, m.dc_link_V.origin, circle_V);
     if (share > most_voltage || share < least_voltage) {
-        out.contradictions.push_back(both + usual_mistake(share));
+        out.contradictions.push_back(both +
+                                     ": poles and pole pairs, r/min and rad/s, rms and peak?");
     } else if (share < low_voltage) {
         out.notes.push_back(both);
     }
@@ -59,12 +60,12 @@ void check_voltage(const Machine &m, Findings &out)
 void check_speeds(const Machine &m, Findings &out)
 {
     if (m.max_speed_radps.si > 0.0 && m.max_speed_radps.si < 0.999 * m.rated_speed_radps.si) {
-        out.contradictions.push_back(fmt::format(
-            "{} is below {}: {:.4g} and {:.4g} r/min", m.max_speed_radps.origin,
-            m.rated_speed_radps.origin, r_min(m.max_speed_radps.si), r_min(m.rated_speed_radps.si)));
+        out.contradictions.push_back(
+            fmt::format("{} is below {}: {:.4g} and {:.4g} r/min", m.max_speed_radps.origin,
+                        m.rated_speed_radps.origin, r_min(m.max_speed_radps.si),
+                        r_min(m.rated_speed_radps.si)));
     }
-    const double start_s =
-        m.inertia_kgm2.si * m.rated_speed_radps.si / m.rated_torque_Nm.si;
+    const double      start_s = m.inertia_kgm2.si * m.rated_speed_radps.si / m.rated_torque_Nm.si;
     const std::string text =
         fmt::format("{} with {} takes {:.3g} s to {:.4g} r/min", m.inertia_kgm2.origin,
                     m.rated_torque_Nm.origin, start_s, r_min(m.rated_speed_radps.si));
@@ -77,9 +78,9 @@ void check_speeds(const Machine &m, Findings &out)
 
 void check_period(const Machine &m, Findings &out)
 {
-    const double ts_s    = 1.0 / (m.pwm_Hz.si * m.updates_per_period.si);
-    const double slope_A = m.dc_link_V.si / std::sqrt(3.0) * ts_s / m.ld_H.si;
-    const double slope   = slope_A / m.max_current_A.si;
+    const double      ts_s    = 1.0 / (m.pwm_Hz.si * m.updates_per_period.si);
+    const double      slope_A = m.dc_link_V.si / std::sqrt(3.0) * ts_s / m.ld_H.si;
+    const double      slope   = slope_A / m.max_current_A.si;
     const std::string text =
         fmt::format("{} lets {} add {:.4g} A in a period of {:.4g} us, {} is the limit",
                     m.ld_H.origin, m.dc_link_V.origin, slope_A, 1e6 * ts_s, m.max_current_A.origin);

@@ -35,14 +35,13 @@ std::string whole(const char *key, const Value &v)
 std::string motor_text(const Machine &m)
 {
     const double pairs = m.pole_pairs.si;
-    std::string  s     = "[motor]\n" + whole("pole_pairs", m.pole_pairs) +
-                    line("stator_resistance_Ohm", m.resistance_Ohm) +
-                    line("d_axis_inductance_H", m.ld_H) + line("q_axis_inductance_H", m.lq_H) +
-                    line("pm_flux_Wb", m.flux_Wb) + line("inertia_kgm2", m.inertia_kgm2) +
-                    line("viscous_friction_Nms", m.friction_Nms) +
-                    line("rated_speed_e_radps", m.rated_speed_radps, pairs * m.rated_speed_radps.si) +
-                    line("rated_torque_Nm", m.rated_torque_Nm) +
-                    line("max_current_A", m.max_current_A);
+    std::string  s =
+        "[motor]\n" + whole("pole_pairs", m.pole_pairs) +
+        line("stator_resistance_Ohm", m.resistance_Ohm) + line("d_axis_inductance_H", m.ld_H) +
+        line("q_axis_inductance_H", m.lq_H) + line("pm_flux_Wb", m.flux_Wb) +
+        line("inertia_kgm2", m.inertia_kgm2) + line("viscous_friction_Nms", m.friction_Nms) +
+        line("rated_speed_e_radps", m.rated_speed_radps, pairs * m.rated_speed_radps.si) +
+        line("rated_torque_Nm", m.rated_torque_Nm) + line("max_current_A", m.max_current_A);
     if (m.max_speed_radps.si > 0.0) {
         s += line("max_speed_e_radps", m.max_speed_radps, pairs * m.max_speed_radps.si);
     }

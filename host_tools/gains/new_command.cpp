@@ -35,8 +35,8 @@ void declare(OptionList &list, Options &o)
 
 void add_value(Facts &facts, const std::string &text)
 {
-    const std::size_t at  = text.find('=');
-    char             *end = nullptr;
+    const std::size_t at     = text.find('=');
+    char             *end    = nullptr;
     const std::string number = at == std::string::npos ? "" : text.substr(at + 1);
     const double      value  = std::strtod(number.c_str(), &end);
     if (number.empty() || *end != '\0') {
@@ -93,10 +93,10 @@ int run(const Options &o)
     }
     const std::filesystem::path named = o.facts.empty() ? o.out : o.facts;
     const std::string           stem  = named.stem().string();
-    Findings      findings;
-    Facts         facts   = all_facts(o);
-    facts.name            = o.name.empty() ? facts.name : o.name;
-    const Machine machine = machine_of(facts, stem, findings);
+    Findings                    findings;
+    Facts                       facts = all_facts(o);
+    facts.name                        = o.name.empty() ? facts.name : o.name;
+    const Machine machine             = machine_of(facts, stem, findings);
     check_ratings(facts, machine, findings);
     check_machine(machine, findings);
     say(findings, o);

@@ -19,8 +19,8 @@ namespace {
 // Chosen: the best pace of these, relative to that of the sensors, is within a fifth of the best there is.
 constexpr std::array paces{0.6, 0.8, 1.0, 1.3, 1.7, 2.2, 3.0};
 // Chosen: weights that are not certified are searched anew from a slower start, so often.
-constexpr int    attempts = 4;
-constexpr double slower   = 1.4;
+constexpr int    attempts     = 4;
+constexpr double slower       = 1.4;
 constexpr int    report_every = 100; // evaluations
 
 /// The start weights with the searched ones changed by decades.
@@ -61,7 +61,8 @@ public:
     Drive from(double pace)
     {
         const Drive start = start_weights(drive_, pace);
-        return moved(start, minimise({}, [&](const Point &x) { return evaluate(moved(start, x)); }));
+        return moved(start,
+                     minimise({}, [&](const Point &x) { return evaluate(moved(start, x)); }));
     }
     int evaluations() const
     {
@@ -115,10 +116,11 @@ std::string binding_goal(const Score &s, const TuneSpec &goals)
         }
     }
     const double noise = s.cases[0].voltage_noise_V / goals.voltage_noise_V;
-    return fmt::format("{}{} binds, {:.2f} of its goal; v_q noise at {:.2f} of its limit. What would "
-                       "relax it: {}",
-                       name, at == 0 ? "" : " of a motor that is not as believed", worst, noise,
-                       what_relaxes(noise > 0.9 ? "noise of v_q" : name));
+    return fmt::format(
+        "{}{} binds, {:.2f} of its goal; v_q noise at {:.2f} of its limit. What would "
+        "relax it: {}",
+        name, at == 0 ? "" : " of a motor that is not as believed", worst, noise,
+        what_relaxes(noise > 0.9 ? "noise of v_q" : name));
 }
 
 } // namespace
@@ -131,8 +133,8 @@ AutoTuneResult auto_tune(const Drive &drive, const TuneProgress &progress)
     double      pace = search.best_pace();
     std::string refused;
     for (int i = 0; i < attempts; i++, pace *= slower) {
-        Drive found = search.from(pace);
-        found.law   = drive.law;
+        Drive found   = search.from(pace);
+        found.law     = drive.law;
         const Score s = score(found, r.goals);
         if (!(s.worst < unstable_score)) {
             refused = "no stable design found";
@@ -140,7 +142,7 @@ AutoTuneResult auto_tune(const Drive &drive, const TuneProgress &progress)
         }
         const Certificate certificate = design_drive(found).certificate;
         if (certificate.passed()) {
-            r.tuned = {found, s.cases, s.worst, search.evaluations(), false};
+            r.tuned                = {found, s.cases, s.worst, search.evaluations(), false};
             r.goals.voltage_V      = 1.0 / std::sqrt(found.nosc.T[0]);
             r.goals.d_axis_error_A = 1.0 / std::sqrt(found.nosc.Q[2]);
             r.binding              = binding_goal(s, r.goals);

@@ -22,7 +22,8 @@ constexpr double load_share  = 0.5;
 constexpr double dip_goal      = 1.25;
 constexpr double settling_goal = 5.0;
 constexpr double band_share    = 0.125;
-constexpr double ripple_share  = 0.25; // three deviations of the noise, of the bound: below what is seen of a dip
+constexpr double ripple_share =
+    0.25; // three deviations of the noise, of the bound: below what is seen of a dip
 // Chosen: what the ear and the losses forgive, in shares of the circle.
 constexpr double noise_share = 0.03;
 // Chosen: a step may ask for this much of the circle; what is beyond is cut.
@@ -43,7 +44,7 @@ Steady carrying(const Drive &d, const ReducedParameters &l, double load_Nm)
     double lo = 0.0;
     double hi = d.motor.max_current_A;
     for (int i = 0; i < 50; i++) {
-        const double iq_A = 0.5 * (lo + hi);
+        const double iq_A                                                  = 0.5 * (lo + hi);
         (torque_Nm(d.motor, mtpa_id_A(l, iq_A), iq_A) < load_Nm ? lo : hi) = iq_A;
     }
     return {lo, mtpa_id_A(l, lo)};
@@ -82,11 +83,10 @@ PhysicalBound physical_bound(const Drive &d)
     const Steady            before = carrying(d, l, load_share * rated);
     const Steady            after  = carrying(d, l, rated);
     const double            speed  = speed_share * d.motor.rated_speed_e_radps;
-    const double reserve_V = std::max(circle - hold_V(d, before, speed), least_reserve * circle);
-    const double way_s =
-        (after.iq_A - before.iq_A) * d.motor.q_axis_inductance_H / reserve_V;
-    const double accel = l[3] * (1.0 - load_share) * rated;
-    const double seen_s = std::sqrt(2.0 * sample_noise(d).angle_rad / accel);
+    const double reserve_V  = std::max(circle - hold_V(d, before, speed), least_reserve * circle);
+    const double way_s      = (after.iq_A - before.iq_A) * d.motor.q_axis_inductance_H / reserve_V;
+    const double accel      = l[3] * (1.0 - load_share) * rated;
+    const double seen_s     = std::sqrt(2.0 * sample_noise(d).angle_rad / accel);
     const double reaction_s = 1.5 * ts + 0.5 * way_s + seen_s;
     return {reaction_s, accel * reaction_s};
 }
@@ -115,9 +115,9 @@ TuneSpec goals_from_physics(const Drive &d)
                                      d.motor.rated_speed_e_radps, emf_V, d.inverter.dc_link_V,
                                      circle));
     }
-    const PhysicalBound  bound = physical_bound(d);
-    const CurrentSensors &s    = d.current_sensors;
-    const double          pace = pace_of_sensors(d);
+    const PhysicalBound   bound = physical_bound(d);
+    const CurrentSensors &s     = d.current_sensors;
+    const double          pace  = pace_of_sensors(d);
 
     TuneSpec spec;
     spec.speed_e_radps      = speed;

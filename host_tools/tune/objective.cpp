@@ -21,13 +21,13 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double pi          = 3.14159265358979323846;
+constexpr double pi = 3.14159265358979323846;
 // Chosen: a load step is followed for this many time constants of the slowest mode, and so long at least.
 constexpr double horizon_modes = 12.0;
 constexpr double horizon_s     = 0.06;
 constexpr double most_steps    = 20000.0; // a mode slower than that is told from its pole
-constexpr double noise_slope = 3.0;  // a limit: beyond it nothing else counts
-constexpr double no_solution = 1e12; // of the Riccati equations: worse than any unstable loop
+constexpr double noise_slope   = 3.0;     // a limit: beyond it nothing else counts
+constexpr double no_solution   = 1e12;    // of the Riccati equations: worse than any unstable loop
 
 enum Weight { speed_error, q_axis_error, load_drift, voltage_drift, speed_noise, current_noise };
 
@@ -116,10 +116,10 @@ double worst_radius(const Loop &loop, const Drive &drive, const RobustnessCase &
         worst = std::max(worst, loop.radius_at({speed, at.iq_A, at.id_A}));
     }
     if (is_nominal(c)) {
-        const double iq_A   = 2.0 * drive.motor.max_current_A;
-        const double radius = loop.radius_at({trip_speed_e_radps(drive),
-                                              iq_A, mtpa_id_A(loop.motor, iq_A)});
-        worst               = radius < 1.0 ? worst : std::max(1.0, radius);
+        const double iq_A = 2.0 * drive.motor.max_current_A;
+        const double radius =
+            loop.radius_at({trip_speed_e_radps(drive), iq_A, mtpa_id_A(loop.motor, iq_A)});
+        worst = radius < 1.0 ? worst : std::max(1.0, radius);
     }
     return worst;
 }

@@ -67,11 +67,13 @@ double pace_of_sensors(const Drive &d)
 
 Drive start_weights(Drive d, double pace)
 {
-    const MotorUnits  u     = motor_units(d, pace);
-    const SampleNoise n     = sample_noise(d);
-    const double      ts    = control_period_s(d);
-    const auto per_square   = [](double weight, double unit) { return written(weight / (unit * unit)); };
-    const auto drift        = [&](double weight, double unit) {
+    const MotorUnits  u          = motor_units(d, pace);
+    const SampleNoise n          = sample_noise(d);
+    const double      ts         = control_period_s(d);
+    const auto        per_square = [](double weight, double unit) {
+        return written(weight / (unit * unit));
+    };
+    const auto drift = [&](double weight, double unit) {
         return written(weight * unit * unit / u.time_s);
     };
     const double t_voltage = per_square(voltage_weight, u.voltage_V);
@@ -87,8 +89,13 @@ Drive start_weights(Drive d, double pace)
     d.nosc.T     = {t_voltage, t_voltage};
     d.nodo.form  = NodoForm::encoder;
     d.nodo.order = 1;
-    d.nodo.Q     = {drift(load_drift, u.speed_e_radps / u.time_s), d_iq, d_iq,
-                    drift(speed_noise, u.speed_e_radps), i, i, 0.0};
+    d.nodo.Q     = {drift(load_drift, u.speed_e_radps / u.time_s),
+                    d_iq,
+                    d_iq,
+                    drift(speed_noise, u.speed_e_radps),
+                    i,
+                    i,
+                    0.0};
     d.nodo.T     = {t_current, t_current, written(n.angle_rad * n.angle_rad * ts)};
     return d;
 }

@@ -107,7 +107,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     fuzz::Bytes           in(data, size);
     const drive_config_t &config = config_of(in.octet() % (tables.size() + names.size()));
     drive_t               drive{};
-    drive_command_t       command{0.0F, true};
+    drive_command_t       command{0.0F, true, 0.0F};
     Rotor                 rotor;
     require(drive_init(&drive, &config) == CTL_OK);
     while (in.any()) {

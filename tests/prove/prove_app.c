@@ -19,6 +19,9 @@ board_sample_t          raw;
 app_modbus_t            modbus;
 app_registers_t         registers;
 
+/* What app_angle.c turns at the most without an index. */
+#define TURN_cnt ((int)BOARD_POSITIONS + (int)board_config.angle.index_correct_max_cnt)
+
 static int any_between(int lo, int hi)
 {
     const int x = any_int;
@@ -37,41 +40,49 @@ static void any_sample(void)
 static void any_state(void)
 {
     config.law            = &any_law;
+    config.constants      = &config; /* the law reads none */
     config.overmodulation = any_bool();
 
     modes                             = any_modes;
     modes.config                      = &board_config;
     modes.mode                        = any_between(APP_MODE_BOOT, APP_MODE_STOP);
-    modes.fault                       = any_between(APP_FAULT_NONE, APP_FAULT_TICK);
+    modes.fault                       = any_between(APP_FAULT_NONE, APP_FAULT_MEMORY);
     modes.calibrated                  = any_bool();
     modes.armed                       = any_bool();
     modes.hot                         = any_bool();
     modes.dc_link_out                 = any_bool();
     modes.tripped                     = any_bool();
     modes.gate_on                     = any_bool();
+    modes.too_hot                     = any_bool();
+    modes.angle.have_turned           = any_bool();
+    modes.angle.have_index            = any_bool();
     modes.drive.config                = &config;
+    modes.drive.config_again          = &config;
+    modes.drive.law_again             = config.law;
+    modes.drive.constants_again       = config.constants;
+    modes.drive.wanted.predicted      = any_bool();
+    modes.drive.current_watch.expects = any_bool();
+    modes.drive.current_watch.models  = any_bool();
     modes.drive.state                 = any_between(DRIVE_OFF, DRIVE_FAULT);
-    modes.drive.fault                 = any_between(DRIVE_FAULT_NONE, DRIVE_FAULT_PHASE);
+    modes.drive.fault                 = any_between(DRIVE_FAULT_NONE, DRIVE_FAULT_MEMORY);
     modes.drive.v_limited             = any_bool();
     modes.drive.wanted.plausible      = any_bool();
     modes.drive.wanted.without_angle  = any_bool();
     modes.drive.current_gate.jumped   = any_bool();
-    modes.drive.current_watch.expects = any_bool();
-    modes.drive.current_watch.models  = any_bool();
-    modes.drive.wanted.predicted      = any_bool();
     modes.scale.config                = &board_config.scale;
-    modes.scale.inv_ntc_step = 1.0f / (float)board_config.scale.ntc_step_cnt; /* by its init */
-    modes.angle.config       = &board_config.angle;
-    modes.angle.edge_times   = any_bool();
-    modes.angle.have_before  = any_bool();
-    modes.angle.have_edge    = any_bool();
-    modes.angle.reference    = any_between(APP_ANGLE_NONE, APP_ANGLE_INDEX);
-    modes.align.config       = &board_config.align;
-    modes.align.drive        = &config;
-    modes.align.stage        = any_between(APP_ALIGN_WATCH, APP_ALIGN_FAILED);
-    modes.stop.config        = &board_config.stop;
-    modes.stop.shorted       = any_bool();
-    modes.sample.valid       = any_bool();
+    modes.scale.inv_ntc_step    = 1.0f / (float)board_config.scale.ntc_step_cnt; /* by its init */
+    modes.angle.config          = &board_config.angle;
+    modes.angle.edge_times      = any_bool();
+    modes.angle.have_before     = any_bool();
+    modes.angle.have_edge       = any_bool();
+    modes.angle.since_index_cnt = any_between(-TURN_cnt, TURN_cnt);
+    modes.angle.reference       = any_between(APP_ANGLE_NONE, APP_ANGLE_INDEX);
+    modes.align.config          = &board_config.align;
+    modes.align.drive           = &config;
+    modes.align.stage           = any_between(APP_ALIGN_WATCH, APP_ALIGN_FAILED);
+    modes.stop.config           = &board_config.stop;
+    modes.stop.shorted          = any_bool();
+    modes.sample.valid          = any_bool();
     modes.sample.temperature_valid = any_bool();
     modes.reading.speed_valid      = any_bool();
     modes.reading.index_fault      = any_bool();
@@ -89,6 +100,8 @@ void prove_app_tick(void)
     any_state();
     app_modes_input_t in = {.raw = &raw, .board_faults = (uint16_t)any_int, .command = any_command};
     in.background_lost   = any_bool();
+    in.tick_missing      = any_bool();
+    in.memory_changed    = any_bool();
     in.command.run       = any_bool();
     in.command.reset     = any_bool();
 
@@ -99,8 +112,9 @@ void prove_app_tick(void)
     is_count(duty.b_cnt);
     is_count(duty.c_cnt);
     //@ check mode: APP_MODE_BOOT <= modes.mode <= APP_MODE_STOP;
-    //@ check fault: APP_FAULT_NONE <= modes.fault <= APP_FAULT_TICK;
+    //@ check fault: APP_FAULT_NONE <= modes.fault <= APP_FAULT_MEMORY;
     //@ check stage: APP_ALIGN_WATCH <= modes.align.stage <= APP_ALIGN_FAILED;
+    //@ check since_index: -12500 <= modes.angle.since_index_cnt <= 12500;
     //@ check reference: APP_ANGLE_NONE <= modes.angle.reference <= APP_ANGLE_INDEX;
 }
 

@@ -96,21 +96,24 @@ static void any_drive(void)
 #endif
     drive.law.PROVE_LAW         = state;
     drive.config                = &config;
+    drive.config_again          = &config;
+    drive.law_again             = config.law;
+    drive.constants_again       = config.constants;
     drive.state                 = any_between(DRIVE_OFF, DRIVE_FAULT);
-    drive.fault                 = any_between(DRIVE_FAULT_NONE, DRIVE_FAULT_PHASE);
+    drive.fault                 = any_between(DRIVE_FAULT_NONE, DRIVE_FAULT_MEMORY);
     drive.wanted.plausible      = any_between(0, 1);
     drive.wanted.without_angle  = any_between(0, 1);
     drive.v_limited             = any_between(0, 1);
+    drive.wanted.predicted      = any_between(0, 1);
     drive.current_gate.jumped   = any_between(0, 1);
     drive.current_watch.expects = any_between(0, 1);
     drive.current_watch.models  = any_between(0, 1);
-    drive.wanted.predicted      = any_between(0, 1);
 }
 
 static void state_is_kept(void)
 {
     //@ check state: DRIVE_OFF <= drive.state <= DRIVE_FAULT;
-    //@ check fault: DRIVE_FAULT_NONE <= drive.fault <= DRIVE_FAULT_PHASE;
+    //@ check fault: DRIVE_FAULT_NONE <= drive.fault <= DRIVE_FAULT_MEMORY;
 #if defined PROVE_noc || defined PROVE_noc_h
     //@ check edge: 0 <= drive.law.PROVE_LAW.edges.edge[0] <= ENCODER_FORM_EDGES;
     //@ check edge_before: 0 <= drive.law.PROVE_LAW.edges.edge[1] <= ENCODER_FORM_EDGES;

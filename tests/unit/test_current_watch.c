@@ -8,7 +8,7 @@
 #define W     300.0f /* electrical, of the frame */
 
 static current_watch_t             watch;
-static const current_watch_scale_t scale = {.ts_s = TS_s, .current_max_A = MAX_A};
+static const current_watch_scale_t scale = {.ts_s = TS_s, .current_max_A = MAX_A, .jump_A = 100.0f};
 static float                       theta; /* of the sample */
 
 void setUp(void)
@@ -74,6 +74,18 @@ static int found_after(dq_t model, float offset_a_A, float offset_b_A)
         }
     }
     return 0;
+}
+
+/* As the gate lets the second one of them pass. */
+static void test_what_no_current_can_do_in_a_period_is_found_at_once(void)
+{
+    const current_watch_scale_t slow = {.ts_s = TS_s, .current_max_A = 40.0f, .jump_A = 1.6f};
+
+    expect(none, none, none, true);
+    TEST_ASSERT_EQUAL_INT(CURRENT_WATCH_GOOD, current_watch_judge(&watch, 1.5f, 0.0f, &slow));
+    setUp();
+    expect(none, none, none, true);
+    TEST_ASSERT_EQUAL_INT(CURRENT_WATCH_SENSOR, current_watch_judge(&watch, 0.0f, -1.7f, &slow));
 }
 
 /* A model that knows nothing of it: each sample adds all of it. 1.5 A are 3/8 of the limit, and 0.6 of it is explained. */
@@ -206,6 +218,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_currents_of_the_model_are_good_for_ever);
     RUN_TEST(test_nothing_is_expected_of_the_first_sample);
+    RUN_TEST(test_what_no_current_can_do_in_a_period_is_found_at_once);
     RUN_TEST(test_a_jump_beyond_three_eighths_is_found_at_once);
     RUN_TEST(test_a_small_lasting_residual_is_found_after_six_milliseconds);
     RUN_TEST(test_what_the_current_changes_by_itself_explains_a_part);

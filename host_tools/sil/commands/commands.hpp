@@ -13,5 +13,6 @@ Command run_command();
 Command compare_command();
 Command motors_command();
 Command bench_command();
+Command qualify_command();
 
 } // namespace sdre

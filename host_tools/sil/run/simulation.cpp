@@ -23,7 +23,7 @@ TickEnd Simulation::step(double omega_ref_e_radps)
     const double time_s = static_cast<double>(tick_++) * period_s_;
     board_.begin_tick(time_s);
     core_tick_.sample  = board_.sample();
-    core_tick_.command = {static_cast<float>(omega_ref_e_radps), true};
+    core_tick_.command = {static_cast<float>(omega_ref_e_radps), true, 0.0F};
     core_tick_.output  = drive_tick(&drive_, &core_tick_.sample, &core_tick_.command);
 
     TickEnd end;

@@ -27,13 +27,13 @@ struct SensorSettings {
     double encoder_offset_e_rad          = 0.0;   ///< alignment error, electrical
     EncoderDiscSettings encoder_disc;
     int                 adc_bits = 12; ///< this and the next two: the drive file's unless given
-    double adc_full_scale_A      = 10.0;
-    double adc_noise_rms_A       = 0.010;
-    double adc_offset_a_A        = 0.0;   ///< calibrated before the start
-    double adc_offset_b_A        = 0.0;
-    double adc_gain_a            = 1.0;
-    double adc_gain_b            = 1.0;
-    double sampling_advance_s    = 0.0; ///< samples are taken this long before the period starts
+    double              adc_full_scale_A = 10.0;
+    double              adc_noise_rms_A  = 0.010;
+    double              adc_offset_a_A   = 0.0; ///< calibrated before the start
+    double              adc_offset_b_A   = 0.0;
+    double              adc_gain_a       = 1.0;
+    double              adc_gain_b       = 1.0;
+    double sampling_advance_s = 0.0; ///< samples are taken this long before the period starts
 };
 
 enum class InverterModel { averaged, switched };

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+/// What a drive is put through, made from its own numbers: speeds and loads in shares of the rating, times from physics.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sil/setup/scenario.hpp"
+
+namespace sdre {
+
+/// One run and what is allowed in it; 0 where nothing is said.
+struct Trial {
+    std::string what;     ///< "load step", a row of the table
+    Scenario    scenario; ///< its last measure is what is judged
+    double      most_dip_e_radps = 0.0;
+    double      most_settling_s  = 0.0;
+    double      most_noise_V     = 0.0; ///< rms of v_q
+    bool        must_settle      = true;
+    bool        may_trip         = false;
+};
+
+struct Plan {
+    std::vector<Trial> trials;
+    Scenario motors;      ///< speed and load step, for random motors within +-30 % and J x0.5 .. 2
+    Scenario wide_motors; ///< the same with +-50 % and J x0.5 .. 3
+};
+
+/// `noise_share` is the largest noise of v_q, of the circle.
+Plan qualification_plan(const Drive &drive, double noise_share);
+
+} // namespace sdre

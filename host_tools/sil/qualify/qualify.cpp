@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "sil/qualify/qualify.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "design/design.hpp"
+#include "sil/eval/random_motors.hpp"
+#include "sil/eval/seeds.hpp"
+
+namespace sdre {
+namespace {
+
+constexpr double peak_ratio  = 1.1;  // the project's bound for every scenario
+constexpr double share_limit = 0.99; // of random motors
+// Chosen: periods between two load steps that cannot be told apart.
+constexpr double same_within = 1.05;
+
+std::optional<double> worst(const SeedMeasure &m, const std::string &metric)
+{
+    for (const SeedSpread &s : m.spread) {
+        if (s.metric == metric) {
+            return s.worst;
+        }
+    }
+    return {};
+}
+
+TrialResult result_of(const Trial &trial, const SeedRuns &runs)
+{
+    TrialResult        r;
+    const SeedMeasure &m = runs.measures.back();
+    r.what               = trial.what;
+    r.faults             = runs.faults;
+    r.settling_time_s    = worst(m, "settling_time_s");
+    r.dip_e_radps        = worst(m, "dip_e_radps").value_or(0.0);
+    r.ripple_e_radps     = worst(m, "ripple_e_radps").value_or(0.0);
+    r.voltage_noise_V    = worst(m, "vq_noise_V").value_or(0.0);
+    for (const SeedMeasure &each : runs.measures) {
+        r.peak_current_A = std::max(r.peak_current_A, worst(each, "peak_current_A").value_or(0.0));
+    }
+    return r;
+}
+
+void beyond(std::vector<std::string> &reasons, const char *what, double is, double most,
+            const char *unit, double scale = 1.0)
+{
+    if (most > 0.0 && !(is <= most)) {
+        reasons.push_back(
+            fmt::format("{} {:.4g} {}, at most {:.4g}", what, scale * is, unit, scale * most));
+    }
+}
+
+void judge(const Trial &t, int seeds, double limit_A, TrialResult &r)
+{
+    if (r.faults > 0 && !t.may_trip) {
+        r.reasons.push_back(fmt::format("trips in {} of {} seeds", r.faults, seeds));
+    }
+    if (!r.settling_time_s && t.must_settle && r.faults == 0) {
+        r.reasons.push_back("does not settle");
+    }
+    const double peak = (t.may_trip ? 2.0 : peak_ratio) * limit_A;
+    beyond(r.reasons, "peak current", r.peak_current_A, peak, "A");
+    beyond(r.reasons, "dip", r.dip_e_radps, t.most_dip_e_radps, "rad/s");
+    beyond(r.reasons, "settling", r.settling_time_s.value_or(0.0), t.most_settling_s, "ms", 1e3);
+    beyond(r.reasons, "noise of v_q", r.voltage_noise_V, t.most_noise_V, "V");
+}
+
+std::vector<TrialResult> run_trials(const std::vector<Trial> &trials, int seeds)
+{
+    std::vector<Scenario> scenarios;
+    for (const Trial &t : trials) {
+        scenarios.push_back(t.scenario);
+    }
+    const std::vector<SeedRuns> runs = run_seeds(scenarios, seeds);
+    std::vector<TrialResult>    results;
+    for (std::size_t i = 0; i < trials.size(); i++) {
+        results.push_back(result_of(trials[i], runs[i]));
+        judge(trials[i], seeds, trials[i].scenario.drive.motor.max_current_A, results.back());
+    }
+    return results;
+}
+
+MotorShare share_of(const Scenario &scenario, int count)
+{
+    MotorShare s{count, 0};
+    if (count > 0) {
+        const RandomMotors runs = run_random_motors(scenario, count);
+        s.good                  = count - static_cast<int>(runs.failures.size());
+    }
+    return s;
+}
+
+/// Every rival of the grid on the load step; tuned as a drive engineer would: as fast as the same noise allows.
+std::optional<Rival> best_rival(const Drive &drive, const Trial &load_step, double noise_V,
+                                int seeds)
+{
+    std::vector<Trial> trials;
+    std::vector<Rival> rivals;
+    const double       fs = 1.0 / control_period_s(drive);
+    for (const double share : {12.5, 18.0, 25.0, 40.0}) { // of the sampling rate
+        for (const double a : {2.0, 2.5, 3.2, 4.5}) {
+            Trial  t                        = load_step;
+            Drive &d                        = t.scenario.drive;
+            d.law                           = Law::pi_foc;
+            d.cascade.current_bandwidth_Hz  = fs / share;
+            d.cascade.symmetrical_optimum_a = a;
+            rivals.push_back({fs / share, a, {}});
+            trials.push_back(t);
+        }
+    }
+    const std::vector<TrialResult> results = run_trials(trials, seeds);
+    std::optional<Rival>           best;
+    for (std::size_t i = 0; i < rivals.size(); i++) {
+        const TrialResult &r = results[i];
+        const bool quiet = r.voltage_noise_V <= noise_V && r.settling_time_s && r.reasons.empty();
+        if (quiet &&
+            (!best || r.dip_e_radps * *r.settling_time_s <
+                          best->load_step.dip_e_radps * *best->load_step.settling_time_s)) {
+            best            = rivals[i];
+            best->load_step = r;
+        }
+    }
+    return best;
+}
+
+void compare(Qualification &q, const Drive &drive, const Trial &load_step, int seeds)
+{
+    const TrialResult &own = q.trials.front();
+    q.rival                = best_rival(drive, load_step, own.voltage_noise_V * same_within, seeds);
+    if (!q.rival || !own.settling_time_s) {
+        return; // nothing of the grid is as quiet and settles
+    }
+    const TrialResult &r = q.rival->load_step;
+    if (own.dip_e_radps > same_within * r.dip_e_radps) {
+        q.reasons.push_back(fmt::format("load step: dip {:.4g} rad/s, pi_foc has {:.4g}",
+                                        own.dip_e_radps, r.dip_e_radps));
+    }
+    if (*own.settling_time_s > same_within * *r.settling_time_s) {
+        q.reasons.push_back(fmt::format("load step: settles in {:.4g} ms, pi_foc in {:.4g}",
+                                        1e3 * *own.settling_time_s, 1e3 * *r.settling_time_s));
+    }
+}
+
+} // namespace
+
+Qualification qualify(const Drive &drive, const QualifyOptions &o)
+{
+    const Plan    plan = qualification_plan(drive, o.noise_share);
+    Qualification q;
+    q.drive                       = drive.name;
+    q.limit_A                     = drive.motor.max_current_A;
+    q.circle_V                    = drive.inverter.dc_link_V / std::sqrt(3.0);
+    const Certificate certificate = design_drive(drive).certificate;
+    q.certified                   = certificate.passed();
+    if (!q.certified) {
+        q.reasons.push_back(
+            fmt::format("not certified: {}", fmt::join(certificate.failures, "; ")));
+    }
+    q.trials = run_trials(plan.trials, o.seeds);
+    for (const TrialResult &r : q.trials) {
+        for (const std::string &reason : r.reasons) {
+            q.reasons.push_back(fmt::format("{}: {}", r.what, reason));
+        }
+    }
+    q.motors = share_of(plan.motors, o.motors);
+    q.wide   = share_of(plan.wide_motors, o.motors / 5);
+    if (q.motors.share() < share_limit) {
+        q.reasons.push_back(fmt::format("{} of {} motors fail, at least {:g} % have to be good",
+                                        q.motors.count - q.motors.good, q.motors.count,
+                                        100.0 * share_limit));
+    }
+    q.compared = o.against && drive.law != Law::pi_foc;
+    if (q.compared) {
+        compare(q, drive, plan.trials.front(), o.seeds);
+    }
+    return q;
+}
+
+} // namespace sdre

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+/// Every trial of the plan run and judged, random motors, and the usual drive beside it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sil/qualify/plan.hpp"
+
+namespace sdre {
+
+struct QualifyOptions {
+    int  seeds   = 10;
+    int  motors  = 1000;
+    bool against = true; ///< compare the load step with pi_foc
+    /// Largest noise of v_q, of the circle. Chosen: `tune` aims at 0.03 of its linear model.
+    double noise_share = 0.04;
+};
+
+/// Worst of all seeds.
+struct TrialResult {
+    std::string              what;
+    int                      faults = 0; ///< seeds that tripped
+    std::optional<double>    settling_time_s;
+    double                   dip_e_radps     = 0.0;
+    double                   ripple_e_radps  = 0.0;
+    double                   peak_current_A  = 0.0;
+    double                   voltage_noise_V = 0.0;
+    std::vector<std::string> reasons; ///< why it is not good; empty when it is
+};
+
+struct MotorShare {
+    int    count = 0;
+    int    good  = 0;
+    double share() const
+    {
+        return count > 0 ? static_cast<double>(good) / count : 1.0;
+    }
+};
+
+/// pi_foc on the same sensors, tuned: the quickest of a grid that is not noisier and passes the trial.
+struct Rival {
+    double      current_bandwidth_Hz = 0.0;
+    double      optimum_a            = 0.0;
+    TrialResult load_step;
+};
+
+struct Qualification {
+    std::string              drive;
+    double                   limit_A   = 0.0;
+    double                   circle_V  = 0.0;
+    bool                     certified = false;
+    std::vector<TrialResult> trials;
+    MotorShare               motors; ///< R, L, flux +-30 %, J x0.5 .. 2
+    MotorShare               wide;   ///< R, L, flux +-50 %, J x0.5 .. 3; for information
+    bool                     compared = false;
+    std::optional<Rival>     rival;   ///< none: no tuning of the grid is as quiet and settles
+    std::vector<std::string> reasons; ///< what is not good, all of it
+
+    bool good() const
+    {
+        return reasons.empty();
+    }
+};
+
+Qualification qualify(const Drive &drive, const QualifyOptions &options);
+
+std::string qualification_text(const Qualification &q);
+std::string qualification_json(const Qualification &q);
+
+} // namespace sdre

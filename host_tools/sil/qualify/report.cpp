@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "common/json.hpp"
+#include "sil/qualify/qualify.hpp"
+
+namespace sdre {
+namespace {
+
+std::string row_text(const TrialResult &r, const Qualification &q)
+{
+    const std::string settles =
+        r.settling_time_s ? fmt::format("{:.2f}", 1e3 * *r.settling_time_s) : "never";
+    return fmt::format("{:<34} {:>9} {:>9.3g} {:>9.3g} {:>8.2f} {:>8.2f}  {}\n", r.what, settles,
+                       r.dip_e_radps, r.ripple_e_radps, r.peak_current_A / q.limit_A,
+                       100.0 * r.voltage_noise_V / q.circle_V,
+                       !r.reasons.empty() ? fmt::format("{}", fmt::join(r.reasons, ", "))
+                       : r.faults > 0     ? "good, trips"
+                                          : "good");
+}
+
+std::string motors_text(const char *what, const MotorShare &m)
+{
+    return m.count == 0 ? ""
+                        : fmt::format("{}: {} of {} good, {:.1f} %\n", what, m.good, m.count,
+                                      100.0 * m.share());
+}
+
+std::string rival_text(const Qualification &q)
+{
+    if (!q.rival) {
+        return "pi_foc: no tuning of the grid is as quiet and settles\n";
+    }
+    return row_text(q.rival->load_step, q) +
+           fmt::format("  pi_foc with {:.4g} Hz, a = {:g}: the quickest that is not noisier\n",
+                       q.rival->current_bandwidth_Hz, q.rival->optimum_a);
+}
+
+Json trial_json(const TrialResult &r)
+{
+    Json j{{"what", r.what},
+           {"good", r.reasons.empty()},
+           {"faults", r.faults},
+           {"dip_e_radps", r.dip_e_radps},
+           {"ripple_e_radps", r.ripple_e_radps},
+           {"peak_current_A", r.peak_current_A},
+           {"vq_noise_V", r.voltage_noise_V},
+           {"reasons", r.reasons}};
+    if (r.settling_time_s) {
+        j["settling_time_s"] = *r.settling_time_s;
+    } else {
+        j["settling_time_s"] = nullptr;
+    }
+    return j;
+}
+
+Json share_json(const MotorShare &m)
+{
+    return {{"count", m.count}, {"good", m.good}};
+}
+
+} // namespace
+
+std::string qualification_text(const Qualification &q)
+{
+    std::string s = fmt::format("{}: {}\n\n{:<34} {:>9} {:>9} {:>9} {:>8} {:>8}\n", q.drive,
+                                q.good() ? "good" : "NOT GOOD", "worst of all seeds", "settles",
+                                "dip", "ripple", "peak", "noise");
+    s += fmt::format("{:<34} {:>9} {:>9} {:>9} {:>8} {:>8}\n", "", "ms", "rad/s", "rad/s",
+                     "of limit", "% v_q");
+    for (const TrialResult &r : q.trials) {
+        s += row_text(r, q);
+    }
+    s += q.compared ? rival_text(q) : "";
+    s += motors_text("R, L, flux +-30 %, J x0.5 .. 2", q.motors);
+    s += motors_text("R, L, flux +-50 %, J x0.5 .. 3 (for information)", q.wide);
+    for (const std::string &reason : q.reasons) {
+        s += "not good: " + reason + "\n";
+    }
+    return s;
+}
+
+std::string qualification_json(const Qualification &q)
+{
+    Json trials = Json::array();
+    for (const TrialResult &r : q.trials) {
+        trials.push_back(trial_json(r));
+    }
+    Json j{{"drive", q.drive},
+           {"good", q.good()},
+           {"certified", q.certified},
+           {"current_limit_A", q.limit_A},
+           {"voltage_circle_V", q.circle_V},
+           {"trials", trials},
+           {"motors", share_json(q.motors)},
+           {"wide_motors", share_json(q.wide)},
+           {"reasons", q.reasons}};
+    if (q.compared && !q.rival) {
+        j["pi_foc"] = nullptr;
+    }
+    if (q.rival) {
+        j["pi_foc"] = {{"current_bandwidth_Hz", q.rival->current_bandwidth_Hz},
+                       {"symmetrical_optimum_a", q.rival->optimum_a},
+                       {"load_step", trial_json(q.rival->load_step)}};
+    }
+    return j.text();
+}
+
+} // namespace sdre

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "command.hpp"
+#include "shipped_drive.hpp"
+#include "temp_dir.hpp"
+#include "tune/goals.hpp"
+#include "tune/start_weights.hpp"
+
+namespace {
+
+using support::TempDir;
+
+support::CommandResult gains(std::vector<std::string> arguments)
+{
+    arguments.insert(arguments.begin(), SDRE_GAINS_EXE);
+    return support::run_command(std::move(arguments));
+}
+
+std::string sheet(const std::string &name)
+{
+    return std::string(SDRE_TEST_DATA_DIR) + "/facts/" + name + ".toml";
+}
+
+sdre::Drive shipped()
+{
+    return sdre::read_drive_file(support::shipped_drive("ipmsm_390w"));
+}
+
+} // namespace
+
+TEST(AutoTune, FromADataSheetToACertifiedDrive)
+{
+    const TempDir     dir;
+    const std::string drive = dir / "drive.toml";
+    const std::string tuned = dir / "tuned.toml";
+    const auto        made  = gains({"new", "--facts", sheet("outrunner_24v"), "--out", drive});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_NE(made.err.find("note: phase_inductance_uH = 30"), std::string::npos) << made.err;
+
+    const auto first = gains({"tune", drive, "--out", tuned});
+    ASSERT_EQ(first.exit_code, 0) << first.err;
+    EXPECT_NE(first.out.find(" binds, "), std::string::npos) << first.out;
+    EXPECT_NE(first.err.find("100 evaluations"), std::string::npos) << first.err;
+    EXPECT_EQ(gains({"report", tuned}).exit_code, 0);
+
+    // The same again, from the tuned file: the start is the motor's, not the file's.
+    const std::string text = support::read_file(tuned);
+    ASSERT_EQ(gains({"tune", tuned}).exit_code, 0);
+    EXPECT_EQ(support::read_file(tuned), text);
+}
+
+TEST(AutoTune, WishesBeyondPhysicsAreRefusedInOneLine)
+{
+    const TempDir     dir;
+    const std::string drive = dir / "drive.toml";
+    ASSERT_EQ(gains({"new", "--facts", sheet("servo_2k2"), "--out", drive}).exit_code, 0);
+    std::string       text = support::read_file(drive);
+    const std::size_t at   = text.find("rated_torque_Nm       = 14.0");
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, 28, "rated_torque_Nm       = 70.0");
+    const std::string wish = dir.write("wish.toml", text);
+
+    support::expect_refused(gains({"tune", wish, "--out", dir / "t.toml"}), 1, "sdre-gains",
+                            {"rated_torque_Nm = 70", "max_current_A = 9.12", "N m"});
+    EXPECT_FALSE(std::filesystem::exists(dir / "t.toml"));
+}
+
+TEST(AutoTune, ContradictionsWriteNothing)
+{
+    const TempDir dir;
+    const auto    r = gains({"new", "--facts", sheet("servo_600w_surface"), "--set", "pole_pairs=8",
+                             "--out", dir / "d.toml"});
+
+    EXPECT_EQ(r.exit_code, 1);
+    EXPECT_NE(r.err.find("contradiction: poles = 8 and pole_pairs = 8 disagree"), std::string::npos)
+        << r.err;
+    EXPECT_FALSE(std::filesystem::exists(dir / "d.toml"));
+}
+
+// Motors that are the same but for their units get the same weights but for their units: all currents ten times larger,
+// voltages too; twice as fast in every respect.
+TEST(AutoTune, StartWeightsScaleWithTheMotor)
+{
+    const sdre::Drive a = shipped();
+    sdre::Drive       b = a;
+    b.motor.pm_flux_Wb *= 10;
+    b.motor.inertia_kgm2 *= 100;
+    b.motor.viscous_friction_Nms *= 100;
+    b.motor.max_current_A *= 10;
+    b.inverter.dc_link_V *= 10;
+    b.current_sensors.range_A *= 10;
+    b.current_sensors.noise_rms_A *= 10;
+
+    const sdre::Drive wa           = sdre::start_weights(a, 1.0);
+    const sdre::Drive wb           = sdre::start_weights(b, 1.0);
+    const double      three_digits = 5e-3;
+    EXPECT_NEAR(wb.nosc.T[0] / wa.nosc.T[0], 1e-2, 1e-2 * three_digits);
+    EXPECT_NEAR(wb.nosc.Q[0] / wa.nosc.Q[0], 1.0, three_digits);
+    EXPECT_NEAR(wb.nosc.Q[2] / wa.nosc.Q[2], 1e-2, 1e-2 * three_digits);
+    EXPECT_NEAR(wb.nodo.Q[0] / wa.nodo.Q[0], 1.0, three_digits);
+    EXPECT_NEAR(wb.nodo.Q[1] / wa.nodo.Q[1], 1e2, 1e2 * three_digits);
+    EXPECT_NEAR(wb.nodo.T[0] / wa.nodo.T[0], 1e2, 1e2 * three_digits);
+    EXPECT_NEAR(wb.nodo.T[2] / wa.nodo.T[2], 1.0, three_digits);
+}
+
+// docs/errata.md has 3.2 rad/s of the 390 W motor's load step from half to all of its torque at 300 rad/s.
+TEST(AutoTune, PhysicalBoundOfTheShippedMotor)
+{
+    const sdre::PhysicalBound bound = sdre::physical_bound(shipped());
+
+    EXPECT_NEAR(bound.dip_e_radps, 3.2, 0.8);
+    EXPECT_GT(bound.reaction_s, 1.5 * 200e-6);
+}

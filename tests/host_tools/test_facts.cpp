@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <toml++/toml.h>
+
+#include "common/errors.hpp"
+#include "common/toml_reader.hpp"
+#include "design/design.hpp"
+#include "facts/cross_checks.hpp"
+#include "facts/new_drive_text.hpp"
+
+namespace {
+
+const double pi = std::acos(-1.0);
+
+std::string sheet_path(const std::string &name)
+{
+    return std::string(SDRE_TEST_DATA_DIR) + "/facts/" + name + ".toml";
+}
+
+struct Read {
+    sdre::Machine  machine;
+    sdre::Findings findings;
+};
+
+/// A sheet with some facts replaced or added, and some left out.
+Read read(const std::string &sheet, const std::string &more = "",
+          const std::vector<std::string> &without = {})
+{
+    toml::table table = sdre::parse_toml_file(sheet_path(sheet));
+    for (const std::string &key : without) {
+        table.erase(key);
+    }
+    const toml::table added = toml::parse(more);
+    for (const auto &[key, value] : added) {
+        table.insert_or_assign(key.str(), *value.value<double>());
+    }
+    Read              r;
+    const sdre::Facts facts = sdre::parse_facts(sheet, table);
+    r.machine               = sdre::machine_of(facts, sheet, r.findings);
+    sdre::check_ratings(facts, r.machine, r.findings);
+    sdre::check_machine(r.machine, r.findings);
+    return r;
+}
+
+std::string all(const std::vector<std::string> &lines)
+{
+    std::string s;
+    for (const std::string &line : lines) {
+        s += line + "\n";
+    }
+    return s;
+}
+
+double value_of(const std::string &key, double value)
+{
+    return sdre::parse_fact("here", key, value).si;
+}
+
+std::string refusal(const std::string &key, double value = 1.0)
+{
+    try {
+        sdre::parse_fact("here", key, value);
+    } catch (const sdre::InputError &e) {
+        return e.what();
+    }
+    return "";
+}
+
+} // namespace
+
+// By hand from the definitions of the units.
+TEST(Facts, UnitsInEveryUsualSpelling)
+{
+    const double rpm = pi / 30.0;
+    EXPECT_DOUBLE_EQ(value_of("line_to_line_resistance_mOhm", 18), 0.018);
+    EXPECT_DOUBLE_EQ(value_of("phase_inductance_uH", 30), 30e-6);
+    EXPECT_DOUBLE_EQ(value_of("Ld_mH", 0.37), 0.37e-3);
+    EXPECT_DOUBLE_EQ(value_of("inertia_kgcm2", 0.83), 0.83e-4);
+    EXPECT_DOUBLE_EQ(value_of("rotor_inertia_g_cm2", 24), 24e-7);
+    EXPECT_NEAR(value_of("moment_of_inertia_oz_in_s2", 1), 7.0615518e-3, 1e-9);
+    EXPECT_NEAR(value_of("inertia_lb_in2", 1), 2.926397e-4, 1e-9);
+    EXPECT_DOUBLE_EQ(value_of("rated_speed_r_min", 3000), 3000 * rpm);
+    EXPECT_DOUBLE_EQ(value_of("nominal_speed_krpm", 3), 3000 * rpm);
+    EXPECT_DOUBLE_EQ(value_of("speed_max_rad_per_s", 100), 100);
+    EXPECT_NEAR(value_of("rated_torque_ozin", 100), 0.70615518, 1e-7);
+    EXPECT_NEAR(value_of("continuous_torque_lb_ft", 1), 1.3558179, 1e-6);
+    EXPECT_DOUBLE_EQ(value_of("rated_torque_Ncm", 20), 0.2);
+    EXPECT_NEAR(value_of("rated_power_hp", 1), 745.69987, 1e-4);
+    EXPECT_DOUBLE_EQ(value_of("kv_rpm_per_V", 330), 330 * rpm);
+    EXPECT_NEAR(value_of("ke_line_to_line_rms_V_per_krpm", 31.6), 31.6 / (1000 * rpm), 1e-12);
+    EXPECT_DOUBLE_EQ(value_of("torque_constant_mNm_per_A_rms", 70), 0.070);
+    EXPECT_DOUBLE_EQ(value_of("pwm_kHz", 8), 8000);
+    EXPECT_DOUBLE_EQ(value_of("dead_time_ns", 500), 5e-7);
+    EXPECT_DOUBLE_EQ(value_of("viscous_friction_mNm_per_krpm", 1), 1e-3 / (1000 * rpm));
+}
+
+TEST(Facts, HowAValueIsMeant)
+{
+    const sdre::Fact a = sdre::parse_fact("here", "rated_current_A_rms", 3);
+    EXPECT_EQ(a.amplitude, sdre::Amplitude::rms);
+    EXPECT_NEAR(sdre::peak_A(a), 4.2426407, 1e-6);
+    const sdre::Fact b = sdre::parse_fact("here", "peak_current_Arms", 3);
+    EXPECT_EQ(b.quantity, "max_current");
+    EXPECT_EQ(b.amplitude, sdre::Amplitude::rms);
+    const sdre::Fact c = sdre::parse_fact("here", "terminal_resistance_Ohm", 3);
+    EXPECT_EQ(c.connection, sdre::Connection::line_to_line);
+    EXPECT_EQ(sdre::parse_fact("here", "current_limit_A_peak", 3).quantity, "max_current");
+}
+
+TEST(Facts, WhatIsNotUnderstoodIsRefused)
+{
+    EXPECT_NE(refusal("rated_torque_furlongs").find("rated_torque ends with one of nm, mnm"),
+              std::string::npos);
+    EXPECT_NE(refusal("colour").find("colour is not understood"), std::string::npos);
+    EXPECT_NE(refusal("resistance").find("is not understood"), std::string::npos);
+    EXPECT_NE(refusal("rated_torque_Nm", -1).find("must be above 0"), std::string::npos);
+    EXPECT_NE(refusal("pole_pairs", 1.5).find("whole number"), std::string::npos);
+    EXPECT_NE(refusal("rated_torque_Nm", NAN).find("must be"), std::string::npos);
+}
+
+// Flux from each constant of the same made-up motor: 4 pole pairs, 0.0616 Wb.
+TEST(Facts, MagnetFromEveryConstant)
+{
+    const double flux = 0.0616;
+    const double pp   = 4;
+    const auto   of   = [&](const std::string &key, double value) {
+        return sdre::flux_of(sdre::parse_fact("here", key, value), pp);
+    };
+    const double krpm = 1000 * pi / 30;
+    EXPECT_NEAR(of("ke_line_to_line_rms_V_per_krpm", flux * pp * krpm * std::sqrt(1.5)), flux,
+                1e-9);
+    EXPECT_NEAR(of("ke_phase_peak_V_per_radps", flux * pp), flux, 1e-9);
+    EXPECT_NEAR(of("kt_Nm_per_A_peak", 1.5 * pp * flux), flux, 1e-9);
+    EXPECT_NEAR(of("kt_Nm_per_A_rms", 1.5 * pp * flux * std::sqrt(2.0)), flux, 1e-9);
+    EXPECT_NEAR(of("kv_rpm_per_V", 30 / pi / (flux * pp * std::sqrt(3.0))), flux, 1e-9);
+    EXPECT_NEAR(of("pm_flux_peak_mWb", 61.6), flux, 1e-9);
+}
+
+TEST(Facts, SheetsInSiUnits)
+{
+    const sdre::Machine s = read("servo_600w_surface").machine;
+    EXPECT_EQ(s.pole_pairs.si, 4);
+    EXPECT_DOUBLE_EQ(s.resistance_Ohm.si, 1.86);
+    EXPECT_DOUBLE_EQ(s.ld_H.si, 3.715e-3);
+    EXPECT_DOUBLE_EQ(s.lq_H.si, 3.715e-3);
+    EXPECT_NEAR(s.flux_Wb.si, 31.6 * std::sqrt(2.0 / 3.0) / (4 * 1000 * pi / 30), 1e-12);
+    EXPECT_DOUBLE_EQ(s.inertia_kgm2.si, 8.3e-5);
+    EXPECT_NEAR(s.rated_speed_radps.si, 120 * pi, 1e-9);
+    const sdre::Machine m = read("spm_1500w").machine;
+    EXPECT_NEAR(m.max_current_A.si, 9 * std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(m.flux_Wb.si, 0.189, 2e-3);
+    EXPECT_DOUBLE_EQ(m.dead_time_s.si, 1.5e-6);
+    EXPECT_EQ(read("servo_60w").machine.lines.si, 1000);
+}
+
+TEST(Facts, GoodSheetsHaveNoContradiction)
+{
+    for (const char *name : {"servo_2k2", "servo_600w_surface", "outrunner_24v", "ev_100kw",
+                             "syrm_6k7", "pump_256", "spm_1500w", "servo_60w", "torque_motor"}) {
+        EXPECT_EQ(all(read(name).findings.contradictions), "") << name;
+    }
+}
+
+struct Slip {
+    const char              *sheet;
+    const char              *more;
+    std::vector<std::string> without;
+    const char              *found; ///< a piece of one contradiction
+};
+
+/// The classic mistakes, each made in a sheet that was right; the line names both values.
+TEST(Facts, ClassicMistakesAreFound)
+{
+    const std::vector<Slip> slips{
+        {"servo_600w_surface", "pole_pairs = 8", {}, "poles = 8 and pole_pairs = 8 disagree"},
+        {"servo_2k2", "pole_pairs = 6", {}, "rated_speed_rpm = 1500 with pole_pairs = 6"},
+        {"spm_1500w",
+         "torque_constant_Nm_per_A_peak = 1.6",
+         {"torque_constant_Nm_per_Arms"},
+         "1.41: rms and peak?"},
+        {"spm_1500w", "rated_current_A_peak = 3.0", {"rated_current_A_rms"}, "rms and peak?"},
+        {"spm_1500w",
+         "back_emf_V_phase_rms_per_krpm = 97",
+         {"back_emf_Vrms_line_to_line_per_krpm"},
+         "of a phase and line to line?"},
+        {"spm_1500w", "rated_speed_rad_per_s = 3000", {"rated_speed_r_min"}, "r/min and rad/s?"},
+        {"servo_600w_surface", "rated_speed_rpm = 377", {}, "needs"},
+        {"servo_60w", "rotor_inertia_kgm2 = 24", {"rotor_inertia_gcm2"}, "gcm2, kgcm2 and kgm2"},
+        {"servo_600w_surface",
+         "inertia_kgm2 = 0.83",
+         {"inertia_kgcm2"},
+         "takes 156 s to 3600 r/min"},
+        {"servo_2k2",
+         "line_to_line_resistance_Ohm = 3.6",
+         {},
+         "line_to_line_resistance_Ohm = 3.6 and phase_resistance_Ohm = 3.6 disagree"},
+        {"spm_1500w", "rated_power_kW = 15", {}, "rated_power_kW = 15 against 1499 W"},
+        {"servo_2k2", "rated_torque_Nm = 70", {}, "against"},
+        {"servo_2k2", "electrical_time_constant_ms = 50", {}, "electrical_time_constant_ms = 50"},
+        {"servo_2k2", "rated_current_A_peak = 12", {}, "is above max_current_peak_A = 9.12"},
+        {"ev_100kw", "max_speed_rpm = 2000", {}, "is below base_speed_rpm = 3000"},
+        {"outrunner_24v", "phase_inductance_nH = 30", {"phase_inductance_uH"}, "not understood"},
+        {"servo_2k2", "encoder_lines = 16", {}, "a count is 0.29 rad electrical"},
+        {"servo_2k2", "dead_time_us = 30", {}, "more than a tenth of the period"}};
+    for (const Slip &slip : slips) {
+        std::string said;
+        try {
+            said = all(read(slip.sheet, slip.more, slip.without).findings.contradictions);
+        } catch (const sdre::InputError &e) {
+            said = e.what();
+        }
+        EXPECT_NE(said.find(slip.found), std::string::npos)
+            << slip.sheet << " with " << slip.more << ": " << said;
+    }
+}
+
+TEST(Facts, WhatIsAssumedIsSaid)
+{
+    // 1.5 * 3 * 0.545 = 2.45 N m per ampere of peak, 3.47 of rms.
+    const Read rms = read("servo_2k2", "kt_Nm_per_A = 3.47", {"pm_flux_peak_Vs"});
+    EXPECT_NEAR(rms.machine.flux_Wb.si, 0.545, 1e-3);
+    EXPECT_NE(all(rms.findings.notes).find("kt_Nm_per_A = 3.47: taken as rms"), std::string::npos);
+    const Read peak = read("servo_2k2", "kt_Nm_per_A = 2.45");
+    EXPECT_EQ(all(peak.findings.contradictions), "");
+    EXPECT_NE(all(peak.findings.notes).find("taken as peak, as pm_flux_peak_Vs = 0.545 says"),
+              std::string::npos);
+    const Read bare = read("servo_2k2", "resistance_Ohm = 3.6", {"phase_resistance_Ohm"});
+    EXPECT_NE(all(bare.findings.notes).find("taken as of one phase"), std::string::npos);
+}
+
+TEST(Facts, ATextThatReadsAndIsCertified)
+{
+    for (const char *name : {"outrunner_24v", "torque_motor"}) {
+        const std::string text  = sdre::new_drive_text(read(name).machine);
+        const sdre::Drive drive = sdre::read_drive_text(text, name);
+        EXPECT_TRUE(sdre::design_drive(drive).certificate.passed()) << text;
+        EXPECT_NE(text.find("# encoder_lines = "), std::string::npos);
+    }
+}
