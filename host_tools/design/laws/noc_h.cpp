@@ -64,7 +64,7 @@ RobustBox harmonic_box(const Design &d)
     const nodo_harmonic_gains_t &table    = *d.harmonics->table;
     const double                 iq_A     = d.drive.motor.max_current_A;
     const OperatingPoint         points[] = {
-                {0.0, 0.0, 0.0}, {d.drive.motor.rated_speed_e_radps, iq_A, mtpa_id_A(d.l, iq_A)}};
+                {0.0, 0.0, d.l[0]}, {d.drive.motor.rated_speed_e_radps, iq_A, mtpa_id_A(d.l, iq_A)}};
     return robust_box(d.drive.motor, [&](const ReducedParameters &motor) {
         double worst = 0.0;
         for (const OperatingPoint &at : points) {
