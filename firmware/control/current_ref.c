@@ -11,6 +11,9 @@
 /* Chosen: the q current can always be asked to change by this share of what a motor at rest allows. */
 #define SLEW_SHARE_MIN 0.4f
 
+/* l1_min is half of l1 without load. */
+#define L1_PER_MIN 2.0f
+
 /* The voltage circle in amperes of q-axis flux linkage, around the present operating point. */
 typedef struct {
     bool  active;      /**< fast enough to matter; only then the rest is set */
@@ -60,7 +63,7 @@ static circle_t voltage_circle(const current_ref_config_t *c, const motor_reduce
 {
     const float w      = in->state->omega_e_radps;
     const float v_6    = m->l6 * c->voltage_share * in->v_max_V;
-    circle_t    circle = {.active = (FW_SPEED_SHARE * v_6) < (m->l5 * fabsf(w))};
+    circle_t    circle = {.active = (FW_SPEED_SHARE * v_6) < (c->flux_A * fabsf(w))};
 
     if (circle.active) {
         const float both   = 1.0f / (w * accel); /* one division for both reciprocals */
@@ -90,7 +93,7 @@ static float id_weakening_A(const current_ref_config_t *c, const motor_reduced_t
     return m->l9 * (q_flux - m->l5 - v->x_A);
 }
 
-/* EQ-CURRENT-REF-2 and 5. */
+/* EQ-CURRENT-REF-2, 5 and 8. */
 static float id_target_A(const current_ref_config_t *c, const motor_reduced_t *m, const circle_t *v,
                          float iq_A, float iq_wanted_A)
 {
@@ -100,7 +103,7 @@ static float id_target_A(const current_ref_config_t *c, const motor_reduced_t *m
     if (v->active) {
         id_A = base_min(id_weakening_A(c, m, v, iq_wanted_A), id_A);
     }
-    return base_clamp(id_A, -c->current_max_A, 0.0f);
+    return base_clamp(id_A, -c->current_max_A, c->id_rest_A);
 }
 
 /* EQ-CURRENT-REF-7: the least iq w. */
@@ -163,8 +166,8 @@ speed_ref_limits_t current_ref_speed_limits(const current_ref_t *r, const curren
     const speed_ref_limits_t limits = {
         .accel_hi_e_radps2  = base_max(unforced + (accel * r->iq_hi_A), 0.0f),
         .accel_lo_e_radps2  = base_min(unforced + (accel * r->iq_lo_A), 0.0f),
-        .jerk_up_e_radps3   = m->l1 * base_min(up, top),
-        .jerk_down_e_radps3 = m->l1 * base_min(down, top),
+        .jerk_up_e_radps3   = L1_PER_MIN * c->l1_min * base_min(up, top),
+        .jerk_down_e_radps3 = L1_PER_MIN * c->l1_min * base_min(down, top),
         .near_e_radps       = c->near_e_radps,
         .samples_1ps        = c->samples_1ps};
     return limits;
@@ -202,6 +205,7 @@ bool current_ref_check(const current_ref_config_t *c)
            base_in_range(2.0f * c->mtpa_A * c->mtpa_half_1pA, 0.999f, 1.001f) &&
            base_in_range(c->voltage_share, 1.0e-3f, 1.0f) &&
            base_in_range(c->torque_share, 1.0e-3f, 1.0f) && check_positive(c->near_e_radps) &&
+           base_in_range(c->id_rest_A, -c->current_max_A, 0.0f) && check_positive(c->flux_A) &&
            check_positive(c->l1_min) && base_in_range(c->filter_per_period, 1.0e-6f, 1.0f) &&
            check_positive(c->filter_1ps) && check_positive(c->samples_1ps) &&
            base_in_range(c->regen_max_W_norm, 0.0f, CHECK_LARGEST) &&

@@ -17,6 +17,7 @@
  *     id_ref  = min(id_mtpa, id_fw)                                         EQ-CURRENT-REF-5, for (7a)
  *     |iq_ref - y| <= sqrt(f^2 - (l5 + l10 id + x)^2)                       EQ-CURRENT-REF-6
  *     iq_ref w (l1 + l11 id) >= -P(v_dc) / (J / np^2)                       EQ-CURRENT-REF-7
+ *     id_ref <= id_rest, of a motor with next to no magnet                  EQ-CURRENT-REF-8
  *
  * and the current circle. Reasons: docs/errata.md.
  */
@@ -37,6 +38,8 @@ typedef struct {
     float voltage_share; /**< of the voltage circle that steady currents may need, (0, 1] */
     float torque_share;  /**< of the available torque that the speed reference may use, (0, 1] */
     float near_e_radps;  /**< speed error that asks for the whole current [rad/s], > 0 */
+    float id_rest_A;     /**< d current without load [A], <= 0; 0 with a magnet of any strength */
+    float flux_A;        /**< flux / Lq from which weakening is looked after [A], >= l5, > 0 */
     float l1_min;        /**< smallest l1 + l11 id [rad/s^2/A], > 0 */
     float filter_per_period; /**< Ts / time constant of the id filter, (0, 1] */
     float filter_1ps;        /**< 1 / that time constant [1/s], > 0 */

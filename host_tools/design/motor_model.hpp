@@ -10,10 +10,14 @@
 
 namespace sdre {
 
-/// l[1] .. l[11] of paper A (2); l[0] is unused so that indices are the paper's.
+/// l[1] .. l[11] of paper A (2). l[0] is the d current without load [A], at most 0: a magnet that gives less than a fifth of
+/// the largest flux of the torque is helped by one, so that a q current always has some torque. 0 for all others.
 using ReducedParameters = std::array<double, 12>;
 
 ReducedParameters reduced_parameters(const Motor &motor);
+
+/// The same around the d current without load in place of none: l1 and l5 as they are there.
+ReducedParameters at_rest(ReducedParameters l);
 
 /// Error dynamics (10), (15), (20): states e_w, e_iq, e_id; inputs v_q, v_d; scheduled by e_iq.
 SdreProblem nosc_problem(const ReducedParameters &l, const NoscSpec &spec);

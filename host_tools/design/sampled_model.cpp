@@ -116,8 +116,9 @@ SampledModel sampled_model(const ReducedParameters &motor, const ReducedParamete
 
 double mtpa_id_A(const ReducedParameters &l, double iq_A)
 {
-    const double k = 0.5 * l[5] / std::max(1.0 - l[10], 1e-9); // EQ-CURRENT-REF-2
-    return -iq_A * iq_A / (k + std::hypot(k, iq_A));
+    const double k    = 0.5 * l[5] / std::max(1.0 - l[10], 1e-9); // EQ-CURRENT-REF-2
+    const double most = iq_A == 0.0 ? 0.0 : -iq_A * iq_A / (k + std::hypot(k, iq_A));
+    return std::min(most, l[0]);
 }
 
 } // namespace sdre

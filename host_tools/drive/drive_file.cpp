@@ -18,7 +18,7 @@ namespace {
 // slipped unit (mH, rpm, g cm^2) is caught.
 constexpr Range resistance_Ohm{1e-5, 1e3};
 constexpr Range inductance_H{1e-7, 10.0};
-constexpr Range flux_Wb{1e-5, 10.0};
+constexpr Range flux_Wb{0.0, 10.0};
 constexpr Range inertia_kgm2{1e-9, 1e3};
 constexpr Range friction_Nms{0.0, 1e2};
 constexpr Range torque_Nm{1e-5, 1e5};

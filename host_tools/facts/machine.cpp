@@ -398,12 +398,6 @@ Machine machine_of(const Facts &facts, const std::string &default_name, Findings
         throw InputError(fmt::format("{}: {} must not exceed {} (the magnet's axis is d)",
                                      facts.source, m.ld_H.origin, m.lq_H.origin));
     }
-    if (m.flux_Wb.si <= 0.0) {
-        throw InputError(fmt::format(
-            "{}: {}: a motor without a magnet has no torque without a d current, and these laws let "
-            "that go to zero; from 0.2 of the largest flux linkage on they can",
-            facts.source, m.flux_Wb.origin));
-    }
     ratings(r, m);
     if (m.rated_speed_radps.si <= 0.0) {
         m.rated_speed_radps = base_speed(m);

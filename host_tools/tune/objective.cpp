@@ -45,7 +45,7 @@ Motor believed_motor(Motor m, const RobustnessCase &c)
 /// The steady operating point that carries a load torque on the MTPA curve.
 OperatingPoint operating_point(const ReducedParameters &l, double speed, double load_Nm)
 {
-    OperatingPoint at{speed, 0.0, 0.0};
+    OperatingPoint at{speed, 0.0, l[0]};
     for (int i = 0; i < 50; i++) { // contraction factor below 0.5
         at.iq_A = (l[2] * speed + l[3] * load_Nm) / (l[1] + l[11] * at.id_A);
         at.id_A = mtpa_id_A(l, at.iq_A);
@@ -96,13 +96,13 @@ Loop loop_of(const Drive &drive, const RobustnessCase &c)
 {
     const ReducedParameters model = reduced_parameters(believed_motor(drive.motor, c));
     const Eigen::Vector2d   T_nosc(drive.nosc.T[0], drive.nosc.T[1]);
-    const SdreProblem       control = nosc_problem(model, drive.nosc);
+    const SdreProblem       control = nosc_problem(at_rest(model), drive.nosc);
     const MatrixXd          X       = solve_care(control.A0, control.G, control.Q).X;
     const double            ts      = control_period_s(drive);
     return {reduced_parameters(drive.motor),
             model,
             {T_nosc.cwiseInverse().asDiagonal() * nosc_input_matrix(model).transpose() * X,
-             solve_encoder_form(model, drive.nodo, ts).gain[0]},
+             solve_encoder_form(at_rest(model), drive.nodo, ts).gain[0]},
             ts};
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "command.hpp"
+#include "design/motor_model.hpp"
 #include "shipped_drive.hpp"
 #include "temp_dir.hpp"
 #include "tune/goals.hpp"
@@ -105,6 +106,21 @@ TEST(AutoTune, StartWeightsScaleWithTheMotor)
     EXPECT_NEAR(wb.nodo.Q[1] / wa.nodo.Q[1], 1e2, 1e2 * three_digits);
     EXPECT_NEAR(wb.nodo.T[0] / wa.nodo.T[0], 1e2, 1e2 * three_digits);
     EXPECT_NEAR(wb.nodo.T[2] / wa.nodo.T[2], 1.0, three_digits);
+}
+
+// Without a magnet: (Lq - Ld) id is then all of the flux, so a fifth of it at a fifth of the d current of the limit, which
+// is the limit over the root of two.
+TEST(AutoTune, AMotorWithoutAMagnetIsCertified)
+{
+    const TempDir     dir;
+    const std::string drive = dir / "drive.toml";
+    ASSERT_EQ(gains({"new", "--facts", sheet("syrm_6k7"), "--out", drive}).exit_code, 0);
+    const sdre::Motor motor = sdre::read_drive_file(drive).motor;
+    EXPECT_NEAR(sdre::reduced_parameters(motor)[0], -0.2 * 32.9 / std::sqrt(2.0), 1e-9);
+    EXPECT_EQ(sdre::reduced_parameters(shipped().motor)[0], 0.0);
+
+    EXPECT_EQ(gains({"tune", drive, "--out", dir / "t.toml"}).exit_code, 0);
+    EXPECT_EQ(gains({"report", dir / "t.toml"}).exit_code, 0);
 }
 
 // docs/errata.md has 3.2 rad/s of the 390 W motor's load step from half to all of its torque at 300 rad/s.

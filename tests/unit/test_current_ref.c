@@ -314,6 +314,24 @@ static void test_id_follows_the_mtpa_curve_of_the_previous_reference(void)
     }
 }
 
+/* EQ-CURRENT-REF-8: a motor with next to no magnet keeps some d current, and the curve beyond it. */
+static void test_id_stays_at_rest_current_without_load(void)
+{
+    config.id_rest_A = -0.5f;
+
+    update();
+    TEST_ASSERT_TRUE(r.i_A.d == -0.5f);
+
+    est.d_omega = -4000.0f; /* a load that takes more than 0.5 A of the curve */
+    for (int n = 0; n < 3; n++) {
+        update();
+    }
+    TEST_ASSERT_TRUE(r.i_A.d < -0.5f);
+
+    config.id_rest_A = 0.5f;
+    TEST_ASSERT_FALSE(current_ref_check(&config));
+}
+
 static void test_surface_magnet_motor_needs_no_id_at_low_speed(void)
 {
     motor_reduced_t m = speed_tables_drive.motor;
@@ -799,6 +817,7 @@ int main(void)
     RUN_TEST(test_id_at_low_speed_gives_the_most_torque_per_ampere);
     RUN_TEST(test_second_order_id_costs_some_percent_more_current);
     RUN_TEST(test_id_follows_the_mtpa_curve_of_the_previous_reference);
+    RUN_TEST(test_id_stays_at_rest_current_without_load);
     RUN_TEST(test_surface_magnet_motor_needs_no_id_at_low_speed);
     RUN_TEST(test_id_matches_search_in_volts_at_high_speed);
     RUN_TEST(test_id_makes_room_for_the_current_that_the_speed_error_asks_for);

@@ -37,6 +37,11 @@ constexpr double regen_start_ratio = 1.10;
 constexpr double regen_end_ratio   = 1.25;
 // A surface magnet motor has no saliency; this many amperes stand for its infinite k of EQ-CURRENT-REF-2.
 constexpr double largest_mtpa_A = 1e6;
+// A motor without a magnet has k = 0; this share of the limit leaves the curve where it is.
+constexpr double least_mtpa_ratio = 1e-3;
+// Chosen: weakening is looked after from nine tenths of the speed at which the largest current needs the whole circle;
+// current_ref.c begins at a quarter of it with the magnet's flux.
+constexpr double weakening_current_share = 0.25 / 0.9;
 // Chosen: 0.5 % of the voltage circle, and what the hexagon holds outside it, stay free for transients.
 constexpr double voltage_share = 0.995;
 // Chosen by simulation: of 10,000 random motors (docs/errata.md) 48 failed without this limit and 36 with it;
@@ -88,6 +93,14 @@ double near_e_radps(const Design &d)
     return std::min(full, trip_speed_e_radps(d.drive));
 }
 
+/// The magnet, or what the largest current makes of the flux where that is far more: weakening begins at a share of it.
+double weakening_flux_A(const Design &d, double k)
+{
+    const double iq_A = largest_iq_A(d.drive.motor, k, true);
+    const double d_A  = d.l[5] + d.l[10] * mtpa_id_A(d.l, iq_A);
+    return std::max(d.l[5], weakening_current_share * std::hypot(iq_A, d_A));
+}
+
 current_ref_config_t current_ref_constants(const Design &d, bool exact)
 {
     const Motor &m      = d.drive.motor;
@@ -100,13 +113,15 @@ current_ref_config_t current_ref_constants(const Design &d, bool exact)
     current_ref_config_t c{};
     c.current_max_A     = single(m.max_current_A);
     c.iq_max_A          = single(largest_iq_A(m, k, exact));
-    c.mtpa_A            = single(k);
-    c.mtpa_half_1pA     = single(0.5 / k);
+    c.mtpa_A            = single(std::max(k, least_mtpa_ratio * m.max_current_A));
+    c.mtpa_half_1pA     = single(0.5 / std::max(k, least_mtpa_ratio * m.max_current_A));
     c.mtpa_exact        = exact;
     c.voltage_share     = single(voltage_share);
     c.torque_share      = single(torque_share);
     c.near_e_radps      = single(near_e_radps(d));
-    c.l1_min            = single(smallest_l1_ratio * d.l[1]);
+    c.id_rest_A         = single(d.l[0]);
+    c.flux_A            = single(weakening_flux_A(d, k));
+    c.l1_min            = single(smallest_l1_ratio * at_rest(d.l)[1]);
     c.filter_per_period = single(1.0 / reference_filter_periods);
     c.filter_1ps        = single(1.0 / (reference_filter_periods * ts));
     c.samples_1ps       = single(1.0 / ts);
@@ -124,7 +139,8 @@ std::string current_ref_block(const current_ref_config_t &c)
             c_field("mtpa_A", c.mtpa_A) + c_field("mtpa_half_1pA", c.mtpa_half_1pA) +
             c_field("mtpa_exact", std::string(c.mtpa_exact ? "true" : "false")) +
             c_field("voltage_share", c.voltage_share) + c_field("torque_share", c.torque_share) +
-            c_field("near_e_radps", c.near_e_radps) + c_field("l1_min", c.l1_min) +
+            c_field("near_e_radps", c.near_e_radps) + c_field("id_rest_A", c.id_rest_A) +
+            c_field("flux_A", c.flux_A) + c_field("l1_min", c.l1_min) +
             c_field("filter_per_period", c.filter_per_period) +
             c_field("filter_1ps", c.filter_1ps) + c_field("samples_1ps", c.samples_1ps) +
             c_field("regen_max_W_norm", c.regen_max_W_norm) +
@@ -166,9 +182,9 @@ double largest_iq_A(const Motor &motor, double k, bool exact)
 
 void solve_near_optimal(Design &d)
 {
-    d.nosc = solve_nosc(d.l, d.drive, d.precision);
+    d.nosc = solve_nosc(at_rest(d.l), d.drive, d.precision);
     if (d.drive.law != Law::noc_h) {
-        d.nodo = solve_nodo(d.l, d.drive, d.precision);
+        d.nodo = solve_nodo(at_rest(d.l), d.drive, d.precision);
     }
     certify(d);
 }

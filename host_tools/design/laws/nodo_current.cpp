@@ -23,8 +23,10 @@ constexpr double noise_variance_ratio = 50.0;
 // Chosen: a load changes seven times less than the encoder's observer is ready for.
 constexpr double load_variance_ratio = 1.0 / 14.0;
 // Certified between the nodes too, and at so many currents either way.
-constexpr int speeds_per_node = 4;
-constexpr int currents        = 4;
+// Chosen: an EMF that shows above most of the speeds only is no encoder.
+constexpr double usable_share    = 0.7;
+constexpr int    speeds_per_node = 4;
+constexpr int    currents        = 4;
 
 /// Errors of (d_w w iq id theta) in continuous time; a rotor ahead of its estimate sees the voltage turned back.
 MatrixXd jacobian(const ReducedParameters &l, const OperatingPoint &at)
@@ -101,13 +103,30 @@ double nodo_current_radius(const nodo_current_gains_t &g, const ReducedParameter
     return spectral_radius(F);
 }
 
+namespace {
+
+/// Beyond the trip speed it is never asked: a lost encoder trips.
+CurrentObserver none(double trip_e_radps)
+{
+    CurrentObserver d;
+    d.gains.from_e_radps   = static_cast<float>(2.0 * trip_e_radps);
+    d.gains.root           = std::sqrt(d.gains.from_e_radps);
+    d.gains.nodes_per_root = 1.0F;
+    return d;
+}
+
+} // namespace
+
 CurrentObserver design_nodo_current(const ReducedParameters &l, const Drive &drive,
                                     double trip_e_radps)
 {
     const Motor    &m = drive.motor;
     CurrentObserver d;
     // The EMF is then the voltage that the largest current loses in the resistance.
-    const double from      = m.stator_resistance_Ohm * m.max_current_A / m.pm_flux_Wb;
+    const double from = m.stator_resistance_Ohm * m.max_current_A / m.pm_flux_Wb;
+    if (!(from < usable_share * trip_e_radps)) {
+        return none(trip_e_radps);
+    }
     const double root      = std::sqrt(from);
     const double step      = (std::sqrt(trip_e_radps) - root) / (NODO_CURRENT_NODES - 1);
     d.gains.from_e_radps   = static_cast<float>(from);
@@ -132,7 +151,8 @@ CurrentObserver design_nodo_current(const ReducedParameters &l, const Drive &dri
                                                        control_period_s(drive)));
         }
     }
-    return d;
+    const bool weak_magnet = l[0] < 0.0; // its EMF says little of the angle beside the inductances'
+    return weak_magnet && !(d.spectral_radius < 1.0) ? none(trip_e_radps) : d;
 }
 
 std::string nodo_current_block(const nodo_current_gains_t &g)
