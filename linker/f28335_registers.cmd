@@ -3,6 +3,7 @@
 FlashRegs     = 0x000A80;
 AdcMirror     = 0x000B00;
 CpuTimer0Regs = 0x000C00;
+CpuTimer1Regs = 0x000C08;
 PieCtrlRegs   = 0x000CE0;
 PieVectTable  = 0x000D00;
 EPwm1Regs     = 0x006800;

@@ -3,6 +3,8 @@
 
 #include "app_modbus.h"
 #include "app_modes.h"
+#include "app_watch_memory.h"
+#include "app_watch_tick.h"
 
 /* Reading takes less than a twentieth of a period: the second one succeeds unless ticks overrun. */
 #define STATUS_READS 3U
@@ -14,6 +16,8 @@ static volatile struct {
     uint16_t      background_count; /* background */
     uint32_t      ticks;            /* tick, at its end */
     bool          command_full;     /* background raises, tick lowers */
+    bool          tick_missing;     /* the same */
+    bool          memory_changed;   /* background; stays */
     app_command_t command;          /* background, while command_full is false */
     uint16_t      board_faults;     /* tick, as the rest: for the status */
     uint16_t      cycles;
@@ -22,19 +26,23 @@ static volatile struct {
 
 /* Written by the tick only; app_status_read() looks at it. */
 static struct {
-    app_config_t      config;
-    app_modes_t       modes;
-    app_modes_input_t in;
-    uint16_t          background_count;
-    uint16_t          background_age_ticks;
+    app_config_t          config;
+    app_modes_t           modes;
+    app_modes_input_t     in;
+    const drive_config_t *drive;
+    const float          *ntc_degC;
+    uint16_t              background_count;
+    uint16_t              background_age_ticks;
 } tick_side;
 
 /* Only the background. */
 static struct {
-    app_modbus_t    modbus;
-    app_registers_t registers;
-    app_status_t    status;
-    uint32_t        served_ticks;
+    app_modbus_t       modbus;
+    app_registers_t    registers;
+    app_status_t       status;
+    app_watch_tick_t   watch;
+    app_watch_memory_t memory;
+    uint32_t           served_ticks;
 } background_side;
 
 static ctl_status_t init_tick_side(const app_config_t *config, const drive_config_t *drive)
@@ -45,7 +53,23 @@ static ctl_status_t init_tick_side(const app_config_t *config, const drive_confi
     tick_side.background_count     = 0U;
     tick_side.background_age_ticks = 0U;
     tick_side.config               = app_config_for(config, drive->hardware.updates_per_period);
+    tick_side.drive                = drive;
+    tick_side.ntc_degC             = tick_side.config.scale.ntc_degC;
     return app_modes_init(&tick_side.modes, &tick_side.config, drive);
+}
+
+/* What the tick reads and nobody writes. */
+static void watch_memory(app_watch_memory_t *w, const drive_config_t *drive, bool drive_ok)
+{
+    app_watch_memory_reset(w);
+    if (!drive_ok) {
+        return; /* nothing will run */
+    }
+    app_watch_memory_add(w, drive, (uint32_t)sizeof *drive);
+    app_watch_memory_add(w, drive->constants, drive->law->constants_chars);
+    app_watch_memory_add(w, &tick_side.config, (uint32_t)sizeof tick_side.config);
+    app_watch_memory_add(w, tick_side.config.scale.ntc_degC,
+                         (uint32_t)(tick_side.config.scale.ntc_points * sizeof(float)));
 }
 
 ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
@@ -57,10 +81,14 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
 
     app_registers_init(&background_side.registers, drive->speed_max_e_radps);
     background_side.served_ticks = 0UL;
+    app_watch_tick_reset(&background_side.watch);
+    watch_memory(&background_side.memory, drive, modes == CTL_OK);
 
     shared.background_count = 0U;
     shared.ticks            = 0UL;
     shared.command_full     = false;
+    shared.tick_missing     = false;
+    shared.memory_changed   = false;
     shared.command          = tick_side.in.command;
     shared.board_faults     = 0U;
     shared.cycles           = 0U;
@@ -119,15 +147,44 @@ static void finish(uint16_t board_faults, uint32_t start_cycles)
     shared.ticks = shared.ticks + 1UL;
 }
 
+/* The pointers that the tick follows: to constants of this file, and to the drive's. */
+static bool pointers_hold(void)
+{
+    const app_config_t *const c = &tick_side.config;
+    const app_modes_t *const  m = &tick_side.modes;
+
+    return (m->config == c) && (m->scale.config == &c->scale) && (m->angle.config == &c->angle) &&
+           (m->align.config == &c->align) && (m->stop.config == &c->stop) &&
+           (m->align.drive == tick_side.drive) &&
+           ((m->drive.config == tick_side.drive) || (m->fault == APP_FAULT_CONFIG)) &&
+           (c->scale.ntc_degC == tick_side.ntc_degC);
+}
+
+/* Nothing can be looked at any more; the background tells. */
+static void give_up(uint32_t start_cycles)
+{
+    board_gate_trip();
+    tick_side.modes.mode  = APP_MODE_FAULT;
+    tick_side.modes.fault = APP_FAULT_MEMORY;
+    finish(shared.board_faults, start_cycles);
+}
+
 void app_tick(void)
 {
     const uint32_t           start_cycles = board_cycles();
     app_modes_input_t *const in           = &tick_side.in;
 
+    if (!pointers_hold()) {
+        give_up(start_cycles);
+        return;
+    }
     take_command();
     in->raw               = board_sample();
     in->board_faults      = board_fault_read();
     in->background_lost   = background_lost();
+    in->memory_changed    = shared.memory_changed;
+    in->tick_missing      = shared.tick_missing;
+    shared.tick_missing   = false;
     const bool     was_on = tick_side.modes.gate_on;
     const bridge_t out    = app_modes_tick(&tick_side.modes, in);
     drive_bridge(&out, was_on);
@@ -147,6 +204,14 @@ void app_background(void)
     app_registers_t *r         = &background_side.registers;
     const uint32_t   now_ticks = shared.ticks;
 
+    if (!app_watch_memory_pass(&background_side.memory)) {
+        board_gate_trip();
+        shared.memory_changed = true;
+    }
+    if (app_watch_tick_is_missing(&background_side.watch, now_ticks, board_cycles())) {
+        board_gate_trip();
+        shared.tick_missing = true;
+    }
     shared.background_count = (uint16_t)(shared.background_count + 1U);
     serve_watchdog(now_ticks);
 

@@ -10,12 +10,14 @@
  * |---|---|---|
  * | life sign of the background, tick count | one side each | one aligned access, which the C28x does not split |
  * | command | background | written only while its flag is down, then raised; the tick takes it and lowers the flag |
+ * | missing ticks | background | raised by it after it has opened the bridge, lowered by the next tick |
  * | status | tick | the background reads what the tick keeps, and again when the tick count has moved meanwhile |
  *
  * The tick interrupts the background, never the other way round.
  *
  * Watchdog, both ways: the background serves it only when a tick has ended since it did so last; a tick trips
- * when the background has given no sign for config->background_ticks.
+ * when the background has given no sign for config->background_ticks. The background opens the bridge when no tick ends
+ * any more (app_watch_tick.h).
  */
 #ifndef APP_H
 #define APP_H

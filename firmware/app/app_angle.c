@@ -29,7 +29,7 @@ ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c,
                     base_in_range(c->index_theta_e_rad, 0.0f, BASE_TWO_PI) &&
                     (c->index_theta_e_rad < BASE_TWO_PI) &&
                     (c->index_correct_max_cnt >= c->index_tolerance_cnt) &&
-                    (c->index_correct_max_cnt < (BOARD_POSITIONS / 4U)) &&
+                    (c->index_correct_max_cnt < (BOARD_POSITIONS / 4U)) && (c->jump_cnt > 0U) &&
                     base_in_range(ts_s, 1.0e-5f, 1.0e-2f);
 
     a->config             = c;
@@ -49,6 +49,11 @@ ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c,
     a->zero_theta_rad     = 0.0f;
     a->before_cnt         = 0U;
     a->have_before        = false;
+    a->turned_cnt         = 0;
+    a->have_turned        = false;
+    a->since_index_cnt    = 0L;
+    a->have_index         = false;
+    a->jumps              = 0U;
     a->corrections        = 0U;
     return ok ? CTL_OK : CTL_BAD_CONFIG;
 }
@@ -224,6 +229,46 @@ static void read_counts(app_angle_t *a, uint16_t position_cnt, int16_t turned_cn
     reading->omega_e_radps = plain.omega_e_radps;
 }
 
+static void drop_after_jump(app_angle_t *a, int16_t turned_cnt)
+{
+    const int32_t change_cnt = (int32_t)turned_cnt - (int32_t)a->turned_cnt;
+    const int32_t most_cnt   = (int32_t)a->config->jump_cnt;
+
+    if (a->have_turned && ((change_cnt > most_cnt) || (change_cnt < -most_cnt))) {
+        a->reference = APP_ANGLE_NONE;
+        if (a->jumps < UINT16_MAX) {
+            a->jumps = (uint16_t)(a->jumps + 1U);
+        }
+    }
+    a->turned_cnt  = turned_cnt;
+    a->have_turned = true;
+}
+
+/* More than a turn, and what a correction may put right, without the mark. Begins anew with the complaint. */
+static bool index_is_missing(app_angle_t *a, bool seen, int16_t turned_cnt)
+{
+    const int32_t most_cnt = (int32_t)BOARD_POSITIONS + (int32_t)a->config->index_correct_max_cnt;
+
+    a->have_index      = a->have_index || seen;
+    a->since_index_cnt = seen ? 0L : (a->since_index_cnt + (int32_t)turned_cnt);
+    if ((a->since_index_cnt <= most_cnt) && (a->since_index_cnt >= -most_cnt)) {
+        return false;
+    }
+    a->since_index_cnt = 0L;
+    return a->have_index;
+}
+
+/* What two positions in a row say of the counter. */
+static void check_counter(app_angle_t *a, const board_sample_t *raw, int16_t turned_cnt,
+                          app_angle_reading_t *reading)
+{
+    drop_after_jump(a, turned_cnt);
+    if (index_is_missing(a, raw->index_seen, turned_cnt)) {
+        reading->index_fault = true;
+        a->reference         = APP_ANGLE_NONE;
+    }
+}
+
 void app_angle_update(app_angle_t *a, const board_sample_t *raw, app_angle_reading_t *reading)
 {
     const uint16_t position_cnt = raw->position_cnt;
@@ -242,6 +287,7 @@ void app_angle_update(app_angle_t *a, const board_sample_t *raw, app_angle_readi
     if (a->have_before) {
         const int16_t turned_cnt = app_angle_turned_cnt(a->before_cnt, position_cnt);
 
+        check_counter(a, raw, turned_cnt, reading);
         reading->omega_e_radps = (float)turned_cnt * a->radps_per_cnt;
         if (a->edge_times) {
             read_times(a, raw, turned_cnt, reading);
@@ -262,7 +308,9 @@ void app_angle_align(app_angle_t *a, uint16_t position_cnt)
 
 void app_angle_drop(app_angle_t *a)
 {
-    a->reference   = APP_ANGLE_NONE;
-    a->have_before = false;
-    a->have_edge   = false;
+    a->reference       = APP_ANGLE_NONE;
+    a->have_before     = false;
+    a->have_turned     = false;
+    a->have_edge       = false;
+    a->since_index_cnt = 0L;
 }

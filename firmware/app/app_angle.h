@@ -25,7 +25,10 @@
  * Later index pulses check the counter. A small difference is put right: the counter has missed edges, and the
  * index is the better witness; the rest of the turn would be driven at a wrong angle otherwise. A larger
  * one is a fault: torque would step, and index or counter is broken. The speed is the difference of raw positions,
- * so a correction does not show in it.
+ * so a correction does not show in it. Once there was an index, one has to come in every turn.
+ *
+ * A position that jumps says that counts were lost or read wrong: the reference is dropped, in every mode. A drive that
+ * runs goes on with the angle that it has and the next index sets it right; without one the next run aligns anew.
  */
 #ifndef APP_ANGLE_H
 #define APP_ANGLE_H
@@ -38,6 +41,8 @@ typedef struct {
     float    index_theta_e_rad;     /**< electrical angle at the index mark, [0, 2 pi) */
     uint16_t index_tolerance_cnt;   /**< width of the mark: no correction up to here */
     uint16_t index_correct_max_cnt; /**< a larger difference is a fault; >= the tolerance */
+    uint16_t
+        jump_cnt; /**< no shaft changes its counts of a period by more from one period to the next; > 0 */
 } app_angle_config_t;
 
 typedef enum {
@@ -59,8 +64,13 @@ typedef struct {
     float                     zero_theta_rad; /**< [0, 2 pi) */
     uint16_t                  before_cnt;
     bool                      have_before;
-    bool                      have_edge; /**< the next three mean something */
-    uint16_t                  edge_cnt;  /**< position that the last edge with a time begins */
+    int16_t                   turned_cnt; /**< of the period before */
+    bool                      have_turned;
+    int32_t                   since_index_cnt; /**< turned since the last index */
+    bool                      have_index;      /**< there was one since the start */
+    uint16_t                  jumps;           /**< since the start; stays at 65535 */
+    bool                      have_edge;       /**< the next three mean something */
+    uint16_t                  edge_cnt; /**< position that the last edge with a time begins */
     float                     edge_age_s;
     float                     edge_gap_s; /**< between the last two edges; 0: not known */
     float                     edge_speed_e_radps;
@@ -76,7 +86,8 @@ typedef struct {
     float edge_age_s;    /**< since the edge of edge_of_line; 0: none */
     float omega_e_radps; /**< 0 unless speed_valid */
     bool  speed_valid;   /**< the sample before was valid too */
-    bool  index_fault;   /**< the index came where it cannot be; the reference is dropped */
+    bool
+        index_fault; /**< the index came where it cannot be, or not at all; the reference is dropped */
 } app_angle_reading_t;
 
 /** @return CTL_BAD_CONFIG, a unusable, when a constant is out of range. Context: init. */

@@ -14,23 +14,26 @@
 #include "app_gate.h"
 #include "app_scale.h"
 #include "app_stop.h"
+#include "app_watch_heat.h"
 
 typedef struct {
-    float              pwm_period_s; /**< the drive's control period times its updates */
-    float              dead_time_s;  /**< of the gates; the drive's must be the same */
-    app_scale_config_t scale;
-    app_angle_config_t angle;
-    app_align_config_t align;
-    app_gate_config_t  gate;
-    app_stop_config_t  stop;
-    float              temperature_limit_degC; /**< no start above */
-    float              temperature_trip_degC;  /**< fault above; > the limit */
-    uint16_t           boot_ticks;
-    uint16_t           calibrate_ticks;  /**< samples in the mean of a current's zero, > 0 */
-    uint16_t           background_ticks; /**< without the background for longer is a fault, > 0 */
-    uint16_t           modbus_address;   /**< 1 .. 247 */
-    uint16_t           modbus_gap_ticks; /**< silence that ends a frame, > 0 */
-    uint16_t           modbus_timeout_ticks; /**< silence that withdraws run, > 0 */
+    float                   pwm_period_s; /**< the drive's control period times its updates */
+    float                   dead_time_s;  /**< of the gates; the drive's must be the same */
+    app_scale_config_t      scale;
+    app_angle_config_t      angle;
+    app_align_config_t      align;
+    app_gate_config_t       gate;
+    app_stop_config_t       stop;
+    app_watch_heat_config_t heat;
+    float    zero_drift_A; /**< a current's zero may be off by this with the bridge open, > 0 */
+    float    temperature_limit_degC; /**< no start above */
+    float    temperature_trip_degC;  /**< fault above; > the limit */
+    uint16_t boot_ticks;
+    uint16_t calibrate_ticks;      /**< samples in the mean of a current's zero, > 0 */
+    uint16_t background_ticks;     /**< without the background for longer is a fault, > 0 */
+    uint16_t modbus_address;       /**< 1 .. 247 */
+    uint16_t modbus_gap_ticks;     /**< silence that ends a frame, > 0 */
+    uint16_t modbus_timeout_ticks; /**< silence that withdraws run, > 0 */
 } app_config_t;
 
 /** The same with its times in control periods, where board_config.c counts PWM periods. Context: init. */

@@ -197,10 +197,13 @@ static bool frame_ok(const app_modbus_t *m)
 static void end_frame(app_modbus_t *m, app_registers_t *r, uint32_t now_ticks)
 {
     if (frame_ok(m)) {
+        const bool ran = r->command.run;
+
         m->request_ticks = now_ticks;
         answer(m, r);
         if (m->rx_octets[0] == ADDRESS_BROADCAST) {
-            m->tx_count = 0U;
+            r->command.run = r->command.run && ran; /* it may stop all motors, and start none */
+            m->tx_count    = 0U;
         } else {
             const uint16_t crc = app_modbus_crc(m->tx_octets, m->tx_count);
             put_octet(m, crc);

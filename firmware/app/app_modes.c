@@ -26,7 +26,8 @@ static bool values_ok(const app_config_t *c)
 {
     return base_in_range(c->temperature_trip_degC, -100.0f, 300.0f) &&
            base_in_range(c->temperature_limit_degC, -100.0f, c->temperature_trip_degC) &&
-           (c->calibrate_ticks > 0U) && (c->background_ticks > 0U);
+           (c->calibrate_ticks > 0U) && (c->background_ticks > 0U) &&
+           base_in_range(c->zero_drift_A, 1.0e-6f, 1.0e6f);
 }
 
 static void clear_snapshot(app_snapshot_t *s)
@@ -43,30 +44,45 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *c, const drive_c
     const bool align_ok = app_align_init(&m->align, &c->align, d) == CTL_OK;
     const bool gate_ok  = app_gate_check(&c->gate) == CTL_OK;
     const bool stop_ok  = app_stop_init(&m->stop, &c->stop, d) == CTL_OK;
-    const bool ok       = drive_ok && scale_ok && angle_ok && align_ok && gate_ok && stop_ok &&
+    const bool heat_ok =
+        app_watch_heat_init(&m->heat, &c->heat, d->current_max_A, d->ts_s) == CTL_OK;
+    const bool ok = drive_ok && scale_ok && angle_ok && align_ok && gate_ok && stop_ok && heat_ok &&
                     drive_fits(c, d) && values_ok(c);
     const app_scale_sample_t  no_sample  = {.valid = false};
     const app_angle_reading_t no_reading = {.speed_valid = false};
 
-    m->config       = c;
-    m->mode         = ok ? APP_MODE_BOOT : APP_MODE_FAULT;
-    m->fault        = ok ? APP_FAULT_NONE : APP_FAULT_CONFIG;
-    m->sample       = no_sample;
-    m->reading      = no_reading;
-    m->ticks        = 0UL;
-    m->sum_a_cnt    = 0UL;
-    m->sum_b_cnt    = 0UL;
-    m->timer_ticks  = 0U;
-    m->calibrated   = false;
-    m->armed        = false;
-    m->hot          = true;
-    m->dc_link_out  = true;
-    m->tripped      = false;
-    m->gate_on      = false;
-    m->phase_errors = 0U;
+    m->config        = c;
+    m->mode          = ok ? APP_MODE_BOOT : APP_MODE_FAULT;
+    m->fault         = ok ? APP_FAULT_NONE : APP_FAULT_CONFIG;
+    m->sample        = no_sample;
+    m->reading       = no_reading;
+    m->ticks         = 0UL;
+    m->sum_a_cnt     = 0UL;
+    m->sum_b_cnt     = 0UL;
+    m->timer_ticks   = 0U;
+    m->calibrated    = false;
+    m->armed         = false;
+    m->hot           = true;
+    m->dc_link_out   = true;
+    m->tripped       = false;
+    m->gate_on       = false;
+    m->phase_errors  = 0U;
+    m->current_max_A = d->current_max_A;
+    m->too_hot       = false;
+    m->per_sink_degC = (c->temperature_trip_degC > c->temperature_limit_degC)
+                           ? (1.0f / (c->temperature_trip_degC - c->temperature_limit_degC))
+                           : 0.0f;
+    m->zero_a_A      = 0.0f;
+    m->zero_b_A      = 0.0f;
     clear_snapshot(&m->snapshot);
     m->snapshot.fault = m->fault;
     return ok ? CTL_OK : CTL_BAD_CONFIG;
+}
+
+/* Share of the way from the limit to the trip. */
+static float warmth_of_sink(const app_modes_t *m)
+{
+    return (m->sample.temperature_degC - m->config->temperature_limit_degC) * m->per_sink_degC;
 }
 
 /* SI units and angle of this tick. After an invalid sample the count cannot be trusted any more. */
@@ -80,6 +96,8 @@ static void measure(app_modes_t *m, const board_sample_t *raw)
         m->dc_link_out  = !base_in_range(m->sample.dc_link_V, m->drive.config->dc_link_min_V,
                                          m->drive.config->dc_link_max_V);
         m->phase_errors = raw->phase_errors;
+        m->too_hot =
+            !app_watch_heat_tick(&m->heat, m->sample.ia_A, m->sample.ib_A, warmth_of_sink(m));
     } else {
         app_angle_drop(&m->angle);
         m->reading.speed_valid = false;
@@ -93,17 +111,26 @@ static app_fault_t watch(const app_modes_t *m, const app_modes_input_t *in)
     const bool driving = (m->mode == APP_MODE_ALIGN) || (m->mode == APP_MODE_PRECHARGE) ||
                          (m->mode == APP_MODE_RUN) || (m->mode == APP_MODE_STOP);
 
+    if (in->memory_changed) {
+        return APP_FAULT_MEMORY;
+    }
     if (in->background_lost) {
         return APP_FAULT_BACKGROUND;
     }
     if (m->gate_on && (in->board_faults != (uint16_t)BOARD_FAULT_NONE)) {
         return APP_FAULT_BOARD;
     }
+    if (m->gate_on && in->tick_missing) {
+        return APP_FAULT_TICK;
+    }
     if (m->reading.index_fault) {
         return APP_FAULT_INDEX;
     }
     if ((driving || (m->mode == APP_MODE_CALIBRATE)) && !m->sample.valid) {
         return APP_FAULT_SAMPLE;
+    }
+    if (driving && m->too_hot) {
+        return APP_FAULT_HEAT;
     }
     if (driving && !m->sample.temperature_valid) {
         return APP_FAULT_TEMPERATURE_SENSOR;

@@ -24,7 +24,9 @@ typedef struct {
     const board_sample_t *raw;
     uint16_t              board_faults;
     bool                  background_lost; /**< the background has not run for too long */
-    app_command_t         command;         /**< reset is true for one tick only */
+    bool          tick_missing;   /**< ticks stood still, and the background opened the bridge */
+    bool          memory_changed; /**< constants are not what they were, app_watch_memory.h */
+    app_command_t command;        /**< reset is true for one tick only */
 } app_modes_input_t;
 
 typedef struct {
@@ -36,6 +38,12 @@ typedef struct {
     app_angle_t         angle;
     app_align_t         align;
     app_stop_t          stop;
+    app_watch_heat_t    heat;
+    float               current_max_A; /**< of the drive */
+    float               per_sink_degC; /**< 1 / (trip - limit) of the heat sink */
+    bool                too_hot;       /**< app_watch_heat_tick() said so */
+    float zero_a_A; /**< READY: mean of what the current sensors show with the bridge open */
+    float zero_b_A;
     app_scale_sample_t  sample;
     app_angle_reading_t reading;
     uint32_t            ticks;

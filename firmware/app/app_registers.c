@@ -51,6 +51,15 @@ static void holding_values(const app_registers_t *r, uint16_t all[APP_REGISTERS_
     all[APP_REGISTERS_SPEED] = signed_value(r->command.omega_e_radps, TENTHS);
 }
 
+/* What acts and never trips. */
+static uint16_t limits(const app_status_t *s)
+{
+    const uint16_t voltage = s->voltage_limited ? (uint16_t)APP_REGISTERS_VOLTAGE_LIMIT : 0U;
+    const uint16_t current = s->current_limited ? (uint16_t)APP_REGISTERS_CURRENT_LIMIT : 0U;
+    const uint16_t derated = (s->derating > 0.0f) ? (uint16_t)APP_REGISTERS_DERATED : 0U;
+    return (uint16_t)(voltage | current | derated);
+}
+
 static uint16_t conditions(const app_registers_t *r)
 {
     const uint16_t hot     = r->status.hot ? (uint16_t)APP_REGISTERS_HOT : 0U;
@@ -60,7 +69,7 @@ static uint16_t conditions(const app_registers_t *r)
     const uint16_t trip    = r->status.tripped ? (uint16_t)APP_REGISTERS_TRIPPED : 0U;
     const uint16_t shorted = r->status.shorted ? (uint16_t)APP_REGISTERS_SHORTED : 0U;
     const uint16_t lost    = r->status.without_angle ? (uint16_t)APP_REGISTERS_WITHOUT_ANGLE : 0U;
-    return (uint16_t)(hot | silent | gate | dc | trip | shorted | lost);
+    return (uint16_t)(hot | silent | gate | dc | trip | shorted | lost | limits(&r->status));
 }
 
 static void state_values(const app_registers_t *r, uint16_t all[APP_REGISTERS_INPUT_COUNT])
@@ -88,18 +97,22 @@ static void state_values(const app_registers_t *r, uint16_t all[APP_REGISTERS_IN
 
 static void measured_values(const app_status_t *s, uint16_t all[APP_REGISTERS_INPUT_COUNT])
 {
-    all[APP_REGISTERS_SPEED_NOW]   = signed_value(s->speed_e_radps, TENTHS);
-    all[APP_REGISTERS_IQ]          = signed_value(s->i_A.q, THOUSANDTHS);
-    all[APP_REGISTERS_ID]          = signed_value(s->i_A.d, THOUSANDTHS);
-    all[APP_REGISTERS_IQ_REF]      = signed_value(s->i_ref_A.q, THOUSANDTHS);
-    all[APP_REGISTERS_ID_REF]      = signed_value(s->i_ref_A.d, THOUSANDTHS);
-    all[APP_REGISTERS_VQ]          = signed_value(s->v_V.q, TENTHS);
-    all[APP_REGISTERS_VD]          = signed_value(s->v_V.d, TENTHS);
-    all[APP_REGISTERS_DC_LINK]     = unsigned_value(s->dc_link_V, TENTHS);
-    all[APP_REGISTERS_TEMPERATURE] = signed_value(s->temperature_degC, TENTHS);
-    all[APP_REGISTERS_THETA]       = unsigned_value(s->theta_e_rad, THOUSANDTHS);
-    all[APP_REGISTERS_ZERO_A]      = unsigned_value(s->zero_a_cnt, TENTHS);
-    all[APP_REGISTERS_ZERO_B]      = unsigned_value(s->zero_b_cnt, TENTHS);
+    all[APP_REGISTERS_SPEED_NOW]     = signed_value(s->speed_e_radps, TENTHS);
+    all[APP_REGISTERS_IQ]            = signed_value(s->i_A.q, THOUSANDTHS);
+    all[APP_REGISTERS_ID]            = signed_value(s->i_A.d, THOUSANDTHS);
+    all[APP_REGISTERS_IQ_REF]        = signed_value(s->i_ref_A.q, THOUSANDTHS);
+    all[APP_REGISTERS_ID_REF]        = signed_value(s->i_ref_A.d, THOUSANDTHS);
+    all[APP_REGISTERS_VQ]            = signed_value(s->v_V.q, TENTHS);
+    all[APP_REGISTERS_VD]            = signed_value(s->v_V.d, TENTHS);
+    all[APP_REGISTERS_DC_LINK]       = unsigned_value(s->dc_link_V, TENTHS);
+    all[APP_REGISTERS_TEMPERATURE]   = signed_value(s->temperature_degC, TENTHS);
+    all[APP_REGISTERS_THETA]         = unsigned_value(s->theta_e_rad, THOUSANDTHS);
+    all[APP_REGISTERS_JUMPS]         = s->position_jumps;
+    all[APP_REGISTERS_MOTOR_HEAT]    = unsigned_value(s->motor_heat, THOUSANDTHS);
+    all[APP_REGISTERS_INVERTER_HEAT] = unsigned_value(s->inverter_heat, THOUSANDTHS);
+    all[APP_REGISTERS_DERATING]      = unsigned_value(s->derating, THOUSANDTHS);
+    all[APP_REGISTERS_ZERO_A]        = unsigned_value(s->zero_a_cnt, TENTHS);
+    all[APP_REGISTERS_ZERO_B]        = unsigned_value(s->zero_b_cnt, TENTHS);
 }
 
 static void snapshot_values(const app_snapshot_t *f, uint16_t all[APP_REGISTERS_INPUT_COUNT])

@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_states.h"
 
+/* Chosen: 20 ms, in which a motor's current dies out several times; and a mean over as many. */
+#define ZERO_TICKS   100U
+#define ZERO_FORGETS 0.03f
+
 static void enter(app_modes_t *m, app_mode_t mode)
 {
     m->mode        = mode;
@@ -8,6 +12,8 @@ static void enter(app_modes_t *m, app_mode_t mode)
     m->sum_a_cnt   = 0UL;
     m->sum_b_cnt   = 0UL;
     m->armed       = false;
+    m->zero_a_A    = 0.0f;
+    m->zero_b_A    = 0.0f;
 }
 
 static drive_sample_t drive_sample(const app_modes_t *m)
@@ -101,10 +107,32 @@ static void enter_run(app_modes_t *m)
     enter(m, precharge ? APP_MODE_PRECHARGE : APP_MODE_RUN);
 }
 
+/* The zeros after every stop, as a mean over some tens of ticks; currents die out first, and beyond omega_link (app_stop.h)
+ * some flow through an open bridge. */
+static bool zeros_hold(app_modes_t *m)
+{
+    if (!m->sample.valid || !base_within(m->reading.omega_e_radps, m->stop.link_e_radps)) {
+        m->timer_ticks = 0U;
+        return true;
+    }
+    m->zero_a_A += ZERO_FORGETS * (m->sample.ia_A - m->zero_a_A);
+    m->zero_b_A += ZERO_FORGETS * (m->sample.ib_A - m->zero_b_A);
+    if (m->timer_ticks < ZERO_TICKS) {
+        m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
+        return true;
+    }
+    return base_within(m->zero_a_A, m->config->zero_drift_A) &&
+           base_within(m->zero_b_A, m->config->zero_drift_A);
+}
+
 /* The bridge stays open in this tick: the next one looks at everything again in the new mode. */
 static bridge_t ready(app_modes_t *m, const app_modes_input_t *in)
 {
     m->tripped = (in->board_faults & (uint16_t)BOARD_FAULT_INPUT) != 0U;
+    if (!zeros_hold(m)) {
+        m->calibrated = false; /* a reset measures them again */
+        return app_states_trip(m, in, APP_FAULT_OFFSET);
+    }
     if (!in->command.run) {
         m->armed = true;
         return bridge_open();
@@ -123,7 +151,8 @@ static bridge_t ready(app_modes_t *m, const app_modes_input_t *in)
 static bridge_t drive(app_modes_t *m, const app_command_t *wanted, bool run)
 {
     const drive_sample_t  sample  = drive_sample(m);
-    const drive_command_t command = {.omega_e_radps = wanted->omega_e_radps, .run = run};
+    const drive_command_t command = {
+        .omega_e_radps = wanted->omega_e_radps, .run = run, .derating = m->heat.derating};
     return drive_tick(&m->drive, &sample, &command);
 }
 

@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_modes.h"
 
+#define AT_LIMIT2 0.81f /* 0.9, as motion_watch.c has it */
+
 app_status_t app_modes_status(const volatile app_modes_t *m, uint16_t board_faults)
 {
     const bool   running = (m->mode == APP_MODE_RUN) || (m->mode == APP_MODE_STOP);
     const dq_t   zero    = {0.0f, 0.0f};
     const dq_t   now_A   = {.d = m->drive.wanted.now.id_A, .q = m->drive.wanted.now.iq_A};
+    const float  max_A   = m->current_max_A * (1.0f - m->heat.derating);
+    const float  i2_A2   = (now_A.d * now_A.d) + (now_A.q * now_A.q);
     app_status_t s       = {.mode              = m->mode,
                             .fault             = m->fault,
                             .drive_fault       = m->drive.fault,
@@ -15,6 +19,12 @@ app_status_t app_modes_status(const volatile app_modes_t *m, uint16_t board_faul
                             .tripped           = m->tripped,
                             .shorted           = m->stop.shorted,
                             .gate_enable       = m->gate_on,
+                            .voltage_limited   = running && m->drive.v_limited,
+                            .current_limited   = running && (i2_A2 >= (AT_LIMIT2 * max_A * max_A)),
+                            .derating          = m->heat.derating,
+                            .motor_heat        = m->heat.motor.x,
+                            .inverter_heat     = m->heat.inverter.x,
+                            .position_jumps    = m->angle.jumps,
                             .reference         = m->angle.reference,
                             .align_stage       = m->align.stage,
                             .position_cnt      = m->angle.before_cnt,

@@ -34,7 +34,10 @@ typedef enum {
     APP_FAULT_TEMPERATURE,        /**< heat sink too hot */
     APP_FAULT_INDEX,              /**< index pulse far from where it should be */
     APP_FAULT_ALIGN,              /**< alignment failed */
-    APP_FAULT_DRIVE               /**< see the drive's fault */
+    APP_FAULT_DRIVE,              /**< see the drive's fault */
+    APP_FAULT_TICK,               /**< no tick for too long; the background opened the bridge */
+    APP_FAULT_HEAT,               /**< more current for longer than motor or inverter endure */
+    APP_FAULT_MEMORY              /**< constants in RAM are not what they were at the start */
 } app_fault_t;
 
 /** The tick of the first fault; kept, also after a reset, until the next fault. */
@@ -50,15 +53,21 @@ typedef struct {
 } app_snapshot_t;
 
 typedef struct {
-    app_mode_t            mode;
-    app_fault_t           fault;
-    drive_fault_t         drive_fault;
-    uint16_t              board_faults; /**< flags of this tick */
-    bool                  hot;          /**< above the temperature limit: no start */
-    bool                  dc_link_out;  /**< outside the drive's range: no start */
-    bool                  tripped;      /**< the trip input is active: no start */
-    bool                  shorted;      /**< FAULT: the lower switches short the motor */
-    bool                  gate_enable;
+    app_mode_t    mode;
+    app_fault_t   fault;
+    drive_fault_t drive_fault;
+    uint16_t      board_faults; /**< flags of this tick */
+    bool          hot;          /**< above the temperature limit: no start */
+    bool          dc_link_out;  /**< outside the drive's range: no start */
+    bool          tripped;      /**< the trip input is active: no start */
+    bool          shorted;      /**< FAULT: the lower switches short the motor */
+    bool          gate_enable;
+    bool          voltage_limited; /**< the voltage that acts next is less than wanted */
+    bool          current_limited; /**< the current is at nine tenths of the limit or more */
+    float         derating;        /**< share of the current limit that heat takes */
+    float         motor_heat;      /**< 1: what it endures for ever, app_watch_heat.h */
+    float         inverter_heat;
+    uint16_t      position_jumps; /**< since the start; each dropped the reference */
     app_angle_reference_t reference;
     app_align_stage_t     align_stage;
     uint16_t              position_cnt;

@@ -41,9 +41,10 @@ typedef struct {
 
 /** Bits of board_fault_read(). */
 enum {
-    BOARD_FAULT_NONE    = 0,
-    BOARD_FAULT_TRIP    = 1, /**< the hardware opened the bridge, or its trip input is active */
-    BOARD_FAULT_OVERRUN = 2, /**< a tick outlasted its control period, or a period got no tick */
+    BOARD_FAULT_NONE = 0,
+    BOARD_FAULT_TRIP = 1, /**< the hardware opened the bridge, or its trip input is active */
+    BOARD_FAULT_OVERRUN =
+        2, /**< a tick outlasted its control period or has not ended, or a period got no tick */
     BOARD_FAULT_CLOCK   = 4, /**< the crystal is missing, or the PLL did not lock */
     BOARD_FAULT_ENCODER = 8, /**< both encoder tracks changed at once, again and again */
     BOARD_FAULT_INPUT   = 16 /**< the trip input is active; the only one that is not latched */
@@ -109,7 +110,7 @@ board_reset_t board_reset_cause(void);
 /** Processor cycles, free running, wraps; BOARD_PWM_CYCLES per PWM period. Context: any. */
 uint32_t board_cycles(void);
 
-/** Without it the processor is reset after 17 ms. Context: background. */
+/** Without it the processor is reset after 4 ms. Context: background. */
 void board_watchdog_serve(void);
 
 /**

@@ -125,9 +125,11 @@ static void limit_iq(current_ref_t *r, const current_ref_config_t *c, const moto
                      const circle_t *v, float accel, const current_ref_input_t *in)
 {
     const float w        = in->state->omega_e_radps;
-    const float room_A2  = (c->current_max_A * c->current_max_A) - (r->i_A.d * r->i_A.d);
+    const float allowed  = 1.0f - in->derating;
+    const float max_A    = allowed * c->current_max_A;
+    const float room_A2  = (max_A * max_A) - (r->i_A.d * r->i_A.d);
     const float circle_A = positive_sqrt(room_A2);
-    const float hi_A     = base_min(circle_A, c->iq_max_A);
+    const float hi_A     = base_min(circle_A, allowed * c->iq_max_A);
     r->iq_circle_A       = circle_A;
     r->iq_lo_A           = -hi_A;
     r->iq_hi_A           = hi_A;
@@ -184,7 +186,8 @@ void current_ref_update(current_ref_t *r, const current_ref_config_t *c, const m
 
     /* id_ref is a first-order filter's output, so its derivative is exact. */
     const float id_A      = id_target_A(c, m, &v, r->i_A.q, base_clamp(all_A, -hi_A, hi_A));
-    const float id_step_A = id_A - r->i_A.d;
+    const float id_lo_A   = (in->derating - 1.0f) * c->current_max_A;
+    const float id_step_A = base_max(id_A, id_lo_A) - r->i_A.d;
     r->i_dot_Aps.d        = c->filter_1ps * id_step_A;
     r->i_A.d += c->filter_per_period * id_step_A;
 

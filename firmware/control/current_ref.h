@@ -65,6 +65,7 @@ typedef struct {
     float              dc_link_V;   /**< measured dc link */
     float              v_max_V;     /**< radius of the voltage circle, > 0 */
     float              d_omega_dot; /**< d_w' [rad/s^3]; 0 when nothing is known of it */
+    float              derating;    /**< share of current_max_A that may not be used, 0 .. 1 */
 } current_ref_input_t;
 
 /** true when every constant is finite and within its documented range. Context: init. */

@@ -6,6 +6,7 @@ float double_series_row(const float row[][DOUBLE_SERIES_COLUMNS], int16_t rows, 
 {
     float y = 0.0f;
 
+    /*@ split order; */                    /* for tests/prove: each order by itself */
     for (int16_t m = order; m >= 0; m--) { /* EQ-DOUBLE-SERIES-1 */
         float inner = 0.0f;
         for (int16_t n = (int16_t)(order - m); n >= 0; n--) {

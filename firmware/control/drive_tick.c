@@ -19,7 +19,10 @@ ctl_status_t drive_init(drive_t *d, const drive_config_t *config)
 {
     const ctl_status_t status = drive_config_check(config);
 
-    d->config = (status == CTL_OK) ? config : NULL;
+    d->config          = (status == CTL_OK) ? config : NULL;
+    d->config_again    = d->config;
+    d->law_again       = (status == CTL_OK) ? config->law : NULL;
+    d->constants_again = (status == CTL_OK) ? config->constants : NULL;
     drive_reset(d);
     return status;
 }
@@ -91,6 +94,8 @@ static bridge_t trip(drive_t *d, drive_fault_t fault)
 static void start(drive_t *d, const drive_sample_t *sample)
 {
     d->config->law->reset(&d->law, d->config, sample);
+    current_watch_reset(&d->current_watch, sample->ia_A, sample->ib_A);
+    motion_watch_reset(&d->motion_watch);
     d->v_V   = zero_dq;
     d->state = DRIVE_RUN;
 }
@@ -106,51 +111,119 @@ static bridge_t modulate(drive_t *d, float dc_link_V)
     const voltage_t v     = voltage_produce(out->v_V, angle, dc_link_V, c->overmodulation);
     const abc_t     i_abc = frames_inverse_clarke(frames_inverse_park(i_A, angle));
 
+    const current_watch_expected_t expected = {.angle     = angle,
+                                               .ahead_rad = 0.5f * c->ts_s * out->now.omega_e_radps,
+                                               .i_A       = i_A,
+                                               .d_Aps     = {.d = out->d_d, .q = out->d_q},
+                                               .i_ref_A   = out->i_ref_A,
+                                               .predicted = out->predicted};
+    current_watch_expect(&d->current_watch, &expected, c->ts_s);
     d->v_V       = v.v_V;
     d->v_limited = v.limited;
     d->i_hat_A   = i_abc;
     return bridge_closed(dead_time_compensate(&c->dead_time, v.duty, i_abc));
 }
 
-static bridge_t run(drive_t *d, const drive_sample_t *sample, float command_e_radps)
+/* EQ-CURRENT-GATE-2 */
+static float jump_A(const drive_config_t *c, float dc_link_V)
 {
-    const law_input_t in = {.sample = sample, .command_e_radps = command_e_radps, .v_V = d->v_V};
+    return 2.0f * c->ts_s * base_max(c->motor.l6, c->motor.l8) * dc_link_V;
+}
+
+static drive_fault_t watch_currents(drive_t *d, const drive_sample_t *sample)
+{
+    const current_watch_scale_t   scale = {.ts_s          = d->config->ts_s,
+                                           .current_max_A = d->config->current_max_A,
+                                           .jump_A        = jump_A(d->config, sample->dc_link_V)};
+    const current_watch_verdict_t found =
+        current_watch_judge(&d->current_watch, sample->ia_A, sample->ib_A, &scale);
+
+    if (found == CURRENT_WATCH_GOOD) {
+        return DRIVE_FAULT_NONE;
+    }
+    return (found == CURRENT_WATCH_OPEN) ? DRIVE_FAULT_PHASE : DRIVE_FAULT_CURRENT_SENSOR;
+}
+
+static drive_fault_t watch_motion(drive_t *d, const drive_sample_t *sample, float command_e_radps)
+{
+    static const drive_fault_t faults[] = {DRIVE_FAULT_NONE, DRIVE_FAULT_MODEL, DRIVE_FAULT_STALL,
+                                           DRIVE_FAULT_AWAY}; /* of motion_watch_verdict_t */
+
+    const motion_watch_input_t in = {.motor           = &d->config->motor,
+                                     .current_max_A   = d->config->current_max_A,
+                                     .ts_s            = d->config->ts_s,
+                                     .now             = d->wanted.now,
+                                     .command_e_radps = command_e_radps,
+                                     .dc_link_V       = sample->dc_link_V,
+                                     .edge_gap_s      = sample->edge_gap_s,
+                                     .d_Aps = d->wanted.predicted ? d->current_watch.d_slow_Aps
+                                                                  : zero_dq};
+    return faults[motion_watch_judge(&d->motion_watch, &in)];
+}
+
+static bridge_t run(drive_t *d, const drive_sample_t *sample, const drive_command_t *command)
+{
+    const drive_fault_t currents = watch_currents(d, sample);
+    if (currents != DRIVE_FAULT_NONE) {
+        return trip(d, currents);
+    }
+
+    const law_input_t in = {.sample          = sample,
+                            .command_e_radps = command->omega_e_radps,
+                            .v_V             = d->v_V,
+                            .derating        = base_clamp(command->derating, 0.0f, 1.0f)};
 
     d->config->law->step(&d->law, d->config, &in, &d->wanted);
 
-    const drive_fault_t wrong = find_wrong(d->config, &d->wanted);
+    drive_fault_t wrong = find_wrong(d->config, &d->wanted);
+    if (wrong == DRIVE_FAULT_NONE) {
+        wrong = watch_motion(d, sample, command->omega_e_radps);
+    }
     return (wrong == DRIVE_FAULT_NONE) ? modulate(d, sample->dc_link_V) : trip(d, wrong);
 }
 
 /* With the currents that the law expects at this instant, for laws without a prediction those of the period before. */
 static bridge_t run_without_currents(drive_t *d, const drive_sample_t *sample,
-                                     float command_e_radps)
+                                     const drive_command_t *command)
 {
     const law_output_t *out = &d->wanted; /* its angle is that of the middle of this period */
     const dq_t          i_A = {.d = out->now.id_A, .q = out->now.iq_A};
     const float theta_rad   = out->theta_rad - (0.5f * d->config->ts_s * out->now.omega_e_radps);
 
     const drive_sample_t replaced = current_gate_replaced(sample, i_A, theta_rad);
-    return run(d, &replaced, command_e_radps);
+    return run(d, &replaced, command);
 }
 
 /* Expected are the currents of the middle of this period, a twentieth of a turn ahead at the most. */
 static current_gate_verdict_t judge_currents(drive_t *d, const drive_sample_t *sample)
 {
     const drive_config_t      *c  = d->config;
-    const current_gate_input_t in = {.trip_A = c->trip_current_A,
-                                     .jump_A = 2.0f * c->ts_s * base_max(c->motor.l6, c->motor.l8) *
-                                               sample->dc_link_V, /* EQ-CURRENT-GATE-2 */
+    const current_gate_input_t in = {.trip_A   = c->trip_current_A,
+                                     .jump_A   = jump_A(c, sample->dc_link_V),
                                      .i_hat_A  = d->i_hat_A,
                                      .expected = d->state == DRIVE_RUN};
 
     return current_gate_judge(&d->current_gate, sample->ia_A, sample->ib_A, &in);
 }
 
+/* What a wild read would follow from. A pointer that has changed is not used, not even to look. */
+static bool is_whole(const drive_t *d)
+{
+    if (d->config != d->config_again) {
+        return false;
+    }
+    const drive_config_t *c = d->config;
+    return (c->law == d->law_again) && (c->constants == d->constants_again) &&
+           ((c->law->counts_ok == NULL) || c->law->counts_ok(c));
+}
+
 bridge_t drive_tick(drive_t *d, const drive_sample_t *sample, const drive_command_t *command)
 {
     if ((d->config == NULL) || (d->state == DRIVE_FAULT)) {
         return bridge_open();
+    }
+    if (!is_whole(d)) {
+        return trip(d, DRIVE_FAULT_MEMORY);
     }
     const current_gate_verdict_t currents = judge_currents(d, sample);
     const drive_fault_t          fault    = find_fault(d->config, sample, command, currents);
@@ -162,10 +235,10 @@ bridge_t drive_tick(drive_t *d, const drive_sample_t *sample, const drive_comman
         return bridge_open();
     }
     if (currents == CURRENT_GATE_SPIKE) {
-        return run_without_currents(d, sample, command->omega_e_radps);
+        return run_without_currents(d, sample, command);
     }
     if (d->state == DRIVE_OFF) {
         start(d, sample);
     }
-    return run(d, sample, command->omega_e_radps);
+    return run(d, sample, command);
 }

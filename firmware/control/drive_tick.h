@@ -11,7 +11,7 @@
  *
  * Nothing received is trusted: an invalid, non-finite or out-of-range sample or command opens the bridge
  * in the same call and latches the first reason until drive_reset(). A single sample of the currents beyond the trip
- * level is not used instead, current_gate.h.
+ * level is not used instead, current_gate.h. Currents that are not those of the motor trip, current_watch.h.
  */
 #ifndef DRIVE_TICK_H
 #define DRIVE_TICK_H
@@ -19,13 +19,17 @@
 #include "base.h"
 #include "bridge.h"
 #include "current_gate.h"
+#include "current_watch.h"
 #include "drive_config.h"
 #include "laws.h"
+#include "motion_watch.h"
 #include "sample.h"
 
 typedef struct {
     float omega_e_radps; /**< wanted electrical speed, within +-speed_max_e_radps */
     bool  run;           /**< false opens the bridge */
+    float
+        derating; /**< share of the current limit that may not be used, 0 .. 1, of laws with near_optimal.h */
 } drive_command_t;
 
 typedef enum { DRIVE_OFF = 0, DRIVE_RUN, DRIVE_FAULT } drive_state_t;
@@ -35,15 +39,24 @@ typedef enum {
     DRIVE_FAULT_NONE = 0,
     DRIVE_FAULT_SAMPLE, /**< sample marked invalid, or angle not a number in range */
     DRIVE_FAULT_OVER_CURRENT, /**< phase current beyond the trip level in two of three samples, or not a number */
-    DRIVE_FAULT_DC_LINK,    /**< dc link outside its accepted range, or not a number */
-    DRIVE_FAULT_OVER_SPEED, /**< speed beyond the trip level, or not a number */
-    DRIVE_FAULT_ENCODER,    /**< the angle jumped, or stands still while the motor turns fast */
-    DRIVE_FAULT_COMMAND,    /**< commanded speed out of range, or not a number */
-    DRIVE_FAULT_NUMERIC     /**< the law produced a voltage that is not a number */
+    DRIVE_FAULT_DC_LINK,        /**< dc link outside its accepted range, or not a number */
+    DRIVE_FAULT_OVER_SPEED,     /**< speed beyond the trip level, or not a number */
+    DRIVE_FAULT_ENCODER,        /**< the angle jumped, or stands still while the motor turns fast */
+    DRIVE_FAULT_COMMAND,        /**< commanded speed out of range, or not a number */
+    DRIVE_FAULT_NUMERIC,        /**< the law produced a voltage that is not a number */
+    DRIVE_FAULT_CURRENT_SENSOR, /**< a phase current is not that of the motor, current_watch.h */
+    DRIVE_FAULT_PHASE,          /**< a phase carries no current, current_watch.h */
+    DRIVE_FAULT_MODEL, /**< the motor needs another voltage than it should: encoder or sensor, motion_watch.h */
+    DRIVE_FAULT_STALL, /**< no motion at the current limit, motion_watch.h */
+    DRIVE_FAULT_AWAY,  /**< the speed leaves its command at the current limit, motion_watch.h */
+    DRIVE_FAULT_MEMORY /**< a pointer or a count of the constants has changed; until drive_init() */
 } drive_fault_t;
 
 typedef struct {
     const drive_config_t *config;
+    const drive_config_t *config_again;    /**< the same: a flipped bit shows */
+    const law_t          *law_again;       /**< config->law */
+    const void           *constants_again; /**< config->constants */
     drive_state_t         state;
     drive_fault_t         fault;
     law_state_t           law;    /**< state of config->law */
@@ -52,6 +65,8 @@ typedef struct {
     bool                  v_limited; /**< v_V was limited */
     abc_t                 i_hat_A;   /**< phase currents that the law expects */
     current_gate_t        current_gate;
+    current_watch_t       current_watch;
+    motion_watch_t        motion_watch;
 } drive_t;
 
 /**

@@ -86,6 +86,12 @@ static void learn(encoder_form_edges_t *edges, const drive_sample_t *s, float mo
     add_offset(edges, first, rho * step_rad, most_rad);
 }
 
+/* A place in offset_rad, or none; what else it were would be a flipped bit. */
+static int16_t place(int16_t edge)
+{
+    return ((edge >= 0) && (edge <= ENCODER_FORM_EDGES)) ? edge : 0;
+}
+
 float encoder_form_learn(encoder_form_edges_t *edges, const drive_sample_t *s, float count_rad,
                          float ts_s)
 {
@@ -98,6 +104,8 @@ float encoder_form_learn(encoder_form_edges_t *edges, const drive_sample_t *s, f
         }
         return 0.0f;
     }
+    edges->edge[0]       = place(edges->edge[0]);
+    edges->edge[1]       = place(edges->edge[1]);
     const int16_t before = edges->edge[0];
     if ((before != 0) && (edges->edge[1] != 0)) {
         learn(edges, s, 0.5f * count_rad, LEARN_PERIODS * ts_s);

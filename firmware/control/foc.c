@@ -153,6 +153,7 @@ void foc_answer(foc_t *s, const foc_config_t *c, const drive_config_t *drive, co
     out->i_ref_A        = s->i_ref_A;
     out->d_omega        = 0.0f;
     out->d_q            = 0.0f;
+    out->predicted      = false;
     out->d_d            = 0.0f;
     out->ignored_angles = 0U;
     out->without_angle  = false;

@@ -25,6 +25,7 @@ typedef struct {
     float                 command_e_radps; /**< wanted electrical speed, in range */
     dq_t                  v_V; /**< what the limits left of the voltage computed a period ago: in
                                     force from this instant on; zero at the start of a run */
+    float                 derating; /**< share of the current limit that may not be used, 0 .. 1 */
 } law_input_t;
 
 /** What a law answers. */
@@ -40,6 +41,9 @@ typedef struct {
          ignored_angles; /**< samples since the start of the run; zero where a law believes all */
     bool without_angle;  /**< the encoder is lost; the law goes on without it, for a stop */
     bool plausible;      /**< false: the angle cannot be right */
+    bool
+        predicted; /**< now is of the instant from which v_V acts, predicted with d_q and d_d, which take up within
+                         some ms what the motor is other than believed */
 } law_output_t;
 
 typedef struct {
@@ -53,6 +57,12 @@ typedef struct {
     /** One period; sets every member of out, which is not read. Context: control ISR, bounded. */
     void (*step)(law_state_t *state, const struct drive_config *config, const law_input_t *in,
                  law_output_t *out);
+
+    /** Whether the numbers in the constants that end loops and choose places are still in range: looked at in every period,
+     * because a flipped bit there would lead outside the memory. NULL: there are none. Context: control ISR. */
+    bool (*counts_ok)(const struct drive_config *config);
+
+    uint32_t constants_chars; /**< sizeof the constants, for a check sum of them; 0: not known */
 } law_t;
 
 #endif /* LAW_H */

@@ -32,4 +32,16 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
                         conventional_feedback_V(&c->gains, m, &e), in, out);
 }
 
-const law_t law_conventional = {.check = check, .reset = reset, .step = step};
+static bool counts_ok(const drive_config_t *drive)
+{
+    const law_conventional_config_t *c = drive->constants;
+
+    return (c->gains.nosc_order >= 0) && (c->gains.nosc_order <= DOUBLE_SERIES_ORDER_MAX) &&
+           (c->gains.nodo_order >= 0) && (c->gains.nodo_order <= DOUBLE_SERIES_ORDER_MAX);
+}
+
+const law_t law_conventional = {.check           = check,
+                                .reset           = reset,
+                                .step            = step,
+                                .counts_ok       = counts_ok,
+                                .constants_chars = (uint32_t)sizeof(law_conventional_config_t)};

@@ -36,4 +36,15 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     servo_answer(drive, in, &y, v_V, out);
 }
 
-const law_t law_dobc = {.check = check, .reset = reset, .step = step};
+static bool counts_ok(const drive_config_t *drive)
+{
+    const law_dobc_config_t *c = drive->constants;
+
+    return (c->dobc.n_x >= 1) && (c->dobc.n_x <= DOBC_N_X_MAX);
+}
+
+const law_t law_dobc = {.check           = check,
+                        .reset           = reset,
+                        .step            = step,
+                        .counts_ok       = counts_ok,
+                        .constants_chars = (uint32_t)sizeof(law_dobc_config_t)};

@@ -67,4 +67,15 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     out->d_omega = s->z_f_e_radps2;
 }
 
-const law_t law_ladrc = {.check = check, .reset = reset, .step = step};
+static bool counts_ok(const drive_config_t *drive)
+{
+    const law_ladrc_config_t *c = drive->constants;
+
+    return (c->speed.periods >= 1) && (c->speed.periods <= SPEED_DIFFERENCE_PERIODS_MAX);
+}
+
+const law_t law_ladrc = {.check           = check,
+                         .reset           = reset,
+                         .step            = step,
+                         .counts_ok       = counts_ok,
+                         .constants_chars = (uint32_t)sizeof(law_ladrc_config_t)};

@@ -70,6 +70,19 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in, out);
     out->ignored_angles = s->gate.ignored;
     out->without_angle  = s->gate.lost != 0;
+    out->predicted      = true;
 }
 
-const law_t law_noc = {.check = check, .reset = reset, .step = step};
+static bool counts_ok(const drive_config_t *drive)
+{
+    const law_noc_config_t *c = drive->constants;
+
+    return nosc_order_ok(&c->near_optimal.nosc) && (c->nodo.order >= 0) &&
+           (c->nodo.order <= NODO_ORDER_MAX);
+}
+
+const law_t law_noc = {.check           = check,
+                       .reset           = reset,
+                       .step            = step,
+                       .counts_ok       = counts_ok,
+                       .constants_chars = (uint32_t)sizeof(law_noc_config_t)};

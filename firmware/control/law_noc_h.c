@@ -59,4 +59,15 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     out->without_angle  = s->gate.lost != 0;
 }
 
-const law_t law_noc_h = {.check = check, .reset = reset, .step = step};
+static bool counts_ok(const drive_config_t *drive)
+{
+    const law_noc_h_config_t *c = drive->constants;
+
+    return nosc_order_ok(&c->near_optimal.nosc) && nodo_harmonic_counts_ok(&c->nodo);
+}
+
+const law_t law_noc_h = {.check           = check,
+                         .reset           = reset,
+                         .step            = step,
+                         .counts_ok       = counts_ok,
+                         .constants_chars = (uint32_t)sizeof(law_noc_h_config_t)};

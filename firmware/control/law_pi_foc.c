@@ -47,4 +47,15 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     s->r_e_radps += g->ki_per_kp * (in->command_e_radps - s->r_e_radps); /* EQ-PI-FOC-1 */
 }
 
-const law_t law_pi_foc = {.check = check, .reset = reset, .step = step};
+static bool counts_ok(const drive_config_t *drive)
+{
+    const law_pi_foc_config_t *c = drive->constants;
+
+    return (c->speed.periods >= 1) && (c->speed.periods <= SPEED_DIFFERENCE_PERIODS_MAX);
+}
+
+const law_t law_pi_foc = {.check           = check,
+                          .reset           = reset,
+                          .step            = step,
+                          .counts_ok       = counts_ok,
+                          .constants_chars = (uint32_t)sizeof(law_pi_foc_config_t)};

@@ -35,4 +35,7 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     servo_answer(drive, in, &y, v_V, out);
 }
 
-const law_t law_pid = {.check = check, .reset = reset, .step = step};
+const law_t law_pid = {.check           = check,
+                       .reset           = reset,
+                       .step            = step,
+                       .constants_chars = (uint32_t)sizeof(law_pid_config_t)};

@@ -33,7 +33,8 @@ static void update_references(near_optimal_t *s, const near_optimal_config_t *c,
                                         .iq_speed_A  = nosc_speed_current_A(&c->nosc, e_w),
                                         .dc_link_V   = in->sample->dc_link_V,
                                         .v_max_V     = in->sample->dc_link_V * BASE_1_SQRT3,
-                                        .d_omega_dot = view->d_omega_dot};
+                                        .d_omega_dot = view->d_omega_dot,
+                                        .derating    = in->derating};
     const speed_ref_limits_t  limits = current_ref_speed_limits(
          &s->current_ref, &c->current_ref, &drive->motor, &from, in->command_e_radps);
 
@@ -120,4 +121,5 @@ void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c
     out->ignored_angles = 0U;
     out->without_angle  = false;
     out->plausible      = view->plausible;
+    out->predicted      = false;
 }

@@ -167,7 +167,7 @@ static frames_angle_t half_turn_of(const half_turn_t *turn, float order)
     uint16_t       bits  = (uint16_t)size;
     frames_angle_t angle = {.cos = 1.0f, .sin = 0.0f};
 
-    if (((float)bits < size) || ((bits >> POWERS) != 0U)) {
+    if (((float)bits < size) || (bits >= (1U << POWERS))) {
         return frames_angle(0.5f * order * turn->dtheta_rad);
     }
     for (int16_t i = 0; bits != 0U; i++) {
@@ -267,10 +267,15 @@ void nodo_harmonic_predict(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g,
     view->d_omega_dot = s->slope + pairs.d_w_dot;
 }
 
-static bool numbers_ok(const nodo_harmonic_gains_t *g)
+bool nodo_harmonic_counts_ok(const nodo_harmonic_gains_t *g)
 {
     return (g->n_pairs >= 0) && (g->n_pairs <= NODO_HARMONIC_PAIRS_MAX) && (g->n_nodes >= 2) &&
-           (g->n_nodes <= NODO_HARMONIC_NODES_MAX) && check_positive(g->iq_max_A) &&
+           (g->n_nodes <= NODO_HARMONIC_NODES_MAX);
+}
+
+static bool numbers_ok(const nodo_harmonic_gains_t *g)
+{
+    return nodo_harmonic_counts_ok(g) && check_positive(g->iq_max_A) &&
            check_positive(g->nodes_per_root) && check_positive(g->keep) && (g->keep <= 1.0f) &&
            check_positive(g->keep_fast) && (g->keep_fast <= 1.0f);
 }

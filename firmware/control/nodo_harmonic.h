@@ -82,6 +82,9 @@ typedef struct {
     float  d_omega_dot; /**< d_w' in the middle of that period [rad/s^3] */
 } nodo_harmonic_view_t;
 
+/** Whether the numbers of pairs and nodes are ones that the table holds. Context: control ISR. */
+bool nodo_harmonic_counts_ok(const nodo_harmonic_gains_t *g);
+
 /** true when every constant is finite and within its documented range. Context: init. */
 bool nodo_harmonic_check(const nodo_harmonic_gains_t *g);
 

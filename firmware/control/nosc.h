@@ -34,6 +34,12 @@ typedef struct {
     float   lambda[NOSC_ORDER_MAX + 1][NOSC_N_U][NOSC_N_E]; /**< Lambda_n; k_iq > 0 */
 } nosc_gains_t;
 
+/** Whether the order is one that the table holds. Context: control ISR. */
+static inline bool nosc_order_ok(const nosc_gains_t *g)
+{
+    return (g->order >= 0) && (g->order <= NOSC_ORDER_MAX);
+}
+
 /** true when every constant is finite and within its documented range. Context: init. */
 bool nosc_check(const nosc_gains_t *g);
 

@@ -30,6 +30,7 @@ static inline void servo_answer(const drive_config_t *drive, const law_input_t *
     out->ignored_angles = 0U;
     out->without_angle  = false;
     out->plausible      = true;
+    out->predicted      = false;
 }
 
 /** d voltage of EQ-PID-1 for id = 0, after what the limits left of the one before. Context: control ISR. */

@@ -151,25 +151,6 @@ SampledLoop sweep_nodo(const Design &d)
     return sweep(d.nodo, certified_range_A(d.drive.motor), ts, radius, poles);
 }
 
-/// EQ-CERT-5 at standstill without current and at the rated speed with the largest.
-RobustBox encoder_form_box(const Design &d)
-{
-    const double         ts       = control_period_s(d.drive);
-    const double         iq_A     = d.drive.motor.max_current_A;
-    const double         range    = d.certificate.nodo.series_range_A;
-    const OperatingPoint points[] = {
-        {0.0, 0.0, d.l[0]}, {d.drive.motor.rated_speed_e_radps, iq_A, mtpa_id_A(d.l, iq_A)}};
-    return robust_box(d.drive.motor, [&](const ReducedParameters &motor) {
-        double worst = 0.0;
-        for (const OperatingPoint &at : points) {
-            const Schedule  s = held({at.iq_A}, range);
-            const LoopGains gains{d.nosc.gain[0], series_gain(d.nodo, s, series_order(d.nodo))};
-            worst = std::max(worst, spectral_radius(sampled_model(motor, d.l, gains, at, ts).A));
-        }
-        return worst;
-    });
-}
-
 /// "2", or "1,0" in two variables.
 std::string term_name(const GainSeries &g, std::size_t n)
 {
@@ -201,13 +182,25 @@ void judge(const char *name, const char *sampled, const GainSeries &g, const Sam
 
 } // namespace
 
-void judge_box(const RobustBox &box, std::vector<std::string> &failures)
+void certify_loop(Design &d, const LoopFamily &family, const std::vector<TripMargin> &trips)
 {
-    if (!(box.share >= box_share_limit)) {
-        failures.push_back(fmt::format(
-            "unstable with a motor of {}: {:.2f} of the box of parameters, {:g} is required",
-            box.corner, box.share, box_share_limit));
+    d.certificate.loop        = examine(family, d.drive);
+    d.certificate.loop->trips = trips;
+    judge(*d.certificate.loop, control_period_s(d.drive), d.certificate.failures);
+}
+
+std::string verdict_lines(const Verdict &v)
+{
+    std::string s;
+    for (const Channel &c : v.channels) {
+        s += fmt::format(" * checked    {:<11} sensitivity peak {:.3g} at {:.0f} Hz, sampled "
+                         "spectral radius {:.4f}\n",
+                         c.name + ":", c.worst.peak, c.worst.peak_Hz, c.worst.spectral_radius);
     }
+    return v.box
+               ? s + fmt::format(" *            motors:     stable in {:.2f} of EQ-CERT-5's box\n",
+                                 v.box->share)
+               : s;
 }
 
 void certify(Design &design)
@@ -221,10 +214,6 @@ void certify(Design &design)
         const bool whole = design.drive.nodo.form == NodoForm::encoder; // EQ-CERT-3, else EQ-CERT-2
         judge("nodo", whole ? "nosc, nodo and motor" : "nodo", design.nodo, certificate.nodo,
               certificate.failures);
-        if (whole) {
-            certificate.box = encoder_form_box(design);
-            judge_box(*certificate.box, certificate.failures);
-        }
     }
 }
 

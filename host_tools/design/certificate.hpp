@@ -10,10 +10,14 @@ namespace sdre {
 ///
 /// NOSC: the error dynamics held by a zero-order hold, the voltage one period late (EQ-CERT-1).
 /// NODO: explicit Euler, I + Ts (A - L C), as the firmware steps it (EQ-CERT-2).
-/// Encoder form: motor, observer, law and delay together, and in the box of motors of EQ-CERT-5.
+/// Encoder form: motor, observer, law and delay together (EQ-CERT-3).
 void certify(Design &design);
 
-/// A failure when the share is below box_share_limit.
-void judge_box(const RobustBox &box, std::vector<std::string> &failures);
+/// Examines the whole loop, keeps the verdict and adds what does not hold to the failures.
+void certify_loop(Design &design, const LoopFamily &family,
+                  const std::vector<TripMargin> &trips = {});
+
+/// Lines of the comment above the tables.
+std::string verdict_lines(const Verdict &verdict);
 
 } // namespace sdre

@@ -2,8 +2,8 @@
 #include "design/robust_box.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,15 +16,46 @@ struct Factors {
     double R, L, flux, J;
 };
 
-constexpr std::size_t corners  = 16;
-constexpr double      accuracy = 0.01;
+constexpr double accuracy = 0.01;
 
-Factors factors_of(std::size_t corner, double share)
+/// The motors at a share of the box.
+using Motors = std::vector<Factors> (*)(double share);
+
+double low(double share)
 {
-    const auto end = [&](std::size_t bit, double low, double high) {
-        return std::pow((corner >> bit & 1U) == 0U ? low : high, share);
-    };
-    return {end(0, 0.5, 1.5), end(1, 0.5, 1.5), end(2, 0.5, 1.5), end(3, 0.5, 3.0)};
+    return std::pow(0.5, share);
+}
+
+double high(double share)
+{
+    return std::pow(1.5, share);
+}
+
+double high_inertia(double share)
+{
+    return std::pow(3.0, share);
+}
+
+std::vector<Factors> all_corners(double s)
+{
+    std::vector<Factors> corners;
+    for (const double R : {low(s), high(s)}) {
+        for (const double L : {low(s), high(s)}) {
+            for (const double flux : {low(s), high(s)}) {
+                for (const double J : {low(s), high_inertia(s)}) {
+                    corners.push_back({R, L, flux, J});
+                }
+            }
+        }
+    }
+    return corners;
+}
+
+std::vector<Factors> one_at_a_time(double s)
+{
+    return {{low(s), 1.0, 1.0, 1.0},  {high(s), 1.0, 1.0, 1.0},        {1.0, low(s), 1.0, 1.0},
+            {1.0, high(s), 1.0, 1.0}, {1.0, 1.0, low(s), 1.0},         {1.0, 1.0, high(s), 1.0},
+            {1.0, 1.0, 1.0, low(s)},  {1.0, 1.0, 1.0, high_inertia(s)}};
 }
 
 Motor with(Motor m, const Factors &f)
@@ -37,39 +68,47 @@ Motor with(Motor m, const Factors &f)
     return m;
 }
 
-} // namespace
-
-double worst_corner(const Motor &motor, const MotorRadius &radius, double share,
-                    std::string *corner)
+/// Radius of the worst motor, and its name.
+double worst_of(const std::vector<Factors> &factors, const Motor &motor, const MotorRadius &radius,
+                std::string *name = nullptr)
 {
-    std::array<double, corners> found{};
-    parallel_for(corners, [&](std::size_t k) {
-        found[k] = radius(reduced_parameters(with(motor, factors_of(k, share))));
-    });
+    std::vector<double> found(factors.size());
+    parallel_for(found.size(), [&](std::size_t k) { found[k] = radius(with(motor, factors[k])); });
     const auto worst = std::max_element(found.begin(), found.end());
-    if (corner != nullptr) {
-        const Factors f = factors_of(static_cast<std::size_t>(worst - found.begin()), share);
-        *corner =
-            fmt::format("R x{:.2f}, L x{:.2f}, flux x{:.2f}, J x{:.2f}", f.R, f.L, f.flux, f.J);
+    if (name != nullptr) {
+        const Factors &f = factors[static_cast<std::size_t>(worst - found.begin())];
+        *name = fmt::format("R x{:.2f}, L x{:.2f}, flux x{:.2f}, J x{:.2f}", f.R, f.L, f.flux, f.J);
     }
     return *worst;
 }
 
-RobustBox robust_box(const Motor &motor, const MotorRadius &radius)
+RobustBox largest_share(Motors motors, const Motor &motor, const MotorRadius &radius)
 {
-    if (worst_corner(motor, radius, 1.0) < 1.0) {
+    if (worst_of(motors(1.0), motor, radius) < 1.0) {
         return {1.0, ""};
     }
     double stable   = 0.0;
     double unstable = 1.0;
     while (unstable - stable > accuracy) {
-        const double middle                                             = 0.5 * (stable + unstable);
-        (worst_corner(motor, radius, middle) < 1.0 ? stable : unstable) = middle;
+        const double middle = 0.5 * (stable + unstable);
+        (worst_of(motors(middle), motor, radius) < 1.0 ? stable : unstable) = middle;
     }
     RobustBox box;
     box.share = stable;
-    worst_corner(motor, radius, unstable, &box.corner);
+    worst_of(motors(unstable), motor, radius, &box.corner);
     return box;
+}
+
+} // namespace
+
+RobustBox robust_box(const Motor &motor, const MotorRadius &radius)
+{
+    return largest_share(all_corners, motor, radius);
+}
+
+RobustBox robust_alone(const Motor &motor, const MotorRadius &radius)
+{
+    return largest_share(one_at_a_time, motor, radius);
 }
 
 } // namespace sdre

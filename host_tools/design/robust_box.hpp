@@ -10,12 +10,12 @@
 #include <functional>
 #include <string>
 
-#include "design/motor_model.hpp"
+#include "drive/drive_file.hpp"
 
 namespace sdre {
 
 /// Spectral radius of the loop with this motor, the worst over the operating points; the controller stays.
-using MotorRadius = std::function<double(const ReducedParameters &motor)>;
+using MotorRadius = std::function<double(const Motor &motor)>;
 
 struct RobustBox {
     double      share = 0.0; ///< s
@@ -25,8 +25,7 @@ struct RobustBox {
 /// By bisection to one hundredth.
 RobustBox robust_box(const Motor &motor, const MotorRadius &radius);
 
-/// The corner with the largest radius at a share; its radius.
-double worst_corner(const Motor &motor, const MotorRadius &radius, double share,
-                    std::string *corner = nullptr);
+/// The same with one parameter at either end and the others as believed: eight motors instead of sixteen.
+RobustBox robust_alone(const Motor &motor, const MotorRadius &radius);
 
 } // namespace sdre

@@ -98,6 +98,8 @@ SampledModel sampled_model(const ReducedParameters &motor, const ReducedParamete
 
     Eigen::VectorXd b_load = Eigen::VectorXd::Zero(11);
     b_load.head(4)         = held.Gamma.col(2);
+    MatrixXd B_voltage     = MatrixXd::Zero(11, 2);
+    B_voltage.topRows(4)   = held.Gamma.leftCols(2);
     MatrixXd B_noise       = MatrixXd::Zero(11, 3);
     B_noise.bottomRows(7)  = PL;
 
@@ -108,6 +110,7 @@ SampledModel sampled_model(const ReducedParameters &motor, const ReducedParamete
     out.C_voltage.rightCols(6) = F.leftCols(6);
     out.b_load                 = (S * b_load).head(10);
     out.B_noise                = (S * B_noise).topRows(10);
+    out.B_voltage              = (S * B_voltage).topRows(10);
     return out;
 }
 

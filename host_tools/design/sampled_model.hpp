@@ -29,6 +29,7 @@ struct SampledModel {
     Eigen::MatrixXd
         B_noise; ///< 10 x 3, per ampere of iq, id and radian of angle error in the measurement
     Eigen::MatrixXd C_voltage; ///< 2 x 10: the v_q, v_d in force
+    Eigen::MatrixXd B_voltage; ///< 10 x 2, per volt of v_q, v_d that the observer does not know
     double          ts_s = 0.0;
 };
 

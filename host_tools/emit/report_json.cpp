@@ -165,6 +165,22 @@ Json noc_h_json(const Design &d)
               {"nosc", loop_json(c.nosc, "e_iq")}}}};
 }
 
+Json verdict_json(const Verdict &v)
+{
+    Json out = {{"spectral_radius", v.spectral_radius}};
+    if (v.box) {
+        out["box_share"]           = v.box->share;
+        out["one_at_a_time_share"] = v.alone->share;
+    }
+    for (const Channel &c : v.channels) {
+        out["channels"][c.name] = loop_json(c.worst);
+    }
+    for (const TripMargin &t : v.trips) {
+        out["trips"][t.name] = {{"healthy", t.healthy}, {"limit", t.limit}};
+    }
+    return out;
+}
+
 Json heading_json(const Design &d)
 {
     Json reduced;
@@ -185,8 +201,6 @@ Json servo_json(const Design &d)
     if (servo.dobc) {
         out["dobc"] = dobc_json(*servo.dobc);
     }
-    out["speed_loop"]  = loop_json(servo.speed);
-    out["d_axis_loop"] = loop_json(servo.d_axis);
     out["certificate"] = {{"certified", d.certificate.passed()},
                           {"failures", d.certificate.failures}};
     return out;
@@ -194,13 +208,38 @@ Json servo_json(const Design &d)
 
 Json cascade_json(const Design &d)
 {
-    const CascadeCheck &check = *d.cascade;
     return {{"law", law_name(d.drive.law)},
-            {"speed_loop", loop_json(check.speed)},
-            {"q_axis_loop", loop_json(check.q_axis)},
-            {"d_axis_loop", loop_json(check.d_axis)},
             {"certificate",
              {{"certified", d.certificate.passed()}, {"failures", d.certificate.failures}}}};
+}
+
+Json noc_json(const Design &d)
+{
+    const Certificate &c = d.certificate;
+    return {{"nosc", gain_json(d.nosc, "lambda", "gamma", "closed_loop_eigenvalues")},
+            {"nodo", nodo_json(d)},
+            {"certificate",
+             {{"certified", c.passed()},
+              {"failures", c.failures},
+              {"range",
+               {{"e_iq_A", {-c.nosc.range_A, c.nosc.range_A}},
+                {"i_q_hat_A", {-c.nodo.range_A, c.nodo.range_A}}}},
+              {"worst_pole",
+               {{"nosc_1ps", c.nosc.worst_pole_1ps}, {"nodo_1ps", c.nodo.worst_pole_1ps}}},
+              {"series_error", {{"nosc", c.nosc.series_error}, {"nodo", c.nodo.series_error}}},
+              {"nosc", loop_json(c.nosc, "e_iq")},
+              {"nodo", loop_json(c.nodo, "i_q_hat")}}}};
+}
+
+Json law_json(const Design &d)
+{
+    if (d.servo) {
+        return servo_json(d);
+    }
+    if (is_cascade(d.drive.law)) {
+        return cascade_json(d);
+    }
+    return d.harmonics ? noc_h_json(d) : noc_json(d);
 }
 
 } // namespace
@@ -208,33 +247,10 @@ Json cascade_json(const Design &d)
 std::string report_json(const Design &d)
 {
     Json report = heading_json(d);
-    if (d.servo) {
-        report.update(servo_json(d));
-        return report.text();
+    report.update(law_json(d));
+    if (d.certificate.loop) {
+        report["whole_loop"] = verdict_json(*d.certificate.loop);
     }
-    if (d.cascade) {
-        report.update(cascade_json(d));
-        return report.text();
-    }
-    if (d.harmonics) {
-        report.update(noc_h_json(d));
-        return report.text();
-    }
-    const Certificate &c = d.certificate;
-    report.update(
-        Json{{"nosc", gain_json(d.nosc, "lambda", "gamma", "closed_loop_eigenvalues")},
-             {"nodo", nodo_json(d)},
-             {"certificate",
-              {{"certified", c.passed()},
-               {"failures", c.failures},
-               {"range",
-                {{"e_iq_A", {-c.nosc.range_A, c.nosc.range_A}},
-                 {"i_q_hat_A", {-c.nodo.range_A, c.nodo.range_A}}}},
-               {"worst_pole",
-                {{"nosc_1ps", c.nosc.worst_pole_1ps}, {"nodo_1ps", c.nodo.worst_pole_1ps}}},
-               {"series_error", {{"nosc", c.nosc.series_error}, {"nodo", c.nodo.series_error}}},
-               {"nosc", loop_json(c.nosc, "e_iq")},
-               {"nodo", loop_json(c.nodo, "i_q_hat")}}}});
     return report.text();
 }
 

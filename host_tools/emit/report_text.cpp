@@ -78,37 +78,58 @@ std::string pid_text(const PidSpec &k)
                        k.proportional_Vs_per_rad, k.integral_V_per_rad, k.derivative_Vs2_per_rad);
 }
 
+std::string point_text(const OperatingPoint &at)
+{
+    return fmt::format("at {:.0f} rad/s, iq {:.2f} A", at.omega_e_radps, at.iq_A);
+}
+
+std::string box_text(const RobustBox &box, const RobustBox &alone)
+{
+    return fmt::format("  motors: stable with R, L, flux x{:.2f} .. {:.2f} and J x{:.2f} .. {:.2f} "
+                       "all at once{}\n  one at a time: {}\n",
+                       std::pow(0.5, box.share), std::pow(1.5, box.share), std::pow(0.5, box.share),
+                       std::pow(3.0, box.share),
+                       box.corner.empty() ? "" : "; first unstable: " + box.corner,
+                       alone.corner.empty() ? "R, L, flux x0.5 .. 1.5, J x0.5 .. 3"
+                                            : "unstable with " + alone.corner);
+}
+
+/// The whole loop; nothing for laws that have no such model.
+std::string verdict_text(const Certificate &c)
+{
+    if (!c.loop) {
+        return "";
+    }
+    const Verdict &v = *c.loop;
+    std::string    s = fmt::format("\nwhole loop\n  sampled spectral radius {:.5f} {}\n",
+                                   v.spectral_radius, point_text(v.radius_at));
+    for (const Channel &channel : v.channels) {
+        s += loop_text(channel.name.c_str(), channel.worst);
+    }
+    if (v.box) {
+        s += box_text(*v.box, *v.alone);
+    }
+    for (const TripMargin &t : v.trips) {
+        s += fmt::format("  {}: {:.3g}, trip at {:.3g}\n", t.name, t.healthy, t.limit);
+    }
+    return s;
+}
+
 std::string servo_text(const Design &d)
 {
-    const ServoDesign &servo = *d.servo;
-    return (servo.dobc ? dobc_text(*servo.dobc) : pid_text(d.drive.pid)) + "\nsampled loops\n" +
-           loop_text("speed", servo.speed) + loop_text("d axis", servo.d_axis);
+    return d.servo->dobc ? dobc_text(*d.servo->dobc) : pid_text(d.drive.pid);
 }
 
 std::string cascade_text(const Design &d)
 {
-    const CascadeCheck &check = *d.cascade;
-    const CascadeSpec  &spec  = d.drive.cascade;
-    std::string         s =
+    const CascadeSpec &spec = d.drive.cascade;
+    std::string        s =
         fmt::format("\ncontroller\n  current loops {:g} Hz, ", spec.current_bandwidth_Hz);
     s += d.drive.law == Law::pi_foc
              ? fmt::format("symmetrical optimum with a = {:g}\n", spec.symmetrical_optimum_a)
              : fmt::format("speed loop {:g} rad/s, observer {:g} rad/s\n", spec.controller_radps,
                            spec.observer_radps);
-    return s + "\nsampled loops\n" + loop_text("speed", check.speed) +
-           loop_text("q axis", check.q_axis) + loop_text("d axis", check.d_axis);
-}
-
-std::string box_text(const Certificate &c)
-{
-    if (!c.box) {
-        return "";
-    }
-    return fmt::format("  motors: stable with R, L, flux x{:.2f} .. {:.2f} and J x{:.2f} .. {:.2f} "
-                       "all at once{}\n",
-                       std::pow(0.5, c.box->share), std::pow(1.5, c.box->share),
-                       std::pow(0.5, c.box->share), std::pow(3.0, c.box->share),
-                       c.box->corner.empty() ? "" : "; first unstable: " + c.box->corner);
+    return s;
 }
 
 std::string harmonic_text(const Design &d)
@@ -128,7 +149,7 @@ std::string harmonic_text(const Design &d)
         "  observer, law and motor: relative residuals <= {:.1e}, sampled spectral radius {:.5f} "
         "(at {:.0f} rad/s, iq {:.2f} A)\n",
         check.worst_residual, check.spectral_radius, check.worst_speed_e_radps, check.worst_iq_A);
-    return s + loop_text("speed loop", check.speed_loop) + box_text(d.certificate);
+    return s + loop_text("speed loop", check.speed_loop);
 }
 
 std::string observer_heading(NodoForm form)
@@ -152,8 +173,7 @@ std::string noc_text(const Design &d)
     s += "  poles" + poles_text(d.nodo.series.care.closed_loop_eigenvalues) + " 1/s\n";
     return s + "\ncertificate\n" +
            loop_text("controller", two ? "e_iq and e_id" : "e_iq", d.certificate.nosc) +
-           loop_text("observer", two ? "iq_hat and id_hat" : "iq_hat", d.certificate.nodo) +
-           box_text(d.certificate);
+           loop_text("observer", two ? "iq_hat and id_hat" : "iq_hat", d.certificate.nodo);
 }
 
 std::string limits_text(const Design &d)
@@ -181,7 +201,8 @@ std::string report_text(const Design &d)
         s += fmt::format("  l{:<3} {:.9g}\n", i, d.l[i]);
     }
     s += limits_text(d);
-    s += d.servo ? servo_text(d) : d.cascade ? cascade_text(d) : noc_text(d);
+    s += d.servo ? servo_text(d) : is_cascade(d.drive.law) ? cascade_text(d) : noc_text(d);
+    s += verdict_text(d.certificate);
     s += d.certificate.passed() ? "\nverdict: certified\n" : "\nverdict: refused\n";
     for (const std::string &failure : d.certificate.failures) {
         s += "  " + failure + "\n";

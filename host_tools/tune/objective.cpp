@@ -13,6 +13,7 @@
 #include "design/firmware_config.hpp"
 #include "design/sampled_model.hpp"
 #include "design/sampled_observer.hpp"
+#include "linalg/covariance.hpp"
 
 namespace sdre {
 namespace {
@@ -50,17 +51,6 @@ OperatingPoint operating_point(const ReducedParameters &l, double speed, double 
         at.id_A = mtpa_id_A(l, at.iq_A);
     }
     return at;
-}
-
-/// Covariance of x+ = A x + B n with the given noise variances, by doubling.
-MatrixXd covariance(MatrixXd A, const MatrixXd &B, const VectorXd &variances)
-{
-    MatrixXd P = B * variances.asDiagonal() * B.transpose();
-    for (int i = 0; i < 30 && A.norm() > 1e-12; i++) {
-        P = P + A * P * A.transpose();
-        A = A * A;
-    }
-    return P;
 }
 
 int horizon_steps(const SampledModel &m)

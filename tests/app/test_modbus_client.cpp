@@ -270,7 +270,7 @@ TEST_F(ModbusClient, RefusesWithTheExceptionThatSaysWhy)
 {
     std::array<std::uint16_t, 125> values{};
     std::array<std::uint8_t, 8>    bits{};
-    expect_exception(modbus_read_input_registers(client_, 44, 1, values.data()), EMBXILADD);
+    expect_exception(modbus_read_input_registers(client_, 48, 1, values.data()), EMBXILADD);
     expect_exception(modbus_read_registers(client_, 2, 2, values.data()), EMBXILADD);
     expect_exception(modbus_write_register(client_, 3, 0), EMBXILADD);
     expect_exception(modbus_write_register(client_, holding_run, 2), EMBXILVAL);

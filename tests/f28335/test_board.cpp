@@ -60,10 +60,10 @@ TEST_F(F28335Board, ClockRegisters)
     // ADC: 150 / (2 * 3) = 25 MHz. SCI: 150 / (2 * 2) = 37.5 MHz.
     EXPECT_EQ(SysCtrlRegs.HISPCP.all, 3U);
     EXPECT_EQ(SysCtrlRegs.LOSPCP.all, 2U);
-    // TBCLKSYNC 2, ADC 3, SCI-A 10; ePWM1..3 0..2, eQEP1 14; CPU timer 0 8; all the rest off.
+    // TBCLKSYNC 2, ADC 3, SCI-A 10; ePWM1..3 0..2, eQEP1 14; CPU timers 0, 1 8, 9; all the rest off.
     EXPECT_EQ(SysCtrlRegs.PCLKCR0.all, (1U << 2) | (1U << 3) | (1U << 10));
     EXPECT_EQ(SysCtrlRegs.PCLKCR1.all, 7U | (1U << 14));
-    EXPECT_EQ(SysCtrlRegs.PCLKCR3.all, 1U << 8);
+    EXPECT_EQ(SysCtrlRegs.PCLKCR3.all, (1U << 8) | (1U << 9));
     EXPECT_EQ(SysCtrlRegs.MAPCNF.all, 0U);
 }
 
@@ -183,14 +183,17 @@ TEST_F(F28335Board, InterruptWatchdogAndTimerRegisters)
     EXPECT_EQ(PieCtrlRegs.PIEIER2.all | PieCtrlRegs.PIEIER3.all | PieCtrlRegs.PIEIER5.all |
                   PieCtrlRegs.PIEIER9.all | PieCtrlRegs.PIEIER12.all,
               0U);
-    EXPECT_EQ(IER, 1U);
+    EXPECT_EQ(IER, 1U | 0x1000U); // INT13: CPU timer 1
     const PINT *vectors = reinterpret_cast<const PINT *>(&PieVectTable);
     for (int n = 0; n < 128; n++) {
         EXPECT_NE(vectors[n], nullptr) << n;
     }
     EXPECT_NE(PieVectTable.SEQ1INT, PieVectTable.ADCINT);
-    // On, crystal / 512 / 4: 256 * 512 * 4 / 30 MHz = 17.5 ms.
-    EXPECT_EQ(SysCtrlRegs.WDCR & 0x47U, 3U);
+    // On, crystal / 512: 256 * 512 / 30 MHz = 4.37 ms.
+    EXPECT_EQ(SysCtrlRegs.WDCR & 0x47U, 1U);
+    // One and three quarters of a period, asking for its interrupt (14), running (4).
+    EXPECT_EQ(CpuTimer1Regs.PRD.all, 52500U);
+    EXPECT_EQ(CpuTimer1Regs.TCR.all & 0x4010U, 0x4000U);
     EXPECT_EQ(CpuTimer0Regs.PRD.all, 0xFFFFFFFFU);
     EXPECT_EQ(+CpuTimer0Regs.TCR.bit.TSS, 0);
     EXPECT_EQ(CpuTimer0Regs.TPR.all, 0U);
@@ -362,6 +365,41 @@ TEST_F(F28335Board, LateInterruptIsAnOverrun)
     d.run_for(4 * period_s);
     EXPECT_EQ(board_firmware.faults & BOARD_FAULT_OVERRUN, BOARD_FAULT_OVERRUN);
     EXPECT_TRUE(all_legs(false));
+}
+
+TEST_F(F28335Board, TickThatDoesNotEndOpensTheBridge)
+{
+    Device &d = start();
+    enable_gates();
+    board_firmware.tick_lasts_us = 1e5;
+    d.run_for(period_s + 345e-6); // the next tick begins within a period
+    EXPECT_TRUE(all_legs(true));
+    d.run_for(30e-6);
+    EXPECT_TRUE(all_legs(false));
+    d.run_for(5e-3); // nobody serves the watchdog
+    EXPECT_TRUE(d.was_reset());
+}
+
+TEST_F(F28335Board, LostTriggerOpensTheBridge)
+{
+    Device &d = start();
+    enable_gates();
+    d.lose_trigger();
+    d.run_for(150e-6);
+    EXPECT_TRUE(all_legs(true));
+    d.run_for(250e-6);
+    EXPECT_TRUE(all_legs(false));
+    EXPECT_FALSE(d.was_reset());
+}
+
+/// The processor has taken its bit out of IER, and the group waits for PIEACK.
+TEST_F(F28335Board, TickIsNotInterruptedByTheNextOne)
+{
+    Device             &d        = start();
+    const std::uint32_t tick     = board_firmware.ticks;
+    board_firmware.tick_lasts_us = 250.0;
+    d.run_for(2 * period_s);
+    EXPECT_EQ(board_firmware.ticks - tick, 1U);
 }
 
 TEST_F(F28335Board, OnePhaseErrorIsCountedAndTripsNothing)
@@ -612,9 +650,9 @@ TEST_F(F28335Board, WatchdogNotServedResetsTheDevice)
     Device &d = start();
     enable_gates();
     board_firmware.serve = false;
-    d.run_for(16e-3);
+    d.run_for(4.1e-3);
     EXPECT_FALSE(d.was_reset());
-    d.run_for(2e-3);
+    d.run_for(0.4e-3);
     EXPECT_TRUE(d.was_reset());
     EXPECT_TRUE(all_legs(false));
 }

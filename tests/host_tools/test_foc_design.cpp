@@ -152,9 +152,9 @@ TEST(FocDesign, CertifiedLoopIsTheFirmwareOnTheMotor)
                 for (int i = 0; i < 60; i++) {
                     iq = (load + x.l[2] * speed) / (x.l[1] + x.l[11] * mtpa_id_A(x.l, iq));
                 }
-                const auto mode = timed ? SPEED_DIFFERENCE_TIMED : SPEED_DIFFERENCE_COUNTED;
-                const SampledServoLoop loop =
-                    foc_loop(x, {speed, iq, mtpa_id_A(x.l, iq)}, mode).q_axis;
+                const auto       mode = timed ? SPEED_DIFFERENCE_TIMED : SPEED_DIFFERENCE_COUNTED;
+                const BrokenLoop loop =
+                    foc_loops(x, x.drive.motor, {speed, iq, mtpa_id_A(x.l, iq)}, mode)[1];
                 const auto with = firmware_speeds(x, speed, load, 5.0, timed);
                 const auto less = firmware_speeds(x, speed, load, -5.0, timed);
 

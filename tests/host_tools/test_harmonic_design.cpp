@@ -130,8 +130,9 @@ TEST(HarmonicDesign, WithoutPairsTheLoopIsThatOfTheEncoderForm)
 
         ASSERT_EQ(found.A.rows(), expected.A.rows());
         EXPECT_LT((found.A - expected.A).norm(), 1e-9 * expected.A.norm());
-        EXPECT_LT((found.c_voltage - expected.C_voltage.row(0)).norm(),
-                  1e-9 * expected.C_voltage.row(0).norm());
+        EXPECT_LT((found.C_voltage - expected.C_voltage).norm(), 1e-9 * expected.C_voltage.norm());
+        EXPECT_LT((found.B_voltage - expected.B_voltage).norm(), 1e-9 * expected.B_voltage.norm());
+        EXPECT_LT((found.B_noise - expected.B_noise).norm(), 1e-9 * expected.B_noise.norm());
     }
 }
 

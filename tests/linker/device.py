@@ -19,8 +19,8 @@ NOT_LOADED = [".stack", ".bss", ".bss:cio", ".data", ".sysmem", ".TI.noinit"]
 OWN = ["codestart", ".tables", "FPUmathTables", ".reset"]
 
 PERIPHERALS = {
-    "FlashRegs": 0x0A80, "AdcMirror": 0x0B00, "CpuTimer0Regs": 0x0C00, "PieCtrlRegs": 0x0CE0,
-    "PieVectTable": 0x0D00, "EPwm1Regs": 0x6800, "EPwm2Regs": 0x6840, "EPwm3Regs": 0x6880,
+    "FlashRegs": 0x0A80, "AdcMirror": 0x0B00, "CpuTimer0Regs": 0x0C00, "CpuTimer1Regs": 0x0C08,
+    "PieCtrlRegs": 0x0CE0, "PieVectTable": 0x0D00, "EPwm1Regs": 0x6800, "EPwm2Regs": 0x6840, "EPwm3Regs": 0x6880,
     "EQep1Regs": 0x6B00, "GpioCtrlRegs": 0x6F80, "GpioDataRegs": 0x6FC0, "SysCtrlRegs": 0x7010,
     "SciaRegs": 0x7050, "AdcRegs": 0x7100, "ADC_cal": 0x380080,
 }

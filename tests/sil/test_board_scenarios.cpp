@@ -139,7 +139,8 @@ protected:
 INSTANTIATE_TEST_SUITE_P(
     BoardScenarios, Drives,
     ::testing::Values(plain, Case{"ipmsm_390w_noc_h", 20, 6.7, 0.018, 200, 1, 0.9, 15.0, true},
-                      Case{"ipmsm_390w_noc_h_edges", 6, 5.5, 0.016, 200, 20, 1.0, 50.0, true}),
+                      Case{"ipmsm_390w_noc_h_edges", 6, 4.5, 0.011, 200, 2, 1.0, 8.0, true},
+                      Case{"ipmsm_390w_10khz", 10, 4.0, 0.007, 200, 0, 1.0, 20.0}),
     [](const auto &c) { return std::string(c.param.drive); });
 
 TEST_P(Drives, LoadStep)
@@ -289,7 +290,38 @@ TEST_P(Drives, RandomMotors)
 
     EXPECT_EQ(runs.count, c.motors);
     EXPECT_LE(runs.failures.size(),
-              static_cast<std::size_t>(c.failed_motors)); // wanted 0.5 %; with edge times 8 %
+              static_cast<std::size_t>(c.failed_motors)); // wanted 0.1 %
+}
+
+/// Largest speed error while the load swings by 0.5 N m, at 5, 20 and 50 Hz; worst of some seeds.
+std::vector<double> swing_e_radps(const char *drive)
+{
+    const sdre::Scenario   s          = sdre_test::shipped("board_load_sine", drive);
+    const sdre::Controller controller = sdre::prepare_controller(s);
+    std::vector<double>    worst(s.measures.size(), 0.0);
+    for (std::uint64_t seed = 1; seed <= 4; seed++) {
+        sdre::Scenario seeded = s;
+        seeded.seed           = seed;
+        const auto metrics    = sdre::measure(s, sdre::simulate(seeded, controller).trace);
+        for (std::size_t i = 0; i < metrics.size(); i++) {
+            worst[i] = std::max(worst[i], metrics[i].ripple_e_radps);
+        }
+    }
+    return worst;
+}
+
+/// Wanted are twice with edge times and 1.2 times on counts; at a quarter of pi_foc's noise, docs/errata.md.
+TEST(BoardScenarios, SwingingLoadMovesTheSpeedLess)
+{
+    const std::vector<double> rival  = swing_e_radps("ipmsm_390w_pi_foc_edges");
+    const std::vector<double> drive  = swing_e_radps("ipmsm_390w");
+    const std::vector<double> faster = swing_e_radps("ipmsm_390w_10khz");
+    ASSERT_EQ(rival.size(), 3U);
+    const double measured[] = {1.8, 1.5, 1.25};
+    for (std::size_t i = 0; i < rival.size(); i++) {
+        EXPECT_GE(rival[i], measured[i] * drive[i]) << i;
+        EXPECT_GE(rival[i], 2.0 * faster[i]) << i;
+    }
 }
 
 TEST(BoardScenarios, SwitchedInverterGivesTheSame)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,41 @@ TEST(Compare, CellsAreThoseOfRunningEachDrive)
     }
     EXPECT_NE(c.runs[0].cells.at("whole").at("dip_e_radps").value,
               c.runs[1].cells.at("whole").at("dip_e_radps").value);
+}
+
+TEST(Compare, CellsOfSeveralSeedsAreTheWorst)
+{
+    const TempDir     dir;
+    const std::string file =
+        dir.write("case.toml", support::replaced(load_step(), "ideal = true", "ideal = false"));
+    const sdre::Comparison c     = sdre::compare({{file}, {speed}, {}, {"ripple_e_radps"}, 3});
+    sdre::Scenario         s     = sdre::read_scenario_file(file, speed);
+    double                 worst = 0.0;
+    double                 sum   = 0.0;
+    for (s.seed = 1; s.seed <= 3; s.seed++) {
+        const double ripple = sdre::measure(s, sdre::simulate(s).trace).at(0).ripple_e_radps;
+        worst               = std::max(worst, ripple);
+        sum += ripple;
+    }
+
+    EXPECT_EQ(c.runs.at(0).cells.at("whole").at("ripple_e_radps").value, worst);
+    EXPECT_GT(worst, sum / 3.0);
+}
+
+TEST(Compare, ADriveThatIsNotCertifiedIsSaidToBe)
+{
+    const std::string servo =
+        std::string(SDRE_SOURCE_DIR) + "/host_tools/sil/scenarios/servo_case_1_2.toml";
+    const sdre::Comparison c =
+        sdre::compare({{servo},
+                       {drives + "servo_200w_cdobc_printed.toml", drives + "servo_200w_pid.toml"},
+                       {},
+                       {"ripple_e_radps"},
+                       1});
+
+    EXPECT_FALSE(c.runs.at(0).certified);
+    EXPECT_TRUE(c.runs.at(1).certified);
+    EXPECT_NE(sdre::compare_markdown(c).find("not certified"), std::string::npos);
 }
 
 TEST(Compare, OrdersAreColumnsAndReachTheController)

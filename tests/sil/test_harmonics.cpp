@@ -68,12 +68,14 @@ TEST(Harmonics, InteriorMagnetMotorRunsSmoothly)
     const Runs r = runs_of("harmonics_load_step", "ipmsm_390w_noc_h_edges");
 
     for (const sdre::Metrics &m : r.at("light_load")) {
-        EXPECT_LE(m.fluctuation_rpm, 0.2); // measured 0.16; the law without harmonics 24
+        EXPECT_LE(m.fluctuation_rpm, 0.3); // measured 0.20; the law without harmonics 24
         EXPECT_NEAR(m.sensor_offset_hat_A, 0.970, 0.02);
     }
     for (const sdre::Metrics &m : r.at("load_step")) {
-        EXPECT_LE(m.fluctuation_rpm, 0.2); // measured 0.19
-        EXPECT_LE(m.decrease_rpm, 25.0);   // measured 23.2
+        EXPECT_LE(
+            m.fluctuation_rpm,
+            0.3); // measured 0.28; 0.19 with weights that swing when L is 1.3 times the believed
+        EXPECT_LE(m.decrease_rpm, 25.0); // measured 23.3
         EXPECT_LE(m.peak_current_A, 1.1 * 4.0);
     }
 }

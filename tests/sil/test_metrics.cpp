@@ -230,6 +230,43 @@ TEST(Metrics, PeakCurrentIsTheLargestLengthInTheWindow)
     EXPECT_EQ(all.at(0).peak_current_A, 5.0);
 }
 
+TEST(Metrics, PeakCurrentBetweenTheInstantsCounts)
+{
+    std::vector<sdre::TraceRow> trace = trace_of(
+        100, [](double) { return 0.0; }, 0.0);
+    trace[50].iq_A           = -3.0;
+    trace[50].id_A           = -4.0;
+    trace[60].peak_current_A = 6.5;
+
+    EXPECT_EQ(only(trace, 1.0).peak_current_A, 6.5);
+}
+
+TEST(Metrics, SteadyCurrentIsTheMeanLengthInTheTail)
+{
+    std::vector<sdre::TraceRow> trace = trace_of(
+        100, [](double) { return 0.0; }, 0.0);
+    for (std::size_t k = 0; k < trace.size(); k++) {
+        trace[k].iq_A = k < 80 ? 100.0 : (k % 2 == 0 ? 3.0 : -6.0);
+        trace[k].id_A = k < 80 ? 0.0 : (k % 2 == 0 ? -4.0 : 8.0);
+    }
+
+    EXPECT_NEAR(only(trace, 1.0).steady_current_A, 7.5, 1e-12); // lengths of 5 and 10
+}
+
+TEST(Metrics, RatesOfANegativeSpeedAreSizes)
+{
+    std::vector<sdre::TraceRow> trace = trace_of(
+        100, [](double t) { return t < 0.04 ? 0.0 : (t < 0.06 ? -110.0 : -100.0); }, -100.0);
+    for (std::size_t k = 80; k < trace.size(); k++) {
+        trace[k].omega_e_radps = k % 2 == 0 ? -101.0 : -99.0;
+    }
+
+    const sdre::Metrics m = only(trace, 5.0);
+
+    EXPECT_NEAR(m.overshoot_percent, 10.0, 1e-9);
+    EXPECT_NEAR(m.fluctuation_rate_percent, 1.0, 1e-9);
+}
+
 TEST(Metrics, WindowsEndWhereTheNextBegins)
 {
     const auto trace = trace_of(

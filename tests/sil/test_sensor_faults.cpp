@@ -186,3 +186,136 @@ TEST(SensorFaults, OverCurrentOfTwoSamplesTrips)
     EXPECT_EQ(o.fault, static_cast<int>(DRIVE_FAULT_OVER_CURRENT));
     EXPECT_NEAR(o.fault_time_s, when_s + 2e-4, 1e-9);
 }
+
+namespace {
+
+std::string broken(const std::string &keys)
+{
+    return fmt::format("[[fault]]\ntime_s = {}\n{}\n", when_s, keys);
+}
+
+/// Every case trips, in time and without too much current.
+void expect_found(const std::string &keys, double within_s, double share,
+                  std::initializer_list<double> speeds)
+{
+    for (const double speed : speeds) {
+        const Outcome o = worst_of(speed, broken(keys));
+        EXPECT_NE(o.fault, 0) << keys << " " << speed;
+        EXPECT_LE(o.fault_time_s, when_s + within_s) << keys << " " << speed;
+        EXPECT_LE(o.peak_A, share * limit_A) << keys << " " << speed;
+    }
+}
+
+} // namespace
+
+/// EQ-CURRENT-WATCH-3: the residual of the observer.
+TEST(SensorFaults, CurrentSensorsThatLieAreFound)
+{
+    for (const char *phase : {"phase = \"a\"\n", "phase = \"b\"\n"}) {
+        const std::string at = phase;
+        expect_found(at + "kind = \"current_zero\"", 5e-3, 1.05, {100.0, 300.0, -523.0});
+        expect_found(at + "kind = \"current_frozen\"", 15e-3, 1.05, {100.0, 300.0, -523.0});
+        expect_found(at + "kind = \"current_gain\"\ngain = 0.3", 20e-3, 1.25, {100.0, 300.0});
+    }
+}
+
+/// EQ-CURRENT-GATE-2, twice in a row.
+TEST(SensorFaults, OffsetsThatComeAtOnceAreFoundAtOnce)
+{
+    for (const char *phase : {"a", "b"}) {
+        for (const double offset_A : {-6.0, -4.0, -2.0, 2.0, 4.0, 6.0}) {
+            const std::string keys =
+                fmt::format("kind = \"current_drift\"\nphase = \"{}\"\nrate_Aps = {}\nuntil_A = {}",
+                            phase, std::copysign(1e6, offset_A), std::abs(offset_A));
+            expect_found(keys, 1e-3, 1.05, {0.0, 20.0, 300.0, -523.0});
+        }
+    }
+}
+
+TEST(SensorFaults, BrokenMotorWireIsFound)
+{
+    for (const char *phase : {"a", "b", "c"}) {
+        const std::string keys = fmt::format("kind = \"phase_open\"\nphase = \"{}\"", phase);
+        expect_found(keys, 20e-3, 1.05, {100.0, 300.0, -523.0});
+        const Outcome light = [&] {
+            std::string text = text_of(300.0, broken(keys));
+            text.replace(text.find("value_Nm = 1.5"), 14, "value_Nm = 0.2");
+            const SimulationResult r = simulate(read(text));
+            return Outcome{r.fault, r.fault_time_s, 0.0, 0.0};
+        }();
+        EXPECT_NE(light.fault, 0) << phase;
+        EXPECT_LE(light.fault_time_s, when_s + 20e-3) << phase;
+    }
+}
+
+/// EQ-CURRENT-WATCH-4, for laws without a prediction.
+TEST(SensorFaults, BrokenMotorWireIsFoundByEveryLawWithReferences)
+{
+    Scenario s = read(text_of(300.0, broken("kind = \"phase_open\"\nphase = \"a\"")));
+    s.drive =
+        read_drive_file(SDRE_SOURCE_DIR "/firmware/config/drives/ipmsm_390w_pi_foc_edges.toml");
+    const SimulationResult r = simulate(s);
+    EXPECT_EQ(r.fault, static_cast<int>(DRIVE_FAULT_PHASE));
+    EXPECT_LE(r.fault_time_s, when_s + 30e-3);
+}
+
+namespace {
+
+/// A standing shaft that is told to turn, 10 ms after something has broken.
+SimulationResult started(double to_e_radps, double load_Nm, const std::string &broken)
+{
+    std::string text = text_of(0.0, broken);
+    text.replace(text.find("value_Nm = 1.5"), 14, fmt::format("value_Nm = {}", load_Nm));
+    Scenario s   = read(text);
+    s.duration_s = 0.4;
+    s.speed_reference.push_back({when_s + 0.01, to_e_radps});
+    return simulate(s);
+}
+
+double peak_A(const SimulationResult &result)
+{
+    double peak = 0.0;
+    for (const TraceRow &row : result.trace) {
+        peak = std::max(peak, row.peak_current_A);
+    }
+    return peak;
+}
+
+} // namespace
+
+/// EQ-MOTION-WATCH-1: the EMF of a shaft that the encoder does not show.
+TEST(SensorFaults, EncoderThatStandsStillFromTheStartIsFoundWithin50Milliseconds)
+{
+    for (const double to : {20.0, 200.0, -200.0, 500.0}) {
+        for (const double load_Nm : {0.0, 1.0}) {
+            const SimulationResult r = started(to, load_Nm, dead_encoder);
+            EXPECT_NE(r.fault, 0) << to << " " << load_Nm;
+            EXPECT_LE(r.fault_time_s, when_s + 0.01 + 50e-3) << to << " " << load_Nm;
+            EXPECT_LE(peak_A(r), 1.05 * limit_A) << to << " " << load_Nm;
+        }
+    }
+}
+
+/// EQ-MOTION-WATCH-2
+TEST(SensorFaults, JammedShaftIsAStall)
+{
+    for (const double to : {50.0, -200.0}) {
+        const SimulationResult r =
+            started(to, 0.0, "[motor_effects]\ncoulomb_friction_Nm = 20.0\n");
+        EXPECT_EQ(r.fault, static_cast<int>(DRIVE_FAULT_STALL)) << to;
+        EXPECT_LE(r.fault_time_s, when_s + 0.01 + 70e-3) << to;
+        EXPECT_LE(peak_A(r), 1.05 * limit_A) << to;
+    }
+}
+
+/// EQ-MOTION-WATCH-3: twice the largest torque.
+TEST(SensorFaults, LoadThatDragsTheShaftAwayIsFound)
+{
+    for (const double load_Nm : {4.0, -4.0}) {
+        Scenario               s = read(text_of(
+                          300.0, fmt::format("[[load_torque]]\ntime_s = {}\nvalue_Nm = {}\n", when_s, load_Nm)));
+        const SimulationResult r = simulate(s);
+        EXPECT_NE(r.fault, 0) << load_Nm;
+        EXPECT_LE(peak_A(r), 1.05 * limit_A) << load_Nm;
+    }
+}

@@ -175,7 +175,7 @@ static void test_watchdog_is_served_only_when_ticks_go_on(void)
 static void test_tick_trips_when_the_background_stands_still(void)
 {
     go_run();
-    for (int n = 0; n < 51; n++) { /* the first still sees the sign of the last pass */
+    for (int n = 0; n < 16; n++) { /* 3 ms, and the first still sees the sign of the last pass */
         app_tick();
         TEST_ASSERT_TRUE(fake_board.gate);
     }
@@ -189,12 +189,28 @@ static void test_background_that_lives_late_is_enough(void)
 {
     go_run();
     for (int n = 0; n < 20; n++) {
-        for (int k = 0; k < 50; k++) {
+        for (int k = 0; k < 15; k++) {
             app_tick();
         }
         app_background();
     }
     TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
+}
+
+static void test_background_opens_the_bridge_when_ticks_stand_still(void)
+{
+    go_run();
+    fake_board.cycles_per_read = 1U;
+    both(1);
+    fake_board.cycles += 70000U;
+    app_background();
+    TEST_ASSERT_TRUE(fake_board.gate);
+    fake_board.cycles += 10000U;
+    app_background();
+    TEST_ASSERT_FALSE(fake_board.gate);
+    both(1);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, mode());
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_TICK, app_status_read().fault);
 }
 
 static void test_second_command_waits_until_the_first_was_taken(void)
@@ -490,6 +506,7 @@ int main(void)
     RUN_TEST(test_watchdog_is_served_only_when_ticks_go_on);
     RUN_TEST(test_tick_trips_when_the_background_stands_still);
     RUN_TEST(test_background_that_lives_late_is_enough);
+    RUN_TEST(test_background_opens_the_bridge_when_ticks_stand_still);
     RUN_TEST(test_second_command_waits_until_the_first_was_taken);
     RUN_TEST(test_cycles_of_last_and_worst_tick_are_shown);
     RUN_TEST(test_bad_constants_keep_the_bridge_off_and_are_told);

@@ -382,6 +382,78 @@ static void test_a_shaft_that_turns_back_and_forth_has_no_speed_that_grows(void)
     }
 }
 
+/* A shaft that speeds up by a count per period each period may; 17 counts at once may not. */
+static void test_a_jump_drops_the_reference(void)
+{
+    (void)at_with_index(100, 100);
+    int position = 100;
+    for (int step = 0; step < 100; step++) {
+        position += step;
+        (void)at(position % 10000);
+    }
+    TEST_ASSERT_EQUAL_INT(APP_ANGLE_INDEX, angle.reference);
+    (void)at((position + 99 + 16) % 10000);
+    TEST_ASSERT_EQUAL_INT(APP_ANGLE_INDEX, angle.reference);
+    (void)at((position + 2 * (99 + 16) + 17) % 10000);
+    TEST_ASSERT_EQUAL_INT(APP_ANGLE_NONE, angle.reference);
+    TEST_ASSERT_EQUAL_UINT16(1U, angle.jumps);
+    for (int way = -1; way <= 1; way += 2) { /* either way, and as a single wrong reading */
+        setUp();
+        (void)at_with_index(5000, 5000);
+        (void)at(5000);
+        (void)at(5000 + (17 * way));
+        (void)at(5000);
+        TEST_ASSERT_EQUAL_INT(APP_ANGLE_NONE, angle.reference);
+        TEST_ASSERT_EQUAL_UINT16(3U - 1U, angle.jumps);
+    }
+}
+
+/* The angle itself goes on as it was: a drive that runs keeps it, until the next index. */
+static void test_a_jump_leaves_the_angle_that_there_was(void)
+{
+    (void)at_with_index(0, 0);
+    (void)at(0);
+    (void)at(100);
+    assert_angle(2.0 * two_pi * 100.5 / 10000.0, at(100).theta_e_rad);
+    (void)at_with_index(100, 100);
+    TEST_ASSERT_EQUAL_INT(APP_ANGLE_INDEX, angle.reference);
+}
+
+static int turned_to_cnt;
+
+/* Turns on by so many counts a period without an index; whether one of them faults. */
+static bool faults_within(int periods, int step)
+{
+    bool fault = false;
+    for (int n = 0; n < periods; n++) {
+        turned_to_cnt = (turned_to_cnt + step + 10000) % 10000;
+        fault         = at(turned_to_cnt).index_fault || fault;
+    }
+    return fault;
+}
+
+static void test_an_index_has_to_come_in_every_turn(void)
+{
+    for (int way = -10; way <= 10; way += 20) {
+        setUp();
+        turned_to_cnt = 0;
+        TEST_ASSERT_FALSE(faults_within(3000, way)); /* none yet: nothing is known of any */
+        (void)at_with_index(turned_to_cnt, turned_to_cnt);
+        TEST_ASSERT_FALSE(faults_within(1010, way)); /* a turn, and what it may correct */
+        TEST_ASSERT_EQUAL_INT(APP_ANGLE_INDEX, angle.reference);
+        TEST_ASSERT_TRUE(faults_within(1, way));
+        TEST_ASSERT_EQUAL_INT(APP_ANGLE_NONE, angle.reference);
+        TEST_ASSERT_FALSE(faults_within(1009, way)); /* once per turn */
+    }
+    setUp(); /* to and fro is no turn */
+    turned_to_cnt = 0;
+    (void)at_with_index(0, 0);
+    for (int n = 0; n < 10; n++) {
+        TEST_ASSERT_FALSE(faults_within(500, 10));
+        TEST_ASSERT_FALSE(faults_within(500, -10));
+    }
+}
+
 static ctl_status_t init(void)
 {
     return app_angle_init(&angle, &config, &drive);
@@ -406,6 +478,9 @@ static void test_constants_out_of_range_are_refused(void)
     config.index_correct_max_cnt = config.index_tolerance_cnt;
     TEST_ASSERT_EQUAL_INT(CTL_OK, init());
     config.index_correct_max_cnt = 2500U;
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, init());
+    setUp();
+    config.jump_cnt = 0U;
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, init());
     setUp();
     drive.ts_s = 0.0f;
@@ -436,6 +511,9 @@ int main(void)
     RUN_TEST(test_counts_that_come_one_at_a_time_tell_more_than_their_middle);
     RUN_TEST(test_speed_without_edges_is_bounded_by_their_absence);
     RUN_TEST(test_a_shaft_that_turns_back_and_forth_has_no_speed_that_grows);
+    RUN_TEST(test_a_jump_drops_the_reference);
+    RUN_TEST(test_a_jump_leaves_the_angle_that_there_was);
+    RUN_TEST(test_an_index_has_to_come_in_every_turn);
     RUN_TEST(test_constants_out_of_range_are_refused);
     return UNITY_END();
 }

@@ -172,7 +172,7 @@ static void test_registers_that_do_not_exist_are_refused(void)
 {
     REQUEST(ADDRESS, 3, 0, 3, 0, 1);
     ASSERT_ANSWER(ADDRESS, 0x83, 2);
-    REQUEST(ADDRESS, 4, 0, 43, 0, 2);
+    REQUEST(ADDRESS, 4, 0, 47, 0, 2);
     ASSERT_ANSWER(ADDRESS, 0x84, 2);
     REQUEST(ADDRESS, 4, 1, 0, 0, 1); /* high octet of the address */
     ASSERT_ANSWER(ADDRESS, 0x84, 2);
@@ -211,6 +211,8 @@ static void test_longest_write_is_understood(void)
 
 static void test_broadcast_writes_are_done_and_not_answered(void)
 {
+    REQUEST(ADDRESS, 6, 0, 0, 0, 1);
+    TEST_ASSERT_TRUE(registers.command.run);
     REQUEST(0, 6, 0, 0, 0, 1);
     TEST_ASSERT_EQUAL_INT(0, answer_count);
     TEST_ASSERT_TRUE(registers.command.run);
@@ -221,6 +223,18 @@ static void test_broadcast_writes_are_done_and_not_answered(void)
     TEST_ASSERT_EQUAL_INT(0, answer_count);
     REQUEST(0, 99, 0, 0, 0, 1);
     TEST_ASSERT_EQUAL_INT(0, answer_count);
+}
+
+static void test_a_broadcast_stops_every_motor_and_starts_none(void)
+{
+    REQUEST(0, 6, 0, 0, 0, 1);
+    TEST_ASSERT_FALSE(registers.command.run);
+    REQUEST(0, 16, 0, 0, 0, 3, 6, 0, 1, 0, 0, 0, 10);
+    TEST_ASSERT_FALSE(registers.command.run);
+    TEST_ASSERT_TRUE(registers.command.omega_e_radps == 1.0f);
+    REQUEST(ADDRESS, 6, 0, 0, 0, 1);
+    REQUEST(0, 6, 0, 0, 0, 0);
+    TEST_ASSERT_FALSE(registers.command.run);
 }
 
 static void test_frames_for_others_are_left_alone(void)
@@ -453,6 +467,7 @@ int main(void)
     RUN_TEST(test_bad_values_and_quantities_are_refused);
     RUN_TEST(test_longest_write_is_understood);
     RUN_TEST(test_broadcast_writes_are_done_and_not_answered);
+    RUN_TEST(test_a_broadcast_stops_every_motor_and_starts_none);
     RUN_TEST(test_frames_for_others_are_left_alone);
     RUN_TEST(test_every_single_bit_error_is_noticed);
     RUN_TEST(test_length_that_does_not_fit_the_function_is_ignored);

@@ -20,6 +20,7 @@ static app_modes_t       modes;
 static board_sample_t    raw;
 static app_modes_input_t in;
 static bridge_t          out;
+static bool              motor_answers; /* currents are what the drive expects; else none */
 
 static void init(void)
 {
@@ -37,8 +38,9 @@ static void init(void)
 
 void setUp(void)
 {
-    config       = board_config;
-    drive_config = speed_tables_drive;
+    config        = board_config;
+    drive_config  = speed_tables_drive;
+    motor_answers = false;
     init();
 }
 
@@ -410,7 +412,13 @@ static void turn_ticks(int count, uint16_t step_cnt)
 {
     for (int n = 0; n < count; n++) {
         raw.position_cnt = (uint16_t)((raw.position_cnt + step_cnt) % 10000U);
-        out              = app_modes_tick(&modes, &in);
+        if (motor_answers) {
+            const current_watch_phase_t *const phase   = modes.drive.current_watch.phase;
+            const float                        per_cnt = config.scale.current_A_per_cnt;
+            raw.ia_cnt = (uint16_t)(2048.0f + (phase[0].model_A / per_cnt));
+            raw.ib_cnt = (uint16_t)(2048.0f + (phase[1].model_A / per_cnt));
+        }
+        out = app_modes_tick(&modes, &in);
     }
 }
 
@@ -424,8 +432,12 @@ static void run_fast(void)
     drive_config.trip_speed_e_radps = 1500.0f;
     init();
     go_ready();
-    see_index();
     turn_ticks(3, FAST_cnt);
+    raw.index_cnt =
+        raw.position_cnt; /* of the sample before: a period late, which is no matter here */
+    raw.index_seen = true;
+    turn_ticks(1, FAST_cnt);
+    raw.index_seen           = false;
     in.command.run           = true;
     in.command.omega_e_radps = 1190.0f;
     turn_ticks(3, FAST_cnt);
@@ -518,6 +530,7 @@ static void test_a_lost_encoder_at_speed_leaves_the_motor_shorted(void)
 static void test_a_stop_at_speed_brakes_before_it_opens(void)
 {
     run_fast();
+    motor_answers  = true;
     in.command.run = false;
     turn_ticks(5, FAST_cnt);
     TEST_ASSERT_EQUAL_INT(APP_MODE_STOP, modes.mode);
@@ -545,6 +558,83 @@ static void test_a_ramp_brakes_to_standstill(void)
     turn_ticks(2, 3U); /* 19 rad/s */
     TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
     TEST_ASSERT_FALSE(out.gate_enable);
+}
+
+/* Counts lost: the position jumps. The next run aligns anew. */
+static void test_a_jump_drops_the_reference_in_ready(void)
+{
+    go_ready();
+    see_index();
+    TEST_ASSERT_EQUAL_INT(APP_ANGLE_INDEX, modes.angle.reference);
+    ticks(3);
+    raw.position_cnt = 16U;
+    ticks(1);
+    TEST_ASSERT_EQUAL_INT(APP_ANGLE_INDEX, modes.angle.reference);
+    ticks(3);
+    raw.position_cnt = 33U;
+    ticks(1);
+    TEST_ASSERT_EQUAL_INT(APP_ANGLE_NONE, modes.angle.reference);
+    in.command.run = true;
+    ticks(2);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_ALIGN, modes.mode);
+    TEST_ASSERT_EQUAL_UINT16(2U, app_modes_status(&modes, 0U).position_jumps); /* on, and off */
+}
+
+static void test_a_zero_that_has_drifted_is_found_after_the_stop(void)
+{
+    go_run();
+    in.command.run = false;
+    ticks(2);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    raw.ib_cnt = 2048U + 78U; /* 0.38 A */
+    ticks(400);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    raw.ib_cnt = 2048U + 90U; /* 0.44 A: after the mean has followed */
+    ticks(150);
+    assert_fault(APP_FAULT_OFFSET);
+    in.command.reset = true;
+    tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_BOOT, modes.mode); /* measures it again */
+}
+
+static void test_currents_that_die_out_are_no_drift(void)
+{
+    go_run();
+    in.command.run = false;
+    ticks(2);
+    raw.ia_cnt = 2048U + 600U;
+    ticks(15);
+    raw.ia_cnt = 2048U;
+    ticks(500);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+}
+
+static void test_heat_takes_from_the_limit_and_trips_when_nobody_follows(void)
+{
+    config.heat.motor_s = 0.01f;
+    init();
+    go_run();
+    raw.ia_cnt = 2048U + 614U; /* a vector of 3 A along phase a: 1.33 times the square of 2.6 A */
+    raw.ib_cnt = 2048U - 307U;
+    ticks(70);
+    TEST_ASSERT_TRUE(modes.heat.derating > 0.0f);
+    TEST_ASSERT_TRUE(app_modes_status(&modes, 0U).motor_heat > 0.9f);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+    ticks(50);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, modes.mode);
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_HEAT, modes.fault);
+}
+
+static void test_changed_constants_are_a_fault_in_every_mode(void)
+{
+    in.memory_changed = true;
+    tick();
+    assert_fault(APP_FAULT_MEMORY);
+    init();
+    go_run();
+    in.memory_changed = true;
+    tick();
+    assert_fault(APP_FAULT_MEMORY);
 }
 
 static void test_lost_background_trips_in_every_mode(void)
@@ -941,6 +1031,11 @@ int main(void)
     RUN_TEST(test_a_stop_at_speed_brakes_before_it_opens);
     RUN_TEST(test_a_ramp_brakes_to_standstill);
     RUN_TEST(test_lost_background_trips_in_every_mode);
+    RUN_TEST(test_a_jump_drops_the_reference_in_ready);
+    RUN_TEST(test_a_zero_that_has_drifted_is_found_after_the_stop);
+    RUN_TEST(test_currents_that_die_out_are_no_drift);
+    RUN_TEST(test_heat_takes_from_the_limit_and_trips_when_nobody_follows);
+    RUN_TEST(test_changed_constants_are_a_fault_in_every_mode);
     RUN_TEST(test_temperature_beyond_the_trip_level_trips);
     RUN_TEST(test_broken_temperature_sensor_trips);
     RUN_TEST(test_hot_drive_refuses_to_start_until_asked_again);

@@ -148,9 +148,27 @@ static void test_conditions_reset_and_phase_errors(void)
     TEST_ASSERT_EQUAL_UINT(88U, input(4));
 }
 
+static void test_limits_and_heat_are_told(void)
+{
+    TEST_ASSERT_EQUAL_UINT(0U, input(4));
+    registers.status.voltage_limited = true;
+    TEST_ASSERT_EQUAL_UINT(128U, input(4));
+    registers.status.current_limited = true;
+    TEST_ASSERT_EQUAL_UINT(128U + 256U, input(4));
+    registers.status.derating = 0.25f;
+    TEST_ASSERT_EQUAL_UINT(128U + 256U + 512U, input(4));
+    TEST_ASSERT_EQUAL_UINT(250U, input(47));
+    registers.status.position_jumps = 3U;
+    registers.status.motor_heat     = 0.5f;
+    registers.status.inverter_heat  = 1.05f;
+    TEST_ASSERT_EQUAL_UINT(3U, input(44));
+    TEST_ASSERT_EQUAL_UINT(500U, input(45));
+    TEST_ASSERT_EQUAL_UINT(1050U, input(46));
+}
+
 static void test_blocks_that_do_not_exist_as_a_whole_are_refused(void)
 {
-    static const uint32_t inputs[][2]   = {{44UL, 1UL},    {43UL, 2UL},    {0UL, 45UL},
+    static const uint32_t inputs[][2]   = {{48UL, 1UL},    {47UL, 2UL},    {0UL, 49UL},
                                            {65535UL, 1UL}, {65535UL, 2UL}, {1UL, 65535UL}};
     static const uint32_t holdings[][2] = {{3UL, 1UL}, {2UL, 2UL}, {0UL, 4UL}, {65535UL, 2UL}};
     uint16_t              values[64]    = {0U};
@@ -168,7 +186,7 @@ static void test_blocks_that_do_not_exist_as_a_whole_are_refused(void)
                                                   (uint16_t)holdings[i][1], values));
     }
     TEST_ASSERT_FALSE(registers.changed);
-    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, app_registers_read_input(&registers, 0U, 44U, values));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, app_registers_read_input(&registers, 0U, 48U, values));
     TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, app_registers_read_holding(&registers, 0U, 3U, values));
 }
 
@@ -240,6 +258,7 @@ int main(void)
     RUN_TEST(test_registers_are_zero_at_the_start);
     RUN_TEST(test_values_are_held_at_the_ends_of_16_bits);
     RUN_TEST(test_conditions_reset_and_phase_errors);
+    RUN_TEST(test_limits_and_heat_are_told);
     RUN_TEST(test_blocks_that_do_not_exist_as_a_whole_are_refused);
     RUN_TEST(test_every_speed_in_range_is_taken_and_read_back);
     RUN_TEST(test_value_out_of_range_is_refused_and_changes_nothing);

@@ -729,7 +729,7 @@ static void test_speed_limits_are_the_accelerations_of_the_current_range(void)
         const double lowest  = fmin((double)y.omega_e_radps, (double)command);
         const double up_V    = usable_V() - (si.flux_Wb * highest); /* left for diq/dt > 0 */
         const double down_V  = usable_V() + (si.flux_Wb * lowest);
-        const current_ref_input_t in = {&est, &y, iq_speed_A, dc_link_V, V_MAX_V, 0.0f};
+        const current_ref_input_t in = {&est, &y, iq_speed_A, dc_link_V, V_MAX_V, 0.0f, 0.0f};
 
         const speed_ref_limits_t limits =
             current_ref_speed_limits(&r, &config, &motor, &in, command);

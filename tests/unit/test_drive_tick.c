@@ -481,6 +481,21 @@ static void test_bad_input_trips_while_the_drive_is_off(void)
     assert_trips(DRIVE_FAULT_SAMPLE);
 }
 
+static void test_bad_times_and_bands_of_the_angle_trip(void)
+{
+    float *const values[] = {&sample.band_rad, &sample.edge_gap_s, &sample.edge_age_s};
+    const float  bad[]    = {-1.0e-9f, 1.1e9f, NAN};
+    for (int i = 0; i < SUPPORT_COUNT(values); i++) {
+        for (int k = 0; k < SUPPORT_COUNT(bad); k++) {
+            start_over();
+            TEST_ASSERT_TRUE(tick().gate_enable);
+            *values[i] = bad[k];
+
+            assert_trips(DRIVE_FAULT_SAMPLE);
+        }
+    }
+}
+
 static void test_bad_sample_leaves_no_trace_in_the_measurement(void)
 {
     (void)tick();
@@ -1291,6 +1306,7 @@ int main(void)
     RUN_TEST(test_current_of_the_third_phase_trips);
     RUN_TEST(test_opposite_currents_of_two_phases_leave_the_third_empty);
     RUN_TEST(test_bad_input_trips_while_the_drive_is_off);
+    RUN_TEST(test_bad_times_and_bands_of_the_angle_trip);
     RUN_TEST(test_bad_sample_leaves_no_trace_in_the_measurement);
     RUN_TEST(test_estimate_that_is_not_finite_trips_before_it_reaches_the_bridge);
     RUN_TEST(test_one_axis_that_is_not_a_number_is_enough_to_trip);

@@ -126,6 +126,35 @@ static void test_step_is_made_of_its_parts(void)
     }
 }
 
+/* Edges that come less often than samples correct with gains of their own first, and with what those leave of the error. */
+static void test_rare_edges_have_gains_of_their_own(void)
+{
+    for (int n = 0; n < 200; n++) {
+        start();
+        draw();
+        sample.edge_gap_s              = support_uniform(&random_state, 1.5f, 20.0f) * drive->ts_s;
+        law_noc_h_state_t         want = *s;
+        const angle_gate_result_t angle =
+            encoder_form_innovation(&want.gate, &want.edges, &config->gate, &sample,
+                                    &want.observer.base, want.observer.theta_rad, drive->ts_s);
+        const dq_t  i_A = sample_current_A(&sample, want.observer.theta_rad);
+        const float share =
+            encoder_form_correct_rare(&want.observer.base, &want.observer.theta_rad, &config->rare,
+                                      angle.innovation_rad, sample.edge_gap_s, drive->ts_s);
+        nodo_harmonic_view_t known;
+        nodo_harmonic_correct(&want.observer, &config->nodo, i_A, share * angle.innovation_rad);
+        nodo_harmonic_predict(&want.observer, &config->nodo, &drive->motor, in.v_V, drive->ts_s,
+                              &known);
+
+        (void)law_answer(drive, &state, &in);
+
+        TEST_ASSERT_TRUE((s->observer.theta_rad == want.observer.theta_rad) &&
+                         (s->observer.base.omega_e_radps == want.observer.base.omega_e_radps) &&
+                         (s->observer.base.d_omega == want.observer.base.d_omega));
+        sample.edge_gap_s = 0.0f;
+    }
+}
+
 /* With any disturbance allowed, so that the angle alone decides. */
 static void test_angle_far_from_its_estimate_is_not_plausible(void)
 {
@@ -149,6 +178,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_start_takes_over_the_sample_whatever_the_past);
     RUN_TEST(test_step_is_made_of_its_parts);
+    RUN_TEST(test_rare_edges_have_gains_of_their_own);
     RUN_TEST(test_angle_far_from_its_estimate_is_not_plausible);
     return UNITY_END();
 }

@@ -32,6 +32,7 @@ void board_start(void (*tick)(void), uint16_t updates_per_period)
     control_isr_init(tick, updates);
     watchdog_start();
     encoder_start(updates);
+    tick_watch_start(updates);
     pwm_start(updates);
     pie_start();
 }

@@ -53,6 +53,8 @@ const app_config_t board_config = {
             /* 0.126 rad electrical: costs 0.8 % of the torque, and is what the encoder form's own limit
              * of plausibility (trip_d_omega = 2.7e4 over its gain 1.04e9 times 200 us = 0.13 rad) lets pass. */
             .index_correct_max_cnt = 100U,
+            /* The largest torque and a load as large change a count per period by 0.86 per period, the disc by 0.35. */
+            .jump_cnt = 16U,
         },
     /* Half of the current limit: the hold 1.5 n_p (flux I - (Lq - Ld) I^2) is 0.69 N m/rad; its maximum, at 2.5 A, is
      * 0.72. 100 counts of error, which the first index still corrects, stand for 0.087 N m.
@@ -84,13 +86,23 @@ const app_config_t board_config = {
         .still_e_radps = 20.0f,
         .short_circuit = true,
     },
+    .heat = /* peak of the phase current; motor: rated torque takes 2.33 A, a small frame's time constant is minutes, its
+             * winding's half a minute; inverter: modules for twice the current limit, their bases take seconds. Chosen. */
+    {
+        .motor_A    = 2.6f,
+        .motor_s    = 30.0f,
+        .inverter_A = 5.0f,
+        .inverter_s = 2.0f,
+    },
+    /* Twice what the sensor's 41 codes of offset are (0.2 A), a tenth of the current limit. */
+    .zero_drift_A           = 0.4f,
     .temperature_limit_degC = 80.0f, /* chosen: heat sink of modules for 125 degC junction */
     .temperature_trip_degC  = 90.0f,
     .boot_ticks      = 50U * TICKS_PER_ms,  /* chosen: filters of the analog inputs (RC of 1 ms) */
     .calibrate_ticks = 256U * TICKS_PER_ms, /* 10 mA of noise: mean good to 0.3 mA */
     /* A pass of the background is below 1 ms (twice the CRC of the longest frame, 0.2 ms each). The watchdog resets
-     * after 17 ms, so that the trip, with its record, comes first. */
-    .background_ticks     = 10U * TICKS_PER_ms,
+     * after 4.4 ms, so that the trip, with its record, comes first. */
+    .background_ticks     = 3U * TICKS_PER_ms,
     .modbus_address       = 1U,
     .modbus_gap_ticks     = 10U, /* 1.75 ms at 115200 Bd by the protocol, rounded up, and one */
     .modbus_timeout_ticks = 500U * TICKS_PER_ms, /* chosen: five lost polls at 10 Hz */

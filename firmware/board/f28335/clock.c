@@ -63,5 +63,6 @@ void clock_peripherals(void)
     SysCtrlRegs.PCLKCR1.bit.EPWM3ENCLK     = 1U;
     SysCtrlRegs.PCLKCR1.bit.EQEP1ENCLK     = 1U;
     SysCtrlRegs.PCLKCR3.bit.CPUTIMER0ENCLK = 1U;
+    SysCtrlRegs.PCLKCR3.bit.CPUTIMER1ENCLK = 1U;
     EDIS;
 }

@@ -44,9 +44,12 @@ static void check_entry(void)
 __interrupt void control_isr(void)
 {
     check_entry();
+    tick_watch_serve();
     trip_check();
     take_sample();
+    EINT; /* for tick_watch.c alone: the processor has taken this interrupt's own bit out of IER */
     control_tick();
+    DINT;
     if (adc_is_done()) { /* the next period's conversion, already */
         trip_latch(BOARD_FAULT_OVERRUN);
     }

@@ -43,6 +43,9 @@ bool encoder_read(board_sample_t *sample);
 void cycles_init(void);
 void cycles_wait(uint32_t cycles);
 
+void tick_watch_start(uint16_t updates_per_period); /**< before the first control interrupt */
+void tick_watch_serve(void); /**< an interrupt has come. Context: start of the control ISR */
+
 void watchdog_stop(void); /**< first reads what has reset the device */
 void watchdog_start(void);
 

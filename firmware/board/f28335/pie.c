@@ -5,7 +5,7 @@
 
 #define VECTORS ((uint16_t)(sizeof(PieVectTable) / sizeof(PINT)))
 
-/* Nothing but the control interrupt is ever enabled: a trap, an NMI or a fault of the program. The
+/* Nothing but the control interrupt and its watch is ever enabled: a trap, an NMI or a fault of the program. The
  * watchdog, no longer served, ends it. */
 static __interrupt void unexpected(void)
 {
@@ -50,7 +50,7 @@ void pie_start(void)
 {
     PieCtrlRegs.PIEIER1.bit.INTx1 = 1U; /* ADC sequencer 1 */
     PieCtrlRegs.PIEACK.all        = PIEACK_GROUP1;
-    IER                           = M_INT1;
+    IER                           = M_INT1 | M_INT13; /* CPU timer 1: tick_watch.c */
     EINT;
     ERTM; /* and while a debugger looks on */
 }

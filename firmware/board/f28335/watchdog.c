@@ -4,9 +4,9 @@
 
 #define WDCR_STOP 0x68U
 #define WDFLAG    0x80U /* WDCR: the watchdog has reset the device; written 1 to clear */
-/* 256 * 512 crystal cycles times 4 = 17.5 ms: ten times the longest background pass expected (1 to 2 ms), and
- * short beside the mechanics. Bits 5:3 have to be 101 in every write. */
-#define WDCR_RUN  0x2BU
+/* 256 * 512 crystal cycles = 4.37 ms, the shortest there is: four times the longest background pass expected (1 ms). Bits
+ * 5:3 have to be 101 in every write. */
+#define WDCR_RUN  0x29U
 #define SCSR_LOCK 0x01U /* reset, not interrupt; and the watchdog cannot be stopped any more */
 
 static board_reset_t cause;

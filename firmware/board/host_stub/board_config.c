@@ -32,6 +32,7 @@ const app_config_t board_config = {
             .index_theta_e_rad     = 0.0f,
             .index_tolerance_cnt   = 4U, /* no index pulse ever comes */
             .index_correct_max_cnt = 40U,
+            .jump_cnt              = 16U,
         },
     /* The motor is that of the F28335's board; derivations stand in its board_config.c. Counts are of 4096 a turn. */
     .align =
@@ -59,6 +60,8 @@ const app_config_t board_config = {
         .still_e_radps = 20.0f,
         .short_circuit = true,
     },
+    .heat         = {.motor_A = 2.6f, .motor_s = 30.0f, .inverter_A = 5.0f, .inverter_s = 2.0f},
+    .zero_drift_A = 0.4f,
     .temperature_limit_degC = 80.0f, /* as there */
     .temperature_trip_degC  = 90.0f,
     .boot_ticks             = 10U * TICKS_PER_ms, /* chosen: nothing has to settle */

@@ -119,7 +119,8 @@ Signals signals(const Design &d, const OperatingPoint &at, speed_difference_mode
 
 } // namespace
 
-FocLoop foc_loop(const Design &d, const OperatingPoint &at, speed_difference_mode_t mode)
+std::vector<BrokenLoop> foc_loops(const Design &d, const Motor &motor_there,
+                                  const OperatingPoint &at, speed_difference_mode_t mode)
 {
     const double        ts    = control_period_s(d.drive);
     const Parts         parts = parts_of(d.config);
@@ -128,7 +129,7 @@ FocLoop foc_loop(const Design &d, const OperatingPoint &at, speed_difference_mod
     const Index         n     = first_step + steps + parts.own;
     const Signals       s     = signals(d, at, mode, n, steps);
 
-    const auto plant        = held_motor(d.l, at, ts);
+    const auto plant        = held_motor(reduced_parameters(motor_there), at, ts);
     MatrixXd   motor        = MatrixXd::Zero(4, n);
     motor.leftCols(3)       = plant.Phi.leftCols(3);
     motor.middleCols(vq, 2) = plant.Gamma.leftCols(2);
@@ -159,31 +160,20 @@ FocLoop foc_loop(const Design &d, const OperatingPoint &at, speed_difference_mod
             {A, VectorXd::Unit(n, vd), s.u_d, ts}};
 }
 
-CascadeCheck check_foc_loops(const Design &d)
+LoopFamily foc_family(const Design &d)
 {
-    const double rated = d.drive.motor.rated_speed_e_radps;
-    const double most  = wide(parts_of(d.config).foc->iq_max_A);
-    // Without edge times both ways are the same.
-    const int    modes = d.drive.encoder.edge_times ? SPEED_DIFFERENCE_MODES : 1;
-    CascadeCheck worst;
-    const auto   keep = [&d](LoopCheck &kept, const SampledServoLoop &loop) {
-        LoopCheck    now     = check_loop(loop, disturbance_frequencies(d.drive));
-        const double radius  = std::max(kept.spectral_radius, now.spectral_radius);
-        kept                 = now.peak > kept.peak ? std::move(now) : std::move(kept);
-        kept.spectral_radius = radius;
-    };
-    for (const double speed : {0.0, rated}) {
-        for (const double current : {0.0, most, -most}) {
-            for (int mode = 0; mode < modes; mode++) {
-                const FocLoop loop = foc_loop(d, {speed, current, mtpa_id_A(d.l, current)},
-                                              static_cast<speed_difference_mode_t>(mode));
-                keep(worst.speed, loop.speed);
-                keep(worst.q_axis, loop.q_axis);
-                keep(worst.d_axis, loop.d_axis);
-            }
+    LoopFamily family;
+    family.channels = {"speed loop", "q axis", "d axis"};
+    family.points   = verdict_points(d);
+    family.loops    = [&d](const Motor &motor, const OperatingPoint &at) {
+        auto all = foc_loops(d, motor, at, SPEED_DIFFERENCE_COUNTED);
+        if (d.drive.encoder.edge_times) {
+            const auto timed = foc_loops(d, motor, at, SPEED_DIFFERENCE_TIMED);
+            all.insert(all.end(), timed.begin(), timed.end());
         }
-    }
-    return worst;
+        return all;
+    };
+    return family;
 }
 
 } // namespace sdre

@@ -10,17 +10,13 @@
 
 namespace sdre {
 
-/// One closed loop, to be excited at three places.
-struct FocLoop {
-    SampledServoLoop speed;  ///< r on the current reference
-    SampledServoLoop q_axis; ///< r on the q voltage
-    SampledServoLoop d_axis; ///< r on the d voltage
-};
+/// One closed loop, broken at the current reference, at the q and at the d voltage.
+///
+/// @param motor what the motor is; the constants are those of the design.
+std::vector<BrokenLoop> foc_loops(const Design &design, const Motor &motor,
+                                  const OperatingPoint &at, speed_difference_mode_t mode);
 
-FocLoop foc_loop(const Design &design, const OperatingPoint &at, speed_difference_mode_t mode);
-
-/// Worst peak and radius at standstill and at rated speed, without current and at both ends of the MTPA curve, for both ways to
-/// measure the speed.
-CascadeCheck check_foc_loops(const Design &design);
+/// For both ways to measure the speed; without edge times they are the same. The published rules ask for no other motor.
+LoopFamily foc_family(const Design &design);
 
 } // namespace sdre

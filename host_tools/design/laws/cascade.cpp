@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "design/certificate.hpp"
 #include "design/foc/foc_loop.hpp"
-#include "design/laws/servo.hpp"
 
 namespace sdre {
 namespace {
@@ -19,18 +19,13 @@ std::string axis_block(const char *name, const foc_axis_t &a)
 
 void certify_cascade(Design &d)
 {
-    const CascadeCheck &check = d.cascade.emplace(check_foc_loops(d));
-    judge_loop("speed loop", check.speed, d.certificate.failures);
-    judge_loop("q axis", check.q_axis, d.certificate.failures);
-    judge_loop("d axis", check.d_axis, d.certificate.failures);
+    certify_loop(d, foc_family(d));
 }
 
 std::string cascade_summary(const Design &d, const std::string &method)
 {
-    const CascadeCheck &check = *d.cascade;
     return fmt::format(" * method     {}, {}\n", law_name(d.drive.law), method) +
-           loop_line("speed loop:", check.speed) + loop_line("q axis:", check.q_axis) +
-           loop_line("d axis:", check.d_axis);
+           verdict_lines(*d.certificate.loop);
 }
 
 std::string cascade_blocks(const foc_config_t &foc, const speed_difference_config_t &speed)

@@ -10,6 +10,7 @@
 #include "design/firmware_config.hpp"
 #include "design/sampled_model.hpp"
 #include "design/sampled_observer.hpp"
+#include "linalg/covariance.hpp"
 
 namespace sdre {
 namespace {
@@ -211,6 +212,20 @@ encoder_form_limits_t encoder_limits(const Design &d)
             single(trip_torque_ratio * d.l[3] * largest_torque_Nm(d.drive.motor, d.l))};
 }
 
+TripMargin disturbance_margin(const Design &d, const encoder_form_limits_t &limits,
+                              const Eigen::MatrixXd &A, const Eigen::MatrixXd &B_noise,
+                              double angle_weight)
+{
+    constexpr Eigen::Index d_omega  = 4;   // of EQ-CERT-3's state
+    constexpr double       as_noise = 6.0; // chosen: once in two days of samples, if it is normal
+    const double           ts       = control_period_s(d.drive);
+    const Eigen::MatrixXd  P        = covariance(
+                A, B_noise, Eigen::Vector3d(d.drive.nodo.T[0], d.drive.nodo.T[1], angle_weight) / ts);
+    return {"disturbance of the speed [rad/s2]", static_cast<double>(limits.d_omega),
+            d.l[3] * largest_torque_Nm(d.drive.motor, d.l) +
+                as_noise * std::sqrt(P(d_omega, d_omega))};
+}
+
 float believed_d_omega(const encoder_form_limits_t &limits, const encoder_form_gains_t &gains,
                        double ts_s)
 {
@@ -253,12 +268,6 @@ std::string observer_line(const SampledLoop &o)
     return fmt::format(" *            observer:   slowest pole {:.0f} 1/s, sampled spectral radius "
                        "{:.3f}, |iq| <= {:g} A\n",
                        o.worst_pole_1ps, o.spectral_radius, o.range_A);
-}
-
-std::string box_line(const RobustBox &box)
-{
-    return fmt::format(" *            motors:     stable in {:.2f} of EQ-CERT-5's box\n",
-                       box.share);
 }
 
 std::string near_optimal_block(const near_optimal_config_t &c)

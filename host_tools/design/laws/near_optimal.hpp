@@ -25,6 +25,13 @@ encoder_form_limits_t encoder_limits(const Design &design);
 float believed_d_omega(const encoder_form_limits_t &limits, const encoder_form_gains_t &gains,
                        double ts_s);
 
+/// What a step of all the torque and six deviations of the sensors' noise make of the estimated disturbance, against its trip.
+///
+/// @param A, B_noise of the whole loop at rated speed; `angle_weight` variance of the angle times the period.
+TripMargin disturbance_margin(const Design &design, const encoder_form_limits_t &limits,
+                              const Eigen::MatrixXd &A, const Eigen::MatrixXd &B_noise,
+                              double angle_weight);
+
 /// What of a measured angle the observer with these gains may believe, EQ-ANGLE-GATE-3.
 angle_gate_config_t angle_gate_constants(const encoder_form_limits_t &limits,
                                          const encoder_form_gains_t &gains, double ts_s);
@@ -57,7 +64,6 @@ std::string method_line(const std::string &method);
 std::string residual_line(double worst);
 std::string controller_line(const SampledLoop &controller);
 std::string observer_line(const SampledLoop &observer);
-std::string box_line(const RobustBox &box);
 
 /// ".near_optimal = {..},\n"
 std::string near_optimal_block(const near_optimal_config_t &c);

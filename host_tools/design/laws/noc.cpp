@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "design/certificate.hpp"
 #include "design/firmware_config.hpp"
 #include "design/laws/near_optimal.hpp"
 #include "design/laws/nodo_current.hpp"
@@ -32,6 +33,30 @@ void certify_currents(Design &d, const CurrentObserver &o)
     }
 }
 
+/// With the series at the current of the point, held beyond its range as the firmware does.
+SampledModel model_at(const Design &d, const Motor &motor, const OperatingPoint &at)
+{
+    const double    range = d.certificate.nodo.series_range_A;
+    const Schedule  s{std::clamp(at.iq_A, -range, range)};
+    const LoopGains gains{d.nosc.gain[0], series_gain(d.nodo, s, series_order(d.nodo))};
+    return sampled_model(reduced_parameters(motor), d.l, gains, at, control_period_s(d.drive));
+}
+
+void certify_whole(Design &d, const encoder_form_limits_t &limits)
+{
+    LoopFamily f;
+    f.channels   = {"q axis", "d axis"};
+    f.points     = verdict_points(d);
+    f.box_points = verdict_box_points(d);
+    f.loops      = [&d](const Motor &motor, const OperatingPoint &at) {
+        const SampledModel m = model_at(d, motor, at);
+        return broken_at_voltages(m.A, m.B_voltage, m.C_voltage, m.ts_s);
+    };
+    const SampledModel m =
+        model_at(d, d.drive.motor, {d.drive.motor.rated_speed_e_radps, 0.0, d.l[0]});
+    certify_loop(d, f, {disturbance_margin(d, limits, m.A, m.B_noise, d.drive.nodo.T[2])});
+}
+
 void solve(Design &d)
 {
     solve_near_optimal(d);
@@ -47,6 +72,7 @@ void solve(Design &d)
     const CurrentObserver currents = design_nodo_current(d.l, d.drive, trip_speed_e_radps(d.drive));
     c.currents                     = currents.gains;
     certify_currents(d, currents);
+    certify_whole(d, c.plausible);
     keep_constants(d, c);
 }
 
@@ -55,7 +81,7 @@ std::string summary(const Design &d)
     return method_line(fmt::format("EQ-NOSC-2 with N = {}, EQ-NODO-ENCODER-3 with Nd = {}",
                                    d.drive.nosc.order, d.drive.nodo.order)) +
            residual_line(worst_residual(d)) + controller_line(d.certificate.nosc) +
-           observer_line(d.certificate.nodo) + box_line(*d.certificate.box);
+           observer_line(d.certificate.nodo) + verdict_lines(*d.certificate.loop);
 }
 
 std::vector<std::string> mismatches(const Design &d)

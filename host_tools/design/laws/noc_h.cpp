@@ -55,26 +55,30 @@ void sweep(Design &d)
     check = *std::max_element(found.begin(), found.end(), smaller);
     const OperatingPoint  at{d.drive.harmonics.weight_speed_e_radps, 0.0, 0.0};
     const HarmonicSampled loop = sampled_harmonic_model(d.l, d.l, table, d.nosc.gain[0], at, ts);
-    check.speed_loop =
-        check_loop({loop.A, loop.b_voltage, loop.c_voltage, ts}, disturbance_frequencies(d.drive));
+    check.speed_loop = check_loop({loop.A, loop.B_voltage.col(0), loop.C_voltage.row(0), ts},
+                                  disturbance_frequencies(d.drive));
 }
 
-RobustBox harmonic_box(const Design &d)
+HarmonicSampled model_at(const Design &d, const Motor &motor, const OperatingPoint &at)
 {
-    const nodo_harmonic_gains_t &table    = *d.harmonics->table;
-    const double                 iq_A     = d.drive.motor.max_current_A;
-    const OperatingPoint         points[] = {
-                {0.0, 0.0, d.l[0]}, {d.drive.motor.rated_speed_e_radps, iq_A, mtpa_id_A(d.l, iq_A)}};
-    return robust_box(d.drive.motor, [&](const ReducedParameters &motor) {
-        double worst = 0.0;
-        for (const OperatingPoint &at : points) {
-            worst = std::max(
-                worst, spectral_radius(sampled_harmonic_model(motor, d.l, table, d.nosc.gain[0], at,
-                                                              control_period_s(d.drive))
-                                           .A));
-        }
-        return worst;
-    });
+    return sampled_harmonic_model(reduced_parameters(motor), d.l, *d.harmonics->table,
+                                  d.nosc.gain[0], at, control_period_s(d.drive));
+}
+
+void certify_whole(Design &d, const encoder_form_limits_t &limits)
+{
+    LoopFamily f;
+    f.channels   = {"q axis", "d axis"};
+    f.points     = verdict_points(d);
+    f.box_points = verdict_box_points(d);
+    f.loops      = [&d](const Motor &motor, const OperatingPoint &at) {
+        const HarmonicSampled m = model_at(d, motor, at);
+        return broken_at_voltages(m.A, m.B_voltage, m.C_voltage, control_period_s(d.drive));
+    };
+    const double          rated = d.drive.motor.rated_speed_e_radps;
+    const HarmonicSampled m     = model_at(d, d.drive.motor, {rated, 0.0, d.l[0]});
+    certify_loop(d, f,
+                 {disturbance_margin(d, limits, m.A, m.B_noise, angle_weight(d.drive, rated))});
 }
 
 void certify_harmonics(Design &d)
@@ -85,8 +89,6 @@ void certify_harmonics(Design &d)
         check.worst_residual = std::max(check.worst_residual, node.residual);
     }
     std::vector<std::string> &failures = d.certificate.failures;
-    d.certificate.box                  = harmonic_box(d);
-    judge_box(*d.certificate.box, failures);
     if (!(check.spectral_radius < 1.0)) {
         failures.push_back(fmt::format("noc_h: the sampled loop is unstable at {:.0f} rad/s, iq "
                                        "{:.2f} A: spectral radius {:.5f}",
@@ -121,6 +123,7 @@ void solve(Design &d)
     c.rare              = sample_gains(d);
     c.gate              = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
     c.plausible.d_omega = believed_d_omega(c.plausible, c.rare, control_period_s(d.drive));
+    certify_whole(d, c.plausible);
     keep_constants(d, c);
 }
 
@@ -132,7 +135,7 @@ std::string summary(const Design &d)
                fmt::format("EQ-NOSC-2 with N = {}, EQ-HARMONIC-3 with {} pairs and {} nodes",
                            d.drive.nosc.order, t.n_pairs, t.n_nodes)) +
            residual_line(worst_residual(d)) + controller_line(d.certificate.nosc) +
-           box_line(*d.certificate.box) +
+           verdict_lines(*d.certificate.loop) +
            fmt::format(" *            loop:       sampled spectral radius {:.5f} at {:.0f} rad/s, "
                        "iq {:.2f} A, worst up to {:.0f} rad/s\n"
                        " *            speed loop: sensitivity peak {:.3g} at {:.0f} Hz\n",

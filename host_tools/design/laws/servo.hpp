@@ -13,12 +13,6 @@ pid_law_config_t d_axis_constants(const Drive &drive);
 /// Checks the loops with the constants that the configuration has by now.
 void certify_servo(Design &design);
 
-/// A line for each limit that a loop breaks.
-void judge_loop(const char *name, const LoopCheck &loop, std::vector<std::string> &failures);
-
-/// A loop's line of the summary.
-std::string loop_line(const char *name, const LoopCheck &loop);
-
 /// Method, then a line for each loop.
 std::string servo_summary(const Design &design, const std::string &method);
 

@@ -112,22 +112,24 @@ MatrixXd shown_law(const ReducedParameters &l, const nodo_harmonic_gains_t &t, c
 }
 
 /// As in sampled_model(): theta - theta^ in the place of theta, and theta^ left out; so is a slope that never moves.
-HarmonicSampled in_angle_error(const MatrixXd &A, const VectorXd &b, const RowVectorXd &c,
-                               bool still)
+HarmonicSampled in_angle_error(const HarmonicSampled &m, bool still)
 {
     const Index hat       = n_motor + theta;
-    MatrixXd    S         = MatrixXd::Identity(A.rows(), A.rows());
+    MatrixXd    S         = MatrixXd::Identity(m.A.rows(), m.A.rows());
     MatrixXd    S_inverse = S;
     S(3, hat)             = -1.0;
     S_inverse(3, hat)     = 1.0;
     std::vector<Index> rows;
-    for (Index i = 0; i < A.rows(); i++) {
+    for (Index i = 0; i < m.A.rows(); i++) {
         if (i != hat && !(still && i == n_motor + slope)) {
             rows.push_back(i);
         }
     }
-    const MatrixXd full = S * A * S_inverse;
-    return {full(rows, rows), b(rows), c(rows)};
+    const MatrixXd full    = S * m.A * S_inverse;
+    const MatrixXd noise   = S * m.B_noise;
+    const auto     columns = Eigen::all;
+    return {full(rows, rows), m.B_voltage(rows, columns), m.C_voltage(columns, rows),
+            noise(rows, columns)};
 }
 
 } // namespace
@@ -183,11 +185,12 @@ HarmonicSampled sampled_harmonic_model(const ReducedParameters &motor, const Red
     A.bottomLeftCorner(n, n_motor).rightCols(3) = PK; // y = [iq id theta]
     A.bottomRightCorner(n, n)                   = o.P - PK * o.C + o.G * o.F;
 
-    VectorXd    b   = VectorXd::Zero(n + n_motor);
-    RowVectorXd c   = RowVectorXd::Zero(n + n_motor);
-    b.head(n_motor) = held.Gamma.col(0);
-    c.tail(n)       = o.F.row(0);
-    return in_angle_error(A, b, c, K.row(slope).isZero(0.0));
+    HarmonicSampled m{A, MatrixXd::Zero(n + n_motor, 2), MatrixXd::Zero(2, n + n_motor),
+                      MatrixXd::Zero(n + n_motor, 3)};
+    m.B_voltage.topRows(n_motor) = held.Gamma.leftCols(2);
+    m.C_voltage.rightCols(n)     = o.F;
+    m.B_noise.bottomRows(n)      = PK;
+    return in_angle_error(m, K.row(slope).isZero(0.0));
 }
 
 } // namespace sdre

@@ -13,11 +13,11 @@ Eigen::MatrixXd harmonic_gain(const nodo_harmonic_gains_t &table, double omega_e
                               double iq_A);
 
 /// EQ-CERT-3 with this observer: state [w iq id (theta - theta^) | observer without theta^].
-/// b_voltage is the response to a v_q that the observer does not know.
 struct HarmonicSampled {
-    Eigen::MatrixXd    A;
-    Eigen::VectorXd    b_voltage;
-    Eigen::RowVectorXd c_voltage; ///< v_q in force
+    Eigen::MatrixXd A;
+    Eigen::MatrixXd B_voltage; ///< per volt of v_q, v_d that the observer does not know
+    Eigen::MatrixXd C_voltage; ///< the v_q, v_d in force
+    Eigen::MatrixXd B_noise; ///< per ampere of iq, id and radian of angle error in the measurement
 };
 
 /// The observer's own half: x^-(k+1) = P (x^- + K (y - C x^-)) + G v, v = F x^- (deviations), rows as the firmware's.

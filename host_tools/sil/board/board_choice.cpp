@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sil/board/board_choice.hpp"
 
+#include "c28_cpu.h"
 #include "sil/board/fake_board.hpp"
 
 using sdre::f28335::FakeBoard;
@@ -8,6 +9,7 @@ using sdre::f28335::FakeBoard;
 namespace {
 
 FakeBoard *the_fake = nullptr; // board.h's functions are plain, so they need one
+bool       hang     = false;
 
 } // namespace
 
@@ -21,6 +23,11 @@ FakeBoardChoice::FakeBoardChoice(FakeBoard &fake)
 FakeBoardChoice::~FakeBoardChoice()
 {
     the_fake = nullptr;
+}
+
+void hang_ticks(bool now)
+{
+    hang = now;
 }
 
 } // namespace sdre::f28335
@@ -56,6 +63,9 @@ void board_start(void (*tick)(void), uint16_t updates_per_period)
 
 const board_sample_t *board_sample(void)
 {
+    while (the_fake == nullptr && hang) {
+        f28335_asm(" NOP");
+    }
     return the_fake != nullptr ? &the_fake->sample() : f28335_board_sample();
 }
 

@@ -15,4 +15,7 @@ public:
     FakeBoardChoice &operator=(const FakeBoardChoice &) = delete;
 };
 
+/// From the next sample on, or no more, a tick on the drivers does not end.
+void hang_ticks(bool hang);
+
 } // namespace sdre::f28335

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sil/board/board_run.hpp"
 
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
@@ -121,6 +122,16 @@ private:
     long       next_tick_ = 0;
 };
 
+/// Breaks the processor when its time has come.
+void inject_faults(const Scenario &s, double time_s, double period_s, BoardRun &run)
+{
+    for (const InjectedFault &f : s.faults) {
+        if (needs_processor(f.kind) && std::abs(f.time_s - time_s) < 0.5 * period_s) {
+            run.inject(f.kind);
+        }
+    }
+}
+
 /// A trip level beyond what the converter can show would never trip; the application refuses it.
 drive_config_t for_converter(drive_config_t config, std::vector<std::string> &notes)
 {
@@ -187,8 +198,10 @@ BoardResult simulate_on_board(const Scenario &scenario, BoardKind kind,
         add_drive(end.row, *app_drive());
         end.fault            = present_fault();
         const RawSample &raw = bench.sample();
-        out.ticks.push_back({{raw.ia_code, raw.ib_code}, raw.count, run->duty_cnt()});
+        out.ticks.push_back(
+                           {{raw.ia_code, raw.ib_code}, raw.count, run->duty_cnt(), bench.bridge_on()});
         commands.after(bench.tick() - start_tick, *run);
+        inject_faults(s, time_s, bench.period_s(), *run);
         const bool alive = run->step();
         end.ended        = !alive ? device_reset_fault : bench.runaway() ? runaway_fault : 0;
         if (end.ended != runaway_fault) {

@@ -24,6 +24,7 @@ struct BoardTick {
     std::array<int, 2> current_code{};
     std::int64_t       count = 0;
     std::array<int, 3> duty_cnt{}; ///< in force from this tick on
+    bool               bridge_on = false;
 };
 
 struct BoardResult {

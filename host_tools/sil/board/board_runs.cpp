@@ -70,6 +70,11 @@ void ApiRun::set_run()
     command();
 }
 
+void ApiRun::inject(FaultKind)
+{
+    throw InputError("--board: this fault is one of the processor's, it needs --board f28335");
+}
+
 std::array<int, 3> ApiRun::duty_cnt() const
 {
     return fake_.duty_cnt();
@@ -80,6 +85,7 @@ F28335Run::F28335Run(const Scenario &s, long start_tick, double dead_time_s)
       device_(surroundings_, firmware_main, {{}, dead_time_s}),
       master_(device_.serial(), static_cast<std::uint8_t>(board_config.modbus_address))
 {
+    f28335::hang_ticks(false);
     if (!device_.run_until([this] { return bench_.tick() >= 0; }, longest_boot_s)) {
         std::string why = "--board: the firmware does not start";
         for (const std::string &finding : findings()) {
@@ -111,6 +117,17 @@ void F28335Run::set_run()
 bool F28335Run::can_command() const
 {
     return !master_.busy();
+}
+
+void F28335Run::inject(FaultKind kind)
+{
+    if (kind == FaultKind::tick_hung) {
+        f28335::hang_ticks(true);
+    } else if (kind == FaultKind::trigger_lost) {
+        device_.lose_trigger();
+    } else {
+        device_.mask_interrupts();
+    }
 }
 
 void F28335Run::chat()

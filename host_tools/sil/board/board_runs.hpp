@@ -28,6 +28,8 @@ public:
     virtual void set_speed(int tenths) = 0;
     virtual void set_run()             = 0;
     virtual bool can_command() const   = 0;
+    /// Breaks the processor; InputError where there is none.
+    virtual void inject(FaultKind kind) = 0;
     /// Nothing will be commanded for a while: time for other talk.
     virtual void                     chat() {}
     virtual std::array<int, 3>       duty_cnt() const = 0;
@@ -64,6 +66,7 @@ public:
     {
         return true;
     }
+    void               inject(FaultKind kind) override;
     std::array<int, 3> duty_cnt() const override;
 
 private:
@@ -82,6 +85,7 @@ public:
     void                     set_speed(int tenths) override;
     void                     set_run() override;
     bool                     can_command() const override;
+    void                     inject(FaultKind kind) override;
     void                     chat() override;
     std::array<int, 3>       duty_cnt() const override;
     std::vector<std::string> findings() const override;

@@ -13,6 +13,11 @@ namespace {
 constexpr int pin_trip    = 12;
 constexpr int top_vectors = 128;
 
+// Places in the vector table: INT13; the PIE's, eight of each group.
+constexpr int vector_int13 = 13;
+constexpr int first_of_pie = 32;
+constexpr int per_group    = 8;
+
 // Chosen: a poll of a register costs about this much; it makes a polling loop's time-out worth testing.
 constexpr std::int64_t poll_cycles = 20;
 // Chosen: a pass of the background loop, short beside the 96 us of an octet on the line.
@@ -34,7 +39,7 @@ Device::Device(Surroundings &surroundings, Firmware firmware, const DeviceOption
       watchdog_(options.watchdog_has_reset), pwm_{PwmUnit(EPwm1Regs, 1), PwmUnit(EPwm2Regs, 2),
                                                   PwmUnit(EPwm3Regs, 3)},
       adc_([this](int side, int number) { return surroundings_.analog_V(side, number); }),
-      main_([firmware] { firmware(); })
+      timer_(CpuTimer0Regs, 0), timer1_(CpuTimer1Regs, 1), main_([firmware] { firmware(); })
 {
     the_device = this;
     clock_.sync(now_, findings_, time_s());
@@ -84,6 +89,7 @@ void Device::sync()
     adc_.sync(now_);
     encoder_.sync(findings_, t);
     timer_.sync();
+    timer1_.sync();
     sci_.sync(findings_, t);
     reset_ = reset_ || watchdog_.reset_wanted();
     for (int n = 0; n < 3; n++) {
@@ -116,18 +122,33 @@ void Device::wait_ticks(std::int64_t ticks)
     }
 }
 
+/// Vector of the interrupt to serve now. Those of the PIE come before INT13, CPU timer 1.
+std::optional<int> Device::take_interrupt()
+{
+    if (const std::optional<int> vector = pie_.take()) {
+        return vector;
+    }
+    if ((IFR & IER & M_INT13) == 0U) {
+        return std::nullopt;
+    }
+    IFR = static_cast<Uint16>(IFR & ~M_INT13);
+    return vector_int13;
+}
+
 void Device::dispatch()
 {
-    while (!intm_ && !reset_) {
-        const std::optional<int> vector = pie_.take();
+    while (!intm_ && !masked_ && !reset_) {
+        const std::optional<int> vector = take_interrupt();
         if (!vector) {
             return;
         }
-        serve(*vector);
+        serve(*vector,
+              *vector == vector_int13 ? M_INT13 : 1U << ((*vector - first_of_pie) / per_group));
     }
 }
 
-void Device::serve(int vector)
+/// @param ier_bit The processor takes it out of IER until the return.
+void Device::serve(int vector, unsigned ier_bit)
 {
     PINT const *table = reinterpret_cast<PINT const *>(&PieVectTable);
     PINT        isr   = vector < top_vectors ? table[vector] : nullptr;
@@ -137,8 +158,10 @@ void Device::serve(int vector)
         return;
     }
     const bool eallow = eallow_;
+    const auto ier    = IER;
     eallow_           = false; // status register saved and cleared, and restored on return
     intm_             = true;
+    IER               = static_cast<Uint16>(ier & ~ier_bit);
     if (late_cycles_ > 0) {
         const std::int64_t late = late_cycles_;
         late_cycles_            = 0;
@@ -147,6 +170,7 @@ void Device::serve(int vector)
     isr();
     sync();
     intm_   = false;
+    IER     = ier;
     eallow_ = eallow;
 }
 

@@ -88,6 +88,16 @@ public:
     // What may go wrong from outside.
     void set_fault_pin(bool low);
     void lose_crystal();
+    /// No conversion is started from now on.
+    void lose_trigger()
+    {
+        trigger_lost_ = true;
+    }
+    /// The program masks every interrupt from now on and goes on otherwise.
+    void mask_interrupts()
+    {
+        masked_ = true;
+    }
     /// The next interrupt is served this late, as if another one held the processor.
     void delay_next_interrupt(std::int64_t cycles)
     {
@@ -107,18 +117,19 @@ public:
     static Device &current();
 
 private:
-    void         sync();
-    void         update_legs();
-    void         wait_ticks(std::int64_t ticks);
-    std::int64_t ticks_to_event() const;
-    void         elapse(std::int64_t ticks);
-    void         step_pwm(std::int64_t cycles);
-    void         begin_control_period(Count count);
-    void         step_encoder(std::int64_t cycles);
-    void         dispatch();
-    void         serve(int vector);
-    bool         fault_pin_trips() const;
-    double       into_period_s() const;
+    void               sync();
+    void               update_legs();
+    void               wait_ticks(std::int64_t ticks);
+    std::int64_t       ticks_to_event() const;
+    void               elapse(std::int64_t ticks);
+    void               step_pwm(std::int64_t cycles);
+    void               begin_control_period(Count count);
+    void               step_encoder(std::int64_t cycles);
+    void               dispatch();
+    std::optional<int> take_interrupt();
+    void               serve(int vector, unsigned ier_bit);
+    bool               fault_pin_trips() const;
+    double             into_period_s() const;
 
     Surroundings          &surroundings_;
     DeviceOptions          options_;
@@ -131,6 +142,8 @@ private:
     bool                   eallow_       = false;
     bool                   fault_low_    = false;
     std::int64_t           late_cycles_  = 0;
+    bool                   trigger_lost_ = false;
+    bool                   masked_       = false;
     std::array<bool, 3>    legs_{};
     Clock                  clock_;
     Watchdog               watchdog_;
@@ -140,6 +153,7 @@ private:
     AdcUnit                adc_;
     EncoderUnit            encoder_;
     CpuTimer               timer_;
+    CpuTimer               timer1_;
     SciUnit                sci_;
     Guard                  guard_;
     Coroutine              main_;

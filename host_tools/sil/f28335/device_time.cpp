@@ -60,6 +60,8 @@ std::int64_t Device::ticks_to_event() const
     }
     const std::int64_t timeout = encoder_.cycles_to_timeout();
     take(timeout < 0 ? -1 : clock_.ticks_for(timeout));
+    const std::int64_t timer1 = timer1_.cycles_to_interrupt();
+    take(timer1 < 0 ? -1 : clock_.ticks_for(timer1));
     take(adc_.ticks_to_end(now_));
     take(watchdog_.ticks_to_reset());
     take(sci_.ticks_to_event(now_));
@@ -112,7 +114,7 @@ void Device::step_pwm(std::int64_t cycles)
     }
     for (int n = 0; n < 3; n++) {
         const PwmEvents &e = events[static_cast<std::size_t>(n)];
-        if (e.soc_a) {
+        if (e.soc_a && !trigger_lost_) {
             adc_.start_of_conversion(now_, clock_, findings_, time_s());
         }
         if (e.interrupt) {
@@ -144,6 +146,9 @@ void Device::elapse(std::int64_t ticks)
     step_encoder(cycles);
     if (timer_.step(cycles)) {
         pie_.request(1, 7, intm_, findings_, time_s());
+    }
+    if (timer1_.step(cycles)) {
+        IFR = static_cast<Uint16>(IFR | M_INT13);
     }
     if (adc_.ticks_to_end(now_) == 0 && adc_.finish()) {
         pie_.request(1, 1, intm_, findings_, time_s());

@@ -37,6 +37,8 @@ Guard::Guard()
         [] { return SysCtrlRegs.PCLKCR0.bit.SCIAENCLK != 0U; });
     add("CpuTimer0Regs", &CpuTimer0Regs, sizeof(CpuTimer0Regs), false,
         [] { return SysCtrlRegs.PCLKCR3.bit.CPUTIMER0ENCLK != 0U; });
+    add("CpuTimer1Regs", &CpuTimer1Regs, sizeof(CpuTimer1Regs), false,
+        [] { return SysCtrlRegs.PCLKCR3.bit.CPUTIMER1ENCLK != 0U; });
     remember();
 }
 

@@ -93,7 +93,7 @@ Bridge::Terminals Bridge::terminals_at(const Circuit &c, const std::array<double
     const bool   edges     = settings_.model == InverterModel::switched;
     Terminals    t;
     for (std::size_t x = 0; x < 3; x++) {
-        t.open[x]  = !enabled_[x] || (edges && legs_[x].in_dead_time(now_s));
+        t.open[x]  = broken_[x] || !enabled_[x] || (edges && legs_[x].in_dead_time(now_s));
         t.any_open = t.any_open || t.open[x];
         if (!t.open[x] && edges) {
             switch_leg(t, x, i[x], dc_link_V);

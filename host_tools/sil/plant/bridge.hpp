@@ -57,6 +57,11 @@ public:
     {
         enabled_ = enabled;
     }
+    /// Breaks the wire of a phase, for good: its current dies out as through a diode, and none comes back.
+    void break_phase(std::size_t x)
+    {
+        broken_[x] = true;
+    }
     /// Moves plant and dc link from `from_s` to `to_s` within the period that has begun.
     void advance(Plant &plant, DcLink &dc_link, const ShaftLoad &load, double from_s, double to_s);
 
@@ -100,7 +105,7 @@ private:
     void      place_diodes(const Circuit &c, Terminals &t, const std::array<double, 3> &i);
     void      place_by_emf(const Circuit &c, Terminals &t);
     void place(Terminals &t, std::size_t x, Diode diode, double floating_V, double dc_link_V) const;
-    Diode diode_at(double floating_V, double dc_link_V) const;
+    Diode diode_at(std::size_t x, double floating_V, double dc_link_V) const;
     Piece piece_of(const Circuit &c, const Terminals &t, const std::array<double, 3> &i,
                    double longest_s) const;
     void  end_current(const Circuit &c, const Terminals &t, std::size_t phase);
@@ -116,6 +121,7 @@ private:
     std::array<Leg, 3>    legs_{};
     std::array<Diode, 3>  diode_{};
     std::array<bool, 3>   was_open_{};
+    std::array<bool, 3>   broken_{};
     std::array<double, 3> volt_seconds_{};
 };
 

@@ -42,11 +42,12 @@ void Bridge::place(Terminals &t, std::size_t x, Diode diode, double floating_V,
 }
 
 /// The diode that a floating terminal opens at this voltage.
-Bridge::Diode Bridge::diode_at(double floating_V, double dc_link_V) const
+Bridge::Diode Bridge::diode_at(std::size_t x, double floating_V, double dc_link_V) const
 {
-    return floating_V > dc_link_V + settings_.diode_drop_V ? Diode::upper
-           : floating_V < -settings_.diode_drop_V          ? Diode::lower
-                                                           : Diode::none;
+    return broken_[x]                                        ? Diode::none
+           : floating_V > dc_link_V + settings_.diode_drop_V ? Diode::upper
+           : floating_V < -settings_.diode_drop_V            ? Diode::lower
+                                                             : Diode::none;
 }
 
 /// No phase carries a current. The line EMF alone decides whether two diodes begin to.
@@ -62,7 +63,7 @@ void Bridge::place_by_emf(const Circuit &c, Terminals &t)
     }
     for (const auto *extreme : {most.first, most.second}) {
         const auto x = static_cast<std::size_t>(extreme - e.begin());
-        diode_[x]    = t.open[x] ? diode_at(star_V + e[x], dc_link_V) : Diode::none;
+        diode_[x]    = t.open[x] ? diode_at(x, star_V + e[x], dc_link_V) : Diode::none;
     }
     for (std::size_t x = 0; x < 3; x++) {
         if (t.open[x]) {
@@ -87,7 +88,7 @@ void Bridge::place_diodes(const Circuit &c, Terminals &t, const std::array<doubl
     for (std::size_t x = 0; t.floating_count() == 1 && x < 3; x++) {
         if (t.floats[x]) {
             const double floating_V = c.plant.floating_V(t.v_V, x);
-            diode_[x]               = diode_at(floating_V, dc_link_V);
+            diode_[x]               = diode_at(x, floating_V, dc_link_V);
             place(t, x, diode_[x], floating_V, dc_link_V);
         }
     }

@@ -48,7 +48,7 @@ Board::Board(const Scenario &s)
       encoder_(s.sensors, s.drive.encoder.lines, s.drive.motor.pole_pairs, period_s_, s.seed),
       noise_a_(s.seed, NoiseStream::adc_a), noise_b_(s.seed, NoiseStream::adc_b),
       load_(s.load_torque, s.load_ramps, s.load_sine),
-      first_dead_time_s_(dead_time_of(s.sensors, s.inverter, s.drive))
+      first_dead_time_s_(dead_time_of(s.sensors, s.inverter, s.drive)), faults_(s.faults)
 {
     plant_.reset(s.initial_speed_e_radps, start_theta_e_rad(s));
     shaft_load_.fan_Nm_per_radps2 = s.load_fan_Nm_per_radps2;
@@ -129,6 +129,20 @@ void Board::begin_tick(double time_s)
     }
     shaft_load_.torque_Nm = load_.at(time_s, 0.5 * period_s_);
     glitch_               = glitch_at(scenario_.glitches, time_s, period_s_);
+    begin_faults();
+}
+
+void Board::begin_faults()
+{
+    faults_.begin_tick(time_s_);
+    for (std::size_t x = 0; x < 3; x++) {
+        if (faults_.active(FaultKind::phase_open, x) != nullptr) {
+            bridge_.break_phase(x);
+        }
+    }
+    const int lost = faults_.lost_counts();
+    encoder_.lose(lost - lost_counts_);
+    lost_counts_ = lost;
 }
 
 PlantState Board::plant_state() const
@@ -170,16 +184,18 @@ drive_sample_t Board::measured_sample()
     const AdcChannel  a = channel_a(sensors_);
     const AdcChannel  b = channel_b(sensors_);
     drive_sample_t    s{};
-    s.ia_A        = static_cast<float>(adc_current_A(a, adc_code(a, i.a + glitch_.ia_A, noise_a_)));
-    s.ib_A        = static_cast<float>(adc_current_A(b, adc_code(b, i.b + glitch_.ib_A, noise_b_)));
-    s.dc_link_V   = static_cast<float>(dc_link_.voltage_V());
-    s.theta_e_rad = static_cast<float>(position.theta_e_rad);
-    s.band_rad    = static_cast<float>(position.band_e_rad);
-    s.edge_gap_s  = static_cast<float>(position.edge_gap_s);
-    s.edge_age_s  = static_cast<float>(position.edge_age_s);
-    s.edge_of_line  = static_cast<std::int16_t>(position.edge_of_line);
-    s.omega_e_radps = static_cast<float>(position.omega_e_radps);
-    s.valid         = true;
+    const double      ia_A = faults_.sensed_A(0, i.a) + glitch_.ia_A;
+    const double      ib_A = faults_.sensed_A(1, i.b) + glitch_.ib_A;
+    s.ia_A                 = static_cast<float>(adc_current_A(a, adc_code(a, ia_A, noise_a_)));
+    s.ib_A                 = static_cast<float>(adc_current_A(b, adc_code(b, ib_A, noise_b_)));
+    s.dc_link_V            = static_cast<float>(dc_link_.voltage_V());
+    s.theta_e_rad          = static_cast<float>(position.theta_e_rad);
+    s.band_rad             = static_cast<float>(position.band_e_rad);
+    s.edge_gap_s           = static_cast<float>(position.edge_gap_s);
+    s.edge_age_s           = static_cast<float>(position.edge_age_s);
+    s.edge_of_line         = static_cast<std::int16_t>(position.edge_of_line);
+    s.omega_e_radps        = static_cast<float>(position.omega_e_radps);
+    s.valid                = true;
     return s;
 }
 
@@ -199,11 +215,11 @@ RawSample Board::raw_sample()
     plant_.path().restart();
     const PhaseVector i = plant_.phase_current_A();
     RawSample         s;
-    s.ia_code     = adc_code(channel_a(sensors_), i.a + glitch_.ia_A, noise_a_);
-    s.ib_code     = adc_code(channel_b(sensors_), i.b + glitch_.ib_A, noise_b_);
-    s.dc_link_V   = dc_link_.voltage_V();
-    s.count       = position.raw_count;
-    s.index       = position.index;
+    s.ia_code   = adc_code(channel_a(sensors_), faults_.sensed_A(0, i.a) + glitch_.ia_A, noise_a_);
+    s.ib_code   = adc_code(channel_b(sensors_), faults_.sensed_A(1, i.b) + glitch_.ib_A, noise_b_);
+    s.dc_link_V = dc_link_.voltage_V();
+    s.count     = position.raw_count;
+    s.index     = position.index && faults_.active(FaultKind::index_missing) == nullptr;
     s.index_count = position.index_count;
     return s;
 }
@@ -227,7 +243,7 @@ void Board::begin_raw_period(const std::array<LegTiming, 3> &legs)
 /// Nothing but the plain motor under a constant averaged voltage.
 bool Board::plain_period() const
 {
-    return plain_inverter_ && plain_motor_ && sensors_.ideal;
+    return scenario_.faults.empty() && plain_inverter_ && plain_motor_ && sensors_.ideal;
 }
 
 void Board::run_period(const bridge_t &in_force)

@@ -79,6 +79,7 @@ public:
 
 private:
     void           apply(const PlantChange &change);
+    void           begin_faults();
     void           update_motor();
     void           configure_inverter();
     bool           plain_period() const;
@@ -103,6 +104,8 @@ private:
     double                   first_dead_time_s_; ///< the gates\'
     ShaftLoad                shaft_load_;
     Glitch                   glitch_; ///< of the sample of this tick
+    InjectedFaults           faults_;
+    int                      lost_counts_    = 0; ///< of the encoder, by a fault
     double                   time_s_         = 0.0;
     std::size_t              next_change_    = 0;
     bool                     plain_inverter_ = true;

@@ -21,7 +21,10 @@ const char *app_fault_name(int fault)
                                         "application: temperature",
                                         "application: index out of place",
                                         "application: alignment",
-                                        "application: drive"};
+                                        "application: drive",
+                                        "application: ticks stood still",
+                                        "application: heat",
+                                        "application: memory has changed"};
     return fault >= 0 && fault < static_cast<int>(std::size(names)) ? names[fault] : "unknown";
 }
 
@@ -55,6 +58,18 @@ const char *fault_name(int fault)
         return "command out of range";
     case DRIVE_FAULT_NUMERIC:
         return "law not a number";
+    case DRIVE_FAULT_CURRENT_SENSOR:
+        return "current sensor implausible";
+    case DRIVE_FAULT_PHASE:
+        return "phase without current";
+    case DRIVE_FAULT_MODEL:
+        return "voltage implausible: encoder or current sensor";
+    case DRIVE_FAULT_STALL:
+        return "stall";
+    case DRIVE_FAULT_AWAY:
+        return "the speed leaves its command";
+    case DRIVE_FAULT_MEMORY:
+        return "memory has changed";
     }
     return "unknown";
 }

@@ -59,6 +59,11 @@ public:
     {
         return peak_current_A_;
     }
+    /// Some leg follows its gates.
+    bool bridge_on() const
+    {
+        return legs_[0] || legs_[1] || legs_[2];
+    }
     bool runaway() const
     {
         return board_ && board_->runaway();

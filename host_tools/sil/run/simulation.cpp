@@ -8,6 +8,11 @@ namespace sdre {
 Simulation::Simulation(const Scenario &scenario, const Controller &controller)
     : period_s_(control_period_s(scenario.drive)), board_(scenario)
 {
+    for (const InjectedFault &f : scenario.faults) {
+        if (needs_processor(f.kind)) {
+            throw InputError("[[fault]] of the processor needs --board f28335");
+        }
+    }
     if (drive_init(&drive_, &controller.config) != CTL_OK) {
         throw DesignError("the control core refuses these constants");
     }
@@ -18,7 +23,7 @@ TickEnd Simulation::step(double omega_ref_e_radps)
     const double time_s = static_cast<double>(tick_++) * period_s_;
     board_.begin_tick(time_s);
     core_tick_.sample  = board_.sample();
-    core_tick_.command = {static_cast<float>(omega_ref_e_radps), true};
+    core_tick_.command = {static_cast<float>(omega_ref_e_radps), true, 0.0F};
     core_tick_.output  = drive_tick(&drive_, &core_tick_.sample, &core_tick_.command);
 
     TickEnd end;

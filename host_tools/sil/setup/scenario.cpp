@@ -167,6 +167,7 @@ Scenario read_scenario_file(const std::filesystem::path &file, const std::filesy
     start.load_sine = s.load_sine;
     s.changes       = read_changes(t, start, s.drive);
     s.glitches      = read_glitches(t);
+    s.faults        = read_injected_faults(t);
     s.measures      = read_measures(t, s.drive.law, own);
     if (!s.measures.empty() && s.measures.back().time_s >= s.duration_s) {
         t.fail("measure", fmt::format("\"{}\": time_s must be before duration_s = {:g}",

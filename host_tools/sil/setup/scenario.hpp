@@ -12,6 +12,7 @@
 #include "sil/setup/board_settings.hpp"
 #include "sil/setup/changes.hpp"
 #include "sil/setup/glitches.hpp"
+#include "sil/setup/injected_faults.hpp"
 #include "sil/setup/load_settings.hpp"
 #include "sil/setup/measures.hpp"
 #include "sil/setup/motor_scale.hpp"
@@ -35,6 +36,7 @@ struct Scenario {
     std::vector<Step>          load_torque;     ///< N m, sorted by time
     std::vector<PlantChange>   changes;         ///< sorted by time
     std::vector<Glitch>        glitches;        ///< sorted by time
+    std::vector<InjectedFault> faults;          ///< sorted by time
     std::vector<Measure>       measures;        ///< sorted by time
     double                     dc_link_V = 0.0; ///< the supply; the drive file's unless given
     std::uint64_t              seed      = 1;   ///< of every random draw

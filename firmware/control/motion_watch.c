@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: MIT */
+#include "motion_watch.h"
+
+/* A motor whose R, L and flux are half off leaves half of its voltage, and what is left of the compensated dead time. */
+#define HALF_OFF  0.6f
+#define DEAD_TIME 0.02f
+#define ODD_s     10.0e-3f /* chosen: twice what a step at the voltage limit takes */
+
+#define AT_LIMIT2 0.81f /* 0.9 of the limit */
+#define STILL_s                                                                                    \
+    50.0e-3f /* chosen; the limit's torque turns three times the motor's inertia by 2 rad meanwhile */
+#define GAP_SEEN_s   45.0e-3f /* gaps are told up to 50 ms (app_angle.c) */
+#define SLOW_e_radps 10.0f    /* one and a half counts per period */
+#define SLOW_s                                                                                     \
+    0.5f /* chosen: longer than a heavy load takes to start, shorter than the motor to heat up */
+#define AWAY_e_radps 20.0f /* chosen: three counts per period, the noise of a plain difference */
+#define FAR_e_radps  50.0f /* chosen: a tenth of the rated speed of the shipped motor */
+#define AWAY_s       0.1f
+
+static const motion_watch_t rest = {.odd_s = 0.0f};
+
+void motion_watch_reset(motion_watch_t *w)
+{
+    *w = rest;
+}
+
+static float counted(float so_far_s, bool on, float ts_s)
+{
+    return on ? (so_far_s + ts_s) : 0.0f;
+}
+
+/* EQ-MOTION-WATCH-1; a NaN is odd. */
+static bool is_odd(const motion_watch_input_t *in)
+{
+    const motor_reduced_t *m = in->motor;
+    const float i_A          = fabsf(in->now.id_A) + fabsf(in->now.iq_A); /* at least the length */
+    const float r_Ohm        = m->l4 * m->inv_l6;
+    const float emf_Wb       = m->inv_l6 * (m->l5 + i_A);
+    const float mine_V       = (r_Ohm * i_A) + (emf_Wb * fabsf(in->now.omega_e_radps));
+    const float most_V       = (HALF_OFF * mine_V) + (DEAD_TIME * in->dc_link_V);
+
+    return !base_within(in->d_Aps.q * m->inv_l6, most_V) ||
+           !base_within(in->d_Aps.d * m->inv_l8, most_V);
+}
+
+/* EQ-MOTION-WATCH-3 */
+static bool goes_away(motion_watch_t *w, const motion_watch_input_t *in, bool at_limit,
+                      float off_e_radps)
+{
+    const float change = in->command_e_radps - w->command_e_radps;
+
+    if (!at_limit || !base_within(change, 1.0f)) {
+        w->command_e_radps = in->command_e_radps;
+        w->nearest_e_radps = off_e_radps;
+    }
+    w->nearest_e_radps = base_min(w->nearest_e_radps, off_e_radps);
+    return (off_e_radps > FAR_e_radps) && (off_e_radps > (w->nearest_e_radps + AWAY_e_radps));
+}
+
+motion_watch_verdict_t motion_watch_judge(motion_watch_t *w, const motion_watch_input_t *in)
+{
+    const float i2_A2    = (in->now.id_A * in->now.id_A) + (in->now.iq_A * in->now.iq_A);
+    const float off      = fabsf(in->command_e_radps - in->now.omega_e_radps);
+    const bool  at_limit = i2_A2 > (AT_LIMIT2 * in->current_max_A * in->current_max_A);
+    const bool  pushes   = at_limit && (off > SLOW_e_radps);
+    const bool  no_edge  = in->edge_gap_s > base_min(w->still_s, GAP_SEEN_s);
+
+    w->odd_s   = counted(w->odd_s, is_odd(in), in->ts_s);
+    w->still_s = counted(w->still_s, pushes && no_edge, in->ts_s);
+    w->slow_s =
+        counted(w->slow_s, pushes && base_within(in->now.omega_e_radps, SLOW_e_radps), in->ts_s);
+    w->away_s = counted(w->away_s, goes_away(w, in, at_limit, off), in->ts_s);
+
+    motion_watch_verdict_t found = MOTION_WATCH_GOOD;
+    if (w->odd_s > ODD_s) {
+        found = MOTION_WATCH_ODD;
+    } else if ((w->still_s > STILL_s) || (w->slow_s > SLOW_s)) {
+        found = MOTION_WATCH_STALL;
+    } else if (w->away_s > AWAY_s) {
+        found = MOTION_WATCH_AWAY;
+    } else {
+        /* as it should be */
+    }
+    return found;
+}

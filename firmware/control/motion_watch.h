@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file motion_watch.h
+ * @brief A motor that does not move as it should: jammed, dragged away, or with an encoder that does not show its motion.
+ *
+ *     odd:     the voltage that the model does not know of,
+ *              max(Lq abs(d_q), Ld abs(d_d)) > 0.6 (R j + (flux + Lq j) abs(w)) + 0.02 v_dc,  j = abs(id) + abs(iq)
+ *              for 10 ms                                                           EQ-MOTION-WATCH-1
+ *     stall:   abs(i) > 0.9 i_max and abs(w* - w) > 10 rad/s, and for 50 ms no edge of the encoder, or for 0.5 s
+ *              abs(w) < 10 rad/s                                                   EQ-MOTION-WATCH-2
+ *     away:    abs(i) > 0.9 i_max, and abs(w* - w) is beyond 50 rad/s and for 100 ms 20 rad/s more than it has been with
+ *              this command and current                                            EQ-MOTION-WATCH-3
+ *
+ * d are the observer's disturbances of the current equations, behind a low-pass. The bound of EQ-MOTION-WATCH-1 is what a
+ * motor leaves whose parameters are half off, and the dead time. A shaft that turns while the encoder stands still
+ * leaves its EMF. Laws without a prediction have no such check.
+ */
+#ifndef MOTION_WATCH_H
+#define MOTION_WATCH_H
+
+#include "base.h"
+#include "motor.h"
+#include "nodo.h"
+
+typedef enum {
+    MOTION_WATCH_GOOD = 0,
+    MOTION_WATCH_ODD,
+    MOTION_WATCH_STALL,
+    MOTION_WATCH_AWAY
+} motion_watch_verdict_t;
+
+typedef struct {
+    float odd_s;   /**< in a row, as the others */
+    float still_s; /**< no edge */
+    float slow_s;
+    float away_s;
+    float command_e_radps;
+    float nearest_e_radps; /**< least distance to it since it was given, at the current limit */
+} motion_watch_t;
+
+/** What a period knows. */
+typedef struct {
+    const motor_reduced_t *motor;
+    float                  current_max_A;
+    float                  ts_s;
+    nodo_meas_t            now;
+    float                  command_e_radps;
+    float                  dc_link_V;
+    float                  edge_gap_s; /**< of the sample; 0: edges are not timed */
+    dq_t                   d_Aps;      /**< zero where a law has no prediction */
+} motion_watch_input_t;
+
+/** Start of a run. Context: control ISR. */
+void motion_watch_reset(motion_watch_t *w);
+
+/** One period. Context: control ISR. No division. */
+motion_watch_verdict_t motion_watch_judge(motion_watch_t *w, const motion_watch_input_t *in);
+
+#endif /* MOTION_WATCH_H */

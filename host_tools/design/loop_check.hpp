@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+/// A sampled loop that is broken at one signal: how far it is from instability, and what disturbances become in it.
+///
+///     s(k+1) = A s(k) + B r(k),  u(k) = c s(k),  S(z) = 1 + c (zI - A)^-1 B             EQ-CERT-4
+///
+/// A holds the closed loop; r is added to the signal u on its way.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "drive/drive_file.hpp"
+
+#include <Eigen/Core>
+
+namespace sdre {
+
+/// A sampled loop and what to excite it with.
+struct BrokenLoop {
+    Eigen::MatrixXd    A;
+    Eigen::VectorXd    B;
+    Eigen::RowVectorXd c;
+    double             ts_s = 0.0;
+};
+
+/// |S| at a frequency below half the sampling rate.
+double sensitivity(const BrokenLoop &loop, double frequency_Hz);
+
+struct SensitivityAt {
+    std::string name;
+    double      frequency_Hz = 0.0;
+    double      value        = 0.0;
+};
+
+struct LoopCheck {
+    double                     spectral_radius = 0.0;
+    double                     peak            = 0.0; ///< M_s, the largest |S|
+    double                     peak_Hz         = 0.0;
+    std::vector<SensitivityAt> at; ///< the disturbances' frequencies
+};
+
+LoopCheck check_loop(const BrokenLoop &loop, std::vector<SensitivityAt> disturbances);
+
+/// Current sensors, dead time and the harmonics of the drive file, at its design speed (rated speed without one).
+std::vector<SensitivityAt> disturbance_frequencies(const Drive &drive);
+
+} // namespace sdre

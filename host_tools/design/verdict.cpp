@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "design/verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/parallel.hpp"
+#include "design/design.hpp"
+
+namespace sdre {
+namespace {
+
+// Chosen: eight counts in a period, where the observers of all laws take edges for what they are. Below, an encoder tells
+// less than any linear model assumes.
+constexpr double counts_that_tell = 8.0;
+
+/// What is found at one point.
+struct Found {
+    double                 spectral_radius = 0.0;
+    std::vector<LoopCheck> channels;
+};
+
+Found examine_point(const LoopFamily &family, const Drive &drive, const OperatingPoint &at)
+{
+    const std::vector<BrokenLoop> loops = family.loops(drive.motor, at);
+    Found                         found;
+    found.channels.resize(family.channels.size());
+    for (std::size_t i = 0; i < loops.size(); i++) {
+        LoopCheck  now        = check_loop(loops[i], disturbance_frequencies(drive));
+        LoopCheck &kept       = found.channels[i % family.channels.size()];
+        found.spectral_radius = std::max(found.spectral_radius, now.spectral_radius);
+        const double radius   = std::max(kept.spectral_radius, now.spectral_radius);
+        if (now.peak > kept.peak) {
+            kept = std::move(now);
+        }
+        kept.spectral_radius = radius;
+    }
+    return found;
+}
+
+double radius_of(const LoopFamily &family, const Motor &motor)
+{
+    double worst = 0.0;
+    for (const OperatingPoint &at : family.box_points) {
+        const std::vector<BrokenLoop> loops = family.loops(motor, at);
+        for (std::size_t i = 0; i < loops.size(); i++) {
+            if (i == 0 || loops[i].A != loops[i - 1].A) { // most are one loop, broken elsewhere
+                worst = std::max(worst, spectral_radius(loops[i].A));
+            }
+        }
+    }
+    return worst;
+}
+
+void keep_worst(Verdict &v, const Found &found, const OperatingPoint &at)
+{
+    if (!(found.spectral_radius <= v.spectral_radius)) {
+        v.spectral_radius = found.spectral_radius;
+        v.radius_at       = at;
+    }
+    for (std::size_t c = 0; c < v.channels.size(); c++) {
+        Channel     &kept = v.channels[c];
+        const double radius =
+            std::max(kept.worst.spectral_radius, found.channels[c].spectral_radius);
+        if (!(found.channels[c].peak <= kept.worst.peak)) {
+            kept.worst = found.channels[c];
+            kept.at    = at;
+        }
+        kept.worst.spectral_radius = radius;
+    }
+}
+
+std::string point_name(const OperatingPoint &at)
+{
+    return fmt::format("{:.0f} rad/s, iq {:.2f} A", at.omega_e_radps, at.iq_A);
+}
+
+} // namespace
+
+std::vector<OperatingPoint> verdict_points(const Design &d)
+{
+    const double                rated = d.drive.motor.rated_speed_e_radps;
+    const double                top   = static_cast<double>(d.config.speed_max_e_radps);
+    const double                most  = d.drive.motor.max_current_A;
+    std::vector<OperatingPoint> points;
+    for (const double speed : {0.0, rated, top}) {
+        for (const double iq : {0.0, most, -most}) {
+            points.push_back({speed, iq, mtpa_id_A(d.l, iq)});
+        }
+    }
+    return points;
+}
+
+std::vector<OperatingPoint> verdict_box_points(const Design &d)
+{
+    const double iq   = d.drive.motor.max_current_A;
+    const double slow = counts_that_tell * count_e_rad(d.drive) / control_period_s(d.drive);
+    std::vector<OperatingPoint> points{{slow, 0.0, d.l[0]}};
+    const double                rated = d.drive.motor.rated_speed_e_radps;
+    points.push_back({rated, iq, mtpa_id_A(d.l, iq)});
+    if (d.harmonics) { // their frequencies are multiples of the speed: each passes the crossover somewhere
+        for (const double share : {0.25, 0.5, 0.75}) {
+            points.push_back({share * rated, iq, mtpa_id_A(d.l, iq)});
+        }
+    }
+    return points;
+}
+
+std::vector<BrokenLoop> broken_at_voltages(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B,
+                                           const Eigen::MatrixXd &C, double ts_s)
+{
+    return {{A, B.col(0), C.row(0), ts_s}, {A, B.col(1), C.row(1), ts_s}};
+}
+
+Verdict examine(const LoopFamily &family, const Drive &drive)
+{
+    Verdict v;
+    for (const std::string &name : family.channels) {
+        v.channels.push_back({name, {}, {}});
+    }
+    std::vector<Found> found(family.points.size());
+    parallel_for(found.size(),
+                 [&](std::size_t i) { found[i] = examine_point(family, drive, family.points[i]); });
+    for (std::size_t i = 0; i < found.size(); i++) {
+        keep_worst(v, found[i], family.points[i]);
+    }
+    if (!family.box_points.empty()) {
+        const auto radius = [&](const Motor &motor) { return radius_of(family, motor); };
+        v.box             = robust_box(drive.motor, radius);
+        v.alone           = robust_alone(drive.motor, radius);
+    }
+    return v;
+}
+
+void judge(const Verdict &v, double ts_s, std::vector<std::string> &failures)
+{
+    const double largest = std::exp(-ts_s / slowest_mode_s);
+    if (!(v.spectral_radius <= largest)) {
+        failures.push_back(
+            fmt::format("the loop does not settle at {}: spectral radius {:.6f}, at most "
+                        "{:.6f} is allowed",
+                        point_name(v.radius_at), v.spectral_radius, largest));
+    }
+    for (const Channel &c : v.channels) {
+        if (!(c.worst.peak <= peak_sensitivity_limit)) {
+            failures.push_back(fmt::format(
+                "{}: sensitivity peak {:.3g} at {:.0f} Hz ({}) exceeds {:g}", c.name, c.worst.peak,
+                c.worst.peak_Hz, point_name(c.at), peak_sensitivity_limit));
+        }
+    }
+    if (v.box && !(v.box->share >= box_share_limit)) {
+        failures.push_back(fmt::format(
+            "unstable with a motor of {}: {:.2f} of the box of parameters, {:g} is required",
+            v.box->corner, v.box->share, box_share_limit));
+    }
+    if (v.alone && !(v.alone->share >= alone_share_limit)) {
+        failures.push_back(fmt::format("unstable with a motor of {}, everything else as believed",
+                                       v.alone->corner));
+    }
+    for (const TripMargin &t : v.trips) {
+        if (!(t.healthy <= t.limit)) {
+            failures.push_back(
+                fmt::format("{}: a healthy drive reaches {:.3g}, its trip is at {:.3g}", t.name,
+                            t.healthy, t.limit));
+        }
+    }
+}
+
+} // namespace sdre

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+/// One judgement of a whole sampled loop, the same for every law: does it settle, how much margin has it where it is broken,
+/// which other motors may it meet, and how far are its own noise and load steps from its trips.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "design/loop_check.hpp"
+#include "design/robust_box.hpp"
+#include "design/sampled_model.hpp"
+
+namespace sdre {
+
+struct Design;
+
+/// A law's closed loop, linearised, with the tables of the drive and a motor that may be another.
+struct LoopFamily {
+    /// What it is broken at, one at a time, everything else closed: "q axis".
+    std::vector<std::string> channels;
+    /// Loop i is broken at channel i % channels.size(); more than one per channel when the law runs in several ways.
+    std::function<std::vector<BrokenLoop>(const Motor &motor, const OperatingPoint &at)> loops;
+    std::vector<OperatingPoint> points; ///< where stability and margin are judged
+    std::vector<OperatingPoint>
+        box_points; ///< and where every other motor has to be stable; none: it is not asked for
+};
+
+/// A quantity that ends the drive when it is too large, and what a healthy drive makes of it.
+struct TripMargin {
+    std::string name;
+    double      limit   = 0.0;
+    double      healthy = 0.0; ///< in the same unit
+};
+
+struct Channel {
+    std::string name;
+    LoopCheck   worst; ///< the largest sensitivity, and the largest spectral radius, of all points
+    OperatingPoint at; ///< of that sensitivity
+};
+
+struct Verdict {
+    double               spectral_radius = 0.0; ///< of all points
+    OperatingPoint       radius_at;
+    std::vector<Channel> channels;
+    std::optional<RobustBox>
+        box; ///< EQ-CERT-5, every corner; where the family asks for other motors
+    std::optional<RobustBox> alone; ///< the same of one parameter at a time
+    std::vector<TripMargin>  trips;
+};
+
+/// Standstill, rated and largest speed of a command, each without current and with the largest either way. A negative speed
+/// is the mirror image of a positive one with the other sign of current.
+std::vector<OperatingPoint> verdict_points(const Design &design);
+
+/// Slowly without current, and with the largest at the rated speed; with harmonics at three more below it.
+std::vector<OperatingPoint> verdict_box_points(const Design &design);
+
+/// Two loops, broken at v_q and at v_d.
+std::vector<BrokenLoop> broken_at_voltages(const Eigen::MatrixXd &A,
+                                           const Eigen::MatrixXd &B_voltage,
+                                           const Eigen::MatrixXd &C_voltage, double ts_s);
+
+/// Looks everywhere; judges nothing.
+Verdict examine(const LoopFamily &family, const Drive &drive);
+
+/// One line for each thing that does not hold.
+void judge(const Verdict &verdict, double ts_s, std::vector<std::string> &failures);
+
+} // namespace sdre

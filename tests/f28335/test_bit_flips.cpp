@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// One flipped bit in what the application keeps in RAM while it drives: its state, its constants, the tables. What follows
+// may be nothing, or a trip; it must not be a current beyond 1.5 times the limit that nobody notices.
+//
+// Every flip is a process of its own, from the same instant of the same run. SDRE_BIT_FLIPS sets their number.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/random.hpp"
+#include "sil/board/board_run.hpp"
+#include "sil/board/board_runs.hpp"
+#include "sil/board/board_scenario.hpp"
+
+extern "C" {
+#include "app.h"
+#include "app_modes.h"
+
+extern drive_config_t sil_drive_config;
+}
+
+using namespace sdre;
+
+namespace {
+
+constexpr int    short_form  = 60;
+constexpr double limit_A     = 4.0;
+constexpr long   settle      = 200; // ticks in RUN before a flip
+constexpr long   after       = 400; // and after it: 80 ms, several passes of the check sums
+constexpr int    exit_quiet  = 0;
+constexpr int    exit_trip   = 1;
+constexpr int    exit_missed = 2; // beyond 1.5 times the limit, and no fault
+
+law_noc_config_t constants; // in RAM, as on the board
+
+struct Region {
+    unsigned char *first;
+    std::size_t    bytes;
+};
+
+Scenario scenario()
+{
+    Scenario s =
+        read_scenario_file(SDRE_SOURCE_DIR "/host_tools/sil/scenarios/board_load_step.toml");
+    s.load_torque = {{0.0, 1.5}};
+    return for_board(s).scenario;
+}
+
+/// To the first tick in RUN; its number.
+long bring_to_run(ApiRun &run)
+{
+    while (app_drive()->state != DRIVE_RUN && run.bench().tick() < 2000) {
+        if (run.bench().tick() == 1560) {
+            run.set_speed(3000);
+        } else if (run.bench().tick() == 1640) {
+            run.set_run();
+        }
+        run.step();
+    }
+    return run.bench().tick();
+}
+
+std::vector<Region> regions()
+{
+    auto *modes = reinterpret_cast<unsigned char *>(const_cast<drive_t *>(app_drive())) -
+                  offsetof(app_modes_t, drive);
+    const auto *as_modes = reinterpret_cast<const app_modes_t *>(modes);
+    auto *config = reinterpret_cast<unsigned char *>(const_cast<app_config_t *>(as_modes->config));
+    return {{modes, sizeof(app_modes_t)},
+            {config, sizeof(app_config_t)},
+            {reinterpret_cast<unsigned char *>(&sil_drive_config), sizeof(sil_drive_config)},
+            {reinterpret_cast<unsigned char *>(&constants), sizeof(constants)}};
+}
+
+/// In the child: flips, goes on, and says by its exit code what came of it.
+[[noreturn]] void flip_and_go_on(ApiRun &run, unsigned char *at, int bit)
+{
+    *at           = static_cast<unsigned char>(*at ^ (1U << bit));
+    double peak_A = 0.0;
+    for (long k = 0; k < after && !run.bench().runaway(); k++) {
+        run.step();
+        peak_A = std::max(peak_A, run.bench().peak_current_A());
+    }
+    const bool told = app_status_read().fault != APP_FAULT_NONE || !run.bench().bridge_on();
+    _exit(told ? exit_trip : peak_A > 1.5 * limit_A ? exit_missed : exit_quiet);
+}
+
+} // namespace
+
+TEST(BitFlips, NoneLeadsToTooMuchCurrentUnnoticed)
+{
+    const Scenario s = scenario();
+    Controller     c = prepare_controller(s);
+    std::memcpy(&constants, c.config.constants, sizeof constants);
+    c.config.constants = &constants;
+    set_firmware_drive(c.config);
+
+    const long start = [&] {
+        ApiRun rehearsal(s, MotorBench::never, 3e-6);
+        return bring_to_run(rehearsal);
+    }();
+    ApiRun run(s, start, 3e-6);
+    ASSERT_EQ(bring_to_run(run), start);
+    for (long k = 0; k < settle; k++) {
+        run.step();
+    }
+    ASSERT_EQ(app_status_read().mode, APP_MODE_RUN);
+
+    const std::vector<Region> all   = regions();
+    std::size_t               bytes = 0;
+    for (const Region &r : all) {
+        bytes += r.bytes;
+    }
+    const char *wanted = std::getenv("SDRE_BIT_FLIPS");
+    const int   flips  = wanted != nullptr ? std::atoi(wanted) : short_form;
+    int         trips = 0, missed = 0, crashed = 0;
+    for (int n = 0; n < flips; n++) {
+        const auto place = static_cast<std::size_t>(
+            (0.5 + 0.5 * even_number(7, NoiseStream::start_angle, static_cast<std::uint64_t>(n))) *
+            static_cast<double>(8 * bytes - 1));
+        std::size_t at = place / 8;
+        std::size_t r  = 0;
+        while (at >= all[r].bytes) {
+            at -= all[r++].bytes;
+        }
+        const pid_t child = fork();
+        ASSERT_GE(child, 0);
+        if (child == 0) {
+            flip_and_go_on(run, all[r].first + at, static_cast<int>(place % 8));
+        }
+        int status = 0;
+        ASSERT_EQ(waitpid(child, &status, 0), child);
+        const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        trips += code == exit_trip ? 1 : 0;
+        missed += code == exit_missed ? 1 : 0;
+        // Sanitizers stop at a bool that is neither 0 nor 1, which a processor takes for true.
+        crashed += code < 0 || code > exit_missed ? 1 : 0;
+        if (code == exit_missed || code < 0 || code > exit_missed) {
+            std::printf("flip %d: region %zu byte %zu bit %zu: %d\n", n, r, at, place % 8, code);
+        }
+    }
+    std::printf("%d flips in %zu bytes: %d trips, %d missed, %d crashes\n", flips, bytes, trips,
+                missed, crashed);
+    EXPECT_EQ(missed, 0);
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// What breaks on the board, with the application and the drivers behind it: time to an open bridge and peak current.
+// docs/assurance.md has the table.
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "../support/temp_dir.hpp"
+#include "sil/board/board_run.hpp"
+#include "sil/run/faults.hpp"
+
+using namespace sdre;
+
+namespace {
+
+constexpr double limit_A  = 4.0;
+constexpr double when_s   = 0.05; // of the fault
+constexpr double period_s = 200e-6;
+
+/// The shipped drive in a steady state, then a fault.
+Scenario broken(double speed_e_radps, double load_Nm, const std::string &fault)
+{
+    const support::TempDir dir;
+    return read_scenario_file(
+        dir.write("s.toml", fmt::format("drive = \"" SDRE_SOURCE_DIR
+                                        "/firmware/config/drives/ipmsm_390w.toml\"\n"
+                                        "duration_s = {2}\ninitial_speed_e_radps = {0}\n[sensors]\n"
+                                        "[[speed_reference]]\ntime_s = 0.0\nvalue_e_radps = {0}\n"
+                                        "[[load_torque]]\ntime_s = 0.0\nvalue_Nm = {1}\n"
+                                        "[[fault]]\ntime_s = {3}\n{4}",
+                                        speed_e_radps, load_Nm, when_s + 0.1, when_s, fault)));
+}
+
+struct Outcome {
+    int    fault  = 0;
+    double open_s = 1.0; ///< from the fault until the bridge is found open at a tick
+    double peak_A = 0.0;
+};
+
+Outcome outcome_of(const Scenario &s, BoardKind kind)
+{
+    const BoardResult r = simulate_on_board(s, kind);
+    Outcome           o;
+    o.fault = r.result.fault;
+    for (std::size_t k = 0; k < r.ticks.size(); k++) {
+        const TraceRow &row = r.result.trace[k];
+        if (row.time_s > when_s - 0.5 * period_s) {
+            o.peak_A = std::max(o.peak_A, row.peak_current_A);
+            if (!r.ticks[k].bridge_on) {
+                o.open_s = std::min(o.open_s, row.time_s - when_s);
+            }
+        }
+    }
+    return o;
+}
+
+class Processor : public ::testing::TestWithParam<const char *> {};
+
+} // namespace
+
+INSTANTIATE_TEST_SUITE_P(Protections, Processor,
+                         ::testing::Values("tick_hung", "trigger_lost", "interrupt_masked"),
+                         [](const auto &p) { return std::string(p.param); });
+
+TEST_P(Processor, BridgeOpensWithinSixTenthsOfAMillisecond)
+{
+    const std::string fault = fmt::format("kind = \"{}\"\n", GetParam());
+    for (const double speed : {0.0, 300.0, -523.0, 850.0}) {
+        const double  load_Nm = speed > 600.0 ? 0.5 : 1.5;
+        const Outcome o       = outcome_of(broken(speed, load_Nm, fault), BoardKind::f28335);
+        EXPECT_LE(o.open_s, 0.6e-3 + 1e-9) << speed;
+        EXPECT_LT(o.peak_A, 1.5 * limit_A) << speed;
+        EXPECT_EQ(o.fault, device_reset_fault) << speed; // and the next start reports that cause
+        RecordProperty(fmt::format("peak_mA_at_{}", speed), static_cast<int>(1e3 * o.peak_A));
+    }
+}

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+/// Periods of the core with any samples and commands, under every law: a motor that turns as the input says, with readings
+/// and commands that are any bits at all in between.
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+#include "bytes.hpp"
+#include "design/design.hpp"
+#include "drive/drive_file.hpp"
+
+extern "C" {
+#include "gain_tables.h"
+#include "harmonic_tables.h"
+#include "speed_tables.h"
+}
+
+namespace {
+
+// What sdre-gains takes long for comes as tables.
+const std::array<const drive_config_t *, 4> tables = {
+    &gain_tables_drive, &speed_tables_drive, &conventional_tables_drive, &harmonic_tables_drive};
+const std::array<const char *, 7> names = {
+    "ipmsm_390w_counts", "servo_200w_pid",    "servo_200w_cdobc",      "servo_200w_gpiobc",
+    "servo_200w_hdobc",  "ipmsm_390w_pi_foc", "ipmsm_390w_ladrc_edges"};
+
+/// One of every law; designed when it is asked for the first time.
+const drive_config_t &config_of(std::size_t n)
+{
+    if (n < tables.size()) {
+        return *tables.at(n);
+    }
+    static std::array<std::unique_ptr<sdre::Design>, names.size()> designs;
+    const std::size_t                                              at  = n - tables.size();
+    std::unique_ptr<sdre::Design>                                 &one = designs.at(at);
+    if (!one) {
+        const std::string file = std::string(SDRE_DRIVES) + "/" + names.at(at) + ".toml";
+        one = std::make_unique<sdre::Design>(sdre::design_drive(sdre::read_drive_file(file)));
+    }
+    return one->config;
+}
+
+void require(bool condition)
+{
+    if (!condition) {
+        std::abort();
+    }
+}
+
+bool ratio(float x)
+{
+    return x >= 0.0F && x <= 1.0F; // false of a NaN
+}
+
+/// What holds after every period, whatever came in.
+void judge(const drive_t &drive, const bridge_t &out)
+{
+    require(ratio(out.duty.a) && ratio(out.duty.b) && ratio(out.duty.c));
+    require(out.gate_enable == (drive.state == DRIVE_RUN));
+    require((drive.state == DRIVE_FAULT) == (drive.fault != DRIVE_FAULT_NONE));
+    require(std::isfinite(drive.v_V.d) && std::isfinite(drive.v_V.q));
+}
+
+/// A rotor with currents, of which a sample is taken.
+struct Rotor {
+    float omega_e_radps = 0.0F;
+    float theta_e_rad   = 0.0F;
+    float i_A           = 0.0F;
+
+    drive_sample_t sample(const drive_config_t &c)
+    {
+        theta_e_rad = std::remainder(theta_e_rad + omega_e_radps * c.ts_s, 6.2831853F);
+        drive_sample_t s{};
+        s.ia_A          = i_A * std::cos(theta_e_rad);
+        s.ib_A          = i_A * std::cos(theta_e_rad - 2.0943951F);
+        s.dc_link_V     = 0.5F * (c.dc_link_min_V + c.dc_link_max_V);
+        s.theta_e_rad   = theta_e_rad;
+        s.omega_e_radps = omega_e_radps;
+        s.valid         = true;
+        return s;
+    }
+};
+
+/// Replaces one reading by any bits.
+void spoil(fuzz::Bytes &in, int which, drive_sample_t &s, drive_command_t &command)
+{
+    float *const numbers[] = {&s.ia_A,          &s.ib_A,       &s.dc_link_V,
+                              &s.theta_e_rad,   &s.band_rad,   &s.edge_gap_s,
+                              &s.omega_e_radps, &s.edge_age_s, &command.omega_e_radps};
+    if (which < 9) {
+        *numbers[which] = in.number();
+    } else if (which == 9) {
+        s.valid = false;
+    } else {
+        s.edge_of_line = static_cast<std::int16_t>(in.word());
+        s.edge_gap_s   = std::ldexp(1.0F, -static_cast<int>(in.octet() & 31U));
+        s.edge_age_s   = std::ldexp(1.0F, -static_cast<int>(in.octet() & 31U));
+    }
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size)
+{
+    fuzz::Bytes           in(data, size);
+    const drive_config_t &config = config_of(in.octet() % (tables.size() + names.size()));
+    drive_t               drive{};
+    drive_command_t       command{0.0F, true, 0.0F};
+    Rotor                 rotor;
+    require(drive_init(&drive, &config) == CTL_OK);
+    while (in.any()) {
+        const std::uint8_t what = in.octet();
+        drive_sample_t     s    = rotor.sample(config);
+        switch (what >> 6) {
+        case 0: // the shaft and its currents change
+            rotor.omega_e_radps += 20.0F * in.share();
+            rotor.i_A = config.current_max_A * in.share();
+            break;
+        case 1:
+            command = {config.speed_max_e_radps * in.share(), (what & 15U) != 0U};
+            break;
+        case 2:
+            spoil(in, (what & 63) % 11, s, command);
+            break;
+        default:
+            if (drive.state == DRIVE_FAULT) {
+                drive_reset(&drive);
+                command = {0.0F, true};
+                rotor   = Rotor();
+            }
+        }
+        judge(drive, drive_tick(&drive, &s, &command));
+        for (int n = what & 7; n > 0; n--) {
+            s = rotor.sample(config);
+            judge(drive, drive_tick(&drive, &s, &command));
+        }
+    }
+    return 0;
+}

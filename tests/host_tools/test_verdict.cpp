@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+/// The verdict sees a loop that is bad at one place only, whatever place that is.
+#include "design/verdict.hpp"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "design/design.hpp"
+#include "shipped_drive.hpp"
+
+namespace {
+
+using sdre::BrokenLoop;
+using sdre::LoopFamily;
+using sdre::Motor;
+using sdre::OperatingPoint;
+using sdre::Verdict;
+
+constexpr double ts_s = 2e-4;
+
+const sdre::Design &shipped()
+{
+    static const sdre::Design design =
+        sdre::design_drive(sdre::read_drive_file(support::shipped_drive("ipmsm_390w")));
+    return design;
+}
+
+/// One pole in a loop of an integrator's kind: x+ = pole x + gain r, u = -x. Its S is 1 - gain / (z - pole).
+BrokenLoop one_pole(double pole, double gain = 0.1)
+{
+    return {Eigen::MatrixXd::Constant(1, 1, pole), Eigen::VectorXd::Constant(1, gain),
+            Eigen::RowVectorXd::Constant(1, -1.0), ts_s};
+}
+
+constexpr double good = 0.9;
+constexpr double bad  = 1.01;
+
+/// A healthy family of two channels, with the points of the shipped drive.
+LoopFamily healthy()
+{
+    LoopFamily f;
+    f.channels   = {"q axis", "d axis"};
+    f.points     = sdre::verdict_points(shipped());
+    f.box_points = sdre::verdict_box_points(shipped());
+    f.loops      = [](const Motor &, const OperatingPoint &) {
+        return std::vector<BrokenLoop>{one_pole(good), one_pole(good)};
+    };
+    return f;
+}
+
+/// Unstable wherever `where` says so.
+template <typename Where> LoopFamily unstable_if(Where where)
+{
+    LoopFamily f = healthy();
+    f.loops      = [where](const Motor &m, const OperatingPoint &at) {
+        const double pole = where(m, at) ? bad : good;
+        return std::vector<BrokenLoop>{one_pole(pole), one_pole(pole)};
+    };
+    return f;
+}
+
+std::vector<std::string> failures_of(const LoopFamily &f)
+{
+    std::vector<std::string> failures;
+    sdre::judge(sdre::examine(f, shipped().drive), ts_s, failures);
+    return failures;
+}
+
+void expect_one(const LoopFamily &f, const std::string &piece)
+{
+    const auto failures = failures_of(f);
+    ASSERT_FALSE(failures.empty()) << piece;
+    EXPECT_NE(failures[0].find(piece), std::string::npos) << failures[0];
+}
+
+} // namespace
+
+TEST(Verdict, HealthyLoopPasses)
+{
+    EXPECT_TRUE(failures_of(healthy()).empty());
+    const Verdict v = sdre::examine(healthy(), shipped().drive);
+    EXPECT_DOUBLE_EQ(v.spectral_radius, good);
+    EXPECT_EQ(v.box->share, 1.0);
+    EXPECT_EQ(v.alone->share, 1.0);
+    for (const sdre::Channel &c : v.channels) { // |1 - 0.1 / (z - 0.9)|: largest at z = -1
+        EXPECT_NEAR(c.worst.peak, 1.0 + 0.1 / 1.9, 1e-6);
+        EXPECT_NEAR(c.worst.peak_Hz, 2500.0, 1.0);
+    }
+}
+
+TEST(Verdict, EveryPlaceIsLookedAt)
+{
+    const double rated = shipped().drive.motor.rated_speed_e_radps;
+    const double top   = static_cast<double>(shipped().config.speed_max_e_radps);
+    const auto   at = [](const auto &where) { expect_one(unstable_if(where), "does not settle"); };
+    at([](const Motor &, const OperatingPoint &p) {
+        return p.omega_e_radps == 0.0 && p.iq_A == 0.0;
+    });
+    at([=](const Motor &, const OperatingPoint &p) { return p.omega_e_radps > 1.01 * rated; });
+    at([=](const Motor &, const OperatingPoint &p) {
+        return std::abs(p.omega_e_radps - rated) < 1.0;
+    });
+    at([](const Motor &, const OperatingPoint &p) { return p.iq_A > 3.9; });
+    at([](const Motor &, const OperatingPoint &p) { return p.iq_A < -3.9; });
+    at([=](const Motor &, const OperatingPoint &p) {
+        return p.omega_e_radps >= top && p.iq_A < 0.0;
+    });
+    at([](const Motor &, const OperatingPoint &p) {
+        return p.omega_e_radps == 0.0 && p.iq_A > 3.9;
+    });
+}
+
+TEST(Verdict, SlowModeIsNoStability)
+{
+    LoopFamily f = healthy();
+    f.loops      = [](const Motor &, const OperatingPoint &) {
+        const double pole = std::exp(-ts_s / (1.5 * sdre::slowest_mode_s));
+        return std::vector<BrokenLoop>{one_pole(pole, 1e-9), one_pole(pole, 1e-9)};
+    };
+    expect_one(f, "does not settle");
+}
+
+/// Stable, but close to the limit at one channel of one point: x+ = -0.9 x + 0.4 r has |S| = 5 at half the sampling rate.
+TEST(Verdict, EveryChannelHasItsMargin)
+{
+    for (const std::size_t channel : {std::size_t{0}, std::size_t{1}}) {
+        LoopFamily f = healthy();
+        f.loops      = [channel](const Motor &, const OperatingPoint &p) {
+            std::vector<BrokenLoop> loops{one_pole(good), one_pole(good)};
+            if (p.iq_A < 0.0) {
+                loops[channel] = one_pole(-good, 0.4);
+            }
+            return loops;
+        };
+        expect_one(f, f.channels[channel] + ": sensitivity peak 5");
+    }
+}
+
+/// More loops than channels: the law runs in two ways, and the second is the bad one.
+TEST(Verdict, EveryWayToRunIsJudged)
+{
+    LoopFamily f = healthy();
+    f.loops      = [](const Motor &, const OperatingPoint &) {
+        return std::vector<BrokenLoop>{one_pole(good), one_pole(good), one_pole(good),
+                                       one_pole(-good, 0.4)};
+    };
+    expect_one(f, "d axis: sensitivity peak 5");
+    f.loops = [](const Motor &m, const OperatingPoint &) {
+        const double pole = m.inertia_kgm2 < 0.8 * shipped().drive.motor.inertia_kgm2 ? bad : good;
+        return std::vector<BrokenLoop>{one_pole(good), one_pole(good), one_pole(pole),
+                                       one_pole(pole)};
+    };
+    expect_one(f, "unstable with a motor of");
+}
+
+TEST(Verdict, OtherMotorsAreAskedFor)
+{
+    const Motor     &own   = shipped().drive.motor;
+    const LoopFamily light = unstable_if([&](const Motor &m, const OperatingPoint &) {
+        return m.inertia_kgm2 < 0.55 * own.inertia_kgm2;
+    });
+    expect_one(light, "J x0.5"); // the box is wide enough, the end of the inertia alone is not
+    EXPECT_EQ(failures_of(light).size(), 1U);
+    LoopFamily paper = light;
+    paper.box_points.clear();
+    EXPECT_TRUE(failures_of(paper).empty());
+    const LoopFamily strong = unstable_if([&](const Motor &m, const OperatingPoint &) {
+        return m.pm_flux_Wb > 1.1 * own.pm_flux_Wb && m.inertia_kgm2 < 0.9 * own.inertia_kgm2;
+    });
+    expect_one(strong, "of the box of parameters");
+    EXPECT_EQ(failures_of(strong).size(), 1U); // alone each is fine
+}
+
+/// With harmonics at every quarter of the rated speed, without at the rated one.
+TEST(Verdict, OtherMotorsAreAskedForAtSpeeds)
+{
+    const Motor       &own   = shipped().drive.motor;
+    const double       rated = own.rated_speed_e_radps;
+    const sdre::Design harmonics =
+        sdre::design_drive(sdre::read_drive_file(support::shipped_drive("ipmsm_390w_noc_h")));
+    const auto high_L = [&](double speed) {
+        return unstable_if([&own, speed](const Motor &m, const OperatingPoint &p) {
+            return m.q_axis_inductance_H > 1.4 * own.q_axis_inductance_H &&
+                   std::abs(p.omega_e_radps - speed) < 1.0;
+        });
+    };
+    expect_one(high_L(rated), "L x1.4");
+    for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+        LoopFamily f = high_L(share * rated);
+        f.box_points = sdre::verdict_box_points(harmonics);
+        expect_one(f, "L x1.4");
+    }
+}
+
+TEST(Verdict, TripsThatAHealthyDriveReachesAreRefused)
+{
+    Verdict v = sdre::examine(healthy(), shipped().drive);
+    v.trips   = {{"disturbance", 10.0, 9.9}};
+    std::vector<std::string> failures;
+    sdre::judge(v, ts_s, failures);
+    EXPECT_TRUE(failures.empty());
+    v.trips = {{"disturbance", 10.0, 10.1}};
+    sdre::judge(v, ts_s, failures);
+    ASSERT_EQ(failures.size(), 1U);
+    EXPECT_NE(failures[0].find("disturbance: a healthy drive reaches 10.1, its trip is at 10"),
+              std::string::npos)
+        << failures[0];
+}
+
+/// Not a number is not below a limit.
+TEST(Verdict, NotANumberIsRefused)
+{
+    LoopFamily f = healthy();
+    f.loops      = [](const Motor &, const OperatingPoint &p) {
+        const double pole = p.iq_A > 0.0 ? std::nan("") : good;
+        return std::vector<BrokenLoop>{one_pole(pole), one_pole(pole)};
+    };
+    EXPECT_FALSE(failures_of(f).empty());
+}
+
+/// The noise of a sensor that the weights stand for, six times, and the step of all the torque, far from the trip; a drive
+/// that believes in a noisy sensor and trusts it all the same is refused.
+TEST(Verdict, NoiseBelongsBelowTheTrip)
+{
+    const Verdict &v = *shipped().certificate.loop;
+    ASSERT_EQ(v.trips.size(), 1U);
+    const double step = 0.5 * v.trips[0].limit; // the trip is at twice the torque
+    EXPECT_GT(v.trips[0].healthy, step);
+    EXPECT_LT(v.trips[0].healthy, 1.2 * step);
+
+    sdre::Drive noisy = shipped().drive;
+    noisy.nodo.T[2] *= 1e6; // 25 mrad, 20 counts
+    noisy.nodo.Q[0] *= 1e6;
+    const sdre::Certificate c    = sdre::design_drive(noisy).certificate;
+    bool                    said = false;
+    for (const std::string &failure : c.failures) {
+        said = said || failure.find("disturbance of the speed") == 0;
+    }
+    EXPECT_TRUE(said);
+}

@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: MIT */
+/* One period of the application and one pass of its Modbus server, for the analyser (docs/assurance.md): any sample of the
+ * board, any command, any octets; the board's own constants; every number of the state any bits. The law is one that answers
+ * anything, and the drive's constants are any finite numbers. */
+#include "any_law.h"
+#include "app_modbus.h"
+#include "app_modes.h"
+#include "board_config.h"
+
+volatile app_modes_t    any_modes;
+volatile board_sample_t any_raw;
+volatile app_command_t  any_command;
+volatile app_modbus_t   any_modbus;
+volatile app_status_t   any_status;
+volatile unsigned       any_word;
+drive_config_t          config;
+app_modes_t             modes;
+board_sample_t          raw;
+app_modbus_t            modbus;
+app_registers_t         registers;
+
+/* What app_angle.c turns at the most without an index. */
+#define TURN_cnt ((int)BOARD_POSITIONS + (int)board_config.angle.index_correct_max_cnt)
+
+static int any_between(int lo, int hi)
+{
+    const int x = any_int;
+
+    return (x < lo) ? lo : ((x > hi) ? hi : x);
+}
+
+static void any_sample(void)
+{
+    raw            = any_raw;
+    raw.index_seen = any_bool();
+    raw.edge_seen  = any_bool();
+    raw.valid      = any_bool();
+}
+
+static void any_state(void)
+{
+    config.law            = &any_law;
+    config.constants      = &config; /* the law reads none */
+    config.overmodulation = any_bool();
+
+    modes                             = any_modes;
+    modes.config                      = &board_config;
+    modes.mode                        = any_between(APP_MODE_BOOT, APP_MODE_STOP);
+    modes.fault                       = any_between(APP_FAULT_NONE, APP_FAULT_MEMORY);
+    modes.calibrated                  = any_bool();
+    modes.armed                       = any_bool();
+    modes.hot                         = any_bool();
+    modes.dc_link_out                 = any_bool();
+    modes.tripped                     = any_bool();
+    modes.gate_on                     = any_bool();
+    modes.too_hot                     = any_bool();
+    modes.angle.have_turned           = any_bool();
+    modes.angle.have_index            = any_bool();
+    modes.drive.config                = &config;
+    modes.drive.config_again          = &config;
+    modes.drive.law_again             = config.law;
+    modes.drive.constants_again       = config.constants;
+    modes.drive.wanted.predicted      = any_bool();
+    modes.drive.current_watch.expects = any_bool();
+    modes.drive.current_watch.models  = any_bool();
+    modes.drive.state                 = any_between(DRIVE_OFF, DRIVE_FAULT);
+    modes.drive.fault                 = any_between(DRIVE_FAULT_NONE, DRIVE_FAULT_MEMORY);
+    modes.drive.v_limited             = any_bool();
+    modes.drive.wanted.plausible      = any_bool();
+    modes.drive.wanted.without_angle  = any_bool();
+    modes.drive.current_gate.jumped   = any_bool();
+    modes.scale.config                = &board_config.scale;
+    modes.scale.inv_ntc_step    = 1.0f / (float)board_config.scale.ntc_step_cnt; /* by its init */
+    modes.angle.config          = &board_config.angle;
+    modes.angle.edge_times      = any_bool();
+    modes.angle.have_before     = any_bool();
+    modes.angle.have_edge       = any_bool();
+    modes.angle.since_index_cnt = any_between(-TURN_cnt, TURN_cnt);
+    modes.angle.reference       = any_between(APP_ANGLE_NONE, APP_ANGLE_INDEX);
+    modes.align.config          = &board_config.align;
+    modes.align.drive           = &config;
+    modes.align.stage           = any_between(APP_ALIGN_WATCH, APP_ALIGN_FAILED);
+    modes.stop.config           = &board_config.stop;
+    modes.stop.shorted          = any_bool();
+    modes.sample.valid          = any_bool();
+    modes.sample.temperature_valid = any_bool();
+    modes.reading.speed_valid      = any_bool();
+    modes.reading.index_fault      = any_bool();
+}
+
+static void is_count(uint16_t cnt)
+{
+    //@ check full: cnt <= BOARD_DUTY_FULL;
+}
+
+/* Entry: a tick of the application in any state. */
+void prove_app_tick(void)
+{
+    any_sample();
+    any_state();
+    app_modes_input_t in = {.raw = &raw, .board_faults = (uint16_t)any_int, .command = any_command};
+    in.background_lost   = any_bool();
+    in.tick_missing      = any_bool();
+    in.memory_changed    = any_bool();
+    in.command.run       = any_bool();
+    in.command.reset     = any_bool();
+
+    const bridge_t     out  = app_modes_tick(&modes, &in);
+    const board_duty_t duty = app_gate_duty(&board_config.gate, out.duty);
+
+    is_count(duty.a_cnt);
+    is_count(duty.b_cnt);
+    is_count(duty.c_cnt);
+    //@ check mode: APP_MODE_BOOT <= modes.mode <= APP_MODE_STOP;
+    //@ check fault: APP_FAULT_NONE <= modes.fault <= APP_FAULT_MEMORY;
+    //@ check stage: APP_ALIGN_WATCH <= modes.align.stage <= APP_ALIGN_FAILED;
+    //@ check since_index: -12500 <= modes.angle.since_index_cnt <= 12500;
+    //@ check reference: APP_ANGLE_NONE <= modes.angle.reference <= APP_ANGLE_INDEX;
+}
+
+/* The board's serial line: any octets, room or not. */
+bool board_serial_read(uint16_t *octet)
+{
+    *octet = (uint16_t)(any_word & 0xFFU);
+    return any_bool();
+}
+
+bool board_serial_write(uint16_t octet)
+{
+    (void)octet;
+    return any_bool();
+}
+
+static void any_registers(void)
+{
+    app_status_t *const s = &registers.status;
+
+    *s                         = any_status;
+    s->hot                     = any_bool();
+    s->dc_link_out             = any_bool();
+    s->tripped                 = any_bool();
+    s->shorted                 = any_bool();
+    s->gate_enable             = any_bool();
+    s->without_angle           = any_bool();
+    s->snapshot.raw.valid      = any_bool();
+    s->snapshot.raw.index_seen = any_bool();
+    registers.command          = any_command;
+    registers.command.run      = any_bool();
+    registers.command.reset    = any_bool();
+    registers.silent           = any_bool();
+    registers.changed          = any_bool();
+}
+
+/* Entry: a pass of the server in any state. */
+void prove_modbus(void)
+{
+    modbus           = any_modbus;
+    modbus.rx_count  = (uint16_t)any_between(0, APP_MODBUS_FRAME_MAX);
+    modbus.tx_count  = (uint16_t)any_between(0, APP_MODBUS_FRAME_MAX);
+    modbus.tx_sent   = (uint16_t)any_between(0, modbus.tx_count);
+    modbus.rx_spoilt = any_bool();
+    any_registers();
+    app_modbus_poll(&modbus, &registers, any_word);
+    //@ check received: modbus.rx_count <= APP_MODBUS_FRAME_MAX;
+    //@ check answered: modbus.tx_count <= APP_MODBUS_FRAME_MAX;
+}

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: MIT
+"""The unit tests of firmware/control and firmware/app built by hand, quickly: for coverage.py and mutate.py."""
+import os
+import re
+import subprocess
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+BOARD = ROOT / "firmware/board/f28335"
+INCLUDES = [ROOT / p for p in ("firmware/control", "firmware/app", "firmware/board", "firmware/board/f28335",
+                               "firmware/config", "tests/support", "build/unity")]
+FLAGS = ["-std=c99", "-w", "-ffp-contract=off", "-DUNITY_INCLUDE_DOUBLE", "-DUNITY_SUPPORT_64",
+         *[f"-I{p}" for p in INCLUDES]]
+# As tests/CMakeLists.txt: tables of drives that the shipped one is not.
+TABLES = {"speed_tables": "ipmsm_390w_speed", "conventional_tables": "ipmsm_390w_conventional",
+          "harmonic_tables": "ipmsm_390w_noc_h"}
+JOBS = os.cpu_count() or 1
+
+
+def run(command, **options):
+    return subprocess.run([str(word) for word in command], capture_output=True, text=True, **options)
+
+
+def require(command):
+    result = run(command)
+    if result.returncode != 0:
+        raise SystemExit(f"{' '.join(map(str, command))}:\n{result.stderr}")
+
+
+def sources():
+    """What is measured: every .c file of the core and of the application."""
+    return sorted((ROOT / "firmware/control").glob("*.c")) + sorted((ROOT / "firmware/app").glob("*.c"))
+
+
+def tests():
+    """Names of the unit tests that need nothing but core, application and the fake board."""
+    names = [p.stem for p in sorted((ROOT / "tests/unit").glob("test_*.c"))]
+    return [n for n in names if n != "test_app_main"]  # that one is of the board's main()
+
+
+class Build:
+    """Objects of everything in one directory."""
+
+    def __init__(self, directory, extra):
+        self.directory = Path(directory)
+        self.flags = [*FLAGS, *extra]
+        self.directory.mkdir(parents=True, exist_ok=True)
+        tables = [self._table(name, drive) for name, drive in TABLES.items()]
+        work = [(p, p.stem, []) for p in sources()]
+        work += [(BOARD / "board_config.c", "board_config", []), (ROOT / "firmware/config/gain_tables.c", "gain_tables", []),
+                 (ROOT / "build/unity/unity.c", "unity", []), (ROOT / "tests/support/fake_board.c", "fake_board", [])]
+        work += [(ROOT / f"tests/unit/{n}.c", n, []) for n in tests()]
+        work += [(path, name, [f"-Dgain_tables_drive={name}_drive"]) for name, path in tables]
+        with ThreadPoolExecutor(JOBS) as pool:
+            list(pool.map(lambda w: require(["gcc", *self.flags, *w[2], "-c", w[0], "-o", self.object(w[1])]), work))
+        self.common = [self.object(p.stem) for p in sources()]
+        self.common += [self.object(n) for n in ("board_config", "gain_tables", "unity", "fake_board", *TABLES)]
+
+    def object(self, stem):
+        return self.directory / f"{stem}.o"
+
+    def _table(self, name, drive):
+        out = self.directory / name
+        require([ROOT / "build/host/bin/sdre-gains", "generate", ROOT / f"firmware/config/drives/{drive}.toml", "--out", out])
+        return name, out / "gain_tables.c"
+
+    def link(self, test, program, instead=None):
+        """The test's program; `instead` maps a module to another object of it."""
+        objects = [(instead or {}).get(o.stem, o) for o in self.common]
+        return run(["gcc", *self.flags, self.object(test), *objects, "-lm", "-o", program])
+
+
+def passes(program, seconds):
+    """Whether a test program ends well in time."""
+    try:
+        return run([program], timeout=seconds).returncode == 0
+    except subprocess.TimeoutExpired:
+        return False
+
+
+def code_lines(text):
+    """The lines of a C file without comments, preprocessor and strings, each as long as it was."""
+    text = re.sub(r"/\*.*?\*/", lambda m: re.sub(r"[^\n]", " ", m.group()), text, flags=re.S)
+    lines = text.split("\n")
+    return ["" if line.lstrip().startswith("#") else line.split("//")[0] for line in lines]

@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: MIT */
+#include "motion_watch.h"
+
+#include "gain_tables.h"
+#include "unity.h"
+
+#define TS_s  200.0e-6f
+#define MAX_A 4.0f
+
+static motion_watch_t       watch;
+static motion_watch_input_t in;
+
+void setUp(void)
+{
+    const motion_watch_input_t healthy = {.motor           = &gain_tables_drive.motor,
+                                          .current_max_A   = MAX_A,
+                                          .ts_s            = TS_s,
+                                          .now             = {300.0f, 2.3f, -0.5f},
+                                          .command_e_radps = 300.0f,
+                                          .dc_link_V       = 295.0f};
+    in                                 = healthy;
+    motion_watch_reset(&watch);
+}
+
+void tearDown(void) {}
+
+/* Periods until it is found; 0: not within so many. */
+static int found_after(motion_watch_verdict_t verdict, int most)
+{
+    for (int k = 1; k <= most; k++) {
+        const motion_watch_verdict_t found = motion_watch_judge(&watch, &in);
+        if (found != MOTION_WATCH_GOOD) {
+            TEST_ASSERT_EQUAL_INT(verdict, found);
+            return k;
+        }
+    }
+    return 0;
+}
+
+static void test_a_motor_that_runs_as_it_should_is_good(void)
+{
+    TEST_ASSERT_EQUAL_INT(0, found_after(MOTION_WATCH_GOOD, 10000));
+}
+
+/* With 2.8 A: 0.6 (2.48 Ohm 2.8 A + (0.193 Wb + 0.11391 H 2.8 A) w) + 5.9 V */
+static void test_a_voltage_beyond_what_a_wrong_motor_explains_is_odd(void)
+{
+    const float lq_H = 0.11391f;
+    const float ld_H = 0.07498f;
+    for (int way = 0; way < 4; way++) {
+        setUp();
+        in.now.omega_e_radps = (way < 2) ? 0.0f : -200.0f;
+        const float most_V   = (0.6f * (6.944f + (0.511948f * ((way < 2) ? 0.0f : 200.0f)))) + 5.9f;
+        in.command_e_radps   = in.now.omega_e_radps;
+        float *const d       = ((way & 1) != 0) ? &in.d_Aps.d : &in.d_Aps.q;
+        const float  l_H     = ((way & 1) != 0) ? ld_H : lq_H;
+        *d                   = -0.99f * most_V / l_H;
+        TEST_ASSERT_EQUAL_INT(0, found_after(MOTION_WATCH_GOOD, 200));
+        *d = 1.01f * most_V / l_H;
+        TEST_ASSERT_INT_WITHIN(1, 51, found_after(MOTION_WATCH_ODD, 200)); /* 10 ms */
+    }
+    setUp();
+    in.d_Aps.q = NAN;
+    TEST_ASSERT_INT_WITHIN(1, 51, found_after(MOTION_WATCH_ODD, 200));
+}
+
+static void push(float omega_e_radps)
+{
+    in.now.iq_A          = 3.7f;
+    in.now.id_A          = 0.0f;
+    in.now.omega_e_radps = omega_e_radps;
+}
+
+static void test_torque_without_an_edge_is_a_stall_after_50_ms(void)
+{
+    push(0.0f);
+    in.edge_gap_s = 0.05f;
+    TEST_ASSERT_INT_WITHIN(1, 251, found_after(MOTION_WATCH_STALL, 1000));
+}
+
+static void test_an_edge_begins_the_50_ms_anew(void)
+{
+    push(15.0f); /* faster than the other check sees */
+    for (int k = 0; k < 3000; k++) {
+        in.edge_gap_s = TS_s * (float)(k % 200);
+        TEST_ASSERT_EQUAL_INT(MOTION_WATCH_GOOD, motion_watch_judge(&watch, &in));
+    }
+}
+
+static void test_a_slow_shaft_at_the_limit_is_a_stall_after_half_a_second(void)
+{
+    push(-9.0f);
+    TEST_ASSERT_INT_WITHIN(2, 2501, found_after(MOTION_WATCH_STALL, 4000));
+    setUp(); /* not with less current, or where it has to stand */
+    push(0.0f);
+    in.now.iq_A   = 3.5f;
+    in.edge_gap_s = 0.05f;
+    TEST_ASSERT_EQUAL_INT(0, found_after(MOTION_WATCH_GOOD, 10000));
+    setUp();
+    push(0.0f);
+    in.command_e_radps = 0.0f;
+    in.edge_gap_s      = 0.05f;
+    TEST_ASSERT_EQUAL_INT(0, found_after(MOTION_WATCH_GOOD, 10000));
+}
+
+static void test_a_speed_that_leaves_its_command_at_the_limit_is_found_after_100_ms(void)
+{
+    int k = 0;
+
+    push(280.0f);
+    while ((k < 5000) && (motion_watch_judge(&watch, &in) == MOTION_WATCH_GOOD)) {
+        in.now.omega_e_radps -= 0.2f; /* 1000 rad/s^2 */
+        k++;
+    }
+    /* 30 rad/s until it is 50 away, then 0.1 s. */
+    TEST_ASSERT_INT_WITHIN(3, 150 + 501, k);
+}
+
+static void test_a_speed_on_its_way_or_with_current_left_is_good(void)
+{
+    push(-300.0f);
+    for (int k = 0; k < 3000; k++) {
+        in.now.omega_e_radps += 0.2f;
+        TEST_ASSERT_EQUAL_INT(MOTION_WATCH_GOOD, motion_watch_judge(&watch, &in));
+    }
+    in.command_e_radps = -300.0f; /* another command */
+    TEST_ASSERT_EQUAL_INT(0, found_after(MOTION_WATCH_GOOD, 3000));
+    setUp();
+    in.now.omega_e_radps = 100.0f;
+    for (int k = 0; k < 3000; k++) {
+        in.now.omega_e_radps -= 0.1f;
+        TEST_ASSERT_EQUAL_INT(MOTION_WATCH_GOOD, motion_watch_judge(&watch, &in));
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_motor_that_runs_as_it_should_is_good);
+    RUN_TEST(test_a_voltage_beyond_what_a_wrong_motor_explains_is_odd);
+    RUN_TEST(test_torque_without_an_edge_is_a_stall_after_50_ms);
+    RUN_TEST(test_an_edge_begins_the_50_ms_anew);
+    RUN_TEST(test_a_slow_shaft_at_the_limit_is_a_stall_after_half_a_second);
+    RUN_TEST(test_a_speed_that_leaves_its_command_at_the_limit_is_found_after_100_ms);
+    RUN_TEST(test_a_speed_on_its_way_or_with_current_left_is_good);
+    return UNITY_END();
+}
