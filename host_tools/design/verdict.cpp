@@ -122,7 +122,7 @@ std::vector<OperatingPoint> verdict_box_points(const Design &d)
 {
     const double iq   = d.drive.motor.max_current_A;
     const double slow = counts_that_tell * count_e_rad(d.drive) / control_period_s(d.drive);
-    std::vector<OperatingPoint> points{{slow, 0.0, d.l[0]}};
+    std::vector<OperatingPoint> points{{slow, 0.0, mtpa_id_A(d.l, 0.0)}};
     const double                rated = d.drive.motor.rated_speed_e_radps;
     points.push_back(held_point(d, rated, iq));
     if (d.harmonics) { // their frequencies are multiples of the speed: each passes the crossover somewhere

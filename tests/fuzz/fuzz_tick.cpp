@@ -119,7 +119,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
             rotor.i_A = config.current_max_A * in.share();
             break;
         case 1:
-            command = {config.speed_max_e_radps * in.share(), (what & 15U) != 0U};
+            command = {config.speed_max_e_radps * in.share(), (what & 15U) != 0U, 0.0F};
             break;
         case 2:
             spoil(in, (what & 63) % 11, s, command);
@@ -127,7 +127,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
         default:
             if (drive.state == DRIVE_FAULT) {
                 drive_reset(&drive);
-                command = {0.0F, true};
+                command = {0.0F, true, 0.0F};
                 rotor   = Rotor();
             }
         }

@@ -13,6 +13,9 @@ void prove_gate(void)
 {
     drive                       = any_drive;
     drive.config                = any_bool() ? &config : NULL;
+    drive.config_again          = any_bool() ? &config : NULL;
+    drive.law_again             = any_bool() ? &any_law : NULL;
+    drive.constants_again       = any_bool() ? config.constants : NULL;
     drive.state                 = any_bool() ? DRIVE_OFF : (any_bool() ? DRIVE_RUN : DRIVE_FAULT);
     drive.wanted.plausible      = any_bool();
     drive.current_gate.jumped   = any_bool();

@@ -310,6 +310,42 @@ static void test_edge_times_give_angle_and_speed(void)
     }
 }
 
+/* After a change of direction the capture has no time; the edge is taken in the middle of its period, and nothing is learned
+ * from which of a line's edges it is. */
+static void test_an_edge_without_a_time_is_none_of_a_line(void)
+{
+    start_edges(4321.7);
+    app_angle_reading_t before = turn(20.0);
+    for (int n = 0; (n < 200) || (before.edge_of_line == 0); n++) {
+        before = turn(20.0);
+    }
+    const board_sample_t raw = {
+        .position_cnt = (uint16_t)(floor(shaft_cnt) + 1.0), .edge_seen = false, .valid = true};
+
+    const app_angle_reading_t r = read_angle(&raw);
+
+    TEST_ASSERT_EQUAL_INT(0, r.edge_of_line);
+    TEST_ASSERT_TRUE(r.edge_gap_s > 0.0f);
+    TEST_ASSERT_TRUE(r.band_rad == 0.0f);
+}
+
+/* Backwards below the angle's zero, with an edge passed long before the sample: the angle stays within a turn. */
+static void test_an_angle_below_zero_wraps(void)
+{
+    const uint16_t late_cnt = (uint16_t)(0.9 * (double)TS_S * 75.0e6);
+    board_sample_t raw      = {.position_cnt = 7U, .edge_seen = true, .valid = true};
+    start_edges(12.5);
+    (void)read_angle(&raw);
+    raw.position_cnt = 2U;
+    (void)read_angle(&raw);
+    raw.position_cnt = 0U;
+    raw.edge_age_cnt = late_cnt;
+
+    const double theta = (double)read_angle(&raw).theta_e_rad;
+
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_RAD, two_pi - (0.5 * 2.0 * two_pi / 10000.0), theta);
+}
+
 /* EQ-APP-ANGLE-5: counts alone tell the angle to what the shaft turns in half a period; without one it is within the count. */
 static void test_counts_that_come_one_at_a_time_tell_more_than_their_middle(void)
 {
@@ -508,6 +544,8 @@ int main(void)
     RUN_TEST(test_index_fault_lasts_one_sample);
     RUN_TEST(test_edge_times_give_angle_and_speed);
     RUN_TEST(test_counts_that_come_in_plenty_have_a_band_of_a_quarter);
+    RUN_TEST(test_an_edge_without_a_time_is_none_of_a_line);
+    RUN_TEST(test_an_angle_below_zero_wraps);
     RUN_TEST(test_counts_that_come_one_at_a_time_tell_more_than_their_middle);
     RUN_TEST(test_speed_without_edges_is_bounded_by_their_absence);
     RUN_TEST(test_a_shaft_that_turns_back_and_forth_has_no_speed_that_grows);

@@ -53,7 +53,7 @@ void certify_whole(Design &d, const encoder_form_limits_t &limits)
         return broken_at_voltages(m.A, m.B_voltage, m.C_voltage, m.ts_s);
     };
     const SampledModel m =
-        model_at(d, d.drive.motor, {d.drive.motor.rated_speed_e_radps, 0.0, d.l[0]});
+        model_at(d, d.drive.motor, {d.drive.motor.rated_speed_e_radps, 0.0, mtpa_id_A(d.l, 0.0)});
     certify_loop(d, f, {disturbance_margin(d, limits, m.A, m.B_noise, d.drive.nodo.T[2])});
 }
 

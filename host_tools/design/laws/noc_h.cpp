@@ -76,7 +76,7 @@ void certify_whole(Design &d, const encoder_form_limits_t &limits)
         return broken_at_voltages(m.A, m.B_voltage, m.C_voltage, control_period_s(d.drive));
     };
     const double          rated = d.drive.motor.rated_speed_e_radps;
-    const HarmonicSampled m     = model_at(d, d.drive.motor, {rated, 0.0, d.l[0]});
+    const HarmonicSampled m     = model_at(d, d.drive.motor, {rated, 0.0, mtpa_id_A(d.l, 0.0)});
     certify_loop(d, f,
                  {disturbance_margin(d, limits, m.A, m.B_noise, angle_weight(d.drive, rated))});
 }
