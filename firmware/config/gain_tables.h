@@ -8,8 +8,6 @@
  * checked    relative residuals <= 1e-16
  *            controller: slowest pole -551 1/s, sampled spectral radius 0.890, |e_iq| <= 8 A
  *            observer:   slowest pole -621 1/s, sampled spectral radius 0.924, |iq| <= 8 A
- * checked    q axis:     sensitivity peak 1.84 at 225 Hz, sampled spectral radius 0.9017
- * checked    d axis:     sensitivity peak 2.25 at 175 Hz, sampled spectral radius 0.9017
  *            motors:     stable in 0.64 of EQ-CERT-5's box
  */
 #ifndef GAIN_TABLES_H

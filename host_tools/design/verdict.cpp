@@ -9,6 +9,7 @@
 
 #include "common/parallel.hpp"
 #include "design/design.hpp"
+#include "design/sampled_model.hpp"
 
 namespace sdre {
 namespace {
@@ -73,6 +74,29 @@ void keep_worst(Verdict &v, const Found &found, const OperatingPoint &at)
     }
 }
 
+/// On the MTPA curve; where the dc link cannot hold that, with weakened flux and of the q current what is left: no drive is
+/// ever anywhere else for longer than a transient.
+OperatingPoint held_point(const Design &d, double speed_e_radps, double iq_A)
+{
+    const Motor &m    = d.drive.motor;
+    const double most = d.drive.inverter.dc_link_V / std::sqrt(3.0) /
+                        std::max(std::abs(speed_e_radps), 1e-9); // flux linkage
+    for (double share = 1.0; share > 0.0; share -= 0.02) {
+        const double iq      = share * iq_A;
+        const double id_mtpa = mtpa_id_A(d.l, iq);
+        const double q_Wb    = m.q_axis_inductance_H * iq;
+        const double d_Wb    = std::sqrt(std::max(most * most - q_Wb * q_Wb, 0.0));
+        const double id_A    = std::min(id_mtpa, (d_Wb - m.pm_flux_Wb) / m.d_axis_inductance_H);
+        const bool   held =
+            std::abs(q_Wb) <= most && m.pm_flux_Wb + m.d_axis_inductance_H * id_A >= -d_Wb;
+        if (held && std::hypot(iq, id_A) <= 1.001 * m.max_current_A) {
+            return {speed_e_radps, iq, id_A};
+        }
+    }
+    return {speed_e_radps, 0.0,
+            std::clamp((most - m.pm_flux_Wb) / m.d_axis_inductance_H, -m.max_current_A, d.l[0])};
+}
+
 std::string point_name(const OperatingPoint &at)
 {
     return fmt::format("{:.0f} rad/s, iq {:.2f} A", at.omega_e_radps, at.iq_A);
@@ -88,7 +112,7 @@ std::vector<OperatingPoint> verdict_points(const Design &d)
     std::vector<OperatingPoint> points;
     for (const double speed : {0.0, rated, top}) {
         for (const double iq : {0.0, most, -most}) {
-            points.push_back({speed, iq, mtpa_id_A(d.l, iq)});
+            points.push_back(held_point(d, speed, iq));
         }
     }
     return points;
@@ -100,10 +124,10 @@ std::vector<OperatingPoint> verdict_box_points(const Design &d)
     const double slow = counts_that_tell * count_e_rad(d.drive) / control_period_s(d.drive);
     std::vector<OperatingPoint> points{{slow, 0.0, mtpa_id_A(d.l, 0.0)}};
     const double                rated = d.drive.motor.rated_speed_e_radps;
-    points.push_back({rated, iq, mtpa_id_A(d.l, iq)});
+    points.push_back(held_point(d, rated, iq));
     if (d.harmonics) { // their frequencies are multiples of the speed: each passes the crossover somewhere
         for (const double share : {0.25, 0.5, 0.75}) {
-            points.push_back({share * rated, iq, mtpa_id_A(d.l, iq)});
+            points.push_back(held_point(d, share * rated, iq));
         }
     }
     return points;

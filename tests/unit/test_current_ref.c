@@ -322,7 +322,7 @@ static void test_id_stays_at_rest_current_without_load(void)
     update();
     TEST_ASSERT_TRUE(r.i_A.d == -0.5f);
 
-    est.d_omega = -4000.0f; /* a load that takes more than 0.5 A of the curve */
+    est.d_omega = -8000.0f; /* a load that takes more than 0.5 A of the curve */
     for (int n = 0; n < 3; n++) {
         update();
     }
