@@ -15,7 +15,7 @@
     0.5f /* chosen: longer than a heavy load takes to start, shorter than the motor to heat up */
 #define AWAY_e_radps 20.0f /* chosen: three counts per period, the noise of a plain difference */
 #define FAR_e_radps  50.0f /* chosen: a tenth of the rated speed of the shipped motor */
-#define AWAY_s       0.1f
+#define AWAY_s       0.25f
 
 static const motion_watch_t rest = {.odd_s = 0.0f};
 

@@ -8,7 +8,7 @@
  *              for 10 ms                                                           EQ-MOTION-WATCH-1
  *     stall:   abs(i) > 0.9 i_max and abs(w* - w) > 10 rad/s, and for 50 ms no edge of the encoder, or for 0.5 s
  *              abs(w) < 10 rad/s                                                   EQ-MOTION-WATCH-2
- *     away:    abs(i) > 0.9 i_max, and abs(w* - w) is beyond 50 rad/s and for 100 ms 20 rad/s more than it has been with
+ *     away:    abs(i) > 0.9 i_max, and abs(w* - w) is beyond 50 rad/s and for 250 ms 20 rad/s more than it has been with
  *              this command and current                                            EQ-MOTION-WATCH-3
  *
  * d are the observer's disturbances of the current equations, behind a low-pass. The bound of EQ-MOTION-WATCH-1 is what a

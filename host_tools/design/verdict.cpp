@@ -18,6 +18,12 @@ namespace {
 // less than any linear model assumes.
 constexpr double counts_that_tell = 8.0;
 
+/// The larger one, and no number above all.
+double worse(double a, double b)
+{
+    return a <= b || std::isnan(b) ? b : a;
+}
+
 /// What is found at one point.
 struct Found {
     double                 spectral_radius = 0.0;
@@ -32,9 +38,9 @@ Found examine_point(const LoopFamily &family, const Drive &drive, const Operatin
     for (std::size_t i = 0; i < loops.size(); i++) {
         LoopCheck  now        = check_loop(loops[i], disturbance_frequencies(drive));
         LoopCheck &kept       = found.channels[i % family.channels.size()];
-        found.spectral_radius = std::max(found.spectral_radius, now.spectral_radius);
-        const double radius   = std::max(kept.spectral_radius, now.spectral_radius);
-        if (now.peak > kept.peak) {
+        found.spectral_radius = worse(found.spectral_radius, now.spectral_radius);
+        const double radius   = worse(kept.spectral_radius, now.spectral_radius);
+        if (!(now.peak <= kept.peak)) {
             kept = std::move(now);
         }
         kept.spectral_radius = radius;

@@ -33,7 +33,7 @@ const std::vector<Key> scalar_keys{
     {"motor", "stator_resistance_Ohm", 1e-5, 1e3, false, "1e-05 .. 1000"},
     {"motor", "d_axis_inductance_H", 1e-7, 10, false, "1e-07 .. 10"},
     {"motor", "q_axis_inductance_H", 1e-7, 10, false, "1e-07 .. 10"},
-    {"motor", "pm_flux_Wb", 1e-5, 10, false, "1e-05 .. 10"},
+    {"motor", "pm_flux_Wb", 0, 10, false, "0 .. 10"},
     {"motor", "inertia_kgm2", 1e-9, 1e3, false, "1e-09 .. 1000"},
     {"motor", "viscous_friction_Nms", 0, 100, false, "0 .. 100"},
     {"motor", "rated_speed_e_radps", 1, 1e5, false, "1 .. 100000"},

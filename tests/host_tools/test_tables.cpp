@@ -75,10 +75,25 @@ void add_observer(std::vector<float> &v, const std::vector<float> &ranges, int o
 void add_near_optimal(std::vector<float> &v, const near_optimal_config_t &c)
 {
     const current_ref_config_t &r = c.current_ref;
-    v.insert(v.end(), {r.current_max_A, r.iq_max_A, r.mtpa_A, r.mtpa_half_1pA, r.voltage_share,
-                       r.torque_share, r.near_e_radps, r.l1_min, r.filter_per_period, r.filter_1ps,
-                       r.samples_1ps, r.regen_max_W_norm, r.regen_start_V, r.regen_per_V,
-                       c.nosc.iq_error_max_A, c.nosc.iq_speed_max_A, c.nosc.speed_A_per_radps,
+    v.insert(v.end(), {r.current_max_A,
+                       r.iq_max_A,
+                       r.mtpa_A,
+                       r.mtpa_half_1pA,
+                       r.voltage_share,
+                       r.torque_share,
+                       r.near_e_radps,
+                       r.id_rest_A,
+                       r.flux_A,
+                       r.l1_min,
+                       r.filter_per_period,
+                       r.filter_1ps,
+                       r.samples_1ps,
+                       r.regen_max_W_norm,
+                       r.regen_start_V,
+                       r.regen_per_V,
+                       c.nosc.iq_error_max_A,
+                       c.nosc.iq_speed_max_A,
+                       c.nosc.speed_A_per_radps,
                        c.nosc.speed_radps_per_A});
     for (int n = 0; n <= c.nosc.order; n++) {
         for (const auto &row : c.nosc.lambda[n]) {

@@ -173,7 +173,6 @@ TEST(Tune, CommandRefusesWithOneLineAndLeavesTheDriveFile)
         return support::run_command(arguments);
     };
 
-    support::expect_refused(tune({drive}), 1, tool, {"--spec"});
     support::expect_refused(tune({drive, "--spec", bad}), 1, tool, {"voltage_V is missing"});
     support::expect_refused(tune({drive, "--spec", (dir / "none").string()}), 1, tool, {"none"});
     support::expect_refused(tune({(dir / "none").string(), "--spec", board_spec.string()}), 1, tool,

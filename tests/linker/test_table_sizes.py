@@ -52,7 +52,7 @@ class TableSizes(unittest.TestCase):
         # motor: 13 floats; dead time: 2; seven scalars, a flag with a pad before the floats; hardware: two long ones, two
         # integers, a flag with a pad; two pointers.
         self.assertEqual(self.sizes["drive"], 2 * 13 + 2 * 2 + 2 * 7 + 2 + (2 * 2 + 2 + 2) + 2 * 2)
-        self.assertEqual(self.sizes["law"], 3 * 2)
+        self.assertEqual(self.sizes["law"], 5 * 2)
 
     def test_every_law_fits(self):
         self.assertGreaterEqual(len(laws()), 6)

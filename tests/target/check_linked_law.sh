@@ -60,10 +60,10 @@ if grep -E '^(law_|nodo|dobc|nosc|pid_law|near_optimal|foc|speed_difference)' "$
     status=1
 fi
 
-expect noc angle_gate current_ref encoder_form law_noc near_optimal nodo nodo_current nodo_encoder nosc speed_ref
-expect noc_speed current_ref law_noc_speed near_optimal nodo nosc speed_ref
-expect noc_h angle_gate current_ref encoder_form law_noc_h near_optimal nodo nodo_encoder nodo_harmonic nosc speed_ref
-expect conventional conventional current_ref double_series law_conventional law_noc_speed near_optimal nodo nosc speed_ref
+expect noc angle_gate current_clamp current_ref encoder_form law_noc near_optimal nodo nodo_current nodo_encoder nosc speed_ref
+expect noc_speed current_clamp current_ref law_noc_speed near_optimal nodo nosc speed_ref
+expect noc_h angle_gate current_clamp current_ref encoder_form law_noc_h near_optimal nodo nodo_encoder nodo_harmonic nosc speed_ref
+expect conventional conventional current_clamp current_ref double_series law_conventional law_noc_speed near_optimal nodo nosc speed_ref
 expect dobc dobc law_dobc pid_law
 expect pid feedforward law_pid pid_law
 expect pi_foc foc law_pi_foc speed_difference

@@ -140,7 +140,7 @@ static void test_its_constants_are_checked_by_itself_and_once(void)
 
 static void test_drive_is_checked_with_any_law(void)
 {
-    config.motor.l5 = 0.0f;
+    config.motor.l6 = 0.0f;
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, drive_init(&drive, &config));
     setUp();
     config.dead_time.inv_fade_1pA = 0.0f;
