@@ -32,7 +32,7 @@ static const entry_t entries[] = {
     {&config.speed_max_e_radps, POSITIVE},
     {&config.dc_link_min_V, POSITIVE},
     {&config.dc_link_max_V, POSITIVE},
-    {&config.motor.l1, POSITIVE},
+    {&config.motor.l1, ZERO_OR_MORE},
     {&config.motor.l2, ZERO_OR_MORE},
     {&config.motor.l3, POSITIVE},
     {&config.motor.l4, POSITIVE},
