@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -36,7 +37,10 @@ Found examine_point(const LoopFamily &family, const Drive &drive, const Operatin
     Found                         found;
     found.channels.resize(family.channels.size());
     for (std::size_t i = 0; i < loops.size(); i++) {
-        LoopCheck  now        = check_loop(loops[i], disturbance_frequencies(drive));
+        LoopCheck now = check_loop(loops[i], disturbance_frequencies(drive));
+        if (!loops[i].A.allFinite()) { // of such a matrix the eigenvalues say nothing
+            now.spectral_radius = std::numeric_limits<double>::infinity();
+        }
         LoopCheck &kept       = found.channels[i % family.channels.size()];
         found.spectral_radius = worse(found.spectral_radius, now.spectral_radius);
         const double radius   = worse(kept.spectral_radius, now.spectral_radius);

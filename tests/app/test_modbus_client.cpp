@@ -230,6 +230,8 @@ TEST_F(ModbusClient, StartsAndStopsTheDrive)
 {
     write(holding_speed, static_cast<std::uint16_t>(-123));
     EXPECT_EQ(holding(holding_speed), 65536 - 123);
+    write(holding_speed,
+          0); // the fake board's motor never turns and has no current: that is all it can do
     write(holding_run, 1);
     expect_mode(mode_run);
     EXPECT_TRUE(server_.gate());
@@ -240,9 +242,14 @@ TEST_F(ModbusClient, StartsAndStopsTheDrive)
 
 TEST_F(ModbusClient, WritesSeveralRegistersAtOnce)
 {
-    const std::array<std::uint16_t, 3> block = {1, 0, 500};
-    ASSERT_EQ(modbus_write_registers(client_, 0, 3, block.data()), 3) << modbus_strerror(errno);
-    EXPECT_EQ(holding(holding_speed), 500);
+    const auto block = [this](std::uint16_t run, std::uint16_t speed) {
+        const std::array<std::uint16_t, 3> values = {run, 0, speed};
+        ASSERT_EQ(modbus_write_registers(client_, 0, 3, values.data()), 3)
+            << modbus_strerror(errno);
+        EXPECT_EQ(holding(holding_speed), speed);
+    };
+    block(0, 500);
+    block(1, 0);
     expect_mode(mode_run);
 }
 

@@ -103,13 +103,13 @@ TEST(Verdict, EveryPlaceIsLookedAt)
     at([=](const Motor &, const OperatingPoint &p) {
         return std::abs(p.omega_e_radps - rated) < 1.0;
     });
-    at([](const Motor &, const OperatingPoint &p) { return p.iq_A > 3.9; });
-    at([](const Motor &, const OperatingPoint &p) { return p.iq_A < -3.9; });
+    at([](const Motor &, const OperatingPoint &p) { return p.iq_A > 3.0; });
+    at([](const Motor &, const OperatingPoint &p) { return p.iq_A < -3.0; });
     at([=](const Motor &, const OperatingPoint &p) {
         return p.omega_e_radps >= top && p.iq_A < 0.0;
     });
     at([](const Motor &, const OperatingPoint &p) {
-        return p.omega_e_radps == 0.0 && p.iq_A > 3.9;
+        return p.omega_e_radps == 0.0 && p.iq_A > 3.0;
     });
 }
 

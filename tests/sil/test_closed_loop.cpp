@@ -257,11 +257,10 @@ TEST(ClosedLoop, MotorMayDifferInOneParameterByHalfOrTwice)
 
             const Outcome r = run(s);
 
-            // Twice Ld turns the reluctance torque around, so that the current limit is too low for the
-            // load and the speed leaves its command; with twice Lq the current loop oscillates.
-            const bool too_weak = key == "d_axis_inductance_H" && factor == 2.0;
-            EXPECT_EQ(r.result.fault, too_weak ? DRIVE_FAULT_AWAY : 0) << key << " " << factor;
+            EXPECT_EQ(r.result.fault, 0) << key << " " << factor;
             EXPECT_TRUE(all_finite(r.result.trace));
+            // Twice Ld turns the reluctance torque around, so that the current limit is too low for the
+            // load; with twice Lq the current loop oscillates. Neither trips.
             const bool inductance = key == "d_axis_inductance_H" || key == "q_axis_inductance_H";
             if (!inductance || factor < 2.0) {
                 EXPECT_LE(settling_s(r.metrics[0]), 0.02) << key << " " << factor; // measured 9 ms

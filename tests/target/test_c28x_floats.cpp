@@ -61,7 +61,7 @@ protected:
         command.run        = true;
         EXPECT_EQ(drive_init(&drive, &gain_tables_drive), CTL_OK);
         for (int n = 0; n < 20; n++) {
-            command.omega_e_radps = 10.0F;
+            command.omega_e_radps = 0.0F; // asks for no current, and the sample shows none
             EXPECT_TRUE(closed_and_whole(drive_tick(&drive, &sample, &command)));
         }
     }
