@@ -15,7 +15,8 @@
     0.5f /* chosen: longer than a heavy load takes to start, shorter than the motor to heat up */
 #define AWAY_e_radps 20.0f /* chosen: three counts per period, the noise of a plain difference */
 #define FAR_e_radps  50.0f /* chosen: a tenth of the rated speed of the shipped motor */
-#define AWAY_s       0.25f
+#define AWAY_s                                                                                     \
+    0.25f /* chosen: an overload of a tenth of a second and the way back from it are no reason to stop */
 
 static const motion_watch_t rest = {.odd_s = 0.0f};
 
