@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/c_text.hpp"
+#include "design/certificate.hpp"
 #include "design/laws/laws.hpp"
 #include "linalg/linalg_checks.hpp"
 
@@ -31,6 +32,25 @@ float believed_d_omega(const encoder_form_limits_t &limits, const encoder_form_g
 TripMargin disturbance_margin(const Design &design, const encoder_form_limits_t &limits,
                               const Eigen::MatrixXd &A, const Eigen::MatrixXd &B_noise,
                               double angle_weight);
+
+/// The verdict of a law that observes the angle. `model_at(motor, point)` has the A, B_voltage, C_voltage and B_noise of
+/// EQ-CERT-3; `angle_weight` as for disturbance_margin().
+template <typename ModelAt>
+void certify_whole(Design &d, const encoder_form_limits_t &limits, double angle_weight,
+                   const ModelAt &model_at)
+{
+    LoopFamily f;
+    f.channels   = {"q axis", "d axis"};
+    f.points     = verdict_points(d);
+    f.box_points = verdict_box_points(d);
+    f.loops      = [&](const Motor &motor, const OperatingPoint &at) {
+        const auto m = model_at(motor, at);
+        return broken_at_voltages(m.A, m.B_voltage, m.C_voltage, control_period_s(d.drive));
+    };
+    const auto m = model_at(
+        d.drive.motor, OperatingPoint{d.drive.motor.rated_speed_e_radps, 0.0, mtpa_id_A(d.l, 0.0)});
+    certify_loop(d, f, {disturbance_margin(d, limits, m.A, m.B_noise, angle_weight)});
+}
 
 /// What of a measured angle the observer with these gains may believe, EQ-ANGLE-GATE-3.
 angle_gate_config_t angle_gate_constants(const encoder_form_limits_t &limits,

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "design/certificate.hpp"
@@ -42,21 +44,6 @@ SampledModel model_at(const Design &d, const Motor &motor, const OperatingPoint 
     return sampled_model(reduced_parameters(motor), d.l, gains, at, control_period_s(d.drive));
 }
 
-void certify_whole(Design &d, const encoder_form_limits_t &limits)
-{
-    LoopFamily f;
-    f.channels   = {"q axis", "d axis"};
-    f.points     = verdict_points(d);
-    f.box_points = verdict_box_points(d);
-    f.loops      = [&d](const Motor &motor, const OperatingPoint &at) {
-        const SampledModel m = model_at(d, motor, at);
-        return broken_at_voltages(m.A, m.B_voltage, m.C_voltage, m.ts_s);
-    };
-    const SampledModel m =
-        model_at(d, d.drive.motor, {d.drive.motor.rated_speed_e_radps, 0.0, mtpa_id_A(d.l, 0.0)});
-    certify_loop(d, f, {disturbance_margin(d, limits, m.A, m.B_noise, d.drive.nodo.T[2])});
-}
-
 void solve(Design &d)
 {
     solve_near_optimal(d);
@@ -72,7 +59,10 @@ void solve(Design &d)
     const CurrentObserver currents = design_nodo_current(d.l, d.drive, trip_speed_e_radps(d.drive));
     c.currents                     = currents.gains;
     certify_currents(d, currents);
-    certify_whole(d, c.plausible);
+    const auto model = [&d](const Motor &motor, const OperatingPoint &at) {
+        return model_at(d, motor, at);
+    };
+    certify_whole(d, c.plausible, d.drive.nodo.T[2], model);
     keep_constants(d, c);
 }
 

@@ -65,22 +65,6 @@ HarmonicSampled model_at(const Design &d, const Motor &motor, const OperatingPoi
                                   d.nosc.gain[0], at, control_period_s(d.drive));
 }
 
-void certify_whole(Design &d, const encoder_form_limits_t &limits)
-{
-    LoopFamily f;
-    f.channels   = {"q axis", "d axis"};
-    f.points     = verdict_points(d);
-    f.box_points = verdict_box_points(d);
-    f.loops      = [&d](const Motor &motor, const OperatingPoint &at) {
-        const HarmonicSampled m = model_at(d, motor, at);
-        return broken_at_voltages(m.A, m.B_voltage, m.C_voltage, control_period_s(d.drive));
-    };
-    const double          rated = d.drive.motor.rated_speed_e_radps;
-    const HarmonicSampled m     = model_at(d, d.drive.motor, {rated, 0.0, mtpa_id_A(d.l, 0.0)});
-    certify_loop(d, f,
-                 {disturbance_margin(d, limits, m.A, m.B_noise, angle_weight(d.drive, rated))});
-}
-
 void certify_harmonics(Design &d)
 {
     HarmonicCheck &check = d.harmonic_check;
@@ -123,7 +107,10 @@ void solve(Design &d)
     c.rare              = sample_gains(d);
     c.gate              = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
     c.plausible.d_omega = believed_d_omega(c.plausible, c.rare, control_period_s(d.drive));
-    certify_whole(d, c.plausible);
+    const auto model    = [&d](const Motor &motor, const OperatingPoint &at) {
+        return model_at(d, motor, at);
+    };
+    certify_whole(d, c.plausible, angle_weight(d.drive, m.rated_speed_e_radps), model);
     keep_constants(d, c);
 }
 
