@@ -6,6 +6,8 @@
 #define FORGET_1ps 200.0f /* 1 / tau */
 #define SLOW_1ps   400.0f
 #define LIES_share 0.375f
+#define LIES_jump  0.875f /* six periods, as the observers of all motors need */
+#define LONG_jump  0.375f
 #define LONG_share 0.15f
 #define LONG_s     6.0e-3f
 /* A motor with half or with one and a half times the inductance leaves half of what the current changes by. */
@@ -60,12 +62,14 @@ static bool lies(current_watch_phase_t *p, float i_A, const current_watch_scale_
     p->residual_A += residual_A - (forget * p->residual_A);
 
     const float beyond_A = fabsf(p->residual_A) - (EXPLAINED * fabsf(change_A));
-    if (beyond_A > (LONG_share * scale->current_max_A)) {
+    if (beyond_A > base_max(LONG_share * scale->current_max_A, LONG_jump * scale->jump_A)) {
         p->lying_s += scale->ts_s;
     } else {
         p->lying_s = base_max(p->lying_s - (RECOVERS * scale->ts_s), 0.0f);
     }
-    return !(beyond_A <= (LIES_share * scale->current_max_A)) || (p->lying_s > LONG_s) ||
+    const float most_A = base_max(LIES_share * scale->current_max_A, LIES_jump * scale->jump_A);
+
+    return !(beyond_A <= most_A) || (p->lying_s > LONG_s) ||
            !base_within(residual_A, scale->jump_A);
 }
 

@@ -7,13 +7,15 @@
  *
  *     r = i - i_model,  i_model = i^ - Ts (d - d_slow)                             EQ-CURRENT-WATCH-1
  *     R+ = (1 - Ts / tau) R + r,  D = i - i_slow                                   EQ-CURRENT-WATCH-2
- *     lies:  x = abs(R) - 0.6 abs(D) > 3/8 i_max, or > 0.15 i_max for 6 ms, in phase a or b    EQ-CURRENT-WATCH-3
+ *     lies:  x = abs(R) - 0.6 abs(D) > max(3/8 i_max, 7/8 jump), or
+ *            > max(0.15 i_max, 3/8 jump) for 6 ms, in phase a or b                   EQ-CURRENT-WATCH-3
  *
  *     or abs(r) > jump, in a sample that the gate (current_gate.h) let pass: the second one in a row
  *
  * i^ is what the law's observer predicts with its disturbances d of the two current equations; d_slow and i_slow are behind
  * low-passes. A motor that is not as believed leaves an r in proportion to what the current changes by itself, D, or
- * disturbances that stand still in the rotor's frame, d_slow. What stands still in the stator's frame is a sensor. Laws
+ * disturbances that stand still in the rotor's frame, d_slow; until those are known, an EMF that is wrong by half of the
+ * voltage circle adds 0.14 jump in a period, which with little inductance is much of the limit. What stands still in the stator's frame is a sensor. Laws
  * without such a prediction have no such check.
  *
  * Wire. A phase without current, while the reference asks for some, for longer than a current takes to follow:
