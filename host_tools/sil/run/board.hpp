@@ -63,6 +63,20 @@ public:
         bridge_.advance(plant_, dc_link_, shaft_load_, from_s, to_s);
     }
 
+    // What a person changes while it runs.
+    /// Beside the scenario's load.
+    void set_extra_load_Nm(double torque_Nm)
+    {
+        extra_load_Nm_ = torque_Nm;
+    }
+    void set_source_V(double voltage_V);
+    void break_part(const InjectedFault &fault)
+    {
+        faults_.add(fault);
+    }
+    /// Nothing is broken any more.
+    void mend();
+
     PlantState plant_state() const;
     /// The motor turns half an electrical turn or more per control period, or its state is no number any more: samples
     /// then say nothing about it, and the plant's steps are too long. A shaft that a load drives after a trip ends there.
@@ -107,6 +121,7 @@ private:
     InjectedFaults           faults_;
     int                      lost_counts_    = 0; ///< of the encoder, by a fault
     double                   time_s_         = 0.0;
+    double                   extra_load_Nm_  = 0.0;
     std::size_t              next_change_    = 0;
     bool                     plain_inverter_ = true;
     bool                     plain_motor_    = true;

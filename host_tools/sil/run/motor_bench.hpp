@@ -74,6 +74,11 @@ public:
         return driven_while_held_;
     }
 
+    /// The board with its motor, once the scenario has started; null before.
+    Board *board()
+    {
+        return board_.get();
+    }
     /// The encoder's tracks show no movement any more.
     void stick_encoder()
     {
