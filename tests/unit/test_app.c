@@ -197,6 +197,19 @@ static void test_background_that_lives_late_is_enough(void)
     TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
 }
 
+static void test_spoilt_end_of_the_stack_opens_the_bridge_at_once(void)
+{
+    go_run();
+    both(1);
+    TEST_ASSERT_TRUE(fake_board.gate);
+    fake_board.stack_spoilt = true;
+    app_background();
+    TEST_ASSERT_FALSE(fake_board.gate);
+    app_tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, mode());
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_MEMORY, app_status_read().fault);
+}
+
 static void test_background_opens_the_bridge_when_ticks_stand_still(void)
 {
     go_run();
@@ -506,6 +519,7 @@ int main(void)
     RUN_TEST(test_watchdog_is_served_only_when_ticks_go_on);
     RUN_TEST(test_tick_trips_when_the_background_stands_still);
     RUN_TEST(test_background_that_lives_late_is_enough);
+    RUN_TEST(test_spoilt_end_of_the_stack_opens_the_bridge_at_once);
     RUN_TEST(test_background_opens_the_bridge_when_ticks_stand_still);
     RUN_TEST(test_second_command_waits_until_the_first_was_taken);
     RUN_TEST(test_cycles_of_last_and_worst_tick_are_shown);

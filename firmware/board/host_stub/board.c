@@ -145,6 +145,11 @@ uint32_t board_cycles(void)
     return stub.periods * (uint32_t)BOARD_PWM_CYCLES;
 }
 
+bool board_stack_is_whole(void)
+{
+    return true; /* it is the program's */
+}
+
 void board_watchdog_serve(void) {}
 
 bool board_serial_read(uint16_t *octet)
