@@ -947,6 +947,25 @@ static void test_status_repeats_what_is_inside(void)
     TEST_ASSERT_TRUE((off.v_V.q == 0.0f) && (off.i_A.q == 0.0f) && !off.gate_enable);
 }
 
+/* At nine tenths of what heat leaves of the limit, in RUN only. */
+static void test_status_tells_a_current_at_its_limit(void)
+{
+    go_run();
+    const float limit_A         = drive_config.current_max_A;
+    modes.heat.derating         = 0.5f;
+    modes.drive.wanted.now.id_A = 0.0f;
+    modes.drive.wanted.now.iq_A = -0.46f * limit_A;
+    TEST_ASSERT_TRUE(status_of(0U).current_limited);
+    modes.drive.wanted.now.iq_A = -0.44f * limit_A;
+    TEST_ASSERT_FALSE(status_of(0U).current_limited);
+    modes.drive.wanted.now.iq_A = -limit_A;
+    modes.drive.v_limited       = true;
+    modes.mode                  = APP_MODE_STOP;
+    TEST_ASSERT_TRUE(status_of(0U).current_limited && status_of(0U).voltage_limited);
+    modes.mode = APP_MODE_READY;
+    TEST_ASSERT_FALSE(status_of(0U).current_limited || status_of(0U).voltage_limited);
+}
+
 static void assert_config_refused(void)
 {
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_modes_init(&modes, &config, &drive_config));
@@ -1060,6 +1079,7 @@ int main(void)
     RUN_TEST(test_second_alignment_starts_over);
     RUN_TEST(test_snapshot_keeps_the_first_fault);
     RUN_TEST(test_status_before_the_first_tick_promises_nothing);
+    RUN_TEST(test_status_tells_a_current_at_its_limit);
     RUN_TEST(test_status_repeats_what_is_inside);
     RUN_TEST(test_bad_constants_end_in_fault_for_good);
     RUN_TEST(test_both_forms_of_the_shipped_drive_fit_the_board);
