@@ -127,7 +127,7 @@ void Board::begin_tick(double time_s)
     if (has_drift(scenario_.motor_effects)) {
         update_motor();
     }
-    shaft_load_.torque_Nm = load_.at(time_s, 0.5 * period_s_);
+    shaft_load_.torque_Nm = load_.at(time_s, 0.5 * period_s_) + brake_Nm_;
     glitch_               = glitch_at(scenario_.glitches, time_s, period_s_);
     begin_faults();
 }

@@ -40,6 +40,11 @@ public:
 
     /// Everything that happens at a tick's time: changes, drifts, load. Call before sample().
     void begin_tick(double time_s);
+    /// Beside the scenario's load, from the next tick on: of somebody who looks on.
+    void set_brake_Nm(double torque_Nm)
+    {
+        brake_Nm_ = torque_Nm;
+    }
     /// What the core gets at this tick.
     drive_sample_t sample();
     /// One period with the duty ratios in force; ends at the next tick.
@@ -103,6 +108,7 @@ private:
     LoadProfile              load_;
     double                   first_dead_time_s_; ///< the gates\'
     ShaftLoad                shaft_load_;
+    double                   brake_Nm_ = 0.0;
     Glitch                   glitch_; ///< of the sample of this tick
     InjectedFaults           faults_;
     int                      lost_counts_    = 0; ///< of the encoder, by a fault

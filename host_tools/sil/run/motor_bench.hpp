@@ -74,6 +74,13 @@ public:
         return driven_while_held_;
     }
 
+    /// Board::set_brake_Nm(), once the scenario has started.
+    void set_brake_Nm(double torque_Nm)
+    {
+        if (board_) {
+            board_->set_brake_Nm(torque_Nm);
+        }
+    }
     /// The encoder's tracks show no movement any more.
     void stick_encoder()
     {
