@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parents[2]
 BOARD = ROOT / "firmware/board/f28335"
 HEADERS = ROOT / "host_tools/sil/f28335/include"
 FOLDERS = [ROOT / "firmware/control", ROOT / "firmware/app", BOARD]
-FLAGS = ["-std=c99", "-O2", "-w", "-ffreestanding", "-fno-math-errno", "-fcallgraph-info=su", "-c",
+FLAGS = ["-std=c99", "-O2", "-w", "-ffreestanding", "-fno-math-errno", "-fcallgraph-info=su", "-S",
          *[f"-I{p}" for p in (*FOLDERS, BOARD.parent, ROOT / "firmware/config")],
          "-isystem", str(ROOT / "tests/target/include"), "-isystem", str(HEADERS), "-include", str(HEADERS / "c28_cpu.h")]
 MACHINE = {"arm-none-eabi-gcc": ["-mcpu=cortex-m4", "-mthumb", "-mfpu=fpv4-sp-d16", "-mfloat-abi=hard", "-fno-short-enums",
@@ -99,7 +99,7 @@ class Graph:
 def graph_of(compiler, files):
     with tempfile.TemporaryDirectory() as work:
         def compile_one(file):
-            command = [compiler, *MACHINE.get(Path(compiler).name, []), *FLAGS, str(file), "-o", f"{work}/{file.stem}.o"]
+            command = [compiler, *MACHINE.get(Path(compiler).name, []), *FLAGS, str(file), "-o", f"{work}/{file.stem}.s"]
             result = subprocess.run(command, capture_output=True, text=True, cwd=work)
             if result.returncode != 0:
                 raise SystemExit(f"{' '.join(command)}:\n{result.stderr}")
