@@ -72,7 +72,7 @@ TEST(Stack, WhatReachesItsEndIsAFault)
 {
     const Scenario   s = broken(300.0, 1.5, "kind = \"trigger_lost\"\n");
     const Controller c = prepare_controller(s);
-    set_firmware_drive(c.config);
+    set_firmware(c.config, s.drive);
     for (const std::size_t word : {0x000U, 0x3F7U, 0x3F8U, 0x3FFU}) { // the last eight are watched
         F28335Run run(s, MotorBench::never, 3e-6);
         run.step();

@@ -221,7 +221,7 @@ TEST(Soak, NothingDriftsOrSticks)
         episodes.push_back(e);
     }
     const sdre::Controller c = sdre::prepare_controller(s);
-    set_firmware_drive(c.config);
+    set_firmware(c.config, s.drive);
 
     constexpr long start = 1700; // ticks: after the boot and the index
     F28335Run      run(s, start, 3e-6);

@@ -13,6 +13,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 core=firmware/control
 app=firmware/app
 board=firmware/board/f28335
+config=firmware/config
 laws=(noc noc_speed noc_h conventional dobc pid pi_foc ladrc)
 
 # How many states are told apart in these functions; in others Eva joins them where paths meet.
@@ -50,7 +51,7 @@ declare -A sources=(
 files_of()
 {
     printf '%s\n' "${sources[$2]}"
-    [[ ${sources[$2]} != *prove_app.c ]] || { find "$app" -name 'app_*.c' && echo "$board/board_config.c"; }
+    [[ ${sources[$2]} != *prove_app.c ]] || { find "$app" -name 'app_*.c' && echo "$config/board_config.c"; }
     find "$core" -name '*.c' ! -name 'law_*.c'
     case $1 in
         any) ;;
