@@ -39,7 +39,7 @@ static struct {
 static struct {
     app_modbus_t       modbus;
     app_registers_t    registers;
-    app_status_t       status;
+    app_status_t       read; /* may be of two ticks */
     app_watch_tick_t   watch;
     app_watch_memory_t memory;
     uint32_t           served_ticks;
@@ -72,6 +72,27 @@ static void watch_memory(app_watch_memory_t *w, const drive_config_t *drive, boo
                          (uint32_t)(tick_side.config.scale.ntc_points * sizeof(float)));
 }
 
+static void read_once(app_status_t *status)
+{
+    app_modes_status(&tick_side.modes, shared.board_faults, status);
+    status->reset_cause       = board_reset_cause();
+    status->tick_cycles       = shared.cycles;
+    status->tick_cycles_worst = shared.cycles_worst;
+}
+
+/* In place: copies on the stack took a third of it. */
+static void read_status(void)
+{
+    for (uint16_t reads = 0U; reads < STATUS_READS; reads++) {
+        const uint32_t before = shared.ticks;
+        read_once(&background_side.read);
+        if (before == shared.ticks) {
+            background_side.registers.status = background_side.read;
+            break;
+        }
+    }
+}
+
 ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
 {
     const ctl_status_t modes = init_tick_side(config, drive);
@@ -93,7 +114,7 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
     shared.board_faults     = 0U;
     shared.cycles           = 0U;
     shared.cycles_worst     = 0U;
-    background_side.status  = app_status_read();
+    read_status();
     return ((modes == CTL_OK) && (modbus == CTL_OK)) ? CTL_OK : CTL_BAD_CONFIG;
 }
 
@@ -205,7 +226,7 @@ void app_background(void)
     app_registers_t *r         = &background_side.registers;
     const uint32_t   now_ticks = shared.ticks;
 
-    if (!app_watch_memory_pass(&background_side.memory)) {
+    if (!app_watch_memory_pass(&background_side.memory) || !board_stack_is_whole()) {
         board_gate_trip();
         shared.memory_changed = true;
     }
@@ -217,7 +238,7 @@ void app_background(void)
     shared.background_count = (uint16_t)(shared.background_count + 1U);
     serve_watchdog(now_ticks);
 
-    r->status = app_status_read();
+    read_status();
     app_modbus_poll(&background_side.modbus, r, now_ticks);
     if (r->changed && app_command_write(&r->command)) {
         r->changed       = false;
@@ -235,27 +256,10 @@ bool app_command_write(const app_command_t *command)
     return true;
 }
 
-static app_status_t status_now(void)
-{
-    app_status_t status = app_modes_status(&tick_side.modes, shared.board_faults);
-
-    status.reset_cause       = board_reset_cause();
-    status.tick_cycles       = shared.cycles;
-    status.tick_cycles_worst = shared.cycles_worst;
-    return status;
-}
-
 app_status_t app_status_read(void)
 {
-    for (uint16_t reads = 0U; reads < STATUS_READS; reads++) {
-        const uint32_t     before = shared.ticks;
-        const app_status_t status = status_now();
-        if (before == shared.ticks) {
-            background_side.status = status;
-            break;
-        }
-    }
-    return background_side.status;
+    read_status();
+    return background_side.registers.status;
 }
 
 const drive_t *app_drive(void)

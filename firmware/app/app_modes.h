@@ -73,6 +73,6 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *config,
 bridge_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in);
 
 /** Everything but the reset's cause and the cycle counts; of one tick, unless one interrupts. Context: background. */
-app_status_t app_modes_status(const volatile app_modes_t *m, uint16_t board_faults);
+void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_status_t *s);
 
 #endif /* APP_MODES_H */

@@ -37,7 +37,7 @@ typedef enum {
     APP_FAULT_DRIVE,              /**< see the drive's fault */
     APP_FAULT_TICK,               /**< no tick for too long; the background opened the bridge */
     APP_FAULT_HEAT,               /**< more current for longer than motor or inverter endure */
-    APP_FAULT_MEMORY              /**< constants in RAM are not what they were at the start */
+    APP_FAULT_MEMORY              /**< constants in RAM have changed, or the stack was too short */
 } app_fault_t;
 
 /** The tick of the first fault; kept, also after a reset, until the next fault. */

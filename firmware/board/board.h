@@ -120,6 +120,9 @@ board_reset_t board_reset_cause(void);
 /** Processor cycles, free running, wraps; pwm_cycles of the setup per PWM period. Context: any. */
 uint32_t board_cycles(void);
 
+/** False: a call has gone down to the last words of the stack. Context: background. */
+bool board_stack_is_whole(void);
+
 /** Without it the processor is reset after 4 ms. Context: background. */
 void board_watchdog_serve(void);
 

@@ -18,10 +18,10 @@
 #define AWAY_s                                                                                     \
     0.25f /* chosen: an overload of a tenth of a second and the way back from it are no reason to stop */
 
-static const motion_watch_t rest = {.odd_s = 0.0f};
-
 void motion_watch_reset(motion_watch_t *w)
 {
+    static const motion_watch_t rest = {.odd_s = 0.0f};
+
     *w = rest;
 }
 

@@ -28,6 +28,18 @@ constexpr int    most_links = 40;   // as many as the kernel follows
     throw InputError(fmt::format("{}: cannot write: {}", file.path.string(), why));
 }
 
+template <typename Write> void for_all_pieces(const OutputFile &file, const Write &write)
+{
+    write(file.text);
+    while (file.more) {
+        const std::string piece = file.more();
+        if (piece.empty()) {
+            return;
+        }
+        write(piece);
+    }
+}
+
 /// An open file; every failure names the path that the user gave.
 class Descriptor {
 public:
@@ -56,13 +68,7 @@ public:
     }
     void write_all()
     {
-        for (std::size_t at = 0; at < file_.text.size();) {
-            const ssize_t n = write(fd_, file_.text.data() + at, file_.text.size() - at);
-            if (n < 0 && errno != EINTR) {
-                fail(file_, std::strerror(errno));
-            }
-            at += n > 0 ? static_cast<std::size_t>(n) : 0;
-        }
+        for_all_pieces(file_, [this](const std::string &piece) { write_piece(piece); });
         const int fd = fd_;
         fd_          = -1;
         if (close(fd) != 0) { // network disks are full only now
@@ -71,6 +77,17 @@ public:
     }
 
 private:
+    void write_piece(const std::string &piece)
+    {
+        for (std::size_t at = 0; at < piece.size();) {
+            const ssize_t n = write(fd_, piece.data() + at, piece.size() - at);
+            if (n < 0 && errno != EINTR) {
+                fail(file_, std::strerror(errno));
+            }
+            at += n > 0 ? static_cast<std::size_t>(n) : 0;
+        }
+    }
+
     const OutputFile &file_;
     int               fd_;
 };
@@ -139,11 +156,12 @@ void write_waiting(Target &target)
 void write_direct(const Target &target)
 {
     if (target.is_stdout) {
-        if (std::fwrite(target.file->text.data(), 1, target.file->text.size(), stdout) !=
-                target.file->text.size() ||
-            std::fflush(stdout) != 0) {
-            fail(*target.file, std::strerror(errno));
-        }
+        for_all_pieces(*target.file, [&](const std::string &piece) {
+            if (std::fwrite(piece.data(), 1, piece.size(), stdout) != piece.size() ||
+                std::fflush(stdout) != 0) {
+                fail(*target.file, std::strerror(errno));
+            }
+        });
         return;
     }
     Descriptor out(*target.file, target.file->path, O_APPEND);

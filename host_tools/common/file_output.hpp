@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@ namespace sdre {
 struct OutputFile {
     std::filesystem::path path;
     std::string           text;
+    /// What follows `text`, where that is too much to be kept: a piece at a call, an empty one is the end.
+    std::function<std::string()> more = {};
 };
 
 /// Writes every file under a name of its own in the target's directory, then renames all of them; links are followed and a

@@ -223,6 +223,40 @@ TEST(ServoLoop, DAxisAgreesWithItsTransferFunction)
     }
 }
 
+/// The same of the speed: kp + kd (1 - 1/z) + ki / (z - 1) of paper B's motor, by its data sheet, one period late.
+TEST(ServoLoop, SpeedLoopOfThePidAgreesWithItsTransferFunction)
+{
+    const sdre::Drive      d      = shipped("pid");
+    const sdre::Design     design = sdre::design_drive(d);
+    const sdre::BrokenLoop loop   = sdre::speed_loop(d.motor, design.config);
+    const pid_law_config_t c      = sdre::constants_of<law_pid_config_t>(design.config)->pid;
+
+    // Electrical speed and current, i' with the EMF against the voltage; a held voltage, by eigenvalues.
+    Eigen::Matrix2d A;
+    A << -7.4e-5 / 0.000135, 4.0 * 1.5 * 4.0 * 0.084 / 0.000135, -0.084 / 0.026, -9.7 / 0.026;
+    const Eigen::Vector2d                     B(0.0, 1.0 / 0.026);
+    const Eigen::EigenSolver<Eigen::Matrix2d> modes(A);
+    const Eigen::Matrix2cd                    V     = modes.eigenvectors();
+    const Eigen::Vector2cd                    in    = V.inverse() * B.cast<std::complex<double>>();
+    const auto                                plant = [&](std::complex<double> z) {
+        std::complex<double> sum = 0.0;
+        for (int k = 0; k < 2; k++) {
+            const std::complex<double> s = modes.eigenvalues()(k);
+            const std::complex<double> e = std::exp(s * ts_s);
+            sum += V(0, k) * (e - 1.0) / s * in(k) / (z - e);
+        }
+        return sum;
+    };
+    for (const double f : {3.0, 50.0, 300.0, 1400.0, 4000.0}) {
+        const std::complex<double> z   = std::polar(1.0, 2.0 * std::acos(-1.0) * f * ts_s);
+        const std::complex<double> pid = static_cast<double>(c.kp) +
+                                         static_cast<double>(c.kd_tick) * (1.0 - 1.0 / z) +
+                                         static_cast<double>(c.ki_per_tick) / (z - 1.0);
+        const double wanted = 1.0 / std::abs(1.0 + pid * plant(z) / z);
+        EXPECT_NEAR(sdre::sensitivity(loop, f) / wanted, 1.0, 1e-6) << f;
+    }
+}
+
 TEST(ServoLoop, SlowSamplingIsRefused)
 {
     sdre::Drive d                 = shipped("cdobc");

@@ -286,6 +286,26 @@ TEST(HarmonicDesign, WeightsOfPairsRiseWithTheSpeedAndFadeTowardsARadianPerPerio
     }
 }
 
+TEST(HarmonicDesign, EachPairHasTheWeightOfItsKind)
+{
+    sdre::Drive drive                      = design_of("servo_200w_noc_h").drive;
+    drive.harmonics.sensor_weight          = 1.0;
+    drive.harmonics.voltage_weight         = 2.0;
+    drive.harmonics.cogging_weight         = 3.0;
+    drive.harmonics.cogging_voltage_weight = 5.0;
+    drive.harmonics.slope_weight           = 7.0;
+    drive.harmonics.weight_speed_e_radps   = 1e-3; // far below a radian per period
+    const VectorXd Q                       = sdre::harmonic_weights(drive, 1e-3);
+    const double   weights[] = {1.0, 1.0, 2.0, 2.0, 3.0, 5.0, 3.0, 5.0}; // of the pairs below
+    for (Index i = 0; i < 8; i++) {
+        EXPECT_NEAR(Q(n_base + 2 * i), weights[i], 1e-9) << i;
+    }
+    EXPECT_EQ(Q(slope), 7.0);
+    for (Index i = 0; i < slope; i++) {
+        EXPECT_EQ(Q(i), drive.nodo.Q.at(static_cast<std::size_t>(i))) << i;
+    }
+}
+
 TEST(HarmonicDesign, PairsAreThoseOfTheFileInTheirChannels)
 {
     const auto pairs = sdre::harmonic_pairs(design_of("servo_200w_noc_h").drive);

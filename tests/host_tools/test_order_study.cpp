@@ -70,6 +70,30 @@ TEST(OrderStudy, TwoVariablesCountTheirEquations)
     }
 }
 
+/// Both variables, apart: every order is nearer to the exact gain than the one before.
+TEST(OrderStudy, TwoVariablesConverge)
+{
+    sdre::Drive drive = shipped("ipmsm_390w_conventional");
+    drive.nosc.order = drive.nodo.order = 3;
+    const sdre::Design d                = sdre::design_drive(drive);
+    for (const sdre::GainSeries *g : {&d.nosc, &d.nodo}) {
+        const std::vector<sdre::Schedule> points{{0.8, -0.3}, {-0.3, 0.8}, {0.6, 0.6}};
+        const auto                        errors = sdre::series_errors(*g, points);
+        ASSERT_EQ(errors.size(), 4U);
+        for (std::size_t i = 0; i < points.size(); i++) {
+            const Eigen::MatrixXd exact = g->exact(points[i]);
+            const Eigen::MatrixXd K     = sdre::series_gain(*g, points[i], 3);
+            EXPECT_NEAR(errors[3][i], (K - exact).norm() / exact.norm(), 1e-12);
+            EXPECT_LT(errors[1][i], 0.5 * errors[0][i]) << i;
+            EXPECT_LT(errors[3][i], 0.5 * errors[1][i]) << i;
+        }
+    }
+    EXPECT_EQ(sdre::reach({0.8, -1.3}), 1.3);
+    EXPECT_EQ(sdre::box_grid(2, 3.0, 2).size(), 25U);
+    EXPECT_EQ(sdre::box_grid(2, 3.0, 2).front(), (sdre::Schedule{-3.0, -3.0}));
+    EXPECT_EQ(sdre::box_grid(2, 3.0, 2).at(1), (sdre::Schedule{-3.0, -1.5}));
+}
+
 TEST(OrderStudy, CommandPrintsAndWrites)
 {
     const support::TempDir dir;

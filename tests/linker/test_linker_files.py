@@ -97,6 +97,12 @@ def check_symbols(sections):
             raise Refused(f"section {section.name} defines {section.symbols}")
     names = {name for symbols in expected.values() for name in symbols}
     source = (BOARD / "codestart.asm").read_text()
+    fill = re.search(r"STACK_FILL .set 0x([0-9A-F]+)", source).group(1)
+    if f"BOARD_STACK_FILL  0x{fill}U" not in (BOARD / "peripherals.h").read_text():
+        raise Refused("codestart.asm fills the stack with something else than stack.c looks for")
+    size = re.search(r"--stack_size=(\w+)", (BOARD / "CMakeLists.txt").read_text()).group(1)
+    if f"BOARD_STACK_WORDS {size}U" not in (BOARD / "peripherals.h").read_text():
+        raise Refused("stack.c does not know the stack's size")
     used = set(re.findall(r"\bcodestart_\w+", re.sub(r";.*", "", source)))
     if used != names:
         raise Refused(f"codestart.asm and the linker differ in {used ^ names}")

@@ -101,7 +101,7 @@ class TargetBuild(unittest.TestCase):
                     self.assertIn(option, call, name)
         before, after = link[: link.index("--run_linker")], link[link.index("--run_linker") :]
         self.assertNotIn("--define=FAST_RTS", before)
-        for option in ("--define=FAST_RTS", "--stack_size=0x380", "--entry_point=code_start",
+        for option in ("--define=FAST_RTS", "--stack_size=0x400", "--entry_point=code_start",
                        "--rom_model", "--priority", "--diag_error=10247",
                        str(linker / "f28335_flash.cmd"), str(linker / "f28335_registers.cmd")):
             self.assertIn(option, after)

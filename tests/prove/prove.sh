@@ -13,6 +13,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 core=firmware/control
 app=firmware/app
 board=firmware/board/f28335
+config=firmware/config
 laws=(noc noc_speed noc_h conventional dobc pid pi_foc ladrc)
 
 # How many states are told apart in these functions; in others Eva joins them where paths meet.

@@ -11,6 +11,7 @@ drive_t                  drive;
 
 void prove_gate(void)
 {
+    config.constants            = &config; /* the law reads none */
     drive                       = any_drive;
     drive.config                = any_bool() ? &config : NULL;
     drive.config_again          = any_bool() ? &config : NULL;
@@ -38,6 +39,7 @@ void prove_gate(void)
         //@ check wanted: command.run != 0;
         //@ check valid: sample.valid != 0;
         //@ check bound: drive.config == &config;
+        //@ check whole: drive.config_again == &config && drive.law_again == &any_law && drive.constants_again == &config;
         //@ check no_fault_left: before != DRIVE_FAULT;
         //@ check plausible: drive.wanted.plausible != 0;
     } else {

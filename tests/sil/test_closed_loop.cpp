@@ -60,7 +60,7 @@ double settling_s(const sdre::Metrics &m)
     return m.settling_time_s.value_or(std::numeric_limits<double>::infinity());
 }
 
-double peak_voltage(const std::vector<sdre::TraceRow> &trace)
+double peak_voltage(const sdre::Trace &trace)
 {
     double peak = 0.0;
     for (const sdre::TraceRow &row : trace) {
@@ -69,7 +69,7 @@ double peak_voltage(const std::vector<sdre::TraceRow> &trace)
     return peak;
 }
 
-double peak_current(const std::vector<sdre::TraceRow> &trace)
+double peak_current(const sdre::Trace &trace)
 {
     double peak = 0.0;
     for (const sdre::TraceRow &row : trace) {
@@ -78,7 +78,7 @@ double peak_current(const std::vector<sdre::TraceRow> &trace)
     return peak;
 }
 
-bool all_finite(const std::vector<sdre::TraceRow> &trace)
+bool all_finite(const sdre::Trace &trace)
 {
     return std::all_of(trace.begin(), trace.end(), [](const sdre::TraceRow &r) {
         return std::isfinite(r.omega_e_radps) && std::isfinite(r.iq_A) && std::isfinite(r.id_A) &&

@@ -33,10 +33,9 @@ sdre::Measure event(const std::string &name, double time_s, double band)
     return m;
 }
 
-std::vector<sdre::TraceRow> trace_of(int rows, const std::function<double(double)> &speed,
-                                     double reference)
+sdre::Trace trace_of(int rows, const std::function<double(double)> &speed, double reference)
 {
-    std::vector<sdre::TraceRow> trace(static_cast<std::size_t>(rows));
+    sdre::Trace trace(static_cast<std::size_t>(rows));
     for (int k = 0; k < rows; k++) {
         sdre::TraceRow &row   = trace[static_cast<std::size_t>(k)];
         row.time_s            = k * ts_s;
@@ -46,7 +45,7 @@ std::vector<sdre::TraceRow> trace_of(int rows, const std::function<double(double
     return trace;
 }
 
-sdre::Metrics only(const std::vector<sdre::TraceRow> &trace, double band)
+sdre::Metrics only(const sdre::Trace &trace, double band)
 {
     const auto all = sdre::measure(scenario_with({event("m", 0.0, band)}), trace);
     EXPECT_EQ(all.size(), 1U);
@@ -193,7 +192,7 @@ TEST(Metrics, BandIncludesItsEdge)
 
 TEST(Metrics, TailIsTheLastFifth)
 {
-    std::vector<sdre::TraceRow> trace = trace_of(
+    sdre::Trace trace = trace_of(
         100, [](double) { return 100.0; }, 100.0);
     for (std::size_t k = 0; k < trace.size(); k++) {
         const double x         = k < 80 ? 1000.0 : static_cast<double>(k) - 80.0; // 0 .. 19
@@ -218,7 +217,7 @@ TEST(Metrics, TailIsTheLastFifth)
 
 TEST(Metrics, PeakCurrentIsTheLargestLengthInTheWindow)
 {
-    std::vector<sdre::TraceRow> trace = trace_of(
+    sdre::Trace trace = trace_of(
         100, [](double) { return 0.0; }, 0.0);
     trace[10].iq_A = 100.0; // before the window
     trace[50].iq_A = -3.0;
@@ -232,7 +231,7 @@ TEST(Metrics, PeakCurrentIsTheLargestLengthInTheWindow)
 
 TEST(Metrics, PeakCurrentBetweenTheInstantsCounts)
 {
-    std::vector<sdre::TraceRow> trace = trace_of(
+    sdre::Trace trace = trace_of(
         100, [](double) { return 0.0; }, 0.0);
     trace[50].iq_A           = -3.0;
     trace[50].id_A           = -4.0;
@@ -243,7 +242,7 @@ TEST(Metrics, PeakCurrentBetweenTheInstantsCounts)
 
 TEST(Metrics, SteadyCurrentIsTheMeanLengthInTheTail)
 {
-    std::vector<sdre::TraceRow> trace = trace_of(
+    sdre::Trace trace = trace_of(
         100, [](double) { return 0.0; }, 0.0);
     for (std::size_t k = 0; k < trace.size(); k++) {
         trace[k].iq_A = k < 80 ? 100.0 : (k % 2 == 0 ? 3.0 : -6.0);
@@ -255,7 +254,7 @@ TEST(Metrics, SteadyCurrentIsTheMeanLengthInTheTail)
 
 TEST(Metrics, RatesOfANegativeSpeedAreSizes)
 {
-    std::vector<sdre::TraceRow> trace = trace_of(
+    sdre::Trace trace = trace_of(
         100, [](double t) { return t < 0.04 ? 0.0 : (t < 0.06 ? -110.0 : -100.0); }, -100.0);
     for (std::size_t k = 80; k < trace.size(); k++) {
         trace[k].omega_e_radps = k % 2 == 0 ? -101.0 : -99.0;
@@ -271,7 +270,7 @@ TEST(Metrics, WindowsEndWhereTheNextBegins)
 {
     const auto trace = trace_of(
         301, [](double t) { return t < 0.0995 ? 10.0 : (t < 0.1995 ? 20.0 : 30.0); }, 10.0);
-    std::vector<sdre::TraceRow> stepped = trace;
+    sdre::Trace stepped = trace;
     for (sdre::TraceRow &row : stepped) {
         row.omega_ref_e_radps = row.time_s < 0.1995 ? 20.0 : 30.0;
     }
@@ -290,7 +289,7 @@ TEST(Metrics, WindowsEndWhereTheNextBegins)
 
 TEST(Metrics, TargetIsTheReferenceAtTheEndOfTheWindow)
 {
-    std::vector<sdre::TraceRow> trace = trace_of(
+    sdre::Trace trace = trace_of(
         200, [](double) { return 80.0; }, 80.0);
     for (std::size_t k = 0; k < 50; k++) {
         trace[k].omega_ref_e_radps = 20.0;
@@ -315,7 +314,7 @@ TEST(Metrics, ShortWindowStillHasATail)
 /// A sine of 0.3 A on iq and a cosine on id: a vector of 0.3 A that turns about (-0.6, 0.8) A.
 TEST(Metrics, DistortionIsWhatTurnsAgainstTheFundamental)
 {
-    std::vector<sdre::TraceRow> trace = trace_of(
+    sdre::Trace trace = trace_of(
         1000, [](double) { return 100.0; }, 100.0);
     for (std::size_t k = 0; k < trace.size(); k++) {
         const double phase           = 2.0 * std::acos(-1.0) * static_cast<double>(k) / 20.0;
@@ -339,7 +338,7 @@ TEST(Metrics, DistortionOfNextToNoCurrentIsNone)
         scenario.measures                  = {m};
         scenario.drive.motor.pole_pairs    = 2;
         scenario.drive.motor.max_current_A = 4.0;
-        std::vector<sdre::TraceRow> trace(1000);
+        sdre::Trace trace(1000);
         for (std::size_t k = 0; k < trace.size(); k++) {
             trace[k].time_s = ts_s * static_cast<double>(k);
             trace[k].iq_A   = iq_A + (k % 2 == 0 ? 0.1 : -0.1);

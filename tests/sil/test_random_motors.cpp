@@ -147,6 +147,33 @@ TEST(RandomMotors, FailuresSayWhatAndWhy)
               std::string::npos);
 }
 
+/// Each of the three reasons, of motors that have no other.
+TEST(RandomMotors, EachReasonIsGivenByItself)
+{
+    const auto reasons = [](const std::string &content) {
+        const RandomMotors runs = run_random_motors(read(content), 1);
+        return runs.failures.empty() ? std::vector<std::string>{} : runs.failures[0].reasons;
+    };
+    ASSERT_TRUE(reasons(text(good)).empty());
+
+    std::string content =
+        support::replaced(text(good), "band_e_radps = 3.0", "band_e_radps = 1e-9");
+    const auto band = reasons(content);
+    ASSERT_EQ(band.size(), 2U); // and what the motor is like
+    EXPECT_NE(band[0].find("whole: not in its band at the end"), std::string::npos) << band[0];
+
+    const auto fault = reasons(
+        text(good) + "[[change]]\ntime_s = 0.019\nset = { inverter = { dc_link_V = 50.0 } }\n");
+    ASSERT_GE(fault.size(), 2U);
+    EXPECT_NE(fault[0].find("fault at 0.0190 s: dc link"), std::string::npos) << fault[0];
+
+    // A load that drags the motor until its EMF flows through the diodes.
+    const auto dragged =
+        reasons(support::replaced(text(good), "value_Nm = 0.5", "value_Nm = -20.0"));
+    ASSERT_EQ(dragged.size(), 4U);
+    EXPECT_NE(dragged[1].find(" A, allowed 4.40 A"), std::string::npos) << dragged[1];
+}
+
 TEST(RandomMotors, SavedFailureIsTheSameRun)
 {
     const support::TempDir dir;

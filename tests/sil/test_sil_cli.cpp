@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cstdlib>
 #include <set>
 #include <string>
 #include <vector>
@@ -7,8 +12,11 @@
 #include <gtest/gtest.h>
 
 #include "command.hpp"
+#include "common/errors.hpp"
+#include "common/file_output.hpp"
 #include "json.hpp"
 #include "scenario_text.hpp"
+#include "sil/eval/results.hpp"
 #include "temp_dir.hpp"
 
 namespace {
@@ -509,4 +517,52 @@ TEST(SilCli, PlotThatCannotBeWrittenIsOneLine)
     expect_refused({"run", scenario, "--plot", dir / "none/p.png"}, 1, {"p.png"});
     expect_refused({"run", scenario, "--plot", dir / "taken.png"}, 1, {"taken.png"});
     EXPECT_EQ(support::names_in(dir.path()), (std::set<std::string>{"case.toml", "taken.png"}));
+}
+
+TEST(SilCli, CsvInPiecesIsTheSame)
+{
+    sdre::Trace trace(10001); // two pieces and a part of a third
+    for (std::size_t k = 0; k < trace.size(); k++) {
+        trace[k].time_s = 2e-4 * static_cast<double>(k);
+    }
+    const TempDir dir;
+    sdre::write_files({sdre::trace_file(dir / "t.csv", trace)});
+    EXPECT_TRUE(sdre::read_text_file(dir / "t.csv") == sdre::trace_csv(trace));
+    trace.clear();
+    sdre::write_files({sdre::trace_file(dir / "t.csv", trace)});
+    EXPECT_EQ(sdre::read_text_file(dir / "t.csv"), sdre::trace_csv(trace));
+}
+
+TEST(SilCli, TraceOfALongRunNeedsNoMemoryOfItsOwn)
+{
+    const std::size_t rows  = 4 * sdre::large_memory_B / sizeof(sdre::TraceRow);
+    const pid_t       child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        const rlimit none{0, 0}; // private memory: no more than there is
+        setrlimit(RLIMIT_DATA, &none);
+        sdre::Trace trace(1);
+        trace.reserve(rows);
+        for (std::size_t k = 1; k < rows; k++) {
+            trace.emplace_back().time_s = static_cast<double>(k);
+        }
+        bool same = true;
+        for (std::size_t k = 0; k < rows; k++) {
+            same = same && trace[k].time_s == static_cast<double>(k);
+        }
+        _exit(same ? 0 : 1);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+}
+
+TEST(SilCli, DiskWithoutRoomForALongRunIsOneLine)
+{
+    const TempDir     dir;
+    const std::string scenario =
+        dir.write("case.toml", replaced(scenario_text(), "duration_s = 0.02", "duration_s = 400.0"));
+    const auto r = support::run_command(
+        {"/usr/bin/env", "TMPDIR=" + (dir / "none").string(), SDRE_SIL_EXE, "run", scenario});
+    support::expect_refused(r, 1, tool, {"none", "no room for", "TMPDIR", "No such file"});
 }

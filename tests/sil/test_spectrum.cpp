@@ -14,8 +14,8 @@ const double     radps = pi / 30.0 * 4; // electrical, per r/min with four pole 
 
 /// 0.2 s about 500 r/min; the last 90 ms are the measure's tail.
 struct Case {
-    sdre::Scenario              scenario;
-    std::vector<sdre::TraceRow> trace;
+    sdre::Scenario scenario;
+    sdre::Trace    trace;
 
     explicit Case(double (*swing_rpm)(double))
     {

@@ -114,6 +114,11 @@ uint32_t board_cycles(void)
     return fake_board.cycles;
 }
 
+bool board_stack_is_whole(void)
+{
+    return !fake_board.stack_spoilt;
+}
+
 void board_watchdog_serve(void)
 {
     fake_board.served++;

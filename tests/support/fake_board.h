@@ -39,6 +39,7 @@ typedef struct {
     uint16_t             faults; /* latched */
     bool                 gate;
     board_duty_t         duty;
+    bool                 stack_spoilt;
     int                  served; /* watchdog */
     uint32_t             cycles;
     uint32_t             cycles_per_read;

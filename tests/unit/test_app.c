@@ -4,10 +4,12 @@
 #include "app.h"
 
 #include <signal.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
 
+#include "app_modes.h"
 #include "board_config.h"
 #include "fake_board.h"
 #include "gain_tables.h"
@@ -195,6 +197,72 @@ static void test_background_that_lives_late_is_enough(void)
         app_background();
     }
     TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
+}
+
+static void test_spoilt_end_of_the_stack_opens_the_bridge_at_once(void)
+{
+    go_run();
+    both(1);
+    TEST_ASSERT_TRUE(fake_board.gate);
+    fake_board.stack_spoilt = true;
+    app_background();
+    TEST_ASSERT_FALSE(fake_board.gate);
+    app_tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, mode());
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_MEMORY, app_status_read().fault);
+}
+
+/* The modes that the tick keeps, around the drive that app_drive() shows. */
+static app_modes_t *modes_inside(void)
+{
+    return (app_modes_t *)((uintptr_t)app_drive() - offsetof(app_modes_t, drive));
+}
+
+/* One pointer after the other leads elsewhere: nothing is read through it, and the bridge opens. */
+static void test_each_pointer_of_the_tick_alone_opens_the_bridge(void)
+{
+    static app_config_t   elsewhere;
+    static drive_config_t other;
+    app_modes_t *const    m          = modes_inside();
+    const void **const    pointers[] = {
+           (const void **)&m->config,       (const void **)&m->scale.config,
+           (const void **)&m->angle.config, (const void **)&m->align.config,
+           (const void **)&m->stop.config,  (const void **)&m->align.drive,
+           (const void **)&m->drive.config,
+    };
+
+    elsewhere = config;
+    for (int i = 0; i <= SUPPORT_COUNT(pointers); i++) {
+        setUp();
+        go_run();
+        app_config_t *const constants = (app_config_t *)(uintptr_t)m->config;
+        if (i < SUPPORT_COUNT(pointers)) {
+            *pointers[i] = (i < 5) ? (const void *)&elsewhere : (const void *)&other;
+        } else {
+            constants->scale.ntc_degC = &elsewhere.pwm_period_s;
+        }
+        app_tick();
+        TEST_ASSERT_FALSE(fake_board.gate);
+        TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, m->mode);
+        TEST_ASSERT_EQUAL_INT(APP_FAULT_MEMORY, m->fault);
+        app_tick();
+        TEST_ASSERT_FALSE(fake_board.gate);
+    }
+}
+
+static void test_changed_constants_open_the_bridge_within_some_passes(void)
+{
+    go_run();
+    both(100);
+    TEST_ASSERT_TRUE(fake_board.gate);
+    app_config_t *const constants = (app_config_t *)(uintptr_t)modes_inside()->config;
+    constants->zero_drift_A += 0.01f;
+    for (int n = 0; n < 200; n++) {
+        app_background();
+    }
+    TEST_ASSERT_FALSE(fake_board.gate);
+    app_tick();
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_MEMORY, app_status_read().fault);
 }
 
 static void test_background_opens_the_bridge_when_ticks_stand_still(void)
@@ -506,6 +574,9 @@ int main(void)
     RUN_TEST(test_watchdog_is_served_only_when_ticks_go_on);
     RUN_TEST(test_tick_trips_when_the_background_stands_still);
     RUN_TEST(test_background_that_lives_late_is_enough);
+    RUN_TEST(test_spoilt_end_of_the_stack_opens_the_bridge_at_once);
+    RUN_TEST(test_each_pointer_of_the_tick_alone_opens_the_bridge);
+    RUN_TEST(test_changed_constants_open_the_bridge_within_some_passes);
     RUN_TEST(test_background_opens_the_bridge_when_ticks_stand_still);
     RUN_TEST(test_second_command_waits_until_the_first_was_taken);
     RUN_TEST(test_cycles_of_last_and_worst_tick_are_shown);

@@ -53,6 +53,14 @@ static void assert_open(void)
     TEST_ASSERT_TRUE((out.duty.a == 0.5f) && (out.duty.b == 0.5f) && (out.duty.c == 0.5f));
 }
 
+static app_status_t status_of(uint16_t board_faults)
+{
+    app_status_t s;
+    (void)memset(&s, 0xFF, sizeof s); /* everything has to be set */
+    app_modes_status(&modes, board_faults, &s);
+    return s;
+}
+
 static void tick(void)
 {
     out = app_modes_tick(&modes, &in);
@@ -345,7 +353,7 @@ static void test_active_trip_input_is_not_ready(void)
     TEST_ASSERT_EQUAL_INT(APP_FAULT_NONE, modes.fault);
     in.board_faults = BOARD_FAULT_INPUT;
     tick();
-    TEST_ASSERT_TRUE(app_modes_status(&modes, in.board_faults).tripped);
+    TEST_ASSERT_TRUE(status_of(in.board_faults).tripped);
 }
 
 static void test_bootstrap_supplies_are_charged_before_a_run(void)
@@ -457,7 +465,7 @@ static void test_a_fault_at_speed_shorts_the_motor_until_it_is_slow(void)
     turn_ticks(1, FAST_cnt);
     TEST_ASSERT_EQUAL_INT(APP_FAULT_TEMPERATURE_SENSOR, modes.fault);
     TEST_ASSERT_TRUE(is_short());
-    TEST_ASSERT_TRUE(app_modes_status(&modes, 0U).shorted);
+    TEST_ASSERT_TRUE(status_of(0U).shorted);
     in.command.run   = false;
     in.command.reset = true;
     turn_ticks(50, FAST_cnt);
@@ -577,7 +585,7 @@ static void test_a_jump_drops_the_reference_in_ready(void)
     in.command.run = true;
     ticks(2);
     TEST_ASSERT_EQUAL_INT(APP_MODE_ALIGN, modes.mode);
-    TEST_ASSERT_EQUAL_UINT16(2U, app_modes_status(&modes, 0U).position_jumps); /* on, and off */
+    TEST_ASSERT_EQUAL_UINT16(2U, status_of(0U).position_jumps); /* on, and off */
 }
 
 static void test_a_zero_that_has_drifted_is_found_after_the_stop(void)
@@ -618,7 +626,7 @@ static void test_heat_takes_from_the_limit_and_trips_when_nobody_follows(void)
     raw.ib_cnt = 2048U - 307U;
     ticks(70);
     TEST_ASSERT_TRUE(modes.heat.derating > 0.0f);
-    TEST_ASSERT_TRUE(app_modes_status(&modes, 0U).motor_heat > 0.9f);
+    TEST_ASSERT_TRUE(status_of(0U).motor_heat > 0.9f);
     TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
     ticks(50);
     TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, modes.mode);
@@ -894,7 +902,7 @@ static void test_snapshot_keeps_the_first_fault(void)
 
 static void test_status_before_the_first_tick_promises_nothing(void)
 {
-    const app_status_t s = app_modes_status(&modes, 0U);
+    const app_status_t s = status_of(0U);
 
     TEST_ASSERT_EQUAL_INT(APP_MODE_BOOT, s.mode);
     TEST_ASSERT_EQUAL_INT(APP_FAULT_NONE, s.fault);
@@ -914,7 +922,7 @@ static void test_status_repeats_what_is_inside(void)
     raw.ia_cnt       = 2100U;
     raw.position_cnt = 3U;
     tick();
-    const app_status_t s = app_modes_status(&modes, 5U);
+    const app_status_t s = status_of(5U);
 
     TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, s.mode);
     TEST_ASSERT_EQUAL_INT(APP_ANGLE_INDEX, s.reference);
@@ -934,9 +942,28 @@ static void test_status_repeats_what_is_inside(void)
     in.command.run   = false;
     raw.position_cnt = 4U;
     tick();
-    const app_status_t off = app_modes_status(&modes, 0U);
+    const app_status_t off = status_of(0U);
     TEST_ASSERT_FLOAT_WITHIN(0.01f, 6.283f, off.speed_e_radps);
     TEST_ASSERT_TRUE((off.v_V.q == 0.0f) && (off.i_A.q == 0.0f) && !off.gate_enable);
+}
+
+/* At nine tenths of what heat leaves of the limit, in RUN only. */
+static void test_status_tells_a_current_at_its_limit(void)
+{
+    go_run();
+    const float limit_A         = drive_config.current_max_A;
+    modes.heat.derating         = 0.5f;
+    modes.drive.wanted.now.id_A = 0.0f;
+    modes.drive.wanted.now.iq_A = -0.46f * limit_A;
+    TEST_ASSERT_TRUE(status_of(0U).current_limited);
+    modes.drive.wanted.now.iq_A = -0.44f * limit_A;
+    TEST_ASSERT_FALSE(status_of(0U).current_limited);
+    modes.drive.wanted.now.iq_A = -limit_A;
+    modes.drive.v_limited       = true;
+    modes.mode                  = APP_MODE_STOP;
+    TEST_ASSERT_TRUE(status_of(0U).current_limited && status_of(0U).voltage_limited);
+    modes.mode = APP_MODE_READY;
+    TEST_ASSERT_FALSE(status_of(0U).current_limited || status_of(0U).voltage_limited);
 }
 
 static void assert_config_refused(void)
@@ -1052,6 +1079,7 @@ int main(void)
     RUN_TEST(test_second_alignment_starts_over);
     RUN_TEST(test_snapshot_keeps_the_first_fault);
     RUN_TEST(test_status_before_the_first_tick_promises_nothing);
+    RUN_TEST(test_status_tells_a_current_at_its_limit);
     RUN_TEST(test_status_repeats_what_is_inside);
     RUN_TEST(test_bad_constants_end_in_fault_for_good);
     RUN_TEST(test_both_forms_of_the_shipped_drive_fit_the_board);

@@ -146,6 +146,8 @@ static void test_conditions_reset_and_phase_errors(void)
     TEST_ASSERT_EQUAL_UINT(65535U, input(42));
     TEST_ASSERT_EQUAL_UINT(7U, input(43));
     TEST_ASSERT_EQUAL_UINT(88U, input(4));
+    registers.status.shorted = true;
+    TEST_ASSERT_EQUAL_UINT(120U, input(4));
 }
 
 static void test_limits_and_heat_are_told(void)

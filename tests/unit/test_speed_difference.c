@@ -66,6 +66,22 @@ static void test_it_starts_at_the_samples_speed(void)
     }
 }
 
+/* A flipped bit in the place of the next angle: nothing is written elsewhere, and five periods later all is well. */
+static void test_a_place_that_does_not_exist_is_none(void)
+{
+    static const int16_t places[] = {-1, 5, 32767};
+
+    for (int i = 0; i < SUPPORT_COUNT(places); i++) {
+        s.oldest = places[i];
+        for (int k = 0; k <= 10; k++) {
+            const double w = next(6.0 + (0.06 * k));
+            if (k >= 5) {
+                TEST_ASSERT_DOUBLE_WITHIN(TOL_radps, 300.0, w);
+            }
+        }
+    }
+}
+
 static void test_edges_are_taken_while_they_are_frequent(void)
 {
     float w = 0.0f;
@@ -111,6 +127,7 @@ int main(void)
     RUN_TEST(test_it_is_the_speed_half_a_window_ago);
     RUN_TEST(test_backwards_as_forwards);
     RUN_TEST(test_it_starts_at_the_samples_speed);
+    RUN_TEST(test_a_place_that_does_not_exist_is_none);
     RUN_TEST(test_edges_are_taken_while_they_are_frequent);
     RUN_TEST(test_check_wants_every_constant);
     return UNITY_END();

@@ -146,6 +146,11 @@ uint32_t board_cycles(void)
     return stub.periods * board_config.board.pwm_cycles;
 }
 
+bool board_stack_is_whole(void)
+{
+    return true; /* it is the program's */
+}
+
 void board_watchdog_serve(void) {}
 
 bool board_serial_read(uint16_t *octet)

@@ -28,14 +28,14 @@ struct BoardTick {
 };
 
 struct BoardResult {
-    SimulationResult         result;
-    std::vector<BoardTick>   ticks;
-    std::vector<std::string> notes;                ///< what is not as the scenario says
-    std::vector<std::string> findings;             ///< of the virtual device
-    double                   zero_a_cnt     = 0.0; ///< calibrated
-    double                   zero_b_cnt     = 0.0;
-    int                      modbus_answers = 0;
-    int                      modbus_errors  = 0;
+    SimulationResult                                  result;
+    std::vector<BoardTick, LargeAllocator<BoardTick>> ticks;
+    std::vector<std::string>                          notes; ///< what is not as the scenario says
+    std::vector<std::string>                          findings; ///< of the virtual device
+    double                                            zero_a_cnt     = 0.0; ///< calibrated
+    double                                            zero_b_cnt     = 0.0;
+    int                                               modbus_answers = 0;
+    int                                               modbus_errors  = 0;
 };
 
 /// InputError when the scenario is none for this board, or when the firmware does not come to RUN.

@@ -97,6 +97,11 @@ public:
     {
         return master_.errors();
     }
+    /// Any holding register; can_command() says when.
+    void write(std::uint16_t address, std::uint16_t value)
+    {
+        master_.write(address, value);
+    }
     /// The answer to chat(): the first input registers; empty until it is there.
     const std::vector<std::uint16_t> &registers() const
     {

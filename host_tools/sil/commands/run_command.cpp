@@ -63,14 +63,14 @@ void require_outputs(const Options &o)
 }
 
 /// The files that were asked for, all or none; `json` is already text.
-void write_outputs(const Options &o, const Scenario &scenario, const std::vector<TraceRow> &trace,
+void write_outputs(const Options &o, const Scenario &scenario, const Trace &trace,
                    const std::string &json)
 {
     const std::string title =
         o.drive.empty() ? scenario.name : scenario.name + ", " + scenario.drive.name;
     std::vector<OutputFile> files;
     if (!o.csv.empty()) {
-        files.push_back({o.csv, trace_csv(trace)});
+        files.push_back(trace_file(o.csv, trace));
     }
     if (!o.json.empty()) {
         files.push_back({o.json, json});

@@ -8,7 +8,7 @@
 namespace sdre {
 namespace {
 
-using Iterator = std::vector<TraceRow>::const_iterator;
+using Iterator = Trace::const_iterator;
 
 constexpr double audible_Hz = 100.0;
 // Of the rated torque: below it a change of the load is no step.

@@ -22,13 +22,12 @@ struct Effort {
 };
 
 /// Rows from begin to end, one per control period.
-Effort effort_of(std::vector<TraceRow>::const_iterator begin,
-                 std::vector<TraceRow>::const_iterator end, const Motor &motor, double period_s);
+Effort effort_of(Trace::const_iterator begin, Trace::const_iterator end, const Motor &motor,
+                 double period_s);
 
 /// dip / (n_p dT / J), what the dip of a load step dT would take without any answer: no drive can answer before its sensor
 /// shows the step and its inverter has changed the current. None without a step at `begin`.
-std::optional<double> equivalent_delay_s(std::vector<TraceRow>::const_iterator begin,
-                                         std::vector<TraceRow>::const_iterator end,
+std::optional<double> equivalent_delay_s(Trace::const_iterator begin, Trace::const_iterator end,
                                          double load_before_Nm, double dip_e_radps,
                                          const Motor &motor);
 

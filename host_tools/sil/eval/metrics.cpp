@@ -9,7 +9,7 @@
 namespace sdre {
 namespace {
 
-using Iterator = std::vector<TraceRow>::const_iterator;
+using Iterator = Trace::const_iterator;
 
 constexpr double tail_share       = 0.2;
 constexpr double current_share    = 0.01; // of the largest current: below it there is no distortion
@@ -140,7 +140,7 @@ Metrics metrics_of(const Window &window, const Drive &drive, double load_before_
 
 } // namespace
 
-std::vector<Window> windows_of(const Scenario &scenario, const std::vector<TraceRow> &trace)
+std::vector<Window> windows_of(const Scenario &scenario, const Trace &trace)
 {
     const auto first_at = [&](double time_s) {
         return std::find_if(trace.begin(), trace.end(),
@@ -160,7 +160,7 @@ std::vector<Window> windows_of(const Scenario &scenario, const std::vector<Trace
     return out;
 }
 
-std::vector<Metrics> measure(const Scenario &scenario, const std::vector<TraceRow> &trace)
+std::vector<Metrics> measure(const Scenario &scenario, const Trace &trace)
 {
     std::vector<Metrics> out;
     for (const Window &window : windows_of(scenario, trace)) {

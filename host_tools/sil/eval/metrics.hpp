@@ -57,16 +57,16 @@ struct Metrics {
 
 /// The rows of a measure.
 struct Window {
-    Measure                               measure;
-    std::vector<TraceRow>::const_iterator begin;
-    std::vector<TraceRow>::const_iterator tail; ///< its steady part goes from here to `end`
-    std::vector<TraceRow>::const_iterator end;
+    Measure               measure;
+    Trace::const_iterator begin;
+    Trace::const_iterator tail; ///< its steady part goes from here to `end`
+    Trace::const_iterator end;
 };
 
 /// Of every measure that has a row. They point into the trace.
-std::vector<Window> windows_of(const Scenario &scenario, const std::vector<TraceRow> &trace);
+std::vector<Window> windows_of(const Scenario &scenario, const Trace &trace);
 
-std::vector<Metrics> measure(const Scenario &scenario, const std::vector<TraceRow> &trace);
+std::vector<Metrics> measure(const Scenario &scenario, const Trace &trace);
 
 /// The numeric metrics by their JSON name, in the order of metric_names(); one without a value is left out.
 std::vector<std::pair<std::string, double>> metric_values(const Metrics &metrics);

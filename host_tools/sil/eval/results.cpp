@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sil/eval/results.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
@@ -66,6 +67,25 @@ const std::map<std::string, double> &paper_of(const Scenario &scenario, const Me
     return none;
 }
 
+const char *const trace_head =
+    "time_s,omega_ref_e_radps,omega_e_radps,iq_A,id_A,iq_ref_A,id_ref_A,vq_V,vd_V,d_omega_hat,"
+    "d_q_hat,d_d_hat,load_torque_Nm,torque_Nm,dc_link_V\n";
+
+constexpr std::ptrdiff_t rows_of_a_piece = 4096; // chosen: some hundred kilobytes
+
+void append_rows(std::string &s, Trace::const_iterator begin, Trace::const_iterator end)
+{
+    for (auto r = begin; r != end; ++r) {
+        fmt::format_to(std::back_inserter(s),
+                       "{:.10g},{:.10g},{:.10g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},",
+                       r->time_s, r->omega_ref_e_radps, r->omega_e_radps, r->iq_A, r->id_A,
+                       r->iq_ref_A, r->id_ref_A, r->vq_V, r->vd_V);
+        fmt::format_to(std::back_inserter(s), "{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n",
+                       r->d_omega_hat, r->d_q_hat, r->d_d_hat, r->load_torque_Nm, r->torque_Nm,
+                       r->dc_link_V);
+    }
+}
+
 } // namespace
 
 const char *const no_measures = "no measures: the scenario has no [[measure]] with a row\n";
@@ -89,21 +109,22 @@ const MetricLabel &metric_label(const std::string &metric)
     throw InputError(fmt::format("{} is not the name of a metric", metric));
 }
 
-std::string trace_csv(const std::vector<TraceRow> &trace)
+std::string trace_csv(const Trace &trace)
 {
-    std::string s = "time_s,omega_ref_e_radps,omega_e_radps,iq_A,id_A,iq_ref_A,id_ref_A,vq_V,vd_V,"
-                    "d_omega_hat,d_q_hat,"
-                    "d_d_hat,load_torque_Nm,torque_Nm,dc_link_V\n";
-    for (const TraceRow &r : trace) {
-        fmt::format_to(std::back_inserter(s),
-                       "{:.10g},{:.10g},{:.10g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},",
-                       r.time_s, r.omega_ref_e_radps, r.omega_e_radps, r.iq_A, r.id_A, r.iq_ref_A,
-                       r.id_ref_A, r.vq_V, r.vd_V);
-        fmt::format_to(std::back_inserter(s), "{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n",
-                       r.d_omega_hat, r.d_q_hat, r.d_d_hat, r.load_torque_Nm, r.torque_Nm,
-                       r.dc_link_V);
-    }
+    std::string s = trace_head;
+    append_rows(s, trace.begin(), trace.end());
     return s;
+}
+
+OutputFile trace_file(const std::filesystem::path &path, const Trace &trace)
+{
+    return {path, trace_head, [row = trace.begin(), end = trace.end()]() mutable {
+                const auto  rows = std::min<std::ptrdiff_t>(rows_of_a_piece, end - row);
+                std::string s;
+                append_rows(s, row, row + rows);
+                row += rows;
+                return s;
+            }};
 }
 
 std::string result_json(const Scenario &scenario, const SimulationResult &result,

@@ -2,10 +2,12 @@
 /// A finished run as text: CSV for plots, JSON for programs, a table for people.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "common/file_output.hpp"
 #include "sil/eval/metrics.hpp"
 #include "sil/run/simulation.hpp"
 
@@ -29,7 +31,9 @@ std::string metric_text(const MetricLabel &label, const std::optional<double> &v
 extern const char *const no_measures;
 
 /// Header line, then one row per control period.
-std::string trace_csv(const std::vector<TraceRow> &trace);
+std::string trace_csv(const Trace &trace);
+/// The same piece by piece. The trace has to outlive it.
+OutputFile trace_file(const std::filesystem::path &path, const Trace &trace);
 
 std::string result_json(const Scenario &scenario, const SimulationResult &result,
                         const std::vector<Metrics> &metrics);

@@ -10,8 +10,7 @@ namespace sdre {
 
 /// Mean of a value of the rows, of which there is one at least.
 template <typename Value>
-double mean(std::vector<TraceRow>::const_iterator begin, std::vector<TraceRow>::const_iterator end,
-            const Value &value)
+double mean(Trace::const_iterator begin, Trace::const_iterator end, const Value &value)
 {
     double sum = 0.0;
     for (auto row = begin; row != end; ++row) {

@@ -49,7 +49,7 @@ std::vector<SpectrumLine> speed_spectrum(const Window &window, int pole_pairs)
     return lines;
 }
 
-std::string spectrum_csv(const Scenario &scenario, const std::vector<TraceRow> &trace)
+std::string spectrum_csv(const Scenario &scenario, const Trace &trace)
 {
     std::string s = "measure,frequency_Hz,amplitude_rpm\n";
     for (const Window &window : windows_of(scenario, trace)) {

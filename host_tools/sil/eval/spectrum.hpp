@@ -24,6 +24,6 @@ struct SpectrumLine {
 std::vector<SpectrumLine> speed_spectrum(const Window &window, int pole_pairs);
 
 /// All measures below each other: measure, frequency, amplitude.
-std::string spectrum_csv(const Scenario &scenario, const std::vector<TraceRow> &trace);
+std::string spectrum_csv(const Scenario &scenario, const Trace &trace);
 
 } // namespace sdre

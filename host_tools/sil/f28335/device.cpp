@@ -42,6 +42,7 @@ Device::Device(Surroundings &surroundings, Firmware firmware, const DeviceOption
       timer_(CpuTimer0Regs, 0), timer1_(CpuTimer1Regs, 1), main_([firmware] { firmware(); })
 {
     the_device = this;
+    std::fill(std::begin(codestart_stack), std::end(codestart_stack), Uint16{0xC0DE});
     clock_.sync(now_, findings_, time_s());
     guard_.remember();
 }

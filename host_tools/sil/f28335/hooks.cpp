@@ -6,6 +6,8 @@ using sdre::f28335::Device;
 
 extern "C" {
 
+volatile Uint16 codestart_stack[0x400];
+
 void f28335_asm(const char *text)
 {
     Device::current().instruction(text);

@@ -16,12 +16,12 @@
 namespace sdre {
 
 struct SimulationResult {
-    std::vector<TraceRow> trace;
-    int                   fault        = 0; ///< drive_fault_t; 0 = none
-    double                fault_time_s = 0.0;
-    int                   ended        = 0; ///< why the trace stops early; 0 = it does not
-    double                simulated_seconds_per_second = 0.0; ///< wall clock
-    bool compiled_table = false;          ///< the generated table was used, not gains solved here
+    Trace  trace;
+    int    fault                        = 0; ///< drive_fault_t; 0 = none
+    double fault_time_s                 = 0.0;
+    int    ended                        = 0;   ///< why the trace stops early; 0 = it does not
+    double simulated_seconds_per_second = 0.0; ///< wall clock
+    bool   compiled_table = false;        ///< the generated table was used, not gains solved here
     std::vector<std::string> uncertified; ///< why the gains would not have been written as a table
 };
 

@@ -2,6 +2,9 @@
 /// What a run leaves of each control period.
 #pragma once
 
+#include <vector>
+
+#include "common/large_memory.hpp"
 #include "drive/core_types.hpp"
 #include "sil/run/board.hpp"
 
@@ -27,6 +30,9 @@ struct TraceRow {
     double dc_link_V           = 0.0;
     double peak_current_A      = 0.0; ///< largest |i| from this instant to the next
 };
+
+/// Of a whole run, however long.
+using Trace = std::vector<TraceRow, LargeAllocator<TraceRow>>;
 
 /// The plant's part of a row; the peak is that of the instant.
 TraceRow row_of(double time_s, double omega_ref_e_radps, const PlantState &plant);
