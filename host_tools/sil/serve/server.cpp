@@ -225,7 +225,8 @@ void Server::run()
     std::signal(SIGINT, ask_to_end);
     std::signal(SIGTERM, ask_to_end);
     double origin_s = wall_now_s() - drive_.time_s() / pace_.speed_factor;
-    while (asked_to_end == 0 && (options_.end_s <= 0.0 || drive_.time_s() < options_.end_s)) {
+    while (asked_to_end == 0 && !stopped_ &&
+           (options_.end_s <= 0.0 || drive_.time_s() < options_.end_s)) {
         const double wall_s   = wall_now_s();
         const double wanted_s = (wall_s - origin_s) * pace_.speed_factor;
         const double late_s   = wanted_s - drive_.time_s() - most_late_s;
