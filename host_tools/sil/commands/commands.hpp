@@ -14,5 +14,6 @@ Command compare_command();
 Command motors_command();
 Command bench_command();
 Command qualify_command();
+Command commission_command();
 
 } // namespace sdre

@@ -1,0 +1,304 @@
+/* SPDX-License-Identifier: MIT */
+#include "commission_drag.h"
+
+#include "commission_angle.h"
+
+/* Chosen: shares of the current bound; first try, most, least. */
+#define FIRST_SHARE 0.1f
+#define MOST_SHARE  0.6f
+#define LEAST_SHARE 0.02f
+#define RAMP_s      0.5f
+#define STILL_s     0.2f
+#define PATIENCE_s  6.0f
+/* Chosen: electrical. Below a third of what the rotor swings at, it follows; slower than the least takes minutes. */
+#define SWING_SHARE  0.3f
+#define SLOWEST_radps 0.6f
+#define FASTEST_radps 6.0f
+#define SPEED_RAMP_s  1.0f
+/* Whole mechanical turns, but no more electrical ones than this; and to find two indexes. */
+#define MOST_TURNS  8
+#define INDEX_TURNS 64
+/* x above this many S I is a magnet; the current is then below a third of where the magnet would let go. */
+#define MAGNET_RATIO 1.4f
+#define HOLD_RATIO   3.0f
+#define MOST_TRIES   6
+/* A rotor that follows moves by the same counts both ways, within this share; and by this many at least. */
+#define SAME_WAY   0.1f
+#define LEAST_CNT  20L
+/* Pole pairs are whole within this. */
+#define WHOLE 0.15f
+
+/* Parts of a pass. */
+enum { SETTLE = 0, LEAD_FORWARD, FORWARD, TURN, BACKWARD, RELEASE, PARTS };
+
+static void begin_part(commission_drag_t *d, int16_t part)
+{
+    d->part    = part;
+    d->way_rad = 0.0f;
+    d->ticks   = 0L;
+}
+
+static void begin_pass(commission_drag_t *d, float length_A, int16_t turns)
+{
+    const commission_drag_sums_t none = {.n = 0.0f};
+    d->sums[0]                        = none;
+    d->sums[1]                        = none;
+    d->length_A                       = length_A;
+    d->turns                          = turns;
+    d->indexes                        = 0;
+    begin_part(d, SETTLE);
+}
+
+void commission_drag_start(commission_drag_t *d, const commission_config_t *c,
+                           const commission_result_t *known)
+{
+    const float       swing = known->half_swing_s;
+    commission_drag_t fresh = {.speed_radps = FASTEST_radps};
+    *d                      = fresh;
+    if (swing > 0.0f) {
+        d->speed_radps = base_clamp(SWING_SHARE * BASE_PI / swing, SLOWEST_radps, FASTEST_radps);
+    }
+    commission_vector_start(&d->vector, c, known, RAMP_s);
+    begin_pass(d, FIRST_SHARE * c->current_max_A, 1);
+}
+
+static void add(commission_drag_t *d, const commission_vector_out_t *out,
+                const commission_signal_t *s, const commission_result_t *known)
+{
+    commission_drag_sums_t *u = &d->sums[(d->part == FORWARD) ? 0 : 1];
+
+    if (!(u->n > 0.0f)) {
+        u->from_cnt = s->position_cnt;
+    }
+    u->moved_cnt = commission_moved_cnt(s->position_cnt, u->from_cnt);
+    u->e_V.d += out->v_V.d - (known->r_Ohm.value * out->i_A.d);
+    u->e_V.q += out->v_V.q - (known->r_Ohm.value * out->i_A.q);
+    u->i_A.d += out->i_A.d;
+    u->i_A.q += out->i_A.q;
+    if (d->second && (known->counts_per_turn > 0L)) {
+        const float vector = d->theta_rad + atan2f(out->i_A.q, out->i_A.d);
+        const float shaft  = commission_angle_shaft_rad(known, s->position_cnt);
+        const float angle  = frames_wrap(frames_wrap(vector - shaft));
+        if (!(u->n > 0.0f)) {
+            u->angle0_rad = angle;
+        }
+        const float away = frames_wrap(angle - u->angle0_rad);
+        u->angle_rad += away;
+        u->angle2_rad2 += away * away;
+    }
+    u->n += 1.0f;
+}
+
+static void note_index(commission_drag_t *d, const commission_signal_t *s,
+                       commission_result_t *found)
+{
+    if (!s->index_seen || (d->part != FORWARD)) {
+        return;
+    }
+    if (d->indexes == 0) {
+        d->index_cnt = s->index_cnt;
+    } else if ((d->indexes == 1) && (found->counts_per_turn == 0L)) {
+        const int32_t turn     = commission_moved_cnt(s->index_cnt, d->index_cnt);
+        found->counts_per_turn = (turn < 0L) ? -turn : turn;
+    } else {
+        /* one more of the same */
+    }
+    d->indexes++;
+    found->indexed   = true;
+    found->index_cnt = s->index_cnt;
+}
+
+static bool follows(const commission_drag_t *d)
+{
+    const float forward  = (float)d->sums[0].moved_cnt;
+    const float backward = (float)d->sums[1].moved_cnt;
+
+    return ((d->sums[0].moved_cnt > LEAST_CNT) || (d->sums[0].moved_cnt < -LEAST_CNT)) &&
+           (fabsf(forward + backward) <= (SAME_WAY * fabsf(forward)));
+}
+
+/* Flux along the current, less Ld I: EQ-COMMISSION-10. */
+static float beyond_ld_Wb(const commission_drag_t *d, const commission_result_t *known, float *i_A)
+{
+    float x      = 0.0f;
+    float length = 0.0f;
+    for (int16_t k = 0; k < 2; k++) {
+        const commission_drag_sums_t *u   = &d->sums[k];
+        const float                   per = 1.0f / base_max(u->n, 1.0f);
+        const float w      = (k == 0) ? d->speed_radps : -d->speed_radps;
+        const dq_t  i      = {u->i_A.d * per, u->i_A.q * per};
+        const dq_t  lambda = {u->e_V.q * per / w, -u->e_V.d * per / w};
+        const float size   = base_max(sqrtf((i.d * i.d) + (i.q * i.q)), 1.0e-6f);
+        x += 0.5f * ((((lambda.d * i.d) + (lambda.q * i.q)) / size) - (known->ld_H.value * size));
+        length += 0.5f * size;
+    }
+    *i_A = length;
+    return x;
+}
+
+static int16_t turns_of(const commission_result_t *found)
+{
+    return (found->pole_pairs < 2)            ? 2
+           : (found->pole_pairs > MOST_TURNS) ? MOST_TURNS
+                                              : found->pole_pairs;
+}
+
+/* What the first pass says. */
+static commission_step_t judge_first(commission_drag_t *d, const commission_config_t *c,
+                                     commission_result_t *found)
+{
+    const float saliency = base_max(found->lq_H.value - found->ld_H.value, 0.0f);
+    const float most_A   = MOST_SHARE * c->current_max_A;
+    float       i_A      = 0.0f;
+
+    d->tries++;
+    if (!follows(d)) {
+        if ((d->tries >= MOST_TRIES) || (d->length_A >= most_A)) {
+            return COMMISSION_FAILED;
+        }
+        begin_pass(d, base_min(2.0f * d->length_A, most_A), 1);
+        return COMMISSION_BUSY;
+    }
+    const float x     = beyond_ld_Wb(d, found, &i_A);
+    found->direction  = (d->sums[0].moved_cnt > 0L) ? 1 : -1;
+    found->reluctance = !(x > (MAGNET_RATIO * saliency * i_A));
+    if (found->reluctance && ((0.4f * d->length_A) > (LEAST_SHARE * c->current_max_A)) &&
+        (d->tries < MOST_TRIES)) {
+        begin_pass(d, 0.4f * d->length_A, 1);
+        return COMMISSION_BUSY;
+    }
+    found->flux_Wb.value = found->reluctance ? 0.0f : x;
+    if (found->counts_per_turn > 0L) {
+        const float pairs = (float)found->counts_per_turn / fabsf((float)d->sums[0].moved_cnt);
+        found->pole_pairs = (int16_t)base_clamp(pairs + 0.5f, 0.0f, 1000.0f);
+    }
+    d->second         = true;
+    const float hold_A = (found->reluctance || !(saliency > 0.0f))
+                             ? most_A
+                             : (found->flux_Wb.value / (HOLD_RATIO * saliency));
+    begin_pass(d, base_min(hold_A, most_A),
+               (found->counts_per_turn > 0L) ? turns_of(found) : INDEX_TURNS);
+    return COMMISSION_BUSY;
+}
+
+static commission_step_t judge_second(commission_drag_t *d, commission_result_t *found)
+{
+    float mean[2];
+    float spread = 0.0f;
+
+    if (!follows(d)) {
+        return COMMISSION_FAILED;
+    }
+    const float turns = (float)d->turns;
+    const float pairs =
+        (float)found->counts_per_turn * turns / fabsf((float)d->sums[0].moved_cnt);
+    const float whole = (float)found->pole_pairs;
+    if ((found->pole_pairs < 1) || !base_within(pairs - whole, WHOLE * base_min(whole, 3.0f))) {
+        return COMMISSION_FAILED;
+    }
+    for (int16_t k = 0; k < 2; k++) {
+        const commission_drag_sums_t *u   = &d->sums[k];
+        const float                   per = 1.0f / base_max(u->n, 1.0f);
+        mean[k]                           = u->angle_rad * per;
+        spread += 0.5f * base_max((u->angle2_rad2 * per) - (mean[k] * mean[k]), 0.0f);
+    }
+    /* EQ-COMMISSION-9; the vector is along d, or along q of a reluctance motor. */
+    const float between = frames_wrap((d->sums[1].angle0_rad + mean[1]) -
+                                      (d->sums[0].angle0_rad + mean[0]));
+    const float middle  = d->sums[0].angle0_rad + mean[0] + (0.5f * between);
+    const float vector  = found->reluctance ? (0.5f * BASE_PI) : 0.0f;
+    found->offset_rad.value = frames_wrap(frames_wrap(middle - vector));
+    found->lag_rad          = -0.5f * between;
+    found->ripple_rad       = sqrtf(spread);
+    /* Chosen: a tenth of what friction and swinging do in all, since their means cancel. */
+    found->offset_rad.error = (0.1f * (fabsf(found->lag_rad) + found->ripple_rad)) +
+                              (BASE_PI * whole / (float)found->counts_per_turn);
+    return COMMISSION_DONE;
+}
+
+/* With an unknown number of counts the second pass waits for two indexes, which give the pole pairs too, and begins again. */
+static bool forward_done(commission_drag_t *d, commission_result_t *found)
+{
+    const float turned = d->way_rad / BASE_TWO_PI;
+
+    if ((d->turns == INDEX_TURNS) && (found->counts_per_turn > 0L)) {
+        const float moved = fabsf((float)d->sums[0].moved_cnt);
+        const float pairs = (float)found->counts_per_turn * turned / base_max(moved, 1.0f);
+        found->pole_pairs = (int16_t)base_clamp(pairs + 0.5f, 0.0f, 1000.0f);
+        begin_pass(d, d->length_A, turns_of(found));
+        return false;
+    }
+    return turned >= (float)d->turns;
+}
+
+static void move(commission_drag_t *d, float ts_s, float wanted_radps)
+{
+    const float most = d->speed_radps * ts_s / SPEED_RAMP_s;
+    d->omega_radps   = base_clamp(wanted_radps, d->omega_radps - most, d->omega_radps + most);
+    d->theta_rad     = frames_wrap(d->theta_rad + (d->omega_radps * ts_s));
+    d->way_rad += fabsf(d->omega_radps) * ts_s;
+}
+
+/* Speed of the present part, and whether it has ended. */
+static bool part_ends(commission_drag_t *d, const commission_config_t *c, float *wanted_radps,
+                      commission_result_t *found)
+{
+    const bool settled = commission_vector_still(&d->vector, STILL_s) &&
+                         (d->ticks > commission_ticks(RAMP_s + STILL_s, c->ts_s));
+    const bool late    = d->ticks > commission_ticks(PATIENCE_s, c->ts_s);
+
+    switch (d->part) {
+    case LEAD_FORWARD:
+        *wanted_radps = d->speed_radps;
+        return (d->way_rad >= BASE_PI) && (d->omega_radps >= d->speed_radps);
+    case FORWARD:
+        *wanted_radps = d->speed_radps;
+        return forward_done(d, found);
+    case TURN:
+        *wanted_radps = -d->speed_radps;
+        return (d->way_rad >= BASE_TWO_PI) && (d->omega_radps <= -d->speed_radps);
+    case BACKWARD:
+        *wanted_radps = -d->speed_radps;
+        return d->way_rad >= (BASE_TWO_PI * (float)d->turns);
+    default:
+        *wanted_radps = 0.0f;
+        return settled || late;
+    }
+}
+
+commission_answer_t commission_drag_tick(commission_drag_t *d, const commission_config_t *c,
+                                         const commission_signal_t *s, commission_result_t *found)
+{
+    commission_answer_t answer       = commission_rest(COMMISSION_BUSY);
+    float               wanted_radps = 0.0f;
+
+    note_index(d, s, found);
+    const commission_vector_out_t out =
+        commission_vector_tick(&d->vector, s, d->theta_rad, 1.5f * d->omega_radps * c->ts_s,
+                               (d->part == RELEASE) ? 0.0f : d->length_A);
+    if ((d->part == FORWARD) || (d->part == BACKWARD)) {
+        add(d, &out, s, found);
+    }
+    d->ticks++;
+    const bool ends = part_ends(d, c, &wanted_radps, found);
+    move(d, c->ts_s, wanted_radps);
+    if (ends && (d->part == RELEASE)) {
+        answer.step = COMMISSION_DONE;
+        return answer;
+    }
+    if (ends && (d->part == BACKWARD)) {
+        const commission_step_t step = d->second ? judge_second(d, found) : judge_first(d, c, found);
+        if (step == COMMISSION_DONE) {
+            begin_part(d, RELEASE);
+        } else {
+            answer.step = step;
+        }
+    } else if (ends) {
+        begin_part(d, (int16_t)(d->part + 1));
+    } else {
+        /* goes on */
+    }
+    answer.v_V = out.out_V;
+    answer.i_A = frames_inverse_park(out.i_A, frames_angle(d->theta_rad));
+    return answer;
+}
