@@ -41,15 +41,15 @@ typedef enum {
     COMMISSION_REASON_OVER_CURRENT, /**< a phase current above 1.05 times the bound */
     COMMISSION_REASON_DC_LINK,
     COMMISSION_REASON_OVER_SPEED,
-    COMMISSION_REASON_ENCODER,      /**< the position jumped */
-    COMMISSION_REASON_TIMEOUT,      /**< a stage takes too long */
-    COMMISSION_REASON_WITHDRAWN,    /**< the command went away */
-    COMMISSION_REASON_MOVING,       /**< the shaft turned, or a current ran, with the bridge open */
-    COMMISSION_REASON_INDUCTANCE,   /**< currents do not follow the voltage: a phase is open? */
+    COMMISSION_REASON_ENCODER,    /**< the position jumped */
+    COMMISSION_REASON_TIMEOUT,    /**< a stage takes too long */
+    COMMISSION_REASON_WITHDRAWN,  /**< the command went away */
+    COMMISSION_REASON_MOVING,     /**< the shaft turned, or a current ran, with the bridge open */
+    COMMISSION_REASON_INDUCTANCE, /**< currents do not follow the voltage: a phase is open? */
     COMMISSION_REASON_RESISTANCE,
-    COMMISSION_REASON_DRAG,         /**< the rotor does not follow, or the pole pairs are no whole number */
-    COMMISSION_REASON_SPIN,         /**< the shaft does not turn as its torque says */
-    COMMISSION_REASON_NUMERIC       /**< a result that is no number */
+    COMMISSION_REASON_DRAG, /**< the rotor does not follow, or the pole pairs are no whole number */
+    COMMISSION_REASON_SPIN, /**< the shaft does not turn as its torque says */
+    COMMISSION_REASON_NUMERIC /**< a result that is no number */
 } commission_reason_t;
 
 typedef union {
@@ -68,13 +68,14 @@ typedef struct {
     commission_work_t          work;
     int32_t                    ticks; /**< since the stage began */
     ab_t                       i_A;
-    ab_t                       v_now_V;    /**< asked for at the last sample: in force after this one */
-    ab_t                       v_before_V; /**< in force until this one */
-    float                      zero_a_A;
-    float                      zero_b_A;
-    int32_t                    position_cnt;
-    int32_t                    speed_cnt; /**< position at the beginning of the window of the speed */
-    int32_t                    speed_ticks;
+    ab_t    v_now_V;    /**< asked for at the last sample: in force after this one */
+    ab_t    v_before_V; /**< in force until this one */
+    float   zero_a_A;
+    float   zero_b_A;
+    int32_t position_cnt;
+    int32_t speed_cnt; /**< position at the beginning of the window of the speed */
+    int32_t speed_ticks;
+    int16_t rounds; /**< of MAP and SPIN; a second one when the offset was wrong */
 } commission_t;
 
 /** @return CTL_BAD_CONFIG: a bound is out of range, and nothing will start. Context: init. */

@@ -22,8 +22,9 @@ float commission_angle_rad(const commission_result_t *known, int32_t position_cn
 
 void commission_angle_start(commission_angle_t *a, float theta_rad)
 {
-    a->theta_rad     = theta_rad;
-    a->omega_e_radps = 0.0f;
+    a->theta_rad      = theta_rad;
+    a->omega_e_radps  = 0.0f;
+    a->prompt_e_radps = 0.0f;
 }
 
 float commission_angle_tick(commission_angle_t *a, float theta_rad, float ts_s)
@@ -32,5 +33,6 @@ float commission_angle_tick(commission_angle_t *a, float theta_rad, float ts_s)
     const float error = frames_wrap(theta_rad - ahead);
     a->theta_rad      = frames_wrap(ahead + (2.0f * POLE_PER_TS * error));
     a->omega_e_radps += (POLE_PER_TS * POLE_PER_TS / ts_s) * error;
+    a->prompt_e_radps = a->omega_e_radps + ((2.0f * POLE_PER_TS / ts_s) * error);
     return a->omega_e_radps;
 }

@@ -13,8 +13,9 @@
 #include "commission_types.h"
 
 typedef struct {
-    float theta_rad; /**< followed, +-pi */
-    float omega_e_radps;
+    float theta_rad;      /**< followed, +-pi */
+    float omega_e_radps;  /**< late by 50 periods of a steady acceleration */
+    float prompt_e_radps; /**< not late, noisier */
 } commission_angle_t;
 
 /** EQ-COMMISSION-7 without the offset, +-pi. Context: control ISR. Two divisions. */

@@ -11,8 +11,8 @@
 #define STILL_s     0.2f
 #define PATIENCE_s  6.0f
 /* Chosen: electrical. Below a third of what the rotor swings at, it follows; slower than the least takes minutes. */
-#define SWING_SHARE  0.3f
-#define SLOWEST_radps 0.6f
+#define SWING_SHARE   0.3f
+#define SLOWEST_radps 1.2f
 #define FASTEST_radps 6.0f
 #define SPEED_RAMP_s  1.0f
 /* Whole mechanical turns, but no more electrical ones than this; and to find two indexes. */
@@ -21,10 +21,10 @@
 /* x above this many S I is a magnet; the current is then below a third of where the magnet would let go. */
 #define MAGNET_RATIO 1.4f
 #define HOLD_RATIO   3.0f
-#define MOST_TRIES   6
+#define LESS         0.4f
 /* A rotor that follows moves by the same counts both ways, within this share; and by this many at least. */
-#define SAME_WAY   0.1f
-#define LEAST_CNT  20L
+#define SAME_WAY  0.1f
+#define LEAST_CNT 20L
 /* Pole pairs are whole within this. */
 #define WHOLE 0.15f
 
@@ -123,12 +123,12 @@ static float beyond_ld_Wb(const commission_drag_t *d, const commission_result_t 
     float x      = 0.0f;
     float length = 0.0f;
     for (int16_t k = 0; k < 2; k++) {
-        const commission_drag_sums_t *u   = &d->sums[k];
-        const float                   per = 1.0f / base_max(u->n, 1.0f);
-        const float w      = (k == 0) ? d->speed_radps : -d->speed_radps;
-        const dq_t  i      = {u->i_A.d * per, u->i_A.q * per};
-        const dq_t  lambda = {u->e_V.q * per / w, -u->e_V.d * per / w};
-        const float size   = base_max(sqrtf((i.d * i.d) + (i.q * i.q)), 1.0e-6f);
+        const commission_drag_sums_t *u      = &d->sums[k];
+        const float                   per    = 1.0f / base_max(u->n, 1.0f);
+        const float                   w      = (k == 0) ? d->speed_radps : -d->speed_radps;
+        const dq_t                    i      = {u->i_A.d * per, u->i_A.q * per};
+        const dq_t                    lambda = {u->e_V.q * per / w, -u->e_V.d * per / w};
+        const float                   size   = base_max(sqrtf((i.d * i.d) + (i.q * i.q)), 1.0e-6f);
         x += 0.5f * ((((lambda.d * i.d) + (lambda.q * i.q)) / size) - (known->ld_H.value * size));
         length += 0.5f * size;
     }
@@ -143,58 +143,88 @@ static int16_t turns_of(const commission_result_t *found)
                                               : found->pole_pairs;
 }
 
+/* Counts and kind of alignment are known: the pass that finds the offset. */
+static void begin_second(commission_drag_t *d, const commission_config_t *c,
+                         const commission_result_t *found)
+{
+    const float saliency = found->lq_H.value - found->ld_H.value;
+    const float most_A   = MOST_SHARE * c->current_max_A;
+    const float hold_A   = (found->reluctance || !(saliency > 0.0f))
+                               ? most_A
+                               : (found->flux_Wb.value / (HOLD_RATIO * saliency));
+    d->second            = true;
+    begin_pass(d, base_min(hold_A, most_A),
+               (found->counts_per_turn > 0L) ? turns_of(found) : INDEX_TURNS);
+}
+
+/* A rotor that stays behind gets more current, unless less was tried than one that it followed. */
+static commission_step_t try_again(commission_drag_t *d, const commission_config_t *c,
+                                   const commission_result_t *found)
+{
+    const float most_A = MOST_SHARE * c->current_max_A;
+
+    if (d->followed_A > 0.0f) {
+        begin_second(d, c, found);
+        return COMMISSION_BUSY;
+    }
+    if (d->length_A >= most_A) {
+        return COMMISSION_FAILED;
+    }
+    begin_pass(d, base_min(2.0f * d->length_A, most_A), 1);
+    return COMMISSION_BUSY;
+}
+
 /* What the first pass says. */
 static commission_step_t judge_first(commission_drag_t *d, const commission_config_t *c,
                                      commission_result_t *found)
 {
     const float saliency = base_max(found->lq_H.value - found->ld_H.value, 0.0f);
-    const float most_A   = MOST_SHARE * c->current_max_A;
     float       i_A      = 0.0f;
 
-    d->tries++;
     if (!follows(d)) {
-        if ((d->tries >= MOST_TRIES) || (d->length_A >= most_A)) {
-            return COMMISSION_FAILED;
-        }
-        begin_pass(d, base_min(2.0f * d->length_A, most_A), 1);
-        return COMMISSION_BUSY;
+        return try_again(d, c, found);
     }
-    const float x     = beyond_ld_Wb(d, found, &i_A);
-    found->direction  = (d->sums[0].moved_cnt > 0L) ? 1 : -1;
-    found->reluctance = !(x > (MAGNET_RATIO * saliency * i_A));
-    if (found->reluctance && ((0.4f * d->length_A) > (LEAST_SHARE * c->current_max_A)) &&
-        (d->tries < MOST_TRIES)) {
-        begin_pass(d, 0.4f * d->length_A, 1);
-        return COMMISSION_BUSY;
-    }
+    const float x        = beyond_ld_Wb(d, found, &i_A); /* EQ-COMMISSION-10 */
+    found->direction     = (d->sums[0].moved_cnt > 0L) ? 1 : -1;
+    found->reluctance    = !(x > (MAGNET_RATIO * saliency * i_A));
     found->flux_Wb.value = found->reluctance ? 0.0f : x;
+    d->followed_A        = d->length_A;
     if (found->counts_per_turn > 0L) {
         const float pairs = (float)found->counts_per_turn / fabsf((float)d->sums[0].moved_cnt);
         found->pole_pairs = (int16_t)base_clamp(pairs + 0.5f, 0.0f, 1000.0f);
     }
-    d->second         = true;
-    const float hold_A = (found->reluctance || !(saliency > 0.0f))
-                             ? most_A
-                             : (found->flux_Wb.value / (HOLD_RATIO * saliency));
-    begin_pass(d, base_min(hold_A, most_A),
-               (found->counts_per_turn > 0L) ? turns_of(found) : INDEX_TURNS);
+    const float less_A = LESS * d->length_A;
+    if (found->reluctance && (less_A > (LEAST_SHARE * c->current_max_A))) {
+        begin_pass(d, less_A, 1);
+    } else {
+        begin_second(d, c, found);
+    }
     return COMMISSION_BUSY;
 }
 
-static commission_step_t judge_second(commission_drag_t *d, commission_result_t *found)
+static bool pairs_are_whole(const commission_drag_t *d, const commission_result_t *found)
 {
-    float mean[2];
-    float spread = 0.0f;
-
-    if (!follows(d)) {
-        return COMMISSION_FAILED;
-    }
-    const float turns = (float)d->turns;
-    const float pairs =
-        (float)found->counts_per_turn * turns / fabsf((float)d->sums[0].moved_cnt);
+    const float moved = fabsf((float)d->sums[0].moved_cnt);
+    const float pairs = (float)found->counts_per_turn * (float)d->turns / base_max(moved, 1.0f);
     const float whole = (float)found->pole_pairs;
-    if ((found->pole_pairs < 1) || !base_within(pairs - whole, WHOLE * base_min(whole, 3.0f))) {
-        return COMMISSION_FAILED;
+
+    return (found->pole_pairs > 0) && base_within(pairs - whole, WHOLE * base_min(whole, 3.0f));
+}
+
+static commission_step_t judge_second(commission_drag_t *d, const commission_config_t *c,
+                                      commission_result_t *found)
+{
+    const float most_A = MOST_SHARE * c->current_max_A;
+    float       mean[2];
+    float       spread = 0.0f;
+
+    const float whole = (float)found->pole_pairs;
+    if (!follows(d) || !pairs_are_whole(d, found)) {
+        if (d->length_A >= most_A) {
+            return COMMISSION_FAILED;
+        }
+        begin_pass(d, base_min(2.0f * d->length_A, most_A), d->turns);
+        return COMMISSION_BUSY;
     }
     for (int16_t k = 0; k < 2; k++) {
         const commission_drag_sums_t *u   = &d->sums[k];
@@ -203,10 +233,10 @@ static commission_step_t judge_second(commission_drag_t *d, commission_result_t 
         spread += 0.5f * base_max((u->angle2_rad2 * per) - (mean[k] * mean[k]), 0.0f);
     }
     /* EQ-COMMISSION-9; the vector is along d, or along q of a reluctance motor. */
-    const float between = frames_wrap((d->sums[1].angle0_rad + mean[1]) -
-                                      (d->sums[0].angle0_rad + mean[0]));
-    const float middle  = d->sums[0].angle0_rad + mean[0] + (0.5f * between);
-    const float vector  = found->reluctance ? (0.5f * BASE_PI) : 0.0f;
+    const float between =
+        frames_wrap((d->sums[1].angle0_rad + mean[1]) - (d->sums[0].angle0_rad + mean[0]));
+    const float middle      = d->sums[0].angle0_rad + mean[0] + (0.5f * between);
+    const float vector      = found->reluctance ? (0.5f * BASE_PI) : 0.0f;
     found->offset_rad.value = frames_wrap(frames_wrap(middle - vector));
     found->lag_rad          = -0.5f * between;
     found->ripple_rad       = sqrtf(spread);
@@ -245,7 +275,7 @@ static bool part_ends(commission_drag_t *d, const commission_config_t *c, float 
 {
     const bool settled = commission_vector_still(&d->vector, STILL_s) &&
                          (d->ticks > commission_ticks(RAMP_s + STILL_s, c->ts_s));
-    const bool late    = d->ticks > commission_ticks(PATIENCE_s, c->ts_s);
+    const bool late = d->ticks > commission_ticks(PATIENCE_s, c->ts_s);
 
     switch (d->part) {
     case LEAD_FORWARD:
@@ -287,7 +317,8 @@ commission_answer_t commission_drag_tick(commission_drag_t *d, const commission_
         return answer;
     }
     if (ends && (d->part == BACKWARD)) {
-        const commission_step_t step = d->second ? judge_second(d, found) : judge_first(d, c, found);
+        const commission_step_t step =
+            d->second ? judge_second(d, c, found) : judge_first(d, c, found);
         if (step == COMMISSION_DONE) {
             begin_part(d, RELEASE);
         } else {

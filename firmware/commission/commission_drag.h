@@ -44,12 +44,12 @@ typedef struct {
     float                  speed_radps; /**< largest */
     float                  way_rad;     /**< since the part began */
     float                  length_A;
+    float                  followed_A; /**< a current with which the rotor followed; 0: none yet */
     int32_t                ticks;
     int32_t                index_cnt; /**< position at the first index */
     int16_t                part;
     int16_t                turns; /**< in the measured parts */
     int16_t                indexes;
-    int16_t                tries;
     bool                   second; /**< pass: counts are known, the offset is wanted */
 } commission_drag_t;
 

@@ -29,9 +29,9 @@ commission_fitted_t commission_fit_solve(const commission_fit_t *f)
     if ((f->n < 2) || !(det > (LEAST_SINE2 * f->aa * f->bb))) {
         return out;
     }
-    const float inv = 1.0f / det; /* EQ-COMMISSION-1 */
-    out.x0          = ((f->bb * f->ay) - (f->ab * f->by)) * inv;
-    out.x1          = ((f->aa * f->by) - (f->ab * f->ay)) * inv;
+    const float inv      = 1.0f / det; /* EQ-COMMISSION-1 */
+    out.x0               = ((f->bb * f->ay) - (f->ab * f->by)) * inv;
+    out.x1               = ((f->aa * f->by) - (f->ab * f->ay)) * inv;
     const float rest     = base_max((f->yy - (out.x0 * f->ay)) - (out.x1 * f->by), 0.0f);
     const float freedom  = (f->n > 2) ? (float)(f->n - 2) : 1.0f;
     const float variance = rest / freedom;

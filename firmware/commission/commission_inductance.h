@@ -14,6 +14,7 @@
 #ifndef COMMISSION_INDUCTANCE_H
 #define COMMISSION_INDUCTANCE_H
 
+#include "commission_angle.h"
 #include "commission_fit.h"
 #include "commission_types.h"
 #include "commission_wave.h"
@@ -26,15 +27,17 @@ typedef struct {
 } commission_bin_t;
 
 typedef struct {
-    commission_wave_t wave;
-    int16_t           axis; /**< alpha, beta; d, q */
-    int16_t           wait_ticks;
-    commission_fit_t  alpha; /**< v_alpha against di, both axes' waves */
-    commission_fit_t  beta;
-    commission_bin_t  bins[2][2][COMMISSION_BINS]; /**< axis, sign of the current, bin */
-    float             noise_A2;                    /**< variance of di of a standing current, both axes' mean */
-    float             noise_n;
-    int32_t           before_cnt;
+    commission_wave_t  wave;
+    int16_t            axis;      /**< of the look 0 .. 3, of the map d, q */
+    frames_angle_t     direction; /**< of the look's wave */
+    int16_t            wait_ticks;
+    commission_fit_t   alpha; /**< v_alpha against di, both axes' waves */
+    commission_fit_t   beta;
+    commission_bin_t   bins[2][2][COMMISSION_BINS]; /**< axis, sign of the current, bin */
+    float              noise_A2; /**< variance of di of a standing current, both axes' mean */
+    float              noise_n;
+    int32_t            before_cnt;
+    commission_angle_t angle; /**< its speed */
 } commission_inductance_t;
 
 /** Context: control ISR. */

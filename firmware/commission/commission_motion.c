@@ -10,7 +10,8 @@ void commission_motion_start(commission_motion_t *m)
     m->have_last    = false;
 }
 
-void commission_motion_begin(commission_motion_t *m, bool driven, int32_t length_ticks, int32_t settle_ticks)
+void commission_motion_begin(commission_motion_t *m, bool driven, int32_t length_ticks,
+                             int32_t settle_ticks)
 {
     m->driven       = driven;
     m->length_ticks = (length_ticks < 8L) ? 8L : length_ticks;
@@ -30,7 +31,7 @@ static float rad_per_cnt(const commission_result_t *known)
 static void close_window(commission_motion_t *m, const commission_config_t *c,
                          const commission_result_t *known, int32_t position_cnt)
 {
-    const float per   = rad_per_cnt(known);
+    const float per    = rad_per_cnt(known);
     const float turned = per * (float)commission_moved_cnt(position_cnt, m->early_cnt);
     const float speed  = turned / (2.0f * (float)m->around_ticks * c->ts_s);
 
@@ -100,8 +101,8 @@ static commission_value_t inertia_of(const commission_motion_t *m, const commiss
     for (int16_t k = 0; k < m->count; k++) {
         const commission_window_t *w = &m->windows[k];
         if (w->driven) {
-            const float x = w->speed_radps + (slow->rate_1ps * w->way_rad) +
-                            (slow->rate_radps2 * w->time_s);
+            const float x =
+                w->speed_radps + (slow->rate_1ps * w->way_rad) + (slow->rate_radps2 * w->time_s);
             const float y = commission_motion_torque(known, w->iq_As, w->idiq_A2s);
             xx += x * x;
             xy += x * y;
@@ -157,6 +158,15 @@ static slowing_t slowing_of(const commission_motion_t *m, const commission_resul
     return slow;
 }
 
+/* The torque is as wrong as what makes it. */
+static float relative_torque_error(const commission_result_t *r)
+{
+    const float flux = r->flux_Wb.error / base_max(r->flux_Wb.value, 1.0e-9f);
+    const float l =
+        (r->lq_H.error + r->ld_H.error) / base_max(r->lq_H.value - r->ld_H.value, 1.0e-9f);
+    return r->reluctance ? base_min(l, 1.0f) : base_min(flux, 1.0f);
+}
+
 bool commission_motion_solve(const commission_motion_t *m, commission_result_t *found)
 {
     const slowing_t          none  = {0.0f, 0.0f, 0.0f, 0.0f};
@@ -164,11 +174,12 @@ bool commission_motion_solve(const commission_motion_t *m, commission_result_t *
     if (!(rough.value > 0.0f)) {
         return false;
     }
-    const slowing_t slow        = slowing_of(m, found, 1.0f / rough.value); /* EQ-COMMISSION-11 */
-    found->inertia_kgm2         = inertia_of(m, found, &slow);
-    found->friction_Nms.value   = slow.rate_1ps * found->inertia_kgm2.value;
-    found->friction_Nms.error   = slow.error_1ps * found->inertia_kgm2.value;
-    found->coulomb_Nm.value     = slow.rate_radps2 * found->inertia_kgm2.value;
-    found->coulomb_Nm.error     = slow.error_radps2 * found->inertia_kgm2.value;
+    const slowing_t slow = slowing_of(m, found, 1.0f / rough.value); /* EQ-COMMISSION-11 */
+    found->inertia_kgm2  = inertia_of(m, found, &slow);
+    found->inertia_kgm2.error += relative_torque_error(found) * found->inertia_kgm2.value;
+    found->friction_Nms.value = slow.rate_1ps * found->inertia_kgm2.value;
+    found->friction_Nms.error = slow.error_1ps * found->inertia_kgm2.value;
+    found->coulomb_Nm.value   = slow.rate_radps2 * found->inertia_kgm2.value;
+    found->coulomb_Nm.error   = slow.error_radps2 * found->inertia_kgm2.value;
     return found->inertia_kgm2.value > 0.0f;
 }

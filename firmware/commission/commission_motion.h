@@ -19,12 +19,12 @@
 
 /** Mechanical units. */
 typedef struct {
-    float   speed_radps;  /**< gained */
-    float   way_rad;      /**< turned */
-    float   time_s;       /**< with the sign of the speed */
-    float   iq_As;        /**< integrals */
-    float   idiq_A2s;
-    bool    driven;
+    float speed_radps; /**< gained */
+    float way_rad;     /**< turned */
+    float time_s;      /**< with the sign of the speed */
+    float iq_As;       /**< integrals */
+    float idiq_A2s;
+    bool  driven;
 } commission_window_t;
 
 typedef struct {
@@ -36,8 +36,8 @@ typedef struct {
     int32_t around_ticks; /**< before and after an instant, for its speed */
     int32_t ticks;        /**< to the next instant, then from it */
     int32_t early_cnt;
-    int32_t mark_cnt;     /**< position at the instant */
-    int32_t last_cnt;     /**< the same of the instant before */
+    int32_t mark_cnt; /**< position at the instant */
+    int32_t last_cnt; /**< the same of the instant before */
     float   last_radps;
     float   iq_As;
     float   idiq_A2s;
@@ -50,7 +50,8 @@ typedef struct {
 void commission_motion_start(commission_motion_t *m);
 
 /** Windows of so many periods begin, the first one after `settle` of them. */
-void commission_motion_begin(commission_motion_t *m, bool driven, int32_t length_ticks, int32_t settle_ticks);
+void commission_motion_begin(commission_motion_t *m, bool driven, int32_t length_ticks,
+                             int32_t settle_ticks);
 
 /** One period; i of this sample. */
 void commission_motion_tick(commission_motion_t *m, const commission_config_t *c,

@@ -7,11 +7,11 @@
 #define LEVELS      4
 /* Chosen: times. The mean takes many periods of noise; the shaft gets a few seconds to stand, then it is measured all the
  * same: what a swinging magnet induces along the vector has no mean. */
-#define RAMP_s    0.5f
-#define STILL_s   0.2f
-#define PATIENCE_s 12.0f
-#define SETTLE_s  0.25f
-#define MEAN_s    0.1f
+#define RAMP_s      0.5f
+#define STILL_s     0.2f
+#define PATIENCE_s  12.0f
+#define SETTLE_s    0.25f
+#define MEAN_s      0.1f
 #define LONG_MEAN_s 2.0f
 
 void commission_resistance_start(commission_resistance_t *r, const commission_config_t *c,
@@ -71,7 +71,7 @@ static bool set_result(const commission_resistance_t *r, commission_result_t *fo
         sum2 += (r->lines[k].x0 - mean) * (r->lines[k].x0 - mean);
     }
     found->r_Ohm.value    = mean;
-    found->r_Ohm.error    = base_max(2.0f * sqrtf(0.5f * sum2 * per), worst);
+    found->r_Ohm.error    = (2.0f * sqrtf(0.5f * sum2 * per)) + worst;
     found->v_loss_V.value = base_max(0.75f * cross * per, 0.0f); /* EQ-COMMISSION-8 */
     found->v_loss_V.error = 0.75f * r->lines[0].error1;
     found->half_swing_s   = r->half_swing_s;
@@ -86,16 +86,21 @@ commission_answer_t commission_resistance_tick(commission_resistance_t   *r,
     if (r->angle >= COMMISSION_ANGLES) {
         return commission_rest(set_result(r, found) ? COMMISSION_DONE : COMMISSION_FAILED);
     }
-    const bool  pulls    = r->level < 0;
-    const float length_A = c->current_max_A *
-                           (pulls ? PULL_SHARE : (LEVEL_SHARE * (float)(r->level + 1)));
-    const float theta = frames_wrap(BASE_TWO_PI * (float)r->angle / (float)COMMISSION_ANGLES);
+    const bool  pulls = r->level < 0;
+    const float length_A =
+        c->current_max_A * (pulls ? PULL_SHARE : (LEVEL_SHARE * (float)(r->level + 1)));
+    const float theta = frames_wrap(BASE_TWO_PI * (float)r->at_angle / (float)COMMISSION_ANGLES);
     const commission_vector_out_t out =
         commission_vector_tick(&r->vector, s, theta, 0.0f, length_A);
     const bool ramped = fabsf(out.length_A - length_A) <= (0.01f * length_A);
 
-    if (ramped) {
+    if (ramped && (r->at_angle != r->angle)) {
+        r->at_angle = r->angle; /* turned with a small current only */
+        r->ticks    = 0L;
+    } else if (ramped) {
         r->ticks++;
+    } else {
+        /* on the way to the level */
     }
     const bool still = commission_vector_still(&r->vector, STILL_s);
     const bool late  = r->ticks > commission_ticks(PATIENCE_s, c->ts_s);

@@ -25,7 +25,8 @@ typedef struct {
     commission_fit_t    line;
     commission_fitted_t lines[COMMISSION_ANGLES];
     int16_t             angle;
-    int16_t             level; /**< -1: pulls the rotor into place */
+    int16_t             at_angle; /**< where the vector is */
+    int16_t             level;    /**< -1: pulls the rotor into place */
     int32_t             ticks;
     int32_t             mean_ticks; /**< of the mean that is being taken; 0: the current settles */
     int32_t             sums;

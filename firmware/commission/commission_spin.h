@@ -33,12 +33,12 @@ typedef struct {
     commission_emf_t    emf[2]; /**< forward, backward */
     dq_t                integral_V;
     int16_t             part;
-    int32_t             ticks;      /**< since the part began */
+    int32_t             ticks; /**< since the part began */
     int32_t             start_cnt;
     int32_t             coast_ticks;
     int32_t             window_ticks; /**< while driven */
     float               current_A;
-    float               top_radps;  /**< electrical */
+    float               top_radps;   /**< electrical */
     float               begun_radps; /**< speed at which the part began */
 } commission_spin_t;
 

@@ -63,26 +63,27 @@ typedef struct {
 /** Everything found. Later stages use what earlier ones found. */
 typedef struct {
     commission_value_t r_Ohm;
-    commission_value_t v_loss_V;  /**< that a phase loses by dead time and switches */
-    commission_value_t ld_H;      /**< mean up to the largest current used */
+    commission_value_t v_loss_V; /**< that a phase loses by dead time and switches */
+    commission_value_t ld_H;     /**< mean up to the largest current used */
     commission_value_t lq_H;
     commission_value_t flux_Wb;
     commission_value_t inertia_kgm2;
     commission_value_t friction_Nms; /**< viscous */
     commission_value_t coulomb_Nm;
     commission_value_t offset_rad; /**< electrical angle of the d axis at position 0 */
-    float   ld_map_H[2][COMMISSION_BINS]; /**< differential, d current > 0 and < 0 */
-    float   lq_map_H[COMMISSION_BINS];
-    float   map_step_A;       /**< width of a bin */
-    float   ripple_rad;       /**< rms of the angle's way along the turned vector: cogging, swinging */
-    float   lag_rad;          /**< by which friction holds it behind the vector */
-    float   half_swing_s;     /**< of the rotor about a standing vector; 0: it does not swing */
+    float              ld_map_H[2][COMMISSION_BINS]; /**< differential, d current > 0 and < 0 */
+    float              lq_map_H[COMMISSION_BINS];
+    float              map_step_A; /**< width of a bin */
+    float   ripple_rad;   /**< rms of the angle's way along the turned vector: cogging, swinging */
+    float   lag_rad;      /**< by which friction holds it behind the vector */
+    float   moved_rad;    /**< by which the run corrected the offset of the drag */
+    float   half_swing_s; /**< of the rotor about a standing vector; 0: it does not swing */
     int32_t counts_per_turn;
-    int16_t direction;        /**< 1: the position rises with the electrical angle, -1: it falls */
+    int16_t direction; /**< 1: the position rises with the electrical angle, -1: it falls */
     int16_t pole_pairs;
-    bool    reluctance;       /**< without a magnet that counts */
-    bool    indexed;          /**< index_cnt is that of an index */
-    int32_t index_cnt;        /**< position of the index within a turn, 0 .. counts_per_turn - 1 */
+    bool    reluctance; /**< without a magnet that counts */
+    bool    indexed;    /**< index_cnt is that of an index */
+    int32_t index_cnt;  /**< position of the index within a turn, 0 .. counts_per_turn - 1 */
 } commission_result_t;
 
 /* In C and C++: members are set in their order. */

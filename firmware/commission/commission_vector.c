@@ -72,19 +72,20 @@ commission_vector_out_t commission_vector_tick(commission_vector_t *v, const com
     const frames_angle_t    now    = frames_angle(theta_rad);
     const frames_angle_t    then   = frames_angle(theta_rad + turned_rad);
     const float             most_V = MOST_SHARE * s->dc_link_V;
-    commission_vector_out_t out    = {.i_A = frames_park(s->i_A, now), .v_V = frames_park(s->v_V, now)};
+    commission_vector_out_t out    = {.i_A = frames_park(s->i_A, now),
+                                      .v_V = frames_park(s->v_V, now)};
 
     watch_shaft(v, s->position_cnt);
     v->length_A = base_clamp(length_A, v->length_A - v->ramp_A, v->length_A + v->ramp_A);
 
-    const float error_A = v->length_A - out.i_A.d;
-    v->integral_V       = base_clamp(v->integral_V + (v->ki_VpA * error_A), -most_V, most_V);
+    const float error_A  = v->length_A - out.i_A.d;
+    v->integral_V        = base_clamp(v->integral_V + (v->ki_VpA * error_A), -most_V, most_V);
     const float beyond_A = out.i_A.q - base_clamp(out.i_A.q, -v->cross_max_A, v->cross_max_A);
     const dq_t  v_V      = {/* EQ-COMMISSION-3 */
-                            v->integral_V + (v->kp_VpA * error_A),
-                            (-damping_Ohm(v) * out.i_A.q) - (v->kp_VpA * beyond_A)};
-    out.out_V           = frames_inverse_park(v_V, then);
-    out.length_A        = v->length_A;
+                      v->integral_V + (v->kp_VpA * error_A),
+                      (-damping_Ohm(v) * out.i_A.q) - (v->kp_VpA * beyond_A)};
+    out.out_V            = frames_inverse_park(v_V, then);
+    out.length_A         = v->length_A;
     return out;
 }
 

@@ -8,8 +8,9 @@
 #define WANTED_SAMPLES 12
 /* Chosen: a growth in which the step of the current cannot jump over the bound. */
 #define GROWTH 1.25f
-/* A half wave ends here whatever the current does: a voltage too small for the resistance. */
-#define MOST_SAMPLES 24
+/* A half wave ends here whatever the current does: while a voltage is looked for, and with the largest one. */
+#define MOST_SAMPLES 16
+#define LAST_SAMPLE  250
 #define FIRST_SHARE  0.707f
 
 void commission_wave_start(commission_wave_t *w, float bound_A)
@@ -47,7 +48,8 @@ float commission_wave_tick(commission_wave_t *w, float i_A, float di_A, float dc
     w->samples++;
     const float ahead_A = w->sign * (i_A + (2.0f * di_A)); /* EQ-COMMISSION-2 */
     /* Two samples pass before a turn shows. */
-    if ((w->samples > 2) && ((ahead_A > w->first_A) || (w->samples >= MOST_SAMPLES))) {
+    const int16_t most = w->found ? LAST_SAMPLE : MOST_SAMPLES;
+    if ((w->samples > 2) && ((ahead_A > w->first_A) || (w->samples >= most))) {
         turn(w, dc_link_V);
     }
     return w->sign * base_min(w->v_V, MOST_SHARE * dc_link_V);

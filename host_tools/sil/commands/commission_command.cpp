@@ -15,10 +15,10 @@ struct Options {
     std::string out;
     std::string json;
     std::string csv;
-    int         seed           = 1;
-    int         coulomb        = 10;
-    int         cogging        = 0;
-    bool        unknown_lines  = false;
+    int         seed          = 1;
+    int         coulomb       = 10;
+    int         cogging       = 0;
+    bool        unknown_lines = false;
 };
 
 void declare(OptionList &list, Options &o)
@@ -28,8 +28,9 @@ void declare(OptionList &list, Options &o)
     list.text("--json", o.json, "write the table");
     list.text("--csv", o.csv, "write currents, speed and angle over the time");
     list.number("--seed", o.seed, {1, 1e9}, "of noise, disc and rotor angle (default 1)");
-    list.number("--coulomb", o.coulomb, {0, 200},
-                "dry friction of the simulated shaft, thousandths of the rated torque (default 10)");
+    list.number(
+        "--coulomb", o.coulomb, {0, 200},
+        "dry friction of the simulated shaft, thousandths of the rated torque (default 10)");
     list.number("--cogging", o.cogging, {0, 200},
                 "amplitude of its cogging, thousandths of the rated torque (default 0)");
     list.flag("--unknown-lines", o.unknown_lines, "count the encoder's lines with its index");
@@ -39,11 +40,11 @@ int run(const Options &o)
 {
     const Drive       truth = read_drive_file(o.drive);
     CommissionOptions c;
-    c.seed          = static_cast<std::uint64_t>(o.seed);
-    c.coulomb_share = 1e-3 * o.coulomb;
-    c.cogging_share = 1e-3 * o.cogging;
-    c.lines_known   = !o.unknown_lines;
-    c.trace_every   = o.csv.empty() ? 0 : 10;
+    c.seed                         = static_cast<std::uint64_t>(o.seed);
+    c.coulomb_share                = 1e-3 * o.coulomb;
+    c.cogging_share                = 1e-3 * o.cogging;
+    c.lines_known                  = !o.unknown_lines;
+    c.trace_every                  = o.csv.empty() ? 0 : 10;
     const CommissionRun     result = commission(truth, c);
     std::vector<OutputFile> files;
     if (!o.json.empty()) {
@@ -65,10 +66,11 @@ int run(const Options &o)
 
 Command commission_command()
 {
-    return command<Options>("commission",
-                            "let the firmware find the motor of a drive file by itself; exit code 4 "
-                            "when it cannot",
-                            declare, run);
+    return command<Options>(
+        "commission",
+        "let the firmware find the motor of a drive file by itself; exit code 4 "
+        "when it cannot",
+        declare, run);
 }
 
 } // namespace sdre

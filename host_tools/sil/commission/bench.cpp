@@ -38,9 +38,9 @@ Scenario scenario_of(const Drive &truth, const CommissionOptions &o)
 class Bench {
 public:
     Bench(const Drive &truth, const CommissionOptions &o)
-        : scenario_(scenario_of(truth, o)), board_(scenario_),
-          period_s_(control_period_s(truth)), reversed_(o.seed % 2 == 0),
-          channel_a_(channel_a(scenario_.sensors)), channel_b_(channel_b(scenario_.sensors))
+        : scenario_(scenario_of(truth, o)), board_(scenario_), period_s_(control_period_s(truth)),
+          reversed_(o.seed % 2 == 0), channel_a_(channel_a(scenario_.sensors)),
+          channel_b_(channel_b(scenario_.sensors))
     {
     }
 
@@ -165,15 +165,24 @@ CommissionRun commission(const Drive &truth, const CommissionOptions &o)
 const char *commission_stage_name(commission_stage_t stage)
 {
     switch (stage) {
-    case COMMISSION_IDLE: return "idle";
-    case COMMISSION_WATCH: return "watch";
-    case COMMISSION_LOOK: return "look";
-    case COMMISSION_RESISTANCE: return "resistance";
-    case COMMISSION_DRAG: return "drag";
-    case COMMISSION_MAP: return "map";
-    case COMMISSION_SPIN: return "spin";
-    case COMMISSION_FINISHED: return "finished";
-    case COMMISSION_ABORTED: return "aborted";
+    case COMMISSION_IDLE:
+        return "idle";
+    case COMMISSION_WATCH:
+        return "watch";
+    case COMMISSION_LOOK:
+        return "look";
+    case COMMISSION_RESISTANCE:
+        return "resistance";
+    case COMMISSION_DRAG:
+        return "drag";
+    case COMMISSION_MAP:
+        return "map";
+    case COMMISSION_SPIN:
+        return "spin";
+    case COMMISSION_FINISHED:
+        return "finished";
+    case COMMISSION_ABORTED:
+        return "aborted";
     }
     return "?";
 }
@@ -181,21 +190,36 @@ const char *commission_stage_name(commission_stage_t stage)
 const char *commission_reason_text(commission_reason_t reason)
 {
     switch (reason) {
-    case COMMISSION_REASON_NONE: return "none";
-    case COMMISSION_REASON_CONFIG: return "a bound is out of range";
-    case COMMISSION_REASON_SAMPLE: return "invalid sample";
-    case COMMISSION_REASON_OVER_CURRENT: return "over-current";
-    case COMMISSION_REASON_DC_LINK: return "dc link out of range";
-    case COMMISSION_REASON_OVER_SPEED: return "over-speed";
-    case COMMISSION_REASON_ENCODER: return "the encoder's position jumped";
-    case COMMISSION_REASON_TIMEOUT: return "a stage takes too long";
-    case COMMISSION_REASON_WITHDRAWN: return "command withdrawn";
-    case COMMISSION_REASON_MOVING: return "shaft or currents not at rest before the start";
-    case COMMISSION_REASON_INDUCTANCE: return "the current does not follow the voltage";
-    case COMMISSION_REASON_RESISTANCE: return "direct currents make no line";
-    case COMMISSION_REASON_DRAG: return "the rotor does not follow, or pole pairs are not whole";
-    case COMMISSION_REASON_SPIN: return "the shaft does not turn as its torque says";
-    case COMMISSION_REASON_NUMERIC: return "a result is no number";
+    case COMMISSION_REASON_NONE:
+        return "none";
+    case COMMISSION_REASON_CONFIG:
+        return "a bound is out of range";
+    case COMMISSION_REASON_SAMPLE:
+        return "invalid sample";
+    case COMMISSION_REASON_OVER_CURRENT:
+        return "over-current";
+    case COMMISSION_REASON_DC_LINK:
+        return "dc link out of range";
+    case COMMISSION_REASON_OVER_SPEED:
+        return "over-speed";
+    case COMMISSION_REASON_ENCODER:
+        return "the encoder's position jumped";
+    case COMMISSION_REASON_TIMEOUT:
+        return "a stage takes too long";
+    case COMMISSION_REASON_WITHDRAWN:
+        return "command withdrawn";
+    case COMMISSION_REASON_MOVING:
+        return "shaft or currents not at rest before the start";
+    case COMMISSION_REASON_INDUCTANCE:
+        return "the current does not follow the voltage";
+    case COMMISSION_REASON_RESISTANCE:
+        return "direct currents make no line";
+    case COMMISSION_REASON_DRAG:
+        return "the rotor does not follow, or pole pairs are not whole";
+    case COMMISSION_REASON_SPIN:
+        return "the shaft does not turn as its torque says";
+    case COMMISSION_REASON_NUMERIC:
+        return "a result is no number";
     }
     return "?";
 }

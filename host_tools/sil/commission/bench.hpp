@@ -40,8 +40,8 @@ struct CommissionRun {
     commission_stage_t         during = COMMISSION_IDLE; ///< last stage that ran
     commission_reason_t        reason = COMMISSION_REASON_NONE;
     commission_result_t        found{};
-    double                     time_s         = 0.0;
-    double                     peak_current_A = 0.0; ///< |i| of the plant, also between samples
+    double                     time_s            = 0.0;
+    double                     peak_current_A    = 0.0; ///< |i| of the plant, also between samples
     double                     true_offset_e_rad = 0.0; ///< what offset_rad should be
     double                     true_coulomb_Nm   = 0.0;
     bool                       reversed          = false;
