@@ -141,7 +141,7 @@ static bridge_t watch(commission_t *m, const commission_sample_t *s)
     const float   most  = ZERO_SHARE * m->config->current_max_A;
 
     if (m->ticks == 0L) {
-        m->speed_cnt = s->position_cnt;
+        m->start_cnt = s->position_cnt;
     }
     m->zero_a_A += per * s->ia_A;
     m->zero_b_A += per * s->ib_A;
@@ -149,7 +149,7 @@ static bridge_t watch(commission_t *m, const commission_sample_t *s)
     if (m->ticks < ticks) {
         return bridge_open();
     }
-    const int32_t moved = commission_moved_cnt(s->position_cnt, m->speed_cnt);
+    const int32_t moved = commission_moved_cnt(s->position_cnt, m->start_cnt);
     if (!base_within(m->zero_a_A, most) || !base_within(m->zero_b_A, most) || (moved > STAND_CNT) ||
         (moved < -STAND_CNT)) {
         return abort_for(m, COMMISSION_REASON_MOVING);

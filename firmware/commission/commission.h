@@ -73,6 +73,7 @@ typedef struct {
     float   zero_a_A;
     float   zero_b_A;
     int32_t position_cnt;
+    int32_t start_cnt; /**< position when the watch began */
     int32_t speed_cnt; /**< position at the beginning of the window of the speed */
     int32_t speed_ticks;
     int16_t rounds; /**< of MAP and SPIN; a second one when the offset was wrong */

@@ -4,6 +4,31 @@
 /* Chosen: one count of a coarse encoder, a degree electrical, then shows as 0.04 / Ts of it. */
 #define POLE_PER_TS 0.04f
 
+/* Minimax fit on 0 .. 1. */
+#define C0 0.99997722f
+#define C1 -0.33262283f
+#define C2 0.19354038f
+#define C3 -0.11642648f
+#define C4 0.05264734f
+#define C5 -0.01171913f
+
+float commission_angle_of(float y, float x)
+{
+    const float ax    = fabsf(x);
+    const float ay    = fabsf(y);
+    const float large = base_max(ax, ay);
+    if (!(large > 0.0f)) {
+        return 0.0f;
+    }
+    const float t      = base_min(ax, ay) / large;
+    const float t2     = t * t;
+    const float poly   = C0 + (t2 * (C1 + (t2 * (C2 + (t2 * (C3 + (t2 * (C4 + (t2 * C5)))))))));
+    const float eighth = t * poly; /* EQ-COMMISSION-14 */
+    const float first  = (ay > ax) ? ((0.5f * BASE_PI) - eighth) : eighth;
+    const float upper  = (x < 0.0f) ? (BASE_PI - first) : first;
+    return (y < 0.0f) ? -upper : upper;
+}
+
 float commission_angle_shaft_rad(const commission_result_t *known, int32_t position_cnt)
 {
     const int32_t turn   = known->counts_per_turn;

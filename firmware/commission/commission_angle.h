@@ -24,6 +24,15 @@ float commission_angle_shaft_rad(const commission_result_t *known, int32_t posit
 /** EQ-COMMISSION-7, +-pi. */
 float commission_angle_rad(const commission_result_t *known, int32_t position_cnt);
 
+/**
+ * @brief Angle of a vector, +-pi; 0 of none.
+ *
+ *     atan t = t (c_0 + c_1 t^2 + .. + c_5 t^10),  0 <= t <= 1, else by quadrants          EQ-COMMISSION-14
+ *
+ * Worst error 2e-6 rad; the same bits on every machine. One division.
+ */
+float commission_angle_of(float y, float x);
+
 /** Standing here. */
 void commission_angle_start(commission_angle_t *a, float theta_rad);
 

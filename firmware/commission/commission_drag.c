@@ -26,7 +26,7 @@
 #define SAME_WAY  0.1f
 #define LEAST_CNT 20L
 /* Pole pairs are whole within this. */
-#define WHOLE 0.15f
+#define WHOLE 0.1f
 
 /* Parts of a pass. */
 enum { SETTLE = 0, LEAD_FORWARD, FORWARD, TURN, BACKWARD, RELEASE, PARTS };
@@ -76,7 +76,7 @@ static void add(commission_drag_t *d, const commission_vector_out_t *out,
     u->i_A.d += out->i_A.d;
     u->i_A.q += out->i_A.q;
     if (d->second && (known->counts_per_turn > 0L)) {
-        const float vector = d->theta_rad + atan2f(out->i_A.q, out->i_A.d);
+        const float vector = d->theta_rad + commission_angle_of(out->i_A.q, out->i_A.d);
         const float shaft  = commission_angle_shaft_rad(known, s->position_cnt);
         const float angle  = frames_wrap(frames_wrap(vector - shaft));
         if (!(u->n > 0.0f)) {
@@ -208,7 +208,7 @@ static bool pairs_are_whole(const commission_drag_t *d, const commission_result_
     const float pairs = (float)found->counts_per_turn * (float)d->turns / base_max(moved, 1.0f);
     const float whole = (float)found->pole_pairs;
 
-    return (found->pole_pairs > 0) && base_within(pairs - whole, WHOLE * base_min(whole, 3.0f));
+    return (found->pole_pairs > 0) && base_within(pairs - whole, WHOLE);
 }
 
 static commission_step_t judge_second(commission_drag_t *d, const commission_config_t *c,
@@ -239,7 +239,11 @@ static commission_step_t judge_second(commission_drag_t *d, const commission_con
     const float vector      = found->reluctance ? (0.5f * BASE_PI) : 0.0f;
     found->offset_rad.value = frames_wrap(frames_wrap(middle - vector));
     found->lag_rad          = -0.5f * between;
-    found->ripple_rad       = sqrtf(spread);
+    if (!found->reluctance) { /* more current than before: less of it is friction's */
+        float i_A            = 0.0f;
+        found->flux_Wb.value = beyond_ld_Wb(d, found, &i_A);
+    }
+    found->ripple_rad = sqrtf(spread);
     /* Chosen: a tenth of what friction and swinging do in all, since their means cancel. */
     found->offset_rad.error = (0.1f * (fabsf(found->lag_rad) + found->ripple_rad)) +
                               (BASE_PI * whole / (float)found->counts_per_turn);

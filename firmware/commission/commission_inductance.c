@@ -11,7 +11,7 @@
 #define BRAKE_SHARE     0.1f
 #define BRAKE_EMF_SHARE 0.02f
 /* Measured on six motors (docs/commissioning.md): what the scatter of one run does not show. */
-#define SYSTEMATIC 0.005f
+#define SYSTEMATIC 0.01f
 /* Beyond what a measurement of two equal inductances is off. */
 #define CROSSED 1.1f
 /* Chosen: of a bin. Nearer to zero it is not known what the inverter loses. */
@@ -78,11 +78,11 @@ static bool set_look(commission_inductance_t *l, const commission_config_t *c,
  * their own height, which the first two leave to the smaller one. */
 static void set_direction(commission_inductance_t *l)
 {
-    const commission_fitted_t a     = commission_fit_solve(&l->alpha);
-    const commission_fitted_t b     = commission_fit_solve(&l->beta);
-    const float               large = 0.5f * atan2f(a.x1 + b.x0, a.x0 - b.x1); /* EQ-COMMISSION-5 */
-    const frames_angle_t      alpha = {1.0f, 0.0f};
-    const frames_angle_t      beta  = {0.0f, 1.0f};
+    const commission_fitted_t a = commission_fit_solve(&l->alpha);
+    const commission_fitted_t b = commission_fit_solve(&l->beta);
+    const float large = 0.5f * commission_angle_of(a.x1 + b.x0, a.x0 - b.x1); /* EQ-COMMISSION-5 */
+    const frames_angle_t alpha = {1.0f, 0.0f};
+    const frames_angle_t beta  = {0.0f, 1.0f};
 
     switch (l->axis) {
     case 0:

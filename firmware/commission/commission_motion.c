@@ -177,9 +177,10 @@ bool commission_motion_solve(const commission_motion_t *m, commission_result_t *
     const slowing_t slow = slowing_of(m, found, 1.0f / rough.value); /* EQ-COMMISSION-11 */
     found->inertia_kgm2  = inertia_of(m, found, &slow);
     found->inertia_kgm2.error += relative_torque_error(found) * found->inertia_kgm2.value;
-    found->friction_Nms.value = slow.rate_1ps * found->inertia_kgm2.value;
-    found->friction_Nms.error = slow.error_1ps * found->inertia_kgm2.value;
-    found->coulomb_Nm.value   = slow.rate_radps2 * found->inertia_kgm2.value;
-    found->coulomb_Nm.error   = slow.error_radps2 * found->inertia_kgm2.value;
+    const commission_value_t j = found->inertia_kgm2;
+    found->friction_Nms.value  = slow.rate_1ps * j.value;
+    found->friction_Nms.error  = (slow.error_1ps * j.value) + (slow.rate_1ps * j.error);
+    found->coulomb_Nm.value    = slow.rate_radps2 * j.value;
+    found->coulomb_Nm.error    = (slow.error_radps2 * j.value) + (slow.rate_radps2 * j.error);
     return found->inertia_kgm2.value > 0.0f;
 }

@@ -25,14 +25,14 @@
 /* Chosen: coasting ends below this share of its start or after this long. */
 #define COAST_SHARE   0.4f
 #define COAST_PER_WAY 6.0f
-#define COAST_s       4.0f
+#define COAST_s       8.0f
 #define LOW_SHARE     0.3f
 #define DRIVE_WINDOWS 10
 #define COAST_WINDOWS 8
 /* Periods after which a current has settled at w_c, generously. */
 #define SETTLE_TICKS 60L
 /* Measured on six motors (docs/commissioning.md): what the scatter of one run does not show. */
-#define SYSTEMATIC 0.003f
+#define SYSTEMATIC 0.005f
 /* An induced voltage below this share of the dc link says nothing about the magnet's direction. */
 #define EMF_SHARE 0.03f
 
@@ -247,8 +247,8 @@ static void set_flux(const commission_spin_t *p, float dc_link_V, commission_res
                            (0.5f * fabsf(ahead - behind)) + (SYSTEMATIC * fabsf(flux));
     found->moved_rad = 0.0f;
     if (seen && (f->n > 0.0f) && (b->n > 0.0f)) {
-        const float one         = atan2f(f->vd_w, f->vq_w);
-        const float apart       = frames_wrap(atan2f(b->vd_w, b->vq_w) - one);
+        const float one         = commission_angle_of(f->vd_w, f->vq_w);
+        const float apart       = frames_wrap(commission_angle_of(b->vd_w, b->vq_w) - one);
         found->moved_rad        = frames_wrap(one + (0.5f * apart));
         found->offset_rad.value = frames_wrap(found->offset_rad.value - found->moved_rad);
         found->offset_rad.error = (0.1f * fabsf(apart)) + (BASE_PI * (float)found->pole_pairs /

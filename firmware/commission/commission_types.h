@@ -105,7 +105,7 @@ static inline int32_t commission_moved_cnt(int32_t a, int32_t b)
 static inline int32_t commission_ticks(float time_s, float ts_s)
 {
     const float ticks = time_s / ts_s;
-    return (ticks >= 1.0f) ? (int32_t)base_min(ticks, 1.0e9f) : 1L;
+    return (ticks >= 1.0f) ? (int32_t)base_min(ticks, 1.0e9f) : (int32_t)1;
 }
 
 #endif /* COMMISSION_TYPES_H */

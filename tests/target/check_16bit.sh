@@ -87,6 +87,7 @@ esac
 self_test
 check firmware/control "${includes[@]}"
 check firmware/config "${includes[@]}"
+check firmware/commission "${includes[@]}" -Ifirmware/commission
 check firmware/app "${includes[@]}"
 # The board waits with an instruction of the device, so it needs the stand-in's meaning of asm too.
 device=("${includes[@]}" -isystem "$stand_in" -include "$stand_in/c28_cpu.h")
