@@ -8,6 +8,7 @@
 #define TRIP_RATIO 1.05f
 /* Chosen: with the bridge open. */
 #define WATCH_s    0.2f
+#define WATCHES    25 /* five seconds to come to rest */
 #define ZERO_SHARE 0.05f
 #define STAND_CNT  4L
 /* Speeds are counted over this time; a single step may be this many times the largest speed and a few counts. */
@@ -150,12 +151,21 @@ static bridge_t watch(commission_t *m, const commission_sample_t *s)
         return bridge_open();
     }
     const int32_t moved = commission_moved_cnt(s->position_cnt, m->start_cnt);
-    if (!base_within(m->zero_a_A, most) || !base_within(m->zero_b_A, most) || (moved > STAND_CNT) ||
-        (moved < -STAND_CNT)) {
+    const bool    still = (moved <= STAND_CNT) && (moved >= -STAND_CNT);
+    if (!base_within(m->zero_a_A, most) || !base_within(m->zero_b_A, most) ||
+        (!still && (m->rounds >= WATCHES))) {
         return abort_for(m, COMMISSION_REASON_MOVING);
     }
-    m->stage = COMMISSION_LOOK;
-    m->ticks = 0L;
+    if (!still) { /* it may come to rest, in a valley of its cogging */
+        m->rounds++;
+        m->ticks    = 0L;
+        m->zero_a_A = 0.0f;
+        m->zero_b_A = 0.0f;
+        return bridge_open();
+    }
+    m->rounds = 0;
+    m->stage  = COMMISSION_LOOK;
+    m->ticks  = 0L;
     commission_inductance_start(&m->work.inductance);
     return bridge_open();
 }

@@ -3,8 +3,8 @@
  * @file commission_inductance.h
  * @brief Inductances from square waves of voltage, in the stator's frame without knowing the angle, or along d and q.
  *
- *     v = L di/dt + (R i + loss),  L 2 x 2 from v against (di_alpha, di_beta) / Ts       EQ-COMMISSION-4
- *     axis of the smaller one: tan 2 a = 2 L_ab / (L_aa - L_bb), + 90 degrees             EQ-COMMISSION-5
+ *     v Ts = L di + (R i + loss) Ts,  L 2 x 2 by least squares from v and di              EQ-COMMISSION-4
+ *     axis of the larger one: tan 2 a = 2 L_ab / (L_aa - L_bb)                            EQ-COMMISSION-5
  *     along an axis: L = Ts sum(di (v - R i - e)) / (sum(di^2) - n var)                   EQ-COMMISSION-6
  *
  * R i and what the inverter loses are odd in the current and di is even over a full wave, so that both hardly touch L;

@@ -74,11 +74,20 @@ static void test_bridge_stays_open_while_the_zeros_are_measured(void)
 
 static void test_a_shaft_that_turns_before_the_start_is_refused(void)
 {
-    for (int k = 0; (k < 3000) && (module.stage == COMMISSION_WATCH); k++) {
+    for (int k = 0; (k < 30000) && (module.stage == COMMISSION_WATCH); k++) {
         sample.position_cnt += (k % 100 == 0) ? 1 : 0;
-        (void)step();
+        TEST_ASSERT_FALSE(step().gate_enable);
     }
     TEST_ASSERT_EQUAL_INT(COMMISSION_REASON_MOVING, module.reason);
+}
+
+static void test_a_shaft_that_comes_to_rest_is_waited_for(void)
+{
+    for (int k = 0; k < 3000; k++) {
+        sample.position_cnt += (k % 100 == 0) ? 1 : 0;
+        TEST_ASSERT_FALSE(step().gate_enable);
+    }
+    drive_on();
 }
 
 static void test_a_zero_that_is_far_off_is_refused(void)
@@ -208,6 +217,7 @@ int main(void)
     RUN_TEST(test_nothing_moves_before_the_start);
     RUN_TEST(test_bridge_stays_open_while_the_zeros_are_measured);
     RUN_TEST(test_a_shaft_that_turns_before_the_start_is_refused);
+    RUN_TEST(test_a_shaft_that_comes_to_rest_is_waited_for);
     RUN_TEST(test_a_zero_that_is_far_off_is_refused);
     RUN_TEST(test_over_current_of_each_phase_opens_at_once);
     RUN_TEST(test_samples_that_are_no_numbers_open_at_once);
