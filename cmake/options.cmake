@@ -9,7 +9,7 @@ option(SDRE_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer
 set(SDRE_BOARD f28335 CACHE STRING "Directory of firmware/board that is built: f28335 or host_stub")
 set(SDRE_IMAGE "" CACHE STRING "Build the target's image: flash or ram (empty: host tools)")
 set(SDRE_PYTHON "" CACHE STRING "Python with matplotlib, for plots (empty: look for one)")
-set(SDRE_TABLES "" CACHE PATH "Directory with gain_tables.h and .c from sdre-gains (empty: firmware/config)")
+set(SDRE_TABLES "" CACHE PATH "Directory with the files of sdre-gains generate (empty: firmware/config)")
 
 # A refused value leaves the cache, so that the corrected command works at once.
 get_cmake_property(sdre_cache_names CACHE_VARIABLES)
@@ -40,7 +40,7 @@ if(SDRE_TABLES STREQUAL "")
 else()
     set(sdre_tables_dir "${SDRE_TABLES}")
 endif()
-foreach(name gain_tables.h gain_tables.c)
+foreach(name gain_tables.h gain_tables.c board_config.c)
     if(NOT EXISTS "${sdre_tables_dir}/${name}")
         unset(SDRE_TABLES CACHE)
         message(FATAL_ERROR "SDRE_TABLES=${sdre_tables_dir}: no ${name} there; write it with sdre-gains generate --out")

@@ -122,7 +122,8 @@ static bool background_lost(void)
 /* Off before anything else; on after everything else. */
 static void drive_bridge(const bridge_t *out, bool was_on)
 {
-    const board_duty_t duty = app_gate_duty(&tick_side.modes.config->gate, out->duty);
+    const board_duty_t duty =
+        app_gate_duty(&tick_side.config.gate, tick_side.config.board.duty_full_cnt, out->duty);
 
     if (!out->gate_enable) {
         board_gate_trip();
@@ -208,7 +209,8 @@ void app_background(void)
         board_gate_trip();
         shared.memory_changed = true;
     }
-    if (app_watch_tick_is_missing(&background_side.watch, now_ticks, board_cycles())) {
+    if (app_watch_tick_is_missing(&background_side.watch, tick_side.config.board.pwm_cycles,
+                                  now_ticks, board_cycles())) {
         board_gate_trip();
         shared.tick_missing = true;
     }

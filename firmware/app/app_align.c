@@ -10,15 +10,19 @@ ctl_status_t app_align_init(app_align_t *a, const app_align_config_t *c,
                             const drive_config_t *drive)
 {
     const uint16_t pole_pairs    = drive->hardware.pole_pairs;
+    const uint32_t positions     = drive->hardware.encoder_positions;
     const float    current_max_A = drive->current_max_A;
-    const bool times_ok = (c->watch_ticks > 0U) && (c->ramp_ticks > 0U) && (c->sweep_ticks > 0U) &&
-                          (c->still_ticks > 0U) && (c->settle_ticks > c->still_ticks);
-    const bool ok = times_ok && (pole_pairs > 0U) &&
+    const bool     times_ok      = (c->watch_ticks > 0UL) && (c->ramp_ticks > 0UL) &&
+                          (c->sweep_ticks > 0UL) && (c->still_ticks > 0UL) &&
+                          (c->settle_ticks > c->still_ticks);
+    const bool ok = times_ok && (pole_pairs > 0U) && (positions <= UINT16_MAX) &&
                     base_in_range(c->current_A, 1.0e-3f, 0.5f * current_max_A) &&
-                    base_in_range(c->bandwidth_radps * drive->ts_s, 1.0e-4f, 0.1f);
+                    base_in_range(c->bandwidth_radps * drive->ts_s, 1.0e-4f, 0.1f) &&
+                    base_in_range(c->theta_e_rad, 0.0f, BASE_TWO_PI);
     const float rs_Ohm = drive->motor.l7 * drive->motor.inv_l8;
 
     a->config          = c;
+    a->positions       = (uint16_t)positions;
     a->drive           = drive;
     a->kp_VpA          = c->bandwidth_radps * drive->motor.inv_l8;
     a->ki_VpA          = c->bandwidth_radps * rs_Ohm * drive->ts_s;
@@ -27,7 +31,7 @@ ctl_status_t app_align_init(app_align_t *a, const app_align_config_t *c,
 
     a->current_per_tick_A = ok ? (c->current_A / (float)c->ramp_ticks) : 0.0f;
     a->angle_per_tick_rad = ok ? (BASE_PI / (float)c->sweep_ticks) : 0.0f;
-    a->quarter_cnt        = (int16_t)(ok ? (BOARD_POSITIONS / (4U * pole_pairs)) : 0U);
+    a->quarter_cnt        = (int16_t)(ok ? (positions / (4UL * pole_pairs)) : 0UL);
     app_align_start(a, 0U);
     return ok ? CTL_OK : CTL_BAD_CONFIG;
 }
@@ -35,7 +39,7 @@ ctl_status_t app_align_init(app_align_t *a, const app_align_config_t *c,
 static void enter(app_align_t *a, app_align_stage_t stage, uint16_t position_cnt)
 {
     a->stage       = stage;
-    a->timer_ticks = 0U;
+    a->timer_ticks = 0UL;
     a->marked_cnt  = position_cnt;
 }
 
@@ -54,12 +58,13 @@ static bool within(int16_t x, uint16_t limit)
 
 static bool stands(const app_align_t *a, uint16_t position_cnt)
 {
-    return within(app_angle_turned_cnt(a->marked_cnt, position_cnt), a->config->still_cnt);
+    return within(app_angle_turned_cnt(a->positions, a->marked_cnt, position_cnt),
+                  a->config->still_cnt);
 }
 
 static bool turned_a_quarter(const app_align_t *a, uint16_t position_cnt)
 {
-    const int16_t turned_cnt = app_angle_turned_cnt(a->middle_cnt, position_cnt);
+    const int16_t turned_cnt = app_angle_turned_cnt(a->positions, a->middle_cnt, position_cnt);
     return within((int16_t)(turned_cnt - a->quarter_cnt), a->config->quarter_error_cnt);
 }
 
@@ -74,7 +79,7 @@ static void watch(app_align_t *a, uint16_t position_cnt)
 
 static void sweep(app_align_t *a, uint16_t position_cnt)
 {
-    if (a->timer_ticks == (a->config->sweep_ticks / 2U)) {
+    if (a->timer_ticks == (a->config->sweep_ticks / 2UL)) {
         a->middle_cnt = position_cnt;
     }
     if (a->timer_ticks >= a->config->sweep_ticks) {
@@ -84,7 +89,7 @@ static void sweep(app_align_t *a, uint16_t position_cnt)
 
 static void settle(app_align_t *a, uint16_t position_cnt)
 {
-    const uint16_t rest_from = (uint16_t)(a->config->settle_ticks - a->config->still_ticks);
+    const uint32_t rest_from = a->config->settle_ticks - a->config->still_ticks;
 
     if (a->timer_ticks <= rest_from) {
         a->marked_cnt = position_cnt;
@@ -97,7 +102,7 @@ static void settle(app_align_t *a, uint16_t position_cnt)
 
 static void advance(app_align_t *a, uint16_t position_cnt)
 {
-    a->timer_ticks = (uint16_t)(a->timer_ticks + 1U);
+    a->timer_ticks = a->timer_ticks + 1UL;
     switch (a->stage) {
     case APP_ALIGN_WATCH:
         watch(a, position_cnt);

@@ -28,13 +28,14 @@
 #include "drive_config.h"
 
 typedef struct {
-    float    current_A;       /**< I, > 0, at most half of the drive's current limit */
-    float    bandwidth_radps; /**< w_c, > 0, far below the sampling rate */
-    uint16_t watch_ticks;     /**< > 0, like all of the times */
-    uint16_t ramp_ticks;
-    uint16_t sweep_ticks;
-    uint16_t settle_ticks;      /**< the vector stands; longer than still_ticks */
-    uint16_t still_ticks;       /**< end of settle in which the shaft must rest */
+    float current_A;       /**< I, > 0, at most half of the drive's current limit */
+    float bandwidth_radps; /**< w_c, > 0, far below the sampling rate */
+    float theta_e_rad; /**< of the rotor at the end, [0, 2 pi); 0 but for a rotor without magnets */
+    uint32_t watch_ticks; /**< > 0, like all of the times */
+    uint32_t ramp_ticks;
+    uint32_t sweep_ticks;
+    uint32_t settle_ticks;      /**< the vector stands; longer than still_ticks */
+    uint32_t still_ticks;       /**< end of settle in which the shaft must rest */
     uint16_t still_cnt;         /**< counts of movement that are rest */
     uint16_t quarter_error_cnt; /**< accepted error of the quarter turn */
 } app_align_config_t;
@@ -51,6 +52,7 @@ typedef enum {
 typedef struct {
     const app_align_config_t *config;
     const drive_config_t     *drive;
+    uint16_t                  positions; /**< of a turn */
     float                     kp_VpA;
     float                     ki_VpA; /**< k_i times the period */
     float                     v_max_V;
@@ -59,7 +61,7 @@ typedef struct {
     float                     angle_per_tick_rad;
     int16_t                   quarter_cnt;
     app_align_stage_t         stage;
-    uint16_t                  timer_ticks; /**< since the stage began */
+    uint32_t                  timer_ticks; /**< since the stage began */
     float                     integral_V;
     uint16_t                  marked_cnt; /**< position to compare with */
     uint16_t                  middle_cnt; /**< position in the middle of the sweep */

@@ -3,11 +3,6 @@
 
 #include "encoder_form.h"
 
-#if (BOARD_POSITIONS % 4U) != 0U
-#error "a turn is a whole number of lines of four edges"
-#endif
-
-#define HALF_COUNTS    (2U * BOARD_POSITIONS) /* half counts per mechanical turn */
 #define EDGE_AGE_MAX_s 1.0f /* chosen: a count per second is a shaft that stands */
 #define EDGE_GAP_MAX_s                                                                             \
     0.05f /* chosen: what a longer time would tell of speed and load is next to nothing */
@@ -17,26 +12,31 @@
 /* Chosen by simulation: counts that come more often are better taken for their middle. With 1 a crawl of a count in three
  * periods is a fifth too fast, with 8 a limit cycle comes at standstill. */
 #define ALONE_PERIODS 3.5f
-#define WIDEST_cnt    1.5f /* chosen: a state of the disc is at most so wide */
-#define POLE_PAIRS    64U  /* keeps half counts times pole pairs within 32 bits */
+#define WIDEST_cnt    1.5f    /* chosen: a state of the disc is at most so wide */
+#define POLE_PAIRS    64U     /* keeps half counts times pole pairs within 32 bits */
+#define POSITIONS     65532UL /* whole lines; half of it, either way, is a signed number of 16 bits */
 
 ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c,
                             const drive_config_t *drive)
 {
     const uint16_t pole_pairs = drive->hardware.pole_pairs;
+    const uint32_t positions  = drive->hardware.encoder_positions;
     const float    ts_s       = drive->ts_s;
-    const bool     ok         = (pole_pairs >= 1U) && (pole_pairs <= POLE_PAIRS) &&
+    const bool     turn_ok    = (positions >= ENCODER_FORM_EDGES) && (positions <= POSITIONS) &&
+                         ((positions % ENCODER_FORM_EDGES) == 0UL);
+    const bool ok = turn_ok && (pole_pairs >= 1U) && (pole_pairs <= POLE_PAIRS) &&
                     base_in_range(c->index_theta_e_rad, 0.0f, BASE_TWO_PI) &&
                     (c->index_theta_e_rad < BASE_TWO_PI) &&
                     (c->index_correct_max_cnt >= c->index_tolerance_cnt) &&
-                    (c->index_correct_max_cnt < (BOARD_POSITIONS / 4U)) && (c->jump_cnt > 0U) &&
+                    (c->index_correct_max_cnt < (positions / 4U)) && (c->jump_cnt > 0U) &&
                     base_in_range(ts_s, 1.0e-5f, 1.0e-2f);
 
     a->config             = c;
     a->pole_pairs         = pole_pairs;
+    a->positions          = (uint16_t)(turn_ok ? positions : 0UL);
     a->edge_times         = drive->hardware.edge_times;
     a->ts_s               = ts_s;
-    a->rad_per_half_cnt   = BASE_TWO_PI / (float)HALF_COUNTS;
+    a->rad_per_half_cnt   = ok ? (BASE_TWO_PI / (float)(2UL * positions)) : 0.0f;
     a->rad_per_cnt        = 2.0f * (float)pole_pairs * a->rad_per_half_cnt;
     a->radps_per_cnt      = ok ? (a->rad_per_cnt / ts_s) : 0.0f;
     a->have_edge          = false;
@@ -58,14 +58,14 @@ ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c,
     return ok ? CTL_OK : CTL_BAD_CONFIG;
 }
 
-int16_t app_angle_turned_cnt(uint16_t from_cnt, uint16_t to_cnt)
+int16_t app_angle_turned_cnt(uint16_t positions, uint16_t from_cnt, uint16_t to_cnt)
 {
     int32_t turned_cnt = (int32_t)to_cnt - (int32_t)from_cnt;
 
-    if (turned_cnt > (int32_t)(BOARD_POSITIONS / 2U)) {
-        turned_cnt -= (int32_t)BOARD_POSITIONS;
-    } else if (turned_cnt < -(int32_t)(BOARD_POSITIONS / 2U)) {
-        turned_cnt += (int32_t)BOARD_POSITIONS;
+    if (turned_cnt > (int32_t)(positions / 2U)) {
+        turned_cnt -= (int32_t)positions;
+    } else if (turned_cnt < -(int32_t)(positions / 2U)) {
+        turned_cnt += (int32_t)positions;
     }
     return (int16_t)turned_cnt;
 }
@@ -84,9 +84,9 @@ static float theta_at(const app_angle_t *a, uint16_t position_cnt, uint32_t half
     const uint32_t from_zero_cnt =
         (position_cnt >= a->zero_cnt)
             ? ((uint32_t)position_cnt - (uint32_t)a->zero_cnt)
-            : ((uint32_t)position_cnt + (uint32_t)BOARD_POSITIONS - (uint32_t)a->zero_cnt);
+            : ((uint32_t)position_cnt + (uint32_t)a->positions - (uint32_t)a->zero_cnt);
     const uint32_t half_counts =
-        (((2U * from_zero_cnt) + half) * (uint32_t)a->pole_pairs) % HALF_COUNTS;
+        (((2U * from_zero_cnt) + half) * (uint32_t)a->pole_pairs) % (2U * (uint32_t)a->positions);
     const float theta_rad = a->zero_theta_rad + ((float)half_counts * a->rad_per_half_cnt);
 
     return within_turn(theta_rad);
@@ -104,7 +104,7 @@ static void refer_to_index(app_angle_t *a, uint16_t index_cnt)
 static float index_error_cnt(const app_angle_t *a, uint16_t index_cnt)
 {
     if (a->reference == APP_ANGLE_INDEX) {
-        return (float)app_angle_turned_cnt(a->zero_cnt, index_cnt);
+        return (float)app_angle_turned_cnt(a->positions, a->zero_cnt, index_cnt);
     }
     const float error_rad = frames_wrap(theta_at(a, index_cnt, 0U) - a->config->index_theta_e_rad);
     return error_rad / a->rad_per_cnt;
@@ -135,7 +135,7 @@ static bool take_index(app_angle_t *a, uint16_t index_cnt)
 /* EQ-APP-ANGLE-3, for the last edge of this period, which begins the position `edge_cnt` from below. */
 static void take_edge(app_angle_t *a, uint16_t edge_cnt, float age_s)
 {
-    const float turned_cnt = (float)app_angle_turned_cnt(a->edge_cnt, edge_cnt);
+    const float turned_cnt = (float)app_angle_turned_cnt(a->positions, a->edge_cnt, edge_cnt);
     const float between_s  = a->edge_age_s - age_s; /* edge_age_s counts up to now */
 
     if (a->have_edge && (between_s > 0.0f)) {
@@ -168,7 +168,7 @@ static void read_edges(app_angle_t *a, uint16_t position_cnt, bool timed, float 
 
         const bool after_edge = a->have_edge; /* else the gap is none between edges */
         a->edge_gap_s         = base_min(a->edge_age_s - age_s, EDGE_GAP_MAX_s);
-        take_edge(a, (uint16_t)((edge < BOARD_POSITIONS) ? edge : 0U), age_s);
+        take_edge(a, (uint16_t)((edge < a->positions) ? edge : 0U), age_s);
         reading->edge_gap_s = a->edge_gap_s;
         reading->edge_age_s = age_s;
         if (after_edge) {
@@ -247,7 +247,7 @@ static void drop_after_jump(app_angle_t *a, int16_t turned_cnt)
 /* More than a turn, and what a correction may put right, without the mark. Begins anew with the complaint. */
 static bool index_is_missing(app_angle_t *a, bool seen, int16_t turned_cnt)
 {
-    const int32_t most_cnt = (int32_t)BOARD_POSITIONS + (int32_t)a->config->index_correct_max_cnt;
+    const int32_t most_cnt = (int32_t)a->positions + (int32_t)a->config->index_correct_max_cnt;
 
     a->have_index      = a->have_index || seen;
     a->since_index_cnt = seen ? 0L : (a->since_index_cnt + (int32_t)turned_cnt);
@@ -285,7 +285,7 @@ void app_angle_update(app_angle_t *a, const board_sample_t *raw, app_angle_readi
     reading->omega_e_radps = 0.0f;
     reading->speed_valid   = a->have_before;
     if (a->have_before) {
-        const int16_t turned_cnt = app_angle_turned_cnt(a->before_cnt, position_cnt);
+        const int16_t turned_cnt = app_angle_turned_cnt(a->positions, a->before_cnt, position_cnt);
 
         check_counter(a, raw, turned_cnt, reading);
         reading->omega_e_radps = (float)turned_cnt * a->radps_per_cnt;
@@ -299,11 +299,11 @@ void app_angle_update(app_angle_t *a, const board_sample_t *raw, app_angle_readi
     a->have_before = true;
 }
 
-void app_angle_align(app_angle_t *a, uint16_t position_cnt)
+void app_angle_align(app_angle_t *a, uint16_t position_cnt, float theta_e_rad)
 {
     a->reference      = APP_ANGLE_ALIGNED;
     a->zero_cnt       = position_cnt;
-    a->zero_theta_rad = 0.0f;
+    a->zero_theta_rad = theta_e_rad;
 }
 
 void app_angle_drop(app_angle_t *a)

@@ -6,7 +6,7 @@
  *     theta_e = theta_zero + n_p (2 (position - zero) + 1) pi / N, in [0, 2 pi)     EQ-APP-ANGLE-1
  *     omega_e = n_p (position - position before) 2 pi / (N Ts)                     EQ-APP-ANGLE-2
  *
- * with N = BOARD_POSITIONS. With the times of the edges, those of the last edge of a period at the age a, and of the last
+ * with N positions per turn. With the times of the edges, those of the last edge of a period at the age a, and of the last
  * one before it at t_before earlier,
  *
  *     omega_e = n_p (edge - edge before) 2 pi / (N t_before)                       EQ-APP-ANGLE-3
@@ -54,6 +54,7 @@ typedef enum {
 typedef struct {
     const app_angle_config_t *config;
     uint16_t                  pole_pairs;
+    uint16_t                  positions; /**< per turn */
     bool                      edge_times;
     float                     ts_s;
     float                     rad_per_half_cnt; /**< electrical, without the pole pairs */
@@ -95,19 +96,19 @@ ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *config,
                             const drive_config_t *drive);
 
 /**
- * @brief One sample, valid and with positions below BOARD_POSITIONS.
+ * @brief One sample, valid and with positions within a turn.
  *
  * Context: control ISR, once per tick. One integer division; with edge times two divisions more.
  */
 void app_angle_update(app_angle_t *a, const board_sample_t *raw, app_angle_reading_t *reading);
 
-/** The rotor's d axis stands at phase a, here. Context: control ISR. */
-void app_angle_align(app_angle_t *a, uint16_t position_cnt);
+/** The rotor stands at this angle, in [0, 2 pi). Context: control ISR. */
+void app_angle_align(app_angle_t *a, uint16_t position_cnt, float theta_e_rad);
 
 /** Counts may have been lost: no reference, and no speed from the next sample. Context: control ISR. */
 void app_angle_drop(app_angle_t *a);
 
 /** Counts from one position to another the short way round. */
-int16_t app_angle_turned_cnt(uint16_t from_cnt, uint16_t to_cnt);
+int16_t app_angle_turned_cnt(uint16_t positions, uint16_t from_cnt, uint16_t to_cnt);
 
 #endif /* APP_ANGLE_H */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_config.h
- * @brief The constants of one board, by const pointer; made by hand, each with its derivation (board_config.h).
+ * @brief The constants of one board with its drive, by const pointer; made by sdre-gains from the drive file.
  *
- * Times are counted in ticks. board_config.c means PWM periods, and app_init() makes control periods of them where a
+ * Times are counted in ticks. the tables mean PWM periods, and app_init() makes control periods of them where a
  * drive has two updates per PWM period.
  */
 #ifndef APP_CONFIG_H
@@ -17,6 +17,7 @@
 #include "app_watch_heat.h"
 
 typedef struct {
+    board_setup_t           board;
     float                   pwm_period_s; /**< the drive's control period times its updates */
     float                   dead_time_s;  /**< of the gates; the drive's must be the same */
     app_scale_config_t      scale;

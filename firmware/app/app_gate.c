@@ -3,12 +3,10 @@
 
 #include "check.h"
 
-#define FULL ((uint16_t)BOARD_DUTY_FULL)
-
-ctl_status_t app_gate_check(const app_gate_config_t *c)
+ctl_status_t app_gate_check(const app_gate_config_t *c, uint16_t full_cnt)
 {
-    const bool ok = (c->duty_max_cnt >= (FULL / 2U)) && (c->duty_max_cnt <= FULL) &&
-                    (c->pulse_min_cnt <= (FULL / 4U)) &&
+    const bool ok = (full_cnt > 0U) && (c->duty_max_cnt >= (full_cnt / 2U)) &&
+                    (c->duty_max_cnt <= full_cnt) && (c->pulse_min_cnt <= (full_cnt / 4U)) &&
                     ((c->precharge_ticks == 0U) || check_positive(c->precharge_speed_e_radps));
 
     return ok ? CTL_OK : CTL_BAD_CONFIG;
@@ -23,21 +21,21 @@ static uint16_t passed(uint16_t pulse_cnt, uint16_t min_cnt)
     return ((2U * pulse_cnt) < min_cnt) ? 0U : min_cnt;
 }
 
-static uint16_t compare_cnt(const app_gate_config_t *c, float duty)
+static uint16_t compare_cnt(const app_gate_config_t *c, uint16_t full_cnt, float duty)
 {
-    const uint16_t wanted_cnt = (uint16_t)((duty * (float)BOARD_DUTY_FULL) + 0.5f);
+    const uint16_t wanted_cnt = (uint16_t)((duty * (float)full_cnt) + 0.5f);
     const uint16_t upper_cnt  = passed(wanted_cnt, c->pulse_min_cnt);
-    const uint16_t lower_cnt  = passed((uint16_t)(FULL - upper_cnt), c->pulse_min_cnt);
-    const uint16_t out_cnt    = (uint16_t)(FULL - lower_cnt);
+    const uint16_t lower_cnt  = passed((uint16_t)(full_cnt - upper_cnt), c->pulse_min_cnt);
+    const uint16_t out_cnt    = (uint16_t)(full_cnt - lower_cnt);
 
     return (out_cnt < c->duty_max_cnt) ? out_cnt : c->duty_max_cnt;
 }
 
-board_duty_t app_gate_duty(const app_gate_config_t *c, abc_t duty)
+board_duty_t app_gate_duty(const app_gate_config_t *c, uint16_t full_cnt, abc_t duty)
 {
-    const board_duty_t out = {.a_cnt = compare_cnt(c, duty.a),
-                              .b_cnt = compare_cnt(c, duty.b),
-                              .c_cnt = compare_cnt(c, duty.c)};
+    const board_duty_t out = {.a_cnt = compare_cnt(c, full_cnt, duty.a),
+                              .b_cnt = compare_cnt(c, full_cnt, duty.b),
+                              .c_cnt = compare_cnt(c, full_cnt, duty.c)};
     return out;
 }
 

@@ -19,17 +19,21 @@ typedef struct {
         precharge_speed_e_radps; /**< no start above, with a precharge; the shorted motor's current there,
                                            flux omega / R, has to be within the limit */
     uint16_t
-        duty_max_cnt; /**< largest duty below full, BOARD_DUTY_FULL / 2 .. BOARD_DUTY_FULL; full
-                                is then not used either */
+        duty_max_cnt; /**< largest duty below full, half of full .. full; full is then not used either */
     uint16_t pulse_min_cnt; /**< shorter pulses of either switch are left out or made this long,
-                                 whichever is nearer; 0 .. BOARD_DUTY_FULL / 4 */
+                                 whichever is nearer; 0 .. a quarter of full */
 } app_gate_config_t;
 
-/** @return CTL_BAD_CONFIG when a constant is out of range. Context: init. */
-ctl_status_t app_gate_check(const app_gate_config_t *config);
+/**
+ * @param full_cnt Compare counts of duty one.
+ * @return CTL_BAD_CONFIG when a constant is out of range.
+ *
+ * Context: init.
+ */
+ctl_status_t app_gate_check(const app_gate_config_t *config, uint16_t full_cnt);
 
 /** Nearest compare values that the drivers pass, for ratios of a bridge_t, which are in [0, 1]. Context: control ISR. */
-board_duty_t app_gate_duty(const app_gate_config_t *config, abc_t duty);
+board_duty_t app_gate_duty(const app_gate_config_t *config, uint16_t full_cnt, abc_t duty);
 
 /** Whether a run may begin at this speed. */
 bool app_gate_may_start(const app_gate_config_t *config, float omega_e_radps);

@@ -18,7 +18,7 @@ static bool drive_fits(const app_config_t *c, const drive_config_t *d)
 
     return (h->updates_per_period >= 1U) && (h->updates_per_period <= BOARD_UPDATES_MAX) &&
            same(d->ts_s * (float)h->updates_per_period, c->pwm_period_s) &&
-           (h->encoder_positions == BOARD_POSITIONS) && same(h->dead_time_s, c->dead_time_s) &&
+           (h->encoder_positions == c->board.positions) && same(h->dead_time_s, c->dead_time_s) &&
            (d->dc_link_max_V <= (top_cnt * c->scale.dc_link_V_per_cnt));
 }
 
@@ -39,10 +39,11 @@ static void clear_snapshot(app_snapshot_t *s)
 ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *c, const drive_config_t *d)
 {
     const bool drive_ok = drive_init(&m->drive, d) == CTL_OK;
-    const bool scale_ok = app_scale_init(&m->scale, &c->scale, d->trip_current_A) == CTL_OK;
+    const bool scale_ok =
+        app_scale_init(&m->scale, &c->scale, c->board.positions, d->trip_current_A) == CTL_OK;
     const bool angle_ok = app_angle_init(&m->angle, &c->angle, d) == CTL_OK;
     const bool align_ok = app_align_init(&m->align, &c->align, d) == CTL_OK;
-    const bool gate_ok  = app_gate_check(&c->gate) == CTL_OK;
+    const bool gate_ok  = app_gate_check(&c->gate, c->board.duty_full_cnt) == CTL_OK;
     const bool stop_ok  = app_stop_init(&m->stop, &c->stop, d) == CTL_OK;
     const bool heat_ok =
         app_watch_heat_init(&m->heat, &c->heat, d->current_max_A, d->ts_s) == CTL_OK;

@@ -23,7 +23,8 @@ static bool ntc_ok(const app_scale_config_t *c)
     return true;
 }
 
-ctl_status_t app_scale_init(app_scale_t *s, const app_scale_config_t *c, float trip_current_A)
+ctl_status_t app_scale_init(app_scale_t *s, const app_scale_config_t *c, uint16_t positions,
+                            float trip_current_A)
 {
     const float top_cnt    = (float)(BOARD_ADC_CODES - 1U);
     const bool  current_ok = base_in_range(c->current_A_per_cnt, 1.0e-6f, 1.0e3f) &&
@@ -37,6 +38,7 @@ ctl_status_t app_scale_init(app_scale_t *s, const app_scale_config_t *c, float t
     s->config       = c;
     s->zero_a_cnt   = c->current_zero_cnt;
     s->zero_b_cnt   = c->current_zero_cnt;
+    s->positions    = positions;
     s->inv_ntc_step = ok ? (1.0f / (float)c->ntc_step_cnt) : 0.0f;
     return ok ? CTL_OK : CTL_BAD_CONFIG;
 }
@@ -61,12 +63,12 @@ bool app_scale_set_zero(app_scale_t *s, uint32_t sum_a_cnt, uint32_t sum_b_cnt, 
     return true;
 }
 
-static bool raw_ok(const board_sample_t *raw)
+static bool raw_ok(const app_scale_t *s, const board_sample_t *raw)
 {
     return raw->valid && (raw->ia_cnt < BOARD_ADC_CODES) && (raw->ib_cnt < BOARD_ADC_CODES) &&
            (raw->dc_link_cnt < BOARD_ADC_CODES) && (raw->temperature_cnt < BOARD_ADC_CODES) &&
-           (raw->position_cnt < BOARD_POSITIONS) &&
-           (!raw->index_seen || (raw->index_cnt < BOARD_POSITIONS));
+           (raw->position_cnt < s->positions) &&
+           (!raw->index_seen || (raw->index_cnt < s->positions));
 }
 
 static void convert_temperature(const app_scale_t *s, uint16_t code_cnt, app_scale_sample_t *out)
@@ -93,7 +95,7 @@ void app_scale_sample(const app_scale_t *s, const board_sample_t *raw, app_scale
 {
     const app_scale_config_t *c = s->config;
 
-    out->valid             = raw_ok(raw);
+    out->valid             = raw_ok(s, raw);
     out->temperature_valid = false;
     out->temperature_degC  = 0.0f;
     if (!out->valid) {

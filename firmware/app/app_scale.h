@@ -30,6 +30,7 @@ typedef struct {
     float                     zero_a_cnt;
     float                     zero_b_cnt;
     float                     inv_ntc_step;
+    uint16_t                  positions;
 } app_scale_t;
 
 /** Samples in SI units; all zero unless valid. */
@@ -43,12 +44,14 @@ typedef struct {
 } app_scale_sample_t;
 
 /**
+ * @param positions      Of the encoder per turn; a sample beyond is not valid.
  * @param trip_current_A Must be within what the converter can show at the worst accepted zero.
  * @return CTL_BAD_CONFIG, s unusable, when a constant is out of range.
  *
  * Context: init.
  */
-ctl_status_t app_scale_init(app_scale_t *s, const app_scale_config_t *config, float trip_current_A);
+ctl_status_t app_scale_init(app_scale_t *s, const app_scale_config_t *config, uint16_t positions,
+                            float trip_current_A);
 
 /**
  * @brief Take the mean of `count` codes per phase, with no current flowing, as the zeros.

@@ -222,7 +222,7 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
         return app_states_trip(m, in, APP_FAULT_ALIGN);
     }
     if (m->align.stage == APP_ALIGN_DONE) {
-        app_angle_align(&m->angle, in->raw->position_cnt);
+        app_angle_align(&m->angle, in->raw->position_cnt, m->align.config->theta_e_rad);
         enter(m, APP_MODE_RUN);
     }
     return out;

@@ -6,14 +6,19 @@
 /* Chosen: leaves the short well before the EMF reaches the dc link's largest voltage. */
 #define OPEN_BELOW 0.8f
 
+#define FLUX_MOST_Wb  1.0e3f
+#define FLUX_LEAST_Wb 1.0e-9f /* a rotor without magnets has no EMF: above every speed */
+
 ctl_status_t app_stop_init(app_stop_t *s, const app_stop_config_t *c, const drive_config_t *drive)
 {
     const float flux_Wb = drive->motor.l5 * drive->motor.inv_l6;
-    const bool  ok      = check_positive(c->still_e_radps) && check_positive(flux_Wb) &&
+    const bool  ok      = check_positive(c->still_e_radps) &&
+                    base_in_range(flux_Wb, 0.0f, FLUX_MOST_Wb) &&
                     ((c->reaction == APP_STOP_COAST) || (c->reaction == APP_STOP_RAMP));
 
     s->config         = c;
-    s->link_e_radps   = ok ? (drive->dc_link_max_V * BASE_1_SQRT3 / flux_Wb) : 0.0f;
+    s->link_e_radps =
+        ok ? (drive->dc_link_max_V * BASE_1_SQRT3 / base_max(flux_Wb, FLUX_LEAST_Wb)) : 0.0f;
     s->trip_current_A = drive->trip_current_A;
     s->shorted        = false;
     return ok ? CTL_OK : CTL_BAD_CONFIG;

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_watch_tick.h"
 
-#include "board.h"
-
 void app_watch_tick_reset(app_watch_tick_t *w)
 {
     const app_watch_tick_t start = {.ticks = 0UL, .since_cycles = 0UL, .begun = false};
@@ -10,9 +8,10 @@ void app_watch_tick_reset(app_watch_tick_t *w)
     *w = start;
 }
 
-bool app_watch_tick_is_missing(app_watch_tick_t *w, uint32_t now_ticks, uint32_t now_cycles)
+bool app_watch_tick_is_missing(app_watch_tick_t *w, uint32_t pwm_cycles, uint32_t now_ticks,
+                               uint32_t now_cycles)
 {
-    const uint32_t longest_cycles = APP_WATCH_TICK_HALF_PERIODS * (BOARD_PWM_CYCLES / 2UL);
+    const uint32_t longest_cycles = APP_WATCH_TICK_HALF_PERIODS * (pwm_cycles / 2UL);
 
     if (now_ticks != w->ticks) {
         w->ticks        = now_ticks;

@@ -23,6 +23,7 @@ typedef struct {
 void app_watch_tick_reset(app_watch_tick_t *w);
 
 /** @return Whether no tick has ended for too long; once one has. Context: background. */
-bool app_watch_tick_is_missing(app_watch_tick_t *w, uint32_t now_ticks, uint32_t now_cycles);
+bool app_watch_tick_is_missing(app_watch_tick_t *w, uint32_t pwm_cycles, uint32_t now_ticks,
+                               uint32_t now_cycles);
 
 #endif /* APP_WATCH_TICK_H */

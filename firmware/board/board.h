@@ -22,7 +22,7 @@ typedef struct {
     uint16_t ib_cnt;          /**< phase current b, taken at the same instant */
     uint16_t dc_link_cnt;     /**< dc-link voltage */
     uint16_t temperature_cnt; /**< heat sink */
-    uint16_t position_cnt;    /**< 0 .. BOARD_POSITIONS - 1, latched with the currents */
+    uint16_t position_cnt;    /**< below the positions of a turn, latched with the currents */
     uint16_t edge_age_cnt;    /**< from the last edge to the latch, ticks of BOARD_CAPTURE_Hz */
     uint16_t index_cnt;       /**< position latched at the last index pulse */
     uint16_t phase_errors;    /**< of the encoder since the start; wraps */
@@ -32,7 +32,15 @@ typedef struct {
     bool valid;     /**< measured in this period */
 } board_sample_t;
 
-/** On-time of the upper switches, 0 .. BOARD_DUTY_FULL; more counts as full. */
+/** What a drive makes of the board, in the units of its registers; sdre-gains writes it (EQ-BOARD-1). */
+typedef struct {
+    uint32_t pwm_cycles;    /**< processor cycles per PWM period */
+    uint16_t duty_full_cnt; /**< compare counts of duty one */
+    uint16_t dead_time_cnt; /**< of the gates, in the same counts */
+    uint16_t positions;     /**< of the encoder per turn: four for each line */
+} board_setup_t;
+
+/** On-time of the upper switches, 0 .. duty_full_cnt; more counts as full. */
 typedef struct {
     uint16_t a_cnt;
     uint16_t b_cnt;
@@ -59,11 +67,13 @@ typedef enum {
 /**
  * @brief Makes the pins safe, then sets clock, peripherals and trip up; all six switches stay off.
  *
- * @return false: the clock cannot be trusted (BOARD_FAULT_CLOCK); do not go on to board_start().
+ * @param setup Kept: it has to stay as it is.
+ * @return false: the clock cannot be trusted (BOARD_FAULT_CLOCK), or a register does not hold what the setup asks for; do
+ *         not go on to board_start().
  *
  * Context: init, once, interrupts off. About 15 ms.
  */
-bool board_init(void);
+bool board_init(const board_setup_t *setup);
 
 /**
  * @brief Starts the control periods and the watchdog.
@@ -107,7 +117,7 @@ uint16_t board_fault_read(void);
 /** Context: any, after board_init(). */
 board_reset_t board_reset_cause(void);
 
-/** Processor cycles, free running, wraps; BOARD_PWM_CYCLES per PWM period. Context: any. */
+/** Processor cycles, free running, wraps; pwm_cycles of the setup per PWM period. Context: any. */
 uint32_t board_cycles(void);
 
 /** Without it the processor is reset after 4 ms. Context: background. */

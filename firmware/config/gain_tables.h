@@ -3,7 +3,7 @@
  *
  * generator  sdre-gains 1.0.0, schema 1
  * drive      ipmsm_390w
- * digest     fnv1a64:8f5c6c37d16d6750 (of the normalised drive file)
+ * digest     fnv1a64:605d0cdd01ffe0a5 (of the normalised drive file)
  * method     EQ-NOSC-2 with N = 2, EQ-NODO-ENCODER-3 with Nd = 1
  * checked    relative residuals <= 1e-16
  *            controller: slowest pole -551 1/s, sampled spectral radius 0.890, |e_iq| <= 8 A
@@ -19,7 +19,7 @@
 
 #define GAIN_TABLES_SCHEMA 1
 #define GAIN_TABLES_NAME   "ipmsm_390w"
-#define GAIN_TABLES_DIGEST "fnv1a64:8f5c6c37d16d6750"
+#define GAIN_TABLES_DIGEST "fnv1a64:605d0cdd01ffe0a5"
 
 extern const drive_config_t gain_tables_drive;
 

@@ -121,4 +121,15 @@ double mtpa_id_A(const ReducedParameters &l, double iq_A)
     return std::min(most, l[0]);
 }
 
+double mtpa_iq_A(const Motor &motor, const ReducedParameters &l, double wanted_Nm, double most_A)
+{
+    double lo = 0.0;
+    double hi = most_A;
+    for (int i = 0; i < 60; i++) { // to the last bit
+        const double iq_A                                                  = 0.5 * (lo + hi);
+        (torque_Nm(motor, mtpa_id_A(l, iq_A), iq_A) < wanted_Nm ? lo : hi) = iq_A;
+    }
+    return lo;
+}
+
 } // namespace sdre

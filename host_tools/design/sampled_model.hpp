@@ -60,4 +60,7 @@ SampledModel sampled_model(const ReducedParameters &motor, const ReducedParamete
 /// The exact MTPA current id for an iq, 0 without saliency.
 double mtpa_id_A(const ReducedParameters &l, double iq_A);
 
+/// The q current that gives a torque with the d current of mtpa_id_A(), at most `most_A` [A].
+double mtpa_iq_A(const Motor &motor, const ReducedParameters &l, double torque_Nm, double most_A);
+
 } // namespace sdre

@@ -70,6 +70,22 @@ std::string normalised_cascade(const Drive &d)
                        c.observer_radps);
 }
 
+std::string normalised_sensors(const Drive &d)
+{
+    const CurrentSensors   &s = d.current_sensors;
+    const BoardDescription &b = d.board;
+    std::string text = fmt::format("{:.17g};{:.17g};{};{:.17g};{:.17g};", s.range_A, s.noise_rms_A,
+                                   s.adc_bits, d.encoder.index_angle_e_rad, b.dc_link_range_V);
+    text +=
+        fmt::format("{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};", b.ntc_resistance_Ohm, b.ntc_beta_K,
+                    b.ntc_divider_Ohm, b.temperature_limit_degC, b.temperature_trip_degC);
+    text += fmt::format("{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};", b.align_current_A.value_or(0.0),
+                        b.motor_current_A.value_or(0.0), b.motor_time_constant_s,
+                        b.inverter_current_A, b.inverter_time_constant_s);
+    return text + fmt::format("{};{:.17g};{:.17g};{:.17g};", stop_reaction_name(b.stop),
+                              b.precharge_s, b.duty_max, b.pulse_min_s);
+}
+
 std::string normalised(const Drive &d)
 {
     const Motor    &m = d.motor;
@@ -86,6 +102,7 @@ std::string normalised(const Drive &d)
     s += i.regeneration != DcLinkSink::none ? fmt::format("{};", dc_link_sink_name(i.regeneration))
                                             : "";
     s += d.encoder.edge_times ? "edges;" : "";
+    s += normalised_sensors(d);
     s += m.max_speed_e_radps > 0.0 ? fmt::format("{:.17g};", m.max_speed_e_radps) : "";
     if (d.law == Law::noc_h) {
         return s + normalised_weights(d) + normalised_harmonics(d);

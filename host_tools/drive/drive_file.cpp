@@ -28,6 +28,7 @@ constexpr Range pwm_frequency_Hz{1e3, 1e5};
 constexpr Range dead_time_s{0.0, 2e-5};
 constexpr Range encoder_lines{1, 1e6};
 constexpr Range slots{3, 1000};
+constexpr Range angle_e_rad{0.0, 6.283185};
 constexpr Range adc_bits{8, 16};
 constexpr Range noise_A{0.0, 1e2};
 
@@ -100,8 +101,9 @@ Inverter read_inverter(TomlReader t)
 Encoder read_encoder(TomlReader t)
 {
     Encoder encoder;
-    encoder.lines      = t.integer("lines", encoder_lines);
-    encoder.edge_times = t.boolean_or("edge_times", false);
+    encoder.lines             = t.integer("lines", encoder_lines);
+    encoder.edge_times        = t.boolean_or("edge_times", false);
+    encoder.index_angle_e_rad = t.number_or("index_angle_e_rad", angle_e_rad, 0.0);
     t.reject_unknown_keys();
     return encoder;
 }
@@ -146,6 +148,7 @@ Drive read_drive(const toml::table &root, const std::string &source)
     drive.inverter        = read_inverter(t.table("inverter"));
     drive.encoder         = read_encoder(t.table("encoder"));
     drive.current_sensors = read_current_sensors(t.table_if("current_sensors"), drive.motor);
+    drive.board           = read_board(t.table_if("board"), drive.motor, drive.inverter);
     drive.law             = read_law(t);
     read_law_sections(t, drive);
     t.reject_unknown_keys();

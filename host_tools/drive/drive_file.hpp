@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "drive/board_section.hpp"
+
 namespace sdre {
 
 /// SI units; the unit is part of the TOML key. Peak (amplitude-invariant) currents and flux.
@@ -43,8 +45,9 @@ struct Inverter {
 };
 
 struct Encoder {
-    int  lines      = 0;
-    bool edge_times = false; ///< angle and speed from the times of the edges; else from counts
+    int    lines      = 0;
+    bool   edge_times = false; ///< angle and speed from the times of the edges; else from counts
+    double index_angle_e_rad = 0.0; ///< electrical angle at the index mark; 0: it marks the d axis
 };
 
 /// What measures the phase currents. The defaults follow the motor: a range that shows a trip at twice the limit.
@@ -145,19 +148,20 @@ struct HarmonicSpec {
 };
 
 struct Drive {
-    std::string    name;
-    Motor          motor;
-    Inverter       inverter;
-    Encoder        encoder;
-    CurrentSensors current_sensors;
-    Law            law = Law::noc;
-    NoscSpec       nosc; ///< nosc and nodo: laws of near optimal control
-    NodoSpec       nodo;
-    HarmonicSpec   harmonics; ///< noc_h only
-    DobcSpec       dobc;      ///< cdobc, gpiobc, hdobc only
-    PidSpec        pid;       ///< pid only
-    DAxisSpec      d_axis;    ///< laws of paper B
-    CascadeSpec    cascade;   ///< pi_foc and ladrc only
+    std::string      name;
+    Motor            motor;
+    Inverter         inverter;
+    Encoder          encoder;
+    CurrentSensors   current_sensors;
+    BoardDescription board;
+    Law              law = Law::noc;
+    NoscSpec         nosc; ///< nosc and nodo: laws of near optimal control
+    NodoSpec         nodo;
+    HarmonicSpec     harmonics; ///< noc_h only
+    DobcSpec         dobc;      ///< cdobc, gpiobc, hdobc only
+    PidSpec          pid;       ///< pid only
+    DAxisSpec        d_axis;    ///< laws of paper B
+    CascadeSpec      cascade;   ///< pi_foc and ladrc only
 };
 
 constexpr int drive_schema = 1;

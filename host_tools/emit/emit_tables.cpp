@@ -2,6 +2,7 @@
 #include "emit/emit_tables.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -13,12 +14,14 @@
 #include "common/file_output.hpp"
 #include "common/version.hpp"
 #include "design/law_design.hpp"
+#include "emit/emit_board.hpp"
 
 namespace sdre {
 namespace {
 
 constexpr const char *header_name    = "gain_tables.h";
 constexpr const char *source_name    = "gain_tables.c";
+constexpr const char *board_name     = "board_config.c";
 constexpr const char *constants_name = "constants"; // of the law, beside the configuration
 // Gains computed by different compilers agree far better; a real difference is far larger.
 constexpr double check_relative = 1e-6;
@@ -176,7 +179,7 @@ std::string compare_text(const std::string &expected, const std::string &found,
 
 TableText table_text(const Design &design)
 {
-    return {header_text(design), source_text(design)};
+    return {header_text(design), source_text(design), board_config_text(design.drive)};
 }
 
 void write_tables(const TableText &text, const std::filesystem::path &directory)
@@ -187,17 +190,23 @@ void write_tables(const TableText &text, const std::filesystem::path &directory)
         throw InputError(
             fmt::format("{}: cannot create directory: {}", directory.string(), error.message()));
     }
-    write_files({{directory / header_name, text.header}, {directory / source_name, text.source}});
+    write_files({{directory / header_name, text.header},
+                 {directory / source_name, text.source},
+                 {directory / board_name, text.board}});
 }
 
 std::string compare_tables(const TableText &text, const std::filesystem::path &directory)
 {
-    const std::filesystem::path header = directory / header_name;
-    const std::filesystem::path source = directory / source_name;
-    const std::string           difference =
-        compare_text(text.header, read_text_file(header), header.string());
-    return difference.empty() ? compare_text(text.source, read_text_file(source), source.string())
-                              : difference;
+    const std::array<std::pair<const char *, const std::string *>, 3> files{
+        {{header_name, &text.header}, {source_name, &text.source}, {board_name, &text.board}}};
+    for (const auto &[name, expected] : files) {
+        const std::filesystem::path file = directory / name;
+        const std::string difference = compare_text(*expected, read_text_file(file), file.string());
+        if (!difference.empty()) {
+            return difference;
+        }
+    }
+    return "";
 }
 
 } // namespace sdre

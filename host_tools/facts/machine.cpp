@@ -349,16 +349,11 @@ double needed_voltage_V(const Machine &m, double torque, double speed_radps)
 {
     const Motor             motor = motor_of(m);
     const ReducedParameters l     = reduced_parameters(motor);
-    double                  lo    = 0.0;
-    double                  hi    = 10.0 * m.max_current_A.si;
-    for (int i = 0; i < 60; i++) { // the q current that gives the torque
-        const double iq_A                                               = 0.5 * (lo + hi);
-        (torque_Nm(motor, mtpa_id_A(l, iq_A), iq_A) < torque ? lo : hi) = iq_A;
-    }
-    const double w    = m.pole_pairs.si * speed_radps;
-    const double id_A = mtpa_id_A(l, lo);
-    const double v_q  = m.resistance_Ohm.si * lo + w * (m.ld_H.si * id_A + m.flux_Wb.si);
-    const double v_d  = m.resistance_Ohm.si * id_A - w * m.lq_H.si * lo;
+    const double            iq_A  = mtpa_iq_A(motor, l, torque, 10.0 * m.max_current_A.si);
+    const double            w     = m.pole_pairs.si * speed_radps;
+    const double            id_A  = mtpa_id_A(l, iq_A);
+    const double v_q = m.resistance_Ohm.si * iq_A + w * (m.ld_H.si * id_A + m.flux_Wb.si);
+    const double v_d = m.resistance_Ohm.si * id_A - w * m.lq_H.si * iq_A;
     return std::hypot(v_q, v_d);
 }
 

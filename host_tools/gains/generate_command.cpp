@@ -44,8 +44,8 @@ int run(const Options &o)
     const TableText text    = table_text(design);
     if (!o.out.empty()) {
         write_tables(text, o.out);
-        fmt::print("{}: {}; wrote gain_tables.h and gain_tables.c to {}\n", design.drive.name,
-                   verdict, o.out);
+        fmt::print("{}: {}; wrote gain_tables.h, gain_tables.c and board_config.c to {}\n",
+                   design.drive.name, verdict, o.out);
         return exit_ok;
     }
     const std::string difference = compare_tables(text, o.check);
@@ -61,9 +61,10 @@ int run(const Options &o)
 
 Command generate_command()
 {
-    return command<Options>("generate",
-                            "write gain_tables.h and .c, or compare them with the drive file",
-                            declare, run);
+    return command<Options>(
+        "generate",
+        "write gain_tables.h and .c and board_config.c, or compare them with the drive file",
+        declare, run);
 }
 
 } // namespace sdre

@@ -41,13 +41,8 @@ struct Steady {
 
 Steady carrying(const Drive &d, const ReducedParameters &l, double load_Nm)
 {
-    double lo = 0.0;
-    double hi = d.motor.max_current_A;
-    for (int i = 0; i < 50; i++) {
-        const double iq_A                                                  = 0.5 * (lo + hi);
-        (torque_Nm(d.motor, mtpa_id_A(l, iq_A), iq_A) < load_Nm ? lo : hi) = iq_A;
-    }
-    return {lo, mtpa_id_A(l, lo)};
+    const double iq_A = mtpa_iq_A(d.motor, l, load_Nm, d.motor.max_current_A);
+    return {iq_A, mtpa_id_A(l, iq_A)};
 }
 
 double hold_V(const Drive &d, const Steady &at, double speed_e_radps)

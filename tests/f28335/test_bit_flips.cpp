@@ -100,7 +100,7 @@ TEST(BitFlips, NoneLeadsToTooMuchCurrentUnnoticed)
     Controller     c = prepare_controller(s);
     std::memcpy(&constants, c.config.constants, sizeof constants);
     c.config.constants = &constants;
-    set_firmware_drive(c.config);
+    set_firmware(c.config, s.drive);
 
     const long start = [&] {
         ApiRun rehearsal(s, MotorBench::never, 3e-6);

@@ -70,9 +70,9 @@ void run(int ticks)
         while (fake_board_sent() >= 0) { // the master reads
         }
         const app_status_t status = app_status_read();
-        require(fake_board.duty.a_cnt <= BOARD_DUTY_FULL &&
-                fake_board.duty.b_cnt <= BOARD_DUTY_FULL &&
-                fake_board.duty.c_cnt <= BOARD_DUTY_FULL);
+        require(fake_board.duty.a_cnt <= board_config.board.duty_full_cnt &&
+                fake_board.duty.b_cnt <= board_config.board.duty_full_cnt &&
+                fake_board.duty.c_cnt <= board_config.board.duty_full_cnt);
         require((status.mode == APP_MODE_FAULT) == (status.fault != APP_FAULT_NONE));
         require(!fake_board.gate || status.shorted || may_switch(status.mode));
         require(status.mode == APP_MODE_FAULT || app_drive()->state != DRIVE_FAULT);
@@ -110,7 +110,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
         }
         case 5:
             fake_board.sample.position_cnt = static_cast<std::uint16_t>(
-                (fake_board.sample.position_cnt + (what & 31U)) % BOARD_POSITIONS);
+                (fake_board.sample.position_cnt + (what & 31U)) % board_config.board.positions);
             break;
         default:
             run((what & 63) * 4);

@@ -50,7 +50,7 @@ declare -A sources=(
 files_of()
 {
     printf '%s\n' "${sources[$2]}"
-    [[ ${sources[$2]} != *prove_app.c ]] || { find "$app" -name 'app_*.c' && echo "$board/board_config.c"; }
+    [[ ${sources[$2]} != *prove_app.c ]] || { find "$app" -name 'app_*.c' && echo "$config/board_config.c"; }
     find "$core" -name '*.c' ! -name 'law_*.c'
     case $1 in
         any) ;;

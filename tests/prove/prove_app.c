@@ -20,7 +20,7 @@ app_modbus_t            modbus;
 app_registers_t         registers;
 
 /* What app_angle.c turns at the most without an index. */
-#define TURN_cnt ((int)BOARD_POSITIONS + (int)board_config.angle.index_correct_max_cnt)
+#define TURN_cnt ((int)board_config.board.positions + (int)board_config.angle.index_correct_max_cnt)
 
 static int any_between(int lo, int hi)
 {
@@ -90,7 +90,7 @@ static void any_state(void)
 
 static void is_count(uint16_t cnt)
 {
-    //@ check full: cnt <= BOARD_DUTY_FULL;
+    //@ check full: cnt <= board_config.board.duty_full_cnt;
 }
 
 /* Entry: a tick of the application in any state. */
@@ -105,8 +105,9 @@ void prove_app_tick(void)
     in.command.run       = any_bool();
     in.command.reset     = any_bool();
 
-    const bridge_t     out  = app_modes_tick(&modes, &in);
-    const board_duty_t duty = app_gate_duty(&board_config.gate, out.duty);
+    const bridge_t     out = app_modes_tick(&modes, &in);
+    const board_duty_t duty =
+        app_gate_duty(&board_config.gate, board_config.board.duty_full_cnt, out.duty);
 
     is_count(duty.a_cnt);
     is_count(duty.b_cnt);

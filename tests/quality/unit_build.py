@@ -48,7 +48,7 @@ class Build:
         self.directory.mkdir(parents=True, exist_ok=True)
         tables = [self._table(name, drive) for name, drive in TABLES.items()]
         work = [(p, p.stem, []) for p in sources()]
-        work += [(BOARD / "board_config.c", "board_config", []), (ROOT / "firmware/config/gain_tables.c", "gain_tables", []),
+        work += [(ROOT / "firmware/config/board_config.c", "board_config", []), (ROOT / "firmware/config/gain_tables.c", "gain_tables", []),
                  (ROOT / "build/unity/unity.c", "unity", []), (ROOT / "tests/support/fake_board.c", "fake_board", [])]
         work += [(ROOT / f"tests/unit/{n}.c", n, []) for n in tests()]
         work += [(path, name, [f"-Dgain_tables_drive={name}_drive"]) for name, path in tables]

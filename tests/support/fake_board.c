@@ -58,8 +58,9 @@ int fake_board_sent(void)
     return (fake_board.tx.count > 0) ? pop(&fake_board.tx) : -1;
 }
 
-bool board_init(void)
+bool board_init(const board_setup_t *setup)
 {
+    fake_board.setup = setup;
     note(FAKE_BOARD_INIT);
     return fake_board.init_result;
 }

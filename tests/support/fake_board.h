@@ -32,16 +32,17 @@ typedef struct {
 } fake_board_queue_t;
 
 typedef struct {
-    bool           init_result;
-    board_sample_t sample;
-    uint16_t       causes; /* faults that are there now */
-    uint16_t       faults; /* latched */
-    bool           gate;
-    board_duty_t   duty;
-    int            served; /* watchdog */
-    uint32_t       cycles;
-    uint32_t       cycles_per_read;
-    int            serial_room; /* octets that the transmitter takes before it is full */
+    bool                 init_result;
+    const board_setup_t *setup; /* that board_init() got */
+    board_sample_t       sample;
+    uint16_t             causes; /* faults that are there now */
+    uint16_t             faults; /* latched */
+    bool                 gate;
+    board_duty_t         duty;
+    int                  served; /* watchdog */
+    uint32_t             cycles;
+    uint32_t             cycles_per_read;
+    int                  serial_room; /* octets that the transmitter takes before it is full */
     void (*tick)(void);
     uint16_t           updates; /* per PWM period */
     fake_board_queue_t rx;

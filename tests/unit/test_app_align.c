@@ -254,6 +254,8 @@ static void test_second_alignment_forgets_the_first(void)
 /* Of EQ-APP-ALIGN-1, with R = 2.48 Ohm, L_d = 74.98 mH, w_c = 100 1/s, I = 2 A, 200 us. */
 static void test_gains_follow_the_winding(void)
 {
+    config.bandwidth_radps = 100.0f;
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_align_init(&align, &config, &gain_tables_drive));
     TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 7.498f, align.kp_VpA);
     TEST_ASSERT_FLOAT_WITHIN(1.0e-5f, 0.0496f, align.ki_VpA);
     TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 9.92f, align.v_max_V);
@@ -266,14 +268,14 @@ static ctl_status_t init(void)
 
 static void test_constants_out_of_range_are_refused(void)
 {
-    uint16_t *const times[] = {&config.watch_ticks, &config.ramp_ticks, &config.sweep_ticks,
+    uint32_t *const times[] = {&config.watch_ticks, &config.ramp_ticks, &config.sweep_ticks,
                                &config.settle_ticks, &config.still_ticks};
     TEST_ASSERT_EQUAL_INT(CTL_OK, init());
     for (int i = 0; i < SUPPORT_COUNT(times); i++) {
         setUp();
-        *times[i] = 0U;
+        *times[i] = 0UL;
         TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, init());
-        *times[i] = (times[i] == &config.settle_ticks) ? (uint16_t)(config.still_ticks + 1U) : 1U;
+        *times[i] = (times[i] == &config.settle_ticks) ? (config.still_ticks + 1UL) : 1UL;
         TEST_ASSERT_EQUAL_INT(CTL_OK, init());
     }
     setUp();
@@ -291,6 +293,11 @@ static void test_constants_out_of_range_are_refused(void)
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, init());
     config.bandwidth_radps = -1.0f;
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, init());
+    setUp();
+    config.theta_e_rad = -0.1f;
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, init());
+    config.theta_e_rad = 4.712389f;
+    TEST_ASSERT_EQUAL_INT(CTL_OK, init());
     setUp();
     drive_config_t drive      = speed_tables_drive;
     drive.hardware.pole_pairs = 0U;

@@ -21,10 +21,11 @@ static app_angle_t        angle;
 void setUp(void)
 {
     (void)memset(&angle, 0xFF, sizeof angle); /* init has to set everything */
-    config                    = board_config.angle;
-    drive.ts_s                = TS_S;
-    drive.hardware.pole_pairs = 2U;
-    drive.hardware.edge_times = false;
+    config                           = board_config.angle;
+    drive.ts_s                       = TS_S;
+    drive.hardware.pole_pairs        = 2U;
+    drive.hardware.encoder_positions = 10000UL;
+    drive.hardware.edge_times        = false;
     TEST_ASSERT_EQUAL_INT(CTL_OK, app_angle_init(&angle, &config, &drive));
 }
 
@@ -133,7 +134,7 @@ static void test_alignment_forgets_the_angle_of_the_index(void)
 {
     start_over(2U, 1.5f);
     (void)at_with_index(100, 100);
-    app_angle_align(&angle, 700U);
+    app_angle_align(&angle, 700U, 0.0f);
     assert_angle(2.0 * two_pi * 0.5 / 10000.0, at(700).theta_e_rad);
 }
 
@@ -145,7 +146,7 @@ static void test_before_any_reference_the_position_itself_is_shown(void)
 static void test_alignment_puts_the_zero_here_until_the_index(void)
 {
     (void)at(4321);
-    app_angle_align(&angle, 4321U);
+    app_angle_align(&angle, 4321U, 0.0f);
 
     TEST_ASSERT_EQUAL_INT(APP_ANGLE_ALIGNED, angle.reference);
     assert_angle(2.0 * two_pi * 0.5 / 10000.0, at(4321).theta_e_rad);
@@ -161,7 +162,7 @@ static void test_index_after_alignment_takes_over_within_its_bound(void)
             setUp();
             const int index = (4000 + (5000 * pair) + error) % 10000;
             (void)at(4000);
-            app_angle_align(&angle, 4000U);
+            app_angle_align(&angle, 4000U, 0.0f);
 
             const app_angle_reading_t r = at_with_index((index + 10) % 10000, index);
 
@@ -183,14 +184,47 @@ static void test_index_after_alignment_knows_its_own_angle(void)
     start_over(2U, 1.5f);
     const int mark = 2000 + (int)lround(1.5 / (2.0 * two_pi) * 10000.0);
     (void)at(2000);
-    app_angle_align(&angle, 2000U);
+    app_angle_align(&angle, 2000U, 0.0f);
 
     TEST_ASSERT_FALSE(at_with_index(mark, mark).index_fault);
 
     start_over(2U, 1.5f);
-    app_angle_align(&angle, 2000U);
+    app_angle_align(&angle, 2000U, 0.0f);
     TEST_ASSERT_TRUE(at_with_index(2000, 2000).index_fault);
     TEST_ASSERT_EQUAL_UINT(0U, angle.corrections);
+}
+
+static void test_alignment_refers_to_the_angle_it_is_given(void)
+{
+    for (int position = 0; position < 10000; position += 777) {
+        start_over(2U, 0.0f);
+        app_angle_align(&angle, 2000U, 4.712389f);
+        const double counts = fmod((double)position - 2000.0 + 10000.0, 10000.0) + 0.5;
+        const double wanted = fmod(4.712389 + (2.0 * counts * two_pi / 10000.0), two_pi);
+        TEST_ASSERT_DOUBLE_WITHIN(1.0e-5, wanted, (double)at(position).theta_e_rad);
+    }
+}
+
+/* 16-bit counts of half a turn either way, whole lines. */
+static void test_encoders_that_the_counter_cannot_hold_are_refused(void)
+{
+    const uint32_t good[] = {16UL, 1024UL, 65532UL};
+    const uint32_t bad[]  = {0UL, 2UL, 1023UL, 65536UL, 4000000UL};
+
+    config.index_correct_max_cnt = 3U;
+    config.index_tolerance_cnt   = 1U;
+    for (int i = 0; i < SUPPORT_COUNT(good); i++) {
+        drive.hardware.encoder_positions = good[i];
+        TEST_ASSERT_EQUAL_INT(CTL_OK, app_angle_init(&angle, &config, &drive));
+        const uint16_t half = (uint16_t)((good[i] / 2UL) - 1UL);
+        TEST_ASSERT_EQUAL_INT((int)half, app_angle_turned_cnt(angle.positions, 0U, half));
+        TEST_ASSERT_EQUAL_INT(-1,
+                              app_angle_turned_cnt(angle.positions, 0U, (uint16_t)(good[i] - 1UL)));
+    }
+    for (int i = 0; i < SUPPORT_COUNT(bad); i++) {
+        drive.hardware.encoder_positions = bad[i];
+        TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_angle_init(&angle, &config, &drive));
+    }
 }
 
 static void test_later_index_corrects_or_faults_by_its_distance(void)
@@ -277,7 +311,7 @@ static void start_edges(double at_cnt)
 {
     drive.hardware.edge_times = true;
     TEST_ASSERT_EQUAL_INT(CTL_OK, app_angle_init(&angle, &config, &drive));
-    app_angle_align(&angle, 0U);
+    app_angle_align(&angle, 0U, 0.0f);
     shaft_cnt = at_cnt;
     edge_time = 0.0;
     now_time  = 0.0;
@@ -538,6 +572,8 @@ int main(void)
     RUN_TEST(test_alignment_puts_the_zero_here_until_the_index);
     RUN_TEST(test_index_after_alignment_takes_over_within_its_bound);
     RUN_TEST(test_index_after_alignment_knows_its_own_angle);
+    RUN_TEST(test_alignment_refers_to_the_angle_it_is_given);
+    RUN_TEST(test_encoders_that_the_counter_cannot_hold_are_refused);
     RUN_TEST(test_later_index_corrects_or_faults_by_its_distance);
     RUN_TEST(test_correction_does_not_show_in_the_speed);
     RUN_TEST(test_corrections_are_counted_until_the_start);

@@ -17,7 +17,7 @@ void tearDown(void) {}
 static board_duty_t duty_of(double ratio)
 {
     const abc_t duty = {.a = (float)ratio, .b = (float)(1.0 - ratio), .c = 0.5f};
-    return app_gate_duty(&config, duty);
+    return app_gate_duty(&config, board_config.board.duty_full_cnt, duty);
 }
 
 static void test_duty_becomes_the_nearest_compare_value(void)
@@ -75,20 +75,25 @@ static void test_a_precharge_bounds_the_speed_of_a_start(void)
 
 static void test_constants_out_of_range_are_refused(void)
 {
-    TEST_ASSERT_EQUAL_INT(CTL_OK, app_gate_check(&config));
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_gate_check(&config, board_config.board.duty_full_cnt));
     config.duty_max_cnt = 7501U;
-    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_gate_check(&config));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG,
+                          app_gate_check(&config, board_config.board.duty_full_cnt));
     config.duty_max_cnt = 3749U;
-    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_gate_check(&config));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG,
+                          app_gate_check(&config, board_config.board.duty_full_cnt));
     setUp();
     config.pulse_min_cnt = 1876U;
-    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_gate_check(&config));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG,
+                          app_gate_check(&config, board_config.board.duty_full_cnt));
     setUp();
     config.precharge_ticks = 1U; /* and no speed that it allows */
-    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_gate_check(&config));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG,
+                          app_gate_check(&config, board_config.board.duty_full_cnt));
     for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
         config.precharge_speed_e_radps = support_not_finite[k];
-        TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_gate_check(&config));
+        TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG,
+                              app_gate_check(&config, board_config.board.duty_full_cnt));
     }
 }
 

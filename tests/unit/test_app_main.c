@@ -3,6 +3,7 @@
 #include <setjmp.h>
 
 #include "app.h"
+#include "board_config.h"
 #include "fake_board.h"
 #include "unity.h"
 #include "yield.h"
@@ -46,6 +47,7 @@ static void test_board_comes_first_and_ticks_start_last(void)
 
     TEST_ASSERT_EQUAL_INT(FAKE_BOARD_INIT, fake_board.events[0]);
     TEST_ASSERT_EQUAL_INT(FAKE_BOARD_START, fake_board.events[1]);
+    TEST_ASSERT_TRUE(fake_board.setup == &board_config.board);
     TEST_ASSERT_TRUE(fake_board.tick == app_tick);
     TEST_ASSERT_FALSE(fake_board.gate);
 }

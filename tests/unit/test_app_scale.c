@@ -27,15 +27,15 @@ void setUp(void)
                                  .valid           = true};
     raw                       = rest;
     config                    = board_config.scale;
-    TEST_ASSERT_EQUAL_INT(CTL_OK,
-                          app_scale_init(&scale, &config, gain_tables_drive.trip_current_A));
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_scale_init(&scale, &config, board_config.board.positions,
+                                                 gain_tables_drive.trip_current_A));
 }
 
 void tearDown(void) {}
 
 static ctl_status_t init(void)
 {
-    return app_scale_init(&scale, &config, 8.0f);
+    return app_scale_init(&scale, &config, board_config.board.positions, 8.0f);
 }
 
 static app_scale_sample_t converted(void)
@@ -207,8 +207,11 @@ static void test_trip_current_that_the_converter_cannot_show_is_refused(void)
     setUp();
     config.current_A_per_cnt = 0.00390625f; /* 8 A are exactly 2048 codes */
     config.offset_max_cnt    = 0.5f;
-    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_scale_init(&scale, &config, 2046.5f / 256.0f));
-    TEST_ASSERT_EQUAL_INT(CTL_OK, app_scale_init(&scale, &config, 2046.4f / 256.0f));
+    TEST_ASSERT_EQUAL_INT(
+        CTL_BAD_CONFIG,
+        app_scale_init(&scale, &config, board_config.board.positions, 2046.5f / 256.0f));
+    TEST_ASSERT_EQUAL_INT(
+        CTL_OK, app_scale_init(&scale, &config, board_config.board.positions, 2046.4f / 256.0f));
 }
 
 static void test_table_that_is_no_curve_is_refused(void)

@@ -25,6 +25,19 @@ static void test_speed_limit_is_that_of_the_emf(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.1, 1.35 * 295.0 / (sqrt(3.0) * 0.193), (double)stop.link_e_radps);
 }
 
+static void test_without_a_magnet_no_speed_charges_the_dc_link(void)
+{
+    drive_config_t drive = gain_tables_drive;
+    drive.motor.l5       = 0.0f;
+
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_stop_init(&stop, &config, &drive));
+    TEST_ASSERT_FALSE(app_stop_is_braking(&stop, 1.0e6f));
+    drive.motor.l5 = -1.0f;
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_stop_init(&stop, &config, &drive));
+    drive.motor.l5 = NAN;
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_stop_init(&stop, &config, &drive));
+}
+
 static void test_coasting_brakes_down_to_the_limit_and_a_ramp_to_standstill(void)
 {
     for (int w = -1500; w <= 1500; w++) {
@@ -79,6 +92,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_speed_limit_is_that_of_the_emf);
+    RUN_TEST(test_without_a_magnet_no_speed_charges_the_dc_link);
     RUN_TEST(test_coasting_brakes_down_to_the_limit_and_a_ramp_to_standstill);
     RUN_TEST(test_short_begins_above_the_limit_and_ends_at_four_fifths);
     RUN_TEST(test_speed_that_is_no_number_counts_as_fast);

@@ -1,7 +1,23 @@
 /* SPDX-License-Identifier: MIT */
+#include "clock_tree.h"
 #include "peripherals.h"
 
-bool board_init(void)
+/* Half of the capture timer's 16 bits: an edge of the period before the latch still has its age, also when the interrupt
+ * comes late by a period. */
+#define CAPTURE_CYCLES_MAX (65535UL << (CLOCK_CAPTURE_SHIFT - 1U))
+
+static const board_setup_t *in_force;
+
+static bool fits(const board_setup_t *s)
+{
+    return (s->duty_full_cnt > 0U) &&
+           (s->pwm_cycles == (2UL * CLOCK_SYSCLK_PER_TBCLK * (uint32_t)s->duty_full_cnt)) &&
+           (s->pwm_cycles <= CAPTURE_CYCLES_MAX) && (s->dead_time_cnt > 0U) &&
+           (s->dead_time_cnt <= CLOCK_DEAD_TIME_MAX_cnt) &&
+           ((2UL * (uint32_t)s->dead_time_cnt) < s->duty_full_cnt) && (s->positions > 0U);
+}
+
+bool board_init(const board_setup_t *setup)
 {
     gpio_make_safe();
     watchdog_stop();
@@ -11,15 +27,20 @@ bool board_init(void)
     flash_init();
     clock_peripherals();
     trip_init();
+    in_force = setup;
     if (!clocked) {
         trip_latch(BOARD_FAULT_CLOCK);
         return false;
     }
 
-    pwm_init();
+    if (!fits(setup)) {
+        return false;
+    }
+
+    pwm_init(setup);
     gpio_connect();
     cycles_init();
-    encoder_init();
+    encoder_init(setup);
     adc_init();
     serial_init();
     return true;
@@ -29,10 +50,12 @@ void board_start(void (*tick)(void), uint16_t updates_per_period)
 {
     const uint16_t updates = (updates_per_period == 2U) ? 2U : 1U;
 
-    control_isr_init(tick, updates);
+    const uint32_t period_cycles = in_force->pwm_cycles / updates;
+
+    control_isr_init(tick, period_cycles);
     watchdog_start();
     encoder_start(updates);
-    tick_watch_start(updates);
+    tick_watch_start(period_cycles);
     pwm_start(updates);
     pie_start();
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file clock_tree.h
- * @brief Every rate of this board, derived from the crystal; the one place to change them.
+ * @brief Every rate of this board that no drive changes, derived from the crystal; the one place to change them.
  *
  * Preprocessor arithmetic, so that a rate that a register cannot hold stops the compiler.
  */
@@ -33,11 +33,6 @@
 /** The encoder's capture timer: SYSCLK / 2^this. */
 #define CLOCK_CAPTURE_SHIFT 1U
 
-#define CLOCK_PWM_Hz  5000UL /**< control rate that the gain tables are made for */
-#define CLOCK_PWM_cnt (CLOCK_TBCLK_Hz / (2UL * CLOCK_PWM_Hz)) /**< TBPRD, counted up and down */
-
-#define CLOCK_DEAD_TIME_us      3UL /**< of the shipped drive's inverter */
-#define CLOCK_DEAD_TIME_cnt     (CLOCK_DEAD_TIME_us * (CLOCK_TBCLK_Hz / 1000000UL))
 #define CLOCK_DEAD_TIME_MAX_cnt 1023UL /**< ten bits */
 
 #define CLOCK_BAUD_Hz 115200UL /**< chosen: 1.4 ms for a Modbus frame of 16 octets */
@@ -50,21 +45,6 @@
 #endif
 #if CLOCK_ADCCLK_Hz > CLOCK_ADCCLK_MAX_Hz
 #error "the ADC clock is too fast"
-#endif
-#if (CLOCK_PWM_cnt > 65535UL) || ((CLOCK_PWM_cnt * 2UL * CLOCK_PWM_Hz) != CLOCK_TBCLK_Hz)
-#error "the PWM period does not fit its register, or is no whole number of counts"
-#endif
-#if CLOCK_DEAD_TIME_cnt > CLOCK_DEAD_TIME_MAX_cnt
-#error "the dead time does not fit its ten bits: only the low ones would act"
-#endif
-#if (CLOCK_DEAD_TIME_cnt == 0UL) || ((2UL * CLOCK_DEAD_TIME_cnt) >= CLOCK_PWM_cnt)
-#error "the dead time is zero or swallows the PWM period"
-#endif
-#if CLOCK_PWM_cnt != BOARD_DUTY_FULL
-#error "BOARD_DUTY_FULL is not the PWM period of this board"
-#endif
-#if (CLOCK_SYSCLK_Hz / CLOCK_PWM_Hz) != BOARD_PWM_CYCLES
-#error "BOARD_PWM_CYCLES is not the control period of this board"
 #endif
 #if (CLOCK_BAUD_BRR > 65535UL) || ((CLOCK_BAUD_ACTUAL_Hz * 100UL) > (CLOCK_BAUD_Hz * 102UL)) ||    \
     ((CLOCK_BAUD_ACTUAL_Hz * 100UL) < (CLOCK_BAUD_Hz * 98UL))

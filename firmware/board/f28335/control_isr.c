@@ -8,11 +8,9 @@ static uint32_t       entry_cycles;
 static uint32_t       late_cycles; /* one and a half control periods: one was left out */
 static bool           first;
 
-void control_isr_init(void (*tick)(void), uint16_t updates_per_period)
+void control_isr_init(void (*tick)(void), uint32_t period_cycles)
 {
     static const board_sample_t nothing = {.valid = false};
-
-    const uint32_t period_cycles = BOARD_PWM_CYCLES / updates_per_period;
 
     control_tick = tick;
     late_cycles  = period_cycles + (period_cycles / 2UL);

@@ -9,13 +9,10 @@
 #define LATCH_AT_TIMEOUT 1U /* QCLM */
 #define EVERY_EDGE       0U /* UPPS */
 
-/* An edge is timed only when it came in the period before the latch: the capture timer must not run over in that time.
- * (16 bits; a period more, for the interrupt that comes late.) */
+/* An edge is timed only when it came in the period before the latch: the capture timer does not run over in that time
+ * (board.c). */
 #if (BOARD_CAPTURE_Hz << CLOCK_CAPTURE_SHIFT) != CLOCK_SYSCLK_Hz
 #error "BOARD_CAPTURE_Hz is not the capture clock of this board"
-#endif
-#if (2UL * (BOARD_PWM_CYCLES >> CLOCK_CAPTURE_SHIFT)) > 65535UL
-#error "the capture timer runs over within two control periods"
 #endif
 
 /* QFLG and QCLR. */
@@ -27,22 +24,27 @@
 #define TURNED_BACK 0x0004U /* QEPSTS: CDEF, written 1 to clear */
 
 /* Three phase errors within 10 ms trip, a single one does not: each adds 10 ms to what runs off again with time. */
-#define PERIODS_PER_10_ms ((uint16_t)(CLOCK_PWM_Hz / 100UL))
+#define PER_10_ms 100UL
 
+static uint32_t pwm_cycles;   /* of a PWM period */
+static uint16_t half_cnt;     /* counts of the PWM in half of it */
 static uint16_t before_cnt;   /* position of the sample before */
 static uint16_t phase_errors; /* since the start */
 static uint16_t error_level;  /* control periods */
 static uint16_t error_step;   /* control periods in 10 ms */
 static bool     at_zero_too;  /* control periods begin at ZERO and PRD */
 
-void encoder_init(void)
+void encoder_init(const board_setup_t *setup)
 {
+    pwm_cycles            = setup->pwm_cycles;
+    half_cnt              = setup->duty_full_cnt;
     EQep1Regs.QEPCTL.all  = 0U;
     EQep1Regs.QDECCTL.all = 0U; /* quadrature, not swapped */
     EQep1Regs.QEINT.all   = 0U;
     EQep1Regs.QPOSCNT     = 0UL;
     EQep1Regs.QPOSINIT    = 0UL;
-    EQep1Regs.QPOSMAX     = BOARD_POSITIONS - 1U; /* the highest position, not their number */
+    EQep1Regs.QPOSMAX =
+        (uint32_t)setup->positions - 1U; /* the highest position, not their number */
     EQep1Regs.QEPCTL.bit.FREE_SOFT = FREE_RUN;
     EQep1Regs.QEPCTL.bit.PCRM      = RESET_AT_MAX;
     EQep1Regs.QEPCTL.bit.IEL       = LATCH_RISING;
@@ -61,10 +63,10 @@ void encoder_init(void)
 /* The PWM starts at ZERO, half a period before PRD. */
 void encoder_start(uint16_t updates_per_period)
 {
-    EQep1Regs.QUPRD          = BOARD_PWM_CYCLES / updates_per_period;
-    EQep1Regs.QUTMR          = (updates_per_period == 1U) ? (BOARD_PWM_CYCLES / 2UL) : 0UL;
-    at_zero_too              = updates_per_period == 2U;
-    error_step               = (uint16_t)(PERIODS_PER_10_ms * updates_per_period);
+    EQep1Regs.QUPRD = pwm_cycles / updates_per_period;
+    EQep1Regs.QUTMR = (updates_per_period == 1U) ? (pwm_cycles / 2UL) : 0UL;
+    at_zero_too     = updates_per_period == 2U;
+    error_step      = (uint16_t)(((CLOCK_SYSCLK_Hz / PER_10_ms) / pwm_cycles) * updates_per_period);
     EQep1Regs.QEPCTL.bit.UTE = 1U;
 }
 
@@ -76,7 +78,7 @@ static void align(void)
 
     if (down || at_zero_too) {
         const uint32_t count     = EPwm1Regs.TBCTR;
-        const uint32_t since_cnt = down ? (CLOCK_PWM_cnt - count) : count;
+        const uint32_t since_cnt = down ? ((uint32_t)half_cnt - count) : count;
         EQep1Regs.QUTMR          = CLOCK_SYSCLK_PER_TBCLK * since_cnt;
     }
 }

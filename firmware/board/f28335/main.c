@@ -6,7 +6,7 @@
 #include "gain_tables.h"
 #include "yield.h"
 
-/* Without a clock that is known to be right nothing may switch. The watchdog does not run yet, so this lasts until the
+/* Without a clock that is known to be right, or with a PWM that is not the drive's, nothing may switch. The watchdog does not run yet, so this lasts until the
  * power is cycled. */
 static void stay_off(void)
 {
@@ -18,7 +18,7 @@ static void stay_off(void)
 
 int main(void)
 {
-    if (!board_init()) {
+    if (!board_init(&board_config.board)) {
         stay_off();
     }
     (void)app_init(&board_config,

@@ -27,7 +27,7 @@ void trip_init(void);            /**< armed and tripped; before the PWM runs */
 void trip_check(void);           /**< enables wanted gates. Context: start of the control ISR */
 void trip_latch(uint16_t fault); /**< remembers and opens the bridge. Context: any */
 
-void pwm_init(void);
+void pwm_init(const board_setup_t *setup);
 void pwm_start(uint16_t updates_per_period); /**< all three legs at once */
 
 void adc_init(void);                   /**< about 5 ms */
@@ -35,7 +35,7 @@ bool adc_is_done(void);                /**< a conversion is complete. Context: c
 void adc_rewind(void);                 /**< ready for the next one. Context: control ISR */
 void adc_read(board_sample_t *sample); /**< context: control ISR */
 
-void encoder_init(void);
+void encoder_init(const board_setup_t *setup);
 void encoder_start(uint16_t updates_per_period); /**< next to pwm_start() */
 /** False: nothing was latched in this period. Context: control ISR. */
 bool encoder_read(board_sample_t *sample);
@@ -43,7 +43,7 @@ bool encoder_read(board_sample_t *sample);
 void cycles_init(void);
 void cycles_wait(uint32_t cycles);
 
-void tick_watch_start(uint16_t updates_per_period); /**< before the first control interrupt */
+void tick_watch_start(uint32_t period_cycles); /**< before the first control interrupt */
 void tick_watch_serve(void); /**< an interrupt has come. Context: start of the control ISR */
 
 void watchdog_stop(void); /**< first reads what has reset the device */
@@ -51,7 +51,7 @@ void watchdog_start(void);
 
 void serial_init(void);
 
-void             control_isr_init(void (*tick)(void), uint16_t updates_per_period);
+void             control_isr_init(void (*tick)(void), uint32_t period_cycles);
 __interrupt void control_isr(void);
 
 #endif /* PERIPHERALS_H */

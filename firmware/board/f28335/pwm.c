@@ -6,9 +6,11 @@
 #define HSPCLKDIV_BY_2    1U
 #define HALT_AT_CYCLE_END 1U /* a debugger's halt leaves all upper switches on: zero voltage */
 
+static uint16_t full_cnt; /* compare counts of duty one: TBPRD */
+
 /* The counter goes 0 .. TBPRD .. 0. The upper switch is on around 0, all lower ones around TBPRD: there the
  * currents are sampled, and there a control period begins. */
-static void set_up_leg(volatile struct EPWM_REGS *leg)
+static void set_up_leg(volatile struct EPWM_REGS *leg, uint16_t dead_time_cnt)
 {
     leg->TBCTL.bit.CTRMODE   = TB_FREEZE;
     leg->TBCTL.bit.FREE_SOFT = HALT_AT_CYCLE_END;
@@ -17,7 +19,7 @@ static void set_up_leg(volatile struct EPWM_REGS *leg)
     leg->TBCTL.bit.PHSEN     = TB_DISABLE;     /* TBCLKSYNC starts the legs together */
     leg->TBCTL.bit.SYNCOSEL  = TB_SYNC_DISABLE;
     leg->TBCTL.bit.PRDLD     = TB_IMMEDIATE; /* written once, here */
-    leg->TBPRD               = (uint16_t)CLOCK_PWM_cnt;
+    leg->TBPRD               = full_cnt;
     leg->TBCTR               = 0U;
     leg->TBPHS.all           = 0U;
 
@@ -33,8 +35,8 @@ static void set_up_leg(volatile struct EPWM_REGS *leg)
 
     leg->DBCTL.bit.IN_MODE  = DBA_ALL;
     leg->DBCTL.bit.POLSEL   = DB_ACTV_HIC;
-    leg->DBRED              = (uint16_t)CLOCK_DEAD_TIME_cnt;
-    leg->DBFED              = (uint16_t)CLOCK_DEAD_TIME_cnt;
+    leg->DBRED              = dead_time_cnt;
+    leg->DBFED              = dead_time_cnt;
     leg->DBCTL.bit.OUT_MODE = DB_FULL_ENABLE;
 
     leg->ETSEL.all         = 0U; /* no interrupt, no trigger */
@@ -43,14 +45,15 @@ static void set_up_leg(volatile struct EPWM_REGS *leg)
 
 static uint16_t at_most_full(uint16_t duty_cnt)
 {
-    return (duty_cnt < BOARD_DUTY_FULL) ? duty_cnt : BOARD_DUTY_FULL;
+    return (duty_cnt < full_cnt) ? duty_cnt : full_cnt;
 }
 
-void pwm_init(void)
+void pwm_init(const board_setup_t *setup)
 {
-    set_up_leg(&EPwm1Regs);
-    set_up_leg(&EPwm2Regs);
-    set_up_leg(&EPwm3Regs);
+    full_cnt = setup->duty_full_cnt;
+    set_up_leg(&EPwm1Regs, setup->dead_time_cnt);
+    set_up_leg(&EPwm2Regs, setup->dead_time_cnt);
+    set_up_leg(&EPwm3Regs, setup->dead_time_cnt);
 }
 
 /* Samples are taken while all lower switches are on; with two updates also while all upper ones are, for which a unit

@@ -12,13 +12,13 @@ static __interrupt void tick_is_missing(void)
     trip_latch(BOARD_FAULT_OVERRUN);
 }
 
-void tick_watch_start(uint16_t updates_per_period)
+void tick_watch_start(uint32_t period_cycles)
 {
     EALLOW;
     PieVectTable.XINT13 = &tick_is_missing;
     EDIS;
     CpuTimer1Regs.TCR.bit.TSS = 1U; /* stop */
-    CpuTimer1Regs.PRD.all     = (QUARTERS * (BOARD_PWM_CYCLES / 4UL)) / updates_per_period;
+    CpuTimer1Regs.PRD.all     = QUARTERS * (period_cycles / 4UL);
     CpuTimer1Regs.TPR.all     = 0U;
     CpuTimer1Regs.TPRH.all    = 0U;
     CpuTimer1Regs.TCR.bit.TIE = 1U;

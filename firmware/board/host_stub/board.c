@@ -22,10 +22,11 @@ static struct {
     uint32_t       periods;
 } stub;
 
-bool board_init(void)
+bool board_init(const board_setup_t *setup)
 {
-    const motor_stub_t rest = {.theta_m_rad = START_rad};
-    const board_duty_t half = {BOARD_DUTY_FULL / 2U, BOARD_DUTY_FULL / 2U, BOARD_DUTY_FULL / 2U};
+    const uint16_t     half_cnt = setup->duty_full_cnt / 2U;
+    const motor_stub_t rest     = {.theta_m_rad = START_rad};
+    const board_duty_t half     = {half_cnt, half_cnt, half_cnt};
 
     stub.motor    = rest;
     stub.written  = half;
@@ -43,7 +44,7 @@ void board_start(void (*tick)(void), uint16_t updates_per_period)
 
 static float leg_V(uint16_t on_cnt)
 {
-    const float duty = (float)on_cnt / (float)BOARD_DUTY_FULL;
+    const float duty = (float)on_cnt / (float)board_config.board.duty_full_cnt;
     return DC_LINK_V * ((duty < 1.0f) ? duty : 1.0f);
 }
 
@@ -90,11 +91,11 @@ const board_sample_t *board_sample(void)
 {
     const abc_t i_A     = motor_stub_current_A(&stub.motor, gain_tables_drive.hardware.pole_pairs);
     const float turn    = stub.motor.theta_m_rad / BASE_TWO_PI;
-    const float edge    = turn * (float)BOARD_POSITIONS;
-    const float top_cnt = (float)(BOARD_POSITIONS - 1U);
+    const float edge    = turn * (float)board_config.board.positions;
+    const float top_cnt = (float)(board_config.board.positions - 1U);
 
     const uint16_t position = (uint16_t)base_clamp(edge, 0.0f, top_cnt);
-    const float    per_s    = stub.motor.omega_e_radps * (float)BOARD_POSITIONS /
+    const float    per_s    = stub.motor.omega_e_radps * (float)board_config.board.positions /
                         (BASE_TWO_PI * (float)gain_tables_drive.hardware.pole_pairs);
     const float beyond = edge - (float)position; /* counts since the edge below */
     const float age_s  = ((per_s > 0.0f) ? beyond : (1.0f - beyond)) / base_max(fabsf(per_s), 1.0f);
@@ -142,7 +143,7 @@ board_reset_t board_reset_cause(void)
 
 uint32_t board_cycles(void)
 {
-    return stub.periods * (uint32_t)BOARD_PWM_CYCLES;
+    return stub.periods * board_config.board.pwm_cycles;
 }
 
 void board_watchdog_serve(void) {}

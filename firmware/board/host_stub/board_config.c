@@ -2,6 +2,7 @@
 #include "board_config.h"
 
 #define TICKS_PER_ms 5U /* 200 us */
+#define DUTY_FULL    2500U
 
 /* Sensors as board.c makes them, chosen: +-12 A over all codes, 0 .. 450 V over all codes, and a temperature that falls
  * by 100 K over half of the codes. */
@@ -14,7 +15,14 @@
 static const float ntc_degC[NTC_POINTS] = {100.0f, 0.0f};
 
 const app_config_t board_config = {
-    .pwm_period_s = 200.0e-6f, /* BOARD_PWM_CYCLES at 25 MHz */
+    .board = /* chosen: a processor of 25 MHz, an encoder of 1024 lines */
+    {
+        .pwm_cycles    = 5000UL,
+        .duty_full_cnt = DUTY_FULL,
+        .dead_time_cnt = 75U,
+        .positions     = 4096U,
+    },
+    .pwm_period_s = 200.0e-6f,
     .dead_time_s  = 3.0e-6f,
     .scale =
         {
@@ -51,7 +59,7 @@ const app_config_t board_config = {
     {
         .precharge_ticks         = 0U,
         .precharge_speed_e_radps = 0.0f,
-        .duty_max_cnt            = BOARD_DUTY_FULL,
+        .duty_max_cnt            = DUTY_FULL,
         .pulse_min_cnt           = 0U,
     },
     .stop = /* a commanded stop coasts; 20 rad/s electrical is 1.6 turns per second */

@@ -67,11 +67,12 @@ static bool holds_speed(void)
 
 int main(void)
 {
-    if (!board_init()) {
+    if (!board_init(&board_config.board)) {
         return EXIT_BOARD;
     }
-    drive                            = gain_tables_drive;
-    drive.hardware.encoder_positions = BOARD_POSITIONS; /* the tables are of another encoder */
+    drive = gain_tables_drive;
+    drive.hardware.encoder_positions =
+        board_config.board.positions; /* the tables are of another encoder */
     if (app_init(&board_config, &drive) != CTL_OK) {
         return EXIT_CONFIG;
     }

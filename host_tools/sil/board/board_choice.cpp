@@ -34,7 +34,7 @@ void hang_ticks(bool now)
 
 extern "C" {
 
-bool                  f28335_board_init(void);
+bool                  f28335_board_init(const board_setup_t *setup);
 void                  f28335_board_start(void (*tick)(void), uint16_t updates_per_period);
 const board_sample_t *f28335_board_sample(void);
 void                  f28335_board_duty_write(const board_duty_t *duty);
@@ -47,9 +47,13 @@ void                  f28335_board_watchdog_serve(void);
 bool                  f28335_board_serial_read(uint16_t *octet);
 bool                  f28335_board_serial_write(uint16_t octet);
 
-bool board_init(void)
+bool board_init(const board_setup_t *setup)
 {
-    return the_fake != nullptr || f28335_board_init();
+    if (the_fake == nullptr) {
+        return f28335_board_init(setup);
+    }
+    the_fake->init(*setup);
+    return true;
 }
 
 void board_start(void (*tick)(void), uint16_t updates_per_period)

@@ -12,19 +12,23 @@
 
 extern "C" {
 #include "app.h"
-#include "board_config.h"
 }
 
 namespace sdre {
 namespace {
 
-// PWM periods at which the commands go out. The application is ready after 306 ms = 1530 periods.
-constexpr long speed_period = 1560;
-constexpr long run_period   = 1640;
-// A command has arrived and been answered well within so many PWM periods.
-constexpr long command_periods = 60;
+// When the commands go out. The application is ready after 306 ms.
+constexpr double speed_s = 0.312;
+constexpr double run_s   = 0.328;
+// A command has arrived and been answered well within so long.
+constexpr double command_s = 0.012;
 // Chosen: ten polls a second, as an operator's display would.
-constexpr long chat_periods = 500;
+constexpr double chat_s = 0.1;
+
+long ticks_in(double time_s, double period_s)
+{
+    return std::lround(time_s / period_s);
+}
 
 std::unique_ptr<BoardRun> make_run(const BoardScenario &b, BoardKind kind, long start_tick)
 {
@@ -40,11 +44,12 @@ bool running()
 }
 
 /// From power-up to the first tick in RUN; its number.
-long bring_to_run(BoardRun &run, int speed_tenths, long updates)
+long bring_to_run(BoardRun &run, int speed_tenths)
 {
-    const long speed_tick    = speed_period * updates;
-    const long run_tick      = run_period * updates;
-    const long command_ticks = command_periods * updates;
+    const double period_s      = run.bench().period_s();
+    const long   speed_tick    = ticks_in(speed_s, period_s);
+    const long   run_tick      = ticks_in(run_s, period_s);
+    const long   command_ticks = ticks_in(command_s, period_s);
     while (!running()) {
         const long tick = run.bench().tick();
         if (tick == speed_tick) {
@@ -74,8 +79,8 @@ public:
     Commands(const Scenario &s, long ticks, long latency_ticks)
         : reference_(s.speed_reference, s.initial_speed_e_radps), ticks_(ticks),
           latency_ticks_(latency_ticks),
-          command_ticks_(command_periods * s.drive.inverter.updates_per_period),
-          chat_ticks_(chat_periods * s.drive.inverter.updates_per_period),
+          command_ticks_(ticks_in(command_s, control_period_s(s.drive))),
+          chat_ticks_(ticks_in(chat_s, control_period_s(s.drive))),
           now_tenths_(tenths_of(reference_.at(0.0))), period_s_(control_period_s(s.drive))
     {
         find_next(1);
@@ -132,29 +137,6 @@ void inject_faults(const Scenario &s, double time_s, double period_s, BoardRun &
     }
 }
 
-/// A trip level beyond what the converter can show would never trip; the application refuses it.
-drive_config_t for_converter(drive_config_t config, std::vector<std::string> &notes)
-{
-    // Chosen: 10 A of range less 0.5 A for the zero's error.
-    constexpr float highest_A = 9.5F;
-    if (config.trip_current_A > highest_A) {
-        notes.push_back(fmt::format("trip current lowered from {} A to {} A, which the converter "
-                                    "can show",
-                                    config.trip_current_A, highest_A));
-        config.trip_current_A = highest_A;
-    }
-    const float highest_V =
-        static_cast<float>(BOARD_ADC_CODES - 1) * board_config.scale.dc_link_V_per_cnt;
-    if (config.dc_link_max_V > highest_V) {
-        notes.push_back(
-            fmt::format("largest dc link lowered from {} V to {} V, which the converter "
-                        "can show",
-                        config.dc_link_max_V, highest_V));
-        config.dc_link_max_V = highest_V;
-    }
-    return config;
-}
-
 int present_fault()
 {
     const app_status_t s = app_status_read();
@@ -178,19 +160,18 @@ BoardResult simulate_on_board(const Scenario &scenario, BoardKind kind,
 
     StepCursor  reference(s.speed_reference, s.initial_speed_e_radps);
     const int   first_tenths = tenths_of(reference.at(0.0));
-    const long  updates      = s.drive.inverter.updates_per_period;
     BoardResult out;
     out.notes = b.notes;
-    set_firmware_drive(for_converter(controller.config, out.notes));
+    set_firmware(controller.config, s.drive);
     const long start_tick =
-        bring_to_run(*make_run(b, kind, MotorBench::never), first_tenths, updates); // rehearsal
+        bring_to_run(*make_run(b, kind, MotorBench::never), first_tenths); // rehearsal
 
     const std::unique_ptr<BoardRun> run   = make_run(b, kind, start_tick);
     const MotorBench               &bench = run->bench();
-    if (bring_to_run(*run, first_tenths, updates) != start_tick) {
+    if (bring_to_run(*run, first_tenths) != start_tick) {
         throw InputError("--board: the start of the firmware does not repeat itself");
     }
-    Commands commands(s, ticks_of(s), start_tick - run_period * updates);
+    Commands commands(s, ticks_of(s), start_tick - ticks_in(run_s, control_period_s(s.drive)));
     out.result                = run_ticks(s, controller, [&](double time_s, double omega_ref) {
         // The board stands at the tick: the application has answered its samples.
         TickEnd end;

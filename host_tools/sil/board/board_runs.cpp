@@ -4,13 +4,14 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "design/board/board_constants.hpp"
 
 extern "C" {
 #include "app.h"
 #include "app_registers.h"
-#include "board_config.h"
 
 extern drive_config_t sil_drive_config;
+extern app_config_t   sil_board_config;
 int                   firmware_main(void);
 }
 
@@ -30,15 +31,20 @@ float omega_of(int tenths)
 
 } // namespace
 
-void set_firmware_drive(const drive_config_t &config)
+void set_firmware(const drive_config_t &config, const Drive &drive)
 {
+    static BoardConstants constants;
+    constants        = board_constants(drive);
     sil_drive_config = config;
+    sil_board_config = constants.bind();
 }
 
 ApiRun::ApiRun(const Scenario &s, long start_tick, double dead_time_s)
-    : BoardRun(s, start_tick), fake_(bench_, dead_time_s), choice_(fake_)
+    : BoardRun(s, start_tick), fake_(bench_, dead_time_s, s.drive.board.dc_link_range_V),
+      choice_(fake_)
 {
-    if (!board_init() || app_init(&board_config, &sil_drive_config) != CTL_OK) {
+    if (!board_init(&sil_board_config.board) ||
+        app_init(&sil_board_config, &sil_drive_config) != CTL_OK) {
         throw InputError("--board: the application refuses these constants");
     }
     board_start(app_tick, sil_drive_config.hardware.updates_per_period);
@@ -81,9 +87,11 @@ std::array<int, 3> ApiRun::duty_cnt() const
 }
 
 F28335Run::F28335Run(const Scenario &s, long start_tick, double dead_time_s)
-    : BoardRun(s, start_tick), surroundings_(bench_, dead_time_s <= 0.0),
+    : BoardRun(s, start_tick),
+      surroundings_(bench_, dead_time_s <= 0.0, s.drive.board.dc_link_range_V,
+                    sil_board_config.board.duty_full_cnt),
       device_(surroundings_, firmware_main, {{}, dead_time_s}),
-      master_(device_.serial(), static_cast<std::uint8_t>(board_config.modbus_address))
+      master_(device_.serial(), static_cast<std::uint8_t>(sil_board_config.modbus_address))
 {
     f28335::hang_ticks(false);
     if (!device_.run_until([this] { return bench_.tick() >= 0; }, longest_boot_s)) {
@@ -98,7 +106,7 @@ F28335Run::F28335Run(const Scenario &s, long start_tick, double dead_time_s)
 
 bool F28335Run::step()
 {
-    device_.run_for(static_cast<double>(BOARD_PWM_CYCLES) /
+    device_.run_for(static_cast<double>(sil_board_config.board.pwm_cycles) /
                     sil_drive_config.hardware.updates_per_period / f28335::tick_Hz);
     master_.poll();
     return !device_.stopped();

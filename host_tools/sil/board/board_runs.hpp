@@ -109,7 +109,8 @@ private:
     f28335::ModbusMaster      master_;
 };
 
-/// The drive's constants that main() hands to the application.
-void set_firmware_drive(const drive_config_t &config);
+/// The constants that main() hands to board and application: those of the controller, and what the board is for the drive.
+/// InputError when the board cannot have it.
+void set_firmware(const drive_config_t &config, const Drive &drive);
 
 } // namespace sdre

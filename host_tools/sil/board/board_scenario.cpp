@@ -10,23 +10,14 @@
 #include "sil/setup/board_reader.hpp"
 
 extern "C" {
-#include "board_config.h"
 #include "board_limits.h"
-#include "f28335/clock_tree.h"
 }
 
 namespace sdre {
 namespace {
 
-constexpr double board_pwm_Hz      = CLOCK_PWM_Hz;
-constexpr double board_dead_time_s = CLOCK_DEAD_TIME_us * 1e-6;
-constexpr int    board_lines       = BOARD_POSITIONS / 4;
-
-/// Either way from the middle of the converter's codes.
-double board_full_scale_A()
-{
-    return 0.5 * BOARD_ADC_CODES * static_cast<double>(board_config.scale.current_A_per_cnt);
-}
+// Of the register of the commanded speed, in tenths.
+constexpr double largest_command_e_radps = 3276.7;
 
 void require(bool ok, const std::string &what)
 {
@@ -35,23 +26,28 @@ void require(bool ok, const std::string &what)
     }
 }
 
-void check_sensors(const SensorSettings &s, int lines)
+void check_sensors(const SensorSettings &s, const Drive &drive)
 {
-    require(s.encoder_lines.value_or(lines) == board_lines,
-            fmt::format("the encoder has to have {} lines", board_lines));
+    const int lines = drive.encoder.lines;
+    require(s.encoder_lines.value_or(lines) == lines,
+            fmt::format("the drive file's encoder has {} lines", lines));
     require(s.encoder_index, "the encoder has to have an index");
     require(1U << static_cast<unsigned>(s.adc_bits) == BOARD_ADC_CODES,
             "the converter has 12 bits");
-    require(std::abs(s.adc_full_scale_A - board_full_scale_A()) < 1e-6,
-            fmt::format("the currents' range is {:g} A", board_full_scale_A()));
+    require(std::abs(s.adc_full_scale_A - drive.current_sensors.range_A) < 1e-6,
+            fmt::format("the range of the drive file's current sensors is {:g} A",
+                        drive.current_sensors.range_A));
     require(s.sampling_advance_s <= 0.0, "samples are taken when the period begins");
 }
 
-void check_dead_time(const InverterSettings &i)
+void check_dead_time(const InverterSettings &i, const Drive &drive)
 {
-    const double dead_s = i.dead_time_s.value_or(board_dead_time_s);
-    require(dead_s <= 0.0 || std::abs(dead_s - board_dead_time_s) < 1e-12,
-            fmt::format("the dead time is {} us, or 0 for an ideal inverter", CLOCK_DEAD_TIME_us));
+    const double gates_s = drive.inverter.dead_time_s;
+    const double dead_s  = i.dead_time_s.value_or(gates_s);
+    require(dead_s <= 0.0 || std::abs(dead_s - gates_s) < 1e-12,
+            fmt::format("the drive file's dead time is {:g} s; another can be 0 only, for an ideal "
+                        "inverter",
+                        gates_s));
 }
 
 } // namespace
@@ -60,9 +56,6 @@ BoardScenario for_board(const Scenario &scenario)
 {
     BoardScenario b{scenario, 0.0, {}};
     Scenario     &s = b.scenario;
-    require(std::abs(s.drive.inverter.pwm_frequency_Hz - board_pwm_Hz) < 1e-6 &&
-                s.drive.inverter.updates_per_period <= static_cast<int>(BOARD_UPDATES_MAX),
-            fmt::format("the board's PWM runs at {:g} kHz", 1e-3 * board_pwm_Hz));
     if (s.sensors.ideal) {
         const bool edge_time        = s.sensors.encoder_edge_time;
         s.sensors                   = sensors_of_drive(s.drive);
@@ -71,13 +64,13 @@ BoardScenario for_board(const Scenario &scenario)
         s.inverter.dead_time_s      = s.inverter.dead_time_s.value_or(0.0);
         b.notes.emplace_back("ideal sensors: run with the board's sensors and an ideal inverter");
     }
-    check_sensors(s.sensors, s.drive.encoder.lines);
+    check_sensors(s.sensors, s.drive);
     require(s.sensors.encoder_edge_time == s.drive.encoder.edge_times,
             "edge times are a matter of the drive file, which the firmware follows");
     if (!s.inverter.dead_time_s) {
         s.inverter.dead_time_s = s.drive.inverter.dead_time_s;
     }
-    check_dead_time(s.inverter);
+    check_dead_time(s.inverter, s.drive);
     b.dead_time_s = *s.inverter.dead_time_s;
     for (PlantChange &change : s.changes) {
         if (scenario.sensors.ideal && change.sensors && change.sensors->ideal) {
@@ -88,12 +81,17 @@ BoardScenario for_board(const Scenario &scenario)
         }
         if (change.sensors) {
             require(!change.sensors->ideal, "sensors cannot become ideal");
-            check_sensors(*change.sensors, s.drive.encoder.lines);
+            check_sensors(*change.sensors, s.drive);
         }
         if (change.inverter) {
             require(change.inverter->dead_time_s.value_or(b.dead_time_s) >= b.dead_time_s,
                     "the dead time cannot become shorter than that of the gates");
         }
+    }
+    for (const Step &step : s.speed_reference) {
+        require(std::abs(step.value) <= largest_command_e_radps,
+                fmt::format("a command of {:g} rad/s: at most {:g}", step.value,
+                            largest_command_e_radps));
     }
     const bool rounded =
         std::any_of(s.speed_reference.begin(), s.speed_reference.end(), [](const Step &step) {

@@ -11,10 +11,9 @@ namespace {
 // Three pairs at 25 MHz: 2.5 + 6 + 5 + 2 * 8 clocks from the trigger to the tick (EQ-CONVERTER-2).
 constexpr double tick_delay_s = 29.5 / 25e6;
 constexpr double count_Hz     = 75e6;
-constexpr int    full         = BOARD_DUTY_FULL;
 
 /// The counter runs down, then up; a period with two updates is one of the ways.
-LegTiming pulse(int duty_cnt, double dead_time_s, Count count)
+LegTiming pulse(int duty_cnt, int full, double dead_time_s, Count count)
 {
     LegTiming leg;
     leg.duty         = static_cast<double>(2 * duty_cnt) / (2 * full);
@@ -37,31 +36,30 @@ LegTiming pulse(int duty_cnt, double dead_time_s, Count count)
     return leg;
 }
 
-std::uint16_t position_of(std::int64_t count)
+std::uint16_t position_of(std::int64_t count, std::int64_t turn)
 {
-    const std::int64_t turn = BOARD_POSITIONS;
     return static_cast<std::uint16_t>(((count % turn) + turn) % turn);
 }
 
 } // namespace
 
-FakeBoard::FakeBoard(MotorBench &bench, double dead_time_s)
-    : bench_(bench), dead_time_s_(dead_time_s)
+FakeBoard::FakeBoard(MotorBench &bench, double dead_time_s, double dc_link_range_V)
+    : bench_(bench), dead_time_s_(dead_time_s), dc_link_range_V_(dc_link_range_V)
 {
 }
 
 void FakeBoard::take_sample()
 {
-    const RawSample &s      = bench_.sample();
-    sample_.ia_cnt          = static_cast<std::uint16_t>(current_code(s.ia_code));
-    sample_.ib_cnt          = static_cast<std::uint16_t>(current_code(s.ib_code));
-    sample_.dc_link_cnt     = static_cast<std::uint16_t>(dc_link_code(s.dc_link_V));
+    const RawSample &s  = bench_.sample();
+    sample_.ia_cnt      = static_cast<std::uint16_t>(current_code(s.ia_code));
+    sample_.ib_cnt      = static_cast<std::uint16_t>(current_code(s.ib_code));
+    sample_.dc_link_cnt = static_cast<std::uint16_t>(dc_link_code(s.dc_link_V, dc_link_range_V_));
     sample_.temperature_cnt = temperature_code;
-    sample_.position_cnt    = position_of(s.count);
+    sample_.position_cnt    = position_of(s.count, setup_.positions);
     take_edge();
     sample_.index_seen = s.index;
     if (s.index) {
-        sample_.index_cnt = position_of(s.index_count);
+        sample_.index_cnt = position_of(s.index_count, setup_.positions);
     }
     sample_.valid = true;
 }
@@ -86,9 +84,10 @@ void FakeBoard::tick()
     active_cnt_ = shadow_cnt_;
     count_      = updates_ == 1 ? Count::down_up : count_ == Count::down ? Count::up : Count::down;
     bench_.begin_tick();
-    bench_.begin_period({pulse(active_cnt_[0], dead_time_s_, count_),
-                         pulse(active_cnt_[1], dead_time_s_, count_),
-                         pulse(active_cnt_[2], dead_time_s_, count_)});
+    const int full = setup_.duty_full_cnt;
+    bench_.begin_period({pulse(active_cnt_[0], full, dead_time_s_, count_),
+                         pulse(active_cnt_[1], full, dead_time_s_, count_),
+                         pulse(active_cnt_[2], full, dead_time_s_, count_)});
     if (enable_) { // as the board does: at the start of the period, with the duty ratios of the tick before
         enable_ = false;
         set_gates(true);
@@ -99,8 +98,9 @@ void FakeBoard::tick()
 
 void FakeBoard::write_duty(const board_duty_t &duty)
 {
-    shadow_cnt_ = {std::min<int>(duty.a_cnt, full), std::min<int>(duty.b_cnt, full),
-                   std::min<int>(duty.c_cnt, full)};
+    const int full = setup_.duty_full_cnt;
+    shadow_cnt_    = {std::min<int>(duty.a_cnt, full), std::min<int>(duty.b_cnt, full),
+                      std::min<int>(duty.c_cnt, full)};
 }
 
 void FakeBoard::enable_gates(bool on)
@@ -122,7 +122,7 @@ void FakeBoard::set_gates(bool on)
 std::uint32_t FakeBoard::cycles() const
 {
     return static_cast<std::uint32_t>(static_cast<std::uint64_t>(bench_.tick()) *
-                                      (BOARD_PWM_CYCLES / updates_));
+                                      (setup_.pwm_cycles / updates_));
 }
 
 } // namespace sdre::f28335

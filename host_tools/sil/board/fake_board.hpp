@@ -13,7 +13,8 @@ namespace sdre::f28335 {
 
 class FakeBoard {
 public:
-    FakeBoard(MotorBench &bench, double dead_time_s);
+    /// @param dc_link_range_V Of the dc link's converter.
+    FakeBoard(MotorBench &bench, double dead_time_s, double dc_link_range_V);
 
     /// One control period: the tick that board_start() got.
     void tick();
@@ -24,6 +25,10 @@ public:
     }
 
     // board.h
+    void init(const board_setup_t &setup)
+    {
+        setup_ = setup;
+    }
     void start(void (*control_tick)(void), unsigned updates_per_period)
     {
         tick_    = control_tick;
@@ -42,8 +47,10 @@ private:
     void take_edge();
     void set_gates(bool on);
 
-    MotorBench &bench_;
-    double      dead_time_s_;
+    MotorBench   &bench_;
+    double        dead_time_s_;
+    double        dc_link_range_V_;
+    board_setup_t setup_{};
     void (*tick_)(void)         = nullptr;
     unsigned           updates_ = 1;
     Count              count_   = Count::up; ///< the first period begins at the top

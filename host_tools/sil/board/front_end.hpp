@@ -8,19 +8,19 @@
 
 namespace sdre::f28335 {
 
-constexpr int    adc_codes        = 4096;
-constexpr int    adc_middle       = 2048;  ///< no current: half of the 3 V
-constexpr double dc_link_full_V   = 450.0; ///< gives 3 V
-constexpr int    temperature_code = 3357;  ///< 25 degC
+constexpr int adc_codes        = 4096;
+constexpr int adc_middle       = 2048; ///< no current: half of the 3 V
+constexpr int temperature_code = 3357; ///< 25 degC
 
 inline int current_code(int signed_code)
 {
     return signed_code + adc_middle;
 }
 
-inline int dc_link_code(double V)
+/// @param range_V Gives 3 V.
+inline int dc_link_code(double V, double range_V)
 {
-    const double code = std::floor(adc_codes * V / dc_link_full_V);
+    const double code = std::floor(adc_codes * V / range_V);
     return static_cast<int>(code > 0.0 ? std::min(code, adc_codes - 1.0) : 0.0);
 }
 

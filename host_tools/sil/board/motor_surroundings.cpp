@@ -3,10 +3,6 @@
 
 #include "sil/board/front_end.hpp"
 
-extern "C" {
-#include "board_limits.h"
-}
-
 namespace sdre::f28335 {
 namespace {
 
@@ -22,8 +18,10 @@ int high_counts(const LegPeriod &leg, int period_cnt)
 
 } // namespace
 
-MotorSurroundings::MotorSurroundings(MotorBench &bench, bool ideal_inverter)
-    : bench_(bench), ideal_inverter_(ideal_inverter)
+MotorSurroundings::MotorSurroundings(MotorBench &bench, bool ideal_inverter, double dc_link_range_V,
+                                     int duty_full_cnt)
+    : bench_(bench), ideal_inverter_(ideal_inverter), dc_link_range_V_(dc_link_range_V),
+      duty_full_cnt_(duty_full_cnt)
 {
 }
 
@@ -39,7 +37,7 @@ void MotorSurroundings::period_begins(const ControlPeriod &period)
         }
         const int high = high_counts(leg, period.counts);
         timing.duty    = static_cast<double>(high) / period.counts;
-        duty_cnt_[n]   = high * BOARD_DUTY_FULL / period.counts;
+        duty_cnt_[n]   = high * duty_full_cnt_ / period.counts;
         if (!ideal_inverter_) {
             timing.rise_delay_s = period.seconds(leg.rise_delay_cnt);
             timing.fall_delay_s = period.seconds(leg.fall_delay_cnt);
@@ -61,7 +59,8 @@ double MotorSurroundings::analog_V(int side, int number)
         return voltage_V(current_code(side == 0 ? s.ia_code : s.ib_code));
     }
     if (number == 1) {
-        return voltage_V(side == 0 ? dc_link_code(s.dc_link_V) : temperature_code);
+        return voltage_V(side == 0 ? dc_link_code(s.dc_link_V, dc_link_range_V_)
+                                   : temperature_code);
     }
     return 0.0;
 }

@@ -87,7 +87,7 @@ def unit_tests_m4f(out):
         tables.append((out / name / "gain_tables.c", [f"-Dgain_tables_drive={name}_drive"]))
     unity = ["-DUNITY_OUTPUT_CHAR=out_char", "-include", HERE / "out.h"]
     parts = [(p, []) for p in ub.sources()] + tables + [(p, []) for p in M4F_START]
-    parts += [(ub.BOARD / "board_config.c", []), (ub.ROOT / "firmware/config/gain_tables.c", []),
+    parts += [(ub.ROOT / "firmware/config/board_config.c", []), (ub.ROOT / "firmware/config/gain_tables.c", []),
               (ub.ROOT / "build/unity/unity.c", unity), (ub.ROOT / "tests/support/fake_board.c", [])]
     objects = []
     for n, (source, extra) in enumerate(parts):

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include "design/board/board_constants.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "design/board/align_design.hpp"
+#include "design/motor_model.hpp"
+#include "design/sampled_model.hpp"
+
+extern "C" {
+#include "clock_tree.h"
+}
+
+namespace sdre {
+namespace {
+
+constexpr double pi          = 3.14159265358979323846;
+constexpr double counter_Hz  = CLOCK_TBCLK_Hz;
+constexpr int    codes       = BOARD_ADC_CODES;
+constexpr int    codes_bits  = 12;
+constexpr double same_ratio  = 1e-4; // what the application takes for the same number
+constexpr int    most_turn   = 65532;
+constexpr double most_cycles = 65535.0; // twice the capture timer's run, board.c
+
+// Converter 15 codes, half of the supply with 1 % resistors 20 codes, sensor 1 % of its range 41 codes: 76, and room.
+constexpr double offset_max_cnt = 100.0;
+// Twice the 41 codes.
+constexpr double zero_drift_share = 0.02;
+// The mark is up to one line wide and is entered from either side.
+constexpr int index_tolerance_cnt = 4;
+// Chosen: costs 0.8 % of the torque.
+constexpr double index_correct_e_rad = 0.126;
+// Chosen: eight times what torque, a load as large and the disc change from period to period, and no less than noise on
+// the lines makes in one.
+constexpr double jump_ratio = 8.0;
+constexpr double disc_cnt   = 0.35;
+constexpr double jump_least = 16.0;
+// Chosen: a fifth of the quarter turn that alignment has to see.
+constexpr double quarter_error = 0.2;
+// Chosen: what is on a name plate is borne at 40 degC ambient; a tenth more at less.
+constexpr double continuous_per_rated = 1.1;
+// Chosen: 20 rad/s of the 390 W motor's 523.
+constexpr double still_per_rated = 20.0 / 523.0;
+
+// Times [ms]. Filters of the analog inputs have 1 ms; 256 ms of 2 codes of noise leave a zero good to 0.06 codes; a pass
+// of the background is below 1 ms and the watchdog resets after 4.4; five polls at 10 Hz may be lost.
+constexpr double boot_ms       = 50.0;
+constexpr double calibrate_ms  = 256.0;
+constexpr double background_ms = 3.0;
+constexpr double timeout_ms    = 500.0;
+constexpr double gap_ms        = 1.75; // by the protocol at 115200 Bd
+// Alignment: watch finds shafts that turn by more than four counts in a tenth of a second.
+constexpr double watch_s     = 0.1;
+constexpr double still_s     = 0.1;
+constexpr double ramp_share  = 0.25; // of the time to settle
+constexpr int    still_cnt   = 4;
+constexpr double sweep_share = 1.0;
+
+// The sensor's table: a point every 128 codes from 512 to 3968.
+constexpr int    ntc_first_cnt = 512;
+constexpr int    ntc_step_cnt  = 128;
+constexpr double ntc_25_degC_K = 298.15;
+constexpr double zero_degC_K   = 273.15;
+
+float single(double x)
+{
+    return static_cast<float>(x);
+}
+
+[[noreturn]] void refuse(const std::string &what)
+{
+    throw InputError("the F28335's board cannot have " + what);
+}
+
+std::uint16_t ticks16(double seconds, double pwm_Hz)
+{
+    return static_cast<std::uint16_t>(std::min(std::lround(seconds * pwm_Hz), 65535L));
+}
+
+std::uint32_t ticks32(double seconds, double pwm_Hz)
+{
+    return static_cast<std::uint32_t>(std::lround(seconds * pwm_Hz));
+}
+
+std::uint16_t full_cnt(double pwm_Hz)
+{
+    const double halves = counter_Hz / (2.0 * pwm_Hz);
+    const double full   = std::round(halves);
+    if (std::abs(halves - full) > same_ratio * full) {
+        refuse(fmt::format("[inverter] pwm_frequency_Hz = {:g}: its counter runs at 75 MHz; the "
+                           "nearest are {:.8g} and {:.8g}",
+                           pwm_Hz, counter_Hz / (2.0 * std::ceil(halves)),
+                           counter_Hz / (2.0 * std::floor(halves))));
+    }
+    if (2.0 * CLOCK_SYSCLK_PER_TBCLK * full > most_cycles) {
+        refuse(fmt::format("[inverter] pwm_frequency_Hz = {:g}: must be {:.0f} at least", pwm_Hz,
+                           std::ceil(CLOCK_SYSCLK_Hz / most_cycles)));
+    }
+    return static_cast<std::uint16_t>(full);
+}
+
+board_setup_t setup_of(const Drive &d) // EQ-BOARD-1
+{
+    board_setup_t s{};
+    s.duty_full_cnt = full_cnt(d.inverter.pwm_frequency_Hz);
+    s.pwm_cycles    = 2U * CLOCK_SYSCLK_PER_TBCLK * s.duty_full_cnt;
+    // No less than asked for; the last digit of a product is no count.
+    const double dead = std::ceil(d.inverter.dead_time_s * counter_Hz - same_ratio);
+    if (dead < 1.0 || dead > CLOCK_DEAD_TIME_MAX_cnt) {
+        refuse(fmt::format("[inverter] dead_time_s = {:g}: must be {:.2g} .. {:.4g}",
+                           d.inverter.dead_time_s, 1.0 / counter_Hz,
+                           CLOCK_DEAD_TIME_MAX_cnt / counter_Hz));
+    }
+    s.dead_time_cnt = static_cast<std::uint16_t>(dead);
+    if (4 * d.encoder.lines > most_turn) {
+        refuse(fmt::format("[encoder] lines = {}: at most {}", d.encoder.lines, most_turn / 4));
+    }
+    s.positions = static_cast<std::uint16_t>(4 * d.encoder.lines);
+    return s;
+}
+
+app_scale_config_t scale_of(const Drive &d) // EQ-BOARD-2
+{
+    if (d.current_sensors.adc_bits != codes_bits) {
+        refuse(fmt::format("[current_sensors] adc_bits = {}: its converter has {}",
+                           d.current_sensors.adc_bits, codes_bits));
+    }
+    app_scale_config_t s{};
+    s.current_A_per_cnt = single(2.0 * d.current_sensors.range_A / codes);
+    s.current_zero_cnt  = single(codes / 2.0);
+    s.offset_max_cnt    = single(offset_max_cnt);
+    s.dc_link_V_per_cnt = single(d.board.dc_link_range_V / codes);
+    s.ntc_first_cnt     = ntc_first_cnt;
+    s.ntc_step_cnt      = ntc_step_cnt;
+    s.ntc_points        = ntc_points;
+    return s;
+}
+
+/// code / codes = R / (R + divider), R = R25 exp(B (1 / T - 1 / 298.15 K)); to a hundredth of a degree. EQ-BOARD-4
+std::array<float, ntc_points> temperatures(const BoardDescription &b)
+{
+    std::array<float, ntc_points> out{};
+    for (std::size_t n = 0; n < ntc_points; n++) {
+        const double code  = ntc_first_cnt + ntc_step_cnt * static_cast<double>(n);
+        const double r_Ohm = b.ntc_divider_Ohm * code / (codes - code);
+        const double T_K =
+            1.0 / (1.0 / ntc_25_degC_K + std::log(r_Ohm / b.ntc_resistance_Ohm) / b.ntc_beta_K);
+        out.at(n) = single(0.01 * std::round(100.0 * (T_K - zero_degC_K)));
+    }
+    if (out.front() > 300.0F || out.back() < -100.0F) {
+        refuse("[board] ntc_beta_K with these resistances: its table would leave -100 .. 300 degC");
+    }
+    return out;
+}
+
+app_angle_config_t angle_of(const Drive &d) // EQ-BOARD-5
+{
+    const Motor            &m       = d.motor;
+    const double            turn    = 4.0 * d.encoder.lines;
+    const double            per_rad = turn / (2.0 * pi);
+    const ReducedParameters l       = reduced_parameters(m);
+    const double            iq_A    = mtpa_iq_A(m, l, 1e9, m.max_current_A);
+    const double            ts_s    = control_period_s(d);
+    const double            most    = torque_Nm(m, mtpa_id_A(l, iq_A), iq_A);
+    const double            change  = 2.0 * most / m.inertia_kgm2 * ts_s * ts_s * per_rad;
+    app_angle_config_t      a{};
+    a.index_theta_e_rad     = single(d.encoder.index_angle_e_rad);
+    a.index_tolerance_cnt   = index_tolerance_cnt;
+    a.index_correct_max_cnt = static_cast<std::uint16_t>(
+        std::max(std::floor(index_correct_e_rad * per_rad / m.pole_pairs),
+                 static_cast<double>(index_tolerance_cnt)));
+    a.jump_cnt = static_cast<std::uint16_t>(
+        std::min(std::max(std::ceil(jump_ratio * (change + disc_cnt)), jump_least), 0.25 * turn));
+    return a;
+}
+
+app_align_config_t align_of(const Drive &d, double pwm_Hz)
+{
+    const AlignDesign  design = align_design(d);
+    app_align_config_t a{};
+    a.current_A       = single(design.current_A);
+    a.bandwidth_radps = single(design.bandwidth_radps);
+    a.theta_e_rad     = single(design.theta_e_rad);
+    a.watch_ticks     = ticks32(watch_s, pwm_Hz);
+    a.ramp_ticks      = ticks32(ramp_share * design.settle_s, pwm_Hz);
+    a.sweep_ticks     = ticks32(sweep_share * design.settle_s, pwm_Hz);
+    a.settle_ticks    = ticks32(design.settle_s, pwm_Hz);
+    a.still_ticks     = ticks32(still_s, pwm_Hz);
+    a.still_cnt       = still_cnt;
+    a.quarter_error_cnt =
+        static_cast<std::uint16_t>(quarter_error * d.encoder.lines / d.motor.pole_pairs);
+    return a;
+}
+
+app_gate_config_t gate_of(const Drive &d, std::uint16_t full, double pwm_Hz)
+{
+    const Motor      &m = d.motor;
+    app_gate_config_t g{};
+    g.precharge_ticks = ticks16(d.board.precharge_s, pwm_Hz);
+    // The shorted motor's current, flux omega / R, stays within the limit.
+    g.precharge_speed_e_radps = single(
+        d.board.precharge_s > 0.0
+            ? std::min(m.max_current_A * m.stator_resistance_Ohm / std::max(m.pm_flux_Wb, 1e-9),
+                       trip_speed_e_radps(d))
+            : 0.0);
+    g.duty_max_cnt  = static_cast<std::uint16_t>(std::floor(d.board.duty_max * full));
+    g.pulse_min_cnt = static_cast<std::uint16_t>(
+        std::min(std::ceil(d.board.pulse_min_s * counter_Hz), std::floor(0.25 * full)));
+    return g;
+}
+
+app_watch_heat_config_t heat_of(const Drive &d)
+{
+    const Motor            &m       = d.motor;
+    const ReducedParameters l       = reduced_parameters(m);
+    const double            iq_A    = mtpa_iq_A(m, l, m.rated_torque_Nm, m.max_current_A);
+    const double            rated_A = std::hypot(iq_A, mtpa_id_A(l, iq_A));
+    return {single(d.board.motor_current_A.value_or(continuous_per_rated * rated_A)),
+            single(d.board.motor_time_constant_s), single(d.board.inverter_current_A),
+            single(d.board.inverter_time_constant_s)};
+}
+
+} // namespace
+
+double largest_shown_current_A(const Drive &drive)
+{
+    // Less the zero's largest error, and a code.
+    return drive.current_sensors.range_A * (1.0 - 2.0 * (offset_max_cnt + 2.0) / codes);
+}
+
+double largest_shown_dc_link_V(const Drive &drive)
+{
+    return drive.board.dc_link_range_V * (codes - 1.0) / codes;
+}
+
+BoardConstants board_constants(const Drive &d)
+{
+    const double   pwm_Hz = d.inverter.pwm_frequency_Hz;
+    BoardConstants out;
+    app_config_t  &c     = out.config;
+    c.board              = setup_of(d);
+    c.pwm_period_s       = single(1.0 / pwm_Hz);
+    c.dead_time_s        = single(d.inverter.dead_time_s);
+    c.scale              = scale_of(d);
+    out.ntc_degC         = temperatures(d.board);
+    c.angle              = angle_of(d);
+    c.align              = align_of(d, pwm_Hz);
+    c.gate               = gate_of(d, c.board.duty_full_cnt, pwm_Hz);
+    c.stop.reaction      = d.board.stop == StopReaction::brake ? APP_STOP_RAMP : APP_STOP_COAST;
+    c.stop.still_e_radps = single(still_per_rated * d.motor.rated_speed_e_radps);
+    c.stop.short_circuit = true; // whatever takes the energy: it need not take that of any speed
+    c.heat               = heat_of(d);
+    c.zero_drift_A       = single(zero_drift_share * 2.0 * d.current_sensors.range_A);
+    c.temperature_limit_degC = single(d.board.temperature_limit_degC);
+    c.temperature_trip_degC  = single(d.board.temperature_trip_degC);
+    c.boot_ticks             = ticks16(1e-3 * boot_ms, pwm_Hz);
+    c.calibrate_ticks        = ticks16(1e-3 * calibrate_ms, pwm_Hz);
+    c.background_ticks       = ticks16(1e-3 * background_ms, pwm_Hz);
+    c.modbus_address         = 1U;
+    c.modbus_gap_ticks       = static_cast<std::uint16_t>(std::ceil(1e-3 * gap_ms * pwm_Hz) + 1.0);
+    c.modbus_timeout_ticks   = ticks16(1e-3 * timeout_ms, pwm_Hz);
+    return out;
+}
+
+} // namespace sdre

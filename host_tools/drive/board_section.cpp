@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "drive/board_section.hpp"
+
+#include <fmt/format.h>
+
+#include "drive/drive_file.hpp"
+
+namespace sdre {
+namespace {
+
+// Allowed values: wide enough for any drive, narrow enough that a slipped unit is caught.
+constexpr Range range_V{1.0, 2e4};
+constexpr Range resistance_Ohm{10.0, 1e7};
+constexpr Range beta_K{1e3, 1e4};
+constexpr Range temperature_degC{-40.0, 200.0};
+constexpr Range current_A{1e-3, 1e4};
+constexpr Range time_s{1e-2, 1e5};
+constexpr Range precharge_s{0.0, 0.5};
+constexpr Range duty{0.5, 1.0};
+constexpr Range pulse_s{0.0, 2e-5};
+
+// Chosen: an eighth above the largest dc link that the drive accepts, 1.35 times the nominal.
+constexpr double range_per_dc_link = 1.525;
+// Chosen: modules for a quarter more than the limit.
+constexpr double inverter_per_limit = 1.25;
+
+StopReaction read_stop(TomlReader &t)
+{
+    const std::string name = t.text_or("stop", stop_reaction_name(StopReaction::coast));
+    if (name != "coast" && name != "brake") {
+        t.fail("stop",
+               fmt::format("= \"{}\" is not allowed: must be \"coast\" or \"brake\"", name));
+    }
+    return name == "brake" ? StopReaction::brake : StopReaction::coast;
+}
+
+void read_supply(TomlReader &t, BoardDescription &b)
+{
+    b.precharge_s = t.number_or("precharge_s", precharge_s, b.precharge_s);
+    b.duty_max    = t.number_or("duty_max", duty, b.duty_max);
+    b.pulse_min_s = t.number_or("pulse_min_s", pulse_s, b.pulse_min_s);
+}
+
+void read_heat(TomlReader &t, BoardDescription &b)
+{
+    if (t.has("motor_current_A")) {
+        b.motor_current_A = t.number("motor_current_A", current_A);
+    }
+    b.motor_time_constant_s = t.number_or("motor_time_constant_s", time_s, b.motor_time_constant_s);
+    b.inverter_current_A    = t.number_or("inverter_current_A", current_A, b.inverter_current_A);
+    b.inverter_time_constant_s =
+        t.number_or("inverter_time_constant_s", time_s, b.inverter_time_constant_s);
+}
+
+void read_temperature(TomlReader &t, BoardDescription &b)
+{
+    b.ntc_resistance_Ohm = t.number_or("ntc_resistance_Ohm", resistance_Ohm, b.ntc_resistance_Ohm);
+    b.ntc_beta_K         = t.number_or("ntc_beta_K", beta_K, b.ntc_beta_K);
+    b.ntc_divider_Ohm    = t.number_or("ntc_divider_Ohm", resistance_Ohm, b.ntc_divider_Ohm);
+    b.temperature_limit_degC =
+        t.number_or("temperature_limit_degC", temperature_degC, b.temperature_limit_degC);
+    b.temperature_trip_degC =
+        t.number_or("temperature_trip_degC", temperature_degC, b.temperature_trip_degC);
+    if (b.temperature_limit_degC >= b.temperature_trip_degC) {
+        t.fail("temperature_limit_degC",
+               fmt::format("= {:g} is not allowed: must be below temperature_trip_degC = {:g}",
+                           b.temperature_limit_degC, b.temperature_trip_degC));
+    }
+}
+
+} // namespace
+
+BoardDescription default_board(const Motor &motor, const Inverter &inverter)
+{
+    BoardDescription b;
+    b.dc_link_range_V    = range_per_dc_link * inverter.dc_link_V;
+    b.inverter_current_A = inverter_per_limit * motor.max_current_A;
+    return b;
+}
+
+BoardDescription read_board(std::optional<TomlReader> t, const Motor &motor,
+                            const Inverter &inverter)
+{
+    BoardDescription b = default_board(motor, inverter);
+    if (!t) {
+        return b;
+    }
+    b.dc_link_range_V = t->number_or("dc_link_range_V", range_V, b.dc_link_range_V);
+    if (t->has("align_current_A")) {
+        b.align_current_A = t->number("align_current_A", {1e-3, 0.5 * motor.max_current_A});
+    }
+    read_temperature(*t, b);
+    read_heat(*t, b);
+    b.stop = read_stop(*t);
+    read_supply(*t, b);
+    t->reject_unknown_keys();
+    return b;
+}
+
+const char *stop_reaction_name(StopReaction reaction)
+{
+    return reaction == StopReaction::brake ? "brake" : "coast";
+}
+
+} // namespace sdre

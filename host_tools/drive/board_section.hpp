@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+/// What the drive file says of the board around the processor: [board]. Every key has a default from physics.
+#pragma once
+
+#include <optional>
+
+#include "common/toml_reader.hpp"
+
+namespace sdre {
+
+struct Motor;
+struct Inverter;
+
+/// How a run ends that is not wanted any more (firmware/app/app_stop.h).
+enum class StopReaction { coast, brake };
+
+struct BoardDescription {
+    double dc_link_range_V        = 0.0;    ///< gives the converter's full scale
+    double ntc_resistance_Ohm     = 10e3;   ///< of the heat sink's sensor at 25 degC
+    double ntc_beta_K             = 3435.0; ///< its B value
+    double ntc_divider_Ohm        = 2.2e3;  ///< from the converter's full scale to the sensor
+    double temperature_limit_degC = 80.0;   ///< no start above; chosen: modules for 125 degC
+    double temperature_trip_degC  = 90.0;
+    std::optional<double> align_current_A; ///< of the vector that finds the angle without an index
+    std::optional<double>
+                 motor_current_A; ///< peak of the phase current that the winding bears for ever
+    double       motor_time_constant_s    = 30.0; ///< of the winding; chosen: a small frame's
+    double       inverter_current_A       = 0.0;
+    double       inverter_time_constant_s = 2.0; ///< of the modules' bases; chosen
+    StopReaction stop                     = StopReaction::coast;
+    double       precharge_s =
+        0.0; ///< bootstrap supplies: all lower switches on before a run; 0: isolated
+    double duty_max    = 1.0; ///< largest duty below full that the drivers' supplies bear
+    double pulse_min_s = 0.0; ///< shortest pulse that the drivers pass
+};
+
+/// What a file without [board] has.
+BoardDescription default_board(const Motor &motor, const Inverter &inverter);
+
+/// The table, or the defaults without one.
+BoardDescription read_board(std::optional<TomlReader> t, const Motor &motor,
+                            const Inverter &inverter);
+
+/// "coast", "brake".
+const char *stop_reaction_name(StopReaction reaction);
+
+} // namespace sdre

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/errors.hpp"
+#include "design/board/align_design.hpp"
+#include "design/board/board_constants.hpp"
+
+using namespace sdre;
+
+namespace {
+
+Drive shipped()
+{
+    return read_drive_file(SDRE_SOURCE_DIR "/firmware/config/drives/ipmsm_390w.toml");
+}
+
+std::string refusal(const Drive &d)
+{
+    try {
+        board_constants(d);
+    } catch (const InputError &e) {
+        return e.what();
+    }
+    return "";
+}
+
+} // namespace
+
+// EQ-BOARD-1: 75 MHz / (2 * 5 kHz), 150 MHz / 5 kHz, 3 us, 2500 lines.
+TEST(BoardConstants, RegistersOfTheShippedDrive)
+{
+    const board_setup_t s = board_constants(shipped()).config.board;
+    EXPECT_EQ(s.duty_full_cnt, 7500);
+    EXPECT_EQ(s.pwm_cycles, 30000U);
+    EXPECT_EQ(s.dead_time_cnt, 225);
+    EXPECT_EQ(s.positions, 10000);
+}
+
+TEST(BoardConstants, RegistersFollowTheFile)
+{
+    Drive d                     = shipped();
+    d.inverter.pwm_frequency_Hz = 20e3;
+    d.inverter.dead_time_s      = 0.5e-6; // 37.5 counts: no less
+    d.encoder.lines             = 1024;
+    const app_config_t c        = board_constants(d).config;
+    EXPECT_EQ(c.board.duty_full_cnt, 1875);
+    EXPECT_EQ(c.board.pwm_cycles, 7500U);
+    EXPECT_EQ(c.board.dead_time_cnt, 38);
+    EXPECT_EQ(c.board.positions, 4096);
+    EXPECT_FLOAT_EQ(c.pwm_period_s, 50e-6F);
+    EXPECT_EQ(c.boot_ticks, 1000);         // 50 ms
+    EXPECT_EQ(c.align.watch_ticks, 2000U); // 100 ms
+    EXPECT_EQ(c.modbus_gap_ticks, 36);     // 1.75 ms, and one
+}
+
+// EQ-BOARD-2: 20 A and 450 V over 4096 codes.
+TEST(BoardConstants, ScalesOfTheConverters)
+{
+    const app_scale_config_t s = board_constants(shipped()).config.scale;
+    EXPECT_FLOAT_EQ(s.current_A_per_cnt, 20.0F / 4096.0F);
+    EXPECT_FLOAT_EQ(s.dc_link_V_per_cnt, 450.0F / 4096.0F);
+    EXPECT_FLOAT_EQ(s.current_zero_cnt, 2048.0F);
+}
+
+// EQ-BOARD-4 the other way round: temperature, resistance, divider, code.
+TEST(BoardConstants, TableOfTheThermistor)
+{
+    BoardConstants      b = board_constants(shipped());
+    const app_config_t &c = b.bind();
+    for (std::size_t n = 0; n < ntc_points; n++) {
+        const double T_K  = static_cast<double>(c.scale.ntc_degC[n]) + 273.15;
+        const double r    = 10e3 * std::exp(3435.0 * (1.0 / T_K - 1.0 / 298.15));
+        const double code = 4096.0 * r / (r + 2200.0);
+        EXPECT_NEAR(code, 512.0 + 128.0 * static_cast<double>(n), 0.25); // a hundredth of a degree
+    }
+}
+
+// EQ-BOARD-5. 0.126 rad of 10000 counts and two pole pairs.
+TEST(BoardConstants, ToleranceOfTheIndexIsAnAngle)
+{
+    Drive d = shipped();
+    EXPECT_EQ(board_constants(d).config.angle.index_correct_max_cnt, 100);
+    d.motor.pole_pairs = 4;
+    EXPECT_EQ(board_constants(d).config.angle.index_correct_max_cnt, 50);
+    d.encoder.lines = 64;
+    EXPECT_EQ(board_constants(d).config.angle.index_correct_max_cnt, 4); // no less than the mark
+}
+
+TEST(BoardConstants, WhatTheBoardCannotHaveIsRefusedWithWhatItCan)
+{
+    Drive d                     = shipped();
+    d.inverter.pwm_frequency_Hz = 4700.0;
+    EXPECT_NE(refusal(d).find("4699.83"), std::string::npos) << refusal(d); // 75 MHz / (2 * 7979)
+    d.inverter.pwm_frequency_Hz = 2000.0;
+    EXPECT_NE(refusal(d).find("2289"), std::string::npos) << refusal(d);
+    d                      = shipped();
+    d.inverter.dead_time_s = 0.0;
+    EXPECT_NE(refusal(d).find("dead_time_s"), std::string::npos);
+    d.inverter.dead_time_s = 15e-6;
+    EXPECT_NE(refusal(d).find("1.364e-05"), std::string::npos) << refusal(d);
+    d               = shipped();
+    d.encoder.lines = 16384;
+    EXPECT_NE(refusal(d).find("16383"), std::string::npos) << refusal(d);
+    d                          = shipped();
+    d.current_sensors.adc_bits = 16;
+    EXPECT_NE(refusal(d).find("12"), std::string::npos) << refusal(d);
+    d                  = shipped();
+    d.board.ntc_beta_K = 1000.0;
+    EXPECT_NE(refusal(d).find("ntc_beta_K"), std::string::npos) << refusal(d);
+}
+
+// EQ-BOARD-3: the swing of the 390 W motor, by its equations in steps; it has to be within 0.2 degrees when the
+// application looks, also with three times the inertia.
+TEST(BoardConstants, AlignmentEndsAtRest)
+{
+    for (const double heavier : {1.0, 3.0}) {
+        const Drive       d     = shipped();
+        const Motor      &m     = d.motor;
+        const AlignDesign a     = align_design(d);
+        const double      J     = heavier * m.inertia_kgm2;
+        const double      kp    = a.bandwidth_radps * m.d_axis_inductance_H;
+        const double      dt    = 1e-5;
+        double            del   = 3.0 / 57.3;
+        double            w     = 0.0;
+        double            iq    = 0.0;
+        double            worst = 0.0;
+        for (double t = 0.0; t < a.settle_s; t += dt) {
+            const double torque =
+                1.5 * m.pole_pairs *
+                (m.pm_flux_Wb + (m.d_axis_inductance_H - m.q_axis_inductance_H) * a.current_A) * iq;
+            iq += dt / m.q_axis_inductance_H *
+                  (-(m.stator_resistance_Ohm + kp) * (iq + a.current_A * del) -
+                   w * (m.pm_flux_Wb + m.d_axis_inductance_H * a.current_A));
+            w += dt * (m.pole_pairs * torque - m.viscous_friction_Nms * w) / J;
+            del += dt * w;
+            worst = t > a.settle_s - 0.1 ? std::max(worst, std::abs(del)) : 0.0;
+        }
+        EXPECT_LT(worst, 0.2 / 57.3) << heavier;
+    }
+}
+
+// Half of the current limit, or where flux I - (Lq - Ld) I^2 is stiffest; a rotor without a magnet comes to rest with its
+// larger inductance along the vector.
+TEST(BoardConstants, AlignmentHoldsTheAxisThatHolds)
+{
+    Drive d = shipped();
+    EXPECT_DOUBLE_EQ(align_design(d).current_A, 2.0);
+    EXPECT_DOUBLE_EQ(align_design(d).theta_e_rad, 0.0);
+    d.motor.max_current_A = 8.0;
+    EXPECT_NEAR(align_design(d).current_A, 0.193 / (2.0 * (0.11391 - 0.07498)), 1e-9);
+    d.motor.pm_flux_Wb = 0.0;
+    EXPECT_DOUBLE_EQ(align_design(d).current_A, 4.0);
+    EXPECT_NEAR(align_design(d).theta_e_rad, 4.712389, 1e-6);
+    EXPECT_GT(align_design(d).decay_1ps, 1.0);
+    d.board.align_current_A = 1.0;
+    EXPECT_DOUBLE_EQ(align_design(d).current_A, 1.0);
+}
