@@ -47,6 +47,7 @@ app_status_t app_modes_status(const volatile app_modes_t *m, uint16_t board_faul
                             .tick_cycles       = 0U,
                             .tick_cycles_worst = 0U,
                             .ticks             = m->ticks,
-                            .snapshot          = m->snapshot};
+                            .snapshot          = m->snapshot,
+                            .commission        = app_commission_status(&m->commission)};
     return s;
 }

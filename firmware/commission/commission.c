@@ -307,7 +307,7 @@ bridge_t commission_tick(commission_t *m, const commission_sample_t *sample, boo
     return (m->stage == COMMISSION_FINISHED) ? bridge_open() : out;
 }
 
-int16_t commission_percent(const commission_t *m)
+int16_t commission_percent(commission_stage_t stage, commission_stage_t last_stage)
 {
-    return plans[(m->stage == COMMISSION_ABORTED) ? m->last_stage : m->stage].percent;
+    return plans[(stage == COMMISSION_ABORTED) ? last_stage : stage].percent;
 }

@@ -93,7 +93,7 @@ void commission_start(commission_t *m);
  */
 bridge_t commission_tick(commission_t *m, const commission_sample_t *sample, bool run);
 
-/** 0 .. 100 of the way. Context: any. */
-int16_t commission_percent(const commission_t *m);
+/** 0 .. 100 of the way; of an aborted one where it was. Context: any. */
+int16_t commission_percent(commission_stage_t stage, commission_stage_t last_stage);
 
 #endif /* COMMISSION_H */

@@ -59,7 +59,7 @@ void sample(fuzz::Bytes &in, int which)
 bool may_switch(app_mode_t mode)
 {
     return mode == APP_MODE_ALIGN || mode == APP_MODE_RUN || mode == APP_MODE_PRECHARGE ||
-           mode == APP_MODE_STOP;
+           mode == APP_MODE_STOP || mode == APP_MODE_COMMISSION;
 }
 
 void run(int ticks)

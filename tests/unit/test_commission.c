@@ -58,7 +58,7 @@ static void test_nothing_moves_before_the_start(void)
     TEST_ASSERT_EQUAL_INT(CTL_OK, commission_init(&module, &config));
     TEST_ASSERT_FALSE(step().gate_enable);
     TEST_ASSERT_EQUAL_INT(COMMISSION_IDLE, module.stage);
-    TEST_ASSERT_EQUAL_INT(0, commission_percent(&module));
+    TEST_ASSERT_EQUAL_INT(0, commission_percent(module.stage, module.last_stage));
 }
 
 static void test_bridge_stays_open_while_the_zeros_are_measured(void)
@@ -69,7 +69,7 @@ static void test_bridge_stays_open_while_the_zeros_are_measured(void)
     TEST_ASSERT_EQUAL_INT(COMMISSION_WATCH, module.stage);
     drive_on();
     TEST_ASSERT_EQUAL_INT(COMMISSION_LOOK, module.stage);
-    TEST_ASSERT_TRUE(commission_percent(&module) > 0);
+    TEST_ASSERT_TRUE(commission_percent(module.stage, module.last_stage) > 0);
 }
 
 static void test_a_shaft_that_turns_before_the_start_is_refused(void)
