@@ -63,9 +63,10 @@ app_commission_status_t app_commission_status(const volatile app_commission_t *a
 {
     const commission_stage_t      last  = a->module.last_stage;
     const commission_stage_t      stage = a->module.stage;
-    const app_commission_status_t s     = {.stage   = stage,
-                                           .reason  = a->module.reason,
-                                           .percent = commission_percent(stage, last),
-                                           .found   = a->module.found};
+    const app_commission_status_t s     = {.stage      = stage,
+                                           .last_stage = last,
+                                           .reason     = a->module.reason,
+                                           .percent    = commission_percent(stage, last),
+                                           .found      = a->module.found};
     return s;
 }

@@ -23,6 +23,7 @@ typedef struct {
 /** How it stands, and what was found. */
 typedef struct {
     commission_stage_t  stage;
+    commission_stage_t  last_stage; /**< the one that ran when it ended */
     commission_reason_t reason;
     int16_t             percent;
     commission_result_t found;

@@ -104,7 +104,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
             fake_board_fail(in.octet() & 15U);
             break;
         case 4: { // what an operator does
-            const app_command_t command{800.0F * in.share(), (what & 1U) != 0U, (what & 2U) != 0U};
+            const app_command_t command{800.0F * in.share(),
+                                        (what & 1U) != 0U,
+                                        (what & 2U) != 0U,
+                                        (what & 4U) != 0U,
+                                        {3.0F, 150.0F}};
             static_cast<void>(app_command_write(&command));
             break;
         }

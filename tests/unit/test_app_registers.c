@@ -224,10 +224,10 @@ static void test_limits_and_heat_are_told(void)
 
 static void test_blocks_that_do_not_exist_as_a_whole_are_refused(void)
 {
-    static const uint32_t inputs[][2]   = {{48UL, 1UL},    {47UL, 2UL},    {0UL, 49UL},
+    static const uint32_t inputs[][2]   = {{92UL, 1UL},    {91UL, 2UL},    {0UL, 93UL},
                                            {65535UL, 1UL}, {65535UL, 2UL}, {1UL, 65535UL}};
-    static const uint32_t holdings[][2] = {{3UL, 1UL}, {2UL, 2UL}, {0UL, 4UL}, {65535UL, 2UL}};
-    uint16_t              values[64]    = {0U};
+    static const uint32_t holdings[][2] = {{6UL, 1UL}, {5UL, 2UL}, {0UL, 7UL}, {65535UL, 2UL}};
+    uint16_t              values[96]    = {0U};
     for (int i = 0; i < SUPPORT_COUNT(inputs); i++) {
         TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_ADDRESS,
                               app_registers_read_input(&registers, (uint16_t)inputs[i][0],
@@ -242,8 +242,8 @@ static void test_blocks_that_do_not_exist_as_a_whole_are_refused(void)
                                                   (uint16_t)holdings[i][1], values));
     }
     TEST_ASSERT_FALSE(registers.changed);
-    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, app_registers_read_input(&registers, 0U, 48U, values));
-    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, app_registers_read_holding(&registers, 0U, 3U, values));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, app_registers_read_input(&registers, 0U, 92U, values));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, app_registers_read_holding(&registers, 0U, 6U, values));
 }
 
 static void test_every_speed_in_range_is_taken_and_read_back(void)

@@ -4,6 +4,7 @@
 #include "unit_support.h"
 #include "unity.h"
 
+#define PI      3.14159265358979324
 #define TOL_rad 1.0e-6 /* measured 3.4e-7 */
 #define TS_s    1.0e-4f
 
@@ -21,7 +22,7 @@ void tearDown(void) {}
 static double oracle_rad(int32_t position, int direction)
 {
     const double turns = (position + 0.5) * 7.0 / 10000.0;
-    return remainder((direction * turns * 2.0 * M_PI) + (double)0.3f, 2.0 * M_PI);
+    return remainder((direction * turns * 2.0 * PI) + (double)0.3f, 2.0 * PI);
 }
 
 static void check_sweep(int direction)
@@ -30,8 +31,8 @@ static void check_sweep(int direction)
     for (int32_t k = -2000000; k < 2000000; k += 977) {
         const double found = (double)commission_angle_rad(&known, k);
         TEST_ASSERT_DOUBLE_WITHIN(TOL_rad, 0.0,
-                                  remainder(found - oracle_rad(k, direction), 2.0 * M_PI));
-        TEST_ASSERT_TRUE(fabs(found) <= (M_PI + TOL_rad));
+                                  remainder(found - oracle_rad(k, direction), 2.0 * PI));
+        TEST_ASSERT_TRUE(fabs(found) <= (PI + TOL_rad));
     }
 }
 
@@ -50,7 +51,7 @@ static void test_speed_follows_and_the_prompt_one_is_not_late(void)
     double time_s = 0.0;
     for (int k = 1; k <= 4000; k++) {
         time_s = k * (double)TS_s;
-        (void)commission_angle_tick(&a, (float)remainder(0.5 * accel * time_s * time_s, 2.0 * M_PI),
+        (void)commission_angle_tick(&a, (float)remainder(0.5 * accel * time_s * time_s, 2.0 * PI),
                                     TS_s);
     }
 
@@ -61,14 +62,14 @@ static void test_speed_follows_and_the_prompt_one_is_not_late(void)
 
 static void test_angle_of_a_vector_all_round(void)
 {
-    for (double angle = -M_PI; angle < M_PI; angle += 1.0e-3) {
+    for (double angle = -PI; angle < PI; angle += 1.0e-3) {
         for (double size = 1.0e-6; size < 1.0e7; size *= 1.0e4) {
             const float y = (float)(size * sin(angle));
             const float x = (float)(size * cos(angle));
             TEST_ASSERT_DOUBLE_WITHIN(
                 3.0e-6, 0.0, /* measured 2.0e-6 */
                 remainder((double)commission_angle_of(y, x) - atan2((double)y, (double)x),
-                          2.0 * M_PI));
+                          2.0 * PI));
         }
     }
     TEST_ASSERT_TRUE(commission_angle_of(0.0f, 0.0f) == 0.0f);

@@ -4,6 +4,7 @@
 #include "unit_support.h"
 #include "unity.h"
 
+#define PI    3.14159265358979324
 #define TS_s  1.0e-3
 #define R_Ohm 0.5
 #define LD_H  0.010
@@ -64,7 +65,7 @@ static commission_step_t run(const rotor_t *m)
     commission_drag_start(&drag, &config, &found);
     for (long tick = 0; tick < 400000L; tick++) {
         const double i_A = fmax((double)drag.vector.length_A, 1e-6);
-        theta += remainder((double)drag.theta_rad - theta, 2.0 * M_PI);
+        theta += remainder((double)drag.theta_rad - theta, 2.0 * PI);
         const double way =
             (drag.omega_radps > 0.0f) ? 1.0 : ((drag.omega_radps < 0.0f) ? -1.0 : 0.0);
         const double  d     = theta - behind_rad(m, i_A, way);
@@ -73,7 +74,7 @@ static commission_step_t run(const rotor_t *m)
         const double  psi_q = m->lq_H * i_A * sin(e);
         const double  alpha = (psi_d * cos(d)) - (psi_q * sin(d));
         const double  beta  = (psi_d * sin(d)) + (psi_q * cos(d));
-        const double  shaft = (d - m->offset_rad) * m->direction / m->pairs / (2.0 * M_PI);
+        const double  shaft = (d - m->offset_rad) * m->direction / m->pairs / (2.0 * PI);
         const int32_t turn  = (int32_t)floor(shaft);
 
         commission_signal_t s = {.dc_link_V = 300.0f};
@@ -103,9 +104,9 @@ static void expect(const rotor_t *m, double offset_tol_deg)
     TEST_ASSERT_EQUAL_INT(m->direction, found.direction);
     TEST_ASSERT_EQUAL_INT(m->pairs, found.pole_pairs);
     TEST_ASSERT_EQUAL_INT(m->counts, found.counts_per_turn);
-    const double turn = found.reluctance ? M_PI : (2.0 * M_PI);
+    const double turn = found.reluctance ? PI : (2.0 * PI);
     TEST_ASSERT_DOUBLE_WITHIN(offset_tol_deg, 0.0,
-                              180.0 / M_PI *
+                              180.0 / PI *
                                   remainder((double)found.offset_rad.value - m->offset_rad, turn));
 }
 

@@ -5,6 +5,7 @@
 #include "unit_support.h"
 #include "unity.h"
 
+#define PI   3.14159265358979324
 #define TS_s 2.0e-4
 
 static commission_config_t     config;
@@ -31,7 +32,7 @@ static void set_angle(double angle_rad)
 {
     winding.angle_rad = angle_rad;
     /* So that position 0 is there: EQ-COMMISSION-7 has the middle of a count. */
-    found.offset_rad.value = (float)(angle_rad - (3.0 * M_PI / 10000.0));
+    found.offset_rad.value = (float)(angle_rad - (3.0 * PI / 10000.0));
 }
 
 static commission_step_t run(bool map)

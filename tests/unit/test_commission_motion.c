@@ -4,6 +4,7 @@
 #include "unit_support.h"
 #include "unity.h"
 
+#define PI          3.14159265358979324
 #define TS_s        1.0e-4
 #define FLUX_Wb     0.06
 #define PAIRS       4
@@ -43,8 +44,7 @@ static void run(double iq_A, bool driven, int window, double until_radps, int mo
     for (int k = 0; k < most; k++) {
         const dq_t i_A = {0.0f, (float)iq_A};
         commission_motion_tick(&motion, &config, &known,
-                               (int32_t)floor(theta * COUNTS / (2.0 * M_PI)) * known.direction,
-                               i_A);
+                               (int32_t)floor(theta * COUNTS / (2.0 * PI)) * known.direction, i_A);
         const double torque = 1.5 * PAIRS * FLUX_Wb * iq_A;
         const double drag   = (VISCOUS_Nms * omega) + copysign(DRY_Nm, omega);
         omega += (torque - drag) / INERTIA * TS_s;
@@ -105,7 +105,7 @@ static void test_friction_is_never_negative(void)
     for (int k = 0; k < 4000; k++) { /* a load that drives */
         const dq_t none = {0.0f, 0.0f};
         commission_motion_tick(&motion, &config, &known,
-                               (int32_t)floor(theta * COUNTS / (2.0 * M_PI)), none);
+                               (int32_t)floor(theta * COUNTS / (2.0 * PI)), none);
         omega += 100.0 * TS_s;
         theta += omega * TS_s;
     }

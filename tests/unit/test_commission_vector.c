@@ -5,6 +5,7 @@
 #include "unit_support.h"
 #include "unity.h"
 
+#define PI   3.14159265358979324
 #define TS_s 2.0e-4
 
 static commission_config_t config;
@@ -62,11 +63,11 @@ static void test_a_swing_is_timed_and_damped(void)
 {
     const double half_s = 0.05;
     for (int k = 0; k < 3000; k++) {
-        (void)tick_with(0.0f, (int32_t)lround(300.0 * sin(M_PI * k * TS_s / half_s)));
+        (void)tick_with(0.0f, (int32_t)lround(300.0 * sin(PI * k * TS_s / half_s)));
     }
     /* Six counts of 300 beyond the extreme are 0.064 of a half swing, late at every reversal alike. */
     TEST_ASSERT_DOUBLE_WITHIN(0.02 * half_s, half_s, (double)vector.half_swing_s);
-    TEST_ASSERT_DOUBLE_WITHIN(0.2, -M_PI * 0.051 / half_s, (double)tick_with(1.0f, 0).out_V.beta);
+    TEST_ASSERT_DOUBLE_WITHIN(0.2, -PI * 0.051 / half_s, (double)tick_with(1.0f, 0).out_V.beta);
 }
 
 static void test_a_shaft_is_still_when_one_count_is_all(void)

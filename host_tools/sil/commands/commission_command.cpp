@@ -4,6 +4,7 @@
 #include "common/file_output.hpp"
 #include "drive/drive_file.hpp"
 #include "sil/commands/commands.hpp"
+#include "sil/commission/board_bench.hpp"
 #include "sil/commission/drive_text.hpp"
 #include "sil/commission/report.hpp"
 
@@ -15,6 +16,7 @@ struct Options {
     std::string out;
     std::string json;
     std::string csv;
+    std::string board;
     int         seed          = 1;
     int         coulomb       = 10;
     int         cogging       = 0;
@@ -27,6 +29,9 @@ void declare(OptionList &list, Options &o)
     list.text("--out", o.out, "drive file with the values that were found");
     list.text("--json", o.json, "write the table");
     list.text("--csv", o.csv, "write currents, speed and angle over the time");
+    list.choice(
+        "--board", o.board, {"api", "f28335"},
+        "with the application: on board.h, or with drivers and Modbus on the virtual device");
     list.number("--seed", o.seed, {1, 1e9}, "of noise, disc and rotor angle (default 1)");
     list.number(
         "--coulomb", o.coulomb, {0, 200},
@@ -40,12 +45,15 @@ int run(const Options &o)
 {
     const Drive       truth = read_drive_file(o.drive);
     CommissionOptions c;
-    c.seed                         = static_cast<std::uint64_t>(o.seed);
-    c.coulomb_share                = 1e-3 * o.coulomb;
-    c.cogging_share                = 1e-3 * o.cogging;
-    c.lines_known                  = !o.unknown_lines;
-    c.trace_every                  = o.csv.empty() ? 0 : 10;
-    const CommissionRun     result = commission(truth, c);
+    c.seed          = static_cast<std::uint64_t>(o.seed);
+    c.coulomb_share = 1e-3 * o.coulomb;
+    c.cogging_share = 1e-3 * o.cogging;
+    c.lines_known   = !o.unknown_lines;
+    c.trace_every   = o.csv.empty() ? 0 : 10;
+    const CommissionRun result =
+        o.board.empty()
+            ? commission(truth, c)
+            : commission_on_board(truth, c, o.board == "api" ? BoardKind::api : BoardKind::f28335);
     std::vector<OutputFile> files;
     if (!o.json.empty()) {
         files.push_back({o.json, commission_json(truth, result)});

@@ -19,7 +19,9 @@ constexpr double longest_s = 600.0;
 constexpr double dc_link_low  = 0.7;
 constexpr double dc_link_high = 1.25;
 
-Scenario scenario_of(const Drive &truth, const CommissionOptions &o)
+} // namespace
+
+Scenario commission_scenario(const Drive &truth, const CommissionOptions &o)
 {
     Scenario s;
     s.name                               = "commission";
@@ -34,13 +36,15 @@ Scenario scenario_of(const Drive &truth, const CommissionOptions &o)
     return s;
 }
 
+namespace {
+
 /// The plant's board as the module sees it.
 class Bench {
 public:
     Bench(const Drive &truth, const CommissionOptions &o)
-        : scenario_(scenario_of(truth, o)), board_(scenario_), period_s_(control_period_s(truth)),
-          reversed_(o.seed % 2 == 0), channel_a_(channel_a(scenario_.sensors)),
-          channel_b_(channel_b(scenario_.sensors))
+        : scenario_(commission_scenario(truth, o)), board_(scenario_),
+          period_s_(control_period_s(truth)), reversed_(o.seed % 2 == 0),
+          channel_a_(channel_a(scenario_.sensors)), channel_b_(channel_b(scenario_.sensors))
     {
     }
 

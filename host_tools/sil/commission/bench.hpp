@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "drive/drive_file.hpp"
+#include "sil/setup/scenario.hpp"
 
 extern "C" {
 #include "commission.h"
@@ -52,6 +53,9 @@ struct CommissionRun {
         return stage == COMMISSION_FINISHED;
     }
 };
+
+/// The simulated motor with its surroundings, at rest.
+Scenario commission_scenario(const Drive &truth, const CommissionOptions &options);
 
 /// What the board of a drive knows, with the drive's limits as bounds.
 commission_config_t commission_config_of(const Drive &drive, const CommissionOptions &options);
