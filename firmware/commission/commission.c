@@ -11,10 +11,6 @@
 #define WATCHES    25 /* five seconds to come to rest */
 #define ZERO_SHARE 0.05f
 #define STAND_CNT  4L
-/* Speeds are counted over this time; a single step may be this many times the largest speed and a few counts. */
-#define SPEED_s    0.001f
-#define STEP_RATIO 3.0f
-#define STEP_CNT   6.0f
 /* Nothing that is measured here is larger. */
 #define LARGEST    1.0e9f
 #define LOSS_SHARE 0.1f
@@ -30,7 +26,7 @@ typedef struct {
 
 static const stage_plan_t plans[] = {
     [COMMISSION_IDLE] = {1.0e6f, 0},     [COMMISSION_WATCH] = {1.0f, 0},
-    [COMMISSION_LOOK] = {20.0f, 1},      [COMMISSION_RESISTANCE] = {60.0f, 5},
+    [COMMISSION_LOOK] = {20.0f, 1},      [COMMISSION_RESISTANCE] = {250.0f, 5},
     [COMMISSION_DRAG] = {400.0f, 20},    [COMMISSION_MAP] = {20.0f, 75},
     [COMMISSION_SPIN] = {200.0f, 80},    [COMMISSION_FINISHED] = {1.0e6f, 100},
     [COMMISSION_ABORTED] = {1.0e6f, 100}};
@@ -56,17 +52,16 @@ void commission_start(commission_t *m)
     if (m->reason == COMMISSION_REASON_CONFIG) {
         return;
     }
-    m->stage       = COMMISSION_WATCH;
-    m->reason      = COMMISSION_REASON_NONE;
-    m->found       = nothing;
-    m->ticks       = 0L;
-    m->i_A         = zero;
-    m->v_now_V     = zero;
-    m->v_before_V  = zero;
-    m->zero_a_A    = 0.0f;
-    m->zero_b_A    = 0.0f;
-    m->speed_ticks = 0L;
-    m->rounds      = 0;
+    m->stage      = COMMISSION_WATCH;
+    m->reason     = COMMISSION_REASON_NONE;
+    m->found      = nothing;
+    m->ticks      = 0L;
+    m->i_A        = zero;
+    m->v_now_V    = zero;
+    m->v_before_V = zero;
+    m->zero_a_A   = 0.0f;
+    m->zero_b_A   = 0.0f;
+    m->rounds     = 0;
 }
 
 static bridge_t abort_for(commission_t *m, commission_reason_t reason)
@@ -77,35 +72,21 @@ static bridge_t abort_for(commission_t *m, commission_reason_t reason)
     return bridge_open();
 }
 
-/* The position may move by so many counts in a time. */
-static float most_cnt(const commission_t *m, float time_s)
+static commission_reason_t judge_shaft(commission_t *m, int32_t position_cnt)
 {
-    return m->config->speed_max_m_radps * time_s * (float)m->found.counts_per_turn / BASE_TWO_PI;
-}
-
-static commission_reason_t judge_position(commission_t *m, int32_t position_cnt)
-{
-    const float step = (float)commission_moved_cnt(position_cnt, m->position_cnt);
-    m->position_cnt  = position_cnt;
-    if ((m->found.counts_per_turn == 0L) || (m->ticks == 0L)) {
-        m->speed_cnt   = position_cnt;
-        m->speed_ticks = 0L;
+    if (m->ticks == 0L) {
+        commission_shaft_start(&m->shaft, position_cnt);
         return COMMISSION_REASON_NONE;
     }
-    if (!base_within(step, (STEP_RATIO * most_cnt(m, m->config->ts_s)) + STEP_CNT)) {
+    switch (commission_shaft_judge(&m->shaft, m->config, m->found.counts_per_turn, position_cnt)) {
+    case COMMISSION_SHAFT_JUMP:
         return COMMISSION_REASON_ENCODER;
-    }
-    m->speed_ticks++;
-    const float time_s = (float)m->speed_ticks * m->config->ts_s;
-    const float way    = (float)commission_moved_cnt(position_cnt, m->speed_cnt);
-    if (!base_within(way, most_cnt(m, time_s) + STEP_CNT)) {
+    case COMMISSION_SHAFT_FAST:
         return COMMISSION_REASON_OVER_SPEED;
+    case COMMISSION_SHAFT_OK:
+    default:
+        return COMMISSION_REASON_NONE;
     }
-    if (time_s >= SPEED_s) {
-        m->speed_cnt   = position_cnt;
-        m->speed_ticks = 0L;
-    }
-    return COMMISSION_REASON_NONE;
 }
 
 static commission_reason_t judge(commission_t *m, const commission_sample_t *s, bool run)
@@ -125,7 +106,7 @@ static commission_reason_t judge(commission_t *m, const commission_sample_t *s, 
     if (!base_in_range(s->dc_link_V, m->config->dc_link_min_V, m->config->dc_link_max_V)) {
         return COMMISSION_REASON_DC_LINK;
     }
-    const commission_reason_t moved = judge_position(m, s->position_cnt);
+    const commission_reason_t moved = judge_shaft(m, s->position_cnt);
     if (moved != COMMISSION_REASON_NONE) {
         return moved;
     }

@@ -18,6 +18,7 @@
 #include "commission_drag.h"
 #include "commission_inductance.h"
 #include "commission_resistance.h"
+#include "commission_shaft.h"
 #include "commission_spin.h"
 #include "commission_types.h"
 
@@ -68,15 +69,13 @@ typedef struct {
     commission_work_t          work;
     int32_t                    ticks; /**< since the stage began */
     ab_t                       i_A;
-    ab_t    v_now_V;    /**< asked for at the last sample: in force after this one */
-    ab_t    v_before_V; /**< in force until this one */
-    float   zero_a_A;
-    float   zero_b_A;
-    int32_t position_cnt;
-    int32_t start_cnt; /**< position when the watch began */
-    int32_t speed_cnt; /**< position at the beginning of the window of the speed */
-    int32_t speed_ticks;
-    int16_t rounds; /**< of MAP and SPIN; a second one when the offset was wrong */
+    ab_t               v_now_V;    /**< asked for at the last sample: in force after this one */
+    ab_t               v_before_V; /**< in force until this one */
+    float              zero_a_A;
+    float              zero_b_A;
+    commission_shaft_t shaft;
+    int32_t            start_cnt; /**< position when the watch began */
+    int16_t            rounds;    /**< of MAP and SPIN; a second one when the offset was wrong */
 } commission_t;
 
 /** @return CTL_BAD_CONFIG: a bound is out of range, and nothing will start. Context: init. */

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "commission_drag.h"
 
-#include "commission_angle.h"
-
 /* Chosen: shares of the current bound; first try, most, least. */
 #define FIRST_SHARE 0.1f
 #define MOST_SHARE  0.6f
@@ -22,9 +20,6 @@
 #define MAGNET_RATIO 1.4f
 #define HOLD_RATIO   3.0f
 #define LESS         0.4f
-/* A rotor that follows moves by the same counts both ways, within this share; and by this many at least. */
-#define SAME_WAY  0.1f
-#define LEAST_CNT 20L
 /* Pole pairs are whole within this. */
 #define WHOLE 0.1f
 
@@ -40,12 +35,12 @@ static void begin_part(commission_drag_t *d, int16_t part)
 
 static void begin_pass(commission_drag_t *d, float length_A, int16_t turns)
 {
-    const commission_drag_sums_t none = {.n = 0.0f};
-    d->sums[0]                        = none;
-    d->sums[1]                        = none;
-    d->length_A                       = length_A;
-    d->turns                          = turns;
-    d->indexes                        = 0;
+    const commission_turns_t none = {.n = 0.0f};
+    d->sums[0]                    = none;
+    d->sums[1]                    = none;
+    d->length_A                   = length_A;
+    d->turns                      = turns;
+    d->indexes                    = 0;
     begin_part(d, SETTLE);
 }
 
@@ -60,33 +55,6 @@ void commission_drag_start(commission_drag_t *d, const commission_config_t *c,
     }
     commission_vector_start(&d->vector, c, known, RAMP_s);
     begin_pass(d, FIRST_SHARE * c->current_max_A, 1);
-}
-
-static void add(commission_drag_t *d, const commission_vector_out_t *out,
-                const commission_signal_t *s, const commission_result_t *known)
-{
-    commission_drag_sums_t *u = &d->sums[(d->part == FORWARD) ? 0 : 1];
-
-    if (!(u->n > 0.0f)) {
-        u->from_cnt = s->position_cnt;
-    }
-    u->moved_cnt = commission_moved_cnt(s->position_cnt, u->from_cnt);
-    u->e_V.d += out->v_V.d - (known->r_Ohm.value * out->i_A.d);
-    u->e_V.q += out->v_V.q - (known->r_Ohm.value * out->i_A.q);
-    u->i_A.d += out->i_A.d;
-    u->i_A.q += out->i_A.q;
-    if (d->second && (known->counts_per_turn > 0L)) {
-        const float vector = d->theta_rad + commission_angle_of(out->i_A.q, out->i_A.d);
-        const float shaft  = commission_angle_shaft_rad(known, s->position_cnt);
-        const float angle  = frames_wrap(frames_wrap(vector - shaft));
-        if (!(u->n > 0.0f)) {
-            u->angle0_rad = angle;
-        }
-        const float away = frames_wrap(angle - u->angle0_rad);
-        u->angle_rad += away;
-        u->angle2_rad2 += away * away;
-    }
-    u->n += 1.0f;
 }
 
 static void note_index(commission_drag_t *d, const commission_signal_t *s,
@@ -106,34 +74,6 @@ static void note_index(commission_drag_t *d, const commission_signal_t *s,
     d->indexes++;
     found->indexed   = true;
     found->index_cnt = s->index_cnt;
-}
-
-static bool follows(const commission_drag_t *d)
-{
-    const float forward  = (float)d->sums[0].moved_cnt;
-    const float backward = (float)d->sums[1].moved_cnt;
-
-    return ((d->sums[0].moved_cnt > LEAST_CNT) || (d->sums[0].moved_cnt < -LEAST_CNT)) &&
-           (fabsf(forward + backward) <= (SAME_WAY * fabsf(forward)));
-}
-
-/* Flux along the current, less Ld I: EQ-COMMISSION-10. */
-static float beyond_ld_Wb(const commission_drag_t *d, const commission_result_t *known, float *i_A)
-{
-    float x      = 0.0f;
-    float length = 0.0f;
-    for (int16_t k = 0; k < 2; k++) {
-        const commission_drag_sums_t *u      = &d->sums[k];
-        const float                   per    = 1.0f / base_max(u->n, 1.0f);
-        const float                   w      = (k == 0) ? d->speed_radps : -d->speed_radps;
-        const dq_t                    i      = {u->i_A.d * per, u->i_A.q * per};
-        const dq_t                    lambda = {u->e_V.q * per / w, -u->e_V.d * per / w};
-        const float                   size   = base_max(sqrtf((i.d * i.d) + (i.q * i.q)), 1.0e-6f);
-        x += 0.5f * ((((lambda.d * i.d) + (lambda.q * i.q)) / size) - (known->ld_H.value * size));
-        length += 0.5f * size;
-    }
-    *i_A = length;
-    return x;
 }
 
 static int16_t turns_of(const commission_result_t *found)
@@ -181,10 +121,11 @@ static commission_step_t judge_first(commission_drag_t *d, const commission_conf
     const float saliency = base_max(found->lq_H.value - found->ld_H.value, 0.0f);
     float       i_A      = 0.0f;
 
-    if (!follows(d)) {
+    if (!commission_turns_follow(d->sums)) {
         return try_again(d, c, found);
     }
-    const float x        = beyond_ld_Wb(d, found, &i_A); /* EQ-COMMISSION-10 */
+    const float x =
+        commission_turns_beyond_Wb(d->sums, found, d->speed_radps, &i_A); /* EQ-COMMISSION-10 */
     found->direction     = (d->sums[0].moved_cnt > 0L) ? 1 : -1;
     found->reluctance    = !(x > (MAGNET_RATIO * saliency * i_A));
     found->flux_Wb.value = found->reluctance ? 0.0f : x;
@@ -215,38 +156,15 @@ static commission_step_t judge_second(commission_drag_t *d, const commission_con
                                       commission_result_t *found)
 {
     const float most_A = MOST_SHARE * c->current_max_A;
-    float       mean[2];
-    float       spread = 0.0f;
 
-    const float whole = (float)found->pole_pairs;
-    if (!follows(d) || !pairs_are_whole(d, found)) {
+    if (!commission_turns_follow(d->sums) || !pairs_are_whole(d, found)) {
         if (d->length_A >= most_A) {
             return COMMISSION_FAILED;
         }
         begin_pass(d, base_min(2.0f * d->length_A, most_A), d->turns);
         return COMMISSION_BUSY;
     }
-    for (int16_t k = 0; k < 2; k++) {
-        const commission_drag_sums_t *u   = &d->sums[k];
-        const float                   per = 1.0f / base_max(u->n, 1.0f);
-        mean[k]                           = u->angle_rad * per;
-        spread += 0.5f * base_max((u->angle2_rad2 * per) - (mean[k] * mean[k]), 0.0f);
-    }
-    /* EQ-COMMISSION-9; the vector is along d, or along q of a reluctance motor. */
-    const float between =
-        frames_wrap((d->sums[1].angle0_rad + mean[1]) - (d->sums[0].angle0_rad + mean[0]));
-    const float middle      = d->sums[0].angle0_rad + mean[0] + (0.5f * between);
-    const float vector      = found->reluctance ? (0.5f * BASE_PI) : 0.0f;
-    found->offset_rad.value = frames_wrap(frames_wrap(middle - vector));
-    found->lag_rad          = -0.5f * between;
-    if (!found->reluctance) { /* more current than before: less of it is friction's */
-        float i_A            = 0.0f;
-        found->flux_Wb.value = beyond_ld_Wb(d, found, &i_A);
-    }
-    found->ripple_rad = sqrtf(spread);
-    /* Chosen: a tenth of what friction and swinging do in all, since their means cancel. */
-    found->offset_rad.error = (0.1f * (fabsf(found->lag_rad) + found->ripple_rad)) +
-                              (BASE_PI * whole / (float)found->counts_per_turn);
+    commission_turns_solve(d->sums, d->speed_radps, found);
     return COMMISSION_DONE;
 }
 
@@ -311,7 +229,8 @@ commission_answer_t commission_drag_tick(commission_drag_t *d, const commission_
         commission_vector_tick(&d->vector, s, d->theta_rad, 1.5f * d->omega_radps * c->ts_s,
                                (d->part == RELEASE) ? 0.0f : d->length_A);
     if ((d->part == FORWARD) || (d->part == BACKWARD)) {
-        add(d, &out, s, found);
+        commission_turns_add(&d->sums[(d->part == FORWARD) ? 0 : 1], &out, found, d->theta_rad,
+                             s->position_cnt, d->second && (found->counts_per_turn > 0L));
     }
     d->ticks++;
     const bool ends = part_ends(d, c, &wanted_radps, found);

@@ -21,36 +21,25 @@
 #ifndef COMMISSION_DRAG_H
 #define COMMISSION_DRAG_H
 
+#include "commission_turns.h"
 #include "commission_types.h"
 #include "commission_vector.h"
 
-/** Sums over whole turns one way. */
 typedef struct {
-    dq_t    e_V; /**< v - R i, vector's frame */
-    dq_t    i_A;
-    float   angle_rad; /**< vector less shaft, from angle0_rad on */
-    float   angle2_rad2;
-    float   angle0_rad;
-    float   n;
-    int32_t from_cnt;
-    int32_t moved_cnt;
-} commission_drag_sums_t;
-
-typedef struct {
-    commission_vector_t    vector;
-    commission_drag_sums_t sums[2]; /**< forward, backward */
-    float                  theta_rad;
-    float                  omega_radps;
-    float                  speed_radps; /**< largest */
-    float                  way_rad;     /**< since the part began */
-    float                  length_A;
-    float                  followed_A; /**< a current with which the rotor followed; 0: none yet */
-    int32_t                ticks;
-    int32_t                index_cnt; /**< position at the first index */
-    int16_t                part;
-    int16_t                turns; /**< in the measured parts */
-    int16_t                indexes;
-    bool                   second; /**< pass: counts are known, the offset is wanted */
+    commission_vector_t vector;
+    commission_turns_t  sums[2]; /**< forward, backward */
+    float               theta_rad;
+    float               omega_radps;
+    float               speed_radps; /**< largest */
+    float               way_rad;     /**< since the part began */
+    float               length_A;
+    float               followed_A; /**< a current with which the rotor followed; 0: none yet */
+    int32_t             ticks;
+    int32_t             index_cnt; /**< position at the first index */
+    int16_t             part;
+    int16_t             turns; /**< in the measured parts */
+    int16_t             indexes;
+    bool                second; /**< pass: counts are known, the offset is wanted */
 } commission_drag_t;
 
 /** Context: control ISR. */

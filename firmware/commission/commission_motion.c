@@ -3,6 +3,9 @@
 
 #include "commission_fit.h"
 
+/* Windows without current, below which their two columns rest on noise. */
+#define LEAST_COASTING 4
+
 void commission_motion_start(commission_motion_t *m)
 {
     m->count        = 0;
@@ -133,10 +136,10 @@ static void keep_braking(slowing_t *slow, const commission_fit_t *f)
     slow->rate_radps2 = base_max(slow->rate_radps2, 0.0f);
 }
 
-static slowing_t slowing_of(const commission_motion_t *m, const commission_result_t *known,
-                            float per_inertia)
+/* @return false: it did not coast for long enough. */
+static bool slowing_of(const commission_motion_t *m, const commission_result_t *known,
+                       float per_inertia, slowing_t *slow)
 {
-    slowing_t        slow = {0.0f, 0.0f, 0.0f, 0.0f};
     commission_fit_t fit;
 
     commission_fit_reset(&fit);
@@ -148,14 +151,15 @@ static slowing_t slowing_of(const commission_motion_t *m, const commission_resul
         }
     }
     const commission_fitted_t f = commission_fit_solve(&fit);
-    if (f.valid) {
-        slow.rate_1ps     = f.x0;
-        slow.rate_radps2  = f.x1;
-        slow.error_1ps    = f.error0;
-        slow.error_radps2 = f.error1;
-        keep_braking(&slow, &fit);
+    if (!f.valid || (fit.n < LEAST_COASTING)) {
+        return false;
     }
-    return slow;
+    slow->rate_1ps     = f.x0;
+    slow->rate_radps2  = f.x1;
+    slow->error_1ps    = f.error0;
+    slow->error_radps2 = f.error1;
+    keep_braking(slow, &fit);
+    return true;
 }
 
 /* The torque is as wrong as what makes it. */
@@ -167,15 +171,46 @@ static float relative_torque_error(const commission_result_t *r)
     return r->reluctance ? base_min(l, 1.0f) : base_min(flux, 1.0f);
 }
 
+/* A shaft that stops before it has coasted: both torques' windows, forward and backward, tell J from dry friction, and
+ * nothing tells that from viscous. */
+static bool solve_driven(const commission_motion_t *m, commission_result_t *found)
+{
+    commission_fit_t fit;
+    float            fastest = 0.0f;
+
+    commission_fit_reset(&fit);
+    for (int16_t k = 0; k < m->count; k++) {
+        const commission_window_t *w = &m->windows[k];
+        if (w->driven) {
+            commission_fit_add(&fit, w->speed_radps, w->time_s,
+                               commission_motion_torque(found, w->iq_As, w->idiq_A2s));
+            fastest = base_max(fastest, fabsf(w->way_rad) / base_max(fabsf(w->time_s), 1.0e-9f));
+        }
+    }
+    const commission_fitted_t f = commission_fit_solve(&fit);
+    if (!f.valid || !(f.x0 > 0.0f) || !(fastest > 0.0f)) {
+        return false;
+    }
+    found->inertia_kgm2.value = f.x0;
+    found->inertia_kgm2.error = f.error0 + (relative_torque_error(found) * f.x0);
+    found->coulomb_Nm.value   = base_max(f.x1, 0.0f);
+    found->friction_Nms.value = 0.0f;
+    found->friction_Nms.error = found->coulomb_Nm.value / fastest;
+    found->coulomb_Nm.error   = f.error1 + found->coulomb_Nm.value;
+    return true;
+}
+
 bool commission_motion_solve(const commission_motion_t *m, commission_result_t *found)
 {
-    const slowing_t          none  = {0.0f, 0.0f, 0.0f, 0.0f};
-    const commission_value_t rough = inertia_of(m, found, &none);
+    slowing_t                slow  = {0.0f, 0.0f, 0.0f, 0.0f};
+    const commission_value_t rough = inertia_of(m, found, &slow);
     if (!(rough.value > 0.0f)) {
         return false;
     }
-    const slowing_t slow = slowing_of(m, found, 1.0f / rough.value); /* EQ-COMMISSION-11 */
-    found->inertia_kgm2  = inertia_of(m, found, &slow);
+    if (!slowing_of(m, found, 1.0f / rough.value, &slow)) { /* EQ-COMMISSION-11 */
+        return solve_driven(m, found);
+    }
+    found->inertia_kgm2 = inertia_of(m, found, &slow);
     found->inertia_kgm2.error += relative_torque_error(found) * found->inertia_kgm2.value;
     const commission_value_t j = found->inertia_kgm2;
     found->friction_Nms.value  = slow.rate_1ps * j.value;

@@ -31,10 +31,6 @@
 #define COAST_WINDOWS 8
 /* Periods after which a current has settled at w_c, generously. */
 #define SETTLE_TICKS 60L
-/* Measured on six motors (docs/commissioning.md): what the scatter of one run does not show. */
-#define SYSTEMATIC 0.005f
-/* An induced voltage below this share of the dc link says nothing about the magnet's direction. */
-#define EMF_SHARE 0.03f
 
 enum { REST = 0, TRIAL, UP, COAST_UP, DOWN, COAST_DOWN, LOW, COAST_LOW, STOP, PARTS };
 
@@ -217,46 +213,6 @@ static commission_step_t trial(commission_spin_t *p, const commission_config_t *
     return COMMISSION_BUSY;
 }
 
-static void add_emf(commission_spin_t *p, const commission_result_t *known, dq_t v_V, dq_t i_A)
-{
-    const float       w  = p->angle.prompt_e_radps;
-    commission_emf_t *e  = &p->emf[(w > 0.0f) ? 0 : 1];
-    const float       vd = v_V.d - (known->r_Ohm.value * i_A.d) + (w * known->lq_H.value * i_A.q);
-    const float       vq = v_V.q - (known->r_Ohm.value * i_A.q) - (w * known->ld_H.value * i_A.d);
-    e->vd_w += vd * w;
-    e->vq_w += vq * w;
-    e->ww += w * w;
-    e->vv += vq * vq;
-    e->n += 1.0f;
-}
-
-/* EQ-COMMISSION-12, 13 */
-static void set_flux(const commission_spin_t *p, float dc_link_V, commission_result_t *found)
-{
-    const commission_emf_t *f      = &p->emf[0];
-    const commission_emf_t *b      = &p->emf[1];
-    const float             ww     = base_max(f->ww + b->ww, 1.0e-9f);
-    const float             flux   = (f->vq_w + b->vq_w) / ww;
-    const float             ahead  = f->vq_w / base_max(f->ww, 1.0e-9f);
-    const float             behind = b->vq_w / base_max(b->ww, 1.0e-9f);
-    const float             rest   = base_max((f->vv + b->vv) - (flux * (f->vq_w + b->vq_w)), 0.0f);
-    const bool seen = base_max(fabsf(flux) * p->top_radps, 0.0f) > (EMF_SHARE * dc_link_V);
-
-    found->flux_Wb.value = seen ? flux : base_max(flux, 0.0f);
-    found->flux_Wb.error = (2.0f * sqrtf(rest / ((f->n + b->n + 1.0f) * ww))) +
-                           (0.5f * fabsf(ahead - behind)) + (SYSTEMATIC * fabsf(flux));
-    found->moved_rad = 0.0f;
-    if (seen && (f->n > 0.0f) && (b->n > 0.0f)) {
-        const float one         = commission_angle_of(f->vd_w, f->vq_w);
-        const float apart       = frames_wrap(commission_angle_of(b->vd_w, b->vq_w) - one);
-        found->moved_rad        = frames_wrap(one + (0.5f * apart));
-        found->offset_rad.value = frames_wrap(found->offset_rad.value - found->moved_rad);
-        found->offset_rad.error = (0.1f * fabsf(apart)) + (BASE_PI * (float)found->pole_pairs /
-                                                           (float)found->counts_per_turn);
-        found->flux_Wb.value    = fabsf(flux);
-    }
-}
-
 static commission_step_t next_part(commission_spin_t *p, const commission_config_t *c,
                                    const commission_signal_t *s, commission_result_t *found)
 {
@@ -282,7 +238,7 @@ static commission_step_t next_part(commission_spin_t *p, const commission_config
     case STOP:
         ends = (w * p->begun_radps) <= 0.0f;
         if (ends) {
-            set_flux(p, s->dc_link_V, found);
+            commission_emf_solve(p->emf, p->top_radps, s->dc_link_V, found);
             return commission_motion_solve(&p->motion, found) ? COMMISSION_DONE : COMMISSION_FAILED;
         }
         break;
@@ -308,7 +264,8 @@ commission_answer_t commission_spin_tick(commission_spin_t *p, const commission_
     const dq_t           i_A    = frames_park(s->i_A, now);
 
     if (coasts(p) && (p->ticks > SETTLE_TICKS)) {
-        add_emf(p, found, frames_park(s->v_V, before), i_A);
+        commission_emf_add(p->emf, found, p->angle.prompt_e_radps, frames_park(s->v_V, before),
+                           i_A);
     }
     if (p->part > TRIAL) {
         commission_motion_tick(&p->motion, c, found, s->position_cnt, i_A);

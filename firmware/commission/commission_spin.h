@@ -16,16 +16,9 @@
 #define COMMISSION_SPIN_H
 
 #include "commission_angle.h"
+#include "commission_emf.h"
 #include "commission_motion.h"
 #include "commission_types.h"
-
-typedef struct {
-    float vd_w; /**< sums of v_d w, v_q w, w^2 */
-    float vq_w;
-    float ww;
-    float vv;
-    float n;
-} commission_emf_t;
 
 typedef struct {
     commission_angle_t  angle;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -7,6 +8,7 @@
 #include "command.hpp"
 #include "shipped_drive.hpp"
 #include "sil/commission/bench.hpp"
+#include "sil/commission/board_bench.hpp"
 #include "sil/commission/drive_text.hpp"
 #include "sil/commission/report.hpp"
 #include "temp_dir.hpp"
@@ -100,11 +102,38 @@ TEST(Commission, TheFileIsADriveFileWithTheFoundValues)
     EXPECT_NE(found.motor.stator_resistance_Ohm, truth.motor.stator_resistance_Ohm);
 }
 
+/// A flywheel of half a million times the rotor: it does not follow the vector. Nothing is written.
+TEST(Commission, AnAbortedRunWritesNoFile)
+{
+    const TempDir     dir;
+    const std::string out   = dir / "found.toml";
+    const std::string heavy = dir / "heavy.toml";
+    std::string       text  = read_text_file(support::shipped_drive("ipmsm_390w"));
+    const std::size_t at    = text.find("inertia_kgm2");
+    text.replace(at, text.find('\n', at) - at, "inertia_kgm2 = 200.0");
+    write_files({{heavy, text}});
+    const auto r = support::run_command({SDRE_SIL_EXE, "commission", heavy, "--out", out});
+
+    EXPECT_EQ(r.exit_code, 4) << r.out;
+    EXPECT_NE(r.out.find("ABORTED"), std::string::npos) << r.out;
+    EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST(Commission, AKeyThatCannotBeReplacedIsOneLine)
 {
     commission_result_t found{};
     EXPECT_THROW(commissioned_text("schema = 1\n[motor]\npole_pairs = 3\n", found, "here"),
                  InputError);
+}
+
+/// Started and watched as a master would: bounds, command and result go through the application.
+TEST(CommissionAll, OnBothBoards)
+{
+    const Drive d = read_drive_file(support::shipped_drive("ipmsm_390w"));
+    for (const BoardKind kind : {BoardKind::api, BoardKind::f28335}) {
+        const CommissionRun r = commission_on_board(d, {}, kind);
+        expect_good(d, r);
+    }
 }
 
 /// Shorter magnets than inductance: at the current of the first try the rotor stands off the vector.

@@ -97,6 +97,21 @@ static void test_nothing_seen_is_no_result(void)
     TEST_ASSERT_FALSE(commission_motion_solve(&motion, &known));
 }
 
+/* Friction of a fifth of the torque: the shaft stands before a window is full. */
+static void test_a_shaft_that_does_not_coast(void)
+{
+    omega = 1.0;
+    run(0.9, true, 300, 300.0, 100000);
+    run(-0.9, true, 300, -300.0, 100000);
+
+    TEST_ASSERT_TRUE(commission_motion_solve(&motion, &known));
+    /* What is viscous counts as dry and as inertia: 0.03 N m of 0.32. */
+    TEST_ASSERT_DOUBLE_WITHIN(0.03 * INERTIA, INERTIA, (double)known.inertia_kgm2.value);
+    const double drag_Nm = DRY_Nm + (VISCOUS_Nms * 150.0);
+    TEST_ASSERT_DOUBLE_WITHIN(0.1 * drag_Nm, drag_Nm, (double)known.coulomb_Nm.value);
+    TEST_ASSERT_TRUE(known.friction_Nms.error > (0.5f * (float)VISCOUS_Nms));
+}
+
 static void test_friction_is_never_negative(void)
 {
     omega = 1.0;
@@ -123,6 +138,7 @@ int main(void)
     RUN_TEST(test_an_encoder_that_counts_down_finds_the_same);
     RUN_TEST(test_torque_of_both_kinds);
     RUN_TEST(test_nothing_seen_is_no_result);
+    RUN_TEST(test_a_shaft_that_does_not_coast);
     RUN_TEST(test_friction_is_never_negative);
     return UNITY_END();
 }
