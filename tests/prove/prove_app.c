@@ -49,6 +49,7 @@ static void any_state(void)
     modes.fault                       = any_between(APP_FAULT_NONE, APP_FAULT_MEMORY);
     modes.calibrated                  = any_bool();
     modes.armed                       = any_bool();
+    modes.commission_armed            = any_bool();
     modes.hot                         = any_bool();
     modes.dc_link_out                 = any_bool();
     modes.tripped                     = any_bool();
@@ -104,6 +105,7 @@ void prove_app_tick(void)
     in.memory_changed    = any_bool();
     in.command.run       = any_bool();
     in.command.reset     = any_bool();
+    in.command.commission = false; /* not proved: its own bounds and tests */
 
     const bridge_t     out = app_modes_tick(&modes, &in);
     const board_duty_t duty =
