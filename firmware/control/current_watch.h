@@ -7,20 +7,24 @@
  *
  *     r = i - i_model,  i_model = i^ - Ts (d - d_slow)                             EQ-CURRENT-WATCH-1
  *     R+ = (1 - Ts / tau) R + r,  D = i - i_slow                                   EQ-CURRENT-WATCH-2
- *     lies:  x = abs(R) - 0.6 abs(D) > 3/8 i_max, or > 0.15 i_max for 6 ms, in phase a or b    EQ-CURRENT-WATCH-3
+ *     lies:  x = abs(R) - 0.6 abs(D) > max(3/8 i_max, 7/8 jump), or
+ *            > max(0.15 i_max, 3/8 jump) for 6 ms, in phase a or b                   EQ-CURRENT-WATCH-3
  *
  *     or abs(r) > jump, in a sample that the gate (current_gate.h) let pass: the second one in a row
  *
  * i^ is what the law's observer predicts with its disturbances d of the two current equations; d_slow and i_slow are behind
  * low-passes. A motor that is not as believed leaves an r in proportion to what the current changes by itself, D, or
- * disturbances that stand still in the rotor's frame, d_slow. What stands still in the stator's frame is a sensor. Laws
+ * disturbances that stand still in the rotor's frame, d_slow; until those are known, an EMF that is wrong by half of the
+ * voltage circle adds 0.14 jump in a period, which with little inductance is much of the limit. What stands still in the stator's frame is a sensor. Laws
  * without such a prediction have no such check.
  *
  * Wire. A phase without current, while the reference asks for some, for longer than a current takes to follow:
  *
- *     open:  abs(i) < 0.02 i_max while abs(i_ref) > 0.04 i_max, for 10 ms in a row    EQ-CURRENT-WATCH-4
+ *     open:  abs(i) < 0.02 i_max while abs(i_ref) > 0.04 i_max, for open_s in a row    EQ-CURRENT-WATCH-4
+ *     open_s = max(10 ms, 4 sqrt(count / a_max)),  a_max = (l1 + abs(l11) i_max) i_max
  *
- * A sensor that reads nothing looks the same.
+ * Near standstill an observer hears of a load once the shaft has turned by a count, which takes sqrt(2 count / a): until
+ * then the current may be anywhere. A sensor that reads nothing looks the same as a broken wire.
  */
 #ifndef CURRENT_WATCH_H
 #define CURRENT_WATCH_H
@@ -38,6 +42,7 @@ typedef enum {
 typedef struct {
     float ts_s;
     float current_max_A; /**< i_max, of the drive */
+    float open_s;        /**< EQ-CURRENT-WATCH-4 */
     float jump_A; /**< no current changes so far from the model in a period, EQ-CURRENT-GATE-2 */
 } current_watch_scale_t;
 
@@ -67,6 +72,15 @@ typedef struct {
     dq_t           i_ref_A;   /**< zero where a law has no references */
     bool           predicted; /**< i_A and d_Aps hold */
 } current_watch_expected_t;
+
+/**
+ * @brief EQ-CURRENT-WATCH-4 [s].
+ * @param count_rad        Of the encoder, electrical, > 0.
+ * @param accel_max_radps2 a_max, electrical; 0 or no number gives the longest, 1 s.
+ *
+ * Context: init.
+ */
+float current_watch_open_s(float count_rad, float accel_max_radps2);
 
 /** Start of a run. Context: control ISR. */
 void current_watch_reset(current_watch_t *w, float ia_A, float ib_A);

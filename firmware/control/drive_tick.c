@@ -15,6 +15,16 @@
 static const dq_t  zero_dq  = {0.0f, 0.0f};
 static const abc_t zero_abc = {0.0f, 0.0f, 0.0f};
 
+/* EQ-CURRENT-WATCH-4 */
+static float wire_open_s(const drive_config_t *c)
+{
+    const float accel = (c->motor.l1 + (fabsf(c->motor.l11) * c->current_max_A)) * c->current_max_A;
+    const float count_rad =
+        BASE_TWO_PI * (float)c->hardware.pole_pairs / (float)c->hardware.encoder_positions;
+
+    return current_watch_open_s(count_rad, accel);
+}
+
 ctl_status_t drive_init(drive_t *d, const drive_config_t *config)
 {
     const ctl_status_t status = drive_config_check(config);
@@ -23,6 +33,7 @@ ctl_status_t drive_init(drive_t *d, const drive_config_t *config)
     d->config_again    = d->config;
     d->law_again       = (status == CTL_OK) ? config->law : NULL;
     d->constants_again = (status == CTL_OK) ? config->constants : NULL;
+    d->wire_open_s     = (status == CTL_OK) ? wire_open_s(config) : 0.0f;
     drive_reset(d);
     return status;
 }
@@ -134,6 +145,7 @@ static drive_fault_t watch_currents(drive_t *d, const drive_sample_t *sample)
 {
     const current_watch_scale_t   scale = {.ts_s          = d->config->ts_s,
                                            .current_max_A = d->config->current_max_A,
+                                           .open_s        = d->wire_open_s,
                                            .jump_A        = jump_A(d->config, sample->dc_link_V)};
     const current_watch_verdict_t found =
         current_watch_judge(&d->current_watch, sample->ia_A, sample->ib_A, &scale);

@@ -66,6 +66,7 @@ typedef struct {
     abc_t                 i_hat_A;   /**< phase currents that the law expects */
     current_gate_t        current_gate;
     current_watch_t       current_watch;
+    float                 wire_open_s; /**< EQ-CURRENT-WATCH-4 */
     motion_watch_t        motion_watch;
 } drive_t;
 

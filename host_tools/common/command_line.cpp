@@ -111,6 +111,12 @@ void OptionList::number(const std::string &name, int &value, Range allowed, cons
     app_->add_option(name, value, help)->check(range_of(allowed));
 }
 
+void OptionList::number(const std::string &name, double &value, Range allowed,
+                        const std::string &help)
+{
+    app_->add_option(name, value, help)->check(CLI::Range(allowed.lo, allowed.hi));
+}
+
 void OptionList::flag(const std::string &name, bool &value, const std::string &help)
 {
     app_->add_flag(name, value, help);

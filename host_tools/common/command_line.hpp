@@ -31,6 +31,7 @@ public:
     void choice(const std::string &name, std::string &value, const std::set<std::string> &allowed,
                 const std::string &help);
     void number(const std::string &name, int &value, Range allowed, const std::string &help);
+    void number(const std::string &name, double &value, Range allowed, const std::string &help);
     void flag(const std::string &name, bool &value, const std::string &help);
     /// One value each time the option is given.
     void repeated(const std::string &name, std::vector<std::string> &values,

@@ -169,6 +169,22 @@ Verdict examine(const LoopFamily &family, const Drive &drive)
     return v;
 }
 
+double excess(const Verdict &v, double ts_s)
+{
+    // Of a radius the distance to 1 counts, in the unit of what is allowed; an unstable loop is far off.
+    const double room  = -std::log(std::min(v.spectral_radius, 1.0)) * slowest_mode_s / ts_s;
+    double       worst = 1.0 / std::max(room, 1e-3);
+    for (const Channel &c : v.channels) {
+        worst = worse(worst, c.worst.peak / peak_sensitivity_limit);
+    }
+    worst = v.box ? worse(worst, box_share_limit / std::max(v.box->share, 1e-3)) : worst;
+    worst = v.alone ? worse(worst, alone_share_limit / std::max(v.alone->share, 1e-3)) : worst;
+    for (const TripMargin &t : v.trips) {
+        worst = worse(worst, t.healthy / t.limit);
+    }
+    return worst;
+}
+
 void judge(const Verdict &v, double ts_s, std::vector<std::string> &failures)
 {
     const double largest = std::exp(-ts_s / slowest_mode_s);

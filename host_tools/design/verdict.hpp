@@ -65,6 +65,9 @@ std::vector<BrokenLoop> broken_at_voltages(const Eigen::MatrixXd &A,
 /// Looks everywhere; judges nothing.
 Verdict examine(const LoopFamily &family, const Drive &drive);
 
+/// How far the verdict is from holding: the largest of what is found over what is allowed; at most 1 when all holds.
+double excess(const Verdict &verdict, double ts_s);
+
 /// One line for each thing that does not hold.
 void judge(const Verdict &verdict, double ts_s, std::vector<std::string> &failures);
 

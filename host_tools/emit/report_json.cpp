@@ -5,6 +5,7 @@
 
 #include "common/json.hpp"
 #include "common/version.hpp"
+#include "emit/report_machine.hpp"
 #include "emit/report_parts.hpp"
 
 namespace sdre {
@@ -244,9 +245,10 @@ Json law_json(const Design &d)
 
 } // namespace
 
-std::string report_json(const Design &d)
+std::string report_json(const Design &d, const std::optional<Prediction> &prediction)
 {
-    Json report = heading_json(d);
+    Json report       = heading_json(d);
+    report["machine"] = machine_json(d, prediction);
     report.update(law_json(d));
     if (d.certificate.loop) {
         report["whole_loop"] = verdict_json(*d.certificate.loop);

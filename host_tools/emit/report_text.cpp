@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "emit/report_machine.hpp"
 #include "emit/report_parts.hpp"
 
 namespace sdre {
@@ -176,31 +177,16 @@ std::string noc_text(const Design &d)
            loop_text("observer", two ? "iq_hat and id_hat" : "iq_hat", d.certificate.nodo);
 }
 
-std::string limits_text(const Design &d)
-{
-    const drive_config_t &c = d.config;
-    const Motor          &m = d.drive.motor;
-    const bool            by_emf =
-        static_cast<double>(c.speed_max_e_radps) <
-        0.9999 * (m.max_speed_e_radps > 0.0 ? m.max_speed_e_radps : trip_speed_e_radps(d.drive));
-    return fmt::format(
-        "\nlimits\n  command +-{:.1f} rad/s{}, trip at {:.1f} rad/s, dc link {:.1f} to {:.1f} V\n",
-        c.speed_max_e_radps,
-        by_emf ? ", whose line EMF is the highest dc link (regeneration = \"none\")" : "",
-        c.trip_speed_e_radps, c.dc_link_min_V, c.dc_link_max_V);
-}
-
 } // namespace
 
-std::string report_text(const Design &d)
+std::string report_text(const Design &d, const std::optional<Prediction> &prediction)
 {
-    std::string s =
-        fmt::format("{} ({}), control period {:g} us\n\nreduced parameters\n", d.drive.name,
-                    drive_digest(d.drive), 1e6 * control_period_s(d.drive));
+    std::string s = fmt::format("{} ({}), control period {:g} us\n", d.drive.name,
+                                drive_digest(d.drive), 1e6 * control_period_s(d.drive));
+    s += machine_text(d, prediction) + "\nreduced parameters\n";
     for (std::size_t i = 1; i <= 11; i++) {
         s += fmt::format("  l{:<3} {:.9g}\n", i, d.l[i]);
     }
-    s += limits_text(d);
     s += d.servo ? servo_text(d) : is_cascade(d.drive.law) ? cascade_text(d) : noc_text(d);
     s += verdict_text(d.certificate);
     s += d.certificate.passed() ? "\nverdict: certified\n" : "\nverdict: refused\n";

@@ -4,6 +4,7 @@
 #include "design/design.hpp"
 #include "emit/report.hpp"
 #include "gains/commands.hpp"
+#include "tune/prediction.hpp"
 
 namespace sdre {
 namespace {
@@ -21,8 +22,9 @@ void declare(OptionList &list, Options &o)
 
 int run(const Options &o)
 {
-    const Design design = design_drive(read_drive_file(o.drive));
-    fmt::print("{}", o.json ? report_json(design) : report_text(design));
+    const Design design     = design_drive(read_drive_file(o.drive));
+    const auto   prediction = predicted(design.drive);
+    fmt::print("{}", o.json ? report_json(design, prediction) : report_text(design, prediction));
     return design.certificate.passed() ? exit_ok : exit_design_failed;
 }
 

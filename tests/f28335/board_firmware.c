@@ -46,7 +46,10 @@ static void talk(void)
 
 int board_firmware_main(void)
 {
-    board_firmware.init_result = board_init(&board_config.board);
+    static board_setup_t setup;
+
+    setup                      = board_firmware.setup;
+    board_firmware.init_result = board_init(&setup);
     board_firmware.faults      = board_fault_read();
     board_firmware.reset_cause = board_reset_cause();
     if (board_firmware.init_result) {

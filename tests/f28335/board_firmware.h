@@ -19,15 +19,16 @@ extern "C" {
 
 typedef struct {
     /* Set by the test. */
-    bool         enable;        /**< gates on from the next tick */
-    bool         trip;          /**< gates off from the next tick */
-    bool         serve;         /**< the background serves the watchdog */
-    double       tick_lasts_us; /**< more than nothing: the next tick takes this long, once */
-    uint16_t     updates;       /**< per PWM period */
-    board_duty_t duty;
-    uint16_t     say[16]; /**< the background sends these octets ... */
-    int          says;    /**< ... so many of them */
-    bool         hear;    /**< the background listens */
+    bool          enable;        /**< gates on from the next tick */
+    bool          trip;          /**< gates off from the next tick */
+    bool          serve;         /**< the background serves the watchdog */
+    double        tick_lasts_us; /**< more than nothing: the next tick takes this long, once */
+    uint16_t      updates;       /**< per PWM period */
+    board_setup_t setup;         /**< that board_init() gets */
+    board_duty_t  duty;
+    uint16_t      say[16]; /**< the background sends these octets ... */
+    int           says;    /**< ... so many of them */
+    bool          hear;    /**< the background listens */
     /* Seen by the firmware. */
     bool           init_result;
     bool           started;

@@ -24,6 +24,7 @@ protected:
         b                    = board_firmware_t{};
         b.serve              = true;
         b.updates            = 1;
+        b.setup              = {30000U, 7500U, 225U, 10000U}; // 5 kHz, 3 us, 2500 lines
         b.duty               = {3000, 3750, 7500};
         around.input_V[1][1] = 1.0;
     }
@@ -112,6 +113,44 @@ TEST_F(F28335Board, PwmRegisters)
     EXPECT_EQ(EPwm1Regs.ETPS.all & 0x0303U, 1U << 8);
     EXPECT_EQ(EPwm2Regs.ETSEL.all, 0U);
     EXPECT_EQ(EPwm3Regs.ETSEL.all, 0U);
+}
+
+// A 20 kHz drive with 0.5 us and 1024 lines.
+TEST_F(F28335Board, RegistersFollowTheSetup)
+{
+    auto &b = const_cast<board_firmware_t &>(board_firmware);
+    b.setup = {7500U, 1875U, 38U, 4096U};
+    start();
+    EXPECT_EQ(EPwm3Regs.TBPRD, 1875U);
+    EXPECT_EQ(EPwm3Regs.DBRED, 38U);
+    EXPECT_EQ(EPwm3Regs.DBFED, 38U);
+    EXPECT_EQ(EQep1Regs.QPOSMAX, 4095U);
+    EXPECT_EQ(EQep1Regs.QUPRD, 7500U);
+    EXPECT_EQ(CpuTimer1Regs.PRD.all, 7500U / 4U * 7U);
+    const std::uint32_t before = board_firmware.ticks;
+    device->run_for(10e-3);
+    EXPECT_NEAR(board_firmware.ticks - before, 200.0, 1.0);
+    EXPECT_EQ(board_firmware.faults, BOARD_FAULT_NONE);
+}
+
+// Zero, a period that the processor does not have, one that the capture timer does not reach, dead times that eat it.
+TEST_F(F28335Board, SetupsThatNoRegisterHoldsAreRefused)
+{
+    auto &b = const_cast<board_firmware_t &>(board_firmware);
+    for (const board_setup_t &setup :
+         {board_setup_t{0U, 0U, 225U, 10000U}, board_setup_t{30004U, 7500U, 225U, 10000U},
+          board_setup_t{65536U, 16384U, 225U, 10000U}, board_setup_t{30000U, 7500U, 0U, 10000U},
+          board_setup_t{30000U, 7500U, 1024U, 10000U}, board_setup_t{1000U, 250U, 125U, 10000U},
+          board_setup_t{30000U, 7500U, 225U, 0U}}) {
+        b.setup       = setup;
+        b.init_result = true;
+        device.reset();
+        device = std::make_unique<Device>(around, board_firmware_main, options);
+        device->run_for(50e-3);
+        EXPECT_FALSE(board_firmware.init_result) << setup.pwm_cycles << ' ' << setup.dead_time_cnt;
+        EXPECT_FALSE(board_firmware.started);
+        EXPECT_TRUE(all_legs(false));
+    }
 }
 
 TEST_F(F28335Board, ConverterRegisters)

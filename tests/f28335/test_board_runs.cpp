@@ -220,7 +220,7 @@ TEST(BoardRunsMore, StuckEncoderIsAFault)
 TEST(BoardRunsMore, SettingsThatTheBoardDoesNotHaveAreRefused)
 {
     Scenario s                        = shipped("board_load_step");
-    s.drive.inverter.pwm_frequency_Hz = 4700.0; // its counter has no such period
+    s.drive.inverter.pwm_frequency_Hz = 19000.0; // its counter has no such period
     EXPECT_THROW(simulate_on_board(s, BoardKind::api), InputError);
     s                  = shipped("board_load_step");
     s.sensors.adc_bits = 14;

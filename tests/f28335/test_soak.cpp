@@ -253,7 +253,7 @@ TEST(Soak, NothingDriftsOrSticks)
         const bool   on       = run.bench().bridge_on();
         const bool   too_much = e.trouble == Trouble::overload && in_s > 0.4 && in_s < 0.6;
         const double torque   = !on ? rest_Nm : too_much ? 5.0 : e.load_Nm;
-        run.bench().set_brake_Nm(torque * std::clamp(omega / 20.0, -1.0, 1.0));
+        run.bench().board()->set_extra_load_Nm(torque * std::clamp(omega / 20.0, -1.0, 1.0));
         ASSERT_TRUE(run.step()) << "the device was reset at " << at_s << " s";
         ASSERT_FALSE(run.bench().runaway()) << at_s << " s";
 

@@ -91,8 +91,8 @@ TEST(BoardConstants, ToleranceOfTheIndexIsAnAngle)
 TEST(BoardConstants, WhatTheBoardCannotHaveIsRefusedWithWhatItCan)
 {
     Drive d                     = shipped();
-    d.inverter.pwm_frequency_Hz = 4700.0;
-    EXPECT_NE(refusal(d).find("4699.83"), std::string::npos) << refusal(d); // 75 MHz / (2 * 7979)
+    d.inverter.pwm_frequency_Hz = 19e3;
+    EXPECT_NE(refusal(d).find("19006"), std::string::npos) << refusal(d); // 75 MHz / (2 * 1973)
     d.inverter.pwm_frequency_Hz = 2000.0;
     EXPECT_NE(refusal(d).find("2289"), std::string::npos) << refusal(d);
     d                      = shipped();

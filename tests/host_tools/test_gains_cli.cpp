@@ -135,8 +135,10 @@ TEST(GainsCli, GenerateWritesTablesThatCheck)
     EXPECT_EQ(made.exit_code, 0) << made.err;
     EXPECT_EQ(made.err, "");
     EXPECT_EQ(made.out,
-              "ipmsm_390w: certified; wrote gain_tables.h and gain_tables.c to " + out + "\n");
-    EXPECT_EQ(support::names_in(out), (std::set<std::string>{"gain_tables.c", "gain_tables.h"}));
+              "ipmsm_390w: certified; wrote gain_tables.h, gain_tables.c and board_config.c to " +
+                  out + "\n");
+    EXPECT_EQ(support::names_in(out),
+              (std::set<std::string>{"board_config.c", "gain_tables.c", "gain_tables.h"}));
     EXPECT_EQ(checked.exit_code, 0) << checked.err;
     EXPECT_EQ(checked.out, "ipmsm_390w: certified; " + out + " matches\n");
 }
@@ -151,7 +153,7 @@ TEST(GainsCli, GenerateTwiceGivesTheSameBytes)
     gains({"generate", shipped, "--out", second});
     gains({"generate", shipped, "--out", second});
 
-    for (const std::string name : {"/gain_tables.h", "/gain_tables.c"}) {
+    for (const std::string name : {"/gain_tables.h", "/gain_tables.c", "/board_config.c"}) {
         EXPECT_EQ(support::read_file(first + name), support::read_file(second + name));
     }
 }
@@ -169,6 +171,7 @@ TEST(GainsCli, CheckMismatchIsExitThree)
     const std::string header = support::read_file(tables + "/gain_tables.h");
     const std::string source = support::read_file(tables + "/gain_tables.c");
     dir.write("gain_tables.h", header);
+    dir.write("board_config.c", support::read_file(tables + "/board_config.c"));
 
     dir.write("gain_tables.c", support::replaced(source, ".l1 = 2.75714282e+03f",
                                                  ".l1 = 2.75714310e+03f")); // 1e-7
@@ -235,7 +238,8 @@ TEST(GainsCli, TwoAtOnceDoNotDisturbEachOther)
 
     EXPECT_EQ(r.exit_code, 0) << r.err;
     EXPECT_EQ(gains({"generate", shipped, "--check", out}).exit_code, 0);
-    EXPECT_EQ(support::names_in(out), (std::set<std::string>{"gain_tables.c", "gain_tables.h"}));
+    EXPECT_EQ(support::names_in(out),
+              (std::set<std::string>{"board_config.c", "gain_tables.c", "gain_tables.h"}));
 }
 
 TEST(GainsCli, RefusedDesignLeavesEarlierOutput)

@@ -324,12 +324,13 @@ TEST(Tables, OrdersOtherThanTwoAreWrittenInFull)
 TEST(Tables, WriteMakesTheDirectoryAndLeavesNothingElse)
 {
     const TempDir         dir;
-    const sdre::TableText text{"header\n", "source\n"};
+    const sdre::TableText text{"header\n", "source\n", "board\n"};
 
     sdre::write_tables(text, dir / "new" / "deep");
 
     EXPECT_EQ(support::names_in(dir / "new" / "deep"),
-              (std::set<std::string>{"gain_tables.c", "gain_tables.h"}));
+              (std::set<std::string>{"board_config.c", "gain_tables.c", "gain_tables.h"}));
+    EXPECT_EQ(support::read_file(dir / "new" / "deep" / "board_config.c"), "board\n");
     EXPECT_EQ(support::read_file(dir / "new" / "deep" / "gain_tables.h"), "header\n");
     EXPECT_EQ(support::read_file(dir / "new" / "deep" / "gain_tables.c"), "source\n");
 }
@@ -337,12 +338,13 @@ TEST(Tables, WriteMakesTheDirectoryAndLeavesNothingElse)
 TEST(Tables, WriteReplacesBoth)
 {
     const TempDir dir;
-    sdre::write_tables({"a long first header\n", "a long first source\n"}, dir.path());
+    sdre::write_tables({"a long first header\n", "a long first source\n", "a board\n"}, dir.path());
 
-    sdre::write_tables({"h\n", "s\n"}, dir.path());
+    sdre::write_tables({"h\n", "s\n", "b\n"}, dir.path());
 
     EXPECT_EQ(support::read_file(dir / "gain_tables.h"), "h\n");
     EXPECT_EQ(support::read_file(dir / "gain_tables.c"), "s\n");
+    EXPECT_EQ(support::read_file(dir / "board_config.c"), "b\n");
 }
 
 TEST(Tables, FailedWriteLeavesBothEarlierFiles)
@@ -351,7 +353,7 @@ TEST(Tables, FailedWriteLeavesBothEarlierFiles)
     dir.write("gain_tables.h", "earlier\n");
     std::filesystem::create_directory(dir / "gain_tables.c"); // cannot be replaced by a file
 
-    EXPECT_THROW(sdre::write_tables({"h\n", "s\n"}, dir.path()), sdre::InputError);
+    EXPECT_THROW(sdre::write_tables({"h\n", "s\n", "b\n"}, dir.path()), sdre::InputError);
 
     EXPECT_EQ(support::read_file(dir / "gain_tables.h"), "earlier\n");
     EXPECT_EQ(support::names_in(dir.path()),
@@ -363,8 +365,8 @@ TEST(Tables, WriteWhereNoDirectoryCanBeIsAnInputError)
     const TempDir dir;
     dir.write("file", "");
 
-    EXPECT_THROW(sdre::write_tables({"h", "s"}, dir / "file" / "sub"), sdre::InputError);
-    EXPECT_THROW(sdre::write_tables({"h", "s"}, dir / "file"), sdre::InputError);
+    EXPECT_THROW(sdre::write_tables({"h", "s", "b"}, dir / "file" / "sub"), sdre::InputError);
+    EXPECT_THROW(sdre::write_tables({"h", "s", "b"}, dir / "file"), sdre::InputError);
     EXPECT_EQ(support::names_in(dir.path()), (std::set<std::string>{"file"}));
 }
 

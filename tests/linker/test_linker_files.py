@@ -111,7 +111,7 @@ def check_symbols(sections):
 def table_sources():
     """Files whose constants are read in every period."""
     firmware = ROOT / "firmware"
-    return [firmware / "config" / "gain_tables.c", BOARD / "board_config.c", *sorted((firmware / "control").glob("law_*.c"))]
+    return [firmware / "config" / "gain_tables.c", firmware / "config" / "board_config.c", *sorted((firmware / "control").glob("law_*.c"))]
 
 
 def check_tables(sections):

@@ -30,7 +30,7 @@ def words():
     source += "".join(f"const {type} size_{name} = {{0}};\n" for name, type in types.items())
     assembly = subprocess.run(COMPILER, input=source, text=True, stdout=subprocess.PIPE, check=True).stdout
     sizes = {name: int(octets) // 2 for name, octets in re.findall(r"\.size\s+size_(\w+), (\d+)", assembly)}
-    points = re.search(r"#define NTC_POINTS +(\d+)U", (FIRMWARE / "board/f28335/board_config.c").read_text())
+    points = re.search(r"ntc_degC\[(\d+)\]", (FIRMWARE / "config/board_config.c").read_text())
     return sizes | {"ntc": 2 * int(points.group(1))}
 
 

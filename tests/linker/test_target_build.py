@@ -169,7 +169,7 @@ class TargetBuild(unittest.TestCase):
     def test_tables_of_a_directory_take_the_place_of_the_shipped(self):
         own = self.top / "own"
         own.mkdir()
-        for name in ("gain_tables.h", "gain_tables.c"):
+        for name in ("gain_tables.h", "gain_tables.c", "board_config.c"):
             (own / name).write_text((ROOT / "firmware" / "config" / name).read_text())
         cgt, ware = self.top / "cgt", self.top / "ware"
         make_compiler(cgt)
@@ -180,6 +180,7 @@ class TargetBuild(unittest.TestCase):
         commands = json.loads((self.build / "compile_commands.json").read_text())
         sources = {command["file"] for command in commands}
         self.assertIn(str(own / "gain_tables.c"), sources)
+        self.assertIn(str(own / "board_config.c"), sources)
         self.assertNotIn(str(ROOT / "firmware" / "config" / "gain_tables.c"), sources)
         main = next(c["command"] for c in commands if c["file"].endswith("f28335/main.c"))
         self.assertIn(str(own), main)

@@ -147,9 +147,10 @@ std::array<float, ntc_points> temperatures(const BoardDescription &b)
     for (std::size_t n = 0; n < ntc_points; n++) {
         const double code  = ntc_first_cnt + ntc_step_cnt * static_cast<double>(n);
         const double r_Ohm = b.ntc_divider_Ohm * code / (codes - code);
-        const double T_K =
-            1.0 / (1.0 / ntc_25_degC_K + std::log(r_Ohm / b.ntc_resistance_Ohm) / b.ntc_beta_K);
-        out.at(n) = single(0.01 * std::round(100.0 * (T_K - zero_degC_K)));
+        const double per_K =
+            1.0 / ntc_25_degC_K + std::log(r_Ohm / b.ntc_resistance_Ohm) / b.ntc_beta_K;
+        const double degC = 1.0 / std::max(per_K, 1e-3) - zero_degC_K;
+        out.at(n)         = single(0.01 * std::round(100.0 * degC));
     }
     if (out.front() > 300.0F || out.back() < -100.0F) {
         refuse("[board] ntc_beta_K with these resistances: its table would leave -100 .. 300 degC");

@@ -14,5 +14,6 @@ Command compare_command();
 Command motors_command();
 Command bench_command();
 Command qualify_command();
+Command serve_command();
 
 } // namespace sdre

@@ -62,6 +62,10 @@ public:
     {
         broken_[x] = true;
     }
+    void mend()
+    {
+        broken_ = {};
+    }
     /// Moves plant and dc link from `from_s` to `to_s` within the period that has begun.
     void advance(Plant &plant, DcLink &dc_link, const ShaftLoad &load, double from_s, double to_s);
 

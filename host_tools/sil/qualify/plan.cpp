@@ -9,6 +9,7 @@
 #include "design/sampled_model.hpp"
 #include "sil/setup/board_reader.hpp"
 #include "tune/goals.hpp"
+#include "tune/prediction.hpp"
 
 namespace sdre {
 namespace {
@@ -17,7 +18,9 @@ namespace {
 constexpr double dip_ratio      = 3.0;   // of the physical bound
 constexpr double settling_ratio = 30.0;  // reactions
 constexpr double load_band      = 0.125; // of the bound of the dip
-constexpr double speed_band     = 0.02;  // of the rated speed
+constexpr double noise_band =
+    1.5; // of three standard deviations of the noise, where those are more
+constexpr double speed_band = 0.02; // of the rated speed
 // Chosen: a run lasts so many reactions before a step and after it, and so many periods at least.
 constexpr double before_reactions = 30.0;
 constexpr double after_reactions  = 60.0;
@@ -40,6 +43,7 @@ struct Numbers {
     double        circle_V;
     double        noise_V;
     double        accel; ///< of all the torque [rad/s^2]
+    double        load_band_e_radps;
 
     double before_s() const
     {
@@ -82,8 +86,8 @@ Trial load_step(const Drive &d, const Numbers &n, const std::string &what, doubl
     Trial     t{what, at_speed(d, speed, 0.5 * n.rated_Nm)};
     Scenario &s = t.scenario;
     s.load_torque.push_back({n.before_s(), n.rated_Nm});
-    s.measures         = {{"before", 0.5 * n.before_s(), load_band * n.bound.dip_e_radps, {}},
-                          {"load step", n.before_s(), load_band * n.bound.dip_e_radps, {}}};
+    s.measures         = {{"before", 0.5 * n.before_s(), n.load_band_e_radps, {}},
+                          {"load step", n.before_s(), n.load_band_e_radps, {}}};
     s.duration_s       = n.before_s() + n.after_s();
     t.most_dip_e_radps = dip_ratio * n.bound.dip_e_radps;
     t.most_settling_s  = settling_ratio * n.bound.reaction_s;
@@ -209,6 +213,9 @@ Plan qualification_plan(const Drive &d, double noise_share)
     n.noise_V       = noise_share * n.circle_V;
     n.accel         = l[3] * largest_torque(d, l);
 
+    const auto noise = predicted(d);
+    n.load_band_e_radps =
+        std::max(load_band * n.bound.dip_e_radps, noise ? noise_band * noise->ripple_e_radps : 0.0);
     n.start_s = start_error_cnt * count_e_rad(d) / n.ts_s / (start_share * n.accel);
 
     Plan         plan;

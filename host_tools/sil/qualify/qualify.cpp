@@ -94,6 +94,16 @@ MotorShare share_of(const Scenario &scenario, int count)
     return s;
 }
 
+bool has_design(const Drive &d)
+{
+    try {
+        design_drive(d);
+        return true;
+    } catch (const DesignError &) {
+        return false;
+    }
+}
+
 /// Every rival of the grid on the load step; tuned as a drive engineer would: as fast as the same noise allows.
 std::optional<Rival> best_rival(const Drive &drive, const Trial &load_step, double noise_V,
                                 int seeds)
@@ -108,8 +118,10 @@ std::optional<Rival> best_rival(const Drive &drive, const Trial &load_step, doub
             d.law                           = Law::pi_foc;
             d.cascade.current_bandwidth_Hz  = fs / share;
             d.cascade.symmetrical_optimum_a = a;
-            rivals.push_back({fs / share, a, {}});
-            trials.push_back(t);
+            if (has_design(d)) { // without a magnet there is none
+                rivals.push_back({fs / share, a, {}});
+                trials.push_back(t);
+            }
         }
     }
     const std::vector<TrialResult> results = run_trials(trials, seeds);

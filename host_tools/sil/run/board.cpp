@@ -127,9 +127,22 @@ void Board::begin_tick(double time_s)
     if (has_drift(scenario_.motor_effects)) {
         update_motor();
     }
-    shaft_load_.torque_Nm = load_.at(time_s, 0.5 * period_s_) + brake_Nm_;
+    shaft_load_.torque_Nm = load_.at(time_s, 0.5 * period_s_) + extra_load_Nm_;
     glitch_               = glitch_at(scenario_.glitches, time_s, period_s_);
     begin_faults();
+}
+
+void Board::set_source_V(double voltage_V)
+{
+    source_V_ = voltage_V;
+    configure_inverter();
+}
+
+void Board::mend()
+{
+    faults_.mend();
+    lost_counts_ = 0;
+    bridge_.mend();
 }
 
 void Board::begin_faults()

@@ -40,11 +40,6 @@ public:
 
     /// Everything that happens at a tick's time: changes, drifts, load. Call before sample().
     void begin_tick(double time_s);
-    /// Beside the scenario's load, from the next tick on: of somebody who looks on.
-    void set_brake_Nm(double torque_Nm)
-    {
-        brake_Nm_ = torque_Nm;
-    }
     /// What the core gets at this tick.
     drive_sample_t sample();
     /// One period with the duty ratios in force; ends at the next tick.
@@ -67,6 +62,20 @@ public:
     {
         bridge_.advance(plant_, dc_link_, shaft_load_, from_s, to_s);
     }
+
+    // What a person changes while it runs.
+    /// Beside the scenario's load.
+    void set_extra_load_Nm(double torque_Nm)
+    {
+        extra_load_Nm_ = torque_Nm;
+    }
+    void set_source_V(double voltage_V);
+    void break_part(const InjectedFault &fault)
+    {
+        faults_.add(fault);
+    }
+    /// Nothing is broken any more.
+    void mend();
 
     PlantState plant_state() const;
     /// The motor turns half an electrical turn or more per control period, or its state is no number any more: samples
@@ -108,11 +117,11 @@ private:
     LoadProfile              load_;
     double                   first_dead_time_s_; ///< the gates\'
     ShaftLoad                shaft_load_;
-    double                   brake_Nm_ = 0.0;
     Glitch                   glitch_; ///< of the sample of this tick
     InjectedFaults           faults_;
     int                      lost_counts_    = 0; ///< of the encoder, by a fault
     double                   time_s_         = 0.0;
+    double                   extra_load_Nm_  = 0.0;
     std::size_t              next_change_    = 0;
     bool                     plain_inverter_ = true;
     bool                     plain_motor_    = true;

@@ -74,12 +74,10 @@ public:
         return driven_while_held_;
     }
 
-    /// Board::set_brake_Nm(), once the scenario has started.
-    void set_brake_Nm(double torque_Nm)
+    /// The board with its motor, once the scenario has started; null before.
+    Board *board()
     {
-        if (board_) {
-            board_->set_brake_Nm(torque_Nm);
-        }
+        return board_.get();
     }
     /// The encoder's tracks show no movement any more.
     void stick_encoder()

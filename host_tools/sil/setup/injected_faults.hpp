@@ -43,6 +43,17 @@ class InjectedFaults {
 public:
     explicit InjectedFaults(std::vector<InjectedFault> entries) : entries_(std::move(entries)) {}
 
+    /// From now on; the time of the entry is that of the present tick.
+    void add(InjectedFault entry)
+    {
+        entry.time_s = time_s_;
+        entries_.push_back(entry);
+    }
+    /// Nothing is broken any more.
+    void mend()
+    {
+        entries_.clear();
+    }
     void begin_tick(double time_s)
     {
         time_s_ = time_s;

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "drive/drive_file.hpp"
+#include "sil/commands/commands.hpp"
+#include "sil/serve/server.hpp"
+
+namespace sdre {
+namespace {
+
+constexpr int default_tcp     = 1502; // as Modbus's own 502, for which one has to be root
+constexpr int default_control = 1503;
+constexpr int ports           = 65535;
+constexpr int any_port        = -1; // not given
+
+struct Options {
+    std::string drive;
+    std::string pty;
+    int         tcp          = any_port;
+    int         rtu_tcp      = any_port;
+    int         control      = any_port;
+    double      speed_factor = 1.0;
+    double      end_s        = 0.0;
+    int         seed         = 1;
+};
+
+void declare(OptionList &list, Options &o)
+{
+    list.required("DRIVE", o.drive, "drive file (TOML)");
+    list.text("--pty", o.pty, "Modbus RTU on a pseudo-terminal of this name");
+    list.number(
+        "--tcp", o.tcp, {0, ports},
+        "Modbus/TCP on this port of 127.0.0.1 (default 1502, unless another way is given); 0: any");
+    list.number("--rtu-tcp", o.rtu_tcp, {0, ports}, "RTU frames over TCP on this port");
+    list.number("--control", o.control, {0, ports},
+                "load, supply, faults and the motor itself on this port (default 1503)");
+    list.number("--speed-factor", o.speed_factor, {0.01, 100.0},
+                "simulated seconds per second (default 1)");
+    list.number("--for", o.end_s, {0.0, 1e9},
+                "end after so many simulated seconds (default: never)");
+    list.number("--seed", o.seed, {0, 1000000},
+                "of the noise and of the rotor's angle (default 1)");
+}
+
+std::optional<int> port(int given)
+{
+    return given == any_port ? std::nullopt : std::optional<int>(given);
+}
+
+int run(const Options &o)
+{
+    ServeOptions s;
+    s.pty          = o.pty;
+    s.tcp          = port(o.tcp);
+    s.rtu_tcp      = port(o.rtu_tcp);
+    s.control      = port(o.control == any_port ? default_control : o.control);
+    s.speed_factor = o.speed_factor;
+    s.end_s        = o.end_s;
+    if (s.pty.empty() && !s.tcp && !s.rtu_tcp) {
+        s.tcp = default_tcp;
+    }
+    Server server(read_drive_file(o.drive), static_cast<std::uint64_t>(o.seed), s);
+    fmt::print("{}Ctrl-C ends it\n", server.greeting());
+    std::fflush(stdout);
+    server.run();
+    return exit_ok;
+}
+
+} // namespace
+
+Command serve_command()
+{
+    return command<Options>(
+        "serve", "a virtual drive to connect to: the firmware on a virtual F28335, in real time",
+        declare, run);
+}
+
+} // namespace sdre

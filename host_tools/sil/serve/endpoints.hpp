@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+/// Where clients connect: a pseudo-terminal, ports on the loopback interface. POSIX.
+#pragma once
+
+#include <string>
+
+#include "sil/serve/rtu_frame.hpp"
+
+namespace sdre {
+
+/// A file descriptor that closes itself.
+class Descriptor {
+public:
+    Descriptor() = default;
+    explicit Descriptor(int fd) : fd_(fd) {}
+    Descriptor(Descriptor &&other) noexcept : fd_(other.fd_)
+    {
+        other.fd_ = -1;
+    }
+    Descriptor &operator=(Descriptor &&other) noexcept;
+    Descriptor(const Descriptor &)            = delete;
+    Descriptor &operator=(const Descriptor &) = delete;
+    ~Descriptor();
+
+    int get() const
+    {
+        return fd_;
+    }
+    explicit operator bool() const
+    {
+        return fd_ >= 0;
+    }
+
+private:
+    int fd_ = -1;
+};
+
+/// A pseudo-terminal whose other end has a name of the user's: a symbolic link, removed at the end.
+class PseudoTerminal {
+public:
+    /// InputError when the path is there already and is no link of an earlier run, or cannot be made.
+    explicit PseudoTerminal(std::string path);
+    PseudoTerminal(PseudoTerminal &&) noexcept            = default;
+    PseudoTerminal &operator=(PseudoTerminal &&) noexcept = default;
+    ~PseudoTerminal();
+    int fd() const
+    {
+        return master_.get();
+    }
+
+private:
+    std::string path_;
+    Descriptor  master_;
+    Descriptor  slave_; ///< held open: the line stays when a client hangs up
+};
+
+/// Listens on 127.0.0.1; port 0 takes any.
+Descriptor listen_on_loopback(int port);
+int        port_of(const Descriptor &listener);
+/// A client, or none.
+Descriptor accept_client(const Descriptor &listener);
+
+/// What is there; false when the other end is gone.
+bool read_available(int fd, Octets &into);
+/// All of it or nothing: a client that does not read loses its answers. False when it is gone.
+bool write_all(int fd, const Octets &octets);
+
+} // namespace sdre

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "sil/serve/serial_bus.hpp"
+
+#include "sil/serve/served_drive.hpp"
+
+namespace sdre {
+namespace {
+
+constexpr std::size_t most_waiting = 64;   // chosen: a second of the line
+constexpr double      silence_s    = 2e-3; // by the protocol 1.75 ms at 115200 Bd, and a tick
+constexpr double      octet_s      = 11.0 / 115200.0;
+// Chosen: the firmware answers within a pass of its background.
+constexpr double patience_s = 0.05;
+
+} // namespace
+
+bool SerialBus::push(BusRequest request)
+{
+    if (waiting_.size() >= most_waiting) {
+        return false;
+    }
+    waiting_.push_back(std::move(request));
+    return true;
+}
+
+void SerialBus::begin(ServedDrive &drive)
+{
+    const Octets &frame = waiting_.front().frame;
+    for (const std::uint8_t octet : frame) {
+        drive.send(octet);
+    }
+    busy_    = true;
+    last_s_  = drive.time_s() + static_cast<double>(frame.size()) * octet_s;
+    until_s_ = last_s_ + patience_s;
+    answer_.clear();
+}
+
+void SerialBus::step(ServedDrive &drive, const Deliver &deliver)
+{
+    for (int octet = drive.take(); octet >= 0; octet = drive.take()) {
+        answer_.push_back(static_cast<std::uint8_t>(octet));
+        last_s_ = drive.time_s();
+    }
+    const bool quiet = drive.time_s() > last_s_ + silence_s;
+    if (busy_ && quiet && (!answer_.empty() || drive.time_s() > until_s_)) {
+        busy_                    = false;
+        const BusRequest request = std::move(waiting_.front());
+        waiting_.pop_front();
+        deliver(request, answer_);
+        answer_.clear();
+    } else if (!busy_ && quiet && !waiting_.empty()) {
+        begin(drive);
+    }
+}
+
+void SerialBus::forget(long client)
+{
+    for (BusRequest &r : waiting_) {
+        r.client = r.client == client ? -1 : r.client;
+    }
+}
+
+} // namespace sdre

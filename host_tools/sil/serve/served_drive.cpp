@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "sil/serve/served_drive.hpp"
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "sil/board/board_choice.hpp"
+#include "sil/board/board_runs.hpp"
+#include "sil/setup/board_reader.hpp"
+
+extern "C" int firmware_main(void);
+
+namespace sdre {
+namespace {
+
+// Beyond the longest boot: clock 4 ms, converter 5 ms.
+constexpr double longest_boot_s = 0.5;
+// Chosen: between two ticks, clear of the conversion that follows each.
+constexpr double rest_share = 0.25;
+constexpr double no_end_s   = 1e9;
+
+/// The firmware's constants, before anything of the board is made.
+Controller bound(const Scenario &s)
+{
+    Controller c = prepare_controller(s);
+    set_firmware(c.config, s.drive);
+    return c;
+}
+
+} // namespace
+
+Scenario bench_scenario(const Drive &drive, std::uint64_t seed)
+{
+    Scenario s;
+    s.name            = drive.name;
+    s.drive           = drive;
+    s.duration_s      = no_end_s;
+    s.dc_link_V       = drive.inverter.dc_link_V;
+    s.seed            = seed;
+    s.sensors         = sensors_of_drive(drive);
+    s.sensors.ideal   = false;
+    s.speed_reference = {{0.0, 0.0}};
+    s.load_torque     = {{0.0, 0.0}};
+    return s;
+}
+
+ServedDrive::ServedDrive(const Drive &drive, std::uint64_t seed)
+    : scenario_(bench_scenario(drive, seed)), controller_(bound(scenario_)), bench_(scenario_, 0),
+      surroundings_(bench_, false, drive.board.dc_link_range_V, 1)
+{
+    power_up(false);
+}
+
+void ServedDrive::power_up(bool after_reset)
+{
+    device_.reset(); // the registers exist once
+    f28335::hang_ticks(false);
+    device_ = std::make_unique<f28335::Device>(
+        surroundings_, firmware_main,
+        f28335::DeviceOptions{{}, scenario_.drive.inverter.dead_time_s, after_reset});
+    const long before = bench_.tick();
+    if (!device_->run_until([&] { return bench_.tick() > before; }, longest_boot_s)) {
+        throw InputError(fmt::format("serve: the firmware does not start{}{}",
+                                     findings().empty() ? "" : ": ",
+                                     findings().empty() ? "" : findings().front()));
+    }
+    device_->run_for(rest_share * period_s());
+}
+
+void ServedDrive::period()
+{
+    if (device_->stopped()) {
+        resets_++;
+        power_up(true);
+        return;
+    }
+    device_->run_for(period_s());
+}
+
+void ServedDrive::break_part(const InjectedFault &fault)
+{
+    switch (fault.kind) {
+    case FaultKind::tick_hung:
+        f28335::hang_ticks(true);
+        break;
+    case FaultKind::trigger_lost:
+        device_->lose_trigger();
+        break;
+    case FaultKind::interrupt_masked:
+        device_->mask_interrupts();
+        break;
+    case FaultKind::phase_open:
+    case FaultKind::current_zero:
+    case FaultKind::current_frozen:
+    case FaultKind::current_drift:
+    case FaultKind::current_gain:
+    case FaultKind::encoder_losing:
+    case FaultKind::index_missing:
+        bench_.board()->break_part(fault);
+        break;
+    }
+}
+
+std::vector<std::string> ServedDrive::findings() const
+{
+    std::vector<std::string> all;
+    for (const f28335::Findings::Entry &e : device_->findings().all()) {
+        all.push_back(fmt::format("{:.6f} s: {}", e.time_s, e.text));
+    }
+    return all;
+}
+
+} // namespace sdre

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+/// The firmware on the virtual F28335 with a motor that nobody holds: from power-up, without an end.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sil/board/motor_surroundings.hpp"
+#include "sil/f28335/device.hpp"
+#include "sil/run/controller.hpp"
+#include "sil/run/motor_bench.hpp"
+
+namespace sdre {
+
+class ServedDrive {
+public:
+    /// InputError or DesignError when the board cannot have the drive, or no gains exist.
+    explicit ServedDrive(const Drive &drive, std::uint64_t seed);
+
+    /// One control period. A device that its watchdog has reset starts again.
+    void   period();
+    double period_s() const
+    {
+        return bench_.period_s();
+    }
+    /// Since the start.
+    double time_s() const
+    {
+        return static_cast<double>(bench_.tick()) * bench_.period_s();
+    }
+
+    // The serial line.
+    void send(std::uint8_t octet)
+    {
+        device_->serial().send(octet);
+    }
+    /// -1: nothing.
+    int take()
+    {
+        return device_->serial().take();
+    }
+
+    // The motor's surroundings.
+    void set_load_Nm(double torque_Nm)
+    {
+        bench_.board()->set_extra_load_Nm(torque_Nm);
+        load_Nm_ = torque_Nm;
+    }
+    void set_dc_link_V(double voltage_V)
+    {
+        bench_.board()->set_source_V(voltage_V);
+    }
+    void break_part(const InjectedFault &fault);
+    void mend()
+    {
+        bench_.board()->mend();
+    }
+    double load_Nm() const
+    {
+        return load_Nm_;
+    }
+    const PlantState &plant_state() const
+    {
+        return bench_.plant_state();
+    }
+    bool bridge_on() const
+    {
+        return bench_.bridge_on();
+    }
+    int resets() const
+    {
+        return resets_;
+    }
+    /// What the device's model took amiss, one line each.
+    std::vector<std::string> findings() const;
+    const Drive             &drive() const
+    {
+        return scenario_.drive;
+    }
+
+private:
+    void power_up(bool after_reset);
+
+    Scenario                        scenario_;
+    Controller                      controller_;
+    MotorBench                      bench_;
+    f28335::MotorSurroundings       surroundings_;
+    std::unique_ptr<f28335::Device> device_;
+    double                          load_Nm_ = 0.0;
+    int                             resets_  = 0;
+};
+
+/// The scenario of a drive on its bench: realistic sensors and inverter, at rest, no load.
+Scenario bench_scenario(const Drive &drive, std::uint64_t seed);
+
+} // namespace sdre

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include "sil/serve/server.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <vector>
+
+#include <poll.h>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+
+namespace sdre {
+namespace {
+
+// Chosen: the simulation moves on in steps of this; an operating system wakes a sleeper within as much.
+constexpr double slice_s = 1e-3;
+// Chosen: a machine that was late by more does not catch up. Otherwise half a second of the drive would pass between two
+// octets of a client, and look like a client that has gone.
+constexpr double most_late_s = 0.02;
+// Chosen: a pause in a client's octets ends a frame. Longer than the line's own 1.75 ms: an operating system may deliver a
+// frame in pieces.
+constexpr double       frame_pause_s     = 4e-3;
+constexpr std::size_t  longest_frame     = 256;
+constexpr std::size_t  longest_line      = 4096;
+constexpr std::size_t  most_clients      = 32;
+constexpr std::uint8_t own_unit          = 1;
+constexpr std::uint8_t no_gateway_answer = 0x0B;
+
+volatile std::sig_atomic_t asked_to_end = 0;
+
+void ask_to_end(int /*signal*/)
+{
+    asked_to_end = 1;
+}
+
+double wall_now_s()
+{
+    using namespace std::chrono;
+    return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+} // namespace
+
+Server::Server(const Drive &drive, std::uint64_t seed, const ServeOptions &options)
+    : options_(options), drive_(drive, seed)
+{
+    pace_.speed_factor = options.speed_factor;
+    if (!options.pty.empty()) {
+        pty_ = std::make_unique<PseudoTerminal>(options.pty);
+        clients_.emplace(0, Client{Kind::pty, {}, {}, 0.0});
+    }
+    open(Kind::tcp, options.tcp);
+    open(Kind::rtu, options.rtu_tcp);
+    open(Kind::control, options.control);
+}
+
+void Server::open(Kind kind, std::optional<int> port)
+{
+    if (port) {
+        listeners_.emplace(kind, listen_on_loopback(*port));
+    }
+}
+
+std::string Server::greeting() const
+{
+    std::string s = fmt::format("{} on the virtual F28335, unit 1:\n", drive_.drive().name);
+    if (pty_) {
+        s += fmt::format("  Modbus RTU       {}\n", options_.pty);
+    }
+    for (const auto &[kind, listener] : listeners_) {
+        const char *name = kind == Kind::tcp   ? "Modbus/TCP    "
+                           : kind == Kind::rtu ? "RTU over TCP  "
+                                               : "control       ";
+        s += fmt::format("  {}   127.0.0.1:{}\n", name, port_of(listener));
+    }
+    return s;
+}
+
+void Server::accept_all()
+{
+    for (auto &[kind, listener] : listeners_) {
+        for (Descriptor client = accept_client(listener); client;
+             client            = accept_client(listener)) {
+            if (clients_.size() < most_clients) {
+                clients_.emplace(next_client_++, Client{kind, std::move(client), {}, 0.0});
+            }
+        }
+    }
+}
+
+/// A frame has ended when its line has been quiet for a while; what it says is the firmware's matter.
+void Server::take_frame(long id, Client &client, double wall_s)
+{
+    const bool quiet = wall_s > client.last_s + frame_pause_s;
+    while (!client.come.empty() && (quiet || client.come.size() >= longest_frame)) {
+        const auto n   = std::min(client.come.size(), longest_frame);
+        const auto end = client.come.begin() + static_cast<std::ptrdiff_t>(n);
+        bus_.push({id, 0, own_unit, Octets(client.come.begin(), end)});
+        client.come.erase(client.come.begin(), end);
+    }
+}
+
+void Server::take_requests(long id, Client &client)
+{
+    bool broken = false;
+    while (auto request = take_tcp_request(client.come, broken)) {
+        const std::uint8_t unit = request->unit_and_pdu[0];
+        if (unit == 0xFF) { // what clients of Modbus/TCP name a device that is alone
+            request->unit_and_pdu[0] = own_unit;
+        }
+        bus_.push({id, request->transaction, unit, rtu_frame(request->unit_and_pdu)});
+    }
+    if (broken) {
+        client.fd = {};
+    }
+}
+
+void Server::take_lines(Client &client)
+{
+    for (auto end                      = std::find(client.come.begin(), client.come.end(), '\n');
+         end != client.come.end(); end = std::find(client.come.begin(), client.come.end(), '\n')) {
+        std::string line(client.come.begin(), end);
+        client.come.erase(client.come.begin(), end + 1);
+        if (!line.empty() && line.back() == '\r') {
+            line.pop_back();
+        }
+        const std::string answer = control_answer(line, drive_, record_, pace_);
+        if (!write_all(client.fd.get(), Octets(answer.begin(), answer.end()))) {
+            client.fd = {};
+            return;
+        }
+    }
+    if (client.come.size() > longest_line) {
+        client.fd = {};
+    }
+}
+
+void Server::read_from(long id, Client &client, double wall_s)
+{
+    const std::size_t before = client.come.size();
+    if (!read_available(client.fd_of(pty_.get()), client.come) && client.kind != Kind::pty) {
+        client.fd = {};
+        return;
+    }
+    client.last_s = client.come.size() > before ? wall_s : client.last_s;
+    if (client.kind == Kind::control) {
+        take_lines(client);
+    } else if (client.kind == Kind::tcp) {
+        take_requests(id, client);
+    } else {
+        take_frame(id, client, wall_s);
+    }
+}
+
+void Server::read_all(double wall_s)
+{
+    for (auto at = clients_.begin(); at != clients_.end();) {
+        read_from(at->first, at->second, wall_s);
+        const bool gone = at->second.kind != Kind::pty && !at->second.fd;
+        if (gone) {
+            bus_.forget(at->first);
+        }
+        at = gone ? clients_.erase(at) : std::next(at);
+    }
+}
+
+void Server::deliver(const BusRequest &request, const Octets &answer)
+{
+    const auto found = clients_.find(request.client);
+    if (found == clients_.end()) {
+        return;
+    }
+    Client &client = found->second;
+    Octets  out    = answer;
+    if (client.kind == Kind::tcp) {
+        std::optional<Octets> content = rtu_content(answer);
+        if (!content && request.unit == 0) {
+            return; // a broadcast has no answer
+        }
+        if (!content) {
+            content = Octets{request.unit, static_cast<std::uint8_t>(request.frame[1] | 0x80U),
+                             no_gateway_answer};
+        }
+        (*content)[0] = request.unit;
+        out           = tcp_answer(request.transaction, *content);
+    }
+    if (!out.empty() && !write_all(client.fd_of(pty_.get()), out) && client.kind != Kind::pty) {
+        client.fd = {}; // read_all() takes it away
+    }
+}
+
+void Server::run_until(double time_s)
+{
+    while (drive_.time_s() < time_s) {
+        drive_.period();
+        record_.note(drive_);
+        bus_.step(drive_, [this](const BusRequest &r, const Octets &a) { deliver(r, a); });
+    }
+}
+
+void Server::wait(double seconds)
+{
+    std::vector<pollfd> all;
+    if (pty_) {
+        all.push_back({pty_->fd(), POLLIN, 0});
+    }
+    for (const auto &[kind, listener] : listeners_) {
+        all.push_back({listener.get(), POLLIN, 0});
+    }
+    for (const auto &[id, client] : clients_) {
+        if (client.fd) {
+            all.push_back({client.fd.get(), POLLIN, 0});
+        }
+    }
+    const int ms = std::max(static_cast<int>(1e3 * seconds), 1);
+    poll(all.data(), all.size(), ms); // early when something has come
+}
+
+void Server::run()
+{
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGINT, ask_to_end);
+    std::signal(SIGTERM, ask_to_end);
+    double origin_s = wall_now_s() - drive_.time_s() / pace_.speed_factor;
+    while (asked_to_end == 0 && (options_.end_s <= 0.0 || drive_.time_s() < options_.end_s)) {
+        const double wall_s   = wall_now_s();
+        const double wanted_s = (wall_s - origin_s) * pace_.speed_factor;
+        const double late_s   = wanted_s - drive_.time_s() - most_late_s;
+        if (late_s > 0.0) {
+            origin_s += late_s / pace_.speed_factor;
+            pace_.slipped_s += late_s;
+        }
+        accept_all();
+        read_all(wall_s);
+        run_until(std::min(wanted_s, drive_.time_s() + most_late_s));
+        wait(slice_s);
+    }
+}
+
+} // namespace sdre

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+/// Serves a drive to Modbus clients, in real time.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "sil/serve/control.hpp"
+#include "sil/serve/endpoints.hpp"
+#include "sil/serve/serial_bus.hpp"
+
+namespace sdre {
+
+struct ServeOptions {
+    std::string        pty;     ///< path of the pseudo-terminal; none when empty
+    std::optional<int> tcp;     ///< port of Modbus/TCP
+    std::optional<int> rtu_tcp; ///< port of RTU frames over TCP
+    std::optional<int> control; ///< port of control.hpp's commands
+    double             speed_factor = 1.0;
+    double             end_s        = 0.0; ///< simulated time after which it ends; 0: never
+};
+
+class Server {
+public:
+    Server(const Drive &drive, std::uint64_t seed, const ServeOptions &options);
+
+    /// What a person has to know to connect, lines.
+    std::string greeting() const;
+    /// Until a signal asks for the end, or the time is over.
+    void run();
+
+private:
+    enum class Kind { pty, rtu, tcp, control };
+    struct Client {
+        Kind       kind;
+        Descriptor fd; ///< not of the pseudo-terminal
+        Octets     come;
+        double     last_s = 0.0; ///< when something came last
+        int        fd_of(const PseudoTerminal *pty) const
+        {
+            return kind == Kind::pty ? pty->fd() : fd.get();
+        }
+    };
+
+    void open(Kind kind, std::optional<int> port);
+    void accept_all();
+    void read_all(double wall_s);
+    void read_from(long id, Client &client, double wall_s);
+    void take_frame(long id, Client &client, double wall_s);
+    void take_requests(long id, Client &client);
+    void take_lines(Client &client);
+    void deliver(const BusRequest &request, const Octets &answer);
+    void run_until(double time_s);
+    void wait(double seconds);
+
+    ServeOptions                    options_;
+    ServedDrive                     drive_;
+    MotorRecord                     record_;
+    SerialBus                       bus_;
+    PaceReport                      pace_;
+    std::unique_ptr<PseudoTerminal> pty_;
+    std::map<Kind, Descriptor>      listeners_;
+    std::map<long, Client>          clients_;
+    long                            next_client_ = 1;
+};
+
+} // namespace sdre

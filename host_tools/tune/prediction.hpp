@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+/// What a drive will do at a load step, by the linear model of its sampled loop.
+#pragma once
+
+#include <optional>
+
+#include "drive/drive_file.hpp"
+#include "emit/report.hpp"
+
+namespace sdre {
+
+/// Nothing for laws that the objective has no model of, and for a motor that cannot have its ratings.
+std::optional<Prediction> predicted(const Drive &drive);
+
+} // namespace sdre
