@@ -1057,7 +1057,7 @@ static void test_commissioning_starts_when_it_rises_in_ready(void)
     init();
     in.command.commission = false;
     go_commission();
-    TEST_ASSERT_EQUAL_INT(COMMISSION_LOOK, app_modes_status(&modes, 0U).commission.stage);
+    TEST_ASSERT_EQUAL_INT(COMMISSION_LOOK, status_of(0U).commission.stage);
 }
 
 static void test_commissioning_is_refused_without_bounds_and_with_run(void)
@@ -1109,8 +1109,7 @@ static void test_commissioning_that_is_aborted_is_a_fault_with_its_reason(void)
     raw.ia_cnt = (uint16_t)(2048U + (uint16_t)(3.4f / config.scale.current_A_per_cnt));
     tick();
     assert_fault(APP_FAULT_COMMISSION);
-    TEST_ASSERT_EQUAL_INT(COMMISSION_REASON_OVER_CURRENT,
-                          app_modes_status(&modes, 0U).commission.reason);
+    TEST_ASSERT_EQUAL_INT(COMMISSION_REASON_OVER_CURRENT, status_of(0U).commission.reason);
     raw.ia_cnt            = 2048U;
     in.command.commission = false;
     in.command.reset      = true;
