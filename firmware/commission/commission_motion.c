@@ -3,6 +3,8 @@
 
 #include "commission_fit.h"
 
+/* Chosen: an inertia that is known no better than this is none. */
+#define WORST 0.25f
 /* Windows without current, below which their two columns rest on noise. */
 #define LEAST_COASTING 4
 
@@ -197,7 +199,7 @@ static bool solve_driven(const commission_motion_t *m, commission_result_t *foun
     found->friction_Nms.value = 0.0f;
     found->friction_Nms.error = found->coulomb_Nm.value / fastest;
     found->coulomb_Nm.error   = f.error1 + found->coulomb_Nm.value;
-    return true;
+    return found->inertia_kgm2.error < (WORST * f.x0);
 }
 
 bool commission_motion_solve(const commission_motion_t *m, commission_result_t *found)
