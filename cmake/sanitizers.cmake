@@ -17,6 +17,8 @@ add_library(sdre_address_sanitizer INTERFACE)
 add_library(sdre_test_code INTERFACE)
 if(SDRE_SANITIZE)
     target_compile_options(sdre_test_code INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-g1>)
+    # As Eigen allocates where AddressSanitizer is on: the one side frees what the other has made.
+    target_compile_definitions(sdre_test_code INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=0)
     foreach(target sdre_sanitizers sdre_address_sanitizer)
         target_compile_options(${target} INTERFACE
             -fsanitize=address -fno-omit-frame-pointer $<$<COMPILE_LANGUAGE:CXX>:-g1>)
