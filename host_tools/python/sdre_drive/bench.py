@@ -9,7 +9,7 @@ from typing import Any, Dict, Optional, Tuple
 
 from sdre_drive.connection import DriveError
 
-TIMEOUT_S = 1.0
+TIMEOUT_S = 5.0
 DEFAULT = ("127.0.0.1", 1503)
 
 # What can be broken, in words, and the command for it. Keys: docs/architecture.md, [[fault]].

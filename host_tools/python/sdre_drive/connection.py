@@ -16,8 +16,10 @@ from sdre_drive import registers
 from sdre_drive.registers import Reading
 
 BAUD = 115200
-# The drive withdraws run after 500 ms without a request: two tries have to fit.
-TIMEOUT_S = 0.2
+# The drive withdraws run after 500 ms without a request: two tries have to fit. TCP loses nothing, and what answers there
+# may be busy: a virtual drive's time then stands still with it.
+SERIAL_TIMEOUT_S = 0.2
+TCP_TIMEOUT_S = 2.0
 RETRIES = 1
 
 EXCEPTION_WORDS = {
@@ -66,9 +68,9 @@ class Drive:
         if target.serial_port:
             self._client: Any = ModbusSerialClient(
                 target.serial_port, baudrate=BAUD, parity=parity_of(target.serial_port), stopbits=1,
-                timeout=TIMEOUT_S, retries=RETRIES)  # fmt: skip
+                timeout=SERIAL_TIMEOUT_S, retries=RETRIES)  # fmt: skip
         else:
-            self._client = ModbusTcpClient(target.host, port=target.tcp_port, timeout=TIMEOUT_S, retries=RETRIES)
+            self._client = ModbusTcpClient(target.host, port=target.tcp_port, timeout=TCP_TIMEOUT_S, retries=RETRIES)
 
     def __enter__(self) -> Drive:
         self.open()
