@@ -31,7 +31,7 @@ ctl_status_t app_align_init(app_align_t *a, const app_align_config_t *c,
 
     a->current_per_tick_A = ok ? (c->current_A / (float)c->ramp_ticks) : 0.0f;
     a->angle_per_tick_rad = ok ? (BASE_PI / (float)c->sweep_ticks) : 0.0f;
-    a->quarter_cnt        = (int16_t)(ok ? (positions / (4UL * pole_pairs)) : 0UL);
+    a->quarter_cnt        = (int16_t)(ok ? (positions / (4UL * (uint32_t)pole_pairs)) : 0UL);
     app_align_start(a, 0U);
     return ok ? CTL_OK : CTL_BAD_CONFIG;
 }

@@ -22,8 +22,8 @@ ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c,
     const uint16_t pole_pairs = drive->hardware.pole_pairs;
     const uint32_t positions  = drive->hardware.encoder_positions;
     const float    ts_s       = drive->ts_s;
-    const bool     turn_ok    = (positions >= ENCODER_FORM_EDGES) && (positions <= POSITIONS) &&
-                         ((positions % ENCODER_FORM_EDGES) == 0UL);
+    const bool turn_ok = (positions >= (uint32_t)ENCODER_FORM_EDGES) && (positions <= POSITIONS) &&
+                         ((positions % (uint32_t)ENCODER_FORM_EDGES) == 0UL);
     const bool ok = turn_ok && (pole_pairs >= 1U) && (pole_pairs <= POLE_PAIRS) &&
                     base_in_range(c->index_theta_e_rad, 0.0f, BASE_TWO_PI) &&
                     (c->index_theta_e_rad < BASE_TWO_PI) &&

@@ -52,29 +52,31 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *c, const drive_c
     const app_scale_sample_t  no_sample  = {.valid = false};
     const app_angle_reading_t no_reading = {.speed_valid = false};
 
-    m->config        = c;
-    m->mode          = ok ? APP_MODE_BOOT : APP_MODE_FAULT;
-    m->fault         = ok ? APP_FAULT_NONE : APP_FAULT_CONFIG;
-    m->sample        = no_sample;
-    m->reading       = no_reading;
-    m->ticks         = 0UL;
-    m->sum_a_cnt     = 0UL;
-    m->sum_b_cnt     = 0UL;
-    m->timer_ticks   = 0U;
-    m->calibrated    = false;
-    m->armed         = false;
-    m->hot           = true;
-    m->dc_link_out   = true;
-    m->tripped       = false;
-    m->gate_on       = false;
-    m->phase_errors  = 0U;
-    m->current_max_A = d->current_max_A;
-    m->too_hot       = false;
-    m->per_sink_degC = (c->temperature_trip_degC > c->temperature_limit_degC)
-                           ? (1.0f / (c->temperature_trip_degC - c->temperature_limit_degC))
-                           : 0.0f;
-    m->zero_a_A      = 0.0f;
-    m->zero_b_A      = 0.0f;
+    m->config           = c;
+    m->mode             = ok ? APP_MODE_BOOT : APP_MODE_FAULT;
+    m->fault            = ok ? APP_FAULT_NONE : APP_FAULT_CONFIG;
+    m->sample           = no_sample;
+    m->reading          = no_reading;
+    m->ticks            = 0UL;
+    m->sum_a_cnt        = 0UL;
+    m->sum_b_cnt        = 0UL;
+    m->timer_ticks      = 0U;
+    m->calibrated       = false;
+    m->armed            = false;
+    m->commission_armed = false;
+    m->hot              = true;
+    m->dc_link_out      = true;
+    m->tripped          = false;
+    m->gate_on          = false;
+    m->phase_errors     = 0U;
+    m->current_max_A    = d->current_max_A;
+    m->too_hot          = false;
+    m->per_sink_degC    = (c->temperature_trip_degC > c->temperature_limit_degC)
+                              ? (1.0f / (c->temperature_trip_degC - c->temperature_limit_degC))
+                              : 0.0f;
+    app_commission_init(&m->commission, d);
+    m->zero_a_A = 0.0f;
+    m->zero_b_A = 0.0f;
     clear_snapshot(&m->snapshot);
     m->snapshot.fault = m->fault;
     return ok ? CTL_OK : CTL_BAD_CONFIG;
@@ -110,7 +112,8 @@ static void measure(app_modes_t *m, const board_sample_t *raw)
 static app_fault_t watch(const app_modes_t *m, const app_modes_input_t *in)
 {
     const bool driving = (m->mode == APP_MODE_ALIGN) || (m->mode == APP_MODE_PRECHARGE) ||
-                         (m->mode == APP_MODE_RUN) || (m->mode == APP_MODE_STOP);
+                         (m->mode == APP_MODE_RUN) || (m->mode == APP_MODE_STOP) ||
+                         (m->mode == APP_MODE_COMMISSION);
 
     if (in->memory_changed) {
         return APP_FAULT_MEMORY;
@@ -124,7 +127,7 @@ static app_fault_t watch(const app_modes_t *m, const app_modes_input_t *in)
     if (m->gate_on && in->tick_missing) {
         return APP_FAULT_TICK;
     }
-    if (m->reading.index_fault) {
+    if (m->reading.index_fault && (m->mode != APP_MODE_COMMISSION)) { /* of lines not known yet */
         return APP_FAULT_INDEX;
     }
     if ((driving || (m->mode == APP_MODE_CALIBRATE)) && !m->sample.valid) {

@@ -5,6 +5,7 @@
  *
  *     BOOT -> CALIBRATE -> READY -> (ALIGN, unless the angle is referenced) -> (PRECHARGE, if needed) -> RUN
  *     RUN -> (STOP, while an open bridge would not be safe, or when it is asked for) -> READY
+ *     READY -> COMMISSION, when that is asked for -> READY
  *
  * Anything wrong in a mode that uses it leads to FAULT in the same call, with the bridge open or, at a speed at which that
  * is not safe, the motor shorted (app_stop.h). FAULT ends by a reset
@@ -39,6 +40,7 @@ typedef struct {
     app_align_t         align;
     app_stop_t          stop;
     app_watch_heat_t    heat;
+    app_commission_t    commission;
     float               current_max_A; /**< of the drive */
     float               per_sink_degC; /**< 1 / (trip - limit) of the heat sink */
     bool                too_hot;       /**< app_watch_heat_tick() said so */
@@ -51,7 +53,8 @@ typedef struct {
     uint32_t            sum_b_cnt;
     uint16_t            timer_ticks; /**< BOOT, CALIBRATE, PRECHARGE: since the mode began */
     bool                calibrated;
-    bool                armed;       /**< READY has seen run = false */
+    bool                armed;            /**< READY has seen run = false */
+    bool                commission_armed; /**< READY has seen commission = false */
     bool                hot;         /**< above the temperature limit, or temperature unknown */
     bool                dc_link_out; /**< outside the drive's range */
     bool                tripped;     /**< READY: the trip input is active */

@@ -2,6 +2,7 @@
 #include "app_registers.h"
 
 #define TENTHS      10.0f
+#define HUNDREDTHS  100.0f
 #define THOUSANDTHS 1000.0f
 
 static uint16_t signed_value(float x, float per_unit)
@@ -32,10 +33,30 @@ static float speed_of(uint16_t value)
     return (float)tenths / TENTHS;
 }
 
+/* At least 4 digits: x = digits 10^power. No more than 45 powers of ten are between any two numbers of single precision
+ * that are not denormal. */
+static void decimal(float x, uint16_t words[2])
+{
+    float   digits = base_clamp(x, -1.0e30f, 1.0e30f);
+    int16_t power  = 0;
+
+    for (int16_t k = 0; (k < 45) && (fabsf(digits) >= 32767.0f); k++) {
+        digits *= 0.1f;
+        power++;
+    }
+    for (int16_t k = 0; (k < 45) && (fabsf(digits) < 3276.0f) && (fabsf(digits) > 0.0f); k++) {
+        digits *= 10.0f;
+        power--;
+    }
+    words[0] = signed_value(digits, 1.0f);
+    words[1] = (uint16_t)power;
+}
+
 void app_registers_init(app_registers_t *r, float speed_max_e_radps)
 {
     const app_status_t  status  = {.mode = APP_MODE_BOOT};
-    const app_command_t command = {.omega_e_radps = 0.0f, .run = false, .reset = false};
+    const app_command_t command = {
+        .omega_e_radps = 0.0f, .run = false, .reset = false, .commission = false};
 
     r->status            = status;
     r->command           = command;
@@ -46,9 +67,12 @@ void app_registers_init(app_registers_t *r, float speed_max_e_radps)
 
 static void holding_values(const app_registers_t *r, uint16_t all[APP_REGISTERS_HOLDING_COUNT])
 {
-    all[APP_REGISTERS_RUN]   = r->command.run ? 1U : 0U;
-    all[APP_REGISTERS_RESET] = 0U;
-    all[APP_REGISTERS_SPEED] = signed_value(r->command.omega_e_radps, TENTHS);
+    all[APP_REGISTERS_RUN]                = r->command.run ? 1U : 0U;
+    all[APP_REGISTERS_RESET]              = 0U;
+    all[APP_REGISTERS_SPEED]              = signed_value(r->command.omega_e_radps, TENTHS);
+    all[APP_REGISTERS_COMMISSION]         = r->command.commission ? 1U : 0U;
+    all[APP_REGISTERS_COMMISSION_CURRENT] = unsigned_value(r->command.bounds.current_A, HUNDREDTHS);
+    all[APP_REGISTERS_COMMISSION_SPEED]   = unsigned_value(r->command.bounds.speed_m_radps, TENTHS);
 }
 
 /* What acts and never trips. */
@@ -137,6 +161,28 @@ static void snapshot_values(const app_snapshot_t *f, uint16_t all[APP_REGISTERS_
     all[APP_REGISTERS_FIRST_TICKS_LO]     = low_word(f->ticks);
 }
 
+static void commission_values(const app_commission_status_t *s,
+                              uint16_t                       all[APP_REGISTERS_INPUT_COUNT])
+{
+    const commission_result_t *const f        = &s->found;
+    const commission_value_t         values[] = {f->r_Ohm,        f->v_loss_V,   f->ld_H,
+                                                 f->lq_H,         f->flux_Wb,    f->inertia_kgm2,
+                                                 f->friction_Nms, f->coulomb_Nm, f->offset_rad};
+
+    all[APP_REGISTERS_COMMISSION_STAGE]   = (uint16_t)s->stage;
+    all[APP_REGISTERS_COMMISSION_REASON]  = (uint16_t)s->reason;
+    all[APP_REGISTERS_COMMISSION_PERCENT] = (uint16_t)s->percent;
+    all[APP_REGISTERS_DIRECTION]          = (uint16_t)f->direction;
+    all[APP_REGISTERS_POLE_PAIRS]         = (uint16_t)f->pole_pairs;
+    all[APP_REGISTERS_COUNTS_HI]          = high_word((uint32_t)f->counts_per_turn);
+    all[APP_REGISTERS_COUNTS_LO]          = low_word((uint32_t)f->counts_per_turn);
+    all[APP_REGISTERS_RELUCTANCE]         = f->reluctance ? 1U : 0U;
+    for (uint16_t k = 0U; k < (uint16_t)(sizeof values / sizeof values[0]); k++) {
+        decimal(values[k].value, &all[APP_REGISTERS_FOUND + (4U * k)]);
+        decimal(values[k].error, &all[APP_REGISTERS_FOUND + (4U * k) + 2U]);
+    }
+}
+
 /* Subtraction instead of a sum, which could wrap in 16 bits. */
 static bool exist(uint16_t first, uint16_t count, uint16_t existing)
 {
@@ -169,6 +215,7 @@ app_registers_result_t app_registers_read_input(const app_registers_t *r, uint16
     state_values(r, all);
     measured_values(&r->status, all);
     snapshot_values(&r->status.snapshot, all);
+    commission_values(&r->status.commission, all);
     for (uint16_t i = 0U; i < count; i++) {
         values[i] = all[first + i];
     }
@@ -180,7 +227,8 @@ static bool value_ok(const app_registers_t *r, uint16_t address, uint16_t value)
     if (address == (uint16_t)APP_REGISTERS_SPEED) {
         return base_in_range(speed_of(value), -r->speed_max_e_radps, r->speed_max_e_radps);
     }
-    return value <= 1U;
+    return (address == (uint16_t)APP_REGISTERS_COMMISSION_CURRENT) ||
+           (address == (uint16_t)APP_REGISTERS_COMMISSION_SPEED) || (value <= 1U);
 }
 
 static void write_one(app_registers_t *r, uint16_t address, uint16_t value)
@@ -190,6 +238,12 @@ static void write_one(app_registers_t *r, uint16_t address, uint16_t value)
     } else if (address == (uint16_t)APP_REGISTERS_RUN) {
         r->command.run = value != 0U;
         r->silent      = r->silent && !r->command.run;
+    } else if (address == (uint16_t)APP_REGISTERS_COMMISSION) {
+        r->command.commission = value != 0U;
+    } else if (address == (uint16_t)APP_REGISTERS_COMMISSION_CURRENT) {
+        r->command.bounds.current_A = (float)value / HUNDREDTHS;
+    } else if (address == (uint16_t)APP_REGISTERS_COMMISSION_SPEED) {
+        r->command.bounds.speed_m_radps = (float)value / TENTHS;
     } else {
         r->command.reset = value != 0U;
     }
@@ -215,9 +269,10 @@ app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, u
 
 void app_registers_silence(app_registers_t *r)
 {
-    if (r->command.run) {
-        r->command.run = false;
-        r->changed     = true;
-        r->silent      = true;
+    if (r->command.run || r->command.commission) {
+        r->command.run        = false;
+        r->command.commission = false;
+        r->changed            = true;
+        r->silent             = true;
     }
 }

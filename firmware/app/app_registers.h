@@ -16,6 +16,9 @@ enum {
     APP_REGISTERS_RUN = 0,
     APP_REGISTERS_RESET,
     APP_REGISTERS_SPEED, /**< signed, 0.1 rad/s electrical */
+    APP_REGISTERS_COMMISSION,
+    APP_REGISTERS_COMMISSION_CURRENT, /**< bound, 0.01 A */
+    APP_REGISTERS_COMMISSION_SPEED,   /**< bound, 0.1 rad/s mechanical */
     APP_REGISTERS_HOLDING_COUNT
 };
 
@@ -69,7 +72,16 @@ enum {
     APP_REGISTERS_MOTOR_HEAT,
     APP_REGISTERS_INVERTER_HEAT,
     APP_REGISTERS_DERATING,
-    APP_REGISTERS_INPUT_COUNT
+    APP_REGISTERS_COMMISSION_STAGE, /**< from here on: the commissioning */
+    APP_REGISTERS_COMMISSION_REASON,
+    APP_REGISTERS_COMMISSION_PERCENT,
+    APP_REGISTERS_DIRECTION, /**< signed */
+    APP_REGISTERS_POLE_PAIRS,
+    APP_REGISTERS_COUNTS_HI,
+    APP_REGISTERS_COUNTS_LO,
+    APP_REGISTERS_RELUCTANCE,
+    APP_REGISTERS_FOUND, /**< four words a value: its digits and its power of ten, signed; its error in the same way */
+    APP_REGISTERS_INPUT_COUNT = APP_REGISTERS_FOUND + 36
 };
 
 /** Bits of APP_REGISTERS_CONDITIONS. */
@@ -118,7 +130,7 @@ app_registers_result_t app_registers_read_input(const app_registers_t *r, uint16
 app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, uint16_t count,
                                            const uint16_t *values);
 
-/** Withdraws run. */
+/** Withdraws run and commissioning. */
 void app_registers_silence(app_registers_t *r);
 
 #endif /* APP_REGISTERS_H */

@@ -7,13 +7,14 @@
 
 static void enter(app_modes_t *m, app_mode_t mode)
 {
-    m->mode        = mode;
-    m->timer_ticks = 0U;
-    m->sum_a_cnt   = 0UL;
-    m->sum_b_cnt   = 0UL;
-    m->armed       = false;
-    m->zero_a_A    = 0.0f;
-    m->zero_b_A    = 0.0f;
+    m->mode             = mode;
+    m->timer_ticks      = 0U;
+    m->sum_a_cnt        = 0UL;
+    m->sum_b_cnt        = 0UL;
+    m->armed            = false;
+    m->commission_armed = false;
+    m->zero_a_A         = 0.0f;
+    m->zero_b_A         = 0.0f;
 }
 
 static drive_sample_t drive_sample(const app_modes_t *m)
@@ -125,6 +126,21 @@ static bool zeros_hold(app_modes_t *m)
            base_within(m->zero_b_A, m->config->zero_drift_A);
 }
 
+/* The bounds are those of the start; the angle is not known any more afterwards. */
+static bool commissioning_starts(app_modes_t *m, const app_modes_input_t *in)
+{
+    const app_command_t *c = &in->command;
+
+    if (!c->commission) {
+        m->commission_armed = true;
+        return false;
+    }
+    const bool start = m->commission_armed && !c->run && !in_the_way(m) &&
+                       app_commission_allows(&m->commission, &c->bounds);
+    m->commission_armed = false;
+    return start;
+}
+
 /* The bridge stays open in this tick: the next one looks at everything again in the new mode. */
 static bridge_t ready(app_modes_t *m, const app_modes_input_t *in)
 {
@@ -132,6 +148,11 @@ static bridge_t ready(app_modes_t *m, const app_modes_input_t *in)
     if (!zeros_hold(m)) {
         m->calibrated = false; /* a reset measures them again */
         return app_states_trip(m, in, APP_FAULT_OFFSET);
+    }
+    if (commissioning_starts(m, in)) {
+        app_commission_start(&m->commission, &in->command.bounds, in->raw->position_cnt);
+        enter(m, APP_MODE_COMMISSION);
+        return bridge_open();
     }
     if (!in->command.run) {
         m->armed = true;
@@ -228,6 +249,23 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
     return out;
 }
 
+/* Withdrawn, the bridge opens at once: no speed of a commissioning induces more than the dc link holds. */
+static bridge_t commissioning(app_modes_t *m, const app_modes_input_t *in)
+{
+    const bool     wanted = in->command.commission && !in->command.run;
+    const bridge_t out    = app_commission_tick(&m->commission, &m->sample, in->raw, wanted);
+
+    if (!wanted || (m->commission.module.stage == COMMISSION_FINISHED)) {
+        app_angle_drop(&m->angle);
+        enter(m, APP_MODE_READY);
+        return bridge_open();
+    }
+    if (m->commission.module.stage == COMMISSION_ABORTED) {
+        return app_states_trip(m, in, APP_FAULT_COMMISSION);
+    }
+    return out;
+}
+
 static void leave_fault(app_modes_t *m)
 {
     m->fault        = APP_FAULT_NONE;
@@ -266,6 +304,8 @@ bridge_t app_states_act(app_modes_t *m, const app_modes_input_t *in)
         return align(m, in);
     case APP_MODE_PRECHARGE:
         return precharge(m, in);
+    case APP_MODE_COMMISSION:
+        return commissioning(m, in);
     case APP_MODE_RUN:
     case APP_MODE_STOP:
     case APP_MODE_FAULT:

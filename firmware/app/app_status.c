@@ -48,4 +48,5 @@ void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_
     s->tick_cycles_worst = 0U;
     s->ticks             = m->ticks;
     s->snapshot          = m->snapshot;
+    s->commission        = app_commission_status(&m->commission);
 }

@@ -8,6 +8,7 @@
 
 #include "app_align.h"
 #include "app_angle.h"
+#include "app_commission.h"
 #include "board.h"
 #include "drive_tick.h"
 
@@ -19,7 +20,8 @@ typedef enum {
     APP_MODE_RUN,       /**< drive_tick() has the bridge */
     APP_MODE_FAULT,     /**< bridge off until a reset without run */
     APP_MODE_PRECHARGE, /**< all lower switches on: the gate drivers' supplies are charged */
-    APP_MODE_STOP       /**< run was withdrawn; the drive brakes before the bridge opens */
+    APP_MODE_STOP,      /**< run was withdrawn; the drive brakes before the bridge opens */
+    APP_MODE_COMMISSION /**< finds the motor, commission.h */
 } app_mode_t;
 
 /** Why the mode is FAULT; the first reason is kept. */
@@ -37,7 +39,8 @@ typedef enum {
     APP_FAULT_DRIVE,              /**< see the drive's fault */
     APP_FAULT_TICK,               /**< no tick for too long; the background opened the bridge */
     APP_FAULT_HEAT,               /**< more current for longer than motor or inverter endure */
-    APP_FAULT_MEMORY              /**< constants in RAM have changed, or the stack was too short */
+    APP_FAULT_MEMORY,             /**< constants in RAM have changed, or the stack was too short */
+    APP_FAULT_COMMISSION          /**< see the reason of the commissioning */
 } app_fault_t;
 
 /** The tick of the first fault; kept, also after a reset, until the next fault. */
@@ -90,13 +93,16 @@ typedef struct {
     uint16_t       tick_cycles_worst; /**< since the start */
     uint32_t       ticks;
     app_snapshot_t snapshot;
+    app_commission_status_t commission;
 } app_status_t;
 
 /** What the operator wants. */
 typedef struct {
     float omega_e_radps; /**< speed; out of the drive's range is a fault in RUN */
     bool  run;
-    bool  reset; /**< leave FAULT; ignored together with run */
+    bool  reset;      /**< leave FAULT; ignored together with run */
+    bool  commission; /**< find the motor; starts when it rises in READY without run */
+    app_commission_bounds_t bounds; /**< of that */
 } app_command_t;
 
 #endif /* APP_STATUS_H */

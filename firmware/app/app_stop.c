@@ -16,7 +16,7 @@ ctl_status_t app_stop_init(app_stop_t *s, const app_stop_config_t *c, const driv
                     base_in_range(flux_Wb, 0.0f, FLUX_MOST_Wb) &&
                     ((c->reaction == APP_STOP_COAST) || (c->reaction == APP_STOP_RAMP));
 
-    s->config         = c;
+    s->config = c;
     s->link_e_radps =
         ok ? (drive->dc_link_max_V * BASE_1_SQRT3 / base_max(flux_Wb, FLUX_LEAST_Wb)) : 0.0f;
     s->trip_current_A = drive->trip_current_A;

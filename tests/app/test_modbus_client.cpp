@@ -277,9 +277,9 @@ TEST_F(ModbusClient, RefusesWithTheExceptionThatSaysWhy)
 {
     std::array<std::uint16_t, 125> values{};
     std::array<std::uint8_t, 8>    bits{};
-    expect_exception(modbus_read_input_registers(client_, 48, 1, values.data()), EMBXILADD);
-    expect_exception(modbus_read_registers(client_, 2, 2, values.data()), EMBXILADD);
-    expect_exception(modbus_write_register(client_, 3, 0), EMBXILADD);
+    expect_exception(modbus_read_input_registers(client_, 92, 1, values.data()), EMBXILADD);
+    expect_exception(modbus_read_registers(client_, 5, 2, values.data()), EMBXILADD);
+    expect_exception(modbus_write_register(client_, 6, 0), EMBXILADD);
     expect_exception(modbus_write_register(client_, holding_run, 2), EMBXILVAL);
     expect_exception(modbus_write_register(client_, holding_speed, 11914), EMBXILVAL);
     values = {1, 0, 20000};

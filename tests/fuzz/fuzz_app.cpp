@@ -59,7 +59,7 @@ void sample(fuzz::Bytes &in, int which)
 bool may_switch(app_mode_t mode)
 {
     return mode == APP_MODE_ALIGN || mode == APP_MODE_RUN || mode == APP_MODE_PRECHARGE ||
-           mode == APP_MODE_STOP;
+           mode == APP_MODE_STOP || mode == APP_MODE_COMMISSION;
 }
 
 void run(int ticks)
@@ -104,7 +104,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
             fake_board_fail(in.octet() & 15U);
             break;
         case 4: { // what an operator does
-            const app_command_t command{800.0F * in.share(), (what & 1U) != 0U, (what & 2U) != 0U};
+            const app_command_t command{800.0F * in.share(),
+                                        (what & 1U) != 0U,
+                                        (what & 2U) != 0U,
+                                        (what & 4U) != 0U,
+                                        {3.0F, 150.0F}};
             static_cast<void>(app_command_write(&command));
             break;
         }

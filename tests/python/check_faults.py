@@ -24,7 +24,9 @@ def enumerators(file: str, prefix: str, first: str) -> Dict[str, int]:
         name, _, value = (part.strip() for part in item.partition("="))
         previous = list(out.values())[-1] if out else -1
         assert name.startswith(prefix), f"{file}: {name}"
-        out[name[len(prefix):]] = int(value) if value else previous + 1
+        base, _, more = value.rpartition("+")  # a number, or an earlier name and a number
+        start = out[base.strip()[len(prefix):]] if base else 0
+        out[name[len(prefix):]] = start + int(more) if value else previous + 1
     return out
 
 
@@ -48,8 +50,9 @@ def differences() -> List[str]:
         found += told(group, firmware, {e.name: e.number for e in faults.table()[group].values()})
     found += told("mode", enumerators("app/app_status.h", "APP_MODE_", "BOOT"), {m.name: m.value for m in registers.Mode})
     inputs = enumerators("app/app_registers.h", "APP_REGISTERS_", "MODE")
-    found += told("input register", inputs, {n: k for k, n in enumerate((*registers.INPUT_NAMES, "INPUT_COUNT"))})
-    holding = {"RUN": registers.RUN, "RESET": registers.RESET, "SPEED": registers.SPEED, "HOLDING_COUNT": 3}
+    read = {name: k for name, k in inputs.items() if k < registers.INPUT_COUNT}
+    found += told("input register", read, {n: k for k, n in enumerate(registers.INPUT_NAMES)})
+    holding = {n: k for k, n in enumerate((*registers.HOLDING_NAMES, "HOLDING_COUNT"))}
     found += told("holding register", enumerators("app/app_registers.h", "APP_REGISTERS_", "RUN"), holding)
     for group in faults.GROUPS:
         for e in faults.table()[group].values():

@@ -117,7 +117,7 @@ def test_log_is_a_table(served: Served, tmp_path: Path) -> None:
         (["status", "--tcp", "drive"], 'is not HOST:PORT'),
         (["status", "--tcp", "a:1", "--port", "b"], "give one"),
         (["run", "1000", "--tcp", "10.255.255.1:1"], "--pole-pairs"),
-        (["run", "fast"], "fast"),
+        (["run", "fast"], "Invalid value for"),
         (["log"], "give one of --csv and --parquet"),
         (["spin"], "spin"),
     ],

@@ -8,7 +8,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 BOARD = ROOT / "firmware/board/f28335"
-INCLUDES = [ROOT / p for p in ("firmware/control", "firmware/app", "firmware/board", "firmware/board/f28335",
+INCLUDES = [ROOT / p for p in ("firmware/control", "firmware/commission", "firmware/app", "firmware/board", "firmware/board/f28335",
                                "firmware/config", "tests/support", "build/unity")]
 FLAGS = ["-std=c99", "-w", "-ffp-contract=off", "-DUNITY_INCLUDE_DOUBLE", "-DUNITY_SUPPORT_64",
          *[f"-I{p}" for p in INCLUDES]]

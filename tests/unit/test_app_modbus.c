@@ -170,15 +170,15 @@ static void test_unknown_functions_are_refused(void)
 
 static void test_registers_that_do_not_exist_are_refused(void)
 {
-    REQUEST(ADDRESS, 3, 0, 3, 0, 1);
+    REQUEST(ADDRESS, 3, 0, 6, 0, 1);
     ASSERT_ANSWER(ADDRESS, 0x83, 2);
-    REQUEST(ADDRESS, 4, 0, 47, 0, 2);
+    REQUEST(ADDRESS, 4, 0, 91, 0, 2);
     ASSERT_ANSWER(ADDRESS, 0x84, 2);
     REQUEST(ADDRESS, 4, 1, 0, 0, 1); /* high octet of the address */
     ASSERT_ANSWER(ADDRESS, 0x84, 2);
-    REQUEST(ADDRESS, 6, 0, 3, 0, 1);
+    REQUEST(ADDRESS, 6, 0, 6, 0, 1);
     ASSERT_ANSWER(ADDRESS, 0x86, 2);
-    REQUEST(ADDRESS, 16, 0, 2, 0, 2, 4, 0, 1, 0, 1);
+    REQUEST(ADDRESS, 16, 0, 5, 0, 2, 4, 0, 1, 0, 1);
     ASSERT_ANSWER(ADDRESS, 0x90, 2);
     TEST_ASSERT_FALSE(registers.changed);
 }

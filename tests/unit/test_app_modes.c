@@ -64,7 +64,8 @@ static app_status_t status_of(uint16_t board_faults)
 static void tick(void)
 {
     out = app_modes_tick(&modes, &in);
-    if ((modes.mode != APP_MODE_RUN) && (modes.mode != APP_MODE_ALIGN)) {
+    if ((modes.mode != APP_MODE_RUN) && (modes.mode != APP_MODE_ALIGN) &&
+        (modes.mode != APP_MODE_COMMISSION)) {
         assert_open();
     }
 }
@@ -1032,6 +1033,113 @@ static void test_both_forms_of_the_shipped_drive_fit_the_board(void)
     go_run();
 }
 
+/* Into COMMISSION with the bridge closed. */
+static void go_commission(void)
+{
+    go_ready();
+    in.command.bounds.current_A     = 3.0f;
+    in.command.bounds.speed_m_radps = 150.0f;
+    tick();
+    in.command.commission = true;
+    ticks(1 + 1100);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_COMMISSION, modes.mode);
+    TEST_ASSERT_TRUE(out.gate_enable);
+}
+
+static void test_commissioning_starts_when_it_rises_in_ready(void)
+{
+    in.command.commission           = true; /* there before: waits for a 0 first */
+    in.command.bounds.current_A     = 3.0f;
+    in.command.bounds.speed_m_radps = 150.0f;
+    go_ready();
+    ticks(5);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    init();
+    in.command.commission = false;
+    go_commission();
+    TEST_ASSERT_EQUAL_INT(COMMISSION_LOOK, status_of(0U).commission.stage);
+}
+
+static void test_commissioning_is_refused_without_bounds_and_with_run(void)
+{
+    static const float bad[][2] = {{0.0f, 150.0f}, {3.0f, 0.0f}, {1000.0f, 150.0f}, {NAN, 150.0f}};
+    for (int k = 0; k < SUPPORT_COUNT(bad); k++) {
+        init();
+        go_ready();
+        in.command.bounds.current_A     = bad[k][0];
+        in.command.bounds.speed_m_radps = bad[k][1];
+        tick();
+        in.command.commission = true;
+        ticks(3);
+        TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+        in.command.commission = false;
+    }
+    init();
+    go_ready();
+    see_index();
+    in.command.bounds.current_A     = 3.0f;
+    in.command.bounds.speed_m_radps = 150.0f;
+    in.command.commission           = true;
+    in.command.run                  = true;
+    ticks(2);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+}
+
+static void test_commissioning_that_is_withdrawn_opens_the_bridge(void)
+{
+    go_commission();
+    in.command.commission = false;
+    tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    assert_open();
+    TEST_ASSERT_EQUAL_INT(COMMISSION_REASON_WITHDRAWN, modes.commission.module.reason);
+
+    init();
+    go_commission();
+    in.command.run = true;
+    tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    assert_open();
+}
+
+/* 3.4 A where 3 A are allowed: no trip of the drive. */
+static void test_commissioning_that_is_aborted_is_a_fault_with_its_reason(void)
+{
+    go_commission();
+    raw.ia_cnt = (uint16_t)(2048U + (uint16_t)(3.4f / config.scale.current_A_per_cnt));
+    tick();
+    assert_fault(APP_FAULT_COMMISSION);
+    TEST_ASSERT_EQUAL_INT(COMMISSION_REASON_OVER_CURRENT, status_of(0U).commission.reason);
+    raw.ia_cnt            = 2048U;
+    in.command.commission = false;
+    in.command.reset      = true;
+    tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+}
+
+static void test_what_watches_a_run_watches_a_commissioning(void)
+{
+    go_commission();
+    raw.valid = false;
+    tick();
+    assert_fault(APP_FAULT_SAMPLE);
+    init();
+    go_commission();
+    in.board_faults = (uint16_t)BOARD_FAULT_TRIP;
+    tick();
+    assert_fault(APP_FAULT_BOARD);
+    init();
+    go_commission();
+    in.background_lost = true;
+    tick();
+    assert_fault(APP_FAULT_BACKGROUND);
+    init();
+    go_commission();
+    raw.temperature_cnt = CODE_90_degC;
+    tick();
+    assert_fault(APP_FAULT_TEMPERATURE);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -1083,5 +1191,10 @@ int main(void)
     RUN_TEST(test_status_repeats_what_is_inside);
     RUN_TEST(test_bad_constants_end_in_fault_for_good);
     RUN_TEST(test_both_forms_of_the_shipped_drive_fit_the_board);
+    RUN_TEST(test_commissioning_starts_when_it_rises_in_ready);
+    RUN_TEST(test_commissioning_is_refused_without_bounds_and_with_run);
+    RUN_TEST(test_commissioning_that_is_withdrawn_opens_the_bridge);
+    RUN_TEST(test_commissioning_that_is_aborted_is_a_fault_with_its_reason);
+    RUN_TEST(test_what_watches_a_run_watches_a_commissioning);
     return UNITY_END();
 }

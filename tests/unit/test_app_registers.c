@@ -105,6 +105,62 @@ static void test_snapshot_registers_are_what_the_table_says(void)
     TEST_ASSERT_EQUAL_UINT(1U, input(35));
 }
 
+/* 48 on; values as digits and a power of ten. */
+static void test_commissioning_registers_are_what_the_table_says(void)
+{
+    app_commission_status_t *c = &registers.status.commission;
+    commission_result_t     *f = &c->found;
+    c->stage                   = COMMISSION_SPIN;
+    c->reason                  = COMMISSION_REASON_DRAG;
+    c->percent                 = 80;
+    f->direction               = -1;
+    f->pole_pairs              = 3;
+    f->counts_per_turn         = 0x12345L;
+    f->reluctance              = true;
+    f->r_Ohm.value             = 3.6006f;
+    f->r_Ohm.error             = 0.0081f;
+    f->inertia_kgm2.value      = 8.3e-5f;
+    f->offset_rad.value        = -1.25f;
+    static const int first[]   = {6, 12, 80, -1, 3, 1, 0x2345, 1};
+
+    for (int i = 0; i < SUPPORT_COUNT(first); i++) {
+        TEST_ASSERT_EQUAL_HEX16((uint16_t)first[i], input(48 + i));
+    }
+    static const struct {
+        int    address;
+        double value;
+    } found[] = {{56, 3.6006}, {58, 0.0081}, {60, 0.0}, {56 + 20, 8.3e-5}, {56 + 32, -1.25}};
+    for (int i = 0; i < SUPPORT_COUNT(found); i++) {
+        const double digits = (int16_t)input(found[i].address);
+        const double power  = (int16_t)input(found[i].address + 1);
+        TEST_ASSERT_DOUBLE_WITHIN(2.0e-4 * fabs(found[i].value), found[i].value,
+                                  digits * pow(10.0, power));
+    }
+    uint16_t value = 0U;
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_ADDRESS,
+                          app_registers_read_input(&registers, 92U, 1U, &value));
+}
+
+static void test_commissioning_is_asked_for_with_its_bounds(void)
+{
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(4, 250));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(5, 1500));
+    TEST_ASSERT_FALSE(registers.command.commission);
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(3, 1));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_VALUE, write(3, 2));
+
+    TEST_ASSERT_TRUE(registers.command.commission && !registers.command.run);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-5f, 2.5f, registers.command.bounds.current_A);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-4f, 150.0f, registers.command.bounds.speed_m_radps);
+    TEST_ASSERT_EQUAL_INT(1, holding(3));
+    TEST_ASSERT_EQUAL_INT(250, holding(4));
+    TEST_ASSERT_EQUAL_INT(1500, holding(5));
+
+    app_registers_silence(&registers);
+    TEST_ASSERT_FALSE(registers.command.commission);
+    TEST_ASSERT_TRUE(registers.silent);
+}
+
 static void test_registers_are_zero_at_the_start(void)
 {
     for (int address = 0; address < 42; address++) {
@@ -170,10 +226,10 @@ static void test_limits_and_heat_are_told(void)
 
 static void test_blocks_that_do_not_exist_as_a_whole_are_refused(void)
 {
-    static const uint32_t inputs[][2]   = {{48UL, 1UL},    {47UL, 2UL},    {0UL, 49UL},
+    static const uint32_t inputs[][2]   = {{92UL, 1UL},    {91UL, 2UL},    {0UL, 93UL},
                                            {65535UL, 1UL}, {65535UL, 2UL}, {1UL, 65535UL}};
-    static const uint32_t holdings[][2] = {{3UL, 1UL}, {2UL, 2UL}, {0UL, 4UL}, {65535UL, 2UL}};
-    uint16_t              values[64]    = {0U};
+    static const uint32_t holdings[][2] = {{6UL, 1UL}, {5UL, 2UL}, {0UL, 7UL}, {65535UL, 2UL}};
+    uint16_t              values[96]    = {0U};
     for (int i = 0; i < SUPPORT_COUNT(inputs); i++) {
         TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_ADDRESS,
                               app_registers_read_input(&registers, (uint16_t)inputs[i][0],
@@ -188,8 +244,8 @@ static void test_blocks_that_do_not_exist_as_a_whole_are_refused(void)
                                                   (uint16_t)holdings[i][1], values));
     }
     TEST_ASSERT_FALSE(registers.changed);
-    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, app_registers_read_input(&registers, 0U, 48U, values));
-    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, app_registers_read_holding(&registers, 0U, 3U, values));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, app_registers_read_input(&registers, 0U, 92U, values));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, app_registers_read_holding(&registers, 0U, 6U, values));
 }
 
 static void test_every_speed_in_range_is_taken_and_read_back(void)
@@ -257,6 +313,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_input_registers_are_what_the_table_says);
     RUN_TEST(test_snapshot_registers_are_what_the_table_says);
+    RUN_TEST(test_commissioning_registers_are_what_the_table_says);
+    RUN_TEST(test_commissioning_is_asked_for_with_its_bounds);
     RUN_TEST(test_registers_are_zero_at_the_start);
     RUN_TEST(test_values_are_held_at_the_ends_of_16_bits);
     RUN_TEST(test_conditions_reset_and_phase_errors);

@@ -20,7 +20,7 @@ BAUD = 115200
 # may be busy: a virtual drive's time then stands still with it.
 SERIAL_TIMEOUT_S = 0.2
 TCP_TIMEOUT_S = 2.0
-RETRIES = 1
+TRIES = 2
 
 EXCEPTION_WORDS = {
     1: "does not know this function",
@@ -53,9 +53,9 @@ class Target:
         return self.serial_port is None and self.host in ("127.0.0.1", "localhost", "::1")
 
 
-def parity_of(serial_port: str) -> str:
-    """Even, as docs/modbus.md says; a pseudo-terminal has no line and no parity."""
-    return "N" if os.path.realpath(serial_port).startswith("/dev/pts/") else "E"
+def is_pseudo_terminal(serial_port: str) -> bool:
+    """A virtual drive's."""
+    return os.path.realpath(serial_port).startswith("/dev/pts/")
 
 
 class Drive:
@@ -66,11 +66,12 @@ class Drive:
         self.target = target
         self._lock = threading.Lock()
         if target.serial_port:
+            virtual = is_pseudo_terminal(target.serial_port)  # it has no line and no parity
             self._client: Any = ModbusSerialClient(
-                target.serial_port, baudrate=BAUD, parity=parity_of(target.serial_port), stopbits=1,
-                timeout=SERIAL_TIMEOUT_S, retries=RETRIES)  # fmt: skip
+                target.serial_port, baudrate=BAUD, parity="N" if virtual else "E", stopbits=1,
+                timeout=TCP_TIMEOUT_S if virtual else SERIAL_TIMEOUT_S, retries=0)  # fmt: skip
         else:
-            self._client = ModbusTcpClient(target.host, port=target.tcp_port, timeout=TCP_TIMEOUT_S, retries=RETRIES)
+            self._client = ModbusTcpClient(target.host, port=target.tcp_port, timeout=TCP_TIMEOUT_S, retries=0)
 
     def __enter__(self) -> Drive:
         self.open()
@@ -114,18 +115,31 @@ class Drive:
         """A run starts when it rises in READY."""
         self._asked("write_register", registers.RUN, int(run))
 
+    def end_commissioning(self) -> None:
+        """Mode COMMISSION gives up."""
+        self._asked("write_register", registers.COMMISSION, 0)
+
     def reset(self) -> None:
         """Leaves FAULT when what caused it has gone."""
         self.set_run(False)
         self._asked("write_register", registers.RESET, 1)
 
     def _asked(self, call: str, *args: Any, **kwargs: Any) -> Any:
-        try:
-            with self._lock:
-                answer = getattr(self._client, call)(*args, **kwargs)
-        except (ModbusException, OSError) as e:
-            raise DriveError(f"no answer from {self.target.words}") from e
+        with self._lock:
+            answer = self._tried(call, *args, **kwargs)
         if answer.isError():
             code = getattr(answer, "exception_code", None)
             raise DriveError(f"the drive {EXCEPTION_WORDS.get(code, f'answers with exception {code}')}")
         return answer
+
+    def _tried(self, call: str, *args: Any, **kwargs: Any) -> Any:
+        """Once more after a lost answer: to ask or write the same twice does nothing else."""
+        why: Optional[Exception] = None
+        for _ in range(TRIES):
+            try:
+                if self._client.connect():
+                    return getattr(self._client, call)(*args, **kwargs)
+            except (ModbusException, OSError) as e:
+                self._client.close()  # what comes late belongs to nothing
+                why = e
+        raise DriveError(f"no answer from {self.target.words}") from why

@@ -7,11 +7,13 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import Sequence
 
-RUN, RESET, SPEED = range(3)  # holding registers
+# Holding registers from 0 on.
+HOLDING_NAMES = ("RUN", "RESET", "SPEED", "COMMISSION", "COMMISSION_CURRENT", "COMMISSION_SPEED")
+RUN, RESET, SPEED, COMMISSION = range(4)
 SPEED_PER_UNIT_E_RADPS = 0.1
 TICK_S = 200e-6
 
-# Input registers from 0 on, named as APP_REGISTERS_* in firmware/app/app_registers.h.
+# Input registers from 0 on, named as APP_REGISTERS_* in firmware/app/app_registers.h; those of commissioning follow.
 INPUT_NAMES = (
     "MODE", "FAULT", "DRIVE_FAULT", "BOARD_FAULTS", "CONDITIONS", "REFERENCE", "ALIGN_STAGE", "SPEED_NOW",
     "IQ", "ID", "IQ_REF", "ID_REF", "VQ", "VD", "DC_LINK", "TEMPERATURE", "THETA", "POSITION", "CORRECTIONS",
@@ -36,6 +38,7 @@ class Mode(IntEnum):
     FAULT = 5
     PRECHARGE = 6
     STOP = 7
+    COMMISSION = 8
 
 
 MODE_WORDS = {
@@ -47,6 +50,7 @@ MODE_WORDS = {
     Mode.FAULT: "FAULT",
     Mode.PRECHARGE: "charges the gate supplies",
     Mode.STOP: "brakes before the bridge opens",
+    Mode.COMMISSION: "finds out what motor it has: the shaft moves",
 }
 
 

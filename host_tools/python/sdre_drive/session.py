@@ -63,9 +63,11 @@ def start(drive: Drive, speed_e_radps: float) -> None:
 
 
 def stop(drive: Drive) -> Reading:
-    """Withdraws run and waits until the bridge is off."""
+    """Withdraws run and commissioning, and waits until the bridge is off."""
     drive.set_run(False)
-    reading = wait_for(drive, lambda r: r.mode not in (*MOVING, Mode.STOP), STOP_WAIT_S)
+    if drive.read().mode == Mode.COMMISSION:
+        drive.end_commissioning()
+    reading = wait_for(drive, lambda r: r.mode not in (*MOVING, Mode.STOP, Mode.COMMISSION), STOP_WAIT_S)
     if reading is None:
         raise DriveError(f"the drive does not stop: it {drive.read().mode_words}")
     return reading

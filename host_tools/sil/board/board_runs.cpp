@@ -60,7 +60,7 @@ bool ApiRun::step()
 
 void ApiRun::command()
 {
-    const app_command_t c{omega_of(tenths_), run_, false};
+    const app_command_t c{omega_of(tenths_), run_, false, false, {}};
     app_command_write(&c);
 }
 
@@ -74,6 +74,16 @@ void ApiRun::set_run()
 {
     run_ = true;
     command();
+}
+
+bool ApiRun::commission(std::uint16_t current, std::uint16_t speed)
+{
+    const app_command_t c{0.0F,
+                          false,
+                          false,
+                          true,
+                          {0.01F * static_cast<float>(current), 0.1F * static_cast<float>(speed)}};
+    return app_command_write(&c);
 }
 
 void ApiRun::inject(FaultKind)
@@ -120,6 +130,19 @@ void F28335Run::set_speed(int tenths)
 void F28335Run::set_run()
 {
     master_.write(APP_REGISTERS_RUN, 1);
+}
+
+bool F28335Run::commission(std::uint16_t current, std::uint16_t speed)
+{
+    const std::array<std::array<std::uint16_t, 2>, 3> writes{
+        {{APP_REGISTERS_COMMISSION_CURRENT, current},
+         {APP_REGISTERS_COMMISSION_SPEED, speed},
+         {APP_REGISTERS_COMMISSION, 1}}};
+    if (commission_writes_ < writes.size() && can_command()) {
+        master_.write(writes[commission_writes_][0], writes[commission_writes_][1]);
+        commission_writes_++;
+    }
+    return commission_writes_ == writes.size();
 }
 
 bool F28335Run::can_command() const

@@ -27,7 +27,9 @@ public:
     /// Sends a command; it acts some ticks later, always as many.
     virtual void set_speed(int tenths) = 0;
     virtual void set_run()             = 0;
-    virtual bool can_command() const   = 0;
+    /// Asks for a commissioning, with its bounds in the units of their registers; call until it is true.
+    virtual bool commission(std::uint16_t current, std::uint16_t speed) = 0;
+    virtual bool can_command() const                                    = 0;
     /// Breaks the processor; InputError where there is none.
     virtual void inject(FaultKind kind) = 0;
     /// Nothing will be commanded for a while: time for other talk.
@@ -62,6 +64,7 @@ public:
     bool step() override;
     void set_speed(int tenths) override;
     void set_run() override;
+    bool commission(std::uint16_t current, std::uint16_t speed) override;
     bool can_command() const override
     {
         return true;
@@ -84,6 +87,7 @@ public:
     bool                     step() override;
     void                     set_speed(int tenths) override;
     void                     set_run() override;
+    bool                     commission(std::uint16_t current, std::uint16_t speed) override;
     bool                     can_command() const override;
     void                     inject(FaultKind kind) override;
     void                     chat() override;
@@ -112,6 +116,7 @@ private:
     f28335::MotorSurroundings surroundings_;
     f28335::Device            device_;
     f28335::ModbusMaster      master_;
+    std::size_t               commission_writes_ = 0;
 };
 
 /// The constants that main() hands to board and application: those of the controller, and what the board is for the drive.

@@ -14,6 +14,7 @@ Command compare_command();
 Command motors_command();
 Command bench_command();
 Command qualify_command();
+Command commission_command();
 Command serve_command();
 
 } // namespace sdre

@@ -28,6 +28,7 @@ constexpr std::size_t  longest_line      = 4096;
 constexpr std::size_t  most_clients      = 32;
 constexpr std::size_t  most_unread       = 16'000'000; // chosen: some of the longest traces
 constexpr std::uint8_t own_unit          = 1;
+constexpr std::uint8_t gateway_busy      = 0x06;
 constexpr std::uint8_t no_gateway_answer = 0x0B;
 
 volatile std::sig_atomic_t asked_to_end = 0;
@@ -112,7 +113,12 @@ void Server::take_requests(long id, Client &client)
         if (unit == 0xFF) { // what clients of Modbus/TCP name a device that is alone
             request->unit_and_pdu[0] = own_unit;
         }
-        bus_.push({id, request->transaction, unit, rtu_frame(request->unit_and_pdu)});
+        const Octets busy{unit, static_cast<std::uint8_t>(request->unit_and_pdu[1] | 0x80U),
+                          gateway_busy};
+        if (!bus_.push({id, request->transaction, unit, rtu_frame(request->unit_and_pdu)}) &&
+            unit != 0) {
+            send(client, tcp_answer(request->transaction, busy));
+        }
     }
     if (broken) {
         client.fd = {};
@@ -239,7 +245,8 @@ void Server::run()
     std::signal(SIGINT, ask_to_end);
     std::signal(SIGTERM, ask_to_end);
     double origin_s = wall_now_s() - drive_.time_s() / pace_.speed_factor;
-    while (asked_to_end == 0 && (options_.end_s <= 0.0 || drive_.time_s() < options_.end_s)) {
+    while (asked_to_end == 0 && !stopped_ &&
+           (options_.end_s <= 0.0 || drive_.time_s() < options_.end_s)) {
         const double wall_s   = wall_now_s();
         const double wanted_s = (wall_s - origin_s) * pace_.speed_factor;
         const double late_s   = wanted_s - drive_.time_s() - most_late_s;

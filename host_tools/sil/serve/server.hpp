@@ -2,6 +2,7 @@
 /// Serves a drive to Modbus clients, in real time.
 #pragma once
 
+#include <atomic>
 #include <map>
 #include <memory>
 #include <optional>
@@ -28,8 +29,18 @@ public:
 
     /// What a person has to know to connect, lines.
     std::string greeting() const;
-    /// Until a signal asks for the end, or the time is over.
+    /// Until a signal or stop() asks for the end, or the time is over.
     void run();
+    /// From any thread.
+    void stop()
+    {
+        stopped_ = true;
+    }
+    /// Of Modbus/TCP, which has to be open.
+    int tcp_port() const
+    {
+        return port_of(listeners_.at(Kind::tcp));
+    }
 
 private:
     enum class Kind { pty, rtu, tcp, control };
@@ -67,6 +78,7 @@ private:
     std::map<Kind, Descriptor>      listeners_;
     std::map<long, Client>          clients_;
     long                            next_client_ = 1;
+    std::atomic<bool>               stopped_{false};
 };
 
 } // namespace sdre

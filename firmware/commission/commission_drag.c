@@ -1,0 +1,258 @@
+/* SPDX-License-Identifier: MIT */
+#include "commission_drag.h"
+
+/* Chosen: shares of the current bound; first try, most, least. */
+#define FIRST_SHARE 0.1f
+#define MOST_SHARE  0.6f
+#define LEAST_SHARE 0.02f
+#define RAMP_s      0.5f
+#define STILL_s     0.2f
+#define PATIENCE_s  6.0f
+/* Chosen: electrical. Below a third of what the rotor swings at, it follows; slower than the least takes minutes. */
+#define SWING_SHARE   0.3f
+#define SLOWEST_radps 1.2f
+#define FASTEST_radps 6.0f
+#define SPEED_RAMP_s  1.0f
+/* Whole mechanical turns, but no more electrical ones than this; and to find two indexes. */
+#define MOST_TURNS  8
+#define INDEX_TURNS 64
+/* x above this many S I is a magnet; the current is then below a third of where the magnet would let go. */
+#define MAGNET_RATIO 1.4f
+#define HOLD_RATIO   3.0f
+#define LESS         0.4f
+/* Pole pairs are whole within this. */
+#define WHOLE 0.1f
+
+/* Parts of a pass. */
+enum { SETTLE = 0, LEAD_FORWARD, FORWARD, TURN, BACKWARD, RELEASE, PARTS };
+
+static void begin_part(commission_drag_t *d, int16_t part)
+{
+    d->part    = part;
+    d->way_rad = 0.0f;
+    d->ticks   = 0L;
+}
+
+static void begin_pass(commission_drag_t *d, float length_A, int16_t turns)
+{
+    const commission_turns_t none = {.n = 0.0f};
+    d->sums[0]                    = none;
+    d->sums[1]                    = none;
+    d->length_A                   = length_A;
+    d->turns                      = turns;
+    d->indexes                    = 0;
+    begin_part(d, SETTLE);
+}
+
+void commission_drag_start(commission_drag_t *d, const commission_config_t *c,
+                           const commission_result_t *known)
+{
+    const float       swing = known->half_swing_s;
+    commission_drag_t fresh = {.speed_radps = FASTEST_radps};
+    *d                      = fresh;
+    if (swing > 0.0f) {
+        d->speed_radps = base_clamp(SWING_SHARE * BASE_PI / swing, SLOWEST_radps, FASTEST_radps);
+    }
+    commission_vector_start(&d->vector, c, known, RAMP_s);
+    begin_pass(d, FIRST_SHARE * c->current_max_A, 1);
+}
+
+static void note_index(commission_drag_t *d, const commission_signal_t *s,
+                       commission_result_t *found)
+{
+    if (!s->index_seen || (d->part != FORWARD)) {
+        return;
+    }
+    if (d->indexes == 0) {
+        d->index_cnt = s->index_cnt;
+    } else if ((d->indexes == 1) && (found->counts_per_turn == 0L)) {
+        const int32_t turn     = commission_moved_cnt(s->index_cnt, d->index_cnt);
+        found->counts_per_turn = (turn < 0L) ? -turn : turn;
+    } else {
+        /* one more of the same */
+    }
+    d->indexes++;
+    found->indexed   = true;
+    found->index_cnt = s->index_cnt;
+}
+
+static int16_t turns_of(const commission_result_t *found)
+{
+    return (found->pole_pairs < 2)            ? 2
+           : (found->pole_pairs > MOST_TURNS) ? MOST_TURNS
+                                              : found->pole_pairs;
+}
+
+/* Counts and kind of alignment are known: the pass that finds the offset. */
+static void begin_second(commission_drag_t *d, const commission_config_t *c,
+                         const commission_result_t *found)
+{
+    const float saliency = found->lq_H.value - found->ld_H.value;
+    const float most_A   = MOST_SHARE * c->current_max_A;
+    const float hold_A   = (found->reluctance || !(saliency > 0.0f))
+                               ? most_A
+                               : (found->flux_Wb.value / (HOLD_RATIO * saliency));
+    d->second            = true;
+    begin_pass(d, base_min(hold_A, most_A),
+               (found->counts_per_turn > 0L) ? turns_of(found) : INDEX_TURNS);
+}
+
+/* A rotor that stays behind gets more current, unless less was tried than one that it followed. */
+static commission_step_t try_again(commission_drag_t *d, const commission_config_t *c,
+                                   const commission_result_t *found)
+{
+    const float most_A = MOST_SHARE * c->current_max_A;
+
+    if (d->followed_A > 0.0f) {
+        begin_second(d, c, found);
+        return COMMISSION_BUSY;
+    }
+    if (d->length_A >= most_A) {
+        return COMMISSION_FAILED;
+    }
+    begin_pass(d, base_min(2.0f * d->length_A, most_A), 1);
+    return COMMISSION_BUSY;
+}
+
+/* What the first pass says. */
+static commission_step_t judge_first(commission_drag_t *d, const commission_config_t *c,
+                                     commission_result_t *found)
+{
+    const float saliency = base_max(found->lq_H.value - found->ld_H.value, 0.0f);
+    float       i_A      = 0.0f;
+
+    if (!commission_turns_follow(d->sums)) {
+        return try_again(d, c, found);
+    }
+    const float x =
+        commission_turns_beyond_Wb(d->sums, found, d->speed_radps, &i_A); /* EQ-COMMISSION-10 */
+    found->direction     = (d->sums[0].moved_cnt > 0L) ? 1 : -1;
+    found->reluctance    = !(x > (MAGNET_RATIO * saliency * i_A));
+    found->flux_Wb.value = found->reluctance ? 0.0f : x;
+    d->followed_A        = d->length_A;
+    if (found->counts_per_turn > 0L) {
+        const float pairs = (float)found->counts_per_turn / fabsf((float)d->sums[0].moved_cnt);
+        found->pole_pairs = (int16_t)base_clamp(pairs + 0.5f, 0.0f, 1000.0f);
+    }
+    const float less_A = LESS * d->length_A;
+    if (found->reluctance && (less_A > (LEAST_SHARE * c->current_max_A))) {
+        begin_pass(d, less_A, 1);
+    } else {
+        begin_second(d, c, found);
+    }
+    return COMMISSION_BUSY;
+}
+
+static bool pairs_are_whole(const commission_drag_t *d, const commission_result_t *found)
+{
+    const float moved = fabsf((float)d->sums[0].moved_cnt);
+    const float pairs = (float)found->counts_per_turn * (float)d->turns / base_max(moved, 1.0f);
+    const float whole = (float)found->pole_pairs;
+
+    return (found->pole_pairs > 0) && base_within(pairs - whole, WHOLE);
+}
+
+static commission_step_t judge_second(commission_drag_t *d, const commission_config_t *c,
+                                      commission_result_t *found)
+{
+    const float most_A = MOST_SHARE * c->current_max_A;
+
+    if (!commission_turns_follow(d->sums) || !pairs_are_whole(d, found)) {
+        if (d->length_A >= most_A) {
+            return COMMISSION_FAILED;
+        }
+        begin_pass(d, base_min(2.0f * d->length_A, most_A), d->turns);
+        return COMMISSION_BUSY;
+    }
+    commission_turns_solve(d->sums, d->speed_radps, found);
+    return COMMISSION_DONE;
+}
+
+/* With an unknown number of counts the second pass waits for two indexes, which give the pole pairs too, and begins again. */
+static bool forward_done(commission_drag_t *d, commission_result_t *found)
+{
+    const float turned = d->way_rad / BASE_TWO_PI;
+
+    if ((d->turns == INDEX_TURNS) && (found->counts_per_turn > 0L)) {
+        const float moved = fabsf((float)d->sums[0].moved_cnt);
+        const float pairs = (float)found->counts_per_turn * turned / base_max(moved, 1.0f);
+        found->pole_pairs = (int16_t)base_clamp(pairs + 0.5f, 0.0f, 1000.0f);
+        begin_pass(d, d->length_A, turns_of(found));
+        return false;
+    }
+    return turned >= (float)d->turns;
+}
+
+static void move(commission_drag_t *d, float ts_s, float wanted_radps)
+{
+    const float most = d->speed_radps * ts_s / SPEED_RAMP_s;
+    d->omega_radps   = base_clamp(wanted_radps, d->omega_radps - most, d->omega_radps + most);
+    d->theta_rad     = frames_wrap(d->theta_rad + (d->omega_radps * ts_s));
+    d->way_rad += fabsf(d->omega_radps) * ts_s;
+}
+
+/* Speed of the present part, and whether it has ended. */
+static bool part_ends(commission_drag_t *d, const commission_config_t *c, float *wanted_radps,
+                      commission_result_t *found)
+{
+    const bool settled = commission_vector_still(&d->vector, STILL_s) &&
+                         (d->ticks > commission_ticks(RAMP_s + STILL_s, c->ts_s));
+    const bool late = d->ticks > commission_ticks(PATIENCE_s, c->ts_s);
+
+    switch (d->part) {
+    case LEAD_FORWARD:
+        *wanted_radps = d->speed_radps;
+        return (d->way_rad >= BASE_PI) && (d->omega_radps >= d->speed_radps);
+    case FORWARD:
+        *wanted_radps = d->speed_radps;
+        return forward_done(d, found);
+    case TURN:
+        *wanted_radps = -d->speed_radps;
+        return (d->way_rad >= BASE_TWO_PI) && (d->omega_radps <= -d->speed_radps);
+    case BACKWARD:
+        *wanted_radps = -d->speed_radps;
+        return d->way_rad >= (BASE_TWO_PI * (float)d->turns);
+    default:
+        *wanted_radps = 0.0f;
+        return settled || late;
+    }
+}
+
+commission_answer_t commission_drag_tick(commission_drag_t *d, const commission_config_t *c,
+                                         const commission_signal_t *s, commission_result_t *found)
+{
+    commission_answer_t answer       = commission_rest(COMMISSION_BUSY);
+    float               wanted_radps = 0.0f;
+
+    note_index(d, s, found);
+    const commission_vector_out_t out =
+        commission_vector_tick(&d->vector, s, d->theta_rad, 1.5f * d->omega_radps * c->ts_s,
+                               (d->part == RELEASE) ? 0.0f : d->length_A);
+    if ((d->part == FORWARD) || (d->part == BACKWARD)) {
+        commission_turns_add(&d->sums[(d->part == FORWARD) ? 0 : 1], &out, found, d->theta_rad,
+                             s->position_cnt, d->second && (found->counts_per_turn > 0L));
+    }
+    d->ticks++;
+    const bool ends = part_ends(d, c, &wanted_radps, found);
+    move(d, c->ts_s, wanted_radps);
+    if (ends && (d->part == RELEASE)) {
+        answer.step = COMMISSION_DONE;
+        return answer;
+    }
+    if (ends && (d->part == BACKWARD)) {
+        const commission_step_t step =
+            d->second ? judge_second(d, c, found) : judge_first(d, c, found);
+        if (step == COMMISSION_DONE) {
+            begin_part(d, RELEASE);
+        } else {
+            answer.step = step;
+        }
+    } else if (ends) {
+        begin_part(d, (int16_t)(d->part + 1));
+    } else {
+        /* goes on */
+    }
+    answer.v_V = out.out_V;
+    answer.i_A = frames_inverse_park(out.i_A, frames_angle(d->theta_rad));
+    return answer;
+}

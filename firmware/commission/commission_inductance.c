@@ -1,0 +1,277 @@
+/* SPDX-License-Identifier: MIT */
+#include "commission_inductance.h"
+
+/* Chosen: a current whose reluctance torque hardly moves a rotor within the look, but of 25 times the noise of a usual sensor. */
+#define LOOK_SHARE  0.06f
+#define LOOK_HALVES 40
+#define LOOK_AXES   4
+#define MAP_SHARE   0.8f
+#define MAP_HALVES  48
+/* Chosen: of the bound, in full when this share of the dc link is induced. */
+#define BRAKE_SHARE     0.1f
+#define BRAKE_EMF_SHARE 0.02f
+/* Measured on six motors (docs/commissioning.md): what the scatter of one run does not show. */
+#define SYSTEMATIC 0.01f
+/* Beyond what a measurement of two equal inductances is off. */
+#define CROSSED 1.1f
+/* Chosen: of a bin. Nearer to zero it is not known what the inverter loses. */
+#define CROSSING 0.4f
+/* Without voltage before each wave: the noise of the current is measured, and what is left of a current dies out. */
+#define REST_TICKS 200
+/* The current has not died out before: in the second half it is noise. */
+#define QUIET_TICKS 100
+
+void commission_inductance_start(commission_inductance_t *l)
+{
+    commission_inductance_t fresh = {.axis = 0};
+    *l                            = fresh;
+}
+
+static float square(float x)
+{
+    return x * x;
+}
+
+static commission_answer_t rest(commission_inductance_t *l, const commission_signal_t *s)
+{
+    if (l->wait_ticks < REST_TICKS) {
+        l->wait_ticks++;
+    }
+    if (l->wait_ticks > QUIET_TICKS) {
+        l->noise_A2 += 0.5f * (square(s->di_A.alpha) + square(s->di_A.beta));
+        l->noise_n += 1.0f;
+    }
+    return commission_rest(COMMISSION_BUSY);
+}
+
+static void next_axis(commission_inductance_t *l)
+{
+    l->axis++;
+    l->wait_ticks = 0;
+}
+
+/* EQ-COMMISSION-5. L of a motor whose current rises slowest along q. */
+static bool set_look(commission_inductance_t *l, const commission_config_t *c,
+                     commission_result_t *found)
+{
+    const float noise = l->noise_A2 / base_max(l->noise_n, 1.0f);
+    l->alpha.aa -= noise * (float)l->alpha.n;
+    l->alpha.bb -= noise * (float)l->alpha.n;
+    l->beta.aa = l->alpha.aa;
+    l->beta.bb = l->alpha.bb;
+
+    const commission_fitted_t a = commission_fit_solve(&l->alpha);
+    const commission_fitted_t b = commission_fit_solve(&l->beta);
+    if (!a.valid || !b.valid) {
+        return false;
+    }
+    const float mean  = 0.5f * (a.x0 + b.x1) * c->ts_s;
+    const float cos2  = 0.5f * (a.x0 - b.x1) * c->ts_s;
+    const float sin2  = 0.5f * (a.x1 + b.x0) * c->ts_s;
+    const float half  = sqrtf(square(cos2) + square(sin2));
+    found->ld_H.value = mean - half;
+    found->lq_H.value = mean + half;
+    return found->ld_H.value > 0.0f;
+}
+
+/* Where the wave acts: alpha, beta, then the axes that these two have shown: along them both inductances get a wave of
+ * their own height, which the first two leave to the smaller one. */
+static void set_direction(commission_inductance_t *l)
+{
+    const commission_fitted_t a = commission_fit_solve(&l->alpha);
+    const commission_fitted_t b = commission_fit_solve(&l->beta);
+    const float large = 0.5f * commission_angle_of(a.x1 + b.x0, a.x0 - b.x1); /* EQ-COMMISSION-5 */
+    const frames_angle_t alpha = {1.0f, 0.0f};
+    const frames_angle_t beta  = {0.0f, 1.0f};
+
+    switch (l->axis) {
+    case 0:
+        l->direction = alpha;
+        break;
+    case 1:
+        l->direction = beta;
+        break;
+    default:
+        l->direction = frames_angle(large + ((l->axis == 2) ? (0.5f * BASE_PI) : 0.0f));
+        break;
+    }
+}
+
+commission_answer_t commission_inductance_look(commission_inductance_t   *l,
+                                               const commission_config_t *c,
+                                               const commission_signal_t *s,
+                                               commission_result_t       *found)
+{
+    if (l->axis >= LOOK_AXES) {
+        return commission_rest(set_look(l, c, found) ? COMMISSION_DONE : COMMISSION_FAILED);
+    }
+    if (l->wait_ticks < REST_TICKS) {
+        if (l->wait_ticks == 0) {
+            set_direction(l);
+            commission_wave_start(&l->wave, LOOK_SHARE * c->current_max_A);
+        }
+        return rest(l, s);
+    }
+    if (l->wave.halves > 0) {
+        commission_fit_add(&l->alpha, s->di_A.alpha, s->di_A.beta,
+                           s->v_V.alpha); /* EQ-COMMISSION-4 */
+        commission_fit_add(&l->beta, s->di_A.alpha, s->di_A.beta, s->v_V.beta);
+    }
+    if (l->wave.halves > LOOK_HALVES) {
+        next_axis(l);
+        return commission_rest(COMMISSION_BUSY);
+    }
+    const float         i_A  = frames_park(s->i_A, l->direction).d;
+    const float         di_A = frames_park(s->di_A, l->direction).d;
+    const dq_t          v_V  = {commission_wave_tick(&l->wave, i_A, di_A, s->dc_link_V), 0.0f};
+    commission_answer_t out  = commission_rest(COMMISSION_BUSY);
+    out.v_V                  = frames_inverse_park(v_V, l->direction);
+    return out;
+}
+
+static void add_to_bin(commission_inductance_t *l, float i_A, float di_A, float v_V, float step_A)
+{
+    const float size = fabsf(i_A);
+    if (size < (CROSSING * step_A)) {
+        return;
+    }
+    const int16_t place = (int16_t)base_clamp(size / step_A, 0.0f, (float)(COMMISSION_BINS - 1));
+    commission_bin_t *b = &l->bins[l->axis][(i_A < 0.0f) ? 1 : 0][place];
+    b->dd += square(di_A);
+    b->dv += di_A * v_V;
+    b->vv += square(v_V);
+    b->n += 1.0f;
+}
+
+static void merge(commission_bin_t *into, const commission_bin_t *b)
+{
+    into->dd += b->dd;
+    into->dv += b->dv;
+    into->vv += b->vv;
+    into->n += b->n;
+}
+
+/* EQ-COMMISSION-6; 0 where too little was seen. */
+static commission_value_t bin_H(const commission_bin_t *b, float noise_A2, float ts_s)
+{
+    commission_value_t out = {0.0f, 0.0f};
+    const float        dd  = b->dd - (b->n * noise_A2);
+    if ((b->n > 2.0f) && (dd > 0.0f)) {
+        const float x    = b->dv / dd;
+        const float rest = base_max(b->vv - (x * b->dv), 0.0f);
+        out.value        = ts_s * x;
+        out.error =
+            (2.0f * ts_s * sqrtf(rest / ((b->n - 1.0f) * dd))) + (SYSTEMATIC * fabsf(out.value));
+    }
+    return out;
+}
+
+/* Chord inductance up to the largest current: the mean over the bins. */
+static void set_map(commission_inductance_t *l, const commission_config_t *c,
+                    commission_result_t *found)
+{
+    const float      noise  = l->noise_A2 / base_max(l->noise_n, 1.0f);
+    commission_bin_t all[2] = {{0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f, 0.0f}};
+
+    for (int16_t k = 0; k < COMMISSION_BINS; k++) {
+        commission_bin_t q    = l->bins[1][0][k];
+        found->ld_map_H[0][k] = bin_H(&l->bins[0][0][k], noise, c->ts_s).value;
+        found->ld_map_H[1][k] = bin_H(&l->bins[0][1][k], noise, c->ts_s).value;
+        merge(&q, &l->bins[1][1][k]);
+        found->lq_map_H[k] = bin_H(&q, noise, c->ts_s).value;
+        merge(&all[0], &l->bins[0][0][k]);
+        merge(&all[0], &l->bins[0][1][k]);
+        merge(&all[1], &q);
+    }
+    found->ld_H = bin_H(&all[0], noise, c->ts_s);
+    found->lq_H = bin_H(&all[1], noise, c->ts_s);
+}
+
+static void swap(float *a, float *b)
+{
+    const float kept = *a;
+    *a               = *b;
+    *b               = kept;
+}
+
+/* A larger inductance along d than along q: what was taken for the magnet's axis is the reluctance motor's q axis. */
+static void turn_if_crossed(commission_result_t *found)
+{
+    if (!(found->ld_H.value > (CROSSED * found->lq_H.value))) {
+        return;
+    }
+    swap(&found->ld_H.value, &found->lq_H.value);
+    swap(&found->ld_H.error, &found->lq_H.error);
+    for (int16_t k = 0; k < COMMISSION_BINS; k++) {
+        swap(&found->ld_map_H[0][k], &found->lq_map_H[k]);
+        found->ld_map_H[1][k] = found->ld_map_H[0][k];
+    }
+    found->offset_rad.value = frames_wrap(found->offset_rad.value - (0.5f * BASE_PI));
+    found->flux_Wb.value    = 0.0f;
+    found->reluctance       = true;
+}
+
+/* Shifts the wave so that its mean current brakes a rotor that has got speed: steps of the current are finer on the side to
+ * which the induced voltage pushes, which would drive it on. */
+static float brake_A(const commission_inductance_t *l, const commission_signal_t *s,
+                     const commission_result_t *found, float bound_A)
+{
+    const float emf = l->angle.omega_e_radps * found->flux_Wb.value;
+    return BRAKE_SHARE * bound_A * base_clamp(emf / (BRAKE_EMF_SHARE * s->dc_link_V), -1.0f, 1.0f);
+}
+
+commission_answer_t commission_inductance_map(commission_inductance_t   *l,
+                                              const commission_config_t *c,
+                                              const commission_signal_t *s,
+                                              commission_result_t       *found)
+{
+    const float bound_A = MAP_SHARE * c->current_max_A;
+    if (l->axis > 1) {
+        found->map_step_A = bound_A / (float)COMMISSION_BINS;
+        set_map(l, c, found);
+        turn_if_crossed(found);
+        return commission_rest(((found->ld_H.value > 0.0f) && (found->lq_H.value > 0.0f))
+                                   ? COMMISSION_DONE
+                                   : COMMISSION_FAILED);
+    }
+    if (l->wait_ticks < REST_TICKS) {
+        commission_wave_start(&l->wave, bound_A);
+        l->before_cnt = s->position_cnt;
+        commission_angle_start(&l->angle, commission_angle_rad(found, s->position_cnt));
+        return rest(l, s);
+    }
+    const float moved = (float)commission_moved_cnt(s->position_cnt, l->before_cnt);
+    const float omega = (float)found->direction * (float)found->pole_pairs * BASE_TWO_PI * moved /
+                        ((float)found->counts_per_turn * c->ts_s);
+    const float          theta = commission_angle_rad(found, s->position_cnt);
+    const frames_angle_t angle = frames_angle(theta);
+    (void)commission_angle_tick(&l->angle, theta, c->ts_s);
+    const dq_t i_A  = frames_park(s->i_A, angle);
+    const dq_t di_A = frames_park(s->di_A, angle);
+    const dq_t v_V  = frames_park(s->v_V, angle);
+    const bool d    = l->axis == 0;
+    l->before_cnt   = s->position_cnt;
+
+    if (l->wave.halves > 0) {
+        const float along = d ? i_A.d : i_A.q;
+        const float step  = d ? di_A.d : di_A.q;
+        const float emf   = d ? 0.0f : (omega * found->flux_Wb.value);
+        const float mid_A = along - (0.5f * step);
+        const float left  = (d ? v_V.d : v_V.q) - (found->r_Ohm.value * mid_A) - emf;
+        add_to_bin(l, mid_A, step, left, bound_A / (float)COMMISSION_BINS);
+    }
+    if (l->wave.halves > MAP_HALVES) {
+        next_axis(l);
+        return commission_rest(COMMISSION_BUSY);
+    }
+    const float shift_A = d ? 0.0f : brake_A(l, s, found, bound_A);
+    const float wave_V  = commission_wave_tick(&l->wave, (d ? i_A.d : i_A.q) + shift_A,
+                                              d ? di_A.d : di_A.q, s->dc_link_V);
+    const dq_t  want_V  = {d ? wave_V : 0.0f, d ? 0.0f : wave_V};
+    const dq_t  then_A  = {d ? (i_A.d + (1.5f * di_A.d)) : 0.0f,
+                         d ? 0.0f : (i_A.q + (1.5f * di_A.q))};
+    commission_answer_t out = commission_rest(COMMISSION_BUSY);
+    out.v_V                 = frames_inverse_park(want_V, angle);
+    out.i_A                 = frames_inverse_park(then_A, angle);
+    return out;
+}

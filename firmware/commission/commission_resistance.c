@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: MIT */
+#include "commission_resistance.h"
+
+/* Chosen: shares of the current bound. */
+#define PULL_SHARE  0.05f
+#define LEVEL_SHARE 0.15f
+#define LEVELS      4
+/* Chosen: times. The mean takes many periods of noise; the shaft gets a few seconds to stand, then it is measured all the
+ * same: what a swinging magnet induces along the vector has no mean. */
+#define RAMP_s      0.5f
+#define STILL_s     0.2f
+#define PATIENCE_s  12.0f
+#define SETTLE_s    0.25f
+#define MEAN_s      0.1f
+#define LONG_MEAN_s 2.0f
+
+void commission_resistance_start(commission_resistance_t *r, const commission_config_t *c,
+                                 const commission_result_t *known)
+{
+    commission_resistance_t fresh = {.level = -1};
+    *r                            = fresh;
+    commission_vector_start(&r->vector, c, known, RAMP_s);
+    commission_fit_reset(&r->line);
+}
+
+static void next_level(commission_resistance_t *r)
+{
+    r->level++;
+    r->ticks      = 0L;
+    r->mean_ticks = 0L;
+    r->sums       = 0L;
+    r->sum_v_V    = 0.0f;
+    r->sum_i_A    = 0.0f;
+    if (r->level >= LEVELS) {
+        r->lines[r->angle] = commission_fit_solve(&r->line);
+        commission_fit_reset(&r->line);
+        r->level = -1;
+        r->angle++;
+    }
+}
+
+static void add_to_mean(commission_resistance_t *r, const commission_vector_out_t *out)
+{
+    r->sum_v_V += out->v_V.d;
+    r->sum_i_A += out->i_A.d;
+    r->sums++;
+    if (r->sums >= r->mean_ticks) {
+        const float per = 1.0f / (float)r->sums;
+        commission_fit_add(&r->line, r->sum_i_A * per, 1.0f, r->sum_v_V * per);
+        next_level(r);
+    }
+}
+
+static bool set_result(const commission_resistance_t *r, commission_result_t *found)
+{
+    float sum   = 0.0f;
+    float sum2  = 0.0f;
+    float cross = 0.0f;
+    float worst = 0.0f;
+    for (int16_t k = 0; k < COMMISSION_ANGLES; k++) {
+        if (!r->lines[k].valid) {
+            return false;
+        }
+        sum += r->lines[k].x0;
+        cross += r->lines[k].x1;
+        worst = base_max(worst, r->lines[k].error0);
+    }
+    const float per  = 1.0f / (float)COMMISSION_ANGLES;
+    const float mean = sum * per;
+    for (int16_t k = 0; k < COMMISSION_ANGLES; k++) {
+        sum2 += (r->lines[k].x0 - mean) * (r->lines[k].x0 - mean);
+    }
+    found->r_Ohm.value    = mean;
+    found->r_Ohm.error    = (2.0f * sqrtf(0.5f * sum2 * per)) + worst;
+    found->v_loss_V.value = base_max(0.75f * cross * per, 0.0f); /* EQ-COMMISSION-8 */
+    found->v_loss_V.error = 0.75f * r->lines[0].error1;
+    found->half_swing_s   = r->half_swing_s;
+    return mean > 0.0f;
+}
+
+commission_answer_t commission_resistance_tick(commission_resistance_t   *r,
+                                               const commission_config_t *c,
+                                               const commission_signal_t *s,
+                                               commission_result_t       *found)
+{
+    if (r->angle >= COMMISSION_ANGLES) {
+        return commission_rest(set_result(r, found) ? COMMISSION_DONE : COMMISSION_FAILED);
+    }
+    const bool  pulls = r->level < 0;
+    const float length_A =
+        c->current_max_A * (pulls ? PULL_SHARE : (LEVEL_SHARE * (float)(r->level + 1)));
+    const float theta = frames_wrap(BASE_TWO_PI * (float)r->at_angle / (float)COMMISSION_ANGLES);
+    const commission_vector_out_t out =
+        commission_vector_tick(&r->vector, s, theta, 0.0f, length_A);
+    const bool ramped = fabsf(out.length_A - length_A) <= (0.01f * length_A);
+
+    if (ramped && (r->at_angle != r->angle)) {
+        r->at_angle = r->angle; /* turned with a small current only */
+        r->ticks    = 0L;
+    } else if (ramped) {
+        r->ticks++;
+    } else {
+        /* on the way to the level */
+    }
+    const bool still = commission_vector_still(&r->vector, STILL_s);
+    const bool late  = r->ticks > commission_ticks(PATIENCE_s, c->ts_s);
+    if (pulls) {
+        r->half_swing_s = r->vector.half_swing_s;
+    }
+    if (r->mean_ticks > 0L) {
+        add_to_mean(r, &out);
+    } else if ((r->ticks > commission_ticks(SETTLE_s, c->ts_s)) && (still || late)) {
+        if (pulls) {
+            next_level(r);
+        } else {
+            r->mean_ticks = commission_ticks(still ? MEAN_s : LONG_MEAN_s, c->ts_s);
+        }
+    } else {
+        /* current and rotor settle */
+    }
+    commission_answer_t answer = commission_rest(COMMISSION_BUSY);
+    answer.v_V                 = out.out_V;
+    return answer;
+}

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: MIT */
+#include "commission_vector.h"
+
+#define BANDWIDTH_PER_TS 0.2f
+#define INTEGRAL_SHARE   0.05f
+/* Chosen: the integral within what a winding at standstill can ever need. */
+#define MOST_SHARE 0.5f
+/* Chosen: of the current bound, so that with the vector of 0.6 of it two thirds of the bound are used. */
+#define CROSS_SHARE 0.3f
+/* Chosen: counts back from the furthest point that are a reversal, beyond what the disc's edges do. */
+#define REVERSAL_CNT 6L
+
+void commission_vector_start(commission_vector_t *v, const commission_config_t *c,
+                             const commission_result_t *known, float ramp_s)
+{
+    const float         w_radps = BANDWIDTH_PER_TS / c->ts_s;
+    const float         kp      = w_radps * known->ld_H.value;
+    commission_vector_t fresh   = {.ts_s   = c->ts_s,
+                                   .kp_VpA = kp,
+                                   .ki_VpA = INTEGRAL_SHARE * w_radps * kp * c->ts_s,
+                                   .lq_H   = known->lq_H.value,
+                                   .r_Ohm  = known->r_Ohm.value,
+                                   .ramp_A = c->current_max_A * c->ts_s / ramp_s};
+    fresh.cross_max_A           = CROSS_SHARE * c->current_max_A;
+    fresh.half_swing_s          = known->half_swing_s;
+    *v                          = fresh;
+}
+
+static void watch_shaft(commission_vector_t *v, int32_t position_cnt)
+{
+    const int32_t moved = commission_moved_cnt(position_cnt, v->still_cnt);
+
+    if ((moved > 1L) || (moved < -1L)) {
+        v->still_cnt   = position_cnt;
+        v->still_ticks = 0L;
+    } else if (v->still_ticks < INT32_MAX) {
+        v->still_ticks++;
+    }
+
+    const int32_t beyond = commission_moved_cnt(position_cnt, v->extreme_cnt);
+    if (v->swing_ticks < INT32_MAX) {
+        v->swing_ticks++;
+    }
+    if (v->way == 0) {
+        v->way         = (beyond > REVERSAL_CNT) ? 1 : ((beyond < -REVERSAL_CNT) ? -1 : 0);
+        v->swing_ticks = 0L;
+    } else if (((v->way > 0) && (beyond > 0L)) || ((v->way < 0) && (beyond < 0L))) {
+        v->extreme_cnt = position_cnt;
+    } else if ((beyond > REVERSAL_CNT) || (beyond < -REVERSAL_CNT)) {
+        v->half_swing_s = (float)v->swing_ticks * v->ts_s;
+        v->way          = (v->way > 0) ? -1 : 1;
+        v->extreme_cnt  = position_cnt;
+        v->swing_ticks  = 0L;
+    } else {
+        /* on its way back, not far enough to count */
+    }
+}
+
+/* So that the resistance is the reactance at the frequency of the swing. */
+static float damping_Ohm(const commission_vector_t *v)
+{
+    if (!(v->half_swing_s > 0.0f)) {
+        return 0.0f;
+    }
+    const float wanted = BASE_PI * v->lq_H / v->half_swing_s;
+    return base_clamp(wanted - v->r_Ohm, 0.0f, v->kp_VpA);
+}
+
+commission_vector_out_t commission_vector_tick(commission_vector_t *v, const commission_signal_t *s,
+                                               float theta_rad, float turned_rad, float length_A)
+{
+    const frames_angle_t    now    = frames_angle(theta_rad);
+    const frames_angle_t    then   = frames_angle(theta_rad + turned_rad);
+    const float             most_V = MOST_SHARE * s->dc_link_V;
+    commission_vector_out_t out    = {.i_A = frames_park(s->i_A, now),
+                                      .v_V = frames_park(s->v_V, now)};
+
+    watch_shaft(v, s->position_cnt);
+    v->length_A = base_clamp(length_A, v->length_A - v->ramp_A, v->length_A + v->ramp_A);
+
+    const float error_A  = v->length_A - out.i_A.d;
+    v->integral_V        = base_clamp(v->integral_V + (v->ki_VpA * error_A), -most_V, most_V);
+    const float beyond_A = out.i_A.q - base_clamp(out.i_A.q, -v->cross_max_A, v->cross_max_A);
+    const dq_t  v_V      = {/* EQ-COMMISSION-3 */
+                      v->integral_V + (v->kp_VpA * error_A),
+                      (-damping_Ohm(v) * out.i_A.q) - (v->kp_VpA * beyond_A)};
+    out.out_V            = frames_inverse_park(v_V, then);
+    out.length_A         = v->length_A;
+    return out;
+}
+
+bool commission_vector_still(const commission_vector_t *v, float time_s)
+{
+    return ((float)v->still_ticks * v->ts_s) >= time_s;
+}

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: MIT */
+#include "commission_wave.h"
+
+/* Chosen: shares of the dc link. The smallest is below what dead times lose, the largest within the hexagon. */
+#define LEAST_SHARE 0.002f
+#define MOST_SHARE  0.45f
+/* Chosen: a half wave from bound to bound has about so many samples; fewer would leave little between the noise of two. */
+#define WANTED_SAMPLES 12
+/* Chosen: a growth in which the step of the current cannot jump over the bound. */
+#define GROWTH 1.25f
+/* A half wave ends here whatever the current does: while a voltage is looked for, and with the largest one. */
+#define MOST_SAMPLES 16
+#define LAST_SAMPLE  250
+#define FIRST_SHARE  0.707f
+
+void commission_wave_start(commission_wave_t *w, float bound_A)
+{
+    const commission_wave_t fresh = {.bound_A = bound_A,
+                                     .first_A = FIRST_SHARE * bound_A,
+                                     .v_V     = 0.0f,
+                                     .sign    = 1.0f,
+                                     .samples = 0,
+                                     .halves  = 0,
+                                     .found   = false};
+    *w                            = fresh;
+}
+
+static void turn(commission_wave_t *w, float dc_link_V)
+{
+    const float most_V = MOST_SHARE * dc_link_V;
+
+    if (!w->found) {
+        w->found = (w->samples <= WANTED_SAMPLES) || (w->v_V >= most_V);
+        w->v_V   = w->found ? w->v_V : base_min(GROWTH * w->v_V, most_V);
+    } else if (w->halves < INT16_MAX) {
+        w->halves++;
+    }
+    w->first_A = w->bound_A;
+    w->sign    = -w->sign;
+    w->samples = 0;
+}
+
+float commission_wave_tick(commission_wave_t *w, float i_A, float di_A, float dc_link_V)
+{
+    if (!(w->v_V > 0.0f)) {
+        w->v_V = LEAST_SHARE * dc_link_V;
+    }
+    w->samples++;
+    const float ahead_A = w->sign * (i_A + (2.0f * di_A)); /* EQ-COMMISSION-2 */
+    /* Two samples pass before a turn shows. */
+    const int16_t most = w->found ? LAST_SAMPLE : MOST_SAMPLES;
+    if ((w->samples > 2) && ((ahead_A > w->first_A) || (w->samples >= most))) {
+        turn(w, dc_link_V);
+    }
+    return w->sign * base_min(w->v_V, MOST_SHARE * dc_link_V);
+}

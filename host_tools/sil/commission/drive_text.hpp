@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+/// A drive file with the values that a commissioning found in place of its own, the rest byte for byte.
+#pragma once
+
+#include <string>
+
+#include "sil/commission/bench.hpp"
+
+namespace sdre {
+
+/// InputError when a key of [motor] does not stand on a line of its own.
+std::string commissioned_text(const std::string &drive_text, const commission_result_t &found,
+                              const std::string &origin);
+
+} // namespace sdre

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "sil/commission/report.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/json.hpp"
+
+namespace sdre {
+namespace {
+
+const double pi = std::acos(-1.0);
+
+CommissionLine line(const char *name, const char *unit, double truth,
+                    const commission_value_t &found)
+{
+    CommissionLine l{name, unit, truth, found.value, found.error};
+    l.relative = truth != 0.0;
+    l.error    = l.relative ? (l.found - truth) / truth : l.found;
+    return l;
+}
+
+CommissionLine exact(const char *name, double truth, double found)
+{
+    return {name, "", truth, found, 0.0, found - truth, false};
+}
+
+std::string map_text(const char *name, const float *bins, double step_A, double sign)
+{
+    std::string s = fmt::format("  {}", name);
+    for (int k = 0; k < COMMISSION_BINS; k++) {
+        s += fmt::format("  {:g} A {:.4g}", sign * step_A * (k + 0.5), bins[k]);
+    }
+    return s + "\n";
+}
+
+std::string error_text(const CommissionLine &l)
+{
+    return l.relative ? fmt::format("{:+.2f} %", 100.0 * l.error) : fmt::format("{:+.3g}", l.error);
+}
+
+} // namespace
+
+std::vector<CommissionLine> commission_lines(const Drive &d, const CommissionRun &r)
+{
+    const Motor               &m = d.motor;
+    const commission_result_t &f = r.found;
+    CommissionLine             offset{"offset", "deg electrical", 180.0 / pi * r.true_offset_e_rad,
+                          180.0 / pi * f.offset_rad.value, 180.0 / pi * f.offset_rad.error};
+    offset.relative = false;
+    // Of a motor without a magnet both ends of the axis are the same.
+    offset.error = std::remainder(offset.found - offset.truth, m.pm_flux_Wb > 0.0 ? 360.0 : 180.0);
+    return {line("resistance", "Ohm", m.stator_resistance_Ohm, f.r_Ohm),
+            line("Ld", "H", m.d_axis_inductance_H, f.ld_H),
+            line("Lq", "H", m.q_axis_inductance_H, f.lq_H),
+            line("flux", "Wb", m.pm_flux_Wb, f.flux_Wb),
+            line("inertia", "kg m2", m.inertia_kgm2, f.inertia_kgm2),
+            line("viscous friction", "N m s", m.viscous_friction_Nms, f.friction_Nms),
+            line("Coulomb friction", "N m", r.true_coulomb_Nm, f.coulomb_Nm),
+            offset,
+            exact("pole pairs", m.pole_pairs, f.pole_pairs),
+            exact("encoder counts", 4.0 * d.encoder.lines, f.counts_per_turn),
+            exact("direction", r.reversed ? -1.0 : 1.0, f.direction)};
+}
+
+std::string commission_text(const Drive &d, const CommissionRun &r)
+{
+    std::string s = fmt::format("{}: commissioning {} after {:.1f} s\n", d.name,
+                                r.finished() ? "finished" : "ABORTED", r.time_s);
+    if (!r.finished()) {
+        s += fmt::format("  in stage {}: {}\n", commission_stage_name(r.during),
+                         commission_reason_text(r.reason));
+    }
+    s += fmt::format("  {:<17} {:>12} {:>12} {:>12} {:>10}\n", "", "truth", "found", "uncertain",
+                     "error");
+    for (const CommissionLine &l : commission_lines(d, r)) {
+        s += fmt::format("  {:<17} {:>12.5g} {:>12.5g} {:>12.2g} {:>10}  {}\n", l.name, l.truth,
+                         l.found, l.uncertainty, error_text(l), l.unit);
+    }
+    s += map_text("Ld map", r.found.ld_map_H[0], r.found.map_step_A, 1.0);
+    s += map_text("Ld map", r.found.ld_map_H[1], r.found.map_step_A, -1.0);
+    s += map_text("Lq map", r.found.lq_map_H, r.found.map_step_A, 1.0);
+    s += fmt::format("  a phase loses {:.3g} V; lag by friction {:.2f} deg, ripple {:.2f} deg; "
+                     "{}\n",
+                     r.found.v_loss_V.value, 180.0 / pi * r.found.lag_rad,
+                     180.0 / pi * r.found.ripple_rad,
+                     r.found.reluctance ? "aligned by reluctance" : "aligned by the magnet");
+    s += fmt::format("  peak current {:.4g} A, {:.3f} of the bound\n", r.peak_current_A,
+                     r.peak_current_A / d.motor.max_current_A);
+    return s;
+}
+
+std::string commission_json(const Drive &d, const CommissionRun &r)
+{
+    Json root          = Json::object();
+    root["drive"]      = d.name;
+    root["finished"]   = r.finished();
+    root["stage"]      = commission_stage_name(r.finished() ? r.stage : r.during);
+    root["reason"]     = commission_reason_text(r.reason);
+    root["time_s"]     = r.time_s;
+    root["peak_share"] = r.peak_current_A / d.motor.max_current_A;
+    Json lines         = Json::object();
+    for (const CommissionLine &l : commission_lines(d, r)) {
+        Json one           = Json::object();
+        one["unit"]        = l.unit;
+        one["truth"]       = l.truth;
+        one["found"]       = l.found;
+        one["uncertainty"] = l.uncertainty;
+        one["error"]       = l.error;
+        one["relative"]    = l.relative;
+        lines[l.name]      = one;
+    }
+    root["values"] = lines;
+    return root.text();
+}
+
+std::string commission_csv(const CommissionRun &r)
+{
+    std::string s = "time_s,stage,id_A,iq_A,omega_e_radps,theta_e_rad,peak_A\n";
+    for (const CommissionRow &row : r.trace) {
+        s += fmt::format("{:.6g},{},{:.5g},{:.5g},{:.6g},{:.6g},{:.5g}\n", row.time_s, row.stage,
+                         row.id_A, row.iq_A, row.omega_e_radps, row.theta_e_rad, row.peak_A);
+    }
+    return s;
+}
+
+} // namespace sdre

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+// The served drive with a Modbus client of others: libmodbus, on a pseudo-terminal and over TCP.
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <modbus.h>
+
+#include "sil/serve/control.hpp"
+#include "sil/serve/rtu_frame.hpp"
+#include "sil/serve/served_drive.hpp"
+#include "sil/serve/server.hpp"
+
+extern "C" {
+#include "app_modes.h"
+#include "app_registers.h"
+}
+
+using namespace sdre;
+
+namespace {
+
+constexpr double longest_s = 30.0; // simulated; the tests end it sooner
+
+Drive shipped()
+{
+    return read_drive_file(SDRE_SOURCE_DIR "/firmware/config/drives/ipmsm_390w.toml");
+}
+
+/// A server in a thread of its own, and its end.
+class Served {
+public:
+    explicit Served(ServeOptions options)
+        : server_(shipped(), 1, options), thread_([this] { server_.run(); })
+    {
+    }
+    ~Served()
+    {
+        server_.stop();
+        thread_.join();
+    }
+    const Server &server() const
+    {
+        return server_;
+    }
+
+private:
+    Server      server_;
+    std::thread thread_;
+};
+
+class Client {
+public:
+    explicit Client(modbus_t *m) : m_(m)
+    {
+        modbus_set_slave(m_, 1);
+        modbus_set_response_timeout(m_, 5, 0); // a sanitized build on a busy machine
+        EXPECT_EQ(modbus_connect(m_), 0) << modbus_strerror(errno);
+    }
+    ~Client()
+    {
+        modbus_close(m_);
+        modbus_free(m_);
+    }
+    Client(const Client &)            = delete;
+    Client &operator=(const Client &) = delete;
+
+    int input(int address)
+    {
+        std::uint16_t value = 0;
+        EXPECT_EQ(modbus_read_input_registers(m_, address, 1, &value), 1) << modbus_strerror(errno);
+        return value;
+    }
+    int try_write(int address, int value)
+    {
+        return modbus_write_register(m_, address, static_cast<std::uint16_t>(value));
+    }
+    void write(int address, int value)
+    {
+        EXPECT_EQ(try_write(address, value), 1) << modbus_strerror(errno);
+    }
+    /// Polls, which keeps the drive running, until the register has the value.
+    bool reaches(int address, const std::function<bool(int)> &wanted)
+    {
+        for (int n = 0; n < 2000; n++) {
+            if (wanted(input(address))) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+private:
+    modbus_t *m_;
+};
+
+bool is_ready(int mode)
+{
+    return mode == APP_MODE_READY;
+}
+
+bool is_running(int mode)
+{
+    return mode == APP_MODE_RUN;
+}
+
+bool near_300(int tenths)
+{
+    return std::abs(tenths - 3000) < 30;
+}
+
+/// From power-up through an alignment to 300 rad/s and back.
+void spin(Client &c)
+{
+    ASSERT_TRUE(c.reaches(APP_REGISTERS_MODE, is_ready));
+    c.write(APP_REGISTERS_SPEED, 3000);
+    c.write(APP_REGISTERS_RUN, 1);
+    ASSERT_TRUE(c.reaches(APP_REGISTERS_MODE, is_running));
+    EXPECT_TRUE(c.reaches(APP_REGISTERS_SPEED_NOW, near_300));
+    EXPECT_EQ(c.try_write(APP_REGISTERS_SPEED, 30000), -1); // beyond the largest command
+    EXPECT_EQ(errno, EMBXILVAL);
+    c.write(APP_REGISTERS_RUN, 0);
+    EXPECT_TRUE(c.reaches(APP_REGISTERS_MODE, is_ready));
+}
+
+} // namespace
+
+TEST(Serve, SpinsForAClientOnAPseudoTerminal)
+{
+    const std::string path =
+        (std::filesystem::temp_directory_path() /
+         ("sdre-serve-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "-" +
+          std::to_string(getpid())))
+            .string();
+    ServeOptions o;
+    o.pty   = path;
+    o.end_s = longest_s;
+    {
+        Served served(o);
+        Client c(modbus_new_rtu(path.c_str(), 115200, 'N', 8, 1));
+        spin(c);
+    }
+    EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(path)));
+}
+
+TEST(Serve, SpinsForAClientOverTcpWhileAnotherReads)
+{
+    ServeOptions o;
+    o.tcp   = 0;
+    o.end_s = longest_s;
+    Served            served(o);
+    const int         port = served.server().tcp_port();
+    std::atomic<bool> done{false};
+    std::thread       other([&] {
+        Client reader(modbus_new_tcp("127.0.0.1", port));
+        while (!done) {
+            reader.input(APP_REGISTERS_MODE);
+        }
+    });
+    {
+        Client c(modbus_new_tcp("127.0.0.1", port));
+        spin(c);
+    }
+    done = true;
+    other.join();
+}
+
+TEST(ServeFrames, TcpRequestsComeInPieces)
+{
+    const Octets whole{0x12, 0x34, 0, 0, 0, 6, 1, 4, 0, 0, 0, 8};
+    for (std::size_t cut = 0; cut < whole.size(); cut++) {
+        bool   broken = false;
+        Octets come(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(cut));
+        EXPECT_FALSE(take_tcp_request(come, broken)) << cut;
+        come.insert(come.end(), whole.begin() + static_cast<std::ptrdiff_t>(cut), whole.end());
+        const auto request = take_tcp_request(come, broken);
+        ASSERT_TRUE(request) << cut;
+        EXPECT_FALSE(broken);
+        EXPECT_EQ(request->transaction, 0x1234);
+        EXPECT_EQ(request->unit_and_pdu, (Octets{1, 4, 0, 0, 0, 8}));
+        EXPECT_TRUE(come.empty());
+    }
+}
+
+TEST(ServeFrames, WhatIsNoTcpRequestIsBroken)
+{
+    for (Octets come :
+         {Octets{0, 0, 0, 1, 0, 6}, Octets{0, 0, 0, 0, 0, 1}, Octets{0, 0, 0, 0, 1, 0}}) {
+        bool broken = false;
+        EXPECT_FALSE(take_tcp_request(come, broken));
+        EXPECT_TRUE(broken);
+    }
+}
+
+// The checksum of the protocol's own example: 01 04 00 00 00 08 F1 CC.
+TEST(ServeFrames, ChecksumsAreMadeAndChecked)
+{
+    const Octets content{1, 4, 0, 0, 0, 8};
+    Octets       frame = rtu_frame(content);
+    EXPECT_EQ(frame[6], 0xF1);
+    EXPECT_EQ(frame[7], 0xCC);
+    EXPECT_EQ(rtu_content(frame), content);
+    for (std::size_t n = 0; n < frame.size(); n++) {
+        Octets wrong = frame;
+        wrong[n] ^= 1U;
+        EXPECT_FALSE(rtu_content(wrong)) << n;
+    }
+    EXPECT_FALSE(rtu_content({1, 4}));
+    EXPECT_EQ(tcp_answer(0x1234, {1, 4, 0}), (Octets{0x12, 0x34, 0, 0, 0, 3, 1, 4, 0}));
+}
+
+TEST(ServeControl, LoadSupplyFaultsAndWhatTheyDo)
+{
+    ServedDrive drive(shipped(), 1);
+    MotorRecord record;
+    PaceReport  pace;
+    const auto  say = [&](const std::string &line) {
+        return control_answer(line, drive, record, pace);
+    };
+    EXPECT_NE(say("load 0.5").find("\"load_Nm\":0.5"), std::string::npos);
+    for (int n = 0; n < 2500; n++) { // half a second
+        drive.period();
+        record.note(drive);
+    }
+    EXPECT_LT(drive.plant_state().omega_e_radps, -100.0); // nothing holds the shaft
+    EXPECT_NEAR(static_cast<double>(record.samples().size()), 500.0, 3.0);
+    EXPECT_EQ(say("dc_link 250").find("error"), std::string::npos);
+    for (int n = 0; n < 100; n++) {
+        drive.period();
+    }
+    EXPECT_NEAR(drive.plant_state().dc_link_V, 250.0, 1.0);
+    EXPECT_NE(say("fault kind = \"tick_hung\"").find("\"resets\":0"), std::string::npos);
+    for (int n = 0; n < 100; n++) { // the watchdog ends it after 4.4 ms, and the drive starts again
+        drive.period();
+    }
+    EXPECT_NE(say("state").find("\"resets\":1"), std::string::npos);
+    EXPECT_NE(say("fault kind = \"nope\"").find("must be one of"), std::string::npos);
+    EXPECT_NE(say("fault kind = ").find("error"), std::string::npos);
+    EXPECT_NE(say("load nan").find("error"), std::string::npos);
+    EXPECT_NE(say("load 1 2").find("error"), std::string::npos);
+    EXPECT_NE(say("").find("is not a command"), std::string::npos);
+    EXPECT_NE(say("\xff\xfe").find("error"), std::string::npos);
+    EXPECT_NE(say("trace 0.1").find("\"speed_e_radps\":["), std::string::npos);
+    EXPECT_EQ(say("mend").find("error"), std::string::npos);
+}

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file standing_winding.h
+ * @brief A motor whose rotor is held at an angle, in double precision: what a commissioning stage sees of it.
+ */
+#ifndef STANDING_WINDING_H
+#define STANDING_WINDING_H
+
+#include <math.h>
+
+#include "commission_types.h"
+
+typedef struct {
+    double ts_s;
+    double angle_rad;
+    double r_Ohm;
+    double ld_H; /**< at no current */
+    double lq_H;
+    double fall_1pA; /**< share of both that each ampere of their current takes */
+    double loss_V;   /**< that a phase loses against its current */
+    double id_A;
+    double iq_A;
+    ab_t   v_now_V; /**< asked for at the last sample */
+    ab_t   last_A;
+} standing_winding_t;
+
+static inline double winding_sign(double i_A)
+{
+    return (i_A > 0.02) ? 1.0 : ((i_A < -0.02) ? -1.0 : (i_A / 0.02));
+}
+
+/** What the next sample shows, one period on; the voltage in force was asked for one sample before the last. */
+static inline commission_signal_t winding_step(standing_winding_t *w, ab_t asked_V)
+{
+    const double c     = cos(w->angle_rad);
+    const double s     = sin(w->angle_rad);
+    const int    parts = 20;
+    for (int k = 0; k < parts; k++) {
+        const double alpha = (w->id_A * c) - (w->iq_A * s);
+        const double beta  = (w->id_A * s) + (w->iq_A * c);
+        const double half  = 0.5 * sqrt(3.0) * beta;
+        const double la    = winding_sign(alpha);
+        const double lb    = winding_sign(half - (0.5 * alpha));
+        const double lc    = winding_sign(-half - (0.5 * alpha));
+        const double va    = (double)w->v_now_V.alpha - (w->loss_V * ((2.0 * la) - lb - lc) / 3.0);
+        const double vb    = (double)w->v_now_V.beta - (w->loss_V * (lb - lc) / sqrt(3.0));
+        const double ld    = w->ld_H * (1.0 - (w->fall_1pA * fabs(w->id_A)));
+        const double lq    = w->lq_H * (1.0 - (w->fall_1pA * fabs(w->iq_A)));
+        w->id_A += ((va * c) + (vb * s) - (w->r_Ohm * w->id_A)) / ld * w->ts_s / parts;
+        w->iq_A += ((vb * c) - (va * s) - (w->r_Ohm * w->iq_A)) / lq * w->ts_s / parts;
+    }
+    commission_signal_t out = {.dc_link_V = 540.0f, .v_V = w->v_now_V};
+    out.i_A.alpha           = (float)((w->id_A * c) - (w->iq_A * s));
+    out.i_A.beta            = (float)((w->id_A * s) + (w->iq_A * c));
+    out.di_A.alpha          = out.i_A.alpha - w->last_A.alpha;
+    out.di_A.beta           = out.i_A.beta - w->last_A.beta;
+    w->last_A               = out.i_A;
+    w->v_now_V              = asked_V;
+    return out;
+}
+
+#endif /* STANDING_WINDING_H */
