@@ -42,6 +42,7 @@ json state(const ServedDrive &drive, const PaceReport &pace)
             {"time_s", drive.time_s()},
             {"speed_e_radps", now.omega_e_radps},
             {"speed_rpm", rad * rpm},
+            {"pole_pairs", drive.drive().motor.pole_pairs},
             {"id_A", now.current_A.d},
             {"iq_A", now.current_A.q},
             {"torque_Nm", now.torque_Nm},

@@ -151,11 +151,16 @@ bool read_available(int fd, Octets &into)
     return n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR || errno == EIO);
 }
 
-bool write_all(int fd, const Octets &octets)
+bool write_some(int fd, Octets &octets)
 {
+    if (octets.empty()) {
+        return true;
+    }
     const ssize_t n = write(fd, octets.data(), octets.size());
-    return n == static_cast<ssize_t>(octets.size()) ||
-           (n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EIO));
+    if (n > 0) {
+        octets.erase(octets.begin(), octets.begin() + n);
+    }
+    return n >= 0 || errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR || errno == EIO;
 }
 
 } // namespace sdre

@@ -62,7 +62,7 @@ Descriptor accept_client(const Descriptor &listener);
 
 /// What is there; false when the other end is gone.
 bool read_available(int fd, Octets &into);
-/// All of it or nothing: a client that does not read loses its answers. False when it is gone.
-bool write_all(int fd, const Octets &octets);
+/// What the other end takes now, and takes that away from `octets`. False when it is gone.
+bool write_some(int fd, Octets &octets);
 
 } // namespace sdre

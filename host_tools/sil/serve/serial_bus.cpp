@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sil/serve/serial_bus.hpp"
 
+#include <algorithm>
+
 #include "sil/serve/served_drive.hpp"
 
 namespace sdre {
@@ -9,6 +11,7 @@ namespace {
 constexpr std::size_t most_waiting = 64;   // chosen: a second of the line
 constexpr double      silence_s    = 2e-3; // by the protocol 1.75 ms at 115200 Bd, and a tick
 constexpr double      octet_s      = 11.0 / 115200.0;
+constexpr std::size_t most_of_one = 8; // chosen: a master waits for its answer before it asks again
 // Chosen: the firmware answers within a pass of its background.
 constexpr double patience_s = 0.05;
 
@@ -16,7 +19,10 @@ constexpr double patience_s = 0.05;
 
 bool SerialBus::push(BusRequest request)
 {
-    if (waiting_.size() >= most_waiting) {
+    const auto of_this = std::count_if(waiting_.begin(), waiting_.end(), [&](const BusRequest &r) {
+        return r.client == request.client;
+    });
+    if (waiting_.size() >= most_waiting || static_cast<std::size_t>(of_this) >= most_of_one) {
         return false;
     }
     waiting_.push_back(std::move(request));
@@ -55,6 +61,12 @@ void SerialBus::step(ServedDrive &drive, const Deliver &deliver)
 
 void SerialBus::forget(long client)
 {
+    const auto first = waiting_.begin() + (busy_ ? 1 : 0);
+    waiting_.erase(std::remove_if(first, waiting_.end(),
+                                  [client](const BusRequest &r) {
+                                      return r.client == client && !rtu_content(r.frame);
+                                  }),
+                   waiting_.end());
     for (BusRequest &r : waiting_) {
         r.client = r.client == client ? -1 : r.client;
     }

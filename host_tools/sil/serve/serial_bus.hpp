@@ -24,11 +24,11 @@ public:
     /// Gets every answer; an empty one when there was none.
     using Deliver = std::function<void(const BusRequest &request, const Octets &answer)>;
 
-    /// False: too many wait already.
+    /// False: too many wait already, in all or of this client.
     bool push(BusRequest request);
     /// After each control period.
     void step(ServedDrive &drive, const Deliver &deliver);
-    /// Answers for this client find nobody.
+    /// Its requests are still done, a last stop above all, but find nobody to answer; its noise no longer takes up the line.
     void forget(long client);
 
 private:

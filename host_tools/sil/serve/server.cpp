@@ -26,7 +26,9 @@ constexpr double       frame_pause_s     = 4e-3;
 constexpr std::size_t  longest_frame     = 256;
 constexpr std::size_t  longest_line      = 4096;
 constexpr std::size_t  most_clients      = 32;
+constexpr std::size_t  most_unread       = 16'000'000; // chosen: some of the longest traces
 constexpr std::uint8_t own_unit          = 1;
+constexpr std::uint8_t gateway_busy      = 0x06;
 constexpr std::uint8_t no_gateway_answer = 0x0B;
 
 volatile std::sig_atomic_t asked_to_end = 0;
@@ -50,7 +52,7 @@ Server::Server(const Drive &drive, std::uint64_t seed, const ServeOptions &optio
     pace_.speed_factor = options.speed_factor;
     if (!options.pty.empty()) {
         pty_ = std::make_unique<PseudoTerminal>(options.pty);
-        clients_.emplace(0, Client{Kind::pty, {}, {}, 0.0});
+        clients_.emplace(0, Client{Kind::pty, {}, {}, 0.0, {}});
     }
     open(Kind::tcp, options.tcp);
     open(Kind::rtu, options.rtu_tcp);
@@ -85,7 +87,7 @@ void Server::accept_all()
         for (Descriptor client = accept_client(listener); client;
              client            = accept_client(listener)) {
             if (clients_.size() < most_clients) {
-                clients_.emplace(next_client_++, Client{kind, std::move(client), {}, 0.0});
+                clients_.emplace(next_client_++, Client{kind, std::move(client), {}, 0.0, {}});
             }
         }
     }
@@ -111,7 +113,12 @@ void Server::take_requests(long id, Client &client)
         if (unit == 0xFF) { // what clients of Modbus/TCP name a device that is alone
             request->unit_and_pdu[0] = own_unit;
         }
-        bus_.push({id, request->transaction, unit, rtu_frame(request->unit_and_pdu)});
+        const Octets busy{unit, static_cast<std::uint8_t>(request->unit_and_pdu[1] | 0x80U),
+                          gateway_busy};
+        if (!bus_.push({id, request->transaction, unit, rtu_frame(request->unit_and_pdu)}) &&
+            unit != 0) {
+            send(client, tcp_answer(request->transaction, busy));
+        }
     }
     if (broken) {
         client.fd = {};
@@ -128,10 +135,7 @@ void Server::take_lines(Client &client)
             line.pop_back();
         }
         const std::string answer = control_answer(line, drive_, record_, pace_);
-        if (!write_all(client.fd.get(), Octets(answer.begin(), answer.end()))) {
-            client.fd = {};
-            return;
-        }
+        send(client, Octets(answer.begin(), answer.end()));
     }
     if (client.come.size() > longest_line) {
         client.fd = {};
@@ -145,6 +149,7 @@ void Server::read_from(long id, Client &client, double wall_s)
         client.fd = {};
         return;
     }
+    write_rest(client);
     client.last_s = client.come.size() > before ? wall_s : client.last_s;
     if (client.kind == Kind::control) {
         take_lines(client);
@@ -187,8 +192,23 @@ void Server::deliver(const BusRequest &request, const Octets &answer)
         (*content)[0] = request.unit;
         out           = tcp_answer(request.transaction, *content);
     }
-    if (!out.empty() && !write_all(client.fd_of(pty_.get()), out) && client.kind != Kind::pty) {
-        client.fd = {}; // read_all() takes it away
+    send(client, out);
+}
+
+void Server::send(Client &client, const Octets &octets)
+{
+    client.go.insert(client.go.end(), octets.begin(), octets.end());
+    write_rest(client);
+}
+
+/// What does not go now goes later; a client that reads nothing is left. read_all() takes it away then.
+void Server::write_rest(Client &client)
+{
+    const bool gone = !write_some(client.fd_of(pty_.get()), client.go);
+    if (client.kind == Kind::pty) {
+        client.go.clear(); // a line does not wait
+    } else if (gone || client.go.size() > most_unread) {
+        client.fd = {};
     }
 }
 

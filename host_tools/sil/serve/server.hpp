@@ -49,6 +49,7 @@ private:
         Descriptor fd; ///< not of the pseudo-terminal
         Octets     come;
         double     last_s = 0.0; ///< when something came last
+        Octets     go;           ///< what its connection has not taken yet
         int        fd_of(const PseudoTerminal *pty) const
         {
             return kind == Kind::pty ? pty->fd() : fd.get();
@@ -62,6 +63,8 @@ private:
     void take_frame(long id, Client &client, double wall_s);
     void take_requests(long id, Client &client);
     void take_lines(Client &client);
+    void send(Client &client, const Octets &octets);
+    void write_rest(Client &client);
     void deliver(const BusRequest &request, const Octets &answer);
     void run_until(double time_s);
     void wait(double seconds);

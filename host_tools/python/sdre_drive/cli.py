@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: MIT
+"""`sdre-drive`. Exit codes as those of the other tools: 0 good, 1 bad input or no answer, 4 the drive has tripped."""
+
+from __future__ import annotations
+
+import signal
+import sys
+import threading
+from pathlib import Path
+from typing import Optional
+
+import typer
+from rich.console import Console
+from rich.live import Live
+from typing_extensions import Annotated
+
+from sdre_drive import record, session, show
+from sdre_drive.connection import Drive, DriveError
+from sdre_drive.options import Control, PolePairs, Port, Tcp, bench_address, pole_pairs_of, target
+from sdre_drive.registers import Mode, Reading
+
+EXIT_BAD, EXIT_TRIPPED = 1, 4
+LOG_PERIOD_S = 0.02  # the line carries about 50 readings per second
+
+app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,
+                  help="Reads, commands and explains an sdre-drive, real or virtual.")  # fmt: skip
+out = Console()
+err = Console(stderr=True, soft_wrap=True)
+
+For = Annotated[Optional[float], typer.Option("--for", min=0.0, help="end after so many seconds", metavar="S")]
+
+
+def end_by_signal() -> threading.Event:
+    """Set by Ctrl-C or a request to end, so that the drive can be stopped in peace."""
+    end = threading.Event()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: end.set())
+    return end
+
+
+@app.command()
+def status(port: Port = None, tcp: Tcp = None, control: Control = None, pole_pairs: PolePairs = None) -> None:
+    """What the drive does now, and what to do about it."""
+    where = target(port, tcp)
+    with Drive(where) as drive:
+        reading = drive.read()
+    out.print(show.status(reading, pole_pairs_of(pole_pairs, where, control)))
+    if reading.mode == Mode.FAULT:
+        raise typer.Exit(EXIT_TRIPPED)
+
+
+@app.command()
+def run(
+    speed: Annotated[float, typer.Argument(help="negative: the other way; after -- on the command line")],
+    rpm: Annotated[bool, typer.Option("--rpm/--radps", help="r/min of the shaft, or rad/s electrical")] = True,
+    length_s: For = None,
+    port: Port = None,
+    tcp: Tcp = None,
+    control: Control = None,
+    pole_pairs: PolePairs = None,
+) -> None:
+    """Runs at SPEED until Ctrl-C, then stops."""
+    where = target(port, tcp)
+    pairs = pole_pairs_of(pole_pairs, where, control)
+    if rpm and not pairs:
+        raise DriveError("r/min needs the motor's --pole-pairs; or give rad/s electrical with --radps")
+    end = end_by_signal()
+    with Drive(where) as drive, Live(console=out, auto_refresh=False) as live:
+        wanted = show.e_radps_of(speed, pairs) if rpm and pairs else speed
+        update = lambda r: live.update(show.line(r, pairs), refresh=True)  # noqa: E731
+        update(session.hold(drive, wanted, end, length_s, update))
+
+
+@app.command()
+def stop(port: Port = None, tcp: Tcp = None) -> None:
+    """Stops the drive."""
+    with Drive(target(port, tcp)) as drive:
+        out.print(show.line(session.stop(drive), None))
+
+
+@app.command()
+def reset(port: Port = None, tcp: Tcp = None) -> None:
+    """Leaves FAULT, when its cause has gone."""
+    with Drive(target(port, tcp)) as drive:
+        if drive.read().mode != Mode.FAULT:
+            out.print("there is no fault")
+            return
+        out.print(show.line(session.reset(drive), None))
+
+
+@app.command()
+def faults(port: Port = None, tcp: Tcp = None, control: Control = None, pole_pairs: PolePairs = None) -> None:
+    """The fault now and what the drive kept of the last one."""
+    where = target(port, tcp)
+    with Drive(where) as drive:
+        reading = drive.read()
+    for text in show.reasons(reading):
+        out.print(text)
+    out.print(show.first_fault(reading, pole_pairs_of(pole_pairs, where, control)))
+    if reading.mode == Mode.FAULT:
+        raise typer.Exit(EXIT_TRIPPED)
+
+
+@app.command()
+def watch(
+    length_s: For = None, port: Port = None, tcp: Tcp = None, control: Control = None, pole_pairs: PolePairs = None
+) -> None:
+    """Shows the drive until Ctrl-C. That somebody watches keeps a running drive running."""
+    where = target(port, tcp)
+    pairs = pole_pairs_of(pole_pairs, where, control)
+    end = end_by_signal()
+    with Drive(where) as drive, Live(console=out, auto_refresh=False) as live:
+        for reading in session.follow(drive, end, 0.1, length_s):
+            live.update(show.status(reading, pairs), refresh=True)
+
+
+@app.command()
+def log(
+    csv: Annotated[Optional[Path], typer.Option("--csv", help="file of lines", metavar="FILE")] = None,
+    parquet: Annotated[Optional[Path], typer.Option("--parquet", help="file of columns", metavar="FILE")] = None,
+    period_s: Annotated[float, typer.Option("--period", min=0.0, max=0.4, help="seconds between readings")] = LOG_PERIOD_S,
+    length_s: For = None,
+    port: Port = None,
+    tcp: Tcp = None,
+) -> None:
+    """Writes readings to a file until Ctrl-C. That somebody logs keeps a running drive running."""
+    if (csv is None) == (parquet is None):
+        raise DriveError("give one of --csv and --parquet")
+    end = end_by_signal()
+    with Drive(target(port, tcp)) as drive:
+        readings = session.follow(drive, end, period_s, length_s)
+        count = record.write_csv(csv, readings) if csv else record.write_parquet(parquet or Path(), readings)
+    out.print(f"{count} readings written to {csv or parquet}")
+
+
+@app.command()
+def ui(
+    port: Port = None, tcp: Tcp = None, control: Control = None, pole_pairs: PolePairs = None,
+    page_port: Annotated[int, typer.Option("--page-port", min=1, max=65535, help="of the page, on this machine only")] = 8503,
+    browser: Annotated[bool, typer.Option("--browser/--no-browser", help="open it")] = True,
+) -> None:  # fmt: skip
+    """A page with traces and switches, on this machine only."""
+    try:
+        from sdre_drive.page.server import serve
+    except ImportError as e:
+        raise DriveError("the page needs NiceGUI: pip install './host_tools/python[ui]'") from e
+    where = target(port, tcp)
+    bench = bench_address(control) if control or where.is_local else None
+    serve(where, bench, pole_pairs_of(pole_pairs, where, control), page_port, browser)
+
+
+def main() -> None:
+    """Every error is one line."""
+    code = EXIT_BAD
+    try:
+        code = typer.main.get_command(app).main(prog_name="sdre-drive", standalone_mode=False) or 0
+    except session.Tripped as e:
+        err.print(f"sdre-drive: {e}", markup=False, highlight=False)
+        for text in show.reasons(e.reading):
+            err.print(text)
+        code = EXIT_TRIPPED
+    except DriveError as e:
+        err.print(f"sdre-drive: {e}", markup=False, highlight=False)
+    except Exception as e:  # those of the command line have no common base over typer's releases
+        if not hasattr(e, "format_message"):
+            raise
+        if e.format_message():  # no command at all: the help is there already
+            err.print(f"sdre-drive: {e.format_message()}", markup=False, highlight=False)
+    sys.exit(code)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: MIT
+"""A drive at the other end of a serial port or of a TCP connection."""
+
+from __future__ import annotations
+
+import logging
+import os
+import threading
+from dataclasses import dataclass
+from typing import Any, List, Optional
+
+from pymodbus.client import ModbusSerialClient, ModbusTcpClient
+from pymodbus.exceptions import ModbusException
+
+from sdre_drive import registers
+from sdre_drive.registers import Reading
+
+BAUD = 115200
+# The drive withdraws run after 500 ms without a request: two tries have to fit. TCP loses nothing, and what answers there
+# may be busy: a virtual drive's time then stands still with it.
+SERIAL_TIMEOUT_S = 0.2
+TCP_TIMEOUT_S = 2.0
+TRIES = 2
+
+EXCEPTION_WORDS = {
+    1: "does not know this function",
+    2: "does not have this register",
+    3: "refuses this value: it is out of the drive's range",
+    11: "did not answer behind its gateway",
+}
+
+
+class DriveError(Exception):
+    """One line for the user."""
+
+
+@dataclass(frozen=True)
+class Target:
+    """Where the drive is: a serial port, or host and port of Modbus/TCP."""
+
+    serial_port: Optional[str] = None
+    host: str = "127.0.0.1"
+    tcp_port: int = 1502
+
+    @property
+    def words(self) -> str:
+        """For messages."""
+        return self.serial_port or f"{self.host}:{self.tcp_port}"
+
+    @property
+    def is_local(self) -> bool:
+        """The drive is on this machine, as a virtual one is."""
+        return self.serial_port is None and self.host in ("127.0.0.1", "localhost", "::1")
+
+
+def is_pseudo_terminal(serial_port: str) -> bool:
+    """A virtual drive's."""
+    return os.path.realpath(serial_port).startswith("/dev/pts/")
+
+
+class Drive:
+    """Blocking requests; one at a time, from any thread. All of them raise DriveError."""
+
+    def __init__(self, target: Target) -> None:
+        logging.getLogger("pymodbus.logging").setLevel(logging.CRITICAL)  # what is wrong is raised
+        self.target = target
+        self._lock = threading.Lock()
+        if target.serial_port:
+            virtual = is_pseudo_terminal(target.serial_port)  # it has no line and no parity
+            self._client: Any = ModbusSerialClient(
+                target.serial_port, baudrate=BAUD, parity="N" if virtual else "E", stopbits=1,
+                timeout=TCP_TIMEOUT_S if virtual else SERIAL_TIMEOUT_S, retries=0)  # fmt: skip
+        else:
+            self._client = ModbusTcpClient(target.host, port=target.tcp_port, timeout=TCP_TIMEOUT_S, retries=0)
+
+    def __enter__(self) -> Drive:
+        self.open()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def open(self) -> None:
+        """Connects; a drive that is not there is known here."""
+        try:
+            connected = self._client.connect()
+        except (OSError, ModbusException) as e:
+            raise DriveError(f"{self.target.words}: {e}") from e
+        if not connected:
+            raise DriveError(
+                f"nothing answers at {self.target.words}: is the drive on, or `./dev serve` running?")
+
+    def close(self) -> None:
+        """The drive stops by itself 500 ms later."""
+        self._client.close()
+
+    def read(self) -> Reading:
+        """All input registers of one tick."""
+        values = self._asked("read_input_registers", 0, count=registers.INPUT_COUNT).registers
+        return registers.decode(values)
+
+    def wanted(self) -> List[int]:
+        """The holding registers run, reset, speed."""
+        return list(self._asked("read_holding_registers", 0, count=3).registers)
+
+    def set_speed(self, speed_e_radps: float) -> None:
+        """rad/s electrical; acts when the drive runs."""
+        try:
+            value = registers.speed_register(speed_e_radps)
+        except ValueError as e:
+            raise DriveError(str(e)) from e
+        self._asked("write_register", registers.SPEED, value)
+
+    def set_run(self, run: bool) -> None:
+        """A run starts when it rises in READY."""
+        self._asked("write_register", registers.RUN, int(run))
+
+    def end_commissioning(self) -> None:
+        """Mode COMMISSION gives up."""
+        self._asked("write_register", registers.COMMISSION, 0)
+
+    def reset(self) -> None:
+        """Leaves FAULT when what caused it has gone."""
+        self.set_run(False)
+        self._asked("write_register", registers.RESET, 1)
+
+    def _asked(self, call: str, *args: Any, **kwargs: Any) -> Any:
+        with self._lock:
+            answer = self._tried(call, *args, **kwargs)
+        if answer.isError():
+            code = getattr(answer, "exception_code", None)
+            raise DriveError(f"the drive {EXCEPTION_WORDS.get(code, f'answers with exception {code}')}")
+        return answer
+
+    def _tried(self, call: str, *args: Any, **kwargs: Any) -> Any:
+        """Once more after a lost answer: to ask or write the same twice does nothing else."""
+        why: Optional[Exception] = None
+        for _ in range(TRIES):
+            try:
+                if self._client.connect():
+                    return getattr(self._client, call)(*args, **kwargs)
+            except (ModbusException, OSError) as e:
+                self._client.close()  # what comes late belongs to nothing
+                why = e
+        raise DriveError(f"no answer from {self.target.words}") from why

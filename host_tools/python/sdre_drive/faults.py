@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: MIT
+"""Faults and conditions in plain words, from faults.toml. Needs nothing but the standard library (Python 3.11)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, Dict, List, Tuple, Union
+
+from sdre_drive.registers import Why
+
+try:
+    import tomllib
+except ModuleNotFoundError:  # before Python 3.11
+    import tomli as tomllib  # type: ignore[no-redef]
+
+GROUPS = ("application", "drive", "board", "condition")
+BIT_GROUPS = ("board", "condition")
+APPLICATION_BOARD, APPLICATION_DRIVE = 2, 10  # what sends the reader on to another group
+# Conditions that keep a drive from starting.
+NO_START = 1 | 8 | 16
+# Conditions that tell what goes on, and ask for nothing.
+NOT_A_WARNING = 4
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """How to see an entry in the virtual drive."""
+
+    at_e_radps: float = 0.0  # the drive runs at this speed first, rad/s electrical; 0: it does not run
+    bench: Tuple[str, ...] = ()
+    wait_s: float = 3.0  # it is there at the latest after this
+    then: str = ""
+    restore: Tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One fault or condition."""
+
+    group: str
+    number: int
+    name: str
+    meaning: str
+    causes: Tuple[str, ...]
+    check: Tuple[str, ...]
+    reproduce: Union[str, Recipe] = field(default="")
+
+
+def _entry(group: str, keys: Dict[str, Any]) -> Entry:
+    how = keys["reproduce"]
+    if isinstance(how, dict):
+        how = Recipe(**{k: tuple(v) if isinstance(v, list) else v for k, v in how.items()})
+    rest = {k: tuple(v) if isinstance(v, list) else v for k, v in keys.items() if k != "reproduce"}
+    return Entry(group=group, reproduce=how, **rest)
+
+
+@lru_cache(maxsize=None)
+def table() -> Dict[str, Dict[int, Entry]]:
+    """All entries by group and number."""
+    with (Path(__file__).parent / "faults.toml").open("rb") as f:
+        read = tomllib.load(f)
+    return {g: {e["number"]: _entry(g, e) for e in read[g]} for g in GROUPS}
+
+
+def find(group: str, number: int) -> Entry:
+    """The entry; one of a newer firmware gets a plain one."""
+    unknown = Entry(group, number, "UNKNOWN", "This tool does not know that number.",
+                    ("the firmware is newer than the tool",), ("docs/modbus.md of the firmware",))  # fmt: skip
+    return table()[group].get(number, unknown)
+
+
+def bits(group: str, value: int) -> List[Entry]:
+    """An entry for each bit that is set."""
+    return [find(group, 1 << k) for k in range(16) if value & (1 << k)]
+
+
+def explain(why: Why) -> List[Entry]:
+    """What is wrong, most telling first; empty without a fault."""
+    if why.fault == 0:
+        return []
+    first = find("application", why.fault)
+    if why.fault == APPLICATION_DRIVE and why.drive_fault:
+        return [find("drive", why.drive_fault), first]
+    if why.fault == APPLICATION_BOARD and why.board_faults:
+        return [*bits("board", why.board_faults), first]
+    return [first]
+
+
+def one_line(entry: Entry) -> str:
+    """Number, name and meaning."""
+    return f"{entry.group} {entry.number} {entry.name}: {entry.meaning}"
+
+
+def warnings(conditions: int) -> List[Entry]:
+    """Conditions that a person should know of."""
+    return bits("condition", conditions & ~NOT_A_WARNING)

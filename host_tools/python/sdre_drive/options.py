@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: MIT
+"""Options that the commands share."""
+
+from __future__ import annotations
+
+from typing import Optional, Tuple
+
+import typer
+from typing_extensions import Annotated
+
+from sdre_drive.bench import DEFAULT, pole_pairs_of_bench
+from sdre_drive.connection import DriveError, Target
+
+Port = Annotated[Optional[str], typer.Option("--port", help="serial port of the drive", metavar="TTY")]
+Tcp = Annotated[Optional[str], typer.Option(
+    "--tcp", help="Modbus/TCP (default 127.0.0.1:1502: a virtual drive here)", metavar="HOST:PORT")]  # fmt: skip
+Control = Annotated[Optional[str], typer.Option(
+    "--control", help="bench of the virtual drive (default 127.0.0.1:1503)", metavar="HOST:PORT")]  # fmt: skip
+PolePairs = Annotated[Optional[int], typer.Option(
+    "--pole-pairs", min=1, max=100, envvar="SDRE_POLE_PAIRS",
+    help="of the motor, for r/min; a virtual drive on this machine tells its own")]  # fmt: skip
+
+
+def address(text: str, option: str) -> Tuple[str, int]:
+    """HOST:PORT."""
+    host, _, port = text.rpartition(":")
+    if not host or not port.isdigit() or not 0 < int(port) <= 65535:
+        raise DriveError(f'{option} "{text}" is not HOST:PORT')
+    return host.strip("[]"), int(port)
+
+
+def target(port: Optional[str], tcp: Optional[str]) -> Target:
+    """Where the drive is; a virtual one on this machine unless something is said."""
+    if port and tcp:
+        raise DriveError("--port and --tcp name two drives: give one")
+    if port:
+        return Target(serial_port=port)
+    if tcp:
+        host, number = address(tcp, "--tcp")
+        return Target(host=host, tcp_port=number)
+    return Target()
+
+
+def bench_address(control: Optional[str]) -> Tuple[str, int]:
+    """Of the virtual drive's bench."""
+    return address(control, "--control") if control else DEFAULT
+
+
+def pole_pairs_of(given: Optional[int], where: Target, control: Optional[str]) -> Optional[int]:
+    """What was given, or what a virtual drive on this machine has; None when nobody knows."""
+    if given:
+        return given
+    return pole_pairs_of_bench(bench_address(control)) if where.is_local else None

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: MIT
+"""Serves the page on this machine."""
+
+from __future__ import annotations
+
+import secrets
+import socket
+import webbrowser
+from typing import Optional, Tuple
+
+from nicegui import app, ui
+
+from sdre_drive.connection import DriveError, Target
+from sdre_drive.page.guard import Guard
+from sdre_drive.page.layout import Page
+from sdre_drive.page.state import Watcher
+
+HOST = "127.0.0.1"
+
+
+def require_free(port: int) -> None:
+    """DriveError when somebody listens there."""
+    with socket.socket() as s:
+        s.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            s.bind((HOST, port))
+        except OSError as e:
+            raise DriveError(f"--page-port {port}: {e.strerror}") from e
+
+
+def serve(target: Target, bench: Optional[Tuple[str, int]], pole_pairs: Optional[int], port: int, browser: bool) -> None:
+    """Until Ctrl-C; a motor that was started from a page is stopped then."""
+    require_free(port)
+    token = secrets.token_urlsafe(16)
+    address = f"http://{HOST}:{port}/?token={token}"
+    watcher = Watcher(target, bench)
+
+    @ui.page("/", title="sdre-drive")
+    def _page() -> None:
+        Page(watcher, pole_pairs)
+
+    def started() -> None:
+        watcher.start()
+        print(f"{address}\nCtrl-C ends it", flush=True)
+        if browser:
+            webbrowser.open(address)
+
+    app.add_middleware(Guard, token=token, port=port)
+    app.on_startup(started)
+    app.on_shutdown(watcher.close)
+    ui.run(host=HOST, port=port, reload=False, show=False, show_welcome_message=False, title="sdre-drive")

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: MIT
+"""Readings as a CSV or Parquet file."""
+
+from __future__ import annotations
+
+import csv
+import os
+from pathlib import Path
+from typing import Any, Dict, Iterable, List
+
+from sdre_drive.connection import DriveError
+from sdre_drive.registers import Reading
+
+COLUMNS = ("time_s", "mode", "speed_e_radps", "iq_A", "id_A", "iq_ref_A", "id_ref_A", "vq_V", "vd_V", "dc_link_V",
+           "temperature_degC", "conditions", "motor_heat", "inverter_heat", "derating")  # fmt: skip
+
+
+def row(reading: Reading) -> Dict[str, Any]:
+    """A reading's columns, and its fault."""
+    values = {name: getattr(reading, name) for name in COLUMNS}
+    return {**values, "fault": reading.why.fault, "drive_fault": reading.why.drive_fault}
+
+
+def write_csv(path: Path, readings: Iterable[Reading]) -> int:
+    """A line per reading as they come; how many."""
+    count = 0
+    try:
+        with path.open("w", newline="", encoding="utf-8") as f:
+            out = csv.DictWriter(f, fieldnames=[*COLUMNS, "fault", "drive_fault"])
+            out.writeheader()
+            for reading in readings:
+                out.writerow(row(reading))
+                f.flush()  # what was read stays, whatever comes
+                count += 1
+    except OSError as e:
+        raise DriveError(f"{path}: {e.strerror}") from e
+    return count
+
+
+def write_parquet(path: Path, readings: Iterable[Reading]) -> int:
+    """All at once at the end; an earlier file stays until then."""
+    try:
+        import pyarrow as arrow
+        import pyarrow.parquet as parquet
+    except ImportError as e:
+        raise DriveError("--parquet needs pyarrow: pip install './host_tools/python[parquet]'") from e
+    rows: List[Dict[str, Any]] = [row(r) for r in readings]
+    beside = path.with_name(path.name + ".part")
+    try:
+        parquet.write_table(arrow.Table.from_pylist(rows), beside)
+        os.replace(beside, path)
+    except OSError as e:
+        raise DriveError(f"{path}: {e.strerror or e}") from e
+    return len(rows)

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: MIT
+"""Starting, following and stopping a drive, with its own rules: docs/modbus.md."""
+
+from __future__ import annotations
+
+import threading
+import time
+from typing import Callable, Iterator, Optional
+
+from sdre_drive import faults
+from sdre_drive.connection import Drive, DriveError
+from sdre_drive.registers import Mode, Reading
+
+MOVING = (Mode.PRECHARGE, Mode.ALIGN, Mode.RUN)
+PERIOD_S = 0.05  # well below the 500 ms after which the drive stops by itself
+BOOT_WAIT_S = 3.0  # chosen: the firmware needs 0.3 s
+ANSWER_WAIT_S = 1.0  # a command acts within a tick or two
+STOP_WAIT_S = 20.0  # chosen: mode STOP brakes first
+MOST_ERRORS = 3  # in a row; a single lost answer is nothing
+
+
+class Tripped(DriveError):
+    """The drive is in FAULT."""
+
+    def __init__(self, reading: Reading) -> None:
+        entries = faults.explain(reading.why)
+        super().__init__("the drive has tripped: " + (faults.one_line(entries[0]) if entries else "unknown"))
+        self.reading = reading
+
+
+def wait_for(drive: Drive, wanted: Callable[[Reading], bool], longest_s: float) -> Optional[Reading]:
+    """The first reading that is wanted; None when it does not come."""
+    end_s = time.monotonic() + longest_s
+    while True:
+        reading = drive.read()
+        if wanted(reading):
+            return reading
+        if time.monotonic() > end_s:
+            return None
+        time.sleep(PERIOD_S / 2)
+
+
+def start(drive: Drive, speed_e_radps: float) -> None:
+    """Starts it, or gives a running one this speed (rad/s electrical)."""
+    reading = wait_for(drive, lambda r: r.mode in (Mode.READY, Mode.FAULT, *MOVING), BOOT_WAIT_S)
+    if reading is None:
+        raise DriveError(f"the drive does not get ready: it {drive.read().mode_words}")
+    if reading.mode == Mode.FAULT:
+        raise Tripped(reading)
+    drive.set_speed(speed_e_radps)
+    if reading.mode in MOVING:
+        return
+    in_the_way = faults.bits("condition", reading.conditions & faults.NO_START)
+    if in_the_way:
+        raise DriveError("the drive cannot start: " + " ".join(e.meaning for e in in_the_way))
+    drive.set_run(False)  # run has to rise
+    drive.set_run(True)
+    reading = wait_for(drive, lambda r: r.mode != Mode.READY, ANSWER_WAIT_S)
+    if reading is None:
+        raise DriveError("the drive does not start")
+    if reading.mode == Mode.FAULT:
+        raise Tripped(reading)
+
+
+def stop(drive: Drive) -> Reading:
+    """Withdraws run and commissioning, and waits until the bridge is off."""
+    drive.set_run(False)
+    if drive.read().mode == Mode.COMMISSION:
+        drive.end_commissioning()
+    reading = wait_for(drive, lambda r: r.mode not in (*MOVING, Mode.STOP, Mode.COMMISSION), STOP_WAIT_S)
+    if reading is None:
+        raise DriveError(f"the drive does not stop: it {drive.read().mode_words}")
+    return reading
+
+
+def reset(drive: Drive) -> Reading:
+    """Leaves FAULT; Tripped when it comes back or stays."""
+    drive.reset()
+    reading = wait_for(drive, lambda r: r.mode == Mode.READY, ANSWER_WAIT_S)
+    if reading is None:
+        raise Tripped(drive.read())
+    return reading
+
+
+def follow(drive: Drive, end: threading.Event, period_s: float = PERIOD_S,
+           length_s: Optional[float] = None) -> Iterator[Reading]:  # fmt: skip
+    """Readings until `end` is set or length_s is over; that somebody reads keeps the drive running."""
+    began_s = time.monotonic()
+    next_s = began_s
+    errors = 0
+    while not end.is_set() and (length_s is None or time.monotonic() - began_s < length_s):
+        try:
+            reading = drive.read()
+        except DriveError:
+            errors += 1
+            if errors >= MOST_ERRORS:
+                raise
+            continue
+        errors = 0
+        yield reading
+        next_s = max(next_s + period_s, time.monotonic())
+        end.wait(max(next_s - time.monotonic(), 0.0))
+
+
+def require_moving(reading: Reading) -> None:
+    """Of a drive that was started: says why it does not run any more."""
+    if reading.mode == Mode.FAULT:
+        raise Tripped(reading)
+    if reading.mode in (Mode.BOOT, Mode.CALIBRATE):
+        watchdog = " by its watchdog: the program before hung" if reading.reset_cause == 1 else ""
+        raise DriveError(f"the drive has restarted{watchdog}")
+    if reading.mode == Mode.READY:
+        silent = reading.conditions & 2
+        raise DriveError("the drive has stopped: " + (
+            faults.find("condition", 2).meaning if silent else "another master stopped it"))  # fmt: skip
+
+
+def hold(drive: Drive, speed_e_radps: float, end: threading.Event, length_s: Optional[float],
+         show: Callable[[Reading], None]) -> Reading:  # fmt: skip
+    """Runs at this speed until `end` or for length_s, then stops. Whatever goes wrong: run is withdrawn."""
+    try:
+        start(drive, speed_e_radps)
+        for reading in follow(drive, end, length_s=length_s):
+            show(reading)
+            require_moving(reading)
+    except DriveError:
+        _withdraw(drive)
+        raise
+    return stop(drive)
+
+
+def _withdraw(drive: Drive) -> None:
+    """As far as it still listens; if not, it stops by itself."""
+    try:
+        drive.set_run(False)
+    except DriveError:
+        pass

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: MIT
+"""What a reading looks like on a terminal."""
+
+from __future__ import annotations
+
+import math
+from typing import List, Optional
+
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from sdre_drive import faults
+from sdre_drive.faults import Entry
+from sdre_drive.registers import Mode, Reading
+
+
+def rpm_of(speed_e_radps: float, pole_pairs: int) -> float:
+    """r/min of the shaft."""
+    return speed_e_radps / pole_pairs * 60.0 / (2.0 * math.pi)
+
+
+def e_radps_of(speed_rpm: float, pole_pairs: int) -> float:
+    """rad/s electrical."""
+    return speed_rpm * pole_pairs * 2.0 * math.pi / 60.0
+
+
+def speed_words(speed_e_radps: float, pole_pairs: Optional[int]) -> str:
+    """In r/min too where the pole pairs are known."""
+    words = f"{speed_e_radps:.1f} rad/s electrical"
+    return f"{rpm_of(speed_e_radps, pole_pairs):.0f} r/min ({words})" if pole_pairs else words
+
+
+def line(reading: Reading, pole_pairs: Optional[int]) -> Text:
+    """One line: what it does."""
+    t = Text(f"{Mode(reading.mode).name if reading.mode in set(Mode) else reading.mode}  ", style="bold")
+    t.append(f"{speed_words(reading.speed_e_radps, pole_pairs)}  i_q {reading.iq_A:.2f} A  i_d {reading.id_A:.2f} A  "
+             f"{reading.dc_link_V:.0f} V", style="not bold")  # fmt: skip
+    limits = [e.name for e in faults.warnings(reading.conditions)]
+    t.append(f"  {' '.join(limits)}" if limits else "", style="yellow")
+    return t
+
+
+def advice(entry: Entry) -> Text:
+    """A fault or condition: what it means, why it may be, what to look at."""
+    t = Text(faults.one_line(entry) + "\n", style="bold")
+    for title, lines in (("may be", entry.causes), ("look at", entry.check)):
+        for k, text in enumerate(lines):
+            t.append(f"  {title if k == 0 else '':8} {text}\n", style="not bold")
+    t.rstrip()
+    return t
+
+
+def reasons(reading: Reading) -> List[Text]:
+    """Advice for all that is wrong or limits the drive."""
+    known = faults.explain(reading.why) + faults.warnings(reading.conditions)
+    return [advice(e) for e in known]
+
+
+def status(reading: Reading, pole_pairs: Optional[int]) -> RenderableType:
+    """Everything of one reading."""
+    table = Table(show_header=False, box=None, padding=(0, 2, 0, 0))
+    rows = (
+        ("mode", f"{reading.mode_words}"),
+        ("speed", speed_words(reading.speed_e_radps, pole_pairs)),
+        ("i_q, i_d", f"{reading.iq_A:.3f} A, {reading.id_A:.3f} A"),
+        ("wanted", f"{reading.iq_ref_A:.3f} A, {reading.id_ref_A:.3f} A"),
+        ("v_q, v_d", f"{reading.vq_V:.1f} V, {reading.vd_V:.1f} V"),
+        ("dc link", f"{reading.dc_link_V:.1f} V"),
+        ("heat sink", f"{reading.temperature_degC:.1f} degC"),
+        ("heat", f"motor {100 * reading.motor_heat:.0f} %, inverter {100 * reading.inverter_heat:.0f} %, "
+                 f"derated by {100 * reading.derating:.0f} %"),
+        ("running since", f"{reading.time_s:.1f} s"),
+    )  # fmt: skip
+    for name, value in rows:
+        table.add_row(name, value)
+    return Group(table, *reasons(reading))
+
+
+def first_fault(reading: Reading, pole_pairs: Optional[int]) -> RenderableType:
+    """What the drive kept of its last fault."""
+    kept = reading.first_fault
+    if kept.why.fault == 0:
+        return Text("no fault since the start")
+    mode = Mode(kept.mode).name if kept.mode in set(Mode) else str(kept.mode)
+    head = Text(f"last fault at {kept.time_s:.4f} s in mode {mode}, at {speed_words(kept.speed_e_radps, pole_pairs)}, "
+                f"wanted {speed_words(kept.wanted_e_radps, pole_pairs)}")  # fmt: skip
+    return Group(head, *[advice(e) for e in faults.explain(kept.why)])

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+"""What several tests do."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import threading
+from typing import Callable
+
+from sdre_drive import session
+from sdre_drive.connection import Drive
+from sdre_drive.registers import Mode, Reading
+
+LONGEST_S = 60.0  # of a busy machine; a start takes 3 s
+
+
+def command(*words: str) -> subprocess.CompletedProcess:
+    """sdre-drive, to its end."""
+    return subprocess.run([sys.executable, "-m", "sdre_drive", *words], capture_output=True, text=True, timeout=120)
+
+
+def until(drive: Drive, wanted: Callable[[Reading], bool], longest_s: float = LONGEST_S) -> Reading:
+    """The first reading that is wanted."""
+    reading = session.wait_for(drive, wanted, longest_s)
+    assert reading, f"it did not come; now {drive.read()}"
+    return reading
+
+
+def run_at(drive: Drive, speed_e_radps: float) -> Reading:
+    """Until it has the speed, within what noise and load leave."""
+    session.start(drive, speed_e_radps)
+    reading = until(drive, lambda r: r.mode == Mode.FAULT or (
+        r.mode == Mode.RUN and abs(r.speed_e_radps - speed_e_radps) < 5.0))  # fmt: skip
+    assert reading.mode == Mode.RUN, reading
+    return reading
+
+
+def stay(drive: Drive, seconds: float) -> Reading:
+    """Asks for a while, as a master has to."""
+    return list(session.follow(drive, threading.Event(), length_s=seconds))[-1]

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: MIT
+"""Driving the virtual drive: what a user does, what goes wrong, and what is said then."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+from conftest import Served
+from support import command, run_at, stay, until
+
+from sdre_drive import faults, session
+from sdre_drive.connection import Drive, DriveError, Target
+from sdre_drive.registers import Mode
+
+
+def test_runs_carries_a_load_and_stops(served: Served, drive: Drive) -> None:
+    bench = served.bench()
+    run_at(drive, 300.0)
+    bench.ask("load 1.0")
+    loaded = until(drive, lambda r: r.iq_A > 0.8)  # 1.5 N m at 2.5 A
+    assert loaded.mode == Mode.RUN
+    assert abs(stay(drive, 1.0).speed_e_radps - bench.ask("state")["speed_e_radps"]) < 3.0
+    bench.ask("load 0")
+    assert session.stop(drive).mode == Mode.READY
+
+
+def test_runs_on_a_serial_line(served: Served) -> None:
+    with Drive(Target(serial_port=served.pty)) as drive:
+        run_at(drive, -200.0)
+        assert session.stop(drive).mode == Mode.READY
+
+
+def test_a_fault_is_said_in_words_and_reset(served: Served, drive: Drive) -> None:
+    bench = served.bench()
+    bench.ask("load 0.75")
+    run = subprocess.Popen([sys.executable, "-m", "sdre_drive", "run", "300", "--radps", *served.options()],
+                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)  # fmt: skip
+    until(drive, lambda r: r.mode == Mode.RUN)
+    bench.ask('fault kind = "current_zero", phase = "a"')
+    _, said = run.communicate(timeout=60)
+    bench.ask("load 0")  # it goes on dragging the shaft
+    assert run.returncode == 4
+    assert "drive 8 CURRENT_SENSOR" in said and "look at" in said and "Traceback" not in said
+    status = command("status", *served.options())
+    assert status.returncode == 4 and "CURRENT_SENSOR" in status.stdout
+    bench.ask("mend")
+    until(drive, lambda r: abs(r.speed_e_radps) < 100.0)
+    assert command("reset", *served.options()).returncode == 0
+    kept = command("faults", *served.options())
+    assert kept.returncode == 0 and "CURRENT_SENSOR" in kept.stdout and "in mode RUN" in kept.stdout
+
+
+def test_ctrl_c_stops_the_motor(served: Served, drive: Drive) -> None:
+    run = subprocess.Popen([sys.executable, "-m", "sdre_drive", "run", "200", "--radps", *served.options()],
+                           stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # fmt: skip
+    until(drive, lambda r: r.mode == Mode.RUN)
+    run.send_signal(signal.SIGINT)
+    run.communicate(timeout=60)
+    assert run.returncode == 0
+    assert drive.read().mode == Mode.READY and not drive.read().conditions & 2
+
+
+def test_a_master_that_dies_stops_the_motor(served: Served) -> None:
+    with Drive(served.target()) as first:
+        session.start(first, 200.0)
+    bench = served.bench()
+    silent_from_s = bench.ask("state")["time_s"]
+    while bench.ask("state")["time_s"] < silent_from_s + 0.8:
+        time.sleep(0.05)
+    with Drive(served.target()) as second:
+        reading = second.read()
+    assert reading.mode == Mode.READY
+    assert [e.name for e in faults.warnings(reading.conditions)] == ["SILENT"]
+
+
+def test_two_masters_at_once(served: Served, drive: Drive) -> None:
+    run_at(drive, 200.0)
+    end = threading.Event()
+
+    def ask_too() -> None:
+        with Drive(served.target()) as other:
+            seen.extend(session.follow(other, end))
+
+    seen: list = []
+    asking = threading.Thread(target=ask_too)
+    asking.start()
+    drive.set_speed(250.0)
+    until(drive, lambda r: abs(r.speed_e_radps - 250.0) < 5.0)
+    stay(drive, 1.0)
+    end.set()
+    asking.join()
+    assert len(seen) >= 5 and all(r.mode == Mode.RUN for r in seen)
+    session.stop(drive)
+
+
+def test_log_is_a_table(served: Served, tmp_path: Path) -> None:
+    file = tmp_path / "log.csv"
+    told = command("log", "--csv", str(file), "--for", "1", *served.options())
+    assert told.returncode == 0, told.stderr
+    head, *rows = file.read_text().splitlines()
+    assert head.startswith("time_s,mode,speed_e_radps") and len(rows) >= 3
+    times = [float(r.split(",")[0]) for r in rows]
+    assert times == sorted(times)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["status", "--tcp", "127.0.0.1:1"], "nothing answers at 127.0.0.1:1"),
+        (["status", "--port", "/dev/no-such-line"], "nothing answers at /dev/no-such-line"),
+        (["status", "--tcp", "drive"], 'is not HOST:PORT'),
+        (["status", "--tcp", "a:1", "--port", "b"], "give one"),
+        (["run", "1000", "--tcp", "10.255.255.1:1"], "--pole-pairs"),
+        (["run", "fast"], "Invalid value for"),
+        (["log"], "give one of --csv and --parquet"),
+        (["spin"], "spin"),
+    ],
+)
+def test_bad_input_is_one_line(words: list, said: str) -> None:
+    told = command(*words)
+    assert told.returncode == 1
+    assert said in told.stderr and len(told.stderr.strip().splitlines()) == 1
+
+
+def test_a_speed_beyond_the_drive_is_refused(drive: Drive) -> None:
+    with pytest.raises(DriveError, match="out of the drive's range"):
+        session.start(drive, 3000.0)
+    assert drive.read().mode == Mode.READY

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: MIT
+"""What docs/integration.md tells people to type does what it says."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+
+import pytest
+from conftest import ROOT, Served
+from support import until
+
+from sdre_drive.connection import Drive
+from sdre_drive.registers import Mode
+
+
+def block(language: str, port: int) -> str:
+    """The page's only block of this language, for the drive on this port."""
+    page = (ROOT / "docs/integration.md").read_text(encoding="utf-8")
+    blocks = re.findall(rf"```{language}\n(.*?)```", page, flags=re.S)
+    assert len(blocks) == 1 and "1502" in blocks[0]
+    return blocks[0].replace("1502", str(port))
+
+
+@pytest.mark.skipif(not shutil.which("mbpoll"), reason="mbpoll is not installed")
+def test_mbpoll(served: Served) -> None:
+    told = subprocess.run(["sh", "-c", block("sh", served.tcp)], capture_output=True, text=True, timeout=100)
+    assert told.stdout.count("Written 1 references.") == 3, told
+    modes = [int(m) for m in re.findall(r"^\[0\]:\s+(\d+)", told.stdout, flags=re.M)]
+    assert Mode.ALIGN in modes and modes[-1] in (Mode.ALIGN, Mode.RUN)  # a slow machine is still at it
+    with Drive(served.target()) as drive:
+        until(drive, lambda r: r.mode == Mode.READY and not r.conditions & 2)
+
+
+def test_pymodbus(served: Served) -> None:
+    told = subprocess.run([sys.executable, "-c", block("python", served.tcp)], capture_output=True, text=True, timeout=100)
+    assert told.returncode == 0, told.stderr
+    assert re.fullmatch(r"runs at (19[5-9]|20[0-9]) rad/s\n", told.stdout)
+    with Drive(served.target()) as drive:
+        reading = drive.read()
+    assert reading.mode == Mode.READY and not reading.conditions & 2

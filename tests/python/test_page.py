@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: MIT
+"""The page in a headless browser, and who may see it."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import socket
+import subprocess
+import sys
+import urllib.error
+import urllib.request
+from pathlib import Path
+from typing import Dict, Iterator
+
+import browser
+import pytest
+from browser import Browser
+from conftest import Served
+
+pytest.importorskip("nicegui")
+
+CLICK = "(words => { [...document.querySelectorAll('button')].find(b => b.innerText.trim().toLowerCase() == words).click(); return true })"
+TEXT = "document.body.innerText"
+# Everything that the plots hold: what moves changes it.
+DRAWN = "(() => document.querySelector('canvas').toDataURL())()"
+
+
+@pytest.fixture
+def address(served: Served) -> Iterator[str]:
+    """Of a page for the virtual drive, with its token."""
+    with socket.socket() as s:
+        s.bind(("127.0.0.1", 0))
+        port = s.getsockname()[1]
+    page = subprocess.Popen(
+        [sys.executable, "-m", "sdre_drive", "ui", "--no-browser", "--page-port", str(port), *served.options(),
+         "--control", f"127.0.0.1:{served.control}"], stdout=subprocess.PIPE, text=True)  # fmt: skip
+    assert page.stdout
+    try:
+        yield page.stdout.readline().strip()
+    finally:
+        page.terminate()
+        page.wait(20)
+
+
+def answer(address: str, headers: Dict[str, str]) -> int:
+    """HTTP status."""
+    try:
+        with urllib.request.urlopen(urllib.request.Request(address, headers=headers), timeout=20) as got:
+            return int(got.status)
+    except urllib.error.HTTPError as e:
+        return e.code
+
+
+def test_only_who_has_the_token_from_this_page(address: str) -> None:
+    plain = address.split("?")[0]
+    assert answer(address, {}) == 200
+    assert answer(plain, {}) == 403
+    assert answer(plain + "?token=x", {}) == 403
+    assert answer(address, {"Origin": "http://example.org"}) == 403
+    assert answer(address, {"Host": "example.org"}) == 403
+    assert answer(plain + "_nicegui_ws/socket.io/?EIO=4&transport=polling", {}) == 403
+
+
+async def use(address: str, pictures: str) -> None:
+    """What a user does."""
+    async with Browser(address) as page:
+        await page.until("document.querySelector('canvas') !== null", 60.0)
+        await page.until(f"{TEXT}.includes('READY') && {TEXT}.includes('Bench')")
+        await page.script(f"{CLICK}('run')")  # not armed: nothing
+        await asyncio.sleep(1.0)
+        assert "READY" in await page.script(TEXT)
+        await page.script("document.querySelector('.q-toggle').click()")
+        await page.until("[...document.querySelectorAll('button')].every(b => !b.disabled)")
+        await page.script(f"{CLICK}('run')")
+        await page.until(f"/99[0-9] r.min|100[0-9] r.min/.test({TEXT})", 60.0)
+        before = await page.script(DRAWN)
+        await page.script("document.querySelector('.q-slider').focus()")
+        for _ in range(16):  # 16 steps of 0.05 N m
+            await page.call("Input.dispatchKeyEvent", type="keyDown", key="ArrowRight", code="ArrowRight",
+                            windowsVirtualKeyCode=39)  # fmt: skip
+        await page.until(f"{TEXT}.includes('load 0.80 N m')")
+        await asyncio.sleep(3.0)
+        assert await page.script(DRAWN) != before
+        if pictures:
+            await page.picture(Path(pictures) / "page.png")
+        await page.script(f"{CLICK}('break it')")
+        await page.until(f"{TEXT}.includes('FAULT') && {TEXT}.includes('Look at:')")
+        if pictures:
+            await page.picture(Path(pictures) / "page_fault.png")
+        assert page.errors == []
+
+
+@pytest.mark.skipif(not browser.path(), reason="there is no Chromium")
+def test_a_user_of_the_page(address: str) -> None:
+    asyncio.run(use(address, os.environ.get("SDRE_PICTURES", "")))
