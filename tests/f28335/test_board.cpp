@@ -146,7 +146,8 @@ TEST_F(F28335Board, SetupsThatNoRegisterHoldsAreRefused)
         b.init_result = true;
         device.reset();
         device = std::make_unique<Device>(around, board_firmware_main, options);
-        device->run_for(50e-3);
+        device->run_until([] { return !board_firmware.init_result; }, 50e-3);
+        device->run_for(100e-6);
         EXPECT_FALSE(board_firmware.init_result) << setup.pwm_cycles << ' ' << setup.dead_time_cnt;
         EXPECT_FALSE(board_firmware.started);
         EXPECT_TRUE(all_legs(false));
