@@ -9,10 +9,11 @@ import threading
 from typing import Callable
 
 from sdre_drive import session
-from sdre_drive.connection import Drive
+from sdre_drive.connection import Drive, DriveError
 from sdre_drive.registers import Mode, Reading
 
-LONGEST_S = 60.0  # of a busy machine; a start takes 3 s
+PATIENCE = 5  # times that no answer comes
+LONGEST_S = 30.0  # of the drive's time; a start takes 3 s
 
 
 def command(*words: str) -> subprocess.CompletedProcess:
@@ -22,13 +23,19 @@ def command(*words: str) -> subprocess.CompletedProcess:
 
 def until(drive: Drive, wanted: Callable[[Reading], bool], longest_s: float = LONGEST_S) -> Reading:
     """The first reading that is wanted."""
-    reading = session.wait_for(drive, wanted, longest_s)
-    assert reading, f"it did not come; now {drive.read()}"
-    return reading
+    for _ in range(PATIENCE):
+        try:
+            reading = session.wait_for(drive, wanted, longest_s)
+            assert reading, f"it did not come; now {drive.read()}"
+            return reading
+        except DriveError:
+            continue  # a busy machine
+    raise AssertionError("the drive does not answer")
 
 
 def run_at(drive: Drive, speed_e_radps: float) -> Reading:
     """Until it has the speed, within what noise and load leave."""
+    until(drive, lambda r: r.mode == Mode.READY)
     session.start(drive, speed_e_radps)
     reading = until(drive, lambda r: r.mode == Mode.FAULT or (
         r.mode == Mode.RUN and abs(r.speed_e_radps - speed_e_radps) < 5.0))  # fmt: skip

@@ -26,6 +26,8 @@ def block(language: str, port: int) -> str:
 
 @pytest.mark.skipif(not shutil.which("mbpoll"), reason="mbpoll is not installed")
 def test_mbpoll(served: Served) -> None:
+    with Drive(served.target()) as drive:
+        until(drive, lambda r: r.mode == Mode.READY)
     told = subprocess.run(["sh", "-c", block("sh", served.tcp)], capture_output=True, text=True, timeout=100)
     assert told.stdout.count("Written 1 references.") == 3, told
     modes = [int(m) for m in re.findall(r"^\[0\]:\s+(\d+)", told.stdout, flags=re.M)]
@@ -35,7 +37,7 @@ def test_mbpoll(served: Served) -> None:
 
 
 def test_pymodbus(served: Served) -> None:
-    told = subprocess.run([sys.executable, "-c", block("python", served.tcp)], capture_output=True, text=True, timeout=100)
+    told = subprocess.run([sys.executable, "-c", block("python", served.tcp)], capture_output=True, text=True, timeout=200)
     assert told.returncode == 0, told.stderr
     assert re.fullmatch(r"runs at (19[5-9]|20[0-9]) rad/s\n", told.stdout)
     with Drive(served.target()) as drive:

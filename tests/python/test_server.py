@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import random
@@ -10,11 +11,13 @@ import socket
 import struct
 import threading
 import time
+from typing import Iterator
 
 import pytest
 from conftest import Served
-from support import run_at, stay
+from support import run_at, stay, until
 
+from sdre_drive import session
 from sdre_drive.connection import Drive
 from sdre_drive.registers import Mode
 
@@ -23,6 +26,19 @@ READ_ALL = bytes.fromhex("000100000006 01 04 0000 0030")
 
 def connect(port: int) -> socket.socket:
     return socket.create_connection(("127.0.0.1", port), timeout=5)
+
+
+@contextlib.contextmanager
+def kept_alive(drive: Drive) -> Iterator[None]:
+    """A master that goes on asking meanwhile."""
+    end = threading.Event()
+    asking = threading.Thread(target=lambda: list(session.follow(drive, end)))
+    asking.start()
+    try:
+        yield
+    finally:
+        end.set()
+        asking.join()
 
 
 def kill(s: socket.socket) -> None:
@@ -34,14 +50,15 @@ def kill(s: socket.socket) -> None:
 def test_broken_off_requests(served: Served, drive: Drive) -> None:
     run_at(drive, 200.0)
     for port in (served.tcp, served.rtu, served.control):
-        for length in range(1, len(READ_ALL)):
-            s = connect(port)
-            s.sendall(READ_ALL[:length])
-            kill(s)
+        with kept_alive(drive):
+            for length in range(1, len(READ_ALL)):
+                s = connect(port)
+                s.sendall(READ_ALL[:length])
+                kill(s)
         s = connect(port)
         s.sendall(READ_ALL * 20)
         kill(s)
-        assert drive.read().mode == Mode.RUN
+        until(drive, lambda r: r.mode == Mode.RUN, 0.5)
     assert abs(stay(drive, 0.5).speed_e_radps - 200.0) < 10.0
 
 
@@ -49,14 +66,15 @@ def test_nonsense_on_every_endpoint(served: Served, drive: Drive) -> None:
     r = random.Random(1)
     run_at(drive, 200.0)
     for port in (served.tcp, served.rtu, served.control):
-        for _ in range(20):
-            s = connect(port)
-            try:
-                s.sendall(r.randbytes(r.randrange(1, 3000)))
-            except OSError:
-                pass  # the server may hang up
-            s.close()
-        assert drive.read().mode == Mode.RUN
+        with kept_alive(drive):
+            for _ in range(20):
+                s = connect(port)
+                try:
+                    s.sendall(r.randbytes(r.randrange(1, 3000)))
+                except OSError:
+                    pass  # the server may hang up
+                s.close()
+        until(drive, lambda r: r.mode == Mode.RUN, 0.5)
     line = os.open(served.pty, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
     os.write(line, r.randbytes(500))
     os.close(line)
@@ -66,16 +84,12 @@ def test_nonsense_on_every_endpoint(served: Served, drive: Drive) -> None:
 
 def test_two_hundred_connections(served: Served, drive: Drive) -> None:
     run_at(drive, 200.0)
-    end = threading.Event()
-    keep_alive = threading.Thread(target=lambda: [drive.read() for _ in iter(lambda: end.wait(0.05), True)])
-    keep_alive.start()
-    crowd = [connect(served.tcp) for _ in range(200)]
-    for s in crowd:
-        kill(s)
-    end.set()
-    keep_alive.join()
+    with kept_alive(drive):
+        crowd = [connect(served.tcp) for _ in range(200)]
+        for s in crowd:
+            kill(s)
     with Drive(served.target()) as another:
-        assert another.read().mode == Mode.RUN
+        until(another, lambda r: r.mode == Mode.RUN, 0.5)
 
 
 @pytest.mark.parametrize("line", ["", "load", "load x", "load 1e9", "load nan", "dc_link -1", "fault", 'fault kind = "x"',

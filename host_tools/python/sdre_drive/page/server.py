@@ -16,6 +16,7 @@ from sdre_drive.page.layout import Page
 from sdre_drive.page.state import Watcher
 
 HOST = "127.0.0.1"
+RECONNECT_S = 20.0  # chosen: a browser on a busy machine keeps its page
 
 
 def require_free(port: int) -> None:
@@ -48,4 +49,5 @@ def serve(target: Target, bench: Optional[Tuple[str, int]], pole_pairs: Optional
     app.add_middleware(Guard, token=token, port=port)
     app.on_startup(started)
     app.on_shutdown(watcher.close)
-    ui.run(host=HOST, port=port, reload=False, show=False, show_welcome_message=False, title="sdre-drive")
+    ui.run(host=HOST, port=port, reload=False, show=False, show_welcome_message=False, title="sdre-drive",
+           reconnect_timeout=RECONNECT_S)  # fmt: skip

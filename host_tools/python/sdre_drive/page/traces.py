@@ -57,8 +57,8 @@ class Traces:
             "animation": False,
             "legend": {"data": [TELLS, TRUTH], "top": 0},
             "grid": [{"left": 60, "right": 15, "top": f"{7 + 23 * k}%", "height": "18%"} for k in range(count)],
-            "xAxis": [{"type": "value", "min": -TRACE_S, "max": 0, "gridIndex": k, "axisLabel": {"show": k == last},
-                       "axisLine": {"onZero": False}, "name": "s" if k == last else ""}
+            "xAxis": [{"type": "value", "min": -TRACE_S, "max": 0, "gridIndex": k, "axisLine": {"onZero": False},
+                       "axisLabel": {"show": k == last, "formatter": "{value} s"}}
                       for k in range(count)],
             "yAxis": [{"type": "value", "scale": True, "gridIndex": k, "name": p.title, "nameLocation": "end",
                        "nameGap": 6, "position": "left", "axisLine": {"onZero": False}, "nameTextStyle": {"align": "left"}, "splitNumber": 3}
