@@ -61,11 +61,11 @@ class Page:
         ui.label("Bench of the virtual drive").classes("font-bold")
         self.load_words = ui.label("")
         self.load = ui.slider(min=-2.0, max=2.0, step=0.05, value=0.0).mark("load")
-        self.load.on("update:model-value", lambda: self._bench(f"load {float(self.load.value):g}"), throttle=0.1)
+        self.load.on("update:model-value", self._set_load, throttle=0.1)
         self.fault = ui.select(list(FAULTS), value=next(iter(FAULTS)), label="break").classes("w-full").mark("fault")
         with ui.row():
-            inject = ui.button("break it", color="warning", on_click=lambda: self._bench(FAULTS[str(self.fault.value)]))
-            mend = ui.button("mend all", on_click=lambda: self._bench("mend"))
+            inject = ui.button("break it", color="warning", on_click=self._break)
+            mend = ui.button("mend all", on_click=self._mend)
         for element, mark in ((self.load, "load"), (inject, "inject"), (mend, "mend")):
             element.bind_enabled_from(self.arm, "value").mark(mark)
 
@@ -94,8 +94,14 @@ class Page:
     async def _reset(self) -> None:
         await self._do(self.watcher.reset)
 
-    async def _bench(self, command: str) -> None:
-        await self._do(self.watcher.tell_bench, command)
+    async def _set_load(self) -> None:
+        await self._do(self.watcher.tell_bench, f"load {float(self.load.value):g}")
+
+    async def _break(self) -> None:
+        await self._do(self.watcher.tell_bench, FAULTS[str(self.fault.value)])
+
+    async def _mend(self) -> None:
+        await self._do(self.watcher.tell_bench, "mend")
 
     def _refresh(self) -> None:
         if not self.client.has_socket_connection:
