@@ -185,7 +185,7 @@ static bool drive_watches(app_modes_t *m, const app_modes_input_t *in)
 }
 
 /* RUN and STOP. A drive whose encoder is lost brakes until it is too slow to go on without, which is its fault. */
-static bridge_t run(app_modes_t *m, const app_modes_input_t *in)
+static bridge_t run_drive(app_modes_t *m, const app_modes_input_t *in)
 {
     static const app_command_t stop = {.omega_e_radps = 0.0f, .run = false, .reset = false};
 
@@ -218,7 +218,7 @@ static bridge_t precharge(app_modes_t *m, const app_modes_input_t *in)
     }
     if (m->timer_ticks >= m->config->gate.precharge_ticks) {
         enter(m, APP_MODE_RUN);
-        return run(m, in);
+        return run_drive(m, in);
     }
     m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
     return bridge_shorted();
@@ -291,7 +291,7 @@ bridge_t app_states_act(app_modes_t *m, const app_modes_input_t *in)
 {
     if ((m->mode == APP_MODE_RUN) ||
         (m->mode == APP_MODE_STOP)) { /* first: these ticks are the dearest */
-        return run(m, in);
+        return run_drive(m, in);
     }
     switch (m->mode) {
     case APP_MODE_BOOT:

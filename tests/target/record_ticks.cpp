@@ -45,6 +45,7 @@ tick_file_tick_t file_tick(const drive_t &d, const drive_sample_t &s, const driv
     t.edge_age_s      = s.edge_age_s;
     t.omega_e_radps   = s.omega_e_radps;
     t.command_e_radps = c.omega_e_radps;
+    t.derating        = c.derating;
     t.duty            = law.duty;
     t.pi_duty         = pi.duty;
     t.flags           = flag(s.valid, TICK_FILE_VALID) | flag(c.run, TICK_FILE_RUN) |

@@ -18,7 +18,7 @@
 #define TICK_FILE_NAME_SIZE 64
 
 /** The drive's constants up to the pointers to the law and its own, which the two machines cannot share. */
-#define TICK_FILE_CONFIG_SIZE (offsetof(drive_config_t, dead_time) + sizeof(dead_time_config_t))
+#define TICK_FILE_CONFIG_SIZE (offsetof(drive_config_t, hardware) + sizeof(drive_hardware_t))
 
 /** What the two machines must agree on, as numbers. */
 #define TICK_FILE_LAYOUT                                                                           \
@@ -50,14 +50,18 @@ typedef struct {
     tick_file_constants_t constants;
 } tick_file_run_t;
 
-/** The core's memory without its pointer, which the two machines cannot share. */
+/** The core's memory that changes, without the pointers, which the two machines cannot share. */
 typedef struct {
-    drive_state_t state;
-    drive_fault_t fault;
-    law_state_t   law;
-    law_output_t  wanted;
-    dq_t          v_V;
-    uint32_t      v_limited;
+    drive_state_t   state;
+    drive_fault_t   fault;
+    law_state_t     law;
+    law_output_t    wanted;
+    dq_t            v_V;
+    uint32_t        v_limited;
+    abc_t           i_hat_A;
+    current_gate_t  current_gate;
+    current_watch_t current_watch;
+    motion_watch_t  motion_watch;
 } tick_file_drive_t;
 
 /**
@@ -76,6 +80,7 @@ typedef struct {
     float             edge_age_s;
     float             omega_e_radps;
     float             command_e_radps;
+    float             derating;
     abc_t             duty;
     abc_t             pi_duty;
     uint32_t
@@ -99,27 +104,32 @@ static inline tick_file_drive_t tick_file_from_drive(const drive_t *d)
 {
     tick_file_drive_t x;
 
-    x.state     = d->state;
-    x.fault     = d->fault;
-    x.law       = d->law;
-    x.wanted    = d->wanted;
-    x.v_V       = d->v_V;
-    x.v_limited = d->v_limited ? 1u : 0u;
+    x.state         = d->state;
+    x.fault         = d->fault;
+    x.law           = d->law;
+    x.wanted        = d->wanted;
+    x.v_V           = d->v_V;
+    x.v_limited     = d->v_limited ? 1u : 0u;
+    x.i_hat_A       = d->i_hat_A;
+    x.current_gate  = d->current_gate;
+    x.current_watch = d->current_watch;
+    x.motion_watch  = d->motion_watch;
     return x;
 }
 
-static inline drive_t tick_file_to_drive(const tick_file_drive_t *x, const drive_config_t *config)
+/** Into a drive that drive_init() has bound to its constants. */
+static inline void tick_file_to_drive(const tick_file_drive_t *x, drive_t *d)
 {
-    drive_t d;
-
-    d.config    = config;
-    d.state     = x->state;
-    d.fault     = x->fault;
-    d.law       = x->law;
-    d.wanted    = x->wanted;
-    d.v_V       = x->v_V;
-    d.v_limited = x->v_limited != 0u;
-    return d;
+    d->state         = x->state;
+    d->fault         = x->fault;
+    d->law           = x->law;
+    d->wanted        = x->wanted;
+    d->v_V           = x->v_V;
+    d->v_limited     = x->v_limited != 0u;
+    d->i_hat_A       = x->i_hat_A;
+    d->current_gate  = x->current_gate;
+    d->current_watch = x->current_watch;
+    d->motion_watch  = x->motion_watch;
 }
 
 #endif /* TICK_FILE_H */

@@ -50,9 +50,10 @@ OPERATIONS = (
     ("store", ("store",)),
     ("integer", ("integer", "int_div")),
     ("branch", ("branch", "taken", "not_taken")),
-    ("call and return", ("call", "return")),
+    ("call and return", ("call", "return", "memset", "memcpy")),
     ("sine, cosine", ("sinf", "cosf")),
     ("minimum, maximum", ("fminf", "fmaxf")),
+    ("words set or copied in calls", ("word_set", "word_copied")),
 )
 
 
@@ -104,9 +105,9 @@ def compare(check, runs, results):
     gates = True
     for recorded, replayed in zip(runs, results):
         for tick, result in zip(recorded.ticks, replayed):
-            worst = max(worst, *(abs(tick[8 + i] - result[3 + i]) for i in range(3)))
-            pi_worst = max(pi_worst, *(abs(tick[11 + i] - result[6 + i]) for i in range(3)))
-            gates &= tick[14] & GATE == result[2]
+            worst = max(worst, *(abs(tick[10 + i] - result[3 + i]) for i in range(3)))
+            pi_worst = max(pi_worst, *(abs(tick[13 + i] - result[6 + i]) for i in range(3)))
+            gates &= tick[16] & GATE == result[2]
     check(gates, "gates as on the host")
     check(worst <= DUTY_TOLERANCE, f"duties as on the host: worst {worst:.1e}, allowed {DUTY_TOLERANCE:.0e}")
     check(pi_worst <= DUTY_TOLERANCE, f"those of the PI-FOC: worst {pi_worst:.1e}, allowed {DUTY_TOLERANCE:.0e}")

@@ -25,7 +25,9 @@ class LongestPath:
         """Counts of the call or jump i to another function and of all that it does there."""
         if i.target_name in self.library:
             return {i.target_name: 1}  # its price has call and return in it
-        if i.target != self.entry.get(i.target_name):
+        if i.target_name not in self.entry:
+            raise ValueError(f"{i.target_name}() has no cost")
+        if i.target != self.entry[i.target_name]:
             raise ValueError(f"call into the middle of {i.target_name}")
         return add({i.flow: 1}, self.function(i.target_name))
 

@@ -31,7 +31,8 @@ MULTIPLE_LOAD = ("ldmia", "ldmdb", "ldm", "pop", "vpop", "vldmia", "vldmdb")
 MULTIPLE_STORE = ("stmia", "stmdb", "stm", "push", "vpush", "vstmia", "vstmdb")
 FLOAT_REGISTERS = 8  # of the C28x
 NEAR_OCTETS = 16  # of a structure: eight words, what an instruction of the C28x reaches without an index register
-LAW = ("check", "reset", "step")  # members of law_t, in their order
+LAW = ("check", "reset", "step", "counts_ok")  # functions of law_t, in their order; one word follows them
+OCTETS_BY = {"memset": "word_set", "memcpy": "word_copied"}  # calls that cost by the octets in r2
 
 
 @dataclass
@@ -129,7 +130,7 @@ def classify(i):
 def law_functions(prefix, image):
     """{offset in law_t: (address, name)} of the functions of the one law in an image."""
     table = symbols(prefix, image)
-    laws = [name for name, (_, size) in table.items() if re.fullmatch(r"law_\w+", name) and size == 4 * len(LAW)]
+    laws = [name for name, (_, size) in table.items() if re.fullmatch(r"law_\w+", name) and size == 4 * (len(LAW) + 1)]
     if len(laws) != 1:
         raise ValueError(f"one law is expected in the image, found {laws}")
     start, size = table[laws[0]]
@@ -139,17 +140,36 @@ def law_functions(prefix, image):
     return {4 * n: (address, name) for n, (address, name) in enumerate(zip(addresses, LAW))}
 
 
+def loaded_from(before, register, pattern):
+    """Match of the last instruction that gave the register its value, if it is of this pattern; moves are followed back."""
+    for earlier in reversed(before):
+        if not earlier.conditional:
+            if match := re.match(pattern.format(register), f"{earlier.name} {earlier.operands}"):
+                return match
+            if earlier.name == "mov" and (match := re.match(rf"{register}, (\w+)$", earlier.operands)):
+                register = match[1]
+                continue
+        if re.match(rf"{register}\b|.*\{{.*\b{register}\b", earlier.operands) and not is_read(earlier):
+            break
+    return None
+
+
 def resolve(before, i, functions):
     """Gives the indirect call i its target: a member of law_t, loaded into its register by what stands before."""
-    for earlier in reversed(before):
-        if earlier.name == "ldr" and (match := re.match(rf"{i.register}, \[\w+(?:, #(\d+))?\]$", earlier.operands)):
-            offset = int(match[1] or 0)
-            if offset in functions:
-                i.target, i.target_name = functions[offset]
-                return
-        if re.match(rf"{i.register}\b|.*\{{.*\b{i.register}\b", earlier.operands) and not is_read(earlier):
-            break
-    raise ValueError(f"computed jump at {i.address:x}")
+    match = loaded_from(before, i.register, r"ldr {}, \[\w+(?:, #(\d+))?\]$")
+    offset = int(match[1] or 0) if match else None
+    if offset not in functions:
+        raise ValueError(f"computed jump at {i.address:x}")
+    i.target, i.target_name = functions[offset]
+
+
+def count_words(before, i):
+    """Gives a call of memset() or memcpy() its words; one of a size that is not a number there has no price."""
+    match = loaded_from(before, "r2", r"movs? {}, #(\d+)$")
+    if match:
+        i.counts[OCTETS_BY[i.target_name]] += (int(match[1]) + 1) // 2
+    else:
+        i.target_name += " of unknown size"
 
 
 def is_read(i):
@@ -183,6 +203,8 @@ def read_code(prefix, image, functions=()):
             resolve(block, i, functions)
         elif i.flow in ("branch", "conditional", "call"):
             i.target, i.target_name = int(goal[1], 16), goal[2]
+            if goal[2] in OCTETS_BY:
+                count_words(block, i)
         if before:
             before.next = i
         code[i.address] = before = i

@@ -54,7 +54,7 @@ LAW_LISTING = """
  124:	vadd.f32	s0, s0, s1
  128:	bx	lr
 """
-LAW_FUNCTIONS = {0: (0x130, "check"), 4: (0x120, "reset"), 8: (0x124, "step")}
+LAW_FUNCTIONS = {0: (0x130, "check"), 4: (0x120, "reset"), 8: (0x124, "step"), 12: (0x140, "counts_ok")}
 
 
 def code_of(listing, functions=()):
@@ -170,7 +170,7 @@ class Counting(unittest.TestCase):
             steps[(b"00000100", b"00000120")]
 
     def test_a_call_through_anything_else_is_refused(self):
-        for old, new in (("#8]", "#12]"), ("mov\tr1, r9", "mov\tsl, r9"), ("mov\tr1, r9", "ldmia\tr0!, {r4, sl}")):
+        for old, new in (("#8]", "#16]"), ("mov\tr1, r9", "mov\tsl, r9"), ("mov\tr1, r9", "ldmia\tr0!, {r4, sl}")):
             with self.subTest(new=new), self.assertRaisesRegex(ValueError, "computed jump at 10c"):
                 self.assertIn(old, LAW_LISTING)
                 code_of(LAW_LISTING.replace(old, new, 1), LAW_FUNCTIONS)
@@ -178,11 +178,12 @@ class Counting(unittest.TestCase):
             code_of(LAW_LISTING)
 
     def test_the_law_of_an_image(self):
-        answers = {"nm": "00000200 0000000c T law_noc\n00000300 00000004 T law_other\n",
-                   "objdump": "\nContents of section .text:\n 0200 31010000 21010000 25010000           1...!...%...\n"}
+        answers = {"nm": "00000200 00000014 T law_noc\n00000300 00000004 T law_other\n",
+                   "objdump": "\nContents of section .text:\n 0200 31010000 21010000 25010000 41010000  1...!...%...A...\n"
+                             " 0210 34010000                             4...\n"}
         with mock.patch.object(machine_code, "run", lambda command, *_: answers[command]):
             self.assertEqual(machine_code.law_functions("", "image"), LAW_FUNCTIONS)
-            answers["nm"] += "00000210 0000000c T law_pid\n"
+            answers["nm"] += "00000214 00000014 T law_pid\n"
             with self.assertRaisesRegex(ValueError, "law_pid"):
                 machine_code.law_functions("", "image")
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 NAME_SIZE = 64
 HEAD = struct.Struct("<6I")  # layout, size of this head and all up to the ticks, tick size, law, order, ticks
-PUBLIC = struct.Struct("<8f3f3fI")  # end of a tick, after the core's memory
+PUBLIC = struct.Struct("<10f3f3fI")  # end of a tick, after the core's memory
 RESULT = struct.Struct("<III3f3f")
 GATE = 4
 

@@ -46,9 +46,10 @@ static tick_file_result_t replay(const tick_file_tick_t *t)
         .valid         = (t->flags & TICK_FILE_VALID) != 0u,
         .edge_of_line  = (int16_t)((t->flags >> TICK_FILE_EDGE_SHIFT) & TICK_FILE_EDGE_MASK)};
     const drive_command_t command = {.omega_e_radps = t->command_e_radps,
-                                     .run           = (t->flags & TICK_FILE_RUN) != 0u};
+                                     .run           = (t->flags & TICK_FILE_RUN) != 0u,
+                                     .derating      = t->derating};
 
-    drive = tick_file_to_drive(&t->drive, &config);
+    tick_file_to_drive(&t->drive, &drive);
 
     const uint32_t start  = SYST_CVR;
     const bridge_t law    = drive_tick(&drive, &sample, &command);
