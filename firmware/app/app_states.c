@@ -235,7 +235,7 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
     }
     if (m->angle.reference == APP_ANGLE_INDEX) { /* the mark came by: better than alignment */
         enter_run(m);
-        return (m->mode == APP_MODE_RUN) ? run(m, in) : bridge_open();
+        return (m->mode == APP_MODE_RUN) ? run_drive(m, in) : bridge_open();
     }
     const bridge_t out = app_align_tick(&m->align, m->sample.ia_A, m->sample.ib_A,
                                         m->sample.dc_link_V, in->raw->position_cnt);
