@@ -9,6 +9,7 @@
 
 #include "common/errors.hpp"
 #include "design/laws/near_optimal.hpp"
+#include "design/machine_points.hpp"
 #include "design/motor_model.hpp"
 #include "design/sampled_model.hpp"
 
@@ -350,11 +351,7 @@ double needed_voltage_V(const Machine &m, double torque, double speed_radps)
     const Motor             motor = motor_of(m);
     const ReducedParameters l     = reduced_parameters(motor);
     const double            iq_A  = mtpa_iq_A(motor, l, torque, 10.0 * m.max_current_A.si);
-    const double            w     = m.pole_pairs.si * speed_radps;
-    const double            id_A  = mtpa_id_A(l, iq_A);
-    const double v_q = m.resistance_Ohm.si * iq_A + w * (m.ld_H.si * id_A + m.flux_Wb.si);
-    const double v_d = m.resistance_Ohm.si * id_A - w * m.lq_H.si * iq_A;
-    return std::hypot(v_q, v_d);
+    return steady_voltage_V(motor, mtpa_id_A(l, iq_A), iq_A, m.pole_pairs.si * speed_radps);
 }
 
 Machine machine_of(const Facts &facts, const std::string &default_name, Findings &findings)

@@ -8,6 +8,7 @@
 
 #include "common/errors.hpp"
 #include "design/laws/near_optimal.hpp"
+#include "design/machine_points.hpp"
 #include "design/motor_model.hpp"
 #include "design/sampled_model.hpp"
 #include "tune/start_weights.hpp"
@@ -47,11 +48,7 @@ Steady carrying(const Drive &d, const ReducedParameters &l, double load_Nm)
 
 double hold_V(const Drive &d, const Steady &at, double speed_e_radps)
 {
-    const Motor &m = d.motor;
-    return std::hypot(m.stator_resistance_Ohm * at.iq_A +
-                          speed_e_radps * (m.d_axis_inductance_H * at.id_A + m.pm_flux_Wb),
-                      m.stator_resistance_Ohm * at.id_A -
-                          speed_e_radps * m.q_axis_inductance_H * at.iq_A);
+    return steady_voltage_V(d.motor, at.id_A, at.iq_A, speed_e_radps);
 }
 
 /// Believed over true: J, then all of R, L and flux, then L once more; how much deeper its dip may be.
