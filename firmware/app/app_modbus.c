@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_modbus.h"
 
+#include <stddef.h>
+
 #define FUNCTION_READ_HOLDING 3U
 #define FUNCTION_READ_INPUT   4U
 #define FUNCTION_WRITE_ONE    6U
@@ -20,6 +22,8 @@
 #define FRAME_MIN    4U /* address, function, CRC */
 #define REQUEST_SIZE 8U /* functions 3, 4 and 6 */
 #define WRITE_HEAD   7U /* function 16, up to its data */
+
+#define QUIET_GAPS 4U /* one ends the request; the answer to a command takes less than two more */
 
 #define OCTETS_PER_POLL 16U /* depth of the receiver's FIFO */
 
@@ -194,14 +198,24 @@ static bool frame_ok(const app_modbus_t *m)
            ((to == m->address) || (to == ADDRESS_BROADCAST)) && length_ok(m);
 }
 
+bool app_modbus_is_quiet(const app_modbus_t *m, uint32_t now_ticks)
+{
+    return (m->tx_sent == m->tx_count) &&
+           ((uint32_t)(now_ticks - m->heard_ticks) >= (QUIET_GAPS * (uint32_t)m->gap_ticks));
+}
+
 static void end_frame(app_modbus_t *m, app_registers_t *r, uint32_t now_ticks)
 {
     if (frame_ok(m)) {
-        const bool ran = r->command.run;
+        const bool          ran    = r->command.run;
+        const bool          all    = m->rx_octets[0] == ADDRESS_BROADCAST;
+        app_loader_t *const loader = r->loader;
 
         m->request_ticks = now_ticks;
+        r->loader        = all ? NULL : loader; /* nobody loads all drives at once */
         answer(m, r);
-        if (m->rx_octets[0] == ADDRESS_BROADCAST) {
+        r->loader = loader;
+        if (all) {
             r->command.run = r->command.run && ran; /* it may stop all motors, and start none */
             m->tx_count    = 0U;
         } else {

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_registers.h"
 
+#include <stddef.h>
+
 #define TENTHS      10.0f
 #define HUNDREDTHS  100.0f
 #define THOUSANDTHS 1000.0f
@@ -63,6 +65,7 @@ void app_registers_init(app_registers_t *r, float speed_max_e_radps)
     r->speed_max_e_radps = speed_max_e_radps;
     r->changed           = false;
     r->silent            = false;
+    r->loader            = NULL;
 }
 
 static void holding_values(const app_registers_t *r, uint16_t all[APP_REGISTERS_HOLDING_COUNT])
@@ -183,6 +186,16 @@ static void commission_values(const app_commission_status_t *s,
     }
 }
 
+static bool is_loader(const app_registers_t *r, uint16_t first)
+{
+    return (r->loader != NULL) && (first >= APP_LOADER_FIRST);
+}
+
+static app_registers_result_t found(bool all)
+{
+    return all ? APP_REGISTERS_OK : APP_REGISTERS_BAD_ADDRESS;
+}
+
 /* Subtraction instead of a sum, which could wrap in 16 bits. */
 static bool exist(uint16_t first, uint16_t count, uint16_t existing)
 {
@@ -194,6 +207,9 @@ app_registers_result_t app_registers_read_holding(const app_registers_t *r, uint
 {
     uint16_t all[APP_REGISTERS_HOLDING_COUNT];
 
+    if (is_loader(r, first)) {
+        return found(app_loader_read_holding((uint16_t)(first - APP_LOADER_FIRST), count, values));
+    }
     if (!exist(first, count, APP_REGISTERS_HOLDING_COUNT)) {
         return APP_REGISTERS_BAD_ADDRESS;
     }
@@ -209,6 +225,10 @@ app_registers_result_t app_registers_read_input(const app_registers_t *r, uint16
 {
     uint16_t all[APP_REGISTERS_INPUT_COUNT];
 
+    if (is_loader(r, first)) {
+        return found(
+            app_loader_read(r->loader, (uint16_t)(first - APP_LOADER_FIRST), count, values));
+    }
     if (!exist(first, count, APP_REGISTERS_INPUT_COUNT)) {
         return APP_REGISTERS_BAD_ADDRESS;
     }
@@ -249,9 +269,24 @@ static void write_one(app_registers_t *r, uint16_t address, uint16_t value)
     }
 }
 
+static app_registers_result_t write_loader(app_registers_t *r, uint16_t first, uint16_t count,
+                                           const uint16_t *values)
+{
+    const app_loader_result_t result = app_loader_write(
+        r->loader, r->status.gate_enable, (uint16_t)(first - APP_LOADER_FIRST), count, values);
+
+    if (result == APP_LOADER_BAD_VALUE) {
+        return APP_REGISTERS_BAD_VALUE;
+    }
+    return found(result == APP_LOADER_OK);
+}
+
 app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, uint16_t count,
                                            const uint16_t *values)
 {
+    if (is_loader(r, first)) {
+        return write_loader(r, first, count, values);
+    }
     if (!exist(first, count, APP_REGISTERS_HOLDING_COUNT)) {
         return APP_REGISTERS_BAD_ADDRESS;
     }

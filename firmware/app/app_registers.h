@@ -9,6 +9,7 @@
 #ifndef APP_REGISTERS_H
 #define APP_REGISTERS_H
 
+#include "app_loader.h"
 #include "app_status.h"
 
 /** Holding registers. */
@@ -112,6 +113,7 @@ typedef struct {
     app_command_t command;
     float         speed_max_e_radps;
     bool          changed; /**< command is new; its taker clears this and command.reset */
+    app_loader_t *loader;  /**< answers from APP_LOADER_FIRST on; NULL: nothing does */
     bool          silent;  /**< run was withdrawn because nobody talked; until run is written */
 } app_registers_t;
 
