@@ -124,6 +124,17 @@ class Drive:
         self.set_run(False)
         self._asked("write_register", registers.RESET, 1)
 
+    def read_words(self, first: int, count: int) -> List[int]:
+        """Input registers as they are."""
+        values = list(self._asked("read_input_registers", first, count=count).registers)
+        if len(values) != count:
+            raise DriveError("the drive answered something else than it was asked")
+        return values
+
+    def write_words(self, first: int, values: List[int]) -> None:
+        """Holding registers as they are."""
+        self._asked("write_registers", first, values)
+
     def _asked(self, call: str, *args: Any, **kwargs: Any) -> Any:
         with self._lock:
             answer = self._tried(call, *args, **kwargs)
