@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_modbus.h"
 
+#include <stddef.h>
+
 #include "app_modbus_answer.h"
 
 #define ADDRESS_BROADCAST 0U
 
 #define FRAME_MIN 4U /* address, function, CRC */
+
+#define QUIET_GAPS 4U /* one ends the request; the answer to a command takes less than two more */
 
 #define OCTETS_PER_POLL 16U /* depth of the receiver's FIFO */
 
@@ -73,14 +77,24 @@ static void put_crc(app_modbus_t *m)
     app_modbus_answer_octet(m, (uint16_t)(crc >> 8));
 }
 
+bool app_modbus_is_quiet(const app_modbus_t *m, uint32_t now_ticks)
+{
+    return (m->tx_sent == m->tx_count) &&
+           ((uint32_t)(now_ticks - m->heard_ticks) >= (QUIET_GAPS * (uint32_t)m->gap_ticks));
+}
+
 static void take_request(app_modbus_t *m, app_registers_t *r, uint32_t now_ticks)
 {
-    const bool ran = r->wanted.command.run;
+    const bool          ran    = r->wanted.command.run;
+    const bool          all    = m->rx_octets[0] == ADDRESS_BROADCAST;
+    app_loader_t *const loader = r->loader;
 
     m->request_ticks = now_ticks;
     count(&m->counts.requests);
+    r->loader = all ? NULL : loader; /* nobody loads all drives at once */
     app_modbus_answer(m, r);
-    if (m->rx_octets[0] == ADDRESS_BROADCAST) {
+    r->loader = loader;
+    if (all) {
         r->wanted.command.run =
             r->wanted.command.run && ran; /* it may stop all motors, and start none */
         m->tx_count = 0U;

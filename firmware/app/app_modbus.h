@@ -58,6 +58,12 @@ ctl_status_t app_modbus_init(app_modbus_t *m, uint16_t gap_ticks);
  */
 void app_modbus_poll(app_modbus_t *m, app_registers_t *r, uint32_t now_ticks);
 
+/** True when the last answer is out and a while has passed in which its last octets left the board. */
+bool app_modbus_is_quiet(const app_modbus_t *m, uint32_t now_ticks);
+
+/** True when the last answer is out and a while has passed in which its last octets left the board. */
+bool app_modbus_is_quiet(const app_modbus_t *m, uint32_t now_ticks);
+
 /** CRC of `count` octets; its low octet is sent first. */
 uint16_t app_modbus_crc(const uint16_t *octets, uint16_t count);
 

@@ -213,7 +213,7 @@ void app_modbus_answer(app_modbus_t *m, app_registers_t *r)
         exchange(m, r);
         break;
     case FUNCTION_IDENTIFY:
-        app_modbus_device_identify(m, r->config);
+        app_modbus_device_identify(m, r);
         break;
     default:
         app_modbus_answer_exception(m, APP_MODBUS_NO_FUNCTION);

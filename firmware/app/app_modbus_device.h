@@ -12,6 +12,6 @@
 void app_modbus_device_diagnose(app_modbus_t *m);
 
 /** Function 43 with MEI type 14. Context: background. */
-void app_modbus_device_identify(app_modbus_t *m, const app_config_t *config);
+void app_modbus_device_identify(app_modbus_t *m, const app_registers_t *r);
 
 #endif /* APP_MODBUS_DEVICE_H */

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_registers.h"
 
+#include <stddef.h>
+
 #define RPM_PER_RADPS 9.54929659f /* 60 / (2 pi) */
 #define SIGN_32       0x80000000UL
 #define MOST_I32      2147483520.0f /* the last float below 2^31 */
@@ -34,6 +36,7 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
     r->trial           = wanted;
     r->changed         = false;
     r->silent          = false;
+    r->loader          = NULL;
     return ((wanted.modbus_address >= 1U) && (wanted.modbus_address <= ADDRESS_MAX) &&
             (wanted.modbus_timeout_ticks > 0UL))
                ? CTL_OK
@@ -187,9 +190,22 @@ static app_registers_result_t read_map(const app_registers_t *r, const map_t *ma
     return (n == count) ? APP_REGISTERS_OK : APP_REGISTERS_BAD_ADDRESS;
 }
 
+static bool is_loader(const app_registers_t *r, uint16_t first)
+{
+    return (r->loader != NULL) && (first >= APP_LOADER_FIRST);
+}
+
+static app_registers_result_t found(bool all)
+{
+    return all ? APP_REGISTERS_OK : APP_REGISTERS_BAD_ADDRESS;
+}
+
 app_registers_result_t app_registers_read_holding(const app_registers_t *r, uint16_t first,
                                                   uint16_t count, uint16_t *values)
 {
+    if (is_loader(r, first)) {
+        return found(app_loader_read_holding((uint16_t)(first - APP_LOADER_FIRST), count, values));
+    }
     return read_map(r, &holding, first, count, values);
 }
 
@@ -198,6 +214,10 @@ app_registers_result_t app_registers_read_input(const app_registers_t *r, uint16
 {
     static const map_t input = {app_registers_map_input, APP_REGISTERS_MAP_INPUT, true};
 
+    if (is_loader(r, first)) {
+        return found(
+            app_loader_read(r->loader, (uint16_t)(first - APP_LOADER_FIRST), count, values));
+    }
     return read_map(r, &input, first, count, values);
 }
 
@@ -279,12 +299,27 @@ static bool are_whole(uint16_t first, uint16_t count)
     return (n == count) && (count > 0U);
 }
 
+static app_registers_result_t write_loader(app_registers_t *r, uint16_t first, uint16_t count,
+                                           const uint16_t *values)
+{
+    const app_loader_result_t result = app_loader_write(
+        r->loader, r->status.gate_enable, (uint16_t)(first - APP_LOADER_FIRST), count, values);
+
+    if (result == APP_LOADER_BAD_VALUE) {
+        return APP_REGISTERS_BAD_VALUE;
+    }
+    return found(result == APP_LOADER_OK);
+}
+
 app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, uint16_t count,
                                            const uint16_t *values)
 {
     uint16_t k = find(&holding, first);
     uint16_t n = 0U;
 
+    if (is_loader(r, first)) {
+        return write_loader(r, first, count, values);
+    }
     if (!are_whole(first, count)) {
         return APP_REGISTERS_BAD_ADDRESS;
     }

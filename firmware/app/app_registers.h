@@ -10,6 +10,7 @@
 #define APP_REGISTERS_H
 
 #include "app_config.h"
+#include "app_loader.h"
 #include "app_registers_map.h"
 #include "app_status.h"
 
@@ -51,6 +52,7 @@ typedef struct app_registers {
     app_status_t           status;
     app_registers_wanted_t wanted;
     app_registers_wanted_t trial;   /**< a write, until all of it is known to be good */
+    app_loader_t          *loader;  /**< answers from APP_LOADER_FIRST on; NULL: nothing does */
     bool                   changed; /**< command is new; its taker clears this and command.reset */
     bool silent; /**< run was withdrawn because nobody talked; until run is written */
 } app_registers_t;

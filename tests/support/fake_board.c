@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 fake_board_t fake_board;
+uint16_t     fake_board_store[BOARD_STORE_SLOTS][BOARD_STORE_WORDS];
 
 void fake_board_reset(void)
 {
@@ -15,8 +16,9 @@ void fake_board_reset(void)
                                  .index_cnt       = 0U,
                                  .index_seen      = false,
                                  .valid           = true};
-    const fake_board_t   none = {.init_result = true, .sample = rest, .serial_room = 1 << 20};
-    fake_board                = none;
+    const fake_board_t   none = {
+          .init_result = true, .sample = rest, .serial_room = 1 << 20, .store_budget = -1};
+    fake_board = none;
 }
 
 static void note(fake_board_event_t event)
@@ -106,6 +108,73 @@ uint16_t board_fault_read(void)
 board_reset_t board_reset_cause(void)
 {
     return BOARD_RESET_PIN;
+}
+
+bool board_fits(const board_setup_t *setup)
+{
+    (void)setup;
+    return !fake_board.misfit;
+}
+
+bool board_loader_is_wanted(void)
+{
+    return fake_board.loader_wanted;
+}
+
+void board_restart(bool loader)
+{
+    fake_board.restarts++;
+    fake_board.restart_loader = loader;
+}
+
+void fake_board_erase_store(void)
+{
+    for (uint32_t slot = 0U; slot < (uint32_t)BOARD_STORE_SLOTS; slot++) {
+        for (uint32_t n = 0U; n < BOARD_STORE_WORDS; n++) {
+            fake_board_store[slot][n] = 0xFFFFU;
+        }
+    }
+}
+
+const uint16_t *board_store(uint16_t slot)
+{
+    return (slot < (uint16_t)BOARD_STORE_SLOTS) ? fake_board_store[slot] : NULL;
+}
+
+/* False: the power has failed; the word is what a cut leaves of it, some of its bits. */
+static bool change(uint16_t *word, uint16_t to, uint16_t left)
+{
+    if (fake_board.store_budget == 0) {
+        return false;
+    }
+    fake_board.store_budget -= (fake_board.store_budget > 0) ? 1 : 0;
+    *word = (fake_board.store_budget == 0) ? left : to;
+    return true;
+}
+
+bool board_store_erase(uint16_t slot)
+{
+    for (uint32_t n = 0U; n < BOARD_STORE_WORDS; n++) {
+        uint16_t *word = &fake_board_store[slot][n];
+        if (!change(word, 0xFFFFU, (uint16_t)(*word | 0x5A5AU))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool board_store_program(uint16_t slot, uint32_t offset, const uint16_t *words, uint16_t count)
+{
+    for (uint32_t n = 0U; n < count; n++) {
+        uint16_t *word = &fake_board_store[slot][offset + n];
+        if ((*word & words[n]) != words[n]) {
+            return false; /* not erased */
+        }
+        if (!change(word, words[n], (uint16_t)(words[n] | 0x0F0FU))) {
+            return false;
+        }
+    }
+    return true;
 }
 
 uint32_t board_cycles(void)
