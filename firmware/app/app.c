@@ -99,10 +99,10 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
 {
     const ctl_status_t modes = init_tick_side(config, drive);
     const ctl_status_t modbus =
-        app_modbus_init(&background_side.modbus, tick_side.config.modbus_address,
-                        tick_side.config.modbus_gap_ticks, tick_side.config.modbus_timeout_ticks);
+        app_modbus_init(&background_side.modbus, tick_side.config.modbus_gap_ticks);
+    const ctl_status_t registers =
+        app_registers_init(&background_side.registers, &tick_side.config, drive);
 
-    app_registers_init(&background_side.registers, drive->speed_max_e_radps);
     background_side.loader.restart = false;
     background_side.served_ticks   = 0UL;
     app_watch_tick_reset(&background_side.watch);
@@ -118,7 +118,8 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
     shared.cycles           = 0U;
     shared.cycles_worst     = 0U;
     read_status();
-    return ((modes == CTL_OK) && (modbus == CTL_OK)) ? CTL_OK : CTL_BAD_CONFIG;
+    return ((modes == CTL_OK) && (modbus == CTL_OK) && (registers == CTL_OK)) ? CTL_OK
+                                                                              : CTL_BAD_CONFIG;
 }
 
 static void take_command(void)
@@ -254,9 +255,9 @@ void app_background(void)
 
     read_status();
     app_modbus_poll(&background_side.modbus, r, now_ticks);
-    if (r->changed && app_command_write(&r->command)) {
-        r->changed       = false;
-        r->command.reset = false;
+    if (r->changed && app_command_write(&r->wanted.command)) {
+        r->changed              = false;
+        r->wanted.command.reset = false;
     }
     restart_when_asked(now_ticks);
 }

@@ -30,10 +30,10 @@ Drive shipped()
 /// The same motor, faster or slower: an image that can be told from the compiled constants.
 Words image(double speed_max_e_radps, const std::string &name)
 {
-    Drive drive                = shipped();
-    drive.name                 = name;
-    drive.limits.speed_e_radps = speed_max_e_radps;
-    return image_words(design_drive(drive, Precision::fast));
+    Drive drive                   = shipped();
+    drive.name                    = name;
+    drive.motor.max_speed_e_radps = speed_max_e_radps;
+    return image_words(design_drive(drive, Precision::quick));
 }
 
 class Loading : public testing::Test {
@@ -86,6 +86,12 @@ protected:
     int loader(unsigned number)
     {
         return input(APP_LOADER_FIRST + number);
+    }
+    /// Object 80h of function 43/14.
+    std::string name()
+    {
+        const Octets answer = ask({43, 14, 4, 0x80});
+        return answer.size() > 9 ? std::string(answer.begin() + 9, answer.end()) : "";
     }
     bool command(unsigned what, const Words &behind = {})
     {
@@ -151,16 +157,16 @@ TEST_F(Loading, AnImageIsInForceAfterTheRestartAndTheMotorRunsWithIt)
     load(image(300.0, "ab"));
 
     EXPECT_EQ(loader(APP_LOADER_NUMBER_LO), 1);
-    EXPECT_EQ(loader(APP_LOADER_NAME), 0x6162);
-    EXPECT_FALSE(write(APP_REGISTERS_SPEED, {3500})) << "the image allows 300 rad/s";
-    ASSERT_TRUE(write(APP_REGISTERS_SPEED, {2000}));
+    EXPECT_EQ(name(), "ab");
+    EXPECT_FALSE(write(APP_REGISTERS_SPEED, {0, 3500})) << "the image allows 300 rad/s";
+    ASSERT_TRUE(write(APP_REGISTERS_SPEED, {0, 2000}));
     ASSERT_TRUE(write(APP_REGISTERS_RUN, {1}));
     for (int n = 0; n < 20; n++) { // it aligns first; who does not ask is taken for gone
         pass(0.2);
         input(APP_REGISTERS_MODE);
     }
     EXPECT_EQ(input(APP_REGISTERS_MODE), APP_MODE_RUN);
-    EXPECT_NEAR(input(APP_REGISTERS_SPEED_NOW), 2000, 30);
+    EXPECT_NEAR(input(APP_REGISTERS_SPEED_NOW + 1), 2000, 30);
     EXPECT_FALSE(command(APP_LOADER_ENTER)) << "the bridge is on";
     EXPECT_EQ(served.resets(), 2);
     EXPECT_TRUE(served.findings().empty());
@@ -190,13 +196,13 @@ TEST_F(Loading, APowerCutLeavesTheOldImageOrTheNewOne)
         pass(0.5);
         EXPECT_EQ(loader(APP_LOADER_STATE), APP_LOADER_AWAY);
         EXPECT_EQ(loader(APP_LOADER_NUMBER_LO), 1) << when;
-        EXPECT_EQ(loader(APP_LOADER_NAME), 0x6162) << when;
+        EXPECT_EQ(name(), "ab") << when;
     }
     load(next);
     EXPECT_EQ(loader(APP_LOADER_NUMBER_LO), 2);
-    EXPECT_EQ(loader(APP_LOADER_NAME), 0x6364);
+    EXPECT_EQ(name(), "cd");
     served.power_cycle();
     pass(0.5);
-    EXPECT_EQ(loader(APP_LOADER_NAME), 0x6364);
+    EXPECT_EQ(name(), "cd");
     EXPECT_TRUE(served.findings().empty());
 }

@@ -15,8 +15,10 @@ FIRST = 8000
 # Holding registers
 COMMAND, OFFSET = FIRST, FIRST + 5
 ENTER, BEGIN, COMMIT, FORGET, LEAVE = 1, 2, 3, 4, 5
+# Objects of function 43/14
+NAME, DIGEST = 0x80, 0x81
 # Input registers
-STATE, PUT, ROOM, LAW, NUMBER, DIGEST, NAME, COUNT = 0, 2, 4, 6, 7, 9, 13, 29
+STATE, PUT, ROOM, LAW, NUMBER, COUNT = 0, 2, 4, 6, 7, 9
 AWAY, IDLE, WRITING, STORED, SUM, IMAGE, FLASH = range(7)
 REASONS = {
     1: "it was made by another sdre-gains: make it again with the one that belongs to this firmware",
@@ -29,7 +31,7 @@ LAWS = {1: "noc", 2: "noc_speed", 3: "noc_h", 4: "conventional", 5: "dobc", 6: "
 PER_REQUEST = 100  # words; of 123 that a request has room for
 RESTART_S = 10.0  # chosen: many times what a start needs, and two requests without an answer
 ERASE_S = 60.0  # data sheet: 2 s typical, 15 s at most, of a sector; two of them
-HEAD_WORDS = 22
+HEAD_WORDS = 30
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,7 @@ class Loader:
     def in_force(self) -> str:
         """For messages."""
         if self.number == 0:
-            return "the constants that are compiled in"
+            return f"what is compiled in: {self.name}, {self.digest}"
         return f"image {self.number}: {self.name}, {self.digest}"
 
 
@@ -57,17 +59,12 @@ def _pair(values: List[int], at: int) -> int:
     return (values[at] << 16) | values[at + 1]
 
 
-def _name(words: List[int]) -> str:
-    octets = bytes(octet for word in words for octet in (word >> 8, word & 0xFF))
-    return octets.rstrip(b"\0").decode("ascii", "replace")
-
-
 def look(drive: Drive) -> Loader:
     """DriveError when the firmware has no loader."""
     v = drive.read_words(FIRST, COUNT)
-    digest = "".join(f"{word:04x}" for word in v[DIGEST : DIGEST + 4])
+    of = drive.identify()
     return Loader(v[STATE], v[1], _pair(v, PUT), _pair(v, ROOM), v[LAW], _pair(v, NUMBER),
-                  f"fnv1a64:{digest}", _name(v[NAME : NAME + 16]))  # fmt: skip
+                  of.get(DIGEST, ""), of.get(NAME, ""))  # fmt: skip
 
 
 def read_image(path: Path) -> List[int]:
