@@ -139,10 +139,10 @@ protected:
     {
         const auto          count = static_cast<std::uint32_t>(words.size());
         const std::uint32_t crc   = crc32_words(CRC32_START, words.data(), count);
-        return command(APP_LOADER_COMMIT,
-                       {0, static_cast<std::uint16_t>(count),
-                        static_cast<std::uint16_t>(crc >> 16U), static_cast<std::uint16_t>(crc)},
-                       APP_LOADER_STORED);
+        return work(APP_LOADER_COMMIT,
+                    {0, static_cast<std::uint16_t>(count), static_cast<std::uint16_t>(crc >> 16U),
+                     static_cast<std::uint16_t>(crc)},
+                    APP_LOADER_STORED);
     }
     void load(const Words &words)
     {
