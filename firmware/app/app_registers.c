@@ -20,10 +20,8 @@ static const map_t holding = {app_registers_map_holding, APP_REGISTERS_MAP_HOLDI
 ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
                                 const drive_config_t *drive)
 {
-    const app_status_t  status  = {.mode = APP_MODE_BOOT};
-    const app_command_t command = {
-        .omega_e_radps = 0.0f, .run = false, .reset = false, .commission = false};
-    const app_registers_wanted_t wanted = {.command              = command,
+    const app_status_t           status = {.mode = APP_MODE_BOOT};
+    const app_registers_wanted_t wanted = {.objects              = app_control_default(drive),
                                            .modbus_address       = config->modbus_address,
                                            .modbus_timeout_ticks = config->modbus_timeout_ticks};
     const uint16_t               pairs  = drive->hardware.pole_pairs;
@@ -43,40 +41,10 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
                : CTL_BAD_CONFIG;
 }
 
-/* What acts and never trips. */
-static uint16_t limits(const app_status_t *s)
-{
-    const uint16_t voltage = s->voltage_limited ? (uint16_t)APP_REGISTERS_VOLTAGE_LIMIT : 0U;
-    const uint16_t current = s->current_limited ? (uint16_t)APP_REGISTERS_CURRENT_LIMIT : 0U;
-    const uint16_t derated = (s->derating > 0.0f) ? (uint16_t)APP_REGISTERS_DERATED : 0U;
-    return (uint16_t)(voltage | current | derated);
-}
-
 uint32_t app_registers_ticks(const app_registers_t *r, float time_s)
 {
     const float ticks = (time_s / r->drive->ts_s) + 0.5f;
     return (uint32_t)ticks;
-}
-
-uint16_t app_registers_conditions(const app_registers_t *r)
-{
-    const uint16_t hot     = r->status.hot ? (uint16_t)APP_REGISTERS_HOT : 0U;
-    const uint16_t silent  = r->silent ? (uint16_t)APP_REGISTERS_SILENT : 0U;
-    const uint16_t gate    = r->status.gate_enable ? (uint16_t)APP_REGISTERS_GATE : 0U;
-    const uint16_t dc      = r->status.dc_link_out ? (uint16_t)APP_REGISTERS_DC_OUT : 0U;
-    const uint16_t trip    = r->status.tripped ? (uint16_t)APP_REGISTERS_TRIPPED : 0U;
-    const uint16_t shorted = r->status.shorted ? (uint16_t)APP_REGISTERS_SHORTED : 0U;
-    const uint16_t lost    = r->status.without_angle ? (uint16_t)APP_REGISTERS_WITHOUT_ANGLE : 0U;
-    return (uint16_t)(hot | silent | gate | dc | trip | shorted | lost | limits(&r->status));
-}
-
-uint16_t app_registers_first_sample(const app_registers_t *r)
-{
-    const board_sample_t *raw   = &r->status.snapshot.raw;
-    const uint16_t        valid = raw->valid ? (uint16_t)APP_REGISTERS_SAMPLE_VALID : 0U;
-    const uint16_t        index = raw->index_seen ? (uint16_t)APP_REGISTERS_SAMPLE_INDEX : 0U;
-
-    return (uint16_t)(valid | index);
 }
 
 /* Both ends are a float that its type holds. */
@@ -255,10 +223,19 @@ static bool is_in(const app_registers_entry_t *e, float x)
 
 static bool is_stopped(const app_registers_t *r)
 {
-    const app_mode_t mode = r->status.mode;
-    return !r->status.gate_enable && !r->wanted.command.run && !r->wanted.command.commission &&
-           ((mode == APP_MODE_BOOT) || (mode == APP_MODE_CALIBRATE) || (mode == APP_MODE_READY) ||
-            (mode == APP_MODE_FAULT));
+    return !r->status.gate_enable && (r->status.state != APP_CONTROL_OPERATION_ENABLED) &&
+           (r->status.state != APP_CONTROL_QUICK_STOP_ACTIVE);
+}
+
+/* What a register has already may be written at any time: a master that sends all of its command. */
+static bool is_there(const app_registers_t *r, const app_registers_entry_t *e,
+                     const uint16_t *words)
+{
+    const uint32_t value = value_of(r, &holding, e);
+    const uint32_t low   = value & 0xFFFFUL;
+
+    return (words_of(e) == 1U) ? (low == words[0])
+                               : ((low == words[1]) && ((value >> 16) == words[0]));
 }
 
 static app_registers_result_t try_one(app_registers_t *r, const app_registers_entry_t *e,
@@ -269,7 +246,7 @@ static app_registers_result_t try_one(app_registers_t *r, const app_registers_en
     if (!is_in(e, x)) {
         return APP_REGISTERS_BAD_VALUE;
     }
-    if (e->stopped && !is_stopped(r)) {
+    if (e->stopped && !is_stopped(r) && !is_there(r, e, words)) {
         return APP_REGISTERS_BUSY;
     }
     app_registers_map_put(r, &r->trial, e->address, x);
@@ -280,7 +257,7 @@ static app_registers_result_t try_one(app_registers_t *r, const app_registers_en
 static bool may_be_wanted(const app_registers_t *r, const app_registers_wanted_t *w)
 {
     const float most = r->drive->speed_max_e_radps;
-    return base_in_range(w->command.omega_e_radps, -most, most);
+    return base_in_range(w->objects.omega_e_radps, -most, most) && app_control_knows(&w->objects);
 }
 
 /* Every value whole. */
@@ -337,17 +314,20 @@ app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, u
         return APP_REGISTERS_BAD_VALUE;
     }
     r->wanted  = r->trial;
-    r->silent  = r->silent && !r->wanted.command.run;
+    r->silent  = r->silent && !app_control_enables(r->wanted.objects.controlword);
     r->changed = true;
     return APP_REGISTERS_OK;
 }
 
 void app_registers_silence(app_registers_t *r)
 {
-    if (r->wanted.command.run || r->wanted.command.commission) {
-        r->wanted.command.run        = false;
-        r->wanted.command.commission = false;
-        r->changed                   = true;
-        r->silent                    = true;
+    app_objects_t *o = &r->wanted.objects;
+
+    if (app_control_enables(o->controlword)) {
+        o->controlword = (o->lost_option == (int16_t)APP_CONTROL_LOST_QUICK_STOP)
+                             ? (uint16_t)APP_CONTROL_QUICK_STOP
+                             : (uint16_t)APP_CONTROL_DISABLE_VOLTAGE;
+        r->changed     = true;
+        r->silent      = true;
     }
 }

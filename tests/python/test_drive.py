@@ -16,7 +16,7 @@ from support import command, run_at, stay, until
 
 from sdre_drive import faults, session
 from sdre_drive.connection import Drive, DriveError, Target
-from sdre_drive.registers import Mode
+from sdre_drive.registers import ControlWord, Mode, state_words
 
 
 def test_runs_carries_a_load_and_stops(served: Served, drive: Drive) -> None:
@@ -28,6 +28,48 @@ def test_runs_carries_a_load_and_stops(served: Served, drive: Drive) -> None:
     assert abs(stay(drive, 1.0).speed_e_radps - bench.ask("state")["speed_e_radps"]) < 3.0
     bench.ask("load 0")
     assert session.stop(drive).mode == Mode.READY
+
+
+def state(drive: Drive) -> str:
+    return state_words(drive.read().statusword)
+
+
+def test_states_ramps_and_stops(drive: Drive) -> None:
+    """What a master does that knows CiA 402."""
+    until(drive, lambda r: state_words(r.statusword) == "switch on disabled")
+    drive.write("CONTROLWORD", ControlWord.ENABLE)
+    assert state(drive) == "switch on disabled"
+    drive.write("CONTROLWORD", ControlWord.SHUT_DOWN)
+    until(drive, lambda r: state_words(r.statusword) == "ready to switch on")
+    drive.write("CONTROLWORD", ControlWord.SWITCH_ON)
+    until(drive, lambda r: state_words(r.statusword) == "switched on")
+    drive.write("ACCELERATION", 200)
+    drive.write("QUICK_STOP_DECELERATION", 400)
+    drive.write("SPEED_RPM", 955.0)
+    drive.write("CONTROLWORD", ControlWord.ENABLE)
+    began = until(drive, lambda r: r.mode == Mode.RUN)
+    with pytest.raises(DriveError, match="stopped only"):
+        drive.write("MODE_OF_OPERATION", 6)
+    reached = until(drive, lambda r: bool(r.statusword & 0x400))
+    assert 0.8 < reached.time_s - began.time_s < 1.3  # 195 rad/s by 200 rad/s2, as long as it is asked in time
+    drive.write("CONTROLWORD", ControlWord.QUICK_STOP)
+    braking = until(drive, lambda r: r.speed_e_radps < 150.0)
+    assert state_words(braking.statusword) == "quick stop active"
+    stopped = until(drive, lambda r: state_words(r.statusword) == "switch on disabled")
+    assert 0.2 < stopped.time_s - braking.time_s < 0.6
+
+
+def test_homing_finds_the_angle(drive: Drive) -> None:
+    until(drive, lambda r: r.mode == Mode.READY)
+    drive.write("MODE_OF_OPERATION", 6)
+    drive.set_run(True)
+    until(drive, lambda r: r.mode == Mode.ALIGN)
+    found = until(drive, lambda r: bool(r.statusword & 0x1000) and bool(r.statusword & 0x400))
+    assert found.mode == Mode.READY and found.statusword & 0xC000 == 0x8000  # bridge off, referenced
+    drive.set_run(False)
+    until(drive, lambda r: state_words(r.statusword) == "switch on disabled")
+    session.start(drive, 100.0)
+    assert drive.read().mode == Mode.RUN  # without another alignment
 
 
 def test_runs_on_a_serial_line(served: Served) -> None:

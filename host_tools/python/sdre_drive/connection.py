@@ -14,7 +14,7 @@ from pymodbus.exceptions import ModbusException
 
 from sdre_drive import register_map, registers
 from sdre_drive.register_map import Register
-from sdre_drive.registers import BY_NAME, Constants, Reading
+from sdre_drive.registers import BY_NAME, Constants, ControlWord, Reading
 
 BAUD = 115200
 # The drive withdraws run after 500 ms without a request: two tries have to fit. TCP loses nothing, and what answers there
@@ -129,17 +129,14 @@ class Drive:
         self.write("SPEED", speed_e_radps)
 
     def set_run(self, run: bool) -> None:
-        """A run starts when it rises in READY."""
-        self.write("RUN", run)
-
-    def end_commissioning(self) -> None:
-        """Mode COMMISSION gives up."""
-        self.write("COMMISSION", 0)
+        """Enables the operation, which is shut down first; or stops whatever goes on."""
+        for word in (ControlWord.SHUT_DOWN, ControlWord.ENABLE) if run else (ControlWord.DISABLE_VOLTAGE,):
+            self.write("CONTROLWORD", word)
 
     def reset(self) -> None:
         """Leaves FAULT when what caused it has gone."""
-        self.set_run(False)
-        self.write("RESET", 1)
+        for word in (ControlWord.DISABLE_VOLTAGE, ControlWord.FAULT_RESET, ControlWord.DISABLE_VOLTAGE):
+            self.write("CONTROLWORD", word)
 
     def _asked(self, call: str, *args: Any, **kwargs: Any) -> Any:
         with self._lock:
