@@ -23,12 +23,6 @@ void app_loader_init(app_loader_t *l, const app_image_t *in_force)
     *l        = none;
     l->number = in_force->number;
     l->law    = in_force->image.drive.law->number;
-    for (uint16_t n = 0U; n < DRIVE_IMAGE_DIGEST_WORDS; n++) {
-        l->digest[n] = in_force->image.digest[n];
-    }
-    for (uint16_t n = 0U; n < DRIVE_IMAGE_NAME_WORDS; n++) {
-        l->name[n] = in_force->image.name[n];
-    }
 }
 
 static bool exist(uint16_t first, uint16_t count, uint16_t all)
@@ -49,12 +43,6 @@ bool app_loader_read(const app_loader_t *l, uint16_t first, uint16_t count, uint
     put_pair(&all[APP_LOADER_ROOM_HI], store_room());
     all[APP_LOADER_LAW] = l->law;
     put_pair(&all[APP_LOADER_NUMBER_HI], l->number);
-    for (uint16_t n = 0U; n < DRIVE_IMAGE_DIGEST_WORDS; n++) {
-        all[(uint16_t)APP_LOADER_DIGEST + n] = l->digest[n];
-    }
-    for (uint16_t n = 0U; n < DRIVE_IMAGE_NAME_WORDS; n++) {
-        all[(uint16_t)APP_LOADER_NAME + n] = l->name[n];
-    }
     for (uint16_t n = 0U; n < count; n++) {
         values[n] = all[first + n];
     }

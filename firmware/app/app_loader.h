@@ -5,8 +5,8 @@
  *
  * A flash that is being written cannot be read, and an erasure lasts seconds: so nothing else runs meanwhile, no control
  * interrupt, no watchdog. The application enters the loader by a reset, with the bridge off, and the loader leaves by
- * another. Registers from APP_LOADER_FIRST on; while the application runs they tell what it runs with, and take the one
- * command that enters.
+ * another. Registers from APP_LOADER_FIRST on; while the application runs they tell what it runs with (its name: function
+ * 43/14), and take the one command that enters.
  */
 #ifndef APP_LOADER_H
 #define APP_LOADER_H
@@ -49,9 +49,7 @@ enum {
     APP_LOADER_LAW,       /**< number of the firmware's law */
     APP_LOADER_NUMBER_HI, /**< of the image in force; 0: compiled in */
     APP_LOADER_NUMBER_LO,
-    APP_LOADER_DIGEST,
-    APP_LOADER_NAME        = APP_LOADER_DIGEST + (int)DRIVE_IMAGE_DIGEST_WORDS,
-    APP_LOADER_INPUT_COUNT = APP_LOADER_NAME + (int)DRIVE_IMAGE_NAME_WORDS
+    APP_LOADER_INPUT_COUNT
 };
 
 typedef enum {
@@ -71,10 +69,8 @@ typedef struct {
     uint32_t             put_words;
     bool                 restart; /**< after the answer has been sent */
     bool                 enter;   /**< that restart is into the loader */
-    uint32_t             number;  /**< in force; as the next three */
+    uint32_t             number;  /**< in force; as the next */
     uint16_t             law;
-    uint16_t             digest[DRIVE_IMAGE_DIGEST_WORDS];
-    uint16_t             name[DRIVE_IMAGE_NAME_WORDS];
     app_image_t         *image; /**< room to try an image in; NULL: the application runs */
 } app_loader_t;
 

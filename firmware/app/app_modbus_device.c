@@ -33,10 +33,8 @@
 
 /* A text, or the words of an image that was loaded: a name, two characters each, or a number in hexadecimal digits. */
 typedef struct {
-    uint16_t        id;
-    const char     *text;
-    const uint16_t *words;
-    bool            hexadecimal;
+    uint16_t    id;
+    const char *text;
 } object_t;
 
 static void answer_number(app_modbus_t *m, uint16_t number)
@@ -112,40 +110,12 @@ static void put_text(app_modbus_t *m, const char *text)
     }
 }
 
-static void put_name(app_modbus_t *m, const uint16_t *words)
-{
-    for (uint16_t n = 0U; (n < (TEXT_MAX / 2U)) && (words[n] != 0U); n++) {
-        app_modbus_answer_octet(m, (uint16_t)(words[n] >> 8));
-        if ((words[n] & 0xFFU) != 0U) {
-            app_modbus_answer_octet(m, words[n]);
-        }
-    }
-}
-
-static void put_number(app_modbus_t *m, const uint16_t *words)
-{
-    static const char digits[] = "0123456789abcdef";
-
-    put_text(m, "fnv1a64:");
-    for (uint16_t n = 0U; n < (4U * DRIVE_IMAGE_DIGEST_WORDS); n++) {
-        const uint16_t shift = (uint16_t)(12U - (4U * (n % 4U)));
-        const uint32_t digit = ((uint32_t)words[n / 4U] >> shift) & 0xFU;
-        app_modbus_answer_octet(m, (uint16_t)((uint16_t)digits[digit] & 0x7FU));
-    }
-}
-
 static void put_object(app_modbus_t *m, const object_t *o)
 {
     app_modbus_answer_octet(m, o->id);
     app_modbus_answer_octet(m, 0U); /* its length: below */
     const uint16_t at = m->tx_count;
-    if (o->words == NULL) {
-        put_text(m, o->text);
-    } else if (o->hexadecimal) {
-        put_number(m, o->words);
-    } else {
-        put_name(m, o->words);
-    }
+    put_text(m, o->text);
     m->tx_octets[at - 1U] = (uint16_t)(m->tx_count - at);
 }
 
@@ -183,19 +153,17 @@ static bool is_known(const object_t *objects, uint16_t id)
 
 void app_modbus_device_identify(app_modbus_t *m, const app_registers_t *r)
 {
-    const bool     loaded           = (r->loader != NULL) && (r->loader->number != 0UL);
-    const object_t objects[OBJECTS] = {
-        {0U, "sdre-drive", NULL, false},
-        {1U, "SDRE", NULL, false},
-        {2U, APP_REGISTERS_VERSION, NULL, false},
-        {4U, "sdre-drive", NULL, false},
-        {0x80U, r->config->drive_name, loaded ? r->loader->name : NULL, false},
-        {0x81U, r->config->digest, loaded ? r->loader->digest : NULL, true},
-        {0x82U, APP_REGISTERS_DIGEST, NULL, false}};
-    const uint16_t code   = m->rx_octets[3];
-    const uint16_t known  = is_known(objects, m->rx_octets[4]) ? 1U : 0U;
-    const uint16_t wanted = ((code == READ_ONE) || (known != 0U)) ? m->rx_octets[4] : 0U;
-    uint16_t       count  = 0U;
+    const object_t objects[OBJECTS] = {{0U, "sdre-drive"},
+                                       {1U, "SDRE"},
+                                       {2U, APP_REGISTERS_VERSION},
+                                       {4U, "sdre-drive"},
+                                       {0x80U, r->config->drive_name},
+                                       {0x81U, r->config->digest},
+                                       {0x82U, APP_REGISTERS_DIGEST}};
+    const uint16_t code             = m->rx_octets[3];
+    const uint16_t known            = is_known(objects, m->rx_octets[4]) ? 1U : 0U;
+    const uint16_t wanted           = ((code == READ_ONE) || (known != 0U)) ? m->rx_octets[4] : 0U;
+    uint16_t       count            = 0U;
 
     if (m->rx_octets[2] != MEI_IDENTIFY) {
         app_modbus_answer_exception(m, APP_MODBUS_NO_FUNCTION);

@@ -7,17 +7,41 @@
 #include "fields_app.h"
 #include "fields_drive.h"
 
-static void words(fields_t *f, uint16_t *x, uint16_t count)
+static uint16_t octet(char c)
 {
-    for (uint16_t n = 0U; n < count; n++) {
-        fields_u16(f, &x[n]);
+    return (uint16_t)((uint16_t)c & 0xFFU); /* a char of 16 bits has more */
+}
+
+/* Two characters a word; the text has one more for its end. */
+static void text(fields_t *f, char *x, uint16_t words)
+{
+    for (uint16_t n = 0U; n < words; n++) {
+        char *const c    = &x[2U * n];
+        uint16_t    word = (uint16_t)((uint16_t)(octet(c[0]) << 8) | octet(c[1]));
+        fields_u16(f, &word);
+        c[0] = (char)(word >> 8);
+        c[1] = (char)(word & 0xFFU);
+    }
+    x[2U * words] = '\0';
+}
+
+/* As much of a text as there is room for, filled up with zeros. */
+static void copy_text(char *to, const char *from, uint16_t words)
+{
+    uint16_t n = 0U;
+
+    for (; (n < (uint16_t)(2U * words)) && (from != NULL) && (from[n] != '\0'); n++) {
+        to[n] = from[n];
+    }
+    for (; n <= (uint16_t)(2U * words); n++) {
+        to[n] = '\0';
     }
 }
 
 void drive_image_fields(fields_t *f, drive_image_t *image, const law_t *law)
 {
-    words(f, image->digest, DRIVE_IMAGE_DIGEST_WORDS);
-    words(f, image->name, DRIVE_IMAGE_NAME_WORDS);
+    text(f, image->digest, DRIVE_IMAGE_DIGEST_WORDS);
+    text(f, image->name, DRIVE_IMAGE_NAME_WORDS);
     fields_app(f, &image->app);
     if (image->app.scale.ntc_points > DRIVE_IMAGE_TEMPERATURES) {
         f->ok = false;
@@ -31,6 +55,8 @@ void drive_image_fields(fields_t *f, drive_image_t *image, const law_t *law)
 static void point_inside(drive_image_t *image, const law_t *law)
 {
     image->app.scale.ntc_degC = image->ntc_degC;
+    image->app.drive_name     = image->name;
+    image->app.digest         = image->digest;
     image->drive.law          = law;
     image->drive.constants    = &image->constants;
 }
@@ -85,6 +111,8 @@ bool drive_image_copy(drive_image_t *image, const app_config_t *app, const drive
     for (uint16_t n = 0U; n < app->scale.ntc_points; n++) {
         image->ntc_degC[n] = app->scale.ntc_degC[n];
     }
+    copy_text(image->digest, app->digest, DRIVE_IMAGE_DIGEST_WORDS);
+    copy_text(image->name, app->drive_name, DRIVE_IMAGE_NAME_WORDS);
     (void)memcpy(&image->constants, drive->constants, law->constants_chars);
     point_inside(image, law);
     return true;

@@ -7,9 +7,9 @@
  *
  *     0        DRIVE_IMAGE_SCHEMA
  *     1        number of the law (law.h)
- *     2 .. 5   digest of the drive file, FNV-1a of 64 bits
- *     6 .. 21  name of the drive, two characters a word, filled up with zeros
- *     22 ..    constants of application and board, temperatures, of the drive, of its law: the walks of fields.h
+ *     2 .. 13  digest of the drive file as text, two characters a word, the first one high, filled up with zeros
+ *     14 .. 29 name of the drive, the same
+ *     30 ..    constants of application and board, temperatures, of the drive, of its law: the walks of fields.h
  */
 #ifndef DRIVE_IMAGE_H
 #define DRIVE_IMAGE_H
@@ -18,16 +18,16 @@
 #include "drive_config.h"
 #include "laws.h"
 
-#define DRIVE_IMAGE_SCHEMA       1U /**< raised with every change of what the words mean */
-#define DRIVE_IMAGE_DIGEST_WORDS 4U
-#define DRIVE_IMAGE_NAME_WORDS   16U /**< chosen: 32 characters */
+#define DRIVE_IMAGE_SCHEMA       1U  /**< raised with every change of what the words mean */
+#define DRIVE_IMAGE_DIGEST_WORDS 12U /**< as long as sdre-gains writes it */
+#define DRIVE_IMAGE_NAME_WORDS   16U /**< chosen: 32 characters; longer names are cut */
 #define DRIVE_IMAGE_TEMPERATURES                                                                   \
     32U /**< chosen: room for the 28 points that sdre-gains makes, and some */
 
 /** The pointers lead into the object itself: it must not be moved. */
 typedef struct {
-    uint16_t        digest[DRIVE_IMAGE_DIGEST_WORDS]; /**< zeros: compiled in */
-    uint16_t        name[DRIVE_IMAGE_NAME_WORDS];
+    char            digest[(2U * DRIVE_IMAGE_DIGEST_WORDS) + 1U];
+    char            name[(2U * DRIVE_IMAGE_NAME_WORDS) + 1U];
     app_config_t    app;
     float           ntc_degC[DRIVE_IMAGE_TEMPERATURES];
     drive_config_t  drive;

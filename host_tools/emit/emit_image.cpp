@@ -21,7 +21,6 @@ namespace {
 
 constexpr std::uint32_t store_address = 0x300000; // linker/f28335_registers.cmd
 constexpr std::size_t   hex_words     = 16;       // of a line
-constexpr std::size_t   hash_digits   = 16;
 
 std::uint16_t high(std::uint32_t x)
 {
@@ -31,22 +30,6 @@ std::uint16_t high(std::uint32_t x)
 std::uint16_t low(std::uint32_t x)
 {
     return static_cast<std::uint16_t>(x & 0xFFFFU);
-}
-
-void name_it(drive_image_t &image, const Drive &drive)
-{
-    const std::string digest = drive_digest(drive);
-    const std::string digits = digest.substr(digest.size() - hash_digits);
-    const std::size_t length = std::min<std::size_t>(drive.name.size(), 2 * DRIVE_IMAGE_NAME_WORDS);
-    for (std::size_t n = 0; n < DRIVE_IMAGE_DIGEST_WORDS; n++) {
-        image.digest[n] =
-            static_cast<std::uint16_t>(std::stoul(digits.substr(4 * n, 4), nullptr, 16));
-    }
-    for (std::size_t n = 0; n < length; n++) {
-        const unsigned octet = static_cast<unsigned char>(drive.name[n]);
-        image.name[n / 2] =
-            static_cast<std::uint16_t>(image.name[n / 2] | (n % 2 == 0 ? octet << 8U : octet));
-    }
 }
 
 std::string hex_line(unsigned kind, unsigned address, const std::vector<std::uint16_t> &words)
@@ -75,7 +58,6 @@ std::vector<std::uint16_t> image_words(const Design &design)
     if (!drive_image_copy(image.get(), &board.bind(), &design.config)) {
         throw DesignError(fmt::format("{}: its constants do not fit an image", design.drive.name));
     }
-    name_it(*image, design.drive);
     std::vector<std::uint16_t> words(drive_image_write(image.get(), nullptr, 0));
     if (drive_image_write(image.get(), words.data(), static_cast<std::uint32_t>(words.size())) !=
         words.size()) {

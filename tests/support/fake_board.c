@@ -2,6 +2,7 @@
 #include "fake_board.h"
 
 #include <stddef.h>
+#include <string.h>
 
 fake_board_t fake_board;
 uint16_t     fake_board_store[BOARD_STORE_SLOTS][BOARD_STORE_WORDS];
@@ -129,11 +130,7 @@ void board_restart(bool loader)
 
 void fake_board_erase_store(void)
 {
-    for (uint32_t slot = 0U; slot < (uint32_t)BOARD_STORE_SLOTS; slot++) {
-        for (uint32_t n = 0U; n < BOARD_STORE_WORDS; n++) {
-            fake_board_store[slot][n] = 0xFFFFU;
-        }
-    }
+    memset(fake_board_store, 0xFF, sizeof fake_board_store);
 }
 
 const uint16_t *board_store(uint16_t slot)
@@ -154,13 +151,21 @@ static bool change(uint16_t *word, uint16_t to, uint16_t left)
 
 bool board_store_erase(uint16_t slot)
 {
-    for (uint32_t n = 0U; n < BOARD_STORE_WORDS; n++) {
-        uint16_t *word = &fake_board_store[slot][n];
-        if (!change(word, 0xFFFFU, (uint16_t)(*word | 0x5A5AU))) {
-            return false;
-        }
+    const int      budget = fake_board.store_budget;
+    const bool     cut    = (budget >= 0) && (budget <= (int)BOARD_STORE_WORDS);
+    const uint32_t whole  = cut ? (uint32_t)((budget > 0) ? (budget - 1) : 0) : BOARD_STORE_WORDS;
+    uint16_t      *words  = fake_board_store[slot];
+
+    memset(words, 0xFF, whole * sizeof words[0]);
+    if (!cut) {
+        fake_board.store_budget -= (budget > 0) ? (int)BOARD_STORE_WORDS : 0;
+        return true;
     }
-    return true;
+    if (budget > 0) {
+        (void)change(&words[whole], 0xFFFFU, (uint16_t)(words[whole] | 0x5A5AU));
+    }
+    fake_board.store_budget = 0;
+    return false;
 }
 
 bool board_store_program(uint16_t slot, uint32_t offset, const uint16_t *words, uint16_t count)

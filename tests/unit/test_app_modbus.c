@@ -296,20 +296,6 @@ static void test_identification_tells_firmware_drive_and_digests(void)
     ASSERT_ANSWER(ADDRESS, 0xAB, 1);
     REQUEST(ADDRESS, 43, 14, 1);
     TEST_ASSERT_EQUAL_INT(0, answer_count);
-    app_loader_t loader;
-    (void)memset(&loader, 0, sizeof loader);
-    registers.loader = &loader;
-    REQUEST(ADDRESS, 43, 14, 4, 0x80); /* compiled in */
-    assert_object(0x80, "a drive");
-    loader.number    = 3UL;
-    loader.name[0]   = 0x6162U;
-    loader.name[1]   = 0x6300U;
-    loader.digest[0] = 0x0123U;
-    loader.digest[3] = 0xCDEFU;
-    REQUEST(ADDRESS, 43, 14, 3, 0);
-    assert_object(0x80, "abc");
-    assert_object(0x81, "fnv1a64:012300000000cdef");
-    registers.loader  = NULL;
     config.drive_name = "a name that is longer than any name of a drive has to be";
     REQUEST(ADDRESS, 43, 14, 4, 0x80);
     TEST_ASSERT_EQUAL_INT(24, answer[9]);

@@ -79,11 +79,23 @@ static void test_the_newest_of_many_is_there_and_slots_take_turns(void)
     }
 }
 
+/* Each word where something ends or begins, some of those that are only erased. */
+static int next_cut(int budget)
+{
+    const int slot = (int)BOARD_STORE_WORDS;
+    const int near = 40;
+    const int into = budget % slot;
+    if ((into < near) || (into >= (slot - near))) {
+        return budget + 1;
+    }
+    return ((into + 1001) < (slot - near)) ? (budget + 1001) : (budget - into + slot - near);
+}
+
 /* The board's words are changed one by one; the power fails at each of them in turn. */
 static void cut_everywhere(uint16_t before, bool (*change)(void), uint16_t after)
 {
     bool done = false;
-    for (int budget = 0; !done; budget += ((budget > 4) && (budget < 32760)) ? 251 : 1) {
+    for (int budget = 0; !done; budget = next_cut(budget)) {
         fake_board_reset();
         fake_board_erase_store();
         for (uint16_t n = 1U; n <= before; n++) {

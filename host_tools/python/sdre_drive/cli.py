@@ -12,8 +12,10 @@ from typing import Optional
 import typer
 from rich.console import Console
 from rich.live import Live
+from rich.progress import Progress
 from typing_extensions import Annotated
 
+from sdre_drive import load as loader
 from sdre_drive import record, session, show
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.options import Control, PolePairs, Port, Tcp, bench_address, pole_pairs_of, target
@@ -81,6 +83,28 @@ def reset(port: Port = None, tcp: Tcp = None) -> None:
             out.print("there is no fault")
             return
         out.print(show.line(session.reset(drive), None))
+
+
+@app.command()
+def load(
+    image: Annotated[Optional[Path], typer.Argument(help="of `sdre-gains image`; none: show what is in force")] = None,
+    forget: Annotated[bool, typer.Option("--forget", help="back to the constants that are compiled in")] = False,
+    port: Port = None,
+    tcp: Tcp = None,
+) -> None:
+    """Writes a motor's constants into the drive's flash, and restarts it with them."""
+    if image and forget:
+        raise DriveError("load: give an image or --forget")
+    with Drive(target(port, tcp)) as drive:
+        if forget:
+            found = loader.forget(drive)
+        elif image:
+            with Progress(console=err, transient=True) as bar:
+                task = bar.add_task("writing", total=1.0)
+                found = loader.load(drive, image, lambda share: bar.update(task, completed=share))
+        else:
+            found = loader.look(drive)
+    out.print(f"in force: {found.in_force}", soft_wrap=True)
 
 
 @app.command()

@@ -7,7 +7,7 @@ import logging
 import os
 import threading
 from dataclasses import dataclass
-from typing import Any, List, Optional, Sequence
+from typing import Any, Dict, List, Optional, Sequence
 
 from pymodbus.client import ModbusSerialClient, ModbusTcpClient
 from pymodbus.exceptions import ModbusException
@@ -137,6 +137,22 @@ class Drive:
         """Leaves FAULT when what caused it has gone."""
         for word in (ControlWord.DISABLE_VOLTAGE, ControlWord.FAULT_RESET, ControlWord.DISABLE_VOLTAGE):
             self.write("CONTROLWORD", word)
+
+    def identify(self) -> Dict[int, str]:
+        """Objects of function 43/14, from the drive's name on."""
+        answer = self._asked("read_device_information", read_code=3, object_id=0x80)
+        return {number: octets.decode("ascii", "replace") for number, octets in answer.information.items()}
+
+    def read_words(self, first: int, count: int) -> List[int]:
+        """Input registers as they are."""
+        values = list(self._asked("read_input_registers", first, count=count).registers)
+        if len(values) != count:
+            raise DriveError("the drive answered something else than it was asked")
+        return values
+
+    def write_words(self, first: int, values: List[int]) -> None:
+        """Holding registers as they are."""
+        self._asked("write_registers", first, values)
 
     def _asked(self, call: str, *args: Any, **kwargs: Any) -> Any:
         with self._lock:

@@ -147,6 +147,7 @@ private:
     bool                   eallow_       = false;
     bool                   fault_low_    = false;
     std::int64_t           late_cycles_  = 0;
+    std::int64_t           polls_        = 0; ///< with interrupts masked, in a row
     bool                   trigger_lost_ = false;
     bool                   masked_       = false;
     std::array<bool, 3>    legs_{};

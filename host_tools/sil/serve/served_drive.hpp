@@ -21,7 +21,12 @@ public:
     explicit ServedDrive(const Drive &drive, std::uint64_t seed);
 
     /// One control period. A device that its watchdog has reset starts again.
-    void   period();
+    void period();
+    /// Off and on: registers and memory are as after power-on, the flash is as it was.
+    void power_cycle()
+    {
+        power_up(false);
+    }
     double period_s() const
     {
         return bench_.period_s();
