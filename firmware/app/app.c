@@ -58,11 +58,11 @@ static ctl_status_t init_tick_side(const app_config_t *config, const drive_confi
     tick_side.wanted               = app_control_default(drive);
     tick_side.background_count     = 0U;
     tick_side.background_age_ticks = 0U;
-    tick_side.config               = app_config_for(config, drive->hardware.updates_per_period);
-    tick_side.drive                = drive;
-    tick_side.ntc_degC             = tick_side.config.scale.ntc_degC;
-    const ctl_status_t control     = app_control_init(&tick_side.control, &tick_side.config, drive);
-    const ctl_status_t modes       = app_modes_init(&tick_side.modes, &tick_side.config, drive);
+    app_config_for(&tick_side.config, config, drive->hardware.updates_per_period);
+    tick_side.drive            = drive;
+    tick_side.ntc_degC         = tick_side.config.scale.ntc_degC;
+    const ctl_status_t control = app_control_init(&tick_side.control, &tick_side.config, drive);
+    const ctl_status_t modes   = app_modes_init(&tick_side.modes, &tick_side.config, drive);
     return (control == CTL_OK) ? modes : control;
 }
 
