@@ -5,6 +5,8 @@
 #include "app_loader.h"
 #include "app_modbus.h"
 #include "app_modes.h"
+#include "app_record.h"
+#include "app_scope.h"
 #include "app_watch_memory.h"
 #include "app_watch_tick.h"
 
@@ -38,6 +40,12 @@ static struct {
     uint16_t              background_count;
     uint16_t              background_age_ticks;
 } tick_side;
+
+/* Scope and record: who may write what stands in their headers. */
+static struct {
+    app_scope_t  scope;
+    app_record_t record;
+} traces;
 
 /* Only the background. */
 static struct {
@@ -113,8 +121,12 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
     const ctl_status_t registers =
         app_registers_init(&background_side.registers, &tick_side.config, drive);
 
-    background_side.loader.restart = false;
-    background_side.served_ticks   = 0UL;
+    app_scope_init(&traces.scope);
+    app_record_init(&traces.record);
+    background_side.registers.scope  = &traces.scope;
+    background_side.registers.record = &traces.record;
+    background_side.loader.restart   = false;
+    background_side.served_ticks     = 0UL;
     app_watch_tick_reset(&background_side.watch);
     watch_memory(&background_side.memory, drive, modes == CTL_OK);
 
@@ -232,6 +244,9 @@ void app_tick(void)
     const bool     was_on = tick_side.modes.gate_on;
     const bridge_t out    = app_modes_tick(&tick_side.modes, in);
     drive_bridge(&out, was_on);
+    const app_scope_view_t view = {.modes = &tick_side.modes, .command = &in->command, .out = &out};
+    app_record_tick(&traces.record, &view);
+    app_scope_tick(&traces.scope, &view);
     finish(in->board_faults, start_cycles);
 }
 

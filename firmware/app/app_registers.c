@@ -3,6 +3,9 @@
 
 #include <stddef.h>
 
+#define SCOPE_ARM  1U /* values of SCOPE_COMMAND */
+#define SCOPE_STOP 2U
+
 #define RPM_PER_RADPS 9.54929659f /* 60 / (2 pi) */
 #define SIGN_32       0x80000000UL
 #define MOST_I32      2147483520.0f /* the last float below 2^31 */
@@ -24,7 +27,13 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
     static const app_status_t nothing = {.mode = APP_MODE_BOOT};
     const uint16_t            pairs   = drive->hardware.pole_pairs;
 
+    static const app_scope_setup_t scope = {.decimation = 1U};
+
     r->wanted.objects              = app_control_default(drive);
+    r->wanted.scope                = scope;
+    r->wanted.scope_command        = 0U;
+    r->scope                       = NULL;
+    r->record                      = NULL;
     r->wanted.modbus_address       = config->modbus_address;
     r->wanted.modbus_timeout_ticks = config->modbus_timeout_ticks;
     r->config                      = config;
@@ -177,11 +186,22 @@ app_registers_result_t app_registers_read_holding(const app_registers_t *r, uint
     return read_map(r, &holding, first, count, values);
 }
 
+static app_registers_result_t read_traces(const app_registers_t *r, uint16_t first, uint16_t count,
+                                          uint16_t *values)
+{
+    const app_traces_result_t result = app_traces_read(r->scope, r->record, first, count, values);
+
+    return (result == APP_TRACES_NOT_NOW) ? APP_REGISTERS_BUSY : found(result == APP_TRACES_OK);
+}
+
 app_registers_result_t app_registers_read_input(const app_registers_t *r, uint16_t first,
                                                 uint16_t count, uint16_t *values)
 {
     static const map_t input = {app_registers_map_input, APP_REGISTERS_MAP_INPUT, true};
 
+    if ((r->scope != NULL) && (first >= APP_TRACES_SCOPE)) {
+        return read_traces(r, first, count, values);
+    }
     if (is_loader(r, first)) {
         return found(
             app_loader_read(r->loader, (uint16_t)(first - APP_LOADER_FIRST), count, values));
@@ -257,7 +277,8 @@ static app_registers_result_t try_one(app_registers_t *r, const app_registers_en
 static bool may_be_wanted(const app_registers_t *r, const app_registers_wanted_t *w)
 {
     const float most = r->drive->speed_max_e_radps;
-    return base_in_range(w->objects.omega_e_radps, -most, most) && app_control_knows(&w->objects);
+    return base_in_range(w->objects.omega_e_radps, -most, most) && app_control_knows(&w->objects) &&
+           app_scope_knows(&w->scope);
 }
 
 /* Every value whole. */
@@ -288,6 +309,20 @@ static app_registers_result_t write_loader(app_registers_t *r, uint16_t first, u
     return found(result == APP_LOADER_OK);
 }
 
+static void command_scope(app_registers_t *r)
+{
+    const uint16_t command = r->wanted.scope_command;
+
+    r->wanted.scope_command = 0U;
+    if ((r->scope != NULL) && (command == SCOPE_ARM)) {
+        app_scope_arm(r->scope, &r->wanted.scope);
+    } else if ((r->scope != NULL) && (command == SCOPE_STOP)) {
+        app_scope_stop(r->scope);
+    } else {
+        /* nothing is asked for */
+    }
+}
+
 app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, uint16_t count,
                                            const uint16_t *values)
 {
@@ -313,7 +348,8 @@ app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, u
     if (!may_be_wanted(r, &r->trial)) {
         return APP_REGISTERS_BAD_VALUE;
     }
-    r->wanted  = r->trial;
+    r->wanted = r->trial;
+    command_scope(r);
     r->silent  = r->silent && !app_control_enables(r->wanted.objects.controlword);
     r->changed = true;
     return APP_REGISTERS_OK;

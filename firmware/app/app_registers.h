@@ -15,6 +15,7 @@
 #include "app_loader.h"
 #include "app_registers_map.h"
 #include "app_status.h"
+#include "app_traces.h"
 
 /** Bits of APP_REGISTERS_CONDITIONS. */
 enum {
@@ -57,21 +58,25 @@ typedef enum {
 
 /** What holding registers hold. */
 typedef struct app_registers_wanted {
-    app_objects_t objects;
-    uint16_t      modbus_address;
-    uint32_t      modbus_timeout_ticks;
+    app_objects_t     objects;
+    app_scope_setup_t scope;
+    uint16_t          scope_command; /**< 1 arms, 2 stops */
+    uint16_t          modbus_address;
+    uint32_t          modbus_timeout_ticks;
 } app_registers_wanted_t;
 
 typedef struct app_registers {
-    const app_config_t    *config;
-    const drive_config_t  *drive;
-    float                  rpm_per_e_radps;
-    app_status_t           status;
-    app_registers_wanted_t wanted;
-    app_registers_wanted_t trial;   /**< a write, until all of it is known to be good */
-    app_loader_t          *loader;  /**< answers from APP_LOADER_FIRST on; NULL: nothing does */
-    bool                   changed; /**< command is new; its taker clears this */
-    bool                   silent;  /**< stopped because nobody talked; until it is enabled again */
+    const app_config_t          *config;
+    const drive_config_t        *drive;
+    float                        rpm_per_e_radps;
+    app_status_t                 status;
+    app_registers_wanted_t       wanted;
+    app_registers_wanted_t       trial; /**< a write, until all of it is known to be good */
+    volatile app_scope_t        *scope; /**< NULL: there is none, and no record */
+    const volatile app_record_t *record;
+    app_loader_t *loader;  /**< answers from APP_LOADER_FIRST on; NULL: nothing does */
+    bool          changed; /**< command is new; its taker clears this */
+    bool          silent;  /**< stopped because nobody talked; until it is enabled again */
 } app_registers_t;
 
 /**
@@ -104,6 +109,12 @@ uint32_t app_registers_signed(int16_t x);
 
 /** Value of APP_REGISTERS_STATUSWORD. */
 uint16_t app_registers_statusword(const app_registers_t *r);
+
+/** Values of the registers of scope and record; 0 where there are none. */
+uint32_t app_registers_scope_state(const app_registers_t *r);
+uint32_t app_registers_scope_ticks(const app_registers_t *r);
+uint32_t app_registers_record_number(const app_registers_t *r);
+uint32_t app_registers_record_count(const app_registers_t *r);
 
 /** Value of APP_REGISTERS_CONDITIONS. */
 uint16_t app_registers_conditions(const app_registers_t *r);

@@ -22,6 +22,16 @@ const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING]
     {APP_REGISTERS_COMMISSION_SPEED, APP_REGISTERS_U16, 10.0f, 0.0f, 6553.5f, false},
     {APP_REGISTERS_MODBUS_ADDRESS, APP_REGISTERS_U16, 0.0f, 1.0f, 247.0f, false},
     {APP_REGISTERS_MODBUS_TIMEOUT, APP_REGISTERS_U16, 1000.0f, 0.01f, 60.0f, false},
+    {APP_REGISTERS_SCOPE_COMMAND, APP_REGISTERS_U16, 0.0f, 0.0f, 2.0f, false},
+    {APP_REGISTERS_SCOPE_SIGNAL_1, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false},
+    {APP_REGISTERS_SCOPE_SIGNAL_2, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false},
+    {APP_REGISTERS_SCOPE_SIGNAL_3, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false},
+    {APP_REGISTERS_SCOPE_SIGNAL_4, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false},
+    {APP_REGISTERS_SCOPE_DECIMATION, APP_REGISTERS_U16, 0.0f, 1.0f, 65535.0f, false},
+    {APP_REGISTERS_SCOPE_TRIGGER, APP_REGISTERS_U16, 0.0f, 0.0f, 2.0f, false},
+    {APP_REGISTERS_SCOPE_CHANNEL, APP_REGISTERS_U16, 0.0f, 1.0f, 4.0f, false},
+    {APP_REGISTERS_SCOPE_LEVEL, APP_REGISTERS_I32, 1000.0f, -1000000.0f, 1000000.0f, false},
+    {APP_REGISTERS_SCOPE_BEFORE, APP_REGISTERS_U16, 0.0f, 0.0f, 511.0f, false},
 };
 
 const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
@@ -101,6 +111,10 @@ const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
     {APP_REGISTERS_FOUND_COULOMB_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
     {APP_REGISTERS_FOUND_OFFSET, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
     {APP_REGISTERS_FOUND_OFFSET_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
+    {APP_REGISTERS_SCOPE_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
+    {APP_REGISTERS_SCOPE_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false},
+    {APP_REGISTERS_RECORD_NUMBER, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
+    {APP_REGISTERS_RECORD_COUNT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
     {APP_REGISTERS_SUPPORTED_MODES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false},
     {APP_REGISTERS_POLE_PAIRS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
     {APP_REGISTERS_ENCODER_POSITIONS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false},
@@ -154,6 +168,9 @@ float app_registers_map_holding_real(const app_registers_t *r, uint16_t address)
     case APP_REGISTERS_MODBUS_TIMEOUT:
         x = (float)r->wanted.modbus_timeout_ticks * r->drive->ts_s;
         break;
+    case APP_REGISTERS_SCOPE_LEVEL:
+        x = r->wanted.scope.level;
+        break;
     default:
         break;
     }
@@ -185,6 +202,33 @@ uint32_t app_registers_map_holding_whole(const app_registers_t *r, uint16_t addr
         break;
     case APP_REGISTERS_MODBUS_ADDRESS:
         x = r->wanted.modbus_address;
+        break;
+    case APP_REGISTERS_SCOPE_COMMAND:
+        x = 0U;
+        break;
+    case APP_REGISTERS_SCOPE_SIGNAL_1:
+        x = r->wanted.scope.signal[0];
+        break;
+    case APP_REGISTERS_SCOPE_SIGNAL_2:
+        x = r->wanted.scope.signal[1];
+        break;
+    case APP_REGISTERS_SCOPE_SIGNAL_3:
+        x = r->wanted.scope.signal[2];
+        break;
+    case APP_REGISTERS_SCOPE_SIGNAL_4:
+        x = r->wanted.scope.signal[3];
+        break;
+    case APP_REGISTERS_SCOPE_DECIMATION:
+        x = r->wanted.scope.decimation;
+        break;
+    case APP_REGISTERS_SCOPE_TRIGGER:
+        x = r->wanted.scope.trigger;
+        break;
+    case APP_REGISTERS_SCOPE_CHANNEL:
+        x = (uint32_t)r->wanted.scope.channel + 1U;
+        break;
+    case APP_REGISTERS_SCOPE_BEFORE:
+        x = r->wanted.scope.before;
         break;
     default:
         break;
@@ -466,6 +510,18 @@ uint32_t app_registers_map_input_whole(const app_registers_t *r, uint16_t addres
     case APP_REGISTERS_FOUND_RELUCTANCE:
         x = r->status.commission.found.reluctance ? 1U : 0U;
         break;
+    case APP_REGISTERS_SCOPE_STATE:
+        x = app_registers_scope_state(r);
+        break;
+    case APP_REGISTERS_SCOPE_TICKS:
+        x = app_registers_scope_ticks(r);
+        break;
+    case APP_REGISTERS_RECORD_NUMBER:
+        x = app_registers_record_number(r);
+        break;
+    case APP_REGISTERS_RECORD_COUNT:
+        x = app_registers_record_count(r);
+        break;
     case APP_REGISTERS_SUPPORTED_MODES:
         x = 0x00010024UL;
         break;
@@ -537,6 +593,36 @@ void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, 
         break;
     case APP_REGISTERS_MODBUS_TIMEOUT:
         w->modbus_timeout_ticks = app_registers_ticks(r, x);
+        break;
+    case APP_REGISTERS_SCOPE_COMMAND:
+        w->scope_command = (uint16_t)x;
+        break;
+    case APP_REGISTERS_SCOPE_SIGNAL_1:
+        w->scope.signal[0] = (uint16_t)x;
+        break;
+    case APP_REGISTERS_SCOPE_SIGNAL_2:
+        w->scope.signal[1] = (uint16_t)x;
+        break;
+    case APP_REGISTERS_SCOPE_SIGNAL_3:
+        w->scope.signal[2] = (uint16_t)x;
+        break;
+    case APP_REGISTERS_SCOPE_SIGNAL_4:
+        w->scope.signal[3] = (uint16_t)x;
+        break;
+    case APP_REGISTERS_SCOPE_DECIMATION:
+        w->scope.decimation = (uint16_t)x;
+        break;
+    case APP_REGISTERS_SCOPE_TRIGGER:
+        w->scope.trigger = (uint16_t)x;
+        break;
+    case APP_REGISTERS_SCOPE_CHANNEL:
+        w->scope.channel = (uint16_t)(x - 1.0f);
+        break;
+    case APP_REGISTERS_SCOPE_LEVEL:
+        w->scope.level = x;
+        break;
+    case APP_REGISTERS_SCOPE_BEFORE:
+        w->scope.before = (uint16_t)x;
         break;
     default:
         break;

@@ -11,7 +11,7 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "d7580b23" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "a551e6ec" /**< of what a master can see of the map */
 
 /** Holding registers: those of two words are named by the first. */
 enum {
@@ -36,7 +36,19 @@ enum {
     APP_REGISTERS_MODBUS_ADDRESS = 64,
     APP_REGISTERS_MODBUS_TIMEOUT = 65,
     APP_REGISTERS_LINE_FIRST = 64,
-    APP_REGISTERS_LINE_END = 66
+    APP_REGISTERS_LINE_END = 66,
+    APP_REGISTERS_SCOPE_COMMAND = 96,
+    APP_REGISTERS_SCOPE_SIGNAL_1 = 97,
+    APP_REGISTERS_SCOPE_SIGNAL_2 = 98,
+    APP_REGISTERS_SCOPE_SIGNAL_3 = 99,
+    APP_REGISTERS_SCOPE_SIGNAL_4 = 100,
+    APP_REGISTERS_SCOPE_DECIMATION = 101,
+    APP_REGISTERS_SCOPE_TRIGGER = 102,
+    APP_REGISTERS_SCOPE_CHANNEL = 103,
+    APP_REGISTERS_SCOPE_LEVEL = 104,
+    APP_REGISTERS_SCOPE_BEFORE = 106,
+    APP_REGISTERS_SCOPE_FIRST = 96,
+    APP_REGISTERS_SCOPE_END = 107
 };
 
 /** Input registers: those of two words are named by the first. */
@@ -121,6 +133,12 @@ enum {
     APP_REGISTERS_FOUND_OFFSET_ERROR = 170,
     APP_REGISTERS_COMMISSIONING_FIRST = 128,
     APP_REGISTERS_COMMISSIONING_END = 172,
+    APP_REGISTERS_SCOPE_STATE = 192,
+    APP_REGISTERS_SCOPE_TICKS = 193,
+    APP_REGISTERS_RECORD_NUMBER = 195,
+    APP_REGISTERS_RECORD_COUNT = 196,
+    APP_REGISTERS_TRACES_FIRST = 192,
+    APP_REGISTERS_TRACES_END = 197,
     APP_REGISTERS_SUPPORTED_MODES = 256,
     APP_REGISTERS_POLE_PAIRS = 258,
     APP_REGISTERS_ENCODER_POSITIONS = 259,
@@ -158,9 +176,9 @@ typedef struct {
 struct app_registers;
 struct app_registers_wanted;
 
-#define APP_REGISTERS_MAP_HOLDING 18U
+#define APP_REGISTERS_MAP_HOLDING 28U
 
-#define APP_REGISTERS_MAP_INPUT 89U
+#define APP_REGISTERS_MAP_INPUT 93U
 
 /** By address, upwards. */
 extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];

@@ -2,6 +2,8 @@
 /* Words of bits that are made of several things. */
 #include "app_registers.h"
 
+#include <stddef.h>
+
 /* What acts and never trips. */
 static uint16_t limits(const app_status_t *s)
 {
@@ -87,4 +89,25 @@ uint16_t app_registers_first_sample(const app_registers_t *r)
     const uint16_t        index = raw->index_seen ? (uint16_t)APP_REGISTERS_SAMPLE_INDEX : 0U;
 
     return (uint16_t)(valid | index);
+}
+
+uint32_t app_registers_scope_state(const app_registers_t *r)
+{
+    return (r->scope != NULL) ? (uint32_t)r->scope->state : 0U;
+}
+
+uint32_t app_registers_scope_ticks(const app_registers_t *r)
+{
+    return ((r->scope != NULL) && (r->scope->state == APP_SCOPE_DONE)) ? r->scope->trigger_ticks
+                                                                       : 0U;
+}
+
+uint32_t app_registers_record_number(const app_registers_t *r)
+{
+    return (r->record != NULL) ? r->record->number : 0U;
+}
+
+uint32_t app_registers_record_count(const app_registers_t *r)
+{
+    return (r->record != NULL) ? r->record->kept_count : 0U;
 }

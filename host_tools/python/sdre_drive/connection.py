@@ -27,7 +27,7 @@ EXCEPTION_WORDS = {
     1: "does not know this function",
     2: "does not have this register",
     3: "refuses this value: it is out of the drive's range",
-    4: "takes this value while it is stopped only",
+    4: "does not take or tell this now",
     11: "did not answer behind its gateway",
 }
 
@@ -107,6 +107,14 @@ class Drive:
         if self._constants is None:
             self._constants = registers.constants(self._block(register_map.CONSTANTS))
         return self._constants
+
+    def traces(self) -> Dict[str, float]:
+        """How scope and record stand."""
+        return registers.values(register_map.TRACES, self._block(register_map.TRACES))
+
+    def words(self, first: int, count: int) -> List[int]:
+        """Input registers as they are."""
+        return list(self._asked("read_input_registers", first, count=count).registers)
 
     def write(self, name: str, value: float) -> None:
         """A holding register, in its unit."""

@@ -16,7 +16,7 @@ class Register(NamedTuple):
     unit: str
 
 
-DIGEST = "d7580b23"
+DIGEST = "a551e6ec"
 
 COMMAND: Tuple[Register, ...] = (  # holding
     Register("CONTROLWORD", 0, "u16", 0.0, "bits"),
@@ -40,6 +40,19 @@ COMMAND: Tuple[Register, ...] = (  # holding
 LINE: Tuple[Register, ...] = (  # holding
     Register("MODBUS_ADDRESS", 64, "u16", 0.0, ""),
     Register("MODBUS_TIMEOUT", 65, "u16", 0.001, "s"),
+)  # fmt: skip
+
+SCOPE: Tuple[Register, ...] = (  # holding
+    Register("SCOPE_COMMAND", 96, "u16", 0.0, ""),
+    Register("SCOPE_SIGNAL_1", 97, "u16", 0.0, ""),
+    Register("SCOPE_SIGNAL_2", 98, "u16", 0.0, ""),
+    Register("SCOPE_SIGNAL_3", 99, "u16", 0.0, ""),
+    Register("SCOPE_SIGNAL_4", 100, "u16", 0.0, ""),
+    Register("SCOPE_DECIMATION", 101, "u16", 0.0, "control periods"),
+    Register("SCOPE_TRIGGER", 102, "u16", 0.0, ""),
+    Register("SCOPE_CHANNEL", 103, "u16", 0.0, ""),
+    Register("SCOPE_LEVEL", 104, "i32", 0.001, "of its signal"),
+    Register("SCOPE_BEFORE", 106, "u16", 0.0, "samples"),
 )  # fmt: skip
 
 LIVE: Tuple[Register, ...] = (  # input
@@ -124,6 +137,13 @@ COMMISSIONING: Tuple[Register, ...] = (  # input
     Register("FOUND_OFFSET_ERROR", 170, "dec", 0.0, "rad"),
 )  # fmt: skip
 
+TRACES: Tuple[Register, ...] = (  # input
+    Register("SCOPE_STATE", 192, "u16", 0.0, ""),
+    Register("SCOPE_TICKS", 193, "u32", 0.0, "control periods"),
+    Register("RECORD_NUMBER", 195, "u16", 0.0, ""),
+    Register("RECORD_COUNT", 196, "u16", 0.0, "samples"),
+)  # fmt: skip
+
 CONSTANTS: Tuple[Register, ...] = (  # input
     Register("SUPPORTED_MODES", 256, "u32", 0.0, "bits"),
     Register("POLE_PAIRS", 258, "u16", 0.0, ""),
@@ -140,5 +160,28 @@ CONSTANTS: Tuple[Register, ...] = (  # input
     Register("TEMPERATURE_TRIP", 276, "i16", 0.1, "degC"),
 )  # fmt: skip
 
-HOLDING = (*COMMAND, *LINE)
-INPUT = (*LIVE, *COMMISSIONING, *CONSTANTS)
+HOLDING = (*COMMAND, *LINE, *SCOPE)
+INPUT = (*LIVE, *COMMISSIONING, *TRACES, *CONSTANTS)
+
+# Of the scope, by number: name and unit.
+SIGNALS = (
+    ("NONE", ""),
+    ("SPEED", "rad/s electrical"),
+    ("SPEED_MEASURED", "rad/s electrical"),
+    ("SPEED_WANTED", "rad/s electrical"),
+    ("IQ", "A"),
+    ("ID", "A"),
+    ("IQ_REF", "A"),
+    ("ID_REF", "A"),
+    ("VQ", "V"),
+    ("VD", "V"),
+    ("IA", "A"),
+    ("IB", "A"),
+    ("DC_LINK", "V"),
+    ("THETA", "rad"),
+    ("DUTY_A", ""),
+    ("DUTY_B", ""),
+    ("DUTY_C", ""),
+    ("LOAD", "rad/s2 electrical"),
+    ("MODE", ""),
+)
