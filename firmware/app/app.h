@@ -52,12 +52,12 @@ void app_tick(void);
 void app_background(void);
 
 /**
- * @brief Give a command; it acts from the next tick on.
+ * @brief Give a command (app_control.h); it acts from the next tick on.
  * @return false: the command before has not been taken yet, try again after a tick.
  *
  * Context: background.
  */
-bool app_command_write(const app_command_t *command);
+bool app_command_write(const app_objects_t *command);
 
 /** The status after the last tick during which nothing was read: of one instant. Context: background. */
 app_status_t app_status_read(void);

@@ -40,6 +40,6 @@ typedef struct {
 } app_config_t;
 
 /** The same with its times in control periods, where board_config.c counts PWM periods. Context: init. */
-app_config_t app_config_for(const app_config_t *config, uint16_t updates_per_period);
+void app_config_for(app_config_t *out, const app_config_t *config, uint16_t updates_per_period);
 
 #endif /* APP_CONFIG_H */

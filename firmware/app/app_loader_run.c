@@ -17,7 +17,7 @@ static struct {
 void app_loader_start(app_image_t *image)
 {
     side.drive  = image->image.drive;
-    side.config = app_config_for(&image->image.app, side.drive.hardware.updates_per_period);
+    app_config_for(&side.config, &image->image.app, side.drive.hardware.updates_per_period);
     app_loader_init(&side.loader, image);
     side.loader.state = APP_LOADER_IDLE;
     side.loader.image = image;

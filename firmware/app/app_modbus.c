@@ -85,7 +85,7 @@ bool app_modbus_is_quiet(const app_modbus_t *m, uint32_t now_ticks)
 
 static void take_request(app_modbus_t *m, app_registers_t *r, uint32_t now_ticks)
 {
-    const bool          ran    = r->wanted.command.run;
+    const uint16_t      before = r->wanted.objects.controlword;
     const bool          all    = m->rx_octets[0] == ADDRESS_BROADCAST;
     app_loader_t *const loader = r->loader;
 
@@ -95,8 +95,9 @@ static void take_request(app_modbus_t *m, app_registers_t *r, uint32_t now_ticks
     app_modbus_answer(m, r);
     r->loader = loader;
     if (all) {
-        r->wanted.command.run =
-            r->wanted.command.run && ran; /* it may stop all motors, and start none */
+        if (app_control_enables(r->wanted.objects.controlword) && !app_control_enables(before)) {
+            r->wanted.objects.controlword = before; /* it may stop all motors, and start none */
+        }
         m->tx_count = 0U;
         count(&m->counts.unanswered);
     } else {

@@ -103,8 +103,10 @@ void app_modbus_device_diagnose(app_modbus_t *m)
 
 static void put_text(app_modbus_t *m, const char *text)
 {
-    for (uint16_t n = 0U; (n < TEXT_MAX) && (text[n] != '\0'); n++) {
-        app_modbus_answer_octet(m, (uint16_t)((uint16_t)text[n] & 0x7FU));
+    const uint16_t from = m->tx_count;
+
+    for (const char *c = text; (*c != '\0') && ((uint16_t)(m->tx_count - from) < TEXT_MAX); c++) {
+        app_modbus_answer_octet(m, (uint16_t)((uint16_t)*c & 0x7FU));
     }
 }
 

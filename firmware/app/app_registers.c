@@ -3,6 +3,9 @@
 
 #include <stddef.h>
 
+#define SCOPE_ARM  1U /* values of SCOPE_COMMAND */
+#define SCOPE_STOP 2U
+
 #define RPM_PER_RADPS 9.54929659f /* 60 / (2 pi) */
 #define SIGN_32       0x80000000UL
 #define MOST_I32      2147483520.0f /* the last float below 2^31 */
@@ -17,66 +20,40 @@ typedef struct {
 
 static const map_t holding = {app_registers_map_holding, APP_REGISTERS_MAP_HOLDING, false};
 
+/* Member by member, and from constants: on the stack they would take a quarter of it. */
 ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
                                 const drive_config_t *drive)
 {
-    const app_status_t  status  = {.mode = APP_MODE_BOOT};
-    const app_command_t command = {
-        .omega_e_radps = 0.0f, .run = false, .reset = false, .commission = false};
-    const app_registers_wanted_t wanted = {.command              = command,
-                                           .modbus_address       = config->modbus_address,
-                                           .modbus_timeout_ticks = config->modbus_timeout_ticks};
-    const uint16_t               pairs  = drive->hardware.pole_pairs;
+    static const app_status_t nothing = {.mode = APP_MODE_BOOT};
+    const uint16_t            pairs   = drive->hardware.pole_pairs;
 
-    r->config          = config;
-    r->drive           = drive;
-    r->rpm_per_e_radps = RPM_PER_RADPS / ((pairs > 0U) ? (float)pairs : 1.0f);
-    r->status          = status;
-    r->wanted          = wanted;
-    r->trial           = wanted;
-    r->changed         = false;
-    r->silent          = false;
-    r->loader          = NULL;
-    return ((wanted.modbus_address >= 1U) && (wanted.modbus_address <= ADDRESS_MAX) &&
-            (wanted.modbus_timeout_ticks > 0UL))
+    static const app_scope_setup_t scope = {.decimation = 1U};
+
+    r->wanted.objects              = app_control_default(drive);
+    r->wanted.scope                = scope;
+    r->wanted.scope_command        = 0U;
+    r->scope                       = NULL;
+    r->record                      = NULL;
+    r->wanted.modbus_address       = config->modbus_address;
+    r->wanted.modbus_timeout_ticks = config->modbus_timeout_ticks;
+    r->config                      = config;
+    r->drive                       = drive;
+    r->rpm_per_e_radps             = RPM_PER_RADPS / ((pairs > 0U) ? (float)pairs : 1.0f);
+    r->status                      = nothing;
+    r->trial                       = r->wanted;
+    r->changed                     = false;
+    r->silent                      = false;
+    r->loader                      = NULL;
+    return ((config->modbus_address >= 1U) && (config->modbus_address <= ADDRESS_MAX) &&
+            (config->modbus_timeout_ticks > 0U))
                ? CTL_OK
                : CTL_BAD_CONFIG;
-}
-
-/* What acts and never trips. */
-static uint16_t limits(const app_status_t *s)
-{
-    const uint16_t voltage = s->voltage_limited ? (uint16_t)APP_REGISTERS_VOLTAGE_LIMIT : 0U;
-    const uint16_t current = s->current_limited ? (uint16_t)APP_REGISTERS_CURRENT_LIMIT : 0U;
-    const uint16_t derated = (s->derating > 0.0f) ? (uint16_t)APP_REGISTERS_DERATED : 0U;
-    return (uint16_t)(voltage | current | derated);
 }
 
 uint32_t app_registers_ticks(const app_registers_t *r, float time_s)
 {
     const float ticks = (time_s / r->drive->ts_s) + 0.5f;
     return (uint32_t)ticks;
-}
-
-uint16_t app_registers_conditions(const app_registers_t *r)
-{
-    const uint16_t hot     = r->status.hot ? (uint16_t)APP_REGISTERS_HOT : 0U;
-    const uint16_t silent  = r->silent ? (uint16_t)APP_REGISTERS_SILENT : 0U;
-    const uint16_t gate    = r->status.gate_enable ? (uint16_t)APP_REGISTERS_GATE : 0U;
-    const uint16_t dc      = r->status.dc_link_out ? (uint16_t)APP_REGISTERS_DC_OUT : 0U;
-    const uint16_t trip    = r->status.tripped ? (uint16_t)APP_REGISTERS_TRIPPED : 0U;
-    const uint16_t shorted = r->status.shorted ? (uint16_t)APP_REGISTERS_SHORTED : 0U;
-    const uint16_t lost    = r->status.without_angle ? (uint16_t)APP_REGISTERS_WITHOUT_ANGLE : 0U;
-    return (uint16_t)(hot | silent | gate | dc | trip | shorted | lost | limits(&r->status));
-}
-
-uint16_t app_registers_first_sample(const app_registers_t *r)
-{
-    const board_sample_t *raw   = &r->status.snapshot.raw;
-    const uint16_t        valid = raw->valid ? (uint16_t)APP_REGISTERS_SAMPLE_VALID : 0U;
-    const uint16_t        index = raw->index_seen ? (uint16_t)APP_REGISTERS_SAMPLE_INDEX : 0U;
-
-    return (uint16_t)(valid | index);
 }
 
 /* Both ends are a float that its type holds. */
@@ -209,11 +186,22 @@ app_registers_result_t app_registers_read_holding(const app_registers_t *r, uint
     return read_map(r, &holding, first, count, values);
 }
 
+static app_registers_result_t read_traces(const app_registers_t *r, uint16_t first, uint16_t count,
+                                          uint16_t *values)
+{
+    const app_traces_result_t result = app_traces_read(r->scope, r->record, first, count, values);
+
+    return (result == APP_TRACES_NOT_NOW) ? APP_REGISTERS_BUSY : found(result == APP_TRACES_OK);
+}
+
 app_registers_result_t app_registers_read_input(const app_registers_t *r, uint16_t first,
                                                 uint16_t count, uint16_t *values)
 {
     static const map_t input = {app_registers_map_input, APP_REGISTERS_MAP_INPUT, true};
 
+    if ((r->scope != NULL) && (first >= APP_TRACES_SCOPE)) {
+        return read_traces(r, first, count, values);
+    }
     if (is_loader(r, first)) {
         return found(
             app_loader_read(r->loader, (uint16_t)(first - APP_LOADER_FIRST), count, values));
@@ -255,10 +243,19 @@ static bool is_in(const app_registers_entry_t *e, float x)
 
 static bool is_stopped(const app_registers_t *r)
 {
-    const app_mode_t mode = r->status.mode;
-    return !r->status.gate_enable && !r->wanted.command.run && !r->wanted.command.commission &&
-           ((mode == APP_MODE_BOOT) || (mode == APP_MODE_CALIBRATE) || (mode == APP_MODE_READY) ||
-            (mode == APP_MODE_FAULT));
+    return !r->status.gate_enable && (r->status.state != APP_CONTROL_OPERATION_ENABLED) &&
+           (r->status.state != APP_CONTROL_QUICK_STOP_ACTIVE);
+}
+
+/* What a register has already may be written at any time: a master that sends all of its command. */
+static bool is_there(const app_registers_t *r, const app_registers_entry_t *e,
+                     const uint16_t *words)
+{
+    const uint32_t value = value_of(r, &holding, e);
+    const uint32_t low   = value & 0xFFFFUL;
+
+    return (words_of(e) == 1U) ? (low == words[0])
+                               : ((low == words[1]) && ((value >> 16) == words[0]));
 }
 
 static app_registers_result_t try_one(app_registers_t *r, const app_registers_entry_t *e,
@@ -269,7 +266,7 @@ static app_registers_result_t try_one(app_registers_t *r, const app_registers_en
     if (!is_in(e, x)) {
         return APP_REGISTERS_BAD_VALUE;
     }
-    if (e->stopped && !is_stopped(r)) {
+    if (e->stopped && !is_stopped(r) && !is_there(r, e, words)) {
         return APP_REGISTERS_BUSY;
     }
     app_registers_map_put(r, &r->trial, e->address, x);
@@ -280,7 +277,8 @@ static app_registers_result_t try_one(app_registers_t *r, const app_registers_en
 static bool may_be_wanted(const app_registers_t *r, const app_registers_wanted_t *w)
 {
     const float most = r->drive->speed_max_e_radps;
-    return base_in_range(w->command.omega_e_radps, -most, most);
+    return base_in_range(w->objects.omega_e_radps, -most, most) && app_control_knows(&w->objects) &&
+           app_scope_knows(&w->scope);
 }
 
 /* Every value whole. */
@@ -311,6 +309,20 @@ static app_registers_result_t write_loader(app_registers_t *r, uint16_t first, u
     return found(result == APP_LOADER_OK);
 }
 
+static void command_scope(app_registers_t *r)
+{
+    const uint16_t command = r->wanted.scope_command;
+
+    r->wanted.scope_command = 0U;
+    if ((r->scope != NULL) && (command == SCOPE_ARM)) {
+        app_scope_arm(r->scope, &r->wanted.scope);
+    } else if ((r->scope != NULL) && (command == SCOPE_STOP)) {
+        app_scope_stop(r->scope);
+    } else {
+        /* nothing is asked for */
+    }
+}
+
 app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, uint16_t count,
                                            const uint16_t *values)
 {
@@ -336,18 +348,22 @@ app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, u
     if (!may_be_wanted(r, &r->trial)) {
         return APP_REGISTERS_BAD_VALUE;
     }
-    r->wanted  = r->trial;
-    r->silent  = r->silent && !r->wanted.command.run;
+    r->wanted = r->trial;
+    command_scope(r);
+    r->silent  = r->silent && !app_control_enables(r->wanted.objects.controlword);
     r->changed = true;
     return APP_REGISTERS_OK;
 }
 
 void app_registers_silence(app_registers_t *r)
 {
-    if (r->wanted.command.run || r->wanted.command.commission) {
-        r->wanted.command.run        = false;
-        r->wanted.command.commission = false;
-        r->changed                   = true;
-        r->silent                    = true;
+    app_objects_t *o = &r->wanted.objects;
+
+    if (app_control_enables(o->controlword)) {
+        o->controlword = (o->lost_option == (int16_t)APP_CONTROL_LOST_QUICK_STOP)
+                             ? (uint16_t)APP_CONTROL_QUICK_STOP
+                             : (uint16_t)APP_CONTROL_DISABLE_VOLTAGE;
+        r->changed     = true;
+        r->silent      = true;
     }
 }

@@ -10,9 +10,12 @@
 #define APP_REGISTERS_H
 
 #include "app_config.h"
+#include "app_control.h"
+#include "app_error.h"
 #include "app_loader.h"
 #include "app_registers_map.h"
 #include "app_status.h"
+#include "app_traces.h"
 
 /** Bits of APP_REGISTERS_CONDITIONS. */
 enum {
@@ -28,6 +31,21 @@ enum {
     APP_REGISTERS_DERATED       = 512
 };
 
+/** Bits of APP_REGISTERS_STATUSWORD; the state has bits 0 to 3, 5 and 6. */
+enum {
+    APP_REGISTERS_VOLTAGE            = 16, /**< dc link within its range */
+    APP_REGISTERS_WARNING            = 128,
+    APP_REGISTERS_STOPPED_BY_SILENCE = 256,
+    APP_REGISTERS_REMOTE             = 512,
+    APP_REGISTERS_REACHED            = 1024,
+    APP_REGISTERS_LIMITED            = 2048,
+    APP_REGISTERS_OF_MODE =
+        4096, /**< profile velocity: speed is zero; homing: the angle was found */
+    APP_REGISTERS_BRIDGE_ON = 16384
+};
+
+#define APP_REGISTERS_REFERENCED 0x8000U /**< bit 15 of it: beyond an int of 16 bits */
+
 /** Bits of APP_REGISTERS_FIRST_SAMPLE. */
 enum { APP_REGISTERS_SAMPLE_VALID = 1, APP_REGISTERS_SAMPLE_INDEX = 2 };
 
@@ -40,21 +58,25 @@ typedef enum {
 
 /** What holding registers hold. */
 typedef struct app_registers_wanted {
-    app_command_t command;
-    uint16_t      modbus_address;
-    uint32_t      modbus_timeout_ticks;
+    app_objects_t     objects;
+    app_scope_setup_t scope;
+    uint16_t          scope_command; /**< 1 arms, 2 stops */
+    uint16_t          modbus_address;
+    uint32_t          modbus_timeout_ticks;
 } app_registers_wanted_t;
 
 typedef struct app_registers {
-    const app_config_t    *config;
-    const drive_config_t  *drive;
-    float                  rpm_per_e_radps;
-    app_status_t           status;
-    app_registers_wanted_t wanted;
-    app_registers_wanted_t trial;   /**< a write, until all of it is known to be good */
-    app_loader_t          *loader;  /**< answers from APP_LOADER_FIRST on; NULL: nothing does */
-    bool                   changed; /**< command is new; its taker clears this and command.reset */
-    bool silent; /**< run was withdrawn because nobody talked; until run is written */
+    const app_config_t          *config;
+    const drive_config_t        *drive;
+    float                        rpm_per_e_radps;
+    app_status_t                 status;
+    app_registers_wanted_t       wanted;
+    app_registers_wanted_t       trial; /**< a write, until all of it is known to be good */
+    volatile app_scope_t        *scope; /**< NULL: there is none, and no record */
+    const volatile app_record_t *record;
+    app_loader_t *loader;  /**< answers from APP_LOADER_FIRST on; NULL: nothing does */
+    bool          changed; /**< command is new; its taker clears this */
+    bool          silent;  /**< stopped because nobody talked; until it is enabled again */
 } app_registers_t;
 
 /**
@@ -76,11 +98,23 @@ app_registers_result_t app_registers_read_input(const app_registers_t *r, uint16
 app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, uint16_t count,
                                            const uint16_t *values);
 
-/** Withdraws run and commissioning. */
+/** Nobody talks any more: an operation that is enabled is stopped. */
 void app_registers_silence(app_registers_t *r);
 
 /** Control periods of so many seconds; below an hour. */
 uint32_t app_registers_ticks(const app_registers_t *r, float time_s);
+
+/** Two's complement. */
+uint32_t app_registers_signed(int16_t x);
+
+/** Value of APP_REGISTERS_STATUSWORD. */
+uint16_t app_registers_statusword(const app_registers_t *r);
+
+/** Values of the registers of scope and record; 0 where there are none. */
+uint32_t app_registers_scope_state(const app_registers_t *r);
+uint32_t app_registers_scope_ticks(const app_registers_t *r);
+uint32_t app_registers_record_number(const app_registers_t *r);
+uint32_t app_registers_record_count(const app_registers_t *r);
 
 /** Value of APP_REGISTERS_CONDITIONS. */
 uint16_t app_registers_conditions(const app_registers_t *r);

@@ -4,19 +4,40 @@
 #include "app_registers.h"
 
 const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING] = {
-    {APP_REGISTERS_RUN, APP_REGISTERS_U16, 0.0f, 0.0f, 1.0f, false},
-    {APP_REGISTERS_RESET, APP_REGISTERS_U16, 0.0f, 0.0f, 1.0f, false},
+    {APP_REGISTERS_CONTROLWORD, APP_REGISTERS_U16, 0.0f, 0.0f, 65535.0f, false},
+    {APP_REGISTERS_MODE_OF_OPERATION, APP_REGISTERS_I16, 0.0f, -1.0f, 6.0f, true},
     {APP_REGISTERS_SPEED, APP_REGISTERS_I32, 10.0f, -1000000.0f, 1000000.0f, false},
     {APP_REGISTERS_SPEED_RPM, APP_REGISTERS_I32, 10.0f, -10000000.0f, 10000000.0f, false},
     {APP_REGISTERS_SPEED_RPM_16, APP_REGISTERS_I16, 1.0f, -32768.0f, 32767.0f, false},
-    {APP_REGISTERS_COMMISSION, APP_REGISTERS_U16, 0.0f, 0.0f, 1.0f, false},
+    {APP_REGISTERS_ACCELERATION, APP_REGISTERS_U32, 1.0f, 0.0f, 1000000.0f, false},
+    {APP_REGISTERS_DECELERATION, APP_REGISTERS_U32, 1.0f, 0.0f, 1000000.0f, false},
+    {APP_REGISTERS_QUICK_STOP_DECELERATION, APP_REGISTERS_U32, 1.0f, 0.0f, 1000000.0f, false},
+    {APP_REGISTERS_QUICK_STOP_OPTION, APP_REGISTERS_I16, 0.0f, 0.0f, 6.0f, false},
+    {APP_REGISTERS_SHUTDOWN_OPTION, APP_REGISTERS_I16, 0.0f, 0.0f, 1.0f, false},
+    {APP_REGISTERS_DISABLE_OPTION, APP_REGISTERS_I16, 0.0f, 0.0f, 1.0f, false},
+    {APP_REGISTERS_LOST_OPTION, APP_REGISTERS_I16, 0.0f, 2.0f, 3.0f, false},
+    {APP_REGISTERS_MAX_CURRENT, APP_REGISTERS_I32, 1000.0f, 0.0f, 1000000.0f, false},
+    {APP_REGISTERS_SPEED_WINDOW, APP_REGISTERS_U16, 10.0f, 0.0f, 6553.5f, false},
     {APP_REGISTERS_COMMISSION_CURRENT, APP_REGISTERS_U16, 100.0f, 0.0f, 655.35f, false},
     {APP_REGISTERS_COMMISSION_SPEED, APP_REGISTERS_U16, 10.0f, 0.0f, 6553.5f, false},
     {APP_REGISTERS_MODBUS_ADDRESS, APP_REGISTERS_U16, 0.0f, 1.0f, 247.0f, false},
     {APP_REGISTERS_MODBUS_TIMEOUT, APP_REGISTERS_U16, 1000.0f, 0.01f, 60.0f, false},
+    {APP_REGISTERS_SCOPE_COMMAND, APP_REGISTERS_U16, 0.0f, 0.0f, 2.0f, false},
+    {APP_REGISTERS_SCOPE_SIGNAL_1, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false},
+    {APP_REGISTERS_SCOPE_SIGNAL_2, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false},
+    {APP_REGISTERS_SCOPE_SIGNAL_3, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false},
+    {APP_REGISTERS_SCOPE_SIGNAL_4, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false},
+    {APP_REGISTERS_SCOPE_DECIMATION, APP_REGISTERS_U16, 0.0f, 1.0f, 65535.0f, false},
+    {APP_REGISTERS_SCOPE_TRIGGER, APP_REGISTERS_U16, 0.0f, 0.0f, 2.0f, false},
+    {APP_REGISTERS_SCOPE_CHANNEL, APP_REGISTERS_U16, 0.0f, 1.0f, 4.0f, false},
+    {APP_REGISTERS_SCOPE_LEVEL, APP_REGISTERS_I32, 1000.0f, -1000000.0f, 1000000.0f, false},
+    {APP_REGISTERS_SCOPE_BEFORE, APP_REGISTERS_U16, 0.0f, 0.0f, 511.0f, false},
 };
 
 const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
+    {APP_REGISTERS_STATUSWORD, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
+    {APP_REGISTERS_MODE_NOW, APP_REGISTERS_I16, 0.0f, 0.0f, 0.0f, false},
+    {APP_REGISTERS_ERROR_CODE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
     {APP_REGISTERS_MODE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
     {APP_REGISTERS_FAULT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
     {APP_REGISTERS_DRIVE_FAULT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
@@ -26,6 +47,7 @@ const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
     {APP_REGISTERS_ALIGN_STAGE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
     {APP_REGISTERS_SPEED_NOW, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false},
     {APP_REGISTERS_SPEED_NOW_RPM, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false},
+    {APP_REGISTERS_SPEED_DEMAND_RPM, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false},
     {APP_REGISTERS_IQ, APP_REGISTERS_I32, 1000.0f, 0.0f, 0.0f, false},
     {APP_REGISTERS_ID, APP_REGISTERS_I32, 1000.0f, 0.0f, 0.0f, false},
     {APP_REGISTERS_IQ_REF, APP_REGISTERS_I32, 1000.0f, 0.0f, 0.0f, false},
@@ -89,6 +111,11 @@ const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
     {APP_REGISTERS_FOUND_COULOMB_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
     {APP_REGISTERS_FOUND_OFFSET, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
     {APP_REGISTERS_FOUND_OFFSET_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
+    {APP_REGISTERS_SCOPE_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
+    {APP_REGISTERS_SCOPE_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false},
+    {APP_REGISTERS_RECORD_NUMBER, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
+    {APP_REGISTERS_RECORD_COUNT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
+    {APP_REGISTERS_SUPPORTED_MODES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false},
     {APP_REGISTERS_POLE_PAIRS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
     {APP_REGISTERS_ENCODER_POSITIONS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false},
     {APP_REGISTERS_CONTROL_PERIOD, APP_REGISTERS_U32, 1e+09f, 0.0f, 0.0f, false},
@@ -109,22 +136,40 @@ float app_registers_map_holding_real(const app_registers_t *r, uint16_t address)
 
     switch (address) {
     case APP_REGISTERS_SPEED:
-        x = r->wanted.command.omega_e_radps;
+        x = r->wanted.objects.omega_e_radps;
         break;
     case APP_REGISTERS_SPEED_RPM:
-        x = r->wanted.command.omega_e_radps * r->rpm_per_e_radps;
+        x = r->wanted.objects.omega_e_radps * r->rpm_per_e_radps;
         break;
     case APP_REGISTERS_SPEED_RPM_16:
-        x = r->wanted.command.omega_e_radps * r->rpm_per_e_radps;
+        x = r->wanted.objects.omega_e_radps * r->rpm_per_e_radps;
+        break;
+    case APP_REGISTERS_ACCELERATION:
+        x = r->wanted.objects.accel_e_radps2;
+        break;
+    case APP_REGISTERS_DECELERATION:
+        x = r->wanted.objects.decel_e_radps2;
+        break;
+    case APP_REGISTERS_QUICK_STOP_DECELERATION:
+        x = r->wanted.objects.quick_e_radps2;
+        break;
+    case APP_REGISTERS_MAX_CURRENT:
+        x = r->wanted.objects.current_max_A;
+        break;
+    case APP_REGISTERS_SPEED_WINDOW:
+        x = r->wanted.objects.window_e_radps;
         break;
     case APP_REGISTERS_COMMISSION_CURRENT:
-        x = r->wanted.command.bounds.current_A;
+        x = r->wanted.objects.bounds.current_A;
         break;
     case APP_REGISTERS_COMMISSION_SPEED:
-        x = r->wanted.command.bounds.speed_m_radps;
+        x = r->wanted.objects.bounds.speed_m_radps;
         break;
     case APP_REGISTERS_MODBUS_TIMEOUT:
         x = (float)r->wanted.modbus_timeout_ticks * r->drive->ts_s;
+        break;
+    case APP_REGISTERS_SCOPE_LEVEL:
+        x = r->wanted.scope.level;
         break;
     default:
         break;
@@ -137,17 +182,53 @@ uint32_t app_registers_map_holding_whole(const app_registers_t *r, uint16_t addr
     uint32_t x = 0U;
 
     switch (address) {
-    case APP_REGISTERS_RUN:
-        x = r->wanted.command.run ? 1U : 0U;
+    case APP_REGISTERS_CONTROLWORD:
+        x = r->wanted.objects.controlword;
         break;
-    case APP_REGISTERS_RESET:
-        x = 0U;
+    case APP_REGISTERS_MODE_OF_OPERATION:
+        x = app_registers_signed(r->wanted.objects.mode_of_operation);
         break;
-    case APP_REGISTERS_COMMISSION:
-        x = r->wanted.command.commission ? 1U : 0U;
+    case APP_REGISTERS_QUICK_STOP_OPTION:
+        x = app_registers_signed(r->wanted.objects.quick_option);
+        break;
+    case APP_REGISTERS_SHUTDOWN_OPTION:
+        x = app_registers_signed(r->wanted.objects.shutdown_option);
+        break;
+    case APP_REGISTERS_DISABLE_OPTION:
+        x = app_registers_signed(r->wanted.objects.disable_option);
+        break;
+    case APP_REGISTERS_LOST_OPTION:
+        x = app_registers_signed(r->wanted.objects.lost_option);
         break;
     case APP_REGISTERS_MODBUS_ADDRESS:
         x = r->wanted.modbus_address;
+        break;
+    case APP_REGISTERS_SCOPE_COMMAND:
+        x = 0U;
+        break;
+    case APP_REGISTERS_SCOPE_SIGNAL_1:
+        x = r->wanted.scope.signal[0];
+        break;
+    case APP_REGISTERS_SCOPE_SIGNAL_2:
+        x = r->wanted.scope.signal[1];
+        break;
+    case APP_REGISTERS_SCOPE_SIGNAL_3:
+        x = r->wanted.scope.signal[2];
+        break;
+    case APP_REGISTERS_SCOPE_SIGNAL_4:
+        x = r->wanted.scope.signal[3];
+        break;
+    case APP_REGISTERS_SCOPE_DECIMATION:
+        x = r->wanted.scope.decimation;
+        break;
+    case APP_REGISTERS_SCOPE_TRIGGER:
+        x = r->wanted.scope.trigger;
+        break;
+    case APP_REGISTERS_SCOPE_CHANNEL:
+        x = (uint32_t)r->wanted.scope.channel + 1U;
+        break;
+    case APP_REGISTERS_SCOPE_BEFORE:
+        x = r->wanted.scope.before;
         break;
     default:
         break;
@@ -165,6 +246,9 @@ float app_registers_map_input_real(const app_registers_t *r, uint16_t address)
         break;
     case APP_REGISTERS_SPEED_NOW_RPM:
         x = r->status.speed_e_radps * r->rpm_per_e_radps;
+        break;
+    case APP_REGISTERS_SPEED_DEMAND_RPM:
+        x = r->status.demand_e_radps * r->rpm_per_e_radps;
         break;
     case APP_REGISTERS_IQ:
         x = r->status.i_A.q;
@@ -309,6 +393,15 @@ uint32_t app_registers_map_input_whole(const app_registers_t *r, uint16_t addres
     uint32_t x = 0U;
 
     switch (address) {
+    case APP_REGISTERS_STATUSWORD:
+        x = app_registers_statusword(r);
+        break;
+    case APP_REGISTERS_MODE_NOW:
+        x = app_registers_signed(r->status.mode_of_operation);
+        break;
+    case APP_REGISTERS_ERROR_CODE:
+        x = app_error_code(r->status.fault, r->status.drive_fault);
+        break;
     case APP_REGISTERS_MODE:
         x = (uint32_t)r->status.mode;
         break;
@@ -417,6 +510,21 @@ uint32_t app_registers_map_input_whole(const app_registers_t *r, uint16_t addres
     case APP_REGISTERS_FOUND_RELUCTANCE:
         x = r->status.commission.found.reluctance ? 1U : 0U;
         break;
+    case APP_REGISTERS_SCOPE_STATE:
+        x = app_registers_scope_state(r);
+        break;
+    case APP_REGISTERS_SCOPE_TICKS:
+        x = app_registers_scope_ticks(r);
+        break;
+    case APP_REGISTERS_RECORD_NUMBER:
+        x = app_registers_record_number(r);
+        break;
+    case APP_REGISTERS_RECORD_COUNT:
+        x = app_registers_record_count(r);
+        break;
+    case APP_REGISTERS_SUPPORTED_MODES:
+        x = 0x00010024UL;
+        break;
     case APP_REGISTERS_POLE_PAIRS:
         x = r->drive->hardware.pole_pairs;
         break;
@@ -432,35 +540,89 @@ uint32_t app_registers_map_input_whole(const app_registers_t *r, uint16_t addres
 void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, uint16_t address, float x)
 {
     switch (address) {
-    case APP_REGISTERS_RUN:
-        w->command.run = x > 0.5f;
+    case APP_REGISTERS_CONTROLWORD:
+        w->objects.controlword = (uint16_t)x;
         break;
-    case APP_REGISTERS_RESET:
-        w->command.reset = x > 0.5f;
+    case APP_REGISTERS_MODE_OF_OPERATION:
+        w->objects.mode_of_operation = (int16_t)x;
         break;
     case APP_REGISTERS_SPEED:
-        w->command.omega_e_radps = x;
+        w->objects.omega_e_radps = x;
         break;
     case APP_REGISTERS_SPEED_RPM:
-        w->command.omega_e_radps = x / r->rpm_per_e_radps;
+        w->objects.omega_e_radps = x / r->rpm_per_e_radps;
         break;
     case APP_REGISTERS_SPEED_RPM_16:
-        w->command.omega_e_radps = x / r->rpm_per_e_radps;
+        w->objects.omega_e_radps = x / r->rpm_per_e_radps;
         break;
-    case APP_REGISTERS_COMMISSION:
-        w->command.commission = x > 0.5f;
+    case APP_REGISTERS_ACCELERATION:
+        w->objects.accel_e_radps2 = x;
+        break;
+    case APP_REGISTERS_DECELERATION:
+        w->objects.decel_e_radps2 = x;
+        break;
+    case APP_REGISTERS_QUICK_STOP_DECELERATION:
+        w->objects.quick_e_radps2 = x;
+        break;
+    case APP_REGISTERS_QUICK_STOP_OPTION:
+        w->objects.quick_option = (int16_t)x;
+        break;
+    case APP_REGISTERS_SHUTDOWN_OPTION:
+        w->objects.shutdown_option = (int16_t)x;
+        break;
+    case APP_REGISTERS_DISABLE_OPTION:
+        w->objects.disable_option = (int16_t)x;
+        break;
+    case APP_REGISTERS_LOST_OPTION:
+        w->objects.lost_option = (int16_t)x;
+        break;
+    case APP_REGISTERS_MAX_CURRENT:
+        w->objects.current_max_A = x;
+        break;
+    case APP_REGISTERS_SPEED_WINDOW:
+        w->objects.window_e_radps = x;
         break;
     case APP_REGISTERS_COMMISSION_CURRENT:
-        w->command.bounds.current_A = x;
+        w->objects.bounds.current_A = x;
         break;
     case APP_REGISTERS_COMMISSION_SPEED:
-        w->command.bounds.speed_m_radps = x;
+        w->objects.bounds.speed_m_radps = x;
         break;
     case APP_REGISTERS_MODBUS_ADDRESS:
         w->modbus_address = (uint16_t)x;
         break;
     case APP_REGISTERS_MODBUS_TIMEOUT:
         w->modbus_timeout_ticks = app_registers_ticks(r, x);
+        break;
+    case APP_REGISTERS_SCOPE_COMMAND:
+        w->scope_command = (uint16_t)x;
+        break;
+    case APP_REGISTERS_SCOPE_SIGNAL_1:
+        w->scope.signal[0] = (uint16_t)x;
+        break;
+    case APP_REGISTERS_SCOPE_SIGNAL_2:
+        w->scope.signal[1] = (uint16_t)x;
+        break;
+    case APP_REGISTERS_SCOPE_SIGNAL_3:
+        w->scope.signal[2] = (uint16_t)x;
+        break;
+    case APP_REGISTERS_SCOPE_SIGNAL_4:
+        w->scope.signal[3] = (uint16_t)x;
+        break;
+    case APP_REGISTERS_SCOPE_DECIMATION:
+        w->scope.decimation = (uint16_t)x;
+        break;
+    case APP_REGISTERS_SCOPE_TRIGGER:
+        w->scope.trigger = (uint16_t)x;
+        break;
+    case APP_REGISTERS_SCOPE_CHANNEL:
+        w->scope.channel = (uint16_t)(x - 1.0f);
+        break;
+    case APP_REGISTERS_SCOPE_LEVEL:
+        w->scope.level = x;
+        break;
+    case APP_REGISTERS_SCOPE_BEFORE:
+        w->scope.before = (uint16_t)x;
         break;
     default:
         break;

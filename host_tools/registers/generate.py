@@ -17,7 +17,8 @@ from typing import Dict, List
 sys.path.insert(0, str(Path(__file__).parent))
 
 from c_map import digest_of, header, source  # noqa: E402
-from table import Group, Register, TableError, read  # noqa: E402
+from c_signals import signals_header, signals_source  # noqa: E402
+from table import Group, Register, Signal, TableError, read, signals  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 TABLE = ROOT / "firmware/app/registers.toml"
@@ -41,14 +42,22 @@ def table_text(group: Group) -> str:
     return "\n".join(lines)
 
 
-def documented(groups: List[Group], before: str) -> str:
+def signals_text(found: List[Signal]) -> str:
+    """The signals for docs/modbus.md."""
+    lines = ["| signal | | unit |", "|---|---|---|"]
+    return "\n".join(lines + [f"| {s.number} | `{s.name}` | {s.unit} |" for s in found])
+
+
+def documented(groups: List[Group], found: List[Signal], before: str) -> str:
     """docs/modbus.md with its tables anew."""
     text = before
-    for g in groups:
-        mark = MARK.format(name=g.name)
+    tables = {g.name: table_text(g) for g in groups}
+    tables["signals"] = signals_text(found)
+    for name, table in tables.items():
+        mark = MARK.format(name=name)
         if mark not in text:
-            raise TableError(f"docs/modbus.md has no place for group {g.name}: {mark}")
-        new = f"{mark}\n\n{table_text(g)}\n\n{END}"
+            raise TableError(f"docs/modbus.md has no place for {name}: {mark}")
+        new = f"{mark}\n\n{table}\n\n{END}"
         text = re.sub(re.escape(mark) + r".*?" + re.escape(END), lambda _, n=new: n, text, count=1, flags=re.S)
     return text
 
@@ -67,7 +76,7 @@ def csv_text(groups: List[Group]) -> str:
     return out.getvalue()
 
 
-def python_text(groups: List[Group]) -> str:
+def python_text(groups: List[Group], found: List[Signal]) -> str:
     """register_map.py of sdre_drive."""
     lines = ["# SPDX-License-Identifier: MIT", '"""Generated from firmware/app/registers.toml. Do not edit: host_tools/registers/generate.py."""', "",
              "from __future__ import annotations", "", "from typing import NamedTuple, Tuple", "", "",
@@ -83,18 +92,22 @@ def python_text(groups: List[Group]) -> str:
         lines.append("")
     for space in ("holding", "input"):
         lines.append(f"{space.upper()} = (" + ", ".join("*" + g.name.upper() for g in groups if g.space == space) + ")")
-    return "\n".join(lines) + "\n"
+    lines += ["", "# Of the scope, by number: name and unit.", "SIGNALS = ("]
+    lines += [f'    ("{s.name}", "{s.unit}"),' for s in found]
+    return "\n".join([*lines, ")"]) + "\n"
 
 
-def files(groups: List[Group]) -> Dict[Path, str]:
+def files(groups: List[Group], found: List[Signal]) -> Dict[Path, str]:
     """Every file and what has to be in it."""
     doc = ROOT / "docs/modbus.md"
     return {
         ROOT / "firmware/app/app_registers_map.h": header(groups),
         ROOT / "firmware/app/app_registers_map.c": source(groups),
-        doc: documented(groups, doc.read_text(encoding="utf-8")),
+        ROOT / "firmware/app/app_scope_signals.h": signals_header(found),
+        ROOT / "firmware/app/app_scope_signals.c": signals_source(found),
+        doc: documented(groups, found, doc.read_text(encoding="utf-8")),
         ROOT / "docs/registers.csv": csv_text(groups),
-        ROOT / "host_tools/python/sdre_drive/register_map.py": python_text(groups),
+        ROOT / "host_tools/python/sdre_drive/register_map.py": python_text(groups, found),
     }
 
 
@@ -105,7 +118,7 @@ def main() -> int:
         print(f"generate.py: {' '.join(sys.argv[1:])} is not --check", file=sys.stderr)
         return 1
     try:
-        wanted = files(read(TABLE))
+        wanted = files(read(TABLE), signals(TABLE))
     except (TableError, KeyError) as e:
         print(f"registers.toml: {e}", file=sys.stderr)
         return 1

@@ -75,6 +75,23 @@ class Group:
         return last.address + last.words
 
 
+@dataclass(frozen=True)
+class Signal:
+    """What the scope can show."""
+
+    number: int
+    name: str
+    unit: str
+    source: str
+
+
+def signals(path: Path) -> List[Signal]:
+    """In the order of their numbers."""
+    with path.open("rb") as f:
+        found = tomllib.load(f)["signal"]
+    return [Signal(n, s["name"], s["unit"], s["from"]) for n, s in enumerate(found)]
+
+
 def _register(keys: Dict[str, Any], address: int, space: str) -> Register:
     name = keys.get("name", "?")
     if not keys.keys() <= KEYS or not {"name", "type", "from", "text"} <= keys.keys():

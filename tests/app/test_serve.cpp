@@ -127,12 +127,13 @@ void spin(Client &c)
 {
     ASSERT_TRUE(c.reaches(APP_REGISTERS_MODE, is_ready));
     EXPECT_EQ(c.try_write_both(APP_REGISTERS_SPEED, 3000), 2);
-    c.write(APP_REGISTERS_RUN, 1);
+    c.write(APP_REGISTERS_CONTROLWORD, APP_CONTROL_SHUT_DOWN);
+    c.write(APP_REGISTERS_CONTROLWORD, APP_CONTROL_ENABLE_OPERATION);
     ASSERT_TRUE(c.reaches(APP_REGISTERS_MODE, is_running));
     EXPECT_TRUE(c.reaches(APP_REGISTERS_SPEED_NOW + 1, near_300));
     EXPECT_EQ(c.try_write_both(APP_REGISTERS_SPEED, 30000), -1); // beyond the largest command
     EXPECT_EQ(errno, EMBXILVAL);
-    c.write(APP_REGISTERS_RUN, 0);
+    c.write(APP_REGISTERS_CONTROLWORD, APP_CONTROL_DISABLE_VOLTAGE);
     EXPECT_TRUE(c.reaches(APP_REGISTERS_MODE, is_ready));
 }
 

@@ -153,20 +153,23 @@ public:
         }
         read_ = false;
         if (mode_ == APP_MODE_FAULT && asked_) {
-            write(APP_REGISTERS_RUN, 0);
+            write(APP_REGISTERS_CONTROLWORD, 6);
             asked_ = false;
         } else if (mode_ == APP_MODE_FAULT && wait_++ >= 5) { // a tenth of a second and more
-            write(APP_REGISTERS_RESET, 1);
+            write(APP_REGISTERS_CONTROLWORD, reset_ ? 6 : 128 + 6);
+            reset_ = !reset_;
             resets_++;
             wait_ = 0;
         } else if (mode_ == APP_MODE_READY && asked_ && wait_++ >= 5) { // refused, or silent
-            write(APP_REGISTERS_RUN, 0);
+            write(APP_REGISTERS_CONTROLWORD, 6);
             asked_ = false;
             wait_  = 0;
         } else if (mode_ == APP_MODE_READY && !asked_) {
-            write(APP_REGISTERS_RUN, 1);
-            asked_ = true;
-            wait_  = 0;
+            write(APP_REGISTERS_CONTROLWORD, shut_down_ ? 15 : 6);
+            asked_     = shut_down_;
+            shut_down_ = !shut_down_;
+            asked_     = true;
+            wait_      = 0;
         } else if (speed_ != told_) {
             write_speed();
             told_ = speed_;
@@ -193,13 +196,15 @@ private:
     }
 
     F28335Run &run_;
-    int        mode_   = -1;
-    int        speed_  = 0;
-    int        told_   = 0;
-    bool       asked_  = false;
-    bool       read_   = false;
-    int        wait_   = 0;
-    int        resets_ = 0;
+    int        mode_      = -1;
+    int        speed_     = 0;
+    int        told_      = 0;
+    bool       asked_     = false;
+    bool       read_      = false;
+    bool       reset_     = false;
+    bool       shut_down_ = false; ///< before a start
+    int        wait_      = 0;
+    int        resets_    = 0;
 };
 
 } // namespace

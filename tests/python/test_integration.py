@@ -31,8 +31,8 @@ def test_mbpoll(served: Served) -> None:
     with Drive(served.target()) as drive:
         until(drive, lambda r: r.mode == Mode.READY)
     told = subprocess.run(["sh", "-c", block("sh", served.tcp)], capture_output=True, text=True, timeout=100)
-    assert told.stdout.count("Written 1 references.") == 3, told
-    modes = [int(m) for m in re.findall(r"^\[0\]:\s+(\d+)", told.stdout, flags=re.M)]
+    assert told.stdout.count("Written 1 references.") == 4, told
+    modes = [int(m) for m in re.findall(r"^\[3\]:\s+(\d+)", told.stdout, flags=re.M)]
     assert Mode.ALIGN in modes and modes[-1] in (Mode.ALIGN, Mode.RUN)  # a slow machine is still at it
     with Drive(served.target()) as drive:
         until(drive, lambda r: r.mode == Mode.READY and not r.conditions & 2)
@@ -58,5 +58,5 @@ def test_who_it_is_and_a_whole_exchange(served: Served) -> None:
         words = drive.convert_to_registers(-1234, drive.DATATYPE.INT32)
         got = drive.readwrite_registers(read_address=2, read_count=2, write_address=2, values=words)
         assert got.registers == words
-        block = drive.read_input_registers(register_map.CONSTANTS[0].address, count=3).registers
+        block = drive.read_input_registers(register_map.CONSTANTS[1].address, count=3).registers
         assert block[0] == 2 and block[1:] == [0, 10000]

@@ -24,6 +24,9 @@ pytest.importorskip("nicegui")
 CLICK = "(words => { [...document.querySelectorAll('button')].find(b => b.innerText.trim().toLowerCase() == words).click(); return true })"
 TEXT = "document.body.innerText"
 # Everything that the plots hold: what moves changes it.
+SCOPE_DRAWN = """(() => { const c = document.querySelectorAll('canvas')[1];
+  const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
+  let n = 0; for (let k = 0; k < d.length; k += 4) if (d[k + 3] && Math.abs(d[k] - d[k + 2]) > 40) n++; return n })()"""
 DRAWN = "(() => document.querySelector('canvas').toDataURL())()"
 
 
@@ -92,6 +95,12 @@ async def use(address: str, pictures: str) -> None:
         await page.until(f"{TEXT}.includes('load 0.8')")
         await asyncio.sleep(3.0)
         assert await page.script(DRAWN) != before
+        await page.script("document.querySelector('.q-expansion-item .q-item').click()")
+        await page.until("document.querySelectorAll('canvas').length == 2")
+        await page.script(f"{CLICK}('take')")
+        await page.until(f"/\\bdone\\b/.test({TEXT})", 60.0)
+        await asyncio.sleep(1.5)  # drawn
+        assert await page.script(SCOPE_DRAWN) > 1000
         if pictures:
             await page.picture(Path(pictures) / "page.png")
         await page.script(f"{CLICK}('break it')")

@@ -16,7 +16,7 @@ from rich.progress import Progress
 from typing_extensions import Annotated
 
 from sdre_drive import load as loader
-from sdre_drive import record, session, show
+from sdre_drive import record, scope, session, show
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.options import Control, PolePairs, Port, Tcp, bench_address, pole_pairs_of, target
 from sdre_drive.registers import Mode, Reading
@@ -108,10 +108,15 @@ def load(
 
 
 @app.command()
-def faults(port: Port = None, tcp: Tcp = None, pole_pairs: PolePairs = None) -> None:
+def faults(
+    port: Port = None, tcp: Tcp = None, pole_pairs: PolePairs = None,
+    csv: Annotated[Optional[Path], typer.Option("--csv", help="the last 64 periods before it", metavar="FILE")] = None,
+) -> None:  # fmt: skip
     """The fault now and what the drive kept of the last one."""
     with Drive(target(port, tcp)) as drive:
         reading = drive.read()
+        if csv:
+            record.write_capture(csv, scope.record(drive))
         pairs = pole_pairs_of(pole_pairs, drive)
     for text in show.reasons(reading):
         out.print(text)
@@ -149,6 +154,28 @@ def log(
         readings = session.follow(drive, end, period_s, length_s)
         count = record.write_csv(csv, readings) if csv else record.write_parquet(parquet or Path(), readings)
     out.print(f"{count} readings written to {csv or parquet}")
+
+
+@app.command(name="scope")
+def take_scope(
+    csv: Annotated[Path, typer.Option("--csv", help="file of 512 lines", metavar="FILE")],
+    signals: Annotated[str, typer.Option("--signals", help="up to four of " + ", ".join(scope.NAMES[1:]))] = "SPEED,IQ,ID,DC_LINK",
+    decimation: Annotated[int, typer.Option("--decimation", min=1, max=65535, help="control periods between samples")] = 1,
+    trigger: Annotated[str, typer.Option("--trigger", help="now, rising or falling")] = "now",
+    channel: Annotated[int, typer.Option("--channel", min=1, max=4, help="the signal that triggers")] = 1,
+    level: Annotated[float, typer.Option("--level", help="in its unit")] = 0.0,
+    before: Annotated[int, typer.Option("--before", min=0, max=511, help="samples before the trigger")] = 0,
+    wait_s: Annotated[float, typer.Option("--wait", min=0.0, help="for the trigger", metavar="S")] = 10.0,
+    port: Port = None,
+    tcp: Tcp = None,
+) -> None:
+    """Takes 512 samples of four signals in the control interrupt. That somebody waits keeps a running drive running."""
+    setup = scope.Setup(signals.split(","), decimation, trigger, channel, level, before)
+    scope.require_possible(setup)
+    with Drive(target(port, tcp)) as drive:
+        capture = scope.take(drive, setup, wait_s)
+    record.write_capture(csv, capture)
+    out.print(f"{len(capture.time_s)} samples of {', '.join(capture.signals)} written to {csv}")
 
 
 @app.command()

@@ -14,7 +14,7 @@ from pymodbus.exceptions import ModbusException
 
 from sdre_drive import register_map, registers
 from sdre_drive.register_map import Register
-from sdre_drive.registers import BY_NAME, Constants, Reading
+from sdre_drive.registers import BY_NAME, Constants, ControlWord, Reading
 
 BAUD = 115200
 # The drive withdraws run after 500 ms without a request: two tries have to fit. TCP loses nothing, and what answers there
@@ -27,7 +27,7 @@ EXCEPTION_WORDS = {
     1: "does not know this function",
     2: "does not have this register",
     3: "refuses this value: it is out of the drive's range",
-    4: "takes this value while it is stopped only",
+    4: "does not take or tell this now",
     11: "did not answer behind its gateway",
 }
 
@@ -108,6 +108,14 @@ class Drive:
             self._constants = registers.constants(self._block(register_map.CONSTANTS))
         return self._constants
 
+    def traces(self) -> Dict[str, float]:
+        """How scope and record stand."""
+        return registers.values(register_map.TRACES, self._block(register_map.TRACES))
+
+    def words(self, first: int, count: int) -> List[int]:
+        """Input registers as they are."""
+        return list(self._asked("read_input_registers", first, count=count).registers)
+
     def write(self, name: str, value: float) -> None:
         """A holding register, in its unit."""
         r = BY_NAME[name]
@@ -129,17 +137,14 @@ class Drive:
         self.write("SPEED", speed_e_radps)
 
     def set_run(self, run: bool) -> None:
-        """A run starts when it rises in READY."""
-        self.write("RUN", run)
-
-    def end_commissioning(self) -> None:
-        """Mode COMMISSION gives up."""
-        self.write("COMMISSION", 0)
+        """Enables the operation, which is shut down first; or stops whatever goes on."""
+        for word in (ControlWord.SHUT_DOWN, ControlWord.ENABLE) if run else (ControlWord.DISABLE_VOLTAGE,):
+            self.write("CONTROLWORD", word)
 
     def reset(self) -> None:
         """Leaves FAULT when what caused it has gone."""
-        self.set_run(False)
-        self.write("RESET", 1)
+        for word in (ControlWord.DISABLE_VOLTAGE, ControlWord.FAULT_RESET, ControlWord.DISABLE_VOLTAGE):
+            self.write("CONTROLWORD", word)
 
     def identify(self) -> Dict[int, str]:
         """Objects of function 43/14, from the drive's name on."""

@@ -57,6 +57,38 @@ def values(registers: Iterable[Register], words: Sequence[int]) -> Dict[str, flo
     return out
 
 
+PROFILE_VELOCITY = 3  # mode of operation
+
+
+class ControlWord(IntEnum):
+    """Of CiA 402, object 6040h."""
+
+    DISABLE_VOLTAGE = 0
+    QUICK_STOP = 2
+    SHUT_DOWN = 6
+    SWITCH_ON = 7
+    ENABLE = 15
+    FAULT_RESET = 128
+
+
+# Bits of the status word (6041h) and their values in each state.
+STATES = (
+    (0x4F, 0x00, "not ready to switch on"),
+    (0x4F, 0x40, "switch on disabled"),
+    (0x6F, 0x21, "ready to switch on"),
+    (0x6F, 0x23, "switched on"),
+    (0x6F, 0x27, "operation enabled"),
+    (0x6F, 0x07, "quick stop active"),
+    (0x4F, 0x0F, "fault reaction active"),
+    (0x4F, 0x08, "fault"),
+)
+
+
+def state_words(statusword: int) -> str:
+    """The state of CiA 402."""
+    return next((words for mask, bits, words in STATES if statusword & mask == bits), "unknown")
+
+
 class Mode(IntEnum):
     """app_mode_t."""
 
@@ -108,6 +140,8 @@ class FirstFault:
 class Reading:
     """The live registers of one tick."""
 
+    statusword: int
+    error_code: int
     mode: int
     why: Why
     conditions: int
@@ -169,6 +203,8 @@ def decode(words: Sequence[int], period_s: float) -> Reading:
         time_s=raw["FIRST_TICKS"] * period_s,
     )
     return Reading(
+        statusword=whole("STATUSWORD"),
+        error_code=whole("ERROR_CODE"),
         mode=whole("MODE"),
         why=Why(whole("FAULT"), whole("DRIVE_FAULT"), whole("BOARD_FAULTS")),
         conditions=whole("CONDITIONS"),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sil/board/board_runs.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
@@ -57,8 +59,10 @@ ApiRun::ApiRun(const Scenario &s, long start_tick, double dead_time_s)
 bool ApiRun::step()
 {
     if (wait_ticks_ > 0 && --wait_ticks_ == 0) {
-        const app_command_t c{omega_of(tenths_), run_, false, false, {}};
-        app_command_write(&c);
+        app_objects_t o = app_control_default(&sil_drive_config);
+        o.omega_e_radps = omega_of(tenths_);
+        o.controlword   = run_ ? APP_CONTROL_ENABLE_OPERATION : APP_CONTROL_SHUT_DOWN;
+        app_command_write(&o);
     }
     fake_.tick();
     app_background();
@@ -84,12 +88,14 @@ void ApiRun::set_run()
 
 bool ApiRun::commission(std::uint16_t current, std::uint16_t speed)
 {
-    const app_command_t c{0.0F,
-                          false,
-                          false,
-                          true,
-                          {0.01F * static_cast<float>(current), 0.1F * static_cast<float>(speed)}};
-    return app_command_write(&c);
+    app_objects_t o     = app_control_default(&sil_drive_config);
+    o.mode_of_operation = APP_CONTROL_COMMISSIONING;
+    o.controlword       = commission_ready_ ? APP_CONTROL_ENABLE_OPERATION : APP_CONTROL_SHUT_DOWN;
+    o.bounds            = {0.01F * static_cast<float>(current), 0.1F * static_cast<float>(speed)};
+    if (!app_command_write(&o) || std::exchange(commission_ready_, true)) {
+        return o.controlword == APP_CONTROL_ENABLE_OPERATION;
+    }
+    return false;
 }
 
 void ApiRun::inject(FaultKind)
@@ -138,9 +144,11 @@ void F28335Run::set_speed(int tenths)
 void F28335Run::command()
 {
     const auto speed = static_cast<std::uint32_t>(tenths_);
-    master_.write(APP_REGISTERS_RUN, {static_cast<std::uint16_t>(run_ ? 1 : 0), 0,
-                                      static_cast<std::uint16_t>(speed >> 16U),
-                                      static_cast<std::uint16_t>(speed & 0xFFFFU)});
+    master_.write(
+        APP_REGISTERS_CONTROLWORD,
+        {static_cast<std::uint16_t>(run_ ? APP_CONTROL_ENABLE_OPERATION : APP_CONTROL_SHUT_DOWN),
+         APP_CONTROL_PROFILE_VELOCITY, static_cast<std::uint16_t>(speed >> 16U),
+         static_cast<std::uint16_t>(speed & 0xFFFFU)});
 }
 
 void F28335Run::set_run()
@@ -151,10 +159,13 @@ void F28335Run::set_run()
 
 bool F28335Run::commission(std::uint16_t current, std::uint16_t speed)
 {
-    const std::array<std::array<std::uint16_t, 2>, 3> writes{
+    const std::array<std::array<std::uint16_t, 2>, 5> writes{
         {{APP_REGISTERS_COMMISSION_CURRENT, current},
          {APP_REGISTERS_COMMISSION_SPEED, speed},
-         {APP_REGISTERS_COMMISSION, 1}}};
+         {APP_REGISTERS_MODE_OF_OPERATION,
+          static_cast<std::uint16_t>(APP_CONTROL_COMMISSIONING & 0xFFFF)},
+         {APP_REGISTERS_CONTROLWORD, APP_CONTROL_SHUT_DOWN},
+         {APP_REGISTERS_CONTROLWORD, APP_CONTROL_ENABLE_OPERATION}}};
     if (commission_writes_ < writes.size() && can_command()) {
         master_.write(writes[commission_writes_][0], writes[commission_writes_][1]);
         commission_writes_++;
@@ -180,7 +191,7 @@ void F28335Run::inject(FaultKind kind)
 
 void F28335Run::chat()
 {
-    master_.read_input(APP_REGISTERS_MODE, polled_registers);
+    master_.read_input(APP_REGISTERS_LIVE_FIRST, polled_registers);
 }
 
 std::array<int, 3> F28335Run::duty_cnt() const

@@ -75,9 +75,10 @@ public:
 private:
     void command();
 
-    int                     tenths_     = 0;
-    bool                    run_        = false;
-    int                     wait_ticks_ = 0; ///< before the command goes; 0: there is none
+    int                     tenths_           = 0;
+    bool                    run_              = false;
+    bool                    commission_ready_ = false;
+    int                     wait_ticks_       = 0; ///< before the command goes; 0: there is none
     f28335::FakeBoard       fake_;
     f28335::FakeBoardChoice choice_;
 };
