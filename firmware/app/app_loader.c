@@ -60,18 +60,19 @@ bool app_loader_read_holding(uint16_t first, uint16_t count, uint16_t *values)
     return true;
 }
 
-static void begin(app_loader_t *l, uint32_t count)
+static void begin(app_loader_t *l)
 {
     l->put_words = 0UL;
     l->reason    = DRIVE_IMAGE_OK;
-    l->state = store_begin(&l->write, STORE_IMAGE, count) ? APP_LOADER_WRITING : APP_LOADER_FLASH;
+    l->state =
+        store_begin(&l->write, STORE_IMAGE, l->count) ? APP_LOADER_WRITING : APP_LOADER_FLASH;
 }
 
-static void commit(app_loader_t *l, uint32_t crc)
+static void commit(app_loader_t *l)
 {
     const store_content_t content = store_written(&l->write);
 
-    if (crc32_words(CRC32_START, content.words, content.count) != crc) {
+    if (crc32_words(CRC32_START, content.words, content.count) != l->crc) {
         l->state = APP_LOADER_SUM;
         return;
     }
@@ -85,6 +86,26 @@ static void commit(app_loader_t *l, uint32_t crc)
         return;
     }
     l->state = store_commit(&l->write) ? APP_LOADER_STORED : APP_LOADER_FLASH;
+}
+
+void app_loader_work(app_loader_t *l)
+{
+    if (l->state != APP_LOADER_BUSY) {
+        return;
+    }
+    if (l->task == APP_LOADER_BEGIN) {
+        begin(l);
+    } else if (l->task == APP_LOADER_COMMIT) {
+        commit(l);
+    } else {
+        l->state = store_forget(STORE_IMAGE) ? APP_LOADER_STORED : APP_LOADER_FLASH;
+    }
+}
+
+static void plan(app_loader_t *l, app_loader_command_t task)
+{
+    l->task  = task;
+    l->state = APP_LOADER_BUSY;
 }
 
 static void restart(app_loader_t *l, bool into_loader)
@@ -102,12 +123,14 @@ static app_loader_result_t command(app_loader_t *l, const uint16_t *values, uint
     if (!runs && (what == (uint16_t)APP_LOADER_ENTER) && (count == 1U)) {
         restart(l, true);
     } else if (runs && (what == (uint16_t)APP_LOADER_BEGIN) && (count == 3U)) {
-        begin(l, pair(&values[APP_LOADER_COUNT_HI]));
+        l->count = pair(&values[APP_LOADER_COUNT_HI]);
+        plan(l, APP_LOADER_BEGIN);
     } else if (runs && (what == (uint16_t)APP_LOADER_COMMIT) && (count == 5U) &&
                (l->state == APP_LOADER_WRITING)) {
-        commit(l, pair(&values[APP_LOADER_CRC_HI]));
+        l->crc = pair(&values[APP_LOADER_CRC_HI]);
+        plan(l, APP_LOADER_COMMIT);
     } else if (runs && (what == (uint16_t)APP_LOADER_FORGET) && (count == 1U)) {
-        l->state = store_forget(STORE_IMAGE) ? APP_LOADER_STORED : APP_LOADER_FLASH;
+        plan(l, APP_LOADER_FORGET);
     } else if (runs && (what == (uint16_t)APP_LOADER_LEAVE) && (count == 1U)) {
         restart(l, false);
     } else {
@@ -137,7 +160,7 @@ app_loader_result_t app_loader_write(app_loader_t *l, bool gate_enable, uint16_t
     if (!exist(first, count, (uint16_t)APP_LOADER_HOLDING_COUNT)) {
         return APP_LOADER_BAD_ADDRESS;
     }
-    if (gate_enable || l->restart) {
+    if (gate_enable || l->restart || (l->state == APP_LOADER_BUSY)) {
         return APP_LOADER_BAD_VALUE;
     }
     if (first == (uint16_t)APP_LOADER_COMMAND) {

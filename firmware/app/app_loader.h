@@ -29,10 +29,11 @@ enum {
     APP_LOADER_HOLDING_COUNT = APP_LOADER_WORDS + APP_LOADER_DATA
 };
 
-/** Values of APP_LOADER_COMMAND; reads as 0. */
+/** Values of APP_LOADER_COMMAND; reads as 0. The loader answers first and then sets to work: the state tells when it is
+ * done, and an erasure leaves it deaf for seconds. */
 typedef enum {
     APP_LOADER_ENTER = 1, /**< the application: restart into the loader; only with the bridge off */
-    APP_LOADER_BEGIN,     /**< erase the older slot: seconds until the answer */
+    APP_LOADER_BEGIN,     /**< erase the older slot */
     APP_LOADER_COMMIT,    /**< check everything, then make it the newest */
     APP_LOADER_FORGET,    /**< erase both: back to what is compiled in */
     APP_LOADER_LEAVE      /**< restart into the application */
@@ -55,6 +56,7 @@ enum {
 typedef enum {
     APP_LOADER_AWAY = 0, /**< the application runs */
     APP_LOADER_IDLE,
+    APP_LOADER_BUSY,    /**< with a command */
     APP_LOADER_WRITING, /**< after BEGIN */
     APP_LOADER_STORED,  /**< after COMMIT or FORGET: LEAVE makes it act */
     APP_LOADER_SUM,     /**< COMMIT refused: the CRC is not that of the content */
@@ -65,6 +67,9 @@ typedef enum {
 typedef struct {
     app_loader_state_t   state;
     drive_image_result_t reason;
+    app_loader_command_t task;  /**< in state BUSY */
+    uint32_t             count; /**< what came with it */
+    uint32_t             crc;
     store_write_t        write;
     uint32_t             put_words;
     bool                 restart; /**< after the answer has been sent */
@@ -94,10 +99,13 @@ typedef enum {
  *
  * @param gate_enable The bridge is on: nothing is taken.
  *
- * Context: background, or the loader, where BEGIN, words and COMMIT wait for the flash.
+ * Context: background, or the loader, where words wait for the flash.
  */
 app_loader_result_t app_loader_write(app_loader_t *l, bool gate_enable, uint16_t first,
                                      uint16_t count, const uint16_t *values);
+
+/** Does the task at hand, if there is one. Context: loader; lasts seconds. */
+void app_loader_work(app_loader_t *l);
 
 /** The loader begins to run, instead of the application. `image` is overwritten. Context: init. */
 void app_loader_start(app_image_t *image);

@@ -41,7 +41,11 @@ void app_loader_pass(void)
 {
     count_ticks();
     app_modbus_poll(&side.modbus, &side.registers, side.ticks);
-    if (side.loader.restart && app_modbus_is_quiet(&side.modbus, side.ticks)) {
+    if (!app_modbus_is_quiet(&side.modbus, side.ticks)) {
+        return; /* an answer is on its way */
+    }
+    if (side.loader.restart) {
         board_restart(side.loader.enter);
     }
+    app_loader_work(&side.loader);
 }

@@ -2,7 +2,6 @@
 #include "fields.h"
 
 #include <stddef.h>
-#include <string.h>
 
 fields_t fields_reader(const uint16_t *words, uint32_t count)
 {
@@ -68,11 +67,13 @@ void fields_flag(fields_t *f, bool *x)
 
 void fields_float(fields_t *f, float *x)
 {
-    uint32_t bits = 0UL;
+    union {
+        float    number;
+        uint32_t bits;
+    } both = {.number = *x};
 
-    (void)memcpy(&bits, x, sizeof bits);
-    fields_u32(f, &bits);
-    (void)memcpy(x, &bits, sizeof bits);
+    fields_u32(f, &both.bits);
+    *x = both.number;
 }
 
 void fields_floats(fields_t *f, float *x, uint16_t count)

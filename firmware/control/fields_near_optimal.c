@@ -29,7 +29,7 @@ static void nosc(fields_t *f, nosc_gains_t *c)
     fields_float(f, &c->iq_speed_max_A);
     fields_float(f, &c->speed_A_per_radps);
     fields_float(f, &c->speed_radps_per_A);
-    for (uint16_t i = 0U; i < (uint16_t)(NOSC_ORDER_MAX + 1); i++) {
+    for (uint16_t i = 0U; i <= (uint16_t)NOSC_ORDER_MAX; i++) {
         for (uint16_t j = 0U; j < (uint16_t)NOSC_N_U; j++) {
             fields_floats(f, c->lambda[i][j], NOSC_N_E);
         }

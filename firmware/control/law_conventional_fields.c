@@ -4,15 +4,18 @@
 
 static void gains(fields_t *f, conventional_gains_t *c)
 {
+    const int16_t law_rows      = DOUBLE_SERIES_TERMS_MAX * NOSC_N_U;
+    const int16_t observer_rows = DOUBLE_SERIES_TERMS_MAX * NODO_N_X;
+
     fields_i16(f, &c->nosc_order);
     fields_float(f, &c->i_error_max_A);
     fields_i16(f, &c->nodo_order);
     fields_float(f, &c->i_max_A);
     fields_float(f, &c->i_certified_A);
-    for (uint16_t i = 0U; i < (uint16_t)(DOUBLE_SERIES_TERMS_MAX * NOSC_N_U); i++) {
+    for (uint16_t i = 0U; i < (uint16_t)law_rows; i++) {
         fields_floats(f, c->lambda[i], NOSC_N_E);
     }
-    for (uint16_t i = 0U; i < (uint16_t)(DOUBLE_SERIES_TERMS_MAX * NODO_N_X); i++) {
+    for (uint16_t i = 0U; i < (uint16_t)observer_rows; i++) {
         fields_floats(f, c->gain[i], NODO_N_Y);
     }
 }

@@ -113,7 +113,7 @@ bool drive_image_copy(drive_image_t *image, const app_config_t *app, const drive
     }
     copy_text(image->digest, app->digest, DRIVE_IMAGE_DIGEST_WORDS);
     copy_text(image->name, app->drive_name, DRIVE_IMAGE_NAME_WORDS);
-    (void)memcpy(&image->constants, drive->constants, law->constants_chars);
+    (void)memcpy(&image->constants, drive->constants, (size_t)law->constants_chars);
     point_inside(image, law);
     return true;
 }

@@ -12,6 +12,7 @@ Command report_command();
 Command orders_command();
 Command tune_command();
 Command new_command();
+Command from_commissioning_command();
 Command care_command();
 
 } // namespace sdre

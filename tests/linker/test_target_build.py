@@ -15,7 +15,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 FAST_RTS = "rts2800_fpu32_fast_supplement_eabi.lib"
 TICK = ["app.c", "app_align.c", "app_angle.c", "app_modes.c", "app_scale.c", "adc.c", "clock.c",
-        "control_isr.c", "cycles.c", "encoder.c", "flash.c", "pie.c", "pwm.c", "store.c", "tick_watch.c", "trip.c"]
+        "control_isr.c", "cycles.c", "encoder.c", "flash.c", "pie.c", "pwm.c", "flash_store.c", "tick_watch.c", "trip.c"]
 
 
 def touch(path):

@@ -55,8 +55,8 @@ files_of()
     find "$core" -name '*.c' ! -name 'law_*.c'
     case $1 in
         any) ;;
-        conventional) printf '%s\n' "$core/law_conventional.c" "$core/law_noc_speed.c" ;;
-        *) printf '%s\n' "$core/law_$1.c" ;;
+        conventional) printf '%s\n' "$core/law_conventional.c" "$core/law_noc_speed.c" "$core/law_conventional_fields.c" "$core/law_noc_speed_fields.c" ;;
+        *) printf '%s\n' "$core/law_$1.c" "$core/law_$1_fields.c" ;;
     esac
 }
 
@@ -65,7 +65,7 @@ analyse()
     local law=$1 entry=$2 log=build/prove/$1.$2.log begin=$SECONDS files alarms open
     mapfile -t files < <(files_of "$law" "$entry")
     # shellcheck disable=SC2086 # options are words
-    frama-c -machdep x86_64 -c11 -cpp-extra-args="-I$core -Ifirmware/commission -I$app -I$board/.. -I$board -DPROVE_$law -DPROVE_LAW=$law" "${files[@]}" \
+    frama-c -machdep x86_64 -c11 -cpp-extra-args="-I$core -Ifirmware/commission -Ifirmware/store -I$app -I$board/.. -I$board -DPROVE_$law -DPROVE_LAW=$law" "${files[@]}" \
         -eva -main "$entry" -lib-entry -warn-special-float none -eva-precision 3 -eva-msg-key=-initial-state,-final-states \
         -eva-slevel-function "${apart[$entry]}" ${options[$entry]} >"$log" 2>&1 || true
     alarms=$(grep -c 'eva:alarm' "$log" || true)

@@ -48,10 +48,13 @@ void tearDown(void) {}
 static app_loader_result_t tell(app_loader_command_t command, uint32_t number, uint32_t crc,
                                 uint16_t used)
 {
-    const uint16_t values[5] = {(uint16_t)command, (uint16_t)(number >> 16),
-                                (uint16_t)(number & 0xFFFFU), (uint16_t)(crc >> 16),
-                                (uint16_t)(crc & 0xFFFFU)};
-    return app_loader_write(&loader, false, APP_LOADER_COMMAND, used, values);
+    const uint16_t            values[5] = {(uint16_t)command, (uint16_t)(number >> 16),
+                                           (uint16_t)(number & 0xFFFFU), (uint16_t)(crc >> 16),
+                                           (uint16_t)(crc & 0xFFFFU)};
+    const app_loader_result_t result =
+        app_loader_write(&loader, false, APP_LOADER_COMMAND, used, values);
+    app_loader_work(&loader);
+    return result;
 }
 
 static app_loader_result_t begin(void)
@@ -220,6 +223,18 @@ static void test_commands_have_their_place_and_their_length(void)
     TEST_ASSERT_TRUE(loader.restart && !loader.enter);
 }
 
+static void test_a_task_is_done_after_its_answer_and_nothing_else_meanwhile(void)
+{
+    const uint16_t forget = APP_LOADER_FORGET;
+    const uint16_t leave  = APP_LOADER_LEAVE;
+    run_loader();
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_OK, app_loader_write(&loader, false, 0U, 1U, &forget));
+    TEST_ASSERT_EQUAL_UINT16(APP_LOADER_BUSY, input(APP_LOADER_STATE));
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_BAD_VALUE, app_loader_write(&loader, false, 0U, 1U, &leave));
+    app_loader_work(&loader);
+    TEST_ASSERT_EQUAL_UINT16(APP_LOADER_STORED, input(APP_LOADER_STATE));
+}
+
 static void test_registers_end_where_they_end(void)
 {
     uint16_t values[APP_LOADER_HOLDING_COUNT + 1] = {0U};
@@ -338,6 +353,7 @@ int main(void)
     RUN_TEST(test_a_stored_image_that_the_board_refuses_is_not_used);
     RUN_TEST(test_words_come_in_turn_and_once);
     RUN_TEST(test_commands_have_their_place_and_their_length);
+    RUN_TEST(test_a_task_is_done_after_its_answer_and_nothing_else_meanwhile);
     RUN_TEST(test_registers_end_where_they_end);
     RUN_TEST(test_a_flash_that_fails_is_told);
     RUN_TEST(test_the_loader_answers_without_ticks_and_leaves_after_its_answer);

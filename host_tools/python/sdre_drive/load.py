@@ -19,7 +19,7 @@ ENTER, BEGIN, COMMIT, FORGET, LEAVE = 1, 2, 3, 4, 5
 NAME, DIGEST = 0x80, 0x81
 # Input registers
 STATE, PUT, ROOM, LAW, NUMBER, COUNT = 0, 2, 4, 6, 7, 9
-AWAY, IDLE, WRITING, STORED, SUM, IMAGE, FLASH = range(7)
+AWAY, IDLE, BUSY, WRITING, STORED, SUM, IMAGE, FLASH = range(8)
 REASONS = {
     1: "it was made by another sdre-gains: make it again with the one that belongs to this firmware",
     2: "it is for another law than the firmware's",
@@ -91,15 +91,6 @@ def _wait(drive: Drive, states: List[int], longest_s: float) -> Loader:
     raise DriveError("the drive does not come back: it restarts with what it had when it is switched off and on")
 
 
-def _tell(drive: Drive, *values: int) -> None:
-    """A command whose answer may come too late for a gateway: what came of it is seen in the state."""
-    try:
-        drive.write_words(COMMAND, list(values))
-    except DriveError as e:
-        if "refuses" in str(e):
-            raise
-
-
 def _enter(drive: Drive) -> Loader:
     found = look(drive)
     if found.room_words == 0:
@@ -114,7 +105,7 @@ def _enter(drive: Drive) -> Loader:
 
 
 def _leave(drive: Drive) -> Loader:
-    _tell(drive, LEAVE)
+    drive.write_words(COMMAND, [LEAVE])
     return _wait(drive, [AWAY], RESTART_S)
 
 
@@ -146,12 +137,12 @@ def load(drive: Drive, path: Path, progress: Callable[[float], None]) -> Loader:
     words = read_image(path)
     _check(look(drive), words, path)
     _enter(drive)
-    _tell(drive, BEGIN, len(words) >> 16, len(words) & 0xFFFF)
+    drive.write_words(COMMAND, [BEGIN, len(words) >> 16, len(words) & 0xFFFF])
     found = _wait(drive, [WRITING, FLASH], ERASE_S)
     if found.state == WRITING:
         _write(drive, words, progress)
         crc = zlib.crc32(b"".join(word.to_bytes(2, "big") for word in words))
-        _tell(drive, COMMIT, len(words) >> 16, len(words) & 0xFFFF, crc >> 16, crc & 0xFFFF)
+        drive.write_words(COMMAND, [COMMIT, len(words) >> 16, len(words) & 0xFFFF, crc >> 16, crc & 0xFFFF])
         found = _wait(drive, [STORED, SUM, IMAGE, FLASH], ERASE_S)
     why = _refusal(found)
     in_force = _leave(drive)
@@ -163,7 +154,7 @@ def load(drive: Drive, path: Path, progress: Callable[[float], None]) -> Loader:
 def forget(drive: Drive) -> Loader:
     """Erases both slots and restarts the drive."""
     _enter(drive)
-    _tell(drive, FORGET)
+    drive.write_words(COMMAND, [FORGET])
     found = _wait(drive, [STORED, FLASH], ERASE_S)
     in_force = _leave(drive)
     if why := _refusal(found):

@@ -20,11 +20,16 @@ static void set_up(void)
 #endif
 
 /* Sectors H and G, by the linker. */
-extern uint16_t board_store_memory[BOARD_STORE_SLOTS][BOARD_STORE_WORDS];
+extern uint16_t board_store_memory[];
+
+static uint16_t *word_of(uint16_t slot, uint32_t offset)
+{
+    return &board_store_memory[((uint32_t)slot * BOARD_STORE_WORDS) + offset];
+}
 
 const uint16_t *board_store(uint16_t slot)
 {
-    return (slot < (uint16_t)BOARD_STORE_SLOTS) ? board_store_memory[slot] : NULL;
+    return (slot < (uint16_t)BOARD_STORE_SLOTS) ? word_of(slot, 0UL) : NULL;
 }
 
 bool board_store_erase(uint16_t slot)
@@ -53,8 +58,7 @@ bool board_store_program(uint16_t slot, uint32_t offset, const uint16_t *words, 
     set_up();
     for (uint16_t n = 0U; n < count; n++) {
         uint16_t word = words[n];
-        if (Flash_Program(&board_store_memory[slot][offset + n], &word, 1UL, &where) !=
-            STATUS_SUCCESS) {
+        if (Flash_Program(word_of(slot, offset + n), &word, 1UL, &where) != STATUS_SUCCESS) {
             return false;
         }
     }
