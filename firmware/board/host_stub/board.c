@@ -5,7 +5,6 @@
 
 #include <stddef.h>
 
-
 #include "board_config.h"
 #include "gain_tables.h"
 #include "host_stub.h"
