@@ -17,23 +17,6 @@ typedef enum {
 
 #define STAY APP_CONTROL_STATES
 
-/* The commanded transitions, by state and by what is asked for; their numbers in CiA 402 are those of docs/modbus.md. */
-static const app_control_state_t transitions[APP_CONTROL_STATES][ASKS] = {
-    /* disable voltage, quick stop, shut down, switch on, enable operation */
-    {STAY, STAY, STAY, STAY, STAY},                           /* NOT_READY */
-    {STAY, STAY, APP_CONTROL_READY_TO_SWITCH_ON, STAY, STAY}, /* SWITCH_ON_DISABLED */
-    {APP_CONTROL_SWITCH_ON_DISABLED, APP_CONTROL_SWITCH_ON_DISABLED, STAY, APP_CONTROL_SWITCHED,
-     APP_CONTROL_OPERATION_ENABLED}, /* READY_TO_SWITCH_ON */
-    {APP_CONTROL_SWITCH_ON_DISABLED, APP_CONTROL_SWITCH_ON_DISABLED, APP_CONTROL_READY_TO_SWITCH_ON,
-     STAY, APP_CONTROL_OPERATION_ENABLED}, /* SWITCHED_ON */
-    {APP_CONTROL_SWITCH_ON_DISABLED, APP_CONTROL_QUICK_STOP_ACTIVE, APP_CONTROL_READY_TO_SWITCH_ON,
-     APP_CONTROL_SWITCHED, STAY}, /* OPERATION_ENABLED */
-    {APP_CONTROL_SWITCH_ON_DISABLED, STAY, STAY, STAY,
-     APP_CONTROL_OPERATION_ENABLED}, /* QUICK_STOP */
-    {STAY, STAY, STAY, STAY, STAY},  /* FAULT_REACTION_ACTIVE */
-    {STAY, STAY, STAY, STAY, STAY}   /* FAULT: left by a reset, which the modes do */
-};
-
 ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
                               const drive_config_t *drive)
 {
@@ -189,6 +172,27 @@ static void change_enabled(app_control_t *c, app_control_state_t to, const app_o
     }
 }
 
+static app_control_state_t next_of(app_control_state_t state, ask_t ask)
+{
+    /* The commanded transitions, by state and by what is asked for; their numbers in CiA 402 are those of docs/modbus.md. */
+    static const app_control_state_t transitions[APP_CONTROL_STATES][ASKS] = {
+        /* disable voltage, quick stop, shut down, switch on, enable operation */
+        {STAY, STAY, STAY, STAY, STAY},                           /* NOT_READY */
+        {STAY, STAY, APP_CONTROL_READY_TO_SWITCH_ON, STAY, STAY}, /* SWITCH_ON_DISABLED */
+        {APP_CONTROL_SWITCH_ON_DISABLED, APP_CONTROL_SWITCH_ON_DISABLED, STAY, APP_CONTROL_SWITCHED,
+         APP_CONTROL_OPERATION_ENABLED}, /* READY_TO_SWITCH_ON */
+        {APP_CONTROL_SWITCH_ON_DISABLED, APP_CONTROL_SWITCH_ON_DISABLED,
+         APP_CONTROL_READY_TO_SWITCH_ON, STAY, APP_CONTROL_OPERATION_ENABLED}, /* SWITCHED_ON */
+        {APP_CONTROL_SWITCH_ON_DISABLED, APP_CONTROL_QUICK_STOP_ACTIVE,
+         APP_CONTROL_READY_TO_SWITCH_ON, APP_CONTROL_SWITCHED, STAY}, /* OPERATION_ENABLED */
+        {APP_CONTROL_SWITCH_ON_DISABLED, STAY, STAY, STAY,
+         APP_CONTROL_OPERATION_ENABLED}, /* QUICK_STOP */
+        {STAY, STAY, STAY, STAY, STAY},  /* FAULT_REACTION_ACTIVE */
+        {STAY, STAY, STAY, STAY, STAY}   /* FAULT: left by a reset, which the modes do */
+    };
+    return transitions[state][ask];
+}
+
 static void step(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen)
 {
     const app_control_state_t modes =
@@ -199,7 +203,7 @@ static void step(app_control_t *c, const app_objects_t *o, const app_control_see
         c->armed = false;
         return;
     }
-    const app_control_state_t to = transitions[c->state][asked_for(o->controlword)];
+    const app_control_state_t to = next_of(c->state, asked_for(o->controlword));
     if (is_enabled(c->state)) {
         change_enabled(c, to, o, seen);
     } else if (to != STAY) {

@@ -138,7 +138,7 @@ static bool belongs(uint16_t id, uint16_t code, uint16_t wanted)
 {
     const uint16_t last = last_of(code);
 
-    return (code == READ_ONE) ? (id == wanted) : ((id >= wanted) && (id <= last));
+    return (id == wanted) || ((code != READ_ONE) && (id > wanted) && (id <= last));
 }
 
 static bool is_known(const object_t *objects, uint16_t id)

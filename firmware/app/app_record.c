@@ -3,7 +3,7 @@
 
 #define MASK (APP_RECORD_SAMPLES - 1U)
 
-const uint16_t app_record_signals[APP_RECORD_SIGNALS] = {
+static const uint16_t signals[APP_RECORD_SIGNALS] = {
     APP_SCOPE_IA,     APP_SCOPE_IB,     APP_SCOPE_DC_LINK, APP_SCOPE_SPEED,
     APP_SCOPE_DUTY_A, APP_SCOPE_DUTY_B, APP_SCOPE_DUTY_C};
 
@@ -34,7 +34,7 @@ void app_record_tick(app_record_t *r, const app_scope_view_t *view)
     float *const to    = r->ring[r->writes & 1U][r->next & MASK];
 
     for (uint16_t k = 0U; k < APP_RECORD_SIGNALS; k++) {
-        to[k] = app_scope_signals_value(view, app_record_signals[k]);
+        to[k] = app_scope_signals_value(view, signals[k]);
     }
     r->next = (uint16_t)((r->next + 1U) & MASK);
     if (r->count < APP_RECORD_SAMPLES) {

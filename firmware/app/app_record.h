@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_record.h
- * @brief The last 64 ticks before a fault: currents, dc link, speed and duty ratios, kept until the next fault.
+ * @brief The last 64 ticks before a fault: currents a and b, dc link, speed and three duty ratios, in this order, kept until the
+ *        next fault.
  *
  * Two rings: the tick writes the one, the other keeps. At a fault they change places; no sample is moved.
  * Cost: seven loads and stores in every tick. Reader: what was read is whole when `number` has not changed meanwhile.
@@ -24,9 +25,6 @@ typedef struct {
     uint16_t number;     /**< of the record kept; wraps */
     bool     was_fault;
 } app_record_t;
-
-/** Signals of a sample in this order. */
-extern const uint16_t app_record_signals[APP_RECORD_SIGNALS];
 
 /** Context: init. */
 void app_record_init(app_record_t *r);

@@ -252,10 +252,11 @@ static bool is_there(const app_registers_t *r, const app_registers_entry_t *e,
                      const uint16_t *words)
 {
     const uint32_t value = value_of(r, &holding, e);
-    const uint32_t low   = value & 0xFFFFUL;
+    const bool     wide  = words_of(e) == 2U;
+    const uint32_t high  = wide ? words[0] : 0U;
+    const uint32_t low   = wide ? words[1] : words[0];
 
-    return (words_of(e) == 1U) ? (low == words[0])
-                               : ((low == words[1]) && ((value >> 16) == words[0]));
+    return (value & (wide ? 0xFFFFFFFFUL : 0xFFFFUL)) == ((high << 16) | low);
 }
 
 static app_registers_result_t try_one(app_registers_t *r, const app_registers_entry_t *e,

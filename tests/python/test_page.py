@@ -103,6 +103,10 @@ async def use(address: str, pictures: str) -> None:
         assert await page.script(SCOPE_DRAWN) > 1000
         if pictures:
             await page.picture(Path(pictures) / "page.png")
+            await page.script("document.querySelectorAll('canvas')[1].scrollIntoView() || true")
+            await asyncio.sleep(0.5)
+            await page.picture(Path(pictures) / "page_scope.png")
+            await page.script("window.scrollTo(0, 0) || true")
         await page.script(f"{CLICK}('break it')")
         await page.until(f"{TEXT}.includes('FAULT') && {TEXT}.includes('Look at:')")
         if pictures:

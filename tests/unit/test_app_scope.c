@@ -165,6 +165,24 @@ static void test_can_be_armed_again_at_any_time(void)
     }
 }
 
+/* What was before it was armed says nothing about the level. */
+static void test_the_first_sample_has_none_before_it(void)
+{
+    setup.trigger = APP_SCOPE_RISING;
+    setup.level   = 500.5f;
+    app_scope_arm(&scope, &setup);
+    while (modes.ticks < 400UL) {
+        tick();
+    }
+    app_scope_stop(&scope);
+    while (modes.ticks < 600UL) {
+        tick();
+    }
+    app_scope_arm(&scope, &setup);
+    tick();
+    TEST_ASSERT_EQUAL_INT(APP_SCOPE_WAITS, scope.state);
+}
+
 static void test_settings_that_are_none_are_refused(void)
 {
     TEST_ASSERT_TRUE(app_scope_knows(&setup));
@@ -226,6 +244,7 @@ int main(void)
     RUN_TEST(test_waits_for_a_level_that_does_not_come);
     RUN_TEST(test_no_number_triggers_nothing);
     RUN_TEST(test_can_be_armed_again_at_any_time);
+    RUN_TEST(test_the_first_sample_has_none_before_it);
     RUN_TEST(test_settings_that_are_none_are_refused);
     RUN_TEST(test_signals_are_what_they_are_called);
     return UNITY_END();

@@ -3,6 +3,8 @@
  * that every run is the same. */
 #include "board.h"
 
+#include <stddef.h>
+
 #include "board_config.h"
 #include "gain_tables.h"
 #include "host_stub.h"
