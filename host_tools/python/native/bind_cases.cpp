@@ -86,6 +86,8 @@ void bind_cases(nb::module_ &m)
 {
     nb::class_<CaseRunner>(m, "Cases")
         .def_prop_ro("measures", &CaseRunner::measures)
+        .def("check", [](CaseRunner                &cases,
+                         const std::vector<double> &values) { cases.check(values.data()); })
         .def("run", &run_cases);
     m.def("cases", &runner);
     m.def("draw_motors", &draw_motors);

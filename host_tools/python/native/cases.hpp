@@ -51,6 +51,12 @@ public:
     /// One run with these values, one for each variable, and this seed. InputError when the scenario cannot have them.
     CaseResult run(const double *values, std::uint64_t seed);
 
+    /// InputError when the scenario cannot have these values; runs nothing.
+    void check(const double *values)
+    {
+        scenario_of(values, first_.seed);
+    }
+
     /// Names of the measures, in the order of the metrics.
     std::vector<std::string> measures() const;
 

@@ -62,12 +62,20 @@ class Cases:
         """Of CaseTable.metrics: "measure.metric"."""
         return tuple(f"{measure}.{metric}" for measure in self._native.measures for metric in self.metrics)
 
+    def check(self, values: Sequence[float]) -> None:
+        """InputError when the scenario cannot have these values, one for each variable; runs nothing."""
+        if len(values) != len(self.variables):
+            raise _native.InputError(f"{len(values)} values for {len(self.variables)} variables")
+        self._native.check([float(value) for value in values])
+
     def run(self, values: FloatArray, seeds: NDArray[np.uint64]) -> CaseTable:
         """One run for each row of `values` (n x variables) with the seed of the same place. One thread.
 
         InputError when the scenario cannot have a value: the line of the scenario file's reader.
         """
-        wide = np.ascontiguousarray(values, dtype=np.float64).reshape(len(seeds), len(self.variables))
+        wide = np.ascontiguousarray(values, dtype=np.float64)
+        if wide.shape != (len(seeds), len(self.variables)):
+            raise _native.InputError(f"values are {wide.shape}, must be {(len(seeds), len(self.variables))}")
         fault, failed, current, speed, metrics = self._native.run(wide, np.ascontiguousarray(seeds, dtype=np.uint64))
         return CaseTable(fault, failed.astype(bool), current, speed, metrics)
 

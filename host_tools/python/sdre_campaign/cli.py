@@ -17,7 +17,10 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 import sdre
 from sdre_campaign.batch import Done, span_of
+from sdre_campaign.cluster import ClusterError, connected, run_batches
 from sdre_campaign.parts import Directory, write_text
+from sdre_campaign.plot import draw_sensitivity
+from sdre_campaign.replay import write_worst
 from sdre_campaign.spec import MOST_CASES, Spec, read_spec
 from sdre_campaign.summary import Summary, summarise
 
@@ -57,8 +60,6 @@ def campaign(
 
 def _run(directory: Directory, missing: List[int], scheduler: Optional[str], workers: int) -> str:
     """Runs what is missing; gives a line about how fast."""
-    from sdre_campaign.cluster import connected, run_batches
-
     spec = directory.spec
     counts = [span_of(spec, batch)[1] for batch in missing]
     spent = [0.0, 0.0]
@@ -90,9 +91,6 @@ def _run(directory: Directory, missing: List[int], scheduler: Optional[str], wor
 
 
 def _write(directory: Directory, summary: Summary) -> None:
-    from sdre_campaign.plot import draw_sensitivity
-    from sdre_campaign.replay import write_worst
-
     spec = directory.spec
     write_text(directory.path / "summary.json", json.dumps(summary.as_dict(), indent=1) + "\n")
     write_worst(spec, summary.worst, directory.path / "worst")
@@ -121,11 +119,7 @@ def main() -> None:
         app()
     except (sdre.InputError, sdre.DesignError) as error:
         sys.exit(_say(str(error), EXIT_BAD_INPUT if isinstance(error, sdre.InputError) else 2))
-    except ImportError as error:
-        sys.exit(_say(f"{error.name} is missing: pip install './host_tools/python[campaign]'", EXIT_BAD_INPUT))
-    except RuntimeError as error:  # ClusterError, without importing it here
-        if type(error).__name__ != "ClusterError":
-            raise
+    except ClusterError as error:
         sys.exit(_say(f"{error}; --resume goes on", EXIT_BAD_INPUT))
 
 

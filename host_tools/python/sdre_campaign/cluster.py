@@ -32,7 +32,7 @@ def connected(scheduler: Optional[str], workers: int) -> Iterator[Client]:
     dask.config.set({"distributed.admin.tick.limit": "1h"})  # no words about a thread that computes
     if scheduler is None:
         with LocalCluster(
-            n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None, memory_limit=0,
+            n_workers=workers, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0", memory_limit=0,
             silence_logs=logging.CRITICAL) as cluster, Client(cluster) as client:  # fmt: skip
             yield client
         return

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, Dict, List, Mapping, Optional, Tuple
 
 import sdre
+from sdre.cases import motor_variables
 from sdre.scenario import LARGEST_SEED
 from sdre.toml_text import plain, put, read_text, table
 
@@ -167,7 +168,9 @@ def read_spec(path: Path) -> Spec:
         drive_path=drive_path.resolve(),
     )
     keys.reject_unknown()
-    sdre.Cases(sdre.Scenario(spec.scenario, spec.drive()), spec.drive(), spec.variables(), spec.metrics)
+    cases = sdre.Cases(sdre.Scenario(spec.scenario, spec.drive()), spec.drive(), spec.variables(), spec.metrics)
+    cases.check([one.low for one in varied])
+    cases.check([one.high for one in varied])
     return spec
 
 
@@ -219,8 +222,6 @@ def _motors(scenario: Mapping[str, Any], path: Path) -> Tuple[Varied, ...]:
     ranges = scenario.get("motor_ranges")
     if not isinstance(ranges, dict):
         raise sdre.InputError(f"{path}: [motor_ranges] is missing")
-    from sdre.cases import motor_variables
-
     try:
         return tuple(Varied(one, "uniform", float(ranges[one.name][0]), float(ranges[one.name][1]))
             for one in motor_variables())  # fmt: skip

@@ -1,0 +1,331 @@
+# SPDX-License-Identifier: MIT
+"""Campaigns: drawing, interruption, summary, replay."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Dict, List
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+from test_sdre import SCENARIOS, SHIPPED, TOOLS
+
+import sdre
+from sdre_campaign.batch import run_batch
+from sdre_campaign.draw import even_numbers, values_of
+from sdre_campaign.spec import Spec, read_spec
+from sdre_campaign.summary import clopper_pearson, summarise
+
+SHORT = f"""
+scenario = "{SCENARIOS}/board_random_motors.toml"
+method = "random"
+cases = 240
+batch = 20
+worst = 3
+[change]
+duration_s = 0.12
+"speed_reference.1.time_s" = 0.02
+"load_torque.1.time_s" = 0.07
+"measure.0.time_s" = 0.02
+"measure.1.time_s" = 0.07
+[[variable]]
+name = "flux"
+keys = ["plant_scale.pm_flux_Wb"]
+range = [0.3, 1.5]
+[[variable]]
+name = "load"
+keys = ["load_torque.1.value_Nm"]
+range = [0.5, 2.5]
+"""
+
+
+def write_spec(path: Path, text: str = SHORT) -> Path:
+    """A specification file."""
+    path.mkdir(parents=True, exist_ok=True)
+    file = path / "short.toml"
+    file.write_text(text)
+    return file
+
+
+def command(*words: Any) -> List[str]:
+    """sdre-campaign."""
+    return [sys.executable, "-B", "-m", "sdre_campaign", *map(str, words)]
+
+
+def campaign(*words: Any, exit_code: int = 4) -> str:
+    """Runs it to its end; exit code 4: a case has failed."""
+    done = subprocess.run(command(*words), capture_output=True, text=True, timeout=300)
+    assert done.returncode == exit_code, done.stderr + done.stdout
+    return done.stdout + done.stderr
+
+
+def parts(directory: Path) -> Dict[str, bytes]:
+    """What is written of the cases."""
+    return {path.name: path.read_bytes() for path in sorted((directory / "parts").glob("*.parquet"))}
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A campaign that nothing has disturbed, by one worker."""
+    path = tmp_path_factory.mktemp("whole")
+    campaign(write_spec(path), "--out", path / "out", "--workers", 1)
+    return path / "out"
+
+
+def wait_for_parts(directory: Path, count: int) -> None:
+    """Until so many are there."""
+    end = time.monotonic() + 60.0
+    while len(list((directory / "parts").glob("part-*.parquet"))) < count:
+        assert time.monotonic() < end, "no parts come"
+        time.sleep(0.01)
+
+
+def test_two_workers_write_the_same_bytes_as_one(whole: Path, tmp_path: Path) -> None:
+    campaign(write_spec(tmp_path), "--out", tmp_path / "out", "--workers", 2)
+
+    assert parts(tmp_path / "out") == parts(whole)
+    for name in ("summary.json", "sensitivity.png"):
+        assert (tmp_path / "out" / name).read_bytes() == (whole / name).read_bytes(), name
+
+
+def test_killed_client_loses_and_repeats_nothing_that_was_written(whole: Path, tmp_path: Path) -> None:
+    spec, out = write_spec(tmp_path), tmp_path / "out"
+    client = subprocess.Popen(command(spec, "--out", out, "--workers", 1), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    wait_for_parts(out, 2)
+    client.send_signal(signal.SIGKILL)
+    client.wait()
+    (out / "parts" / ".part-000011.parquet.tmp").write_bytes(b"half a part")
+    before = {path: path.stat().st_mtime_ns for path in (out / "parts").glob("part-*")}
+    assert 2 <= len(before) < 12
+
+    assert "--resume goes on" in campaign(spec, "--out", out, exit_code=1)
+    said = campaign(spec, "--out", out, "--workers", 2, "--resume")
+
+    assert parts(out) == parts(whole)
+    assert {path: path.stat().st_mtime_ns for path in before} == before
+    assert f"{240 - 20 * len(before)} cases in" in said
+    assert not list((out / "parts").glob(".*"))
+
+
+def test_killed_worker_is_replaced(whole: Path, tmp_path: Path) -> None:
+    spec, out = write_spec(tmp_path), tmp_path / "out"
+    client = subprocess.Popen(command(spec, "--out", out, "--workers", 2), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    wait_for_parts(out, 1)
+    os.kill(worker_of(client.pid), signal.SIGKILL)
+
+    assert client.wait(120) == 4
+    assert parts(out) == parts(whole)
+
+
+def worker_of(client: int) -> int:
+    """The process that has computed most among those below the client."""
+    found = []
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = stat.read_text().rsplit(")", 1)[1].split()
+            if int(fields[1]) == client:
+                found.append((int(fields[11]), int(stat.parent.name)))
+        except (OSError, IndexError):
+            continue
+    assert found, "no worker below the client"
+    return max(found)[1]
+
+
+def test_cluster_of_others_writes_the_same_bytes(whole: Path, tmp_path: Path) -> None:
+    from distributed import LocalCluster
+
+    with LocalCluster(n_workers=1, threads_per_worker=2, processes=False,
+                      dashboard_address="127.0.0.1:0", protocol="tcp://") as cluster:  # fmt: skip
+        campaign(write_spec(tmp_path), "--out", tmp_path / "out", "--scheduler", cluster.scheduler_address)
+
+    assert parts(tmp_path / "out") == parts(whole)
+
+
+def test_no_scheduler_is_one_clear_line(tmp_path: Path) -> None:
+    said = campaign(write_spec(tmp_path), "--out", tmp_path / "out", "--scheduler", "tcp://127.0.0.1:9", exit_code=1)
+    assert said.strip().splitlines() == ["sdre-campaign: tcp://127.0.0.1:9: no scheduler answers; --resume goes on"]
+
+
+def test_more_cases_keep_those_there_are(whole: Path, tmp_path: Path) -> None:
+    spec, out = write_spec(tmp_path), tmp_path / "out"
+    campaign(spec, "--out", out, "--workers", 1, "--cases", 50)
+    campaign(spec, "--out", out, "--workers", 1, "--resume")
+
+    assert parts(out) == parts(whole)
+
+
+def test_summary_counts_what_the_parts_say(whole: Path) -> None:
+    said = json.loads((whole / "summary.json").read_text())
+    table = pq.read_table(whole / "parts")
+    failed = table["failed"].to_numpy()
+    margin = np.minimum(table["current_margin"].to_numpy(), table["speed_margin"].to_numpy())
+
+    assert said["cases"] == 240 == table.num_rows
+    assert said["failures"] == failed.sum() > 0
+    assert said["margin"]["least"] == margin.min()
+    assert said["margin"]["mean"] == pytest.approx(margin.mean())
+    assert said["interval_95"][0] < said["failures"] / 240 < said["interval_95"][1]
+    order = np.lexsort((table["case"].to_numpy(), margin, ~failed))
+    assert [one["case"] for one in said["worst"]] == table["case"].to_numpy()[order][:3].tolist()
+
+
+def test_worst_cases_replay_to_the_bit(whole: Path, tmp_path: Path) -> None:
+    files = sorted((whole / "worst").glob("*.toml"))
+    table = pq.read_table(whole / "parts")
+    assert len(files) == 3
+    for file in files:
+        out = tmp_path / "run.json"
+        subprocess.run([str(TOOLS / "sdre-sil"), "run", str(file), "--json", str(out)], check=False, capture_output=True)
+        said = json.loads(out.read_text())
+        row = table.slice(int(file.stem.split("_case_")[1]), 1).to_pylist()[0]
+        assert said["seed"] == row["seed"] and (said["fault"] == "none") == (row["fault"] == 0)
+        for measure, metrics in said["measures"].items():
+            for name in ("settling_time_s", "dip_e_radps", "ripple_e_radps"):
+                kept = row[f"{measure}.{name}"]
+                assert (metrics[name] is None and np.isnan(kept)) or metrics[name] == kept, (file, measure, name)
+
+
+def test_motors_are_those_of_sdre_sil(tmp_path: Path) -> None:
+    text = f'scenario = "{SCENARIOS}/board_random_motors.toml"\nmethod = "motors"\ncases = 6\nseed = 1\n'
+    spec = read_spec(write_spec(tmp_path, text))
+    subprocess.run([str(TOOLS / "sdre-sil"), "motors", str(SCENARIOS / "board_random_motors.toml"), "--count", "6", "--csv",
+        str(tmp_path / "m.csv")], check=False, capture_output=True)  # fmt: skip
+    rows = list(csv.DictReader((tmp_path / "m.csv").open()))
+    ours = run_batch(spec, 0).table.to_pylist()
+
+    assert len(rows) == len(ours) == 6
+    for row, case in zip(rows, ours):
+        assert int(row["motor"]) == case["seed"] and bool(int(row["failed"])) == case["failed"]
+        for name in ("resistance", "inductance", "flux", "inertia"):
+            assert float(row[name]) == pytest.approx(case[f"value.{name}"], rel=1e-5)
+
+
+def test_margin_is_below_zero_where_a_case_fails() -> None:
+    drive = sdre.Drive.from_toml(SHIPPED)
+    scenario = sdre.Scenario(SCENARIOS / "board_load_step.toml")
+    cases = sdre.Cases(scenario, drive, [sdre.Variable("load", ("load_torque.1.value_Nm",))], ["peak_current_A"])
+    loads = np.array([[1.0], [1.5], [9.0]])  # the last is more than the motor can carry
+    result = cases.run(loads, np.ones(3, dtype=np.uint64))
+
+    assert result.failed.tolist() == [False, False, True]
+    assert ((np.minimum(result.current_margin, result.speed_margin) < 0.0) == result.failed).all()
+    peak_A = np.nanmax(result.metrics[:2], axis=1)
+    assert (result.current_margin[:2] <= 1.0 - peak_A / 4.4 + 1e-12).all()
+
+
+def test_case_is_the_same_in_any_batch() -> None:
+    together = even_numbers(7, 0, 1000, 5)
+    pieces = np.vstack([even_numbers(7, first, 250, 5) for first in range(0, 1000, 250)])
+
+    assert np.array_equal(together, pieces)
+    assert ((together >= 0.0) & (together < 1.0)).all()
+    assert abs(together.mean() - 0.5) < 5.0 / np.sqrt(12.0 * 5000.0)
+    assert np.abs(np.corrcoef(together.T) - np.eye(5)).max() < 5.0 / np.sqrt(1000.0)
+    assert not np.array_equal(together, even_numbers(8, 0, 1000, 5))
+    assert len(np.unique(together)) == together.size
+
+
+def drawn(tmp_path: Path, method: str, *variables: str) -> Spec:
+    """A campaign with these variables of the load."""
+    head = f'scenario = "{SCENARIOS}/board_load_step.toml"\nmethod = "{method}"\n' + ("cases = 4000\n" if method == "random" else "")
+    keys = ["load_torque.1.value_Nm", "plant_scale.inertia_kgm2", "sensors.adc_bits"]
+    text = "".join(f'[[variable]]\nname = "{key}"\nkeys = ["{key}"]\n{one}\n' for key, one in zip(keys, variables))
+    return read_spec(write_spec(tmp_path, head + text))
+
+
+def test_grid_and_corners_have_every_combination(tmp_path: Path) -> None:
+    grid = drawn(tmp_path, "grid", "range = [1.0, 2.0]\npoints = 3", 'range = [0.5, 2.0]\ndistribution = "log_uniform"\npoints = 3',
+        "values = [10, 12]\nwhole = true")  # fmt: skip
+    corners = drawn(tmp_path, "corners", "range = [1.0, 2.0]", "range = [0.5, 2.0]")
+
+    assert grid.cases == 18 and corners.cases == 4
+    assert values_of(grid, 0, 3).tolist() == [[1.0, 0.5, 10.0], [1.0, 0.5, 12.0], [1.0, 1.0, 10.0]]
+    assert len(np.unique(values_of(grid, 0, 18), axis=0)) == 18
+    assert np.array_equal(values_of(grid, 5, 13), values_of(grid, 0, 18)[5:])
+    assert values_of(corners, 0, 4).tolist() == [[1.0, 0.5], [1.0, 2.0], [2.0, 0.5], [2.0, 2.0]]
+    twice = replace(corners, repeats=2, cases=8)
+    assert values_of(twice, 2, 2).tolist() == [[1.0, 2.0], [1.0, 2.0]]
+
+
+def test_distributions_are_what_they_say(tmp_path: Path) -> None:
+    spec = drawn(tmp_path, "random", 'range = [0.0, 3.0]\ndistribution = "normal"\nmean = 1.0\ndeviation = 0.5',
+        'range = [0.1, 10.0]\ndistribution = "log_uniform"', "values = [10, 12, 14]\nwhole = true")  # fmt: skip
+    load, inertia, bits = values_of(spec, 0, spec.cases).T
+    error = 5.0 / np.sqrt(spec.cases)
+
+    # A normal distribution cut at -2 and +4 deviations: mean 1 + 0.5 (phi(-2) - phi(4)) / (Phi(4) - Phi(-2)).
+    assert load.mean() == pytest.approx(1.0 + 0.5 * (0.05399097 - 0.00013383) / (0.99996833 - 0.02275013), abs=0.5 * error)
+    assert 0.0 <= load.min() and load.max() <= 3.0
+    assert np.log10(inertia).mean() == pytest.approx(0.0, abs=0.6 * error)
+    assert [float(np.mean(bits == value)) for value in (10, 12, 14)] == pytest.approx([1.0 / 3.0] * 3, abs=0.5 * error)
+
+
+def test_interval_is_that_of_the_books() -> None:
+    # Clopper and Pearson's table and the rule of three's exact form.
+    assert clopper_pearson(0, 100) == pytest.approx((0.0, 1.0 - 0.025**0.01))
+    assert clopper_pearson(3, 20) == pytest.approx((0.0320709, 0.3789268), abs=1e-6)
+    assert clopper_pearson(20, 20) == pytest.approx((0.025**0.05, 1.0))
+
+
+def test_first_order_index_of_a_known_margin(whole: Path, tmp_path: Path) -> None:
+    spec = read_spec(write_spec(tmp_path))
+    table = pq.read_table(whole / "parts")
+    n = 20000
+    u = even_numbers(1, 0, n, 2)
+    flux, load = 0.3 + 1.2 * u[:, 0], 0.5 + 2.0 * u[:, 1]
+    margin = 0.2 * (2.0 * u[:, 0] + u[:, 1])  # explains 4 : 1
+    kinds = {"case": np.arange(n), "seed": np.arange(n), "failed": margin < 0.1, "fault": np.zeros(n, dtype=np.int32),
+        "current_margin": margin, "speed_margin": np.ones(n), "value.flux": flux, "value.load": load}  # fmt: skip
+    made = table.schema.empty_table().from_pydict(kinds)
+    said = summarise(spec, [made.slice(0, 7000), made.slice(7000)]).as_dict()
+
+    assert said["first_order"] == pytest.approx({"flux": 0.8, "load": 0.2}, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    "text, words",
+    [
+        (SHORT.replace("cases = 240", "cases = 0"), "cases = 0 is not allowed: must be in 1"),
+        (SHORT.replace("cases = 240\n", ""), "cases is missing"),
+        (SHORT.replace('"random"', '"sobol"'), 'method = "sobol" is not allowed'),
+        (SHORT.replace("worst = 3", "wurst = 3"), "wurst is not a known key"),
+        (SHORT.replace("board_random_motors", "nowhere"), "cannot be read"),
+        (SHORT.replace("load_torque.1.value_Nm", "load_torque.9.value_Nm"), "leads nowhere"),
+        (SHORT.replace('name = "load"', 'name = "flux"'), "name is used twice"),
+        (SHORT.replace("[0.5, 2.5]", "[2.5, 0.5]"), "must be [low, high]"),
+        (SHORT.replace("worst = 3", 'metrics = ["speed"]'), "not the name of a metric"),
+        (SHORT.replace("batch = 20", "batch = true"), "batch = True is not allowed"),
+        (SHORT.replace("duration_s = 0.12", "duration_s = -1.0"), "duration_s = -1 is not allowed"),
+        ("scenario = ", "not valid TOML"),
+    ],
+)
+def test_wrong_specification_is_one_clear_line(text: str, words: str, tmp_path: Path) -> None:
+    with pytest.raises(sdre.InputError) as error:
+        read_spec(write_spec(tmp_path, text))
+    assert words in str(error.value) and "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("bounds", ["[-0.5, 1.5]", "[0.5, 150.0]"])
+def test_value_that_a_scenario_cannot_have_is_refused_before_the_first_case(bounds: str, tmp_path: Path) -> None:
+    spec = write_spec(tmp_path, SHORT.replace("[0.3, 1.5]", bounds))
+    said = campaign(spec, "--out", tmp_path / "out", "--workers", 1, exit_code=1)
+
+    assert len(said.strip().splitlines()) == 1 and "pm_flux_Wb" in said
+    assert not (tmp_path / "out").exists()
+
+
+def test_directory_of_another_campaign_stays(whole: Path, tmp_path: Path) -> None:
+    before = parts(whole)
+    said = campaign(write_spec(tmp_path, SHORT.replace("[0.5, 2.5]", "[0.5, 2.0]")), "--out", whole, "--resume", exit_code=1)
+
+    assert "has parts of another campaign" in said
+    assert parts(whole) == before
