@@ -30,7 +30,7 @@ _EFFORT = 0.01  # of the reward
 _LOST = -100.0
 
 
-class SpeedEnv(gymnasium.Env):  # type: ignore[misc]
+class SpeedEnv(gymnasium.Env):
     """The motor, its load, inverter and sensors of a scenario; the agent sees samples and sets voltages."""
 
     metadata: Dict[str, Any] = {"render_modes": []}

@@ -99,7 +99,7 @@ class Simulation:
         InputError once the run has ended.
         """
         values, fault, ended = self._native.step(omega_ref_e_radps, extra_load_Nm)
-        return State(*values, fault, ended)
+        return State._make((*values, fault, ended))
 
 
 class Core:

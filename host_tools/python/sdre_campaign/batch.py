@@ -67,4 +67,5 @@ def _cases(spec: Spec) -> sdre.Cases:
         drive = spec.drive()
         _kept.cases = sdre.Cases(sdre.Scenario(spec.scenario, drive), drive, spec.variables(), spec.metrics)
         _kept.digest = digest
-    return _kept.cases
+    cases: sdre.Cases = _kept.cases
+    return cases

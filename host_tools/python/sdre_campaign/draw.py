@@ -48,7 +48,7 @@ def even_numbers(seed: int, first: int, count: int, width: int) -> FloatArray:
     blocks = max(1, math.ceil(width / _PER_BLOCK))
     generator = np.random.Philox(key=seed, counter=first * blocks)
     raw = generator.random_raw(count * blocks * _PER_BLOCK).reshape(count, blocks * _PER_BLOCK)
-    return (raw[:, :width] >> np.uint64(11)) * 2.0**-53
+    return (raw[:, :width] >> np.uint64(11)).astype(np.float64) * 2.0**-53
 
 
 def _drawn(one: Varied, share: FloatArray) -> FloatArray:

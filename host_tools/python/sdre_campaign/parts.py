@@ -65,7 +65,7 @@ class Directory:
         if not path.exists():
             return False
         try:  # the last part of a campaign that had fewer cases is not
-            return pq.read_metadata(path).num_rows == span_of(self.spec, batch)[1]
+            return bool(pq.read_metadata(path).num_rows == span_of(self.spec, batch)[1])
         except (pa.ArrowException, OSError):
             return False
 

@@ -8,7 +8,7 @@ import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional, Tuple
+from typing import Any, Dict, List, Mapping, Optional, Set, Tuple
 
 import sdre
 from sdre.cases import motor_variables
@@ -77,7 +77,8 @@ class Keys:
     """A table of the specification, read key by key."""
 
     def __init__(self, keys: Mapping[str, Any], where: str) -> None:
-        self._keys, self._where, self._known = keys, where, set()
+        self._keys, self._where = keys, where
+        self._known: Set[str] = set()
 
     def fail(self, key: str, what: str) -> sdre.InputError:
         """What is wrong, in one line."""
@@ -96,6 +97,11 @@ class Keys:
         if not isinstance(value, kind) or isinstance(value, bool) and kind is not bool:
             raise self.fail(key, f"= {value!r} is not allowed: must be of type {kind.__name__}")
         return value
+
+    def has(self, key: str) -> bool:
+        """Whether it is there."""
+        self._known.add(key)
+        return key in self._keys
 
     def whole(self, key: str, lo: int, hi: int, default: Optional[int] = None) -> int:
         """A whole number in a range."""
@@ -175,7 +181,7 @@ def read_spec(path: Path) -> Spec:
 
 
 def _drive_path(keys: Keys, spec: Path, scenario_path: Path, scenario: Mapping[str, Any]) -> Path:
-    named = keys.get("drive", str, "")
+    named = str(keys.get("drive", str, ""))
     if named:
         return spec.parent / named
     if "drive" not in scenario:
@@ -193,13 +199,8 @@ def _for_runs(scenario: Dict[str, Any], method: str) -> Dict[str, Any]:
 
 
 def _fixed_seed(keys: Keys) -> Optional[int]:
-    value = keys.whole("noise_seed", 0, LARGEST_SEED, -1) if _has(keys, "noise_seed") else -1
+    value = keys.whole("noise_seed", 0, LARGEST_SEED, -1) if keys.has("noise_seed") else -1
     return None if value < 0 else value
-
-
-def _has(keys: Keys, key: str) -> bool:
-    keys._known.add(key)
-    return key in keys._keys
 
 
 def _cases(keys: Keys, method: str, varied: Tuple[Varied, ...], repeats: int) -> int:
@@ -242,7 +243,7 @@ def _one(keys: Keys, method: str) -> Varied:
     variable = sdre.Variable(keys.get("name", str), tuple(keys.words("keys")), keys.get("whole", bool, False))
     if not variable.keys:
         raise keys.fail("keys", "is empty")
-    distribution = keys.choice("distribution", DISTRIBUTIONS, "values" if _has(keys, "values") else "uniform")
+    distribution = keys.choice("distribution", DISTRIBUTIONS, "values" if keys.has("values") else "uniform")
     points = keys.whole("points", 1, 100000, 5)
     if distribution == "values":
         values = tuple(keys.numbers("values", 1))
