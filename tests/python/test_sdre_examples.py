@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -24,7 +25,7 @@ SAYS = {
 
 
 def test_every_example_is_tried() -> None:
-    assert {path.stem for path in EXAMPLES.glob("*.py")} == set(SAYS) | {"common"}
+    assert {path.stem for path in EXAMPLES.glob("*.py")} == set(SAYS) | {"common", "motulator_both"}
 
 
 @pytest.mark.parametrize("name", SAYS)
@@ -60,3 +61,12 @@ def test_environment_ends_with_its_scenario_and_after_too_much_current() -> None
     env.reset(seed=1)
     rewards = [env.step(np.array([1.0, -1.0], dtype=np.float32))[1:3] for _ in range(40)]
     assert any(lost and reward == -100.0 for reward, lost in rewards)
+
+
+def test_core_on_the_plant_of_motulator_does_the_same_as_on_ours(tmp_path: Path) -> None:
+    picture = tmp_path / "both.png"
+    done = subprocess.run([sys.executable, "-B", str(EXAMPLES / "motulator_both.py"), str(picture)], capture_output=True,
+        text=True, check=True, timeout=180)  # fmt: skip
+    apart = float(re.search(r"differ by ([0-9.]+) rad/s", done.stdout).group(1))
+
+    assert apart < 0.6  # measured 0.125 of 300 rad/s: their solver's relative tolerance is 1e-3
