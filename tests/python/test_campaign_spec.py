@@ -12,7 +12,7 @@ from test_campaign import SHORT, write_spec
 from test_sdre import SCENARIOS
 
 import sdre
-from sdre_campaign.draw import even_numbers, values_of
+from sdre_campaign.draw import even_numbers, seeds_of, values_of
 from sdre_campaign.spec import Spec, read_spec
 from sdre_campaign.summary import clopper_pearson
 
@@ -27,6 +27,13 @@ def test_case_is_the_same_in_any_batch() -> None:
     assert np.abs(np.corrcoef(together.T) - np.eye(5)).max() < 5.0 / np.sqrt(1000.0)
     assert not np.array_equal(together, even_numbers(8, 0, 1000, 5))
     assert len(np.unique(together)) == together.size
+
+
+def test_noise_seed_is_the_number_of_the_case(tmp_path: Path) -> None:
+    spec = read_spec(write_spec(tmp_path))
+
+    assert seeds_of(spec, 20, 3).tolist() == [21, 22, 23]
+    assert seeds_of(replace(spec, fixed_seed=4), 20, 3).tolist() == [4, 4, 4]
 
 
 def drawn(tmp_path: Path, method: str, *variables: str) -> Spec:
