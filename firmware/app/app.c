@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app.h"
 
+#include "app_loader.h"
 #include "app_modbus.h"
 #include "app_modes.h"
 #include "app_watch_memory.h"
@@ -39,6 +40,7 @@ static struct {
 static struct {
     app_modbus_t       modbus;
     app_registers_t    registers;
+    app_loader_t       loader;
     app_status_t       read; /* may be of two ticks */
     app_watch_tick_t   watch;
     app_watch_memory_t memory;
@@ -97,11 +99,12 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
 {
     const ctl_status_t modes = init_tick_side(config, drive);
     const ctl_status_t modbus =
-        app_modbus_init(&background_side.modbus, tick_side.config.modbus_address,
-                        tick_side.config.modbus_gap_ticks, tick_side.config.modbus_timeout_ticks);
+        app_modbus_init(&background_side.modbus, tick_side.config.modbus_gap_ticks);
+    const ctl_status_t registers =
+        app_registers_init(&background_side.registers, &tick_side.config, drive);
 
-    app_registers_init(&background_side.registers, drive->speed_max_e_radps);
-    background_side.served_ticks = 0UL;
+    background_side.loader.restart = false;
+    background_side.served_ticks   = 0UL;
     app_watch_tick_reset(&background_side.watch);
     watch_memory(&background_side.memory, drive, modes == CTL_OK);
 
@@ -115,7 +118,8 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
     shared.cycles           = 0U;
     shared.cycles_worst     = 0U;
     read_status();
-    return ((modes == CTL_OK) && (modbus == CTL_OK)) ? CTL_OK : CTL_BAD_CONFIG;
+    return ((modes == CTL_OK) && (modbus == CTL_OK) && (registers == CTL_OK)) ? CTL_OK
+                                                                              : CTL_BAD_CONFIG;
 }
 
 static void take_command(void)
@@ -213,6 +217,17 @@ void app_tick(void)
     finish(in->board_faults, start_cycles);
 }
 
+/* Into the loader, when the answer that says so is out. A bridge that came on meanwhile cancels it. */
+static void restart_when_asked(uint32_t now_ticks)
+{
+    app_loader_t *l = &background_side.loader;
+
+    l->restart = l->restart && !background_side.registers.status.gate_enable;
+    if (l->restart && app_modbus_is_quiet(&background_side.modbus, now_ticks)) {
+        board_restart(l->enter);
+    }
+}
+
 static void serve_watchdog(uint32_t now_ticks)
 {
     if (now_ticks != background_side.served_ticks) {
@@ -240,10 +255,17 @@ void app_background(void)
 
     read_status();
     app_modbus_poll(&background_side.modbus, r, now_ticks);
-    if (r->changed && app_command_write(&r->command)) {
-        r->changed       = false;
-        r->command.reset = false;
+    if (r->changed && app_command_write(&r->wanted.command)) {
+        r->changed              = false;
+        r->wanted.command.reset = false;
     }
+    restart_when_asked(now_ticks);
+}
+
+void app_tell_image(const app_image_t *image)
+{
+    app_loader_init(&background_side.loader, image);
+    background_side.registers.loader = &background_side.loader;
 }
 
 bool app_command_write(const app_command_t *command)

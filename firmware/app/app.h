@@ -23,6 +23,7 @@
 #define APP_H
 
 #include "app_config.h"
+#include "app_image.h"
 #include "app_status.h"
 
 /**
@@ -35,6 +36,14 @@
  * Context: init, before board_start().
  */
 ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive);
+
+/**
+ * @brief What the constants are called, for who asks over Modbus, and the way into the loader: without this call the
+ *        registers of app_loader.h do not exist.
+ *
+ * Context: init, after app_init().
+ */
+void app_tell_image(const app_image_t *image);
 
 /** One control period. Context: control ISR. */
 void app_tick(void);

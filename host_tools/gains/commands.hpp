@@ -7,6 +7,7 @@
 namespace sdre {
 
 Command generate_command();
+Command image_command();
 Command report_command();
 Command orders_command();
 Command tune_command();

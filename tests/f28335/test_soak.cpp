@@ -168,7 +168,7 @@ public:
             asked_ = true;
             wait_  = 0;
         } else if (speed_ != told_) {
-            write(APP_REGISTERS_SPEED, static_cast<std::uint16_t>(speed_ & 0xFFFF));
+            write_speed();
             told_ = speed_;
         } else {
             run_.chat();
@@ -183,6 +183,13 @@ private:
     void write(int address, int value)
     {
         run_.write(static_cast<std::uint16_t>(address), static_cast<std::uint16_t>(value));
+    }
+
+    void write_speed()
+    {
+        const auto both = static_cast<std::uint32_t>(speed_);
+        run_.write(APP_REGISTERS_SPEED, {static_cast<std::uint16_t>(both >> 16U),
+                                         static_cast<std::uint16_t>(both & 0xFFFFU)});
     }
 
     F28335Run &run_;

@@ -141,20 +141,23 @@ static void any_registers(void)
 {
     app_status_t *const s = &registers.status;
 
-    *s                         = any_status;
-    s->hot                     = any_bool();
-    s->dc_link_out             = any_bool();
-    s->tripped                 = any_bool();
-    s->shorted                 = any_bool();
-    s->gate_enable             = any_bool();
-    s->without_angle           = any_bool();
-    s->snapshot.raw.valid      = any_bool();
-    s->snapshot.raw.index_seen = any_bool();
-    registers.command          = any_command;
-    registers.command.run      = any_bool();
-    registers.command.reset    = any_bool();
-    registers.silent           = any_bool();
-    registers.changed          = any_bool();
+    *s                                  = any_status;
+    s->hot                              = any_bool();
+    s->dc_link_out                      = any_bool();
+    s->tripped                          = any_bool();
+    s->shorted                          = any_bool();
+    s->gate_enable                      = any_bool();
+    s->without_angle                    = any_bool();
+    s->snapshot.raw.valid               = any_bool();
+    s->snapshot.raw.index_seen          = any_bool();
+    registers.config                    = &board_config;
+    registers.drive                     = &config;
+    registers.wanted.command            = any_command;
+    registers.wanted.command.run        = any_bool();
+    registers.wanted.command.reset      = any_bool();
+    registers.wanted.command.commission = any_bool();
+    registers.silent                    = any_bool();
+    registers.changed                   = any_bool();
 }
 
 /* Entry: a pass of the server in any state. */

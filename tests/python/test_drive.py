@@ -116,7 +116,7 @@ def test_log_is_a_table(served: Served, tmp_path: Path) -> None:
         (["status", "--port", "/dev/no-such-line"], "nothing answers at /dev/no-such-line"),
         (["status", "--tcp", "drive"], 'is not HOST:PORT'),
         (["status", "--tcp", "a:1", "--port", "b"], "give one"),
-        (["run", "1000", "--tcp", "10.255.255.1:1"], "--pole-pairs"),
+        (["run", "1000", "--tcp", "127.0.0.1:1"], "nothing answers"),
         (["run", "fast"], "Invalid value for"),
         (["log"], "give one of --csv and --parquet"),
         (["spin"], "spin"),

@@ -8,6 +8,7 @@ import os
 import socket
 import subprocess
 import sys
+import time
 import urllib.error
 import urllib.request
 from pathlib import Path
@@ -40,7 +41,13 @@ def address(served: Served) -> Iterator[str]:
         env=surroundings)  # fmt: skip
     assert page.stdout
     try:
-        yield page.stdout.readline().strip()
+        where = page.stdout.readline().strip()
+        for _ in range(100):  # it is said a little before the page listens
+            with socket.socket() as s:
+                if s.connect_ex(("127.0.0.1", port)) == 0:
+                    break
+            time.sleep(0.1)
+        yield where
     finally:
         page.terminate()
         page.wait(20)

@@ -366,7 +366,7 @@ static void test_modbus_starts_stops_and_resets(void)
     fake_board.sample.index_seen = true;
     both(1);
     fake_board.sample.index_seen = false;
-    modbus_write(2, 100);
+    modbus_write(6, 100); /* r/min */
     modbus_write(0, 1);
     TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
     TEST_ASSERT_TRUE(fake_board.gate);

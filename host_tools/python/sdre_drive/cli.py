@@ -12,8 +12,10 @@ from typing import Optional
 import typer
 from rich.console import Console
 from rich.live import Live
+from rich.progress import Progress
 from typing_extensions import Annotated
 
+from sdre_drive import load as loader
 from sdre_drive import record, session, show
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.options import Control, PolePairs, Port, Tcp, bench_address, pole_pairs_of, target
@@ -39,12 +41,11 @@ def end_by_signal() -> threading.Event:
 
 
 @app.command()
-def status(port: Port = None, tcp: Tcp = None, control: Control = None, pole_pairs: PolePairs = None) -> None:
+def status(port: Port = None, tcp: Tcp = None, pole_pairs: PolePairs = None) -> None:
     """What the drive does now, and what to do about it."""
-    where = target(port, tcp)
-    with Drive(where) as drive:
+    with Drive(target(port, tcp)) as drive:
         reading = drive.read()
-    out.print(show.status(reading, pole_pairs_of(pole_pairs, where, control)))
+        out.print(show.status(reading, pole_pairs_of(pole_pairs, drive)))
     if reading.mode == Mode.FAULT:
         raise typer.Exit(EXIT_TRIPPED)
 
@@ -56,17 +57,13 @@ def run(
     length_s: For = None,
     port: Port = None,
     tcp: Tcp = None,
-    control: Control = None,
     pole_pairs: PolePairs = None,
 ) -> None:
     """Runs at SPEED until Ctrl-C, then stops."""
-    where = target(port, tcp)
-    pairs = pole_pairs_of(pole_pairs, where, control)
-    if rpm and not pairs:
-        raise DriveError("r/min needs the motor's --pole-pairs; or give rad/s electrical with --radps")
     end = end_by_signal()
-    with Drive(where) as drive, Live(console=out, auto_refresh=False) as live:
-        wanted = show.e_radps_of(speed, pairs) if rpm and pairs else speed
+    with Drive(target(port, tcp)) as drive, Live(console=out, auto_refresh=False) as live:
+        pairs = pole_pairs_of(pole_pairs, drive)
+        wanted = show.e_radps_of(speed, pairs) if rpm else speed
         update = lambda r: live.update(show.line(r, pairs), refresh=True)  # noqa: E731
         update(session.hold(drive, wanted, end, length_s, update))
 
@@ -89,27 +86,48 @@ def reset(port: Port = None, tcp: Tcp = None) -> None:
 
 
 @app.command()
-def faults(port: Port = None, tcp: Tcp = None, control: Control = None, pole_pairs: PolePairs = None) -> None:
+def load(
+    image: Annotated[Optional[Path], typer.Argument(help="of `sdre-gains image`; none: show what is in force")] = None,
+    forget: Annotated[bool, typer.Option("--forget", help="back to the constants that are compiled in")] = False,
+    port: Port = None,
+    tcp: Tcp = None,
+) -> None:
+    """Writes a motor's constants into the drive's flash, and restarts it with them."""
+    if image and forget:
+        raise DriveError("load: give an image or --forget")
+    with Drive(target(port, tcp)) as drive:
+        if forget:
+            found = loader.forget(drive)
+        elif image:
+            with Progress(console=err, transient=True) as bar:
+                task = bar.add_task("writing", total=1.0)
+                found = loader.load(drive, image, lambda share: bar.update(task, completed=share))
+        else:
+            found = loader.look(drive)
+    out.print(f"in force: {found.in_force}", soft_wrap=True)
+
+
+@app.command()
+def faults(port: Port = None, tcp: Tcp = None, pole_pairs: PolePairs = None) -> None:
     """The fault now and what the drive kept of the last one."""
-    where = target(port, tcp)
-    with Drive(where) as drive:
+    with Drive(target(port, tcp)) as drive:
         reading = drive.read()
+        pairs = pole_pairs_of(pole_pairs, drive)
     for text in show.reasons(reading):
         out.print(text)
-    out.print(show.first_fault(reading, pole_pairs_of(pole_pairs, where, control)))
+    out.print(show.first_fault(reading, pairs))
     if reading.mode == Mode.FAULT:
         raise typer.Exit(EXIT_TRIPPED)
 
 
 @app.command()
 def watch(
-    length_s: For = None, port: Port = None, tcp: Tcp = None, control: Control = None, pole_pairs: PolePairs = None
+    length_s: For = None, port: Port = None, tcp: Tcp = None, pole_pairs: PolePairs = None
 ) -> None:
     """Shows the drive until Ctrl-C. That somebody watches keeps a running drive running."""
-    where = target(port, tcp)
-    pairs = pole_pairs_of(pole_pairs, where, control)
     end = end_by_signal()
-    with Drive(where) as drive, Live(console=out, auto_refresh=False) as live:
+    with Drive(target(port, tcp)) as drive, Live(console=out, auto_refresh=False) as live:
+        pairs = pole_pairs_of(pole_pairs, drive)
         for reading in session.follow(drive, end, 0.1, length_s):
             live.update(show.status(reading, pairs), refresh=True)
 
@@ -146,7 +164,7 @@ def ui(
         raise DriveError("the page needs NiceGUI: pip install './host_tools/python[ui]'") from e
     where = target(port, tcp)
     bench = bench_address(control) if control or where.is_local else None
-    serve(where, bench, pole_pairs_of(pole_pairs, where, control), page_port, browser)
+    serve(where, bench, pole_pairs, page_port, browser)
 
 
 def main() -> None:

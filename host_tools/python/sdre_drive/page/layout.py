@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import time
-from typing import Any, Callable, List, Optional
+from typing import Any, Callable, List
 
 from nicegui import run, ui
 
@@ -24,8 +24,8 @@ CARD = "w-full p-3 gap-2"
 class Page:
     """One browser tab."""
 
-    def __init__(self, watcher: Watcher, pole_pairs: Optional[int]) -> None:
-        self.watcher, self.pole_pairs = watcher, pole_pairs
+    def __init__(self, watcher: Watcher) -> None:
+        self.watcher, self.pole_pairs = watcher, watcher.pole_pairs
         self.client = ui.context.client
         self.shown: List[Entry] = []
         ui.colors(primary="#1565c0")
@@ -42,7 +42,7 @@ class Page:
                 with self.bench:
                     self._bench_card()
             with ui.column().classes("grow"):
-                self.traces = Traces(watcher, pole_pairs)
+                self.traces = Traces(watcher, self.pole_pairs)
         self.timer = ui.timer(REFRESH_S, self._refresh)
 
     def _commands(self) -> None:

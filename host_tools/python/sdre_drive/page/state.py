@@ -34,9 +34,10 @@ class Point(NamedTuple):
 class Watcher(threading.Thread):
     """Asks again and again; a drive that goes away and comes back is found again."""
 
-    def __init__(self, target: Target, bench: Optional[Tuple[str, int]]) -> None:
+    def __init__(self, target: Target, bench: Optional[Tuple[str, int]], pole_pairs: Optional[int]) -> None:
         super().__init__(daemon=True)
         self.drive = Drive(target)
+        self.pole_pairs = pole_pairs  # None: not known yet
         self.reading: Optional[Reading] = None
         self.truth: Dict[str, Any] = {}
         self.drive_trace: Deque[Point] = deque()
@@ -104,6 +105,7 @@ class Watcher(threading.Thread):
 
     def _look_at_drive(self) -> None:
         reading = self.drive.read()
+        self.pole_pairs = self.pole_pairs or self.drive.constants().pole_pairs
         if self.reading and reading.time_s < self.reading.time_s:
             self._forget()
         self.reading = reading
