@@ -267,3 +267,51 @@ def test_directory_of_another_campaign_stays(whole: Path, tmp_path: Path) -> Non
 
     assert "has parts of another campaign" in said
     assert parts(whole) == before
+
+
+SCHEDULER = """
+import asyncio
+from distributed import Scheduler
+
+async def main():
+    async with Scheduler(host="127.0.0.1", port=0, dashboard_address="127.0.0.1:0") as scheduler:
+        print(scheduler.address, flush=True)
+        await scheduler.finished()
+
+asyncio.run(main())
+"""
+WORKER = """
+import asyncio, sys
+from distributed import Worker
+
+async def main():
+    async with Worker(sys.argv[1], nthreads=1, dashboard_address="127.0.0.1:0") as worker:
+        await worker.finished()
+
+asyncio.run(main())
+"""
+
+
+def test_killed_scheduler_ends_the_client_and_loses_nothing_that_was_written(whole: Path, tmp_path: Path) -> None:
+    spec, out = write_spec(tmp_path), tmp_path / "out"
+    quiet = {"stderr": subprocess.DEVNULL, "text": True}
+    scheduler = subprocess.Popen([sys.executable, "-c", SCHEDULER], stdout=subprocess.PIPE, **quiet)
+    assert scheduler.stdout
+    address = scheduler.stdout.readline().strip()
+    worker = subprocess.Popen([sys.executable, "-c", WORKER, address], stdout=subprocess.DEVNULL, **quiet)
+    client = subprocess.Popen(command(spec, "--out", out, "--scheduler", address), stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE, text=True)  # fmt: skip
+    try:
+        wait_for_parts(out, 2)
+        scheduler.send_signal(signal.SIGKILL)
+        _, said = client.communicate(timeout=60)
+    finally:
+        for process in (scheduler, worker, client):
+            process.kill()
+            process.wait()
+
+    assert client.returncode == 1 and said.strip().splitlines()[-1].endswith("--resume goes on"), said
+    before = {path: path.stat().st_mtime_ns for path in (out / "parts").glob("part-*")}
+    campaign(spec, "--out", out, "--workers", 1, "--resume")
+    assert parts(out) == parts(whole)
+    assert {path: path.stat().st_mtime_ns for path in before} == before
