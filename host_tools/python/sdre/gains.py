@@ -20,9 +20,10 @@ FloatArray = NDArray[np.float64]
 class GainSeries:
     """A gain that is a Taylor series in a current: sum over n of gain[n] * current_A**n.
 
-    Controller (EQ-NOSC, paper A eq. 12): current e_iq, gain[n] is 2 x 3, from [w - w_d, iq - iq_ref, id - id_ref] in rad/s and A
-    to [v_q, v_d] in V. Observer (EQ-NODO): current i_q, gain[n] is states x 3. Of the conventional law, with two currents,
-    `powers` has the exponents of every term.
+    Controller (EQ-NOSC-2, paper A eq. 26): current e_iq, gain[n] is 2 x 3, from [w - w_d, iq - iq_ref, id - id_ref] in rad/s and A
+    to [v_q, v_d] in V. Observer (EQ-NODO-2, EQ-NODO-ENCODER-3, paper A eq. 39): current i_q, gain[n] is states x 3, from the
+    measurements' errors to the rates of the states. Of the conventional law, with two currents, `powers` has the exponents of
+    every term.
     """
 
     order: int
@@ -88,7 +89,7 @@ class Design:
 
 
 def design(drive: Drive, extended: bool = False) -> Design:
-    """Solves both state-dependent Riccati equations of the drive and certifies the gains (paper A, sections 3 and 4).
+    """Solves both state-dependent Riccati equations of the drive and certifies the gains (paper A, eq. 26 and 39; EQ-CERT-1 to 5).
 
     With `extended`, in long double as for tables that are written: several times slower, the same to nine digits.
     A refused certificate is in the result; DesignError when an equation has no acceptable solution.

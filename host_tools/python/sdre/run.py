@@ -100,7 +100,7 @@ def simulate(
 ) -> Run:
     """Runs a scenario with a drive, or with its own when `drive` is None; `seed` in place of the scenario's.
 
-    The control core is the firmware's, on gains solved as `sdre-sil` does (paper A, section 5). A trip is no error: Run.fault.
+    The control core is the firmware's, on gains solved as `sdre-sil` does. Seeds are 0 .. 2147483647. A trip is no error: Run.fault.
     InputError on a wrong scenario, DesignError when the gains cannot be solved.
     """
     return Run(_native.run(_scenario(drive, scenario, seed)._native))

@@ -86,7 +86,7 @@ def _run(directory: Directory, missing: List[int], scheduler: Optional[str], wor
     seconds = sum(counts) * float(spec.scenario["duration_s"])
     return (
         f"{sum(counts)} cases in {wall_s:.1f} s on {threads} workers: {sum(counts) / wall_s:.0f} cases/s; per core and second of its "
-        f"time {seconds / spent[1]:.0f} simulated s; workers busy {100.0 * spent[0] / (wall_s * threads):.1f} %"
+        f"time {seconds / max(spent[1], 1e-9):.0f} simulated s; workers busy {100.0 * spent[0] / (wall_s * threads):.1f} %"
     )
 
 
