@@ -34,6 +34,8 @@ def draw_sensitivity(summary: Summary, title: str, path: Path) -> None:
         axis.set_xlabel(one.name)
         axis.set_title(f"explains {100.0 * one.first_order(variance, mean):.1f} % of the variance", fontsize=9)
         axis.grid(alpha=0.3)
+        axis.locator_params(axis="x", nbins=5)
+        axis.ticklabel_format(axis="x", scilimits=(-2, 4))
     for axis in axes.flat[len(ranked) :]:
         axis.set_axis_off()
     for axis in axes[:, 0]:

@@ -65,11 +65,16 @@ class Sensitivity:
         return np.where(total > 0, _MARGIN_EDGES[index + 1], np.nan)
 
     def first_order(self, variance: float, mean: float) -> float:
-        """Share of the margin's variance that this variable alone explains (Sobol's first-order index, by bins)."""
+        """Share of the margin's variance that this variable alone explains (Sobol's first-order index, by bins).
+
+        Without what chance explains: the means of so many bins differ of themselves.
+        """
         n = self.counts.sum(axis=1)
         used = n > 0
         between = float(np.sum(n[used] * (self.sums[used] / n[used] - mean) ** 2) / n.sum())
-        return between / variance if variance > 0.0 else 0.0
+        free = int(n.sum() - used.sum())
+        chance = (used.sum() - 1) * max(variance - between, 0.0) / free if free > 0 else 0.0
+        return max(between - float(chance), 0.0) / variance if variance > 0.0 else 0.0
 
 
 @dataclass
