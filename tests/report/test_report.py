@@ -16,6 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "host_tools/report"), str(ROOT / "tests/python")]
 
 import browser  # noqa: E402
+from sdre_report import near_optimal, theorem  # noqa: E402
 from sdre_report.printed import Printed  # noqa: E402
 from sdre_report.settling import settle  # noqa: E402
 from sdre_report.tables import Table, number  # noqa: E402
@@ -24,7 +25,7 @@ from sdre_report.tools import ReportError  # noqa: E402
 PAGE = Path(os.environ.get("SDRE_REPORT", ROOT / "build/report/report.html"))
 FIGURES = [f"A-fig{n}" for n in range(4, 9)] + [f"B-fig{n}" for n in range(4, 9)]
 TABLES = ["A-table2", "A-table3", "A-table3-conventional", "A-fig4-numbers", "A-fig4-load", *(f"A-fig{n}-numbers" for n in range(5, 9)), "B-tables",
-          "B-fig8-numbers"]  # fmt: skip
+          "B-fig8-numbers", "A-optimal", "A-effort", "B-lemma1", "B-theorem1"]  # fmt: skip
 
 
 @pytest.mark.parametrize("gone", [None, math.nan])
@@ -63,6 +64,22 @@ def test_settling_of_what_does_not() -> None:
     assert not settle({"time_s": time, "x": np.cos(1e4 * time)}, "x", 0.2, 0.4, 0.8).moves
     late = np.where(time < 0.4, 0.0, np.where(time < 0.7999, 1.0, 9.0))  # leaves in its last row
     assert settle({"time_s": time, "x": late}, "x", 0.2, 0.4, 0.8).time_ms is None
+
+
+def test_the_lemma_of_paper_b() -> None:
+    """Two states by hand: P = [3/2 1/2; 1/2 1/2]."""
+    assert theorem.lemma(2) == pytest.approx((1 - math.sqrt(0.5), 1 + math.sqrt(0.5)))
+
+
+def test_the_optimum_of_a_linear_problem_is_the_riccati_solution() -> None:
+    drive = {"nosc": {"Q": [2.0, 8.0, 8.0], "T": [1e-3, 1e-3]}}
+    l = {f"l{i}": v for i, v in enumerate((2757.0, 0.24, 4762.0, 21.8, 1.69, 8.78, 33.1, 13.3, 1.52, 0.66, 0.0), 1)}  # noqa: E741
+    problem = near_optimal.Problem({"reduced_parameters": l}, drive)
+    start = np.array([-4.0, 1.0, 2.0])
+    best = 0.5 * start @ problem.series(0)[0] @ start
+    exact = problem.exact()
+    assert near_optimal.optimum(problem, exact, tuple(start)) == pytest.approx(best, rel=1e-6)
+    assert near_optimal.cost(problem, exact, tuple(start)) == pytest.approx(best, rel=1e-6)
 
 
 async def look(pictures: str) -> None:

@@ -9,7 +9,7 @@ import tomllib
 from pathlib import Path
 from typing import List
 
-from . import fig4, pages, paper_a, paper_b, printed
+from . import effort, fig4, near_optimal, pages, paper_a, paper_b, printed, theorem
 from .tables import Section
 from .tools import DRIVES, ROOT, ReportError, Tools
 
@@ -28,10 +28,25 @@ def collect(tools: Tools) -> List[Section]:
     servo = read_toml(DRIVES / "servo_200w_cdobc.toml")
     a = paper_a.section(tools, published["A"], design, drive)
     a.parts[1:1] = fig4.parts(tools, published["A"]["fig4"], design)
+    tools.tell("the optimum")
+    a.parts.append(near_optimal.table(design, drive))
+    a.parts.append(effort.table([(name, tools.design(f"ipmsm_390w_{name}")) for name in ("speed", "conventional")]))
     b = paper_b.section(tools, published["B"], servo["motor"][paper_b.INDUCTANCE])
+    tools.tell("Theorem 1")
+    b.parts += [theorem.constants(), theorem.bounds(servo_designs(tools), servo["motor"])]
     if published.unread():
         raise ReportError(f"numbers of the papers that the page does not show: {', '.join(published.unread())}")
     return [a, b, not_reproduced()]
+
+
+def servo_designs(tools: Tools) -> list:
+    """CDOBC repaired and as printed, each with what it does in Case IV."""
+    found = []
+    for name, drive in (("repaired, N = 2", "servo_200w_cdobc"), ("printed, N = 1", "servo_200w_cdobc_printed")):
+        run = tools.run("servo_case_3_4", drive, name=f"theorem-{drive}")
+        simulated = "trips" if run.result["fault"] != "none" else run.measure("case_4")["fluctuation_rpm"]
+        found.append((name, tools.design(drive), simulated))
+    return found
 
 
 def not_reproduced() -> Section:

@@ -64,6 +64,8 @@ def settled(run: Run, case: Case, signal: str) -> Settled:
 
 def time_of(s: Settled) -> Value:
     """A time, or why there is none."""
+    if s.before == s.after == 0.0:
+        return "not there"
     return or_never(s.time_ms) if s.moves else "in its noise"
 
 
@@ -127,7 +129,7 @@ def compare(case: Case, runs: List[Run], printed: Dict[str, Any]) -> Table:
         add_pair(table, "i_d [A]", ours["id_A"], [settled(r, case, "id") for r in runs])
     table.note = ("Currents and estimates: within 5 % of how far they leave their final value, beyond the noise of the last fifth; the "
                   "paper names no band. \"In its noise\": they leave it by no more than that noise. The conventional observer has no "
-                  "d_q and d_d.")  # fmt: skip
+                  "d_q and d_d. Fig. 7: beyond the final value is here all of the current that accelerates.")  # fmt: skip
     return table
 
 

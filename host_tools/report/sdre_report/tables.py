@@ -14,8 +14,8 @@ Value = Union[float, int, str, None]
 
 def number(value: Value, digits: int = 3, what: str = "") -> str:
     """As text; None or NaN is a number that is missing."""
-    if isinstance(value, str):
-        return value
+    if isinstance(value, (str, int)):
+        return str(value)
     if value is None or math.isnan(value):
         raise ReportError(f"a number is missing: {what}")
     if math.isinf(value):

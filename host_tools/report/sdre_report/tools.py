@@ -38,7 +38,7 @@ class Tools:
     """The programs, and the directory that keeps what they wrote."""
 
     def __init__(self, binaries: Path, data: Path, tell: Callable[[str], None]) -> None:
-        self._binaries, self._data, self._tell = binaries, data, tell
+        self._binaries, self._data, self.tell = binaries, data, tell
         data.mkdir(parents=True, exist_ok=True)
 
     def _call(self, program: str, arguments: Sequence[str], accepted: Sequence[int]) -> str:
@@ -53,7 +53,7 @@ class Tools:
     def run(self, scenario: str, drive: str, changes: Optional[Dict[str, str]] = None, name: str = "") -> Run:
         """One run; `changes` replaces text in the scenario, each exactly once."""
         name = name or f"{scenario}-{drive}"
-        self._tell(f"{name}")
+        self.tell(f"{name}")
         path = SCENARIOS / f"{scenario}.toml"
         if changes:
             path = self._changed(path, changes, name)
@@ -65,7 +65,7 @@ class Tools:
     def seeds(self, scenario: str, drive: str, count: int, name: str = "") -> Dict[str, Any]:
         """Worst and mean over seeds: {measure: {metric: {worst, mean, ..}}}."""
         name = name or f"{scenario}-{drive}-seeds"
-        self._tell(name)
+        self.tell(name)
         result = self._data / f"{name}.json"
         self._call("sdre-sil", ["run", str(SCENARIOS / f"{scenario}.toml"), "--drive", str(DRIVES / f"{drive}.toml"),
                                 "--seeds", str(count), "--json", str(result)], [FAULTED])  # fmt: skip
@@ -74,7 +74,7 @@ class Tools:
     def spectrum(self, scenario: str, drive: str) -> Dict[str, np.ndarray]:
         """Of the speed error: {measure: [[Hz, r/min]..]}."""
         name = f"{scenario}-{drive}-spectrum"
-        self._tell(name)
+        self.tell(name)
         csv = self._data / f"{name}.csv"
         self._call("sdre-sil", ["run", str(SCENARIOS / f"{scenario}.toml"), "--drive", str(DRIVES / f"{drive}.toml"),
                                 "--spectrum", str(csv)], [FAULTED])  # fmt: skip
@@ -86,7 +86,7 @@ class Tools:
 
     def design(self, drive: str) -> Dict[str, Any]:
         """The report of a drive file."""
-        self._tell(f"design of {drive}")
+        self.tell(f"design of {drive}")
         text = self._call("sdre-gains", ["report", str(DRIVES / f"{drive}.toml"), "--json"], [REFUSED])
         (self._data / f"design-{drive}.json").write_text(text)
         return json.loads(text)
