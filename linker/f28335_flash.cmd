@@ -7,7 +7,8 @@
 MEMORY
 {
     BEGIN     : origin = 0x33FFF6, length = 0x000002 /* the boot ROM jumps here */
-    FLASH     : origin = 0x300000, length = 0x038000 /* sectors H .. B */
+    STORE     : origin = 0x300000, length = 0x010000 /* sectors H and G: board_store_memory; nothing is linked there */
+    FLASH     : origin = 0x310000, length = 0x028000 /* sectors F .. B */
 
     RAMM0     : origin = 0x000050, length = 0x0003B0 /* below: stack of the boot ROM */
     RAMM1     : origin = 0x000400, length = 0x000400
@@ -28,6 +29,9 @@ SECTIONS
     .TI.ramfunc  :
     {
         *(.TI.ramfunc)
+#ifdef FLASH_API
+        -l Flash28335_API_V210.lib(.text)
+#endif
 #ifdef FAST_RTS
         -l rts2800_fpu32_fast_supplement_eabi.lib(.text)
 #endif
@@ -40,15 +44,10 @@ SECTIONS
                    RUN_START(codestart_code_run),
                    ALIGN(2)
 
-    /* Gains, the law's entry points and scalings, read in every period; copied likewise. Those of noc_h are longer than
-     * one block (tests/linker/test_table_sizes.py). */
+    /* The law's entry points; copied likewise. */
     .tables      :
     {
-        *(.const:gain_tables_*)
-        *(.const:constants*)
         *(.const:law_*)
-        *(.const:board_config)
-        *(.const:ntc_degC*)
     }
                    LOAD = FLASH,
                    RUN = RAML34,
@@ -56,6 +55,13 @@ SECTIONS
                    LOAD_SIZE(codestart_tables_words),
                    RUN_START(codestart_tables_run),
                    ALIGN(2)
+
+    /* All constants of the drive, read in every period: main() fills it from the compiled ones or from the store. */
+    .in_force    :
+    {
+        *(.bss:in_force)
+    }
+                   > RAML34
 
     .text        : > FLASH
     .cinit       : > FLASH

@@ -21,6 +21,9 @@ SECTIONS
     .TI.ramfunc  :
     {
         *(.TI.ramfunc)
+#ifdef FLASH_API
+        -l Flash28335_API_V210.lib(.text)
+#endif
 #ifdef FAST_RTS
         -l rts2800_fpu32_fast_supplement_eabi.lib(.text)
 #endif
@@ -33,17 +36,20 @@ SECTIONS
                    ALIGN(2)
     .tables      :
     {
-        *(.const:gain_tables_*)
-        *(.const:constants*)
         *(.const:law_*)
-        *(.const:board_config)
-        *(.const:ntc_degC*)
     }
                    > RAML4567,
                    LOAD_START(codestart_tables_load),
                    LOAD_SIZE(codestart_tables_words),
                    RUN_START(codestart_tables_run),
                    ALIGN(2)
+
+    /* All constants of the drive, read in every period: main() fills it from the compiled ones or from the store. */
+    .in_force    :
+    {
+        *(.bss:in_force)
+    }
+                   > RAML4567
 
     .text        : > RAML0123
     .switch      : > RAML0123

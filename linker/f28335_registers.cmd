@@ -16,5 +16,8 @@ SysCtrlRegs   = 0x007010;
 SciaRegs      = 0x007050;
 AdcRegs       = 0x007100;
 
+/* Sectors H and G of the flash: flash_store.c. */
+board_store_memory = 0x300000;
+
 /* A routine that the factory put there: trims the converter. */
 ADC_cal = 0x380080;

@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 #include "app.h"
 
+#include "app_control.h"
+#include "app_loader.h"
 #include "app_modbus.h"
 #include "app_modes.h"
+#include "app_record.h"
+#include "app_scope.h"
 #include "app_watch_memory.h"
 #include "app_watch_tick.h"
 
@@ -18,7 +22,7 @@ static volatile struct {
     bool          command_full;     /* background raises, tick lowers */
     bool          tick_missing;     /* the same */
     bool          memory_changed;   /* background; stays */
-    app_command_t command;          /* background, while command_full is false */
+    app_objects_t command;          /* background, while command_full is false */
     uint16_t      board_faults;     /* tick, as the rest: for the status */
     uint16_t      cycles;
     uint16_t      cycles_worst;
@@ -29,16 +33,25 @@ static struct {
     app_config_t          config;
     app_modes_t           modes;
     app_modes_input_t     in;
+    app_control_t         control;
+    app_objects_t         wanted;
     const drive_config_t *drive;
     const float          *ntc_degC;
     uint16_t              background_count;
     uint16_t              background_age_ticks;
 } tick_side;
 
+/* Scope and record: who may write what stands in their headers. */
+static struct {
+    app_scope_t  scope;
+    app_record_t record;
+} traces;
+
 /* Only the background. */
 static struct {
     app_modbus_t       modbus;
     app_registers_t    registers;
+    app_loader_t       loader;
     app_status_t       read; /* may be of two ticks */
     app_watch_tick_t   watch;
     app_watch_memory_t memory;
@@ -50,12 +63,15 @@ static ctl_status_t init_tick_side(const app_config_t *config, const drive_confi
     const app_command_t none = {.omega_e_radps = 0.0f, .run = false, .reset = false};
 
     tick_side.in.command           = none;
+    tick_side.wanted               = app_control_default(drive);
     tick_side.background_count     = 0U;
     tick_side.background_age_ticks = 0U;
-    tick_side.config               = app_config_for(config, drive->hardware.updates_per_period);
-    tick_side.drive                = drive;
-    tick_side.ntc_degC             = tick_side.config.scale.ntc_degC;
-    return app_modes_init(&tick_side.modes, &tick_side.config, drive);
+    app_config_for(&tick_side.config, config, drive->hardware.updates_per_period);
+    tick_side.drive            = drive;
+    tick_side.ntc_degC         = tick_side.config.scale.ntc_degC;
+    const ctl_status_t control = app_control_init(&tick_side.control, &tick_side.config, drive);
+    const ctl_status_t modes   = app_modes_init(&tick_side.modes, &tick_side.config, drive);
+    return (control == CTL_OK) ? modes : control;
 }
 
 /* What the tick reads and nobody writes. */
@@ -75,6 +91,10 @@ static void watch_memory(app_watch_memory_t *w, const drive_config_t *drive, boo
 static void read_once(app_status_t *status)
 {
     app_modes_status(&tick_side.modes, shared.board_faults, status);
+    status->state             = tick_side.control.state;
+    status->mode_of_operation = tick_side.control.mode;
+    status->done              = tick_side.control.done;
+    status->demand_e_radps    = tick_side.control.ref_e_radps;
     status->reset_cause       = board_reset_cause();
     status->tick_cycles       = shared.cycles;
     status->tick_cycles_worst = shared.cycles_worst;
@@ -97,11 +117,16 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
 {
     const ctl_status_t modes = init_tick_side(config, drive);
     const ctl_status_t modbus =
-        app_modbus_init(&background_side.modbus, tick_side.config.modbus_address,
-                        tick_side.config.modbus_gap_ticks, tick_side.config.modbus_timeout_ticks);
+        app_modbus_init(&background_side.modbus, tick_side.config.modbus_gap_ticks);
+    const ctl_status_t registers =
+        app_registers_init(&background_side.registers, &tick_side.config, drive);
 
-    app_registers_init(&background_side.registers, drive->speed_max_e_radps);
-    background_side.served_ticks = 0UL;
+    app_scope_init(&traces.scope);
+    app_record_init(&traces.record);
+    background_side.registers.scope  = &traces.scope;
+    background_side.registers.record = &traces.record;
+    background_side.loader.restart   = false;
+    background_side.served_ticks     = 0UL;
     app_watch_tick_reset(&background_side.watch);
     watch_memory(&background_side.memory, drive, modes == CTL_OK);
 
@@ -110,21 +135,30 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
     shared.command_full     = false;
     shared.tick_missing     = false;
     shared.memory_changed   = false;
-    shared.command          = tick_side.in.command;
+    shared.command          = tick_side.wanted;
     shared.board_faults     = 0U;
     shared.cycles           = 0U;
     shared.cycles_worst     = 0U;
     read_status();
-    return ((modes == CTL_OK) && (modbus == CTL_OK)) ? CTL_OK : CTL_BAD_CONFIG;
+    return ((modes == CTL_OK) && (modbus == CTL_OK) && (registers == CTL_OK)) ? CTL_OK
+                                                                              : CTL_BAD_CONFIG;
 }
 
 static void take_command(void)
 {
-    tick_side.in.command.reset = false;
+    const app_modes_t *const m    = &tick_side.modes;
+    const app_control_seen_t seen = {.mode          = m->mode,
+                                     .shorted       = m->stop.shorted,
+                                     .in_the_way    = app_modes_in_the_way(m),
+                                     .speed_e_radps = (m->drive.state == DRIVE_RUN)
+                                                          ? m->drive.wanted.now.omega_e_radps
+                                                          : m->reading.omega_e_radps};
+
     if (shared.command_full) {
-        tick_side.in.command = shared.command;
-        shared.command_full  = false;
+        tick_side.wanted    = shared.command;
+        shared.command_full = false;
     }
+    tick_side.in.command = app_control_tick(&tick_side.control, &tick_side.wanted, &seen);
 }
 
 static bool background_lost(void)
@@ -177,7 +211,7 @@ static bool pointers_hold(void)
 
     return (m->config == c) && (m->scale.config == &c->scale) && (m->angle.config == &c->angle) &&
            (m->align.config == &c->align) && (m->stop.config == &c->stop) &&
-           (m->align.drive == tick_side.drive) &&
+           (tick_side.control.config == c) && (m->align.drive == tick_side.drive) &&
            ((m->drive.config == tick_side.drive) || (m->fault == APP_FAULT_CONFIG)) &&
            (c->scale.ntc_degC == tick_side.ntc_degC);
 }
@@ -210,7 +244,21 @@ void app_tick(void)
     const bool     was_on = tick_side.modes.gate_on;
     const bridge_t out    = app_modes_tick(&tick_side.modes, in);
     drive_bridge(&out, was_on);
+    const app_scope_view_t view = {.modes = &tick_side.modes, .command = &in->command, .out = &out};
+    app_record_tick(&traces.record, &view);
+    app_scope_tick(&traces.scope, &view);
     finish(in->board_faults, start_cycles);
+}
+
+/* Into the loader, when the answer that says so is out. A bridge that came on meanwhile cancels it. */
+static void restart_when_asked(uint32_t now_ticks)
+{
+    app_loader_t *l = &background_side.loader;
+
+    l->restart = l->restart && !background_side.registers.status.gate_enable;
+    if (l->restart && app_modbus_is_quiet(&background_side.modbus, now_ticks)) {
+        board_restart(l->enter);
+    }
 }
 
 static void serve_watchdog(uint32_t now_ticks)
@@ -240,13 +288,19 @@ void app_background(void)
 
     read_status();
     app_modbus_poll(&background_side.modbus, r, now_ticks);
-    if (r->changed && app_command_write(&r->command)) {
-        r->changed       = false;
-        r->command.reset = false;
+    if (r->changed && app_command_write(&r->wanted.objects)) {
+        r->changed = false;
     }
+    restart_when_asked(now_ticks);
 }
 
-bool app_command_write(const app_command_t *command)
+void app_tell_image(const app_image_t *image)
+{
+    app_loader_init(&background_side.loader, image);
+    background_side.registers.loader = &background_side.loader;
+}
+
+bool app_command_write(const app_objects_t *command)
 {
     if (shared.command_full) {
         return false;

@@ -23,6 +23,7 @@
 #define APP_H
 
 #include "app_config.h"
+#include "app_image.h"
 #include "app_status.h"
 
 /**
@@ -36,6 +37,14 @@
  */
 ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive);
 
+/**
+ * @brief What the constants are called, for who asks over Modbus, and the way into the loader: without this call the
+ *        registers of app_loader.h do not exist.
+ *
+ * Context: init, after app_init().
+ */
+void app_tell_image(const app_image_t *image);
+
 /** One control period. Context: control ISR. */
 void app_tick(void);
 
@@ -43,12 +52,12 @@ void app_tick(void);
 void app_background(void);
 
 /**
- * @brief Give a command; it acts from the next tick on.
+ * @brief Give a command (app_control.h); it acts from the next tick on.
  * @return false: the command before has not been taken yet, try again after a tick.
  *
  * Context: background.
  */
-bool app_command_write(const app_command_t *command);
+bool app_command_write(const app_objects_t *command);
 
 /** The status after the last tick during which nothing was read: of one instant. Context: background. */
 app_status_t app_status_read(void);

@@ -26,18 +26,20 @@ typedef struct {
     app_gate_config_t       gate;
     app_stop_config_t       stop;
     app_watch_heat_config_t heat;
-    float    zero_drift_A; /**< a current's zero may be off by this with the bridge open, > 0 */
-    float    temperature_limit_degC; /**< no start above */
-    float    temperature_trip_degC;  /**< fault above; > the limit */
-    uint16_t boot_ticks;
-    uint16_t calibrate_ticks;      /**< samples in the mean of a current's zero, > 0 */
-    uint16_t background_ticks;     /**< without the background for longer is a fault, > 0 */
-    uint16_t modbus_address;       /**< 1 .. 247 */
-    uint16_t modbus_gap_ticks;     /**< silence that ends a frame, > 0 */
-    uint16_t modbus_timeout_ticks; /**< silence that withdraws run, > 0 */
+    float       zero_drift_A; /**< a current's zero may be off by this with the bridge open, > 0 */
+    float       temperature_limit_degC; /**< no start above */
+    float       temperature_trip_degC;  /**< fault above; > the limit */
+    uint16_t    boot_ticks;
+    uint16_t    calibrate_ticks;      /**< samples in the mean of a current's zero, > 0 */
+    uint16_t    background_ticks;     /**< without the background for longer is a fault, > 0 */
+    uint16_t    modbus_address;       /**< 1 .. 247 */
+    uint16_t    modbus_gap_ticks;     /**< silence that ends a frame, > 0 */
+    uint16_t    modbus_timeout_ticks; /**< silence that withdraws run, > 0 */
+    const char *drive_name;           /**< for the identification over Modbus, as the next */
+    const char *digest;               /**< of the drive file */
 } app_config_t;
 
 /** The same with its times in control periods, where board_config.c counts PWM periods. Context: init. */
-app_config_t app_config_for(const app_config_t *config, uint16_t updates_per_period);
+void app_config_for(app_config_t *out, const app_config_t *config, uint16_t updates_per_period);
 
 #endif /* APP_CONFIG_H */

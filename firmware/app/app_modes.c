@@ -64,6 +64,7 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *c, const drive_c
     m->calibrated       = false;
     m->armed            = false;
     m->commission_armed = false;
+    m->align_armed      = false;
     m->hot              = true;
     m->dc_link_out      = true;
     m->tripped          = false;

@@ -5,7 +5,7 @@
  *
  *     BOOT -> CALIBRATE -> READY -> (ALIGN, unless the angle is referenced) -> (PRECHARGE, if needed) -> RUN
  *     RUN -> (STOP, while an open bridge would not be safe, or when it is asked for) -> READY
- *     READY -> COMMISSION, when that is asked for -> READY
+ *     READY -> COMMISSION, or ALIGN alone, when that is asked for -> READY
  *
  * Anything wrong in a mode that uses it leads to FAULT in the same call, with the bridge open or, at a speed at which that
  * is not safe, the motor shorted (app_stop.h). FAULT ends by a reset
@@ -55,6 +55,7 @@ typedef struct {
     bool                calibrated;
     bool                armed;            /**< READY has seen run = false */
     bool                commission_armed; /**< READY has seen commission = false */
+    bool                align_armed;      /**< and align = false */
     bool                hot;         /**< above the temperature limit, or temperature unknown */
     bool                dc_link_out; /**< outside the drive's range */
     bool                tripped;     /**< READY: the trip input is active */
@@ -74,6 +75,9 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *config,
 
 /** Context: control ISR. Bounded: drive_tick() or app_align_tick() and about as much again. */
 bridge_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in);
+
+/** Something keeps a run from starting, by the tick before. Context: control ISR. */
+bool app_modes_in_the_way(const app_modes_t *m);
 
 /** Everything but the reset's cause and the cycle counts; of one tick, unless one interrupts. Context: background. */
 void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_status_t *s);

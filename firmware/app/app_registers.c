@@ -1,41 +1,79 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_registers.h"
 
-#define TENTHS      10.0f
-#define HUNDREDTHS  100.0f
-#define THOUSANDTHS 1000.0f
+#include <stddef.h>
 
-static uint16_t signed_value(float x, float per_unit)
+#define SCOPE_ARM  1U /* values of SCOPE_COMMAND */
+#define SCOPE_STOP 2U
+
+#define RPM_PER_RADPS 9.54929659f /* 60 / (2 pi) */
+#define SIGN_32       0x80000000UL
+#define MOST_I32      2147483520.0f /* the last float below 2^31 */
+#define MOST_U32      4294967040.0f /* the last float below 2^32 */
+#define ADDRESS_MAX   247U          /* by the protocol */
+
+typedef struct {
+    const app_registers_entry_t *entries;
+    uint16_t                     count;
+    bool                         input;
+} map_t;
+
+static const map_t holding = {app_registers_map_holding, APP_REGISTERS_MAP_HOLDING, false};
+
+/* Member by member, and from constants: on the stack they would take a quarter of it. */
+ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
+                                const drive_config_t *drive)
 {
-    const float scaled = base_clamp(x * per_unit, -32768.0f, 32767.0f);
-    return (uint16_t)(int16_t)(scaled + ((scaled < 0.0f) ? -0.5f : 0.5f));
+    static const app_status_t nothing = {.mode = APP_MODE_BOOT};
+    const uint16_t            pairs   = drive->hardware.pole_pairs;
+
+    static const app_scope_setup_t scope = {.decimation = 1U};
+
+    r->wanted.objects              = app_control_default(drive);
+    r->wanted.scope                = scope;
+    r->wanted.scope_command        = 0U;
+    r->scope                       = NULL;
+    r->record                      = NULL;
+    r->wanted.modbus_address       = config->modbus_address;
+    r->wanted.modbus_timeout_ticks = config->modbus_timeout_ticks;
+    r->config                      = config;
+    r->drive                       = drive;
+    r->rpm_per_e_radps             = RPM_PER_RADPS / ((pairs > 0U) ? (float)pairs : 1.0f);
+    r->status                      = nothing;
+    r->trial                       = r->wanted;
+    r->changed                     = false;
+    r->silent                      = false;
+    r->loader                      = NULL;
+    return ((config->modbus_address >= 1U) && (config->modbus_address <= ADDRESS_MAX) &&
+            (config->modbus_timeout_ticks > 0U))
+               ? CTL_OK
+               : CTL_BAD_CONFIG;
 }
 
-static uint16_t unsigned_value(float x, float per_unit)
+uint32_t app_registers_ticks(const app_registers_t *r, float time_s)
 {
-    return (uint16_t)(base_clamp(x * per_unit, 0.0f, 65535.0f) + 0.5f);
+    const float ticks = (time_s / r->drive->ts_s) + 0.5f;
+    return (uint32_t)ticks;
 }
 
-static uint16_t high_word(uint32_t x)
+/* Both ends are a float that its type holds. */
+static uint32_t signed_count(float scaled, float least, float most)
 {
-    return (uint16_t)(x >> 16);
+    const float   held    = base_clamp(scaled, least, most);
+    const float   rounded = held + ((held < 0.0f) ? -0.5f : 0.5f);
+    const int32_t count   = (int32_t)rounded;
+    return (uint32_t)count;
 }
 
-static uint16_t low_word(uint32_t x)
+static uint32_t unsigned_count(float scaled, float most)
 {
-    return (uint16_t)(x & 0xFFFFUL);
-}
-
-/* The operator's integer back to SI; two's complement without relying on the conversion. */
-static float speed_of(uint16_t value)
-{
-    const int32_t tenths = (value < 0x8000U) ? (int32_t)value : ((int32_t)value - 65536L);
-    return (float)tenths / TENTHS;
+    const float rounded = base_clamp(scaled, 0.0f, most) + 0.5f;
+    return (uint32_t)rounded;
 }
 
 /* At least 4 digits: x = digits 10^power. No more than 45 powers of ten are between any two numbers of single precision
  * that are not denormal. */
-static void decimal(float x, uint16_t words[2])
+static uint32_t decimal(float x)
 {
     float   digits = base_clamp(x, -1.0e30f, 1.0e30f);
     int16_t power  = 0;
@@ -48,231 +86,285 @@ static void decimal(float x, uint16_t words[2])
         digits *= 10.0f;
         power--;
     }
-    words[0] = signed_value(digits, 1.0f);
-    words[1] = (uint16_t)power;
+    const uint32_t high = signed_count(digits, -32768.0f, 32767.0f);
+    const uint32_t low  = (uint32_t)(int32_t)power;
+    return (high << 16) | (low & 0xFFFFU);
 }
 
-void app_registers_init(app_registers_t *r, float speed_max_e_radps)
+static uint32_t count_of(float x, const app_registers_entry_t *e)
 {
-    const app_status_t  status  = {.mode = APP_MODE_BOOT};
-    const app_command_t command = {
-        .omega_e_radps = 0.0f, .run = false, .reset = false, .commission = false};
-
-    r->status            = status;
-    r->command           = command;
-    r->speed_max_e_radps = speed_max_e_radps;
-    r->changed           = false;
-    r->silent            = false;
-}
-
-static void holding_values(const app_registers_t *r, uint16_t all[APP_REGISTERS_HOLDING_COUNT])
-{
-    all[APP_REGISTERS_RUN]                = r->command.run ? 1U : 0U;
-    all[APP_REGISTERS_RESET]              = 0U;
-    all[APP_REGISTERS_SPEED]              = signed_value(r->command.omega_e_radps, TENTHS);
-    all[APP_REGISTERS_COMMISSION]         = r->command.commission ? 1U : 0U;
-    all[APP_REGISTERS_COMMISSION_CURRENT] = unsigned_value(r->command.bounds.current_A, HUNDREDTHS);
-    all[APP_REGISTERS_COMMISSION_SPEED]   = unsigned_value(r->command.bounds.speed_m_radps, TENTHS);
-}
-
-/* What acts and never trips. */
-static uint16_t limits(const app_status_t *s)
-{
-    const uint16_t voltage = s->voltage_limited ? (uint16_t)APP_REGISTERS_VOLTAGE_LIMIT : 0U;
-    const uint16_t current = s->current_limited ? (uint16_t)APP_REGISTERS_CURRENT_LIMIT : 0U;
-    const uint16_t derated = (s->derating > 0.0f) ? (uint16_t)APP_REGISTERS_DERATED : 0U;
-    return (uint16_t)(voltage | current | derated);
-}
-
-static uint16_t conditions(const app_registers_t *r)
-{
-    const uint16_t hot     = r->status.hot ? (uint16_t)APP_REGISTERS_HOT : 0U;
-    const uint16_t silent  = r->silent ? (uint16_t)APP_REGISTERS_SILENT : 0U;
-    const uint16_t gate    = r->status.gate_enable ? (uint16_t)APP_REGISTERS_GATE : 0U;
-    const uint16_t dc      = r->status.dc_link_out ? (uint16_t)APP_REGISTERS_DC_OUT : 0U;
-    const uint16_t trip    = r->status.tripped ? (uint16_t)APP_REGISTERS_TRIPPED : 0U;
-    const uint16_t shorted = r->status.shorted ? (uint16_t)APP_REGISTERS_SHORTED : 0U;
-    const uint16_t lost    = r->status.without_angle ? (uint16_t)APP_REGISTERS_WITHOUT_ANGLE : 0U;
-    return (uint16_t)(hot | silent | gate | dc | trip | shorted | lost | limits(&r->status));
-}
-
-static void state_values(const app_registers_t *r, uint16_t all[APP_REGISTERS_INPUT_COUNT])
-{
-    const app_status_t *s = &r->status;
-
-    all[APP_REGISTERS_MODE]             = (uint16_t)s->mode;
-    all[APP_REGISTERS_FAULT]            = (uint16_t)s->fault;
-    all[APP_REGISTERS_DRIVE_FAULT]      = (uint16_t)s->drive_fault;
-    all[APP_REGISTERS_BOARD_FAULTS]     = s->board_faults;
-    all[APP_REGISTERS_CONDITIONS]       = conditions(r);
-    all[APP_REGISTERS_REFERENCE]        = (uint16_t)s->reference;
-    all[APP_REGISTERS_ALIGN_STAGE]      = (uint16_t)s->align_stage;
-    all[APP_REGISTERS_POSITION]         = s->position_cnt;
-    all[APP_REGISTERS_CORRECTIONS]      = s->index_corrections;
-    all[APP_REGISTERS_RESET_CAUSE]      = (uint16_t)s->reset_cause;
-    all[APP_REGISTERS_PHASE_ERRORS]     = s->phase_errors;
-    all[APP_REGISTERS_IGNORED_ANGLES]   = s->ignored_angles;
-    all[APP_REGISTERS_IGNORED_CURRENTS] = s->ignored_currents;
-    all[APP_REGISTERS_CYCLES]           = s->tick_cycles;
-    all[APP_REGISTERS_CYCLES_WORST]     = s->tick_cycles_worst;
-    all[APP_REGISTERS_TICKS_HI]         = high_word(s->ticks);
-    all[APP_REGISTERS_TICKS_LO]         = low_word(s->ticks);
-}
-
-static void measured_values(const app_status_t *s, uint16_t all[APP_REGISTERS_INPUT_COUNT])
-{
-    all[APP_REGISTERS_SPEED_NOW]     = signed_value(s->speed_e_radps, TENTHS);
-    all[APP_REGISTERS_IQ]            = signed_value(s->i_A.q, THOUSANDTHS);
-    all[APP_REGISTERS_ID]            = signed_value(s->i_A.d, THOUSANDTHS);
-    all[APP_REGISTERS_IQ_REF]        = signed_value(s->i_ref_A.q, THOUSANDTHS);
-    all[APP_REGISTERS_ID_REF]        = signed_value(s->i_ref_A.d, THOUSANDTHS);
-    all[APP_REGISTERS_VQ]            = signed_value(s->v_V.q, TENTHS);
-    all[APP_REGISTERS_VD]            = signed_value(s->v_V.d, TENTHS);
-    all[APP_REGISTERS_DC_LINK]       = unsigned_value(s->dc_link_V, TENTHS);
-    all[APP_REGISTERS_TEMPERATURE]   = signed_value(s->temperature_degC, TENTHS);
-    all[APP_REGISTERS_THETA]         = unsigned_value(s->theta_e_rad, THOUSANDTHS);
-    all[APP_REGISTERS_JUMPS]         = s->position_jumps;
-    all[APP_REGISTERS_MOTOR_HEAT]    = unsigned_value(s->motor_heat, THOUSANDTHS);
-    all[APP_REGISTERS_INVERTER_HEAT] = unsigned_value(s->inverter_heat, THOUSANDTHS);
-    all[APP_REGISTERS_DERATING]      = unsigned_value(s->derating, THOUSANDTHS);
-    all[APP_REGISTERS_ZERO_A]        = unsigned_value(s->zero_a_cnt, TENTHS);
-    all[APP_REGISTERS_ZERO_B]        = unsigned_value(s->zero_b_cnt, TENTHS);
-}
-
-static void snapshot_values(const app_snapshot_t *f, uint16_t all[APP_REGISTERS_INPUT_COUNT])
-{
-    const uint16_t valid = f->raw.valid ? (uint16_t)APP_REGISTERS_SAMPLE_VALID : 0U;
-    const uint16_t index = f->raw.index_seen ? (uint16_t)APP_REGISTERS_SAMPLE_INDEX : 0U;
-
-    all[APP_REGISTERS_FIRST_FAULT]        = (uint16_t)f->fault;
-    all[APP_REGISTERS_FIRST_MODE]         = (uint16_t)f->mode;
-    all[APP_REGISTERS_FIRST_DRIVE_FAULT]  = (uint16_t)f->drive_fault;
-    all[APP_REGISTERS_FIRST_BOARD_FAULTS] = f->board_faults;
-    all[APP_REGISTERS_FIRST_IA]           = f->raw.ia_cnt;
-    all[APP_REGISTERS_FIRST_IB]           = f->raw.ib_cnt;
-    all[APP_REGISTERS_FIRST_DC_LINK]      = f->raw.dc_link_cnt;
-    all[APP_REGISTERS_FIRST_TEMPERATURE]  = f->raw.temperature_cnt;
-    all[APP_REGISTERS_FIRST_POSITION]     = f->raw.position_cnt;
-    all[APP_REGISTERS_FIRST_INDEX]        = f->raw.index_cnt;
-    all[APP_REGISTERS_FIRST_SAMPLE]       = (uint16_t)(valid | index);
-    all[APP_REGISTERS_FIRST_SPEED]        = signed_value(f->speed_e_radps, TENTHS);
-    all[APP_REGISTERS_FIRST_WANTED]       = signed_value(f->wanted_e_radps, TENTHS);
-    all[APP_REGISTERS_FIRST_TICKS_HI]     = high_word(f->ticks);
-    all[APP_REGISTERS_FIRST_TICKS_LO]     = low_word(f->ticks);
-}
-
-static void commission_values(const app_commission_status_t *s,
-                              uint16_t                       all[APP_REGISTERS_INPUT_COUNT])
-{
-    const commission_result_t *const f        = &s->found;
-    const commission_value_t         values[] = {f->r_Ohm,        f->v_loss_V,   f->ld_H,
-                                                 f->lq_H,         f->flux_Wb,    f->inertia_kgm2,
-                                                 f->friction_Nms, f->coulomb_Nm, f->offset_rad};
-
-    all[APP_REGISTERS_COMMISSION_STAGE]   = (uint16_t)s->stage;
-    all[APP_REGISTERS_COMMISSION_REASON]  = (uint16_t)s->reason;
-    all[APP_REGISTERS_COMMISSION_PERCENT] = (uint16_t)s->percent;
-    all[APP_REGISTERS_DIRECTION]          = (uint16_t)f->direction;
-    all[APP_REGISTERS_POLE_PAIRS]         = (uint16_t)f->pole_pairs;
-    all[APP_REGISTERS_COUNTS_HI]          = high_word((uint32_t)f->counts_per_turn);
-    all[APP_REGISTERS_COUNTS_LO]          = low_word((uint32_t)f->counts_per_turn);
-    all[APP_REGISTERS_RELUCTANCE]         = f->reluctance ? 1U : 0U;
-    for (uint16_t k = 0U; k < (uint16_t)(sizeof values / sizeof values[0]); k++) {
-        decimal(values[k].value, &all[APP_REGISTERS_FOUND + (4U * k)]);
-        decimal(values[k].error, &all[APP_REGISTERS_FOUND + (4U * k) + 2U]);
+    switch (e->type) {
+    case APP_REGISTERS_U16:
+        return unsigned_count(x * e->per_unit, 65535.0f);
+    case APP_REGISTERS_I16:
+        return signed_count(x * e->per_unit, -32768.0f, 32767.0f);
+    case APP_REGISTERS_U32:
+        return unsigned_count(x * e->per_unit, MOST_U32);
+    case APP_REGISTERS_I32:
+        return signed_count(x * e->per_unit, -MOST_I32, MOST_I32);
+    case APP_REGISTERS_DEC:
+    default:
+        return decimal(x);
     }
 }
 
-/* Subtraction instead of a sum, which could wrap in 16 bits. */
-static bool exist(uint16_t first, uint16_t count, uint16_t existing)
+static bool is_whole(const app_registers_entry_t *e)
 {
-    return (first < existing) && (count <= (uint16_t)(existing - first));
+    return (e->type != APP_REGISTERS_DEC) && !(e->per_unit > 0.0f);
+}
+
+static uint32_t value_of(const app_registers_t *r, const map_t *map, const app_registers_entry_t *e)
+{
+    if (is_whole(e)) {
+        return map->input ? app_registers_map_input_whole(r, e->address)
+                          : app_registers_map_holding_whole(r, e->address);
+    }
+    return count_of(map->input ? app_registers_map_input_real(r, e->address)
+                               : app_registers_map_holding_real(r, e->address),
+                    e);
+}
+
+static uint16_t words_of(const app_registers_entry_t *e)
+{
+    return ((e->type == APP_REGISTERS_U16) || (e->type == APP_REGISTERS_I16)) ? 1U : 2U;
+}
+
+/* The entry that this address belongs to, and whether it is its second word; count where there is none. */
+static uint16_t find(const map_t *map, uint16_t address)
+{
+    for (uint16_t k = 0U; k < map->count; k++) {
+        const app_registers_entry_t *e = &map->entries[k];
+        if ((address >= e->address) && ((uint16_t)(address - e->address) < words_of(e))) {
+            return k;
+        }
+    }
+    return map->count;
+}
+
+static app_registers_result_t read_map(const app_registers_t *r, const map_t *map, uint16_t first,
+                                       uint16_t count, uint16_t *values)
+{
+    uint16_t k = find(map, first);
+    uint16_t n = 0U;
+
+    for (; (k < map->count) && (n < count); k++) {
+        const app_registers_entry_t *e     = &map->entries[k];
+        const uint32_t               value = value_of(r, map, e);
+        const uint16_t               at    = (uint16_t)(first + n); /* below the last entry's end */
+
+        if ((at < e->address) || ((uint16_t)(at - e->address) >= words_of(e))) {
+            break; /* behind a block */
+        }
+        if ((words_of(e) == 2U) && (at == e->address)) {
+            values[n] = (uint16_t)(value >> 16);
+            n         = (uint16_t)(n + 1U);
+        }
+        if (n < count) {
+            values[n] = (uint16_t)(value & 0xFFFFUL);
+            n         = (uint16_t)(n + 1U);
+        }
+    }
+    return (n == count) ? APP_REGISTERS_OK : APP_REGISTERS_BAD_ADDRESS;
+}
+
+static bool is_loader(const app_registers_t *r, uint16_t first)
+{
+    return (r->loader != NULL) && (first >= APP_LOADER_FIRST);
+}
+
+static app_registers_result_t found(bool all)
+{
+    return all ? APP_REGISTERS_OK : APP_REGISTERS_BAD_ADDRESS;
 }
 
 app_registers_result_t app_registers_read_holding(const app_registers_t *r, uint16_t first,
                                                   uint16_t count, uint16_t *values)
 {
-    uint16_t all[APP_REGISTERS_HOLDING_COUNT];
+    if (is_loader(r, first)) {
+        return found(app_loader_read_holding((uint16_t)(first - APP_LOADER_FIRST), count, values));
+    }
+    return read_map(r, &holding, first, count, values);
+}
 
-    if (!exist(first, count, APP_REGISTERS_HOLDING_COUNT)) {
-        return APP_REGISTERS_BAD_ADDRESS;
-    }
-    holding_values(r, all);
-    for (uint16_t i = 0U; i < count; i++) {
-        values[i] = all[first + i];
-    }
-    return APP_REGISTERS_OK;
+static app_registers_result_t read_traces(const app_registers_t *r, uint16_t first, uint16_t count,
+                                          uint16_t *values)
+{
+    const app_traces_result_t result = app_traces_read(r->scope, r->record, first, count, values);
+
+    return (result == APP_TRACES_NOT_NOW) ? APP_REGISTERS_BUSY : found(result == APP_TRACES_OK);
 }
 
 app_registers_result_t app_registers_read_input(const app_registers_t *r, uint16_t first,
                                                 uint16_t count, uint16_t *values)
 {
-    uint16_t all[APP_REGISTERS_INPUT_COUNT];
+    static const map_t input = {app_registers_map_input, APP_REGISTERS_MAP_INPUT, true};
 
-    if (!exist(first, count, APP_REGISTERS_INPUT_COUNT)) {
-        return APP_REGISTERS_BAD_ADDRESS;
+    if ((r->scope != NULL) && (first >= APP_TRACES_SCOPE)) {
+        return read_traces(r, first, count, values);
     }
-    state_values(r, all);
-    measured_values(&r->status, all);
-    snapshot_values(&r->status.snapshot, all);
-    commission_values(&r->status.commission, all);
-    for (uint16_t i = 0U; i < count; i++) {
-        values[i] = all[first + i];
+    if (is_loader(r, first)) {
+        return found(
+            app_loader_read(r->loader, (uint16_t)(first - APP_LOADER_FIRST), count, values));
     }
+    return read_map(r, &input, first, count, values);
+}
+
+/* Two's complement without relying on the conversion. */
+static float signed_32(uint32_t count)
+{
+    const uint32_t below = ~count; /* of a negative number: how far below -1 */
+
+    return ((count & SIGN_32) == 0UL) ? (float)count : (-1.0f - (float)below);
+}
+
+static float written(const app_registers_entry_t *e, const uint16_t *words)
+{
+    const uint16_t high = words[0];
+    float          count;
+
+    if (words_of(e) == 2U) {
+        const uint32_t both = ((uint32_t)high << 16) | (uint32_t)words[1];
+        count               = (e->type == APP_REGISTERS_I32) ? signed_32(both) : (float)both;
+    } else if ((e->type == APP_REGISTERS_I16) && (high >= 0x8000U)) {
+        const int32_t negative = (int32_t)high - 65536L;
+        count                  = (float)negative;
+    } else {
+        count = (float)high;
+    }
+    return (e->per_unit > 0.0f) ? (count / e->per_unit) : count;
+}
+
+/* A write may come to within half of what a register shows. */
+static bool is_in(const app_registers_entry_t *e, float x)
+{
+    const float room = (e->per_unit > 0.0f) ? (0.5f / e->per_unit) : 0.5f;
+    return base_in_range(x, e->least - room, e->most + room);
+}
+
+static bool is_stopped(const app_registers_t *r)
+{
+    return !r->status.gate_enable && (r->status.state != APP_CONTROL_OPERATION_ENABLED) &&
+           (r->status.state != APP_CONTROL_QUICK_STOP_ACTIVE);
+}
+
+/* What a register has already may be written at any time: a master that sends all of its command. */
+static bool is_there(const app_registers_t *r, const app_registers_entry_t *e,
+                     const uint16_t *words)
+{
+    const uint32_t value = value_of(r, &holding, e);
+    const bool     wide  = words_of(e) == 2U;
+    const uint32_t high  = wide ? words[0] : 0U;
+    const uint32_t low   = wide ? words[1] : words[0];
+
+    return (value & (wide ? 0xFFFFFFFFUL : 0xFFFFUL)) == ((high << 16) | low);
+}
+
+static app_registers_result_t try_one(app_registers_t *r, const app_registers_entry_t *e,
+                                      const uint16_t *words)
+{
+    const float x = written(e, words);
+
+    if (!is_in(e, x)) {
+        return APP_REGISTERS_BAD_VALUE;
+    }
+    if (e->stopped && !is_stopped(r) && !is_there(r, e, words)) {
+        return APP_REGISTERS_BUSY;
+    }
+    app_registers_map_put(r, &r->trial, e->address, x);
     return APP_REGISTERS_OK;
 }
 
-static bool value_ok(const app_registers_t *r, uint16_t address, uint16_t value)
+/* What a table of constants cannot tell. */
+static bool may_be_wanted(const app_registers_t *r, const app_registers_wanted_t *w)
 {
-    if (address == (uint16_t)APP_REGISTERS_SPEED) {
-        return base_in_range(speed_of(value), -r->speed_max_e_radps, r->speed_max_e_radps);
-    }
-    return (address == (uint16_t)APP_REGISTERS_COMMISSION_CURRENT) ||
-           (address == (uint16_t)APP_REGISTERS_COMMISSION_SPEED) || (value <= 1U);
+    const float most = r->drive->speed_max_e_radps;
+    return base_in_range(w->objects.omega_e_radps, -most, most) && app_control_knows(&w->objects) &&
+           app_scope_knows(&w->scope);
 }
 
-static void write_one(app_registers_t *r, uint16_t address, uint16_t value)
+/* Every value whole. */
+static bool are_whole(uint16_t first, uint16_t count)
 {
-    if (address == (uint16_t)APP_REGISTERS_SPEED) {
-        r->command.omega_e_radps = speed_of(value);
-    } else if (address == (uint16_t)APP_REGISTERS_RUN) {
-        r->command.run = value != 0U;
-        r->silent      = r->silent && !r->command.run;
-    } else if (address == (uint16_t)APP_REGISTERS_COMMISSION) {
-        r->command.commission = value != 0U;
-    } else if (address == (uint16_t)APP_REGISTERS_COMMISSION_CURRENT) {
-        r->command.bounds.current_A = (float)value / HUNDREDTHS;
-    } else if (address == (uint16_t)APP_REGISTERS_COMMISSION_SPEED) {
-        r->command.bounds.speed_m_radps = (float)value / TENTHS;
+    uint16_t k = find(&holding, first);
+    uint16_t n = 0U;
+
+    for (; (k < holding.count) && (n < count); k++) {
+        const app_registers_entry_t *e = &holding.entries[k];
+        if ((e->address != (uint16_t)(first + n)) || (words_of(e) > (uint16_t)(count - n))) {
+            return false;
+        }
+        n = (uint16_t)(n + words_of(e));
+    }
+    return (n == count) && (count > 0U);
+}
+
+static app_registers_result_t write_loader(app_registers_t *r, uint16_t first, uint16_t count,
+                                           const uint16_t *values)
+{
+    const app_loader_result_t result = app_loader_write(
+        r->loader, r->status.gate_enable, (uint16_t)(first - APP_LOADER_FIRST), count, values);
+
+    if (result == APP_LOADER_BAD_VALUE) {
+        return APP_REGISTERS_BAD_VALUE;
+    }
+    return found(result == APP_LOADER_OK);
+}
+
+static void command_scope(app_registers_t *r)
+{
+    const uint16_t command = r->wanted.scope_command;
+
+    r->wanted.scope_command = 0U;
+    if ((r->scope != NULL) && (command == SCOPE_ARM)) {
+        app_scope_arm(r->scope, &r->wanted.scope);
+    } else if ((r->scope != NULL) && (command == SCOPE_STOP)) {
+        app_scope_stop(r->scope);
     } else {
-        r->command.reset = value != 0U;
+        /* nothing is asked for */
     }
 }
 
 app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, uint16_t count,
                                            const uint16_t *values)
 {
-    if (!exist(first, count, APP_REGISTERS_HOLDING_COUNT)) {
+    uint16_t k = find(&holding, first);
+    uint16_t n = 0U;
+
+    if (is_loader(r, first)) {
+        return write_loader(r, first, count, values);
+    }
+    if (!are_whole(first, count)) {
         return APP_REGISTERS_BAD_ADDRESS;
     }
-    for (uint16_t i = 0U; i < count; i++) {
-        if (!value_ok(r, (uint16_t)(first + i), values[i])) {
-            return APP_REGISTERS_BAD_VALUE;
+    r->trial = r->wanted;
+    while (n < count) {
+        const app_registers_entry_t *e      = &holding.entries[k];
+        const app_registers_result_t result = try_one(r, e, &values[n]);
+        if (result != APP_REGISTERS_OK) {
+            return result;
         }
+        n = (uint16_t)(n + words_of(e));
+        k = (uint16_t)(k + 1U);
     }
-    for (uint16_t i = 0U; i < count; i++) {
-        write_one(r, (uint16_t)(first + i), values[i]);
+    if (!may_be_wanted(r, &r->trial)) {
+        return APP_REGISTERS_BAD_VALUE;
     }
+    r->wanted = r->trial;
+    command_scope(r);
+    r->silent  = r->silent && !app_control_enables(r->wanted.objects.controlword);
     r->changed = true;
     return APP_REGISTERS_OK;
 }
 
 void app_registers_silence(app_registers_t *r)
 {
-    if (r->command.run || r->command.commission) {
-        r->command.run        = false;
-        r->command.commission = false;
-        r->changed            = true;
-        r->silent             = true;
+    app_objects_t *o = &r->wanted.objects;
+
+    if (app_control_enables(o->controlword)) {
+        o->controlword = (o->lost_option == (int16_t)APP_CONTROL_LOST_QUICK_STOP)
+                             ? (uint16_t)APP_CONTROL_QUICK_STOP
+                             : (uint16_t)APP_CONTROL_DISABLE_VOLTAGE;
+        r->changed     = true;
+        r->silent      = true;
     }
 }

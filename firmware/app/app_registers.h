@@ -1,88 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_registers.h
- * @brief The application as 16-bit registers. Table with units: docs/modbus.md.
+ * @brief The application as 16-bit registers. Their table is registers.toml; with units: docs/modbus.md.
  *
  * Holding registers are what the operator wants, input registers what the application tells. Values are
- * rounded to their unit and held at the ends of 16 bits. Context: background.
+ * rounded to their unit and held at the ends of their type. Context: background.
  */
 #ifndef APP_REGISTERS_H
 #define APP_REGISTERS_H
 
+#include "app_config.h"
+#include "app_control.h"
+#include "app_error.h"
+#include "app_loader.h"
+#include "app_registers_map.h"
 #include "app_status.h"
-
-/** Holding registers. */
-enum {
-    APP_REGISTERS_RUN = 0,
-    APP_REGISTERS_RESET,
-    APP_REGISTERS_SPEED, /**< signed, 0.1 rad/s electrical */
-    APP_REGISTERS_COMMISSION,
-    APP_REGISTERS_COMMISSION_CURRENT, /**< bound, 0.01 A */
-    APP_REGISTERS_COMMISSION_SPEED,   /**< bound, 0.1 rad/s mechanical */
-    APP_REGISTERS_HOLDING_COUNT
-};
-
-/** Input registers. */
-enum {
-    APP_REGISTERS_MODE = 0,
-    APP_REGISTERS_FAULT,
-    APP_REGISTERS_DRIVE_FAULT,
-    APP_REGISTERS_BOARD_FAULTS,
-    APP_REGISTERS_CONDITIONS,
-    APP_REGISTERS_REFERENCE,
-    APP_REGISTERS_ALIGN_STAGE,
-    APP_REGISTERS_SPEED_NOW,
-    APP_REGISTERS_IQ,
-    APP_REGISTERS_ID,
-    APP_REGISTERS_IQ_REF,
-    APP_REGISTERS_ID_REF,
-    APP_REGISTERS_VQ,
-    APP_REGISTERS_VD,
-    APP_REGISTERS_DC_LINK,
-    APP_REGISTERS_TEMPERATURE,
-    APP_REGISTERS_THETA,
-    APP_REGISTERS_POSITION,
-    APP_REGISTERS_CORRECTIONS,
-    APP_REGISTERS_ZERO_A,
-    APP_REGISTERS_ZERO_B,
-    APP_REGISTERS_CYCLES,
-    APP_REGISTERS_CYCLES_WORST,
-    APP_REGISTERS_TICKS_HI,
-    APP_REGISTERS_TICKS_LO,
-    APP_REGISTERS_FIRST_FAULT, /**< from here on: the snapshot */
-    APP_REGISTERS_FIRST_MODE,
-    APP_REGISTERS_FIRST_DRIVE_FAULT,
-    APP_REGISTERS_FIRST_BOARD_FAULTS,
-    APP_REGISTERS_FIRST_IA,
-    APP_REGISTERS_FIRST_IB,
-    APP_REGISTERS_FIRST_DC_LINK,
-    APP_REGISTERS_FIRST_TEMPERATURE,
-    APP_REGISTERS_FIRST_POSITION,
-    APP_REGISTERS_FIRST_INDEX,
-    APP_REGISTERS_FIRST_SAMPLE,
-    APP_REGISTERS_FIRST_SPEED,
-    APP_REGISTERS_FIRST_WANTED,
-    APP_REGISTERS_FIRST_TICKS_HI,
-    APP_REGISTERS_FIRST_TICKS_LO,
-    APP_REGISTERS_RESET_CAUSE, /**< after the snapshot: board_reset_t */
-    APP_REGISTERS_PHASE_ERRORS,
-    APP_REGISTERS_IGNORED_ANGLES,
-    APP_REGISTERS_IGNORED_CURRENTS,
-    APP_REGISTERS_JUMPS,
-    APP_REGISTERS_MOTOR_HEAT,
-    APP_REGISTERS_INVERTER_HEAT,
-    APP_REGISTERS_DERATING,
-    APP_REGISTERS_COMMISSION_STAGE, /**< from here on: the commissioning */
-    APP_REGISTERS_COMMISSION_REASON,
-    APP_REGISTERS_COMMISSION_PERCENT,
-    APP_REGISTERS_DIRECTION, /**< signed */
-    APP_REGISTERS_POLE_PAIRS,
-    APP_REGISTERS_COUNTS_HI,
-    APP_REGISTERS_COUNTS_LO,
-    APP_REGISTERS_RELUCTANCE,
-    APP_REGISTERS_FOUND, /**< four words a value: its digits and its power of ten, signed; its error in the same way */
-    APP_REGISTERS_INPUT_COUNT = APP_REGISTERS_FOUND + 36
-};
+#include "app_traces.h"
 
 /** Bits of APP_REGISTERS_CONDITIONS. */
 enum {
@@ -98,25 +31,60 @@ enum {
     APP_REGISTERS_DERATED       = 512
 };
 
+/** Bits of APP_REGISTERS_STATUSWORD; the state has bits 0 to 3, 5 and 6. */
+enum {
+    APP_REGISTERS_VOLTAGE            = 16, /**< dc link within its range */
+    APP_REGISTERS_WARNING            = 128,
+    APP_REGISTERS_STOPPED_BY_SILENCE = 256,
+    APP_REGISTERS_REMOTE             = 512,
+    APP_REGISTERS_REACHED            = 1024,
+    APP_REGISTERS_LIMITED            = 2048,
+    APP_REGISTERS_OF_MODE =
+        4096, /**< profile velocity: speed is zero; homing: the angle was found */
+    APP_REGISTERS_BRIDGE_ON = 16384
+};
+
+#define APP_REGISTERS_REFERENCED 0x8000U /**< bit 15 of it: beyond an int of 16 bits */
+
 /** Bits of APP_REGISTERS_FIRST_SAMPLE. */
 enum { APP_REGISTERS_SAMPLE_VALID = 1, APP_REGISTERS_SAMPLE_INDEX = 2 };
 
 typedef enum {
     APP_REGISTERS_OK = 0,
-    APP_REGISTERS_BAD_ADDRESS, /**< not all of the registers exist */
-    APP_REGISTERS_BAD_VALUE    /**< out of range; nothing was written */
+    APP_REGISTERS_BAD_ADDRESS, /**< not all of the registers exist, or half of a value is written */
+    APP_REGISTERS_BAD_VALUE,   /**< out of range; nothing was written */
+    APP_REGISTERS_BUSY         /**< not while the bridge is on; nothing was written */
 } app_registers_result_t;
 
-typedef struct {
-    app_status_t  status;
-    app_command_t command;
-    float         speed_max_e_radps;
-    bool          changed; /**< command is new; its taker clears this and command.reset */
-    bool          silent;  /**< run was withdrawn because nobody talked; until run is written */
+/** What holding registers hold. */
+typedef struct app_registers_wanted {
+    app_objects_t     objects;
+    app_scope_setup_t scope;
+    uint16_t          scope_command; /**< 1 arms, 2 stops */
+    uint16_t          modbus_address;
+    uint32_t          modbus_timeout_ticks;
+} app_registers_wanted_t;
+
+typedef struct app_registers {
+    const app_config_t          *config;
+    const drive_config_t        *drive;
+    float                        rpm_per_e_radps;
+    app_status_t                 status;
+    app_registers_wanted_t       wanted;
+    app_registers_wanted_t       trial; /**< a write, until all of it is known to be good */
+    volatile app_scope_t        *scope; /**< NULL: there is none, and no record */
+    const volatile app_record_t *record;
+    app_loader_t *loader;  /**< answers from APP_LOADER_FIRST on; NULL: nothing does */
+    bool          changed; /**< command is new; its taker clears this */
+    bool          silent;  /**< stopped because nobody talked; until it is enabled again */
 } app_registers_t;
 
-/** @param speed_max_e_radps Largest speed that may be commanded, either way. Context: init. */
-void app_registers_init(app_registers_t *r, float speed_max_e_radps);
+/**
+ * @brief What the constants say; both must stay.
+ * @return CTL_BAD_CONFIG when the address or the time-out is out of range. Context: init.
+ */
+ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
+                                const drive_config_t *drive);
 
 /** `count` holding registers from `first` on. */
 app_registers_result_t app_registers_read_holding(const app_registers_t *r, uint16_t first,
@@ -130,7 +98,28 @@ app_registers_result_t app_registers_read_input(const app_registers_t *r, uint16
 app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, uint16_t count,
                                            const uint16_t *values);
 
-/** Withdraws run and commissioning. */
+/** Nobody talks any more: an operation that is enabled is stopped. */
 void app_registers_silence(app_registers_t *r);
+
+/** Control periods of so many seconds; below an hour. */
+uint32_t app_registers_ticks(const app_registers_t *r, float time_s);
+
+/** Two's complement. */
+uint32_t app_registers_signed(int16_t x);
+
+/** Value of APP_REGISTERS_STATUSWORD. */
+uint16_t app_registers_statusword(const app_registers_t *r);
+
+/** Values of the registers of scope and record; 0 where there are none. */
+uint32_t app_registers_scope_state(const app_registers_t *r);
+uint32_t app_registers_scope_ticks(const app_registers_t *r);
+uint32_t app_registers_record_number(const app_registers_t *r);
+uint32_t app_registers_record_count(const app_registers_t *r);
+
+/** Value of APP_REGISTERS_CONDITIONS. */
+uint16_t app_registers_conditions(const app_registers_t *r);
+
+/** Value of APP_REGISTERS_FIRST_SAMPLE. */
+uint16_t app_registers_first_sample(const app_registers_t *r);
 
 #endif /* APP_REGISTERS_H */

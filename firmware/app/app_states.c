@@ -13,6 +13,7 @@ static void enter(app_modes_t *m, app_mode_t mode)
     m->sum_b_cnt        = 0UL;
     m->armed            = false;
     m->commission_armed = false;
+    m->align_armed      = false;
     m->zero_a_A         = 0.0f;
     m->zero_b_A         = 0.0f;
 }
@@ -96,7 +97,7 @@ static bridge_t calibrate(app_modes_t *m, const app_modes_input_t *in)
 }
 
 /* What is in the way of a start and may go again. An unknown temperature is a fault of the run instead. */
-static bool in_the_way(const app_modes_t *m)
+bool app_modes_in_the_way(const app_modes_t *m)
 {
     return (m->hot && m->sample.temperature_valid) || m->dc_link_out || m->tripped ||
            !app_gate_may_start(&m->config->gate, m->reading.omega_e_radps);
@@ -135,10 +136,29 @@ static bool commissioning_starts(app_modes_t *m, const app_modes_input_t *in)
         m->commission_armed = true;
         return false;
     }
-    const bool start = m->commission_armed && !c->run && !in_the_way(m) &&
+    const bool start = m->commission_armed && !c->run && !app_modes_in_the_way(m) &&
                        app_commission_allows(&m->commission, &c->bounds);
     m->commission_armed = false;
     return start;
+}
+
+static bool alignment_starts(app_modes_t *m, const app_modes_input_t *in)
+{
+    const app_command_t *c = &in->command;
+
+    if (!c->align) {
+        m->align_armed = true;
+        return false;
+    }
+    const bool start = m->align_armed && !c->run && !app_modes_in_the_way(m);
+    m->align_armed   = false;
+    return start;
+}
+
+static void enter_align(app_modes_t *m, const app_modes_input_t *in)
+{
+    app_align_start(&m->align, in->raw->position_cnt);
+    enter(m, APP_MODE_ALIGN);
 }
 
 /* The bridge stays open in this tick: the next one looks at everything again in the new mode. */
@@ -154,17 +174,22 @@ static bridge_t ready(app_modes_t *m, const app_modes_input_t *in)
         enter(m, APP_MODE_COMMISSION);
         return bridge_open();
     }
+    if (alignment_starts(m, in)) {
+        enter_align(m, in);
+        return bridge_open();
+    }
     if (!in->command.run) {
         m->armed = true;
         return bridge_open();
     }
-    const bool start = m->armed && !in_the_way(m);
+    const bool start = m->armed && !app_modes_in_the_way(m);
     m->armed         = false; /* a refused start is not made up for later */
     if (start && (m->angle.reference != APP_ANGLE_NONE)) {
         enter_run(m);
     } else if (start) {
-        app_align_start(&m->align, in->raw->position_cnt);
-        enter(m, APP_MODE_ALIGN);
+        enter_align(m, in);
+    } else {
+        /* stays */
     }
     return bridge_open();
 }
@@ -172,8 +197,9 @@ static bridge_t ready(app_modes_t *m, const app_modes_input_t *in)
 static bridge_t drive(app_modes_t *m, const app_command_t *wanted, bool run)
 {
     const drive_sample_t  sample  = drive_sample(m);
-    const drive_command_t command = {
-        .omega_e_radps = wanted->omega_e_radps, .run = run, .derating = m->heat.derating};
+    const drive_command_t command = {.omega_e_radps = wanted->omega_e_radps,
+                                     .run           = run,
+                                     .derating      = base_max(m->heat.derating, wanted->derating)};
     return drive_tick(&m->drive, &sample, &command);
 }
 
@@ -187,7 +213,7 @@ static bool drive_watches(app_modes_t *m, const app_modes_input_t *in)
 /* RUN and STOP. A drive whose encoder is lost brakes until it is too slow to go on without, which is its fault. */
 static bridge_t run_drive(app_modes_t *m, const app_modes_input_t *in)
 {
-    static const app_command_t stop = {.omega_e_radps = 0.0f, .run = false, .reset = false};
+    const app_command_t stop = {.omega_e_radps = 0.0f, .derating = in->command.derating};
 
     const bool lost = m->drive.wanted.without_angle;
     const bool brake =
@@ -224,9 +250,20 @@ static bridge_t precharge(app_modes_t *m, const app_modes_input_t *in)
     return bridge_shorted();
 }
 
-static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
+/* By the index, on the way. Who asked for an alignment alone has what it is for. */
+static bridge_t aligned(app_modes_t *m, const app_modes_input_t *in)
 {
     if (!in->command.run) {
+        enter(m, APP_MODE_READY);
+        return bridge_open();
+    }
+    enter_run(m);
+    return (m->mode == APP_MODE_RUN) ? run_drive(m, in) : bridge_open();
+}
+
+static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
+{
+    if (!in->command.run && !in->command.align) {
         enter(m, APP_MODE_READY);
         return bridge_open();
     }
@@ -234,8 +271,7 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
         return app_states_trip(m, in, APP_FAULT_DRIVE);
     }
     if (m->angle.reference == APP_ANGLE_INDEX) { /* the mark came by: better than alignment */
-        enter_run(m);
-        return (m->mode == APP_MODE_RUN) ? run_drive(m, in) : bridge_open();
+        return aligned(m, in);
     }
     const bridge_t out = app_align_tick(&m->align, m->sample.ia_A, m->sample.ib_A,
                                         m->sample.dc_link_V, in->raw->position_cnt);
@@ -244,7 +280,8 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
     }
     if (m->align.stage == APP_ALIGN_DONE) {
         app_angle_align(&m->angle, in->raw->position_cnt, m->align.config->theta_e_rad);
-        enter(m, APP_MODE_RUN);
+        enter(m, in->command.run ? APP_MODE_RUN : APP_MODE_READY);
+        return in->command.run ? out : bridge_open();
     }
     return out;
 }

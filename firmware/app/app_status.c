@@ -49,4 +49,8 @@ void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_
     s->ticks             = m->ticks;
     s->snapshot          = m->snapshot;
     s->commission        = app_commission_status(&m->commission);
+    s->state             = APP_CONTROL_NOT_READY; /* and the next: app.c knows */
+    s->mode_of_operation = 0;
+    s->done              = false;
+    s->demand_e_radps    = 0.0f;
 }

@@ -9,6 +9,7 @@
 #include "app_align.h"
 #include "app_angle.h"
 #include "app_commission.h"
+#include "app_objects.h"
 #include "board.h"
 #include "drive_tick.h"
 
@@ -94,14 +95,20 @@ typedef struct {
     uint32_t       ticks;
     app_snapshot_t snapshot;
     app_commission_status_t commission;
+    app_control_state_t     state;             /**< app_control.h, as the next three */
+    int16_t                 mode_of_operation; /**< in force */
+    bool                    done;              /**< homing or commissioning has ended */
+    float                   demand_e_radps;    /**< speed that the ramp asks for */
 } app_status_t;
 
-/** What the operator wants. */
+/** What the modes are told to do. */
 typedef struct {
     float omega_e_radps; /**< speed; out of the drive's range is a fault in RUN */
     bool  run;
     bool  reset;      /**< leave FAULT; ignored together with run */
     bool  commission; /**< find the motor; starts when it rises in READY without run */
+    bool  align;      /**< find the angle anew; the same */
+    float derating;   /**< share of the current limit that is not wanted, 0 .. 1 */
     app_commission_bounds_t bounds; /**< of that */
 } app_command_t;
 

@@ -58,11 +58,17 @@ enum {
     BOARD_FAULT_INPUT   = 16 /**< the trip input is active; the only one that is not latched */
 };
 
+/** What a board remembers over a power cut: slots of BOARD_STORE_WORDS words, each erased as a whole (board_limits.h). */
+enum { BOARD_STORE_SLOTS = 2 };
+
 /** What started the program. */
 typedef enum {
     BOARD_RESET_PIN = 0, /**< power, or the reset pin */
     BOARD_RESET_WATCHDOG /**< the program before hung */
 } board_reset_t;
+
+/** Whether the registers can hold what the setup asks for. Context: init, or the loader. */
+bool board_fits(const board_setup_t *setup);
 
 /**
  * @brief Makes the pins safe, then sets clock, peripherals and trip up; all six switches stay off.
@@ -116,6 +122,27 @@ uint16_t board_fault_read(void);
 
 /** Context: any, after board_init(). */
 board_reset_t board_reset_cause(void);
+
+/** True when board_restart() asked for the loader, once: asked again it is false. Context: init, after board_init(). */
+bool board_loader_is_wanted(void);
+
+/**
+ * @brief Starts the program anew, by a reset of the device; all six switches are off from now on.
+ *
+ * @param loader What board_loader_is_wanted() shall tell then.
+ *
+ * Context: background or loader. Does not return.
+ */
+void board_restart(bool loader);
+
+/** The words of a slot, in memory; NULL: the board has no store. Context: any. */
+const uint16_t *board_store(uint16_t slot);
+
+/** Makes all words of a slot 0xFFFF; lasts seconds. @return false: it failed. Context: loader: nothing else runs. */
+bool board_store_erase(uint16_t slot);
+
+/** Writes words that are erased; not a second time. @return false: it failed. Context: loader. */
+bool board_store_program(uint16_t slot, uint32_t offset, const uint16_t *words, uint16_t count);
 
 /** Processor cycles, free running, wraps; pwm_cycles of the setup per PWM period. Context: any. */
 uint32_t board_cycles(void);

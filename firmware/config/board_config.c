@@ -76,4 +76,6 @@ const app_config_t board_config = {
     .modbus_address = 1U,
     .modbus_gap_ticks = 10U,
     .modbus_timeout_ticks = 2500U,
+    .drive_name = "ipmsm_390w",
+    .digest = "fnv1a64:605d0cdd01ffe0a5",
 };

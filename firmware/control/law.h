@@ -11,6 +11,7 @@
 #define LAW_H
 
 #include "base.h"
+#include "fields.h"
 #include "nodo.h"
 #include "sample.h"
 
@@ -61,6 +62,12 @@ typedef struct {
     /** Whether the numbers in the constants that end loops and choose places are still in range: looked at in every period,
      * because a flipped bit there would lead outside the memory. NULL: there are none. Context: control ISR. */
     bool (*counts_ok)(const struct drive_config *config);
+
+    /** Visits all constants (fields.h). NULL: they come compiled only. Context: init. */
+    void (*fields)(fields_t *f, void *constants);
+
+    uint16_t
+        number; /**< by which an image of constants names its law, docs/architecture.md; 0: none */
 
     uint32_t constants_chars; /**< sizeof the constants, for a check sum of them; 0: not known */
 } law_t;

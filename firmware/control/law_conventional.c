@@ -44,4 +44,6 @@ const law_t law_conventional = {.check           = check,
                                 .reset           = reset,
                                 .step            = step,
                                 .counts_ok       = counts_ok,
+                                .fields          = law_conventional_fields,
+                                .number          = 4U,
                                 .constants_chars = (uint32_t)sizeof(law_conventional_config_t)};

@@ -17,6 +17,8 @@ typedef struct {
 
 typedef law_noc_speed_state_t law_conventional_state_t;
 
+void law_conventional_fields(fields_t *f, void *constants); /**< for law_conventional.fields */
+
 extern const law_t law_conventional;
 
 #endif /* LAW_CONVENTIONAL_H */

@@ -47,4 +47,6 @@ const law_t law_dobc = {.check           = check,
                         .reset           = reset,
                         .step            = step,
                         .counts_ok       = counts_ok,
+                        .fields          = law_dobc_fields,
+                        .number          = 5U,
                         .constants_chars = (uint32_t)sizeof(law_dobc_config_t)};

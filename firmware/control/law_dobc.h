@@ -21,6 +21,8 @@ typedef struct {
     float     direct_V; /**< u_qd of the last period */
 } law_dobc_state_t;
 
+void law_dobc_fields(fields_t *f, void *constants); /**< for law_dobc.fields */
+
 extern const law_t law_dobc;
 
 #endif /* LAW_DOBC_H */

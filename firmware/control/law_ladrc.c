@@ -78,4 +78,6 @@ const law_t law_ladrc = {.check           = check,
                          .reset           = reset,
                          .step            = step,
                          .counts_ok       = counts_ok,
+                         .fields          = law_ladrc_fields,
+                         .number          = 8U,
                          .constants_chars = (uint32_t)sizeof(law_ladrc_config_t)};

@@ -40,6 +40,8 @@ typedef struct {
     float              accel_e_radps2; /**< a of the sample before */
 } law_ladrc_state_t;
 
+void law_ladrc_fields(fields_t *f, void *constants); /**< for law_ladrc.fields */
+
 extern const law_t law_ladrc;
 
 #endif /* LAW_LADRC_H */

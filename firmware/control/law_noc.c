@@ -85,4 +85,6 @@ const law_t law_noc = {.check           = check,
                        .reset           = reset,
                        .step            = step,
                        .counts_ok       = counts_ok,
+                       .fields          = law_noc_fields,
+                       .number          = 1U,
                        .constants_chars = (uint32_t)sizeof(law_noc_config_t)};

@@ -31,6 +31,8 @@ typedef struct {
     angle_gate_t         gate;
 } law_noc_state_t;
 
+void law_noc_fields(fields_t *f, void *constants); /**< for law_noc.fields */
+
 extern const law_t law_noc;
 
 #endif /* LAW_NOC_ENCODER_H */

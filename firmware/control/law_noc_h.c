@@ -70,4 +70,6 @@ const law_t law_noc_h = {.check           = check,
                          .reset           = reset,
                          .step            = step,
                          .counts_ok       = counts_ok,
+                         .fields          = law_noc_h_fields,
+                         .number          = 3U,
                          .constants_chars = (uint32_t)sizeof(law_noc_h_config_t)};

@@ -26,6 +26,8 @@ typedef struct {
     angle_gate_t         gate;
 } law_noc_h_state_t;
 
+void law_noc_h_fields(fields_t *f, void *constants); /**< for law_noc_h.fields */
+
 extern const law_t law_noc_h;
 
 #endif /* LAW_NOC_H_H */

@@ -60,4 +60,6 @@ const law_t law_noc_speed = {.check           = check,
                              .reset           = reset,
                              .step            = step,
                              .counts_ok       = counts_ok,
+                             .fields          = law_noc_speed_fields,
+                             .number          = 2U,
                              .constants_chars = (uint32_t)sizeof(law_noc_speed_config_t)};

@@ -20,6 +20,8 @@ typedef struct {
     near_optimal_t near_optimal;
 } law_noc_speed_state_t;
 
+void law_noc_speed_fields(fields_t *f, void *constants); /**< for law_noc_speed.fields */
+
 extern const law_t law_noc_speed;
 
 /** Start of a run from the measured speed. Context: control ISR. */

@@ -58,4 +58,6 @@ const law_t law_pi_foc = {.check           = check,
                           .reset           = reset,
                           .step            = step,
                           .counts_ok       = counts_ok,
+                          .fields          = law_pi_foc_fields,
+                          .number          = 7U,
                           .constants_chars = (uint32_t)sizeof(law_pi_foc_config_t)};

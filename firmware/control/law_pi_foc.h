@@ -35,6 +35,8 @@ typedef struct {
     float              sum_e_radps2;
 } law_pi_foc_state_t;
 
+void law_pi_foc_fields(fields_t *f, void *constants); /**< for law_pi_foc.fields */
+
 extern const law_t law_pi_foc;
 
 #endif /* LAW_PI_FOC_H */

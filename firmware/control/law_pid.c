@@ -38,4 +38,6 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
 const law_t law_pid = {.check           = check,
                        .reset           = reset,
                        .step            = step,
+                       .fields          = law_pid_fields,
+                       .number          = 6U,
                        .constants_chars = (uint32_t)sizeof(law_pid_config_t)};

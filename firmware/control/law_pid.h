@@ -19,6 +19,8 @@ typedef struct {
     pid_law_t id_pi;
 } law_pid_state_t;
 
+void law_pid_fields(fields_t *f, void *constants); /**< for law_pid.fields */
+
 extern const law_t law_pid;
 
 #endif /* LAW_PID_H */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file laws.h
- * @brief The list of laws: a line each.
+ * @brief The list of laws: a line each, for its state and for its constants.
  *
  * Naming a state here costs memory (the largest counts), no code: a law's functions are linked when the tables name it.
  */
@@ -31,5 +31,17 @@ union law_state {
     law_ladrc_state_t        ladrc;
     float                    own[LAW_OWN_FLOATS];
 };
+
+/** The constants of one law, in memory of their own: what an image gives a drive. */
+typedef union {
+    law_noc_config_t          noc;
+    law_noc_speed_config_t    noc_speed;
+    law_noc_h_config_t        noc_h;
+    law_conventional_config_t conventional;
+    law_dobc_config_t         dobc;
+    law_pid_config_t          pid;
+    law_pi_foc_config_t       pi_foc;
+    law_ladrc_config_t        ladrc;
+} law_constants_t;
 
 #endif /* LAWS_H */

@@ -7,10 +7,12 @@
 namespace sdre {
 
 Command generate_command();
+Command image_command();
 Command report_command();
 Command orders_command();
 Command tune_command();
 Command new_command();
+Command from_commissioning_command();
 Command care_command();
 
 } // namespace sdre

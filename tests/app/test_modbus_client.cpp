@@ -31,15 +31,23 @@ using namespace std::chrono_literals;
 constexpr int address = 1;
 
 // Input and holding registers, from docs/modbus.md.
-constexpr int input_mode        = 0;
-constexpr int input_fault       = 1;
-constexpr int input_drive_fault = 2;
-constexpr int input_dc_link     = 14;
-constexpr int input_first_fault = 25;
-constexpr int input_count       = 42;
-constexpr int holding_run       = 0;
-constexpr int holding_reset     = 1;
+constexpr int input_statusword  = 0;
+constexpr int input_error_code  = 2;
+constexpr int input_mode        = 3;
+constexpr int input_fault       = 4;
+constexpr int input_drive_fault = 5;
+constexpr int input_conditions  = 7;
+constexpr int input_dc_link     = 26;
+constexpr int input_first_fault = 45;
+constexpr int input_count       = 62;
+constexpr int holding_control   = 0;
 constexpr int holding_speed     = 2;
+constexpr int holding_rpm       = 6; // in one register
+
+// Control words of CiA 402.
+constexpr int shut_down   = 6;
+constexpr int enable      = 15;
+constexpr int fault_reset = 128;
 
 constexpr int mode_ready = 2;
 constexpr int mode_run   = 4;
@@ -190,6 +198,21 @@ protected:
         EXPECT_EQ(modbus_read_registers(client_, number, 1, &value), 1) << modbus_strerror(errno);
         return value;
     }
+    /// 0.1 rad/s; the answer of libmodbus.
+    int write_speed(std::int32_t tenths)
+    {
+        const auto                         both  = static_cast<std::uint32_t>(tenths);
+        const std::array<std::uint16_t, 2> words = {static_cast<std::uint16_t>(both >> 16U),
+                                                    static_cast<std::uint16_t>(both & 0xFFFFU)};
+        return modbus_write_registers(client_, holding_speed, 2, words.data());
+    }
+    std::int32_t speed()
+    {
+        std::array<std::uint16_t, 2> words{};
+        EXPECT_EQ(modbus_read_registers(client_, holding_speed, 2, words.data()), 2)
+            << modbus_strerror(errno);
+        return static_cast<std::int32_t>((static_cast<std::uint32_t>(words[0]) << 16U) | words[1]);
+    }
     void write(int number, std::uint16_t value)
     {
         EXPECT_EQ(modbus_write_register(client_, number, value), 1) << modbus_strerror(errno);
@@ -201,6 +224,22 @@ protected:
             std::this_thread::sleep_for(1ms);
         }
         EXPECT_EQ(input(input_mode), mode);
+    }
+    /// By the state's bits of the status word.
+    void expect_state(int state)
+    {
+        for (int n = 0; n < 50 && (input(input_statusword) & 0x6F) != state; n++) {
+            std::this_thread::sleep_for(1ms);
+        }
+        EXPECT_EQ(input(input_statusword) & 0x6F, state);
+    }
+    void start()
+    {
+        write(holding_control, shut_down);
+        expect_state(0x21);
+        write(holding_control, enable);
+        expect_mode(mode_run);
+        EXPECT_EQ(input(input_statusword) & 0x6F, 0x27);
     }
     void expect_exception(int result, int exception)
     {
@@ -223,40 +262,53 @@ TEST_F(ModbusClient, ReadsAllInputRegistersAtOnce)
     EXPECT_EQ(values[input_mode], mode_ready);
     EXPECT_EQ(values[input_fault], 0);
     EXPECT_NEAR(values[input_dc_link], 2950, 1);
-    EXPECT_EQ(values[5], 2); // referenced by the index
+    EXPECT_EQ(values[8], 2); // referenced by the index
 }
 
 TEST_F(ModbusClient, StartsAndStopsTheDrive)
 {
-    write(holding_speed, static_cast<std::uint16_t>(-123));
-    EXPECT_EQ(holding(holding_speed), 65536 - 123);
-    write(holding_speed,
+    EXPECT_EQ(write_speed(-123), 2);
+    EXPECT_EQ(speed(), -123);
+    write(holding_rpm, static_cast<std::uint16_t>(-300)); // 62.83 rad/s electrical
+    EXPECT_EQ(speed(), -628);
+    write(holding_rpm,
           0); // the fake board's motor never turns and has no current: that is all it can do
-    write(holding_run, 1);
-    expect_mode(mode_run);
+    start();
     EXPECT_TRUE(server_.gate());
-    write(holding_run, 0);
+    write(holding_control, shut_down);
     expect_mode(mode_ready);
+    expect_state(0x21);
     EXPECT_FALSE(server_.gate());
 }
 
 TEST_F(ModbusClient, WritesSeveralRegistersAtOnce)
 {
-    const auto block = [this](std::uint16_t run, std::uint16_t speed) {
-        const std::array<std::uint16_t, 3> values = {run, 0, speed};
-        ASSERT_EQ(modbus_write_registers(client_, 0, 3, values.data()), 3)
+    const auto block = [this](std::uint16_t control, std::uint16_t speed) {
+        const std::array<std::uint16_t, 4> values = {control, 3, 0, speed};
+        ASSERT_EQ(modbus_write_registers(client_, 0, 4, values.data()), 4)
             << modbus_strerror(errno);
-        EXPECT_EQ(holding(holding_speed), speed);
+        EXPECT_EQ(this->speed(), speed);
     };
-    block(0, 500);
-    block(1, 0);
+    block(shut_down, 500);
+    expect_state(0x21);
+    block(enable, 0);
     expect_mode(mode_run);
+}
+
+TEST_F(ModbusClient, ExchangesInOneRequest)
+{
+    const std::array<std::uint16_t, 2> wanted{0, 250};
+    std::array<std::uint16_t, 4>       got{};
+    ASSERT_EQ(
+        modbus_write_and_read_registers(client_, holding_speed, 2, wanted.data(), 0, 4, got.data()),
+        4)
+        << modbus_strerror(errno);
+    EXPECT_EQ(got, (std::array<std::uint16_t, 4>{0, 3, 0, 250}));
 }
 
 TEST_F(ModbusClient, TellsTheFirstFaultAndLeavesItByReset)
 {
-    write(holding_run, 1);
-    expect_mode(mode_run);
+    start();
     server_.at([] { fake_board.sample.dc_link_cnt = 4000; });
     EXPECT_FALSE(server_.gate());
     expect_mode(mode_fault);
@@ -265,11 +317,13 @@ TEST_F(ModbusClient, TellsTheFirstFaultAndLeavesItByReset)
     EXPECT_EQ(input(input_first_fault + 6), 4000);
     server_.at([] { fake_board.sample.dc_link_cnt = 2685; });
 
-    write(holding_reset, 1); // run is still there
+    EXPECT_EQ(input(input_error_code), 0x3200);
+    EXPECT_EQ(input(input_statusword) & 0x4F, 0x08);
+    write(holding_control, enable);
     expect_mode(mode_fault);
-    write(holding_run, 0);
-    write(holding_reset, 1);
+    write(holding_control, fault_reset | enable);
     expect_mode(mode_ready);
+    expect_state(0x40); // and no start by itself
     EXPECT_EQ(input(input_first_fault), 10);
 }
 
@@ -277,43 +331,44 @@ TEST_F(ModbusClient, RefusesWithTheExceptionThatSaysWhy)
 {
     std::array<std::uint16_t, 125> values{};
     std::array<std::uint8_t, 8>    bits{};
-    expect_exception(modbus_read_input_registers(client_, 92, 1, values.data()), EMBXILADD);
-    expect_exception(modbus_read_registers(client_, 5, 2, values.data()), EMBXILADD);
-    expect_exception(modbus_write_register(client_, 6, 0), EMBXILADD);
-    expect_exception(modbus_write_register(client_, holding_run, 2), EMBXILVAL);
-    expect_exception(modbus_write_register(client_, holding_speed, 11914), EMBXILVAL);
-    values = {1, 0, 20000};
-    expect_exception(modbus_write_registers(client_, 0, 3, values.data()), EMBXILVAL);
+    expect_exception(modbus_read_input_registers(client_, input_count, 1, values.data()),
+                     EMBXILADD);
+    expect_exception(modbus_read_registers(client_, 21, 2, values.data()), EMBXILADD);
+    expect_exception(modbus_write_register(client_, 22, 0), EMBXILADD);
+    expect_exception(modbus_write_register(client_, 1, 2), EMBXILVAL);
+    expect_exception(modbus_write_register(client_, holding_speed, 1), EMBXILADD); // a half
+    expect_exception(write_speed(11914), EMBXILVAL);
+    values = {enable, 3, 0, 20000};
+    expect_exception(modbus_write_registers(client_, 0, 4, values.data()), EMBXILVAL);
     expect_exception(modbus_read_bits(client_, 0, 1, bits.data()), EMBXILFUN);
-    EXPECT_EQ(holding(holding_run), 0);
+    EXPECT_EQ(holding(holding_control), 0);
 }
 
 TEST_F(ModbusClient, ObeysABroadcastWithoutAnswering)
 {
     ASSERT_EQ(modbus_set_slave(client_, MODBUS_BROADCAST_ADDRESS), 0);
     ASSERT_EQ(modbus_set_response_timeout(client_, 0, 200000), 0);
-    expect_exception(modbus_write_register(client_, holding_speed, 77), ETIMEDOUT);
+    expect_exception(write_speed(77), ETIMEDOUT);
 
     ASSERT_EQ(modbus_set_slave(client_, address), 0);
     ASSERT_EQ(modbus_set_response_timeout(client_, 2, 0), 0);
-    EXPECT_EQ(holding(holding_speed), 77);
+    EXPECT_EQ(speed(), 77);
 }
 
 TEST_F(ModbusClient, DoesNotAnswerForAnotherAddress)
 {
     ASSERT_EQ(modbus_set_slave(client_, address + 1), 0);
     ASSERT_EQ(modbus_set_response_timeout(client_, 0, 200000), 0);
-    expect_exception(modbus_write_register(client_, holding_speed, 77), ETIMEDOUT);
+    expect_exception(write_speed(77), ETIMEDOUT);
 }
 
 TEST_F(ModbusClient, SilenceOpensTheBridge)
 {
-    write(holding_run, 1);
-    expect_mode(mode_run);
+    start();
     for (int n = 0; n < 500 && server_.gate(); n++) {
         std::this_thread::sleep_for(20ms); // 2500 ticks of 100 us and more
     }
     EXPECT_FALSE(server_.gate());
     expect_mode(mode_ready);
-    EXPECT_EQ(input(4) & 2, 2);
+    EXPECT_EQ(input(input_conditions) & 2, 2);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The served drive with a Modbus client of others: libmodbus, on a pseudo-terminal and over TCP.
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
@@ -84,6 +85,13 @@ public:
     {
         EXPECT_EQ(try_write(address, value), 1) << modbus_strerror(errno);
     }
+    /// 32 bits, the high word first.
+    int try_write_both(int address, std::uint32_t value)
+    {
+        const std::array<std::uint16_t, 2> words{static_cast<std::uint16_t>(value >> 16U),
+                                                 static_cast<std::uint16_t>(value & 0xFFFFU)};
+        return modbus_write_registers(m_, address, 2, words.data());
+    }
     /// Polls, which keeps the drive running, until the register has the value.
     bool reaches(int address, const std::function<bool(int)> &wanted)
     {
@@ -118,13 +126,14 @@ bool near_300(int tenths)
 void spin(Client &c)
 {
     ASSERT_TRUE(c.reaches(APP_REGISTERS_MODE, is_ready));
-    c.write(APP_REGISTERS_SPEED, 3000);
-    c.write(APP_REGISTERS_RUN, 1);
+    EXPECT_EQ(c.try_write_both(APP_REGISTERS_SPEED, 3000), 2);
+    c.write(APP_REGISTERS_CONTROLWORD, APP_CONTROL_SHUT_DOWN);
+    c.write(APP_REGISTERS_CONTROLWORD, APP_CONTROL_ENABLE_OPERATION);
     ASSERT_TRUE(c.reaches(APP_REGISTERS_MODE, is_running));
-    EXPECT_TRUE(c.reaches(APP_REGISTERS_SPEED_NOW, near_300));
-    EXPECT_EQ(c.try_write(APP_REGISTERS_SPEED, 30000), -1); // beyond the largest command
+    EXPECT_TRUE(c.reaches(APP_REGISTERS_SPEED_NOW + 1, near_300));
+    EXPECT_EQ(c.try_write_both(APP_REGISTERS_SPEED, 30000), -1); // beyond the largest command
     EXPECT_EQ(errno, EMBXILVAL);
-    c.write(APP_REGISTERS_RUN, 0);
+    c.write(APP_REGISTERS_CONTROLWORD, APP_CONTROL_DISABLE_VOLTAGE);
     EXPECT_TRUE(c.reaches(APP_REGISTERS_MODE, is_ready));
 }
 

@@ -153,22 +153,25 @@ public:
         }
         read_ = false;
         if (mode_ == APP_MODE_FAULT && asked_) {
-            write(APP_REGISTERS_RUN, 0);
+            write(APP_REGISTERS_CONTROLWORD, 6);
             asked_ = false;
         } else if (mode_ == APP_MODE_FAULT && wait_++ >= 5) { // a tenth of a second and more
-            write(APP_REGISTERS_RESET, 1);
+            write(APP_REGISTERS_CONTROLWORD, reset_ ? 6 : 128 + 6);
+            reset_ = !reset_;
             resets_++;
             wait_ = 0;
         } else if (mode_ == APP_MODE_READY && asked_ && wait_++ >= 5) { // refused, or silent
-            write(APP_REGISTERS_RUN, 0);
+            write(APP_REGISTERS_CONTROLWORD, 6);
             asked_ = false;
             wait_  = 0;
         } else if (mode_ == APP_MODE_READY && !asked_) {
-            write(APP_REGISTERS_RUN, 1);
-            asked_ = true;
-            wait_  = 0;
+            write(APP_REGISTERS_CONTROLWORD, shut_down_ ? 15 : 6);
+            asked_     = shut_down_;
+            shut_down_ = !shut_down_;
+            asked_     = true;
+            wait_      = 0;
         } else if (speed_ != told_) {
-            write(APP_REGISTERS_SPEED, static_cast<std::uint16_t>(speed_ & 0xFFFF));
+            write_speed();
             told_ = speed_;
         } else {
             run_.chat();
@@ -185,14 +188,23 @@ private:
         run_.write(static_cast<std::uint16_t>(address), static_cast<std::uint16_t>(value));
     }
 
+    void write_speed()
+    {
+        const auto both = static_cast<std::uint32_t>(speed_);
+        run_.write(APP_REGISTERS_SPEED, {static_cast<std::uint16_t>(both >> 16U),
+                                         static_cast<std::uint16_t>(both & 0xFFFFU)});
+    }
+
     F28335Run &run_;
-    int        mode_   = -1;
-    int        speed_  = 0;
-    int        told_   = 0;
-    bool       asked_  = false;
-    bool       read_   = false;
-    int        wait_   = 0;
-    int        resets_ = 0;
+    int        mode_      = -1;
+    int        speed_     = 0;
+    int        told_      = 0;
+    bool       asked_     = false;
+    bool       read_      = false;
+    bool       reset_     = false;
+    bool       shut_down_ = false; ///< before a start
+    int        wait_      = 0;
+    int        resets_    = 0;
 };
 
 } // namespace

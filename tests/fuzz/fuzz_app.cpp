@@ -7,6 +7,7 @@
 
 extern "C" {
 #include "app.h"
+#include "app_control.h"
 #include "app_modbus.h"
 #include "board_config.h"
 #include "gain_tables.h"
@@ -104,11 +105,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
             fake_board_fail(in.octet() & 15U);
             break;
         case 4: { // what an operator does
-            const app_command_t command{800.0F * in.share(),
-                                        (what & 1U) != 0U,
-                                        (what & 2U) != 0U,
-                                        (what & 4U) != 0U,
-                                        {3.0F, 150.0F}};
+            static constexpr std::uint16_t words[] = {0, 2, 6, 7, 15, 128, 15 + 256, 15};
+            static constexpr std::int16_t  ways[]  = {3, 3, 6, -1};
+            app_objects_t                  command = app_control_default(&gain_tables_drive);
+            command.omega_e_radps                  = 800.0F * in.share();
+            command.controlword                    = words[what & 7U];
+            command.mode_of_operation              = ways[(what >> 3U) & 3U];
+            command.bounds                         = {3.0F, 150.0F};
             static_cast<void>(app_command_write(&command));
             break;
         }

@@ -15,6 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 BOARD = ROOT / "firmware" / "board" / "f28335"
 TEXT = {image: (ROOT / "linker" / f"f28335_{image}.cmd").read_text() for image in ("flash", "ram")}
 FAST_RTS = "-l rts2800_fpu32_fast_supplement_eabi.lib(.text)"
+FLASH_API = "-l Flash28335_API_V210.lib(.text)"
 RTS = "-l rts2800_fpu32_eabi.lib(.text)"
 
 
@@ -39,7 +40,7 @@ def check_memory(image, ranges):
             raise Refused(f"ranges {lower.name} and {upper.name} overlap")
 
 
-def check_sections(image, ranges, sections, fast_rts):
+def check_sections(image, ranges, sections, defines):
     def require(condition, name, what):
         if not condition:
             raise Refused(f"section {name} {what}")
@@ -63,10 +64,14 @@ def check_sections(image, ranges, sections, fast_rts):
     require(inside(ranges[code.run], [device.ZERO_WAIT_CODE]), code.name, "runs with wait states")
     require(inside(ranges[tables.run], [device.ZERO_WAIT_DATA]), tables.name, "has wait states")
     require(tables.run != code.run, tables.name, "shares a block with the code that reads it")
+    in_force = sections[".in_force"]
+    require(inside(ranges[in_force.run], [device.ZERO_WAIT_DATA]), in_force.name, "has wait states")
+    require(in_force.run != code.run, in_force.name, "shares a block with the code that reads it")
     require(ranges[stack.run].end <= device.STACK_LIMIT, ".stack", "is out of the pointer's reach")
     require(sum(s.run == stack.run for s in sections.values()) == 1, ".stack", "is not alone")
 
-    wanted = ["*(.TI.ramfunc)"] + ([FAST_RTS] if fast_rts else []) + [RTS]
+    wanted = ["*(.TI.ramfunc)"] + ([FLASH_API] if "FLASH_API" in defines else [])
+    wanted += ([FAST_RTS] if "FAST_RTS" in defines else []) + [RTS]
     require(code.inputs == wanted, code.name, f"takes {code.inputs}")
 
     entry = ranges[sections["codestart"].run]
@@ -110,8 +115,8 @@ def check_symbols(sections):
 
 def table_sources():
     """Files whose constants are read in every period."""
-    firmware = ROOT / "firmware"
-    return [firmware / "config" / "gain_tables.c", firmware / "config" / "board_config.c", *sorted((firmware / "control").glob("law_*.c"))]
+    files = sorted((ROOT / "firmware" / "control").glob("law_*.c"))
+    return [source for source in files if not source.name.endswith("_fields.c")]
 
 
 def check_tables(sections):
@@ -124,15 +129,27 @@ def check_tables(sections):
             if not any(fnmatch.fnmatchcase(f"*(.const:{constant})", pattern.replace("*(", "[*](", 1))
                        for pattern in sections[".tables"].inputs):
                 raise Refused(f"section .tables leaves {constant} out")
+    if not re.search(r"^static app_image_t in_force;", (BOARD / "main.c").read_text(), flags=re.M):
+        raise Refused("main.c has no in_force")
+    if sections[".in_force"].inputs != ["*(.bss:in_force)"]:
+        raise Refused("section .in_force leaves in_force out")
+
+
+def check_store(image, ranges):
+    """The sectors that board_store_memory names hold nothing that is linked."""
+    first = device.PERIPHERALS["board_store_memory"]
+    if any(first < item.end and item.origin < first + device.STORE_WORDS for item in ranges.values() if item.name != "STORE"):
+        raise Refused("a range holds words of the store")
 
 
 def check(image, text):
-    for defines in ((), ("FAST_RTS",)):
+    for defines in ((), ("FAST_RTS",), ("FAST_RTS", "FLASH_API")):
         ranges, sections = command_file.parse(text, defines)
         check_memory(image, ranges)
-        check_sections(image, ranges, sections, bool(defines))
+        check_sections(image, ranges, sections, defines)
         check_symbols(sections)
         check_tables(sections)
+        check_store(image, ranges)
 
 
 def check_registers(text):
@@ -141,20 +158,24 @@ def check_registers(text):
         raise Refused(f"peripherals: {set(symbols.items()) ^ set(device.PERIPHERALS.items())}")
     used = set()
     for source in BOARD.glob("*.c"):
-        used |= set(re.findall(r"\b(\w+Regs|AdcMirror|PieVectTable|ADC_cal)\b", source.read_text()))
+        used |= set(re.findall(r"\b(\w+Regs|AdcMirror|PieVectTable|ADC_cal|board_store_memory)\b", source.read_text()))
     if used != set(symbols):
         raise Refused(f"used and placed differ in {used ^ set(symbols)}")
 
 
 # image, text, what it becomes, part of the reason
 MUTANTS = [
-    ("flash", "length = 0x038000", "length = 0x03FFF7", "security module"),
-    ("flash", "length = 0x038000", "length = 0x03FF81", "security module"),
+    ("flash", "length = 0x028000", "length = 0x02FFF7", "security module"),
+    ("flash", "length = 0x028000", "length = 0x02FF81", "security module"),
+    ("flash", "FLASH     : origin = 0x310000, length = 0x028000", "FLASH     : origin = 0x308000, length = 0x030000",
+     "overlap"),
+    ("flash", "STORE     : origin = 0x300000, length = 0x010000", "OTHER     : origin = 0x300000, length = 0x010000",
+     "words of the store"),
     ("flash", "origin = 0x33FFF6, length = 0x000002", "origin = 0x33FFF6, length = 0x000003",
      "security module"),
     ("flash", "origin = 0x33FFF6", "origin = 0x33FFF4", "security module"),
     ("flash", "origin = 0x33FFF6", "origin = 0x33FF7E", "not where the boot ROM"),
-    ("flash", "origin = 0x300000", "origin = 0x2FFFFE", "not memory"),
+    ("flash", "STORE     : origin = 0x300000", "STORE     : origin = 0x2FFFFE", "not memory"),
     ("flash", "origin = 0x000050, length = 0x0003B0", "origin = 0x000040, length = 0x0003C0",
      "not memory"),
     ("flash", "origin = 0x008000, length = 0x003000", "origin = 0x008000, length = 0x003001",
@@ -173,11 +194,10 @@ MUTANTS = [
     ("flash", "> FPUTABLES", "> RAMM0", "not at the ROM's tables"),
     ("flash", "LOAD_SIZE(codestart_code_words)", "RUN_START(codestart_code_words)", "defines"),
     ("flash", "LOAD_START(codestart_tables_load)", "LOAD_START(codestart_table_load)", "defines"),
-    ("flash", "*(.const:gain_tables_*)", "*(.const:gains_*)", "leaves gain_tables_drive out"),
-    ("flash", "*(.const:constants*)", "", "leaves constants out"),
+    ("flash", "*(.bss:in_force)", "*(.bss:in_use)", "leaves in_force out"),
     ("flash", "*(.const:law_*)", "*(.const:law)", "leaves law_conventional out"),
-    ("flash", "*(.const:board_config)", "*(.const:board_f28335)", "leaves board_config out"),
-    ("ram", "*(.const:ntc_degC*)", "", "leaves ntc_degC out"),
+    ("flash", "                   > RAML34", "                   > RAML012", "shares a block"),
+    ("ram", "                   > RAML4567\n\n    .text", "                   > RAMM1\n\n    .text", "wait states"),
     ("flash", RTS, "", "takes"),
     ("flash", "#ifdef FAST_RTS", "#ifdef FASTRTS", "takes"),
     ("flash", "#endif", "", "without #endif"),

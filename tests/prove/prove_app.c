@@ -10,6 +10,7 @@
 volatile app_modes_t    any_modes;
 volatile board_sample_t any_raw;
 volatile app_command_t  any_command;
+volatile app_objects_t  any_objects;
 volatile app_modbus_t   any_modbus;
 volatile app_status_t   any_status;
 volatile unsigned       any_word;
@@ -50,6 +51,7 @@ static void any_state(void)
     modes.calibrated                  = any_bool();
     modes.armed                       = any_bool();
     modes.commission_armed            = any_bool();
+    modes.align_armed                 = any_bool();
     modes.hot                         = any_bool();
     modes.dc_link_out                 = any_bool();
     modes.tripped                     = any_bool();
@@ -108,6 +110,7 @@ void prove_app_tick(void)
     in.memory_changed    = any_bool();
     in.command.run       = any_bool();
     in.command.reset     = any_bool();
+    in.command.align     = any_bool();
     in.command.commission = false; /* not proved: its own bounds and tests */
 
     const bridge_t     out = app_modes_tick(&modes, &in);
@@ -150,9 +153,9 @@ static void any_registers(void)
     s->without_angle           = any_bool();
     s->snapshot.raw.valid      = any_bool();
     s->snapshot.raw.index_seen = any_bool();
-    registers.command          = any_command;
-    registers.command.run      = any_bool();
-    registers.command.reset    = any_bool();
+    registers.config           = &board_config;
+    registers.drive            = &config;
+    registers.wanted.objects   = any_objects;
     registers.silent           = any_bool();
     registers.changed          = any_bool();
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The table of faults, the registers and docs/troubleshooting.md against the firmware. Standard library alone."""
+"""The table of faults and docs/troubleshooting.md against the firmware. Standard library alone."""
 
 from __future__ import annotations
 
@@ -49,11 +49,6 @@ def differences() -> List[str]:
         firmware.pop("NONE", None)
         found += told(group, firmware, {e.name: e.number for e in faults.table()[group].values()})
     found += told("mode", enumerators("app/app_status.h", "APP_MODE_", "BOOT"), {m.name: m.value for m in registers.Mode})
-    inputs = enumerators("app/app_registers.h", "APP_REGISTERS_", "MODE")
-    read = {name: k for name, k in inputs.items() if k < registers.INPUT_COUNT}
-    found += told("input register", read, {n: k for k, n in enumerate(registers.INPUT_NAMES)})
-    holding = {n: k for k, n in enumerate((*registers.HOLDING_NAMES, "HOLDING_COUNT"))}
-    found += told("holding register", enumerators("app/app_registers.h", "APP_REGISTERS_", "RUN"), holding)
     for group in faults.GROUPS:
         for e in faults.table()[group].values():
             if not (e.meaning and e.causes and e.check and e.reproduce):

@@ -9,6 +9,7 @@ import sys
 import threading
 import time
 from pathlib import Path
+from typing import Dict, List
 
 import pytest
 from conftest import Served
@@ -16,7 +17,7 @@ from support import command, run_at, stay, until
 
 from sdre_drive import faults, session
 from sdre_drive.connection import Drive, DriveError, Target
-from sdre_drive.registers import Mode
+from sdre_drive.registers import ControlWord, Mode, state_words
 
 
 def test_runs_carries_a_load_and_stops(served: Served, drive: Drive) -> None:
@@ -28,6 +29,48 @@ def test_runs_carries_a_load_and_stops(served: Served, drive: Drive) -> None:
     assert abs(stay(drive, 1.0).speed_e_radps - bench.ask("state")["speed_e_radps"]) < 3.0
     bench.ask("load 0")
     assert session.stop(drive).mode == Mode.READY
+
+
+def state(drive: Drive) -> str:
+    return state_words(drive.read().statusword)
+
+
+def test_states_ramps_and_stops(drive: Drive) -> None:
+    """What a master does that knows CiA 402."""
+    until(drive, lambda r: state_words(r.statusword) == "switch on disabled")
+    drive.write("CONTROLWORD", ControlWord.ENABLE)
+    assert state(drive) == "switch on disabled"
+    drive.write("CONTROLWORD", ControlWord.SHUT_DOWN)
+    until(drive, lambda r: state_words(r.statusword) == "ready to switch on")
+    drive.write("CONTROLWORD", ControlWord.SWITCH_ON)
+    until(drive, lambda r: state_words(r.statusword) == "switched on")
+    drive.write("ACCELERATION", 200)
+    drive.write("QUICK_STOP_DECELERATION", 400)
+    drive.write("SPEED_RPM", 955.0)
+    drive.write("CONTROLWORD", ControlWord.ENABLE)
+    began = until(drive, lambda r: r.mode == Mode.RUN)
+    with pytest.raises(DriveError, match="now"):
+        drive.write("MODE_OF_OPERATION", 6)
+    reached = until(drive, lambda r: bool(r.statusword & 0x400))
+    assert 0.8 < reached.time_s - began.time_s < 1.3  # 195 rad/s by 200 rad/s2, as long as it is asked in time
+    drive.write("CONTROLWORD", ControlWord.QUICK_STOP)
+    braking = until(drive, lambda r: r.speed_e_radps < 150.0)
+    assert state_words(braking.statusword) == "quick stop active"
+    stopped = until(drive, lambda r: state_words(r.statusword) == "switch on disabled")
+    assert 0.2 < stopped.time_s - braking.time_s < 0.6
+
+
+def test_homing_finds_the_angle(drive: Drive) -> None:
+    until(drive, lambda r: r.mode == Mode.READY)
+    drive.write("MODE_OF_OPERATION", 6)
+    drive.set_run(True)
+    until(drive, lambda r: r.mode == Mode.ALIGN)
+    found = until(drive, lambda r: bool(r.statusword & 0x1000) and bool(r.statusword & 0x400))
+    assert found.mode == Mode.READY and found.statusword & 0xC000 == 0x8000  # bridge off, referenced
+    drive.set_run(False)
+    until(drive, lambda r: state_words(r.statusword) == "switch on disabled")
+    session.start(drive, 100.0)
+    assert drive.read().mode == Mode.RUN  # without another alignment
 
 
 def test_runs_on_a_serial_line(served: Served) -> None:
@@ -99,6 +142,48 @@ def test_two_masters_at_once(served: Served, drive: Drive) -> None:
     session.stop(drive)
 
 
+def columns(file: Path) -> Dict[str, List[float]]:
+    head, *rows = (line.split(",") for line in file.read_text().splitlines())
+    return {name: [float(row[k]) for row in rows] for k, name in enumerate(head)}
+
+
+def test_scope_takes_a_step_around_its_trigger(served: Served, drive: Drive, tmp_path: Path) -> None:
+    run_at(drive, 200.0)
+    file = tmp_path / "scope.csv"
+    taking = subprocess.Popen(
+        [sys.executable, "-m", "sdre_drive", "scope", "--csv", str(file), "--signals", "SPEED_WANTED,SPEED,IQ,DUTY_A", "--before", "100",
+         "--trigger", "rising", "--level", "250", "--wait", "60", *served.options()], stdout=subprocess.PIPE, text=True)  # fmt: skip
+    until(drive, lambda r: drive.traces()["SCOPE_STATE"] == 2)  # waits
+    drive.set_speed(300.0)
+    taking.communicate(timeout=60)
+    assert taking.returncode == 0
+    taken = columns(file)
+    assert list(taken) == ["time_s", "SPEED_WANTED", "SPEED", "IQ", "DUTY_A"] and len(taken["time_s"]) == 512
+    assert taken["SPEED_WANTED"] == [200.0] * 100 + [300.0] * 412
+    assert taken["time_s"][100] == 0.0 and abs(taken["time_s"][511] - 0.0822) < 1e-6
+    assert abs(taken["SPEED"][99] - 200.0) < 5.0 and taken["SPEED"][511] > 290.0
+    assert max(taken["IQ"][100:200]) > 1.0 and all(0.0 <= d <= 1.0 for d in taken["DUTY_A"])
+    drive.set_speed(200.0)
+    assert drive.read().mode == Mode.RUN  # the scope kept it alive
+
+
+def test_the_record_shows_the_fault(served: Served, drive: Drive, tmp_path: Path) -> None:
+    assert drive.traces()["RECORD_COUNT"] == 0
+    run_at(drive, 300.0)
+    served.bench().ask('fault kind = "current_zero", phase = "a"')
+    served.bench().ask("load 0.7")
+    until(drive, lambda r: r.mode == Mode.FAULT)
+    file = tmp_path / "fault.csv"
+    assert command("faults", "--csv", str(file), *served.options()).returncode == 4
+    kept = columns(file)
+    assert len(kept["time_s"]) == 64 and kept["time_s"][63] == 0.0
+    assert all(abs(x) < 0.05 for x in kept["IA"][-3:]) and max(abs(x) for x in kept["IB"]) > 0.1
+    assert abs(kept["SPEED"][0] - 300.0) < 50.0 and all(x > 200.0 for x in kept["DC_LINK"])
+    served.bench().ask("mend")
+    drive.reset()
+    assert drive.traces()["RECORD_NUMBER"] == 1 and drive.traces()["RECORD_COUNT"] == 64
+
+
 def test_log_is_a_table(served: Served, tmp_path: Path) -> None:
     file = tmp_path / "log.csv"
     told = command("log", "--csv", str(file), "--for", "1", *served.options())
@@ -116,10 +201,11 @@ def test_log_is_a_table(served: Served, tmp_path: Path) -> None:
         (["status", "--port", "/dev/no-such-line"], "nothing answers at /dev/no-such-line"),
         (["status", "--tcp", "drive"], 'is not HOST:PORT'),
         (["status", "--tcp", "a:1", "--port", "b"], "give one"),
-        (["run", "1000", "--tcp", "10.255.255.1:1"], "--pole-pairs"),
+        (["run", "1000", "--tcp", "127.0.0.1:1"], "nothing answers"),
         (["run", "fast"], "Invalid value for"),
         (["log"], "give one of --csv and --parquet"),
         (["spin"], "spin"),
+        (["scope", "--csv", "x", "--signals", "TORQUE"], 'there is no signal "TORQUE"'),
     ],
 )
 def test_bad_input_is_one_line(words: list, said: str) -> None:

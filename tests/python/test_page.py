@@ -8,6 +8,7 @@ import os
 import socket
 import subprocess
 import sys
+import time
 import urllib.error
 import urllib.request
 from pathlib import Path
@@ -23,6 +24,9 @@ pytest.importorskip("nicegui")
 CLICK = "(words => { [...document.querySelectorAll('button')].find(b => b.innerText.trim().toLowerCase() == words).click(); return true })"
 TEXT = "document.body.innerText"
 # Everything that the plots hold: what moves changes it.
+SCOPE_DRAWN = """(() => { const c = document.querySelectorAll('canvas')[1];
+  const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
+  let n = 0; for (let k = 0; k < d.length; k += 4) if (d[k + 3] && Math.abs(d[k] - d[k + 2]) > 40) n++; return n })()"""
 DRAWN = "(() => document.querySelector('canvas').toDataURL())()"
 
 
@@ -40,7 +44,13 @@ def address(served: Served) -> Iterator[str]:
         env=surroundings)  # fmt: skip
     assert page.stdout
     try:
-        yield page.stdout.readline().strip()
+        where = page.stdout.readline().strip()
+        for _ in range(100):  # it is said a little before the page listens
+            with socket.socket() as s:
+                if s.connect_ex(("127.0.0.1", port)) == 0:
+                    break
+            time.sleep(0.1)
+        yield where
     finally:
         page.terminate()
         page.wait(20)
@@ -85,8 +95,18 @@ async def use(address: str, pictures: str) -> None:
         await page.until(f"{TEXT}.includes('load 0.8')")
         await asyncio.sleep(3.0)
         assert await page.script(DRAWN) != before
+        await page.script("document.querySelector('.q-expansion-item .q-item').click()")
+        await page.until("document.querySelectorAll('canvas').length == 2")
+        await page.script(f"{CLICK}('take')")
+        await page.until(f"/\\bdone\\b/.test({TEXT})", 60.0)
+        await asyncio.sleep(1.5)  # drawn
+        assert await page.script(SCOPE_DRAWN) > 1000
         if pictures:
             await page.picture(Path(pictures) / "page.png")
+            await page.script("document.querySelectorAll('canvas')[1].scrollIntoView() || true")
+            await asyncio.sleep(0.5)
+            await page.picture(Path(pictures) / "page_scope.png")
+            await page.script("window.scrollTo(0, 0) || true")
         await page.script(f"{CLICK}('break it')")
         await page.until(f"{TEXT}.includes('FAULT') && {TEXT}.includes('Look at:')")
         if pictures:

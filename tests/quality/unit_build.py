@@ -8,7 +8,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 BOARD = ROOT / "firmware/board/f28335"
-INCLUDES = [ROOT / p for p in ("firmware/control", "firmware/commission", "firmware/app", "firmware/board", "firmware/board/f28335",
+INCLUDES = [ROOT / p for p in ("firmware/control", "firmware/commission", "firmware/store", "firmware/app", "firmware/board", "firmware/board/f28335",
                                "firmware/config", "tests/support", "build/unity")]
 FLAGS = ["-std=c99", "-w", "-ffp-contract=off", "-DUNITY_INCLUDE_DOUBLE", "-DUNITY_SUPPORT_64",
          *[f"-I{p}" for p in INCLUDES]]
@@ -29,8 +29,8 @@ def require(command):
 
 
 def sources():
-    """What is measured: every .c file of the core and of the application."""
-    return sorted((ROOT / "firmware/control").glob("*.c")) + sorted((ROOT / "firmware/app").glob("*.c"))
+    """What is measured: every .c file of the core, of the application, of what is stored and of the commissioning."""
+    return [file for name in ("control", "app", "store", "commission") for file in sorted((ROOT / "firmware" / name).glob("*.c"))]
 
 
 def tests():

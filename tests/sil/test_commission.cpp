@@ -9,7 +9,7 @@
 #include "shipped_drive.hpp"
 #include "sil/commission/bench.hpp"
 #include "sil/commission/board_bench.hpp"
-#include "sil/commission/drive_text.hpp"
+#include "facts/commissioned_text.hpp"
 #include "sil/commission/report.hpp"
 #include "temp_dir.hpp"
 

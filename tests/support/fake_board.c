@@ -2,8 +2,10 @@
 #include "fake_board.h"
 
 #include <stddef.h>
+#include <string.h>
 
 fake_board_t fake_board;
+uint16_t     fake_board_store[BOARD_STORE_SLOTS][BOARD_STORE_WORDS];
 
 void fake_board_reset(void)
 {
@@ -15,8 +17,9 @@ void fake_board_reset(void)
                                  .index_cnt       = 0U,
                                  .index_seen      = false,
                                  .valid           = true};
-    const fake_board_t   none = {.init_result = true, .sample = rest, .serial_room = 1 << 20};
-    fake_board                = none;
+    const fake_board_t   none = {
+          .init_result = true, .sample = rest, .serial_room = 1 << 20, .store_budget = -1};
+    fake_board = none;
 }
 
 static void note(fake_board_event_t event)
@@ -106,6 +109,77 @@ uint16_t board_fault_read(void)
 board_reset_t board_reset_cause(void)
 {
     return BOARD_RESET_PIN;
+}
+
+bool board_fits(const board_setup_t *setup)
+{
+    (void)setup;
+    return !fake_board.misfit;
+}
+
+bool board_loader_is_wanted(void)
+{
+    return fake_board.loader_wanted;
+}
+
+void board_restart(bool loader)
+{
+    fake_board.restarts++;
+    fake_board.restart_loader = loader;
+}
+
+void fake_board_erase_store(void)
+{
+    memset(fake_board_store, 0xFF, sizeof fake_board_store);
+}
+
+const uint16_t *board_store(uint16_t slot)
+{
+    return (slot < (uint16_t)BOARD_STORE_SLOTS) ? fake_board_store[slot] : NULL;
+}
+
+/* False: the power has failed; the word is what a cut leaves of it, some of its bits. */
+static bool change(uint16_t *word, uint16_t to, uint16_t left)
+{
+    if (fake_board.store_budget == 0) {
+        return false;
+    }
+    fake_board.store_budget -= (fake_board.store_budget > 0) ? 1 : 0;
+    *word = (fake_board.store_budget == 0) ? left : to;
+    return true;
+}
+
+bool board_store_erase(uint16_t slot)
+{
+    const int      budget = fake_board.store_budget;
+    const bool     cut    = (budget >= 0) && (budget <= (int)BOARD_STORE_WORDS);
+    const uint32_t whole  = cut ? (uint32_t)((budget > 0) ? (budget - 1) : 0) : BOARD_STORE_WORDS;
+    uint16_t      *words  = fake_board_store[slot];
+
+    memset(words, 0xFF, whole * sizeof words[0]);
+    if (!cut) {
+        fake_board.store_budget -= (budget > 0) ? (int)BOARD_STORE_WORDS : 0;
+        return true;
+    }
+    if (budget > 0) {
+        (void)change(&words[whole], 0xFFFFU, (uint16_t)(words[whole] | 0x5A5AU));
+    }
+    fake_board.store_budget = 0;
+    return false;
+}
+
+bool board_store_program(uint16_t slot, uint32_t offset, const uint16_t *words, uint16_t count)
+{
+    for (uint32_t n = 0U; n < count; n++) {
+        uint16_t *word = &fake_board_store[slot][offset + n];
+        if ((*word & words[n]) != words[n]) {
+            return false; /* not erased */
+        }
+        if (!change(word, words[n], (uint16_t)(words[n] | 0x0F0FU))) {
+            return false;
+        }
+    }
+    return true;
 }
 
 uint32_t board_cycles(void)

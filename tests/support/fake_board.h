@@ -41,6 +41,11 @@ typedef struct {
     board_duty_t         duty;
     bool                 stack_spoilt;
     int                  served; /* watchdog */
+    bool                 misfit; /* board_fits() refuses */
+    bool                 loader_wanted;
+    int                  restarts;
+    bool                 restart_loader; /* what the last of them asked for */
+    int                  store_budget; /* words that may still be erased or written before the power fails; negative: no end */
     uint32_t             cycles;
     uint32_t             cycles_per_read;
     int                  serial_room; /* octets that the transmitter takes before it is full */
@@ -54,11 +59,16 @@ typedef struct {
 
 extern fake_board_t fake_board;
 
+/* Survives fake_board_reset(). */
+extern uint16_t fake_board_store[BOARD_STORE_SLOTS][BOARD_STORE_WORDS];
+
 /** Healthy board at rest: no current, 295 V, 25 degC, position 0, no index. */
 void fake_board_reset(void);
 /** The causes show in board_fault_read() from now on. */
 void fake_board_fail(uint16_t causes);
 void fake_board_receive(const int *octets, int count);
+/** Every word of the store erased. */
+void fake_board_erase_store(void);
 /** -1: nothing was sent. */
 int fake_board_sent(void);
 

@@ -16,7 +16,7 @@ here=tests/target
 stand_in=host_tools/sil/f28335/include # headers of the device, for firmware/board/f28335
 tool=${1-}
 
-includes=(-Ifirmware/control -Ifirmware/commission -Ifirmware/config -Ifirmware/app -Ifirmware/board -Ifirmware/board/f28335)
+includes=(-Ifirmware/control -Ifirmware/commission -Ifirmware/store -Ifirmware/config -Ifirmware/app -Ifirmware/board -Ifirmware/board/f28335)
 clang_flags=(-std=c99 -fsyntax-only -ffreestanding -nostdlibinc -isystem "$here/include"
     -Wall -Wextra -Wpedantic -Werror
     -Wconversion -Wsign-conversion -Wfloat-conversion -Wdouble-promotion -Wshorten-64-to-32
@@ -89,6 +89,7 @@ check firmware/control "${includes[@]}"
 check firmware/config "${includes[@]}"
 check firmware/commission "${includes[@]}"
 check firmware/app "${includes[@]}"
+check firmware/store "${includes[@]}"
 # The board waits with an instruction of the device, so it needs the stand-in's meaning of asm too.
 device=("${includes[@]}" -isystem "$stand_in" -include "$stand_in/c28_cpu.h")
 [[ $tool != cppcheck ]] || device=("${includes[@]}" -I"$stand_in" --suppress="*:$stand_in/*")

@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 findings=$(cppcheck --addon=misra --std=c99 --platform=tests/target/c28x.xml --quiet --inline-suppr \
-    --template='{file}:{line} {id}' -Ifirmware/control -Ifirmware/commission -Ifirmware/config -Ifirmware/app -Ifirmware/board \
+    --template='{file}:{line} {id}' -Ifirmware/control -Ifirmware/commission -Ifirmware/store -Ifirmware/config -Ifirmware/app -Ifirmware/board \
     -Ifirmware/board/f28335 firmware/control firmware/app firmware/config/gain_tables.c 2>&1)
 others=$(grep -v ' misra-c2012-' <<<"$findings" || true)
 [[ -z $others ]] || {

@@ -2,6 +2,8 @@
 #define _XOPEN_SOURCE 600 /* the timer that plays the interrupt */
 
 #include "app.h"
+#include "app_control.h"
+#include "app_registers.h"
 
 #include <signal.h>
 #include <stddef.h>
@@ -59,8 +61,20 @@ static void both(int count)
 
 static void command(float omega_e_radps, bool run)
 {
-    const app_command_t c = {.omega_e_radps = omega_e_radps, .run = run};
-    TEST_ASSERT_TRUE(app_command_write(&c));
+    app_objects_t o = app_control_default(&speed_tables_drive);
+    o.omega_e_radps = omega_e_radps;
+    o.controlword   = run ? APP_CONTROL_ENABLE_OPERATION : APP_CONTROL_SHUT_DOWN;
+    TEST_ASSERT_TRUE(app_command_write(&o));
+}
+
+static void reset_fault(void)
+{
+    app_objects_t o = app_control_default(&speed_tables_drive);
+    o.controlword   = APP_CONTROL_FAULT_RESET;
+    TEST_ASSERT_TRUE(app_command_write(&o));
+    both(2);
+    command(0.0f, false);
+    both(2);
 }
 
 static app_mode_t mode(void)
@@ -74,6 +88,8 @@ static void go_run(void)
     fake_board.sample.index_seen = true;
     both(1);
     fake_board.sample.index_seen = false;
+    command(0.0f, false);
+    both(2);
     command(0.0f, true);
     both(3);
     TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
@@ -125,10 +141,8 @@ static void test_board_fault_opens_the_bridge_and_enabling_clears_it(void)
     app_background();
     TEST_ASSERT_EQUAL_INT(APP_FAULT_BOARD, app_status_read().fault);
 
-    fake_board.causes         = 0U;
-    const app_command_t reset = {.reset = true};
-    TEST_ASSERT_TRUE(app_command_write(&reset));
-    both(2);
+    fake_board.causes = 0U;
+    reset_fault();
     command(0.0f, true);
     both(4);
     TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
@@ -140,9 +154,7 @@ static void test_fault_that_is_still_there_trips_again(void)
     go_run();
     fake_board_fail(BOARD_FAULT_TRIP);
     both(1);
-    const app_command_t reset = {.reset = true};
-    TEST_ASSERT_TRUE(app_command_write(&reset));
-    both(2);
+    reset_fault();
     command(0.0f, true);
     both(4);
     TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, mode());
@@ -152,9 +164,7 @@ static void test_fault_that_is_still_there_trips_again(void)
 static void test_reset_acts_once(void)
 {
     both(READY_TICKS);
-    const app_command_t reset = {.reset = true};
-    TEST_ASSERT_TRUE(app_command_write(&reset));
-    both(5);
+    reset_fault();
     for (int n = 0; n < 60; n++) { /* stopped background: fault */
         app_tick();
     }
@@ -283,7 +293,8 @@ static void test_background_opens_the_bridge_when_ticks_stand_still(void)
 
 static void test_second_command_waits_until_the_first_was_taken(void)
 {
-    const app_command_t first = {.omega_e_radps = 10.0f};
+    app_objects_t first = app_control_default(&speed_tables_drive);
+    first.omega_e_radps = 10.0f;
     TEST_ASSERT_TRUE(app_command_write(&first));
     TEST_ASSERT_FALSE(app_command_write(&first));
     app_tick();
@@ -366,25 +377,32 @@ static void test_modbus_starts_stops_and_resets(void)
     fake_board.sample.index_seen = true;
     both(1);
     fake_board.sample.index_seen = false;
-    modbus_write(2, 100);
-    modbus_write(0, 1);
+    modbus_write(APP_REGISTERS_SPEED_RPM_16, 100);
+    modbus_write(APP_REGISTERS_CONTROLWORD, 15);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, mode()); /* it has to be shut down first */
+    modbus_write(APP_REGISTERS_CONTROLWORD, 6);
+    modbus_write(APP_REGISTERS_CONTROLWORD, 15);
     TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
     TEST_ASSERT_TRUE(fake_board.gate);
     TEST_ASSERT_TRUE(app_drive()->law.noc.near_optimal.speed_ref.omega_e_radps > 0.0f);
     fake_board.sample.dc_link_cnt = 0U;
     both(1);
     fake_board.sample.dc_link_cnt = 2685U;
-    modbus_write(1, 1);
-    TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, mode()); /* run is still there */
-    modbus_write(0, 0);
-    modbus_write(1, 1);
+    modbus_write(APP_REGISTERS_CONTROLWORD, 15);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, mode());
+    modbus_write(APP_REGISTERS_CONTROLWORD, 128 + 15);
     TEST_ASSERT_EQUAL_INT(APP_MODE_READY, mode());
+    both(20);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, mode()); /* a run has to be asked for anew */
+    modbus_write(APP_REGISTERS_CONTROLWORD, 6);
+    modbus_write(APP_REGISTERS_CONTROLWORD, 15);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
 }
 
 static void test_command_of_modbus_is_given_once(void)
 {
     go_run();
-    modbus_write(1, 1);
+    modbus_write(APP_REGISTERS_SPEED_RPM_16, 0);
     command(0.0f, false);
     both(2);
     TEST_ASSERT_EQUAL_INT(APP_MODE_READY, mode());
@@ -396,7 +414,7 @@ static void test_command_of_modbus_is_given_once(void)
     both(1);
     fake_board.sample.dc_link_cnt = 2685U;
     TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, mode());
-    modbus_write(0, 0); /* the reset before must not come along */
+    modbus_write(APP_REGISTERS_CONTROLWORD, 0);
     TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, mode());
 }
 
@@ -435,7 +453,8 @@ static void test_lost_communication_opens_the_bridge(void)
     fake_board.sample.index_seen = true;
     both(1);
     fake_board.sample.index_seen = false;
-    modbus_write(0, 1);
+    modbus_write(APP_REGISTERS_CONTROLWORD, 6);
+    modbus_write(APP_REGISTERS_CONTROLWORD, 15);
     both(2480);
     TEST_ASSERT_TRUE(fake_board.gate);
     both(30);
@@ -496,6 +515,10 @@ static void start_motor(const drive_config_t *drive)
 
 static void assert_runs_at(float omega_e_radps)
 {
+    if (app_status_read().state != APP_CONTROL_OPERATION_ENABLED) {
+        command(0.0f, false);
+        periods(2);
+    }
     command(omega_e_radps, true);
     periods(3000);
     TEST_ASSERT_EQUAL_INT(APP_FAULT_NONE, app_status_read().fault);
@@ -536,6 +559,8 @@ static void test_whole_loop_aligns_without_an_index_and_runs(void)
         motor.theta_m_rad = 2.3;
         motor.coulomb_Nm  = 0.01;
         periods(READY_TICKS);
+        command(0.0f, false);
+        periods(2);
         command(0.0f, true);
         periods(14005);
         TEST_ASSERT_EQUAL_INT(APP_ANGLE_ALIGNED, app_status_read().reference);
@@ -550,6 +575,8 @@ static void test_index_after_alignment_takes_over_on_the_run(void)
     motor.theta_m_rad = 2.3;
     index_on          = false;
     periods(READY_TICKS);
+    command(0.0f, false);
+    periods(2);
     command(0.0f, true);
     periods(14005);
     TEST_ASSERT_EQUAL_INT(APP_ANGLE_ALIGNED, app_status_read().reference);

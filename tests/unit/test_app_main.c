@@ -47,7 +47,8 @@ static void test_board_comes_first_and_ticks_start_last(void)
 
     TEST_ASSERT_EQUAL_INT(FAKE_BOARD_INIT, fake_board.events[0]);
     TEST_ASSERT_EQUAL_INT(FAKE_BOARD_START, fake_board.events[1]);
-    TEST_ASSERT_TRUE(fake_board.setup == &board_config.board);
+    TEST_ASSERT_EQUAL_UINT32(board_config.board.pwm_cycles, fake_board.setup->pwm_cycles);
+    TEST_ASSERT_EQUAL_UINT16(board_config.board.positions, fake_board.setup->positions);
     TEST_ASSERT_TRUE(fake_board.tick == app_tick);
     TEST_ASSERT_FALSE(fake_board.gate);
 }

@@ -3,7 +3,9 @@
 
 #include <string.h>
 
+#include "board_config.h"
 #include "fake_board.h"
+#include "gain_tables.h"
 #include "unit_support.h"
 #include "unity.h"
 
@@ -11,6 +13,7 @@
 #define GAP     10
 #define TIMEOUT 2500
 
+static app_config_t    config;
 static app_modbus_t    modbus;
 static app_registers_t registers;
 static uint32_t        now;
@@ -20,10 +23,15 @@ static int             answer_count;
 void setUp(void)
 {
     fake_board_reset();
-    app_registers_init(&registers, 1569.0f);
+    config                      = board_config;
+    config.modbus_address       = ADDRESS;
+    config.modbus_timeout_ticks = TIMEOUT;
+    config.drive_name           = "a drive";
+    config.digest               = "1234";
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_registers_init(&registers, &config, &gain_tables_drive));
     (void)memset(&modbus, 0xFF, sizeof modbus); /* init has to set everything */
     now = 0xFFFFFF00UL;                         /* wraps within every longer test */
-    TEST_ASSERT_EQUAL_INT(CTL_OK, app_modbus_init(&modbus, ADDRESS, GAP, TIMEOUT));
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_modbus_init(&modbus, GAP));
     modbus.request_ticks = now;
 }
 
@@ -108,6 +116,11 @@ static void assert_answer(const int *body, int count)
         assert_answer(body_, SUPPORT_COUNT(body_));                                                \
     } while (0)
 
+static bool enabled(void)
+{
+    return app_control_enables(registers.wanted.objects.controlword);
+}
+
 static void test_crc_matches_long_division(void)
 {
     support_random_t random = {.state = 5u};
@@ -135,11 +148,11 @@ static void test_input_registers_are_read(void)
     registers.status.mode         = APP_MODE_RUN;
     registers.status.board_faults = 0xA5U;
     registers.status.ticks        = 0x01020304UL;
-    REQUEST(ADDRESS, 4, 0, 0, 0, 1);
+    REQUEST(ADDRESS, 4, 0, APP_REGISTERS_MODE, 0, 1);
     ASSERT_ANSWER(ADDRESS, 4, 2, 0, 4);
-    REQUEST(ADDRESS, 4, 0, 3, 0, 1);
+    REQUEST(ADDRESS, 4, 0, APP_REGISTERS_BOARD_FAULTS, 0, 1);
     ASSERT_ANSWER(ADDRESS, 4, 2, 0, 0xA5);
-    REQUEST(ADDRESS, 4, 0, 23, 0, 2);
+    REQUEST(ADDRESS, 4, 0, APP_REGISTERS_TICKS, 0, 2);
     ASSERT_ANSWER(ADDRESS, 4, 4, 1, 2, 3, 4);
     REQUEST(ADDRESS, 4, 0, 0, 0, 42);
     TEST_ASSERT_EQUAL_INT(5 + 84, answer_count);
@@ -147,19 +160,169 @@ static void test_input_registers_are_read(void)
 
 static void test_holding_registers_are_written_and_read(void)
 {
-    REQUEST(ADDRESS, 6, 0, 2, 0xF4, 0x48); /* -300.0 rad/s */
-    ASSERT_ANSWER(ADDRESS, 6, 0, 2, 0xF4, 0x48);
-    TEST_ASSERT_TRUE(registers.command.omega_e_radps == -300.0f);
-    REQUEST(ADDRESS, 16, 0, 0, 0, 3, 6, 0, 1, 0, 0, 0x0B, 0xB8);
-    ASSERT_ANSWER(ADDRESS, 16, 0, 0, 0, 3);
-    TEST_ASSERT_TRUE(registers.command.run && (registers.command.omega_e_radps == 300.0f));
-    REQUEST(ADDRESS, 3, 0, 0, 0, 3);
-    ASSERT_ANSWER(ADDRESS, 3, 6, 0, 1, 0, 0, 0x0B, 0xB8);
+    REQUEST(ADDRESS, 6, 0, APP_REGISTERS_SPEED_RPM_16, 0xFC, 0x18); /* -1000 r/min, 2 pole pairs */
+    ASSERT_ANSWER(ADDRESS, 6, 0, APP_REGISTERS_SPEED_RPM_16, 0xFC, 0x18);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, -209.43951f, registers.wanted.objects.omega_e_radps);
+    REQUEST(ADDRESS, 16, 0, 0, 0, 4, 8, 0, 15, 0, 3, 0, 0, 0x0B, 0xB8);
+    ASSERT_ANSWER(ADDRESS, 16, 0, 0, 0, 4);
+    TEST_ASSERT_TRUE(enabled() && (registers.wanted.objects.omega_e_radps == 300.0f));
+    REQUEST(ADDRESS, 3, 0, 0, 0, 4);
+    ASSERT_ANSWER(ADDRESS, 3, 8, 0, 15, 0, 3, 0, 0, 0x0B, 0xB8);
+}
+
+/* First to read, how many; first to write, how many, octets, values. */
+static void test_an_exchange_writes_and_then_reads(void)
+{
+    REQUEST(ADDRESS, 23, 0, 0, 0, 4, 0, 2, 0, 2, 4, 0xFF, 0xFF, 0xF4, 0x48);
+    ASSERT_ANSWER(ADDRESS, 23, 8, 0, 0, 0, 3, 0xFF, 0xFF, 0xF4, 0x48);
+    TEST_ASSERT_TRUE(registers.wanted.objects.omega_e_radps == -300.0f);
+    REQUEST(ADDRESS, 23, 0, 0, 0, 126, 0, 2, 0, 2, 4, 0, 0, 0, 1);
+    ASSERT_ANSWER(ADDRESS, 0x97, 3);
+    REQUEST(ADDRESS, 23, 0, 0, 0, 0, 0, 2, 0, 2, 4, 0, 0, 0, 1);
+    ASSERT_ANSWER(ADDRESS, 0x97, 3);
+    REQUEST(ADDRESS, 23, 0, 60, 0, 1, 0, 2, 0, 2, 4, 0, 0, 0, 1);
+    ASSERT_ANSWER(ADDRESS, 0x97, 2);
+    REQUEST(ADDRESS, 23, 0, 0, 0, 1, 0, 60, 0, 2, 4, 0, 0, 0, 1);
+    ASSERT_ANSWER(ADDRESS, 0x97, 2);
+    REQUEST(ADDRESS, 23, 0, 0, 0, 1, 0, 2, 0, 1, 4, 0, 0, 0, 1);
+    ASSERT_ANSWER(ADDRESS, 0x97, 3);
+    REQUEST(ADDRESS, 23, 0, 0, 0, 1, 0, 2, 0, 2, 4, 0, 0, 0);
+    TEST_ASSERT_EQUAL_INT(0, answer_count);
+    TEST_ASSERT_TRUE(registers.wanted.objects.omega_e_radps == -300.0f);
+    int longest[11 + 242] = {ADDRESS, 23, 0, 0, 0, 1, 0, 0, 0, 121, 242};
+    request(longest, 11 + 242);
+    ASSERT_ANSWER(ADDRESS, 0x97, 2);
+    REQUEST(0, 23, 0, 0, 0, 1, 0, 2, 0, 2, 4, 0, 0, 0, 10);
+    TEST_ASSERT_EQUAL_INT(0, answer_count);
+    TEST_ASSERT_TRUE(registers.wanted.objects.omega_e_radps == 1.0f);
+}
+
+static int count_of(int which)
+{
+    REQUEST(ADDRESS, 8, 0, which, 0, 0);
+    TEST_ASSERT_EQUAL_INT(8, answer_count);
+    TEST_ASSERT_EQUAL_INT(which, answer[3]);
+    return (answer[4] << 8) | answer[5];
+}
+
+static void test_diagnostics_loop_back_and_count(void)
+{
+    REQUEST(ADDRESS, 8, 0, 0, 0x12, 0x34);
+    ASSERT_ANSWER(ADDRESS, 8, 0, 0, 0x12, 0x34);
+    REQUEST(ADDRESS, 8, 0, 0, 1, 2, 3, 4, 5);
+    ASSERT_ANSWER(ADDRESS, 8, 0, 0, 1, 2, 3, 4, 5);
+    REQUEST(ADDRESS, 8, 0, 10, 0, 0);
+    ASSERT_ANSWER(ADDRESS, 8, 0, 10, 0, 0);
+
+    REQUEST(ADDRESS + 1, 6, 0, 0, 0, 1); /* for another: a frame all the same */
+    REQUEST(ADDRESS, 99);                /* an exception */
+    REQUEST(0, 6, 0, 0, 0, 0);           /* not answered */
+    const int noise[] = {ADDRESS, 4, 0, 0, 0, 1, 0, 0};
+    send_raw(noise, 8);
+    int too_long[300] = {0};
+    send_raw(too_long, 300);
+
+    TEST_ASSERT_EQUAL_INT(
+        4 + 0, count_of(11)); /* this request is counted too; the clearing one was before */
+    TEST_ASSERT_EQUAL_INT(1, count_of(12));
+    TEST_ASSERT_EQUAL_INT(1, count_of(13));
+    TEST_ASSERT_EQUAL_INT(6, count_of(14));
+    TEST_ASSERT_EQUAL_INT(1, count_of(15));
+    TEST_ASSERT_EQUAL_INT(1, count_of(18));
+    REQUEST(ADDRESS, 8, 0, 10, 0, 0);
+    TEST_ASSERT_EQUAL_INT(0, count_of(12));
+    TEST_ASSERT_EQUAL_INT(2, count_of(14));
+
+    REQUEST(ADDRESS, 8, 0, 1, 0, 0);
+    ASSERT_ANSWER(ADDRESS, 0x88, 1);
+    REQUEST(ADDRESS, 8, 0, 11, 0, 1);
+    ASSERT_ANSWER(ADDRESS, 0x88, 3);
+    REQUEST(ADDRESS, 8, 0);
+    TEST_ASSERT_EQUAL_INT(0, answer_count);
+}
+
+/* Objects of the last answer: finds one. */
+static const int *object(int id)
+{
+    int at = 8;
+    for (int k = 0; k < answer[7]; k++) {
+        if (answer[at] == id) {
+            return &answer[at + 1];
+        }
+        at += 2 + answer[at + 1];
+    }
+    return NULL;
+}
+
+static void assert_object(int id, const char *text)
+{
+    const int *found = object(id);
+    TEST_ASSERT_NOT_NULL(found);
+    TEST_ASSERT_EQUAL_INT((int)strlen(text), found[0]);
+    for (int n = 0; n < found[0]; n++) {
+        TEST_ASSERT_EQUAL_INT(text[n], found[1 + n]);
+    }
+}
+
+static void test_identification_tells_firmware_drive_and_digests(void)
+{
+    REQUEST(ADDRESS, 43, 14, 1, 0);
+    TEST_ASSERT_EQUAL_INT(0x83, answer[4]);
+    TEST_ASSERT_EQUAL_INT(0, answer[5]); /* nothing follows */
+    TEST_ASSERT_EQUAL_INT(3, answer[7]);
+    assert_object(0, "sdre-drive");
+    assert_object(2, APP_REGISTERS_VERSION);
+    REQUEST(ADDRESS, 43, 14, 2, 0);
+    TEST_ASSERT_EQUAL_INT(4, answer[7]);
+    REQUEST(ADDRESS, 43, 14, 3, 0);
+    TEST_ASSERT_EQUAL_INT(7, answer[7]);
+    assert_object(0x80, "a drive");
+    assert_object(0x81, "1234");
+    assert_object(0x82, APP_REGISTERS_DIGEST);
+    REQUEST(ADDRESS, 43, 14, 3, 0x81);
+    TEST_ASSERT_EQUAL_INT(2, answer[7]);
+    REQUEST(ADDRESS, 43, 14, 3, 77); /* unknown: from the beginning, by the protocol */
+    TEST_ASSERT_EQUAL_INT(7, answer[7]);
+    REQUEST(ADDRESS, 43, 14, 4, 0x80);
+    TEST_ASSERT_EQUAL_INT(1, answer[7]);
+    assert_object(0x80, "a drive");
+    REQUEST(ADDRESS, 43, 14, 4, 77);
+    ASSERT_ANSWER(ADDRESS, 0xAB, 2);
+    REQUEST(ADDRESS, 43, 14, 0, 0);
+    ASSERT_ANSWER(ADDRESS, 0xAB, 3);
+    REQUEST(ADDRESS, 43, 14, 5, 0);
+    ASSERT_ANSWER(ADDRESS, 0xAB, 3);
+    REQUEST(ADDRESS, 43, 13, 1, 0);
+    ASSERT_ANSWER(ADDRESS, 0xAB, 1);
+    REQUEST(ADDRESS, 43, 14, 1);
+    TEST_ASSERT_EQUAL_INT(0, answer_count);
+    config.drive_name = "a name that is longer than any name of a drive has to be";
+    REQUEST(ADDRESS, 43, 14, 4, 0x80);
+    TEST_ASSERT_EQUAL_INT(24, answer[9]);
+}
+
+static void test_address_and_time_out_are_registers(void)
+{
+    REQUEST(ADDRESS, 6, 0, APP_REGISTERS_MODBUS_ADDRESS, 0, 33);
+    ASSERT_ANSWER(ADDRESS, 6, 0, APP_REGISTERS_MODBUS_ADDRESS, 0, 33);
+    REQUEST(ADDRESS, 3, 0, 0, 0, 1);
+    TEST_ASSERT_EQUAL_INT(0, answer_count);
+    REQUEST(33, 6, 0, APP_REGISTERS_MODBUS_TIMEOUT, 0x03, 0xE8); /* 1 s, 5000 ticks */
+    ASSERT_ANSWER(33, 6, 0, APP_REGISTERS_MODBUS_TIMEOUT, 0x03, 0xE8);
+    REQUEST(33, 6, 0, 0, 0, 15);
+    poll_ticks(4980);
+    TEST_ASSERT_TRUE(enabled());
+    poll_ticks(40);
+    TEST_ASSERT_FALSE(enabled());
+    REQUEST(33, 6, 0, APP_REGISTERS_MODBUS_ADDRESS, 0, 248);
+    ASSERT_ANSWER(33, 0x86, 3);
+    REQUEST(33, 6, 0, APP_REGISTERS_MODBUS_TIMEOUT, 0, 9);
+    ASSERT_ANSWER(33, 0x86, 3);
 }
 
 static void test_unknown_functions_are_refused(void)
 {
-    static const int functions[] = {1, 2, 5, 7, 8, 15, 17, 22, 23, 43, 100};
+    static const int functions[] = {1, 2, 5, 7, 15, 17, 22, 24, 42, 100};
     for (int i = 0; i < SUPPORT_COUNT(functions); i++) {
         REQUEST(ADDRESS, functions[i], 0, 0, 0, 1);
         ASSERT_ANSWER(ADDRESS, functions[i] | 0x80, 1);
@@ -170,16 +333,18 @@ static void test_unknown_functions_are_refused(void)
 
 static void test_registers_that_do_not_exist_are_refused(void)
 {
-    REQUEST(ADDRESS, 3, 0, 6, 0, 1);
+    REQUEST(ADDRESS, 3, 0, APP_REGISTERS_COMMAND_END, 0, 1);
     ASSERT_ANSWER(ADDRESS, 0x83, 2);
-    REQUEST(ADDRESS, 4, 0, 91, 0, 2);
+    REQUEST(ADDRESS, 4, 0, APP_REGISTERS_LIVE_END - 1, 0, 2);
     ASSERT_ANSWER(ADDRESS, 0x84, 2);
-    REQUEST(ADDRESS, 4, 1, 0, 0, 1); /* high octet of the address */
+    REQUEST(ADDRESS, 4, 2, 0, 0, 1); /* high octet of the address */
     ASSERT_ANSWER(ADDRESS, 0x84, 2);
-    REQUEST(ADDRESS, 6, 0, 6, 0, 1);
+    REQUEST(ADDRESS, 6, 0, APP_REGISTERS_COMMAND_END, 0, 1);
     ASSERT_ANSWER(ADDRESS, 0x86, 2);
-    REQUEST(ADDRESS, 16, 0, 5, 0, 2, 4, 0, 1, 0, 1);
+    REQUEST(ADDRESS, 16, 0, APP_REGISTERS_COMMAND_END - 1, 0, 2, 4, 0, 1, 0, 1);
     ASSERT_ANSWER(ADDRESS, 0x90, 2);
+    REQUEST(ADDRESS, 6, 0, APP_REGISTERS_SPEED, 0, 1); /* half of a value */
+    ASSERT_ANSWER(ADDRESS, 0x86, 2);
     TEST_ASSERT_FALSE(registers.changed);
 }
 
@@ -191,7 +356,7 @@ static void test_bad_values_and_quantities_are_refused(void)
     ASSERT_ANSWER(ADDRESS, 0x84, 3);
     REQUEST(ADDRESS, 4, 0, 0, 0, 125);
     ASSERT_ANSWER(ADDRESS, 0x84, 2);
-    REQUEST(ADDRESS, 6, 0, 0, 0, 2);
+    REQUEST(ADDRESS, 6, 0, APP_REGISTERS_MODE_OF_OPERATION, 0, 2);
     ASSERT_ANSWER(ADDRESS, 0x86, 3);
     REQUEST(ADDRESS, 16, 0, 0, 0, 2, 2, 0, 1); /* says two, brings one */
     ASSERT_ANSWER(ADDRESS, 0x90, 3);
@@ -211,14 +376,14 @@ static void test_longest_write_is_understood(void)
 
 static void test_broadcast_writes_are_done_and_not_answered(void)
 {
-    REQUEST(ADDRESS, 6, 0, 0, 0, 1);
-    TEST_ASSERT_TRUE(registers.command.run);
-    REQUEST(0, 6, 0, 0, 0, 1);
+    REQUEST(ADDRESS, 6, 0, 0, 0, 15);
+    TEST_ASSERT_TRUE(enabled());
+    REQUEST(0, 6, 0, 0, 0, 15);
     TEST_ASSERT_EQUAL_INT(0, answer_count);
-    TEST_ASSERT_TRUE(registers.command.run);
-    REQUEST(0, 16, 0, 2, 0, 1, 2, 0, 10);
+    TEST_ASSERT_TRUE(enabled());
+    REQUEST(0, 16, 0, 2, 0, 2, 4, 0, 0, 0, 10);
     TEST_ASSERT_EQUAL_INT(0, answer_count);
-    TEST_ASSERT_TRUE(registers.command.omega_e_radps == 1.0f);
+    TEST_ASSERT_TRUE(registers.wanted.objects.omega_e_radps == 1.0f);
     REQUEST(0, 3, 0, 0, 0, 1);
     TEST_ASSERT_EQUAL_INT(0, answer_count);
     REQUEST(0, 99, 0, 0, 0, 1);
@@ -227,21 +392,21 @@ static void test_broadcast_writes_are_done_and_not_answered(void)
 
 static void test_a_broadcast_stops_every_motor_and_starts_none(void)
 {
-    REQUEST(0, 6, 0, 0, 0, 1);
-    TEST_ASSERT_FALSE(registers.command.run);
-    REQUEST(0, 16, 0, 0, 0, 3, 6, 0, 1, 0, 0, 0, 10);
-    TEST_ASSERT_FALSE(registers.command.run);
-    TEST_ASSERT_TRUE(registers.command.omega_e_radps == 1.0f);
-    REQUEST(ADDRESS, 6, 0, 0, 0, 1);
+    REQUEST(0, 6, 0, 0, 0, 15);
+    TEST_ASSERT_FALSE(enabled());
+    REQUEST(0, 16, 0, 0, 0, 4, 8, 0, 15, 0, 3, 0, 0, 0, 10);
+    TEST_ASSERT_FALSE(enabled());
+    TEST_ASSERT_TRUE(registers.wanted.objects.omega_e_radps == 1.0f);
+    REQUEST(ADDRESS, 6, 0, 0, 0, 15);
     REQUEST(0, 6, 0, 0, 0, 0);
-    TEST_ASSERT_FALSE(registers.command.run);
+    TEST_ASSERT_FALSE(enabled());
 }
 
 static void test_frames_for_others_are_left_alone(void)
 {
     for (int to = 1; to < 256; to++) {
         if (to != ADDRESS) {
-            REQUEST(to, 6, 0, 0, 0, 1);
+            REQUEST(to, 6, 0, 0, 0, 15);
             TEST_ASSERT_EQUAL_INT(0, answer_count);
         }
     }
@@ -250,10 +415,10 @@ static void test_frames_for_others_are_left_alone(void)
 
 static void test_every_single_bit_error_is_noticed(void)
 {
-    const int body[] = {ADDRESS, 6, 0, 0, 0, 1};
+    const int body[] = {ADDRESS, 6, 0, 0, 0, 15};
     const int crc    = oracle_crc(body, 6);
     for (int bit = 0; bit < 64; bit++) {
-        int frame[8] = {ADDRESS, 6, 0, 0, 0, 1, crc & 0xFF, crc >> 8};
+        int frame[8] = {ADDRESS, 6, 0, 0, 0, 15, crc & 0xFF, crc >> 8};
         frame[bit / 8] ^= 1 << (bit % 8);
         send_raw(frame, 8);
         TEST_ASSERT_EQUAL_INT(0, answer_count);
@@ -288,9 +453,9 @@ static void put(const int *octets, int count)
 
 static void test_gap_ends_a_frame_and_nothing_shorter(void)
 {
-    const int body[]   = {ADDRESS, 6, 0, 0, 0, 1};
+    const int body[]   = {ADDRESS, 6, 0, 0, 0, 15};
     const int crc      = oracle_crc(body, 6);
-    const int frame[8] = {ADDRESS, 6, 0, 0, 0, 1, crc & 0xFF, crc >> 8};
+    const int frame[8] = {ADDRESS, 6, 0, 0, 0, 15, crc & 0xFF, crc >> 8};
     put(frame, 3);
     poll_ticks(GAP - 1);
     put(&frame[3], 5);
@@ -314,9 +479,9 @@ static void test_gap_ends_a_frame_and_nothing_shorter(void)
 
 static void test_octets_one_by_one_make_a_frame(void)
 {
-    const int body[]   = {ADDRESS, 6, 0, 0, 0, 1};
+    const int body[]   = {ADDRESS, 6, 0, 0, 0, 15};
     const int crc      = oracle_crc(body, 6);
-    const int frame[8] = {ADDRESS, 6, 0, 0, 0, 1, crc & 0xFF, crc >> 8};
+    const int frame[8] = {ADDRESS, 6, 0, 0, 0, 15, crc & 0xFF, crc >> 8};
     for (int i = 0; i < 8; i++) {
         put(&frame[i], 1);
         poll_ticks(GAP / 2);
@@ -331,7 +496,7 @@ static void test_single_octet_of_noise_is_forgotten(void)
     const int noise = 0xFF;
     put(&noise, 1);
     poll_ticks(GAP);
-    REQUEST(ADDRESS, 6, 0, 0, 0, 1);
+    REQUEST(ADDRESS, 6, 0, 0, 0, 15);
     TEST_ASSERT_EQUAL_INT(8, answer_count);
 }
 
@@ -343,7 +508,7 @@ static void test_noise_longer_than_a_frame_is_forgotten(void)
     }
     send_raw(noise, 700);
     TEST_ASSERT_EQUAL_INT(0, answer_count);
-    REQUEST(ADDRESS, 6, 0, 0, 0, 1);
+    REQUEST(ADDRESS, 6, 0, 0, 0, 15);
     TEST_ASSERT_EQUAL_INT(8, answer_count);
 }
 
@@ -388,13 +553,13 @@ static void test_what_comes_while_answering_is_dropped(void)
 {
     fake_board.serial_room = 0;
     REQUEST(ADDRESS, 4, 0, 0, 0, 4);
-    REQUEST(ADDRESS, 6, 0, 0, 0, 1);
+    REQUEST(ADDRESS, 6, 0, 0, 0, 15);
     TEST_ASSERT_FALSE(registers.changed);
     fake_board.serial_room = 100;
     poll_ticks(GAP + 2);
     take_answer();
     TEST_ASSERT_EQUAL_INT(13, answer_count);
-    REQUEST(ADDRESS, 6, 0, 0, 0, 1);
+    REQUEST(ADDRESS, 6, 0, 0, 0, 15);
     TEST_ASSERT_EQUAL_INT(8, answer_count);
 }
 
@@ -409,32 +574,33 @@ static void test_one_poll_takes_a_bounded_number_of_octets(void)
 static void test_octets_are_eight_bits_wide(void)
 {
     registers.status.mode = APP_MODE_RUN;
-    const int body[]      = {ADDRESS, 4, 0, 0, 0, 1};
+    const int body[]      = {ADDRESS, 4, 0, APP_REGISTERS_MODE, 0, 1};
     const int crc         = oracle_crc(body, 6);
-    const int frame[8]    = {ADDRESS | 0x300, 4, 0, 0x100, 0, 1, crc & 0xFF, crc >> 8};
+    const int frame[8]    = {ADDRESS | 0x300, 4,       0, 0x100 | APP_REGISTERS_MODE, 0, 1,
+                             crc & 0xFF,      crc >> 8};
     send_raw(frame, 8);
     ASSERT_ANSWER(ADDRESS, 4, 2, 0, 4);
 }
 
 static void test_silence_withdraws_run_after_its_time(void)
 {
-    REQUEST(ADDRESS, 6, 0, 0, 0, 1);
+    REQUEST(ADDRESS, 6, 0, 0, 0, 15);
     const uint32_t heard = modbus.request_ticks;
     while ((uint32_t)(now - heard) < (uint32_t)TIMEOUT) {
         poll_ticks(1);
-        TEST_ASSERT_TRUE(registers.command.run);
+        TEST_ASSERT_TRUE(enabled());
     }
     poll_ticks(1);
-    TEST_ASSERT_TRUE(!registers.command.run && registers.silent);
+    TEST_ASSERT_TRUE(!enabled() && registers.silent);
 }
 
 static void test_any_request_for_us_keeps_the_run_alive_and_noise_does_not(void)
 {
-    REQUEST(ADDRESS, 6, 0, 0, 0, 1);
+    REQUEST(ADDRESS, 6, 0, 0, 0, 15);
     for (int n = 0; n < 5; n++) {
         poll_ticks(TIMEOUT - 100);
         REQUEST(ADDRESS, 4, 0, 0, 0, 1);
-        TEST_ASSERT_TRUE(registers.command.run);
+        TEST_ASSERT_TRUE(enabled());
     }
     const int noise[] = {ADDRESS, 4, 0, 0, 0, 1, 0, 0};
     for (int n = 0; n < 5; n++) {
@@ -442,17 +608,23 @@ static void test_any_request_for_us_keeps_the_run_alive_and_noise_does_not(void)
         REQUEST(ADDRESS + 1, 4, 0, 0, 0, 1);
         poll_ticks(TIMEOUT / 5);
     }
-    TEST_ASSERT_FALSE(registers.command.run);
+    TEST_ASSERT_FALSE(enabled());
 }
 
 static void test_arguments_out_of_range_are_refused(void)
 {
-    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_modbus_init(&modbus, 0U, GAP, TIMEOUT));
-    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_modbus_init(&modbus, 248U, GAP, TIMEOUT));
-    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_modbus_init(&modbus, 1U, 0U, TIMEOUT));
-    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_modbus_init(&modbus, 1U, GAP, 0U));
-    TEST_ASSERT_EQUAL_INT(CTL_OK, app_modbus_init(&modbus, 247U, 1U, 1U));
-    TEST_ASSERT_EQUAL_INT(CTL_OK, app_modbus_init(&modbus, 1U, 1U, 1U));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_modbus_init(&modbus, 0U));
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_modbus_init(&modbus, 1U));
+    static const int bad[][2] = {{0, TIMEOUT}, {248, TIMEOUT}, {1, 0}};
+    for (int i = 0; i < SUPPORT_COUNT(bad); i++) {
+        config.modbus_address       = (uint16_t)bad[i][0];
+        config.modbus_timeout_ticks = (uint16_t)bad[i][1];
+        TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG,
+                              app_registers_init(&registers, &config, &gain_tables_drive));
+    }
+    config.modbus_address       = 247U;
+    config.modbus_timeout_ticks = 1U;
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_registers_init(&registers, &config, &gain_tables_drive));
 }
 
 int main(void)
@@ -462,6 +634,10 @@ int main(void)
     RUN_TEST(test_crc_has_the_catalogued_check_value);
     RUN_TEST(test_input_registers_are_read);
     RUN_TEST(test_holding_registers_are_written_and_read);
+    RUN_TEST(test_an_exchange_writes_and_then_reads);
+    RUN_TEST(test_diagnostics_loop_back_and_count);
+    RUN_TEST(test_identification_tells_firmware_drive_and_digests);
+    RUN_TEST(test_address_and_time_out_are_registers);
     RUN_TEST(test_unknown_functions_are_refused);
     RUN_TEST(test_registers_that_do_not_exist_are_refused);
     RUN_TEST(test_bad_values_and_quantities_are_refused);

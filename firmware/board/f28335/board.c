@@ -8,7 +8,7 @@
 
 static const board_setup_t *in_force;
 
-static bool fits(const board_setup_t *s)
+bool board_fits(const board_setup_t *s)
 {
     return (s->duty_full_cnt > 0U) &&
            (s->pwm_cycles == (2UL * CLOCK_SYSCLK_PER_TBCLK * (uint32_t)s->duty_full_cnt)) &&
@@ -33,7 +33,7 @@ bool board_init(const board_setup_t *setup)
         return false;
     }
 
-    if (!fits(setup)) {
+    if (!board_fits(setup)) {
         return false;
     }
 

@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* Start-up order: safe pins and armed trip (board_init), application, interrupts. The bridge stays off until a
- * run is commanded. */
+/* Start-up order: constants, safe pins and armed trip (board_init), application, interrupts. The bridge stays off until
+ * a run is commanded. */
 #include "app.h"
+#include "app_loader.h"
 #include "board_config.h"
 #include "gain_tables.h"
 #include "yield.h"
+
+/* What board and tick read from now on: the linker puts it where there are no wait states. */
+static app_image_t in_force;
 
 /* Without a clock that is known to be right, or with a PWM that is not the drive's, nothing may switch. The watchdog does not run yet, so this lasts until the
  * power is cycled. */
@@ -16,14 +20,29 @@ static void stay_off(void)
     }
 }
 
+static void load(void)
+{
+    app_loader_start(&in_force);
+    for (;;) {
+        app_loader_pass();
+        BOARD_YIELD();
+    }
+}
+
 int main(void)
 {
-    if (!board_init(&board_config.board)) {
+    const bool chosen = app_image_choose(&in_force, &board_config, &gain_tables_drive);
+
+    if (!board_init(&in_force.image.app.board) || !chosen) {
         stay_off();
     }
-    (void)app_init(&board_config,
-                   &gain_tables_drive); /* refused: runs, stays in FAULT, tells why */
-    board_start(app_tick, gain_tables_drive.hardware.updates_per_period);
+    if (board_loader_is_wanted()) {
+        load();
+    }
+    (void)app_init(&in_force.image.app,
+                   &in_force.image.drive); /* refused: runs, stays in FAULT, tells why */
+    app_tell_image(&in_force);
+    board_start(app_tick, in_force.image.drive.hardware.updates_per_period);
     for (;;) {
         app_background();
         BOARD_YIELD();

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "DSP28x_Project.h"
 #include "peripherals.h"
+#include "yield.h"
 
 #define WDCR_STOP 0x68U
 #define WDFLAG    0x80U /* WDCR: the watchdog has reset the device; written 1 to clear */
@@ -9,7 +10,17 @@
 #define WDCR_RUN  0x29U
 #define SCSR_LOCK 0x01U /* reset, not interrupt; and the watchdog cannot be stopped any more */
 
+#define WDCR_RESET 0x00U /* check bits that are not 101: a reset at once */
+#define WANT_LOADER                                                                                \
+    0x10ADE401UL /* chosen: memory after power-on says this once in 2^32, and only the watchdog's reset asks */
+
 static board_reset_t cause;
+
+/* Survives a reset: no start-up code touches it. */
+#ifdef __TI_COMPILER_VERSION__
+#pragma NOINIT(after_reset)
+#endif
+static volatile uint32_t after_reset;
 
 void watchdog_stop(void)
 {
@@ -22,6 +33,26 @@ void watchdog_stop(void)
 board_reset_t board_reset_cause(void)
 {
     return cause;
+}
+
+bool board_loader_is_wanted(void)
+{
+    const bool wanted = (cause == BOARD_RESET_WATCHDOG) && (after_reset == WANT_LOADER);
+
+    after_reset = 0UL;
+    return wanted;
+}
+
+void board_restart(bool loader)
+{
+    board_gate_trip();
+    after_reset = loader ? WANT_LOADER : 0UL;
+    EALLOW;
+    SysCtrlRegs.WDCR = WDCR_RESET;
+    EDIS;
+    for (;;) {
+        BOARD_YIELD();
+    }
 }
 
 void watchdog_start(void)

@@ -3,6 +3,8 @@
  * that every run is the same. */
 #include "board.h"
 
+#include <stddef.h>
+
 #include "board_config.h"
 #include "gain_tables.h"
 #include "host_stub.h"
@@ -139,6 +141,42 @@ uint16_t board_fault_read(void)
 board_reset_t board_reset_cause(void)
 {
     return BOARD_RESET_PIN;
+}
+
+bool board_fits(const board_setup_t *setup)
+{
+    return setup->pwm_cycles == board_config.board.pwm_cycles;
+}
+
+bool board_loader_is_wanted(void)
+{
+    return false;
+}
+
+void board_restart(bool loader)
+{
+    (void)loader;
+}
+
+const uint16_t *board_store(uint16_t slot)
+{
+    (void)slot;
+    return NULL;
+}
+
+bool board_store_erase(uint16_t slot)
+{
+    (void)slot;
+    return false;
+}
+
+bool board_store_program(uint16_t slot, uint32_t offset, const uint16_t *words, uint16_t count)
+{
+    (void)slot;
+    (void)offset;
+    (void)words;
+    (void)count;
+    return false;
 }
 
 uint32_t board_cycles(void)

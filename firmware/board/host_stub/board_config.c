@@ -78,4 +78,6 @@ const app_config_t board_config = {
     .modbus_address         = 1U,
     .modbus_gap_ticks       = 10U,
     .modbus_timeout_ticks   = 500U * TICKS_PER_ms,
+    .drive_name             = "host_stub",
+    .digest                 = "",
 };

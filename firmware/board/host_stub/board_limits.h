@@ -11,5 +11,6 @@
 #define BOARD_ADC_CODES   16384U     /**< 14-bit converter: codes 0 .. 16383 */
 #define BOARD_CAPTURE_Hz  12500000UL /**< of the encoder's edge times: half the clock */
 #define BOARD_UPDATES_MAX 1U         /**< control periods per PWM period */
+#define BOARD_STORE_WORDS 0UL        /**< no store */
 
 #endif /* BOARD_LIMITS_H */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* One run of the application: start-up, alignment, a speed, stop. The exit code says how far it came; 0 is all. */
 #include "app.h"
+#include "app_control.h"
 #include "board_config.h"
 #include "gain_tables.h"
 #include "host_stub.h"
@@ -44,7 +45,10 @@ static bool reaches(app_mode_t mode, uint16_t ticks)
 
 static bool command(float omega_e_radps, bool run)
 {
-    const app_command_t wanted = {.omega_e_radps = omega_e_radps, .run = run, .reset = false};
+    app_objects_t wanted = app_control_default(&drive);
+
+    wanted.omega_e_radps = omega_e_radps;
+    wanted.controlword   = run ? APP_CONTROL_ENABLE_OPERATION : APP_CONTROL_SHUT_DOWN;
     return app_command_write(&wanted);
 }
 
@@ -80,7 +84,11 @@ int main(void)
     if (!reaches(APP_MODE_READY, READY_TICKS) || host_stub_gate()) {
         return EXIT_READY;
     }
-    period(); /* ready has seen that nothing is commanded */
+    if (!command(0.0f, false)) {
+        return EXIT_READY;
+    }
+    period(); /* ready to switch on */
+    period();
     if (!command(SPEED_E_RADPS, true) || !reaches(APP_MODE_RUN, ALIGN_TICKS)) {
         return EXIT_RUN;
     }

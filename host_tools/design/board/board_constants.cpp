@@ -248,6 +248,8 @@ BoardConstants board_constants(const Drive &d)
     c.dead_time_s        = single(d.inverter.dead_time_s);
     c.scale              = scale_of(d);
     out.ntc_degC         = temperatures(d.board);
+    out.drive_name       = d.name;
+    out.digest           = drive_digest(d);
     c.angle              = angle_of(d);
     c.align              = align_of(d, pwm_Hz);
     c.gate               = gate_of(d, c.board.duty_full_cnt, pwm_Hz);

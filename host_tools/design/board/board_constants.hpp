@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "drive/drive_file.hpp"
 
@@ -14,16 +15,20 @@ namespace sdre {
 
 constexpr std::size_t ntc_points = 28;
 
-/// The application's constants. The table of temperatures belongs to them: config.scale.ntc_degC points into it, so that an
-/// object can be moved only with its pointer (bind()).
+/// The application's constants. The table of temperatures and the names belong to them: config points into them, so that an
+/// object can be moved only with its pointers (bind()).
 struct BoardConstants {
     app_config_t                  config{};
     std::array<float, ntc_points> ntc_degC{};
+    std::string                   drive_name;
+    std::string                   digest;
 
-    /// The constants, with the pointer to the table of this object.
+    /// The constants, with pointers into this object.
     const app_config_t &bind()
     {
         config.scale.ntc_degC = ntc_degC.data();
+        config.drive_name     = drive_name.c_str();
+        config.digest         = digest.c_str();
         return config;
     }
 };

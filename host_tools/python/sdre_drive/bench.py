@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 import socket
-from typing import Any, Dict, Optional, Tuple
+from typing import Any, Dict, Tuple
 
 from sdre_drive.connection import DriveError
 
@@ -58,18 +58,3 @@ class Bench:
         if "error" in answer:
             raise DriveError(f"bench: {answer['error']}")
         return answer
-
-
-def pole_pairs_of_bench(address: Tuple[str, int] = DEFAULT) -> Optional[int]:
-    """What the virtual drive's motor has; None where there is no bench."""
-    try:
-        bench = Bench(address)
-    except DriveError:
-        return None
-    try:
-        pairs = bench.ask("state").get("pole_pairs")
-        return int(pairs) if pairs else None
-    except DriveError:
-        return None
-    finally:
-        bench.close()

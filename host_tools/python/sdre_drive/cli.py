@@ -12,9 +12,12 @@ from typing import Optional
 import typer
 from rich.console import Console
 from rich.live import Live
+from rich.progress import Progress
 from typing_extensions import Annotated
 
-from sdre_drive import record, session, show
+from sdre_drive import commission as finder
+from sdre_drive import load as loader
+from sdre_drive import record, scope, session, show
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.options import Control, PolePairs, Port, Tcp, bench_address, pole_pairs_of, target
 from sdre_drive.registers import Mode, Reading
@@ -39,12 +42,11 @@ def end_by_signal() -> threading.Event:
 
 
 @app.command()
-def status(port: Port = None, tcp: Tcp = None, control: Control = None, pole_pairs: PolePairs = None) -> None:
+def status(port: Port = None, tcp: Tcp = None, pole_pairs: PolePairs = None) -> None:
     """What the drive does now, and what to do about it."""
-    where = target(port, tcp)
-    with Drive(where) as drive:
+    with Drive(target(port, tcp)) as drive:
         reading = drive.read()
-    out.print(show.status(reading, pole_pairs_of(pole_pairs, where, control)))
+        out.print(show.status(reading, pole_pairs_of(pole_pairs, drive)))
     if reading.mode == Mode.FAULT:
         raise typer.Exit(EXIT_TRIPPED)
 
@@ -56,17 +58,13 @@ def run(
     length_s: For = None,
     port: Port = None,
     tcp: Tcp = None,
-    control: Control = None,
     pole_pairs: PolePairs = None,
 ) -> None:
     """Runs at SPEED until Ctrl-C, then stops."""
-    where = target(port, tcp)
-    pairs = pole_pairs_of(pole_pairs, where, control)
-    if rpm and not pairs:
-        raise DriveError("r/min needs the motor's --pole-pairs; or give rad/s electrical with --radps")
     end = end_by_signal()
-    with Drive(where) as drive, Live(console=out, auto_refresh=False) as live:
-        wanted = show.e_radps_of(speed, pairs) if rpm and pairs else speed
+    with Drive(target(port, tcp)) as drive, Live(console=out, auto_refresh=False) as live:
+        pairs = pole_pairs_of(pole_pairs, drive)
+        wanted = show.e_radps_of(speed, pairs) if rpm else speed
         update = lambda r: live.update(show.line(r, pairs), refresh=True)  # noqa: E731
         update(session.hold(drive, wanted, end, length_s, update))
 
@@ -89,27 +87,71 @@ def reset(port: Port = None, tcp: Tcp = None) -> None:
 
 
 @app.command()
-def faults(port: Port = None, tcp: Tcp = None, control: Control = None, pole_pairs: PolePairs = None) -> None:
+def load(
+    image: Annotated[Optional[Path], typer.Argument(help="of `sdre-gains image`; none: show what is in force")] = None,
+    forget: Annotated[bool, typer.Option("--forget", help="back to the constants that are compiled in")] = False,
+    port: Port = None,
+    tcp: Tcp = None,
+) -> None:
+    """Writes a motor's constants into the drive's flash, and restarts it with them."""
+    if image and forget:
+        raise DriveError("load: give an image or --forget")
+    with Drive(target(port, tcp)) as drive:
+        if forget:
+            found = loader.forget(drive)
+        elif image:
+            with Progress(console=err, transient=True) as bar:
+                task = bar.add_task("writing", total=1.0)
+                found = loader.load(drive, image, lambda share: bar.update(task, completed=share))
+        else:
+            found = loader.look(drive)
+    out.print(f"in force: {found.in_force}", soft_wrap=True)
+
+
+@app.command()
+def commission(
+    file: Annotated[Path, typer.Option("--out", help="what was found, for `sdre-gains from-commissioning`")],
+    current: Annotated[float, typer.Option("--current", min=0.01, help="A, peak: its bound")],
+    speed: Annotated[float, typer.Option("--speed", min=0.1, help="r/min: its bound")],
+    port: Port = None,
+    tcp: Tcp = None,
+) -> None:
+    """Finds the motor: the shaft turns, both ways, and has to be free."""
+    end = end_by_signal()
+    with Drive(target(port, tcp)) as drive, Progress(console=err, transient=True) as bar:
+        task = bar.add_task("begins", total=1.0)
+        values = finder.run(drive, current, show.e_radps_of(speed, 1), end,
+                            lambda stage, share: bar.update(task, description=stage, completed=share))  # fmt: skip
+    record.write_text(file, finder.text(values))
+    out.print(f"{file}: written; next: sdre-gains from-commissioning {file} --drive DRIVE --out NEW", soft_wrap=True)
+
+
+@app.command()
+def faults(
+    port: Port = None, tcp: Tcp = None, pole_pairs: PolePairs = None,
+    csv: Annotated[Optional[Path], typer.Option("--csv", help="the last 64 periods before it", metavar="FILE")] = None,
+) -> None:  # fmt: skip
     """The fault now and what the drive kept of the last one."""
-    where = target(port, tcp)
-    with Drive(where) as drive:
+    with Drive(target(port, tcp)) as drive:
         reading = drive.read()
+        if csv:
+            record.write_capture(csv, scope.record(drive))
+        pairs = pole_pairs_of(pole_pairs, drive)
     for text in show.reasons(reading):
         out.print(text)
-    out.print(show.first_fault(reading, pole_pairs_of(pole_pairs, where, control)))
+    out.print(show.first_fault(reading, pairs))
     if reading.mode == Mode.FAULT:
         raise typer.Exit(EXIT_TRIPPED)
 
 
 @app.command()
 def watch(
-    length_s: For = None, port: Port = None, tcp: Tcp = None, control: Control = None, pole_pairs: PolePairs = None
+    length_s: For = None, port: Port = None, tcp: Tcp = None, pole_pairs: PolePairs = None
 ) -> None:
     """Shows the drive until Ctrl-C. That somebody watches keeps a running drive running."""
-    where = target(port, tcp)
-    pairs = pole_pairs_of(pole_pairs, where, control)
     end = end_by_signal()
-    with Drive(where) as drive, Live(console=out, auto_refresh=False) as live:
+    with Drive(target(port, tcp)) as drive, Live(console=out, auto_refresh=False) as live:
+        pairs = pole_pairs_of(pole_pairs, drive)
         for reading in session.follow(drive, end, 0.1, length_s):
             live.update(show.status(reading, pairs), refresh=True)
 
@@ -133,6 +175,28 @@ def log(
     out.print(f"{count} readings written to {csv or parquet}")
 
 
+@app.command(name="scope")
+def take_scope(
+    csv: Annotated[Path, typer.Option("--csv", help="file of 512 lines", metavar="FILE")],
+    signals: Annotated[str, typer.Option("--signals", help="up to four of " + ", ".join(scope.NAMES[1:]))] = "SPEED,IQ,ID,DC_LINK",
+    decimation: Annotated[int, typer.Option("--decimation", min=1, max=65535, help="control periods between samples")] = 1,
+    trigger: Annotated[str, typer.Option("--trigger", help="now, rising or falling")] = "now",
+    channel: Annotated[int, typer.Option("--channel", min=1, max=4, help="the signal that triggers")] = 1,
+    level: Annotated[float, typer.Option("--level", help="in its unit")] = 0.0,
+    before: Annotated[int, typer.Option("--before", min=0, max=511, help="samples before the trigger")] = 0,
+    wait_s: Annotated[float, typer.Option("--wait", min=0.0, help="for the trigger", metavar="S")] = 10.0,
+    port: Port = None,
+    tcp: Tcp = None,
+) -> None:
+    """Takes 512 samples of four signals in the control interrupt. That somebody waits keeps a running drive running."""
+    setup = scope.Setup(signals.split(","), decimation, trigger, channel, level, before)
+    scope.require_possible(setup)
+    with Drive(target(port, tcp)) as drive:
+        capture = scope.take(drive, setup, wait_s)
+    record.write_capture(csv, capture)
+    out.print(f"{len(capture.time_s)} samples of {', '.join(capture.signals)} written to {csv}")
+
+
 @app.command()
 def ui(
     port: Port = None, tcp: Tcp = None, control: Control = None, pole_pairs: PolePairs = None,
@@ -146,7 +210,7 @@ def ui(
         raise DriveError("the page needs NiceGUI: pip install './host_tools/python[ui]'") from e
     where = target(port, tcp)
     bench = bench_address(control) if control or where.is_local else None
-    serve(where, bench, pole_pairs_of(pole_pairs, where, control), page_port, browser)
+    serve(where, bench, pole_pairs, page_port, browser)
 
 
 def main() -> None:

@@ -7,13 +7,14 @@ import logging
 import os
 import threading
 from dataclasses import dataclass
-from typing import Any, List, Optional
+from typing import Any, Dict, List, Optional, Sequence
 
 from pymodbus.client import ModbusSerialClient, ModbusTcpClient
 from pymodbus.exceptions import ModbusException
 
-from sdre_drive import registers
-from sdre_drive.registers import Reading
+from sdre_drive import register_map, registers
+from sdre_drive.register_map import Register
+from sdre_drive.registers import BY_NAME, Constants, ControlWord, Reading
 
 BAUD = 115200
 # The drive withdraws run after 500 ms without a request: two tries have to fit. TCP loses nothing, and what answers there
@@ -26,6 +27,7 @@ EXCEPTION_WORDS = {
     1: "does not know this function",
     2: "does not have this register",
     3: "refuses this value: it is out of the drive's range",
+    4: "does not take or tell this now",
     11: "did not answer behind its gateway",
 }
 
@@ -65,6 +67,7 @@ class Drive:
         logging.getLogger("pymodbus.logging").setLevel(logging.CRITICAL)  # what is wrong is raised
         self.target = target
         self._lock = threading.Lock()
+        self._constants: Optional[Constants] = None
         if target.serial_port:
             virtual = is_pseudo_terminal(target.serial_port)  # it has no line and no parity
             self._client: Any = ModbusSerialClient(
@@ -95,34 +98,64 @@ class Drive:
         self._client.close()
 
     def read(self) -> Reading:
-        """All input registers of one tick."""
-        values = self._asked("read_input_registers", 0, count=registers.INPUT_COUNT).registers
-        return registers.decode(values)
+        """The live registers of one tick."""
+        period_s = self.constants().period_s
+        return registers.decode(self._block(register_map.LIVE), period_s)
 
-    def wanted(self) -> List[int]:
-        """The holding registers run, reset, speed."""
-        return list(self._asked("read_holding_registers", 0, count=3).registers)
+    def constants(self) -> Constants:
+        """What the drive was built for: asked once."""
+        if self._constants is None:
+            self._constants = registers.constants(self._block(register_map.CONSTANTS))
+        return self._constants
+
+    def traces(self) -> Dict[str, float]:
+        """How scope and record stand."""
+        return registers.values(register_map.TRACES, self._block(register_map.TRACES))
+
+    def words(self, first: int, count: int) -> List[int]:
+        """Input registers as they are."""
+        values = list(self._asked("read_input_registers", first, count=count).registers)
+        if len(values) != count:
+            raise DriveError("the drive answered something else than it was asked")
+        return values
+
+    def write(self, name: str, value: float) -> None:
+        """A holding register, in its unit."""
+        r = BY_NAME[name]
+        try:
+            words = registers.words_of(r, value)
+        except ValueError as e:
+            raise DriveError(str(e)) from e
+        if len(words) == 1:
+            self._asked("write_register", r.address, words[0])
+        else:
+            self._asked("write_registers", r.address, words)
+
+    def _block(self, wanted: Sequence[Register]) -> List[int]:
+        return self.words(*registers.block(wanted))
 
     def set_speed(self, speed_e_radps: float) -> None:
         """rad/s electrical; acts when the drive runs."""
-        try:
-            value = registers.speed_register(speed_e_radps)
-        except ValueError as e:
-            raise DriveError(str(e)) from e
-        self._asked("write_register", registers.SPEED, value)
+        self.write("SPEED", speed_e_radps)
 
     def set_run(self, run: bool) -> None:
-        """A run starts when it rises in READY."""
-        self._asked("write_register", registers.RUN, int(run))
-
-    def end_commissioning(self) -> None:
-        """Mode COMMISSION gives up."""
-        self._asked("write_register", registers.COMMISSION, 0)
+        """Enables the operation, which is shut down first; or stops whatever goes on."""
+        for word in (ControlWord.SHUT_DOWN, ControlWord.ENABLE) if run else (ControlWord.DISABLE_VOLTAGE,):
+            self.write("CONTROLWORD", word)
 
     def reset(self) -> None:
         """Leaves FAULT when what caused it has gone."""
-        self.set_run(False)
-        self._asked("write_register", registers.RESET, 1)
+        for word in (ControlWord.DISABLE_VOLTAGE, ControlWord.FAULT_RESET, ControlWord.DISABLE_VOLTAGE):
+            self.write("CONTROLWORD", word)
+
+    def identify(self) -> Dict[int, str]:
+        """Objects of function 43/14, from the drive's name on."""
+        answer = self._asked("read_device_information", read_code=3, object_id=0x80)
+        return {number: octets.decode("ascii", "replace") for number, octets in answer.information.items()}
+
+    def write_words(self, first: int, values: List[int]) -> None:
+        """Holding registers as they are."""
+        self._asked("write_registers", first, values)
 
     def _asked(self, call: str, *args: Any, **kwargs: Any) -> Any:
         with self._lock:

@@ -8,7 +8,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, Dict, List, Tuple, Union
 
-from sdre_drive.registers import Why
+from sdre_drive.registers import BY_NAME, Why
 
 try:
     import tomllib
@@ -48,12 +48,17 @@ class Entry:
     reproduce: Union[str, Recipe] = field(default="")
 
 
+def _addressed(text: str) -> str:
+    """With addresses for the names of input registers."""
+    return text.format_map({name: r.address for name, r in BY_NAME.items()})
+
+
 def _entry(group: str, keys: Dict[str, Any]) -> Entry:
     how = keys["reproduce"]
     if isinstance(how, dict):
         how = Recipe(**{k: tuple(v) if isinstance(v, list) else v for k, v in how.items()})
-    rest = {k: tuple(v) if isinstance(v, list) else v for k, v in keys.items() if k != "reproduce"}
-    return Entry(group=group, reproduce=how, **rest)
+    rest = {k: tuple(map(_addressed, v)) if isinstance(v, list) else v for k, v in keys.items() if k != "reproduce"}
+    return Entry(group=group, reproduce=how, **{**rest, "meaning": _addressed(rest["meaning"])})
 
 
 @lru_cache(maxsize=None)

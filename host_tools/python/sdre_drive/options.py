@@ -8,8 +8,8 @@ from typing import Optional, Tuple
 import typer
 from typing_extensions import Annotated
 
-from sdre_drive.bench import DEFAULT, pole_pairs_of_bench
-from sdre_drive.connection import DriveError, Target
+from sdre_drive.bench import DEFAULT
+from sdre_drive.connection import Drive, DriveError, Target
 
 Port = Annotated[Optional[str], typer.Option("--port", help="serial port of the drive", metavar="TTY")]
 Tcp = Annotated[Optional[str], typer.Option(
@@ -18,7 +18,7 @@ Control = Annotated[Optional[str], typer.Option(
     "--control", help="bench of the virtual drive (default 127.0.0.1:1503)", metavar="HOST:PORT")]  # fmt: skip
 PolePairs = Annotated[Optional[int], typer.Option(
     "--pole-pairs", min=1, max=100, envvar="SDRE_POLE_PAIRS",
-    help="of the motor, for r/min; a virtual drive on this machine tells its own")]  # fmt: skip
+    help="of the motor, for r/min, instead of what the drive tells")]  # fmt: skip
 
 
 def address(text: str, option: str) -> Tuple[str, int]:
@@ -46,8 +46,6 @@ def bench_address(control: Optional[str]) -> Tuple[str, int]:
     return address(control, "--control") if control else DEFAULT
 
 
-def pole_pairs_of(given: Optional[int], where: Target, control: Optional[str]) -> Optional[int]:
-    """What was given, or what a virtual drive on this machine has; None when nobody knows."""
-    if given:
-        return given
-    return pole_pairs_of_bench(bench_address(control)) if where.is_local else None
+def pole_pairs_of(given: Optional[int], drive: Drive) -> int:
+    """What was given, or what the drive tells."""
+    return given or drive.constants().pole_pairs

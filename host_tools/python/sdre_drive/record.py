@@ -10,6 +10,7 @@ from typing import Any, Dict, Iterable, List
 
 from sdre_drive.connection import DriveError
 from sdre_drive.registers import Reading
+from sdre_drive.scope import Capture
 
 COLUMNS = ("time_s", "mode", "speed_e_radps", "iq_A", "id_A", "iq_ref_A", "id_ref_A", "vq_V", "vd_V", "dc_link_V",
            "temperature_degC", "conditions", "motor_heat", "inverter_heat", "derating")  # fmt: skip
@@ -37,6 +38,18 @@ def write_csv(path: Path, readings: Iterable[Reading]) -> int:
     return count
 
 
+def write_capture(path: Path, capture: Capture) -> None:
+    """Scope or record as a CSV file."""
+    try:
+        with path.open("w", newline="", encoding="utf-8") as f:
+            out = csv.writer(f)
+            out.writerow(["time_s", *capture.signals])
+            for k, time_s in enumerate(capture.time_s):
+                out.writerow([f"{time_s:.7g}", *(f"{v[k]:.7g}" for v in capture.values)])
+    except OSError as e:
+        raise DriveError(f"{path}: {e.strerror}") from e
+
+
 def write_parquet(path: Path, readings: Iterable[Reading]) -> int:
     """All at once at the end; an earlier file stays until then."""
     try:
@@ -52,3 +65,13 @@ def write_parquet(path: Path, readings: Iterable[Reading]) -> int:
     except OSError as e:
         raise DriveError(f"{path}: {e.strerror or e}") from e
     return len(rows)
+
+
+def write_text(path: Path, text: str) -> None:
+    """The whole file or none of it."""
+    beside = path.with_name(path.name + ".part")
+    try:
+        beside.write_text(text)
+        os.replace(beside, path)
+    except OSError as e:
+        raise DriveError(f"{path}: {e.strerror}") from e

@@ -5,26 +5,88 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Sequence
+from typing import Dict, Iterable, List, Sequence, Tuple
 
-# Holding registers from 0 on.
-HOLDING_NAMES = ("RUN", "RESET", "SPEED", "COMMISSION", "COMMISSION_CURRENT", "COMMISSION_SPEED")
-RUN, RESET, SPEED, COMMISSION = range(4)
-SPEED_PER_UNIT_E_RADPS = 0.1
-TICK_S = 200e-6
+from sdre_drive import register_map
+from sdre_drive.register_map import Register
 
-# Input registers from 0 on, named as APP_REGISTERS_* in firmware/app/app_registers.h; those of commissioning follow.
-INPUT_NAMES = (
-    "MODE", "FAULT", "DRIVE_FAULT", "BOARD_FAULTS", "CONDITIONS", "REFERENCE", "ALIGN_STAGE", "SPEED_NOW",
-    "IQ", "ID", "IQ_REF", "ID_REF", "VQ", "VD", "DC_LINK", "TEMPERATURE", "THETA", "POSITION", "CORRECTIONS",
-    "ZERO_A", "ZERO_B", "CYCLES", "CYCLES_WORST", "TICKS_HI", "TICKS_LO",
-    "FIRST_FAULT", "FIRST_MODE", "FIRST_DRIVE_FAULT", "FIRST_BOARD_FAULTS", "FIRST_IA", "FIRST_IB",
-    "FIRST_DC_LINK", "FIRST_TEMPERATURE", "FIRST_POSITION", "FIRST_INDEX", "FIRST_SAMPLE", "FIRST_SPEED",
-    "FIRST_WANTED", "FIRST_TICKS_HI", "FIRST_TICKS_LO",
-    "RESET_CAUSE", "PHASE_ERRORS", "IGNORED_ANGLES", "IGNORED_CURRENTS", "JUMPS", "MOTOR_HEAT", "INVERTER_HEAT",
-    "DERATING",
-)  # fmt: skip
-INPUT_COUNT = len(INPUT_NAMES)
+WORDS = {"u16": 1, "i16": 1, "u32": 2, "i32": 2, "dec": 2}
+RANGES = {"u16": (0, 0xFFFF), "i16": (-0x8000, 0x7FFF), "u32": (0, 0xFFFFFFFF), "i32": (-0x80000000, 0x7FFFFFFF)}
+BY_NAME = {r.name: r for r in (*register_map.HOLDING, *register_map.INPUT)}
+
+
+def block(registers: Sequence[Register]) -> Tuple[int, int]:
+    """First address and how many, of registers without a gap."""
+    last = registers[-1]
+    return registers[0].address, last.address + WORDS[last.type] - registers[0].address
+
+
+def signed(value: int, bits: int = 16) -> int:
+    """Two's complement."""
+    return value - (1 << bits) if value >= 1 << (bits - 1) else value
+
+
+def value_of(r: Register, words: Sequence[int]) -> float:
+    """In SI units; of two registers the high one comes first."""
+    if r.type == "dec":
+        return signed(words[0]) * 10.0 ** signed(words[1])
+    count = words[0] if len(words) == 1 else words[0] << 16 | words[1]
+    if r.type.startswith("i"):
+        count = signed(count, 16 * len(words))
+    return count * r.step if r.step else count
+
+
+def words_of(r: Register, value: float) -> List[int]:
+    """What to write; ValueError beyond the register."""
+    count = round(value / r.step) if r.step else round(value)
+    low, high = RANGES[r.type]
+    if not low <= count <= high:
+        raise ValueError(f"{value:g} {r.unit} does not fit register {r.name}")
+    return [count & 0xFFFF] if WORDS[r.type] == 1 else [count >> 16 & 0xFFFF, count & 0xFFFF]
+
+
+def values(registers: Iterable[Register], words: Sequence[int]) -> Dict[str, float]:
+    """By name, of a block that was read as a whole."""
+    out: Dict[str, float] = {}
+    at = 0
+    for r in registers:
+        out[r.name] = value_of(r, words[at:at + WORDS[r.type]])
+        at += WORDS[r.type]
+    if at != len(words):
+        raise ValueError(f"{len(words)} registers instead of {at}")
+    return out
+
+
+PROFILE_VELOCITY = 3  # mode of operation
+
+
+class ControlWord(IntEnum):
+    """Of CiA 402, object 6040h."""
+
+    DISABLE_VOLTAGE = 0
+    QUICK_STOP = 2
+    SHUT_DOWN = 6
+    SWITCH_ON = 7
+    ENABLE = 15
+    FAULT_RESET = 128
+
+
+# Bits of the status word (6041h) and their values in each state.
+STATES = (
+    (0x4F, 0x00, "not ready to switch on"),
+    (0x4F, 0x40, "switch on disabled"),
+    (0x6F, 0x21, "ready to switch on"),
+    (0x6F, 0x23, "switched on"),
+    (0x6F, 0x27, "operation enabled"),
+    (0x6F, 0x07, "quick stop active"),
+    (0x4F, 0x0F, "fault reaction active"),
+    (0x4F, 0x08, "fault"),
+)
+
+
+def state_words(statusword: int) -> str:
+    """The state of CiA 402."""
+    return next((words for mask, bits, words in STATES if statusword & mask == bits), "unknown")
 
 
 class Mode(IntEnum):
@@ -76,8 +138,10 @@ class FirstFault:
 
 @dataclass(frozen=True)
 class Reading:
-    """All input registers of one tick."""
+    """The live registers of one tick."""
 
+    statusword: int
+    error_code: int
     mode: int
     why: Why
     conditions: int
@@ -108,63 +172,60 @@ class Reading:
         return MODE_WORDS[Mode(self.mode)] if self.mode in set(Mode) else f"unknown mode {self.mode}"
 
 
-def signed(value: int) -> int:
-    """Two's complement of 16 bits."""
-    return value - 0x10000 if value >= 0x8000 else value
+@dataclass(frozen=True)
+class Constants:
+    """What the drive was built for."""
+
+    pole_pairs: int
+    period_s: float
+    speed_max_e_radps: float
+    current_max_A: float
 
 
-def speed_register(speed_e_radps: float) -> int:
-    """What to write for a speed; ValueError beyond 16 bits."""
-    tenths = round(speed_e_radps / SPEED_PER_UNIT_E_RADPS)
-    if not -0x8000 <= tenths <= 0x7FFF:
-        raise ValueError(f"{speed_e_radps:g} rad/s electrical does not fit the register (+-3276.7)")
-    return tenths & 0xFFFF
+def constants(words: Sequence[int]) -> Constants:
+    """From the block of constants."""
+    raw = values(register_map.CONSTANTS, words)
+    return Constants(int(raw["POLE_PAIRS"]), raw["CONTROL_PERIOD"], raw["SPEED_MAX"], raw["CURRENT_MAX"])
 
 
-def decode(values: Sequence[int]) -> Reading:
-    """A reading from all input registers."""
-    if len(values) != INPUT_COUNT:
-        raise ValueError(f"{len(values)} registers instead of {INPUT_COUNT}")
-    raw = dict(zip(INPUT_NAMES, values))
+def decode(words: Sequence[int], period_s: float) -> Reading:
+    """A reading from the live registers."""
+    raw = values(register_map.LIVE, words)
 
-    def tenths(name: str) -> float:
-        return signed(raw[name]) / 10.0
-
-    def milli(name: str) -> float:
-        return signed(raw[name]) / 1000.0
-
-    def seconds(name: str) -> float:
-        return (raw[name + "_HI"] * 0x10000 + raw[name + "_LO"]) * TICK_S
+    def whole(name: str) -> int:
+        return int(raw[name])
 
     first = FirstFault(
-        why=Why(raw["FIRST_FAULT"], raw["FIRST_DRIVE_FAULT"], raw["FIRST_BOARD_FAULTS"]),
-        mode=raw["FIRST_MODE"],
-        speed_e_radps=tenths("FIRST_SPEED"),
-        wanted_e_radps=tenths("FIRST_WANTED"),
-        time_s=seconds("FIRST_TICKS"),
+        why=Why(whole("FIRST_FAULT"), whole("FIRST_DRIVE_FAULT"), whole("FIRST_BOARD_FAULTS")),
+        mode=whole("FIRST_MODE"),
+        speed_e_radps=raw["FIRST_SPEED"],
+        wanted_e_radps=raw["FIRST_WANTED"],
+        time_s=raw["FIRST_TICKS"] * period_s,
     )
     return Reading(
-        mode=raw["MODE"],
-        why=Why(raw["FAULT"], raw["DRIVE_FAULT"], raw["BOARD_FAULTS"]),
-        conditions=raw["CONDITIONS"],
-        speed_e_radps=tenths("SPEED_NOW"),
-        iq_A=milli("IQ"),
-        id_A=milli("ID"),
-        iq_ref_A=milli("IQ_REF"),
-        id_ref_A=milli("ID_REF"),
-        vq_V=tenths("VQ"),
-        vd_V=tenths("VD"),
-        dc_link_V=raw["DC_LINK"] / 10.0,
-        temperature_degC=tenths("TEMPERATURE"),
-        theta_e_rad=raw["THETA"] / 1000.0,
-        time_s=seconds("TICKS"),
+        statusword=whole("STATUSWORD"),
+        error_code=whole("ERROR_CODE"),
+        mode=whole("MODE"),
+        why=Why(whole("FAULT"), whole("DRIVE_FAULT"), whole("BOARD_FAULTS")),
+        conditions=whole("CONDITIONS"),
+        speed_e_radps=raw["SPEED_NOW"],
+        iq_A=raw["IQ"],
+        id_A=raw["ID"],
+        iq_ref_A=raw["IQ_REF"],
+        id_ref_A=raw["ID_REF"],
+        vq_V=raw["VQ"],
+        vd_V=raw["VD"],
+        dc_link_V=raw["DC_LINK"],
+        temperature_degC=raw["TEMPERATURE"],
+        theta_e_rad=raw["THETA"],
+        time_s=raw["TICKS"] * period_s,
         first_fault=first,
-        reset_cause=raw["RESET_CAUSE"],
-        phase_errors=raw["PHASE_ERRORS"],
-        ignored_angles=raw["IGNORED_ANGLES"],
-        ignored_currents=raw["IGNORED_CURRENTS"],
-        position_jumps=raw["JUMPS"],
-        motor_heat=raw["MOTOR_HEAT"] / 1000.0,
-        inverter_heat=raw["INVERTER_HEAT"] / 1000.0,
-        derating=raw["DERATING"] / 1000.0,
+        reset_cause=whole("RESET_CAUSE"),
+        phase_errors=whole("PHASE_ERRORS"),
+        ignored_angles=whole("IGNORED_ANGLES"),
+        ignored_currents=whole("IGNORED_CURRENTS"),
+        position_jumps=whole("JUMPS"),
+        motor_heat=raw["MOTOR_HEAT"],
+        inverter_heat=raw["INVERTER_HEAT"],
+        derating=raw["DERATING"],
     )

@@ -9,7 +9,7 @@ from typing import Callable, Iterator, Optional
 
 from sdre_drive import faults
 from sdre_drive.connection import Drive, DriveError
-from sdre_drive.registers import Mode, Reading
+from sdre_drive.registers import PROFILE_VELOCITY, Mode, Reading
 
 MOVING = (Mode.PRECHARGE, Mode.ALIGN, Mode.RUN)
 PERIOD_S = 0.05  # well below the 500 ms after which the drive stops by itself
@@ -55,7 +55,8 @@ def start(drive: Drive, speed_e_radps: float) -> None:
     in_the_way = faults.bits("condition", reading.conditions & faults.NO_START)
     if in_the_way:
         raise DriveError("the drive cannot start: " + " ".join(e.meaning for e in in_the_way))
-    drive.set_run(False)  # run has to rise
+    drive.write("MODE_OF_OPERATION", PROFILE_VELOCITY)
+    drive.set_run(False)  # enabling has to rise
     drive.set_run(True)
     reading = wait_for(drive, lambda r: r.mode != Mode.READY, ANSWER_WAIT_S)
     if reading is None:
@@ -65,10 +66,8 @@ def start(drive: Drive, speed_e_radps: float) -> None:
 
 
 def stop(drive: Drive) -> Reading:
-    """Withdraws run and commissioning, and waits until the bridge is off."""
+    """Ends a run or commissioning, and waits until the bridge is off."""
     drive.set_run(False)
-    if drive.read().mode == Mode.COMMISSION:
-        drive.end_commissioning()
     reading = wait_for(drive, lambda r: r.mode not in (*MOVING, Mode.STOP, Mode.COMMISSION), STOP_WAIT_S)
     if reading is None:
         raise DriveError(f"the drive does not stop: it {drive.read().mode_words}")

@@ -12,7 +12,7 @@ from rich.text import Text
 
 from sdre_drive import faults
 from sdre_drive.faults import Entry
-from sdre_drive.registers import Mode, Reading
+from sdre_drive.registers import Mode, Reading, state_words
 
 
 def rpm_of(speed_e_radps: float, pole_pairs: int) -> float:
@@ -62,6 +62,7 @@ def status(reading: Reading, pole_pairs: Optional[int]) -> RenderableType:
     table = Table(show_header=False, box=None, padding=(0, 2, 0, 0))
     rows = (
         ("mode", f"{reading.mode_words}"),
+        ("state", state_words(reading.statusword) + (f", error code {reading.error_code:04X}h" if reading.error_code else "")),
         ("speed", speed_words(reading.speed_e_radps, pole_pairs)),
         ("i_q, i_d", f"{reading.iq_A:.3f} A, {reading.id_A:.3f} A"),
         ("wanted", f"{reading.iq_ref_A:.3f} A, {reading.id_ref_A:.3f} A"),

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Iterator
 
 from sdre_drive.faults import GROUPS, Entry, Recipe, table
+from sdre_drive.registers import BY_NAME
 
 HEAD = """# Troubleshooting
 
@@ -19,11 +20,17 @@ first".
 the lines to the control port (127.0.0.1:1503) or the same from the page (`sdre-drive ui`); `mend` makes it whole again, `sdre-drive reset` leaves the fault.
 """
 
+
+
+def _at(name: str) -> int:
+    return BY_NAME[name].address
+
+
 TITLES = {
-    "application": ("Faults", "Register 1; 25 of the first fault."),
-    "drive": ("Drive faults", "Register 2, or 27, when the fault is 10."),
-    "board": ("Board faults", "Bits of register 3, or 28, when the fault is 2."),
-    "condition": ("Conditions", "Bits of register 4. They keep a drive from starting or tell what limits it; none of them is latched but 2."),
+    "application": ("Faults", f"Register {_at('FAULT')}; {_at('FIRST_FAULT')} of the first fault."),
+    "drive": ("Drive faults", f"Register {_at('DRIVE_FAULT')}, or {_at('FIRST_DRIVE_FAULT')}, when the fault is 10."),
+    "board": ("Board faults", f"Bits of register {_at('BOARD_FAULTS')}, or {_at('FIRST_BOARD_FAULTS')}, when the fault is 2."),
+    "condition": ("Conditions", f"Bits of register {_at('CONDITIONS')}. They keep a drive from starting or tell what limits it; none of them is latched but 2."),
 }
 
 

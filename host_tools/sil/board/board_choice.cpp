@@ -34,8 +34,15 @@ void hang_ticks(bool now)
 
 extern "C" {
 
-bool                  f28335_board_init(const board_setup_t *setup);
-void                  f28335_board_start(void (*tick)(void), uint16_t updates_per_period);
+bool            f28335_board_fits(const board_setup_t *setup);
+bool            f28335_board_loader_is_wanted(void);
+void            f28335_board_restart(bool loader);
+const uint16_t *f28335_board_store(uint16_t slot);
+bool            f28335_board_store_erase(uint16_t slot);
+bool            f28335_board_store_program(uint16_t slot, uint32_t offset, const uint16_t *words,
+                                           uint16_t count);
+bool            f28335_board_init(const board_setup_t *setup);
+void            f28335_board_start(void (*tick)(void), uint16_t updates_per_period);
 const board_sample_t *f28335_board_sample(void);
 void                  f28335_board_duty_write(const board_duty_t *duty);
 void                  f28335_board_gate_enable(void);
@@ -47,6 +54,40 @@ bool                  f28335_board_stack_is_whole(void);
 void                  f28335_board_watchdog_serve(void);
 bool                  f28335_board_serial_read(uint16_t *octet);
 bool                  f28335_board_serial_write(uint16_t octet);
+
+// The fake has no store and is never started anew.
+
+bool board_fits(const board_setup_t *setup)
+{
+    return f28335_board_fits(setup);
+}
+
+bool board_loader_is_wanted(void)
+{
+    return the_fake == nullptr && f28335_board_loader_is_wanted();
+}
+
+void board_restart(bool loader)
+{
+    if (the_fake == nullptr) {
+        f28335_board_restart(loader);
+    }
+}
+
+const uint16_t *board_store(uint16_t slot)
+{
+    return the_fake == nullptr ? f28335_board_store(slot) : nullptr;
+}
+
+bool board_store_erase(uint16_t slot)
+{
+    return the_fake == nullptr && f28335_board_store_erase(slot);
+}
+
+bool board_store_program(uint16_t slot, uint32_t offset, const uint16_t *words, uint16_t count)
+{
+    return the_fake == nullptr && f28335_board_store_program(slot, offset, words, count);
+}
 
 bool board_init(const board_setup_t *setup)
 {

@@ -67,7 +67,7 @@ public:
     bool commission(std::uint16_t current, std::uint16_t speed) override;
     bool can_command() const override
     {
-        return true;
+        return wait_ticks_ == 0;
     }
     void               inject(FaultKind kind) override;
     std::array<int, 3> duty_cnt() const override;
@@ -75,8 +75,10 @@ public:
 private:
     void command();
 
-    int                     tenths_ = 0;
-    bool                    run_    = false;
+    int                     tenths_           = 0;
+    bool                    run_              = false;
+    bool                    commission_ready_ = false;
+    int                     wait_ticks_       = 0; ///< before the command goes; 0: there is none
     f28335::FakeBoard       fake_;
     f28335::FakeBoardChoice choice_;
 };
@@ -106,6 +108,10 @@ public:
     {
         master_.write(address, value);
     }
+    void write(std::uint16_t first, const std::vector<std::uint16_t> &values)
+    {
+        master_.write(first, values);
+    }
     /// The answer to chat(): the first input registers; empty until it is there.
     const std::vector<std::uint16_t> &registers() const
     {
@@ -113,6 +119,10 @@ public:
     }
 
 private:
+    void command();
+
+    int                       tenths_ = 0;
+    bool                      run_    = false;
     f28335::MotorSurroundings surroundings_;
     f28335::Device            device_;
     f28335::ModbusMaster      master_;

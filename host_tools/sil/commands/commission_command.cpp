@@ -3,9 +3,9 @@
 
 #include "common/file_output.hpp"
 #include "drive/drive_file.hpp"
+#include "facts/commissioned_text.hpp"
 #include "sil/commands/commands.hpp"
 #include "sil/commission/board_bench.hpp"
-#include "sil/commission/drive_text.hpp"
 #include "sil/commission/report.hpp"
 
 namespace sdre {

@@ -20,6 +20,9 @@ constexpr int per_group    = 8;
 
 // Chosen: a poll of a register costs about this much; it makes a polling loop's time-out worth testing.
 constexpr std::int64_t poll_cycles = 20;
+// What the PLL lasts to lock, the longest of those loops, and a fifth. Beyond, the firmware loops without interrupts for good,
+// as the loader does.
+constexpr std::int64_t most_polls = 40'000;
 // Chosen: a pass of the background loop, short beside the 96 us of an octet on the line.
 constexpr std::int64_t background_ticks = 3750;
 
@@ -188,7 +191,9 @@ void Device::instruction(const char *text)
         intm_ = false;
         dispatch();
     } else if (std::strcmp(text, " NOP") == 0) {
-        wait_ticks(intm_ ? clock_.ticks_for(poll_cycles) : background_ticks);
+        polls_ = intm_ ? polls_ + 1 : 0;
+        wait_ticks(intm_ && polls_ <= most_polls ? clock_.ticks_for(poll_cycles)
+                                                 : background_ticks);
     } else if (std::strstr(text, "NOP") == nullptr && std::strstr(text, "DBGM") == nullptr) {
         findings_.add(Finding::unsupported, fmt::format("instruction{}", text), time_s());
     }
@@ -197,6 +202,22 @@ void Device::instruction(const char *text)
 void Device::wait_s(double time_s)
 {
     wait_ticks(std::llround(time_s * tick_Hz));
+}
+
+void Device::change_flash(double time_s, double scale, double right_scale)
+{
+    constexpr double accepted = 1e-3; // of the scale: TI's own example rounds the cycle's length
+
+    if (!intm_) {
+        findings_.add(Finding::flash, "flash changed with interrupts on", this->time_s());
+    }
+    if (watchdog_.ticks_to_reset() >= 0) {
+        findings_.add(Finding::flash, "flash changed while the watchdog runs", this->time_s());
+    }
+    if (std::abs(scale / right_scale - 1.0) > accepted) {
+        findings_.add(Finding::flash, "flash changed at a wrong speed", this->time_s());
+    }
+    wait_s(time_s);
 }
 
 void Device::spend_cycles(std::int64_t cycles)

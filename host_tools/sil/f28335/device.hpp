@@ -110,6 +110,8 @@ public:
     // Firmware's hooks.
     void instruction(const char *text);
     void wait_s(double time_s);
+    /// The flash API at work for this long, with the scale of its delays.
+    void change_flash(double time_s, double scale, double right_scale);
     void spend_cycles(std::int64_t cycles);
     void calibrate_adc();
     void serial_read_access();
@@ -145,6 +147,7 @@ private:
     bool                   eallow_       = false;
     bool                   fault_low_    = false;
     std::int64_t           late_cycles_  = 0;
+    std::int64_t           polls_        = 0; ///< with interrupts masked, in a row
     bool                   trigger_lost_ = false;
     bool                   masked_       = false;
     std::array<bool, 3>    legs_{};

@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::uint8_t read_input_function = 4;
 constexpr std::uint8_t write_function      = 6;
+constexpr std::uint8_t write_many_function = 16;
 constexpr std::uint8_t exception_flag      = 0x80;
 constexpr std::size_t  exception_length    = 5;
 
@@ -50,6 +51,18 @@ void ModbusMaster::write(std::uint16_t address, std::uint16_t value)
     std::vector<std::uint8_t> frame{server_, write_function};
     put_word(frame, address);
     put_word(frame, value);
+    send(std::move(frame), 8);
+}
+
+void ModbusMaster::write(std::uint16_t first, const std::vector<std::uint16_t> &values)
+{
+    std::vector<std::uint8_t> frame{server_, write_many_function};
+    put_word(frame, first);
+    put_word(frame, static_cast<std::uint16_t>(values.size()));
+    frame.push_back(static_cast<std::uint8_t>(2U * values.size()));
+    for (const std::uint16_t value : values) {
+        put_word(frame, value);
+    }
     send(std::move(frame), 8);
 }
 

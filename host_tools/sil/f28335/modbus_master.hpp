@@ -19,6 +19,8 @@ public:
 
     /// Function 6. One request at a time: see busy().
     void write(std::uint16_t address, std::uint16_t value);
+    /// Function 16.
+    void write(std::uint16_t first, const std::vector<std::uint16_t> &values);
     /// Function 4.
     void read_input(std::uint16_t address, std::uint16_t count);
     /// Takes what has come; call it now and then.

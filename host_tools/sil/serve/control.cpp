@@ -96,10 +96,12 @@ json answer(const std::string &word, const std::string &rest, ServedDrive &drive
         drive.break_part(fault_of(rest));
     } else if (word == "mend") {
         drive.mend();
+    } else if (word == "power_cycle") {
+        drive.power_cycle();
     } else if (word == "trace") {
         return trace(record, number(rest, {0.0, longest_s}, "trace"));
     } else if (word != "state") {
-        throw InputError(fmt::format("\"{}\" is not a command: load, dc_link, fault, mend, state, "
+        throw InputError(fmt::format("\"{}\" is not a command: load, dc_link, fault, mend, power_cycle, state, "
                                      "trace",
                                      word));
     }

@@ -15,6 +15,14 @@ constexpr std::size_t most_of_one = 8; // chosen: a master waits for its answer 
 // Chosen: the firmware answers within a pass of its background.
 constexpr double patience_s = 0.05;
 
+/// An answer that came later than a request before had patience for: RTU has no other sign of what it answers.
+bool is_of_another(const Octets &answer, const Octets &request)
+{
+    constexpr unsigned exception = 0x80;
+    return answer.size() > 1 && request.size() > 1 &&
+           (answer[1] & ~exception) != (request[1] & ~exception);
+}
+
 } // namespace
 
 bool SerialBus::push(BusRequest request)
@@ -48,6 +56,9 @@ void SerialBus::step(ServedDrive &drive, const Deliver &deliver)
         last_s_ = drive.time_s();
     }
     const bool quiet = drive.time_s() > last_s_ + silence_s;
+    if (busy_ && quiet && is_of_another(answer_, waiting_.front().frame)) {
+        answer_.clear();
+    }
     if (busy_ && quiet && (!answer_.empty() || drive.time_s() > until_s_)) {
         busy_                    = false;
         const BusRequest request = std::move(waiting_.front());

@@ -21,15 +21,20 @@ public:
     explicit ServedDrive(const Drive &drive, std::uint64_t seed);
 
     /// One control period. A device that its watchdog has reset starts again.
-    void   period();
+    void period();
+    /// Off and on: registers and memory are as after power-on, the flash is as it was.
+    void power_cycle()
+    {
+        power_up(false);
+    }
     double period_s() const
     {
         return bench_.period_s();
     }
-    /// Since the start.
+    /// Since the start. While the loader runs, nothing else does: the motor stands still meanwhile.
     double time_s() const
     {
-        return static_cast<double>(bench_.tick()) * bench_.period_s();
+        return before_s_ + device_->time_s();
     }
 
     // The serial line.
@@ -89,8 +94,9 @@ private:
     MotorBench                      bench_;
     f28335::MotorSurroundings       surroundings_;
     std::unique_ptr<f28335::Device> device_;
-    double                          load_Nm_ = 0.0;
-    int                             resets_  = 0;
+    double                          load_Nm_  = 0.0;
+    int                             resets_   = 0;
+    double                          before_s_ = 0.0; ///< of the devices before the last reset
 };
 
 /// The scenario of a drive on its bench: realistic sensors and inverter, at rest, no load.

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import time
-from typing import Any, Callable, List, Optional
+from typing import Any, Callable, List
 
 from nicegui import run, ui
 
@@ -12,6 +12,7 @@ from sdre_drive import faults
 from sdre_drive.bench import FAULTS
 from sdre_drive.connection import DriveError
 from sdre_drive.faults import Entry
+from sdre_drive.page.scope_card import ScopeCard
 from sdre_drive.page.state import Watcher
 from sdre_drive.page.traces import Traces
 from sdre_drive.registers import Mode
@@ -24,8 +25,8 @@ CARD = "w-full p-3 gap-2"
 class Page:
     """One browser tab."""
 
-    def __init__(self, watcher: Watcher, pole_pairs: Optional[int]) -> None:
-        self.watcher, self.pole_pairs = watcher, pole_pairs
+    def __init__(self, watcher: Watcher) -> None:
+        self.watcher, self.pole_pairs = watcher, watcher.pole_pairs
         self.client = ui.context.client
         self.shown: List[Entry] = []
         ui.colors(primary="#1565c0")
@@ -42,7 +43,9 @@ class Page:
                 with self.bench:
                     self._bench_card()
             with ui.column().classes("grow"):
-                self.traces = Traces(watcher, pole_pairs)
+                self.traces = Traces(watcher, self.pole_pairs)
+                self.scope = ScopeCard(watcher, self._do)
+        self.scope.arm.bind_enabled_from(self.arm, "value")
         self.timer = ui.timer(REFRESH_S, self._refresh)
 
     def _commands(self) -> None:
@@ -121,6 +124,7 @@ class Page:
         if truth:
             self.load_words.set_text(f"load {truth['load_Nm']:.2f} N m, torque {truth['torque_Nm']:.2f} N m")
         self.traces.refresh()
+        self.scope.refresh()
 
     def _show_reasons(self, entries: List[Entry]) -> None:
         if entries == self.shown:

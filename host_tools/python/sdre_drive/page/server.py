@@ -34,11 +34,11 @@ def serve(target: Target, bench: Optional[Tuple[str, int]], pole_pairs: Optional
     require_free(port)
     token = secrets.token_urlsafe(16)
     address = f"http://{HOST}:{port}/?token={token}"
-    watcher = Watcher(target, bench)
+    watcher = Watcher(target, bench, pole_pairs)
 
     @ui.page("/", title="sdre-drive")
     def _page() -> None:
-        Page(watcher, pole_pairs)
+        Page(watcher)
 
     def started() -> None:
         watcher.start()

@@ -9,15 +9,17 @@ import time
 from collections import deque
 from typing import Any, Callable, Deque, Dict, List, NamedTuple, Optional, Tuple
 
-from sdre_drive import session
+from sdre_drive import scope, session
 from sdre_drive.bench import Bench
 from sdre_drive.connection import Drive, DriveError, Target
 from sdre_drive.registers import Mode, Reading
+from sdre_drive.scope import Capture, Setup
 
 TRACE_S = 10.0  # what is shown
 TRUTH_STEP_S = 5e-3  # the bench has a sample per millisecond; a screen shows less
 PERIOD_S = 0.04
 RETRY_S = 1.0
+SCOPE_STATES = ("idle", "fills", "waits for its trigger", "takes", "done")
 ABANDONED_S = 2.0  # without any page that is open, a motor that was started here is stopped
 
 
@@ -34,14 +36,18 @@ class Point(NamedTuple):
 class Watcher(threading.Thread):
     """Asks again and again; a drive that goes away and comes back is found again."""
 
-    def __init__(self, target: Target, bench: Optional[Tuple[str, int]]) -> None:
+    def __init__(self, target: Target, bench: Optional[Tuple[str, int]], pole_pairs: Optional[int]) -> None:
         super().__init__(daemon=True)
         self.drive = Drive(target)
+        self.pole_pairs = pole_pairs  # None: not known yet
         self.reading: Optional[Reading] = None
         self.truth: Dict[str, Any] = {}
         self.drive_trace: Deque[Point] = deque()
         self.true_trace: Deque[Point] = deque()
         self.trouble = "not connected yet"
+        self.capture: Optional[Capture] = None
+        self.scope_words = ""
+        self._scope: Optional[Setup] = None  # what the scope is at
         self.bench_address = bench
         self.seen_s = time.monotonic()  # when a page was open last
         self._bench: Optional[Bench] = None
@@ -87,6 +93,11 @@ class Watcher(threading.Thread):
         """Leaves FAULT."""
         session.reset(self.drive)
 
+    def arm_scope(self, setup: Setup) -> None:
+        """What it takes is fetched when it is done."""
+        scope.arm(self.drive, setup)
+        self._scope = setup
+
     def tell_bench(self, command: str) -> None:
         """Load, supply, faults of a virtual drive."""
         with self._bench_lock:
@@ -104,6 +115,7 @@ class Watcher(threading.Thread):
 
     def _look_at_drive(self) -> None:
         reading = self.drive.read()
+        self.pole_pairs = self.pole_pairs or self.drive.constants().pole_pairs
         if self.reading and reading.time_s < self.reading.time_s:
             self._forget()
         self.reading = reading
@@ -111,8 +123,19 @@ class Watcher(threading.Thread):
                                         reading.dc_link_V))  # fmt: skip
         if reading.mode == Mode.FAULT:
             self.started_here = False
+        self._look_at_scope()
         if time.monotonic() > self.seen_s + ABANDONED_S:
             self.release()
+
+    def _look_at_scope(self) -> None:
+        if self._scope is None:
+            return
+        state = int(self.drive.traces()["SCOPE_STATE"])
+        self.scope_words = SCOPE_STATES[state]
+        if state == scope.DONE:
+            self.capture, self._scope = scope.read(self.drive, self._scope), None
+        elif state == 0:  # the drive has restarted, or another master gave up
+            self._scope = None
 
     def _look_at_bench(self) -> None:
         if self.bench_address is None or time.monotonic() < self._bench_retry_s:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sil/commission/drive_text.hpp"
+#include "facts/commissioned_text.hpp"
 
 #include <algorithm>
 #include <cmath>

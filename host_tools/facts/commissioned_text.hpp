@@ -4,7 +4,9 @@
 
 #include <string>
 
-#include "sil/commission/bench.hpp"
+extern "C" {
+#include "commission_types.h"
+}
 
 namespace sdre {
 

@@ -1,0 +1,301 @@
+/* SPDX-License-Identifier: MIT */
+#include "app_control.h"
+
+#include "check.h"
+
+/* What a control word asks for. */
+typedef enum {
+    ASK_DISABLE_VOLTAGE = 0,
+    ASK_QUICK_STOP,
+    ASK_SHUT_DOWN,
+    ASK_SWITCH_ON,
+    ASK_ENABLE,
+    ASKS
+} ask_t;
+
+#define WINDOW_E_RADPS 5.0f /* chosen: what noise and ripple leave */
+
+#define STAY APP_CONTROL_STATES
+
+ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
+                              const drive_config_t *drive)
+{
+    const bool ok = check_positive(drive->current_max_A);
+
+    c->config            = config;
+    c->ts_s              = drive->ts_s;
+    c->per_current_max   = ok ? (1.0f / drive->current_max_A) : 0.0f;
+    c->state             = APP_CONTROL_NOT_READY;
+    c->mode              = APP_CONTROL_PROFILE_VELOCITY;
+    c->armed             = false;
+    c->reset_high        = true;
+    c->asked             = false;
+    c->moved             = false;
+    c->speed_max_e_radps = drive->speed_max_e_radps;
+    c->done              = false;
+    c->ref_e_radps       = 0.0f;
+    return ok ? CTL_OK : CTL_BAD_CONFIG;
+}
+
+app_objects_t app_control_default(const drive_config_t *drive)
+{
+    const app_objects_t o = {.controlword       = APP_CONTROL_DISABLE_VOLTAGE,
+                             .mode_of_operation = APP_CONTROL_PROFILE_VELOCITY,
+                             .quick_option      = APP_CONTROL_QUICK_FAST,
+                             .lost_option       = APP_CONTROL_LOST_DISABLE,
+                             .window_e_radps    = WINDOW_E_RADPS,
+                             .current_max_A     = drive->current_max_A};
+    return o;
+}
+
+bool app_control_knows(const app_objects_t *o)
+{
+    const int16_t mode  = o->mode_of_operation;
+    const int16_t quick = o->quick_option;
+
+    return ((mode == APP_CONTROL_PROFILE_VELOCITY) || (mode == APP_CONTROL_HOMING) ||
+            (mode == APP_CONTROL_COMMISSIONING)) &&
+           ((quick <= APP_CONTROL_QUICK_FAST) || (quick >= APP_CONTROL_QUICK_RAMP_STAY));
+}
+
+static bool has(uint16_t controlword, int bit)
+{
+    return (controlword & (uint16_t)bit) != 0U;
+}
+
+static ask_t asked_for(uint16_t controlword)
+{
+    ask_t ask = ASK_ENABLE;
+
+    if (!has(controlword, APP_CONTROL_ENABLE_VOLTAGE)) {
+        ask = ASK_DISABLE_VOLTAGE;
+    } else if (!has(controlword, APP_CONTROL_NO_QUICK_STOP)) {
+        ask = ASK_QUICK_STOP;
+    } else if (!has(controlword, APP_CONTROL_SWITCH_ON)) {
+        ask = ASK_SHUT_DOWN;
+    } else if (!has(controlword, APP_CONTROL_ENABLE)) {
+        ask = ASK_SWITCH_ON;
+    } else {
+        /* operation */
+    }
+    return ask;
+}
+
+bool app_control_enables(uint16_t controlword)
+{
+    return asked_for(controlword) == ASK_ENABLE;
+}
+
+static bool is_enabled(app_control_state_t state)
+{
+    return (state == APP_CONTROL_OPERATION_ENABLED) || (state == APP_CONTROL_QUICK_STOP_ACTIVE);
+}
+
+static bool is_moving(const app_control_seen_t *seen)
+{
+    return (seen->mode == APP_MODE_ALIGN) || (seen->mode == APP_MODE_PRECHARGE) ||
+           (seen->mode == APP_MODE_RUN) || (seen->mode == APP_MODE_STOP) ||
+           (seen->mode == APP_MODE_COMMISSION);
+}
+
+static bool stands(const app_control_t *c, const app_control_seen_t *seen)
+{
+    return base_within(seen->speed_e_radps, c->config->stop.still_e_radps);
+}
+
+static bool stays_quick(const app_objects_t *o)
+{
+    return o->quick_option >= APP_CONTROL_QUICK_RAMP_STAY;
+}
+
+/* The state that follows without the bridge being on: what the modes say comes first. */
+static app_control_state_t by_modes(const app_control_t *c, const app_control_seen_t *seen)
+{
+    app_control_state_t next = c->state;
+
+    if (seen->mode == APP_MODE_FAULT) {
+        next = seen->shorted ? APP_CONTROL_FAULT_REACTION_ACTIVE : APP_CONTROL_FAULT;
+    } else if ((seen->mode == APP_MODE_BOOT) || (seen->mode == APP_MODE_CALIBRATE)) {
+        next = APP_CONTROL_NOT_READY;
+    } else if ((c->state == APP_CONTROL_NOT_READY) ||
+               (c->state >= APP_CONTROL_FAULT_REACTION_ACTIVE)) {
+        next = APP_CONTROL_SWITCH_ON_DISABLED;
+    } else {
+        /* the operator's */
+    }
+    return next;
+}
+
+static void start(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen)
+{
+    c->state       = APP_CONTROL_OPERATION_ENABLED;
+    c->mode        = o->mode_of_operation;
+    c->armed       = false;
+    c->asked       = false;
+    c->moved       = false;
+    c->done        = false;
+    c->ref_e_radps = seen->speed_e_radps;
+}
+
+/* Bridge off: a start needs bit 3 to rise, and is not made up for later. */
+static void change_at_rest(app_control_t *c, app_control_state_t to, const app_objects_t *o,
+                           const app_control_seen_t *seen)
+{
+    if (to != APP_CONTROL_OPERATION_ENABLED) {
+        c->state = to;
+    } else if (c->armed && !seen->in_the_way && !is_moving(seen)) {
+        start(c, o, seen);
+    } else {
+        c->armed = false;
+        c->state = APP_CONTROL_SWITCHED;
+    }
+}
+
+/* Bridge on or about to be: it is left when the modes have opened the bridge. */
+static void change_enabled(app_control_t *c, app_control_state_t to, const app_objects_t *o,
+                           const app_control_seen_t *seen)
+{
+    const bool ended = c->asked && !is_moving(seen);
+
+    c->moved = c->moved || is_moving(seen);
+    if ((to == APP_CONTROL_QUICK_STOP_ACTIVE) ||
+        ((to == APP_CONTROL_OPERATION_ENABLED) && stays_quick(o) && !ended)) {
+        c->state = to;
+    } else if ((to != STAY) && (to != APP_CONTROL_OPERATION_ENABLED)) {
+        c->state = ended ? to : c->state;
+    } else if (ended && (c->state == APP_CONTROL_QUICK_STOP_ACTIVE)) {
+        c->state = APP_CONTROL_SWITCH_ON_DISABLED;
+    } else if (ended && (!c->moved || (c->mode == APP_CONTROL_PROFILE_VELOCITY))) {
+        c->state = APP_CONTROL_SWITCHED; /* refused, or stopped by the drive itself */
+    } else {
+        c->done = c->done || ended;
+    }
+}
+
+static app_control_state_t next_of(app_control_state_t state, ask_t ask)
+{
+    /* The commanded transitions, by state and by what is asked for; their numbers in CiA 402 are those of docs/modbus.md. */
+    static const app_control_state_t transitions[APP_CONTROL_STATES][ASKS] = {
+        /* disable voltage, quick stop, shut down, switch on, enable operation */
+        {STAY, STAY, STAY, STAY, STAY},                           /* NOT_READY */
+        {STAY, STAY, APP_CONTROL_READY_TO_SWITCH_ON, STAY, STAY}, /* SWITCH_ON_DISABLED */
+        {APP_CONTROL_SWITCH_ON_DISABLED, APP_CONTROL_SWITCH_ON_DISABLED, STAY, APP_CONTROL_SWITCHED,
+         APP_CONTROL_OPERATION_ENABLED}, /* READY_TO_SWITCH_ON */
+        {APP_CONTROL_SWITCH_ON_DISABLED, APP_CONTROL_SWITCH_ON_DISABLED,
+         APP_CONTROL_READY_TO_SWITCH_ON, STAY, APP_CONTROL_OPERATION_ENABLED}, /* SWITCHED_ON */
+        {APP_CONTROL_SWITCH_ON_DISABLED, APP_CONTROL_QUICK_STOP_ACTIVE,
+         APP_CONTROL_READY_TO_SWITCH_ON, APP_CONTROL_SWITCHED, STAY}, /* OPERATION_ENABLED */
+        {APP_CONTROL_SWITCH_ON_DISABLED, STAY, STAY, STAY,
+         APP_CONTROL_OPERATION_ENABLED}, /* QUICK_STOP */
+        {STAY, STAY, STAY, STAY, STAY},  /* FAULT_REACTION_ACTIVE */
+        {STAY, STAY, STAY, STAY, STAY}   /* FAULT: left by a reset, which the modes do */
+    };
+    return transitions[state][ask];
+}
+
+static void step(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen)
+{
+    const app_control_state_t modes =
+        (c->state < APP_CONTROL_STATES) ? by_modes(c, seen) : APP_CONTROL_NOT_READY;
+
+    if (modes != c->state) {
+        c->state = modes;
+        c->armed = false;
+        return;
+    }
+    const app_control_state_t to = next_of(c->state, asked_for(o->controlword));
+    if (is_enabled(c->state)) {
+        change_enabled(c, to, o, seen);
+    } else if (to != STAY) {
+        change_at_rest(c, to, o, seen);
+    } else {
+        /* nothing is asked for that this state knows */
+    }
+    c->armed = c->armed || !has(o->controlword, APP_CONTROL_ENABLE);
+}
+
+/* Speed wanted by this state, and whether it is a stop. */
+static bool is_stopping(const app_control_t *c, const app_objects_t *o)
+{
+    return (c->state == APP_CONTROL_QUICK_STOP_ACTIVE) || !app_control_enables(o->controlword);
+}
+
+/* A stop along a ramp, until the shaft stands. Else the modes end the run as the drive's file says. */
+static bool brakes(const app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen)
+{
+    const ask_t ask   = asked_for(o->controlword);
+    bool        ramps = false;
+
+    if (c->state == APP_CONTROL_QUICK_STOP_ACTIVE) {
+        ramps = (o->quick_option != APP_CONTROL_QUICK_OFF) && (ask != ASK_DISABLE_VOLTAGE);
+    } else if (ask == ASK_SHUT_DOWN) {
+        ramps = o->shutdown_option != 0;
+    } else if (ask == ASK_SWITCH_ON) {
+        ramps = o->disable_option != 0;
+    } else {
+        /* at once */
+    }
+    const bool stays = (c->state == APP_CONTROL_QUICK_STOP_ACTIVE) && stays_quick(o);
+    return ramps && (stays || !stands(c, seen)) && (seen->mode == APP_MODE_RUN);
+}
+
+static float deceleration(const app_control_t *c, const app_objects_t *o)
+{
+    const bool fast = (c->state == APP_CONTROL_QUICK_STOP_ACTIVE) &&
+                      ((o->quick_option == APP_CONTROL_QUICK_FAST) ||
+                       (o->quick_option == APP_CONTROL_QUICK_FAST_STAY));
+    return fast ? o->quick_e_radps2 : o->decel_e_radps2;
+}
+
+/* Away from zero speed by the one, towards it by the other; 0: at once. */
+static void ramp(app_control_t *c, float target, float accel, float decel)
+{
+    const float ref   = c->ref_e_radps;
+    const bool  up    = (ref >= 0.0f) ? (target > ref) : (target < ref);
+    const float rate  = up ? accel : decel;
+    const float most  = c->ts_s * rate;
+    const float moved = ref + base_clamp(target - ref, -most, most);
+
+    c->ref_e_radps = (rate > 0.0f) ? moved : target;
+}
+
+static float target_of(const app_control_t *c, const app_objects_t *o)
+{
+    return (is_stopping(c, o) || has(o->controlword, APP_CONTROL_HALT)) ? 0.0f : o->omega_e_radps;
+}
+
+static void move_reference(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen)
+{
+    const bool runs = (seen->mode == APP_MODE_RUN) || (seen->mode == APP_MODE_STOP);
+
+    if (runs || !(o->accel_e_radps2 > 0.0f)) {
+        ramp(c, target_of(c, o), o->accel_e_radps2, deceleration(c, o));
+    } else {
+        c->ref_e_radps =
+            base_clamp(seen->speed_e_radps, -c->speed_max_e_radps, c->speed_max_e_radps);
+    }
+}
+
+app_command_t app_control_tick(app_control_t *c, const app_objects_t *o,
+                               const app_control_seen_t *seen)
+{
+    const bool reset_now = has(o->controlword, APP_CONTROL_FAULT_RESET);
+
+    step(c, o, seen);
+    move_reference(c, o, seen);
+    const bool          on  = is_enabled(c->state);
+    const bool          go  = on && (!is_stopping(c, o) || brakes(c, o, seen)) && !c->done;
+    const bool          run = go && (c->mode == APP_CONTROL_PROFILE_VELOCITY);
+    const app_command_t out = {
+        .omega_e_radps = c->ref_e_radps,
+        .run           = run,
+        .reset = reset_now && !c->reset_high && (c->state >= APP_CONTROL_FAULT_REACTION_ACTIVE),
+        .commission = go && (c->mode == APP_CONTROL_COMMISSIONING),
+        .align      = go && (c->mode == APP_CONTROL_HOMING),
+        .derating   = base_clamp(1.0f - (o->current_max_A * c->per_current_max), 0.0f, 1.0f),
+        .bounds     = o->bounds};
+
+    c->reset_high = reset_now;
+    c->asked      = on;
+    return out;
+}

@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: MIT */
+#include "app_loader.h"
+
+#include <stddef.h>
+
+#include "crc32.h"
+
+static uint32_t pair(const uint16_t *words)
+{
+    return ((uint32_t)words[0] << 16) | words[1];
+}
+
+static void put_pair(uint16_t *words, uint32_t x)
+{
+    words[0] = (uint16_t)(x >> 16);
+    words[1] = (uint16_t)(x & 0xFFFFUL);
+}
+
+void app_loader_init(app_loader_t *l, const app_image_t *in_force)
+{
+    const app_loader_t none = {.state = APP_LOADER_AWAY, .reason = DRIVE_IMAGE_OK};
+
+    *l        = none;
+    l->number = in_force->number;
+    l->law    = in_force->image.drive.law->number;
+}
+
+static bool exist(uint16_t first, uint16_t count, uint16_t all)
+{
+    return (first < all) && (count <= (uint16_t)(all - first));
+}
+
+bool app_loader_read(const app_loader_t *l, uint16_t first, uint16_t count, uint16_t *values)
+{
+    uint16_t all[APP_LOADER_INPUT_COUNT];
+
+    if (!exist(first, count, (uint16_t)APP_LOADER_INPUT_COUNT)) {
+        return false;
+    }
+    all[APP_LOADER_STATE]  = (uint16_t)l->state;
+    all[APP_LOADER_REASON] = (uint16_t)l->reason;
+    put_pair(&all[APP_LOADER_PUT_HI], l->put_words);
+    put_pair(&all[APP_LOADER_ROOM_HI], store_room());
+    all[APP_LOADER_LAW] = l->law;
+    put_pair(&all[APP_LOADER_NUMBER_HI], l->number);
+    for (uint16_t n = 0U; n < count; n++) {
+        values[n] = all[first + n];
+    }
+    return true;
+}
+
+bool app_loader_read_holding(uint16_t first, uint16_t count, uint16_t *values)
+{
+    if (!exist(first, count, (uint16_t)APP_LOADER_HOLDING_COUNT)) {
+        return false;
+    }
+    for (uint16_t n = 0U; n < count; n++) {
+        values[n] = 0U;
+    }
+    return true;
+}
+
+static void begin(app_loader_t *l)
+{
+    l->put_words = 0UL;
+    l->reason    = DRIVE_IMAGE_OK;
+    l->state =
+        store_begin(&l->write, STORE_IMAGE, l->count) ? APP_LOADER_WRITING : APP_LOADER_FLASH;
+}
+
+static void commit(app_loader_t *l)
+{
+    const store_content_t content = store_written(&l->write);
+
+    if (crc32_words(CRC32_START, content.words, content.count) != l->crc) {
+        l->state = APP_LOADER_SUM;
+        return;
+    }
+    drive_image_t *const image = &l->image->image;
+    l->reason = drive_image_read(image, image->drive.law, content.words, content.count);
+    if (l->reason == DRIVE_IMAGE_OK) {
+        l->reason = app_image_check(image);
+    }
+    if (l->reason != DRIVE_IMAGE_OK) {
+        l->state = APP_LOADER_IMAGE;
+        return;
+    }
+    l->state = store_commit(&l->write) ? APP_LOADER_STORED : APP_LOADER_FLASH;
+}
+
+void app_loader_work(app_loader_t *l)
+{
+    if (l->state != APP_LOADER_BUSY) {
+        return;
+    }
+    if (l->task == APP_LOADER_BEGIN) {
+        begin(l);
+    } else if (l->task == APP_LOADER_COMMIT) {
+        commit(l);
+    } else {
+        l->state = store_forget(STORE_IMAGE) ? APP_LOADER_STORED : APP_LOADER_FLASH;
+    }
+}
+
+static void plan(app_loader_t *l, app_loader_command_t task)
+{
+    l->task  = task;
+    l->state = APP_LOADER_BUSY;
+}
+
+static void restart(app_loader_t *l, bool into_loader)
+{
+    l->restart = true;
+    l->enter   = into_loader;
+}
+
+/* A command with as many registers behind it as it needs. */
+static app_loader_result_t command(app_loader_t *l, const uint16_t *values, uint16_t count)
+{
+    const bool     runs = l->image != NULL; /* the loader, not the application */
+    const uint16_t what = values[APP_LOADER_COMMAND];
+
+    if (!runs && (what == (uint16_t)APP_LOADER_ENTER) && (count == 1U)) {
+        restart(l, true);
+    } else if (runs && (what == (uint16_t)APP_LOADER_BEGIN) && (count == 3U)) {
+        l->count = pair(&values[APP_LOADER_COUNT_HI]);
+        plan(l, APP_LOADER_BEGIN);
+    } else if (runs && (what == (uint16_t)APP_LOADER_COMMIT) && (count == 5U) &&
+               (l->state == APP_LOADER_WRITING)) {
+        l->crc = pair(&values[APP_LOADER_CRC_HI]);
+        plan(l, APP_LOADER_COMMIT);
+    } else if (runs && (what == (uint16_t)APP_LOADER_FORGET) && (count == 1U)) {
+        plan(l, APP_LOADER_FORGET);
+    } else if (runs && (what == (uint16_t)APP_LOADER_LEAVE) && (count == 1U)) {
+        restart(l, false);
+    } else {
+        return APP_LOADER_BAD_VALUE;
+    }
+    return APP_LOADER_OK;
+}
+
+static app_loader_result_t content(app_loader_t *l, const uint16_t *values, uint16_t count)
+{
+    const uint16_t words = (uint16_t)(count - 2U);
+
+    if ((l->state != APP_LOADER_WRITING) || (pair(values) != l->put_words)) {
+        return APP_LOADER_BAD_VALUE; /* in turn, each once: a word of flash is written once */
+    }
+    if (!store_put(&l->write, l->put_words, &values[2], words)) {
+        l->state = APP_LOADER_FLASH;
+        return APP_LOADER_BAD_VALUE;
+    }
+    l->put_words += words;
+    return APP_LOADER_OK;
+}
+
+app_loader_result_t app_loader_write(app_loader_t *l, bool gate_enable, uint16_t first,
+                                     uint16_t count, const uint16_t *values)
+{
+    if (!exist(first, count, (uint16_t)APP_LOADER_HOLDING_COUNT)) {
+        return APP_LOADER_BAD_ADDRESS;
+    }
+    if (gate_enable || l->restart || (l->state == APP_LOADER_BUSY)) {
+        return APP_LOADER_BAD_VALUE;
+    }
+    if (first == (uint16_t)APP_LOADER_COMMAND) {
+        return command(l, values, count);
+    }
+    if ((first == (uint16_t)APP_LOADER_OFFSET_HI) && (count > 2U)) {
+        return content(l, values, count);
+    }
+    return APP_LOADER_BAD_VALUE;
+}

@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: MIT */
+/* Words of bits that are made of several things. */
+#include "app_registers.h"
+
+#include <stddef.h>
+
+/* What acts and never trips. */
+static uint16_t limits(const app_status_t *s)
+{
+    const uint16_t voltage = s->voltage_limited ? (uint16_t)APP_REGISTERS_VOLTAGE_LIMIT : 0U;
+    const uint16_t current = s->current_limited ? (uint16_t)APP_REGISTERS_CURRENT_LIMIT : 0U;
+    const uint16_t derated = (s->derating > 0.0f) ? (uint16_t)APP_REGISTERS_DERATED : 0U;
+    return (uint16_t)(voltage | current | derated);
+}
+
+uint16_t app_registers_conditions(const app_registers_t *r)
+{
+    const uint16_t hot     = r->status.hot ? (uint16_t)APP_REGISTERS_HOT : 0U;
+    const uint16_t silent  = r->silent ? (uint16_t)APP_REGISTERS_SILENT : 0U;
+    const uint16_t gate    = r->status.gate_enable ? (uint16_t)APP_REGISTERS_GATE : 0U;
+    const uint16_t dc      = r->status.dc_link_out ? (uint16_t)APP_REGISTERS_DC_OUT : 0U;
+    const uint16_t trip    = r->status.tripped ? (uint16_t)APP_REGISTERS_TRIPPED : 0U;
+    const uint16_t shorted = r->status.shorted ? (uint16_t)APP_REGISTERS_SHORTED : 0U;
+    const uint16_t lost    = r->status.without_angle ? (uint16_t)APP_REGISTERS_WITHOUT_ANGLE : 0U;
+    return (uint16_t)(hot | silent | gate | dc | trip | shorted | lost | limits(&r->status));
+}
+
+uint32_t app_registers_signed(int16_t x)
+{
+    const int32_t wide = x;
+    return (uint32_t)wide;
+}
+
+/* By CiA 402; bit 5 is low while a quick stop is active. */
+static uint16_t state_bits(app_control_state_t state)
+{
+    static const uint16_t bits[APP_CONTROL_STATES] = {0x0000U, 0x0040U, 0x0021U, 0x0023U,
+                                                      0x0027U, 0x0007U, 0x000FU, 0x0008U};
+    return (state < APP_CONTROL_STATES) ? bits[state] : 0U;
+}
+
+static uint16_t bit_if(bool x, int bit)
+{
+    return x ? (uint16_t)bit : 0U;
+}
+
+static bool is_reached(const app_registers_t *r)
+{
+    const app_status_t *s      = &r->status;
+    const bool          halted = (r->wanted.objects.controlword & (uint16_t)APP_CONTROL_HALT) != 0U;
+    const float         target = halted ? 0.0f : r->wanted.objects.omega_e_radps;
+    const bool runs = (s->state == APP_CONTROL_OPERATION_ENABLED) && (s->mode == APP_MODE_RUN) &&
+                      base_within(s->speed_e_radps - target, r->wanted.objects.window_e_radps);
+
+    return (s->mode_of_operation == (int16_t)APP_CONTROL_PROFILE_VELOCITY) ? runs : s->done;
+}
+
+/* Bit 12 means something else in every mode. */
+static bool is_of_mode(const app_registers_t *r)
+{
+    const app_status_t *s = &r->status;
+
+    return (s->mode_of_operation == (int16_t)APP_CONTROL_PROFILE_VELOCITY)
+               ? base_within(s->speed_e_radps, r->config->stop.still_e_radps)
+               : (s->done && (s->reference != APP_ANGLE_NONE));
+}
+
+uint16_t app_registers_statusword(const app_registers_t *r)
+{
+    const app_status_t *s       = &r->status;
+    const bool          warns   = s->hot || s->dc_link_out || s->tripped || s->without_angle;
+    const bool          limited = limits(s) != 0U;
+
+    return (uint16_t)(state_bits(s->state) | bit_if(!s->dc_link_out, APP_REGISTERS_VOLTAGE) |
+                      bit_if(warns, APP_REGISTERS_WARNING) |
+                      bit_if(r->silent, APP_REGISTERS_STOPPED_BY_SILENCE) |
+                      (uint16_t)APP_REGISTERS_REMOTE |
+                      bit_if(is_reached(r), APP_REGISTERS_REACHED) |
+                      bit_if(limited, APP_REGISTERS_LIMITED) |
+                      bit_if(is_of_mode(r), APP_REGISTERS_OF_MODE) |
+                      bit_if(s->gate_enable, APP_REGISTERS_BRIDGE_ON) |
+                      ((s->reference != APP_ANGLE_NONE) ? APP_REGISTERS_REFERENCED : 0U));
+}
+
+uint16_t app_registers_first_sample(const app_registers_t *r)
+{
+    const board_sample_t *raw   = &r->status.snapshot.raw;
+    const uint16_t        valid = raw->valid ? (uint16_t)APP_REGISTERS_SAMPLE_VALID : 0U;
+    const uint16_t        index = raw->index_seen ? (uint16_t)APP_REGISTERS_SAMPLE_INDEX : 0U;
+
+    return (uint16_t)(valid | index);
+}
+
+uint32_t app_registers_scope_state(const app_registers_t *r)
+{
+    return (r->scope != NULL) ? (uint32_t)r->scope->state : 0U;
+}
+
+uint32_t app_registers_scope_ticks(const app_registers_t *r)
+{
+    return ((r->scope != NULL) && (r->scope->state == APP_SCOPE_DONE)) ? r->scope->trigger_ticks
+                                                                       : 0U;
+}
+
+uint32_t app_registers_record_number(const app_registers_t *r)
+{
+    return (r->record != NULL) ? r->record->number : 0U;
+}
+
+uint32_t app_registers_record_count(const app_registers_t *r)
+{
+    return (r->record != NULL) ? r->record->kept_count : 0U;
+}

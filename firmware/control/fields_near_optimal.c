@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT */
+#include "fields_near_optimal.h"
+
+static void current_ref(fields_t *f, current_ref_config_t *c)
+{
+    fields_float(f, &c->current_max_A);
+    fields_float(f, &c->iq_max_A);
+    fields_float(f, &c->mtpa_A);
+    fields_float(f, &c->mtpa_half_1pA);
+    fields_flag(f, &c->mtpa_exact);
+    fields_float(f, &c->voltage_share);
+    fields_float(f, &c->torque_share);
+    fields_float(f, &c->near_e_radps);
+    fields_float(f, &c->id_rest_A);
+    fields_float(f, &c->flux_A);
+    fields_float(f, &c->l1_min);
+    fields_float(f, &c->filter_per_period);
+    fields_float(f, &c->filter_1ps);
+    fields_float(f, &c->samples_1ps);
+    fields_float(f, &c->regen_max_W_norm);
+    fields_float(f, &c->regen_start_V);
+    fields_float(f, &c->regen_per_V);
+}
+
+static void nosc(fields_t *f, nosc_gains_t *c)
+{
+    fields_i16(f, &c->order);
+    fields_float(f, &c->iq_error_max_A);
+    fields_float(f, &c->iq_speed_max_A);
+    fields_float(f, &c->speed_A_per_radps);
+    fields_float(f, &c->speed_radps_per_A);
+    for (uint16_t i = 0U; i <= (uint16_t)NOSC_ORDER_MAX; i++) {
+        for (uint16_t j = 0U; j < (uint16_t)NOSC_N_U; j++) {
+            fields_floats(f, c->lambda[i][j], NOSC_N_E);
+        }
+    }
+}
+
+void fields_near_optimal(fields_t *f, near_optimal_config_t *c)
+{
+    current_ref(f, &c->current_ref);
+    nosc(f, &c->nosc);
+}

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT */
+#include "fields_encoder_form.h"
+#include "fields_near_optimal.h"
+#include "law_noc.h"
+
+static void nodo(fields_t *f, nodo_encoder_gains_t *c)
+{
+    fields_i16(f, &c->order);
+    fields_float(f, &c->iq_max_A);
+    for (uint16_t i = 0U; i <= (uint16_t)NODO_ORDER_MAX; i++) {
+        for (uint16_t j = 0U; j < (uint16_t)NODO_ENCODER_N_X; j++) {
+            fields_floats(f, c->gain[i][j], NODO_ENCODER_N_Y);
+        }
+    }
+}
+
+static void currents(fields_t *f, nodo_current_gains_t *c)
+{
+    fields_float(f, &c->from_e_radps);
+    fields_float(f, &c->root);
+    fields_float(f, &c->nodes_per_root);
+    for (uint16_t i = 0U; i < (uint16_t)NODO_CURRENT_NODES; i++) {
+        for (uint16_t j = 0U; j < (uint16_t)NODO_CURRENT_N_X; j++) {
+            fields_floats(f, c->gain[i][j], NODO_CURRENT_N_Y);
+        }
+    }
+}
+
+void law_noc_fields(fields_t *f, void *constants)
+{
+    law_noc_config_t *c = constants;
+
+    fields_near_optimal(f, &c->near_optimal);
+    fields_angle_limits(f, &c->plausible);
+    fields_angle_gate(f, &c->gate);
+    fields_rare_edges(f, &c->rare);
+    nodo(f, &c->nodo);
+    currents(f, &c->currents);
+}

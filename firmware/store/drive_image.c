@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT */
+#include "drive_image.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#include "fields_app.h"
+#include "fields_drive.h"
+
+static uint16_t octet(char c)
+{
+    return (uint16_t)((uint16_t)c & 0xFFU); /* a char of 16 bits has more */
+}
+
+/* Two characters a word; the text has one more for its end. */
+static void text(fields_t *f, char *x, uint16_t words)
+{
+    for (uint16_t n = 0U; n < words; n++) {
+        char *const c    = &x[2U * n];
+        uint16_t    word = (uint16_t)((uint16_t)(octet(c[0]) << 8) | octet(c[1]));
+        fields_u16(f, &word);
+        c[0] = (char)(word >> 8);
+        c[1] = (char)(word & 0xFFU);
+    }
+    x[2U * words] = '\0';
+}
+
+/* As much of a text as there is room for, filled up with zeros. */
+static void copy_text(char *to, const char *from, uint16_t words)
+{
+    uint16_t n = 0U;
+
+    for (; (n < (uint16_t)(2U * words)) && (from != NULL) && (from[n] != '\0'); n++) {
+        to[n] = from[n];
+    }
+    for (; n <= (uint16_t)(2U * words); n++) {
+        to[n] = '\0';
+    }
+}
+
+void drive_image_fields(fields_t *f, drive_image_t *image, const law_t *law)
+{
+    text(f, image->digest, DRIVE_IMAGE_DIGEST_WORDS);
+    text(f, image->name, DRIVE_IMAGE_NAME_WORDS);
+    fields_app(f, &image->app);
+    if (image->app.scale.ntc_points > DRIVE_IMAGE_TEMPERATURES) {
+        f->ok = false;
+        return;
+    }
+    fields_floats(f, image->ntc_degC, image->app.scale.ntc_points);
+    fields_drive(f, &image->drive);
+    law->fields(f, &image->constants);
+}
+
+static void point_inside(drive_image_t *image, const law_t *law)
+{
+    image->app.scale.ntc_degC = image->ntc_degC;
+    image->app.drive_name     = image->name;
+    image->app.digest         = image->digest;
+    image->drive.law          = law;
+    image->drive.constants    = &image->constants;
+}
+
+drive_image_result_t drive_image_read(drive_image_t *image, const law_t *law, const uint16_t *from,
+                                      uint32_t count)
+{
+    fields_t f      = fields_reader(from, count);
+    uint16_t schema = 0U;
+    uint16_t number = 0U;
+
+    fields_u16(&f, &schema);
+    fields_u16(&f, &number);
+    if (!f.ok) {
+        return DRIVE_IMAGE_DAMAGED;
+    }
+    if (schema != DRIVE_IMAGE_SCHEMA) {
+        return DRIVE_IMAGE_OTHER_SCHEMA;
+    }
+    if ((number != law->number) || (law->fields == NULL)) {
+        return DRIVE_IMAGE_OTHER_LAW;
+    }
+    drive_image_fields(&f, image, law);
+    point_inside(image, law);
+    return fields_complete(&f) ? DRIVE_IMAGE_OK : DRIVE_IMAGE_DAMAGED;
+}
+
+uint32_t drive_image_write(drive_image_t *image, uint16_t *to, uint32_t room)
+{
+    const law_t *const law    = image->drive.law;
+    fields_t           f      = fields_writer(to, room);
+    uint16_t           schema = DRIVE_IMAGE_SCHEMA;
+    uint16_t           number = law->number;
+
+    fields_u16(&f, &schema);
+    fields_u16(&f, &number);
+    drive_image_fields(&f, image, law);
+    return f.ok ? f.at : 0UL;
+}
+
+bool drive_image_copy(drive_image_t *image, const app_config_t *app, const drive_config_t *drive)
+{
+    const law_t *const law = drive->law;
+
+    if ((law == NULL) || (law->constants_chars > (uint32_t)sizeof image->constants) ||
+        (app->scale.ntc_points > DRIVE_IMAGE_TEMPERATURES)) {
+        return false;
+    }
+    (void)memset(image, 0, sizeof *image);
+    image->app   = *app;
+    image->drive = *drive;
+    for (uint16_t n = 0U; n < app->scale.ntc_points; n++) {
+        image->ntc_degC[n] = app->scale.ntc_degC[n];
+    }
+    copy_text(image->digest, app->digest, DRIVE_IMAGE_DIGEST_WORDS);
+    copy_text(image->name, app->drive_name, DRIVE_IMAGE_NAME_WORDS);
+    (void)memcpy(&image->constants, drive->constants, (size_t)law->constants_chars);
+    point_inside(image, law);
+    return true;
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "emit/emit_image.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "design/board/board_constants.hpp"
+
+extern "C" {
+#include "crc32.h"
+#include "drive_image.h"
+#include "store.h"
+}
+
+namespace sdre {
+namespace {
+
+constexpr std::uint32_t store_address = 0x300000; // linker/f28335_registers.cmd
+constexpr std::size_t   hex_words     = 16;       // of a line
+
+std::uint16_t high(std::uint32_t x)
+{
+    return static_cast<std::uint16_t>(x >> 16U);
+}
+
+std::uint16_t low(std::uint32_t x)
+{
+    return static_cast<std::uint16_t>(x & 0xFFFFU);
+}
+
+std::string hex_line(unsigned kind, unsigned address, const std::vector<std::uint16_t> &words)
+{
+    std::vector<unsigned> octets{static_cast<unsigned>(2 * words.size()), address >> 8U,
+                                 address & 0xFFU, kind};
+    for (const std::uint16_t word : words) {
+        octets.push_back(static_cast<unsigned>(word) >> 8U);
+        octets.push_back(word & 0xFFU);
+    }
+    unsigned    sum  = 0;
+    std::string line = ":";
+    for (const unsigned octet : octets) {
+        line += fmt::format("{:02X}", octet);
+        sum += octet;
+    }
+    return line + fmt::format("{:02X}\n", (0x100U - (sum & 0xFFU)) & 0xFFU);
+}
+
+} // namespace
+
+std::vector<std::uint16_t> image_words(const Design &design)
+{
+    const auto     image = std::make_unique<drive_image_t>();
+    BoardConstants board = board_constants(design.drive);
+    if (!drive_image_copy(image.get(), &board.bind(), &design.config)) {
+        throw DesignError(fmt::format("{}: its constants do not fit an image", design.drive.name));
+    }
+    std::vector<std::uint16_t> words(drive_image_write(image.get(), nullptr, 0));
+    if (drive_image_write(image.get(), words.data(), static_cast<std::uint32_t>(words.size())) !=
+        words.size()) {
+        throw std::logic_error("image: two lengths");
+    }
+    return words;
+}
+
+std::string image_octets(const std::vector<std::uint16_t> &words)
+{
+    std::string octets;
+    for (const std::uint16_t word : words) {
+        octets += static_cast<char>(word >> 8U);
+        octets += static_cast<char>(word & 0xFFU);
+    }
+    return octets;
+}
+
+std::string image_hex(const std::vector<std::uint16_t> &words)
+{
+    const auto                 count = static_cast<std::uint32_t>(words.size());
+    std::vector<std::uint16_t> all{STORE_MARK, STORE_IMAGE, high(count), low(count), 0, 1};
+    const std::uint32_t        crc =
+        crc32_words(crc32_words(CRC32_START, &all[1], 5), words.data(), count);
+    all.push_back(high(crc));
+    all.push_back(low(crc));
+    all.insert(all.end(), words.begin(), words.end());
+
+    std::string s = hex_line(4, 0, {high(store_address)});
+    for (std::size_t n = 0; n < all.size(); n += hex_words) {
+        const auto from = all.begin() + static_cast<std::ptrdiff_t>(n);
+        const auto to =
+            all.begin() + static_cast<std::ptrdiff_t>(std::min(n + hex_words, all.size()));
+        s += hex_line(0, low(store_address + static_cast<std::uint32_t>(n)), {from, to});
+    }
+    return s + hex_line(1, 0, {});
+}
+
+} // namespace sdre

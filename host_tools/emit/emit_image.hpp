@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+/// A drive's constants as the words that the firmware's store takes (firmware/store/drive_image.h).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "design/design.hpp"
+
+namespace sdre {
+
+/// InputError when the board cannot have the drive.
+std::vector<std::uint16_t> image_words(const Design &design);
+
+/// The words as octets, the high one of each first: what `sdre-drive load` takes.
+std::string image_octets(const std::vector<std::uint16_t> &words);
+
+/// The same as Intel HEX for a programming tool, in the first slot of the store with its head, as the writing of number 1.
+/// Addresses count words of 16 bits.
+std::string image_hex(const std::vector<std::uint16_t> &words);
+
+} // namespace sdre

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "facts/found_file.hpp"
+
+#include "common/toml_reader.hpp"
+
+namespace sdre {
+namespace {
+
+constexpr Range positive{1e-12, 1e9};
+constexpr Range not_negative{0.0, 1e9};
+constexpr Range any{-1e9, 1e9};
+constexpr Range direction_range{-1, 1};
+constexpr Range pairs_range{1, 64};       // as in a drive file
+constexpr Range counts_range{4, 1000000}; // the same, of its lines
+
+commission_value_t value(TomlReader &file, const char *key, const Range &range)
+{
+    TomlReader         t = file.table(key);
+    commission_value_t v{};
+    v.value = static_cast<float>(t.number("value", range));
+    v.error = static_cast<float>(t.number("uncertainty", not_negative));
+    t.reject_unknown_keys();
+    return v;
+}
+
+} // namespace
+
+commission_result_t read_found_file(const std::filesystem::path &file)
+{
+    const toml::table   table = parse_toml_file(file);
+    TomlReader          t(file.string(), "", table);
+    commission_result_t f{};
+    f.direction       = static_cast<std::int16_t>(t.integer("direction", direction_range));
+    f.pole_pairs      = static_cast<std::int16_t>(t.integer("pole_pairs", pairs_range));
+    f.counts_per_turn = t.integer("counts_per_turn", counts_range);
+    f.reluctance      = t.boolean_or("reluctance", false);
+    if (f.direction == 0) {
+        t.fail("direction", "= 0 is not allowed: must be 1 or -1");
+    }
+    f.r_Ohm        = value(t, "stator_resistance_Ohm", positive);
+    f.v_loss_V     = value(t, "inverter_loss_V", any);
+    f.ld_H         = value(t, "d_axis_inductance_H", positive);
+    f.lq_H         = value(t, "q_axis_inductance_H", positive);
+    f.flux_Wb      = value(t, "pm_flux_Wb", not_negative);
+    f.inertia_kgm2 = value(t, "inertia_kgm2", positive);
+    f.friction_Nms = value(t, "viscous_friction_Nms", any);
+    f.coulomb_Nm   = value(t, "coulomb_friction_Nm", any);
+    f.offset_rad   = value(t, "d_axis_angle_e_rad", any);
+    t.reject_unknown_keys();
+    return f;
+}
+
+} // namespace sdre

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/file_output.hpp"
+#include "design/design.hpp"
+#include "design/law_design.hpp"
+#include "emit/emit_image.hpp"
+#include "gains/commands.hpp"
+
+namespace sdre {
+namespace {
+
+struct Options {
+    std::string drive;
+    std::string out;
+    std::string hex;
+};
+
+void declare(OptionList &list, Options &o)
+{
+    list.required("DRIVE", o.drive, "drive file (TOML)");
+    list.text("--out", o.out, "image to write, for sdre-drive load");
+    list.text("--hex", o.hex, "the same as Intel HEX, for a programming tool");
+}
+
+int run(const Options &o)
+{
+    if (o.out.empty() && o.hex.empty()) {
+        throw InputError("image: give --out FILE, --hex FILE or both");
+    }
+    const Design design = design_drive(read_drive_file(o.drive), Precision::extended);
+    if (!design.certificate.passed()) {
+        throw DesignError(fmt::format("{}: not certified: {}", o.drive,
+                                      fmt::join(design.certificate.failures, "; ")));
+    }
+    const std::vector<std::uint16_t> words = image_words(design);
+    std::vector<OutputFile>          files;
+    if (!o.out.empty()) {
+        files.push_back({o.out, image_octets(words)});
+    }
+    if (!o.hex.empty()) {
+        files.push_back({o.hex, image_hex(words)});
+    }
+    write_files(files);
+    for (const OutputFile &file : files) {
+        fmt::print("{}: certified; wrote {} words for {} to {}\n", design.drive.name, words.size(),
+                   law_design(design.drive).name, file.path.string());
+    }
+    return exit_ok;
+}
+
+} // namespace
+
+Command image_command()
+{
+    return command<Options>("image",
+                            "write a drive's constants as an image that a firmware loads without a "
+                            "compiler",
+                            declare, run);
+}
+
+} // namespace sdre

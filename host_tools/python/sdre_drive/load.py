@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: MIT
+"""Images of constants into the drive's flash: docs/loading.md. Register numbers and codes are those of app_loader.h."""
+
+from __future__ import annotations
+
+import time
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Callable, List, Optional
+
+from sdre_drive.connection import Drive, DriveError
+
+FIRST = 8000
+# Holding registers
+COMMAND, OFFSET = FIRST, FIRST + 5
+ENTER, BEGIN, COMMIT, FORGET, LEAVE = 1, 2, 3, 4, 5
+# Objects of function 43/14
+NAME, DIGEST = 0x80, 0x81
+# Input registers
+STATE, PUT, ROOM, LAW, NUMBER, COUNT = 0, 2, 4, 6, 7, 9
+AWAY, IDLE, BUSY, WRITING, STORED, SUM, IMAGE, FLASH = range(8)
+REASONS = {
+    1: "it was made by another sdre-gains: make it again with the one that belongs to this firmware",
+    2: "it is for another law than the firmware's",
+    3: "it is damaged",
+    4: "a constant is out of range, or it does not fit the board",
+}
+LAWS = {1: "noc", 2: "noc_speed", 3: "noc_h", 4: "conventional", 5: "dobc", 6: "pid", 7: "pi_foc", 8: "ladrc"}
+
+PER_REQUEST = 100  # words; of 123 that a request has room for
+RESTART_S = 10.0  # chosen: many times what a start needs, and two requests without an answer
+ERASE_S = 60.0  # data sheet: 2 s typical, 15 s at most, of a sector; two of them
+HEAD_WORDS = 30
+
+
+@dataclass(frozen=True)
+class Loader:
+    """What the registers of the loader tell."""
+
+    state: int
+    reason: int
+    put_words: int
+    room_words: int
+    law: int
+    number: int
+    digest: str
+    name: str
+
+    @property
+    def in_force(self) -> str:
+        """For messages."""
+        if self.number == 0:
+            return f"what is compiled in: {self.name}, {self.digest}"
+        return f"image {self.number}: {self.name}, {self.digest}"
+
+
+def _pair(values: List[int], at: int) -> int:
+    return (values[at] << 16) | values[at + 1]
+
+
+def look(drive: Drive) -> Loader:
+    """DriveError when the firmware has no loader."""
+    v = drive.words(FIRST, COUNT)
+    of = drive.identify()
+    return Loader(v[STATE], v[1], _pair(v, PUT), _pair(v, ROOM), v[LAW], _pair(v, NUMBER),
+                  of.get(DIGEST, ""), of.get(NAME, ""))  # fmt: skip
+
+
+def read_image(path: Path) -> List[int]:
+    """The words of a file of `sdre-gains image`."""
+    try:
+        octets = path.read_bytes()
+    except OSError as e:
+        raise DriveError(f"{path}: {e.strerror}") from e
+    if len(octets) < 2 * HEAD_WORDS or len(octets) % 2:
+        raise DriveError(f"{path}: {len(octets)} octets are no image of sdre-gains")
+    return [(octets[n] << 8) | octets[n + 1] for n in range(0, len(octets), 2)]
+
+
+def _wait(drive: Drive, states: List[int], longest_s: float) -> Loader:
+    end, seen = time.monotonic() + longest_s, None
+    while time.monotonic() < end:
+        try:
+            seen = look(drive)
+        except DriveError:  # it restarts, or its flash keeps it
+            seen = None
+        if seen and seen.state in states:
+            return seen
+        time.sleep(0.1)
+    raise DriveError("the drive does not come back: it restarts with what it had when it is switched off and on")
+
+
+def _enter(drive: Drive) -> Loader:
+    found = look(drive)
+    if found.room_words == 0:
+        raise DriveError("this board has no store: its constants are compiled in")
+    if found.state == AWAY:
+        try:
+            drive.write_words(COMMAND, [ENTER])
+        except DriveError as e:
+            raise DriveError(f"{e}; the loader is entered with the bridge off: stop the motor first") from e
+        found = _wait(drive, [IDLE], RESTART_S)
+    return found
+
+
+def _leave(drive: Drive) -> Loader:
+    drive.write_words(COMMAND, [LEAVE])
+    return _wait(drive, [AWAY], RESTART_S)
+
+
+def _check(found: Loader, words: List[int], path: Path) -> None:
+    if words[1] != found.law:
+        raise DriveError(f"{path}: is for law {LAWS.get(words[1], words[1])}, the firmware has "
+                         f"{LAWS.get(found.law, found.law)}")  # fmt: skip
+    if len(words) > found.room_words:
+        raise DriveError(f"{path}: {len(words)} words; the drive has room for {found.room_words}")
+
+
+def _write(drive: Drive, words: List[int], progress: Callable[[float], None]) -> None:
+    at = 0
+    while at < len(words):
+        part = words[at : at + PER_REQUEST]
+        try:
+            drive.write_words(OFFSET, [at >> 16, at & 0xFFFF, *part])
+            at += len(part)
+        except DriveError:  # an answer was lost: the words may be there
+            found = look(drive)
+            if found.state != WRITING or found.put_words not in (at, at + len(part)):
+                raise
+            at = found.put_words
+        progress(at / len(words))
+
+
+def load(drive: Drive, path: Path, progress: Callable[[float], None]) -> Loader:
+    """Writes the image, restarts the drive with it and returns what is in force then."""
+    words = read_image(path)
+    _check(look(drive), words, path)
+    _enter(drive)
+    drive.write_words(COMMAND, [BEGIN, len(words) >> 16, len(words) & 0xFFFF])
+    found = _wait(drive, [WRITING, FLASH], ERASE_S)
+    if found.state == WRITING:
+        _write(drive, words, progress)
+        crc = zlib.crc32(b"".join(word.to_bytes(2, "big") for word in words))
+        drive.write_words(COMMAND, [COMMIT, len(words) >> 16, len(words) & 0xFFFF, crc >> 16, crc & 0xFFFF])
+        found = _wait(drive, [STORED, SUM, IMAGE, FLASH], ERASE_S)
+    why = _refusal(found)
+    in_force = _leave(drive)
+    if why:
+        raise DriveError(f"{path}: {why}; in force: {in_force.in_force}")
+    return in_force
+
+
+def forget(drive: Drive) -> Loader:
+    """Erases both slots and restarts the drive."""
+    _enter(drive)
+    drive.write_words(COMMAND, [FORGET])
+    found = _wait(drive, [STORED, FLASH], ERASE_S)
+    in_force = _leave(drive)
+    if why := _refusal(found):
+        raise DriveError(f"{why}; in force: {in_force.in_force}")
+    return in_force
+
+
+def _refusal(found: Loader) -> Optional[str]:
+    if found.state == FLASH:
+        return "the flash did not take it"
+    if found.state == SUM:
+        return "it arrived damaged"
+    if found.state == IMAGE:
+        return f"the drive refuses it: {REASONS.get(found.reason, f'reason {found.reason}')}"
+    return None

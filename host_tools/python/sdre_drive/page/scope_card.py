@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: MIT
+"""The scope on the page: what to take, and what was taken."""
+
+from __future__ import annotations
+
+from typing import Any, Awaitable, Callable, List, Optional
+
+from nicegui import ui
+
+from sdre_drive import scope
+from sdre_drive.page.state import Watcher
+from sdre_drive.scope import Capture, Setup
+
+SIGNALS = [name for name in scope.NAMES if name != "NONE"]
+FIRST = ("SPEED", "SPEED_WANTED", "IQ", "DC_LINK")
+NOTHING = "-"
+
+
+class ScopeCard:
+    """Settings, and a chart of the last capture: zoom with the wheel, values where the pointer is."""
+
+    def __init__(self, watcher: Watcher, do: Callable[..., Awaitable[Any]]) -> None:
+        self.watcher, self.do = watcher, do
+        self.shown: Optional[Capture] = None
+        with ui.expansion("Scope: 512 samples of four signals in the control interrupt", icon="timeline").classes("w-full").mark("scope"):
+            with ui.row().classes("items-end gap-2"):
+                self.signals = [ui.select([NOTHING, *SIGNALS], value=name, label=f"signal {k + 1}").classes("w-36")
+                                for k, name in enumerate(FIRST)]  # fmt: skip
+                self.decimation = ui.number("every .. periods", value=1, min=1, max=65535, precision=0).classes("w-24")
+                self.trigger = ui.select(list(scope.TRIGGERS), value="now", label="trigger").classes("w-24")
+                self.channel = ui.select([1, 2, 3, 4], value=1, label="of signal").classes("w-20")
+                self.level = ui.number("level", value=0.0).classes("w-24")
+                self.before = ui.number("samples before", value=100, min=0, max=511, precision=0).classes("w-28")
+                self.arm = ui.button("take", color="primary", on_click=self._take).mark("take")
+            self.words = ui.label("").mark("scope-state")
+            self.chart = ui.echart({
+                "animation": False, "tooltip": {"trigger": "axis"}, "legend": {"top": 0},
+                "grid": {"left": 60, "right": 20, "top": 40, "bottom": 70},
+                "xAxis": {"type": "value", "name": "ms", "min": "dataMin", "max": "dataMax"},
+                "yAxis": {"type": "value", "scale": True},
+                "dataZoom": [{"type": "inside"}, {"type": "slider", "bottom": 10}], "series": []}).classes("w-full h-80")  # fmt: skip
+
+    def refresh(self) -> None:
+        """Shows what has come."""
+        self.words.set_text(self.watcher.scope_words)
+        capture = self.watcher.capture
+        if capture is not None and capture is not self.shown:
+            self.shown = capture
+            self.chart.options["series"] = [self._line(capture, k) for k in range(len(capture.signals))]
+            self.chart.update()
+
+    @staticmethod
+    def _line(capture: Capture, k: int) -> dict:
+        name = capture.signals[k]
+        unit = scope.UNITS[name]
+        points = [[round(1e3 * t, 4), round(v, 5)] for t, v in zip(capture.time_s, capture.values[k])]
+        return {"type": "line", "name": f"{name} [{unit}]" if unit else name, "showSymbol": False, "step": "end", "data": points}
+
+    async def _take(self) -> None:
+        names: List[str] = [str(s.value) for s in self.signals if s.value != NOTHING]
+        await self.do(self.watcher.arm_scope, Setup(
+            names, int(self.decimation.value or 1), str(self.trigger.value), int(self.channel.value), float(self.level.value or 0.0),
+            int(self.before.value or 0)))  # fmt: skip

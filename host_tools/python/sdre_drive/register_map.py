@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: MIT
+"""Generated from firmware/app/registers.toml. Do not edit: host_tools/registers/generate.py."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Tuple
+
+
+class Register(NamedTuple):
+    """One value: step is 0 for a whole number."""
+
+    name: str
+    address: int
+    type: str
+    step: float
+    unit: str
+
+
+DIGEST = "a551e6ec"
+
+COMMAND: Tuple[Register, ...] = (  # holding
+    Register("CONTROLWORD", 0, "u16", 0.0, "bits"),
+    Register("MODE_OF_OPERATION", 1, "i16", 0.0, ""),
+    Register("SPEED", 2, "i32", 0.1, "rad/s electrical"),
+    Register("SPEED_RPM", 4, "i32", 0.1, "r/min"),
+    Register("SPEED_RPM_16", 6, "i16", 1.0, "r/min"),
+    Register("ACCELERATION", 7, "u32", 1.0, "rad/s2 electrical"),
+    Register("DECELERATION", 9, "u32", 1.0, "rad/s2 electrical"),
+    Register("QUICK_STOP_DECELERATION", 11, "u32", 1.0, "rad/s2 electrical"),
+    Register("QUICK_STOP_OPTION", 13, "i16", 0.0, ""),
+    Register("SHUTDOWN_OPTION", 14, "i16", 0.0, ""),
+    Register("DISABLE_OPTION", 15, "i16", 0.0, ""),
+    Register("LOST_OPTION", 16, "i16", 0.0, ""),
+    Register("MAX_CURRENT", 17, "i32", 0.001, "A"),
+    Register("SPEED_WINDOW", 19, "u16", 0.1, "rad/s electrical"),
+    Register("COMMISSION_CURRENT", 20, "u16", 0.01, "A"),
+    Register("COMMISSION_SPEED", 21, "u16", 0.1, "rad/s mechanical"),
+)  # fmt: skip
+
+LINE: Tuple[Register, ...] = (  # holding
+    Register("MODBUS_ADDRESS", 64, "u16", 0.0, ""),
+    Register("MODBUS_TIMEOUT", 65, "u16", 0.001, "s"),
+)  # fmt: skip
+
+SCOPE: Tuple[Register, ...] = (  # holding
+    Register("SCOPE_COMMAND", 96, "u16", 0.0, ""),
+    Register("SCOPE_SIGNAL_1", 97, "u16", 0.0, ""),
+    Register("SCOPE_SIGNAL_2", 98, "u16", 0.0, ""),
+    Register("SCOPE_SIGNAL_3", 99, "u16", 0.0, ""),
+    Register("SCOPE_SIGNAL_4", 100, "u16", 0.0, ""),
+    Register("SCOPE_DECIMATION", 101, "u16", 0.0, "control periods"),
+    Register("SCOPE_TRIGGER", 102, "u16", 0.0, ""),
+    Register("SCOPE_CHANNEL", 103, "u16", 0.0, ""),
+    Register("SCOPE_LEVEL", 104, "i32", 0.001, "of its signal"),
+    Register("SCOPE_BEFORE", 106, "u16", 0.0, "samples"),
+)  # fmt: skip
+
+LIVE: Tuple[Register, ...] = (  # input
+    Register("STATUSWORD", 0, "u16", 0.0, "bits"),
+    Register("MODE_NOW", 1, "i16", 0.0, ""),
+    Register("ERROR_CODE", 2, "u16", 0.0, ""),
+    Register("MODE", 3, "u16", 0.0, ""),
+    Register("FAULT", 4, "u16", 0.0, ""),
+    Register("DRIVE_FAULT", 5, "u16", 0.0, ""),
+    Register("BOARD_FAULTS", 6, "u16", 0.0, "bits"),
+    Register("CONDITIONS", 7, "u16", 0.0, "bits"),
+    Register("REFERENCE", 8, "u16", 0.0, ""),
+    Register("ALIGN_STAGE", 9, "u16", 0.0, ""),
+    Register("SPEED_NOW", 10, "i32", 0.1, "rad/s electrical"),
+    Register("SPEED_NOW_RPM", 12, "i32", 0.1, "r/min"),
+    Register("SPEED_DEMAND_RPM", 14, "i32", 0.1, "r/min"),
+    Register("IQ", 16, "i32", 0.001, "A"),
+    Register("ID", 18, "i32", 0.001, "A"),
+    Register("IQ_REF", 20, "i32", 0.001, "A"),
+    Register("ID_REF", 22, "i32", 0.001, "A"),
+    Register("VQ", 24, "i16", 0.1, "V"),
+    Register("VD", 25, "i16", 0.1, "V"),
+    Register("DC_LINK", 26, "u16", 0.1, "V"),
+    Register("TEMPERATURE", 27, "i16", 0.1, "degC"),
+    Register("THETA", 28, "u16", 0.001, "rad"),
+    Register("POSITION", 29, "u16", 0.0, "counts"),
+    Register("CORRECTIONS", 30, "u16", 0.0, ""),
+    Register("ZERO_A", 31, "u16", 0.1, "codes"),
+    Register("ZERO_B", 32, "u16", 0.1, "codes"),
+    Register("CYCLES", 33, "u16", 0.0, "cycles"),
+    Register("CYCLES_WORST", 34, "u16", 0.0, "cycles"),
+    Register("TICKS", 35, "u32", 0.0, "control periods"),
+    Register("RESET_CAUSE", 37, "u16", 0.0, ""),
+    Register("PHASE_ERRORS", 38, "u16", 0.0, ""),
+    Register("IGNORED_ANGLES", 39, "u16", 0.0, "samples"),
+    Register("IGNORED_CURRENTS", 40, "u16", 0.0, "samples"),
+    Register("JUMPS", 41, "u16", 0.0, ""),
+    Register("MOTOR_HEAT", 42, "u16", 0.001, ""),
+    Register("INVERTER_HEAT", 43, "u16", 0.001, ""),
+    Register("DERATING", 44, "u16", 0.001, ""),
+    Register("FIRST_FAULT", 45, "u16", 0.0, ""),
+    Register("FIRST_MODE", 46, "u16", 0.0, ""),
+    Register("FIRST_DRIVE_FAULT", 47, "u16", 0.0, ""),
+    Register("FIRST_BOARD_FAULTS", 48, "u16", 0.0, "bits"),
+    Register("FIRST_IA", 49, "u16", 0.0, "codes"),
+    Register("FIRST_IB", 50, "u16", 0.0, "codes"),
+    Register("FIRST_DC_LINK", 51, "u16", 0.0, "codes"),
+    Register("FIRST_TEMPERATURE", 52, "u16", 0.0, "codes"),
+    Register("FIRST_POSITION", 53, "u16", 0.0, "counts"),
+    Register("FIRST_INDEX", 54, "u16", 0.0, "counts"),
+    Register("FIRST_SAMPLE", 55, "u16", 0.0, "bits"),
+    Register("FIRST_SPEED", 56, "i32", 0.1, "rad/s electrical"),
+    Register("FIRST_WANTED", 58, "i32", 0.1, "rad/s electrical"),
+    Register("FIRST_TICKS", 60, "u32", 0.0, "control periods"),
+)  # fmt: skip
+
+COMMISSIONING: Tuple[Register, ...] = (  # input
+    Register("COMMISSION_STAGE", 128, "u16", 0.0, ""),
+    Register("COMMISSION_REASON", 129, "u16", 0.0, ""),
+    Register("COMMISSION_PERCENT", 130, "u16", 0.0, "%"),
+    Register("FOUND_DIRECTION", 131, "i16", 0.0, ""),
+    Register("FOUND_POLE_PAIRS", 132, "u16", 0.0, ""),
+    Register("FOUND_COUNTS", 133, "u32", 0.0, "counts"),
+    Register("FOUND_RELUCTANCE", 135, "u16", 0.0, ""),
+    Register("FOUND_R", 136, "dec", 0.0, "Ohm"),
+    Register("FOUND_R_ERROR", 138, "dec", 0.0, "Ohm"),
+    Register("FOUND_V_LOSS", 140, "dec", 0.0, "V"),
+    Register("FOUND_V_LOSS_ERROR", 142, "dec", 0.0, "V"),
+    Register("FOUND_LD", 144, "dec", 0.0, "H"),
+    Register("FOUND_LD_ERROR", 146, "dec", 0.0, "H"),
+    Register("FOUND_LQ", 148, "dec", 0.0, "H"),
+    Register("FOUND_LQ_ERROR", 150, "dec", 0.0, "H"),
+    Register("FOUND_FLUX", 152, "dec", 0.0, "Wb"),
+    Register("FOUND_FLUX_ERROR", 154, "dec", 0.0, "Wb"),
+    Register("FOUND_INERTIA", 156, "dec", 0.0, "kg m2"),
+    Register("FOUND_INERTIA_ERROR", 158, "dec", 0.0, "kg m2"),
+    Register("FOUND_FRICTION", 160, "dec", 0.0, "N m s"),
+    Register("FOUND_FRICTION_ERROR", 162, "dec", 0.0, "N m s"),
+    Register("FOUND_COULOMB", 164, "dec", 0.0, "N m"),
+    Register("FOUND_COULOMB_ERROR", 166, "dec", 0.0, "N m"),
+    Register("FOUND_OFFSET", 168, "dec", 0.0, "rad"),
+    Register("FOUND_OFFSET_ERROR", 170, "dec", 0.0, "rad"),
+)  # fmt: skip
+
+TRACES: Tuple[Register, ...] = (  # input
+    Register("SCOPE_STATE", 192, "u16", 0.0, ""),
+    Register("SCOPE_TICKS", 193, "u32", 0.0, "control periods"),
+    Register("RECORD_NUMBER", 195, "u16", 0.0, ""),
+    Register("RECORD_COUNT", 196, "u16", 0.0, "samples"),
+)  # fmt: skip
+
+CONSTANTS: Tuple[Register, ...] = (  # input
+    Register("SUPPORTED_MODES", 256, "u32", 0.0, "bits"),
+    Register("POLE_PAIRS", 258, "u16", 0.0, ""),
+    Register("ENCODER_POSITIONS", 259, "u32", 0.0, "counts"),
+    Register("CONTROL_PERIOD", 261, "u32", 1e-09, "s"),
+    Register("SPEED_MAX", 263, "i32", 0.1, "rad/s electrical"),
+    Register("SPEED_MAX_RPM", 265, "i32", 0.1, "r/min"),
+    Register("SPEED_TRIP", 267, "i32", 0.1, "rad/s electrical"),
+    Register("CURRENT_MAX", 269, "i32", 0.001, "A"),
+    Register("CURRENT_TRIP", 271, "i32", 0.001, "A"),
+    Register("DC_LINK_MIN", 273, "u16", 0.1, "V"),
+    Register("DC_LINK_MAX", 274, "u16", 0.1, "V"),
+    Register("TEMPERATURE_LIMIT", 275, "i16", 0.1, "degC"),
+    Register("TEMPERATURE_TRIP", 276, "i16", 0.1, "degC"),
+)  # fmt: skip
+
+HOLDING = (*COMMAND, *LINE, *SCOPE)
+INPUT = (*LIVE, *COMMISSIONING, *TRACES, *CONSTANTS)
+
+# Of the scope, by number: name and unit.
+SIGNALS = (
+    ("NONE", ""),
+    ("SPEED", "rad/s electrical"),
+    ("SPEED_MEASURED", "rad/s electrical"),
+    ("SPEED_WANTED", "rad/s electrical"),
+    ("IQ", "A"),
+    ("ID", "A"),
+    ("IQ_REF", "A"),
+    ("ID_REF", "A"),
+    ("VQ", "V"),
+    ("VD", "V"),
+    ("IA", "A"),
+    ("IB", "A"),
+    ("DC_LINK", "V"),
+    ("THETA", "rad"),
+    ("DUTY_A", ""),
+    ("DUTY_B", ""),
+    ("DUTY_C", ""),
+    ("LOAD", "rad/s2 electrical"),
+    ("MODE", ""),
+)

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: MIT
+"""The firmware's map of the registers as C."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Iterable, List
+
+from table import SPACES, Group, Register, of_space
+
+NOTE = "/* Generated from registers.toml. Do not edit: python3 host_tools/registers/generate.py. */"
+TYPES = {"u16": "U16", "i16": "I16", "u32": "U32", "i32": "I32", "dec": "DEC"}
+
+
+def version() -> str:
+    """Of the project."""
+    text = (Path(__file__).resolve().parents[2] / "CMakeLists.txt").read_text(encoding="utf-8")
+    return re.search(r"project\(sdre-drive VERSION ([0-9.]+)", text).group(1)
+
+
+def digest_of(groups: List[Group]) -> str:
+    """Of what a master can see: FNV-1a, 32 bits."""
+    h = 0x811C9DC5
+    for g in groups:
+        for r in g.registers:
+            for c in f"{g.space} {r.address} {r.name} {r.type} {r.step} {r.unit} {r.range} {r.stopped}\n".encode():
+                h = ((h ^ c) * 0x01000193) & 0xFFFFFFFF
+    return f"{h:08x}"
+
+
+def _c_float(x: float) -> str:
+    text = f"{x:.9g}"
+    return (text if "." in text or "e" in text else text + ".0") + "f"
+
+
+def _enum(groups: Iterable[Group]) -> List[str]:
+    lines = ["enum {"]
+    for g in groups:
+        for r in g.registers:
+            lines.append(f"    APP_REGISTERS_{r.name} = {r.address},")
+        lines.append(f"    APP_REGISTERS_{g.name.upper()}_FIRST = {g.first},")
+        lines.append(f"    APP_REGISTERS_{g.name.upper()}_END = {g.end},")
+    lines[-1] = lines[-1].rstrip(",")
+    return [*lines, "};", ""]
+
+
+def header(groups: List[Group]) -> str:
+    """app_registers_map.h."""
+    lines = [
+        "/* SPDX-License-Identifier: MIT */", NOTE, "/* clang-format off */",
+        "/**", " * @file app_registers_map.h",
+        " * @brief Addresses and kinds of the registers, and where their values come from. docs/modbus.md says what they mean.",
+        " */", "#ifndef APP_REGISTERS_MAP_H", "#define APP_REGISTERS_MAP_H", "", "#include \"base.h\"", "",
+        f'#define APP_REGISTERS_VERSION "{version()}"   /**< of the firmware */',
+        f'#define APP_REGISTERS_DIGEST "{digest_of(groups)}" /**< of what a master can see of the map */', "",
+    ]  # fmt: skip
+    for space in SPACES:
+        lines += [f"/** {space.capitalize()} registers: those of two words are named by the first. */"]
+        lines += _enum(g for g in groups if g.space == space)
+    lines += [
+        "typedef enum {", "    APP_REGISTERS_U16 = 0,", "    APP_REGISTERS_I16,",
+        "    APP_REGISTERS_U32, /**< two words, the high one first, as the next */", "    APP_REGISTERS_I32,",
+        "    APP_REGISTERS_DEC /**< two words: digits and power of ten, both signed */", "} app_registers_type_t;", "",
+        "typedef struct {",
+        "    uint16_t             address; /**< of the first word */",
+        "    app_registers_type_t type;",
+        "    float                per_unit; /**< counts of one SI unit; 0: a whole number */",
+        "    float                least;    /**< what a write may bring, in SI units */",
+        "    float                most;",
+        "    bool                 stopped;  /**< written while the bridge is off only */",
+        "} app_registers_entry_t;", "",
+        "struct app_registers;", "struct app_registers_wanted;", "",
+    ]  # fmt: skip
+    for space in SPACES:
+        count = sum(1 for _ in of_space(groups, space))
+        lines += [f"#define APP_REGISTERS_MAP_{space.upper()} {count}U", ""]
+    lines += [
+        "/** By address, upwards. */",
+        "extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];",
+        "extern const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT];", "",
+    ]  # fmt: skip
+    for space in SPACES:
+        lines += [f"/** The value of a register with a unit, and of one without. 0 where there is none. */",
+                  f"float    app_registers_map_{space}_real(const struct app_registers *r, uint16_t address);",
+                  f"uint32_t app_registers_map_{space}_whole(const struct app_registers *r, uint16_t address);", ""]  # fmt: skip
+    lines += [
+        "/** Puts a value that is in its range into w. */",
+        "void app_registers_map_put(const struct app_registers *r, struct app_registers_wanted *w, uint16_t address, float x);", "",
+        "#endif /* APP_REGISTERS_MAP_H */", "",
+    ]  # fmt: skip
+    return "\n".join(lines)
+
+
+def _table(groups: List[Group], space: str) -> List[str]:
+    lines = [f"const app_registers_entry_t app_registers_map_{space}[APP_REGISTERS_MAP_{space.upper()}] = {{"]
+    for r in of_space(groups, space):
+        low, high = r.range or (0.0, 0.0)
+        lines.append(f"    {{APP_REGISTERS_{r.name}, APP_REGISTERS_{TYPES[r.type]}, {_c_float(r.per_unit)}, {_c_float(low)}, "
+                     f"{_c_float(high)}, {'true' if r.stopped else 'false'}}},")  # fmt: skip
+    return [*lines, "};", ""]
+
+
+def _is_real(r: Register) -> bool:
+    return r.step is not None or r.type == "dec"
+
+
+def _getter(groups: List[Group], space: str, real: bool) -> List[str]:
+    kind, name = ("float", "real") if real else ("uint32_t", "whole")
+    zero = "0.0f" if real else "0U"
+    lines = [f"{kind} app_registers_map_{space}_{name}(const app_registers_t *r, uint16_t address)", "{",
+             f"    {kind} x = {zero};", "", "    switch (address) {"]  # fmt: skip
+    for r in of_space(groups, space):
+        if _is_real(r) == real:
+            lines += [f"    case APP_REGISTERS_{r.name}:", f"        x = {r.source};", "        break;"]
+    return [*lines, "    default:", "        break;", "    }", "    return x;", "}", ""]
+
+
+def source(groups: List[Group]) -> str:
+    """app_registers_map.c."""
+    lines = ["/* SPDX-License-Identifier: MIT */", NOTE, "/* clang-format off */", '#include "app_registers.h"', ""]
+    for space in SPACES:
+        lines += _table(groups, space)
+    for space in SPACES:
+        lines += _getter(groups, space, True) + _getter(groups, space, False)
+    lines += ["void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, uint16_t address, float x)",
+              "{", "    switch (address) {"]  # fmt: skip
+    for r in of_space(groups, "holding"):
+        lines += [f"    case APP_REGISTERS_{r.name}:", f"        {r.target};", "        break;"]
+    lines += ["    default:", "        break;", "    }", "}", ""]
+    return "\n".join(lines)

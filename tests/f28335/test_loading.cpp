@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// A drive's constants over Modbus into the flash of the virtual device, with power cuts; simulated time only.
+#include <gtest/gtest.h>
+
+#include "design/design.hpp"
+#include "emit/emit_image.hpp"
+#include "sil/serve/rtu_frame.hpp"
+#include "sil/serve/served_drive.hpp"
+
+extern "C" {
+#include "app_loader.h"
+#include "app_modes.h"
+#include "app_registers.h"
+#include "crc32.h"
+}
+
+using namespace sdre;
+
+namespace {
+
+using Words = std::vector<std::uint16_t>;
+
+constexpr double answer_s = 1.0;
+constexpr double erased_s = 2.1; // a sector: 2 s
+
+Drive shipped()
+{
+    return read_drive_file(SDRE_SOURCE_DIR "/firmware/config/drives/ipmsm_390w.toml");
+}
+
+/// The same motor, faster or slower: an image that can be told from the compiled constants.
+Words image(double speed_max_e_radps, const std::string &name)
+{
+    Drive drive                   = shipped();
+    drive.name                    = name;
+    drive.motor.max_speed_e_radps = speed_max_e_radps;
+    return image_words(design_drive(drive, Precision::quick));
+}
+
+class Loading : public testing::Test {
+protected:
+    /// The answer's PDU; empty when none came in time.
+    Octets ask(const Octets &pdu, double longest_s = answer_s)
+    {
+        Octets request{1};
+        request.insert(request.end(), pdu.begin(), pdu.end());
+        for (const std::uint8_t octet : rtu_frame(request)) {
+            served.send(octet);
+        }
+        Octets       come;
+        const double end_s = served.time_s() + longest_s;
+        while (served.time_s() < end_s) {
+            served.period();
+            for (int octet = served.take(); octet >= 0; octet = served.take()) {
+                come.push_back(static_cast<std::uint8_t>(octet));
+            }
+            if (const std::optional<Octets> content = rtu_content(come)) {
+                for (int n = 0; n < 20; n++) { // the silence that ends an answer
+                    served.period();
+                }
+                return {content->begin() + 1, content->end()};
+            }
+        }
+        return {};
+    }
+    bool write(unsigned first, const Words &words, double longest_s = answer_s)
+    {
+        Octets pdu{16,
+                   static_cast<std::uint8_t>(first >> 8U),
+                   static_cast<std::uint8_t>(first),
+                   0,
+                   static_cast<std::uint8_t>(words.size()),
+                   static_cast<std::uint8_t>(2 * words.size())};
+        for (const unsigned word : words) {
+            pdu.push_back(static_cast<std::uint8_t>(word >> 8U));
+            pdu.push_back(static_cast<std::uint8_t>(word));
+        }
+        const Octets answer = ask(pdu, longest_s);
+        return !answer.empty() && answer[0] == 16;
+    }
+    int input(unsigned number)
+    {
+        const Octets answer = ask(
+            {4, static_cast<std::uint8_t>(number >> 8U), static_cast<std::uint8_t>(number), 0, 1});
+        return answer.size() == 4 ? 256 * answer[2] + answer[3] : -1;
+    }
+    int loader(unsigned number)
+    {
+        return input(APP_LOADER_FIRST + number);
+    }
+    /// Object 80h of function 43/14.
+    std::string name()
+    {
+        const Octets answer = ask({43, 14, 4, 0x80});
+        return answer.size() > 9 ? std::string(answer.begin() + 9, answer.end()) : "";
+    }
+    bool command(unsigned what, const Words &behind = {})
+    {
+        Words words{static_cast<std::uint16_t>(what)};
+        words.insert(words.end(), behind.begin(), behind.end());
+        return write(APP_LOADER_FIRST, words);
+    }
+    /// A command and the end of its work.
+    bool work(unsigned what, const Words &behind, int state)
+    {
+        if (!command(what, behind)) {
+            return false;
+        }
+        pass(erased_s);
+        return loader(APP_LOADER_STATE) == state;
+    }
+    void pass(double time_s)
+    {
+        const double end_s = served.time_s() + time_s;
+        while (served.time_s() < end_s) {
+            served.period();
+        }
+    }
+    void enter()
+    {
+        ASSERT_TRUE(command(APP_LOADER_ENTER));
+        pass(0.1);
+        ASSERT_EQ(loader(APP_LOADER_STATE), APP_LOADER_IDLE);
+    }
+    bool put(const Words &words)
+    {
+        for (std::size_t at = 0; at < words.size(); at += APP_LOADER_DATA) {
+            Words part{0, static_cast<std::uint16_t>(at)};
+            part.insert(part.end(), words.begin() + static_cast<std::ptrdiff_t>(at),
+                        words.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(
+                                            at + APP_LOADER_DATA, words.size())));
+            if (!write(APP_LOADER_FIRST + APP_LOADER_OFFSET_HI, part)) {
+                return false;
+            }
+        }
+        return true;
+    }
+    bool commit(const Words &words)
+    {
+        const auto          count = static_cast<std::uint32_t>(words.size());
+        const std::uint32_t crc   = crc32_words(CRC32_START, words.data(), count);
+        return work(APP_LOADER_COMMIT,
+                    {0, static_cast<std::uint16_t>(count), static_cast<std::uint16_t>(crc >> 16U),
+                     static_cast<std::uint16_t>(crc)},
+                    APP_LOADER_STORED);
+    }
+    void load(const Words &words)
+    {
+        enter();
+        ASSERT_TRUE(work(APP_LOADER_BEGIN, {0, static_cast<std::uint16_t>(words.size())},
+                         APP_LOADER_WRITING));
+        ASSERT_TRUE(put(words));
+        ASSERT_TRUE(commit(words));
+        ASSERT_TRUE(command(APP_LOADER_LEAVE));
+        pass(0.5);
+        ASSERT_EQ(loader(APP_LOADER_STATE), APP_LOADER_AWAY);
+    }
+
+    ServedDrive served{shipped(), 1};
+};
+
+} // namespace
+
+TEST_F(Loading, AnImageIsInForceAfterTheRestartAndTheMotorRunsWithIt)
+{
+    pass(0.5);
+    EXPECT_EQ(loader(APP_LOADER_NUMBER_LO), 0);
+    load(image(300.0, "ab"));
+
+    EXPECT_EQ(loader(APP_LOADER_NUMBER_LO), 1);
+    EXPECT_EQ(name(), "ab");
+    EXPECT_FALSE(write(APP_REGISTERS_SPEED, {0, 3500})) << "the image allows 300 rad/s";
+    ASSERT_TRUE(write(APP_REGISTERS_SPEED, {0, 2000}));
+    ASSERT_TRUE(write(APP_REGISTERS_RUN, {1}));
+    for (int n = 0; n < 20; n++) { // it aligns first; who does not ask is taken for gone
+        pass(0.2);
+        input(APP_REGISTERS_MODE);
+    }
+    EXPECT_EQ(input(APP_REGISTERS_MODE), APP_MODE_RUN);
+    EXPECT_NEAR(input(APP_REGISTERS_SPEED_NOW + 1), 2000, 30);
+    EXPECT_FALSE(command(APP_LOADER_ENTER)) << "the bridge is on";
+    EXPECT_EQ(served.resets(), 2);
+    EXPECT_TRUE(served.findings().empty());
+}
+
+TEST_F(Loading, APowerCutLeavesTheOldImageOrTheNewOne)
+{
+    pass(0.5);
+    load(image(300.0, "ab"));
+    const Words next = image(400.0, "cd");
+
+    // while it is erased, between words, while a request's words are written, before the end
+    for (int when = 0; when < 4; when++) {
+        enter();
+        const Words count{0, static_cast<std::uint16_t>(next.size())};
+        if (when == 0) {
+            ASSERT_TRUE(command(APP_LOADER_BEGIN, count));
+            pass(1.0);
+        } else {
+            ASSERT_TRUE(work(APP_LOADER_BEGIN, count, APP_LOADER_WRITING));
+            const auto part = static_cast<std::ptrdiff_t>(when == 1 ? 300 : next.size());
+            ASSERT_TRUE(put({next.begin(), next.begin() + part}));
+        }
+        if (when == 2) {
+            EXPECT_FALSE(write(APP_LOADER_FIRST + APP_LOADER_OFFSET_HI, {0, 3, 1, 2}, 0.001));
+        }
+        served.power_cycle();
+        pass(0.5);
+        EXPECT_EQ(loader(APP_LOADER_STATE), APP_LOADER_AWAY);
+        EXPECT_EQ(loader(APP_LOADER_NUMBER_LO), 1) << when;
+        EXPECT_EQ(name(), "ab") << when;
+    }
+    load(next);
+    EXPECT_EQ(loader(APP_LOADER_NUMBER_LO), 2);
+    EXPECT_EQ(name(), "cd");
+    served.power_cycle();
+    pass(0.5);
+    EXPECT_EQ(name(), "cd");
+    EXPECT_TRUE(served.findings().empty());
+}

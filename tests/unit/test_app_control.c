@@ -1,0 +1,405 @@
+/* SPDX-License-Identifier: MIT */
+#include "app_control.h"
+
+#include <string.h>
+
+#include "board_config.h"
+#include "gain_tables.h"
+#include "unit_support.h"
+#include "unity.h"
+
+static app_control_t      control;
+static app_objects_t      wanted;
+static app_control_seen_t seen;
+static app_command_t      out;
+
+void setUp(void)
+{
+    (void)memset(&control, 0xFF, sizeof control); /* init has to set everything */
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_control_init(&control, &board_config, &gain_tables_drive));
+    wanted                        = app_control_default(&gain_tables_drive);
+    const app_control_seen_t boot = {.mode = APP_MODE_BOOT};
+    seen                          = boot;
+}
+
+void tearDown(void) {}
+
+/* A tick, and what the modes make of it: a run that is asked for in READY begins. */
+static void tick(uint16_t controlword)
+{
+    wanted.controlword = controlword;
+    out                = app_control_tick(&control, &wanted, &seen);
+    const bool starts  = (seen.mode == APP_MODE_READY) && !seen.in_the_way;
+    if (out.run && starts) {
+        seen.mode = APP_MODE_RUN;
+    } else if (out.align && starts) {
+        seen.mode = APP_MODE_ALIGN;
+    } else if (out.commission && starts) {
+        seen.mode = APP_MODE_COMMISSION;
+    } else if (!out.run && !out.align && !out.commission &&
+               ((seen.mode == APP_MODE_RUN) || (seen.mode == APP_MODE_ALIGN) ||
+                (seen.mode == APP_MODE_COMMISSION))) {
+        seen.mode = APP_MODE_READY;
+    }
+}
+
+static void ticks(uint16_t controlword, int count)
+{
+    for (int n = 0; n < count; n++) {
+        tick(controlword);
+    }
+}
+
+/* Control words that lead to a state, each for three ticks. */
+static void go(app_control_state_t to)
+{
+    static const uint16_t ways[APP_CONTROL_STATES][4] = {
+        {0U, 0U, 0U, 0U},   {0U, 0U, 0U, 0U},  {0U, 6U, 6U, 6U}, {6U, 7U, 7U, 7U},
+        {6U, 7U, 15U, 15U}, {6U, 7U, 15U, 2U}, {0U, 0U, 0U, 0U}, {0U, 0U, 0U, 0U}};
+    if (to == APP_CONTROL_NOT_READY) {
+        tick(0U);
+    } else {
+        seen.mode = APP_MODE_READY;
+        for (int n = 0; n < 4; n++) {
+            ticks(ways[to][n], 3);
+        }
+        if (to >= APP_CONTROL_FAULT_REACTION_ACTIVE) {
+            seen.mode    = APP_MODE_FAULT;
+            seen.shorted = to == APP_CONTROL_FAULT_REACTION_ACTIVE;
+            ticks(0U, 3);
+        }
+    }
+    TEST_ASSERT_EQUAL_INT(to, control.state);
+}
+
+/* Oracle: table 28 of transitions of the standard, by the pattern of the control word's bits 0 to 3, written down again by
+ * state and word; -1: nothing happens. */
+static int oracle(int state, int word)
+{
+    enum { NRTSO, SOD, RTSO, SO, OE, QSA, FRA, F };
+    const bool so = (word & 1) != 0, ev = (word & 2) != 0, qs = (word & 4) != 0,
+               eo    = (word & 8) != 0;
+    const bool off   = !ev;
+    const bool quick = ev && !qs;
+    const bool shut  = ev && qs && !so;
+    const bool on    = ev && qs && so && !eo;
+    const bool run   = ev && qs && so && eo;
+    switch (state) {
+    case SOD:
+        return shut ? RTSO : -1;
+    case RTSO:
+        return (off || quick) ? SOD : on ? SO : run ? OE : -1;
+    case SO:
+        return (off || quick) ? SOD : shut ? RTSO : run ? OE : -1;
+    case OE:
+        return off ? SOD : quick ? QSA : shut ? RTSO : on ? SO : -1;
+    case QSA:
+        return off ? SOD : run ? OE : -1;
+    default:
+        return -1;
+    }
+}
+
+/* Every state with every pattern of the four bits: 128 cases. Quick stop stays (option 6), so that 16 is there too. */
+static void test_every_transition_and_no_other(void)
+{
+    for (int state = 0; state < (int)APP_CONTROL_STATES; state++) {
+        for (int word = 0; word < 16; word++) {
+            setUp();
+            wanted.quick_option = APP_CONTROL_QUICK_FAST_STAY;
+            go((app_control_state_t)state);
+            ticks((uint16_t)word, 4);
+            const int want = oracle(state, word);
+            /* What follows by itself from where that word leads to, with the same word. */
+            int end = (want < 0) ? state : want;
+            for (int n = 0; (n < 4) && (oracle(end, word) >= 0); n++) {
+                end = oracle(end, word);
+            }
+            char text[40];
+            (void)snprintf(text, sizeof text, "state %d word %d", state, word);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(end, control.state, text);
+            TEST_ASSERT_EQUAL_INT_MESSAGE((end == APP_CONTROL_OPERATION_ENABLED) ||
+                                              (end == APP_CONTROL_QUICK_STOP_ACTIVE),
+                                          seen.mode == APP_MODE_RUN, text);
+        }
+    }
+}
+
+static void test_boot_leads_to_switch_on_disabled_whatever_is_asked(void)
+{
+    ticks(15U, 5);
+    TEST_ASSERT_EQUAL_INT(APP_CONTROL_NOT_READY, control.state);
+    seen.mode = APP_MODE_CALIBRATE;
+    ticks(6U, 5);
+    TEST_ASSERT_EQUAL_INT(APP_CONTROL_NOT_READY, control.state);
+    seen.mode = APP_MODE_READY;
+    ticks(15U, 5);
+    TEST_ASSERT_EQUAL_INT(APP_CONTROL_SWITCH_ON_DISABLED, control.state);
+    TEST_ASSERT_FALSE(out.run);
+}
+
+/* Bit 3 was there before: it has to rise. */
+static void test_operation_is_enabled_by_a_rising_bit_only(void)
+{
+    seen.mode = APP_MODE_READY;
+    ticks(14U, 3); /* shut down, with bit 3 */
+    TEST_ASSERT_EQUAL_INT(APP_CONTROL_READY_TO_SWITCH_ON, control.state);
+    setUp();
+    seen.mode       = APP_MODE_READY;
+    seen.in_the_way = true;
+    ticks(6U, 3);
+    for (int n = 0; n < 3; n++) { /* not for a single tick */
+        tick(15U);
+        TEST_ASSERT_FALSE(out.run);
+        TEST_ASSERT_EQUAL_INT(APP_CONTROL_SWITCHED, control.state);
+    }
+    seen.in_the_way = false;
+    ticks(15U, 10); /* a refused start is not made up for */
+    TEST_ASSERT_EQUAL_INT(APP_CONTROL_SWITCHED, control.state);
+    TEST_ASSERT_FALSE(out.run);
+    ticks(7U, 1);
+    ticks(15U, 2);
+    TEST_ASSERT_EQUAL_INT(APP_CONTROL_OPERATION_ENABLED, control.state);
+    TEST_ASSERT_TRUE(out.run);
+}
+
+/* The modes may refuse or end a run by themselves. */
+static void test_a_run_that_does_not_begin_or_ends_leaves_the_state(void)
+{
+    go(APP_CONTROL_OPERATION_ENABLED);
+    seen.mode       = APP_MODE_READY;
+    seen.in_the_way = true;
+    ticks(15U, 5);
+    TEST_ASSERT_EQUAL_INT(APP_CONTROL_SWITCHED, control.state);
+    TEST_ASSERT_FALSE(out.run);
+}
+
+static void test_a_fault_wins_over_every_control_word(void)
+{
+    for (int state = APP_CONTROL_SWITCH_ON_DISABLED; state <= APP_CONTROL_QUICK_STOP_ACTIVE;
+         state++) {
+        for (int word = 0; word < 16; word++) {
+            setUp();
+            wanted.quick_option = APP_CONTROL_QUICK_FAST_STAY;
+            go((app_control_state_t)state);
+            seen.mode    = APP_MODE_FAULT;
+            seen.shorted = true;
+            tick((uint16_t)word);
+            TEST_ASSERT_EQUAL_INT(APP_CONTROL_FAULT_REACTION_ACTIVE, control.state);
+            TEST_ASSERT_FALSE(out.run || out.align || out.commission || out.reset);
+            seen.shorted = false;
+            tick((uint16_t)word);
+            TEST_ASSERT_EQUAL_INT(APP_CONTROL_FAULT, control.state);
+            TEST_ASSERT_FALSE(out.run || out.align || out.commission || out.reset);
+        }
+    }
+}
+
+static void test_reset_acts_when_its_bit_rises(void)
+{
+    go(APP_CONTROL_FAULT);
+    tick(128U);
+    TEST_ASSERT_TRUE(out.reset);
+    ticks(128U, 5);
+    TEST_ASSERT_FALSE(out.reset);
+    tick(0U);
+    tick(143U); /* with all of a run */
+    TEST_ASSERT_TRUE(out.reset && !out.run);
+    seen.mode = APP_MODE_READY;
+    ticks(143U, 5);
+    TEST_ASSERT_EQUAL_INT(APP_CONTROL_SWITCH_ON_DISABLED, control.state);
+    go(APP_CONTROL_SWITCHED);
+    tick(0U);
+    tick(128U);
+    TEST_ASSERT_FALSE(out.reset); /* nothing to leave */
+}
+
+static void test_quick_stop_options(void)
+{
+    static const struct {
+        int                 option;
+        bool                stays;
+        bool                brakes;
+        app_control_state_t end;
+    } all[] = {{APP_CONTROL_QUICK_OFF, false, false, APP_CONTROL_SWITCH_ON_DISABLED},
+               {APP_CONTROL_QUICK_RAMP, false, true, APP_CONTROL_SWITCH_ON_DISABLED},
+               {APP_CONTROL_QUICK_FAST, false, true, APP_CONTROL_SWITCH_ON_DISABLED},
+               {APP_CONTROL_QUICK_RAMP_STAY, true, true, APP_CONTROL_QUICK_STOP_ACTIVE},
+               {APP_CONTROL_QUICK_FAST_STAY, true, true, APP_CONTROL_QUICK_STOP_ACTIVE}};
+    for (int i = 0; i < SUPPORT_COUNT(all); i++) {
+        setUp();
+        go(APP_CONTROL_OPERATION_ENABLED);
+        wanted.quick_option   = (int16_t)all[i].option;
+        wanted.omega_e_radps  = 300.0f;
+        wanted.decel_e_radps2 = 1000.0f;
+        wanted.quick_e_radps2 = 5000.0f;
+        seen.speed_e_radps    = 300.0f;
+        ticks(15U, 3);
+        TEST_ASSERT_TRUE(out.run && (out.omega_e_radps == 300.0f));
+        tick(2U);
+        TEST_ASSERT_TRUE(out.run == all[i].brakes);
+        if (all[i].brakes) { /* 200 us of the deceleration that the option names */
+            const bool fast = (all[i].option == APP_CONTROL_QUICK_FAST) ||
+                              (all[i].option == APP_CONTROL_QUICK_FAST_STAY);
+            TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, fast ? 299.0f : 299.8f, out.omega_e_radps);
+            ticks(2U, 2000);
+            TEST_ASSERT_TRUE(out.omega_e_radps == 0.0f);
+            TEST_ASSERT_EQUAL_INT(APP_CONTROL_QUICK_STOP_ACTIVE, control.state);
+        }
+        seen.speed_e_radps = 1.0f;
+        ticks(2U, 5);
+        TEST_ASSERT_EQUAL_INT(all[i].end, control.state);
+        TEST_ASSERT_TRUE(out.run == all[i].stays);
+        ticks(15U, 3); /* 16: back, from a quick stop that stays */
+        TEST_ASSERT_EQUAL_INT(all[i].stays ? APP_CONTROL_OPERATION_ENABLED
+                                           : APP_CONTROL_SWITCH_ON_DISABLED,
+                              control.state);
+    }
+}
+
+/* Shut down and disable operation: at once, or along the ramp and then. */
+static void test_stop_options(void)
+{
+    for (int ramps = 0; ramps < 2; ramps++) {
+        for (int word = 6; word < 8; word++) {
+            setUp();
+            go(APP_CONTROL_OPERATION_ENABLED);
+            wanted.shutdown_option = (int16_t)((word == 6) ? ramps : 1 - ramps);
+            wanted.disable_option  = (int16_t)((word == 7) ? ramps : 1 - ramps);
+            wanted.omega_e_radps   = 300.0f;
+            wanted.decel_e_radps2  = 1000.0f;
+            seen.speed_e_radps     = 300.0f;
+            ticks(15U, 3);
+            tick((uint16_t)word);
+            TEST_ASSERT_TRUE(out.run == (ramps == 1));
+            if (ramps == 1) {
+                TEST_ASSERT_EQUAL_INT(APP_CONTROL_OPERATION_ENABLED, control.state);
+                TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 299.8f, out.omega_e_radps);
+                tick(15U); /* changed one's mind */
+                TEST_ASSERT_TRUE(out.run);
+                seen.speed_e_radps = 0.0f;
+                tick((uint16_t)word);
+            }
+            tick((uint16_t)word);
+            TEST_ASSERT_FALSE(out.run);
+            TEST_ASSERT_EQUAL_INT(
+                (word == 6) ? APP_CONTROL_READY_TO_SWITCH_ON : APP_CONTROL_SWITCHED, control.state);
+        }
+    }
+}
+
+static void test_the_state_is_left_when_the_bridge_has_opened(void)
+{
+    go(APP_CONTROL_OPERATION_ENABLED);
+    wanted.controlword = 0U;
+    for (int n = 0; n < 10; n++) { /* the modes brake first: too fast for an open bridge */
+        out = app_control_tick(&control, &wanted, &seen);
+        TEST_ASSERT_FALSE(out.run);
+        TEST_ASSERT_EQUAL_INT(APP_CONTROL_OPERATION_ENABLED, control.state);
+        seen.mode = APP_MODE_STOP;
+    }
+    seen.mode = APP_MODE_READY;
+    tick(0U);
+    TEST_ASSERT_EQUAL_INT(APP_CONTROL_SWITCH_ON_DISABLED, control.state);
+}
+
+static void test_ramps(void)
+{
+    wanted.accel_e_radps2 = 2000.0f;
+    wanted.decel_e_radps2 = 1000.0f;
+    wanted.omega_e_radps  = -300.0f;
+    seen.speed_e_radps    = -100.0f; /* turns already: begins there */
+    go(APP_CONTROL_OPERATION_ENABLED);
+    TEST_ASSERT_TRUE(out.omega_e_radps < -100.0f && out.omega_e_radps > -104.0f);
+    float before = out.omega_e_radps;
+    tick(15U);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, before - 0.4f, out.omega_e_radps);
+    ticks(15U, 1000);
+    TEST_ASSERT_TRUE(out.omega_e_radps == -300.0f);
+    tick(15U | 256U); /* halt */
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, -299.8f, out.omega_e_radps);
+    ticks(15U | 256U, 2000);
+    TEST_ASSERT_TRUE((out.omega_e_radps == 0.0f) && out.run);
+    wanted.omega_e_radps = 300.0f;
+    tick(15U);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 0.4f, out.omega_e_radps);
+    wanted.accel_e_radps2 = 0.0f; /* as fast as the drive can */
+    tick(15U);
+    TEST_ASSERT_TRUE(out.omega_e_radps == 300.0f);
+}
+
+static void test_modes_of_operation_and_the_limit(void)
+{
+    wanted.mode_of_operation = APP_CONTROL_HOMING;
+    wanted.current_max_A     = 0.75f * gain_tables_drive.current_max_A;
+    go(APP_CONTROL_OPERATION_ENABLED);
+    TEST_ASSERT_TRUE(out.align && !out.run && !out.commission && !control.done);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-6f, 0.25f, out.derating);
+    seen.mode = APP_MODE_READY; /* found */
+    ticks(15U, 3);
+    TEST_ASSERT_TRUE(control.done && !out.align);
+    TEST_ASSERT_EQUAL_INT(APP_CONTROL_OPERATION_ENABLED, control.state);
+    ticks(6U, 2);
+    wanted.mode_of_operation = APP_CONTROL_COMMISSIONING;
+    ticks(15U, 2);
+    TEST_ASSERT_TRUE(out.commission && !out.run && !out.align && !control.done);
+    tick(0U);
+    TEST_ASSERT_FALSE(out.commission);
+    setUp();
+    wanted.mode_of_operation = APP_CONTROL_COMMISSIONING;
+    seen.mode                = APP_MODE_READY;
+    ticks(6U, 3);
+    tick(15U);
+    seen.mode = APP_MODE_READY; /* its bounds were refused */
+    ticks(15U, 2);
+    TEST_ASSERT_EQUAL_INT(APP_CONTROL_SWITCHED, control.state);
+    TEST_ASSERT_FALSE(control.done);
+}
+
+static void test_unknown_objects_are_refused(void)
+{
+    static const int modes[] = {-2, 0, 1, 2, 4, 5, 7, 8, 9, 10};
+    static const int quick[] = {3, 4};
+    TEST_ASSERT_TRUE(app_control_knows(&wanted));
+    for (int i = 0; i < SUPPORT_COUNT(modes); i++) {
+        app_objects_t o     = wanted;
+        o.mode_of_operation = (int16_t)modes[i];
+        TEST_ASSERT_FALSE(app_control_knows(&o));
+    }
+    for (int i = 0; i < SUPPORT_COUNT(quick); i++) {
+        app_objects_t o = wanted;
+        o.quick_option  = (int16_t)quick[i];
+        TEST_ASSERT_FALSE(app_control_knows(&o));
+    }
+    drive_config_t drive = gain_tables_drive;
+    drive.current_max_A  = 0.0f;
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_control_init(&control, &board_config, &drive));
+}
+
+static void test_a_state_that_cannot_be_is_left(void)
+{
+    control.state = (app_control_state_t)77;
+    seen.mode     = APP_MODE_READY;
+    tick(15U);
+    TEST_ASSERT_EQUAL_INT(APP_CONTROL_NOT_READY, control.state);
+    TEST_ASSERT_FALSE(out.run);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_every_transition_and_no_other);
+    RUN_TEST(test_boot_leads_to_switch_on_disabled_whatever_is_asked);
+    RUN_TEST(test_operation_is_enabled_by_a_rising_bit_only);
+    RUN_TEST(test_a_run_that_does_not_begin_or_ends_leaves_the_state);
+    RUN_TEST(test_a_fault_wins_over_every_control_word);
+    RUN_TEST(test_reset_acts_when_its_bit_rises);
+    RUN_TEST(test_quick_stop_options);
+    RUN_TEST(test_stop_options);
+    RUN_TEST(test_the_state_is_left_when_the_bridge_has_opened);
+    RUN_TEST(test_ramps);
+    RUN_TEST(test_modes_of_operation_and_the_limit);
+    RUN_TEST(test_unknown_objects_are_refused);
+    RUN_TEST(test_a_state_that_cannot_be_is_left);
+    return UNITY_END();
+}

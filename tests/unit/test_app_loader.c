@@ -1,0 +1,362 @@
+/* SPDX-License-Identifier: MIT */
+#include "app_loader.h"
+
+#include <string.h>
+
+#include "app.h"
+#include "app_modbus.h"
+#include "board_config.h"
+#include "crc32.h"
+#include "fake_board.h"
+#include "gain_tables.h"
+#include "harmonic_tables.h"
+#include "unity.h"
+
+#define ROOM 8192U
+
+static drive_image_t other; /* what is loaded */
+static uint16_t      words[ROOM];
+static uint32_t      count;
+static app_image_t   in_force;
+static app_loader_t  loader;
+
+static void use(const drive_config_t *drive, float speed_max_e_radps)
+{
+    TEST_ASSERT_TRUE(drive_image_copy(&other, &board_config, drive));
+    other.drive.speed_max_e_radps = speed_max_e_radps;
+    other.name[0]                 = 'x';
+    count                         = drive_image_write(&other, words, ROOM);
+    TEST_ASSERT_GREATER_THAN_UINT32(0U, count);
+}
+
+static void start_again(void)
+{
+    TEST_ASSERT_TRUE(app_image_choose(&in_force, &board_config, &gain_tables_drive));
+    app_loader_init(&loader, &in_force);
+}
+
+void setUp(void)
+{
+    fake_board_reset();
+    fake_board_erase_store();
+    use(&gain_tables_drive, 500.0f);
+    start_again();
+}
+
+void tearDown(void) {}
+
+static app_loader_result_t tell(app_loader_command_t command, uint32_t number, uint32_t crc,
+                                uint16_t used)
+{
+    const uint16_t            values[5] = {(uint16_t)command, (uint16_t)(number >> 16),
+                                           (uint16_t)(number & 0xFFFFU), (uint16_t)(crc >> 16),
+                                           (uint16_t)(crc & 0xFFFFU)};
+    const app_loader_result_t result =
+        app_loader_write(&loader, false, APP_LOADER_COMMAND, used, values);
+    app_loader_work(&loader);
+    return result;
+}
+
+static app_loader_result_t begin(void)
+{
+    return tell(APP_LOADER_BEGIN, count, 0U, 3U);
+}
+
+static app_loader_result_t commit(uint32_t crc)
+{
+    return tell(APP_LOADER_COMMIT, count, crc, 5U);
+}
+
+static app_loader_result_t put(uint32_t offset, uint16_t n)
+{
+    uint16_t values[2U + APP_LOADER_DATA] = {(uint16_t)(offset >> 16),
+                                             (uint16_t)(offset & 0xFFFFU)};
+    memcpy(&values[2], &words[offset], n * sizeof words[0]);
+    return app_loader_write(&loader, false, APP_LOADER_OFFSET_HI, (uint16_t)(2U + n), values);
+}
+
+static void put_all(void)
+{
+    for (uint32_t at = 0U; at < count; at += APP_LOADER_DATA) {
+        const uint32_t left = count - at;
+        TEST_ASSERT_EQUAL_INT(
+            APP_LOADER_OK, put(at, (uint16_t)((left < APP_LOADER_DATA) ? left : APP_LOADER_DATA)));
+    }
+}
+
+static uint16_t input(uint16_t number)
+{
+    uint16_t value = 0U;
+    TEST_ASSERT_TRUE(app_loader_read(&loader, number, 1U, &value));
+    return value;
+}
+
+static void run_loader(void)
+{
+    loader.state = APP_LOADER_IDLE;
+    loader.image = &in_force;
+}
+
+static void load(void)
+{
+    run_loader();
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_OK, begin());
+    put_all();
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_OK, commit(crc32_words(CRC32_START, words, count)));
+}
+
+static void test_a_loaded_image_is_in_force_after_the_next_start(void)
+{
+    TEST_ASSERT_EQUAL_UINT16(0U, input(APP_LOADER_NUMBER_LO));
+    load();
+    TEST_ASSERT_EQUAL_UINT16(APP_LOADER_STORED, input(APP_LOADER_STATE));
+    start_again();
+
+    TEST_ASSERT_TRUE(in_force.image.drive.speed_max_e_radps == 500.0f);
+    TEST_ASSERT_EQUAL_UINT16(1U, input(APP_LOADER_NUMBER_LO));
+    TEST_ASSERT_EQUAL_STRING("xpmsm_390w", in_force.image.app.drive_name);
+    TEST_ASSERT_EQUAL_STRING(board_config.digest, in_force.image.app.digest);
+    TEST_ASSERT_EQUAL_UINT16(gain_tables_drive.law->number, input(APP_LOADER_LAW));
+}
+
+static void test_forgetting_brings_the_compiled_ones_back(void)
+{
+    load();
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_OK, tell(APP_LOADER_FORGET, 0U, 0U, 1U));
+    start_again();
+
+    TEST_ASSERT_TRUE(in_force.image.drive.speed_max_e_radps == gain_tables_drive.speed_max_e_radps);
+    TEST_ASSERT_EQUAL_UINT32(0U, in_force.number);
+}
+
+static void test_a_wrong_sum_is_refused_and_the_old_image_stays(void)
+{
+    load();
+    start_again();
+    use(&gain_tables_drive, 600.0f);
+    run_loader();
+    (void)begin();
+    put_all();
+
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_OK, commit(crc32_words(CRC32_START, words, count) ^ 1U));
+    TEST_ASSERT_EQUAL_UINT16(APP_LOADER_SUM, input(APP_LOADER_STATE));
+    start_again();
+    TEST_ASSERT_TRUE(in_force.image.drive.speed_max_e_radps == 500.0f);
+}
+
+/* Reason of a refused image whose words are these. */
+static uint16_t reason_of_load(void)
+{
+    start_again();
+    load();
+    TEST_ASSERT_EQUAL_UINT16(APP_LOADER_IMAGE, input(APP_LOADER_STATE));
+    const uint16_t reason = input(APP_LOADER_REASON);
+    start_again();
+    TEST_ASSERT_EQUAL_UINT32(0U, in_force.number);
+    return reason;
+}
+
+static void test_images_that_cannot_run_are_refused_with_their_reason(void)
+{
+    use(&harmonic_tables_drive, 500.0f);
+    TEST_ASSERT_EQUAL_UINT16(DRIVE_IMAGE_OTHER_LAW, reason_of_load());
+    use(&gain_tables_drive, 500.0f);
+    words[0] = 77U;
+    TEST_ASSERT_EQUAL_UINT16(DRIVE_IMAGE_OTHER_SCHEMA, reason_of_load());
+    use(&gain_tables_drive, 500.0f);
+    count--;
+    TEST_ASSERT_EQUAL_UINT16(DRIVE_IMAGE_DAMAGED, reason_of_load());
+    use(&gain_tables_drive, -1.0f); /* drive_config_check() */
+    TEST_ASSERT_EQUAL_UINT16(DRIVE_IMAGE_REFUSED, reason_of_load());
+    use(&gain_tables_drive, 500.0f);
+    fake_board.misfit = true; /* board_fits() */
+    TEST_ASSERT_EQUAL_UINT16(DRIVE_IMAGE_REFUSED, reason_of_load());
+    fake_board.misfit     = false;
+    other.app.dead_time_s = 1e-6f; /* not that of the drive: app_init() */
+    count                 = drive_image_write(&other, words, ROOM);
+    TEST_ASSERT_EQUAL_UINT16(DRIVE_IMAGE_REFUSED, reason_of_load());
+}
+
+static void test_a_stored_image_that_the_board_refuses_is_not_used(void)
+{
+    load();
+    fake_board.misfit = true; /* a newer firmware, another board */
+    start_again();
+
+    TEST_ASSERT_EQUAL_UINT32(0U, in_force.number);
+    TEST_ASSERT_TRUE(in_force.image.drive.speed_max_e_radps == gain_tables_drive.speed_max_e_radps);
+}
+
+static void test_words_come_in_turn_and_once(void)
+{
+    run_loader();
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_BAD_VALUE, put(0U, 5U)); /* before BEGIN */
+    (void)begin();
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_BAD_VALUE, put(5U, 5U));
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_OK, put(0U, 5U));
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_BAD_VALUE, put(0U, 5U));
+    TEST_ASSERT_EQUAL_UINT16(5U, input(APP_LOADER_PUT_LO));
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_OK, put(5U, 1U));
+}
+
+static void test_commands_have_their_place_and_their_length(void)
+{
+    /* the application */
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_BAD_VALUE, begin());
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_BAD_VALUE, tell(APP_LOADER_LEAVE, 0U, 0U, 1U));
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_BAD_VALUE, tell(APP_LOADER_FORGET, 0U, 0U, 1U));
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_BAD_VALUE, tell(APP_LOADER_ENTER, 0U, 0U, 2U));
+    const uint16_t enter = APP_LOADER_ENTER;
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_BAD_VALUE, app_loader_write(&loader, true, 0U, 1U, &enter));
+    TEST_ASSERT_FALSE(loader.restart);
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_OK, tell(APP_LOADER_ENTER, 0U, 0U, 1U));
+    TEST_ASSERT_TRUE(loader.restart && loader.enter);
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_BAD_VALUE, tell(APP_LOADER_ENTER, 0U, 0U, 1U)); /* once */
+
+    /* the loader */
+    start_again();
+    run_loader();
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_BAD_VALUE, tell(APP_LOADER_ENTER, 0U, 0U, 1U));
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_BAD_VALUE, commit(0U)); /* nothing begun */
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_BAD_VALUE, tell((app_loader_command_t)9, 0U, 0U, 1U));
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_OK, tell(APP_LOADER_LEAVE, 0U, 0U, 1U));
+    TEST_ASSERT_TRUE(loader.restart && !loader.enter);
+}
+
+static void test_a_task_is_done_after_its_answer_and_nothing_else_meanwhile(void)
+{
+    const uint16_t forget = APP_LOADER_FORGET;
+    const uint16_t leave  = APP_LOADER_LEAVE;
+    run_loader();
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_OK, app_loader_write(&loader, false, 0U, 1U, &forget));
+    TEST_ASSERT_EQUAL_UINT16(APP_LOADER_BUSY, input(APP_LOADER_STATE));
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_BAD_VALUE, app_loader_write(&loader, false, 0U, 1U, &leave));
+    app_loader_work(&loader);
+    TEST_ASSERT_EQUAL_UINT16(APP_LOADER_STORED, input(APP_LOADER_STATE));
+}
+
+static void test_registers_end_where_they_end(void)
+{
+    uint16_t values[APP_LOADER_HOLDING_COUNT + 1] = {0U};
+    TEST_ASSERT_TRUE(app_loader_read(&loader, 0U, APP_LOADER_INPUT_COUNT, values));
+    TEST_ASSERT_FALSE(app_loader_read(&loader, 1U, APP_LOADER_INPUT_COUNT, values));
+    TEST_ASSERT_FALSE(app_loader_read(&loader, APP_LOADER_INPUT_COUNT, 1U, values));
+    TEST_ASSERT_TRUE(app_loader_read_holding(0U, APP_LOADER_HOLDING_COUNT, values));
+    TEST_ASSERT_FALSE(app_loader_read_holding(1U, APP_LOADER_HOLDING_COUNT, values));
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_BAD_ADDRESS,
+                          app_loader_write(&loader, false, 1U, APP_LOADER_HOLDING_COUNT, values));
+    for (uint16_t first = 1U; first < (uint16_t)APP_LOADER_HOLDING_COUNT; first++) {
+        TEST_ASSERT_EQUAL_INT(APP_LOADER_BAD_VALUE,
+                              app_loader_write(&loader, false, first, 1U, values));
+    }
+}
+
+static void test_a_flash_that_fails_is_told(void)
+{
+    run_loader();
+    fake_board.store_budget = 100;
+    (void)begin();
+    TEST_ASSERT_EQUAL_UINT16(APP_LOADER_FLASH, input(APP_LOADER_STATE));
+
+    fake_board.store_budget = -1;
+    (void)begin();
+    fake_board.store_budget = 3;
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_BAD_VALUE, put(0U, 5U));
+    TEST_ASSERT_EQUAL_UINT16(APP_LOADER_FLASH, input(APP_LOADER_STATE));
+
+    fake_board.store_budget = -1;
+    (void)begin();
+    put_all();
+    fake_board.store_budget = 3;
+    (void)commit(crc32_words(CRC32_START, words, count));
+    TEST_ASSERT_EQUAL_UINT16(APP_LOADER_FLASH, input(APP_LOADER_STATE));
+    fake_board.store_budget = -1;
+    start_again();
+    TEST_ASSERT_EQUAL_UINT32(0U, in_force.number);
+}
+
+/* A request of function 6 to unit 1, and passes until its answer is out and a while beyond. */
+static void ask(uint16_t number, uint16_t value, void (*pass)(void))
+{
+    uint16_t       octets[6] = {1U,
+                                6U,
+                                (uint16_t)(number >> 8),
+                                (uint16_t)(number & 0xFFU),
+                                (uint16_t)(value >> 8),
+                                (uint16_t)(value & 0xFFU)};
+    const uint16_t crc       = app_modbus_crc(octets, 6U);
+    int            all[8];
+    for (int n = 0; n < 6; n++) {
+        all[n] = octets[n];
+    }
+    all[6] = crc & 0xFF;
+    all[7] = crc >> 8;
+    fake_board_receive(all, 8);
+    for (int n = 0; n < 200; n++) {
+        fake_board.cycles += board_config.board.pwm_cycles / 2U;
+        pass();
+    }
+}
+
+static void test_the_loader_answers_without_ticks_and_leaves_after_its_answer(void)
+{
+    app_loader_start(&in_force);
+    ask(APP_LOADER_FIRST, APP_LOADER_LEAVE, app_loader_pass);
+
+    TEST_ASSERT_EQUAL_INT(1, fake_board_sent());
+    TEST_ASSERT_EQUAL_INT(6, fake_board_sent());
+    TEST_ASSERT_GREATER_THAN_INT(0, fake_board.restarts);
+    TEST_ASSERT_FALSE(fake_board.restart_loader);
+    TEST_ASSERT_EQUAL_INT(0, fake_board.served);
+}
+
+static void tick_and_pass(void)
+{
+    app_tick();
+    app_background();
+}
+
+static void test_the_application_enters_the_loader_and_not_by_broadcast(void)
+{
+    (void)app_init(&in_force.image.app, &in_force.image.drive);
+    ask(APP_LOADER_FIRST, APP_LOADER_ENTER, tick_and_pass);
+    TEST_ASSERT_EQUAL_INT(0, fake_board.restarts); /* nobody has told what is in force */
+
+    app_tell_image(&in_force);
+    int broadcast[8] = {0, 6, APP_LOADER_FIRST >> 8, APP_LOADER_FIRST & 0xFFU, 0, APP_LOADER_ENTER,
+                        0, 0};
+    uint16_t octets[6];
+    for (int n = 0; n < 6; n++) {
+        octets[n] = (uint16_t)broadcast[n];
+    }
+    const uint16_t crc = app_modbus_crc(octets, 6U);
+    broadcast[6]       = crc & 0xFF;
+    broadcast[7]       = crc >> 8;
+    fake_board_receive(broadcast, 8);
+    for (int n = 0; n < 200; n++) {
+        tick_and_pass();
+    }
+    TEST_ASSERT_EQUAL_INT(0, fake_board.restarts);
+
+    ask(APP_LOADER_FIRST, APP_LOADER_ENTER, tick_and_pass);
+    TEST_ASSERT_GREATER_THAN_INT(0, fake_board.restarts);
+    TEST_ASSERT_TRUE(fake_board.restart_loader);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_loaded_image_is_in_force_after_the_next_start);
+    RUN_TEST(test_forgetting_brings_the_compiled_ones_back);
+    RUN_TEST(test_a_wrong_sum_is_refused_and_the_old_image_stays);
+    RUN_TEST(test_images_that_cannot_run_are_refused_with_their_reason);
+    RUN_TEST(test_a_stored_image_that_the_board_refuses_is_not_used);
+    RUN_TEST(test_words_come_in_turn_and_once);
+    RUN_TEST(test_commands_have_their_place_and_their_length);
+    RUN_TEST(test_a_task_is_done_after_its_answer_and_nothing_else_meanwhile);
+    RUN_TEST(test_registers_end_where_they_end);
+    RUN_TEST(test_a_flash_that_fails_is_told);
+    RUN_TEST(test_the_loader_answers_without_ticks_and_leaves_after_its_answer);
+    RUN_TEST(test_the_application_enters_the_loader_and_not_by_broadcast);
+    return UNITY_END();
+}
