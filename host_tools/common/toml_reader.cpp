@@ -27,6 +27,20 @@ std::string shown(const toml::node &node)
     return s;
 }
 
+template <typename Parse> toml::table parsed(const Parse &parse, const std::string &source)
+{
+    try {
+        return parse();
+    } catch (const toml::parse_error &e) {
+        std::string what(e.description());
+        for (char &c : what) {
+            c = (c == '\n' || c == '\r') ? ' ' : c;
+        }
+        throw InputError(
+            fmt::format("{}:{}: not valid TOML: {}", source, e.source().begin.line, what));
+    }
+}
+
 } // namespace
 
 toml::table parse_toml_file(const std::filesystem::path &file)
@@ -35,16 +49,12 @@ toml::table parse_toml_file(const std::filesystem::path &file)
     if (!std::filesystem::is_regular_file(file, error)) {
         throw InputError(fmt::format("{}: no such file", file.string()));
     }
-    try {
-        return toml::parse_file(file.string());
-    } catch (const toml::parse_error &e) {
-        std::string what(e.description());
-        for (char &c : what) {
-            c = (c == '\n' || c == '\r') ? ' ' : c;
-        }
-        throw InputError(
-            fmt::format("{}:{}: not valid TOML: {}", file.string(), e.source().begin.line, what));
-    }
+    return parsed([&] { return toml::parse_file(file.string()); }, file.string());
+}
+
+toml::table parse_toml_text(const std::string &text, const std::string &source)
+{
+    return parsed([&] { return toml::parse(text); }, source);
 }
 
 TomlReader::TomlReader(std::string file, std::string where, const toml::table &table)

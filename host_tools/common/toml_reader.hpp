@@ -21,6 +21,8 @@ struct Range {
 
 /// Parses a file; InputError when it is missing, unreadable or not TOML.
 toml::table parse_toml_file(const std::filesystem::path &file);
+/// The same of a text; `source` names it in messages.
+toml::table parse_toml_text(const std::string &text, const std::string &source);
 
 class TomlReader {
 public:

@@ -168,7 +168,7 @@ Drive read_drive_file(const std::filesystem::path &file)
 
 Drive read_drive_text(const std::string &text, const std::string &source)
 {
-    return read_drive(toml::parse(text), source);
+    return read_drive(parse_toml_text(text, source), source);
 }
 
 CurrentSensors default_current_sensors(const Motor &motor)

@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <toml++/toml.h>
+#include <unistd.h>
 
 #include "common/errors.hpp"
+#include "common/file_output.hpp"
 #include "common/toml_reader.hpp"
 #include "design/design.hpp"
+#include "facts/commissioned_text.hpp"
 #include "facts/cross_checks.hpp"
+#include "facts/found_file.hpp"
 #include "facts/new_drive_text.hpp"
 
 namespace {
@@ -240,4 +247,80 @@ TEST(Facts, ATextThatReadsAndIsCertified)
         EXPECT_TRUE(sdre::design_drive(drive).certificate.passed()) << text;
         EXPECT_NE(text.find("# encoder_lines = "), std::string::npos);
     }
+}
+
+// -- what a commissioning found --
+
+namespace {
+
+const char *const found_text = R"(direction = -1
+pole_pairs = 3
+counts_per_turn = 8000
+reluctance = false
+stator_resistance_Ohm = { value = 2.51, uncertainty = 0.01 }
+inverter_loss_V = { value = 1.2, uncertainty = 0.1 }
+d_axis_inductance_H = { value = 0.0097, uncertainty = 1e-4 }
+q_axis_inductance_H = { value = 0.0145, uncertainty = 1e-4 }
+pm_flux_Wb = { value = 0.12, uncertainty = 1e-3 }
+inertia_kgm2 = { value = 3.3e-4, uncertainty = 1e-5 }
+viscous_friction_Nms = { value = 1e-4, uncertainty = 1e-5 }
+coulomb_friction_Nm = { value = 0.01, uncertainty = 1e-3 }
+d_axis_angle_e_rad = { value = 1.0, uncertainty = 0.01 }
+)";
+
+commission_result_t found_of(const std::string &text)
+{
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / fmt::format("sdre_found_{}.toml", getpid());
+    sdre::write_files({{file, text}});
+    try {
+        const commission_result_t found = sdre::read_found_file(file);
+        std::filesystem::remove(file);
+        return found;
+    } catch (...) {
+        std::filesystem::remove(file);
+        throw;
+    }
+}
+
+std::string with(const std::string &text, const std::string &from, const std::string &to)
+{
+    std::string out = text;
+    return out.replace(out.find(from), from.size(), to);
+}
+
+} // namespace
+
+TEST(Found, GoesIntoTheDriveFileAndLeavesTheRest)
+{
+    const std::string drive =
+        sdre::read_text_file(SDRE_SOURCE_DIR "/firmware/config/drives/ipmsm_390w.toml");
+    const sdre::Drive before = sdre::read_drive_text(drive, "before");
+    const sdre::Drive after  = sdre::read_drive_text(
+         sdre::commissioned_text(drive, found_of(found_text), "here"), "after");
+
+    EXPECT_EQ(after.motor.pole_pairs, 3);
+    EXPECT_EQ(after.encoder.lines, 2000);
+    EXPECT_NEAR(after.motor.stator_resistance_Ohm, 2.51, 1e-6);
+    EXPECT_NEAR(after.motor.d_axis_inductance_H, 0.0097, 1e-8);
+    EXPECT_NEAR(after.motor.q_axis_inductance_H, 0.0145, 1e-8);
+    EXPECT_NEAR(after.motor.pm_flux_Wb, 0.12, 1e-7);
+    EXPECT_NEAR(after.motor.inertia_kgm2, 3.3e-4, 1e-9);
+    EXPECT_EQ(after.motor.max_current_A, before.motor.max_current_A);
+    EXPECT_EQ(after.nosc.Q, before.nosc.Q);
+}
+
+TEST(Found, EveryKeyIsNeededAndChecked)
+{
+    std::istringstream lines(found_text);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.rfind("reluctance", 0) != 0) { // false when it is not there
+            EXPECT_THROW(found_of(with(found_text, line + "\n", "")), sdre::InputError) << line;
+        }
+    }
+    EXPECT_THROW(found_of(with(found_text, "direction = -1", "direction = 0")), sdre::InputError);
+    EXPECT_THROW(found_of(with(found_text, "value = 2.51", "value = -2.51")), sdre::InputError);
+    EXPECT_THROW(found_of(with(found_text, "value = 2.51", "value = nan")), sdre::InputError);
+    EXPECT_THROW(found_of(with(found_text, ", uncertainty = 0.01 }", " }")), sdre::InputError);
+    EXPECT_THROW(found_of(std::string(found_text) + "more = 1\n"), sdre::InputError);
 }

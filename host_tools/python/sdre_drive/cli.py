@@ -15,6 +15,7 @@ from rich.live import Live
 from rich.progress import Progress
 from typing_extensions import Annotated
 
+from sdre_drive import commission as finder
 from sdre_drive import load as loader
 from sdre_drive import record, scope, session, show
 from sdre_drive.connection import Drive, DriveError
@@ -105,6 +106,24 @@ def load(
         else:
             found = loader.look(drive)
     out.print(f"in force: {found.in_force}", soft_wrap=True)
+
+
+@app.command()
+def commission(
+    file: Annotated[Path, typer.Option("--out", help="what was found, for `sdre-gains from-commissioning`")],
+    current: Annotated[float, typer.Option("--current", min=0.01, help="A, peak: its bound")],
+    speed: Annotated[float, typer.Option("--speed", min=0.1, help="r/min: its bound")],
+    port: Port = None,
+    tcp: Tcp = None,
+) -> None:
+    """Finds the motor: the shaft turns, both ways, and has to be free."""
+    end = end_by_signal()
+    with Drive(target(port, tcp)) as drive, Progress(console=err, transient=True) as bar:
+        task = bar.add_task("begins", total=1.0)
+        values = finder.run(drive, current, show.e_radps_of(speed, 1), end,
+                            lambda stage, share: bar.update(task, description=stage, completed=share))  # fmt: skip
+    record.write_text(file, finder.text(values))
+    out.print(f"{file}: written; next: sdre-gains from-commissioning {file} --drive DRIVE --out NEW", soft_wrap=True)
 
 
 @app.command()

@@ -114,7 +114,10 @@ class Drive:
 
     def words(self, first: int, count: int) -> List[int]:
         """Input registers as they are."""
-        return list(self._asked("read_input_registers", first, count=count).registers)
+        values = list(self._asked("read_input_registers", first, count=count).registers)
+        if len(values) != count:
+            raise DriveError("the drive answered something else than it was asked")
+        return values
 
     def write(self, name: str, value: float) -> None:
         """A holding register, in its unit."""
@@ -129,8 +132,7 @@ class Drive:
             self._asked("write_registers", r.address, words)
 
     def _block(self, wanted: Sequence[Register]) -> List[int]:
-        first, count = registers.block(wanted)
-        return list(self._asked("read_input_registers", first, count=count).registers)
+        return self.words(*registers.block(wanted))
 
     def set_speed(self, speed_e_radps: float) -> None:
         """rad/s electrical; acts when the drive runs."""
@@ -150,13 +152,6 @@ class Drive:
         """Objects of function 43/14, from the drive's name on."""
         answer = self._asked("read_device_information", read_code=3, object_id=0x80)
         return {number: octets.decode("ascii", "replace") for number, octets in answer.information.items()}
-
-    def read_words(self, first: int, count: int) -> List[int]:
-        """Input registers as they are."""
-        values = list(self._asked("read_input_registers", first, count=count).registers)
-        if len(values) != count:
-            raise DriveError("the drive answered something else than it was asked")
-        return values
 
     def write_words(self, first: int, values: List[int]) -> None:
         """Holding registers as they are."""

@@ -61,7 +61,7 @@ def _pair(values: List[int], at: int) -> int:
 
 def look(drive: Drive) -> Loader:
     """DriveError when the firmware has no loader."""
-    v = drive.read_words(FIRST, COUNT)
+    v = drive.words(FIRST, COUNT)
     of = drive.identify()
     return Loader(v[STATE], v[1], _pair(v, PUT), _pair(v, ROOM), v[LAW], _pair(v, NUMBER),
                   of.get(DIGEST, ""), of.get(NAME, ""))  # fmt: skip

@@ -65,3 +65,13 @@ def write_parquet(path: Path, readings: Iterable[Reading]) -> int:
     except OSError as e:
         raise DriveError(f"{path}: {e.strerror or e}") from e
     return len(rows)
+
+
+def write_text(path: Path, text: str) -> None:
+    """The whole file or none of it."""
+    beside = path.with_name(path.name + ".part")
+    try:
+        beside.write_text(text)
+        os.replace(beside, path)
+    except OSError as e:
+        raise DriveError(f"{path}: {e.strerror}") from e

@@ -14,13 +14,9 @@
 #include "common/random.hpp"
 #include "common/toml_reader.hpp"
 #include "design/sampled_model.hpp"
-#include "sil/eval/metrics.hpp"
 
 namespace sdre {
 namespace {
-
-// The current circle may be left by this factor: the project's bound for every shipped scenario.
-constexpr double allowed_current_ratio = 1.1;
 
 MotorScale motor_scale(double resistance, double inductance, double flux, double inertia)
 {
@@ -85,7 +81,10 @@ std::string explain(const Scenario &s, const drive_config_t &config)
     return text;
 }
 
-std::vector<std::string> judge(const Scenario &s, const SimulationResult &result)
+} // namespace
+
+std::vector<std::string> judge(const Scenario &s, const SimulationResult &result,
+                               const std::vector<Metrics> &metrics)
 {
     std::vector<std::string> reasons;
     if (result.fault != 0) {
@@ -100,7 +99,7 @@ std::vector<std::string> judge(const Scenario &s, const SimulationResult &result
     if (!(peak_A <= limit_A)) {
         reasons.push_back(fmt::format("{:.2f} A, allowed {:.2f} A", peak_A, limit_A));
     }
-    for (const Metrics &m : measure(s, result.trace)) {
+    for (const Metrics &m : metrics) {
         if (!m.settling_time_s) {
             reasons.push_back(fmt::format("{}: not in its band at the end, ripple {:.2g} rad/s",
                                           m.name, m.ripple_e_radps));
@@ -108,8 +107,6 @@ std::vector<std::string> judge(const Scenario &s, const SimulationResult &result
     }
     return reasons;
 }
-
-} // namespace
 
 MotorScale draw_motor(const MotorRanges &r, std::uint64_t seed, int motor)
 {
@@ -131,11 +128,12 @@ RandomMotors run_random_motors(const Scenario &scenario, int count)
     Progress                  progress(runs.size(), "motors");
 
     parallel_for(runs.size(), [&](std::size_t i) {
-        Scenario  one   = scenario;
-        const int motor = static_cast<int>(i) + 1;
-        one.plant_scale = draw_motor(*scenario.motor_ranges, scenario.seed, motor);
-        one.seed        = static_cast<std::uint64_t>(motor);
-        runs[i]         = {motor, one.plant_scale, judge(one, simulate(one, controller))};
+        Scenario  one                 = scenario;
+        const int motor               = static_cast<int>(i) + 1;
+        one.plant_scale               = draw_motor(*scenario.motor_ranges, scenario.seed, motor);
+        one.seed                      = static_cast<std::uint64_t>(motor);
+        const SimulationResult result = simulate(one, controller);
+        runs[i] = {motor, one.plant_scale, judge(one, result, measure(one, result.trace))};
         if (!runs[i].reasons.empty()) {
             runs[i].reasons.push_back(explain(one, controller.config));
         }

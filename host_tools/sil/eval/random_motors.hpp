@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/file_output.hpp"
+#include "sil/eval/metrics.hpp"
 #include "sil/run/simulation.hpp"
 #include "sil/setup/scenario.hpp"
 
@@ -26,11 +27,18 @@ struct RandomMotors {
     std::vector<MotorFailure> failures; ///< by number
 };
 
+/// The current circle may be left by this factor: the project's bound for every shipped scenario.
+constexpr double allowed_current_ratio = 1.1;
+
+/// What is wrong with a run: the drive faults, the current exceeds its limit by that factor, the speed is outside the band
+/// of a measure at its end. Empty: nothing.
+std::vector<std::string> judge(const Scenario &scenario, const SimulationResult &result,
+                               const std::vector<Metrics> &metrics);
+
 /// The factors of one motor, a function of seed and number only: uniform in Scenario::motor_ranges.
 MotorScale draw_motor(const MotorRanges &ranges, std::uint64_t seed, int motor);
 
-/// Runs the scenario with motors 1 .. count in parallel. A motor fails when the drive faults, when the
-/// speed is outside a measure's band at its end, or when the current exceeds 1.1 times its limit.
+/// Runs the scenario with motors 1 .. count in parallel. A motor fails as judge() says.
 RandomMotors run_random_motors(const Scenario &scenario, int count);
 
 std::string random_motors_text(const Scenario &scenario, const RandomMotors &runs);

@@ -25,6 +25,12 @@ public:
     /// One control period: the core's tick with this commanded speed, then the plant up to the next tick.
     TickEnd step(double omega_ref_e_radps);
 
+    /// Load on the shaft beside the scenario's, from the next tick on.
+    void set_extra_load_Nm(double torque_Nm)
+    {
+        board_.set_extra_load_Nm(torque_Nm);
+    }
+
     /// What the core was given and what it answered at the last tick.
     struct CoreTick {
         drive_sample_t  sample;

@@ -7,22 +7,6 @@
 namespace sdre {
 namespace {
 
-/// Slope of the cubic over its length 1: c + s (b + s a).
-struct Slope {
-    double a;
-    double b;
-    double c;
-};
-
-Slope slope_of(const ShaftPath::Point &p, const ShaftPath::Point &q)
-{
-    const double h    = q.time_s - p.time_s;
-    const double turn = q.theta_e_rad - p.theta_e_rad;
-    const double v    = h * p.omega_e_radps;
-    const double w    = h * q.omega_e_radps;
-    return {3.0 * (v + w - 2.0 * turn), 2.0 * (3.0 * turn - 2.0 * v - w), v};
-}
-
 /// Where the shaft turns around inside a step: at most two places, in order.
 std::vector<double> turns_of(const Slope &f)
 {
@@ -44,15 +28,6 @@ std::vector<double> turns_of(const Slope &f)
 }
 
 } // namespace
-
-double PathPiece::theta_e_rad(double s) const
-{
-    if (s == 0.0 || s == 1.0) { // to the bit, so that pieces meet
-        return s == 0.0 ? a.theta_e_rad : b.theta_e_rad;
-    }
-    const Slope f = slope_of(a, b);
-    return a.theta_e_rad + s * (f.c + s * (0.5 * f.b + s * f.a / 3.0));
-}
 
 std::vector<PathPiece> pieces_of(const ShaftPath &path)
 {

@@ -83,12 +83,9 @@ void read_board(TomlReader &t, Scenario &s)
     }
 }
 
-/// The drive file, with what the scenario overrides for controller and plant alike.
-Drive read_drive(TomlReader &t, const std::filesystem::path &file,
-                 const std::filesystem::path &instead)
+/// The drive, with what the scenario overrides for controller and plant alike.
+Drive overridden(Drive drive, TomlReader &t)
 {
-    const std::filesystem::path own   = scenario_drive_path(file, t.text("drive"));
-    Drive                       drive = read_drive_file(instead.empty() ? own : instead);
     drive.motor.max_current_A =
         t.number_or("max_current_A", current_range_A, drive.motor.max_current_A);
     if (std::optional<TomlReader> inverter = t.table_if("inverter")) {
@@ -96,14 +93,6 @@ Drive read_drive(TomlReader &t, const std::filesystem::path &file,
             "updates_per_period", updates_range, drive.inverter.updates_per_period);
     }
     return drive;
-}
-
-/// The law of the drive that the scenario names, where another may stand in for it.
-Law own_law(TomlReader &t, const std::filesystem::path &file, const Drive &used,
-            const std::filesystem::path &instead)
-{
-    return instead.empty() ? used.law
-                           : read_drive_file(scenario_drive_path(file, t.text("drive"))).law;
 }
 
 void read_controller(TomlReader t, Scenario &s)
@@ -117,24 +106,12 @@ void read_controller(TomlReader t, Scenario &s)
     t.reject_unknown_keys();
 }
 
-} // namespace
-
-std::filesystem::path scenario_drive_path(const std::filesystem::path &scenario,
-                                          const std::string           &drive)
+/// `own` is the law of the drive that the scenario names, where another drive may stand in for it.
+Scenario read_scenario(TomlReader &t, const std::string &name, const Drive &drive, Law own)
 {
-    const std::filesystem::path beside = scenario.parent_path() / drive;
-    std::error_code             error;
-    return std::filesystem::exists(beside, error) ? beside : std::filesystem::path(drive);
-}
-
-Scenario read_scenario_file(const std::filesystem::path &file, const std::filesystem::path &drive)
-{
-    const toml::table root = parse_toml_file(file);
-    TomlReader        t(file.string(), "", root);
-    Scenario          s;
-    s.name                = file.stem().string();
-    s.drive               = read_drive(t, file, drive);
-    const Law         own = own_law(t, file, s.drive, drive);
+    Scenario s;
+    s.name                = name;
+    s.drive               = overridden(drive, t);
     const std::string law = law_name(s.drive.law);
     if (t.text_or("law", law) != law) {
         t.fail("law",
@@ -175,6 +152,33 @@ Scenario read_scenario_file(const std::filesystem::path &file, const std::filesy
     }
     t.reject_unknown_keys();
     return s;
+}
+
+} // namespace
+
+std::filesystem::path scenario_drive_path(const std::filesystem::path &scenario,
+                                          const std::string           &drive)
+{
+    const std::filesystem::path beside = scenario.parent_path() / drive;
+    std::error_code             error;
+    return std::filesystem::exists(beside, error) ? beside : std::filesystem::path(drive);
+}
+
+Scenario read_scenario_file(const std::filesystem::path &file, const std::filesystem::path &drive)
+{
+    const toml::table root = parse_toml_file(file);
+    TomlReader        t(file.string(), "", root);
+    const Drive       own = read_drive_file(scenario_drive_path(file, t.text("drive")));
+    return read_scenario(t, file.stem().string(), drive.empty() ? own : read_drive_file(drive),
+                         own.law);
+}
+
+Scenario read_scenario_table(const toml::table &root, const std::string &source,
+                             const std::string &name, const Drive &drive, Law own)
+{
+    TomlReader t(source, "", root);
+    t.text_or("drive", "");
+    return read_scenario(t, name, drive, own);
 }
 
 double start_theta_e_rad(const Scenario &s)

@@ -53,6 +53,11 @@ struct Scenario {
 Scenario read_scenario_file(const std::filesystem::path &file,
                             const std::filesystem::path &drive = {});
 
+/// The same of a table in memory with a drive that is known; `source` names it in messages. `own` is the law of the drive
+/// that the table was written for: published values are its.
+Scenario read_scenario_table(const toml::table &root, const std::string &source,
+                             const std::string &name, const Drive &drive, Law own);
+
 /// Where the `drive` key of a scenario file points: beside the file when it is there, else as it stands.
 std::filesystem::path scenario_drive_path(const std::filesystem::path &scenario,
                                           const std::string           &drive);

@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: MIT
+"""python -m sdre_campaign"""
+
+from sdre_campaign.entry import main
+
+main()

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: MIT
+"""Batches on a Dask cluster: this machine's cores, or one that is there already."""
+
+from __future__ import annotations
+
+import itertools
+import logging
+from concurrent.futures import CancelledError
+from contextlib import contextmanager
+from typing import Any, Callable, Iterator, List, Optional
+
+import dask
+from distributed import Client, LocalCluster, as_completed
+from distributed.client import FutureCancelledError
+from distributed.scheduler import KilledWorker
+
+from sdre_campaign.batch import Done, run_batch
+from sdre_campaign.spec import Spec
+
+# Batches that wait at each thread beside the one that runs: a worker is never idle, and no more results than these are in
+# memory.
+_AHEAD = 2
+
+
+class ClusterError(RuntimeError):
+    """The cluster is gone, or loses the same work again and again."""
+
+
+@contextmanager
+def connected(scheduler: Optional[str], workers: int) -> Iterator[Client]:
+    """A client of a scheduler, or of a local cluster of processes with one thread each."""
+    dask.config.set({"distributed.admin.tick.limit": "1h"})  # no words about a thread that computes
+    if scheduler is None:
+        with LocalCluster(
+            n_workers=workers, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0", memory_limit=0,
+            silence_logs=logging.CRITICAL) as cluster, Client(cluster) as client:  # fmt: skip
+            yield client
+        return
+    try:
+        client = Client(scheduler, timeout=20)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise ClusterError(f"{scheduler}: no scheduler answers") from error
+    with client:
+        yield client
+
+
+def run_batches(client: Client, spec: Spec, batches: List[int], keep: Callable[[Done], None]) -> None:
+    """Runs the batches in order and hands each result on as it comes; a worker that dies costs its own batch's time."""
+    todo = iter(batches)
+    running: Any = as_completed()
+
+    def submit(count: int) -> None:
+        for batch in itertools.islice(todo, count):
+            running.add(client.submit(run_batch, spec, batch, pure=False))
+
+    threads = max(1, sum(client.nthreads().values()))
+    submit(threads * (1 + _AHEAD))
+    try:
+        for future in running:
+            keep(future.result())
+            now = max(1, sum(client.nthreads().values()))  # workers come and go
+            submit(1 + max(0, now - threads) * (1 + _AHEAD))
+            threads = max(threads, now)
+    except KilledWorker as error:
+        raise ClusterError("workers die with the same batch again and again: is there memory enough?") from error
+    except (OSError, TimeoutError, CancelledError, FutureCancelledError) as error:
+        raise ClusterError(f"the cluster is gone: {error}") from error

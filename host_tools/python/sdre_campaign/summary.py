@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: MIT
+"""What the parts of a campaign say; a function of the parts alone, whoever wrote them and in whatever order.
+
+One part is in memory at a time, and counts: memory does not grow with the number of cases.
+"""
+
+from __future__ import annotations
+
+import heapq
+from dataclasses import dataclass, field
+from typing import Any, Dict, Iterable, List, Tuple
+
+import numpy as np
+import pyarrow as pa
+from numpy.typing import NDArray
+
+from sdre import _native
+from sdre_campaign.spec import Spec
+
+BINS = 40  # of a variable's range
+_MARGIN_EDGES = np.linspace(-1.0, 1.0, 401)  # 0.005 each; what is below is counted in the first
+
+
+def clopper_pearson(failures: int, cases: int, confidence: float = 0.95) -> Tuple[float, float]:
+    """Interval of a probability from failures in independent cases: never too narrow (Clopper and Pearson, 1934)."""
+    from scipy.special import betaincinv
+
+    rest = 0.5 * (1.0 - confidence)
+    low = 0.0 if failures == 0 else float(betaincinv(failures, cases - failures + 1, rest))
+    high = 1.0 if failures == cases else float(betaincinv(failures + 1, cases - failures, 1.0 - rest))
+    return low, high
+
+
+@dataclass
+class Sensitivity:
+    """How the margin goes with one variable."""
+
+    name: str
+    edges: NDArray[np.float64]
+    counts: NDArray[np.int64] = field(init=False)  # bins of the variable x bins of the margin
+    failures: NDArray[np.int64] = field(init=False)
+    sums: NDArray[np.float64] = field(init=False)
+    least: NDArray[np.float64] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.counts = np.zeros((BINS, len(_MARGIN_EDGES) - 1), dtype=np.int64)
+        self.failures = np.zeros(BINS, dtype=np.int64)
+        self.sums = np.zeros(BINS)
+        self.least = np.full(BINS, np.inf)
+
+    def add(self, values: NDArray[np.float64], margin: NDArray[np.float64], failed: NDArray[np.bool_]) -> None:
+        """Cases of one part."""
+        at = np.clip(np.searchsorted(self.edges, values, side="right") - 1, 0, BINS - 1)
+        high = np.clip(np.searchsorted(_MARGIN_EDGES, margin, side="right") - 1, 0, len(_MARGIN_EDGES) - 2)
+        np.add.at(self.counts, (at, high), 1)
+        np.add.at(self.failures, at, failed)
+        np.add.at(self.sums, at, margin)
+        np.minimum.at(self.least, at, margin)
+
+    def quantile(self, share: float) -> NDArray[np.float64]:
+        """Margin that this share of the cases of each bin is below, to 0.005; NaN without cases."""
+        below = np.cumsum(self.counts, axis=1)
+        total = below[:, -1]
+        index = np.argmax(below >= np.ceil(share * total)[:, None], axis=1)
+        return np.where(total > 0, _MARGIN_EDGES[index + 1], np.nan)
+
+    def first_order(self, variance: float, mean: float) -> float:
+        """Share of the margin's variance that this variable alone explains (Sobol's first-order index, by bins).
+
+        Without what chance explains: the means of so many bins differ of themselves.
+        """
+        n = self.counts.sum(axis=1)
+        used = n > 0
+        between = float(np.sum(n[used] * (self.sums[used] / n[used] - mean) ** 2) / n.sum())
+        free = int(n.sum() - used.sum())
+        chance = (used.sum() - 1) * max(variance - between, 0.0) / free if free > 0 else 0.0
+        return max(between - float(chance), 0.0) / variance if variance > 0.0 else 0.0
+
+
+@dataclass
+class Worst:
+    """One case."""
+
+    case: int
+    seed: int
+    failed: bool
+    margin: float
+    fault: str
+    values: Dict[str, float]
+    results: Dict[str, float]
+
+
+@dataclass
+class Summary:
+    """Of all parts."""
+
+    cases: int
+    failures: int
+    interval: Tuple[float, float]
+    faults: Dict[str, int]
+    margin_mean: float
+    margin_deviation: float
+    margin_least: float
+    sensitivities: List[Sensitivity]
+    worst: List[Worst]
+
+    def as_dict(self) -> Dict[str, Any]:
+        """For summary.json."""
+        return {
+            "cases": self.cases,
+            "failures": self.failures,
+            "failure_probability": self.failures / self.cases,
+            "interval_95": list(self.interval),
+            "faults": self.faults,
+            "margin": {"mean": self.margin_mean, "deviation": self.margin_deviation, "least": self.margin_least},
+            "first_order": {one.name: one.first_order(self.margin_deviation**2, self.margin_mean) for one in self.sensitivities},
+            "worst": [one.__dict__ for one in self.worst],
+        }  # fmt: skip
+
+
+def summarise(spec: Spec, tables: Iterable[pa.Table]) -> Summary:
+    """Reads the parts once. A case's margin is the smaller one of its two."""
+    cases = failures = 0
+    faults: Dict[int, int] = {}
+    total = square = 0.0
+    least = np.inf
+    sensitivities = [Sensitivity(one.variable.name, _edges(one.low, one.high)) for one in spec.varied]
+    worst: List[Tuple[Tuple[bool, float, int], Worst]] = []
+    for table in tables:
+        columns = {name: table[name].to_numpy() for name in table.column_names}
+        failed = columns["failed"]
+        margin = np.minimum(columns["current_margin"], columns["speed_margin"])
+        cases += len(margin)
+        failures += int(failed.sum())
+        total += float(margin.sum())
+        square += float((margin**2).sum())
+        least = min(least, float(margin.min()))
+        for fault, count in zip(*np.unique(columns["fault"], return_counts=True)):
+            if fault != 0:
+                faults[int(fault)] = faults.get(int(fault), 0) + int(count)
+        for one in sensitivities:
+            one.add(columns[f"value.{one.name}"], margin, failed)
+        for row in _lowest(failed, margin, spec.worst):
+            worst.append(_ranked(columns, int(row), float(margin[row])))
+        worst = heapq.nsmallest(spec.worst, worst, key=lambda one: one[0])
+    mean = total / cases
+    return Summary(
+        cases, failures, clopper_pearson(failures, cases),
+        {_native.fault_name(number): count for number, count in sorted(faults.items())},
+        mean, max(square / cases - mean * mean, 0.0) ** 0.5, least, sensitivities, [one for _, one in worst])  # fmt: skip
+
+
+def _edges(low: float, high: float) -> NDArray[np.float64]:
+    return np.linspace(low, high if high > low else low + 1.0, BINS + 1)
+
+
+def _lowest(failed: NDArray[np.bool_], margin: NDArray[np.float64], count: int) -> NDArray[np.int64]:
+    """Failed cases first, then the least margin, then the number."""
+    return np.lexsort((np.arange(len(margin)), margin, ~failed))[:count]
+
+
+def _ranked(columns: Dict[str, Any], row: int, margin: float) -> Tuple[Tuple[bool, float, int], Worst]:
+    case, failed = int(columns["case"][row]), bool(columns["failed"][row])
+    values = {name[len("value.") :]: float(array[row]) for name, array in columns.items() if name.startswith("value.")}
+    results = {name: float(array[row]) for name, array in columns.items() if "." in name and not name.startswith("value.")}
+    one = Worst(case, int(columns["seed"][row]), failed, margin, _native.fault_name(int(columns["fault"][row])), values, results)
+    return (not failed, margin, case), one
