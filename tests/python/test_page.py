@@ -97,11 +97,11 @@ async def use(address: str, pictures: str) -> None:
         await asyncio.sleep(3.0)
         assert await page.script(DRAWN) != before
         await page.script("document.querySelector('.q-expansion-item .q-item').click()")
-        await page.until("document.querySelectorAll('canvas').length == 2")
+        await page.until(f"{TEXT}.includes('samples before')")
+        await asyncio.sleep(0.5)
         await page.script(f"{CLICK}('take')")
         await page.until(f"/\\bdone\\b/.test({TEXT})", 60.0)
-        await asyncio.sleep(1.5)  # drawn
-        assert await page.script(SCOPE_DRAWN) > 500
+        await page.until(f"document.querySelectorAll('canvas').length == 2 && {SCOPE_DRAWN} > 300", 20.0)
         if pictures:
             await page.picture(Path(pictures) / "page.png")
             await page.script("document.querySelectorAll('canvas')[1].scrollIntoView() || true")
