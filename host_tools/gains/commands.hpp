@@ -9,6 +9,7 @@ namespace sdre {
 Command generate_command();
 Command image_command();
 Command report_command();
+Command describe_command();
 Command orders_command();
 Command tune_command();
 Command new_command();

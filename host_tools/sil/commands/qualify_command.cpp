@@ -15,6 +15,7 @@ constexpr int short_motors = 40;
 struct Options {
     std::string drive;
     std::string json;
+    std::string html;
     int         seeds  = 0;
     int         motors = -1;
     int         noise  = 4;
@@ -26,6 +27,7 @@ void declare(OptionList &list, Options &o)
 {
     list.required("DRIVE", o.drive, "drive file (TOML)");
     list.text("--json", o.json, "write the table");
+    list.text("--html", o.html, "the same as a page");
     list.number("--seeds", o.seeds, {1, 100000}, "worst of so many seeds (default 10)");
     list.number("--motors", o.motors, {0, 1000000}, "random motors (default 1000)");
     list.number("--noise", o.noise, {1, 100},
@@ -42,14 +44,19 @@ int run(const Options &o)
         q.motors  = short_motors;
         q.against = false;
     }
-    q.noise_share              = 0.01 * o.noise;
-    q.seeds                    = o.seeds > 0 ? o.seeds : q.seeds;
-    q.motors                   = o.motors >= 0 ? o.motors : q.motors;
-    q.against                  = q.against && !o.alone;
-    const Qualification result = qualify(read_drive_file(o.drive), q);
+    q.noise_share                  = 0.01 * o.noise;
+    q.seeds                        = o.seeds > 0 ? o.seeds : q.seeds;
+    q.motors                       = o.motors >= 0 ? o.motors : q.motors;
+    q.against                      = q.against && !o.alone;
+    const Qualification     result = qualify(read_drive_file(o.drive), q);
+    std::vector<OutputFile> files;
     if (!o.json.empty()) {
-        write_files({{o.json, qualification_json(result)}});
+        files.push_back({o.json, qualification_json(result)});
     }
+    if (!o.html.empty()) {
+        files.push_back({o.html, qualification_html(result)});
+    }
+    write_files(files);
     fmt::print("{}", qualification_text(result));
     return result.good() ? exit_ok : exit_fault;
 }

@@ -68,5 +68,7 @@ Qualification qualify(const Drive &drive, const QualifyOptions &options);
 
 std::string qualification_text(const Qualification &q);
 std::string qualification_json(const Qualification &q);
+/// One page without anything from outside.
+std::string qualification_html(const Qualification &q);
 
 } // namespace sdre

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "sil/qualify/qualify.hpp"
+
+namespace sdre {
+namespace {
+
+constexpr const char *head = R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><title>{0}</title><style>
+body {{ font: 15px/1.4 sans-serif; margin: 2em auto; max-width: 60em; color: #222 }}
+table {{ border-collapse: collapse }} th, td {{ padding: 3px 10px; border-bottom: 1px solid #ccc; text-align: right }}
+th:first-child, td:first-child, td:last-child {{ text-align: left }} tr.bad td {{ background: #eee; font-weight: bold }}
+</style></head><body><h1>{0}: {1}</h1>
+)";
+
+std::string escaped(const std::string &text)
+{
+    std::string out;
+    for (const char c : text) {
+        out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+    }
+    return out;
+}
+
+std::string row(const TrialResult &r, const Qualification &q)
+{
+    const std::string settles =
+        r.settling_time_s ? fmt::format("{:.2f}", 1e3 * *r.settling_time_s) : "never";
+    const std::string said = !r.reasons.empty() ? fmt::format("{}", fmt::join(r.reasons, ", "))
+                             : r.faults > 0     ? "good, trips"
+                                                : "good";
+    return fmt::format("<tr{}><td>{}</td><td>{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.2f}</td>"
+                       "<td>{:.2f}</td><td>{}</td></tr>\n",
+                       r.reasons.empty() ? "" : " class=\"bad\"", escaped(r.what), settles,
+                       r.dip_e_radps, r.ripple_e_radps, r.peak_current_A / q.limit_A,
+                       100.0 * r.voltage_noise_V / q.circle_V, escaped(said));
+}
+
+std::string motors(const char *what, const MotorShare &m)
+{
+    return m.count == 0 ? ""
+                        : fmt::format("<p>{}: {} of {} good, {:.1f} %</p>\n", what, m.good, m.count,
+                                      100.0 * m.share());
+}
+
+} // namespace
+
+std::string qualification_html(const Qualification &q)
+{
+    std::string s = fmt::format(head, escaped(q.drive), q.good() ? "good" : "NOT GOOD");
+    s += "<table><tr><th>worst of all seeds</th><th>settles<br>ms</th><th>dip<br>rad/s</th>"
+         "<th>ripple<br>rad/s</th><th>peak<br>of limit</th><th>noise of "
+         "v_q<br>%</th><th></th></tr>\n";
+    for (const TrialResult &r : q.trials) {
+        s += row(r, q);
+    }
+    if (q.rival) {
+        TrialResult rival = q.rival->load_step;
+        rival.what += fmt::format(" with pi_foc, {:.4g} Hz, a = {:g}",
+                                  q.rival->current_bandwidth_Hz, q.rival->optimum_a);
+        s += row(rival, q);
+    }
+    s += "</table>\n";
+    s += motors("R, L, flux +-30 %, J x0.5 .. 2", q.motors);
+    s += motors("R, L, flux +-50 %, J x0.5 .. 3 (for information)", q.wide);
+    for (const std::string &reason : q.reasons) {
+        s += fmt::format("<p>not good: {}</p>\n", escaped(reason));
+    }
+    return s + "</body></html>\n";
+}
+
+} // namespace sdre
