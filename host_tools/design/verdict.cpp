@@ -84,8 +84,13 @@ void keep_worst(Verdict &v, const Found &found, const OperatingPoint &at)
     }
 }
 
-/// On the MTPA curve; where the dc link cannot hold that, with weakened flux and of the q current what is left: no drive is
-/// ever anywhere else for longer than a transient.
+std::string point_name(const OperatingPoint &at)
+{
+    return fmt::format("{:.0f} rad/s, iq {:.2f} A", at.omega_e_radps, at.iq_A);
+}
+
+} // namespace
+
 OperatingPoint held_point(const Design &d, double speed_e_radps, double iq_A)
 {
     const Motor &m    = d.drive.motor;
@@ -106,13 +111,6 @@ OperatingPoint held_point(const Design &d, double speed_e_radps, double iq_A)
     return {speed_e_radps, 0.0,
             std::clamp((most - m.pm_flux_Wb) / m.d_axis_inductance_H, -m.max_current_A, d.l[0])};
 }
-
-std::string point_name(const OperatingPoint &at)
-{
-    return fmt::format("{:.0f} rad/s, iq {:.2f} A", at.omega_e_radps, at.iq_A);
-}
-
-} // namespace
 
 std::vector<OperatingPoint> verdict_points(const Design &d)
 {

@@ -50,6 +50,10 @@ struct Verdict {
     std::vector<TripMargin>  trips;
 };
 
+/// On the MTPA curve; where the dc link cannot hold that, with weakened flux and of the q current what is left: no drive is
+/// ever anywhere else for longer than a transient.
+OperatingPoint held_point(const Design &design, double speed_e_radps, double iq_A);
+
 /// Standstill, rated and largest speed of a command, each without current and with the largest either way. A negative speed
 /// is the mirror image of a positive one with the other sign of current.
 std::vector<OperatingPoint> verdict_points(const Design &design);

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "common/errors.hpp"
+#include "emit/report_loops.hpp"
+#include "linalg/eigenvalues.hpp"
 #include "reference_gains.hpp"
 
 namespace {
@@ -195,4 +197,41 @@ TEST(Report, RoundingNoiseIsZeroAsInTheTables)
     EXPECT_EQ(row.at(1), d.nodo.gain[0](0, 1));
     EXPECT_EQ(row.at(2), d.nodo.gain[0](0, 2));
     EXPECT_TRUE(contains(sdre::report_text(d), "\n                 0 ")) << sdre::report_text(d);
+}
+
+namespace {
+
+Eigen::MatrixXd matrix_of(const Json &rows)
+{
+    Eigen::MatrixXd M(rows.size(), rows.at(0).size());
+    for (Eigen::Index i = 0; i < M.rows(); i++) {
+        for (Eigen::Index j = 0; j < M.cols(); j++) {
+            M(i, j) =
+                rows.at(static_cast<std::size_t>(i)).at(static_cast<std::size_t>(j)).get<double>();
+        }
+    }
+    return M;
+}
+
+} // namespace
+
+TEST(Report, LoopsAreThoseOfTheVerdictAndConsistOfTheirParts)
+{
+    const sdre::Design d =
+        sdre::design_drive(sdre::read_drive_file(support::shipped_drive("ipmsm_390w")));
+    const Json written = Json::parse(sdre::loops_json(d));
+    double     worst   = 0.0;
+    for (const Json &point : written.at("points")) {
+        const Eigen::MatrixXd A          = matrix_of(point.at("A"));
+        worst                            = std::max(worst, sdre::spectral_radius(A));
+        const Eigen::MatrixXd P          = matrix_of(point.at("P"));
+        const Eigen::MatrixXd K          = P * matrix_of(point.at("L_Ts"));
+        Eigen::MatrixXd       controller = P + matrix_of(point.at("G")) * matrix_of(point.at("F"));
+        controller.rightCols(3) -= K; // C of the encoder form is [0 I]
+        EXPECT_LT((A.block(4, 4, 6, 6) - controller.topLeftCorner(6, 6)).norm(), 1e-9 * A.norm());
+        EXPECT_LT((A.block(4, 1, 6, 3) - K.topRows(6)).norm(), 1e-9 * A.norm());
+    }
+    EXPECT_NEAR(worst, d.certificate.loop->spectral_radius, 1e-9); // found at one of these points
+    EXPECT_EQ(written.at("box_points").size(), 2U);
+    EXPECT_THROW(sdre::loops_json(certified()), sdre::InputError); // speed form
 }

@@ -237,6 +237,13 @@ float believed_d_omega(const encoder_form_limits_t &limits, const encoder_form_g
     return std::max(limits.d_omega, single(torque + trip_kick_ratio * kick + start));
 }
 
+LoopGains encoder_form_gains(const Design &d, double iq_A)
+{
+    const double   range = d.certificate.nodo.series_range_A;
+    const Schedule s{std::clamp(iq_A, -range, range)};
+    return {d.nosc.gain[0], series_gain(d.nodo, s, series_order(d.nodo))};
+}
+
 double worst_residual(const Design &d)
 {
     const auto worst = [](const GainSeries &g) {

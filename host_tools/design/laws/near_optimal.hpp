@@ -33,6 +33,9 @@ TripMargin disturbance_margin(const Design &design, const encoder_form_limits_t 
                               const Eigen::MatrixXd &A, const Eigen::MatrixXd &B_noise,
                               double angle_weight);
 
+/// Of law noc with its observer's series at that current, held beyond its range as the firmware does.
+LoopGains encoder_form_gains(const Design &design, double iq_A);
+
 /// The verdict of a law that observes the angle. `model_at(motor, point)` has the A, B_voltage, C_voltage and B_noise of
 /// EQ-CERT-3; `angle_weight` as for disturbance_margin().
 template <typename ModelAt>

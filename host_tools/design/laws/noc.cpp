@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "design/certificate.hpp"
@@ -35,13 +33,10 @@ void certify_currents(Design &d, const CurrentObserver &o)
     }
 }
 
-/// With the series at the current of the point, held beyond its range as the firmware does.
 SampledModel model_at(const Design &d, const Motor &motor, const OperatingPoint &at)
 {
-    const double    range = d.certificate.nodo.series_range_A;
-    const Schedule  s{std::clamp(at.iq_A, -range, range)};
-    const LoopGains gains{d.nosc.gain[0], series_gain(d.nodo, s, series_order(d.nodo))};
-    return sampled_model(reduced_parameters(motor), d.l, gains, at, control_period_s(d.drive));
+    return sampled_model(reduced_parameters(motor), d.l, encoder_form_gains(d, at.iq_A), at,
+                         control_period_s(d.drive));
 }
 
 void solve(Design &d)

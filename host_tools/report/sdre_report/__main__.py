@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import List
 
 from . import effort, fig4, near_optimal, pages, paper_a, paper_b, printed, theorem
+from .guarantees import compute
+from .guarantees import section as guarantees
 from .tables import Section
 from .tools import DRIVES, ROOT, ReportError, Tools
 
@@ -36,7 +38,7 @@ def collect(tools: Tools) -> List[Section]:
     b.parts += [theorem.constants(), theorem.bounds(servo_designs(tools), servo["motor"])]
     if published.unread():
         raise ReportError(f"numbers of the papers that the page does not show: {', '.join(published.unread())}")
-    return [a, b, not_reproduced()]
+    return [a, b, not_reproduced(), guarantees.section(compute.read(tools))]
 
 
 def servo_designs(tools: Tools) -> list:
@@ -60,6 +62,7 @@ def not_reproduced() -> Section:
 def main() -> int:
     """Command line."""
     parser = argparse.ArgumentParser(prog="./dev report", description=__doc__)
+    parser.add_argument("what", nargs="?", choices=("guarantees",), help="compute the guarantees anew: minutes")
     parser.add_argument("--out", type=Path, default=ROOT / "build/report")
     parser.add_argument("--bin", type=Path, default=ROOT / "build/host/bin")
     options = parser.parse_args()
@@ -72,7 +75,11 @@ def main() -> int:
               flush=True)  # fmt: skip
 
     try:
-        sections = collect(Tools(options.bin, options.out / "data", tell))
+        tools = Tools(options.bin, options.out / "data", tell)
+        if options.what == "guarantees":
+            compute.write(tools)
+            return 0
+        sections = collect(tools)
         page = options.out / "report.html"
         text = pages.render(sections)
         page.write_text(text, encoding="utf-8")

@@ -91,6 +91,13 @@ class Tools:
         (self._data / f"design-{drive}.json").write_text(text)
         return json.loads(text)
 
+    def loops(self, drive: str) -> Dict[str, Any]:
+        """The matrices of its sampled loop."""
+        self.tell(f"loops of {drive}")
+        file = self._data / f"loops-{drive}.json"
+        self._call("sdre-gains", ["report", str(DRIVES / f"{drive}.toml"), "--loops", str(file)], [])
+        return json.loads(file.read_text())
+
     def _changed(self, path: Path, changes: Dict[str, str], name: str) -> Path:
         text = path.read_text()
         for old, new in {'drive = "../../../': f'drive = "{ROOT}/', **changes}.items():

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+/// The matrices of EQ-CERT-3 for whoever wants to show more of the sampled loop than its verdict does.
+#pragma once
+
+#include <string>
+
+#include "design/design.hpp"
+
+namespace sdre {
+
+/// One JSON object: of every point of speed and current the parts that the controller is made of and the whole loop with the
+/// believed motor; keys in docs/architecture.md. InputError for any law but noc with an observer in its encoder form.
+std::string loops_json(const Design &design);
+
+} // namespace sdre
