@@ -214,7 +214,6 @@ static void step(app_control_t *c, const app_objects_t *o, const app_control_see
     c->armed = c->armed || !has(o->controlword, APP_CONTROL_ENABLE);
 }
 
-/* Speed wanted by this state, and whether it is a stop. */
 static bool is_stopping(const app_control_t *c, const app_objects_t *o)
 {
     return (c->state == APP_CONTROL_QUICK_STOP_ACTIVE) || !app_control_enables(o->controlword);

@@ -3,14 +3,13 @@
 
 #include <stddef.h>
 
+#include "app_registers_count.h"
+
 #define SCOPE_ARM  1U /* values of SCOPE_COMMAND */
 #define SCOPE_STOP 2U
 
 #define RPM_PER_RADPS 9.54929659f /* 60 / (2 pi) */
-#define SIGN_32       0x80000000UL
-#define MOST_I32      2147483520.0f /* the last float below 2^31 */
-#define MOST_U32      4294967040.0f /* the last float below 2^32 */
-#define ADDRESS_MAX   247U          /* by the protocol */
+#define ADDRESS_MAX   247U        /* by the protocol */
 
 typedef struct {
     const app_registers_entry_t *entries;
@@ -56,58 +55,6 @@ uint32_t app_registers_ticks(const app_registers_t *r, float time_s)
     return (uint32_t)ticks;
 }
 
-/* Both ends are a float that its type holds. */
-static uint32_t signed_count(float scaled, float least, float most)
-{
-    const float   held    = base_clamp(scaled, least, most);
-    const float   rounded = held + ((held < 0.0f) ? -0.5f : 0.5f);
-    const int32_t count   = (int32_t)rounded;
-    return (uint32_t)count;
-}
-
-static uint32_t unsigned_count(float scaled, float most)
-{
-    const float rounded = base_clamp(scaled, 0.0f, most) + 0.5f;
-    return (uint32_t)rounded;
-}
-
-/* At least 4 digits: x = digits 10^power. No more than 45 powers of ten are between any two numbers of single precision
- * that are not denormal. */
-static uint32_t decimal(float x)
-{
-    float   digits = base_clamp(x, -1.0e30f, 1.0e30f);
-    int16_t power  = 0;
-
-    for (int16_t k = 0; (k < 45) && (fabsf(digits) >= 32767.0f); k++) {
-        digits *= 0.1f;
-        power++;
-    }
-    for (int16_t k = 0; (k < 45) && (fabsf(digits) < 3276.0f) && (fabsf(digits) > 0.0f); k++) {
-        digits *= 10.0f;
-        power--;
-    }
-    const uint32_t high = signed_count(digits, -32768.0f, 32767.0f);
-    const uint32_t low  = (uint32_t)(int32_t)power;
-    return (high << 16) | (low & 0xFFFFU);
-}
-
-static uint32_t count_of(float x, const app_registers_entry_t *e)
-{
-    switch (e->type) {
-    case APP_REGISTERS_U16:
-        return unsigned_count(x * e->per_unit, 65535.0f);
-    case APP_REGISTERS_I16:
-        return signed_count(x * e->per_unit, -32768.0f, 32767.0f);
-    case APP_REGISTERS_U32:
-        return unsigned_count(x * e->per_unit, MOST_U32);
-    case APP_REGISTERS_I32:
-        return signed_count(x * e->per_unit, -MOST_I32, MOST_I32);
-    case APP_REGISTERS_DEC:
-    default:
-        return decimal(x);
-    }
-}
-
 static bool is_whole(const app_registers_entry_t *e)
 {
     return (e->type != APP_REGISTERS_DEC) && !(e->per_unit > 0.0f);
@@ -119,14 +66,9 @@ static uint32_t value_of(const app_registers_t *r, const map_t *map, const app_r
         return map->input ? app_registers_map_input_whole(r, e->address)
                           : app_registers_map_holding_whole(r, e->address);
     }
-    return count_of(map->input ? app_registers_map_input_real(r, e->address)
-                               : app_registers_map_holding_real(r, e->address),
-                    e);
-}
-
-static uint16_t words_of(const app_registers_entry_t *e)
-{
-    return ((e->type == APP_REGISTERS_U16) || (e->type == APP_REGISTERS_I16)) ? 1U : 2U;
+    return app_registers_count_of(map->input ? app_registers_map_input_real(r, e->address)
+                                             : app_registers_map_holding_real(r, e->address),
+                                  e);
 }
 
 /* The entry that this address belongs to, and whether it is its second word; count where there is none. */
@@ -134,7 +76,8 @@ static uint16_t find(const map_t *map, uint16_t address)
 {
     for (uint16_t k = 0U; k < map->count; k++) {
         const app_registers_entry_t *e = &map->entries[k];
-        if ((address >= e->address) && ((uint16_t)(address - e->address) < words_of(e))) {
+        if ((address >= e->address) &&
+            ((uint16_t)(address - e->address) < app_registers_count_words(e))) {
             return k;
         }
     }
@@ -152,10 +95,10 @@ static app_registers_result_t read_map(const app_registers_t *r, const map_t *ma
         const uint32_t               value = value_of(r, map, e);
         const uint16_t               at    = (uint16_t)(first + n); /* below the last entry's end */
 
-        if ((at < e->address) || ((uint16_t)(at - e->address) >= words_of(e))) {
+        if ((at < e->address) || ((uint16_t)(at - e->address) >= app_registers_count_words(e))) {
             break; /* behind a block */
         }
-        if ((words_of(e) == 2U) && (at == e->address)) {
+        if ((app_registers_count_words(e) == 2U) && (at == e->address)) {
             values[n] = (uint16_t)(value >> 16);
             n         = (uint16_t)(n + 1U);
         }
@@ -209,31 +152,6 @@ app_registers_result_t app_registers_read_input(const app_registers_t *r, uint16
     return read_map(r, &input, first, count, values);
 }
 
-/* Two's complement without relying on the conversion. */
-static float signed_32(uint32_t count)
-{
-    const uint32_t below = ~count; /* of a negative number: how far below -1 */
-
-    return ((count & SIGN_32) == 0UL) ? (float)count : (-1.0f - (float)below);
-}
-
-static float written(const app_registers_entry_t *e, const uint16_t *words)
-{
-    const uint16_t high = words[0];
-    float          count;
-
-    if (words_of(e) == 2U) {
-        const uint32_t both = ((uint32_t)high << 16) | (uint32_t)words[1];
-        count               = (e->type == APP_REGISTERS_I32) ? signed_32(both) : (float)both;
-    } else if ((e->type == APP_REGISTERS_I16) && (high >= 0x8000U)) {
-        const int32_t negative = (int32_t)high - 65536L;
-        count                  = (float)negative;
-    } else {
-        count = (float)high;
-    }
-    return (e->per_unit > 0.0f) ? (count / e->per_unit) : count;
-}
-
 /* A write may come to within half of what a register shows. */
 static bool is_in(const app_registers_entry_t *e, float x)
 {
@@ -252,7 +170,7 @@ static bool is_there(const app_registers_t *r, const app_registers_entry_t *e,
                      const uint16_t *words)
 {
     const uint32_t value = value_of(r, &holding, e);
-    const bool     wide  = words_of(e) == 2U;
+    const bool     wide  = app_registers_count_words(e) == 2U;
     const uint32_t high  = wide ? words[0] : 0U;
     const uint32_t low   = wide ? words[1] : words[0];
 
@@ -262,7 +180,7 @@ static bool is_there(const app_registers_t *r, const app_registers_entry_t *e,
 static app_registers_result_t try_one(app_registers_t *r, const app_registers_entry_t *e,
                                       const uint16_t *words)
 {
-    const float x = written(e, words);
+    const float x = app_registers_count_written(e, words);
 
     if (!is_in(e, x)) {
         return APP_REGISTERS_BAD_VALUE;
@@ -290,10 +208,11 @@ static bool are_whole(uint16_t first, uint16_t count)
 
     for (; (k < holding.count) && (n < count); k++) {
         const app_registers_entry_t *e = &holding.entries[k];
-        if ((e->address != (uint16_t)(first + n)) || (words_of(e) > (uint16_t)(count - n))) {
+        if ((e->address != (uint16_t)(first + n)) ||
+            (app_registers_count_words(e) > (uint16_t)(count - n))) {
             return false;
         }
-        n = (uint16_t)(n + words_of(e));
+        n = (uint16_t)(n + app_registers_count_words(e));
     }
     return (n == count) && (count > 0U);
 }
@@ -343,7 +262,7 @@ app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, u
         if (result != APP_REGISTERS_OK) {
             return result;
         }
-        n = (uint16_t)(n + words_of(e));
+        n = (uint16_t)(n + app_registers_count_words(e));
         k = (uint16_t)(k + 1U);
     }
     if (!may_be_wanted(r, &r->trial)) {

@@ -25,6 +25,7 @@ nodo_harmonic_check:400,nodo_parity_check:100,nosc_check:200,numbers_ok:50,order
 speed_difference_check:20,terms_ok:50
     [prove_gate]=prove_gate:50
     [prove_app_tick]=prove_app_tick:2
+    [prove_control]=app_control_tick:200,step:200,change_at_rest:50,change_enabled:100,by_modes:20,prove_control:200,tick_control:200
     [prove_modbus]=read_map:400,are_whole:300,app_registers_write:300,read_registers:300,take_values:400,answer_write:20,\
 app_modbus_answer_begin:20,app_modbus_device_identify:50
 )
@@ -35,6 +36,7 @@ declare -A options=(
     [prove_refused]=""
     [prove_gate]="-eva-partition-history 6 -eva-interprocedural-history"
     [prove_app_tick]=""
+    [prove_control]="-eva-partition-history 4 -eva-interprocedural-history"
     [prove_modbus]="-eva-domains octagon"
 )
 # Where each entry is; beside the core it needs the application, or not.
@@ -44,6 +46,7 @@ declare -A sources=(
     [prove_refused]=tests/prove/prove_tick.c
     [prove_gate]=tests/prove/prove_gate.c
     [prove_app_tick]=tests/prove/prove_app.c
+    [prove_control]=tests/prove/prove_app.c
     [prove_modbus]=tests/prove/prove_app.c
 )
 
@@ -86,4 +89,4 @@ fi
 for law in "${laws[@]}"; do
     printf "%s\n" "$law prove_tick" "$law prove_init"
     [[ $law == pid ]] || printf "%s\n" "$law prove_refused" # it has no whole constants
-done | { printf '%s\n' 'any prove_gate' 'any prove_app_tick' && cat; } | xargs -P "$(nproc)" -L 1 tests/prove/prove.sh
+done | { printf '%s\n' 'any prove_gate' 'any prove_app_tick' 'any prove_control' && cat; } | xargs -P "$(nproc)" -L 1 tests/prove/prove.sh

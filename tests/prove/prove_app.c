@@ -3,6 +3,7 @@
  * board, any command, any octets; the board's own constants; every number of the state any bits. The law is one that answers
  * anything, and the drive's constants are any finite numbers. */
 #include "any_law.h"
+#include "app_control.h"
 #include "app_modbus.h"
 #include "app_modes.h"
 #include "board_config.h"
@@ -125,6 +126,47 @@ void prove_app_tick(void)
     //@ check stage: APP_ALIGN_WATCH <= modes.align.stage <= APP_ALIGN_FAILED;
     //@ check since_index: -12500 <= modes.angle.since_index_cnt <= 12500;
     //@ check reference: APP_ANGLE_NONE <= modes.angle.reference <= APP_ANGLE_INDEX;
+}
+
+volatile app_control_t      any_control;
+volatile app_control_seen_t any_seen;
+
+static void tick_control(app_mode_t mode, app_control_state_t state)
+{
+    app_control_t      control = any_control;
+    app_control_seen_t seen    = any_seen;
+    app_objects_t      wanted  = any_objects;
+    control.config             = &board_config;
+    control.state              = state;
+    control.armed              = any_bool();
+    control.reset_high         = any_bool();
+    control.asked              = any_bool();
+    control.moved              = any_bool();
+    control.done               = any_bool();
+    seen.mode                  = mode;
+    seen.shorted               = any_bool();
+    seen.in_the_way            = any_bool();
+
+    const app_command_t out = app_control_tick(&control, &wanted, &seen);
+
+    //@ check state: APP_CONTROL_NOT_READY <= control.state < APP_CONTROL_STATES;
+    if (mode == APP_MODE_FAULT) {
+        //@ check fault: out.run == 0 && out.commission == 0 && out.align == 0;
+    }
+    if ((control.state != APP_CONTROL_OPERATION_ENABLED) &&
+        (control.state != APP_CONTROL_QUICK_STOP_ACTIVE)) {
+        //@ check off: out.run == 0 && out.commission == 0 && out.align == 0;
+    }
+}
+
+/* Entry: a tick of the operator's side in any state, with any objects, whatever the modes do. */
+void prove_control(void)
+{
+    for (int mode = APP_MODE_BOOT; mode <= APP_MODE_COMMISSION; mode++) {
+        for (int state = APP_CONTROL_NOT_READY; state <= APP_CONTROL_STATES; state++) {
+            tick_control(mode, state);
+        }
+    }
 }
 
 /* The board's serial line: any octets, room or not. */
