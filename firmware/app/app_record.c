@@ -3,10 +3,6 @@
 
 #define MASK (APP_RECORD_SAMPLES - 1U)
 
-static const uint16_t signals[APP_RECORD_SIGNALS] = {
-    APP_SCOPE_IA,     APP_SCOPE_IB,     APP_SCOPE_DC_LINK, APP_SCOPE_SPEED,
-    APP_SCOPE_DUTY_A, APP_SCOPE_DUTY_B, APP_SCOPE_DUTY_C};
-
 void app_record_init(app_record_t *r)
 {
     r->writes     = 0U;
@@ -30,6 +26,9 @@ static void keep(app_record_t *r)
 
 void app_record_tick(app_record_t *r, const app_scope_view_t *view)
 {
+    static const uint16_t signals[APP_RECORD_SIGNALS] = {
+        APP_SCOPE_IA,     APP_SCOPE_IB,     APP_SCOPE_DC_LINK, APP_SCOPE_SPEED,
+        APP_SCOPE_DUTY_A, APP_SCOPE_DUTY_B, APP_SCOPE_DUTY_C};
     const bool   fault = view->modes->mode == APP_MODE_FAULT;
     float *const to    = r->ring[r->writes & 1U][r->next & MASK];
 

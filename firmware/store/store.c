@@ -52,7 +52,7 @@ static void make_head(uint16_t *head, store_kind_t kind, uint32_t count, uint32_
 
 uint32_t store_room(void)
 {
-    return (board_store(0U) == NULL) ? 0UL : (BOARD_STORE_WORDS - STORE_HEAD_WORDS);
+    return (board_store(0U) == NULL) ? 0UL : (uint32_t)(BOARD_STORE_WORDS - STORE_HEAD_WORDS);
 }
 
 uint32_t store_crc(store_kind_t kind, const store_content_t *content)

@@ -24,9 +24,10 @@ pytest.importorskip("nicegui")
 CLICK = "(words => { [...document.querySelectorAll('button')].find(b => b.innerText.trim().toLowerCase() == words).click(); return true })"
 TEXT = "document.body.innerText"
 # Everything that the plots hold: what moves changes it.
+# Pixels of the second line's green, which nothing else on its chart has.
 SCOPE_DRAWN = """(() => { const c = document.querySelectorAll('canvas')[1];
   const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
-  let n = 0; for (let k = 0; k < d.length; k += 4) if (d[k + 3] && Math.abs(d[k] - d[k + 2]) > 40) n++; return n })()"""
+  let n = 0; for (let k = 0; k < d.length; k += 4) if (d[k + 1] > d[k] + 30 && d[k + 1] > d[k + 2] + 30) n++; return n })()"""
 DRAWN = "(() => document.querySelector('canvas').toDataURL())()"
 
 
@@ -96,11 +97,11 @@ async def use(address: str, pictures: str) -> None:
         await asyncio.sleep(3.0)
         assert await page.script(DRAWN) != before
         await page.script("document.querySelector('.q-expansion-item .q-item').click()")
-        await page.until("document.querySelectorAll('canvas').length == 2")
+        await page.until(f"{TEXT}.includes('samples before')")
+        await asyncio.sleep(0.5)
         await page.script(f"{CLICK}('take')")
         await page.until(f"/\\bdone\\b/.test({TEXT})", 60.0)
-        await asyncio.sleep(1.5)  # drawn
-        assert await page.script(SCOPE_DRAWN) > 1000
+        await page.until(f"document.querySelectorAll('canvas').length == 2 && {SCOPE_DRAWN} > 300", 20.0)
         if pictures:
             await page.picture(Path(pictures) / "page.png")
             await page.script("document.querySelectorAll('canvas')[1].scrollIntoView() || true")

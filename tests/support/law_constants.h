@@ -20,7 +20,7 @@ typedef union {
     law_conventional_config_t conventional;
     law_dobc_config_t         dobc;
     law_pid_config_t          pid;
-} law_constants_t;
+} test_constants_t;
 
 /** NULL unless the table is of the law. */
 static inline const law_noc_config_t *law_constants_noc(const drive_config_t *d)
@@ -62,7 +62,7 @@ static inline const near_optimal_config_t *law_constants_near_optimal(const driv
 }
 
 /** A copy of a table of near optimal control, bound to constants that may be changed. */
-static inline drive_config_t law_constants_copy(law_constants_t *to, const drive_config_t *from)
+static inline drive_config_t law_constants_copy(test_constants_t *to, const drive_config_t *from)
 {
     drive_config_t copy = *from;
 

@@ -197,7 +197,7 @@ static void test_tick_runs_the_observer_and_the_feedback_of_this_law(void)
     const law_conventional_config_t constants = conventional_constants();
     const drive_config_t            c         = conventional_drive(&constants);
     const drive_command_t           command   = {305.0f, true, 0.0f};
-    law_constants_t                 plain;
+    test_constants_t                plain;
     const drive_config_t            noc = law_constants_copy(&plain, &speed_tables_drive);
     drive_t                         a;
     drive_t                         b;

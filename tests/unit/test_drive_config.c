@@ -13,8 +13,8 @@
 #define TOO_LARGE      1.0e13f /* beyond any constant of a drive */
 #define TOO_LARGE_GAIN 1.0e19f /* but for an observer's gains of 1/s^3 */
 
-static drive_config_t  config;
-static law_constants_t constants; /* of config */
+static drive_config_t   config;
+static test_constants_t constants; /* of config */
 
 /* What a constant may be besides a positive number. */
 typedef enum { POSITIVE, ZERO_OR_MORE, ZERO_OR_LESS } range_t;

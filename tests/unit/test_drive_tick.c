@@ -36,7 +36,7 @@ static const double third_turn = 2.0943951023931953; /* rad */
 
 static support_random_t random_state;
 static drive_config_t   config;
-static law_constants_t  constants; /* of config */
+static test_constants_t constants; /* of config */
 static drive_t          drive;
 static drive_sample_t   sample;
 static drive_command_t  command;

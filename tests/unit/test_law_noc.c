@@ -133,7 +133,7 @@ static void test_step_is_made_of_its_parts(void)
 /* With any disturbance allowed, so that the angle alone decides. */
 static void test_angle_far_from_its_estimate_is_not_plausible(void)
 {
-    law_constants_t      constants;
+    test_constants_t     constants;
     const drive_config_t tolerant = law_constants_copy(&constants, drive);
 
     constants.noc.plausible.d_omega = 1.0e12f;

@@ -158,7 +158,7 @@ static void test_rare_edges_have_gains_of_their_own(void)
 /* With any disturbance allowed, so that the angle alone decides. */
 static void test_angle_far_from_its_estimate_is_not_plausible(void)
 {
-    law_constants_t      constants;
+    test_constants_t     constants;
     const drive_config_t tolerant = law_constants_copy(&constants, drive);
 
     constants.noc_h.plausible.d_omega = 1.0e12f;

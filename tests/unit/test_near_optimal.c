@@ -16,7 +16,7 @@
 #define CASES 2000
 
 static support_random_t             random_state;
-static law_constants_t              constants;
+static test_constants_t             constants;
 static drive_config_t               drive;
 static near_optimal_config_t *const config = &constants.near_optimal;
 static near_optimal_t               state;

@@ -133,7 +133,9 @@ class Watcher(threading.Thread):
         state = int(self.drive.traces()["SCOPE_STATE"])
         self.scope_words = SCOPE_STATES[state]
         if state == scope.DONE:
+            self.scope_words = "is read"
             self.capture, self._scope = scope.read(self.drive, self._scope), None
+            self.scope_words = SCOPE_STATES[state]
         elif state == 0:  # the drive has restarted, or another master gave up
             self._scope = None
 
