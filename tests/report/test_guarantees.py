@@ -14,7 +14,7 @@ from scipy.linalg import expm
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "host_tools/report")]
 
-from sdre_report.guarantees import attraction, balls, compute, lyapunov, mu  # noqa: E402
+from sdre_report.guarantees import attraction, balls, compute, lyapunov, mu, stored as stored_file  # noqa: E402
 from sdre_report.guarantees.loop import Factors, Loops, corners  # noqa: E402
 from sdre_report.tools import Tools  # noqa: E402
 
@@ -29,7 +29,7 @@ def tools(tmp_path_factory: pytest.TempPathFactory) -> Tools:
 
 @pytest.fixture(scope="module")
 def loops(tools: Tools) -> Loops:
-    return Loops(tools.loops(compute.DRIVE))
+    return Loops(tools.loops(stored_file.DRIVE))
 
 
 def test_balls_hold_values_and_slopes() -> None:
@@ -67,8 +67,8 @@ def test_the_model_of_mu_is_the_loop(loops: Loops) -> None:
 
 @built
 def test_the_stored_function_falls_at_random_places(tools: Tools, loops: Loops) -> None:
-    stored = compute.read(tools)["lyapunov"]
-    loop, region = lyapunov.Loop(loops, tools.design(compute.DRIVE)), lyapunov.region_of(loops)
+    stored = stored_file.read(tools)["lyapunov"]
+    loop, region = lyapunov.Loop(loops, tools.design(stored_file.DRIVE)), lyapunov.region_of(loops)
     draw, R = np.random.default_rng(2), np.array(stored["R"])
     k = draw.integers(0, len(region.low), 3000)
     ends = np.array(lyapunov.box(stored["share"]))
@@ -96,7 +96,7 @@ def test_inside_the_ellipsoid_it_falls_though_the_voltage_is_cut(loops: Loops) -
 
 
 def test_the_stored_file_is_whole() -> None:
-    stored = json.loads(compute.FILE.read_text())
+    stored = json.loads(stored_file.FILE.read_text())
     assert stored["lyapunov"]["rate"] < 1.0 and stored["lyapunov"]["share"] >= 0.1
     for p in stored["shares"]:
         assert 0.4 < p["mu"] <= p["corners"] + 0.01 and p["corners"] <= p["drawn"] + 0.01

@@ -25,7 +25,8 @@ from sdre_report.tools import ReportError  # noqa: E402
 PAGE = Path(os.environ.get("SDRE_REPORT", ROOT / "build/report/report.html"))
 FIGURES = [f"A-fig{n}" for n in range(4, 9)] + [f"B-fig{n}" for n in range(4, 9)] + ["G-shares"]
 TABLES = ["A-table2", "A-table3", "A-table3-conventional", "A-fig4-numbers", "A-fig4-load", *(f"A-fig{n}-numbers" for n in range(5, 9)), "B-tables",
-          "B-fig8-numbers", "A-optimal", "A-effort", "B-lemma1", "B-theorem1", "G-mu", "G-attraction"]  # fmt: skip
+          "B-fig8-numbers", "A-optimal", "A-effort", "B-lemma1", "B-theorem1", "G-mu", "G-attraction",
+          "S-summary"]  # fmt: skip
 
 
 @pytest.mark.parametrize("gone", [None, math.nan])

@@ -9,9 +9,11 @@ import tomllib
 from pathlib import Path
 from typing import List
 
-from . import effort, fig4, near_optimal, pages, paper_a, paper_b, printed, theorem
-from .guarantees import compute
+from markupsafe import Markup
+
+from . import effort, fig4, near_optimal, pages, paper_a, paper_b, printed, summary, theorem
 from .guarantees import section as guarantees
+from .guarantees import stored
 from .tables import Section
 from .tools import DRIVES, ROOT, ReportError, Tools
 
@@ -38,7 +40,7 @@ def collect(tools: Tools) -> List[Section]:
     b.parts += [theorem.constants(), theorem.bounds(servo_designs(tools), servo["motor"])]
     if published.unread():
         raise ReportError(f"numbers of the papers that the page does not show: {', '.join(published.unread())}")
-    return [a, b, not_reproduced(), guarantees.section(compute.read(tools))]
+    return [summary.section(a, b), a, b, not_reproduced(), guarantees.section(stored.read(tools))]
 
 
 def servo_designs(tools: Tools) -> list:
@@ -53,9 +55,8 @@ def servo_designs(tools: Tools) -> list:
 
 def not_reproduced() -> Section:
     """What docs/errata.md says about it."""
-    text = pages.from_docs("errata.md", "Not reproduced") + pages.from_docs("errata.md", "Printed wrong")
-    text += pages.from_docs("errata.md", "The conventional near optimal control")
-    text += pages.from_docs("errata.md", "Printed wrong, or left open")
+    chapters = ("Not reproduced", "Printed wrong", "The conventional near optimal control", "Printed wrong, or left open")
+    text = Markup("").join(Markup("<h3>{}</h3>").format(title) + pages.from_docs("errata.md", title) for title in chapters)
     return Section("not-reproduced", "What does not reproduce, and why", text)
 
 
@@ -77,6 +78,8 @@ def main() -> int:
     try:
         tools = Tools(options.bin, options.out / "data", tell)
         if options.what == "guarantees":
+            from .guarantees import compute  # its solvers take seconds to load
+
             compute.write(tools)
             return 0
         sections = collect(tools)
