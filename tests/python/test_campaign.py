@@ -172,6 +172,7 @@ def test_summary_counts_what_the_parts_say(whole: Path) -> None:
     assert said["cases"] == 240 == table.num_rows
     assert said["failures"] == failed.sum() > 0
     assert said["margin"]["least"] == margin.min()
+    assert said["negative_margins"] == (margin < 0.0).sum() >= said["failures"]
     assert said["margin"]["mean"] == pytest.approx(margin.mean())
     assert said["interval_95"][0] < said["failures"] / 240 < said["interval_95"][1]
     order = np.lexsort((table["case"].to_numpy(), margin, ~failed))

@@ -104,7 +104,7 @@ def _text(spec: Spec, s: Summary, path: Path) -> str:
     lines = [
         f"{spec.name} on {spec.drive().name}: {s.failures} of {s.cases} cases failed",
         f"failure probability {s.failures / s.cases:.3g}, 95 % interval {low:.3g} .. {high:.3g} (Clopper-Pearson)",
-        f"margin: mean {s.margin_mean:.3f}, least {s.margin_least:.3f}",
+        f"margin: mean {s.margin_mean:.3f}, least {s.margin_least:.3f}, below zero in {s.negative} cases",
     ]
     lines += [f"{count} x {fault}" for fault, count in s.faults.items()]
     variance = s.margin_deviation**2

@@ -6,7 +6,7 @@ from __future__ import annotations
 import itertools
 import logging
 from concurrent.futures import CancelledError
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from typing import Any, Callable, Iterator, List, Optional
 
 import dask
@@ -26,22 +26,43 @@ class ClusterError(RuntimeError):
     """The cluster is gone, or loses the same work again and again."""
 
 
+# A machine that has other things to do leaves a process of low priority without a turn for minutes: that is no death. One
+# that dies is noticed by its connection.
+_PATIENCE = {
+    "distributed.scheduler.worker-ttl": None,
+    "distributed.comm.timeouts.connect": "2m",
+    "distributed.comm.timeouts.tcp": "2m",
+    "distributed.admin.tick.limit": "1h",
+}
+
+
 @contextmanager
 def connected(scheduler: Optional[str], workers: int) -> Iterator[Client]:
     """A client of a scheduler, or of a local cluster of processes with one thread each."""
-    dask.config.set({"distributed.admin.tick.limit": "1h"})  # no words about a thread that computes
-    if scheduler is None:
-        with LocalCluster(
-            n_workers=workers, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0", memory_limit=0,
-            silence_logs=logging.CRITICAL) as cluster, Client(cluster) as client:  # fmt: skip
+    if scheduler is not None:
+        with _client(scheduler) as client:
             yield client
         return
+    with ExitStack() as closed, dask.config.set(_PATIENCE):
+        cluster = LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0",
+            memory_limit=0, silence_logs=logging.CRITICAL)  # fmt: skip
+        client = Client(cluster)
+        closed.callback(_close, cluster)
+        closed.callback(_close, client)
+        yield client
+
+
+def _client(scheduler: str) -> Client:
     try:
-        client = Client(scheduler, timeout=20)
+        return Client(scheduler, timeout=20)
     except (OSError, ValueError, TimeoutError) as error:
         raise ClusterError(f"{scheduler}: no scheduler answers") from error
-    with client:
-        yield client
+
+
+def _close(what: Any) -> None:
+    """What is written is safe: a process that does not end in time is no reason to fail."""
+    with suppress(Exception):
+        what.close(timeout=60)
 
 
 def run_batches(client: Client, spec: Spec, batches: List[int], keep: Callable[[Done], None]) -> None:

@@ -97,6 +97,7 @@ class Summary:
     cases: int
     failures: int
     interval: Tuple[float, float]
+    negative: int  # margins below zero, of failed cases or not
     faults: Dict[str, int]
     margin_mean: float
     margin_deviation: float
@@ -111,6 +112,8 @@ class Summary:
             "failures": self.failures,
             "failure_probability": self.failures / self.cases,
             "interval_95": list(self.interval),
+            "negative_margins": self.negative,
+            "negative_margin_interval_95": list(clopper_pearson(self.negative, self.cases)),
             "faults": self.faults,
             "margin": {"mean": self.margin_mean, "deviation": self.margin_deviation, "least": self.margin_least},
             "first_order": {one.name: one.first_order(self.margin_deviation**2, self.margin_mean) for one in self.sensitivities},
@@ -120,7 +123,7 @@ class Summary:
 
 def summarise(spec: Spec, tables: Iterable[pa.Table]) -> Summary:
     """Reads the parts once. A case's margin is the smaller one of its two."""
-    cases = failures = 0
+    cases = failures = negative = 0
     faults: Dict[int, int] = {}
     total = square = 0.0
     least = np.inf
@@ -132,6 +135,7 @@ def summarise(spec: Spec, tables: Iterable[pa.Table]) -> Summary:
         margin = np.minimum(columns["current_margin"], columns["speed_margin"])
         cases += len(margin)
         failures += int(failed.sum())
+        negative += int((margin < 0.0).sum())
         total += float(margin.sum())
         square += float((margin**2).sum())
         least = min(least, float(margin.min()))
@@ -145,7 +149,7 @@ def summarise(spec: Spec, tables: Iterable[pa.Table]) -> Summary:
         worst = heapq.nsmallest(spec.worst, worst, key=lambda one: one[0])
     mean = total / cases
     return Summary(
-        cases, failures, clopper_pearson(failures, cases),
+        cases, failures, clopper_pearson(failures, cases), negative,
         {_native.fault_name(number): count for number, count in sorted(faults.items())},
         mean, max(square / cases - mean * mean, 0.0) ** 0.5, least, sensitivities, [one for _, one in worst])  # fmt: skip
 
