@@ -14,6 +14,8 @@ static void order(fields_t *f, nodo_harmonic_order_t *c)
 
 static void nodo(fields_t *f, nodo_harmonic_gains_t *c)
 {
+    const int16_t states = NODO_HARMONIC_N_X_MAX;
+
     fields_i16(f, &c->n_pairs);
     fields_i16(f, &c->n_nodes);
     fields_float(f, &c->iq_max_A);
@@ -23,7 +25,7 @@ static void nodo(fields_t *f, nodo_harmonic_gains_t *c)
     for (uint16_t i = 0U; i < (uint16_t)NODO_HARMONIC_PAIRS_MAX; i++) {
         order(f, &c->pair[i]);
     }
-    for (uint16_t i = 0U; i < (uint16_t)NODO_HARMONIC_N_X_MAX; i++) {
+    for (uint16_t i = 0U; i < (uint16_t)states; i++) {
         for (uint16_t j = 0U; j < (uint16_t)NODO_HARMONIC_NODES_MAX; j++) {
             fields_floats(f, c->gain[i][j], NODO_HARMONIC_N_G);
         }
