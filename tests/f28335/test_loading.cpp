@@ -8,6 +8,7 @@
 #include "sil/serve/served_drive.hpp"
 
 extern "C" {
+#include "app_control.h"
 #include "app_loader.h"
 #include "app_modes.h"
 #include "app_registers.h"
@@ -171,7 +172,9 @@ TEST_F(Loading, AnImageIsInForceAfterTheRestartAndTheMotorRunsWithIt)
     EXPECT_EQ(name(), "ab");
     EXPECT_FALSE(write(APP_REGISTERS_SPEED, {0, 3500})) << "the image allows 300 rad/s";
     ASSERT_TRUE(write(APP_REGISTERS_SPEED, {0, 2000}));
-    ASSERT_TRUE(write(APP_REGISTERS_RUN, {1}));
+    ASSERT_TRUE(write(APP_REGISTERS_CONTROLWORD, {APP_CONTROL_SHUT_DOWN}));
+    pass(0.01); // a command each
+    ASSERT_TRUE(write(APP_REGISTERS_CONTROLWORD, {APP_CONTROL_ENABLE_OPERATION}));
     for (int n = 0; n < 20; n++) { // it aligns first; who does not ask is taken for gone
         pass(0.2);
         input(APP_REGISTERS_MODE);

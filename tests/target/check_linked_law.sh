@@ -12,6 +12,10 @@ status=0
 root=$PWD
 (cd "$work" && "$cc" -std=c99 -c "-I$root/firmware/control" "$root"/firmware/control/*.c)
 ar rc "$work/libcontrol_core.a" "$work"/*.o
+# Every external symbol with the object that defines it
+for object in "$work"/*.o; do
+    nm --defined-only --extern-only "$object" | awk -v name="$(basename "$object" .o)" '{print $3, name}'
+done | sort >"$work/owners"
 
 # The objects of the library that a program with this law contains
 linked()
@@ -31,11 +35,7 @@ int main(void)
 END
     "$cc" -std=c99 -Ifirmware/control "$work/program.c" "$work/libcontrol_core.a" -lm -o "$work/program"
     nm --defined-only "$work/program" | awk '{print $3}' | sort >"$work/symbols"
-    local object
-    for object in "$work"/*.o; do
-        nm --defined-only --extern-only "$object" | awk '{print $3}' | sort >"$work/own"
-        [[ -z $(comm -12 "$work/symbols" "$work/own") ]] || basename "$object" .o
-    done
+    join -1 1 -2 1 "$work/symbols" "$work/owners" | awk '{print $2}' | sort -u
 }
 
 # expect <law> <the objects of it that not every law needs, in alphabetical order>
