@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: MIT
+"""A new motor without a compiler: found by the drive, and loaded into it."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+from conftest import ROOT, SHIPPED, Served
+from support import command, run_at
+
+from sdre_drive import load as loader
+from sdre_drive import session
+from sdre_drive.connection import Drive, DriveError, Target
+
+GAINS = ROOT / "build/host/bin/sdre-gains"
+
+
+def image(drive_file: Path, out: Path) -> Path:
+    subprocess.run([str(GAINS), "image", str(drive_file), "--out", str(out)], check=True, capture_output=True)
+    return out
+
+
+@pytest.fixture
+def renamed(tmp_path: Path) -> Path:
+    """The shipped motor by another name, and slower."""
+    text = SHIPPED.read_text().replace('name = "ipmsm_390w"', 'name = "my motor"')
+    text = text.replace("[inverter]", "max_speed_e_radps = 400.0\n\n[inverter]", 1)
+    file = tmp_path / "renamed.toml"
+    file.write_text(text)
+    return image(file, tmp_path / "renamed.image")
+
+
+def test_an_image_is_loaded_and_forgotten(served: Served, drive: Drive, renamed: Path) -> None:
+    assert "ipmsm_390w" in command("load", *served.options()).stdout
+    done = command("load", str(renamed), *served.options())
+    assert done.returncode == 0 and "image 1: my motor" in done.stdout, done
+    with Drive(Target(tcp_port=served.tcp)) as again:
+        with pytest.raises(DriveError, match="out of the drive's range"):
+            again.set_speed(450.0)
+        run_at(again, 300.0)
+        refused = command("load", str(renamed), *served.options())
+        assert refused.returncode == 1 and "stop the motor first" in refused.stderr
+        session.stop(again)
+    done = command("load", "--forget", *served.options())
+    assert done.returncode == 0 and "compiled in: ipmsm_390w" in done.stdout, done
+
+
+def test_what_cannot_be_loaded_is_one_line(served: Served, tmp_path: Path, renamed: Path) -> None:
+    other = image(ROOT / "firmware/config/drives/ipmsm_390w_noc_h.toml", tmp_path / "other.image")
+    damaged = tmp_path / "damaged.image"
+    octets = bytearray(renamed.read_bytes())
+    damaged.write_bytes(octets[:-2])
+    empty = tmp_path / "empty.image"
+    empty.write_bytes(b"")
+    for file, said in ((other, "is for law noc_h"), (damaged, "it is damaged"), (empty, "no image"),
+                       (tmp_path / "none", "No such file")):  # fmt: skip
+        refused = command("load", str(file), *served.options())
+        assert refused.returncode == 1 and said in refused.stderr and "Traceback" not in refused.stderr, refused
+    assert "compiled in" in command("load", *served.options()).stdout
+
+
+def test_a_lost_answer_is_made_good(served: Served, renamed: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Words that arrived although nobody heard so are not written again."""
+    whole = Drive.write_words
+    lost = []
+
+    def write(self: Drive, first: int, values: list) -> None:
+        whole(self, first, values)
+        if first == loader.OFFSET and values[1] == 300 and not lost:
+            lost.append(first)
+            raise DriveError("no answer")
+
+    monkeypatch.setattr(Drive, "write_words", write)
+    with Drive(served.target()) as drive:
+        assert loader.load(drive, renamed, lambda share: None).name == "my motor"
+    assert lost
+
+
+def test_the_drive_finds_its_motor(served: Served, tmp_path: Path) -> None:
+    found, new = tmp_path / "found.toml", tmp_path / "new.toml"
+    done = command("commission", "--out", str(found), "--current", "3", "--speed", "1200", *served.options())
+    assert done.returncode == 0, done
+    subprocess.run([str(GAINS), "from-commissioning", str(found), "--drive", str(SHIPPED), "--out", str(new)],
+                   check=True, capture_output=True)  # fmt: skip
+    text = new.read_text()
+    for key, truth, share in (("stator_resistance_Ohm", 2.48, 0.03), ("d_axis_inductance_H", 0.07498, 0.05),
+                              ("q_axis_inductance_H", 0.1139, 0.05), ("pm_flux_Wb", 0.193, 0.02),
+                              ("inertia_kgm2", 4.2e-4, 0.05)):  # fmt: skip
+        value = re.search(rf"^{key}\s*= (\S+)", text, flags=re.M)
+        assert value and abs(float(value.group(1)) / truth - 1.0) < share, key
+    refused = command("commission", "--out", str(tmp_path / "x"), "--current", "300", "--speed", "1200",
+                      *served.options())  # fmt: skip
+    assert refused.returncode == 1 and not (tmp_path / "x").exists() and "Traceback" not in refused.stderr
