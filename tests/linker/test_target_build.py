@@ -62,10 +62,10 @@ class TargetBuild(unittest.TestCase):
         calls = [json.loads(line) for line in self.log.read_text().splitlines()]
         return [call[1:] for call in calls if call[0] == tool]
 
-    def build_image(self, preset, fast_rts=True, **variables):
+    def build_image(self, preset, fast_rts=True, arguments=(), **variables):
         make_compiler(self.top / "cgt")
         make_headers(self.top / "ware", fast_rts)
-        done = self.configure(preset, f"-DC2000_CGT_ROOT={self.top / 'cgt'}",
+        done = self.configure(preset, f"-DC2000_CGT_ROOT={self.top / 'cgt'}", *arguments,
                               C2000WARE_ROOT=str(self.top / "ware"), **variables)
         self.assertEqual(done.returncode, 0, done.stdout)
         self.log.write_text("")
@@ -112,19 +112,24 @@ class TargetBuild(unittest.TestCase):
         self.assertTrue((self.build / "bin" / "sdre_f28335_flash.hex").exists())
         self.assertIn("--intel", self.calls("hex2000")[0])
         self.assertIn("RAML012      6144 of 12288 words (50 %)", output)
+        self.assertNotIn("--define=FLASH_API", after)
 
-    def test_tick_and_flash_set_up_run_from_ram_and_the_way_there_does_not(self):
-        compiled, _, _ = self.build_image("f28335-flash")
-
+        # Tick and flash set-up run from RAM, and the way there does not.
         in_ram = {name for name, call in compiled.items() if "--ramfunc=on" in call and "--ramfunc=off" not in call}
         control = {source.name for source in (ROOT / "firmware" / "control").glob("*.c") if "fields" not in source.name}
         self.assertEqual(in_ram, control | set(TICK))
 
     def test_ram_image_without_fast_rts_and_with_an_older_compiler(self):
-        compiled, link, output = self.build_image("f28335-ram", fast_rts=False,
+        api = self.top / "api"
+        touch(api / "include" / "Flash2833x_API_Library.h")
+        touch(api / "lib" / "Flash28335_API_V210.lib")
+        compiled, link, output = self.build_image("f28335-ram", fast_rts=False, arguments=[f"-DSDRE_FLASH_API={api}"],
                                                   STAND_IN_VERSION="00000020.00000002.00000000")
 
         self.assertIn(str(ROOT / "linker" / "f28335_ram.cmd"), link)
+        self.assertIn("--define=FLASH_API", link)
+        self.assertIn(f"--search_path={api / 'lib'}", link)
+        self.assertTrue(any("SDRE_FLASH_API" in option for option in compiled["flash_store.c"]))
         self.assertNotIn("--define=FAST_RTS", link)
         self.assertNotIn(f"--library={FAST_RTS}", link)
         for name, call in compiled.items():
@@ -152,6 +157,15 @@ class TargetBuild(unittest.TestCase):
         make_headers(ware, fast_rts=False)  # the refused values are forgotten
         done = self.configure("f28335-flash", f"-DC2000_CGT_ROOT={cgt}", f"-DC2000WARE_ROOT={ware}")
         self.assertEqual(done.returncode, 0, done.stdout)
+
+    def test_flash_api_that_is_not_there_is_refused(self):
+        make_compiler(self.top / "cgt")
+        make_headers(self.top / "ware", fast_rts=False)
+        done = self.configure("f28335-flash", f"-DC2000_CGT_ROOT={self.top / 'cgt'}",
+                              f"-DC2000WARE_ROOT={self.top / 'ware'}", f"-DSDRE_FLASH_API={self.top}")
+
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("no lib/Flash28335_API_V210.lib", " ".join(done.stdout.split()))
 
     def test_unknown_image_is_refused(self):
         done = self.configure("f28335-flash", "-DSDRE_IMAGE=rom")
