@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "sil/qualify/qualify.hpp"
+#include "sil/qualify/words.hpp"
 
 namespace sdre {
 namespace {
@@ -25,23 +26,17 @@ std::string escaped(const std::string &text)
 
 std::string row(const TrialResult &r, const Qualification &q)
 {
-    const std::string settles =
-        r.settling_time_s ? fmt::format("{:.2f}", 1e3 * *r.settling_time_s) : "never";
-    const std::string said = !r.reasons.empty() ? fmt::format("{}", fmt::join(r.reasons, ", "))
-                             : r.faults > 0     ? "good, trips"
-                                                : "good";
     return fmt::format("<tr{}><td>{}</td><td>{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.2f}</td>"
                        "<td>{:.2f}</td><td>{}</td></tr>\n",
-                       r.reasons.empty() ? "" : " class=\"bad\"", escaped(r.what), settles,
-                       r.dip_e_radps, r.ripple_e_radps, r.peak_current_A / q.limit_A,
-                       100.0 * r.voltage_noise_V / q.circle_V, escaped(said));
+                       r.reasons.empty() ? "" : " class=\"bad\"", escaped(r.what),
+                       settling_words(r), r.dip_e_radps, r.ripple_e_radps,
+                       r.peak_current_A / q.limit_A, 100.0 * r.voltage_noise_V / q.circle_V,
+                       escaped(verdict_words(r)));
 }
 
-std::string motors(const char *what, const MotorShare &m)
+std::string paragraph(const std::string &words)
 {
-    return m.count == 0 ? ""
-                        : fmt::format("<p>{}: {} of {} good, {:.1f} %</p>\n", what, m.good, m.count,
-                                      100.0 * m.share());
+    return words.empty() ? "" : "<p>" + words + "</p>\n";
 }
 
 } // namespace
@@ -62,10 +57,10 @@ std::string qualification_html(const Qualification &q)
         s += row(rival, q);
     }
     s += "</table>\n";
-    s += motors("R, L, flux +-30 %, J x0.5 .. 2", q.motors);
-    s += motors("R, L, flux +-50 %, J x0.5 .. 3 (for information)", q.wide);
+    s += paragraph(motors_words(q));
+    s += paragraph(wide_motors_words(q));
     for (const std::string &reason : q.reasons) {
-        s += fmt::format("<p>not good: {}</p>\n", escaped(reason));
+        s += paragraph("not good: " + escaped(reason));
     }
     return s + "</body></html>\n";
 }

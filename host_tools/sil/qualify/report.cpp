@@ -3,27 +3,22 @@
 
 #include "common/json.hpp"
 #include "sil/qualify/qualify.hpp"
+#include "sil/qualify/words.hpp"
 
 namespace sdre {
 namespace {
 
 std::string row_text(const TrialResult &r, const Qualification &q)
 {
-    const std::string settles =
-        r.settling_time_s ? fmt::format("{:.2f}", 1e3 * *r.settling_time_s) : "never";
-    return fmt::format("{:<34} {:>9} {:>9.3g} {:>9.3g} {:>8.2f} {:>8.2f}  {}\n", r.what, settles,
-                       r.dip_e_radps, r.ripple_e_radps, r.peak_current_A / q.limit_A,
-                       100.0 * r.voltage_noise_V / q.circle_V,
-                       !r.reasons.empty() ? fmt::format("{}", fmt::join(r.reasons, ", "))
-                       : r.faults > 0     ? "good, trips"
-                                          : "good");
+    return fmt::format("{:<34} {:>9} {:>9.3g} {:>9.3g} {:>8.2f} {:>8.2f}  {}\n", r.what,
+                       settling_words(r), r.dip_e_radps, r.ripple_e_radps,
+                       r.peak_current_A / q.limit_A, 100.0 * r.voltage_noise_V / q.circle_V,
+                       verdict_words(r));
 }
 
-std::string motors_text(const char *what, const MotorShare &m)
+std::string line(const std::string &words)
 {
-    return m.count == 0 ? ""
-                        : fmt::format("{}: {} of {} good, {:.1f} %\n", what, m.good, m.count,
-                                      100.0 * m.share());
+    return words.empty() ? "" : words + "\n";
 }
 
 std::string rival_text(const Qualification &q)
@@ -72,8 +67,8 @@ std::string qualification_text(const Qualification &q)
         s += row_text(r, q);
     }
     s += q.compared ? rival_text(q) : "";
-    s += motors_text("R, L, flux +-30 %, J x0.5 .. 2", q.motors);
-    s += motors_text("R, L, flux +-50 %, J x0.5 .. 3 (for information)", q.wide);
+    s += line(motors_words(q));
+    s += line(wide_motors_words(q));
     for (const std::string &reason : q.reasons) {
         s += "not good: " + reason + "\n";
     }

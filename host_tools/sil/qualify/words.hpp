@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+/// How the table and the page of a qualification say the same things.
+#pragma once
+
+#include <string>
+
+#include "sil/qualify/qualify.hpp"
+
+namespace sdre {
+
+/// In milliseconds, or "never".
+std::string settling_words(const TrialResult &r);
+/// "good", or why it is not.
+std::string verdict_words(const TrialResult &r);
+/// A line for each kind of random motors; empty when none were run.
+std::string motors_words(const Qualification &q);
+std::string wide_motors_words(const Qualification &q);
+
+} // namespace sdre
