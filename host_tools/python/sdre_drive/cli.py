@@ -104,8 +104,8 @@ def load(
                 task = bar.add_task("writing", total=1.0)
                 found = loader.load(drive, image, lambda share: bar.update(task, completed=share))
         else:
-            found = loader.look(drive)
-    out.print(f"in force: {found.in_force}", soft_wrap=True)
+            found = loader.in_force(drive)
+    out.print(f"in force: {found.words}", soft_wrap=True)
 
 
 @app.command()

@@ -44,15 +44,21 @@ class Loader:
     room_words: int
     law: int
     number: int
-    digest: str
+
+
+@dataclass(frozen=True)
+class InForce:
+    """What the application runs with."""
+
+    number: int
     name: str
+    digest: str
 
     @property
-    def in_force(self) -> str:
+    def words(self) -> str:
         """For messages."""
-        if self.number == 0:
-            return f"what is compiled in: {self.name}, {self.digest}"
-        return f"image {self.number}: {self.name}, {self.digest}"
+        where = f"image {self.number}" if self.number else "what is compiled in"
+        return f"{where}: {self.name}, {self.digest}"
 
 
 def _pair(values: List[int], at: int) -> int:
@@ -62,9 +68,13 @@ def _pair(values: List[int], at: int) -> int:
 def look(drive: Drive) -> Loader:
     """DriveError when the firmware has no loader."""
     v = drive.words(FIRST, COUNT)
-    of = drive.identify()
-    return Loader(v[STATE], v[1], _pair(v, PUT), _pair(v, ROOM), v[LAW], _pair(v, NUMBER),
-                  of.get(DIGEST, ""), of.get(NAME, ""))  # fmt: skip
+    return Loader(v[STATE], v[1], _pair(v, PUT), _pair(v, ROOM), v[LAW], _pair(v, NUMBER))
+
+
+def in_force(drive: Drive) -> InForce:
+    """The same, with the names of function 43/14."""
+    found, of = look(drive), drive.identify()
+    return InForce(found.number, of.get(NAME, ""), of.get(DIGEST, ""))
 
 
 def read_image(path: Path) -> List[int]:
@@ -104,9 +114,10 @@ def _enter(drive: Drive) -> Loader:
     return found
 
 
-def _leave(drive: Drive) -> Loader:
+def _leave(drive: Drive) -> InForce:
     drive.write_words(COMMAND, [LEAVE])
-    return _wait(drive, [AWAY], RESTART_S)
+    _wait(drive, [AWAY], RESTART_S)
+    return in_force(drive)
 
 
 def _check(found: Loader, words: List[int], path: Path) -> None:
@@ -132,7 +143,7 @@ def _write(drive: Drive, words: List[int], progress: Callable[[float], None]) ->
         progress(at / len(words))
 
 
-def load(drive: Drive, path: Path, progress: Callable[[float], None]) -> Loader:
+def load(drive: Drive, path: Path, progress: Callable[[float], None]) -> InForce:
     """Writes the image, restarts the drive with it and returns what is in force then."""
     words = read_image(path)
     _check(look(drive), words, path)
@@ -145,21 +156,21 @@ def load(drive: Drive, path: Path, progress: Callable[[float], None]) -> Loader:
         drive.write_words(COMMAND, [COMMIT, len(words) >> 16, len(words) & 0xFFFF, crc >> 16, crc & 0xFFFF])
         found = _wait(drive, [STORED, SUM, IMAGE, FLASH], ERASE_S)
     why = _refusal(found)
-    in_force = _leave(drive)
+    now = _leave(drive)
     if why:
-        raise DriveError(f"{path}: {why}; in force: {in_force.in_force}")
-    return in_force
+        raise DriveError(f"{path}: {why}; in force: {now.words}")
+    return now
 
 
-def forget(drive: Drive) -> Loader:
+def forget(drive: Drive) -> InForce:
     """Erases both slots and restarts the drive."""
     _enter(drive)
     drive.write_words(COMMAND, [FORGET])
     found = _wait(drive, [STORED, FLASH], ERASE_S)
-    in_force = _leave(drive)
+    now = _leave(drive)
     if why := _refusal(found):
-        raise DriveError(f"{why}; in force: {in_force.in_force}")
-    return in_force
+        raise DriveError(f"{why}; in force: {now.words}")
+    return now
 
 
 def _refusal(found: Loader) -> Optional[str]:
