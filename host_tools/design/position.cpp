@@ -101,10 +101,8 @@ std::vector<MatrixXd> feedback_gains(const Design &d)
 
 std::string position_block(const position_gains_t &g)
 {
-    std::vector<float> theta(g.theta, g.theta + g.nosc.order + 1);
     return c_block("position",
-                   nosc_block(g.nosc) +
-                       c_block("theta", c_row("v_q, v_d in turn", theta.data(), g.nosc.order + 1)) +
+                   nosc_block(g.nosc) + c_field("theta", c_list(g.theta, g.nosc.order + 1)) +
                        c_field("speed_per_rad", g.speed_per_rad) + c_field("near_rad", g.near_rad) +
                        c_block("most", c_field("speed_e_radps", g.most.speed_e_radps) +
                                            c_field("accel_e_radps2", g.most.accel_e_radps2) +
