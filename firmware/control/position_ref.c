@@ -4,6 +4,10 @@
 /* Of false position: with one the end takes some periods longer, with more than two it is no sooner (docs/equations.md). */
 #define PASSES 2
 
+/* Share of deceleration and jerk that the way is planned with. Chosen: the hundredth that is left puts right what single
+ * precision adds up to on a long way. */
+#define PLANNED 0.99f
+
 #define THIRD 0.333333333f
 #define SIXTH 0.166666667f
 
@@ -14,9 +18,11 @@ typedef struct {
     float accel;
 } motion_t;
 
-/* The profile, and one over its jerk and deceleration. */
+/* The profile, and what of it the way to the target is planned with. */
 typedef struct {
     const position_profile_t *of;
+    float                     jerk; /* planned, as the next three */
+    float                     decel;
     float                     per_jerk;
     float                     per_decel;
     float                     ts_s;
@@ -45,11 +51,9 @@ void position_ref_start(position_ref_t *r, const position_t *at, float omega_e_r
 /* s_1 of EQ-POSITION-REF-1. */
 static float braking_way_rad(const limits_t *l, float omega)
 {
-    const float decel = l->of->decel_e_radps2;
-
-    return ((omega * l->of->jerk_e_radps3) <= (decel * decel))
+    return ((omega * l->jerk) <= (l->decel * l->decel))
                ? (omega * sqrtf(omega * l->per_jerk))
-               : (0.5f * omega * ((omega * l->per_decel) + (decel * l->per_jerk)));
+               : (0.5f * omega * ((omega * l->per_decel) + (l->decel * l->per_jerk)));
 }
 
 /* EQ-POSITION-REF-1 */
@@ -177,16 +181,20 @@ static void hold_near(position_ref_t *r, const position_t *is, float near_rad)
 void position_ref_update(position_ref_t *r, const position_profile_t *profile,
                          const position_t *target, const position_t *is, float near_rad, float ts_s)
 {
-    const limits_t l    = {.of        = profile,
-                           .per_jerk  = 1.0f / profile->jerk_e_radps3,
-                           .per_decel = 1.0f / profile->decel_e_radps2,
-                           .ts_s      = ts_s};
-    const motion_t seen = {.way_rad = position_way_rad(&r->at, target),
-                           .omega   = r->omega_e_radps,
-                           .accel   = r->omega_dot_e_radps2};
-    const float    sign = (spare_rad(&l, &seen) < 0.0f) ? -1.0f : 1.0f;
-    const motion_t now  = {
-         .way_rad = sign * seen.way_rad, .omega = sign * seen.omega, .accel = sign * seen.accel};
+    const float    jerk  = PLANNED * profile->jerk_e_radps3;
+    const float    decel = PLANNED * profile->decel_e_radps2;
+    const limits_t l     = {.of        = profile,
+                            .jerk      = jerk,
+                            .decel     = decel,
+                            .per_jerk  = 1.0f / jerk,
+                            .per_decel = 1.0f / decel,
+                            .ts_s      = ts_s};
+    const motion_t seen  = {.way_rad = position_way_rad(&r->at, target),
+                            .omega   = r->omega_e_radps,
+                            .accel   = r->omega_dot_e_radps2};
+    const float    sign  = (spare_rad(&l, &seen) < 0.0f) ? -1.0f : 1.0f;
+    const motion_t now   = {
+          .way_rad = sign * seen.way_rad, .omega = sign * seen.omega, .accel = sign * seen.accel};
 
     if (is_there(&l, &now)) {
         arrive(r, target, ts_s);

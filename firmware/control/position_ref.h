@@ -4,7 +4,7 @@
  * @brief Reference model of a position: the fastest way to a target within speed, acceleration and jerk.
  *
  * The way on which a shaft with speed w and acceleration a comes to rest, its acceleration falling with the jerk j to the
- * deceleration and back, is with t = a / j and w_1 = w + a t / 2 (the speed of the point where a is zero)
+ * deceleration and back (99 % of both), is with t = a / j and w_1 = w + a t / 2 (the speed of the point where a is zero)
  *
  *     s(w, a) = t (w + a t / 3) + s_1(w_1),   s_1 = w_1 sqrt(w_1 / j)              for w_1 j <= a_dec^2
  *                                             s_1 = w_1 (w_1 / a_dec + a_dec / j) / 2  beyond
