@@ -69,15 +69,19 @@ static float stopping_way_rad(const limits_t *l, float omega, float accel)
     return sign * ((t * (w + (THIRD * a * t))) + braking_way_rad(l, w_1));
 }
 
+/* What is covered in a period with a jerk. */
+static float covered_rad(const limits_t *l, const motion_t *m, float jerk)
+{
+    return l->ts_s * (m->omega + (l->ts_s * ((0.5f * m->accel) + (SIXTH * l->ts_s * jerk))));
+}
+
 /* A period later with a jerk. */
 static motion_t after(const limits_t *l, const motion_t *m, float jerk)
 {
     const float    step = l->ts_s * jerk;
-    const motion_t out  = {
-         .way_rad =
-             m->way_rad - (l->ts_s * (m->omega + (l->ts_s * ((0.5f * m->accel) + (SIXTH * step))))),
-         .omega = m->omega + (l->ts_s * (m->accel + (0.5f * step))),
-         .accel = m->accel + step};
+    const motion_t out  = {.way_rad = m->way_rad - covered_rad(l, m, jerk),
+                           .omega   = m->omega + (l->ts_s * (m->accel + (0.5f * step))),
+                           .accel   = m->accel + step};
     return out;
 }
 
@@ -160,7 +164,7 @@ static void advance(position_ref_t *r, const limits_t *l, const motion_t *now, f
     const float    jerk = next_jerk(l, now);
     const motion_t then = after(l, now, jerk);
 
-    r->at                  = position_moved(&r->at, sign * (now->way_rad - then.way_rad));
+    r->at                  = position_moved(&r->at, sign * covered_rad(l, now, jerk));
     r->omega_e_radps       = sign * then.omega;
     r->omega_dot_e_radps2  = sign * then.accel;
     r->omega_2dot_e_radps3 = sign * jerk;
