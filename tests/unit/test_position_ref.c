@@ -168,7 +168,7 @@ static void test_brakes_with_the_deceleration_of_its_own(void)
         least = fmin(least, (double)ref.omega_dot_e_radps2);
     }
     TEST_ASSERT_DOUBLE_WITHIN(5.0, 5.0e3, most);
-    TEST_ASSERT_DOUBLE_WITHIN(5.0, -1.0e3, least);
+    TEST_ASSERT_DOUBLE_WITHIN(15.0, -1.0e3, least); /* 99 % is planned */
 }
 
 static void test_a_target_that_moves_away_while_it_is_neared_is_reached_all_the_same(void)
