@@ -36,7 +36,8 @@ void app_modbus_follow(app_modbus_t *m, const board_line_t *line, float ts_s, ui
 {
     const float silence_s = GAP_OCTETS * OCTET_BITS / (float)line->baud_Bd;
     /* rounded up, and one: a tick counts that has just begun */
-    const uint16_t ticks = (uint16_t)(base_min(silence_s / ts_s, 65000.0f) + 2.0f);
+    const float    up    = base_min(silence_s / ts_s, 65000.0f) + 2.0f;
+    const uint16_t ticks = (uint16_t)up;
 
     m->gap_ticks = (ticks > least_ticks) ? ticks : least_ticks;
 }

@@ -10,11 +10,6 @@
 #define SCOPE_ARM  1U /* values of SCOPE_COMMAND */
 #define SCOPE_STOP 2U
 
-static app_registers_result_t found(bool all)
-{
-    return all ? APP_REGISTERS_OK : APP_REGISTERS_BAD_ADDRESS;
-}
-
 /* A write may come to within half of what a register shows. */
 static bool is_in(const app_registers_entry_t *e, float x)
 {
@@ -110,7 +105,7 @@ static app_registers_result_t write_loader(app_registers_t *r, uint16_t first, u
     if (result == APP_LOADER_BAD_VALUE) {
         return APP_REGISTERS_BAD_VALUE;
     }
-    return found(result == APP_LOADER_OK);
+    return (result == APP_LOADER_OK) ? APP_REGISTERS_OK : APP_REGISTERS_BAD_ADDRESS;
 }
 
 static void command_scope(app_registers_t *r)
