@@ -11,7 +11,10 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "a551e6ec" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "63b878ea" /**< of what a master can see of the map */
+
+#define APP_REGISTERS_SAVED_WORDS   19U          /**< of all parameters */
+#define APP_REGISTERS_SAVED_VERSION 0x4054A04FUL /**< of what these words mean */
 
 /** Holding registers: those of two words are named by the first. */
 enum {
@@ -35,8 +38,11 @@ enum {
     APP_REGISTERS_COMMAND_END = 22,
     APP_REGISTERS_MODBUS_ADDRESS = 64,
     APP_REGISTERS_MODBUS_TIMEOUT = 65,
+    APP_REGISTERS_BAUD_RATE = 66,
+    APP_REGISTERS_LINE_FORMAT = 68,
+    APP_REGISTERS_DIRECTION_PIN = 69,
     APP_REGISTERS_LINE_FIRST = 64,
-    APP_REGISTERS_LINE_END = 66,
+    APP_REGISTERS_LINE_END = 70,
     APP_REGISTERS_SCOPE_COMMAND = 96,
     APP_REGISTERS_SCOPE_SIGNAL_1 = 97,
     APP_REGISTERS_SCOPE_SIGNAL_2 = 98,
@@ -48,7 +54,11 @@ enum {
     APP_REGISTERS_SCOPE_LEVEL = 104,
     APP_REGISTERS_SCOPE_BEFORE = 106,
     APP_REGISTERS_SCOPE_FIRST = 96,
-    APP_REGISTERS_SCOPE_END = 107
+    APP_REGISTERS_SCOPE_END = 107,
+    APP_REGISTERS_STORE_PARAMETERS = 128,
+    APP_REGISTERS_RESTORE_PARAMETERS = 130,
+    APP_REGISTERS_STORE_FIRST = 128,
+    APP_REGISTERS_STORE_END = 132
 };
 
 /** Input registers: those of two words are named by the first. */
@@ -139,6 +149,11 @@ enum {
     APP_REGISTERS_RECORD_COUNT = 196,
     APP_REGISTERS_TRACES_FIRST = 192,
     APP_REGISTERS_TRACES_END = 197,
+    APP_REGISTERS_PARAMETERS_STATE = 224,
+    APP_REGISTERS_PARAMETERS_DONE = 225,
+    APP_REGISTERS_PARAMETERS_NUMBER = 226,
+    APP_REGISTERS_STORED_FIRST = 224,
+    APP_REGISTERS_STORED_END = 228,
     APP_REGISTERS_SUPPORTED_MODES = 256,
     APP_REGISTERS_POLE_PAIRS = 258,
     APP_REGISTERS_ENCODER_POSITIONS = 259,
@@ -170,15 +185,17 @@ typedef struct {
     float                per_unit; /**< counts of one SI unit; 0: a whole number */
     float                least;    /**< what a write may bring, in SI units */
     float                most;
-    bool                 stopped;  /**< written while the bridge is off only */
+    bool                 stopped;   /**< written while the bridge is off only */
+    bool                 saved;     /**< a parameter: kept over power */
+    uint32_t             signature; /**< the one value that is taken; 0: no such thing */
 } app_registers_entry_t;
 
 struct app_registers;
 struct app_registers_wanted;
 
-#define APP_REGISTERS_MAP_HOLDING 28U
+#define APP_REGISTERS_MAP_HOLDING 33U
 
-#define APP_REGISTERS_MAP_INPUT 93U
+#define APP_REGISTERS_MAP_INPUT 96U
 
 /** By address, upwards. */
 extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];

@@ -13,6 +13,13 @@ static uint16_t limits(const app_status_t *s)
     return (uint16_t)(voltage | current | derated);
 }
 
+static uint16_t refused_parameters(const app_registers_t *r)
+{
+    const uint32_t state = app_registers_stored_state(r);
+    return (state >= (uint32_t)APP_PARAMETERS_OTHER_VERSION) ? (uint16_t)APP_REGISTERS_DEFAULTS
+                                                             : 0U;
+}
+
 uint16_t app_registers_conditions(const app_registers_t *r)
 {
     const uint16_t hot     = r->status.hot ? (uint16_t)APP_REGISTERS_HOT : 0U;
@@ -22,7 +29,8 @@ uint16_t app_registers_conditions(const app_registers_t *r)
     const uint16_t trip    = r->status.tripped ? (uint16_t)APP_REGISTERS_TRIPPED : 0U;
     const uint16_t shorted = r->status.shorted ? (uint16_t)APP_REGISTERS_SHORTED : 0U;
     const uint16_t lost    = r->status.without_angle ? (uint16_t)APP_REGISTERS_WITHOUT_ANGLE : 0U;
-    return (uint16_t)(hot | silent | gate | dc | trip | shorted | lost | limits(&r->status));
+    return (uint16_t)(hot | silent | gate | dc | trip | shorted | lost | limits(&r->status) |
+                      refused_parameters(r));
 }
 
 uint32_t app_registers_signed(int16_t x)
@@ -110,4 +118,19 @@ uint32_t app_registers_record_number(const app_registers_t *r)
 uint32_t app_registers_record_count(const app_registers_t *r)
 {
     return (r->record != NULL) ? r->record->kept_count : 0U;
+}
+
+uint32_t app_registers_stored_state(const app_registers_t *r)
+{
+    return (r->parameters != NULL) ? (uint32_t)r->parameters->state : 0U;
+}
+
+uint32_t app_registers_stored_done(const app_registers_t *r)
+{
+    return (r->parameters != NULL) ? (uint32_t)r->parameters->done : 0U;
+}
+
+uint32_t app_registers_stored_number(const app_registers_t *r)
+{
+    return (r->parameters != NULL) ? r->parameters->number : 0UL;
 }
