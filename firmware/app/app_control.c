@@ -93,8 +93,8 @@ static bool is_enabled(app_control_state_t state)
 
 static bool is_moving(const app_control_seen_t *seen)
 {
-    return (seen->mode == APP_MODE_ALIGN) || (seen->mode == APP_MODE_PRECHARGE) ||
-           (seen->mode == APP_MODE_RUN) || (seen->mode == APP_MODE_STOP) ||
+    return (seen->mode == APP_MODE_RUN) || (seen->mode == APP_MODE_STOP) ||
+           (seen->mode == APP_MODE_ALIGN) || (seen->mode == APP_MODE_PRECHARGE) ||
            (seen->mode == APP_MODE_COMMISSION);
 }
 
@@ -155,9 +155,10 @@ static void change_at_rest(app_control_t *c, app_control_state_t to, const app_o
 static void change_enabled(app_control_t *c, app_control_state_t to, const app_objects_t *o,
                            const app_control_seen_t *seen)
 {
-    const bool ended = c->asked && !is_moving(seen);
+    const bool moving = is_moving(seen);
+    const bool ended  = c->asked && !moving;
 
-    c->moved = c->moved || is_moving(seen);
+    c->moved = c->moved || moving;
     if ((to == APP_CONTROL_QUICK_STOP_ACTIVE) ||
         ((to == APP_CONTROL_OPERATION_ENABLED) && stays_quick(o) && !ended)) {
         c->state = to;
@@ -193,8 +194,20 @@ static app_control_state_t next_of(app_control_state_t state, ask_t ask)
     return transitions[state][ask];
 }
 
-static void step(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen)
+/* Commanded to run, and running: the ticks that cost most, and all below would leave it as it is. */
+static bool is_steady(const app_control_t *c, const app_control_seen_t *seen, ask_t ask)
 {
+    return (seen->mode == APP_MODE_RUN) && (c->state == APP_CONTROL_OPERATION_ENABLED) &&
+           (ask == ASK_ENABLE);
+}
+
+static void step(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
+                 ask_t ask)
+{
+    if (is_steady(c, seen, ask)) {
+        c->moved = true;
+        return;
+    }
     const app_control_state_t modes =
         (c->state < APP_CONTROL_STATES) ? by_modes(c, seen) : APP_CONTROL_NOT_READY;
 
@@ -203,7 +216,7 @@ static void step(app_control_t *c, const app_objects_t *o, const app_control_see
         c->armed = false;
         return;
     }
-    const app_control_state_t to = next_of(c->state, asked_for(o->controlword));
+    const app_control_state_t to = next_of(c->state, ask);
     if (is_enabled(c->state)) {
         change_enabled(c, to, o, seen);
     } else if (to != STAY) {
@@ -214,16 +227,16 @@ static void step(app_control_t *c, const app_objects_t *o, const app_control_see
     c->armed = c->armed || !has(o->controlword, APP_CONTROL_ENABLE);
 }
 
-static bool is_stopping(const app_control_t *c, const app_objects_t *o)
+static bool is_stopping(const app_control_t *c, ask_t ask)
 {
-    return (c->state == APP_CONTROL_QUICK_STOP_ACTIVE) || !app_control_enables(o->controlword);
+    return (c->state == APP_CONTROL_QUICK_STOP_ACTIVE) || (ask != ASK_ENABLE);
 }
 
 /* A stop along a ramp, until the shaft stands. Else the modes end the run as the drive's file says. */
-static bool brakes(const app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen)
+static bool brakes(const app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
+                   ask_t ask)
 {
-    const ask_t ask   = asked_for(o->controlword);
-    bool        ramps = false;
+    bool ramps = false;
 
     if (c->state == APP_CONTROL_QUICK_STOP_ACTIVE) {
         ramps = (o->quick_option != APP_CONTROL_QUICK_OFF) && (ask != ASK_DISABLE_VOLTAGE);
@@ -258,43 +271,42 @@ static void ramp(app_control_t *c, float target, float accel, float decel)
     c->ref_e_radps = (rate > 0.0f) ? moved : target;
 }
 
-static float target_of(const app_control_t *c, const app_objects_t *o)
-{
-    return (is_stopping(c, o) || has(o->controlword, APP_CONTROL_HALT)) ? 0.0f : o->omega_e_radps;
-}
-
-static void move_reference(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen)
+static void move_reference(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
+                           bool stopping)
 {
     const bool runs = (seen->mode == APP_MODE_RUN) || (seen->mode == APP_MODE_STOP);
 
     if (runs || !(o->accel_e_radps2 > 0.0f)) {
-        ramp(c, target_of(c, o), o->accel_e_radps2, deceleration(c, o));
+        const bool still = stopping || has(o->controlword, APP_CONTROL_HALT);
+
+        ramp(c, still ? 0.0f : o->omega_e_radps, o->accel_e_radps2, deceleration(c, o));
     } else {
         c->ref_e_radps =
             base_clamp(seen->speed_e_radps, -c->speed_max_e_radps, c->speed_max_e_radps);
     }
 }
 
-app_command_t app_control_tick(app_control_t *c, const app_objects_t *o,
-                               const app_control_seen_t *seen)
+void app_control_tick(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
+                      app_command_t *out)
 {
-    const bool reset_now = has(o->controlword, APP_CONTROL_FAULT_RESET);
+    const bool  reset_now = has(o->controlword, APP_CONTROL_FAULT_RESET);
+    const ask_t ask       = asked_for(o->controlword);
 
-    step(c, o, seen);
-    move_reference(c, o, seen);
-    const bool          on  = is_enabled(c->state);
-    const bool          go  = on && (!is_stopping(c, o) || brakes(c, o, seen)) && !c->done;
-    const bool          run = go && (c->mode == APP_CONTROL_PROFILE_VELOCITY);
-    const app_command_t out = {
-        .omega_e_radps = c->ref_e_radps,
-        .run           = run,
-        .reset = reset_now && !c->reset_high && (c->state >= APP_CONTROL_FAULT_REACTION_ACTIVE),
-        .commission = go && (c->mode == APP_CONTROL_COMMISSIONING),
-        .align      = go && (c->mode == APP_CONTROL_HOMING),
-        .derating   = base_clamp(1.0f - (o->current_max_A * c->per_current_max), 0.0f, 1.0f),
-        .bounds     = o->bounds};
+    step(c, o, seen, ask);
+    const bool stopping = is_stopping(c, ask);
+    move_reference(c, o, seen, stopping);
+    const bool on = is_enabled(c->state);
+    const bool go = on && (!stopping || brakes(c, o, seen, ask)) && !c->done;
 
+    out->omega_e_radps = c->ref_e_radps;
+    out->run           = go && (c->mode == APP_CONTROL_PROFILE_VELOCITY);
+    out->reset = reset_now && !c->reset_high && (c->state >= APP_CONTROL_FAULT_REACTION_ACTIVE);
+    out->commission = go && (c->mode == APP_CONTROL_COMMISSIONING);
+    out->align      = go && (c->mode == APP_CONTROL_HOMING);
+    out->derating   = base_clamp(1.0f - (o->current_max_A * c->per_current_max), 0.0f, 1.0f);
+    if (out->commission) {
+        out->bounds = o->bounds;
+    }
     c->reset_high = reset_now;
     c->asked      = on;
-    return out;
 }

@@ -69,7 +69,7 @@ typedef struct {
 typedef struct {
     app_mode_t mode;
     bool       shorted;    /**< FAULT: the motor is shorted */
-    bool       in_the_way; /**< something keeps a run from starting */
+    bool       in_the_way; /**< something keeps a run from starting; of use in READY only */
     float      speed_e_radps;
 } app_control_seen_t;
 
@@ -86,8 +86,8 @@ bool app_control_knows(const app_objects_t *o);
 /** The control word asks for OPERATION_ENABLED. */
 bool app_control_enables(uint16_t controlword);
 
-/** One period: the command of the modes. Context: control ISR. */
-app_command_t app_control_tick(app_control_t *c, const app_objects_t *wanted,
-                               const app_control_seen_t *seen);
+/** One period: the command of the modes, in place. Its bounds are set with `commission` only. Context: control ISR. */
+void app_control_tick(app_control_t *c, const app_objects_t *wanted, const app_control_seen_t *seen,
+                      app_command_t *out);
 
 #endif /* APP_CONTROL_H */
