@@ -96,6 +96,8 @@ static void read_once(app_status_t *status)
     status->mode_of_operation = tick_side.control.mode;
     status->done              = tick_side.control.done;
     status->demand_e_radps    = tick_side.control.ref_e_radps;
+    status->target_cnt        = tick_side.control.setpoint.now.target_cnt;
+    status->acknowledged      = tick_side.control.holds && tick_side.control.setpoint.acknowledged;
     status->reset_cause       = board_reset_cause();
     status->tick_cycles       = shared.cycles;
     status->tick_cycles_worst = shared.cycles_worst;
@@ -153,7 +155,9 @@ static void take_command(void)
         .shorted       = m->stop.shorted,
         .in_the_way    = (m->mode != APP_MODE_READY) || app_modes_in_the_way(m),
         .speed_e_radps = (m->drive.state == DRIVE_RUN) ? m->drive.wanted.now.omega_e_radps
-                                                       : m->reading.omega_e_radps};
+                                                       : m->reading.omega_e_radps,
+        .arrived       = (m->drive.state == DRIVE_RUN) && m->drive.wanted.arrived,
+        .position      = &m->position};
 
     if (shared.command_full) {
         tick_side.wanted    = shared.command;

@@ -200,6 +200,8 @@ void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c
     out->d_d             = view->est->d_d;
     out->ignored_angles  = 0U;
     out->without_angle   = false;
+    out->arrived         = s->positioning && s->position_ref.arrived;
+    out->waits           = s->positioning && s->position_ref.waits;
     out->profile_e_radps = s->speed_ref.omega_e_radps;
     out->plausible       = view->plausible;
     out->predicted       = false;

@@ -50,4 +50,19 @@ static inline position_t position_moved(const position_t *p, float by_rad)
     return out;
 }
 
+/** The same position, followed to an angle less than half a turn away; its sums add nothing up. */
+static inline position_t position_followed(const position_t *p, float theta_e_rad)
+{
+    const float ahead = theta_e_rad - p->theta_e_rad;
+    position_t  out   = {p->turns, theta_e_rad};
+
+    if ((ahead < -BASE_PI) && (out.turns < POSITION_TURNS_MAX)) {
+        out.turns++;
+    }
+    if ((ahead > BASE_PI) && (out.turns > -POSITION_TURNS_MAX)) {
+        out.turns--;
+    }
+    return out;
+}
+
 #endif /* POSITION_H */

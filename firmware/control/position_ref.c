@@ -46,6 +46,7 @@ void position_ref_start(position_ref_t *r, const position_t *at, float omega_e_r
     r->omega_dot_e_radps2  = omega_dot_e_radps2;
     r->omega_2dot_e_radps3 = 0.0f;
     r->arrived             = false;
+    r->waits               = false;
 }
 
 /* s_1 of EQ-POSITION-REF-1. */
@@ -176,7 +177,8 @@ static void hold_near(position_ref_t *r, const position_t *is, float near_rad)
 {
     const float ahead = position_way_rad(is, &r->at);
 
-    if (!base_within(ahead, near_rad)) {
+    r->waits = !base_within(ahead, near_rad);
+    if (r->waits) {
         r->at      = position_moved(is, (ahead < 0.0f) ? -near_rad : near_rad);
         r->arrived = false;
     }

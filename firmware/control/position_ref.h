@@ -37,6 +37,7 @@ typedef struct {
     float      omega_dot_e_radps2;
     float      omega_2dot_e_radps3; /**< over the last step */
     bool       arrived;             /**< rests at the target */
+    bool       waits;               /**< for the shaft */
 } position_ref_t;
 
 /** Every limit is a number > 0 and at most that of the other. Context: init or background. */

@@ -47,8 +47,7 @@ void PositionCommands::follow(float theta_e_rad)
         zero_       = command_.is;
         started_    = true;
     }
-    command_.is = position_moved(&command_.is, frames_wrap(theta - command_.is.theta_e_rad));
-    command_.is.theta_e_rad = theta; // what the sum rounds away does not add up
+    command_.is = position_followed(&command_.is, theta);
 }
 
 const position_command_t *PositionCommands::at(double time_s, const drive_sample_t &sample)
