@@ -14,7 +14,7 @@ from sdre_campaign.spec import Spec
 from sdre_campaign.subset import STEPS, FloatArray, Level, heads_of, judge, next_spread
 from sdre_campaign.workers import Workers
 
-FIRST_SPREAD = 0.6  # of the first chains' candidates: tried with the limit states of tests/python/test_rare.py
+FIRST_SPREAD = 0.6  # of the first chains' candidates: tried with the limit states of tests/python/test_campaign_rare.py
 STUCK = 0.05  # share of the candidates: when fewer are taken a chain of ten is one sample
 
 

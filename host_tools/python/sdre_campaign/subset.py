@@ -6,7 +6,7 @@ level's threshold, and so on until a tenth of a level's samples is below the lim
 simulation, no cluster.
 
 Assumed: the margin is a function of the sample alone; the way to the rare samples leads over small margins (what fails without one is met
-by chance); a level's chains are independent of each other. The last holds nearly: tests/python/test_rare.py has what the
+by chance); a level's chains are independent of each other. The last holds nearly: tests/python/test_campaign_rare.py has what the
 interval is worth.
 """
 

@@ -105,7 +105,7 @@ class Summary:
     margin_mean: float
     margin_deviation: float
     margin_least: float
-    histogram: NDArray[np.int64]  # of the margin, bins of HISTOGRAM_EDGES
+    histograms: Dict[str, NDArray[np.int64]]  # of the margin and of its two parts, bins of HISTOGRAM_EDGES
     sensitivities: List[Sensitivity]
     worst: List[Worst]
 
@@ -120,7 +120,7 @@ class Summary:
             "negative_margin_interval_95": list(clopper_pearson(self.negative, self.cases)),
             "faults": self.faults,
             "margin": {"mean": self.margin_mean, "deviation": self.margin_deviation, "least": self.margin_least},
-            "histogram": {"edges": HISTOGRAM_EDGES.tolist(), "counts": self.histogram.tolist()},
+            "histograms": {"edges": HISTOGRAM_EDGES.tolist(), **{name: one.tolist() for name, one in self.histograms.items()}},
             "first_order": {one.name: one.first_order(self.margin_deviation**2, self.margin_mean) for one in self.sensitivities},
             "worst": [one.__dict__ for one in self.worst],
         }  # fmt: skip
@@ -132,7 +132,7 @@ def summarise(spec: Spec, tables: Iterable[pa.Table]) -> Summary:
     faults: Dict[int, int] = {}
     total = square = 0.0
     least = np.inf
-    histogram = np.zeros(len(HISTOGRAM_EDGES) - 1, dtype=np.int64)
+    histograms = {name: np.zeros(len(HISTOGRAM_EDGES) - 1, dtype=np.int64) for name in ("least", "speed", "current")}
     sensitivities = [Sensitivity(one.variable.name, _edges(one.low, one.high)) for one in spec.varied]
     worst: List[Tuple[Tuple[bool, float, int], Worst]] = []
     for table in tables:
@@ -145,7 +145,8 @@ def summarise(spec: Spec, tables: Iterable[pa.Table]) -> Summary:
         total += float(margin.sum())
         square += float((margin**2).sum())
         least = min(least, float(margin.min()))
-        histogram += np.histogram(margin.clip(-1.0, 1.0), HISTOGRAM_EDGES)[0]
+        for name, one in (("least", margin), ("speed", columns["speed_margin"]), ("current", columns["current_margin"])):
+            histograms[name] += np.histogram(one.clip(-1.0, 1.0), HISTOGRAM_EDGES)[0]
         for fault, count in zip(*np.unique(columns["fault"], return_counts=True)):
             if fault != 0:
                 faults[int(fault)] = faults.get(int(fault), 0) + int(count)
@@ -157,7 +158,7 @@ def summarise(spec: Spec, tables: Iterable[pa.Table]) -> Summary:
     return Summary(
         cases, failures, clopper_pearson(failures, cases), negative,
         {_native.fault_name(number): count for number, count in sorted(faults.items())},
-        mean, max(square / cases - mean * mean, 0.0) ** 0.5, least, histogram, sensitivities, [one for _, one in worst])  # fmt: skip
+        mean, max(square / cases - mean * mean, 0.0) ** 0.5, least, histograms, sensitivities, [one for _, one in worst])  # fmt: skip
 
 
 def _edges(low: float, high: float) -> NDArray[np.float64]:
