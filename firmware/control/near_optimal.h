@@ -36,19 +36,20 @@ typedef struct {
 } near_optimal_view_t;
 
 /** true when all constants are in range, current limit and sampling rate those of the drive. Context: init. */
-bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *drive);
+CTL_PART bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *drive);
 
 /** References start at the present speed without current. */
-void near_optimal_reset(near_optimal_t *s, const near_optimal_config_t *c, float omega_e_radps);
+CTL_PART void near_optimal_reset(near_optimal_t *s, const near_optimal_config_t *c,
+                                 float omega_e_radps);
 
 /**
  * @brief References of this period and the error to them, its speed part as far as the limits let it be followed.
  *
  * Context: control ISR. The cost of speed_ref_update() and current_ref_update(), no other division.
  */
-nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *c,
-                                const drive_config_t *drive, const near_optimal_view_t *view,
-                                const law_input_t *in);
+CTL_PART nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *c,
+                                         const drive_config_t      *drive,
+                                         const near_optimal_view_t *view, const law_input_t *in);
 
 /**
  * @brief Feedback plus feed-forward, EQ-DRIVE-1, with all that a law answers.
@@ -58,10 +59,10 @@ nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *
  *
  * Context: control ISR. Outside the circle a division and a square root, beyond the current limit one more of each.
  */
-void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c,
-                         const motor_reduced_t *m, const near_optimal_view_t *view,
-                         const nosc_error_t *e, dq_t feedback_V, const law_input_t *in,
-                         law_output_t *out);
+CTL_PART void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c,
+                                  const motor_reduced_t *m, const near_optimal_view_t *view,
+                                  const nosc_error_t *e, dq_t feedback_V, const law_input_t *in,
+                                  law_output_t *out);
 
 /**
  * @brief Both, with the feedback of nosc.h between them: the rest of a period after the observer.
