@@ -7,8 +7,8 @@
 MEMORY
 {
     BEGIN     : origin = 0x33FFF6, length = 0x000002 /* the boot ROM jumps here */
-    STORE     : origin = 0x300000, length = 0x010000 /* sectors H and G: board_store_memory; nothing is linked there */
-    FLASH     : origin = 0x310000, length = 0x028000 /* sectors F .. B */
+    STORE     : origin = 0x300000, length = 0x020000 /* sectors H to E: board_store_memory; nothing is linked there */
+    FLASH     : origin = 0x320000, length = 0x018000 /* sectors D .. B */
 
     RAMM0     : origin = 0x000050, length = 0x0003B0 /* below: stack of the boot ROM */
     RAMM1     : origin = 0x000400, length = 0x000400

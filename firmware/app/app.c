@@ -52,6 +52,7 @@ static struct {
     app_modbus_t       modbus;
     app_registers_t    registers;
     app_loader_t       loader;
+    app_parameters_t   parameters;
     app_status_t       read; /* may be of two ticks */
     app_watch_tick_t   watch;
     app_watch_memory_t memory;
@@ -95,6 +96,8 @@ static void read_once(app_status_t *status)
     status->mode_of_operation = tick_side.control.mode;
     status->done              = tick_side.control.done;
     status->demand_e_radps    = tick_side.control.ref_e_radps;
+    status->target_cnt        = tick_side.control.setpoint.now.target_cnt;
+    status->acknowledged      = tick_side.control.holds && tick_side.control.setpoint.acknowledged;
     status->reset_cause       = board_reset_cause();
     status->tick_cycles       = shared.cycles;
     status->tick_cycles_worst = shared.cycles_worst;
@@ -152,7 +155,9 @@ static void take_command(void)
         .shorted       = m->stop.shorted,
         .in_the_way    = (m->mode != APP_MODE_READY) || app_modes_in_the_way(m),
         .speed_e_radps = (m->drive.state == DRIVE_RUN) ? m->drive.wanted.now.omega_e_radps
-                                                       : m->reading.omega_e_radps};
+                                                       : m->reading.omega_e_radps,
+        .arrived       = (m->drive.state == DRIVE_RUN) && m->drive.wanted.arrived,
+        .position      = &m->position};
 
     if (shared.command_full) {
         tick_side.wanted    = shared.command;
@@ -250,14 +255,24 @@ void app_tick(void)
     finish(in->board_faults, start_cycles);
 }
 
-/* Into the loader, when the answer that says so is out. A bridge that came on meanwhile cancels it. */
+/* Into the loader, or to store parameters, when the answer that says so is out. A bridge that came on meanwhile cancels it. */
 static void restart_when_asked(uint32_t now_ticks)
 {
-    app_loader_t *l = &background_side.loader;
+    app_loader_t    *l    = &background_side.loader;
+    app_registers_t *r    = &background_side.registers;
+    const bool       on   = r->status.gate_enable;
+    const bool       idle = app_modbus_is_quiet(&background_side.modbus, now_ticks);
+    const bool store      = !on && (r->wanted.store_command != (uint16_t)APP_PARAMETERS_NO_COMMAND);
 
-    l->restart = l->restart && !background_side.registers.status.gate_enable;
-    if (l->restart && app_modbus_is_quiet(&background_side.modbus, now_ticks)) {
-        board_restart(l->enter);
+    l->restart = l->restart && !on;
+    if (store && idle) {
+        app_parameters_ask(r, (app_parameters_command_t)r->wanted.store_command);
+    }
+    if ((store || l->restart) && idle) {
+        board_restart(store || l->enter);
+    }
+    if (on) {
+        r->wanted.store_command = (uint16_t)APP_PARAMETERS_NO_COMMAND;
     }
 }
 
@@ -298,6 +313,16 @@ void app_tell_image(const app_image_t *image)
 {
     app_loader_init(&background_side.loader, image);
     background_side.registers.loader = &background_side.loader;
+}
+
+void app_take_parameters(app_parameters_done_t done)
+{
+    app_registers_t *r = &background_side.registers;
+
+    app_parameters_take(&background_side.parameters, r, done);
+    board_line_set(&r->wanted.line);
+    app_modbus_follow(&background_side.modbus, &r->wanted.line, tick_side.drive->ts_s,
+                      tick_side.config.modbus_gap_ticks);
 }
 
 bool app_command_write(const app_objects_t *command)

@@ -24,6 +24,7 @@
 
 #include "app_config.h"
 #include "app_image.h"
+#include "app_parameters.h"
 #include "app_status.h"
 
 /**
@@ -44,6 +45,14 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive);
  * Context: init, after app_init().
  */
 void app_tell_image(const app_image_t *image);
+
+/**
+ * @brief What became of a command to store parameters, and the parameters that are stored, with the line that they ask
+ *        for; without this call the drive has its defaults and stores nothing.
+ *
+ * Context: init, after app_init().
+ */
+void app_take_parameters(app_parameters_done_t done);
 
 /** One control period. Context: control ISR. */
 void app_tick(void);

@@ -15,6 +15,8 @@ typedef enum {
 
 #define WINDOW_E_RADPS 5.0f /* chosen: what noise and ripple leave */
 
+#define POSITION_WINDOW_CNT 4U /* chosen: a line; a shaft at rest hunts by one count or two */
+
 #define STAY APP_CONTROL_STATES
 
 ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
@@ -34,27 +36,30 @@ ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
     c->speed_max_e_radps = drive->speed_max_e_radps;
     c->done              = false;
     c->ref_e_radps       = 0.0f;
+    c->holds             = false;
     return ok ? CTL_OK : CTL_BAD_CONFIG;
 }
 
 app_objects_t app_control_default(const drive_config_t *drive)
 {
-    const app_objects_t o = {.controlword       = APP_CONTROL_DISABLE_VOLTAGE,
-                             .mode_of_operation = APP_CONTROL_PROFILE_VELOCITY,
-                             .quick_option      = APP_CONTROL_QUICK_FAST,
-                             .lost_option       = APP_CONTROL_LOST_DISABLE,
-                             .window_e_radps    = WINDOW_E_RADPS,
-                             .current_max_A     = drive->current_max_A};
+    const app_objects_t o = {.controlword         = APP_CONTROL_DISABLE_VOLTAGE,
+                             .mode_of_operation   = APP_CONTROL_PROFILE_VELOCITY,
+                             .quick_option        = APP_CONTROL_QUICK_FAST,
+                             .lost_option         = APP_CONTROL_LOST_DISABLE,
+                             .window_e_radps      = WINDOW_E_RADPS,
+                             .current_max_A       = drive->current_max_A,
+                             .position_window_cnt = POSITION_WINDOW_CNT};
     return o;
 }
 
-bool app_control_knows(const app_objects_t *o)
+bool app_control_knows(const app_objects_t *o, const drive_config_t *drive)
 {
     const int16_t mode  = o->mode_of_operation;
     const int16_t quick = o->quick_option;
 
     return ((mode == APP_CONTROL_PROFILE_VELOCITY) || (mode == APP_CONTROL_HOMING) ||
-            (mode == APP_CONTROL_COMMISSIONING)) &&
+            (mode == APP_CONTROL_COMMISSIONING) ||
+            ((mode == APP_CONTROL_PROFILE_POSITION) && drive->positions)) &&
            ((quick <= APP_CONTROL_QUICK_FAST) || (quick >= APP_CONTROL_QUICK_RAMP_STAY));
 }
 
@@ -103,6 +108,12 @@ static bool stands(const app_control_t *c, const app_control_seen_t *seen)
     return base_within(seen->speed_e_radps, c->config->stop.still_e_radps);
 }
 
+/* The modes in which the drive has the bridge. */
+static bool is_running(const app_control_t *c)
+{
+    return (c->mode == APP_CONTROL_PROFILE_VELOCITY) || (c->mode == APP_CONTROL_PROFILE_POSITION);
+}
+
 static bool stays_quick(const app_objects_t *o)
 {
     return o->quick_option >= APP_CONTROL_QUICK_RAMP_STAY;
@@ -135,6 +146,7 @@ static void start(app_control_t *c, const app_objects_t *o, const app_control_se
     c->moved       = false;
     c->done        = false;
     c->ref_e_radps = seen->speed_e_radps;
+    c->holds       = false;
 }
 
 /* Bridge off: a start needs bit 3 to rise, and is not made up for later. */
@@ -166,7 +178,7 @@ static void change_enabled(app_control_t *c, app_control_state_t to, const app_o
         c->state = ended ? to : c->state;
     } else if (ended && (c->state == APP_CONTROL_QUICK_STOP_ACTIVE)) {
         c->state = APP_CONTROL_SWITCH_ON_DISABLED;
-    } else if (ended && (!c->moved || (c->mode == APP_CONTROL_PROFILE_VELOCITY))) {
+    } else if (ended && (!c->moved || is_running(c))) {
         c->state = APP_CONTROL_SWITCHED; /* refused, or stopped by the drive itself */
     } else {
         c->done = c->done || ended;
@@ -227,6 +239,28 @@ static void step(app_control_t *c, const app_objects_t *o, const app_control_see
     c->armed = c->armed || !has(o->controlword, APP_CONTROL_ENABLE);
 }
 
+/* On the way to a position, or holding one. Halted, or stopping, the drive has a speed, zero in the end. */
+static bool has_position(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
+                         bool stopping)
+{
+    const bool runs = (c->mode == APP_CONTROL_PROFILE_POSITION) && (seen->mode == APP_MODE_RUN);
+
+    if (!runs || !is_enabled(c->state)) {
+        c->holds = false;
+        return false;
+    }
+    if (!seen->position->known) { /* counts were lost: nobody knows where it would go */
+        c->state = APP_CONTROL_QUICK_STOP_ACTIVE;
+        return false;
+    }
+    if (!c->holds) {
+        app_setpoint_start(&c->setpoint, o, seen->position);
+        c->holds = true;
+    }
+    app_setpoint_tick(&c->setpoint, o, seen->position, seen->arrived);
+    return !stopping && !has(o->controlword, APP_CONTROL_HALT);
+}
+
 static bool is_stopping(const app_control_t *c, ask_t ask)
 {
     return (c->state == APP_CONTROL_QUICK_STOP_ACTIVE) || (ask != ASK_ENABLE);
@@ -277,7 +311,8 @@ static void move_reference(app_control_t *c, const app_objects_t *o, const app_c
     const bool runs = (seen->mode == APP_MODE_RUN) || (seen->mode == APP_MODE_STOP);
 
     if (runs || !(o->accel_e_radps2 > 0.0f)) {
-        const bool still = stopping || has(o->controlword, APP_CONTROL_HALT);
+        const bool still = stopping || has(o->controlword, APP_CONTROL_HALT) ||
+                           (c->mode == APP_CONTROL_PROFILE_POSITION);
 
         ramp(c, still ? 0.0f : o->omega_e_radps, o->accel_e_radps2, deceleration(c, o));
     } else {
@@ -294,12 +329,19 @@ void app_control_tick(app_control_t *c, const app_objects_t *o, const app_contro
 
     step(c, o, seen, ask);
     const bool stopping = is_stopping(c, ask);
-    move_reference(c, o, seen, stopping);
+    out->positioning    = has_position(c, o, seen, stopping);
+    if (out->positioning) {
+        out->target    = c->setpoint.target;
+        out->profile   = c->setpoint.now.profile;
+        c->ref_e_radps = seen->speed_e_radps; /* where a stop begins */
+    } else {
+        move_reference(c, o, seen, stopping);
+    }
     const bool on = is_enabled(c->state);
     const bool go = on && (!stopping || brakes(c, o, seen, ask)) && !c->done;
 
     out->omega_e_radps = c->ref_e_radps;
-    out->run           = go && (c->mode == APP_CONTROL_PROFILE_VELOCITY);
+    out->run           = go && is_running(c);
     out->reset = reset_now && !c->reset_high && (c->state >= APP_CONTROL_FAULT_REACTION_ACTIVE);
     out->commission = go && (c->mode == APP_CONTROL_COMMISSIONING);
     out->align      = go && (c->mode == APP_CONTROL_HOMING);

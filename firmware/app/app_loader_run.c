@@ -1,22 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 /* The loader in place of the application: Modbus alone, its time from the processor's cycles, because nothing ticks. */
 #include "app_loader.h"
+
+#include <stddef.h>
+
 #include "app_modbus.h"
 
 static struct {
-    app_loader_t    loader;
-    app_registers_t registers;
-    app_modbus_t    modbus;
-    app_config_t    config; /**< of the image that was in force: the room of that one is needed */
-    drive_config_t  drive;
-    uint32_t        tick_cycles;
-    uint32_t        cycles; /**< at the last whole tick */
-    uint32_t        ticks;
+    app_loader_t     loader;
+    app_registers_t  registers;
+    app_parameters_t parameters;
+    app_modbus_t     modbus;
+    app_config_t     config; /**< of the image that was in force: the room of that one is needed */
+    drive_config_t   drive;
+    uint32_t         tick_cycles;
+    uint32_t         cycles; /**< at the last whole tick */
+    uint32_t         ticks;
 } side;
 
 void app_loader_start(app_image_t *image)
 {
-    side.drive  = image->image.drive;
+    side.drive = image->image.drive;
     app_config_for(&side.config, &image->image.app, side.drive.hardware.updates_per_period);
     app_loader_init(&side.loader, image);
     side.loader.state = APP_LOADER_IDLE;
@@ -24,6 +28,11 @@ void app_loader_start(app_image_t *image)
     (void)app_registers_init(&side.registers, &side.config, &side.drive);
     side.registers.loader = &side.loader;
     (void)app_modbus_init(&side.modbus, side.config.modbus_gap_ticks);
+    app_parameters_take(&side.parameters, &side.registers, APP_PARAMETERS_NOT_ASKED);
+    side.registers.parameters = NULL; /* address and line are wanted; nothing is stored from here */
+    board_line_set(&side.registers.wanted.line);
+    app_modbus_follow(&side.modbus, &side.registers.wanted.line, side.drive.ts_s,
+                      side.config.modbus_gap_ticks);
     side.tick_cycles = side.config.board.pwm_cycles / side.drive.hardware.updates_per_period;
     side.cycles      = board_cycles();
     side.ticks       = 0UL;

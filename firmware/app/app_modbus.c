@@ -11,6 +11,9 @@
 
 #define QUIET_GAPS 4U /* one ends the request; the answer to a command takes less than two more */
 
+#define GAP_OCTETS 3.5f  /* by the protocol, as the next */
+#define OCTET_BITS 11.0f /* start, eight, parity or a second stop, stop */
+
 #define OCTETS_PER_POLL 16U /* depth of the receiver's FIFO */
 
 ctl_status_t app_modbus_init(app_modbus_t *m, uint16_t gap_ticks)
@@ -27,6 +30,16 @@ ctl_status_t app_modbus_init(app_modbus_t *m, uint16_t gap_ticks)
     m->request_ticks = 0UL;
     m->counts        = none;
     return (gap_ticks > 0U) ? CTL_OK : CTL_BAD_CONFIG;
+}
+
+void app_modbus_follow(app_modbus_t *m, const board_line_t *line, float ts_s, uint16_t least_ticks)
+{
+    const float silence_s = GAP_OCTETS * OCTET_BITS / (float)line->baud_Bd;
+    /* rounded up, and one: a tick counts that has just begun */
+    const float    up    = base_min(silence_s / ts_s, 65000.0f) + 2.0f;
+    const uint16_t ticks = (uint16_t)up;
+
+    m->gap_ticks = (ticks > least_ticks) ? ticks : least_ticks;
 }
 
 uint16_t app_modbus_crc(const uint16_t *octets, uint16_t count)
@@ -85,15 +98,18 @@ bool app_modbus_is_quiet(const app_modbus_t *m, uint32_t now_ticks)
 
 static void take_request(app_modbus_t *m, app_registers_t *r, uint32_t now_ticks)
 {
-    const uint16_t      before = r->wanted.objects.controlword;
-    const bool          all    = m->rx_octets[0] == ADDRESS_BROADCAST;
-    app_loader_t *const loader = r->loader;
+    const uint16_t                before     = r->wanted.objects.controlword;
+    const bool                    all        = m->rx_octets[0] == ADDRESS_BROADCAST;
+    app_loader_t *const           loader     = r->loader;
+    const app_parameters_t *const parameters = r->parameters;
 
     m->request_ticks = now_ticks;
     count(&m->counts.requests);
-    r->loader = all ? NULL : loader; /* nobody loads all drives at once */
+    r->loader     = all ? NULL : loader; /* nobody loads all drives at once */
+    r->parameters = all ? NULL : parameters;
     app_modbus_answer(m, r);
-    r->loader = loader;
+    r->loader     = loader;
+    r->parameters = parameters;
     if (all) {
         if (app_control_enables(r->wanted.objects.controlword) && !app_control_enables(before)) {
             r->wanted.objects.controlword = before; /* it may stop all motors, and start none */

@@ -58,8 +58,14 @@ ctl_status_t app_modbus_init(app_modbus_t *m, uint16_t gap_ticks);
  */
 void app_modbus_poll(app_modbus_t *m, app_registers_t *r, uint32_t now_ticks);
 
-/** True when the last answer is out and a while has passed in which its last octets left the board. */
-bool app_modbus_is_quiet(const app_modbus_t *m, uint32_t now_ticks);
+/**
+ * @brief Follows a line: the silence that ends a frame is 3.5 octets or 1.75 ms, whichever is longer, by the protocol.
+ *
+ * @param least_ticks Of the fast lines, from the constants.
+ *
+ * Context: init.
+ */
+void app_modbus_follow(app_modbus_t *m, const board_line_t *line, float ts_s, uint16_t least_ticks);
 
 /** True when the last answer is out and a while has passed in which its last octets left the board. */
 bool app_modbus_is_quiet(const app_modbus_t *m, uint32_t now_ticks);

@@ -4,9 +4,7 @@
 #include <stddef.h>
 
 #include "app_registers_count.h"
-
-#define SCOPE_ARM  1U /* values of SCOPE_COMMAND */
-#define SCOPE_STOP 2U
+#include "app_registers_holding.h"
 
 #define RPM_PER_RADPS 9.54929659f /* 60 / (2 pi) */
 #define ADDRESS_MAX   247U        /* by the protocol */
@@ -27,10 +25,15 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
     const uint16_t            pairs   = drive->hardware.pole_pairs;
 
     static const app_scope_setup_t scope = {.decimation = 1U};
+    static const board_line_t      line  = {
+              .baud_Bd = 115200UL, .format = (uint16_t)BOARD_LINE_EVEN, .direction = 0U};
 
     r->wanted.objects              = app_control_default(drive);
     r->wanted.scope                = scope;
     r->wanted.scope_command        = 0U;
+    r->wanted.store_command        = (uint16_t)APP_PARAMETERS_NO_COMMAND;
+    r->wanted.line                 = line;
+    r->parameters                  = NULL;
     r->scope                       = NULL;
     r->record                      = NULL;
     r->wanted.modbus_address       = config->modbus_address;
@@ -82,6 +85,16 @@ static uint16_t find(const map_t *map, uint16_t address)
         }
     }
     return map->count;
+}
+
+uint16_t app_registers_holding_find(uint16_t address)
+{
+    return find(&holding, address);
+}
+
+uint32_t app_registers_holding_value(const app_registers_t *r, const app_registers_entry_t *e)
+{
+    return value_of(r, &holding, e);
 }
 
 static app_registers_result_t read_map(const app_registers_t *r, const map_t *map, uint16_t first,
@@ -152,138 +165,15 @@ app_registers_result_t app_registers_read_input(const app_registers_t *r, uint16
     return read_map(r, &input, first, count, values);
 }
 
-/* A write may come to within half of what a register shows. */
-static bool is_in(const app_registers_entry_t *e, float x)
+void app_registers_saved_read(const app_registers_t *r, uint16_t *words)
 {
-    const float room = (e->per_unit > 0.0f) ? (0.5f / e->per_unit) : 0.5f;
-    return base_in_range(x, e->least - room, e->most + room);
-}
-
-static bool is_stopped(const app_registers_t *r)
-{
-    return !r->status.gate_enable && (r->status.state != APP_CONTROL_OPERATION_ENABLED) &&
-           (r->status.state != APP_CONTROL_QUICK_STOP_ACTIVE);
-}
-
-/* What a register has already may be written at any time: a master that sends all of its command. */
-static bool is_there(const app_registers_t *r, const app_registers_entry_t *e,
-                     const uint16_t *words)
-{
-    const uint32_t value = value_of(r, &holding, e);
-    const bool     wide  = app_registers_count_words(e) == 2U;
-    const uint32_t high  = wide ? words[0] : 0U;
-    const uint32_t low   = wide ? words[1] : words[0];
-
-    return (value & (wide ? 0xFFFFFFFFUL : 0xFFFFUL)) == ((high << 16) | low);
-}
-
-static app_registers_result_t try_one(app_registers_t *r, const app_registers_entry_t *e,
-                                      const uint16_t *words)
-{
-    const float x = app_registers_count_written(e, words);
-
-    if (!is_in(e, x)) {
-        return APP_REGISTERS_BAD_VALUE;
-    }
-    if (e->stopped && !is_stopped(r) && !is_there(r, e, words)) {
-        return APP_REGISTERS_BUSY;
-    }
-    app_registers_map_put(r, &r->trial, e->address, x);
-    return APP_REGISTERS_OK;
-}
-
-/* What a table of constants cannot tell. */
-static bool may_be_wanted(const app_registers_t *r, const app_registers_wanted_t *w)
-{
-    const float most = r->drive->speed_max_e_radps;
-    return base_in_range(w->objects.omega_e_radps, -most, most) && app_control_knows(&w->objects) &&
-           app_scope_knows(&w->scope);
-}
-
-/* Every value whole. */
-static bool are_whole(uint16_t first, uint16_t count)
-{
-    uint16_t k = find(&holding, first);
     uint16_t n = 0U;
 
-    for (; (k < holding.count) && (n < count); k++) {
-        const app_registers_entry_t *e = &holding.entries[k];
-        if ((e->address != (uint16_t)(first + n)) ||
-            (app_registers_count_words(e) > (uint16_t)(count - n))) {
-            return false;
-        }
-        n = (uint16_t)(n + app_registers_count_words(e));
-    }
-    return (n == count) && (count > 0U);
-}
+    for (uint16_t k = 0U; k < holding.count; k++) {
+        const app_registers_entry_t *e     = &holding.entries[k];
+        const uint16_t               count = e->saved ? app_registers_count_words(e) : 0U;
 
-static app_registers_result_t write_loader(app_registers_t *r, uint16_t first, uint16_t count,
-                                           const uint16_t *values)
-{
-    const app_loader_result_t result = app_loader_write(
-        r->loader, r->status.gate_enable, (uint16_t)(first - APP_LOADER_FIRST), count, values);
-
-    if (result == APP_LOADER_BAD_VALUE) {
-        return APP_REGISTERS_BAD_VALUE;
-    }
-    return found(result == APP_LOADER_OK);
-}
-
-static void command_scope(app_registers_t *r)
-{
-    const uint16_t command = r->wanted.scope_command;
-
-    r->wanted.scope_command = 0U;
-    if ((r->scope != NULL) && (command == SCOPE_ARM)) {
-        app_scope_arm(r->scope, &r->wanted.scope);
-    } else if ((r->scope != NULL) && (command == SCOPE_STOP)) {
-        app_scope_stop(r->scope);
-    } else {
-        /* nothing is asked for */
-    }
-}
-
-app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, uint16_t count,
-                                           const uint16_t *values)
-{
-    uint16_t k = find(&holding, first);
-    uint16_t n = 0U;
-
-    if (is_loader(r, first)) {
-        return write_loader(r, first, count, values);
-    }
-    if (!are_whole(first, count)) {
-        return APP_REGISTERS_BAD_ADDRESS;
-    }
-    r->trial = r->wanted;
-    while (n < count) {
-        const app_registers_entry_t *e      = &holding.entries[k];
-        const app_registers_result_t result = try_one(r, e, &values[n]);
-        if (result != APP_REGISTERS_OK) {
-            return result;
-        }
-        n = (uint16_t)(n + app_registers_count_words(e));
-        k = (uint16_t)(k + 1U);
-    }
-    if (!may_be_wanted(r, &r->trial)) {
-        return APP_REGISTERS_BAD_VALUE;
-    }
-    r->wanted = r->trial;
-    command_scope(r);
-    r->silent  = r->silent && !app_control_enables(r->wanted.objects.controlword);
-    r->changed = true;
-    return APP_REGISTERS_OK;
-}
-
-void app_registers_silence(app_registers_t *r)
-{
-    app_objects_t *o = &r->wanted.objects;
-
-    if (app_control_enables(o->controlword)) {
-        o->controlword = (o->lost_option == (int16_t)APP_CONTROL_LOST_QUICK_STOP)
-                             ? (uint16_t)APP_CONTROL_QUICK_STOP
-                             : (uint16_t)APP_CONTROL_DISABLE_VOLTAGE;
-        r->changed     = true;
-        r->silent      = true;
+        (void)read_map(r, &holding, e->address, count, &words[n]);
+        n = (uint16_t)(n + count);
     }
 }

@@ -13,6 +13,7 @@
 #include "app_control.h"
 #include "app_error.h"
 #include "app_loader.h"
+#include "app_parameters.h"
 #include "app_registers_map.h"
 #include "app_status.h"
 #include "app_traces.h"
@@ -28,7 +29,8 @@ enum {
     APP_REGISTERS_WITHOUT_ANGLE = 64,
     APP_REGISTERS_VOLTAGE_LIMIT = 128,
     APP_REGISTERS_CURRENT_LIMIT = 256,
-    APP_REGISTERS_DERATED       = 512
+    APP_REGISTERS_DERATED       = 512,
+    APP_REGISTERS_DEFAULTS      = 1024
 };
 
 /** Bits of APP_REGISTERS_STATUSWORD; the state has bits 0 to 3, 5 and 6. */
@@ -40,7 +42,9 @@ enum {
     APP_REGISTERS_REACHED            = 1024,
     APP_REGISTERS_LIMITED            = 2048,
     APP_REGISTERS_OF_MODE =
-        4096, /**< profile velocity: speed is zero; homing: the angle was found */
+        4096, /**< profile velocity: speed is zero; position: set-point taken; homing: the angle was found */
+    APP_REGISTERS_FOLLOWING_ERROR =
+        8192, /**< profile position: the reference waits for a shaft that cannot follow */
     APP_REGISTERS_BRIDGE_ON = 16384
 };
 
@@ -63,6 +67,8 @@ typedef struct app_registers_wanted {
     uint16_t          scope_command; /**< 1 arms, 2 stops */
     uint16_t          modbus_address;
     uint32_t          modbus_timeout_ticks;
+    board_line_t      line;
+    uint16_t          store_command; /**< app_parameters_command_t */
 } app_registers_wanted_t;
 
 typedef struct app_registers {
@@ -74,9 +80,10 @@ typedef struct app_registers {
     app_registers_wanted_t       trial; /**< a write, until all of it is known to be good */
     volatile app_scope_t        *scope; /**< NULL: there is none, and no record */
     const volatile app_record_t *record;
-    app_loader_t *loader;  /**< answers from APP_LOADER_FIRST on; NULL: nothing does */
-    bool          changed; /**< command is new; its taker clears this */
-    bool          silent;  /**< stopped because nobody talked; until it is enabled again */
+    app_loader_t           *loader;     /**< answers from APP_LOADER_FIRST on; NULL: nothing does */
+    const app_parameters_t *parameters; /**< NULL: they cannot be stored now */
+    bool                    changed;    /**< command is new; its taker clears this */
+    bool                    silent; /**< stopped because nobody talked; until it is enabled again */
 } app_registers_t;
 
 /**
@@ -98,11 +105,20 @@ app_registers_result_t app_registers_read_input(const app_registers_t *r, uint16
 app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, uint16_t count,
                                            const uint16_t *values);
 
+/** The words of all parameters, APP_REGISTERS_SAVED_WORDS. */
+void app_registers_saved_read(const app_registers_t *r, uint16_t *words);
+
+/** Takes them over, or, when one is out of its range, none. @return false: so it was. Context: init. */
+bool app_registers_saved_take(app_registers_t *r, const uint16_t *words);
+
 /** Nobody talks any more: an operation that is enabled is stopped. */
 void app_registers_silence(app_registers_t *r);
 
 /** Control periods of so many seconds; below an hour. */
 uint32_t app_registers_ticks(const app_registers_t *r, float time_s);
+
+/** Counts of the shaft's position, as of the target. */
+int32_t app_registers_position(const app_registers_t *r);
 
 /** Two's complement. */
 uint32_t app_registers_signed(int16_t x);
@@ -115,6 +131,11 @@ uint32_t app_registers_scope_state(const app_registers_t *r);
 uint32_t app_registers_scope_ticks(const app_registers_t *r);
 uint32_t app_registers_record_number(const app_registers_t *r);
 uint32_t app_registers_record_count(const app_registers_t *r);
+
+/** Values of the registers of the stored parameters. */
+uint32_t app_registers_stored_state(const app_registers_t *r);
+uint32_t app_registers_stored_done(const app_registers_t *r);
+uint32_t app_registers_stored_number(const app_registers_t *r);
 
 /** Value of APP_REGISTERS_CONDITIONS. */
 uint16_t app_registers_conditions(const app_registers_t *r);

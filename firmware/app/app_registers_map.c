@@ -4,130 +4,144 @@
 #include "app_registers.h"
 
 const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING] = {
-    {APP_REGISTERS_CONTROLWORD, APP_REGISTERS_U16, 0.0f, 0.0f, 65535.0f, false},
-    {APP_REGISTERS_MODE_OF_OPERATION, APP_REGISTERS_I16, 0.0f, -1.0f, 6.0f, true},
-    {APP_REGISTERS_SPEED, APP_REGISTERS_I32, 10.0f, -1000000.0f, 1000000.0f, false},
-    {APP_REGISTERS_SPEED_RPM, APP_REGISTERS_I32, 10.0f, -10000000.0f, 10000000.0f, false},
-    {APP_REGISTERS_SPEED_RPM_16, APP_REGISTERS_I16, 1.0f, -32768.0f, 32767.0f, false},
-    {APP_REGISTERS_ACCELERATION, APP_REGISTERS_U32, 1.0f, 0.0f, 1000000.0f, false},
-    {APP_REGISTERS_DECELERATION, APP_REGISTERS_U32, 1.0f, 0.0f, 1000000.0f, false},
-    {APP_REGISTERS_QUICK_STOP_DECELERATION, APP_REGISTERS_U32, 1.0f, 0.0f, 1000000.0f, false},
-    {APP_REGISTERS_QUICK_STOP_OPTION, APP_REGISTERS_I16, 0.0f, 0.0f, 6.0f, false},
-    {APP_REGISTERS_SHUTDOWN_OPTION, APP_REGISTERS_I16, 0.0f, 0.0f, 1.0f, false},
-    {APP_REGISTERS_DISABLE_OPTION, APP_REGISTERS_I16, 0.0f, 0.0f, 1.0f, false},
-    {APP_REGISTERS_LOST_OPTION, APP_REGISTERS_I16, 0.0f, 2.0f, 3.0f, false},
-    {APP_REGISTERS_MAX_CURRENT, APP_REGISTERS_I32, 1000.0f, 0.0f, 1000000.0f, false},
-    {APP_REGISTERS_SPEED_WINDOW, APP_REGISTERS_U16, 10.0f, 0.0f, 6553.5f, false},
-    {APP_REGISTERS_COMMISSION_CURRENT, APP_REGISTERS_U16, 100.0f, 0.0f, 655.35f, false},
-    {APP_REGISTERS_COMMISSION_SPEED, APP_REGISTERS_U16, 10.0f, 0.0f, 6553.5f, false},
-    {APP_REGISTERS_MODBUS_ADDRESS, APP_REGISTERS_U16, 0.0f, 1.0f, 247.0f, false},
-    {APP_REGISTERS_MODBUS_TIMEOUT, APP_REGISTERS_U16, 1000.0f, 0.01f, 60.0f, false},
-    {APP_REGISTERS_SCOPE_COMMAND, APP_REGISTERS_U16, 0.0f, 0.0f, 2.0f, false},
-    {APP_REGISTERS_SCOPE_SIGNAL_1, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false},
-    {APP_REGISTERS_SCOPE_SIGNAL_2, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false},
-    {APP_REGISTERS_SCOPE_SIGNAL_3, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false},
-    {APP_REGISTERS_SCOPE_SIGNAL_4, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false},
-    {APP_REGISTERS_SCOPE_DECIMATION, APP_REGISTERS_U16, 0.0f, 1.0f, 65535.0f, false},
-    {APP_REGISTERS_SCOPE_TRIGGER, APP_REGISTERS_U16, 0.0f, 0.0f, 2.0f, false},
-    {APP_REGISTERS_SCOPE_CHANNEL, APP_REGISTERS_U16, 0.0f, 1.0f, 4.0f, false},
-    {APP_REGISTERS_SCOPE_LEVEL, APP_REGISTERS_I32, 1000.0f, -1000000.0f, 1000000.0f, false},
-    {APP_REGISTERS_SCOPE_BEFORE, APP_REGISTERS_U16, 0.0f, 0.0f, 511.0f, false},
+    {APP_REGISTERS_CONTROLWORD, APP_REGISTERS_U16, 0.0f, 0.0f, 65535.0f, false, false, 0UL},
+    {APP_REGISTERS_MODE_OF_OPERATION, APP_REGISTERS_I16, 0.0f, -1.0f, 6.0f, true, false, 0UL},
+    {APP_REGISTERS_SPEED, APP_REGISTERS_I32, 10.0f, -1000000.0f, 1000000.0f, false, false, 0UL},
+    {APP_REGISTERS_SPEED_RPM, APP_REGISTERS_I32, 10.0f, -10000000.0f, 10000000.0f, false, false, 0UL},
+    {APP_REGISTERS_SPEED_RPM_16, APP_REGISTERS_I16, 1.0f, -32768.0f, 32767.0f, false, false, 0UL},
+    {APP_REGISTERS_ACCELERATION, APP_REGISTERS_U32, 1.0f, 0.0f, 1000000.0f, false, true, 0UL},
+    {APP_REGISTERS_DECELERATION, APP_REGISTERS_U32, 1.0f, 0.0f, 1000000.0f, false, true, 0UL},
+    {APP_REGISTERS_QUICK_STOP_DECELERATION, APP_REGISTERS_U32, 1.0f, 0.0f, 1000000.0f, false, true, 0UL},
+    {APP_REGISTERS_QUICK_STOP_OPTION, APP_REGISTERS_I16, 0.0f, 0.0f, 6.0f, false, true, 0UL},
+    {APP_REGISTERS_SHUTDOWN_OPTION, APP_REGISTERS_I16, 0.0f, 0.0f, 1.0f, false, true, 0UL},
+    {APP_REGISTERS_DISABLE_OPTION, APP_REGISTERS_I16, 0.0f, 0.0f, 1.0f, false, true, 0UL},
+    {APP_REGISTERS_LOST_OPTION, APP_REGISTERS_I16, 0.0f, 2.0f, 3.0f, false, true, 0UL},
+    {APP_REGISTERS_MAX_CURRENT, APP_REGISTERS_I32, 1000.0f, 0.0f, 1000000.0f, false, true, 0UL},
+    {APP_REGISTERS_SPEED_WINDOW, APP_REGISTERS_U16, 10.0f, 0.0f, 6553.5f, false, true, 0UL},
+    {APP_REGISTERS_COMMISSION_CURRENT, APP_REGISTERS_U16, 100.0f, 0.0f, 655.35f, false, false, 0UL},
+    {APP_REGISTERS_COMMISSION_SPEED, APP_REGISTERS_U16, 10.0f, 0.0f, 6553.5f, false, false, 0UL},
+    {APP_REGISTERS_MODBUS_ADDRESS, APP_REGISTERS_U16, 0.0f, 1.0f, 247.0f, false, true, 0UL},
+    {APP_REGISTERS_MODBUS_TIMEOUT, APP_REGISTERS_U16, 1000.0f, 0.01f, 60.0f, false, true, 0UL},
+    {APP_REGISTERS_BAUD_RATE, APP_REGISTERS_U32, 0.0f, 9600.0f, 230400.0f, true, true, 0UL},
+    {APP_REGISTERS_LINE_FORMAT, APP_REGISTERS_U16, 0.0f, 0.0f, 2.0f, true, true, 0UL},
+    {APP_REGISTERS_DIRECTION_PIN, APP_REGISTERS_U16, 0.0f, 0.0f, 1.0f, true, true, 0UL},
+    {APP_REGISTERS_SCOPE_COMMAND, APP_REGISTERS_U16, 0.0f, 0.0f, 2.0f, false, false, 0UL},
+    {APP_REGISTERS_SCOPE_SIGNAL_1, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false, false, 0UL},
+    {APP_REGISTERS_SCOPE_SIGNAL_2, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false, false, 0UL},
+    {APP_REGISTERS_SCOPE_SIGNAL_3, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false, false, 0UL},
+    {APP_REGISTERS_SCOPE_SIGNAL_4, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false, false, 0UL},
+    {APP_REGISTERS_SCOPE_DECIMATION, APP_REGISTERS_U16, 0.0f, 1.0f, 65535.0f, false, false, 0UL},
+    {APP_REGISTERS_SCOPE_TRIGGER, APP_REGISTERS_U16, 0.0f, 0.0f, 2.0f, false, false, 0UL},
+    {APP_REGISTERS_SCOPE_CHANNEL, APP_REGISTERS_U16, 0.0f, 1.0f, 4.0f, false, false, 0UL},
+    {APP_REGISTERS_SCOPE_LEVEL, APP_REGISTERS_I32, 1000.0f, -1000000.0f, 1000000.0f, false, false, 0UL},
+    {APP_REGISTERS_SCOPE_BEFORE, APP_REGISTERS_U16, 0.0f, 0.0f, 511.0f, false, false, 0UL},
+    {APP_REGISTERS_STORE_PARAMETERS, APP_REGISTERS_U32, 0.0f, 1.70225701e+09f, 1.70225701e+09f, false, false, 0x65766173UL},
+    {APP_REGISTERS_RESTORE_PARAMETERS, APP_REGISTERS_U32, 0.0f, 1.68410712e+09f, 1.68410712e+09f, false, false, 0x64616F6CUL},
+    {APP_REGISTERS_TARGET_POSITION, APP_REGISTERS_I32, 0.0f, -1e+09f, 1e+09f, false, false, 0UL},
+    {APP_REGISTERS_PROFILE_VELOCITY, APP_REGISTERS_U32, 10.0f, 0.0f, 1000000.0f, false, true, 0UL},
+    {APP_REGISTERS_PROFILE_JERK, APP_REGISTERS_U32, 1.0f, 0.0f, 4e+09f, false, true, 0UL},
+    {APP_REGISTERS_POSITION_WINDOW, APP_REGISTERS_U16, 0.0f, 1.0f, 65535.0f, false, true, 0UL},
 };
 
 const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
-    {APP_REGISTERS_STATUSWORD, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_MODE_NOW, APP_REGISTERS_I16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_ERROR_CODE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_MODE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FAULT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_DRIVE_FAULT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_BOARD_FAULTS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_CONDITIONS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_REFERENCE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_ALIGN_STAGE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_SPEED_NOW, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_SPEED_NOW_RPM, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_SPEED_DEMAND_RPM, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_IQ, APP_REGISTERS_I32, 1000.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_ID, APP_REGISTERS_I32, 1000.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_IQ_REF, APP_REGISTERS_I32, 1000.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_ID_REF, APP_REGISTERS_I32, 1000.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_VQ, APP_REGISTERS_I16, 10.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_VD, APP_REGISTERS_I16, 10.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_DC_LINK, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_TEMPERATURE, APP_REGISTERS_I16, 10.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_THETA, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_POSITION, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_CORRECTIONS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_ZERO_A, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_ZERO_B, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_CYCLES, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_CYCLES_WORST, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_RESET_CAUSE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_PHASE_ERRORS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_IGNORED_ANGLES, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_IGNORED_CURRENTS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_JUMPS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_MOTOR_HEAT, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_INVERTER_HEAT, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_DERATING, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FIRST_FAULT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FIRST_MODE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FIRST_DRIVE_FAULT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FIRST_BOARD_FAULTS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FIRST_IA, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FIRST_IB, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FIRST_DC_LINK, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FIRST_TEMPERATURE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FIRST_POSITION, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FIRST_INDEX, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FIRST_SAMPLE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FIRST_SPEED, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FIRST_WANTED, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FIRST_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_COMMISSION_STAGE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_COMMISSION_REASON, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_COMMISSION_PERCENT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_DIRECTION, APP_REGISTERS_I16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_POLE_PAIRS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_COUNTS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_RELUCTANCE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_R, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_R_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_V_LOSS, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_V_LOSS_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_LD, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_LD_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_LQ, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_LQ_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_FLUX, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_FLUX_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_INERTIA, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_INERTIA_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_FRICTION, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_FRICTION_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_COULOMB, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_COULOMB_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_OFFSET, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_FOUND_OFFSET_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_SCOPE_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_SCOPE_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_RECORD_NUMBER, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_RECORD_COUNT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_SUPPORTED_MODES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_POLE_PAIRS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_ENCODER_POSITIONS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_CONTROL_PERIOD, APP_REGISTERS_U32, 1e+09f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_SPEED_MAX, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_SPEED_MAX_RPM, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_SPEED_TRIP, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_CURRENT_MAX, APP_REGISTERS_I32, 1000.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_CURRENT_TRIP, APP_REGISTERS_I32, 1000.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_DC_LINK_MIN, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_DC_LINK_MAX, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_TEMPERATURE_LIMIT, APP_REGISTERS_I16, 10.0f, 0.0f, 0.0f, false},
-    {APP_REGISTERS_TEMPERATURE_TRIP, APP_REGISTERS_I16, 10.0f, 0.0f, 0.0f, false},
+    {APP_REGISTERS_STATUSWORD, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_MODE_NOW, APP_REGISTERS_I16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_ERROR_CODE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_MODE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FAULT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_DRIVE_FAULT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_BOARD_FAULTS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_CONDITIONS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_REFERENCE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_ALIGN_STAGE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_SPEED_NOW, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_SPEED_NOW_RPM, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_SPEED_DEMAND_RPM, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_IQ, APP_REGISTERS_I32, 1000.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_ID, APP_REGISTERS_I32, 1000.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_IQ_REF, APP_REGISTERS_I32, 1000.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_ID_REF, APP_REGISTERS_I32, 1000.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_VQ, APP_REGISTERS_I16, 10.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_VD, APP_REGISTERS_I16, 10.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_DC_LINK, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_TEMPERATURE, APP_REGISTERS_I16, 10.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_THETA, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_POSITION, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_CORRECTIONS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_ZERO_A, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_ZERO_B, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_CYCLES, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_CYCLES_WORST, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_RESET_CAUSE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_PHASE_ERRORS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_IGNORED_ANGLES, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_IGNORED_CURRENTS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_JUMPS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_MOTOR_HEAT, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_INVERTER_HEAT, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_DERATING, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FIRST_FAULT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FIRST_MODE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FIRST_DRIVE_FAULT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FIRST_BOARD_FAULTS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FIRST_IA, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FIRST_IB, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FIRST_DC_LINK, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FIRST_TEMPERATURE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FIRST_POSITION, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FIRST_INDEX, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FIRST_SAMPLE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FIRST_SPEED, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FIRST_WANTED, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FIRST_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_POSITION_NOW, APP_REGISTERS_I32, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_POSITION_TARGET, APP_REGISTERS_I32, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_COMMISSION_STAGE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_COMMISSION_REASON, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_COMMISSION_PERCENT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_DIRECTION, APP_REGISTERS_I16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_POLE_PAIRS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_COUNTS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_RELUCTANCE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_R, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_R_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_V_LOSS, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_V_LOSS_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_LD, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_LD_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_LQ, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_LQ_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_FLUX, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_FLUX_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_INERTIA, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_INERTIA_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_FRICTION, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_FRICTION_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_COULOMB, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_COULOMB_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_OFFSET, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_FOUND_OFFSET_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_SCOPE_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_SCOPE_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_RECORD_NUMBER, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_RECORD_COUNT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_PARAMETERS_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_PARAMETERS_DONE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_PARAMETERS_NUMBER, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_SUPPORTED_MODES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_POLE_PAIRS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_ENCODER_POSITIONS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_CONTROL_PERIOD, APP_REGISTERS_U32, 1e+09f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_SPEED_MAX, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_SPEED_MAX_RPM, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_SPEED_TRIP, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_CURRENT_MAX, APP_REGISTERS_I32, 1000.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_CURRENT_TRIP, APP_REGISTERS_I32, 1000.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_DC_LINK_MIN, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_DC_LINK_MAX, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_TEMPERATURE_LIMIT, APP_REGISTERS_I16, 10.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_TEMPERATURE_TRIP, APP_REGISTERS_I16, 10.0f, 0.0f, 0.0f, false, false, 0UL},
 };
 
 float app_registers_map_holding_real(const app_registers_t *r, uint16_t address)
@@ -171,6 +185,12 @@ float app_registers_map_holding_real(const app_registers_t *r, uint16_t address)
     case APP_REGISTERS_SCOPE_LEVEL:
         x = r->wanted.scope.level;
         break;
+    case APP_REGISTERS_PROFILE_VELOCITY:
+        x = r->wanted.objects.profile_e_radps;
+        break;
+    case APP_REGISTERS_PROFILE_JERK:
+        x = r->wanted.objects.jerk_e_radps3;
+        break;
     default:
         break;
     }
@@ -203,6 +223,15 @@ uint32_t app_registers_map_holding_whole(const app_registers_t *r, uint16_t addr
     case APP_REGISTERS_MODBUS_ADDRESS:
         x = r->wanted.modbus_address;
         break;
+    case APP_REGISTERS_BAUD_RATE:
+        x = r->wanted.line.baud_Bd;
+        break;
+    case APP_REGISTERS_LINE_FORMAT:
+        x = r->wanted.line.format;
+        break;
+    case APP_REGISTERS_DIRECTION_PIN:
+        x = r->wanted.line.direction;
+        break;
     case APP_REGISTERS_SCOPE_COMMAND:
         x = 0U;
         break;
@@ -229,6 +258,18 @@ uint32_t app_registers_map_holding_whole(const app_registers_t *r, uint16_t addr
         break;
     case APP_REGISTERS_SCOPE_BEFORE:
         x = r->wanted.scope.before;
+        break;
+    case APP_REGISTERS_STORE_PARAMETERS:
+        x = 1U;
+        break;
+    case APP_REGISTERS_RESTORE_PARAMETERS:
+        x = 1U;
+        break;
+    case APP_REGISTERS_TARGET_POSITION:
+        x = (uint32_t)r->wanted.objects.target_cnt;
+        break;
+    case APP_REGISTERS_POSITION_WINDOW:
+        x = r->wanted.objects.position_window_cnt;
         break;
     default:
         break;
@@ -489,6 +530,12 @@ uint32_t app_registers_map_input_whole(const app_registers_t *r, uint16_t addres
     case APP_REGISTERS_FIRST_TICKS:
         x = r->status.snapshot.ticks;
         break;
+    case APP_REGISTERS_POSITION_NOW:
+        x = (uint32_t)app_registers_position(r);
+        break;
+    case APP_REGISTERS_POSITION_TARGET:
+        x = (uint32_t)r->status.target_cnt;
+        break;
     case APP_REGISTERS_COMMISSION_STAGE:
         x = (uint32_t)r->status.commission.stage;
         break;
@@ -522,8 +569,17 @@ uint32_t app_registers_map_input_whole(const app_registers_t *r, uint16_t addres
     case APP_REGISTERS_RECORD_COUNT:
         x = app_registers_record_count(r);
         break;
+    case APP_REGISTERS_PARAMETERS_STATE:
+        x = app_registers_stored_state(r);
+        break;
+    case APP_REGISTERS_PARAMETERS_DONE:
+        x = app_registers_stored_done(r);
+        break;
+    case APP_REGISTERS_PARAMETERS_NUMBER:
+        x = app_registers_stored_number(r);
+        break;
     case APP_REGISTERS_SUPPORTED_MODES:
-        x = 0x00010024UL;
+        x = r->drive->positions ? 0x00010025UL : 0x00010024UL;
         break;
     case APP_REGISTERS_POLE_PAIRS:
         x = r->drive->hardware.pole_pairs;
@@ -537,7 +593,7 @@ uint32_t app_registers_map_input_whole(const app_registers_t *r, uint16_t addres
     return x;
 }
 
-void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, uint16_t address, float x)
+void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, uint16_t address, float x, int32_t n)
 {
     switch (address) {
     case APP_REGISTERS_CONTROLWORD:
@@ -594,6 +650,15 @@ void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, 
     case APP_REGISTERS_MODBUS_TIMEOUT:
         w->modbus_timeout_ticks = app_registers_ticks(r, x);
         break;
+    case APP_REGISTERS_BAUD_RATE:
+        w->line.baud_Bd = (uint32_t)x;
+        break;
+    case APP_REGISTERS_LINE_FORMAT:
+        w->line.format = (uint16_t)x;
+        break;
+    case APP_REGISTERS_DIRECTION_PIN:
+        w->line.direction = (uint16_t)x;
+        break;
     case APP_REGISTERS_SCOPE_COMMAND:
         w->scope_command = (uint16_t)x;
         break;
@@ -623,6 +688,24 @@ void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, 
         break;
     case APP_REGISTERS_SCOPE_BEFORE:
         w->scope.before = (uint16_t)x;
+        break;
+    case APP_REGISTERS_STORE_PARAMETERS:
+        w->store_command = (uint16_t)APP_PARAMETERS_STORE;
+        break;
+    case APP_REGISTERS_RESTORE_PARAMETERS:
+        w->store_command = (uint16_t)APP_PARAMETERS_RESTORE;
+        break;
+    case APP_REGISTERS_TARGET_POSITION:
+        w->objects.target_cnt = n;
+        break;
+    case APP_REGISTERS_PROFILE_VELOCITY:
+        w->objects.profile_e_radps = x;
+        break;
+    case APP_REGISTERS_PROFILE_JERK:
+        w->objects.jerk_e_radps3 = x;
+        break;
+    case APP_REGISTERS_POSITION_WINDOW:
+        w->objects.position_window_cnt = (uint16_t)x;
         break;
     default:
         break;

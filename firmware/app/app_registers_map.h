@@ -11,7 +11,10 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "a551e6ec" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "b9e4b772" /**< of what a master can see of the map */
+
+#define APP_REGISTERS_SAVED_WORDS   24U          /**< of all parameters */
+#define APP_REGISTERS_SAVED_VERSION 0x184D64ABUL /**< of what these words mean */
 
 /** Holding registers: those of two words are named by the first. */
 enum {
@@ -35,8 +38,11 @@ enum {
     APP_REGISTERS_COMMAND_END = 22,
     APP_REGISTERS_MODBUS_ADDRESS = 64,
     APP_REGISTERS_MODBUS_TIMEOUT = 65,
+    APP_REGISTERS_BAUD_RATE = 66,
+    APP_REGISTERS_LINE_FORMAT = 68,
+    APP_REGISTERS_DIRECTION_PIN = 69,
     APP_REGISTERS_LINE_FIRST = 64,
-    APP_REGISTERS_LINE_END = 66,
+    APP_REGISTERS_LINE_END = 70,
     APP_REGISTERS_SCOPE_COMMAND = 96,
     APP_REGISTERS_SCOPE_SIGNAL_1 = 97,
     APP_REGISTERS_SCOPE_SIGNAL_2 = 98,
@@ -48,7 +54,17 @@ enum {
     APP_REGISTERS_SCOPE_LEVEL = 104,
     APP_REGISTERS_SCOPE_BEFORE = 106,
     APP_REGISTERS_SCOPE_FIRST = 96,
-    APP_REGISTERS_SCOPE_END = 107
+    APP_REGISTERS_SCOPE_END = 107,
+    APP_REGISTERS_STORE_PARAMETERS = 128,
+    APP_REGISTERS_RESTORE_PARAMETERS = 130,
+    APP_REGISTERS_STORE_FIRST = 128,
+    APP_REGISTERS_STORE_END = 132,
+    APP_REGISTERS_TARGET_POSITION = 160,
+    APP_REGISTERS_PROFILE_VELOCITY = 162,
+    APP_REGISTERS_PROFILE_JERK = 164,
+    APP_REGISTERS_POSITION_WINDOW = 166,
+    APP_REGISTERS_TARGET_FIRST = 160,
+    APP_REGISTERS_TARGET_END = 167
 };
 
 /** Input registers: those of two words are named by the first. */
@@ -106,6 +122,10 @@ enum {
     APP_REGISTERS_FIRST_TICKS = 60,
     APP_REGISTERS_LIVE_FIRST = 0,
     APP_REGISTERS_LIVE_END = 62,
+    APP_REGISTERS_POSITION_NOW = 64,
+    APP_REGISTERS_POSITION_TARGET = 66,
+    APP_REGISTERS_POSITION_FIRST = 64,
+    APP_REGISTERS_POSITION_END = 68,
     APP_REGISTERS_COMMISSION_STAGE = 128,
     APP_REGISTERS_COMMISSION_REASON = 129,
     APP_REGISTERS_COMMISSION_PERCENT = 130,
@@ -139,6 +159,11 @@ enum {
     APP_REGISTERS_RECORD_COUNT = 196,
     APP_REGISTERS_TRACES_FIRST = 192,
     APP_REGISTERS_TRACES_END = 197,
+    APP_REGISTERS_PARAMETERS_STATE = 224,
+    APP_REGISTERS_PARAMETERS_DONE = 225,
+    APP_REGISTERS_PARAMETERS_NUMBER = 226,
+    APP_REGISTERS_STORED_FIRST = 224,
+    APP_REGISTERS_STORED_END = 228,
     APP_REGISTERS_SUPPORTED_MODES = 256,
     APP_REGISTERS_POLE_PAIRS = 258,
     APP_REGISTERS_ENCODER_POSITIONS = 259,
@@ -170,15 +195,17 @@ typedef struct {
     float                per_unit; /**< counts of one SI unit; 0: a whole number */
     float                least;    /**< what a write may bring, in SI units */
     float                most;
-    bool                 stopped;  /**< written while the bridge is off only */
+    bool                 stopped;   /**< written while the bridge is off only */
+    bool                 saved;     /**< a parameter: kept over power */
+    uint32_t             signature; /**< the one value that is taken; 0: no such thing */
 } app_registers_entry_t;
 
 struct app_registers;
 struct app_registers_wanted;
 
-#define APP_REGISTERS_MAP_HOLDING 28U
+#define APP_REGISTERS_MAP_HOLDING 37U
 
-#define APP_REGISTERS_MAP_INPUT 93U
+#define APP_REGISTERS_MAP_INPUT 98U
 
 /** By address, upwards. */
 extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];
@@ -192,7 +219,7 @@ uint32_t app_registers_map_holding_whole(const struct app_registers *r, uint16_t
 float    app_registers_map_input_real(const struct app_registers *r, uint16_t address);
 uint32_t app_registers_map_input_whole(const struct app_registers *r, uint16_t address);
 
-/** Puts a value that is in its range into w. */
-void app_registers_map_put(const struct app_registers *r, struct app_registers_wanted *w, uint16_t address, float x);
+/** Puts a value that is in its range into w; n are its counts, of those with a sign. */
+void app_registers_map_put(const struct app_registers *r, struct app_registers_wanted *w, uint16_t address, float x, int32_t n);
 
 #endif /* APP_REGISTERS_MAP_H */

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_states.h"
 
+#include <stddef.h>
+
 /* Chosen: 20 ms, in which a motor's current dies out several times; and a mean over as many. */
 #define ZERO_TICKS   100U
 #define ZERO_FORGETS 0.03f
@@ -196,11 +198,25 @@ static bridge_t ready(app_modes_t *m, const app_modes_input_t *in)
 
 static bridge_t drive(app_modes_t *m, const app_command_t *wanted, bool run)
 {
-    const drive_sample_t  sample  = drive_sample(m);
+    const drive_sample_t sample = drive_sample(m);
+
+    if (wanted->positioning) {
+        m->to_position.is      = m->position.is;
+        m->to_position.target  = wanted->target;
+        m->to_position.profile = wanted->profile;
+    }
     const drive_command_t command = {.omega_e_radps = wanted->omega_e_radps,
                                      .run           = run,
-                                     .derating      = base_max(m->heat.derating, wanted->derating)};
+                                     .derating      = base_max(m->heat.derating, wanted->derating),
+                                     .position      = wanted->positioning ? &m->to_position : NULL};
     return drive_tick(&m->drive, &sample, &command);
+}
+
+static bridge_t drive_to_a_stop(app_modes_t *m, const app_modes_input_t *in)
+{
+    const app_command_t stop = {.omega_e_radps = 0.0f, .derating = in->command.derating};
+
+    return drive(m, &stop, true);
 }
 
 /* The drive itself stays off: it only checks samples and command against its limits. False: one of them is wrong. */
@@ -213,13 +229,11 @@ static bool drive_watches(app_modes_t *m, const app_modes_input_t *in)
 /* RUN and STOP. A drive whose encoder is lost brakes until it is too slow to go on without, which is its fault. */
 static bridge_t run_drive(app_modes_t *m, const app_modes_input_t *in)
 {
-    const app_command_t stop = {.omega_e_radps = 0.0f, .derating = in->command.derating};
-
     const bool lost = m->drive.wanted.without_angle;
     const bool brake =
         (m->drive.state == DRIVE_RUN) &&
         (lost || (!in->command.run && app_stop_is_braking(&m->stop, m->reading.omega_e_radps)));
-    bridge_t out = drive(m, brake ? &stop : &in->command, brake || in->command.run);
+    bridge_t out = brake ? drive_to_a_stop(m, in) : drive(m, &in->command, in->command.run);
 
     if (m->drive.state == DRIVE_FAULT) {
         out = app_states_trip(m, in, APP_FAULT_DRIVE);
@@ -271,6 +285,7 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
         return app_states_trip(m, in, APP_FAULT_DRIVE);
     }
     if (m->angle.reference == APP_ANGLE_INDEX) { /* the mark came by: better than alignment */
+        app_position_forget(&m->position);
         return aligned(m, in);
     }
     const bridge_t out = app_align_tick(&m->align, m->sample.ia_A, m->sample.ib_A,
@@ -280,6 +295,7 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
     }
     if (m->align.stage == APP_ALIGN_DONE) {
         app_angle_align(&m->angle, in->raw->position_cnt, m->align.config->theta_e_rad);
+        app_position_forget(&m->position);
         enter(m, in->command.run ? APP_MODE_RUN : APP_MODE_READY);
         return in->command.run ? out : bridge_open();
     }

@@ -59,7 +59,23 @@ enum {
 };
 
 /** What a board remembers over a power cut: slots of BOARD_STORE_WORDS words, each erased as a whole (board_limits.h). */
-enum { BOARD_STORE_SLOTS = 2 };
+enum { BOARD_STORE_SLOTS = 4 };
+
+/** Words that outlast board_restart() and not a power cut. */
+#define BOARD_KEPT_WORDS 48U
+
+/** Formats of the serial line, as Modbus has them: 11 bits an octet. */
+enum {
+    BOARD_LINE_EVEN = 0, /**< parity, one stop bit */
+    BOARD_LINE_ODD,
+    BOARD_LINE_NONE /**< no parity, two stop bits */
+};
+
+typedef struct {
+    uint32_t baud_Bd;
+    uint16_t format;    /**< BOARD_LINE_ */
+    uint16_t direction; /**< 1: a pin is high while the board sends, for a transceiver */
+} board_line_t;
 
 /** What started the program. */
 typedef enum {
@@ -135,6 +151,9 @@ bool board_loader_is_wanted(void);
  */
 void board_restart(bool loader);
 
+/** BOARD_KEPT_WORDS words that a restart leaves as they are; after power-on they are anything. Context: any. */
+uint16_t *board_kept(void);
+
 /** The words of a slot, in memory; NULL: the board has no store. Context: any. */
 const uint16_t *board_store(uint16_t slot);
 
@@ -152,6 +171,12 @@ bool board_stack_is_whole(void);
 
 /** Without it the processor is reset after 4 ms. Context: background. */
 void board_watchdog_serve(void);
+
+/** Whether the board can do this. Context: any. */
+bool board_line_fits(const board_line_t *line);
+
+/** Sets a line that fits up; before the first call it is 115200 Bd, even, without direction pin. Context: init. */
+void board_line_set(const board_line_t *line);
 
 /**
  * @brief Takes one received octet.

@@ -2,9 +2,11 @@
 #include "near_optimal.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #include "current_clamp.h"
 #include "feedforward.h"
+#include "frames.h"
 #include "voltage.h"
 
 CTL_PART bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *drive)
@@ -12,6 +14,7 @@ CTL_PART bool near_optimal_check(const near_optimal_config_t *c, const drive_con
     const float max_A = c->current_ref.current_max_A;
 
     return current_ref_check(&c->current_ref) && nosc_check(&c->nosc) &&
+           (!drive->positions || position_loop_check(&c->position)) &&
            base_in_range(max_A, drive->current_max_A, drive->current_max_A) &&
            base_in_range(c->current_ref.samples_1ps * drive->ts_s, 0.999f, 1.001f);
 }
@@ -21,26 +24,96 @@ CTL_PART void near_optimal_reset(near_optimal_t *s, const near_optimal_config_t 
 {
     speed_ref_reset(&s->speed_ref, omega_e_radps);
     current_ref_reset(&s->current_ref, &c->current_ref);
+    s->positioning       = false;
+    s->theta_error_e_rad = 0.0f;
+}
+
+static position_profile_t within(const position_profile_t *asked, const position_profile_t *most)
+{
+    const position_profile_t p = {
+        .speed_e_radps  = base_min(asked->speed_e_radps, most->speed_e_radps),
+        .accel_e_radps2 = base_min(asked->accel_e_radps2, most->accel_e_radps2),
+        .decel_e_radps2 = base_min(asked->decel_e_radps2, most->decel_e_radps2),
+        .jerk_e_radps3  = base_min(asked->jerk_e_radps3, most->jerk_e_radps3)};
+    return p;
+}
+
+/* The position of the view's instant: that of the sample and what the estimate is ahead of it. */
+static position_t seen_position(const near_optimal_view_t *view, const position_command_t *command,
+                                float ts_s)
+{
+    const float theta_rad =
+        view->theta_rad - (0.5f * ts_s * view->now.omega_e_radps); /* EQ-DRIVE-2 */
+    return position_moved(&command->is, frames_wrap(theta_rad - command->is.theta_e_rad));
+}
+
+/* The way to a position as a speed reference, and the angle's error. */
+static void update_position(near_optimal_t *s, const near_optimal_config_t *c,
+                            const drive_config_t *drive, const near_optimal_view_t *view,
+                            const position_command_t *command)
+{
+    const position_profile_t profile = within(&command->profile, &c->position.most);
+    const position_t         is      = seen_position(view, command, drive->ts_s);
+    position_ref_t          *r       = &s->position_ref;
+    speed_ref_t             *w       = &s->speed_ref;
+
+    if (!s->positioning) {
+        position_ref_start(r, &is, w->omega_e_radps, w->omega_dot_e_radps2);
+        s->positioning = true;
+    }
+    position_ref_update(r, &profile, &command->target, &is, c->position.near_rad, drive->ts_s);
+    w->omega_e_radps         = r->omega_e_radps;
+    w->omega_dot_e_radps2    = r->omega_dot_e_radps2;
+    w->omega_2dot_e_radps3   = r->omega_2dot_e_radps3;
+    w->accel_wanted_e_radps2 = r->omega_dot_e_radps2;
+    s->theta_error_e_rad     = position_way_rad(&r->at, &is);
+}
+
+/* EQ-POSITION-4: the errors of speed and angle as one, in a speed run that of the speed. */
+static float asking_e_radps(const near_optimal_t *s, const near_optimal_config_t *c,
+                            float speed_error_e_radps)
+{
+    return s->positioning
+               ? (speed_error_e_radps + (c->position.speed_per_rad * s->theta_error_e_rad))
+               : speed_error_e_radps;
 }
 
 static void update_references(near_optimal_t *s, const near_optimal_config_t *c,
                               const drive_config_t *drive, const near_optimal_view_t *view,
                               const law_input_t *in)
 {
-    const float               w      = view->now.omega_e_radps;
-    const float               e_w    = w - s->speed_ref.omega_e_radps;
-    const current_ref_input_t from   = {.est         = view->est,
-                                        .state       = &view->now,
-                                        .iq_speed_A  = nosc_speed_current_A(&c->nosc, e_w),
-                                        .dc_link_V   = in->sample->dc_link_V,
-                                        .v_max_V     = in->sample->dc_link_V * BASE_1_SQRT3,
-                                        .d_omega_dot = view->d_omega_dot,
-                                        .derating    = in->derating};
-    const speed_ref_limits_t  limits = current_ref_speed_limits(
-         &s->current_ref, &c->current_ref, &drive->motor, &from, in->command_e_radps);
-
-    speed_ref_update(&s->speed_ref, &limits, in->command_e_radps, w, drive->ts_s);
+    const float               w    = view->now.omega_e_radps;
+    const float               e_w  = w - s->speed_ref.omega_e_radps;
+    const current_ref_input_t from = {
+        .est         = view->est,
+        .state       = &view->now,
+        .iq_speed_A  = nosc_speed_current_A(near_optimal_gains(s, c), asking_e_radps(s, c, e_w)),
+        .dc_link_V   = in->sample->dc_link_V,
+        .v_max_V     = in->sample->dc_link_V * BASE_1_SQRT3,
+        .d_omega_dot = view->d_omega_dot,
+        .derating    = in->derating};
+    if (in->position != NULL) {
+        update_position(s, c, drive, view, in->position);
+    } else {
+        const speed_ref_limits_t limits = current_ref_speed_limits(
+            &s->current_ref, &c->current_ref, &drive->motor, &from, in->command_e_radps);
+        s->positioning       = false;
+        s->theta_error_e_rad = 0.0f;
+        speed_ref_update(&s->speed_ref, &limits, in->command_e_radps, w, drive->ts_s);
+    }
     current_ref_update(&s->current_ref, &c->current_ref, &drive->motor, &s->speed_ref, &from);
+}
+
+/* Of a limit to what both ask for each gets its share: the speed's, and the angle's in s. */
+static float shared_error(near_optimal_t *s, float e_w, float asked, float allowed)
+{
+    if (base_within(asked - allowed, 0.0f)) {
+        return e_w;
+    }
+    const float share = allowed / asked; /* the limits are on both sides of zero: asked is none */
+
+    s->theta_error_e_rad *= share;
+    return share * e_w;
 }
 
 CTL_PART nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *c,
@@ -50,10 +123,16 @@ CTL_PART nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_c
     update_references(s, c, drive, view, in);
 
     const current_ref_t *ref = &s->current_ref;
-    const nosc_error_t   e = {.omega_e_radps = view->now.omega_e_radps - s->speed_ref.omega_e_radps,
-                              .iq_A          = view->now.iq_A - ref->i_A.q,
-                              .id_A          = view->now.id_A - ref->i_A.d};
-    return nosc_limit_speed_error(&c->nosc, e, ref->i_A.q, ref->iq_lo_A, ref->iq_hi_A);
+    const float          e_w = view->now.omega_e_radps - s->speed_ref.omega_e_radps;
+    const nosc_error_t   e   = {.omega_e_radps = asking_e_radps(s, c, e_w),
+                                .iq_A          = view->now.iq_A - ref->i_A.q,
+                                .id_A          = view->now.id_A - ref->i_A.d};
+    nosc_error_t         limited =
+        nosc_limit_speed_error(near_optimal_gains(s, c), e, ref->i_A.q, ref->iq_lo_A, ref->iq_hi_A);
+    if (s->positioning) {
+        limited.omega_e_radps = shared_error(s, e_w, e.omega_e_radps, limited.omega_e_radps);
+    }
+    return limited;
 }
 
 /* EQ-FEEDFORWARD-1, 2 for the reference as far as it is followed. */
@@ -66,18 +145,19 @@ static dq_t forward_V(const near_optimal_t *s, const motor_reduced_t *m,
 }
 
 /* EQ-VOLTAGE-2: the voltage that holds the currents asked for (EQ-NOSC-3), and one pull for both axes. Written as what it has
- * beyond the feed-forward, with x_q the way to the q current asked for:
+ * beyond the feed-forward, with a the q current that the errors ask for (EQ-POSITION-4) and x_q the way to it:
  *
- *     u_q = ff_q + ((l5 - l4 s) e_w - l10 w e_d) / l6 - k x_q,   u_d = ff_d + w x_q / l6 - k l10 e_d,   x_q = e_q + s e_w
+ *     u_q = ff_q + (l5 e_w - l4 a - l10 w e_d) / l6 - k x_q,   u_d = ff_d + w x_q / l6 - k l10 e_d,   x_q = e_q + a
  */
-static dq_t out_of_reach_V(const near_optimal_config_t *c, const motor_reduced_t *m, float w,
-                           const nosc_error_t *e, dq_t ff_V)
+static dq_t out_of_reach_V(const near_optimal_t *s, const near_optimal_config_t *c,
+                           const motor_reduced_t *m, float w, const nosc_error_t *e, dq_t ff_V)
 {
-    const float per_radps = c->nosc.speed_A_per_radps;
-    const float k         = nosc_current_gain(&c->nosc);
-    const float x_q       = e->iq_A + (per_radps * e->omega_e_radps);
-    const float x_d       = m->l10 * e->id_A;
-    const float of_w      = (m->l5 - (m->l4 * per_radps)) * e->omega_e_radps;
+    const nosc_gains_t *g     = near_optimal_gains(s, c);
+    const float         k     = nosc_current_gain(g);
+    const float         ask_A = g->speed_A_per_radps * asking_e_radps(s, c, e->omega_e_radps);
+    const float         x_q   = e->iq_A + ask_A;
+    const float         x_d   = m->l10 * e->id_A;
+    const float         of_w  = (m->l5 * e->omega_e_radps) - (m->l4 * ask_A);
 
     const dq_t u_V = {.d = ff_V.d + (m->inv_l6 * w * x_q) - (k * x_d),
                       .q = ff_V.q + (m->inv_l6 * (of_w - (w * x_d))) - (k * x_q)};
@@ -111,18 +191,21 @@ CTL_PART void near_optimal_answer(const near_optimal_t *s, const near_optimal_co
     bool        reached = !voltage_is_outside(u_V, dc_link_V);
 
     if (!reached) {
-        u_V     = out_of_reach_V(c, m, view->now.omega_e_radps, e, ff_V);
+        u_V     = out_of_reach_V(s, c, m, view->now.omega_e_radps, e, ff_V);
         reached = !voltage_is_outside(u_V, dc_link_V);
     }
-    out->v_V            = clamped_V(c, m, view, u_V, reached, in);
-    out->theta_rad      = view->theta_rad;
-    out->now            = view->now;
-    out->i_ref_A        = s->current_ref.i_A;
-    out->d_omega        = view->est->d_omega;
-    out->d_q            = view->est->d_q;
-    out->d_d            = view->est->d_d;
-    out->ignored_angles = 0U;
-    out->without_angle  = false;
-    out->plausible      = view->plausible;
-    out->predicted      = false;
+    out->v_V             = clamped_V(c, m, view, u_V, reached, in);
+    out->theta_rad       = view->theta_rad;
+    out->now             = view->now;
+    out->i_ref_A         = s->current_ref.i_A;
+    out->d_omega         = view->est->d_omega;
+    out->d_q             = view->est->d_q;
+    out->d_d             = view->est->d_d;
+    out->ignored_angles  = 0U;
+    out->without_angle   = false;
+    out->arrived         = s->positioning && s->position_ref.arrived;
+    out->waits           = s->positioning && s->position_ref.waits;
+    out->profile_e_radps = s->speed_ref.omega_e_radps;
+    out->plausible       = view->plausible;
+    out->predicted       = false;
 }

@@ -25,7 +25,7 @@
 #define STORE_HEAD_WORDS 8U
 
 /** Kinds of content; each has two slots of its own, 2 kind - 2 and 2 kind - 1. */
-typedef enum { STORE_IMAGE = 1 } store_kind_t;
+typedef enum { STORE_IMAGE = 1, STORE_PARAMETERS } store_kind_t;
 
 /** What is being written. */
 typedef struct {

@@ -19,19 +19,39 @@ def version() -> str:
     return re.search(r"project\(sdre-drive VERSION ([0-9.]+)", text).group(1)
 
 
-def digest_of(groups: List[Group]) -> str:
-    """Of what a master can see: FNV-1a, 32 bits."""
+def _digest(lines: Iterable[str]) -> int:
+    """FNV-1a, 32 bits."""
     h = 0x811C9DC5
-    for g in groups:
-        for r in g.registers:
-            for c in f"{g.space} {r.address} {r.name} {r.type} {r.step} {r.unit} {r.range} {r.stopped}\n".encode():
-                h = ((h ^ c) * 0x01000193) & 0xFFFFFFFF
-    return f"{h:08x}"
+    for line in lines:
+        for c in f"{line}\n".encode():
+            h = ((h ^ c) * 0x01000193) & 0xFFFFFFFF
+    return h
+
+
+def digest_of(groups: List[Group]) -> str:
+    """Of what a master can see."""
+    lines = (f"{g.space} {r.address} {r.name} {r.type} {r.step} {r.unit} {r.range} {r.stopped} {r.saved}"
+             for g in groups for r in g.registers)  # fmt: skip
+    return f"{_digest(lines):08x}"
+
+
+def saved(groups: List[Group]) -> List[Register]:
+    """The parameters, in the order of their words in the store."""
+    return [r for r in of_space(groups, "holding") if r.saved]
+
+
+def version_of(groups: List[Group]) -> int:
+    """Of what the words of the stored parameters mean."""
+    return _digest(f"{r.name} {r.type} {r.step} {r.unit}" for r in saved(groups))
 
 
 def _c_float(x: float) -> str:
     text = f"{x:.9g}"
     return (text if "." in text or "e" in text else text + ".0") + "f"
+
+
+def _c_bool(x: bool) -> str:
+    return "true" if x else "false"
 
 
 def _enum(groups: Iterable[Group]) -> List[str]:
@@ -54,6 +74,8 @@ def header(groups: List[Group]) -> str:
         " */", "#ifndef APP_REGISTERS_MAP_H", "#define APP_REGISTERS_MAP_H", "", "#include \"base.h\"", "",
         f'#define APP_REGISTERS_VERSION "{version()}"   /**< of the firmware */',
         f'#define APP_REGISTERS_DIGEST "{digest_of(groups)}" /**< of what a master can see of the map */', "",
+        f"#define APP_REGISTERS_SAVED_WORDS   {sum(r.words for r in saved(groups))}U          /**< of all parameters */",
+        f"#define APP_REGISTERS_SAVED_VERSION 0x{version_of(groups):08X}UL /**< of what these words mean */", "",
     ]  # fmt: skip
     for space in SPACES:
         lines += [f"/** {space.capitalize()} registers: those of two words are named by the first. */"]
@@ -68,7 +90,9 @@ def header(groups: List[Group]) -> str:
         "    float                per_unit; /**< counts of one SI unit; 0: a whole number */",
         "    float                least;    /**< what a write may bring, in SI units */",
         "    float                most;",
-        "    bool                 stopped;  /**< written while the bridge is off only */",
+        "    bool                 stopped;   /**< written while the bridge is off only */",
+        "    bool                 saved;     /**< a parameter: kept over power */",
+        "    uint32_t             signature; /**< the one value that is taken; 0: no such thing */",
         "} app_registers_entry_t;", "",
         "struct app_registers;", "struct app_registers_wanted;", "",
     ]  # fmt: skip
@@ -85,8 +109,8 @@ def header(groups: List[Group]) -> str:
                   f"float    app_registers_map_{space}_real(const struct app_registers *r, uint16_t address);",
                   f"uint32_t app_registers_map_{space}_whole(const struct app_registers *r, uint16_t address);", ""]  # fmt: skip
     lines += [
-        "/** Puts a value that is in its range into w. */",
-        "void app_registers_map_put(const struct app_registers *r, struct app_registers_wanted *w, uint16_t address, float x);", "",
+        "/** Puts a value that is in its range into w; n are its counts, of those with a sign. */",
+        "void app_registers_map_put(const struct app_registers *r, struct app_registers_wanted *w, uint16_t address, float x, int32_t n);", "",
         "#endif /* APP_REGISTERS_MAP_H */", "",
     ]  # fmt: skip
     return "\n".join(lines)
@@ -97,7 +121,7 @@ def _table(groups: List[Group], space: str) -> List[str]:
     for r in of_space(groups, space):
         low, high = r.range or (0.0, 0.0)
         lines.append(f"    {{APP_REGISTERS_{r.name}, APP_REGISTERS_{TYPES[r.type]}, {_c_float(r.per_unit)}, {_c_float(low)}, "
-                     f"{_c_float(high)}, {'true' if r.stopped else 'false'}}},")  # fmt: skip
+                     f"{_c_float(high)}, {_c_bool(r.stopped)}, {_c_bool(r.saved)}, {f'0x{r.signature:08X}UL' if r.signature else '0UL'}}},")  # fmt: skip
     return [*lines, "};", ""]
 
 
@@ -123,7 +147,7 @@ def source(groups: List[Group]) -> str:
         lines += _table(groups, space)
     for space in SPACES:
         lines += _getter(groups, space, True) + _getter(groups, space, False)
-    lines += ["void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, uint16_t address, float x)",
+    lines += ["void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, uint16_t address, float x, int32_t n)",
               "{", "    switch (address) {"]  # fmt: skip
     for r in of_space(groups, "holding"):
         lines += [f"    case APP_REGISTERS_{r.name}:", f"        {r.target};", "        break;"]

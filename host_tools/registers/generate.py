@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import re
 import sys
 from pathlib import Path
@@ -16,7 +17,7 @@ from typing import Dict, List
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from c_map import digest_of, header, source  # noqa: E402
+from c_map import digest_of, header, saved, source  # noqa: E402
 from c_signals import signals_header, signals_source  # noqa: E402
 from table import Group, Register, Signal, TableError, read, signals  # noqa: E402
 
@@ -27,6 +28,8 @@ END = "<!-- end -->"
 
 
 def _range_words(r: Register) -> str:
+    if r.signature:
+        return f"{r.signature:08X}h"
     return f"{r.range[0]:g} .. {r.range[1]:g}" if r.range else ""
 
 
@@ -37,7 +40,8 @@ def table_text(group: Group) -> str:
     lines = [head, "|---" * (head.count("|") - 1) + "|"]
     for r in group.registers:
         middle = [_range_words(r), r.default] if holding else []
-        text = "; ".join(filter(None, [f"object {r.object}" if r.object else "", r.text, "only while stopped" if r.stopped else ""]))
+        text = "; ".join(filter(None, [f"object {r.object}" if r.object else "", r.text, "only while stopped" if r.stopped else "",
+                                      "**parameter**" if r.saved else ""]))
         lines.append("| " + " | ".join([r.numbers, f"`{r.name}`", r.type, r.unit_words, *middle, text]) + " |")
     return "\n".join(lines)
 
@@ -67,21 +71,24 @@ def csv_text(groups: List[Group]) -> str:
     out = io.StringIO()
     w = csv.writer(out, lineterminator="\n")
     w.writerow(["space", "address", "registers", "name", "type", "step", "unit", "access", "least", "most", "default", "stopped",
-                "object", "group"])  # fmt: skip
+                "saved", "object", "group"])  # fmt: skip
     for g in groups:
         for r in g.registers:
             low, high = (f"{x:g}" for x in r.range) if r.range else ("", "")
             w.writerow([g.space, r.address, r.words, r.name, r.type, f"{r.step or 1:g}", r.unit,
-                        "rw" if g.space == "holding" else "r", low, high, r.default, int(r.stopped), r.object, g.name])  # fmt: skip
+                        "rw" if g.space == "holding" else "r", low, high, r.default, int(r.stopped), int(r.saved), r.object, g.name])  # fmt: skip
     return out.getvalue()
 
 
 def python_text(groups: List[Group], found: List[Signal]) -> str:
     """register_map.py of sdre_drive."""
     lines = ["# SPDX-License-Identifier: MIT", '"""Generated from firmware/app/registers.toml. Do not edit: host_tools/registers/generate.py."""', "",
-             "from __future__ import annotations", "", "from typing import NamedTuple, Tuple", "", "",
+             "from __future__ import annotations", "", "from typing import NamedTuple, Optional, Tuple", "", "",
              "class Register(NamedTuple):", '    """One value: step is 0 for a whole number."""', "",
              "    name: str", "    address: int", "    type: str", "    step: float", "    unit: str", "", "",
+             "class Parameter(NamedTuple):", '    """What is kept over power: range in its unit; no default: the largest."""', "",
+             "    register: Register", "    low: float", "    high: float", "    default: Optional[float]", "    stopped: bool",
+             "    object: str", "    text: str", "", "",
              f'DIGEST = "{digest_of(groups)}"', ""]  # fmt: skip
     for g in groups:
         lines.append(f"{g.name.upper()}: Tuple[Register, ...] = (  # {g.space}")
@@ -92,7 +99,10 @@ def python_text(groups: List[Group], found: List[Signal]) -> str:
         lines.append("")
     for space in ("holding", "input"):
         lines.append(f"{space.upper()} = (" + ", ".join("*" + g.name.upper() for g in groups if g.space == space) + ")")
-    lines += ["", "# Of the scope, by number: name and unit.", "SIGNALS = ("]
+    lines += ["", "BY_NAME = {r.name: r for r in (*HOLDING, *INPUT)}", "", "PARAMETERS: Tuple[Parameter, ...] = ("]
+    lines += [f'    Parameter(BY_NAME["{r.name}"], {r.range[0]!r}, {r.range[1]!r}, {None if r.default == "largest" else float(r.default)!r}, '
+              f'{r.stopped}, "{r.object}", {json.dumps(r.text)}),' for r in saved(groups)]  # fmt: skip
+    lines += [")  # fmt: skip", "", "# Of the scope, by number: name and unit.", "SIGNALS = ("]
     lines += [f'    ("{s.name}", "{s.unit}"),' for s in found]
     return "\n".join([*lines, ")"]) + "\n"
 

@@ -14,7 +14,7 @@ except ModuleNotFoundError:  # before Python 3.11
 
 WORDS = {"u16": 1, "i16": 1, "u32": 2, "i32": 2, "dec": 2}
 SPACES = ("holding", "input")
-KEYS = {"name", "type", "unit", "step", "from", "to", "range", "default", "stopped", "object", "text"}
+KEYS = {"name", "type", "unit", "step", "from", "to", "range", "default", "stopped", "saved", "signature", "object", "text"}
 
 
 class TableError(Exception):
@@ -35,6 +35,8 @@ class Register:
     range: Optional[Tuple[float, float]]
     default: str
     stopped: bool
+    saved: bool
+    signature: int
     object: str
     text: str
 
@@ -98,12 +100,16 @@ def _register(keys: Dict[str, Any], address: int, space: str) -> Register:
         raise TableError(f"{name}: keys {sorted(keys)}")
     if keys["type"] not in WORDS:
         raise TableError(f"{name}: type {keys['type']}")
-    if (space == "holding") != ("to" in keys and "range" in keys and "default" in keys):
+    signature = int.from_bytes(keys.get("signature", "").encode(), "little")
+    given = keys.get("range") or ([signature, signature] if signature else None)
+    if (space == "holding") != ("to" in keys and given is not None and "default" in keys):
         raise TableError(f"{name}: to, range and default belong to holding registers, all of them")
-    given = keys.get("range")
+    if (space != "holding" and ("saved" in keys or signature)) or (signature and keys["type"] != "u32"):
+        raise TableError(f"{name}: holding registers alone are saved or have a signature, and that is a u32")
     out = Register(name=name, address=address, type=keys["type"], unit=keys.get("unit", ""), step=keys.get("step"),
                    source=keys["from"], target=keys.get("to", ""), range=(given[0], given[1]) if given else None,
-                   default=keys.get("default", ""), stopped=keys.get("stopped", False), object=keys.get("object", ""),
+                   default=keys.get("default", ""), stopped=keys.get("stopped", False), saved=keys.get("saved", False),
+                   signature=signature, object=keys.get("object", ""),
                    text=keys["text"])  # fmt: skip
     if out.range and not _fits(out):
         raise TableError(f"{name}: its type does not hold its range")

@@ -4,8 +4,7 @@
 
 #include "design/design.hpp"
 #include "emit/emit_image.hpp"
-#include "sil/serve/rtu_frame.hpp"
-#include "sil/serve/served_drive.hpp"
+#include "served_client.hpp"
 
 extern "C" {
 #include "app_control.h"
@@ -19,72 +18,19 @@ using namespace sdre;
 
 namespace {
 
-using Words = std::vector<std::uint16_t>;
-
-constexpr double answer_s = 1.0;
 constexpr double erased_s = 2.1; // a sector: 2 s
-
-Drive shipped()
-{
-    return read_drive_file(SDRE_SOURCE_DIR "/firmware/config/drives/ipmsm_390w.toml");
-}
 
 /// The same motor, faster or slower: an image that can be told from the compiled constants.
 Words image(double speed_max_e_radps, const std::string &name)
 {
-    Drive drive                   = shipped();
+    Drive drive                   = shipped_drive();
     drive.name                    = name;
     drive.motor.max_speed_e_radps = speed_max_e_radps;
     return image_words(design_drive(drive, Precision::quick));
 }
 
-class Loading : public testing::Test {
+class Loading : public ServedClient {
 protected:
-    /// The answer's PDU; empty when none came in time.
-    Octets ask(const Octets &pdu, double longest_s = answer_s)
-    {
-        Octets request{1};
-        request.insert(request.end(), pdu.begin(), pdu.end());
-        for (const std::uint8_t octet : rtu_frame(request)) {
-            served.send(octet);
-        }
-        Octets       come;
-        const double end_s = served.time_s() + longest_s;
-        while (served.time_s() < end_s) {
-            served.period();
-            for (int octet = served.take(); octet >= 0; octet = served.take()) {
-                come.push_back(static_cast<std::uint8_t>(octet));
-            }
-            if (const std::optional<Octets> content = rtu_content(come)) {
-                for (int n = 0; n < 20; n++) { // the silence that ends an answer
-                    served.period();
-                }
-                return {content->begin() + 1, content->end()};
-            }
-        }
-        return {};
-    }
-    bool write(unsigned first, const Words &words, double longest_s = answer_s)
-    {
-        Octets pdu{16,
-                   static_cast<std::uint8_t>(first >> 8U),
-                   static_cast<std::uint8_t>(first),
-                   0,
-                   static_cast<std::uint8_t>(words.size()),
-                   static_cast<std::uint8_t>(2 * words.size())};
-        for (const unsigned word : words) {
-            pdu.push_back(static_cast<std::uint8_t>(word >> 8U));
-            pdu.push_back(static_cast<std::uint8_t>(word));
-        }
-        const Octets answer = ask(pdu, longest_s);
-        return !answer.empty() && answer[0] == 16;
-    }
-    int input(unsigned number)
-    {
-        const Octets answer = ask(
-            {4, static_cast<std::uint8_t>(number >> 8U), static_cast<std::uint8_t>(number), 0, 1});
-        return answer.size() == 4 ? 256 * answer[2] + answer[3] : -1;
-    }
     int loader(unsigned number)
     {
         return input(APP_LOADER_FIRST + number);
@@ -109,13 +55,6 @@ protected:
         }
         pass(erased_s);
         return loader(APP_LOADER_STATE) == state;
-    }
-    void pass(double time_s)
-    {
-        const double end_s = served.time_s() + time_s;
-        while (served.time_s() < end_s) {
-            served.period();
-        }
     }
     void enter()
     {
@@ -156,8 +95,6 @@ protected:
         pass(0.5);
         ASSERT_EQ(loader(APP_LOADER_STATE), APP_LOADER_AWAY);
     }
-
-    ServedDrive served{shipped(), 1};
 };
 
 } // namespace

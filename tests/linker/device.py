@@ -8,7 +8,7 @@ STACK_LIMIT = 0x010000  # the stack pointer has 16 bits
 
 RAM = [(0x000050, 0x000800), (0x008000, 0x010000)]  # M0 behind the boot ROM's stack, M1; L0 .. L7
 FLASH = [(0x300000, 0x33FF80)]
-STORE_WORDS = 0x10000  # two sectors
+STORE_WORDS = 0x20000  # four sectors
 ROM_TABLES = [(0x3FEBDC, 0x3FF27C)]
 RESET_VECTOR = [(0x3FFFC0, 0x3FFFC2)]
 SECURITY = [(0x33FF80, 0x33FFF6), (0x33FFF8, 0x340000)]  # reserved words, passwords

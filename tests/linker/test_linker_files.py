@@ -165,11 +165,11 @@ def check_registers(text):
 
 # image, text, what it becomes, part of the reason
 MUTANTS = [
-    ("flash", "length = 0x028000", "length = 0x02FFF7", "security module"),
-    ("flash", "length = 0x028000", "length = 0x02FF81", "security module"),
-    ("flash", "FLASH     : origin = 0x310000, length = 0x028000", "FLASH     : origin = 0x308000, length = 0x030000",
+    ("flash", "length = 0x018000", "length = 0x01FFF7", "security module"),
+    ("flash", "length = 0x018000", "length = 0x01FF81", "security module"),
+    ("flash", "FLASH     : origin = 0x320000, length = 0x018000", "FLASH     : origin = 0x318000, length = 0x020000",
      "overlap"),
-    ("flash", "STORE     : origin = 0x300000, length = 0x010000", "OTHER     : origin = 0x300000, length = 0x010000",
+    ("flash", "STORE     : origin = 0x300000, length = 0x020000", "OTHER     : origin = 0x300000, length = 0x020000",
      "words of the store"),
     ("flash", "origin = 0x33FFF6, length = 0x000002", "origin = 0x33FFF6, length = 0x000003",
      "security module"),

@@ -171,6 +171,12 @@ void prove_control(void)
     }
 }
 
+bool board_line_fits(const board_line_t *line)
+{
+    (void)line;
+    return any_bool();
+}
+
 /* The board's serial line: any octets, room or not. */
 bool board_serial_read(uint16_t *octet)
 {
@@ -199,6 +205,7 @@ static void any_registers(void)
     s->snapshot.raw.index_seen = any_bool();
     registers.config           = &board_config;
     registers.drive            = &config;
+    registers.parameters       = NULL;
     registers.wanted.objects   = any_objects;
     registers.silent           = any_bool();
     registers.changed          = any_bool();

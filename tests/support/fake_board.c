@@ -128,6 +128,12 @@ void board_restart(bool loader)
     fake_board.restart_loader = loader;
 }
 
+uint16_t *board_kept(void)
+{
+    static uint16_t kept[BOARD_KEPT_WORDS];
+    return kept;
+}
+
 void fake_board_erase_store(void)
 {
     memset(fake_board_store, 0xFF, sizeof fake_board_store);
@@ -196,6 +202,16 @@ bool board_stack_is_whole(void)
 void board_watchdog_serve(void)
 {
     fake_board.served++;
+}
+
+bool board_line_fits(const board_line_t *line)
+{
+    return (line->baud_Bd == 9600UL) || (line->baud_Bd == 19200UL) || (line->baud_Bd == 115200UL);
+}
+
+void board_line_set(const board_line_t *line)
+{
+    fake_board.line = *line;
 }
 
 bool board_serial_read(uint16_t *octet)

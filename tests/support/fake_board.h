@@ -48,6 +48,7 @@ typedef struct {
     int                  store_budget; /* words that may still be erased or written before the power fails; negative: no end */
     uint32_t             cycles;
     uint32_t             cycles_per_read;
+    board_line_t         line;        /* that was set */
     int                  serial_room; /* octets that the transmitter takes before it is full */
     void (*tick)(void);
     uint16_t           updates; /* per PWM period */

@@ -358,21 +358,25 @@ static void test_modes_of_operation_and_the_limit(void)
 
 static void test_unknown_objects_are_refused(void)
 {
-    static const int modes[] = {-2, 0, 1, 2, 4, 5, 7, 8, 9, 10};
+    static const int modes[] = {-2, 0, 2, 4, 5, 7, 8, 9, 10};
     static const int quick[] = {3, 4};
-    TEST_ASSERT_TRUE(app_control_knows(&wanted));
+    TEST_ASSERT_TRUE(app_control_knows(&wanted, &gain_tables_drive));
     for (int i = 0; i < SUPPORT_COUNT(modes); i++) {
         app_objects_t o     = wanted;
         o.mode_of_operation = (int16_t)modes[i];
-        TEST_ASSERT_FALSE(app_control_knows(&o));
+        TEST_ASSERT_FALSE(app_control_knows(&o, &gain_tables_drive));
     }
     for (int i = 0; i < SUPPORT_COUNT(quick); i++) {
         app_objects_t o = wanted;
         o.quick_option  = (int16_t)quick[i];
-        TEST_ASSERT_FALSE(app_control_knows(&o));
+        TEST_ASSERT_FALSE(app_control_knows(&o, &gain_tables_drive));
     }
-    drive_config_t drive = gain_tables_drive;
-    drive.current_max_A  = 0.0f;
+    drive_config_t drive     = gain_tables_drive;
+    wanted.mode_of_operation = APP_CONTROL_PROFILE_POSITION;
+    TEST_ASSERT_TRUE(app_control_knows(&wanted, &drive));
+    drive.positions = false;
+    TEST_ASSERT_FALSE(app_control_knows(&wanted, &drive));
+    drive.current_max_A = 0.0f;
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_control_init(&control, &board_config, &drive));
 }
 

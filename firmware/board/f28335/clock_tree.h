@@ -37,8 +37,13 @@
 
 #define CLOCK_BAUD_Hz 115200UL /**< chosen: 1.4 ms for a Modbus frame of 16 octets */
 /** BRR of the nearest rate: LSPCLK / (8 baud) - 1. */
-#define CLOCK_BAUD_BRR       (((CLOCK_LSPCLK_Hz + (4UL * CLOCK_BAUD_Hz)) / (8UL * CLOCK_BAUD_Hz)) - 1UL)
-#define CLOCK_BAUD_ACTUAL_Hz (CLOCK_LSPCLK_Hz / (8UL * (CLOCK_BAUD_BRR + 1UL)))
+#define CLOCK_BRR(baud_Bd) (((CLOCK_LSPCLK_Hz + (4UL * (baud_Bd))) / (8UL * (baud_Bd))) - 1UL)
+/** That rate, within 2 % of what is wanted: with as much at the other end, half a bit in eleven is not reached. */
+#define CLOCK_BAUD_ACTUAL_Hz(baud_Bd) (CLOCK_LSPCLK_Hz / (8UL * (CLOCK_BRR(baud_Bd) + 1UL)))
+#define CLOCK_BAUD_FITS(baud_Bd)                                                                   \
+    ((CLOCK_BRR(baud_Bd) <= 65535UL) &&                                                            \
+     ((CLOCK_BAUD_ACTUAL_Hz(baud_Bd) * 100UL) <= ((baud_Bd)*102UL)) &&                             \
+     ((CLOCK_BAUD_ACTUAL_Hz(baud_Bd) * 100UL) >= ((baud_Bd)*98UL)))
 
 #if CLOCK_SYSCLK_Hz != 150000000UL
 #error "flash wait states and PLL settings are those of 150 MHz"
@@ -46,9 +51,9 @@
 #if CLOCK_ADCCLK_Hz > CLOCK_ADCCLK_MAX_Hz
 #error "the ADC clock is too fast"
 #endif
-#if (CLOCK_BAUD_BRR > 65535UL) || ((CLOCK_BAUD_ACTUAL_Hz * 100UL) > (CLOCK_BAUD_Hz * 102UL)) ||    \
-    ((CLOCK_BAUD_ACTUAL_Hz * 100UL) < (CLOCK_BAUD_Hz * 98UL))
-#error "the baud rate cannot be made within 2 %"
+#if !CLOCK_BAUD_FITS(9600UL) || !CLOCK_BAUD_FITS(19200UL) || !CLOCK_BAUD_FITS(38400UL) ||          \
+    !CLOCK_BAUD_FITS(57600UL) || !CLOCK_BAUD_FITS(CLOCK_BAUD_Hz) || !CLOCK_BAUD_FITS(230400UL)
+#error "a baud rate of serial.c cannot be made within 2 %"
 #endif
 
 #endif /* CLOCK_TREE_H */

@@ -9,7 +9,7 @@
 
 #define NANOSECONDS 6.667f /* of a processor cycle, 150 MHz */
 
-static const uint16_t sectors[BOARD_STORE_SLOTS] = {SECTORH, SECTORG};
+static const uint16_t sectors[BOARD_STORE_SLOTS] = {SECTORH, SECTORG, SECTORF, SECTORE};
 
 /* The API's own unit: 200 ns are 2^20. */
 static void set_up(void)
@@ -19,7 +19,7 @@ static void set_up(void)
 }
 #endif
 
-/* Sectors H and G, by the linker. */
+/* Sectors H to E, by the linker. */
 extern uint16_t board_store_memory[];
 
 static uint16_t *word_of(uint16_t slot, uint32_t offset)

@@ -4,6 +4,7 @@
 
 #define BRIDGE_PINS     0x3FUL         /* GPIO0 .. GPIO5 */
 #define GATE_ENABLE_PIN 0x40UL         /* GPIO6 */
+#define DIRECTION_PIN   (1UL << 27)    /* GPIO27: chosen, free; the board pulls it down */
 #define PLAIN_PINS      (Uint32)0x3FFF /* two multiplexer bits each: GPIO0 .. GPIO6 */
 #define QUALIFY_ASYNC   3U             /* straight through, no clock needed */
 #define QUALIFY_6       2U             /* six equal samples */
@@ -52,4 +53,22 @@ void gpio_connect(void)
     GpioCtrlRegs.GPAMUX1.bit.GPIO4 = 1U;
     GpioCtrlRegs.GPAMUX1.bit.GPIO5 = 1U;
     EDIS;
+}
+
+void gpio_use_direction(void)
+{
+    GpioDataRegs.GPACLEAR.all = DIRECTION_PIN; /* listening, before it is an output */
+    EALLOW;
+    GpioCtrlRegs.GPAMUX2.bit.GPIO27 = 0U; /* no peripheral */
+    GpioCtrlRegs.GPADIR.all |= DIRECTION_PIN;
+    EDIS;
+}
+
+void gpio_direction(bool sends)
+{
+    if (sends) {
+        GpioDataRegs.GPASET.all = DIRECTION_PIN;
+    } else {
+        GpioDataRegs.GPACLEAR.all = DIRECTION_PIN;
+    }
 }

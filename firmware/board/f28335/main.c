@@ -31,17 +31,22 @@ static void load(void)
 
 int main(void)
 {
-    const bool chosen = app_image_choose(&in_force, &board_config, &gain_tables_drive);
+    app_parameters_done_t stored = APP_PARAMETERS_NOT_ASKED;
+    const bool            chosen = app_image_choose(&in_force, &board_config, &gain_tables_drive);
 
     if (!board_init(&in_force.image.app.board) || !chosen) {
         stay_off();
     }
     if (board_loader_is_wanted()) {
-        load();
+        stored = app_parameters_work();
+        if (stored == APP_PARAMETERS_NOT_ASKED) {
+            load();
+        }
     }
     (void)app_init(&in_force.image.app,
                    &in_force.image.drive); /* refused: runs, stays in FAULT, tells why */
     app_tell_image(&in_force);
+    app_take_parameters(stored);
     board_start(app_tick, in_force.image.drive.hardware.updates_per_period);
     for (;;) {
         app_background();

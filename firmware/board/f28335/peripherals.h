@@ -14,8 +14,10 @@
 #define BOARD_STACK_WORDS 0x400U  /**< --stack_size of CMakeLists.txt */
 #define BOARD_STACK_FILL  0xC0DEU /**< STACK_FILL of codestart.asm */
 
-void gpio_make_safe(void); /**< gate driver off and bridge pins low; first of all */
-void gpio_connect(void);   /**< pins to their peripherals; the bridge has to be tripped */
+void gpio_make_safe(void);       /**< gate driver off and bridge pins low; first of all */
+void gpio_connect(void);         /**< pins to their peripherals; the bridge has to be tripped */
+void gpio_use_direction(void);   /**< the line's direction pin becomes an output, low */
+void gpio_direction(bool sends); /**< context: background */
 
 bool clock_init(void);        /**< false: no crystal or no lock */
 void clock_peripherals(void); /**< dividers and module clocks; PWM time bases stand still */

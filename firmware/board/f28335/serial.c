@@ -4,7 +4,6 @@
 #include "peripherals.h"
 #include "yield.h"
 
-#define FORMAT_8E1   0x0067U /* eight bits, even parity, one stop bit: Modbus' default */
 #define ENABLE       0x0003U /* SCICTL1: receiver and transmitter, held in reset */
 #define ENABLE_RUN   0x0023U
 #define FIFO_TX_HOLD 0xC000U /* FIFOs on, this one in reset, no interrupt */
@@ -13,6 +12,30 @@
 #define FIFO_RX_RUN  0x2000U
 #define FIFO_DEPTH   16U
 #define OCTET        0x00FFU
+
+typedef struct {
+    uint32_t baud_Bd;
+    uint16_t brr;
+} rate_t;
+
+/* The receiver's FIFO of 16 octets holds the fastest one for 0.76 ms: longer than a pass of the background. */
+static const rate_t rates[] = {
+    {9600UL, (uint16_t)CLOCK_BRR(9600UL)},     {19200UL, (uint16_t)CLOCK_BRR(19200UL)},
+    {38400UL, (uint16_t)CLOCK_BRR(38400UL)},   {57600UL, (uint16_t)CLOCK_BRR(57600UL)},
+    {115200UL, (uint16_t)CLOCK_BRR(115200UL)}, {230400UL, (uint16_t)CLOCK_BRR(230400UL)}};
+
+/* SCICCR by BOARD_LINE_: eight bits; even and odd with one stop bit, none with two. */
+static const uint16_t formats[] = {0x0067U, 0x0027U, 0x0087U};
+
+#define RATES   ((uint16_t)(sizeof rates / sizeof rates[0]))
+#define FORMATS ((uint16_t)(sizeof formats / sizeof formats[0]))
+
+static struct {
+    bool     uses_direction;
+    bool     empty; /* the transmitter has been since empty_cycles */
+    uint32_t empty_cycles;
+    uint32_t bit_cycles;
+} line;
 
 /* An error stops the receiver until this, which stops the transmitter too. */
 static void restart_receiver(void)
@@ -24,13 +47,13 @@ static void restart_receiver(void)
     SciaRegs.SCICTL1.all = ENABLE_RUN;
 }
 
-void serial_init(void)
+static void set_up(uint16_t brr, uint16_t format)
 {
     SciaRegs.SCICTL1.all = ENABLE;
-    SciaRegs.SCICCR.all  = FORMAT_8E1;
+    SciaRegs.SCICCR.all  = format;
     SciaRegs.SCICTL2.all = 0U; /* polled */
-    SciaRegs.SCIHBAUD    = (uint16_t)(CLOCK_BAUD_BRR >> 8U);
-    SciaRegs.SCILBAUD    = (uint16_t)(CLOCK_BAUD_BRR & OCTET);
+    SciaRegs.SCIHBAUD    = (uint16_t)(brr >> 8U);
+    SciaRegs.SCILBAUD    = (uint16_t)(brr & OCTET);
     SciaRegs.SCIFFCT.all = 0U;
     SciaRegs.SCIPRI.all  = 0U;
     SciaRegs.SCIFFTX.all = FIFO_TX_HOLD;
@@ -39,13 +62,69 @@ void serial_init(void)
     restart_receiver();
 }
 
+void serial_init(void)
+{
+    line.uses_direction = false;
+    set_up((uint16_t)CLOCK_BRR(CLOCK_BAUD_Hz), formats[BOARD_LINE_EVEN]);
+}
+
+/* RATES: there is none. */
+static uint16_t rate_of(uint32_t baud_Bd)
+{
+    uint16_t n = 0U;
+
+    while ((n < RATES) && (rates[n].baud_Bd != baud_Bd)) {
+        n = (uint16_t)(n + 1U);
+    }
+    return n;
+}
+
+bool board_line_fits(const board_line_t *wanted)
+{
+    return (rate_of(wanted->baud_Bd) < RATES) && (wanted->format < FORMATS);
+}
+
+void board_line_set(const board_line_t *wanted)
+{
+    if (!board_line_fits(wanted)) {
+        return;
+    }
+    set_up(rates[rate_of(wanted->baud_Bd)].brr, formats[wanted->format]);
+    line.uses_direction = wanted->direction != 0U;
+    line.empty          = false;
+    line.bit_cycles     = CLOCK_SYSCLK_Hz / wanted->baud_Bd;
+    if (line.uses_direction) {
+        gpio_use_direction();
+    }
+}
+
 static bool is_sending(void)
 {
     return (SciaRegs.SCIFFTX.bit.TXFFST != 0U) || (SciaRegs.SCICTL2.bit.TXEMPTY == 0U);
 }
 
+/* Back to listening when the transmitter has been empty for a bit: the manual does not say whether it is before the
+ * last stop bit has ended. */
+static void release_line(void)
+{
+    if (!line.uses_direction) {
+        return;
+    }
+    if (is_sending()) {
+        line.empty = false;
+    } else if (!line.empty) {
+        line.empty        = true;
+        line.empty_cycles = board_cycles();
+    } else if ((uint32_t)(board_cycles() - line.empty_cycles) > line.bit_cycles) {
+        gpio_direction(false);
+    } else {
+        /* the stop bit */
+    }
+}
+
 bool board_serial_read(uint16_t *octet)
 {
+    release_line();
     if ((SciaRegs.SCIRXST.bit.RXERROR != 0U) || (SciaRegs.SCIFFRX.bit.RXFFOVF != 0U)) {
         if (!is_sending()) { /* an answer on its way is not cut */
             restart_receiver();
@@ -63,6 +142,10 @@ bool board_serial_write(uint16_t octet)
 {
     if (SciaRegs.SCIFFTX.bit.TXFFST >= FIFO_DEPTH) {
         return false;
+    }
+    if (line.uses_direction) {
+        line.empty = false;
+        gpio_direction(true);
     }
     SciaRegs.SCITXBUF = (uint16_t)(octet & OCTET);
     return true;

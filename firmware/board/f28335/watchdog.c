@@ -22,6 +22,12 @@ static board_reset_t cause;
 #endif
 static volatile uint32_t after_reset;
 
+/* The same. */
+#ifdef __TI_COMPILER_VERSION__
+#pragma NOINIT(kept)
+#endif
+static uint16_t kept[BOARD_KEPT_WORDS];
+
 void watchdog_stop(void)
 {
     cause = ((SysCtrlRegs.WDCR & WDFLAG) != 0U) ? BOARD_RESET_WATCHDOG : BOARD_RESET_PIN;
@@ -41,6 +47,11 @@ bool board_loader_is_wanted(void)
 
     after_reset = 0UL;
     return wanted;
+}
+
+uint16_t *board_kept(void)
+{
+    return kept;
 }
 
 void board_restart(bool loader)

@@ -158,6 +158,12 @@ void board_restart(bool loader)
     (void)loader;
 }
 
+uint16_t *board_kept(void)
+{
+    static uint16_t kept[BOARD_KEPT_WORDS];
+    return kept;
+}
+
 const uint16_t *board_store(uint16_t slot)
 {
     (void)slot;
@@ -190,6 +196,17 @@ bool board_stack_is_whole(void)
 }
 
 void board_watchdog_serve(void) {}
+
+bool board_line_fits(const board_line_t *line)
+{
+    (void)line;
+    return true;
+}
+
+void board_line_set(const board_line_t *line)
+{
+    (void)line;
+}
 
 bool board_serial_read(uint16_t *octet)
 {

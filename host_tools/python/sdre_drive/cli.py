@@ -19,7 +19,8 @@ from sdre_drive import commission as finder
 from sdre_drive import load as loader
 from sdre_drive import record, scope, session, show
 from sdre_drive.connection import Drive, DriveError
-from sdre_drive.options import Control, PolePairs, Port, Tcp, bench_address, pole_pairs_of, target
+from sdre_drive.options import Control, Line, PolePairs, Port, Tcp, Unit, bench_address, pole_pairs_of, target, use_line
+from sdre_drive.params_commands import params
 from sdre_drive.registers import Mode, Reading
 
 EXIT_BAD, EXIT_TRIPPED = 1, 4
@@ -27,6 +28,7 @@ LOG_PERIOD_S = 0.02  # the line carries about 50 readings per second
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,
                   help="Reads, commands and explains an sdre-drive, real or virtual.")  # fmt: skip
+app.add_typer(params, name="params")
 out = Console()
 err = Console(stderr=True, soft_wrap=True)
 
@@ -39,6 +41,12 @@ def end_by_signal() -> threading.Event:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: end.set())
     return end
+
+
+@app.callback()
+def common(line: Line = "115200-8E1", unit: Unit = 1) -> None:
+    """For a drive whose line or address is not the one that it comes with."""
+    use_line(line, unit)
 
 
 @app.command()

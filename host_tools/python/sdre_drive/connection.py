@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import inspect
 import logging
 import os
 import threading
@@ -16,11 +17,12 @@ from sdre_drive import register_map, registers
 from sdre_drive.register_map import Register
 from sdre_drive.registers import BY_NAME, Constants, ControlWord, Reading
 
-BAUD = 115200
+FORMATS = {"8E1": ("E", 1), "8O1": ("O", 1), "8N2": ("N", 2)}  # parity and stop bits, in the order of LINE_FORMAT
 # The drive withdraws run after 500 ms without a request: two tries have to fit. TCP loses nothing, and what answers there
 # may be busy: a virtual drive's time then stands still with it.
 SERIAL_TIMEOUT_S = 0.2
 TCP_TIMEOUT_S = 2.0
+SLOW_OCTETS = 300  # of a line so slow that the longest answer takes more than that; the drive's time-out has to be longer then
 TRIES = 2
 
 EXCEPTION_WORDS = {
@@ -36,6 +38,10 @@ class DriveError(Exception):
     """One line for the user."""
 
 
+class Refused(DriveError):
+    """The drive has answered, with an exception."""
+
+
 @dataclass(frozen=True)
 class Target:
     """Where the drive is: a serial port, or host and port of Modbus/TCP."""
@@ -43,6 +49,9 @@ class Target:
     serial_port: Optional[str] = None
     host: str = "127.0.0.1"
     tcp_port: int = 1502
+    baud: int = 115200
+    format: str = "8E1"
+    unit: int = 1
 
     @property
     def words(self) -> str:
@@ -53,6 +62,11 @@ class Target:
     def is_local(self) -> bool:
         """The drive is on this machine, as a virtual one is."""
         return self.serial_port is None and self.host in ("127.0.0.1", "localhost", "::1")
+
+
+def _unit_word() -> str:
+    """What pymodbus calls the address: `slave` before 3.10."""
+    return "device_id" if "device_id" in inspect.signature(ModbusTcpClient.write_register).parameters else "slave"
 
 
 def is_pseudo_terminal(serial_port: str) -> bool:
@@ -68,13 +82,27 @@ class Drive:
         self.target = target
         self._lock = threading.Lock()
         self._constants: Optional[Constants] = None
-        if target.serial_port:
-            virtual = is_pseudo_terminal(target.serial_port)  # it has no line and no parity
-            self._client: Any = ModbusSerialClient(
-                target.serial_port, baudrate=BAUD, parity="N" if virtual else "E", stopbits=1,
-                timeout=TCP_TIMEOUT_S if virtual else SERIAL_TIMEOUT_S, retries=0)  # fmt: skip
-        else:
-            self._client = ModbusTcpClient(target.host, port=target.tcp_port, timeout=TCP_TIMEOUT_S, retries=0)
+        self._client = self._client_of(target)
+        self._unit = {_unit_word(): target.unit} if target.unit != 1 else {}
+
+    @staticmethod
+    def _client_of(target: Target) -> Any:
+        if not target.serial_port:
+            return ModbusTcpClient(target.host, port=target.tcp_port, timeout=TCP_TIMEOUT_S, retries=0)
+        virtual = is_pseudo_terminal(target.serial_port)  # it has no line and no parity
+        parity, stop = ("N", 1) if virtual else FORMATS[target.format]
+        slow_s = SLOW_OCTETS * 11 / target.baud
+        return ModbusSerialClient(
+            target.serial_port, baudrate=target.baud, parity=parity, stopbits=stop,
+            timeout=TCP_TIMEOUT_S if virtual else max(SERIAL_TIMEOUT_S, slow_s), retries=0)  # fmt: skip
+
+    def move_to(self, target: Target) -> None:
+        """The drive has another line or address from now on."""
+        with self._lock:
+            self._client.close()
+            self.target = target
+            self._client = self._client_of(target)
+            self._unit = {_unit_word(): target.unit} if target.unit != 1 else {}
 
     def __enter__(self) -> Drive:
         self.open()
@@ -119,6 +147,10 @@ class Drive:
             raise DriveError("the drive answered something else than it was asked")
         return values
 
+    def holding(self, first: int, count: int) -> List[int]:
+        """Holding registers as they are."""
+        return list(self._asked("read_holding_registers", first, count=count).registers)
+
     def write(self, name: str, value: float) -> None:
         """A holding register, in its unit."""
         r = BY_NAME[name]
@@ -159,10 +191,10 @@ class Drive:
 
     def _asked(self, call: str, *args: Any, **kwargs: Any) -> Any:
         with self._lock:
-            answer = self._tried(call, *args, **kwargs)
+            answer = self._tried(call, *args, **self._unit, **kwargs)
         if answer.isError():
             code = getattr(answer, "exception_code", None)
-            raise DriveError(f"the drive {EXCEPTION_WORDS.get(code, f'answers with exception {code}')}")
+            raise Refused(f"the drive {EXCEPTION_WORDS.get(code, f'answers with exception {code}')}")
         return answer
 
     def _tried(self, call: str, *args: Any, **kwargs: Any) -> Any:

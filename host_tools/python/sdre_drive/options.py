@@ -9,7 +9,7 @@ import typer
 from typing_extensions import Annotated
 
 from sdre_drive.bench import DEFAULT
-from sdre_drive.connection import Drive, DriveError, Target
+from sdre_drive.connection import FORMATS, Drive, DriveError, Target
 
 Port = Annotated[Optional[str], typer.Option("--port", help="serial port of the drive", metavar="TTY")]
 Tcp = Annotated[Optional[str], typer.Option(
@@ -19,6 +19,21 @@ Control = Annotated[Optional[str], typer.Option(
 PolePairs = Annotated[Optional[int], typer.Option(
     "--pole-pairs", min=1, max=100, envvar="SDRE_POLE_PAIRS",
     help="of the motor, for r/min, instead of what the drive tells")]  # fmt: skip
+
+
+Line = Annotated[str, typer.Option(
+    "--line", help="baud rate and format of the serial line: 8E1, 8O1 or 8N2", envvar="SDRE_LINE", metavar="BAUD-FORMAT")]  # fmt: skip
+Unit = Annotated[int, typer.Option("--unit", min=1, max=247, help="address of the drive", envvar="SDRE_UNIT")]
+
+_line = {"baud": 115200, "format": "8E1", "unit": 1}  # of all commands
+
+
+def use_line(line: str, unit: int) -> None:
+    """What stands before the command."""
+    baud, _, words = line.partition("-")
+    if not baud.isdigit() or words not in FORMATS:
+        raise DriveError(f'--line "{line}" is not BAUD-FORMAT, as 115200-8E1')
+    _line.update(baud=int(baud), format=words, unit=unit)
 
 
 def address(text: str, option: str) -> Tuple[str, int]:
@@ -34,11 +49,11 @@ def target(port: Optional[str], tcp: Optional[str]) -> Target:
     if port and tcp:
         raise DriveError("--port and --tcp name two drives: give one")
     if port:
-        return Target(serial_port=port)
+        return Target(serial_port=port, **_line)
     if tcp:
         host, number = address(tcp, "--tcp")
-        return Target(host=host, tcp_port=number)
-    return Target()
+        return Target(host=host, tcp_port=number, **_line)
+    return Target(**_line)
 
 
 def bench_address(control: Optional[str]) -> Tuple[str, int]:

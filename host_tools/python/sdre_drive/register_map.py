@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, Tuple
+from typing import NamedTuple, Optional, Tuple
 
 
 class Register(NamedTuple):
@@ -16,7 +16,19 @@ class Register(NamedTuple):
     unit: str
 
 
-DIGEST = "a551e6ec"
+class Parameter(NamedTuple):
+    """What is kept over power: range in its unit; no default: the largest."""
+
+    register: Register
+    low: float
+    high: float
+    default: Optional[float]
+    stopped: bool
+    object: str
+    text: str
+
+
+DIGEST = "b9e4b772"
 
 COMMAND: Tuple[Register, ...] = (  # holding
     Register("CONTROLWORD", 0, "u16", 0.0, "bits"),
@@ -40,6 +52,9 @@ COMMAND: Tuple[Register, ...] = (  # holding
 LINE: Tuple[Register, ...] = (  # holding
     Register("MODBUS_ADDRESS", 64, "u16", 0.0, ""),
     Register("MODBUS_TIMEOUT", 65, "u16", 0.001, "s"),
+    Register("BAUD_RATE", 66, "u32", 0.0, "Bd"),
+    Register("LINE_FORMAT", 68, "u16", 0.0, ""),
+    Register("DIRECTION_PIN", 69, "u16", 0.0, ""),
 )  # fmt: skip
 
 SCOPE: Tuple[Register, ...] = (  # holding
@@ -53,6 +68,18 @@ SCOPE: Tuple[Register, ...] = (  # holding
     Register("SCOPE_CHANNEL", 103, "u16", 0.0, ""),
     Register("SCOPE_LEVEL", 104, "i32", 0.001, "of its signal"),
     Register("SCOPE_BEFORE", 106, "u16", 0.0, "samples"),
+)  # fmt: skip
+
+STORE: Tuple[Register, ...] = (  # holding
+    Register("STORE_PARAMETERS", 128, "u32", 0.0, ""),
+    Register("RESTORE_PARAMETERS", 130, "u32", 0.0, ""),
+)  # fmt: skip
+
+TARGET: Tuple[Register, ...] = (  # holding
+    Register("TARGET_POSITION", 160, "i32", 0.0, "counts"),
+    Register("PROFILE_VELOCITY", 162, "u32", 0.1, "rad/s electrical"),
+    Register("PROFILE_JERK", 164, "u32", 1.0, "rad/s3 electrical"),
+    Register("POSITION_WINDOW", 166, "u16", 0.0, "counts"),
 )  # fmt: skip
 
 LIVE: Tuple[Register, ...] = (  # input
@@ -109,6 +136,11 @@ LIVE: Tuple[Register, ...] = (  # input
     Register("FIRST_TICKS", 60, "u32", 0.0, "control periods"),
 )  # fmt: skip
 
+POSITION: Tuple[Register, ...] = (  # input
+    Register("POSITION_NOW", 64, "i32", 0.0, "counts"),
+    Register("POSITION_TARGET", 66, "i32", 0.0, "counts"),
+)  # fmt: skip
+
 COMMISSIONING: Tuple[Register, ...] = (  # input
     Register("COMMISSION_STAGE", 128, "u16", 0.0, ""),
     Register("COMMISSION_REASON", 129, "u16", 0.0, ""),
@@ -144,6 +176,12 @@ TRACES: Tuple[Register, ...] = (  # input
     Register("RECORD_COUNT", 196, "u16", 0.0, "samples"),
 )  # fmt: skip
 
+STORED: Tuple[Register, ...] = (  # input
+    Register("PARAMETERS_STATE", 224, "u16", 0.0, ""),
+    Register("PARAMETERS_DONE", 225, "u16", 0.0, ""),
+    Register("PARAMETERS_NUMBER", 226, "u32", 0.0, ""),
+)  # fmt: skip
+
 CONSTANTS: Tuple[Register, ...] = (  # input
     Register("SUPPORTED_MODES", 256, "u32", 0.0, "bits"),
     Register("POLE_PAIRS", 258, "u16", 0.0, ""),
@@ -160,8 +198,30 @@ CONSTANTS: Tuple[Register, ...] = (  # input
     Register("TEMPERATURE_TRIP", 276, "i16", 0.1, "degC"),
 )  # fmt: skip
 
-HOLDING = (*COMMAND, *LINE, *SCOPE)
-INPUT = (*LIVE, *COMMISSIONING, *TRACES, *CONSTANTS)
+HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET)
+INPUT = (*LIVE, *POSITION, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS)
+
+BY_NAME = {r.name: r for r in (*HOLDING, *INPUT)}
+
+PARAMETERS: Tuple[Parameter, ...] = (
+    Parameter(BY_NAME["ACCELERATION"], 0, 1000000.0, 0.0, False, "6083h", "away from zero speed; 0: as fast as the drive can, as the next two"),
+    Parameter(BY_NAME["DECELERATION"], 0, 1000000.0, 0.0, False, "6084h", "towards zero speed"),
+    Parameter(BY_NAME["QUICK_STOP_DECELERATION"], 0, 1000000.0, 0.0, False, "6085h", ""),
+    Parameter(BY_NAME["QUICK_STOP_OPTION"], 0, 6, 2.0, False, "605Ah", "0 as disable voltage; 1 with DECELERATION, 2 with QUICK_STOP_DECELERATION, then SWITCH ON DISABLED; 5, 6 the same two and stays, enabled, at zero speed"),
+    Parameter(BY_NAME["SHUTDOWN_OPTION"], 0, 1, 0.0, False, "605Bh", "0 as the drive's file says (`stop`), 1 with DECELERATION"),
+    Parameter(BY_NAME["DISABLE_OPTION"], 0, 1, 0.0, False, "605Ch", "the same for disable operation"),
+    Parameter(BY_NAME["LOST_OPTION"], 2, 3, 2.0, False, "6007h", "without a request for MODBUS_TIMEOUT: 2 disable voltage, 3 quick stop"),
+    Parameter(BY_NAME["MAX_CURRENT"], 0, 1000000.0, None, False, "6073h", "of the current vector, up to CURRENT_MAX; below that the drive cannot tell a stall. Of laws with near_optimal.h, which the shipped one is; others ignore it"),
+    Parameter(BY_NAME["SPEED_WINDOW"], 0, 6553.5, 5.0, False, "606Dh", "around the wanted speed: target reached"),
+    Parameter(BY_NAME["MODBUS_ADDRESS"], 1, 247, 1.0, False, "", "of the drive; the answer to the write still comes from the old one"),
+    Parameter(BY_NAME["MODBUS_TIMEOUT"], 0.01, 60.0, 0.5, False, "", "without a request for longer the drive stops (LOST_OPTION)"),
+    Parameter(BY_NAME["BAUD_RATE"], 9600, 230400, 115200.0, True, "", "9600, 19200, 38400, 57600, 115200 or 230400; acts when it has been stored, as the next two"),
+    Parameter(BY_NAME["LINE_FORMAT"], 0, 2, 0.0, True, "", "0 even parity, 1 odd, both with one stop bit; 2 no parity, two stop bits"),
+    Parameter(BY_NAME["DIRECTION_PIN"], 0, 1, 0.0, True, "", "1: a pin of the board is high while the drive sends, for an RS-485 transceiver"),
+    Parameter(BY_NAME["PROFILE_VELOCITY"], 0, 1000000.0, 0.0, False, "6081h", "largest speed on the way; 0: as fast as the drive can. ACCELERATION and DECELERATION count too"),
+    Parameter(BY_NAME["PROFILE_JERK"], 0, 4000000000.0, 0.0, False, "60A4h", "0: as much as the drive can"),
+    Parameter(BY_NAME["POSITION_WINDOW"], 1, 65535, 4.0, False, "6067h", "around the target: reached"),
+)  # fmt: skip
 
 # Of the scope, by number: name and unit.
 SIGNALS = (

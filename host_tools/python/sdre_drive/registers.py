@@ -12,7 +12,7 @@ from sdre_drive.register_map import Register
 
 WORDS = {"u16": 1, "i16": 1, "u32": 2, "i32": 2, "dec": 2}
 RANGES = {"u16": (0, 0xFFFF), "i16": (-0x8000, 0x7FFF), "u32": (0, 0xFFFFFFFF), "i32": (-0x80000000, 0x7FFFFFFF)}
-BY_NAME = {r.name: r for r in (*register_map.HOLDING, *register_map.INPUT)}
+BY_NAME = register_map.BY_NAME
 
 
 def block(registers: Sequence[Register]) -> Tuple[int, int]:

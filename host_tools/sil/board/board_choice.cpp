@@ -37,6 +37,9 @@ extern "C" {
 bool            f28335_board_fits(const board_setup_t *setup);
 bool            f28335_board_loader_is_wanted(void);
 void            f28335_board_restart(bool loader);
+uint16_t       *f28335_board_kept(void);
+bool            f28335_board_line_fits(const board_line_t *line);
+void            f28335_board_line_set(const board_line_t *line);
 const uint16_t *f28335_board_store(uint16_t slot);
 bool            f28335_board_store_erase(uint16_t slot);
 bool            f28335_board_store_program(uint16_t slot, uint32_t offset, const uint16_t *words,
@@ -71,6 +74,23 @@ void board_restart(bool loader)
 {
     if (the_fake == nullptr) {
         f28335_board_restart(loader);
+    }
+}
+
+uint16_t *board_kept(void)
+{
+    return f28335_board_kept(); // plain memory: the fake may have it too
+}
+
+bool board_line_fits(const board_line_t *line)
+{
+    return f28335_board_line_fits(line);
+}
+
+void board_line_set(const board_line_t *line)
+{
+    if (the_fake == nullptr) {
+        f28335_board_line_set(line);
     }
 }
 

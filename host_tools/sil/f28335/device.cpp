@@ -10,8 +10,9 @@
 namespace sdre::f28335 {
 namespace {
 
-constexpr int pin_trip    = 12;
-constexpr int top_vectors = 128;
+constexpr int pin_trip      = 12;
+constexpr int pin_direction = 27;
+constexpr int top_vectors   = 128;
 
 // Places in the vector table: INT13; the PIE's, eight of each group.
 constexpr int vector_int13 = 13;
@@ -94,6 +95,10 @@ void Device::sync()
     encoder_.sync(findings_, t);
     timer_.sync();
     timer1_.sync();
+    sci_.drive_direction(Gpio::is_output(pin_direction) && Gpio::is_muxed(pin_direction, 0)
+                             ? std::optional<bool>(gpio_.output_high(pin_direction))
+                             : std::nullopt,
+                         now_);
     sci_.sync(findings_, t);
     reset_ = reset_ || watchdog_.reset_wanted();
     for (int n = 0; n < 3; n++) {

@@ -8,6 +8,9 @@
 #define board_init             f28335_board_init
 #define board_loader_is_wanted f28335_board_loader_is_wanted
 #define board_restart          f28335_board_restart
+#define board_kept             f28335_board_kept
+#define board_line_fits        f28335_board_line_fits
+#define board_line_set         f28335_board_line_set
 #define board_store            f28335_board_store
 #define board_store_erase      f28335_board_store_erase
 #define board_store_program    f28335_board_store_program

@@ -2,14 +2,16 @@
 #include "sil/f28335/flash_unit.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "Flash2833x_API_Library.h"
 #include "sil/f28335/device.hpp"
 
 namespace {
 
-constexpr int    sectors      = 2;
+constexpr int    sectors      = 4;
 constexpr int    sector_words = 0x8000;
+constexpr Uint16 masks[sectors]{SECTORH, SECTORG, SECTORF, SECTORE};
 constexpr double erase_s      = 2.0;   // data sheet, typical, a sector of 32 K words
 constexpr double program_s    = 50e-6; // the same, a word
 constexpr double scale_150MHz = 1048576.0 * 200.0 / 6.667;
@@ -25,10 +27,11 @@ void (*Flash_CallbackPtr)(void) = nullptr;
 /// All words to zero first, then all to one: a cut leaves zeros.
 Uint16 Flash_Erase(Uint16 SectorMask, FLASH_ST *)
 {
-    if (SectorMask != SECTORH && SectorMask != SECTORG) {
+    const auto *const sector = std::find(std::begin(masks), std::end(masks), SectorMask);
+    if (sector == std::end(masks)) {
         return STATUS_FAIL_NO_SECTOR_SPECIFIED;
     }
-    Uint16 *const words = board_store_memory[SectorMask == SECTORH ? 0 : 1];
+    Uint16 *const words = board_store_memory[sector - std::begin(masks)];
     std::fill_n(words, sector_words, Uint16{0});
     sdre::f28335::Device::current().change_flash(erase_s, Flash_CPUScaleFactor, scale_150MHz);
     std::fill_n(words, sector_words, Uint16{0xFFFF});

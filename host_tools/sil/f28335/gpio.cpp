@@ -69,6 +69,11 @@ bool Gpio::output_high(int pin) const
     return (port(pin / 32).dir & bit) != 0U && (latch_[pin / 32] & bit) != 0U;
 }
 
+bool Gpio::is_output(int pin)
+{
+    return (port(pin / 32).dir & (1U << (pin % 32))) != 0U;
+}
+
 bool Gpio::is_muxed(int pin, unsigned function)
 {
     const std::uint32_t mux = pin < 16 ? GpioCtrlRegs.GPAMUX1.all : GpioCtrlRegs.GPAMUX2.all;

@@ -14,7 +14,8 @@ public:
     /// Level that the outside drives onto an input pin.
     void drive(int pin, bool high);
     /// Level of an output pin; a pin that is no output counts as low (the board pulls gates down).
-    bool output_high(int pin) const;
+    bool        output_high(int pin) const;
+    static bool is_output(int pin);
     /// The pin belongs to the peripheral with this number (0: general purpose). Port A.
     static bool is_muxed(int pin, unsigned function);
 

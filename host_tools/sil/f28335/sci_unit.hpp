@@ -4,11 +4,28 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 
 #include "sil/f28335/clock.hpp"
 #include "sil/f28335/findings.hpp"
 
 namespace sdre::f28335 {
+
+/// How the other end of the line is set up.
+struct LineEnd {
+    double baud_Bd = 115200.0;
+    char   parity  = 'E'; ///< E, O, or N with two stop bits: 11 bits always
+};
+
+/// What the direction pin of a transceiver did, in ticks; the last time each.
+struct Direction {
+    int          rises       = 0;
+    std::int64_t lead_ticks  = -1; ///< from the rise to the first bit
+    std::int64_t tail_ticks  = -1; ///< from the end of the last stop bit to the fall
+    int          cut_octets  = 0;  ///< while it was low: nobody hears them
+    int          deaf_octets = 0;  ///< came while it was high
+    std::int64_t longest_gap = 0;  ///< between two octets of an answer
+};
 
 class SciUnit {
 public:
@@ -26,6 +43,17 @@ public:
     {
         coming_.push_back(octet);
     }
+    /// An end with settings of its own; without this call it has those of the device.
+    void set_far_end(const LineEnd &end)
+    {
+        far_ = end;
+    }
+    /// Level of the direction pin; nothing: it is no output, and the line has two pairs.
+    void             drive_direction(std::optional<bool> high, std::int64_t now_ticks);
+    const Direction &direction() const
+    {
+        return direction_;
+    }
     /// A receive error, now: nothing more is received until a software reset of the port.
     void fail_receiver()
     {
@@ -39,6 +67,10 @@ private:
     void take_written();
     void present();
     bool connected(int pin) const;
+    bool ends_agree(const Clock &clock) const;
+    void end_reception(const Clock &clock);
+    void end_shift(const Clock &clock);
+    void begin_shift(std::int64_t now, std::int64_t octet);
 
     std::deque<std::uint16_t> coming_;
     std::deque<std::uint16_t> rx_;
@@ -53,6 +85,12 @@ private:
     bool                      overflow_       = false;
     bool                      error_          = false;
     std::uint16_t             presented_ffrx_ = 0x201F;
+    std::optional<LineEnd>    far_;
+    std::optional<bool>       pin_;
+    std::int64_t              risen_at_ = 0;
+    bool                      fresh_    = false; ///< nothing was sent since the pin rose
+    bool                      whole_    = false; ///< the pin was high all the time of this octet
+    Direction                 direction_;
 };
 
 } // namespace sdre::f28335

@@ -48,6 +48,11 @@ public:
         return device_->serial().take();
     }
 
+    f28335::SciUnit &line()
+    {
+        return device_->serial();
+    }
+
     // The motor's surroundings.
     void set_load_Nm(double torque_Nm)
     {

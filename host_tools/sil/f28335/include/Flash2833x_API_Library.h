@@ -11,6 +11,8 @@ extern "C" {
 
 #define SECTORH 0x0080U
 #define SECTORG 0x0040U
+#define SECTORF 0x0020U
+#define SECTORE 0x0010U
 
 #define STATUS_SUCCESS                 0U
 #define STATUS_FAIL_NO_SECTOR_SPECIFIED 20U

@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: MIT */
+/* What a write does to the holding registers. */
+#include "app_registers.h"
+
+#include <stddef.h>
+
+#include "app_registers_count.h"
+#include "app_registers_holding.h"
+
+#define SCOPE_ARM  1U /* values of SCOPE_COMMAND */
+#define SCOPE_STOP 2U
+
+/* A write may come to within half of what a register shows. */
+static bool is_in(const app_registers_entry_t *e, float x)
+{
+    const float room = (e->per_unit > 0.0f) ? (0.5f / e->per_unit) : 0.5f;
+    return base_in_range(x, e->least - room, e->most + room);
+}
+
+static bool is_stopped(const app_registers_t *r)
+{
+    return !r->status.gate_enable && (r->status.state != APP_CONTROL_OPERATION_ENABLED) &&
+           (r->status.state != APP_CONTROL_QUICK_STOP_ACTIVE);
+}
+
+/* What a register has already may be written at any time: a master that sends all of its command. */
+static bool is_there(const app_registers_t *r, const app_registers_entry_t *e,
+                     const uint16_t *words)
+{
+    const uint32_t value = app_registers_holding_value(r, e);
+    const bool     wide  = app_registers_count_words(e) == 2U;
+    const uint32_t high  = wide ? words[0] : 0U;
+    const uint32_t low   = wide ? words[1] : words[0];
+
+    return (value & (wide ? 0xFFFFFFFFUL : 0xFFFFUL)) == ((high << 16) | low);
+}
+
+/* A command that restarts the drive: its signature, so that a stray write does nothing; at standstill, because a restart
+ * leaves the motor alone for seconds. */
+static app_registers_result_t try_command(app_registers_t *r, const app_registers_entry_t *e,
+                                          const uint16_t *words)
+{
+    const uint32_t given  = ((uint32_t)words[0] << 16) | words[1];
+    const bool     stands = base_within(r->status.speed_e_radps, r->config->stop.still_e_radps);
+
+    if (given != e->signature) {
+        return APP_REGISTERS_BAD_VALUE;
+    }
+    if ((r->parameters == NULL) || !is_stopped(r) || !stands) {
+        return APP_REGISTERS_BUSY;
+    }
+    app_registers_map_put(r, &r->trial, e->address, 0.0f, 0L);
+    return APP_REGISTERS_OK;
+}
+
+static app_registers_result_t try_one(app_registers_t *r, const app_registers_entry_t *e,
+                                      const uint16_t *words)
+{
+    const float x = app_registers_count_written(e, words);
+
+    if (e->signature != 0UL) {
+        return try_command(r, e, words);
+    }
+    if (!is_in(e, x)) {
+        return APP_REGISTERS_BAD_VALUE;
+    }
+    if (e->stopped && !is_stopped(r) && !is_there(r, e, words)) {
+        return APP_REGISTERS_BUSY;
+    }
+    app_registers_map_put(r, &r->trial, e->address, x, app_registers_count_whole(e, words));
+    return APP_REGISTERS_OK;
+}
+
+/* What a table of constants cannot tell. */
+static bool may_be_wanted(const app_registers_t *r, const app_registers_wanted_t *w)
+{
+    const float most = r->drive->speed_max_e_radps;
+    return base_in_range(w->objects.omega_e_radps, -most, most) &&
+           app_control_knows(&w->objects, r->drive) && app_scope_knows(&w->scope) &&
+           board_line_fits(&w->line);
+}
+
+/* Every value whole. */
+static bool are_whole(uint16_t first, uint16_t count)
+{
+    uint16_t k = app_registers_holding_find(first);
+    uint16_t n = 0U;
+
+    for (; (k < APP_REGISTERS_MAP_HOLDING) && (n < count); k++) {
+        const app_registers_entry_t *e = &app_registers_map_holding[k];
+        if ((e->address != (uint16_t)(first + n)) ||
+            (app_registers_count_words(e) > (uint16_t)(count - n))) {
+            return false;
+        }
+        n = (uint16_t)(n + app_registers_count_words(e));
+    }
+    return (n == count) && (count > 0U);
+}
+
+static app_registers_result_t write_loader(app_registers_t *r, uint16_t first, uint16_t count,
+                                           const uint16_t *values)
+{
+    const app_loader_result_t result = app_loader_write(
+        r->loader, r->status.gate_enable, (uint16_t)(first - APP_LOADER_FIRST), count, values);
+
+    if (result == APP_LOADER_BAD_VALUE) {
+        return APP_REGISTERS_BAD_VALUE;
+    }
+    return (result == APP_LOADER_OK) ? APP_REGISTERS_OK : APP_REGISTERS_BAD_ADDRESS;
+}
+
+static void command_scope(app_registers_t *r)
+{
+    const uint16_t command = r->wanted.scope_command;
+
+    r->wanted.scope_command = 0U;
+    if ((r->scope != NULL) && (command == SCOPE_ARM)) {
+        app_scope_arm(r->scope, &r->wanted.scope);
+    } else if ((r->scope != NULL) && (command == SCOPE_STOP)) {
+        app_scope_stop(r->scope);
+    } else {
+        /* nothing is asked for */
+    }
+}
+
+app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, uint16_t count,
+                                           const uint16_t *values)
+{
+    uint16_t k = app_registers_holding_find(first);
+    uint16_t n = 0U;
+
+    if ((r->loader != NULL) && (first >= APP_LOADER_FIRST)) {
+        return write_loader(r, first, count, values);
+    }
+    if (!are_whole(first, count)) {
+        return APP_REGISTERS_BAD_ADDRESS;
+    }
+    r->trial = r->wanted;
+    while (n < count) {
+        const app_registers_entry_t *e      = &app_registers_map_holding[k];
+        const app_registers_result_t result = try_one(r, e, &values[n]);
+        if (result != APP_REGISTERS_OK) {
+            return result;
+        }
+        n = (uint16_t)(n + app_registers_count_words(e));
+        k = (uint16_t)(k + 1U);
+    }
+    if (!may_be_wanted(r, &r->trial)) {
+        return APP_REGISTERS_BAD_VALUE;
+    }
+    r->wanted = r->trial;
+    command_scope(r);
+    r->silent  = r->silent && !app_control_enables(r->wanted.objects.controlword);
+    r->changed = true;
+    return APP_REGISTERS_OK;
+}
+
+bool app_registers_saved_take(app_registers_t *r, const uint16_t *words)
+{
+    uint16_t n  = 0U;
+    bool     ok = true;
+
+    r->trial = r->wanted;
+    for (uint16_t k = 0U; k < APP_REGISTERS_MAP_HOLDING; k++) {
+        const app_registers_entry_t *e = &app_registers_map_holding[k];
+
+        if (e->saved) {
+            ok = (try_one(r, e, &words[n]) == APP_REGISTERS_OK) && ok;
+            n  = (uint16_t)(n + app_registers_count_words(e));
+        }
+    }
+    if (ok && may_be_wanted(r, &r->trial)) {
+        r->wanted  = r->trial;
+        r->changed = true;
+        return true;
+    }
+    return false;
+}
+
+void app_registers_silence(app_registers_t *r)
+{
+    app_objects_t *o = &r->wanted.objects;
+
+    if (app_control_enables(o->controlword)) {
+        o->controlword = (o->lost_option == (int16_t)APP_CONTROL_LOST_QUICK_STOP)
+                             ? (uint16_t)APP_CONTROL_QUICK_STOP
+                             : (uint16_t)APP_CONTROL_DISABLE_VOLTAGE;
+        r->changed     = true;
+        r->silent      = true;
+    }
+}

@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: MIT
+"""The parameters of a drive, which it keeps over power: docs/parameters.md."""
+
+from __future__ import annotations
+
+import csv
+import time
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Dict, Iterable, List, Tuple
+
+from sdre_drive import register_map
+from sdre_drive.connection import FORMATS, Drive, DriveError, Refused, is_pseudo_terminal
+from sdre_drive.register_map import BY_NAME, PARAMETERS, Parameter
+from sdre_drive.registers import block, values, words_of
+
+try:
+    import tomllib
+except ModuleNotFoundError:  # before Python 3.11
+    import tomli as tomllib  # type: ignore[no-redef]
+
+NAMES = {p.register.name: p for p in PARAMETERS}
+SIGNATURES = {"STORE_PARAMETERS": b"save", "RESTORE_PARAMETERS": b"load"}  # CiA 301
+STATES = (
+    "defaults: nothing is stored",
+    "as stored",
+    "DEFAULTS: what is stored belongs to another firmware",
+    "DEFAULTS: a stored value is out of its range",
+)
+DONE, FLASH_FAILED = 1, 2
+BACK_S = 90.0  # data sheet: a sector is erased in 2 s typical, 15 s at most; two of them, and requests without an answer
+NEW_S = 1.0  # a drive that has just started: its time would not tell a restart
+
+
+@dataclass(frozen=True)
+class Value:
+    """A parameter as the drive has it."""
+
+    parameter: Parameter
+    value: float
+    default: float
+
+    @property
+    def name(self) -> str:
+        return self.parameter.register.name
+
+    @property
+    def changed(self) -> bool:
+        """Not the default, as far as a register can tell."""
+        return abs(self.value - self.default) > 0.5 * (self.parameter.register.step or 1.0)
+
+
+@dataclass(frozen=True)
+class Stored:
+    """How the drive has come by its parameters."""
+
+    state: int
+    done: int
+    number: int
+
+    @property
+    def words(self) -> str:
+        """For a person."""
+        known = STATES[self.state] if self.state < len(STATES) else f"state {self.state}"
+        return f"{known}, writing {self.number}" if self.number else known
+
+
+def text_of(x: float) -> str:
+    """A value without what single steps leave behind."""
+    return f"{x:.9g}"
+
+
+def read(drive: Drive) -> List[Value]:
+    """All of them."""
+    raw: Dict[str, float] = {}
+    for group in (register_map.COMMAND, register_map.LINE):
+        raw.update(values(group, drive.holding(*block(group))))
+    largest = drive.constants().current_max_A
+    return [Value(p, raw[p.register.name], largest if p.default is None else p.default) for p in PARAMETERS]
+
+
+def stored(drive: Drive) -> Stored:
+    """Where they come from."""
+    raw = values(register_map.STORED, drive.words(*block(register_map.STORED)))
+    return Stored(int(raw["PARAMETERS_STATE"]), int(raw["PARAMETERS_DONE"]), int(raw["PARAMETERS_NUMBER"]))
+
+
+def require_possible(wanted: Dict[str, float]) -> None:
+    """DriveError for a name that is none or a value out of its range; the drive looks again."""
+    for name, value in wanted.items():
+        if name not in NAMES:
+            raise DriveError(f"{name} is not a parameter; sdre-drive params lists them")
+        p = NAMES[name]
+        if not p.low <= value <= p.high:
+            raise DriveError(f"{name}: {text_of(value)} is not within {text_of(p.low)} .. {text_of(p.high)} {p.register.unit}".rstrip())
+        words_of(p.register, value)
+
+
+def parse(assignments: Iterable[str]) -> Dict[str, float]:
+    """NAME=VALUE, each."""
+    wanted: Dict[str, float] = {}
+    for text in assignments:
+        name, _, number = text.partition("=")
+        try:
+            wanted[name.strip().upper()] = float(number)
+        except ValueError as e:
+            raise DriveError(f'"{text}" is not NAME=VALUE') from e
+    return wanted
+
+
+def write(drive: Drive, wanted: Dict[str, float]) -> None:
+    """All that are possible, one by one. The address comes last: from then on the drive has another one."""
+    require_possible(wanted)
+    for name in sorted(wanted, key=lambda n: n == "MODBUS_ADDRESS"):
+        try:
+            drive.write(name, wanted[name])
+        except Refused as e:
+            why = "; only while stopped" if NAMES[name].stopped else ""
+            raise DriveError(f"{name}: {e}{why}") from e
+        if name == "MODBUS_ADDRESS":
+            drive.move_to(replace(drive.target, unit=int(wanted[name])))
+
+
+def _new_line(drive: Drive, after: Dict[str, float]) -> None:
+    """Talks as the drive does after its restart; a virtual one has no line."""
+    t = replace(drive.target, unit=int(after["MODBUS_ADDRESS"]))
+    if t.serial_port and not is_pseudo_terminal(t.serial_port):
+        t = replace(t, baud=int(after["BAUD_RATE"]), format=list(FORMATS)[int(after["LINE_FORMAT"])])
+    drive.move_to(t)
+
+
+def _command(drive: Drive, name: str, after: Dict[str, float]) -> Stored:
+    before, begun_s = stored(drive), drive.read().time_s
+    time.sleep(max(NEW_S - begun_s, 0.0))
+    begun_s = drive.read().time_s
+    signature = int.from_bytes(SIGNATURES[name], "little")
+    try:
+        drive.write_words(BY_NAME[name].address, [signature >> 16, signature & 0xFFFF])
+    except Refused as e:
+        raise DriveError(f"{e}: the motor has to stand still, with the bridge off") from e
+    except DriveError:
+        pass  # the answer was lost: what has become of it will be seen
+    _new_line(drive, after)
+    end = time.monotonic() + BACK_S
+    while time.monotonic() < end:
+        try:
+            now, now_s = stored(drive), drive.read().time_s
+        except DriveError:  # it restarts, or its flash keeps it
+            begun_s = float("inf")
+            continue
+        if now_s < begun_s or now.number != before.number:
+            if now.done != DONE:
+                raise DriveError(f"the flash did not take it; in force: {now.words}")
+            return now
+        time.sleep(0.1)
+    raise DriveError("the drive does not come back: it restarts with what was stored when it is switched off and on")
+
+
+def save(drive: Drive) -> Stored:
+    """Stores all as they are; the drive restarts."""
+    return _command(drive, "STORE_PARAMETERS", {v.name: v.value for v in read(drive)})
+
+
+def restore(drive: Drive) -> Stored:
+    """Forgets what is stored; the drive restarts with its defaults."""
+    return _command(drive, "RESTORE_PARAMETERS", {v.name: v.default for v in read(drive)})
+
+
+def toml(found: List[Value], name: str) -> str:
+    """For read_toml(), and for a person."""
+    lines = [f"# Parameters of {name}. Lines may be left out: sdre-drive params import changes what stands here.", "[parameters]"]
+    for v in found:
+        r = v.parameter.register
+        lines.append(f"{v.name} = {text_of(v.value)} # " + (f"{r.unit}, " if r.unit else "") + f"default {text_of(v.default)}")
+    return "\n".join(lines) + "\n"
+
+
+def read_toml(path: Path) -> Dict[str, float]:
+    """Names and values of a file."""
+    try:
+        top = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as e:
+        raise DriveError(f"{path}: {e.strerror}") from e
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as e:
+        raise DriveError(f"{path}: {e}") from e
+    table = top.get("parameters")
+    if set(top) != {"parameters"} or not isinstance(table, dict):
+        raise DriveError(f"{path}: has to be one table, [parameters]")
+    for name, value in table.items():
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise DriveError(f"{path}: {name} is not a number")
+    return {name: float(value) for name, value in table.items()}
+
+
+COLUMNS = ("name", "value", "unit", "least", "most", "default", "changed", "needs_stop", "object")
+
+
+def rows(found: List[Value]) -> List[Tuple[str, ...]]:
+    """COLUMNS of each."""
+    return [(v.name, text_of(v.value), v.parameter.register.unit, text_of(v.parameter.low), text_of(v.parameter.high), text_of(v.default),
+             str(int(v.changed)), str(int(v.parameter.stopped)), v.parameter.object) for v in found]  # fmt: skip
+
+
+def write_csv(path: Path, found: List[Value]) -> None:
+    """A line for each."""
+    try:
+        with path.open("w", newline="", encoding="utf-8") as f:
+            out = csv.writer(f, lineterminator="\n")
+            out.writerow(COLUMNS)
+            out.writerows(rows(found))
+    except OSError as e:
+        raise DriveError(f"{path}: {e.strerror}") from e

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: MIT
+"""`sdre-drive params`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import List, Optional
+
+import typer
+from rich.console import Console
+from rich.table import Table
+from typing_extensions import Annotated
+
+from sdre_drive import params as parameters
+from sdre_drive import record
+from sdre_drive.connection import Drive, DriveError
+from sdre_drive.load import NAME
+from sdre_drive.options import Port, Tcp, target
+from sdre_drive.params import Value, text_of
+
+params = typer.Typer(no_args_is_help=False, help="The parameters, which the drive keeps over power: list, get, set, save, defaults, export, import.")
+out = Console(soft_wrap=True)
+
+
+def _table(found: List[Value]) -> Table:
+    table = Table(box=None, padding=(0, 2, 0, 0))
+    for title in ("", "parameter", "value", "unit", "range", "default", ""):
+        table.add_column(title, no_wrap=True)
+    for v in found:
+        p = v.parameter
+        table.add_row("*" if v.changed else "", v.name, text_of(v.value), p.register.unit, f"{text_of(p.low)} .. {text_of(p.high)}",
+                      text_of(v.default), "only while stopped" if p.stopped else "")  # fmt: skip
+    return table
+
+
+@params.callback(invoke_without_command=True)
+def show(
+    context: typer.Context, port: Port = None, tcp: Tcp = None,
+    csv: Annotated[Optional[Path], typer.Option("--csv", help="into a file instead", metavar="FILE")] = None,
+) -> None:  # fmt: skip
+    """All of them; * is not the default."""
+    if context.invoked_subcommand:
+        return
+    with Drive(target(port, tcp)) as drive:
+        found, state = parameters.read(drive), parameters.stored(drive)
+    if csv:
+        parameters.write_csv(csv, found)
+        out.print(f"{len(found)} parameters written to {csv}")
+    else:
+        out.width = max(out.width, 120)
+        out.print(_table(found))
+        out.print(f"at its start the drive had {state.words}", highlight=False)
+
+
+@params.command()
+def get(name: str, port: Port = None, tcp: Tcp = None) -> None:
+    """The value of one, and nothing else."""
+    if name.upper() not in parameters.NAMES:
+        raise DriveError(f"{name} is not a parameter; sdre-drive params lists them")
+    with Drive(target(port, tcp)) as drive:
+        out.print(text_of(next(v.value for v in parameters.read(drive) if v.name == name.upper())), highlight=False)
+
+
+@params.command(name="set")
+def set_values(
+    assignments: Annotated[List[str], typer.Argument(help="NAME=VALUE, in the unit of the list", metavar="NAME=VALUE..")],
+    port: Port = None, tcp: Tcp = None,
+) -> None:  # fmt: skip
+    """Changes some, until the drive is switched off: `save` keeps them."""
+    wanted = parameters.parse(assignments)
+    with Drive(target(port, tcp)) as drive:
+        parameters.write(drive, wanted)
+    out.print(f"{len(wanted)} set; they last until the drive restarts, or for good with: sdre-drive params save")
+
+
+def _line_words(drive: Drive) -> str:
+    t = drive.target
+    if (t.baud, t.format, t.unit) == (115200, "8E1", 1):
+        return ""
+    return f"; from now on: sdre-drive --line {t.baud}-{t.format} --unit {t.unit} .."
+
+
+@params.command()
+def save(port: Port = None, tcp: Tcp = None) -> None:
+    """Stores all as they are, in the drive's flash. The drive restarts; the motor has to stand still."""
+    with Drive(target(port, tcp)) as drive:
+        now = parameters.save(drive)
+        out.print(f"in force: {now.words}{_line_words(drive)}", highlight=False)
+
+
+@params.command()
+def defaults(port: Port = None, tcp: Tcp = None) -> None:
+    """Forgets what is stored. The drive restarts; the motor has to stand still."""
+    with Drive(target(port, tcp)) as drive:
+        out.print(f"in force: {parameters.restore(drive).words}", highlight=False)
+
+
+@params.command(name="export")
+def export_file(file: Path, port: Port = None, tcp: Tcp = None) -> None:
+    """Writes all to a TOML file."""
+    with Drive(target(port, tcp)) as drive:
+        record.write_text(file, parameters.toml(parameters.read(drive), drive.identify().get(NAME, "a drive")))
+    out.print(f"{file}: written")
+
+
+@params.command(name="import")
+def import_file(file: Path, port: Port = None, tcp: Tcp = None) -> None:
+    """Sets what stands in a TOML file; nothing, when a name or value is no good."""
+    wanted = parameters.read_toml(file)
+    parameters.require_possible(wanted)
+    with Drive(target(port, tcp)) as drive:
+        parameters.write(drive, wanted)
+    out.print(f"{len(wanted)} set; they last until the drive restarts, or for good with: sdre-drive params save")

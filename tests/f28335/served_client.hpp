@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+/// A Modbus client of the served drive, in simulated time.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "drive/drive_file.hpp"
+#include "sil/serve/rtu_frame.hpp"
+#include "sil/serve/served_drive.hpp"
+
+namespace sdre {
+
+using Words = std::vector<std::uint16_t>;
+
+inline Drive shipped_drive()
+{
+    return read_drive_file(SDRE_SOURCE_DIR "/firmware/config/drives/ipmsm_390w.toml");
+}
+
+class ServedClient : public testing::Test {
+protected:
+    static constexpr double answer_s = 1.0;
+
+    /// The answer's PDU; empty when none came in time.
+    Octets ask(const Octets &pdu, double longest_s = answer_s)
+    {
+        Octets request{unit};
+        request.insert(request.end(), pdu.begin(), pdu.end());
+        for (const std::uint8_t octet : rtu_frame(request)) {
+            served.send(octet);
+        }
+        Octets       come;
+        const double end_s = served.time_s() + longest_s;
+        while (served.time_s() < end_s) {
+            served.period();
+            for (int octet = served.take(); octet >= 0; octet = served.take()) {
+                come.push_back(static_cast<std::uint8_t>(octet));
+            }
+            if (const std::optional<Octets> content = rtu_content(come)) {
+                for (int n = 0; n < 20; n++) { // the silence that ends an answer
+                    served.period();
+                }
+                return {content->begin() + 1, content->end()};
+            }
+        }
+        return {};
+    }
+    bool write(unsigned first, const Words &words, double longest_s = answer_s)
+    {
+        Octets pdu{16,
+                   static_cast<std::uint8_t>(first >> 8U),
+                   static_cast<std::uint8_t>(first),
+                   0,
+                   static_cast<std::uint8_t>(words.size()),
+                   static_cast<std::uint8_t>(2 * words.size())};
+        for (const unsigned word : words) {
+            pdu.push_back(static_cast<std::uint8_t>(word >> 8U));
+            pdu.push_back(static_cast<std::uint8_t>(word));
+        }
+        const Octets answer = ask(pdu, longest_s);
+        return !answer.empty() && answer[0] == 16;
+    }
+    int input(unsigned number)
+    {
+        return read(4, number);
+    }
+    int holding(unsigned number)
+    {
+        return read(3, number);
+    }
+    int read(std::uint8_t function, unsigned number)
+    {
+        const Octets answer = ask({function, static_cast<std::uint8_t>(number >> 8U),
+                                   static_cast<std::uint8_t>(number), 0, 1});
+        return answer.size() == 4 ? 256 * answer[2] + answer[3] : -1;
+    }
+    void pass(double time_s)
+    {
+        const double end_s = served.time_s() + time_s;
+        while (served.time_s() < end_s) {
+            served.period();
+        }
+    }
+
+    std::uint8_t unit = 1;
+    ServedDrive  served{shipped_drive(), 1};
+};
+
+} // namespace sdre

@@ -1,0 +1,461 @@
+/* SPDX-License-Identifier: MIT */
+#include "app_parameters.h"
+
+#include <string.h>
+
+#include "app.h"
+#include "app_modbus.h"
+#include "app_registers.h"
+#include "board_config.h"
+#include "fake_board.h"
+#include "gain_tables.h"
+#include "unity.h"
+
+static app_registers_t  registers;
+static app_parameters_t parameters;
+
+/* The start of the drive, with what was asked for before it. */
+static void start_again(void)
+{
+    const app_parameters_done_t done = app_parameters_work();
+
+    TEST_ASSERT_EQUAL_INT(CTL_OK,
+                          app_registers_init(&registers, &board_config, &gain_tables_drive));
+    app_parameters_take(&parameters, &registers, done);
+}
+
+void setUp(void)
+{
+    fake_board_reset();
+    fake_board_erase_store();
+    (void)memset(board_kept(), 0xA5, BOARD_KEPT_WORDS * sizeof(uint16_t)); /* after power-on */
+    start_again();
+}
+
+void tearDown(void) {}
+
+static uint16_t input(int address)
+{
+    uint16_t value = 0xDEADU;
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK,
+                          app_registers_read_input(&registers, (uint16_t)address, 1U, &value));
+    return value;
+}
+
+static uint16_t holding(int address)
+{
+    uint16_t value = 0xDEADU;
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK,
+                          app_registers_read_holding(&registers, (uint16_t)address, 1U, &value));
+    return value;
+}
+
+static app_registers_result_t write_two(int address, int high, int low)
+{
+    const uint16_t words[2] = {(uint16_t)high, (uint16_t)low};
+    return app_registers_write(&registers, (uint16_t)address, 2U, words);
+}
+
+static app_registers_result_t write(int address, int value)
+{
+    const uint16_t word = (uint16_t)value;
+    return app_registers_write(&registers, (uint16_t)address, 1U, &word);
+}
+
+static app_registers_result_t ask_store(void)
+{
+    return write_two(APP_REGISTERS_STORE_PARAMETERS, 0x6576, 0x6173); /* "save", CiA 301 */
+}
+
+/* As app.c does it when the answer is out. */
+static void restart(void)
+{
+    app_parameters_ask(&registers, (app_parameters_command_t)registers.wanted.store_command);
+    start_again();
+}
+
+static void store(void)
+{
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, ask_store());
+    restart();
+}
+
+/* Addresses, high and low word of a value of each parameter that is not its default; docs/modbus.md. */
+static const int other[][3] = {
+    {7, 0, 123}, {9, 1, 5},     {11, 2, 3},   {13, -1, 6},  {14, -1, 1},   {15, -1, 1},
+    {16, -1, 3}, {17, 0, 1500}, {19, -1, 77}, {64, -1, 42}, {65, -1, 700}, {66, 0, 19200},
+    {68, -1, 2}, {69, -1, 1},   {162, 1, 77}, {164, 2, 5},  {166, -1, 9}};
+
+#define OTHERS ((int)(sizeof other / sizeof other[0]))
+
+static void write_others(void)
+{
+    for (int n = 0; n < OTHERS; n++) {
+        const int *o = other[n];
+        TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK,
+                              (o[1] < 0) ? write(o[0], o[2]) : write_two(o[0], o[1], o[2]));
+    }
+}
+
+static void assert_others(bool are)
+{
+    for (int n = 0; n < OTHERS; n++) {
+        const int *o    = other[n];
+        const bool wide = o[1] >= 0;
+        const bool same = (holding(o[0] + (wide ? 1 : 0)) == (uint16_t)o[2]) &&
+                          (!wide || (holding(o[0]) == (uint16_t)o[1]));
+        TEST_ASSERT_EQUAL_INT_MESSAGE(are, same, "parameter");
+    }
+}
+
+static void assert_state(app_parameters_state_t state)
+{
+    TEST_ASSERT_EQUAL_UINT16(state, input(APP_REGISTERS_PARAMETERS_STATE));
+    TEST_ASSERT_EQUAL_UINT16((state >= APP_PARAMETERS_OTHER_VERSION) ? 1024U : 0U,
+                             input(APP_REGISTERS_CONDITIONS) & 1024U);
+}
+
+static void test_the_test_knows_every_parameter(void)
+{
+    int saved = 0;
+    for (int n = 0; n < (int)APP_REGISTERS_MAP_HOLDING; n++) {
+        saved += app_registers_map_holding[n].saved ? 1 : 0;
+    }
+    TEST_ASSERT_EQUAL_INT(OTHERS, saved);
+    write_others();
+    assert_others(true);
+}
+
+static void test_without_anything_stored_there_are_defaults(void)
+{
+    assert_others(false);
+    assert_state(APP_PARAMETERS_DEFAULT);
+    TEST_ASSERT_EQUAL_UINT16(0U, input(APP_REGISTERS_PARAMETERS_DONE));
+    TEST_ASSERT_FALSE(registers.changed);
+}
+
+static void test_what_is_stored_is_there_after_power_and_nothing_else(void)
+{
+    write_others();
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write_two(APP_REGISTERS_SPEED, 0, 1000));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_COMMISSION_CURRENT, 100));
+    store();
+
+    for (int power = 0; power < 2; power++) {
+        assert_others(true);
+        assert_state(APP_PARAMETERS_STORED);
+        TEST_ASSERT_EQUAL_UINT16((power == 0) ? APP_PARAMETERS_DONE : APP_PARAMETERS_NOT_ASKED,
+                                 input(APP_REGISTERS_PARAMETERS_DONE));
+        TEST_ASSERT_EQUAL_UINT16(1U, input(APP_REGISTERS_PARAMETERS_NUMBER + 1));
+        TEST_ASSERT_EQUAL_UINT16(0U, holding(APP_REGISTERS_SPEED + 1));
+        TEST_ASSERT_EQUAL_UINT16(0U, holding(APP_REGISTERS_COMMISSION_CURRENT));
+        TEST_ASSERT_TRUE(registers.changed); /* the tick gets them */
+        start_again();
+    }
+}
+
+static void test_restoring_brings_the_defaults_back(void)
+{
+    write_others();
+    store();
+    store();
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK,
+                          write_two(APP_REGISTERS_RESTORE_PARAMETERS, 0x6461, 0x6F6C)); /* "load" */
+    restart();
+
+    assert_others(false);
+    assert_state(APP_PARAMETERS_DEFAULT);
+    TEST_ASSERT_EQUAL_UINT16(APP_PARAMETERS_DONE, input(APP_REGISTERS_PARAMETERS_DONE));
+}
+
+static void test_a_stray_write_does_nothing(void)
+{
+    TEST_ASSERT_EQUAL_UINT16(1U, holding(APP_REGISTERS_STORE_PARAMETERS + 1));
+    for (int bit = 0; bit < 32; bit++) {
+        const uint32_t wrong = 0x65766173UL ^ (1UL << bit);
+        TEST_ASSERT_EQUAL_INT(
+            APP_REGISTERS_BAD_VALUE,
+            write_two(APP_REGISTERS_STORE_PARAMETERS, (int)(wrong >> 16), (int)(wrong & 0xFFFFU)));
+    }
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_VALUE,
+                          write_two(APP_REGISTERS_STORE_PARAMETERS, 0x6461, 0x6F6C));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_VALUE,
+                          write_two(APP_REGISTERS_RESTORE_PARAMETERS, 0x6576, 0x6173));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_ADDRESS, write(APP_REGISTERS_STORE_PARAMETERS, 0x6576));
+    TEST_ASSERT_EQUAL_UINT16(APP_PARAMETERS_NO_COMMAND, registers.wanted.store_command);
+}
+
+static void test_nothing_is_stored_unless_the_motor_stands_still(void)
+{
+    registers.status.gate_enable = true;
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BUSY, ask_store());
+    registers.status.gate_enable = false;
+    registers.status.state       = APP_CONTROL_OPERATION_ENABLED;
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BUSY, ask_store());
+    registers.status.state         = APP_CONTROL_SWITCHED;
+    registers.status.speed_e_radps = -1.1f * board_config.stop.still_e_radps; /* it coasts */
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BUSY, ask_store());
+    registers.status.speed_e_radps = -0.9f * board_config.stop.still_e_radps;
+    registers.parameters           = NULL; /* the loader, or a broadcast */
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BUSY, ask_store());
+    registers.parameters = &parameters;
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, ask_store());
+}
+
+static void test_parameters_that_need_a_stop_are_refused_while_enabled(void)
+{
+    int refused                  = 0;
+    registers.status.gate_enable = true;
+    for (int n = 0; n < OTHERS; n++) {
+        const int                   *o = other[n];
+        const app_registers_result_t result =
+            (o[1] < 0) ? write(o[0], o[2]) : write_two(o[0], o[1], o[2]);
+        bool needs = false;
+        for (int k = 0; k < (int)APP_REGISTERS_MAP_HOLDING; k++) {
+            const app_registers_entry_t *e = &app_registers_map_holding[k];
+            needs = needs || ((e->address == (uint16_t)o[0]) && e->stopped);
+        }
+        TEST_ASSERT_EQUAL_INT(needs ? APP_REGISTERS_BUSY : APP_REGISTERS_OK, result);
+        refused += needs ? 1 : 0;
+    }
+    TEST_ASSERT_EQUAL_INT(3, refused); /* the line */
+    TEST_ASSERT_EQUAL_UINT32(115200UL, registers.wanted.line.baud_Bd);
+}
+
+static void test_a_line_that_the_board_cannot_have_is_refused(void)
+{
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_VALUE, write_two(APP_REGISTERS_BAUD_RATE, 0, 9601));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_VALUE, write_two(APP_REGISTERS_BAUD_RATE, 0, 4800));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_VALUE, write(APP_REGISTERS_LINE_FORMAT, 3));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write_two(APP_REGISTERS_BAUD_RATE, 0, 9600));
+}
+
+/* A record of these words, as a firmware would have written it. */
+static void write_record(const uint16_t *words, uint16_t count)
+{
+    store_write_t w;
+    TEST_ASSERT_TRUE(store_begin(&w, STORE_PARAMETERS, count));
+    TEST_ASSERT_TRUE(store_put(&w, 0U, words, count));
+    TEST_ASSERT_TRUE(store_commit(&w));
+}
+
+/* The record of the other values. */
+static uint16_t record(uint16_t *words)
+{
+    fake_board_erase_store();
+    start_again();
+    write_others();
+    words[0] = (uint16_t)(APP_REGISTERS_SAVED_VERSION >> 16);
+    words[1] = (uint16_t)(APP_REGISTERS_SAVED_VERSION & 0xFFFFU);
+    app_registers_saved_read(&registers, &words[2]);
+    return (uint16_t)(2U + APP_REGISTERS_SAVED_WORDS);
+}
+
+static void test_a_record_of_another_version_gives_defaults_and_is_told(void)
+{
+    uint16_t words[64];
+    for (uint16_t wrong = 0U; wrong < 4U; wrong++) {
+        uint16_t count = record(words);
+        if (wrong < 2U) {
+            words[wrong] ^= 1U;
+        } else {
+            count             = (uint16_t)(count + 5U - (2U * wrong)); /* one more, one less */
+            words[count - 1U] = 0U;
+        }
+        write_record(words, count);
+        start_again();
+        assert_others(false);
+        assert_state(APP_PARAMETERS_OTHER_VERSION);
+        TEST_ASSERT_FALSE(registers.changed);
+        write_others();
+        store(); /* and it is gone */
+        assert_state(APP_PARAMETERS_STORED);
+    }
+}
+
+static void test_one_value_out_of_range_gives_defaults_for_all(void)
+{
+    /* word of the record and what it must not be: an option, the address, the baud rate, the format */
+    static const int bad[][2] = {{8, 3}, {15, 0}, {15, 248}, {18, 9601}, {19, 3}, {20, 2}};
+    uint16_t         words[64];
+    for (int n = 0; n < (int)(sizeof bad / sizeof bad[0]); n++) {
+        const uint16_t count = record(words);
+        words[bad[n][0]]     = (uint16_t)bad[n][1];
+        write_record(words, count);
+        start_again();
+        assert_others(false);
+        assert_state(APP_PARAMETERS_OUT_OF_RANGE);
+        TEST_ASSERT_EQUAL_UINT16(0U, input(APP_REGISTERS_PARAMETERS_NUMBER + 1));
+    }
+    write_record(words, record(words));
+    start_again();
+    assert_others(true);
+}
+
+/* Each word where something ends or begins, some of those that are only erased. */
+static int next_cut(int budget)
+{
+    const int slot = (int)BOARD_STORE_WORDS;
+    const int near = 40; /* head and record have fewer */
+    const int into = budget % slot;
+    if ((into < near) || (into >= (slot - near))) {
+        return budget + 1;
+    }
+    return ((into + 2003) < (slot - near)) ? (budget + 2003) : (budget - into + slot - near);
+}
+
+static void cut_everywhere(uint16_t before, bool restoring)
+{
+    bool done = false;
+    for (int budget = 0; !done; budget = next_cut(budget)) {
+        fake_board_erase_store();
+        start_again();
+        for (uint16_t n = 1U; n <= before; n++) {
+            TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_SPEED_WINDOW, 100 + n));
+            store();
+        }
+        write_others();
+        fake_board.store_budget = budget;
+        if (restoring) {
+            app_parameters_ask(&registers, APP_PARAMETERS_RESTORE);
+            start_again();
+        } else {
+            store();
+        }
+        done = parameters.done == APP_PARAMETERS_DONE;
+        TEST_ASSERT_TRUE(done || (parameters.done == APP_PARAMETERS_FLASH));
+        fake_board.store_budget = -1;
+        start_again(); /* power returns */
+
+        const uint16_t window = holding(APP_REGISTERS_SPEED_WINDOW);
+        const uint16_t old    = (before > 0U) ? (uint16_t)(100U + before) : 50U;
+        const uint16_t fresh  = restoring ? 50U : 77U;
+        TEST_ASSERT_TRUE_MESSAGE((window == fresh) || (!done && (window == old)), "neither");
+        if (!restoring) {
+            assert_others(window == 77U);
+        }
+        TEST_ASSERT_TRUE(parameters.state <= APP_PARAMETERS_STORED);
+        TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_SPEED_WINDOW, 55));
+        store(); /* whatever is left, the next one is good */
+        TEST_ASSERT_EQUAL_UINT16(55U, holding(APP_REGISTERS_SPEED_WINDOW));
+    }
+}
+
+static void test_a_power_cut_at_any_word_leaves_old_or_new(void)
+{
+    cut_everywhere(0U, false);
+    cut_everywhere(1U, false);
+    cut_everywhere(2U, false);
+}
+
+static void test_a_power_cut_while_restoring_leaves_the_newest_or_defaults(void)
+{
+    cut_everywhere(2U, true);
+}
+
+static void test_a_request_is_done_once_and_only_whole(void)
+{
+    write_others();
+    app_parameters_ask(&registers, APP_PARAMETERS_STORE);
+    TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_DONE, app_parameters_work());
+    TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_NOT_ASKED, app_parameters_work());
+    for (uint16_t n = 0U; n < (uint16_t)(6U + APP_REGISTERS_SAVED_WORDS); n++) {
+        app_parameters_ask(&registers, APP_PARAMETERS_STORE);
+        board_kept()[n] ^= 0x0100U;
+        TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_NOT_ASKED, app_parameters_work());
+    }
+}
+
+/* A request of function 16 with two registers, and passes until its answer is out and a while beyond. */
+static void request(int unit, int address, int high, int low)
+{
+    const int body[11] = {unit, 16,        address >> 8, address & 0xFF, 0,         2,
+                          4,    high >> 8, high & 0xFF,  low >> 8,       low & 0xFF};
+    uint16_t  octets[11];
+    int       all[13];
+    for (int n = 0; n < 11; n++) {
+        all[n]    = body[n];
+        octets[n] = (uint16_t)body[n];
+    }
+    const uint16_t crc = app_modbus_crc(octets, 11U);
+    all[11]            = crc & 0xFF;
+    all[12]            = crc >> 8;
+    fake_board_receive(all, 13);
+    for (int n = 0; n < 200; n++) {
+        app_tick();
+        app_background();
+    }
+}
+
+static void run_application(void)
+{
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_init(&board_config, &gain_tables_drive));
+    app_take_parameters(app_parameters_work());
+}
+
+static void test_the_application_restarts_to_store_and_takes_its_line(void)
+{
+    (void)write_two(APP_REGISTERS_BAUD_RATE, 0, 9600);
+    (void)write(APP_REGISTERS_LINE_FORMAT, 1);
+    (void)write(APP_REGISTERS_MODBUS_ADDRESS, 5);
+    store();
+    run_application();
+    TEST_ASSERT_EQUAL_UINT32(9600UL, fake_board.line.baud_Bd);
+    TEST_ASSERT_EQUAL_UINT16(BOARD_LINE_ODD, fake_board.line.format);
+
+    request(0, APP_REGISTERS_STORE_PARAMETERS, 0x6576, 0x6173); /* to all: nobody */
+    TEST_ASSERT_EQUAL_INT(0, fake_board.restarts);
+    request(5, APP_REGISTERS_SPEED, 0, 0);
+    TEST_ASSERT_EQUAL_INT(5, fake_board_sent()); /* the stored address */
+    TEST_ASSERT_EQUAL_INT(0, fake_board.restarts);
+    request(5, APP_REGISTERS_STORE_PARAMETERS, 0x6576, 0x6173);
+    TEST_ASSERT_GREATER_THAN_INT(0, fake_board.restarts);
+    TEST_ASSERT_TRUE(fake_board.restart_loader);
+    TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_DONE, app_parameters_work());
+}
+
+static void test_the_loader_has_the_stored_line_and_address_and_stores_nothing(void)
+{
+    static app_image_t in_force;
+    (void)write_two(APP_REGISTERS_BAUD_RATE, 0, 19200);
+    store();
+    TEST_ASSERT_TRUE(app_image_choose(&in_force, &board_config, &gain_tables_drive));
+    app_loader_start(&in_force);
+    TEST_ASSERT_EQUAL_UINT32(19200UL, fake_board.line.baud_Bd);
+}
+
+static void test_silence_follows_the_baud_rate(void)
+{
+    static const struct {
+        uint32_t baud_Bd;
+        uint16_t ticks; /* of 200 us: 3.5 octets of 11 bits or 1.75 ms, rounded up, and one */
+    } want[] = {{9600UL, 22U}, {19200UL, 12U}, {38400UL, 10U}, {230400UL, 10U}};
+    app_modbus_t m;
+    for (int n = 0; n < (int)(sizeof want / sizeof want[0]); n++) {
+        const board_line_t line = {.baud_Bd = want[n].baud_Bd};
+        app_modbus_follow(&m, &line, 200e-6f, 10U);
+        TEST_ASSERT_EQUAL_UINT16(want[n].ticks, m.gap_ticks);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_test_knows_every_parameter);
+    RUN_TEST(test_without_anything_stored_there_are_defaults);
+    RUN_TEST(test_what_is_stored_is_there_after_power_and_nothing_else);
+    RUN_TEST(test_restoring_brings_the_defaults_back);
+    RUN_TEST(test_a_stray_write_does_nothing);
+    RUN_TEST(test_nothing_is_stored_unless_the_motor_stands_still);
+    RUN_TEST(test_parameters_that_need_a_stop_are_refused_while_enabled);
+    RUN_TEST(test_a_line_that_the_board_cannot_have_is_refused);
+    RUN_TEST(test_a_record_of_another_version_gives_defaults_and_is_told);
+    RUN_TEST(test_one_value_out_of_range_gives_defaults_for_all);
+    RUN_TEST(test_a_power_cut_at_any_word_leaves_old_or_new);
+    RUN_TEST(test_a_power_cut_while_restoring_leaves_the_newest_or_defaults);
+    RUN_TEST(test_a_request_is_done_once_and_only_whole);
+    RUN_TEST(test_the_application_restarts_to_store_and_takes_its_line);
+    RUN_TEST(test_the_loader_has_the_stored_line_and_address_and_stores_nothing);
+    RUN_TEST(test_silence_follows_the_baud_rate);
+    return UNITY_END();
+}
