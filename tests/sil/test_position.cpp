@@ -51,8 +51,8 @@ TEST(PositionRun, HoldsWithinCountsOnTheBoard)
             const auto run   = sdre::simulate(s);
             const auto m     = load_step(run, s);
             EXPECT_EQ(run.fault, 0);
-            EXPECT_LT(*m.position_off_cnt, 25.0) << drive << seed;   // worst of 20 seeds 21.8
-            EXPECT_LT(*m.position_steady_cnt, 2.5) << drive << seed; // 1.8
+            EXPECT_LT(*m.position_off_cnt, 25.0) << drive << seed;   // worst of 20 seeds 22.1
+            EXPECT_LT(*m.position_steady_cnt, 3.5) << drive << seed; // 3.1
         }
     }
 }
@@ -61,7 +61,7 @@ TEST(PositionRun, OtherMotorsHoldToo)
 {
     const struct {
         double inertia, rest;
-    } motors[] = {{0.8, 1.0}, {3.0, 1.0}, {1.0, 0.7}, {1.0, 1.3}, {2.0, 1.3}};
+    } motors[] = {{0.6, 1.0}, {3.0, 1.0}, {1.0, 0.7}, {1.0, 1.3}, {2.0, 1.3}};
     for (const auto &[inertia, rest] : motors) {
         sdre::Scenario s = scenario("ipmsm_390w");
         s.plant_scale    = {{"inertia_kgm2", inertia},
@@ -74,6 +74,22 @@ TEST(PositionRun, OtherMotorsHoldToo)
         EXPECT_EQ(run.fault, 0) << inertia << " " << rest;
         EXPECT_LT(*m.position_steady_cnt, 4.0) << inertia << " " << rest;
         EXPECT_LT(std::abs(run.trace.back().position_e_rad - turn_e_rad), 5e-3);
+    }
+}
+
+/// In a speed run too: the smaller inertia makes the observer's gains larger than they are meant to be.
+TEST(Standstill, DoesNotHuntWithLessInertia)
+{
+    for (std::uint64_t seed = 1; seed <= 3; seed++) {
+        sdre::Scenario s =
+            sdre::read_scenario_file(SDRE_SOURCE_DIR "/host_tools/sil/scenarios/board_hold.toml",
+                                     support::shipped_drive("ipmsm_390w"));
+        s.seed        = seed;
+        s.plant_scale = {{"inertia_kgm2", 0.6}};
+        const auto m  = sdre::measure(s, sdre::simulate(s).trace);
+        EXPECT_LT(m.front().effort.vq_noise_V, 5.0); // worst of 10 seeds 3.1; 85 V once
+        EXPECT_LT(m.front().ripple_e_radps, 0.5);    // 0.24; 6.0
+        EXPECT_LT(m.back().effort.vq_noise_V, 8.0);  // crawl: 5.4; 63
     }
 }
 
