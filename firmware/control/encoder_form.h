@@ -118,8 +118,8 @@ CTL_PART angle_gate_result_t encoder_form_innovation(angle_gate_t              *
  *
  *     theta^ += min(k_theta T / Ts, 1) e
  *     w^     += min(k_w T / Ts, 1 / T) e
- *     d_w^   += min(k_d T / Ts, 1 / (2 T^2)) e, the other estimates in proportion    EQ-ENCODER-FORM-2
- *     T = min(gap, 2 count / |w^|), at least Ts
+ *     d_w^   += min(k_d T / Ts, s / T^2) e, the other estimates in proportion    EQ-ENCODER-FORM-2
+ *     T = min(gap, 2 count / |w^|), at least Ts;  s = k_d Ts^2 within 0.15 .. 0.5
  *
  * A shaft that starts after a long rest has not taken all of the gap for its count.
  *
