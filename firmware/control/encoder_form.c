@@ -3,12 +3,12 @@
 
 #include "check.h"
 
-bool encoder_form_check(const encoder_form_limits_t *limits)
+CTL_PART bool encoder_form_check(const encoder_form_limits_t *limits)
 {
     return base_in_range(limits->angle_rad, 1.0e-6f, BASE_PI) && check_positive(limits->d_omega);
 }
 
-bool encoder_form_gains_check(const encoder_form_gains_t *gains)
+CTL_PART bool encoder_form_gains_check(const encoder_form_gains_t *gains)
 {
     return base_in_range(gains->theta, 1.0e-6f, 1.0f) && check_positive(gains->omega_1ps) &&
            check_positive(gains->d_omega_1ps2) && check_positive(gains->count_rad);
@@ -35,9 +35,9 @@ static bool is_one_sample(const encoder_form_gains_t *gains, float speed_e_radps
            ((gains->d_omega_1ps2 * ts_s * ts_s) <= D_OMEGA_SHARE_MOST);
 }
 
-float encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad,
-                                const encoder_form_gains_t *gains, float error_rad, float gap_s,
-                                float ts_s)
+CTL_PART float encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad,
+                                         const encoder_form_gains_t *gains, float error_rad,
+                                         float gap_s, float ts_s)
 {
     const float two_rad = 2.0f * gains->count_rad;
     const float speed   = fabsf(est->omega_e_radps);
@@ -64,7 +64,7 @@ float encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad,
     return share;
 }
 
-void encoder_form_edges_reset(encoder_form_edges_t *edges)
+CTL_PART void encoder_form_edges_reset(encoder_form_edges_t *edges)
 {
     const encoder_form_edges_t nothing = {{0.0f, 0.0f, 0.0f, 0.0f}, 0.0f, 0.0f, {0, 0}};
 
@@ -122,8 +122,8 @@ static int16_t place(int16_t edge)
     return ((edge >= 0) && (edge <= ENCODER_FORM_EDGES)) ? edge : 0;
 }
 
-float encoder_form_learn(encoder_form_edges_t *edges, const drive_sample_t *s, float count_rad,
-                         float ts_s)
+CTL_PART float encoder_form_learn(encoder_form_edges_t *edges, const drive_sample_t *s,
+                                  float count_rad, float ts_s)
 {
     const int16_t edge = s->edge_of_line;
 
@@ -151,15 +151,17 @@ float encoder_form_learn(encoder_form_edges_t *edges, const drive_sample_t *s, f
     return off_rad + (turned * base_min(s->edge_age_s * per_gap_1ps, WIDEST));
 }
 
-void encoder_form_skip(encoder_form_edges_t *edges)
+CTL_PART void encoder_form_skip(encoder_form_edges_t *edges)
 {
     edges->edge[1] = 0;
     edges->edge[0] = 0;
 }
 
-angle_gate_result_t encoder_form_innovation(angle_gate_t *gate, encoder_form_edges_t *edges,
-                                            const angle_gate_config_t *c, const drive_sample_t *s,
-                                            const nodo_t *est, float theta_hat_rad, float ts_s)
+CTL_PART angle_gate_result_t encoder_form_innovation(angle_gate_t              *gate,
+                                                     encoder_form_edges_t      *edges,
+                                                     const angle_gate_config_t *c,
+                                                     const drive_sample_t *s, const nodo_t *est,
+                                                     float theta_hat_rad, float ts_s)
 {
     const float         error_rad = encoder_form_error_rad(s, theta_hat_rad);
     angle_gate_result_t angle =
