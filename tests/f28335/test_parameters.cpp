@@ -91,6 +91,13 @@ TEST_F(Parameters, AreThereAfterEveryStartAndAnotherLineIsNotUnderstood)
         served.power_cycle();
         pass(0.5);
     }
+    ASSERT_TRUE(window(78));
+    ASSERT_TRUE(store());
+    for (const int resets = served.resets(); served.resets() == resets;) {
+        served.period();
+    }
+    served.power_cycle(); // while it is erased, and not the other sector
+    EXPECT_EQ(window(), 77);
     ASSERT_TRUE(write(APP_REGISTERS_RESTORE_PARAMETERS, {0x6461, 0x6F6C}));
     pass(restart_s + 2.0); // two sectors
     unit = 1;
