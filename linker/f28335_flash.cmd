@@ -12,9 +12,8 @@ MEMORY
 
     RAMM0     : origin = 0x000050, length = 0x0003B0 /* below: stack of the boot ROM */
     RAMM1     : origin = 0x000400, length = 0x000400
-    RAML012   : origin = 0x008000, length = 0x003000 /* no wait states, programs and data */
-    RAML34    : origin = 0x00B000, length = 0x002000 /* no wait states for data; apart, to be read beside a fetch */
-    RAML567   : origin = 0x00D000, length = 0x003000 /* no wait states for data */
+    RAML0123  : origin = 0x008000, length = 0x004000 /* no wait states, programs and data */
+    RAML4567  : origin = 0x00C000, length = 0x004000 /* no wait states for data; apart, to be read beside a fetch */
 
     FPUTABLES : origin = 0x3FEBDC, length = 0x0006A0 /* boot ROM */
     RESET     : origin = 0x3FFFC0, length = 0x000002 /* boot ROM */
@@ -38,7 +37,7 @@ SECTIONS
         -l rts2800_fpu32_eabi.lib(.text)
     }
                    LOAD = FLASH,
-                   RUN = RAML012,
+                   RUN = RAML0123,
                    LOAD_START(codestart_code_load),
                    LOAD_SIZE(codestart_code_words),
                    RUN_START(codestart_code_run),
@@ -50,7 +49,7 @@ SECTIONS
         *(.const:law_*)
     }
                    LOAD = FLASH,
-                   RUN = RAML34,
+                   RUN = RAML4567,
                    LOAD_START(codestart_tables_load),
                    LOAD_SIZE(codestart_tables_words),
                    RUN_START(codestart_tables_run),
@@ -61,7 +60,7 @@ SECTIONS
     {
         *(.bss:in_force)
     }
-                   > RAML34
+                   > RAML4567
 
     .text        : > FLASH
     .cinit       : > FLASH
@@ -73,11 +72,11 @@ SECTIONS
     .args        : > FLASH
 
     .stack       : > RAMM1, RUN_START(codestart_stack), RUN_SIZE(codestart_stack_words)
-    .bss         : > RAML567
+    .bss         : > RAML4567
     .bss:cio     : > RAMM0
-    .data        : > RAML567
+    .data        : > RAML4567
     .sysmem      : > RAMM0
-    .TI.noinit   : > RAML567
+    .TI.noinit   : > RAML4567
 
     /* The fast math library's tables are in the ROM already; only their addresses are wanted. */
     FPUmathTables : > FPUTABLES, TYPE = NOLOAD

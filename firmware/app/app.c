@@ -96,6 +96,8 @@ static void read_once(app_status_t *status)
     status->mode_of_operation = tick_side.control.mode;
     status->done              = tick_side.control.done;
     status->demand_e_radps    = tick_side.control.ref_e_radps;
+    status->target_cnt        = tick_side.control.setpoint.now.target_cnt;
+    status->acknowledged      = tick_side.control.holds && tick_side.control.setpoint.acknowledged;
     status->reset_cause       = board_reset_cause();
     status->tick_cycles       = shared.cycles;
     status->tick_cycles_worst = shared.cycles_worst;
@@ -148,18 +150,20 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
 static void take_command(void)
 {
     const app_modes_t *const m    = &tick_side.modes;
-    const app_control_seen_t seen = {.mode          = m->mode,
-                                     .shorted       = m->stop.shorted,
-                                     .in_the_way    = app_modes_in_the_way(m),
-                                     .speed_e_radps = (m->drive.state == DRIVE_RUN)
-                                                          ? m->drive.wanted.now.omega_e_radps
-                                                          : m->reading.omega_e_radps};
+    const app_control_seen_t seen = {
+        .mode          = m->mode,
+        .shorted       = m->stop.shorted,
+        .in_the_way    = (m->mode != APP_MODE_READY) || app_modes_in_the_way(m),
+        .speed_e_radps = (m->drive.state == DRIVE_RUN) ? m->drive.wanted.now.omega_e_radps
+                                                       : m->reading.omega_e_radps,
+        .arrived       = (m->drive.state == DRIVE_RUN) && m->drive.wanted.arrived,
+        .position      = &m->position};
 
     if (shared.command_full) {
         tick_side.wanted    = shared.command;
         shared.command_full = false;
     }
-    tick_side.in.command = app_control_tick(&tick_side.control, &tick_side.wanted, &seen);
+    app_control_tick(&tick_side.control, &tick_side.wanted, &seen, &tick_side.in.command);
 }
 
 static bool background_lost(void)

@@ -36,7 +36,9 @@ ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c,
     a->positions          = (uint16_t)(turn_ok ? positions : 0UL);
     a->edge_times         = drive->hardware.edge_times;
     a->ts_s               = ts_s;
-    a->rad_per_half_cnt   = ok ? (BASE_TWO_PI / (float)(2UL * positions)) : 0.0f;
+    a->half_cnt_per_turn  = (float)(2UL * (uint32_t)a->positions);
+    a->turns_per_half_cnt = ok ? (1.0f / a->half_cnt_per_turn) : 0.0f;
+    a->rad_per_half_cnt   = ok ? (BASE_TWO_PI / a->half_cnt_per_turn) : 0.0f;
     a->rad_per_cnt        = 2.0f * (float)pole_pairs * a->rad_per_half_cnt;
     a->radps_per_cnt      = ok ? (a->rad_per_cnt / ts_s) : 0.0f;
     a->have_edge          = false;
@@ -78,18 +80,20 @@ static float within_turn(float theta_rad)
     return (theta_rad >= BASE_TWO_PI) ? (theta_rad - BASE_TWO_PI) : theta_rad;
 }
 
-/* Angle at `half` half counts past the lower edge of a position; whole half counts, so that the wrap is exact. */
+/* Angle at `half` half counts past the lower edge of a position. Whole half counts below 2^23, and whole turns taken from them:
+ * exact. Half of a half count keeps the quotient from whole turns, so that rounding moves it across with a turn of millions
+ * of half counts at the most, and then within_turn() sees to it. */
 static float theta_at(const app_angle_t *a, uint16_t position_cnt, uint32_t half)
 {
     const uint32_t from_zero_cnt =
         (position_cnt >= a->zero_cnt)
             ? ((uint32_t)position_cnt - (uint32_t)a->zero_cnt)
             : ((uint32_t)position_cnt + (uint32_t)a->positions - (uint32_t)a->zero_cnt);
-    const uint32_t half_counts =
-        (((2U * from_zero_cnt) + half) * (uint32_t)a->pole_pairs) % (2U * (uint32_t)a->positions);
-    const float theta_rad = a->zero_theta_rad + ((float)half_counts * a->rad_per_half_cnt);
+    const float half_cnt = (float)(((2U * from_zero_cnt) + half) * (uint32_t)a->pole_pairs);
+    const float turns    = (float)(int16_t)((half_cnt + 0.5f) * a->turns_per_half_cnt);
+    const float part_cnt = half_cnt - (turns * a->half_cnt_per_turn);
 
-    return within_turn(theta_rad);
+    return within_turn(a->zero_theta_rad + (part_cnt * a->rad_per_half_cnt));
 }
 
 static void refer_to_index(app_angle_t *a, uint16_t index_cnt)
@@ -149,9 +153,11 @@ static void take_edge(app_angle_t *a, uint16_t edge_cnt, float age_s)
 /* A speed that would have brought the next edge by now was too high. */
 static void wait_for_edge(app_angle_t *a)
 {
-    const float most_radps = a->rad_per_cnt / a->edge_age_s;
+    if (!base_within(a->edge_speed_e_radps * a->edge_age_s, a->rad_per_cnt)) {
+        const float most_radps = a->rad_per_cnt / a->edge_age_s;
 
-    a->edge_speed_e_radps = base_clamp(a->edge_speed_e_radps, -most_radps, most_radps);
+        a->edge_speed_e_radps = base_clamp(a->edge_speed_e_radps, -most_radps, most_radps);
+    }
 }
 
 /* EQ-APP-ANGLE-3, 4, with the last edge of the period at the age age_s; without one, `timed` is false. */

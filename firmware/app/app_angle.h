@@ -57,6 +57,8 @@ typedef struct {
     uint16_t                  positions; /**< per turn */
     bool                      edge_times;
     float                     ts_s;
+    float                     half_cnt_per_turn;
+    float                     turns_per_half_cnt;
     float                     rad_per_half_cnt; /**< electrical, without the pole pairs */
     float                     rad_per_cnt;      /**< electrical */
     float                     radps_per_cnt;
@@ -98,7 +100,7 @@ ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *config,
 /**
  * @brief One sample, valid and with positions within a turn.
  *
- * Context: control ISR, once per tick. One integer division; with edge times two divisions more.
+ * Context: control ISR, once per tick. At most one division.
  */
 void app_angle_update(app_angle_t *a, const board_sample_t *raw, app_angle_reading_t *reading);
 

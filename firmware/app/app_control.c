@@ -15,6 +15,8 @@ typedef enum {
 
 #define WINDOW_E_RADPS 5.0f /* chosen: what noise and ripple leave */
 
+#define POSITION_WINDOW_CNT 4U /* chosen: a line; a shaft at rest hunts by one count or two */
+
 #define STAY APP_CONTROL_STATES
 
 ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
@@ -34,27 +36,30 @@ ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
     c->speed_max_e_radps = drive->speed_max_e_radps;
     c->done              = false;
     c->ref_e_radps       = 0.0f;
+    c->holds             = false;
     return ok ? CTL_OK : CTL_BAD_CONFIG;
 }
 
 app_objects_t app_control_default(const drive_config_t *drive)
 {
-    const app_objects_t o = {.controlword       = APP_CONTROL_DISABLE_VOLTAGE,
-                             .mode_of_operation = APP_CONTROL_PROFILE_VELOCITY,
-                             .quick_option      = APP_CONTROL_QUICK_FAST,
-                             .lost_option       = APP_CONTROL_LOST_DISABLE,
-                             .window_e_radps    = WINDOW_E_RADPS,
-                             .current_max_A     = drive->current_max_A};
+    const app_objects_t o = {.controlword         = APP_CONTROL_DISABLE_VOLTAGE,
+                             .mode_of_operation   = APP_CONTROL_PROFILE_VELOCITY,
+                             .quick_option        = APP_CONTROL_QUICK_FAST,
+                             .lost_option         = APP_CONTROL_LOST_DISABLE,
+                             .window_e_radps      = WINDOW_E_RADPS,
+                             .current_max_A       = drive->current_max_A,
+                             .position_window_cnt = POSITION_WINDOW_CNT};
     return o;
 }
 
-bool app_control_knows(const app_objects_t *o)
+bool app_control_knows(const app_objects_t *o, const drive_config_t *drive)
 {
     const int16_t mode  = o->mode_of_operation;
     const int16_t quick = o->quick_option;
 
     return ((mode == APP_CONTROL_PROFILE_VELOCITY) || (mode == APP_CONTROL_HOMING) ||
-            (mode == APP_CONTROL_COMMISSIONING)) &&
+            (mode == APP_CONTROL_COMMISSIONING) ||
+            ((mode == APP_CONTROL_PROFILE_POSITION) && drive->positions)) &&
            ((quick <= APP_CONTROL_QUICK_FAST) || (quick >= APP_CONTROL_QUICK_RAMP_STAY));
 }
 
@@ -93,14 +98,20 @@ static bool is_enabled(app_control_state_t state)
 
 static bool is_moving(const app_control_seen_t *seen)
 {
-    return (seen->mode == APP_MODE_ALIGN) || (seen->mode == APP_MODE_PRECHARGE) ||
-           (seen->mode == APP_MODE_RUN) || (seen->mode == APP_MODE_STOP) ||
+    return (seen->mode == APP_MODE_RUN) || (seen->mode == APP_MODE_STOP) ||
+           (seen->mode == APP_MODE_ALIGN) || (seen->mode == APP_MODE_PRECHARGE) ||
            (seen->mode == APP_MODE_COMMISSION);
 }
 
 static bool stands(const app_control_t *c, const app_control_seen_t *seen)
 {
     return base_within(seen->speed_e_radps, c->config->stop.still_e_radps);
+}
+
+/* The modes in which the drive has the bridge. */
+static bool is_running(const app_control_t *c)
+{
+    return (c->mode == APP_CONTROL_PROFILE_VELOCITY) || (c->mode == APP_CONTROL_PROFILE_POSITION);
 }
 
 static bool stays_quick(const app_objects_t *o)
@@ -135,6 +146,7 @@ static void start(app_control_t *c, const app_objects_t *o, const app_control_se
     c->moved       = false;
     c->done        = false;
     c->ref_e_radps = seen->speed_e_radps;
+    c->holds       = false;
 }
 
 /* Bridge off: a start needs bit 3 to rise, and is not made up for later. */
@@ -155,9 +167,10 @@ static void change_at_rest(app_control_t *c, app_control_state_t to, const app_o
 static void change_enabled(app_control_t *c, app_control_state_t to, const app_objects_t *o,
                            const app_control_seen_t *seen)
 {
-    const bool ended = c->asked && !is_moving(seen);
+    const bool moving = is_moving(seen);
+    const bool ended  = c->asked && !moving;
 
-    c->moved = c->moved || is_moving(seen);
+    c->moved = c->moved || moving;
     if ((to == APP_CONTROL_QUICK_STOP_ACTIVE) ||
         ((to == APP_CONTROL_OPERATION_ENABLED) && stays_quick(o) && !ended)) {
         c->state = to;
@@ -165,7 +178,7 @@ static void change_enabled(app_control_t *c, app_control_state_t to, const app_o
         c->state = ended ? to : c->state;
     } else if (ended && (c->state == APP_CONTROL_QUICK_STOP_ACTIVE)) {
         c->state = APP_CONTROL_SWITCH_ON_DISABLED;
-    } else if (ended && (!c->moved || (c->mode == APP_CONTROL_PROFILE_VELOCITY))) {
+    } else if (ended && (!c->moved || is_running(c))) {
         c->state = APP_CONTROL_SWITCHED; /* refused, or stopped by the drive itself */
     } else {
         c->done = c->done || ended;
@@ -193,8 +206,20 @@ static app_control_state_t next_of(app_control_state_t state, ask_t ask)
     return transitions[state][ask];
 }
 
-static void step(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen)
+/* Commanded to run, and running: the ticks that cost most, and all below would leave it as it is. */
+static bool is_steady(const app_control_t *c, const app_control_seen_t *seen, ask_t ask)
 {
+    return (seen->mode == APP_MODE_RUN) && (c->state == APP_CONTROL_OPERATION_ENABLED) &&
+           (ask == ASK_ENABLE);
+}
+
+static void step(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
+                 ask_t ask)
+{
+    if (is_steady(c, seen, ask)) {
+        c->moved = true;
+        return;
+    }
     const app_control_state_t modes =
         (c->state < APP_CONTROL_STATES) ? by_modes(c, seen) : APP_CONTROL_NOT_READY;
 
@@ -203,7 +228,7 @@ static void step(app_control_t *c, const app_objects_t *o, const app_control_see
         c->armed = false;
         return;
     }
-    const app_control_state_t to = next_of(c->state, asked_for(o->controlword));
+    const app_control_state_t to = next_of(c->state, ask);
     if (is_enabled(c->state)) {
         change_enabled(c, to, o, seen);
     } else if (to != STAY) {
@@ -214,16 +239,38 @@ static void step(app_control_t *c, const app_objects_t *o, const app_control_see
     c->armed = c->armed || !has(o->controlword, APP_CONTROL_ENABLE);
 }
 
-static bool is_stopping(const app_control_t *c, const app_objects_t *o)
+/* On the way to a position, or holding one. Halted, or stopping, the drive has a speed, zero in the end. */
+static bool has_position(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
+                         bool stopping)
 {
-    return (c->state == APP_CONTROL_QUICK_STOP_ACTIVE) || !app_control_enables(o->controlword);
+    const bool runs = (c->mode == APP_CONTROL_PROFILE_POSITION) && (seen->mode == APP_MODE_RUN);
+
+    if (!runs || !is_enabled(c->state)) {
+        c->holds = false;
+        return false;
+    }
+    if (!seen->position->known) { /* counts were lost: nobody knows where it would go */
+        c->state = APP_CONTROL_QUICK_STOP_ACTIVE;
+        return false;
+    }
+    if (!c->holds) {
+        app_setpoint_start(&c->setpoint, o, seen->position);
+        c->holds = true;
+    }
+    app_setpoint_tick(&c->setpoint, o, seen->position, seen->arrived);
+    return !stopping && !has(o->controlword, APP_CONTROL_HALT);
+}
+
+static bool is_stopping(const app_control_t *c, ask_t ask)
+{
+    return (c->state == APP_CONTROL_QUICK_STOP_ACTIVE) || (ask != ASK_ENABLE);
 }
 
 /* A stop along a ramp, until the shaft stands. Else the modes end the run as the drive's file says. */
-static bool brakes(const app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen)
+static bool brakes(const app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
+                   ask_t ask)
 {
-    const ask_t ask   = asked_for(o->controlword);
-    bool        ramps = false;
+    bool ramps = false;
 
     if (c->state == APP_CONTROL_QUICK_STOP_ACTIVE) {
         ramps = (o->quick_option != APP_CONTROL_QUICK_OFF) && (ask != ASK_DISABLE_VOLTAGE);
@@ -258,43 +305,50 @@ static void ramp(app_control_t *c, float target, float accel, float decel)
     c->ref_e_radps = (rate > 0.0f) ? moved : target;
 }
 
-static float target_of(const app_control_t *c, const app_objects_t *o)
-{
-    return (is_stopping(c, o) || has(o->controlword, APP_CONTROL_HALT)) ? 0.0f : o->omega_e_radps;
-}
-
-static void move_reference(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen)
+static void move_reference(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
+                           bool stopping)
 {
     const bool runs = (seen->mode == APP_MODE_RUN) || (seen->mode == APP_MODE_STOP);
 
     if (runs || !(o->accel_e_radps2 > 0.0f)) {
-        ramp(c, target_of(c, o), o->accel_e_radps2, deceleration(c, o));
+        const bool still = stopping || has(o->controlword, APP_CONTROL_HALT) ||
+                           (c->mode == APP_CONTROL_PROFILE_POSITION);
+
+        ramp(c, still ? 0.0f : o->omega_e_radps, o->accel_e_radps2, deceleration(c, o));
     } else {
         c->ref_e_radps =
             base_clamp(seen->speed_e_radps, -c->speed_max_e_radps, c->speed_max_e_radps);
     }
 }
 
-app_command_t app_control_tick(app_control_t *c, const app_objects_t *o,
-                               const app_control_seen_t *seen)
+void app_control_tick(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
+                      app_command_t *out)
 {
-    const bool reset_now = has(o->controlword, APP_CONTROL_FAULT_RESET);
+    const bool  reset_now = has(o->controlword, APP_CONTROL_FAULT_RESET);
+    const ask_t ask       = asked_for(o->controlword);
 
-    step(c, o, seen);
-    move_reference(c, o, seen);
-    const bool          on  = is_enabled(c->state);
-    const bool          go  = on && (!is_stopping(c, o) || brakes(c, o, seen)) && !c->done;
-    const bool          run = go && (c->mode == APP_CONTROL_PROFILE_VELOCITY);
-    const app_command_t out = {
-        .omega_e_radps = c->ref_e_radps,
-        .run           = run,
-        .reset = reset_now && !c->reset_high && (c->state >= APP_CONTROL_FAULT_REACTION_ACTIVE),
-        .commission = go && (c->mode == APP_CONTROL_COMMISSIONING),
-        .align      = go && (c->mode == APP_CONTROL_HOMING),
-        .derating   = base_clamp(1.0f - (o->current_max_A * c->per_current_max), 0.0f, 1.0f),
-        .bounds     = o->bounds};
+    step(c, o, seen, ask);
+    const bool stopping = is_stopping(c, ask);
+    out->positioning    = has_position(c, o, seen, stopping);
+    if (out->positioning) {
+        out->target    = c->setpoint.target;
+        out->profile   = c->setpoint.now.profile;
+        c->ref_e_radps = seen->speed_e_radps; /* where a stop begins */
+    } else {
+        move_reference(c, o, seen, stopping);
+    }
+    const bool on = is_enabled(c->state);
+    const bool go = on && (!stopping || brakes(c, o, seen, ask)) && !c->done;
 
+    out->omega_e_radps = c->ref_e_radps;
+    out->run           = go && is_running(c);
+    out->reset = reset_now && !c->reset_high && (c->state >= APP_CONTROL_FAULT_REACTION_ACTIVE);
+    out->commission = go && (c->mode == APP_CONTROL_COMMISSIONING);
+    out->align      = go && (c->mode == APP_CONTROL_HOMING);
+    out->derating   = base_clamp(1.0f - (o->current_max_A * c->per_current_max), 0.0f, 1.0f);
+    if (out->commission) {
+        out->bounds = o->bounds;
+    }
     c->reset_high = reset_now;
     c->asked      = on;
-    return out;
 }

@@ -17,6 +17,7 @@
 #define APP_CONTROL_H
 
 #include "app_config.h"
+#include "app_setpoint.h"
 #include "app_status.h"
 
 /** Bits of the control word. */
@@ -25,8 +26,11 @@ enum {
     APP_CONTROL_ENABLE_VOLTAGE = 2,
     APP_CONTROL_NO_QUICK_STOP  = 4,
     APP_CONTROL_ENABLE         = 8,
+    APP_CONTROL_NEW_SETPOINT   = 16, /**< profile position, as the next two: app_setpoint.h */
+    APP_CONTROL_AT_ONCE        = 32,
+    APP_CONTROL_RELATIVE       = 64,
     APP_CONTROL_FAULT_RESET    = 128, /**< acts when it rises */
-    APP_CONTROL_HALT           = 256  /**< profile velocity: to zero speed, and stays enabled */
+    APP_CONTROL_HALT           = 256  /**< to zero speed, and stays enabled */
 };
 
 /** Control words of the commands. */
@@ -63,14 +67,18 @@ typedef struct {
     bool                moved;       /**< and have begun */
     bool                done;        /**< homing or commissioning has ended */
     float               ref_e_radps; /**< of the ramp */
+    bool                holds;       /**< profile position: the set-points have begun */
+    app_setpoint_t      setpoint;
 } app_control_t;
 
 /** What the modes tell of the tick before. */
 typedef struct {
     app_mode_t mode;
     bool       shorted;    /**< FAULT: the motor is shorted */
-    bool       in_the_way; /**< something keeps a run from starting */
+    bool       in_the_way; /**< something keeps a run from starting; of use in READY only */
     float      speed_e_radps;
+    bool       arrived; /**< at the commanded position */
+    const app_position_t *position;
 } app_control_seen_t;
 
 /** @return CTL_BAD_CONFIG when there is no largest current. Context: init. */
@@ -81,13 +89,13 @@ ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
 app_objects_t app_control_default(const drive_config_t *drive);
 
 /** Whether these objects are ones that the drive knows: mode of operation and options. */
-bool app_control_knows(const app_objects_t *o);
+bool app_control_knows(const app_objects_t *o, const drive_config_t *drive);
 
 /** The control word asks for OPERATION_ENABLED. */
 bool app_control_enables(uint16_t controlword);
 
-/** One period: the command of the modes. Context: control ISR. */
-app_command_t app_control_tick(app_control_t *c, const app_objects_t *wanted,
-                               const app_control_seen_t *seen);
+/** One period: the command of the modes, in place. Its bounds are set with `commission` only. Context: control ISR. */
+void app_control_tick(app_control_t *c, const app_objects_t *wanted, const app_control_seen_t *seen,
+                      app_command_t *out);
 
 #endif /* APP_CONTROL_H */

@@ -21,21 +21,35 @@ static uint16_t passed(uint16_t pulse_cnt, uint16_t min_cnt)
     return ((2U * pulse_cnt) < min_cnt) ? 0U : min_cnt;
 }
 
-static uint16_t compare_cnt(const app_gate_config_t *c, uint16_t full_cnt, float duty)
+/* Neither switch's pulse is too short. */
+static uint16_t passed_both(uint16_t wanted_cnt, uint16_t full_cnt, uint16_t min_cnt)
 {
-    const uint16_t wanted_cnt = (uint16_t)((duty * (float)full_cnt) + 0.5f);
-    const uint16_t upper_cnt  = passed(wanted_cnt, c->pulse_min_cnt);
-    const uint16_t lower_cnt  = passed((uint16_t)(full_cnt - upper_cnt), c->pulse_min_cnt);
-    const uint16_t out_cnt    = (uint16_t)(full_cnt - lower_cnt);
+    const uint16_t upper_cnt = passed(wanted_cnt, min_cnt);
 
-    return (out_cnt < c->duty_max_cnt) ? out_cnt : c->duty_max_cnt;
+    return (uint16_t)(full_cnt - passed((uint16_t)(full_cnt - upper_cnt), min_cnt));
+}
+
+static uint16_t least(uint16_t x, uint16_t y)
+{
+    return (x < y) ? x : y;
 }
 
 board_duty_t app_gate_duty(const app_gate_config_t *c, uint16_t full_cnt, abc_t duty)
 {
-    const board_duty_t out = {.a_cnt = compare_cnt(c, full_cnt, duty.a),
-                              .b_cnt = compare_cnt(c, full_cnt, duty.b),
-                              .c_cnt = compare_cnt(c, full_cnt, duty.c)};
+    const float    full    = (float)full_cnt;
+    const uint16_t min_cnt = c->pulse_min_cnt;
+    uint16_t       a_cnt   = (uint16_t)((duty.a * full) + 0.5f);
+    uint16_t       b_cnt   = (uint16_t)((duty.b * full) + 0.5f);
+    uint16_t       c_cnt   = (uint16_t)((duty.c * full) + 0.5f);
+
+    if (min_cnt > 0U) {
+        a_cnt = passed_both(a_cnt, full_cnt, min_cnt);
+        b_cnt = passed_both(b_cnt, full_cnt, min_cnt);
+        c_cnt = passed_both(c_cnt, full_cnt, min_cnt);
+    }
+    const board_duty_t out = {.a_cnt = least(a_cnt, c->duty_max_cnt),
+                              .b_cnt = least(b_cnt, c->duty_max_cnt),
+                              .c_cnt = least(c_cnt, c->duty_max_cnt)};
     return out;
 }
 

@@ -52,6 +52,7 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *c, const drive_c
     const app_scale_sample_t  no_sample  = {.valid = false};
     const app_angle_reading_t no_reading = {.speed_valid = false};
 
+    app_position_init(&m->position, &m->angle);
     m->config           = c;
     m->mode             = ok ? APP_MODE_BOOT : APP_MODE_FAULT;
     m->fault            = ok ? APP_FAULT_NONE : APP_FAULT_CONFIG;
@@ -95,6 +96,7 @@ static void measure(app_modes_t *m, const board_sample_t *raw)
     app_scale_sample(&m->scale, raw, &m->sample);
     if (m->sample.valid) {
         app_angle_update(&m->angle, raw, &m->reading);
+        app_position_track(&m->position, &m->angle, &m->reading);
         m->hot = !m->sample.temperature_valid ||
                  !(m->sample.temperature_degC <= m->config->temperature_limit_degC);
         m->dc_link_out  = !base_in_range(m->sample.dc_link_V, m->drive.config->dc_link_min_V,

@@ -37,6 +37,8 @@ typedef struct {
     drive_t             drive;
     app_scale_t         scale;
     app_angle_t         angle;
+    app_position_t      position;
+    position_command_t  to_position; /**< what the drive is given on the way to one */
     app_align_t         align;
     app_stop_t          stop;
     app_watch_heat_t    heat;

@@ -23,6 +23,7 @@ typedef enum {
 /** Modes of operation: 6060h. */
 enum {
     APP_CONTROL_COMMISSIONING    = -1, /**< finds the motor, commission.h */
+    APP_CONTROL_PROFILE_POSITION = 1,  /**< app_setpoint.h; of drives that take positions */
     APP_CONTROL_PROFILE_VELOCITY = 3,
     APP_CONTROL_HOMING           = 6 /**< finds the angle, app_align.h */
 };
@@ -41,6 +42,10 @@ typedef struct {
     int16_t  disable_option;  /**< the same */
     int16_t  lost_option;     /**< when nobody talks any more */
     app_commission_bounds_t bounds;
+    int32_t  target_cnt;      /**< position, or how much further, from app_position.h's zero */
+    float    profile_e_radps; /**< largest speed on the way; 0: the drive's, as the next */
+    float    jerk_e_radps3;
+    uint16_t position_window_cnt; /**< around the target: it is reached */
 } app_objects_t;
 
 #endif /* APP_OBJECTS_H */

@@ -24,17 +24,24 @@ static void keep(app_record_t *r)
     r->count      = 0U;
 }
 
+/* The scope's signals of the same name, from where they are: in every tick a switch for each would cost ten times as much. */
+static void take(float to[APP_RECORD_SIGNALS], const app_modes_t *m, const abc_t *duty)
+{
+    to[0] = m->sample.ia_A;
+    to[1] = m->sample.ib_A;
+    to[2] = m->sample.dc_link_V;
+    to[3] = (m->drive.state == DRIVE_RUN) ? m->drive.wanted.now.omega_e_radps
+                                          : m->reading.omega_e_radps;
+    to[4] = duty->a;
+    to[5] = duty->b;
+    to[6] = duty->c;
+}
+
 void app_record_tick(app_record_t *r, const app_scope_view_t *view)
 {
-    static const uint16_t signals[APP_RECORD_SIGNALS] = {
-        APP_SCOPE_IA,     APP_SCOPE_IB,     APP_SCOPE_DC_LINK, APP_SCOPE_SPEED,
-        APP_SCOPE_DUTY_A, APP_SCOPE_DUTY_B, APP_SCOPE_DUTY_C};
-    const bool   fault = view->modes->mode == APP_MODE_FAULT;
-    float *const to    = r->ring[r->writes & 1U][r->next & MASK];
+    const bool fault = view->modes->mode == APP_MODE_FAULT;
 
-    for (uint16_t k = 0U; k < APP_RECORD_SIGNALS; k++) {
-        to[k] = app_scope_signals_value(view, signals[k]);
-    }
+    take(r->ring[r->writes & 1U][r->next & MASK], view->modes, &view->out->duty);
     r->next = (uint16_t)((r->next + 1U) & MASK);
     if (r->count < APP_RECORD_SAMPLES) {
         r->count = (uint16_t)(r->count + 1U);

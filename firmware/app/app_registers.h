@@ -45,7 +45,9 @@ enum {
     APP_REGISTERS_REACHED            = 1024,
     APP_REGISTERS_LIMITED            = 2048,
     APP_REGISTERS_OF_MODE =
-        4096, /**< profile velocity: speed is zero; homing: the angle was found */
+        4096, /**< profile velocity: speed is zero; position: set-point taken; homing: the angle was found */
+    APP_REGISTERS_FOLLOWING_ERROR =
+        8192, /**< profile position: the reference waits for a shaft that cannot follow */
     APP_REGISTERS_BRIDGE_ON = 16384
 };
 
@@ -117,6 +119,9 @@ void app_registers_silence(app_registers_t *r);
 
 /** Control periods of so many seconds; below an hour. */
 uint32_t app_registers_ticks(const app_registers_t *r, float time_s);
+
+/** Counts of the shaft's position, as of the target. */
+int32_t app_registers_position(const app_registers_t *r);
 
 /** Two's complement. */
 uint32_t app_registers_signed(int16_t x);

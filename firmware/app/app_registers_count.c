@@ -86,3 +86,17 @@ float app_registers_count_written(const app_registers_entry_t *e, const uint16_t
     }
     return (e->per_unit > 0.0f) ? (count / e->per_unit) : count;
 }
+
+int32_t app_registers_count_whole(const app_registers_entry_t *e, const uint16_t *words)
+{
+    if (app_registers_count_words(e) == 1U) {
+        const int32_t one      = (int32_t)words[0];
+        const bool    negative = (e->type == APP_REGISTERS_I16) && (words[0] >= 0x8000U);
+        return negative ? (one - 65536L) : one;
+    }
+    const uint32_t both = ((uint32_t)words[0] << 16) | (uint32_t)words[1];
+    if ((both & SIGN_32) == 0UL) {
+        return (int32_t)both;
+    }
+    return (e->type == APP_REGISTERS_I32) ? (-1L - (int32_t)~both) : INT32_MAX;
+}

@@ -17,4 +17,7 @@ uint32_t app_registers_count_of(float x, const app_registers_entry_t *e);
 /** And back, from its words. */
 float app_registers_count_written(const app_registers_entry_t *e, const uint16_t *words);
 
+/** The counts themselves, of a type with a sign or below 2^31; else the largest. */
+int32_t app_registers_count_whole(const app_registers_entry_t *e, const uint16_t *words);
+
 #endif /* APP_REGISTERS_COUNT_H */

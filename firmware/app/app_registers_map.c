@@ -37,6 +37,10 @@ const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING]
     {APP_REGISTERS_SCOPE_BEFORE, APP_REGISTERS_U16, 0.0f, 0.0f, 511.0f, false, false, 0UL},
     {APP_REGISTERS_STORE_PARAMETERS, APP_REGISTERS_U32, 0.0f, 1.70225701e+09f, 1.70225701e+09f, false, false, 0x65766173UL},
     {APP_REGISTERS_RESTORE_PARAMETERS, APP_REGISTERS_U32, 0.0f, 1.68410712e+09f, 1.68410712e+09f, false, false, 0x64616F6CUL},
+    {APP_REGISTERS_TARGET_POSITION, APP_REGISTERS_I32, 0.0f, -1e+09f, 1e+09f, false, false, 0UL},
+    {APP_REGISTERS_PROFILE_VELOCITY, APP_REGISTERS_U32, 10.0f, 0.0f, 1000000.0f, false, true, 0UL},
+    {APP_REGISTERS_PROFILE_JERK, APP_REGISTERS_U32, 1.0f, 0.0f, 4e+09f, false, true, 0UL},
+    {APP_REGISTERS_POSITION_WINDOW, APP_REGISTERS_U16, 0.0f, 1.0f, 65535.0f, false, true, 0UL},
 };
 
 const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
@@ -91,6 +95,8 @@ const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
     {APP_REGISTERS_FIRST_SPEED, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false, false, 0UL},
     {APP_REGISTERS_FIRST_WANTED, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false, false, 0UL},
     {APP_REGISTERS_FIRST_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_POSITION_NOW, APP_REGISTERS_I32, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_POSITION_TARGET, APP_REGISTERS_I32, 0.0f, 0.0f, 0.0f, false, false, 0UL},
     {APP_REGISTERS_COMMISSION_STAGE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
     {APP_REGISTERS_COMMISSION_REASON, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
     {APP_REGISTERS_COMMISSION_PERCENT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
@@ -179,6 +185,12 @@ float app_registers_map_holding_real(const app_registers_t *r, uint16_t address)
     case APP_REGISTERS_SCOPE_LEVEL:
         x = r->wanted.scope.level;
         break;
+    case APP_REGISTERS_PROFILE_VELOCITY:
+        x = r->wanted.objects.profile_e_radps;
+        break;
+    case APP_REGISTERS_PROFILE_JERK:
+        x = r->wanted.objects.jerk_e_radps3;
+        break;
     default:
         break;
     }
@@ -252,6 +264,12 @@ uint32_t app_registers_map_holding_whole(const app_registers_t *r, uint16_t addr
         break;
     case APP_REGISTERS_RESTORE_PARAMETERS:
         x = 1U;
+        break;
+    case APP_REGISTERS_TARGET_POSITION:
+        x = (uint32_t)r->wanted.objects.target_cnt;
+        break;
+    case APP_REGISTERS_POSITION_WINDOW:
+        x = r->wanted.objects.position_window_cnt;
         break;
     default:
         break;
@@ -512,6 +530,12 @@ uint32_t app_registers_map_input_whole(const app_registers_t *r, uint16_t addres
     case APP_REGISTERS_FIRST_TICKS:
         x = r->status.snapshot.ticks;
         break;
+    case APP_REGISTERS_POSITION_NOW:
+        x = (uint32_t)app_registers_position(r);
+        break;
+    case APP_REGISTERS_POSITION_TARGET:
+        x = (uint32_t)r->status.target_cnt;
+        break;
     case APP_REGISTERS_COMMISSION_STAGE:
         x = (uint32_t)r->status.commission.stage;
         break;
@@ -555,7 +579,7 @@ uint32_t app_registers_map_input_whole(const app_registers_t *r, uint16_t addres
         x = app_registers_stored_number(r);
         break;
     case APP_REGISTERS_SUPPORTED_MODES:
-        x = 0x00010024UL;
+        x = r->drive->positions ? 0x00010025UL : 0x00010024UL;
         break;
     case APP_REGISTERS_POLE_PAIRS:
         x = r->drive->hardware.pole_pairs;
@@ -569,7 +593,7 @@ uint32_t app_registers_map_input_whole(const app_registers_t *r, uint16_t addres
     return x;
 }
 
-void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, uint16_t address, float x)
+void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, uint16_t address, float x, int32_t n)
 {
     switch (address) {
     case APP_REGISTERS_CONTROLWORD:
@@ -670,6 +694,18 @@ void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, 
         break;
     case APP_REGISTERS_RESTORE_PARAMETERS:
         w->store_command = (uint16_t)APP_PARAMETERS_RESTORE;
+        break;
+    case APP_REGISTERS_TARGET_POSITION:
+        w->objects.target_cnt = n;
+        break;
+    case APP_REGISTERS_PROFILE_VELOCITY:
+        w->objects.profile_e_radps = x;
+        break;
+    case APP_REGISTERS_PROFILE_JERK:
+        w->objects.jerk_e_radps3 = x;
+        break;
+    case APP_REGISTERS_POSITION_WINDOW:
+        w->objects.position_window_cnt = (uint16_t)x;
         break;
     default:
         break;

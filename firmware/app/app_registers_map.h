@@ -11,10 +11,10 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "63b878ea" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "b9e4b772" /**< of what a master can see of the map */
 
-#define APP_REGISTERS_SAVED_WORDS   19U          /**< of all parameters */
-#define APP_REGISTERS_SAVED_VERSION 0x4054A04FUL /**< of what these words mean */
+#define APP_REGISTERS_SAVED_WORDS   24U          /**< of all parameters */
+#define APP_REGISTERS_SAVED_VERSION 0x184D64ABUL /**< of what these words mean */
 
 /** Holding registers: those of two words are named by the first. */
 enum {
@@ -58,7 +58,13 @@ enum {
     APP_REGISTERS_STORE_PARAMETERS = 128,
     APP_REGISTERS_RESTORE_PARAMETERS = 130,
     APP_REGISTERS_STORE_FIRST = 128,
-    APP_REGISTERS_STORE_END = 132
+    APP_REGISTERS_STORE_END = 132,
+    APP_REGISTERS_TARGET_POSITION = 160,
+    APP_REGISTERS_PROFILE_VELOCITY = 162,
+    APP_REGISTERS_PROFILE_JERK = 164,
+    APP_REGISTERS_POSITION_WINDOW = 166,
+    APP_REGISTERS_TARGET_FIRST = 160,
+    APP_REGISTERS_TARGET_END = 167
 };
 
 /** Input registers: those of two words are named by the first. */
@@ -116,6 +122,10 @@ enum {
     APP_REGISTERS_FIRST_TICKS = 60,
     APP_REGISTERS_LIVE_FIRST = 0,
     APP_REGISTERS_LIVE_END = 62,
+    APP_REGISTERS_POSITION_NOW = 64,
+    APP_REGISTERS_POSITION_TARGET = 66,
+    APP_REGISTERS_POSITION_FIRST = 64,
+    APP_REGISTERS_POSITION_END = 68,
     APP_REGISTERS_COMMISSION_STAGE = 128,
     APP_REGISTERS_COMMISSION_REASON = 129,
     APP_REGISTERS_COMMISSION_PERCENT = 130,
@@ -193,9 +203,9 @@ typedef struct {
 struct app_registers;
 struct app_registers_wanted;
 
-#define APP_REGISTERS_MAP_HOLDING 33U
+#define APP_REGISTERS_MAP_HOLDING 37U
 
-#define APP_REGISTERS_MAP_INPUT 96U
+#define APP_REGISTERS_MAP_INPUT 98U
 
 /** By address, upwards. */
 extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];
@@ -209,7 +219,7 @@ uint32_t app_registers_map_holding_whole(const struct app_registers *r, uint16_t
 float    app_registers_map_input_real(const struct app_registers *r, uint16_t address);
 uint32_t app_registers_map_input_whole(const struct app_registers *r, uint16_t address);
 
-/** Puts a value that is in its range into w. */
-void app_registers_map_put(const struct app_registers *r, struct app_registers_wanted *w, uint16_t address, float x);
+/** Puts a value that is in its range into w; n are its counts, of those with a sign. */
+void app_registers_map_put(const struct app_registers *r, struct app_registers_wanted *w, uint16_t address, float x, int32_t n);
 
 #endif /* APP_REGISTERS_MAP_H */

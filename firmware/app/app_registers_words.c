@@ -33,6 +33,11 @@ uint16_t app_registers_conditions(const app_registers_t *r)
                       refused_parameters(r));
 }
 
+int32_t app_registers_position(const app_registers_t *r)
+{
+    return app_position_cnt(&r->status.position, &r->status.position.is);
+}
+
 uint32_t app_registers_signed(int16_t x)
 {
     const int32_t wide = x;
@@ -52,15 +57,28 @@ static uint16_t bit_if(bool x, int bit)
     return x ? (uint16_t)bit : 0U;
 }
 
+/* The reference rests at the target, and the shaft is near. */
+static bool is_at_target(const app_registers_t *r)
+{
+    const int32_t off_cnt  = app_registers_position(r) - r->status.target_cnt;
+    const int32_t most_cnt = (int32_t)r->wanted.objects.position_window_cnt;
+
+    return r->status.arrived && (off_cnt <= most_cnt) && (off_cnt >= -most_cnt);
+}
+
 static bool is_reached(const app_registers_t *r)
 {
     const app_status_t *s      = &r->status;
     const bool          halted = (r->wanted.objects.controlword & (uint16_t)APP_CONTROL_HALT) != 0U;
     const float         target = halted ? 0.0f : r->wanted.objects.omega_e_radps;
-    const bool runs = (s->state == APP_CONTROL_OPERATION_ENABLED) && (s->mode == APP_MODE_RUN) &&
-                      base_within(s->speed_e_radps - target, r->wanted.objects.window_e_radps);
+    const bool runs = (s->state == APP_CONTROL_OPERATION_ENABLED) && (s->mode == APP_MODE_RUN);
+    const bool near = base_within(s->speed_e_radps - target, r->wanted.objects.window_e_radps);
 
-    return (s->mode_of_operation == (int16_t)APP_CONTROL_PROFILE_VELOCITY) ? runs : s->done;
+    if (s->mode_of_operation == (int16_t)APP_CONTROL_PROFILE_POSITION) {
+        return runs && (halted ? near : is_at_target(r));
+    }
+    return (s->mode_of_operation == (int16_t)APP_CONTROL_PROFILE_VELOCITY) ? (runs && near)
+                                                                           : s->done;
 }
 
 /* Bit 12 means something else in every mode. */
@@ -68,6 +86,9 @@ static bool is_of_mode(const app_registers_t *r)
 {
     const app_status_t *s = &r->status;
 
+    if (s->mode_of_operation == (int16_t)APP_CONTROL_PROFILE_POSITION) {
+        return s->acknowledged;
+    }
     return (s->mode_of_operation == (int16_t)APP_CONTROL_PROFILE_VELOCITY)
                ? base_within(s->speed_e_radps, r->config->stop.still_e_radps)
                : (s->done && (s->reference != APP_ANGLE_NONE));
@@ -86,6 +107,7 @@ uint16_t app_registers_statusword(const app_registers_t *r)
                       bit_if(is_reached(r), APP_REGISTERS_REACHED) |
                       bit_if(limited, APP_REGISTERS_LIMITED) |
                       bit_if(is_of_mode(r), APP_REGISTERS_OF_MODE) |
+                      bit_if(s->waits, APP_REGISTERS_FOLLOWING_ERROR) |
                       bit_if(s->gate_enable, APP_REGISTERS_BRIDGE_ON) |
                       ((s->reference != APP_ANGLE_NONE) ? APP_REGISTERS_REFERENCED : 0U));
 }

@@ -49,7 +49,7 @@ static app_registers_result_t try_command(app_registers_t *r, const app_register
     if ((r->parameters == NULL) || !is_stopped(r) || !stands) {
         return APP_REGISTERS_BUSY;
     }
-    app_registers_map_put(r, &r->trial, e->address, 0.0f);
+    app_registers_map_put(r, &r->trial, e->address, 0.0f, 0L);
     return APP_REGISTERS_OK;
 }
 
@@ -67,7 +67,7 @@ static app_registers_result_t try_one(app_registers_t *r, const app_registers_en
     if (e->stopped && !is_stopped(r) && !is_there(r, e, words)) {
         return APP_REGISTERS_BUSY;
     }
-    app_registers_map_put(r, &r->trial, e->address, x);
+    app_registers_map_put(r, &r->trial, e->address, x, app_registers_count_whole(e, words));
     return APP_REGISTERS_OK;
 }
 
@@ -75,8 +75,9 @@ static app_registers_result_t try_one(app_registers_t *r, const app_registers_en
 static bool may_be_wanted(const app_registers_t *r, const app_registers_wanted_t *w)
 {
     const float most = r->drive->speed_max_e_radps;
-    return base_in_range(w->objects.omega_e_radps, -most, most) && app_control_knows(&w->objects) &&
-           app_scope_knows(&w->scope) && board_line_fits(&w->line);
+    return base_in_range(w->objects.omega_e_radps, -most, most) &&
+           app_control_knows(&w->objects, r->drive) && app_scope_knows(&w->scope) &&
+           board_line_fits(&w->line);
 }
 
 /* Every value whole. */

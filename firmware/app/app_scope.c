@@ -92,11 +92,8 @@ static app_scope_state_t go_on(app_scope_t *s, float x, uint32_t ticks)
     return state;
 }
 
-void app_scope_tick(app_scope_t *s, const app_scope_view_t *view)
+void app_scope_go_on(app_scope_t *s, const app_scope_view_t *view)
 {
-    if ((s->state == APP_SCOPE_IDLE) || (s->state == APP_SCOPE_DONE)) {
-        return;
-    }
     if (s->wait_ticks > 0U) {
         s->wait_ticks = (uint16_t)(s->wait_ticks - 1U);
         return;

@@ -64,8 +64,16 @@ void app_scope_arm(volatile app_scope_t *s, const app_scope_setup_t *setup);
 /** Gives up; what was taken is worth nothing. Context: background. */
 void app_scope_stop(volatile app_scope_t *s);
 
-/** After everything else of a tick. Context: control ISR. */
-void app_scope_tick(app_scope_t *s, const app_scope_view_t *view);
+/** A tick of an armed scope. Context: control ISR. */
+void app_scope_go_on(app_scope_t *s, const app_scope_view_t *view);
+
+/** After everything else of a tick. Inline: most of the time the scope is idle. Context: control ISR. */
+static inline void app_scope_tick(app_scope_t *s, const app_scope_view_t *view)
+{
+    if ((s->state != APP_SCOPE_IDLE) && (s->state != APP_SCOPE_DONE)) {
+        app_scope_go_on(s, view);
+    }
+}
 
 /** Sample `at` of DONE in the order of time, 0 being the first. Context: background. */
 float app_scope_read(const volatile app_scope_t *s, uint16_t at, uint16_t channel);

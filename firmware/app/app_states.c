@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_states.h"
 
+#include <stddef.h>
+
 /* Chosen: 20 ms, in which a motor's current dies out several times; and a mean over as many. */
 #define ZERO_TICKS   100U
 #define ZERO_FORGETS 0.03f
@@ -196,10 +198,17 @@ static bridge_t ready(app_modes_t *m, const app_modes_input_t *in)
 
 static bridge_t drive(app_modes_t *m, const app_command_t *wanted, bool run)
 {
-    const drive_sample_t  sample  = drive_sample(m);
+    const drive_sample_t sample = drive_sample(m);
+
+    if (wanted->positioning) {
+        m->to_position.is      = m->position.is;
+        m->to_position.target  = wanted->target;
+        m->to_position.profile = wanted->profile;
+    }
     const drive_command_t command = {.omega_e_radps = wanted->omega_e_radps,
                                      .run           = run,
-                                     .derating      = base_max(m->heat.derating, wanted->derating)};
+                                     .derating      = base_max(m->heat.derating, wanted->derating),
+                                     .position      = wanted->positioning ? &m->to_position : NULL};
     return drive_tick(&m->drive, &sample, &command);
 }
 
@@ -271,6 +280,7 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
         return app_states_trip(m, in, APP_FAULT_DRIVE);
     }
     if (m->angle.reference == APP_ANGLE_INDEX) { /* the mark came by: better than alignment */
+        app_position_forget(&m->position);
         return aligned(m, in);
     }
     const bridge_t out = app_align_tick(&m->align, m->sample.ia_A, m->sample.ib_A,
@@ -280,6 +290,7 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
     }
     if (m->align.stage == APP_ALIGN_DONE) {
         app_angle_align(&m->angle, in->raw->position_cnt, m->align.config->theta_e_rad);
+        app_position_forget(&m->position);
         enter(m, in->command.run ? APP_MODE_RUN : APP_MODE_READY);
         return in->command.run ? out : bridge_open();
     }

@@ -53,4 +53,9 @@ void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_
     s->mode_of_operation = 0;
     s->done              = false;
     s->demand_e_radps    = 0.0f;
+    s->position          = m->position;
+    s->arrived           = running && m->drive.wanted.arrived;
+    s->waits             = running && m->drive.wanted.waits;
+    s->target_cnt        = 0L;
+    s->acknowledged      = false;
 }

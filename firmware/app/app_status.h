@@ -10,6 +10,7 @@
 #include "app_angle.h"
 #include "app_commission.h"
 #include "app_objects.h"
+#include "app_position.h"
 #include "board.h"
 #include "drive_tick.h"
 
@@ -99,6 +100,11 @@ typedef struct {
     int16_t                 mode_of_operation; /**< in force */
     bool                    done;              /**< homing or commissioning has ended */
     float                   demand_e_radps;    /**< speed that the ramp asks for */
+    app_position_t          position;
+    int32_t                 target_cnt;   /**< of the set-point on the way */
+    bool                    acknowledged; /**< app_setpoint.h */
+    bool                    arrived;      /**< the reference rests at the target */
+    bool                    waits;        /**< the reference, for a shaft that cannot follow it */
 } app_status_t;
 
 /** What the modes are told to do. */
@@ -109,7 +115,10 @@ typedef struct {
     bool  commission; /**< find the motor; starts when it rises in READY without run */
     bool  align;      /**< find the angle anew; the same */
     float derating;   /**< share of the current limit that is not wanted, 0 .. 1 */
-    app_commission_bounds_t bounds; /**< of that */
+    app_commission_bounds_t bounds;      /**< of that */
+    bool                    positioning; /**< a position is wanted, the next two; else the speed */
+    position_t              target;
+    position_profile_t      profile;
 } app_command_t;
 
 #endif /* APP_STATUS_H */

@@ -93,16 +93,30 @@ static float id_weakening_A(const current_ref_config_t *c, const motor_reduced_t
     return m->l9 * (q_flux - m->l5 - v->x_A);
 }
 
-/* EQ-CURRENT-REF-2, 5 and 8. */
+/* EQ-CURRENT-REF-2. */
+static float id_mtpa_A(const current_ref_config_t *c, float iq2)
+{
+    return -(c->mtpa_exact ? root_beyond_k(c, iq2) : (c->mtpa_half_1pA * iq2));
+}
+
+/* Whether a current is below that of EQ-CURRENT-REF-2, by squares: without its root. False of a NaN. */
+static bool is_below_mtpa(const current_ref_config_t *c, float id_A, float iq2)
+{
+    const float beyond = -id_A;
+    const float square =
+        c->mtpa_exact ? (beyond * ((2.0f * c->mtpa_A) + beyond)) : (beyond * 2.0f * c->mtpa_A);
+
+    return (beyond > 0.0f) && (square > iq2);
+}
+
+/* EQ-CURRENT-REF-5 and 8. */
 static float id_target_A(const current_ref_config_t *c, const motor_reduced_t *m, const circle_t *v,
                          float iq_A, float iq_wanted_A)
 {
     const float iq2  = iq_A * iq_A;
-    float       id_A = -(c->mtpa_exact ? root_beyond_k(c, iq2) : (c->mtpa_half_1pA * iq2));
+    const float fw_A = v->active ? id_weakening_A(c, m, v, iq_wanted_A) : 0.0f;
+    const float id_A = is_below_mtpa(c, fw_A, iq2) ? fw_A : id_mtpa_A(c, iq2);
 
-    if (v->active) {
-        id_A = base_min(id_weakening_A(c, m, v, iq_wanted_A), id_A);
-    }
     return base_clamp(id_A, -c->current_max_A, c->id_rest_A);
 }
 

@@ -29,6 +29,7 @@ typedef struct drive_config {
     float speed_max_e_radps;  /**< a command beyond this is a fault, > 0, <= trip_speed_e_radps */
     float dc_link_min_V;      /**< accepted dc link, > 0 */
     float dc_link_max_V;      /**< > dc_link_min_V */
+    bool  positions;          /**< the law takes positions too */
     bool  overmodulation;     /**< voltages may use the hexagon outside the circle */
     motor_reduced_t    motor;
     dead_time_config_t dead_time;

@@ -9,6 +9,10 @@
 /* Beyond anything a law asks for, and below where squares overflow. */
 #define VOLTAGE_ANY_V 1.0e9f
 
+/* Limits of a profile that one divides by and squares. */
+#define PROFILE_LEAST 1.0e-3f
+#define PROFILE_MOST  1.0e12f
+
 /* Longer than any drive stands still; a number, for all that is divided by it. */
 #define EDGE_GAP_MAX_s 1.0e9f
 
@@ -51,6 +55,24 @@ void drive_reset(drive_t *d)
     current_gate_reset(&d->current_gate);
 }
 
+static bool is_limit(float x)
+{
+    return base_in_range(x, PROFILE_LEAST, PROFILE_MOST);
+}
+
+/* A speed in range, or a position that the drive takes. */
+static bool command_ok(const drive_config_t *c, const drive_command_t *command)
+{
+    const position_command_t *p = command->position;
+
+    if (p == NULL) {
+        return base_within(command->omega_e_radps, c->speed_max_e_radps);
+    }
+    return c->positions && position_ok(&p->is) && position_ok(&p->target) &&
+           is_limit(p->profile.speed_e_radps) && is_limit(p->profile.accel_e_radps2) &&
+           is_limit(p->profile.decel_e_radps2) && is_limit(p->profile.jerk_e_radps3);
+}
+
 static drive_fault_t find_fault(const drive_config_t *c, const drive_sample_t *s,
                                 const drive_command_t *command, current_gate_verdict_t currents)
 {
@@ -69,7 +91,7 @@ static drive_fault_t find_fault(const drive_config_t *c, const drive_sample_t *s
     if (!base_within(s->omega_e_radps, c->trip_speed_e_radps)) {
         return DRIVE_FAULT_OVER_SPEED;
     }
-    if (!base_within(command->omega_e_radps, c->speed_max_e_radps)) {
+    if (!command_ok(c, command)) {
         return DRIVE_FAULT_COMMAND;
     }
     return DRIVE_FAULT_NONE;
@@ -182,6 +204,7 @@ static bridge_t run(drive_t *d, const drive_sample_t *sample, const drive_comman
 
     const law_input_t in = {.sample          = sample,
                             .command_e_radps = command->omega_e_radps,
+                            .position        = command->position,
                             .v_V             = d->v_V,
                             .derating        = base_clamp(command->derating, 0.0f, 1.0f)};
 
@@ -189,7 +212,9 @@ static bridge_t run(drive_t *d, const drive_sample_t *sample, const drive_comman
 
     drive_fault_t wrong = find_wrong(d->config, &d->wanted);
     if (wrong == DRIVE_FAULT_NONE) {
-        wrong = watch_motion(d, sample, command->omega_e_radps);
+        wrong = watch_motion(d, sample,
+                             (command->position == NULL) ? command->omega_e_radps
+                                                         : d->wanted.profile_e_radps);
     }
     return (wrong == DRIVE_FAULT_NONE) ? modulate(d, sample->dc_link_V) : trip(d, wrong);
 }

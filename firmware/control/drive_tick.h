@@ -30,6 +30,8 @@ typedef struct {
     bool  run;           /**< false opens the bridge */
     float
         derating; /**< share of the current limit that may not be used, 0 .. 1, of laws with near_optimal.h */
+    const position_command_t *
+        position; /**< NULL: the speed is wanted; else a position, and the speed is not looked at */
 } drive_command_t;
 
 typedef enum { DRIVE_OFF = 0, DRIVE_RUN, DRIVE_FAULT } drive_state_t;
@@ -39,10 +41,10 @@ typedef enum {
     DRIVE_FAULT_NONE = 0,
     DRIVE_FAULT_SAMPLE, /**< sample marked invalid, or angle not a number in range */
     DRIVE_FAULT_OVER_CURRENT, /**< phase current beyond the trip level in two of three samples, or not a number */
-    DRIVE_FAULT_DC_LINK,        /**< dc link outside its accepted range, or not a number */
-    DRIVE_FAULT_OVER_SPEED,     /**< speed beyond the trip level, or not a number */
-    DRIVE_FAULT_ENCODER,        /**< the angle jumped, or stands still while the motor turns fast */
-    DRIVE_FAULT_COMMAND,        /**< commanded speed out of range, or not a number */
+    DRIVE_FAULT_DC_LINK,    /**< dc link outside its accepted range, or not a number */
+    DRIVE_FAULT_OVER_SPEED, /**< speed beyond the trip level, or not a number */
+    DRIVE_FAULT_ENCODER,    /**< the angle jumped, or stands still while the motor turns fast */
+    DRIVE_FAULT_COMMAND, /**< commanded speed or position out of range, not a number, or not one that the drive takes */
     DRIVE_FAULT_NUMERIC,        /**< the law produced a voltage that is not a number */
     DRIVE_FAULT_CURRENT_SENSOR, /**< a phase current is not that of the motor, current_watch.h */
     DRIVE_FAULT_PHASE,          /**< a phase carries no current, current_watch.h */

@@ -18,16 +18,37 @@ bool encoder_form_gains_check(const encoder_form_gains_t *gains)
  * 17 ms with 0.2, after 7 ms with 0.5, after 9 ms and with more noise with 1. */
 #define D_OMEGA_SHARE 0.5f
 
+/* Twice as many edges as samples: T is Ts, and the gains of one sample are what they are, unless they are limited. */
+static bool is_one_sample(const encoder_form_gains_t *gains, float speed_e_radps, float two_rad,
+                          float ts_s)
+{
+    return ((speed_e_radps * ts_s) >= two_rad) && ((gains->omega_1ps * ts_s) <= 1.0f) &&
+           ((gains->d_omega_1ps2 * ts_s * ts_s) <= D_OMEGA_SHARE);
+}
+
 float encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad,
                                 const encoder_form_gains_t *gains, float error_rad, float gap_s,
                                 float ts_s)
 {
-    const float at_speed_1ps = fabsf(est->omega_e_radps) / (2.0f * gains->count_rad);
-    const float per_s        = base_min(base_max(1.0f / gap_s, at_speed_1ps), 1.0f / ts_s);
-    const float samples      = 1.0f / (per_s * ts_s);
-    const float share = base_min(samples, D_OMEGA_SHARE * per_s * per_s / gains->d_omega_1ps2);
-    const float theta = base_min(gains->theta * samples, 1.0f) - (share * gains->theta);
-    const float omega = base_min(gains->omega_1ps * samples, per_s) - (share * gains->omega_1ps);
+    const float two_rad = 2.0f * gains->count_rad;
+    const float speed   = fabsf(est->omega_e_radps);
+
+    if (is_one_sample(gains, speed, two_rad, ts_s)) {
+        return 1.0f;
+    }
+    /* T and 1 / T, of the gap or of the way of two counts; one division for all reciprocals. */
+    const bool  by_gap  = (gap_s * speed) < two_rad;
+    const float over    = by_gap ? gap_s : (speed * two_rad);
+    const float both    = 1.0f / (over * gains->d_omega_1ps2 * ts_s);
+    const float inv     = both * gains->d_omega_1ps2 * ts_s;
+    const float inv_ts  = both * over * gains->d_omega_1ps2;
+    const float inv_d   = both * over * ts_s;
+    const float every_s = base_max(by_gap ? gap_s : (two_rad * two_rad * inv), ts_s);
+    const float per_s   = base_min(by_gap ? inv : (speed * speed * inv), inv_ts);
+    const float samples = every_s * inv_ts;
+    const float share   = base_min(samples, D_OMEGA_SHARE * per_s * per_s * inv_d);
+    const float theta   = base_min(gains->theta * samples, 1.0f) - (share * gains->theta);
+    const float omega   = base_min(gains->omega_1ps * samples, per_s) - (share * gains->omega_1ps);
 
     est->omega_e_radps += omega * error_rad;
     *theta_hat_rad = frames_wrap(*theta_hat_rad + (theta * error_rad));

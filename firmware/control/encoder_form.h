@@ -129,7 +129,7 @@ angle_gate_result_t encoder_form_innovation(angle_gate_t *gate, encoder_form_edg
  * @param ts_s          Control period [s].
  * @return The share of the error that the observer's correction takes with its gains of one sample.
  *
- * Context: control ISR. Five divisions.
+ * Context: control ISR. One division at the most.
  */
 float encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad,
                                 const encoder_form_gains_t *gains, float error_rad, float gap_s,

@@ -42,6 +42,7 @@ void fields_drive(fields_t *f, drive_config_t *c)
     fields_float(f, &c->speed_max_e_radps);
     fields_float(f, &c->dc_link_min_V);
     fields_float(f, &c->dc_link_max_V);
+    fields_flag(f, &c->positions);
     fields_flag(f, &c->overmodulation);
     motor(f, &c->motor);
     dead_time(f, &c->dead_time);

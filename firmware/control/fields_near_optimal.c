@@ -36,8 +36,21 @@ static void nosc(fields_t *f, nosc_gains_t *c)
     }
 }
 
+static void position(fields_t *f, position_gains_t *c)
+{
+    nosc(f, &c->nosc);
+    fields_floats(f, c->theta, (uint16_t)(NOSC_ORDER_MAX + 1));
+    fields_float(f, &c->speed_per_rad);
+    fields_float(f, &c->near_rad);
+    fields_float(f, &c->most.speed_e_radps);
+    fields_float(f, &c->most.accel_e_radps2);
+    fields_float(f, &c->most.decel_e_radps2);
+    fields_float(f, &c->most.jerk_e_radps3);
+}
+
 void fields_near_optimal(fields_t *f, near_optimal_config_t *c)
 {
     current_ref(f, &c->current_ref);
     nosc(f, &c->nosc);
+    position(f, &c->position);
 }

@@ -147,15 +147,18 @@ void foc_answer(foc_t *s, const foc_config_t *c, const drive_config_t *drive, co
 
     s->limit = limit_of(s, c, iq_wanted_A, in->sample->dc_link_V);
 
-    out->v_V            = answer_V(s, c, accel_wanted_e_radps2, in->sample->dc_link_V);
-    out->theta_rad      = in->sample->theta_e_rad + (1.5f * drive->ts_s * w); /* EQ-DRIVE-2 */
-    out->now            = *y;
-    out->i_ref_A        = s->i_ref_A;
-    out->d_omega        = 0.0f;
-    out->d_q            = 0.0f;
-    out->predicted      = false;
-    out->d_d            = 0.0f;
-    out->ignored_angles = 0U;
-    out->without_angle  = false;
-    out->plausible      = true;
+    out->v_V             = answer_V(s, c, accel_wanted_e_radps2, in->sample->dc_link_V);
+    out->theta_rad       = in->sample->theta_e_rad + (1.5f * drive->ts_s * w); /* EQ-DRIVE-2 */
+    out->now             = *y;
+    out->i_ref_A         = s->i_ref_A;
+    out->d_omega         = 0.0f;
+    out->d_q             = 0.0f;
+    out->profile_e_radps = 0.0f;
+    out->arrived        = false;
+    out->waits          = false;
+    out->predicted       = false;
+    out->d_d             = 0.0f;
+    out->ignored_angles  = 0U;
+    out->without_angle   = false;
+    out->plausible       = true;
 }

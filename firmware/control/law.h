@@ -13,6 +13,7 @@
 #include "base.h"
 #include "fields.h"
 #include "nodo.h"
+#include "position_loop.h"
 #include "sample.h"
 
 struct drive_config;
@@ -24,9 +25,11 @@ typedef union law_state law_state_t;
 typedef struct {
     const drive_sample_t *sample;          /**< every value in range */
     float                 command_e_radps; /**< wanted electrical speed, in range */
-    dq_t                  v_V; /**< what the limits left of the voltage computed a period ago: in
+    const position_command_t
+         *position; /**< or a position, of drives that take them; NULL: the speed counts */
+    dq_t  v_V;      /**< what the limits left of the voltage computed a period ago: in
                                     force from this instant on; zero at the start of a run */
-    float                 derating; /**< share of the current limit that may not be used, 0 .. 1 */
+    float derating; /**< share of the current limit that may not be used, 0 .. 1 */
 } law_input_t;
 
 /** What a law answers. */
@@ -39,9 +42,13 @@ typedef struct {
     float d_q;
     float d_d;
     uint16_t
-         ignored_angles; /**< samples since the start of the run; zero where a law believes all */
-    bool without_angle;  /**< the encoder is lost; the law goes on without it, for a stop */
-    bool plausible;      /**< false: the angle cannot be right */
+        ignored_angles; /**< samples since the start of the run; zero where a law believes all */
+    float
+        profile_e_radps; /**< speed of the reference; on the way to a position the motion is judged by it */
+    bool arrived; /**< at the commanded position, where the reference rests */
+    bool waits;   /**< the reference, for a shaft that cannot follow it to a position */
+    bool without_angle; /**< the encoder is lost; the law goes on without it, for a stop */
+    bool plausible;     /**< false: the angle cannot be right */
     bool
         predicted; /**< now is of the instant from which v_V acts, predicted with d_q and d_d, which take up within
                          some ms what the motor is other than believed */

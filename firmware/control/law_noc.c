@@ -77,7 +77,7 @@ static bool counts_ok(const drive_config_t *drive)
 {
     const law_noc_config_t *c = drive->constants;
 
-    return nosc_order_ok(&c->near_optimal.nosc) && (c->nodo.order >= 0) &&
+    return near_optimal_counts_ok(&c->near_optimal) && (c->nodo.order >= 0) &&
            (c->nodo.order <= NODO_ORDER_MAX);
 }
 

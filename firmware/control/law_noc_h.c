@@ -63,7 +63,7 @@ static bool counts_ok(const drive_config_t *drive)
 {
     const law_noc_h_config_t *c = drive->constants;
 
-    return nosc_order_ok(&c->near_optimal.nosc) && nodo_harmonic_counts_ok(&c->nodo);
+    return near_optimal_counts_ok(&c->near_optimal) && nodo_harmonic_counts_ok(&c->nodo);
 }
 
 const law_t law_noc_h = {.check           = check,

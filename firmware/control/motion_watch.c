@@ -6,6 +6,8 @@
 #define DEAD_TIME 0.02f
 #define ODD_s     10.0e-3f /* chosen: twice what a step at the voltage limit takes */
 
+#define TURNS 2.0f /* the two halves take turns */
+
 #define AT_LIMIT2 0.81f /* 0.9 of the limit */
 #define STILL_s                                                                                    \
     50.0e-3f /* chosen; the limit's torque turns three times the motor's inertia by 2 rad meanwhile */
@@ -20,7 +22,7 @@
 
 void motion_watch_reset(motion_watch_t *w)
 {
-    static const motion_watch_t rest = {.odd_s = 0.0f};
+    static const motion_watch_t rest = {.voltage_next = false};
 
     *w = rest;
 }
@@ -30,18 +32,15 @@ static float counted(float so_far_s, bool on, float ts_s)
     return on ? (so_far_s + ts_s) : 0.0f;
 }
 
-/* EQ-MOTION-WATCH-1; a NaN is odd. */
+/* EQ-MOTION-WATCH-1, divided by Lq; a NaN is odd. */
 static bool is_odd(const motion_watch_input_t *in)
 {
     const motor_reduced_t *m = in->motor;
     const float i_A          = fabsf(in->now.id_A) + fabsf(in->now.iq_A); /* at least the length */
-    const float r_Ohm        = m->l4 * m->inv_l6;
-    const float emf_Wb       = m->inv_l6 * (m->l5 + i_A);
-    const float mine_V       = (r_Ohm * i_A) + (emf_Wb * fabsf(in->now.omega_e_radps));
-    const float most_V       = (HALF_OFF * mine_V) + (DEAD_TIME * in->dc_link_V);
+    const float mine_Aps     = (m->l4 * i_A) + ((m->l5 + i_A) * fabsf(in->now.omega_e_radps));
+    const float most_Aps     = (HALF_OFF * mine_Aps) + (DEAD_TIME * m->l6 * in->dc_link_V);
 
-    return !base_within(in->d_Aps.q * m->inv_l6, most_V) ||
-           !base_within(in->d_Aps.d * m->inv_l8, most_V);
+    return !base_within(in->d_Aps.q, most_Aps) || !base_within(in->d_Aps.d, m->l9 * most_Aps);
 }
 
 /* EQ-MOTION-WATCH-3 */
@@ -58,7 +57,15 @@ static bool goes_away(motion_watch_t *w, const motion_watch_input_t *in, bool at
     return (off_e_radps > FAR_e_radps) && (off_e_radps > (w->nearest_e_radps + AWAY_e_radps));
 }
 
-motion_watch_verdict_t motion_watch_judge(motion_watch_t *w, const motion_watch_input_t *in)
+static motion_watch_verdict_t judge_voltage(motion_watch_t *w, const motion_watch_input_t *in,
+                                            float step_s)
+{
+    w->odd_s = counted(w->odd_s, is_odd(in), step_s);
+    return (w->odd_s > ODD_s) ? MOTION_WATCH_ODD : MOTION_WATCH_GOOD;
+}
+
+static motion_watch_verdict_t judge_motion(motion_watch_t *w, const motion_watch_input_t *in,
+                                           float step_s)
 {
     const float i2_A2    = (in->now.id_A * in->now.id_A) + (in->now.iq_A * in->now.iq_A);
     const float off      = fabsf(in->command_e_radps - in->now.omega_e_radps);
@@ -66,21 +73,21 @@ motion_watch_verdict_t motion_watch_judge(motion_watch_t *w, const motion_watch_
     const bool  pushes   = at_limit && (off > SLOW_e_radps);
     const bool  no_edge  = in->edge_gap_s > base_min(w->still_s, GAP_SEEN_s);
 
-    w->odd_s   = counted(w->odd_s, is_odd(in), in->ts_s);
-    w->still_s = counted(w->still_s, pushes && no_edge, in->ts_s);
+    w->still_s = counted(w->still_s, pushes && no_edge, step_s);
     w->slow_s =
-        counted(w->slow_s, pushes && base_within(in->now.omega_e_radps, SLOW_e_radps), in->ts_s);
-    w->away_s = counted(w->away_s, goes_away(w, in, at_limit, off), in->ts_s);
+        counted(w->slow_s, pushes && base_within(in->now.omega_e_radps, SLOW_e_radps), step_s);
+    w->away_s = counted(w->away_s, goes_away(w, in, at_limit, off), step_s);
 
-    motion_watch_verdict_t found = MOTION_WATCH_GOOD;
-    if (w->odd_s > ODD_s) {
-        found = MOTION_WATCH_ODD;
-    } else if ((w->still_s > STILL_s) || (w->slow_s > SLOW_s)) {
-        found = MOTION_WATCH_STALL;
-    } else if (w->away_s > AWAY_s) {
-        found = MOTION_WATCH_AWAY;
-    } else {
-        /* as it should be */
+    if ((w->still_s > STILL_s) || (w->slow_s > SLOW_s)) {
+        return MOTION_WATCH_STALL;
     }
-    return found;
+    return (w->away_s > AWAY_s) ? MOTION_WATCH_AWAY : MOTION_WATCH_GOOD;
+}
+
+motion_watch_verdict_t motion_watch_judge(motion_watch_t *w, const motion_watch_input_t *in)
+{
+    const float step_s = TURNS * in->ts_s;
+
+    w->voltage_next = !w->voltage_next;
+    return w->voltage_next ? judge_motion(w, in, step_s) : judge_voltage(w, in, step_s);
 }

@@ -36,6 +36,7 @@ typedef struct {
     float away_s;
     float command_e_radps;
     float nearest_e_radps; /**< least distance to it since it was given, at the current limit */
+    bool  voltage_next;    /**< EQ-MOTION-WATCH-1 is looked at in the next period */
 } motion_watch_t;
 
 /** What a period knows. */
@@ -53,7 +54,12 @@ typedef struct {
 /** Start of a run. Context: control ISR. */
 void motion_watch_reset(motion_watch_t *w);
 
-/** One period. Context: control ISR. No division. */
+/**
+ * @brief One period: EQ-MOTION-WATCH-1 or the other two, in turn. Each is found a period later than if it were looked at in
+ * every one, which is nothing beside the shortest of their times, 10 ms.
+ *
+ * Context: control ISR. No division.
+ */
 motion_watch_verdict_t motion_watch_judge(motion_watch_t *w, const motion_watch_input_t *in);
 
 #endif /* MOTION_WATCH_H */

@@ -2,9 +2,11 @@
 #include "near_optimal.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #include "current_clamp.h"
 #include "feedforward.h"
+#include "frames.h"
 #include "voltage.h"
 
 bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *drive)
@@ -12,6 +14,7 @@ bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *dr
     const float max_A = c->current_ref.current_max_A;
 
     return current_ref_check(&c->current_ref) && nosc_check(&c->nosc) &&
+           (!drive->positions || position_loop_check(&c->position)) &&
            base_in_range(max_A, drive->current_max_A, drive->current_max_A) &&
            base_in_range(c->current_ref.samples_1ps * drive->ts_s, 0.999f, 1.001f);
 }
@@ -20,26 +23,96 @@ void near_optimal_reset(near_optimal_t *s, const near_optimal_config_t *c, float
 {
     speed_ref_reset(&s->speed_ref, omega_e_radps);
     current_ref_reset(&s->current_ref, &c->current_ref);
+    s->positioning       = false;
+    s->theta_error_e_rad = 0.0f;
+}
+
+static position_profile_t within(const position_profile_t *asked, const position_profile_t *most)
+{
+    const position_profile_t p = {
+        .speed_e_radps  = base_min(asked->speed_e_radps, most->speed_e_radps),
+        .accel_e_radps2 = base_min(asked->accel_e_radps2, most->accel_e_radps2),
+        .decel_e_radps2 = base_min(asked->decel_e_radps2, most->decel_e_radps2),
+        .jerk_e_radps3  = base_min(asked->jerk_e_radps3, most->jerk_e_radps3)};
+    return p;
+}
+
+/* The position of the view's instant: that of the sample and what the estimate is ahead of it. */
+static position_t seen_position(const near_optimal_view_t *view, const position_command_t *command,
+                                float ts_s)
+{
+    const float theta_rad =
+        view->theta_rad - (0.5f * ts_s * view->now.omega_e_radps); /* EQ-DRIVE-2 */
+    return position_moved(&command->is, frames_wrap(theta_rad - command->is.theta_e_rad));
+}
+
+/* The way to a position as a speed reference, and the angle's error. */
+static void update_position(near_optimal_t *s, const near_optimal_config_t *c,
+                            const drive_config_t *drive, const near_optimal_view_t *view,
+                            const position_command_t *command)
+{
+    const position_profile_t profile = within(&command->profile, &c->position.most);
+    const position_t         is      = seen_position(view, command, drive->ts_s);
+    position_ref_t          *r       = &s->position_ref;
+    speed_ref_t             *w       = &s->speed_ref;
+
+    if (!s->positioning) {
+        position_ref_start(r, &is, w->omega_e_radps, w->omega_dot_e_radps2);
+        s->positioning = true;
+    }
+    position_ref_update(r, &profile, &command->target, &is, c->position.near_rad, drive->ts_s);
+    w->omega_e_radps         = r->omega_e_radps;
+    w->omega_dot_e_radps2    = r->omega_dot_e_radps2;
+    w->omega_2dot_e_radps3   = r->omega_2dot_e_radps3;
+    w->accel_wanted_e_radps2 = r->omega_dot_e_radps2;
+    s->theta_error_e_rad     = position_way_rad(&r->at, &is);
+}
+
+/* EQ-POSITION-4: the errors of speed and angle as one, in a speed run that of the speed. */
+static float asking_e_radps(const near_optimal_t *s, const near_optimal_config_t *c,
+                            float speed_error_e_radps)
+{
+    return s->positioning
+               ? (speed_error_e_radps + (c->position.speed_per_rad * s->theta_error_e_rad))
+               : speed_error_e_radps;
 }
 
 static void update_references(near_optimal_t *s, const near_optimal_config_t *c,
                               const drive_config_t *drive, const near_optimal_view_t *view,
                               const law_input_t *in)
 {
-    const float               w      = view->now.omega_e_radps;
-    const float               e_w    = w - s->speed_ref.omega_e_radps;
-    const current_ref_input_t from   = {.est         = view->est,
-                                        .state       = &view->now,
-                                        .iq_speed_A  = nosc_speed_current_A(&c->nosc, e_w),
-                                        .dc_link_V   = in->sample->dc_link_V,
-                                        .v_max_V     = in->sample->dc_link_V * BASE_1_SQRT3,
-                                        .d_omega_dot = view->d_omega_dot,
-                                        .derating    = in->derating};
-    const speed_ref_limits_t  limits = current_ref_speed_limits(
-         &s->current_ref, &c->current_ref, &drive->motor, &from, in->command_e_radps);
-
-    speed_ref_update(&s->speed_ref, &limits, in->command_e_radps, w, drive->ts_s);
+    const float               w    = view->now.omega_e_radps;
+    const float               e_w  = w - s->speed_ref.omega_e_radps;
+    const current_ref_input_t from = {
+        .est         = view->est,
+        .state       = &view->now,
+        .iq_speed_A  = nosc_speed_current_A(near_optimal_gains(s, c), asking_e_radps(s, c, e_w)),
+        .dc_link_V   = in->sample->dc_link_V,
+        .v_max_V     = in->sample->dc_link_V * BASE_1_SQRT3,
+        .d_omega_dot = view->d_omega_dot,
+        .derating    = in->derating};
+    if (in->position != NULL) {
+        update_position(s, c, drive, view, in->position);
+    } else {
+        const speed_ref_limits_t limits = current_ref_speed_limits(
+            &s->current_ref, &c->current_ref, &drive->motor, &from, in->command_e_radps);
+        s->positioning       = false;
+        s->theta_error_e_rad = 0.0f;
+        speed_ref_update(&s->speed_ref, &limits, in->command_e_radps, w, drive->ts_s);
+    }
     current_ref_update(&s->current_ref, &c->current_ref, &drive->motor, &s->speed_ref, &from);
+}
+
+/* Of a limit to what both ask for each gets its share: the speed's, and the angle's in s. */
+static float shared_error(near_optimal_t *s, float e_w, float asked, float allowed)
+{
+    if (base_within(asked - allowed, 0.0f)) {
+        return e_w;
+    }
+    const float share = allowed / asked; /* the limits are on both sides of zero: asked is none */
+
+    s->theta_error_e_rad *= share;
+    return share * e_w;
 }
 
 nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *c,
@@ -49,10 +122,16 @@ nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *
     update_references(s, c, drive, view, in);
 
     const current_ref_t *ref = &s->current_ref;
-    const nosc_error_t   e = {.omega_e_radps = view->now.omega_e_radps - s->speed_ref.omega_e_radps,
-                              .iq_A          = view->now.iq_A - ref->i_A.q,
-                              .id_A          = view->now.id_A - ref->i_A.d};
-    return nosc_limit_speed_error(&c->nosc, e, ref->i_A.q, ref->iq_lo_A, ref->iq_hi_A);
+    const float          e_w = view->now.omega_e_radps - s->speed_ref.omega_e_radps;
+    const nosc_error_t   e   = {.omega_e_radps = asking_e_radps(s, c, e_w),
+                                .iq_A          = view->now.iq_A - ref->i_A.q,
+                                .id_A          = view->now.id_A - ref->i_A.d};
+    nosc_error_t         limited =
+        nosc_limit_speed_error(near_optimal_gains(s, c), e, ref->i_A.q, ref->iq_lo_A, ref->iq_hi_A);
+    if (s->positioning) {
+        limited.omega_e_radps = shared_error(s, e_w, e.omega_e_radps, limited.omega_e_radps);
+    }
+    return limited;
 }
 
 /* EQ-DRIVE-1 */
@@ -71,13 +150,14 @@ static dq_t out_of_reach_V(const near_optimal_t *s, const near_optimal_config_t 
                            const motor_reduced_t *m, const near_optimal_view_t *view,
                            const nosc_error_t *e)
 {
-    current_ref_t target = s->current_ref;
-    target.i_A.q -= c->nosc.speed_A_per_radps * e->omega_e_radps; /* EQ-NOSC-3 */
+    const nosc_gains_t *g      = near_optimal_gains(s, c);
+    current_ref_t       target = s->current_ref;
+    target.i_A.q -= g->speed_A_per_radps * asking_e_radps(s, c, e->omega_e_radps); /* EQ-NOSC-3 */
 
     const nodo_meas_t held = {
         .omega_e_radps = view->now.omega_e_radps, .iq_A = target.i_A.q, .id_A = target.i_A.d};
     const dq_t  hold_V   = feedforward_V(m, &target, held.omega_e_radps, &held, view->est);
-    const float pull_1ps = nosc_current_gain(&c->nosc) * m->l6;
+    const float pull_1ps = nosc_current_gain(g) * m->l6;
 
     const dq_t u_V = {.d = hold_V.d - (pull_1ps * m->inv_l8 * (view->now.id_A - held.id_A)),
                       .q = hold_V.q - (pull_1ps * m->inv_l6 * (view->now.iq_A - held.iq_A))};
@@ -111,15 +191,18 @@ void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c
 
     const dq_t any_V = reached ? u_V : out_of_reach_V(s, c, m, view, e);
 
-    out->v_V            = clamped_V(c, m, view, any_V, !voltage_is_outside(any_V, dc_link_V), in);
-    out->theta_rad      = view->theta_rad;
-    out->now            = view->now;
-    out->i_ref_A        = s->current_ref.i_A;
-    out->d_omega        = view->est->d_omega;
-    out->d_q            = view->est->d_q;
-    out->d_d            = view->est->d_d;
-    out->ignored_angles = 0U;
-    out->without_angle  = false;
-    out->plausible      = view->plausible;
-    out->predicted      = false;
+    out->v_V             = clamped_V(c, m, view, any_V, !voltage_is_outside(any_V, dc_link_V), in);
+    out->theta_rad       = view->theta_rad;
+    out->now             = view->now;
+    out->i_ref_A         = s->current_ref.i_A;
+    out->d_omega         = view->est->d_omega;
+    out->d_q             = view->est->d_q;
+    out->d_d             = view->est->d_d;
+    out->ignored_angles  = 0U;
+    out->without_angle   = false;
+    out->arrived         = s->positioning && s->position_ref.arrived;
+    out->waits           = s->positioning && s->position_ref.waits;
+    out->profile_e_radps = s->speed_ref.omega_e_radps;
+    out->plausible       = view->plausible;
+    out->predicted       = false;
 }

@@ -14,16 +14,22 @@
 #include "current_ref.h"
 #include "drive_config.h"
 #include "nosc.h"
+#include "position_loop.h"
 #include "speed_ref.h"
 
 typedef struct {
     current_ref_config_t current_ref;
-    nosc_gains_t         nosc; /**< conventional: Lambda_00 alone, for EQ-NOSC-3 */
+    nosc_gains_t         nosc;     /**< conventional: Lambda_00 alone, for EQ-NOSC-3 */
+    position_gains_t     position; /**< of a drive that takes positions; else not looked at */
 } near_optimal_config_t;
 
 typedef struct {
-    speed_ref_t   speed_ref;
-    current_ref_t current_ref;
+    speed_ref_t    speed_ref; /**< in a position run what position_ref says of the speed */
+    current_ref_t  current_ref;
+    position_ref_t position_ref;
+    float
+         theta_error_e_rad; /**< to position_ref, as far as the limits let it be followed; 0 in a speed run */
+    bool positioning;
 } near_optimal_t;
 
 /** What the observer knows, all of one instant. */
@@ -41,10 +47,26 @@ bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *dr
 /** References start at the present speed without current. */
 void near_optimal_reset(near_optimal_t *s, const near_optimal_config_t *c, float omega_e_radps);
 
+/** For law_t.counts_ok. */
+static inline bool near_optimal_counts_ok(const near_optimal_config_t *c)
+{
+    return nosc_order_ok(&c->nosc) && nosc_order_ok(&c->position.nosc);
+}
+
+/** The gains in force: of the position's design in a position run, else of the speed's. */
+static inline const nosc_gains_t *near_optimal_gains(const near_optimal_t        *s,
+                                                     const near_optimal_config_t *c)
+{
+    return s->positioning ? &c->position.nosc : &c->nosc;
+}
+
 /**
  * @brief References of this period and the error to them, its speed part as far as the limits let it be followed.
  *
- * Context: control ISR. The cost of speed_ref_update() and current_ref_update(), no other division.
+ * In a position run the angle's error, in s, is a part of it.
+ *
+ * Context: control ISR. The cost of speed_ref_update() or position_ref_update(), and of current_ref_update(); in a position run
+ * at the limits one more division.
  */
 nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *c,
                                 const drive_config_t *drive, const near_optimal_view_t *view,
@@ -66,7 +88,7 @@ void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c
 /**
  * @brief Both, with the feedback of nosc.h between them: the rest of a period after the observer.
  *
- * Inline, because it is no more than three calls. Context: control ISR.
+ * Inline, because it is no more than some calls. Context: control ISR.
  */
 static inline void near_optimal_step(near_optimal_t *s, const near_optimal_config_t *c,
                                      const drive_config_t *drive, const near_optimal_view_t *view,
@@ -74,7 +96,13 @@ static inline void near_optimal_step(near_optimal_t *s, const near_optimal_confi
 {
     const nosc_error_t e = near_optimal_error(s, c, drive, view, in);
 
-    near_optimal_answer(s, c, &drive->motor, view, &e, nosc_feedback_V(&c->nosc, &e), in, out);
+    dq_t feedback_V = nosc_feedback_V(near_optimal_gains(s, c), &e);
+    if (s->positioning) {
+        const dq_t theta_V = position_loop_V(&c->position, s->theta_error_e_rad, e.iq_A);
+        feedback_V.d += theta_V.d;
+        feedback_V.q += theta_V.q;
+    }
+    near_optimal_answer(s, c, &drive->motor, view, &e, feedback_V, in, out);
 }
 
 #endif /* NEAR_OPTIMAL_H */

@@ -20,17 +20,20 @@ static inline void servo_answer(const drive_config_t *drive, const law_input_t *
 {
     const dq_t none = {0.0f, 0.0f};
 
-    out->v_V            = v_V;
-    out->theta_rad      = sample_middle_angle_rad(in->sample, drive->ts_s);
-    out->now            = *y;
-    out->i_ref_A        = none;
-    out->d_omega        = 0.0f;
-    out->d_q            = 0.0f;
-    out->d_d            = 0.0f;
-    out->ignored_angles = 0U;
-    out->without_angle  = false;
-    out->plausible      = true;
-    out->predicted      = false;
+    out->v_V             = v_V;
+    out->theta_rad       = sample_middle_angle_rad(in->sample, drive->ts_s);
+    out->now             = *y;
+    out->i_ref_A         = none;
+    out->d_omega         = 0.0f;
+    out->d_q             = 0.0f;
+    out->d_d             = 0.0f;
+    out->ignored_angles  = 0U;
+    out->without_angle   = false;
+    out->plausible       = true;
+    out->profile_e_radps = 0.0f;
+    out->arrived        = false;
+    out->waits          = false;
+    out->predicted       = false;
 }
 
 /** d voltage of EQ-PID-1 for id = 0, after what the limits left of the one before. Context: control ISR. */

@@ -18,7 +18,7 @@
 #include "drive_config.h"
 #include "laws.h"
 
-#define DRIVE_IMAGE_SCHEMA       1U  /**< raised with every change of what the words mean */
+#define DRIVE_IMAGE_SCHEMA       2U  /**< raised with every change of what the words mean */
 #define DRIVE_IMAGE_DIGEST_WORDS 12U /**< as long as sdre-gains writes it */
 #define DRIVE_IMAGE_NAME_WORDS   16U /**< chosen: 32 characters; longer names are cut */
 #define DRIVE_IMAGE_TEMPERATURES                                                                   \

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "design/firmware_config.hpp"
+#include "design/position.hpp"
 #include "design/sampled_model.hpp"
 #include "design/sampled_observer.hpp"
 
@@ -98,27 +99,28 @@ std::vector<double> speed_grid(const Design &d)
     return w;
 }
 
-SampledLoop sweep_nosc(const Design &d)
+/// B the input matrix of the error system that g is solved for.
+SampledLoop sweep_controller(const Design &d, const GainSeries &g, const MatrixXd &B)
 {
-    const double   ts      = control_period_s(d.drive);
-    const bool     delayed = d.drive.nodo.form != NodoForm::encoder;
-    const MatrixXd B       = nosc_input_matrix(d.l);
+    const double ts      = control_period_s(d.drive);
+    const bool   delayed = d.drive.nodo.form != NodoForm::encoder;
 
     const auto poles = [&](const MatrixXd &K, const Schedule &s) {
-        return eigenvalues(state_matrix(d.nosc.problem, s) - B * K);
+        return eigenvalues(state_matrix(g.problem, s) - B * K);
     };
     const auto radius = [&](const MatrixXd &K, const Schedule &s) { // EQ-CERT-1
-        const auto E = c2d(state_matrix(d.nosc.problem, s), B, ts);
+        const auto E = c2d(state_matrix(g.problem, s), B, ts);
         if (!delayed) { // the prediction takes the delay out
             return spectral_radius(E.Phi - E.Gamma * K);
         }
-        MatrixXd Z               = MatrixXd::Zero(5, 5);
-        Z.topLeftCorner(3, 3)    = E.Phi;
-        Z.topRightCorner(3, 2)   = E.Gamma;
-        Z.bottomLeftCorner(2, 3) = -K;
+        const Eigen::Index n     = B.rows();
+        MatrixXd           Z     = MatrixXd::Zero(n + 2, n + 2);
+        Z.topLeftCorner(n, n)    = E.Phi;
+        Z.topRightCorner(n, 2)   = E.Gamma;
+        Z.bottomLeftCorner(2, n) = -K;
         return spectral_radius(Z);
     };
-    return sweep(d.nosc, certified_range_A(d.drive.motor), ts, radius, poles);
+    return sweep(g, certified_range_A(d.drive.motor), ts, radius, poles);
 }
 
 SampledLoop sweep_nodo(const Design &d)
@@ -207,8 +209,14 @@ void certify(Design &design)
 {
     Certificate &certificate = design.certificate;
     certificate              = {};
-    certificate.nosc         = sweep_nosc(design);
+    certificate.nosc         = sweep_controller(design, design.nosc, nosc_input_matrix(design.l));
     judge("nosc", "nosc", design.nosc, certificate.nosc, certificate.failures);
+    if (design.position) {
+        certificate.position =
+            sweep_controller(design, *design.position, position_input_matrix(design.l));
+        judge("position", "position", *design.position, *certificate.position,
+              certificate.failures);
+    }
     if (design.drive.law != Law::noc_h) { // which has an observer of its own
         certificate.nodo = sweep_nodo(design);
         const bool whole = design.drive.nodo.form == NodoForm::encoder; // EQ-CERT-3, else EQ-CERT-2

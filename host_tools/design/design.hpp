@@ -32,8 +32,9 @@ struct SampledLoop {
 };
 
 struct Certificate {
-    SampledLoop            nosc;
-    SampledLoop            nodo;
+    SampledLoop                nosc;
+    SampledLoop                nodo;
+    std::optional<SampledLoop> position; ///< error dynamics of the position, where the drive has it
     std::optional<Verdict> loop; ///< motor, observer and law together; laws that have such a model
     std::vector<std::string> failures; ///< one line each; empty = certified
 
@@ -58,11 +59,12 @@ struct HarmonicCheck {
 };
 
 struct Design {
-    Drive             drive;
-    Precision         precision = Precision::quick; ///< of the Riccati equation's solver
-    ReducedParameters l{};
-    GainSeries        nosc; ///< and in the certificate: laws of near optimal control
-    GainSeries        nodo; ///< the same, but for noc_h
+    Drive                     drive;
+    Precision                 precision = Precision::quick; ///< of the Riccati equation's solver
+    ReducedParameters         l{};
+    GainSeries                nosc;     ///< and in the certificate: laws of near optimal control
+    GainSeries                nodo;     ///< the same, but for noc_h
+    std::optional<GainSeries> position; ///< drives with [position]; a state more
     std::optional<HarmonicDesign> harmonics; ///< noc_h only
     HarmonicCheck                 harmonic_check;
     std::optional<ServoDesign>    servo;    ///< laws of paper B

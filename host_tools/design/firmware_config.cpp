@@ -53,6 +53,7 @@ drive_config_t common_config(const Design &d)
     c.dc_link_min_V      = single(dc_link_min_ratio * inv.dc_link_V);
     c.dc_link_max_V =
         single(std::min(dc_link_max_ratio * inv.dc_link_V, largest_shown_dc_link_V(d.drive)));
+    c.positions      = d.drive.position.has_value();
     c.overmodulation = inv.overmodulation;
 
     c.motor = {single(l[1]),  single(l[2]),       single(l[3]),      single(l[4]), single(l[5]),

@@ -32,11 +32,15 @@ MatrixXd encoder_form_law(const ReducedParameters &l, const MatrixXd &Lambda,
                           const OperatingPoint &at)
 {
     const double D      = l[1] + l[11] * at.id_A;
-    const double k_ref  = Lambda(0, 1) + l[4] / l[6]; // v_q per ampere of iq_ref
+    const bool   angle  = Lambda.cols() == 4;
+    const double k_ref  = Lambda(0, angle ? 2 : 1) + l[4] / l[6]; // v_q per ampere of iq_ref
     MatrixXd     F      = MatrixXd::Zero(2, 7);
-    F.block(0, 3, 2, 3) = -Lambda;
-    F(0, 0)             = -k_ref / D;
-    F(0, 1)             = -1.0 / l[6];
+    F.block(0, 3, 2, 3) = -Lambda.rightCols(3);
+    if (angle) {
+        F.col(6) = -Lambda.col(0);
+    }
+    F(0, 0) = -k_ref / D;
+    F(0, 1) = -1.0 / l[6];
     F(0, 3) += l[10] * at.id_A / l[6];
     F(0, 5) += l[10] * at.omega_e_radps / l[6] - k_ref * at.iq_A * l[11] / D;
     F(1, 2) = -1.0 / l[8];
@@ -89,12 +93,13 @@ SampledModel sampled_model(const ReducedParameters &motor, const ReducedParamete
     A.bottomLeftCorner(7, 4)  = PL * C.rightCols(4);
     A.bottomRightCorner(7, 7) = P - PL * C + G * F;
 
-    // Nothing depends on the angle itself, only on theta - theta^: with that difference in place of theta,
-    // theta^ is an integrator that nothing reads and is left out.
-    MatrixXd S         = MatrixXd::Identity(11, 11);
-    S(3, 10)           = -1.0;
-    MatrixXd S_inverse = MatrixXd::Identity(11, 11);
-    S_inverse(3, 10)   = 1.0;
+    // Nothing of the motor depends on the angle itself, only on theta - theta^: with that difference in place of theta, theta^
+    // is an integrator that only a position's law reads. Else it is left out.
+    const Eigen::Index n = gains.Lambda.cols() == 4 ? 11 : 10;
+    MatrixXd           S = MatrixXd::Identity(11, 11);
+    S(3, 10)             = -1.0;
+    MatrixXd S_inverse   = MatrixXd::Identity(11, 11);
+    S_inverse(3, 10)     = 1.0;
 
     Eigen::VectorXd b_load = Eigen::VectorXd::Zero(11);
     b_load.head(4)         = held.Gamma.col(2);
@@ -104,13 +109,13 @@ SampledModel sampled_model(const ReducedParameters &motor, const ReducedParamete
     B_noise.bottomRows(7)  = PL;
 
     SampledModel out;
-    out.ts_s                   = ts;
-    out.A                      = (S * A * S_inverse).topLeftCorner(10, 10);
-    out.C_voltage              = MatrixXd::Zero(2, 10);
-    out.C_voltage.rightCols(6) = F.leftCols(6);
-    out.b_load                 = (S * b_load).head(10);
-    out.B_noise                = (S * B_noise).topRows(10);
-    out.B_voltage              = (S * B_voltage).topRows(10);
+    out.ts_s                       = ts;
+    out.A                          = (S * A * S_inverse).topLeftCorner(n, n);
+    out.C_voltage                  = MatrixXd::Zero(2, n);
+    out.C_voltage.rightCols(n - 4) = F.leftCols(n - 4);
+    out.b_load                     = (S * b_load).head(n);
+    out.B_noise                    = (S * B_noise).topRows(n);
+    out.B_voltage                  = (S * B_voltage).topRows(n);
     return out;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// The sampled closed loop of the encoder form, linearised at an operating point: true motor, observer, law, one
-/// period of delay. State [w iq id (theta - theta^) | d_w^ d_q^ d_d^ w^ iq^ id^] as deviations from the operating point.
+/// period of delay. State [w iq id (theta - theta^) | d_w^ d_q^ d_d^ w^ iq^ id^] as deviations from the operating point, with
+/// a position's law also theta^: n = 10 or 11.
 #pragma once
 
 #include "design/motor_model.hpp"
@@ -16,7 +17,7 @@ struct OperatingPoint {
     double id_A          = 0.0;
 };
 
-/// The gains in force: Lambda (2 x 3) and L (7 x 3) at that point.
+/// The gains in force: Lambda (2 x 3, of a position 2 x 4 with the angle first) and L (7 x 3) at that point.
 struct LoopGains {
     Eigen::MatrixXd Lambda;
     Eigen::MatrixXd L;
@@ -24,12 +25,12 @@ struct LoopGains {
 
 /// EQ-CERT-3: x(k+1) = A x(k) + b_load T_load(k) + B_noise n(k).
 struct SampledModel {
-    Eigen::MatrixXd A;      ///< 10 x 10
-    Eigen::VectorXd b_load; ///< 10, per newton metre of load torque
+    Eigen::MatrixXd A;      ///< n x n
+    Eigen::VectorXd b_load; ///< n, per newton metre of load torque
     Eigen::MatrixXd
-        B_noise; ///< 10 x 3, per ampere of iq, id and radian of angle error in the measurement
-    Eigen::MatrixXd C_voltage; ///< 2 x 10: the v_q, v_d in force
-    Eigen::MatrixXd B_voltage; ///< 10 x 2, per volt of v_q, v_d that the observer does not know
+        B_noise; ///< n x 3, per ampere of iq, id and radian of angle error in the measurement
+    Eigen::MatrixXd C_voltage; ///< 2 x n: the v_q, v_d in force
+    Eigen::MatrixXd B_voltage; ///< n x 2, per volt of v_q, v_d that the observer does not know
     double          ts_s = 0.0;
 };
 
@@ -48,7 +49,7 @@ struct PredictedObserver {
 PredictedObserver predicted_encoder_form(const ReducedParameters &model, const OperatingPoint &at,
                                          double ts_s);
 
-/// The law of the firmware as a row pair on the predicted observer state (2 x 7): EQ-NOSC-1 and
+/// The law of the firmware as a row pair on the predicted observer state (2 x 7), of the speed or of a position: EQ-NOSC-1 and
 /// EQ-FEEDFORWARD-1, 2 with iq_ref of EQ-CURRENT-REF-1 and a constant id_ref.
 Eigen::MatrixXd encoder_form_law(const ReducedParameters &l, const Eigen::MatrixXd &Lambda,
                                  const OperatingPoint &at);

@@ -24,6 +24,15 @@ std::string normalised_weights(const Drive &d)
     for (double x : d.nodo.T) {
         s += fmt::format("{:.17g};", x);
     }
+    if (d.position) {
+        s += "position;";
+        for (double x : d.position->Q) {
+            s += fmt::format("{:.17g};", x);
+        }
+        for (double x : d.position->T) {
+            s += fmt::format("{:.17g};", x);
+        }
+    }
     return s;
 }
 

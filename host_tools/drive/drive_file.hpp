@@ -64,6 +64,12 @@ struct NoscSpec {
     std::array<double, 2> T{};
 };
 
+/// Weights of the position controller: angle, speed, i_q, i_d error; v_q, v_d. Its series has the order of the speed's.
+struct PositionSpec {
+    std::array<double, 4> Q{};
+    std::array<double, 2> T{};
+};
+
 /// What paper A's observer measures beside the currents; of the conventional one, which measures the speed, what it
 /// estimates: the load alone or all three disturbances.
 enum class NodoForm { speed, encoder, conventional_load, conventional_all };
@@ -157,11 +163,13 @@ struct Drive {
     Law              law = Law::noc;
     NoscSpec         nosc; ///< nosc and nodo: laws of near optimal control
     NodoSpec         nodo;
-    HarmonicSpec     harmonics; ///< noc_h only
-    DobcSpec         dobc;      ///< cdobc, gpiobc, hdobc only
-    PidSpec          pid;       ///< pid only
-    DAxisSpec        d_axis;    ///< laws of paper B
-    CascadeSpec      cascade;   ///< pi_foc and ladrc only
+    std::optional<PositionSpec>
+                 position;  ///< noc with form "encoder", noc_h: the drive takes positions too
+    HarmonicSpec harmonics; ///< noc_h only
+    DobcSpec     dobc;      ///< cdobc, gpiobc, hdobc only
+    PidSpec      pid;       ///< pid only
+    DAxisSpec    d_axis;    ///< laws of paper B
+    CascadeSpec  cascade;   ///< pi_foc and ladrc only
 };
 
 constexpr int drive_schema = 1;

@@ -44,6 +44,20 @@ NoscSpec read_nosc(TomlReader t, Range order)
     return spec;
 }
 
+PositionSpec read_position(TomlReader t)
+{
+    constexpr Range acts{input_weight.lo, state_weight.hi}; // without it nothing holds the angle
+    PositionSpec    spec;
+    spec.Q = last_of<4>(t.numbers("Q", {4}, state_weight));
+    spec.T = last_of<2>(t.numbers("T", {2}, input_weight));
+    if (!(spec.Q[0] >= acts.lo)) {
+        t.fail("Q", fmt::format("[0] = {:g} is not allowed: must be {:g} .. {:g}", spec.Q[0],
+                                acts.lo, acts.hi));
+    }
+    t.reject_unknown_keys();
+    return spec;
+}
+
 NodoSpec read_nodo(TomlReader t)
 {
     NodoSpec          spec;
@@ -215,6 +229,21 @@ Law read_law(TomlReader &t)
     return found->second;
 }
 
+namespace {
+
+void read_position_if(TomlReader &t, Drive &drive)
+{
+    if (std::optional<TomlReader> section = t.table_if("position")) {
+        if (drive.law == Law::conventional_noc || drive.nodo.form != NodoForm::encoder) {
+            t.fail("[position]", "is not allowed: only laws noc and noc_h with [nodo] form = "
+                                 "\"encoder\" take positions");
+        }
+        drive.position = read_position(*section);
+    }
+}
+
+} // namespace
+
 void read_law_sections(TomlReader &t, Drive &drive)
 {
     if (is_near_optimal(drive.law)) {
@@ -222,6 +251,7 @@ void read_law_sections(TomlReader &t, Drive &drive)
         drive.nosc = read_nosc(t.table("nosc"), conventional ? double_series_order : series_order);
         drive.nodo =
             conventional ? read_conventional_nodo(t.table("nodo")) : read_nodo(t.table("nodo"));
+        read_position_if(t, drive);
         if (drive.law != Law::noc_h) {
             return;
         }

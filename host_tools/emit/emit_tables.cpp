@@ -79,6 +79,7 @@ std::string config_fields(const drive_config_t &c, const char *law)
            c_field("trip_speed_e_radps", c.trip_speed_e_radps) +
            c_field("speed_max_e_radps", c.speed_max_e_radps) +
            c_field("dc_link_min_V", c.dc_link_min_V) + c_field("dc_link_max_V", c.dc_link_max_V) +
+           c_field("positions", std::string(c.positions ? "true" : "false")) +
            c_field("overmodulation", std::string(c.overmodulation ? "true" : "false")) +
            motor_block(c.motor) +
            c_block("dead_time", c_field("share", c.dead_time.share) +

@@ -26,7 +26,7 @@ Json to_json(const Eigen::MatrixXd &M)
 Json point_json(const Design &d, const OperatingPoint &at)
 {
     const double    ts_s  = control_period_s(d.drive);
-    const LoopGains gains = encoder_form_gains(d, at.iq_A);
+    const LoopGains gains = encoder_form_gains(d, at.iq_A, d.nosc.gain[0]);
     const auto [P, G]     = predicted_encoder_form(d.l, at, ts_s);
     return {{"speed_e_radps", at.omega_e_radps},
             {"iq_A", at.iq_A},

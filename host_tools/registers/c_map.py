@@ -109,8 +109,8 @@ def header(groups: List[Group]) -> str:
                   f"float    app_registers_map_{space}_real(const struct app_registers *r, uint16_t address);",
                   f"uint32_t app_registers_map_{space}_whole(const struct app_registers *r, uint16_t address);", ""]  # fmt: skip
     lines += [
-        "/** Puts a value that is in its range into w. */",
-        "void app_registers_map_put(const struct app_registers *r, struct app_registers_wanted *w, uint16_t address, float x);", "",
+        "/** Puts a value that is in its range into w; n are its counts, of those with a sign. */",
+        "void app_registers_map_put(const struct app_registers *r, struct app_registers_wanted *w, uint16_t address, float x, int32_t n);", "",
         "#endif /* APP_REGISTERS_MAP_H */", "",
     ]  # fmt: skip
     return "\n".join(lines)
@@ -147,7 +147,7 @@ def source(groups: List[Group]) -> str:
         lines += _table(groups, space)
     for space in SPACES:
         lines += _getter(groups, space, True) + _getter(groups, space, False)
-    lines += ["void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, uint16_t address, float x)",
+    lines += ["void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, uint16_t address, float x, int32_t n)",
               "{", "    switch (address) {"]  # fmt: skip
     for r in of_space(groups, "holding"):
         lines += [f"    case APP_REGISTERS_{r.name}:", f"        {r.target};", "        break;"]

@@ -14,7 +14,8 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 FAST_RTS = "rts2800_fpu32_fast_supplement_eabi.lib"
-TICK = ["app.c", "app_align.c", "app_angle.c", "app_modes.c", "app_scale.c", "adc.c", "clock.c",
+TICK = ["app.c", "app_angle.c", "app_control.c", "app_gate.c", "app_modes.c", "app_record.c", "app_scale.c", "app_scope.c",
+        "app_scope_signals.c", "app_states.c", "app_stop.c", "app_watch_heat.c", "adc.c", "clock.c",
         "control_isr.c", "cycles.c", "encoder.c", "flash.c", "pie.c", "pwm.c", "flash_store.c", "tick_watch.c", "trip.c"]
 
 
@@ -111,7 +112,7 @@ class TargetBuild(unittest.TestCase):
         self.assertTrue((self.build / "bin" / "sdre_f28335_flash.out").exists())
         self.assertTrue((self.build / "bin" / "sdre_f28335_flash.hex").exists())
         self.assertIn("--intel", self.calls("hex2000")[0])
-        self.assertIn("RAML012      6144 of 12288 words (50 %)", output)
+        self.assertIn("RAML0123     6144 of 16384 words (37 %)", output)
         self.assertNotIn("--define=FLASH_API", after)
 
         # Tick and flash set-up run from RAM, and the way there does not.

@@ -147,7 +147,9 @@ static void tick_control(app_mode_t mode, app_control_state_t state)
     seen.shorted               = any_bool();
     seen.in_the_way            = any_bool();
 
-    const app_command_t out = app_control_tick(&control, &wanted, &seen);
+    app_command_t out;
+
+    app_control_tick(&control, &wanted, &seen, &out);
 
     //@ check state: APP_CONTROL_NOT_READY <= control.state < APP_CONTROL_STATES;
     if (mode == APP_MODE_FAULT) {

@@ -81,10 +81,10 @@ static void store(void)
 }
 
 /* Addresses, high and low word of a value of each parameter that is not its default; docs/modbus.md. */
-static const int other[][3] = {{7, 0, 123},  {9, 1, 5},    {11, 2, 3},    {13, -1, 6},
-                               {14, -1, 1},  {15, -1, 1},  {16, -1, 3},   {17, 0, 1500},
-                               {19, -1, 77}, {64, -1, 42}, {65, -1, 700}, {66, 0, 19200},
-                               {68, -1, 2},  {69, -1, 1}};
+static const int other[][3] = {
+    {7, 0, 123}, {9, 1, 5},     {11, 2, 3},   {13, -1, 6},  {14, -1, 1},   {15, -1, 1},
+    {16, -1, 3}, {17, 0, 1500}, {19, -1, 77}, {64, -1, 42}, {65, -1, 700}, {66, 0, 19200},
+    {68, -1, 2}, {69, -1, 1},   {162, 1, 77}, {164, 2, 5},  {166, -1, 9}};
 
 #define OTHERS ((int)(sizeof other / sizeof other[0]))
 

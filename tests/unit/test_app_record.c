@@ -104,6 +104,35 @@ static void test_a_fault_of_the_start_keeps_nothing(void)
     TEST_ASSERT_EQUAL_INT(0, record.kept_count);
 }
 
+/* Oracle: the scope's signals of these names. */
+static void test_each_place_is_a_signal_of_the_scope(void)
+{
+    static const uint16_t signals[APP_RECORD_SIGNALS] = {
+        APP_SCOPE_IA,     APP_SCOPE_IB,     APP_SCOPE_DC_LINK, APP_SCOPE_SPEED,
+        APP_SCOPE_DUTY_A, APP_SCOPE_DUTY_B, APP_SCOPE_DUTY_C};
+    const drive_state_t states[] = {DRIVE_OFF, DRIVE_RUN, DRIVE_FAULT};
+
+    modes.sample.ia_A                    = 1.0f;
+    modes.sample.ib_A                    = 2.0f;
+    modes.sample.dc_link_V               = 3.0f;
+    modes.reading.omega_e_radps          = 4.0f;
+    modes.drive.wanted.now.omega_e_radps = 5.0f;
+    out.duty.a                           = 6.0f;
+    out.duty.b                           = 7.0f;
+    out.duty.c                           = 8.0f;
+    record.was_fault                     = false;
+    for (uint16_t n = 0U; n < 3U; n++) {
+        modes.drive.state = states[n];
+        modes.mode        = APP_MODE_FAULT;
+        app_record_tick(&record, &view);
+        for (uint16_t k = 0U; k < APP_RECORD_SIGNALS; k++) {
+            TEST_ASSERT_TRUE(app_record_read(&record, 0U, k) ==
+                             app_scope_signals_value(&view, signals[k]));
+        }
+        record.was_fault = false; /* the next tick's fault is another one, of one sample */
+    }
+}
+
 static float value(const uint16_t *words)
 {
     const uint32_t bits = ((uint32_t)words[0] << 16) | words[1];
@@ -168,6 +197,7 @@ int main(void)
     RUN_TEST(test_a_fault_that_lasts_is_one);
     RUN_TEST(test_an_early_fault_keeps_what_there_is);
     RUN_TEST(test_a_fault_of_the_start_keeps_nothing);
+    RUN_TEST(test_each_place_is_a_signal_of_the_scope);
     RUN_TEST(test_registers_of_the_record);
     RUN_TEST(test_registers_of_the_scope);
     return UNITY_END();

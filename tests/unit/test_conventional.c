@@ -196,7 +196,7 @@ static void test_tick_runs_the_observer_and_the_feedback_of_this_law(void)
 {
     const law_conventional_config_t constants = conventional_constants();
     const drive_config_t            c         = conventional_drive(&constants);
-    const drive_command_t           command   = {305.0f, true, 0.0f};
+    const drive_command_t           command   = {305.0f, true, 0.0f, NULL};
     test_constants_t                plain;
     const drive_config_t            noc = law_constants_copy(&plain, &speed_tables_drive);
     drive_t                         a;
@@ -227,7 +227,7 @@ static void test_tick_runs_the_observer_and_the_feedback_of_this_law(void)
 
 static void test_tick_takes_its_feedback_from_the_table_of_this_law(void)
 {
-    const drive_command_t           command   = {305.0f, true, 0.0f};
+    const drive_command_t           command   = {305.0f, true, 0.0f, NULL};
     const law_conventional_config_t constants = conventional_constants();
     law_conventional_config_t       stiffer   = constants;
     const drive_config_t            c         = conventional_drive(&constants);

@@ -100,7 +100,7 @@ std::string table(const Design &d)
 {
     const auto                 &c = *constants_of<law_conventional_config_t>(d.config);
     const conventional_gains_t &g = c.gains;
-    return near_optimal_block(c.near_optimal) +
+    return near_optimal_block(d, c.near_optimal) +
            c_block("gains",
                    c_field("nosc_order", g.nosc_order) + c_field("nodo_order", g.nodo_order) +
                        c_field("i_error_max_A", g.i_error_max_A) + c_field("i_max_A", g.i_max_A) +

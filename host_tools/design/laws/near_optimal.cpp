@@ -44,9 +44,6 @@ constexpr double least_mtpa_ratio = 1e-3;
 constexpr double weakening_current_share = 0.25 / 0.9;
 // Chosen: 0.5 % of the voltage circle, and what the hexagon holds outside it, stay free for transients.
 constexpr double voltage_share = 0.995;
-// Chosen by simulation: of 10,000 random motors (docs/errata.md) 48 failed without this limit and 36 with it;
-// a smaller share deepens the dip after a load step.
-constexpr double speed_current_ratio = 0.25;
 
 float single(double x)
 {
@@ -147,20 +144,6 @@ std::string current_ref_block(const current_ref_config_t &c)
             c_field("regen_start_V", c.regen_start_V) + c_field("regen_per_V", c.regen_per_V));
 }
 
-std::string nosc_block(const nosc_gains_t &g)
-{
-    std::string terms;
-    for (int n = 0; n <= g.order; n++) {
-        terms += term_block(n, "omega_e_radps             iq_A             id_A", {"v_q", "v_d"},
-                            g.lambda[n]);
-    }
-    return c_block("nosc", c_field("order", g.order) + c_field("iq_error_max_A", g.iq_error_max_A) +
-                               c_field("iq_speed_max_A", g.iq_speed_max_A) +
-                               c_field("speed_A_per_radps", g.speed_A_per_radps) +
-                               c_field("speed_radps_per_A", g.speed_radps_per_A) +
-                               c_block("lambda", terms));
-}
-
 } // namespace
 
 double mtpa_A(const ReducedParameters &l)
@@ -186,6 +169,9 @@ void solve_near_optimal(Design &d)
     if (d.drive.law != Law::noc_h) {
         d.nodo = solve_nodo(at_rest(d.l), d.drive, d.precision);
     }
+    if (d.drive.position) {
+        d.position = solve_position(at_rest(d.l), d.drive, d.precision);
+    }
     certify(d);
 }
 
@@ -203,6 +189,9 @@ near_optimal_config_t near_optimal_constants(const Design &d, bool exact_mtpa, b
     const double k_iq        = d.nosc.gain[0](0, 1);
     c.nosc.speed_A_per_radps = single(k_w > 0.0 ? k_w / k_iq : 0.0);
     c.nosc.speed_radps_per_A = single(k_w > 0.0 ? k_iq / k_w : 0.0);
+    if (d.position) {
+        c.position = position_constants(d);
+    }
     return c;
 }
 
@@ -237,11 +226,11 @@ float believed_d_omega(const encoder_form_limits_t &limits, const encoder_form_g
     return std::max(limits.d_omega, single(torque + trip_kick_ratio * kick + start));
 }
 
-LoopGains encoder_form_gains(const Design &d, double iq_A)
+LoopGains encoder_form_gains(const Design &d, double iq_A, const Eigen::MatrixXd &Lambda)
 {
     const double   range = d.certificate.nodo.series_range_A;
     const Schedule s{std::clamp(iq_A, -range, range)};
-    return {d.nosc.gain[0], series_gain(d.nodo, s, series_order(d.nodo))};
+    return {Lambda, series_gain(d.nodo, s, series_order(d.nodo))};
 }
 
 double worst_residual(const Design &d)
@@ -277,9 +266,24 @@ std::string observer_line(const SampledLoop &o)
                        o.worst_pole_1ps, o.spectral_radius, o.range_A);
 }
 
-std::string near_optimal_block(const near_optimal_config_t &c)
+std::string nosc_block(const nosc_gains_t &g)
 {
-    return c_block("near_optimal", current_ref_block(c.current_ref) + nosc_block(c.nosc));
+    std::string terms;
+    for (int n = 0; n <= g.order; n++) {
+        terms += term_block(n, "omega_e_radps             iq_A             id_A", {"v_q", "v_d"},
+                            g.lambda[n]);
+    }
+    return c_block("nosc", c_field("order", g.order) + c_field("iq_error_max_A", g.iq_error_max_A) +
+                               c_field("iq_speed_max_A", g.iq_speed_max_A) +
+                               c_field("speed_A_per_radps", g.speed_A_per_radps) +
+                               c_field("speed_radps_per_A", g.speed_radps_per_A) +
+                               c_block("lambda", terms));
+}
+
+std::string near_optimal_block(const Design &d, const near_optimal_config_t &c)
+{
+    return c_block("near_optimal", current_ref_block(c.current_ref) + nosc_block(c.nosc) +
+                                       (d.position ? position_block(c.position) : ""));
 }
 
 std::string limits_block(const encoder_form_limits_t &limits)

@@ -5,6 +5,7 @@
 #include "common/c_text.hpp"
 #include "design/certificate.hpp"
 #include "design/laws/laws.hpp"
+#include "design/position.hpp"
 #include "linalg/linalg_checks.hpp"
 
 namespace sdre {
@@ -15,6 +16,10 @@ void solve_near_optimal(Design &design);
 /// Current references and the series of the feedback; without nosc_series its first term alone (EQ-NOSC-3).
 near_optimal_config_t near_optimal_constants(const Design &design, bool exact_mtpa,
                                              bool nosc_series);
+
+/// Of the current limit, what an error of speed or position may ask for (EQ-NOSC-3). Chosen by simulation: of 10,000 random
+/// motors (docs/errata.md) 48 failed without this limit and 36 with it; a smaller share deepens the dip after a load step.
+constexpr double speed_current_ratio = 0.25;
 
 /// k of EQ-CURRENT-REF-2.
 double mtpa_A(const ReducedParameters &l);
@@ -33,11 +38,11 @@ TripMargin disturbance_margin(const Design &design, const encoder_form_limits_t 
                               const Eigen::MatrixXd &A, const Eigen::MatrixXd &B_noise,
                               double angle_weight);
 
-/// Of law noc with its observer's series at that current, held beyond its range as the firmware does.
-LoopGains encoder_form_gains(const Design &design, double iq_A);
+/// Of law noc with its observer's series at that current, held beyond its range as the firmware does; one of feedback_gains().
+LoopGains encoder_form_gains(const Design &design, double iq_A, const Eigen::MatrixXd &Lambda);
 
-/// The verdict of a law that observes the angle. `model_at(motor, point)` has the A, B_voltage, C_voltage and B_noise of
-/// EQ-CERT-3; `angle_weight` as for disturbance_margin().
+/// The verdict of a law that observes the angle. `model_at(motor, point, Lambda)` has the A, B_voltage, C_voltage and B_noise of
+/// EQ-CERT-3, of all its feedback_gains(); `angle_weight` as for disturbance_margin().
 template <typename ModelAt>
 void certify_whole(Design &d, const encoder_form_limits_t &limits, double angle_weight,
                    const ModelAt &model_at)
@@ -47,11 +52,18 @@ void certify_whole(Design &d, const encoder_form_limits_t &limits, double angle_
     f.points     = verdict_points(d);
     f.box_points = verdict_box_points(d);
     f.loops      = [&](const Motor &motor, const OperatingPoint &at) {
-        const auto m = model_at(motor, at);
-        return broken_at_voltages(m.A, m.B_voltage, m.C_voltage, control_period_s(d.drive));
+        std::vector<BrokenLoop> all;
+        for (const Eigen::MatrixXd &Lambda : feedback_gains(d)) {
+            const auto m = model_at(motor, at, Lambda);
+            const auto two =
+                broken_at_voltages(m.A, m.B_voltage, m.C_voltage, control_period_s(d.drive));
+            all.insert(all.end(), two.begin(), two.end());
+        }
+        return all;
     };
     const auto m = model_at(
-        d.drive.motor, OperatingPoint{d.drive.motor.rated_speed_e_radps, 0.0, mtpa_id_A(d.l, 0.0)});
+        d.drive.motor, OperatingPoint{d.drive.motor.rated_speed_e_radps, 0.0, mtpa_id_A(d.l, 0.0)},
+        d.nosc.gain[0]);
     certify_loop(d, f, {disturbance_margin(d, limits, m.A, m.B_noise, angle_weight)});
 }
 
@@ -88,8 +100,10 @@ std::string residual_line(double worst);
 std::string controller_line(const SampledLoop &controller);
 std::string observer_line(const SampledLoop &observer);
 
-/// ".near_optimal = {..},\n"
-std::string near_optimal_block(const near_optimal_config_t &c);
+/// ".nosc = {..},\n"
+std::string nosc_block(const nosc_gains_t &g);
+/// ".near_optimal = {..},\n"; with the position's gains where the drive has them.
+std::string near_optimal_block(const Design &design, const near_optimal_config_t &c);
 /// ".plausible = {..},\n"
 std::string limits_block(const encoder_form_limits_t &limits);
 

@@ -33,9 +33,10 @@ void certify_currents(Design &d, const CurrentObserver &o)
     }
 }
 
-SampledModel model_at(const Design &d, const Motor &motor, const OperatingPoint &at)
+SampledModel model_at(const Design &d, const Motor &motor, const OperatingPoint &at,
+                      const Eigen::MatrixXd &Lambda)
 {
-    return sampled_model(reduced_parameters(motor), d.l, encoder_form_gains(d, at.iq_A), at,
+    return sampled_model(reduced_parameters(motor), d.l, encoder_form_gains(d, at.iq_A, Lambda), at,
                          control_period_s(d.drive));
 }
 
@@ -54,8 +55,9 @@ void solve(Design &d)
     const CurrentObserver currents = design_nodo_current(d.l, d.drive, trip_speed_e_radps(d.drive));
     c.currents                     = currents.gains;
     certify_currents(d, currents);
-    const auto model = [&d](const Motor &motor, const OperatingPoint &at) {
-        return model_at(d, motor, at);
+    const auto model = [&d](const Motor &motor, const OperatingPoint &at,
+                            const Eigen::MatrixXd &Lambda) {
+        return model_at(d, motor, at, Lambda);
     };
     certify_whole(d, c.plausible, d.drive.nodo.T[2], model);
     keep_constants(d, c);
@@ -81,7 +83,7 @@ std::vector<std::string> mismatches(const Design &d)
 std::string table(const Design &d)
 {
     const auto &c = *constants_of<law_noc_config_t>(d.config);
-    return near_optimal_block(c.near_optimal) + limits_block(c.plausible) + gate_block(c.gate) +
+    return near_optimal_block(d, c.near_optimal) + limits_block(c.plausible) + gate_block(c.gate) +
            rare_block(c.rare) +
            c_block("nodo", c_field("order", c.nodo.order) + c_field("iq_max_A", c.nodo.iq_max_A) +
                                gain_block("         iq_A             id_A      theta_e_rad",

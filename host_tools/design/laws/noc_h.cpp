@@ -59,10 +59,11 @@ void sweep(Design &d)
                                   disturbance_frequencies(d.drive));
 }
 
-HarmonicSampled model_at(const Design &d, const Motor &motor, const OperatingPoint &at)
+HarmonicSampled model_at(const Design &d, const Motor &motor, const OperatingPoint &at,
+                         const Eigen::MatrixXd &Lambda)
 {
-    return sampled_harmonic_model(reduced_parameters(motor), d.l, *d.harmonics->table,
-                                  d.nosc.gain[0], at, control_period_s(d.drive));
+    return sampled_harmonic_model(reduced_parameters(motor), d.l, *d.harmonics->table, Lambda, at,
+                                  control_period_s(d.drive));
 }
 
 void certify_harmonics(Design &d)
@@ -107,8 +108,9 @@ void solve(Design &d)
     c.rare              = sample_gains(d);
     c.gate              = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
     c.plausible.d_omega = believed_d_omega(c.plausible, c.rare, control_period_s(d.drive));
-    const auto model    = [&d](const Motor &motor, const OperatingPoint &at) {
-        return model_at(d, motor, at);
+    const auto model    = [&d](const Motor &motor, const OperatingPoint &at,
+                            const Eigen::MatrixXd &Lambda) {
+        return model_at(d, motor, at, Lambda);
     };
     certify_whole(d, c.plausible, angle_weight(d.drive, m.rated_speed_e_radps), model);
     keep_constants(d, c);
@@ -192,7 +194,7 @@ std::string table(const Design &d)
         pairs += fmt::format("{{ .channel = {}, .order = {} }},\n",
                              channel_symbol(g.pair[i].channel), c_number(g.pair[i].order));
     }
-    return near_optimal_block(c.near_optimal) + limits_block(c.plausible) + gate_block(c.gate) +
+    return near_optimal_block(d, c.near_optimal) + limits_block(c.plausible) + gate_block(c.gate) +
            rare_block(c.rare) +
            c_block("nodo", c_field("n_pairs", g.n_pairs) + c_field("n_nodes", g.n_nodes) +
                                c_field("iq_max_A", g.iq_max_A) +

@@ -43,7 +43,7 @@ std::vector<std::string> mismatches(const Design &d)
 std::string table(const Design &d)
 {
     const auto &c = *constants_of<law_noc_speed_config_t>(d.config);
-    return near_optimal_block(c.near_optimal) +
+    return near_optimal_block(d, c.near_optimal) +
            c_block("nodo", c_field("order", c.nodo.order) + c_field("iq_max_A", c.nodo.iq_max_A) +
                                c_field("iq_certified_A", c.nodo.iq_certified_A) +
                                gain_block("omega_e_radps             iq_A             id_A",

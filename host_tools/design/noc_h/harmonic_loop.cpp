@@ -111,8 +111,9 @@ MatrixXd shown_law(const ReducedParameters &l, const nodo_harmonic_gains_t &t, c
     return F;
 }
 
-/// As in sampled_model(): theta - theta^ in the place of theta, and theta^ left out; so is a slope that never moves.
-HarmonicSampled in_angle_error(const HarmonicSampled &m, bool still)
+/// As in sampled_model(): theta - theta^ in the place of theta, and theta^ left out unless a position's law reads it; so is a
+/// slope that never moves.
+HarmonicSampled in_angle_error(const HarmonicSampled &m, bool still, bool position)
 {
     const Index hat       = n_motor + theta;
     MatrixXd    S         = MatrixXd::Identity(m.A.rows(), m.A.rows());
@@ -121,7 +122,7 @@ HarmonicSampled in_angle_error(const HarmonicSampled &m, bool still)
     S_inverse(3, hat)     = 1.0;
     std::vector<Index> rows;
     for (Index i = 0; i < m.A.rows(); i++) {
-        if (i != hat && !(still && i == n_motor + slope)) {
+        if ((i != hat || position) && !(still && i == n_motor + slope)) {
             rows.push_back(i);
         }
     }
@@ -190,7 +191,7 @@ HarmonicSampled sampled_harmonic_model(const ReducedParameters &motor, const Red
     m.B_voltage.topRows(n_motor) = held.Gamma.leftCols(2);
     m.C_voltage.rightCols(n)     = o.F;
     m.B_noise.bottomRows(n)      = PK;
-    return in_angle_error(m, K.row(slope).isZero(0.0));
+    return in_angle_error(m, K.row(slope).isZero(0.0), Lambda.cols() == 4);
 }
 
 } // namespace sdre

@@ -97,7 +97,7 @@ public:
     Legs tick(const Sample &sample, float omega_ref_e_radps, bool run)
     {
         const drive_sample_t  measured = sample_of(sample);
-        const drive_command_t command{omega_ref_e_radps, run, 0.0F};
+        const drive_command_t command{omega_ref_e_radps, run, 0.0F, nullptr};
         const bridge_t        b = drive_tick(&drive_, &measured, &command);
         return {b.duty.a, b.duty.b, b.duty.c, b.gate_enable};
     }

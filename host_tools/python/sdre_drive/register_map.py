@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "63b878ea"
+DIGEST = "b9e4b772"
 
 COMMAND: Tuple[Register, ...] = (  # holding
     Register("CONTROLWORD", 0, "u16", 0.0, "bits"),
@@ -73,6 +73,13 @@ SCOPE: Tuple[Register, ...] = (  # holding
 STORE: Tuple[Register, ...] = (  # holding
     Register("STORE_PARAMETERS", 128, "u32", 0.0, ""),
     Register("RESTORE_PARAMETERS", 130, "u32", 0.0, ""),
+)  # fmt: skip
+
+TARGET: Tuple[Register, ...] = (  # holding
+    Register("TARGET_POSITION", 160, "i32", 0.0, "counts"),
+    Register("PROFILE_VELOCITY", 162, "u32", 0.1, "rad/s electrical"),
+    Register("PROFILE_JERK", 164, "u32", 1.0, "rad/s3 electrical"),
+    Register("POSITION_WINDOW", 166, "u16", 0.0, "counts"),
 )  # fmt: skip
 
 LIVE: Tuple[Register, ...] = (  # input
@@ -127,6 +134,11 @@ LIVE: Tuple[Register, ...] = (  # input
     Register("FIRST_SPEED", 56, "i32", 0.1, "rad/s electrical"),
     Register("FIRST_WANTED", 58, "i32", 0.1, "rad/s electrical"),
     Register("FIRST_TICKS", 60, "u32", 0.0, "control periods"),
+)  # fmt: skip
+
+POSITION: Tuple[Register, ...] = (  # input
+    Register("POSITION_NOW", 64, "i32", 0.0, "counts"),
+    Register("POSITION_TARGET", 66, "i32", 0.0, "counts"),
 )  # fmt: skip
 
 COMMISSIONING: Tuple[Register, ...] = (  # input
@@ -186,8 +198,8 @@ CONSTANTS: Tuple[Register, ...] = (  # input
     Register("TEMPERATURE_TRIP", 276, "i16", 0.1, "degC"),
 )  # fmt: skip
 
-HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE)
-INPUT = (*LIVE, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS)
+HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET)
+INPUT = (*LIVE, *POSITION, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS)
 
 BY_NAME = {r.name: r for r in (*HOLDING, *INPUT)}
 
@@ -206,6 +218,9 @@ PARAMETERS: Tuple[Parameter, ...] = (
     Parameter(BY_NAME["BAUD_RATE"], 9600, 230400, 115200.0, True, "", "9600, 19200, 38400, 57600, 115200 or 230400; acts when it has been stored, as the next two"),
     Parameter(BY_NAME["LINE_FORMAT"], 0, 2, 0.0, True, "", "0 even parity, 1 odd, both with one stop bit; 2 no parity, two stop bits"),
     Parameter(BY_NAME["DIRECTION_PIN"], 0, 1, 0.0, True, "", "1: a pin of the board is high while the drive sends, for an RS-485 transceiver"),
+    Parameter(BY_NAME["PROFILE_VELOCITY"], 0, 1000000.0, 0.0, False, "6081h", "largest speed on the way; 0: as fast as the drive can. ACCELERATION and DECELERATION count too"),
+    Parameter(BY_NAME["PROFILE_JERK"], 0, 4000000000.0, 0.0, False, "60A4h", "0: as much as the drive can"),
+    Parameter(BY_NAME["POSITION_WINDOW"], 1, 65535, 4.0, False, "6067h", "around the target: reached"),
 )  # fmt: skip
 
 # Of the scope, by number: name and unit.

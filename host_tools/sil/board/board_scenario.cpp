@@ -64,6 +64,8 @@ BoardScenario for_board(const Scenario &scenario)
         s.inverter.dead_time_s      = s.inverter.dead_time_s.value_or(0.0);
         b.notes.emplace_back("ideal sensors: run with the board's sensors and an ideal inverter");
     }
+    require(s.position_reference.empty(),
+            "positions are for the core alone; on the board they come over Modbus (serve)");
     check_sensors(s.sensors, s.drive);
     require(s.sensors.encoder_edge_time == s.drive.encoder.edge_times,
             "edge times are a matter of the drive file, which the firmware follows");

@@ -11,8 +11,10 @@ namespace {
 
 using Iterator = Trace::const_iterator;
 
-constexpr double tail_share       = 0.2;
-constexpr double current_share    = 0.01; // of the largest current: below it there is no distortion
+constexpr double tail_share    = 0.2;
+constexpr double current_share = 0.01; // of the largest current: below it there is no distortion
+constexpr double settled_cnt =
+    2.0; // chosen: a shaft at rest hunts by one about the edges of its count
 constexpr double time_tolerance_s = 1e-9; // far below a period: two times that mean the same tick
 
 std::optional<double> settling_time_s(Iterator begin, Iterator end, double target, double band)
@@ -97,6 +99,36 @@ std::optional<double> current_distortion_percent(Iterator tail, Iterator end, do
     return 100.0 * std::sqrt(square) / fundamental;
 }
 
+double off_e_rad(const TraceRow &r)
+{
+    return std::abs(r.position_e_rad - r.position_ref_e_rad);
+}
+
+double largest_off_e_rad(Iterator begin, Iterator end)
+{
+    return off_e_rad(*std::max_element(begin, end, [](const TraceRow &a, const TraceRow &b) {
+        return off_e_rad(a) < off_e_rad(b);
+    }));
+}
+
+/// The target is where the reference rests at the end.
+void add_position(Metrics &m, Iterator begin, Iterator tail, Iterator end, double count_e_rad)
+{
+    const double target   = (end - 1)->position_ref_e_rad;
+    m.position_off_cnt    = largest_off_e_rad(begin, end) / count_e_rad;
+    m.position_steady_cnt = largest_off_e_rad(tail, end) / count_e_rad;
+    Iterator inside       = end;
+    for (Iterator row = end; row != begin; inside = row) {
+        --row;
+        if (std::abs(row->position_e_rad - target) > settled_cnt * count_e_rad) {
+            break;
+        }
+    }
+    if (inside != end) {
+        m.position_settled_s = inside->time_s - begin->time_s;
+    }
+}
+
 Metrics metrics_of(const Window &window, const Drive &drive, double load_before_Nm)
 {
     const Motor &motor                      = drive.motor;
@@ -166,6 +198,11 @@ std::vector<Metrics> measure(const Scenario &scenario, const Trace &trace)
     for (const Window &window : windows_of(scenario, trace)) {
         const Iterator before = window.begin == trace.begin() ? window.begin : window.begin - 1;
         out.push_back(metrics_of(window, scenario.drive, before->load_torque_Nm));
+        const std::vector<Step> &positions = scenario.position_reference;
+        if (!positions.empty() && positions.front().time_s <= window.measure.time_s) {
+            add_position(out.back(), window.begin, window.tail, window.end,
+                         count_e_rad(scenario.drive));
+        }
     }
     return out;
 }
@@ -194,6 +231,9 @@ std::vector<std::pair<std::string, double>> metric_values(const Metrics &m)
         {"iq_A", m.iq_A},
         {"id_A", m.id_A},
         {"sensor_offset_hat_A", m.sensor_offset_hat_A},
+        {"position_off_cnt", m.position_off_cnt},
+        {"position_steady_cnt", m.position_steady_cnt},
+        {"position_settled_s", m.position_settled_s},
         {"current_distortion_percent", m.current_distortion_percent},
         {"fluctuation_rpm", m.fluctuation_rpm},
         {"fluctuation_rate_percent", m.fluctuation_rate_percent},

@@ -34,6 +34,9 @@ constexpr MetricLabel labels[] = {
     {"iq_A", "i_q [A]", 1.0, "{:.3f}"},
     {"id_A", "i_d [A]", 1.0, "{:.3f}"},
     {"sensor_offset_hat_A", "sensor offset found [A]", 1.0, "{:.3f}"},
+    {"position_off_cnt", "position off [counts]", 1.0, "{:.1f}"},
+    {"position_steady_cnt", "steadily off [counts]", 1.0, "{:.2f}"},
+    {"position_settled_s", "within two counts [ms]", 1e3, "{:.1f}"},
     {"current_distortion_percent", "current distortion [%]", 1.0, "{:.2f}"},
     {"fluctuation_rpm", "fluctuation [r/min]", 1.0, "{:.2f}"},
     {"fluctuation_rate_percent", "fluctuation rate [%]", 1.0, "{:.2f}"},
@@ -67,9 +70,17 @@ const std::map<std::string, double> &paper_of(const Scenario &scenario, const Me
     return none;
 }
 
+/// Of a position there is something to say in a run to one only.
+bool is_shown(const std::string &metric, const Scenario &scenario)
+{
+    return metric.rfind("position", 0) != 0 || !scenario.position_reference.empty();
+}
+
 const char *const trace_head =
     "time_s,omega_ref_e_radps,omega_e_radps,iq_A,id_A,iq_ref_A,id_ref_A,vq_V,vd_V,d_omega_hat,"
-    "d_q_hat,d_d_hat,load_torque_Nm,torque_Nm,dc_link_V\n";
+    "d_q_hat,d_d_hat,load_torque_Nm,torque_Nm,dc_link_V,position_e_rad,position_ref_e_rad,ia_A,ib_"
+    "A,"
+    "ic_A\n";
 
 constexpr std::ptrdiff_t rows_of_a_piece = 4096; // chosen: some hundred kilobytes
 
@@ -80,9 +91,12 @@ void append_rows(std::string &s, Trace::const_iterator begin, Trace::const_itera
                        "{:.10g},{:.10g},{:.10g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},",
                        r->time_s, r->omega_ref_e_radps, r->omega_e_radps, r->iq_A, r->id_A,
                        r->iq_ref_A, r->id_ref_A, r->vq_V, r->vd_V);
-        fmt::format_to(std::back_inserter(s), "{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n",
+        fmt::format_to(std::back_inserter(s), "{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},",
                        r->d_omega_hat, r->d_q_hat, r->d_d_hat, r->load_torque_Nm, r->torque_Nm,
                        r->dc_link_V);
+        fmt::format_to(std::back_inserter(s), "{:.12g},{:.12g},{:.9g},{:.9g},{:.9g}\n",
+                       r->position_e_rad, r->position_ref_e_rad, r->phase_A[0], r->phase_A[1],
+                       r->phase_A[2]);
     }
 }
 
@@ -134,6 +148,9 @@ std::string result_json(const Scenario &scenario, const SimulationResult &result
     for (const Metrics &m : metrics) {
         Json entry{{"time_s", m.time_s}};
         for (const std::string &name : metric_names()) {
+            if (!is_shown(name, scenario)) {
+                continue;
+            }
             entry[name] = nullptr; // of a time: never; otherwise it cannot be told
         }
         for (const auto &[name, value] : metric_values(m)) {
@@ -176,6 +193,9 @@ std::string result_text(const Scenario &scenario, const SimulationResult &result
     }
     s += "\n";
     for (const MetricLabel &label : labels) {
+        if (!is_shown(label.metric, scenario)) {
+            continue;
+        }
         s += fmt::format("{:<26}", label.text);
         for (const Metrics &m : metrics) {
             const auto &paper     = paper_of(scenario, m);

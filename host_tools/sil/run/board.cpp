@@ -163,8 +163,12 @@ PlantState Board::plant_state() const
     const double omega_e = plant_.omega_e_radps();
     const double omega_m = omega_e / scenario_.drive.motor.pole_pairs;
     const double fan_Nm  = shaft_load_.fan_Nm_per_radps2 * omega_m * std::abs(omega_m);
-    return {omega_e, plant_.current_A(), plant_.torque_Nm(), shaft_load_.torque_Nm + fan_Nm,
-            dc_link_.voltage_V()};
+    return {omega_e,
+            plant_.current_A(),
+            plant_.torque_Nm(),
+            shaft_load_.torque_Nm + fan_Nm,
+            dc_link_.voltage_V(),
+            plant_.theta_e_rad()};
 }
 
 bool Board::runaway() const

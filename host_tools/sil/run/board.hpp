@@ -29,9 +29,10 @@ struct RawSample {
 struct PlantState {
     double      omega_e_radps = 0.0;
     RotorVector current_A;
-    double      torque_Nm = 0.0;
-    double      load_Nm   = 0.0; ///< all of the load
-    double      dc_link_V = 0.0;
+    double      torque_Nm   = 0.0;
+    double      load_Nm     = 0.0; ///< all of the load
+    double      dc_link_V   = 0.0;
+    double      theta_e_rad = 0.0; ///< not wrapped
 };
 
 class Board {

@@ -6,7 +6,7 @@
 namespace sdre {
 
 Simulation::Simulation(const Scenario &scenario, const Controller &controller)
-    : period_s_(control_period_s(scenario.drive)), board_(scenario)
+    : period_s_(control_period_s(scenario.drive)), board_(scenario), positions_(scenario)
 {
     for (const InjectedFault &f : scenario.faults) {
         if (needs_processor(f.kind)) {
@@ -16,6 +16,7 @@ Simulation::Simulation(const Scenario &scenario, const Controller &controller)
     if (drive_init(&drive_, &controller.config) != CTL_OK) {
         throw DesignError("the control core refuses these constants");
     }
+    start_e_rad_ = board_.plant_state().theta_e_rad;
 }
 
 TickEnd Simulation::step(double omega_ref_e_radps)
@@ -23,13 +24,18 @@ TickEnd Simulation::step(double omega_ref_e_radps)
     const double time_s = static_cast<double>(tick_++) * period_s_;
     board_.begin_tick(time_s);
     core_tick_.sample  = board_.sample();
-    core_tick_.command = {static_cast<float>(omega_ref_e_radps), true, 0.0F};
-    core_tick_.output  = drive_tick(&drive_, &core_tick_.sample, &core_tick_.command);
+    core_tick_.command = {static_cast<float>(omega_ref_e_radps), true, 0.0F,
+                          positions_.at(time_s, core_tick_.sample)};
+    const std::optional<double> position_ref =
+        positions_.reference_e_rad(drive_); // of this instant
+    core_tick_.output = drive_tick(&drive_, &core_tick_.sample, &core_tick_.command);
 
     TickEnd end;
     end.row = row_of(time_s, omega_ref_e_radps, board_.plant_state());
     add_drive(end.row, drive_);
-    end.fault = drive_.state == DRIVE_FAULT ? static_cast<int>(drive_.fault) : 0;
+    end.row.position_e_rad     = end.row.position_e_rad - positions_.zero_e_rad(start_e_rad_);
+    end.row.position_ref_e_rad = position_ref.value_or(end.row.position_e_rad);
+    end.fault                  = drive_.state == DRIVE_FAULT ? static_cast<int>(drive_.fault) : 0;
 
     in_force_.gate_enable = in_force_.gate_enable && core_tick_.output.gate_enable; // off at once
     board_.run_period(in_force_);

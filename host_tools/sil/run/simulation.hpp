@@ -9,6 +9,7 @@
 #include "sil/run/board.hpp"
 #include "sil/run/controller.hpp"
 #include "sil/run/faults.hpp"
+#include "sil/run/position_commands.hpp"
 #include "sil/run/tick_loop.hpp"
 #include "sil/setup/scenario.hpp"
 
@@ -48,12 +49,14 @@ public:
     }
 
 private:
-    double   period_s_;
-    Board    board_;
-    drive_t  drive_{};
-    CoreTick core_tick_{};
+    double           period_s_;
+    Board            board_;
+    PositionCommands positions_;
+    drive_t          drive_{};
+    CoreTick         core_tick_{};
     bridge_t in_force_{{0.5F, 0.5F, 0.5F}, true}; ///< no voltage until the first result acts
-    long     tick_ = 0;
+    long     tick_        = 0;
+    double   start_e_rad_ = 0.0; ///< of the shaft
 };
 
 /// Runs a scenario. DesignError when the controller's gains cannot be solved.

@@ -2,6 +2,7 @@
 /// What a run leaves of each control period.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "common/large_memory.hpp"
@@ -28,7 +29,12 @@ struct TraceRow {
     double load_torque_Nm      = 0.0;
     double torque_Nm           = 0.0;
     double dc_link_V           = 0.0;
-    double peak_current_A      = 0.0; ///< largest |i| from this instant to the next
+    std::array<double, 3> phase_A{}; ///< a, b, c
+    double                position_e_rad =
+        0.0; ///< of the shaft, not wrapped; in a run to positions from the first sample
+    double position_ref_e_rad =
+        0.0;                     ///< the core's reference, the same; the shaft's own in a speed run
+    double peak_current_A = 0.0; ///< largest |i| from this instant to the next
 };
 
 /// Of a whole run, however long.

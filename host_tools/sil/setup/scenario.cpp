@@ -20,6 +20,8 @@ constexpr Range speed_range_e_radps{-1e5, 1e5};
 constexpr Range angle_range_e_rad{-1e3, 1e3};
 constexpr Range torque_range_Nm{-1e5, 1e5};
 constexpr Range current_range_A{1e-3, 1e4};
+constexpr Range turns_range{-1e6, 1e6};
+constexpr Range profile_range{1e-3, 1e12};
 constexpr Range updates_range{1, 2};
 constexpr Range fan_range_Nm_per_radps2{0.0, 1e3};
 constexpr Range seed_range{0, 2147483647};
@@ -48,6 +50,23 @@ void require_no_step_in_ramp(const TomlReader &t, const Scenario &s)
                                 step.time_s, ramp.time_s, ramp.until_s));
             }
         }
+    }
+}
+
+void read_positions(TomlReader &t, Scenario &s)
+{
+    s.position_reference = read_steps(t, "position_reference", "turns", turns_range);
+    if (!s.position_reference.empty() && !s.drive.position) {
+        t.fail("position_reference",
+               "is not allowed: the drive takes no positions, its file has no [position]");
+    }
+    if (std::optional<TomlReader> profile = t.table_if("position_profile")) {
+        PositionProfile &p = s.position_profile;
+        p.speed_e_radps    = profile->number_or("speed_e_radps", profile_range, p.speed_e_radps);
+        p.accel_e_radps2   = profile->number_or("accel_e_radps2", profile_range, p.accel_e_radps2);
+        p.decel_e_radps2   = profile->number_or("decel_e_radps2", profile_range, p.decel_e_radps2);
+        p.jerk_e_radps3    = profile->number_or("jerk_e_radps3", profile_range, p.jerk_e_radps3);
+        profile->reject_unknown_keys();
     }
 }
 
@@ -136,6 +155,7 @@ Scenario read_scenario(TomlReader &t, const std::string &name, const Drive &driv
         read_controller(*controller, s);
     }
     s.speed_reference = read_steps(t, "speed_reference", "value_e_radps", speed_range_e_radps);
+    read_positions(t, s);
     read_load(t, s);
     read_board(t, s);
     PlantChange start;

@@ -20,6 +20,14 @@
 
 namespace sdre {
 
+/// Limits of the way to a position; the core takes what it can of them.
+struct PositionProfile {
+    double speed_e_radps  = 1e9;
+    double accel_e_radps2 = 1e9;
+    double decel_e_radps2 = 1e9;
+    double jerk_e_radps3  = 1e12;
+};
+
 struct Scenario {
     std::string name; ///< the file's stem
     Drive       drive;
@@ -33,7 +41,9 @@ struct Scenario {
     std::optional<int>         nosc_order; ///< instead of the drive file's
     std::optional<int>         nodo_order;
     std::vector<Step>          speed_reference; ///< electrical rad/s, sorted by time
-    std::vector<Step>          load_torque;     ///< N m, sorted by time
+    std::vector<Step> position_reference; ///< turns of the shaft from its start, sorted by time
+    PositionProfile   position_profile;
+    std::vector<Step> load_torque;              ///< N m, sorted by time
     std::vector<PlantChange>   changes;         ///< sorted by time
     std::vector<Glitch>        glitches;        ///< sorted by time
     std::vector<InjectedFault> faults;          ///< sorted by time

@@ -31,7 +31,8 @@ MULTIPLE_LOAD = ("ldmia", "ldmdb", "ldm", "pop", "vpop", "vldmia", "vldmdb")
 MULTIPLE_STORE = ("stmia", "stmdb", "stm", "push", "vpush", "vstmia", "vstmdb")
 FLOAT_REGISTERS = 8  # of the C28x
 NEAR_OCTETS = 16  # of a structure: eight words, what an instruction of the C28x reaches without an index register
-LAW = ("check", "reset", "step", "counts_ok")  # functions of law_t, in their order; one word follows them
+LAW = ("check", "reset", "step", "counts_ok")  # functions of law_t that a drive calls, in their order
+LAW_WORDS = len(LAW) + 3  # then what visits the constants, the law's number, the size of its constants
 OCTETS_BY = {"memset": "word_set", "memcpy": "word_copied"}  # calls that cost by the octets in r2
 
 
@@ -130,7 +131,7 @@ def classify(i):
 def law_functions(prefix, image):
     """{offset in law_t: (address, name)} of the functions of the one law in an image."""
     table = symbols(prefix, image)
-    laws = [name for name, (_, size) in table.items() if re.fullmatch(r"law_\w+", name) and size == 4 * (len(LAW) + 1)]
+    laws = [name for name, (_, size) in table.items() if re.fullmatch(r"law_\w+", name) and size == 4 * LAW_WORDS]
     if len(laws) != 1:
         raise ValueError(f"one law is expected in the image, found {laws}")
     start, size = table[laws[0]]

@@ -178,12 +178,12 @@ class Counting(unittest.TestCase):
             code_of(LAW_LISTING)
 
     def test_the_law_of_an_image(self):
-        answers = {"nm": "00000200 00000014 T law_noc\n00000300 00000004 T law_other\n",
+        answers = {"nm": "00000200 0000001c T law_noc\n00000300 00000004 T law_other\n",
                    "objdump": "\nContents of section .text:\n 0200 31010000 21010000 25010000 41010000  1...!...%...A...\n"
-                             " 0210 34010000                             4...\n"}
+                             " 0210 51010000 01000000 34010000           Q.......4...\n"}
         with mock.patch.object(machine_code, "run", lambda command, *_: answers[command]):
             self.assertEqual(machine_code.law_functions("", "image"), LAW_FUNCTIONS)
-            answers["nm"] += "00000214 00000014 T law_pid\n"
+            answers["nm"] += "00000214 0000001c T law_pid\n"
             with self.assertRaisesRegex(ValueError, "law_pid"):
                 machine_code.law_functions("", "image")
 

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: MIT */
+#include "app_setpoint.h"
+
+#include "app_control.h"
+
+/* As fast as the drive can: above any limit of its own, which then counts. */
+#define ANY_LIMIT 1.0e9f
+
+static bool has(uint16_t controlword, int bit)
+{
+    return (controlword & (uint16_t)bit) != 0U;
+}
+
+static float limit_of(float asked)
+{
+    return (asked > 0.0f) ? asked : ANY_LIMIT;
+}
+
+static position_profile_t profile_of(const app_objects_t *o)
+{
+    const position_profile_t p = {.speed_e_radps  = limit_of(o->profile_e_radps),
+                                  .accel_e_radps2 = limit_of(o->accel_e_radps2),
+                                  .decel_e_radps2 = limit_of(o->decel_e_radps2),
+                                  .jerk_e_radps3  = limit_of(o->jerk_e_radps3)};
+    return p;
+}
+
+static int32_t held(int32_t counts)
+{
+    const int32_t up = (counts > APP_POSITION_CNT_MAX) ? APP_POSITION_CNT_MAX : counts;
+    return (up < -APP_POSITION_CNT_MAX) ? -APP_POSITION_CNT_MAX : up;
+}
+
+void app_setpoint_start(app_setpoint_t *s, const app_objects_t *o, const app_position_t *position)
+{
+    s->now.target_cnt = app_position_cnt(position, &position->is);
+    s->now.profile    = profile_of(o);
+    s->target         = position->is;
+    s->waits          = false;
+    s->acknowledged   = false;
+    s->new_high       = true;
+}
+
+static void begin(app_setpoint_t *s, const app_setpoint_one_t *one, const app_position_t *position)
+{
+    s->now    = *one;
+    s->waits  = false;
+    s->target = app_position_at(position, one->target_cnt);
+}
+
+static app_setpoint_one_t wanted(const app_setpoint_t *s, const app_objects_t *o)
+{
+    const int32_t before_cnt = s->waits ? s->next.target_cnt : s->now.target_cnt;
+    const int32_t given_cnt  = held(o->target_cnt);
+    const bool    relative   = has(o->controlword, APP_CONTROL_RELATIVE);
+
+    const app_setpoint_one_t one = {
+        .target_cnt = held(relative ? (before_cnt + given_cnt) : given_cnt), /* 2e9 at the most */
+        .profile    = profile_of(o)};
+    return one;
+}
+
+void app_setpoint_tick(app_setpoint_t *s, const app_objects_t *o, const app_position_t *position,
+                       bool arrived)
+{
+    const bool high = has(o->controlword, APP_CONTROL_NEW_SETPOINT);
+    const bool rose = high && !s->new_high;
+
+    const bool follows = s->waits && arrived;
+
+    if (follows) {
+        begin(s, &s->next, position);
+    }
+    if (rose && ((arrived && !follows) || has(o->controlword, APP_CONTROL_AT_ONCE))) {
+        const app_setpoint_one_t one = wanted(s, o);
+        begin(s, &one, position);
+        s->acknowledged = true;
+    } else if (rose && !s->waits) {
+        s->next         = wanted(s, o);
+        s->waits        = true;
+        s->acknowledged = true;
+    } else {
+        /* goes on; there is no room for a third */
+    }
+    s->new_high     = high;
+    s->acknowledged = s->acknowledged && (high || s->waits);
+}

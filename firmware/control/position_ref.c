@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: MIT */
+#include "position_ref.h"
+
+/* Of false position: with one the end takes some periods longer, with more than two it is no sooner (docs/equations.md). */
+#define PASSES 2
+
+/* Share of deceleration and jerk that the way is planned with. Chosen: the hundredth that is left puts right what single
+ * precision adds up to on a long way. */
+#define PLANNED 0.99f
+
+#define THIRD 0.333333333f
+#define SIXTH 0.166666667f
+
+/* A reference and what is left of its way, all counted towards the target. */
+typedef struct {
+    float way_rad;
+    float omega;
+    float accel;
+} motion_t;
+
+/* The profile, and what of it the way to the target is planned with. */
+typedef struct {
+    const position_profile_t *of;
+    float                     jerk; /* planned, as the next three */
+    float                     decel;
+    float                     per_jerk;
+    float                     per_decel;
+    float                     ts_s;
+} limits_t;
+
+bool position_profile_ok(const position_profile_t *p, const position_profile_t *most)
+{
+    const float least = 1.0e-3f; /* far below any drive's: quotients of limits stay numbers */
+
+    return base_in_range(p->speed_e_radps, least, most->speed_e_radps) &&
+           base_in_range(p->accel_e_radps2, least, most->accel_e_radps2) &&
+           base_in_range(p->decel_e_radps2, least, most->decel_e_radps2) &&
+           base_in_range(p->jerk_e_radps3, least, most->jerk_e_radps3);
+}
+
+void position_ref_start(position_ref_t *r, const position_t *at, float omega_e_radps,
+                        float omega_dot_e_radps2)
+{
+    r->at                  = *at;
+    r->omega_e_radps       = omega_e_radps;
+    r->omega_dot_e_radps2  = omega_dot_e_radps2;
+    r->omega_2dot_e_radps3 = 0.0f;
+    r->arrived             = false;
+    r->waits               = false;
+}
+
+/* s_1 of EQ-POSITION-REF-1. */
+static float braking_way_rad(const limits_t *l, float omega)
+{
+    return ((omega * l->jerk) <= (l->decel * l->decel))
+               ? (omega * sqrtf(omega * l->per_jerk))
+               : (0.5f * omega * ((omega * l->per_decel) + (l->decel * l->per_jerk)));
+}
+
+/* EQ-POSITION-REF-1 */
+static float stopping_way_rad(const limits_t *l, float omega, float accel)
+{
+    const float rest = omega + (0.5f * accel * fabsf(accel) * l->per_jerk);
+    const float sign = (rest < 0.0f) ? -1.0f : 1.0f;
+    const float w    = sign * omega;
+    const float a    = sign * accel;
+    const float t    = a * l->per_jerk;
+    const float w_1  = base_max(w + (0.5f * a * t), 0.0f);
+
+    return sign * ((t * (w + (THIRD * a * t))) + braking_way_rad(l, w_1));
+}
+
+/* What is covered in a period with a jerk. */
+static float covered_rad(const limits_t *l, const motion_t *m, float jerk)
+{
+    return l->ts_s * (m->omega + (l->ts_s * ((0.5f * m->accel) + (SIXTH * l->ts_s * jerk))));
+}
+
+/* A period later with a jerk. */
+static motion_t after(const limits_t *l, const motion_t *m, float jerk)
+{
+    const float    step = l->ts_s * jerk;
+    const motion_t out  = {.way_rad = m->way_rad - covered_rad(l, m, jerk),
+                           .omega   = m->omega + (l->ts_s * (m->accel + (0.5f * step))),
+                           .accel   = m->accel + step};
+    return out;
+}
+
+/* How much further the target is than the way on which it stops. */
+static float spare_rad(const limits_t *l, const motion_t *m)
+{
+    return m->way_rad - stopping_way_rad(l, m->omega, m->accel);
+}
+
+/* The acceleration from which the speed rests at its limit: as EQ-SPEED-REF-1, for a period of steady jerk. */
+static float accel_to_limit(const limits_t *l, const motion_t *m)
+{
+    const float missing =
+        l->of->speed_e_radps - (m->omega + (0.5f * l->ts_s * m->accel)); /* half a period on */
+    const float half = 0.5f * l->ts_s * l->of->jerk_e_radps3;
+    const float accel =
+        sqrtf((half * half) + (2.0f * l->of->jerk_e_radps3 * fabsf(missing))) - half;
+
+    return (missing < 0.0f) ? -accel : accel;
+}
+
+/* EQ-POSITION-REF-2: the jerk of this period. */
+static float next_jerk(const limits_t *l, const motion_t *m)
+{
+    const float jerk  = l->of->jerk_e_radps3;
+    const float per_s = 1.0f / l->ts_s;
+    const float most  = (m->omega < 0.0f) ? l->of->decel_e_radps2 : l->of->accel_e_radps2;
+    const float up    = base_min(accel_to_limit(l, m), most);
+    float       high  = base_clamp((up - m->accel) * per_s, -jerk, jerk);
+    float       low =
+        base_min(base_clamp((-l->of->decel_e_radps2 - m->accel) * per_s, -jerk, jerk), high);
+    motion_t then       = after(l, m, high);
+    float    spare_high = spare_rad(l, &then);
+    if (spare_high >= 0.0f) {
+        return high;
+    }
+    then            = after(l, m, low);
+    float spare_low = spare_rad(l, &then);
+    if (spare_low <= 0.0f) {
+        return low;
+    }
+    for (int16_t pass = 0; pass < PASSES;
+         pass++) { /* false position; an end that stays counts half */
+        const float between = low + ((high - low) * spare_low / (spare_low - spare_high));
+        then                = after(l, m, between);
+        const float spare   = spare_rad(l, &then);
+        if (spare >= 0.0f) {
+            low       = between;
+            spare_low = spare;
+            spare_high *= 0.5f;
+        } else {
+            high       = between;
+            spare_high = spare;
+            spare_low *= 0.5f;
+        }
+    }
+    return low + ((high - low) * spare_low / (spare_low - spare_high));
+}
+
+/* What one period of jerk can end. */
+static bool is_there(const limits_t *l, const motion_t *m)
+{
+    const float a = l->ts_s * l->of->jerk_e_radps3;
+
+    return base_within(m->accel, a) && base_within(m->omega, l->ts_s * a) &&
+           base_within(m->way_rad, l->ts_s * l->ts_s * a);
+}
+
+static void arrive(position_ref_t *r, const position_t *target, float ts_s)
+{
+    r->omega_2dot_e_radps3 = -r->omega_dot_e_radps2 / ts_s;
+    r->at                  = *target;
+    r->omega_e_radps       = 0.0f;
+    r->omega_dot_e_radps2  = 0.0f;
+    r->arrived             = true;
+}
+
+static void advance(position_ref_t *r, const limits_t *l, const motion_t *now, float sign)
+{
+    const float    jerk = next_jerk(l, now);
+    const motion_t then = after(l, now, jerk);
+
+    r->at                  = position_moved(&r->at, sign * covered_rad(l, now, jerk));
+    r->omega_e_radps       = sign * then.omega;
+    r->omega_dot_e_radps2  = sign * then.accel;
+    r->omega_2dot_e_radps3 = sign * jerk;
+    r->arrived             = false;
+}
+
+/* The reference waits for a shaft that cannot follow. */
+static void hold_near(position_ref_t *r, const position_t *is, float near_rad)
+{
+    const float ahead = position_way_rad(is, &r->at);
+
+    r->waits = !base_within(ahead, near_rad);
+    if (r->waits) {
+        r->at      = position_moved(is, (ahead < 0.0f) ? -near_rad : near_rad);
+        r->arrived = false;
+    }
+}
+
+void position_ref_update(position_ref_t *r, const position_profile_t *profile,
+                         const position_t *target, const position_t *is, float near_rad, float ts_s)
+{
+    const float    jerk  = PLANNED * profile->jerk_e_radps3;
+    const float    decel = PLANNED * profile->decel_e_radps2;
+    const limits_t l     = {.of        = profile,
+                            .jerk      = jerk,
+                            .decel     = decel,
+                            .per_jerk  = 1.0f / jerk,
+                            .per_decel = 1.0f / decel,
+                            .ts_s      = ts_s};
+    const motion_t seen  = {.way_rad = position_way_rad(&r->at, target),
+                            .omega   = r->omega_e_radps,
+                            .accel   = r->omega_dot_e_radps2};
+    const float    sign  = (spare_rad(&l, &seen) < 0.0f) ? -1.0f : 1.0f;
+    const motion_t now   = {
+          .way_rad = sign * seen.way_rad, .omega = sign * seen.omega, .accel = sign * seen.accel};
+
+    if (is_there(&l, &now)) {
+        arrive(r, target, ts_s);
+    } else {
+        advance(r, &l, &now, sign);
+    }
+    hold_near(r, is, near_rad);
+}
