@@ -249,8 +249,9 @@ static bool has_position(app_control_t *c, const app_objects_t *o, const app_con
         c->holds = false;
         return false;
     }
-    if (!seen->position->known) { /* counts were lost: nobody knows where it would go */
-        c->state = APP_CONTROL_QUICK_STOP_ACTIVE;
+    if (!seen->position
+             ->known) { /* not yet; or counts were lost, and nobody knows where it would go */
+        c->state = c->holds ? APP_CONTROL_QUICK_STOP_ACTIVE : c->state;
         return false;
     }
     if (!c->holds) {

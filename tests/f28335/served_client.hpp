@@ -32,18 +32,27 @@ protected:
         Octets       come;
         const double end_s = served.time_s() + longest_s;
         while (served.time_s() < end_s) {
-            served.period();
-            for (int octet = served.take(); octet >= 0; octet = served.take()) {
-                come.push_back(static_cast<std::uint8_t>(octet));
+            listen(come);
+            if (!rtu_content(come)) {
+                continue;
+            }
+            for (
+                int n = 0; n < 20;
+                n++) { // the silence that ends an answer: a part of one may have a sum that fits, too
+                listen(come);
             }
             if (const std::optional<Octets> content = rtu_content(come)) {
-                for (int n = 0; n < 20; n++) { // the silence that ends an answer
-                    served.period();
-                }
                 return {content->begin() + 1, content->end()};
             }
         }
         return {};
+    }
+    void listen(Octets &come)
+    {
+        served.period();
+        for (int octet = served.take(); octet >= 0; octet = served.take()) {
+            come.push_back(static_cast<std::uint8_t>(octet));
+        }
     }
     bool write(unsigned first, const Words &words, double longest_s = answer_s)
     {

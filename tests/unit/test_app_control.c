@@ -389,9 +389,103 @@ static void test_a_state_that_cannot_be_is_left(void)
     TEST_ASSERT_FALSE(out.run);
 }
 
+static app_position_t position;
+
+/* Enabled in profile position, on a shaft that is `counts` from its zero and turns at this speed. */
+static void hold_position(int32_t counts, float speed_e_radps)
+{
+    const app_angle_t angle = {.pole_pairs = 2U, .positions = 10000U, .rad_per_cnt = 1.2566371e-3f};
+    app_position_init(&position, &angle);
+    position.known           = true;
+    position.is              = app_position_at(&position, counts);
+    wanted.mode_of_operation = APP_CONTROL_PROFILE_POSITION;
+    seen.position            = &position;
+    seen.speed_e_radps       = speed_e_radps;
+    go(APP_CONTROL_OPERATION_ENABLED);
+    ticks(APP_CONTROL_ENABLE_OPERATION, 2);
+}
+
+static int32_t wanted_cnt(void)
+{
+    return app_position_cnt(&position, &out.target);
+}
+
+static void test_profile_position_holds_and_takes_set_points(void)
+{
+    hold_position(777, 0.0f);
+    TEST_ASSERT_TRUE(out.run && out.positioning);
+    TEST_ASSERT_EQUAL_INT32(777, wanted_cnt());
+    wanted.target_cnt = 5000;
+    seen.arrived      = true;
+    ticks(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_NEW_SETPOINT, 1);
+    TEST_ASSERT_EQUAL_INT32(5000, wanted_cnt());
+    TEST_ASSERT_TRUE(control.setpoint.acknowledged);
+}
+
+static void test_positions_wait_until_the_zero_is_known(void)
+{
+    hold_position(777, 0.0f);
+    seen.mode = APP_MODE_READY;
+    ticks(0U, 3);
+    position.known = false;
+    go(APP_CONTROL_OPERATION_ENABLED);
+    TEST_ASSERT_TRUE(out.run);
+    TEST_ASSERT_FALSE(out.positioning);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, out.omega_e_radps);
+    position.known = true;
+    ticks(APP_CONTROL_ENABLE_OPERATION, 1);
+    TEST_ASSERT_TRUE(out.positioning);
+}
+
+static void test_lost_counts_end_a_position_run_as_a_quick_stop(void)
+{
+    hold_position(777, 100.0f);
+    position.known = false;
+    ticks(APP_CONTROL_ENABLE_OPERATION, 1);
+    TEST_ASSERT_EQUAL_INT(APP_CONTROL_QUICK_STOP_ACTIVE, control.state);
+    TEST_ASSERT_FALSE(out.positioning);
+    TEST_ASSERT_TRUE(out.run);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, out.omega_e_radps);
+}
+
+static void test_halt_and_stop_of_a_position_run_begin_at_the_present_speed(void)
+{
+    wanted.decel_e_radps2  = 1000.0f;
+    wanted.quick_e_radps2  = 2000.0f;
+    wanted.shutdown_option = 1;
+    static const struct {
+        int   word;
+        float per_tick;
+    } stops[] = {{APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_HALT, 1000.0f},
+                 {APP_CONTROL_SHUT_DOWN, 1000.0f},
+                 {APP_CONTROL_QUICK_STOP, 2000.0f}};
+    for (int i = 0; i < SUPPORT_COUNT(stops); i++) {
+        hold_position(777, 100.0f);
+        TEST_ASSERT_TRUE(out.positioning);
+        ticks((uint16_t)stops[i].word, 1);
+        TEST_ASSERT_FALSE(out.positioning);
+        TEST_ASSERT_TRUE(out.run);
+        TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 100.0f - (gain_tables_drive.ts_s * stops[i].per_tick),
+                                 out.omega_e_radps);
+        if (i == 0) { /* and on to the target */
+            ticks(APP_CONTROL_ENABLE_OPERATION, 1);
+            TEST_ASSERT_TRUE(out.positioning);
+            TEST_ASSERT_EQUAL_INT32(777, wanted_cnt());
+        }
+        setUp();
+        wanted.decel_e_radps2  = 1000.0f;
+        wanted.quick_e_radps2  = 2000.0f;
+        wanted.shutdown_option = 1;
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_profile_position_holds_and_takes_set_points);
+    RUN_TEST(test_positions_wait_until_the_zero_is_known);
+    RUN_TEST(test_lost_counts_end_a_position_run_as_a_quick_stop);
+    RUN_TEST(test_halt_and_stop_of_a_position_run_begin_at_the_present_speed);
     RUN_TEST(test_every_transition_and_no_other);
     RUN_TEST(test_boot_leads_to_switch_on_disabled_whatever_is_asked);
     RUN_TEST(test_operation_is_enabled_by_a_rising_bit_only);

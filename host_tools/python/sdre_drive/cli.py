@@ -17,6 +17,7 @@ from typing_extensions import Annotated
 
 from sdre_drive import commission as finder
 from sdre_drive import load as loader
+from sdre_drive import move as mover
 from sdre_drive import record, scope, session, show
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.options import Control, Line, PolePairs, Port, Tcp, Unit, bench_address, pole_pairs_of, target, use_line
@@ -75,6 +76,27 @@ def run(
         wanted = show.e_radps_of(speed, pairs) if rpm else speed
         update = lambda r: live.update(show.line(r, pairs), refresh=True)  # noqa: E731
         update(session.hold(drive, wanted, end, length_s, update))
+
+
+@app.command()
+def move(
+    to: Annotated[float, typer.Argument(metavar="TARGET", help="turns of the shaft from the zero; negative after -- on the command line")],
+    counts: Annotated[bool, typer.Option("--counts/--turns", help="TARGET is counts of the encoder, four per line")] = False,
+    relative: Annotated[bool, typer.Option("--relative", help="from where it is")] = False,
+    speed: Annotated[float, typer.Option("--speed", min=0.0, help="largest on the way, r/min; 0: what the drive can")] = 0.0,
+    length_s: Annotated[Optional[float], typer.Option("--for", min=0.0, help="holds it for so long, then stops", metavar="S")] = None,
+    port: Port = None,
+    tcp: Tcp = None,
+    pole_pairs: PolePairs = None,
+) -> None:
+    """Turns the shaft to TARGET and holds it there until Ctrl-C."""
+    end = end_by_signal()
+    with Drive(target(port, tcp)) as drive, Live(console=out, auto_refresh=False) as live:
+        pairs = pole_pairs_of(pole_pairs, drive) or 1
+        wanted = round(to if counts else to * drive.constants().encoder_counts)
+        found = mover.go(drive, wanted, relative, show.e_radps_of(speed, pairs), end, length_s,
+                         lambda r, w: live.update(show.line(r, pairs) + f"  {w.now} counts of {w.target}", refresh=True))  # fmt: skip
+    out.print(f"{found.now} counts, wanted {found.target}")
 
 
 @app.command()

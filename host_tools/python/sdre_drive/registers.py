@@ -141,6 +141,7 @@ class Reading:
     """The live registers of one tick."""
 
     statusword: int
+    mode_of_operation: int
     error_code: int
     mode: int
     why: Why
@@ -180,12 +181,14 @@ class Constants:
     period_s: float
     speed_max_e_radps: float
     current_max_A: float
+    encoder_counts: int  # of a turn
 
 
 def constants(words: Sequence[int]) -> Constants:
     """From the block of constants."""
     raw = values(register_map.CONSTANTS, words)
-    return Constants(int(raw["POLE_PAIRS"]), raw["CONTROL_PERIOD"], raw["SPEED_MAX"], raw["CURRENT_MAX"])
+    return Constants(int(raw["POLE_PAIRS"]), raw["CONTROL_PERIOD"], raw["SPEED_MAX"], raw["CURRENT_MAX"],
+                     int(raw["ENCODER_POSITIONS"]))  # fmt: skip
 
 
 def decode(words: Sequence[int], period_s: float) -> Reading:
@@ -204,6 +207,7 @@ def decode(words: Sequence[int], period_s: float) -> Reading:
     )
     return Reading(
         statusword=whole("STATUSWORD"),
+        mode_of_operation=whole("MODE_NOW"),
         error_code=whole("ERROR_CODE"),
         mode=whole("MODE"),
         why=Why(whole("FAULT"), whole("DRIVE_FAULT"), whole("BOARD_FAULTS")),

@@ -42,8 +42,8 @@ def wait_for(drive: Drive, wanted: Callable[[Reading], bool], longest_s: float) 
         time.sleep(PERIOD_S / 2)
 
 
-def start(drive: Drive, speed_e_radps: float) -> None:
-    """Starts it, or gives a running one this speed (rad/s electrical)."""
+def start(drive: Drive, speed_e_radps: float, mode: int = PROFILE_VELOCITY) -> None:
+    """Starts it in a mode of operation, or gives one that runs in it this speed (rad/s electrical)."""
     reading = wait_for(drive, lambda r: r.mode in (Mode.READY, Mode.FAULT, *MOVING), BOOT_WAIT_S)
     if reading is None:
         raise DriveError(f"the drive does not get ready: it {drive.read().mode_words}")
@@ -51,11 +51,13 @@ def start(drive: Drive, speed_e_radps: float) -> None:
         raise Tripped(reading)
     drive.set_speed(speed_e_radps)
     if reading.mode in MOVING:
+        if reading.mode_of_operation != mode:
+            raise DriveError("the drive runs in another mode of operation: stop it first")
         return
     in_the_way = faults.bits("condition", reading.conditions & faults.NO_START)
     if in_the_way:
         raise DriveError("the drive cannot start: " + " ".join(e.meaning for e in in_the_way))
-    drive.write("MODE_OF_OPERATION", PROFILE_VELOCITY)
+    drive.write("MODE_OF_OPERATION", mode)
     drive.set_run(False)  # enabling has to rise
     drive.set_run(True)
     reading = wait_for(drive, lambda r: r.mode != Mode.READY, ANSWER_WAIT_S)
@@ -125,12 +127,12 @@ def hold(drive: Drive, speed_e_radps: float, end: threading.Event, length_s: Opt
             show(reading)
             require_moving(reading)
     except DriveError:
-        _withdraw(drive)
+        withdraw(drive)
         raise
     return stop(drive)
 
 
-def _withdraw(drive: Drive) -> None:
+def withdraw(drive: Drive) -> None:
     """As far as it still listens; if not, it stops by itself."""
     try:
         drive.set_run(False)

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Profile position over Modbus on the virtual device; simulated time only.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "served_client.hpp"
+
+extern "C" {
+#include "app_control.h"
+#include "app_registers.h"
+}
+
+using namespace sdre;
+
+namespace {
+
+constexpr int    counts_per_turn = 10000;
+constexpr double align_s         = 4.0;
+
+class Positions : public ServedClient {
+protected:
+    int both(unsigned number)
+    {
+        const Octets answer = ask({4, 0, static_cast<std::uint8_t>(number), 0, 2});
+        if (answer.size() != 6) {
+            return INT32_MIN;
+        }
+        std::uint32_t x = 0;
+        for (std::size_t i = 2; i < 6; i++) {
+            x = x << 8U | answer[i];
+        }
+        return static_cast<std::int32_t>(x);
+    }
+    int now()
+    {
+        return both(APP_REGISTERS_POSITION_NOW);
+    }
+    bool has(int bit)
+    {
+        return (input(APP_REGISTERS_STATUSWORD) & bit) != 0;
+    }
+    bool control(int word)
+    {
+        return write(APP_REGISTERS_CONTROLWORD, {static_cast<std::uint16_t>(word)});
+    }
+    /// Asks ten times a second, so that the drive goes on.
+    bool wait_for(int bit, double longest_s)
+    {
+        const double end_s = served.time_s() + longest_s;
+        while (!has(bit) && served.time_s() < end_s) {
+            pass(0.05);
+        }
+        return has(bit);
+    }
+    void talk(double length_s)
+    {
+        for (const double end_s = served.time_s() + length_s; served.time_s() < end_s;) {
+            pass(0.05);
+            input(APP_REGISTERS_MODE);
+        }
+    }
+    void enable()
+    {
+        pass(0.4);
+        ASSERT_TRUE(write(APP_REGISTERS_MODE_OF_OPERATION, {APP_CONTROL_PROFILE_POSITION}));
+        ASSERT_TRUE(control(APP_CONTROL_SHUT_DOWN));
+        ASSERT_TRUE(control(APP_CONTROL_ENABLE_OPERATION));
+        ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, align_s)); // holds where it is
+    }
+    void set_point(int counts, int bits)
+    {
+        const auto x = static_cast<std::uint32_t>(counts);
+        ASSERT_TRUE(control(APP_CONTROL_ENABLE_OPERATION));
+        ASSERT_TRUE(write(APP_REGISTERS_TARGET_POSITION,
+                          {static_cast<std::uint16_t>(x >> 16U), static_cast<std::uint16_t>(x)}));
+        ASSERT_TRUE(control(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_NEW_SETPOINT | bits));
+        ASSERT_TRUE(has(APP_REGISTERS_OF_MODE));
+        ASSERT_TRUE(control(APP_CONTROL_ENABLE_OPERATION));
+    }
+};
+
+} // namespace
+
+TEST_F(Positions, TurnsToATargetAndHoldsItUnderALoad)
+{
+    enable();
+    const int    begin   = now();
+    const double start_e = served.plant_state().theta_e_rad;
+    set_point(begin + 3 * counts_per_turn, 0);
+    ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, 1.0));
+    EXPECT_NEAR(now(), begin + 3 * counts_per_turn, 2);
+    EXPECT_NEAR(served.plant_state().theta_e_rad - start_e, 3 * 2 * 2 * std::acos(-1.0), 4e-3);
+    served.set_load_Nm(0.75);
+    talk(0.3);
+    EXPECT_NEAR(now(), begin + 3 * counts_per_turn, 3);
+    EXPECT_TRUE(served.findings().empty());
+}
+
+TEST_F(Positions, SetPointsFollowEachOtherAndHaltInterruptsThem)
+{
+    enable();
+    const int begin = now();
+    set_point(2 * counts_per_turn, APP_CONTROL_RELATIVE);
+    set_point(-counts_per_turn / 2, APP_CONTROL_RELATIVE); // waits
+    ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, 1.0));
+    talk(0.3);
+    EXPECT_NEAR(now(), begin + counts_per_turn * 3 / 2, 2);
+
+    set_point(20 * counts_per_turn, APP_CONTROL_RELATIVE);
+    talk(0.1);
+    ASSERT_TRUE(control(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_HALT));
+    ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, 1.0));
+    const int halted = now();
+    EXPECT_GT(halted, begin + 2 * counts_per_turn);
+    EXPECT_LT(halted, begin + 20 * counts_per_turn);
+    ASSERT_TRUE(control(APP_CONTROL_ENABLE_OPERATION));
+    talk(0.1);
+    ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, 3.0));
+    EXPECT_NEAR(now(), begin + counts_per_turn * 43 / 2, 2);
+}
+
+TEST_F(Positions, AShaftThatIsHeldBackIsWaitedForAndDoesNotJumpWhenItIsLetGo)
+{
+    enable();
+    const int begin = now();
+    ASSERT_TRUE(write(APP_REGISTERS_MAX_CURRENT, {0, 1500})); // below what the load takes
+    served.set_load_Nm(-1.2);
+    set_point(4 * counts_per_turn, APP_CONTROL_RELATIVE);
+    EXPECT_TRUE(wait_for(APP_REGISTERS_FOLLOWING_ERROR, 0.2));
+    served.set_load_Nm(0.0);
+    ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, 3.0));
+    EXPECT_NEAR(now(), begin + 4 * counts_per_turn, 2);
+}
+
+TEST_F(Positions, TheZeroIsTheIndexMark)
+{
+    enable();
+    set_point(2 * counts_per_turn, APP_CONTROL_RELATIVE); // past the mark
+    ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, 1.0));
+    ASSERT_TRUE(control(APP_CONTROL_DISABLE_VOLTAGE));
+    talk(0.5);
+    ASSERT_TRUE(write(APP_REGISTERS_MODE_OF_OPERATION, {APP_CONTROL_HOMING}));
+    ASSERT_TRUE(control(APP_CONTROL_SHUT_DOWN));
+    ASSERT_TRUE(control(APP_CONTROL_ENABLE_OPERATION));
+    ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, align_s));
+    talk(0.1);
+    const double turns = served.plant_state().theta_e_rad / (2 * std::acos(-1.0)) /
+                         2; // the mark is the shaft's zero
+    const double from = static_cast<double>(now()) / counts_per_turn;
+    EXPECT_NEAR(std::remainder(turns - from, 1.0) * counts_per_turn, 0.5,
+                2.0); // a count is named by its middle
+}
