@@ -15,6 +15,7 @@ typedef NAMED(NAMED(law_, PROVE_LAW), _state_t) state_t;
 /* The analyser reads any bits from what is volatile; in what is not it starts with any value of its type. */
 volatile int                any_int;
 volatile float              any_float;
+volatile int32_t            any_turn;
 volatile constants_t        any_constants;
 volatile state_t            any_state;
 volatile drive_t            any_drive_bits;
@@ -30,6 +31,15 @@ static int any_between(int lo, int hi)
     const int x = any_int;
 
     return (x < lo) ? lo : ((x > hi) ? hi : x);
+}
+
+/* What position.h keeps turns in. */
+static int32_t any_turns(void)
+{
+    const int32_t x = any_turn;
+
+    return (x < -POSITION_TURNS_MAX) ? -POSITION_TURNS_MAX
+                                     : ((x > POSITION_TURNS_MAX) ? POSITION_TURNS_MAX : x);
 }
 
 /* Constants. */
@@ -81,6 +91,13 @@ static void any_drive(void)
     state_t state = any_state;
 
     drive = any_drive_bits;
+#if defined PROVE_noc || defined PROVE_noc_speed || defined PROVE_noc_h ||                         \
+    defined                                                 PROVE_conventional
+    state.near_optimal.positioning = any_between(0, 1);
+    state.near_optimal.position_ref.arrived = any_between(0, 1);
+    state.near_optimal.position_ref.waits = any_between(0, 1);
+    state.near_optimal.position_ref.at.turns = any_turns();
+#endif
 #if defined PROVE_noc || defined PROVE_noc_h
     state.edges.edge[0] = any_between(0, ENCODER_FORM_EDGES);
     state.edges.edge[1] = any_between(0, ENCODER_FORM_EDGES);
