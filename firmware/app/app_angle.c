@@ -36,7 +36,7 @@ ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c,
     a->positions          = (uint16_t)(turn_ok ? positions : 0UL);
     a->edge_times         = drive->hardware.edge_times;
     a->ts_s               = ts_s;
-    a->half_cnt_per_turn  = (float)(2UL * (uint32_t)a->positions);
+    a->half_cnt_per_turn  = 2.0f * (float)a->positions;
     a->turns_per_half_cnt = ok ? (1.0f / a->half_cnt_per_turn) : 0.0f;
     a->rad_per_half_cnt   = ok ? (BASE_TWO_PI / a->half_cnt_per_turn) : 0.0f;
     a->rad_per_cnt        = 2.0f * (float)pole_pairs * a->rad_per_half_cnt;
@@ -89,9 +89,11 @@ static float theta_at(const app_angle_t *a, uint16_t position_cnt, uint32_t half
         (position_cnt >= a->zero_cnt)
             ? ((uint32_t)position_cnt - (uint32_t)a->zero_cnt)
             : ((uint32_t)position_cnt + (uint32_t)a->positions - (uint32_t)a->zero_cnt);
-    const float half_cnt = (float)(((2U * from_zero_cnt) + half) * (uint32_t)a->pole_pairs);
-    const float turns    = (float)(int16_t)((half_cnt + 0.5f) * a->turns_per_half_cnt);
-    const float part_cnt = half_cnt - (turns * a->half_cnt_per_turn);
+    const uint32_t count    = ((2U * from_zero_cnt) + half) * (uint32_t)a->pole_pairs;
+    const float    half_cnt = (float)count;
+    const float    passed   = (half_cnt + 0.5f) * a->turns_per_half_cnt;
+    const int16_t  turns    = (int16_t)passed; /* at most the pole pairs */
+    const float    part_cnt = half_cnt - ((float)turns * a->half_cnt_per_turn);
 
     return within_turn(a->zero_theta_rad + (part_cnt * a->rad_per_half_cnt));
 }

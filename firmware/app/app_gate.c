@@ -29,6 +29,11 @@ static uint16_t passed_both(uint16_t wanted_cnt, uint16_t full_cnt, uint16_t min
     return (uint16_t)(full_cnt - passed((uint16_t)(full_cnt - upper_cnt), min_cnt));
 }
 
+static uint16_t nearest(float x)
+{
+    return (uint16_t)(x + 0.5f);
+}
+
 static uint16_t least(uint16_t x, uint16_t y)
 {
     return (x < y) ? x : y;
@@ -38,9 +43,9 @@ board_duty_t app_gate_duty(const app_gate_config_t *c, uint16_t full_cnt, abc_t 
 {
     const float    full    = (float)full_cnt;
     const uint16_t min_cnt = c->pulse_min_cnt;
-    uint16_t       a_cnt   = (uint16_t)((duty.a * full) + 0.5f);
-    uint16_t       b_cnt   = (uint16_t)((duty.b * full) + 0.5f);
-    uint16_t       c_cnt   = (uint16_t)((duty.c * full) + 0.5f);
+    uint16_t       a_cnt   = nearest(duty.a * full);
+    uint16_t       b_cnt   = nearest(duty.b * full);
+    uint16_t       c_cnt   = nearest(duty.c * full);
 
     if (min_cnt > 0U) {
         a_cnt = passed_both(a_cnt, full_cnt, min_cnt);

@@ -16,6 +16,7 @@ typedef struct {
 } map_t;
 
 static const map_t holding = {app_registers_map_holding, APP_REGISTERS_MAP_HOLDING, false};
+static const map_t input   = {app_registers_map_input, APP_REGISTERS_MAP_INPUT, true};
 
 /* Member by member, and from constants: on the stack they would take a quarter of it. */
 ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
@@ -139,6 +140,9 @@ app_registers_result_t app_registers_read_holding(const app_registers_t *r, uint
     if (is_loader(r, first)) {
         return found(app_loader_read_holding((uint16_t)(first - APP_LOADER_FIRST), count, values));
     }
+    if (first >= APP_REGISTERS_INPUTS_TOO) {
+        return read_map(r, &input, (uint16_t)(first - APP_REGISTERS_INPUTS_TOO), count, values);
+    }
     return read_map(r, &holding, first, count, values);
 }
 
@@ -153,8 +157,6 @@ static app_registers_result_t read_traces(const app_registers_t *r, uint16_t fir
 app_registers_result_t app_registers_read_input(const app_registers_t *r, uint16_t first,
                                                 uint16_t count, uint16_t *values)
 {
-    static const map_t input = {app_registers_map_input, APP_REGISTERS_MAP_INPUT, true};
-
     if ((r->scope != NULL) && (first >= APP_TRACES_SCOPE)) {
         return read_traces(r, first, count, values);
     }

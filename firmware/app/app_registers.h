@@ -18,6 +18,9 @@
 #include "app_status.h"
 #include "app_traces.h"
 
+/** Input registers are read as holding registers too, from here on: function 23 reads those only. */
+#define APP_REGISTERS_INPUTS_TOO 4096U
+
 /** Bits of APP_REGISTERS_CONDITIONS. */
 enum {
     APP_REGISTERS_HOT           = 1,
@@ -93,7 +96,7 @@ typedef struct app_registers {
 ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
                                 const drive_config_t *drive);
 
-/** `count` holding registers from `first` on. */
+/** `count` holding registers from `first` on; from APP_REGISTERS_INPUTS_TOO on the input registers. */
 app_registers_result_t app_registers_read_holding(const app_registers_t *r, uint16_t first,
                                                   uint16_t count, uint16_t *values);
 

@@ -212,6 +212,13 @@ static bridge_t drive(app_modes_t *m, const app_command_t *wanted, bool run)
     return drive_tick(&m->drive, &sample, &command);
 }
 
+static bridge_t drive_to_a_stop(app_modes_t *m, const app_modes_input_t *in)
+{
+    const app_command_t stop = {.omega_e_radps = 0.0f, .derating = in->command.derating};
+
+    return drive(m, &stop, true);
+}
+
 /* The drive itself stays off: it only checks samples and command against its limits. False: one of them is wrong. */
 static bool drive_watches(app_modes_t *m, const app_modes_input_t *in)
 {
@@ -222,13 +229,11 @@ static bool drive_watches(app_modes_t *m, const app_modes_input_t *in)
 /* RUN and STOP. A drive whose encoder is lost brakes until it is too slow to go on without, which is its fault. */
 static bridge_t run_drive(app_modes_t *m, const app_modes_input_t *in)
 {
-    const app_command_t stop = {.omega_e_radps = 0.0f, .derating = in->command.derating};
-
     const bool lost = m->drive.wanted.without_angle;
     const bool brake =
         (m->drive.state == DRIVE_RUN) &&
         (lost || (!in->command.run && app_stop_is_braking(&m->stop, m->reading.omega_e_radps)));
-    bridge_t out = drive(m, brake ? &stop : &in->command, brake || in->command.run);
+    bridge_t out = brake ? drive_to_a_stop(m, in) : drive(m, &in->command, in->command.run);
 
     if (m->drive.state == DRIVE_FAULT) {
         out = app_states_trip(m, in, APP_FAULT_DRIVE);

@@ -13,14 +13,14 @@
 /* Chosen: three errors of the same jump differ by what the shaft may do meanwhile, twice the gate. */
 #define SAME_GATES 2.0f
 
-bool angle_gate_check(const angle_gate_config_t *c)
+CTL_PART bool angle_gate_check(const angle_gate_config_t *c)
 {
     return base_in_range(c->gate_rad, 1.0e-6f, BASE_PI) &&
            base_in_range(c->step_rad, 1.0e-9f, c->gate_rad) &&
            base_in_range(c->count_rad, 1.0e-6f, BASE_PI) && check_positive(c->slow_e_radps2);
 }
 
-void angle_gate_reset(angle_gate_t *s, float theta_e_rad)
+CTL_PART void angle_gate_reset(angle_gate_t *s, float theta_e_rad)
 {
     const angle_gate_t start = {.stood_rad = theta_e_rad};
 
@@ -58,9 +58,9 @@ static void ignore(angle_gate_t *s, float error_rad)
     }
 }
 
-angle_gate_result_t angle_gate_pass(angle_gate_t *s, const angle_gate_config_t *c,
-                                    float theta_e_rad, float error_rad, float omega_e_radps,
-                                    float ts_s)
+CTL_PART angle_gate_result_t angle_gate_pass(angle_gate_t *s, const angle_gate_config_t *c,
+                                             float theta_e_rad, float error_rad,
+                                             float omega_e_radps, float ts_s)
 {
     angle_gate_result_t out = {
         .error_rad = error_rad, .jump_rad = 0.0f, .innovation_rad = 0.0f, .used = false};

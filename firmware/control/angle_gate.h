@@ -54,10 +54,10 @@ typedef struct {
 } angle_gate_result_t;
 
 /** true when all are in range. Context: init. */
-bool angle_gate_check(const angle_gate_config_t *c);
+CTL_PART bool angle_gate_check(const angle_gate_config_t *c);
 
 /** @param theta_e_rad Measured. */
-void angle_gate_reset(angle_gate_t *s, float theta_e_rad);
+CTL_PART void angle_gate_reset(angle_gate_t *s, float theta_e_rad);
 
 /**
  * @brief One sample.
@@ -71,8 +71,8 @@ void angle_gate_reset(angle_gate_t *s, float theta_e_rad);
  *
  * Context: control ISR. No division.
  */
-angle_gate_result_t angle_gate_pass(angle_gate_t *s, const angle_gate_config_t *c,
-                                    float theta_e_rad, float error_rad, float omega_e_radps,
-                                    float ts_s);
+CTL_PART angle_gate_result_t angle_gate_pass(angle_gate_t *s, const angle_gate_config_t *c,
+                                             float theta_e_rad, float error_rad,
+                                             float omega_e_radps, float ts_s);
 
 #endif /* ANGLE_GATE_H */

@@ -18,6 +18,12 @@
 #define BASE_SQRT3   1.73205081f
 #define BASE_1_SQRT3 0.577350269f
 
+/* In front of the functions of a module that one place of the tick calls, in header and source. Nothing, but for images:
+ * there the tick is two translation units that hold those modules (firmware/one_unit), and a call and its arguments cost nothing. */
+#ifndef CTL_PART
+#define CTL_PART
+#endif
+
 /** Vector in the rotor frame; d is the magnet axis. */
 typedef struct {
     float d;

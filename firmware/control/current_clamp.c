@@ -10,8 +10,8 @@
 /* What that makes of the period before, which is already in the prediction once. */
 #define BEFORE (1.0f - INDUCTANCE_SHARE)
 
-dq_t current_clamp_V(const motor_reduced_t *m, const nodo_t *est, const nodo_meas_t *now, dq_t v_V,
-                     dq_t v_0_V, float max_A, float samples_1ps)
+CTL_PART dq_t current_clamp_V(const motor_reduced_t *m, const nodo_t *est, const nodo_meas_t *now,
+                              dq_t v_V, dq_t v_0_V, float max_A, float samples_1ps)
 {
     const float w     = now->omega_e_radps;
     const float iq    = now->iq_A;

@@ -30,7 +30,7 @@
  *
  * Context: control ISR. Beyond the circle one division and a square root.
  */
-dq_t current_clamp_V(const motor_reduced_t *m, const nodo_t *est, const nodo_meas_t *now, dq_t v_V,
-                     dq_t v_0_V, float max_A, float samples_1ps);
+CTL_PART dq_t current_clamp_V(const motor_reduced_t *m, const nodo_t *est, const nodo_meas_t *now,
+                              dq_t v_V, dq_t v_0_V, float max_A, float samples_1ps);
 
 #endif /* CURRENT_CLAMP_H */

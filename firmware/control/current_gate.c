@@ -6,11 +6,16 @@
 
 #define LAST_THREE 7U
 
-void current_gate_reset(current_gate_t *s)
+CTL_PART void current_gate_reset(current_gate_t *s)
 {
     const current_gate_t quiet = {.recent = 0U, .jumped = false, .ignored = 0U};
 
     *s = quiet;
+}
+
+static bool is_number(float i_A)
+{
+    return base_within(i_A, CHECK_LARGEST);
 }
 
 static bool is_far(float ia_A, float ib_A, const current_gate_input_t *in)
@@ -19,10 +24,9 @@ static bool is_far(float ia_A, float ib_A, const current_gate_input_t *in)
                             !base_within(ib_A - in->i_hat_A.b, in->jump_A));
 }
 
-current_gate_verdict_t current_gate_judge(current_gate_t *s, float ia_A, float ib_A,
-                                          const current_gate_input_t *in)
+CTL_PART current_gate_verdict_t current_gate_judge(current_gate_t *s, float ia_A, float ib_A,
+                                                   const current_gate_input_t *in)
 {
-    const bool     number = base_within(ia_A, CHECK_LARGEST) && base_within(ib_A, CHECK_LARGEST);
     const bool     beyond = sample_over_current(ia_A, ib_A, in->trip_A);
     const bool     far    = is_far(ia_A, ib_A, in);
     const bool     spike  = beyond || (far && !s->jumped);
@@ -30,7 +34,7 @@ current_gate_verdict_t current_gate_judge(current_gate_t *s, float ia_A, float i
 
     s->recent = (uint16_t)(before | (beyond ? 1U : 0U));
     s->jumped = far;
-    if (beyond && (!number || !in->expected || (before != 0U))) {
+    if (beyond && (!in->expected || (before != 0U) || !is_number(ia_A) || !is_number(ib_A))) {
         return CURRENT_GATE_TRIP;
     }
     if (spike && (s->ignored < UINT16_MAX)) {
@@ -39,7 +43,7 @@ current_gate_verdict_t current_gate_judge(current_gate_t *s, float ia_A, float i
     return spike ? CURRENT_GATE_SPIKE : CURRENT_GATE_GOOD;
 }
 
-drive_sample_t current_gate_replaced(const drive_sample_t *s, dq_t i_A, float theta_rad)
+CTL_PART drive_sample_t current_gate_replaced(const drive_sample_t *s, dq_t i_A, float theta_rad)
 {
     const abc_t    i_abc = frames_inverse_clarke(frames_inverse_park(i_A, frames_angle(theta_rad)));
     drive_sample_t out   = *s;

@@ -37,11 +37,11 @@ typedef struct {
     bool  expected; /**< false: no law runs that expects any; one sample is enough then */
 } current_gate_input_t;
 
-void current_gate_reset(current_gate_t *s);
+CTL_PART void current_gate_reset(current_gate_t *s);
 
 /** One sample of the phase currents. Context: control ISR. */
-current_gate_verdict_t current_gate_judge(current_gate_t *s, float ia_A, float ib_A,
-                                          const current_gate_input_t *in);
+CTL_PART current_gate_verdict_t current_gate_judge(current_gate_t *s, float ia_A, float ib_A,
+                                                   const current_gate_input_t *in);
 
 /**
  * @brief A sample with the currents that were expected in place of the measured ones.
@@ -52,6 +52,6 @@ current_gate_verdict_t current_gate_judge(current_gate_t *s, float ia_A, float i
  *
  * Context: control ISR. One sine and cosine.
  */
-drive_sample_t current_gate_replaced(const drive_sample_t *s, dq_t i_A, float theta_rad);
+CTL_PART drive_sample_t current_gate_replaced(const drive_sample_t *s, dq_t i_A, float theta_rad);
 
 #endif /* CURRENT_GATE_H */

@@ -23,7 +23,7 @@ typedef struct {
     float x_A;         /**< the same on the q axis */
 } circle_t;
 
-void current_ref_reset(current_ref_t *r, const current_ref_config_t *c)
+CTL_PART void current_ref_reset(current_ref_t *r, const current_ref_config_t *c)
 {
     const dq_t zero = {0.0f, 0.0f};
     r->i_A          = zero;
@@ -162,9 +162,11 @@ static void limit_iq(current_ref_t *r, const current_ref_config_t *c, const moto
     }
 }
 
-speed_ref_limits_t current_ref_speed_limits(const current_ref_t *r, const current_ref_config_t *c,
-                                            const motor_reduced_t *m, const current_ref_input_t *in,
-                                            float command_e_radps)
+CTL_PART speed_ref_limits_t current_ref_speed_limits(const current_ref_t        *r,
+                                                     const current_ref_config_t *c,
+                                                     const motor_reduced_t      *m,
+                                                     const current_ref_input_t  *in,
+                                                     float                       command_e_radps)
 {
     const float w        = in->state->omega_e_radps;
     const float accel    = c->torque_share * accel_per_A(c, m, r->i_A.d);
@@ -187,8 +189,9 @@ speed_ref_limits_t current_ref_speed_limits(const current_ref_t *r, const curren
     return limits;
 }
 
-void current_ref_update(current_ref_t *r, const current_ref_config_t *c, const motor_reduced_t *m,
-                        const speed_ref_t *w, const current_ref_input_t *in)
+CTL_PART void current_ref_update(current_ref_t *r, const current_ref_config_t *c,
+                                 const motor_reduced_t *m, const speed_ref_t *w,
+                                 const current_ref_input_t *in)
 {
     const float    accel = accel_per_A(c, m, in->state->id_A);
     const circle_t v     = voltage_circle(c, m, in, accel);
@@ -212,7 +215,7 @@ void current_ref_update(current_ref_t *r, const current_ref_config_t *c, const m
                          : 0.0f;
 }
 
-bool current_ref_check(const current_ref_config_t *c)
+CTL_PART bool current_ref_check(const current_ref_config_t *c)
 {
     return check_positive(c->current_max_A) && check_positive(c->iq_max_A) &&
            (c->iq_max_A <= c->current_max_A) && check_positive(c->mtpa_A) &&

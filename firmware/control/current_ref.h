@@ -69,15 +69,17 @@ typedef struct {
 } current_ref_input_t;
 
 /** true when every constant is finite and within its documented range. Context: init. */
-bool current_ref_check(const current_ref_config_t *c);
+CTL_PART bool current_ref_check(const current_ref_config_t *c);
 
 /** References and derivatives start at zero current, the range at nothing. */
-void current_ref_reset(current_ref_t *r, const current_ref_config_t *c);
+CTL_PART void current_ref_reset(current_ref_t *r, const current_ref_config_t *c);
 
 /** The accelerations and the jerk that the limits leave to the speed reference. Context: control ISR. */
-speed_ref_limits_t current_ref_speed_limits(const current_ref_t *r, const current_ref_config_t *c,
-                                            const motor_reduced_t *m, const current_ref_input_t *in,
-                                            float command_e_radps);
+CTL_PART speed_ref_limits_t current_ref_speed_limits(const current_ref_t        *r,
+                                                     const current_ref_config_t *c,
+                                                     const motor_reduced_t      *m,
+                                                     const current_ref_input_t  *in,
+                                                     float                       command_e_radps);
 
 /**
  * @brief One period of EQ-CURRENT-REF-1 to 7.
@@ -90,7 +92,8 @@ speed_ref_limits_t current_ref_speed_limits(const current_ref_t *r, const curren
  *
  * Context: control ISR. Up to two divisions and four square roots.
  */
-void current_ref_update(current_ref_t *r, const current_ref_config_t *c, const motor_reduced_t *m,
-                        const speed_ref_t *w, const current_ref_input_t *in);
+CTL_PART void current_ref_update(current_ref_t *r, const current_ref_config_t *c,
+                                 const motor_reduced_t *m, const speed_ref_t *w,
+                                 const current_ref_input_t *in);
 
 #endif /* CURRENT_REF_H */

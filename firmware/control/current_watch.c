@@ -22,7 +22,7 @@
 /* Chosen by simulation of a pump with 1024 counts, held against half of its torque: 30 ms trip one run in twenty, 58 none. */
 #define OPEN_per_way 4.0f
 
-float current_watch_open_s(float count_rad, float accel_max_radps2)
+CTL_PART float current_watch_open_s(float count_rad, float accel_max_radps2)
 {
     if (!(accel_max_radps2 > (count_rad * OPEN_per_way * OPEN_per_way))) {
         return OPEN_MAX_s;
@@ -30,7 +30,7 @@ float current_watch_open_s(float count_rad, float accel_max_radps2)
     return base_max(OPEN_per_way * sqrtf(count_rad / accel_max_radps2), OPEN_MIN_s);
 }
 
-void current_watch_reset(current_watch_t *w, float ia_A, float ib_A)
+CTL_PART void current_watch_reset(current_watch_t *w, float ia_A, float ib_A)
 {
     const current_watch_t start = {.phase = {{.slow_A = ia_A}, {.slow_A = ib_A}}, .expects = false};
 
@@ -44,7 +44,8 @@ static dq_t turned_back(dq_t x, float by_rad)
     return y;
 }
 
-void current_watch_expect(current_watch_t *w, const current_watch_expected_t *e, float ts_s)
+CTL_PART void current_watch_expect(current_watch_t *w, const current_watch_expected_t *e,
+                                   float ts_s)
 {
     const dq_t  sudden_Aps = {.d = e->d_Aps.d - w->d_slow_Aps.d, .q = e->d_Aps.q - w->d_slow_Aps.q};
     const dq_t  model_A    = {.d = e->i_A.d - (ts_s * sudden_Aps.d),
@@ -61,31 +62,46 @@ void current_watch_expect(current_watch_t *w, const current_watch_expected_t *e,
     w->models           = e->predicted;
 }
 
-/* EQ-CURRENT-WATCH-2, 3 */
-static bool lies(current_watch_phase_t *p, float i_A, const current_watch_scale_t *scale)
+/* What both phases are held against. */
+typedef struct {
+    float forget; /* Ts / tau */
+    float long_A; /* beyond it for LONG_s */
+    float most_A; /* beyond it at once */
+    float jump_A; /* of r alone */
+    float ts_s;
+} bounds_t;
+
+static bounds_t bounds_of(const current_watch_scale_t *scale)
 {
-    const float forget   = FORGET_1ps * scale->ts_s;
-    const float change_A = i_A - p->slow_A;
+    const float    i_A    = scale->current_max_A;
+    const float    jump_A = scale->jump_A;
+    const bounds_t bounds = {.forget = FORGET_1ps * scale->ts_s,
+                             .long_A = base_max(LONG_share * i_A, LONG_jump * jump_A),
+                             .most_A = base_max(LIES_share * i_A, LIES_jump * jump_A),
+                             .jump_A = jump_A,
+                             .ts_s   = scale->ts_s};
+    return bounds;
+}
 
+/* EQ-CURRENT-WATCH-2, 3 */
+static inline bool lies(current_watch_phase_t *p, float i_A, const bounds_t *bounds)
+{
+    const float change_A   = i_A - p->slow_A;
     const float residual_A = i_A - p->model_A;
+    const float sum_A      = p->residual_A + (residual_A - (bounds->forget * p->residual_A));
+    const float beyond_A   = fabsf(sum_A) - (EXPLAINED * fabsf(change_A));
+    const float step_s = (beyond_A > bounds->long_A) ? bounds->ts_s : (-RECOVERS * bounds->ts_s);
 
-    p->slow_A += forget * change_A;
-    p->residual_A += residual_A - (forget * p->residual_A);
-
-    const float beyond_A = fabsf(p->residual_A) - (EXPLAINED * fabsf(change_A));
-    if (beyond_A > base_max(LONG_share * scale->current_max_A, LONG_jump * scale->jump_A)) {
-        p->lying_s += scale->ts_s;
-    } else {
-        p->lying_s = base_max(p->lying_s - (RECOVERS * scale->ts_s), 0.0f);
-    }
-    const float most_A = base_max(LIES_share * scale->current_max_A, LIES_jump * scale->jump_A);
-
-    return !(beyond_A <= most_A) || (p->lying_s > LONG_s) ||
-           !base_within(residual_A, scale->jump_A);
+    p->slow_A += bounds->forget * change_A;
+    p->residual_A = sum_A;
+    p->lying_s    = base_max(p->lying_s + step_s, 0.0f);
+    return !(beyond_A <= bounds->most_A) || (p->lying_s > LONG_s) ||
+           !base_within(residual_A, bounds->jump_A);
 }
 
 /* EQ-CURRENT-WATCH-4 */
-static bool is_empty(float *empty_s, float i_A, float ref_A, const current_watch_scale_t *scale)
+static inline bool is_empty(float *empty_s, float i_A, float ref_A,
+                            const current_watch_scale_t *scale)
 {
     const bool without = base_within(i_A, NONE_share * scale->current_max_A) &&
                          !base_within(ref_A, ASKED_share * scale->current_max_A);
@@ -94,8 +110,8 @@ static bool is_empty(float *empty_s, float i_A, float ref_A, const current_watch
     return *empty_s > scale->open_s;
 }
 
-current_watch_verdict_t current_watch_judge(current_watch_t *w, float ia_A, float ib_A,
-                                            const current_watch_scale_t *scale)
+CTL_PART current_watch_verdict_t current_watch_judge(current_watch_t *w, float ia_A, float ib_A,
+                                                     const current_watch_scale_t *scale)
 {
     if (!w->expects) {
         return CURRENT_WATCH_GOOD;
@@ -109,7 +125,8 @@ current_watch_verdict_t current_watch_judge(current_watch_t *w, float ia_A, floa
     if (!w->models) {
         return CURRENT_WATCH_GOOD;
     }
-    const bool a_lies = lies(&w->phase[0], ia_A, scale);
-    const bool b_lies = lies(&w->phase[1], ib_A, scale);
+    const bounds_t bounds = bounds_of(scale);
+    const bool     a_lies = lies(&w->phase[0], ia_A, &bounds);
+    const bool     b_lies = lies(&w->phase[1], ib_A, &bounds);
     return (a_lies || b_lies) ? CURRENT_WATCH_SENSOR : CURRENT_WATCH_GOOD;
 }

@@ -80,16 +80,17 @@ typedef struct {
  *
  * Context: init.
  */
-float current_watch_open_s(float count_rad, float accel_max_radps2);
+CTL_PART float current_watch_open_s(float count_rad, float accel_max_radps2);
 
 /** Start of a run. Context: control ISR. */
-void current_watch_reset(current_watch_t *w, float ia_A, float ib_A);
+CTL_PART void current_watch_reset(current_watch_t *w, float ia_A, float ib_A);
 
 /** At the end of a period: what the next sample should be. Context: control ISR. No division. */
-void current_watch_expect(current_watch_t *w, const current_watch_expected_t *e, float ts_s);
+CTL_PART void current_watch_expect(current_watch_t *w, const current_watch_expected_t *e,
+                                   float ts_s);
 
 /** The next sample. Context: control ISR. No division. */
-current_watch_verdict_t current_watch_judge(current_watch_t *w, float ia_A, float ib_A,
-                                            const current_watch_scale_t *scale);
+CTL_PART current_watch_verdict_t current_watch_judge(current_watch_t *w, float ia_A, float ib_A,
+                                                     const current_watch_scale_t *scale);
 
 #endif /* CURRENT_WATCH_H */

@@ -163,12 +163,12 @@ static float jump_A(const drive_config_t *c, float dc_link_V)
     return 2.0f * c->ts_s * base_max(c->motor.l6, c->motor.l8) * dc_link_V;
 }
 
-static drive_fault_t watch_currents(drive_t *d, const drive_sample_t *sample)
+static drive_fault_t watch_currents(drive_t *d, const drive_sample_t *sample, float change_A)
 {
     const current_watch_scale_t   scale = {.ts_s          = d->config->ts_s,
                                            .current_max_A = d->config->current_max_A,
                                            .open_s        = d->wire_open_s,
-                                           .jump_A        = jump_A(d->config, sample->dc_link_V)};
+                                           .jump_A        = change_A};
     const current_watch_verdict_t found =
         current_watch_judge(&d->current_watch, sample->ia_A, sample->ib_A, &scale);
 
@@ -195,9 +195,10 @@ static drive_fault_t watch_motion(drive_t *d, const drive_sample_t *sample, floa
     return faults[motion_watch_judge(&d->motion_watch, &in)];
 }
 
-static bridge_t run(drive_t *d, const drive_sample_t *sample, const drive_command_t *command)
+static bridge_t run(drive_t *d, const drive_sample_t *sample, const drive_command_t *command,
+                    float change_A)
 {
-    const drive_fault_t currents = watch_currents(d, sample);
+    const drive_fault_t currents = watch_currents(d, sample, change_A);
     if (currents != DRIVE_FAULT_NONE) {
         return trip(d, currents);
     }
@@ -221,22 +222,22 @@ static bridge_t run(drive_t *d, const drive_sample_t *sample, const drive_comman
 
 /* With the currents that the law expects at this instant, for laws without a prediction those of the period before. */
 static bridge_t run_without_currents(drive_t *d, const drive_sample_t *sample,
-                                     const drive_command_t *command)
+                                     const drive_command_t *command, float change_A)
 {
     const law_output_t *out = &d->wanted; /* its angle is that of the middle of this period */
     const dq_t          i_A = {.d = out->now.id_A, .q = out->now.iq_A};
     const float theta_rad   = out->theta_rad - (0.5f * d->config->ts_s * out->now.omega_e_radps);
 
     const drive_sample_t replaced = current_gate_replaced(sample, i_A, theta_rad);
-    return run(d, &replaced, command);
+    return run(d, &replaced, command, change_A);
 }
 
 /* Expected are the currents of the middle of this period, a twentieth of a turn ahead at the most. */
-static current_gate_verdict_t judge_currents(drive_t *d, const drive_sample_t *sample)
+static current_gate_verdict_t judge_currents(drive_t *d, const drive_sample_t *sample,
+                                             float change_A)
 {
-    const drive_config_t      *c  = d->config;
-    const current_gate_input_t in = {.trip_A   = c->trip_current_A,
-                                     .jump_A   = jump_A(c, sample->dc_link_V),
+    const current_gate_input_t in = {.trip_A   = d->config->trip_current_A,
+                                     .jump_A   = change_A,
                                      .i_hat_A  = d->i_hat_A,
                                      .expected = d->state == DRIVE_RUN};
 
@@ -262,7 +263,8 @@ bridge_t drive_tick(drive_t *d, const drive_sample_t *sample, const drive_comman
     if (!is_whole(d)) {
         return trip(d, DRIVE_FAULT_MEMORY);
     }
-    const current_gate_verdict_t currents = judge_currents(d, sample);
+    const float                  change_A = jump_A(d->config, sample->dc_link_V);
+    const current_gate_verdict_t currents = judge_currents(d, sample, change_A);
     const drive_fault_t          fault    = find_fault(d->config, sample, command, currents);
     if (fault != DRIVE_FAULT_NONE) {
         return trip(d, fault);
@@ -272,10 +274,10 @@ bridge_t drive_tick(drive_t *d, const drive_sample_t *sample, const drive_comman
         return bridge_open();
     }
     if (currents == CURRENT_GATE_SPIKE) {
-        return run_without_currents(d, sample, command);
+        return run_without_currents(d, sample, command, change_A);
     }
     if (d->state == DRIVE_OFF) {
         start(d, sample);
     }
-    return run(d, sample, command);
+    return run(d, sample, command, change_A);
 }

@@ -29,10 +29,10 @@ typedef struct {
 } encoder_form_gains_t;
 
 /** true when both are in range. Context: init. */
-bool encoder_form_check(const encoder_form_limits_t *limits);
+CTL_PART bool encoder_form_check(const encoder_form_limits_t *limits);
 
 /** true when all are in range. Context: init. */
-bool encoder_form_gains_check(const encoder_form_gains_t *gains);
+CTL_PART bool encoder_form_gains_check(const encoder_form_gains_t *gains);
 
 /**
  * @brief Measured minus estimated angle, within +-pi; less the band in which the sample does not know better.
@@ -62,7 +62,7 @@ typedef struct {
 } encoder_form_edges_t;
 
 /** Nothing known of any edge. */
-void encoder_form_edges_reset(encoder_form_edges_t *edges);
+CTL_PART void encoder_form_edges_reset(encoder_form_edges_t *edges);
 
 /**
  * @brief What the edges are off that this sample's angle rests on; learns from three edges in a row.
@@ -83,11 +83,11 @@ void encoder_form_edges_reset(encoder_form_edges_t *edges);
  *
  * Context: control ISR. One division.
  */
-float encoder_form_learn(encoder_form_edges_t *edges, const drive_sample_t *s, float count_rad,
-                         float ts_s);
+CTL_PART float encoder_form_learn(encoder_form_edges_t *edges, const drive_sample_t *s,
+                                  float count_rad, float ts_s);
 
 /** The next edge is no neighbour of the last ones, from which nothing is to be learned. */
-void encoder_form_skip(encoder_form_edges_t *edges);
+CTL_PART void encoder_form_skip(encoder_form_edges_t *edges);
 
 /**
  * @brief encoder_form_error_rad() as far as the gate believes it, without what the edge is off.
@@ -104,9 +104,11 @@ void encoder_form_skip(encoder_form_edges_t *edges);
  *
  * Context: control ISR. The cost of encoder_form_learn().
  */
-angle_gate_result_t encoder_form_innovation(angle_gate_t *gate, encoder_form_edges_t *edges,
-                                            const angle_gate_config_t *c, const drive_sample_t *s,
-                                            const nodo_t *est, float theta_hat_rad, float ts_s);
+CTL_PART angle_gate_result_t encoder_form_innovation(angle_gate_t              *gate,
+                                                     encoder_form_edges_t      *edges,
+                                                     const angle_gate_config_t *c,
+                                                     const drive_sample_t *s, const nodo_t *est,
+                                                     float theta_hat_rad, float ts_s);
 
 /**
  * @brief Correction with an edge that comes once in T > Ts, or with the band after it.
@@ -116,8 +118,8 @@ angle_gate_result_t encoder_form_innovation(angle_gate_t *gate, encoder_form_edg
  *
  *     theta^ += min(k_theta T / Ts, 1) e
  *     w^     += min(k_w T / Ts, 1 / T) e
- *     d_w^   += min(k_d T / Ts, 1 / (2 T^2)) e, the other estimates in proportion    EQ-ENCODER-FORM-2
- *     T = min(gap, 2 count / |w^|), at least Ts
+ *     d_w^   += min(k_d T / Ts, s / T^2) e, the other estimates in proportion    EQ-ENCODER-FORM-2
+ *     T = min(gap, 2 count / |w^|), at least Ts;  s = k_d Ts^2 within 0.15 .. 0.5
  *
  * A shaft that starts after a long rest has not taken all of the gap for its count.
  *
@@ -131,9 +133,9 @@ angle_gate_result_t encoder_form_innovation(angle_gate_t *gate, encoder_form_edg
  *
  * Context: control ISR. One division at the most.
  */
-float encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad,
-                                const encoder_form_gains_t *gains, float error_rad, float gap_s,
-                                float ts_s);
+CTL_PART float encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad,
+                                         const encoder_form_gains_t *gains, float error_rad,
+                                         float gap_s, float ts_s);
 
 /**
  * @brief The prediction as the law sees it.

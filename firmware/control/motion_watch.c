@@ -20,7 +20,7 @@
 #define AWAY_s                                                                                     \
     0.25f /* chosen: an overload of a tenth of a second and the way back from it are no reason to stop */
 
-void motion_watch_reset(motion_watch_t *w)
+CTL_PART void motion_watch_reset(motion_watch_t *w)
 {
     static const motion_watch_t rest = {.voltage_next = false};
 
@@ -84,7 +84,8 @@ static motion_watch_verdict_t judge_motion(motion_watch_t *w, const motion_watch
     return (w->away_s > AWAY_s) ? MOTION_WATCH_AWAY : MOTION_WATCH_GOOD;
 }
 
-motion_watch_verdict_t motion_watch_judge(motion_watch_t *w, const motion_watch_input_t *in)
+CTL_PART motion_watch_verdict_t motion_watch_judge(motion_watch_t             *w,
+                                                   const motion_watch_input_t *in)
 {
     const float step_s = TURNS * in->ts_s;
 

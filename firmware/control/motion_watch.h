@@ -52,7 +52,7 @@ typedef struct {
 } motion_watch_input_t;
 
 /** Start of a run. Context: control ISR. */
-void motion_watch_reset(motion_watch_t *w);
+CTL_PART void motion_watch_reset(motion_watch_t *w);
 
 /**
  * @brief One period: EQ-MOTION-WATCH-1 or the other two, in turn. Each is found a period later than if it were looked at in
@@ -60,6 +60,7 @@ void motion_watch_reset(motion_watch_t *w);
  *
  * Context: control ISR. No division.
  */
-motion_watch_verdict_t motion_watch_judge(motion_watch_t *w, const motion_watch_input_t *in);
+CTL_PART motion_watch_verdict_t motion_watch_judge(motion_watch_t             *w,
+                                                   const motion_watch_input_t *in);
 
 #endif /* MOTION_WATCH_H */

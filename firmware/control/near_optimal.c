@@ -9,7 +9,7 @@
 #include "frames.h"
 #include "voltage.h"
 
-bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *drive)
+CTL_PART bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *drive)
 {
     const float max_A = c->current_ref.current_max_A;
 
@@ -19,7 +19,8 @@ bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *dr
            base_in_range(c->current_ref.samples_1ps * drive->ts_s, 0.999f, 1.001f);
 }
 
-void near_optimal_reset(near_optimal_t *s, const near_optimal_config_t *c, float omega_e_radps)
+CTL_PART void near_optimal_reset(near_optimal_t *s, const near_optimal_config_t *c,
+                                 float omega_e_radps)
 {
     speed_ref_reset(&s->speed_ref, omega_e_radps);
     current_ref_reset(&s->current_ref, &c->current_ref);
@@ -115,9 +116,9 @@ static float shared_error(near_optimal_t *s, float e_w, float asked, float allow
     return share * e_w;
 }
 
-nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *c,
-                                const drive_config_t *drive, const near_optimal_view_t *view,
-                                const law_input_t *in)
+CTL_PART nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *c,
+                                         const drive_config_t      *drive,
+                                         const near_optimal_view_t *view, const law_input_t *in)
 {
     update_references(s, c, drive, view, in);
 
@@ -134,33 +135,32 @@ nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *
     return limited;
 }
 
-/* EQ-DRIVE-1 */
-static dq_t wanted_V(const near_optimal_t *s, const motor_reduced_t *m,
-                     const near_optimal_view_t *view, const nosc_error_t *e, dq_t feedback_V)
+/* EQ-FEEDFORWARD-1, 2 for the reference as far as it is followed. */
+static dq_t forward_V(const near_optimal_t *s, const motor_reduced_t *m,
+                      const near_optimal_view_t *view, const nosc_error_t *e)
 {
-    /* The reference as far as it is followed. */
-    const float w_d  = view->now.omega_e_radps - e->omega_e_radps;
-    const dq_t  ff_V = feedforward_V(m, &s->current_ref, w_d, &view->now, view->est);
-    const dq_t  u_V  = {.d = feedback_V.d + ff_V.d, .q = feedback_V.q + ff_V.q};
-    return u_V;
+    const float w_d = view->now.omega_e_radps - e->omega_e_radps;
+
+    return feedforward_V(m, &s->current_ref, w_d, &view->now, view->est);
 }
 
-/* EQ-VOLTAGE-2: the voltage that holds the currents asked for, and one pull for both axes. */
+/* EQ-VOLTAGE-2: the voltage that holds the currents asked for (EQ-NOSC-3), and one pull for both axes. Written as what it has
+ * beyond the feed-forward, with a the q current that the errors ask for (EQ-POSITION-4) and x_q the way to it:
+ *
+ *     u_q = ff_q + (l5 e_w - l4 a - l10 w e_d) / l6 - k x_q,   u_d = ff_d + w x_q / l6 - k l10 e_d,   x_q = e_q + a
+ */
 static dq_t out_of_reach_V(const near_optimal_t *s, const near_optimal_config_t *c,
-                           const motor_reduced_t *m, const near_optimal_view_t *view,
-                           const nosc_error_t *e)
+                           const motor_reduced_t *m, float w, const nosc_error_t *e, dq_t ff_V)
 {
-    const nosc_gains_t *g      = near_optimal_gains(s, c);
-    current_ref_t       target = s->current_ref;
-    target.i_A.q -= g->speed_A_per_radps * asking_e_radps(s, c, e->omega_e_radps); /* EQ-NOSC-3 */
+    const nosc_gains_t *g     = near_optimal_gains(s, c);
+    const float         k     = nosc_current_gain(g);
+    const float         ask_A = g->speed_A_per_radps * asking_e_radps(s, c, e->omega_e_radps);
+    const float         x_q   = e->iq_A + ask_A;
+    const float         x_d   = m->l10 * e->id_A;
+    const float         of_w  = (m->l5 * e->omega_e_radps) - (m->l4 * ask_A);
 
-    const nodo_meas_t held = {
-        .omega_e_radps = view->now.omega_e_radps, .iq_A = target.i_A.q, .id_A = target.i_A.d};
-    const dq_t  hold_V   = feedforward_V(m, &target, held.omega_e_radps, &held, view->est);
-    const float pull_1ps = nosc_current_gain(g) * m->l6;
-
-    const dq_t u_V = {.d = hold_V.d - (pull_1ps * m->inv_l8 * (view->now.id_A - held.id_A)),
-                      .q = hold_V.q - (pull_1ps * m->inv_l6 * (view->now.iq_A - held.iq_A))};
+    const dq_t u_V = {.d = ff_V.d + (m->inv_l6 * w * x_q) - (k * x_d),
+                      .q = ff_V.q + (m->inv_l6 * (of_w - (w * x_d))) - (k * x_q)};
     return u_V;
 }
 
@@ -180,18 +180,21 @@ static dq_t clamped_V(const near_optimal_config_t *c, const motor_reduced_t *m,
     return (same || voltage_is_outside(held, in->sample->dc_link_V)) ? u_V : held;
 }
 
-void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c,
-                         const motor_reduced_t *m, const near_optimal_view_t *view,
-                         const nosc_error_t *e, dq_t feedback_V, const law_input_t *in,
-                         law_output_t *out)
+CTL_PART void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c,
+                                  const motor_reduced_t *m, const near_optimal_view_t *view,
+                                  const nosc_error_t *e, dq_t feedback_V, const law_input_t *in,
+                                  law_output_t *out)
 {
     const float dc_link_V = in->sample->dc_link_V;
-    const dq_t  u_V       = wanted_V(s, m, view, e, feedback_V);
-    const bool  reached   = !voltage_is_outside(u_V, dc_link_V);
+    const dq_t  ff_V      = forward_V(s, m, view, e);
+    dq_t        u_V     = {.d = feedback_V.d + ff_V.d, .q = feedback_V.q + ff_V.q}; /* EQ-DRIVE-1 */
+    bool        reached = !voltage_is_outside(u_V, dc_link_V);
 
-    const dq_t any_V = reached ? u_V : out_of_reach_V(s, c, m, view, e);
-
-    out->v_V             = clamped_V(c, m, view, any_V, !voltage_is_outside(any_V, dc_link_V), in);
+    if (!reached) {
+        u_V     = out_of_reach_V(s, c, m, view->now.omega_e_radps, e, ff_V);
+        reached = !voltage_is_outside(u_V, dc_link_V);
+    }
+    out->v_V             = clamped_V(c, m, view, u_V, reached, in);
     out->theta_rad       = view->theta_rad;
     out->now             = view->now;
     out->i_ref_A         = s->current_ref.i_A;

@@ -42,10 +42,11 @@ typedef struct {
 } near_optimal_view_t;
 
 /** true when all constants are in range, current limit and sampling rate those of the drive. Context: init. */
-bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *drive);
+CTL_PART bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *drive);
 
 /** References start at the present speed without current. */
-void near_optimal_reset(near_optimal_t *s, const near_optimal_config_t *c, float omega_e_radps);
+CTL_PART void near_optimal_reset(near_optimal_t *s, const near_optimal_config_t *c,
+                                 float omega_e_radps);
 
 /** For law_t.counts_ok. */
 static inline bool near_optimal_counts_ok(const near_optimal_config_t *c)
@@ -68,9 +69,9 @@ static inline const nosc_gains_t *near_optimal_gains(const near_optimal_t       
  * Context: control ISR. The cost of speed_ref_update() or position_ref_update(), and of current_ref_update(); in a position run
  * at the limits one more division.
  */
-nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *c,
-                                const drive_config_t *drive, const near_optimal_view_t *view,
-                                const law_input_t *in);
+CTL_PART nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *c,
+                                         const drive_config_t      *drive,
+                                         const near_optimal_view_t *view, const law_input_t *in);
 
 /**
  * @brief Feedback plus feed-forward, EQ-DRIVE-1, with all that a law answers.
@@ -80,10 +81,10 @@ nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *
  *
  * Context: control ISR. Outside the circle a division and a square root, beyond the current limit one more of each.
  */
-void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c,
-                         const motor_reduced_t *m, const near_optimal_view_t *view,
-                         const nosc_error_t *e, dq_t feedback_V, const law_input_t *in,
-                         law_output_t *out);
+CTL_PART void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c,
+                                  const motor_reduced_t *m, const near_optimal_view_t *view,
+                                  const nosc_error_t *e, dq_t feedback_V, const law_input_t *in,
+                                  law_output_t *out);
 
 /**
  * @brief Both, with the feedback of nosc.h between them: the rest of a period after the observer.

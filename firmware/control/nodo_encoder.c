@@ -4,10 +4,10 @@
 #include "check.h"
 
 enum { ROW_THETA = NODO_N_X };
-enum { COLUMN_IQ, COLUMN_ID, COLUMN_THETA };
+enum { OF_IQ, OF_ID, OF_THETA }; /* columns */
 
-void nodo_encoder_correct(nodo_t *x, float *theta_rad, const nodo_encoder_gains_t *g, dq_t i_A,
-                          float angle_error, float ts_s)
+CTL_PART void nodo_encoder_correct(nodo_t *x, float *theta_rad, const nodo_encoder_gains_t *g,
+                                   dq_t i_A, float angle_error, float ts_s)
 {
     const float       iq_A  = base_clamp(x->iq_A, -g->iq_max_A, g->iq_max_A);
     float             theta = *theta_rad;
@@ -19,13 +19,13 @@ void nodo_encoder_correct(nodo_t *x, float *theta_rad, const nodo_encoder_gains_
     for (int16_t n = 0; n <= g->order; n = (int16_t)(n + 2)) {
         const float(*l)[NODO_ENCODER_N_Y] = g->gain[n];
 
-        nodo_add_even(&sum, l, COLUMN_ID, &r);
-        theta += (l[ROW_THETA][COLUMN_IQ] * r.odd[0]) + (l[ROW_THETA][COLUMN_THETA] * r.odd[1]);
+        nodo_add_even(&sum, l, OF_ID, &r);
+        theta += (l[ROW_THETA][OF_IQ] * r.odd[0]) + (l[ROW_THETA][OF_THETA] * r.odd[1]);
         if (n < g->order) {
             l = g->gain[n + 1];
             r = nodo_next_power(r, iq_A);
-            nodo_add_odd(&sum, l, COLUMN_ID, &r);
-            theta += l[ROW_THETA][COLUMN_ID] * r.id;
+            nodo_add_odd(&sum, l, OF_ID, &r);
+            theta += l[ROW_THETA][OF_ID] * r.id;
             r = nodo_next_power(r, iq_A);
         }
     }
@@ -50,8 +50,8 @@ static inline rate_t rates(const motor_reduced_t *m, float w, float iq, float id
     return f;
 }
 
-void nodo_encoder_predict(nodo_t *x, float *theta_rad, const motor_reduced_t *m, dq_t v_V,
-                          float ts_s)
+CTL_PART void nodo_encoder_predict(nodo_t *x, float *theta_rad, const motor_reduced_t *m, dq_t v_V,
+                                   float ts_s)
 {
     const float  half_s = 0.5f * ts_s;
     const rate_t u      = {.omega_dot_e_radps2 = x->d_omega,
@@ -83,14 +83,14 @@ static bool rows_check(const float row[][NODO_ENCODER_N_Y])
     return ok;
 }
 
-bool nodo_encoder_check(const nodo_encoder_gains_t *g)
+CTL_PART bool nodo_encoder_check(const nodo_encoder_gains_t *g)
 {
     const bool order_ok = (g->order >= 0) && (g->order <= NODO_ORDER_MAX);
     bool       ok       = check_positive(g->iq_max_A) && order_ok;
 
     for (int16_t n = 0; ok && (n <= g->order); n++) {
         ok = rows_check(g->gain[n]) &&
-             nodo_parity_check(g->gain[n], NODO_ENCODER_N_X, ((uint16_t)n & 1U) == 0U, COLUMN_ID);
+             nodo_parity_check(g->gain[n], NODO_ENCODER_N_X, ((uint16_t)n & 1U) == 0U, OF_ID);
     }
     return ok;
 }

@@ -29,7 +29,7 @@ typedef struct {
 } nodo_encoder_gains_t;
 
 /** true when every constant is finite and within its documented range. Context: init. */
-bool nodo_encoder_check(const nodo_encoder_gains_t *g);
+CTL_PART bool nodo_encoder_check(const nodo_encoder_gains_t *g);
 
 /**
  * @brief EQ-NODO-ENCODER-1.
@@ -43,15 +43,15 @@ bool nodo_encoder_check(const nodo_encoder_gains_t *g);
  *
  * Context: control ISR. No division, 15 (Nd+1) + 3 multiplications at most.
  */
-void nodo_encoder_correct(nodo_t *x, float *theta_rad, const nodo_encoder_gains_t *g, dq_t i_A,
-                          float angle_error, float ts_s);
+CTL_PART void nodo_encoder_correct(nodo_t *x, float *theta_rad, const nodo_encoder_gains_t *g,
+                                   dq_t i_A, float angle_error, float ts_s);
 
 /**
  * @brief EQ-NODO-ENCODER-2: one period ahead with the voltage in force.
  *
  * Context: control ISR. No division, 28 multiplications.
  */
-void nodo_encoder_predict(nodo_t *x, float *theta_rad, const motor_reduced_t *m, dq_t v_V,
-                          float ts_s);
+CTL_PART void nodo_encoder_predict(nodo_t *x, float *theta_rad, const motor_reduced_t *m, dq_t v_V,
+                                   float ts_s);
 
 #endif /* NODO_ENCODER_H */

@@ -33,7 +33,7 @@ static dq_t odd_terms_V(dq_t sum_V, const float l[NOSC_N_U][NOSC_N_E], float eiq
     return next_V;
 }
 
-dq_t nosc_feedback_V(const nosc_gains_t *g, const nosc_error_t *e)
+CTL_PART dq_t nosc_feedback_V(const nosc_gains_t *g, const nosc_error_t *e)
 {
     const float eiq_A = base_clamp(e->iq_A, -g->iq_error_max_A, g->iq_error_max_A);
     int16_t     n     = g->order;
@@ -65,7 +65,7 @@ static bool quotients_ok(const nosc_gains_t *g)
             ((g->speed_A_per_radps <= 0.0f) && (g->speed_radps_per_A <= 0.0f)));
 }
 
-bool nosc_check(const nosc_gains_t *g)
+CTL_PART bool nosc_check(const nosc_gains_t *g)
 {
     const bool order_ok = (g->order >= 0) && (g->order <= NOSC_ORDER_MAX);
     bool       ok       = check_positive(g->iq_error_max_A) && check_positive(g->iq_speed_max_A) &&

@@ -41,7 +41,7 @@ static inline bool nosc_order_ok(const nosc_gains_t *g)
 }
 
 /** true when every constant is finite and within its documented range. Context: init. */
-bool nosc_check(const nosc_gains_t *g);
+CTL_PART bool nosc_check(const nosc_gains_t *g);
 
 /* Inline, because a call costs more than the arithmetic. */
 
@@ -100,6 +100,6 @@ static inline nosc_error_t nosc_limit_speed_error(const nosc_gains_t *g, nosc_er
  *
  * Context: control ISR. Pure, no division, 5 (N+1) multiply-adds.
  */
-dq_t nosc_feedback_V(const nosc_gains_t *g, const nosc_error_t *e);
+CTL_PART dq_t nosc_feedback_V(const nosc_gains_t *g, const nosc_error_t *e);
 
 #endif /* NOSC_H */

@@ -29,14 +29,14 @@ static abc_t duty_of(const phases_t *p, float inv_V)
     return duty;
 }
 
-abc_t svpwm_duty(ab_t v_V, float v_dc_V)
+CTL_PART abc_t svpwm_duty(ab_t v_V, float v_dc_V)
 {
     const phases_t phases = phases_of(v_V);
 
     return duty_of(&phases, 1.0f / v_dc_V);
 }
 
-svpwm_t svpwm_within(ab_t v_V, float v_dc_V)
+CTL_PART svpwm_t svpwm_within(ab_t v_V, float v_dc_V)
 {
     const phases_t phases  = phases_of(v_V);
     const bool     outside = phases.spread_V > v_dc_V;

@@ -24,7 +24,7 @@
  *
  * Context: control ISR. One division.
  */
-abc_t svpwm_duty(ab_t v_V, float v_dc_V);
+CTL_PART abc_t svpwm_duty(ab_t v_V, float v_dc_V);
 
 /** What the inverter can produce of a vector. */
 typedef struct {
@@ -37,6 +37,6 @@ typedef struct {
  *
  * Context: control ISR. One division.
  */
-svpwm_t svpwm_within(ab_t v_V, float v_dc_V);
+CTL_PART svpwm_t svpwm_within(ab_t v_V, float v_dc_V);
 
 #endif /* SVPWM_H */

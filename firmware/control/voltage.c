@@ -5,7 +5,8 @@
 
 #include "svpwm.h"
 
-voltage_t voltage_produce(dq_t u_V, frames_angle_t angle, float dc_link_V, bool overmodulation)
+CTL_PART voltage_t voltage_produce(dq_t u_V, frames_angle_t angle, float dc_link_V,
+                                   bool overmodulation)
 {
     const bool  round    = !overmodulation && voltage_is_outside(u_V, dc_link_V);
     const float circle   = round ? (dc_link_V * BASE_1_SQRT3 / sqrtf(voltage_square(u_V))) : 1.0f;

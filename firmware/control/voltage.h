@@ -51,6 +51,7 @@ typedef struct {
  *
  * Context: control ISR. One division; outside the circle, where that is the reach, one more and a square root.
  */
-voltage_t voltage_produce(dq_t u_V, frames_angle_t angle, float dc_link_V, bool overmodulation);
+CTL_PART voltage_t voltage_produce(dq_t u_V, frames_angle_t angle, float dc_link_V,
+                                   bool overmodulation);
 
 #endif /* VOLTAGE_H */

@@ -52,13 +52,19 @@ Found examine_point(const LoopFamily &family, const Drive &drive, const Operatin
     return found;
 }
 
+bool is_same(const Eigen::MatrixXd &a, const Eigen::MatrixXd &b)
+{
+    return a.rows() == b.rows() && a == b;
+}
+
 double radius_of(const LoopFamily &family, const Motor &motor)
 {
     double worst = 0.0;
     for (const OperatingPoint &at : family.box_points) {
         const std::vector<BrokenLoop> loops = family.loops(motor, at);
         for (std::size_t i = 0; i < loops.size(); i++) {
-            if (i == 0 || loops[i].A != loops[i - 1].A) { // most are one loop, broken elsewhere
+            if (i == 0 ||
+                !is_same(loops[i].A, loops[i - 1].A)) { // most are one loop, broken elsewhere
                 worst = std::max(worst, spectral_radius(loops[i].A));
             }
         }

@@ -51,8 +51,8 @@ PositionSpec read_position(TomlReader t)
     spec.Q = last_of<4>(t.numbers("Q", {4}, state_weight));
     spec.T = last_of<2>(t.numbers("T", {2}, input_weight));
     if (!(spec.Q[0] >= acts.lo)) {
-        t.fail("Q", fmt::format("[0] = {:g} is not allowed: must be {:g} .. {:g}", spec.Q[0],
-                                acts.lo, acts.hi));
+        t.fail("Q[0]", fmt::format("= {:g} is not allowed: must be {:g} .. {:g}", spec.Q[0],
+                                   acts.lo, acts.hi));
     }
     t.reject_unknown_keys();
     return spec;

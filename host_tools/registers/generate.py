@@ -99,6 +99,8 @@ def python_text(groups: List[Group], found: List[Signal]) -> str:
         lines.append("")
     for space in ("holding", "input"):
         lines.append(f"{space.upper()} = (" + ", ".join("*" + g.name.upper() for g in groups if g.space == space) + ")")
+    blocks = [g.name.upper() for g in groups if any(r.saved for r in g.registers)]
+    lines += ["", "# Blocks that hold parameters.", f"PARAMETER_BLOCKS = ({', '.join(blocks)},)"]
     lines += ["", "BY_NAME = {r.name: r for r in (*HOLDING, *INPUT)}", "", "PARAMETERS: Tuple[Parameter, ...] = ("]
     lines += [f'    Parameter(BY_NAME["{r.name}"], {r.range[0]!r}, {r.range[1]!r}, {None if r.default == "largest" else float(r.default)!r}, '
               f'{r.stopped}, "{r.object}", {json.dumps(r.text)}),' for r in saved(groups)]  # fmt: skip

@@ -91,7 +91,7 @@ template <typename Core> std::vector<sdre::PlantState> run(const sdre::Scenario 
         const double t = static_cast<double>(k) * ts;
         board.begin_tick(t);
         const drive_sample_t  sample  = board.sample();
-        const drive_command_t command = {static_cast<float>(reference.at(t)), true, 0.0F};
+        const drive_command_t command = {static_cast<float>(reference.at(t)), true, 0.0F, nullptr};
         const bridge_t        out     = core.tick(sample, command);
         states.push_back(board.plant_state());
         EXPECT_TRUE(out.gate_enable) << t;

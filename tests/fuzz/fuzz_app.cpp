@@ -89,7 +89,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     app_config_t config    = board_config;
     config.boot_ticks      = 2; // an input is short
     config.calibrate_ticks = 8;
+    fake_board_erase_store();
     require(app_init(&config, &gain_tables_drive) == CTL_OK);
+    app_take_parameters(APP_PARAMETERS_NOT_ASKED);
     fake_board.tick = app_tick;
     while (in.any()) {
         const std::uint8_t what = in.octet();

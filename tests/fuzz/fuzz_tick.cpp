@@ -100,6 +100,16 @@ void spoil(fuzz::Bytes &in, int which, drive_sample_t &s, drive_command_t &comma
     }
 }
 
+/// Any bits as a target, mostly plausible limits; where the shaft is said to be stays where it was.
+position_command_t any_position(fuzz::Bytes &in)
+{
+    position_command_t p{};
+    p.target.turns       = static_cast<std::int16_t>(in.word());
+    p.target.theta_e_rad = 3.2F * in.share();
+    p.profile = {1e3F * in.share(), 1e4F * in.share(), 1e4F * in.share(), 1e6F * in.share()};
+    return p;
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size)
@@ -107,7 +117,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     fuzz::Bytes           in(data, size);
     const drive_config_t &config = config_of(in.octet() % (tables.size() + names.size()));
     drive_t               drive{};
-    drive_command_t       command{0.0F, true, 0.0F};
+    drive_command_t       command{0.0F, true, 0.0F, nullptr};
+    position_command_t    position{};
     Rotor                 rotor;
     require(drive_init(&drive, &config) == CTL_OK);
     while (in.any()) {
@@ -119,7 +130,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
             rotor.i_A = config.current_max_A * in.share();
             break;
         case 1:
-            command = {config.speed_max_e_radps * in.share(), (what & 15U) != 0U, 0.0F};
+            command = {config.speed_max_e_radps * in.share(), (what & 15U) != 0U, 0.0F, nullptr};
+            if ((what & 32U) != 0U && config.positions) {
+                position         = any_position(in);
+                command.position = &position;
+            }
             break;
         case 2:
             spoil(in, (what & 63) % 11, s, command);
@@ -127,7 +142,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
         default:
             if (drive.state == DRIVE_FAULT) {
                 drive_reset(&drive);
-                command = {0.0F, true, 0.0F};
+                command = {0.0F, true, 0.0F, nullptr};
                 rotor   = Rotor();
             }
         }

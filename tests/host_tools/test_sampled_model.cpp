@@ -102,7 +102,7 @@ public:
             throw std::runtime_error("refused");
         }
         plant_.reset(omega, theta);
-        command_ = {static_cast<float>(omega), true, 0.0F};
+        command_ = {static_cast<float>(omega), true, 0.0F, nullptr};
     }
 
     /// One control period; false when the drive has tripped.

@@ -14,8 +14,8 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 FAST_RTS = "rts2800_fpu32_fast_supplement_eabi.lib"
-TICK = ["app.c", "app_angle.c", "app_control.c", "app_gate.c", "app_modes.c", "app_record.c", "app_scale.c", "app_scope.c",
-        "app_scope_signals.c", "app_states.c", "app_stop.c", "app_watch_heat.c", "adc.c", "clock.c",
+TICK = ["app.c", "app_angle.c", "app_control.c", "app_gate.c", "app_modes.c", "app_record.c", "app_scale.c", "app_states.c",
+        "app_watch_heat.c", "adc.c", "clock.c",
         "control_isr.c", "cycles.c", "encoder.c", "flash.c", "pie.c", "pwm.c", "flash_store.c", "tick_watch.c", "trip.c"]
 
 

@@ -25,12 +25,16 @@ void prove_gate(void)
     drive.wanted.predicted      = any_bool();
     config.law                  = &any_law;
     config.overmodulation       = any_bool();
+    config.positions            = any_bool();
+    drive.wanted.arrived        = any_bool();
+    drive.wanted.waits          = any_bool();
 
     const drive_state_t before  = drive.state;
     drive_sample_t      sample  = any_sample;
     drive_command_t     command = any_command;
     sample.valid                = any_bool();
     command.run                 = any_bool();
+    command.position            = NULL; /* of another law's inside */
 
     const bridge_t out = drive_tick(&drive, &sample, &command);
 

@@ -13,16 +13,18 @@ typedef NAMED(NAMED(law_, PROVE_LAW), _config_t) constants_t;
 typedef NAMED(NAMED(law_, PROVE_LAW), _state_t) state_t;
 
 /* The analyser reads any bits from what is volatile; in what is not it starts with any value of its type. */
-volatile int             any_int;
-volatile float           any_float;
-volatile constants_t     any_constants;
-volatile state_t         any_state;
-volatile drive_t         any_drive_bits;
-volatile drive_sample_t  any_sample;
-volatile drive_command_t any_command;
-drive_config_t           config;
-constants_t              constants;
-drive_t                  drive;
+volatile int                any_int;
+volatile float              any_float;
+volatile int32_t            any_turn;
+volatile constants_t        any_constants;
+volatile state_t            any_state;
+volatile drive_t            any_drive_bits;
+volatile drive_sample_t     any_sample;
+volatile drive_command_t    any_command;
+volatile position_command_t any_position;
+drive_config_t              config;
+constants_t                 constants;
+drive_t                     drive;
 
 static int any_between(int lo, int hi)
 {
@@ -31,12 +33,22 @@ static int any_between(int lo, int hi)
     return (x < lo) ? lo : ((x > hi) ? hi : x);
 }
 
+/* What position.h keeps turns in. */
+static int32_t any_turns(void)
+{
+    const int32_t x = any_turn;
+
+    return (x < -POSITION_TURNS_MAX) ? -POSITION_TURNS_MAX
+                                     : ((x > POSITION_TURNS_MAX) ? POSITION_TURNS_MAX : x);
+}
+
 /* Constants. */
 
 static void any_near_optimal(near_optimal_config_t *c)
 {
     c->current_ref.mtpa_exact = any_between(0, 1);
     c->nosc.order             = any_between(0, NOSC_ORDER_MAX);
+    c->position.nosc.order    = any_between(0, NOSC_ORDER_MAX);
 }
 
 static void any_config(void)
@@ -67,6 +79,7 @@ static void any_config(void)
 #error "which law?"
 #endif
     config.overmodulation = any_between(0, 1);
+    config.positions      = any_between(0, 1);
     config.law            = &NAMED(law_, PROVE_LAW);
     config.constants      = &constants;
 }
@@ -78,6 +91,13 @@ static void any_drive(void)
     state_t state = any_state;
 
     drive = any_drive_bits;
+#if defined PROVE_noc || defined PROVE_noc_speed || defined PROVE_noc_h ||                         \
+    defined                                                 PROVE_conventional
+    state.near_optimal.positioning = any_between(0, 1);
+    state.near_optimal.position_ref.arrived = any_between(0, 1);
+    state.near_optimal.position_ref.waits = any_between(0, 1);
+    state.near_optimal.position_ref.at.turns = any_turns();
+#endif
 #if defined PROVE_noc || defined PROVE_noc_h
     state.edges.edge[0] = any_between(0, ENCODER_FORM_EDGES);
     state.edges.edge[1] = any_between(0, ENCODER_FORM_EDGES);
@@ -105,6 +125,8 @@ static void any_drive(void)
     drive.wanted.without_angle  = any_between(0, 1);
     drive.v_limited             = any_between(0, 1);
     drive.wanted.predicted      = any_between(0, 1);
+    drive.wanted.arrived        = any_between(0, 1);
+    drive.wanted.waits          = any_between(0, 1);
     drive.current_gate.jumped   = any_between(0, 1);
     drive.current_watch.expects = any_between(0, 1);
     drive.current_watch.models  = any_between(0, 1);
@@ -139,6 +161,9 @@ void prove_tick(void)
     drive_command_t command = any_command;
     sample.valid            = any_between(0, 1);
     command.run             = any_between(0, 1);
+
+    position_command_t position = any_position;
+    command.position            = any_between(0, 1) ? &position : NULL;
 
     bridge_t out;
 #if defined PROVE_dobc

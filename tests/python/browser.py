@@ -48,8 +48,7 @@ class Browser:
         self._reader = asyncio.create_task(self._read())
         for domain in ("Page", "Runtime", "Log"):
             await self.call(f"{domain}.enable")
-        await self.call("Emulation.setDeviceMetricsOverride", width=self.size[0], height=self.size[1],
-                        deviceScaleFactor=1, mobile=False)  # fmt: skip
+        await self.resize(*self.size)
         await self.call("Page.navigate", url=self.address)
         return self
 
@@ -105,6 +104,10 @@ class Browser:
                 return value
             await asyncio.sleep(0.1)
         raise AssertionError(f"never true: {text}; the page: {await self.script('document.body.innerText')}")
+
+    async def resize(self, width: int, height: int) -> None:
+        """The window, for what follows."""
+        await self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
 
     async def picture(self, file: Path) -> None:
         """What is to be seen."""

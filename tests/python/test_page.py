@@ -103,16 +103,51 @@ async def use(address: str, pictures: str) -> None:
         await page.until(f"/\\bdone\\b/.test({TEXT})", 60.0)
         await page.until(f"document.querySelectorAll('canvas').length == 2 && {SCOPE_DRAWN} > 300", 20.0)
         if pictures:
-            await page.picture(Path(pictures) / "page.png")
-            await page.script("document.querySelectorAll('canvas')[1].scrollIntoView() || true")
+            await page.resize(1280, 1570)  # traces and scope
             await asyncio.sleep(0.5)
-            await page.picture(Path(pictures) / "page_scope.png")
-            await page.script("window.scrollTo(0, 0) || true")
+            await page.picture(Path(pictures) / "page.png")
+            await page.resize(1280, 860)
         await page.script(f"{CLICK}('break it')")
         await page.until(f"{TEXT}.includes('FAULT') && {TEXT}.includes('Look at:')")
         if pictures:
             await page.picture(Path(pictures) / "page_fault.png")
         assert page.errors == []
+
+
+FIELD = """(name => [...document.querySelectorAll('.q-expansion-item')].find(e => e.innerText.includes('Parameters'))
+  .querySelectorAll('input')[name])"""
+
+
+async def use_parameters(address: str, pictures: str) -> None:
+    """What a user does; the window is the ninth of them, 5 rad/s by default."""
+    async with Browser(address, 1280, 1100) as page:
+        await page.until(f"document.querySelector('canvas') !== null && {TEXT}.includes('READY')", 60.0)
+        await page.script("[...document.querySelectorAll('.q-expansion-item .q-item')].at(-1).click()")
+        await page.until(f"{TEXT}.includes('SPEED_WINDOW') && {TEXT}.includes('nothing is stored')")
+        await page.until(f"Number({FIELD}(8).value) == 5")
+        await page.script(f"{CLICK}('save')")  # not armed: nothing
+        await page.script("document.querySelector('.q-toggle').click()")
+        await page.until("[...document.querySelectorAll('button')].every(b => !b.disabled)")
+        await page.script(f"(f => {{ f.focus(); f.select(); return true }})({FIELD}(8))")
+        await page.call("Input.insertText", text="6.5")
+        await page.script(f"{FIELD}(8).blur() || true")
+        await asyncio.sleep(0.5)
+        await page.script(f"{CLICK}('write')")
+        await page.until("document.querySelector('.bg-amber-2') !== null")  # read back: not the default
+        if pictures:
+            await page.script("window.scrollTo(0, 1e6) || true")
+            await page.picture(Path(pictures) / "page_params.png")
+        await page.script(f"{CLICK}('save')")
+        await page.until(f"{TEXT}.includes('as stored, writing 1')", 60.0)
+        assert await page.script(f"{FIELD}(8).value") == "6.5"
+        await page.script(f"{CLICK}('defaults')")
+        await page.until(f"{TEXT}.includes('nothing is stored') && Number({FIELD}(8).value) == 5", 60.0)
+        assert page.errors == []
+
+
+@pytest.mark.skipif(not browser.path(), reason="there is no Chromium")
+def test_the_parameters_on_the_page(address: str) -> None:
+    asyncio.run(use_parameters(address, os.environ.get("SDRE_PICTURES", "")))
 
 
 @pytest.mark.skipif(not browser.path(), reason="there is no Chromium")

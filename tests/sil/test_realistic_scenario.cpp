@@ -283,7 +283,7 @@ TEST(RealisticScenario, PiFocHoldsTheSpeed)
     for (int k = 0; k < 4000; k++) {
         board.begin_tick(2e-4 * k);
         const drive_sample_t  sample  = board.sample();
-        const drive_command_t command = {300.0F, true, 0.0F};
+        const drive_command_t command = {300.0F, true, 0.0F, nullptr};
         const bridge_t        out     = pi_foc_tick(&pi, &sample, &command);
         board.run_period(in_force);
         in_force = out;

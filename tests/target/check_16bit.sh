@@ -86,6 +86,7 @@ esac
 
 self_test
 check firmware/control "${includes[@]}"
+check firmware/one_unit "${includes[@]}"
 check firmware/config "${includes[@]}"
 check firmware/commission "${includes[@]}"
 check firmware/app "${includes[@]}"

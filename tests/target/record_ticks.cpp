@@ -31,11 +31,15 @@ std::uint32_t flag(bool set, std::uint32_t bit)
     return set ? bit : 0U;
 }
 
-tick_file_tick_t file_tick(const drive_t &d, const drive_sample_t &s, const drive_command_t &c,
-                           const bridge_t &law, const bridge_t &pi)
+tick_file_tick_t file_tick(const sdre::Recording &recording, std::size_t k, const bridge_t &pi)
 {
+    const drive_sample_t  &s   = recording.samples[k];
+    const drive_command_t &c   = recording.commands[k];
+    const bridge_t        &law = recording.outputs[k];
+
     tick_file_tick_t t{};
-    t.drive           = tick_file_from_drive(&d);
+    t.drive           = tick_file_from_drive(&recording.drives[k]);
+    t.position        = recording.positions[k];
     t.ia_A            = s.ia_A;
     t.ib_A            = s.ib_A;
     t.dc_link_V       = s.dc_link_V;
@@ -49,6 +53,7 @@ tick_file_tick_t file_tick(const drive_t &d, const drive_sample_t &s, const driv
     t.duty            = law.duty;
     t.pi_duty         = pi.duty;
     t.flags           = flag(s.valid, TICK_FILE_VALID) | flag(c.run, TICK_FILE_RUN) |
+              flag(c.position != nullptr, TICK_FILE_POSITION) |
               flag(law.gate_enable, TICK_FILE_GATE) |
               static_cast<std::uint32_t>(s.edge_of_line) << TICK_FILE_EDGE_SHIFT;
     return t;
@@ -98,10 +103,8 @@ void write_run(std::ofstream &file, std::uint32_t law, const std::filesystem::pa
     pi_foc_t pi{};
     pi_foc_init(&pi, &run.pi);
     for (std::size_t k = 0; k < recording.samples.size(); k++) {
-        const drive_sample_t  &sample  = recording.samples[k];
-        const drive_command_t &command = recording.commands[k];
-        put(file, file_tick(recording.drives[k], sample, command, recording.outputs[k],
-                            pi_foc_tick(&pi, &sample, &command)));
+        put(file, file_tick(recording, k,
+                            pi_foc_tick(&pi, &recording.samples[k], &recording.commands[k])));
     }
 }
 

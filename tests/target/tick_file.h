@@ -35,7 +35,7 @@ typedef union {
     law_noc_h_config_t     noc_h;
 } tick_file_constants_t;
 
-enum { TICK_FILE_VALID = 1, TICK_FILE_RUN = 2, TICK_FILE_GATE = 4 };
+enum { TICK_FILE_VALID = 1, TICK_FILE_RUN = 2, TICK_FILE_GATE = 4, TICK_FILE_POSITION = 8 };
 
 typedef struct {
     char     name[TICK_FILE_NAME_SIZE];
@@ -70,19 +70,20 @@ typedef struct {
  * back without its plant, so that a long replay would compare nothing.
  */
 typedef struct {
-    tick_file_drive_t drive;
-    float             ia_A;
-    float             ib_A;
-    float             dc_link_V;
-    float             theta_e_rad;
-    float             band_rad;
-    float             edge_gap_s;
-    float             edge_age_s;
-    float             omega_e_radps;
-    float             command_e_radps;
-    float             derating;
-    abc_t             duty;
-    abc_t             pi_duty;
+    tick_file_drive_t  drive;
+    position_command_t position; /**< with TICK_FILE_POSITION */
+    float              ia_A;
+    float              ib_A;
+    float              dc_link_V;
+    float              theta_e_rad;
+    float              band_rad;
+    float              edge_gap_s;
+    float              edge_age_s;
+    float              omega_e_radps;
+    float              command_e_radps;
+    float              derating;
+    abc_t              duty;
+    abc_t              pi_duty;
     uint32_t
         flags; /**< TICK_FILE_VALID, TICK_FILE_RUN, of the answer TICK_FILE_GATE, and the edge of the line */
 } tick_file_tick_t;

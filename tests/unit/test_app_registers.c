@@ -388,6 +388,24 @@ static void test_a_block_may_be_cut_anywhere(void)
     }
 }
 
+static void test_input_registers_are_read_as_holding_registers_too(void)
+{
+    uint16_t all[64];
+    uint16_t again[64];
+    registers.status.speed_e_radps = -1.5f;
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK,
+                          app_registers_read_input(&registers, 0U, APP_REGISTERS_LIVE_END, all));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, app_registers_read_holding(
+                                                &registers, 4096U, APP_REGISTERS_LIVE_END, again));
+    TEST_ASSERT_EQUAL_HEX16_ARRAY(all, again, APP_REGISTERS_LIVE_END);
+    TEST_ASSERT_EQUAL_INT(
+        APP_REGISTERS_BAD_ADDRESS,
+        app_registers_read_holding(&registers, 4096U, APP_REGISTERS_LIVE_END + 1U, again));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_ADDRESS, write(4096, 0));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_ADDRESS,
+                          app_registers_read_holding(&registers, 4095U, 2U, again));
+}
+
 static void test_conditions_reset_and_phase_errors(void)
 {
     registers.status.dc_link_out = true;
@@ -549,6 +567,7 @@ int main(void)
     RUN_TEST(test_constants_of_the_drive_are_told);
     RUN_TEST(test_a_block_may_be_cut_anywhere);
     RUN_TEST(test_half_of_a_value_is_not_written);
+    RUN_TEST(test_input_registers_are_read_as_holding_registers_too);
     RUN_TEST(test_conditions_reset_and_phase_errors);
     RUN_TEST(test_limits_and_heat_are_told);
     RUN_TEST(test_blocks_that_do_not_exist_as_a_whole_are_refused);

@@ -73,10 +73,11 @@ static void test_rare_edges_are_those_further_apart_than_samples(void)
 }
 
 /* EQ-ENCODER-FORM-2 in double. */
-static void test_rare_edges_correct_as_their_time_allows(void)
+static void check_rare_edges(double one_k_d)
 {
     static const double gaps_s[] = {2.0e-4, 3.0e-4, 5.0e-4, 1.0e-3, 1.0e-2, 0.1, 1.0};
     static const float  speeds[] = {0.0f, 0.5f, -3.0f, 50.0f};
+    const double        most     = fmin(fmax(one_k_d * (double)TS_s * (double)TS_s, 0.15), 0.5);
     const double        count    = 2.0 * 2.0 * 3.141592653589793 / 10000.0;
     for (int i = 0; i < SUPPORT_COUNT(gaps_s) * SUPPORT_COUNT(speeds); i++) {
         const double gap    = gaps_s[i / SUPPORT_COUNT(speeds)];
@@ -91,14 +92,25 @@ static void test_rare_edges_correct_as_their_time_allows(void)
         const double share =
             (double)encoder_form_correct_rare(&x, &theta, &gains, -0.004f, (float)gap, TS_s);
 
-        const double k_d = share * 4.7e5;
+        const double k_d = share * one_k_d;
         const double k_w = (share * 1700.0) + ((w0 - (double)x.omega_e_radps) / 0.004);
         const double k_t = (share * 0.8) + ((0.3 - (double)theta) / 0.004);
-        TEST_ASSERT_DOUBLE_WITHIN(1.0e-5 * k_d, fmin(4.7e5 * ratio, 0.5 / (T * T)), k_d);
+        TEST_ASSERT_DOUBLE_WITHIN(1.0e-5 * k_d, fmin(one_k_d * ratio, most / (T * T)), k_d);
         TEST_ASSERT_DOUBLE_WITHIN(1.0e-2 + fabs(w0 * 1.0e-4), fmin(1700.0 * ratio, 1.0 / T), k_w);
         TEST_ASSERT_DOUBLE_WITHIN(1.0e-4, fmin(0.8 * ratio, 1.0), k_t);
         TEST_ASSERT_TRUE((x.iq_A == est.iq_A) && (x.id_A == est.id_A) && (x.d_q == est.d_q) &&
                          (x.d_d == est.d_d) && (x.d_omega == est.d_omega));
+    }
+}
+
+static void test_rare_edges_correct_as_their_time_allows(void)
+{
+    static const float k_d[] = {4.7e5f, 2.5e6f,
+                                3.0e7f}; /* below, within and beyond the range of s */
+
+    for (int i = 0; i < SUPPORT_COUNT(k_d); i++) {
+        gains.d_omega_1ps2 = k_d[i];
+        check_rare_edges((double)k_d[i]);
     }
 }
 

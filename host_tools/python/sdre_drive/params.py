@@ -73,7 +73,7 @@ def text_of(x: float) -> str:
 def read(drive: Drive) -> List[Value]:
     """All of them."""
     raw: Dict[str, float] = {}
-    for group in (register_map.COMMAND, register_map.LINE):
+    for group in register_map.PARAMETER_BLOCKS:
         raw.update(values(group, drive.holding(*block(group))))
     largest = drive.constants().current_max_A
     return [Value(p, raw[p.register.name], largest if p.default is None else p.default) for p in PARAMETERS]

@@ -201,6 +201,9 @@ CONSTANTS: Tuple[Register, ...] = (  # input
 HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET)
 INPUT = (*LIVE, *POSITION, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS)
 
+# Blocks that hold parameters.
+PARAMETER_BLOCKS = (COMMAND, LINE, TARGET,)
+
 BY_NAME = {r.name: r for r in (*HOLDING, *INPUT)}
 
 PARAMETERS: Tuple[Parameter, ...] = (

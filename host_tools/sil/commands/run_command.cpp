@@ -76,7 +76,7 @@ void write_outputs(const Options &o, const Scenario &scenario, const Trace &trac
         files.push_back({o.json, json});
     }
     if (!o.plot.empty()) {
-        files.push_back({o.plot, trace_picture(trace_csv(trace), title, o.plot)});
+        files.push_back({o.plot, trace_picture(scenario, trace, title, o.plot)});
     }
     if (!o.spectrum.empty()) {
         const std::string spectrum = spectrum_csv(scenario, trace);

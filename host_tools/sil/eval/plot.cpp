@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sil/eval/plot.hpp"
 
-#include <array>
 #include <cstdlib>
+#include <vector>
 
 #include <fmt/format.h>
 #include <spawn.h>
@@ -11,16 +11,20 @@
 
 #include "common/errors.hpp"
 #include "common/file_output.hpp"
+#include "common/json.hpp"
+#include "sil/eval/metrics.hpp"
+#include "sil/eval/results.hpp"
 
 namespace sdre {
 namespace {
 
-int run(const std::array<std::string, 5> &arguments)
+int run(const std::vector<std::string> &arguments)
 {
-    std::array<char *, 6> argv{};
-    for (std::size_t i = 0; i < arguments.size(); i++) {
-        argv[i] = const_cast<char *>(arguments[i].c_str()); // posix_spawn does not write to them
+    std::vector<char *> argv;
+    for (const std::string &argument : arguments) {
+        argv.push_back(const_cast<char *>(argument.c_str())); // posix_spawn does not write to them
     }
+    argv.push_back(nullptr);
     pid_t child  = 0;
     int   status = 0;
     if (posix_spawnp(&child, argv[0], nullptr, nullptr, argv.data(), environ) != 0 ||
@@ -60,18 +64,42 @@ private:
 };
 
 std::string drawn(const char *script, const std::string &csv, const std::string &title,
-                  const std::filesystem::path &picture)
+                  const std::filesystem::path &picture, const std::string &marks = {})
 {
     require_plot(picture);
     const Workplace             work;
     const std::filesystem::path data = work / "data.csv";
     const std::filesystem::path out  = work / ("picture" + picture.extension().string());
+    std::vector<std::string>    arguments{SDRE_PYTHON, std::string(SDRE_PLOT_SCRIPTS "/") + script,
+                                       data.string(), title, out.string()};
     write_files({{data, csv}});
-    if (run({SDRE_PYTHON, std::string(SDRE_PLOT_SCRIPTS "/") + script, data.string(), title,
-             out.string()}) != 0) {
+    if (!marks.empty()) {
+        arguments.push_back((work / "marks.json").string());
+        write_files({{arguments.back(), marks}});
+    }
+    if (run(arguments) != 0) {
         throw InputError(fmt::format("{}: cannot draw", picture.string()));
     }
     return read_text_file(out);
+}
+
+/// What the picture points out.
+std::string marks_of(const Scenario &scenario, const Trace &trace)
+{
+    Json       measures = Json::array();
+    const auto windows  = windows_of(scenario, trace);
+    const auto metrics  = measure(scenario, trace);
+    for (std::size_t i = 0; i < windows.size(); i++) {
+        Json one{{"name", metrics[i].name},
+                 {"time_s", metrics[i].time_s},
+                 {"end_s", (windows[i].end - 1)->time_s},
+                 {"dip_e_radps", metrics[i].dip_e_radps}};
+        if (metrics[i].settling_time_s) {
+            one["settling_time_s"] = *metrics[i].settling_time_s;
+        }
+        measures.push_back(one);
+    }
+    return Json{{"pole_pairs", scenario.drive.motor.pole_pairs}, {"measures", measures}}.text();
 }
 
 } // namespace
@@ -87,10 +115,10 @@ void require_plot(const std::filesystem::path &picture)
     }
 }
 
-std::string trace_picture(const std::string &csv, const std::string &title,
+std::string trace_picture(const Scenario &scenario, const Trace &trace, const std::string &title,
                           const std::filesystem::path &picture)
 {
-    return drawn("plot_trace.py", csv, title, picture);
+    return drawn("plot_trace.py", trace_csv(trace), title, picture, marks_of(scenario, trace));
 }
 
 std::string spectrum_picture(const std::string &csv, const std::string &title,

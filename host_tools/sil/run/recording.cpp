@@ -13,6 +13,8 @@ Recording record(const Scenario &scenario, const Controller &controller)
         const Simulation::CoreTick &tick = simulation.core_tick();
         r.samples.push_back(tick.sample);
         r.commands.push_back(tick.command);
+        r.positions.push_back(tick.command.position ? *tick.command.position
+                                                    : position_command_t{});
         r.outputs.push_back(tick.output);
         return end;
     });

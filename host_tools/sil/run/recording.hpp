@@ -11,10 +11,12 @@
 namespace sdre {
 
 struct Recording {
-    std::vector<drive_t>         drives; ///< the core before each tick
-    std::vector<drive_sample_t>  samples;
-    std::vector<drive_command_t> commands;
-    std::vector<bridge_t>        outputs; ///< what the core answered here
+    std::vector<drive_t>        drives; ///< the core before each tick
+    std::vector<drive_sample_t> samples;
+    std::vector<drive_command_t>
+        commands; ///< positions by pointer, which does not outlive the run:
+    std::vector<position_command_t> positions; ///< of each tick; zero where a speed is commanded
+    std::vector<bridge_t>           outputs;   ///< what the core answered here
 };
 
 /// One run of the scenario. DesignError when the core refuses the controller's constants.

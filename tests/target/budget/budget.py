@@ -66,7 +66,7 @@ class Costs:
         self.board = set(data["board"])
         self.library = set(data["library"]) | self.board
         self.interrupt = sum(data["interrupt"].values())
-        self.loops = data["loops"]
+        self.loops, self.loops_of = data["loops"], data["loops_of"]
         self.band = data["band"]
         self.of = {**data["cost"], **data["library"], **data["board"]}
         self.slow_division = data["without_fast_rts"]["fp_div"]
@@ -286,7 +286,8 @@ class Replay:
             compare(check, runs, results)
             check_counting(check, self.image, directory, self.table, self.steps, results)
             self.kinds, self.by_run = execute(law, self.image, directory, self.table, self.steps, runs, results)
-        self.bound = LongestPath(self.code, costs.library, costs.loops, costs.cycles).function("drive_tick")
+        loops = {**costs.loops, "step": costs.loops_of[law]}
+        self.bound = LongestPath(self.code, costs.library, loops, costs.cycles).function("drive_tick")
         dearest = max(worst.cycles for kind, worst in self.kinds.items() if kind != PLAIN)
         check(dearest <= costs.cycles(self.bound), "no tick costs more than the bound")
 

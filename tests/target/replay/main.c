@@ -45,9 +45,11 @@ static tick_file_result_t replay(const tick_file_tick_t *t)
         .edge_age_s    = t->edge_age_s,
         .valid         = (t->flags & TICK_FILE_VALID) != 0u,
         .edge_of_line  = (int16_t)((t->flags >> TICK_FILE_EDGE_SHIFT) & TICK_FILE_EDGE_MASK)};
-    const drive_command_t command = {.omega_e_radps = t->command_e_radps,
-                                     .run           = (t->flags & TICK_FILE_RUN) != 0u,
-                                     .derating      = t->derating};
+    const bool            positions = (t->flags & TICK_FILE_POSITION) != 0u;
+    const drive_command_t command   = {.omega_e_radps = t->command_e_radps,
+                                       .run           = (t->flags & TICK_FILE_RUN) != 0u,
+                                       .derating      = t->derating,
+                                       .position      = positions ? &t->position : NULL};
 
     tick_file_to_drive(&t->drive, &drive);
 

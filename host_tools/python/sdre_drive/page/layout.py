@@ -12,6 +12,7 @@ from sdre_drive import faults
 from sdre_drive.bench import FAULTS
 from sdre_drive.connection import DriveError
 from sdre_drive.faults import Entry
+from sdre_drive.page.params_card import ParamsCard
 from sdre_drive.page.scope_card import ScopeCard
 from sdre_drive.page.state import Watcher
 from sdre_drive.page.traces import Traces
@@ -45,7 +46,9 @@ class Page:
             with ui.column().classes("grow"):
                 self.traces = Traces(watcher, self.pole_pairs)
                 self.scope = ScopeCard(watcher, self._do)
-        self.scope.arm.bind_enabled_from(self.arm, "value")
+                self.params = ParamsCard(watcher, self._do)
+        for button in (self.scope.arm, *self.params.buttons):
+            button.bind_enabled_from(self.arm, "value")
         self.timer = ui.timer(REFRESH_S, self._refresh)
 
     def _commands(self) -> None:
@@ -125,6 +128,7 @@ class Page:
             self.load_words.set_text(f"load {truth['load_Nm']:.2f} N m, torque {truth['torque_Nm']:.2f} N m")
         self.traces.refresh()
         self.scope.refresh()
+        self.params.refresh()
 
     def _show_reasons(self, entries: List[Entry]) -> None:
         if entries == self.shown:

@@ -9,9 +9,10 @@ import time
 from collections import deque
 from typing import Any, Callable, Deque, Dict, List, NamedTuple, Optional, Tuple
 
-from sdre_drive import scope, session
+from sdre_drive import params, scope, session
 from sdre_drive.bench import Bench
 from sdre_drive.connection import Drive, DriveError, Target
+from sdre_drive.params import Stored, Value
 from sdre_drive.registers import Mode, Reading
 from sdre_drive.scope import Capture, Setup
 
@@ -47,6 +48,9 @@ class Watcher(threading.Thread):
         self.trouble = "not connected yet"
         self.capture: Optional[Capture] = None
         self.scope_words = ""
+        self.parameters: Optional[List[Value]] = None
+        self.parameters_words = ""
+        self._parameters_wanted = False
         self._scope: Optional[Setup] = None  # what the scope is at
         self.bench_address = bench
         self.seen_s = time.monotonic()  # when a page was open last
@@ -98,6 +102,32 @@ class Watcher(threading.Thread):
         scope.arm(self.drive, setup)
         self._scope = setup
 
+    def ask_parameters(self) -> None:
+        """They are read with the next look at the drive."""
+        self._parameters_wanted = True
+
+    def write_parameters(self, wanted: Dict[str, float]) -> None:
+        """Those that differ; all are read again, whatever became of it."""
+        try:
+            params.write(self.drive, wanted)
+        finally:
+            self.ask_parameters()
+
+    def save_parameters(self) -> None:
+        """The drive restarts."""
+        self._restart(params.save)
+
+    def restore_parameters(self) -> None:
+        """The drive restarts."""
+        self._restart(params.restore)
+
+    def _restart(self, command: Callable[[Drive], Stored]) -> None:
+        self.parameters_words = "is stored: the drive restarts"
+        try:
+            command(self.drive)
+        finally:
+            self.ask_parameters()
+
     def tell_bench(self, command: str) -> None:
         """Load, supply, faults of a virtual drive."""
         with self._bench_lock:
@@ -124,6 +154,7 @@ class Watcher(threading.Thread):
         if reading.mode == Mode.FAULT:
             self.started_here = False
         self._look_at_scope()
+        self._look_at_parameters()
         if time.monotonic() > self.seen_s + ABANDONED_S:
             self.release()
 
@@ -138,6 +169,12 @@ class Watcher(threading.Thread):
             self.scope_words = SCOPE_STATES[state]
         elif state == 0:  # the drive has restarted, or another master gave up
             self._scope = None
+
+    def _look_at_parameters(self) -> None:
+        if self._parameters_wanted:
+            self._parameters_wanted = False
+            self.parameters = params.read(self.drive)
+            self.parameters_words = f"at its start the drive had {params.stored(self.drive).words}"
 
     def _look_at_bench(self) -> None:
         if self.bench_address is None or time.monotonic() < self._bench_retry_s:
