@@ -304,6 +304,12 @@ TEST(RealisticScenario, WrongInputIsOneLine)
         {"[inverter]\ndead_time_s = 1.0\n", "dead_time_s"},
         {"[inverter]\nupdates_per_period = 3\n", "updates_per_period"},
         {"[motor_effects]\ncogging_amplitude_Nm = 0.1\n", "cogging_order"},
+        {"[motor_effects]\nstribeck_speed_m_radps = 1.0\n", "static_friction_Nm"},
+        {"[motor_effects]\ncoulomb_friction_Nm = 0.2\nstatic_friction_Nm = 0.1\n"
+         "stribeck_speed_m_radps = 1.0\n",
+         "coulomb_friction_Nm"},
+        {"[[brake_torque]]\ntime_s = 0.0\nvalue_Nm = -1.0\n", "brake_torque"},
+        {"[load_brake]\ntime_s = 1.0\n", "[load_brake] time_s"},
         {"[motor_effects]\nid_A = [0.0, 1.0]\n", "iq_A"},
         {"[motor_effects]\nid_A = [1.0, 0.0]\niq_A = [0.0, 1.0]\n", "must increase"},
         {"[motor_effects]\nid_A = [0.0, 1.0]\niq_A = [0.0, 1.0]\nld_H = [1.0]\n", "ld_H"},

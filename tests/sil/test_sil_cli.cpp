@@ -540,9 +540,9 @@ TEST(SilCli, TraceOfALongRunNeedsNoMemoryOfItsOwn)
     const pid_t       child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
+        sdre::Trace  trace(1);   // of one row: private
         const rlimit none{0, 0}; // private memory: no more than there is
         setrlimit(RLIMIT_DATA, &none);
-        sdre::Trace trace(1);
         trace.reserve(rows);
         for (std::size_t k = 1; k < rows; k++) {
             trace.emplace_back().time_s = static_cast<double>(k);

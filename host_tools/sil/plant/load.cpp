@@ -59,4 +59,24 @@ double LoadProfile::at(double time_s, double ahead_s)
     return torque_Nm; // EQ-LOAD-1
 }
 
+PowderBrake::PowderBrake(const BrakeSettings &settings) : settings_(settings) {}
+
+double PowderBrake::after_s(double duration_s) const // EQ-LOAD-2, the command constant
+{
+    const double lag_s = settings_.time_constant_s;
+    const double rest  = lag_s > 0.0 ? std::exp(-duration_s / lag_s) : 0.0;
+    return command_Nm_ + rest * (torque_Nm_ - command_Nm_);
+}
+
+double PowderBrake::at(double time_s, double ahead_s)
+{
+    const std::vector<Step> &steps = settings_.command;
+    for (; next_ < steps.size() && steps[next_].time_s <= time_s + time_tolerance_s; next_++) {
+        torque_Nm_  = after_s(steps[next_].time_s - since_s_);
+        since_s_    = steps[next_].time_s;
+        command_Nm_ = steps[next_].value;
+    }
+    return settings_.drag_Nm + after_s(time_s + ahead_s - since_s_);
+}
+
 } // namespace sdre

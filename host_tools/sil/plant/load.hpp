@@ -2,6 +2,9 @@
 /// Torque of the driven machine over time.
 ///
 ///     T = steps and ramps + amplitude sin(2 pi f (t - start)) + fan w_m |w_m|  EQ-LOAD-1
+///     T_brake = drag + x against the motion, lag x' = command - x              EQ-LOAD-2
+///
+/// A magnetic powder brake: its torque is that of its coil's current, whatever the speed. At rest it holds.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +19,7 @@ namespace sdre {
 struct ShaftLoad {
     double torque_Nm         = 0.0;
     double fan_Nm_per_radps2 = 0.0;
+    double brake_Nm          = 0.0; ///< dry friction, at least 0
 };
 
 /// Steps, ramps and sine; times must be asked for in rising order.
@@ -41,6 +45,29 @@ private:
     std::vector<Piece> pieces_;
     std::size_t        next_ = 0; ///< the first piece that has not begun
     LoadSine           sine_;
+};
+
+/// Torque of the powder brake; times must be asked for in rising order.
+class PowderBrake {
+public:
+    explicit PowderBrake(const BrakeSettings &settings);
+
+    /// A brake that is no part of the scenario: always without torque.
+    bool present() const
+    {
+        return !settings_.command.empty() || settings_.drag_Nm != 0.0;
+    }
+    /// At a time, `ahead_s` later by the command in force.
+    double at(double time_s, double ahead_s);
+
+private:
+    double after_s(double duration_s) const;
+
+    BrakeSettings settings_;
+    std::size_t   next_       = 0; ///< the first command that has not come
+    double        command_Nm_ = 0.0;
+    double        torque_Nm_  = 0.0; ///< at since_s_
+    double        since_s_    = 0.0;
 };
 
 } // namespace sdre

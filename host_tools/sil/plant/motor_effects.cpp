@@ -45,6 +45,35 @@ RotorVector flux_of(const SaturationMap &map, RotorVector i)
 
 } // namespace
 
+bool any_effect(const MotorEffects &e)
+{
+    return e.saturation || e.cogging_amplitude_Nm != 0.0 || e.coulomb_friction_Nm != 0.0 ||
+           e.static_friction_Nm != 0.0;
+}
+
+double cogging_Nm(const MotorEffects &e, double theta_e_rad, int pole_pairs) // EQ-EFFECTS-2
+{
+    if (e.cogging_amplitude_Nm == 0.0) {
+        return 0.0;
+    }
+    const double angle  = e.cogging_order * theta_e_rad / pole_pairs;
+    double       torque = e.cogging_amplitude_Nm * std::sin(angle);
+    if (e.cogging_second_Nm != 0.0) {
+        torque += e.cogging_second_Nm * std::sin(2.0 * angle + e.cogging_second_rad);
+    }
+    return torque;
+}
+
+double friction_Nm(const MotorEffects &e, double omega_m_radps) // EQ-EFFECTS-3
+{
+    if (e.static_friction_Nm == 0.0) {
+        return e.coulomb_friction_Nm;
+    }
+    const double share = omega_m_radps / e.stribeck_speed_m_radps;
+    return e.coulomb_friction_Nm +
+           (e.static_friction_Nm - e.coulomb_friction_Nm) * std::exp(-share * share);
+}
+
 SaturationMap scaled(SaturationMap map, double ld_factor, double lq_factor)
 {
     for (double &x : map.ld_H) {

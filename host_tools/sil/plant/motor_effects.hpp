@@ -3,6 +3,7 @@
 ///
 ///     psi_d = psi_m + L_d(i) i_d,  psi_q = L_q(i) i_q,  L bilinear in the map  EQ-EFFECTS-1
 ///     T_cogging = amplitude sin(order theta_m) + second sin(2 order theta_m + phase)   EQ-EFFECTS-2
+///     F(w_m) = F_c + (F_s - F_c) exp(-(w_m / w_s)^2), against the motion       EQ-EFFECTS-3
 ///
 /// Outside the map its edge value holds.
 #pragma once
@@ -11,6 +12,14 @@
 #include "sil/setup/board_settings.hpp"
 
 namespace sdre {
+
+/// Anything but drifts, which are the parameters' own.
+bool any_effect(const MotorEffects &effects);
+
+double cogging_Nm(const MotorEffects &effects, double theta_e_rad, int pole_pairs);
+
+/// Dry friction at a speed, at least 0.
+double friction_Nm(const MotorEffects &effects, double omega_m_radps);
 
 /// A saturation map scaled by factors of L_d and L_q.
 SaturationMap scaled(SaturationMap map, double ld_factor, double lq_factor);

@@ -38,8 +38,7 @@ void Plant::set_motor(const Motor &motor)
 void Plant::set_effects(const MotorEffects &effects)
 {
     effects_      = effects;
-    with_effects_ = effects.saturation || effects.cogging_amplitude_Nm != 0.0 ||
-                    effects.coulomb_friction_Nm != 0.0;
+    with_effects_ = any_effect(effects);
     set_current(i_);
 }
 
@@ -58,71 +57,61 @@ RotorVector Plant::inductances_H(RotorVector i) const
                : RotorVector{motor_.d_axis_inductance_H, motor_.q_axis_inductance_H};
 }
 
-template <bool with_effects> RotorVector Plant::current_at(const MotorState &x) const
+RotorVector Plant::current_at(const MotorState &x) const
 {
-    if constexpr (with_effects) {
-        if (effects_.saturation) {
-            return saturated_current_A(*effects_.saturation, {x.psi_d - motor_.pm_flux_Wb, x.psi_q},
-                                       i_);
-        }
+    if (effects_.saturation) {
+        return saturated_current_A(*effects_.saturation, {x.psi_d - motor_.pm_flux_Wb, x.psi_q},
+                                   i_);
     }
     return equations_.current_A(x);
 }
 
-double Plant::cogging_Nm(double theta_e_rad) const // EQ-EFFECTS-2
+/// Everything on the motor's mass but dry friction.
+double Plant::motor_side_Nm(const MotorState &x, RotorVector i, const ShaftLoad &load) const
 {
-    if (effects_.cogging_amplitude_Nm == 0.0) {
-        return 0.0;
-    }
-    const double angle  = effects_.cogging_order * theta_e_rad / motor_.pole_pairs;
-    double       torque = effects_.cogging_amplitude_Nm * std::sin(angle);
-    if (effects_.cogging_second_Nm != 0.0) {
-        torque += effects_.cogging_second_Nm * std::sin(2.0 * angle + effects_.cogging_second_rad);
-    }
-    return torque;
+    return equations_.shaft_Nm(x, i, load) - cogging_Nm(effects_, x.theta_e, motor_.pole_pairs);
 }
 
-/// Everything on the shaft but Coulomb friction.
-template <bool with_effects>
-double Plant::shaft_Nm(const MotorState &x, RotorVector i, const ShaftLoad &load) const
+/// Dry friction of motor and load.
+double Plant::dry_Nm(const MotorState &x, const ShaftLoad &load) const
 {
-    const double torque = equations_.shaft_Nm(x, i, load);
-    if constexpr (with_effects) {
-        return torque - cogging_Nm(x.theta_e);
-    }
-    return torque;
+    return friction_Nm(effects_, x.omega_m) + load.brake_Nm;
 }
 
-/// voltage(turned_rad, x, i) is the voltage seen from the rotor once it has turned this far in the step.
-template <bool with_effects, typename Voltage>
-void Plant::move(const Voltage &voltage, const ShaftLoad &load, double dt_s)
+template <typename State, typename Rate>
+void Plant::integrate(State &x, double dt_s, const Rate &rate)
 {
-    const double     friction_Nm = with_effects ? effects_.coulomb_friction_Nm : 0.0;
-    const MotorState gain        = rk4_gain(x_, dt_s, [&](const MotorState &x, double turned_rad) {
-        const RotorVector i      = current_at<with_effects>(x);
-        double            torque = shaft_Nm<with_effects>(x, i, load);
-        if (with_effects && friction_Nm != 0.0) {
-            torque = slide_ != 0.0 ? torque - slide_ * friction_Nm : 0.0;
-        }
-        return equations_.rate(x, i, voltage(turned_rad, x, i), torque);
-    });
-    x_                           = along(x_, gain, 1.0);
-    angle_                       = turned(angle_, small_rotation(gain.theta_e));
+    const State gain = rk4_gain(x, dt_s, rate);
+    x                = along(x, gain, 1.0);
+    angle_           = turned(angle_, small_rotation(gain.theta_e));
 }
 
 template <typename Voltage>
+void Plant::move_with_effects(const Voltage &voltage, const ShaftLoad &load, double dt_s)
+{
+    friction_.choose(x_.omega_m, motor_side_Nm(x_, i_, load), dry_Nm(x_, load));
+    integrate(x_, dt_s, [&](const MotorState &x, double turned_rad) {
+        const RotorVector i = current_at(x);
+        return equations_.rate(x, i, voltage(turned_rad, x, i),
+                               friction_.left_Nm(motor_side_Nm(x, i, load), dry_Nm(x, load)));
+    });
+    x_.omega_m = friction_.ended(x_.omega_m);
+    i_         = current_at(x_);
+}
+
+/// voltage(turned_rad, x, i) is the voltage seen from the rotor once it has turned this far in the step.
+template <typename Voltage>
 void Plant::move(const Voltage &voltage, const ShaftLoad &load, double dt_s)
 {
-    if (!with_effects_) {
-        move<false>(voltage, load, dt_s);
-        i_ = current_at<false>(x_);
+    if (with_effects_ || load.brake_Nm != 0.0) {
+        move_with_effects(voltage, load, dt_s);
     } else {
-        choose_friction(load);
-        move<true>(voltage, load, dt_s);
-        if (effects_.coulomb_friction_Nm != 0.0 && slide_ * x_.omega_m < 0.0) {
-            x_.omega_m = 0.0;
-        }
-        i_ = current_at<true>(x_);
+        integrate(x_, dt_s, [&](const MotorState &x, double turned_rad) {
+            const RotorVector i = equations_.current_A(x);
+            return equations_.rate(x, i, voltage(turned_rad, x, i),
+                                   equations_.shaft_Nm(x, i, load));
+        });
+        i_ = equations_.current_A(x_);
     }
     note_peak();
     path_.add(dt_s, x_.theta_e, omega_e_radps());
@@ -178,7 +167,7 @@ void Plant::step(StatorVector v_V, double load_Nm, double dt_s, int substeps)
 {
     align_angle();
     for (int n = 0; n < substeps; n++) {
-        advance(v_V, {load_Nm, 0.0}, dt_s / substeps);
+        advance(v_V, {load_Nm}, dt_s / substeps);
     }
 }
 
@@ -186,7 +175,7 @@ void Plant::step(RotorVector v_V, double load_Nm, double dt_s, int substeps)
 {
     align_angle();
     for (int n = 0; n < substeps; n++) {
-        move([v_V](double, const MotorState &, RotorVector) { return v_V; }, {load_Nm, 0.0},
+        move([v_V](double, const MotorState &, RotorVector) { return v_V; }, {load_Nm},
              dt_s / substeps);
     }
 }
@@ -200,19 +189,6 @@ void Plant::reset_peak()
 {
     peak_A2_ = 0.0;
     note_peak();
-}
-
-/// Sliding friction opposes the speed; at rest the friction either holds or opposes the torque.
-void Plant::choose_friction(const ShaftLoad &load)
-{
-    const double torque = shaft_Nm<true>(x_, i_, load);
-    if (x_.omega_m != 0.0) {
-        slide_ = std::copysign(1.0, x_.omega_m);
-    } else if (std::abs(torque) <= effects_.coulomb_friction_Nm) {
-        slide_ = 0.0;
-    } else {
-        slide_ = std::copysign(1.0, torque);
-    }
 }
 
 void Plant::align_angle()

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// The motor with its mechanics as a whole, step by step: the equations of motor_equations.hpp.
 ///
-/// With MotorEffects also saturation, cogging and Coulomb friction. The friction holds a shaft at rest for as
-/// long as it can: a step that takes the speed through zero ends at zero, and zero stays until the rest
-/// of the torque exceeds it.
+/// With MotorEffects also saturation, cogging and dry friction (dry_friction.hpp), with or without them a brake.
 #pragma once
 
 #include <array>
 #include <cmath>
 
 #include "drive/drive_file.hpp"
+#include "sil/plant/dry_friction.hpp"
 #include "sil/plant/load.hpp"
 #include "sil/plant/motor_effects.hpp"
 #include "sil/plant/motor_equations.hpp"
@@ -86,17 +85,17 @@ public:
     } ///< not wrapped
 
 private:
-    template <bool with_effects> RotorVector current_at(const MotorState &x) const;
-    template <bool with_effects>
-    double shaft_Nm(const MotorState &x, RotorVector i, const ShaftLoad &load) const;
-    template <bool with_effects, typename Voltage>
-    void move(const Voltage &voltage, const ShaftLoad &load, double dt_s);
+    RotorVector current_at(const MotorState &x) const;
+    double      motor_side_Nm(const MotorState &x, RotorVector i, const ShaftLoad &load) const;
+    double      dry_Nm(const MotorState &x, const ShaftLoad &load) const;
+    template <typename State, typename Rate>
+    void integrate(State &x, double dt_s, const Rate &rate);
+    template <typename Voltage>
+    void move_with_effects(const Voltage &voltage, const ShaftLoad &load, double dt_s);
     template <typename Voltage>
     void        move(const Voltage &voltage, const ShaftLoad &load, double dt_s);
     RotorVector inductances_H(RotorVector i) const;
     double floating_V(const MotorState &x, RotorVector i, RotorVector v_V, RotorVector axis) const;
-    double cogging_Nm(double theta_e_rad) const;
-    void   choose_friction(const ShaftLoad &load);
     void   note_peak();
     void   set_current(RotorVector i);
 
@@ -109,7 +108,7 @@ private:
     Rotation       angle_; ///< by x_.theta_e
     ShaftPath      path_;
     double         peak_A2_ = 0.0;
-    double slide_ = 0.0; ///< direction of the sliding friction in this step: -1, 0 (held), 1
+    DryFriction    friction_;
 };
 
 } // namespace sdre

@@ -27,11 +27,6 @@ double dead_time_of(const SensorSettings &sensors, const InverterSettings &inver
     return inverter.dead_time_s.value_or(sensors.ideal ? 0.0 : drive.inverter.dead_time_s);
 }
 
-bool has_effects(const MotorEffects &e)
-{
-    return e.saturation || e.cogging_amplitude_Nm != 0.0 || e.coulomb_friction_Nm != 0.0;
-}
-
 bool has_drift(const MotorEffects &e)
 {
     return e.resistance_drift != 0.0 || e.flux_drift != 0.0;
@@ -47,13 +42,14 @@ Board::Board(const Scenario &s)
       dc_link_(s.inverter, s.dc_link_V),
       encoder_(s.sensors, s.drive.encoder.lines, s.drive.motor.pole_pairs, period_s_, s.seed),
       noise_a_(s.seed, NoiseStream::adc_a), noise_b_(s.seed, NoiseStream::adc_b),
-      load_(s.load_torque, s.load_ramps, s.load_sine),
+      load_(s.load_torque, s.load_ramps, s.load_sine), brake_(s.load_brake),
       first_dead_time_s_(dead_time_of(s.sensors, s.inverter, s.drive)), faults_(s.faults)
 {
     plant_.reset(s.initial_speed_e_radps, start_theta_e_rad(s));
     shaft_load_.fan_Nm_per_radps2 = s.load_fan_Nm_per_radps2;
-    plain_motor_ = !has_effects(s.motor_effects) && s.load_fan_Nm_per_radps2 == 0.0;
-    if (has_effects(s.motor_effects)) {
+    plain_motor_ =
+        !any_effect(s.motor_effects) && s.load_fan_Nm_per_radps2 == 0.0 && !brake_.present();
+    if (any_effect(s.motor_effects)) {
         update_motor();
     }
     configure_inverter();
@@ -88,7 +84,7 @@ void Board::update_motor()
             scaled(*effects.saturation, motor_.d_axis_inductance_H / nominal.d_axis_inductance_H,
                    motor_.q_axis_inductance_H / nominal.q_axis_inductance_H);
         plant_.set_effects(scaled_e);
-    } else if (has_effects(effects)) {
+    } else if (any_effect(effects)) {
         plant_.set_effects(effects);
     }
 }
@@ -128,7 +124,10 @@ void Board::begin_tick(double time_s)
         update_motor();
     }
     shaft_load_.torque_Nm = load_.at(time_s, 0.5 * period_s_) + extra_load_Nm_;
-    glitch_               = glitch_at(scenario_.glitches, time_s, period_s_);
+    if (brake_.present()) {
+        shaft_load_.brake_Nm = brake_.at(time_s, 0.5 * period_s_);
+    }
+    glitch_ = glitch_at(scenario_.glitches, time_s, period_s_);
     begin_faults();
 }
 
@@ -160,13 +159,14 @@ void Board::begin_faults()
 
 PlantState Board::plant_state() const
 {
-    const double omega_e = plant_.omega_e_radps();
-    const double omega_m = omega_e / scenario_.drive.motor.pole_pairs;
-    const double fan_Nm  = shaft_load_.fan_Nm_per_radps2 * omega_m * std::abs(omega_m);
+    const double omega_e  = plant_.omega_e_radps();
+    const double omega_m  = omega_e / scenario_.drive.motor.pole_pairs;
+    const double fan_Nm   = shaft_load_.fan_Nm_per_radps2 * omega_m * std::abs(omega_m);
+    const double brake_Nm = omega_m == 0.0 ? 0.0 : std::copysign(shaft_load_.brake_Nm, omega_m);
     return {omega_e,
             plant_.current_A(),
             plant_.torque_Nm(),
-            shaft_load_.torque_Nm + fan_Nm,
+            shaft_load_.torque_Nm + fan_Nm + brake_Nm,
             dc_link_.voltage_V(),
             plant_.theta_e_rad()};
 }

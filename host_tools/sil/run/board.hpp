@@ -30,7 +30,7 @@ struct PlantState {
     double      omega_e_radps = 0.0;
     RotorVector current_A;
     double      torque_Nm   = 0.0;
-    double      load_Nm     = 0.0; ///< all of the load
+    double      load_Nm     = 0.0; ///< all of the load; a brake that holds counts as none
     double      dc_link_V   = 0.0;
     double      theta_e_rad = 0.0; ///< not wrapped
 };
@@ -116,6 +116,7 @@ private:
     Noise                    noise_a_;
     Noise                    noise_b_;
     LoadProfile              load_;
+    PowderBrake              brake_;
     double                   first_dead_time_s_; ///< the gates\'
     ShaftLoad                shaft_load_;
     Glitch                   glitch_; ///< of the sample of this tick

@@ -32,6 +32,7 @@ constexpr Range capacitance_F{1e-6, 10.0};
 constexpr Range torque_Nm{-1e5, 1e5};
 constexpr Range positive_torque_Nm{0.0, 1e5};
 constexpr Range cogging_order{1.0, 1e3};
+constexpr Range stribeck_speed_m_radps{1e-3, 1e3};
 constexpr Range drift_per_s{-10.0, 10.0};
 constexpr Range map_current_A{-1e4, 1e4};
 constexpr Range map_inductance_H{1e-7, 10.0};
@@ -100,6 +101,21 @@ void read_chopper(TomlReader &t, InverterSettings &s, const Drive &drive)
     if (s.chopper_on_V && s.regeneration == Regeneration::sinks && s.source_resistance_Ohm <= 0.0) {
         t.fail("chopper_on_V", "is not allowed with a stiff source: it needs regeneration = "
                                "\"blocks\" or a source_resistance_Ohm");
+    }
+}
+
+void read_friction(TomlReader &t, MotorEffects &e)
+{
+    e.coulomb_friction_Nm = t.number_or("coulomb_friction_Nm", positive_torque_Nm, 0.0);
+    if (!t.has("static_friction_Nm") && !t.has("stribeck_speed_m_radps")) {
+        return;
+    }
+    e.static_friction_Nm     = t.number("static_friction_Nm", positive_torque_Nm);
+    e.stribeck_speed_m_radps = t.number("stribeck_speed_m_radps", stribeck_speed_m_radps);
+    if (e.static_friction_Nm < e.coulomb_friction_Nm) {
+        t.fail("static_friction_Nm",
+               fmt::format("= {:g} is not allowed: must not be below coulomb_friction_Nm = {:g}",
+                           e.static_friction_Nm, e.coulomb_friction_Nm));
     }
 }
 
@@ -197,9 +213,9 @@ MotorEffects read_motor_effects(TomlReader t)
         e.cogging_second_Nm  = t.number_or("cogging_second_Nm", positive_torque_Nm, 0.0);
         e.cogging_second_rad = t.number_or("cogging_second_rad", angle_e_rad, 0.0);
     }
-    e.coulomb_friction_Nm = t.number_or("coulomb_friction_Nm", positive_torque_Nm, 0.0);
-    e.resistance_drift    = t.number_or("resistance_drift", drift_per_s, 0.0);
-    e.flux_drift          = t.number_or("flux_drift", drift_per_s, 0.0);
+    read_friction(t, e);
+    e.resistance_drift = t.number_or("resistance_drift", drift_per_s, 0.0);
+    e.flux_drift       = t.number_or("flux_drift", drift_per_s, 0.0);
     t.reject_unknown_keys();
     return e;
 }

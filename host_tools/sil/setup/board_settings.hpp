@@ -74,8 +74,10 @@ struct MotorEffects {
     double                       cogging_second_Nm    = 0.0; ///< amplitude at twice the order
     double                       cogging_second_rad   = 0.0; ///< phase of the second
     double                       coulomb_friction_Nm  = 0.0;
-    double                       resistance_drift = 0.0; ///< share of the start value per second
-    double                       flux_drift       = 0.0;
+    double static_friction_Nm     = 0.0; ///< at rest; below the Coulomb friction: as that one
+    double stribeck_speed_m_radps = 0.0; ///< at which 1/e of the difference is left
+    double resistance_drift       = 0.0; ///< share of the start value per second
+    double flux_drift             = 0.0;
 };
 
 } // namespace sdre

@@ -2,6 +2,10 @@
 /// Load torque that is no step.
 #pragma once
 
+#include <vector>
+
+#include "sil/setup/steps.hpp"
+
 namespace sdre {
 
 /// A straight line from the torque at time_s to to_Nm at until_s, which then stays.
@@ -15,6 +19,13 @@ struct LoadSine {
     double amplitude_Nm = 0.0;
     double frequency_Hz = 0.0;
     double start_s      = 0.0;
+};
+
+/// A magnetic powder brake on the shaft.
+struct BrakeSettings {
+    std::vector<Step> command;               ///< N m, at least 0, sorted by time
+    double            time_constant_s = 0.0; ///< of its coil
+    double            drag_Nm         = 0.0; ///< without current: powder, seals, bearings
 };
 
 } // namespace sdre

@@ -24,6 +24,8 @@ constexpr Range turns_range{-1e6, 1e6};
 constexpr Range profile_range{1e-3, 1e12};
 constexpr Range updates_range{1, 2};
 constexpr Range fan_range_Nm_per_radps2{0.0, 1e3};
+constexpr Range brake_range_Nm{0.0, 1e5};
+constexpr Range brake_range_s{0.0, 100.0};
 constexpr Range seed_range{0, 2147483647};
 constexpr Range order_range{0, 8};
 
@@ -81,6 +83,12 @@ void read_load(TomlReader &t, Scenario &s)
     if (std::optional<TomlReader> fan = t.table_if("load_fan")) {
         s.load_fan_Nm_per_radps2 = fan->number("Nm_per_radps2", fan_range_Nm_per_radps2);
         fan->reject_unknown_keys();
+    }
+    s.load_brake.command = read_steps(t, "brake_torque", "value_Nm", brake_range_Nm);
+    if (std::optional<TomlReader> brake = t.table_if("load_brake")) {
+        s.load_brake.time_constant_s = brake->number_or("time_constant_s", brake_range_s, 0.0);
+        s.load_brake.drag_Nm         = brake->number_or("drag_Nm", brake_range_Nm, 0.0);
+        brake->reject_unknown_keys();
     }
 }
 

@@ -56,6 +56,7 @@ struct Scenario {
     std::vector<LoadRamp>      load_ramps; ///< sorted by time
     LoadSine                   load_sine;
     double                     load_fan_Nm_per_radps2 = 0.0; ///< of the mechanical speed
+    BrakeSettings              load_brake;
 };
 
 /// InputError in one line on anything wrong. The drive path is relative to the scenario file, or to the
