@@ -21,18 +21,28 @@ void app_position_forget(app_position_t *p)
     p->known = false;
 }
 
+/* The nearest whole number, of at most a turn of counts. */
+static int32_t rounded(float x)
+{
+    float beyond = x + 0.5f;
+
+    if (x < 0.0f) {
+        beyond = x - 0.5f;
+    }
+    return (int32_t)beyond;
+}
+
 /* The middle of the count in which the angle was found: the nearest of its like. */
 static void find_zero(app_position_t *p, const app_angle_t *angle)
 {
     const int16_t turned_cnt =
         app_angle_turned_cnt(angle->positions, angle->zero_cnt, angle->before_cnt);
-    const float   middle_rad = angle->zero_theta_rad + (0.5f * p->rad_per_cnt); /* below 3 pi */
-    const float   theta_rad  = frames_wrap(middle_rad);
-    const float   way_rad    = (float)turned_cnt * p->rad_per_cnt;
-    const float   turns      = (p->is.theta_e_rad - theta_rad - way_rad) * (1.0f / BASE_TWO_PI);
-    const int16_t nearest    = (int16_t)((turns < 0.0f) ? (turns - 0.5f) : (turns + 0.5f));
+    const float middle_rad = angle->zero_theta_rad + (0.5f * p->rad_per_cnt); /* below 3 pi */
+    const float theta_rad  = frames_wrap(middle_rad);
+    const float way_rad    = (float)turned_cnt * p->rad_per_cnt;
+    const float turns      = (p->is.theta_e_rad - theta_rad - way_rad) * (1.0f / BASE_TWO_PI);
 
-    p->zero.turns       = p->is.turns + (int32_t)nearest;
+    p->zero.turns       = p->is.turns + rounded(turns);
     p->zero.theta_e_rad = theta_rad;
     p->known            = true;
 }
@@ -64,8 +74,9 @@ position_t app_position_at(const app_position_t *p, int32_t counts)
     const int32_t turns_m  = counts / per_turn;
     const int32_t rest     = (counts - (turns_m * per_turn)) * pairs;
     const int32_t turns_e  = rest / per_turn;
-    const float   part = (float)(rest - (turns_e * per_turn)) / (float)per_turn; /* within +-1 */
-    position_t    at   = {p->zero.turns + (turns_m * pairs) + turns_e, p->zero.theta_e_rad};
+    const int32_t left     = rest - (turns_e * per_turn);
+    const float   part     = (float)left / (float)per_turn; /* within +-1 */
+    position_t    at       = {p->zero.turns + (turns_m * pairs) + turns_e, p->zero.theta_e_rad};
 
     at = position_moved(&at, 0.5f * BASE_TWO_PI * part); /* half of it at a time */
     return position_moved(&at, 0.5f * BASE_TWO_PI * part);
@@ -80,10 +91,10 @@ int32_t app_position_cnt(const app_position_t *p, const position_t *at)
     const int32_t pairs    = (int32_t)p->pole_pairs;
     const int32_t turns_e  = at->turns - p->zero.turns;
     const int32_t turns_m  = turns_e / pairs;
-    const float   rest_rad = (BASE_TWO_PI * (float)(turns_e - (turns_m * pairs))) +
-                           (at->theta_e_rad - p->zero.theta_e_rad);
-    const float   rest = rest_rad / p->rad_per_cnt;
-    const int32_t most = APP_POSITION_CNT_MAX / per_turn;
+    const int32_t left     = turns_e - (turns_m * pairs);
+    const float   rest_rad = (BASE_TWO_PI * (float)left) + (at->theta_e_rad - p->zero.theta_e_rad);
+    const float   rest     = rest_rad / p->rad_per_cnt;
+    const int32_t most     = APP_POSITION_CNT_MAX / per_turn;
 
     if (turns_m > most) {
         return APP_POSITION_CNT_MAX;
@@ -91,5 +102,5 @@ int32_t app_position_cnt(const app_position_t *p, const position_t *at)
     if (turns_m < -most) {
         return -APP_POSITION_CNT_MAX;
     }
-    return (turns_m * per_turn) + (int32_t)((rest < 0.0f) ? (rest - 0.5f) : (rest + 0.5f));
+    return (turns_m * per_turn) + rounded(rest);
 }

@@ -89,14 +89,24 @@ float app_registers_count_written(const app_registers_entry_t *e, const uint16_t
 
 int32_t app_registers_count_whole(const app_registers_entry_t *e, const uint16_t *words)
 {
-    if (app_registers_count_words(e) == 1U) {
-        const int32_t one      = (int32_t)words[0];
-        const bool    negative = (e->type == APP_REGISTERS_I16) && (words[0] >= 0x8000U);
-        return negative ? (one - 65536L) : one;
+    const bool has_sign = (e->type == APP_REGISTERS_I32) || (e->type == APP_REGISTERS_I16);
+    uint32_t   count    = words[0];
+    uint32_t   sign     = 0x8000U;
+
+    if (app_registers_count_words(e) == 2U) {
+        count = (count << 16) | (uint32_t)words[1];
+        sign  = SIGN_32;
     }
-    const uint32_t both = ((uint32_t)words[0] << 16) | (uint32_t)words[1];
-    if ((both & SIGN_32) == 0UL) {
-        return (int32_t)both;
+    const uint32_t below  = ~count; /* of a negative number: how far below -1 */
+    const uint32_t most   = SIGN_32 - 1U;
+    const uint32_t part   = below & (sign - 1U);
+    const uint32_t above  = (count <= most) ? count : most;
+    const bool     is_neg = has_sign && ((count & sign) != 0U);
+    int32_t        whole  = (int32_t)above;
+
+    if (is_neg) {
+        whole = (int32_t)part;
+        whole = -1 - whole;
     }
-    return (e->type == APP_REGISTERS_I32) ? (-1L - (int32_t)~both) : INT32_MAX;
+    return whole;
 }

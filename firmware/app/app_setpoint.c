@@ -6,7 +6,7 @@
 /* As fast as the drive can: above any limit of its own, which then counts. */
 #define ANY_LIMIT 1.0e9f
 
-static bool has(uint16_t controlword, int bit)
+static bool has_bit(uint16_t controlword, int bit)
 {
     return (controlword & (uint16_t)bit) != 0U;
 }
@@ -50,20 +50,20 @@ static void begin(app_setpoint_t *s, const app_setpoint_one_t *one, const app_po
 
 static app_setpoint_one_t wanted(const app_setpoint_t *s, const app_objects_t *o)
 {
-    const int32_t before_cnt = s->waits ? s->next.target_cnt : s->now.target_cnt;
-    const int32_t given_cnt  = held(o->target_cnt);
-    const bool    relative   = has(o->controlword, APP_CONTROL_RELATIVE);
+    const app_setpoint_one_t *before   = s->waits ? &s->next : &s->now;
+    const bool                relative = has_bit(o->controlword, APP_CONTROL_RELATIVE);
+    const int32_t             from_cnt = relative ? before->target_cnt : 0L;
 
-    const app_setpoint_one_t one = {
-        .target_cnt = held(relative ? (before_cnt + given_cnt) : given_cnt), /* 2e9 at the most */
-        .profile    = profile_of(o)};
+    const app_setpoint_one_t one = {.target_cnt =
+                                        held(from_cnt + held(o->target_cnt)), /* 2e9 at the most */
+                                    .profile = profile_of(o)};
     return one;
 }
 
 void app_setpoint_tick(app_setpoint_t *s, const app_objects_t *o, const app_position_t *position,
                        bool arrived)
 {
-    const bool high = has(o->controlword, APP_CONTROL_NEW_SETPOINT);
+    const bool high = has_bit(o->controlword, APP_CONTROL_NEW_SETPOINT);
     const bool rose = high && !s->new_high;
 
     const bool follows = s->waits && arrived;
@@ -71,7 +71,7 @@ void app_setpoint_tick(app_setpoint_t *s, const app_objects_t *o, const app_posi
     if (follows) {
         begin(s, &s->next, position);
     }
-    if (rose && ((arrived && !follows) || has(o->controlword, APP_CONTROL_AT_ONCE))) {
+    if (rose && ((arrived && !follows) || has_bit(o->controlword, APP_CONTROL_AT_ONCE))) {
         const app_setpoint_one_t one = wanted(s, o);
         begin(s, &one, position);
         s->acknowledged = true;

@@ -39,7 +39,7 @@ static void nosc(fields_t *f, nosc_gains_t *c)
 static void position(fields_t *f, position_gains_t *c)
 {
     nosc(f, &c->nosc);
-    fields_floats(f, c->theta, (uint16_t)(NOSC_ORDER_MAX + 1));
+    fields_floats(f, c->theta, NOSC_TERMS);
     fields_float(f, &c->speed_per_rad);
     fields_float(f, &c->near_rad);
     fields_float(f, &c->most.speed_e_radps);

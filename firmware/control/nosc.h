@@ -13,9 +13,10 @@
 
 #include "base.h"
 
-#define NOSC_ORDER_MAX 8 /**< highest power of e_iq a table can hold */
-#define NOSC_N_U       2 /**< rows of Lambda_n: 0 = v_q, 1 = v_d */
-#define NOSC_N_E       3 /**< columns of Lambda_n, in the order of nosc_error_t */
+#define NOSC_ORDER_MAX 8  /**< highest power of e_iq a table can hold */
+#define NOSC_TERMS     9U /**< of a series: NOSC_ORDER_MAX + 1 */
+#define NOSC_N_U       2  /**< rows of Lambda_n: 0 = v_q, 1 = v_d */
+#define NOSC_N_E       3  /**< columns of Lambda_n, in the order of nosc_error_t */
 
 /** Tracking error e = measured - reference. Member order = column order of Lambda_n. */
 typedef struct {

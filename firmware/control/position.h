@@ -31,7 +31,9 @@ static inline bool position_ok(const position_t *p)
 /** The way from one position to another, electrical [rad]; turns are told apart up to 2^24 of them. */
 static inline float position_way_rad(const position_t *from, const position_t *to)
 {
-    return (BASE_TWO_PI * (float)(to->turns - from->turns)) + (to->theta_e_rad - from->theta_e_rad);
+    const int32_t turns = to->turns - from->turns;
+
+    return (BASE_TWO_PI * (float)turns) + (to->theta_e_rad - from->theta_e_rad);
 }
 
 /** A position that much further on; at most half a turn. The last turn is not left. */

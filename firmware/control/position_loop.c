@@ -5,7 +5,7 @@
 
 bool position_loop_check(const position_gains_t *g)
 {
-    return nosc_check(&g->nosc) && check_finite(g->theta, (int16_t)(NOSC_ORDER_MAX + 1)) &&
+    return nosc_check(&g->nosc) && check_finite(g->theta, (int16_t)NOSC_TERMS) &&
            check_positive(g->speed_per_rad) && check_positive(g->nosc.speed_A_per_radps) &&
            base_in_range(g->near_rad, 1.0e-6f, BASE_PI) &&
            position_profile_ok(&g->most, &g->most) && check_positive(g->most.speed_e_radps) &&

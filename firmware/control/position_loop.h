@@ -20,11 +20,11 @@
 #include "position_ref.h"
 
 typedef struct {
-    nosc_gains_t nosc;               /**< Lambda_n and its limits */
-    float theta[NOSC_ORDER_MAX + 1]; /**< lambda_n: of v_q for an even n, of v_d for an odd one */
-    float speed_per_rad;             /**< k_theta / k_w of n = 0 [1/s], > 0 */
-    float near_rad;                  /**< a reference further away waits for the shaft, (0, pi] */
-    position_profile_t most;         /**< of any profile */
+    nosc_gains_t nosc;              /**< Lambda_n and its limits */
+    float        theta[NOSC_TERMS]; /**< lambda_n: of v_q for an even n, of v_d for an odd one */
+    float        speed_per_rad;     /**< k_theta / k_w of n = 0 [1/s], > 0 */
+    float        near_rad;          /**< a reference further away waits for the shaft, (0, pi] */
+    position_profile_t most;        /**< of any profile */
 } position_gains_t;
 
 /** What a law gets when a position is commanded. */

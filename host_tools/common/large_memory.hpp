@@ -8,7 +8,7 @@
 
 namespace sdre {
 
-/// From here on a file. Chosen: half a million rows of a trace, more than any shipped scenario has.
+/// From here on a file. Chosen: some hundred thousand rows of a trace, more than any shipped scenario has.
 constexpr std::size_t large_memory_B = std::size_t{1} << 26;
 
 /// InputError when the disk of the temporary files has no room.

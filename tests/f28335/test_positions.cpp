@@ -17,6 +17,7 @@ namespace {
 
 constexpr int    counts_per_turn = 10000;
 constexpr double align_s         = 4.0;
+constexpr int    within_cnt      = 4; // the window of target reached; a shaft at rest hunts by two
 
 class Positions : public ServedClient {
 protected:
@@ -89,11 +90,11 @@ TEST_F(Positions, TurnsToATargetAndHoldsItUnderALoad)
     const double start_e = served.plant_state().theta_e_rad;
     set_point(begin + 3 * counts_per_turn, 0);
     ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, 1.0));
-    EXPECT_NEAR(now(), begin + 3 * counts_per_turn, 2);
-    EXPECT_NEAR(served.plant_state().theta_e_rad - start_e, 3 * 2 * 2 * std::acos(-1.0), 4e-3);
+    EXPECT_NEAR(now(), begin + 3 * counts_per_turn, within_cnt);
+    EXPECT_NEAR(served.plant_state().theta_e_rad - start_e, 3 * 2 * 2 * std::acos(-1.0), 7e-3);
     served.set_load_Nm(0.75);
     talk(0.3);
-    EXPECT_NEAR(now(), begin + 3 * counts_per_turn, 3);
+    EXPECT_NEAR(now(), begin + 3 * counts_per_turn, within_cnt);
     EXPECT_TRUE(served.findings().empty());
 }
 
@@ -105,7 +106,7 @@ TEST_F(Positions, SetPointsFollowEachOtherAndHaltInterruptsThem)
     set_point(-counts_per_turn / 2, APP_CONTROL_RELATIVE); // waits
     ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, 1.0));
     talk(0.3);
-    EXPECT_NEAR(now(), begin + counts_per_turn * 3 / 2, 2);
+    EXPECT_NEAR(now(), begin + counts_per_turn * 3 / 2, within_cnt);
 
     set_point(20 * counts_per_turn, APP_CONTROL_RELATIVE);
     talk(0.1);
@@ -117,7 +118,7 @@ TEST_F(Positions, SetPointsFollowEachOtherAndHaltInterruptsThem)
     ASSERT_TRUE(control(APP_CONTROL_ENABLE_OPERATION));
     talk(0.1);
     ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, 3.0));
-    EXPECT_NEAR(now(), begin + counts_per_turn * 43 / 2, 2);
+    EXPECT_NEAR(now(), begin + counts_per_turn * 43 / 2, within_cnt);
 }
 
 TEST_F(Positions, AShaftThatIsHeldBackIsWaitedForAndDoesNotJumpWhenItIsLetGo)
@@ -130,7 +131,7 @@ TEST_F(Positions, AShaftThatIsHeldBackIsWaitedForAndDoesNotJumpWhenItIsLetGo)
     EXPECT_TRUE(wait_for(APP_REGISTERS_FOLLOWING_ERROR, 0.2));
     served.set_load_Nm(0.0);
     ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, 3.0));
-    EXPECT_NEAR(now(), begin + 4 * counts_per_turn, 2);
+    EXPECT_NEAR(now(), begin + 4 * counts_per_turn, within_cnt);
 }
 
 TEST_F(Positions, TheZeroIsTheIndexMark)

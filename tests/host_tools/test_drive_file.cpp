@@ -254,7 +254,8 @@ TEST(DriveFile, UnknownKeyIsNamedWithTheKnownOnes)
     }
     expect_complaint(DriveText().set("", "colour", "1"),
                      {" colour is not a known key", "motor", "schema", "nodo"});
-    expect_complaint(DriveText().set("encoder", "Lines", "1"), {"allowed: edge_times, index_angle_e_rad, lines"});
+    expect_complaint(DriveText().set("encoder", "Lines", "1"),
+                     {"allowed: edge_times, index_angle_e_rad, lines"});
     expect_complaint(DriveText().set("inverter", "dead_time_us", "3"),
                      {"dead_time_us", "dead_time_s", "updates_per_period"});
 }

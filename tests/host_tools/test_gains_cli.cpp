@@ -48,7 +48,8 @@ DriveText uncertified()
 TEST(GainsCli, WrongCommandLineIsOneLine)
 {
     expect_refused({}, 1, {"subcommand"});
-    expect_refused({"frobnicate"}, 1, {"frobnicate", "no such subcommand", "generate, image, report, describe"});
+    expect_refused({"frobnicate"}, 1,
+                   {"frobnicate", "no such subcommand", "generate, image, report, describe"});
     expect_refused({"--frobnicate"}, 1, {"--frobnicate", "no such option"});
     expect_refused({"reprot", shipped}, 1, {"reprot", "report"});
     expect_refused({"report", "--jsno"}, 1, {"--jsno"}); // though DRIVE is missing too

@@ -150,7 +150,8 @@ TEST(Position, DriveFileSaysWhatItCannotTake)
 {
     const std::string q = "Q = [25600.0, 0.64, 0.000213, 11.1]";
     expect_refused(q, "Q = [25600.0, 0.64, 0.000213]", "[position] Q");
-    expect_refused(q, "Q = [0.0, 0.64, 0.000213, 11.1]", "[position] Q[0] = 0 is not allowed: must be");
+    expect_refused(q, "Q = [0.0, 0.64, 0.000213, 11.1]",
+                   "[position] Q[0] = 0 is not allowed: must be");
     expect_refused(q, q + "\nspeed = 1", "[position]");
     expect_refused("edge_times = true", "edge_times = true\n[position2]", "position2");
 }

@@ -71,34 +71,33 @@ void add_observer(std::vector<float> &v, const std::vector<float> &ranges, int o
     }
 }
 
+/// Gains with their limits.
+void add_nosc(std::vector<float> &v, const nosc_gains_t &g)
+{
+    v.insert(v.end(),
+             {g.iq_error_max_A, g.iq_speed_max_A, g.speed_A_per_radps, g.speed_radps_per_A});
+    for (int n = 0; n <= g.order; n++) {
+        for (const auto &row : g.lambda[n]) {
+            v.insert(v.end(), std::begin(row), std::end(row));
+        }
+    }
+}
+
 /// What the laws of near optimal control share.
 void add_near_optimal(std::vector<float> &v, const near_optimal_config_t &c)
 {
     const current_ref_config_t &r = c.current_ref;
-    v.insert(v.end(), {r.current_max_A,
-                       r.iq_max_A,
-                       r.mtpa_A,
-                       r.mtpa_half_1pA,
-                       r.voltage_share,
-                       r.torque_share,
-                       r.near_e_radps,
-                       r.id_rest_A,
-                       r.flux_A,
-                       r.l1_min,
-                       r.filter_per_period,
-                       r.filter_1ps,
-                       r.samples_1ps,
-                       r.regen_max_W_norm,
-                       r.regen_start_V,
-                       r.regen_per_V,
-                       c.nosc.iq_error_max_A,
-                       c.nosc.iq_speed_max_A,
-                       c.nosc.speed_A_per_radps,
-                       c.nosc.speed_radps_per_A});
-    for (int n = 0; n <= c.nosc.order; n++) {
-        for (const auto &row : c.nosc.lambda[n]) {
-            v.insert(v.end(), std::begin(row), std::end(row));
-        }
+    v.insert(v.end(),
+             {r.current_max_A, r.iq_max_A, r.mtpa_A, r.mtpa_half_1pA, r.voltage_share,
+              r.torque_share, r.near_e_radps, r.id_rest_A, r.flux_A, r.l1_min, r.filter_per_period,
+              r.filter_1ps, r.samples_1ps, r.regen_max_W_norm, r.regen_start_V, r.regen_per_V});
+    add_nosc(v, c.nosc);
+    if (c.position.near_rad > 0.0F) {
+        const position_gains_t &p = c.position;
+        add_nosc(v, p.nosc);
+        v.insert(v.end(), p.theta, p.theta + p.nosc.order + 1);
+        v.insert(v.end(), {p.speed_per_rad, p.near_rad, p.most.speed_e_radps, p.most.accel_e_radps2,
+                           p.most.decel_e_radps2, p.most.jerk_e_radps3});
     }
 }
 

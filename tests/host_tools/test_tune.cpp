@@ -188,7 +188,9 @@ TEST(Tune, SectionsReplaceThoseOfTheShippedDriveOnly)
     const std::string tuned = sdre::with_sections(text, sections());
     const std::string head  = text.substr(0, text.find("# The weights below"));
 
-    EXPECT_EQ(tuned, head + sections());
+    const std::string tail = text.substr(text.find("\n# Positions."));
+
+    EXPECT_EQ(tuned, head + sections() + tail);
     EXPECT_EQ(sdre::with_sections(tuned, sections()), tuned);
 }
 

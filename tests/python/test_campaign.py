@@ -173,6 +173,11 @@ def test_summary_counts_what_the_parts_say(whole: Path) -> None:
     assert said["failures"] == failed.sum() > 0
     assert said["margin"]["least"] == margin.min()
     assert said["negative_margins"] == (margin < 0.0).sum() >= said["failures"]
+    edges, speed = np.array(said["histograms"]["edges"]), table["speed_margin"].to_numpy()
+    assert said["histograms"]["speed"] == np.histogram(np.maximum(speed, edges[0]), edges)[0].tolist()
+    assert sum(said["histograms"]["least"]) == 240
+    flux = said["worst"][0]["values"]["flux"]
+    assert said["worst"][0]["places"]["flux"] == pytest.approx((flux - 0.3) / 1.2)
     assert said["margin"]["mean"] == pytest.approx(margin.mean())
     assert said["interval_95"][0] < said["failures"] / 240 < said["interval_95"][1]
     order = np.lexsort((table["case"].to_numpy(), margin, ~failed))

@@ -23,9 +23,10 @@ from sdre_report.tables import Table, number  # noqa: E402
 from sdre_report.tools import ReportError  # noqa: E402
 
 PAGE = Path(os.environ.get("SDRE_REPORT", ROOT / "build/report/report.html"))
-FIGURES = [f"A-fig{n}" for n in range(4, 9)] + [f"B-fig{n}" for n in range(4, 9)] + ["G-shares"]
+FIGURES = [f"A-fig{n}" for n in range(4, 9)] + [f"B-fig{n}" for n in range(4, 9)] + ["G-shares", "C-margin1", "C-subset1"]
 TABLES = ["A-table2", "A-table3", "A-table3-conventional", "A-fig4-numbers", "A-fig4-load", *(f"A-fig{n}-numbers" for n in range(5, 9)), "B-tables",
-          "B-fig8-numbers", "A-optimal", "A-effort", "B-lemma1", "B-theorem1", "G-mu", "G-attraction",
+          "B-fig8-numbers", "A-optimal", "A-effort", "B-lemma1", "B-theorem1", "G-mu", "G-attraction", "C-probability", "C-worst1",
+          "C-subset1-levels", "C-rare1",
           "S-summary"]  # fmt: skip
 
 

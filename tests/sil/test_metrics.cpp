@@ -441,6 +441,9 @@ TEST(Metrics, NamesAreTheJsonKeys)
     m.iq_A                       = 10.0;
     m.id_A                       = 11.0;
     m.sensor_offset_hat_A        = 11.3;
+    m.position_off_cnt           = 11.4;
+    m.position_steady_cnt        = 11.45;
+    m.position_settled_s         = 11.5;
     m.current_distortion_percent = 11.6;
     m.fluctuation_rpm            = 12.0;
     m.fluctuation_rate_percent   = 13.0;
@@ -472,6 +475,9 @@ TEST(Metrics, NamesAreTheJsonKeys)
                                                                {"iq_A", 10.0},
                                                                {"id_A", 11.0},
                                                                {"sensor_offset_hat_A", 11.3},
+                                                               {"position_off_cnt", 11.4},
+                                                               {"position_steady_cnt", 11.45},
+                                                               {"position_settled_s", 11.5},
                                                                {"current_distortion_percent", 11.6},
                                                                {"fluctuation_rpm", 12.0},
                                                                {"fluctuation_rate_percent", 13.0},

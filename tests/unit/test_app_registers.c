@@ -554,9 +554,29 @@ static void test_silence_stops_until_it_is_enabled_again(void)
     TEST_ASSERT_EQUAL_UINT(2U, holding(APP_REGISTERS_CONTROLWORD)); /* quick stop */
 }
 
+/* Whole counts of 32 bits, of which a float holds 24. */
+static void test_target_positions_are_taken_to_the_count(void)
+{
+    static const int32_t counts[] = {0,         1,          -1,         16777217,   -16777217,
+                                     123456789, -987654321, 1000000000, -1000000000};
+    for (int i = 0; i < SUPPORT_COUNT(counts); i++) {
+        const uint32_t x        = (uint32_t)counts[i];
+        const uint16_t words[2] = {(uint16_t)(x >> 16), (uint16_t)(x & 0xFFFFu)};
+        TEST_ASSERT_EQUAL_INT(
+            APP_REGISTERS_OK,
+            app_registers_write(&registers, APP_REGISTERS_TARGET_POSITION, 2U, words));
+        TEST_ASSERT_EQUAL_INT32(counts[i], registers.wanted.objects.target_cnt);
+    }
+    const uint16_t beyond[2] = {0x4000U, 0U};
+    TEST_ASSERT_EQUAL_INT(
+        APP_REGISTERS_BAD_VALUE,
+        app_registers_write(&registers, APP_REGISTERS_TARGET_POSITION, 2U, beyond));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_target_positions_are_taken_to_the_count);
     RUN_TEST(test_input_registers_are_what_the_table_says);
     RUN_TEST(test_snapshot_registers_are_what_the_table_says);
     RUN_TEST(test_commissioning_registers_are_what_the_table_says);

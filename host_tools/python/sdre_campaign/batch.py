@@ -12,7 +12,7 @@ import numpy as np
 import pyarrow as pa
 
 import sdre
-from sdre_campaign.draw import seeds_of, values_of
+from sdre_campaign.draw import FloatArray, seeds_of, values_of
 from sdre_campaign.spec import Spec
 
 _kept = threading.local()  # the campaign's Cases on this thread: gains are solved once
@@ -22,10 +22,11 @@ _kept = threading.local()  # the campaign's Cases on this thread: gains are solv
 class Done:
     """What a task gives back."""
 
-    batch: int
+    task: Any
     table: pa.Table
     wall_s: float  # in native code
     cpu_s: float
+    cases: int  # that were run
 
 
 def batches_of(spec: Spec) -> int:
@@ -41,7 +42,7 @@ def span_of(spec: Spec, batch: int) -> Tuple[int, int]:
 
 def run_batch(spec: Spec, batch: int) -> Done:
     """Runs the cases of a batch."""
-    cases = _cases(spec)
+    cases = cases_of(spec)
     first, count = span_of(spec, batch)
     values = values_of(spec, first, count)
     seeds = seeds_of(spec, first, count)
@@ -51,6 +52,14 @@ def run_batch(spec: Spec, batch: int) -> Done:
     columns: Dict[str, Any] = {
         "case": np.arange(first, first + count, dtype=np.int64),
         "seed": seeds.astype(np.int64),
+        **columns_of(cases, result, values),
+    }
+    return Done(batch, pa.table(columns), wall, cpu, count)
+
+
+def columns_of(cases: sdre.Cases, result: sdre.CaseTable, values: FloatArray) -> Dict[str, Any]:
+    """What is kept of cases: judgement, margins, values, metrics."""
+    columns: Dict[str, Any] = {
         "failed": result.failed,
         "fault": result.fault,
         "current_margin": result.current_margin,
@@ -58,10 +67,11 @@ def run_batch(spec: Spec, batch: int) -> Done:
     }
     columns.update({f"value.{one.name}": values[:, k] for k, one in enumerate(cases.variables)})
     columns.update({name: result.metrics[:, k] for k, name in enumerate(cases.columns)})
-    return Done(batch, pa.table(columns), wall, cpu)
+    return columns
 
 
-def _cases(spec: Spec) -> sdre.Cases:
+def cases_of(spec: Spec) -> sdre.Cases:
+    """Of this thread."""
     digest = spec.digest()
     if getattr(_kept, "digest", None) != digest:
         drive = spec.drive()

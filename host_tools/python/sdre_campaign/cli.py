@@ -6,23 +6,23 @@ from __future__ import annotations
 import json
 import os
 import sys
-import time
 from dataclasses import replace
 from pathlib import Path
-from typing import List, Optional
+from typing import Optional
 
 import typer
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 import sdre
-from sdre_campaign.batch import Done, span_of
-from sdre_campaign.cluster import ClusterError, connected, run_batches
-from sdre_campaign.parts import Directory, write_text
-from sdre_campaign.plot import draw_sensitivity
+from sdre_campaign.batch import run_batch, span_of
+from sdre_campaign.cluster import ClusterError
+from sdre_campaign.parts import Directory, part_name, write_text
+from sdre_campaign.plot import draw_levels, draw_sensitivity
+from sdre_campaign.rare import Run, walk
+from sdre_campaign.rare_summary import summarise_runs
 from sdre_campaign.replay import write_worst
 from sdre_campaign.spec import MOST_CASES, Spec, read_spec
 from sdre_campaign.summary import Summary, summarise
+from sdre_campaign.workers import Workers
 
 EXIT_BAD_INPUT, EXIT_INTERRUPTED, EXIT_FAILED_CASES = 1, 130, 4
 
@@ -41,53 +41,44 @@ def campaign(
     """Runs a scenario with very many motors, loads, sensors, faults or seeds. Exit code 4 when a case failed."""
     spec = read_spec(spec_file)
     if cases is not None:
-        if spec.method in ("grid", "corners"):
-            raise sdre.InputError(f"--cases is not allowed with method = \"{spec.method}\": its variables say how many there are")
+        if spec.method not in ("random", "motors"):
+            raise sdre.InputError(f"--cases is not allowed with method = \"{spec.method}\": its file says how many there are")
         spec = replace(spec, cases=cases)
     path = out or Path("build/campaigns") / spec.name
-    with Directory(path, spec, resume) as directory:
-        missing = directory.missing()
-        if missing:
-            try:
-                print(_run(directory, missing, scheduler, workers or os.cpu_count() or 1))
-            except KeyboardInterrupt:
-                raise typer.Exit(_say("interrupted; --resume goes on", EXIT_INTERRUPTED)) from None
-        summary = summarise(spec, directory.tables())
-        _write(directory, summary)
-    print(_text(spec, summary, path))
-    raise typer.Exit(EXIT_FAILED_CASES if summary.failures else 0)
+    with Directory(path, spec, resume) as directory, Workers(spec, scheduler, workers or os.cpu_count() or 1) as crew:
+        try:
+            failed = (_rare if spec.method == "subset" else _plain)(directory, crew)
+        except KeyboardInterrupt:
+            raise typer.Exit(_say("interrupted; --resume goes on", EXIT_INTERRUPTED)) from None
+    raise typer.Exit(EXIT_FAILED_CASES if failed else 0)
 
 
-def _run(directory: Directory, missing: List[int], scheduler: Optional[str], workers: int) -> str:
-    """Runs what is missing; gives a line about how fast."""
+def _plain(directory: Directory, crew: Workers) -> bool:
+    """Every case by itself; whether one has failed."""
     spec = directory.spec
-    counts = [span_of(spec, batch)[1] for batch in missing]
-    spent = [0.0, 0.0]
-    console = Console(stderr=True)
-    with connected(scheduler, workers) as client, Progress(
-        TextColumn("{task.completed:.0f} of {task.total:.0f} cases"), BarColumn(), TimeRemainingColumn(),
-        TextColumn("{task.fields[rate]}"), console=console, disable=not console.is_terminal) as progress:  # fmt: skip
-        task = progress.add_task("cases", total=spec.cases, completed=spec.cases - sum(counts), rate="")
-        client.wait_for_workers(1, timeout=60)
-        begin = time.monotonic()
-        done = 0
+    missing = directory.missing()
+    sizes = [span_of(spec, batch)[1] for batch in missing]
+    crew.expect(spec.cases, spec.cases - sum(sizes))
+    crew.run(run_batch, missing, lambda one: directory.write(part_name(one.task), one.table))
+    crew.tell()
+    summary = summarise(spec, directory.tables())
+    _write(directory, summary)
+    print(_text(spec, summary, directory.path))
+    return summary.failures > 0
 
-        def keep(one: Done) -> None:
-            nonlocal done
-            directory.write(one.batch, one.table)
-            spent[0] += one.wall_s
-            spent[1] += one.cpu_s
-            done += one.table.num_rows
-            progress.update(task, advance=one.table.num_rows, rate=f"{done / (time.monotonic() - begin):.0f}/s")
 
-        run_batches(client, spec, missing, keep)
-        wall_s = time.monotonic() - begin
-        threads = sum(client.nthreads().values())
-    seconds = sum(counts) * float(spec.scenario["duration_s"])
-    return (
-        f"{sum(counts)} cases in {wall_s:.1f} s on {threads} workers: {sum(counts) / wall_s:.0f} cases/s; per core and second of its "
-        f"time {seconds / max(spent[1], 1e-9):.0f} simulated s; workers busy {100.0 * spent[0] / (wall_s * threads):.1f} %"
-    )
+def _rare(directory: Directory, crew: Workers) -> bool:
+    """Level by level; whether a case has failed."""
+    spec = directory.spec
+    runs = [Run(spec, number) for number in range(spec.repeats)]
+    walk(directory, runs, crew)
+    crew.tell()
+    summary = summarise_runs(spec, runs, directory)
+    write_text(directory.path / "summary.json", json.dumps(summary.as_dict(), indent=1) + "\n")
+    write_worst(spec, summary.worst, directory.path / "worst")
+    draw_levels(summary, f"{spec.name}: margins of {spec.drive().name}", directory.path / "levels.png")
+    print(summary.text(directory.path))
+    return summary.failed_cases > 0
 
 
 def _write(directory: Directory, summary: Summary) -> None:

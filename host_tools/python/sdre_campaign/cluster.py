@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Batches on a Dask cluster: this machine's cores, or one that is there already."""
+"""Tasks on a Dask cluster: this machine's cores, or one that is there already."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ import itertools
 import logging
 from concurrent.futures import CancelledError
 from contextlib import ExitStack, contextmanager, suppress
-from typing import Any, Callable, Iterator, List, Optional
+from typing import Any, Callable, Iterator, Optional, Sequence
 
 import dask
 from distributed import Client, LocalCluster, as_completed
 from distributed.client import FutureCancelledError
 from distributed.scheduler import KilledWorker
 
-from sdre_campaign.batch import Done, run_batch
+from sdre_campaign.batch import Done
 from sdre_campaign.spec import Spec
 
-# Batches that wait at each thread beside the one that runs: a worker is never idle, and no more results than these are in
+# Tasks that wait at each thread beside the one that runs: a worker is never idle, and no more results than these are in
 # memory.
 _AHEAD = 2
 
@@ -65,14 +65,17 @@ def _close(what: Any) -> None:
         what.close(timeout=60)
 
 
-def run_batches(client: Client, spec: Spec, batches: List[int], keep: Callable[[Done], None]) -> None:
-    """Runs the batches in order and hands each result on as it comes; a worker that dies costs its own batch's time."""
-    todo = iter(batches)
+Work = Callable[[Spec, Any], Done]  # a task of a campaign, at a worker
+
+
+def run_tasks(client: Client, work: Work, spec: Spec, tasks: Sequence[Any], keep: Callable[[Done], None]) -> None:
+    """Runs the tasks in order and hands each result on as it comes; a worker that dies costs its own task's time."""
+    todo = iter(tasks)
     running: Any = as_completed()
 
     def submit(count: int) -> None:
-        for batch in itertools.islice(todo, count):
-            running.add(client.submit(run_batch, spec, batch, pure=False))
+        for task in itertools.islice(todo, count):
+            running.add(client.submit(work, spec, task, pure=False))
 
     threads = max(1, sum(client.nthreads().values()))
     submit(threads * (1 + _AHEAD))
@@ -83,6 +86,6 @@ def run_batches(client: Client, spec: Spec, batches: List[int], keep: Callable[[
             submit(1 + max(0, now - threads) * (1 + _AHEAD))
             threads = max(threads, now)
     except KilledWorker as error:
-        raise ClusterError("workers die with the same batch again and again: is there memory enough?") from error
+        raise ClusterError("workers die with the same task again and again: is there memory enough?") from error
     except (OSError, TimeoutError, CancelledError, FutureCancelledError) as error:
         raise ClusterError(f"the cluster is gone: {error}") from error

@@ -37,16 +37,43 @@ def values_of(spec: Spec, first: int, count: int) -> FloatArray:
         columns = [_drawn(one, shares[:, k]) for k, one in enumerate(spec.varied)]
     else:
         columns = _grid(spec, np.arange(first, first + count) // spec.repeats)
+    return _side_by_side(spec, columns, count)
+
+
+def shared(spec: Spec, normal: FloatArray) -> FloatArray:
+    """Values of independent standard normals, a column for each variable: their distribution function, then the variable's inverse."""
+    from scipy.special import ndtr
+
+    return _side_by_side(spec, [_drawn(one, ndtr(normal[:, k])) for k, one in enumerate(spec.varied)], len(normal))
+
+
+def place_of(one: Varied, value: float) -> float:
+    """Share of a variable's distribution that lies below a value."""
+    from scipy.special import ndtr
+
+    if one.distribution == "values":
+        return sum(v < value for v in one.values) / len(one.values)
+    if one.high == one.low:
+        return 0.5
+    if one.distribution == "log_uniform":
+        return math.log(value / one.low) / math.log(one.high / one.low)
+    if one.distribution == "normal":
+        lo, hi, at = (float(ndtr((v - one.mean) / one.deviation)) for v in (one.low, one.high, value))
+        return (at - lo) / (hi - lo)
+    return (value - one.low) / (one.high - one.low)
+
+
+def _side_by_side(spec: Spec, columns: list[FloatArray], count: int) -> FloatArray:
     values = np.empty((count, len(spec.varied)))
     for k, (one, column) in enumerate(zip(spec.varied, columns)):
         values[:, k] = np.rint(column) if one.variable.whole else column
     return values
 
 
-def even_numbers(seed: int, first: int, count: int, width: int) -> FloatArray:
-    """count x width numbers in 0 .. 1, 1 excluded; row i of case first + i."""
+def even_numbers(seed: int, first: int, count: int, width: int, stream: int = 0) -> FloatArray:
+    """count x width numbers in 0 .. 1, 1 excluded; row i of case first + i. Streams have nothing in common."""
     blocks = max(1, math.ceil(width / _PER_BLOCK))
-    generator = np.random.Philox(key=seed, counter=first * blocks)
+    generator = np.random.Philox(key=seed + (stream << 64), counter=first * blocks)
     raw = generator.random_raw(count * blocks * _PER_BLOCK).reshape(count, blocks * _PER_BLOCK)
     return (raw[:, :width] >> np.uint64(11)).astype(np.float64) * 2.0**-53
 

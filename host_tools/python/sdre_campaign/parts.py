@@ -3,6 +3,7 @@
 
     campaign.json             what the campaign is; a directory takes parts of this one alone
     parts/part-000000.parquet a batch each, written beside its place, then renamed
+    parts/run-000-level-00-from-000000.parquet   in place of them with method = "subset"
     summary.json, sensitivity.png, worst/*.toml   made of the parts, again and again
 """
 
@@ -12,7 +13,7 @@ import fcntl
 import json
 import os
 from pathlib import Path
-from typing import IO, Any, Iterator, List
+from typing import IO, Any, Dict, Iterator, List
 
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -49,37 +50,47 @@ class Directory:
                 raise sdre.InputError(f"{self.path}: has parts of this campaign; --resume goes on with them")
         for left in self.parts.glob(".*.tmp"):  # of a client that was killed while it wrote
             left.unlink()
-        write_text(said, json.dumps({"name": self.spec.name, "digest": self.spec.digest(), "cases": self.spec.cases,
-            "batch": self.spec.batch, "drive": self.spec.drive().name, "tool": sdre.__version__}, indent=1) + "\n")  # fmt: skip
+        write_text(said, json.dumps(self._about(), indent=1) + "\n")
 
-    def part(self, batch: int) -> Path:
-        """Where a batch's part is."""
-        return self.parts / f"part-{batch:06d}.parquet"
+    def _about(self) -> Dict[str, Any]:
+        spec, drive = self.spec, self.spec.drive()
+        variables = [{"name": one.variable.name, "distribution": one.distribution, "low": one.low, "high": one.high} for one in spec.varied]
+        return {"name": spec.name, "digest": spec.digest(), "method": spec.method, "cases": spec.cases, "batch": spec.batch,
+            "variables": variables, "drive": drive.name, "drive_digest": drive.digest, "tool": sdre.__version__}  # fmt: skip
 
     def missing(self) -> List[int]:
         """Batches that have no part."""
-        return [batch for batch in range(batches_of(self.spec)) if not self._is_complete(batch)]
+        count = batches_of(self.spec)  # the last part of a campaign that had fewer cases is not complete
+        return [batch for batch in range(count) if not self.is_complete(part_name(batch), span_of(self.spec, batch)[1])]
 
-    def _is_complete(self, batch: int) -> bool:
-        path = self.part(batch)
+    def is_complete(self, name: str, rows: int) -> bool:
+        """Whether a part is there with all its rows."""
+        path = self._path(name)
         if not path.exists():
             return False
-        try:  # the last part of a campaign that had fewer cases is not
-            return bool(pq.read_metadata(path).num_rows == span_of(self.spec, batch)[1])
+        try:
+            return bool(pq.read_metadata(path).num_rows == rows)
         except (pa.ArrowException, OSError):
             return False
 
-    def write(self, batch: int, table: pa.Table) -> None:
+    def write(self, name: str, table: pa.Table) -> None:
         """Complete or not there."""
-        path = self.part(batch)
+        path = self._path(name)
         beside = path.with_name(f".{path.name}.tmp")
         pq.write_table(table, beside, compression="zstd")
         _put_in_place(beside, path)
 
+    def read(self, name: str) -> pa.Table:
+        """A part."""
+        return pq.read_table(self._path(name))
+
     def tables(self) -> Iterator[pa.Table]:
         """All parts in the order of the cases, one in memory at a time."""
         for batch in range(batches_of(self.spec)):
-            yield pq.read_table(self.part(batch))
+            yield self.read(part_name(batch))
+
+    def _path(self, name: str) -> Path:
+        return self.parts / f"{name}.parquet"
 
     def close(self) -> None:
         """Another client may come."""
@@ -90,6 +101,11 @@ class Directory:
 
     def __exit__(self, *_: Any) -> None:
         self.close()
+
+
+def part_name(batch: int) -> str:
+    """Of a batch's part."""
+    return f"part-{batch:06d}"
 
 
 def write_text(path: Path, text: str) -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from sdre_campaign.rare_summary import RareSummary
 from sdre_campaign.summary import Summary
 
 _LINES = ((0.5, "median", "-"), (0.01, "1 %", "--"), (0.0, "least", ":"))
@@ -42,6 +43,31 @@ def draw_sensitivity(summary: Summary, title: str, path: Path) -> None:
         axis.set_ylabel("margin")
     axes[0, 0].legend(fontsize=8)
     figure.suptitle(title, fontsize=10)
+    figure.tight_layout()
+    figure.savefig(path, dpi=120, metadata={"Software": None} if path.suffix == ".png" else None)
+    plt.close(figure)
+
+
+def draw_levels(summary: RareSummary, title: str, path: Path) -> None:
+    """Probability of a margin at or below each value, every run with its levels' thresholds."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot as plt
+
+    figure, axis = plt.subplots(figsize=(7.0, 4.2))
+    for run, curve in zip(summary.runs, summary.curves):
+        axis.semilogy(summary.at, np.where(curve > 0.0, curve, np.nan), color="0.7", linewidth=0.8)
+        reached = np.cumprod([level.share for level in run.levels])
+        axis.plot([level.threshold for level in run.levels], reached, ".", color="black", markersize=3)
+    mean = summary.curves.mean(axis=0)
+    axis.semilogy(summary.at, np.where(mean > 0.0, mean, np.nan), color="black", linewidth=1.4, label="mean of the runs")
+    axis.axvline(summary.spec.limit, color="black", linewidth=0.8, linestyle=":", label="limit")
+    axis.set_xlabel("margin")
+    axis.set_ylabel("probability of less")
+    axis.grid(alpha=0.3)
+    axis.legend(fontsize=8)
+    axis.set_title(title, fontsize=10)
     figure.tight_layout()
     figure.savefig(path, dpi=120, metadata={"Software": None} if path.suffix == ".png" else None)
     plt.close(figure)

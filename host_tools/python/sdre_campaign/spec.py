@@ -15,10 +15,12 @@ from sdre.cases import motor_variables
 from sdre.scenario import LARGEST_SEED
 from sdre.toml_text import plain, put, read_text, table
 
-METHODS = ("random", "grid", "corners", "motors")
+METHODS = ("random", "grid", "corners", "motors", "subset")
+MARGINS = ("least", "speed", "current")
 DISTRIBUTIONS = ("uniform", "log_uniform", "normal", "values")
 #: Margins are always kept; these metrics too unless the specification names others.
 METRICS = ("settling_time_s", "dip_e_radps", "ripple_e_radps")
+MOST_RARE = 1e-15  # further out a distribution function has no digits left below 1
 MOST_CASES = LARGEST_SEED  # a case's number is its seed
 
 
@@ -42,10 +44,10 @@ class Spec:
 
     name: str
     method: str
-    cases: int
+    cases: int  # of subset: of one level
     seed: int
     batch: int  # cases of one task and of one part
-    repeats: int  # of a grid: noise seeds at each of its points
+    repeats: int  # of a grid: noise seeds at each of its points; of subset: independent runs
     fixed_seed: Optional[int]  # of the noise in every case; None: the case's number, from 1
     worst: int  # cases that are written as scenarios
     metrics: Tuple[str, ...]
@@ -53,6 +55,9 @@ class Spec:
     scenario: Dict[str, Any]  # its keys, without what a run does not need
     drive_text: str
     drive_path: Path  # for the scenarios of the worst cases
+    margin: str = "least"  # of subset: the one that leads; "least": the smaller one
+    limit: float = 0.0  # of subset: how probable is a margin below it
+    floor: float = 0.0  # of subset: less probable than this is not looked for
 
     def drive(self) -> sdre.Drive:
         """That all cases run with."""
@@ -70,6 +75,8 @@ class Spec:
             "varied": [[list(one.variable.keys), one.variable.whole, one.distribution, one.low, one.high, one.values, one.mean,
                 one.deviation, one.points] for one in self.varied],
         }  # fmt: skip
+        if self.method == "subset":  # more runs and deeper levels keep those there are
+            said.update(repeats=0, cases=self.cases, margin=self.margin, limit=self.limit)
         return "sha256:" + hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()
 
 
@@ -157,7 +164,7 @@ def read_spec(path: Path) -> Spec:
         put(scenario, key, plain(value))
     method = keys.choice("method", METHODS, "random")
     varied = _motors(scenario, scenario_path) if method == "motors" else _varied(keys, method, str(path))
-    repeats = keys.whole("repeats", 1, 1000000, 1)
+    repeats = keys.whole("repeats", 1, 1000000, 10 if method == "subset" else 1)
     spec = Spec(
         name=path.stem,
         method=method,
@@ -172,6 +179,7 @@ def read_spec(path: Path) -> Spec:
         scenario=_for_runs(scenario, method),
         drive_text=drive_text,
         drive_path=drive_path.resolve(),
+        **_of_subset(keys, method),
     )
     keys.reject_unknown()
     cases = sdre.Cases(sdre.Scenario(spec.scenario, spec.drive()), spec.drive(), spec.variables(), spec.metrics)
@@ -206,6 +214,13 @@ def _fixed_seed(keys: Keys) -> Optional[int]:
 def _cases(keys: Keys, method: str, varied: Tuple[Varied, ...], repeats: int) -> int:
     if method in ("random", "motors"):
         return keys.whole("cases", 1, MOST_CASES)
+    if method == "subset":
+        if not varied:
+            raise keys.fail("variable", "is missing")
+        count = keys.whole("cases", 20, 1000000, 1000)
+        if count % 10:
+            raise keys.fail("cases", f"= {count} is not allowed: must be a multiple of 10")
+        return count
     count = math.prod(points_of(one, method) for one in varied) * repeats
     if count > MOST_CASES:
         raise keys.fail("variable", f"has {count} cases with repeats = {repeats}, must be at most {MOST_CASES}")
@@ -217,6 +232,15 @@ def points_of(one: Varied, method: str) -> int:
     if one.distribution == "values":
         return len(one.values)
     return 2 if method == "corners" else one.points
+
+
+def _of_subset(keys: Keys, method: str) -> Dict[str, Any]:
+    if method != "subset":
+        return {}
+    floor = keys.number("floor", 1e-9)
+    if not MOST_RARE <= floor < 0.1:
+        raise keys.fail("floor", f"= {floor} is not allowed: must be in {MOST_RARE} .. 0.1")
+    return {"margin": keys.choice("margin", MARGINS, MARGINS[0]), "limit": keys.number("limit", 0.0), "floor": floor}
 
 
 def _motors(scenario: Mapping[str, Any], path: Path) -> Tuple[Varied, ...]:
@@ -245,6 +269,8 @@ def _one(keys: Keys, method: str) -> Varied:
         raise keys.fail("keys", "is empty")
     distribution = keys.choice("distribution", DISTRIBUTIONS, "values" if keys.has("values") else "uniform")
     points = keys.whole("points", 1, 100000, 5)
+    if distribution == "values" and method == "subset":
+        raise keys.fail("values", 'is not allowed with method = "subset": a slope leads to what is rare; give a range')
     if distribution == "values":
         values = tuple(keys.numbers("values", 1))
         keys.reject_unknown()

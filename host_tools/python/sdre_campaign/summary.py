@@ -15,9 +15,11 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from sdre import _native
+from sdre_campaign.draw import place_of
 from sdre_campaign.spec import Spec
 
 BINS = 40  # of a variable's range
+HISTOGRAM_EDGES = np.round(np.linspace(-1.0, 1.0, 101), 2)  # the first has all that is below too
 _MARGIN_EDGES = np.linspace(-1.0, 1.0, 401)  # 0.005 each; what is below is counted in the first
 
 
@@ -87,6 +89,7 @@ class Worst:
     margin: float
     fault: str
     values: Dict[str, float]
+    places: Dict[str, float]  # of the values: the share of their distributions that is below them
     results: Dict[str, float]
 
 
@@ -102,6 +105,7 @@ class Summary:
     margin_mean: float
     margin_deviation: float
     margin_least: float
+    histograms: Dict[str, NDArray[np.int64]]  # of the margin and of its two parts, bins of HISTOGRAM_EDGES
     sensitivities: List[Sensitivity]
     worst: List[Worst]
 
@@ -116,6 +120,7 @@ class Summary:
             "negative_margin_interval_95": list(clopper_pearson(self.negative, self.cases)),
             "faults": self.faults,
             "margin": {"mean": self.margin_mean, "deviation": self.margin_deviation, "least": self.margin_least},
+            "histograms": {"edges": HISTOGRAM_EDGES.tolist(), **{name: one.tolist() for name, one in self.histograms.items()}},
             "first_order": {one.name: one.first_order(self.margin_deviation**2, self.margin_mean) for one in self.sensitivities},
             "worst": [one.__dict__ for one in self.worst],
         }  # fmt: skip
@@ -127,10 +132,11 @@ def summarise(spec: Spec, tables: Iterable[pa.Table]) -> Summary:
     faults: Dict[int, int] = {}
     total = square = 0.0
     least = np.inf
+    histograms = {name: np.zeros(len(HISTOGRAM_EDGES) - 1, dtype=np.int64) for name in ("least", "speed", "current")}
     sensitivities = [Sensitivity(one.variable.name, _edges(one.low, one.high)) for one in spec.varied]
     worst: List[Tuple[Tuple[bool, float, int], Worst]] = []
     for table in tables:
-        columns = {name: table[name].to_numpy() for name in table.column_names}
+        columns = columns_in(table)
         failed = columns["failed"]
         margin = np.minimum(columns["current_margin"], columns["speed_margin"])
         cases += len(margin)
@@ -139,33 +145,44 @@ def summarise(spec: Spec, tables: Iterable[pa.Table]) -> Summary:
         total += float(margin.sum())
         square += float((margin**2).sum())
         least = min(least, float(margin.min()))
+        for name, one in (("least", margin), ("speed", columns["speed_margin"]), ("current", columns["current_margin"])):
+            histograms[name] += np.histogram(one.clip(-1.0, 1.0), HISTOGRAM_EDGES)[0]
         for fault, count in zip(*np.unique(columns["fault"], return_counts=True)):
             if fault != 0:
                 faults[int(fault)] = faults.get(int(fault), 0) + int(count)
         for one in sensitivities:
             one.add(columns[f"value.{one.name}"], margin, failed)
-        for row in _lowest(failed, margin, spec.worst):
-            worst.append(_ranked(columns, int(row), float(margin[row])))
+        worst += ranked_worst(table, spec)
         worst = heapq.nsmallest(spec.worst, worst, key=lambda one: one[0])
     mean = total / cases
     return Summary(
         cases, failures, clopper_pearson(failures, cases), negative,
         {_native.fault_name(number): count for number, count in sorted(faults.items())},
-        mean, max(square / cases - mean * mean, 0.0) ** 0.5, least, sensitivities, [one for _, one in worst])  # fmt: skip
+        mean, max(square / cases - mean * mean, 0.0) ** 0.5, least, histograms, sensitivities, [one for _, one in worst])  # fmt: skip
 
 
 def _edges(low: float, high: float) -> NDArray[np.float64]:
     return np.linspace(low, high if high > low else low + 1.0, BINS + 1)
 
 
-def _lowest(failed: NDArray[np.bool_], margin: NDArray[np.float64], count: int) -> NDArray[np.int64]:
-    """Failed cases first, then the least margin, then the number."""
-    return np.lexsort((np.arange(len(margin)), margin, ~failed))[:count]
+def columns_in(table: pa.Table) -> Dict[str, Any]:
+    """As arrays."""
+    return {name: table[name].to_numpy() for name in table.column_names}
 
 
-def _ranked(columns: Dict[str, Any], row: int, margin: float) -> Tuple[Tuple[bool, float, int], Worst]:
+def ranked_worst(table: pa.Table, spec: Spec) -> List[Tuple[Tuple[bool, float, int], Worst]]:
+    """The worst cases of a table with what ranks them: failed cases first, then the least margin, then the number."""
+    columns = columns_in(table)
+    margin = columns.get("margin", np.minimum(columns["current_margin"], columns["speed_margin"]))
+    lowest = np.lexsort((np.arange(len(margin)), margin, ~columns["failed"]))[: spec.worst]
+    return [_ranked(spec, columns, int(row), float(margin[row])) for row in lowest]
+
+
+def _ranked(spec: Spec, columns: Dict[str, Any], row: int, margin: float) -> Tuple[Tuple[bool, float, int], Worst]:
     case, failed = int(columns["case"][row]), bool(columns["failed"][row])
-    values = {name[len("value.") :]: float(array[row]) for name, array in columns.items() if name.startswith("value.")}
-    results = {name: float(array[row]) for name, array in columns.items() if "." in name and not name.startswith("value.")}
-    one = Worst(case, int(columns["seed"][row]), failed, margin, _native.fault_name(int(columns["fault"][row])), values, results)
-    return (not failed, margin, case), one
+    values = {one.variable.name: float(columns[f"value.{one.variable.name}"][row]) for one in spec.varied}
+    places = {one.variable.name: place_of(one, values[one.variable.name]) for one in spec.varied}
+    results = {name: float(array[row]) for name, array in columns.items()
+        if "." in name and not name.startswith(("value.", "normal."))}  # fmt: skip
+    fault = _native.fault_name(int(columns["fault"][row]))
+    return (not failed, margin, case), Worst(case, int(columns["seed"][row]), failed, margin, fault, values, places, results)

@@ -96,7 +96,7 @@ def move(
         wanted = round(to if counts else to * drive.constants().encoder_counts)
         found = mover.go(drive, wanted, relative, show.e_radps_of(speed, pairs), end, length_s,
                          lambda r, w: live.update(show.line(r, pairs) + f"  {w.now} counts of {w.target}", refresh=True))  # fmt: skip
-    out.print(f"{found.now} counts, wanted {found.target}")
+        live.update(f"{found.now} counts, wanted {found.target}", refresh=True)
 
 
 @app.command()

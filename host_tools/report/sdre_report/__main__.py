@@ -12,6 +12,8 @@ from typing import List
 from markupsafe import Markup
 
 from . import effort, fig4, near_optimal, pages, paper_a, paper_b, printed, summary, theorem
+from .campaign import section as campaign
+from .campaign import stored as campaigns
 from .guarantees import section as guarantees
 from .guarantees import stored
 from .tables import Section
@@ -40,7 +42,8 @@ def collect(tools: Tools) -> List[Section]:
     b.parts += [theorem.constants(), theorem.bounds(servo_designs(tools), servo["motor"])]
     if published.unread():
         raise ReportError(f"numbers of the papers that the page does not show: {', '.join(published.unread())}")
-    return [summary.section(a, b), a, b, not_reproduced(), guarantees.section(stored.read(tools))]
+    return [summary.section(a, b), a, b, not_reproduced(), guarantees.section(stored.read(tools)),
+            campaign.section(campaigns.read(tools))]  # fmt: skip
 
 
 def servo_designs(tools: Tools) -> list:
@@ -63,10 +66,14 @@ def not_reproduced() -> Section:
 def main() -> int:
     """Command line."""
     parser = argparse.ArgumentParser(prog="./dev report", description=__doc__)
-    parser.add_argument("what", nargs="?", choices=("guarantees",), help="compute the guarantees anew: minutes")
+    parser.add_argument("what", nargs="?", choices=("guarantees", "campaign"),
+                        help="guarantees: compute them anew, minutes; campaign: keep what finished ones have found")
+    parser.add_argument("directories", nargs="*", type=Path, help="of campaigns")
     parser.add_argument("--out", type=Path, default=ROOT / "build/report")
     parser.add_argument("--bin", type=Path, default=ROOT / "build/host/bin")
     options = parser.parse_args()
+    if (options.what == "campaign") != bool(options.directories):
+        parser.error("campaign, and it alone, takes directories")
     count = 0
 
     def tell(what: str) -> None:
@@ -81,6 +88,9 @@ def main() -> int:
             from .guarantees import compute  # its solvers take seconds to load
 
             compute.write(tools)
+            return 0
+        if options.what == "campaign":
+            campaigns.write(tools, options.directories)
             return 0
         sections = collect(tools)
         page = options.out / "report.html"

@@ -29,8 +29,8 @@ def shares(found: Dict[str, Any]) -> Table:
     """mu beside corners and drawn motors."""
     out = Table("G-mu", "Share s of the box in which a constant motor leaves the loop stable",
                 ("", "mu < 1", "all 16 corners, exact", "4,000 drawn motors, exact"),
-                note=f"The verdict of sdre-gains, from the first two points: {found['verdict_share']:.2f}; at the largest command with current it is "
-                "less. mu takes flux in torque and EMF, and "
+                note=f"The verdict of sdre-gains, from the first two points, is {found['verdict_share']:.2f}: it judges positions too, whose loop has "
+                "one state more and stands less; at the largest command with current it is less. mu takes flux in torque and EMF, and "
                 "the inductances of torque, q and d axis, as independent of each other.")  # fmt: skip
     for p in found["shares"]:
         out.add(f"{p['speed_e_radps']:.0f} rad/s, i_q {p['iq_A']:.2f} A", *(f"{p[k]:.2f}" for k in ("mu", "corners", "drawn")))
