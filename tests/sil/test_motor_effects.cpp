@@ -197,3 +197,135 @@ TEST(MotorEffects, DriftIsAShareOfTheStartPerSecond)
     EXPECT_DOUBLE_EQ(drifted(2.0, 0.5, 2.0), 4.0);
     EXPECT_DOUBLE_EQ(drifted(2.0, -1.0, 5.0), 0.02);
 }
+
+namespace {
+
+MotorEffects harmonics()
+{
+    MotorEffects e;
+    e.flux_5th = 0.03;
+    e.flux_7th = -0.02;
+    return e;
+}
+
+} // namespace
+
+TEST(FluxHarmonics, AreInThePhasesVoltages)
+{
+    Plant plant(motor());
+    plant.set_effects(harmonics());
+    for (int k = 0; k < 200; k++) {
+        const double theta = -3.0 + 0.05 * k;
+        plant.reset(250.0, theta);
+        const std::array<double, 3> e = as_array(plant.emf_V());
+        for (std::size_t x = 0; x < 3; x++) { // -d/dt of cos + h5 cos 5 + h7 cos 7 of its own angle
+            const double at = theta - 2.0 * pi / 3.0 * static_cast<double>(x);
+            ASSERT_NEAR(e[x],
+                        -250.0 * 0.193 *
+                            (std::sin(at) + 5.0 * 0.03 * std::sin(5.0 * at) -
+                             7.0 * 0.02 * std::sin(7.0 * at)),
+                        1e-9);
+        }
+    }
+}
+
+TEST(FluxHarmonics, CurrentsChangeAsTheRateSaysAndAnOpenPhaseStaysWithoutAny)
+{
+    Plant plant(motor());
+    plant.set_effects(harmonics());
+    plant.reset(250.0, 0.3);
+    for (int k = 0; k < 300; k++) {
+        plant.advance({30.0, -20.0}, {}, 1e-5);
+    }
+    const StatorVector v{40.0, 10.0};
+    const PhaseVector  rate   = plant.phase_current_rate_Aps(v);
+    const PhaseVector  before = plant.phase_current_A();
+    plant.advance(v, {}, 1e-8);
+    EXPECT_NEAR((plant.phase_current_A().a - before.a) / 1e-8, rate.a, 1e-3 * std::abs(rate.a));
+    EXPECT_NEAR((plant.phase_current_A().b - before.b) / 1e-8, rate.b, 1e-3 * std::abs(rate.b));
+
+    plant.clear_current(1);
+    std::array<double, 3> terminals{100.0, 0.0, 20.0};
+    terminals[1] = plant.floating_V(terminals, 1);
+    EXPECT_NEAR(plant.phase_current_rate_Aps(clarke(terminals)).b, 0.0, 1e-9);
+
+    plant.clear_current();
+    plant.coast({}, 1e-5);
+    EXPECT_NEAR(plant.current_A().d, 0.0, 1e-9);
+    EXPECT_NEAR(plant.current_A().q, 0.0, 1e-9);
+}
+
+/// What comes in at the terminals is in the copper, the iron, the fields, the masses or the load, with all effects at once.
+TEST(MotorEffects, PowerBalances)
+{
+    const Motor  m       = motor();
+    MotorEffects e       = harmonics();
+    e.iron_hysteresis_Nm = 0.02;
+    e.iron_eddy_Nms      = 1e-4;
+    for (const double share : {0.0, 0.5}) {
+        e.load_inertia_share     = share;
+        e.shaft_stiffness_Nmprad = share > 0.0 ? 100.0 : 0.0;
+        Plant plant(m);
+        plant.set_effects(e);
+        plant.reset(300.0, 0.4);
+        struct Balance {
+            double stored_J, in_W, out_W, iron_W;
+        };
+        const double load_Nm = 0.4;
+        const auto   now     = [&](StatorVector v) {
+            const RotorVector  i     = plant.current_A();
+            const StatorVector is    = to_stator(i, plant.theta_e_rad());
+            const double       c6    = std::cos(6.0 * plant.theta_e_rad());
+            const double       s6    = std::sin(6.0 * plant.theta_e_rad());
+            const double       psi_d = 0.193 * (1.0 + 0.01 * c6) + m.d_axis_inductance_H * i.d;
+            const double       psi_q = -0.193 * 0.05 * s6 + m.q_axis_inductance_H * i.q;
+            const double       flux  = (psi_d * psi_d + psi_q * psi_q) / (0.193 * 0.193);
+            const double       wm    = 0.5 * plant.omega_e_radps();
+            const double       wl    = plant.omega_load_m_radps();
+            Balance            b{};
+            b.stored_J =
+                0.75 * (m.d_axis_inductance_H * i.d * i.d + m.q_axis_inductance_H * i.q * i.q) +
+                0.5 * m.inertia_kgm2 * ((1.0 - share) * wm * wm + share * wl * wl) +
+                0.5 * e.shaft_stiffness_Nmprad * plant.twist_rad() * plant.twist_rad();
+            b.in_W   = 1.5 * (v.alpha * is.alpha + v.beta * is.beta);
+            b.iron_W = flux * (0.02 * std::abs(wm) + 1e-4 * wm * wm);
+            b.out_W  = 1.5 * m.stator_resistance_Ohm * (i.d * i.d + i.q * i.q) +
+                      m.viscous_friction_Nms * wm * wm + load_Nm * wl + b.iron_W;
+            return b;
+        };
+        const double dt_s    = 2e-6;
+        const double start_J = now({}).stored_J;
+        double       net_J   = 0.0;
+        double       iron_J  = 0.0;
+        for (int k = 0; k < 40000; k++) {
+            const double       at = plant.theta_e_rad() + 1.9;
+            const StatorVector v{85.0 * std::cos(at), 85.0 * std::sin(at)};
+            const Balance      before = now(v);
+            plant.advance(v, {load_Nm}, dt_s);
+            const Balance after = now(v);
+            net_J += 0.5 * dt_s * (before.in_W - before.out_W + after.in_W - after.out_W);
+            iron_J += 0.5 * dt_s * (before.iron_W + after.iron_W);
+            ASSERT_NEAR(now(v).stored_J, start_J + net_J, 1e-5) << k; // of some 5 J
+        }
+        EXPECT_GT(iron_J, 0.2);
+    }
+}
+
+TEST(Iron, BrakesAMotorWithoutCurrentAsItsClosedFormSays)
+{
+    Motor m                = motor();
+    m.viscous_friction_Nms = 0.0;
+    MotorEffects e;
+    e.iron_hysteresis_Nm = 0.02;
+    e.iron_eddy_Nms      = 1e-4;
+    for (const double sign : {1.0, -1.0}) {
+        Plant plant(m);
+        plant.set_effects(e);
+        plant.reset(sign * 400.0);
+        for (int k = 0; k < 4000; k++) {
+            plant.coast({}, 5e-5);
+        }
+        const double fade = std::exp(-1e-4 / m.inertia_kgm2 * 0.2);
+        EXPECT_NEAR(sign * 0.5 * plant.omega_e_radps(), (200.0 + 200.0) * fade - 200.0, 1e-9);
+    }
+}

@@ -308,6 +308,13 @@ TEST(RealisticScenario, WrongInputIsOneLine)
         {"[motor_effects]\ncoulomb_friction_Nm = 0.2\nstatic_friction_Nm = 0.1\n"
          "stribeck_speed_m_radps = 1.0\n",
          "coulomb_friction_Nm"},
+        {"[motor_effects]\nshaft_stiffness_Nmprad = 1.0\n", "load_inertia_share"},
+        {"[motor_effects]\nload_inertia_share = 0.5\nshaft_stiffness_Nmprad = 1e5\n",
+         "shaft_stiffness_Nmprad"},
+        {"[motor_effects]\nload_inertia_share = 0.5\nshaft_stiffness_Nmprad = 1.0\n"
+         "shaft_damping_Nms = 10.0\n",
+         "shaft_damping_Nms"},
+        {"[motor_effects]\nflux_5th = 0.5\n", "flux_5th"},
         {"[[brake_torque]]\ntime_s = 0.0\nvalue_Nm = -1.0\n", "brake_torque"},
         {"[load_brake]\ntime_s = 1.0\n", "[load_brake] time_s"},
         {"[motor_effects]\nid_A = [0.0, 1.0]\n", "iq_A"},

@@ -181,3 +181,129 @@ TEST(Brake, TakesTheEnergyAndNeverTurnsTheShaftRound)
         EXPECT_NEAR(omega_m(plant), -0.001 / m.inertia_kgm2 * 5e-5, 1e-12);
     }
 }
+
+namespace {
+
+constexpr double stiffness_Nmprad = 40.0;
+
+MotorEffects elastic(double damping_Nms)
+{
+    MotorEffects e;
+    e.load_inertia_share     = 0.6;
+    e.shaft_stiffness_Nmprad = stiffness_Nmprad;
+    e.shaft_damping_Nms      = damping_Nms;
+    return e;
+}
+
+double energy_J(const Plant &plant)
+{
+    const double J = mass().inertia_kgm2;
+    return 0.5 * 0.4 * J * std::pow(omega_m(plant), 2) +
+           0.5 * 0.6 * J * std::pow(plant.omega_load_m_radps(), 2) +
+           0.5 * stiffness_Nmprad * std::pow(plant.twist_rad(), 2);
+}
+
+/// Angular frequency of the twist over 40 of its periods, from where it rises through zero.
+double oscillation_radps(Plant &plant, const ShaftLoad &load, double dt_s)
+{
+    double first_s = -1.0;
+    int    rises   = 0;
+    for (int k = 0;; k++) {
+        const double before = plant.twist_rad();
+        plant.advance({}, load, dt_s);
+        const double after = plant.twist_rad();
+        if (before < 0.0 && after >= 0.0) {
+            const double now_s = dt_s * (k - before / (after - before));
+            first_s            = rises == 0 ? now_s : first_s;
+            if (++rises == 41) {
+                return 2.0 * pi * 40.0 / (now_s - first_s);
+            }
+        }
+    }
+}
+
+} // namespace
+
+TEST(TwoMass, OscillatesAtItsResonanceAndWithOneEndHeldAtTheOthers)
+{
+    const double J = mass().inertia_kgm2;
+    Plant        free(mass());
+    free.set_effects(elastic(0.0));
+    free.reset(0.0);
+    for (int k = 0; k < 20; k++) {
+        free.advance({}, {0.5}, 1e-5);
+    }
+    const double resonance = std::sqrt(stiffness_Nmprad * (1.0 / (0.4 * J) + 1.0 / (0.6 * J)));
+    EXPECT_NEAR(oscillation_radps(free, {}, 1e-5), resonance, 1e-4 * resonance);
+
+    MotorEffects held        = elastic(0.0);
+    held.coulomb_friction_Nm = 10.0; // the motor stands: what its encoder cannot see
+    Plant motor_held(mass());
+    motor_held.set_effects(held);
+    motor_held.reset(0.0);
+    for (int k = 0; k < 20; k++) {
+        motor_held.advance({}, {0.5}, 1e-5);
+    }
+    const double anti = std::sqrt(stiffness_Nmprad / (0.6 * J));
+    EXPECT_NEAR(oscillation_radps(motor_held, {}, 1e-5), anti, 1e-4 * anti);
+    EXPECT_EQ(motor_held.omega_e_radps(), 0.0);
+
+    Plant load_held(mass());
+    load_held.set_effects(elastic(0.0));
+    load_held.reset(40.0); // the brake stops the load, the motor swings on
+    const double other = std::sqrt(stiffness_Nmprad / (0.4 * J));
+    EXPECT_NEAR(oscillation_radps(load_held, {0.0, 0.0, 100.0}, 1e-5), other, 1e-4 * other);
+    EXPECT_EQ(load_held.omega_load_m_radps(), 0.0);
+}
+
+TEST(TwoMass, KeepsItsEnergyAndLosesWhatTheDampingTakes)
+{
+    for (const double damping_Nms : {0.0, 0.004}) {
+        Plant plant(mass());
+        plant.set_effects(elastic(damping_Nms));
+        plant.reset(200.0);
+        double       lost_J  = 0.0;
+        double       work_J  = 0.0;
+        const double start_J = energy_J(plant);
+        const double dt_s    = 1e-5;
+        const auto   slip    = [&] { return omega_m(plant) - plant.omega_load_m_radps(); };
+        for (int k = 0; k < 20000; k++) {
+            const double slip_before = slip();
+            const double load_before = plant.omega_load_m_radps();
+            const double load_Nm     = k < 5000 ? 0.3 : -0.1;
+            plant.advance({}, {load_Nm}, dt_s);
+            lost_J += 0.5 * dt_s * damping_Nms * (std::pow(slip_before, 2) + std::pow(slip(), 2));
+            work_J += 0.5 * dt_s * load_Nm * (load_before + plant.omega_load_m_radps());
+            ASSERT_NEAR(energy_J(plant) + lost_J + work_J, start_J, 2e-5 * start_J) << k;
+        }
+        const double J        = mass().inertia_kgm2; // both together: as a rigid shaft
+        const double momentum = J * (0.4 * omega_m(plant) + 0.6 * plant.omega_load_m_radps());
+        EXPECT_NEAR(momentum, J * 100.0 - 0.3 * 0.05 + 0.1 * 0.15, 1e-9);
+        EXPECT_EQ(lost_J > 0.0, damping_Nms > 0.0);
+    }
+}
+
+TEST(TwoMass, DampingFadesTheOscillationAsItsClosedFormSays)
+{
+    const double damping_Nms = 0.004;
+    Plant        plant(mass());
+    plant.set_effects(elastic(damping_Nms));
+    plant.reset(0.0);
+    for (int k = 0; k < 20; k++) {
+        plant.advance({}, {0.5}, 1e-5);
+    }
+    const double reduced = 0.4 * 0.6 * mass().inertia_kgm2;
+    const auto   swing_J = [&] { // of the masses against each other
+        return 0.5 * reduced * std::pow(omega_m(plant) - plant.omega_load_m_radps(), 2) +
+               0.5 * stiffness_Nmprad * std::pow(plant.twist_rad(), 2);
+    };
+    const double natural = std::sqrt(stiffness_Nmprad / reduced);
+    const double fade    = 0.5 * damping_Nms / reduced;
+    const double period  = 2.0 * pi / std::sqrt(natural * natural - fade * fade);
+    const int    steps   = 2000;
+    const double start_J = swing_J();
+    for (int k = 0; k < 20 * steps; k++) {
+        plant.advance({}, {}, period / steps);
+    }
+    EXPECT_NEAR(swing_J() / start_J, std::exp(-2.0 * fade * 20.0 * period), 1e-6);
+}

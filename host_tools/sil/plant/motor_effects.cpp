@@ -48,7 +48,8 @@ RotorVector flux_of(const SaturationMap &map, RotorVector i)
 bool any_effect(const MotorEffects &e)
 {
     return e.saturation || e.cogging_amplitude_Nm != 0.0 || e.coulomb_friction_Nm != 0.0 ||
-           e.static_friction_Nm != 0.0;
+           e.static_friction_Nm != 0.0 || e.load_inertia_share != 0.0 || e.flux_5th != 0.0 ||
+           e.flux_7th != 0.0 || e.iron_hysteresis_Nm != 0.0 || e.iron_eddy_Nms != 0.0;
 }
 
 double cogging_Nm(const MotorEffects &e, double theta_e_rad, int pole_pairs) // EQ-EFFECTS-2
@@ -72,6 +73,18 @@ double friction_Nm(const MotorEffects &e, double omega_m_radps) // EQ-EFFECTS-3
     const double share = omega_m_radps / e.stribeck_speed_m_radps;
     return e.coulomb_friction_Nm +
            (e.static_friction_Nm - e.coulomb_friction_Nm) * std::exp(-share * share);
+}
+
+MagnetFlux magnet_flux(const MotorEffects &e, double pm_flux_Wb, double theta_e_rad)
+{
+    if (e.flux_5th == 0.0 && e.flux_7th == 0.0) {
+        return {{pm_flux_Wb, 0.0}, {}};
+    }
+    const double d = pm_flux_Wb * (e.flux_7th + e.flux_5th); // EQ-EFFECTS-5
+    const double q = pm_flux_Wb * (e.flux_7th - e.flux_5th);
+    const double c = std::cos(6.0 * theta_e_rad);
+    const double s = std::sin(6.0 * theta_e_rad);
+    return {{pm_flux_Wb + d * c, q * s}, {-6.0 * d * s, 6.0 * q * c}};
 }
 
 SaturationMap scaled(SaturationMap map, double ld_factor, double lq_factor)

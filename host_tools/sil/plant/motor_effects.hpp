@@ -4,6 +4,13 @@
 ///     psi_d = psi_m + L_d(i) i_d,  psi_q = L_q(i) i_q,  L bilinear in the map  EQ-EFFECTS-1
 ///     T_cogging = amplitude sin(order theta_m) + second sin(2 order theta_m + phase)   EQ-EFFECTS-2
 ///     F(w_m) = F_c + (F_s - F_c) exp(-(w_m / w_s)^2), against the motion       EQ-EFFECTS-3
+///     psi_pm,d = psi_m (1 + (h5 + h7) cos 6 theta)                             EQ-EFFECTS-5
+///     psi_pm,q = psi_m (h7 - h5) sin 6 theta,  T += 1.5 n_p i . d psi_pm / d theta
+///     T_iron = (T_h sign(w_m) + k_e w_m) |psi|^2 / psi_m^2                     EQ-EFFECTS-6
+///
+/// h5 and h7 are the shares of cos 5 theta and cos 7 theta in a phase's flux; the voltage gets them through psi, so that
+/// power balances. The iron's losses brake the shaft: as in a motor that turns, and none at standstill, from the ripple
+/// of the PWM or in the currents.
 ///
 /// Outside the map its edge value holds.
 #pragma once
@@ -20,6 +27,13 @@ double cogging_Nm(const MotorEffects &effects, double theta_e_rad, int pole_pair
 
 /// Dry friction at a speed, at least 0.
 double friction_Nm(const MotorEffects &effects, double omega_m_radps);
+
+/// What the magnet gives to the flux linkages, and its slope over the electrical angle.
+struct MagnetFlux {
+    RotorVector flux_Wb;
+    RotorVector slope_Wb;
+};
+MagnetFlux magnet_flux(const MotorEffects &effects, double pm_flux_Wb, double theta_e_rad);
 
 /// A saturation map scaled by factors of L_d and L_q.
 SaturationMap scaled(SaturationMap map, double ld_factor, double lq_factor);

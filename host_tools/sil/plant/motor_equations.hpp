@@ -32,11 +32,12 @@ inline MotorState along(const MotorState &x, const MotorState &rate, double f)
 
 class MotorEquations {
 public:
-    explicit MotorEquations(const Motor &m)
+    /// `inertia_share` of the motor's inertia is what its torque turns.
+    explicit MotorEquations(const Motor &m, double inertia_share = 1.0)
         : pole_pairs_(m.pole_pairs), resistance_Ohm_(m.stator_resistance_Ohm),
           flux_Wb_(m.pm_flux_Wb), friction_Nms_(m.viscous_friction_Nms),
           per_ld_(1.0 / m.d_axis_inductance_H), per_lq_(1.0 / m.q_axis_inductance_H),
-          per_inertia_(1.0 / m.inertia_kgm2), torque_factor_(1.5 * m.pole_pairs)
+          per_inertia_(1.0 / (inertia_share * m.inertia_kgm2)), torque_factor_(1.5 * m.pole_pairs)
     {
     }
 
@@ -45,6 +46,11 @@ public:
         return pole_pairs_ * x.omega_m;
     }
     /// Without saturation.
+    RotorVector current_A(const MotorState &x, RotorVector magnet_Wb) const
+    {
+        return {(x.psi_d - magnet_Wb.d) * per_ld_, (x.psi_q - magnet_Wb.q) * per_lq_};
+    }
+    /// The same of a magnet without harmonics.
     RotorVector current_A(const MotorState &x) const
     {
         return {(x.psi_d - flux_Wb_) * per_ld_, x.psi_q * per_lq_};
@@ -52,6 +58,11 @@ public:
     double torque_Nm(const MotorState &x, RotorVector i) const // EQ-PLANT-2
     {
         return torque_factor_ * (x.psi_d * i.q - x.psi_q * i.d);
+    }
+    /// Of a magnet whose flux changes with the angle.
+    double slope_Nm(RotorVector slope_Wb, RotorVector i) const
+    {
+        return torque_factor_ * (slope_Wb.d * i.d + slope_Wb.q * i.q);
     }
     /// What turns the shaft, without cogging and Coulomb friction.
     double shaft_Nm(const MotorState &x, RotorVector i, const ShaftLoad &load) const

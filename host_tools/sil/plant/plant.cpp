@@ -22,32 +22,39 @@ Plant::Plant(const Motor &motor) : motor_(motor), equations_(motor)
 
 void Plant::reset(double omega_e_radps, double theta_e_rad)
 {
-    x_       = {motor_.pm_flux_Wb, 0.0, omega_e_radps / motor_.pole_pairs, theta_e_rad};
-    i_       = {};
+    const double omega_m = omega_e_radps / motor_.pole_pairs;
+    x_                   = {{0.0, 0.0, omega_m, theta_e_rad}, 0.0, omega_m};
+    set_current({});
     peak_A2_ = 0.0;
     align_angle();
 }
 
 void Plant::set_motor(const Motor &motor)
 {
-    motor_     = motor;
-    equations_ = MotorEquations(motor);
-    set_current(i_);
+    motor_ = motor;
+    renew();
 }
 
 void Plant::set_effects(const MotorEffects &effects)
 {
-    effects_      = effects;
-    with_effects_ = any_effect(effects);
+    effects_ = effects;
+    renew();
+}
+
+void Plant::renew()
+{
+    with_effects_ = any_effect(effects_);
+    equations_    = MotorEquations(motor_, 1.0 - effects_.load_inertia_share);
     set_current(i_);
 }
 
 void Plant::set_current(RotorVector i)
 {
-    const RotorVector L = inductances_H(i);
-    x_.psi_d            = motor_.pm_flux_Wb + L.d * i.d;
-    x_.psi_q            = L.q * i.q;
-    i_                  = i;
+    const RotorVector L      = inductances_H(i);
+    const RotorVector magnet = magnet_flux(effects_, motor_.pm_flux_Wb, x_.theta_e).flux_Wb;
+    x_.psi_d                 = magnet.d + L.d * i.d;
+    x_.psi_q                 = magnet.q + L.q * i.q;
+    i_                       = i;
 }
 
 RotorVector Plant::inductances_H(RotorVector i) const
@@ -59,23 +66,51 @@ RotorVector Plant::inductances_H(RotorVector i) const
 
 RotorVector Plant::current_at(const MotorState &x) const
 {
+    const RotorVector magnet = magnet_flux(effects_, motor_.pm_flux_Wb, x.theta_e).flux_Wb;
     if (effects_.saturation) {
-        return saturated_current_A(*effects_.saturation, {x.psi_d - motor_.pm_flux_Wb, x.psi_q},
+        return saturated_current_A(*effects_.saturation, {x.psi_d - magnet.d, x.psi_q - magnet.q},
                                    i_);
     }
-    return equations_.current_A(x);
+    return equations_.current_A(x, magnet);
+}
+
+double Plant::torque_Nm(const MotorState &x, RotorVector i) const
+{
+    const RotorVector slope = magnet_flux(effects_, motor_.pm_flux_Wb, x.theta_e).slope_Wb;
+    return equations_.torque_Nm(x, i) + equations_.slope_Nm(slope, i);
 }
 
 /// Everything on the motor's mass but dry friction.
 double Plant::motor_side_Nm(const MotorState &x, RotorVector i, const ShaftLoad &load) const
 {
-    return equations_.shaft_Nm(x, i, load) - cogging_Nm(effects_, x.theta_e, motor_.pole_pairs);
+    const RotorVector slope = magnet_flux(effects_, motor_.pm_flux_Wb, x.theta_e).slope_Wb;
+    return equations_.shaft_Nm(x, i, load) - cogging_Nm(effects_, x.theta_e, motor_.pole_pairs) +
+           equations_.slope_Nm(slope, i) - effects_.iron_eddy_Nms * iron_share(x) * x.omega_m;
 }
 
-/// Dry friction of motor and load.
-double Plant::dry_Nm(const MotorState &x, const ShaftLoad &load) const
+/// Of the iron's drag at the magnet's own flux.
+double Plant::iron_share(const MotorState &x) const // EQ-EFFECTS-6
 {
-    return friction_Nm(effects_, x.omega_m) + load.brake_Nm;
+    return (x.psi_d * x.psi_d + x.psi_q * x.psi_q) / (motor_.pm_flux_Wb * motor_.pm_flux_Wb);
+}
+
+/// Dry friction of the motor.
+double Plant::dry_Nm(const MotorState &x) const
+{
+    return friction_Nm(effects_, x.omega_m) + effects_.iron_hysteresis_Nm * iron_share(x);
+}
+
+double Plant::spring_Nm(const TwoMassState &x) const // EQ-EFFECTS-4
+{
+    return effects_.shaft_stiffness_Nmprad * x.twist_rad +
+           effects_.shaft_damping_Nms * (x.omega_m - x.omega_load_m);
+}
+
+/// Everything on the load's mass but its dry friction.
+double Plant::load_side_Nm(const TwoMassState &x, const ShaftLoad &load) const
+{
+    const double fan = load.fan_Nm_per_radps2 * std::abs(x.omega_load_m);
+    return spring_Nm(x) - fan * x.omega_load_m - load.torque_Nm;
 }
 
 template <typename State, typename Rate>
@@ -87,26 +122,51 @@ void Plant::integrate(State &x, double dt_s, const Rate &rate)
 }
 
 template <typename Voltage>
-void Plant::move_with_effects(const Voltage &voltage, const ShaftLoad &load, double dt_s)
+void Plant::move_rigid(const Voltage &voltage, const ShaftLoad &load, double dt_s)
 {
-    friction_.choose(x_.omega_m, motor_side_Nm(x_, i_, load), dry_Nm(x_, load));
-    integrate(x_, dt_s, [&](const MotorState &x, double turned_rad) {
+    MotorState &motor = x_;
+    friction_.choose(x_.omega_m, motor_side_Nm(x_, i_, load), dry_Nm(x_) + load.brake_Nm);
+    integrate(motor, dt_s, [&](const MotorState &x, double turned_rad) {
         const RotorVector i = current_at(x);
-        return equations_.rate(x, i, voltage(turned_rad, x, i),
-                               friction_.left_Nm(motor_side_Nm(x, i, load), dry_Nm(x, load)));
+        return equations_.rate(
+            x, i, voltage(turned_rad, x, i),
+            friction_.left_Nm(motor_side_Nm(x, i, load), dry_Nm(x) + load.brake_Nm));
     });
     x_.omega_m = friction_.ended(x_.omega_m);
-    i_         = current_at(x_);
+}
+
+/// To the motor the shaft is the load.
+template <typename Voltage>
+void Plant::move_two_masses(const Voltage &voltage, const ShaftLoad &load, double dt_s)
+{
+    const double per_load_inertia = 1.0 / (effects_.load_inertia_share * motor_.inertia_kgm2);
+    friction_.choose(x_.omega_m, motor_side_Nm(x_, i_, {spring_Nm(x_)}), dry_Nm(x_));
+    brake_.choose(x_.omega_load_m, load_side_Nm(x_, load), load.brake_Nm);
+    integrate(x_, dt_s, [&](const TwoMassState &x, double turned_rad) {
+        const RotorVector i         = current_at(x);
+        const double      motor_Nm  = motor_side_Nm(x, i, {spring_Nm(x)});
+        const double      beyond_Nm = brake_.left_Nm(load_side_Nm(x, load), load.brake_Nm);
+        return TwoMassState{equations_.rate(x, i, voltage(turned_rad, x, i),
+                                            friction_.left_Nm(motor_Nm, dry_Nm(x))),
+                            x.omega_m - x.omega_load_m, beyond_Nm * per_load_inertia};
+    });
+    x_.omega_m      = friction_.ended(x_.omega_m);
+    x_.omega_load_m = brake_.ended(x_.omega_load_m);
 }
 
 /// voltage(turned_rad, x, i) is the voltage seen from the rotor once it has turned this far in the step.
 template <typename Voltage>
 void Plant::move(const Voltage &voltage, const ShaftLoad &load, double dt_s)
 {
-    if (with_effects_ || load.brake_Nm != 0.0) {
-        move_with_effects(voltage, load, dt_s);
+    if (effects_.load_inertia_share != 0.0) {
+        move_two_masses(voltage, load, dt_s);
+        i_ = current_at(x_);
+    } else if (with_effects_ || load.brake_Nm != 0.0) {
+        move_rigid(voltage, load, dt_s);
+        i_ = current_at(x_);
     } else {
-        integrate(x_, dt_s, [&](const MotorState &x, double turned_rad) {
+        MotorState &motor = x_;
+        integrate(motor, dt_s, [&](const MotorState &x, double turned_rad) {
             const RotorVector i = equations_.current_A(x);
             return equations_.rate(x, i, voltage(turned_rad, x, i),
                                    equations_.shaft_Nm(x, i, load));
@@ -143,12 +203,7 @@ void Plant::advance_floating(StatorVector v, std::size_t phase, const ShaftLoad 
 
 void Plant::coast(const ShaftLoad &load, double dt_s)
 {
-    move(
-        [&](double, const MotorState &x, RotorVector) {
-            const double w = equations_.omega_e_radps(x);
-            return RotorVector{-w * x.psi_q, w * x.psi_d};
-        },
-        load, dt_s);
+    move([&](double, const MotorState &x, RotorVector) { return emf_V(x); }, load, dt_s);
 }
 
 void Plant::clear_current(std::size_t phase)
@@ -199,7 +254,7 @@ void Plant::align_angle()
 PhaseVector Plant::phase_current_rate_Aps(StatorVector v) const
 {
     const RotorVector L    = inductances_H(i_);
-    const RotorVector flux = equations_.flux_rate_V(x_, i_, to_rotor(v, angle_));
+    const RotorVector flux = current_flux_rate_V(x_, i_, to_rotor(v, angle_));
     const double      w    = omega_e_radps();
     // The rotor frame's own rotation comes in: d/dt (P i) = P (i' + w J i).
     return phases_of(to_stator({flux.d / L.d - w * i_.q, flux.q / L.q + w * i_.d}, angle_));
@@ -209,7 +264,7 @@ PhaseVector Plant::phase_current_rate_Aps(StatorVector v) const
 double Plant::floating_V(const MotorState &x, RotorVector i, RotorVector v, RotorVector u) const
 {
     const RotorVector L    = inductances_H(i);
-    const RotorVector flux = equations_.flux_rate_V(x, i, v);
+    const RotorVector flux = current_flux_rate_V(x, i, v);
     const double      w    = equations_.omega_e_radps(x);
     const double      rate = u.d * (flux.d / L.d - w * i.q) + u.q * (flux.q / L.q + w * i.d);
     return -1.5 * rate / (u.d * u.d / L.d + u.q * u.q / L.q);
@@ -222,10 +277,26 @@ double Plant::floating_V(std::array<double, 3> others_V, std::size_t phase) cons
                       to_rotor(phase_axes[phase], angle_));
 }
 
+/// What turning induces, with or without currents.
+RotorVector Plant::emf_V(const MotorState &x) const
+{
+    const double      w     = equations_.omega_e_radps(x);
+    const RotorVector slope = magnet_flux(effects_, motor_.pm_flux_Wb, x.theta_e).slope_Wb;
+    return {w * (slope.d - x.psi_q), w * (slope.q + x.psi_d)};
+}
+
+/// What of d/dt of the flux linkages changes the currents.
+RotorVector Plant::current_flux_rate_V(const MotorState &x, RotorVector i, RotorVector v) const
+{
+    const double      w     = equations_.omega_e_radps(x);
+    const RotorVector slope = magnet_flux(effects_, motor_.pm_flux_Wb, x.theta_e).slope_Wb;
+    const RotorVector rate  = equations_.flux_rate_V(x, i, v);
+    return {rate.d - w * slope.d, rate.q - w * slope.q};
+}
+
 PhaseVector Plant::emf_V() const
 {
-    const double w = omega_e_radps();
-    return phases_of(to_stator(RotorVector{-w * x_.psi_q, w * x_.psi_d}, angle_));
+    return phases_of(to_stator(emf_V(x_), angle_));
 }
 
 } // namespace sdre

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// The motor with its mechanics as a whole, step by step: the equations of motor_equations.hpp.
 ///
-/// With MotorEffects also saturation, cogging and dry friction (dry_friction.hpp), with or without them a brake.
+/// With MotorEffects also what motor_effects.hpp and two_mass.hpp say and dry friction (dry_friction.hpp), with or without
+/// them a brake.
 #pragma once
 
 #include <array>
@@ -14,6 +15,7 @@
 #include "sil/plant/motor_equations.hpp"
 #include "sil/plant/rotation.hpp"
 #include "sil/plant/shaft_path.hpp"
+#include "sil/plant/two_mass.hpp"
 #include "sil/plant/vectors.hpp"
 
 namespace sdre {
@@ -73,11 +75,21 @@ public:
     void   align_angle();
     double torque_Nm() const
     {
-        return equations_.torque_Nm(x_, i_);
+        return torque_Nm(x_, i_);
     }
     double omega_e_radps() const
     {
         return equations_.omega_e_radps(x_);
+    }
+    /// Of the load's mass, mechanical.
+    double omega_load_m_radps() const
+    {
+        return effects_.load_inertia_share != 0.0 ? x_.omega_load_m : x_.omega_m;
+    }
+    /// Motor ahead of load, mechanical.
+    double twist_rad() const
+    {
+        return x_.twist_rad;
     }
     double theta_e_rad() const
     {
@@ -87,15 +99,24 @@ public:
 private:
     RotorVector current_at(const MotorState &x) const;
     double      motor_side_Nm(const MotorState &x, RotorVector i, const ShaftLoad &load) const;
-    double      dry_Nm(const MotorState &x, const ShaftLoad &load) const;
+    double      torque_Nm(const MotorState &x, RotorVector i) const;
+    double      iron_share(const MotorState &x) const;
+    double      dry_Nm(const MotorState &x) const;
+    double      spring_Nm(const TwoMassState &x) const;
+    double      load_side_Nm(const TwoMassState &x, const ShaftLoad &load) const;
+    RotorVector emf_V(const MotorState &x) const;
+    RotorVector current_flux_rate_V(const MotorState &x, RotorVector i, RotorVector v_V) const;
     template <typename State, typename Rate>
     void integrate(State &x, double dt_s, const Rate &rate);
     template <typename Voltage>
-    void move_with_effects(const Voltage &voltage, const ShaftLoad &load, double dt_s);
+    void move_rigid(const Voltage &voltage, const ShaftLoad &load, double dt_s);
+    template <typename Voltage>
+    void move_two_masses(const Voltage &voltage, const ShaftLoad &load, double dt_s);
     template <typename Voltage>
     void        move(const Voltage &voltage, const ShaftLoad &load, double dt_s);
     RotorVector inductances_H(RotorVector i) const;
     double floating_V(const MotorState &x, RotorVector i, RotorVector v_V, RotorVector axis) const;
+    void   renew();
     void   note_peak();
     void   set_current(RotorVector i);
 
@@ -103,12 +124,13 @@ private:
     MotorEquations equations_;
     MotorEffects   effects_;
     bool           with_effects_ = false;
-    MotorState     x_;
+    TwoMassState   x_;     ///< the load's part with an elastic shaft only
     RotorVector    i_;     ///< of x_; Newton's guess with saturation
     Rotation       angle_; ///< by x_.theta_e
     ShaftPath      path_;
     double         peak_A2_ = 0.0;
-    DryFriction    friction_;
+    DryFriction    friction_; ///< of the motor
+    DryFriction    brake_;    ///< of a load behind the shaft
 };
 
 } // namespace sdre

@@ -159,16 +159,12 @@ void Board::begin_faults()
 
 PlantState Board::plant_state() const
 {
-    const double omega_e  = plant_.omega_e_radps();
-    const double omega_m  = omega_e / scenario_.drive.motor.pole_pairs;
+    const double omega_m  = plant_.omega_load_m_radps();
     const double fan_Nm   = shaft_load_.fan_Nm_per_radps2 * omega_m * std::abs(omega_m);
     const double brake_Nm = omega_m == 0.0 ? 0.0 : std::copysign(shaft_load_.brake_Nm, omega_m);
-    return {omega_e,
-            plant_.current_A(),
-            plant_.torque_Nm(),
-            shaft_load_.torque_Nm + fan_Nm + brake_Nm,
-            dc_link_.voltage_V(),
-            plant_.theta_e_rad()};
+    return {plant_.omega_e_radps(), plant_.current_A(),
+            plant_.torque_Nm(),     shaft_load_.torque_Nm + fan_Nm + brake_Nm,
+            dc_link_.voltage_V(),   plant_.theta_e_rad()};
 }
 
 bool Board::runaway() const

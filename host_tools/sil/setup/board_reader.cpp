@@ -33,11 +33,18 @@ constexpr Range torque_Nm{-1e5, 1e5};
 constexpr Range positive_torque_Nm{0.0, 1e5};
 constexpr Range cogging_order{1.0, 1e3};
 constexpr Range stribeck_speed_m_radps{1e-3, 1e3};
+constexpr Range inertia_share{0.01, 0.99};
+constexpr Range stiffness_Nmprad{1e-3, 1e7};
+constexpr Range damping_Nms{0.0, 1e3};
+constexpr Range flux_share{-0.2, 0.2};
 constexpr Range drift_per_s{-10.0, 10.0};
 constexpr Range map_current_A{-1e4, 1e4};
 constexpr Range map_inductance_H{1e-7, 10.0};
 constexpr Range frequency_Hz{0.0, 1e3};
 constexpr Range time_s{0.0, 1e4};
+
+// Chosen: at 0.5 rad the integrator takes 1e-4 of an oscillation per step, less than a shaft does.
+constexpr double most_rad_per_step = 0.5;
 
 /// Points per axis of a saturation map; the least makes one cell.
 const std::vector<std::size_t> axis_lengths{2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16};
@@ -117,6 +124,17 @@ void read_friction(TomlReader &t, MotorEffects &e)
                fmt::format("= {:g} is not allowed: must not be below coulomb_friction_Nm = {:g}",
                            e.static_friction_Nm, e.coulomb_friction_Nm));
     }
+}
+
+void read_shaft(TomlReader &t, MotorEffects &e)
+{
+    if (!t.has("load_inertia_share") && !t.has("shaft_stiffness_Nmprad") &&
+        !t.has("shaft_damping_Nms")) {
+        return;
+    }
+    e.load_inertia_share     = t.number("load_inertia_share", inertia_share);
+    e.shaft_stiffness_Nmprad = t.number("shaft_stiffness_Nmprad", stiffness_Nmprad);
+    e.shaft_damping_Nms      = t.number_or("shaft_damping_Nms", damping_Nms, 0.0);
 }
 
 } // namespace
@@ -214,10 +232,37 @@ MotorEffects read_motor_effects(TomlReader t)
         e.cogging_second_rad = t.number_or("cogging_second_rad", angle_e_rad, 0.0);
     }
     read_friction(t, e);
-    e.resistance_drift = t.number_or("resistance_drift", drift_per_s, 0.0);
-    e.flux_drift       = t.number_or("flux_drift", drift_per_s, 0.0);
+    read_shaft(t, e);
+    e.flux_5th           = t.number_or("flux_5th", flux_share, 0.0);
+    e.flux_7th           = t.number_or("flux_7th", flux_share, 0.0);
+    e.iron_hysteresis_Nm = t.number_or("iron_hysteresis_Nm", positive_torque_Nm, 0.0);
+    e.iron_eddy_Nms      = t.number_or("iron_eddy_Nms", damping_Nms, 0.0);
+    e.resistance_drift   = t.number_or("resistance_drift", drift_per_s, 0.0);
+    e.flux_drift         = t.number_or("flux_drift", drift_per_s, 0.0);
     t.reject_unknown_keys();
     return e;
+}
+
+void require_slow_shaft(const TomlReader &t, const MotorEffects &e, const Drive &drive,
+                        const MotorScale &scale)
+{
+    if (e.load_inertia_share == 0.0) {
+        return;
+    }
+    // J_m J_l / (J_m + J_l)
+    const double reduced_kgm2 = e.load_inertia_share * (1.0 - e.load_inertia_share) *
+                                scaled(drive.motor, scale).inertia_kgm2;
+    const double step_s  = 0.5 * control_period_s(drive); // of the plant
+    const double spring  = std::sqrt(e.shaft_stiffness_Nmprad / reduced_kgm2) * step_s;
+    const double damping = e.shaft_damping_Nms / reduced_kgm2 * step_s;
+    if (spring > most_rad_per_step || damping > most_rad_per_step) {
+        t.fail(
+            "motor_effects",
+            fmt::format("{} is not allowed: with {:.3g} kg m2 at both ends the shaft is too "
+                        "quick for steps of {:g} s",
+                        spring > most_rad_per_step ? "shaft_stiffness_Nmprad" : "shaft_damping_Nms",
+                        reduced_kgm2, step_s));
+    }
 }
 
 LoadSine read_load_sine(TomlReader t, LoadSine s)

@@ -8,6 +8,7 @@
 #include "common/toml_reader.hpp"
 #include "sil/setup/board_settings.hpp"
 #include "sil/setup/load_settings.hpp"
+#include "sil/setup/motor_scale.hpp"
 
 namespace sdre {
 
@@ -16,10 +17,13 @@ struct Drive;
 /// Exact signals; everything else as the drive file says.
 SensorSettings sensors_of_drive(const Drive &drive);
 
-SensorSettings        read_sensors(TomlReader t, SensorSettings now, const Drive &drive);
-InverterSettings      read_board_inverter(TomlReader t, InverterSettings now, const Drive &drive);
-MotorEffects          read_motor_effects(TomlReader t);
-LoadSine              read_load_sine(TomlReader t, LoadSine now);
+SensorSettings   read_sensors(TomlReader t, SensorSettings now, const Drive &drive);
+InverterSettings read_board_inverter(TomlReader t, InverterSettings now, const Drive &drive);
+MotorEffects     read_motor_effects(TomlReader t);
+/// An elastic shaft whose oscillation the plant's steps follow, with the motor's inertia so scaled.
+void     require_slow_shaft(const TomlReader &t, const MotorEffects &effects, const Drive &drive,
+                            const MotorScale &scale);
+LoadSine read_load_sine(TomlReader t, LoadSine now);
 std::vector<LoadRamp> read_load_ramps(TomlReader &t);
 
 } // namespace sdre

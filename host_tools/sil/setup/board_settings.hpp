@@ -76,6 +76,13 @@ struct MotorEffects {
     double                       coulomb_friction_Nm  = 0.0;
     double static_friction_Nm     = 0.0; ///< at rest; below the Coulomb friction: as that one
     double stribeck_speed_m_radps = 0.0; ///< at which 1/e of the difference is left
+    double load_inertia_share     = 0.0; ///< of the motor's inertia: behind an elastic shaft
+    double shaft_stiffness_Nmprad = 0.0;
+    double shaft_damping_Nms      = 0.0;
+    double flux_5th               = 0.0; ///< harmonics of a phase's magnet flux, shares of pm_flux
+    double flux_7th               = 0.0;
+    double iron_hysteresis_Nm     = 0.0; ///< drag at the magnet's flux
+    double iron_eddy_Nms          = 0.0;
     double resistance_drift       = 0.0; ///< share of the start value per second
     double flux_drift             = 0.0;
 };

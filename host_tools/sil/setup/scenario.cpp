@@ -171,9 +171,13 @@ Scenario read_scenario(TomlReader &t, const std::string &name, const Drive &driv
     start.inverter  = s.inverter;
     start.load_sine = s.load_sine;
     s.changes       = read_changes(t, start, s.drive);
-    s.glitches      = read_glitches(t);
-    s.faults        = read_injected_faults(t);
-    s.measures      = read_measures(t, s.drive.law, own);
+    require_slow_shaft(t, s.motor_effects, s.drive, s.plant_scale);
+    for (const PlantChange &change : s.changes) {
+        require_slow_shaft(t, s.motor_effects, s.drive, change.plant_scale);
+    }
+    s.glitches = read_glitches(t);
+    s.faults   = read_injected_faults(t);
+    s.measures = read_measures(t, s.drive.law, own);
     if (!s.measures.empty() && s.measures.back().time_s >= s.duration_s) {
         t.fail("measure", fmt::format("\"{}\": time_s must be before duration_s = {:g}",
                                       s.measures.back().name, s.duration_s));
