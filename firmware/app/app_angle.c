@@ -3,7 +3,8 @@
 
 #include "encoder_form.h"
 
-#define EDGE_AGE_MAX_s 1.0f /* chosen: a count per second is a shaft that stands */
+#define TURNS_MOST     128.0f /* electrical ones in a turn of the shaft: more than there are */
+#define EDGE_AGE_MAX_s 1.0f   /* chosen: a count per second is a shaft that stands */
 #define EDGE_GAP_MAX_s                                                                             \
     0.05f /* chosen: what a longer time would tell of speed and load is next to nothing */
 /* Chosen by simulation: the noise of v_q falls to three fifths, the dip grows by a sixteenth; with half a count a limit
@@ -91,7 +92,7 @@ static float theta_at(const app_angle_t *a, uint16_t position_cnt, uint32_t half
             : ((uint32_t)position_cnt + (uint32_t)a->positions - (uint32_t)a->zero_cnt);
     const uint32_t count    = ((2U * from_zero_cnt) + half) * (uint32_t)a->pole_pairs;
     const float    half_cnt = (float)count;
-    const float    passed   = (half_cnt + 0.5f) * a->turns_per_half_cnt;
+    const float    passed   = base_min((half_cnt + 0.5f) * a->turns_per_half_cnt, TURNS_MOST);
     const int16_t  turns    = (int16_t)passed; /* at most the pole pairs */
     const float    part_cnt = half_cnt - ((float)turns * a->half_cnt_per_turn);
 

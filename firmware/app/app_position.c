@@ -3,6 +3,8 @@
 
 #include "frames.h"
 
+#define TURNS_NEAR 64.0f /* electrical ones in a turn of the shaft, at most */
+
 void app_position_init(app_position_t *p, const app_angle_t *angle)
 {
     const position_t origin = {0, 0.0f};
@@ -21,13 +23,13 @@ void app_position_forget(app_position_t *p)
     p->known = false;
 }
 
-/* The nearest whole number, of at most a turn of counts. */
-static int32_t rounded(float x)
+/* The nearest whole number, within this. */
+static int32_t rounded(float x, float most)
 {
-    float beyond = x + 0.5f;
+    float beyond = base_clamp(x, -most, most) + 0.5f;
 
     if (x < 0.0f) {
-        beyond = x - 0.5f;
+        beyond -= 1.0f;
     }
     return (int32_t)beyond;
 }
@@ -42,7 +44,7 @@ static void find_zero(app_position_t *p, const app_angle_t *angle)
     const float way_rad    = (float)turned_cnt * p->rad_per_cnt;
     const float turns      = (p->is.theta_e_rad - theta_rad - way_rad) * (1.0f / BASE_TWO_PI);
 
-    p->zero.turns       = p->is.turns + rounded(turns);
+    p->zero.turns       = p->is.turns + rounded(turns, TURNS_NEAR);
     p->zero.theta_e_rad = theta_rad;
     p->known            = true;
 }
@@ -72,9 +74,9 @@ position_t app_position_at(const app_position_t *p, int32_t counts)
     const int32_t per_turn = (int32_t)p->positions;
     const int32_t pairs    = (int32_t)p->pole_pairs;
     const int32_t turns_m  = counts / per_turn;
-    const int32_t rest     = (counts - (turns_m * per_turn)) * pairs;
+    const int32_t rest     = (counts % per_turn) * pairs;
     const int32_t turns_e  = rest / per_turn;
-    const int32_t left     = rest - (turns_e * per_turn);
+    const int32_t left     = rest % per_turn;
     const float   part     = (float)left / (float)per_turn; /* within +-1 */
     position_t    at       = {p->zero.turns + (turns_m * pairs) + turns_e, p->zero.theta_e_rad};
 
@@ -91,7 +93,7 @@ int32_t app_position_cnt(const app_position_t *p, const position_t *at)
     const int32_t pairs    = (int32_t)p->pole_pairs;
     const int32_t turns_e  = at->turns - p->zero.turns;
     const int32_t turns_m  = turns_e / pairs;
-    const int32_t left     = turns_e - (turns_m * pairs);
+    const int32_t left     = turns_e % pairs;
     const float   rest_rad = (BASE_TWO_PI * (float)left) + (at->theta_e_rad - p->zero.theta_e_rad);
     const float   rest     = rest_rad / p->rad_per_cnt;
     const int32_t most     = APP_POSITION_CNT_MAX / per_turn;
@@ -102,5 +104,5 @@ int32_t app_position_cnt(const app_position_t *p, const position_t *at)
     if (turns_m < -most) {
         return -APP_POSITION_CNT_MAX;
     }
-    return (turns_m * per_turn) + rounded(rest);
+    return (turns_m * per_turn) + rounded(rest, (float)per_turn);
 }

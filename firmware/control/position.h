@@ -39,31 +39,32 @@ static inline float position_way_rad(const position_t *from, const position_t *t
 /** A position that much further on; at most half a turn. The last turn is not left. */
 static inline position_t position_moved(const position_t *p, float by_rad)
 {
-    position_t  out   = *p;
-    const float theta = p->theta_e_rad + by_rad;
+    const float theta_rad = p->theta_e_rad + by_rad;
+    int32_t     turns     = p->turns;
 
-    if ((theta > BASE_PI) && (p->turns < POSITION_TURNS_MAX)) {
-        out.turns++;
+    if ((theta_rad > BASE_PI) && (turns < POSITION_TURNS_MAX)) {
+        turns++;
     }
-    if ((theta < -BASE_PI) && (p->turns > -POSITION_TURNS_MAX)) {
-        out.turns--;
+    if ((theta_rad < -BASE_PI) && (turns > -POSITION_TURNS_MAX)) {
+        turns--;
     }
-    out.theta_e_rad = frames_wrap(theta);
+    const position_t out = {turns, frames_wrap(theta_rad)};
     return out;
 }
 
 /** The same position, followed to an angle less than half a turn away; its sums add nothing up. */
 static inline position_t position_followed(const position_t *p, float theta_e_rad)
 {
-    const float ahead = theta_e_rad - p->theta_e_rad;
-    position_t  out   = {p->turns, theta_e_rad};
+    const float ahead_rad = theta_e_rad - p->theta_e_rad;
+    int32_t     turns     = p->turns;
 
-    if ((ahead < -BASE_PI) && (out.turns < POSITION_TURNS_MAX)) {
-        out.turns++;
+    if ((ahead_rad < -BASE_PI) && (turns < POSITION_TURNS_MAX)) {
+        turns++;
     }
-    if ((ahead > BASE_PI) && (out.turns > -POSITION_TURNS_MAX)) {
-        out.turns--;
+    if ((ahead_rad > BASE_PI) && (turns > -POSITION_TURNS_MAX)) {
+        turns--;
     }
+    const position_t out = {turns, theta_e_rad};
     return out;
 }
 

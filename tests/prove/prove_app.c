@@ -45,35 +45,47 @@ static void any_state(void)
     config.constants      = &config; /* the law reads none */
     config.overmodulation = any_bool();
 
-    modes                             = any_modes;
-    modes.config                      = &board_config;
-    modes.mode                        = any_between(APP_MODE_BOOT, APP_MODE_STOP);
-    modes.fault                       = any_between(APP_FAULT_NONE, APP_FAULT_MEMORY);
-    modes.calibrated                  = any_bool();
-    modes.armed                       = any_bool();
-    modes.commission_armed            = any_bool();
-    modes.align_armed                 = any_bool();
-    modes.hot                         = any_bool();
-    modes.dc_link_out                 = any_bool();
-    modes.tripped                     = any_bool();
-    modes.gate_on                     = any_bool();
-    modes.too_hot                     = any_bool();
-    modes.angle.have_turned           = any_bool();
-    modes.angle.have_index            = any_bool();
-    modes.drive.config                = &config;
-    modes.drive.config_again          = &config;
-    modes.drive.law_again             = config.law;
-    modes.drive.constants_again       = config.constants;
-    modes.drive.wanted.predicted      = any_bool();
-    modes.drive.current_watch.expects = any_bool();
-    modes.drive.current_watch.models  = any_bool();
-    modes.drive.state                 = any_between(DRIVE_OFF, DRIVE_FAULT);
-    modes.drive.fault                 = any_between(DRIVE_FAULT_NONE, DRIVE_FAULT_MEMORY);
-    modes.drive.v_limited             = any_bool();
-    modes.drive.wanted.plausible      = any_bool();
-    modes.drive.wanted.without_angle  = any_bool();
-    modes.drive.current_gate.jumped   = any_bool();
-    modes.scale.config                = &board_config.scale;
+    modes                                 = any_modes;
+    modes.config                          = &board_config;
+    modes.mode                            = any_between(APP_MODE_BOOT, APP_MODE_STOP);
+    modes.fault                           = any_between(APP_FAULT_NONE, APP_FAULT_MEMORY);
+    modes.calibrated                      = any_bool();
+    modes.armed                           = any_bool();
+    modes.commission_armed                = any_bool();
+    modes.align_armed                     = any_bool();
+    modes.hot                             = any_bool();
+    modes.dc_link_out                     = any_bool();
+    modes.tripped                         = any_bool();
+    modes.gate_on                         = any_bool();
+    modes.too_hot                         = any_bool();
+    modes.angle.have_turned               = any_bool();
+    modes.angle.have_index                = any_bool();
+    config.positions                      = any_bool();
+    modes.drive.config                    = &config;
+    modes.drive.config_again              = &config;
+    modes.drive.law_again                 = config.law;
+    modes.drive.constants_again           = config.constants;
+    modes.drive.wanted.predicted          = any_bool();
+    modes.drive.current_watch.expects     = any_bool();
+    modes.drive.current_watch.models      = any_bool();
+    modes.drive.motion_watch.voltage_next = any_bool();
+    modes.drive.wanted.arrived            = any_bool();
+    modes.drive.wanted.waits              = any_bool();
+    modes.position.have                   = any_bool();
+    modes.position.known                  = any_bool();
+    modes.position.is.turns               = any_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
+    modes.position.pole_pairs             = (uint16_t)any_between(1, 64);
+    modes.position.positions              = board_config.board.positions;
+    modes.angle.pole_pairs                = modes.position.pole_pairs;
+    modes.angle.turns_per_half_cnt        = 0.5f / (float)board_config.board.positions;
+    modes.angle.half_cnt_per_turn         = 2.0f * (float)board_config.board.positions;
+    modes.drive.state                     = any_between(DRIVE_OFF, DRIVE_FAULT);
+    modes.drive.fault                     = any_between(DRIVE_FAULT_NONE, DRIVE_FAULT_MEMORY);
+    modes.drive.v_limited                 = any_bool();
+    modes.drive.wanted.plausible          = any_bool();
+    modes.drive.wanted.without_angle      = any_bool();
+    modes.drive.current_gate.jumped       = any_bool();
+    modes.scale.config                    = &board_config.scale;
     modes.scale.positions    = board_config.board.positions; /* by their inits, as the other two */
     modes.angle.positions    = board_config.board.positions;
     modes.align.positions    = board_config.board.positions;
@@ -112,7 +124,9 @@ void prove_app_tick(void)
     in.command.run       = any_bool();
     in.command.reset     = any_bool();
     in.command.align     = any_bool();
-    in.command.commission = false; /* not proved: its own bounds and tests */
+    in.command.positioning  = any_bool();
+    in.command.target.turns = any_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
+    in.command.commission   = false; /* not proved: its own bounds and tests */
 
     const bridge_t     out = app_modes_tick(&modes, &in);
     const board_duty_t duty =
@@ -130,22 +144,39 @@ void prove_app_tick(void)
 
 volatile app_control_t      any_control;
 volatile app_control_seen_t any_seen;
+volatile app_position_t     any_position;
 
 static void tick_control(app_mode_t mode, app_control_state_t state)
 {
-    app_control_t      control = any_control;
-    app_control_seen_t seen    = any_seen;
-    app_objects_t      wanted  = any_objects;
-    control.config             = &board_config;
-    control.state              = state;
-    control.armed              = any_bool();
-    control.reset_high         = any_bool();
-    control.asked              = any_bool();
-    control.moved              = any_bool();
-    control.done               = any_bool();
-    seen.mode                  = mode;
-    seen.shorted               = any_bool();
-    seen.in_the_way            = any_bool();
+    app_control_t      control       = any_control;
+    app_control_seen_t seen          = any_seen;
+    app_objects_t      wanted        = any_objects;
+    control.config                   = &board_config;
+    control.state                    = state;
+    control.armed                    = any_bool();
+    control.reset_high               = any_bool();
+    control.asked                    = any_bool();
+    control.moved                    = any_bool();
+    control.done                     = any_bool();
+    control.holds                    = any_bool();
+    control.setpoint.waits           = any_bool();
+    control.setpoint.acknowledged    = any_bool();
+    control.setpoint.new_high        = any_bool();
+    control.setpoint.now.target_cnt  = any_between(-APP_POSITION_CNT_MAX, APP_POSITION_CNT_MAX);
+    control.setpoint.next.target_cnt = any_between(-APP_POSITION_CNT_MAX, APP_POSITION_CNT_MAX);
+    seen.mode                        = mode;
+    seen.shorted                     = any_bool();
+    seen.in_the_way                  = any_bool();
+    seen.arrived                     = any_bool();
+
+    app_position_t position = any_position;
+    position.known          = any_bool();
+    position.have           = any_bool();
+    position.is.turns       = any_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
+    position.zero.turns     = any_between(-TURN_cnt, TURN_cnt); /* of the first turns */
+    position.pole_pairs     = (uint16_t)any_between(1, 64);
+    position.positions      = board_config.board.positions;
+    seen.position           = &position;
 
     app_command_t out;
 

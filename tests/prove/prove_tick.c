@@ -114,22 +114,23 @@ static void any_drive(void)
     state.dobc.running   = any_between(0, 1);
     state.id_pi.running  = any_between(0, 1);
 #endif
-    drive.law.PROVE_LAW         = state;
-    drive.config                = &config;
-    drive.config_again          = &config;
-    drive.law_again             = config.law;
-    drive.constants_again       = config.constants;
-    drive.state                 = any_between(DRIVE_OFF, DRIVE_FAULT);
-    drive.fault                 = any_between(DRIVE_FAULT_NONE, DRIVE_FAULT_MEMORY);
-    drive.wanted.plausible      = any_between(0, 1);
-    drive.wanted.without_angle  = any_between(0, 1);
-    drive.v_limited             = any_between(0, 1);
-    drive.wanted.predicted      = any_between(0, 1);
-    drive.wanted.arrived        = any_between(0, 1);
-    drive.wanted.waits          = any_between(0, 1);
-    drive.current_gate.jumped   = any_between(0, 1);
-    drive.current_watch.expects = any_between(0, 1);
-    drive.current_watch.models  = any_between(0, 1);
+    drive.law.PROVE_LAW             = state;
+    drive.config                    = &config;
+    drive.config_again              = &config;
+    drive.law_again                 = config.law;
+    drive.constants_again           = config.constants;
+    drive.state                     = any_between(DRIVE_OFF, DRIVE_FAULT);
+    drive.fault                     = any_between(DRIVE_FAULT_NONE, DRIVE_FAULT_MEMORY);
+    drive.wanted.plausible          = any_between(0, 1);
+    drive.wanted.without_angle      = any_between(0, 1);
+    drive.v_limited                 = any_between(0, 1);
+    drive.wanted.predicted          = any_between(0, 1);
+    drive.wanted.arrived            = any_between(0, 1);
+    drive.wanted.waits              = any_between(0, 1);
+    drive.current_gate.jumped       = any_between(0, 1);
+    drive.current_watch.expects     = any_between(0, 1);
+    drive.current_watch.models      = any_between(0, 1);
+    drive.motion_watch.voltage_next = any_between(0, 1);
 }
 
 static void state_is_kept(void)
@@ -162,8 +163,11 @@ void prove_tick(void)
     sample.valid            = any_between(0, 1);
     command.run             = any_between(0, 1);
 
-    position_command_t position = any_position;
-    command.position            = any_between(0, 1) ? &position : NULL;
+    position_command_t position =
+        any_position; /* drive_tick() refuses other turns: unit.position_run */
+    position.is.turns     = any_turns();
+    position.target.turns = any_turns();
+    command.position      = any_between(0, 1) ? &position : NULL;
 
     bridge_t out;
 #if defined PROVE_dobc
@@ -186,6 +190,7 @@ static void any_bits(void)
 #endif
     config.law       = &NAMED(law_, PROVE_LAW);
     config.constants = &constants;
+    config.positions = any_between(0, 1);
 }
 
 /* Entry: constants that are any bits. */
