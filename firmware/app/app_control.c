@@ -63,22 +63,17 @@ bool app_control_knows(const app_objects_t *o, const drive_config_t *drive)
            ((quick <= APP_CONTROL_QUICK_FAST) || (quick >= APP_CONTROL_QUICK_RAMP_STAY));
 }
 
-static bool has(uint16_t controlword, int bit)
-{
-    return (controlword & (uint16_t)bit) != 0U;
-}
-
 static ask_t asked_for(uint16_t controlword)
 {
     ask_t ask = ASK_ENABLE;
 
-    if (!has(controlword, APP_CONTROL_ENABLE_VOLTAGE)) {
+    if (!app_control_has(controlword, APP_CONTROL_ENABLE_VOLTAGE)) {
         ask = ASK_DISABLE_VOLTAGE;
-    } else if (!has(controlword, APP_CONTROL_NO_QUICK_STOP)) {
+    } else if (!app_control_has(controlword, APP_CONTROL_NO_QUICK_STOP)) {
         ask = ASK_QUICK_STOP;
-    } else if (!has(controlword, APP_CONTROL_SWITCH_ON)) {
+    } else if (!app_control_has(controlword, APP_CONTROL_SWITCH_ON)) {
         ask = ASK_SHUT_DOWN;
-    } else if (!has(controlword, APP_CONTROL_ENABLE)) {
+    } else if (!app_control_has(controlword, APP_CONTROL_ENABLE)) {
         ask = ASK_SWITCH_ON;
     } else {
         /* operation */
@@ -236,7 +231,7 @@ static void step(app_control_t *c, const app_objects_t *o, const app_control_see
     } else {
         /* nothing is asked for that this state knows */
     }
-    c->armed = c->armed || !has(o->controlword, APP_CONTROL_ENABLE);
+    c->armed = c->armed || !app_control_has(o->controlword, APP_CONTROL_ENABLE);
 }
 
 /* On the way to a position, or holding one. Halted, or stopping, the drive has a speed, zero in the end. */
@@ -259,7 +254,7 @@ static bool has_position(app_control_t *c, const app_objects_t *o, const app_con
         c->holds = true;
     }
     app_setpoint_tick(&c->setpoint, o, seen->position, seen->arrived);
-    return !stopping && !has(o->controlword, APP_CONTROL_HALT);
+    return !stopping && !app_control_has(o->controlword, APP_CONTROL_HALT);
 }
 
 static bool is_stopping(const app_control_t *c, ask_t ask)
@@ -312,7 +307,7 @@ static void move_reference(app_control_t *c, const app_objects_t *o, const app_c
     const bool runs = (seen->mode == APP_MODE_RUN) || (seen->mode == APP_MODE_STOP);
 
     if (runs || !(o->accel_e_radps2 > 0.0f)) {
-        const bool still = stopping || has(o->controlword, APP_CONTROL_HALT) ||
+        const bool still = stopping || app_control_has(o->controlword, APP_CONTROL_HALT) ||
                            (c->mode == APP_CONTROL_PROFILE_POSITION);
 
         ramp(c, still ? 0.0f : o->omega_e_radps, o->accel_e_radps2, deceleration(c, o));
@@ -325,7 +320,7 @@ static void move_reference(app_control_t *c, const app_objects_t *o, const app_c
 void app_control_tick(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
                       app_command_t *out)
 {
-    const bool  reset_now = has(o->controlword, APP_CONTROL_FAULT_RESET);
+    const bool  reset_now = app_control_has(o->controlword, APP_CONTROL_FAULT_RESET);
     const ask_t ask       = asked_for(o->controlword);
 
     step(c, o, seen, ask);

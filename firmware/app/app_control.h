@@ -91,6 +91,12 @@ app_objects_t app_control_default(const drive_config_t *drive);
 /** Whether these objects are ones that the drive knows: mode of operation and options. */
 bool app_control_knows(const app_objects_t *o, const drive_config_t *drive);
 
+/** Whether a word has a bit. */
+static inline bool app_control_has(uint16_t word, int bit)
+{
+    return (word & (uint16_t)bit) != 0U;
+}
+
 /** The control word asks for OPERATION_ENABLED. */
 bool app_control_enables(uint16_t controlword);
 

@@ -69,7 +69,7 @@ static bool is_at_target(const app_registers_t *r)
 static bool is_reached(const app_registers_t *r)
 {
     const app_status_t *s      = &r->status;
-    const bool          halted = (r->wanted.objects.controlword & (uint16_t)APP_CONTROL_HALT) != 0U;
+    const bool          halted = app_control_has(r->wanted.objects.controlword, APP_CONTROL_HALT);
     const float         target = halted ? 0.0f : r->wanted.objects.omega_e_radps;
     const bool runs = (s->state == APP_CONTROL_OPERATION_ENABLED) && (s->mode == APP_MODE_RUN);
     const bool near = base_within(s->speed_e_radps - target, r->wanted.objects.window_e_radps);

@@ -6,11 +6,6 @@
 /* As fast as the drive can: above any limit of its own, which then counts. */
 #define ANY_LIMIT 1.0e9f
 
-static bool has_bit(uint16_t controlword, int bit)
-{
-    return (controlword & (uint16_t)bit) != 0U;
-}
-
 static float limit_of(float asked)
 {
     return (asked > 0.0f) ? asked : ANY_LIMIT;
@@ -51,7 +46,7 @@ static void begin(app_setpoint_t *s, const app_setpoint_one_t *one, const app_po
 static app_setpoint_one_t wanted(const app_setpoint_t *s, const app_objects_t *o)
 {
     const app_setpoint_one_t *before   = s->waits ? &s->next : &s->now;
-    const bool                relative = has_bit(o->controlword, APP_CONTROL_RELATIVE);
+    const bool                relative = app_control_has(o->controlword, APP_CONTROL_RELATIVE);
     const int32_t             from_cnt = relative ? before->target_cnt : 0L;
 
     const app_setpoint_one_t one = {.target_cnt =
@@ -63,7 +58,7 @@ static app_setpoint_one_t wanted(const app_setpoint_t *s, const app_objects_t *o
 void app_setpoint_tick(app_setpoint_t *s, const app_objects_t *o, const app_position_t *position,
                        bool arrived)
 {
-    const bool high = has_bit(o->controlword, APP_CONTROL_NEW_SETPOINT);
+    const bool high = app_control_has(o->controlword, APP_CONTROL_NEW_SETPOINT);
     const bool rose = high && !s->new_high;
 
     const bool follows = s->waits && arrived;
@@ -71,7 +66,7 @@ void app_setpoint_tick(app_setpoint_t *s, const app_objects_t *o, const app_posi
     if (follows) {
         begin(s, &s->next, position);
     }
-    if (rose && ((arrived && !follows) || has_bit(o->controlword, APP_CONTROL_AT_ONCE))) {
+    if (rose && ((arrived && !follows) || app_control_has(o->controlword, APP_CONTROL_AT_ONCE))) {
         const app_setpoint_one_t one = wanted(s, o);
         begin(s, &one, position);
         s->acknowledged = true;

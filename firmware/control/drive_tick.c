@@ -9,10 +9,6 @@
 /* Beyond anything a law asks for, and below where squares overflow. */
 #define VOLTAGE_ANY_V 1.0e9f
 
-/* Limits of a profile that one divides by and squares. */
-#define PROFILE_LEAST 1.0e-3f
-#define PROFILE_MOST  1.0e12f
-
 /* Longer than any drive stands still; a number, for all that is divided by it. */
 #define EDGE_GAP_MAX_s 1.0e9f
 
@@ -55,11 +51,6 @@ void drive_reset(drive_t *d)
     current_gate_reset(&d->current_gate);
 }
 
-static bool is_limit(float x)
-{
-    return base_in_range(x, PROFILE_LEAST, PROFILE_MOST);
-}
-
 /* A speed in range, or a position that the drive takes. */
 static bool command_ok(const drive_config_t *c, const drive_command_t *command)
 {
@@ -69,8 +60,7 @@ static bool command_ok(const drive_config_t *c, const drive_command_t *command)
         return base_within(command->omega_e_radps, c->speed_max_e_radps);
     }
     return c->positions && position_ok(&p->is) && position_ok(&p->target) &&
-           is_limit(p->profile.speed_e_radps) && is_limit(p->profile.accel_e_radps2) &&
-           is_limit(p->profile.decel_e_radps2) && is_limit(p->profile.jerk_e_radps3);
+           position_profile_is_any(&p->profile);
 }
 
 static drive_fault_t find_fault(const drive_config_t *c, const drive_sample_t *s,

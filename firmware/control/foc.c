@@ -154,8 +154,8 @@ void foc_answer(foc_t *s, const foc_config_t *c, const drive_config_t *drive, co
     out->d_omega         = 0.0f;
     out->d_q             = 0.0f;
     out->profile_e_radps = 0.0f;
-    out->arrived        = false;
-    out->waits          = false;
+    out->arrived         = false;
+    out->waits           = false;
     out->predicted       = false;
     out->d_d             = 0.0f;
     out->ignored_angles  = 0U;

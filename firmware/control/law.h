@@ -45,8 +45,8 @@ typedef struct {
         ignored_angles; /**< samples since the start of the run; zero where a law believes all */
     float
         profile_e_radps; /**< speed of the reference; on the way to a position the motion is judged by it */
-    bool arrived; /**< at the commanded position, where the reference rests */
-    bool waits;   /**< the reference, for a shaft that cannot follow it to a position */
+    bool arrived;       /**< at the commanded position, where the reference rests */
+    bool waits;         /**< the reference, for a shaft that cannot follow it to a position */
     bool without_angle; /**< the encoder is lost; the law goes on without it, for a stop */
     bool plausible;     /**< false: the angle cannot be right */
     bool

@@ -28,16 +28,6 @@ typedef struct {
     float                     ts_s;
 } limits_t;
 
-bool position_profile_ok(const position_profile_t *p, const position_profile_t *most)
-{
-    const float least = 1.0e-3f; /* far below any drive's: quotients of limits stay numbers */
-
-    return base_in_range(p->speed_e_radps, least, most->speed_e_radps) &&
-           base_in_range(p->accel_e_radps2, least, most->accel_e_radps2) &&
-           base_in_range(p->decel_e_radps2, least, most->decel_e_radps2) &&
-           base_in_range(p->jerk_e_radps3, least, most->jerk_e_radps3);
-}
-
 void position_ref_start(position_ref_t *r, const position_t *at, float omega_e_radps,
                         float omega_dot_e_radps2)
 {

@@ -21,6 +21,7 @@
 #define POSITION_REF_H
 
 #include "base.h"
+#include "check.h"
 #include "position.h"
 
 /** Of the way to a target; the smaller ones of what an operator asks for and of what the drive can do. */
@@ -40,8 +41,27 @@ typedef struct {
     bool       waits;               /**< for the shaft */
 } position_ref_t;
 
-/** Every limit is a number > 0 and at most that of the other. Context: init or background. */
-bool position_profile_ok(const position_profile_t *p, const position_profile_t *most);
+#define POSITION_LEAST                                                                             \
+    1.0e-3f /**< of a limit: far below any drive's, and quotients of limits stay numbers */
+
+/* Inline in C and C++, so that a tick whose law takes no positions needs nothing of this module. */
+
+/** Every limit is a number > 0 and at most that of the other. Context: any. */
+static inline bool position_profile_ok(const position_profile_t *p, const position_profile_t *most)
+{
+    return base_in_range(p->speed_e_radps, POSITION_LEAST, most->speed_e_radps) &&
+           base_in_range(p->accel_e_radps2, POSITION_LEAST, most->accel_e_radps2) &&
+           base_in_range(p->decel_e_radps2, POSITION_LEAST, most->decel_e_radps2) &&
+           base_in_range(p->jerk_e_radps3, POSITION_LEAST, most->jerk_e_radps3);
+}
+
+/** The same of limits that nobody bounds: at most CHECK_LARGEST. Context: any. */
+static inline bool position_profile_is_any(const position_profile_t *p)
+{
+    const position_profile_t most = {CHECK_LARGEST, CHECK_LARGEST, CHECK_LARGEST, CHECK_LARGEST};
+
+    return position_profile_ok(p, &most);
+}
 
 /** Goes on from a position, with the speed and acceleration given. */
 void position_ref_start(position_ref_t *r, const position_t *at, float omega_e_radps,

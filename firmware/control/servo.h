@@ -31,8 +31,8 @@ static inline void servo_answer(const drive_config_t *drive, const law_input_t *
     out->without_angle   = false;
     out->plausible       = true;
     out->profile_e_radps = 0.0f;
-    out->arrived        = false;
-    out->waits          = false;
+    out->arrived         = false;
+    out->waits           = false;
     out->predicted       = false;
 }
 

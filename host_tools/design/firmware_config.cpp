@@ -16,11 +16,6 @@ constexpr double trip_current_ratio = 2.0;
 // Chosen: 2.5 % of the current limit, ten times the rms noise of the shipped board's sensors.
 constexpr double dead_time_fade_ratio = 0.025;
 
-float single(double x)
-{
-    return static_cast<float>(x);
-}
-
 /// The speed at which the line EMF alone reaches the dc link's trip level through the diodes of an open bridge.
 double emf_limit_e_radps(const Drive &d) // EQ-OPEN-3
 {

@@ -25,11 +25,6 @@ MatrixXd with_angle(const MatrixXd &of_three)
     return out;
 }
 
-float single(double x)
-{
-    return static_cast<float>(x);
-}
-
 position_profile_t fastest_profile(const Design &d)
 {
     const Motor &m        = d.drive.motor;

@@ -32,7 +32,7 @@ MatrixXd encoder_form_law(const ReducedParameters &l, const MatrixXd &Lambda,
                           const OperatingPoint &at)
 {
     const double D      = l[1] + l[11] * at.id_A;
-    const bool   angle  = Lambda.cols() == 4;
+    const bool   angle  = has_angle(Lambda);
     const double k_ref  = Lambda(0, angle ? 2 : 1) + l[4] / l[6]; // v_q per ampere of iq_ref
     MatrixXd     F      = MatrixXd::Zero(2, 7);
     F.block(0, 3, 2, 3) = -Lambda.rightCols(3);
@@ -95,7 +95,7 @@ SampledModel sampled_model(const ReducedParameters &motor, const ReducedParamete
 
     // Nothing of the motor depends on the angle itself, only on theta - theta^: with that difference in place of theta, theta^
     // is an integrator that only a position's law reads. Else it is left out.
-    const Eigen::Index n = gains.Lambda.cols() == 4 ? 11 : 10;
+    const Eigen::Index n = has_angle(gains.Lambda) ? 11 : 10;
     MatrixXd           S = MatrixXd::Identity(11, 11);
     S(3, 10)             = -1.0;
     MatrixXd S_inverse   = MatrixXd::Identity(11, 11);

@@ -23,6 +23,12 @@ struct LoopGains {
     Eigen::MatrixXd L;
 };
 
+/// Whether gains are those of a position.
+inline bool has_angle(const Eigen::MatrixXd &Lambda)
+{
+    return Lambda.cols() == 4;
+}
+
 /// EQ-CERT-3: x(k+1) = A x(k) + b_load T_load(k) + B_noise n(k).
 struct SampledModel {
     Eigen::MatrixXd A;      ///< n x n

@@ -8,6 +8,12 @@ extern "C" {
 
 namespace sdre {
 
+/// As the firmware has it.
+inline float single(double x)
+{
+    return static_cast<float>(x);
+}
+
 /// The firmware's law that takes these constants; an overload for every law of laws.h.
 inline const law_t *law_of(const law_noc_config_t *)
 {

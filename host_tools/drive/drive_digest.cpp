@@ -8,30 +8,22 @@
 namespace sdre {
 namespace {
 
+template <typename Numbers> std::string listed(const Numbers &numbers)
+{
+    std::string s;
+    for (double x : numbers) {
+        s += fmt::format("{:.17g};", x);
+    }
+    return s;
+}
+
 std::string normalised_weights(const Drive &d)
 {
-    std::string s = fmt::format("nosc;{};", d.nosc.order);
-    for (double x : d.nosc.Q) {
-        s += fmt::format("{:.17g};", x);
-    }
-    for (double x : d.nosc.T) {
-        s += fmt::format("{:.17g};", x);
-    }
-    s += fmt::format("nodo;{};{};", nodo_form_name(d.nodo.form), d.nodo.order);
-    for (double x : d.nodo.Q) {
-        s += fmt::format("{:.17g};", x);
-    }
-    for (double x : d.nodo.T) {
-        s += fmt::format("{:.17g};", x);
-    }
+    std::string s = fmt::format("nosc;{};", d.nosc.order) + listed(d.nosc.Q) + listed(d.nosc.T) +
+                    fmt::format("nodo;{};{};", nodo_form_name(d.nodo.form), d.nodo.order) +
+                    listed(d.nodo.Q) + listed(d.nodo.T);
     if (d.position) {
-        s += "position;";
-        for (double x : d.position->Q) {
-            s += fmt::format("{:.17g};", x);
-        }
-        for (double x : d.position->T) {
-            s += fmt::format("{:.17g};", x);
-        }
+        s += "position;" + listed(d.position->Q) + listed(d.position->T);
     }
     return s;
 }
@@ -41,10 +33,7 @@ std::string normalised_harmonics(const Drive &d)
     const HarmonicSpec &h = d.harmonics;
     std::string         s = fmt::format("{};", law_name(d.law));
     for (const auto *orders : {&h.sensor, &h.voltage, &h.cogging}) {
-        for (const double order : *orders) {
-            s += fmt::format("{:.17g};", order);
-        }
-        s += "|";
+        s += listed(*orders) + "|";
     }
     return s + fmt::format("{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{};",
                            h.sensor_weight, h.voltage_weight, h.cogging_weight,
@@ -65,10 +54,7 @@ std::string normalised_servo(const Drive &d)
                      o.preset == DobcPreset::printed ? "printed" : "repaired", o.polynomial_order,
                      o.design_speed_e_radps, o.controller_pole_1ps, o.observer_pole_1ps,
                      o.oscillator_damping_1ps);
-    for (const double order : o.harmonics_per_turn) {
-        s += fmt::format("{:.17g};", order);
-    }
-    return s;
+    return s + listed(o.harmonics_per_turn);
 }
 
 std::string normalised_cascade(const Drive &d)

@@ -58,6 +58,17 @@ PositionSpec read_position(TomlReader t)
     return spec;
 }
 
+void read_position_if(TomlReader &t, Drive &drive)
+{
+    if (std::optional<TomlReader> section = t.table_if("position")) {
+        if (drive.law == Law::conventional_noc || drive.nodo.form != NodoForm::encoder) {
+            t.fail("[position]", "is not allowed: only laws noc and noc_h with [nodo] form = "
+                                 "\"encoder\" take positions");
+        }
+        drive.position = read_position(*section);
+    }
+}
+
 NodoSpec read_nodo(TomlReader t)
 {
     NodoSpec          spec;
@@ -228,21 +239,6 @@ Law read_law(TomlReader &t)
     }
     return found->second;
 }
-
-namespace {
-
-void read_position_if(TomlReader &t, Drive &drive)
-{
-    if (std::optional<TomlReader> section = t.table_if("position")) {
-        if (drive.law == Law::conventional_noc || drive.nodo.form != NodoForm::encoder) {
-            t.fail("[position]", "is not allowed: only laws noc and noc_h with [nodo] form = "
-                                 "\"encoder\" take positions");
-        }
-        drive.position = read_position(*section);
-    }
-}
-
-} // namespace
 
 void read_law_sections(TomlReader &t, Drive &drive)
 {

@@ -10,6 +10,7 @@
 #include "design/board/align_design.hpp"
 #include "design/motor_model.hpp"
 #include "design/sampled_model.hpp"
+#include "drive/core_types.hpp"
 
 extern "C" {
 #include "clock_tree.h"
@@ -65,11 +66,6 @@ constexpr int    ntc_first_cnt = 512;
 constexpr int    ntc_step_cnt  = 128;
 constexpr double ntc_25_degC_K = 298.15;
 constexpr double zero_degC_K   = 273.15;
-
-float single(double x)
-{
-    return static_cast<float>(x);
-}
 
 [[noreturn]] void refuse(const std::string &what)
 {

@@ -21,11 +21,6 @@ constexpr double half_turn_share = 0.9;
 // Chosen: with an edge in every period two of them are at most two periods apart.
 constexpr double edge_gap_periods = 2.0;
 
-float single(double x)
-{
-    return static_cast<float>(x);
-}
-
 foc_axis_t axis(double bandwidth_radps, double L_H, double R_Ohm, double ts_s)
 {
     const double kp = bandwidth_radps * L_H; // EQ-FOC-7
@@ -63,11 +58,10 @@ foc_config_t foc_constants(const Drive &d, const ReducedParameters &l)
 
 speed_difference_config_t speed_difference_constants(const Drive &d, double window_s)
 {
-    const double ts = control_period_s(d);
-    const double most =
-        half_turn_share * pi / (trip_speed_e_radps(d) * ts);
-    const double n = std::min({std::round(window_s / ts), std::floor(most),
-                               static_cast<double>(SPEED_DIFFERENCE_PERIODS_MAX)});
+    const double ts   = control_period_s(d);
+    const double most = half_turn_share * pi / (trip_speed_e_radps(d) * ts);
+    const double n    = std::min({std::round(window_s / ts), std::floor(most),
+                                  static_cast<double>(SPEED_DIFFERENCE_PERIODS_MAX)});
 
     speed_difference_config_t c{};
     c.periods        = static_cast<int16_t>(std::max(n, 1.0));

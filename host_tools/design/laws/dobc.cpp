@@ -6,11 +6,6 @@
 namespace sdre {
 namespace {
 
-float single(double x)
-{
-    return static_cast<float>(x);
-}
-
 bool is_for(const Drive &drive)
 {
     return drive.law == Law::cdobc || drive.law == Law::gpiobc || drive.law == Law::hdobc;

@@ -45,11 +45,6 @@ constexpr double weakening_current_share = 0.25 / 0.9;
 // Chosen: 0.5 % of the voltage circle, and what the hexagon holds outside it, stay free for transients.
 constexpr double voltage_share = 0.995;
 
-float single(double x)
-{
-    return static_cast<float>(x);
-}
-
 GainSeries solve_nosc(const ReducedParameters &l, const Drive &drive, Precision precision)
 {
     const NoscSpec       &spec = drive.nosc;

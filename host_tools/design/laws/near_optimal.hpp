@@ -41,7 +41,7 @@ TripMargin disturbance_margin(const Design &design, const encoder_form_limits_t 
 /// Of law noc with its observer's series at that current, held beyond its range as the firmware does; one of feedback_gains().
 LoopGains encoder_form_gains(const Design &design, double iq_A, const Eigen::MatrixXd &Lambda);
 
-/// The verdict of a law that observes the angle. `model_at(motor, point, Lambda)` has the A, B_voltage, C_voltage and B_noise of
+/// The verdict of a law that observes the angle. `model_at(design, motor, point, Lambda)` has the A, B_voltage, C_voltage and B_noise of
 /// EQ-CERT-3, of all its feedback_gains(); `angle_weight` as for disturbance_margin().
 template <typename ModelAt>
 void certify_whole(Design &d, const encoder_form_limits_t &limits, double angle_weight,
@@ -54,16 +54,17 @@ void certify_whole(Design &d, const encoder_form_limits_t &limits, double angle_
     f.loops      = [&](const Motor &motor, const OperatingPoint &at) {
         std::vector<BrokenLoop> all;
         for (const Eigen::MatrixXd &Lambda : feedback_gains(d)) {
-            const auto m = model_at(motor, at, Lambda);
+            const auto m = model_at(d, motor, at, Lambda);
             const auto two =
                 broken_at_voltages(m.A, m.B_voltage, m.C_voltage, control_period_s(d.drive));
             all.insert(all.end(), two.begin(), two.end());
         }
         return all;
     };
-    const auto m = model_at(
-        d.drive.motor, OperatingPoint{d.drive.motor.rated_speed_e_radps, 0.0, mtpa_id_A(d.l, 0.0)},
-        d.nosc.gain[0]);
+    const auto m =
+        model_at(d, d.drive.motor,
+                 OperatingPoint{d.drive.motor.rated_speed_e_radps, 0.0, mtpa_id_A(d.l, 0.0)},
+                 d.nosc.gain[0]);
     certify_loop(d, f, {disturbance_margin(d, limits, m.A, m.B_noise, angle_weight)});
 }
 

@@ -55,11 +55,7 @@ void solve(Design &d)
     const CurrentObserver currents = design_nodo_current(d.l, d.drive, trip_speed_e_radps(d.drive));
     c.currents                     = currents.gains;
     certify_currents(d, currents);
-    const auto model = [&d](const Motor &motor, const OperatingPoint &at,
-                            const Eigen::MatrixXd &Lambda) {
-        return model_at(d, motor, at, Lambda);
-    };
-    certify_whole(d, c.plausible, d.drive.nodo.T[2], model);
+    certify_whole(d, c.plausible, d.drive.nodo.T[2], model_at);
     keep_constants(d, c);
 }
 

@@ -108,11 +108,7 @@ void solve(Design &d)
     c.rare              = sample_gains(d);
     c.gate              = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
     c.plausible.d_omega = believed_d_omega(c.plausible, c.rare, control_period_s(d.drive));
-    const auto model    = [&d](const Motor &motor, const OperatingPoint &at,
-                            const Eigen::MatrixXd &Lambda) {
-        return model_at(d, motor, at, Lambda);
-    };
-    certify_whole(d, c.plausible, angle_weight(d.drive, m.rated_speed_e_radps), model);
+    certify_whole(d, c.plausible, angle_weight(d.drive, m.rated_speed_e_radps), model_at);
     keep_constants(d, c);
 }
 

@@ -191,7 +191,7 @@ HarmonicSampled sampled_harmonic_model(const ReducedParameters &motor, const Red
     m.B_voltage.topRows(n_motor) = held.Gamma.leftCols(2);
     m.C_voltage.rightCols(n)     = o.F;
     m.B_noise.bottomRows(n)      = PK;
-    return in_angle_error(m, K.row(slope).isZero(0.0), Lambda.cols() == 4);
+    return in_angle_error(m, K.row(slope).isZero(0.0), has_angle(Lambda));
 }
 
 } // namespace sdre

@@ -17,12 +17,15 @@ constexpr double settled_cnt =
     2.0; // chosen: a shaft at rest hunts by one about the edges of its count
 constexpr double time_tolerance_s = 1e-9; // far below a period: two times that mean the same tick
 
-std::optional<double> settling_time_s(Iterator begin, Iterator end, double target, double band)
+/// Last entry of a value into a band.
+template <typename Value>
+std::optional<double> settling_time_s(Iterator begin, Iterator end, double target, double band,
+                                      const Value &value)
 {
     Iterator inside = end; // first row of the last stretch within the band
     for (Iterator row = end; row != begin;) {
         --row;
-        if (std::abs(row->omega_e_radps - target) > band) {
+        if (std::abs(value(*row) - target) > band) {
             break;
         }
         inside = row;
@@ -31,6 +34,11 @@ std::optional<double> settling_time_s(Iterator begin, Iterator end, double targe
         return std::nullopt;
     }
     return inside->time_s - begin->time_s;
+}
+
+double speed_of(const TraceRow &r)
+{
+    return r.omega_e_radps;
 }
 
 void excursions(Iterator begin, Iterator end, double target, double band, Metrics &m)
@@ -62,16 +70,17 @@ Iterator tail_of(const Measure &measure, Iterator begin, Iterator end)
 /// From the figures of the electrical speed.
 void add_paper_b(Metrics &m, Iterator begin, Iterator tail, Iterator end, int pole_pairs)
 {
-    const auto   speed  = [](const TraceRow &r) { return r.omega_e_radps; };
     const double target = (end - 1)->omega_ref_e_radps;
-    const double centre = mean(tail, end, speed);
+    const double centre = mean(tail, end, speed_of);
     const double rpm    = 30.0 / std::acos(-1.0) / pole_pairs;
     m.fluctuation_rpm   = rpm * m.ripple_e_radps;
     m.offset_rpm        = rpm * (centre - target);
-    const auto slower   = [&](const TraceRow &a, const TraceRow &b) { return speed(a) < speed(b); };
-    m.decrease_rpm      = rpm * (target - speed(*std::min_element(begin, end, slower)));
+    const auto slower   = [&](const TraceRow &a, const TraceRow &b) {
+        return speed_of(a) < speed_of(b);
+    };
+    m.decrease_rpm           = rpm * (target - speed_of(*std::min_element(begin, end, slower)));
     const auto [least, most] = std::minmax_element(tail, end, slower);
-    const double sum         = speed(*least) + speed(*most);
+    const double sum         = speed_of(*least) + speed_of(*most);
     if (sum != 0.0) {
         m.fluctuation_rate_percent = 100.0 * 2.0 * m.ripple_e_radps / std::abs(sum);
     }
@@ -79,7 +88,7 @@ void add_paper_b(Metrics &m, Iterator begin, Iterator tail, Iterator end, int po
         m.overshoot_percent = 100.0 * m.overshoot_e_radps / std::abs(target);
     }
     const auto within = [&](double share) {
-        return settling_time_s(begin, end, centre, share * std::abs(target));
+        return settling_time_s(begin, end, centre, share * std::abs(target), speed_of);
     };
     m.within_5_percent_s = within(0.05);
     m.within_2_percent_s = within(0.02);
@@ -117,16 +126,8 @@ void add_position(Metrics &m, Iterator begin, Iterator tail, Iterator end, doubl
     const double target   = (end - 1)->position_ref_e_rad;
     m.position_off_cnt    = largest_off_e_rad(begin, end) / count_e_rad;
     m.position_steady_cnt = largest_off_e_rad(tail, end) / count_e_rad;
-    Iterator inside       = end;
-    for (Iterator row = end; row != begin; inside = row) {
-        --row;
-        if (std::abs(row->position_e_rad - target) > settled_cnt * count_e_rad) {
-            break;
-        }
-    }
-    if (inside != end) {
-        m.position_settled_s = inside->time_s - begin->time_s;
-    }
+    m.position_settled_s  = settling_time_s(begin, end, target, settled_cnt * count_e_rad,
+                                            [](const TraceRow &r) { return r.position_e_rad; });
 }
 
 Metrics metrics_of(const Window &window, const Drive &drive, double load_before_Nm)
@@ -143,11 +144,10 @@ Metrics metrics_of(const Window &window, const Drive &drive, double load_before_
     Metrics m;
     m.name            = measure.name;
     m.time_s          = measure.time_s;
-    m.settling_time_s = settling_time_s(begin, end, target, measure.band_e_radps);
+    m.settling_time_s = settling_time_s(begin, end, target, measure.band_e_radps, speed_of);
     excursions(begin, end, target, measure.band_e_radps, m);
-    m.steady_state_error_e_radps =
-        std::abs(mean(tail, end, [](const TraceRow &r) { return r.omega_e_radps; }) - target);
-    m.ripple_e_radps = 0.5 * (highest->omega_e_radps - lowest->omega_e_radps);
+    m.steady_state_error_e_radps = std::abs(mean(tail, end, speed_of) - target);
+    m.ripple_e_radps             = 0.5 * (highest->omega_e_radps - lowest->omega_e_radps);
     for (Iterator row = begin; row != end; ++row) {
         m.peak_current_A =
             std::max({m.peak_current_A, std::hypot(row->id_A, row->iq_A), row->peak_current_A});

@@ -78,9 +78,8 @@ bool is_shown(const std::string &metric, const Scenario &scenario)
 
 const char *const trace_head =
     "time_s,omega_ref_e_radps,omega_e_radps,iq_A,id_A,iq_ref_A,id_ref_A,vq_V,vd_V,d_omega_hat,"
-    "d_q_hat,d_d_hat,load_torque_Nm,torque_Nm,dc_link_V,position_e_rad,position_ref_e_rad,ia_A,ib_"
-    "A,"
-    "ic_A\n";
+    "d_q_hat,d_d_hat,load_torque_Nm,torque_Nm,dc_link_V,position_e_rad,position_ref_e_rad,"
+    "ia_A,ib_A,ic_A\n";
 
 constexpr std::ptrdiff_t rows_of_a_piece = 4096; // chosen: some hundred kilobytes
 
