@@ -141,7 +141,7 @@ def main(trace_path, title, out_path, marks_path):
     for axis in axes[-1]:
         axis.set_xlabel("time [s]")
     metadata = {"Date": None} if out_path.endswith(".svg") else None
-    figure.savefig(out_path, dpi=110, metadata=metadata)
+    figure.savefig(out_path, dpi=80, metadata=metadata)
 
 
 if __name__ == "__main__":
