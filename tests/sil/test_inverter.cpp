@@ -9,7 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include "plant_motor.hpp"
+
 using namespace sdre;
+using support::motor_390w;
 
 namespace {
 
@@ -17,23 +20,10 @@ constexpr double period_s    = 2e-4;
 constexpr double vdc_V       = 295.0;
 constexpr double dead_time_s = 3e-6;
 
-Motor motor()
-{
-    Motor m;
-    m.pole_pairs            = 2;
-    m.stator_resistance_Ohm = 2.48;
-    m.d_axis_inductance_H   = 0.07498;
-    m.q_axis_inductance_H   = 0.11391;
-    m.pm_flux_Wb            = 0.193;
-    m.inertia_kgm2          = 0.00042;
-    m.viscous_friction_Nms  = 0.0001;
-    return m;
-}
-
 /// A motor whose currents are set by a voltage over a time and then hardly move.
 Motor heavy()
 {
-    Motor m                 = motor();
+    Motor m                 = motor_390w();
     m.stator_resistance_Ohm = 1e-3;
     m.inertia_kgm2          = 1e3;
     return m;
@@ -85,7 +75,7 @@ TEST(Bridge, WithoutDeadTimeBothModelsHaveTheDutyAsMean)
     std::uniform_real_distribution<> any(-0.1, 1.1); // beyond the rails too
     Bridge                           switched(full, model(InverterModel::switched), 0.0);
     Bridge                           averaged(full, model(InverterModel::averaged), 0.0);
-    Plant                            p = plant_with(motor(), {1.0, -0.5});
+    Plant                            p = plant_with(motor_390w(), {1.0, -0.5});
     Plant                            q = p;
     for (int k = 0; k < 500; k++) {
         const bridge_t              out = duties(any(random), any(random), any(random));
@@ -105,7 +95,7 @@ TEST(Bridge, HalfPeriodsHaveTheDutyAsMeanToo)
     std::mt19937_64                  random(12);
     std::uniform_real_distribution<> any(0.0, 1.0);
     Bridge bridge({period_s, 2500.0, 0.07498, true}, model(InverterModel::switched), 0.0);
-    Plant  p = plant_with(motor(), {1.0, -0.5});
+    Plant  p = plant_with(motor_390w(), {1.0, -0.5});
     for (int k = 0; k < 200; k++) {
         const bridge_t out = duties(any(random), any(random), any(random));
         ASSERT_NEAR(mean_V(bridge, p, out)[0], vdc_V * static_cast<double>(out.duty.a), 1e-7);
@@ -190,8 +180,8 @@ TEST(Bridge, ModelsAgreeInClosedMotion)
     // The same rotating duties, dead time included: the currents agree to the PWM ripple.
     Bridge a(full, model(InverterModel::averaged), dead_time_s);
     Bridge s(full, model(InverterModel::switched), dead_time_s);
-    Plant  pa(motor());
-    Plant  ps(motor());
+    Plant  pa(motor_390w());
+    Plant  ps(motor_390w());
     pa.reset(300.0);
     ps.reset(300.0);
     double worst_A = 0.0;
@@ -212,8 +202,8 @@ TEST(Bridge, TwoStepsPerPeriodAreEnough)
     const BridgeTiming fine{period_s / 20.0, 5000.0, 0.07498, false}; // steps of 5 us
     Bridge             coarse(full, model(InverterModel::averaged), 0.0);
     Bridge             small(fine, model(InverterModel::averaged), 0.0);
-    Plant              p(motor());
-    Plant              q(motor());
+    Plant              p(motor_390w());
+    Plant              q(motor_390w());
     p.reset(850.0);
     q.reset(850.0);
     DcLink link({}, vdc_V);
@@ -242,7 +232,7 @@ TEST(Bridge, PlantStepsOfHalfAPeriodFollowTheOpenLoopVectors)
     ASSERT_TRUE(file);
     std::string line;
     std::getline(file, line);
-    Plant  plant(motor());
+    Plant  plant(motor_390w());
     double worst    = 0.0; // of 5 A and 850 rad/s
     int    compared = 0;
     for (int k = 0; k < 4000 && std::getline(file, line); k++) {
@@ -274,7 +264,7 @@ TEST(Bridge, SplittingAPeriodChangesNothing)
     for (InverterModel which : {InverterModel::switched, InverterModel::averaged}) {
         Bridge whole(full, model(which), dead_time_s);
         Bridge split(full, model(which), dead_time_s);
-        Plant  p = plant_with(motor(), {1.0, 0.3});
+        Plant  p = plant_with(motor_390w(), {1.0, 0.3});
         Plant  q = p;
         DcLink link({}, vdc_V);
         for (int k = 0; k < 50; k++) {
@@ -296,7 +286,7 @@ TEST(Bridge, DutyLimits)
     s.duty_min         = 0.05;
     s.duty_max         = 0.9;
     Bridge     bridge(full, s, 0.0);
-    Plant      p = plant_with(motor(), {1.0, 0.0});
+    Plant      p = plant_with(motor_390w(), {1.0, 0.0});
     const auto v = mean_V(bridge, p, duties(1.0, 0.0, 0.5));
     EXPECT_NEAR(v[0], 0.9 * vdc_V, 1e-4);
     EXPECT_NEAR(v[1], 0.05 * vdc_V, 1e-4);
@@ -341,7 +331,7 @@ TEST(Bridge, OpenGatesLetTheCurrentDieAway)
 {
     for (InverterModel which : {InverterModel::switched, InverterModel::averaged}) {
         Bridge bridge(full, model(which), dead_time_s);
-        Plant  p = plant_with(motor(), {3.0, 1.0});
+        Plant  p = plant_with(motor_390w(), {3.0, 1.0});
         for (int k = 0; k < 50; k++) {
             mean_V(bridge, p, {{0.5F, 0.5F, 0.5F}, false});
         }
@@ -382,7 +372,7 @@ TEST(Bridge, EachEdgeHasItsOwnDelayAndEachPathItsOwnDrop)
 
 TEST(Plant, PhaseCurrentRateIsTheDerivativeOfThePhaseCurrents)
 {
-    Plant fast(motor());
+    Plant fast(motor_390w());
     fast.reset(600.0, 0.7);
     fast.step(RotorVector{-200.0, 150.0}, 0.0, 1e-3, 100);
     const StatorVector v{90.0, -40.0};

@@ -6,34 +6,23 @@
 
 #include <gtest/gtest.h>
 
+#include "plant_motor.hpp"
 #include "sil/plant/plant.hpp"
 
 using namespace sdre;
+using support::motor_390w;
 
 namespace {
 
 const double pi = std::acos(-1.0);
-
-Motor motor()
-{
-    Motor m;
-    m.pole_pairs            = 2;
-    m.stator_resistance_Ohm = 2.48;
-    m.d_axis_inductance_H   = 0.07498;
-    m.q_axis_inductance_H   = 0.11391;
-    m.pm_flux_Wb            = 0.193;
-    m.inertia_kgm2          = 0.00042;
-    m.viscous_friction_Nms  = 0.0001;
-    return m;
-}
 
 SaturationMap constant_map()
 {
     SaturationMap map;
     map.id_A = {-4.0, 0.0, 4.0};
     map.iq_A = {-4.0, 4.0};
-    map.ld_H.assign(6, motor().d_axis_inductance_H);
-    map.lq_H.assign(6, motor().q_axis_inductance_H);
+    map.ld_H.assign(6, motor_390w().d_axis_inductance_H);
+    map.lq_H.assign(6, motor_390w().q_axis_inductance_H);
     return map;
 }
 
@@ -57,8 +46,8 @@ double energy_J(const Plant &plant, const Motor &m)
 
 TEST(Plant, AdvanceFollowsStepClosely)
 {
-    Plant reference(motor());
-    Plant quick(motor());
+    Plant reference(motor_390w());
+    Plant quick(motor_390w());
     reference.reset(300.0, 0.4);
     quick.reset(300.0, 0.4);
     for (int k = 0; k < 5000; k++) {
@@ -79,8 +68,8 @@ TEST(Plant, AdvanceFollowsStepClosely)
 
 TEST(MotorEffects, ConstantMapIsTheLinearMotorExactly)
 {
-    Plant        linear(motor());
-    Plant        mapped(motor());
+    Plant        linear(motor_390w());
+    Plant        mapped(motor_390w());
     MotorEffects effects;
     effects.saturation = constant_map();
     mapped.set_effects(effects);
@@ -121,7 +110,7 @@ TEST(MotorEffects, CurrentInvertsTheFlux)
 
 TEST(MotorEffects, CoulombFrictionTakesItsEnergyAndStops)
 {
-    Motor m                = motor();
+    Motor m                = motor_390w();
     m.viscous_friction_Nms = 0.0;
     m.pm_flux_Wb           = 1e-12; // no electric brake
     MotorEffects effects;
@@ -146,7 +135,7 @@ TEST(MotorEffects, CoulombFrictionTakesItsEnergyAndStops)
 
 TEST(MotorEffects, CoggingIsConservative)
 {
-    Motor m                = motor();
+    Motor m                = motor_390w();
     m.viscous_friction_Nms = 0.0;
     m.pm_flux_Wb           = 1e-12;
     MotorEffects effects;
@@ -177,7 +166,7 @@ TEST(MotorEffects, CoggingIsConservative)
 
 TEST(MotorEffects, FanBrakesWithTheSquare)
 {
-    Motor m                = motor();
+    Motor m                = motor_390w();
     m.viscous_friction_Nms = 0.0;
     m.pm_flux_Wb           = 1e-12;
     for (double sign : {1.0, -1.0}) {
@@ -212,7 +201,7 @@ MotorEffects harmonics()
 
 TEST(FluxHarmonics, AreInThePhasesVoltages)
 {
-    Plant plant(motor());
+    Plant plant(motor_390w());
     plant.set_effects(harmonics());
     for (int k = 0; k < 200; k++) {
         const double theta = -3.0 + 0.05 * k;
@@ -231,7 +220,7 @@ TEST(FluxHarmonics, AreInThePhasesVoltages)
 
 TEST(FluxHarmonics, CurrentsChangeAsTheRateSaysAndAnOpenPhaseStaysWithoutAny)
 {
-    Plant plant(motor());
+    Plant plant(motor_390w());
     plant.set_effects(harmonics());
     plant.reset(250.0, 0.3);
     for (int k = 0; k < 300; k++) {
@@ -258,7 +247,7 @@ TEST(FluxHarmonics, CurrentsChangeAsTheRateSaysAndAnOpenPhaseStaysWithoutAny)
 /// What comes in at the terminals is in the copper, the iron, the fields, the masses or the load, with all effects at once.
 TEST(MotorEffects, PowerBalances)
 {
-    const Motor  m       = motor();
+    const Motor  m       = motor_390w();
     MotorEffects e       = harmonics();
     e.iron_hysteresis_Nm = 0.02;
     e.iron_eddy_Nms      = 1e-4;
@@ -313,7 +302,7 @@ TEST(MotorEffects, PowerBalances)
 
 TEST(Iron, BrakesAMotorWithoutCurrentAsItsClosedFormSays)
 {
-    Motor m                = motor();
+    Motor m                = motor_390w();
     m.viscous_friction_Nms = 0.0;
     MotorEffects e;
     e.iron_hysteresis_Nm = 0.02;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "plant_motor.hpp"
 #include "sil/plant/bridge.hpp"
 
 using namespace sdre;
@@ -20,14 +21,8 @@ const BridgeTiming timing{period_s, 5000.0, 0.07498, false};
 
 Motor motor(double inertia_kgm2 = 1e3)
 {
-    Motor m;
-    m.pole_pairs            = 2;
-    m.stator_resistance_Ohm = 2.48;
-    m.d_axis_inductance_H   = 0.07498;
-    m.q_axis_inductance_H   = 0.11391;
-    m.pm_flux_Wb            = 0.193;
-    m.inertia_kgm2          = inertia_kgm2;
-    m.viscous_friction_Nms  = 0.0001;
+    Motor m        = support::motor_390w();
+    m.inertia_kgm2 = inertia_kgm2;
     return m;
 }
 

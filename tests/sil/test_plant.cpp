@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "plant_motor.hpp"
 #include "sil/plant/bridge.hpp"
 #include "sil/plant/inverter.hpp"
 
@@ -20,26 +21,13 @@ namespace {
 using sdre::Plant;
 using sdre::RotorVector;
 using sdre::StatorVector;
+using support::motor_390w; // of the reference trajectories
 
 constexpr double ts_s     = 200e-6;
 constexpr int    substeps = 4; // what sdre-sil uses
 
 // Asked for; measured 4e-9 (drive), 6e-9 (abc), 5e-8 (stress) of each signal's largest value.
 constexpr double trajectory_tolerance = 1e-6;
-
-/// The motor of the reference trajectories.
-sdre::Motor reference_motor()
-{
-    sdre::Motor m;
-    m.pole_pairs            = 2;
-    m.stator_resistance_Ohm = 2.48;
-    m.d_axis_inductance_H   = 0.07498;
-    m.q_axis_inductance_H   = 0.11391;
-    m.pm_flux_Wb            = 0.193;
-    m.inertia_kgm2          = 0.00042;
-    m.viscous_friction_Nms  = 0.0001;
-    return m;
-}
 
 /// Rows of numbers; an empty field is not a number.
 std::vector<std::vector<double>> read_csv(const std::string &name, std::size_t columns)
@@ -100,7 +88,7 @@ double magnetic_energy_J(const sdre::Motor &m, RotorVector i)
 TEST(Plant, ReproducesTrajectoriesWithRotorVoltageHeld)
 {
     for (const std::string name : {"ol_dq_drive.csv", "ol_dq_stress.csv"}) {
-        Plant plant(reference_motor());
+        Plant plant(motor_390w());
 
         const auto worst =
             deviations(plant, read_csv(name, 7), 4, [&](const std::vector<double> &row) {
@@ -126,8 +114,8 @@ TEST(Plant, ReproducesTrajectoryWithStatorVoltageHeld)
             plant.step(v, row[3], ts_s, steps);
         };
     };
-    Plant usual(reference_motor());
-    Plant fine(reference_motor());
+    Plant usual(motor_390w());
+    Plant fine(motor_390w());
 
     const auto worst_usual = deviations(usual, stable, 4, step_with(usual, substeps));
     const auto worst_fine  = deviations(fine, rows, 4, step_with(fine, 64));
@@ -141,7 +129,7 @@ TEST(Plant, ReproducesTrajectoryWithStatorVoltageHeld)
 TEST(Plant, ReproducesTrajectoriesAtFixedSpeed)
 {
     // Held by an inertia so large that the speed moves by less than 1e-12 rad/s in the whole file.
-    sdre::Motor motor  = reference_motor();
+    sdre::Motor motor  = motor_390w();
     motor.inertia_kgm2 = 1e12;
     for (const auto &[name, omega] :
          {std::pair<std::string, double>{"ol_locked.csv", 0.0}, {"ol_constspeed.csv", 300.0}}) {
@@ -162,7 +150,7 @@ TEST(Plant, ReproducesTrajectoriesAtFixedSpeed)
 TEST(Plant, StepErrorFallsWithTheFourthPower)
 {
     const auto run = [&](int steps) {
-        Plant plant(reference_motor());
+        Plant plant(motor_390w());
         plant.reset(800.0);
         plant.step(StatorVector{60.0, -90.0}, 0.5, 1e-3, steps);
         return plant.current_A().q;
@@ -177,7 +165,7 @@ TEST(Plant, StepErrorFallsWithTheFourthPower)
 TEST(Plant, EnergyIsBalanced)
 {
     constexpr double                       tolerance = 1e-6; // of the energy put in; measured 1e-8
-    const sdre::Motor                      m         = reference_motor();
+    const sdre::Motor                      m         = motor_390w();
     const double                           h         = 1e-5;
     std::mt19937                           generator(1);
     std::uniform_real_distribution<double> volts(-80.0, 80.0);
@@ -219,7 +207,7 @@ TEST(Plant, EnergyIsBalanced)
 
 TEST(Plant, TorqueIsTheOneOfTheMechanics)
 {
-    sdre::Motor m          = reference_motor();
+    sdre::Motor m          = motor_390w();
     m.viscous_friction_Nms = 0.0;
     Plant plant(m);
     plant.reset(100.0);
@@ -237,7 +225,7 @@ TEST(Plant, TorqueIsTheOneOfTheMechanics)
 
 TEST(Plant, FrictionAndLoadSlowAFreeRotor)
 {
-    sdre::Motor m          = reference_motor();
+    sdre::Motor m          = motor_390w();
     m.pm_flux_Wb           = 1e-5; // no braking by short-circuit currents to speak of
     m.viscous_friction_Nms = 0.01;
     Plant plant(m);
@@ -250,7 +238,7 @@ TEST(Plant, FrictionAndLoadSlowAFreeRotor)
 
 TEST(Plant, ResetStopsCurrentsAndSetsSpeedAndAngle)
 {
-    Plant plant(reference_motor());
+    Plant plant(motor_390w());
     plant.step(RotorVector{10.0, 20.0}, 0.0, 0.01, 40);
 
     plant.reset(-123.0, 1.5);
@@ -264,13 +252,13 @@ TEST(Plant, ResetStopsCurrentsAndSetsSpeedAndAngle)
 
 TEST(Plant, SetMotorKeepsCurrentsSpeedAndAngle)
 {
-    Plant plant(reference_motor());
+    Plant plant(motor_390w());
     plant.reset(300.0);
     plant.step(RotorVector{-20.0, 90.0}, 0.2, 0.005, 25);
     const RotorVector i     = plant.current_A();
     const double      omega = plant.omega_e_radps();
     const double      theta = plant.theta_e_rad();
-    sdre::Motor       other = reference_motor();
+    sdre::Motor       other = motor_390w();
     other.d_axis_inductance_H *= 1.7;
     other.q_axis_inductance_H *= 0.6;
     other.pm_flux_Wb *= 1.3;
@@ -288,7 +276,7 @@ TEST(Plant, SetMotorKeepsCurrentsSpeedAndAngle)
 
 TEST(Plant, AngleIsTheIntegralOfTheSpeed)
 {
-    sdre::Motor motor  = reference_motor();
+    sdre::Motor motor  = motor_390w();
     motor.inertia_kgm2 = 1e12;
     Plant plant(motor);
     plant.reset(250.0, 0.3);
@@ -349,8 +337,8 @@ TEST(Inverter, OpenBridgeOpposesTheCurrent)
 {
     for (int k = 0; k < 24; k++) {
         const double      angle = 0.13 + k * std::acos(-1.0) / 12.0;
-        Plant             plant(reference_motor());
-        const sdre::Motor m = reference_motor();
+        Plant             plant(motor_390w());
+        const sdre::Motor m = motor_390w();
         plant.step(RotorVector{m.d_axis_inductance_H * 4.0 * std::cos(angle) / 1e-6,
                                m.q_axis_inductance_H * 4.0 * std::sin(angle) / 1e-6},
                    0.0, 1e-6, 1);
@@ -365,7 +353,7 @@ TEST(Inverter, OpenBridgeOpposesTheCurrent)
 
 TEST(Inverter, OpenBridgeWithoutCurrentGivesNoVoltage)
 {
-    Plant              plant(reference_motor());
+    Plant              plant(motor_390w());
     const StatorVector none = open_bridge_V(plant);
 
     EXPECT_NEAR(none.alpha, 0.0, 1e-12);
@@ -374,7 +362,7 @@ TEST(Inverter, OpenBridgeWithoutCurrentGivesNoVoltage)
 
 TEST(Inverter, OpenBridgeBringsTheCurrentToRest)
 {
-    Plant plant(reference_motor());
+    Plant plant(motor_390w());
     plant.step(RotorVector{0.0, 100.0}, 0.0, 2e-3, 40);
     ASSERT_GT(std::abs(plant.current_A().q), 1.0);
 

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "plant_motor.hpp"
 #include "sil/plant/plant.hpp"
 
 using namespace sdre;
@@ -18,14 +19,9 @@ const double pi = std::acos(-1.0);
 /// Mechanics alone: no magnet, so that no current brakes.
 Motor mass()
 {
-    Motor m;
-    m.pole_pairs            = 2;
-    m.stator_resistance_Ohm = 2.48;
-    m.d_axis_inductance_H   = 0.07498;
-    m.q_axis_inductance_H   = 0.11391;
-    m.pm_flux_Wb            = 1e-12;
-    m.inertia_kgm2          = 0.00042;
-    m.viscous_friction_Nms  = 0.0;
+    Motor m                = support::motor_390w();
+    m.pm_flux_Wb           = 1e-12;
+    m.viscous_friction_Nms = 0.0;
     return m;
 }
 

@@ -10,6 +10,7 @@
 #include "fake_board.h"
 #include "gain_tables.h"
 #include "harmonic_tables.h"
+#include "modbus_frame.h"
 #include "unity.h"
 
 #define ROOM 8192U
@@ -278,20 +279,9 @@ static void test_a_flash_that_fails_is_told(void)
 /* A request of function 6 to unit 1, and passes until its answer is out and a while beyond. */
 static void ask(uint16_t number, uint16_t value, void (*pass)(void))
 {
-    uint16_t       octets[6] = {1U,
-                                6U,
-                                (uint16_t)(number >> 8),
-                                (uint16_t)(number & 0xFFU),
-                                (uint16_t)(value >> 8),
-                                (uint16_t)(value & 0xFFU)};
-    const uint16_t crc       = app_modbus_crc(octets, 6U);
-    int            all[8];
-    for (int n = 0; n < 6; n++) {
-        all[n] = octets[n];
-    }
-    all[6] = crc & 0xFF;
-    all[7] = crc >> 8;
-    fake_board_receive(all, 8);
+    const int octets[6] = {1, 6, number >> 8, number & 0xFF, value >> 8, value & 0xFF};
+
+    modbus_frame_receive(octets, 6);
     for (int n = 0; n < 200; n++) {
         fake_board.cycles += board_config.board.pwm_cycles / 2U;
         pass();
@@ -323,16 +313,9 @@ static void test_the_application_enters_the_loader_and_not_by_broadcast(void)
     TEST_ASSERT_EQUAL_INT(0, fake_board.restarts); /* nobody has told what is in force */
 
     app_tell_image(&in_force);
-    int broadcast[8] = {0, 6, APP_LOADER_FIRST >> 8, APP_LOADER_FIRST & 0xFFU, 0, APP_LOADER_ENTER,
-                        0, 0};
-    uint16_t octets[6];
-    for (int n = 0; n < 6; n++) {
-        octets[n] = (uint16_t)broadcast[n];
-    }
-    const uint16_t crc = app_modbus_crc(octets, 6U);
-    broadcast[6]       = crc & 0xFF;
-    broadcast[7]       = crc >> 8;
-    fake_board_receive(broadcast, 8);
+    const int broadcast[6] = {
+        0, 6, APP_LOADER_FIRST >> 8, APP_LOADER_FIRST & 0xFFU, 0, APP_LOADER_ENTER};
+    modbus_frame_receive(broadcast, 6);
     for (int n = 0; n < 200; n++) {
         tick_and_pass();
     }

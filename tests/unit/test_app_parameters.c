@@ -9,6 +9,8 @@
 #include "board_config.h"
 #include "fake_board.h"
 #include "gain_tables.h"
+#include "modbus_frame.h"
+#include "register_words.h"
 #include "unity.h"
 
 static app_registers_t  registers;
@@ -36,18 +38,12 @@ void tearDown(void) {}
 
 static uint16_t input(int address)
 {
-    uint16_t value = 0xDEADU;
-    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK,
-                          app_registers_read_input(&registers, (uint16_t)address, 1U, &value));
-    return value;
+    return register_words_input(&registers, address);
 }
 
 static uint16_t holding(int address)
 {
-    uint16_t value = 0xDEADU;
-    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK,
-                          app_registers_read_holding(&registers, (uint16_t)address, 1U, &value));
-    return value;
+    return register_words_holding(&registers, address);
 }
 
 static app_registers_result_t write_two(int address, int high, int low)
@@ -58,8 +54,7 @@ static app_registers_result_t write_two(int address, int high, int low)
 
 static app_registers_result_t write(int address, int value)
 {
-    const uint16_t word = (uint16_t)value;
-    return app_registers_write(&registers, (uint16_t)address, 1U, &word);
+    return register_words_write(&registers, address, value);
 }
 
 static app_registers_result_t ask_store(void)
@@ -371,16 +366,7 @@ static void request(int unit, int address, int high, int low)
 {
     const int body[11] = {unit, 16,        address >> 8, address & 0xFF, 0,         2,
                           4,    high >> 8, high & 0xFF,  low >> 8,       low & 0xFF};
-    uint16_t  octets[11];
-    int       all[13];
-    for (int n = 0; n < 11; n++) {
-        all[n]    = body[n];
-        octets[n] = (uint16_t)body[n];
-    }
-    const uint16_t crc = app_modbus_crc(octets, 11U);
-    all[11]            = crc & 0xFF;
-    all[12]            = crc >> 8;
-    fake_board_receive(all, 13);
+    modbus_frame_receive(body, 11);
     for (int n = 0; n < 200; n++) {
         app_tick();
         app_background();

@@ -5,6 +5,7 @@
 
 #include "board_config.h"
 #include "gain_tables.h"
+#include "register_words.h"
 #include "unit_support.h"
 #include "unity.h"
 
@@ -24,24 +25,17 @@ void tearDown(void) {}
 
 static uint16_t input(int address)
 {
-    uint16_t value = 0xDEADU;
-    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK,
-                          app_registers_read_input(&registers, (uint16_t)address, 1U, &value));
-    return value;
+    return register_words_input(&registers, address);
 }
 
 static uint16_t holding(int address)
 {
-    uint16_t value = 0xDEADU;
-    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK,
-                          app_registers_read_holding(&registers, (uint16_t)address, 1U, &value));
-    return value;
+    return register_words_holding(&registers, address);
 }
 
 static app_registers_result_t write(int address, int value)
 {
-    const uint16_t word = (uint16_t)value;
-    return app_registers_write(&registers, (uint16_t)address, 1U, &word);
+    return register_words_write(&registers, address, value);
 }
 
 /* Addresses, units and signs of docs/modbus.md, in numbers on purpose. */

@@ -17,7 +17,7 @@ from sdre import _native
 from sdre_campaign.parts import Directory
 from sdre_campaign.rare import Run
 from sdre_campaign.spec import Spec
-from sdre_campaign.subset import Estimate, FloatArray, Level, below, combined, correlation, estimate
+from sdre_campaign.subset import STEPS, Estimate, FloatArray, Level, below, combined, correlation, estimate
 from sdre_campaign.summary import Worst, clopper_pearson, ranked_worst
 
 POINTS = 61  # of the curve
@@ -102,7 +102,7 @@ def summarise_runs(spec: Spec, runs: List[Run], directory: Directory) -> RareSum
         for level in range(len(run.levels)):
             table = run.table(directory, level)
             new = table.filter(table["new"])  # a sample that stays where it is counts once
-            cases += spec.cases if level == 0 else spec.cases - spec.cases // 10
+            cases += spec.cases if level == 0 else spec.cases - spec.cases // STEPS
             for fault, count in zip(*np.unique(new["fault"].to_numpy(), return_counts=True)):
                 if fault != 0:
                     faults[int(fault)] = faults.get(int(fault), 0) + int(count)

@@ -6,7 +6,7 @@ from __future__ import annotations
 import threading
 from typing import Callable, Dict, List
 
-from sdre_drive import register_map, registers, session
+from sdre_drive import register_map, session
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.registers import Mode
 
@@ -35,8 +35,7 @@ START_S = 2.0
 
 def found(drive: Drive) -> Dict[str, float]:
     """The registers of the commissioning, by name."""
-    first, count = registers.block(register_map.COMMISSIONING)
-    return registers.values(register_map.COMMISSIONING, drive.words(first, count))
+    return drive.values(register_map.COMMISSIONING)
 
 
 def text(values: Dict[str, float]) -> str:

@@ -138,7 +138,11 @@ class Drive:
 
     def traces(self) -> Dict[str, float]:
         """How scope and record stand."""
-        return registers.values(register_map.TRACES, self._block(register_map.TRACES))
+        return self.values(register_map.TRACES)
+
+    def values(self, wanted: Sequence[Register]) -> Dict[str, float]:
+        """A block of input registers of one tick, by name in SI units."""
+        return registers.values(wanted, self._block(wanted))
 
     def words(self, first: int, count: int) -> List[int]:
         """Input registers as they are."""

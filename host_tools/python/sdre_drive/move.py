@@ -7,7 +7,7 @@ import threading
 from dataclasses import dataclass
 from typing import Callable, Optional
 
-from sdre_drive import register_map, registers, session
+from sdre_drive import register_map, session
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.registers import ControlWord, Mode, Reading
 
@@ -27,15 +27,13 @@ class Where:
 
 def where(drive: Drive) -> Where:
     """Both of one tick."""
-    first, count = registers.block(register_map.POSITION)
-    found = registers.values(register_map.POSITION, drive.words(first, count))
+    found = drive.values(register_map.POSITION)
     return Where(int(found["POSITION_NOW"]), int(found["POSITION_TARGET"]))
 
 
 def require_possible(drive: Drive) -> None:
     """DriveError of a drive without positions."""
-    first, count = registers.block(register_map.CONSTANTS)
-    if not int(registers.values(register_map.CONSTANTS, drive.words(first, count))["SUPPORTED_MODES"]) & 1:
+    if not drive.constants().supported_modes & 1:
         raise DriveError("this drive takes no positions: its file has no [position]")
 
 

@@ -81,7 +81,7 @@ def read(drive: Drive) -> List[Value]:
 
 def stored(drive: Drive) -> Stored:
     """Where they come from."""
-    raw = values(register_map.STORED, drive.words(*block(register_map.STORED)))
+    raw = drive.values(register_map.STORED)
     return Stored(int(raw["PARAMETERS_STATE"]), int(raw["PARAMETERS_DONE"]), int(raw["PARAMETERS_NUMBER"]))
 
 

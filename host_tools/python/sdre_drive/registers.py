@@ -182,13 +182,14 @@ class Constants:
     speed_max_e_radps: float
     current_max_A: float
     encoder_counts: int  # of a turn
+    supported_modes: int  # bits of CiA 402
 
 
 def constants(words: Sequence[int]) -> Constants:
     """From the block of constants."""
     raw = values(register_map.CONSTANTS, words)
     return Constants(int(raw["POLE_PAIRS"]), raw["CONTROL_PERIOD"], raw["SPEED_MAX"], raw["CURRENT_MAX"],
-                     int(raw["ENCODER_POSITIONS"]))  # fmt: skip
+                     int(raw["ENCODER_POSITIONS"]), int(raw["SUPPORTED_MODES"]))  # fmt: skip
 
 
 def decode(words: Sequence[int], period_s: float) -> Reading:
