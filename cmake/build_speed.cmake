@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # What makes a build on the host faster where it is installed: ccache, and a faster linker for the many
 # programs of the tests. Nothing here changes what is built.
-if(CMAKE_SYSTEM_NAME STREQUAL "Generic")
+if(CMAKE_SYSTEM_NAME STREQUAL "Generic" OR EMSCRIPTEN)
     return()
 endif()
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -24,8 +25,11 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)> &wor
     };
     std::vector<std::thread> threads;
     const std::size_t        cores = std::max(1U, std::thread::hardware_concurrency());
-    for (std::size_t i = 1; i < std::min(cores, count); i++) {
-        threads.emplace_back(worker);
+    try {
+        for (std::size_t i = 1; i < std::min(cores, count); i++) {
+            threads.emplace_back(worker);
+        }
+    } catch (const std::system_error &) { // no more threads to be had: those that are there do it
     }
     worker();
     for (std::thread &thread : threads) {

@@ -22,46 +22,10 @@ bool is_of_controller(const KeyPath &path)
            (path.front() == "inverter" && path.back() == "updates_per_period");
 }
 
-[[noreturn]] void refuse(const CaseBase &base, const KeyPath &path, const char *why)
-{
-    throw InputError(fmt::format("{}: {} {}", base.source, fmt::join(path, "."), why));
-}
-
-/// The entry of an array of tables that a number names.
-toml::node *entry_of(toml::array &array, const std::string &key)
-{
-    if (key.empty() || key.size() > 6 || key.find_first_not_of("0123456789") != std::string::npos) {
-        return nullptr;
-    }
-    return array.get(static_cast<std::size_t>(std::stoul(key)));
-}
-
-/// The table that holds the path's last key; tables that are missing are made, array entries are not.
-toml::table &table_of(CaseBase &base, const KeyPath &path)
-{
-    toml::node *node = &base.root;
-    for (std::size_t i = 0; i + 1 < path.size(); i++) {
-        if (toml::table *table = node->as_table()) {
-            node = &table->emplace<toml::table>(path[i]).first->second;
-        } else if (toml::array *array = node->as_array()) {
-            node = entry_of(*array, path[i]);
-        } else {
-            node = nullptr;
-        }
-        if (node == nullptr) {
-            refuse(base, path, "leads nowhere: an array has no such entry, count from 0");
-        }
-    }
-    if (node->as_table() == nullptr) {
-        refuse(base, path, "leads nowhere: what holds its last key is no table");
-    }
-    return *node->as_table();
-}
-
 void set_value(CaseBase &base, const CaseVariable &variable, double value)
 {
     for (const KeyPath &path : variable.keys) {
-        toml::table &table = table_of(base, path);
+        toml::table &table = table_of(base.root, path, base.source);
         if (variable.whole) {
             table.insert_or_assign(path.back(), std::llround(value));
         } else {
@@ -121,7 +85,7 @@ CaseRunner::CaseRunner(CaseBase base, std::vector<CaseVariable> variables,
     other_controllers_ = false;
     for (const CaseVariable &variable : variables_) {
         for (const KeyPath &path : variable.keys) {
-            table_of(base_, path);
+            table_of(base_.root, path, base_.source);
             other_controllers_ = other_controllers_ || is_of_controller(path);
         }
     }

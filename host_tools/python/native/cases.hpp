@@ -8,6 +8,7 @@
 
 #include <toml++/toml.h>
 
+#include "common/toml_keys.hpp"
 #include "sil/eval/random_motors.hpp"
 #include "sil/setup/scenario.hpp"
 
@@ -23,11 +24,8 @@ struct CaseBase {
     Law         own; ///< of the drive that the file names
 };
 
-/// Where a variable's value goes: keys from the top of the file, a number where a key holds an array of tables.
-using KeyPath = std::vector<std::string>;
-
 struct CaseVariable {
-    std::vector<KeyPath> keys; ///< all get the value
+    std::vector<KeyPath> keys; ///< where its value goes: all get it
     bool                 whole = false;
 };
 

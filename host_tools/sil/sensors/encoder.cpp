@@ -15,8 +15,6 @@ constexpr double no_edge_s = 1.0;
 constexpr double gap_max_s = 0.05;
 // Chosen: a state of the disc is at most so wide.
 constexpr double widest_cnt = 1.5;
-// As in app_angle.c.
-constexpr double alone_periods = 3.5;
 
 } // namespace
 
@@ -165,9 +163,7 @@ double QuadratureEncoder::edge_angle_rad(std::int64_t count, double edge_above_c
 }
 
 /// EQ-ENCODER-8: an edge alone in four periods is in the middle of its own; among more the count is read as
-/// EQ-APP-ANGLE-5 says.
-/// Should edges be timed from the next reading on, they
-/// follow this one.
+/// EQ-APP-ANGLE-5 says. Should edges be timed from the next reading on, they follow this one.
 void QuadratureEncoder::read_counts(Reading &r, std::int64_t now)
 {
     const double       per_count = pole_pairs_ * two_pi / static_cast<double>(counts_per_turn_);
