@@ -13,8 +13,8 @@ static double_series_point_t held(float iq_A, float id_A, float limit_A)
     return at;
 }
 
-dq_t conventional_feedback_V(const conventional_gains_t *g, const motor_reduced_t *m,
-                             const nosc_error_t *e)
+CTL_PART dq_t conventional_feedback_V(const conventional_gains_t *g, const motor_reduced_t *m,
+                                      const nosc_error_t *e)
 {
     const double_series_point_t at          = held(e->iq_A, e->id_A, g->i_error_max_A);
     const float                 x[NOSC_N_E] = {e->omega_e_radps, e->iq_A, e->id_A};
@@ -28,8 +28,9 @@ dq_t conventional_feedback_V(const conventional_gains_t *g, const motor_reduced_
     return u_V;
 }
 
-void conventional_update(nodo_t *x, const conventional_gains_t *g, const motor_reduced_t *m,
-                         const nodo_meas_t *y, dq_t v_V, float ts_s)
+CTL_PART void conventional_update(nodo_t *x, const conventional_gains_t *g,
+                                  const motor_reduced_t *m, const nodo_meas_t *y, dq_t v_V,
+                                  float ts_s)
 {
     const float w  = x->omega_e_radps;
     const float iq = x->iq_A;
@@ -67,7 +68,7 @@ static bool terms_ok(const float row[][DOUBLE_SERIES_COLUMNS], int16_t rows, int
     return check_rows(row, (int16_t)(rows * (double_series_index(0, order) + 1)));
 }
 
-bool conventional_check(const conventional_gains_t *g)
+CTL_PART bool conventional_check(const conventional_gains_t *g)
 {
     return order_ok(g->nosc_order) && order_ok(g->nodo_order) && check_positive(g->i_error_max_A) &&
            check_positive(g->i_max_A) &&

@@ -38,7 +38,7 @@ typedef struct {
 } conventional_gains_t;
 
 /** true when every constant is finite and within its documented range. Context: init. */
-bool conventional_check(const conventional_gains_t *g);
+CTL_PART bool conventional_check(const conventional_gains_t *g);
 
 /**
  * @brief Feedback voltage, EQ-CONVENTIONAL-1, and the products that the feed-forward must not cancel,
@@ -48,15 +48,16 @@ bool conventional_check(const conventional_gains_t *g);
  *
  * Context: control ISR. Pure, no division, 4 (N+1)(N+2) + 2 N + 8 multiplications.
  */
-dq_t conventional_feedback_V(const conventional_gains_t *g, const motor_reduced_t *m,
-                             const nosc_error_t *e);
+CTL_PART dq_t conventional_feedback_V(const conventional_gains_t *g, const motor_reduced_t *m,
+                                      const nosc_error_t *e);
 
 /**
  * @brief One step of EQ-CONVENTIONAL-3 by explicit Euler, as nodo_update().
  *
  * Context: control ISR. No division, 12 (Nd+1)(Nd+2) + 6 Nd + 25 multiplications.
  */
-void conventional_update(nodo_t *x, const conventional_gains_t *g, const motor_reduced_t *m,
-                         const nodo_meas_t *y, dq_t v_V, float ts_s);
+CTL_PART void conventional_update(nodo_t *x, const conventional_gains_t *g,
+                                  const motor_reduced_t *m, const nodo_meas_t *y, dq_t v_V,
+                                  float ts_s);
 
 #endif /* CONVENTIONAL_H */

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "double_series.h"
 
-float double_series_row(const float row[][DOUBLE_SERIES_COLUMNS], int16_t rows, int16_t order,
-                        double_series_point_t at, const float x[DOUBLE_SERIES_COLUMNS])
+CTL_PART float double_series_row(const float row[][DOUBLE_SERIES_COLUMNS], int16_t rows,
+                                 int16_t order, double_series_point_t at,
+                                 const float x[DOUBLE_SERIES_COLUMNS])
 {
     float y = 0.0f;
 

@@ -39,7 +39,8 @@ typedef struct {
  *
  * Context: control ISR. No division, 2 (N+1)(N+2) + N + 1 multiply-adds.
  */
-float double_series_row(const float row[][DOUBLE_SERIES_COLUMNS], int16_t rows, int16_t order,
-                        double_series_point_t at, const float x[DOUBLE_SERIES_COLUMNS]);
+CTL_PART float double_series_row(const float row[][DOUBLE_SERIES_COLUMNS], int16_t rows,
+                                 int16_t order, double_series_point_t at,
+                                 const float x[DOUBLE_SERIES_COLUMNS]);
 
 #endif /* DOUBLE_SERIES_H */

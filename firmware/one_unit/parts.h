@@ -13,10 +13,12 @@
 #define CTL_PART static inline
 
 #include "angle_gate.c"
+#include "conventional.c"
 #include "current_clamp.c"
 #include "current_gate.c"
 #include "current_ref.c"
 #include "current_watch.c"
+#include "double_series.c"
 #include "encoder_form.c"
 #include "motion_watch.c"
 #include "near_optimal.c"

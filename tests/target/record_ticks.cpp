@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// record_ticks LAW FILE SCENARIO...: runs the scenarios and writes every control period to FILE. The image that replays
-/// them contains one law alone, so scenarios of another one are passed over.
+/// record_ticks LAW[=DRIVE] FILE SCENARIO...: runs the scenarios and writes every control period to FILE. The image that
+/// replays them contains one law alone, so scenarios of another one are passed over. With a drive file of that law those
+/// of the speed form are run with it in place of their own.
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
@@ -74,15 +75,24 @@ bool put_constants(tick_file_run_t &run, const drive_config_t &c)
         run.law             = TICK_FILE_NOC_H;
         run.order           = harmonic->near_optimal.nosc.order;
         run.constants.noc_h = *harmonic;
+    } else if (const auto *other = sdre::constants_of<law_conventional_config_t>(c)) {
+        run.law                    = TICK_FILE_CONVENTIONAL;
+        run.order                  = std::max(other->gains.nosc_order, other->gains.nodo_order);
+        run.constants.conventional = *other;
     } else {
         return false;
     }
     return true;
 }
 
-void write_run(std::ofstream &file, std::uint32_t law, const std::filesystem::path &path)
+void write_run(std::ofstream &file, std::uint32_t law, const std::filesystem::path &drive,
+               const std::filesystem::path &path)
 {
-    const sdre::Scenario   scenario   = sdre::read_scenario_file(path);
+    const sdre::Drive own = sdre::read_scenario_file(path).drive;
+    if (!drive.empty() && (own.law != sdre::Law::noc || own.nodo.form != sdre::NodoForm::speed)) {
+        return;
+    }
+    const sdre::Scenario   scenario   = sdre::read_scenario_file(path, drive);
     const sdre::Controller controller = sdre::prepare_controller(scenario);
     static tick_file_run_t run; // static: its padding is zero, so equal runs give equal files
     if (!put_constants(run, controller.config) || run.law != law) {
@@ -111,7 +121,8 @@ void write_run(std::ofstream &file, std::uint32_t law, const std::filesystem::pa
 /// The number of a law from its name on the command line.
 std::uint32_t law_number(const std::string &name)
 {
-    constexpr const char *names[] = {"noc", "noc_speed", "noc_h"}; // as tick_file_law_t counts
+    constexpr const char *names[] = {"noc", "noc_speed", "noc_h",
+                                     "conventional"}; // as tick_file_law_t counts
     const auto *const     found   = std::find(std::begin(names), std::end(names), name);
     if (found == std::end(names)) {
         throw std::runtime_error("no image replays the law " + name);
@@ -124,13 +135,16 @@ std::uint32_t law_number(const std::string &name)
 int main(int argc, char **argv)
 try {
     if (argc < 4) {
-        std::fprintf(stderr, "usage: record_ticks LAW FILE SCENARIO...\n");
+        std::fprintf(stderr, "usage: record_ticks LAW[=DRIVE] FILE SCENARIO...\n");
         return 2;
     }
-    const std::uint32_t law = law_number(argv[1]);
+    const std::string   what  = argv[1];
+    const std::size_t   sign  = std::min(what.find('='), what.size());
+    const std::uint32_t law   = law_number(what.substr(0, sign));
+    const std::string   drive = what.substr(std::min(sign + 1, what.size()));
     std::ofstream       file(argv[2], std::ios::binary);
     for (int i = 3; i < argc; i++) {
-        write_run(file, law, argv[i]);
+        write_run(file, law, drive, argv[i]);
     }
     const tick_file_run_t end{};
     put(file, end);

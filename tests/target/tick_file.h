@@ -26,13 +26,19 @@
 #define TICK_FILE_TICK_SIZE ((uint32_t)sizeof(tick_file_tick_t))
 
 /** The laws that are replayed, an image each. */
-typedef enum { TICK_FILE_NOC = 0, TICK_FILE_NOC_SPEED, TICK_FILE_NOC_H } tick_file_law_t;
+typedef enum {
+    TICK_FILE_NOC = 0,
+    TICK_FILE_NOC_SPEED,
+    TICK_FILE_NOC_H,
+    TICK_FILE_CONVENTIONAL
+} tick_file_law_t;
 
 /** The constants of any of them. */
 typedef union {
-    law_noc_config_t       noc;
-    law_noc_speed_config_t noc_speed;
-    law_noc_h_config_t     noc_h;
+    law_noc_config_t          noc;
+    law_noc_speed_config_t    noc_speed;
+    law_noc_h_config_t        noc_h;
+    law_conventional_config_t conventional;
 } tick_file_constants_t;
 
 enum { TICK_FILE_VALID = 1, TICK_FILE_RUN = 2, TICK_FILE_GATE = 4, TICK_FILE_POSITION = 8 };

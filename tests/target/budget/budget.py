@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: MIT
 """The cost of one control period, from the compiled core.
 
-Usage: budget.py RECORDER IMAGES CORE_LIBRARY TABLES_LIBRARY SCENARIO...
+Usage: budget.py RECORDER IMAGES CORE_LIBRARY TABLES_LIBRARY CONVENTIONAL_DRIVE SCENARIO...
 
 IMAGES is a directory. host_stub.elf must run to its end on an emulated Cortex-M4F. RECORDER runs the scenarios of one
-law on the host and records every tick; replay_LAW.elf replays them on that machine. The answers must equal the host's,
+law on the host and records every tick; replay_LAW.elf replays them on that machine. The conventional law of paper A,
+which no scenario names, runs those of the speed form with its own drive file. The answers must equal the host's,
 instructions are counted, and the operations executed are priced with the C28x's cycles of costs.toml. Exit code 1: a
 check failed.
 """
@@ -31,8 +32,8 @@ PREFIX = "arm-none-eabi-"
 DUTY_TOLERANCE = 1e-4
 
 PLAIN = "PI-FOC"  # runs beside every law; its ticks are counted once, with those of the shipped drive's law
-SHIPPED, HARMONIC = "noc", "noc_h"
-LAWS = ("noc_speed", SHIPPED, HARMONIC)
+SHIPPED, HARMONIC, SPEED, CONVENTIONAL = "noc", "noc_h", "noc_speed", "conventional"
+LAWS = (SPEED, SHIPPED, HARMONIC, CONVENTIONAL)
 # Chosen: what knowing the harmonics may cost, of the shipped law's cycles.
 HARMONIC_RATIO = 2.5
 ORDER = 2  # of the shipped drives; a run of a higher order stands only in the list of scenarios
@@ -216,6 +217,7 @@ def print_verdict(costs, check, replays):
         low, high = costs.span(cycles[r.law])
         verdict = "met" if high <= limit else "missed" if low > limit else "within the uncertainty of the estimate"
         print(f"  target of {limit:.0f} cycles ({100 * costs.target_share:.0f} %), {r.law} without the application: {verdict}")
+    print(f"  {CONVENTIONAL} costs {cycles[CONVENTIONAL] / cycles[SPEED]:.2f} of {SPEED} in the same scenarios")
     ratio = cycles[HARMONIC] / cycles[SHIPPED]
     check(ratio <= HARMONIC_RATIO, f"{HARMONIC} costs {ratio:.2f} of {SHIPPED}, allowed {HARMONIC_RATIO}")
 
@@ -270,14 +272,14 @@ def application(costs, image):
 class Replay:
     """One image with the ticks of its law."""
 
-    def __init__(self, law, images, recorder, scenarios, costs, check):
+    def __init__(self, law, drive, images, recorder, scenarios, costs, check):
         self.law = law
         self.image = str(Path(images, f"replay_{law}.elf").resolve())  # the emulator runs in another directory
         self.code = read_code(PREFIX, self.image, law_functions(PREFIX, self.image))
         self.table = symbols(PREFIX, self.image)
         self.steps = Steps(self.code, costs.library, (costs.cycles,))
         with tempfile.TemporaryDirectory() as directory:
-            run([recorder, law, f"{directory}/ticks.bin", *scenarios])
+            run([recorder, f"{law}={drive}" if drive else law, f"{directory}/ticks.bin", *scenarios])
             runs = read_runs(f"{directory}/ticks.bin")
             count_instructions(self.image, directory)
             results = read_results(f"{directory}/results.bin", runs)
@@ -292,16 +294,17 @@ class Replay:
         check(dearest <= costs.cycles(self.bound), "no tick costs more than the bound")
 
 
-def main(recorder, images, core, tables, *scenarios):
+def main(recorder, images, core, tables, conventional, *scenarios):
     costs = Costs(Path(__file__).with_name("costs.toml"))
     check = Checks()
     code = exit_code(f"{images}/host_stub.elf")
     check(code == 0, f"the application on host_stub boots, aligns, holds a speed and stops: exit code {code}")
-    replays = [Replay(law, images, recorder, scenarios, costs, check) for law in LAWS]
+    drives = {CONVENTIONAL: conventional}
+    replays = [Replay(law, drives.get(law), images, recorder, scenarios, costs, check) for law in LAWS]
     print_operations(costs, replays, application(costs, str(Path(images, "host_stub.elf").resolve())))
     print_verdict(costs, check, replays)
     kinds = {kind: worst for r in replays for kind, worst in r.kinds.items()}
-    print_instructions(kinds, {name: worst for r in replays for name, worst in r.by_run.items()})
+    print_instructions(kinds, {name: worst for r in replays if r.law != CONVENTIONAL for name, worst in r.by_run.items()})
     print_memory(replays, core, tables)
     return 1 if check.failed else 0
 
