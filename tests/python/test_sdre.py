@@ -7,6 +7,7 @@ import json
 import os
 import pickle
 import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
@@ -80,6 +81,16 @@ def test_run_is_that_of_sdre_sil(scenario: str, tmp_path: Path) -> None:
     table = np.genfromtxt(tmp_path / "t.csv", delimiter=",", names=True)
     for name in table.dtype.names:
         assert np.allclose(run.trace.as_dict()[name], table[name], rtol=1e-8, atol=1e-12), name
+
+
+def test_picture_is_that_of_the_script_of_sdre_sil(tmp_path: Path) -> None:
+    csv, script = tmp_path / "t.csv", ROOT / "host_tools/python/sdre_plot/draw_trace.py"
+    tool("sdre-sil", "run", LOAD_STEP, "--csv", csv)
+    run = sdre.simulate(None, LOAD_STEP)
+    run.plot(tmp_path / "here.svg", "a title")
+    (tmp_path / "marks.json").write_text(run._native.marks)
+    subprocess.run([sys.executable, script, csv, "a title", tmp_path / "there.svg", tmp_path / "marks.json"], check=True)
+    assert (tmp_path / "here.svg").read_bytes() == (tmp_path / "there.svg").read_bytes()
 
 
 def test_another_drive_and_another_seed_are_those_of_sdre_sil(tmp_path: Path) -> None:

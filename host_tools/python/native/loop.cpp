@@ -50,7 +50,7 @@ std::vector<double> values_of(const TraceRow &row)
 {
     std::vector<double> values;
     for (const TraceColumn &column : trace_columns()) {
-        values.push_back(row.*column.value);
+        values.push_back(column.of(row));
     }
     return values;
 }

@@ -11,6 +11,7 @@
 #include "arrays.hpp"
 #include "common/errors.hpp"
 #include "common/toml_reader.hpp"
+#include "sil/eval/plot.hpp"
 #include "sil/eval/results.hpp"
 #include "trace_columns.hpp"
 
@@ -59,7 +60,7 @@ nb::object table(const Run &r)
     values.reserve(trace_columns().size() * trace.size());
     for (const TraceColumn &column : trace_columns()) {
         for (const TraceRow &row : trace) {
-            values.push_back(row.*column.value);
+            values.push_back(column.of(row));
         }
     }
     return nb::cast(numpy_array(std::move(values), {trace_columns().size(), trace.size()}));
@@ -93,6 +94,7 @@ void bind_runs(nb::module_ &m)
                      })
         .def_prop_ro("json",
                      [](const Run &r) { return result_json(r.scenario, r.result, r.metrics); })
+        .def_prop_ro("marks", [](const Run &r) { return trace_marks(r.scenario, r.result.trace); })
         .def_prop_ro("text",
                      [](const Run &r) { return result_text(r.scenario, r.result, r.metrics); });
     m.attr("trace_columns") = column_names();

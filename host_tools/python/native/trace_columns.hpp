@@ -10,7 +10,7 @@ namespace sdre {
 
 struct TraceColumn {
     const char *name;
-    double TraceRow::*value;
+    double (*of)(const TraceRow &);
 };
 
 const std::vector<TraceColumn> &trace_columns();

@@ -28,6 +28,7 @@ class Run:
     table: Any
     csv: str
     json: str
+    marks: str
     text: str
 
 class Loop:

@@ -65,6 +65,11 @@ class State(NamedTuple):
     load_torque_Nm: float
     torque_Nm: float
     dc_link_V: float
+    position_e_rad: float
+    position_ref_e_rad: float
+    ia_A: float
+    ib_A: float
+    ic_A: float
     peak_current_A: float
     fault: str  # "none"
     ended: bool  # nothing can follow: the shaft turns half an electrical turn or more in a period

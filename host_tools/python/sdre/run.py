@@ -25,7 +25,9 @@ UNITS: Dict[str, str] = {
     "iq_A": "A", "id_A": "A", "iq_ref_A": "A", "id_ref_A": "A",
     "vq_V": "V", "vd_V": "V",
     "d_omega_hat": "rad/s^2", "d_q_hat": "A/s", "d_d_hat": "A/s", "sensor_offset_hat_A": "A",
-    "load_torque_Nm": "N m", "torque_Nm": "N m", "dc_link_V": "V", "peak_current_A": "A",
+    "load_torque_Nm": "N m", "torque_Nm": "N m", "dc_link_V": "V",
+    "position_e_rad": "rad", "position_ref_e_rad": "rad",
+    "ia_A": "A", "ib_A": "A", "ic_A": "A", "peak_current_A": "A",
 }  # fmt: skip
 
 
@@ -49,6 +51,11 @@ class Trace:
     load_torque_Nm: FloatArray
     torque_Nm: FloatArray
     dc_link_V: FloatArray
+    position_e_rad: FloatArray  # of the shaft, electrical, not wrapped; in a run to positions from the first sample
+    position_ref_e_rad: FloatArray  # the same of the reference; the shaft's own in a speed run
+    ia_A: FloatArray  # of the motor
+    ib_A: FloatArray
+    ic_A: FloatArray
     peak_current_A: FloatArray  # largest |i| from this instant to the next
 
     def as_dict(self) -> Dict[str, FloatArray]:
@@ -88,6 +95,15 @@ class Run:
     def json(self) -> str:
         """As `sdre-sil run --json` writes it."""
         return str(self._native.json)
+
+    def plot(self, path: Union[str, Path], title: Optional[str] = None) -> None:
+        """Draws it as `sdre-sil run --plot` does, to a .png or .svg; needs matplotlib.
+
+        The title is the scenario's name and the drive's unless given.
+        """
+        from sdre_plot import draw_trace
+
+        draw_trace.draw(self.csv, title or f"{self.scenario}, {self.drive}", str(path), self._native.marks)
 
     def __str__(self) -> str:
         return str(self._native.text)

@@ -21,7 +21,7 @@ def table(designs: List[Tuple[str, Dict[str, Any]]]) -> Table:
                 ("", "controller: terms", "Lyapunov equations", "numbers, non-zero", "observer: terms", "Lyapunov equations",
                  "numbers, non-zero"),
                 note="A term is one matrix of gains; every one but the first needs a Lyapunov equation off line, and every non-zero number a "
-                "multiplication and an addition in each control period. Cycles: ./dev budget.")  # fmt: skip
+                "multiplication and an addition in each control period. Cycles of the dearest period, estimated: docs/errata.md, by ./dev budget.")  # fmt: skip
     for name, design in designs:
         cells: List[int] = []
         for gains in (design["nosc"]["lambda"], design["nodo"]["gain"]):

@@ -83,8 +83,20 @@ std::string drawn(const char *script, const std::string &csv, const std::string 
     return read_text_file(out);
 }
 
-/// What the picture points out.
-std::string marks_of(const Scenario &scenario, const Trace &trace)
+} // namespace
+
+void require_plot(const std::filesystem::path &picture)
+{
+    const std::string kind = picture.extension().string();
+    if (kind != ".png" && kind != ".svg") {
+        throw InputError(fmt::format("{}: a plot is a .png or a .svg", picture.string()));
+    }
+    if (std::string(SDRE_PYTHON).empty()) {
+        throw InputError("--plot: this build found no Python with matplotlib");
+    }
+}
+
+std::string trace_marks(const Scenario &scenario, const Trace &trace)
 {
     Json       measures = Json::array();
     const auto windows  = windows_of(scenario, trace);
@@ -102,29 +114,16 @@ std::string marks_of(const Scenario &scenario, const Trace &trace)
     return Json{{"pole_pairs", scenario.drive.motor.pole_pairs}, {"measures", measures}}.text();
 }
 
-} // namespace
-
-void require_plot(const std::filesystem::path &picture)
-{
-    const std::string kind = picture.extension().string();
-    if (kind != ".png" && kind != ".svg") {
-        throw InputError(fmt::format("{}: a plot is a .png or a .svg", picture.string()));
-    }
-    if (std::string(SDRE_PYTHON).empty()) {
-        throw InputError("--plot: this build found no Python with matplotlib");
-    }
-}
-
 std::string trace_picture(const Scenario &scenario, const Trace &trace, const std::string &title,
                           const std::filesystem::path &picture)
 {
-    return drawn("plot_trace.py", trace_csv(trace), title, picture, marks_of(scenario, trace));
+    return drawn("draw_trace.py", trace_csv(trace), title, picture, trace_marks(scenario, trace));
 }
 
 std::string spectrum_picture(const std::string &csv, const std::string &title,
                              const std::filesystem::path &picture)
 {
-    return drawn("plot_spectrum.py", csv, title, picture);
+    return drawn("draw_spectrum.py", csv, title, picture);
 }
 
 } // namespace sdre

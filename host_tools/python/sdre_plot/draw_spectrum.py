@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Draw the speed spectra of a sdre-sil run, one panel per measure.
+"""Draws the speed spectra of a run, one panel per measure: `sdre-sil run --spectrum`.
 
-Usage: plot_spectrum.py SPECTRUM.csv TITLE OUT.png|OUT.svg
+Usage: draw_spectrum.py SPECTRUM.csv TITLE OUT.png|OUT.svg
 """
 import csv
 import sys

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Draws one sdre-sil trace, whole on the left and around its last measure on the right.
+"""Draws one trace, whole on the left and around its last measure on the right: `sdre-sil run --plot`, `sdre.Run.plot()`.
 
-Usage: plot_trace.py TRACE.csv TITLE OUT.png|OUT.svg MARKS.json
+Usage: draw_trace.py TRACE.csv TITLE OUT.png|OUT.svg MARKS.json
 
 MARKS: pole_pairs, and measures with name, time_s, end_s and, where there is one, settling_time_s and dip_e_radps.
 """
@@ -9,11 +9,12 @@ import csv
 import json
 import math
 import sys
+from pathlib import Path
 
 import matplotlib
 
-matplotlib.use("Agg")
-matplotlib.rcParams["svg.hashsalt"] = "sdre"  # same trace, same bytes
+if __name__ == "__main__":
+    matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 ZOOM_SETTLINGS = 4.0  # chosen: what came before fits beside it
@@ -21,9 +22,9 @@ ZOOM_LEAST_S = 0.02
 BEFORE = 0.15  # of the zoomed window
 
 
-def read(path):
-    with open(path, newline="") as file:
-        rows = list(csv.DictReader(file))
+def columns_of(text):
+    """{name: values} of a trace as CSV."""
+    rows = list(csv.DictReader(text.splitlines()))
     return {key: [float(row[key]) for row in rows] for key in rows[0]}
 
 
@@ -114,22 +115,21 @@ def zoom_y(axis, t, lo, hi):
         axis.set_ylim(min(seen) - room, max(seen) + room)
 
 
-def main(trace_path, title, out_path, marks_path):
-    t = read(trace_path)
-    with open(marks_path, encoding="utf-8") as file:
-        marks = json.load(file)
+def draw(trace, title, out_path, marks):
+    """A trace as CSV with its marks as JSON, to a .png or .svg; same input, same bytes."""
+    t, marks = columns_of(trace), json.loads(marks)
     measures = marks["measures"]
     drawn = panels(t)
     columns = 2 if measures else 1
     figure, axes = plt.subplots(len(drawn), columns, figsize=(6.5 * columns, 1.75 * len(drawn)), sharex="col", squeeze=False,
                                 constrained_layout=True)  # fmt: skip
     figure.suptitle(title)
-    for row, draw in zip(axes, drawn):
+    for row, panel in zip(axes, drawn):
         for axis in row:
-            draw(axis, t, marks)
+            panel(axis, t, marks)
             axis.grid(alpha=0.3)
             axis.label_outer() if axis is not row[0] else None
-        row[-1].legend(loc="center left", bbox_to_anchor=(1.13 if draw is speed else 1.01, 0.5), fontsize="small")
+        row[-1].legend(loc="center left", bbox_to_anchor=(1.13 if panel is speed else 1.01, 0.5), fontsize="small")
         for m in measures:
             row[0].axvline(m["time_s"], color="0.6", lw=0.8, ls=":")
     if measures:
@@ -141,8 +141,11 @@ def main(trace_path, title, out_path, marks_path):
     for axis in axes[-1]:
         axis.set_xlabel("time [s]")
     metadata = {"Date": None} if out_path.endswith(".svg") else None
-    figure.savefig(out_path, dpi=80, metadata=metadata)
+    with matplotlib.rc_context({"svg.hashsalt": "sdre"}):
+        figure.savefig(out_path, dpi=80, metadata=metadata)
+    plt.close(figure)
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    trace_path, wanted_title, picture, marks_path = sys.argv[1:]
+    draw(Path(trace_path).read_text(encoding="utf-8"), wanted_title, picture, Path(marks_path).read_text(encoding="utf-8"))
