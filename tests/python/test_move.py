@@ -4,9 +4,12 @@
 from __future__ import annotations
 
 import re
+import time
+from concurrent.futures import ThreadPoolExecutor
+from subprocess import CompletedProcess
 
 from conftest import Served
-from support import command, until
+from support import command, run_at, until
 
 from sdre_drive import move, session
 from sdre_drive.connection import Drive
@@ -47,7 +50,29 @@ def test_a_load_does_not_move_it_away(served: Served, drive: Drive) -> None:
     session.stop(drive)
 
 
-def test_a_run_in_another_mode_is_not_taken_over(served: Served, drive: Drive) -> None:
-    session.start(drive, 100.0)
-    refused = command("move", "1", *served.options())
+def while_it_runs(drive: Drive, *words: str) -> CompletedProcess:
+    """A command, while this master goes on asking."""
+    with ThreadPoolExecutor(1) as one:
+        done = one.submit(command, *words)
+        while not done.done():
+            drive.read()
+            time.sleep(0.05)
+        return done.result()
+
+
+def test_a_run_in_another_mode_is_neither_taken_over_nor_disturbed(served: Served, drive: Drive) -> None:
+    run_at(drive, 100.0)
+    refused = while_it_runs(drive, "move", "1", *served.options())
     assert refused.returncode == 1 and "another mode" in refused.stderr + refused.stdout, refused
+    reading = drive.read()
+    assert reading.mode == Mode.RUN and abs(reading.speed_e_radps - 100.0) < 5.0, reading
+    session.stop(drive)
+
+
+def test_a_move_is_not_made_a_run(served: Served, drive: Drive) -> None:
+    session.start(drive, 0.0, move.PROFILE_POSITION)
+    assert until(drive, lambda r: r.mode == Mode.RUN)
+    refused = while_it_runs(drive, "run", "100", *served.options())
+    assert refused.returncode == 1 and "another mode" in refused.stderr + refused.stdout, refused
+    assert drive.read().mode == Mode.RUN
+    session.stop(drive)

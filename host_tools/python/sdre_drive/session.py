@@ -42,6 +42,13 @@ def wait_for(drive: Drive, wanted: Callable[[Reading], bool], longest_s: float) 
         time.sleep(PERIOD_S / 2)
 
 
+def require_mode(drive: Drive, mode: int = PROFILE_VELOCITY) -> None:
+    """DriveError, and nothing written, when it runs in another mode of operation than this."""
+    reading = drive.read()
+    if reading.mode in MOVING and reading.mode_of_operation != mode:
+        raise DriveError("the drive runs in another mode of operation: stop it first")
+
+
 def start(drive: Drive, speed_e_radps: float, mode: int = PROFILE_VELOCITY) -> None:
     """Starts it in a mode of operation, or gives one that runs in it this speed (rad/s electrical)."""
     reading = wait_for(drive, lambda r: r.mode in (Mode.READY, Mode.FAULT, *MOVING), BOOT_WAIT_S)
@@ -49,10 +56,9 @@ def start(drive: Drive, speed_e_radps: float, mode: int = PROFILE_VELOCITY) -> N
         raise DriveError(f"the drive does not get ready: it {drive.read().mode_words}")
     if reading.mode == Mode.FAULT:
         raise Tripped(reading)
+    require_mode(drive, mode)
     drive.set_speed(speed_e_radps)
     if reading.mode in MOVING:
-        if reading.mode_of_operation != mode:
-            raise DriveError("the drive runs in another mode of operation: stop it first")
         return
     in_the_way = faults.bits("condition", reading.conditions & faults.NO_START)
     if in_the_way:
@@ -120,7 +126,8 @@ def require_moving(reading: Reading) -> None:
 
 def hold(drive: Drive, speed_e_radps: float, end: threading.Event, length_s: Optional[float],
          show: Callable[[Reading], None]) -> Reading:  # fmt: skip
-    """Runs at this speed until `end` or for length_s, then stops. Whatever goes wrong: run is withdrawn."""
+    """Runs at this speed until `end` or for length_s, then stops. Whatever goes wrong once it is ours: run is withdrawn."""
+    require_mode(drive)
     try:
         start(drive, speed_e_radps)
         for reading in follow(drive, end, length_s=length_s):
