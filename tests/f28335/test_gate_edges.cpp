@@ -181,6 +181,19 @@ TEST(GateEdges, ToggleChangesTheLevelOncePerPeriod)
     }
 }
 
+/// A gate that stays as it is for minutes, a period of 15,000 counts after the other.
+TEST(GateEdges, LongAgoStaysLongAgo)
+{
+    LegRegisters r = leg(3000);
+    r.aqctla = r.aqctlb = 0x0000; // nothing changes
+    LegMemory memory;
+    for (int k = 0; k < 150000; k++) {
+        gates_of(r, memory);
+    }
+    EXPECT_EQ(memory.a.last_rise, long_ago_cnt);
+    EXPECT_EQ(memory.b.last_fall, long_ago_cnt);
+}
+
 TEST(GateEdges, EitherDelayCanTakeBAsItsInput)
 {
     LegRegisters r = leg(3000);

@@ -79,7 +79,7 @@ std::vector<double> firmware_speeds(const Design &d, double speed, double load, 
         if (k == 0) {
             d.config.law->reset(&state, &d.config, &sample);
         }
-        const law_input_t in{&sample, static_cast<float>(speed), now, 0.0F};
+        const law_input_t in{&sample, static_cast<float>(speed), nullptr, now, 0.0F};
         d.config.law->step(&state, &d.config, &in, &out);
         if (k >= settle) {
             speeds.push_back(m.x(0));

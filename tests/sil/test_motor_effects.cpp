@@ -112,7 +112,7 @@ TEST(MotorEffects, CoulombFrictionTakesItsEnergyAndStops)
 {
     Motor m                = motor_390w();
     m.viscous_friction_Nms = 0.0;
-    m.pm_flux_Wb           = 1e-12; // no electric brake
+    m.pm_flux_Wb           = 0.0; // no electric brake
     MotorEffects effects;
     effects.coulomb_friction_Nm = 0.05;
     Plant plant(m);

@@ -242,8 +242,8 @@ LegPeriod leg_period(const LegRegisters &r, Count count, LegMemory &memory)
     out.rise_delay_cnt = d.red;
     out.fall_delay_cnt = d.fed;
     for (SignalMemory *m : {&memory.a, &memory.b}) {
-        m->last_rise -= period;
-        m->last_fall -= period;
+        m->last_rise = std::max(m->last_rise - period, long_ago_cnt);
+        m->last_fall = std::max(m->last_fall - period, long_ago_cnt);
     }
     return out;
 }

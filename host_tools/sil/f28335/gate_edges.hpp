@@ -31,11 +31,14 @@ struct LegRegisters {
     std::uint16_t dbfed  = 0;
 };
 
-/// The level of a signal and its last changes, in counts before the coming control period (<= 0).
+/// Changes from here back are alike: a dead band has 1023 counts at most.
+constexpr int long_ago_cnt = -100000;
+
+/// The level of a signal and its last changes, in counts before the coming control period (<= 0, >= long_ago_cnt).
 struct SignalMemory {
     bool level     = false;
-    int  last_rise = -100000; ///< long ago
-    int  last_fall = -100000;
+    int  last_rise = long_ago_cnt;
+    int  last_fall = long_ago_cnt;
 };
 
 struct LegMemory {

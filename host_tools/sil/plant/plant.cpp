@@ -88,9 +88,12 @@ double Plant::motor_side_Nm(const MotorState &x, RotorVector i, const ShaftLoad 
            equations_.slope_Nm(slope, i) - effects_.iron_eddy_Nms * iron_share(x) * x.omega_m;
 }
 
-/// Of the iron's drag at the magnet's own flux.
+/// Of the iron's drag at the magnet's own flux; without a magnet there is none (require_magnet()).
 double Plant::iron_share(const MotorState &x) const // EQ-EFFECTS-6
 {
+    if (motor_.pm_flux_Wb == 0.0) {
+        return 0.0;
+    }
     return (x.psi_d * x.psi_d + x.psi_q * x.psi_q) / (motor_.pm_flux_Wb * motor_.pm_flux_Wb);
 }
 

@@ -243,6 +243,15 @@ MotorEffects read_motor_effects(TomlReader t)
     return e;
 }
 
+void require_magnet(const TomlReader &t, const MotorEffects &e, const Drive &drive)
+{
+    if (drive.motor.pm_flux_Wb == 0.0 && (e.iron_hysteresis_Nm != 0.0 || e.iron_eddy_Nms != 0.0)) {
+        t.fail("motor_effects", "iron_hysteresis_Nm and iron_eddy_Nms are not allowed: they are "
+                                "the drag at the magnet's "
+                                "flux, and this motor has no magnet");
+    }
+}
+
 void require_slow_shaft(const TomlReader &t, const MotorEffects &e, const Drive &drive,
                         const MotorScale &scale)
 {

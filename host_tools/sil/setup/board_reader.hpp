@@ -24,6 +24,8 @@ MotorEffects     read_motor_effects(TomlReader t);
 void     require_slow_shaft(const TomlReader &t, const MotorEffects &effects, const Drive &drive,
                             const MotorScale &scale);
 LoadSine read_load_sine(TomlReader t, LoadSine now);
+/// Iron losses are told at the magnet's flux: a motor without one has none.
+void require_magnet(const TomlReader &t, const MotorEffects &effects, const Drive &drive);
 std::vector<LoadRamp> read_load_ramps(TomlReader &t);
 
 } // namespace sdre

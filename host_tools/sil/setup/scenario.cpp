@@ -171,6 +171,7 @@ Scenario read_scenario(TomlReader &t, const std::string &name, const Drive &driv
     start.inverter  = s.inverter;
     start.load_sine = s.load_sine;
     s.changes       = read_changes(t, start, s.drive);
+    require_magnet(t, s.motor_effects, s.drive);
     require_slow_shaft(t, s.motor_effects, s.drive, s.plant_scale);
     for (const PlantChange &change : s.changes) {
         require_slow_shaft(t, s.motor_effects, s.drive, change.plant_scale);
