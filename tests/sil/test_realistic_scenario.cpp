@@ -7,6 +7,8 @@
 
 #include "command.hpp"
 #include "common/errors.hpp"
+#include "common/toml_reader.hpp"
+#include "shipped_drive.hpp"
 #include "sil/eval/bench.hpp"
 #include "sil/eval/pi_foc.hpp"
 #include "sil/eval/seeds.hpp"
@@ -416,4 +418,17 @@ TEST(RealisticScenario, ChopperIsReadAndNeedsALinkThatCanRise)
     EXPECT_NE(error_of(with(blocks + "chopper_on_V = 299.0\n")).find("chopper_on_V"),
               std::string::npos); // off at 294 V: below the source
     EXPECT_NE(error_of(with("chopper_on_V = 380.0\n")).find("stiff"), std::string::npos);
+}
+
+TEST(RealisticScenario, IronLossesNeedAMagnet)
+{
+    Drive drive            = read_drive_file(support::shipped_drive("ipmsm_390w"));
+    drive.motor.pm_flux_Wb = 0.0;
+    const auto with        = [&](const char *key) {
+        const std::string text = head + body + "[motor_effects]\n" + key + "\n";
+        return read_scenario_table(parse_toml_text(text, "s"), "s", "s", drive, drive.law);
+    };
+    EXPECT_EQ(with("coulomb_friction_Nm = 0.1").motor_effects.coulomb_friction_Nm, 0.1);
+    EXPECT_THROW(with("iron_eddy_Nms = 1e-4"), InputError);
+    EXPECT_THROW(with("iron_hysteresis_Nm = 0.02"), InputError);
 }
