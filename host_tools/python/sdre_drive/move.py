@@ -50,7 +50,7 @@ def go(drive: Drive, counts: int, relative: bool, speed_e_radps: float, end: thr
        show: Callable[[Reading, Where], None]) -> Where:  # fmt: skip
     """Goes there and holds the shaft until `end`, or for hold_s after it has arrived; then stops. Where it was in the end."""
     require_possible(drive)
-    session.require_mode(drive, PROFILE_POSITION)
+    session.require_mode(drive.read(), PROFILE_POSITION)
     drive.write("PROFILE_VELOCITY", speed_e_radps)
     try:
         session.start(drive, 0.0, PROFILE_POSITION)

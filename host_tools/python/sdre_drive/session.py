@@ -42,9 +42,8 @@ def wait_for(drive: Drive, wanted: Callable[[Reading], bool], longest_s: float) 
         time.sleep(PERIOD_S / 2)
 
 
-def require_mode(drive: Drive, mode: int = PROFILE_VELOCITY) -> None:
-    """DriveError, and nothing written, when it runs in another mode of operation than this."""
-    reading = drive.read()
+def require_mode(reading: Reading, mode: int = PROFILE_VELOCITY) -> None:
+    """DriveError when the drive runs in another mode of operation than this; to be asked before anything is written."""
     if reading.mode in MOVING and reading.mode_of_operation != mode:
         raise DriveError("the drive runs in another mode of operation: stop it first")
 
@@ -56,7 +55,7 @@ def start(drive: Drive, speed_e_radps: float, mode: int = PROFILE_VELOCITY) -> N
         raise DriveError(f"the drive does not get ready: it {drive.read().mode_words}")
     if reading.mode == Mode.FAULT:
         raise Tripped(reading)
-    require_mode(drive, mode)
+    require_mode(reading, mode)
     drive.set_speed(speed_e_radps)
     if reading.mode in MOVING:
         return
@@ -127,7 +126,7 @@ def require_moving(reading: Reading) -> None:
 def hold(drive: Drive, speed_e_radps: float, end: threading.Event, length_s: Optional[float],
          show: Callable[[Reading], None]) -> Reading:  # fmt: skip
     """Runs at this speed until `end` or for length_s, then stops. Whatever goes wrong once it is ours: run is withdrawn."""
-    require_mode(drive)
+    require_mode(drive.read())
     try:
         start(drive, speed_e_radps)
         for reading in follow(drive, end, length_s=length_s):

@@ -33,8 +33,8 @@ std::vector<PathPiece> pieces_of(const ShaftPath &path)
 {
     std::vector<PathPiece> pieces;
     const auto            &points = path.points();
-    pieces.reserve(points.size() +
-                   1); // one for each step, and as a rule at most one place where it turns around
+    // One for each step, and as a rule at most one place where it turns around.
+    pieces.reserve(points.size() + 1);
     for (std::size_t n = 1; n < points.size(); n++) {
         double from = 0.0;
         for (const double turn : turns_of(slope_of(points[n - 1], points[n]))) {

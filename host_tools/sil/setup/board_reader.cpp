@@ -247,8 +247,7 @@ void require_magnet(const TomlReader &t, const MotorEffects &e, const Drive &dri
 {
     if (drive.motor.pm_flux_Wb == 0.0 && (e.iron_hysteresis_Nm != 0.0 || e.iron_eddy_Nms != 0.0)) {
         t.fail("motor_effects", "iron_hysteresis_Nm and iron_eddy_Nms are not allowed: they are "
-                                "the drag at the magnet's "
-                                "flux, and this motor has no magnet");
+                                "the drag at the magnet's flux, and this motor has no magnet");
     }
 }
 

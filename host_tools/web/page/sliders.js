@@ -72,7 +72,6 @@ class Slider {
   }
 
   reset() {
-    this.moved = false;
     const share = this.log ? Math.log(this.start / this.lo) / Math.log(this.hi / this.lo) : (this.start - this.lo) / (this.hi - this.lo);
     this.input.value = Math.round(1000 * share);
     this.tell(this.start);
