@@ -23,6 +23,8 @@ struct FieldPlace {
     int word, lowest, width;
 };
 
+#define COUNTED(r) r##_word[0] // a register whose accesses the stand-in counts
+
 // Two passes over one table. Plain data: as test code, every row would be compiled with its checks.
 #define REGISTER(type, member, word, bytes)                                                        \
     {#type "." #member, offsetof(type, member), 2U * (word), sizeof(type::member), (bytes)},

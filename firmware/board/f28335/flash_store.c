@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The build places this file in RAM, with TI's flash API: the flash cannot be read while it is written. Without that
  * library (SDRE_FLASH_API) the store can be read, and written by a programming tool only. */
+#include <stddef.h>
+
 #include "DSP28x_Project.h"
 #include "peripherals.h"
 

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <iterator>
 
-#include "Flash2833x_API_Library.h"
 #include "sil/f28335/device.hpp"
+
+#include "Flash2833x_API_Library.h"
 
 namespace {
 

@@ -8,17 +8,21 @@
 
 #include "c28_types.h"
 
-struct TIM_HALVES {
+struct TIM_REG {
     Uint16 LSW;
     Uint16 MSW;
 };
 union TIM_GROUP {
-    Uint32            all;
-    struct TIM_HALVES half;
+    Uint32         all;
+    struct TIM_REG half;
+};
+struct PRD_REG {
+    Uint16 LSW;
+    Uint16 MSW;
 };
 union PRD_GROUP {
-    Uint32            all;
-    struct TIM_HALVES half;
+    Uint32         all;
+    struct PRD_REG half;
 };
 
 struct TCR_BITS {

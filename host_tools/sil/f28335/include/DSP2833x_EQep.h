@@ -107,13 +107,24 @@ union QFLG_REG {
     struct QFLG_BITS bit;
 };
 
-union QCLR_REG {
-    Uint16           all;
-    struct QFLG_BITS bit;
+struct QFRC_BITS {
+    Uint16 : 1;
+    Uint16 PCE : 1;
+    Uint16 PHE : 1;
+    Uint16 QDC : 1;
+    Uint16 WTO : 1;
+    Uint16 PCU : 1;
+    Uint16 PCO : 1;
+    Uint16 PCR : 1;
+    Uint16 PCM : 1;
+    Uint16 SEL : 1;
+    Uint16 IEL : 1;
+    Uint16 UTO : 1;
+    Uint16 : 4;
 };
 union QFRC_REG {
     Uint16           all;
-    struct QFLG_BITS bit;
+    struct QFRC_BITS bit;
 };
 
 struct QEPSTS_BITS {
@@ -150,7 +161,7 @@ struct EQEP_REGS {
     union QPOSCTL_REG QPOSCTL;
     union QEINT_REG   QEINT;
     union QFLG_REG    QFLG;
-    union QCLR_REG    QCLR;
+    union QFLG_REG    QCLR;
     union QFRC_REG    QFRC;
     union QEPSTS_REG  QEPSTS;
     Uint16            QCTMR;

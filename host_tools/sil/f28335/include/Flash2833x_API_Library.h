@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* TI's flash API as far as this project uses it, on the virtual device (flash_unit.cpp). */
+/* TI's flash API as far as this project uses it, on the virtual device (flash_unit.cpp). DSP28x_Project.h comes first. */
 #ifndef FLASH2833X_API_LIBRARY_H
 #define FLASH2833X_API_LIBRARY_H
-
-#include "c28_types.h"
 
 #ifdef __cplusplus
 extern "C" {
