@@ -21,7 +21,7 @@ struct Prediction {
     double voltage_noise_V = 0.0; ///< rms of v_q
 };
 
-/// One JSON object; keys in docs/architecture.md.
+/// One JSON object; keys in docs/files.md.
 std::string report_json(const Design &design, const std::optional<Prediction> &prediction = {});
 
 /// The same for a person.

@@ -9,7 +9,7 @@
 namespace sdre {
 
 /// One JSON object: of every point of speed and current the parts that the controller is made of and the whole loop with the
-/// believed motor; keys in docs/architecture.md. InputError for any law but noc with an observer in its encoder form.
+/// believed motor; keys in docs/files.md. InputError for any law but noc with an observer in its encoder form.
 std::string loops_json(const Design &design);
 
 } // namespace sdre

@@ -26,7 +26,7 @@ constexpr double current_noise     = 3.7e-3;
 constexpr double angle_error_units = 0.38;
 
 // Edges of a disc that are not where they were learned, and what the learning leaves: 2.3 degrees of a line. On a real
-// disc (docs/architecture.md) the noise of v_q is then what the linear model says, on every motor of docs/motors.md.
+// disc (docs/files.md) the noise of v_q is then what the linear model says, on every motor of docs/motors.md.
 constexpr double edge_error_cnt = 0.025;
 
 /// Acceleration per ampere, with the reluctance torque of the largest current.

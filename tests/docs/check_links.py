@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Every link, picture and heading that README.md and docs/ name is there, and so is every page they mention; every page of docs/ is on the
-site, and its block diagrams are as drawn."""
+"""Checks that every link, picture, page and heading named in README.md and docs/ exists, and every page and heading that any
+source names behind a page. Every page of docs/ is on the site, and its block diagrams are as drawn."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 MENTION = re.compile(r"(?<![\w/])docs/([\w/]+\.(?:md|png|svg))\b")
+HEADING = re.compile(r"(docs/[\w/]+\.md|README\.md), \"([^\"]+)\"")
 CODE = re.compile(r"^```.*?^```|^(?: {4}|\t).*?$|`[^`\n]*`", re.M | re.S)
 
 
@@ -40,10 +41,36 @@ def wrong_links(page: Path) -> list:
     return found
 
 
+def wrong_headings(files: list) -> list:
+    """One line for each heading that a text names and its page does not have; a comment may break the line."""
+    found = []
+    for file in files:
+        try:
+            text = re.sub(r"\s+(?:[*#]|//+)?\s*", " ", (ROOT / file).read_text(encoding="utf-8"))
+        except (UnicodeDecodeError, FileNotFoundError):
+            continue
+        for page, heading in HEADING.findall(text):
+            path = ROOT / page
+            heads = re.findall(r"^#+ (.*)$", path.read_text(encoding="utf-8"), re.M) if path.exists() else []
+            if not any(heading.lower() in head.lower() for head in heads):
+                found.append(f"{file}: {page} has no heading \"{heading}\"")
+    return found
+
+
+def sources() -> list:
+    """Tracked files; in an export without git, those of the rooms that name pages."""
+    done = subprocess.run(["git", "-C", str(ROOT), "ls-files"], capture_output=True, text=True, check=False)
+    if done.returncode == 0:
+        return done.stdout.splitlines()
+    rooms = ("docs", "firmware", "host_tools", "tests", "linker", "cmake")
+    return [p.relative_to(ROOT).as_posix() for room in rooms for p in sorted((ROOT / room).rglob("*")) if p.is_file()]
+
+
 def main() -> int:
     """Prints what is wrong."""
     pages = sorted((ROOT / "docs").rglob("*.md"))
     wrong = [line for page in [ROOT / "README.md", *pages] for line in wrong_links(page)]
+    wrong += wrong_headings(sources())
     site = (ROOT / "host_tools/site/mkdocs.yml").read_text(encoding="utf-8")
     wrong += [f"{name} is not in host_tools/site/mkdocs.yml" for name in (p.relative_to(ROOT / "docs").as_posix() for p in pages)
               if not re.search(rf"[ :]{re.escape(name)}$", site, re.M)]  # fmt: skip

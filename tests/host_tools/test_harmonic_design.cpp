@@ -321,7 +321,7 @@ TEST(HarmonicDesign, PairsAreThoseOfTheFileInTheirChannels)
     }
 }
 
-/// Measured against exact solutions half-way between two nodes, columns in units of their noise: README and docs say so.
+/// Measured against exact solutions half-way between two nodes, columns in units of their noise: the docs say so.
 TEST(HarmonicDesign, GainBetweenNodesIsCloseToTheExactOne)
 {
     for (const std::string &name : drives) {

@@ -83,7 +83,7 @@ class Run:
         #: Why the drive opened the bridge; "none".
         self.fault: str = report["fault"]
         self.fault_time_s: Optional[float] = report["fault_time_s"]
-        #: Metric by measure and name (docs/architecture.md, "Metrics"); None: never, or it cannot be told.
+        #: Metric by measure and name (docs/files.md); None: never, or it cannot be told.
         self.measures: Dict[str, Dict[str, Optional[float]]] = report["measures"]
 
     @property

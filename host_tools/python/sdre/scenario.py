@@ -17,7 +17,7 @@ LARGEST_SEED = 2147483647
 class Scenario:
     """What happens in a run: speeds, load, sensors, inverter, changes, faults, measures. Never changes.
 
-    `source` is a scenario file, or a mapping with its keys (docs/architecture.md, "Files"). `drive` is run in place of the one
+    `source` is a scenario file, or a mapping with its keys (docs/files.md). `drive` is run in place of the one
     that the file names; a mapping without "drive" needs it. Paths in a mapping are relative to the working directory.
     InputError in one line on anything wrong.
     """

@@ -12,7 +12,7 @@ from sdre_drive.connection import DriveError
 TIMEOUT_S = 5.0
 DEFAULT = ("127.0.0.1", 1503)
 
-# What can be broken, in words, and the command for it. Keys: docs/architecture.md, [[fault]].
+# What can be broken, in words, and the command for it. Keys: docs/files.md, [[fault]].
 FAULTS = {
     "motor wire a broken": 'fault kind = "phase_open", phase = "a"',
     "motor wire c broken": 'fault kind = "phase_open", phase = "c"',
