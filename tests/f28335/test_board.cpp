@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The drivers of firmware/board/f28335 on the virtual device: every register after the start, the timing of a period, and
 // what they do when something breaks. Expected values are derived here, from the crystal up.
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -89,10 +91,10 @@ TEST_F(F28335Board, PwmRegisters)
         // 75 MHz / (2 * 5 kHz)
         EXPECT_EQ(leg->TBPRD, 7500U);
         EXPECT_EQ(leg->TBPHS.all, 0U);
-        // Shadow, loaded at PRD.
-        EXPECT_EQ(leg->CMPCTL.all, 1U);
-        // ZERO (1:0) set 2, PRD (3:2) clear 1, CAU (5:4) clear 1, CAD (7:6) set 2.
-        EXPECT_EQ(leg->AQCTLA.all, 2U | (1U << 2) | (1U << 4) | (2U << 6));
+        // Shadows, loaded at PRD.
+        EXPECT_EQ(leg->CMPCTL.all, 1U | (1U << 2));
+        // PRD (3:2) clear 1, at full duty set 2; CAD (7:6) set 2, CBU (9:8) clear 1.
+        EXPECT_EQ(leg->AQCTLA.all, ((leg == &EPwm3Regs ? 2U : 1U) << 2) | (2U << 6) | (1U << 8));
         EXPECT_EQ(leg->AQCTLB.all, 0U);
         EXPECT_EQ(leg->AQSFRC.all, 0U);
         EXPECT_EQ(leg->AQCSFRC.all, 0U);
@@ -532,7 +534,7 @@ TEST_F(F28335Board, TwoUpdatesSampleAndLoadAtBothEndsOfTheCounter)
     board_firmware.updates = 2;
     Device &d              = start();
     // Loaded at ZERO and PRD; unit 1 triggers at PRD (2), unit 2 at ZERO (1).
-    EXPECT_EQ(EPwm3Regs.CMPCTL.all, 2U);
+    EXPECT_EQ(EPwm3Regs.CMPCTL.all, 2U | (2U << 2));
     EXPECT_EQ(EPwm1Regs.ETSEL.all, (2U << 8) | (1U << 11));
     EXPECT_EQ(EPwm2Regs.ETSEL.all, (1U << 8) | (1U << 11));
     EXPECT_EQ(EQep1Regs.QUPRD, 15000U);
@@ -593,6 +595,51 @@ TEST_F(F28335Board, TwoUpdatesAfterAnEmptyHalf)
     }
     EXPECT_GE(pulses, 3);
     EXPECT_FALSE(d.findings().has(Finding::dead_time));
+}
+
+/// Counts of the control period in which the input of the first leg's dead band is high.
+int high_counts(const ControlPeriod &p)
+{
+    const auto &a    = p.legs[0].a;
+    int         high = 0;
+    for (std::size_t n = 0; n < a.size(); n++) {
+        const int until = n + 1 < a.size() ? a[n + 1].time_cnt : p.counts;
+        high += a[n].level ? until - a[n].time_cnt : 0;
+    }
+    return high;
+}
+
+// Each duty after each other one, whichever compare value counts at the instant of a load.
+TEST_F(F28335Board, EveryStepOfTheDutyIsExact)
+{
+    const std::vector<int> duties{0, 1, 2, 113, 3000, 7387, 7498, 7499, 7500, 65535};
+    for (const AtLoad at_load : {AtLoad::old_values, AtLoad::new_values}) {
+        for (const int updates : {1, 2}) {
+            options.at_load        = at_load;
+            board_firmware.updates = static_cast<std::uint16_t>(updates);
+            Device &d              = start();
+            enable_gates();
+            int before = -1;
+            for (const int first : duties) {
+                for (const int second : duties) {
+                    for (const int duty : {first, second}) {
+                        board_firmware.duty.a_cnt = static_cast<std::uint16_t>(duty);
+                        d.run_for(period_s / updates);
+                        ASSERT_EQ(around.period.counts, 15000 / updates);
+                        if (before >= 0) {
+                            EXPECT_EQ(high_counts(around.period),
+                                      2 * std::min(before, 7500) / updates)
+                                << "duty " << before << ", " << updates << " updates";
+                        }
+                        before = duty;
+                    }
+                }
+            }
+            for (const Findings::Entry &e : d.findings().all()) {
+                ADD_FAILURE() << e.text;
+            }
+        }
+    }
 }
 
 TEST_F(F28335Board, TwoUpdatesTimeTheEdgesOfEachHalf)

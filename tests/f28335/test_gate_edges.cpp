@@ -117,6 +117,59 @@ TEST(GateEdges, AfterFullDutyThePeriodActionEndsThePulse)
     EXPECT_EQ(without.a[1].time_cnt, 10500);
 }
 
+/// Counts of the period in which the action qualifier's output is high.
+int high_counts(const LegPeriod &p, int counts)
+{
+    int high = 0;
+    for (std::size_t n = 0; n < p.a.size(); n++) {
+        const int until = n + 1 < p.a.size() ? p.a[n + 1].time_cnt : counts;
+        high += p.a[n].level ? until - p.a[n].time_cnt : 0;
+    }
+    return high;
+}
+
+// The old value counts at the instant of its load: full duty begins half a period late and ends half a period late.
+TEST(GateEdges, CompareOfTbprdLoadedAtPrdIsWrongByHalfAPeriod)
+{
+    LegRegisters r = leg(prd);
+    r.aqctla       = 0x0096; // and ZERO sets
+    LegMemory memory;
+    r.cmpa_at_start = 3000;
+    EXPECT_EQ(high_counts(leg_period(r, Count::down_up, memory), 2 * prd), prd);
+    r.cmpa_at_start = prd;
+    EXPECT_EQ(high_counts(leg_period(r, Count::down_up, memory), 2 * prd), 2 * prd);
+    r.cmpa = 3000;
+    EXPECT_EQ(high_counts(leg_period(r, Count::down_up, memory), 2 * prd), prd + 3000);
+}
+
+TEST(GateEdges, CompareOfZeroLoadedAtZeroIsWrongByHalfAPeriod)
+{
+    LegRegisters r = leg(0);
+    r.aqctla       = 0x0096;
+    LegMemory memory;
+    r.cmpa_at_start = 3000;
+    EXPECT_EQ(high_counts(leg_period(r, Count::up, memory), prd), prd);
+    r.cmpa          = 3000;
+    r.cmpa_at_start = 0;
+    EXPECT_EQ(high_counts(leg_period(r, Count::up, memory), prd), 0);
+}
+
+/// At its top the counter goes down: CAD, then PRD, then CAU; at zero it goes up: CAU, then ZERO, then CAD.
+TEST(GateEdges, TheOtherDirectionsComparesComeLast)
+{
+    const auto level_at_start = [](std::uint16_t aqctl, int compare, Count count) {
+        LegRegisters r = leg(compare);
+        r.aqctla       = aqctl;
+        LegMemory memory;
+        memory.a.level = true;
+        return leg_period(r, count, memory).a.front().level;
+    };
+    EXPECT_TRUE(level_at_start(0x0018, prd, Count::down));  // PRD sets, CAU clears
+    EXPECT_FALSE(level_at_start(0x0010, prd, Count::down)); // CAU alone
+    EXPECT_TRUE(level_at_start(0x0042, 0, Count::up));      // ZERO sets, CAD clears
+    EXPECT_FALSE(level_at_start(0x0040, 0, Count::up));
+}
+
 TEST(GateEdges, SevenMicrosecondsAtFullSpeedLeaveTwentySixCounts)
 {
     LegRegisters r = leg(3000);

@@ -6,7 +6,19 @@
 #define HSPCLKDIV_BY_2    1U
 #define HALT_AT_CYCLE_END 1U /* a debugger's halt leaves all upper switches on: zero voltage */
 
-static uint16_t full_cnt; /* compare counts of duty one: TBPRD */
+/* CMPCTL: A and B with shadows. */
+#define LOADS_AT_PRD  0x0005U
+#define LOADS_AT_BOTH 0x000AU /* ZERO and PRD */
+
+/* AQCTLA: CAD sets, CBU clears; and the level from PRD and from ZERO on. */
+#define EDGES     0x0180U
+#define PRD_LOW   0x0004U
+#define PRD_HIGH  0x0008U
+#define ZERO_LOW  0x0001U
+#define ZERO_HIGH 0x0002U
+
+static uint16_t full_cnt;      /* compare counts of duty one: TBPRD */
+static bool     loads_at_zero; /* two updates per period */
 
 /* The counter goes 0 .. TBPRD .. 0. The upper switch is on around 0, all lower ones around TBPRD: there the
  * currents are sampled, and there a control period begins. */
@@ -23,15 +35,12 @@ static void set_up_leg(volatile struct EPWM_REGS *leg, uint16_t dead_time_cnt)
     leg->TBCTR               = 0U;
     leg->TBPHS.all           = 0U;
 
-    leg->CMPCTL.bit.SHDWAMODE = CC_SHADOW;
-    leg->CMPA.half.CMPA       = 0U;
+    leg->CMPCTL.all     = LOADS_AT_PRD;
+    leg->CMPA.half.CMPA = 0U;
+    leg->CMPB           = 0U;
 
-    leg->AQCTLA.all     = 0U;
-    leg->AQCTLA.bit.CAU = AQ_CLEAR;
-    leg->AQCTLA.bit.CAD = AQ_SET; /* at full duty it meets PRD, and goes before it */
-    leg->AQCTLA.bit.ZRO = AQ_SET; /* a half that begins here starts high, at no duty CAU beats it */
-    leg->AQCTLA.bit.PRD = AQ_CLEAR; /* and one that begins there low: full duty leaves it high */
-    leg->AQCTLB.all     = 0U;       /* output B is made from A by the dead band */
+    leg->AQCTLA.all = EDGES | PRD_LOW;
+    leg->AQCTLB.all = 0U; /* output B is made from A by the dead band */
 
     leg->DBCTL.bit.IN_MODE  = DBA_ALL;
     leg->DBCTL.bit.POLSEL   = DB_ACTV_HIC;
@@ -41,11 +50,6 @@ static void set_up_leg(volatile struct EPWM_REGS *leg, uint16_t dead_time_cnt)
 
     leg->ETSEL.all         = 0U; /* no interrupt, no trigger */
     leg->TBCTL.bit.CTRMODE = TB_COUNT_UPDOWN;
-}
-
-static uint16_t at_most_full(uint16_t duty_cnt)
-{
-    return (duty_cnt < full_cnt) ? duty_cnt : full_cnt;
 }
 
 void pwm_init(const board_setup_t *setup)
@@ -58,32 +62,20 @@ void pwm_init(const board_setup_t *setup)
 
 /* Samples are taken while all lower switches are on; with two updates also while all upper ones are, for which a unit
  * has no second trigger of its own. A new duty acts from the start of the next control period on. */
-static void one_update(void)
-{
-    EPwm1Regs.CMPCTL.bit.LOADAMODE = CC_CTR_PRD;
-    EPwm2Regs.CMPCTL.bit.LOADAMODE = CC_CTR_PRD;
-    EPwm3Regs.CMPCTL.bit.LOADAMODE = CC_CTR_PRD;
-}
-
-static void two_updates(void)
-{
-    EPwm1Regs.CMPCTL.bit.LOADAMODE = CC_CTR_ZERO_PRD;
-    EPwm2Regs.CMPCTL.bit.LOADAMODE = CC_CTR_ZERO_PRD;
-    EPwm3Regs.CMPCTL.bit.LOADAMODE = CC_CTR_ZERO_PRD;
-
-    EPwm2Regs.ETPS.bit.SOCAPRD  = ET_1ST;
-    EPwm2Regs.ETSEL.bit.SOCASEL = ET_CTR_ZERO;
-    EPwm2Regs.ETSEL.bit.SOCAEN  = 1U;
-}
-
 void pwm_start(uint16_t updates_per_period)
 {
-    if (updates_per_period == 2U) {
-        two_updates();
-    } else {
-        one_update();
-    }
+    loads_at_zero = updates_per_period == 2U;
 
+    const uint16_t loads = loads_at_zero ? LOADS_AT_BOTH : LOADS_AT_PRD;
+    EPwm1Regs.CMPCTL.all = loads;
+    EPwm2Regs.CMPCTL.all = loads;
+    EPwm3Regs.CMPCTL.all = loads;
+
+    if (loads_at_zero) {
+        EPwm2Regs.ETPS.bit.SOCAPRD  = ET_1ST;
+        EPwm2Regs.ETSEL.bit.SOCASEL = ET_CTR_ZERO;
+        EPwm2Regs.ETSEL.bit.SOCAEN  = 1U;
+    }
     EPwm1Regs.ETPS.bit.SOCAPRD  = ET_1ST;
     EPwm1Regs.ETSEL.bit.SOCASEL = ET_CTR_PRD;
     EPwm1Regs.ETSEL.bit.SOCAEN  = 1U;
@@ -93,9 +85,28 @@ void pwm_start(uint16_t updates_per_period)
     EDIS;
 }
 
+/* The guide leaves open whether the old or the new compare value counts at the instant of a load. So no compare makes a
+ * level there: PRD (and ZERO, where it loads) does, by an action that is written before and has no shadow. CMPA stays
+ * below TBPRD; CMPB may be TBPRD, where CBU gives way to PRD, and is at least 1 where ZERO loads. */
+static void write_leg(volatile struct EPWM_REGS *leg, uint16_t duty_cnt)
+{
+    const bool full    = duty_cnt >= full_cnt;
+    const bool none    = duty_cnt == 0U;
+    uint16_t   actions = full ? (EDGES | PRD_HIGH) : (EDGES | PRD_LOW);
+    uint16_t   ends    = full ? full_cnt : duty_cnt;
+
+    if (loads_at_zero) {
+        actions = (uint16_t)(actions | (none ? ZERO_LOW : ZERO_HIGH));
+        ends    = none ? 1U : ends;
+    }
+    leg->CMPA.half.CMPA = full ? (uint16_t)(full_cnt - 1U) : duty_cnt;
+    leg->CMPB           = ends;
+    leg->AQCTLA.all     = actions;
+}
+
 void board_duty_write(const board_duty_t *duty)
 {
-    EPwm1Regs.CMPA.half.CMPA = at_most_full(duty->a_cnt);
-    EPwm2Regs.CMPA.half.CMPA = at_most_full(duty->b_cnt);
-    EPwm3Regs.CMPA.half.CMPA = at_most_full(duty->c_cnt);
+    write_leg(&EPwm1Regs, duty->a_cnt);
+    write_leg(&EPwm2Regs, duty->b_cnt);
+    write_leg(&EPwm3Regs, duty->c_cnt);
 }

@@ -35,6 +35,7 @@ struct DeviceOptions {
     ClockFaults clock;
     double      dead_time_s        = 0.0;   ///< what the bridge needs; less is reported
     bool        watchdog_has_reset = false; ///< what started the firmware
+    AtLoad      at_load            = AtLoad::old_values;
 };
 
 class Device {

@@ -79,7 +79,7 @@ void Device::begin_control_period(Count count)
         if (count == Count::up ? !pwm_[n].at_zero() : !pwm_[n].at_period()) {
             findings_.add(Finding::unsupported, "the three legs are out of step", time_s());
         }
-        period.legs[n]               = pwm_[n].begin_period(count);
+        period.legs[n]               = pwm_[n].begin_period(count, options_.at_load);
         const std::optional<int> gap = shortest_gap_cnt(period.legs[n].gates);
         if (legs_[n] && !period.legs[n].complementary) {
             findings_.add(Finding::unsupported,

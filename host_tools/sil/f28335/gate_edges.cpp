@@ -2,6 +2,7 @@
 #include "sil/f28335/gate_edges.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 
 namespace sdre::f28335 {
 namespace {
@@ -15,6 +16,7 @@ constexpr int aq_cau  = 4;
 constexpr int aq_cad  = 6;
 constexpr int aq_cbu  = 8;
 constexpr int aq_cbd  = 10;
+constexpr int aq_none = 12; // reserved: no action
 
 bool acted(std::uint16_t aqctl, int field, bool level)
 {
@@ -35,14 +37,36 @@ bool has_action(std::uint16_t aqctl, int field)
     return ((aqctl >> field) & 3) != 0;
 }
 
-/// The compare event beats the counter's own; of the compares B beats A.
-int field_at_end(std::uint16_t aqctl, bool a_equal, int a_field, bool b_equal, int b_field,
-                 int counter_field)
+struct Candidate {
+    bool happens;
+    int  field;
+};
+
+/// The first that happens and does something.
+int field_of(std::uint16_t aqctl, std::initializer_list<Candidate> by_priority)
 {
-    if (b_equal && has_action(aqctl, b_field)) {
-        return b_field;
+    for (const Candidate &c : by_priority) {
+        if (c.happens && has_action(aqctl, c.field)) {
+            return c.field;
+        }
     }
-    return a_equal && has_action(aqctl, a_field) ? a_field : counter_field;
+    return aq_none;
+}
+
+/// By definition the counter goes down at its top.
+int field_at_top(std::uint16_t aqctl, int tbprd, int cmpa, int cmpb)
+{
+    const bool a = cmpa >= tbprd;
+    const bool b = cmpb >= tbprd;
+    return field_of(aqctl, {{b, aq_cbd}, {a, aq_cad}, {true, aq_prd}, {b, aq_cbu}, {a, aq_cau}});
+}
+
+/// And up at zero.
+int field_at_zero(std::uint16_t aqctl, int cmpa, int cmpb)
+{
+    const bool a = cmpa == 0;
+    const bool b = cmpb == 0;
+    return field_of(aqctl, {{b, aq_cbu}, {a, aq_cau}, {true, aq_zero}, {b, aq_cbd}, {a, aq_cad}});
 }
 
 struct Action {
@@ -57,13 +81,14 @@ std::vector<Action> actions_of(const LegRegisters &r, std::uint16_t aqctl, Count
     const bool          down = count != Count::up;
     const bool          up   = count != Count::down;
     const int           zero = down ? r.tbprd : 0; // time of ZERO
+    const int           a    = r.cmpa_at_start.value_or(r.cmpa);
+    const int           b    = r.cmpb_at_start.value_or(r.cmpb);
     if (down) {
-        actions.push_back(
-            {0, field_at_end(aqctl, r.cmpa >= r.tbprd, aq_cad, r.cmpb >= r.tbprd, aq_cbd, aq_prd)});
+        actions.push_back({0, field_at_top(aqctl, r.tbprd, a, b)});
     }
     if (up) {
         actions.push_back(
-            {zero, field_at_end(aqctl, r.cmpa == 0, aq_cau, r.cmpb == 0, aq_cbu, aq_zero)});
+            {zero, down ? field_at_zero(aqctl, r.cmpa, r.cmpb) : field_at_zero(aqctl, a, b)});
     }
     const auto add_compare = [&](int value, int field_down, int field_up) {
         if (value <= 0 || value >= r.tbprd) {

@@ -4,7 +4,8 @@
 /// Counter values count up and down; a control period runs from TBPRD to TBPRD, so ZERO is in its middle; with two
 /// updates per PWM period it is one way of the counter.
 ///
-///     output(t) = last action at or before t;  compare beats ZERO and PRD          EQ-GATES-1
+///     output(t) = last action at or before t;  in the counter's direction B, A, the counter's own, then the
+///                 compares of the other direction                                  EQ-GATES-1
 ///     delayed rise:  in(t) and t - last rise >= DBRED                              EQ-GATES-2
 ///     delayed fall:  in(t) or  t - last fall <  DBFED                              EQ-GATES-3
 #pragma once
@@ -19,6 +20,10 @@ namespace sdre::f28335 {
 /// The way of the counter in a control period.
 enum class Count { down_up, down, up };
 
+/// Which compare values count at the instant at which the active ones are loaded. TI's guide leaves it open and says how
+/// to live with either: with loads at PRD none of TBPRD, with loads at ZERO none of 0.
+enum class AtLoad { old_values, new_values };
+
 /// What the registers of a leg hold, the compare values being the active ones.
 struct LegRegisters {
     int           tbprd  = 0;
@@ -29,6 +34,9 @@ struct LegRegisters {
     std::uint16_t dbctl  = 0;
     std::uint16_t dbred  = 0; ///< only ten bits act
     std::uint16_t dbfed  = 0;
+    /// At the first instant of the period alone; none: as above.
+    std::optional<int> cmpa_at_start{};
+    std::optional<int> cmpb_at_start{};
 };
 
 /// Changes from here back are alike: a dead band has 1023 counts at most.

@@ -63,6 +63,10 @@ void PwmUnit::check_settings(Findings &findings, double time_s) const
     refuse(r_.ETSEL.bit.SOCASEL > 2U && r_.ETSEL.bit.SOCAEN != 0U,
            "SOCA at a compare is not modelled");
     refuse(r_.AQSFRC.all != 0U || r_.AQCSFRC.all != 0U, "software forcing is not modelled");
+    // It has no shadow: what it does at the ends of a control period alone may change within.
+    const unsigned at_ends = two_updates() ? 0xFU : 0xCU;
+    refuse(began_ && ((r_.AQCTLA.all ^ aqctla_) & ~at_ends) != 0U,
+           "AQCTLA changes within a control period");
     refuse(r_.PCCTL.bit.CHPEN != 0U, "the chopper is not modelled");
 }
 
@@ -145,6 +149,10 @@ PwmEvents PwmUnit::step(std::int64_t cycles)
         return (now.zero && (mode == CC_CTR_ZERO || mode == CC_CTR_ZERO_PRD)) ||
                (now.period && (mode == CC_CTR_PRD || mode == CC_CTR_ZERO_PRD));
     };
+    if (now.zero || now.period) {
+        cmpa_before_ = cmpa_;
+        cmpb_before_ = cmpb_;
+    }
     if (loads(r_.CMPCTL.bit.LOADAMODE)) {
         cmpa_ = r_.CMPA.half.CMPA;
     }
@@ -178,11 +186,17 @@ bool PwmUnit::at_zero() const
     return running() && position_ == 0;
 }
 
-LegPeriod PwmUnit::begin_period(Count count)
+LegPeriod PwmUnit::begin_period(Count count, AtLoad at_load)
 {
-    return leg_period(
-        {r_.TBPRD, cmpa_, cmpb_, r_.AQCTLA.all, r_.AQCTLB.all, r_.DBCTL.all, r_.DBRED, r_.DBFED},
-        count, memory_);
+    LegRegisters now{r_.TBPRD,      cmpa_,        cmpb_,    r_.AQCTLA.all,
+                     r_.AQCTLB.all, r_.DBCTL.all, r_.DBRED, r_.DBFED};
+    if (at_load == AtLoad::old_values) {
+        now.cmpa_at_start = cmpa_before_;
+        now.cmpb_at_start = cmpb_before_;
+    }
+    aqctla_ = r_.AQCTLA.all;
+    began_  = true;
+    return leg_period(now, count, memory_);
 }
 
 int PwmUnit::trip_action_a() const

@@ -44,7 +44,7 @@ public:
     }
     bool at_zero() const; ///< the counter is at 0 at this very cycle
     /// Gates over the control period that begins now.
-    LegPeriod begin_period(Count count);
+    LegPeriod begin_period(Count count, AtLoad at_load);
     /// What trip does to the outputs, 0 HiZ, 1 high, 2 low, 3 nothing; the worse of A and B.
     int trip_action_a() const;
     int trip_action_b() const;
@@ -63,6 +63,10 @@ private:
     std::uint16_t       presented_ctr_  = 0;
     int                 cmpa_           = 0; ///< active
     int                 cmpb_           = 0;
+    int                 cmpa_before_    = 0; ///< the last load
+    int                 cmpb_before_    = 0;
+    std::uint16_t       aqctla_         = 0; ///< at the start of this control period
+    bool                began_          = false;
     bool                one_shot_       = false;
     bool                trip_interrupt_ = false;
     int                 soc_a_count_    = 0;
