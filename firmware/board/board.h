@@ -77,10 +77,10 @@ typedef struct {
     uint16_t direction; /**< 1: a pin is high while the board sends, for a transceiver */
 } board_line_t;
 
-/** What started the program. */
+/** What started the program, as far as the processor can tell: for a reader, nothing depends on it. */
 typedef enum {
     BOARD_RESET_PIN = 0, /**< power, or the reset pin */
-    BOARD_RESET_WATCHDOG /**< the program before hung */
+    BOARD_RESET_WATCHDOG /**< the program before hung, or board_restart() */
 } board_reset_t;
 
 /** Whether the registers can hold what the setup asks for. Context: init, or the loader. */

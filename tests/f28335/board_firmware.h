@@ -11,11 +11,11 @@
 
 #include "sil/f28335/f28335_names.h"
 
-#include "board.h"
-
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+#include "board.h"
 
 typedef struct {
     /* Set by the test. */

@@ -12,6 +12,8 @@
 #include "plain_surroundings.hpp"
 #include "sil/f28335/device.hpp"
 
+extern "C" volatile std::uint32_t watchdog_after_reset[2];
+
 namespace {
 
 using namespace sdre::f28335;
@@ -656,14 +658,36 @@ TEST_F(F28335Board, TwoUpdatesTimeTheEdgesOfEachHalf)
     EXPECT_EQ(board_firmware.sample.position_cnt - from, 30);
 }
 
-TEST_F(F28335Board, ResetCauseIsReported)
+// 8192 cycles at a quarter of 30 MHz and 512: 1.1093 ms after the beginning of a reset the pin is looked at.
+TEST_F(F28335Board, ResetCauseIsWhatTheFlagSays)
 {
-    start();
-    EXPECT_EQ(board_firmware.reset_cause, BOARD_RESET_PIN);
-    options.watchdog_has_reset = true;
-    start();
-    EXPECT_EQ(board_firmware.reset_cause, BOARD_RESET_WATCHDOG);
-    EXPECT_EQ(SysCtrlRegs.WDCR & 0x80U, 0U); // cleared, for the next one
+    for (const double low_s : {512 / 30e6, 1.1e-3, 1.12e-3, 0.2}) {
+        options.xrs_low_s = low_s;
+        start();
+        EXPECT_EQ(board_firmware.reset_cause,
+                  low_s < 1.109e-3 ? BOARD_RESET_WATCHDOG : BOARD_RESET_PIN)
+            << low_s;
+        EXPECT_EQ(SysCtrlRegs.WDCR & 0x80U, 0U); // cleared, for the next one
+    }
+}
+
+TEST_F(F28335Board, LoaderIsWantedByAWordAndItsComplementAndOnce)
+{
+    constexpr std::uint32_t asked = 0x10ADE401;
+    for (const double low_s : {512 / 30e6, 0.2}) { // the flag of the watchdog: set, clear
+        options.xrs_low_s = low_s;
+        start();
+        watchdog_after_reset[0] = asked;
+        watchdog_after_reset[1] = ~asked;
+        EXPECT_TRUE(board_loader_is_wanted());
+        EXPECT_FALSE(board_loader_is_wanted());
+        for (int bit = 0; bit < 64; bit++) {
+            watchdog_after_reset[0] = asked;
+            watchdog_after_reset[1] = ~asked;
+            watchdog_after_reset[bit / 32] ^= 1U << (bit % 32);
+            EXPECT_FALSE(board_loader_is_wanted()) << bit;
+        }
+    }
 }
 
 TEST_F(F28335Board, TripInputShowsWhileTheGatesAreOff)

@@ -123,6 +123,26 @@ TEST_F(Loading, AnImageIsInForceAfterTheRestartAndTheMotorRunsWithIt)
     EXPECT_TRUE(served.findings().empty());
 }
 
+// Set after power-on without a supervisor; clear when a supervisor stretches the watchdog's pulse; both at once.
+TEST_F(Loading, TheFlagOfTheWatchdogDecidesNothing)
+{
+    const double pulse_s = f28335::watchdog_pulse_s;
+    for (const auto &[power_on_s, watchdog_s] :
+         std::vector<std::pair<double, double>>{{0.5e-3, pulse_s}, {0.2, 0.14}, {0.5e-3, 0.14}}) {
+        served.set_reset_line(power_on_s, watchdog_s);
+        served.power_cycle();
+        pass(0.5);
+        EXPECT_EQ(loader(APP_LOADER_STATE), APP_LOADER_AWAY) << power_on_s;
+        EXPECT_EQ(input(APP_REGISTERS_RESET_CAUSE), power_on_s < 1.109e-3 ? 1 : 0);
+        enter();
+        ASSERT_TRUE(command(APP_LOADER_LEAVE));
+        pass(0.5);
+        EXPECT_EQ(loader(APP_LOADER_STATE), APP_LOADER_AWAY) << watchdog_s;
+        EXPECT_EQ(input(APP_REGISTERS_RESET_CAUSE), watchdog_s < 1.109e-3 ? 1 : 0);
+    }
+    EXPECT_TRUE(served.findings().empty());
+}
+
 TEST_F(Loading, APowerCutLeavesTheOldImageOrTheNewOne)
 {
     pass(0.5);

@@ -66,6 +66,20 @@ const unsigned dividers[]{488, 244, 122, 81, 41, 20};
 
 } // namespace
 
+TEST_F(Parameters, AreStoredWhateverTheFlagOfTheWatchdogSays)
+{
+    served.set_reset_line(0.5e-3, 0.14); // a supervisor stretches every reset but power-on
+    served.power_cycle();
+    pass(0.5);
+    ASSERT_TRUE(window(77));
+    ASSERT_TRUE(store());
+    pass(restart_s + 0.5);
+    EXPECT_EQ(window(), 77);
+    served.power_cycle();
+    pass(0.5);
+    EXPECT_EQ(window(), 77);
+}
+
 TEST_F(Parameters, AreThereAfterEveryStartAndAnotherLineIsNotUnderstood)
 {
     served.line().set_far_end({57600.0, 'E'});

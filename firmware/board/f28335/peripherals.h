@@ -51,6 +51,9 @@ void cycles_wait(uint32_t cycles);
 void tick_watch_start(uint32_t period_cycles); /**< before the first control interrupt */
 void tick_watch_serve(void); /**< an interrupt has come. Context: start of the control ISR */
 
+/** "Loader wanted" and its complement; outlasts board_restart(), after power-on it is anything. */
+extern volatile uint32_t watchdog_after_reset[2];
+
 void watchdog_stop(void); /**< first reads what has reset the device */
 void watchdog_start(void);
 

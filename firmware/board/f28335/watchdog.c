@@ -4,23 +4,25 @@
 #include "yield.h"
 
 #define WDCR_STOP 0x68U
-#define WDFLAG    0x80U /* WDCR: the watchdog has reset the device; written 1 to clear */
+#define WDFLAG    0x80U /* WDCR: reported as the watchdog's reset; written 1 to clear */
 /* 256 * 512 crystal cycles = 4.37 ms, the shortest there is: four times the longest background pass expected (1 ms). Bits
  * 5:3 have to be 101 in every write. */
 #define WDCR_RUN  0x29U
 #define SCSR_LOCK 0x01U /* reset, not interrupt; and the watchdog cannot be stopped any more */
 
 #define WDCR_RESET 0x00U /* check bits that are not 101: a reset at once */
-#define WANT_LOADER                                                                                \
-    0x10ADE401UL /* chosen: memory after power-on says this once in 2^32, and only the watchdog's reset asks */
+/* Chosen. Memory after power-on says this and its complement once in 2^64; WDFLAG is not asked, it may say either after any
+ * reset (docs/hardware.md, "Reset"). */
+#define WANT_LOADER 0x10ADE401UL
+#define COMPLEMENT  (WANT_LOADER ^ 0xFFFFFFFFUL)
 
 static board_reset_t cause;
 
 /* Survives a reset: no start-up code touches it. */
 #ifdef __TI_COMPILER_VERSION__
-#pragma NOINIT(after_reset)
+#pragma NOINIT(watchdog_after_reset)
 #endif
-static volatile uint32_t after_reset;
+volatile uint32_t watchdog_after_reset[2];
 
 /* The same. */
 #ifdef __TI_COMPILER_VERSION__
@@ -41,11 +43,18 @@ board_reset_t board_reset_cause(void)
     return cause;
 }
 
+static void remember(bool loader)
+{
+    watchdog_after_reset[0] = loader ? WANT_LOADER : 0UL;
+    watchdog_after_reset[1] = loader ? COMPLEMENT : 0UL;
+}
+
 bool board_loader_is_wanted(void)
 {
-    const bool wanted = (cause == BOARD_RESET_WATCHDOG) && (after_reset == WANT_LOADER);
+    const bool wanted =
+        (watchdog_after_reset[0] == WANT_LOADER) && (watchdog_after_reset[1] == COMPLEMENT);
 
-    after_reset = 0UL;
+    remember(false);
     return wanted;
 }
 
@@ -57,7 +66,7 @@ uint16_t *board_kept(void)
 void board_restart(bool loader)
 {
     board_gate_trip();
-    after_reset = loader ? WANT_LOADER : 0UL;
+    remember(loader);
     EALLOW;
     SysCtrlRegs.WDCR = WDCR_RESET;
     EDIS;

@@ -115,7 +115,7 @@ def require_moving(reading: Reading) -> None:
     if reading.mode == Mode.FAULT:
         raise Tripped(reading)
     if reading.mode in (Mode.BOOT, Mode.CALIBRATE):
-        watchdog = " by its watchdog: the program before hung" if reading.reset_cause == 1 else ""
+        watchdog = "; its watchdog flag is set: the program before may have hung" if reading.reset_cause == 1 else ""
         raise DriveError(f"the drive has restarted{watchdog}")
     if reading.mode == Mode.READY:
         silent = reading.conditions & 2

@@ -40,8 +40,8 @@ Surroundings &after_reset(Surroundings &s)
 
 Device::Device(Surroundings &surroundings, Firmware firmware, const DeviceOptions &options)
     : surroundings_(after_reset(surroundings)), options_(options), clock_(options.clock),
-      watchdog_(options.watchdog_has_reset), pwm_{PwmUnit(EPwm1Regs, 1), PwmUnit(EPwm2Regs, 2),
-                                                  PwmUnit(EPwm3Regs, 3)},
+      watchdog_(options.xrs_low_s), pwm_{PwmUnit(EPwm1Regs, 1), PwmUnit(EPwm2Regs, 2),
+                                         PwmUnit(EPwm3Regs, 3)},
       adc_([this](int side, int number) { return surroundings_.analog_V(side, number); }),
       timer_(CpuTimer0Regs, 0), timer1_(CpuTimer1Regs, 1), main_([firmware] { firmware(); })
 {

@@ -31,11 +31,14 @@ extern "C" volatile Uint16 codestart_stack[0x400];
 
 namespace sdre::f28335 {
 
+/// The watchdog's own pulse: 512 cycles of the crystal.
+constexpr double watchdog_pulse_s = 512 / 30e6;
+
 struct DeviceOptions {
     ClockFaults clock;
-    double      dead_time_s        = 0.0;   ///< what the bridge needs; less is reported
-    bool        watchdog_has_reset = false; ///< what started the firmware
-    AtLoad      at_load            = AtLoad::old_values;
+    double      dead_time_s = 0.0; ///< what the bridge needs; less is reported
+    double xrs_low_s = 0.2; ///< the reset pin before the start: a supervisor's time after power-on
+    AtLoad at_load   = AtLoad::old_values;
 };
 
 class Device {

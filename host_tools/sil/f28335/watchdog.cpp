@@ -17,12 +17,15 @@ constexpr unsigned wdflag       = 0x80;
 constexpr unsigned no_key       = 0x100; // cannot be written by a key of eight bits
 constexpr unsigned override_bit = 0x01;
 
+// 8192 cycles at a quarter of the crystal's rate and 512 of the crystal's.
+constexpr double xrs_looked_at_s = (8192 * 4 + 512) / 30e6;
+
 } // namespace
 
 /// Stopped: that is what the start-up code before main() leaves.
-Watchdog::Watchdog(bool has_reset) : has_reset_(has_reset)
+Watchdog::Watchdog(double xrs_low_s) : flag_(xrs_low_s < xrs_looked_at_s)
 {
-    presented_wdcr_           = static_cast<std::uint16_t>(wddis | (has_reset ? wdflag : 0U));
+    presented_wdcr_           = static_cast<std::uint16_t>(wddis | (flag_ ? wdflag : 0U));
     SysCtrlRegs.WDCR          = presented_wdcr_;
     SysCtrlRegs.SCSR          = 0; // WDOVERRIDE reads as written here: 1 means "cleared now"
     SysCtrlRegs.WDKEY_word[0] = no_key;
@@ -52,14 +55,14 @@ void Watchdog::sync()
     SysCtrlRegs.SCSR    = static_cast<std::uint16_t>(SysCtrlRegs.SCSR & ~override_bit);
     const unsigned wdcr = SysCtrlRegs.WDCR;
     if (wdcr != presented_wdcr_) {
-        reset_     = reset_ || (wdcr & wdchk) != good;
-        disabled_  = (wdcr & wddis) != 0U && !locked_;
-        prescale_  = wdcr & wdps;
-        has_reset_ = has_reset_ && (wdcr & wdflag) == 0U; // written 1 to clear
+        reset_    = reset_ || (wdcr & wdchk) != good;
+        disabled_ = (wdcr & wddis) != 0U && !locked_;
+        prescale_ = wdcr & wdps;
+        flag_     = flag_ && (wdcr & wdflag) == 0U; // written 1 to clear
     }
     // The check bits read as zero.
-    presented_wdcr_    = static_cast<std::uint16_t>((disabled_ ? wddis : 0U) |
-                                                 (has_reset_ ? wdflag : 0U) | prescale_);
+    presented_wdcr_ =
+        static_cast<std::uint16_t>((disabled_ ? wddis : 0U) | (flag_ ? wdflag : 0U) | prescale_);
     SysCtrlRegs.WDCR   = presented_wdcr_;
     SysCtrlRegs.WDCNTR = static_cast<std::uint16_t>(
         std::min<std::int64_t>(255, 256 * counter_ticks_ / period_ticks()));

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// The watchdog counts crystal / 512 / prescale up to 256, then resets the device.
+///
+/// WDFLAG is no memory of that: the device looks at XRS some time after the beginning of a reset, and sets the flag when the
+/// pin is high again (TI's answer on WDFLAG of the 2823x/2833x).
 #pragma once
 
 #include <cstdint>
@@ -8,8 +11,8 @@ namespace sdre::f28335 {
 
 class Watchdog {
 public:
-    /// @param has_reset The reset before this start was its own.
-    explicit Watchdog(bool has_reset);
+    /// @param xrs_low_s Time for which XRS was low before this start.
+    explicit Watchdog(double xrs_low_s);
 
     /// Takes a change of WDCR and SCSR.
     void sync();
@@ -29,7 +32,7 @@ private:
     bool          locked_         = false; ///< WDOVERRIDE was cleared: cannot be stopped any more
     bool          half_key_       = false;
     bool          reset_          = false;
-    bool          has_reset_      = false; ///< WDFLAG
+    bool          flag_           = false; ///< WDFLAG
     unsigned      prescale_       = 0;
     std::int64_t  counter_ticks_  = 0;
     std::uint16_t presented_wdcr_ = 0;

@@ -9,7 +9,10 @@
 #include "sil/f28335/flash_unit.hpp"
 #include "sil/setup/board_reader.hpp"
 
-extern "C" int firmware_main(void);
+extern "C" {
+int                           firmware_main(void);
+extern volatile std::uint32_t watchdog_after_reset[2]; // firmware/board/f28335/watchdog.c
+}
 
 namespace sdre {
 namespace {
@@ -60,7 +63,9 @@ void ServedDrive::power_up(bool after_reset)
     f28335::hang_ticks(false);
     device_ = std::make_unique<f28335::Device>(
         surroundings_, firmware_main,
-        f28335::DeviceOptions{{}, scenario_.drive.inverter.dead_time_s, after_reset});
+        f28335::DeviceOptions{{},
+                              scenario_.drive.inverter.dead_time_s,
+                              after_reset ? watchdog_low_s_ : power_on_low_s_});
     const long before = bench_.tick();
     if (!device_->run_until([&] { return bench_.tick() > before; }, longest_boot_s) &&
         !after_reset) {
@@ -69,6 +74,15 @@ void ServedDrive::power_up(bool after_reset)
                                      findings().empty() ? "" : findings().front()));
     }
     device_->run_for(rest_share * period_s());
+}
+
+/// Memory without power: anything, and not the same twice.
+void ServedDrive::power_cycle()
+{
+    for (volatile std::uint32_t &word : watchdog_after_reset) {
+        word = 0x9E3779B9U * ++power_cycles_;
+    }
+    power_up(false);
 }
 
 void ServedDrive::period()

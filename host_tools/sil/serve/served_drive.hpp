@@ -23,9 +23,12 @@ public:
     /// One control period. A device that its watchdog has reset starts again.
     void period();
     /// Off and on: registers and memory are as after power-on, the flash is as it was.
-    void power_cycle()
+    void power_cycle();
+    /// How long the reset pin stays low after power-on, and after a reset by the watchdog.
+    void set_reset_line(double power_on_s, double watchdog_s)
     {
-        power_up(false);
+        power_on_low_s_ = power_on_s;
+        watchdog_low_s_ = watchdog_s;
     }
     double period_s() const
     {
@@ -99,9 +102,12 @@ private:
     MotorBench                      bench_;
     f28335::MotorSurroundings       surroundings_;
     std::unique_ptr<f28335::Device> device_;
-    double                          load_Nm_  = 0.0;
-    int                             resets_   = 0;
-    double                          before_s_ = 0.0; ///< of the devices before the last reset
+    double                          load_Nm_        = 0.0;
+    int                             resets_         = 0;
+    unsigned                        power_cycles_   = 0;
+    double                          power_on_low_s_ = 0.2;
+    double                          watchdog_low_s_ = f28335::watchdog_pulse_s;
+    double                          before_s_       = 0.0; ///< of the devices before the last reset
 };
 
 /// The scenario of a drive on its bench: realistic sensors and inverter, at rest, no load.
