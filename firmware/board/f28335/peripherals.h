@@ -30,7 +30,8 @@ void pie_start(void); /**< control interrupt on */
 
 void trip_init(void);            /**< armed and tripped; before the PWM runs */
 void trip_check(void);           /**< enables wanted gates. Context: start of the control ISR */
-void trip_latch(uint16_t fault); /**< remembers and opens the bridge. Context: any */
+void trip_latch(uint16_t fault); /**< remembers and opens the bridge. Context: init, control ISR masked */
+void trip_overdue(void);         /**< the same, of an overrun. Context: INT13 */
 
 void pwm_init(const board_setup_t *setup);
 void pwm_start(uint16_t updates_per_period); /**< all three legs at once */

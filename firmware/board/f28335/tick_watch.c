@@ -9,7 +9,7 @@
 /* CPU timer 1 asks the processor without the PIE in between, and may interrupt a tick. It starts anew on its own. */
 static __interrupt void tick_is_missing(void)
 {
-    trip_latch(BOARD_FAULT_OVERRUN);
+    trip_overdue();
 }
 
 void tick_watch_start(uint32_t period_cycles)

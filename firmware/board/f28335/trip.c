@@ -5,7 +5,9 @@
 #define GATE_ENABLE_PIN 0x40UL /* GPIO6 */
 #define CLEAR_ALL       7U     /* one-shot, cycle by cycle, and the summary flag */
 
+/* Of the control interrupt alone, and of its tick; INT13, which may interrupt the tick, has its own. */
 static volatile uint16_t latched;
+static volatile bool     overdue;
 static volatile bool     enabled; /* false: the bridge is off on our own account */
 static volatile bool     wanted;  /* to be enabled at the start of the next period */
 
@@ -37,6 +39,7 @@ void trip_init(void)
     enabled = false;
     wanted  = false;
     latched = BOARD_FAULT_NONE;
+    overdue = false;
     arm(&EPwm1Regs);
     arm(&EPwm2Regs);
     arm(&EPwm3Regs);
@@ -48,6 +51,17 @@ void trip_latch(uint16_t fault)
     latched |= fault;
 }
 
+void trip_overdue(void)
+{
+    board_gate_trip();
+    overdue = true;
+}
+
+static uint16_t faults(void)
+{
+    return (uint16_t)(latched | (overdue ? (uint16_t)BOARD_FAULT_OVERRUN : 0U));
+}
+
 /* With all lower switches on, just after PRD, where the duty ratios of the tick before have become active. */
 static void enable(void)
 {
@@ -57,7 +71,7 @@ static void enable(void)
     if (pin_is_active()) {
         latched |= BOARD_FAULT_TRIP;
     }
-    if (latched != BOARD_FAULT_NONE) {
+    if (faults() != BOARD_FAULT_NONE) {
         return;
     }
 
@@ -88,20 +102,24 @@ void trip_check(void)
         enable();
     }
     if (!enabled) {
-        board_gate_trip(); /* mends a trip of the background that enable() interrupted */
+        board_gate_trip(); /* every period: a pin or a one-shot that has changed by itself */
     }
 }
 
+/* A control interrupt in between takes a one-shot for the hardware's while `enabled` is set: that goes first. One that
+ * has enabled the gates again, for a tick in between has asked, is found at the end. */
 void board_gate_trip(void)
 {
-    GpioDataRegs.GPACLEAR.all = GATE_ENABLE_PIN;
-    EALLOW;
-    EPwm1Regs.TZFRC.bit.OST = 1U;
-    EPwm2Regs.TZFRC.bit.OST = 1U;
-    EPwm3Regs.TZFRC.bit.OST = 1U;
-    EDIS;
-    enabled = false;
-    wanted  = false;
+    do {
+        wanted                    = false;
+        enabled                   = false;
+        GpioDataRegs.GPACLEAR.all = GATE_ENABLE_PIN;
+        EALLOW;
+        EPwm1Regs.TZFRC.bit.OST = 1U;
+        EPwm2Regs.TZFRC.bit.OST = 1U;
+        EPwm3Regs.TZFRC.bit.OST = 1U;
+        EDIS;
+    } while (enabled);
 }
 
 void board_gate_enable(void)
@@ -111,10 +129,11 @@ void board_gate_enable(void)
     }
 
     latched = BOARD_FAULT_NONE;
+    overdue = false;
     wanted  = true;
 }
 
 uint16_t board_fault_read(void)
 {
-    return (uint16_t)(latched | (pin_is_active() ? (uint16_t)BOARD_FAULT_INPUT : 0U));
+    return (uint16_t)(faults() | (pin_is_active() ? (uint16_t)BOARD_FAULT_INPUT : 0U));
 }
