@@ -23,14 +23,11 @@ SECTIONS
 {
     codestart    : > BEGIN
 
-    /* The control interrupt with everything it calls, the run-time library included, and what has to leave
-     * the flash alone. code_start copies it. */
+    /* The control interrupt with everything it calls, the run-time library included, and what sets the flash's wait
+     * states. code_start copies it. */
     .TI.ramfunc  :
     {
         *(.TI.ramfunc)
-#ifdef FLASH_API
-        -l Flash28335_API_V210.lib(.text)
-#endif
 #ifdef FAST_RTS
         -l rts2800_fpu32_fast_supplement_eabi.lib(.text)
 #endif

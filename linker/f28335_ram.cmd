@@ -21,9 +21,6 @@ SECTIONS
     .TI.ramfunc  :
     {
         *(.TI.ramfunc)
-#ifdef FLASH_API
-        -l Flash28335_API_V210.lib(.text)
-#endif
 #ifdef FAST_RTS
         -l rts2800_fpu32_fast_supplement_eabi.lib(.text)
 #endif

@@ -2,7 +2,6 @@
 /* Compiled only. The SDK's headers include no standard header; where the stand-ins did, one of these names would be
  * declared twice or be a macro. */
 #include "DSP28x_Project.h"
-#include "Flash2833x_API_Library.h"
 
 enum {
     NULL,

@@ -15,7 +15,6 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 BOARD = ROOT / "firmware" / "board" / "f28335"
 TEXT = {image: (ROOT / "linker" / f"f28335_{image}.cmd").read_text() for image in ("flash", "ram")}
 FAST_RTS = "-l rts2800_fpu32_fast_supplement_eabi.lib(.text)"
-FLASH_API = "-l Flash28335_API_V210.lib(.text)"
 RTS = "-l rts2800_fpu32_eabi.lib(.text)"
 
 
@@ -70,8 +69,7 @@ def check_sections(image, ranges, sections, defines):
     require(ranges[stack.run].end <= device.STACK_LIMIT, ".stack", "is out of the pointer's reach")
     require(sum(s.run == stack.run for s in sections.values()) == 1, ".stack", "is not alone")
 
-    wanted = ["*(.TI.ramfunc)"] + ([FLASH_API] if "FLASH_API" in defines else [])
-    wanted += ([FAST_RTS] if "FAST_RTS" in defines else []) + [RTS]
+    wanted = ["*(.TI.ramfunc)"] + ([FAST_RTS] if "FAST_RTS" in defines else []) + [RTS]
     require(code.inputs == wanted, code.name, f"takes {code.inputs}")
 
     entry = ranges[sections["codestart"].run]
@@ -143,7 +141,7 @@ def check_store(image, ranges):
 
 
 def check(image, text):
-    for defines in ((), ("FAST_RTS",), ("FAST_RTS", "FLASH_API")):
+    for defines in ((), ("FAST_RTS",)):
         ranges, sections = command_file.parse(text, defines)
         check_memory(image, ranges)
         check_sections(image, ranges, sections, defines)

@@ -16,7 +16,7 @@ ROOT = HERE.parents[1]
 FAST_RTS = "rts2800_fpu32_fast_supplement_eabi.lib"
 TICK = ["app.c", "app_angle.c", "app_control.c", "app_gate.c", "app_modes.c", "app_record.c", "app_scale.c", "app_states.c",
         "app_watch_heat.c", "adc.c", "clock.c",
-        "control_isr.c", "cycles.c", "encoder.c", "flash.c", "pie.c", "pwm.c", "flash_store.c", "tick_watch.c", "trip.c"]
+        "control_isr.c", "cycles.c", "encoder.c", "flash.c", "pie.c", "pwm.c", "tick_watch.c", "trip.c"]
 
 
 def touch(path):
@@ -113,7 +113,6 @@ class TargetBuild(unittest.TestCase):
         self.assertTrue((self.build / "bin" / "sdre_f28335_flash.hex").exists())
         self.assertIn("--intel", self.calls("hex2000")[0])
         self.assertIn("RAML0123     6144 of 16384 words (37 %)", output)
-        self.assertNotIn("--define=FLASH_API", after)
 
         # Tick and flash set-up run from RAM, and the way there does not.
         in_ram = {name for name, call in compiled.items() if "--ramfunc=on" in call and "--ramfunc=off" not in call}
@@ -121,16 +120,9 @@ class TargetBuild(unittest.TestCase):
         self.assertEqual(in_ram, control | set(TICK))
 
     def test_ram_image_without_fast_rts_and_with_an_older_compiler(self):
-        api = self.top / "api"
-        touch(api / "include" / "Flash2833x_API_Library.h")
-        touch(api / "lib" / "Flash28335_API_V210.lib")
-        compiled, link, output = self.build_image("f28335-ram", fast_rts=False, arguments=[f"-DSDRE_FLASH_API={api}"],
-                                                  STAND_IN_VERSION="00000020.00000002.00000000")
+        compiled, link, output = self.build_image("f28335-ram", fast_rts=False, STAND_IN_VERSION="00000020.00000002.00000000")
 
         self.assertIn(str(ROOT / "linker" / "f28335_ram.cmd"), link)
-        self.assertIn("--define=FLASH_API", link)
-        self.assertIn(f"--search_path={api / 'lib'}", link)
-        self.assertTrue(any("SDRE_FLASH_API" in option for option in compiled["flash_store.c"]))
         self.assertNotIn("--define=FAST_RTS", link)
         self.assertNotIn(f"--library={FAST_RTS}", link)
         for name, call in compiled.items():
@@ -159,14 +151,11 @@ class TargetBuild(unittest.TestCase):
         done = self.configure("f28335-flash", f"-DC2000_CGT_ROOT={cgt}", f"-DC2000WARE_ROOT={ware}")
         self.assertEqual(done.returncode, 0, done.stdout)
 
-    def test_flash_api_that_is_not_there_is_refused(self):
-        make_compiler(self.top / "cgt")
-        make_headers(self.top / "ware", fast_rts=False)
-        done = self.configure("f28335-flash", f"-DC2000_CGT_ROOT={self.top / 'cgt'}",
-                              f"-DC2000WARE_ROOT={self.top / 'ware'}", f"-DSDRE_FLASH_API={self.top}")
+    def test_flash_api_is_not_offered(self):
+        done = self.configure("f28335-flash", f"-DSDRE_FLASH_API={self.top}")
 
         self.assertNotEqual(done.returncode, 0)
-        self.assertIn("no lib/Flash28335_API_V210.lib", " ".join(done.stdout.split()))
+        self.assertIn("unknown option SDRE_FLASH_API", " ".join(done.stdout.split()))
 
     def test_unknown_image_is_refused(self):
         done = self.configure("f28335-flash", "-DSDRE_IMAGE=rom")

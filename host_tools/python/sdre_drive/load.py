@@ -33,6 +33,8 @@ RESTART_S = 10.0  # chosen: many times what a start needs, and two requests with
 ERASE_S = 60.0  # data sheet: 2 s typical, 15 s at most, of a sector; two of them
 HEAD_WORDS = 30
 
+NOT_TAKEN = "the flash did not take it; an F28335's is written with a programming tool (docs/loading.md)"
+
 
 @dataclass(frozen=True)
 class Loader:
@@ -175,7 +177,7 @@ def forget(drive: Drive) -> InForce:
 
 def _refusal(found: Loader) -> Optional[str]:
     if found.state == FLASH:
-        return "the flash did not take it"
+        return NOT_TAKEN
     if found.state == SUM:
         return "it arrived damaged"
     if found.state == IMAGE:

@@ -11,6 +11,7 @@ from typing import Dict, Iterable, List, Tuple
 
 from sdre_drive import register_map
 from sdre_drive.connection import FORMATS, Drive, DriveError, Refused, is_pseudo_terminal
+from sdre_drive.load import NOT_TAKEN
 from sdre_drive.register_map import BY_NAME, PARAMETERS, Parameter
 from sdre_drive.registers import block, values, words_of
 
@@ -150,7 +151,7 @@ def _command(drive: Drive, name: str, after: Dict[str, float]) -> Stored:
             continue
         if now_s < begun_s or now.number != before.number:
             if now.done != DONE:
-                raise DriveError(f"the flash did not take it; in force: {now.words}")
+                raise DriveError(f"{NOT_TAKEN}; in force: {now.words}")
             return now
         time.sleep(0.1)
     raise DriveError("the drive does not come back: it restarts with what was stored when it is switched off and on")

@@ -114,8 +114,8 @@ public:
     // Firmware's hooks.
     void instruction(const char *text);
     void wait_s(double time_s);
-    /// The flash API at work for this long, with the scale of its delays.
-    void change_flash(double time_s, double scale, double right_scale);
+    /// The flash is erased or written for this long.
+    void change_flash(double time_s);
     void spend_cycles(std::int64_t cycles);
     void calibrate_adc();
     void serial_read_access();

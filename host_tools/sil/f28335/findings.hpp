@@ -16,7 +16,7 @@ enum class Finding {
     interrupt,     ///< interrupt without vector, or a group that nobody acknowledges
     trip,          ///< the fault pin is low and a leg goes on switching, or its gates float
     dead_time,     ///< both switches of a leg on, or closer than the bridge needs
-    flash,         ///< flash changed with interrupts on, beside the watchdog, or at a wrong speed
+    flash,         ///< flash changed with interrupts on, or beside the watchdog
     watchdog_reset ///< the device has reset itself
 };
 
