@@ -33,6 +33,11 @@ def _range_words(r: Register) -> str:
     return f"{r.range[0]:g} .. {r.range[1]:g}" if r.range else ""
 
 
+def words_of(r: Register) -> str:
+    """Text and note for a person."""
+    return f"{r.text}. {r.note}" if r.note else r.text
+
+
 def table_text(group: Group) -> str:
     """A group for docs/modbus.md."""
     holding = group.space == "holding"
@@ -43,7 +48,8 @@ def table_text(group: Group) -> str:
         text = "; ".join(filter(None, [f"object {r.object}" if r.object else "", r.text, "only while stopped" if r.stopped else "",
                                       "**parameter**" if r.saved else ""]))
         lines.append("| " + " | ".join([r.numbers, f"`{r.name}`", r.type, r.unit_words, *middle, text]) + " |")
-    return "\n".join(lines)
+    notes = [f"- `{r.name}`: {r.note}" for r in group.registers if r.note]
+    return "\n".join(lines + ([""] + notes if notes else []))
 
 
 def signals_text(found: List[Signal]) -> str:
@@ -103,7 +109,7 @@ def python_text(groups: List[Group], found: List[Signal]) -> str:
     lines += ["", "# Blocks that hold parameters.", f"PARAMETER_BLOCKS = ({', '.join(blocks)},)"]
     lines += ["", "BY_NAME = {r.name: r for r in (*HOLDING, *INPUT)}", "", "PARAMETERS: Tuple[Parameter, ...] = ("]
     lines += [f'    Parameter(BY_NAME["{r.name}"], {r.range[0]!r}, {r.range[1]!r}, {None if r.default == "largest" else float(r.default)!r}, '
-              f'{r.stopped}, "{r.object}", {json.dumps(r.text)}),' for r in saved(groups)]  # fmt: skip
+              f'{r.stopped}, "{r.object}", {json.dumps(words_of(r))}),' for r in saved(groups)]  # fmt: skip
     lines += [")  # fmt: skip", "", "# Of the scope, by number: name and unit.", "SIGNALS = ("]
     lines += [f'    ("{s.name}", "{s.unit}"),' for s in found]
     return "\n".join([*lines, ")"]) + "\n"

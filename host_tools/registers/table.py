@@ -14,7 +14,7 @@ except ModuleNotFoundError:  # before Python 3.11
 
 WORDS = {"u16": 1, "i16": 1, "u32": 2, "i32": 2, "dec": 2}
 SPACES = ("holding", "input")
-KEYS = {"name", "type", "unit", "step", "from", "to", "range", "default", "stopped", "saved", "signature", "object", "text"}
+KEYS = {"name", "type", "unit", "step", "from", "to", "range", "default", "stopped", "saved", "signature", "object", "text", "note"}
 
 
 class TableError(Exception):
@@ -39,6 +39,7 @@ class Register:
     signature: int
     object: str
     text: str
+    note: str
 
     @property
     def words(self) -> int:
@@ -110,7 +111,7 @@ def _register(keys: Dict[str, Any], address: int, space: str) -> Register:
                    source=keys["from"], target=keys.get("to", ""), range=(given[0], given[1]) if given else None,
                    default=keys.get("default", ""), stopped=keys.get("stopped", False), saved=keys.get("saved", False),
                    signature=signature, object=keys.get("object", ""),
-                   text=keys["text"])  # fmt: skip
+                   text=keys["text"], note=keys.get("note", ""))  # fmt: skip
     if out.range and not _fits(out):
         raise TableError(f"{name}: its type does not hold its range")
     return out

@@ -108,7 +108,7 @@ async def use(address: str, pictures: str) -> None:
             await page.picture(Path(pictures) / "page.png")
             await page.resize(1280, 860)
         await page.script(f"{CLICK}('break it')")
-        await page.until(f"{TEXT}.includes('FAULT') && {TEXT}.includes('Look at:')")
+        await page.until(f"{TEXT}.includes('FAULT') && {TEXT}.includes('Check:')")
         if pictures:
             await page.picture(Path(pictures) / "page_fault.png")
         assert page.errors == []

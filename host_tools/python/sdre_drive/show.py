@@ -44,7 +44,7 @@ def line(reading: Reading, pole_pairs: Optional[int]) -> Text:
 def advice(entry: Entry) -> Text:
     """A fault or condition: what it means, why it may be, what to look at."""
     t = Text(faults.one_line(entry) + "\n", style="bold")
-    for title, lines in (("may be", entry.causes), ("look at", entry.check)):
+    for title, lines in (("causes", entry.causes), ("check", entry.check)):
         for k, text in enumerate(lines):
             t.append(f"  {title if k == 0 else '':8} {text}\n", style="not bold")
     t.rstrip()

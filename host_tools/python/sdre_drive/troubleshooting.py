@@ -10,14 +10,18 @@ from sdre_drive.registers import BY_NAME
 
 HEAD = """# Troubleshooting
 
-What the drive reports, in plain words. Generated from `host_tools/python/sdre_drive/faults.toml`, which `sdre-drive` and its page use
-too (`python3 -m sdre_drive.troubleshooting` in `host_tools/python`); `docs.faults` compares both with the firmware.
+This page explains every fault and condition of the drive. Read [Safety first](hardware.md#safety-first) before you touch anything.
+`sdre-drive faults` reads the numbers, and so do the registers ([modbus.md](modbus.md)).
 
-Read the numbers with `sdre-drive faults`, or from the registers: docs/modbus.md. Before anything is touched: docs/hardware.md, "Safety
-first".
+"Virtual drive" shows an entry without hardware:
 
-"Virtual drive" says how to see an entry without hardware: `./dev serve`, `sdre-drive run .. --radps` at the speed that stands there, then
-the lines to the control port (127.0.0.1:1503) or the same from the page (`sdre-drive ui`); `mend` makes it whole again, `sdre-drive reset` leaves the fault.
+1. Start `./dev serve`.
+2. Run `sdre-drive run .. --radps` at the speed of the entry.
+3. Send the lines to the control port (127.0.0.1:1503), or use the page (`sdre-drive ui`).
+4. `mend` repairs the drive, and `sdre-drive reset` leaves the fault.
+
+`python3 -m sdre_drive.troubleshooting` in `host_tools/python` writes this page from `sdre_drive/faults.toml`. `sdre-drive` and its
+page use the same table. Test `docs.faults` compares both with the firmware.
 """
 
 
@@ -30,7 +34,7 @@ TITLES = {
     "application": ("Faults", f"Register {_at('FAULT')}; {_at('FIRST_FAULT')} of the first fault."),
     "drive": ("Drive faults", f"Register {_at('DRIVE_FAULT')}, or {_at('FIRST_DRIVE_FAULT')}, when the fault is 10."),
     "board": ("Board faults", f"Bits of register {_at('BOARD_FAULTS')}, or {_at('FIRST_BOARD_FAULTS')}, when the fault is 2."),
-    "condition": ("Conditions", f"Bits of register {_at('CONDITIONS')}. They keep a drive from starting or tell what limits it; none of them is latched but 2."),
+    "condition": ("Conditions", f"Bits of register {_at('CONDITIONS')}. A condition prevents a start or shows a limit. Only 2 is latched."),
 }
 
 
@@ -50,10 +54,16 @@ def lines_of(entry: Entry) -> Iterator[str]:
     yield ""
     yield entry.meaning
     yield ""
-    yield "- May be: " + "; ".join(entry.causes) + "."
-    yield "- Look at: " + "; ".join(entry.check) + "."
+    yield "Causes:"
+    yield ""
+    yield from (f"- {cause}" for cause in entry.causes)
+    yield ""
+    yield "Check:"
+    yield ""
+    yield from (f"- {one}" for one in entry.check)
+    yield ""
     virtual = how(entry.reproduce) if isinstance(entry.reproduce, Recipe) else entry.reproduce
-    yield f"- Virtual drive: {virtual}."
+    yield f"Virtual drive: {virtual}."
     yield ""
 
 

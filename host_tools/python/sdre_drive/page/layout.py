@@ -140,5 +140,5 @@ class Page:
                 with ui.card().classes(CARD + (" bg-amber-1" if entry.group == "condition" else " bg-red-1")):
                     ui.label(f"{entry.group} {entry.number} {entry.name}").classes("font-bold")
                     ui.label(entry.meaning)
-                    ui.label("May be: " + "; ".join(entry.causes) + ".").classes("text-sm")
-                    ui.label("Look at: " + "; ".join(entry.check) + ".").classes("text-sm")
+                    ui.label("Causes: " + "; ".join(entry.causes) + ".").classes("text-sm")
+                    ui.label("Check: " + "; ".join(entry.check) + ".").classes("text-sm")
