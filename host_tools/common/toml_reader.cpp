@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -12,9 +13,14 @@
 namespace sdre {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Range  any{-infinity, infinity};
+
 std::string must_be(const char *what, Range allowed)
 {
-    return fmt::format("must be {} in {:g} .. {:g}", what, allowed.lo, allowed.hi);
+    return allowed.hi == infinity
+               ? fmt::format("must be {}", what)
+               : fmt::format("must be {} in {:g} .. {:g}", what, allowed.lo, allowed.hi);
 }
 
 /// A value as it stands in the file, on one line.
@@ -95,6 +101,9 @@ double TomlReader::checked_number(const std::string &key, const toml::node &node
         fail(key,
              fmt::format("= {} is not allowed: {}", shown(node), must_be("a number", allowed)));
     }
+    if (!std::isfinite(x) && allowed.hi == infinity) {
+        fail(key, fmt::format("= {:g} is not allowed: must be finite", x));
+    }
     if (!std::isfinite(x) || x < allowed.lo || x > allowed.hi) {
         fail(key, fmt::format("= {:g} is not allowed: must be in {:g} .. {:g}", x, allowed.lo,
                               allowed.hi));
@@ -105,6 +114,11 @@ double TomlReader::checked_number(const std::string &key, const toml::node &node
 double TomlReader::number(const std::string &key, Range allowed)
 {
     return checked_number(key, required(key, must_be("a number", allowed)), allowed);
+}
+
+double TomlReader::number(const std::string &key)
+{
+    return checked_number(key, required(key, must_be("a number", any)), any);
 }
 
 double TomlReader::number_or(const std::string &key, Range allowed, double fallback)

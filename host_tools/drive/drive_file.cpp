@@ -10,6 +10,7 @@
 #include "common/errors.hpp"
 #include "common/toml_reader.hpp"
 #include "drive/law_sections.hpp"
+#include "drive/pwm_frequency.hpp"
 
 namespace sdre {
 namespace {
@@ -24,7 +25,6 @@ constexpr Range friction_Nms{0.0, 1e2};
 constexpr Range torque_Nm{1e-5, 1e5};
 constexpr Range current_A{1e-3, 1e4};
 constexpr Range dc_link_V{1.0, 1e4};
-constexpr Range pwm_frequency_Hz{1e3, 1e5};
 constexpr Range dead_time_s{0.0, 2e-5};
 constexpr Range encoder_lines{1, 1e6};
 constexpr Range slots{3, 1000};
@@ -88,7 +88,7 @@ Inverter read_inverter(TomlReader t)
 {
     Inverter inverter;
     inverter.dc_link_V              = t.number("dc_link_V", dc_link_V);
-    inverter.pwm_frequency_Hz       = t.number("pwm_frequency_Hz", pwm_frequency_Hz);
+    inverter.pwm_wanted_Hz          = t.number("pwm_frequency_Hz");
     inverter.dead_time_s            = t.number("dead_time_s", dead_time_s);
     inverter.updates_per_period     = t.integer_or("updates_per_period", {1, 2}, 1);
     inverter.dead_time_compensation = t.boolean_or("dead_time_compensation", true);
@@ -128,6 +128,21 @@ CurrentSensors read_current_sensors(std::optional<TomlReader> t, const Motor &mo
     return s;
 }
 
+/// Its law says how many cycles a control period takes.
+void settle_pwm_frequency(const TomlReader &t, Drive &drive) // EQ-BOARD-1
+{
+    Inverter         &i       = drive.inverter;
+    const std::string refusal = pwm_refusal(drive, i.pwm_wanted_Hz);
+    if (!refusal.empty()) {
+        t.fail("[inverter] pwm_frequency_Hz", refusal);
+    }
+    i.pwm_frequency_Hz = counted_pwm_Hz(pwm_full_cnt(i.pwm_wanted_Hz));
+    if (i.dead_time_s * i.pwm_frequency_Hz > 0.1) {
+        t.fail("[inverter] dead_time_s",
+               "is not allowed: must be at most a tenth of the PWM period");
+    }
+}
+
 Drive read_drive(const toml::table &root, const std::string &source)
 {
     TomlReader t(source, "", root);
@@ -152,10 +167,7 @@ Drive read_drive(const toml::table &root, const std::string &source)
     drive.law             = read_law(t);
     read_law_sections(t, drive);
     t.reject_unknown_keys();
-    if (drive.inverter.dead_time_s * drive.inverter.pwm_frequency_Hz > 0.1) {
-        t.fail("[inverter] dead_time_s",
-               "is not allowed: must be at most a tenth of the PWM period");
-    }
+    settle_pwm_frequency(t, drive);
     return drive;
 }
 

@@ -35,10 +35,11 @@ enum class DcLinkSink {
 };
 
 struct Inverter {
-    double     dc_link_V              = 0.0;
-    double     pwm_frequency_Hz       = 0.0;
-    double     dead_time_s            = 0.0;
-    int        updates_per_period     = 1; ///< control runs at pwm_frequency_Hz times this
+    double     dc_link_V          = 0.0;
+    double     pwm_frequency_Hz   = 0.0; ///< that the counter has, and everything is designed for
+    double     pwm_wanted_Hz      = 0.0; ///< that the drive file says
+    double     dead_time_s        = 0.0;
+    int        updates_per_period = 1; ///< control runs at pwm_frequency_Hz times this
     bool       dead_time_compensation = true;
     bool       overmodulation         = false; ///< transient voltages may use the hexagon's corners
     DcLinkSink regeneration           = DcLinkSink::none;

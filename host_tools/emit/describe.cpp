@@ -7,6 +7,7 @@
 
 #include "design/board/board_constants.hpp"
 #include "design/law_design.hpp"
+#include "drive/pwm_frequency.hpp"
 #include "emit/report_machine.hpp"
 
 namespace sdre {
@@ -53,8 +54,8 @@ std::string inverter(const Drive &d)
     const Inverter &i = d.inverter;
     std::string     s = heading("Inverter and sensors");
     s += row("dc link", with_unit(i.dc_link_V, "V"));
-    s += row("PWM, control period", fmt::format("{:g} kHz, {:g} us", 1e-3 * i.pwm_frequency_Hz,
-                                                1e6 * control_period_s(d)));
+    s += row("PWM", pwm_words(i));
+    s += row("control period", fmt::format("{:g} us", 1e6 * control_period_s(d)));
     s += row("dead time", with_unit(1e6 * i.dead_time_s, "us"));
     s += row("what takes energy that comes back", dc_link_sink_name(i.regeneration));
     s += row("current converter",

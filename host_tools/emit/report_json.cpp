@@ -191,6 +191,8 @@ Json heading_json(const Design &d)
     return {{"tool", fmt::format("sdre-gains {}", tool_version)},
             {"drive", d.drive.name},
             {"digest", drive_digest(d.drive)},
+            {"pwm_wanted_Hz", d.drive.inverter.pwm_wanted_Hz},
+            {"pwm_frequency_Hz", d.drive.inverter.pwm_frequency_Hz},
             {"control_period_s", control_period_s(d.drive)},
             {"reduced_parameters", reduced}};
 }

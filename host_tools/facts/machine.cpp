@@ -12,6 +12,7 @@
 #include "design/machine_points.hpp"
 #include "design/motor_model.hpp"
 #include "design/sampled_model.hpp"
+#include "drive/pwm_frequency.hpp"
 
 namespace sdre {
 namespace {
@@ -371,6 +372,8 @@ Machine machine_of(const Facts &facts, const std::string &default_name, Findings
     m.friction_Nms       = r.or_chosen("viscous_friction", 0.0, "none is known");
     m.dc_link_V          = r.required("dc_link");
     m.pwm_Hz             = r.or_chosen("pwm", default_pwm_Hz, "not given");
+    m.pwm_wanted_Hz      = m.pwm_Hz.si;
+    m.pwm_Hz.si          = counted_pwm_Hz(std::max(pwm_full_cnt(m.pwm_wanted_Hz), 1.0));
     m.updates_per_period = r.or_chosen("updates_per_period", 1.0, "one a PWM period");
     m.dead_time_s        = r.or_chosen("dead_time", default_dead_share / m.pwm_Hz.si,
                                        "1.5 % of a PWM period, not given");

@@ -30,7 +30,8 @@ struct Machine {
     Value       rated_torque_Nm;
     Value       max_current_A;
     Value       dc_link_V;
-    Value       pwm_Hz;
+    Value       pwm_Hz; ///< that the counter has
+    double      pwm_wanted_Hz = 0.0;
     Value       updates_per_period;
     Value       dead_time_s;
     Value       lines;

@@ -48,10 +48,20 @@ std::string motor_text(const Machine &m)
     return m.slots.si > 0.0 ? s + whole("slots", m.slots) : s;
 }
 
+/// As it was wanted; beside it the one that runs.
+std::string frequency(const Machine &m)
+{
+    Value v = m.pwm_Hz;
+    if (v.si != m.pwm_wanted_Hz) {
+        v.origin += fmt::format("; the counter's nearest is {:.7g}", v.si);
+    }
+    return line("pwm_frequency_Hz", v, m.pwm_wanted_Hz);
+}
+
 std::string inverter_text(const Machine &m)
 {
-    std::string s = "\n[inverter]\n" + line("dc_link_V", m.dc_link_V) +
-                    line("pwm_frequency_Hz", m.pwm_Hz) + line("dead_time_s", m.dead_time_s) +
+    std::string s = "\n[inverter]\n" + line("dc_link_V", m.dc_link_V) + frequency(m) +
+                    line("dead_time_s", m.dead_time_s) +
                     whole("updates_per_period", m.updates_per_period) +
                     "overmodulation        = true         # transients may use the corners of the "
                     "hexagon\n";

@@ -5,6 +5,7 @@
 
 #include "common/errors.hpp"
 #include "design/design.hpp"
+#include "drive/pwm_frequency.hpp"
 #include "emit/emit_tables.hpp"
 #include "gains/commands.hpp"
 
@@ -42,6 +43,7 @@ int run(const Options &o)
     }
     const char     *verdict = certified ? "certified" : "NOT CERTIFIED";
     const TableText text    = table_text(design);
+    fmt::print("{}", pwm_note(design.drive.inverter));
     if (!o.out.empty()) {
         write_tables(text, o.out);
         fmt::print("{}: {}; wrote gain_tables.h, gain_tables.c and board_config.c to {}\n",

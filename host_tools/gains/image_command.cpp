@@ -5,6 +5,7 @@
 #include "common/file_output.hpp"
 #include "design/design.hpp"
 #include "design/law_design.hpp"
+#include "drive/pwm_frequency.hpp"
 #include "emit/emit_image.hpp"
 #include "gains/commands.hpp"
 
@@ -43,6 +44,7 @@ int run(const Options &o)
         files.push_back({o.hex, image_hex(words)});
     }
     write_files(files);
+    fmt::print("{}", pwm_note(design.drive.inverter));
     for (const OutputFile &file : files) {
         fmt::print("{}: certified; wrote {} words for {} to {}\n", design.drive.name, words.size(),
                    law_design(design.drive).name, file.path.string());

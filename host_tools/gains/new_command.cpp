@@ -7,6 +7,7 @@
 #include "common/errors.hpp"
 #include "common/file_output.hpp"
 #include "drive/drive_file.hpp"
+#include "drive/pwm_frequency.hpp"
 #include "facts/cross_checks.hpp"
 #include "facts/new_drive_text.hpp"
 #include "gains/commands.hpp"
@@ -100,11 +101,11 @@ int run(const Options &o)
     check_ratings(facts, machine, findings);
     check_machine(machine, findings);
     say(findings, o);
-    const std::string text = new_drive_text(machine);
-    read_drive_text(text, facts.source); // whose ranges are the tools'
+    const std::string text  = new_drive_text(machine);
+    const Drive       drive = read_drive_text(text, facts.source); // whose ranges are the tools'
     write_files({{o.out, text}});
-    fmt::print("{}: written; `sdre-gains tune {} --out TUNED.toml` finds its weights\n", o.out,
-               o.out);
+    fmt::print("{}{}: written; `sdre-gains tune {} --out TUNED.toml` finds its weights\n",
+               pwm_note(drive.inverter), o.out, o.out);
     return exit_ok;
 }
 

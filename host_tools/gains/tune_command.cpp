@@ -4,6 +4,7 @@
 #include "common/errors.hpp"
 #include "common/file_output.hpp"
 #include "design/design.hpp"
+#include "drive/pwm_frequency.hpp"
 #include "gains/commands.hpp"
 #include "tune/auto_tune.hpp"
 #include "tune/drive_text.hpp"
@@ -82,7 +83,7 @@ int run(const Options &o)
     const std::string sections = tuned_sections(tuned.result, tuned.spec);
     const std::string out      = o.out.empty() ? o.drive : o.out;
     write_files({{out, with_sections(text, sections)}});
-    fmt::print("{}{}: written; {}\n", sections, out, tuned.remark);
+    fmt::print("{}{}{}: written; {}\n", sections, pwm_note(drive.inverter), out, tuned.remark);
     return exit_ok;
 }
 

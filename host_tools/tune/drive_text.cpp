@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "drive/pwm_frequency.hpp"
 
 namespace sdre {
 namespace {
@@ -35,7 +36,8 @@ bool is_old_note(const std::string &line)
 {
     return starts_with(line, "# The weights below were found by") ||
            starts_with(line, "# The weights below were kept by") ||
-           starts_with(line, "# for a load step of") || starts_with(line, "#   J, B x");
+           starts_with(line, "# for PWM at") || starts_with(line, "# for a load step of") ||
+           starts_with(line, "#   J, B x");
 }
 
 } // namespace
@@ -49,6 +51,9 @@ std::string tuned_sections(const TuneResult &r, const TuneSpec &spec)
                         "closed loop,\n"
                         "# for a load step of {:g} N m at {:g} rad/s. Linear model, believed parameters scaled:\n",
         r.kept ? "kept" : "found", r.evaluations, spec.load_step_Nm, spec.speed_e_radps);
+    if (!pwm_note(d.inverter).empty()) {
+        s += "# for " + pwm_note(d.inverter);
+    }
     for (std::size_t i = 0; i < r.cases.size(); i++) {
         const CaseResult     &c = r.cases[i];
         const RobustnessCase &w = spec.cases[i];

@@ -14,6 +14,7 @@ extern "C" {
 #include "app_registers.h"
 }
 #include "common/errors.hpp"
+#include "drive/pwm_frequency.hpp"
 #include "sil/board/board_run.hpp"
 #include "sil/board/board_runs.hpp"
 #include "sil/eval/metrics.hpp"
@@ -125,6 +126,73 @@ INSTANTIATE_TEST_SUITE_P(Shipped, EdgeTimes,
                                            std::pair{"servo_case_1_2", "servo_200w_hdobc"},
                                            std::pair{"servo_case_1_2", "servo_200w_pid"},
                                            std::pair{"servo_case_1_2", "servo_200w_noc_h"}));
+
+struct OtherFrequency {
+    const char *drive;
+    double      pwm_Hz;
+    int         updates;
+};
+
+/// Periods that are no round number of anything: the ends of the range, between them, and beyond what the cycles of the
+/// processor allow.
+class OtherFrequencies : public ::testing::TestWithParam<OtherFrequency> {};
+
+TEST_P(OtherFrequencies, DriversAndFakeAndCoreAgree)
+{
+    const auto [drive, pwm_Hz, updates] = GetParam();
+    Scenario s                          = shipped("board_load_step");
+    s.drive = read_drive_file(std::string(SDRE_SOURCE_DIR) + "/firmware/config/drives/" + drive +
+                              ".toml");
+    s.drive.inverter.pwm_frequency_Hz   = counted_pwm_Hz(pwm_full_cnt(pwm_Hz));
+    s.drive.inverter.updates_per_period = updates;
+    s.drive.inverter.dead_time_s        = 1e-6; // at most a tenth of the shortest period
+    s.sensors.encoder_edge_time         = s.drive.encoder.edge_times;
+    s.sensors.encoder_disc              = {0.0, 0.0, 0.0};
+    s.duration_s                        = 0.06;
+    s.sensors.adc_offset_a_A            = 0.0;
+    s.sensors.adc_offset_b_A            = 0.0;
+    s.sensors.adc_noise_rms_A           = 0.0;
+    const Controller       controller   = prepare_controller(s);
+    const SimulationResult core         = simulate(s, controller);
+    const BoardResult      api          = simulate_on_board(s, BoardKind::api, controller);
+    const BoardResult      device       = simulate_on_board(s, BoardKind::f28335, controller);
+
+    EXPECT_EQ(device.findings, std::vector<std::string>{});
+    EXPECT_EQ(core.fault, 0);
+    EXPECT_EQ(device.result.fault, 0);
+    EXPECT_EQ(device.modbus_errors, 0);
+    ASSERT_EQ(device.ticks.size(), api.ticks.size());
+    ASSERT_EQ(device.result.trace.size(), core.trace.size());
+    double to_api  = 0.0;
+    double to_core = 0.0;
+    for (std::size_t k = 0; k < api.ticks.size(); k++) {
+        const double w = device.result.trace[k].omega_e_radps;
+        if (k >= api.ticks.size() / 2) {
+            to_api  = std::max(to_api, std::abs(w - api.result.trace[k].omega_e_radps));
+            to_core = std::max(to_core, std::abs(w - core.trace[k].omega_e_radps));
+        }
+        if (!s.drive.encoder.edge_times) { // bit for bit
+            ASSERT_EQ(device.ticks[k].current_code, api.ticks[k].current_code) << k;
+            ASSERT_EQ(device.ticks[k].count, api.ticks[k].count) << k;
+            ASSERT_EQ(device.ticks[k].duty_cnt, api.ticks[k].duty_cnt) << k;
+        }
+    }
+    std::printf("%s at %g Hz, %d: %.3f rad/s to the fake, %.3f to the core\n", drive, pwm_Hz,
+                updates, to_api, to_core);
+    EXPECT_LE(to_api, 0.05);  // measured 0.02 at 2289 Hz
+    EXPECT_LE(to_core, 0.75); // measured 0.44: counts alone at 2289 Hz
+}
+
+INSTANTIATE_TEST_SUITE_P(Range, OtherFrequencies,
+                         ::testing::Values(OtherFrequency{"ipmsm_390w_counts", 8000.0, 1},
+                                           OtherFrequency{"ipmsm_390w_counts", 20672.0, 1},
+                                           OtherFrequency{"ipmsm_390w_counts", 8000.0, 2},
+                                           OtherFrequency{"ipmsm_390w", 16000.0, 1},
+                                           OtherFrequency{"ipmsm_390w", 16000.0, 2},
+                                           OtherFrequency{"ipmsm_390w_counts", 2289.0, 1},
+                                           OtherFrequency{"ipmsm_390w", 2289.0, 1},
+                                           OtherFrequency{"ipmsm_390w_pi_foc_edges", 16000.0, 2},
+                                           OtherFrequency{"ipmsm_390w_pi_foc_edges", 41852.0, 1}));
 
 TEST(BoardRunsMore, SwitchedInverterToo)
 {

@@ -92,9 +92,11 @@ TEST(BoardConstants, WhatTheBoardCannotHaveIsRefusedWithWhatItCan)
 {
     Drive d                     = shipped();
     d.inverter.pwm_frequency_Hz = 19e3;
-    EXPECT_NE(refusal(d).find("19006"), std::string::npos) << refusal(d); // 75 MHz / (2 * 1973)
-    d.inverter.pwm_frequency_Hz = 2000.0;
-    EXPECT_NE(refusal(d).find("2289"), std::string::npos) << refusal(d);
+    EXPECT_NE(refusal(d).find("18996.96"), std::string::npos) << refusal(d); // 75 MHz / (2 * 1974)
+    for (const double none : {0.0, 500.0, 1e9}) { // no register holds them
+        d.inverter.pwm_frequency_Hz = none;
+        EXPECT_NE(refusal(d).find("pwm_frequency_Hz"), std::string::npos) << none;
+    }
     d                      = shipped();
     d.inverter.dead_time_s = 0.0;
     EXPECT_NE(refusal(d).find("dead_time_s"), std::string::npos);

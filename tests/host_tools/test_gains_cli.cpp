@@ -37,10 +37,10 @@ void expect_refused(const std::vector<std::string> &arguments, int exit_code,
     support::expect_refused(gains(arguments), exit_code, tool, pieces);
 }
 
-/// A drive that solves but must not be written: the control period is too long.
+/// A drive that solves but must not be written: the observer is too quick for the control period.
 DriveText uncertified()
 {
-    return DriveText().set("inverter", "pwm_frequency_Hz", "1000.0");
+    return DriveText().set("nodo", "Q", "[1.0e14, 1.1e14, 1.2e14, 85.0e6, 86.0e6, 90.0e6]");
 }
 
 } // namespace
@@ -297,6 +297,38 @@ TEST(GainsCli, ReportOfTheShippedDriveIsCertified)
     EXPECT_EQ(json.exit_code, 0);
     EXPECT_EQ(json.err, "");
     EXPECT_EQ(support::Json::parse(json.out).at("certificate").at("certified"), true);
+}
+
+TEST(GainsCli, FrequencyThatTheCounterHasNotGoesThroughEveryCommand)
+{
+    const std::string both = "7999.147 Hz, the nearest to 8000 Hz that the counter has";
+    const TempDir     dir;
+    const std::string drive = dir / "d.toml";
+    const std::string out   = dir / "out";
+    const auto        says  = [&](const std::vector<std::string> &arguments) {
+        const CommandResult r = gains(arguments);
+        EXPECT_EQ(r.exit_code, 0) << arguments[0] << r.err;
+        EXPECT_NE(r.out.find(both), std::string::npos) << arguments[0] << r.out;
+    };
+    says({"new", "--facts", SDRE_TEST_DATA_DIR "/facts/spm_1500w.toml", "--out", drive});
+    EXPECT_NE(support::read_file(drive).find("8000.0       # pwm_frequency_kHz = 8; the counter's "
+                                             "nearest is 7999.147"),
+              std::string::npos);
+    says({"tune", drive});
+    says({"tune", drive}); // says it once in the file
+    const std::string tuned = support::read_file(drive);
+    EXPECT_NE(tuned.find("# for PWM at " + both), std::string::npos);
+    EXPECT_EQ(tuned.find("# for PWM at"), tuned.rfind("# for PWM at"));
+    says({"generate", drive, "--out", out});
+    says({"generate", drive, "--check", out});
+    says({"report", drive});
+    says({"image", drive, "--out", dir / "image"});
+    EXPECT_EQ(gains({"describe", drive, "--out", dir / "d.md"}).exit_code, 0);
+    EXPECT_NE(support::read_file(dir / "d.md").find("| PWM | " + both), std::string::npos);
+    const support::Json json = support::Json::parse(gains({"report", drive, "--json"}).out);
+    EXPECT_EQ(json.at("pwm_wanted_Hz").number(), 8000.0);
+    EXPECT_NEAR(json.at("pwm_frequency_Hz").number(), 75e6 / (2 * 4688), 1e-9);
+    EXPECT_NEAR(json.at("control_period_s").number(), 2 * 4688 / 75e6, 1e-18);
 }
 
 TEST(GainsCli, CareSolvesAFile)

@@ -33,6 +33,21 @@ Qualified qualify(const std::string &drive, const std::vector<std::string> &more
 
 } // namespace
 
+TEST(Qualify, FrequencyThatTheCounterHasNotIsSaidWithTheWantedOne)
+{
+    sdre::Qualification q;
+    q.inverter.pwm_frequency_Hz = 75e6 / (2 * 4688);
+    q.inverter.pwm_wanted_Hz    = 8000.0;
+    const std::string both      = "PWM at 7999.147 Hz, the nearest to 8000 Hz that the counter has";
+    EXPECT_NE(sdre::qualification_text(q).find("\n" + both + "\n"), std::string::npos);
+    EXPECT_NE(sdre::qualification_html(q).find("<p>" + both), std::string::npos);
+    const Json json = Json::parse(sdre::qualification_json(q));
+    EXPECT_EQ(json.at("pwm_wanted_Hz").number(), 8000.0);
+    EXPECT_NEAR(json.at("pwm_frequency_Hz").number(), 7999.147, 1e-3);
+    q.inverter.pwm_wanted_Hz = q.inverter.pwm_frequency_Hz;
+    EXPECT_EQ(sdre::qualification_text(q).find("PWM"), std::string::npos);
+}
+
 TEST(Qualify, TheShippedDriveIsGood)
 {
     const Qualified r = qualify(support::shipped_drive("ipmsm_390w"), {"--short", "--noise", "7"});

@@ -11,6 +11,7 @@
 #include "design/motor_model.hpp"
 #include "design/sampled_model.hpp"
 #include "drive/core_types.hpp"
+#include "drive/pwm_frequency.hpp"
 
 extern "C" {
 #include "clock_tree.h"
@@ -19,13 +20,12 @@ extern "C" {
 namespace sdre {
 namespace {
 
-constexpr double pi          = 3.14159265358979323846;
-constexpr double counter_Hz  = CLOCK_TBCLK_Hz;
-constexpr int    codes       = BOARD_ADC_CODES;
-constexpr int    codes_bits  = 12;
-constexpr double same_ratio  = 1e-4; // what the application takes for the same number
-constexpr int    most_turn   = 65532;
-constexpr double most_cycles = 65535.0; // twice the capture timer's run, board.c
+constexpr double pi         = 3.14159265358979323846;
+constexpr double counter_Hz = CLOCK_TBCLK_Hz;
+constexpr int    codes      = BOARD_ADC_CODES;
+constexpr int    codes_bits = 12;
+constexpr double same_ratio = 1e-4; // what the application takes for the same number
+constexpr int    most_turn  = 65532;
 
 // Converter 15 codes, half of the supply with 1 % resistors 20 codes, sensor 1 % of its range 41 codes: 76, and room.
 constexpr double offset_max_cnt = 100.0;
@@ -82,19 +82,14 @@ std::uint32_t ticks32(double seconds, double pwm_Hz)
     return static_cast<std::uint32_t>(std::lround(seconds * pwm_Hz));
 }
 
+/// A drive that was read has a frequency of the counter; one that was changed since may not.
 std::uint16_t full_cnt(double pwm_Hz)
 {
-    const double halves = counter_Hz / (2.0 * pwm_Hz);
-    const double full   = std::round(halves);
-    if (std::abs(halves - full) > same_ratio * full) {
-        refuse(fmt::format("[inverter] pwm_frequency_Hz = {:g}: its counter runs at 75 MHz; the "
-                           "nearest are {:.8g} and {:.8g}",
-                           pwm_Hz, counter_Hz / (2.0 * std::ceil(halves)),
-                           counter_Hz / (2.0 * std::floor(halves))));
-    }
-    if (2.0 * CLOCK_SYSCLK_PER_TBCLK * full > most_cycles) {
-        refuse(fmt::format("[inverter] pwm_frequency_Hz = {:g}: must be {:.0f} at least", pwm_Hz,
-                           std::ceil(CLOCK_SYSCLK_Hz / most_cycles)));
+    const double full = pwm_full_cnt(pwm_Hz);
+    if (full < 1.0 || full > 65535.0 || counted_pwm_Hz(full) != pwm_Hz) {
+        refuse(fmt::format("[inverter] pwm_frequency_Hz = {:.7g}: the nearest that its counter has "
+                           "is {:.7g}",
+                           pwm_Hz, counted_pwm_Hz(full)));
     }
     return static_cast<std::uint16_t>(full);
 }

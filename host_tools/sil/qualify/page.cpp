@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "drive/pwm_frequency.hpp"
 #include "sil/qualify/qualify.hpp"
 #include "sil/qualify/words.hpp"
 
@@ -44,6 +45,7 @@ std::string paragraph(const std::string &words)
 std::string qualification_html(const Qualification &q)
 {
     std::string s = fmt::format(head, escaped(q.drive), q.good() ? "good" : "NOT GOOD");
+    s += paragraph(pwm_note(q.inverter));
     s += "<table><tr><th>worst of all seeds</th><th>settles<br>ms</th><th>dip<br>rad/s</th>"
          "<th>ripple<br>rad/s</th><th>peak<br>of limit</th><th>noise of "
          "v_q<br>%</th><th></th></tr>\n";

@@ -164,6 +164,7 @@ Qualification qualify(const Drive &drive, const QualifyOptions &o)
     const Plan    plan = qualification_plan(drive, o.noise_share);
     Qualification q;
     q.drive                       = drive.name;
+    q.inverter                    = drive.inverter;
     q.limit_A                     = drive.motor.max_current_A;
     q.circle_V                    = drive.inverter.dc_link_V / std::sqrt(3.0);
     const Certificate certificate = design_drive(drive).certificate;

@@ -48,6 +48,7 @@ struct Rival {
 
 struct Qualification {
     std::string              drive;
+    Inverter                 inverter;
     double                   limit_A   = 0.0;
     double                   circle_V  = 0.0;
     bool                     certified = false;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "common/json.hpp"
+#include "drive/pwm_frequency.hpp"
 #include "sil/qualify/qualify.hpp"
 #include "sil/qualify/words.hpp"
 
@@ -58,9 +59,10 @@ Json share_json(const MotorShare &m)
 
 std::string qualification_text(const Qualification &q)
 {
-    std::string s = fmt::format("{}: {}\n\n{:<34} {:>9} {:>9} {:>9} {:>8} {:>8}\n", q.drive,
-                                q.good() ? "good" : "NOT GOOD", "worst of all seeds", "settles",
-                                "dip", "ripple", "peak", "noise");
+    std::string s =
+        fmt::format("{}: {}\n{}\n", q.drive, q.good() ? "good" : "NOT GOOD", pwm_note(q.inverter));
+    s += fmt::format("{:<34} {:>9} {:>9} {:>9} {:>8} {:>8}\n", "worst of all seeds", "settles",
+                     "dip", "ripple", "peak", "noise");
     s += fmt::format("{:<34} {:>9} {:>9} {:>9} {:>8} {:>8}\n", "", "ms", "rad/s", "rad/s",
                      "of limit", "% v_q");
     for (const TrialResult &r : q.trials) {
@@ -83,6 +85,8 @@ std::string qualification_json(const Qualification &q)
     }
     Json j{{"drive", q.drive},
            {"good", q.good()},
+           {"pwm_wanted_Hz", q.inverter.pwm_wanted_Hz},
+           {"pwm_frequency_Hz", q.inverter.pwm_frequency_Hz},
            {"certified", q.certified},
            {"current_limit_A", q.limit_A},
            {"voltage_circle_V", q.circle_V},

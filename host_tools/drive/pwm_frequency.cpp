@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "drive/pwm_frequency.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "drive/drive_file.hpp"
+
+extern "C" {
+#include "clock_tree.h"
+}
+
+namespace sdre {
+namespace {
+
+constexpr double counter_Hz     = CLOCK_TBCLK_Hz;
+constexpr double cycles_per_cnt = 2.0 * CLOCK_SYSCLK_PER_TBCLK; // up and down
+constexpr double most_cycles    = 65535.0; // of a PWM period: the capture timer's run, board.c
+// Half a count of these is the 0.1 % by which a frequency may differ.
+constexpr double least_full_cnt = 500.0;
+// Chosen: the background's longest pass, 0.32 ms alone, then takes 2.1 of the 3 ms that it may.
+constexpr double background_share = 0.15;
+
+/// Upper end of a whole period's cycles (docs/hardware.md, "Cycle budget"); the dearer of a run's first and the others.
+constexpr double noc_cycles          = 6167.0;
+constexpr double noc_speed_cycles    = 5873.0;
+constexpr double noc_h_cycles        = 9423.0;
+constexpr double conventional_cycles = 7441.0;
+constexpr double position_cycles     = 1231.0; // more on the way to a position
+
+double law_cycles(const Drive &d)
+{
+    switch (d.law) {
+    case Law::noc_h:
+        return noc_h_cycles;
+    case Law::conventional_noc:
+        return conventional_cycles;
+    case Law::noc:
+        return d.nodo.form == NodoForm::encoder ? noc_cycles : noc_speed_cycles;
+    default: // not priced; on a host each takes half of the encoder form's time or less
+        return noc_cycles;
+    }
+}
+
+double least_cycles(const Drive &d)
+{
+    const double law = law_cycles(d) + (d.position ? position_cycles : 0.0);
+    return law / (1.0 - background_share);
+}
+
+/// A count is 61 ppm at the least.
+std::string seven_digits(double pwm_Hz)
+{
+    return fmt::format("{:.7g}", pwm_Hz);
+}
+
+} // namespace
+
+double pwm_full_cnt(double pwm_Hz)
+{
+    return std::round(counter_Hz / (2.0 * pwm_Hz));
+}
+
+double counted_pwm_Hz(double full_cnt)
+{
+    return counter_Hz / (2.0 * full_cnt);
+}
+
+FullCountRange pwm_full_cnt_range(const Drive &d)
+{
+    const double periods = d.inverter.updates_per_period;
+    return {std::max(std::ceil(periods * least_cycles(d) / cycles_per_cnt), least_full_cnt),
+            std::floor(most_cycles / cycles_per_cnt)};
+}
+
+std::string pwm_refusal(const Drive &d, double pwm_Hz)
+{
+    const FullCountRange allowed = pwm_full_cnt_range(d);
+    const double         full    = pwm_Hz > 0.0 ? pwm_full_cnt(pwm_Hz) : 0.0;
+    if (full >= allowed.least && full <= allowed.most) {
+        return "";
+    }
+    return fmt::format(
+        "= {:g} is not allowed: must be {:.0f} .. {:.0f}; a PWM period has at most {:g} cycles of "
+        "{:g} MHz, and law \"{}\"{} needs {:.0f}{} (docs/hardware.md, \"Cycle budget\")",
+        pwm_Hz, std::ceil(counted_pwm_Hz(allowed.most)), std::floor(counted_pwm_Hz(allowed.least)),
+        most_cycles, 1e-6 * CLOCK_SYSCLK_Hz, law_name(d.law), d.position ? " with [position]" : "",
+        std::ceil(least_cycles(d)),
+        d.inverter.updates_per_period == 1 ? "" : " in each of its two updates");
+}
+
+std::string pwm_words(const Inverter &i)
+{
+    const std::string actual = seven_digits(i.pwm_frequency_Hz);
+    const std::string wanted = seven_digits(i.pwm_wanted_Hz);
+    return actual == wanted
+               ? actual + " Hz"
+               : fmt::format("{} Hz, the nearest to {} Hz that the counter has", actual, wanted);
+}
+
+std::string pwm_note(const Inverter &i)
+{
+    return seven_digits(i.pwm_frequency_Hz) == seven_digits(i.pwm_wanted_Hz)
+               ? ""
+               : fmt::format("PWM at {}\n", pwm_words(i));
+}
+
+} // namespace sdre

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+/// PWM frequencies that the F28335's counter has: it runs at 75 MHz, up and down, so that a period is an even number of counts.
+#pragma once
+
+#include <string>
+
+namespace sdre {
+
+struct Drive;
+struct Inverter;
+
+/// The nearest number of counts in half a period, register TBPRD, as a whole number. EQ-BOARD-1
+double pwm_full_cnt(double pwm_Hz);
+
+/// The frequency of so many counts.
+double counted_pwm_Hz(double full_cnt);
+
+/// Counts in half a period: at least what the law's cycles take, at most what the capture timer allows. EQ-BOARD-6
+struct FullCountRange {
+    double least;
+    double most;
+};
+FullCountRange pwm_full_cnt_range(const Drive &drive);
+
+/// Why a drive cannot have this frequency, with both ends of what it can; empty when it can.
+std::string pwm_refusal(const Drive &drive, double pwm_Hz);
+
+/// "5000 Hz", or "7999.147 Hz, the nearest to 8000 Hz that the counter has".
+std::string pwm_words(const Inverter &inverter);
+
+/// "PWM at ..." as a line, where the frequency is not the one of the drive file; else nothing.
+std::string pwm_note(const Inverter &inverter);
+
+} // namespace sdre

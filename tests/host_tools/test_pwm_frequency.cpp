@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "design/board/board_constants.hpp"
+#include "drive/core_types.hpp"
+#include "drive/drive_file.hpp"
+#include "drive/pwm_frequency.hpp"
+
+using namespace sdre;
+
+namespace {
+
+const std::string source_dir = SDRE_SOURCE_DIR;
+const std::string plain      = "ipmsm_390w_counts"; // law "noc" without positions
+
+Drive shipped(const std::string &name)
+{
+    return read_drive_file(source_dir + "/firmware/config/drives/" + name + ".toml");
+}
+
+/// A shipped drive with another frequency, read as its file would be.
+Drive at(const std::string &name, double pwm_Hz, int updates)
+{
+    std::ifstream in(source_dir + "/firmware/config/drives/" + name + ".toml");
+    std::string   text;
+    for (std::string line; std::getline(in, line);) {
+        if (line.rfind("updates_per_period", 0) == 0) {
+            continue;
+        }
+        if (line.rfind("pwm_frequency_Hz", 0) == 0) {
+            line =
+                fmt::format("pwm_frequency_Hz = {:.17g}\nupdates_per_period = {}", pwm_Hz, updates);
+        }
+        text += line + "\n";
+    }
+    return read_drive_text(text, name);
+}
+
+std::string complaint(const std::string &name, double pwm_Hz, int updates)
+{
+    try {
+        at(name, pwm_Hz, updates);
+        return "";
+    } catch (const InputError &e) {
+        return e.what();
+    }
+}
+
+/// Upper ends of a row of docs/hardware.md's table of cycles, by column; 0 where it has none.
+std::vector<double> upper_ends(const std::string &row)
+{
+    std::ifstream       file(source_dir + "/docs/hardware.md");
+    std::vector<double> ends;
+    for (std::string line; std::getline(file, line);) {
+        if (line.rfind("| " + row, 0) != 0 || line.find(" .. ") == std::string::npos) {
+            continue;
+        }
+        std::istringstream cells(line.substr(line.find('|', 1) + 1));
+        for (std::string cell; std::getline(cells, cell, '|');) {
+            const std::size_t dots = cell.find("..");
+            ends.push_back(dots == std::string::npos ? 0.0 : std::stod(cell.substr(dots + 2)));
+        }
+        return ends;
+    }
+    return ends;
+}
+
+} // namespace
+
+// 75 MHz / 16 kHz = 4687.5 and / 32 kHz = 2343.75: the nearest of both neighbours.
+TEST(PwmFrequency, NearestCountIsTaken)
+{
+    const Inverter eight = at(plain, 8000.0, 1).inverter;
+    EXPECT_DOUBLE_EQ(eight.pwm_frequency_Hz, 75e6 / (2 * 4688));
+    EXPECT_EQ(eight.pwm_wanted_Hz, 8000.0);
+    const Inverter sixteen = at(plain, 16000.0, 1).inverter;
+    EXPECT_DOUBLE_EQ(sixteen.pwm_frequency_Hz, 75e6 / (2 * 2344));
+    for (const double whole : {5000.0, 10000.0, 12500.0, 20000.0}) {
+        EXPECT_EQ(at(plain, whole, 1).inverter.pwm_frequency_Hz, whole);
+    }
+}
+
+TEST(PwmFrequency, BothNumbersAreSaidWhereTheyDiffer)
+{
+    const Inverter eight = at(plain, 8000.0, 1).inverter;
+    EXPECT_EQ(pwm_words(eight), "7999.147 Hz, the nearest to 8000 Hz that the counter has");
+    EXPECT_EQ(pwm_note(eight), "PWM at " + pwm_words(eight) + "\n");
+    const Inverter five = at(plain, 5000.0, 1).inverter;
+    EXPECT_EQ(pwm_words(five), "5000 Hz");
+    EXPECT_EQ(pwm_note(five), "");
+    EXPECT_EQ(pwm_note(at(plain, 7999.147, 1).inverter), ""); // as the report says it
+}
+
+// Every count that any law may have: the float of the tables is that of 2 TBPRD / 75 MHz, the registers are the count's, and
+// the frequency finds its count again.
+TEST(PwmFrequency, PeriodOfTheTablesIsThatOfTheCounter)
+{
+    Drive d = shipped(plain);
+    for (int full = 500; full <= 16383; full++) {
+        d.inverter.pwm_frequency_Hz = counted_pwm_Hz(full);
+        ASSERT_EQ(pwm_full_cnt(d.inverter.pwm_frequency_Hz), full);
+        for (const int updates : {1, 2}) {
+            d.inverter.updates_per_period = updates;
+            ASSERT_EQ(single(control_period_s(d)), single(2.0 * full / 75e6 / updates)) << full;
+        }
+        if (full % 61 == 0 || full > 16380) { // the whole board: one in 61
+            d.inverter.dead_time_s = 0.05 * 2.0 * full / 75e6;
+            d.inverter.dead_time_s = std::min(d.inverter.dead_time_s, 13e-6);
+            const app_config_t c   = board_constants(d).config;
+            ASSERT_EQ(c.pwm_period_s, single(2.0 * full / 75e6)) << full;
+            ASSERT_EQ(c.board.duty_full_cnt, full);
+            ASSERT_EQ(c.board.pwm_cycles, 4U * static_cast<unsigned>(full));
+            ASSERT_GE(c.board.dead_time_cnt + 1e-3, d.inverter.dead_time_s * 75e6); // no less
+            ASSERT_LT(c.board.dead_time_cnt - 1.0, d.inverter.dead_time_s * 75e6);
+            ASSERT_LT(2U * c.board.dead_time_cnt, c.board.duty_full_cnt); // board.c
+        }
+    }
+}
+
+// From one end of the range to the other, between the counts too.
+TEST(PwmFrequency, NoFrequencyIsOffByMoreThanATenthOfAPercent)
+{
+    for (double pwm_Hz = 2289.0; pwm_Hz < 20672.0; pwm_Hz *= 1.0037) {
+        const Inverter i = at(plain, pwm_Hz, 1).inverter;
+        EXPECT_LE(std::abs(i.pwm_frequency_Hz - pwm_Hz), 0.3e-3 * pwm_Hz); // hardware.md
+        EXPECT_LE(std::abs(37.5e6 / i.pwm_frequency_Hz - 37.5e6 / pwm_Hz), 0.5 + 1e-9);
+        EXPECT_EQ(i.pwm_wanted_Hz, pwm_Hz);
+    }
+}
+
+// What a report says can be written into the file: nothing changes, and the digest is that of the period that runs.
+TEST(PwmFrequency, DigestIsOfTheFrequencyThatRuns)
+{
+    for (const double pwm_Hz : {2289.0, 3333.0, 8000.0, 16000.0, 20000.0, 20671.0}) {
+        const Drive wanted = at(plain, pwm_Hz, 1);
+        const Drive actual = at(plain, wanted.inverter.pwm_frequency_Hz, 1);
+        EXPECT_EQ(actual.inverter.pwm_frequency_Hz, wanted.inverter.pwm_frequency_Hz);
+        EXPECT_EQ(drive_digest(actual), drive_digest(wanted));
+        const double next = counted_pwm_Hz(pwm_full_cnt(pwm_Hz) - (pwm_Hz < 20000.0 ? 1.0 : -1.0));
+        EXPECT_NE(drive_digest(at(plain, next, 1)), drive_digest(wanted));
+    }
+}
+
+TEST(PwmFrequency, OutsideTheRangeIsRefusedWithBothEnds)
+{
+    for (const double refused : {2000.0, 2288.0, 20680.0, 1e9, 0.0, -8000.0}) {
+        const std::string what = complaint(plain, refused, 1);
+        EXPECT_NE(what.find(fmt::format("[inverter] pwm_frequency_Hz = {:g} is not", refused)),
+                  std::string::npos)
+            << what;
+        EXPECT_NE(what.find("must be 2289 .. 20672;"), std::string::npos) << what;
+        EXPECT_NE(what.find("65535 cycles"), std::string::npos) << what;
+        EXPECT_NE(what.find("law \"noc\" needs 7256 ("), std::string::npos) << what;
+        EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+    }
+    EXPECT_NE(complaint(plain, 16000.0, 2).find("must be 2289 .. 10336;"), std::string::npos);
+    for (const double accepted : {2289.0, 20672.0}) {
+        EXPECT_EQ(complaint(plain, accepted, 1), "");
+    }
+    for (const double accepted : {2289.0, 10336.0}) {
+        EXPECT_EQ(complaint(plain, accepted, 2), "");
+    }
+    EXPECT_EQ(pwm_full_cnt_range(shipped("ipmsm_390w_noc_h")).most, 16383.0);
+}
+
+// A control period holds the upper end of its law's estimate in 85 % of its cycles, to a count.
+TEST(PwmFrequency, UpperEndIsTheCycleBudgetOfHardwareMd)
+{
+    const std::vector<double> whole = upper_ends("whole period, with application and interrupt");
+    const std::vector<double> tick  = upper_ends("cycles");
+    const std::vector<double> first = upper_ends("period that starts a run");
+    ASSERT_GE(whole.size(), 4U);
+    ASSERT_GE(first.size(), 4U);
+    const double position = whole[2] - whole[1];
+    const auto   needs    = [&](std::size_t column) {
+        return whole[column] + std::max(first[column] - tick[column], 0.0);
+    };
+    const auto room = [](const char *name) {
+        const Drive d = shipped(name);
+        return 0.85 * 4.0 * pwm_full_cnt_range(d).least / d.inverter.updates_per_period;
+    };
+    EXPECT_NEAR(room("ipmsm_390w_speed"), needs(0), 4.0);
+    EXPECT_NEAR(room("ipmsm_390w_counts"), needs(1), 4.0);
+    EXPECT_NEAR(room("ipmsm_390w"), needs(1) + position, 4.0);
+    EXPECT_NEAR(room("ipmsm_390w_noc_h"), needs(3), 4.0);
+    EXPECT_NEAR(room("ipmsm_390w_noc_h_edges"), needs(3) + position, 4.0);
+    EXPECT_NEAR(room("ipmsm_390w_pi_foc"), needs(1), 4.0); // the table has the bare one
+    EXPECT_NEAR(room("servo_200w_cdobc"), needs(1), 4.0);
+    EXPECT_GE(room("ipmsm_390w_conventional"), 4910.0 + whole[0] - tick[0]); // above that table
+}
