@@ -89,7 +89,7 @@ def test_a_fault_is_said_in_words_and_reset(served: Served, drive: Drive) -> Non
     _, said = run.communicate(timeout=60)
     bench.ask("load 0")  # it goes on dragging the shaft
     assert run.returncode == 4
-    assert "drive 8 CURRENT_SENSOR" in said and "look at" in said and "Traceback" not in said
+    assert "drive 8 CURRENT_SENSOR" in said and "check" in said and "Traceback" not in said
     status = command("status", *served.options())
     assert status.returncode == 4 and "CURRENT_SENSOR" in status.stdout
     bench.ask("mend")
