@@ -5,6 +5,7 @@
 
 #include "common/json.hpp"
 #include "common/version.hpp"
+#include "drive/pwm_frequency.hpp"
 #include "emit/report_machine.hpp"
 #include "emit/report_parts.hpp"
 
@@ -188,13 +189,16 @@ Json heading_json(const Design &d)
     for (int i = 1; i <= 11; i++) {
         reduced[fmt::format("l{}", i)] = d.l[static_cast<std::size_t>(i)];
     }
-    return {{"tool", fmt::format("sdre-gains {}", tool_version)},
-            {"drive", d.drive.name},
-            {"digest", drive_digest(d.drive)},
-            {"pwm_wanted_Hz", d.drive.inverter.pwm_wanted_Hz},
-            {"pwm_frequency_Hz", d.drive.inverter.pwm_frequency_Hz},
-            {"control_period_s", control_period_s(d.drive)},
-            {"reduced_parameters", reduced}};
+    Json out = {{"tool", fmt::format("sdre-gains {}", tool_version)},
+                {"drive", d.drive.name},
+                {"digest", drive_digest(d.drive)},
+                {"control_period_s", control_period_s(d.drive)},
+                {"reduced_parameters", reduced}};
+    if (!pwm_note(d.drive.inverter).empty()) {
+        out["pwm_wanted_Hz"]    = d.drive.inverter.pwm_wanted_Hz;
+        out["pwm_frequency_Hz"] = d.drive.inverter.pwm_frequency_Hz;
+    }
+    return out;
 }
 
 Json servo_json(const Design &d)
