@@ -87,13 +87,13 @@ typedef enum {
 bool board_fits(const board_setup_t *setup);
 
 /**
- * @brief Makes the pins safe, then sets clock, peripherals and trip up; all six switches stay off.
+ * @brief Sets the peripherals up; all six switches stay off.
  *
  * @param setup Kept: it has to stay as it is.
  * @return false: the clock cannot be trusted (BOARD_FAULT_CLOCK), or a register does not hold what the setup asks for; do
  *         not go on to board_start().
  *
- * Context: init, once, interrupts off. About 15 ms.
+ * Context: init, once, interrupts off. About 5 ms.
  */
 bool board_init(const board_setup_t *setup);
 

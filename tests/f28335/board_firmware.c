@@ -2,6 +2,7 @@
 #include "board_firmware.h"
 
 #include "DSP28x_Project.h"
+#include "prepare.h"
 
 volatile board_firmware_t board_firmware;
 
@@ -49,7 +50,7 @@ int board_firmware_main(void)
     static board_setup_t setup;
 
     setup                      = board_firmware.setup;
-    board_firmware.init_result = board_init(&setup);
+    board_firmware.init_result = board_prepare() && board_init(&setup);
     board_firmware.faults      = board_fault_read();
     board_firmware.reset_cause = board_reset_cause();
     if (board_firmware.init_result) {

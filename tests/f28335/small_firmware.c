@@ -104,9 +104,13 @@ static void start_leg(volatile struct EPWM_REGS *leg)
 
 static void start_adc(void)
 {
+    if (small_firmware_mistake != MISTAKE_ADC_CAL_LOCKED) {
+        EALLOW;
+    }
     if (small_firmware_mistake != MISTAKE_NO_ADC_CAL) {
         ADC_cal();
     }
+    EDIS;
     AdcRegs.ADCTRL3.all = 0xE1U; /* powered, simultaneous */
     DELAY_US(unless(MISTAKE_ADC_COLD, 5000U, 100U));
     AdcRegs.ADCTRL1.all      = unless(MISTAKE_SHORT_WINDOW, 0x0500U, 0x0300U);

@@ -29,6 +29,7 @@ typedef enum {
     MISTAKE_ADC_TOO_FAST,     /**< HISPCP left at its reset value */
     MISTAKE_ADC_COLD,         /**< no wait after power-up */
     MISTAKE_NO_ADC_CAL,
+    MISTAKE_ADC_CAL_LOCKED,
     MISTAKE_SHORT_WINDOW, /**< 160 ns, and the first pair is used */
     MISTAKE_DIVSEL_EARLY, /**< PLL divider lowered before the lock */
     MISTAKE_NO_WATCHDOG,  /**< started but not served */

@@ -197,7 +197,7 @@ TEST_F(F28335Board, PinRegisters)
     // Outputs: the six gates and the driver's enable on 6.
     EXPECT_EQ(GpioCtrlRegs.GPADIR.all, 0x7FU);
     // Pull-ups off: reset value 0xFFF, and pin 12, which the board pulls down.
-    EXPECT_EQ(GpioCtrlRegs.GPAPUD.all, 0xFFFUL | (1UL << 12));
+    EXPECT_EQ(GpioCtrlRegs.GPAPUD.all, 0xFFFUL | (1UL << 12) | (1UL << 27));
     // TZ1 asynchronous 3; encoder six samples 2; receiver asynchronous 3.
     EXPECT_EQ(GpioCtrlRegs.GPAQSEL1.all, 3UL << 24);
     EXPECT_EQ(GpioCtrlRegs.GPAQSEL2.all, (2UL << 8) | (2UL << 10) | (2UL << 14) | (3UL << 24));

@@ -259,6 +259,7 @@ TEST_F(F28335Device, ConverterMisuseIsFound)
     EXPECT_TRUE(finds(MISTAKE_ADC_TOO_FAST, Finding::adc));
     EXPECT_TRUE(finds(MISTAKE_ADC_COLD, Finding::adc));
     EXPECT_TRUE(finds(MISTAKE_NO_ADC_CAL, Finding::adc));
+    EXPECT_TRUE(finds(MISTAKE_ADC_CAL_LOCKED, Finding::eallow));
 }
 
 TEST_F(F28335Device, DividerBeforeTheLockIsFound)

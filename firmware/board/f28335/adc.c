@@ -17,7 +17,9 @@
 
 void adc_init(void)
 {
+    EALLOW;    /* as TI calls it: the trim registers may be protected */
     ADC_cal(); /* factory trim; a debugger's load skips the boot ROM, which would have called it */
+    EDIS;
 
     AdcRegs.ADCTRL3.all = POWER_UP;
     cycles_wait(POWER_UP_CYCLES);

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 #include "clock_tree.h"
 #include "peripherals.h"
+#include "prepare.h"
 
 /* Half of the capture timer's 16 bits: an edge of the period before the latch still has its age, also when the interrupt
  * comes late by a period. */
 #define CAPTURE_CYCLES_MAX (65535UL << (CLOCK_CAPTURE_SHIFT - 1U))
 
 static const board_setup_t *in_force;
+static bool                 clocked; /* the clock can be trusted */
 
 bool board_fits(const board_setup_t *s)
 {
@@ -17,26 +19,27 @@ bool board_fits(const board_setup_t *s)
            ((2UL * (uint32_t)s->dead_time_cnt) < s->duty_full_cnt) && (s->positions > 0U);
 }
 
-bool board_init(const board_setup_t *setup)
+bool board_prepare(void)
 {
     gpio_make_safe();
     watchdog_stop();
     pie_init();
-
-    const bool clocked = clock_init();
+    clocked = clock_init();
     flash_init();
     clock_peripherals();
     trip_init();
-    in_force = setup;
     if (!clocked) {
         trip_latch(BOARD_FAULT_CLOCK);
+    }
+    return clocked;
+}
+
+bool board_init(const board_setup_t *setup)
+{
+    if (!clocked || !board_fits(setup)) {
         return false;
     }
-
-    if (!board_fits(setup)) {
-        return false;
-    }
-
+    in_force = setup;
     pwm_init(setup);
     gpio_connect();
     cycles_init();

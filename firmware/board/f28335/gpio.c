@@ -4,7 +4,7 @@
 
 #define BRIDGE_PINS     0x3FUL         /* GPIO0 .. GPIO5 */
 #define GATE_ENABLE_PIN 0x40UL         /* GPIO6 */
-#define DIRECTION_PIN   (1UL << 27)    /* GPIO27: chosen, free; the board pulls it down */
+#define DIRECTION_PIN   (1UL << 27)    /* GPIO27: chosen, free; the board pulls it down, 2.2 kOhm */
 #define PLAIN_PINS      (Uint32)0x3FFF /* two multiplexer bits each: GPIO0 .. GPIO6 */
 #define QUALIFY_ASYNC   3U             /* straight through, no clock needed */
 #define QUALIFY_6       2U             /* six equal samples */
@@ -18,6 +18,8 @@ void gpio_make_safe(void)
     GpioDataRegs.GPACLEAR.all = BRIDGE_PINS | GATE_ENABLE_PIN; /* low before they are outputs */
     GpioCtrlRegs.GPAMUX1.all &= ~PLAIN_PINS;                   /* no peripheral */
     GpioCtrlRegs.GPADIR.all |= BRIDGE_PINS | GATE_ENABLE_PIN;  /* all switches and the driver off */
+    GpioCtrlRegs.GPAPUD.all |=
+        DIRECTION_PIN; /* pulled up since the reset: the line must not be driven */
     EDIS;
 }
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Start-up order: constants, safe pins and armed trip (board_init), application, interrupts. The bridge stays off until
- * a run is commanded. */
+/* Start-up order: safe pins, full clock and armed trip (board_prepare), constants with their sums, peripherals, application,
+ * interrupts. The bridge stays off until a run is commanded. */
 #include "app.h"
 #include "app_loader.h"
 #include "board_config.h"
 #include "gain_tables.h"
+#include "prepare.h"
 #include "yield.h"
 
 /* What board and tick read from now on: the linker puts it where there are no wait states. */
@@ -32,9 +33,9 @@ static void load(void)
 int main(void)
 {
     app_parameters_done_t stored = APP_PARAMETERS_NOT_ASKED;
-    const bool            chosen = app_image_choose(&in_force, &board_config, &gain_tables_drive);
 
-    if (!board_init(&in_force.image.app.board) || !chosen) {
+    if (!board_prepare() || !app_image_choose(&in_force, &board_config, &gain_tables_drive) ||
+        !board_init(&in_force.image.app.board)) {
         stay_off();
     }
     if (board_loader_is_wanted()) {

@@ -5,7 +5,7 @@
 #define GATE_ENABLE_PIN 0x40UL /* GPIO6 */
 #define CLEAR_ALL       7U     /* one-shot, cycle by cycle, and the summary flag */
 
-/* Of the control interrupt alone, and of its tick; INT13, which may interrupt the tick, has its own. */
+/* The control interrupt and its tick write `latched`; INT13, which may interrupt the tick, has its own word. */
 static volatile uint16_t latched;
 static volatile bool     overdue;
 static volatile bool     enabled; /* false: the bridge is off on our own account */

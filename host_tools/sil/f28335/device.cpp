@@ -88,6 +88,9 @@ void Device::sync()
     watchdog_.sync();
     pie_.sync();
     gpio_.sync();
+    if (pins_safe_ < 0 && pins_are_safe()) {
+        pins_safe_ = cycles_;
+    }
     for (PwmUnit &unit : pwm_) {
         unit.sync(fault_pin_trips(), findings_, t);
     }
@@ -228,6 +231,9 @@ void Device::spend_cycles(std::int64_t cycles)
 void Device::calibrate_adc()
 {
     sync();
+    if (!eallow_) {
+        findings_.add(Finding::eallow, "ADC_cal() without EALLOW", time_s());
+    }
     adc_.calibrate(findings_, time_s());
 }
 

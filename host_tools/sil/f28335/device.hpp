@@ -79,6 +79,12 @@ public:
     {
         return reset_;
     }
+    /// Processor cycles from main() to the first instant at which gates and driver enable are outputs and low;
+    /// -1: not yet.
+    std::int64_t pins_safe_cycles() const
+    {
+        return pins_safe_;
+    }
     const Findings &findings() const
     {
         return findings_;
@@ -128,6 +134,7 @@ public:
 private:
     void               sync();
     void               update_legs();
+    bool               pins_are_safe() const;
     void               wait_ticks(std::int64_t ticks);
     std::int64_t       ticks_to_event() const;
     void               elapse(std::int64_t ticks);
@@ -151,6 +158,8 @@ private:
     bool                   eallow_       = false;
     bool                   fault_low_    = false;
     std::int64_t           late_cycles_  = 0;
+    std::int64_t           cycles_       = 0; ///< of the processor
+    std::int64_t           pins_safe_    = -1;
     std::int64_t           polls_        = 0; ///< with interrupts masked, in a row
     bool                   trigger_lost_ = false;
     bool                   masked_       = false;

@@ -16,6 +16,16 @@ constexpr std::int64_t same_instant_ticks = 150;
 
 } // namespace
 
+bool Device::pins_are_safe() const
+{
+    for (int pin = 0; pin <= pin_gate_enable; pin++) {
+        if (!Gpio::is_muxed(pin, 0) || !Gpio::is_output(pin) || gpio_.output_high(pin)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 void Device::update_legs()
 {
     std::array<bool, 3> now{};
@@ -141,6 +151,7 @@ void Device::elapse(std::int64_t ticks)
 {
     now_ += ticks;
     const std::int64_t cycles = clock_.cycles(ticks);
+    cycles_ += cycles;
     watchdog_.pass(ticks);
     step_pwm(cycles);
     step_encoder(cycles);

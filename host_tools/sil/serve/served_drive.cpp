@@ -73,6 +73,7 @@ void ServedDrive::power_up(bool after_reset)
                                      findings().empty() ? "" : ": ",
                                      findings().empty() ? "" : findings().front()));
     }
+    ready_s_ = device_->time_s();
     device_->run_for(rest_share * period_s());
 }
 

@@ -87,6 +87,15 @@ public:
     {
         return resets_;
     }
+    const f28335::Device &device() const
+    {
+        return *device_;
+    }
+    /// From the last start of main() to the first tick.
+    double ready_s() const
+    {
+        return ready_s_;
+    }
     /// What the device's model took amiss, one line each.
     std::vector<std::string> findings() const;
     const Drive             &drive() const
@@ -104,6 +113,7 @@ private:
     std::unique_ptr<f28335::Device> device_;
     double                          load_Nm_        = 0.0;
     int                             resets_         = 0;
+    double                          ready_s_        = 0.0;
     unsigned                        power_cycles_   = 0;
     double                          power_on_low_s_ = 0.2;
     double                          watchdog_low_s_ = f28335::watchdog_pulse_s;
