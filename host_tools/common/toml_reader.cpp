@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "common/file_output.hpp"
+#include "common/toml_depth.hpp"
 
 namespace sdre {
 namespace {
@@ -33,20 +35,6 @@ std::string shown(const toml::node &node)
     return s;
 }
 
-template <typename Parse> toml::table parsed(const Parse &parse, const std::string &source)
-{
-    try {
-        return parse();
-    } catch (const toml::parse_error &e) {
-        std::string what(e.description());
-        for (char &c : what) {
-            c = (c == '\n' || c == '\r') ? ' ' : c;
-        }
-        throw InputError(
-            fmt::format("{}:{}: not valid TOML: {}", source, e.source().begin.line, what));
-    }
-}
-
 } // namespace
 
 toml::table parse_toml_file(const std::filesystem::path &file)
@@ -55,12 +43,26 @@ toml::table parse_toml_file(const std::filesystem::path &file)
     if (!std::filesystem::is_regular_file(file, error)) {
         throw InputError(fmt::format("{}: no such file", file.string()));
     }
-    return parsed([&] { return toml::parse_file(file.string()); }, file.string());
+    return parse_toml_text(read_text_file(file), file.string());
 }
 
 toml::table parse_toml_text(const std::string &text, const std::string &source)
 {
-    return parsed([&] { return toml::parse(text); }, source);
+    if (const long line = too_deep_line(text)) {
+        throw InputError(fmt::format("{}:{}: nested deeper than {} tables and arrays: give fewer "
+                                     "dots and brackets",
+                                     source, line, toml_depth_max));
+    }
+    try {
+        return toml::parse(text);
+    } catch (const toml::parse_error &e) {
+        std::string what(e.description());
+        for (char &c : what) {
+            c = (c == '\n' || c == '\r') ? ' ' : c;
+        }
+        throw InputError(
+            fmt::format("{}:{}: not valid TOML: {}", source, e.source().begin.line, what));
+    }
 }
 
 TomlReader::TomlReader(std::string file, std::string where, const toml::table &table)

@@ -432,6 +432,55 @@ TEST(DriveFile, NotTomlNamesTheLine)
               std::string::npos);
 }
 
+// Dots, quoted or not, headers, inline tables, arrays, and strings that could hide them.
+// A depth of 32 is left to the parser. A depth of 33 is refused before it.
+TEST(DriveFile, DepthIsLimitedBeforeTheParserRecurses)
+{
+    const auto repeated = [](const std::string &piece, int times) {
+        std::string s;
+        for (int i = 0; i < times; i++) {
+            s += piece;
+        }
+        return s;
+    };
+    const auto deep = [&](int depth) {
+        const std::string key = "a" + repeated(".a", depth);
+        return std::vector<std::string>{
+            key + " = 1\n",
+            "a" + repeated(" . 'a'", depth) + " = 1\n",
+            "\"a\"" + repeated(".\"a\"", depth) + " = 1\n",
+            "[a" + repeated(".a", depth - 1) + "]\nx = 1\n",
+            "[[a" + repeated(".a", depth - 2) + "]]\nx = 1\n",
+            "a = " + repeated("[", depth) + repeated("]", depth) + "\n",
+            "a = " + repeated("{a=", depth) + "1" + repeated("}", depth) + "\n",
+            "a = [\n" + repeated("[\n", depth - 1) + repeated("]\n", depth - 1) + "]\n",
+            R"(s = """x\"""""")" + std::string("\n") + key + " = 1\n",
+            R"(s = [ """x"""", { )" + std::string("a") + repeated(".a", depth - 2) + " = 1 }]\n",
+            "s = '\\'\n" + key + " = 1 # '\n",
+            "s = '''x'''''\n" + key + " = 1\n"};
+    };
+    for (const std::string &text : deep(32)) {
+        EXPECT_EQ(complaint(text).find("nested deeper"), std::string::npos) << text;
+    }
+    for (const int depth : {33, 40000, 1000000}) {
+        for (const std::string &text : deep(depth)) {
+            const std::string what = complaint(text);
+            EXPECT_NE(what.find(": nested deeper than 32 tables and arrays"), std::string::npos)
+                << text.substr(0, 60) << what;
+            EXPECT_EQ(what.find('\n'), std::string::npos);
+        }
+    }
+    const std::string dots = repeated(".", 100); // in text and comments they are no depth
+    EXPECT_EQ(complaint(DriveText().str() + "# [[[[" + dots + "\n"), "accepted");
+    for (const std::string &text :
+         {"\"" + dots + "\"", "'" + dots + "'", "\"\"\"\n" + dots + "\"\"\"",
+          "'''\n" + dots + "\n'''", "\"\\\"" + dots + "\""}) {
+        EXPECT_NE(complaint("name = " + text + "\n").find("schema is missing"), std::string::npos);
+    }
+    const std::string numbers = "x = [\n" + repeated("1.5, 2.5,\n", 100) + "]\n";
+    EXPECT_EQ(complaint(numbers).find("nested"), std::string::npos);
+}
+
 TEST(DriveFile, MissingFileAndDirectoryAreRefused)
 {
     const TempDir dir;

@@ -99,8 +99,7 @@ TEST(PwmFrequency, BothNumbersAreSaidWhereTheyDiffer)
     EXPECT_EQ(pwm_note(at(plain, 7999.147, 1).inverter), ""); // as the report says it
 }
 
-// Every count that any law may have: the float of the tables is that of 2 TBPRD / 75 MHz, the registers are the count's, and
-// the frequency finds its count again.
+// The tables' float is that of 2 TBPRD / 75 MHz at every count. Registers and frequency give the count again.
 TEST(PwmFrequency, PeriodOfTheTablesIsThatOfTheCounter)
 {
     Drive d = shipped(plain);
@@ -136,7 +135,7 @@ TEST(PwmFrequency, NoFrequencyIsOffByMoreThanATenthOfAPercent)
     }
 }
 
-// What a report says can be written into the file: nothing changes, and the digest is that of the period that runs.
+// The digest is that of the period that runs. A report's frequency in the file changes nothing.
 TEST(PwmFrequency, DigestIsOfTheFrequencyThatRuns)
 {
     for (const double pwm_Hz : {2289.0, 3333.0, 8000.0, 16000.0, 20000.0, 20671.0}) {
