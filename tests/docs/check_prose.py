@@ -32,6 +32,12 @@ def words(text: str) -> int:
     return sum(1 for token in text.split() if re.search(r"\w", token))
 
 
+def cell_words(text: str) -> int:
+    """Those of at least two letters: symbols and numbers of a formula are none."""
+    text = re.sub(r"`[^`]*`", "code", re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", text))
+    return sum(1 for token in text.split() if re.fullmatch(r"[(\"*]*[A-Za-z][A-Za-z'/-]+[.,;:)\"*?]*", token))
+
+
 def judge(where: str, text: str) -> list:
     """(kind, where, sentence) of each finding in one paragraph."""
     found = []
@@ -141,7 +147,7 @@ def findings(file: str) -> list:
         for line, kind, paragraph in page_paragraphs(text):
             if kind == "text":
                 found += judge(f"{file}:{line}", paragraph)
-            elif words(paragraph) > 12:
+            elif cell_words(paragraph) > 12:
                 found.append(("cells_over_12_words", f"{file}:{line}", paragraph))
         return found
     read = c_comments if suffix in C_LIKE else python_comments if suffix == ".py" else hash_comments
