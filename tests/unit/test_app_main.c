@@ -5,6 +5,7 @@
 #include "app.h"
 #include "board_config.h"
 #include "fake_board.h"
+#include "prepare.h"
 #include "unity.h"
 #include "yield.h"
 
@@ -13,6 +14,14 @@ int firmware_main(void);
 static jmp_buf      out_of_main;
 static volatile int passes;
 static int          passes_wanted;
+static bool         prepares;
+static int          events_before_prepare;
+
+bool board_prepare(void)
+{
+    events_before_prepare = fake_board.event_count;
+    return prepares;
+}
 
 void test_yield(void)
 {
@@ -37,6 +46,8 @@ static void run_main(int count)
 void setUp(void)
 {
     fake_board_reset();
+    prepares              = true;
+    events_before_prepare = -1;
 }
 
 void tearDown(void) {}
@@ -45,6 +56,7 @@ static void test_board_comes_first_and_ticks_start_last(void)
 {
     run_main(1);
 
+    TEST_ASSERT_EQUAL_INT(0, events_before_prepare);
     TEST_ASSERT_EQUAL_INT(FAKE_BOARD_INIT, fake_board.events[0]);
     TEST_ASSERT_EQUAL_INT(FAKE_BOARD_START, fake_board.events[1]);
     TEST_ASSERT_EQUAL_UINT32(board_config.board.pwm_cycles, fake_board.setup->pwm_cycles);
@@ -72,6 +84,17 @@ static void test_board_that_did_not_start_stays_off_for_good(void)
     TEST_ASSERT_EQUAL_INT(FAKE_BOARD_TRIP, fake_board.events[1]);
 }
 
+static void test_board_that_is_not_prepared_is_not_set_up(void)
+{
+    prepares = false;
+    run_main(5000);
+
+    TEST_ASSERT_TRUE(fake_board.tick == NULL);
+    TEST_ASSERT_EQUAL_INT(0, fake_board.served);
+    TEST_ASSERT_EQUAL_INT(1, fake_board.event_count);
+    TEST_ASSERT_EQUAL_INT(FAKE_BOARD_TRIP, fake_board.events[0]);
+}
+
 static void test_main_can_run_again_from_the_start(void)
 {
     run_main(2000);
@@ -85,6 +108,7 @@ int main(void)
     RUN_TEST(test_board_comes_first_and_ticks_start_last);
     RUN_TEST(test_background_runs_and_serves_the_watchdog);
     RUN_TEST(test_board_that_did_not_start_stays_off_for_good);
+    RUN_TEST(test_board_that_is_not_prepared_is_not_set_up);
     RUN_TEST(test_main_can_run_again_from_the_start);
     return UNITY_END();
 }
