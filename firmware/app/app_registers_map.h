@@ -11,7 +11,7 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "b9e4b772" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "c8205ca0" /**< of what a master can see of the map */
 
 #define APP_REGISTERS_SAVED_WORDS   24U          /**< of all parameters */
 #define APP_REGISTERS_SAVED_VERSION 0x184D64ABUL /**< of what these words mean */

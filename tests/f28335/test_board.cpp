@@ -2,6 +2,7 @@
 // The drivers of firmware/board/f28335 on the virtual device: every register after the start, the timing of a period, and
 // what they do when something breaks. Expected values are derived here, from the crystal up.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -371,6 +372,20 @@ TEST_F(F28335Board, ReceiverOverflowsAfterSixteenOctets)
     d.run_for(octet_s);
     EXPECT_EQ(+SciaRegs.SCIFFRX.bit.RXFFST, 16);
     EXPECT_EQ(+SciaRegs.SCIFFRX.bit.RXFFOVF, 1);
+}
+
+// 16 octets of 11 bits at 37.5 MHz / 8 / divider; a pass of the background lasts 1 ms at most.
+TEST_F(F28335Board, FifoOutlastsAPassAtEveryRateThatFits)
+{
+    start();
+    int fitting = 0;
+    for (const unsigned baud_Bd : {9600U, 19200U, 38400U, 57600U, 115200U, 230400U, 460800U}) {
+        const board_line_t line{baud_Bd, BOARD_LINE_EVEN, 0};
+        const double       lasts_s = 16 * 11 * 8 * std::round(37.5e6 / 8 / baud_Bd) / 37.5e6;
+        EXPECT_EQ(board_line_fits(&line), lasts_s > 1e-3) << baud_Bd;
+        fitting += board_line_fits(&line) ? 1 : 0;
+    }
+    EXPECT_EQ(fitting, 5);
 }
 
 TEST_F(F28335Board, WatchdogServedDoesNotReset)

@@ -35,7 +35,8 @@
 
 #define CLOCK_DEAD_TIME_MAX_cnt 1023UL /**< ten bits */
 
-#define CLOCK_BAUD_Hz 115200UL /**< chosen: 1.4 ms for a Modbus frame of 16 octets */
+/** The fastest rate. Chosen: 1.4 ms for a Modbus frame of 16 octets. */
+#define CLOCK_BAUD_Hz 115200UL
 /** BRR of the nearest rate: LSPCLK / (8 baud) - 1. */
 #define CLOCK_BRR(baud_Bd) (((CLOCK_LSPCLK_Hz + (4UL * (baud_Bd))) / (8UL * (baud_Bd))) - 1UL)
 /** That rate, within 2 % of what is wanted: with as much at the other end, half a bit in eleven is not reached. */
@@ -45,6 +46,14 @@
      ((CLOCK_BAUD_ACTUAL_Hz(baud_Bd) * 100UL) <= ((baud_Bd)*102UL)) &&                             \
      ((CLOCK_BAUD_ACTUAL_Hz(baud_Bd) * 100UL) >= ((baud_Bd)*98UL)))
 
+/** Longest pass of the background, chosen: 0.4 ms with the longest frame, and as much again for the control interrupt. */
+#define CLOCK_PASS_MAX_us 1000UL
+/** The watchdog's period: 256 * 512 crystal cycles. */
+#define CLOCK_WATCHDOG_us ((256UL * 512UL) / (CLOCK_CRYSTAL_Hz / 1000000UL))
+/** For so long the receiver's FIFO of 16 octets takes what comes without a pause, 11 bits an octet. */
+#define CLOCK_FIFO_us(baud_Bd)            ((16UL * 11UL * 1000000UL) / CLOCK_BAUD_ACTUAL_Hz(baud_Bd))
+#define CLOCK_FIFO_OUTLASTS_PASS(baud_Bd) (CLOCK_FIFO_us(baud_Bd) > CLOCK_PASS_MAX_us)
+
 #if CLOCK_SYSCLK_Hz != 150000000UL
 #error "flash wait states and PLL settings are those of 150 MHz"
 #endif
@@ -52,8 +61,14 @@
 #error "the ADC clock is too fast"
 #endif
 #if !CLOCK_BAUD_FITS(9600UL) || !CLOCK_BAUD_FITS(19200UL) || !CLOCK_BAUD_FITS(38400UL) ||          \
-    !CLOCK_BAUD_FITS(57600UL) || !CLOCK_BAUD_FITS(CLOCK_BAUD_Hz) || !CLOCK_BAUD_FITS(230400UL)
+    !CLOCK_BAUD_FITS(57600UL) || !CLOCK_BAUD_FITS(CLOCK_BAUD_Hz)
 #error "a baud rate of serial.c cannot be made within 2 %"
+#endif
+#if !CLOCK_FIFO_OUTLASTS_PASS(CLOCK_BAUD_Hz)
+#error "at the fastest rate the receiver's FIFO does not outlast a pass of the background"
+#endif
+#if (4UL * CLOCK_PASS_MAX_us) > CLOCK_WATCHDOG_us
+#error "the watchdog's period is less than four passes of the background"
 #endif
 
 #endif /* CLOCK_TREE_H */

@@ -5,7 +5,7 @@
 
 #define WDCR_STOP 0x68U
 #define WDFLAG    0x80U /* WDCR: reported as the watchdog's reset; written 1 to clear */
-/* 256 * 512 crystal cycles = 4.37 ms, the shortest there is: four times the longest background pass expected (1 ms). Bits
+/* 256 * 512 crystal cycles = 4.37 ms, the shortest there is: four of the longest background passes (clock_tree.h). Bits
  * 5:3 have to be 101 in every write. */
 #define WDCR_RUN  0x29U
 #define SCSR_LOCK 0x01U /* reset, not interrupt; and the watchdog cannot be stopped any more */

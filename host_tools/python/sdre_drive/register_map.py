@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "b9e4b772"
+DIGEST = "c8205ca0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
     Register("CONTROLWORD", 0, "u16", 0.0, "bits"),
@@ -218,7 +218,7 @@ PARAMETERS: Tuple[Parameter, ...] = (
     Parameter(BY_NAME["SPEED_WINDOW"], 0, 6553.5, 5.0, False, "606Dh", "around the command: target reached"),
     Parameter(BY_NAME["MODBUS_ADDRESS"], 1, 247, 1.0, False, "", "of the drive. The answer to the write still has the old address."),
     Parameter(BY_NAME["MODBUS_TIMEOUT"], 0.01, 60.0, 0.5, False, "", "without a request for longer: LOST_OPTION"),
-    Parameter(BY_NAME["BAUD_RATE"], 9600, 230400, 115200.0, True, "", "acts when stored. Allowed are 9600, 19200, 38400, 57600, 115200 and 230400. Baud rate, LINE_FORMAT and DIRECTION_PIN act with the restart that stores them."),
+    Parameter(BY_NAME["BAUD_RATE"], 9600, 115200, 115200.0, True, "", "acts when stored. Allowed are 9600, 19200, 38400, 57600 and 115200. Baud rate, LINE_FORMAT and DIRECTION_PIN act with the restart that stores them."),
     Parameter(BY_NAME["LINE_FORMAT"], 0, 2, 0.0, True, "", "0 even, 1 odd, 2 no parity. Even and odd parity have one stop bit; no parity has two."),
     Parameter(BY_NAME["DIRECTION_PIN"], 0, 1, 0.0, True, "", "1: pin high while the drive sends. It is for an RS-485 transceiver."),
     Parameter(BY_NAME["PROFILE_VELOCITY"], 0, 1000000.0, 0.0, False, "6081h", "largest profile speed; 0: the drive's limit. ACCELERATION and DECELERATION act too."),
