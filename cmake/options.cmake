@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Every option of the project is declared here; any other SDRE_* name stops configuration.
 set(sdre_bool_options SDRE_BOARD_CHECK SDRE_BUILD_TESTS SDRE_PYTHON_EXTENSION SDRE_SANITIZE)
-set(sdre_text_options SDRE_BOARD SDRE_IMAGE SDRE_PYTHON SDRE_TABLES)
+set(sdre_text_options SDRE_BOARD SDRE_IMAGE SDRE_PYTHON SDRE_SCOPE_SAMPLES SDRE_TABLES)
 
 option(SDRE_BOARD_CHECK "Only compile the board layer against TI's headers, with this compiler" OFF)
 option(SDRE_BUILD_TESTS "Build the tests (needs Unity and GoogleTest)" ON)
@@ -10,6 +10,7 @@ option(SDRE_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer
 set(SDRE_BOARD f28335 CACHE STRING "Directory of firmware/board that is built: f28335 or host_stub")
 set(SDRE_IMAGE "" CACHE STRING "Build the target's image: flash or ram (empty: host tools)")
 set(SDRE_PYTHON "" CACHE STRING "Python with matplotlib, for plots (empty: look for one)")
+set(SDRE_SCOPE_SAMPLES 512 CACHE STRING "Samples of each of the scope's four signals: 64, 128, 256 or 512; eight words of RAM each")
 set(SDRE_TABLES "" CACHE PATH "Directory with the files of sdre-gains generate (empty: firmware/config)")
 
 # A refused value leaves the cache, so that the corrected command works at once.
@@ -34,6 +35,12 @@ if(NOT SDRE_IMAGE MATCHES "^(flash|ram|)$")
     set(refused "${SDRE_IMAGE}")
     unset(SDRE_IMAGE CACHE)
     message(FATAL_ERROR "SDRE_IMAGE=${refused}: expected flash or ram")
+endif()
+
+if(NOT SDRE_SCOPE_SAMPLES MATCHES "^(64|128|256|512)$")
+    set(refused "${SDRE_SCOPE_SAMPLES}")
+    unset(SDRE_SCOPE_SAMPLES CACHE)
+    message(FATAL_ERROR "SDRE_SCOPE_SAMPLES=${refused}: expected 64, 128, 256 or 512")
 endif()
 
 if(SDRE_TABLES STREQUAL "")

@@ -10,8 +10,7 @@ MEMORY
     STORE     : origin = 0x300000, length = 0x020000 /* sectors H to E: board_store_memory; nothing is linked there */
     FLASH     : origin = 0x320000, length = 0x018000 /* sectors D .. B */
 
-    RAMM0     : origin = 0x000050, length = 0x0003B0 /* below: stack of the boot ROM */
-    RAMM1     : origin = 0x000400, length = 0x000400
+    RAMM01    : origin = 0x000100, length = 0x000700 /* M0 and M1; 0x000000..0x00004F: stack of the boot ROM */
     RAML0123  : origin = 0x008000, length = 0x004000 /* no wait states, programs and data */
     RAML4567  : origin = 0x00C000, length = 0x004000 /* no wait states for data; apart, to be read beside a fetch */
 
@@ -23,8 +22,64 @@ SECTIONS
 {
     codestart    : > BEGIN
 
-    /* The control interrupt with everything it calls, the run-time library included, and what sets the flash's wait
-     * states. code_start copies it. */
+    /* These functions run once, or when a run begins. Their files are compiled for the RAM; named in front of .TI.ramfunc, they
+     * are not taken by it. */
+    .seldom      :
+    {
+        *(.TI.ramfunc:adc_init)
+        *(.TI.ramfunc:app_angle_align)
+        *(.TI.ramfunc:app_angle_drop)
+        *(.TI.ramfunc:app_angle_init)
+        *(.TI.ramfunc:app_background)
+        *(.TI.ramfunc:app_control_enables)
+        *(.TI.ramfunc:app_gate_check)
+        *(.TI.ramfunc:app_gate_may_start)
+        *(.TI.ramfunc:app_init)
+        *(.TI.ramfunc:app_modes_init)
+        *(.TI.ramfunc:app_scale_init)
+        *(.TI.ramfunc:app_scale_set_zero)
+        *(.TI.ramfunc:app_take_parameters)
+        *(.TI.ramfunc:app_tell_image)
+        *(.TI.ramfunc:board_gate_enable)
+        *(.TI.ramfunc:check)
+        *(.TI.ramfunc:clock_init)
+        *(.TI.ramfunc:clock_peripherals)
+        *(.TI.ramfunc:control_isr_init)
+        *(.TI.ramfunc:counts_ok)
+        *(.TI.ramfunc:cycles_init)
+        *(.TI.ramfunc:cycles_wait)
+        *(.TI.ramfunc:dobc_check)
+        *(.TI.ramfunc:dobc_reset)
+        *(.TI.ramfunc:drive_init)
+        *(.TI.ramfunc:drive_reset)
+        *(.TI.ramfunc:encoder_init)
+        *(.TI.ramfunc:encoder_start)
+        *(.TI.ramfunc:foc_check)
+        *(.TI.ramfunc:foc_reset)
+        *(.TI.ramfunc:law_noc_speed_reset)
+        *(.TI.ramfunc:nodo_check)
+        *(.TI.ramfunc:nodo_harmonic_check)
+        *(.TI.ramfunc:nodo_harmonic_reset)
+        *(.TI.ramfunc:nodo_parity_check)
+        *(.TI.ramfunc:nodo_reset)
+        *(.TI.ramfunc:nosc_check)
+        *(.TI.ramfunc:pid_law_check)
+        *(.TI.ramfunc:pid_law_reset)
+        *(.TI.ramfunc:pie_init)
+        *(.TI.ramfunc:pie_start)
+        *(.TI.ramfunc:pwm_init)
+        *(.TI.ramfunc:pwm_start)
+        *(.TI.ramfunc:read_status)
+        *(.TI.ramfunc:reset)
+        *(.TI.ramfunc:speed_difference_check)
+        *(.TI.ramfunc:speed_difference_reset)
+        *(.TI.ramfunc:speed_ref_reset)
+        *(.TI.ramfunc:tick_watch_start)
+        *(.TI.ramfunc:trip_init)
+    }
+                   > FLASH
+
+    /* The control interrupt with everything it calls, the run-time library included. code_start copies it. */
     .TI.ramfunc  :
     {
         *(.TI.ramfunc)
@@ -68,11 +123,11 @@ SECTIONS
     .ovly        : > FLASH
     .args        : > FLASH
 
-    .stack       : > RAMM1, RUN_START(codestart_stack), RUN_SIZE(codestart_stack_words)
+    .stack       : > RAMM01, RUN_START(codestart_stack), RUN_SIZE(codestart_stack_words)
     .bss         : > RAML4567
-    .bss:cio     : > RAMM0
+    .bss:cio     : > RAML4567
     .data        : > RAML4567
-    .sysmem      : > RAMM0
+    .sysmem      : > RAML4567
     .TI.noinit   : > RAML4567
 
     /* The fast math library's tables are in the ROM already; only their addresses are wanted. */

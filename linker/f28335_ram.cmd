@@ -4,8 +4,7 @@
 MEMORY
 {
     BEGIN     : origin = 0x000000, length = 0x000002 /* the boot ROM jumps here */
-    RAMM0     : origin = 0x000050, length = 0x0003B0 /* below: stack of the boot ROM */
-    RAMM1     : origin = 0x000400, length = 0x000400
+    RAMM01    : origin = 0x000100, length = 0x000700 /* M0 and M1; 0x000000..0x00004F: stack of the boot ROM */
     RAML0123  : origin = 0x008000, length = 0x004000 /* no wait states, programs and data */
     RAML4567  : origin = 0x00C000, length = 0x004000 /* no wait states for data */
 
@@ -57,11 +56,11 @@ SECTIONS
     .ovly        : > RAML4567
     .args        : > RAML4567
 
-    .stack       : > RAMM1, RUN_START(codestart_stack), RUN_SIZE(codestart_stack_words)
+    .stack       : > RAMM01, RUN_START(codestart_stack), RUN_SIZE(codestart_stack_words)
     .bss         : > RAML4567
-    .bss:cio     : > RAMM0
+    .bss:cio     : > RAML4567
     .data        : > RAML4567
-    .sysmem      : > RAMM0
+    .sysmem      : > RAML4567
     .TI.noinit   : > RAML4567
 
     FPUmathTables : > FPUTABLES, TYPE = NOLOAD

@@ -17,7 +17,9 @@
 #include "app_scope_signals.h"
 
 #define APP_SCOPE_CHANNELS 4U
-#define APP_SCOPE_SAMPLES  512U /**< of each channel; a power of two */
+#ifndef APP_SCOPE_SAMPLES      /* SDRE_SCOPE_SAMPLES */
+#define APP_SCOPE_SAMPLES 512U /**< of each channel; a power of two */
+#endif
 
 typedef enum {
     APP_SCOPE_IDLE = 0,

@@ -33,6 +33,9 @@ union law_state {
 };
 
 /** The constants of one law, in memory of their own: what an image gives a drive. */
+#ifdef LAW_CONSTANTS /* An image refuses the constants of a law that it does not link. */
+typedef LAW_CONSTANTS law_constants_t;
+#else
 typedef union {
     law_noc_config_t          noc;
     law_noc_speed_config_t    noc_speed;
@@ -43,5 +46,6 @@ typedef union {
     law_pi_foc_config_t       pi_foc;
     law_ladrc_config_t        ladrc;
 } law_constants_t;
+#endif
 
 #endif /* LAWS_H */

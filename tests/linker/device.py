@@ -13,11 +13,11 @@ ROM_TABLES = [(0x3FEBDC, 0x3FF27C)]
 RESET_VECTOR = [(0x3FFFC0, 0x3FFFC2)]
 SECURITY = [(0x33FF80, 0x33FFF6), (0x33FFF8, 0x340000)]  # reserved words, passwords
 
-# What the compiler and its run-time library make with EABI.
+# The compiler and its run-time library make these with EABI.
 LOADED = [".text", ".cinit", ".const", ".switch", ".init_array", ".binit", ".ovly", ".args",
           ".TI.ramfunc"]
 NOT_LOADED = [".stack", ".bss", ".bss:cio", ".data", ".sysmem", ".TI.noinit"]
-OWN = ["codestart", ".tables", ".in_force", "FPUmathTables", ".reset"]
+OWN = ["codestart", ".seldom", ".tables", ".in_force", "FPUmathTables", ".reset"]
 
 PERIPHERALS = {
     "FlashRegs": 0x0A80, "AdcMirror": 0x0B00, "CpuTimer0Regs": 0x0C00, "CpuTimer1Regs": 0x0C08,

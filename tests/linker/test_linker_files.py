@@ -45,6 +45,8 @@ def check_sections(image, ranges, sections, defines):
             raise Refused(f"section {name} {what}")
 
     expected = device.LOADED + device.NOT_LOADED + device.OWN
+    if image == "ram":
+        expected.remove(".seldom")
     for name in expected:
         require(name in sections, name, "has no place")
     for name in sections:
@@ -68,6 +70,11 @@ def check_sections(image, ranges, sections, defines):
     require(in_force.run != code.run, in_force.name, "shares a block with the code that reads it")
     require(ranges[stack.run].end <= device.STACK_LIMIT, ".stack", "is out of the pointer's reach")
     require(sum(s.run == stack.run for s in sections.values()) == 1, ".stack", "is not alone")
+
+    if image == "flash":
+        names = list(sections)
+        require(names.index(".seldom") < names.index(code.name), ".seldom", "stands behind the section that would take its functions")
+        require(inside(ranges[sections[".seldom"].run], device.FLASH), ".seldom", "is not in the flash")
 
     wanted = ["*(.TI.ramfunc)"] + ([FAST_RTS] if "FAST_RTS" in defines else []) + [RTS]
     require(code.inputs == wanted, code.name, f"takes {code.inputs}")
@@ -174,7 +181,7 @@ MUTANTS = [
     ("flash", "origin = 0x33FFF6", "origin = 0x33FFF4", "security module"),
     ("flash", "origin = 0x33FFF6", "origin = 0x33FF7E", "not where the boot ROM"),
     ("flash", "STORE     : origin = 0x300000", "STORE     : origin = 0x2FFFFE", "not memory"),
-    ("flash", "origin = 0x000050, length = 0x0003B0", "origin = 0x000040, length = 0x0003C0",
+    ("flash", "origin = 0x000100, length = 0x000700", "origin = 0x000040, length = 0x0007C0",
      "not memory"),
     ("flash", "origin = 0x008000, length = 0x004000", "origin = 0x008000, length = 0x004001",
      "overlap"),
@@ -186,16 +193,18 @@ MUTANTS = [
     ("flash", ".data        : > RAML4567", ".data        : > FLASH", ".data is not in RAM"),
     ("flash", ".cinit       : > FLASH", ".cinit       : > RAML4567", "not stored where it lasts"),
     ("flash", ".const       : > FLASH", ".econst      : > FLASH", "has no place"),
-    ("flash", ".bss         : > RAML4567", ".bss         : > RAMM1", ".stack is not alone"),
+    ("flash", ".bss         : > RAML4567", ".bss         : > RAMM01", ".stack is not alone"),
     ("flash", "TYPE = NOLOAD", "TYPE = COPY", "would be loaded"),
     ("flash", ", TYPE = DSECT", "", "would be loaded"),
-    ("flash", "> FPUTABLES", "> RAMM0", "not at the ROM's tables"),
+    ("flash", "> FPUTABLES", "> RAML4567", "not at the ROM's tables"),
     ("flash", "LOAD_SIZE(codestart_code_words)", "RUN_START(codestart_code_words)", "defines"),
     ("flash", "LOAD_START(codestart_tables_load)", "LOAD_START(codestart_table_load)", "defines"),
     ("flash", "*(.bss:in_force)", "*(.bss:in_use)", "leaves in_force out"),
     ("flash", "*(.const:law_*)", "*(.const:law)", "leaves law_conventional out"),
     ("flash", "                   > RAML4567", "                   > RAML0123", "shares a block"),
-    ("ram", "                   > RAML4567\n\n    .text", "                   > RAMM1\n\n    .text", "wait states"),
+    ("ram", "                   > RAML4567\n\n    .text", "                   > RAMM01\n\n    .text", "wait states"),
+    ("flash", ".seldom      :", ".seldom2     :", ".seldom has no place"),
+    ("flash", "    }\n                   > FLASH\n", "    }\n                   > RAML0123\n", "not in the flash"),
     ("flash", RTS, "", "takes"),
     ("flash", "#ifdef FAST_RTS", "#ifdef FASTRTS", "takes"),
     ("flash", "#endif", "", "without #endif"),
@@ -204,8 +213,8 @@ MUTANTS = [
     ("ram", "> RAML0123,", "> RAML4567,", "wait states"),
     ("ram", ".cinit       : > RAML4567", ".cinit       : > RAMX", "no range"),
     ("ram", "origin = 0x000000", "origin = 0x000002", "not memory"),
-    ("ram", "length = 0x000400", "length = 0x000401", "not memory"),
-    ("ram", "length = 0x000400", "length = 0x000000", "empty"),
+    ("ram", "length = 0x000700", "length = 0x000701", "not memory"),
+    ("ram", "length = 0x000700", "length = 0x000000", "empty"),
     ("ram", ".switch      : > RAML0123", ".switch      : > RAML0123, TYPE = NOLOAD",
      "would not be loaded"),
 ]

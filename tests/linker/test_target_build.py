@@ -14,8 +14,7 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 FAST_RTS = "rts2800_fpu32_fast_supplement_eabi.lib"
-TICK = ["app.c", "app_angle.c", "app_control.c", "app_gate.c", "app_modes.c", "app_record.c", "app_scale.c", "app_states.c",
-        "app_watch_heat.c", "adc.c", "clock.c",
+TICK = ["app.c", "app_angle.c", "app_control.c", "app_gate.c", "app_modes.c", "app_scale.c", "app_states.c", "adc.c", "clock.c",
         "control_isr.c", "cycles.c", "encoder.c", "flash.c", "pie.c", "pwm.c", "tick_watch.c", "trip.c"]
 
 
@@ -102,7 +101,7 @@ class TargetBuild(unittest.TestCase):
                     self.assertIn(option, call, name)
         before, after = link[: link.index("--run_linker")], link[link.index("--run_linker") :]
         self.assertNotIn("--define=FAST_RTS", before)
-        for option in ("--define=FAST_RTS", "--stack_size=0x400", "--entry_point=code_start",
+        for option in ("--define=FAST_RTS", "--stack_size=0x700", "--entry_point=code_start",
                        "--rom_model", "--priority", "--diag_error=10247",
                        str(linker / "f28335_flash.cmd"), str(linker / "f28335_registers.cmd")):
             self.assertIn(option, after)
@@ -116,8 +115,39 @@ class TargetBuild(unittest.TestCase):
 
         # Tick and flash set-up run from RAM, and the way there does not.
         in_ram = {name for name, call in compiled.items() if "--ramfunc=on" in call and "--ramfunc=off" not in call}
+        rare = {"check.c", "dead_time.c", "drive_config.c", "motor.c", "nodo_current.c", "position_loop.c", "position_ref.c"}
         control = {source.name for source in (ROOT / "firmware" / "control").glob("*.c") if "fields" not in source.name}
-        self.assertEqual(in_ram, control | set(TICK))
+        self.assertEqual(in_ram, control - rare | set(TICK))
+        for name in ("drive_image.c", "app.c", "main.c"):
+            self.assertIn("-DLAW_CONSTANTS=law_noc_config_t", compiled[name])
+        self.assertIn("-DAPP_SCOPE_SAMPLES=512U", compiled["app_scope.c"])
+
+    def test_noc_h_leaves_room_for_half_the_scope(self):
+        own = self.top / "own"
+        own.mkdir()
+        for name in ("gain_tables.h", "board_config.c"):
+            (own / name).write_text((ROOT / "firmware" / "config" / name).read_text())
+        text = (ROOT / "firmware" / "config" / "gain_tables.c").read_text()
+        (own / "gain_tables.c").write_text(text.replace("&law_noc,", "&law_noc_h,"))
+        arguments = [f"-DSDRE_TABLES={own}"]
+        make_compiler(self.top / "cgt")
+        make_headers(self.top / "ware", fast_rts=False)
+        roots = [f"-DC2000_CGT_ROOT={self.top / 'cgt'}", f"-DC2000WARE_ROOT={self.top / 'ware'}"]
+        refused = self.configure("f28335-flash", *roots, *arguments)
+        self.assertNotEqual(refused.returncode, 0)
+        self.assertIn("SDRE_SCOPE_SAMPLES=512: the constants of noc_h leave room for 256", " ".join(refused.stdout.split()))
+
+        compiled, _, _ = self.build_image("f28335-flash", arguments=[*arguments, "-DSDRE_SCOPE_SAMPLES=256"])
+        self.assertIn("-DLAW_CONSTANTS=law_noc_h_config_t", compiled["drive_image.c"])
+        for name in ("app_control.c", "app_modes.c"):
+            self.assertNotIn("--ramfunc=on", compiled[name])
+        self.assertIn("--ramfunc=on", compiled["app_states.c"])
+
+    def test_scope_of_another_size_is_refused(self):
+        done = self.configure("f28335-flash", "-DSDRE_SCOPE_SAMPLES=100")
+
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("SDRE_SCOPE_SAMPLES=100: expected 64, 128, 256 or 512", " ".join(done.stdout.split()))
 
     def test_ram_image_without_fast_rts_and_with_an_older_compiler(self):
         compiled, link, output = self.build_image("f28335-ram", fast_rts=False, STAND_IN_VERSION="00000020.00000002.00000000")

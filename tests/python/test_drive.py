@@ -9,14 +9,15 @@ import sys
 import threading
 import time
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Dict, List
 
 import pytest
 from conftest import Served
 from support import command, run_at, stay, until
 
-from sdre_drive import faults, session
-from sdre_drive.connection import Drive, DriveError, Target
+from sdre_drive import faults, scope, session
+from sdre_drive.connection import Drive, DriveError, Refused, Target
 from sdre_drive.registers import ControlWord, Mode, state_words
 
 
@@ -218,3 +219,26 @@ def test_a_speed_beyond_the_drive_is_refused(drive: Drive) -> None:
     with pytest.raises(DriveError, match="out of the drive's range"):
         session.start(drive, 3000.0)
     assert drive.read().mode == Mode.READY
+
+
+
+class SmallScope:
+    """A firmware whose scope has that many samples; each register tells its own place."""
+
+    def __init__(self, samples: int) -> None:
+        self.end = scope.SCOPE_FIRST + 2 * scope.CHANNELS * samples
+
+    def words(self, first: int, count: int) -> List[int]:
+        if first + count > self.end:
+            raise Refused("exception 2")
+        return [(first + k) & 0xFFFF for k in range(count)]
+
+    def constants(self) -> SimpleNamespace:
+        return SimpleNamespace(period_s=1e-4)
+
+
+@pytest.mark.parametrize("samples", scope.SAMPLES)
+def test_scope_of_every_size_is_read_whole(samples: int) -> None:
+    taken = scope.read(SmallScope(samples), scope.Setup(signals=("ia", "ib")))  # type: ignore[arg-type]
+    assert len(taken.time_s) == samples
+    assert [len(signal) for signal in taken.values] == [samples, samples]

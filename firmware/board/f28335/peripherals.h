@@ -11,7 +11,7 @@
 #include "DSP28x_Project.h"
 #include "board.h"
 
-#define BOARD_STACK_WORDS 0x400U  /**< --stack_size of CMakeLists.txt */
+#define BOARD_STACK_WORDS 0x700U  /**< --stack_size of CMakeLists.txt */
 #define BOARD_STACK_FILL  0xC0DEU /**< STACK_FILL of codestart.asm */
 
 void gpio_make_safe(void);       /**< gate driver off and bridge pins low; first of all */

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from typing import List, Sequence, Tuple
 
 from sdre_drive import register_map
-from sdre_drive.connection import Drive, DriveError
+from sdre_drive.connection import Drive, DriveError, Refused
 
-CHANNELS, SAMPLES = 4, 512
+CHANNELS = 4
+SAMPLES = (512, 256, 128, 64)  # of each channel: SDRE_SCOPE_SAMPLES of the firmware's build
 SCOPE_FIRST, RECORD_FIRST = 16384, 24576
 RECORD_SIGNALS = ("IA", "IB", "DC_LINK", "SPEED", "DUTY_A", "DUTY_B", "DUTY_C")
 BLOCK = 120  # registers in a request
@@ -89,9 +90,10 @@ def is_done(drive: Drive) -> bool:
 
 def read(drive: Drive, setup: Setup) -> Capture:
     """What was taken with this setting."""
-    values = _floats(drive, SCOPE_FIRST, CHANNELS * SAMPLES)
+    samples = _samples(drive)
+    values = _floats(drive, SCOPE_FIRST, CHANNELS * samples)
     period_s = drive.constants().period_s * setup.decimation
-    return Capture(tuple(name.upper() for name in setup.signals), [(k - setup.before) * period_s for k in range(SAMPLES)],
+    return Capture(tuple(name.upper() for name in setup.signals), [(k - setup.before) * period_s for k in range(samples)],
                    [values[k::CHANNELS] for k in range(len(setup.signals))])  # fmt: skip
 
 
@@ -120,6 +122,17 @@ def record(drive: Drive) -> Capture:
     period_s = drive.constants().period_s
     return Capture(RECORD_SIGNALS, [(k + 1 - count) * period_s for k in range(count)],
                    [values[k::len(RECORD_SIGNALS)] for k in range(len(RECORD_SIGNALS))])  # fmt: skip
+
+
+def _samples(drive: Drive) -> int:
+    """The most that the firmware has: beyond its last register it refuses."""
+    for samples in SAMPLES:
+        try:
+            drive.words(SCOPE_FIRST + 2 * CHANNELS * samples - 1, 1)
+            return samples
+        except Refused:
+            continue
+    raise DriveError("this firmware has no scope that this tool knows")
 
 
 def _floats(drive: Drive, first: int, count: int) -> List[float]:

@@ -27,7 +27,7 @@
 #include "sil/f28335/watchdog.hpp"
 
 /// The stack of the image, full of what code_start fills it with. No firmware runs on it here: a test may spoil it.
-extern "C" volatile Uint16 codestart_stack[0x400];
+extern "C" volatile Uint16 codestart_stack[0x700];
 
 namespace sdre::f28335 {
 

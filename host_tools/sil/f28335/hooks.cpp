@@ -6,7 +6,7 @@ using sdre::f28335::Device;
 
 extern "C" {
 
-volatile Uint16 codestart_stack[0x400];
+volatile Uint16 codestart_stack[0x700];
 
 void f28335_asm(const char *text)
 {

@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: MIT */
+#include "app_control_change.h"
+
+#include "check.h"
+
+#define WINDOW_E_RADPS 5.0f /* chosen: what noise and ripple leave */
+
+#define POSITION_WINDOW_CNT 4U /* chosen: a line; a shaft at rest hunts by one count or two */
+
+#define STAY APP_CONTROL_STATES
+
+ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
+                              const drive_config_t *drive)
+{
+    const bool ok = check_positive(drive->current_max_A);
+
+    c->config            = config;
+    c->ts_s              = drive->ts_s;
+    c->per_current_max   = ok ? (1.0f / drive->current_max_A) : 0.0f;
+    c->state             = APP_CONTROL_NOT_READY;
+    c->mode              = APP_CONTROL_PROFILE_VELOCITY;
+    c->armed             = false;
+    c->reset_high        = true;
+    c->asked             = false;
+    c->moved             = false;
+    c->speed_max_e_radps = drive->speed_max_e_radps;
+    c->done              = false;
+    c->ref_e_radps       = 0.0f;
+    c->holds             = false;
+    return ok ? CTL_OK : CTL_BAD_CONFIG;
+}
+
+app_objects_t app_control_default(const drive_config_t *drive)
+{
+    const app_objects_t o = {.controlword         = APP_CONTROL_DISABLE_VOLTAGE,
+                             .mode_of_operation   = APP_CONTROL_PROFILE_VELOCITY,
+                             .quick_option        = APP_CONTROL_QUICK_FAST,
+                             .lost_option         = APP_CONTROL_LOST_DISABLE,
+                             .window_e_radps      = WINDOW_E_RADPS,
+                             .current_max_A       = drive->current_max_A,
+                             .position_window_cnt = POSITION_WINDOW_CNT};
+    return o;
+}
+
+bool app_control_knows(const app_objects_t *o, const drive_config_t *drive)
+{
+    const int16_t mode  = o->mode_of_operation;
+    const int16_t quick = o->quick_option;
+
+    return ((mode == APP_CONTROL_PROFILE_VELOCITY) || (mode == APP_CONTROL_HOMING) ||
+            (mode == APP_CONTROL_COMMISSIONING) ||
+            ((mode == APP_CONTROL_PROFILE_POSITION) && drive->positions)) &&
+           ((quick <= APP_CONTROL_QUICK_FAST) || (quick >= APP_CONTROL_QUICK_RAMP_STAY));
+}
+
+static bool is_moving(const app_control_seen_t *seen)
+{
+    return (seen->mode == APP_MODE_RUN) || (seen->mode == APP_MODE_STOP) ||
+           (seen->mode == APP_MODE_ALIGN) || (seen->mode == APP_MODE_PRECHARGE) ||
+           (seen->mode == APP_MODE_COMMISSION);
+}
+
+/* The state that follows without the bridge being on: what the modes say comes first. */
+static app_control_state_t by_modes(const app_control_t *c, const app_control_seen_t *seen)
+{
+    app_control_state_t next = c->state;
+
+    if (seen->mode == APP_MODE_FAULT) {
+        next = seen->shorted ? APP_CONTROL_FAULT_REACTION_ACTIVE : APP_CONTROL_FAULT;
+    } else if ((seen->mode == APP_MODE_BOOT) || (seen->mode == APP_MODE_CALIBRATE)) {
+        next = APP_CONTROL_NOT_READY;
+    } else if ((c->state == APP_CONTROL_NOT_READY) ||
+               (c->state >= APP_CONTROL_FAULT_REACTION_ACTIVE)) {
+        next = APP_CONTROL_SWITCH_ON_DISABLED;
+    } else {
+        /* the operator's */
+    }
+    return next;
+}
+
+static void start(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen)
+{
+    c->state       = APP_CONTROL_OPERATION_ENABLED;
+    c->mode        = o->mode_of_operation;
+    c->armed       = false;
+    c->asked       = false;
+    c->moved       = false;
+    c->done        = false;
+    c->ref_e_radps = seen->speed_e_radps;
+    c->holds       = false;
+}
+
+/* Bridge off: a start needs bit 3 to rise, and is not made up for later. */
+static void change_at_rest(app_control_t *c, app_control_state_t to, const app_objects_t *o,
+                           const app_control_seen_t *seen)
+{
+    if (to != APP_CONTROL_OPERATION_ENABLED) {
+        c->state = to;
+    } else if (c->armed && !seen->in_the_way && !is_moving(seen)) {
+        start(c, o, seen);
+    } else {
+        c->armed = false;
+        c->state = APP_CONTROL_SWITCHED;
+    }
+}
+
+/* Bridge on or about to be: it is left when the modes have opened the bridge. */
+static void change_enabled(app_control_t *c, app_control_state_t to, const app_objects_t *o,
+                           const app_control_seen_t *seen)
+{
+    const bool moving = is_moving(seen);
+    const bool ended  = c->asked && !moving;
+
+    c->moved = c->moved || moving;
+    if ((to == APP_CONTROL_QUICK_STOP_ACTIVE) ||
+        ((to == APP_CONTROL_OPERATION_ENABLED) && app_control_stays_quick(o) && !ended)) {
+        c->state = to;
+    } else if ((to != STAY) && (to != APP_CONTROL_OPERATION_ENABLED)) {
+        c->state = ended ? to : c->state;
+    } else if (ended && (c->state == APP_CONTROL_QUICK_STOP_ACTIVE)) {
+        c->state = APP_CONTROL_SWITCH_ON_DISABLED;
+    } else if (ended && (!c->moved || app_control_runs(c))) {
+        c->state = APP_CONTROL_SWITCHED; /* refused, or stopped by the drive itself */
+    } else {
+        c->done = c->done || ended;
+    }
+}
+
+static app_control_state_t next_of(app_control_state_t state, app_control_ask_t ask)
+{
+    /* The commanded transitions, by state and by what is asked for; their numbers in CiA 402 are those of docs/modbus.md. */
+    static const app_control_state_t transitions[APP_CONTROL_STATES][APP_CONTROL_ASKS] = {
+        /* disable voltage, quick stop, shut down, switch on, enable operation */
+        {STAY, STAY, STAY, STAY, STAY},                           /* NOT_READY */
+        {STAY, STAY, APP_CONTROL_READY_TO_SWITCH_ON, STAY, STAY}, /* SWITCH_ON_DISABLED */
+        {APP_CONTROL_SWITCH_ON_DISABLED, APP_CONTROL_SWITCH_ON_DISABLED, STAY, APP_CONTROL_SWITCHED,
+         APP_CONTROL_OPERATION_ENABLED}, /* READY_TO_SWITCH_ON */
+        {APP_CONTROL_SWITCH_ON_DISABLED, APP_CONTROL_SWITCH_ON_DISABLED,
+         APP_CONTROL_READY_TO_SWITCH_ON, STAY, APP_CONTROL_OPERATION_ENABLED}, /* SWITCHED_ON */
+        {APP_CONTROL_SWITCH_ON_DISABLED, APP_CONTROL_QUICK_STOP_ACTIVE,
+         APP_CONTROL_READY_TO_SWITCH_ON, APP_CONTROL_SWITCHED, STAY}, /* OPERATION_ENABLED */
+        {APP_CONTROL_SWITCH_ON_DISABLED, STAY, STAY, STAY,
+         APP_CONTROL_OPERATION_ENABLED}, /* QUICK_STOP */
+        {STAY, STAY, STAY, STAY, STAY},  /* FAULT_REACTION_ACTIVE */
+        {STAY, STAY, STAY, STAY, STAY}   /* FAULT: left by a reset, which the modes do */
+    };
+    return transitions[state][ask];
+}
+
+void app_control_change(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
+                        app_control_ask_t ask)
+{
+    const app_control_state_t modes =
+        (c->state < APP_CONTROL_STATES) ? by_modes(c, seen) : APP_CONTROL_NOT_READY;
+
+    if (modes != c->state) {
+        c->state = modes;
+        c->armed = false;
+        return;
+    }
+    const app_control_state_t to = next_of(c->state, ask);
+    if (app_control_is_enabled(c->state)) {
+        change_enabled(c, to, o, seen);
+    } else if (to != STAY) {
+        change_at_rest(c, to, o, seen);
+    } else {
+        /* nothing is asked for that this state knows */
+    }
+    c->armed = c->armed || !app_control_has(o->controlword, APP_CONTROL_ENABLE);
+}
+
+bool app_control_position(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
+                          bool stopping)
+{
+    if ((seen->mode != APP_MODE_RUN) || !app_control_is_enabled(c->state)) {
+        c->holds = false;
+        return false;
+    }
+    if (!seen->position
+             ->known) { /* not yet; or counts were lost, and nobody knows where it would go */
+        c->state = c->holds ? APP_CONTROL_QUICK_STOP_ACTIVE : c->state;
+        return false;
+    }
+    if (!c->holds) {
+        app_setpoint_start(&c->setpoint, o, seen->position);
+        c->holds = true;
+    }
+    app_setpoint_tick(&c->setpoint, o, seen->position, seen->arrived);
+    return !stopping && !app_control_has(o->controlword, APP_CONTROL_HALT);
+}

@@ -1,0 +1,306 @@
+/* SPDX-License-Identifier: MIT */
+#include "app_states.h"
+
+#include <stddef.h>
+
+/* Chosen: 20 ms, in which a motor's current dies out several times; and a mean over as many. */
+#define ZERO_TICKS   100U
+#define ZERO_FORGETS 0.03f
+
+void app_states_enter(app_modes_t *m, app_mode_t mode)
+{
+    m->mode             = mode;
+    m->timer_ticks      = 0U;
+    m->sum_a_cnt        = 0UL;
+    m->sum_b_cnt        = 0UL;
+    m->armed            = false;
+    m->commission_armed = false;
+    m->align_armed      = false;
+    m->zero_a_A         = 0.0f;
+    m->zero_b_A         = 0.0f;
+}
+
+static bridge_t fault_bridge(app_modes_t *m, const app_modes_input_t *in)
+{
+    const app_stop_input_t now = {.omega_e_radps = m->reading.omega_e_radps,
+                                  .ia_A          = m->sample.ia_A,
+                                  .ib_A          = m->sample.ib_A,
+                                  .valid         = m->sample.valid && m->reading.speed_valid,
+                                  .board_faults  = in->board_faults};
+    return app_stop_bridge(&m->stop, &now);
+}
+
+/* Of a running drive the estimate: a sample that is not valid has no speed, and an encoder that fails has a wrong one. */
+bridge_t app_states_trip(app_modes_t *m, const app_modes_input_t *in, app_fault_t fault)
+{
+    const float          speed_e_radps = (m->drive.state == DRIVE_OFF) ? m->reading.omega_e_radps
+                                                                       : m->drive.wanted.now.omega_e_radps;
+    const app_snapshot_t snapshot      = {.fault          = fault,
+                                          .mode           = m->mode,
+                                          .drive_fault    = m->drive.fault,
+                                          .board_faults   = in->board_faults,
+                                          .raw            = *in->raw,
+                                          .speed_e_radps  = m->reading.omega_e_radps,
+                                          .wanted_e_radps = in->command.omega_e_radps,
+                                          .ticks          = m->ticks};
+    const bool           encoder = ((in->board_faults & (uint16_t)BOARD_FAULT_ENCODER) != 0U) ||
+                         (m->drive.fault == DRIVE_FAULT_ENCODER);
+
+    if (encoder) {
+        app_angle_drop(&m->angle);
+    }
+    m->snapshot = snapshot;
+    m->fault    = fault;
+    app_states_enter(m, APP_MODE_FAULT);
+    if (m->gate_on) {
+        app_stop_fault(&m->stop, speed_e_radps, m->drive.fault, in->board_faults);
+    }
+    return fault_bridge(m, in);
+}
+
+static bridge_t boot(app_modes_t *m)
+{
+    m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
+    if (m->timer_ticks >= m->config->boot_ticks) {
+        app_states_enter(m, APP_MODE_CALIBRATE);
+    }
+    return bridge_open();
+}
+
+static bridge_t calibrate(app_modes_t *m, const app_modes_input_t *in)
+{
+    m->sum_a_cnt += in->raw->ia_cnt;
+    m->sum_b_cnt += in->raw->ib_cnt;
+    m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
+    if (m->timer_ticks < m->config->calibrate_ticks) {
+        return bridge_open();
+    }
+    if (!app_scale_set_zero(&m->scale, m->sum_a_cnt, m->sum_b_cnt, m->timer_ticks)) {
+        return app_states_trip(m, in, APP_FAULT_OFFSET);
+    }
+    m->calibrated = true;
+    app_states_enter(m, APP_MODE_READY);
+    return bridge_open();
+}
+
+/* What is in the way of a start and may go again. An unknown temperature is a fault of the run instead. */
+bool app_modes_in_the_way(const app_modes_t *m)
+{
+    return (m->hot && m->sample.temperature_valid) || m->dc_link_out || m->tripped ||
+           !app_gate_may_start(&m->config->gate, m->reading.omega_e_radps);
+}
+
+static void enter_run(app_modes_t *m)
+{
+    const bool precharge = !m->gate_on && (m->config->gate.precharge_ticks > 0U);
+    app_states_enter(m, precharge ? APP_MODE_PRECHARGE : APP_MODE_RUN);
+}
+
+/* The zeros after every stop, as a mean over some tens of ticks; currents die out first, and beyond omega_link (app_stop.h)
+ * some flow through an open bridge. */
+static bool zeros_hold(app_modes_t *m)
+{
+    if (!m->sample.valid || !base_within(m->reading.omega_e_radps, m->stop.link_e_radps)) {
+        m->timer_ticks = 0U;
+        return true;
+    }
+    m->zero_a_A += ZERO_FORGETS * (m->sample.ia_A - m->zero_a_A);
+    m->zero_b_A += ZERO_FORGETS * (m->sample.ib_A - m->zero_b_A);
+    if (m->timer_ticks < ZERO_TICKS) {
+        m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
+        return true;
+    }
+    return base_within(m->zero_a_A, m->config->zero_drift_A) &&
+           base_within(m->zero_b_A, m->config->zero_drift_A);
+}
+
+/* The bounds are those of the start; the angle is not known any more afterwards. */
+static bool commissioning_starts(app_modes_t *m, const app_modes_input_t *in)
+{
+    const app_command_t *c = &in->command;
+
+    if (!c->commission) {
+        m->commission_armed = true;
+        return false;
+    }
+    const bool start = m->commission_armed && !c->run && !app_modes_in_the_way(m) &&
+                       app_commission_allows(&m->commission, &c->bounds);
+    m->commission_armed = false;
+    return start;
+}
+
+static bool alignment_starts(app_modes_t *m, const app_modes_input_t *in)
+{
+    const app_command_t *c = &in->command;
+
+    if (!c->align) {
+        m->align_armed = true;
+        return false;
+    }
+    const bool start = m->align_armed && !c->run && !app_modes_in_the_way(m);
+    m->align_armed   = false;
+    return start;
+}
+
+static void enter_align(app_modes_t *m, const app_modes_input_t *in)
+{
+    app_align_start(&m->align, in->raw->position_cnt);
+    app_states_enter(m, APP_MODE_ALIGN);
+}
+
+/* The bridge stays open in this tick: the next one looks at everything again in the new mode. */
+static bridge_t ready(app_modes_t *m, const app_modes_input_t *in)
+{
+    m->tripped = (in->board_faults & (uint16_t)BOARD_FAULT_INPUT) != 0U;
+    if (!zeros_hold(m)) {
+        m->calibrated = false; /* a reset measures them again */
+        return app_states_trip(m, in, APP_FAULT_OFFSET);
+    }
+    if (commissioning_starts(m, in)) {
+        app_commission_start(&m->commission, &in->command.bounds, in->raw->position_cnt);
+        app_states_enter(m, APP_MODE_COMMISSION);
+        return bridge_open();
+    }
+    if (alignment_starts(m, in)) {
+        enter_align(m, in);
+        return bridge_open();
+    }
+    if (!in->command.run) {
+        m->armed = true;
+        return bridge_open();
+    }
+    const bool start = m->armed && !app_modes_in_the_way(m);
+    m->armed         = false; /* a refused start is not made up for later */
+    if (start && (m->angle.reference != APP_ANGLE_NONE)) {
+        enter_run(m);
+    } else if (start) {
+        enter_align(m, in);
+    } else {
+        /* stays */
+    }
+    return bridge_open();
+}
+
+/* The drive itself stays off: it only checks samples and command against its limits. False: one of them is wrong. */
+static bool drive_watches(app_modes_t *m, const app_modes_input_t *in)
+{
+    (void)app_states_drive(m, &in->command, false);
+    return m->drive.state != DRIVE_FAULT;
+}
+
+static bridge_t precharge(app_modes_t *m, const app_modes_input_t *in)
+{
+    if (!in->command.run) {
+        app_states_enter(m, APP_MODE_READY);
+        return bridge_open();
+    }
+    if (!drive_watches(m, in)) {
+        return app_states_trip(m, in, APP_FAULT_DRIVE);
+    }
+    if (m->timer_ticks >= m->config->gate.precharge_ticks) {
+        app_states_enter(m, APP_MODE_RUN);
+        return app_states_run(m, in);
+    }
+    m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
+    return bridge_shorted();
+}
+
+/* By the index, on the way. Who asked for an alignment alone has what it is for. */
+static bridge_t aligned(app_modes_t *m, const app_modes_input_t *in)
+{
+    if (!in->command.run) {
+        app_states_enter(m, APP_MODE_READY);
+        return bridge_open();
+    }
+    enter_run(m);
+    return (m->mode == APP_MODE_RUN) ? app_states_run(m, in) : bridge_open();
+}
+
+static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
+{
+    if (!in->command.run && !in->command.align) {
+        app_states_enter(m, APP_MODE_READY);
+        return bridge_open();
+    }
+    if (!drive_watches(m, in)) {
+        return app_states_trip(m, in, APP_FAULT_DRIVE);
+    }
+    if (m->angle.reference == APP_ANGLE_INDEX) { /* the mark came by: better than alignment */
+        app_position_forget(&m->position);
+        return aligned(m, in);
+    }
+    const bridge_t out = app_align_tick(&m->align, m->sample.ia_A, m->sample.ib_A,
+                                        m->sample.dc_link_V, in->raw->position_cnt);
+    if (m->align.stage == APP_ALIGN_FAILED) {
+        return app_states_trip(m, in, APP_FAULT_ALIGN);
+    }
+    if (m->align.stage == APP_ALIGN_DONE) {
+        app_angle_align(&m->angle, in->raw->position_cnt, m->align.config->theta_e_rad);
+        app_position_forget(&m->position);
+        app_states_enter(m, in->command.run ? APP_MODE_RUN : APP_MODE_READY);
+        return in->command.run ? out : bridge_open();
+    }
+    return out;
+}
+
+/* Withdrawn, the bridge opens at once: no speed of a commissioning induces more than the dc link holds. */
+static bridge_t commissioning(app_modes_t *m, const app_modes_input_t *in)
+{
+    const bool     wanted = in->command.commission && !in->command.run;
+    const bridge_t out    = app_commission_tick(&m->commission, &m->sample, in->raw, wanted);
+
+    if (!wanted || (m->commission.module.stage == COMMISSION_FINISHED)) {
+        app_angle_drop(&m->angle);
+        app_states_enter(m, APP_MODE_READY);
+        return bridge_open();
+    }
+    if (m->commission.module.stage == COMMISSION_ABORTED) {
+        return app_states_trip(m, in, APP_FAULT_COMMISSION);
+    }
+    return out;
+}
+
+static void leave_fault(app_modes_t *m)
+{
+    m->fault        = APP_FAULT_NONE;
+    m->stop.shorted = false;
+    drive_reset(&m->drive);
+    app_states_enter(m, m->calibrated ? APP_MODE_READY : APP_MODE_BOOT);
+}
+
+/* A shorted motor whose speed nobody knows is the operator's to open. */
+static bridge_t in_fault(app_modes_t *m, const app_modes_input_t *in)
+{
+    const bridge_t out   = fault_bridge(m, in);
+    const bool     known = m->sample.valid && m->reading.speed_valid;
+
+    if (in->command.reset && !in->command.run && !(m->stop.shorted && known)) {
+        leave_fault(m);
+        return bridge_open();
+    }
+    return out;
+}
+
+bridge_t app_states_rest(app_modes_t *m, const app_modes_input_t *in)
+{
+    switch (m->mode) {
+    case APP_MODE_BOOT:
+        return boot(m);
+    case APP_MODE_CALIBRATE:
+        return calibrate(m, in);
+    case APP_MODE_READY:
+        return ready(m, in);
+    case APP_MODE_ALIGN:
+        return align(m, in);
+    case APP_MODE_PRECHARGE:
+        return precharge(m, in);
+    case APP_MODE_COMMISSION:
+        return commissioning(m, in);
+    case APP_MODE_RUN:
+    case APP_MODE_STOP:
+    case APP_MODE_FAULT:
+    default:
+        break;
+    }
+    return in_fault(m, in);
+}
