@@ -1,4 +1,4 @@
 /* SPDX-License-Identifier: MIT */
 #include "parts.h"
 
-#include "../control/law_conventional.c"
+#include "../control/laws/law_conventional.c"

@@ -1,4 +1,4 @@
 /* SPDX-License-Identifier: MIT */
 #include "parts.h"
 
-#include "../control/law_noc_h.c"
+#include "../control/laws/law_noc_h.c"

@@ -11,7 +11,7 @@ namespace sdre {
 struct Motor;
 struct Inverter;
 
-/// How a run ends that is not wanted any more (firmware/app/app_stop.h).
+/// How a run ends that is not wanted any more (firmware/app/operate/app_stop.h).
 enum class StopReaction { coast, brake };
 
 struct BoardDescription {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What is made of firmware/app/registers.toml: the firmware's map, its documentation as tables and as CSV, the client's names.
+"""What is made of firmware/app/registers/registers.toml: the firmware's map, its documentation as tables and as CSV, the client's names.
 
     python3 host_tools/registers/generate.py            writes what has changed
     python3 host_tools/registers/generate.py --check    says what would change; exit code 1 then
@@ -22,8 +22,8 @@ from c_signals import signals_header, signals_source  # noqa: E402
 from table import Group, Register, Signal, TableError, read, signals  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
-TABLE = ROOT / "firmware/app/registers.toml"
-MARK = "<!-- registers {name}: of firmware/app/registers.toml -->"
+TABLE = ROOT / "firmware/app/registers/registers.toml"
+MARK = "<!-- registers {name}: of firmware/app/registers/registers.toml -->"
 END = "<!-- end -->"
 
 
@@ -88,7 +88,7 @@ def csv_text(groups: List[Group]) -> str:
 
 def python_text(groups: List[Group], found: List[Signal]) -> str:
     """register_map.py of sdre_drive."""
-    lines = ["# SPDX-License-Identifier: MIT", '"""Generated from firmware/app/registers.toml. Do not edit: host_tools/registers/generate.py."""', "",
+    lines = ["# SPDX-License-Identifier: MIT", '"""Generated from firmware/app/registers/registers.toml. Do not edit: host_tools/registers/generate.py."""', "",
              "from __future__ import annotations", "", "from typing import NamedTuple, Optional, Tuple", "", "",
              "class Register(NamedTuple):", '    """One value: step is 0 for a whole number."""', "",
              "    name: str", "    address: int", "    type: str", "    step: float", "    unit: str", "", "",
@@ -119,10 +119,10 @@ def files(groups: List[Group], found: List[Signal]) -> Dict[Path, str]:
     """Every file and what has to be in it."""
     doc = ROOT / "docs/modbus.md"
     return {
-        ROOT / "firmware/app/app_registers_map.h": header(groups),
-        ROOT / "firmware/app/app_registers_map.c": source(groups),
-        ROOT / "firmware/app/app_scope_signals.h": signals_header(found),
-        ROOT / "firmware/app/app_scope_signals.c": signals_source(found),
+        ROOT / "firmware/app/registers/app_registers_map.h": header(groups),
+        ROOT / "firmware/app/registers/app_registers_map.c": source(groups),
+        ROOT / "firmware/app/trace/app_scope_signals.h": signals_header(found),
+        ROOT / "firmware/app/trace/app_scope_signals.c": signals_source(found),
         doc: documented(groups, found, doc.read_text(encoding="utf-8")),
         ROOT / "docs/registers.csv": csv_text(groups),
         ROOT / "host_tools/python/sdre_drive/register_map.py": python_text(groups, found),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""firmware/app/registers.toml, read and checked. Standard library alone (Python 3.11)."""
+"""firmware/app/registers/registers.toml, read and checked. Standard library alone (Python 3.11)."""
 
 from __future__ import annotations
 

@@ -120,7 +120,7 @@ def check_symbols(sections):
 
 def table_sources():
     """Files whose constants are read in every period."""
-    files = sorted((ROOT / "firmware" / "control").glob("law_*.c"))
+    files = sorted((ROOT / "firmware/control/laws").glob("law_*.c"))
     return [source for source in files if not source.name.endswith("_fields.c")]
 
 

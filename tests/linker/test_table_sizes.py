@@ -14,7 +14,8 @@ import command_file
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FIRMWARE = ROOT / "firmware"
-INCLUDES = [f"-I{FIRMWARE / d}" for d in ("control", "commission", "store", "app", "board", "board/f28335")]
+ROOMS = [FIRMWARE / d for d in ("control", "commission", "store", "app", "board", "board/f28335")]
+INCLUDES = [f"-I{path}" for room in ROOMS for path in (room, *sorted(room.glob("*/")))]
 COMPILER = ["clang", "--target=arm-none-eabi", "-std=c99", "-ffreestanding", "-nostdlibinc", "-isystem",
             str(ROOT / "tests/target/include"), *INCLUDES, "-D_Bool=unsigned short", "-S", "-o", "-", "-xc", "-"]
 SPARE = 0x0100  # for the board's and the run-time library's; theirs are counted by nobody
@@ -24,7 +25,7 @@ SAMPLES = {"noc_h": 256}  # of the scope; the others have 512
 
 
 def laws():
-    return re.findall(r'#include "law_(\w+)\.h"', (FIRMWARE / "control" / "laws.h").read_text())
+    return re.findall(r'#include "law_(\w+)\.h"', (FIRMWARE / "control/laws/laws.h").read_text())
 
 
 def assembly(source, law):
@@ -43,7 +44,7 @@ def words(law):
 def variables(law):
     """Words of what the application keeps: it lies beside the constants in force."""
     total = 0
-    for source in sorted((FIRMWARE / "app").glob("*.c")):
+    for source in sorted((FIRMWARE / "app").rglob("*.c")):
         found = re.findall(r"\.comm\s+\w+,(\d+)", assembly(f'#include "{source}"\n', law))
         total += sum(int(octets) // 2 for octets in found)
     return total

@@ -14,6 +14,7 @@ core=firmware/control
 app=firmware/app
 board=firmware/board/f28335
 config=firmware/config
+includes=$(find "$core" "$app" firmware/{commission,store} -type d -printf '-I%p ')
 laws=(noc noc_speed noc_h conventional dobc pid pi_foc ladrc)
 
 # How many states are told apart in these functions; in others Eva joins them where paths meet.
@@ -58,8 +59,8 @@ files_of()
     find "$core" -name '*.c' ! -name 'law_*.c'
     case $1 in
         any) ;;
-        conventional) printf '%s\n' "$core/law_conventional.c" "$core/law_noc_speed.c" "$core/law_conventional_fields.c" "$core/law_noc_speed_fields.c" ;;
-        *) printf '%s\n' "$core/law_$1.c" "$core/law_$1_fields.c" ;;
+        conventional) printf '%s\n' "$core"/{laws/law_conventional,laws/law_noc_speed,fields/law_conventional_fields,fields/law_noc_speed_fields}.c ;;
+        *) printf '%s\n' "$core/laws/law_$1.c" "$core/fields/law_$1_fields.c" ;;
     esac
 }
 
@@ -68,7 +69,7 @@ analyse()
     local law=$1 entry=$2 log=build/prove/$1.$2.log begin=$SECONDS files alarms open
     mapfile -t files < <(files_of "$law" "$entry")
     # shellcheck disable=SC2086 # options are words
-    frama-c -machdep x86_64 -c11 -cpp-extra-args="-I$core -Ifirmware/commission -Ifirmware/store -I$app -I$board/.. -I$board -DPROVE_$law -DPROVE_LAW=$law" "${files[@]}" \
+    frama-c -machdep x86_64 -c11 -cpp-extra-args="$includes -I$board/.. -I$board -DPROVE_$law -DPROVE_LAW=$law" "${files[@]}" \
         -eva -main "$entry" -lib-entry -warn-special-float none -eva-precision 3 -eva-msg-key=-initial-state,-final-states \
         -eva-slevel-function "${apart[$entry]}" ${options[$entry]} >"$log" 2>&1 || true
     alarms=$(grep -c 'eva:alarm' "$log" || true)

@@ -42,7 +42,7 @@ def differences() -> List[str]:
         "application": enumerators("app/app_status.h", "APP_FAULT_", "NONE"),
         "drive": enumerators("control/drive_tick.h", "DRIVE_FAULT_", "NONE"),
         "board": enumerators("board/board.h", "BOARD_FAULT_", "NONE"),
-        "condition": enumerators("app/app_registers.h", "APP_REGISTERS_", "HOT"),
+        "condition": enumerators("app/registers/app_registers.h", "APP_REGISTERS_", "HOT"),
     }
     found: List[str] = []
     for group, firmware in enums.items():

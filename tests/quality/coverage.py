@@ -44,7 +44,7 @@ def main():
     for directory in ("control", "app"):
         lines = missed_lines = branches = missed_branches = 0
         for source, rows in measured(build):
-            if source.parent.name != directory:
+            if ub.room_of(source) != directory:
                 continue
             for row in rows:
                 lines += 1

@@ -8,8 +8,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 BOARD = ROOT / "firmware/board/f28335"
-INCLUDES = [ROOT / p for p in ("firmware/control", "firmware/commission", "firmware/store", "firmware/app", "firmware/board", "firmware/board/f28335",
-                               "firmware/config", "tests/support", "build/unity")]
+ROOMS = ("control", "app", "store", "commission")  # of firmware; each with the rooms inside it
+INCLUDES = [path for name in ROOMS for path in (ROOT / "firmware" / name, *sorted((ROOT / "firmware" / name).glob("*/")))]
+INCLUDES += [ROOT / p for p in ("firmware/board", "firmware/board/f28335", "firmware/config", "tests/support", "build/unity")]
 FLAGS = ["-std=c99", "-w", "-ffp-contract=off", "-DUNITY_INCLUDE_DOUBLE", "-DUNITY_SUPPORT_64",
          *[f"-I{p}" for p in INCLUDES]]
 # As tests/CMakeLists.txt: tables of drives that the shipped one is not.
@@ -30,13 +31,22 @@ def require(command):
 
 def sources():
     """What is measured: every .c file of the core, of the application, of what is stored and of the commissioning."""
-    return [file for name in ("control", "app", "store", "commission") for file in sorted((ROOT / "firmware" / name).glob("*.c"))]
+    return [file for name in ROOMS for file in sorted((ROOT / "firmware" / name).rglob("*.c"))]
+
+
+def room_of(source):
+    """The room of firmware that a source stands in, at any depth."""
+    return source.relative_to(ROOT / "firmware").parts[0]
 
 
 def tests():
     """Names of the unit tests that need nothing but core, application and the fake board."""
-    names = [p.stem for p in sorted((ROOT / "tests/unit").glob("test_*.c"))]
-    return [n for n in names if n != "test_app_main"]  # that one is of the board's main()
+    return [n for n in sorted(test_files()) if n != "test_app_main"]  # that one is of the board's main()
+
+
+def test_files():
+    """{name: file} of all unit tests."""
+    return {p.stem: p for p in (ROOT / "tests/unit").rglob("test_*.c")}
 
 
 class Build:
@@ -50,7 +60,7 @@ class Build:
         work = [(p, p.stem, []) for p in sources()]
         work += [(ROOT / "firmware/config/board_config.c", "board_config", []), (ROOT / "firmware/config/gain_tables.c", "gain_tables", []),
                  (ROOT / "build/unity/unity.c", "unity", []), (ROOT / "tests/support/fake_board.c", "fake_board", [])]
-        work += [(ROOT / f"tests/unit/{n}.c", n, []) for n in tests()]
+        work += [(test_files()[n], n, []) for n in tests()]
         work += [(path, name, [f"-Dgain_tables_drive={name}_drive"]) for name, path in tables]
         with ThreadPoolExecutor(JOBS) as pool:
             list(pool.map(lambda w: require(["gcc", *self.flags, *w[2], "-c", w[0], "-o", self.object(w[1])]), work))

@@ -16,7 +16,8 @@ here=tests/target
 stand_in=host_tools/sil/f28335/include # headers of the device, for firmware/board/f28335
 tool=${1-}
 
-includes=(-Ifirmware/control -Ifirmware/commission -Ifirmware/store -Ifirmware/config -Ifirmware/app -Ifirmware/board -Ifirmware/board/f28335)
+mapfile -t includes < <(find firmware/{control,commission,store,config,app} -type d -printf '-I%p\n')
+includes+=(-Ifirmware/board -Ifirmware/board/f28335)
 clang_flags=(-std=c99 -fsyntax-only -ffreestanding -nostdlibinc -isystem "$here/include"
     -Wall -Wextra -Wpedantic -Werror
     -Wconversion -Wsign-conversion -Wfloat-conversion -Wdouble-promotion -Wshorten-64-to-32
@@ -70,8 +71,9 @@ check()
 {
     local folder=$1
     shift
-    local files=("$folder"/*.c)
-    [[ -e ${files[0]} ]] || { printf '%s: no C files\n' "$folder"; return 1; }
+    local files
+    mapfile -t files < <(find "$folder" -name '*.c' | sort)
+    [[ -e ${files[0]-} ]] || { printf '%s: no C files\n' "$folder"; return 1; }
     analyse "$@" -- "${files[@]}" || return 1
     printf '%s: %s: %d files clean\n' "$tool" "$folder" "${#files[@]}"
 }

@@ -10,7 +10,8 @@ cc=$1
 status=0
 
 root=$PWD
-(cd "$work" && "$cc" -std=c99 -c "-I$root/firmware/control" "$root"/firmware/control/*.c)
+mapfile -t includes < <(find "$root/firmware/control" -type d -printf '-I%p\n')
+(cd "$work" && "$cc" -std=c99 -c "${includes[@]}" $(find "$root/firmware/control" -name '*.c'))
 ar rc "$work/libcontrol_core.a" "$work"/*.o
 # Every external symbol with the object that defines it
 for object in "$work"/*.o; do
@@ -33,7 +34,7 @@ int main(void)
     return drive_tick(&drive, &sample, &command).gate_enable ? 1 : 0;
 }
 END
-    "$cc" -std=c99 -Ifirmware/control "$work/program.c" "$work/libcontrol_core.a" -lm -o "$work/program"
+    "$cc" -std=c99 "${includes[@]}" "$work/program.c" "$work/libcontrol_core.a" -lm -o "$work/program"
     nm --defined-only "$work/program" | awk '{print $3}' | sort >"$work/symbols"
     join -1 1 -2 1 "$work/symbols" "$work/owners" | awk '{print $2}' | sort -u
 }

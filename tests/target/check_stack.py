@@ -20,7 +20,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 BOARD = ROOT / "firmware/board/f28335"
 HEADERS = ROOT / "host_tools/sil/f28335/include"
-FOLDERS = [ROOT / f"firmware/{name}" for name in ("control", "commission", "store", "app", "board/f28335")]
+ROOMS = [ROOT / f"firmware/{name}" for name in ("control", "commission", "store", "app", "board/f28335")]
+FOLDERS = [path for room in ROOMS for path in (room, *sorted(room.glob("*/")))]
 FLAGS = ["-std=c99", "-O2", "-w", "-ffreestanding", "-fno-math-errno", "-fcallgraph-info=su", "-S",
          *[f"-I{p}" for p in (*FOLDERS, BOARD.parent, ROOT / "firmware/config")],
          "-isystem", str(ROOT / "tests/target/include"), "-isystem", str(HEADERS), "-include", str(HEADERS / "c28_cpu.h")]

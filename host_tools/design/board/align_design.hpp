@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Current and times of the alignment (firmware/app/app_align.h), so that the shaft of any motor comes to rest in time.
+/// Current and times of the alignment (firmware/app/angle/app_align.h), so that the shaft of any motor comes to rest in time.
 #pragma once
 
 #include "drive/drive_file.hpp"

@@ -19,7 +19,7 @@ from sdre.scenario import Scenario
 
 
 class Sample(NamedTuple):
-    """What the core gets at a tick, in single precision (firmware/control/sample.h)."""
+    """What the core gets at a tick, in single precision (firmware/control/base/sample.h)."""
 
     ia_A: float  # phase currents, positive into the motor
     ib_A: float

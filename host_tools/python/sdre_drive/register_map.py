@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Generated from firmware/app/registers.toml. Do not edit: host_tools/registers/generate.py."""
+"""Generated from firmware/app/registers/registers.toml. Do not edit: host_tools/registers/generate.py."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ AVR = ["avr-gcc", "-mmcu=atmega2560", "-Wl,--gc-sections", "-ffunction-sections"
 SIMULATOR = ["simavr", "-m", "atmega2560", "-f", "16000000"]
 
 COMMON = ["-O2", "-fno-strict-aliasing", *ub.FLAGS, f"-I{HERE}", f"-I{STUB}"]
-CORE = [p for p in ub.sources() if p.parent.name == "control"] + [ub.ROOT / "firmware/config/gain_tables.c"]
+CORE = [p for p in ub.sources() if ub.room_of(p) == "control"] + [ub.ROOT / "firmware/config/gain_tables.c"]
 # It lets a timer of the host interrupt the application.
 LEFT_OUT = {"test_app"}
 

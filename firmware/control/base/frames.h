@@ -31,7 +31,7 @@ typedef struct {
  *
  *     sin r = r + r^3 (s_1 + s_2 r^2 + s_3 r^4),  cos r = 1 - r^2 / 2 + r^4 (c_1 + c_2 r^2 + c_3 r^4)   EQ-FRAMES-3
  *
- * Worst error within +-2 turns 9e-8, further out half a digit of the angle more (tests/unit/test_frames.c).
+ * Worst error within +-2 turns 9e-8, further out half a digit of the angle more (tests/unit/control/base/test_frames.c).
  *
  * @param theta_e_rad electrical angle of the d axis from phase a, +-FRAMES_ANGLE_MAX; beyond it the result has no
  *                    meaning, and of a NaN it is none.
