@@ -30,8 +30,8 @@ std::string names_of(const std::vector<Command> &commands)
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// What is wrong with a command line. The parser complains of what is missing before it comes to what it does not
-/// know, and a slip in a name is both.
+/// Message for a wrong command line. The parser reports missing arguments before unknown ones, and
+/// a slip in a name is both.
 std::string complaint(const CLI::App &app, const Tool &tool, const CLI::ParseError &error)
 {
     const std::vector<std::string> unknown = app.remaining(true);

@@ -16,7 +16,7 @@ class App;
 
 namespace sdre {
 
-/// What every command may answer beside its own.
+/// Exit codes that every command shares.
 enum ExitCode { exit_ok = 0, exit_bad_input = 1, exit_design_failed = 2 };
 
 /// The options of one command, bound to variables that live until it has run. A name without dashes is a position.

@@ -12,13 +12,15 @@ namespace sdre {
 struct OutputFile {
     std::filesystem::path path;
     std::string           text;
-    /// What follows `text`, where that is too much to be kept: a piece at a call, an empty one is the end.
+    /// Further pieces after `text`, for output that is too large for memory: one piece per call; an
+    /// empty piece is the end.
     std::function<std::string()> more = {};
 };
 
-/// Writes every file under a name of its own in the target's directory, then renames all of them; links are followed and a
-/// file that was there keeps its mode. What is no regular file (a device, a pipe) is written to as it is, before
-/// anything is renamed. InputError with the path as given when one cannot be written; no regular file has changed then.
+/// Writes every file to a temporary name in the target's directory, then renames all of them. Links
+/// are followed, and an existing file keeps its mode. A device or a pipe is written directly,
+/// before any rename. Throws InputError with the path as given when one cannot be written; then no
+/// regular file has changed.
 void write_files(const std::vector<OutputFile> &files);
 
 /// The whole file. InputError when it cannot be read.

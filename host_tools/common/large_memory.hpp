@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Memory for what may be larger than the machine's: from a size on it is a file without a name, which the system keeps
-/// in memory as long as there is room and on the disk else.
+/// Memory that may be larger than the machine's. From a certain size on it is an unnamed file. The
+/// system keeps that file in memory while there is room, and otherwise on the disk.
 #pragma once
 
 #include <cstddef>

@@ -14,7 +14,7 @@ std::uint64_t mix(std::uint64_t z)
     return z ^ (z >> 31U);
 }
 
-// Of splitmix64: its sequence is mix(seed + n step).
+// The step of splitmix64: its sequence is mix(seed + n step).
 constexpr std::uint64_t step = 0x9e3779b97f4a7c15ULL;
 
 } // namespace

@@ -7,7 +7,8 @@
 
 namespace sdre {
 
-/// Who draws; each source has a generator of its own, so that one does not shift another.
+/// The user of random numbers. Each source has its own generator, so that one does not shift
+/// another.
 enum class NoiseStream : std::uint64_t { adc_a = 1, adc_b = 2, encoder_disc = 3, start_angle = 4 };
 
 /// Evenly distributed numbers, a sequence per seed and stream.

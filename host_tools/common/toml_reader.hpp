@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Strict reading of a TOML table: every value is checked, every key must be known, and each complaint is
-/// one line with file, key, value and what is allowed.
+/// Strict reading of a TOML table. Every value is checked, and every key must be known. Each error
+/// is one line with file, key, value and the allowed range.
 #pragma once
 
 #include <filesystem>

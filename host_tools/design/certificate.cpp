@@ -23,8 +23,8 @@ constexpr int points_per_side = 64;
 constexpr int box_points_per_side = 12;
 constexpr int speed_points        = 4;
 
-// The phase current can pass from -max to +max while the bridge runs, so errors reach twice the limit;
-// beyond the same figure the firmware trips.
+// The phase current can pass from -max to +max while the bridge runs, so errors reach twice the
+// limit. Beyond twice the limit the firmware trips.
 double certified_range_A(const Motor &motor)
 {
     return 2.0 * motor.max_current_A;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What has to hold before a table is written, checked on the sampled system that the firmware runs.
+/// Conditions for writing a table, checked on the sampled system that the firmware runs.
 #pragma once
 
 #include "design/design.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What the host tools know of one of the firmware's laws: how its constants come about and how they are written.
+/// The design of one of the firmware's laws: how its constants are computed and how they are
+/// written.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What motor and inverter can do together, whatever the law: the figures that a person asks a drive for.
+/// Operating limits of motor and inverter together, independent of the law: the usual figures of a
+/// drive.
 #pragma once
 
 #include "drive/drive_file.hpp"

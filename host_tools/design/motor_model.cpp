@@ -10,8 +10,9 @@ using Eigen::MatrixXd;
 
 namespace {
 
-// Chosen: the acceleration per ampere then changes by five over the currents, as that of the machines that are certified
-// without; the current that it takes is a seventh of the limit without any magnet, 2 % of the largest copper loss.
+// Chosen: the acceleration per ampere then changes by five over the currents, as in the machines
+// that are certified without it. The current is a seventh of the limit without any magnet, with 2 %
+// of the largest copper loss.
 constexpr double least_flux_share = 0.2;
 
 double rest_current_A(const Motor &m)

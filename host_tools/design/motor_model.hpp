@@ -10,8 +10,9 @@
 
 namespace sdre {
 
-/// l[1] .. l[11] of paper A (2). l[0] is the d current without load [A], at most 0: a magnet that gives less than a fifth of
-/// the largest flux of the torque is helped by one, so that a q current always has some torque. 0 for all others.
+/// l[1] .. l[11] of paper A (2). l[0] is the d current without load [A], at most 0. It supports a
+/// magnet that gives less than a fifth of the largest flux, so that every q current has some
+/// torque. It is 0 for all other motors.
 using ReducedParameters = std::array<double, 12>;
 
 ReducedParameters reduced_parameters(const Motor &motor);
@@ -28,9 +29,9 @@ SdreProblem conventional_nosc_problem(const ReducedParameters &l, const NoscSpec
 /// 3 x 2 input matrix of (10).
 Eigen::MatrixXd nosc_input_matrix(const ReducedParameters &l);
 
-/// Observer (27), (34), (35): states d_w, d_q, d_d, w, i_q, i_d, in the encoder form also theta; scheduled by
-/// i_q; not transposed. n is 6 or 7. The conventional one is scheduled by i_d too; its form for the load alone has
-/// no d_q and d_d: n is 4.
+/// Observer (27), (34), (35). States: d_w, d_q, d_d, w, i_q, i_d, in the encoder form also theta.
+/// It is scheduled by i_q and not transposed; n is 6 or 7. The conventional observer is scheduled
+/// by i_d too. Its form for the load alone has no d_q and d_d, and n is 4.
 struct ObserverModel {
     Eigen::MatrixXd                A0;    ///< n x n
     Eigen::MatrixXd                dA;    ///< n x n, per ampere of i_q

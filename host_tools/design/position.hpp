@@ -18,11 +18,12 @@ Eigen::MatrixXd position_input_matrix(const ReducedParameters &l);
 /// Lambda_n of EQ-POSITION-3 with the angle's column first, 2 x 4. Needs the drive's [position].
 GainSeries solve_position(const ReducedParameters &l, const Drive &drive, Precision precision);
 
-/// What the firmware gets: gains, limits of a profile, and how far a reference may be ahead. Needs design.position.
+/// Constants of the firmware: gains, limits of a profile, and how far a reference may be ahead.
+/// Needs design.position.
 position_gains_t position_constants(const Design &design);
 
-/// The gains of all ways in which the law runs at small errors: Lambda_0 of the speed, and that of the position, 2 x 4, where
-/// the drive has it.
+/// The gains of all modes of the law at small errors: Lambda_0 of the speed. Where the drive has
+/// it, also Lambda_0 of the position (2 x 4).
 std::vector<Eigen::MatrixXd> feedback_gains(const Design &design);
 
 /// ".position = {..},\n"

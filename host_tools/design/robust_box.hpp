@@ -22,7 +22,7 @@ struct RobustBox {
     std::string corner;      ///< the first to become unstable, "" when the whole box is stable
 };
 
-/// By bisection to one hundredth.
+/// Bisection to one hundredth.
 RobustBox robust_box(const Motor &motor, const MotorRadius &radius);
 
 /// The same with one parameter at either end and the others as believed: eight motors instead of sixteen.

@@ -93,8 +93,9 @@ SampledModel sampled_model(const ReducedParameters &motor, const ReducedParamete
     A.bottomLeftCorner(7, 4)  = PL * C.rightCols(4);
     A.bottomRightCorner(7, 7) = P - PL * C + G * F;
 
-    // Nothing of the motor depends on the angle itself, only on theta - theta^: with that difference in place of theta, theta^
-    // is an integrator that only a position's law reads. Else it is left out.
+    // The motor depends on theta - theta^ only, not on the angle itself. With that difference as a
+    // state, theta^ is an integrator that only a position's law reads. Otherwise theta^ is left
+    // out.
     const Eigen::Index n = has_angle(gains.Lambda) ? 11 : 10;
     MatrixXd           S = MatrixXd::Identity(11, 11);
     S(3, 10)             = -1.0;

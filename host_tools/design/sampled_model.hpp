@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// The sampled closed loop of the encoder form, linearised at an operating point: true motor, observer, law, one
-/// period of delay. State [w iq id (theta - theta^) | d_w^ d_q^ d_d^ w^ iq^ id^] as deviations from the operating point, with
-/// a position's law also theta^: n = 10 or 11.
+/// The sampled closed loop of the encoder form, linearised at an operating point: true motor,
+/// observer, law, one period of delay. The state [w iq id (theta - theta^) | d_w^ d_q^ d_d^ w^ iq^
+/// id^] has deviations from the operating point. A position's law adds theta^: n = 10 or 11.
 #pragma once
 
 #include "design/motor_model.hpp"
@@ -17,7 +17,7 @@ struct OperatingPoint {
     double id_A          = 0.0;
 };
 
-/// The gains in force: Lambda (2 x 3, of a position 2 x 4 with the angle first) and L (7 x 3) at that point.
+/// The gains at that point: Lambda is 2 x 3, of a position 2 x 4 with the angle first. L is 7 x 3.
 struct LoopGains {
     Eigen::MatrixXd Lambda;
     Eigen::MatrixXd L;
@@ -55,8 +55,8 @@ struct PredictedObserver {
 PredictedObserver predicted_encoder_form(const ReducedParameters &model, const OperatingPoint &at,
                                          double ts_s);
 
-/// The law of the firmware as a row pair on the predicted observer state (2 x 7), of the speed or of a position: EQ-NOSC-1 and
-/// EQ-FEEDFORWARD-1, 2 with iq_ref of EQ-CURRENT-REF-1 and a constant id_ref.
+/// The firmware's law as two rows on the predicted observer state (2 x 7), for speed or position.
+/// It is EQ-NOSC-1 and EQ-FEEDFORWARD-1, 2 with iq_ref of EQ-CURRENT-REF-1 and a constant id_ref.
 Eigen::MatrixXd encoder_form_law(const ReducedParameters &l, const Eigen::MatrixXd &Lambda,
                                  const OperatingPoint &at);
 

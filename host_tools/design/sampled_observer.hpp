@@ -24,8 +24,8 @@ SampledObserverProblem sampled_observer(const Eigen::MatrixXd &A, const Eigen::M
 Eigen::VectorXcd encoder_form_poles(const ObserverModel &model, const Eigen::MatrixXd &L,
                                     double iq_A, double ts_s);
 
-/// The encoder form's L = K / Ts with its series in iq, of order 0 or 1, at standstill: the motor is then its own mirror
-/// image. DesignError when an equation has no acceptable solution.
+/// L = K / Ts of the encoder form at standstill, with its series in iq of order 0 or 1. The motor
+/// is its own mirror image there. DesignError when an equation has no acceptable solution.
 GainSeries solve_encoder_form(const ReducedParameters &l, const NodoSpec &spec, double ts_s);
 
 } // namespace sdre

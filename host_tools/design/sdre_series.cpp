@@ -66,7 +66,7 @@ bool difference(const Powers &alpha, const Powers &beta, Powers &result)
     return true;
 }
 
-/// What the known terms contribute to the equation of X_alpha, and the sum of the sizes of its
+/// Contribution of the known terms to the equation of X_alpha, and the sum of the sizes of its
 /// parts.
 struct Forcing {
     Matrix W;
@@ -109,7 +109,7 @@ Matrix closed_loop_matrix(const SdreProblem &problem, const Matrix &X)
     return problem.A0.cast<Scalar>() - problem.G.cast<Scalar>().lazyProduct(X);
 }
 
-/// What the rounding of X to double has cut off, from the residual of EQ-CARE-1.
+/// Rounding error of X in double, from the residual of EQ-CARE-1.
 Matrix newton_step(const SdreProblem &problem, const Matrix &X, const Matrix &Acl)
 {
     const Matrix XA = X.lazyProduct(problem.A0.cast<Scalar>());

@@ -25,7 +25,7 @@ double worse(double a, double b)
     return a <= b || std::isnan(b) ? b : a;
 }
 
-/// What is found at one point.
+/// Results at one point.
 struct Found {
     double                 spectral_radius = 0.0;
     std::vector<LoopCheck> channels;
@@ -175,7 +175,8 @@ Verdict examine(const LoopFamily &family, const Drive &drive)
 
 double excess(const Verdict &v, double ts_s)
 {
-    // Of a radius the distance to 1 counts, in the unit of what is allowed; an unstable loop is far off.
+    // A spectral radius counts by its distance to 1, relative to the allowed one. An unstable loop
+    // counts as far off.
     const double room  = -std::log(std::min(v.spectral_radius, 1.0)) * slowest_mode_s / ts_s;
     double       worst = 1.0 / std::max(room, 1e-3);
     for (const Channel &c : v.channels) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// One judgement of a whole sampled loop, the same for every law: does it settle, how much margin has it where it is broken,
-/// which other motors may it meet, and how far are its own noise and load steps from its trips.
+/// One verdict on a whole sampled loop, the same for every law. It checks the slowest mode, the
+/// margin at each opening of the loop, and other motors. It also checks the distance of the loop's
+/// own noise and load steps from its trip levels.
 #pragma once
 
 #include <functional>
@@ -18,7 +19,8 @@ struct Design;
 
 /// A law's closed loop, linearised, with the tables of the drive and a motor that may be another.
 struct LoopFamily {
-    /// What it is broken at, one at a time, everything else closed: "q axis".
+    /// Names of the places where the loop is opened, one at a time with everything else closed: "q
+    /// axis".
     std::vector<std::string> channels;
     /// Loop i is broken at channel i % channels.size(); more than one per channel when the law runs in several ways.
     std::function<std::vector<BrokenLoop>(const Motor &motor, const OperatingPoint &at)> loops;
@@ -50,8 +52,9 @@ struct Verdict {
     std::vector<TripMargin>  trips;
 };
 
-/// On the MTPA curve; where the dc link cannot hold that, with weakened flux and of the q current what is left: no drive is
-/// ever anywhere else for longer than a transient.
+/// The steady operating point at a speed and a q current. It is on the MTPA curve. Where the dc
+/// link cannot hold that, the flux is weakened and the q current reduced. A drive is elsewhere only
+/// during a transient.
 OperatingPoint held_point(const Design &design, double speed_e_radps, double iq_A);
 
 /// Standstill, rated and largest speed of a command, each without current and with the largest either way. A negative speed

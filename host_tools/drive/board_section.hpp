@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What the drive file says of the board around the processor: [board]. Every key has a default from physics.
+/// [board] of the drive file: the board around the processor. Every key has a default from physics.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace sdre {
 struct Motor;
 struct Inverter;
 
-/// How a run ends that is not wanted any more (firmware/app/operate/app_stop.h).
+/// Reaction when a run ends (firmware/app/operate/app_stop.h).
 enum class StopReaction { coast, brake };
 
 struct BoardDescription {
@@ -34,7 +34,7 @@ struct BoardDescription {
     double pulse_min_s = 0.0; ///< shortest pulse that the drivers pass
 };
 
-/// What a file without [board] has.
+/// Values of a file without [board].
 BoardDescription default_board(const Motor &motor, const Inverter &inverter);
 
 /// The table, or the defaults without one.

@@ -15,8 +15,8 @@
 namespace sdre {
 namespace {
 
-// Allowed values: wide enough for any drive from a model motor to a locomotive, narrow enough that a
-// slipped unit (mH, rpm, g cm^2) is caught.
+// Allowed values. They are wide enough for any drive from a model motor to a locomotive. They are
+// narrow enough to find a wrong unit (mH, rpm, g cm^2).
 constexpr Range resistance_Ohm{1e-5, 1e3};
 constexpr Range inductance_H{1e-7, 10.0};
 constexpr Range flux_Wb{0.0, 10.0};

@@ -27,7 +27,8 @@ struct Motor {
     int    slots = 0; ///< stator slots, periods of cogging per turn; 0 when not given
 };
 
-/// What takes the energy that a braking motor, or with an open bridge its EMF, drives into the dc link.
+/// Sink for the energy that a braking motor drives into the dc link, or its EMF with an open
+/// bridge.
 enum class DcLinkSink {
     none,          ///< nothing: the capacitor charges
     brake_chopper, ///< a resistor that is switched on by the link's voltage
@@ -51,7 +52,8 @@ struct Encoder {
     double index_angle_e_rad = 0.0; ///< electrical angle at the index mark; 0: it marks the d axis
 };
 
-/// What measures the phase currents. The defaults follow the motor: a range that shows a trip at twice the limit.
+/// Measurement of the phase currents. The defaults follow the motor: a range that shows a trip at
+/// twice the limit.
 struct CurrentSensors {
     double range_A     = 0.0; ///< full scale of the converter, either way
     double noise_rms_A = 0.0;
@@ -71,8 +73,8 @@ struct PositionSpec {
     std::array<double, 2> T{};
 };
 
-/// What paper A's observer measures beside the currents; of the conventional one, which measures the speed, what it
-/// estimates: the load alone or all three disturbances.
+/// Measurement of paper A's observer beside the currents: speed or encoder angle. The conventional
+/// observer measures the speed; its two forms estimate the load alone or all three disturbances.
 enum class NodoForm { speed, encoder, conventional_load, conventional_all };
 
 const char *nodo_form_name(NodoForm form);
@@ -86,8 +88,8 @@ struct NodoSpec {
     std::array<double, 3> T{};
 };
 
-/// The control law; paper A's, the same with a harmonic observer, the one paper A compares with, one of paper B's, or what
-/// drives usually have.
+/// The control law: paper A's, the same with a harmonic observer, paper A's rival, one of paper
+/// B's, or a cascade.
 enum class Law { noc, noc_h, conventional_noc, cdobc, gpiobc, hdobc, pid, pi_foc, ladrc };
 
 /// The laws with a controller and an observer from a state-dependent Riccati equation.
@@ -137,7 +139,7 @@ struct CascadeSpec {
     double observer_radps   = 0.0; ///< ladrc: the same of both poles of the observer
 };
 
-/// What noc_h's observer knows of repeating disturbances; weights are those of the observer's Q.
+/// Model of repeating disturbances in noc_h's observer; weights are those of the observer's Q.
 struct HarmonicSpec {
     std::vector<double>
         sensor; ///< electrical orders of current-sensor errors: 1 offset, 2 unequal gains
@@ -180,7 +182,7 @@ Drive read_drive_file(const std::filesystem::path &file);
 /// The same of a text; `source` names it in messages.
 Drive read_drive_text(const std::string &text, const std::string &source);
 
-/// What a drive file without [current_sensors] has.
+/// Values of a drive file without [current_sensors].
 CurrentSensors default_current_sensors(const Motor &motor);
 
 /// "none", "brake_chopper", "supply".

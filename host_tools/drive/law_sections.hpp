@@ -7,7 +7,7 @@
 
 namespace sdre {
 
-/// Of every electrical speed in a drive file: wide, but a slipped unit is caught.
+/// Range of every electrical speed in a drive file: wide, but narrow enough to find a wrong unit.
 constexpr Range allowed_speed_e_radps{1.0, 1e5};
 
 /// The key `law`; paper A's when it is not there.

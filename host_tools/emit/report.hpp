@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What `sdre-gains report` prints.
+/// Output of `sdre-gains report`.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace sdre {
 
-/// What the linear model of the sampled loop says of the load step at half the rated speed, from half to all of the rated
-/// torque: see tune/objective.hpp.
+/// Prediction of the linear sampled loop for the load step from half to all of the rated torque, at
+/// half the rated speed: see tune/objective.hpp.
 struct Prediction {
     double speed_e_radps   = 0.0;
     double load_step_Nm    = 0.0;

@@ -8,8 +8,9 @@
 
 namespace sdre {
 
-/// One JSON object: of every point of speed and current the parts that the controller is made of and the whole loop with the
-/// believed motor; keys in docs/files.md. InputError for any law but noc with an observer in its encoder form.
+/// One JSON object with the parts of the controller at every point of speed and current. It also
+/// has the whole loop with the nominal motor. Keys: docs/files.md. InputError for any law but noc
+/// with an observer in its encoder form.
 std::string loops_json(const Design &design);
 
 } // namespace sdre

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What the two forms of the report share.
+/// Common part of the two forms of the report.
 #pragma once
 
 #include <Eigen/Core>

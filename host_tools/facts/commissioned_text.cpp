@@ -41,7 +41,8 @@ Replacement counted(const char *section, const char *key, int value, const std::
 
 std::vector<Replacement> replacements(const commission_result_t &f)
 {
-    // What is symmetric is found so within its error only, and a drive file wants Ld <= Lq.
+    // A symmetric machine is found symmetric only within the error, and a drive file needs Ld <=
+    // Lq.
     const bool   round = f.ld_H.value > f.lq_H.value;
     const double mean  = 0.5 * (f.ld_H.value + f.lq_H.value);
     const double ld    = round ? mean : f.ld_H.value;

@@ -6,10 +6,10 @@
 
 namespace sdre {
 
-/// What the sheet says more than once: torque, power, time constants against the values that were read.
+/// Checks torque, power and time constants that the sheet states beside the values that were read.
 void check_ratings(const Facts &facts, const Machine &m, Findings &findings);
 
-/// What physics needs: voltage, current slope, acceleration, counts of the encoder, flux of the iron.
+/// Checks physics: voltage, current slope, acceleration, counts of the encoder, flux of the iron.
 void check_machine(const Machine &m, Findings &findings);
 
 } // namespace sdre

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What a data sheet says, one key a fact: quantity, how it is meant, unit. `line_to_line_resistance_mOhm`,
+/// Keys of a data sheet, one per fact: quantity, definition, unit. `line_to_line_resistance_mOhm`,
 /// `ke_line_to_line_rms_V_per_krpm`, `rated_current_A_rms`, `inertia_kgcm2`.
 #pragma once
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What a drive's commissioning found, as `sdre-drive commission` reads it over Modbus and writes it: a file of TOML.
+/// The result of a drive's commissioning. `sdre-drive commission` reads it over Modbus and writes
+/// it as TOML.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +11,8 @@ extern "C" {
 
 namespace sdre {
 
-/// InputError in one line on anything missing, unknown or out of range. What a drive file does not take stays zero.
+/// InputError in one line on anything missing, unknown or out of range. Values that a drive file
+/// does not accept stay zero.
 commission_result_t read_found_file(const std::filesystem::path &file);
 
 } // namespace sdre

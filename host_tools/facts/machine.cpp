@@ -31,7 +31,7 @@ class Reader {
 public:
     Reader(const Facts &facts, Findings &findings) : facts_(facts), findings_(findings) {}
 
-    /// What several values of one quantity agree on: the first.
+    /// The first of several values of one quantity; a contradiction when they disagree.
     Value agreed(const char *what, const std::vector<Value> &values)
     {
         for (std::size_t i = 1; i < values.size(); i++) {

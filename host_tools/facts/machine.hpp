@@ -43,7 +43,7 @@ struct Machine {
     bool        edge_times = true;
 };
 
-/// What does not go together, and what was assumed; one line each.
+/// Contradictions and assumptions; one line each.
 struct Findings {
     std::vector<std::string> contradictions;
     std::vector<std::string> notes;

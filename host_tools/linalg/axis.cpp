@@ -48,8 +48,8 @@ template <class Key> std::vector<Eigen::Index> nearest(const ComplexVector &eige
 
 bool touches_axis(const Matrix &M, Scalar omega)
 {
-    // M - j omega I turns singular under a change |dM| <= t |M| only if t rho(|(M - j omega I)^-1|
-    // |M|) >= 1, and rho is the same for every diagonal scaling of the states.
+    // M - j omega I can become singular under a change |dM| <= t |M| in one case only: t rho(|(M -
+    // j omega I)^-1| |M|) >= 1. Every diagonal scaling of the states has the same rho.
     const Eigen::Index n       = M.rows();
     ComplexMatrix      shifted = M.cast<Complex>();
     shifted.diagonal().array() -= Complex(0, omega);

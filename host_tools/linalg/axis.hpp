@@ -6,9 +6,8 @@
 
 namespace sdre::extended {
 
-/// True when a relative change of the entries of M by the rounding of a double can put an
-/// eigenvalue of M on the point omega of the imaginary axis. The measure does not depend on how the
-/// states are scaled.
+/// True when rounding the entries of M to double can put an eigenvalue of M on the point omega of
+/// the imaginary axis. The measure does not depend on the scaling of the states.
 bool touches_axis(const Matrix &M, Scalar omega);
 
 /// The eigenvalue of M that touches the imaginary axis in the sense of touches_axis. Looks at those

@@ -30,8 +30,8 @@ void require_valid(const Eigen::MatrixXd &A, Eigen::Index weight_rows, const Eig
     }
 }
 
-/// The thorough solver is asked when the quick one may not be or has no answer; it has the last word
-/// on why there is no solution.
+/// Calls the thorough solver when the quick one is not allowed or has no answer. The thorough
+/// solver names the reason when there is no solution.
 template <class Weight>
 CareSolution solved(const DoublingProblem &p, const Weight &weight, const CareOptions &options)
 {

@@ -32,14 +32,14 @@ struct CareOptions {
 /// shapes.
 Eigen::MatrixXd control_weight(const Eigen::MatrixXd &B, const Eigen::MatrixXd &R);
 
-/// Stabilising solution of EQ-CARE-1. Throws InputError on wrong shapes or non-finite entries and
-/// DesignError naming the failed assumption: Q or G not symmetric or G not positive semidefinite,
-/// (A,B) not stabilisable, (A,Q) not detectable, Hamiltonian eigenvalues on the imaginary axis.
+/// Stabilising solution of EQ-CARE-1. Throws InputError on wrong shapes or non-finite entries.
+/// Throws DesignError with the failed assumption: Q or G not symmetric, G not positive
+/// semidefinite, (A,B) not stabilisable, (A,Q) not detectable. Hamiltonian eigenvalues on the
+/// imaginary axis are another one.
 ///
-/// An indefinite Q is refused only when it leaves no stabilising X >= 0 (or none at all, if the
-/// options allow it): benchmark cases 1.3 and 2.5 have one, 1.4 has only an indefinite X. A mode that
-/// Q does not weight is refused only on the imaginary axis; off the axis a stabilising solution
-/// exists and is returned. The returned X is verified: small residual, A - G X Hurwitz.
+/// An indefinite Q is refused when there is no stabilising X >= 0; the options may allow any X.
+/// Benchmark cases 1.3 and 2.5 have X >= 0, case 1.4 has only an indefinite X. A mode that Q does not
+/// weight is refused on the imaginary axis. Off the axis a stabilising solution exists and is returned. The returned X is verified: small residual, A - G X Hurwitz.
 CareSolution solve_care(const Eigen::MatrixXd &A, const Eigen::MatrixXd &G,
                         const Eigen::MatrixXd &Q, const CareOptions &options = {});
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The quick way to the stabilising solution of EQ-CARE-1: structure-preserving doubling in double, corrected from
-/// residuals in extended precision until X is right to the last digits of a double.
+/// The quick solver of EQ-CARE-1: structure-preserving doubling in double precision. Residuals in
+/// extended precision then correct X until it is right to the last digits of a double.
 #pragma once
 
 #include <optional>

@@ -43,8 +43,9 @@ Scalar pivot_ratio(ComplexMatrix M)
     return 0;
 }
 
-/// How far [A - sI, W] is from losing rank, between 0 and 1 and blind to the size of the columns of
-/// W and to the scaling of single states: 0 means that the mode s is not connected to W.
+/// Distance of [A - sI, W] from a loss of rank, between 0 and 1. It does not depend on the size of
+/// the columns of W or on the scaling of single states. 0 means that the mode s is not connected to
+/// W.
 Scalar hautus_margin(const Matrix &A, const Matrix &W, Complex s)
 {
     const Eigen::Index n = A.rows();
@@ -103,8 +104,8 @@ void require_stabilisable(const Problem &p)
     }
 }
 
-/// For G, Q >= 0 the Hamiltonian has an eigenvalue on the axis exactly when a mode of A on the axis
-/// is out of reach of the input or out of sight of Q; the smaller margin tells which.
+/// For G, Q >= 0 the Hamiltonian has an eigenvalue on the axis in two cases only. A mode of A on
+/// the axis is not controllable, or it is not observable in Q. The smaller margin shows which one.
 void require_no_axis_eigenvalue(const Problem &p, const Matrix &hamiltonian)
 {
     Complex s;

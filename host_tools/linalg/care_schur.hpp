@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// The thorough way to the stabilising solution: invariant subspace of the scaled Hamiltonian from
-/// an ordered Schur form, then Newton steps, all in long double (extended.hpp says why). The Schur
-/// form finds the solution whatever the starting point; the Newton steps remove what its orthogonal
-/// transformations lost to the size of X. Every refusal names the assumption that fails.
+/// The thorough solver. An ordered Schur form gives the invariant subspace of the scaled Hamiltonian;
+/// Newton steps follow, all in long double (reason: extended.hpp). The Schur form needs no starting
+/// point. The Newton steps remove the error of its orthogonal transformations at a large X. Every refusal names the assumption that fails.
 #pragma once
 
 #include "linalg/care.hpp"
@@ -10,7 +9,7 @@
 
 namespace sdre::extended {
 
-/// What sdre::solve_care returns, and its X before rounding to double.
+/// The result of sdre::solve_care, and its X before rounding to double.
 struct CareResult {
     CareSolution solution;
     Matrix       X;

@@ -3,7 +3,8 @@
 
 namespace sdre {
 
-// By doubling: after k steps P holds 2^k periods. Thirty are 10^9 periods, or until nothing is left to add.
+// Doubling: after k steps P holds 2^k periods. It ends after thirty steps (10^9 periods), or when
+// the sum has converged.
 Eigen::MatrixXd covariance(Eigen::MatrixXd A, const Eigen::MatrixXd &B,
                            const Eigen::VectorXd &variances)
 {

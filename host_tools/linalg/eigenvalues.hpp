@@ -8,7 +8,7 @@ namespace sdre {
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd &A);
 
-/// By real, then imaginary part.
+/// Sorted by real, then imaginary part.
 Eigen::VectorXcd sorted_eigenvalues(const Eigen::MatrixXd &A);
 
 /// Largest |eigenvalue|.

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// Types of the solvers in long double.
 ///
-/// On x86 a long double carries 64 bits of mantissa, eleven more than the double that goes in and
-/// out. The eleven bits pay for the conditioning of the equation: results are then correct to the
-/// last digits of a double wherever the condition number stays below about 1e3 times what a double
-/// solver could bear. Where long double is no wider than double everything still works, with the
-/// accuracy of a double solver.
+/// On x86 a long double has 64 bits of mantissa, eleven more than the double at input and output.
+/// The eleven bits compensate the conditioning of the equation. Results are correct to the last
+/// digits of a double up to about 1e3 times the condition number that a double solver allows. Where
+/// long double is no wider than double, everything works with the accuracy of a double solver.
 #pragma once
 
 #include <complex>
@@ -27,8 +26,8 @@ inline Matrix symmetric_part(const Matrix &M)
     return (M + M.transpose()) / Scalar(2);
 }
 
-/// G = F F'. Kept as a factor when B and R are known: B R^-1 B' of a nearly singular R loses digits
-/// that X G X = (F'X)'(F'X) keeps.
+/// G = F F'. F is kept as a factor when B and R are known. B R^-1 B' of a nearly singular R loses
+/// digits that X G X = (F'X)'(F'X) keeps.
 struct ControlWeight {
     Matrix G;
     Matrix F; ///< empty when only G is known

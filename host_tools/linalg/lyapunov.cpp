@@ -13,7 +13,7 @@ LyapunovSolver::LyapunovSolver(const Matrix &A) : schur_(schur_form(A)) {}
 
 Matrix LyapunovSolver::solve(const Matrix &W) const
 {
-    // With A = U T U^H and Y = U^H X U the equation reads T^H Y + Y T = -U^H W U; T is upper
+    // With A = U T U^H and Y = U^H X U the equation becomes T^H Y + Y T = -U^H W U. T is upper
     // triangular, so each entry of Y follows from those above it and to its left.
     const ComplexMatrix &T  = schur_.T;
     const ComplexMatrix &U  = schur_.U;

@@ -3,8 +3,8 @@
 ///
 ///     P = A P A' - A P C' S^-1 C P A' + Q,  S = C P C' + R,  K = P C' S^-1          EQ-DARE-1
 ///
-/// K corrects: x^+ = x^- + K (y - C x^-). With A = A_0 + s A_1, Q = Q_0 + s Q_1 and F = A_0 (I - K_0 C) the
-/// derivatives at s = 0 obey a Stein equation, the sampled form of Lyapunov's:
+/// K corrects: x^+ = x^- + K (y - C x^-). Let A = A_0 + s A_1, Q = Q_0 + s Q_1 and F = A_0 (I - K_0 C).
+/// The derivatives at s = 0 obey a Stein equation, the sampled form of Lyapunov's:
 ///
 ///     P_1 = F P_1 F' + A_1 (I - K_0 C) P_0 A_0' + A_0 (I - K_0 C) P_0 A_1' + Q_1     EQ-DARE-2
 ///     K_1 = (I - K_0 C) P_1 C' S_0^-1

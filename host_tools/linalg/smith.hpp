@@ -9,7 +9,8 @@
 
 namespace sdre {
 
-/// X of A'X + X A + W = 0 for any number of W: X = sum of (F')^k V F^k, F = (A + gI)(A - gI)^-1, summed by squaring F.
+/// X of A'X + X A + W = 0 for any number of W. X is the sum of (F')^k V F^k with F = (A + gI)(A -
+/// gI)^-1, summed by squaring F.
 template <std::size_t N> class Smith {
 public:
     /// False when A is not Hurwitz, or close to it.

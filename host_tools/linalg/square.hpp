@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// Small square matrices in double on the stack, for the quick solvers: the size is known to the compiler, so loops
-/// have no remainders and nothing is allocated. A problem of n states is padded to the next size.
+/// Small square matrices in double on the stack, for the quick solvers. The compiler knows the
+/// size, so loops have no remainders and nothing is allocated. A problem of n states is padded to
+/// the next size.
 #pragma once
 
 #include <array>

@@ -9,8 +9,8 @@
 namespace sdre {
 namespace {
 
-/// Powers of two d that bring rows and columns of diag(d)^-1 A diag(d) to similar size: reflections mix states, and the
-/// digits of the small ones are lost beside large ones otherwise.
+/// Powers of two d that bring rows and columns of diag(d)^-1 A diag(d) to similar size. Otherwise
+/// reflections mix states, and the digits of small states are lost beside large ones.
 Eigen::VectorXd balancing(const Eigen::MatrixXd &A)
 {
     Eigen::VectorXd d     = Eigen::VectorXd::Ones(A.rows());

@@ -14,7 +14,7 @@ TYPES = {"u16": "U16", "i16": "I16", "u32": "U32", "i32": "I32", "dec": "DEC"}
 
 
 def version() -> str:
-    """Of the project."""
+    """Version of the project."""
     text = (Path(__file__).resolve().parents[2] / "CMakeLists.txt").read_text(encoding="utf-8")
     return re.search(r"project\(sdre-drive VERSION ([0-9.]+)", text).group(1)
 
@@ -29,7 +29,7 @@ def _digest(lines: Iterable[str]) -> int:
 
 
 def digest_of(groups: List[Group]) -> str:
-    """Of what a master can see."""
+    """Digest of the part of the map that a master can see."""
     lines = (f"{g.space} {r.address} {r.name} {r.type} {r.step} {r.unit} {r.range} {r.stopped} {r.saved}"
              for g in groups for r in g.registers)  # fmt: skip
     return f"{_digest(lines):08x}"
@@ -41,7 +41,7 @@ def saved(groups: List[Group]) -> List[Register]:
 
 
 def version_of(groups: List[Group]) -> int:
-    """Of what the words of the stored parameters mean."""
+    """Digest of the meaning of the stored parameters' words."""
     return _digest(f"{r.name} {r.type} {r.step} {r.unit}" for r in saved(groups))
 
 

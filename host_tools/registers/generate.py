@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What is made of firmware/app/registers/registers.toml: the firmware's map, its documentation as tables and as CSV, the client's names.
+"""Generates from firmware/app/registers/registers.toml: the firmware's map, its documentation as tables
+and as CSV, the client's names.
 
     python3 host_tools/registers/generate.py            writes what has changed
     python3 host_tools/registers/generate.py --check    says what would change; exit code 1 then

@@ -80,7 +80,7 @@ class Group:
 
 @dataclass(frozen=True)
 class Signal:
-    """What the scope can show."""
+    """A signal of the scope."""
 
     number: int
     name: str

@@ -7,8 +7,8 @@
     results.py check                exit code 1: a page or the JSON is stale
     results.py recompute SDRE_SIL   runs a few cheap experiments and compares them with the JSON
 
-A recorded run names the digests of its drive file, its scenario and the trace that tests/regression has of that drive:
-with another drive, scenario or core it is stale.
+A recorded run has the digests of its drive file, its scenario and the trace in tests/regression.
+With another drive, scenario or core it is stale.
 """
 import argparse
 import hashlib
@@ -47,7 +47,7 @@ STATISTICS = ("worst", "median")
 
 
 def digest(value):
-    """Of what a TOML file says; comments and order of the keys do not count."""
+    """Digest of a TOML file's content; comments and order of the keys do not count."""
     return hashlib.sha256(json.dumps(value, sort_keys=True).encode()).hexdigest()[:16]
 
 
@@ -59,7 +59,7 @@ class Experiments:
 
     @staticmethod
     def cell(row, column):
-        """What a cell shows: text, or the name of a scenario, a drive and a format."""
+        """Text of a cell, or the name of a scenario, a drive and a format."""
         if "key" in column:
             return row[column["key"]]
         both = {**row, **column}

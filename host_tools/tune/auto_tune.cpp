@@ -42,7 +42,7 @@ Drive moved(const Drive &start, const Point &decades)
     return d;
 }
 
-/// Of a design's verdict; what cannot be designed is far off.
+/// Excess of a design's verdict; a failed design counts as far off.
 double excess_of(const Drive &d)
 {
     try {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What a drive can be asked for, from its motor, inverter and sensors alone: the input of `sdre-gains tune` without a
-/// specification.
+/// Goals of a drive from its motor, inverter and sensors alone: the input of `sdre-gains tune`
+/// without a specification.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace sdre {
 
-/// Of a step from half to all of the rated torque at half the rated speed: what no controller can do much better, because
-/// the shaft has to turn by the encoder's error before anything shows, a new voltage acts after one and a half periods and
-/// the current needs its time at full voltage.
+/// Physical bound of the load step from half to all of the rated torque, at half the rated speed.
+/// First the shaft turns by the encoder's error. A new voltage then acts after one and a half
+/// periods, and the current needs its rise time at full voltage.
 struct PhysicalBound {
     double reaction_s;  ///< the shaft's way, delay and half of the current's way
     double dip_e_radps; ///< acceleration of the step times that

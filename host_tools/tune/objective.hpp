@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What a set of weights is worth: the sampled closed loop (EQ-CERT-3) in every robustness case against the specification.
+/// Value of a set of weights: the sampled closed loop (EQ-CERT-3) in every robustness case,
+/// compared with the specification.
 #pragma once
 
 #include <array>
@@ -10,8 +11,8 @@
 
 namespace sdre {
 
-/// The searched weights as base-10 logarithms: speed and q-axis error of the controller; of the observer the drift of the
-/// load, the drift of both voltages, and the noise of speed and currents.
+/// The searched weights as base-10 logarithms. Controller: speed error and q-axis error. Observer:
+/// drift of the load, drift of both voltages, noise of speed and currents.
 constexpr std::size_t weight_count = 6;
 using Point                        = std::array<double, weight_count>;
 
@@ -29,7 +30,7 @@ double written(double weight);
 /// The drive with the weights of a point, each as written().
 Drive with_weights(Drive drive, const TuneSpec &spec, const Point &x);
 
-/// What one robustness case reaches in the linear model.
+/// Results of one robustness case in the linear model.
 struct CaseResult {
     double dip_e_radps     = 0.0;
     double settling_time_s = 0.0; ///< the whole simulated time when it does not settle

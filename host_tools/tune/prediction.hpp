@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What a drive will do at a load step, by the linear model of its sampled loop.
+/// Predicted load step of a drive, from the linear model of its sampled loop.
 #pragma once
 
 #include <optional>

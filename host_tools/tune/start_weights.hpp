@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// Weights for any motor: those of the 390 W motor in the units in which all motors look alike.
 ///
-/// A unit of time T = pace * Ts, of voltage the circle v_dc / sqrt(3), of current what that voltage adds in T to the q axis,
-/// of speed what that current adds in T. A larger pace is a slower loop, for sensors that know less.
+/// The unit of time is T = pace * Ts, and the unit of voltage is the circle v_dc / sqrt(3). The
+/// unit of current is the change by that voltage in T in the q axis. The unit of speed is the
+/// change by that current in T. A larger pace is a slower loop, for sensors with less information.
 #pragma once
 
 #include <string>
@@ -11,7 +12,7 @@
 
 namespace sdre {
 
-/// What a unit is in SI.
+/// The units in SI.
 struct MotorUnits {
     double time_s;
     double voltage_V;

@@ -12,7 +12,8 @@ namespace {
 /// Chosen: in the middle of the region in which the shipped motors are stable.
 constexpr Point start{{0.3, 0.9, 9.0, 7.0, 2.0, 1.0}};
 
-// Chosen: the linear model is off by more (a dip of 5.1 rad/s is 5.5 on the board), so less is no reason for other tables.
+// Chosen: the error of the linear model is larger (a dip of 5.1 rad/s is 5.5 on the board). A
+// smaller gain does not justify new tables.
 constexpr double worth_a_change = 0.03;
 
 constexpr int report_every = 100; // evaluations

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What a drive should reach, in physical terms: the input of `sdre-gains tune`.
+/// Goals of a drive in physical terms: the input of `sdre-gains tune`.
 #pragma once
 
 #include <filesystem>

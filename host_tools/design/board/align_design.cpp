@@ -17,10 +17,10 @@ constexpr double slowest_radps = 5.0;
 constexpr int    steps         = 60;
 // The application's own bound.
 constexpr double most_per_sample = 0.1;
-// From 3 degrees to 0.2, the rest that the index corrects, takes 2.7 time constants; chosen: three times that, for a rotor
-// with three times the inertia.
+// The decay from 3 degrees to 0.2 takes 2.7 time constants; the index corrects the rest. Chosen:
+// three times that, for a rotor with three times the inertia.
 constexpr double time_constants = 8.1;
-// Chosen: no shorter, for friction; no longer, for the user's patience.
+// Chosen: the lower bound is for friction, the upper bound for the user's patience.
 constexpr double shortest_s = 1.2;
 constexpr double longest_s  = 20.0;
 

@@ -35,8 +35,8 @@ constexpr double zero_drift_share = 0.02;
 constexpr int index_tolerance_cnt = 4;
 // Chosen: costs 0.8 % of the torque.
 constexpr double index_correct_e_rad = 0.126;
-// Chosen: eight times what torque, a load as large and the disc change from period to period, and no less than noise on
-// the lines makes in one.
+// Chosen: eight times the change per period by torque, an equal load and the disc. The lower bound
+// is the noise of the lines in a period.
 constexpr double jump_ratio = 8.0;
 constexpr double disc_cnt   = 0.35;
 constexpr double jump_least = 16.0;
@@ -47,8 +47,9 @@ constexpr double continuous_per_rated = 1.1;
 // Chosen: 20 rad/s of the 390 W motor's 523.
 constexpr double still_per_rated = 20.0 / 523.0;
 
-// Times [ms]. Filters of the analog inputs have 1 ms; 256 ms of 2 codes of noise leave a zero good to 0.06 codes; a pass
-// of the background is below 1 ms and the watchdog resets after 4.4; five polls at 10 Hz may be lost.
+// Times [ms]. Filters of the analog inputs have 1 ms. 256 ms average 2 codes of noise to 0.06
+// codes. A pass of the background is below 1 ms, and the watchdog resets after 4.4. Five polls at
+// 10 Hz may be lost.
 constexpr double boot_ms       = 50.0;
 constexpr double calibrate_ms  = 256.0;
 constexpr double background_ms = 3.0;

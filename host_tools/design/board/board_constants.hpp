@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What the application and the board layer of the F28335 have to know of a drive, from its file (EQ-BOARD-1 to 6).
+/// Constants of the application and of the F28335's board layer, from the drive file (EQ-BOARD-1 to
+/// 6).
 #pragma once
 
 #include <array>
@@ -15,8 +16,8 @@ namespace sdre {
 
 constexpr std::size_t ntc_points = 28;
 
-/// The application's constants. The table of temperatures and the names belong to them: config points into them, so that an
-/// object can be moved only with its pointers (bind()).
+/// The application's constants. They own the table of temperatures and the names. config points
+/// into them, so a moved object needs bind().
 struct BoardConstants {
     app_config_t                  config{};
     std::array<float, ntc_points> ntc_degC{};
@@ -36,7 +37,7 @@ struct BoardConstants {
 /// InputError in one line on the first quantity that the board cannot do or show, with what it can.
 BoardConstants board_constants(const Drive &drive);
 
-/// What the converters show at most: a trip beyond would never come.
+/// Largest values that the converters show. A trip level beyond them would never act.
 double largest_shown_current_A(const Drive &drive);
 double largest_shown_dc_link_V(const Drive &drive);
 

@@ -4,8 +4,9 @@
 ///     k_p = w_b L, k_i = w_b R for each axis                                EQ-FOC-7, pole cancellation
 ///     T_s = 1 / w_b + T_m / 2                                               EQ-FOC-8
 ///
-/// w_b = 2 pi current_bandwidth_Hz. To the speed loop the current loop is a lag of 1 / w_b: its dead time of one and a half
-/// periods is inside the loop and moves only terms of the second order. A speed over T_m is late by half of it.
+/// w_b = 2 pi current_bandwidth_Hz. For the speed loop, the current loop is a lag of 1 / w_b. Its
+/// dead time of one and a half periods is inside that loop and changes only second-order terms. A
+/// speed averaged over T_m is late by half of T_m.
 #pragma once
 
 #include "design/design.hpp"

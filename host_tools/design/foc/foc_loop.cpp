@@ -14,8 +14,8 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-// Columns of the state: motor (w, iq, id), voltage in force, sums of the current loops, id_ref of the period before; then
-// the angle's steps of the last periods, and the speed law's own.
+// Columns of the state: motor (w, iq, id), voltage in force, sums of the current loops, id_ref of
+// the previous period. The angle's steps of the last periods and the speed law's states follow.
 enum : Index { iq = 1, id, vq, vd, sum_q, sum_d, id_before, first_step };
 
 double wide(float x)

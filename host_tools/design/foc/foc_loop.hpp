@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// pi_foc and ladrc as they run, linearised at an operating point: motor, one period of delay, current loops, speed
-/// measurement, speed law, with the constants of the firmware. EQ-CERT-4, broken where a signal r is added.
+/// The loops of pi_foc and ladrc with the constants of the firmware, linearised at an operating
+/// point. They have motor, one period of delay, current loops, speed measurement and speed law.
+/// EQ-CERT-4 opens a loop where a signal r is added.
 ///
 /// Currents are taken in the frame of the true angle; angle extrapolation, flux weakening and limits are left out.
 #pragma once

@@ -7,11 +7,12 @@
 namespace sdre {
 namespace {
 
-// Chosen: the count is rounded by half of one, an edge is off by up to another half, and so is the estimate that follows
-// both; the rest is for eccentric discs and motors that are not as believed.
+// Chosen: rounding takes half a count, an edge up to another half, and the estimate follows both.
+// The rest is for eccentric discs and for motors that differ from the nominal one.
 constexpr double quiet_cnt = 4.0;
-// Chosen: an edge is off by less than 0.5 counts and a reading by half of one more; a step below that would cut the
-// encoder's own error, which is not the same to both sides, and leave a bias. Loads cause less with much inertia.
+// Chosen: an edge is off by less than 0.5 counts, and a reading by half of one more. A smaller step
+// would cut the encoder's own error, which is not symmetric, and leave a bias. With much inertia,
+// loads cause less than this.
 constexpr double least_step_cnt = 0.8;
 // Long against any observer that is certified: its slowest pole forgets within this.
 constexpr int periods = 10000;

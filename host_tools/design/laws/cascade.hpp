@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What the designs of the laws around current loops share.
+/// Common part of the designs of the laws around current loops.
 #pragma once
 
 #include "common/c_text.hpp"

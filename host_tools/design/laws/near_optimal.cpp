@@ -39,8 +39,8 @@ constexpr double regen_end_ratio   = 1.25;
 constexpr double largest_mtpa_A = 1e6;
 // A motor without a magnet has k = 0; this share of the limit leaves the curve where it is.
 constexpr double least_mtpa_ratio = 1e-3;
-// Chosen: weakening is looked after from nine tenths of the speed at which the largest current needs the whole circle;
-// current_ref.c begins at a quarter of it with the magnet's flux.
+// Chosen: flux weakening is active from nine tenths of the speed at which the largest current needs
+// the whole circle. current_ref.c starts it at a quarter of the circle with the magnet's flux.
 constexpr double weakening_current_share = 0.25 / 0.9;
 // Chosen: 0.5 % of the voltage circle, and what the hexagon holds outside it, stay free for transients.
 constexpr double voltage_share = 0.995;
@@ -75,8 +75,8 @@ double largest_torque_Nm(const Motor &motor, const ReducedParameters &l)
     return torque_Nm(motor, mtpa_id_A(l, iq_A), iq_A);
 }
 
-/// Twice the speed error whose feedback asks for all the current that a speed error may ask for: a reference further ahead
-/// is of no use, and has arrived long before the speed.
+/// Twice the speed error at which the feedback reaches the current limit for a speed error
+/// (EQ-NOSC-3). A reference that is further ahead has no use, and arrives long before the speed.
 double near_e_radps(const Design &d)
 {
     const Eigen::MatrixXd &Lambda = d.nosc.gain[0];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What the designs of the laws of near optimal control share.
+/// Common part of the designs of the near optimal laws.
 #pragma once
 
 #include "common/c_text.hpp"
@@ -17,8 +17,9 @@ void solve_near_optimal(Design &design);
 near_optimal_config_t near_optimal_constants(const Design &design, bool exact_mtpa,
                                              bool nosc_series);
 
-/// Of the current limit, what an error of speed or position may ask for (EQ-NOSC-3). Chosen by simulation: of 10,000 random
-/// motors (docs/errata.md) 48 failed without this limit and 36 with it; a smaller share deepens the dip after a load step.
+/// Share of the current limit for an error of speed or position (EQ-NOSC-3). Chosen by simulation
+/// of 10,000 random motors: 48 failed without this limit and 36 with it. A smaller share deepens
+/// the dip after a load step.
 constexpr double speed_current_ratio = 0.25;
 
 /// k of EQ-CURRENT-REF-2.
@@ -31,14 +32,16 @@ encoder_form_limits_t encoder_limits(const Design &design);
 float believed_d_omega(const encoder_form_limits_t &limits, const encoder_form_gains_t &gains,
                        double ts_s);
 
-/// What a step of all the torque and six deviations of the sensors' noise make of the estimated disturbance, against its trip.
+/// The estimated disturbance after a step of the full torque, plus six standard deviations of the
+/// sensors' noise, and its trip level.
 ///
 /// @param A, B_noise of the whole loop at rated speed; `angle_weight` variance of the angle times the period.
 TripMargin disturbance_margin(const Design &design, const encoder_form_limits_t &limits,
                               const Eigen::MatrixXd &A, const Eigen::MatrixXd &B_noise,
                               double angle_weight);
 
-/// Of law noc with its observer's series at that current, held beyond its range as the firmware does; one of feedback_gains().
+/// Gains of law noc at that current, with one of feedback_gains(). Beyond its range the observer's
+/// series is held, as in the firmware.
 LoopGains encoder_form_gains(const Design &design, double iq_A, const Eigen::MatrixXd &Lambda);
 
 /// The verdict of a law that observes the angle. `model_at(design, motor, point, Lambda)` has the A, B_voltage, C_voltage and B_noise of
@@ -68,7 +71,7 @@ void certify_whole(Design &d, const encoder_form_limits_t &limits, double angle_
     certify_loop(d, f, {disturbance_margin(d, limits, m.A, m.B_noise, angle_weight)});
 }
 
-/// What of a measured angle the observer with these gains may believe, EQ-ANGLE-GATE-3.
+/// Limits of the innovation for an observer with these gains, EQ-ANGLE-GATE-3.
 angle_gate_config_t angle_gate_constants(const encoder_form_limits_t &limits,
                                          const encoder_form_gains_t &gains, double ts_s);
 

@@ -19,7 +19,8 @@ struct CurrentObserver {
 CurrentObserver design_nodo_current(const ReducedParameters &l, const Drive &drive,
                                     double trip_e_radps);
 
-/// Of the errors of this observer, at a speed from the first node on, for a motor that is not what it was made for.
+/// Spectral radius of the errors of this observer with another motor, at a speed from the first
+/// node on.
 double nodo_current_radius(const nodo_current_gains_t &gains, const ReducedParameters &motor,
                            const OperatingPoint &at, double ts_s);
 

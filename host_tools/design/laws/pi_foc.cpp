@@ -13,8 +13,8 @@ bool is_for(const Drive &drive)
     return drive.law == Law::pi_foc;
 }
 
-/// Symmetrical optimum of an integrator behind a small lag T_s: the corners of the PI and of the lag lie a to either side of
-/// the crossover 1 / (a T_s), so that the phase is largest there.
+/// Symmetrical optimum of an integrator with a small lag T_s. The corners of the PI and of the lag
+/// are a factor a below and above the crossover 1 / (a T_s). The phase is largest there.
 ///
 ///     k_p = 1 / (a T_s),     T_i = a^2 T_s                                  EQ-PI-FOC-4
 void solve(Design &d)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What the designs of paper B's laws share.
+/// Common part of the designs of paper B's laws.
 #pragma once
 
 #include "common/c_text.hpp"

@@ -6,9 +6,9 @@
 ///     weights of a pair: Q min(1, (w / w_ref)^2) cos^2(pi / 2 h w Ts), none from h w Ts = 1 on     EQ-HARMONIC-6
 ///     T of the angle: the drive file's from eight counts per period on, at least count^2 / 12 Ts up to one     EQ-HARMONIC-8
 ///
-/// At standstill every harmonic is a constant and cannot be told from the others: their weights vanish there and
-/// the leak keeps the Riccati equation solvable. Where a pair turns by more than a radian per period it is given
-/// up, with a faster leak.
+/// At standstill every harmonic is a constant and cannot be separated from the others. Their
+/// weights vanish there, and the leak keeps the Riccati equation solvable. A pair that rotates by
+/// more than a radian per period is switched off with a faster leak.
 #pragma once
 
 #include <memory>

@@ -111,8 +111,8 @@ MatrixXd shown_law(const ReducedParameters &l, const nodo_harmonic_gains_t &t, c
     return F;
 }
 
-/// As in sampled_model(): theta - theta^ in the place of theta, and theta^ left out unless a position's law reads it; so is a
-/// slope that never moves.
+/// As in sampled_model(), theta - theta^ replaces theta. A position's law alone reads theta^;
+/// otherwise it is left out. A slope that never changes is left out too.
 HarmonicSampled in_angle_error(const HarmonicSampled &m, bool still, bool position)
 {
     const Index hat       = n_motor + theta;

@@ -167,8 +167,8 @@ LongVector rate_scale(std::size_t oscillators, int N, long double ts_s)
     return scale;
 }
 
-/// EQ-DOBC-6. The entries of F span twenty orders of magnitude, hence the scale (without it M is off by up to 2e-6,
-/// relative) and the extended precision.
+/// EQ-DOBC-6. The entries of F span twenty orders of magnitude. Without the scale M is off by up to
+/// 2e-6, relative. Extended precision is needed for the same reason.
 void sample(DobcDesign &d, int N, double ts_s)
 {
     const Index       n     = d.F.rows();

@@ -7,7 +7,7 @@ const ORANGE = "#e07000";
 const GREY = "#9a9a9a";
 const DASH = [4, 3];
 
-/** What the plots show: title, and of every curve its name, column, colour and dashes; speeds are shown in r/min. */
+/** The plots: title, and the name, column, colour and dashes of every curve. Speeds are in r/min. */
 const PLOTS = [
   ["speed [r/min]", [["wanted", "omega_ref_e_radps", "#000", DASH], ["motor", "omega_e_radps", BLUE]]],
   ["current [A]", [["q wanted", "iq_ref_A", BLUE, DASH], ["d wanted", "id_ref_A", ORANGE, DASH], ["q", "iq_A", BLUE], ["d", "id_A", ORANGE]]],
@@ -159,7 +159,7 @@ class Page {
     return curves.map(([name, column, colour, dash]) => ({ name, colour, dash, x: columns.time_s, y: this.shown(column, columns) }));
   }
 
-  /** Of the run that was kept: what is not dashed, in grey. */
+  /** The kept run: its solid curves, in grey. */
   keptCurves(curves) {
     const solid = this.kept ? curves.filter((curve) => !curve[3]) : [];
     return this.curves(solid, this.kept).map((curve) => ({ ...curve, name: `${curve.name}, kept`, colour: GREY, width: 2 }));

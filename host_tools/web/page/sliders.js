@@ -14,7 +14,7 @@ function weight(name, table, key, index, drive) {
   return [{ group: "Weights of the design", name, ...WEIGHT, weight: { path: `${table}.${key}`, index } }];
 }
 
-/** What can be set in this scenario with this drive: {group, name, lo, hi, start, unit, log, paths | weight, from}. */
+/** Sliders of this scenario with this drive: {group, name, lo, hi, start, unit, log, paths | weight, from}. */
 function slidersOf(scenario, drive) {
   const { pole_pairs, rated_speed_e_radps, rated_torque_Nm } = drive.motor;
   const sliders = [];
@@ -78,7 +78,7 @@ class Slider {
     this.moved = false;
   }
 
-  /** What it stands for, of three digits. */
+  /** The value of the slider, with three digits. */
   read() {
     const share = Number(this.input.value) / 1000;
     const exact = this.log ? this.lo * (this.hi / this.lo) ** share : this.lo + share * (this.hi - this.lo);
