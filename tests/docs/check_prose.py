@@ -89,10 +89,10 @@ def joined(comments: list) -> list:
     An empty line, a tag or an item begins one; a comment behind code is one. Equations and columns are none."""
     found, last = [], -1
     for number, line, alone in comments:
-        if re.search(r"\S {3,}\S", line):
+        if re.search(r"\S {3,}\S|  EQ-[A-Z-]+\d+$", line):
             line = ""
         begins = re.match(r"[@\\]\w+|[-*] |\d+\. ", line)
-        if line and number == last + 1 and found and not begins:
+        if line and alone and number == last + 1 and found and not begins:
             found[-1] = (found[-1][0], f"{found[-1][1]} {line}".strip())
         elif line:
             found.append((number, re.sub(r"^[@\\](?:param(?:\[\w+\])?\s+\S+|\w+)\s*|^[-*] ", "", line)))

@@ -19,7 +19,7 @@ namespace sdre {
 
 enum class BoardKind { api, f28335 };
 
-/// What went through the board's interface at one tick, for comparisons.
+/// Values at the board's interface at one tick, for comparisons.
 struct BoardTick {
     std::array<int, 2> current_code{};
     std::int64_t       count = 0;

@@ -25,8 +25,8 @@ constexpr double longest_boot_s = 0.5;
 // Chosen: between two ticks, clear of the conversion that follows each.
 constexpr double rest_s           = 50e-6;
 constexpr int    polled_registers = 8;
-// What a command takes on the virtual line at 5 kHz: so that a run begins in the same period either way. What an angle between
-// two edges is worth depends on how long the shaft has stood.
+// Ticks of a command on the virtual line at 5 kHz, so that a run begins in the same period on both
+// boards. The time at standstill decides how accurate an angle between two edges is.
 constexpr int line_ticks = 19;
 
 float omega_of(int tenths)

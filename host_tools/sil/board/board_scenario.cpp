@@ -16,7 +16,7 @@ extern "C" {
 namespace sdre {
 namespace {
 
-// Of the register of the commanded speed, in tenths.
+// Largest value of the register of the commanded speed, which counts tenths.
 constexpr double largest_command_e_radps = 3276.7;
 
 void require(bool ok, const std::string &what)

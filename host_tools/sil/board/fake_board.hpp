@@ -13,12 +13,12 @@ namespace sdre::f28335 {
 
 class FakeBoard {
 public:
-    /// @param dc_link_range_V Of the dc link's converter.
+    /// @param dc_link_range_V Range of the dc link's converter.
     FakeBoard(MotorBench &bench, double dead_time_s, double dc_link_range_V);
 
     /// One control period: the tick that board_start() got.
     void tick();
-    /// What the bridge does in the present period.
+    /// Duty of the bridge in the present period.
     const std::array<int, 3> &duty_cnt() const
     {
         return active_cnt_;

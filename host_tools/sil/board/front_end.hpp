@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What lies between the motor's quantities and the converter's pins (docs/hardware.md). Written without looking at the
-/// firmware's scaling, so that an error there cannot cancel here.
+/// The electronics between the motor's quantities and the converter's pins (docs/hardware.md). It
+/// is independent of the firmware's scaling, so that an error there cannot cancel here.
 #pragma once
 
 #include <algorithm>

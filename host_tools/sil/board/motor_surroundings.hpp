@@ -10,7 +10,7 @@ namespace sdre::f28335 {
 class MotorSurroundings : public Surroundings {
 public:
     /// @param ideal_inverter  The bridge needs no dead time: what the gates leave out is not taken from the voltage.
-    /// @param dc_link_range_V Of the dc link's converter.
+    /// @param dc_link_range_V Range of the dc link's converter.
     /// @param duty_full_cnt   Compare counts of duty one, for duty_cnt().
     MotorSurroundings(MotorBench &bench, bool ideal_inverter, double dc_link_range_V,
                       int duty_full_cnt);

@@ -92,7 +92,7 @@ BoardKind kind_of(const Options &o)
     return o.board == "api" ? BoardKind::api : BoardKind::f28335;
 }
 
-/// What a run on a board has to say beside its metrics.
+/// Output of a run on a board, beside its metrics.
 std::string board_text(const Options &o, const BoardResult &run)
 {
     std::string s = fmt::format("board: {}\n", o.board);
@@ -107,7 +107,7 @@ std::string board_text(const Options &o, const BoardResult &run)
 
 int run_many_seeds(const Options &o, const Scenario &scenario)
 {
-    // The firmware's variables exist once in a process: on a board the seeds run one after the other.
+    // A process has one set of firmware variables: on a board the seeds run one after the other.
     BoardResult    board; // of seed 1, with the findings of all
     const SeedRuns runs =
         o.board.empty()

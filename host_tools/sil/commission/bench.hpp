@@ -57,7 +57,7 @@ struct CommissionRun {
 /// The simulated motor with its surroundings, at rest.
 Scenario commission_scenario(const Drive &truth, const CommissionOptions &options);
 
-/// What the board of a drive knows, with the drive's limits as bounds.
+/// The board's constants of a drive, with the drive's limits as bounds.
 commission_config_t commission_config_of(const Drive &drive, const CommissionOptions &options);
 
 CommissionRun commission(const Drive &truth, const CommissionOptions &options);

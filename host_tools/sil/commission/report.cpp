@@ -49,7 +49,7 @@ std::vector<CommissionLine> commission_lines(const Drive &d, const CommissionRun
     CommissionLine             offset{"offset", "deg electrical", 180.0 / pi * r.true_offset_e_rad,
                           180.0 / pi * f.offset_rad.value, 180.0 / pi * f.offset_rad.error};
     offset.relative = false;
-    // Of a motor without a magnet both ends of the axis are the same.
+    // Without a magnet, both ends of the d axis are the same.
     offset.error = std::remainder(offset.found - offset.truth, m.pm_flux_Wb > 0.0 ? 360.0 : 180.0);
     return {line("resistance", "Ohm", m.stator_resistance_Ohm, f.r_Ohm),
             line("Ld", "H", m.d_axis_inductance_H, f.ld_H),

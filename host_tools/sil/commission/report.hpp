@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What a commissioning found, beside the truth.
+/// The result of a commissioning, compared with the true values.
 #pragma once
 
 #include <string>

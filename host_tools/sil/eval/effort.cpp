@@ -11,7 +11,7 @@ namespace {
 using Iterator = Trace::const_iterator;
 
 constexpr double audible_Hz = 100.0;
-// Of the rated torque: below it a change of the load is no step.
+// Share of the rated torque: a smaller change of the load is not a step.
 constexpr double step_share = 0.01;
 
 /// Mean square of the deviation from the mean.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What a drive spends to hold a speed: read off the steady part of a measure.
+/// Noise of a drive that holds a speed, in the steady part of a measure.
 #pragma once
 
 #include <optional>
@@ -25,8 +25,9 @@ struct Effort {
 Effort effort_of(Trace::const_iterator begin, Trace::const_iterator end, const Motor &motor,
                  double period_s);
 
-/// dip / (n_p dT / J), what the dip of a load step dT would take without any answer: no drive can answer before its sensor
-/// shows the step and its inverter has changed the current. None without a step at `begin`.
+/// dip / (n_p dT / J): the time in which a load step dT makes the dip without any answer. It has a
+/// lower bound, because the sensor must show the step and the inverter must change the current.
+/// None without a step at `begin`.
 std::optional<double> equivalent_delay_s(Trace::const_iterator begin, Trace::const_iterator end,
                                          double load_before_Nm, double dip_e_radps,
                                          const Motor &motor);

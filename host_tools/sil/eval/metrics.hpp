@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What is read off a trace.
+/// Metrics of a trace.
 ///
 /// A measure's window runs from its time to the next measure or the end. Its target is the reference at the
 /// end of the window; its tail is the last fifth, or the last tail_s of the measure. A window is a step when the speed
@@ -38,7 +38,7 @@ struct Metrics {
     double                iq_A                = 0.0;
     double                id_A                = 0.0;
     double                sensor_offset_hat_A = 0.0; ///< noc_h: estimate, mean in the tail
-    // Of a position run: counts of the encoder.
+    // Position run, in counts of the encoder.
     std::optional<double> position_off_cnt;    ///< largest |shaft - reference| in the window
     std::optional<double> position_steady_cnt; ///< the same in the tail
     std::optional<double> position_settled_s;  ///< last entry into two counts about the target
@@ -52,8 +52,9 @@ struct Metrics {
     double offset_rpm               = 0.0; ///< mean in the tail minus the target
     double decrease_rpm             = 0.0; ///< target minus the lowest speed in the window
     double overshoot_percent        = 0.0; ///< overshoot_e_radps, of the target; 0 about 0
-    /// Last entry into this share of the target about the mean of the tail; none when outside at the end. Paper B calls
-    /// it settling and recovery time and names no band: stated are 5 % and 2 % after a speed step, 5 % and 1 % after a load.
+    /// Last entry into this share of the target about the mean of the tail; none when outside at
+    /// the end. Paper B calls it settling and recovery time and does not name its band. Used are 5
+    /// % and 2 % after a speed step, 5 % and 1 % after a load step.
     std::optional<double> within_5_percent_s;
     std::optional<double> within_2_percent_s;
     std::optional<double> within_1_percent_s;
@@ -67,7 +68,7 @@ struct Window {
     Trace::const_iterator end;
 };
 
-/// Of every measure that has a row. They point into the trace.
+/// The windows of all measures that have a row. They point into the trace.
 std::vector<Window> windows_of(const Scenario &scenario, const Trace &trace);
 
 std::vector<Metrics> measure(const Scenario &scenario, const Trace &trace);

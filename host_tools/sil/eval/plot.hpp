@@ -13,7 +13,7 @@ namespace sdre {
 /// InputError when this name or this build cannot become a plot. Lets a tool refuse before it writes anything.
 void require_plot(const std::filesystem::path &picture);
 
-/// What the picture of a trace points out, as JSON: host_tools/python/sdre_plot/draw_trace.py.
+/// Annotations of a trace's picture, as JSON: host_tools/python/sdre_plot/draw_trace.py.
 std::string trace_marks(const Scenario &scenario, const Trace &trace);
 
 /// The bytes of a .png or .svg, as the name says, of a run with its measures, or from what spectrum_csv() gives. InputError when

@@ -14,7 +14,7 @@
 
 namespace sdre {
 
-/// What is wrong with one motor's run.
+/// Failure of one motor's run.
 struct MotorFailure {
     int                      motor = 0; ///< 1 .. count; the noise seed too
     MotorScale               scale;
@@ -30,8 +30,8 @@ struct RandomMotors {
 /// The current circle may be left by this factor: the project's bound for every shipped scenario.
 constexpr double allowed_current_ratio = 1.1;
 
-/// What is wrong with a run: the drive faults, the current exceeds its limit by that factor, the speed is outside the band
-/// of a measure at its end. Empty: nothing.
+/// Reasons why a run fails: the drive trips, the current exceeds its limit by that factor. Another
+/// reason is a speed outside the band at the end of a measure. Empty: none.
 std::vector<std::string> judge(const Scenario &scenario, const SimulationResult &result,
                                const std::vector<Metrics> &metrics);
 

@@ -70,7 +70,7 @@ const std::map<std::string, double> &paper_of(const Scenario &scenario, const Me
     return none;
 }
 
-/// Of a position there is something to say in a run to one only.
+/// Metrics of a position are shown for a run to a position only.
 bool is_shown(const std::string &metric, const Scenario &scenario)
 {
     return metric.rfind("position", 0) != 0 || !scenario.position_reference.empty();

@@ -27,7 +27,7 @@ const MetricLabel &metric_label(const std::string &metric);
 /// A value in the label's unit; none is "never" of a time, "-" of anything else.
 std::string metric_text(const MetricLabel &label, const std::optional<double> &value);
 
-/// What stands in place of a table without columns.
+/// Text in place of a table without columns.
 extern const char *const no_measures;
 
 /// Header line, then one row per control period.

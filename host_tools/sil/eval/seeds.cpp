@@ -61,7 +61,7 @@ SeedSpread spread_of(const std::string &metric, const std::vector<std::vector<Me
     return s;
 }
 
-/// What one seed leaves behind.
+/// Results of one seed.
 struct SeedRun {
     std::vector<Metrics> metrics;
     bool                 faulted = false;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-/// What swings in the speed, as in paper B's Fig. 6.
+/// Amplitude spectrum of the speed error, as in paper B's Fig. 6.
 ///
 ///     a(f) = 2/n |sum_k (e_k - mean e) exp(-2 pi i f k Ts)|,  f = m / (n Ts)              EQ-SPECTRUM-1
 ///
-/// e is the error of the mechanical speed over the n rows of a measure's tail; rectangular window. A swing whose period
-/// fits into the tail a whole number of times is one line of its own amplitude; at half the sampling rate, where a line
-/// has no mirror image, the factor is 1/n.
+/// e is the error of the mechanical speed over the n rows of a measure's tail; rectangular window.
+/// An oscillation with a whole number of periods in the tail is one line of its own amplitude. A
+/// line at half the sampling rate has no mirror image; its factor is 1/n.
 #pragma once
 
 #include <string>

@@ -82,7 +82,7 @@ private:
         DcLink          &dc_link;
         const ShaftLoad &load;
     };
-    /// What the terminals are at for a while.
+    /// State of the terminals during an interval.
     struct Terminals {
         std::array<double, 3> v_V{};
         std::array<double, 3> share{};  ///< of the phase's current that the dc link carries

@@ -36,7 +36,7 @@ public:
     {
         return chopping_;
     }
-    /// What the chopper's resistor has turned into heat.
+    /// Energy that the chopper's resistor has turned into heat.
     double chopper_J() const
     {
         return chopper_J_;

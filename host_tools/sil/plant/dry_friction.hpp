@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// Dry friction of one mass in steps of a fixed length: sliding friction opposes the speed; at rest the friction either
-/// holds or opposes the rest of the torque. A step that takes the speed through zero ends at zero.
+/// Dry friction of one mass in steps of a fixed length. Sliding friction opposes the speed. At rest
+/// the friction holds the mass or opposes the rest of the torque. A step that takes the speed
+/// through zero ends at zero.
 #pragma once
 
 #include <cmath>
@@ -21,7 +22,7 @@ public:
             slide_ = std::copysign(1.0, torque_Nm);
         }
     }
-    /// What is left of a torque within the step.
+    /// The torque minus the friction, within the step.
     double left_Nm(double torque_Nm, double friction_Nm) const
     {
         if (!dry_) {

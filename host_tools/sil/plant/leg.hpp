@@ -10,7 +10,7 @@ namespace sdre {
 // Chosen: an interval below this is rounding, not time.
 constexpr double no_time_s = 1e-13;
 
-/// What a leg is told over one control period, edge by edge. A change turns one switch off at once and the
+/// Switching times of a leg in one control period. A change turns one switch off at once and the
 /// other on after the delay.
 struct LegTiming {
     struct Change {

@@ -15,7 +15,7 @@
 
 namespace sdre {
 
-/// What acts on the shaft during one step of the plant.
+/// Torques on the shaft during one step of the plant.
 struct ShaftLoad {
     double torque_Nm         = 0.0;
     double fan_Nm_per_radps2 = 0.0;
@@ -29,8 +29,8 @@ public:
                 const LoadSine &sine);
 
     void set_sine(const LoadSine &sine);
-    /// At a time; a step acts from its time on, ramp and sine have their value `ahead_s` later (half
-    /// a period, for a torque that is held over one).
+    /// Torque at a time. A step acts from its time on. Ramp and sine have their value `ahead_s`
+    /// later: half a period, for a torque that is held over one.
     double at(double time_s, double ahead_s);
 
 private:

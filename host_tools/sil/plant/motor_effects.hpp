@@ -8,9 +8,9 @@
 ///     psi_pm,q = psi_m (h7 - h5) sin 6 theta,  T += 1.5 n_p i . d psi_pm / d theta
 ///     T_iron = (T_h sign(w_m) + k_e w_m) |psi|^2 / psi_m^2                     EQ-EFFECTS-6
 ///
-/// h5 and h7 are the shares of cos 5 theta and cos 7 theta in a phase's flux; the voltage gets them through psi, so that
-/// power balances. The iron's losses brake the shaft: as in a motor that turns, and none at standstill, from the ripple
-/// of the PWM or in the currents.
+/// h5 and h7 are the shares of cos 5 theta and cos 7 theta in a phase's flux. The voltage gets them
+/// through psi, so that power balances. The iron losses brake the turning shaft. There are none at
+/// standstill, from the ripple of the PWM, or in the currents.
 ///
 /// Outside the map its edge value holds.
 #pragma once
@@ -28,7 +28,7 @@ double cogging_Nm(const MotorEffects &effects, double theta_e_rad, int pole_pair
 /// Dry friction at a speed, at least 0.
 double friction_Nm(const MotorEffects &effects, double omega_m_radps);
 
-/// What the magnet gives to the flux linkages, and its slope over the electrical angle.
+/// The magnet's part of the flux linkages, and its slope over the electrical angle.
 struct MagnetFlux {
     RotorVector flux_Wb;
     RotorVector slope_Wb;

@@ -59,12 +59,12 @@ public:
     {
         return torque_factor_ * (x.psi_d * i.q - x.psi_q * i.d);
     }
-    /// Of a magnet whose flux changes with the angle.
+    /// Torque of a magnet whose flux changes with the angle.
     double slope_Nm(RotorVector slope_Wb, RotorVector i) const
     {
         return torque_factor_ * (slope_Wb.d * i.d + slope_Wb.q * i.q);
     }
-    /// What turns the shaft, without cogging and Coulomb friction.
+    /// Torque on the shaft, without cogging and Coulomb friction.
     double shaft_Nm(const MotorState &x, RotorVector i, const ShaftLoad &load) const
     {
         const double fan = load.fan_Nm_per_radps2 * std::abs(x.omega_m);

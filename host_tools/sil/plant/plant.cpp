@@ -88,7 +88,8 @@ double Plant::motor_side_Nm(const MotorState &x, RotorVector i, const ShaftLoad 
            equations_.slope_Nm(slope, i) - effects_.iron_eddy_Nms * iron_share(x) * x.omega_m;
 }
 
-/// Of the iron's drag at the magnet's own flux; without a magnet there is none (require_magnet()).
+/// Share of the iron's drag at the magnet's own flux. A motor without a magnet has none
+/// (require_magnet()).
 double Plant::iron_share(const MotorState &x) const // EQ-EFFECTS-6
 {
     if (motor_.pm_flux_Wb == 0.0) {
@@ -280,7 +281,7 @@ double Plant::floating_V(std::array<double, 3> others_V, std::size_t phase) cons
                       to_rotor(phase_axes[phase], angle_));
 }
 
-/// What turning induces, with or without currents.
+/// Voltage that the rotation induces, with or without currents.
 RotorVector Plant::emf_V(const MotorState &x) const
 {
     const double      w     = equations_.omega_e_radps(x);
@@ -288,7 +289,7 @@ RotorVector Plant::emf_V(const MotorState &x) const
     return {w * (slope.d - x.psi_q), w * (slope.q + x.psi_d)};
 }
 
-/// What of d/dt of the flux linkages changes the currents.
+/// The part of d/dt of the flux linkages that changes the currents.
 RotorVector Plant::current_flux_rate_V(const MotorState &x, RotorVector i, RotorVector v) const
 {
     const double      w     = equations_.omega_e_radps(x);

@@ -81,7 +81,7 @@ public:
     {
         return equations_.omega_e_radps(x_);
     }
-    /// Of the load's mass, mechanical.
+    /// Mechanical speed of the load's mass.
     double omega_load_m_radps() const
     {
         return effects_.load_inertia_share != 0.0 ? x_.omega_load_m : x_.omega_m;

@@ -6,7 +6,7 @@
 
 namespace sdre {
 
-/// What the rates at the four points add up to.
+/// Sum of the rates at the four points.
 inline MotorState rk4_sum(const MotorState &k1, const MotorState &k2, const MotorState &k3,
                           const MotorState &k4, double f)
 {
@@ -16,8 +16,8 @@ inline MotorState rk4_sum(const MotorState &k1, const MotorState &k2, const Moto
             f * (k1.theta_e + 2.0 * (k2.theta_e + k3.theta_e) + k4.theta_e)};
 }
 
-/// What the state gains in a step of h seconds. rate(x, turned_rad) is the derivative at a state whose angle is
-/// turned_rad further than at the start.
+/// Change of the state in a step of h seconds. rate(x, turned_rad) is the derivative at a state
+/// whose angle is turned_rad beyond the start.
 template <typename State, typename Rate> State rk4_gain(const State &x, double h, const Rate &rate)
 {
     const double half = 0.5 * h;

@@ -27,8 +27,8 @@ constexpr double after_reactions  = 60.0;
 constexpr double least_periods    = 300.0;
 // Chosen: a speed step takes at most this long at full torque in a trial of random motors.
 constexpr double short_way_s = 0.08;
-// A run begins with the speed between two edges of a disc, which are off by this much; it is corrected with some of the
-// torque. With few lines and much inertia that lasts.
+// A run begins with the speed between two edges of a disc, which are off by this much. The observer
+// corrects it with some of the torque. With few lines and much inertia this takes long.
 constexpr double start_error_cnt = 0.35;
 constexpr double start_share     = 0.3;
 // Chosen: of the current limit, for flux weakening that leaves some torque.

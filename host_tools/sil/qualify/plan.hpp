@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What a drive is put through, made from its own numbers: speeds and loads in shares of the rating, times from physics.
+/// The trials of a drive, from its own numbers: speeds and loads in shares of the rating, times
+/// from physics.
 #pragma once
 
 #include <string>

@@ -15,7 +15,7 @@
 
 namespace sdre {
 
-/// What the converters and the counter of a real board show at a tick.
+/// Converter codes and counter of a real board at a tick.
 struct RawSample {
     int          ia_code     = 0; ///< two's complement
     int          ib_code     = 0;
@@ -41,7 +41,7 @@ public:
 
     /// Everything that happens at a tick's time: changes, drifts, load. Call before sample().
     void begin_tick(double time_s);
-    /// What the core gets at this tick.
+    /// The core's sample at this tick.
     drive_sample_t sample();
     /// One period with the duty ratios in force; ends at the next tick.
     void run_period(const bridge_t &in_force);
@@ -64,7 +64,7 @@ public:
         bridge_.advance(plant_, dc_link_, shaft_load_, from_s, to_s);
     }
 
-    // What a person changes while it runs.
+    // Changes by a person during the run.
     /// Beside the scenario's load.
     void set_extra_load_Nm(double torque_Nm)
     {
@@ -75,12 +75,13 @@ public:
     {
         faults_.add(fault);
     }
-    /// Nothing is broken any more.
+    /// Removes all injected faults.
     void mend();
 
     PlantState plant_state() const;
-    /// The motor turns half an electrical turn or more per control period, or its state is no number any more: samples
-    /// then say nothing about it, and the plant's steps are too long. A shaft that a load drives after a trip ends there.
+    /// The motor turns half an electrical turn or more per control period, or its state is not a
+    /// number. The samples then carry no information, and the plant's steps are too long. A load
+    /// that drives the shaft after a trip ends there.
     bool         runaway() const;
     const Plant &plant() const
     {

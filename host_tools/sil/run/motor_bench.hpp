@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// The simulated motor on a test bench, for boards that are simulated down to codes and edges.
 ///
-/// Until the scenario starts a dynamometer holds the shaft: at the scenario's initial speed, so that its electrical
-/// angle is zero when the scenario starts, and turned once past the encoder's index before if that speed is low.
-/// Instants are control ticks: the tops of the PWM counter.
+/// A dynamometer holds the shaft until the scenario starts. It turns at the scenario's initial
+/// speed, so that the electrical angle is zero at the start. If that speed is low, it first turns
+/// once past the encoder's index. Instants are control ticks: the tops of the PWM counter.
 #pragma once
 
 #include <array>
@@ -24,12 +24,12 @@ public:
 
     /// The next tick has come: ends the period before, takes the samples.
     void begin_tick();
-    /// What the bridge is told from this tick to the next.
+    /// Gate commands of the bridge from this tick to the next.
     void begin_period(const std::array<LegTiming, 3> &legs);
     /// Opens or frees legs, this long after the tick.
     void set_legs(const std::array<bool, 3> &enabled, double into_period_s);
 
-    /// Of the present tick; -1 before the first.
+    /// Number of the present tick; -1 before the first.
     long tick() const
     {
         return tick_;
@@ -79,7 +79,7 @@ public:
     {
         return board_.get();
     }
-    /// The encoder's tracks show no movement any more.
+    /// Stops the encoder's tracks.
     void stick_encoder()
     {
         stuck_ = true;

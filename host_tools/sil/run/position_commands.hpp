@@ -14,7 +14,8 @@ class PositionCommands {
 public:
     explicit PositionCommands(const Scenario &scenario);
 
-    /// What is commanded at a tick with this sample; null before the first position. Once per tick, times rise.
+    /// The command at a tick with this sample; null before the first position. Call it once per
+    /// tick with rising times.
     const position_command_t *at(double time_s, const drive_sample_t &sample);
 
     /// The first sample's angle on the count of a shaft that began there; 0 without positions.

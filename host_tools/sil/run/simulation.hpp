@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// The control core against the plant, tick by tick.
 ///
-/// The samples of tick k meet duty ratios that act from t_k+1 to t_k+2; the controller is enabled at t = 0
-/// on a motor that turns at the initial speed without current.
+/// The duty ratios computed from the samples of tick k act from t_k+1 to t_k+2. The controller is
+/// enabled at t = 0 on a motor that turns at the initial speed without current.
 #pragma once
 
 #include "drive/core_types.hpp"
@@ -32,7 +32,7 @@ public:
         board_.set_extra_load_Nm(torque_Nm);
     }
 
-    /// What the core was given and what it answered at the last tick.
+    /// Input and output of the core at the last tick.
     struct CoreTick {
         drive_sample_t  sample;
         drive_command_t command;

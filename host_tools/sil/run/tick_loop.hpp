@@ -25,7 +25,7 @@ struct SimulationResult {
     std::vector<std::string> uncertified; ///< why the gains would not have been written as a table
 };
 
-/// What one control period leaves.
+/// Result of one control period.
 struct TickEnd {
     TraceRow row;
     int      fault = 0; ///< the core's or the application's at this tick

@@ -6,7 +6,7 @@
 namespace sdre {
 namespace {
 
-/// What paper B's law compensates on the q axis.
+/// The voltage by which paper B's law compensates on the q axis.
 double compensated_V(const law_dobc_config_t &c, const law_dobc_state_t &state)
 {
     double u_V = 0.0;
@@ -40,7 +40,7 @@ std::array<double, 3> phase_currents_A(const PlantState &plant)
     return out;
 }
 
-/// What only one law knows.
+/// Columns of a single law.
 void add_law(TraceRow &row, const drive_t &drive)
 {
     const drive_config_t &config = *drive.config;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What a run leaves of each control period.
+/// The record of a run: one row per control period.
 #pragma once
 
 #include <array>
@@ -37,7 +37,7 @@ struct TraceRow {
     double peak_current_A = 0.0; ///< largest |i| from this instant to the next
 };
 
-/// Of a whole run, however long.
+/// The rows of a whole run, of any length.
 using Trace = std::vector<TraceRow, LargeAllocator<TraceRow>>;
 
 /// The plant's part of a row; the peak is that of the instant.

@@ -5,12 +5,12 @@
 ///     count = edges of the disc below 4 lines shaft / 2 pi - lost              EQ-ENCODER-2
 ///     theta_e = n_p (count + 1/2) 2 pi / (4 lines), wrapped to [0, 2 pi)       EQ-ENCODER-3
 ///     omega_e = n_p (count - count before) 2 pi / (4 lines Ts)                 EQ-ENCODER-4
-///     or, with the times of the last edges of this period and of the one before them,
+/// With the times of the last edges of this period and of the one before them:
 ///     omega_e = n_p (edge - edge before) 2 pi / (4 lines (t_edge - t_edge before))  EQ-ENCODER-5
 ///
 /// A period without an edge keeps the speed of EQ-ENCODER-5, but at most one count in the time since the edge.
-/// Without times an edge alone in four periods is in the middle of its own: EQ-ENCODER-5, 6 with that (EQ-ENCODER-8).
-/// Edges have the time at which the shaft passes them on its path.
+/// Without times, an edge alone in four periods is in the middle of its period; EQ-ENCODER-5, 6 use that (EQ-ENCODER-8).
+/// An edge's time is the one at which the shaft passes it.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What a person does to a served drive from outside: load, supply, faults; and what the motor really does. One line of text
-/// in, one line of JSON out.
+/// Control port of a served drive: load, supply, faults, and the true state of the motor. One line
+/// of text in, one line of JSON out.
 ///
 ///     load 1.2                                   N m, against positive speed
 ///     dc_link 280                                V of the supply
@@ -41,7 +41,7 @@ private:
     double             next_s_ = 0.0;
 };
 
-/// What the pace of the simulation was.
+/// Pace of the simulation.
 struct PaceReport {
     double speed_factor = 1.0;
     double slipped_s    = 0.0; ///< time that was left out because the machine was late

@@ -60,9 +60,10 @@ int        port_of(const Descriptor &listener);
 /// A client, or none.
 Descriptor accept_client(const Descriptor &listener);
 
-/// What is there; false when the other end is gone.
+/// Reads the available octets; false when the other end is gone.
 bool read_available(int fd, Octets &into);
-/// What the other end takes now, and takes that away from `octets`. False when it is gone.
+/// Writes the octets that the other end accepts now and removes them from `octets`. False when it
+/// is gone.
 bool write_some(int fd, Octets &octets);
 
 } // namespace sdre

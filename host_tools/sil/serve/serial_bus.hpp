@@ -28,7 +28,8 @@ public:
     bool push(BusRequest request);
     /// After each control period.
     void step(ServedDrive &drive, const Deliver &deliver);
-    /// Its requests are still done, a last stop above all, but find nobody to answer; its noise no longer takes up the line.
+    /// Executes the client's remaining requests, such as a last stop, without an answer. Its noise
+    /// leaves the line.
     void forget(long client);
 
 private:

@@ -96,7 +96,7 @@ public:
     {
         return ready_s_;
     }
-    /// What the device's model took amiss, one line each.
+    /// Findings of the device's model, one line each.
     std::vector<std::string> findings() const;
     const Drive             &drive() const
     {

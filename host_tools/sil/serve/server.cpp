@@ -201,7 +201,8 @@ void Server::send(Client &client, const Octets &octets)
     write_rest(client);
 }
 
-/// What does not go now goes later; a client that reads nothing is left. read_all() takes it away then.
+/// Writes now what the client accepts, and the rest later. A client that reads nothing is left;
+/// read_all() then removes it.
 void Server::write_rest(Client &client)
 {
     const bool gone = !write_some(client.fd_of(pty_.get()), client.go);

@@ -27,7 +27,7 @@ class Server {
 public:
     Server(const Drive &drive, std::uint64_t seed, const ServeOptions &options);
 
-    /// What a person has to know to connect, lines.
+    /// Lines with everything that a person needs to connect.
     std::string greeting() const;
     /// Until a signal or stop() asks for the end, or the time is over.
     void run();
@@ -36,7 +36,7 @@ public:
     {
         stopped_ = true;
     }
-    /// Of Modbus/TCP, which has to be open.
+    /// Port of Modbus/TCP, which has to be open.
     int tcp_port() const
     {
         return port_of(listeners_.at(Kind::tcp));

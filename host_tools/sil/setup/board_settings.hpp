@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What stands between the control core and the motor: sensors, inverter, and what the plain motor model
-/// leaves out. The defaults are the shipped board.
+/// Settings between the control core and the motor: sensors, inverter, and the effects beyond the
+/// plain motor model. The defaults are the shipped board.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What changes in a run: motor, board, load.
+/// Changes of motor, board and load in a run.
 #pragma once
 
 #include <optional>

@@ -19,7 +19,7 @@ struct Glitch {
 /// The [[glitch]] entries.
 std::vector<Glitch> read_glitches(TomlReader &t);
 
-/// What is wrong with the sample of an instant; nothing where no entry says so.
+/// Errors of the sample at an instant; zero without an entry.
 Glitch glitch_at(const std::vector<Glitch> &glitches, double time_s, double period_s);
 
 } // namespace sdre

@@ -14,14 +14,14 @@ namespace sdre {
 enum class FaultKind {
     tick_hung,        ///< the control interrupt does not end; --board f28335 only
     interrupt_masked, ///< the program masks interrupts and goes on otherwise; --board f28335 only
-    trigger_lost,     ///< no conversion is started any more; --board f28335 only
+    trigger_lost,     ///< conversions stop; --board f28335 only
     phase_open,       ///< a motor wire is broken
     current_zero,     ///< a current sensor reads no current
     current_frozen,   ///< a current sensor reads what it read last
     current_drift,    ///< a current sensor's zero moves by value A/s up to limit A
     current_gain,     ///< a current sensor reads value times the current
     encoder_losing,   ///< the counter misses value counts per second
-    index_missing     ///< no index pulse comes any more
+    index_missing     ///< index pulses stop
 };
 
 struct InjectedFault {
@@ -38,7 +38,7 @@ std::vector<InjectedFault> read_injected_faults(TomlReader &t);
 /// Whether the kind is one of the processor's, which the core alone has none of.
 bool needs_processor(FaultKind kind);
 
-/// What is broken at a time.
+/// The faults that are active at a time.
 class InjectedFaults {
 public:
     explicit InjectedFaults(std::vector<InjectedFault> entries) : entries_(std::move(entries)) {}
@@ -49,7 +49,7 @@ public:
         entry.time_s = time_s_;
         entries_.push_back(entry);
     }
-    /// Nothing is broken any more.
+    /// Removes all faults.
     void mend()
     {
         entries_.clear();
@@ -60,7 +60,7 @@ public:
     }
     /// The entry of this kind, and phase, that holds now; null: none.
     const InjectedFault *active(FaultKind kind, std::size_t phase = 0) const;
-    /// What a current sensor shows the converter of a current; call once per sample.
+    /// Reading of a current sensor for a current; call once per sample.
     double sensed_A(std::size_t phase, double current_A);
     /// Counts that the encoder has lost by now.
     int lost_counts() const;

@@ -29,7 +29,8 @@ std::map<std::string, double> read_paper(TomlReader t)
     return paper;
 }
 
-/// What was published for the law that runs: `paper` is of the scenario's own law, `paper_of` names others.
+/// Published values for the present law: `paper` is for the scenario's own law, `paper_of` names
+/// others.
 std::map<std::string, double> read_published(TomlReader &entry, Law law, Law own)
 {
     std::map<std::string, double> published;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What of a run is measured, and what was published for it.
+/// Measures of a run, and the published values for them.
 #pragma once
 
 #include <map>

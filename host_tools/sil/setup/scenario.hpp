@@ -59,8 +59,8 @@ struct Scenario {
     BrakeSettings              load_brake;
 };
 
-/// InputError in one line on anything wrong. The drive path is relative to the scenario file, or to the
-/// working directory when no such file is there; `drive`, unless empty, is read instead.
+/// InputError in one line on any error. The drive path is relative to the scenario file, or to the
+/// working directory when no such file is there. `drive`, unless empty, replaces it.
 Scenario read_scenario_file(const std::filesystem::path &file,
                             const std::filesystem::path &drive = {});
 
@@ -73,8 +73,8 @@ Scenario read_scenario_table(const toml::table &root, const std::string &source,
 std::filesystem::path scenario_drive_path(const std::filesystem::path &scenario,
                                           const std::string           &drive);
 
-/// Where the rotor stands at the start, electrical: as the scenario says, else drawn from the seed over a whole turn of the
-/// shaft; zero with ideal sensors, which no angle troubles.
+/// Rotor position at the start, electrical. It is that of the scenario, else drawn from the seed
+/// over a whole turn of the shaft. With ideal sensors it is zero, because they work at any angle.
 double start_theta_e_rad(const Scenario &scenario);
 
 } // namespace sdre
