@@ -24,7 +24,8 @@ COMPILER = "arm-none-eabi-gcc"
 OPTIONS = ["-std=c99", "-O2", "-w", "-ffreestanding", "-fno-math-errno", "-mcpu=cortex-m4", "-mthumb", "-mfpu=fpv4-sp-d16",
            "-mfloat-abi=hard", "-fno-short-enums", "-ffinite-math-only", "-fno-signed-zeros", "-fno-optimize-sibling-calls",
            "-ffunction-sections", "-fdata-sections", "-D_Bool=unsigned short",
-           *[f"-I{FIRMWARE / d}" for d in ("control", "commission", "store", "app", "board/f28335", "board", "config")],
+           *[f"-I{path}" for d in ("control", "commission", "store", "app", "board/f28335", "board", "config")
+             for path in (FIRMWARE / d, *sorted((FIRMWARE / d).glob("*/")))],
            "-isystem", str(ROOT / "tests/target/include"), "-isystem", str(STAND_IN), "-include", str(STAND_IN / "c28_cpu.h")]
 LINK = [COMPILER, "-nostdlib", "-nostartfiles", "-mcpu=cortex-m4", "-mthumb", "-mfpu=fpv4-sp-d16", "-mfloat-abi=hard", "-Wl,--gc-sections",
         "-Wl,--unresolved-symbols=ignore-all", "-Wl,-e,main", "-Wl,-u,control_isr", "-Wl,--no-warn-rwx-segments"]
@@ -43,20 +44,21 @@ def is_there():
 
 def core_sources():
     """firmware/control as an image has it: tick and laws as one translation unit each."""
-    text = (FIRMWARE / "CMakeLists.txt").read_text().replace("${sdre_tick}", "one_unit")
+    text = (FIRMWARE / "CMakeLists.txt").read_text().replace("${sdre_tick}", "one_unit").replace("${sdre_laws}", "one_unit")
     library = text[text.index("add_library(control_core") : text.index("target_include_directories(control_core")]
-    return [FIRMWARE / name for name in re.findall(r"(?:control|one_unit)/\w+\.c", library)]
+    return [FIRMWARE / name for name in re.findall(r"(?:control|one_unit)/(?:\w+/)?\w+\.c", library)]
 
 
 def sources():
     found = core_sources()
     for folder in ("app", "commission", "store", "board/f28335"):
-        found += sorted((FIRMWARE / folder).glob("*.c"))
+        found += sorted((FIRMWARE / folder).rglob("*.c"))
     return found + [FIRMWARE / "config" / "board_config.c"]
 
 
 def _compile(source, work):
-    made = work / f"{source.parent.name}_{source.stem}.o"
+    room = source.relative_to(FIRMWARE).parts[0] if source.is_relative_to(FIRMWARE) else source.parent.name
+    made = work / f"{'f28335' if room == 'board' else room}_{source.stem}.o"
     subprocess.run([COMPILER, *OPTIONS, "-c", str(source), "-o", str(made)], check=True, cwd=work)
     return made
 
