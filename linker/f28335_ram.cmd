@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Image for a debugger: everything in RAM, the flash stays as it is. Boot mode "SARAM", or set the program counter to
+/* Image for a debugger (bench.c): everything in RAM, the flash stays as it is. Boot mode "SARAM", or set the program counter to
  * code_start. Sections are those of EABI. */
 MEMORY
 {
@@ -32,20 +32,13 @@ SECTIONS
                    ALIGN(2)
     .tables      :
     {
-        *(.const:law_*)
+        *(.const:board_config)
     }
                    > RAML4567,
                    LOAD_START(codestart_tables_load),
                    LOAD_SIZE(codestart_tables_words),
                    RUN_START(codestart_tables_run),
                    ALIGN(2)
-
-    /* All constants of the drive, read in every period: main() fills it from the compiled ones or from the store. */
-    .in_force    :
-    {
-        *(.bss:in_force)
-    }
-                   > RAML4567
 
     .text        : > RAML0123
     .switch      : > RAML0123

@@ -52,7 +52,7 @@ def core_sources():
 def sources():
     found = core_sources()
     for folder in ("app", "commission", "store", "board/f28335"):
-        found += sorted((FIRMWARE / folder).rglob("*.c"))
+        found += [source for source in sorted((FIRMWARE / folder).rglob("*.c")) if source.name != "bench.c"]
     return found + [FIRMWARE / "config" / "board_config.c"]
 
 
@@ -87,6 +87,16 @@ def functions(laws):
             subprocess.run([*LINK, f"-Wl,-Map,{layout}", *objects, "-o", str(work / law)], check=True)
             found[law] = list(_kept(layout.read_text()))
     return found
+
+
+def bench_functions():
+    """Functions of the image for a debugger."""
+    with tempfile.TemporaryDirectory() as directory:
+        work = pathlib.Path(directory)
+        made = [_compile(source, work) for source in sources() if source.parent == BOARD and source.name != "main.c"]
+        made += [_compile(BOARD / "bench.c", work), _compile(FIRMWARE / "config" / "board_config.c", work)]
+        subprocess.run([*LINK, f"-Wl,-Map,{work / 'bench.map'}", *map(str, made), "-o", str(work / "bench")], check=True)
+        return list(_kept((work / "bench.map").read_text()))
 
 
 def _listed(text, name):

@@ -104,6 +104,14 @@ class TableSizes(unittest.TestCase):
                 self.assertLessEqual(everything + CONSTANTS_words, (1 - LEFT) * flash)
 
     @unittest.skipUnless(code_size.is_there(), f"no {code_size.COMPILER}: ./dev budget installs it")
+    def test_image_for_a_debugger_leaves_room(self):
+        functions = code_size.bench_functions()
+        self.assertIn("control_isr", {f.name for f in functions})
+        most, room = code_size.words_at_most(sum(f.halfwords for f in functions)) + code_size.LIBRARY_words, length(".text", "ram")
+        print(f"image for a debugger: code at most {most} of {room} words: {100 * most / room:.0f} %")
+        self.assertLessEqual(most, (1 - LEFT) * room)
+
+    @unittest.skipUnless(code_size.is_there(), f"no {code_size.COMPILER}: ./dev budget installs it")
     def test_what_is_named_exists_and_is_compiled_for_the_ram(self):
         named, known = set(code_size.seldom()), set()
         for law, functions in code().items():

@@ -155,7 +155,7 @@ def stack_words():
 
 
 def report(compiler, verbose):
-    graph = graph_of(compiler, [p for folder in FOLDERS for p in sorted(folder.glob("*.c"))])
+    graph = graph_of(compiler, [p for folder in FOLDERS for p in sorted(folder.glob("*.c")) if p.name != "bench.c"])
     known = graph.whole()
     start, loop, tick = known["main"], known["app_background"], known["control_isr"]
     nested = max(known[n] for n in known if n.endswith(("tick_is_missing", "pie.c:unexpected")))
