@@ -54,6 +54,10 @@ int board_firmware_main(void)
     board_firmware.faults      = board_fault_read();
     board_firmware.reset_cause = board_reset_cause();
     if (board_firmware.init_result) {
+        const board_line_t line = board_firmware.line;
+        if (line.baud_Bd != 0U) {
+            board_line_set(&line);
+        }
         board_start(tick, board_firmware.updates);
         board_firmware.started = true;
     }
@@ -62,6 +66,9 @@ int board_firmware_main(void)
             board_watchdog_serve();
         }
         talk();
+        if (board_firmware.pass_lasts_us > 0.0) {
+            DELAY_US(board_firmware.pass_lasts_us);
+        }
         asm(" NOP");
     }
 }

@@ -26,9 +26,11 @@ typedef struct {
     uint16_t      updates;       /**< per PWM period */
     board_setup_t setup;         /**< that board_init() gets */
     board_duty_t  duty;
-    uint16_t      say[16]; /**< the background sends these octets ... */
-    int           says;    /**< ... so many of them */
-    bool          hear;    /**< the background listens */
+    double        pass_lasts_us; /**< a pass of the background takes this longer */
+    board_line_t  line;          /**< baud_Bd other than 0: set up at the start */
+    uint16_t      say[16];       /**< the background sends these octets ... */
+    int           says;          /**< ... so many of them */
+    bool          hear;          /**< the background listens */
     /* Seen by the firmware. */
     bool           init_result;
     bool           started;

@@ -374,6 +374,30 @@ TEST_F(F28335Board, ReceiverOverflowsAfterSixteenOctets)
     EXPECT_EQ(+SciaRegs.SCIFFRX.bit.RXFFOVF, 1);
 }
 
+// A master may send again after 1.75 ms. A pass of the background lasts up to 1 ms.
+TEST_F(F28335Board, LineIsReleasedBeforeAMasterMaySend)
+{
+    for (const unsigned baud_Bd : {9600U, 115200U}) {
+        for (const double pass_us : {0.0, 1000.0}) {
+            const_cast<board_line_t &>(board_firmware.line) = {baud_Bd, BOARD_LINE_EVEN, 1};
+            board_firmware.pass_lasts_us                    = pass_us;
+            board_firmware.hear                             = true;
+            Device &d                                       = start();
+            board_firmware.says                             = 5;
+            d.run_for(10e-3 + 5 * 11.0 / baud_Bd);
+            const Direction &seen   = d.serial().direction();
+            const double     tail_s = static_cast<double>(seen.tail_ticks) / tick_Hz;
+            EXPECT_EQ(seen.rises, 1) << baud_Bd;
+            EXPECT_EQ(seen.cut_octets, 0) << baud_Bd;
+            EXPECT_GE(tail_s, 1.0 / baud_Bd - 1e-6) << baud_Bd;
+            EXPECT_LE(tail_s, 2 * period_s + 1.1 / baud_Bd) << baud_Bd << ", " << pass_us;
+            for (const Findings::Entry &e : d.findings().all()) {
+                ADD_FAILURE() << e.text;
+            }
+        }
+    }
+}
+
 // 16 octets of 11 bits at 37.5 MHz / 8 / divider; a pass of the background lasts 1 ms at most.
 TEST_F(F28335Board, FifoOutlastsAPassAtEveryRateThatFits)
 {

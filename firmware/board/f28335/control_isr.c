@@ -45,6 +45,7 @@ __interrupt void control_isr(void)
     tick_watch_serve();
     trip_check();
     take_sample();
+    line_release();
     EINT; /* for tick_watch.c alone: the processor has taken this interrupt's own bit out of IER */
     control_tick();
     DINT;

@@ -65,12 +65,3 @@ void gpio_use_direction(void)
     GpioCtrlRegs.GPADIR.all |= DIRECTION_PIN;
     EDIS;
 }
-
-void gpio_direction(bool sends)
-{
-    if (sends) {
-        GpioDataRegs.GPASET.all = DIRECTION_PIN;
-    } else {
-        GpioDataRegs.GPACLEAR.all = DIRECTION_PIN;
-    }
-}

@@ -14,10 +14,9 @@
 #define BOARD_STACK_WORDS 0x700U  /**< --stack_size of CMakeLists.txt */
 #define BOARD_STACK_FILL  0xC0DEU /**< STACK_FILL of codestart.asm */
 
-void gpio_make_safe(void);       /**< gate driver off and bridge pins low; first of all */
-void gpio_connect(void);         /**< pins to their peripherals; the bridge has to be tripped */
-void gpio_use_direction(void);   /**< the line's direction pin becomes an output, low */
-void gpio_direction(bool sends); /**< context: background */
+void gpio_make_safe(void);     /**< gate driver off and bridge pins low; first of all */
+void gpio_connect(void);       /**< pins to their peripherals; the bridge has to be tripped */
+void gpio_use_direction(void); /**< the line's direction pin becomes an output, low */
 
 bool clock_init(void);        /**< false: no crystal or no lock */
 void clock_peripherals(void); /**< dividers and module clocks; PWM time bases stand still */
@@ -28,10 +27,11 @@ void flash_init(void); /**< wait states and pipeline; runs from RAM */
 void pie_init(void);  /**< every vector stops the drive, but that of the control ISR */
 void pie_start(void); /**< control interrupt on */
 
-void trip_init(void);            /**< armed and tripped; before the PWM runs */
-void trip_check(void);           /**< enables wanted gates. Context: start of the control ISR */
-void trip_latch(uint16_t fault); /**< remembers and opens the bridge. Context: init, control ISR masked */
-void trip_overdue(void);         /**< the same, of an overrun. Context: INT13 */
+void trip_init(void);  /**< armed and tripped; before the PWM runs */
+void trip_check(void); /**< enables wanted gates. Context: start of the control ISR */
+void trip_latch(
+    uint16_t fault);     /**< remembers and opens the bridge. Context: init, control ISR masked */
+void trip_overdue(void); /**< the same, of an overrun. Context: INT13 */
 
 void pwm_init(const board_setup_t *setup);
 void pwm_start(uint16_t updates_per_period); /**< all three legs at once */
@@ -59,6 +59,13 @@ void watchdog_stop(void); /**< first reads what has reset the device */
 void watchdog_start(void);
 
 void serial_init(void);
+
+void line_init(bool     uses_direction,
+               uint32_t cycles_per_bit); /**< listens. Context: init or loader */
+bool line_is_sending(void);              /**< an octet is on its way. Context: any */
+void line_send(uint16_t octet);          /**< there has to be room. Context: background */
+void line_release(
+    void); /**< listens again after the last octet. Context: control ISR, background */
 
 void             control_isr_init(void (*tick)(void), uint32_t period_cycles);
 __interrupt void control_isr(void);

@@ -31,13 +31,6 @@ static const uint16_t formats[] = {0x0067U, 0x0027U, 0x0087U};
 #define RATES   ((uint16_t)(sizeof rates / sizeof rates[0]))
 #define FORMATS ((uint16_t)(sizeof formats / sizeof formats[0]))
 
-static struct {
-    bool     uses_direction;
-    bool     empty; /* the transmitter has been since empty_cycles */
-    uint32_t empty_cycles;
-    uint32_t bit_cycles;
-} line;
-
 /* An error stops the receiver until this, which stops the transmitter too. */
 static void restart_receiver(void)
 {
@@ -65,7 +58,7 @@ static void set_up(uint16_t brr, uint16_t format)
 
 void serial_init(void)
 {
-    line.uses_direction = false;
+    line_init(false, 0UL);
     set_up((uint16_t)CLOCK_BRR(CLOCK_BAUD_Hz), formats[BOARD_LINE_EVEN]);
 }
 
@@ -91,43 +84,17 @@ void board_line_set(const board_line_t *wanted)
         return;
     }
     set_up(rates[rate_of(wanted->baud_Bd)].brr, formats[wanted->format]);
-    line.uses_direction = wanted->direction != 0U;
-    line.empty          = false;
-    line.bit_cycles     = CLOCK_SYSCLK_Hz / wanted->baud_Bd;
-    if (line.uses_direction) {
+    if (wanted->direction != 0U) {
         gpio_use_direction();
     }
-}
-
-static bool is_sending(void)
-{
-    return (SciaRegs.SCIFFTX.bit.TXFFST != 0U) || (SciaRegs.SCICTL2.bit.TXEMPTY == 0U);
-}
-
-/* Back to listening when the transmitter has been empty for a bit: the manual does not say whether it is before the
- * last stop bit has ended. */
-static void release_line(void)
-{
-    if (!line.uses_direction) {
-        return;
-    }
-    if (is_sending()) {
-        line.empty = false;
-    } else if (!line.empty) {
-        line.empty        = true;
-        line.empty_cycles = board_cycles();
-    } else if ((uint32_t)(board_cycles() - line.empty_cycles) > line.bit_cycles) {
-        gpio_direction(false);
-    } else {
-        /* the stop bit */
-    }
+    line_init(wanted->direction != 0U, CLOCK_SYSCLK_Hz / wanted->baud_Bd);
 }
 
 bool board_serial_read(uint16_t *octet)
 {
-    release_line();
+    line_release(); /* here too: the loader has no control interrupt */
     if ((SciaRegs.SCIRXST.bit.RXERROR != 0U) || (SciaRegs.SCIFFRX.bit.RXFFOVF != 0U)) {
-        if (!is_sending()) { /* an answer on its way is not cut */
+        if (!line_is_sending()) { /* an answer on its way is not cut */
             restart_receiver();
         }
         return false; /* the rest of a broken frame is worth nothing */
@@ -144,10 +111,6 @@ bool board_serial_write(uint16_t octet)
     if (SciaRegs.SCIFFTX.bit.TXFFST >= FIFO_DEPTH) {
         return false;
     }
-    if (line.uses_direction) {
-        line.empty = false;
-        gpio_direction(true);
-    }
-    SciaRegs.SCITXBUF = (uint16_t)(octet & OCTET);
+    line_send((uint16_t)(octet & OCTET));
     return true;
 }
