@@ -93,7 +93,7 @@ def python_text(groups: List[Group], found: List[Signal]) -> str:
              "from __future__ import annotations", "", "from typing import NamedTuple, Optional, Tuple", "", "",
              "class Register(NamedTuple):", '    """One value: step is 0 for a whole number."""', "",
              "    name: str", "    address: int", "    type: str", "    step: float", "    unit: str", "", "",
-             "class Parameter(NamedTuple):", '    """What is kept over power: range in its unit; no default: the largest."""', "",
+             "class Parameter(NamedTuple):", '    """A parameter that is kept over power: range in its unit. No default means the largest."""', "",
              "    register: Register", "    low: float", "    high: float", "    default: Optional[float]", "    stopped: bool",
              "    object: str", "    text: str", "", "",
              f'DIGEST = "{digest_of(groups)}"', ""]  # fmt: skip
@@ -111,7 +111,7 @@ def python_text(groups: List[Group], found: List[Signal]) -> str:
     lines += ["", "BY_NAME = {r.name: r for r in (*HOLDING, *INPUT)}", "", "PARAMETERS: Tuple[Parameter, ...] = ("]
     lines += [f'    Parameter(BY_NAME["{r.name}"], {r.range[0]!r}, {r.range[1]!r}, {None if r.default == "largest" else float(r.default)!r}, '
               f'{r.stopped}, "{r.object}", {json.dumps(words_of(r))}),' for r in saved(groups)]  # fmt: skip
-    lines += [")  # fmt: skip", "", "# Of the scope, by number: name and unit.", "SIGNALS = ("]
+    lines += [")  # fmt: skip", "", "# Signals of the scope by number: name and unit.", "SIGNALS = ("]
     lines += [f'    ("{s.name}", "{s.unit}"),' for s in found]
     return "\n".join([*lines, ")"]) + "\n"
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the examples share: where things are, and one way to draw."""
+"""Common part of the examples: paths, and one way to draw."""
 
 from __future__ import annotations
 

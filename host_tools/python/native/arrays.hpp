@@ -18,7 +18,7 @@ numpy_array(std::vector<T> values, std::initializer_list<std::size_t> shape)
     auto              kept = std::make_unique<std::vector<T>>(std::move(values));
     T                *data = kept->data();
     nanobind::capsule owner(kept.get(), [](void *p) noexcept {
-        delete static_cast<std::vector<T> *>(p); // NumPy calls it when nobody looks any more
+        delete static_cast<std::vector<T> *>(p); // NumPy calls it after the last reference is gone
     });
     kept.release();
     return {data, shape, owner};

@@ -14,8 +14,8 @@
 
 namespace sdre {
 
-/// A scenario as it stands in its file, to be changed and read again for every case: so a case can be nothing that a
-/// scenario file cannot say, and every value is checked as there.
+/// The text of a scenario file, which is changed and read again for every case. A case can
+/// therefore be written as a scenario file, and every value is checked as there.
 struct CaseBase {
     toml::table root;
     std::string source; ///< for messages
@@ -29,7 +29,7 @@ struct CaseVariable {
     bool                 whole = false;
 };
 
-/// What is kept of one run.
+/// Results of one run.
 struct CaseResult {
     int    fault          = 0;     ///< SimulationResult::fault
     bool   failed         = false; ///< as judge() says

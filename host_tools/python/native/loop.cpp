@@ -123,7 +123,7 @@ private:
     drive_t    drive_{};
 };
 
-/// Board and motor: duty ratios in, samples out. What is given at a tick acts from the next one on.
+/// Board and motor: duty ratios in, samples out. An input at a tick acts from the next one on.
 class MotorOnBoard {
 public:
     explicit MotorOnBoard(const Scenario &s)

@@ -31,7 +31,7 @@ class Variable:
 
 @dataclass(frozen=True)
 class CaseTable:
-    """What is kept of n cases."""
+    """Results of n cases."""
 
     fault: NDArray[np.int32]  # n; 0: none, sdre._native.fault_name() has the names
     failed: NDArray[np.bool_]  # n; a fault, more than 1.1 times the current limit, or not in a measure's band at its end
@@ -43,8 +43,8 @@ class CaseTable:
 class Cases:
     """A scenario to be run with many values. Not to be shared between threads; make one for each.
 
-    The controller does not know the values, unless a variable is its own (controller, controller_scale, max_current_A,
-    inverter.updates_per_period): then every case is designed anew, which takes longer than its run.
+    The controller does not know the values, unless a variable belongs to it: controller, controller_scale, max_current_A,
+    inverter.updates_per_period. Every case then has its own design, which takes longer than its run.
     """
 
     def __init__(
@@ -59,7 +59,7 @@ class Cases:
 
     @property
     def columns(self) -> Tuple[str, ...]:
-        """Of CaseTable.metrics: "measure.metric"."""
+        """Columns of CaseTable.metrics: "measure.metric"."""
         return tuple(f"{measure}.{metric}" for measure in self._native.measures for metric in self.metrics)
 
     def check(self, values: Sequence[float]) -> None:

@@ -71,7 +71,7 @@ class Drive:
 
     @property
     def name(self) -> str:
-        """Of the drive file."""
+        """Name in the drive file."""
         return str(self._native.name)
 
     @property
@@ -81,7 +81,7 @@ class Drive:
 
     @property
     def digest(self) -> str:
-        """Of every value, whatever the layout of the file: "fnv1a64:.."."""
+        """Digest of every value, independent of the file's layout: "fnv1a64:.."."""
         return str(self._native.digest)
 
     @property

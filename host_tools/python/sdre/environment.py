@@ -3,11 +3,11 @@
 
     env = sdre.environment.SpeedEnv(drive, scenario)
 
-Observation, 6 numbers: speed error / rated speed, speed / rated speed, i_d and i_q / current limit, and the voltage of the action
-before, as shares. All from the sample, as a core would have them.
-Action, 2 numbers in -1 .. 1: v_d and v_q as shares of dc link / sqrt(3); acts one control period later.
-Reward: - |speed error| / rated speed - 0.01 (|action|)^2 for each period; -100 when the current exceeds twice its limit or the
-shaft runs away, which terminates the episode. It is truncated at the scenario's end.
+- Observation, 6 numbers: speed error / rated speed, speed / rated speed, i_d and i_q / current limit, two voltages. The voltages are
+  those of the previous action, as shares. All come from the sample, as for a core.
+- Action, 2 numbers in -1 .. 1: v_d and v_q as shares of dc link / sqrt(3). It acts one control period later.
+- Reward for each period: - |speed error| / rated speed - 0.01 (|action|)^2. It is -100 when the current exceeds twice its limit or the
+  speed diverges, which terminates the episode. The episode is truncated at the scenario's end.
 """
 
 from __future__ import annotations

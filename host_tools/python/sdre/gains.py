@@ -20,10 +20,13 @@ FloatArray = NDArray[np.float64]
 class GainSeries:
     """A gain that is a Taylor series in a current: sum over n of gain[n] * current_A**n.
 
-    Controller (EQ-NOSC-2, paper A eq. 26): current e_iq, gain[n] is 2 x 3, from [w - w_d, iq - iq_ref, id - id_ref] in rad/s and A
-    to [v_q, v_d] in V. Observer (EQ-NODO-2, EQ-NODO-ENCODER-3, paper A eq. 39): current i_q, gain[n] is states x 3, from the
-    measurements' errors to the rates of the states. Of the conventional law, with two currents, `powers` has the exponents of
-    every term.
+    Controller (EQ-NOSC-2, paper A eq. 26): current e_iq. gain[n] is 2 x 3, from [w - w_d, iq - iq_ref, id - id_ref] in rad/s and A
+    to [v_q, v_d] in V.
+
+    Observer (EQ-NODO-2, EQ-NODO-ENCODER-3, paper A eq. 39): current i_q. gain[n] is states x 3, from the measurements' errors to the
+    rates of the states.
+
+    The conventional law has two currents; `powers` has the exponents of every term.
     """
 
     order: int
@@ -65,7 +68,7 @@ class LoopVerdict:
 
 @dataclass(frozen=True)
 class Certificate:
-    """What has to hold before a table is written."""
+    """Conditions for writing a table."""
 
     certified: bool
     failures: Tuple[str, ...]  # one line each
@@ -76,7 +79,7 @@ class Certificate:
 
 @dataclass(frozen=True)
 class Design:
-    """Gains of a drive. What a law has none of is None; `report` has all that `sdre-gains report --json` prints."""
+    """Gains of a drive. Missing parts of a law are None; `report` has all that `sdre-gains report --json` prints."""
 
     drive: Drive
     law: str
@@ -138,8 +141,8 @@ def care(
 ) -> CareSolution:
     """Solves A'X + XA - X B R^-1 B' X + Q = 0 (EQ-CARE-1); with G = B R^-1 B' in place of B and R if wanted.
 
-    A, Q, G are n x n, B is n x m, R is m x m, positive definite. InputError on wrong shapes and numbers that are not finite,
-    DesignError with the assumption that does not hold: not stabilisable, not detectable, eigenvalues on the imaginary axis.
+    A, Q, G are n x n, B is n x m, R is m x m, positive definite. InputError on wrong shapes and numbers that are not finite.
+    DesignError with the failed assumption: not stabilisable, not detectable, eigenvalues on the imaginary axis.
     """
     if Q is None or (B is None) != (R is None) or (B is None) == (G is None):
         raise _native.InputError("care: give A, Q and either B and R or G")

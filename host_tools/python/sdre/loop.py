@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""One control period at a call: for closed loops of one's own. An object belongs to one thread.
+"""One control period per call, for your own closed loops. An object belongs to one thread.
 
-    Simulation   drive and motor:    wanted speed and load in, state out
+    Simulation   drive and motor:    commanded speed and load in, state out
     Core         the drive alone:    sample in, duty ratios out
     Plant        the motor's side:   duty ratios in, sample out
 
-What is given at a tick acts from the next tick on, as on the board. A Core and a Plant in a Python loop do what a Simulation
-and sdre.simulate() do, to the bit.
+An input at a tick acts from the next tick on, as on the board. A Core and a Plant in a Python loop give the same numbers as a
+Simulation and sdre.simulate(), to the bit.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from sdre.scenario import Scenario
 
 
 class Sample(NamedTuple):
-    """What the core gets at a tick, in single precision (firmware/control/base/sample.h)."""
+    """The core's sample at a tick, in single precision (firmware/control/base/sample.h)."""
 
     ia_A: float  # phase currents, positive into the motor
     ib_A: float
@@ -140,17 +140,17 @@ class Plant:
 
     @property
     def sample(self) -> Sample:
-        """Of the present tick."""
+        """Sample of the present tick."""
         return Sample(*self._native.sample)
 
     @property
     def state(self) -> PlantState:
-        """Of the present tick: true values, not measured ones."""
+        """True state at the present tick, without measurement errors."""
         return PlantState(*self._native.state)
 
     @property
     def time_s(self) -> float:
-        """Of the present tick."""
+        """Time of the present tick."""
         return self.state.time_s
 
     @property

@@ -15,7 +15,7 @@ LARGEST_SEED = 2147483647
 
 
 class Scenario:
-    """What happens in a run: speeds, load, sensors, inverter, changes, faults, measures. Never changes.
+    """The events of a run: speeds, load, sensors, inverter, changes, faults, measures. Immutable.
 
     `source` is a scenario file, or a mapping with its keys (docs/files.md). `drive` is run in place of the one
     that the file names; a mapping without "drive" needs it. Paths in a mapping are relative to the working directory.
@@ -44,7 +44,7 @@ class Scenario:
 
     @property
     def seed(self) -> int:
-        """Of every random draw: noise, disc, rotor angle."""
+        """Seed of every random draw: noise, disc, rotor angle."""
         return int(self._native.seed)
 
     @property

@@ -20,7 +20,7 @@ _kept = threading.local()  # the campaign's Cases on this thread: gains are solv
 
 @dataclass(frozen=True)
 class Done:
-    """What a task gives back."""
+    """Result of a task."""
 
     task: Any
     table: pa.Table
@@ -58,7 +58,7 @@ def run_batch(spec: Spec, batch: int) -> Done:
 
 
 def columns_of(cases: sdre.Cases, result: sdre.CaseTable, values: FloatArray) -> Dict[str, Any]:
-    """What is kept of cases: judgement, margins, values, metrics."""
+    """Columns of cases: judgement, margins, values, metrics."""
     columns: Dict[str, Any] = {
         "failed": result.failed,
         "fault": result.fault,
@@ -71,7 +71,7 @@ def columns_of(cases: sdre.Cases, result: sdre.CaseTable, values: FloatArray) ->
 
 
 def cases_of(spec: Spec) -> sdre.Cases:
-    """Of this thread."""
+    """Cases of this thread."""
     digest = spec.digest()
     if getattr(_kept, "digest", None) != digest:
         drive = spec.drive()

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """One task of subset simulation: free samples of the first level, or some chains of a later one, from their heads to their ends.
 
-A sample is a standard normal for each variable and the seed of its noise. A chain's candidate is rho u + sqrt(1 - rho^2) z (preconditioned
-Crank-Nicolson: as likely as u, so it is taken when it is below the threshold and else the chain stays), and keeps its
-seed half of the times: a slope in the variables can be followed with the same noise, and noise can be chosen too.
+A sample is a standard normal for each variable and the seed of its noise. A chain's candidate is rho u + sqrt(1 - rho^2) z
+(preconditioned Crank-Nicolson). It is as likely as u, so it is accepted when it is below the threshold; otherwise the chain stays. It
+keeps its seed half of the times. The chain can then follow a slope in the variables with the same noise, and can change the noise too.
 All numbers come from counters (Philox): a chain is the same in any task and at any worker.
 """
 
@@ -45,12 +45,12 @@ class Chains:
 
     @property
     def name(self) -> str:
-        """Of the part."""
+        """Name of the part."""
         return f"run-{self.run:03d}-level-{self.level:02d}-from-{self.first:06d}"
 
     @property
     def rows(self) -> int:
-        """Of the part."""
+        """Rows of the part."""
         return self.count if self.level == 0 else self.count * STEPS
 
 
@@ -75,7 +75,7 @@ class Stream:
 
 
 def normals(numbers: FloatArray) -> FloatArray:
-    """Of even numbers in 0 .. 1."""
+    """Standard normals of evenly distributed numbers in 0 .. 1."""
     from scipy.special import ndtri
 
     found: FloatArray = ndtri(np.maximum(numbers, 2.0**-54))

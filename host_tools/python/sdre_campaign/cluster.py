@@ -60,7 +60,7 @@ def _client(scheduler: str) -> Client:
 
 
 def _close(what: Any) -> None:
-    """What is written is safe: a process that does not end in time is no reason to fail."""
+    """Closes it. Written parts are safe, so a process that does not end in time is not a failure."""
     with suppress(Exception):
         what.close(timeout=60)
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The values of a case: a function of the campaign's seed and the case's number alone.
 
-Random numbers are counter-based (Philox 4x64): number `case` takes its own blocks of the sequence, so any batch can be drawn
-without the ones before it, by any worker.
+Random numbers are counter-based (Philox 4x64). Number `case` has its own blocks of the sequence.
+Any worker can draw any batch without the previous ones.
 """
 
 from __future__ import annotations

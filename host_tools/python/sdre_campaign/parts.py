@@ -104,7 +104,7 @@ class Directory:
 
 
 def part_name(batch: int) -> str:
-    """Of a batch's part."""
+    """Name of a batch's part."""
     return f"part-{batch:06d}"
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Subset simulation on a cluster: level by level, all runs side by side. What a level is follows from the parts of the one before."""
+"""Subset simulation on a cluster: level by level, all runs in parallel. The parts of a level determine the next one."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Run:
         self._spread = FIRST_SPREAD
 
     def tasks(self) -> List[Chains]:
-        """Of the level that comes."""
+        """Tasks of the next level."""
         level = len(self.levels)
         if self._heads is None:
             return [Chains(self.number, level, first, count) for first, count in self._spans(level)]
@@ -69,7 +69,7 @@ class Run:
             self.end = "stuck"
 
     def probability(self) -> float:
-        """Of a margin below the last threshold."""
+        """Probability of a margin below the last threshold."""
         return math.prod(level.share for level in self.levels)
 
 

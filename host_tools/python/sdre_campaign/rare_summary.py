@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What subset simulation's parts say: how probable a margin below the limit is, how far to trust it, what such cases look like."""
+"""Results of subset simulation: the probability of a margin below the limit, its interval, and the rarest cases."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ POINTS = 61  # of the curve
 
 @dataclass
 class RareSummary:
-    """Of all runs."""
+    """Summary of all runs."""
 
     spec: Spec
     runs: List[Run]
@@ -121,7 +121,7 @@ def summarise_runs(spec: Spec, runs: List[Run], directory: Directory) -> RareSum
 
 
 def _failed(runs: List[Run], inside: List[NDArray[np.bool_]], failed: List[NDArray[np.bool_]], found: Estimate) -> Estimate:
-    """Of failing: the share of the last levels' samples that did.
+    """Probability of failing, from the share of the last levels' samples that failed.
 
     None at all: at most the probability's upper end times the share that so many samples leave, as many as are independent.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a campaign is: read from TOML, every key checked."""
+"""Specification of a campaign: read from TOML, every key checked."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class Spec:
         return tuple(one.variable for one in self.varied)
 
     def digest(self) -> str:
-        """Of everything that decides what a case is, so not of how many there are."""
+        """Digest of everything that determines a case. The number of cases is not part of it."""
         said = {
             "tool": sdre.__version__, "method": self.method, "seed": self.seed, "batch": self.batch, "repeats": self.repeats,
             "fixed_seed": self.fixed_seed, "metrics": self.metrics, "scenario": self.scenario, "drive": self.drive().digest,
@@ -88,7 +88,7 @@ class Keys:
         self._known: Set[str] = set()
 
     def fail(self, key: str, what: str) -> sdre.InputError:
-        """What is wrong, in one line."""
+        """The error in one line."""
         return sdre.InputError(f"{self._where}: {key} {what}")
 
     def get(self, key: str, kind: Any, default: Any = None) -> Any:
@@ -228,7 +228,7 @@ def _cases(keys: Keys, method: str, varied: Tuple[Varied, ...], repeats: int) ->
 
 
 def points_of(one: Varied, method: str) -> int:
-    """Of a grid, along one variable."""
+    """Points of a grid along one variable."""
     if one.distribution == "values":
         return len(one.values)
     return 2 if method == "corners" else one.points

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: MIT
 """Subset simulation (Au and Beck, 2001): a small probability as a product of larger ones.
 
-The first level's samples are drawn freely; the tenth of them with the least margin are the heads of Markov chains that stay below the
-level's threshold, and so on until a tenth of a level's samples is below the limit. What is here knows margins alone: no
-simulation, no cluster.
+The first level's samples are drawn freely. The tenth with the least margin starts Markov chains that stay below the level's
+threshold, and so on. It ends when a tenth of a level's samples is below the limit. This module uses margins alone: no simulation, no
+cluster.
 
-Assumed: the margin is a function of the sample alone; the way to the rare samples leads over small margins (what fails without one is met
-by chance); a level's chains are independent of each other. The last holds nearly: tests/python/test_campaign_rare.py has what the
-interval is worth.
+Assumptions:
+
+- The margin is a function of the sample alone.
+- The rare samples are reached over small margins. A failure without a small margin is found by chance only.
+- A level's chains are independent of each other. This holds nearly: tests/python/test_campaign_rare.py measures the interval.
 """
 
 from __future__ import annotations
@@ -29,7 +31,7 @@ _NORMAL_975 = 1.959964  # the standard normal's quantile: an interval of 95 %
 
 @dataclass(frozen=True)
 class Level:
-    """What one level says. The last one's threshold is the campaign's limit."""
+    """Result of one level. The last threshold is the campaign's limit."""
 
     threshold: float
     share: float  # of its samples below the threshold
@@ -89,7 +91,7 @@ class Estimate:
 
 
 def estimate(levels: Sequence[Level]) -> Estimate:
-    """Of one run: the product of its levels' shares.
+    """Estimate of one run: the product of its levels' shares.
 
     A level's heads are samples of the one before: the interval takes neighbours for wholly dependent. With independent levels it
     would be too narrow: it then holds the truth 83 to 90 times of 100.
@@ -104,8 +106,8 @@ def estimate(levels: Sequence[Level]) -> Estimate:
 
 
 def combined(runs: Sequence[Estimate]) -> Estimate:
-    """Of independent runs: their mean. Of two intervals, the formula's and the one that the runs' spread shows (Student, from 5 runs
-    on), the wider one."""
+    """Estimate of independent runs: their mean. The interval is the wider one of the formula's and
+    of the runs' spread (Student, from 5 runs on)."""
     from scipy.special import stdtrit
 
     count = len(runs)
@@ -125,13 +127,14 @@ def combined(runs: Sequence[Estimate]) -> Estimate:
 
 
 def _interval(probability: float, variation: float, quantile: float) -> Tuple[float, float]:
-    """Of a logarithm that is normally distributed: a product of estimates, and never below zero."""
+    """Interval of an estimate whose logarithm is normally distributed: a product of estimates is never below zero."""
     factor = math.exp(quantile * math.sqrt(math.log1p(variation**2)))
     return probability / factor, min(1.0, probability * factor)
 
 
 def next_spread(spread: float, accepted: float) -> float:
-    """Of the next level's candidates: further away when most were taken. 0.44: Papaioannou, Betz, Zwirglmaier and Straub, 2015."""
+    """Spread of the next level's candidates: larger when most were accepted. 0.44: Papaioannou, Betz,
+    Zwirglmaier and Straub, 2015."""
     return min(1.0, max(0.05, spread * math.exp(2.0 * (accepted - 0.44))))
 
 

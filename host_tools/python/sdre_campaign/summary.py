@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the parts of a campaign say; a function of the parts alone, whoever wrote them and in whatever order.
+"""Summary of a campaign's parts. It depends on the parts alone, not on their writer or order.
 
 One part is in memory at a time, and counts: memory does not grow with the number of cases.
 """
@@ -95,7 +95,7 @@ class Worst:
 
 @dataclass
 class Summary:
-    """Of all parts."""
+    """Summary of all parts."""
 
     cases: int
     failures: int

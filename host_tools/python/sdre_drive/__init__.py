@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""What a user of the drive holds: reads, commands and explains it over Modbus. Registers: docs/modbus.md."""
+"""The user's tool: reads, commands and explains the drive over Modbus. Registers: docs/modbus.md."""

@@ -12,7 +12,7 @@ from sdre_drive.connection import DriveError
 TIMEOUT_S = 5.0
 DEFAULT = ("127.0.0.1", 1503)
 
-# What can be broken, in words, and the command for it. Keys: docs/files.md, [[fault]].
+# Faults in words, and the command for each. Keys: docs/files.md, [[fault]].
 FAULTS = {
     "motor wire a broken": 'fault kind = "phase_open", phase = "a"',
     "motor wire c broken": 'fault kind = "phase_open", phase = "c"',
@@ -40,7 +40,7 @@ class Bench:
         self._lines = self._socket.makefile("rw", encoding="utf-8", newline="\n")
 
     def close(self) -> None:
-        """What was set stays."""
+        """Closes the connection; the settings stay."""
         self._lines.close()
         self._socket.close()
 

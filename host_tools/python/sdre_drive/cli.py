@@ -52,7 +52,7 @@ def common(line: Line = "115200-8E1", unit: Unit = 1) -> None:
 
 @app.command()
 def status(port: Port = None, tcp: Tcp = None, pole_pairs: PolePairs = None) -> None:
-    """What the drive does now, and what to do about it."""
+    """Shows the state of the drive, and what to do about it."""
     with Drive(target(port, tcp)) as drive:
         reading = drive.read()
         out.print(show.status(reading, pole_pairs_of(pole_pairs, drive)))

@@ -65,7 +65,7 @@ class Target:
 
 
 def _unit_word() -> str:
-    """What pymodbus calls the address: `slave` before 3.10."""
+    """Name of the address in pymodbus: `slave` up to 3.9."""
     return "device_id" if "device_id" in inspect.signature(ModbusTcpClient.write_register).parameters else "slave"
 
 
@@ -131,7 +131,7 @@ class Drive:
         return registers.decode(self._block(register_map.LIVE), period_s)
 
     def constants(self) -> Constants:
-        """What the drive was built for: asked once."""
+        """Constants of the drive, read once."""
         if self._constants is None:
             self._constants = registers.constants(self._block(register_map.CONSTANTS))
         return self._constants

@@ -82,7 +82,7 @@ def bits(group: str, value: int) -> List[Entry]:
 
 
 def explain(why: Why) -> List[Entry]:
-    """What is wrong, most telling first; empty without a fault."""
+    """Faults of the drive, the most specific first; empty without a fault."""
     if why.fault == 0:
         return []
     first = find("application", why.fault)

@@ -38,7 +38,7 @@ NOT_TAKEN = "the flash did not take it; an F28335's is written with a programmin
 
 @dataclass(frozen=True)
 class Loader:
-    """What the registers of the loader tell."""
+    """Registers of the loader."""
 
     state: int
     reason: int
@@ -50,7 +50,7 @@ class Loader:
 
 @dataclass(frozen=True)
 class InForce:
-    """What the application runs with."""
+    """Constants in force in the application."""
 
     number: int
     name: str

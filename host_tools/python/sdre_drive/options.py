@@ -29,7 +29,7 @@ _line = {"baud": 115200, "format": "8E1", "unit": 1}  # of all commands
 
 
 def use_line(line: str, unit: int) -> None:
-    """What stands before the command."""
+    """Sets the options before the command."""
     baud, _, words = line.partition("-")
     if not baud.isdigit() or words not in FORMATS:
         raise DriveError(f'--line "{line}" is not BAUD-FORMAT, as 115200-8E1')
@@ -57,10 +57,10 @@ def target(port: Optional[str], tcp: Optional[str]) -> Target:
 
 
 def bench_address(control: Optional[str]) -> Tuple[str, int]:
-    """Of the virtual drive's bench."""
+    """Address of the virtual drive's bench."""
     return address(control, "--control") if control else DEFAULT
 
 
 def pole_pairs_of(given: Optional[int], drive: Drive) -> int:
-    """What was given, or what the drive tells."""
+    """The given value, or that of the drive."""
     return given or drive.constants().pole_pairs

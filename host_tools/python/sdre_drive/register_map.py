@@ -17,7 +17,7 @@ class Register(NamedTuple):
 
 
 class Parameter(NamedTuple):
-    """What is kept over power: range in its unit; no default: the largest."""
+    """A parameter that is kept over power: range in its unit. No default means the largest."""
 
     register: Register
     low: float
@@ -226,7 +226,7 @@ PARAMETERS: Tuple[Parameter, ...] = (
     Parameter(BY_NAME["POSITION_WINDOW"], 1, 65535, 4.0, False, "6067h", "around the target: reached"),
 )  # fmt: skip
 
-# Of the scope, by number: name and unit.
+# Signals of the scope by number: name and unit.
 SIGNALS = (
     ("NONE", ""),
     ("SPEED", "rad/s electrical"),

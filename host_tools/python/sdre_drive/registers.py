@@ -37,7 +37,7 @@ def value_of(r: Register, words: Sequence[int]) -> float:
 
 
 def words_of(r: Register, value: float) -> List[int]:
-    """What to write; ValueError beyond the register."""
+    """Words of a value; ValueError beyond the register."""
     count = round(value / r.step) if r.step else round(value)
     low, high = RANGES[r.type]
     if not low <= count <= high:
@@ -46,7 +46,7 @@ def words_of(r: Register, value: float) -> List[int]:
 
 
 def values(registers: Iterable[Register], words: Sequence[int]) -> Dict[str, float]:
-    """By name, of a block that was read as a whole."""
+    """Values by name, of a block that was read as a whole."""
     out: Dict[str, float] = {}
     at = 0
     for r in registers:
@@ -61,7 +61,7 @@ PROFILE_VELOCITY = 3  # mode of operation
 
 
 class ControlWord(IntEnum):
-    """Of CiA 402, object 6040h."""
+    """Control words of CiA 402, object 6040h."""
 
     DISABLE_VOLTAGE = 0
     QUICK_STOP = 2
@@ -127,7 +127,7 @@ class Why:
 
 @dataclass(frozen=True)
 class FirstFault:
-    """What the drive kept of the tick of its last fault; also after a reset."""
+    """Record of the tick of the last fault; it stays after a reset."""
 
     why: Why
     mode: int
@@ -175,7 +175,7 @@ class Reading:
 
 @dataclass(frozen=True)
 class Constants:
-    """What the drive was built for."""
+    """Constants of the firmware."""
 
     pole_pairs: int
     period_s: float

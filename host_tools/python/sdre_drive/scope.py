@@ -26,7 +26,7 @@ PERIOD_S = 0.05
 
 @dataclass(frozen=True)
 class Setup:
-    """What to take."""
+    """Settings of the scope."""
 
     signals: Sequence[str]
     decimation: int = 1
@@ -89,7 +89,7 @@ def is_done(drive: Drive) -> bool:
 
 
 def read(drive: Drive, setup: Setup) -> Capture:
-    """What was taken with this setting."""
+    """Samples taken with this setting."""
     samples = _samples(drive)
     values = _floats(drive, SCOPE_FIRST, CHANNELS * samples)
     period_s = drive.constants().period_s * setup.decimation

@@ -29,7 +29,7 @@ class Tripped(DriveError):
 
 
 def wait_for(drive: Drive, wanted: Callable[[Reading], bool], longest_s: float) -> Optional[Reading]:
-    """The first reading that is wanted; None when it does not come. By the drive's own time: a virtual one may be slow."""
+    """The first matching reading; None when it does not come. Time is the drive's own, because a virtual drive may be slow."""
     begin_s = None
     while True:
         reading = drive.read()
@@ -111,7 +111,7 @@ def follow(drive: Drive, end: threading.Event, period_s: float = PERIOD_S,
 
 
 def require_moving(reading: Reading) -> None:
-    """Of a drive that was started: says why it does not run any more."""
+    """Raises the reason why a started drive has stopped."""
     if reading.mode == Mode.FAULT:
         raise Tripped(reading)
     if reading.mode in (Mode.BOOT, Mode.CALIBRATE):

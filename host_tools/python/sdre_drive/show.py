@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a reading looks like on a terminal."""
+"""A reading on a terminal."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def line(reading: Reading, pole_pairs: Optional[int]) -> Text:
 
 
 def advice(entry: Entry) -> Text:
-    """A fault or condition: what it means, why it may be, what to look at."""
+    """A fault or condition: meaning, causes, checks."""
     t = Text(faults.one_line(entry) + "\n", style="bold")
     for title, lines in (("causes", entry.causes), ("check", entry.check)):
         for k, text in enumerate(lines):
@@ -79,7 +79,7 @@ def status(reading: Reading, pole_pairs: Optional[int]) -> RenderableType:
 
 
 def first_fault(reading: Reading, pole_pairs: Optional[int]) -> RenderableType:
-    """What the drive kept of its last fault."""
+    """The record of the last fault."""
     kept = reading.first_fault
     if kept.why.fault == 0:
         return Text("no fault since the start")

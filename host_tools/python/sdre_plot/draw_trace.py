@@ -86,7 +86,7 @@ def panels(t):
 
 
 def window(measure):
-    """What of a measure is worth a closer look: some settling times, or all of a short one."""
+    """Window of a measure for a closer look: some settling times, or all of a short measure."""
     whole = measure["end_s"] - measure["time_s"]
     settled = measure.get("settling_time_s")
     length = min(whole, max(ZOOM_SETTLINGS * settled, ZOOM_LEAST_S)) if settled else whole

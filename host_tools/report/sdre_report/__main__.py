@@ -57,7 +57,7 @@ def servo_designs(tools: Tools) -> list:
 
 
 def not_reproduced() -> Section:
-    """What docs/errata.md says about it."""
+    """The chapters of docs/errata.md."""
     chapters = ("Not reproduced", "Printed wrong", "The conventional near optimal control", "Printed wrong, or left open")
     text = Markup("").join(Markup("<h3>{}</h3>").format(title) + pages.from_docs("errata.md", title) for title in chapters)
     return Section("not-reproduced", "What does not reproduce, and why", text)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the second variable of the conventional control costs: counted from the gains that sdre-gains reports."""
+"""Cost of the conventional control's second variable, counted from the gains that sdre-gains reports."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ ESTIMATES = (("d_w", "d_omega_hat", "d_w [rad/s²]"), ("d_q", "d_q_hat", "d_q [A
 
 
 def load_error_Nm(run: Run, design: Dict[str, Any]) -> List[float]:
-    """Of the conventional observer: what it takes for load, less the load, at 50, 100 and 150 %."""
+    """Load error of the conventional observer at 50, 100 and 150 % of the parameters."""
     l3 = design["reduced_parameters"]["l3"]
     names = ("at_50_percent", "to_100_percent", "to_150_percent")
     return [-run.measure(name)["d_omega_hat"] / l3 - LOAD_Nm for name in names]

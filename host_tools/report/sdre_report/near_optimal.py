@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""How near "near optimal" is: the cost (12) that every order of the series reaches on the error dynamics (10), beside the exact SDRE gain
-and the true optimum, which direct collocation finds. Solved here anew, from the drive file alone: a check of sdre-gains too."""
+"""The cost (12) of every order of the series on the error dynamics (10), compared with the exact SDRE gain and the true optimum.
+
+Direct collocation finds the optimum. Everything is solved here from the drive file alone, which also checks sdre-gains."""
 
 from __future__ import annotations
 
@@ -62,7 +63,7 @@ def series_gain(gains: List[np.ndarray], hold_A: float = np.inf) -> Gain:
 
 
 def cost(problem: Problem, gain: Gain, start: Tuple[float, ...]) -> float:
-    """Of the closed loop from `start` on; infinite when it runs away."""
+    """Cost of the closed loop from `start` on; infinite when it diverges."""
 
     def slope(_: float, z: np.ndarray) -> np.ndarray:
         x = z[:3]
@@ -78,7 +79,7 @@ def cost(problem: Problem, gain: Gain, start: Tuple[float, ...]) -> float:
 
 
 def optimum(problem: Problem, exact: Gain, start: Tuple[float, ...]) -> float:
-    """By direct collocation (Radau), from the exact SDRE's trajectory as the first guess."""
+    """Optimal cost by direct collocation (Radau), from the exact SDRE's trajectory as the first guess."""
     guess = solve_ivp(lambda _, x: (problem.A0 + x[1] * problem.dA - problem.B @ exact(x)) @ x, (0.0, END_S), start,
                       rtol=1e-6, dense_output=True)  # fmt: skip
     taus = [0.0, *ca.collocation_points(DEGREE, "radau")]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Paper B: Table I and II, Fig. 4 to 8, for its four laws; with the perfect disc of its rig and with a real one."""
+"""Paper B: Tables I and II and Fig. 4 to 8 for its four laws. The disc is perfect, as in its rig, or real."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ LAWS = ("pid", "gpiobc", "hdobc", "cdobc")
 TITLES = {"pid": "PID", "gpiobc": "GPIOBC", "hdobc": "HDOBC", "cdobc": "CDOBC"}
 INDUCTANCE = "q_axis_inductance_H"
 RPM = 30.0 / np.pi / 4  # of electrical rad/s, four pole pairs
-# What the scenarios set to zero: without these lines the encoder has the disc that all other scenarios have.
+# Lines that the scenarios set to zero: without them the encoder has the default disc.
 REAL_DISC = {
     "encoder_quadrature_error_cnt = 0": "",
     "encoder_duty_error_cnt = 0": "",

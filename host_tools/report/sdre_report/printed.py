@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the papers print, with a note of what was looked at: a number that no table shows is an error."""
+"""The printed numbers of the papers. A number that no table shows is an error."""
 
 from __future__ import annotations
 

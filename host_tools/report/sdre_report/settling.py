@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""When a signal is where it stays.
+"""Settling time of a signal.
 
-The papers name no band; here it is 5 % of how far the signal is from its final value at most, beyond the noise of its tail.
+The papers name no band. Here it is 5 % of the largest distance from the final value, plus the noise of the tail.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ NOTHING = 1e-3  # a departure of less than this share of the signal's largest va
 
 @dataclass(frozen=True)
 class Settled:
-    """Of one signal after one step."""
+    """Settling of one signal after one step."""
 
     before: float
     after: float
@@ -28,7 +28,7 @@ class Settled:
 
 
 def settle(trace: Dict[str, np.ndarray], name: str, from_s: float, step_s: float, to_s: float) -> Settled:
-    """What one signal does from `step_s` on; `from_s` .. `step_s` is its steady state before."""
+    """Settling of one signal from `step_s` on; `from_s` .. `step_s` is the steady state before the step."""
     time, signal = trace["time_s"], trace[name]
     early = signal[(time >= from_s - 1e-9) & (time < step_s - 1e-9)]
     window = (time >= step_s - 1e-9) & (time < to_s - 1e-9)

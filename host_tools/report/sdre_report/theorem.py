@@ -83,7 +83,7 @@ def load_derivative(motor: Dict[str, float], N: int) -> float:
 
 
 def constants() -> Table:
-    """What Lemma 1 asks of the poles."""
+    """Conditions of Lemma 1 on the poles."""
     out = Table("B-lemma1", "Lemma 1: poles faster than the largest eigenvalue of P",
                 ("", "states n", "smallest eigenvalue of P", "largest", "printed pole [1/s]", "bound of e_3 over the truth, 25 Hz"),
                 note="The lemma holds for poles beyond the largest eigenvalue, which has no unit in the proof: 1/s where poles are in 1/s. "

@@ -72,7 +72,7 @@ class Tools:
         return json.loads(result.read_text())
 
     def spectrum(self, scenario: str, drive: str) -> Dict[str, np.ndarray]:
-        """Of the speed error: {measure: [[Hz, r/min]..]}."""
+        """Spectrum of the speed error: {measure: [[Hz, r/min]..]}."""
         name = f"{scenario}-{drive}-spectrum"
         self.tell(name)
         csv = self._data / f"{name}.csv"

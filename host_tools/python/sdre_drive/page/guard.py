@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Who may see the page: only who has its address with the token, from this machine, and no other page of the browser."""
+"""Access to the page: only with the token in its address, only from this machine, and from no other page of the browser."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What stands on the page."""
+"""Layout of the page."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ class Page:
             ui.notify(str(e), type="negative", multi_line=True)
 
     async def _armed(self) -> None:
-        """Who takes the arm switch back means: stop."""
+        """Turning the arm switch off stops the motor."""
         if not self.arm.value and self.watcher.started_here:
             await run.io_bound(self.watcher.release)
 

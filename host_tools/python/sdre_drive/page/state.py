@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the page shows: one thread asks drive and bench, pages read what it found."""
+"""State of the page: one thread reads drive and bench, and pages show the result."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ class Watcher(threading.Thread):
         session.reset(self.drive)
 
     def arm_scope(self, setup: Setup) -> None:
-        """What it takes is fetched when it is done."""
+        """Arms the scope; its samples are fetched when it is done."""
         scope.arm(self.drive, setup)
         self._scope = setup
 
@@ -196,7 +196,7 @@ class Watcher(threading.Thread):
         self._truth_until_s, self._ahead_s = -1.0, math.inf
 
     def _take(self, trace: Dict[str, List[float]]) -> None:
-        """What is new of the true motor, at the drive's time."""
+        """Takes new samples of the true motor, at the drive's time."""
         if self.reading is None:
             return
         # Asked later than the drive: the least difference is the nearest.

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""What campaigns of the default drive have found: docs/campaign.md."""
+"""Results of campaigns of the default drive: docs/campaign.md."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the page says of the campaigns."""
+"""Section of the campaigns."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def interval(ends: Sequence[float]) -> str:
 
 
 def box(campaign: Dict[str, Any]) -> str:
-    """What varies."""
+    """The variables and their ranges."""
     return ", ".join(f"{one['name']} {one['low']:g} .. {one['high']:g}" for one in campaign["variables"])
 
 
@@ -65,7 +65,7 @@ def probabilities(campaigns: List[Dict[str, Any]]) -> Table:
 
 
 def histogram(campaign: Dict[str, Any], ident: str) -> Figure:
-    """Of the margin, with the share that each variable explains."""
+    """Histogram of the margin, with the share that each variable explains."""
     s = campaign["summary"]
     edges, counts = np.array(s["histograms"]["edges"]), np.array(s["histograms"]["least"])
     used = np.flatnonzero(counts)
@@ -86,7 +86,7 @@ def histogram(campaign: Dict[str, Any], ident: str) -> Figure:
 
 
 def counted(summary: Dict[str, Any], margin: str) -> Tuple[np.ndarray, np.ndarray]:
-    """Of a plain campaign: values of this margin, and the share of the cases below each."""
+    """Values of this margin in a plain campaign, and the share of the cases below each."""
     share = np.cumsum(summary["histograms"][margin]) / summary["cases"]
     keep = share > 0.0
     return np.array(summary["histograms"]["edges"])[1:][keep], share[keep]

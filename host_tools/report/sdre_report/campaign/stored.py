@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What campaigns found last: campaign.json, so that a report needs no campaign. `./dev report campaign DIRECTORY..` makes it."""
+"""Results of the last campaigns: campaign.json, so that a report needs no campaign. `./dev report
+campaign DIRECTORY..` writes it."""
 
 from __future__ import annotations
 
@@ -31,7 +32,7 @@ def write(tools: Tools, directories: Sequence[Path], file: Path = FILE) -> None:
 
 
 def campaign_in(directory: Path, digest: str) -> Dict[str, Any]:
-    """What it is and what it found."""
+    """Specification and results of a campaign."""
     try:
         about = json.loads((directory / "campaign.json").read_text(encoding="utf-8"))
         summary = json.loads((directory / "summary.json").read_text(encoding="utf-8"))

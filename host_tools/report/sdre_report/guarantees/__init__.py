@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""What can be proved of the default drive's sampled loop, beside what was sampled."""
+"""Proofs about the default drive's sampled loop, beside samples of it."""

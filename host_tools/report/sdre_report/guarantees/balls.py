@@ -63,7 +63,7 @@ class Dual:
         return Dual.constant(other, self) @ self
 
     def reciprocal(self) -> "Dual":
-        """Of scalars whose cells do not hold zero."""
+        """Reciprocal of scalars whose cells do not contain zero."""
         m, r = self.m[:, 0], self.r[:, 0]
         assert (np.abs(m) > r).all()
         value = Dual(np.zeros_like(self.m), np.zeros_like(self.r))
@@ -105,7 +105,7 @@ def variables(centre: np.ndarray, radius: np.ndarray) -> list:
 
 
 def matrix(rows: list) -> Dual:
-    """Of scalars and plain numbers."""
+    """Matrix of scalars and plain numbers."""
     like = next(x for row in rows for x in row if isinstance(x, Dual))
     cells = [[x if isinstance(x, Dual) else Dual.constant(float(x), like) for x in row] for row in rows]
     stack = lambda part: np.stack([np.stack([part(x) for x in row], -1) for row in cells], -2)  # noqa: E731

@@ -18,7 +18,7 @@ AGREES = 1e-9  # of the composed loop with the tool's, relative to its largest e
 
 
 class Factors(NamedTuple):
-    """What the true motor is of the believed one; arrays are many motors at once."""
+    """Ratios of the true motor to the nominal one; arrays are many motors at once."""
 
     R: Any = 1.0
     L: Any = 1.0

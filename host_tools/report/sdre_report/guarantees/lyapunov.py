@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""One quadratic Lyapunov function for the sampled loop over the box of motors and all speeds and currents: found with cvxpy on
-corners, then shown everywhere in arithmetic that is sure. The motor may change as fast as it likes within the box."""
+"""One quadratic Lyapunov function for the sampled loop over the box of motors, all speeds and all
+currents. Solver cvxpy finds it on corners; ball arithmetic proves it everywhere. The motor may change
+at any rate within the box."""
 
 from __future__ import annotations
 
@@ -150,7 +151,7 @@ def search(loop: Loop, region: Region, share: float) -> Tuple[np.ndarray, float]
 
 @dataclass(frozen=True)
 class Proof:
-    """What was shown: V = |R x|^2 falls by `rate`^2 in every period, everywhere."""
+    """Proof that V = |R x|^2 falls by `rate`^2 in every period, everywhere."""
 
     share: float
     rate: float

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Structured singular value: the largest share of the box of EQ-CERT-5 in which no constant motor makes the loop unstable.
 
-Real uncertainties: 1/J, flux in the torque and in the EMF, R, 1/L of both axes, L in the torque. They are taken as independent of each
-other, which the motor's are not: so far the share is a lower bound. Over a period the middle of the box is exact, and what the
-uncertainties add is taken by the trapezoidal rule: `modelled` against Loops.matrix says how good that is.
+Real uncertainties: 1/J, flux in the torque and in the EMF, R, 1/L of both axes, L in the torque. They are taken as independent, which
+the motor's are not. The share is therefore a lower bound. Over a period the middle of the box is exact; the trapezoidal rule adds the
+uncertainties. `modelled` compared with Loops.matrix shows the error of that.
 """
 
 from __future__ import annotations
@@ -23,7 +23,10 @@ BLOCKS = 8
 
 
 def uncertain(loops: Loops, p: Point, share: float) -> Tuple[np.ndarray, ...]:
-    """x' = A x + B v + B_w w, z = C x + D_v v + D_w w, w = delta z with abs(delta) <= 1, in the middle of the box."""
+    """Matrices in the middle of the box.
+
+    x' = A x + B v + B_w w,   z = C x + D_v v + D_w w,   w = delta z with abs(delta) <= 1
+    """
     m, n_p = loops.motor, loops.motor["pole_pairs"]
     (R0, R1), (L0, L1), (f0, f1), (J0, J1) = box(share)
     middle = lambda a, b: (0.5 * (a + b), 0.5 * (b - a))  # noqa: E731
@@ -95,7 +98,7 @@ def peak(loops: Loops, p: Point, share: float) -> float:
 
 
 def largest_share(loops: Loops, p: Point, most: float) -> float:
-    """By bisection below `most`: the largest share of the box with mu below one."""
+    """The largest share of the box with mu below one, by bisection below `most`."""
     stable, unstable = 0.0, most
     middle = 0.8 * most  # where it usually is
     while unstable - stable > ACCURACY:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the page says of the guarantees."""
+"""Section of the guarantees."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What was computed last: guarantees.json, so that a report takes no minutes and needs no solvers."""
+"""Results of the last computation: guarantees.json, so that a report needs neither minutes nor solvers."""
 
 from __future__ import annotations
 
