@@ -49,7 +49,7 @@ struct Command {
     std::string                       name;
     std::string                       help;
     std::function<void(OptionList &)> declare;
-    std::function<int()>              run; ///< the exit code; errors.hpp says what is thrown
+    std::function<int()>              run; ///< the exit code; errors.hpp lists the exceptions
 };
 
 /// A command from its options and what it does with them:

@@ -118,7 +118,7 @@ Target target_of(const OutputFile &file)
     Target      target{&file, behind_links(file), {}};
     struct stat at {};
     if (stat(file.path.c_str(), &at) != 0) {
-        return target; // a new file, or a directory that is missing: opening says so
+        return target; // a new file, or a missing directory: opening reports it
     }
     if (S_ISDIR(at.st_mode)) { // rename would fail after earlier ones worked
         fail(file, "is a directory");
@@ -131,7 +131,7 @@ Target target_of(const OutputFile &file)
     return target;
 }
 
-/// Creates the file under a name that nobody else has: two tools may write to one directory at once.
+/// Creates the file under a unique name: two tools may write to one directory at once.
 void write_waiting(Target &target)
 {
     for (int n = 0;; n++) {
@@ -181,7 +181,7 @@ void put_in_place(Target &target)
     target.waiting.clear();
 }
 
-/// Removes what still waits, whatever happens.
+/// Removes the remaining temporary files in any case.
 struct Targets {
     std::vector<Target> all;
 

@@ -31,7 +31,7 @@ public:
 
     bool        has(const std::string &key) const;
     double      number(const std::string &key, Range allowed);
-    double      number(const std::string &key); ///< any finite one: the caller says what is allowed
+    double      number(const std::string &key); ///< any finite number: the caller names the allowed range
     double      number_or(const std::string &key, Range allowed, double fallback);
     int         integer(const std::string &key, Range allowed);
     int         integer_or(const std::string &key, Range allowed, int fallback);
@@ -48,7 +48,7 @@ public:
 
     /// Every key in this table, in order (for tables whose keys are names of their own).
     std::vector<std::string> keys() const;
-    /// InputError when the table holds a key that was never asked for.
+    /// InputError when the table has an unknown key.
     void reject_unknown_keys() const;
     /// Throws InputError about a key of this table: "FILE: [where] key WHAT".
     [[noreturn]] void fail(const std::string &key, const std::string &what) const;

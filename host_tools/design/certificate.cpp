@@ -159,7 +159,7 @@ std::string term_name(const GainSeries &g, std::size_t n)
     return fmt::format("{}", fmt::join(g.series.terms[n].powers, ","));
 }
 
-/// `sampled` says what the spectral radius is of.
+/// `sampled` names the matrix of the spectral radius.
 void judge(const char *name, const char *sampled, const GainSeries &g, const SampledLoop &loop,
            std::vector<std::string> &failures)
 {

@@ -13,7 +13,7 @@ namespace sdre {
 struct LawDesign {
     const char *name; ///< of the firmware's object and of its header: "law_noc"
     const char *constants_type;
-    bool (*is_for)(const Drive &drive); ///< whether the drive file asks for it
+    bool (*is_for)(const Drive &drive); ///< whether the drive file requests it
     /// Gains, certificate and constants, into a design that has its drive, its reduced parameters and the part of its
     /// configuration that no law changes.
     void (*solve)(Design &design);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// A sampled loop that is broken at one signal: how far it is from instability, and what disturbances become in it.
+/// A sampled loop that is opened at one signal: its distance from instability, and its response to
+/// disturbances.
 ///
 ///     s(k+1) = A s(k) + B r(k),  u(k) = c s(k),  S(z) = 1 + c (zI - A)^-1 B             EQ-CERT-4
 ///

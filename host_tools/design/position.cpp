@@ -15,7 +15,8 @@ using Eigen::MatrixXd;
 constexpr double profile_torque_share = 0.5;
 // Chosen: a quarter of the voltage circle turns the q current; the rest is the back-EMF's and the feedback's.
 constexpr double profile_voltage_share = 0.25;
-// Twice the error that asks for all the current an error may ask for, as near_e_radps of the speed's reference.
+// Twice the error at the limit of the current for an error, as near_e_radps of the speed's
+// reference.
 constexpr double near_ratio = 2.0;
 
 MatrixXd with_angle(const MatrixXd &of_three)

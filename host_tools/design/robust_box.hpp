@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-/// How far the motor may be from what the controller believes, all parameters at once.
+/// Largest distance of the motor from the nominal one, all parameters at once.
 ///
 ///     R, L, flux x 0.5^s .. 1.5^s,  J x 0.5^s .. 3^s,  0 <= s <= 1                         EQ-CERT-5
 ///
-/// The share s of the box is the largest at which the sampled loop is stable in all 16 corners. The whole box (s = 1) holds
-/// motors with 9 times the acceleration per volt that is believed: no fixed gain is fast and stable there.
+/// The share s of the box is the largest at which the sampled loop is stable in all 16 corners. The
+/// whole box (s = 1) has motors with 9 times the nominal acceleration per volt. No fixed gain is
+/// fast and stable there.
 #pragma once
 
 #include <functional>
@@ -25,7 +26,8 @@ struct RobustBox {
 /// Bisection to one hundredth.
 RobustBox robust_box(const Motor &motor, const MotorRadius &radius);
 
-/// The same with one parameter at either end and the others as believed: eight motors instead of sixteen.
+/// The same with one parameter at either end and the others nominal: eight motors instead of
+/// sixteen.
 RobustBox robust_alone(const Motor &motor, const MotorRadius &radius);
 
 } // namespace sdre

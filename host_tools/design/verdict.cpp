@@ -15,8 +15,8 @@
 namespace sdre {
 namespace {
 
-// Chosen: eight counts in a period, where the observers of all laws take edges for what they are. Below, an encoder tells
-// less than any linear model assumes.
+// Chosen: eight counts in a period, where the observers of all laws use edges as they are. Below,
+// an encoder has less information than any linear model assumes.
 constexpr double counts_that_tell = 8.0;
 
 /// The larger one, and no number above all.
@@ -64,7 +64,7 @@ double radius_of(const LoopFamily &family, const Motor &motor)
         const std::vector<BrokenLoop> loops = family.loops(motor, at);
         for (std::size_t i = 0; i < loops.size(); i++) {
             if (i == 0 ||
-                !is_same(loops[i].A, loops[i - 1].A)) { // most are one loop, broken elsewhere
+                !is_same(loops[i].A, loops[i - 1].A)) { // most are one loop, opened elsewhere
                 worst = std::max(worst, spectral_radius(loops[i].A));
             }
         }

@@ -22,11 +22,12 @@ struct LoopFamily {
     /// Names of the places where the loop is opened, one at a time with everything else closed: "q
     /// axis".
     std::vector<std::string> channels;
-    /// Loop i is broken at channel i % channels.size(); more than one per channel when the law runs in several ways.
+    /// Loop i is opened at channel i % channels.size(); more than one per channel when the law has
+    /// several modes.
     std::function<std::vector<BrokenLoop>(const Motor &motor, const OperatingPoint &at)> loops;
     std::vector<OperatingPoint> points; ///< where stability and margin are judged
     std::vector<OperatingPoint>
-        box_points; ///< and where every other motor has to be stable; none: it is not asked for
+        box_points; ///< points where every other motor must be stable; none: other motors are not required
 };
 
 /// A quantity that ends the drive when it is too large, and what a healthy drive makes of it.
@@ -47,7 +48,7 @@ struct Verdict {
     OperatingPoint       radius_at;
     std::vector<Channel> channels;
     std::optional<RobustBox>
-        box; ///< EQ-CERT-5, every corner; where the family asks for other motors
+        box; ///< EQ-CERT-5, every corner; where the family requires other motors
     std::optional<RobustBox> alone; ///< the same of one parameter at a time
     std::vector<TripMargin>  trips;
 };
@@ -64,7 +65,7 @@ std::vector<OperatingPoint> verdict_points(const Design &design);
 /// Slowly without current, and with the largest at the rated speed; with harmonics at three more below it.
 std::vector<OperatingPoint> verdict_box_points(const Design &design);
 
-/// Two loops, broken at v_q and at v_d.
+/// Two loops, opened at v_q and at v_d.
 std::vector<BrokenLoop> broken_at_voltages(const Eigen::MatrixXd &A,
                                            const Eigen::MatrixXd &B_voltage,
                                            const Eigen::MatrixXd &C_voltage, double ts_s);

@@ -23,7 +23,7 @@ struct BoardDescription {
     double temperature_trip_degC  = 90.0;
     std::optional<double> align_current_A; ///< of the vector that finds the angle without an index
     std::optional<double>
-                 motor_current_A; ///< peak of the phase current that the winding bears for ever
+                 motor_current_A; ///< continuous current of the winding, peak of a phase
     double       motor_time_constant_s    = 30.0; ///< of the winding; chosen: a small frame's
     double       inverter_current_A       = 0.0;
     double       inverter_time_constant_s = 2.0; ///< of the modules' bases; chosen

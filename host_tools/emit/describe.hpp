@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// A page about one drive: what it is, can do and trips at, what the board is set to, what the certificate says.
+/// A page about one drive: its data, limits, trip levels, board settings and certificate.
 #pragma once
 
 #include <string>

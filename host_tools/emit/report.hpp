@@ -24,7 +24,7 @@ struct Prediction {
 /// One JSON object; keys in docs/files.md.
 std::string report_json(const Design &design, const std::optional<Prediction> &prediction = {});
 
-/// The same for a person.
+/// The same as text.
 std::string report_text(const Design &design, const std::optional<Prediction> &prediction = {});
 
 } // namespace sdre

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The part of the report that a person who uses the drive asks for first.
+/// The part of the report with the usual figures of a drive.
 #pragma once
 
 #include <string>

@@ -23,7 +23,7 @@ class Checks {
 public:
     explicit Checks(Findings &findings) : findings_(findings) {}
 
-    /// One quantity, said and computed, in its unit.
+    /// One quantity, as stated and as computed, in its unit.
     void same(const std::string &said, double said_si, const std::string &computed,
               double computed_si, const char *unit, double within)
     {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Whether what a data sheet says goes together, and with the inverter: each contradiction names both values.
+/// Checks that the facts of a data sheet are consistent, also with the inverter. Each contradiction
+/// names both values.
 #pragma once
 
 #include "facts/machine.hpp"

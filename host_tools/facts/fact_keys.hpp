@@ -22,7 +22,7 @@ struct Fact {
     std::string text;               ///< "inertia_kgcm2 = 0.83", for comments and complaints
 };
 
-/// All that was said of a machine.
+/// All facts of a machine.
 struct Facts {
     std::string       source; ///< file, for complaints
     std::string       name;   ///< of the drive, "" when not given

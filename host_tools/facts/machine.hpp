@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// A machine with its inverter and sensors in SI units, from what a data sheet says.
+/// A machine with its inverter and sensors in SI units, from its data sheet.
 #pragma once
 
 #include <string>
@@ -52,7 +52,7 @@ struct Findings {
 /// InputError when something is missing that nothing stands in for.
 Machine machine_of(const Facts &facts, const std::string &default_name, Findings &findings);
 
-/// Peak flux of a phase that a fact about flux, EMF or torque per current says.
+/// Peak flux of a phase from a fact about flux, EMF or torque per current.
 double flux_of(const Fact &fact, double pole_pairs);
 /// Peak of the phase current.
 double peak_A(const Fact &fact);

@@ -32,7 +32,7 @@ void say_progress(int evaluations, double worst)
     fmt::print(stderr, "{} evaluations, worst result {:.3f} of its goal\n", evaluations, worst);
 }
 
-/// Weights, what was wanted of them, and a line about it.
+/// Weights, their goals, and a line about them.
 struct Tuned {
     TuneResult  result;
     TuneSpec    spec;

@@ -21,7 +21,7 @@ constexpr int doublings_max = 16;
 constexpr double settled = 1e-8;
 // A Newton step squares the error of X.
 constexpr double newton_enough = 1e-9;
-// Chosen: a rounding of the entries of A, G, Q moves X by 1e-9 at most, so no broken assumption is near.
+// Chosen: rounding the entries of A, G, Q moves X by 1e-9 at most, so no assumption nearly fails.
 constexpr double condition_limit = 1e7;
 // Measured on drives and benchmark cases: 2e-16 at most.
 constexpr long double residual_limit = 1e-15L;

@@ -19,7 +19,8 @@ Matrix residual(const Problem &p, const Matrix &X);
 Scalar relative_residual(const Problem &p, const Matrix &X);
 
 /// The relative change of the entries of A, G and Q that explains the residual. Where the terms of
-/// X G X cancel it stays small while EQ-CARE-2 grows: no double matrix G says more about X then.
+/// X G X cancel, it stays small while EQ-CARE-2 grows. A double matrix G then has no more
+/// information on X.
 Scalar backward_error(const Problem &p, const Matrix &X);
 
 /// Powers of two d such that x = diag(d) z brings rows and columns of the Hamiltonian to similar

@@ -14,7 +14,7 @@ void require_stabilisable(const Problem &p);
 /// DesignError when an eigenvalue of the Hamiltonian touches the imaginary axis.
 void require_no_axis_eigenvalue(const Problem &p, const Matrix &hamiltonian);
 
-/// For failures behind the checks above: names the assumption when one is nearly broken.
+/// For failures after the checks above: names the assumption that nearly fails.
 [[noreturn]] void refuse(const Problem &balanced, const std::string &reason);
 
 } // namespace sdre::extended

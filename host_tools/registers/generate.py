@@ -35,7 +35,7 @@ def _range_words(r: Register) -> str:
 
 
 def words_of(r: Register) -> str:
-    """Text and note for a person."""
+    """Text and note of a register."""
     return f"{r.text}. {r.note}" if r.note else r.text
 
 
@@ -60,7 +60,7 @@ def signals_text(found: List[Signal]) -> str:
 
 
 def documented(groups: List[Group], found: List[Signal], before: str) -> str:
-    """docs/modbus.md with its tables anew."""
+    """docs/modbus.md with new tables."""
     text = before
     tables = {g.name: table_text(g) for g in groups}
     tables["signals"] = signals_text(found)

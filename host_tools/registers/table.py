@@ -47,7 +47,7 @@ class Register:
 
     @property
     def numbers(self) -> str:
-        """Address or addresses, for a person."""
+        """Address or addresses as text."""
         return f"{self.address}" if self.words == 1 else f"{self.address}, {self.address + 1}"
 
     @property
@@ -124,7 +124,7 @@ def _fits(r: Register) -> bool:
 
 
 def read(path: Path) -> List[Group]:
-    """All groups; TableError says what is wrong."""
+    """All groups; TableError on an error."""
     with path.open("rb") as f:
         top = tomllib.load(f)
     groups: List[Group] = []

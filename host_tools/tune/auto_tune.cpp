@@ -19,7 +19,7 @@ namespace {
 
 // Chosen: the best pace of these, relative to that of the sensors, is within a fifth of the best there is.
 constexpr std::array paces{0.6, 0.8, 1.0, 1.3, 1.7, 2.2, 3.0};
-// Chosen: weights that are not certified are searched anew from a slower start, so often.
+// Chosen: number of searches from slower starts, while the weights are not certified.
 constexpr int    attempts     = 4;
 constexpr double slower       = 1.4;
 constexpr int    report_every = 100; // evaluations

@@ -29,7 +29,7 @@ constexpr double ripple_share =
 constexpr double noise_share = 0.03;
 // Chosen: a step may ask for this much of the circle; what is beyond is cut.
 constexpr double headroom_share = 2.5;
-// Motors that are not as believed may be slower by this.
+// Allowed factors on dip and settling time of other motors.
 constexpr double robust_dip      = 2.0;
 constexpr double robust_settling = 6.0;
 // Chosen: voltage left for the current's way is never counted as less than this share of the circle.
@@ -122,7 +122,7 @@ TuneSpec goals_from_physics(const Drive &d)
     spec.current_noise_A    = s.noise_rms_A;
     spec.current_lsb_A      = 2.0 * s.range_A / std::exp2(s.adc_bits);
     spec.angle_error_cnt    = sample_noise(d).angle_rad / count_e_rad(d);
-    // The slowest mode of motors that are not as believed may last as long as they may take to settle.
+    // The slowest mode of other motors may last as long as their settling time.
     const double ts   = control_period_s(d);
     spec.largest_pole = std::exp(-ts / (robust_settling * settling_goal * pace * bound.reaction_s));
 

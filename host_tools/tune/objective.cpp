@@ -74,7 +74,7 @@ void load_step(const SampledModel &m, const TuneSpec &spec, CaseResult &result)
     }
 }
 
-/// One robustness case: motor and what the controller believes, with the gains of what it believes.
+/// One robustness case: the motor, and the controller's model with its gains.
 struct Loop {
     ReducedParameters motor;
     ReducedParameters model;
@@ -106,8 +106,8 @@ Loop loop_of(const Drive &drive, const RobustnessCase &c)
             ts};
 }
 
-/// Largest over speeds; of the nominal case also where the certificate asks for stability, up to twice the current limit
-/// at the trip speed.
+/// Largest value over speeds. The nominal case includes the speeds of the certificate, up to twice
+/// the current limit at the trip speed.
 double worst_radius(const Loop &loop, const Drive &drive, const RobustnessCase &c,
                     const OperatingPoint &at, double speed_e_radps)
 {

@@ -40,7 +40,7 @@ struct CaseResult {
     double spectral_radius = 0.0; ///< worst over speeds
 };
 
-/// One result over what is wanted of it; at most 1 when it is met.
+/// One result over its goal; at most 1 when the goal is met.
 struct GoalRatio {
     const char *name;
     double      ratio;

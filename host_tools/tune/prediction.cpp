@@ -14,7 +14,7 @@ std::optional<Prediction> predicted(const Drive &drive)
     }
     try {
         TuneSpec spec = goals_from_physics(drive);
-        spec.cases.resize(1); // the motor as believed
+        spec.cases.resize(1); // the nominal motor
         const Score s = score(drive, spec);
         if (s.worst >= unstable_score) {
             return {};

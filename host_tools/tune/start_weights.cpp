@@ -25,8 +25,9 @@ constexpr double speed_noise       = 0.13;
 constexpr double current_noise     = 3.7e-3;
 constexpr double angle_error_units = 0.38;
 
-// Edges of a disc that are not where they were learned, and what the learning leaves: 2.3 degrees of a line. On a real
-// disc (docs/files.md) the noise of v_q is then what the linear model says, on every motor of docs/motors.md.
+// Edges of a disc that differ from their learned places, and the error of the learning: 2.3 degrees
+// of a line. On a real disc the noise of v_q is then that of the linear model, on every motor of
+// docs/motors.md.
 constexpr double edge_error_cnt = 0.025;
 
 /// Acceleration per ampere, with the reluctance torque of the largest current.

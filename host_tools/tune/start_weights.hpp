@@ -22,7 +22,7 @@ struct MotorUnits {
 
 MotorUnits motor_units(const Drive &drive, double pace);
 
-/// Variances of a sample that the observer is told of.
+/// Variances of a sample in the observer's design.
 struct SampleNoise {
     double current_A; ///< standard deviation, quantisation included
     double angle_rad; ///< the same, electrical

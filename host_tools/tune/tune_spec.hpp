@@ -7,7 +7,7 @@
 
 namespace sdre {
 
-/// Factors on what the controller believes, relative to the motor, and what is still acceptable then.
+/// Factors on the controller's model, relative to the motor, and the limits for that case.
 struct RobustnessCase {
     double mechanical      = 1.0; ///< on J and B
     double electrical      = 1.0; ///< on Rs, Ld, Lq and flux
@@ -30,7 +30,7 @@ struct TuneSpec {
     double voltage_headroom_V =
         0.0; ///< what the load step and three deviations of noise may ask for
     double voltage_noise_V =
-        0.0; ///< rms of v_q at constant speed and load, nominal case; 0: whatever the headroom allows
+        0.0; ///< rms of v_q at constant speed and load, nominal case; 0: only voltage_headroom_V limits it
     bool noise_is_a_limit =
         false; ///< more noise is worse than any other goal missed; else one goal of several
     // Sensors: standard deviations of one sample, quantisation included by the tool.
@@ -40,7 +40,7 @@ struct TuneSpec {
     std::vector<RobustnessCase> cases;                 ///< the first is the nominal one
 };
 
-/// The controller believes what the motor is.
+/// The controller's model is exact.
 bool is_nominal(const RobustnessCase &c);
 
 /// InputError in one line on anything missing, unknown or out of range.

@@ -39,7 +39,8 @@ Parts parts_of(const drive_config_t &config)
     return {&c->foc, &c->speed, 3};
 }
 
-/// The wanted acceleration from the state, and the rows of the law's own states in the next period.
+/// The acceleration that the law requests, from the state. The rows of the law's own states in the
+/// next period follow.
 struct SpeedLaw {
     RowVectorXd accel;
     MatrixXd    next;

@@ -11,7 +11,7 @@
 
 namespace sdre {
 
-/// One closed loop, broken at the current reference, at the q and at the d voltage.
+/// One closed loop, opened at the current reference, at the q and at the d voltage.
 ///
 /// @param motor what the motor is; the constants are those of the design.
 std::vector<BrokenLoop> foc_loops(const Design &design, const Motor &motor,

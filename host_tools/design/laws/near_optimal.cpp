@@ -20,8 +20,8 @@ namespace {
 constexpr double reference_filter_periods = 8.0;
 // Chosen: half the nominal l1, reached at e_id = l1 / (2 |l11|).
 constexpr double smallest_l1_ratio = 0.5;
-// Chosen: twice the torque the motor has, so that a motor with half the believed inertia does not trip.
-// A shaft that stops sooner than by this has an encoder that stands (EQ-ANGLE-GATE-2).
+// Chosen: twice the torque of the motor, so that a motor with half the nominal inertia does not
+// trip. A shaft that stops faster than this has an encoder that stands still (EQ-ANGLE-GATE-2).
 constexpr double trip_torque_ratio = 2.0;
 // Chosen: what one count off does to the estimate of the load, once and a half, beside the whole torque. With much inertia
 // or few lines that is more than the torque again.

@@ -151,7 +151,7 @@ CurrentObserver design_nodo_current(const ReducedParameters &l, const Drive &dri
                                                        control_period_s(drive)));
         }
     }
-    const bool weak_magnet = l[0] < 0.0; // its EMF says little of the angle beside the inductances'
+    const bool weak_magnet = l[0] < 0.0; // its EMF has little information on the angle beside the inductances'
     return weak_magnet && !(d.spectral_radius < 1.0) ? none(trip_e_radps) : d;
 }
 

@@ -14,7 +14,8 @@ pid_law_config_t d_axis_constants(const Drive &drive)
             static_cast<float>(drive.d_axis.integral_V_per_As * control_period_s(drive)), 0.0F};
 }
 
-/// Both axes are linear and the same everywhere, so one point shows all. Paper B asks for no other motor.
+/// Both axes are linear and the same everywhere, so one point is sufficient. Paper B considers no
+/// other motor.
 void certify_servo(Design &d)
 {
     LoopFamily family;

@@ -201,7 +201,7 @@ VectorXd harmonic_weights(const Drive &drive, double w)
 }
 
 double angle_weight(const Drive &drive, double w)
-{ // edge times tell nothing while there is no edge in a period: the angle is then one of a count's
+{ // without an edge in a period, edge times have no information: the angle is then within a count
     const double ts       = control_period_s(drive);
     const double count    = count_e_rad(drive);
     const double counted  = std::max(count * count / 12.0 * ts, drive.nodo.T[2]);

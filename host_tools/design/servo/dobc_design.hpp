@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Paper B's disturbance observer and its state feedback, from wanted poles to the sampled recursion.
+/// Paper B's disturbance observer and its state feedback, from the specified poles to the sampled
+/// recursion.
 ///
 /// With the mechanical speed error x1, the current error x2, the disturbances' values and rates and the q voltage:
 ///

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// Paper B's loops as they run: sampled, one period late, with the constants of the firmware.
 ///
-/// Speed loop, broken at the motor's q voltage. DOBC: paper B's (5), which takes EQ-DOBC-1 for exact. PID: the whole q
-/// axis with its back-EMF.
+/// Speed loop, opened at the motor's q voltage. DOBC: paper B's (5), which takes EQ-DOBC-1 as
+/// exact. PID: the whole q axis with its back-EMF.
 ///
 ///     s(k+1) = A s(k) + B r(k),  u_q(k) = c s(k),  S(z) = 1 + c (zI - A)^-1 B             EQ-CERT-4
 ///

@@ -37,7 +37,7 @@ struct CaseResult {
     double speed_margin =
         0.0; ///< 1 - largest |speed error| in the measures' steady parts / their bands; -1 after a fault
     std::vector<double>
-        metrics; ///< measure by measure, each with all that were asked for; NaN: it has none
+        metrics; ///< measure by measure, each with all requested metrics; NaN: none
 };
 
 class CaseRunner {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Drive files, what sdre-gains says of them, and its Riccati equation.
+/// Drive files, their reports by sdre-gains, and its Riccati solver.
 #include "bindings.hpp"
 
 #include <nanobind/eigen/dense.h>

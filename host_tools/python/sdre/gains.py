@@ -61,9 +61,9 @@ class LoopVerdict:
     """Motor, observer, law and delay together (EQ-CERT-4, 5)."""
 
     spectral_radius: float  # worst from standstill to the largest command
-    box_share: Optional[float]  # of the box of other motors, all parameters at once; at least 0.4 wanted
-    one_at_a_time_share: Optional[float]  # of the same box, one parameter at a time; at least 1 wanted
-    sensitivity_peaks: Dict[str, float]  # by channel; at most 3 wanted
+    box_share: Optional[float]  # of the box of other motors, all parameters at once; at least 0.4 required
+    one_at_a_time_share: Optional[float]  # of the same box, one parameter at a time; at least 1 required
+    sensitivity_peaks: Dict[str, float]  # by channel; at most 3 allowed
 
 
 @dataclass(frozen=True)

@@ -93,13 +93,13 @@ CORE_QUANTITIES = ("iq_ref_A", "id_ref_A", "vq_V", "vd_V", "d_omega_hat", "d_q_h
 
 
 class Simulation:
-    """A drive and its motor; the scenario's speeds are without effect, all else happens as it says."""
+    """A drive and its motor. The scenario's speeds have no effect; all else happens as in the scenario."""
 
     def __init__(self, scenario: Scenario) -> None:
         self._native = _native.Loop(scenario._native)
 
     def step(self, omega_ref_e_radps: float, extra_load_Nm: float = 0.0) -> State:
-        """One control period with this wanted speed and this load beside the scenario's.
+        """One control period with this commanded speed and this load beside the scenario's.
 
         InputError once the run has ended.
         """

@@ -41,7 +41,7 @@ def plant_of(drive: Drive, load_Nm: Callable[[float], float] = lambda t: 0.0 * t
 
 
 class CoreControl:
-    """The control core as their control system; `speed_e_radps` is the wanted speed at a time in s."""
+    """The control core as their control system; `speed_e_radps` is the commanded speed at a time in s."""
 
     def __init__(self, drive: Drive, scenario: Scenario, speed_e_radps: Callable[[float], float]) -> None:
         self._core, self._wanted = Core(scenario), speed_e_radps

@@ -147,7 +147,7 @@ class Keys:
         return list(values)
 
     def reject_unknown(self) -> None:
-        """InputError when there is a key that was never asked for."""
+        """InputError when there is an unknown key."""
         for key in self._keys:
             if key not in self._known:
                 raise self.fail(key, f"is not a known key; allowed: {', '.join(sorted(self._known))}")

@@ -45,7 +45,7 @@ class Bench:
         self._socket.close()
 
     def ask(self, command: str) -> Dict[str, Any]:
-        """The bench's answer to one command; DriveError says what it refuses."""
+        """The bench's answer to one command; DriveError when it refuses."""
         if "\n" in command:
             raise DriveError("one command is one line")
         try:

@@ -178,7 +178,7 @@ def faults(
 def watch(
     length_s: For = None, port: Port = None, tcp: Tcp = None, pole_pairs: PolePairs = None
 ) -> None:
-    """Shows the drive until Ctrl-C. That somebody watches keeps a running drive running."""
+    """Shows the drive until Ctrl-C. A running drive keeps running meanwhile."""
     end = end_by_signal()
     with Drive(target(port, tcp)) as drive, Live(console=out, auto_refresh=False) as live:
         pairs = pole_pairs_of(pole_pairs, drive)
@@ -195,7 +195,7 @@ def log(
     port: Port = None,
     tcp: Tcp = None,
 ) -> None:
-    """Writes readings to a file until Ctrl-C. That somebody logs keeps a running drive running."""
+    """Writes readings to a file until Ctrl-C. A running drive keeps running meanwhile."""
     if (csv is None) == (parquet is None):
         raise DriveError("give one of --csv and --parquet")
     end = end_by_signal()
@@ -218,7 +218,7 @@ def take_scope(
     port: Port = None,
     tcp: Tcp = None,
 ) -> None:
-    """Takes 512 samples of four signals in the control interrupt. That somebody waits keeps a running drive running."""
+    """Takes 512 samples of four signals in the control interrupt. A running drive keeps running meanwhile."""
     setup = scope.Setup(signals.split(","), decimation, trigger, channel, level, before)
     scope.require_possible(setup)
     with Drive(target(port, tcp)) as drive:

@@ -175,7 +175,7 @@ class Drive:
         self.write("SPEED", speed_e_radps)
 
     def set_run(self, run: bool) -> None:
-        """Enables the operation, which is shut down first; or stops whatever goes on."""
+        """Enables the operation after a shut down, or stops any run."""
         for word in (ControlWord.SHUT_DOWN, ControlWord.ENABLE) if run else (ControlWord.DISABLE_VOLTAGE,):
             self.write("CONTROLWORD", word)
 

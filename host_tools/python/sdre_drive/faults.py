@@ -20,7 +20,7 @@ BIT_GROUPS = ("board", "condition")
 APPLICATION_BOARD, APPLICATION_DRIVE = 2, 10  # what sends the reader on to another group
 # Conditions that keep a drive from starting.
 NO_START = 1 | 8 | 16
-# Conditions that tell what goes on, and ask for nothing.
+# Conditions that need no action.
 NOT_A_WARNING = 4
 
 
@@ -99,5 +99,5 @@ def one_line(entry: Entry) -> str:
 
 
 def warnings(conditions: int) -> List[Entry]:
-    """Conditions that a person should know of."""
+    """Conditions to show to the user."""
     return bits("condition", conditions & ~NOT_A_WARNING)

@@ -14,7 +14,7 @@ from sdre_drive.registers import ControlWord, Mode, Reading
 PROFILE_POSITION = 1  # mode of operation
 NEW, AT_ONCE, RELATIVE = 1 << 4, 1 << 5, 1 << 6  # of the control word
 REACHED, ACKNOWLEDGED, FOLLOWING = 1 << 10, 1 << 12, 1 << 13  # of the status word
-LONGEST_MOVE_S = 600.0  # chosen: nobody waits for longer
+LONGEST_MOVE_S = 600.0  # chosen: the longest acceptable wait
 
 
 @dataclass(frozen=True)

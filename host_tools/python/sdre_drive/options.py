@@ -45,7 +45,7 @@ def address(text: str, option: str) -> Tuple[str, int]:
 
 
 def target(port: Optional[str], tcp: Optional[str]) -> Target:
-    """Where the drive is; a virtual one on this machine unless something is said."""
+    """Address of the drive; by default a virtual one on this machine."""
     if port and tcp:
         raise DriveError("--port and --tcp name two drives: give one")
     if port:

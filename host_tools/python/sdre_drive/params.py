@@ -47,7 +47,7 @@ class Value:
 
     @property
     def changed(self) -> bool:
-        """Not the default, as far as a register can tell."""
+        """Differs from the default, within the resolution of a register."""
         return abs(self.value - self.default) > 0.5 * (self.parameter.register.step or 1.0)
 
 
@@ -61,7 +61,7 @@ class Stored:
 
     @property
     def words(self) -> str:
-        """For a person."""
+        """As text."""
         known = STATES[self.state] if self.state < len(STATES) else f"state {self.state}"
         return f"{known}, writing {self.number}" if self.number else known
 
@@ -168,7 +168,7 @@ def restore(drive: Drive) -> Stored:
 
 
 def toml(found: List[Value], name: str) -> str:
-    """For read_toml(), and for a person."""
+    """TOML text for read_toml() and for the user."""
     lines = [f"# Parameters of {name}. Lines may be left out: sdre-drive params import changes what stands here.", "[parameters]"]
     for v in found:
         r = v.parameter.register

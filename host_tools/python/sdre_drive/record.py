@@ -31,7 +31,7 @@ def write_csv(path: Path, readings: Iterable[Reading]) -> int:
             out.writeheader()
             for reading in readings:
                 out.writerow(row(reading))
-                f.flush()  # what was read stays, whatever comes
+                f.flush()  # the readings stay, whatever happens
                 count += 1
     except OSError as e:
         raise DriveError(f"{path}: {e.strerror}") from e

@@ -169,7 +169,7 @@ class Reading:
 
     @property
     def mode_words(self) -> str:
-        """The mode for a person."""
+        """The mode in words."""
         return MODE_WORDS[Mode(self.mode)] if self.mode in set(Mode) else f"unknown mode {self.mode}"
 
 

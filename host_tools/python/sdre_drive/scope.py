@@ -53,7 +53,7 @@ def number_of(name: str) -> int:
 
 
 def require_possible(setup: Setup) -> None:
-    """DriveError says what is wrong with a setting."""
+    """DriveError names the error in a setting."""
     if not 1 <= len(setup.signals) <= CHANNELS:
         raise DriveError(f"{len(setup.signals)} signals: one to {CHANNELS}")
     if setup.trigger not in TRIGGERS:
@@ -98,7 +98,7 @@ def read(drive: Drive, setup: Setup) -> Capture:
 
 
 def take(drive: Drive, setup: Setup, longest_s: float) -> Capture:
-    """Arms, waits, reads; that somebody waits keeps a running drive running."""
+    """Arms, waits, reads. A running drive keeps running meanwhile."""
     arm(drive, setup)
     end_s = time.monotonic() + longest_s
     while not is_done(drive):

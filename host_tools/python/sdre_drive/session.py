@@ -92,7 +92,7 @@ def reset(drive: Drive) -> Reading:
 
 def follow(drive: Drive, end: threading.Event, period_s: float = PERIOD_S,
            length_s: Optional[float] = None) -> Iterator[Reading]:  # fmt: skip
-    """Readings until `end` is set or length_s is over; that somebody reads keeps the drive running."""
+    """Readings until `end` is set or length_s is over. The readings keep the drive running."""
     began_s = time.monotonic()
     next_s = began_s
     errors = 0

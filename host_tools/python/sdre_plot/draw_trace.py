@@ -80,7 +80,7 @@ def disturbances(axis, t, _):
 
 
 def panels(t):
-    """A position where one is wanted: the reference is the shaft's own otherwise."""
+    """The position in a run to a position; otherwise the reference is the shaft's own."""
     goes = any(abs(a - b) > 1e-9 for a, b in zip(t["position_ref_e_rad"], t["position_e_rad"]))
     return [speed, *([position] if goes else []), currents, torque, phases, voltages, disturbances]
 

@@ -28,7 +28,7 @@ class Printed(Mapping[str, Any]):
         return len(self._values)
 
     def unread(self) -> List[str]:
-        """Full names of the numbers that nobody asked for."""
+        """Full names of the unused numbers."""
         found: List[str] = []
         for key, value in self._values.items():
             if isinstance(value, Printed):

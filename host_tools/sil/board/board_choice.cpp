@@ -58,7 +58,7 @@ void                  f28335_board_watchdog_serve(void);
 bool                  f28335_board_serial_read(uint16_t *octet);
 bool                  f28335_board_serial_write(uint16_t octet);
 
-// The fake has no store and is never started anew.
+// The fake has no store and never restarts.
 
 bool board_fits(const board_setup_t *setup)
 {
@@ -197,6 +197,6 @@ bool board_serial_read(uint16_t *octet)
 
 bool board_serial_write(uint16_t octet)
 {
-    return the_fake != nullptr || f28335_board_serial_write(octet); // nobody listens to the fake
+    return the_fake != nullptr || f28335_board_serial_write(octet); // the fake has no client
 }
 }

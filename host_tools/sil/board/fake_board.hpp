@@ -59,7 +59,7 @@ private:
     std::array<int, 3> active_cnt_{};
     int                direction_ = 1; ///< of the last edge
     bool               gates_     = false;
-    bool               enable_    = false; ///< wanted for the next period
+    bool               enable_    = false; ///< requested for the next period
 };
 
 } // namespace sdre::f28335

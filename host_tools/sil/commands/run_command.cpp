@@ -46,7 +46,7 @@ void declare(OptionList &list, Options &o)
                 "virtual device)");
 }
 
-/// A spectrum is a table or a picture, as its name says.
+/// A spectrum is a table or a picture, depending on its name.
 bool is_table(const std::string &spectrum)
 {
     return std::filesystem::path(spectrum).extension() == ".csv";
@@ -62,7 +62,7 @@ void require_outputs(const Options &o)
     }
 }
 
-/// The files that were asked for, all or none; `json` is already text.
+/// The requested files, all or none; `json` is already text.
 void write_outputs(const Options &o, const Scenario &scenario, const Trace &trace,
                    const std::string &json)
 {

@@ -31,7 +31,7 @@ struct CompareCell {
 /// One drive on one scenario.
 struct CompareRun {
     std::string scenario;
-    std::string column;        ///< the drive's name, with the order when orders were asked for
+    std::string column;        ///< the drive's name, with the order when orders were given
     int         faulted   = 0; ///< seeds in which the drive tripped
     bool        certified = true;
     std::map<std::string, std::map<std::string, CompareCell>> cells;    ///< by measure, by metric

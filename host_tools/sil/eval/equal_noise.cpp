@@ -100,7 +100,7 @@ NoiseMatch match_noise(const Scenario &scenario, double wanted_V, int seeds)
     }
     NoiseMatch   best{1.0, *start, near(*start, wanted_V)};
     const double step = *start > wanted_V ? 1.0 / first_step : first_step;
-    double       from = 1.0;                 // on the near side of what is wanted
+    double       from = 1.0;                 // on the near side of the goal
     double       to   = 1.0;                 // on the far side, or of no use
     const auto   take = [&](double factor) { // whether it is still on the near side
         const std::optional<double> noise = noise_at(scenario, factor, seeds);

@@ -23,7 +23,7 @@ std::string knob_text(const Drive &drive);
 struct NoiseMatch {
     double factor  = 1.0;
     double noise_V = 0.0;   ///< with that factor
-    bool   reached = false; ///< within noise_tolerance of what was wanted
+    bool   reached = false; ///< within noise_tolerance of the goal
 };
 
 /// Chosen: less than the seeds differ by.

@@ -14,7 +14,7 @@ using Iterator = Trace::const_iterator;
 constexpr double tail_share    = 0.2;
 constexpr double current_share = 0.01; // of the largest current: below it there is no distortion
 constexpr double settled_cnt =
-    2.0; // chosen: a shaft at rest hunts by one about the edges of its count
+    2.0; // chosen: a shaft at rest has a limit cycle of one about the edges of its count
 constexpr double time_tolerance_s = 1e-9; // far below a period: two times that mean the same tick
 
 /// Last entry of a value into a band.

@@ -93,7 +93,7 @@ private:
     };
     /// Which diode of an open leg carries the phase's current.
     enum class Diode { none, upper, lower };
-    /// The time until a phase current that a diode carries dies out, at most the time asked for.
+    /// The time until a phase current in a diode dies out, at most the given time.
     struct Piece {
         double dt_s;
         int    dying; ///< that phase, -1: none

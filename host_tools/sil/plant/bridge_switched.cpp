@@ -3,7 +3,7 @@
 
 namespace sdre {
 
-/// Takes the edges that are due and says when the next thing happens.
+/// Applies the edges that are due and returns the time of the next event.
 double Bridge::next_event_s(double now_s, double to_s)
 {
     double event_s = to_s;

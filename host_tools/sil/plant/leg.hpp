@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// One leg of the bridge: what it is told over a control period, and where it stands.
+/// One leg of the bridge: its commands in a control period, and its state.
 #pragma once
 
 #include <array>

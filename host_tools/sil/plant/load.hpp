@@ -4,7 +4,7 @@
 ///     T = steps and ramps + amplitude sin(2 pi f (t - start)) + fan w_m |w_m|  EQ-LOAD-1
 ///     T_brake = drag + x against the motion, lag x' = command - x              EQ-LOAD-2
 ///
-/// A magnetic powder brake: its torque is that of its coil's current, whatever the speed. At rest it holds.
+/// A magnetic powder brake. Its torque follows its coil's current at any speed. At rest it holds.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ struct ShaftLoad {
     double brake_Nm          = 0.0; ///< dry friction, at least 0
 };
 
-/// Steps, ramps and sine; times must be asked for in rising order.
+/// Steps, ramps and sine; call with rising times.
 class LoadProfile {
 public:
     LoadProfile(const std::vector<Step> &steps, const std::vector<LoadRamp> &ramps,
@@ -47,7 +47,7 @@ private:
     LoadSine           sine_;
 };
 
-/// Torque of the powder brake; times must be asked for in rising order.
+/// Torque of the powder brake; call with rising times.
 class PowderBrake {
 public:
     explicit PowderBrake(const BrakeSettings &settings);

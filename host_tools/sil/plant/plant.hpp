@@ -34,7 +34,8 @@ public:
     /// One RK4 step with the voltage constant in the stator frame (an inverter). Within a step the angle moves so
     /// little that a short series rotates the voltage.
     void advance(StatorVector v_V, const ShaftLoad &load, double dt_s);
-    /// The same with one phase (0 .. 2) that carries no current: its terminal floats, whatever v_V says of it.
+    /// The same with one phase (0 .. 2) without current: its terminal floats, and its v_V has no
+    /// effect.
     void advance_floating(StatorVector v_V, std::size_t phase, const ShaftLoad &load, double dt_s);
     /// The same without any current.
     void coast(const ShaftLoad &load, double dt_s);

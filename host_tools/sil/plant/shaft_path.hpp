@@ -22,7 +22,7 @@ public:
         points_.push_back({0.0, theta_e_rad - omega_e_radps * duration_s, omega_e_radps});
         points_.push_back({duration_s, theta_e_rad, omega_e_radps});
     }
-    /// Begins anew at its end.
+    /// Starts again at its end.
     void restart()
     {
         points_.front() = {0.0, points_.back().theta_e_rad, points_.back().omega_e_radps};

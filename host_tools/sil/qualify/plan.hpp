@@ -10,7 +10,7 @@
 
 namespace sdre {
 
-/// One run and what is allowed in it; 0 where nothing is said.
+/// One run and its limits; 0: no limit.
 struct Trial {
     std::string what;     ///< "load step", a row of the table
     Scenario    scenario; ///< its last measure is what is judged

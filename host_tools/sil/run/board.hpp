@@ -20,7 +20,7 @@ struct RawSample {
     int          ia_code     = 0; ///< two's complement
     int          ib_code     = 0;
     double       dc_link_V   = 0.0;
-    std::int64_t count       = 0; ///< of a counter that nobody puts right, since the shaft's zero
+    std::int64_t count       = 0; ///< of a counter without corrections, since the shaft's zero
     bool         index       = false;
     std::int64_t index_count = 0;
 };

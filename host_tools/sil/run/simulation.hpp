@@ -15,7 +15,7 @@
 
 namespace sdre {
 
-/// A run that somebody else steps. Scenario and controller have to outlive it.
+/// A run that the caller steps. Scenario and controller must outlive it.
 class Simulation {
 public:
     /// DesignError when the core refuses the controller's constants.

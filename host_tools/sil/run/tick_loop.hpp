@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The loop over the control periods of a scenario, whatever answers them: the core alone or an application on a
+/// The loop over the control periods of a scenario, with the core alone or an application on a
 /// board.
 #pragma once
 

@@ -9,7 +9,7 @@ namespace {
 
 const double two_pi = 2.0 * std::acos(-1.0);
 
-// Chosen: the age of an edge that nobody has seen; a speed from it is next to zero.
+// Chosen: the time since an edge before the first one; a speed from it is next to zero.
 constexpr double no_edge_s = 1.0;
 // As in app_angle.c.
 constexpr double gap_max_s = 0.05;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The firmware on the virtual F28335 with a motor that nobody holds: from power-up, without an end.
+/// The firmware on the virtual F28335 with a free motor: from power-up, without an end.
 #pragma once
 
 #include <cstdint>

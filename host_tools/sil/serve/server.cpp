@@ -93,7 +93,7 @@ void Server::accept_all()
     }
 }
 
-/// A frame has ended when its line has been quiet for a while; what it says is the firmware's matter.
+/// A frame has ended when its line has been quiet for a while; the firmware checks its content.
 void Server::take_frame(long id, Client &client, double wall_s)
 {
     const bool quiet = wall_s > client.last_s + frame_pause_s;

@@ -29,7 +29,7 @@ public:
 
     /// Lines with everything that a person needs to connect.
     std::string greeting() const;
-    /// Until a signal or stop() asks for the end, or the time is over.
+    /// Runs until a signal, stop(), or the end of the time.
     void run();
     /// From any thread.
     void stop()

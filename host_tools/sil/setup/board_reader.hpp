@@ -14,7 +14,7 @@ namespace sdre {
 
 struct Drive;
 
-/// Exact signals; everything else as the drive file says.
+/// Exact signals; everything else from the drive file.
 SensorSettings sensors_of_drive(const Drive &drive);
 
 SensorSettings   read_sensors(TomlReader t, SensorSettings now, const Drive &drive);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Things that break in a run and stay broken: [[fault]] entries.
+/// Permanent faults in a run: [[fault]] entries.
 #pragma once
 
 #include <array>

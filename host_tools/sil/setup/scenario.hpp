@@ -35,7 +35,7 @@ struct Scenario {
     double      initial_speed_e_radps = 0.0;
     std::optional<double>
                initial_angle_e_rad; ///< of the rotor, electrical; drawn from the seed without it
-    MotorScale controller_scale;    ///< what the controller believes, relative to the drive file
+    MotorScale controller_scale;    ///< the controller's model, relative to the drive file
     MotorScale plant_scale;         ///< what the motor is, relative to the drive file
     std::optional<MotorRanges> motor_ranges;
     std::optional<int>         nosc_order; ///< instead of the drive file's

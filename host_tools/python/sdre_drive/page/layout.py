@@ -76,7 +76,7 @@ class Page:
             element.bind_enabled_from(self.arm, "value").mark(mark)
 
     async def _do(self, action: Callable[..., Any], *args: Any) -> None:
-        """In a thread, so that the page stays alive; what goes wrong is said."""
+        """Runs in a thread, so that the page stays alive; errors are shown."""
         if not self.arm.value:
             ui.notify("arm first", type="warning")
             return

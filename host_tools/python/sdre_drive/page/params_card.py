@@ -14,7 +14,7 @@ COLUMNS = "grid-template-columns: 12.5rem 6.5rem 8.5rem 8rem 4.5rem 1fr"
 
 
 class ParamsCard:
-    """Read when it is opened, written when it is said."""
+    """Read when it is opened, written on request."""
 
     def __init__(self, watcher: Watcher, do: Callable[..., Awaitable[Any]]) -> None:
         self.watcher, self.do = watcher, do

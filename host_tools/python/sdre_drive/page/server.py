@@ -20,7 +20,7 @@ RECONNECT_S = 20.0  # chosen: a browser on a busy machine keeps its page
 
 
 def require_free(port: int) -> None:
-    """DriveError when somebody listens there."""
+    """DriveError when the port is in use."""
     with socket.socket() as s:
         s.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:

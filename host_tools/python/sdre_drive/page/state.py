@@ -107,7 +107,7 @@ class Watcher(threading.Thread):
         self._parameters_wanted = True
 
     def write_parameters(self, wanted: Dict[str, float]) -> None:
-        """Those that differ; all are read again, whatever became of it."""
+        """Writes the parameters that differ; all are then read again in any case."""
         try:
             params.write(self.drive, wanted)
         finally:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The plots: what the drive tells and, of a virtual one, what its motor really does."""
+"""The plots: the drive's readings and, of a virtual drive, the true state of its motor."""
 
 from __future__ import annotations
 

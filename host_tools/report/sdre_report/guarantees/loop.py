@@ -43,7 +43,7 @@ class Point:
     B_c: np.ndarray  # 7 x 3, of measured iq, id, theta
     F: np.ndarray  # 2 x 7
     G: np.ndarray  # 7 x 2, of the voltage in the observer; part of A_c already
-    believed: np.ndarray  # the whole loop with the believed motor, as the tool has it
+    believed: np.ndarray  # the whole loop with the nominal motor, from the tool
 
 
 class Loops:
