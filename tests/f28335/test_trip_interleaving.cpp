@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// trip.c with an interrupt at every access to memory, of a register or a variable. The compiler marks the accesses (the calls
+// trip.c and line.c with an interrupt at every access to memory, of a register or a variable. The compiler marks the accesses (the calls
 // that ThreadSanitizer would take); here they are the places at which the background is interrupted by the control interrupt,
 // and its tick by INT13. The registers do what the trip needs: TZFRC, TZCLR, the input, the enable pin.
 #include <functional>
@@ -19,6 +19,9 @@ void trip_init(void);
 void trip_check(void);
 void trip_latch(uint16_t fault);
 void trip_overdue(void);
+void line_init(bool uses_direction, std::uint32_t cycles_per_bit);
+void line_send(std::uint16_t octet);
+void line_release(void);
 void f28335_asm(const char *text);
 bool clock_is_good(void);
 void __tsan_init(void);
@@ -40,11 +43,15 @@ using Action = std::function<void()>;
 constexpr unsigned one_shot = 4;
 constexpr Uint32   gate_pin = 0x40;
 constexpr Uint32   trip_pin = 1U << 12;
+constexpr Uint32   line_pin = 1U << 27;
 
 volatile EPWM_REGS *const legs[] = {&EPwm1Regs, &EPwm2Regs, &EPwm3Regs};
 
 bool   input_low = false;
 Uint32 gate      = 0;
+bool   sends     = false; ///< level of the direction pin
+
+std::uint32_t cycles = 0;
 
 /// What the hardware makes of the last access.
 void settle()
@@ -59,6 +66,8 @@ void settle()
     }
     gate |= GpioDataRegs.GPASET.all & gate_pin;
     gate &= ~GpioDataRegs.GPACLEAR.all;
+    sends = (sends || (GpioDataRegs.GPASET.all & line_pin) != 0U) &&
+            (GpioDataRegs.GPACLEAR.all & line_pin) == 0U;
     GpioDataRegs.GPASET.all   = 0;
     GpioDataRegs.GPACLEAR.all = 0;
     GpioDataRegs.GPADAT.all   = gate | (input_low ? 0U : trip_pin);
@@ -183,6 +192,14 @@ void f28335_asm(const char *)
 bool clock_is_good(void)
 {
     return true;
+}
+std::uint32_t f28335_board_cycles(void)
+{
+    return cycles;
+}
+Uint16 f28335_scitxbuf_access(void)
+{
+    return 0;
 }
 void __tsan_init(void) {}
 void __tsan_func_entry(void *) {}
@@ -315,5 +332,67 @@ TEST(TripInterleaving, FaultsOfBothInterruptsAreKept)
         run(encoder, {{n, trip_overdue}});
         EXPECT_TRUE(is_off()) << n;
         EXPECT_EQ(board_fault_read(), BOARD_FAULT_OVERRUN | BOARD_FAULT_ENCODER) << n;
+    }
+}
+
+// The next octet is written just when the bit time after the one before is over: the pin is high for it. The transmitter
+// shows only after the write that it has something to send.
+TEST(LineInterleaving, TheLineIsNotReleasedUnderAnOctet)
+{
+    const auto transmitter = [](bool empty) {
+        SciaRegs.SCIFFTX.bit.TXFFST  = empty ? 0U : 1U;
+        SciaRegs.SCICTL2.bit.TXEMPTY = empty ? 1U : 0U;
+    };
+    const Action control = [] {
+        cycles += 200;
+        line_release();
+    };
+    const auto between_two_octets = [&] {
+        reset_registers();
+        sends  = false;
+        cycles = 0;
+        transmitter(true);
+        quietly([] {
+            line_init(true, 100);
+            line_send('a');
+        });
+        transmitter(true);
+        quietly(line_release); // empty since 0
+        ASSERT_TRUE(sends);
+    };
+    between_two_octets();
+    const int last = run([] { line_send('b'); }, {});
+    for (int n = 0; n <= last; n++) {
+        between_two_octets();
+        run([] { line_send('b'); }, {{n, control}});
+        EXPECT_TRUE(sends) << n;
+        quietly(control);
+        EXPECT_TRUE(sends) << "not yet seen to send, " << n;
+        transmitter(false);
+        quietly(control);
+        EXPECT_TRUE(sends) << n;
+        transmitter(true);
+        quietly(control);
+        EXPECT_TRUE(sends) << n;
+        quietly(control);
+        EXPECT_FALSE(sends) << n;
+    }
+}
+
+// The loader's background and a control interrupt that is late look at the same time.
+TEST(LineInterleaving, ALookMayBeInterruptedByALook)
+{
+    for (int n = 0; n < 8; n++) {
+        reset_registers();
+        SciaRegs.SCICTL2.bit.TXEMPTY = 1U;
+        sends                        = false;
+        cycles                       = 0;
+        quietly([] {
+            line_init(true, 100);
+            line_send('a');
+        });
+        cycles = 5000U * (static_cast<std::uint32_t>(n) + 1U); // later than any look before
+        run(line_release, {{n, line_release}});
+        EXPECT_TRUE(sends) << "released before a bit has passed, " << n;
     }
 }
