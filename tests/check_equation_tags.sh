@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Every equation tag in the code is one row of docs/equations.md, every row is in the code, and every test
-# a row names is registered in tests/CMakeLists.txt.
+# Every equation tag in the code is one row of docs/equations.md, and every row is in the code. Every test
+# of a row is registered in tests/CMakeLists.txt.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* A PLC's cycle in C, line by line that of plc_cycle.st: every 20 ms one request, function 23, which writes the command and
- * reads status, faults and speed; the states of CiA 402 are walked by the master.
+/* A PLC's cycle in C, line by line that of plc_cycle.st. Every 20 ms it sends one request (function 23), which writes the
+ * command and reads status, faults and speed. The master walks through the states of CiA 402.
  *
  *     cc plc_cycle.c -o plc_cycle $(pkg-config --cflags --libs libmodbus)
  *     ./plc_cycle 1502 run 5 stop 1              # Modbus/TCP of a virtual drive; or /dev/ttyUSB0 in place of 1502
@@ -95,7 +95,7 @@ static void sleep_until(double time_s)
     }
 }
 
-/* What is new, a line each. */
+/* Prints changes, one line each. */
 static void tell(const drive_t *d, double time_s)
 {
     static uint16_t told = 0xFFFF;

@@ -225,7 +225,7 @@ protected:
         }
         EXPECT_EQ(input(input_mode), mode);
     }
-    /// By the state's bits of the status word.
+    /// State, from the bits of the status word.
     void expect_state(int state)
     {
         for (int n = 0; n < 50 && (input(input_statusword) & 0x6F) != state; n++) {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Checks that every link, picture, page and heading named in README.md and docs/ exists, and every page and heading that any
-source names behind a page. Every page of docs/ is on the site, and its block diagrams are as drawn."""
+"""Checks every link, picture, page and heading that README.md and docs/ name. It also checks those
+that a source names. Every page of docs/ is on the site, and its block diagrams are as drawn."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CODE = re.compile(r"^```.*?^```|^(?: {4}|\t).*?$|`[^`\n]*`", re.M | re.S)
 
 
 def anchors(text: str) -> set:
-    """What headings are called in an address."""
+    """Anchors of the headings."""
     heads = re.findall(r"^#+ (.*)$", re.sub(r"^```.*?^```", "", text, flags=re.M | re.S), re.M)
     return {re.sub(r"[\s-]+", "-", re.sub(r"[^\w\s-]", "", h.lower()).strip()) for h in heads}
 

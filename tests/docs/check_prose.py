@@ -165,7 +165,7 @@ def files() -> list:
 
 
 def room(file: str) -> str:
-    """What a total is kept of: README and docs, or the first directory."""
+    """Room of a file: docs for README, or the first directory."""
     top = file.split("/")[0]
     return "docs" if top == "README.md" else top
 

@@ -13,7 +13,7 @@ FIRMWARE = {"control_core", "drive_app", "drive_app_headers", "drive_image", "co
 
 
 def linked(name: str) -> str:
-    """What a target is called in the table; nothing for what is neither a room nor firmware."""
+    """Name of a target in the table; empty for what is neither a room nor firmware."""
     if name in FIRMWARE:
         return "firmware"
     return "f28335" if name == "f28335_model" else name[5:] if name.startswith("sdre_") else ""

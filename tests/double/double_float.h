@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Included before everything else: the control core with double precision where it says `float`, and with names of its
- * own, so that it stands beside the other one. */
+/* Included before everything else: compiles the control core with double precision in place of `float`. Its names are its
+ * own, so that both cores fit into one program. */
 #ifndef DOUBLE_FLOAT_H
 #define DOUBLE_FLOAT_H
 
-/* What means the compiler's own float comes first. */
+/* Headers that need the compiler's own float come first. */
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>

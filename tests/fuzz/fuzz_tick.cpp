@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Periods of the core with any samples and commands, under every law: a motor that turns as the input says, with readings
-/// and commands that are any bits at all in between.
+/// Periods of the core with any samples and commands, under every law. The input drives a motor,
+/// with readings and commands of any bits in between.
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -19,7 +19,7 @@ extern "C" {
 
 namespace {
 
-// What sdre-gains takes long for comes as tables.
+// Tables for the laws whose design takes long.
 const std::array<const drive_config_t *, 4> tables = {
     &gain_tables_drive, &speed_tables_drive, &conventional_tables_drive, &harmonic_tables_drive};
 const std::array<const char *, 7> names = {
@@ -54,7 +54,7 @@ bool ratio(float x)
     return x >= 0.0F && x <= 1.0F; // false of a NaN
 }
 
-/// What holds after every period, whatever came in.
+/// Invariants after every period.
 void judge(const drive_t &drive, const bridge_t &out)
 {
     require(ratio(out.duty.a) && ratio(out.duty.b) && ratio(out.duty.c));

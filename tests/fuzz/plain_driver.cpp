@@ -31,7 +31,7 @@ constexpr std::size_t longest = 8192; // of an input
 std::string crash_name;
 std::string input;
 
-/// What breaks readers of numbers and of structure.
+/// Words that break readers of numbers and of structure.
 const std::array<std::string, 24> words  = {"nan",
                                             "-inf",
                                             "1e309",
@@ -155,7 +155,7 @@ void run(const std::string &bytes)
 
 } // namespace
 
-// Of the sanitizers: called before they end the program.
+// Callback of the sanitizers: called before they end the program.
 extern "C" void __sanitizer_set_death_callback(void (*callback)()) __attribute__((weak));
 
 int main(int argc, char **argv)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What the fuzzed readers share: the input as a file, and what a reader may answer.
+/// Common part of the fuzzed readers: the input as a file, and the allowed answers of a reader.
 #pragma once
 
 #include <cstdint>

@@ -77,8 +77,8 @@ TEST(AutoTune, ContradictionsWriteNothing)
     EXPECT_FALSE(std::filesystem::exists(dir / "d.toml"));
 }
 
-// Motors that are the same but for their units get the same weights but for their units: all currents ten times larger,
-// voltages too; twice as fast in every respect.
+// Motors that differ only in their units get weights that differ only in their units. All currents
+// and voltages are ten times larger, and everything is twice as fast.
 TEST(AutoTune, StartWeightsScaleWithTheMotor)
 {
     const sdre::Drive a = shipped();
@@ -103,8 +103,8 @@ TEST(AutoTune, StartWeightsScaleWithTheMotor)
     EXPECT_NEAR(wb.nodo.T[2] / wa.nodo.T[2], 1.0, three_digits);
 }
 
-// Without a magnet: (Lq - Ld) id is then all of the flux, so a fifth of it at a fifth of the d current of the limit, which
-// is the limit over the root of two.
+// Without a magnet (Lq - Ld) id is all of the flux. A fifth of it is at a fifth of the d current at
+// the limit, which is the limit over the root of two.
 TEST(AutoTune, AMotorWithoutAMagnetHasARestCurrent)
 {
     const TempDir     dir;

@@ -113,8 +113,8 @@ TEST(BoardConstants, WhatTheBoardCannotHaveIsRefusedWithWhatItCan)
     EXPECT_NE(refusal(d).find("ntc_beta_K"), std::string::npos) << refusal(d);
 }
 
-// EQ-BOARD-3: the swing of the 390 W motor, by its equations in steps; it has to be within 0.2 degrees when the
-// application looks, also with three times the inertia.
+// EQ-BOARD-3: the swing of the 390 W motor, integrated in steps. It must be within 0.2 degrees when
+// the application looks, also with three times the inertia.
 TEST(BoardConstants, AlignmentEndsAtRest)
 {
     for (const double heavier : {1.0, 3.0}) {
@@ -143,8 +143,8 @@ TEST(BoardConstants, AlignmentEndsAtRest)
     }
 }
 
-// Half of the current limit, or where flux I - (Lq - Ld) I^2 is stiffest; a rotor without a magnet comes to rest with its
-// larger inductance along the vector.
+// Half of the current limit, or the largest stiffness of flux I - (Lq - Ld) I^2. A rotor without a
+// magnet comes to rest with its larger inductance along the vector.
 TEST(BoardConstants, AlignmentHoldsTheAxisThatHolds)
 {
     Drive d = shipped();

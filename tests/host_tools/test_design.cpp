@@ -51,11 +51,12 @@ const sdre::Design &reference_design(const std::string &name, const support::Jso
         .first->second;
 }
 
-// The motor model a second time, from paper A (1) in physical quantities, so that an error in the
-// reduced parameters or in the matrices of the tool cannot cancel here.
+// An independent motor model from paper A (1), in physical quantities. An error in the reduced
+// parameters or in the tool's matrices cannot cancel here.
 
-/// d(w, iq, id)/dt with id's and iq's products written as a linear system scheduled by the current s:
-/// reluctance torque s id; the speed term of iq uses the magnet only. `cross` adds s Lq/Ld w to id.
+/// d(w, iq, id)/dt, with the products of iq and id written as a linear system scheduled by the
+/// current s. The reluctance torque is s id; the speed term of iq uses the magnet only. `cross`
+/// adds s Lq/Ld w to id.
 MatrixXd motor_matrix(const sdre::Motor &m, double s, bool cross)
 {
     const double np = m.pole_pairs;

@@ -179,7 +179,7 @@ TEST(ServoLoop, RepairedDesignNotchesItsHarmonics)
     EXPECT_LT(speed_channel(d).spectral_radius, 1.0);
 }
 
-/// What the half sample of lead is worth.
+/// Effect of the half sample of lead.
 TEST(ServoLoop, WithoutLeadTheNotchesAreShallow)
 {
     const sdre::Drive  drive  = shipped("cdobc");

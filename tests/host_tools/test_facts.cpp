@@ -79,7 +79,7 @@ std::string refusal(const std::string &key, double value = 1.0)
 
 } // namespace
 
-// By hand from the definitions of the units.
+// Computed by hand from the definitions of the units.
 TEST(Facts, UnitsInEveryUsualSpelling)
 {
     const double rpm = pi / 30.0;

@@ -38,7 +38,7 @@ MatrixXd random_semidefinite(Eigen::Index n, Eigen::Index rank, std::mt19937 &ge
     return F * F.transpose();
 }
 
-/// What became of a call: "solved", or the kind of error and its message.
+/// Result of a call: "solved", or the kind of error and its message.
 template <class Call> std::string outcome(Call call)
 {
     try {
@@ -127,7 +127,7 @@ double best_of(const Json &peers, const char *figure)
     return best;
 }
 
-/// What every accepted solution must have.
+/// Properties of every accepted solution.
 void expect_stabilising(const MatrixXd &A, const MatrixXd &G, const MatrixXd &Q,
                         const sdre::CareSolution &solution, double residual_bound)
 {

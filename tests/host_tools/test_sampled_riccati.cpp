@@ -21,8 +21,8 @@ constexpr double tolerance_K0 = 1e-9;
 /// The same of a difference quotient with steps of 1e-4: its own error.
 constexpr double tolerance_K1 = 1e-6;
 
-/// Made with SciPy: P = solve_discrete_are(A', C', Q, R), K = P C' (C P C' + R)^-1; K1 is the difference quotient of
-/// fourth order, steps 1e-4 and 2e-4, of such K at A0 + s A1, Q0 + s Q1.
+/// Made with SciPy: P = solve_discrete_are(A', C', Q, R), K = P C' (C P C' + R)^-1. K1 is the
+/// difference quotient of fourth order of K at A0 + s A1, Q0 + s Q1, with steps 1e-4 and 2e-4.
 support::Json reference()
 {
     return support::Json::read(std::string(SDRE_TEST_DATA_DIR) + "/sampled_riccati.json");

@@ -83,7 +83,7 @@ void add_nosc(std::vector<float> &v, const nosc_gains_t &g)
     }
 }
 
-/// What the laws of near optimal control share.
+/// Common part of the near optimal laws.
 void add_near_optimal(std::vector<float> &v, const near_optimal_config_t &c)
 {
     const current_ref_config_t &r = c.current_ref;

@@ -221,8 +221,8 @@ TEST(Verdict, NotANumberIsRefused)
     EXPECT_FALSE(failures_of(f).empty());
 }
 
-/// The noise of a sensor that the weights stand for, six times, and the step of all the torque, far from the trip; a drive
-/// that believes in a noisy sensor and trusts it all the same is refused.
+/// Six times the sensor noise of the weights plus the step of the full torque stays far from the
+/// trip. A drive with a noisy sensor that trusts it is refused.
 TEST(Verdict, NoiseBelongsBelowTheTrip)
 {
     const Verdict &v = *shipped().certificate.loop;

@@ -110,6 +110,6 @@ class Browser:
         await self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
 
     async def picture(self, file: Path) -> None:
-        """What is to be seen."""
+        """Picture of the window."""
         told = await self.call("Page.captureScreenshot", format="png")
         file.write_bytes(base64.b64decode(told["data"]))

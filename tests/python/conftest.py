@@ -29,7 +29,7 @@ class Served(NamedTuple):
     process: subprocess.Popen
 
     def target(self) -> Target:
-        """By Modbus/TCP."""
+        """Address on Modbus/TCP."""
         return Target(tcp_port=self.tcp)
 
     def bench(self) -> Bench:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""As much of IEC 61131-3 Structured Text as docs/examples/plc_cycle.st needs, carried out: no PLC, and no more than that. What it does not know it
-refuses."""
+"""An interpreter for the part of IEC 61131-3 Structured Text that docs/examples/plc_cycle.st needs.
+It is no PLC, and it refuses everything else."""
 
 from __future__ import annotations
 

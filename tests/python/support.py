@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What several tests do."""
+"""Common part of several tests."""
 
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ def campaign(*words: Any, exit_code: int = 4) -> str:
 
 
 def parts(directory: Path) -> Dict[str, bytes]:
-    """What is written of the cases."""
+    """Written parts of the cases."""
     return {path.name: path.read_bytes() for path in sorted((directory / "parts").glob("*.parquet"))}
 
 

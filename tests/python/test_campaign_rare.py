@@ -216,7 +216,7 @@ def test_summary_is_that_of_the_parts(rare: Path) -> None:
 
 
 def test_probability_is_that_of_plain_cases(rare: Path, tmp_path: Path) -> None:
-    """Of 1,000 drawn freely."""
+    """Compared with 1,000 freely drawn cases."""
     low, high = json.loads((rare / "summary.json").read_text())["below_limit"]["interval_95"]
     spec = read_spec(write_spec(tmp_path, RARE_SHORT.replace('"subset"\nmargin = "speed"\nrepeats = 2', '"random"')
         .replace("cases = 60", "cases = 1000").replace("batch = 20", "batch = 1000")))  # fmt: skip

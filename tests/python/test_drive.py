@@ -37,7 +37,7 @@ def state(drive: Drive) -> str:
 
 
 def test_states_ramps_and_stops(drive: Drive) -> None:
-    """What a master does that knows CiA 402."""
+    """A master that follows CiA 402."""
     until(drive, lambda r: state_words(r.statusword) == "switch on disabled")
     drive.write("CONTROLWORD", ControlWord.ENABLE)
     assert state(drive) == "switch on disabled"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What docs/integration.md tells people to type does what it says."""
+"""The commands and programs of docs/integration.md, run against the virtual drive."""
 
 from __future__ import annotations
 

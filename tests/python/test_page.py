@@ -33,7 +33,7 @@ DRAWN = "(() => document.querySelector('canvas').toDataURL())()"
 
 @pytest.fixture
 def address(served: Served) -> Iterator[str]:
-    """Of a page for the virtual drive, with its token."""
+    """Address of a page for the virtual drive, with its token."""
     with socket.socket() as s:
         s.bind(("127.0.0.1", 0))
         port = s.getsockname()[1]
@@ -77,7 +77,7 @@ def test_only_who_has_the_token_from_this_page(address: str) -> None:
 
 
 async def use(address: str, pictures: str) -> None:
-    """What a user does."""
+    """Actions of a user."""
     async with Browser(address) as page:
         await page.until("document.querySelector('canvas') !== null", 60.0)
         await page.until(f"{TEXT}.includes('READY') && {TEXT}.includes('Bench')")
@@ -119,7 +119,7 @@ FIELD = """(name => [...document.querySelectorAll('.q-expansion-item')].find(e =
 
 
 async def use_parameters(address: str, pictures: str) -> None:
-    """What a user does; the window is the ninth of them, 5 rad/s by default."""
+    """Actions of a user; the window is the ninth of them, 5 rad/s by default."""
     async with Browser(address, 1280, 1100) as page:
         await page.until(f"document.querySelector('canvas') !== null && {TEXT}.includes('READY')", 60.0)
         await page.script("[...document.querySelectorAll('.q-expansion-item .q-item')].at(-1).click()")

@@ -29,7 +29,7 @@ PERIODS = 400  # of loops in Python: through the first transient
 
 
 def tool(name: str, *words: Any, exit_codes: Any = (0,)) -> str:
-    """What a command-line tool prints."""
+    """Output of a command-line tool."""
     done = subprocess.run([str(TOOLS / name), *map(str, words)], capture_output=True, text=True, timeout=120)
     assert done.returncode in exit_codes, done.stderr
     return done.stdout

@@ -16,7 +16,7 @@ import unit_build as ub
 WANTED = 90.0
 SECONDS = 60
 
-# What is looked for in a line of code, and what becomes of it.
+# Patterns in a line of code, and their replacements.
 CHANGES = [
     (r"(?<![<>=!-])>(?![>=])", ">="), (r"(?<![<>=])<(?![<=])", "<="), (r">=", ">"), (r"<=", "<"), (r"==", "!="),
     (r"!=", "=="), (r"&&", "||"), (r"\|\|", "&&"), (r"(?<=\w |\) )\+(?= )", "-"), (r"(?<=\w |\) )-(?= )", "+"),

@@ -30,7 +30,7 @@ def require(command):
 
 
 def sources():
-    """What is measured: every .c file of the core, of the application, of what is stored and of the commissioning."""
+    """Measured files: every .c file of the core, the application, the store and the commissioning."""
     return [file for name in ROOMS for file in sorted((ROOT / "firmware" / name).rglob("*.c"))]
 
 

@@ -6,8 +6,9 @@
     record.py SDRE_SIL SDRE_GAINS --exact    the digests too: same compiler, same bits
     record.py SDRE_SIL SDRE_GAINS --write    records anew
 
-A trace is kept as the SHA-256 of its CSV and, for other compilers and machines, as mean, root mean square and end of every
-column. A report is kept as the numbers of its JSON, tables as their sorted numbers.
+A trace is kept as the SHA-256 of its CSV. For other compilers and machines it is kept as mean, root
+mean square and end of every column. A report is kept as the numbers of its JSON, tables as their
+sorted numbers.
 """
 import argparse
 import concurrent.futures
@@ -35,9 +36,9 @@ BOARDS = ("api", "f28335")
 ON_BOTH_BOARDS = ("board_load_step", "board_hold", "board_regeneration")
 
 STATISTICS = ("mean", "rms", "mean of the end")
-# Of a column's range. A difference in a last digit moves an edge or a converter code now and then, and from there on the
-# noise is another draw of the same noise. Measured: at most 0.065 where the voltage limit cuts the noise, with another
-# sine in the core.
+# Share of a column's range. A difference in a last digit sometimes moves an edge or a converter
+# code. From there on the noise is another draw. Measured: at most 0.065 where the voltage limit
+# cuts the noise, with another sine in the core.
 TOLERANCE = 0.1
 # A design that is not certified is unstable: from the first other digit on it goes its own way.
 UNSTABLE = ("servo_200w_cdobc_printed",)

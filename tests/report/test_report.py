@@ -85,7 +85,7 @@ def test_the_optimum_of_a_linear_problem_is_the_riccati_solution() -> None:
 
 
 async def look(pictures: str) -> None:
-    """What a reader's browser finds."""
+    """Findings of a reader's browser."""
     async with browser.Browser(PAGE.resolve().as_uri()) as page:
         await page.until("document.readyState === 'complete' && document.querySelector('footer') !== null")
         seen = await page.script("Object.fromEntries([...document.querySelectorAll('figure')].map(f => "

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the drives of paper A's motor reach on the realistic board: the worst of twenty noise seeds with the shipped
-// drive, of six with the larger observers.
+// Results of the drives of paper A's motor on the realistic board. The worst of twenty noise seeds
+// with the shipped drive, of six with the larger observers.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,8 +24,8 @@ struct Case {
     double      varied_settling_s; ///< with wrong parameters
     int         motors;            ///< random ones
     int         failed_motors;     ///< allowed
-    /// Of the seeds that have to settle in time after the load step. noc_h with counts carries 0.34 rad/s of ripple into a
-    /// band of 0.5: of 200 seeds 2 % leave it once more, up to 0.3 s later, whatever the other 98 % do.
+    /// Share of the seeds that must settle in time after the load step. noc_h with counts has 0.34
+    /// rad/s of ripple in a band of 0.5. Of 200 seeds, 2 % leave it once more, up to 0.3 s later.
     double settled_share = 1.0;
     double noise_V       = 50.0; ///< of v_q after the load step, rms
     bool   perfect_disc =

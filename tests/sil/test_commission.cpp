@@ -37,7 +37,8 @@ Drive drive_of_facts(const std::string &name)
     return d;
 }
 
-/// What was asked of the method: 3 % R, 5 % L, 2 % flux, 5 % J, 20 % friction, a degree, 1.05 times the current bound.
+/// Required accuracy: 3 % R, 5 % L, 2 % flux, 5 % J, 20 % friction, a degree, 1.05 times the
+/// current bound.
 void expect_good(const Drive &d, const CommissionRun &r)
 {
     const std::string text = commission_text(d, r);

@@ -244,7 +244,8 @@ TEST(FluxHarmonics, CurrentsChangeAsTheRateSaysAndAnOpenPhaseStaysWithoutAny)
     EXPECT_NEAR(plant.current_A().q, 0.0, 1e-9);
 }
 
-/// What comes in at the terminals is in the copper, the iron, the fields, the masses or the load, with all effects at once.
+/// Power balance with all effects: the input at the terminals is in the copper, the iron, the
+/// fields, the masses or the load.
 TEST(MotorEffects, PowerBalances)
 {
     const Motor  m       = motor_390w();

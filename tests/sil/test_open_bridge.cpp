@@ -61,7 +61,7 @@ void run(Bridge &bridge, Plant &plant, DcLink &link, double time_s)
     }
 }
 
-/// What an open bridge does in the long run, at a speed that stays.
+/// Steady state of an open bridge at a constant speed.
 struct Means {
     double dc_A      = 0.0; ///< into the link
     double torque_Nm = 0.0;
@@ -74,8 +74,8 @@ double averaging_s(double omega_e_radps)
     return 12.0 * 2.0 * std::acos(-1.0) / omega_e_radps;
 }
 
-/// By brute force: a rectifier whose rails fade over 0.5 mA, in steps of 0.1 us.
-/// With first_low leg a is closed to the negative rail.
+/// Oracle: a rectifier whose rails fade over 0.5 mA, in steps of 0.1 us. With first_low leg a is
+/// closed to the negative rail.
 double brute_step(Plant &plant, double link_V, bool first_low = false)
 {
     constexpr double            fade_A = 5e-4;

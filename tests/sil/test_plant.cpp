@@ -49,7 +49,7 @@ std::vector<std::vector<double>> read_csv(const std::string &name, std::size_t c
     return rows;
 }
 
-/// Steps the plant through a file and returns the largest deviation of each of the last `states`
+/// Steps the plant through a file. Returns the largest deviation of each of the last `states`
 /// columns (id, iq, omega, theta), relative to the column's largest value.
 template <typename StepRow>
 std::vector<double> deviations(Plant &plant, const std::vector<std::vector<double>> &rows,
@@ -103,8 +103,8 @@ TEST(Plant, ReproducesTrajectoriesWithRotorVoltageHeld)
 
 TEST(Plant, ReproducesTrajectoryWithStatorVoltageHeld)
 {
-    // From 0.8 s on the motor runs away from its prescribed voltages: any deviation grows by 1e6 until
-    // 1 s, which takes more than the usual steps to follow.
+    // From 0.8 s on the motor diverges from its prescribed voltages. Any deviation grows by 1e6
+    // until 1 s, which needs more than the usual steps.
     const auto rows      = read_csv("ol_abc_drive.csv", 8);
     const auto stable    = std::vector<std::vector<double>>(rows.begin(), rows.begin() + 4000);
     const auto step_with = [](Plant &plant, int steps) {

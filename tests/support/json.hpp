@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// JSON to read and to compare. The templates of the library that parses it are compiled in json.cpp only: they took
-/// half of the compile time of every test that read a number with them.
+/// JSON to read and to compare. The templates of the parser's library are compiled in json.cpp
+/// only. They took half of the compile time of every test that read a number with them.
 #pragma once
 
 #include <filesystem>
@@ -54,7 +54,7 @@ public:
         return at(index);
     }
 
-    /// Of an array or an object.
+    /// Elements of an array or an object.
     std::size_t size() const
     {
         return elements_.size() + members_.size();

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file law_answer.h
- * @brief What a law answers in a period. Its room holds nonsense before: a member that a law does not set shows.
+ * @brief Answer of a law in a period. The output holds nonsense before the call, so that a member that a law does not set shows.
  */
 #ifndef LAW_ANSWER_H
 #define LAW_ANSWER_H

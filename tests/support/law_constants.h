@@ -53,7 +53,7 @@ static inline const law_pid_config_t *law_constants_pid(const drive_config_t *d)
     return (d->law == &law_pid) ? (const law_pid_config_t *)d->constants : NULL;
 }
 
-/** What the laws of near optimal control share; NULL for any other law. */
+/** Common constants of the near optimal laws; NULL for any other law. */
 static inline const near_optimal_config_t *law_constants_near_optimal(const drive_config_t *d)
 {
     const bool is_one = (d->law == &law_noc) || (d->law == &law_noc_speed) ||

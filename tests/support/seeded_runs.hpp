@@ -18,7 +18,7 @@ namespace sdre_test {
 
 constexpr std::size_t seeds = 20;
 
-/// Of every seed, by measure.
+/// Metrics of every seed, by measure.
 using Runs = std::map<std::string, std::vector<sdre::Metrics>>;
 
 inline sdre::Scenario shipped(const std::string &scenario, const std::string &drive)

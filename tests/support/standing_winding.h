@@ -29,7 +29,7 @@ static inline double winding_sign(double i_A)
     return (i_A > 0.02) ? 1.0 : ((i_A < -0.02) ? -1.0 : (i_A / 0.02));
 }
 
-/** What the next sample shows, one period on; the voltage in force was asked for one sample before the last. */
+/** The next sample, one period on. The voltage in force was requested one sample before the last. */
 static inline commission_signal_t winding_step(standing_winding_t *w, ab_t asked_V)
 {
     const double c     = cos(w->angle_rad);

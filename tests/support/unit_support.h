@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file unit_support.h
- * @brief What more than one unit test uses: repeatable random numbers, bad numbers, double oracles.
+ * @brief Common part of the unit tests: repeatable random numbers, bad numbers, double oracles.
  */
 #ifndef UNIT_SUPPORT_H
 #define UNIT_SUPPORT_H

@@ -38,7 +38,7 @@ def choose(scenario: str) -> str:
 
 
 def native(files: Dict[str, str], where: Path) -> Dict[str, str]:
-    """What sdre-sil does with the page's files."""
+    """The result of sdre-sil for the page's files."""
     for name in ("scenario", "drive"):
         (where / f"{name}.toml").write_text(files[name])
     done = subprocess.run([SIL, "run", "scenario.toml", "--csv", "trace.csv"], cwd=where, capture_output=True, text=True, check=False)
@@ -47,7 +47,7 @@ def native(files: Dict[str, str], where: Path) -> Dict[str, str]:
 
 
 def largest_difference(one: str, other: str) -> float:
-    """Of any quantity, relative to its largest value."""
+    """Largest difference of any quantity, relative to its largest value."""
     a, b = ([[float(v) for v in line.split(",")] for line in text.splitlines()[1:]] for text in (one, other))
     assert len(a) == len(b)
     sizes = [max(abs(v) for v in column) or 1.0 for column in zip(*b)]
