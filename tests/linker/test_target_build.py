@@ -143,6 +143,27 @@ class TargetBuild(unittest.TestCase):
             self.assertNotIn("--ramfunc=on", compiled[name])
         self.assertIn("--ramfunc=on", compiled["app_states.c"])
 
+    def test_evidence_builds_all_images_with_listings(self):
+        make_compiler(self.top / "cgt")
+        make_headers(self.top / "ware", fast_rts=True)
+        done = self.configure("f28335-evidence", f"-DC2000_CGT_ROOT={self.top / 'cgt'}", f"-DC2000WARE_ROOT={self.top / 'ware'}")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.log.write_text("")
+        images = ("sdre_f28335_flash", "sdre_f28335_ram")
+        done = self.cmake("--build", self.build, "--target", *images)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        links = [call for call in self.calls("cl2000") if "--run_linker" in call]
+        for image in images:
+            self.assertTrue(any(f"--xml_link_info={self.build / image}.xml" in call for call in links), image)
+            self.assertTrue((self.build / "bin" / f"{image}.out").exists())
+        for call in self.calls("cl2000"):
+            if any(argument.endswith(".c") and argument.startswith("--c_file=") for argument in call):
+                tables = any("gain_tables.c" in argument for argument in call)
+                self.assertEqual(f"--list_directory={self.build / 'listings'}" in call, not tables)
+        done = self.cmake("--build", self.build)  # the stand-in writes no listing: the page says so
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("evidence.py", done.stdout)
+
     def test_scope_of_another_size_is_refused(self):
         done = self.configure("f28335-flash", "-DSDRE_SCOPE_SAMPLES=100")
 
@@ -192,7 +213,7 @@ class TargetBuild(unittest.TestCase):
     def test_unknown_image_is_refused(self):
         done = self.configure("f28335-flash", "-DSDRE_IMAGE=rom")
 
-        self.assertIn("SDRE_IMAGE=rom: expected flash or ram", done.stdout)
+        self.assertIn("SDRE_IMAGE=rom: expected flash, ram or all", done.stdout)
         self.assertNotEqual(done.returncode, 0)
 
     def test_board_check_without_headers_says_so_and_fails(self):

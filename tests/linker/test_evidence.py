@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: MIT
+"""Does evidence.py see what is wrong with an image? Link information and listings are made here, in the form of TI's tools."""
+import pathlib
+import sys
+import tempfile
+import unittest
+from unittest import mock
+
+sys.dont_write_bytecode = True
+import command_file
+import evidence
+import listing
+
+LISTING = """
+       1 00000000               .sect   ".TI.ramfunc:control_isr"
+       2              ;* FNAME: control_isr                   FR SIZE:  {frame}           *
+       3              ||control_isr||:
+       4 00000000 B2BD          MOVL      *SP++,XAR1            ; [CPU_ALU]
+       5 00000001 E203          MOV32     *SP++,R4H             ; [CPU_FPU]
+         00000002 00BD
+       6 00000003 E694          CMPF32    R0H,R1H               ; [CPU_FPU]
+       7 00000004 AD14          MOVST0    ZF, NF                ; [CPU_FPU]
+       8 00000005 6471          B         ||$C$L1||,LT          ; [CPU_ALU]
+       9 00000006 7640!         LCR       #||drive_tick||       ; [CPU_ALU]
+         00000007 0000
+      10              ||$C$L1||:
+      11 00000008 E022  ||      SUBF32    R4H,R0H,R1H           ; [CPU_FPU]
+         00000009 4321
+      12                        MOV32     R2H,R1H               ; [CPU_FPU]
+      13 0000000a 0006          LRETR     ; [CPU_ALU]
+      20 00000000               .sect   ".TI.ramfunc:drive_tick"
+      21              ;* FNAME: drive_tick                    FR SIZE:   4           *
+      22              ||drive_tick||:
+      23 00000000 D008          MOVB      XAR0,#8               ; [CPU_ALU]
+      24              ||$C$L2||:
+      25 00000001 E700          MPYF32    R1H,R1H,R2H           ; [CPU_FPU]
+         00000002 0088
+      26 00000003 000E          BANZ      ||$C$L2||,AR0--       ; [CPU_ALU]
+         00000004 FFFE
+      27 00000005 0006          LRETR     ; [CPU_ALU]
+"""
+
+
+def link_information(image, change=None, functions=("control_isr", "drive_tick")):
+    """Every section at the beginning of its range, behind what is there already."""
+    ranges, sections = command_file.parse((evidence.ROOT / "linker" / f"f28335_{image}.cmd").read_text(), ("FAST_RTS",))
+    free = {name: item.origin for name, item in ranges.items()}
+    size = {"codestart": 2, ".TI.ramfunc": 9000, ".stack": 0x700, ".bss": 4000, ".text": 12000 if image == "flash" else 2000}
+    groups = []
+    for section in sections.values():
+        words = 0 if section.type else size.get(section.name, 10)
+        load, run = free[section.load], free[section.run]
+        free[section.load] += words
+        if section.run != section.load:
+            free[section.run] += words
+        row = {"name": section.name, "load": load, "run": run, "size": words}
+        groups.append(change(row) if change else row)
+    xml = "".join("<logical_group><name>{name}</name><load_address>{load:#x}</load_address><run_address>{run:#x}</run_address>"
+                  "<size>{size:#x}</size></logical_group>".format(**row) for row in groups)
+    xml += "".join(f"<memory_area><name>{r.name}</name><origin>{r.origin:#x}</origin><length>{r.length:#x}</length>"
+                   f"<used_space>{free[r.name] - r.origin if r.name != 'RAMM01' else 0:#x}</used_space></memory_area>" for r in ranges.values())
+    xml += "".join(f"<object_component><name>.TI.ramfunc:{name}</name></object_component>" for name in functions)
+    return f"<link_info>{xml}</link_info>"
+
+
+class Evidence(unittest.TestCase):
+    def make(self, change=None, frame=8, functions=("control_isr", "drive_tick"), listings=LISTING, there=False):
+        with tempfile.TemporaryDirectory() as directory:
+            build = pathlib.Path(directory)
+            (build / "listings").mkdir()
+            if listings:
+                (build / "listings" / "control_isr.lst").write_text(listings.replace("{frame}", str(frame)))
+            for image in ("flash", "ram"):
+                (build / f"sdre_f28335_{image}.xml").write_text(link_information(image, change if image == "flash" else None, functions))
+            with mock.patch.object(evidence.code_size, "is_there", lambda: there):
+                return evidence.make(build, ["flash", "ram"])
+
+    def refused(self, part, **arguments):
+        text, wrong = self.make(**arguments)
+        self.assertTrue(any(part in line for line in wrong), wrong)
+        self.assertIn(part, text)
+
+    def test_good_images_are_as_expected(self):
+        text, wrong = self.make()
+        self.assertEqual(wrong, [])
+        for part in ("Everything is as expected.", "## flash: memory", "## ram: sections", "| drive_tick | 6 |"):
+            self.assertIn(part, text)
+
+    def test_listing_is_read_and_priced(self):
+        functions = listing.read(LISTING.replace("{frame}", "8"))
+        isr, tick = functions["control_isr"], functions["drive_tick"]
+        self.assertEqual((isr.words, isr.frame, len(isr.lines)), (11, 8, 8))
+        self.assertEqual((tick.words, tick.frame), (6, 4))
+        # 1, 1, branch not taken 4, return 8: the loop counts once
+        self.assertEqual(listing.dearest(functions, "drive_tick"), 14)
+        # four before the branch, not taken 4, call 4 with its callee, one issue of a pair, return 8: 5 more than the branch taken
+        self.assertEqual(listing.dearest(functions, "control_isr"), 4 + 4 + 4 + 14 + 1 + 8)
+        self.assertEqual(listing.dearest({"control_isr": isr}, "control_isr"), 4 + 4 + 4 + 1 + 8)
+
+    def test_recursion_is_found(self):
+        functions = listing.read(LISTING.replace("drive_tick", "control_isr"))
+        with self.assertRaises(ValueError):
+            listing.dearest(functions, "control_isr")
+
+    def test_wrong_images_are_seen(self):
+        def at(name, key, value):
+            return lambda row: {**row, key: value} if row["name"] == name else row
+        for change, part in ((at(".TI.ramfunc", "run", 0x320000), ".TI.ramfunc runs at 0x320000, outside RAML0123"),
+                             (at(".seldom", "load", 0x300000), ".seldom loads at 0x300000, outside FLASH"),
+                             (at(".text", "load", 0x33FF00), ".text loads at 0x33ff00, outside FLASH"),
+                             (at(".tables", "size", 0), "section .tables is empty"),
+                             (at(".stack", "run", 0x400), ".stack runs at 0x400, outside RAMM01"),
+                             (at(".args", "name", ".ebss"), "section .ebss is in no command file")):
+            with self.subTest(part=part):
+                self.refused(part, change=change)
+
+    def test_full_memory_is_seen(self):
+        with mock.patch.object(evidence, "LEFT", 0.6):
+            self.refused("flash: RAML0123 is 55 % full")
+
+    def test_part_that_is_not_inlined_is_seen(self):
+        self.assertIn("angle_gate_pass", evidence.parts())
+        self.refused("not inlined: angle_gate_pass", functions=("control_isr", "drive_tick", "angle_gate_pass"))
+
+    def test_missing_listings_are_seen(self):
+        self.refused("no listings", listings="")
+        self.refused("no listing of control_isr()", functions=("drive_tick",))
+
+    def test_frames_and_sizes_are_compared_with_the_count(self):
+        graph = mock.Mock(frame={"control_isr.c:control_isr": 10, "drive_tick.c:drive_tick": 4})
+        functions = {"noc": [evidence.code_size.Function("step", "control_laws_noc", 7000)]}
+        with mock.patch.object(evidence.check_stack, "graph_of", lambda *a: graph), \
+             mock.patch.object(evidence.code_size, "functions", lambda laws: functions), \
+             mock.patch.object(evidence.code_size, "runs_from_ram", lambda law: lambda source: True):
+            self.assertEqual(self.make(there=True)[1], [])
+            self.refused("frames: 490 words beyond the count", there=True, frame=500)
+            functions["noc"] = [evidence.code_size.Function("step", "control_laws_noc", 5000)]
+            self.refused("code in RAM: 9000 words, estimated 4389 ..", there=True)
+
+
+if __name__ == "__main__":
+    unittest.main()
