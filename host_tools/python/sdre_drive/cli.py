@@ -9,12 +9,14 @@ import threading
 from pathlib import Path
 from typing import Optional
 
+import serial
 import typer
 from rich.console import Console
 from rich.live import Live
 from rich.progress import Progress
 from typing_extensions import Annotated
 
+from sdre_drive import boot_rom
 from sdre_drive import commission as finder
 from sdre_drive import load as loader
 from sdre_drive import move as mover
@@ -116,16 +118,35 @@ def reset(port: Port = None, tcp: Tcp = None) -> None:
         out.print(show.line(session.reset(drive), None))
 
 
+def _load_ram(file: Path, rate: int, port: Optional[str]) -> None:
+    program = boot_rom.read_program(file)
+    if not port:
+        raise DriveError("load --boot-rom: name the serial port with --port")
+    try:
+        with serial.Serial(port, rate, timeout=boot_rom.ECHO_S) as line, Progress(console=err, transient=True) as bar:
+            task = bar.add_task("loading", total=1.0)
+            boot_rom.send(line, program, lambda share: bar.update(task, completed=share))
+    except serial.SerialException as e:
+        raise DriveError(f"{port}: {e}") from e
+    out.print(f"{program.words} words in RAM, started at {program.entry:06X}h", soft_wrap=True)
+
+
 @app.command()
 def load(
     image: Annotated[Optional[Path], typer.Argument(help="of `sdre-gains image`; none: show what is in force")] = None,
     forget: Annotated[bool, typer.Option("--forget", help="back to the constants that are compiled in")] = False,
+    boot: Annotated[Optional[Path], typer.Option("--boot-rom", help="a program for an F28335's RAM, of hex2000 --boot --sci8 -a",
+                                                 metavar="FILE")] = None,
+    rate: Annotated[int, typer.Option("--rate", min=300, max=115200, help="Bd, of --boot-rom")] = 38400,
     port: Port = None,
     tcp: Tcp = None,
-) -> None:
+) -> None:  # fmt: skip
     """Writes a motor's constants into the drive's flash, and restarts it with them."""
-    if image and forget:
-        raise DriveError("load: give an image or --forget")
+    if sum(map(bool, (image, forget, boot))) > 1:
+        raise DriveError("load: give an image, --forget or --boot-rom")
+    if boot:
+        _load_ram(boot, rate, port)
+        return
     with Drive(target(port, tcp)) as drive:
         if forget:
             found = loader.forget(drive)
