@@ -11,6 +11,6 @@ set(CMAKE_C_COMPILER arm-none-eabi-gcc)
 # structures that the host wrote. As TI's compiler, of which the estimate speaks: limits without regard to NaN and signed
 # zeros become minima and maxima, and a call at the end of a function is a call.
 set(CMAKE_C_FLAGS_INIT
-    "-mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16 -fno-math-errno -fno-short-enums \
+    "-g -mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16 -fno-math-errno -fno-short-enums \
 -ffinite-math-only -fno-signed-zeros -fno-optimize-sibling-calls")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-nostartfiles -Wl,--no-enum-size-warning,--fatal-warnings")

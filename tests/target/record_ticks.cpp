@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// record_ticks LAW[=DRIVE] FILE SCENARIO...: runs the scenarios and writes every control period to FILE. The image that
-/// replays them contains one law alone, so scenarios of another one are passed over. With a drive file of that law those
-/// of the speed form are run with it in place of their own.
+/// replays them contains one law alone, so scenarios of another one are passed over. A drive file
+/// of law noc replaces that of the scenarios with its form of the observer. One of another law replaces the speed form's.
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
@@ -85,11 +85,19 @@ bool put_constants(tick_file_run_t &run, const drive_config_t &c)
     return true;
 }
 
+/// Whether a drive runs a scenario that was made for another one: of the same form, or of the speed form with another law.
+bool is_for(const sdre::Drive &drive, const sdre::Drive &own)
+{
+    const sdre::NodoForm form =
+        (drive.law == sdre::Law::noc) ? drive.nodo.form : sdre::NodoForm::speed;
+    return own.law == sdre::Law::noc && own.nodo.form == form;
+}
+
 void write_run(std::ofstream &file, std::uint32_t law, const std::filesystem::path &drive,
                const std::filesystem::path &path)
 {
-    const sdre::Drive own = sdre::read_scenario_file(path).drive;
-    if (!drive.empty() && (own.law != sdre::Law::noc || own.nodo.form != sdre::NodoForm::speed)) {
+    if (!drive.empty() &&
+        !is_for(sdre::read_drive_file(drive), sdre::read_scenario_file(path).drive)) {
         return;
     }
     const sdre::Scenario   scenario   = sdre::read_scenario_file(path, drive);

@@ -3,6 +3,8 @@
 import subprocess
 from collections import Counter
 
+from origin import FLASH
+
 
 def run(command, directory=None):
     status = subprocess.run(command, cwd=directory).returncode
@@ -41,22 +43,36 @@ class Steps:
             step = self.known[key] = (tuple(cost(counts) for cost in self.tables), instructions, counts)
         return step
 
-    def _count(self, block, after):
-        i = self.code[int(block, 16)]
-        end = int(after, 16) if after else None
-        counts, instructions, short = Counter(), 0, None
+    def _run(self, block, after):
+        """Instructions from block on, and whether the last one leaves it: the emulator ends a block early at the end of a page."""
+        i, end, passed, short = self.code[int(block, 16)], int(after, 16) if after else None, [], 0
         while True:
-            counts.update(i.counts)
-            instructions += 1
+            passed.append(i)
             if i.flow:
                 break
             i = i.next
             if i.address == end:
-                short = (counts.copy(), instructions)
+                short = len(passed)
         if short and end not in self._goals(i):
-            return short  # the emulator ended the block early, at the end of a page
-        self._leave(i, end, counts)
-        return counts, instructions
+            return passed[:short], False
+        return passed, True
+
+    def _parts(self, block, after):
+        """[(feature, counts)] of the instructions from block on, and of where the last one goes."""
+        passed, leaves = self._run(block, after)
+        end = int(after, 16) if after else None
+        return [(i.feature, i.counts) for i in passed] + ([(passed[-1].feature, self._leave(passed[-1], end))] if leaves else [])
+
+    def _count(self, block, after):
+        return sum((counts for _, counts in self._parts(block, after)), Counter()), len(self._run(block, after)[0])
+
+    def by_feature(self, edges):
+        """{feature: counts} of [(block, next block)]."""
+        result = {}
+        for edge in edges:
+            for feature, counts in self._parts(*edge):
+                result.setdefault(feature, Counter()).update(counts)
+        return result
 
     def _goals(self, i):
         """Where control can be after i, as far as i says."""
@@ -66,19 +82,22 @@ class Steps:
             return (i.next.address,) if i.flow == "call" else ()
         return (i.target,) if i.flow in ("call", "branch") else ()
 
-    def _leave(self, i, end, counts):
+    def _leave(self, i, end):
+        counts = Counter()
         if i.flow == "conditional":
             if end not in self._goals(i):
                 raise ValueError(f"no way from {i.address:x} to {end:x}")
-            counts["taken" if end == i.target else "not_taken"] += 1
+            if not i.free:
+                counts[("taken" if end == i.target else "not_taken") + i.memory] += 1
         elif i.target_name in self.library:
             counts[i.target_name] += 1  # its price has call and return in it
         elif i.flow == "return" or i.target in self.code:
-            counts[i.flow] += 1
+            counts[i.flow + i.memory] += 1
         else:
             raise ValueError(f"{i.target_name}() has no cost")
         if i.register and end != i.target:
             raise ValueError(f"the call at {i.address:x} went to {end:x}, not to {i.target_name}")
+        return counts
 
 
 def log_of(image, directory, *options):
@@ -142,7 +161,7 @@ def calls_in(log, start, steps, away):
             if back and block != back:
                 continue
             counts = steps[path[-1], block][2]
-            depth += counts["call"] - counts["return"]
+            depth += sum(counts["call" + m] - counts["return" + m] for m in ("", FLASH))
             if depth < 0:
                 yield tuple(path)
                 path = []

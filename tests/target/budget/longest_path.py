@@ -29,7 +29,7 @@ class LongestPath:
             raise ValueError(f"{i.target_name}() has no cost")
         if i.target != self.entry[i.target_name]:
             raise ValueError(f"call into the middle of {i.target_name}")
-        return add({i.flow: 1}, self.function(i.target_name))
+        return add({i.flow + i.memory: 1}, self.function(i.target_name))
 
     def _edges(self, i):
         """[(address or None for the end, counts)] after instruction i."""
@@ -38,17 +38,18 @@ class LongestPath:
             i.target_name != i.function or i.target == self.entry[i.function] and i.flow == "branch"
         )
         if i.flow == "return":
-            return [(None, add(counts, {"return": 1}))]
+            return [(None, add(counts, {"return" + i.memory: 1}))]
         if i.flow == "call":
             return [(i.next.address, add(counts, self._called(i)))]
         if i.flow == "branch":
             if leaves:  # tail call: the callee returns for both
                 return [(None, add(counts, self._called(i)))]
-            return [(i.target, add(counts, {"branch": 1}))]
+            return [(i.target, add(counts, {"branch" + i.memory: 1}))]
         if i.flow == "conditional":
             if leaves:
                 raise ValueError(f"conditional tail call at {i.address:x}")
-            return [(i.target, add(counts, {"taken": 1})), (i.next.address, add(counts, {"not_taken": 1}))]
+            ways = ((i.target, "taken"), (i.next.address, "not_taken"))
+            return [(goal, add(counts, {} if i.free else {way + i.memory: 1})) for goal, way in ways]
         return [(i.next.address, counts)] if i.next else []
 
     def _function(self, name):

@@ -6,6 +6,9 @@ import subprocess
 from collections import Counter
 from dataclasses import dataclass, field
 
+from origin import FLASH, OTHER, read_frames
+from registers import count_spills, numbers
+
 CONDITIONS = "eq ne cs hs cc lo mi pl vs vc hi ls ge lt gt le".split()
 KINDS = {
     "fp_add": ("vadd", "vsub"),
@@ -29,7 +32,6 @@ KINDS = {
 KIND_OF = {name: kind for kind, names in KINDS.items() for name in names}
 MULTIPLE_LOAD = ("ldmia", "ldmdb", "ldm", "pop", "vpop", "vldmia", "vldmdb")
 MULTIPLE_STORE = ("stmia", "stmdb", "stm", "push", "vpush", "vstmia", "vstmdb")
-FLOAT_REGISTERS = 8  # of the C28x
 NEAR_OCTETS = 16  # of a structure: eight words, what an instruction of the C28x reaches without an index register
 LAW = ("check", "reset", "step", "counts_ok")  # functions of law_t that a drive calls, in their order
 LAW_WORDS = len(LAW) + 3  # then what visits the constants, the law's number, the size of its constants
@@ -48,6 +50,9 @@ class Instruction:
     target: int = 0
     target_name: str = ""
     register: str = ""  # that holds the target of an indirect call
+    feature: str = OTHER
+    memory: str = ""  # FLASH, or nothing for RAM without waits
+    free: bool = False  # a branch of a function that is one instruction there
     next: "Instruction | None" = None
 
 
@@ -62,14 +67,6 @@ def base_name(mnemonic):
     if not known and name[-2:] in CONDITIONS and name[:-2]:
         return name[:-2], True
     return name, False
-
-
-def float_registers(operands):
-    """Single registers named, d registers as two."""
-    registers = [int(n) for n in re.findall(r"\bs(\d+)\b", operands)]
-    for n in re.findall(r"\bd(\d+)\b", operands):
-        registers += [2 * int(n), 2 * int(n) + 1]
-    return registers
 
 
 def list_length(operands):
@@ -177,7 +174,7 @@ def is_read(i):
     return i.name in ("cmp", "tst", "cbz", "cbnz", "push") or KIND_OF.get(i.name) == "store"
 
 
-def read_code(prefix, image, functions=()):
+def read_code(prefix, image, functions=(), origin=None):
     """{address: Instruction} of the section .core, linked within each function; functions: see law_functions()."""
     text = run(f"{prefix}objdump", "-d", "--no-show-raw-insn", "-j", ".core", image)
     code, function, before, names, block = {}, "", None, set(), []
@@ -211,32 +208,30 @@ def read_code(prefix, image, functions=()):
         code[i.address] = before = i
         block.append(i)
     count_spills(code)
-    count_limits(code)
+    frames = read_frames(prefix, image, code) if origin else {}
+    count_choices(code, {a for a, f in frames.items() if origin.is_intrinsic(f)})
+    for address, found in frames.items():
+        code[address].feature = origin.feature(found)
+        if origin.in_flash(found):
+            code[address].memory = FLASH
+            code[address].counts = Counter({name + FLASH: n for name, n in code[address].counts.items()})
     return code
 
 
-def count_limits(code):
-    """A comparison with a conditional move of one of its operands is the smaller or larger of two: one instruction there."""
+def count_choices(code, intrinsic):
+    """A float that a comparison chooses takes a branch there, but in an intrinsic each comparison is one instruction."""
     ordered = list(code.values())
-    for compare, flags, condition, move in zip(ordered, ordered[1:], ordered[2:], ordered[3:]):
-        chain = compare.next is flags and flags.next is condition and condition.next is move
-        if not chain or flags.name != "vmrs" or condition.name != "it" or not (move.name == "vmov" and move.conditional):
-            continue
-        if sorted(float_registers(compare.operands)) == sorted(float_registers(move.operands)):
-            for part in (compare, flags, condition):
-                part.counts.clear()
-            move.counts = Counter(limit=1)
-
-
-def count_spills(code):
-    """Accesses to float registers beyond the eight busiest of the function: memory, on the C28x."""
-    use = {}
-    for i in code.values():
-        use.setdefault(i.function, Counter()).update(float_registers(i.operands))
-    for i in code.values():
-        if i.name not in MULTIPLE_LOAD + MULTIPLE_STORE:
-            busiest = {r for r, _ in use[i.function].most_common(FLOAT_REGISTERS)}
-            i.counts["spill"] += sum(r not in busiest for r in float_registers(i.operands))
+    for flags, condition, chosen in zip(ordered, ordered[1:], ordered[2:]):
+        chain = flags.next is condition and condition.next is chosen
+        if chain and flags.name == "vmrs" and condition.counts["integer"] and chosen.conditional and chosen.name[0] == "v":
+            condition.counts["select"] = condition.counts.pop("integer")
+    for i in ordered:
+        if i.address in intrinsic:
+            if i.name in ("vcmp", "vcmpe"):
+                i.counts["limit"] = i.counts.pop("fp_compare")
+            elif i.name == "vmrs" or i.conditional or i.counts["select"]:
+                i.counts.clear()
+                i.free = i.flow == "conditional"
 
 
 def symbols(prefix, image):

@@ -133,23 +133,6 @@ class Counting(unittest.TestCase):
         self.assertEqual(counted(bound), {
             "integer": 3 * (1 + 6 + 1), "fp_mul": 18, "taken": 3 * 5 + 2, "not_taken": 4, "return": 1})  # fmt: skip
 
-    def test_registers_beyond_eight_are_spills(self):
-        lines = [f" {0x100 + 4 * n:x}:\tvadd.f32\ts{n}, s{n}, s{n}" for n in range(8)]
-        listing = "00000100 <f>:\n" + "\n".join(lines) + "\n 120:\tvadd.f32\ts8, s0, s1\n 124:\tbx\tlr\n"
-        self.assertEqual(sum(i.counts["spill"] for i in code_of(listing).values()), 1)
-
-    def test_a_compare_with_a_conditional_move_is_a_limit(self):
-        lines = ("vcmpe.f32\ts0, s1", "vmrs\tAPSR_nzcv, fpscr", "it\tgt", "vmovgt.f32\ts0, s1", "bx\tlr")
-
-        def counts_of(lines):
-            text = "\n".join(f" {0x100 + 4 * n:x}:\t{line}" for n, line in enumerate(lines))
-            return counted(sum((i.counts for i in code_of(f"00000100 <f>:\n{text}\n").values()), Counter()))
-
-        self.assertEqual(counts_of(lines), {"limit": 1})
-        for n, other in ((3, "vmovgt.f32\ts0, s2"), (3, "vnegmi.f32\ts0, s1"), (2, "ite\tgt"), (1, "nop")):
-            with self.subTest(other=other):
-                self.assertNotIn("limit", counts_of(lines[:n] + (other,) + lines[n + 1 :]))
-
     def test_only_the_first_eight_words_of_a_structure_are_near(self):
         code = code_of(
             "00000100 <f>:\n 100:\tvldr\ts0, [r0, #12]\n 104:\tvstr\ts0, [r0, #16]\n 108:\tvldr\ts1, [sp, #64]\n"
