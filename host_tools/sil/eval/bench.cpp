@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "common/data_files.hpp"
 #include "sil/eval/pi_foc.hpp"
 #include "sil/run/recording.hpp"
 #include "sil/run/simulation.hpp"
@@ -72,7 +73,7 @@ template <typename Tick> double tick_ns(const Recording &r, const Tick &tick)
 
 std::filesystem::path default_bench_scenario()
 {
-    return SDRE_BENCH_SCENARIO;
+    return data_file("host_tools/sil/scenarios/fig5_load_step.toml");
 }
 
 std::string bench_text(const std::filesystem::path &file)

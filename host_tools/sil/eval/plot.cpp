@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "common/data_files.hpp"
 #include "common/errors.hpp"
 #include "common/file_output.hpp"
 #include "common/json.hpp"
@@ -70,7 +71,7 @@ std::string drawn(const char *script, const std::string &csv, const std::string 
     const Workplace             work;
     const std::filesystem::path data = work / "data.csv";
     const std::filesystem::path out  = work / ("picture" + picture.extension().string());
-    std::vector<std::string>    arguments{SDRE_PYTHON, std::string(SDRE_PLOT_SCRIPTS "/") + script,
+    std::vector<std::string>    arguments{SDRE_PYTHON, data_file(std::string("host_tools/python/sdre_plot/") + script).string(),
                                        data.string(), title, out.string()};
     write_files({{data, csv}});
     if (!marks.empty()) {
