@@ -23,7 +23,7 @@ BLOCKS: Blocks = [(ENTRY, [0x56BF, 0x0006, 0xFFFF]), (0x000000, [0x0040, 0x8000]
 
 
 def stream(blocks: Blocks = BLOCKS, entry: int = ENTRY, key: int = boot_rom.KEY) -> bytes:
-    """What hex2000 makes: low octet first, 32-bit values high word first."""
+    """The same as hex2000 makes: low octet first, 32-bit values high word first."""
     words = [key, *[0] * boot_rom.RESERVED_WORDS, entry >> 16, entry & 0xFFFF]
     for first, content in blocks:
         words += [len(content), first >> 16, first & 0xFFFF, *content]

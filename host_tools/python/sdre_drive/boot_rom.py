@@ -30,7 +30,7 @@ class Program:
 
     @property
     def words(self) -> int:
-        """Of all blocks."""
+        """The length of all blocks together."""
         return sum(count for _, count in self.blocks)
 
 
