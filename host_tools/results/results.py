@@ -42,7 +42,8 @@ FIELDS = {
     "peak_A": ("peak_current_A", 1), "vq_V": ("vq_noise_V", 1), "vd_V": ("vd_noise_V", 1),
     "rpm": ("fluctuation_rpm", 1), "decrease_rpm": ("decrease_rpm", 1), "within2_ms": ("within_2_percent_s", 1e3),
     "distortion": ("current_distortion_percent", 1), "offset_A": ("sensor_offset_hat_A", 1),
-    "audible": ("audible_torque_percent", 1), "reached_ms": ("position_settled_s", 1e3),
+    "within5_ms": ("within_5_percent_s", 1e3), "within1_ms": ("within_1_percent_s", 1e3),
+    "overshoot_pc": ("overshoot_percent", 1), "error_rpm": ("offset_rpm", 1), "audible": ("audible_torque_percent", 1), "reached_ms": ("position_settled_s", 1e3),
     "off_cnt": ("position_off_cnt", 1), "rest_cnt": ("position_steady_cnt", 1),
 }  # fmt: skip
 STATISTICS = ("worst", "median")
