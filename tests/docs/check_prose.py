@@ -16,7 +16,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 RECORD = Path(__file__).with_name("prose_counts.txt")
-ROOMS = ("README.md", "docs", "firmware", "host_tools", "tests", "linker", "cmake")
+ROOMS = ("README.md", "CONTRIBUTING.md", "RELEASING.md", "SECURITY.md", "docs", "firmware", "host_tools", "tests", "linker", "cmake")
 KINDS = ("over_25_words", "over_40_words", "fragments", "cells_over_12_words", "history")
 C_LIKE = {".c", ".h", ".cpp", ".hpp", ".js", ".mjs", ".cmd"}
 HASHED = {".toml", ".sh", ".cmake", ".txt", ".yml"}
@@ -165,9 +165,9 @@ def files() -> list:
 
 
 def room(file: str) -> str:
-    """Room of a file: docs for README, or the first directory."""
+    """Room of a file: docs for the pages of the root, or the first directory."""
     top = file.split("/")[0]
-    return "docs" if top == "README.md" else top
+    return "docs" if top.endswith(".md") else top
 
 
 def totals(found: dict) -> str:
