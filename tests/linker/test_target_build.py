@@ -15,7 +15,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 FAST_RTS = "rts2800_fpu32_fast_supplement_eabi.lib"
 TICK = ["app.c", "app_angle.c", "app_control.c", "app_gate.c", "app_modes.c", "app_scale.c", "app_states.c", "adc.c", "clock.c",
-        "control_isr.c", "cycles.c", "encoder.c", "flash.c", "line.c", "pie.c", "pwm.c", "tick_watch.c", "trip.c"]
+        "control_isr.c", "cycles.c", "encoder.c", "flash.c", "pie.c", "pwm.c", "tick_watch.c", "trip.c"]
 
 
 def touch(path):

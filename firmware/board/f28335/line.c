@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The direction pin of a transceiver. The build places this file in RAM: the control interrupt releases the line, as a pass of
- * the background may last longer than the silence after which a master sends again. */
+/* The direction pin of a transceiver. The control interrupt releases the line, as a pass of the background may last longer than
+ * the silence after which a master sends again. An image has this file in flash: the RAM has no room for it. */
 #include "DSP28x_Project.h"
 #include "peripherals.h"
 
