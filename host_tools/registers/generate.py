@@ -18,7 +18,7 @@ from typing import Dict, List
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from c_map import digest_of, header, saved, source  # noqa: E402
+from c_map import digest_of, header, saved, source, version  # noqa: E402
 from c_signals import signals_header, signals_source  # noqa: E402
 from table import Group, Register, Signal, TableError, read, signals  # noqa: E402
 
@@ -96,7 +96,7 @@ def python_text(groups: List[Group], found: List[Signal]) -> str:
              "class Parameter(NamedTuple):", '    """A parameter that is kept over power: range in its unit. No default means the largest."""', "",
              "    register: Register", "    low: float", "    high: float", "    default: Optional[float]", "    stopped: bool",
              "    object: str", "    text: str", "", "",
-             f'DIGEST = "{digest_of(groups)}"', ""]  # fmt: skip
+             f'DIGEST = "{digest_of(groups)}"', f'VERSION = "{version()}"', ""]  # fmt: skip
     for g in groups:
         lines.append(f"{g.name.upper()}: Tuple[Register, ...] = (  # {g.space}")
         for r in g.registers:

@@ -8,7 +8,7 @@ import logging
 import os
 import threading
 from dataclasses import dataclass
-from typing import Any, Dict, List, Optional, Sequence
+from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 from pymodbus.client import ModbusSerialClient, ModbusTcpClient
 from pymodbus.exceptions import ModbusException
@@ -17,6 +17,7 @@ from sdre_drive import register_map, registers
 from sdre_drive.register_map import Register
 from sdre_drive.registers import BY_NAME, Constants, ControlWord, Reading
 
+MAP_OBJECT, VERSION_OBJECT = 0x82, 2  # of function 43/14
 FORMATS = {"8E1": ("E", 1), "8O1": ("O", 1), "8N2": ("N", 2)}  # parity and stop bits, in the order of LINE_FORMAT
 # The drive withdraws run after 500 ms without a request: two tries have to fit. TCP loses nothing, and what answers there
 # may be busy: a virtual drive's time then stands still with it.
@@ -32,6 +33,21 @@ EXCEPTION_WORDS = {
     4: "does not take or tell this now",
     11: "did not answer behind its gateway",
 }
+
+
+def other_map(firmware: str) -> str:
+    """Says which side to update when the firmware has another register map."""
+
+    def numbers(version: str) -> Tuple[int, ...]:
+        return tuple(int(n) for n in version.split(".") if n.isdigit())
+
+    here = register_map.VERSION
+    what = f"the drive's firmware {firmware or 'of no version'} has other registers than this sdre-drive {here}"
+    if numbers(firmware) < numbers(here):
+        return f"{what}: update the firmware, or use sdre-drive {firmware or 'of its build'}"
+    if numbers(firmware) > numbers(here):
+        return f"{what}: update sdre-drive"
+    return f"{what}: take both from one build"
 
 
 class DriveError(Exception):
@@ -133,8 +149,17 @@ class Drive:
     def constants(self) -> Constants:
         """Constants of the drive, read once."""
         if self._constants is None:
+            self._check_map()
             self._constants = registers.constants(self._block(register_map.CONSTANTS))
         return self._constants
+
+    def _check_map(self) -> None:
+        """DriveError when firmware and tool are of different register maps: which side to update."""
+        told = self.identify()
+        if told.get(MAP_OBJECT) == register_map.DIGEST:
+            return
+        answer = self._asked("read_device_information", read_code=1, object_id=0)
+        raise DriveError(other_map(answer.information.get(VERSION_OBJECT, b"").decode("ascii", "replace")))
 
     def traces(self) -> Dict[str, float]:
         """How scope and record stand."""

@@ -29,6 +29,7 @@ class Parameter(NamedTuple):
 
 
 DIGEST = "c8205ca0"
+VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
     Register("CONTROLWORD", 0, "u16", 0.0, "bits"),
