@@ -35,6 +35,7 @@ SECTIONS
         *(.TI.ramfunc:app_gate_check)
         *(.TI.ramfunc:app_gate_may_start)
         *(.TI.ramfunc:app_init)
+        *(.TI.ramfunc:app_modes_in_the_way)
         *(.TI.ramfunc:app_modes_init)
         *(.TI.ramfunc:app_scale_init)
         *(.TI.ramfunc:app_scale_set_zero)

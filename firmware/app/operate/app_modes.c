@@ -162,3 +162,10 @@ bridge_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in)
     m->gate_on = out.gate_enable;
     return out;
 }
+
+/* What is in the way of a start and may go again. An unknown temperature is a fault of the run instead. */
+bool app_modes_in_the_way(const app_modes_t *m)
+{
+    return (m->hot && m->sample.temperature_valid) || m->dc_link_out || m->tripped ||
+           !app_gate_may_start(&m->config->gate, m->reading.omega_e_radps);
+}

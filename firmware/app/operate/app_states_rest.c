@@ -83,13 +83,6 @@ static bridge_t calibrate(app_modes_t *m, const app_modes_input_t *in)
     return bridge_open();
 }
 
-/* What is in the way of a start and may go again. An unknown temperature is a fault of the run instead. */
-bool app_modes_in_the_way(const app_modes_t *m)
-{
-    return (m->hot && m->sample.temperature_valid) || m->dc_link_out || m->tripped ||
-           !app_gate_may_start(&m->config->gate, m->reading.omega_e_radps);
-}
-
 static void enter_run(app_modes_t *m)
 {
     const bool precharge = !m->gate_on && (m->config->gate.precharge_ticks > 0U);
