@@ -235,6 +235,14 @@ class LinkerFiles(unittest.TestCase):
     def test_every_peripheral_used_is_placed_where_it_is(self):
         check_registers((ROOT / "linker" / "f28335_registers.cmd").read_text())
 
+    def test_pins_are_safe_before_anything_is_copied(self):
+        source = re.sub(r";.*", "", (BOARD / "codestart.asm").read_text())
+        code = re.findall(r"^[ \t]+(MOVB|MOVL|EDIS)\b[ \t]*(.*?)[ \t]*$", source, flags=re.M)
+        safe = [("MOVB", "ACC, #0x7F"), ("MOVL", "XAR4, #0x6FC4"), ("MOVL", "*+XAR4[0], ACC"),
+                ("MOVL", "XAR4, #0x6F8A"), ("MOVL", "*+XAR4[0], ACC"), ("EDIS", "")]
+        at = next(n for n in range(len(code)) if code[n : n + len(safe)] == safe)
+        self.assertLess(at, next(n for n, (_, operands) in enumerate(code) if "codestart_stack" in operands))
+
     def test_wrong_copies_are_refused(self):
         for image, old, new, reason in MUTANTS:
             with self.subTest(image=image, old=old, new=new):

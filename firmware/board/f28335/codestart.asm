@@ -22,6 +22,13 @@ prepare:
         EALLOW
         MOVL    XAR4, #0x7029           ; WDCR
         MOV     *+XAR4[0], #0x0068      ; watchdog off: this and the C start-up outlast its 4.4 ms
+
+; Copying takes about 0.1 s at the clock of the start. The pins of gates and driver are low outputs before it.
+        MOVB    ACC, #0x7F              ; GPIO0 .. GPIO6
+        MOVL    XAR4, #0x6FC4           ; GPACLEAR
+        MOVL    *+XAR4[0], ACC
+        MOVL    XAR4, #0x6F8A           ; GPADIR; GPAMUX1 is 0 after a reset
+        MOVL    *+XAR4[0], ACC
         EDIS
 
         MOVL    XAR5, #codestart_stack
