@@ -31,7 +31,7 @@ public:
 
     bool        has(const std::string &key) const;
     double      number(const std::string &key, Range allowed);
-    double      number(const std::string &key); ///< any finite number: the caller names the allowed range
+    double      number(const std::string &key); ///< any finite number; the caller checks it
     double      number_or(const std::string &key, Range allowed, double fallback);
     int         integer(const std::string &key, Range allowed);
     int         integer_or(const std::string &key, Range allowed, int fallback);

@@ -22,13 +22,12 @@ struct BoardDescription {
     double temperature_limit_degC = 80.0;   ///< no start above; chosen: modules for 125 degC
     double temperature_trip_degC  = 90.0;
     std::optional<double> align_current_A; ///< of the vector that finds the angle without an index
-    std::optional<double>
-                 motor_current_A; ///< continuous current of the winding, peak of a phase
-    double       motor_time_constant_s    = 30.0; ///< of the winding; chosen: a small frame's
-    double       inverter_current_A       = 0.0;
-    double       inverter_time_constant_s = 2.0; ///< of the modules' bases; chosen
-    StopReaction stop                     = StopReaction::coast;
-    double       precharge_s =
+    std::optional<double> motor_current_A; ///< continuous current of the winding, peak of a phase
+    double                motor_time_constant_s = 30.0; ///< of the winding; chosen: a small frame's
+    double                inverter_current_A    = 0.0;
+    double                inverter_time_constant_s = 2.0; ///< of the modules' bases; chosen
+    StopReaction          stop                     = StopReaction::coast;
+    double                precharge_s =
         0.0; ///< bootstrap supplies: all lower switches on before a run; 0: isolated
     double duty_max    = 1.0; ///< largest duty below full that the drivers' supplies bear
     double pulse_min_s = 0.0; ///< shortest pulse that the drivers pass

@@ -16,7 +16,7 @@ struct TuneResult {
     std::vector<CaseResult> cases; ///< of these very weights
     double worst_ratio = 0.0; ///< largest result / specification; at most 1 when every one is met
     int    evaluations = 0;
-    bool   kept        = false; ///< the drive's own weights: the search found no sufficient improvement
+    bool   kept        = false; ///< the drive's own weights: the search improved too little
 };
 
 /// Called now and then with the evaluations so far and the best worst ratio.

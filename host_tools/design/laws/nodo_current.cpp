@@ -151,7 +151,8 @@ CurrentObserver design_nodo_current(const ReducedParameters &l, const Drive &dri
                                                        control_period_s(drive)));
         }
     }
-    const bool weak_magnet = l[0] < 0.0; // its EMF has little information on the angle beside the inductances'
+    // The EMF of a weak magnet has little information on the angle beside the inductances'.
+    const bool weak_magnet = l[0] < 0.0;
     return weak_magnet && !(d.spectral_radius < 1.0) ? none(trip_e_radps) : d;
 }
 

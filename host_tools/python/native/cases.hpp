@@ -36,8 +36,7 @@ struct CaseResult {
     double current_margin = 0.0;   ///< 1 - peak current / what is allowed; -1 after a fault
     double speed_margin =
         0.0; ///< 1 - largest |speed error| in the measures' steady parts / their bands; -1 after a fault
-    std::vector<double>
-        metrics; ///< measure by measure, each with all requested metrics; NaN: none
+    std::vector<double> metrics; ///< measure by measure, each with all requested metrics; NaN: none
 };
 
 class CaseRunner {

@@ -30,7 +30,7 @@ struct BoardTick {
 struct BoardResult {
     SimulationResult                                  result;
     std::vector<BoardTick, LargeAllocator<BoardTick>> ticks;
-    std::vector<std::string>                          notes; ///< differences from the scenario
+    std::vector<std::string>                          notes;    ///< differences from the scenario
     std::vector<std::string>                          findings; ///< of the virtual device
     double                                            zero_a_cnt     = 0.0; ///< calibrated
     double                                            zero_b_cnt     = 0.0;
