@@ -26,7 +26,7 @@ def test_other_map_says_which_side(firmware: str, wanted: str) -> None:
 
 
 class Answer:
-    """What pymodbus gives for function 43/14."""
+    """The answer of pymodbus to function 43/14."""
 
     def __init__(self, information: Dict[int, bytes]) -> None:
         self.information = information
