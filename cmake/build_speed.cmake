@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# What makes a build on the host faster where it is installed: ccache, and a faster linker for the many
-# programs of the tests. Nothing here changes what is built.
+# ccache, and a faster linker for the many test programs, where they are installed. The build result
+# is the same without them.
 if(CMAKE_SYSTEM_NAME STREQUAL "Generic" OR EMSCRIPTEN)
     return()
 endif()

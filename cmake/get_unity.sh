@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Puts a copy of the Unity test framework into build/unity, for machines that cannot reach its
-# upstream repository: Debian and Ubuntu carry it inside the source package ntpsec. apt works on
-# a source list and state of its own under build/apt; the system's configuration is only read.
-# Exit status: 0 copy in place, 1 no copy to be had, 2 a copy that is not a known one.
+# upstream repository. Debian and Ubuntu have it in the source package ntpsec. apt uses its own
+# source list and state under build/apt; the system's configuration is only read. Exit status: 0
+# copy in place, 1 no copy available, 2 an unknown copy.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: MIT
 # Link one of these PRIVATE to every target; they are empty unless SDRE_SANITIZE is on.
 #
-# sdre_sanitizers: C gets every check, and float division by zero besides: the core never divides by
-# zero. C++ goes without the per-access pointer checks, and has line tables only: Eigen's templates
-# then compile in half the time and memory, and AddressSanitizer still sees a bad access. Without -O1
-# closed-loop tests would take minutes.
+# sdre_sanitizers: C gets every check and float division by zero, because the core never divides by
+# zero. C++ has no per-access pointer checks and only line tables. Eigen's templates then compile in
+# half the time and memory, and AddressSanitizer still detects a bad access. Without -O1 closed-loop
+# tests would take minutes.
 #
 # sdre_address_sanitizer: AddressSanitizer alone, for the solvers, whose arithmetic is Eigen's: with the
 # checks of undefined behaviour its templates take a quarter longer to compile. Eigen's own assertions
 # on sizes and indices stay.
 #
-# sdre_test_code: assertions alone, and without -O1, for what only tests do: such code is compiled longer than it runs,
-# and a fifth of that went into checks of the tests themselves. What they call is checked.
+# sdre_test_code: assertions alone, without -O1, for the code of the tests. This code takes longer
+# to compile than to run, and a fifth of that time was for checks of the tests themselves. The
+# tested code has its checks.
 add_library(sdre_sanitizers INTERFACE)
 add_library(sdre_address_sanitizer INTERFACE)
 add_library(sdre_test_code INTERFACE)

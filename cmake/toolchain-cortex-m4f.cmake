@@ -7,9 +7,9 @@ set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY) # an image needs its own start
 
 set(CMAKE_C_COMPILER arm-none-eabi-gcc)
 
-# Square roots as one instruction: nobody reads errno. Enumerations as on the host: the replay reads
-# structures that the host wrote. As TI's compiler, of which the estimate speaks: limits without regard to NaN and signed
-# zeros become minima and maxima, and a call at the end of a function is a call.
+# Square roots are one instruction, because no code reads errno. Enumerations are as on the host:
+# the replay reads structures of the host. As with TI's compiler, limits without regard to NaN and
+# signed zeros become minima and maxima. A call at the end of a function stays a call.
 set(CMAKE_C_FLAGS_INIT
     "-g -mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16 -fno-math-errno -fno-short-enums \
 -ffinite-math-only -fno-signed-zeros -fno-optimize-sibling-calls")
