@@ -4,8 +4,8 @@
 ///     edge n is at n + e(n) counts, n of the turn                              EQ-ENCODER-7
 ///     e(n) = -+ quadrature/2 (track A, B) -+ duty/2 (rising, falling) + jitter u(n)
 ///
-/// quadrature is the delay of track B, so that the states of a line are 1 +- quadrature counts wide. duty is the excess of
-/// a track's pulses over its gaps. u(n) is evenly distributed, with mean 0 and standard deviation 1.
+/// Track B is late by quadrature, so that the states of a line are 1 +- quadrature counts wide. A track's pulses exceed its
+/// gaps by duty. The numbers u(n) are evenly distributed, with mean 0 and standard deviation 1.
 #pragma once
 
 #include <cstdint>
