@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Link one of these PRIVATE to every target; they are empty unless SDRE_SANITIZE is on.
+# Link one of these PRIVATE to every target; all but sdre_test_code are empty unless SDRE_SANITIZE is on.
 #
 # sdre_sanitizers: C gets every check and float division by zero, because the core never divides by
 # zero. C++ has no per-access pointer checks and only line tables. Eigen's templates then compile in
@@ -10,12 +10,13 @@
 # checks of undefined behaviour its templates take a quarter longer to compile. Eigen's own assertions
 # on sizes and indices stay.
 #
-# sdre_test_code: assertions alone, without -O1, for the code of the tests. This code takes longer
+# sdre_test_code: assertions alone, never optimised, for the code of the tests. This code takes longer
 # to compile than to run, and a fifth of that time was for checks of the tests themselves. The
-# tested code has its checks.
+# tested code has its checks and is optimised.
 add_library(sdre_sanitizers INTERFACE)
 add_library(sdre_address_sanitizer INTERFACE)
 add_library(sdre_test_code INTERFACE)
+target_compile_options(sdre_test_code INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-O0>)
 if(SDRE_SANITIZE)
     target_compile_options(sdre_test_code INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-g1>)
     # As Eigen allocates where AddressSanitizer is on: the one side frees what the other has made.

@@ -7,11 +7,12 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include "common/errors.hpp"
 #include "design/design.hpp"
+#include "linear.hpp"
 #include "reference_gains.hpp"
 
 namespace {
@@ -153,10 +154,11 @@ TEST(DobcDesign, DeterminantIsTheWantedPolynomial)
             for (const double c : d.wanted) {
                 wanted = wanted * static_cast<long double>(s) + static_cast<long double>(c);
             }
-            using Long = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-            const Long Z =
-                static_cast<long double>(s) * Long::Identity(n, n) - d.F.cast<long double>();
-            EXPECT_NEAR(static_cast<double>(Z.determinant() / wanted), 1.0, 1e-8) << law << s;
+            const support::LongMatrix Z =
+                static_cast<long double>(s) * support::LongMatrix::Identity(n, n) -
+                d.F.cast<long double>();
+            EXPECT_NEAR(static_cast<double>(support::determinant(Z) / wanted), 1.0, 1e-8)
+                << law << s;
         }
     }
 }
@@ -234,14 +236,14 @@ TEST(ServoLoop, SpeedLoopOfThePidAgreesWithItsTransferFunction)
     // Electrical speed and current, i' with the EMF against the voltage; a held voltage, by eigenvalues.
     Eigen::Matrix2d A;
     A << -7.4e-5 / 0.000135, 4.0 * 1.5 * 4.0 * 0.084 / 0.000135, -0.084 / 0.026, -9.7 / 0.026;
-    const Eigen::Vector2d                     B(0.0, 1.0 / 0.026);
-    const Eigen::EigenSolver<Eigen::Matrix2d> modes(A);
-    const Eigen::Matrix2cd                    V     = modes.eigenvectors();
-    const Eigen::Vector2cd                    in    = V.inverse() * B.cast<std::complex<double>>();
-    const auto                                plant = [&](std::complex<double> z) {
+    const Eigen::Vector2d   B(0.0, 1.0 / 0.026);
+    const support::Modes    modes = support::modes_of(A);
+    const Eigen::MatrixXcd &V     = modes.vectors;
+    const Eigen::Vector2cd  in    = support::inverse(V) * B.cast<std::complex<double>>();
+    const auto              plant = [&](std::complex<double> z) {
         std::complex<double> sum = 0.0;
         for (int k = 0; k < 2; k++) {
-            const std::complex<double> s = modes.eigenvalues()(k);
+            const std::complex<double> s = modes.values(k);
             const std::complex<double> e = std::exp(s * ts_s);
             sum += V(0, k) * (e - 1.0) / s * in(k) / (z - e);
         }

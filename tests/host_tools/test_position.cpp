@@ -2,8 +2,7 @@
 // The design with the angle as a fourth state, against a Riccati solution of the test's own.
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include "common/errors.hpp"
@@ -11,6 +10,7 @@
 #include "design/position.hpp"
 #include "design/sampled_model.hpp"
 #include "linalg/eigenvalues.hpp"
+#include "linear.hpp"
 #include "shipped_drive.hpp"
 
 namespace {
@@ -47,15 +47,16 @@ MatrixXd exact_gain(const sdre::Design &d, double eiq_A)
     MatrixXd              H(8, 8);
     H << A, -B * T_inverse.asDiagonal() * B.transpose(),
         MatrixXd(Eigen::Vector4d(-p.Q[0], -p.Q[1], -p.Q[2], -p.Q[3]).asDiagonal()), -A.transpose();
-    const Eigen::EigenSolver<MatrixXd> found(H);
-    Eigen::MatrixXcd                   stable(8, 4);
-    int                                n = 0;
+    const support::Modes found = support::modes_of(H);
+    Eigen::MatrixXcd     stable(8, 4);
+    int                  n = 0;
     for (int i = 0; i < 8; i++) {
-        if (found.eigenvalues()(i).real() < 0.0 && n < 4) {
-            stable.col(n++) = found.eigenvectors().col(i);
+        if (found.values(i).real() < 0.0 && n < 4) {
+            stable.col(n++) = found.vectors.col(i);
         }
     }
-    const Eigen::MatrixXcd X = stable.bottomRows(4) * stable.topRows(4).inverse();
+    const Eigen::MatrixXcd X =
+        stable.bottomRows(4) * support::inverse(Eigen::MatrixXcd(stable.topRows(4)));
     return T_inverse.asDiagonal() * B.transpose() * X.real();
 }
 

@@ -8,17 +8,18 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include "common/errors.hpp"
 #include "json.hpp"
 #include "linalg/eigenvalues.hpp"
+#include "linear.hpp"
 
 namespace {
 
 using Eigen::MatrixXd;
-using Extended = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+using Extended = support::LongMatrix;
 using support::Json;
 
 MatrixXd scalar(double value)
@@ -108,7 +109,7 @@ double residual_of(const Json &problem, const MatrixXd &X)
     const Extended BX =
         matrix_from(problem["B"]).transpose().cast<long double>() * X.cast<long double>();
     const Extended AX  = A.transpose() * X.cast<long double>();
-    const Extended XGX = BX.transpose() * R.fullPivLu().solve(BX);
+    const Extended XGX = BX.transpose() * support::solve(R, BX);
     return static_cast<double>((AX + AX.transpose() - XGX + Q).norm() /
                                (2 * AX.norm() + XGX.norm() + Q.norm()));
 }
@@ -140,8 +141,7 @@ void expect_stabilising(const MatrixXd &A, const MatrixXd &G, const MatrixXd &Q,
     EXPECT_LE(static_cast<double>(sum.norm() / (2 * AX.norm() + XGX.norm() + Q.norm())),
               residual_bound);
     EXPECT_LE(solution.relative_residual, residual_bound);
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> definite(X);
-    EXPECT_GE(definite.eigenvalues().minCoeff(), -1e-12 * X.norm());
+    EXPECT_GE(support::least_eigenvalue(X), -1e-12 * X.norm());
     const Eigen::VectorXcd modes = sdre::eigenvalues(A - G * X);
     EXPECT_LT(modes.real().maxCoeff(), 0.0);
     ASSERT_EQ(solution.closed_loop_eigenvalues.size(), A.rows());
@@ -281,7 +281,7 @@ TEST(riccati, change_of_state_coordinates_changes_only_the_coordinates_of_x)
         const MatrixXd B = random_matrix(4, 2, generator);
         const MatrixXd Q = random_semidefinite(4, 2, generator);
         const MatrixXd T = random_matrix(4, 4, generator) + 4.0 * MatrixXd::Identity(4, 4);
-        const MatrixXd S = T.inverse();
+        const MatrixXd S = support::inverse(T);
         const MatrixXd R = MatrixXd::Identity(2, 2);
 
         const MatrixXd X  = sdre::solve_care(A, B, R, Q).X;
@@ -461,7 +461,7 @@ TEST(riccati_refuses, broken_assumptions_hidden_by_a_change_of_coordinates)
         SCOPED_TRACE(trial);
         const Eigen::Index n = 2 + trial % 5;
         const MatrixXd     T = random_matrix(n, n, generator) + 4.0 * MatrixXd::Identity(n, n);
-        const MatrixXd     S = T.inverse();
+        const MatrixXd     S = support::inverse(T);
         MatrixXd           A = random_matrix(n, n, generator) * std::pow(10.0, trial % 5 - 2);
         A.row(0).setZero();
         A(0, 0)          = 1.0 + trial % 3;
@@ -501,7 +501,7 @@ TEST(riccati_refuses, repeated_unstabilisable_modes_that_rounding_spreads)
         MatrixXd B = random_matrix(n, 1, generator);
         B.topRows(k).setZero();
         const MatrixXd T = random_matrix(n, n, generator) + 4.0 * MatrixXd::Identity(n, n);
-        const MatrixXd S = T.inverse();
+        const MatrixXd S = support::inverse(T);
         expect_design_error(care(T * A * S, T * B, scalar(1.0), MatrixXd::Identity(n, n)),
                             "(A,B) is not stabilisable: mode");
     }

@@ -8,11 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include "design/design.hpp"
 #include "linalg/expm.hpp"
+#include "linear.hpp"
 #include "shipped_drive.hpp"
 #include "sil/plant/plant.hpp"
 
@@ -282,7 +283,7 @@ TEST(SampledModel, SteadyStateHasNoSpeedError)
     const sdre::OperatingPoint at{300.0, 1.9, -0.4};
     const sdre::SampledModel   m =
         sdre::sampled_model(board().l, board().l, gains_at(board(), at.iq_A), at, 200e-6);
-    const VectorXd x = (MatrixXd::Identity(10, 10) - m.A).fullPivLu().solve(m.b_load);
+    const VectorXd x = support::solve(MatrixXd::Identity(10, 10) - m.A, m.b_load);
 
     EXPECT_NEAR(x(0), 0.0, 1e-6);                   // w
     EXPECT_NEAR(x(3), 0.0, 1e-6);                   // theta - theta^
@@ -308,7 +309,7 @@ TEST(SampledModel, WrongParametersStillSettleOnTheSpeed)
     const sdre::OperatingPoint at{300.0, 1.9, -0.4};
     const sdre::SampledModel   m =
         sdre::sampled_model(board().l, d.l, gains_at(d, at.iq_A), at, 200e-6);
-    const VectorXd x = (MatrixXd::Identity(10, 10) - m.A).fullPivLu().solve(m.b_load);
+    const VectorXd x = support::solve(MatrixXd::Identity(10, 10) - m.A, m.b_load);
 
     EXPECT_LT(sdre::spectral_radius(m.A), 1.0);
     EXPECT_NEAR(x(0), 0.0, 1e-6);
