@@ -40,7 +40,7 @@ function(sdre_find_python result)
         unset(SDRE_PYTHON CACHE)
         message(FATAL_ERROR "SDRE_PYTHON=${candidates}: cannot import matplotlib")
     endif()
-    message(WARNING "no Python with matplotlib found: sdre-sil will not be able to draw plots")
+    message(NOTICE "no Python with matplotlib found: sdre-sil draws no plots") # it says so when asked to
     set(${result} "" PARENT_SCOPE)
 endfunction()
 sdre_find_python(SDRE_PYTHON)
