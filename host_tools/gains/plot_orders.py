@@ -3,6 +3,7 @@
 
 Usage: plot_orders.py OUT.png TITLE=TABLE.csv ...
 """
+
 import csv
 import sys
 
@@ -25,8 +26,14 @@ def curves(path, loop):
 
 def main(out_path, *tables):
     loops = ("controller", "observer")
-    figure, axes = plt.subplots(len(tables), 2, figsize=(9, 3 * len(tables)), sharex=True,
-                                squeeze=False, constrained_layout=True)
+    figure, axes = plt.subplots(
+        len(tables),
+        2,
+        figsize=(9, 3 * len(tables)),
+        sharex=True,
+        squeeze=False,
+        constrained_layout=True,
+    )
     for row, table in zip(axes, tables):
         title, path = table.split("=", 1)
         for axis, loop in zip(row, loops):

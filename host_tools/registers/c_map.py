@@ -30,8 +30,11 @@ def _digest(lines: Iterable[str]) -> int:
 
 def digest_of(groups: List[Group]) -> str:
     """Digest of the part of the map that a master can see."""
-    lines = (f"{g.space} {r.address} {r.name} {r.type} {r.step} {r.unit} {r.range} {r.stopped} {r.saved}"
-             for g in groups for r in g.registers)  # fmt: skip
+    lines = (
+        f"{g.space} {r.address} {r.name} {r.type} {r.step} {r.unit} {r.range} {r.stopped} {r.saved}"
+        for g in groups
+        for r in g.registers
+    )
     return f"{_digest(lines):08x}"
 
 
@@ -68,22 +71,43 @@ def _enum(groups: Iterable[Group]) -> List[str]:
 def header(groups: List[Group]) -> str:
     """app_registers_map.h."""
     lines = [
-        "/* SPDX-License-Identifier: MIT */", NOTE, "/* clang-format off */",
-        "/**", " * @file app_registers_map.h",
-        " * @brief Addresses and kinds of the registers, and where their values come from. docs/modbus.md says what they mean.",
-        " */", "#ifndef APP_REGISTERS_MAP_H", "#define APP_REGISTERS_MAP_H", "", "#include \"base.h\"", "",
+        "/* SPDX-License-Identifier: MIT */",
+        NOTE,
+        "/* clang-format off */",
+        "/**",
+        " * @file app_registers_map.h",
+        " * @brief Addresses and kinds of the registers, and where their values come from. "
+        "docs/modbus.md says what they mean.",
+        " */",
+        "#ifndef APP_REGISTERS_MAP_H",
+        "#define APP_REGISTERS_MAP_H",
+        "",
+        '#include "base.h"',
+        "",
         f'#define APP_REGISTERS_VERSION "{version()}"   /**< of the firmware */',
-        f'#define APP_REGISTERS_DIGEST "{digest_of(groups)}" /**< of what a master can see of the map */', "",
-        f"#define APP_REGISTERS_SAVED_WORDS   {sum(r.words for r in saved(groups))}U          /**< of all parameters */",
-        f"#define APP_REGISTERS_SAVED_VERSION 0x{version_of(groups):08X}UL /**< of what these words mean */", "",
-    ]  # fmt: skip
+        f'#define APP_REGISTERS_DIGEST "{digest_of(groups)}" /**< of what a master can see of the '
+        f"map */",
+        "",
+        f"#define APP_REGISTERS_SAVED_WORDS   {sum(r.words for r in saved(groups))}U          /**< "
+        f"of all parameters */",
+        f"#define APP_REGISTERS_SAVED_VERSION 0x{version_of(groups):08X}UL /**< of what these "
+        f"words mean */",
+        "",
+    ]
     for space in SPACES:
-        lines += [f"/** {space.capitalize()} registers: those of two words are named by the first. */"]
+        lines += [
+            f"/** {space.capitalize()} registers: those of two words are named by the first. */"
+        ]
         lines += _enum(g for g in groups if g.space == space)
     lines += [
-        "typedef enum {", "    APP_REGISTERS_U16 = 0,", "    APP_REGISTERS_I16,",
-        "    APP_REGISTERS_U32, /**< two words, the high one first, as the next */", "    APP_REGISTERS_I32,",
-        "    APP_REGISTERS_DEC /**< two words: digits and power of ten, both signed */", "} app_registers_type_t;", "",
+        "typedef enum {",
+        "    APP_REGISTERS_U16 = 0,",
+        "    APP_REGISTERS_I16,",
+        "    APP_REGISTERS_U32, /**< two words, the high one first, as the next */",
+        "    APP_REGISTERS_I32,",
+        "    APP_REGISTERS_DEC /**< two words: digits and power of ten, both signed */",
+        "} app_registers_type_t;",
+        "",
         "typedef struct {",
         "    uint16_t             address; /**< of the first word */",
         "    app_registers_type_t type;",
@@ -93,35 +117,55 @@ def header(groups: List[Group]) -> str:
         "    bool                 stopped;   /**< written while the bridge is off only */",
         "    bool                 saved;     /**< a parameter: kept over power */",
         "    uint32_t             signature; /**< the one value that is taken; 0: no such thing */",
-        "} app_registers_entry_t;", "",
-        "struct app_registers;", "struct app_registers_wanted;", "",
-    ]  # fmt: skip
+        "} app_registers_entry_t;",
+        "",
+        "struct app_registers;",
+        "struct app_registers_wanted;",
+        "",
+    ]
     for space in SPACES:
         count = sum(1 for _ in of_space(groups, space))
         lines += [f"#define APP_REGISTERS_MAP_{space.upper()} {count}U", ""]
     lines += [
         "/** By address, upwards. */",
         "extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];",
-        "extern const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT];", "",
-    ]  # fmt: skip
+        "extern const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT];",
+        "",
+    ]
     for space in SPACES:
-        lines += [f"/** The value of a register with a unit, and of one without. 0 where there is none. */",
-                  f"float    app_registers_map_{space}_real(const struct app_registers *r, uint16_t address);",
-                  f"uint32_t app_registers_map_{space}_whole(const struct app_registers *r, uint16_t address);", ""]  # fmt: skip
+        lines += [
+            "/** The value of a register with a unit, and of one without. 0 where there is "
+            "none. */",
+            f"float    app_registers_map_{space}_real(const struct app_registers *r, uint16_t "
+            f"address);",
+            f"uint32_t app_registers_map_{space}_whole(const struct app_registers *r, uint16_t "
+            f"address);",
+            "",
+        ]
     lines += [
         "/** Puts a value that is in its range into w; n are its counts, of those with a sign. */",
-        "void app_registers_map_put(const struct app_registers *r, struct app_registers_wanted *w, uint16_t address, float x, int32_t n);", "",
-        "#endif /* APP_REGISTERS_MAP_H */", "",
-    ]  # fmt: skip
+        "void app_registers_map_put(const struct app_registers *r, struct app_registers_wanted *w, "
+        "uint16_t address, float x, int32_t n);",
+        "",
+        "#endif /* APP_REGISTERS_MAP_H */",
+        "",
+    ]
     return "\n".join(lines)
 
 
 def _table(groups: List[Group], space: str) -> List[str]:
-    lines = [f"const app_registers_entry_t app_registers_map_{space}[APP_REGISTERS_MAP_{space.upper()}] = {{"]
+    lines = [
+        f"const app_registers_entry_t app_registers_map_{space}[APP_REGISTERS_MAP_{space.upper()}] "
+        f"= {{"
+    ]
     for r in of_space(groups, space):
         low, high = r.range or (0.0, 0.0)
-        lines.append(f"    {{APP_REGISTERS_{r.name}, APP_REGISTERS_{TYPES[r.type]}, {_c_float(r.per_unit)}, {_c_float(low)}, "
-                     f"{_c_float(high)}, {_c_bool(r.stopped)}, {_c_bool(r.saved)}, {f'0x{r.signature:08X}UL' if r.signature else '0UL'}}},")  # fmt: skip
+        lines.append(
+            f"    {{APP_REGISTERS_{r.name}, APP_REGISTERS_{TYPES[r.type]}, {_c_float(r.per_unit)}, "
+            f"{_c_float(low)}, "
+            f"{_c_float(high)}, {_c_bool(r.stopped)}, {_c_bool(r.saved)}, "
+            f"{f'0x{r.signature:08X}UL' if r.signature else '0UL'}}},"
+        )
     return [*lines, "};", ""]
 
 
@@ -132,23 +176,42 @@ def _is_real(r: Register) -> bool:
 def _getter(groups: List[Group], space: str, real: bool) -> List[str]:
     kind, name = ("float", "real") if real else ("uint32_t", "whole")
     zero = "0.0f" if real else "0U"
-    lines = [f"{kind} app_registers_map_{space}_{name}(const app_registers_t *r, uint16_t address)", "{",
-             f"    {kind} x = {zero};", "", "    switch (address) {"]  # fmt: skip
+    lines = [
+        f"{kind} app_registers_map_{space}_{name}(const app_registers_t *r, uint16_t address)",
+        "{",
+        f"    {kind} x = {zero};",
+        "",
+        "    switch (address) {",
+    ]
     for r in of_space(groups, space):
         if _is_real(r) == real:
-            lines += [f"    case APP_REGISTERS_{r.name}:", f"        x = {r.source};", "        break;"]
+            lines += [
+                f"    case APP_REGISTERS_{r.name}:",
+                f"        x = {r.source};",
+                "        break;",
+            ]
     return [*lines, "    default:", "        break;", "    }", "    return x;", "}", ""]
 
 
 def source(groups: List[Group]) -> str:
     """app_registers_map.c."""
-    lines = ["/* SPDX-License-Identifier: MIT */", NOTE, "/* clang-format off */", '#include "app_registers.h"', ""]
+    lines = [
+        "/* SPDX-License-Identifier: MIT */",
+        NOTE,
+        "/* clang-format off */",
+        '#include "app_registers.h"',
+        "",
+    ]
     for space in SPACES:
         lines += _table(groups, space)
     for space in SPACES:
         lines += _getter(groups, space, True) + _getter(groups, space, False)
-    lines += ["void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, uint16_t address, float x, int32_t n)",
-              "{", "    switch (address) {"]  # fmt: skip
+    lines += [
+        "void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, uint16_t "
+        "address, float x, int32_t n)",
+        "{",
+        "    switch (address) {",
+    ]
     for r in of_space(groups, "holding"):
         lines += [f"    case APP_REGISTERS_{r.name}:", f"        {r.target};", "        break;"]
     lines += ["    default:", "        break;", "    }", "}", ""]

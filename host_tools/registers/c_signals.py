@@ -14,31 +14,61 @@ LICENCE = "/* SPDX-License-Identifier: MIT */"
 def signals_header(found: List[Signal]) -> str:
     """app_scope_signals.h."""
     lines = [
-        LICENCE, NOTE, "/* clang-format off */",
-        "/**", " * @file app_scope_signals.h", " * @brief What the scope can show. Units: docs/modbus.md.", " */",
-        "#ifndef APP_SCOPE_SIGNALS_H", "#define APP_SCOPE_SIGNALS_H", "", '#include "app_modes.h"', "",
+        LICENCE,
+        NOTE,
+        "/* clang-format off */",
+        "/**",
+        " * @file app_scope_signals.h",
+        " * @brief What the scope can show. Units: docs/modbus.md.",
+        " */",
+        "#ifndef APP_SCOPE_SIGNALS_H",
+        "#define APP_SCOPE_SIGNALS_H",
+        "",
+        '#include "app_modes.h"',
+        "",
         "enum {",
         *[f"    APP_SCOPE_{s.name} = {s.number}," for s in found],
-        f"    APP_SCOPE_SIGNALS = {len(found)}", "};", "",
-        "/** The end of a tick. */", "typedef struct {", "    const app_modes_t   *modes;",
-        "    const app_command_t *command;", "    const bridge_t      *out;", "} app_scope_view_t;", "",
-        "/** 0 for a number that is none of them. Context: control ISR. One branch by a table of cases. */",
-        "float app_scope_signals_value(const app_scope_view_t *v, uint16_t signal);", "",
-        "#endif /* APP_SCOPE_SIGNALS_H */", "",
-    ]  # fmt: skip
+        f"    APP_SCOPE_SIGNALS = {len(found)}",
+        "};",
+        "",
+        "/** The end of a tick. */",
+        "typedef struct {",
+        "    const app_modes_t   *modes;",
+        "    const app_command_t *command;",
+        "    const bridge_t      *out;",
+        "} app_scope_view_t;",
+        "",
+        "/** 0 for a number that is none of them. Context: control ISR. One branch by a table of "
+        "cases. */",
+        "float app_scope_signals_value(const app_scope_view_t *v, uint16_t signal);",
+        "",
+        "#endif /* APP_SCOPE_SIGNALS_H */",
+        "",
+    ]
     return "\n".join(lines)
 
 
 def signals_source(found: List[Signal]) -> str:
     """app_scope_signals.c."""
     lines = [
-        LICENCE, NOTE, "/* clang-format off */", '#include "app_scope_signals.h"', "",
+        LICENCE,
+        NOTE,
+        "/* clang-format off */",
+        '#include "app_scope_signals.h"',
+        "",
         "/* Of a running drive the estimate. */",
-        "static float app_scope_speed(const app_modes_t *m)", "{",
-        "    return (m->drive.state == DRIVE_RUN) ? m->drive.wanted.now.omega_e_radps : m->reading.omega_e_radps;", "}", "",
-        "float app_scope_signals_value(const app_scope_view_t *v, uint16_t signal)", "{", "    float x = 0.0f;", "",
+        "static float app_scope_speed(const app_modes_t *m)",
+        "{",
+        "    return (m->drive.state == DRIVE_RUN) ? m->drive.wanted.now.omega_e_radps : "
+        "m->reading.omega_e_radps;",
+        "}",
+        "",
+        "float app_scope_signals_value(const app_scope_view_t *v, uint16_t signal)",
+        "{",
+        "    float x = 0.0f;",
+        "",
         "    switch (signal) {",
-    ]  # fmt: skip
+    ]
     for s in found:
         lines += [f"    case APP_SCOPE_{s.name}:", f"        x = {s.source};", "        break;"]
     return "\n".join([*lines, "    default:", "        break;", "    }", "    return x;", "}", ""])

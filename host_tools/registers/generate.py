@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Generates from firmware/app/registers/registers.toml: the firmware's map, its documentation as tables
-and as CSV, the client's names.
+"""Generates from firmware/app/registers/registers.toml: the firmware's map, its documentation as
+tables and as CSV, the client's names.
 
     python3 host_tools/registers/generate.py            writes what has changed
     python3 host_tools/registers/generate.py --check    says what would change; exit code 1 then
@@ -42,13 +42,30 @@ def words_of(r: Register) -> str:
 def table_text(group: Group) -> str:
     """A group for docs/modbus.md."""
     holding = group.space == "holding"
-    head = "| no. | name | type | unit | values | at start | |" if holding else "| no. | name | type | unit | |"
+    head = (
+        "| no. | name | type | unit | values | at start | |"
+        if holding
+        else "| no. | name | type | unit | |"
+    )
     lines = [head, "|---" * (head.count("|") - 1) + "|"]
     for r in group.registers:
         middle = [_range_words(r), r.default] if holding else []
-        text = "; ".join(filter(None, [f"object {r.object}" if r.object else "", r.text, "only while stopped" if r.stopped else "",
-                                      "**parameter**" if r.saved else ""]))
-        lines.append("| " + " | ".join([r.numbers, f"`{r.name}`", r.type, r.unit_words, *middle, text]) + " |")
+        text = "; ".join(
+            filter(
+                None,
+                [
+                    f"object {r.object}" if r.object else "",
+                    r.text,
+                    "only while stopped" if r.stopped else "",
+                    "**parameter**" if r.saved else "",
+                ],
+            )
+        )
+        lines.append(
+            "| "
+            + " | ".join([r.numbers, f"`{r.name}`", r.type, r.unit_words, *middle, text])
+            + " |"
+        )
     notes = [f"- `{r.name}`: {r.note}" for r in group.registers if r.note]
     return "\n".join(lines + ([""] + notes if notes else []))
 
@@ -69,7 +86,9 @@ def documented(groups: List[Group], found: List[Signal], before: str) -> str:
         if mark not in text:
             raise TableError(f"docs/modbus.md has no place for {name}: {mark}")
         new = f"{mark}\n\n{table}\n\n{END}"
-        text = re.sub(re.escape(mark) + r".*?" + re.escape(END), lambda _, n=new: n, text, count=1, flags=re.S)
+        text = re.sub(
+            re.escape(mark) + r".*?" + re.escape(END), lambda _, n=new: n, text, count=1, flags=re.S
+        )
     return text
 
 
@@ -77,41 +96,119 @@ def csv_text(groups: List[Group]) -> str:
     """Every value in a line."""
     out = io.StringIO()
     w = csv.writer(out, lineterminator="\n")
-    w.writerow(["space", "address", "registers", "name", "type", "step", "unit", "access", "least", "most", "default", "stopped",
-                "saved", "object", "group"])  # fmt: skip
+    w.writerow(
+        [
+            "space",
+            "address",
+            "registers",
+            "name",
+            "type",
+            "step",
+            "unit",
+            "access",
+            "least",
+            "most",
+            "default",
+            "stopped",
+            "saved",
+            "object",
+            "group",
+        ]
+    )
     for g in groups:
         for r in g.registers:
             low, high = (f"{x:g}" for x in r.range) if r.range else ("", "")
-            w.writerow([g.space, r.address, r.words, r.name, r.type, f"{r.step or 1:g}", r.unit,
-                        "rw" if g.space == "holding" else "r", low, high, r.default, int(r.stopped), int(r.saved), r.object, g.name])  # fmt: skip
+            w.writerow(
+                [
+                    g.space,
+                    r.address,
+                    r.words,
+                    r.name,
+                    r.type,
+                    f"{r.step or 1:g}",
+                    r.unit,
+                    "rw" if g.space == "holding" else "r",
+                    low,
+                    high,
+                    r.default,
+                    int(r.stopped),
+                    int(r.saved),
+                    r.object,
+                    g.name,
+                ]
+            )
     return out.getvalue()
 
 
 def python_text(groups: List[Group], found: List[Signal]) -> str:
     """register_map.py of sdre_drive."""
-    lines = ["# SPDX-License-Identifier: MIT", '"""Generated from firmware/app/registers/registers.toml. Do not edit: host_tools/registers/generate.py."""', "",
-             "from __future__ import annotations", "", "from typing import NamedTuple, Optional, Tuple", "", "",
-             "class Register(NamedTuple):", '    """One value: step is 0 for a whole number."""', "",
-             "    name: str", "    address: int", "    type: str", "    step: float", "    unit: str", "", "",
-             "class Parameter(NamedTuple):", '    """A parameter that is kept over power: range in its unit. No default means the largest."""', "",
-             "    register: Register", "    low: float", "    high: float", "    default: Optional[float]", "    stopped: bool",
-             "    object: str", "    text: str", "", "",
-             f'DIGEST = "{digest_of(groups)}"', f'VERSION = "{version()}"', ""]  # fmt: skip
+    lines = [
+        "# SPDX-License-Identifier: MIT",
+        '"""Generated from firmware/app/registers/registers.toml. Do not edit: '
+        'host_tools/registers/generate.py."""',
+        "",
+        "from __future__ import annotations",
+        "",
+        "from typing import NamedTuple, Optional, Tuple",
+        "",
+        "",
+        "class Register(NamedTuple):",
+        '    """One value: step is 0 for a whole number."""',
+        "",
+        "    name: str",
+        "    address: int",
+        "    type: str",
+        "    step: float",
+        "    unit: str",
+        "",
+        "",
+        "class Parameter(NamedTuple):",
+        '    """A parameter that is kept over power: range in its unit. No default means the '
+        'largest."""',
+        "",
+        "    register: Register",
+        "    low: float",
+        "    high: float",
+        "    default: Optional[float]",
+        "    stopped: bool",
+        "    object: str",
+        "    text: str",
+        "",
+        "",
+        f'DIGEST = "{digest_of(groups)}"',
+        f'VERSION = "{version()}"',
+        "",
+    ]
     for g in groups:
         lines.append(f"{g.name.upper()}: Tuple[Register, ...] = (  # {g.space}")
         for r in g.registers:
             step = 0.0 if r.step is None else r.step
-            lines.append(f'    Register("{r.name}", {r.address}, "{r.type}", {step!r}, "{r.unit}"),')
-        lines.append(")  # fmt: skip")
+            lines.append(
+                f'    Register("{r.name}", {r.address}, "{r.type}", {step!r}, "{r.unit}"),'
+            )
+        lines.append(")")
         lines.append("")
     for space in ("holding", "input"):
-        lines.append(f"{space.upper()} = (" + ", ".join("*" + g.name.upper() for g in groups if g.space == space) + ")")
+        lines.append(
+            f"{space.upper()} = ("
+            + ", ".join("*" + g.name.upper() for g in groups if g.space == space)
+            + ")"
+        )
     blocks = [g.name.upper() for g in groups if any(r.saved for r in g.registers)]
     lines += ["", "# Blocks that hold parameters.", f"PARAMETER_BLOCKS = ({', '.join(blocks)},)"]
-    lines += ["", "BY_NAME = {r.name: r for r in (*HOLDING, *INPUT)}", "", "PARAMETERS: Tuple[Parameter, ...] = ("]
-    lines += [f'    Parameter(BY_NAME["{r.name}"], {r.range[0]!r}, {r.range[1]!r}, {None if r.default == "largest" else float(r.default)!r}, '
-              f'{r.stopped}, "{r.object}", {json.dumps(words_of(r))}),' for r in saved(groups)]  # fmt: skip
-    lines += [")  # fmt: skip", "", "# Signals of the scope by number: name and unit.", "SIGNALS = ("]
+    lines += [
+        "",
+        "BY_NAME = {r.name: r for r in (*HOLDING, *INPUT)}",
+        "",
+        "PARAMETERS: Tuple[Parameter, ...] = (",
+    ]
+    lines += [
+        f'    Parameter(BY_NAME["{r.name}"], {r.range[0]!r}, {r.range[1]!r}, '
+        f"{None if r.default == 'largest' else float(r.default)!r}, "
+        f'{r.stopped}, "{r.object}", {json.dumps(words_of(r))}),'
+        for r in saved(groups)
+    ]
+    lines += [")", "", "# Signals of the scope by number: name and unit.", "SIGNALS = ("]
     lines += [f'    ("{s.name}", "{s.unit}"),' for s in found]
     return "\n".join([*lines, ")"]) + "\n"
 
@@ -141,9 +238,12 @@ def main() -> int:
     except (TableError, KeyError) as e:
         print(f"registers.toml: {e}", file=sys.stderr)
         return 1
-    other = [p for p, text in wanted.items() if not p.exists() or p.read_text(encoding="utf-8") != text]
+    other = [
+        p for p, text in wanted.items() if not p.exists() or p.read_text(encoding="utf-8") != text
+    ]
     for path in other:
-        print(f"{path.relative_to(ROOT)} {'is not what registers.toml says: python3 host_tools/registers/generate.py' if check else 'written'}")
+        stale = "is not what registers.toml says: python3 host_tools/registers/generate.py"
+        print(f"{path.relative_to(ROOT)} {stale if check else 'written'}")
         if not check:
             path.write_text(wanted[path], encoding="utf-8")
     return 1 if check and other else 0

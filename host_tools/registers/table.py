@@ -14,7 +14,22 @@ except ModuleNotFoundError:  # before Python 3.11
 
 WORDS = {"u16": 1, "i16": 1, "u32": 2, "i32": 2, "dec": 2}
 SPACES = ("holding", "input")
-KEYS = {"name", "type", "unit", "step", "from", "to", "range", "default", "stopped", "saved", "signature", "object", "text", "note"}
+KEYS = {
+    "name",
+    "type",
+    "unit",
+    "step",
+    "from",
+    "to",
+    "range",
+    "default",
+    "stopped",
+    "saved",
+    "signature",
+    "object",
+    "text",
+    "note",
+}
 
 
 class TableError(Exception):
@@ -105,20 +120,41 @@ def _register(keys: Dict[str, Any], address: int, space: str) -> Register:
     given = keys.get("range") or ([signature, signature] if signature else None)
     if (space == "holding") != ("to" in keys and given is not None and "default" in keys):
         raise TableError(f"{name}: to, range and default belong to holding registers, all of them")
-    if (space != "holding" and ("saved" in keys or signature)) or (signature and keys["type"] != "u32"):
-        raise TableError(f"{name}: holding registers alone are saved or have a signature, and that is a u32")
-    out = Register(name=name, address=address, type=keys["type"], unit=keys.get("unit", ""), step=keys.get("step"),
-                   source=keys["from"], target=keys.get("to", ""), range=(given[0], given[1]) if given else None,
-                   default=keys.get("default", ""), stopped=keys.get("stopped", False), saved=keys.get("saved", False),
-                   signature=signature, object=keys.get("object", ""),
-                   text=keys["text"], note=keys.get("note", ""))  # fmt: skip
+    if (space != "holding" and ("saved" in keys or signature)) or (
+        signature and keys["type"] != "u32"
+    ):
+        raise TableError(
+            f"{name}: holding registers alone are saved or have a signature, and that is a u32"
+        )
+    out = Register(
+        name=name,
+        address=address,
+        type=keys["type"],
+        unit=keys.get("unit", ""),
+        step=keys.get("step"),
+        source=keys["from"],
+        target=keys.get("to", ""),
+        range=(given[0], given[1]) if given else None,
+        default=keys.get("default", ""),
+        stopped=keys.get("stopped", False),
+        saved=keys.get("saved", False),
+        signature=signature,
+        object=keys.get("object", ""),
+        text=keys["text"],
+        note=keys.get("note", ""),
+    )
     if out.range and not _fits(out):
         raise TableError(f"{name}: its type does not hold its range")
     return out
 
 
 def _fits(r: Register) -> bool:
-    low, high = {"u16": (0, 0xFFFF), "i16": (-0x8000, 0x7FFF), "u32": (0, 0xFFFFFFFF), "i32": (-(2**31), 2**31 - 1)}[r.type]
+    low, high = {
+        "u16": (0, 0xFFFF),
+        "i16": (-0x8000, 0x7FFF),
+        "u32": (0, 0xFFFFFFFF),
+        "i32": (-(2**31), 2**31 - 1),
+    }[r.type]
     counts = [x / (r.step or 1.0) for x in r.range or ()]
     return low <= counts[0] <= counts[1] <= high + 1e-6 * high
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Hook of mkdocs: the pages name each other as files of the repository ("docs/motors.md"); on the site these are links."""
+"""Hook of mkdocs: the pages name each other as files of the repository ("docs/motors.md"); on the
+site these are links."""
 
 from __future__ import annotations
 
@@ -17,7 +18,11 @@ def on_page_markdown(markdown: str, page: Any, files: Any, **_: Any) -> str:
 
     def link(found: re.Match) -> str:
         name = found.group(1)
-        return f"[{name}]({up}{name})" if name in known and name != page.file.src_uri else found.group(0)
+        return (
+            f"[{name}]({up}{name})"
+            if name in known and name != page.file.src_uri
+            else found.group(0)
+        )
 
     pieces = CODE.split(markdown)
     return "".join(piece if i % 2 else NAME.sub(link, piece) for i, piece in enumerate(pieces))

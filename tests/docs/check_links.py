@@ -42,7 +42,8 @@ def wrong_links(page: Path) -> list:
 
 
 def wrong_headings(files: list) -> list:
-    """One line for each heading that a text names and its page does not have; a comment may break the line."""
+    """One line for each heading that a text names and its page does not have; a comment may break
+    the line."""
     found = []
     for file in files:
         try:
@@ -51,19 +52,30 @@ def wrong_headings(files: list) -> list:
             continue
         for page, heading in HEADING.findall(text):
             path = ROOT / page
-            heads = re.findall(r"^#+ (.*)$", path.read_text(encoding="utf-8"), re.M) if path.exists() else []
+            heads = (
+                re.findall(r"^#+ (.*)$", path.read_text(encoding="utf-8"), re.M)
+                if path.exists()
+                else []
+            )
             if not any(heading.lower() in head.lower() for head in heads):
-                found.append(f"{file}: {page} has no heading \"{heading}\"")
+                found.append(f'{file}: {page} has no heading "{heading}"')
     return found
 
 
 def sources() -> list:
     """Tracked files; in an export without git, those of the rooms that name pages."""
-    done = subprocess.run(["git", "-C", str(ROOT), "ls-files"], capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        ["git", "-C", str(ROOT), "ls-files"], capture_output=True, text=True, check=False
+    )
     if done.returncode == 0:
         return done.stdout.splitlines()
     rooms = ("docs", "firmware", "host_tools", "tests", "linker", "cmake")
-    return [p.relative_to(ROOT).as_posix() for room in rooms for p in sorted((ROOT / room).rglob("*")) if p.is_file()]
+    return [
+        p.relative_to(ROOT).as_posix()
+        for room in rooms
+        for p in sorted((ROOT / room).rglob("*"))
+        if p.is_file()
+    ]
 
 
 def main() -> int:
@@ -72,12 +84,17 @@ def main() -> int:
     wrong = [line for page in [ROOT / "README.md", *pages] for line in wrong_links(page)]
     wrong += wrong_headings(sources())
     site = (ROOT / "host_tools/site/mkdocs.yml").read_text(encoding="utf-8")
-    wrong += [f"{name} is not in host_tools/site/mkdocs.yml" for name in (p.relative_to(ROOT / "docs").as_posix() for p in pages)
-              if not re.search(rf"[ :]{re.escape(name)}$", site, re.M)]  # fmt: skip
+    wrong += [
+        f"{name} is not in host_tools/site/mkdocs.yml"
+        for name in (p.relative_to(ROOT / "docs").as_posix() for p in pages)
+        if not re.search(rf"[ :]{re.escape(name)}$", site, re.M)
+    ]
     print("\n".join(wrong), end="\n" if wrong else "", file=sys.stderr)
     drawn = 0
     if sys.version_info >= (3, 11):  # tomllib
-        drawn = subprocess.run([sys.executable, "-B", str(ROOT / "host_tools/site/blocks.py"), "--check"], check=False).returncode
+        drawn = subprocess.run(
+            [sys.executable, "-B", str(ROOT / "host_tools/site/blocks.py"), "--check"], check=False
+        ).returncode
     return 1 if wrong or drawn else 0
 
 

@@ -23,7 +23,9 @@ def rooms_of_cmake() -> dict:
     """Directory of each room and the names that it uses."""
     found = {}
     for file in HOST.rglob("CMakeLists.txt"):
-        for name, uses in re.findall(r"^sdre_room\((\w+)\s[^)]*?(?:USES([^)]*))?\)", file.read_text(encoding="utf-8"), re.M):
+        for name, uses in re.findall(
+            r"^sdre_room\((\w+)\s[^)]*?(?:USES([^)]*))?\)", file.read_text(encoding="utf-8"), re.M
+        ):
             place = file.parent if file.parent.name == name else file.parent / name
             found[place.relative_to(HOST).as_posix()] = {linked(one) for one in uses.split()} - {""}
     return found
@@ -40,12 +42,21 @@ def rooms_of_page() -> dict:
 def main() -> int:
     """Prints each room whose row is missing or wrong."""
     cmake, page = rooms_of_cmake(), rooms_of_page()
-    wrong = [f"{name}: docs/architecture.md has no row of it, it uses {', '.join(sorted(uses)) or '-'}"
-             for name, uses in sorted(cmake.items()) if name not in page]  # fmt: skip
-    wrong += [f"{name}: docs/architecture.md says {sorted(page[name])}, CMakeLists.txt {sorted(uses)}"
-              for name, uses in sorted(cmake.items()) if page.get(name, uses) != uses]  # fmt: skip
-    wrong += [f"{name}: docs/architecture.md has a row of it, host_tools no such directory"
-              for name in sorted(page) if not (HOST / name).is_dir()]  # fmt: skip
+    wrong = [
+        f"{name}: docs/architecture.md has no row of it, it uses {', '.join(sorted(uses)) or '-'}"
+        for name, uses in sorted(cmake.items())
+        if name not in page
+    ]
+    wrong += [
+        f"{name}: docs/architecture.md says {sorted(page[name])}, CMakeLists.txt {sorted(uses)}"
+        for name, uses in sorted(cmake.items())
+        if page.get(name, uses) != uses
+    ]
+    wrong += [
+        f"{name}: docs/architecture.md has a row of it, host_tools no such directory"
+        for name in sorted(page)
+        if not (HOST / name).is_dir()
+    ]
     print("\n".join(wrong), end="\n" if wrong else "", file=sys.stderr)
     return 1 if wrong or not cmake else 0
 

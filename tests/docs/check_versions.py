@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Checks that firmware, tools, packages and citation name one version, and that CHANGELOG.md has it."""
+"""Checks that firmware, tools, packages and citation name one version, and that CHANGELOG.md has
+it."""
 
 from __future__ import annotations
 

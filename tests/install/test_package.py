@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""The Debian package of a build, unpacked away from the sources, works and brings what a distribution expects.
+"""The Debian package of a build, unpacked away from the sources, works and brings what a
+distribution expects.
 
-    test_package.py BUILD_DIRECTORY
+test_package.py BUILD_DIRECTORY
 """
+
 import os
 import pathlib
 import subprocess
@@ -14,7 +16,9 @@ BUILD = pathlib.Path(sys.argv.pop() if len(sys.argv) > 1 else "build/host").reso
 
 
 def run(*command, **options):
-    return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, **options)
+    return subprocess.run(
+        [str(word) for word in command], capture_output=True, text=True, check=False, **options
+    )
 
 
 class Package(unittest.TestCase):
@@ -48,7 +52,11 @@ class Package(unittest.TestCase):
         for tool in ("sdre-gains", "sdre-sil"):
             page = next((self.root / "usr/share/man/man1").glob(f"{tool}.1*")).read_text()
             text = run(self.root / "usr/bin" / tool, "--help").stdout
-            commands = [line.split()[0] for line in text[text.index("Subcommands:") :].splitlines()[1:] if line.strip()]
+            commands = [
+                line.split()[0]
+                for line in text[text.index("Subcommands:") :].splitlines()[1:]
+                if line.strip()
+            ]
             self.assertGreater(len(commands), 5)
             for command in commands:
                 self.assertIn(f".SS {command.replace('-', chr(92) + '-')}", page)
@@ -57,13 +65,21 @@ class Package(unittest.TestCase):
         script = self.root / "usr/share/bash-completion/completions/sdre-sil"
         for words, wanted in (("sdre-sil qua", "qualify"), ("sdre-sil run --spec", "--spectrum")):
             typed = words.split()
-            done = run("bash", "-c", f'source "{script}"; COMP_WORDS=({words}); COMP_CWORD={len(typed) - 1}; _sdre_sil; '
-                       'echo "${COMPREPLY[@]}"')  # fmt: skip
+            done = run(
+                "bash",
+                "-c",
+                f'source "{script}"; COMP_WORDS=({words}); COMP_CWORD={len(typed) - 1}; _sdre_sil; '
+                'echo "${COMPREPLY[@]}"',
+            )
             self.assertEqual(done.stdout.split(), [wanted], done.stderr)
 
     def test_no_file_names_the_build_directory_but_the_programs(self):
         for path in self.root.rglob("*"):
-            if path.is_file() and os.fspath(path.parent).endswith("/bin") is False and path.suffix != ".png":
+            if (
+                path.is_file()
+                and os.fspath(path.parent).endswith("/bin") is False
+                and path.suffix != ".png"
+            ):
                 self.assertNotIn(os.fspath(BUILD).encode(), path.read_bytes(), path)
 
 

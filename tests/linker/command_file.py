@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Reads TI linker command files as far as this project uses their language."""
+
 import re
 from dataclasses import dataclass, field
 

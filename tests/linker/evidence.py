@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""One page of what TI's tools made of the images: sizes, places, frames, cycles, inlining, each against what this project expects.
+"""One page of what TI's tools made of the images: sizes, places, frames, cycles, inlining, each
+against what this project expects.
 
-    evidence.py BUILD_DIRECTORY IMAGE..      IMAGE: flash, ram; writes evidence.md there, fails when something is not as expected
+    evidence.py BUILD_DIRECTORY IMAGE..      IMAGE: flash, ram
+
+It writes evidence.md there, and fails when something is not as expected.
 """
+
 import re
 import sys
 from pathlib import Path
@@ -27,8 +31,16 @@ class Page:
         self.lines, self.wrong = [], []
 
     def table(self, title, head, rows):
-        self.lines += ["", f"## {title}", "", "| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-        self.lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows] or ["| nothing |" + " |" * (len(head) - 1)]
+        self.lines += [
+            "",
+            f"## {title}",
+            "",
+            "| " + " | ".join(head) + " |",
+            "|" + "---|" * len(head),
+        ]
+        self.lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows] or [
+            "| nothing |" + " |" * (len(head) - 1)
+        ]
 
     def judge(self, good, what):
         if not good:
@@ -40,13 +52,31 @@ def sizes(page, image, areas):
     rows = []
     for area in areas:
         share = area.used / area.length
-        verdict = page.judge(share <= 1 - LEFT or area.length <= 2, f"{image}: {area.name} is {100 * share:.0f} % full")
-        rows.append((area.name, f"{area.origin:#08x}", area.length, area.used, f"{100 * share:.0f} %", verdict))
-    page.table(f"{image}: memory", ("range", "origin", "words", "used", "share", f"at most {100 * (1 - LEFT):.0f} %"), rows)
+        verdict = page.judge(
+            share <= 1 - LEFT or area.length <= 2,
+            f"{image}: {area.name} is {100 * share:.0f} % full",
+        )
+        rows.append(
+            (
+                area.name,
+                f"{area.origin:#08x}",
+                area.length,
+                area.used,
+                f"{100 * share:.0f} %",
+                verdict,
+            )
+        )
+    page.table(
+        f"{image}: memory",
+        ("range", "origin", "words", "used", "share", f"at most {100 * (1 - LEFT):.0f} %"),
+        rows,
+    )
 
 
 def places(page, image, groups):
-    ranges, sections = command_file.parse((ROOT / "linker" / f"f28335_{image}.cmd").read_text(), ("FAST_RTS",))
+    ranges, sections = command_file.parse(
+        (ROOT / "linker" / f"f28335_{image}.cmd").read_text(), ("FAST_RTS",)
+    )
     rows = []
     for group in groups:
         section = sections.get(group.name)
@@ -55,14 +85,29 @@ def places(page, image, groups):
             continue
         if section.type or group.size == 0:
             continue
-        for kind, address, wanted in (("load", group.load, section.load), ("run", group.run, section.run)):
+        for kind, address, wanted in (
+            ("load", group.load, section.load),
+            ("run", group.run, section.run),
+        ):
             if address is None:
                 continue
             item = ranges[wanted]
             good = item.origin <= address and address + group.size <= item.end
-            rows.append((group.name, kind, f"{address:#08x}", group.size, wanted,
-                         page.judge(good, f"{image}: {group.name} {kind}s at {address:#x}, outside {wanted}")))
-    for name in ("codestart", ".TI.ramfunc", ".tables", ".stack") + ((".seldom", ".in_force") if image == "flash" else ()):
+            rows.append(
+                (
+                    group.name,
+                    kind,
+                    f"{address:#08x}",
+                    group.size,
+                    wanted,
+                    page.judge(
+                        good, f"{image}: {group.name} {kind}s at {address:#x}, outside {wanted}"
+                    ),
+                )
+            )
+    for name in ("codestart", ".TI.ramfunc", ".tables", ".stack") + (
+        (".seldom", ".in_force") if image == "flash" else ()
+    ):
         if not any(group.name == name and group.size for group in groups):
             page.wrong.append(f"{image}: section {name} is empty")
     page.table(f"{image}: sections", ("section", "", "address", "words", "range", ""), rows)
@@ -71,7 +116,10 @@ def places(page, image, groups):
 def estimate(page, groups, law):
     """Code in RAM against the estimate's band; the run-time library is in the found one only."""
     if not code_size.is_there():
-        page.lines += ["", f"No {code_size.COMPILER}: sizes and frames are not compared with the estimate."]
+        page.lines += [
+            "",
+            f"No {code_size.COMPILER}: sizes and frames are not compared with the estimate.",
+        ]
         return
     seldom, from_ram = set(code_size.seldom()), code_size.runs_from_ram(law)
     functions = code_size.functions([law])[law]
@@ -79,38 +127,86 @@ def estimate(page, groups, law):
     found = sum(group.size for group in groups if group.name == ".TI.ramfunc")
     most = code_size.words_at_most(halfwords) + code_size.LIBRARY_words
     least = round(halfwords * code_size.WORDS_PER_HALFWORD * (1 - code_size.BAND))
-    page.table("Code in RAM", ("estimated words", "found", ""),
-               [(f"{least} .. {most}", found, page.judge(least <= found <= most, f"code in RAM: {found} words, estimated {least} .. {most}"))])
+    page.table(
+        "Code in RAM",
+        ("estimated words", "found", ""),
+        [
+            (
+                f"{least} .. {most}",
+                found,
+                page.judge(
+                    least <= found <= most,
+                    f"code in RAM: {found} words, estimated {least} .. {most}",
+                ),
+            )
+        ],
+    )
 
 
 def frames(page, functions):
     """A frame of TI's compiler that is larger than the stack's count takes it for."""
     if not code_size.is_there():
         return
-    graph = check_stack.graph_of(code_size.COMPILER, [p for folder in check_stack.FOLDERS for p in sorted(folder.glob("*.c")) if p.name != "bench.c"])
+    graph = check_stack.graph_of(
+        code_size.COMPILER,
+        [
+            p
+            for folder in check_stack.FOLDERS
+            for p in sorted(folder.glob("*.c"))
+            if p.name != "bench.c"
+        ],
+    )
     counted = {}
     for title, words in graph.frame.items():
         counted[title.rsplit(":", 1)[-1]] = max(words, counted.get(title.rsplit(":", 1)[-1], 0))
-    larger = sorted(((f.frame - counted[n], n, f.frame, counted[n]) for n, f in functions.items()
-                     if f.frame is not None and n in counted and f.frame > counted[n]), reverse=True)
-    page.table("Frames larger than counted", ("function", "found", "counted"), [row[1:] for row in larger])
+    larger = sorted(
+        (
+            (f.frame - counted[n], n, f.frame, counted[n])
+            for n, f in functions.items()
+            if f.frame is not None and n in counted and f.frame > counted[n]
+        ),
+        reverse=True,
+    )
+    page.table(
+        "Frames larger than counted", ("function", "found", "counted"), [row[1:] for row in larger]
+    )
     worst, room = sum(row[0] for row in larger), check_stack.stack_words()
-    page.lines += ["", f"All of them in one chain would add {worst} words to the count: " +
-                   page.judge(worst <= LEFT * room, f"frames: {worst} words beyond the count, {LEFT * room:.0f} are left for them")]
+    page.lines += [
+        "",
+        f"All of them in one chain would add {worst} words to the count: "
+        + page.judge(
+            worst <= LEFT * room,
+            f"frames: {worst} words beyond the count, {LEFT * room:.0f} are left for them",
+        ),
+    ]
 
 
 def cycles(page, functions, entry="control_isr"):
-    """No execution costs more than the dearest way; loops count once, and callees without a listing as a call."""
+    """No execution costs more than the dearest way; loops count once, and callees without a listing
+    as a call."""
     rows = []
     for name in sorted(functions, key=lambda n: -functions[n].words)[:20]:
-        rows.append((name, functions[name].words, listing.dearest({name: functions[name]}, name), listing.dearest(functions, name)))
+        rows.append(
+            (
+                name,
+                functions[name].words,
+                listing.dearest({name: functions[name]}, name),
+                listing.dearest(functions, name),
+            )
+        )
     page.table("Dearest ways", ("function", "words", "cycles alone", "with its callees"), rows)
     if entry not in functions:
         page.wrong.append(f"no listing of {entry}()")
         return
     whole = listing.dearest(functions, entry)
-    page.lines += ["", f"{entry}(): {whole} cycles, {100 * whole / PERIOD_cycles:.1f} % of the period. Goal for the default drive: {GOAL_cycles}. " +
-                   page.judge(whole <= PERIOD_cycles / 2, f"{entry}(): {whole} cycles are more than half a period")]
+    page.lines += [
+        "",
+        f"{entry}(): {whole} cycles, {100 * whole / PERIOD_cycles:.1f} % of the period. Goal for "
+        f"the default drive: {GOAL_cycles}. "
+        + page.judge(
+            whole <= PERIOD_cycles / 2, f"{entry}(): {whole} cycles are more than half a period"
+        ),
+    ]
 
 
 def parts():
@@ -123,9 +219,16 @@ def parts():
 
 def inlining(page, linked):
     apart = sorted(parts() & linked)
-    page.table("Inlining", ("part of the tick", "found"), [(name, "a function of its own") for name in apart])
-    page.lines += ["", f"{len(parts()) - len(apart)} of {len(parts())} parts are inlined or left out. " +
-                   page.judge(not apart, f"not inlined: {', '.join(apart)}")]
+    page.table(
+        "Inlining",
+        ("part of the tick", "found"),
+        [(name, "a function of its own") for name in apart],
+    )
+    page.lines += [
+        "",
+        f"{len(parts()) - len(apart)} of {len(parts())} parts are inlined or left out. "
+        + page.judge(not apart, f"not inlined: {', '.join(apart)}"),
+    ]
 
 
 def law_of(build):
@@ -153,7 +256,9 @@ def make(build, images):
     frames(page, kept)
     cycles(page, kept)
     inlining(page, linked)
-    head = ["# Evidence of TI's tools", ""] + ([f"- {wrong}" for wrong in page.wrong] or ["Everything is as expected."])
+    head = ["# Evidence of TI's tools", ""] + (
+        [f"- {wrong}" for wrong in page.wrong] or ["Everything is as expected."]
+    )
     return "\n".join(head + page.lines) + "\n", page.wrong
 
 
@@ -163,7 +268,10 @@ def main():
     build = Path(sys.argv[1])
     text, wrong = make(build, sys.argv[2:])
     (build / "evidence.md").write_text(text)
-    print(f"{build / 'evidence.md'}: " + (f"{len(wrong)} not as expected" if wrong else "everything is as expected"))
+    print(
+        f"{build / 'evidence.md'}: "
+        + (f"{len(wrong)} not as expected" if wrong else "everything is as expected")
+    )
     print("\n".join(wrong))
     return 1 if wrong else 0
 

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Reads what TI's compiler and linker write: assembly listings, and the link information in XML."""
+
 import re
 import xml.etree.ElementTree as ElementTree
 from collections import namedtuple
 
-# Cycles of a listed line: docs/hardware.md, "How the cycles were calibrated". The second of a parallel pair has no line of its own.
+# Cycles of a listed line: docs/hardware.md, "How the cycles were calibrated". The second of a
+# parallel pair has no line of its own.
 CALL, RETURN = 4, 8
 LONG_BRANCH_TAKEN, BRANCH = 7, 4
 RETURNS = ("LRETR", "LRET", "LRETE", "IRET")
@@ -24,7 +26,8 @@ class Function:
         self.labels = {}  # label -> index of the next line
 
     def edges(self, index):
-        """[(next index or None, cycles, callee or None)]; a branch backwards is not taken: a loop counts once."""
+        """[(next index or None, cycles, callee or None)]; a branch backwards is not taken: a loop
+        counts once."""
         mnemonic, operands = self.lines[index]
         following = index + 1 if index + 1 < len(self.lines) else None
         if mnemonic in RETURNS:
@@ -36,7 +39,11 @@ class Function:
             to = self.labels.get(target.group(1)) if target else None
             if to is None and target and mnemonic == "LB":
                 return [(None, BRANCH, target.group(1))]
-            taken = [(to, LONG_BRANCH_TAKEN if mnemonic == "B" else BRANCH, None)] if to is not None and to > index else []
+            taken = (
+                [(to, LONG_BRANCH_TAKEN if mnemonic == "B" else BRANCH, None)]
+                if to is not None and to > index
+                else []
+            )
             always = mnemonic != "BANZ" and ("UNC" in operands or "," not in operands)
             return taken if always and taken else taken + [(following, BRANCH, None)]
         return [(following, 1, None)]
@@ -48,29 +55,45 @@ def read(text):
     for line in text.splitlines():
         if match := re.search(r'\.sect\s+"([^"]+)"', line):
             root, _, name = match.group(1).partition(":")
-            now = functions.setdefault(name, Function(name)) if name and root in (".text", ".TI.ramfunc") else None
+            now = (
+                functions.setdefault(name, Function(name))
+                if name and root in (".text", ".TI.ramfunc")
+                else None
+            )
         elif now is None:
             continue
         elif match := re.search(r"\* FNAME: (\S+)\s+FR SIZE:\s*(\d+)", line):
             now.frame = int(match.group(2))
-        elif match := re.match(r"\s*\d+\s+\|\|(\S+)\|\|:", line) or re.match(r"\s*\d+\s+[0-9a-f]{8}\s+\|\|(\S+)\|\|:", line):
+        elif match := re.match(r"\s*\d+\s+\|\|(\S+)\|\|:", line) or re.match(
+            r"\s*\d+\s+[0-9a-f]{8}\s+\|\|(\S+)\|\|:", line
+        ):
             now.labels[match.group(1)] = len(now.lines)
         elif match := re.match(r"\s*\d*\s+[0-9a-f]{8}[!= ]\s?[0-9A-F]{4}", line):
             now.words += 1
-            if code := re.match(r"[!= ]?\s*(?:\|\|)?\s*([A-Z][A-Z0-9]*)\s*([^;]*)", line[match.end():]):
+            if code := re.match(
+                r"[!= ]?\s*(?:\|\|)?\s*([A-Z][A-Z0-9]*)\s*([^;]*)", line[match.end() :]
+            ):
                 now.lines.append((code.group(1), code.group(2).strip()))
     return {name: function for name, function in functions.items() if function.words}
 
 
 def dearest(functions, name, path=()):
-    """Cycles of the dearest way through a function with what it calls; a callee without a listing counts as its call."""
+    """Cycles of the dearest way through a function with what it calls; a callee without a listing
+    counts as its call."""
     if name in path:
         raise ValueError("recursion: " + " -> ".join((*path, name)))
     function = functions[name]
     most = {None: 0}
     for index in range(len(function.lines) - 1, -1, -1):
-        most[index] = max((cycles + most.get(to, 0) + (dearest(functions, callee, (*path, name)) if callee in functions else 0)
-                           for to, cycles, callee in function.edges(index)), default=0)
+        most[index] = max(
+            (
+                cycles
+                + most.get(to, 0)
+                + (dearest(functions, callee, (*path, name)) if callee in functions else 0)
+                for to, cycles, callee in function.edges(index)
+            ),
+            default=0,
+        )
     return most.get(0, 0)
 
 
@@ -82,9 +105,25 @@ def _number(element, tag):
 def read_link(text):
     """(areas, groups, names of functions that are linked) of a link information file."""
     root = ElementTree.fromstring(text)
-    areas = [Area(a.findtext("name"), _number(a, "origin"), _number(a, "length"), _number(a, "used_space")) for a in root.iter("memory_area")]
-    groups = [Group(g.findtext("name"), _number(g, "load_address"), _number(g, "run_address"), _number(g, "size") or 0)
-              for g in root.iter("logical_group")]
+    areas = [
+        Area(
+            a.findtext("name"), _number(a, "origin"), _number(a, "length"), _number(a, "used_space")
+        )
+        for a in root.iter("memory_area")
+    ]
+    groups = [
+        Group(
+            g.findtext("name"),
+            _number(g, "load_address"),
+            _number(g, "run_address"),
+            _number(g, "size") or 0,
+        )
+        for g in root.iter("logical_group")
+    ]
     parts = [c.findtext("name") or "" for c in root.iter("object_component")]
-    linked = {name.partition(":")[2] for name in parts if name.partition(":")[0] in (".text", ".TI.ramfunc") and ":" in name}
+    linked = {
+        name.partition(":")[2]
+        for name in parts
+        if name.partition(":")[0] in (".text", ".TI.ramfunc") and ":" in name
+    }
     return areas, groups, linked

@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: MIT
-"""Stands in for cl2000, ar2000 and hex2000: writes down how it was called and makes the files that the build
-expects. It compiles nothing; what it shows is that the build asks for the right things."""
+"""Stands in for cl2000, ar2000 and hex2000: writes down how it was called and makes the files that
+the build expects. It compiles nothing; what it shows is that the build asks for the right
+things."""
+
 import json
 import os
 import pathlib
 import sys
 
 VERSION = os.environ.get("STAND_IN_VERSION", "00000022.00000006.00000000")
-IDENTITY = (f"INFO:compiler[TI] INFO:compiler_version[{VERSION}] INFO:arch[TMS320C28x] "
-            "INFO:platform[] INFO:standard_default[90] INFO:extensions_default[ON]\n")
+IDENTITY = (
+    f"INFO:compiler[TI] INFO:compiler_version[{VERSION}] INFO:arch[TMS320C28x] "
+    "INFO:platform[] INFO:standard_default[90] INFO:extensions_default[ON]\n"
+)
 MAP = """MEMORY CONFIGURATION
 
          name            origin    length      used     unused   attr    fill
@@ -31,8 +35,11 @@ def main():
     if tool == "cl2000" and {"-h", "--version", "--help"} & set(arguments):
         print("Texas Instruments stand-in")
         return
-    outputs = [value("--output_file", arguments), value("--outfile", arguments),
-               value("--preproc_dependency", arguments)]
+    outputs = [
+        value("--output_file", arguments),
+        value("--outfile", arguments),
+        value("--preproc_dependency", arguments),
+    ]
     if tool == "cl2000" and not any(outputs):
         outputs = [pathlib.Path(a).stem + ".obj" for a in arguments if a.endswith(".c")]
     if tool == "ar2000":

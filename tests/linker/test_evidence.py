@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Does evidence.py see what is wrong with an image? Link information and listings are made here, in the form of TI's tools."""
+"""Does evidence.py see what is wrong with an image? Link information and listings are made here, in
+the form of TI's tools."""
+
 import pathlib
 import sys
 import tempfile
@@ -43,9 +45,17 @@ LISTING = """
 
 def link_information(image, change=None, functions=("control_isr", "drive_tick")):
     """Every section at the beginning of its range, behind what is there already."""
-    ranges, sections = command_file.parse((evidence.ROOT / "linker" / f"f28335_{image}.cmd").read_text(), ("FAST_RTS",))
+    ranges, sections = command_file.parse(
+        (evidence.ROOT / "linker" / f"f28335_{image}.cmd").read_text(), ("FAST_RTS",)
+    )
     free = {name: item.origin for name, item in ranges.items()}
-    size = {"codestart": 2, ".TI.ramfunc": 9000, ".stack": 0x700, ".bss": 4000, ".text": 12000 if image == "flash" else 2000}
+    size = {
+        "codestart": 2,
+        ".TI.ramfunc": 9000,
+        ".stack": 0x700,
+        ".bss": 4000,
+        ".text": 12000 if image == "flash" else 2000,
+    }
     groups = []
     for section in sections.values():
         words = 0 if section.type else size.get(section.name, 10)
@@ -55,23 +65,46 @@ def link_information(image, change=None, functions=("control_isr", "drive_tick")
             free[section.run] += words
         row = {"name": section.name, "load": load, "run": run, "size": words}
         groups.append(change(row) if change else row)
-    xml = "".join("<logical_group><name>{name}</name><load_address>{load:#x}</load_address><run_address>{run:#x}</run_address>"
-                  "<size>{size:#x}</size></logical_group>".format(**row) for row in groups)
-    xml += "".join(f"<memory_area><name>{r.name}</name><origin>{r.origin:#x}</origin><length>{r.length:#x}</length>"
-                   f"<used_space>{free[r.name] - r.origin if r.name != 'RAMM01' else 0:#x}</used_space></memory_area>" for r in ranges.values())
-    xml += "".join(f"<object_component><name>.TI.ramfunc:{name}</name></object_component>" for name in functions)
+    xml = "".join(
+        "<logical_group><name>{name}</name><load_address>{load:#x}</load_address>"
+        "<run_address>{run:#x}</run_address>"
+        "<size>{size:#x}</size></logical_group>".format(**row)
+        for row in groups
+    )
+    xml += "".join(
+        f"<memory_area><name>{r.name}</name><origin>{r.origin:#x}</origin>"
+        f"<length>{r.length:#x}</length>"
+        f"<used_space>{free[r.name] - r.origin if r.name != 'RAMM01' else 0:#x}"
+        f"</used_space></memory_area>"
+        for r in ranges.values()
+    )
+    xml += "".join(
+        f"<object_component><name>.TI.ramfunc:{name}</name></object_component>"
+        for name in functions
+    )
     return f"<link_info>{xml}</link_info>"
 
 
 class Evidence(unittest.TestCase):
-    def make(self, change=None, frame=8, functions=("control_isr", "drive_tick"), listings=LISTING, there=False):
+    def make(
+        self,
+        change=None,
+        frame=8,
+        functions=("control_isr", "drive_tick"),
+        listings=LISTING,
+        there=False,
+    ):
         with tempfile.TemporaryDirectory() as directory:
             build = pathlib.Path(directory)
             (build / "listings").mkdir()
             if listings:
-                (build / "listings" / "control_isr.lst").write_text(listings.replace("{frame}", str(frame)))
+                (build / "listings" / "control_isr.lst").write_text(
+                    listings.replace("{frame}", str(frame))
+                )
             for image in ("flash", "ram"):
-                (build / f"sdre_f28335_{image}.xml").write_text(link_information(image, change if image == "flash" else None, functions))
+                (build / f"sdre_f28335_{image}.xml").write_text(
+                    link_information(image, change if image == "flash" else None, functions)
+                )
             with mock.patch.object(evidence.code_size, "is_there", lambda: there):
                 return evidence.make(build, ["flash", "ram"])
 
@@ -83,7 +116,12 @@ class Evidence(unittest.TestCase):
     def test_good_images_are_as_expected(self):
         text, wrong = self.make()
         self.assertEqual(wrong, [])
-        for part in ("Everything is as expected.", "## flash: memory", "## ram: sections", "| drive_tick | 6 |"):
+        for part in (
+            "Everything is as expected.",
+            "## flash: memory",
+            "## ram: sections",
+            "| drive_tick | 6 |",
+        ):
             self.assertIn(part, text)
 
     def test_listing_is_read_and_priced(self):
@@ -93,7 +131,8 @@ class Evidence(unittest.TestCase):
         self.assertEqual((tick.words, tick.frame), (6, 4))
         # 1, 1, branch not taken 4, return 8: the loop counts once
         self.assertEqual(listing.dearest(functions, "drive_tick"), 14)
-        # four before the branch, not taken 4, call 4 with its callee, one issue of a pair, return 8: 5 more than the branch taken
+        # four before the branch, not taken 4, call 4 with its callee, one issue of a pair, return
+        # 8: 5 more than the branch taken
         self.assertEqual(listing.dearest(functions, "control_isr"), 4 + 4 + 4 + 14 + 1 + 8)
         self.assertEqual(listing.dearest({"control_isr": isr}, "control_isr"), 4 + 4 + 4 + 1 + 8)
 
@@ -105,12 +144,15 @@ class Evidence(unittest.TestCase):
     def test_wrong_images_are_seen(self):
         def at(name, key, value):
             return lambda row: {**row, key: value} if row["name"] == name else row
-        for change, part in ((at(".TI.ramfunc", "run", 0x320000), ".TI.ramfunc runs at 0x320000, outside RAML0123"),
-                             (at(".seldom", "load", 0x300000), ".seldom loads at 0x300000, outside FLASH"),
-                             (at(".text", "load", 0x33FF00), ".text loads at 0x33ff00, outside FLASH"),
-                             (at(".tables", "size", 0), "section .tables is empty"),
-                             (at(".stack", "run", 0x400), ".stack runs at 0x400, outside RAMM01"),
-                             (at(".args", "name", ".ebss"), "section .ebss is in no command file")):
+
+        for change, part in (
+            (at(".TI.ramfunc", "run", 0x320000), ".TI.ramfunc runs at 0x320000, outside RAML0123"),
+            (at(".seldom", "load", 0x300000), ".seldom loads at 0x300000, outside FLASH"),
+            (at(".text", "load", 0x33FF00), ".text loads at 0x33ff00, outside FLASH"),
+            (at(".tables", "size", 0), "section .tables is empty"),
+            (at(".stack", "run", 0x400), ".stack runs at 0x400, outside RAMM01"),
+            (at(".args", "name", ".ebss"), "section .ebss is in no command file"),
+        ):
             with self.subTest(part=part):
                 self.refused(part, change=change)
 
@@ -120,7 +162,10 @@ class Evidence(unittest.TestCase):
 
     def test_part_that_is_not_inlined_is_seen(self):
         self.assertIn("angle_gate_pass", evidence.parts())
-        self.refused("not inlined: angle_gate_pass", functions=("control_isr", "drive_tick", "angle_gate_pass"))
+        self.refused(
+            "not inlined: angle_gate_pass",
+            functions=("control_isr", "drive_tick", "angle_gate_pass"),
+        )
 
     def test_missing_listings_are_seen(self):
         self.refused("no listings", listings="")
@@ -129,9 +174,11 @@ class Evidence(unittest.TestCase):
     def test_frames_and_sizes_are_compared_with_the_count(self):
         graph = mock.Mock(frame={"control_isr.c:control_isr": 10, "drive_tick.c:drive_tick": 4})
         functions = {"noc": [evidence.code_size.Function("step", "control_laws_noc", 7000)]}
-        with mock.patch.object(evidence.check_stack, "graph_of", lambda *a: graph), \
-             mock.patch.object(evidence.code_size, "functions", lambda laws: functions), \
-             mock.patch.object(evidence.code_size, "runs_from_ram", lambda law: lambda source: True):
+        with (
+            mock.patch.object(evidence.check_stack, "graph_of", lambda *a: graph),
+            mock.patch.object(evidence.code_size, "functions", lambda laws: functions),
+            mock.patch.object(evidence.code_size, "runs_from_ram", lambda law: lambda source: True),
+        ):
             self.assertEqual(self.make(there=True)[1], [])
             self.refused("frames: 490 words beyond the count", there=True, frame=500)
             functions["noc"] = [evidence.code_size.Function("step", "control_laws_noc", 5000)]

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Do linker/*.cmd fit the device and the program? With copies that do not, which have to be refused."""
+"""Do linker/*.cmd fit the device and the program? With copies that do not, which have to be
+refused."""
+
 import fnmatch
 import pathlib
 import re
@@ -24,8 +26,9 @@ def inside(item, blocks):
 
 def check_memory(image, ranges):
     entry = device.BOOT_ENTRY[image]
-    blocks = (device.RAM + device.FLASH + device.ROM_TABLES + device.RESET_VECTOR
-              + [(entry, entry + 2)])
+    blocks = (
+        device.RAM + device.FLASH + device.ROM_TABLES + device.RESET_VECTOR + [(entry, entry + 2)]
+    )
     for item in ranges.values():
         if item.length == 0:
             raise Refused(f"range {item.name} is empty")
@@ -67,40 +70,67 @@ def check_sections(image, ranges, sections, defines):
     require(tables.run != code.run, tables.name, "shares a block with the code that reads it")
     if image == "flash":
         in_force = sections[".in_force"]
-        require(inside(ranges[in_force.run], [device.ZERO_WAIT_DATA]), in_force.name, "has wait states")
-        require(in_force.run != code.run, in_force.name, "shares a block with the code that reads it")
+        require(
+            inside(ranges[in_force.run], [device.ZERO_WAIT_DATA]), in_force.name, "has wait states"
+        )
+        require(
+            in_force.run != code.run, in_force.name, "shares a block with the code that reads it"
+        )
     require(ranges[stack.run].end <= device.STACK_LIMIT, ".stack", "is out of the pointer's reach")
     require(sum(s.run == stack.run for s in sections.values()) == 1, ".stack", "is not alone")
 
     if image == "flash":
         names = list(sections)
-        require(names.index(".seldom") < names.index(code.name), ".seldom", "stands behind the section that would take its functions")
-        require(inside(ranges[sections[".seldom"].run], device.FLASH), ".seldom", "is not in the flash")
+        require(
+            names.index(".seldom") < names.index(code.name),
+            ".seldom",
+            "stands behind the section that would take its functions",
+        )
+        require(
+            inside(ranges[sections[".seldom"].run], device.FLASH), ".seldom", "is not in the flash"
+        )
 
     wanted = ["*(.TI.ramfunc)"] + ([FAST_RTS] if "FAST_RTS" in defines else []) + [RTS]
     require(code.inputs == wanted, code.name, f"takes {code.inputs}")
 
     entry = ranges[sections["codestart"].run]
-    require((entry.origin, entry.length) == (device.BOOT_ENTRY[image], 2), "codestart",
-            "is not where the boot ROM jumps to")
-    require(sum(entry.name in (s.load, s.run) for s in sections.values()) == 1, "codestart",
-            "is not alone")
+    require(
+        (entry.origin, entry.length) == (device.BOOT_ENTRY[image], 2),
+        "codestart",
+        "is not where the boot ROM jumps to",
+    )
+    require(
+        sum(entry.name in (s.load, s.run) for s in sections.values()) == 1,
+        "codestart",
+        "is not alone",
+    )
 
     rom = sections["FPUmathTables"]
     require(rom.type == "NOLOAD", rom.name, "would be loaded")
-    require(ranges[rom.run].origin == device.ROM_TABLES[0][0], rom.name, "is not at the ROM's tables")
+    require(
+        ranges[rom.run].origin == device.ROM_TABLES[0][0], rom.name, "is not at the ROM's tables"
+    )
     require(sections[".reset"].type == "DSECT", ".reset", "would be loaded")
     for section in sections.values():
-        require(section.name in ("FPUmathTables", ".reset") or not section.type, section.name,
-                "would not be loaded")
+        require(
+            section.name in ("FPUmathTables", ".reset") or not section.type,
+            section.name,
+            "would not be loaded",
+        )
 
 
 def check_symbols(sections):
     expected = {
-        ".TI.ramfunc": {"codestart_code_load": "LOAD_START", "codestart_code_words": "LOAD_SIZE",
-                        "codestart_code_run": "RUN_START"},
-        ".tables": {"codestart_tables_load": "LOAD_START", "codestart_tables_words": "LOAD_SIZE",
-                    "codestart_tables_run": "RUN_START"},
+        ".TI.ramfunc": {
+            "codestart_code_load": "LOAD_START",
+            "codestart_code_words": "LOAD_SIZE",
+            "codestart_code_run": "RUN_START",
+        },
+        ".tables": {
+            "codestart_tables_load": "LOAD_START",
+            "codestart_tables_words": "LOAD_SIZE",
+            "codestart_tables_run": "RUN_START",
+        },
         ".stack": {"codestart_stack": "RUN_START", "codestart_stack_words": "RUN_SIZE"},
     }
     for section in sections.values():
@@ -132,12 +162,16 @@ def check_tables(image, sections):
             raise Refused("section .tables leaves board_config out")
         return
     for source in table_sources():
-        constants = re.findall(r"^(?:static )?const \w+ (\w+)(?:\[\w+\])? =", source.read_text(), flags=re.M)
+        constants = re.findall(
+            r"^(?:static )?const \w+ (\w+)(?:\[\w+\])? =", source.read_text(), flags=re.M
+        )
         if not constants:
             raise Refused(f"{source.name} defines nothing")
         for constant in constants:
-            if not any(fnmatch.fnmatchcase(f"*(.const:{constant})", pattern.replace("*(", "[*](", 1))
-                       for pattern in sections[".tables"].inputs):
+            if not any(
+                fnmatch.fnmatchcase(f"*(.const:{constant})", pattern.replace("*(", "[*](", 1))
+                for pattern in sections[".tables"].inputs
+            ):
                 raise Refused(f"section .tables leaves {constant} out")
     if not re.search(r"^static app_image_t in_force;", (BOARD / "main.c").read_text(), flags=re.M):
         raise Refused("main.c has no in_force")
@@ -148,7 +182,11 @@ def check_tables(image, sections):
 def check_store(image, ranges):
     """The sectors that board_store_memory names hold nothing that is linked."""
     first = device.PERIPHERALS["board_store_memory"]
-    if any(first < item.end and item.origin < first + device.STORE_WORDS for item in ranges.values() if item.name != "STORE"):
+    if any(
+        first < item.end and item.origin < first + device.STORE_WORDS
+        for item in ranges.values()
+        if item.name != "STORE"
+    ):
         raise Refused("a range holds words of the store")
 
 
@@ -168,7 +206,12 @@ def check_registers(text):
         raise Refused(f"peripherals: {set(symbols.items()) ^ set(device.PERIPHERALS.items())}")
     used = set()
     for source in BOARD.glob("*.c"):
-        used |= set(re.findall(r"\b(\w+Regs|AdcMirror|PieVectTable|ADC_cal|board_store_memory)\b", source.read_text()))
+        used |= set(
+            re.findall(
+                r"\b(\w+Regs|AdcMirror|PieVectTable|ADC_cal|board_store_memory)\b",
+                source.read_text(),
+            )
+        )
     if used != set(symbols):
         raise Refused(f"used and placed differ in {used ^ set(symbols)}")
 
@@ -177,19 +220,39 @@ def check_registers(text):
 MUTANTS = [
     ("flash", "length = 0x018000", "length = 0x01FFF7", "security module"),
     ("flash", "length = 0x018000", "length = 0x01FF81", "security module"),
-    ("flash", "FLASH     : origin = 0x320000, length = 0x018000", "FLASH     : origin = 0x318000, length = 0x020000",
-     "overlap"),
-    ("flash", "STORE     : origin = 0x300000, length = 0x020000", "OTHER     : origin = 0x300000, length = 0x020000",
-     "words of the store"),
-    ("flash", "origin = 0x33FFF6, length = 0x000002", "origin = 0x33FFF6, length = 0x000003",
-     "security module"),
+    (
+        "flash",
+        "FLASH     : origin = 0x320000, length = 0x018000",
+        "FLASH     : origin = 0x318000, length = 0x020000",
+        "overlap",
+    ),
+    (
+        "flash",
+        "STORE     : origin = 0x300000, length = 0x020000",
+        "OTHER     : origin = 0x300000, length = 0x020000",
+        "words of the store",
+    ),
+    (
+        "flash",
+        "origin = 0x33FFF6, length = 0x000002",
+        "origin = 0x33FFF6, length = 0x000003",
+        "security module",
+    ),
     ("flash", "origin = 0x33FFF6", "origin = 0x33FFF4", "security module"),
     ("flash", "origin = 0x33FFF6", "origin = 0x33FF7E", "not where the boot ROM"),
     ("flash", "STORE     : origin = 0x300000", "STORE     : origin = 0x2FFFFE", "not memory"),
-    ("flash", "origin = 0x000100, length = 0x000700", "origin = 0x000040, length = 0x0007C0",
-     "not memory"),
-    ("flash", "origin = 0x008000, length = 0x004000", "origin = 0x008000, length = 0x004001",
-     "overlap"),
+    (
+        "flash",
+        "origin = 0x000100, length = 0x000700",
+        "origin = 0x000040, length = 0x0007C0",
+        "not memory",
+    ),
+    (
+        "flash",
+        "origin = 0x008000, length = 0x004000",
+        "origin = 0x008000, length = 0x004001",
+        "overlap",
+    ),
     ("flash", "RUN = RAML0123", "RUN = RAML4567", "wait states"),
     ("flash", "RUN = RAML0123", "RUN = FLASH", "wait states"),
     ("flash", "RUN = RAML4567", "RUN = RAML0123", "shares a block"),
@@ -209,7 +272,12 @@ MUTANTS = [
     ("flash", "                   > RAML4567", "                   > RAML0123", "shares a block"),
     ("ram", "*(.const:board_config)", "*(.const:law_*)", "leaves board_config out"),
     ("flash", ".seldom      :", ".seldom2     :", ".seldom has no place"),
-    ("flash", "    }\n                   > FLASH\n", "    }\n                   > RAML0123\n", "not in the flash"),
+    (
+        "flash",
+        "    }\n                   > FLASH\n",
+        "    }\n                   > RAML0123\n",
+        "not in the flash",
+    ),
     ("flash", RTS, "", "takes"),
     ("flash", "#ifdef FAST_RTS", "#ifdef FASTRTS", "takes"),
     ("flash", "#endif", "", "without #endif"),
@@ -220,8 +288,12 @@ MUTANTS = [
     ("ram", "origin = 0x000000", "origin = 0x000002", "not memory"),
     ("ram", "length = 0x000700", "length = 0x000701", "not memory"),
     ("ram", "length = 0x000700", "length = 0x000000", "empty"),
-    ("ram", ".switch      : > RAML0123", ".switch      : > RAML0123, TYPE = NOLOAD",
-     "would not be loaded"),
+    (
+        "ram",
+        ".switch      : > RAML0123",
+        ".switch      : > RAML0123, TYPE = NOLOAD",
+        "would not be loaded",
+    ),
 ]
 
 
@@ -238,10 +310,18 @@ class LinkerFiles(unittest.TestCase):
     def test_pins_are_safe_before_anything_is_copied(self):
         source = re.sub(r";.*", "", (BOARD / "codestart.asm").read_text())
         code = re.findall(r"^[ \t]+(MOVB|MOVL|EDIS)\b[ \t]*(.*?)[ \t]*$", source, flags=re.M)
-        safe = [("MOVB", "ACC, #0x7F"), ("MOVL", "XAR4, #0x6FC4"), ("MOVL", "*+XAR4[0], ACC"),
-                ("MOVL", "XAR4, #0x6F8A"), ("MOVL", "*+XAR4[0], ACC"), ("EDIS", "")]
+        safe = [
+            ("MOVB", "ACC, #0x7F"),
+            ("MOVL", "XAR4, #0x6FC4"),
+            ("MOVL", "*+XAR4[0], ACC"),
+            ("MOVL", "XAR4, #0x6F8A"),
+            ("MOVL", "*+XAR4[0], ACC"),
+            ("EDIS", ""),
+        ]
         at = next(n for n in range(len(code)) if code[n : n + len(safe)] == safe)
-        self.assertLess(at, next(n for n, (_, operands) in enumerate(code) if "codestart_stack" in operands))
+        self.assertLess(
+            at, next(n for n, (_, operands) in enumerate(code) if "codestart_stack" in operands)
+        )
 
     def test_wrong_copies_are_refused(self):
         for image, old, new, reason in MUTANTS:
@@ -253,7 +333,11 @@ class LinkerFiles(unittest.TestCase):
 
     def test_wrong_addresses_are_refused(self):
         text = (ROOT / "linker" / "f28335_registers.cmd").read_text()
-        for old, new in (("0x006840", "0x006841"), ("EQep1Regs     = 0x006B00;", ""), ("0x380080", "0x380090")):
+        for old, new in (
+            ("0x006840", "0x006841"),
+            ("EQep1Regs     = 0x006B00;", ""),
+            ("0x380080", "0x380090"),
+        ):
             with self.subTest(old=old), self.assertRaises(Refused):
                 self.assertIn(old, text)
                 check_registers(text.replace(old, new, 1))

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Does an image of every law fit where linker/*.cmd puts it, with room left? Sizes of data are those of the C28x, from a
-32-bit compiler: there as here float and pointer are two words of 16 bits. A bool is made one word. Sizes of code: code_size.py."""
+"""Does an image of every law fit where linker/*.cmd puts it, with room left? Sizes of data are
+those of the C28x, from a 32-bit compiler: there as here float and pointer are two words of 16 bits.
+A bool is made one word. Sizes of code: code_size.py."""
+
 import functools
 import pathlib
 import re
@@ -16,8 +18,22 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 FIRMWARE = ROOT / "firmware"
 ROOMS = [FIRMWARE / d for d in ("control", "commission", "store", "app", "board", "board/f28335")]
 INCLUDES = [f"-I{path}" for room in ROOMS for path in (room, *sorted(room.glob("*/")))]
-COMPILER = ["clang", "--target=arm-none-eabi", "-std=c99", "-ffreestanding", "-nostdlibinc", "-isystem",
-            str(ROOT / "tests/target/include"), *INCLUDES, "-D_Bool=unsigned short", "-S", "-o", "-", "-xc", "-"]
+COMPILER = [
+    "clang",
+    "--target=arm-none-eabi",
+    "-std=c99",
+    "-ffreestanding",
+    "-nostdlibinc",
+    "-isystem",
+    str(ROOT / "tests/target/include"),
+    *INCLUDES,
+    "-D_Bool=unsigned short",
+    "-S",
+    "-o",
+    "-",
+    "-xc",
+    "-",
+]
 SPARE = 0x0100  # for the board's and the run-time library's; theirs are counted by nobody
 LEFT = 0.15  # chosen: of every memory, at the upper end of the estimate
 CONSTANTS_words = 0x2000  # chosen: gain tables of any law 5.3 K, registers 1.9 K, and some
@@ -29,16 +45,29 @@ def laws():
 
 
 def assembly(source, law):
-    options = [f"-DLAW_CONSTANTS=law_{law}_config_t", f"-DAPP_SCOPE_SAMPLES={SAMPLES.get(law, 512)}U"]
-    return subprocess.run([*COMPILER, *options], input=source, text=True, stdout=subprocess.PIPE, check=True).stdout
+    options = [
+        f"-DLAW_CONSTANTS=law_{law}_config_t",
+        f"-DAPP_SCOPE_SAMPLES={SAMPLES.get(law, 512)}U",
+    ]
+    return subprocess.run(
+        [*COMPILER, *options], input=source, text=True, stdout=subprocess.PIPE, check=True
+    ).stdout
 
 
 def words(law):
     """{object: words} of what an image with this law keeps beside the variables."""
-    types = {"law": f"law_{law}_config_t", "drive": "drive_config_t", "entry": "law_t", "in_force": "app_image_t"}
+    types = {
+        "law": f"law_{law}_config_t",
+        "drive": "drive_config_t",
+        "entry": "law_t",
+        "in_force": "app_image_t",
+    }
     source = '#include "app_image.h"\n'
     source += "".join(f"const {type} size_{name} = {{0}};\n" for name, type in types.items())
-    return {name: int(octets) // 2 for name, octets in re.findall(r"\.size\s+size_(\w+), (\d+)", assembly(source, law))}
+    return {
+        name: int(octets) // 2
+        for name, octets in re.findall(r"\.size\s+size_(\w+), (\d+)", assembly(source, law))
+    }
 
 
 def variables(law):
@@ -77,7 +106,10 @@ class TableSizes(unittest.TestCase):
                 sizes, kept = words(law), variables(law)
                 self.assertGreater(kept, 8 * SAMPLES.get(law, 512))  # the scope's samples are in it
                 total = kept + sizes["in_force"] + sizes["entry"] + SPARE
-                print(f"{law}: data {total} of {room} words, {sizes['in_force']} of them in force: {100 * total / room:.0f} %")
+                print(
+                    f"{law}: data {total} of {room} words, {sizes['in_force']} of them in force: "
+                    f"{100 * total / room:.0f} %"
+                )
                 self.assertLessEqual(total, (1 - LEFT) * room)
 
     def test_noc_h_with_the_whole_scope_would_not(self):
@@ -95,20 +127,37 @@ class TableSizes(unittest.TestCase):
         for law, functions in code().items():
             with self.subTest(law=law):
                 from_ram = code_size.runs_from_ram(law)
-                hot = sum(f.halfwords for f in functions if from_ram(f.source) and f.name not in seldom)
+                hot = sum(
+                    f.halfwords for f in functions if from_ram(f.source) and f.name not in seldom
+                )
                 self.assertGreater(hot, 4000)
                 most = code_size.words_at_most(hot) + code_size.LIBRARY_words
-                everything = code_size.words_at_most(sum(f.halfwords for f in functions)) + code_size.LIBRARY_words
-                print(f"{law}: code in RAM at most {most} of {room} words: {100 * most / room:.0f} %; in all {everything} of {flash}")
-                self.assertLessEqual(most, (1 - LEFT) * room, "firmware/board/f28335/CMakeLists.txt and .seldom choose what runs from RAM")
+                everything = (
+                    code_size.words_at_most(sum(f.halfwords for f in functions))
+                    + code_size.LIBRARY_words
+                )
+                print(
+                    f"{law}: code in RAM at most {most} of {room} words: {100 * most / room:.0f} "
+                    f"%; in all {everything} of {flash}"
+                )
+                self.assertLessEqual(
+                    most,
+                    (1 - LEFT) * room,
+                    "firmware/board/f28335/CMakeLists.txt and .seldom choose what runs from RAM",
+                )
                 self.assertLessEqual(everything + CONSTANTS_words, (1 - LEFT) * flash)
 
     @unittest.skipUnless(code_size.is_there(), f"no {code_size.COMPILER}: ./dev budget installs it")
     def test_image_for_a_debugger_leaves_room(self):
         functions = code_size.bench_functions()
         self.assertIn("control_isr", {f.name for f in functions})
-        most, room = code_size.words_at_most(sum(f.halfwords for f in functions)) + code_size.LIBRARY_words, length(".text", "ram")
-        print(f"image for a debugger: code at most {most} of {room} words: {100 * most / room:.0f} %")
+        most, room = (
+            code_size.words_at_most(sum(f.halfwords for f in functions)) + code_size.LIBRARY_words,
+            length(".text", "ram"),
+        )
+        print(
+            f"image for a debugger: code at most {most} of {room} words: {100 * most / room:.0f} %"
+        )
         self.assertLessEqual(most, (1 - LEFT) * room)
 
     @unittest.skipUnless(code_size.is_there(), f"no {code_size.COMPILER}: ./dev budget installs it")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Do the presets f28335-flash and f28335-ram ask TI's tools for the right things? TI's tools are stood in for by
-stand_in_tool.py: whether they accept it, this test cannot tell."""
+"""Do the presets f28335-flash and f28335-ram ask TI's tools for the right things? TI's tools are
+stood in for by stand_in_tool.py: whether they accept it, this test cannot tell."""
+
 import json
 import os
 import pathlib
@@ -14,8 +15,25 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 FAST_RTS = "rts2800_fpu32_fast_supplement_eabi.lib"
-TICK = ["app.c", "app_angle.c", "app_control.c", "app_gate.c", "app_modes.c", "app_scale.c", "app_states.c", "adc.c", "clock.c",
-        "control_isr.c", "cycles.c", "encoder.c", "flash.c", "pie.c", "pwm.c", "tick_watch.c", "trip.c"]
+TICK = [
+    "app.c",
+    "app_angle.c",
+    "app_control.c",
+    "app_gate.c",
+    "app_modes.c",
+    "app_scale.c",
+    "app_states.c",
+    "adc.c",
+    "clock.c",
+    "control_isr.c",
+    "cycles.c",
+    "encoder.c",
+    "flash.c",
+    "pie.c",
+    "pwm.c",
+    "tick_watch.c",
+    "trip.c",
+]
 
 
 def touch(path):
@@ -51,9 +69,15 @@ class TargetBuild(unittest.TestCase):
         self.environment = {k: v for k, v in os.environ.items() if not k.startswith("C2000")}
 
     def cmake(self, *arguments, **variables):
-        return subprocess.run(["cmake", *map(str, arguments)], cwd=ROOT, text=True, check=False,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              env={**self.environment, "STAND_IN_LOG": str(self.log), **variables})
+        return subprocess.run(
+            ["cmake", *map(str, arguments)],
+            cwd=ROOT,
+            text=True,
+            check=False,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            env={**self.environment, "STAND_IN_LOG": str(self.log), **variables},
+        )
 
     def configure(self, preset, *arguments, **variables):
         return self.cmake("--preset", preset, "-B", self.build, *arguments, **variables)
@@ -65,8 +89,13 @@ class TargetBuild(unittest.TestCase):
     def build_image(self, preset, fast_rts=True, arguments=(), **variables):
         make_compiler(self.top / "cgt")
         make_headers(self.top / "ware", fast_rts)
-        done = self.configure(preset, f"-DC2000_CGT_ROOT={self.top / 'cgt'}", *arguments,
-                              C2000WARE_ROOT=str(self.top / "ware"), **variables)
+        done = self.configure(
+            preset,
+            f"-DC2000_CGT_ROOT={self.top / 'cgt'}",
+            *arguments,
+            C2000WARE_ROOT=str(self.top / "ware"),
+            **variables,
+        )
         self.assertEqual(done.returncode, 0, done.stdout)
         self.log.write_text("")
         done = self.cmake("--build", self.build, **variables)
@@ -96,17 +125,30 @@ class TargetBuild(unittest.TestCase):
                 self.assertEqual(source.name in compiled, source.name != "bench.c", source.name)
         for name, call in compiled.items():
             if name.endswith(".c"):
-                for option in ("--float_operations_allowed=32", "--fp_single_precision_constant",
-                               "--gen_data_subsections=on", "-O2", "--c99"):
+                for option in (
+                    "--float_operations_allowed=32",
+                    "--fp_single_precision_constant",
+                    "--gen_data_subsections=on",
+                    "-O2",
+                    "--c99",
+                ):
                     self.assertIn(option, call, name)
         before, after = link[: link.index("--run_linker")], link[link.index("--run_linker") :]
         self.assertNotIn("--define=FAST_RTS", before)
-        for option in ("--define=FAST_RTS", "--stack_size=0x700", "--entry_point=code_start",
-                       "--rom_model", "--priority", "--diag_error=10247",
-                       str(linker / "f28335_flash.cmd"), str(linker / "f28335_registers.cmd")):
+        for option in (
+            "--define=FAST_RTS",
+            "--stack_size=0x700",
+            "--entry_point=code_start",
+            "--rom_model",
+            "--priority",
+            "--diag_error=10247",
+            str(linker / "f28335_flash.cmd"),
+            str(linker / "f28335_registers.cmd"),
+        ):
             self.assertIn(option, after)
-        self.assertLess(after.index(f"--library={FAST_RTS}"),
-                        after.index("--library=rts2800_fpu32_eabi.lib"))
+        self.assertLess(
+            after.index(f"--library={FAST_RTS}"), after.index("--library=rts2800_fpu32_eabi.lib")
+        )
         self.assertNotIn("--library=m", after)
         self.assertTrue((self.build / "bin" / "sdre_f28335_flash.out").exists())
         self.assertTrue((self.build / "bin" / "sdre_f28335_flash.hex").exists())
@@ -114,9 +156,25 @@ class TargetBuild(unittest.TestCase):
         self.assertIn("RAML0123     6144 of 16384 words (37 %)", output)
 
         # Tick and flash set-up run from RAM, and the way there does not.
-        in_ram = {name for name, call in compiled.items() if "--ramfunc=on" in call and "--ramfunc=off" not in call}
-        rare = {"check.c", "dead_time.c", "drive_config.c", "motor.c", "nodo_current.c", "position_loop.c", "position_ref.c"}
-        control = {source.name for source in (ROOT / "firmware" / "control").rglob("*.c") if source.parent.name != "fields"}
+        in_ram = {
+            name
+            for name, call in compiled.items()
+            if "--ramfunc=on" in call and "--ramfunc=off" not in call
+        }
+        rare = {
+            "check.c",
+            "dead_time.c",
+            "drive_config.c",
+            "motor.c",
+            "nodo_current.c",
+            "position_loop.c",
+            "position_ref.c",
+        }
+        control = {
+            source.name
+            for source in (ROOT / "firmware" / "control").rglob("*.c")
+            if source.parent.name != "fields"
+        }
         self.assertEqual(in_ram, control - rare | set(TICK))
         for name in ("drive_image.c", "app.c", "main.c"):
             self.assertIn("-DLAW_CONSTANTS=law_noc_config_t", compiled[name])
@@ -135,9 +193,14 @@ class TargetBuild(unittest.TestCase):
         roots = [f"-DC2000_CGT_ROOT={self.top / 'cgt'}", f"-DC2000WARE_ROOT={self.top / 'ware'}"]
         refused = self.configure("f28335-flash", *roots, *arguments)
         self.assertNotEqual(refused.returncode, 0)
-        self.assertIn("SDRE_SCOPE_SAMPLES=512: the constants of noc_h leave room for 256", " ".join(refused.stdout.split()))
+        self.assertIn(
+            "SDRE_SCOPE_SAMPLES=512: the constants of noc_h leave room for 256",
+            " ".join(refused.stdout.split()),
+        )
 
-        compiled, _, _ = self.build_image("f28335-flash", arguments=[*arguments, "-DSDRE_SCOPE_SAMPLES=256"])
+        compiled, _, _ = self.build_image(
+            "f28335-flash", arguments=[*arguments, "-DSDRE_SCOPE_SAMPLES=256"]
+        )
         self.assertIn("-DLAW_CONSTANTS=law_noc_h_config_t", compiled["drive_image.c"])
         for name in ("app_control.c", "app_modes.c"):
             self.assertNotIn("--ramfunc=on", compiled[name])
@@ -146,7 +209,11 @@ class TargetBuild(unittest.TestCase):
     def test_evidence_builds_all_images_with_listings(self):
         make_compiler(self.top / "cgt")
         make_headers(self.top / "ware", fast_rts=True)
-        done = self.configure("f28335-evidence", f"-DC2000_CGT_ROOT={self.top / 'cgt'}", f"-DC2000WARE_ROOT={self.top / 'ware'}")
+        done = self.configure(
+            "f28335-evidence",
+            f"-DC2000_CGT_ROOT={self.top / 'cgt'}",
+            f"-DC2000WARE_ROOT={self.top / 'ware'}",
+        )
         self.assertEqual(done.returncode, 0, done.stdout)
         self.log.write_text("")
         images = ("sdre_f28335_flash", "sdre_f28335_ram")
@@ -154,10 +221,14 @@ class TargetBuild(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout)
         links = [call for call in self.calls("cl2000") if "--run_linker" in call]
         for image in images:
-            self.assertTrue(any(f"--xml_link_info={self.build / image}.xml" in call for call in links), image)
+            self.assertTrue(
+                any(f"--xml_link_info={self.build / image}.xml" in call for call in links), image
+            )
             self.assertTrue((self.build / "bin" / f"{image}.out").exists())
         for call in self.calls("cl2000"):
-            if any(argument.endswith(".c") and argument.startswith("--c_file=") for argument in call):
+            if any(
+                argument.endswith(".c") and argument.startswith("--c_file=") for argument in call
+            ):
                 tables = any("gain_tables.c" in argument for argument in call)
                 self.assertEqual(f"--list_directory={self.build / 'listings'}" in call, not tables)
         done = self.cmake("--build", self.build)  # the stand-in writes no listing: the page says so
@@ -168,10 +239,14 @@ class TargetBuild(unittest.TestCase):
         done = self.configure("f28335-flash", "-DSDRE_SCOPE_SAMPLES=100")
 
         self.assertNotEqual(done.returncode, 0)
-        self.assertIn("SDRE_SCOPE_SAMPLES=100: expected 64, 128, 256 or 512", " ".join(done.stdout.split()))
+        self.assertIn(
+            "SDRE_SCOPE_SAMPLES=100: expected 64, 128, 256 or 512", " ".join(done.stdout.split())
+        )
 
     def test_ram_image_without_fast_rts_and_with_an_older_compiler(self):
-        compiled, link, output = self.build_image("f28335-ram", fast_rts=False, STAND_IN_VERSION="00000020.00000002.00000000")
+        compiled, link, output = self.build_image(
+            "f28335-ram", fast_rts=False, STAND_IN_VERSION="00000020.00000002.00000000"
+        )
 
         self.assertIn(str(ROOT / "linker" / "f28335_ram.cmd"), link)
         self.assertIn("bench.c", compiled)
@@ -190,8 +265,10 @@ class TargetBuild(unittest.TestCase):
             ([], "C2000_CGT_ROOT is not set"),
             ([f"-DC2000_CGT_ROOT={empty}"], f"C2000_CGT_ROOT={empty} is not TI's C2000 compiler"),
             ([f"-DC2000_CGT_ROOT={cgt}"], "C2000WARE_ROOT is not set"),
-            ([f"-DC2000_CGT_ROOT={cgt}", f"-DC2000WARE_ROOT={empty}"],
-             f"C2000WARE_ROOT={empty} is not C2000Ware"),
+            (
+                [f"-DC2000_CGT_ROOT={cgt}", f"-DC2000WARE_ROOT={empty}"],
+                f"C2000WARE_ROOT={empty} is not C2000Ware",
+            ),
         ]
         for arguments, message in cases:
             with self.subTest(message=message):
@@ -233,7 +310,9 @@ class TargetBuild(unittest.TestCase):
         make_headers(ware, fast_rts=False)
         roots = [f"-DC2000_CGT_ROOT={cgt}", f"-DC2000WARE_ROOT={ware}"]
 
-        self.assertEqual(self.configure("f28335-flash", f"-DSDRE_TABLES={own}", *roots).returncode, 0)
+        self.assertEqual(
+            self.configure("f28335-flash", f"-DSDRE_TABLES={own}", *roots).returncode, 0
+        )
         commands = json.loads((self.build / "compile_commands.json").read_text())
         sources = {command["file"] for command in commands}
         self.assertIn(str(own / "gain_tables.c"), sources)
@@ -247,7 +326,9 @@ class TargetBuild(unittest.TestCase):
         done = self.configure("board-check", f"-DSDRE_TABLES={self.top}")
 
         self.assertNotEqual(done.returncode, 0)
-        self.assertIn(f"SDRE_TABLES={self.top}: no gain_tables.h there", " ".join(done.stdout.split()))
+        self.assertIn(
+            f"SDRE_TABLES={self.top}: no gain_tables.h there", " ".join(done.stdout.split())
+        )
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A headless Chromium by its DevTools protocol: opens a page, runs script in it, keeps errors, takes pictures."""
+"""A headless Chromium by its DevTools protocol: opens a page, runs script in it, keeps errors,
+takes pictures."""
 
 from __future__ import annotations
 
@@ -35,16 +36,28 @@ class Browser:
     async def __aenter__(self) -> Browser:
         self._profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         self._process = await asyncio.create_subprocess_exec(
-            path(), "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
-            "--hide-scrollbars", f"--window-size={self.size[0]},{self.size[1]}", "--remote-debugging-port=0",
-            f"--user-data-dir={self._profile.name}", "about:blank",
-            stderr=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.DEVNULL)  # fmt: skip
+            path(),
+            "--headless=new",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-dev-shm-usage",
+            "--no-first-run",
+            "--hide-scrollbars",
+            f"--window-size={self.size[0]},{self.size[1]}",
+            "--remote-debugging-port=0",
+            f"--user-data-dir={self._profile.name}",
+            "about:blank",
+            stderr=asyncio.subprocess.PIPE,
+            stdout=asyncio.subprocess.DEVNULL,
+        )
         port = await asyncio.wait_for(self._port(), START_S)
         self._drain = asyncio.create_task(self._process.stderr.read())
         self._session = aiohttp.ClientSession()
         async with self._session.get(f"http://127.0.0.1:{port}/json/list") as answer:
             pages = [p for p in await answer.json() if p["type"] == "page"]
-        self._socket = await self._session.ws_connect(pages[0]["webSocketDebuggerUrl"], max_msg_size=0)
+        self._socket = await self._session.ws_connect(
+            pages[0]["webSocketDebuggerUrl"], max_msg_size=0
+        )
         self._reader = asyncio.create_task(self._read())
         for domain in ("Page", "Runtime", "Log"):
             await self.call(f"{domain}.enable")
@@ -92,7 +105,9 @@ class Browser:
 
     async def script(self, text: str) -> Any:
         """The value of an expression in the page."""
-        told = await self.call("Runtime.evaluate", expression=text, returnByValue=True, awaitPromise=True)
+        told = await self.call(
+            "Runtime.evaluate", expression=text, returnByValue=True, awaitPromise=True
+        )
         assert "exceptionDetails" not in told, told["exceptionDetails"]
         return told["result"].get("value")
 
@@ -103,11 +118,19 @@ class Browser:
             if value:
                 return value
             await asyncio.sleep(0.1)
-        raise AssertionError(f"never true: {text}; the page: {await self.script('document.body.innerText')}")
+        raise AssertionError(
+            f"never true: {text}; the page: {await self.script('document.body.innerText')}"
+        )
 
     async def resize(self, width: int, height: int) -> None:
         """The window, for what follows."""
-        await self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        await self.call(
+            "Emulation.setDeviceMetricsOverride",
+            width=width,
+            height=height,
+            deviceScaleFactor=1,
+            mobile=False,
+        )
 
     async def picture(self, file: Path) -> None:
         """Picture of the window."""

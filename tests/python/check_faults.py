@@ -16,7 +16,9 @@ from sdre_drive import faults, registers, troubleshooting  # noqa: E402
 
 def enumerators(file: str, prefix: str, first: str) -> Dict[str, int]:
     """Names without their prefix, and values, of the enum of `file` that begins with `first`."""
-    source = re.sub(r"/\*.*?\*/", "", (ROOT / "firmware" / file).read_text(encoding="utf-8"), flags=re.S)
+    source = re.sub(
+        r"/\*.*?\*/", "", (ROOT / "firmware" / file).read_text(encoding="utf-8"), flags=re.S
+    )
     body = re.search(r"enum\s*\{([^}]*\b" + prefix + first + r"\b[^}]*)\}", source)
     assert body, f"{file}: no enum with {prefix}{first}"
     out: Dict[str, int] = {}
@@ -25,15 +27,18 @@ def enumerators(file: str, prefix: str, first: str) -> Dict[str, int]:
         previous = list(out.values())[-1] if out else -1
         assert name.startswith(prefix), f"{file}: {name}"
         base, _, more = value.rpartition("+")  # a number, or an earlier name and a number
-        start = out[base.strip()[len(prefix):]] if base else 0
-        out[name[len(prefix):]] = start + int(more) if value else previous + 1
+        start = out[base.strip()[len(prefix) :]] if base else 0
+        out[name[len(prefix) :]] = start + int(more) if value else previous + 1
     return out
 
 
 def told(what: str, firmware: Dict[str, int], here: Dict[str, int]) -> List[str]:
     """Differences in words."""
-    return [f"{what}: {name} is {firmware.get(name)} in the firmware and {here.get(name)} here"
-            for name in sorted(firmware.keys() | here.keys()) if firmware.get(name) != here.get(name)]  # fmt: skip
+    return [
+        f"{what}: {name} is {firmware.get(name)} in the firmware and {here.get(name)} here"
+        for name in sorted(firmware.keys() | here.keys())
+        if firmware.get(name) != here.get(name)
+    ]
 
 
 def differences() -> List[str]:
@@ -48,7 +53,11 @@ def differences() -> List[str]:
     for group, firmware in enums.items():
         firmware.pop("NONE", None)
         found += told(group, firmware, {e.name: e.number for e in faults.table()[group].values()})
-    found += told("mode", enumerators("app/app_status.h", "APP_MODE_", "BOOT"), {m.name: m.value for m in registers.Mode})
+    found += told(
+        "mode",
+        enumerators("app/app_status.h", "APP_MODE_", "BOOT"),
+        {m.name: m.value for m in registers.Mode},
+    )
     for group in faults.GROUPS:
         for e in faults.table()[group].values():
             if not (e.meaning and e.causes and e.check and e.reproduce):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The quantities of a trace in the Python package against those that sdre-sil writes. Standard library alone, nothing compiled."""
+"""The quantities of a trace in the Python package against those that sdre-sil writes. Standard
+library alone, nothing compiled."""
 
 from __future__ import annotations
 
@@ -17,31 +18,53 @@ def fields_of(file: str, name: str) -> List[str]:
     """Names of a class's fields, in order."""
     tree = ast.parse((TOOLS / "python/sdre" / file).read_text(encoding="utf-8"))
     (found,) = (node for node in tree.body if isinstance(node, ast.ClassDef) and node.name == name)
-    return [item.target.id for item in found.body if isinstance(item, ast.AnnAssign) and isinstance(item.target, ast.Name)]
+    return [
+        item.target.id
+        for item in found.body
+        if isinstance(item, ast.AnnAssign) and isinstance(item.target, ast.Name)
+    ]
 
 
 def units() -> List[str]:
     """Quantities that have a unit."""
     tree = ast.parse((TOOLS / "python/sdre/run.py").read_text(encoding="utf-8"))
-    (found,) = (node.value for node in tree.body
-                if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name) and node.target.id == "UNITS")  # fmt: skip
+    (found,) = (
+        node.value
+        for node in tree.body
+        if isinstance(node, ast.AnnAssign)
+        and isinstance(node.target, ast.Name)
+        and node.target.id == "UNITS"
+    )
     assert isinstance(found, ast.Dict)
     return [ast.literal_eval(key) for key in found.keys if key is not None]
 
 
 def differences() -> List[str]:
     """In words."""
-    head = re.search(r"trace_head =((?:\s*\"[^\"]*\")+);", (TOOLS / "sil/eval/results.cpp").read_text(encoding="utf-8"))
+    head = re.search(
+        r"trace_head =((?:\s*\"[^\"]*\")+);",
+        (TOOLS / "sil/eval/results.cpp").read_text(encoding="utf-8"),
+    )
     assert head, "results.cpp: no head of a trace"
     written = "".join(re.findall(r'"([^"]*)"', head.group(1))).replace("\\n", "").split(",")
-    native = re.findall(r'\{"(\w+)", ', (TOOLS / "python/native/trace_columns.cpp").read_text(encoding="utf-8"))
+    native = re.findall(
+        r'\{"(\w+)", ', (TOOLS / "python/native/trace_columns.cpp").read_text(encoding="utf-8")
+    )
     lists: Dict[str, List[str]] = {
         "sdre.Trace": fields_of("run.py", "Trace"),
-        "sdre.State": [name for name in fields_of("loop.py", "State") if name not in ("fault", "ended")],
+        "sdre.State": [
+            name for name in fields_of("loop.py", "State") if name not in ("fault", "ended")
+        ],
         "sdre.UNITS": units(),
     }
-    found = [f"{name}: {quantities} instead of {native}" for name, quantities in lists.items() if quantities != native]
-    return found + [f"trace_columns.cpp: {name} of the CSV is missing" for name in written if name not in native]
+    found = [
+        f"{name}: {quantities} instead of {native}"
+        for name, quantities in lists.items()
+        if quantities != native
+    ]
+    return found + [
+        f"trace_columns.cpp: {name} of the CSV is missing" for name in written if name not in native
+    ]
 
 
 if __name__ == "__main__":

@@ -47,8 +47,24 @@ def served(tmp_path: Path) -> Iterator[Served]:
     sil = os.environ.get("SDRE_SIL", str(ROOT / "build/host/bin/sdre-sil"))
     pty = str(tmp_path / "drive")
     process = subprocess.Popen(
-        [sil, "serve", str(SHIPPED), "--tcp", "0", "--rtu-tcp", "0", "--control", "0", "--pty", pty,
-         "--for", str(LONGEST_S)], stdout=subprocess.PIPE, text=True)  # fmt: skip
+        [
+            sil,
+            "serve",
+            str(SHIPPED),
+            "--tcp",
+            "0",
+            "--rtu-tcp",
+            "0",
+            "--control",
+            "0",
+            "--pty",
+            pty,
+            "--for",
+            str(LONGEST_S),
+        ],
+        stdout=subprocess.PIPE,
+        text=True,
+    )
     assert process.stdout
     ports = {}
     for line in process.stdout:

@@ -10,9 +10,11 @@ from typing import Any, Callable, Dict, List
 
 TOKEN = re.compile(r"16#[0-9A-Fa-f]+|\d+|[A-Za-z_]\w*|:=|<>|[=\[\](),;]")
 FUNCTIONS: Dict[str, Callable[..., Any]] = {
-    "SEL": lambda which, zero, one: one if which else zero, "SHR": lambda x, n: x >> n,
-    "DINT_TO_DWORD": lambda x: x & 0xFFFFFFFF, "DWORD_TO_WORD": lambda x: x & 0xFFFF,
-}  # fmt: skip
+    "SEL": lambda which, zero, one: one if which else zero,
+    "SHR": lambda x, n: x >> n,
+    "DINT_TO_DWORD": lambda x: x & 0xFFFFFFFF,
+    "DWORD_TO_WORD": lambda x: x & 0xFFFF,
+}
 START = {"BOOL": False, "WORD": 0, "DINT": 0}
 
 
@@ -24,9 +26,15 @@ class FunctionBlock:
         inner = re.fullmatch(r"\s*FUNCTION_BLOCK\s+\w+(.*)END_FUNCTION_BLOCK\s*", text, flags=re.S)
         assert inner
         self.values: Dict[str, Any] = {}
-        for section in re.findall(r"VAR(?:_INPUT|_OUTPUT)?\b(.*?)END_VAR", inner.group(1), flags=re.S):
-            for name, first, last, kind in re.findall(r"(\w+)\s*:\s*(?:ARRAY\s*\[(\d+)\.\.(\d+)\]\s*OF\s+)?(\w+);", section):
-                self.values[name] = [START[kind]] * (int(last) - int(first) + 1) if last else START[kind]
+        for section in re.findall(
+            r"VAR(?:_INPUT|_OUTPUT)?\b(.*?)END_VAR", inner.group(1), flags=re.S
+        ):
+            for name, first, last, kind in re.findall(
+                r"(\w+)\s*:\s*(?:ARRAY\s*\[(\d+)\.\.(\d+)\]\s*OF\s+)?(\w+);", section
+            ):
+                self.values[name] = (
+                    [START[kind]] * (int(last) - int(first) + 1) if last else START[kind]
+                )
         body = re.sub(r"VAR(?:_INPUT|_OUTPUT)?\b.*?END_VAR", "", inner.group(1), flags=re.S)
         assert not re.sub(r"\s", "", TOKEN.sub("", body)), "characters that are no part of it"
         self._tokens: List[str] = TOKEN.findall(body)
@@ -78,7 +86,9 @@ class FunctionBlock:
         self._next(":=")
         value = self._or()
         self._next(";")
-        assert name in self.values and type(value) is type(self.values[name] if place is None else 0), name
+        assert name in self.values and type(value) is type(
+            self.values[name] if place is None else 0
+        ), name
         if act and place is None:
             self.values[name] = value
         elif act:

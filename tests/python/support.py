@@ -18,7 +18,9 @@ LONGEST_S = 30.0  # of the drive's time; a start takes 3 s
 
 def command(*words: str) -> subprocess.CompletedProcess:
     """sdre-drive, to its end."""
-    return subprocess.run([sys.executable, "-m", "sdre_drive", *words], capture_output=True, text=True, timeout=120)
+    return subprocess.run(
+        [sys.executable, "-m", "sdre_drive", *words], capture_output=True, text=True, timeout=120
+    )
 
 
 def until(drive: Drive, wanted: Callable[[Reading], bool], longest_s: float = LONGEST_S) -> Reading:
@@ -37,8 +39,13 @@ def run_at(drive: Drive, speed_e_radps: float) -> Reading:
     """Until it has the speed, within what noise and load leave."""
     until(drive, lambda r: r.mode == Mode.READY)
     session.start(drive, speed_e_radps)
-    reading = until(drive, lambda r: r.mode == Mode.FAULT or (
-        r.mode == Mode.RUN and abs(r.speed_e_radps - speed_e_radps) < 5.0))  # fmt: skip
+    reading = until(
+        drive,
+        lambda r: (
+            r.mode == Mode.FAULT
+            or (r.mode == Mode.RUN and abs(r.speed_e_radps - speed_e_radps) < 5.0)
+        ),
+    )
     assert reading.mode == Mode.RUN, reading
     return reading
 

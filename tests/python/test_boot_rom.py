@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""`sdre-drive load --boot-rom` against a model of the boot ROM's SCI loader on a pseudo-terminal."""
+"""`sdre-drive load --boot-rom` against a model of the boot ROM's SCI loader on a
+pseudo-terminal."""
 
 from __future__ import annotations
 
@@ -19,7 +20,11 @@ from sdre_drive.connection import DriveError
 
 Blocks = List[Tuple[int, List[int]]]
 ENTRY = 0x8000
-BLOCKS: Blocks = [(ENTRY, [0x56BF, 0x0006, 0xFFFF]), (0x000000, [0x0040, 0x8000]), (0xC000, list(range(300)))]
+BLOCKS: Blocks = [
+    (ENTRY, [0x56BF, 0x0006, 0xFFFF]),
+    (0x000000, [0x0040, 0x8000]),
+    (0xC000, list(range(300))),
+]
 
 
 def stream(blocks: Blocks = BLOCKS, entry: int = ENTRY, key: int = boot_rom.KEY) -> bytes:
@@ -36,9 +41,12 @@ def write(path: Path, octets: bytes) -> Path:
 
 
 class Rom(threading.Thread):
-    """Locks on "A", answers each octet with itself, copies blocks into its memory, ends with the jump."""
+    """Locks on "A", answers each octet with itself, copies blocks into its memory, ends with the
+    jump."""
 
-    def __init__(self, wrong_at: Optional[int] = None, silent_at: Optional[int] = None, deaf: int = 0) -> None:
+    def __init__(
+        self, wrong_at: Optional[int] = None, silent_at: Optional[int] = None, deaf: int = 0
+    ) -> None:
         super().__init__(daemon=True)
         self.wrong_at, self.silent_at, self.deaf = wrong_at, silent_at, deaf
         self.memory: Dict[int, int] = {}
@@ -98,7 +106,9 @@ def test_every_block_arrives_and_the_program_starts(tmp_path: Path) -> None:
     rom, program = Rom(), boot_rom.read_program(write(tmp_path / "p.a00", stream()))
     shares = load(rom, program)
     assert rom.entry == ENTRY
-    assert rom.memory == {first + k: word for first, content in BLOCKS for k, word in enumerate(content)}
+    assert rom.memory == {
+        first + k: word for first, content in BLOCKS for k, word in enumerate(content)
+    }
     assert shares == sorted(shares) and shares[-1] == 1.0
     assert program.words == 305
 
@@ -106,7 +116,9 @@ def test_every_block_arrives_and_the_program_starts(tmp_path: Path) -> None:
 def test_command_loads_and_says_what(tmp_path: Path) -> None:
     rom = Rom()
     rom.start()
-    done = command("load", "--boot-rom", str(write(tmp_path / "p.a00", stream())), "--port", rom.port)
+    done = command(
+        "load", "--boot-rom", str(write(tmp_path / "p.a00", stream())), "--port", rom.port
+    )
     assert done.returncode == 0, done.stderr
     assert done.stdout == "305 words in RAM, started at 008000h\n"
     assert rom.entry == ENTRY
@@ -121,7 +133,10 @@ def test_rom_that_locks_late_is_waited_for(tmp_path: Path) -> None:
 @pytest.mark.parametrize("at", [0, 1, 17, 22, 40, 650])
 def test_wrong_echo_and_silence_end_the_load_at_once(tmp_path: Path, at: int) -> None:
     program = boot_rom.read_program(write(tmp_path / "p.a00", stream()))
-    for rom, words in ((Rom(wrong_at=at), f"octet {at} arrived as"), (Rom(silent_at=at), f"silent at octet {at} ")):
+    for rom, words in (
+        (Rom(wrong_at=at), f"octet {at} arrived as"),
+        (Rom(silent_at=at), f"silent at octet {at} "),
+    ):
         with pytest.raises(DriveError, match=words):
             load(rom, program)
         assert rom.entry is None
@@ -158,5 +173,8 @@ def test_streams_that_are_none_are_refused(tmp_path: Path, octets: bytes, words:
 def test_a_port_is_needed_and_only_one_task(tmp_path: Path) -> None:
     file = str(write(tmp_path / "p.a00", stream()))
     assert "--port" in command("load", "--boot-rom", file).stderr
-    assert "give an image, --forget or --boot-rom" in command("load", "--boot-rom", file, "--forget").stderr
+    assert (
+        "give an image, --forget or --boot-rom"
+        in command("load", "--boot-rom", file, "--forget").stderr
+    )
     assert "No such file" in command("load", "--boot-rom", file + "x", "--port", "/dev/null").stderr

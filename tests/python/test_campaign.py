@@ -70,7 +70,9 @@ def campaign(*words: Any, exit_code: int = 4) -> str:
 
 def parts(directory: Path) -> Dict[str, bytes]:
     """Written parts of the cases."""
-    return {path.name: path.read_bytes() for path in sorted((directory / "parts").glob("*.parquet"))}
+    return {
+        path.name: path.read_bytes() for path in sorted((directory / "parts").glob("*.parquet"))
+    }
 
 
 @pytest.fixture(scope="module")
@@ -97,9 +99,15 @@ def test_two_workers_write_the_same_bytes_as_one(whole: Path, tmp_path: Path) ->
         assert (tmp_path / "out" / name).read_bytes() == (whole / name).read_bytes(), name
 
 
-def test_killed_client_loses_and_repeats_nothing_that_was_written(whole: Path, tmp_path: Path) -> None:
+def test_killed_client_loses_and_repeats_nothing_that_was_written(
+    whole: Path, tmp_path: Path
+) -> None:
     spec, out = write_spec(tmp_path), tmp_path / "out"
-    client = subprocess.Popen(command(spec, "--out", out, "--workers", 1), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    client = subprocess.Popen(
+        command(spec, "--out", out, "--workers", 1),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
     wait_for_parts(out, 2)
     client.send_signal(signal.SIGKILL)
     client.wait()
@@ -118,7 +126,11 @@ def test_killed_client_loses_and_repeats_nothing_that_was_written(whole: Path, t
 
 def test_killed_worker_is_replaced(whole: Path, tmp_path: Path) -> None:
     spec, out = write_spec(tmp_path), tmp_path / "out"
-    client = subprocess.Popen(command(spec, "--out", out, "--workers", 2), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    client = subprocess.Popen(
+        command(spec, "--out", out, "--workers", 2),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
     wait_for_parts(out, 1)
     os.kill(worker_of(client.pid), signal.SIGKILL)
 
@@ -143,16 +155,36 @@ def worker_of(client: int) -> int:
 def test_cluster_of_others_writes_the_same_bytes(whole: Path, tmp_path: Path) -> None:
     from distributed import LocalCluster
 
-    with LocalCluster(n_workers=1, threads_per_worker=2, processes=False,
-                      dashboard_address="127.0.0.1:0", protocol="tcp://") as cluster:  # fmt: skip
-        campaign(write_spec(tmp_path), "--out", tmp_path / "out", "--scheduler", cluster.scheduler_address)
+    with LocalCluster(
+        n_workers=1,
+        threads_per_worker=2,
+        processes=False,
+        dashboard_address="127.0.0.1:0",
+        protocol="tcp://",
+    ) as cluster:
+        campaign(
+            write_spec(tmp_path),
+            "--out",
+            tmp_path / "out",
+            "--scheduler",
+            cluster.scheduler_address,
+        )
 
     assert parts(tmp_path / "out") == parts(whole)
 
 
 def test_no_scheduler_is_one_clear_line(tmp_path: Path) -> None:
-    said = campaign(write_spec(tmp_path), "--out", tmp_path / "out", "--scheduler", "tcp://127.0.0.1:9", exit_code=1)
-    assert said.strip().splitlines() == ["sdre-campaign: tcp://127.0.0.1:9: no scheduler answers; --resume goes on"]
+    said = campaign(
+        write_spec(tmp_path),
+        "--out",
+        tmp_path / "out",
+        "--scheduler",
+        "tcp://127.0.0.1:9",
+        exit_code=1,
+    )
+    assert said.strip().splitlines() == [
+        "sdre-campaign: tcp://127.0.0.1:9: no scheduler answers; --resume goes on"
+    ]
 
 
 def test_more_cases_keep_those_there_are(whole: Path, tmp_path: Path) -> None:
@@ -174,7 +206,9 @@ def test_summary_counts_what_the_parts_say(whole: Path) -> None:
     assert said["margin"]["least"] == margin.min()
     assert said["negative_margins"] == (margin < 0.0).sum() >= said["failures"]
     edges, speed = np.array(said["histograms"]["edges"]), table["speed_margin"].to_numpy()
-    assert said["histograms"]["speed"] == np.histogram(np.maximum(speed, edges[0]), edges)[0].tolist()
+    assert (
+        said["histograms"]["speed"] == np.histogram(np.maximum(speed, edges[0]), edges)[0].tolist()
+    )
     assert sum(said["histograms"]["least"]) == 240
     flux = said["worst"][0]["values"]["flux"]
     assert said["worst"][0]["places"]["flux"] == pytest.approx((flux - 0.3) / 1.2)
@@ -190,21 +224,43 @@ def test_worst_cases_replay_to_the_bit(whole: Path, tmp_path: Path) -> None:
     assert len(files) == 3
     for file in files:
         out = tmp_path / "run.json"
-        subprocess.run([str(TOOLS / "sdre-sil"), "run", str(file), "--json", str(out)], check=False, capture_output=True)
+        subprocess.run(
+            [str(TOOLS / "sdre-sil"), "run", str(file), "--json", str(out)],
+            check=False,
+            capture_output=True,
+        )
         said = json.loads(out.read_text())
         row = table.slice(int(file.stem.split("_case_")[1]), 1).to_pylist()[0]
         assert said["seed"] == row["seed"] and (said["fault"] == "none") == (row["fault"] == 0)
         for measure, metrics in said["measures"].items():
             for name in ("settling_time_s", "dip_e_radps", "ripple_e_radps"):
                 kept = row[f"{measure}.{name}"]
-                assert (metrics[name] is None and np.isnan(kept)) or metrics[name] == kept, (file, measure, name)
+                assert (metrics[name] is None and np.isnan(kept)) or metrics[name] == kept, (
+                    file,
+                    measure,
+                    name,
+                )
 
 
 def test_motors_are_those_of_sdre_sil(tmp_path: Path) -> None:
-    text = f'scenario = "{SCENARIOS}/board_random_motors.toml"\nmethod = "motors"\ncases = 6\nseed = 1\n'
+    text = (
+        f'scenario = "{SCENARIOS}/board_random_motors.toml"\nmethod = "motors"\ncases = 6\nseed '
+        f"= 1\n"
+    )
     spec = read_spec(write_spec(tmp_path, text))
-    subprocess.run([str(TOOLS / "sdre-sil"), "motors", str(SCENARIOS / "board_random_motors.toml"), "--count", "6", "--csv",
-        str(tmp_path / "m.csv")], check=False, capture_output=True)  # fmt: skip
+    subprocess.run(
+        [
+            str(TOOLS / "sdre-sil"),
+            "motors",
+            str(SCENARIOS / "board_random_motors.toml"),
+            "--count",
+            "6",
+            "--csv",
+            str(tmp_path / "m.csv"),
+        ],
+        check=False,
+        capture_output=True,
+    )
     rows = list(csv.DictReader((tmp_path / "m.csv").open()))
     ours = run_batch(spec, 0).table.to_pylist()
 
@@ -218,8 +274,12 @@ def test_motors_are_those_of_sdre_sil(tmp_path: Path) -> None:
 def test_margins_are_those_of_the_trace() -> None:
     drive = sdre.Drive.from_toml(SHIPPED)
     loads = [1.0, 1.5, 9.0]  # the last is more than the motor can carry
-    cases = sdre.Cases(sdre.Scenario(SCENARIOS / "board_load_step.toml"), drive,
-        [sdre.Variable("load", ("load_torque.1.value_Nm",))], ["peak_current_A"])  # fmt: skip
+    cases = sdre.Cases(
+        sdre.Scenario(SCENARIOS / "board_load_step.toml"),
+        drive,
+        [sdre.Variable("load", ("load_torque.1.value_Nm",))],
+        ["peak_current_A"],
+    )
     result = cases.run(np.array([loads]).T, np.array([5, 6, 7], dtype=np.uint64))
 
     assert result.failed.tolist() == [False, False, True]
@@ -233,7 +293,9 @@ def test_margins_are_those_of_the_trace() -> None:
 
 def worst_in_tails(trace: sdre.Trace, keys: Dict[str, Any]) -> float:
     """Largest speed error in the last fifth of each measure, over its band."""
-    begins = [int(np.searchsorted(trace.time_s, measure["time_s"] - 1e-9)) for measure in keys["measure"]]
+    begins = [
+        int(np.searchsorted(trace.time_s, measure["time_s"] - 1e-9)) for measure in keys["measure"]
+    ]
     worst = 0.0
     for begin, end, measure in zip(begins, begins[1:] + [len(trace)], keys["measure"]):
         assert "tail_s" not in measure
@@ -250,18 +312,30 @@ def test_first_order_index_of_a_known_margin(whole: Path, tmp_path: Path) -> Non
     u = even_numbers(1, 0, n, 2)
     flux, load = 0.3 + 1.2 * u[:, 0], 0.5 + 2.0 * u[:, 1]
     margin = 0.2 * (2.0 * u[:, 0] + u[:, 1])  # explains 4 : 1
-    kinds = {"case": np.arange(n), "seed": np.arange(n), "failed": margin < 0.1, "fault": np.zeros(n, dtype=np.int32),
-        "current_margin": margin, "speed_margin": np.ones(n), "value.flux": flux, "value.load": load}  # fmt: skip
+    kinds = {
+        "case": np.arange(n),
+        "seed": np.arange(n),
+        "failed": margin < 0.1,
+        "fault": np.zeros(n, dtype=np.int32),
+        "current_margin": margin,
+        "speed_margin": np.ones(n),
+        "value.flux": flux,
+        "value.load": load,
+    }
     made = table.schema.empty_table().from_pydict(kinds)
     said = summarise(spec, [made.slice(0, 7000), made.slice(7000)]).as_dict()
 
     assert said["first_order"] == pytest.approx({"flux": 0.8, "load": 0.2}, abs=0.01)
-    few = summarise(spec, [made.slice(0, 400)]).as_dict()  # ten cases a bin: by chance alone it would be 0.1 more
+    few = summarise(
+        spec, [made.slice(0, 400)]
+    ).as_dict()  # ten cases a bin: by chance alone it would be 0.1 more
     assert few["first_order"]["load"] == pytest.approx(0.2, abs=0.05)
 
 
 @pytest.mark.parametrize("bounds", ["[-0.5, 1.5]", "[0.5, 150.0]"])
-def test_value_that_a_scenario_cannot_have_is_refused_before_the_first_case(bounds: str, tmp_path: Path) -> None:
+def test_value_that_a_scenario_cannot_have_is_refused_before_the_first_case(
+    bounds: str, tmp_path: Path
+) -> None:
     spec = write_spec(tmp_path, SHORT.replace("[0.3, 1.5]", bounds))
     said = campaign(spec, "--out", tmp_path / "out", "--workers", 1, exit_code=1)
 
@@ -271,7 +345,13 @@ def test_value_that_a_scenario_cannot_have_is_refused_before_the_first_case(boun
 
 def test_directory_of_another_campaign_stays(whole: Path, tmp_path: Path) -> None:
     before = parts(whole)
-    said = campaign(write_spec(tmp_path, SHORT.replace("[0.5, 2.5]", "[0.5, 2.0]")), "--out", whole, "--resume", exit_code=1)
+    said = campaign(
+        write_spec(tmp_path, SHORT.replace("[0.5, 2.5]", "[0.5, 2.0]")),
+        "--out",
+        whole,
+        "--resume",
+        exit_code=1,
+    )
 
     assert "has parts of another campaign" in said
     assert parts(whole) == before
@@ -300,15 +380,23 @@ asyncio.run(main())
 """
 
 
-def test_killed_scheduler_ends_the_client_and_loses_nothing_that_was_written(whole: Path, tmp_path: Path) -> None:
+def test_killed_scheduler_ends_the_client_and_loses_nothing_that_was_written(
+    whole: Path, tmp_path: Path
+) -> None:
     spec, out = write_spec(tmp_path), tmp_path / "out"
     quiet = {"stderr": subprocess.DEVNULL, "text": True}
     scheduler = subprocess.Popen([sys.executable, "-c", SCHEDULER], stdout=subprocess.PIPE, **quiet)
     assert scheduler.stdout
     address = scheduler.stdout.readline().strip()
-    worker = subprocess.Popen([sys.executable, "-c", WORKER, address], stdout=subprocess.DEVNULL, **quiet)
-    client = subprocess.Popen(command(spec, "--out", out, "--scheduler", address), stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE, text=True)  # fmt: skip
+    worker = subprocess.Popen(
+        [sys.executable, "-c", WORKER, address], stdout=subprocess.DEVNULL, **quiet
+    )
+    client = subprocess.Popen(
+        command(spec, "--out", out, "--scheduler", address),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
     try:
         wait_for_parts(out, 2)
         scheduler.send_signal(signal.SIGKILL)
@@ -318,7 +406,9 @@ def test_killed_scheduler_ends_the_client_and_loses_nothing_that_was_written(who
             process.kill()
             process.wait()
 
-    assert client.returncode == 1 and said.strip().splitlines()[-1].endswith("--resume goes on"), said
+    assert client.returncode == 1 and said.strip().splitlines()[-1].endswith("--resume goes on"), (
+        said
+    )
     before = {path: path.stat().st_mtime_ns for path in (out / "parts").glob("part-*")}
     campaign(spec, "--out", out, "--workers", 1, "--resume")
     assert parts(out) == parts(whole)

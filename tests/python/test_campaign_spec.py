@@ -38,15 +38,25 @@ def test_noise_seed_is_the_number_of_the_case(tmp_path: Path) -> None:
 
 def drawn(tmp_path: Path, method: str, *variables: str) -> Spec:
     """A campaign with these variables of the load."""
-    head = f'scenario = "{SCENARIOS}/board_load_step.toml"\nmethod = "{method}"\n' + ("cases = 4000\n" if method == "random" else "")
+    head = f'scenario = "{SCENARIOS}/board_load_step.toml"\nmethod = "{method}"\n' + (
+        "cases = 4000\n" if method == "random" else ""
+    )
     keys = ["load_torque.1.value_Nm", "plant_scale.inertia_kgm2", "sensors.adc_bits"]
-    text = "".join(f'[[variable]]\nname = "{key}"\nkeys = ["{key}"]\n{one}\n' for key, one in zip(keys, variables))
+    text = "".join(
+        f'[[variable]]\nname = "{key}"\nkeys = ["{key}"]\n{one}\n'
+        for key, one in zip(keys, variables)
+    )
     return read_spec(write_spec(tmp_path, head + text))
 
 
 def test_grid_and_corners_have_every_combination(tmp_path: Path) -> None:
-    grid = drawn(tmp_path, "grid", "range = [1.0, 2.0]\npoints = 3", 'range = [0.5, 2.0]\ndistribution = "log_uniform"\npoints = 3',
-        "values = [10, 12]\nwhole = true")  # fmt: skip
+    grid = drawn(
+        tmp_path,
+        "grid",
+        "range = [1.0, 2.0]\npoints = 3",
+        'range = [0.5, 2.0]\ndistribution = "log_uniform"\npoints = 3',
+        "values = [10, 12]\nwhole = true",
+    )
     corners = drawn(tmp_path, "corners", "range = [1.0, 2.0]", "range = [0.5, 2.0]")
 
     assert grid.cases == 18 and corners.cases == 4
@@ -59,16 +69,26 @@ def test_grid_and_corners_have_every_combination(tmp_path: Path) -> None:
 
 
 def test_distributions_are_what_they_say(tmp_path: Path) -> None:
-    spec = drawn(tmp_path, "random", 'range = [0.0, 3.0]\ndistribution = "normal"\nmean = 1.0\ndeviation = 0.5',
-        'range = [0.1, 10.0]\ndistribution = "log_uniform"', "values = [10, 12, 14]\nwhole = true")  # fmt: skip
+    spec = drawn(
+        tmp_path,
+        "random",
+        'range = [0.0, 3.0]\ndistribution = "normal"\nmean = 1.0\ndeviation = 0.5',
+        'range = [0.1, 10.0]\ndistribution = "log_uniform"',
+        "values = [10, 12, 14]\nwhole = true",
+    )
     load, inertia, bits = values_of(spec, 0, spec.cases).T
     error = 5.0 / np.sqrt(spec.cases)
 
-    # A normal distribution cut at -2 and +4 deviations: mean 1 + 0.5 (phi(-2) - phi(4)) / (Phi(4) - Phi(-2)).
-    assert load.mean() == pytest.approx(1.0 + 0.5 * (0.05399097 - 0.00013383) / (0.99996833 - 0.02275013), abs=0.5 * error)
+    # A normal distribution cut at -2 and +4 deviations: mean 1 + 0.5 (phi(-2) - phi(4)) / (Phi(4) -
+    # Phi(-2)).
+    assert load.mean() == pytest.approx(
+        1.0 + 0.5 * (0.05399097 - 0.00013383) / (0.99996833 - 0.02275013), abs=0.5 * error
+    )
     assert 0.0 <= load.min() and load.max() <= 3.0
     assert np.log10(inertia).mean() == pytest.approx(0.0, abs=0.6 * error)
-    assert [float(np.mean(bits == value)) for value in (10, 12, 14)] == pytest.approx([1.0 / 3.0] * 3, abs=0.5 * error)
+    assert [float(np.mean(bits == value)) for value in (10, 12, 14)] == pytest.approx(
+        [1.0 / 3.0] * 3, abs=0.5 * error
+    )
 
 
 def test_interval_is_that_of_the_books() -> None:

@@ -53,7 +53,9 @@ def test_states_ramps_and_stops(drive: Drive) -> None:
     with pytest.raises(DriveError, match="now"):
         drive.write("MODE_OF_OPERATION", 6)
     reached = until(drive, lambda r: bool(r.statusword & 0x400))
-    assert 0.8 < reached.time_s - began.time_s < 1.3  # 195 rad/s by 200 rad/s2, as long as it is asked in time
+    assert (
+        0.8 < reached.time_s - began.time_s < 1.3
+    )  # 195 rad/s by 200 rad/s2, as long as it is asked in time
     drive.write("CONTROLWORD", ControlWord.QUICK_STOP)
     braking = until(drive, lambda r: r.speed_e_radps < 150.0)
     assert state_words(braking.statusword) == "quick stop active"
@@ -67,7 +69,9 @@ def test_homing_finds_the_angle(drive: Drive) -> None:
     drive.set_run(True)
     until(drive, lambda r: r.mode == Mode.ALIGN)
     found = until(drive, lambda r: bool(r.statusword & 0x1000) and bool(r.statusword & 0x400))
-    assert found.mode == Mode.READY and found.statusword & 0xC000 == 0x8000  # bridge off, referenced
+    assert (
+        found.mode == Mode.READY and found.statusword & 0xC000 == 0x8000
+    )  # bridge off, referenced
     drive.set_run(False)
     until(drive, lambda r: state_words(r.statusword) == "switch on disabled")
     session.start(drive, 100.0)
@@ -83,8 +87,12 @@ def test_runs_on_a_serial_line(served: Served) -> None:
 def test_a_fault_is_said_in_words_and_reset(served: Served, drive: Drive) -> None:
     bench = served.bench()
     bench.ask("load 0.75")
-    run = subprocess.Popen([sys.executable, "-m", "sdre_drive", "run", "300", "--radps", *served.options()],
-                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)  # fmt: skip
+    run = subprocess.Popen(
+        [sys.executable, "-m", "sdre_drive", "run", "300", "--radps", *served.options()],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
     until(drive, lambda r: r.mode == Mode.RUN)
     bench.ask('fault kind = "current_zero", phase = "a"')
     _, said = run.communicate(timeout=60)
@@ -101,8 +109,11 @@ def test_a_fault_is_said_in_words_and_reset(served: Served, drive: Drive) -> Non
 
 
 def test_ctrl_c_stops_the_motor(served: Served, drive: Drive) -> None:
-    run = subprocess.Popen([sys.executable, "-m", "sdre_drive", "run", "200", "--radps", *served.options()],
-                           stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # fmt: skip
+    run = subprocess.Popen(
+        [sys.executable, "-m", "sdre_drive", "run", "200", "--radps", *served.options()],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
     until(drive, lambda r: r.mode == Mode.RUN)
     run.send_signal(signal.SIGINT)
     run.communicate(timeout=60)
@@ -148,18 +159,43 @@ def columns(file: Path) -> Dict[str, List[float]]:
     return {name: [float(row[k]) for row in rows] for k, name in enumerate(head)}
 
 
-def test_scope_takes_a_step_around_its_trigger(served: Served, drive: Drive, tmp_path: Path) -> None:
+def test_scope_takes_a_step_around_its_trigger(
+    served: Served, drive: Drive, tmp_path: Path
+) -> None:
     run_at(drive, 200.0)
     file = tmp_path / "scope.csv"
     taking = subprocess.Popen(
-        [sys.executable, "-m", "sdre_drive", "scope", "--csv", str(file), "--signals", "SPEED_WANTED,SPEED,IQ,DUTY_A", "--before", "100",
-         "--trigger", "rising", "--level", "250", "--wait", "60", *served.options()], stdout=subprocess.PIPE, text=True)  # fmt: skip
+        [
+            sys.executable,
+            "-m",
+            "sdre_drive",
+            "scope",
+            "--csv",
+            str(file),
+            "--signals",
+            "SPEED_WANTED,SPEED,IQ,DUTY_A",
+            "--before",
+            "100",
+            "--trigger",
+            "rising",
+            "--level",
+            "250",
+            "--wait",
+            "60",
+            *served.options(),
+        ],
+        stdout=subprocess.PIPE,
+        text=True,
+    )
     until(drive, lambda r: drive.traces()["SCOPE_STATE"] == 2)  # waits
     drive.set_speed(300.0)
     taking.communicate(timeout=60)
     assert taking.returncode == 0
     taken = columns(file)
-    assert list(taken) == ["time_s", "SPEED_WANTED", "SPEED", "IQ", "DUTY_A"] and len(taken["time_s"]) == 512
+    assert (
+        list(taken) == ["time_s", "SPEED_WANTED", "SPEED", "IQ", "DUTY_A"]
+        and len(taken["time_s"]) == 512
+    )
     assert taken["SPEED_WANTED"] == [200.0] * 100 + [300.0] * 412
     assert taken["time_s"][100] == 0.0 and abs(taken["time_s"][511] - 0.0822) < 1e-6
     assert abs(taken["SPEED"][99] - 200.0) < 5.0 and taken["SPEED"][511] > 290.0
@@ -200,7 +236,7 @@ def test_log_is_a_table(served: Served, tmp_path: Path) -> None:
     [
         (["status", "--tcp", "127.0.0.1:1"], "nothing answers at 127.0.0.1:1"),
         (["status", "--port", "/dev/no-such-line"], "nothing answers at /dev/no-such-line"),
-        (["status", "--tcp", "drive"], 'is not HOST:PORT'),
+        (["status", "--tcp", "drive"], "is not HOST:PORT"),
         (["status", "--tcp", "a:1", "--port", "b"], "give one"),
         (["run", "1000", "--tcp", "127.0.0.1:1"], "nothing answers"),
         (["run", "fast"], "Invalid value for"),
@@ -219,7 +255,6 @@ def test_a_speed_beyond_the_drive_is_refused(drive: Drive) -> None:
     with pytest.raises(DriveError, match="out of the drive's range"):
         session.start(drive, 3000.0)
     assert drive.read().mode == Mode.READY
-
 
 
 class SmallScope:

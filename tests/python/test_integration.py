@@ -19,10 +19,11 @@ from sdre_drive import register_map
 from sdre_drive.connection import Drive
 from sdre_drive.registers import Mode
 
-
 NEEDS_LIBMODBUS = pytest.mark.skipif(
-    not shutil.which("pkg-config") or subprocess.run(["pkg-config", "--exists", "libmodbus"], check=False).returncode != 0,
-    reason="libmodbus is not installed")  # fmt: skip
+    not shutil.which("pkg-config")
+    or subprocess.run(["pkg-config", "--exists", "libmodbus"], check=False).returncode != 0,
+    reason="libmodbus is not installed",
+)
 
 
 def block(language: str, port: int) -> str:
@@ -37,16 +38,26 @@ def block(language: str, port: int) -> str:
 def test_mbpoll(served: Served) -> None:
     with Drive(served.target()) as drive:
         until(drive, lambda r: r.mode == Mode.READY)
-    told = subprocess.run(["sh", "-c", block("sh", served.tcp)], capture_output=True, text=True, timeout=100)
+    told = subprocess.run(
+        ["sh", "-c", block("sh", served.tcp)], capture_output=True, text=True, timeout=100
+    )
     assert told.stdout.count("Written 1 references.") == 4, told
     modes = [int(m) for m in re.findall(r"^\[3\]:\s+(\d+)", told.stdout, flags=re.M)]
-    assert Mode.ALIGN in modes and modes[-1] in (Mode.ALIGN, Mode.RUN)  # a slow machine is still at it
+    assert Mode.ALIGN in modes and modes[-1] in (
+        Mode.ALIGN,
+        Mode.RUN,
+    )  # a slow machine is still at it
     with Drive(served.target()) as drive:
         until(drive, lambda r: r.mode == Mode.READY and not r.conditions & 2)
 
 
 def test_pymodbus(served: Served) -> None:
-    told = subprocess.run([sys.executable, "-c", block("python", served.tcp)], capture_output=True, text=True, timeout=200)
+    told = subprocess.run(
+        [sys.executable, "-c", block("python", served.tcp)],
+        capture_output=True,
+        text=True,
+        timeout=200,
+    )
     assert told.returncode == 0, told.stderr
     assert re.fullmatch(r"runs at (19[5-9]|20[0-9]) rad/s\n", told.stdout)
     with Drive(served.target()) as drive:
@@ -58,8 +69,25 @@ def test_pymodbus(served: Served) -> None:
 def plc(tmp_path_factory: pytest.TempPathFactory) -> str:
     """docs/examples/plc_cycle.c, compiled as its head says."""
     out = str(tmp_path_factory.mktemp("plc") / "plc_cycle")
-    flags = subprocess.run(["pkg-config", "--cflags", "--libs", "libmodbus"], capture_output=True, text=True, check=True).stdout.split()
-    subprocess.run(["cc", "-Wall", "-Wextra", "-Werror", str(ROOT / "docs/examples/plc_cycle.c"), "-o", out, *flags], check=True)
+    flags = subprocess.run(
+        ["pkg-config", "--cflags", "--libs", "libmodbus"],
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout.split()
+    subprocess.run(
+        [
+            "cc",
+            "-Wall",
+            "-Wextra",
+            "-Werror",
+            str(ROOT / "docs/examples/plc_cycle.c"),
+            "-o",
+            out,
+            *flags,
+        ],
+        check=True,
+    )
     return out
 
 
@@ -70,11 +98,16 @@ def states(told: str) -> list:
 
 @NEEDS_LIBMODBUS
 def test_plc_cycle_in_c(served: Served, plc: str) -> None:
-    """From switch on disabled to the speed; silence stops it, and it starts when it is told anew."""
+    """From switch on disabled to the speed; silence stops it, and it starts when it is told
+    anew."""
     with Drive(served.target()) as drive:
         until(drive, lambda r: r.mode == Mode.READY)
-    told = subprocess.run([plc, str(served.tcp), *"run 6 silent 3 run 2 stop 1 run 6 stop 2".split()], capture_output=True, text=True,
-                          timeout=100)  # fmt: skip
+    told = subprocess.run(
+        [plc, str(served.tcp), *"run 6 silent 3 run 2 stop 1 run 6 stop 2".split()],
+        capture_output=True,
+        text=True,
+        timeout=100,
+    )
     assert told.returncode == 0, told
     seen = states(told.stdout)
     order = [state for k, (state, _) in enumerate(seen) if k == 0 or state != seen[k - 1][0]]
@@ -88,7 +121,9 @@ def test_plc_cycle_in_c(served: Served, plc: str) -> None:
 def test_plc_cycle_on_a_serial_line_acknowledges_a_fault(served: Served, plc: str) -> None:
     with Drive(served.target()) as drive:
         until(drive, lambda r: r.mode == Mode.READY)
-    running = subprocess.Popen([plc, served.pty, *"run 9 ack 1 stop 1".split()], stdout=subprocess.PIPE, text=True)
+    running = subprocess.Popen(
+        [plc, served.pty, *"run 9 ack 1 stop 1".split()], stdout=subprocess.PIPE, text=True
+    )
     assert running.stdout
     lines = []
     for line in running.stdout:
@@ -123,7 +158,9 @@ def test_plc_cycle_in_structured_text(served: Served) -> None:
                     seen.append(now["state"])
                 if now[wanted]:
                     return seen
-                answer = line.readwrite_registers(read_address=4096, read_count=12, write_address=0, values=now["send"])
+                answer = line.readwrite_registers(
+                    read_address=4096, read_count=12, write_address=0, values=now["send"]
+                )
                 known.update(received=answer.registers, connected=True)
                 time.sleep(0.02)
             raise AssertionError(f"not {wanted}: {block.values}")

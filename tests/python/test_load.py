@@ -19,7 +19,9 @@ GAINS = ROOT / "build/host/bin/sdre-gains"
 
 
 def image(drive_file: Path, out: Path) -> Path:
-    subprocess.run([str(GAINS), "image", str(drive_file), "--out", str(out)], check=True, capture_output=True)
+    subprocess.run(
+        [str(GAINS), "image", str(drive_file), "--out", str(out)], check=True, capture_output=True
+    )
     return out
 
 
@@ -55,14 +57,22 @@ def test_what_cannot_be_loaded_is_one_line(served: Served, tmp_path: Path, renam
     damaged.write_bytes(octets[:-2])
     empty = tmp_path / "empty.image"
     empty.write_bytes(b"")
-    for file, said in ((other, "is for law noc_h"), (damaged, "it is damaged"), (empty, "no image"),
-                       (tmp_path / "none", "No such file")):  # fmt: skip
+    for file, said in (
+        (other, "is for law noc_h"),
+        (damaged, "it is damaged"),
+        (empty, "no image"),
+        (tmp_path / "none", "No such file"),
+    ):
         refused = command("load", str(file), *served.options())
-        assert refused.returncode == 1 and said in refused.stderr and "Traceback" not in refused.stderr, refused
+        assert (
+            refused.returncode == 1 and said in refused.stderr and "Traceback" not in refused.stderr
+        ), refused
     assert "compiled in" in command("load", *served.options()).stdout
 
 
-def test_a_lost_answer_is_made_good(served: Served, renamed: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_lost_answer_is_made_good(
+    served: Served, renamed: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Words that arrived although nobody heard so are not written again."""
     whole = Drive.write_words
     lost = []
@@ -81,16 +91,37 @@ def test_a_lost_answer_is_made_good(served: Served, renamed: Path, monkeypatch: 
 
 def test_the_drive_finds_its_motor(served: Served, tmp_path: Path) -> None:
     found, new = tmp_path / "found.toml", tmp_path / "new.toml"
-    done = command("commission", "--out", str(found), "--current", "3", "--speed", "1200", *served.options())
+    done = command(
+        "commission", "--out", str(found), "--current", "3", "--speed", "1200", *served.options()
+    )
     assert done.returncode == 0, done
-    subprocess.run([str(GAINS), "from-commissioning", str(found), "--drive", str(SHIPPED), "--out", str(new)],
-                   check=True, capture_output=True)  # fmt: skip
+    subprocess.run(
+        [str(GAINS), "from-commissioning", str(found), "--drive", str(SHIPPED), "--out", str(new)],
+        check=True,
+        capture_output=True,
+    )
     text = new.read_text()
-    for key, truth, share in (("stator_resistance_Ohm", 2.48, 0.03), ("d_axis_inductance_H", 0.07498, 0.05),
-                              ("q_axis_inductance_H", 0.1139, 0.05), ("pm_flux_Wb", 0.193, 0.02),
-                              ("inertia_kgm2", 4.2e-4, 0.05)):  # fmt: skip
+    for key, truth, share in (
+        ("stator_resistance_Ohm", 2.48, 0.03),
+        ("d_axis_inductance_H", 0.07498, 0.05),
+        ("q_axis_inductance_H", 0.1139, 0.05),
+        ("pm_flux_Wb", 0.193, 0.02),
+        ("inertia_kgm2", 4.2e-4, 0.05),
+    ):
         value = re.search(rf"^{key}\s*= (\S+)", text, flags=re.M)
         assert value and abs(float(value.group(1)) / truth - 1.0) < share, key
-    refused = command("commission", "--out", str(tmp_path / "x"), "--current", "300", "--speed", "1200",
-                      *served.options())  # fmt: skip
-    assert refused.returncode == 1 and not (tmp_path / "x").exists() and "Traceback" not in refused.stderr
+    refused = command(
+        "commission",
+        "--out",
+        str(tmp_path / "x"),
+        "--current",
+        "300",
+        "--speed",
+        "1200",
+        *served.options(),
+    )
+    assert (
+        refused.returncode == 1
+        and not (tmp_path / "x").exists()
+        and "Traceback" not in refused.stderr
+    )

@@ -28,14 +28,29 @@ def where_it_says(output: str) -> move.Where:
 
 def test_move_goes_there_and_back(served: Served, drive: Drive) -> None:
     there = command("move", "1.5", "--for", "0.2", *served.options())
-    assert there.returncode == 0 and abs(where_it_says(there.stdout).now - 15000) <= WINDOW_CNT, there
+    assert there.returncode == 0 and abs(where_it_says(there.stdout).now - 15000) <= WINDOW_CNT, (
+        there
+    )
     assert until(drive, lambda r: r.mode == Mode.READY)
     let_go = move.where(drive).now
     assert abs(let_go - 15000) <= DRIFT_CNT
-    back = command("move", "--relative", "--counts", "--for", "0.2", "--speed", "600", *served.options(), "--", "-7500")
+    back = command(
+        "move",
+        "--relative",
+        "--counts",
+        "--for",
+        "0.2",
+        "--speed",
+        "600",
+        *served.options(),
+        "--",
+        "-7500",
+    )
     found = where_it_says(back.stdout)
     assert back.returncode == 0 and abs(found.now - found.target) <= WINDOW_CNT, back
-    assert abs(found.target - (let_go - 7500)) <= DRIFT_CNT  # relative to where it stands when it is enabled again
+    assert (
+        abs(found.target - (let_go - 7500)) <= DRIFT_CNT
+    )  # relative to where it stands when it is enabled again
 
 
 def test_a_load_does_not_move_it_away(served: Served, drive: Drive) -> None:
@@ -60,7 +75,9 @@ def while_it_runs(drive: Drive, *words: str) -> CompletedProcess:
         return done.result()
 
 
-def test_a_run_in_another_mode_is_neither_taken_over_nor_disturbed(served: Served, drive: Drive) -> None:
+def test_a_run_in_another_mode_is_neither_taken_over_nor_disturbed(
+    served: Served, drive: Drive
+) -> None:
     run_at(drive, 100.0)
     refused = while_it_runs(drive, "move", "1", *served.options())
     assert refused.returncode == 1 and "another mode" in refused.stderr + refused.stdout, refused

@@ -21,13 +21,18 @@ from conftest import Served
 
 pytest.importorskip("nicegui")
 
-CLICK = "(words => { [...document.querySelectorAll('button')].find(b => b.innerText.trim().toLowerCase() == words).click(); return true })"
+CLICK = (
+    "(words => { [...document.querySelectorAll('button')].find(b => "
+    "b.innerText.trim().toLowerCase() == words).click(); return true })"
+)
 TEXT = "document.body.innerText"
 # Everything that the plots hold: what moves changes it.
 # Pixels of the second line's green, which nothing else on its chart has.
 SCOPE_DRAWN = """(() => { const c = document.querySelectorAll('canvas')[1];
   const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
-  let n = 0; for (let k = 0; k < d.length; k += 4) if (d[k + 1] > d[k] + 30 && d[k + 1] > d[k + 2] + 30) n++; return n })()"""
+  let n = 0;
+  for (let k = 0; k < d.length; k += 4) if (d[k + 1] > d[k] + 30 && d[k + 1] > d[k + 2] + 30) n++;
+  return n })()"""
 DRAWN = "(() => document.querySelector('canvas').toDataURL())()"
 
 
@@ -40,9 +45,22 @@ def address(served: Served) -> Iterator[str]:
     # NiceGUI takes a run below pytest for a test of its own kind.
     surroundings = {k: v for k, v in os.environ.items() if not k.startswith("PYTEST")}
     page = subprocess.Popen(
-        [sys.executable, "-m", "sdre_drive", "ui", "--no-browser", "--page-port", str(port), *served.options(),
-         "--control", f"127.0.0.1:{served.control}"], stdout=subprocess.PIPE, text=True,
-        env=surroundings)  # fmt: skip
+        [
+            sys.executable,
+            "-m",
+            "sdre_drive",
+            "ui",
+            "--no-browser",
+            "--page-port",
+            str(port),
+            *served.options(),
+            "--control",
+            f"127.0.0.1:{served.control}",
+        ],
+        stdout=subprocess.PIPE,
+        text=True,
+        env=surroundings,
+    )
     assert page.stdout
     try:
         where = page.stdout.readline().strip()
@@ -60,7 +78,9 @@ def address(served: Served) -> Iterator[str]:
 def answer(address: str, headers: Dict[str, str]) -> int:
     """HTTP status."""
     try:
-        with urllib.request.urlopen(urllib.request.Request(address, headers=headers), timeout=20) as got:
+        with urllib.request.urlopen(
+            urllib.request.Request(address, headers=headers), timeout=20
+        ) as got:
             return int(got.status)
     except urllib.error.HTTPError as e:
         return e.code
@@ -89,10 +109,14 @@ async def use(address: str, pictures: str) -> None:
         await page.script(f"{CLICK}('run')")
         await page.until(f"/99[0-9] r.min|100[0-9] r.min/.test({TEXT})", 60.0)
         before = await page.script(DRAWN)
-        at = await page.script("(r => [r.left + 0.7 * r.width, r.top + 0.5 * r.height])"
-                               "(document.querySelector('.q-slider__track-container').getBoundingClientRect())")  # fmt: skip
+        at = await page.script(
+            "(r => [r.left + 0.7 * r.width, r.top + 0.5 * r.height])"
+            "(document.querySelector('.q-slider__track-container').getBoundingClientRect())"
+        )
         for kind in ("mousePressed", "mouseReleased"):
-            await page.call("Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], button="left", clickCount=1)
+            await page.call(
+                "Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], button="left", clickCount=1
+            )
         await page.until(f"{TEXT}.includes('load 0.8')")
         await asyncio.sleep(3.0)
         assert await page.script(DRAWN) != before
@@ -101,7 +125,9 @@ async def use(address: str, pictures: str) -> None:
         await asyncio.sleep(0.5)
         await page.script(f"{CLICK}('take')")
         await page.until(f"/\\bdone\\b/.test({TEXT})", 60.0)
-        await page.until(f"document.querySelectorAll('canvas').length == 2 && {SCOPE_DRAWN} > 300", 20.0)
+        await page.until(
+            f"document.querySelectorAll('canvas').length == 2 && {SCOPE_DRAWN} > 300", 20.0
+        )
         if pictures:
             await page.resize(1280, 1570)  # traces and scope
             await asyncio.sleep(0.5)
@@ -114,15 +140,20 @@ async def use(address: str, pictures: str) -> None:
         assert page.errors == []
 
 
-FIELD = """(name => [...document.querySelectorAll('.q-expansion-item')].find(e => e.innerText.includes('Parameters'))
+FIELD = """(name => [...document.querySelectorAll('.q-expansion-item')]
+  .find(e => e.innerText.includes('Parameters'))
   .querySelectorAll('input')[name])"""
 
 
 async def use_parameters(address: str, pictures: str) -> None:
     """Actions of a user; the window is the ninth of them, 5 rad/s by default."""
     async with Browser(address, 1280, 1100) as page:
-        await page.until(f"document.querySelector('canvas') !== null && {TEXT}.includes('READY')", 60.0)
-        await page.script("[...document.querySelectorAll('.q-expansion-item .q-item')].at(-1).click()")
+        await page.until(
+            f"document.querySelector('canvas') !== null && {TEXT}.includes('READY')", 60.0
+        )
+        await page.script(
+            "[...document.querySelectorAll('.q-expansion-item .q-item')].at(-1).click()"
+        )
         await page.until(f"{TEXT}.includes('SPEED_WINDOW') && {TEXT}.includes('nothing is stored')")
         await page.until(f"Number({FIELD}(8).value) == 5")
         await page.script(f"{CLICK}('save')")  # not armed: nothing
@@ -133,7 +164,9 @@ async def use_parameters(address: str, pictures: str) -> None:
         await page.script(f"{FIELD}(8).blur() || true")
         await asyncio.sleep(0.5)
         await page.script(f"{CLICK}('write')")
-        await page.until("document.querySelector('.bg-amber-2') !== null")  # read back: not the default
+        await page.until(
+            "document.querySelector('.bg-amber-2') !== null"
+        )  # read back: not the default
         if pictures:
             await page.script("window.scrollTo(0, 1e6) || true")
             await page.picture(Path(pictures) / "page_params.png")
@@ -141,7 +174,9 @@ async def use_parameters(address: str, pictures: str) -> None:
         await page.until(f"{TEXT}.includes('as stored, writing 1')", 60.0)
         assert await page.script(f"{FIELD}(8).value") == "6.5"
         await page.script(f"{CLICK}('defaults')")
-        await page.until(f"{TEXT}.includes('nothing is stored') && Number({FIELD}(8).value) == 5", 60.0)
+        await page.until(
+            f"{TEXT}.includes('nothing is stored') && Number({FIELD}(8).value) == 5", 60.0
+        )
         assert page.errors == []
 
 

@@ -20,13 +20,19 @@ def test_set_save_and_defaults_over_restarts(served: Served, drive: Drive, tmp_p
         return command("params", "get", name, *served.options()).stdout.strip()
 
     listed = command("params", *served.options())
-    assert listed.returncode == 0 and "nothing is stored" in listed.stdout and "*" not in listed.stdout, listed
+    assert (
+        listed.returncode == 0 and "nothing is stored" in listed.stdout and "*" not in listed.stdout
+    ), listed
     for p in params.PARAMETERS:
         assert p.register.name in listed.stdout
     done = command("params", "set", "acceleration=500", "SPEED_WINDOW=7.5", *served.options())
     assert done.returncode == 0, done
     assert get("ACCELERATION") == "500" and get("speed_window") == "7.5"
-    changed = [line for line in command("params", *served.options()).stdout.splitlines() if line.startswith("*")]
+    changed = [
+        line
+        for line in command("params", *served.options()).stdout.splitlines()
+        if line.startswith("*")
+    ]
     assert len(changed) == 2
     assert command("params", "export", str(tmp_path / "a.toml"), *served.options()).returncode == 0
 
@@ -43,7 +49,10 @@ def test_set_save_and_defaults_over_restarts(served: Served, drive: Drive, tmp_p
     rows = {r["name"]: r for r in csv.DictReader((tmp_path / "a.csv").open())}
     assert len(rows) == len(params.PARAMETERS)
     assert rows["SPEED_WINDOW"]["value"] == "7.5" and rows["SPEED_WINDOW"]["changed"] == "1"
-    assert rows["BAUD_RATE"]["needs_stop"] == "1" and rows["MAX_CURRENT"]["default"] == rows["MAX_CURRENT"]["value"]
+    assert (
+        rows["BAUD_RATE"]["needs_stop"] == "1"
+        and rows["MAX_CURRENT"]["default"] == rows["MAX_CURRENT"]["value"]
+    )
 
 
 def test_a_motor_that_runs_keeps_them(served: Served, drive: Drive) -> None:
@@ -61,7 +70,10 @@ def test_a_new_address_is_followed(served: Served, drive: Drive) -> None:
     assert params.save(drive).number == 1
     assert drive.target.unit == 9
     with Drive(Target(tcp_port=served.tcp, unit=9)) as again:
-        assert {v.name: v.value for v in params.read(again) if v.changed} == {"MODBUS_ADDRESS": 9.0, "SPEED_WINDOW": 6.0}
+        assert {v.name: v.value for v in params.read(again) if v.changed} == {
+            "MODBUS_ADDRESS": 9.0,
+            "SPEED_WINDOW": 6.0,
+        }
     asked = command("--unit", "9", "params", "get", "MODBUS_ADDRESS", *served.options())
     assert asked.stdout.strip() == "9", asked
     params.restore(drive)
@@ -70,17 +82,31 @@ def test_a_new_address_is_followed(served: Served, drive: Drive) -> None:
 
 def test_what_is_no_good_changes_nothing(served: Served, drive: Drive, tmp_path: Path) -> None:
     file = tmp_path / "x.toml"
-    for words, said in ((["set", "NONE=1"], "is not a parameter"), (["set", "ACCELERATION"], "NAME=VALUE"),
-                        (["set", "ACCELERATION=x"], "NAME=VALUE"), (["set", "SPEED_WINDOW=6", "LINE_FORMAT=7"], "not within"),
-                        (["set", "BAUD_RATE=9601"], "out of the drive's range"), (["get", "NONE"], "is not a parameter"),
-                        (["set", "ACCELERATION=nan"], "not within"), (["import", str(file)], "No such file")):  # fmt: skip
+    for words, said in (
+        (["set", "NONE=1"], "is not a parameter"),
+        (["set", "ACCELERATION"], "NAME=VALUE"),
+        (["set", "ACCELERATION=x"], "NAME=VALUE"),
+        (["set", "SPEED_WINDOW=6", "LINE_FORMAT=7"], "not within"),
+        (["set", "BAUD_RATE=9601"], "out of the drive's range"),
+        (["get", "NONE"], "is not a parameter"),
+        (["set", "ACCELERATION=nan"], "not within"),
+        (["import", str(file)], "No such file"),
+    ):
         refused = command("params", *words, *served.options())
-        assert refused.returncode == 1 and said in refused.stderr and "Traceback" not in refused.stderr, refused
-    for text, said in (("[parameters]\nSPEED_WINDOW = 6\nNONE = 1", "is not a parameter"), ("x = 1", "[parameters]"),
-                       ("[parameters]\nSPEED_WINDOW = 'a'", "not a number"), ("[", "x.toml")):  # fmt: skip
+        assert (
+            refused.returncode == 1 and said in refused.stderr and "Traceback" not in refused.stderr
+        ), refused
+    for text, said in (
+        ("[parameters]\nSPEED_WINDOW = 6\nNONE = 1", "is not a parameter"),
+        ("x = 1", "[parameters]"),
+        ("[parameters]\nSPEED_WINDOW = 'a'", "not a number"),
+        ("[", "x.toml"),
+    ):
         file.write_text(text)
         refused = command("params", "import", str(file), *served.options())
-        assert refused.returncode == 1 and said in refused.stderr and "Traceback" not in refused.stderr, refused
+        assert (
+            refused.returncode == 1 and said in refused.stderr and "Traceback" not in refused.stderr
+        ), refused
     assert not any(v.changed for v in params.read(drive))
 
 
@@ -90,7 +116,11 @@ def test_the_line_of_the_command_line(monkeypatch: pytest.MonkeyPatch) -> None:
     t = target("/dev/ttyUSB9", None)
     assert (t.baud, t.format, t.unit) == (9600, "8N2", 7)
     client = Drive(t)._client
-    assert client.comm_params.baudrate == 9600 and client.comm_params.parity == "N" and client.comm_params.stopbits == 2
+    assert (
+        client.comm_params.baudrate == 9600
+        and client.comm_params.parity == "N"
+        and client.comm_params.stopbits == 2
+    )
     for wrong in ("9600", "x-8E1", "9600-7E1"):
         with pytest.raises(DriveError, match="BAUD-FORMAT"):
             use_line(wrong, 1)

@@ -46,5 +46,9 @@ def test_recipe(served: Served, drive: Drive, entry: Entry) -> None:
         until(drive, lambda r: r.time_s > began_s + how.wait_s)
         session.stop(drive)
         began_s = drive.read().time_s
-    reading = until(drive, lambda r: is_there(r, entry) or r.mode == Mode.FAULT or r.time_s > began_s + how.wait_s, LONGEST_S)
+    reading = until(
+        drive,
+        lambda r: is_there(r, entry) or r.mode == Mode.FAULT or r.time_s > began_s + how.wait_s,
+        LONGEST_S,
+    )
     assert is_there(reading, entry), reading

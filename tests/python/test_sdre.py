@@ -30,7 +30,9 @@ PERIODS = 400  # of loops in Python: through the first transient
 
 def tool(name: str, *words: Any, exit_codes: Any = (0,)) -> str:
     """Output of a command-line tool."""
-    done = subprocess.run([str(TOOLS / name), *map(str, words)], capture_output=True, text=True, timeout=120)
+    done = subprocess.run(
+        [str(TOOLS / name), *map(str, words)], capture_output=True, text=True, timeout=120
+    )
     assert done.returncode in exit_codes, done.stderr
     return done.stdout
 
@@ -42,8 +44,19 @@ def short(path: Path, duration_s: float = 0.1) -> Dict[str, Any]:
     return keys
 
 
-@pytest.mark.parametrize("name", ["ipmsm_390w", "ipmsm_390w_speed", "ipmsm_390w_conventional", "ipmsm_390w_noc_h", "servo_200w",
-    "servo_200w_pid", "ipmsm_390w_pi_foc", "servo_200w_cdobc_printed"])  # fmt: skip
+@pytest.mark.parametrize(
+    "name",
+    [
+        "ipmsm_390w",
+        "ipmsm_390w_speed",
+        "ipmsm_390w_conventional",
+        "ipmsm_390w_noc_h",
+        "servo_200w",
+        "servo_200w_pid",
+        "ipmsm_390w_pi_foc",
+        "servo_200w_cdobc_printed",
+    ],
+)
 def test_report_is_that_of_sdre_gains(name: str) -> None:
     path = DRIVES / f"{name}.toml"
     design = sdre.design(sdre.Drive.from_toml(path))
@@ -64,12 +77,22 @@ def test_design_has_gains_and_certificate_as_arrays() -> None:
     assert design.certificate.certified and not design.certificate.failures
     assert 0.0 < design.certificate.whole_loop.spectral_radius < 1.0
     assert max(design.certificate.whole_loop.sensitivity_peaks.values()) <= 3.0
-    at_2 = design.controller.gain[0] + 2.0 * (design.controller.gain[1] + 2.0 * design.controller.gain[2])
+    at_2 = design.controller.gain[0] + 2.0 * (
+        design.controller.gain[1] + 2.0 * design.controller.gain[2]
+    )
     assert np.array_equal(design.controller.at(2.0), at_2)
 
 
-@pytest.mark.parametrize("scenario", ["board_load_step", "fig6_load_step_varied", "board_flux_weakening", "servo_case_1_2",
-    "harmonics_load_step"])  # fmt: skip
+@pytest.mark.parametrize(
+    "scenario",
+    [
+        "board_load_step",
+        "fig6_load_step_varied",
+        "board_flux_weakening",
+        "servo_case_1_2",
+        "harmonics_load_step",
+    ],
+)
 def test_run_is_that_of_sdre_sil(scenario: str, tmp_path: Path) -> None:
     path = SCENARIOS / f"{scenario}.toml"
     tool("sdre-sil", "run", path, "--csv", tmp_path / "t.csv", "--json", tmp_path / "m.json")
@@ -89,13 +112,28 @@ def test_picture_is_that_of_the_script_of_sdre_sil(tmp_path: Path) -> None:
     run = sdre.simulate(None, LOAD_STEP)
     run.plot(tmp_path / "here.svg", "a title")
     (tmp_path / "marks.json").write_text(run._native.marks)
-    subprocess.run([sys.executable, script, csv, "a title", tmp_path / "there.svg", tmp_path / "marks.json"], check=True)
+    subprocess.run(
+        [sys.executable, script, csv, "a title", tmp_path / "there.svg", tmp_path / "marks.json"],
+        check=True,
+    )
     assert (tmp_path / "here.svg").read_bytes() == (tmp_path / "there.svg").read_bytes()
 
 
 def test_another_drive_and_another_seed_are_those_of_sdre_sil(tmp_path: Path) -> None:
     drive = DRIVES / "ipmsm_390w_pi_foc_edges.toml"
-    tool("sdre-sil", "run", LOAD_STEP, "--drive", drive, "--seed", 7, "--csv", tmp_path / "t.csv", "--json", tmp_path / "m.json")
+    tool(
+        "sdre-sil",
+        "run",
+        LOAD_STEP,
+        "--drive",
+        drive,
+        "--seed",
+        7,
+        "--csv",
+        tmp_path / "t.csv",
+        "--json",
+        tmp_path / "m.json",
+    )
 
     run = sdre.simulate(sdre.Drive.from_toml(drive), LOAD_STEP, seed=7)
 
@@ -159,9 +197,15 @@ def test_core_and_plant_in_a_python_loop_are_the_run() -> None:
     for k in range(PERIODS):
         state = plant.state
         assert (state.time_s, state.omega_e_radps, state.iq_A, state.id_A) == (
-            run.trace.time_s[k], run.trace.omega_e_radps[k], run.trace.iq_A[k], run.trace.id_A[k]), k  # fmt: skip
+            run.trace.time_s[k],
+            run.trace.omega_e_radps[k],
+            run.trace.iq_A[k],
+            run.trace.id_A[k],
+        ), k
         bridge = core.step(plant.sample, run.trace.omega_ref_e_radps[k])
-        assert core.values() == {name: run.trace.as_dict()[name][k] for name in sdre.CORE_QUANTITIES}
+        assert core.values() == {
+            name: run.trace.as_dict()[name][k] for name in sdre.CORE_QUANTITIES
+        }
         plant.step(bridge)
         assert plant.state.peak_current_A == run.trace.peak_current_A[k]
 
@@ -191,7 +235,9 @@ def test_wrong_sample_opens_the_bridge_until_reset() -> None:
     core, good = sdre.Core(scenario), sdre.Plant(scenario).sample
 
     assert core.step(good, 300.0).gate_enable
-    assert not core.step(good._replace(ia_A=float("nan"), ib_A=float("nan"), valid=False), 300.0).gate_enable
+    assert not core.step(
+        good._replace(ia_A=float("nan"), ib_A=float("nan"), valid=False), 300.0
+    ).gate_enable
     assert core.fault == "invalid sample"
     core.reset()
     assert core.fault == "none"
@@ -204,7 +250,9 @@ def test_voltage_comes_out_of_duty_ratios() -> None:
     alpha, beta = (2.0 * a - b - c) / 3.0, (b - c) / np.sqrt(3.0)
 
     assert share == 1.0
-    assert alpha == pytest.approx(vd_V * np.cos(theta) - vq_V * np.sin(theta), abs=1e-3)  # single precision of 295 V
+    assert alpha == pytest.approx(
+        vd_V * np.cos(theta) - vq_V * np.sin(theta), abs=1e-3
+    )  # single precision of 295 V
     assert beta == pytest.approx(vd_V * np.sin(theta) + vq_V * np.cos(theta), abs=1e-3)
     assert sdre.voltage_duty(0.0, 500.0, theta, dc_link_V)[1] < 1.0
 
@@ -240,18 +288,32 @@ def wrong_inputs() -> List[Any]:
         (lambda: sdre.Drive.from_text("a = ", "mine"), "mine:1: not valid TOML"),
         (lambda: sdre.Drive.from_dict({"schema": 1}), "is missing"),
         (lambda: sdre.Drive.from_dict({"schema": object()}), "cannot be TOML"),
-        (lambda: drive.replaced({"motor.inertia_kgm2": -1.0}), r"\[motor\] inertia_kgm2 = -1 is not allowed"),
+        (
+            lambda: drive.replaced({"motor.inertia_kgm2": -1.0}),
+            r"\[motor\] inertia_kgm2 = -1 is not allowed",
+        ),
         (lambda: drive.replaced({"motor.inertia_kgm2.x": 1.0}), "leads nowhere"),
         (lambda: sdre.simulate(None, {"duration_s": 1.0}), "drive is missing"),
         (lambda: sdre.simulate(drive, {"duration_s": 1.0, "sped": 1}), "sped is not a known key"),
         (lambda: sdre.simulate(drive, LOAD_STEP, seed=-1), "seed = -1 is not allowed"),
-        (lambda: sdre.simulate(drive, changed(LOAD_STEP, {"load_torque.9.value_Nm": 1.0})), "leads nowhere"),
+        (
+            lambda: sdre.simulate(drive, changed(LOAD_STEP, {"load_torque.9.value_Nm": 1.0})),
+            "leads nowhere",
+        ),
         (lambda: sdre.care([[1.0]], Q=[[1.0]]), "either B and R or G"),
         (lambda: sdre.care([[1.0]], [[1.0, 2.0]], [[1.0]], [[1.0]]), "B is 1 x 2"),
         (lambda: sdre.care([[float("nan")]], [[1.0]], [[1.0]], [[1.0]]), "must be finite"),
-        (lambda: sdre.Cases(sdre.Scenario(LOAD_STEP), drive, [sdre.Variable("x", ("load_torque.7.value_Nm",))]), "leads nowhere"),
-        (lambda: sdre.Cases(sdre.Scenario(LOAD_STEP), drive, [], ["speed"]), "not the name of a metric"),
-    ]  # fmt: skip
+        (
+            lambda: sdre.Cases(
+                sdre.Scenario(LOAD_STEP), drive, [sdre.Variable("x", ("load_torque.7.value_Nm",))]
+            ),
+            "leads nowhere",
+        ),
+        (
+            lambda: sdre.Cases(sdre.Scenario(LOAD_STEP), drive, [], ["speed"]),
+            "not the name of a metric",
+        ),
+    ]
 
 
 @pytest.mark.parametrize("number", range(15))

@@ -31,8 +31,12 @@ def test_every_example_is_tried() -> None:
 @pytest.mark.parametrize("name", SAYS)
 def test_example(name: str, tmp_path: Path) -> None:
     picture = tmp_path / f"{name}.png"
-    done = subprocess.run([sys.executable, "-B", str(EXAMPLES / f"{name}.py"), str(picture)], capture_output=True, text=True,
-        timeout=180)  # fmt: skip
+    done = subprocess.run(
+        [sys.executable, "-B", str(EXAMPLES / f"{name}.py"), str(picture)],
+        capture_output=True,
+        text=True,
+        timeout=180,
+    )
 
     assert done.returncode == 0, done.stderr
     assert SAYS[name] in done.stdout
@@ -44,7 +48,9 @@ def test_environment_is_one_of_gymnasium() -> None:
 
     from sdre.environment import SpeedEnv
 
-    check_env(SpeedEnv(sdre.Drive.from_toml(SHIPPED), short(LOAD_STEP, 0.02)), skip_render_check=True)
+    check_env(
+        SpeedEnv(sdre.Drive.from_toml(SHIPPED), short(LOAD_STEP, 0.02)), skip_render_check=True
+    )
 
 
 def test_environment_ends_with_its_scenario_and_after_too_much_current() -> None:
@@ -65,8 +71,13 @@ def test_environment_ends_with_its_scenario_and_after_too_much_current() -> None
 
 def test_core_on_the_plant_of_motulator_does_the_same_as_on_ours(tmp_path: Path) -> None:
     picture = tmp_path / "both.png"
-    done = subprocess.run([sys.executable, "-B", str(EXAMPLES / "motulator_both.py"), str(picture)], capture_output=True,
-        text=True, check=True, timeout=180)  # fmt: skip
+    done = subprocess.run(
+        [sys.executable, "-B", str(EXAMPLES / "motulator_both.py"), str(picture)],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=180,
+    )
     apart = float(re.search(r"differ by ([0-9.]+) rad/s", done.stdout).group(1))
 
     assert apart < 0.6  # measured 0.125 of 300 rad/s: their solver's relative tolerance is 1e-3

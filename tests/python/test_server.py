@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The virtual drive against clients that break off, talk nonsense, or are too many: the motor turns on."""
+"""The virtual drive against clients that break off, talk nonsense, or are too many: the motor turns
+on."""
 
 from __future__ import annotations
 
@@ -92,8 +93,25 @@ def test_two_hundred_connections(served: Served, drive: Drive) -> None:
         until(another, lambda r: r.mode == Mode.RUN, 0.5)
 
 
-@pytest.mark.parametrize("line", ["", "load", "load x", "load 1e9", "load nan", "dc_link -1", "fault", 'fault kind = "x"',
-                                  'fault kind = "phase_open"', "trace 1e9", "trace -1", "halt", "fault }]", "\x00\xff"])  # fmt: skip
+@pytest.mark.parametrize(
+    "line",
+    [
+        "",
+        "load",
+        "load x",
+        "load 1e9",
+        "load nan",
+        "dc_link -1",
+        "fault",
+        'fault kind = "x"',
+        'fault kind = "phase_open"',
+        "trace 1e9",
+        "trace -1",
+        "halt",
+        "fault }]",
+        "\x00\xff",
+    ],
+)
 def test_bench_refuses_in_words(served: Served, line: str) -> None:
     s = connect(served.control)
     s.sendall(line.encode("latin-1") + b"\n")
@@ -107,7 +125,9 @@ def test_a_client_that_reads_slowly_gets_all_of_a_long_answer(served: Served) ->
     while bench.ask("state")["time_s"] < 4.0:
         time.sleep(0.2)
     s = socket.socket()
-    s.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)  # so that the answer does not fit into what lies between
+    s.setsockopt(
+        socket.SOL_SOCKET, socket.SO_RCVBUF, 4096
+    )  # so that the answer does not fit into what lies between
     s.settimeout(20)
     s.connect(("127.0.0.1", served.control))
     s.sendall(b"trace 20\n")

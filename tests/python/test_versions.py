@@ -38,7 +38,11 @@ def of_map(digest: str, monkeypatch: pytest.MonkeyPatch) -> Drive:
 
     def asked(call: str, *_: Any, **kwargs: Any) -> Answer:
         assert call == "read_device_information"
-        return Answer({VERSION_OBJECT: b"9.0.0"} if kwargs["read_code"] == 1 else {MAP_OBJECT: digest.encode()})
+        return Answer(
+            {VERSION_OBJECT: b"9.0.0"}
+            if kwargs["read_code"] == 1
+            else {MAP_OBJECT: digest.encode()}
+        )
 
     monkeypatch.setattr(drive, "_asked", asked)
     return drive

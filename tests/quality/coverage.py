@@ -5,6 +5,7 @@
 
 Exit code 1 below 100 % of the lines or 95 % of the branches of either directory.
 """
+
 import json
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -18,7 +19,15 @@ BRANCHES = 95.0
 def measured(build):
     """Per source: lines, branches, what is missed."""
     for source in ub.sources():
-        out = ub.run(["gcov", "--json-format", "--stdout", "--branch-probabilities", build.object(source.stem)])
+        out = ub.run(
+            [
+                "gcov",
+                "--json-format",
+                "--stdout",
+                "--branch-probabilities",
+                build.object(source.stem),
+            ]
+        )
         for file in json.loads(out.stdout)["files"]:
             if file["file"] == str(source):
                 yield source, file["lines"]
@@ -53,10 +62,16 @@ def main():
                 branches += len(taken)
                 missed_branches += sum(count == 0 for count in taken)
                 if "-v" in sys.argv and (row["count"] == 0 or 0 in taken):
-                    print(f"{source.name}:{row['line_number']}: {row['count']} times, branches {taken}")
+                    print(
+                        f"{source.name}:{row['line_number']}: {row['count']} times, branches "
+                        f"{taken}"
+                    )
         line_share = 100.0 * (1 - missed_lines / lines)
         branch_share = 100.0 * (1 - missed_branches / branches)
-        print(f"firmware/{directory}: {line_share:.2f} % of {lines} lines, {branch_share:.2f} % of {branches} branches")
+        print(
+            f"firmware/{directory}: {line_share:.2f} % of {lines} lines, {branch_share:.2f} % of "
+            f"{branches} branches"
+        )
         good = good and line_share >= LINES and branch_share >= BRANCHES
     return 0 if good else 1
 

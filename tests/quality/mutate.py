@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""Changes one place of firmware/control or firmware/app at a time and looks whether a unit test sees it.
+"""Changes one place of firmware/control or firmware/app at a time and looks whether a unit test
+sees it.
 
-    mutate.py [COUNT] [FILE..]     COUNT mutants (default 200), drawn evenly, the same every time; of these files only
+    mutate.py [COUNT] [FILE..]     COUNT mutants (default 200), drawn evenly, the same every time;
+                                   of these files only
 
-A mutant that no compiler accepts, or that makes the same object, is not counted. Each is tried by the tests of its own
-module first, then by all others. Prints what survives and the share that is killed; exit code 1 below 90 %.
+A mutant that no compiler accepts, or that makes the same object, is not counted. Each is tried by
+the tests of its own module first, then by all others. Prints what survives and the share that is
+killed; exit code 1 below 90 %.
 """
+
 import random
 import re
 import sys
@@ -18,12 +22,34 @@ SECONDS = 60
 
 # Patterns in a line of code, and their replacements.
 CHANGES = [
-    (r"(?<![<>=!-])>(?![>=])", ">="), (r"(?<![<>=])<(?![<=])", "<="), (r">=", ">"), (r"<=", "<"), (r"==", "!="),
-    (r"!=", "=="), (r"&&", "||"), (r"\|\|", "&&"), (r"(?<=\w |\) )\+(?= )", "-"), (r"(?<=\w |\) )-(?= )", "+"),
-    (r"(?<=\w |\) )\*(?= [\w(])", "/"), (r"(?<= )/(?= )", "*"), (r"\+=", "-="), (r"-=", "+="), (r"\btrue\b", "false"),
-    (r"\bfalse\b", "true"), (r"\b0\.5f\b", "0.6f"), (r"\b1\.0f\b", "1.1f"), (r"\b2\.0f\b", "2.2f"), (r"\b0\.0f\b", "0.1f"),
-    (r"\b0U?\b", "1"), (r"\b1U\b", "2U"), (r"(?<=[=(,?:] )-(?=[\w(])", ""), (r"!(?=[\w(])", ""),
-    (r"\bbase_min\b", "base_max"), (r"\bbase_max\b", "base_min"), (r"\.d\b", ".q"), (r"\.q\b", ".d"),
+    (r"(?<![<>=!-])>(?![>=])", ">="),
+    (r"(?<![<>=])<(?![<=])", "<="),
+    (r">=", ">"),
+    (r"<=", "<"),
+    (r"==", "!="),
+    (r"!=", "=="),
+    (r"&&", "||"),
+    (r"\|\|", "&&"),
+    (r"(?<=\w |\) )\+(?= )", "-"),
+    (r"(?<=\w |\) )-(?= )", "+"),
+    (r"(?<=\w |\) )\*(?= [\w(])", "/"),
+    (r"(?<= )/(?= )", "*"),
+    (r"\+=", "-="),
+    (r"-=", "+="),
+    (r"\btrue\b", "false"),
+    (r"\bfalse\b", "true"),
+    (r"\b0\.5f\b", "0.6f"),
+    (r"\b1\.0f\b", "1.1f"),
+    (r"\b2\.0f\b", "2.2f"),
+    (r"\b0\.0f\b", "0.1f"),
+    (r"\b0U?\b", "1"),
+    (r"\b1U\b", "2U"),
+    (r"(?<=[=(,?:] )-(?=[\w(])", ""),
+    (r"!(?=[\w(])", ""),
+    (r"\bbase_min\b", "base_max"),
+    (r"\bbase_max\b", "base_min"),
+    (r"\.d\b", ".q"),
+    (r"\.q\b", ".d"),
     (r"^(\s+)([\w>.\[\]-]+ [-+|&]?= .*;|\w+\(.*\);)$", r"\1;"),
 ]
 
@@ -69,7 +95,9 @@ class Judge:
         file, target = work / source.name, work / "mutant.o"
         file.write_text("\n".join(lines))
         try:
-            compiled = ub.run(["gcc", *self.build.flags, f"-I{source.parent}", "-c", file, "-o", target], cwd=work)
+            compiled = ub.run(
+                ["gcc", *self.build.flags, f"-I{source.parent}", "-c", file, "-o", target], cwd=work
+            )
             if compiled.returncode != 0 or target.read_bytes() == self.plain(source):
                 return ""
             for name in order_of(self.names, source.stem):
@@ -102,7 +130,10 @@ def main():
             print(f"{source.name}:{number + 1}: {line.strip()}")
     killed, survived = verdicts.count("killed"), verdicts.count("survived")
     share = 100.0 * killed / max(killed + survived, 1)
-    print(f"{killed} of {killed + survived} mutants killed, {share:.1f} % ({len(everything)} possible)")
+    print(
+        f"{killed} of {killed + survived} mutants killed, {share:.1f} % ({len(everything)} "
+        f"possible)"
+    )
     return 0 if share >= WANTED else 1
 
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The unit tests of firmware/control and firmware/app built by hand, quickly: for coverage.py and mutate.py."""
+"""The unit tests of firmware/control and firmware/app built by hand, quickly: for coverage.py and
+mutate.py."""
+
 import os
 import re
 import subprocess
@@ -9,18 +11,42 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 BOARD = ROOT / "firmware/board/f28335"
 ROOMS = ("control", "app", "store", "commission")  # of firmware; each with the rooms inside it
-INCLUDES = [path for name in ROOMS for path in (ROOT / "firmware" / name, *sorted((ROOT / "firmware" / name).glob("*/")))]
-INCLUDES += [ROOT / p for p in ("firmware/board", "firmware/board/f28335", "firmware/config", "tests/support", "build/unity")]
-FLAGS = ["-std=c99", "-w", "-ffp-contract=off", "-DUNITY_INCLUDE_DOUBLE", "-DUNITY_SUPPORT_64",
-         *[f"-I{p}" for p in INCLUDES]]
+INCLUDES = [
+    path
+    for name in ROOMS
+    for path in (ROOT / "firmware" / name, *sorted((ROOT / "firmware" / name).glob("*/")))
+]
+INCLUDES += [
+    ROOT / p
+    for p in (
+        "firmware/board",
+        "firmware/board/f28335",
+        "firmware/config",
+        "tests/support",
+        "build/unity",
+    )
+]
+FLAGS = [
+    "-std=c99",
+    "-w",
+    "-ffp-contract=off",
+    "-DUNITY_INCLUDE_DOUBLE",
+    "-DUNITY_SUPPORT_64",
+    *[f"-I{p}" for p in INCLUDES],
+]
 # As tests/CMakeLists.txt: tables of drives that the shipped one is not.
-TABLES = {"speed_tables": "ipmsm_390w_speed", "conventional_tables": "ipmsm_390w_conventional",
-          "harmonic_tables": "ipmsm_390w_noc_h"}
+TABLES = {
+    "speed_tables": "ipmsm_390w_speed",
+    "conventional_tables": "ipmsm_390w_conventional",
+    "harmonic_tables": "ipmsm_390w_noc_h",
+}
 JOBS = os.cpu_count() or 1
 
 
 def run(command, **options):
-    return subprocess.run([str(word) for word in command], capture_output=True, text=True, **options)
+    return subprocess.run(
+        [str(word) for word in command], capture_output=True, text=True, **options
+    )
 
 
 def require(command):
@@ -30,7 +56,8 @@ def require(command):
 
 
 def sources():
-    """Measured files: every .c file of the core, the application, the store and the commissioning."""
+    """Measured files: every .c file of the core, the application, the store and the
+    commissioning."""
     return [file for name in ROOMS for file in sorted((ROOT / "firmware" / name).rglob("*.c"))]
 
 
@@ -41,7 +68,9 @@ def room_of(source):
 
 def tests():
     """Names of the unit tests that need nothing but core, application and the fake board."""
-    return [n for n in sorted(test_files()) if n != "test_app_main"]  # that one is of the board's main()
+    return [
+        n for n in sorted(test_files()) if n != "test_app_main"
+    ]  # that one is of the board's main()
 
 
 def test_files():
@@ -58,21 +87,42 @@ class Build:
         self.directory.mkdir(parents=True, exist_ok=True)
         tables = [self._table(name, drive) for name, drive in TABLES.items()]
         work = [(p, p.stem, []) for p in sources()]
-        work += [(ROOT / "firmware/config/board_config.c", "board_config", []), (ROOT / "firmware/config/gain_tables.c", "gain_tables", []),
-                 (ROOT / "build/unity/unity.c", "unity", []), (ROOT / "tests/support/fake_board.c", "fake_board", [])]
+        work += [
+            (ROOT / "firmware/config/board_config.c", "board_config", []),
+            (ROOT / "firmware/config/gain_tables.c", "gain_tables", []),
+            (ROOT / "build/unity/unity.c", "unity", []),
+            (ROOT / "tests/support/fake_board.c", "fake_board", []),
+        ]
         work += [(test_files()[n], n, []) for n in tests()]
         work += [(path, name, [f"-Dgain_tables_drive={name}_drive"]) for name, path in tables]
         with ThreadPoolExecutor(JOBS) as pool:
-            list(pool.map(lambda w: require(["gcc", *self.flags, *w[2], "-c", w[0], "-o", self.object(w[1])]), work))
+            list(
+                pool.map(
+                    lambda w: require(
+                        ["gcc", *self.flags, *w[2], "-c", w[0], "-o", self.object(w[1])]
+                    ),
+                    work,
+                )
+            )
         self.common = [self.object(p.stem) for p in sources()]
-        self.common += [self.object(n) for n in ("board_config", "gain_tables", "unity", "fake_board", *TABLES)]
+        self.common += [
+            self.object(n) for n in ("board_config", "gain_tables", "unity", "fake_board", *TABLES)
+        ]
 
     def object(self, stem):
         return self.directory / f"{stem}.o"
 
     def _table(self, name, drive):
         out = self.directory / name
-        require([ROOT / "build/host/bin/sdre-gains", "generate", ROOT / f"firmware/config/drives/{drive}.toml", "--out", out])
+        require(
+            [
+                ROOT / "build/host/bin/sdre-gains",
+                "generate",
+                ROOT / f"firmware/config/drives/{drive}.toml",
+                "--out",
+                out,
+            ]
+        )
         return name, out / "gain_tables.c"
 
     def link(self, test, program, instead=None):

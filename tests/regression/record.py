@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: MIT
 """Every shipped scenario and drive against what they did before: traces, reports, tables.
 
-    record.py SDRE_SIL SDRE_GAINS            compares with expected.json; exit code 1 on a difference
-    record.py SDRE_SIL SDRE_GAINS --exact    the digests too: same compiler, same bits
-    record.py SDRE_SIL SDRE_GAINS --write    records anew
+    record.py SDRE_SIL SDRE_GAINS           compares with expected.json; exit code 1 on a difference
+    record.py SDRE_SIL SDRE_GAINS --exact   the digests too: same compiler, same bits
+    record.py SDRE_SIL SDRE_GAINS --write   records anew
 
 A trace is kept as the SHA-256 of its CSV. For other compilers and machines it is kept as mean, root
 mean square and end of every column. A report is kept as the numbers of its JSON, tables as their
 sorted numbers.
 """
+
 import argparse
 import concurrent.futures
 import csv
@@ -29,10 +30,17 @@ SCENARIOS = ROOT / "host_tools/sil/scenarios"
 DRIVES = ROOT / "firmware/config/drives"
 
 # Drives beside the scenario's own. Paper B's laws take the servo's scenarios only.
-IPMSM_SCENARIOS = ("board_load_step", "board_reversal", "board_flux_weakening", "fig7_speed_step", "harmonics_load_step")
+IPMSM_SCENARIOS = (
+    "board_load_step",
+    "board_reversal",
+    "board_flux_weakening",
+    "fig7_speed_step",
+    "harmonics_load_step",
+)
 SERVO_SCENARIOS = ("servo_case_1_2", "servo_case_3_4")
 BOARDS = ("api", "f28335")
-# The others are the same on both boards, or differ by a tick of the capture timer: f28335.board_runs.
+# The others are the same on both boards, or differ by a tick of the capture timer:
+# f28335.board_runs.
 ON_BOTH_BOARDS = ("board_load_step", "board_hold", "board_regeneration")
 
 STATISTICS = ("mean", "rms", "mean of the end")
@@ -61,8 +69,17 @@ def cases():
             yield f"{name} {drive.stem}", ["run", SCENARIOS / f"{name}.toml", "--drive", drive]
     for drive in ("ipmsm_390w_noc_h", "ipmsm_390w_speed"):
         for board in BOARDS:
-            yield (f"board_load_step {drive} {board}",
-                   ["run", SCENARIOS / "board_load_step.toml", "--drive", DRIVES / f"{drive}.toml", "--board", board])
+            yield (
+                f"board_load_step {drive} {board}",
+                [
+                    "run",
+                    SCENARIOS / "board_load_step.toml",
+                    "--drive",
+                    DRIVES / f"{drive}.toml",
+                    "--board",
+                    board,
+                ],
+            )
 
 
 def call(arguments):
@@ -70,30 +87,44 @@ def call(arguments):
 
 
 def statistics(values):
-    """Mean, root mean square, mean of the last tenth, range between the 2nd and the 98th percentile."""
+    """Mean, root mean square, mean of the last tenth, range between the 2nd and the 98th
+    percentile."""
     n = len(values)
     ranked = sorted(values)
-    tail = values[-max(n // 10, 1):]
-    return [math.fsum(values) / n, math.sqrt(math.fsum(v * v for v in values) / n), math.fsum(tail) / len(tail),
-            ranked[-1 - n // 50] - ranked[n // 50]]
+    tail = values[-max(n // 10, 1) :]
+    return [
+        math.fsum(values) / n,
+        math.sqrt(math.fsum(v * v for v in values) / n),
+        math.fsum(tail) / len(tail),
+        ranked[-1 - n // 50] - ranked[n // 50],
+    ]
 
 
 def trace(sil, arguments, was):
-    """Digest and statistics of a run; of a refused one, the exit code and its words. With the digest that was recorded it
-    has the statistics that were."""
+    """Digest and statistics of a run; of a refused one, the exit code and its words. With the
+    digest that was recorded it has the statistics that were."""
     with tempfile.TemporaryDirectory() as directory:
         path = pathlib.Path(directory) / "trace.csv"
         done = call([sil, *arguments, "--csv", path])
         if not path.exists():
-            return {"exit": done.returncode, "says": done.stderr.strip().replace(str(ROOT) + "/", "")}
+            return {
+                "exit": done.returncode,
+                "says": done.stderr.strip().replace(str(ROOT) + "/", ""),
+            }
         data = path.read_bytes()
     digest = hashlib.sha256(data).hexdigest()
     if was.get("sha256") == digest and was["exit"] == done.returncode:
         return was
     rows = list(csv.reader(data.decode().splitlines()))
-    columns = {name: statistics([float(row[i]) for row in rows[1:]]) for i, name in enumerate(rows[0])}
-    return {"exit": done.returncode, "sha256": digest, "rows": len(rows) - 1,
-            "columns": {name: [float(f"{v:.6g}") for v in values] for name, values in columns.items()}}
+    columns = {
+        name: statistics([float(row[i]) for row in rows[1:]]) for i, name in enumerate(rows[0])
+    }
+    return {
+        "exit": done.returncode,
+        "sha256": digest,
+        "rows": len(rows) - 1,
+        "columns": {name: [float(f"{v:.6g}") for v in values] for name, values in columns.items()},
+    }
 
 
 def numbers_in(value):
@@ -112,14 +143,24 @@ def summary(numbers):
     clean = [0.0 if abs(x) < 1e-9 else x for x in numbers]
     text = " ".join(f"{x:.9g}" for x in clean)
     logs = [math.log(abs(x)) for x in clean if x]
-    return {"sha256": hashlib.sha256(text.encode()).hexdigest(), "count": len(clean),
-            "sums": [math.fsum(logs), math.fsum(x * x for x in logs), math.fsum(logs[i] * (i + 1) for i in range(len(logs)))]}
+    return {
+        "sha256": hashlib.sha256(text.encode()).hexdigest(),
+        "count": len(clean),
+        "sums": [
+            math.fsum(logs),
+            math.fsum(x * x for x in logs),
+            math.fsum(logs[i] * (i + 1) for i in range(len(logs))),
+        ],
+    }
 
 
 def report(gains, drive):
     done = call([gains, "report", drive, "--json"])
-    return summary(numbers_in(json.loads(done.stdout))) if done.returncode in (0, 2) and done.stdout else {
-        "exit": done.returncode}
+    return (
+        summary(numbers_in(json.loads(done.stdout)))
+        if done.returncode in (0, 2) and done.stdout
+        else {"exit": done.returncode}
+    )
 
 
 def tables(gains, drive):
@@ -135,8 +176,11 @@ def tables(gains, drive):
 
 def record(sil, gains, expected, core):
     """All cases, of the core alone if wanted; a process each, so that threads suffice."""
-    jobs = {f"trace {name}": (trace, sil, arguments, expected.get(f"trace {name}", {})) for name, arguments in cases()
-            if not (core and name.endswith(BOARDS))}
+    jobs = {
+        f"trace {name}": (trace, sil, arguments, expected.get(f"trace {name}", {}))
+        for name, arguments in cases()
+        if not (core and name.endswith(BOARDS))
+    }
     for drive in [] if core else sorted(DRIVES.glob("*.toml")):
         jobs[f"report {drive.stem}"] = (report, gains, drive)
         jobs[f"tables {drive.stem}"] = (tables, gains, drive)
@@ -154,7 +198,10 @@ def differences_in_trace(was, now):
         span = max(span, 1e-3 * before[1], 1e-9)
         for what, x, y in zip(STATISTICS, before, now["columns"][name]):
             if not abs(x - y) <= TOLERANCE * span:
-                yield f"{name}: {what} {y:g} where {x:g} was recorded ({abs(x - y) / span:.3f} of its range)"
+                yield (
+                    f"{name}: {what} {y:g} where {x:g} was recorded ({abs(x - y) / span:.3f} of "
+                    f"its range)"
+                )
 
 
 def differences_in_numbers(was, now):
@@ -174,7 +221,10 @@ def compare(name, was, now, exact):
         return [], True
     keys = ("exit", "says")
     if any(was.get(k) != now.get(k) for k in keys) or ("sha256" in was) != ("sha256" in now):
-        return [f"{ {k: now.get(k) for k in keys} } where { {k: was.get(k) for k in keys} } was recorded"], True
+        return [
+            f"{ {k: now.get(k) for k in keys} } where { {k: was.get(k) for k in keys} } was "
+            f"recorded"
+        ], True
     if exact:
         return ["digest differs"], True
     found = differences_in_trace(was, now) if "rows" in was else differences_in_numbers(was, now)
@@ -187,17 +237,26 @@ def write(recorded):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="shipped scenarios and drives against what they did before")
+    parser = argparse.ArgumentParser(
+        description="shipped scenarios and drives against what they did before"
+    )
     parser.add_argument("sil")
     parser.add_argument("gains")
     parser.add_argument("--exact", action="store_true", help="digests have to agree")
     parser.add_argument("--write", action="store_true", help="record anew")
-    parser.add_argument("--core", action="store_true", help="traces of the core alone: no boards, reports and tables")
+    parser.add_argument(
+        "--core",
+        action="store_true",
+        help="traces of the core alone: no boards, reports and tables",
+    )
     options = parser.parse_args()
     expected = {} if options.write else json.loads(EXPECTED.read_text())
     if options.core:
-        expected = {name: what for name, what in expected.items()
-                    if name.startswith("trace ") and not name.endswith(BOARDS)}
+        expected = {
+            name: what
+            for name, what in expected.items()
+            if name.startswith("trace ") and not name.endswith(BOARDS)
+        }
     recorded = record(options.sil, options.gains, expected, options.core)
     if options.write:
         write(recorded)

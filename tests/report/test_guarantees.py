@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The guarantees: arithmetic that holds what it says it holds, models that are the tool's, and the stored proof tried at random."""
+"""The guarantees: arithmetic that holds what it says it holds, models that are the tool's, and the
+stored proof tried at random."""
 
 from __future__ import annotations
 
@@ -14,7 +15,8 @@ from scipy.linalg import expm
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "host_tools/report")]
 
-from sdre_report.guarantees import attraction, balls, compute, lyapunov, mu, stored as stored_file  # noqa: E402
+from sdre_report.guarantees import attraction, balls, compute, lyapunov, mu  # noqa: E402
+from sdre_report.guarantees import stored as stored_file
 from sdre_report.guarantees.loop import Factors, Loops, corners  # noqa: E402
 from sdre_report.tools import Tools  # noqa: E402
 
@@ -33,7 +35,8 @@ def loops(tools: Tools) -> Loops:
 
 
 def test_balls_hold_values_and_slopes() -> None:
-    """x in a cell: 1/(x y) and e^[0 x; -y z], against plain arithmetic and differences at random places."""
+    """x in a cell: 1/(x y) and e^[0 x; -y z], against plain arithmetic and differences at random
+    places."""
     centre, radius = np.array([[0.7, 1.3, -0.2]]), np.array([[0.05, 0.1, 0.02]])
     x, y, z = balls.variables(centre, radius)
     quotient = (x * y).reciprocal()
@@ -62,7 +65,9 @@ def test_the_model_of_mu_is_the_loop(loops: Loops) -> None:
     for k in range(16):
         f = Factors(*(v[k] for v in ends))
         of = lambda M: np.abs(np.linalg.eigvals(M)).max()  # noqa: E731
-        assert of(mu.modelled(loops, p, 0.5, f)) == pytest.approx(float(loops.radius(p, f)), abs=5e-3)
+        assert of(mu.modelled(loops, p, 0.5, f)) == pytest.approx(
+            float(loops.radius(p, f)), abs=5e-3
+        )
 
 
 @built
@@ -72,7 +77,12 @@ def test_the_stored_function_falls_at_random_places(tools: Tools, loops: Loops) 
     draw, R = np.random.default_rng(2), np.array(stored["R"])
     k = draw.integers(0, len(region.low), 3000)
     ends = np.array(lyapunov.box(stored["share"]))
-    at = np.hstack([draw.uniform(ends[:, 0], ends[:, 1], (3000, 4)), draw.uniform(region.low[k], region.high[k])])
+    at = np.hstack(
+        [
+            draw.uniform(ends[:, 0], ends[:, 1], (3000, 4)),
+            draw.uniform(region.low[k], region.high[k]),
+        ]
+    )
     norm = np.linalg.norm(R @ loop.at(at, 0 * at).m[:, 0] @ np.linalg.inv(R), 2, axis=(-2, -1))
     assert norm.max() < stored["rate"] < 1.0
     assert norm.max() > 0.9, "too easy to be the loop"
@@ -83,11 +93,17 @@ def test_inside_the_ellipsoid_it_falls_though_the_voltage_is_cut(loops: Loops) -
     p = compute.pick(loops, 298, 0)
     room, _ = attraction.room_V(loops, p)
     A, B, F = attraction.matrices(loops, p)
-    A, B, F = A * attraction.SIZES / attraction.SIZES[:, None], B / attraction.SIZES[:, None] * room, F * attraction.SIZES / room
+    A, B, F = (
+        A * attraction.SIZES / attraction.SIZES[:, None],
+        B / attraction.SIZES[:, None] * room,
+        F * attraction.SIZES / room,
+    )
     W = attraction.search(A, B, F)
     draw = np.random.default_rng(3)
     x = draw.normal(size=(20000, 10))
-    x = (np.linalg.cholesky(W) @ (x / np.linalg.norm(x, axis=1, keepdims=True)).T).T * draw.uniform(0, 1, (20000, 1))
+    x = (np.linalg.cholesky(W) @ (x / np.linalg.norm(x, axis=1, keepdims=True)).T).T * draw.uniform(
+        0, 1, (20000, 1)
+    )
     u = x @ F.T
     after = x @ A.T - (u - np.clip(u, -1, 1)) @ B.T
     V = lambda s: np.einsum("ni,ij,nj->n", s, np.linalg.inv(W), s)  # noqa: E731
@@ -101,4 +117,7 @@ def test_the_stored_file_is_whole() -> None:
     for p in stored["shares"]:
         assert 0.4 < p["mu"] <= p["corners"] + 0.01 and p["corners"] <= p["drawn"] + 0.01
     for p in stored["attraction"]:
-        assert p["returned_square"] == 1.0 and min(p["speed_e_radps"], p["iq_A"], p["id_A"], p["load_Nm"]) > 0
+        assert (
+            p["returned_square"] == 1.0
+            and min(p["speed_e_radps"], p["iq_A"], p["id_A"], p["load_Nm"]) > 0
+        )

@@ -22,9 +22,12 @@ Curve = Tuple[str, NDArray, NDArray]
 
 
 def draw(title: str, panels: Mapping[str, Sequence[Curve]]) -> None:
-    """One panel under the other, by its label with the unit, to the file named on the command line."""
+    """One panel under the other, by its label with the unit, to the file named on the command
+    line."""
     path = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(sys.argv[0]).with_suffix(".png").name
-    figure, axes = plt.subplots(len(panels), 1, figsize=(8.0, 2.6 * len(panels) + 0.6), sharex=True, squeeze=False)
+    figure, axes = plt.subplots(
+        len(panels), 1, figsize=(8.0, 2.6 * len(panels) + 0.6), sharex=True, squeeze=False
+    )
     for axis, (label, curves) in zip(axes[:, 0], panels.items()):
         for (name, time_s, values), style in zip(curves, ("-", "--", ":", "-.")):
             axis.plot(1e3 * time_s, values, style, linewidth=1.1, label=name)

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Paper A's law and field-oriented control with PI loops, on the same board with the same noise; ten seeds each, on threads.
+"""Paper A's law and field-oriented control with PI loops, on the same board with the same noise;
+ten seeds each, on threads.
 
-    python host_tools/python/examples/compare_laws.py build/laws.png
+python host_tools/python/examples/compare_laws.py build/laws.png
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -16,7 +17,11 @@ curves = {"speed [rad/s el.]": [], "v_q [V]": []}
 for label, file in (("noc", "ipmsm_390w"), ("pi_foc", "ipmsm_390w_pi_foc_edges")):
     drive = sdre.Drive.from_toml(DRIVES / f"{file}.toml")
     with ThreadPoolExecutor() as threads:  # simulate() releases the interpreter's lock
-        runs = list(threads.map(lambda seed: sdre.simulate(drive, SCENARIO, seed=seed), range(1, 11)))  # noqa: B023
+        runs = list(
+            threads.map(
+                lambda seed, drive=drive: sdre.simulate(drive, SCENARIO, seed=seed), range(1, 11)
+            )
+        )
     steps = [list(run.measures.values())[-1] for run in runs]
     for metric in ("settling_time_s", "dip_e_radps", "ripple_e_radps", "vq_noise_V"):
         values = [np.nan if step[metric] is None else step[metric] for step in steps]

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The law replaced by a Python function: a PI speed loop around PI current loops, beside the drive's own law.
+"""The law replaced by a Python function: a PI speed loop around PI current loops, beside the
+drive's own law.
 
-    python host_tools/python/examples/own_law.py build/own_law.png
+python host_tools/python/examples/own_law.py build/own_law.png
 """
 
 import math
@@ -32,8 +33,16 @@ class PiLaw:
         bandwidth = 600.0  # of the current loops [rad/s]
         self.vd_sum += ts * bandwidth * m.stator_resistance_Ohm * error_d
         self.vq_sum += ts * bandwidth * m.stator_resistance_Ohm * error_q
-        v_d = bandwidth * m.d_axis_inductance_H * error_d + self.vd_sum - w * m.q_axis_inductance_H * i_q
-        v_q = bandwidth * m.q_axis_inductance_H * error_q + self.vq_sum + w * (m.d_axis_inductance_H * i_d + m.pm_flux_Wb)
+        v_d = (
+            bandwidth * m.d_axis_inductance_H * error_d
+            + self.vd_sum
+            - w * m.q_axis_inductance_H * i_q
+        )
+        v_q = (
+            bandwidth * m.q_axis_inductance_H * error_q
+            + self.vq_sum
+            + w * (m.d_axis_inductance_H * i_d + m.pm_flux_Wb)
+        )
         return sdre.voltage_duty(v_d, v_q, s.theta_e_rad + 1.5 * ts * w, s.dc_link_V)[0]
 
 
@@ -43,8 +52,20 @@ mine = sdre.simulate_with(PiLaw(drive), drive, keys)
 own = sdre.simulate(drive, keys).trace
 near = (own.time_s > 0.35) & (own.time_s < 0.6)
 for label, speed in (("PiLaw", mine["omega_e_radps"]), ("noc", own.omega_e_radps)):
-    print(f"{label}: dip {own.omega_ref_e_radps[-1] - speed[near].min():.1f} rad/s after the load step")
-draw("Load step with ideal sensors", {
-    "speed [rad/s el.]": [("PiLaw", mine["time_s"][near], mine["omega_e_radps"][near]), ("noc", own.time_s[near], own.omega_e_radps[near])],
-    "i_q [A]": [("PiLaw", mine["time_s"][near], mine["iq_A"][near]), ("noc", own.time_s[near], own.iq_A[near])],
-})  # fmt: skip
+    print(
+        f"{label}: dip {own.omega_ref_e_radps[-1] - speed[near].min():.1f} rad/s after the load "
+        f"step"
+    )
+draw(
+    "Load step with ideal sensors",
+    {
+        "speed [rad/s el.]": [
+            ("PiLaw", mine["time_s"][near], mine["omega_e_radps"][near]),
+            ("noc", own.time_s[near], own.omega_e_radps[near]),
+        ],
+        "i_q [A]": [
+            ("PiLaw", mine["time_s"][near], mine["iq_A"][near]),
+            ("noc", own.time_s[near], own.iq_A[near]),
+        ],
+    },
+)

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""A piston compressor: its torque follows the shaft's angle, which no scenario file knows. The drive is stepped from Python.
+"""A piston compressor: its torque follows the shaft's angle, which no scenario file knows. The
+drive is stepped from Python.
 
-    python host_tools/python/examples/own_load.py build/compressor.png
+python host_tools/python/examples/own_load.py build/compressor.png
 """
 
 import math
@@ -25,14 +26,32 @@ for k in range(3000):
     load_Nm = started * (MEAN_NM + SWING_NM * math.sin(turned_m_rad))
     states.append(state)
 
-trace = {name: np.array([getattr(state, name) for state in states]) for name in ("time_s", "omega_e_radps", "iq_A",
-    "load_torque_Nm", "torque_Nm", "omega_ref_e_radps")}  # fmt: skip
+trace = {
+    name: np.array([getattr(state, name) for state in states])
+    for name in (
+        "time_s",
+        "omega_e_radps",
+        "iq_A",
+        "load_torque_Nm",
+        "torque_Nm",
+        "omega_ref_e_radps",
+    )
+}
 steady = trace["time_s"] > 0.4
 ripple = 0.5 * np.ptp(trace["omega_e_radps"][steady])
-print(f"fault: {states[-1].fault}; speed within +-{ripple:.2f} rad/s of its mean with +-{SWING_NM} N m")
+print(
+    f"fault: {states[-1].fault}; speed within +-{ripple:.2f} rad/s of its mean with "
+    f"+-{SWING_NM} N m"
+)
 late = trace["time_s"] > 0.1
 error = trace["omega_e_radps"] - trace["omega_ref_e_radps"]
-draw("Piston compressor, run up to 0.2 s and steady", {
-    "speed error [rad/s el.]": [("motor", trace["time_s"][late], error[late])],
-    "torque [N m]": [("motor", trace["time_s"][late], trace["torque_Nm"][late]), ("load", trace["time_s"][late], trace["load_torque_Nm"][late])],
-})  # fmt: skip
+draw(
+    "Piston compressor, run up to 0.2 s and steady",
+    {
+        "speed error [rad/s el.]": [("motor", trace["time_s"][late], error[late])],
+        "torque [N m]": [
+            ("motor", trace["time_s"][late], trace["torque_Nm"][late]),
+            ("load", trace["time_s"][late], trace["load_torque_Nm"][late]),
+        ],
+    },
+)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Designs, simulates and tries out sdre drives from Python: the numbers of `sdre-gains` and `sdre-sil`, to the bit.
+"""Designs, simulates and tries out sdre drives from Python: the numbers of `sdre-gains` and
+`sdre-sil`, to the bit.
 
     >>> import sdre
     >>> drive = sdre.Drive.from_toml("firmware/config/drives/ipmsm_390w.toml")
@@ -8,15 +9,26 @@
     >>> run = sdre.simulate(drive, "host_tools/sil/scenarios/board_load_step.toml")
     >>> run.trace.omega_e_radps.max()
 
-Quantities have their SI unit in the name; `e` is electrical, `m` mechanical; `d`, `q` are axes of the rotor.
-Wrong input raises InputError (a ValueError), a drive without an acceptable design DesignError (a RuntimeError), each with
-one line. design(), tune(), simulate(), care() and Cases.run() release the interpreter's lock: threads run side by side.
+Quantities have their SI unit in the name; `e` is electrical, `m` mechanical; `d`, `q` are axes of
+the rotor. Wrong input raises InputError (a ValueError), a drive without an acceptable design
+DesignError (a RuntimeError), each with one line. design(), tune(), simulate(), care() and
+Cases.run() release the interpreter's lock: threads run side by side.
 """
 
 from sdre._native import DesignError, InputError, tool_version
 from sdre.cases import Cases, CaseTable, Variable
 from sdre.drive import Drive, Motor
-from sdre.gains import CareSolution, Certificate, Design, GainSeries, LoopVerdict, SampledLoop, care, design, tune
+from sdre.gains import (
+    CareSolution,
+    Certificate,
+    Design,
+    GainSeries,
+    LoopVerdict,
+    SampledLoop,
+    care,
+    design,
+    tune,
+)
 from sdre.loop import (
     CORE_QUANTITIES,
     NO_VOLTAGE,
@@ -34,7 +46,36 @@ from sdre.scenario import Scenario
 
 __version__ = tool_version
 __all__ = [
-    "Bridge", "CORE_QUANTITIES", "CareSolution", "CaseTable", "Cases", "Certificate", "Core", "Design", "DesignError", "Drive",
-    "GainSeries", "InputError", "LoopVerdict", "Motor", "NO_VOLTAGE", "Plant", "PlantState", "Run", "Sample", "SampledLoop", "Scenario",
-    "Simulation", "State", "Trace", "UNITS", "Variable", "care", "design", "simulate", "simulate_with", "tune", "voltage_duty",
-]  # fmt: skip
+    "Bridge",
+    "CORE_QUANTITIES",
+    "CareSolution",
+    "CaseTable",
+    "Cases",
+    "Certificate",
+    "Core",
+    "Design",
+    "DesignError",
+    "Drive",
+    "GainSeries",
+    "InputError",
+    "LoopVerdict",
+    "Motor",
+    "NO_VOLTAGE",
+    "Plant",
+    "PlantState",
+    "Run",
+    "Sample",
+    "SampledLoop",
+    "Scenario",
+    "Simulation",
+    "State",
+    "Trace",
+    "UNITS",
+    "Variable",
+    "care",
+    "design",
+    "simulate",
+    "simulate_with",
+    "tune",
+    "voltage_duty",
+]

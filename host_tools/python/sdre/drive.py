@@ -28,9 +28,11 @@ class Motor:
 
 
 class Drive:
-    """One drive: motor, inverter, encoder, control law and weights. Made by from_toml, from_text or from_dict; never changes.
+    """One drive: motor, inverter, encoder, control law and weights. Made by from_toml, from_text or
+    from_dict; never changes.
 
-    Every value is checked as `sdre-gains` checks it: InputError in one line names source, key, value and what is allowed.
+    Every value is checked as `sdre-gains` checks it: InputError in one line names source, key,
+    value and what is allowed.
     """
 
     def __init__(self, text: str, source: str) -> None:
@@ -76,7 +78,8 @@ class Drive:
 
     @property
     def law(self) -> str:
-        """The control law: noc, noc_h, conventional_noc, cdobc, gpiobc, hdobc, pid, pi_foc or ladrc."""
+        """The control law: noc, noc_h, conventional_noc, cdobc, gpiobc, hdobc, pid, pi_foc or
+        ladrc."""
         return str(self._native.law)
 
     @property

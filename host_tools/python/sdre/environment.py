@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""A Gymnasium environment: an agent in place of the control core. Needs gymnasium (extra `examples`).
+"""A Gymnasium environment: an agent in place of the control core. Needs gymnasium (extra
+`examples`).
 
     env = sdre.environment.SpeedEnv(drive, scenario)
 
-- Observation, 6 numbers: speed error / rated speed, speed / rated speed, i_d and i_q / current limit, two voltages. The voltages are
+- Observation, 6 numbers: speed error / rated speed, speed / rated speed, i_d and i_q / current
+limit, two voltages. The voltages are
   those of the previous action, as shares. All come from the sample, as for a core.
-- Action, 2 numbers in -1 .. 1: v_d and v_q as shares of dc link / sqrt(3). It acts one control period later.
-- Reward for each period: - |speed error| / rated speed - 0.01 (|action|)^2. It is -100 when the current exceeds twice its limit or the
+- Action, 2 numbers in -1 .. 1: v_d and v_q as shares of dc link / sqrt(3). It acts one control
+period later.
+- Reward for each period: - |speed error| / rated speed - 0.01 (|action|)^2. It is -100 when the
+current exceeds twice its limit or the
   speed diverges, which terminates the episode. The episode is truncated at the scenario's end.
 """
 
@@ -31,7 +35,8 @@ _LOST = -100.0
 
 
 class SpeedEnv(gymnasium.Env):
-    """The motor, its load, inverter and sensors of a scenario; the agent sees samples and sets voltages."""
+    """The motor, its load, inverter and sensors of a scenario; the agent sees samples and sets
+    voltages."""
 
     metadata: Dict[str, Any] = {"render_modes": []}
 
@@ -65,21 +70,42 @@ class SpeedEnv(gymnasium.Env):
         circle_V = sample.dc_link_V / math.sqrt(3.0)
         middle = sample.theta_e_rad + 1.5 * self._drive.control_period_s * sample.omega_e_radps
         bridge, _ = voltage_duty(
-            float(self._action[0]) * circle_V, float(self._action[1]) * circle_V, middle, sample.dc_link_V)  # fmt: skip
+            float(self._action[0]) * circle_V,
+            float(self._action[1]) * circle_V,
+            middle,
+            sample.dc_link_V,
+        )
         self._plant.step(bridge)
         state = self._plant.state
         lost = self._plant.runaway or state.peak_current_A > _TRIP * self._drive.motor.max_current_A
-        error = abs(self._reference.at(state.time_s) - state.omega_e_radps) / self._drive.motor.rated_speed_e_radps
+        error = (
+            abs(self._reference.at(state.time_s) - state.omega_e_radps)
+            / self._drive.motor.rated_speed_e_radps
+        )
         reward = _LOST if lost else -error - _EFFORT * float(np.dot(self._action, self._action))
-        return self._observation(), reward, lost, state.time_s >= self._scenario.duration_s, self._info()
+        return (
+            self._observation(),
+            reward,
+            lost,
+            state.time_s >= self._scenario.duration_s,
+            self._info(),
+        )
 
     def _observation(self) -> NDArray[np.float32]:
         sample, motor = self._plant.sample, self._drive.motor
         i_d, i_q = currents_A(sample)
         speed = sample.omega_e_radps / motor.rated_speed_e_radps
         wanted = self._reference.at(self._plant.time_s) / motor.rated_speed_e_radps
-        return np.array([wanted - speed, speed, i_d / motor.max_current_A, i_q / motor.max_current_A, *self._action],
-            dtype=np.float32)  # fmt: skip
+        return np.array(
+            [
+                wanted - speed,
+                speed,
+                i_d / motor.max_current_A,
+                i_q / motor.max_current_A,
+                *self._action,
+            ],
+            dtype=np.float32,
+        )
 
     def _info(self) -> Dict[str, Any]:
         return {"state": self._plant.state, "seed": self._scenario.seed}

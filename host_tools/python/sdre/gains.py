@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Gains and their certificate, as `sdre-gains report --json`; weights, as `sdre-gains tune`; Riccati equations."""
+"""Gains and their certificate, as `sdre-gains report --json`; weights, as `sdre-gains tune`;
+Riccati equations."""
 
 from __future__ import annotations
 
@@ -20,11 +21,11 @@ FloatArray = NDArray[np.float64]
 class GainSeries:
     """A gain that is a Taylor series in a current: sum over n of gain[n] * current_A**n.
 
-    Controller (EQ-NOSC-2, paper A eq. 26): current e_iq. gain[n] is 2 x 3, from [w - w_d, iq - iq_ref, id - id_ref] in rad/s and A
-    to [v_q, v_d] in V.
+    Controller (EQ-NOSC-2, paper A eq. 26): current e_iq. gain[n] is 2 x 3, from [w - w_d, iq -
+    iq_ref, id - id_ref] in rad/s and A to [v_q, v_d] in V.
 
-    Observer (EQ-NODO-2, EQ-NODO-ENCODER-3, paper A eq. 39): current i_q. gain[n] is states x 3, from the measurements' errors to the
-    rates of the states.
+    Observer (EQ-NODO-2, EQ-NODO-ENCODER-3, paper A eq. 39): current i_q. gain[n] is states x 3,
+    from the measurements' errors to the rates of the states.
 
     The conventional law has two currents; `powers` has the exponents of every term.
     """
@@ -61,8 +62,12 @@ class LoopVerdict:
     """Motor, observer, law and delay together (EQ-CERT-4, 5)."""
 
     spectral_radius: float  # worst from standstill to the largest command
-    box_share: Optional[float]  # of the box of other motors, all parameters at once; at least 0.4 required
-    one_at_a_time_share: Optional[float]  # of the same box, one parameter at a time; at least 1 required
+    box_share: Optional[
+        float
+    ]  # of the box of other motors, all parameters at once; at least 0.4 required
+    one_at_a_time_share: Optional[
+        float
+    ]  # of the same box, one parameter at a time; at least 1 required
     sensitivity_peaks: Dict[str, float]  # by channel; at most 3 allowed
 
 
@@ -79,7 +84,8 @@ class Certificate:
 
 @dataclass(frozen=True)
 class Design:
-    """Gains of a drive. Missing parts of a law are None; `report` has all that `sdre-gains report --json` prints."""
+    """Gains of a drive. Missing parts of a law are None; `report` has all that `sdre-gains report
+    --json` prints."""
 
     drive: Drive
     law: str
@@ -92,10 +98,12 @@ class Design:
 
 
 def design(drive: Drive, extended: bool = False) -> Design:
-    """Solves both state-dependent Riccati equations of the drive and certifies the gains (paper A, eq. 26 and 39; EQ-CERT-1 to 5).
+    """Solves both state-dependent Riccati equations of the drive and certifies the gains (paper A,
+    eq. 26 and 39; EQ-CERT-1 to 5).
 
-    With `extended`, in long double as for tables that are written: several times slower, the same to nine digits.
-    A refused certificate is in the result; DesignError when an equation has no acceptable solution.
+    With `extended`, in long double as for tables that are written: several times slower, the same
+    to nine digits. A refused certificate is in the result; DesignError when an equation has no
+    acceptable solution.
     """
     text = _native.report(drive._native, extended)
     report = json.loads(text)
@@ -112,10 +120,11 @@ def design(drive: Drive, extended: bool = False) -> Design:
 
 
 def tune(drive: Drive) -> Tuple[Drive, str]:
-    """The drive with weights found by search, goals from the physics of its motor, and a line about the hardest goal.
+    """The drive with weights found by search, goals from the physics of its motor, and a line about
+    the hardest goal.
 
-    As `sdre-gains tune` without a specification: seconds, and the same weights every time. Laws `noc` and `noc_h` in the encoder
-    form. DesignError when nothing that was found is certified.
+    As `sdre-gains tune` without a specification: seconds, and the same weights every time. Laws
+    `noc` and `noc_h` in the encoder form. DesignError when nothing that was found is certified.
     """
     text, hardest = _native.tune(drive.text, drive.name)
     return Drive.from_text(text, drive.name), hardest
@@ -139,16 +148,22 @@ def care(
     *,
     G: Optional[ArrayLike] = None,
 ) -> CareSolution:
-    """Solves A'X + XA - X B R^-1 B' X + Q = 0 (EQ-CARE-1); with G = B R^-1 B' in place of B and R if wanted.
+    """Solves A'X + XA - X B R^-1 B' X + Q = 0 (EQ-CARE-1); with G = B R^-1 B' in place of B and R
+    if wanted.
 
-    A, Q, G are n x n, B is n x m, R is m x m, positive definite. InputError on wrong shapes and numbers that are not finite.
-    DesignError with the failed assumption: not stabilisable, not detectable, eigenvalues on the imaginary axis.
+    A, Q, G are n x n, B is n x m, R is m x m, positive definite. InputError on wrong shapes and
+    numbers that are not finite. DesignError with the failed assumption: not stabilisable, not
+    detectable, eigenvalues on the imaginary axis.
     """
     if Q is None or (B is None) != (R is None) or (B is None) == (G is None):
         raise _native.InputError("care: give A, Q and either B and R or G")
     X, semidefinite, residual, modes = _native.care(
-        _matrix(A), None if B is None else _matrix(B), None if R is None else _matrix(R),
-        None if G is None else _matrix(G), _matrix(Q))  # fmt: skip
+        _matrix(A),
+        None if B is None else _matrix(B),
+        None if R is None else _matrix(R),
+        None if G is None else _matrix(G),
+        _matrix(Q),
+    )
     return CareSolution(X, semidefinite, residual, np.asarray(modes).ravel())
 
 
@@ -159,7 +174,9 @@ def _matrix(values: ArrayLike) -> FloatArray:
         raise _native.InputError(f"care: a matrix must be rows of numbers: {error}") from error
 
 
-def _series(part: Optional[Dict[str, Any]], gain: str, solution: str, poles: str) -> Optional[GainSeries]:
+def _series(
+    part: Optional[Dict[str, Any]], gain: str, solution: str, poles: str
+) -> Optional[GainSeries]:
     if part is None:
         return None
     return GainSeries(
@@ -175,14 +192,29 @@ def _series(part: Optional[Dict[str, Any]], gain: str, solution: str, poles: str
 def _loop(part: Optional[Dict[str, Any]]) -> Optional[SampledLoop]:
     if part is None:
         return None
-    return SampledLoop(part["range"]["max_A"], part["series_range_A"], part["worst_pole_1ps"],
-        part["fastest_pole_times_period"], part["spectral_radius"], tuple(part["series_error"]))  # fmt: skip
+    return SampledLoop(
+        part["range"]["max_A"],
+        part["series_range_A"],
+        part["worst_pole_1ps"],
+        part["fastest_pole_times_period"],
+        part["spectral_radius"],
+        tuple(part["series_error"]),
+    )
 
 
 def _certificate(report: Dict[str, Any]) -> Certificate:
     part = report["certificate"]
     loop = report.get("whole_loop")
-    verdict = loop and LoopVerdict(loop["spectral_radius"], loop.get("box_share"), loop.get("one_at_a_time_share"),
-        {name: channel["sensitivity_peak"] for name, channel in loop.get("channels", {}).items()})  # fmt: skip
-    return Certificate(part["certified"], tuple(part["failures"]), _loop(part.get("nosc")), _loop(part.get("nodo")),
-        verdict)  # fmt: skip
+    verdict = loop and LoopVerdict(
+        loop["spectral_radius"],
+        loop.get("box_share"),
+        loop.get("one_at_a_time_share"),
+        {name: channel["sensitivity_peak"] for name, channel in loop.get("channels", {}).items()},
+    )
+    return Certificate(
+        part["certified"],
+        tuple(part["failures"]),
+        _loop(part.get("nosc")),
+        _loop(part.get("nodo")),
+        verdict,
+    )

@@ -5,8 +5,8 @@
     Core         the drive alone:    sample in, duty ratios out
     Plant        the motor's side:   duty ratios in, sample out
 
-An input at a tick acts from the next tick on, as on the board. A Core and a Plant in a Python loop give the same numbers as a
-Simulation and sdre.simulate(), to the bit.
+An input at a tick acts from the next tick on, as on the board. A Core and a Plant in a Python loop
+give the same numbers as a Simulation and sdre.simulate(), to the bit.
 """
 
 from __future__ import annotations
@@ -26,7 +26,9 @@ class Sample(NamedTuple):
     dc_link_V: float
     theta_e_rad: float  # electrical angle, -2 pi .. 2 pi
     band_rad: float = 0.0  # differences to the angle up to here say nothing; 0: it is a measurement
-    edge_gap_s: float = 0.0  # time between the edges of the encoder that the angle rests on; 0: another measurement
+    edge_gap_s: float = (
+        0.0  # time between the edges of the encoder that the angle rests on; 0: another measurement
+    )
     omega_e_radps: float = 0.0  # electrical speed
     edge_age_s: float = 0.0  # time since the edge that the angle was timed with; 0: none
     edge_of_line: int = 0  # 1 .. 4; 0: none
@@ -47,7 +49,8 @@ NO_VOLTAGE = Bridge(0.5, 0.5, 0.5)
 
 
 class State(NamedTuple):
-    """One period of a Simulation: the quantities of sdre.Trace at its tick, and the drive's fault."""
+    """One period of a Simulation: the quantities of sdre.Trace at its tick, and the drive's
+    fault."""
 
     time_s: float
     omega_ref_e_radps: float
@@ -89,11 +92,21 @@ class PlantState(NamedTuple):
 
 
 #: What Core.values() gives beside the answer.
-CORE_QUANTITIES = ("iq_ref_A", "id_ref_A", "vq_V", "vd_V", "d_omega_hat", "d_q_hat", "d_d_hat", "sensor_offset_hat_A")
+CORE_QUANTITIES = (
+    "iq_ref_A",
+    "id_ref_A",
+    "vq_V",
+    "vd_V",
+    "d_omega_hat",
+    "d_q_hat",
+    "d_d_hat",
+    "sensor_offset_hat_A",
+)
 
 
 class Simulation:
-    """A drive and its motor. The scenario's speeds have no effect; all else happens as in the scenario."""
+    """A drive and its motor. The scenario's speeds have no effect; all else happens as in the
+    scenario."""
 
     def __init__(self, scenario: Scenario) -> None:
         self._native = _native.Loop(scenario._native)
@@ -132,7 +145,8 @@ class Core:
 
 
 class Plant:
-    """The simulated motor with its load, inverter and sensors; `sample` is what the present tick shows."""
+    """The simulated motor with its load, inverter and sensors; `sample` is what the present tick
+    shows."""
 
     def __init__(self, scenario: Scenario) -> None:
         self._native = _native.Plant(scenario._native)
@@ -163,10 +177,14 @@ class Plant:
         return Sample(*self._native.step(tuple(bridge), extra_load_Nm))
 
 
-def voltage_duty(vd_V: float, vq_V: float, theta_e_rad: float, dc_link_V: float) -> Tuple[Bridge, float]:
-    """Duty ratios for a voltage in the rotor frame at an angle, and the share of it that the hexagon leaves (EQ-SVPWM-1, 2).
+def voltage_duty(
+    vd_V: float, vq_V: float, theta_e_rad: float, dc_link_V: float
+) -> Tuple[Bridge, float]:
+    """Duty ratios for a voltage in the rotor frame at an angle, and the share of it that the
+    hexagon leaves (EQ-SVPWM-1, 2).
 
-    The voltage acts for one period, one period later: take the angle in its middle, theta + 1.5 period omega.
+    The voltage acts for one period, one period later: take the angle in its middle, theta + 1.5
+    period omega.
     """
     a, b, c, share = _native.duty_of(vd_V, vq_V, theta_e_rad, dc_link_V)
     return Bridge(a, b, c), share

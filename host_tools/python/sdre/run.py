@@ -21,19 +21,34 @@ FloatArray = NDArray[np.float64]
 #: Unit of every quantity of a trace.
 UNITS: Dict[str, str] = {
     "time_s": "s",
-    "omega_ref_e_radps": "rad/s", "omega_e_radps": "rad/s",
-    "iq_A": "A", "id_A": "A", "iq_ref_A": "A", "id_ref_A": "A",
-    "vq_V": "V", "vd_V": "V",
-    "d_omega_hat": "rad/s^2", "d_q_hat": "A/s", "d_d_hat": "A/s", "sensor_offset_hat_A": "A",
-    "load_torque_Nm": "N m", "torque_Nm": "N m", "dc_link_V": "V",
-    "position_e_rad": "rad", "position_ref_e_rad": "rad",
-    "ia_A": "A", "ib_A": "A", "ic_A": "A", "peak_current_A": "A",
-}  # fmt: skip
+    "omega_ref_e_radps": "rad/s",
+    "omega_e_radps": "rad/s",
+    "iq_A": "A",
+    "id_A": "A",
+    "iq_ref_A": "A",
+    "id_ref_A": "A",
+    "vq_V": "V",
+    "vd_V": "V",
+    "d_omega_hat": "rad/s^2",
+    "d_q_hat": "A/s",
+    "d_d_hat": "A/s",
+    "sensor_offset_hat_A": "A",
+    "load_torque_Nm": "N m",
+    "torque_Nm": "N m",
+    "dc_link_V": "V",
+    "position_e_rad": "rad",
+    "position_ref_e_rad": "rad",
+    "ia_A": "A",
+    "ib_A": "A",
+    "ic_A": "A",
+    "peak_current_A": "A",
+}
 
 
 @dataclass(frozen=True)
 class Trace:
-    """One entry for every control period; all arrays have the same length. Speeds are electrical."""
+    """One entry for every control period; all arrays have the same length. Speeds are
+    electrical."""
 
     time_s: FloatArray
     omega_ref_e_radps: FloatArray  # commanded
@@ -51,7 +66,8 @@ class Trace:
     load_torque_Nm: FloatArray
     torque_Nm: FloatArray
     dc_link_V: FloatArray
-    position_e_rad: FloatArray  # of the shaft, electrical, not wrapped; in a run to positions from the first sample
+    # of the shaft, electrical, not wrapped; in a run to positions from the first sample
+    position_e_rad: FloatArray
     position_ref_e_rad: FloatArray  # the same of the reference; the shaft's own in a speed run
     ia_A: FloatArray  # of the motor
     ib_A: FloatArray
@@ -103,7 +119,9 @@ class Run:
         """
         from sdre_plot import draw_trace
 
-        draw_trace.draw(self.csv, title or f"{self.scenario}, {self.drive}", str(path), self._native.marks)
+        draw_trace.draw(
+            self.csv, title or f"{self.scenario}, {self.drive}", str(path), self._native.marks
+        )
 
     def __str__(self) -> str:
         return str(self._native.text)
@@ -114,15 +132,18 @@ def simulate(
     scenario: Union[Scenario, str, Path, Mapping[str, Any]],
     seed: Optional[int] = None,
 ) -> Run:
-    """Runs a scenario with a drive, or with its own when `drive` is None; `seed` in place of the scenario's.
+    """Runs a scenario with a drive, or with its own when `drive` is None; `seed` in place of the
+    scenario's.
 
-    The control core is the firmware's, on gains solved as `sdre-sil` does. Seeds are 0 .. 2147483647. A trip is no error: Run.fault.
-    InputError on a wrong scenario, DesignError when the gains cannot be solved.
+    The control core is the firmware's, on gains solved as `sdre-sil` does. Seeds are 0 ..
+    2147483647. A trip is no error: Run.fault. InputError on a wrong scenario, DesignError when the
+    gains cannot be solved.
     """
     return Run(_native.run(_scenario(drive, scenario, seed)._native))
 
 
-#: Control law of one's own: law(sample, omega_ref_e_radps) at every control period; its answer acts one period later.
+# : Control law of one's own: law(sample, omega_ref_e_radps) at every control period; its answer
+# acts one period later.
 Law = Callable[[Sample, float], Bridge]
 
 
@@ -132,10 +153,12 @@ def simulate_with(
     scenario: Union[Scenario, str, Path, Mapping[str, Any]],
     seed: Optional[int] = None,
 ) -> Dict[str, FloatArray]:
-    """Runs a scenario with a Python function in place of the control core: the slow path, to try an idea.
+    """Runs a scenario with a Python function in place of the control core: the slow path, to try an
+    idea.
 
-    Gives time_s, omega_ref_e_radps, omega_e_radps, iq_A, id_A, torque_Nm, load_torque_Nm, dc_link_V, peak_current_A, one entry for
-    every control period. Ends early when the shaft turns half an electrical turn or more in a period.
+    Gives time_s, omega_ref_e_radps, omega_e_radps, iq_A, id_A, torque_Nm, load_torque_Nm,
+    dc_link_V, peak_current_A, one entry for every control period. Ends early when the shaft turns
+    half an electrical turn or more in a period.
     """
     chosen = _scenario(drive, scenario, seed)
     plant = Plant(chosen)
@@ -147,8 +170,17 @@ def simulate_with(
         bridge = law(plant.sample, omega_ref)
         plant.step(bridge)
         rows.append((state.time_s, omega_ref, *state[1:-1], plant.state.peak_current_A))
-    names = ("time_s", "omega_ref_e_radps", "omega_e_radps", "iq_A", "id_A", "torque_Nm", "load_torque_Nm", "dc_link_V",
-        "peak_current_A")  # fmt: skip
+    names = (
+        "time_s",
+        "omega_ref_e_radps",
+        "omega_e_radps",
+        "iq_A",
+        "id_A",
+        "torque_Nm",
+        "load_torque_Nm",
+        "dc_link_V",
+        "peak_current_A",
+    )
     return dict(zip(names, np.array(rows, dtype=np.float64).T))
 
 
@@ -170,10 +202,14 @@ class Reference:
 
 
 def _scenario(
-    drive: Optional[Drive], scenario: Union[Scenario, str, Path, Mapping[str, Any]], seed: Optional[int]
+    drive: Optional[Drive],
+    scenario: Union[Scenario, str, Path, Mapping[str, Any]],
+    seed: Optional[int],
 ) -> Scenario:
     if not isinstance(scenario, Scenario):
         return Scenario(scenario, drive, seed)
     if drive is not None or seed is not None:
-        raise _native.InputError("a Scenario has its drive and seed: give None, or its file or keys")
+        raise _native.InputError(
+            "a Scenario has its drive and seed: give None, or its file or keys"
+        )
     return scenario

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Scenarios: closed-loop experiments, the files of host_tools/sil/scenarios or dictionaries with their keys."""
+"""Scenarios: closed-loop experiments, the files of host_tools/sil/scenarios or dictionaries with
+their keys."""
 
 from __future__ import annotations
 
@@ -17,9 +18,9 @@ LARGEST_SEED = 2147483647
 class Scenario:
     """The events of a run: speeds, load, sensors, inverter, changes, faults, measures. Immutable.
 
-    `source` is a scenario file, or a mapping with its keys (docs/files.md). `drive` is run in place of the one
-    that the file names; a mapping without "drive" needs it. Paths in a mapping are relative to the working directory.
-    InputError in one line on anything wrong.
+    `source` is a scenario file, or a mapping with its keys (docs/files.md). `drive` is run in place
+    of the one that the file names; a mapping without "drive" needs it. Paths in a mapping are
+    relative to the working directory. InputError in one line on anything wrong.
     """
 
     def __init__(
@@ -36,10 +37,13 @@ class Scenario:
             self.source, self.name, self.directory = str(path), path.stem, path.parent
             self.text = read_text(path)
         self._native = _native.read_scenario(
-            self.text, self.source, self.name, str(self.directory), drive._native if drive else None)  # fmt: skip
+            self.text, self.source, self.name, str(self.directory), drive._native if drive else None
+        )
         if seed is not None:
             if not 0 <= seed <= LARGEST_SEED:
-                raise _native.InputError(f"seed = {seed} is not allowed: must be in 0 .. {LARGEST_SEED}")
+                raise _native.InputError(
+                    f"seed = {seed} is not allowed: must be in 0 .. {LARGEST_SEED}"
+                )
             self._native.seed = seed
 
     @property
@@ -70,12 +74,17 @@ class Scenario:
         return beside if beside.exists() else Path(named)
 
 
-def changed(source: Union[str, Path, Mapping[str, Any]], values: Mapping[str, Any]) -> Dict[str, Any]:
-    """A scenario's keys with some changed: {"plant_scale.inertia_kgm2": 2.0, "load_torque.1.value_Nm": 1.0}.
+def changed(
+    source: Union[str, Path, Mapping[str, Any]], values: Mapping[str, Any]
+) -> Dict[str, Any]:
+    """A scenario's keys with some changed: {"plant_scale.inertia_kgm2": 2.0,
+    "load_torque.1.value_Nm": 1.0}.
 
     The drive's path becomes absolute, so that the result can stand anywhere.
     """
-    scenario_keys = dict(source) if isinstance(source, Mapping) else table(read_text(source), str(source))
+    scenario_keys = (
+        dict(source) if isinstance(source, Mapping) else table(read_text(source), str(source))
+    )
     keys = copy.deepcopy(scenario_keys)
     if not isinstance(source, Mapping) and "drive" in keys:
         beside = Path(source).parent / keys["drive"]

@@ -54,13 +54,16 @@ def plain(value: Any) -> Any:
 
 
 def put(root: Dict[str, Any], path: str, value: Any) -> None:
-    """Sets `path`, keys with dots between them; a number where a key holds an array of tables. Missing tables are made."""
+    """Sets `path`, keys with dots between them; a number where a key holds an array of tables.
+    Missing tables are made."""
     *way, last = path.split(".")
     node: Any = root
     for key in way:
         if isinstance(node, list):
             if not key.isdigit() or int(key) >= len(node):
-                raise InputError(f"{path}: leads nowhere: an array has no entry {key}, count from 0")
+                raise InputError(
+                    f"{path}: leads nowhere: an array has no entry {key}, count from 0"
+                )
             node = node[int(key)]
         elif isinstance(node, dict):
             node = node.setdefault(key, {})

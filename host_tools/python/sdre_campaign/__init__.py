@@ -1,2 +1,3 @@
 # SPDX-License-Identifier: MIT
-"""Campaigns: a scenario with very many motors, loads, sensors, faults or seeds. docs/campaign.md."""
+"""Campaigns: a scenario with very many motors, loads, sensors, faults or seeds.
+docs/campaign.md."""

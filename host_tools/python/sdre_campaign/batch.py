@@ -75,7 +75,9 @@ def cases_of(spec: Spec) -> sdre.Cases:
     digest = spec.digest()
     if getattr(_kept, "digest", None) != digest:
         drive = spec.drive()
-        _kept.cases = sdre.Cases(sdre.Scenario(spec.scenario, drive), drive, spec.variables(), spec.metrics)
+        _kept.cases = sdre.Cases(
+            sdre.Scenario(spec.scenario, drive), drive, spec.variables(), spec.metrics
+        )
         _kept.digest = digest
     cases: sdre.Cases = _kept.cases
     return cases

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""One task of subset simulation: free samples of the first level, or some chains of a later one, from their heads to their ends.
+"""One task of subset simulation: free samples of the first level, or some chains of a later one,
+from their heads to their ends.
 
-A sample is a standard normal for each variable and the seed of its noise. A chain's candidate is rho u + sqrt(1 - rho^2) z
-(preconditioned Crank-Nicolson). It is as likely as u, so it is accepted when it is below the threshold; otherwise the chain stays. It
-keeps its seed half of the times. The chain can then follow a slope in the variables with the same noise, and can change the noise too.
+A sample is a standard normal for each variable and the seed of its noise. A chain's candidate is
+rho u + sqrt(1 - rho^2) z (preconditioned Crank-Nicolson). It is as likely as u, so it is accepted
+when it is below the threshold; otherwise the chain stays. It keeps its seed half of the times. The
+chain can then follow a slope in the variables with the same noise, and can change the noise too.
 All numbers come from counters (Philox): a chain is the same in any task and at any worker.
 """
 
@@ -23,8 +25,12 @@ from sdre_campaign.draw import even_numbers, shared
 from sdre_campaign.spec import Spec
 from sdre_campaign.subset import STEPS, FloatArray
 
-State = Dict[str, NDArray[Any]]  # arrays of the same length: "u" (n x variables), "seed", "margin" and what goes with them
-Limit = Callable[[FloatArray, NDArray[np.uint64]], State]  # what is found for each u and seed, with "margin"
+State = Dict[
+    str, NDArray[Any]
+]  # arrays of the same length: "u" (n x variables), "seed", "margin" and what goes with them
+Limit = Callable[
+    [FloatArray, NDArray[np.uint64]], State
+]  # what is found for each u and seed, with "margin"
 
 MOST_LEVELS = 100  # of a run; numbers of samples and of streams leave room for so many
 _KEEP, _SEED = -2, -1  # columns of what is drawn: whether the seed stays, and the new one
@@ -65,7 +71,9 @@ class Stream:
 
     def numbers(self, first: int, count: int, variables: int) -> FloatArray:
         """count x (variables + 2); stream 0 is that of the other methods."""
-        return even_numbers(self.seed, first, count, variables + 2, 1 + self.run * MOST_LEVELS + self.level)
+        return even_numbers(
+            self.seed, first, count, variables + 2, 1 + self.run * MOST_LEVELS + self.level
+        )
 
     def noise(self, numbers: FloatArray) -> NDArray[np.uint64]:
         """Seeds, one for each row."""
@@ -89,8 +97,11 @@ def drawn(stream: Stream, first: int, count: int, variables: int, limit: Limit) 
     return {**limit(u, seed), "u": u, "seed": seed, "new": np.full(count, True)}
 
 
-def walked(stream: Stream, first: int, heads: State, threshold: float, spread: float, limit: Limit) -> State:
-    """Chains from these heads, chain after chain; a row whose candidate was not taken is the row before it again."""
+def walked(
+    stream: Stream, first: int, heads: State, threshold: float, spread: float, limit: Limit
+) -> State:
+    """Chains from these heads, chain after chain; a row whose candidate was not taken is the row
+    before it again."""
     state = {**heads, "new": np.full(len(heads["seed"]), False)}
     count, variables = state["u"].shape
     rows = [state]
@@ -101,10 +112,16 @@ def walked(stream: Stream, first: int, heads: State, threshold: float, spread: f
         seed = np.where(numbers[:, _KEEP] < 0.5, state["seed"], stream.noise(numbers))
         found = {**limit(u, seed), "u": u, "seed": seed}
         taken = found["margin"] <= threshold
-        state = {key: np.where(taken if one.ndim == 1 else taken[:, None], one, state[key]) for key, one in found.items()}
+        state = {
+            key: np.where(taken if one.ndim == 1 else taken[:, None], one, state[key])
+            for key, one in found.items()
+        }
         state["new"] = taken
         rows.append(state)
-    return {key: np.stack([row[key] for row in rows], axis=1).reshape(-1, *rows[0][key].shape[1:]) for key in rows[-1]}
+    return {
+        key: np.stack([row[key] for row in rows], axis=1).reshape(-1, *rows[0][key].shape[1:])
+        for key in rows[-1]
+    }
 
 
 def run_chains(spec: Spec, task: Chains) -> Done:
@@ -127,25 +144,39 @@ def run_chains(spec: Spec, task: Chains) -> Done:
     if task.heads is None:
         state = drawn(stream, task.first, task.count, len(spec.varied), limit)
     else:
-        state = walked(stream, task.first, state_of(task.heads, spec), task.threshold, task.spread, limit)
+        state = walked(
+            stream, task.first, state_of(task.heads, spec), task.threshold, task.spread, limit
+        )
     first = task.first * (1 if task.heads is None else STEPS)
-    case = (task.run * MOST_LEVELS + task.level) * spec.cases + np.arange(first, first + task.rows, dtype=np.int64)
+    case = (task.run * MOST_LEVELS + task.level) * spec.cases + np.arange(
+        first, first + task.rows, dtype=np.int64
+    )
     runs = task.rows if task.heads is None else task.rows - task.count  # heads are there already
     return Done(task, table_of(state, case, spec), wall_s, cpu_s, runs)
 
 
 def table_of(state: State, case: NDArray[np.int64], spec: Spec) -> pa.Table:
     """As it is kept."""
-    columns: Dict[str, Any] = {"case": case, "new": state["new"], "seed": state["seed"].astype(np.int64)}
+    columns: Dict[str, Any] = {
+        "case": case,
+        "new": state["new"],
+        "seed": state["seed"].astype(np.int64),
+    }
     columns.update({key: one for key, one in state.items() if key not in (*_SAMPLE_KEYS, "seed")})
-    columns.update({f"normal.{one.variable.name}": state["u"][:, k] for k, one in enumerate(spec.varied)})
+    columns.update(
+        {f"normal.{one.variable.name}": state["u"][:, k] for k, one in enumerate(spec.varied)}
+    )
     return pa.table(columns)
 
 
 def state_of(table: pa.Table, spec: Spec) -> State:
     """As it is computed with."""
     names: List[str] = [f"normal.{one.variable.name}" for one in spec.varied]
-    state: State = {key: table[key].to_numpy() for key in table.column_names if key not in (*_SAMPLE_KEYS, *names)}
+    state: State = {
+        key: table[key].to_numpy()
+        for key in table.column_names
+        if key not in (*_SAMPLE_KEYS, *names)
+    }
     state["seed"] = state["seed"].astype(np.uint64)
     state["u"] = np.stack([table[name].to_numpy() for name in names], axis=1)
     return state

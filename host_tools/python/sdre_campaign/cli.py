@@ -32,20 +32,33 @@ app = typer.Typer(add_completion=False)
 @app.command()
 def campaign(
     spec_file: Path = typer.Argument(..., metavar="SPEC", help="campaign file (TOML)"),
-    out: Optional[Path] = typer.Option(None, help="directory of the results [default: build/campaigns/NAME]"),
+    out: Optional[Path] = typer.Option(
+        None, help="directory of the results [default: build/campaigns/NAME]"
+    ),
     resume: bool = typer.Option(False, "--resume", help="go on with the parts that are there"),
-    workers: int = typer.Option(0, min=0, help="processes of the local cluster [default: one for each core]"),
-    scheduler: Optional[str] = typer.Option(None, help="tcp://HOST:PORT of a Dask scheduler instead"),
+    workers: int = typer.Option(
+        0, min=0, help="processes of the local cluster [default: one for each core]"
+    ),
+    scheduler: Optional[str] = typer.Option(
+        None, help="tcp://HOST:PORT of a Dask scheduler instead"
+    ),
     cases: Optional[int] = typer.Option(None, min=1, max=MOST_CASES, help="instead of the file's"),
 ) -> None:
-    """Runs a scenario with very many motors, loads, sensors, faults or seeds. Exit code 4 when a case failed."""
+    """Runs a scenario with very many motors, loads, sensors, faults or seeds. Exit code 4 when a
+    case failed."""
     spec = read_spec(spec_file)
     if cases is not None:
         if spec.method not in ("random", "motors"):
-            raise sdre.InputError(f"--cases is not allowed with method = \"{spec.method}\": its file says how many there are")
+            raise sdre.InputError(
+                f'--cases is not allowed with method = "{spec.method}": its file says how many '
+                f"there are"
+            )
         spec = replace(spec, cases=cases)
     path = out or Path("build/campaigns") / spec.name
-    with Directory(path, spec, resume) as directory, Workers(spec, scheduler, workers or os.cpu_count() or 1) as crew:
+    with (
+        Directory(path, spec, resume) as directory,
+        Workers(spec, scheduler, workers or os.cpu_count() or 1) as crew,
+    ):
         try:
             failed = (_rare if spec.method == "subset" else _plain)(directory, crew)
         except KeyboardInterrupt:
@@ -76,7 +89,9 @@ def _rare(directory: Directory, crew: Workers) -> bool:
     summary = summarise_runs(spec, runs, directory)
     write_text(directory.path / "summary.json", json.dumps(summary.as_dict(), indent=1) + "\n")
     write_worst(spec, summary.worst, directory.path / "worst")
-    draw_levels(summary, f"{spec.name}: margins of {spec.drive().name}", directory.path / "levels.png")
+    draw_levels(
+        summary, f"{spec.name}: margins of {spec.drive().name}", directory.path / "levels.png"
+    )
     print(summary.text(directory.path))
     return summary.failed_cases > 0
 
@@ -86,7 +101,10 @@ def _write(directory: Directory, summary: Summary) -> None:
     write_text(directory.path / "summary.json", json.dumps(summary.as_dict(), indent=1) + "\n")
     write_worst(spec, summary.worst, directory.path / "worst")
     if summary.sensitivities:
-        title = f"{spec.name}: {summary.cases:,} cases of {spec.drive().name}, {summary.failures:,} failed"
+        title = (
+            f"{spec.name}: {summary.cases:,} cases of {spec.drive().name}, {summary.failures:,} "
+            f"failed"
+        )
         draw_sensitivity(summary, title, directory.path / "sensitivity.png")
 
 
@@ -94,14 +112,25 @@ def _text(spec: Spec, s: Summary, path: Path) -> str:
     low, high = s.interval
     lines = [
         f"{spec.name} on {spec.drive().name}: {s.failures} of {s.cases} cases failed",
-        f"failure probability {s.failures / s.cases:.3g}, 95 % interval {low:.3g} .. {high:.3g} (Clopper-Pearson)",
-        f"margin: mean {s.margin_mean:.3f}, least {s.margin_least:.3f}, below zero in {s.negative} cases",
+        f"failure probability {s.failures / s.cases:.3g}, 95 % interval {low:.3g} .. {high:.3g} "
+        f"(Clopper-Pearson)",
+        f"margin: mean {s.margin_mean:.3f}, least {s.margin_least:.3f}, below zero in {s.negative} "
+        f"cases",
     ]
     lines += [f"{count} x {fault}" for fault, count in s.faults.items()]
     variance = s.margin_deviation**2
-    lines += [f"{one.name}: explains {100.0 * one.first_order(variance, s.margin_mean):.1f} % of the margin's variance"
-        for one in s.sensitivities]  # fmt: skip
-    return "\n".join(lines + [f"written: {path}/summary.json, parts/, worst/" + (", sensitivity.png" if s.sensitivities else "")])
+    lines += [
+        f"{one.name}: explains {100.0 * one.first_order(variance, s.margin_mean):.1f} % of the "
+        f"margin's variance"
+        for one in s.sensitivities
+    ]
+    return "\n".join(
+        lines
+        + [
+            f"written: {path}/summary.json, parts/, worst/"
+            + (", sensitivity.png" if s.sensitivities else "")
+        ]
+    )
 
 
 def main() -> None:

@@ -17,8 +17,8 @@ from distributed.scheduler import KilledWorker
 from sdre_campaign.batch import Done
 from sdre_campaign.spec import Spec
 
-# Tasks that wait at each thread beside the one that runs: a worker is never idle, and no more results than these are in
-# memory.
+# Tasks that wait at each thread beside the one that runs: a worker is never idle, and no more
+# results than these are in memory.
 _AHEAD = 2
 
 
@@ -26,8 +26,8 @@ class ClusterError(RuntimeError):
     """The cluster is gone, or loses the same work again and again."""
 
 
-# A machine that has other things to do leaves a process of low priority without a turn for minutes: that is no death. One
-# that dies is noticed by its connection.
+# A machine that has other things to do leaves a process of low priority without a turn for minutes:
+# that is no death. One that dies is noticed by its connection.
 _PATIENCE = {
     "distributed.scheduler.worker-ttl": None,
     "distributed.comm.timeouts.connect": "2m",
@@ -44,8 +44,14 @@ def connected(scheduler: Optional[str], workers: int) -> Iterator[Client]:
             yield client
         return
     with ExitStack() as closed, dask.config.set(_PATIENCE):
-        cluster = LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0",
-            memory_limit=0, silence_logs=logging.CRITICAL)  # fmt: skip
+        cluster = LocalCluster(
+            n_workers=workers,
+            threads_per_worker=1,
+            processes=True,
+            dashboard_address="127.0.0.1:0",
+            memory_limit=0,
+            silence_logs=logging.CRITICAL,
+        )
         client = Client(cluster)
         closed.callback(_close, cluster)
         closed.callback(_close, client)
@@ -60,7 +66,8 @@ def _client(scheduler: str) -> Client:
 
 
 def _close(what: Any) -> None:
-    """Closes it. Written parts are safe, so a process that does not end in time is not a failure."""
+    """Closes it. Written parts are safe, so a process that does not end in time is not a
+    failure."""
     with suppress(Exception):
         what.close(timeout=60)
 
@@ -68,8 +75,11 @@ def _close(what: Any) -> None:
 Work = Callable[[Spec, Any], Done]  # a task of a campaign, at a worker
 
 
-def run_tasks(client: Client, work: Work, spec: Spec, tasks: Sequence[Any], keep: Callable[[Done], None]) -> None:
-    """Runs the tasks in order and hands each result on as it comes; a worker that dies costs its own task's time."""
+def run_tasks(
+    client: Client, work: Work, spec: Spec, tasks: Sequence[Any], keep: Callable[[Done], None]
+) -> None:
+    """Runs the tasks in order and hands each result on as it comes; a worker that dies costs its
+    own task's time."""
     todo = iter(tasks)
     running: Any = as_completed()
 
@@ -86,6 +96,8 @@ def run_tasks(client: Client, work: Work, spec: Spec, tasks: Sequence[Any], keep
             submit(1 + max(0, now - threads) * (1 + _AHEAD))
             threads = max(threads, now)
     except KilledWorker as error:
-        raise ClusterError("workers die with the same task again and again: is there memory enough?") from error
+        raise ClusterError(
+            "workers die with the same task again and again: is there memory enough?"
+        ) from error
     except (OSError, TimeoutError, CancelledError, FutureCancelledError) as error:
         raise ClusterError(f"the cluster is gone: {error}") from error

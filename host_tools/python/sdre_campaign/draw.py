@@ -41,10 +41,13 @@ def values_of(spec: Spec, first: int, count: int) -> FloatArray:
 
 
 def shared(spec: Spec, normal: FloatArray) -> FloatArray:
-    """Values of independent standard normals, a column for each variable: their distribution function, then the variable's inverse."""
+    """Values of independent standard normals, a column for each variable: their distribution
+    function, then the variable's inverse."""
     from scipy.special import ndtr
 
-    return _side_by_side(spec, [_drawn(one, ndtr(normal[:, k])) for k, one in enumerate(spec.varied)], len(normal))
+    return _side_by_side(
+        spec, [_drawn(one, ndtr(normal[:, k])) for k, one in enumerate(spec.varied)], len(normal)
+    )
 
 
 def place_of(one: Varied, value: float) -> float:
@@ -58,7 +61,9 @@ def place_of(one: Varied, value: float) -> float:
     if one.distribution == "log_uniform":
         return math.log(value / one.low) / math.log(one.high / one.low)
     if one.distribution == "normal":
-        lo, hi, at = (float(ndtr((v - one.mean) / one.deviation)) for v in (one.low, one.high, value))
+        lo, hi, at = (
+            float(ndtr((v - one.mean) / one.deviation)) for v in (one.low, one.high, value)
+        )
         return (at - lo) / (hi - lo)
     return (value - one.low) / (one.high - one.low)
 
@@ -71,7 +76,8 @@ def _side_by_side(spec: Spec, columns: list[FloatArray], count: int) -> FloatArr
 
 
 def even_numbers(seed: int, first: int, count: int, width: int, stream: int = 0) -> FloatArray:
-    """count x width numbers in 0 .. 1, 1 excluded; row i of case first + i. Streams have nothing in common."""
+    """count x width numbers in 0 .. 1, 1 excluded; row i of case first + i. Streams have nothing in
+    common."""
     blocks = max(1, math.ceil(width / _PER_BLOCK))
     generator = np.random.Philox(key=seed + (stream << 64), counter=first * blocks)
     raw = generator.random_raw(count * blocks * _PER_BLOCK).reshape(count, blocks * _PER_BLOCK)
@@ -82,11 +88,16 @@ def _drawn(one: Varied, share: FloatArray) -> FloatArray:
     if one.distribution == "values":
         return np.array(one.values)[(share * len(one.values)).astype(np.int64)]
     if one.distribution == "log_uniform":
-        return np.exp(math.log(one.low) + share * (math.log(one.high) - math.log(one.low))).clip(one.low, one.high)
+        return np.exp(math.log(one.low) + share * (math.log(one.high) - math.log(one.low))).clip(
+            one.low, one.high
+        )
     if one.distribution == "normal":
         from scipy.special import ndtr, ndtri
 
-        lo, hi = ndtr((one.low - one.mean) / one.deviation), ndtr((one.high - one.mean) / one.deviation)
+        lo, hi = (
+            ndtr((one.low - one.mean) / one.deviation),
+            ndtr((one.high - one.mean) / one.deviation),
+        )
         return np.clip(one.mean + one.deviation * ndtri(lo + share * (hi - lo)), one.low, one.high)
     return one.low + share * (one.high - one.low)
 

@@ -11,5 +11,7 @@ def main() -> None:
     try:
         from sdre_campaign.cli import main as run
     except ImportError as error:
-        sys.exit(f"sdre-campaign: {error.name} is missing: pip install './host_tools/python[campaign]'")
+        sys.exit(
+            f"sdre-campaign: {error.name} is missing: pip install './host_tools/python[campaign]'"
+        )
     run()

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 """The directory of a campaign: parts that are complete or not there, and what they belong to.
 
-    campaign.json             what the campaign is; a directory takes parts of this one alone
-    parts/part-000000.parquet a batch each, written beside its place, then renamed
-    parts/run-000-level-00-from-000000.parquet   in place of them with method = "subset"
-    summary.json, sensitivity.png, worst/*.toml   made of the parts, again and again
+campaign.json             what the campaign is; a directory takes parts of this one alone
+parts/part-000000.parquet a batch each, written beside its place, then renamed
+parts/run-000-level-00-from-000000.parquet   in place of them with method = "subset"
+summary.json, sensitivity.png, worst/*.toml   made of the parts, again and again
 """
 
 from __future__ import annotations
@@ -45,23 +45,50 @@ class Directory:
         if said.exists():
             before = json.loads(said.read_text(encoding="utf-8"))
             if before.get("digest") != self.spec.digest():
-                raise sdre.InputError(f"{self.path}: has parts of another campaign; give another directory")
+                raise sdre.InputError(
+                    f"{self.path}: has parts of another campaign; give another directory"
+                )
             if not resume:
-                raise sdre.InputError(f"{self.path}: has parts of this campaign; --resume goes on with them")
+                raise sdre.InputError(
+                    f"{self.path}: has parts of this campaign; --resume goes on with them"
+                )
         for left in self.parts.glob(".*.tmp"):  # of a client that was killed while it wrote
             left.unlink()
         write_text(said, json.dumps(self._about(), indent=1) + "\n")
 
     def _about(self) -> Dict[str, Any]:
         spec, drive = self.spec, self.spec.drive()
-        variables = [{"name": one.variable.name, "distribution": one.distribution, "low": one.low, "high": one.high} for one in spec.varied]
-        return {"name": spec.name, "digest": spec.digest(), "method": spec.method, "cases": spec.cases, "batch": spec.batch,
-            "variables": variables, "drive": drive.name, "drive_digest": drive.digest, "tool": sdre.__version__}  # fmt: skip
+        variables = [
+            {
+                "name": one.variable.name,
+                "distribution": one.distribution,
+                "low": one.low,
+                "high": one.high,
+            }
+            for one in spec.varied
+        ]
+        return {
+            "name": spec.name,
+            "digest": spec.digest(),
+            "method": spec.method,
+            "cases": spec.cases,
+            "batch": spec.batch,
+            "variables": variables,
+            "drive": drive.name,
+            "drive_digest": drive.digest,
+            "tool": sdre.__version__,
+        }
 
     def missing(self) -> List[int]:
         """Batches that have no part."""
-        count = batches_of(self.spec)  # the last part of a campaign that had fewer cases is not complete
-        return [batch for batch in range(count) if not self.is_complete(part_name(batch), span_of(self.spec, batch)[1])]
+        count = batches_of(
+            self.spec
+        )  # the last part of a campaign that had fewer cases is not complete
+        return [
+            batch
+            for batch in range(count)
+            if not self.is_complete(part_name(batch), span_of(self.spec, batch)[1])
+        ]
 
     def is_complete(self, name: str, rows: int) -> bool:
         """Whether a part is there with all its rows."""

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Subset simulation on a cluster: level by level, all runs in parallel. The parts of a level determine the next one."""
+"""Subset simulation on a cluster: level by level, all runs in parallel. The parts of a level
+determine the next one."""
 
 from __future__ import annotations
 
@@ -14,7 +15,8 @@ from sdre_campaign.spec import Spec
 from sdre_campaign.subset import STEPS, FloatArray, Level, heads_of, judge, next_spread
 from sdre_campaign.workers import Workers
 
-FIRST_SPREAD = 0.6  # of the first chains' candidates: tried with the limit states of tests/python/test_campaign_rare.py
+# of the first chains' candidates: tried with the limit states of tests/python/test_campaign_rare.py
+FIRST_SPREAD = 0.6
 STUCK = 0.05  # share of the candidates: when fewer are taken a chain of ten is one sample
 
 
@@ -36,12 +38,25 @@ class Run:
         level = len(self.levels)
         if self._heads is None:
             return [Chains(self.number, level, first, count) for first, count in self._spans(level)]
-        return [Chains(self.number, level, first, count, self._heads.slice(first, count), self.levels[-1].threshold, self._spread)
-            for first, count in self._spans(level)]  # fmt: skip
+        return [
+            Chains(
+                self.number,
+                level,
+                first,
+                count,
+                self._heads.slice(first, count),
+                self.levels[-1].threshold,
+                self._spread,
+            )
+            for first, count in self._spans(level)
+        ]
 
     def table(self, directory: Directory, level: int) -> pa.Table:
         """All samples of a level that is there."""
-        parts = [directory.read(Chains(self.number, level, first, count).name) for first, count in self._spans(level)]
+        parts = [
+            directory.read(Chains(self.number, level, first, count).name)
+            for first, count in self._spans(level)
+        ]
         return pa.concat_tables(parts).combine_chunks()
 
     def _spans(self, level: int) -> List[Tuple[int, int]]:
@@ -65,7 +80,11 @@ class Run:
             self.end = "limit"
         elif self.probability() < self._spec.floor:
             self.end = "floor"
-        elif level.threshold >= before or (self.taken and self.taken[-1] < STUCK) or len(self.levels) == MOST_LEVELS:
+        elif (
+            level.threshold >= before
+            or (self.taken and self.taken[-1] < STUCK)
+            or len(self.levels) == MOST_LEVELS
+        ):
             self.end = "stuck"
 
     def probability(self) -> float:

@@ -36,7 +36,13 @@ def write_worst(spec: Spec, worst: List[Worst], directory: Path) -> List[Path]:
         keys = {"drive": Path(os.path.relpath(spec.drive_path, directory.resolve())).as_posix()}
         keys.update(case_keys(spec, one.values, one.seed))
         path = directory / f"{rank:03d}_case_{one.case}.toml"
-        verdict = f"fault: {one.fault}" if one.fault != "none" else "failed" if one.failed else "good"
-        write_text(path, f"# Case {one.case} of {spec.name}: {verdict}, margin {one.margin:.4f}.\n" + written(keys, str(path)))
+        verdict = (
+            f"fault: {one.fault}" if one.fault != "none" else "failed" if one.failed else "good"
+        )
+        write_text(
+            path,
+            f"# Case {one.case} of {spec.name}: {verdict}, margin {one.margin:.4f}.\n"
+            + written(keys, str(path)),
+        )
         paths.append(path)
     return paths

@@ -70,11 +70,30 @@ class Spec:
     def digest(self) -> str:
         """Digest of everything that determines a case. The number of cases is not part of it."""
         said = {
-            "tool": sdre.__version__, "method": self.method, "seed": self.seed, "batch": self.batch, "repeats": self.repeats,
-            "fixed_seed": self.fixed_seed, "metrics": self.metrics, "scenario": self.scenario, "drive": self.drive().digest,
-            "varied": [[list(one.variable.keys), one.variable.whole, one.distribution, one.low, one.high, one.values, one.mean,
-                one.deviation, one.points] for one in self.varied],
-        }  # fmt: skip
+            "tool": sdre.__version__,
+            "method": self.method,
+            "seed": self.seed,
+            "batch": self.batch,
+            "repeats": self.repeats,
+            "fixed_seed": self.fixed_seed,
+            "metrics": self.metrics,
+            "scenario": self.scenario,
+            "drive": self.drive().digest,
+            "varied": [
+                [
+                    list(one.variable.keys),
+                    one.variable.whole,
+                    one.distribution,
+                    one.low,
+                    one.high,
+                    one.values,
+                    one.mean,
+                    one.deviation,
+                    one.points,
+                ]
+                for one in self.varied
+            ],
+        }
         if self.method == "subset":  # more runs and deeper levels keep those there are
             said.update(repeats=0, cases=self.cases, margin=self.margin, limit=self.limit)
         return "sha256:" + hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()
@@ -134,9 +153,14 @@ class Keys:
     def numbers(self, key: str, least: int) -> List[float]:
         """Finite numbers, this many at least."""
         values = self.get(key, list)
-        good = all(isinstance(v, (int, float)) and not isinstance(v, bool) and math.isfinite(v) for v in values)
+        good = all(
+            isinstance(v, (int, float)) and not isinstance(v, bool) and math.isfinite(v)
+            for v in values
+        )
         if len(values) < least or not good:
-            raise self.fail(key, f"= {values} is not allowed: must be {least} or more finite numbers")
+            raise self.fail(
+                key, f"= {values} is not allowed: must be {least} or more finite numbers"
+            )
         return [float(v) for v in values]
 
     def words(self, key: str, default: Optional[List[str]] = None) -> List[str]:
@@ -150,11 +174,14 @@ class Keys:
         """InputError when there is an unknown key."""
         for key in self._keys:
             if key not in self._known:
-                raise self.fail(key, f"is not a known key; allowed: {', '.join(sorted(self._known))}")
+                raise self.fail(
+                    key, f"is not a known key; allowed: {', '.join(sorted(self._known))}"
+                )
 
 
 def read_spec(path: Path) -> Spec:
-    """A specification file; its paths are relative to it. InputError in one line on anything wrong."""
+    """A specification file; its paths are relative to it. InputError in one line on anything
+    wrong."""
     keys = Keys(table(read_text(path), str(path)), str(path))
     scenario_path = path.parent / keys.get("scenario", str)
     scenario = table(read_text(scenario_path), str(scenario_path))
@@ -163,7 +190,9 @@ def read_spec(path: Path) -> Spec:
     for key, value in keys.get("change", dict, {}).items():
         put(scenario, key, plain(value))
     method = keys.choice("method", METHODS, "random")
-    varied = _motors(scenario, scenario_path) if method == "motors" else _varied(keys, method, str(path))
+    varied = (
+        _motors(scenario, scenario_path) if method == "motors" else _varied(keys, method, str(path))
+    )
     repeats = keys.whole("repeats", 1, 1000000, 10 if method == "subset" else 1)
     spec = Spec(
         name=path.stem,
@@ -182,7 +211,9 @@ def read_spec(path: Path) -> Spec:
         **_of_subset(keys, method),
     )
     keys.reject_unknown()
-    cases = sdre.Cases(sdre.Scenario(spec.scenario, spec.drive()), spec.drive(), spec.variables(), spec.metrics)
+    cases = sdre.Cases(
+        sdre.Scenario(spec.scenario, spec.drive()), spec.drive(), spec.variables(), spec.metrics
+    )
     cases.check([one.low for one in varied])
     cases.check([one.high for one in varied])
     return spec
@@ -200,9 +231,15 @@ def _drive_path(keys: Keys, spec: Path, scenario_path: Path, scenario: Mapping[s
 
 def _for_runs(scenario: Dict[str, Any], method: str) -> Dict[str, Any]:
     """Without what only reports read: a worker need not have the files."""
-    kept = {key: value for key, value in scenario.items() if key != "drive" and (key != "motor_ranges" or method == "motors")}
-    kept["measure"] = [{key: value for key, value in measure.items() if key not in ("paper", "paper_of")}
-        for measure in scenario.get("measure", [])]  # fmt: skip
+    kept = {
+        key: value
+        for key, value in scenario.items()
+        if key != "drive" and (key != "motor_ranges" or method == "motors")
+    }
+    kept["measure"] = [
+        {key: value for key, value in measure.items() if key not in ("paper", "paper_of")}
+        for measure in scenario.get("measure", [])
+    ]
     return kept
 
 
@@ -223,7 +260,9 @@ def _cases(keys: Keys, method: str, varied: Tuple[Varied, ...], repeats: int) ->
         return count
     count = math.prod(points_of(one, method) for one in varied) * repeats
     if count > MOST_CASES:
-        raise keys.fail("variable", f"has {count} cases with repeats = {repeats}, must be at most {MOST_CASES}")
+        raise keys.fail(
+            "variable", f"has {count} cases with repeats = {repeats}, must be at most {MOST_CASES}"
+        )
     return count
 
 
@@ -240,7 +279,11 @@ def _of_subset(keys: Keys, method: str) -> Dict[str, Any]:
     floor = keys.number("floor", 1e-9)
     if not MOST_RARE <= floor < 0.1:
         raise keys.fail("floor", f"= {floor} is not allowed: must be in {MOST_RARE} .. 0.1")
-    return {"margin": keys.choice("margin", MARGINS, MARGINS[0]), "limit": keys.number("limit", 0.0), "floor": floor}
+    return {
+        "margin": keys.choice("margin", MARGINS, MARGINS[0]),
+        "limit": keys.number("limit", 0.0),
+        "floor": floor,
+    }
 
 
 def _motors(scenario: Mapping[str, Any], path: Path) -> Tuple[Varied, ...]:
@@ -248,15 +291,22 @@ def _motors(scenario: Mapping[str, Any], path: Path) -> Tuple[Varied, ...]:
     if not isinstance(ranges, dict):
         raise sdre.InputError(f"{path}: [motor_ranges] is missing")
     try:
-        return tuple(Varied(one, "uniform", float(ranges[one.name][0]), float(ranges[one.name][1]))
-            for one in motor_variables())  # fmt: skip
+        return tuple(
+            Varied(one, "uniform", float(ranges[one.name][0]), float(ranges[one.name][1]))
+            for one in motor_variables()
+        )
     except (KeyError, IndexError, TypeError, ValueError) as error:
-        raise sdre.InputError(f"{path}: [motor_ranges] must have a low and a high value of each of its keys") from error
+        raise sdre.InputError(
+            f"{path}: [motor_ranges] must have a low and a high value of each of its keys"
+        ) from error
 
 
 def _varied(keys: Keys, method: str, source: str) -> Tuple[Varied, ...]:
     tables = keys.get("variable", list, [])
-    varied = tuple(_one(Keys(one, f"{source}: [[variable]] number {n}"), method) for n, one in enumerate(tables, 1))
+    varied = tuple(
+        _one(Keys(one, f"{source}: [[variable]] number {n}"), method)
+        for n, one in enumerate(tables, 1)
+    )
     names = [one.variable.name for one in varied]
     if len(set(names)) < len(names):
         raise sdre.InputError(f"{source}: [[variable]] name is used twice")
@@ -264,20 +314,33 @@ def _varied(keys: Keys, method: str, source: str) -> Tuple[Varied, ...]:
 
 
 def _one(keys: Keys, method: str) -> Varied:
-    variable = sdre.Variable(keys.get("name", str), tuple(keys.words("keys")), keys.get("whole", bool, False))
+    variable = sdre.Variable(
+        keys.get("name", str), tuple(keys.words("keys")), keys.get("whole", bool, False)
+    )
     if not variable.keys:
         raise keys.fail("keys", "is empty")
-    distribution = keys.choice("distribution", DISTRIBUTIONS, "values" if keys.has("values") else "uniform")
+    distribution = keys.choice(
+        "distribution", DISTRIBUTIONS, "values" if keys.has("values") else "uniform"
+    )
     points = keys.whole("points", 1, 100000, 5)
     if distribution == "values" and method == "subset":
-        raise keys.fail("values", 'is not allowed with method = "subset": a slope leads to what is rare; give a range')
+        raise keys.fail(
+            "values",
+            'is not allowed with method = "subset": a slope leads to what is rare; give a range',
+        )
     if distribution == "values":
         values = tuple(keys.numbers("values", 1))
         keys.reject_unknown()
         return Varied(variable, distribution, min(values), max(values), values, points=points)
     bounds = keys.numbers("range", 2)
-    if len(bounds) != 2 or bounds[0] > bounds[1] or (distribution == "log_uniform" and bounds[0] <= 0.0):
-        raise keys.fail("range", f"= {bounds} is not allowed: must be [low, high], above 0 for log_uniform")
+    if (
+        len(bounds) != 2
+        or bounds[0] > bounds[1]
+        or (distribution == "log_uniform" and bounds[0] <= 0.0)
+    ):
+        raise keys.fail(
+            "range", f"= {bounds} is not allowed: must be [low, high], above 0 for log_uniform"
+        )
     mean = keys.number("mean", 0.5 * sum(bounds)) if distribution == "normal" else 0.0
     deviation = keys.number("deviation") if distribution == "normal" else 1.0
     if deviation <= 0.0:

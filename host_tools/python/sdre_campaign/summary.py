@@ -24,12 +24,15 @@ _MARGIN_EDGES = np.linspace(-1.0, 1.0, 401)  # 0.005 each; what is below is coun
 
 
 def clopper_pearson(failures: int, cases: int, confidence: float = 0.95) -> Tuple[float, float]:
-    """Interval of a probability from failures in independent cases: never too narrow (Clopper and Pearson, 1934)."""
+    """Interval of a probability from failures in independent cases: never too narrow (Clopper and
+    Pearson, 1934)."""
     from scipy.special import betaincinv
 
     rest = 0.5 * (1.0 - confidence)
     low = 0.0 if failures == 0 else float(betaincinv(failures, cases - failures + 1, rest))
-    high = 1.0 if failures == cases else float(betaincinv(failures + 1, cases - failures, 1.0 - rest))
+    high = (
+        1.0 if failures == cases else float(betaincinv(failures + 1, cases - failures, 1.0 - rest))
+    )
     return low, high
 
 
@@ -50,10 +53,14 @@ class Sensitivity:
         self.sums = np.zeros(BINS)
         self.least = np.full(BINS, np.inf)
 
-    def add(self, values: NDArray[np.float64], margin: NDArray[np.float64], failed: NDArray[np.bool_]) -> None:
+    def add(
+        self, values: NDArray[np.float64], margin: NDArray[np.float64], failed: NDArray[np.bool_]
+    ) -> None:
         """Cases of one part."""
         at = np.clip(np.searchsorted(self.edges, values, side="right") - 1, 0, BINS - 1)
-        high = np.clip(np.searchsorted(_MARGIN_EDGES, margin, side="right") - 1, 0, len(_MARGIN_EDGES) - 2)
+        high = np.clip(
+            np.searchsorted(_MARGIN_EDGES, margin, side="right") - 1, 0, len(_MARGIN_EDGES) - 2
+        )
         np.add.at(self.counts, (at, high), 1)
         np.add.at(self.failures, at, failed)
         np.add.at(self.sums, at, margin)
@@ -67,7 +74,8 @@ class Sensitivity:
         return np.where(total > 0, _MARGIN_EDGES[index + 1], np.nan)
 
     def first_order(self, variance: float, mean: float) -> float:
-        """Share of the margin's variance that this variable alone explains (Sobol's first-order index, by bins).
+        """Share of the margin's variance that this variable alone explains (Sobol's first-order
+        index, by bins).
 
         Without what chance explains: the means of so many bins differ of themselves.
         """
@@ -105,7 +113,9 @@ class Summary:
     margin_mean: float
     margin_deviation: float
     margin_least: float
-    histograms: Dict[str, NDArray[np.int64]]  # of the margin and of its two parts, bins of HISTOGRAM_EDGES
+    histograms: Dict[
+        str, NDArray[np.int64]
+    ]  # of the margin and of its two parts, bins of HISTOGRAM_EDGES
     sensitivities: List[Sensitivity]
     worst: List[Worst]
 
@@ -119,11 +129,21 @@ class Summary:
             "negative_margins": self.negative,
             "negative_margin_interval_95": list(clopper_pearson(self.negative, self.cases)),
             "faults": self.faults,
-            "margin": {"mean": self.margin_mean, "deviation": self.margin_deviation, "least": self.margin_least},
-            "histograms": {"edges": HISTOGRAM_EDGES.tolist(), **{name: one.tolist() for name, one in self.histograms.items()}},
-            "first_order": {one.name: one.first_order(self.margin_deviation**2, self.margin_mean) for one in self.sensitivities},
+            "margin": {
+                "mean": self.margin_mean,
+                "deviation": self.margin_deviation,
+                "least": self.margin_least,
+            },
+            "histograms": {
+                "edges": HISTOGRAM_EDGES.tolist(),
+                **{name: one.tolist() for name, one in self.histograms.items()},
+            },
+            "first_order": {
+                one.name: one.first_order(self.margin_deviation**2, self.margin_mean)
+                for one in self.sensitivities
+            },
             "worst": [one.__dict__ for one in self.worst],
-        }  # fmt: skip
+        }
 
 
 def summarise(spec: Spec, tables: Iterable[pa.Table]) -> Summary:
@@ -132,8 +152,13 @@ def summarise(spec: Spec, tables: Iterable[pa.Table]) -> Summary:
     faults: Dict[int, int] = {}
     total = square = 0.0
     least = np.inf
-    histograms = {name: np.zeros(len(HISTOGRAM_EDGES) - 1, dtype=np.int64) for name in ("least", "speed", "current")}
-    sensitivities = [Sensitivity(one.variable.name, _edges(one.low, one.high)) for one in spec.varied]
+    histograms = {
+        name: np.zeros(len(HISTOGRAM_EDGES) - 1, dtype=np.int64)
+        for name in ("least", "speed", "current")
+    }
+    sensitivities = [
+        Sensitivity(one.variable.name, _edges(one.low, one.high)) for one in spec.varied
+    ]
     worst: List[Tuple[Tuple[bool, float, int], Worst]] = []
     for table in tables:
         columns = columns_in(table)
@@ -145,7 +170,11 @@ def summarise(spec: Spec, tables: Iterable[pa.Table]) -> Summary:
         total += float(margin.sum())
         square += float((margin**2).sum())
         least = min(least, float(margin.min()))
-        for name, one in (("least", margin), ("speed", columns["speed_margin"]), ("current", columns["current_margin"])):
+        for name, one in (
+            ("least", margin),
+            ("speed", columns["speed_margin"]),
+            ("current", columns["current_margin"]),
+        ):
             histograms[name] += np.histogram(one.clip(-1.0, 1.0), HISTOGRAM_EDGES)[0]
         for fault, count in zip(*np.unique(columns["fault"], return_counts=True)):
             if fault != 0:
@@ -156,9 +185,18 @@ def summarise(spec: Spec, tables: Iterable[pa.Table]) -> Summary:
         worst = heapq.nsmallest(spec.worst, worst, key=lambda one: one[0])
     mean = total / cases
     return Summary(
-        cases, failures, clopper_pearson(failures, cases), negative,
+        cases,
+        failures,
+        clopper_pearson(failures, cases),
+        negative,
         {_native.fault_name(number): count for number, count in sorted(faults.items())},
-        mean, max(square / cases - mean * mean, 0.0) ** 0.5, least, histograms, sensitivities, [one for _, one in worst])  # fmt: skip
+        mean,
+        max(square / cases - mean * mean, 0.0) ** 0.5,
+        least,
+        histograms,
+        sensitivities,
+        [one for _, one in worst],
+    )
 
 
 def _edges(low: float, high: float) -> NDArray[np.float64]:
@@ -171,18 +209,28 @@ def columns_in(table: pa.Table) -> Dict[str, Any]:
 
 
 def ranked_worst(table: pa.Table, spec: Spec) -> List[Tuple[Tuple[bool, float, int], Worst]]:
-    """The worst cases of a table with what ranks them: failed cases first, then the least margin, then the number."""
+    """The worst cases of a table with what ranks them: failed cases first, then the least margin,
+    then the number."""
     columns = columns_in(table)
     margin = columns.get("margin", np.minimum(columns["current_margin"], columns["speed_margin"]))
     lowest = np.lexsort((np.arange(len(margin)), margin, ~columns["failed"]))[: spec.worst]
     return [_ranked(spec, columns, int(row), float(margin[row])) for row in lowest]
 
 
-def _ranked(spec: Spec, columns: Dict[str, Any], row: int, margin: float) -> Tuple[Tuple[bool, float, int], Worst]:
+def _ranked(
+    spec: Spec, columns: Dict[str, Any], row: int, margin: float
+) -> Tuple[Tuple[bool, float, int], Worst]:
     case, failed = int(columns["case"][row]), bool(columns["failed"][row])
-    values = {one.variable.name: float(columns[f"value.{one.variable.name}"][row]) for one in spec.varied}
+    values = {
+        one.variable.name: float(columns[f"value.{one.variable.name}"][row]) for one in spec.varied
+    }
     places = {one.variable.name: place_of(one, values[one.variable.name]) for one in spec.varied}
-    results = {name: float(array[row]) for name, array in columns.items()
-        if "." in name and not name.startswith(("value.", "normal."))}  # fmt: skip
+    results = {
+        name: float(array[row])
+        for name, array in columns.items()
+        if "." in name and not name.startswith(("value.", "normal."))
+    }
     fault = _native.fault_name(int(columns["fault"][row]))
-    return (not failed, margin, case), Worst(case, int(columns["seed"][row]), failed, margin, fault, values, places, results)
+    return (not failed, margin, case), Worst(
+        case, int(columns["seed"][row]), failed, margin, fault, values, places, results
+    )

@@ -25,8 +25,13 @@ class Workers:
         self._client: Optional[Client] = None
         console = Console(stderr=True)
         self._progress = Progress(
-            TextColumn("{task.completed:.0f} of {task.total:.0f} cases"), BarColumn(), TimeRemainingColumn(),
-            TextColumn("{task.fields[rate]}"), console=console, disable=not console.is_terminal)  # fmt: skip
+            TextColumn("{task.completed:.0f} of {task.total:.0f} cases"),
+            BarColumn(),
+            TimeRemainingColumn(),
+            TextColumn("{task.fields[rate]}"),
+            console=console,
+            disable=not console.is_terminal,
+        )
         self._task = self._progress.add_task("cases", total=0, rate="")
         self._cases = 0
         self._wall_s = self._native_s = self._cpu_s = 0.0
@@ -53,7 +58,9 @@ class Workers:
             self._cpu_s += one.cpu_s
             self._cases += one.cases
             self._wall_s = before + time.monotonic() - begin
-            self._progress.update(self._task, advance=one.table.num_rows, rate=f"{self._cases / self._wall_s:.0f}/s")
+            self._progress.update(
+                self._task, advance=one.table.num_rows, rate=f"{self._cases / self._wall_s:.0f}/s"
+            )
 
         run_tasks(self._client, work, self._spec, tasks, kept)
         self._threads = sum(self._client.nthreads().values())
@@ -63,9 +70,13 @@ class Workers:
         if self._cases == 0:
             return
         seconds = self._cases * float(self._spec.scenario["duration_s"])
-        print(f"{self._cases} cases in {self._wall_s:.1f} s on {self._threads} workers: {self._cases / self._wall_s:.0f} cases/s; per core "
-              f"and second of its time {seconds / max(self._cpu_s, 1e-9):.0f} simulated s; workers busy "
-              f"{100.0 * self._native_s / (self._wall_s * self._threads):.1f} %")  # fmt: skip
+        print(
+            f"{self._cases} cases in {self._wall_s:.1f} s on {self._threads} workers: "
+            f"{self._cases / self._wall_s:.0f} cases/s; per core "
+            f"and second of its time {seconds / max(self._cpu_s, 1e-9):.0f} simulated s; workers "
+            f"busy "
+            f"{100.0 * self._native_s / (self._wall_s * self._threads):.1f} %"
+        )
 
     def __enter__(self) -> Workers:
         return self

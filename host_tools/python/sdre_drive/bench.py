@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The bench around a virtual drive (`sdre-sil serve --control`): load, supply, faults, and what the motor really does."""
+"""The bench around a virtual drive (`sdre-sil serve --control`): load, supply, faults, and what the
+motor really does."""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ FAULTS = {
     "motor wire c broken": 'fault kind = "phase_open", phase = "c"',
     "current sensor a reads nothing": 'fault kind = "current_zero", phase = "a"',
     "current sensor a frozen": 'fault kind = "current_frozen", phase = "a"',
-    "current sensor a drifts to 3 A": 'fault kind = "current_drift", phase = "a", rate_Aps = 1000.0, until_A = 3.0',
+    "current sensor a drifts "
+    "to 3 A": 'fault kind = "current_drift", phase = "a", rate_Aps = 1000.0, until_A = 3.0',
     "current sensor b shows a third": 'fault kind = "current_gain", phase = "b", gain = 0.3',
     "encoder loses counts": 'fault kind = "encoder_losing", counts_per_s = 20000.0',
     "index wire off": 'fault kind = "index_missing"',
@@ -36,7 +38,9 @@ class Bench:
         try:
             self._socket = socket.create_connection(address, timeout=TIMEOUT_S)
         except OSError as e:
-            raise DriveError(f"no bench of a virtual drive at {address[0]}:{address[1]}: {e.strerror or e}") from e
+            raise DriveError(
+                f"no bench of a virtual drive at {address[0]}:{address[1]}: {e.strerror or e}"
+            ) from e
         self._lines = self._socket.makefile("rw", encoding="utf-8", newline="\n")
 
     def close(self) -> None:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Programs into an F28335's RAM by the SCI loader of its boot ROM: docs/loading.md. The ROM answers every octet with the same octet."""
+"""Programs into an F28335's RAM by the SCI loader of its boot ROM: docs/loading.md. The ROM answers
+every octet with the same octet."""
 
 from __future__ import annotations
 
@@ -61,14 +62,20 @@ def _checked(path: Path, octets: bytes) -> Program:
         return words[at : at + count]
 
     if take(0, 1)[0] != KEY:
-        raise DriveError(f"{path}: begins with {words[0]:04X}h, a stream for the SCI loader begins with {KEY:04X}h")
+        raise DriveError(
+            f"{path}: begins with {words[0]:04X}h, a stream for the SCI loader begins with "
+            f"{KEY:04X}h"
+        )
     high, low = take(1 + RESERVED_WORDS, 2)
     entry, at, blocks = (high << 16) | low, 3 + RESERVED_WORDS, []
     while (count := take(at, 1)[0]) != 0:
         high, low = take(at + 1, 2)
         first = (high << 16) | low
         if not is_ram(first, count):
-            raise DriveError(f"{path}: {count} words at {first:06X}h are not in RAM; the boot ROM cannot write flash: use a programming tool")
+            raise DriveError(
+                f"{path}: {count} words at {first:06X}h are not in RAM; the boot ROM cannot write "
+                f"flash: use a programming tool"
+            )
         take(at + 3, count)
         blocks.append((first, count))
         at += 3 + count
@@ -83,10 +90,14 @@ def _lock(line, longest_s: float) -> None:  # type: ignore[no-untyped-def]
         line.write(bytes([AUTOBAUD]))
         if line.read(1) == bytes([AUTOBAUD]):
             return
-    raise DriveError("the boot ROM does not answer: boot mode SCI-A (GPIO87..84 = 1110), then release the reset")
+    raise DriveError(
+        "the boot ROM does not answer: boot mode SCI-A (GPIO87..84 = 1110), then release the reset"
+    )
 
 
-def send(line, program: Program, progress: Callable[[float], None], longest_s: float = LOCK_S) -> None:  # type: ignore[no-untyped-def]
+def send(
+    line, program: Program, progress: Callable[[float], None], longest_s: float = LOCK_S
+) -> None:  # type: ignore[no-untyped-def]
     """`line`: an open serial port, 8N1, whose read() returns after ECHO_S at the latest."""
     line.reset_input_buffer()
     _lock(line, longest_s)
@@ -94,7 +105,13 @@ def send(line, program: Program, progress: Callable[[float], None], longest_s: f
         line.write(bytes([octet]))
         answer = line.read(1)
         if not answer:
-            raise DriveError(f"the boot ROM went silent at octet {k} of {len(program.octets)}: release the reset and begin again")
+            raise DriveError(
+                f"the boot ROM went silent at octet {k} of {len(program.octets)}: release the "
+                f"reset and begin again"
+            )
         if answer[0] != octet:
-            raise DriveError(f"octet {k} arrived as {answer[0]:02X}h instead of {octet:02X}h: take a lower --rate and begin again")
+            raise DriveError(
+                f"octet {k} arrived as {answer[0]:02X}h instead of {octet:02X}h: take a lower "
+                f"--rate and begin again"
+            )
         progress((k + 1) / len(program.octets))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""`sdre-drive`. Exit codes as those of the other tools: 0 good, 1 bad input or no answer, 4 the drive has tripped."""
+"""`sdre-drive`. Exit codes as those of the other tools: 0 good, 1 bad input or no answer, 4 the
+drive has tripped."""
 
 from __future__ import annotations
 
@@ -16,26 +17,42 @@ from rich.live import Live
 from rich.progress import Progress
 from typing_extensions import Annotated
 
-from sdre_drive import boot_rom
+from sdre_drive import boot_rom, record, scope, session, show
 from sdre_drive import commission as finder
 from sdre_drive import load as loader
 from sdre_drive import move as mover
-from sdre_drive import record, scope, session, show
 from sdre_drive.connection import Drive, DriveError
-from sdre_drive.options import Control, Line, PolePairs, Port, Tcp, Unit, bench_address, pole_pairs_of, target, use_line
+from sdre_drive.options import (
+    Control,
+    Line,
+    PolePairs,
+    Port,
+    Tcp,
+    Unit,
+    bench_address,
+    pole_pairs_of,
+    target,
+    use_line,
+)
 from sdre_drive.params_commands import params
-from sdre_drive.registers import Mode, Reading
+from sdre_drive.registers import Mode
 
 EXIT_BAD, EXIT_TRIPPED = 1, 4
 LOG_PERIOD_S = 0.02  # the line carries about 50 readings per second
 
-app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,
-                  help="Reads, commands and explains an sdre-drive, real or virtual.")  # fmt: skip
+app = typer.Typer(
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    help="Reads, commands and explains an sdre-drive, real or virtual.",
+)
 app.add_typer(params, name="params")
 out = Console()
 err = Console(stderr=True, soft_wrap=True)
 
-For = Annotated[Optional[float], typer.Option("--for", min=0.0, help="end after so many seconds", metavar="S")]
+For = Annotated[
+    Optional[float], typer.Option("--for", min=0.0, help="end after so many seconds", metavar="S")
+]
 
 
 def end_by_signal() -> threading.Event:
@@ -64,8 +81,12 @@ def status(port: Port = None, tcp: Tcp = None, pole_pairs: PolePairs = None) -> 
 
 @app.command()
 def run(
-    speed: Annotated[float, typer.Argument(help="negative: the other way; after -- on the command line")],
-    rpm: Annotated[bool, typer.Option("--rpm/--radps", help="r/min of the shaft, or rad/s electrical")] = True,
+    speed: Annotated[
+        float, typer.Argument(help="negative: the other way; after -- on the command line")
+    ],
+    rpm: Annotated[
+        bool, typer.Option("--rpm/--radps", help="r/min of the shaft, or rad/s electrical")
+    ] = True,
     length_s: For = None,
     port: Port = None,
     tcp: Tcp = None,
@@ -82,11 +103,26 @@ def run(
 
 @app.command()
 def move(
-    to: Annotated[float, typer.Argument(metavar="TARGET", help="turns of the shaft from the zero; negative after -- on the command line")],
-    counts: Annotated[bool, typer.Option("--counts/--turns", help="TARGET is counts of the encoder, four per line")] = False,
+    to: Annotated[
+        float,
+        typer.Argument(
+            metavar="TARGET",
+            help="turns of the shaft from the zero; negative after -- on the command line",
+        ),
+    ],
+    counts: Annotated[
+        bool,
+        typer.Option("--counts/--turns", help="TARGET is counts of the encoder, four per line"),
+    ] = False,
     relative: Annotated[bool, typer.Option("--relative", help="from where it is")] = False,
-    speed: Annotated[float, typer.Option("--speed", min=0.0, help="largest on the way, r/min; 0: what the drive can")] = 0.0,
-    length_s: Annotated[Optional[float], typer.Option("--for", min=0.0, help="holds it for so long, then stops", metavar="S")] = None,
+    speed: Annotated[
+        float,
+        typer.Option("--speed", min=0.0, help="largest on the way, r/min; 0: what the drive can"),
+    ] = 0.0,
+    length_s: Annotated[
+        Optional[float],
+        typer.Option("--for", min=0.0, help="holds it for so long, then stops", metavar="S"),
+    ] = None,
     port: Port = None,
     tcp: Tcp = None,
     pole_pairs: PolePairs = None,
@@ -96,8 +132,17 @@ def move(
     with Drive(target(port, tcp)) as drive, Live(console=out, auto_refresh=False) as live:
         pairs = pole_pairs_of(pole_pairs, drive) or 1
         wanted = round(to if counts else to * drive.constants().encoder_counts)
-        found = mover.go(drive, wanted, relative, show.e_radps_of(speed, pairs), end, length_s,
-                         lambda r, w: live.update(show.line(r, pairs) + f"  {w.now} counts of {w.target}", refresh=True))  # fmt: skip
+        found = mover.go(
+            drive,
+            wanted,
+            relative,
+            show.e_radps_of(speed, pairs),
+            end,
+            length_s,
+            lambda r, w: live.update(
+                show.line(r, pairs) + f"  {w.now} counts of {w.target}", refresh=True
+            ),
+        )
         live.update(f"{found.now} counts, wanted {found.target}", refresh=True)
 
 
@@ -123,7 +168,10 @@ def _load_ram(file: Path, rate: int, port: Optional[str]) -> None:
     if not port:
         raise DriveError("load --boot-rom: name the serial port with --port")
     try:
-        with serial.Serial(port, rate, timeout=boot_rom.ECHO_S) as line, Progress(console=err, transient=True) as bar:
+        with (
+            serial.Serial(port, rate, timeout=boot_rom.ECHO_S) as line,
+            Progress(console=err, transient=True) as bar,
+        ):
             task = bar.add_task("loading", total=1.0)
             boot_rom.send(line, program, lambda share: bar.update(task, completed=share))
     except serial.SerialException as e:
@@ -133,14 +181,26 @@ def _load_ram(file: Path, rate: int, port: Optional[str]) -> None:
 
 @app.command()
 def load(
-    image: Annotated[Optional[Path], typer.Argument(help="of `sdre-gains image`; none: show what is in force")] = None,
-    forget: Annotated[bool, typer.Option("--forget", help="back to the constants that are compiled in")] = False,
-    boot: Annotated[Optional[Path], typer.Option("--boot-rom", help="a program for an F28335's RAM, of hex2000 --boot --sci8 -a",
-                                                 metavar="FILE")] = None,
-    rate: Annotated[int, typer.Option("--rate", min=300, max=115200, help="Bd, of --boot-rom")] = 38400,
+    image: Annotated[
+        Optional[Path], typer.Argument(help="of `sdre-gains image`; none: show what is in force")
+    ] = None,
+    forget: Annotated[
+        bool, typer.Option("--forget", help="back to the constants that are compiled in")
+    ] = False,
+    boot: Annotated[
+        Optional[Path],
+        typer.Option(
+            "--boot-rom",
+            help="a program for an F28335's RAM, of hex2000 --boot --sci8 -a",
+            metavar="FILE",
+        ),
+    ] = None,
+    rate: Annotated[
+        int, typer.Option("--rate", min=300, max=115200, help="Bd, of --boot-rom")
+    ] = 38400,
     port: Port = None,
     tcp: Tcp = None,
-) -> None:  # fmt: skip
+) -> None:
     """Writes a motor's constants into the drive's flash, and restarts it with them."""
     if sum(map(bool, (image, forget, boot))) > 1:
         raise DriveError("load: give an image, --forget or --boot-rom")
@@ -161,7 +221,9 @@ def load(
 
 @app.command()
 def commission(
-    file: Annotated[Path, typer.Option("--out", help="what was found, for `sdre-gains from-commissioning`")],
+    file: Annotated[
+        Path, typer.Option("--out", help="what was found, for `sdre-gains from-commissioning`")
+    ],
     current: Annotated[float, typer.Option("--current", min=0.01, help="A, peak: its bound")],
     speed: Annotated[float, typer.Option("--speed", min=0.1, help="r/min: its bound")],
     port: Port = None,
@@ -171,17 +233,29 @@ def commission(
     end = end_by_signal()
     with Drive(target(port, tcp)) as drive, Progress(console=err, transient=True) as bar:
         task = bar.add_task("begins", total=1.0)
-        values = finder.run(drive, current, show.e_radps_of(speed, 1), end,
-                            lambda stage, share: bar.update(task, description=stage, completed=share))  # fmt: skip
+        values = finder.run(
+            drive,
+            current,
+            show.e_radps_of(speed, 1),
+            end,
+            lambda stage, share: bar.update(task, description=stage, completed=share),
+        )
     record.write_text(file, finder.text(values))
-    out.print(f"{file}: written; next: sdre-gains from-commissioning {file} --drive DRIVE --out NEW", soft_wrap=True)
+    out.print(
+        f"{file}: written; next: sdre-gains from-commissioning {file} --drive DRIVE --out NEW",
+        soft_wrap=True,
+    )
 
 
 @app.command()
 def faults(
-    port: Port = None, tcp: Tcp = None, pole_pairs: PolePairs = None,
-    csv: Annotated[Optional[Path], typer.Option("--csv", help="the last 64 periods before it", metavar="FILE")] = None,
-) -> None:  # fmt: skip
+    port: Port = None,
+    tcp: Tcp = None,
+    pole_pairs: PolePairs = None,
+    csv: Annotated[
+        Optional[Path], typer.Option("--csv", help="the last 64 periods before it", metavar="FILE")
+    ] = None,
+) -> None:
     """The fault now and what the drive kept of the last one."""
     with Drive(target(port, tcp)) as drive:
         reading = drive.read()
@@ -209,9 +283,15 @@ def watch(
 
 @app.command()
 def log(
-    csv: Annotated[Optional[Path], typer.Option("--csv", help="file of lines", metavar="FILE")] = None,
-    parquet: Annotated[Optional[Path], typer.Option("--parquet", help="file of columns", metavar="FILE")] = None,
-    period_s: Annotated[float, typer.Option("--period", min=0.0, max=0.4, help="seconds between readings")] = LOG_PERIOD_S,
+    csv: Annotated[
+        Optional[Path], typer.Option("--csv", help="file of lines", metavar="FILE")
+    ] = None,
+    parquet: Annotated[
+        Optional[Path], typer.Option("--parquet", help="file of columns", metavar="FILE")
+    ] = None,
+    period_s: Annotated[
+        float, typer.Option("--period", min=0.0, max=0.4, help="seconds between readings")
+    ] = LOG_PERIOD_S,
     length_s: For = None,
     port: Port = None,
     tcp: Tcp = None,
@@ -222,24 +302,39 @@ def log(
     end = end_by_signal()
     with Drive(target(port, tcp)) as drive:
         readings = session.follow(drive, end, period_s, length_s)
-        count = record.write_csv(csv, readings) if csv else record.write_parquet(parquet or Path(), readings)
+        count = (
+            record.write_csv(csv, readings)
+            if csv
+            else record.write_parquet(parquet or Path(), readings)
+        )
     out.print(f"{count} readings written to {csv or parquet}")
 
 
 @app.command(name="scope")
 def take_scope(
     csv: Annotated[Path, typer.Option("--csv", help="file of 512 lines", metavar="FILE")],
-    signals: Annotated[str, typer.Option("--signals", help="up to four of " + ", ".join(scope.NAMES[1:]))] = "SPEED,IQ,ID,DC_LINK",
-    decimation: Annotated[int, typer.Option("--decimation", min=1, max=65535, help="control periods between samples")] = 1,
+    signals: Annotated[
+        str, typer.Option("--signals", help="up to four of " + ", ".join(scope.NAMES[1:]))
+    ] = "SPEED,IQ,ID,DC_LINK",
+    decimation: Annotated[
+        int, typer.Option("--decimation", min=1, max=65535, help="control periods between samples")
+    ] = 1,
     trigger: Annotated[str, typer.Option("--trigger", help="now, rising or falling")] = "now",
-    channel: Annotated[int, typer.Option("--channel", min=1, max=4, help="the signal that triggers")] = 1,
+    channel: Annotated[
+        int, typer.Option("--channel", min=1, max=4, help="the signal that triggers")
+    ] = 1,
     level: Annotated[float, typer.Option("--level", help="in its unit")] = 0.0,
-    before: Annotated[int, typer.Option("--before", min=0, max=511, help="samples before the trigger")] = 0,
-    wait_s: Annotated[float, typer.Option("--wait", min=0.0, help="for the trigger", metavar="S")] = 10.0,
+    before: Annotated[
+        int, typer.Option("--before", min=0, max=511, help="samples before the trigger")
+    ] = 0,
+    wait_s: Annotated[
+        float, typer.Option("--wait", min=0.0, help="for the trigger", metavar="S")
+    ] = 10.0,
     port: Port = None,
     tcp: Tcp = None,
 ) -> None:
-    """Takes 512 samples of four signals in the control interrupt. A running drive keeps running meanwhile."""
+    """Takes 512 samples of four signals in the control interrupt. A running drive keeps running
+    meanwhile."""
     setup = scope.Setup(signals.split(","), decimation, trigger, channel, level, before)
     scope.require_possible(setup)
     with Drive(target(port, tcp)) as drive:
@@ -250,10 +345,15 @@ def take_scope(
 
 @app.command()
 def ui(
-    port: Port = None, tcp: Tcp = None, control: Control = None, pole_pairs: PolePairs = None,
-    page_port: Annotated[int, typer.Option("--page-port", min=1, max=65535, help="of the page, on this machine only")] = 8503,
+    port: Port = None,
+    tcp: Tcp = None,
+    control: Control = None,
+    pole_pairs: PolePairs = None,
+    page_port: Annotated[
+        int, typer.Option("--page-port", min=1, max=65535, help="of the page, on this machine only")
+    ] = 8503,
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="open it")] = True,
-) -> None:  # fmt: skip
+) -> None:
     """A page with traces and switches, on this machine only."""
     try:
         from sdre_drive.page.server import serve

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Lets the drive find its motor (docs/commissioning.md) and writes what it found for `sdre-gains from-commissioning`."""
+"""Lets the drive find its motor (docs/commissioning.md) and writes what it found for `sdre-gains
+from-commissioning`."""
 
 from __future__ import annotations
 
@@ -14,10 +15,20 @@ COMMISSIONING = -1  # mode of operation
 FINISHED, ABORTED = 7, 8
 STAGES = ("idle", "watch", "look", "resistance", "drag", "map", "spin", "finished", "aborted")
 REASONS = {
-    2: "an invalid sample", 3: "over-current", 4: "the dc link", 5: "over-speed", 6: "the encoder", 7: "a time-out",
-    8: "it was withdrawn", 9: "shaft or currents were not at rest", 10: "the inductance", 11: "the resistance",
-    12: "the rotor does not follow", 13: "the shaft does not turn as it should", 14: "a value is no number",
-}  # fmt: skip
+    2: "an invalid sample",
+    3: "over-current",
+    4: "the dc link",
+    5: "over-speed",
+    6: "the encoder",
+    7: "a time-out",
+    8: "it was withdrawn",
+    9: "shaft or currents were not at rest",
+    10: "the inductance",
+    11: "the resistance",
+    12: "the rotor does not follow",
+    13: "the shaft does not turn as it should",
+    14: "a value is no number",
+}
 # Key of the file, and the register whose error is beside it.
 VALUES = (
     ("stator_resistance_Ohm", "FOUND_R"),
@@ -48,13 +59,21 @@ def text(values: Dict[str, float]) -> str:
         f"reluctance = {'true' if values['FOUND_RELUCTANCE'] else 'false'}",
     ]
     for key, name in VALUES:
-        lines.append(f"{key} = {{ value = {values[name]:.5e}, uncertainty = {values[name + '_ERROR']:.2e} }}")
+        lines.append(
+            f"{key} = {{ value = {values[name]:.5e}, uncertainty = {values[name + '_ERROR']:.2e} }}"
+        )
     return "\n".join(lines) + "\n"
 
 
-def run(drive: Drive, current_A: float, speed_m_radps: float, end: threading.Event,
-        progress: Callable[[str, float], None]) -> Dict[str, float]:  # fmt: skip
-    """From READY to its end. DriveError with the reason of an abort; Ctrl-C ends it with the bridge off."""
+def run(
+    drive: Drive,
+    current_A: float,
+    speed_m_radps: float,
+    end: threading.Event,
+    progress: Callable[[str, float], None],
+) -> Dict[str, float]:
+    """From READY to its end. DriveError with the reason of an abort; Ctrl-C ends it with the bridge
+    off."""
     if session.wait_for(drive, lambda r: r.mode == Mode.READY, session.BOOT_WAIT_S) is None:
         raise DriveError("the drive is not ready: stop it, or reset its fault")
     drive.write("MODE_OF_OPERATION", COMMISSIONING)
@@ -63,14 +82,19 @@ def run(drive: Drive, current_A: float, speed_m_radps: float, end: threading.Eve
     drive.set_run(True)
     try:
         if session.wait_for(drive, lambda r: r.mode == Mode.COMMISSION, START_S) is None:
-            raise DriveError("it does not start: a bound beyond the drive's limits, or a condition of `sdre-drive status`")
+            raise DriveError(
+                "it does not start: a bound beyond the drive's limits, or a condition of "
+                "`sdre-drive status`"
+            )
         for _ in session.follow(drive, end):
             values = found(drive)
             stage = int(values["COMMISSION_STAGE"])
             progress(STAGES[stage], values["COMMISSION_PERCENT"] / 100.0)
             if stage == ABORTED:
                 reason = int(values["COMMISSION_REASON"])
-                raise DriveError(f"commissioning gave up: {REASONS.get(reason, f'reason {reason}')}")
+                raise DriveError(
+                    f"commissioning gave up: {REASONS.get(reason, f'reason {reason}')}"
+                )
             if stage == FINISHED:
                 return values
     finally:

@@ -18,12 +18,18 @@ from sdre_drive.register_map import Register
 from sdre_drive.registers import BY_NAME, Constants, ControlWord, Reading
 
 MAP_OBJECT, VERSION_OBJECT = 0x82, 2  # of function 43/14
-FORMATS = {"8E1": ("E", 1), "8O1": ("O", 1), "8N2": ("N", 2)}  # parity and stop bits, in the order of LINE_FORMAT
-# The drive withdraws run after 500 ms without a request: two tries have to fit. TCP loses nothing, and what answers there
-# may be busy: a virtual drive's time then stands still with it.
+FORMATS = {
+    "8E1": ("E", 1),
+    "8O1": ("O", 1),
+    "8N2": ("N", 2),
+}  # parity and stop bits, in the order of LINE_FORMAT
+# The drive withdraws run after 500 ms without a request: two tries have to fit. TCP loses nothing,
+# and what answers there may be busy: a virtual drive's time then stands still with it.
 SERIAL_TIMEOUT_S = 0.2
 TCP_TIMEOUT_S = 2.0
-SLOW_OCTETS = 300  # of a line so slow that the longest answer takes more than that; the drive's time-out has to be longer then
+# of a line so slow that the longest answer takes more than that; the drive's time-out has to be
+# longer then
+SLOW_OCTETS = 300
 TRIES = 2
 
 EXCEPTION_WORDS = {
@@ -42,7 +48,10 @@ def other_map(firmware: str) -> str:
         return tuple(int(n) for n in version.split(".") if n.isdigit())
 
     here = register_map.VERSION
-    what = f"the drive's firmware {firmware or 'of no version'} has other registers than this sdre-drive {here}"
+    what = (
+        f"the drive's firmware {firmware or 'of no version'} has other registers than this "
+        f"sdre-drive {here}"
+    )
     if numbers(firmware) < numbers(here):
         return f"{what}: update the firmware, or use sdre-drive {firmware or 'of its build'}"
     if numbers(firmware) > numbers(here):
@@ -82,7 +91,11 @@ class Target:
 
 def _unit_word() -> str:
     """Name of the address in pymodbus: `slave` up to 3.9."""
-    return "device_id" if "device_id" in inspect.signature(ModbusTcpClient.write_register).parameters else "slave"
+    return (
+        "device_id"
+        if "device_id" in inspect.signature(ModbusTcpClient.write_register).parameters
+        else "slave"
+    )
 
 
 def is_pseudo_terminal(serial_port: str) -> bool:
@@ -104,13 +117,20 @@ class Drive:
     @staticmethod
     def _client_of(target: Target) -> Any:
         if not target.serial_port:
-            return ModbusTcpClient(target.host, port=target.tcp_port, timeout=TCP_TIMEOUT_S, retries=0)
+            return ModbusTcpClient(
+                target.host, port=target.tcp_port, timeout=TCP_TIMEOUT_S, retries=0
+            )
         virtual = is_pseudo_terminal(target.serial_port)  # it has no line and no parity
         parity, stop = ("N", 1) if virtual else FORMATS[target.format]
         slow_s = SLOW_OCTETS * 11 / target.baud
         return ModbusSerialClient(
-            target.serial_port, baudrate=target.baud, parity=parity, stopbits=stop,
-            timeout=TCP_TIMEOUT_S if virtual else max(SERIAL_TIMEOUT_S, slow_s), retries=0)  # fmt: skip
+            target.serial_port,
+            baudrate=target.baud,
+            parity=parity,
+            stopbits=stop,
+            timeout=TCP_TIMEOUT_S if virtual else max(SERIAL_TIMEOUT_S, slow_s),
+            retries=0,
+        )
 
     def move_to(self, target: Target) -> None:
         """The drive has another line or address from now on."""
@@ -135,7 +155,9 @@ class Drive:
             raise DriveError(f"{self.target.words}: {e}") from e
         if not connected:
             raise DriveError(
-                f"nothing answers at {self.target.words}: is the drive on, or `./dev serve` running?")
+                f"nothing answers at {self.target.words}: is the drive on, or `./dev serve` "
+                f"running?"
+            )
 
     def close(self) -> None:
         """The drive stops by itself 500 ms later."""
@@ -154,12 +176,15 @@ class Drive:
         return self._constants
 
     def _check_map(self) -> None:
-        """DriveError when firmware and tool are of different register maps: which side to update."""
+        """DriveError when firmware and tool are of different register maps: which side to
+        update."""
         told = self.identify()
         if told.get(MAP_OBJECT) == register_map.DIGEST:
             return
         answer = self._asked("read_device_information", read_code=1, object_id=0)
-        raise DriveError(other_map(answer.information.get(VERSION_OBJECT, b"").decode("ascii", "replace")))
+        raise DriveError(
+            other_map(answer.information.get(VERSION_OBJECT, b"").decode("ascii", "replace"))
+        )
 
     def traces(self) -> Dict[str, float]:
         """How scope and record stand."""
@@ -201,18 +226,27 @@ class Drive:
 
     def set_run(self, run: bool) -> None:
         """Enables the operation after a shut down, or stops any run."""
-        for word in (ControlWord.SHUT_DOWN, ControlWord.ENABLE) if run else (ControlWord.DISABLE_VOLTAGE,):
+        for word in (
+            (ControlWord.SHUT_DOWN, ControlWord.ENABLE) if run else (ControlWord.DISABLE_VOLTAGE,)
+        ):
             self.write("CONTROLWORD", word)
 
     def reset(self) -> None:
         """Leaves FAULT when what caused it has gone."""
-        for word in (ControlWord.DISABLE_VOLTAGE, ControlWord.FAULT_RESET, ControlWord.DISABLE_VOLTAGE):
+        for word in (
+            ControlWord.DISABLE_VOLTAGE,
+            ControlWord.FAULT_RESET,
+            ControlWord.DISABLE_VOLTAGE,
+        ):
             self.write("CONTROLWORD", word)
 
     def identify(self) -> Dict[int, str]:
         """Objects of function 43/14, from the drive's name on."""
         answer = self._asked("read_device_information", read_code=3, object_id=0x80)
-        return {number: octets.decode("ascii", "replace") for number, octets in answer.information.items()}
+        return {
+            number: octets.decode("ascii", "replace")
+            for number, octets in answer.information.items()
+        }
 
     def write_words(self, first: int, values: List[int]) -> None:
         """Holding registers as they are."""
@@ -223,7 +257,9 @@ class Drive:
             answer = self._tried(call, *args, **self._unit, **kwargs)
         if answer.isError():
             code = getattr(answer, "exception_code", None)
-            raise Refused(f"the drive {EXCEPTION_WORDS.get(code, f'answers with exception {code}')}")
+            raise Refused(
+                f"the drive {EXCEPTION_WORDS.get(code, f'answers with exception {code}')}"
+            )
         return answer
 
     def _tried(self, call: str, *args: Any, **kwargs: Any) -> Any:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Faults and conditions in plain words, from faults.toml. Needs nothing but the standard library (Python 3.11)."""
+"""Faults and conditions in plain words, from faults.toml. Needs nothing but the standard library
+(Python 3.11)."""
 
 from __future__ import annotations
 
@@ -28,7 +29,9 @@ NOT_A_WARNING = 4
 class Recipe:
     """How to see an entry in the virtual drive."""
 
-    at_e_radps: float = 0.0  # the drive runs at this speed first, rad/s electrical; 0: it does not run
+    at_e_radps: float = (
+        0.0  # the drive runs at this speed first, rad/s electrical; 0: it does not run
+    )
     bench: Tuple[str, ...] = ()
     wait_s: float = 3.0  # it is there at the latest after this
     then: str = ""
@@ -57,7 +60,11 @@ def _entry(group: str, keys: Dict[str, Any]) -> Entry:
     how = keys["reproduce"]
     if isinstance(how, dict):
         how = Recipe(**{k: tuple(v) if isinstance(v, list) else v for k, v in how.items()})
-    rest = {k: tuple(map(_addressed, v)) if isinstance(v, list) else v for k, v in keys.items() if k != "reproduce"}
+    rest = {
+        k: tuple(map(_addressed, v)) if isinstance(v, list) else v
+        for k, v in keys.items()
+        if k != "reproduce"
+    }
     return Entry(group=group, reproduce=how, **{**rest, "meaning": _addressed(rest["meaning"])})
 
 
@@ -71,8 +78,14 @@ def table() -> Dict[str, Dict[int, Entry]]:
 
 def find(group: str, number: int) -> Entry:
     """The entry; one of a newer firmware gets a plain one."""
-    unknown = Entry(group, number, "UNKNOWN", "This tool does not know that number.",
-                    ("the firmware is newer than the tool",), ("docs/modbus.md of the firmware",))  # fmt: skip
+    unknown = Entry(
+        group,
+        number,
+        "UNKNOWN",
+        "This tool does not know that number.",
+        ("the firmware is newer than the tool",),
+        ("docs/modbus.md of the firmware",),
+    )
     return table()[group].get(number, unknown)
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Images of constants into the drive's flash: docs/loading.md. Register numbers and codes are those of app_loader.h."""
+"""Images of constants into the drive's flash: docs/loading.md. Register numbers and codes are those
+of app_loader.h."""
 
 from __future__ import annotations
 
@@ -21,19 +22,31 @@ NAME, DIGEST = 0x80, 0x81
 STATE, PUT, ROOM, LAW, NUMBER, COUNT = 0, 2, 4, 6, 7, 9
 AWAY, IDLE, BUSY, WRITING, STORED, SUM, IMAGE, FLASH = range(8)
 REASONS = {
-    1: "it was made by another sdre-gains: make it again with the one that belongs to this firmware",
+    1: "it was made by another sdre-gains: make it again with the one that belongs to this "
+    "firmware",
     2: "it is for another law than the firmware's",
     3: "it is damaged",
     4: "a constant is out of range, or it does not fit the board",
 }
-LAWS = {1: "noc", 2: "noc_speed", 3: "noc_h", 4: "conventional", 5: "dobc", 6: "pid", 7: "pi_foc", 8: "ladrc"}
+LAWS = {
+    1: "noc",
+    2: "noc_speed",
+    3: "noc_h",
+    4: "conventional",
+    5: "dobc",
+    6: "pid",
+    7: "pi_foc",
+    8: "ladrc",
+}
 
 PER_REQUEST = 100  # words; of 123 that a request has room for
 RESTART_S = 10.0  # chosen: many times what a start needs, and two requests without an answer
 ERASE_S = 60.0  # data sheet: 2 s typical, 15 s at most, of a sector; two of them
 HEAD_WORDS = 30
 
-NOT_TAKEN = "the flash did not take it; an F28335's is written with a programming tool (docs/loading.md)"
+NOT_TAKEN = (
+    "the flash did not take it; an F28335's is written with a programming tool (docs/loading.md)"
+)
 
 
 @dataclass(frozen=True)
@@ -100,7 +113,9 @@ def _wait(drive: Drive, states: List[int], longest_s: float) -> Loader:
         if seen and seen.state in states:
             return seen
         time.sleep(0.1)
-    raise DriveError("the drive does not come back: it restarts with what it had when it is switched off and on")
+    raise DriveError(
+        "the drive does not come back: it restarts with what it had when it is switched off and on"
+    )
 
 
 def _enter(drive: Drive) -> Loader:
@@ -111,7 +126,9 @@ def _enter(drive: Drive) -> Loader:
         try:
             drive.write_words(COMMAND, [ENTER])
         except DriveError as e:
-            raise DriveError(f"{e}; the loader is entered with the bridge off: stop the motor first") from e
+            raise DriveError(
+                f"{e}; the loader is entered with the bridge off: stop the motor first"
+            ) from e
         found = _wait(drive, [IDLE], RESTART_S)
     return found
 
@@ -124,8 +141,10 @@ def _leave(drive: Drive) -> InForce:
 
 def _check(found: Loader, words: List[int], path: Path) -> None:
     if words[1] != found.law:
-        raise DriveError(f"{path}: is for law {LAWS.get(words[1], words[1])}, the firmware has "
-                         f"{LAWS.get(found.law, found.law)}")  # fmt: skip
+        raise DriveError(
+            f"{path}: is for law {LAWS.get(words[1], words[1])}, the firmware has "
+            f"{LAWS.get(found.law, found.law)}"
+        )
     if len(words) > found.room_words:
         raise DriveError(f"{path}: {len(words)} words; the drive has room for {found.room_words}")
 
@@ -155,7 +174,9 @@ def load(drive: Drive, path: Path, progress: Callable[[float], None]) -> InForce
     if found.state == WRITING:
         _write(drive, words, progress)
         crc = zlib.crc32(b"".join(word.to_bytes(2, "big") for word in words))
-        drive.write_words(COMMAND, [COMMIT, len(words) >> 16, len(words) & 0xFFFF, crc >> 16, crc & 0xFFFF])
+        drive.write_words(
+            COMMAND, [COMMIT, len(words) >> 16, len(words) & 0xFFFF, crc >> 16, crc & 0xFFFF]
+        )
         found = _wait(drive, [STORED, SUM, IMAGE, FLASH], ERASE_S)
     why = _refusal(found)
     now = _leave(drive)

@@ -41,20 +41,34 @@ def _set_point(drive: Drive, counts: int, bits: int) -> None:
     drive.write("CONTROLWORD", ControlWord.ENABLE)
     drive.write("TARGET_POSITION", counts)
     drive.write("CONTROLWORD", ControlWord.ENABLE | bits | NEW)
-    if session.wait_for(drive, lambda r: bool(r.statusword & ACKNOWLEDGED), session.ANSWER_WAIT_S) is None:
+    if (
+        session.wait_for(drive, lambda r: bool(r.statusword & ACKNOWLEDGED), session.ANSWER_WAIT_S)
+        is None
+    ):
         raise DriveError("the drive does not take the position")
     drive.write("CONTROLWORD", ControlWord.ENABLE)
 
 
-def go(drive: Drive, counts: int, relative: bool, speed_e_radps: float, end: threading.Event, hold_s: Optional[float],
-       show: Callable[[Reading, Where], None]) -> Where:  # fmt: skip
-    """Goes there and holds the shaft until `end`, or for hold_s after it has arrived; then stops. Where it was in the end."""
+def go(
+    drive: Drive,
+    counts: int,
+    relative: bool,
+    speed_e_radps: float,
+    end: threading.Event,
+    hold_s: Optional[float],
+    show: Callable[[Reading, Where], None],
+) -> Where:
+    """Goes there and holds the shaft until `end`, or for hold_s after it has arrived; then stops.
+    Where it was in the end."""
     require_possible(drive)
     session.require_mode(drive.read(), PROFILE_POSITION)
     drive.write("PROFILE_VELOCITY", speed_e_radps)
     try:
         session.start(drive, 0.0, PROFILE_POSITION)
-        if session.wait_for(drive, lambda r: r.mode in (Mode.RUN, Mode.FAULT), session.STOP_WAIT_S) is None:
+        if (
+            session.wait_for(drive, lambda r: r.mode in (Mode.RUN, Mode.FAULT), session.STOP_WAIT_S)
+            is None
+        ):
             raise DriveError("the drive does not come to run")
         _set_point(drive, counts, AT_ONCE | (RELATIVE if relative else 0))
         arrived_s: Optional[float] = None
@@ -65,7 +79,11 @@ def go(drive: Drive, counts: int, relative: bool, speed_e_radps: float, end: thr
             session.require_moving(reading)
             if reading.statusword & REACHED and arrived_s is None:
                 arrived_s = reading.time_s
-            if arrived_s is not None and hold_s is not None and reading.time_s - arrived_s >= hold_s:
+            if (
+                arrived_s is not None
+                and hold_s is not None
+                and reading.time_s - arrived_s >= hold_s
+            ):
                 break
     except DriveError:
         session.withdraw(drive)

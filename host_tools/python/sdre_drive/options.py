@@ -11,19 +11,47 @@ from typing_extensions import Annotated
 from sdre_drive.bench import DEFAULT
 from sdre_drive.connection import FORMATS, Drive, DriveError, Target
 
-Port = Annotated[Optional[str], typer.Option("--port", help="serial port of the drive", metavar="TTY")]
-Tcp = Annotated[Optional[str], typer.Option(
-    "--tcp", help="Modbus/TCP (default 127.0.0.1:1502: a virtual drive here)", metavar="HOST:PORT")]  # fmt: skip
-Control = Annotated[Optional[str], typer.Option(
-    "--control", help="bench of the virtual drive (default 127.0.0.1:1503)", metavar="HOST:PORT")]  # fmt: skip
-PolePairs = Annotated[Optional[int], typer.Option(
-    "--pole-pairs", min=1, max=100, envvar="SDRE_POLE_PAIRS",
-    help="of the motor, for r/min, instead of what the drive tells")]  # fmt: skip
+Port = Annotated[
+    Optional[str], typer.Option("--port", help="serial port of the drive", metavar="TTY")
+]
+Tcp = Annotated[
+    Optional[str],
+    typer.Option(
+        "--tcp",
+        help="Modbus/TCP (default 127.0.0.1:1502: a virtual drive here)",
+        metavar="HOST:PORT",
+    ),
+]
+Control = Annotated[
+    Optional[str],
+    typer.Option(
+        "--control", help="bench of the virtual drive (default 127.0.0.1:1503)", metavar="HOST:PORT"
+    ),
+]
+PolePairs = Annotated[
+    Optional[int],
+    typer.Option(
+        "--pole-pairs",
+        min=1,
+        max=100,
+        envvar="SDRE_POLE_PAIRS",
+        help="of the motor, for r/min, instead of what the drive tells",
+    ),
+]
 
 
-Line = Annotated[str, typer.Option(
-    "--line", help="baud rate and format of the serial line: 8E1, 8O1 or 8N2", envvar="SDRE_LINE", metavar="BAUD-FORMAT")]  # fmt: skip
-Unit = Annotated[int, typer.Option("--unit", min=1, max=247, help="address of the drive", envvar="SDRE_UNIT")]
+Line = Annotated[
+    str,
+    typer.Option(
+        "--line",
+        help="baud rate and format of the serial line: 8E1, 8O1 or 8N2",
+        envvar="SDRE_LINE",
+        metavar="BAUD-FORMAT",
+    ),
+]
+Unit = Annotated[
+    int, typer.Option("--unit", min=1, max=247, help="address of the drive", envvar="SDRE_UNIT")
+]
 
 _line = {"baud": 115200, "format": "8E1", "unit": 1}  # of all commands
 

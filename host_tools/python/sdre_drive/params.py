@@ -29,7 +29,9 @@ STATES = (
     "DEFAULTS: a stored value is out of its range",
 )
 DONE, FLASH_FAILED = 1, 2
-BACK_S = 90.0  # data sheet: a sector is erased in 2 s typical, 15 s at most; two of them, and requests without an answer
+# data sheet: a sector is erased in 2 s typical, 15 s at most; two of them, and requests without an
+# answer
+BACK_S = 90.0
 NEW_S = 1.0  # a drive that has just started: its time would not tell a restart
 
 
@@ -77,13 +79,18 @@ def read(drive: Drive) -> List[Value]:
     for group in register_map.PARAMETER_BLOCKS:
         raw.update(values(group, drive.holding(*block(group))))
     largest = drive.constants().current_max_A
-    return [Value(p, raw[p.register.name], largest if p.default is None else p.default) for p in PARAMETERS]
+    return [
+        Value(p, raw[p.register.name], largest if p.default is None else p.default)
+        for p in PARAMETERS
+    ]
 
 
 def stored(drive: Drive) -> Stored:
     """Where they come from."""
     raw = drive.values(register_map.STORED)
-    return Stored(int(raw["PARAMETERS_STATE"]), int(raw["PARAMETERS_DONE"]), int(raw["PARAMETERS_NUMBER"]))
+    return Stored(
+        int(raw["PARAMETERS_STATE"]), int(raw["PARAMETERS_DONE"]), int(raw["PARAMETERS_NUMBER"])
+    )
 
 
 def require_possible(wanted: Dict[str, float]) -> None:
@@ -93,7 +100,10 @@ def require_possible(wanted: Dict[str, float]) -> None:
             raise DriveError(f"{name} is not a parameter; sdre-drive params lists them")
         p = NAMES[name]
         if not p.low <= value <= p.high:
-            raise DriveError(f"{name}: {text_of(value)} is not within {text_of(p.low)} .. {text_of(p.high)} {p.register.unit}".rstrip())
+            raise DriveError(
+                f"{name}: {text_of(value)} is not within {text_of(p.low)} .. {text_of(p.high)} "
+                f"{p.register.unit}".rstrip()
+            )
         words_of(p.register, value)
 
 
@@ -110,7 +120,8 @@ def parse(assignments: Iterable[str]) -> Dict[str, float]:
 
 
 def write(drive: Drive, wanted: Dict[str, float]) -> None:
-    """All that are possible, one by one. The address comes last: from then on the drive has another one."""
+    """All that are possible, one by one. The address comes last: from then on the drive has another
+    one."""
     require_possible(wanted)
     for name in sorted(wanted, key=lambda n: n == "MODBUS_ADDRESS"):
         try:
@@ -126,7 +137,9 @@ def _new_line(drive: Drive, after: Dict[str, float]) -> None:
     """Talks as the drive does after its restart; a virtual one has no line."""
     t = replace(drive.target, unit=int(after["MODBUS_ADDRESS"]))
     if t.serial_port and not is_pseudo_terminal(t.serial_port):
-        t = replace(t, baud=int(after["BAUD_RATE"]), format=list(FORMATS)[int(after["LINE_FORMAT"])])
+        t = replace(
+            t, baud=int(after["BAUD_RATE"]), format=list(FORMATS)[int(after["LINE_FORMAT"])]
+        )
     drive.move_to(t)
 
 
@@ -154,7 +167,10 @@ def _command(drive: Drive, name: str, after: Dict[str, float]) -> Stored:
                 raise DriveError(f"{NOT_TAKEN}; in force: {now.words}")
             return now
         time.sleep(0.1)
-    raise DriveError("the drive does not come back: it restarts with what was stored when it is switched off and on")
+    raise DriveError(
+        "the drive does not come back: it restarts with what was stored when it is switched off "
+        "and on"
+    )
 
 
 def save(drive: Drive) -> Stored:
@@ -169,10 +185,18 @@ def restore(drive: Drive) -> Stored:
 
 def toml(found: List[Value], name: str) -> str:
     """TOML text for read_toml() and for the user."""
-    lines = [f"# Parameters of {name}. Lines may be left out: sdre-drive params import changes what stands here.", "[parameters]"]
+    lines = [
+        f"# Parameters of {name}. Lines may be left out: sdre-drive params import changes what "
+        f"stands here.",
+        "[parameters]",
+    ]
     for v in found:
         r = v.parameter.register
-        lines.append(f"{v.name} = {text_of(v.value)} # " + (f"{r.unit}, " if r.unit else "") + f"default {text_of(v.default)}")
+        lines.append(
+            f"{v.name} = {text_of(v.value)} # "
+            + (f"{r.unit}, " if r.unit else "")
+            + f"default {text_of(v.default)}"
+        )
     return "\n".join(lines) + "\n"
 
 
@@ -198,8 +222,20 @@ COLUMNS = ("name", "value", "unit", "least", "most", "default", "changed", "need
 
 def rows(found: List[Value]) -> List[Tuple[str, ...]]:
     """COLUMNS of each."""
-    return [(v.name, text_of(v.value), v.parameter.register.unit, text_of(v.parameter.low), text_of(v.parameter.high), text_of(v.default),
-             str(int(v.changed)), str(int(v.parameter.stopped)), v.parameter.object) for v in found]  # fmt: skip
+    return [
+        (
+            v.name,
+            text_of(v.value),
+            v.parameter.register.unit,
+            text_of(v.parameter.low),
+            text_of(v.parameter.high),
+            text_of(v.default),
+            str(int(v.changed)),
+            str(int(v.parameter.stopped)),
+            v.parameter.object,
+        )
+        for v in found
+    ]
 
 
 def write_csv(path: Path, found: List[Value]) -> None:

@@ -18,7 +18,11 @@ from sdre_drive.load import NAME
 from sdre_drive.options import Port, Tcp, target
 from sdre_drive.params import Value, text_of
 
-params = typer.Typer(no_args_is_help=False, help="The parameters, which the drive keeps over power: list, get, set, save, defaults, export, import.")
+params = typer.Typer(
+    no_args_is_help=False,
+    help="The parameters, which the drive keeps over power: list, get, set, save, defaults, "
+    "export, import.",
+)
 out = Console(soft_wrap=True)
 
 
@@ -28,16 +32,27 @@ def _table(found: List[Value]) -> Table:
         table.add_column(title, no_wrap=True)
     for v in found:
         p = v.parameter
-        table.add_row("*" if v.changed else "", v.name, text_of(v.value), p.register.unit, f"{text_of(p.low)} .. {text_of(p.high)}",
-                      text_of(v.default), "only while stopped" if p.stopped else "")  # fmt: skip
+        table.add_row(
+            "*" if v.changed else "",
+            v.name,
+            text_of(v.value),
+            p.register.unit,
+            f"{text_of(p.low)} .. {text_of(p.high)}",
+            text_of(v.default),
+            "only while stopped" if p.stopped else "",
+        )
     return table
 
 
 @params.callback(invoke_without_command=True)
 def show(
-    context: typer.Context, port: Port = None, tcp: Tcp = None,
-    csv: Annotated[Optional[Path], typer.Option("--csv", help="into a file instead", metavar="FILE")] = None,
-) -> None:  # fmt: skip
+    context: typer.Context,
+    port: Port = None,
+    tcp: Tcp = None,
+    csv: Annotated[
+        Optional[Path], typer.Option("--csv", help="into a file instead", metavar="FILE")
+    ] = None,
+) -> None:
     """All of them; * is not the default."""
     if context.invoked_subcommand:
         return
@@ -58,19 +73,29 @@ def get(name: str, port: Port = None, tcp: Tcp = None) -> None:
     if name.upper() not in parameters.NAMES:
         raise DriveError(f"{name} is not a parameter; sdre-drive params lists them")
     with Drive(target(port, tcp)) as drive:
-        out.print(text_of(next(v.value for v in parameters.read(drive) if v.name == name.upper())), highlight=False)
+        out.print(
+            text_of(next(v.value for v in parameters.read(drive) if v.name == name.upper())),
+            highlight=False,
+        )
 
 
 @params.command(name="set")
 def set_values(
-    assignments: Annotated[List[str], typer.Argument(help="NAME=VALUE, in the unit of the list", metavar="NAME=VALUE..")],
-    port: Port = None, tcp: Tcp = None,
-) -> None:  # fmt: skip
+    assignments: Annotated[
+        List[str],
+        typer.Argument(help="NAME=VALUE, in the unit of the list", metavar="NAME=VALUE.."),
+    ],
+    port: Port = None,
+    tcp: Tcp = None,
+) -> None:
     """Changes some, until the drive is switched off: `save` keeps them."""
     wanted = parameters.parse(assignments)
     with Drive(target(port, tcp)) as drive:
         parameters.write(drive, wanted)
-    out.print(f"{len(wanted)} set; they last until the drive restarts, or for good with: sdre-drive params save")
+    out.print(
+        f"{len(wanted)} set; they last until the drive restarts, or for good with: sdre-drive "
+        f"params save"
+    )
 
 
 def _line_words(drive: Drive) -> str:
@@ -82,7 +107,8 @@ def _line_words(drive: Drive) -> str:
 
 @params.command()
 def save(port: Port = None, tcp: Tcp = None) -> None:
-    """Stores all as they are, in the drive's flash. The drive restarts; the motor has to stand still."""
+    """Stores all as they are, in the drive's flash. The drive restarts; the motor has to stand
+    still."""
     with Drive(target(port, tcp)) as drive:
         now = parameters.save(drive)
         out.print(f"in force: {now.words}{_line_words(drive)}", highlight=False)
@@ -99,7 +125,9 @@ def defaults(port: Port = None, tcp: Tcp = None) -> None:
 def export_file(file: Path, port: Port = None, tcp: Tcp = None) -> None:
     """Writes all to a TOML file."""
     with Drive(target(port, tcp)) as drive:
-        record.write_text(file, parameters.toml(parameters.read(drive), drive.identify().get(NAME, "a drive")))
+        record.write_text(
+            file, parameters.toml(parameters.read(drive), drive.identify().get(NAME, "a drive"))
+        )
     out.print(f"{file}: written")
 
 
@@ -110,4 +138,7 @@ def import_file(file: Path, port: Port = None, tcp: Tcp = None) -> None:
     parameters.require_possible(wanted)
     with Drive(target(port, tcp)) as drive:
         parameters.write(drive, wanted)
-    out.print(f"{len(wanted)} set; they last until the drive restarts, or for good with: sdre-drive params save")
+    out.print(
+        f"{len(wanted)} set; they last until the drive restarts, or for good with: sdre-drive "
+        f"params save"
+    )

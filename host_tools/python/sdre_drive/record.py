@@ -12,8 +12,23 @@ from sdre_drive.connection import DriveError
 from sdre_drive.registers import Reading
 from sdre_drive.scope import Capture
 
-COLUMNS = ("time_s", "mode", "speed_e_radps", "iq_A", "id_A", "iq_ref_A", "id_ref_A", "vq_V", "vd_V", "dc_link_V",
-           "temperature_degC", "conditions", "motor_heat", "inverter_heat", "derating")  # fmt: skip
+COLUMNS = (
+    "time_s",
+    "mode",
+    "speed_e_radps",
+    "iq_A",
+    "id_A",
+    "iq_ref_A",
+    "id_ref_A",
+    "vq_V",
+    "vd_V",
+    "dc_link_V",
+    "temperature_degC",
+    "conditions",
+    "motor_heat",
+    "inverter_heat",
+    "derating",
+)
 
 
 def row(reading: Reading) -> Dict[str, Any]:
@@ -56,7 +71,9 @@ def write_parquet(path: Path, readings: Iterable[Reading]) -> int:
         import pyarrow as arrow
         import pyarrow.parquet as parquet
     except ImportError as e:
-        raise DriveError("--parquet needs pyarrow: pip install './host_tools/python[parquet]'") from e
+        raise DriveError(
+            "--parquet needs pyarrow: pip install './host_tools/python[parquet]'"
+        ) from e
     rows: List[Dict[str, Any]] = [row(r) for r in readings]
     beside = path.with_name(path.name + ".part")
     try:

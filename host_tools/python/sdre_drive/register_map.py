@@ -48,7 +48,7 @@ COMMAND: Tuple[Register, ...] = (  # holding
     Register("SPEED_WINDOW", 19, "u16", 0.1, "rad/s electrical"),
     Register("COMMISSION_CURRENT", 20, "u16", 0.01, "A"),
     Register("COMMISSION_SPEED", 21, "u16", 0.1, "rad/s mechanical"),
-)  # fmt: skip
+)
 
 LINE: Tuple[Register, ...] = (  # holding
     Register("MODBUS_ADDRESS", 64, "u16", 0.0, ""),
@@ -56,7 +56,7 @@ LINE: Tuple[Register, ...] = (  # holding
     Register("BAUD_RATE", 66, "u32", 0.0, "Bd"),
     Register("LINE_FORMAT", 68, "u16", 0.0, ""),
     Register("DIRECTION_PIN", 69, "u16", 0.0, ""),
-)  # fmt: skip
+)
 
 SCOPE: Tuple[Register, ...] = (  # holding
     Register("SCOPE_COMMAND", 96, "u16", 0.0, ""),
@@ -69,19 +69,19 @@ SCOPE: Tuple[Register, ...] = (  # holding
     Register("SCOPE_CHANNEL", 103, "u16", 0.0, ""),
     Register("SCOPE_LEVEL", 104, "i32", 0.001, "of its signal"),
     Register("SCOPE_BEFORE", 106, "u16", 0.0, "samples"),
-)  # fmt: skip
+)
 
 STORE: Tuple[Register, ...] = (  # holding
     Register("STORE_PARAMETERS", 128, "u32", 0.0, ""),
     Register("RESTORE_PARAMETERS", 130, "u32", 0.0, ""),
-)  # fmt: skip
+)
 
 TARGET: Tuple[Register, ...] = (  # holding
     Register("TARGET_POSITION", 160, "i32", 0.0, "counts"),
     Register("PROFILE_VELOCITY", 162, "u32", 0.1, "rad/s electrical"),
     Register("PROFILE_JERK", 164, "u32", 1.0, "rad/s3 electrical"),
     Register("POSITION_WINDOW", 166, "u16", 0.0, "counts"),
-)  # fmt: skip
+)
 
 LIVE: Tuple[Register, ...] = (  # input
     Register("STATUSWORD", 0, "u16", 0.0, "bits"),
@@ -135,12 +135,12 @@ LIVE: Tuple[Register, ...] = (  # input
     Register("FIRST_SPEED", 56, "i32", 0.1, "rad/s electrical"),
     Register("FIRST_WANTED", 58, "i32", 0.1, "rad/s electrical"),
     Register("FIRST_TICKS", 60, "u32", 0.0, "control periods"),
-)  # fmt: skip
+)
 
 POSITION: Tuple[Register, ...] = (  # input
     Register("POSITION_NOW", 64, "i32", 0.0, "counts"),
     Register("POSITION_TARGET", 66, "i32", 0.0, "counts"),
-)  # fmt: skip
+)
 
 COMMISSIONING: Tuple[Register, ...] = (  # input
     Register("COMMISSION_STAGE", 128, "u16", 0.0, ""),
@@ -168,20 +168,20 @@ COMMISSIONING: Tuple[Register, ...] = (  # input
     Register("FOUND_COULOMB_ERROR", 166, "dec", 0.0, "N m"),
     Register("FOUND_OFFSET", 168, "dec", 0.0, "rad"),
     Register("FOUND_OFFSET_ERROR", 170, "dec", 0.0, "rad"),
-)  # fmt: skip
+)
 
 TRACES: Tuple[Register, ...] = (  # input
     Register("SCOPE_STATE", 192, "u16", 0.0, ""),
     Register("SCOPE_TICKS", 193, "u32", 0.0, "control periods"),
     Register("RECORD_NUMBER", 195, "u16", 0.0, ""),
     Register("RECORD_COUNT", 196, "u16", 0.0, "samples"),
-)  # fmt: skip
+)
 
 STORED: Tuple[Register, ...] = (  # input
     Register("PARAMETERS_STATE", 224, "u16", 0.0, ""),
     Register("PARAMETERS_DONE", 225, "u16", 0.0, ""),
     Register("PARAMETERS_NUMBER", 226, "u32", 0.0, ""),
-)  # fmt: skip
+)
 
 CONSTANTS: Tuple[Register, ...] = (  # input
     Register("SUPPORTED_MODES", 256, "u32", 0.0, "bits"),
@@ -197,7 +197,7 @@ CONSTANTS: Tuple[Register, ...] = (  # input
     Register("DC_LINK_MAX", 274, "u16", 0.1, "V"),
     Register("TEMPERATURE_LIMIT", 275, "i16", 0.1, "degC"),
     Register("TEMPERATURE_TRIP", 276, "i16", 0.1, "degC"),
-)  # fmt: skip
+)
 
 HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET)
 INPUT = (*LIVE, *POSITION, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS)
@@ -225,7 +225,7 @@ PARAMETERS: Tuple[Parameter, ...] = (
     Parameter(BY_NAME["PROFILE_VELOCITY"], 0, 1000000.0, 0.0, False, "6081h", "largest profile speed; 0: the drive's limit. ACCELERATION and DECELERATION act too."),
     Parameter(BY_NAME["PROFILE_JERK"], 0, 4000000000.0, 0.0, False, "60A4h", "0: the drive's limit"),
     Parameter(BY_NAME["POSITION_WINDOW"], 1, 65535, 4.0, False, "6067h", "around the target: reached"),
-)  # fmt: skip
+)
 
 # Signals of the scope by number: name and unit.
 SIGNALS = (

@@ -11,7 +11,12 @@ from sdre_drive import register_map
 from sdre_drive.register_map import Register
 
 WORDS = {"u16": 1, "i16": 1, "u32": 2, "i32": 2, "dec": 2}
-RANGES = {"u16": (0, 0xFFFF), "i16": (-0x8000, 0x7FFF), "u32": (0, 0xFFFFFFFF), "i32": (-0x80000000, 0x7FFFFFFF)}
+RANGES = {
+    "u16": (0, 0xFFFF),
+    "i16": (-0x8000, 0x7FFF),
+    "u32": (0, 0xFFFFFFFF),
+    "i32": (-0x80000000, 0x7FFFFFFF),
+}
 BY_NAME = register_map.BY_NAME
 
 
@@ -50,7 +55,7 @@ def values(registers: Iterable[Register], words: Sequence[int]) -> Dict[str, flo
     out: Dict[str, float] = {}
     at = 0
     for r in registers:
-        out[r.name] = value_of(r, words[at:at + WORDS[r.type]])
+        out[r.name] = value_of(r, words[at : at + WORDS[r.type]])
         at += WORDS[r.type]
     if at != len(words):
         raise ValueError(f"{len(words)} registers instead of {at}")
@@ -170,7 +175,9 @@ class Reading:
     @property
     def mode_words(self) -> str:
         """The mode in words."""
-        return MODE_WORDS[Mode(self.mode)] if self.mode in set(Mode) else f"unknown mode {self.mode}"
+        return (
+            MODE_WORDS[Mode(self.mode)] if self.mode in set(Mode) else f"unknown mode {self.mode}"
+        )
 
 
 @dataclass(frozen=True)
@@ -188,8 +195,14 @@ class Constants:
 def constants(words: Sequence[int]) -> Constants:
     """From the block of constants."""
     raw = values(register_map.CONSTANTS, words)
-    return Constants(int(raw["POLE_PAIRS"]), raw["CONTROL_PERIOD"], raw["SPEED_MAX"], raw["CURRENT_MAX"],
-                     int(raw["ENCODER_POSITIONS"]), int(raw["SUPPORTED_MODES"]))  # fmt: skip
+    return Constants(
+        int(raw["POLE_PAIRS"]),
+        raw["CONTROL_PERIOD"],
+        raw["SPEED_MAX"],
+        raw["CURRENT_MAX"],
+        int(raw["ENCODER_POSITIONS"]),
+        int(raw["SUPPORTED_MODES"]),
+    )
 
 
 def decode(words: Sequence[int], period_s: float) -> Reading:

@@ -59,7 +59,9 @@ def require_possible(setup: Setup) -> None:
     if setup.trigger not in TRIGGERS:
         raise DriveError(f'trigger "{setup.trigger}" is not one of {", ".join(TRIGGERS)}')
     if setup.channel > len(setup.signals):
-        raise DriveError(f"the signal that triggers is number {setup.channel} of {len(setup.signals)}")
+        raise DriveError(
+            f"the signal that triggers is number {setup.channel} of {len(setup.signals)}"
+        )
     for name in setup.signals:
         number_of(name)
 
@@ -93,8 +95,11 @@ def read(drive: Drive, setup: Setup) -> Capture:
     samples = _samples(drive)
     values = _floats(drive, SCOPE_FIRST, CHANNELS * samples)
     period_s = drive.constants().period_s * setup.decimation
-    return Capture(tuple(name.upper() for name in setup.signals), [(k - setup.before) * period_s for k in range(samples)],
-                   [values[k::CHANNELS] for k in range(len(setup.signals))])  # fmt: skip
+    return Capture(
+        tuple(name.upper() for name in setup.signals),
+        [(k - setup.before) * period_s for k in range(samples)],
+        [values[k::CHANNELS] for k in range(len(setup.signals))],
+    )
 
 
 def take(drive: Drive, setup: Setup, longest_s: float) -> Capture:
@@ -120,8 +125,11 @@ def record(drive: Drive) -> Capture:
     else:
         raise DriveError("the drive trips again and again")
     period_s = drive.constants().period_s
-    return Capture(RECORD_SIGNALS, [(k + 1 - count) * period_s for k in range(count)],
-                   [values[k::len(RECORD_SIGNALS)] for k in range(len(RECORD_SIGNALS))])  # fmt: skip
+    return Capture(
+        RECORD_SIGNALS,
+        [(k + 1 - count) * period_s for k in range(count)],
+        [values[k :: len(RECORD_SIGNALS)] for k in range(len(RECORD_SIGNALS))],
+    )
 
 
 def _samples(drive: Drive) -> int:
@@ -139,4 +147,7 @@ def _floats(drive: Drive, first: int, count: int) -> List[float]:
     words: List[int] = []
     while len(words) < 2 * count:
         words += drive.words(first + len(words), min(BLOCK, 2 * count - len(words)))
-    return [struct.unpack(">f", struct.pack(">HH", *words[k:k + 2]))[0] for k in range(0, 2 * count, 2)]
+    return [
+        struct.unpack(">f", struct.pack(">HH", *words[k : k + 2]))[0]
+        for k in range(0, 2 * count, 2)
+    ]

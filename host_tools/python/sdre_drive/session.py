@@ -24,12 +24,17 @@ class Tripped(DriveError):
 
     def __init__(self, reading: Reading) -> None:
         entries = faults.explain(reading.why)
-        super().__init__("the drive has tripped: " + (faults.one_line(entries[0]) if entries else "unknown"))
+        super().__init__(
+            "the drive has tripped: " + (faults.one_line(entries[0]) if entries else "unknown")
+        )
         self.reading = reading
 
 
-def wait_for(drive: Drive, wanted: Callable[[Reading], bool], longest_s: float) -> Optional[Reading]:
-    """The first matching reading; None when it does not come. Time is the drive's own, because a virtual drive may be slow."""
+def wait_for(
+    drive: Drive, wanted: Callable[[Reading], bool], longest_s: float
+) -> Optional[Reading]:
+    """The first matching reading; None when it does not come. Time is the drive's own, because a
+    virtual drive may be slow."""
     begin_s = None
     while True:
         reading = drive.read()
@@ -43,13 +48,15 @@ def wait_for(drive: Drive, wanted: Callable[[Reading], bool], longest_s: float) 
 
 
 def require_mode(reading: Reading, mode: int = PROFILE_VELOCITY) -> None:
-    """DriveError when the drive runs in another mode of operation than this; to be asked before anything is written."""
+    """DriveError when the drive runs in another mode of operation than this; to be asked before
+    anything is written."""
     if reading.mode in MOVING and reading.mode_of_operation != mode:
         raise DriveError("the drive runs in another mode of operation: stop it first")
 
 
 def start(drive: Drive, speed_e_radps: float, mode: int = PROFILE_VELOCITY) -> None:
-    """Starts it in a mode of operation, or gives one that runs in it this speed (rad/s electrical)."""
+    """Starts it in a mode of operation, or gives one that runs in it this speed (rad/s
+    electrical)."""
     reading = wait_for(drive, lambda r: r.mode in (Mode.READY, Mode.FAULT, *MOVING), BOOT_WAIT_S)
     if reading is None:
         raise DriveError(f"the drive does not get ready: it {drive.read().mode_words}")
@@ -75,7 +82,9 @@ def start(drive: Drive, speed_e_radps: float, mode: int = PROFILE_VELOCITY) -> N
 def stop(drive: Drive) -> Reading:
     """Ends a run or commissioning, and waits until the bridge is off."""
     drive.set_run(False)
-    reading = wait_for(drive, lambda r: r.mode not in (*MOVING, Mode.STOP, Mode.COMMISSION), STOP_WAIT_S)
+    reading = wait_for(
+        drive, lambda r: r.mode not in (*MOVING, Mode.STOP, Mode.COMMISSION), STOP_WAIT_S
+    )
     if reading is None:
         raise DriveError(f"the drive does not stop: it {drive.read().mode_words}")
     return reading
@@ -90,8 +99,9 @@ def reset(drive: Drive) -> Reading:
     return reading
 
 
-def follow(drive: Drive, end: threading.Event, period_s: float = PERIOD_S,
-           length_s: Optional[float] = None) -> Iterator[Reading]:  # fmt: skip
+def follow(
+    drive: Drive, end: threading.Event, period_s: float = PERIOD_S, length_s: Optional[float] = None
+) -> Iterator[Reading]:
     """Readings until `end` is set or length_s is over. The readings keep the drive running."""
     began_s = time.monotonic()
     next_s = began_s
@@ -115,17 +125,29 @@ def require_moving(reading: Reading) -> None:
     if reading.mode == Mode.FAULT:
         raise Tripped(reading)
     if reading.mode in (Mode.BOOT, Mode.CALIBRATE):
-        watchdog = "; its watchdog flag is set: the program before may have hung" if reading.reset_cause == 1 else ""
+        watchdog = (
+            "; its watchdog flag is set: the program before may have hung"
+            if reading.reset_cause == 1
+            else ""
+        )
         raise DriveError(f"the drive has restarted{watchdog}")
     if reading.mode == Mode.READY:
         silent = reading.conditions & 2
-        raise DriveError("the drive has stopped: " + (
-            faults.find("condition", 2).meaning if silent else "another master stopped it"))  # fmt: skip
+        raise DriveError(
+            "the drive has stopped: "
+            + (faults.find("condition", 2).meaning if silent else "another master stopped it")
+        )
 
 
-def hold(drive: Drive, speed_e_radps: float, end: threading.Event, length_s: Optional[float],
-         show: Callable[[Reading], None]) -> Reading:  # fmt: skip
-    """Runs at this speed until `end` or for length_s, then stops. Whatever goes wrong once it is ours: run is withdrawn."""
+def hold(
+    drive: Drive,
+    speed_e_radps: float,
+    end: threading.Event,
+    length_s: Optional[float],
+    show: Callable[[Reading], None],
+) -> Reading:
+    """Runs at this speed until `end` or for length_s, then stops. Whatever goes wrong once it is
+    ours: run is withdrawn."""
     require_mode(drive.read())
     try:
         start(drive, speed_e_radps)

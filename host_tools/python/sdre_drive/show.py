@@ -33,9 +33,15 @@ def speed_words(speed_e_radps: float, pole_pairs: Optional[int]) -> str:
 
 def line(reading: Reading, pole_pairs: Optional[int]) -> Text:
     """One line: what it does."""
-    t = Text(f"{Mode(reading.mode).name if reading.mode in set(Mode) else reading.mode}  ", style="bold")
-    t.append(f"{speed_words(reading.speed_e_radps, pole_pairs)}  i_q {reading.iq_A:.2f} A  i_d {reading.id_A:.2f} A  "
-             f"{reading.dc_link_V:.0f} V", style="not bold")  # fmt: skip
+    t = Text(
+        f"{Mode(reading.mode).name if reading.mode in set(Mode) else reading.mode}  ", style="bold"
+    )
+    t.append(
+        f"{speed_words(reading.speed_e_radps, pole_pairs)}  i_q {reading.iq_A:.2f} A  i_d "
+        f"{reading.id_A:.2f} A  "
+        f"{reading.dc_link_V:.0f} V",
+        style="not bold",
+    )
     limits = [e.name for e in faults.warnings(reading.conditions)]
     t.append(f"  {' '.join(limits)}" if limits else "", style="yellow")
     return t
@@ -62,17 +68,25 @@ def status(reading: Reading, pole_pairs: Optional[int]) -> RenderableType:
     table = Table(show_header=False, box=None, padding=(0, 2, 0, 0))
     rows = (
         ("mode", f"{reading.mode_words}"),
-        ("state", state_words(reading.statusword) + (f", error code {reading.error_code:04X}h" if reading.error_code else "")),
+        (
+            "state",
+            state_words(reading.statusword)
+            + (f", error code {reading.error_code:04X}h" if reading.error_code else ""),
+        ),
         ("speed", speed_words(reading.speed_e_radps, pole_pairs)),
         ("i_q, i_d", f"{reading.iq_A:.3f} A, {reading.id_A:.3f} A"),
         ("wanted", f"{reading.iq_ref_A:.3f} A, {reading.id_ref_A:.3f} A"),
         ("v_q, v_d", f"{reading.vq_V:.1f} V, {reading.vd_V:.1f} V"),
         ("dc link", f"{reading.dc_link_V:.1f} V"),
         ("heat sink", f"{reading.temperature_degC:.1f} degC"),
-        ("heat", f"motor {100 * reading.motor_heat:.0f} %, inverter {100 * reading.inverter_heat:.0f} %, "
-                 f"derated by {100 * reading.derating:.0f} %"),
+        (
+            "heat",
+            f"motor {100 * reading.motor_heat:.0f} %, inverter "
+            f"{100 * reading.inverter_heat:.0f} %, "
+            f"derated by {100 * reading.derating:.0f} %",
+        ),
         ("running since", f"{reading.time_s:.1f} s"),
-    )  # fmt: skip
+    )
     for name, value in rows:
         table.add_row(name, value)
     return Group(table, *reasons(reading))
@@ -84,6 +98,9 @@ def first_fault(reading: Reading, pole_pairs: Optional[int]) -> RenderableType:
     if kept.why.fault == 0:
         return Text("no fault since the start")
     mode = Mode(kept.mode).name if kept.mode in set(Mode) else str(kept.mode)
-    head = Text(f"last fault at {kept.time_s:.4f} s in mode {mode}, at {speed_words(kept.speed_e_radps, pole_pairs)}, "
-                f"wanted {speed_words(kept.wanted_e_radps, pole_pairs)}")  # fmt: skip
+    head = Text(
+        f"last fault at {kept.time_s:.4f} s in mode {mode}, at "
+        f"{speed_words(kept.speed_e_radps, pole_pairs)}, "
+        f"wanted {speed_words(kept.wanted_e_radps, pole_pairs)}"
+    )
     return Group(head, *[advice(e) for e in faults.explain(kept.why)])

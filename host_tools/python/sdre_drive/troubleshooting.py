@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""docs/troubleshooting.md from faults.toml: `python3 -m sdre_drive.troubleshooting > ../../docs/troubleshooting.md`."""
+"""docs/troubleshooting.md from faults.toml, printed by `python3 -m sdre_drive.troubleshooting`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from sdre_drive.registers import BY_NAME
 
 HEAD = """# Troubleshooting
 
-This page explains every fault and condition of the drive. Read [Safety first](hardware.md#safety-first) before you touch anything.
+This page explains every fault and condition of the drive. \
+Read [Safety first](hardware.md#safety-first) before you touch anything.
 `sdre-drive faults` reads the numbers, and so do the registers ([modbus.md](modbus.md)).
 
 "Virtual drive" shows an entry without hardware:
@@ -20,10 +21,11 @@ This page explains every fault and condition of the drive. Read [Safety first](h
 3. Send the lines to the control port (127.0.0.1:1503), or use the page (`sdre-drive ui`).
 4. `mend` repairs the drive, and `sdre-drive reset` leaves the fault.
 
-`python3 -m sdre_drive.troubleshooting` in `host_tools/python` writes this page from `sdre_drive/faults.toml`. `sdre-drive` and its
+`python3 -m sdre_drive.troubleshooting` in `host_tools/python` writes this page \
+from `sdre_drive/faults.toml`. \
+`sdre-drive` and its
 page use the same table. Test `docs.faults` compares both with the firmware.
 """
-
 
 
 def _at(name: str) -> int:
@@ -32,9 +34,20 @@ def _at(name: str) -> int:
 
 TITLES = {
     "application": ("Faults", f"Register {_at('FAULT')}; {_at('FIRST_FAULT')} of the first fault."),
-    "drive": ("Drive faults", f"Register {_at('DRIVE_FAULT')}, or {_at('FIRST_DRIVE_FAULT')}, when the fault is 10."),
-    "board": ("Board faults", f"Bits of register {_at('BOARD_FAULTS')}, or {_at('FIRST_BOARD_FAULTS')}, when the fault is 2."),
-    "condition": ("Conditions", f"Bits of register {_at('CONDITIONS')}. A condition prevents a start or shows a limit. Only 2 is latched."),
+    "drive": (
+        "Drive faults",
+        f"Register {_at('DRIVE_FAULT')}, or {_at('FIRST_DRIVE_FAULT')}, when the fault is 10.",
+    ),
+    "board": (
+        "Board faults",
+        f"Bits of register {_at('BOARD_FAULTS')}, or {_at('FIRST_BOARD_FAULTS')}, when the fault "
+        f"is 2.",
+    ),
+    "condition": (
+        "Conditions",
+        f"Bits of register {_at('CONDITIONS')}. A condition prevents a start or shows a limit. "
+        f"Only 2 is latched.",
+    ),
 }
 
 

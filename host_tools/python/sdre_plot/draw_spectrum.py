@@ -3,6 +3,7 @@
 
 Usage: draw_spectrum.py SPECTRUM.csv TITLE OUT.png|OUT.svg
 """
+
 import csv
 import sys
 
@@ -30,9 +31,13 @@ def read(path):
 def main(spectrum_path, title, out_path):
     spectra = read(spectrum_path)
     figure, axes = plt.subplots(
-        max(1, len(spectra)), 1, figsize=(8, 1 + 2.5 * max(1, len(spectra))), sharex=True, squeeze=False,
+        max(1, len(spectra)),
+        1,
+        figsize=(8, 1 + 2.5 * max(1, len(spectra))),
+        sharex=True,
+        squeeze=False,
         constrained_layout=True,
-    )  # fmt: skip
+    )
     figure.suptitle(title)
     for axis, (measure, (frequencies, amplitudes)) in zip(axes[:, 0], spectra.items()):
         axis.vlines(frequencies, 0.0, amplitudes, lw=1.5)

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Draws one trace, whole on the left and around its last measure on the right: `sdre-sil run --plot`, `sdre.Run.plot()`.
+"""Draws one trace, whole on the left and around its last measure on the right: `sdre-sil run
+--plot`, `sdre.Run.plot()`.
 
 Usage: draw_trace.py TRACE.csv TITLE OUT.png|OUT.svg MARKS.json
 
-MARKS: pole_pairs, and measures with name, time_s, end_s and, where there is one, settling_time_s and dip_e_radps.
+MARKS: pole_pairs, and measures with name, time_s, end_s and, where there is one, settling_time_s
+and dip_e_radps.
 """
+
 import csv
 import json
 import math
@@ -39,7 +42,9 @@ def speed(axis, t, marks):
 
 def position(axis, t, marks):
     turn = 2 * math.pi * marks["pole_pairs"]
-    axis.plot(t["time_s"], [x / turn for x in t["position_ref_e_rad"]], "k--", lw=1, label="reference")
+    axis.plot(
+        t["time_s"], [x / turn for x in t["position_ref_e_rad"]], "k--", lw=1, label="reference"
+    )
     axis.plot(t["time_s"], [x / turn for x in t["position_e_rad"]], label="shaft")
     axis.set_ylabel("position\n[turns]")
 
@@ -102,14 +107,21 @@ def mark(axis, measure):
         words.append(f"settled in {1e3 * measure['settling_time_s']:.1f} ms")
     if measure.get("dip_e_radps"):
         words.append(f"dip {measure['dip_e_radps']:.2f} rad/s")
-    axis.set_title(f"{measure['name']}: " + ", ".join(words) if words else measure["name"], fontsize="medium")
+    axis.set_title(
+        f"{measure['name']}: " + ", ".join(words) if words else measure["name"], fontsize="medium"
+    )
 
 
 def zoom_y(axis, t, lo, hi):
     """The data of the window alone set the scale."""
     axis.set_xlim(lo, hi)
-    seen = [y for line in axis.get_lines() if len(line.get_xdata()) == len(t["time_s"])
-            for x, y in zip(line.get_xdata(), line.get_ydata()) if lo <= x <= hi]  # fmt: skip
+    seen = [
+        y
+        for line in axis.get_lines()
+        if len(line.get_xdata()) == len(t["time_s"])
+        for x, y in zip(line.get_xdata(), line.get_ydata())
+        if lo <= x <= hi
+    ]
     if seen:
         room = 0.06 * (max(seen) - min(seen) or 1.0)
         axis.set_ylim(min(seen) - room, max(seen) + room)
@@ -121,15 +133,25 @@ def draw(trace, title, out_path, marks):
     measures = marks["measures"]
     drawn = panels(t)
     columns = 2 if measures else 1
-    figure, axes = plt.subplots(len(drawn), columns, figsize=(6.5 * columns, 1.75 * len(drawn)), sharex="col", squeeze=False,
-                                constrained_layout=True)  # fmt: skip
+    figure, axes = plt.subplots(
+        len(drawn),
+        columns,
+        figsize=(6.5 * columns, 1.75 * len(drawn)),
+        sharex="col",
+        squeeze=False,
+        constrained_layout=True,
+    )
     figure.suptitle(title)
     for row, panel in zip(axes, drawn):
         for axis in row:
             panel(axis, t, marks)
             axis.grid(alpha=0.3)
             axis.label_outer() if axis is not row[0] else None
-        row[-1].legend(loc="center left", bbox_to_anchor=(1.13 if panel is speed else 1.01, 0.5), fontsize="small")
+        row[-1].legend(
+            loc="center left",
+            bbox_to_anchor=(1.13 if panel is speed else 1.01, 0.5),
+            fontsize="small",
+        )
         for m in measures:
             row[0].axvline(m["time_s"], color="0.6", lw=0.8, ls=":")
     if measures:
@@ -148,4 +170,9 @@ def draw(trace, title, out_path, marks):
 
 if __name__ == "__main__":
     trace_path, wanted_title, picture, marks_path = sys.argv[1:]
-    draw(Path(trace_path).read_text(encoding="utf-8"), wanted_title, picture, Path(marks_path).read_text(encoding="utf-8"))
+    draw(
+        Path(trace_path).read_text(encoding="utf-8"),
+        wanted_title,
+        picture,
+        Path(marks_path).read_text(encoding="utf-8"),
+    )

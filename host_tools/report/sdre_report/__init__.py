@@ -1,2 +1,3 @@
 # SPDX-License-Identifier: MIT
-"""The report of both papers: `./dev report`. Python, because matplotlib draws the project's plots there already."""
+"""The report of both papers: `./dev report`. Python, because matplotlib draws the project's plots
+there already."""

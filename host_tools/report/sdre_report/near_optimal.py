@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The cost (12) of every order of the series on the error dynamics (10), compared with the exact SDRE gain and the true optimum.
+"""The cost (12) of every order of the series on the error dynamics (10), compared with the exact
+SDRE gain and the true optimum.
 
-Direct collocation finds the optimum. Everything is solved here from the drive file alone, which also checks sdre-gains."""
+Direct collocation finds the optimum. Everything is solved here from the drive file alone, which
+also checks sdre-gains."""
 
 from __future__ import annotations
 
@@ -20,7 +22,10 @@ END_S = 0.03  # 25 time constants of the slowest mode
 INTERVALS, DEGREE = 60, 3  # of the collocation: twice as many move no digit that is shown
 # Errors (w [rad/s], iq, id [A]): the load step's largest, and what the current limit of 4 A allows.
 STARTS = ((-4.2, 1.0, 0.0), (0.0, 2.0, -2.0), (0.0, 3.5, 1.8), (10.0, -3.0, -2.0), (0.0, 4.0, -2.0))
-GRID_A, GRID_POINTS = 8.0, 801  # twice the current limit; half-way between two points the spline is within 1e-9
+GRID_A, GRID_POINTS = (
+    8.0,
+    801,
+)  # twice the current limit; half-way between two points the spline is within 1e-9
 AGREES = 1e-6  # relative, of a gain with the one of sdre-gains
 Gain = Callable[[np.ndarray], np.ndarray]
 
@@ -45,14 +50,21 @@ class Problem:
         X = [solve_continuous_are(self.A0, self.B, self.Q, self.T)]
         Ac = self.A0 - G @ X[0]
         for n in range(1, order + 1):
-            W = X[n - 1] @ self.dA + self.dA.T @ X[n - 1] - sum((X[j] @ G @ X[n - j] for j in range(1, n)), np.zeros((3, 3)))
+            W = (
+                X[n - 1] @ self.dA
+                + self.dA.T @ X[n - 1]
+                - sum((X[j] @ G @ X[n - j] for j in range(1, n)), np.zeros((3, 3)))
+            )
             X.append(solve_continuous_lyapunov(Ac.T, -W))
         return X
 
     def exact(self) -> Gain:
         """The gain of the SDRE, which depends on e_iq alone: solved on a grid, a spline between."""
         grid = np.linspace(-GRID_A, GRID_A, GRID_POINTS)
-        gains = [self.gain(solve_continuous_are(self.A0 + e * self.dA, self.B, self.Q, self.T)) for e in grid]
+        gains = [
+            self.gain(solve_continuous_are(self.A0 + e * self.dA, self.B, self.Q, self.T))
+            for e in grid
+        ]
         spline = CubicSpline(grid, gains)
         return lambda x: spline(x[1])
 
@@ -68,7 +80,10 @@ def cost(problem: Problem, gain: Gain, start: Tuple[float, ...]) -> float:
     def slope(_: float, z: np.ndarray) -> np.ndarray:
         x = z[:3]
         u = -gain(x) @ x
-        return np.append((problem.A0 + x[1] * problem.dA) @ x + problem.B @ u, 0.5 * (x @ problem.Q @ x + u @ problem.T @ u))
+        return np.append(
+            (problem.A0 + x[1] * problem.dA) @ x + problem.B @ u,
+            0.5 * (x @ problem.Q @ x + u @ problem.T @ u),
+        )
 
     def far(_: float, z: np.ndarray) -> float:
         return 1e3 - float(np.abs(z[1:3]).max())
@@ -79,9 +94,15 @@ def cost(problem: Problem, gain: Gain, start: Tuple[float, ...]) -> float:
 
 
 def optimum(problem: Problem, exact: Gain, start: Tuple[float, ...]) -> float:
-    """Optimal cost by direct collocation (Radau), from the exact SDRE's trajectory as the first guess."""
-    guess = solve_ivp(lambda _, x: (problem.A0 + x[1] * problem.dA - problem.B @ exact(x)) @ x, (0.0, END_S), start,
-                      rtol=1e-6, dense_output=True)  # fmt: skip
+    """Optimal cost by direct collocation (Radau), from the exact SDRE's trajectory as the first
+    guess."""
+    guess = solve_ivp(
+        lambda _, x: (problem.A0 + x[1] * problem.dA - problem.B @ exact(x)) @ x,
+        (0.0, END_S),
+        start,
+        rtol=1e-6,
+        dense_output=True,
+    )
     taus = [0.0, *ca.collocation_points(DEGREE, "radau")]
     basis = [np.poly1d([1.0])] * (DEGREE + 1)
     for j in range(DEGREE + 1):
@@ -102,11 +123,19 @@ def optimum(problem: Problem, exact: Gain, start: Tuple[float, ...]) -> float:
             unknowns += [x, u]
             first += [*value, *(-exact(value) @ value)]
             slope = problem.A0 @ x + x[1] * (problem.dA @ x) + problem.B @ u
-            rules.append(sum(float(slopes[r, j]) * states[r] for r in range(DEGREE + 1)) - step * slope)
-            total += 0.5 * step * weights[j] * (ca.bilin(problem.Q, x, x) + ca.bilin(problem.T, u, u))
+            rules.append(
+                sum(float(slopes[r, j]) * states[r] for r in range(DEGREE + 1)) - step * slope
+            )
+            total += (
+                0.5 * step * weights[j] * (ca.bilin(problem.Q, x, x) + ca.bilin(problem.T, u, u))
+            )
         x_k, at = states[-1], at + step
-    solver = ca.nlpsol("optimum", "ipopt", {"x": ca.vertcat(*unknowns), "f": total, "g": ca.vertcat(*rules)},
-                       {"print_time": False, "ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-10}})  # fmt: skip
+    solver = ca.nlpsol(
+        "optimum",
+        "ipopt",
+        {"x": ca.vertcat(*unknowns), "f": total, "g": ca.vertcat(*rules)},
+        {"print_time": False, "ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-10}},
+    )
     found = solver(x0=first, lbg=0, ubg=0)
     if not solver.stats()["success"]:
         raise ReportError(f"the collocation finds no optimum from {start}")
@@ -122,13 +151,23 @@ def table(design: Dict[str, Any], drive: Dict[str, Any]) -> Table:
         if np.abs(ours - np.array(theirs)).max() > AGREES * np.abs(gains[0]).max():
             raise ReportError("sdre-gains and the report disagree about a gain of the series")
     hold_A = design["certificate"]["nosc"]["series_range_A"]
-    laws: List[Tuple[str, Gain]] = [(f"order {n}" + (" (LQR)" if n == 0 else ""), series_gain(gains[: n + 1])) for n in range(4)]
-    laws += [(f"order 2, held beyond {hold_A:.2f} A (firmware)", series_gain(gains[:3], hold_A)), ("exact SDRE", exact)]
-    out = Table("A-optimal", "How near the optimum: cost (12) beyond the true optimum [%]",
-                ("", *(f"e = ({', '.join(f'{v:g}' for v in s)})" for s in STARTS)),
-                note="Error dynamics (10) of ipmsm_390w_speed.toml without limits, from an error (rad/s, A, A) on. The optimum by direct "
-                f"collocation, Radau of degree {DEGREE} on {INTERVALS} intervals. The gains are solved here anew and agree with those of "
-                "sdre-gains.")  # fmt: skip
+    laws: List[Tuple[str, Gain]] = [
+        (f"order {n}" + (" (LQR)" if n == 0 else ""), series_gain(gains[: n + 1])) for n in range(4)
+    ]
+    laws += [
+        (f"order 2, held beyond {hold_A:.2f} A (firmware)", series_gain(gains[:3], hold_A)),
+        ("exact SDRE", exact),
+    ]
+    out = Table(
+        "A-optimal",
+        "How near the optimum: cost (12) beyond the true optimum [%]",
+        ("", *(f"e = ({', '.join(f'{v:g}' for v in s)})" for s in STARTS)),
+        note="Error dynamics (10) of ipmsm_390w_speed.toml without limits, from an error (rad/s, "
+        "A, A) on. The optimum by direct "
+        f"collocation, Radau of degree {DEGREE} on {INTERVALS} intervals. The gains are solved "
+        f"here anew and agree with those of "
+        "sdre-gains.",
+    )
     best = [optimum(problem, exact, s) for s in STARTS]
     for name, gain in laws:
         over = [100.0 * (cost(problem, gain, s) / b - 1.0) for s, b in zip(STARTS, best)]

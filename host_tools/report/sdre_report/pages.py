@@ -32,8 +32,13 @@ def from_docs(name: str, heading: str) -> str:
 
 def render(sections: Sequence[Section]) -> str:
     """The whole page; a name that a template does not know is an error."""
-    environment = jinja2.Environment(loader=jinja2.PackageLoader("sdre_report"), autoescape=True,
-                                     undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True)  # fmt: skip
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader("sdre_report"),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
     environment.tests["table"] = lambda part: isinstance(part, Table)
     environment.filters["svg"] = Markup
     figures = [p for s in sections for p in s.parts if isinstance(p, Figure)]
@@ -51,9 +56,18 @@ def print_pdf(page: Path, pdf: Path) -> bool:
     if not program:
         return False
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
-        arguments: List[str] = [program, "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-                                "--no-first-run", f"--user-data-dir={profile}", "--no-pdf-header-footer",
-                                f"--print-to-pdf={pdf}", page.resolve().as_uri()]  # fmt: skip
+        arguments: List[str] = [
+            program,
+            "--headless=new",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-dev-shm-usage",
+            "--no-first-run",
+            f"--user-data-dir={profile}",
+            "--no-pdf-header-footer",
+            f"--print-to-pdf={pdf}",
+            page.resolve().as_uri(),
+        ]
         done = subprocess.run(arguments, capture_output=True, text=True, timeout=180, check=False)
     if not pdf.exists():
         raise ReportError(f"{program} made no PDF: {done.stderr.strip().splitlines()[-1:]}")

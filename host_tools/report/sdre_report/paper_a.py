@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Paper A: Fig. 5 to 8, Table 2 and 3, with the proposed and the conventional control, on ideal signals and on the board."""
+"""Paper A: Fig. 5 to 8, Table 2 and 3, with the proposed and the conventional control, on ideal
+signals and on the board."""
 
 from __future__ import annotations
 
@@ -38,17 +39,49 @@ class Case:
 
 
 CASES = (
-    Case(5, "fig5_load_step", "load_step", "load 0.75 to 1.5 N m at 300 rad/s, the controller knows the motor", 60, 0.8),
-    Case(6, "fig6_load_step_varied", "load_step", "the same, controller with 200 % J, B and 150 % R, L, flux", 60, 0.8),
-    Case(7, "fig7_speed_step", "speed_step", "200 to 400 rad/s at 0.75 N m, 200/150 % controller", 100, 0.8),
-    Case(8, "fig8_flux_weakening", "speed_step", "400 to 720 rad/s at 0.1 N m, dc link 173 V, 200/150 % controller", 200, 1.2),
+    Case(
+        5,
+        "fig5_load_step",
+        "load_step",
+        "load 0.75 to 1.5 N m at 300 rad/s, the controller knows the motor",
+        60,
+        0.8,
+    ),
+    Case(
+        6,
+        "fig6_load_step_varied",
+        "load_step",
+        "the same, controller with 200 % J, B and 150 % R, L, flux",
+        60,
+        0.8,
+    ),
+    Case(
+        7,
+        "fig7_speed_step",
+        "speed_step",
+        "200 to 400 rad/s at 0.75 N m, 200/150 % controller",
+        100,
+        0.8,
+    ),
+    Case(
+        8,
+        "fig8_flux_weakening",
+        "speed_step",
+        "400 to 720 rad/s at 0.1 N m, dc link 173 V, 200/150 % controller",
+        200,
+        1.2,
+    ),
 )
 COLUMNS = ("proposed, ideal", "conventional, ideal", "proposed, board", "conventional, board")
 
 
 def runs_of(tools: Tools, case: Case) -> List[Run]:
-    """In the order of COLUMNS. The board's proposed control is the shipped drive: its observer measures the angle."""
-    of = lambda drive, where, changes: tools.run(case.scenario, drive, changes, f"fig{case.number}-{where}-{drive}")  # noqa: E731
+    """In the order of COLUMNS. The board's proposed control is the shipped drive: its observer
+    measures the angle."""
+
+    def of(drive: str, where: str, changes: Any) -> Run:
+        return tools.run(case.scenario, drive, changes, f"fig{case.number}-{where}-{drive}")
+
     return [
         of("ipmsm_390w_speed", "ideal", None),
         of("ipmsm_390w_conventional", "ideal", None),
@@ -80,15 +113,23 @@ def draw(case: Case, runs: List[Run]) -> Figure:
             if style == 0:
                 axes[0, column].plot(at, shown["omega_ref_e_radps"], **plots.REFERENCE)
             label = ("proposed", "conventional")[style]
-            for row, name in enumerate(("omega_e_radps", "iq_A", "id_A", "d_omega_hat", "d_q_hat", "d_d_hat")):
+            for row, name in enumerate(
+                ("omega_e_radps", "iq_A", "id_A", "d_omega_hat", "d_q_hat", "d_d_hat")
+            ):
                 plots.line(axes[row, column], at, shown[name], style, label if row == 0 else "")
         axes[-1, column].set_xlabel("time after the step [ms]")
-    for row, label in enumerate(("speed [rad/s el.]", "i_q [A]", "i_d [A]", "d_w [rad/s²]", "d_q [A/s]", "d_d [A/s]")):
+    for row, label in enumerate(
+        ("speed [rad/s el.]", "i_q [A]", "i_d [A]", "d_w [rad/s²]", "d_q [A/s]", "d_d [A/s]")
+    ):
         axes[row, 0].set_ylabel(label)
     ident = f"A-fig{case.number}"
     svg = plots.finish(figure, axes, ident, f"Fig. {case.number}: {case.title}")
-    return Figure(ident, f"Fig. {case.number}: {case.title}", svg,
-                  "Thin grey: reference. " + plots.names(("proposed", "conventional")) + ".")  # fmt: skip
+    return Figure(
+        ident,
+        f"Fig. {case.number}: {case.title}",
+        svg,
+        "Thin grey: reference. " + plots.names(("proposed", "conventional")) + ".",
+    )
 
 
 def add_pair(table: Table, what: str, printed: Any, pairs: List[Settled]) -> None:
@@ -104,70 +145,143 @@ def add_pair(table: Table, what: str, printed: Any, pairs: List[Settled]) -> Non
 def compare(case: Case, runs: List[Run], printed: Dict[str, Any]) -> Table:
     """Every number that the paper gives for the figure."""
     ours, others = printed["proposed"], printed["conventional"]
-    table = Table(f"A-fig{case.number}-numbers", f"Fig. {case.number} in numbers",
-                  ("", "paper, proposed", "paper, conventional", *COLUMNS))  # fmt: skip
+    table = Table(
+        f"A-fig{case.number}-numbers",
+        f"Fig. {case.number} in numbers",
+        ("", "paper, proposed", "paper, conventional", *COLUMNS),
+    )
     speed = [or_never(r.measure(case.measure)["settling_time_s"], 1e3) for r in runs]
     table.add("speed within 1 % [ms]", ours["speed_ms"], others["speed_ms"], *speed)
     error = [r.measure(case.measure)["steady_state_error_e_radps"] for r in runs]
-    table.add("steady error [rad/s]", ours.get("error", "-"), others.get("error", "-"), *(f"{x:.3f}" for x in error))
+    table.add(
+        "steady error [rad/s]",
+        ours.get("error", "-"),
+        others.get("error", "-"),
+        *(f"{x:.3f}" for x in error),
+    )
     if case.number <= 6:
         table.add("dip [rad/s]", "-", "-", *(r.measure(case.measure)["dip_e_radps"] for r in runs))
     else:
-        table.add("overshoot of the speed [rad/s]", "-", "-", *(f"{r.measure(case.measure)['overshoot_e_radps']:.3f}" for r in runs))
+        table.add(
+            "overshoot of the speed [rad/s]",
+            "-",
+            "-",
+            *(f"{r.measure(case.measure)['overshoot_e_radps']:.3f}" for r in runs),
+        )
     for signal in ("iq", "id", "d_w", "d_q", "d_d"):
         key = f"{signal}_ms"
-        table.add(f"{WORDS[signal]} settled [ms]", ours.get(key, "-"), others.get(key, "-"),
-                  *(time_of(settled(r, case, signal)) for r in runs))  # fmt: skip
+        table.add(
+            f"{WORDS[signal]} settled [ms]",
+            ours.get(key, "-"),
+            others.get(key, "-"),
+            *(time_of(settled(r, case, signal)) for r in runs),
+        )
     for signal in ("iq", "id"):
         key = f"{signal}_overshoot_A"
         if key in ours:
-            table.add(f"{WORDS[signal]} beyond its final value [A]", ours[key], others[key],
-                      *(settled(r, case, signal).overshoot for r in runs), digits=2)  # fmt: skip
+            table.add(
+                f"{WORDS[signal]} beyond its final value [A]",
+                ours[key],
+                others[key],
+                *(settled(r, case, signal).overshoot for r in runs),
+                digits=2,
+            )
     for signal in ("d_w", "d_q", "d_d"):
         add_pair(table, WORDS[signal], ours[signal], [settled(r, case, signal) for r in runs])
     if "id_A" in ours:
         add_pair(table, "i_d [A]", ours["id_A"], [settled(r, case, "id") for r in runs])
-    table.note = ("Currents and estimates: within 5 % of how far they leave their final value, beyond the noise of the last fifth; the "
-                  "paper names no band. \"In its noise\": they leave it by no more than that noise. The conventional observer has no "
-                  "d_q and d_d. Fig. 7: beyond the final value is here all of the current that accelerates.")  # fmt: skip
+    table.note = (
+        "Currents and estimates: within 5 % of how far they leave their final value, beyond the "
+        "noise of the last fifth; the "
+        'paper names no band. "In its noise": they leave it by no more than that noise. The '
+        "conventional observer has no "
+        "d_q and d_d. Fig. 7: beyond the final value is here all of the current that accelerates."
+    )
     return table
 
 
 def table_3(found: Dict[int, List[Run]], printed: Dict[str, Any]) -> Table:
     """The paper's summary, row by row."""
-    table = Table("A-table3", "Table 3, proposed control",
-                  ("", *(f"{q}, {who}" for q in ("d_w", "d_q", "d_d", "speed", "t_s [ms]") for who in ("paper", "here"))),
-                  note="Speed: the steady error after a load step. For the speed step the paper prints 56 (conventional: 117) rad/s "
-                  "and does not say of what; here stands the overshoot. d_w and the other estimates: docs/errata.md, \"Not reproduced\".")  # fmt: skip
-    for number, name in ((5, "load step, exact parameters"), (6, "load step, 200/150 %"), (7, "speed step"), (8, "flux weakening")):
+    table = Table(
+        "A-table3",
+        "Table 3, proposed control",
+        (
+            "",
+            *(
+                f"{q}, {who}"
+                for q in ("d_w", "d_q", "d_d", "speed", "t_s [ms]")
+                for who in ("paper", "here")
+            ),
+        ),
+        note="Speed: the steady error after a load step. For the speed step the paper prints 56 "
+        "(conventional: 117) rad/s "
+        "and does not say of what; here stands the overshoot. d_w and the other estimates: "
+        'docs/errata.md, "Not reproduced".',
+    )
+    for number, name in (
+        (5, "load step, exact parameters"),
+        (6, "load step, 200/150 %"),
+        (7, "speed step"),
+        (8, "flux weakening"),
+    ):
         case = CASES[number - 5]
         ours, run = printed[f"fig{number}"]["proposed"], found[number][0]
         measure = run.measure(case.measure)
-        last = {k: ours[k][-1] if isinstance(ours[k], list) else ours[k] for k in ("d_w", "d_q", "d_d")}
+        last = {
+            k: ours[k][-1] if isinstance(ours[k], list) else ours[k] for k in ("d_w", "d_q", "d_d")
+        }
         speed = measure["steady_state_error_e_radps" if number <= 6 else "overshoot_e_radps"]
-        table.add(name, last["d_w"], measure["d_omega_hat"], last["d_q"], f"{measure['d_q_hat']:.1f}", last["d_d"],
-                  f"{measure['d_d_hat']:.1f}", ours.get("error", ours.get("omega_e", "-")), f"{speed:.3f}", ours["speed_ms"],
-                  or_never(measure["settling_time_s"], 1e3))  # fmt: skip
+        table.add(
+            name,
+            last["d_w"],
+            measure["d_omega_hat"],
+            last["d_q"],
+            f"{measure['d_q_hat']:.1f}",
+            last["d_d"],
+            f"{measure['d_d_hat']:.1f}",
+            ours.get("error", ours.get("omega_e", "-")),
+            f"{speed:.3f}",
+            ours["speed_ms"],
+            or_never(measure["settling_time_s"], 1e3),
+        )
     return table
 
 
 def table_3_conventional(found: Dict[int, List[Run]], printed: Dict[str, Any]) -> Table:
     """Its lower half, which has speeds and times alone."""
-    table = Table("A-table3-conventional", "Table 3, conventional control",
-                  ("", "speed, paper", "speed, here", "t_s [ms], paper", "t_s [ms], here"))  # fmt: skip
-    for number, name in ((5, "load step, exact parameters"), (6, "load step, 200/150 %"), (7, "speed step"), (8, "flux weakening")):
+    table = Table(
+        "A-table3-conventional",
+        "Table 3, conventional control",
+        ("", "speed, paper", "speed, here", "t_s [ms], paper", "t_s [ms], here"),
+    )
+    for number, name in (
+        (5, "load step, exact parameters"),
+        (6, "load step, 200/150 %"),
+        (7, "speed step"),
+        (8, "flux weakening"),
+    ):
         theirs, run = printed[f"fig{number}"]["conventional"], found[number][1]
         measure = run.measure(CASES[number - 5].measure)
         speed = measure["steady_state_error_e_radps" if number <= 6 else "overshoot_e_radps"]
-        table.add(name, theirs.get("error", theirs.get("omega_e", "-")), f"{speed:.3f}", theirs["speed_ms"],
-                  or_never(measure["settling_time_s"], 1e3))  # fmt: skip
+        table.add(
+            name,
+            theirs.get("error", theirs.get("omega_e", "-")),
+            f"{speed:.3f}",
+            theirs["speed_ms"],
+            or_never(measure["settling_time_s"], 1e3),
+        )
     return table
 
 
 def table_2(design: Dict[str, Any], drive: Dict[str, Any], printed: Dict[str, Any]) -> Table:
-    """The motor, as printed and as it stands in the drive file; and the reduced parameters, which the paper does not print."""
-    table = Table("A-table2", "Table 2 and equation (2): the motor", ("", "paper", "drive file"),
-                  note="The printed current of 1.3 A does not give the printed torque (docs/errata.md, A6).")  # fmt: skip
+    """The motor, as printed and as it stands in the drive file; and the reduced parameters, which
+    the paper does not print."""
+    table = Table(
+        "A-table2",
+        "Table 2 and equation (2): the motor",
+        ("", "paper", "drive file"),
+        note="The printed current of 1.3 A does not give the printed torque (docs/errata.md, A6).",
+    )
     values = {**drive["motor"], **drive["inverter"]}
     for key in printed:
         table.add(key, f"{printed[key]:g}", f"{values[key]:g}")
@@ -176,7 +290,9 @@ def table_2(design: Dict[str, Any], drive: Dict[str, Any], printed: Dict[str, An
     return table
 
 
-def section(tools: Tools, printed: Dict[str, Any], design: Dict[str, Any], drive: Dict[str, Any]) -> Section:
+def section(
+    tools: Tools, printed: Dict[str, Any], design: Dict[str, Any], drive: Dict[str, Any]
+) -> Section:
     """All of paper A's runs."""
     out = Section("paper-a", "Paper A: near optimal control of the interior magnet motor")
     found: Dict[int, List[Run]] = {}

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Paper B: Tables I and II and Fig. 4 to 8 for its four laws. The disc is perfect, as in its rig, or real."""
+"""Paper B: Tables I and II and Fig. 4 to 8 for its four laws. The disc is perfect, as in its rig,
+or real."""
 
 from __future__ import annotations
 
@@ -21,8 +22,12 @@ REAL_DISC = {
     "encoder_duty_error_cnt = 0": "",
     "encoder_jitter_rms_cnt = 0": "",
 }
-CASE = {1: ("servo_case_1_2", "case_1"), 2: ("servo_case_1_2", "case_2"), 3: ("servo_case_3_4", "case_3"),
-        4: ("servo_case_3_4", "case_4")}  # fmt: skip
+CASE = {
+    1: ("servo_case_1_2", "case_1"),
+    2: ("servo_case_1_2", "case_2"),
+    3: ("servo_case_3_4", "case_3"),
+    4: ("servo_case_3_4", "case_4"),
+}
 # Row of the paper's tables: key in published.toml, case, metric, factor.
 ROWS = (
     ("I: overshoot [%]", "overshoot_percent", 1, "overshoot_percent", 1.0),
@@ -46,8 +51,13 @@ Runs = Dict[str, Dict[str, Run]]  # law, scenario
 
 def all_runs(tools: Tools, disc: str, changes: Dict[str, str]) -> Runs:
     """Both scenarios with every law."""
-    return {law: {s: tools.run(s, f"servo_200w_{law}", changes, f"{s}-{law}-{disc}") for s in ("servo_case_1_2", "servo_case_3_4")}
-            for law in LAWS}  # fmt: skip
+    return {
+        law: {
+            s: tools.run(s, f"servo_200w_{law}", changes, f"{s}-{law}-{disc}")
+            for s in ("servo_case_1_2", "servo_case_3_4")
+        }
+        for law in LAWS
+    }
 
 
 def value(runs: Runs, law: str, case: int, metric: str, factor: float) -> Value:
@@ -61,15 +71,24 @@ def value(runs: Runs, law: str, case: int, metric: str, factor: float) -> Value:
 
 def numbers(perfect: Runs, real: Runs, printed: Dict[str, Any]) -> Table:
     """Table I and II."""
-    table = Table("B-tables", "Table I and II",
-                  ("", *(f"{TITLES[law]}, {who}" for law in LAWS for who in ("paper", "here", "real disc"))),
-                  note="Seed 1. Here: the rig of the paper as far as it is described (amplitudes are chosen: docs/errata.md, D16); real "
-                  "disc: edges of the encoder off by 0.10 counts rms. Settling and recovery: the paper names no band; 98 ms and more: the "
-                  "ripple itself is as wide as the band.")  # fmt: skip
+    table = Table(
+        "B-tables",
+        "Table I and II",
+        ("", *(f"{TITLES[law]}, {who}" for law in LAWS for who in ("paper", "here", "real disc"))),
+        note="Seed 1. Here: the rig of the paper as far as it is described (amplitudes are chosen: "
+        "docs/errata.md, D16); real "
+        "disc: edges of the encoder off by 0.10 counts rms. Settling and recovery: the paper names "
+        "no band; 98 ms and more: the "
+        "ripple itself is as wide as the band.",
+    )
     for what, key, case, metric, factor in ROWS:
         cells: List[Value] = []
         for law in LAWS:
-            cells += [printed[law].get(key, "-"), value(perfect, law, case, metric, factor), value(real, law, case, metric, factor)]
+            cells += [
+                printed[law].get(key, "-"),
+                value(perfect, law, case, metric, factor),
+                value(real, law, case, metric, factor),
+            ]
         table.add(what, *cells)
     return table
 
@@ -117,10 +136,14 @@ def spectra(tools: Tools) -> Figure:
 def estimates(perfect: Runs, printed: Dict[str, Any], inductance_H: float) -> list:
     """Fig. 8: what the three observers estimate, as a voltage."""
     figure, axes = plots.grid(2, 1, 1.9)
-    table = Table("B-fig8-numbers", "Fig. 8 in numbers: mean estimate [V]",
-                  ("", "Case I, paper", "Case I, here", "Case III, paper", "Case III, here"),
-                  note="The load of 1.5 N m alone needs 28.9 V more with the printed R and flux; the paper's estimate moves by 20.1 V, as "
-                  "1.04 N m would (docs/errata.md, D14, says the same of the decrease).")  # fmt: skip
+    table = Table(
+        "B-fig8-numbers",
+        "Fig. 8 in numbers: mean estimate [V]",
+        ("", "Case I, paper", "Case I, here", "Case III, paper", "Case III, here"),
+        note="The load of 1.5 N m alone needs 28.9 V more with the printed R and flux; the paper's "
+        "estimate moves by 20.1 V, as "
+        "1.04 N m would (docs/errata.md, D14, says the same of the decrease).",
+    )
     for style, law in enumerate(("cdobc", "gpiobc", "hdobc")):
         means = []
         for row, scenario in enumerate(("servo_case_1_2", "servo_case_3_4")):
@@ -129,7 +152,13 @@ def estimates(perfect: Runs, printed: Dict[str, Any], inductance_H: float) -> li
             plots.line(axes[row, 0], at, volts, style, TITLES[law] if row == 0 else "", lw=0.8)
             steady = (at > 110) & (at < 200) if row == 0 else (at > 170) & (at < 200)
             means.append(float(volts[steady].mean()))
-        table.add(TITLES[law], printed[law]["estimate_1_V"], means[0], printed[law]["estimate_3_V"], means[1])
+        table.add(
+            TITLES[law],
+            printed[law]["estimate_1_V"],
+            means[0],
+            printed[law]["estimate_3_V"],
+            means[1],
+        )
     axes[0, 0].set_ylabel("Cases I, II [V]")
     axes[1, 0].set_ylabel("Cases III, IV [V]")
     axes[1, 0].set_xlabel("time [ms]")
@@ -147,7 +176,11 @@ def section(tools: Tools, printed: Dict[str, Any], inductance_H: float) -> Secti
     real = all_runs(tools, "disc", REAL_DISC)
     out.parts.append(numbers(perfect, real, printed))
     out.parts.append(speeds(perfect, "B-fig4", "servo_case_1_2", "Fig. 4: Cases I and II", False))
-    out.parts.append(speeds(perfect, "B-fig5", "servo_case_1_2", "Fig. 5: the steady speed of Cases I and II", True))
+    out.parts.append(
+        speeds(
+            perfect, "B-fig5", "servo_case_1_2", "Fig. 5: the steady speed of Cases I and II", True
+        )
+    )
     out.parts.append(spectra(tools))
     out.parts.append(speeds(perfect, "B-fig7", "servo_case_3_4", "Fig. 7: Cases III and IV", False))
     out.parts += estimates(perfect, printed, inductance_H)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Vector plots that read in grey: every line has its own dashes and lightness. Same data, same bytes."""
+"""Vector plots that read in grey: every line has its own dashes and lightness. Same data, same
+bytes."""
 
 from __future__ import annotations
 
@@ -24,10 +25,18 @@ REFERENCE = {"color": "#888888", "ls": "-", "lw": 0.7}
 WIDTH_IN = 7.6
 
 
-def grid(rows: int, columns: int = 1, height_in: float = 1.55, **more: Any) -> Tuple[Any, np.ndarray]:
+def grid(
+    rows: int, columns: int = 1, height_in: float = 1.55, **more: Any
+) -> Tuple[Any, np.ndarray]:
     """Axes on a fixed width."""
-    figure, axes = plt.subplots(rows, columns, figsize=(WIDTH_IN, height_in * rows + 0.35), constrained_layout=True,
-                                squeeze=False, **more)  # fmt: skip
+    figure, axes = plt.subplots(
+        rows,
+        columns,
+        figsize=(WIDTH_IN, height_in * rows + 0.35),
+        constrained_layout=True,
+        squeeze=False,
+        **more,
+    )
     return figure, axes
 
 
@@ -37,7 +46,8 @@ def line(axis: Any, x: np.ndarray, y: np.ndarray, style: int, label: str = "", *
 
 
 def finish(figure: Any, axes: np.ndarray, ident: str, title: str) -> str:
-    """The figure as SVG text to stand in HTML: ids of its own, no date, a title for who does not see it."""
+    """The figure as SVG text to stand in HTML: ids of its own, no date, a title for who does not
+    see it."""
     for axis in axes.flat:
         axis.grid(alpha=0.3, lw=0.5)
         axis.tick_params(labelsize=7)
@@ -46,14 +56,21 @@ def finish(figure: Any, axes: np.ndarray, ident: str, title: str) -> str:
         axis.title.set_size(9)
         if axis.get_legend_handles_labels()[0]:
             axis.legend(fontsize=7, loc="best", handlelength=3, framealpha=0.8)
-    with matplotlib.rc_context({"svg.hashsalt": ident, "svg.fonttype": "none", "path.simplify_threshold": 0.3}):
+    with matplotlib.rc_context(
+        {"svg.hashsalt": ident, "svg.fonttype": "none", "path.simplify_threshold": 0.3}
+    ):
         text = io.StringIO()
         figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None})
     plt.close(figure)
     svg = text.getvalue()
-    svg = svg[svg.index("<svg"):]
+    svg = svg[svg.index("<svg") :]
     svg = re.sub(r'\b(id="|url\(#|href="#)', rf"\g<1>{ident}-", svg)
-    return re.sub(r"<svg [^>]*?viewBox=(\"[^\"]+\")[^>]*>", rf'<svg viewBox=\1 role="img" aria-label="{title}">', svg, count=1)
+    return re.sub(
+        r"<svg [^>]*?viewBox=(\"[^\"]+\")[^>]*>",
+        rf'<svg viewBox=\1 role="img" aria-label="{title}">',
+        svg,
+        count=1,
+    )
 
 
 def window(trace: dict, from_s: float, to_s: float) -> dict:

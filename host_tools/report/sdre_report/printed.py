@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
 from typing import Any, Dict, Iterator, List, Mapping
+
+import tomllib
 
 
 class Printed(Mapping[str, Any]):
@@ -14,7 +15,9 @@ class Printed(Mapping[str, Any]):
     def __init__(self, values: Dict[str, Any], name: str = "") -> None:
         self._name = name
         self._read: set = set()
-        self._values = {k: Printed(v, f"{name}{k}.") if isinstance(v, dict) else v for k, v in values.items()}
+        self._values = {
+            k: Printed(v, f"{name}{k}.") if isinstance(v, dict) else v for k, v in values.items()
+        }
 
     def __getitem__(self, key: str) -> Any:
         value = self._values[key]

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Settling time of a signal.
 
-The papers name no band. Here it is 5 % of the largest distance from the final value, plus the noise of the tail.
+The papers name no band. Here it is 5 % of the largest distance from the final value, plus the noise
+of the tail.
 """
 
 from __future__ import annotations
@@ -27,14 +28,17 @@ class Settled:
     moves: bool  # out of its noise
 
 
-def settle(trace: Dict[str, np.ndarray], name: str, from_s: float, step_s: float, to_s: float) -> Settled:
-    """Settling of one signal from `step_s` on; `from_s` .. `step_s` is the steady state before the step."""
+def settle(
+    trace: Dict[str, np.ndarray], name: str, from_s: float, step_s: float, to_s: float
+) -> Settled:
+    """Settling of one signal from `step_s` on; `from_s` .. `step_s` is the steady state before the
+    step."""
     time, signal = trace["time_s"], trace[name]
     early = signal[(time >= from_s - 1e-9) & (time < step_s - 1e-9)]
     window = (time >= step_s - 1e-9) & (time < to_s - 1e-9)
     late, at = signal[window], time[window]
-    before = float(early[-max(1, int(TAIL * len(early))):].mean())
-    tail = late[-max(1, int(TAIL * len(late))):]
+    before = float(early[-max(1, int(TAIL * len(early))) :].mean())
+    tail = late[-max(1, int(TAIL * len(late))) :]
     after = float(tail.mean())
     noise = float(tail.max() - tail.min()) / 2
     departure = float(np.abs(late - after).max())

@@ -45,8 +45,18 @@ class Table:
     def add(self, what: str, *values: Value, digits: int = 3) -> None:
         """One row; every value is a number or a word."""
         if len(values) + 1 != len(self.head):
-            raise ReportError(f"{self.ident}: {what!r} has {len(values)} values for {len(self.head) - 1} columns")
-        self.rows.append([what, *(number(v, digits, f"{self.ident}, {what}, {h}") for v, h in zip(values, self.head[1:]))])
+            raise ReportError(
+                f"{self.ident}: {what!r} has {len(values)} values for {len(self.head) - 1} columns"
+            )
+        self.rows.append(
+            [
+                what,
+                *(
+                    number(v, digits, f"{self.ident}, {what}, {h}")
+                    for v, h in zip(values, self.head[1:])
+                ),
+            ]
+        )
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Paper B's Theorem 1 as numbers: its lemma's constants, and the sharpest bound that its closed loop (11) has."""
+"""Paper B's Theorem 1 as numbers: its lemma's constants, and the sharpest bound that its closed
+loop (11) has."""
 
 from __future__ import annotations
 
@@ -28,7 +29,8 @@ def lemma(n: int) -> Tuple[float, float]:
 
 @dataclass(frozen=True)
 class Loop:
-    """Phi, Xi of (11) for one design: x1 = [1 0 ..] X, X' = Phi X + Xi d with d the N-th derivative of x7."""
+    """Phi, Xi of (11) for one design: x1 = [1 0 ..] X, X' = Phi X + Xi d with d the N-th derivative
+    of x7."""
 
     Phi: np.ndarray
     Xi: np.ndarray
@@ -65,7 +67,8 @@ def plant(motor: Dict[str, float]) -> Tuple[float, float, float]:
 
 
 def peak_gain(loop: Loop) -> float:
-    """Integral of the impulse response's magnitude: the least constant c with abs(x1) <= c sup abs(d)."""
+    """Integral of the impulse response's magnitude: the least constant c with abs(x1) <= c sup
+    abs(d)."""
     length = 30.0 / float(np.abs(np.linalg.eigvals(loop.Phi).real).min())
     step = length / STEPS
     E, X, total = expm(loop.Phi * step), loop.Xi, 0.0
@@ -84,11 +87,26 @@ def load_derivative(motor: Dict[str, float], N: int) -> float:
 
 def constants() -> Table:
     """Conditions of Lemma 1 on the poles."""
-    out = Table("B-lemma1", "Lemma 1: poles faster than the largest eigenvalue of P",
-                ("", "states n", "smallest eigenvalue of P", "largest", "printed pole [1/s]", "bound of e_3 over the truth, 25 Hz"),
-                note="The lemma holds for poles beyond the largest eigenvalue, which has no unit in the proof: 1/s where poles are in 1/s. "
-                "Last column: the lemma's bound for e_3 over the amplitude that a load at 25 Hz makes.")  # fmt: skip
-    for name, n, pole in (("controller", 2, 200.0), ("observer, N = 1", 6, OBSERVER_POLE), ("observer, N = 2", 7, OBSERVER_POLE)):
+    out = Table(
+        "B-lemma1",
+        "Lemma 1: poles faster than the largest eigenvalue of P",
+        (
+            "",
+            "states n",
+            "smallest eigenvalue of P",
+            "largest",
+            "printed pole [1/s]",
+            "bound of e_3 over the truth, 25 Hz",
+        ),
+        note="The lemma holds for poles beyond the largest eigenvalue, which has no unit in the "
+        "proof: 1/s where poles are in 1/s. "
+        "Last column: the lemma's bound for e_3 over the amplitude that a load at 25 Hz makes.",
+    )
+    for name, n, pole in (
+        ("controller", 2, 200.0),
+        ("observer, N = 1", 6, OBSERVER_POLE),
+        ("observer, N = 2", 7, OBSERVER_POLE),
+    ):
         least, most = lemma(n)
         bound = most / sqrt(least) * pole ** (1 - n) / sqrt(pole - most)
         truth = abs(1.0 / (2j * np.pi * LOAD_Hz + pole) ** n)
@@ -98,15 +116,34 @@ def constants() -> Table:
 
 def bounds(designs: List[Tuple[str, Dict[str, Any], Any]], motor: Dict[str, float]) -> Table:
     """In r/min, for the load of Case IV; a design comes with what was simulated."""
-    out = Table("B-theorem1", "Theorem 1: bound of the speed error for 1 N m at 25 Hz [r/min]",
-                ("", "N", "sup of the N-th derivative of x_7", "bound", "at 25 Hz exactly", "simulated, Case IV"),
-                note="Bound: integral of the impulse response of (11) from d to x_1, the least constant there is, times the supremum. (11) is "
-                "continuous and knows the load alone; the simulation has the delay, the inverter, the sensors and the cogging, which make the "
-                "fluctuation of Case III by themselves.")  # fmt: skip
+    out = Table(
+        "B-theorem1",
+        "Theorem 1: bound of the speed error for 1 N m at 25 Hz [r/min]",
+        (
+            "",
+            "N",
+            "sup of the N-th derivative of x_7",
+            "bound",
+            "at 25 Hz exactly",
+            "simulated, Case IV",
+        ),
+        note="Bound: integral of the impulse response of (11) from d to x_1, the least constant "
+        "there is, times the supremum. (11) is "
+        "continuous and knows the load alone; the simulation has the delay, the inverter, the "
+        "sensors and the cogging, which make the "
+        "fluctuation of Case III by themselves.",
+    )
     for name, design, simulated in designs:
         loop = closed_loop(design, motor)
         largest = load_derivative(motor, loop.N)
         n = len(loop.Xi)
         at_25_Hz = abs(np.linalg.solve(2j * np.pi * LOAD_Hz * np.eye(n) - loop.Phi, loop.Xi)[0])
-        out.add(name, loop.N, largest, RPM * peak_gain(loop) * largest, RPM * at_25_Hz * largest, simulated)
+        out.add(
+            name,
+            loop.N,
+            largest,
+            RPM * peak_gain(loop) * largest,
+            RPM * at_25_Hz * largest,
+            simulated,
+        )
     return out

@@ -47,10 +47,15 @@ class Tools:
             raise ReportError(f"{path} is not there: ./dev build")
         done = subprocess.run([str(path), *arguments], capture_output=True, text=True, check=False)
         if done.returncode not in (0, *accepted):
-            raise ReportError(f"{program} {' '.join(arguments)}: exit code {done.returncode}: {done.stderr.strip()}")
+            raise ReportError(
+                f"{program} {' '.join(arguments)}: exit code {done.returncode}: "
+                f"{done.stderr.strip()}"
+            )
         return done.stdout
 
-    def run(self, scenario: str, drive: str, changes: Optional[Dict[str, str]] = None, name: str = "") -> Run:
+    def run(
+        self, scenario: str, drive: str, changes: Optional[Dict[str, str]] = None, name: str = ""
+    ) -> Run:
         """One run; `changes` replaces text in the scenario, each exactly once."""
         name = name or f"{scenario}-{drive}"
         self.tell(f"{name}")
@@ -58,8 +63,20 @@ class Tools:
         if changes:
             path = self._changed(path, changes, name)
         csv, result = self._data / f"{name}.csv", self._data / f"{name}.json"
-        self._call("sdre-sil", ["run", str(path), "--drive", str(DRIVES / f"{drive}.toml"), "--csv", str(csv), "--json",
-                                str(result)], [FAULTED])  # fmt: skip
+        self._call(
+            "sdre-sil",
+            [
+                "run",
+                str(path),
+                "--drive",
+                str(DRIVES / f"{drive}.toml"),
+                "--csv",
+                str(csv),
+                "--json",
+                str(result),
+            ],
+            [FAULTED],
+        )
         return Run(read_trace(csv), json.loads(result.read_text()))
 
     def seeds(self, scenario: str, drive: str, count: int, name: str = "") -> Dict[str, Any]:
@@ -67,8 +84,20 @@ class Tools:
         name = name or f"{scenario}-{drive}-seeds"
         self.tell(name)
         result = self._data / f"{name}.json"
-        self._call("sdre-sil", ["run", str(SCENARIOS / f"{scenario}.toml"), "--drive", str(DRIVES / f"{drive}.toml"),
-                                "--seeds", str(count), "--json", str(result)], [FAULTED])  # fmt: skip
+        self._call(
+            "sdre-sil",
+            [
+                "run",
+                str(SCENARIOS / f"{scenario}.toml"),
+                "--drive",
+                str(DRIVES / f"{drive}.toml"),
+                "--seeds",
+                str(count),
+                "--json",
+                str(result),
+            ],
+            [FAULTED],
+        )
         return json.loads(result.read_text())
 
     def spectrum(self, scenario: str, drive: str) -> Dict[str, np.ndarray]:
@@ -76,8 +105,18 @@ class Tools:
         name = f"{scenario}-{drive}-spectrum"
         self.tell(name)
         csv = self._data / f"{name}.csv"
-        self._call("sdre-sil", ["run", str(SCENARIOS / f"{scenario}.toml"), "--drive", str(DRIVES / f"{drive}.toml"),
-                                "--spectrum", str(csv)], [FAULTED])  # fmt: skip
+        self._call(
+            "sdre-sil",
+            [
+                "run",
+                str(SCENARIOS / f"{scenario}.toml"),
+                "--drive",
+                str(DRIVES / f"{drive}.toml"),
+                "--spectrum",
+                str(csv),
+            ],
+            [FAULTED],
+        )
         found: Dict[str, list] = {}
         for line in csv.read_text().splitlines()[1:]:
             measure, *numbers = line.split(",")
@@ -87,7 +126,9 @@ class Tools:
     def design(self, drive: str) -> Dict[str, Any]:
         """The report of a drive file."""
         self.tell(f"design of {drive}")
-        text = self._call("sdre-gains", ["report", str(DRIVES / f"{drive}.toml"), "--json"], [REFUSED])
+        text = self._call(
+            "sdre-gains", ["report", str(DRIVES / f"{drive}.toml"), "--json"], [REFUSED]
+        )
         (self._data / f"design-{drive}.json").write_text(text)
         return json.loads(text)
 
@@ -95,14 +136,18 @@ class Tools:
         """The matrices of its sampled loop."""
         self.tell(f"loops of {drive}")
         file = self._data / f"loops-{drive}.json"
-        self._call("sdre-gains", ["report", str(DRIVES / f"{drive}.toml"), "--loops", str(file)], [])
+        self._call(
+            "sdre-gains", ["report", str(DRIVES / f"{drive}.toml"), "--loops", str(file)], []
+        )
         return json.loads(file.read_text())
 
     def _changed(self, path: Path, changes: Dict[str, str], name: str) -> Path:
         text = path.read_text()
         for old, new in {'drive = "../../../': f'drive = "{ROOT}/', **changes}.items():
             if text.count(old) != 1:
-                raise ReportError(f"{path.name}: {old!r} stands there {text.count(old)} times, not once")
+                raise ReportError(
+                    f"{path.name}: {old!r} stands there {text.count(old)} times, not once"
+                )
             text = text.replace(old, new)
         changed = self._data / f"{name}.toml"
         changed.write_text(text)

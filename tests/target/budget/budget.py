@@ -4,12 +4,15 @@
 
 Usage: budget.py BIN_HOST BUILD_TARGET JSON [record | COLUMN...]
 
-BIN_HOST has record_ticks, BUILD_TARGET is the tree of the preset cortex-m4f. host_stub.elf must run to its end on an emulated
-Cortex-M4F. record_ticks runs the scenarios of a law on the host and records every tick; replay_LAW.elf replays them on that
-machine. The answers must equal the host's, instructions are counted, and the operations executed are priced with the C28x's
-cycles of costs.toml. The figures go to JSON, unless columns are named: then those alone are made. Exit code 1: a check
-failed, or a whole period takes more than docs/budget.json has; record makes that file and the tables of docs/hardware.md.
+BIN_HOST has record_ticks, BUILD_TARGET is the tree of the preset cortex-m4f. host_stub.elf must run
+to its end on an emulated Cortex-M4F. record_ticks runs the scenarios of a law on the host and
+records every tick; replay_LAW.elf replays them on that machine. The answers must equal the host's,
+instructions are counted, and the operations executed are priced with the C28x's cycles of
+costs.toml. The figures go to JSON, unless columns are named: then those alone are made. Exit code
+1: a check failed, or a whole period takes more than docs/budget.json has; record makes that file
+and the tables of docs/hardware.md.
 """
+
 import json
 import re
 import sys
@@ -21,9 +24,17 @@ import report
 import tables
 from costs import Costs
 from execution import (
-    COUNTS_PER_INSTRUCTION, TICKS, Steps, count_instructions, exit_code, path_counts, run, single_steps, walk_calls,
+    COUNTS_PER_INSTRUCTION,
+    TICKS,
+    Steps,
+    count_instructions,
+    exit_code,
+    path_counts,
+    run,
+    single_steps,
+    walk_calls,
     walk_ticks,
-)  # fmt: skip
+)
 from longest_path import LongestPath
 from machine_code import law_functions, read_code, symbols
 from origin import Origin
@@ -34,11 +45,13 @@ ROOT = Path(__file__).resolve().parents[3]
 SCENARIOS = ROOT / "host_tools/sil/scenarios"
 DRIVES = ROOT / "firmware/config/drives"
 
-# Host and Cortex-M4F differ in the last bits of sine and cosine and what follows from them: measured 2.3e-5 at
-# most, over all scenarios. Chosen: below one count of the compare register, 1.3e-4.
+# Host and Cortex-M4F differ in the last bits of sine and cosine and what follows from them:
+# measured 2.3e-5 at most, over all scenarios. Chosen: below one count of the compare register,
+# 1.3e-4.
 DUTY_TOLERANCE = 1e-4
 
-PLAIN = "PI-FOC"  # runs beside every law; its ticks are counted once, with those of the shipped drive's law
+# runs beside every law; its ticks are counted once, with those of the shipped drive's law
+PLAIN = "PI-FOC"
 SHIPPED, HARMONIC = "noc", "noc_h"
 # {column: (law, drive in place of the scenarios' own, periods in a second, scenarios)}
 COLUMNS = {
@@ -47,7 +60,12 @@ COLUMNS = {
     HARMONIC: ("noc_h", None, 5000, ("*",)),
     "conventional": ("conventional", "ipmsm_390w_conventional.toml", 5000, ("*",)),
     # Chosen: the dearest ticks at 5 kHz are those of weakened flux, of braking and of a load step.
-    "noc_10khz": ("noc", "ipmsm_390w_10khz.toml", 10000, ("board_flux_weakening", "board_regeneration", "board_load_step")),
+    "noc_10khz": (
+        "noc",
+        "ipmsm_390w_10khz.toml",
+        10000,
+        ("board_flux_weakening", "board_regeneration", "board_load_step"),
+    ),
 }
 # Chosen: what knowing the harmonics may cost, of the shipped law's cycles.
 HARMONIC_RATIO = 2.5
@@ -66,7 +84,9 @@ class Checks:
 
 def check_no_double(check, table):
     """Neither double precision nor software floating point."""
-    helper = r"__aeabi_|__(add|sub|mul|div|neg|fix|fixuns|float|floatun|extend|trunc|cmp)\w*[sd]f\w*$"
+    helper = (
+        r"__aeabi_|__(add|sub|mul|div|neg|fix|fixuns|float|floatun|extend|trunc|cmp)\w*[sd]f\w*$"
+    )
     found = sorted(name for name in table if re.match(helper, name))
     check(not found, f"no floating-point helper is linked{': ' if found else ''}{' '.join(found)}")
 
@@ -80,8 +100,14 @@ def compare(check, runs, results):
             pi_worst = max(pi_worst, *(abs(tick[13 + i] - result[6 + i]) for i in range(3)))
             gates &= tick[16] & GATE == result[2]
     check(gates, "gates as on the host")
-    check(worst <= DUTY_TOLERANCE, f"duties as on the host: worst {worst:.1e}, allowed {DUTY_TOLERANCE:.0e}")
-    check(pi_worst <= DUTY_TOLERANCE, f"those of the PI-FOC: worst {pi_worst:.1e}, allowed {DUTY_TOLERANCE:.0e}")
+    check(
+        worst <= DUTY_TOLERANCE,
+        f"duties as on the host: worst {worst:.1e}, allowed {DUTY_TOLERANCE:.0e}",
+    )
+    check(
+        pi_worst <= DUTY_TOLERANCE,
+        f"those of the PI-FOC: worst {pi_worst:.1e}, allowed {DUTY_TOLERANCE:.0e}",
+    )
 
 
 class Worst:
@@ -107,12 +133,16 @@ def check_counting(check, image, directory, table, steps, results):
     walked = walk_ticks(image, directory, table, steps)
     blocks = [next(walked)[2] == core for _, core in stepped]
     walked.close()
-    check(len(around) <= 2 and max(around) <= 20, f"timer and single steps agree but for {max(around)} instructions")
+    check(
+        len(around) <= 2 and max(around) <= 20,
+        f"timer and single steps agree but for {max(around)} instructions",
+    )
     check(len(stepped) == SINGLE_STEPPED and all(blocks), "decoded blocks and single steps agree")
 
 
 class Application:
-    """The dearest way of app_tick() with the law running, without the core, with the calls of board.h."""
+    """The dearest way of app_tick() with the law running, without the core, with the calls of
+    board.h."""
 
     def __init__(self, costs, origin, image):
         code = read_code(PREFIX, image, law_functions(PREFIX, image), origin)
@@ -123,7 +153,9 @@ class Application:
         with tempfile.TemporaryDirectory() as directory:
             for path in set(walk_calls(image, directory, table, "app_tick", steps)):
                 if any(code[int(block, 16)].function == "step" for block in path):
-                    edges = [edge for edge in zip(path, path[1:] + (None,)) if int(edge[0], 16) < core]
+                    edges = [
+                        edge for edge in zip(path, path[1:] + (None,)) if int(edge[0], 16) < core
+                    ]
                     counts = sum((steps[edge][2] for edge in edges), Counter())
                     found = True
                     if costs.cycles(counts) > costs.cycles(self.counts):
@@ -136,7 +168,9 @@ def applications(costs, origins, image):
     """{law: Application}: laws differ in what of the application runs from the flash."""
     made = {frozenset(origin.flash): None for origin in origins.values()}
     for origin in origins.values():
-        made[frozenset(origin.flash)] = made[frozenset(origin.flash)] or Application(costs, origin, image)
+        made[frozenset(origin.flash)] = made[frozenset(origin.flash)] or Application(
+            costs, origin, image
+        )
     return {law: made[frozenset(origin.flash)] for law, origin in origins.items()}
 
 
@@ -146,7 +180,9 @@ class Replay:
     def __init__(self, name, images, recorder, costs, origin, check):
         self.name = name
         self.law, drive, self.rate_Hz, chosen = COLUMNS[name]
-        self.image = str(Path(images, f"replay_{self.law}.elf").resolve())  # the emulator runs in another directory
+        self.image = str(
+            Path(images, f"replay_{self.law}.elf").resolve()
+        )  # the emulator runs in another directory
         self.code = read_code(PREFIX, self.image, law_functions(PREFIX, self.image), origin)
         self.table = symbols(PREFIX, self.image)
         self.steps = Steps(self.code, costs.library, (costs.cycles,))
@@ -163,10 +199,14 @@ class Replay:
             check_counting(check, self.image, directory, self.table, self.steps, results)
             self.execute(directory, runs, results)
         loops = {**costs.loops, "step": costs.loops_of[self.law]}
-        self.bound = LongestPath(self.code, costs.library, loops, costs.cycles).function("drive_tick")
+        self.bound = LongestPath(self.code, costs.library, loops, costs.cycles).function(
+            "drive_tick"
+        )
         dearest = max(worst.cycles for kind, worst in self.kinds.items() if kind != PLAIN)
         check(dearest <= costs.cycles(self.bound), "no tick costs more than the bound")
-        self.counts = {kind: path_counts(worst.path, self.steps) for kind, worst in self.kinds.items()}
+        self.counts = {
+            kind: path_counts(worst.path, self.steps) for kind, worst in self.kinds.items()
+        }
 
     def kind_of(self, function, recorded, tick):
         """Column of the table; None for a tick that has none."""
@@ -174,11 +214,20 @@ class Replay:
             return PLAIN if self.name == SHIPPED else None
         if recorded.order > ORDER:
             return None
-        return f"{self.name}, start" if tick == 0 else f"{self.name}, position" if "position" in recorded.name else self.name
+        return (
+            f"{self.name}, start"
+            if tick == 0
+            else f"{self.name}, position"
+            if "position" in recorded.name
+            else self.name
+        )
 
     def execute(self, directory, runs, results):
         """kinds: {column: Worst}; by_run: {run's name: Worst}."""
-        self.kinds, self.by_run = {self.name: Worst()}, {recorded.name: Worst() for recorded in runs}
+        self.kinds, self.by_run = (
+            {self.name: Worst()},
+            {recorded.name: Worst() for recorded in runs},
+        )
         walked = walk_ticks(self.image, directory, self.table, self.steps)
         for recorded, replayed in zip(runs, results):
             for k, result in enumerate(replayed):
@@ -190,7 +239,12 @@ class Replay:
                     if function == "drive_tick" and k > 0:
                         seen.append(self.by_run[recorded.name])
                     for worst in seen:
-                        worst.see(cycles, round(timer / COUNTS_PER_INSTRUCTION), path, f"{recorded.name}, tick {k}")
+                        worst.see(
+                            cycles,
+                            round(timer / COUNTS_PER_INSTRUCTION),
+                            path,
+                            f"{recorded.name}, tick {k}",
+                        )
         assert next(walked, None) is None
 
     def features(self, kind):
@@ -203,7 +257,9 @@ def show_limits(costs, figures):
         if column not in figures["whole_period"]:
             continue
         most = report.dearest(figures, column)[1]
-        verdicts = ", ".join(f"{name} {limit} {report.verdict(most, limit)}" for name, limit in limits.items())
+        verdicts = ", ".join(
+            f"{name} {limit} {report.verdict(most, limit)}" for name, limit in limits.items()
+        )
         print(f"  whole period of {column}, {most} cycles at the band's upper end: {verdicts}")
 
 
@@ -222,23 +278,39 @@ def main(host, target, path, *arguments):
         sys.exit(f"budget.py: no column {unknown[0]}; there are {', '.join(COLUMNS)}")
     images = f"{target}/bin"
     code = exit_code(f"{images}/host_stub.elf")
-    check(code == 0, f"the application on host_stub boots, aligns, holds a speed and stops: exit code {code}")
-    origins = {law: Origin.of_firmware(costs.features, law) for law in (SHIPPED, *(c[0] for c in COLUMNS.values()))}
+    check(
+        code == 0,
+        f"the application on host_stub boots, aligns, holds a speed and stops: exit code {code}",
+    )
+    origins = {
+        law: Origin.of_firmware(costs.features, law)
+        for law in (SHIPPED, *(c[0] for c in COLUMNS.values()))
+    }
     apps = applications(costs, origins, str(Path(images, "host_stub.elf").resolve()))
     recorder = f"{host}/record_ticks"
-    replays = {name: Replay(name, images, recorder, costs, origins[COLUMNS[name][0]], check) for name in columns or COLUMNS}
+    replays = {
+        name: Replay(name, images, recorder, costs, origins[COLUMNS[name][0]], check)
+        for name in columns or COLUMNS
+    }
     figures = report.figures(costs, replays, apps, SHIPPED)
     if not columns:
         figures["memory"] = report.memory(PREFIX, target, replays)
         ratio = replays[HARMONIC].kinds[HARMONIC].cycles / replays[SHIPPED].kinds[SHIPPED].cycles
-        check(ratio <= HARMONIC_RATIO, f"{HARMONIC} costs {ratio:.2f} of {SHIPPED}, allowed {HARMONIC_RATIO}")
+        check(
+            ratio <= HARMONIC_RATIO,
+            f"{HARMONIC} costs {ratio:.2f} of {SHIPPED}, allowed {HARMONIC_RATIO}",
+        )
         Path(path).write_text(report.text(figures))
     report.show(figures)
     show_limits(costs, figures)
     if record and not check.failed:
         tables.RECORDED.write_text(report.text(figures))
         tables.write()
-    recorded = json.loads(tables.RECORDED.read_text()) if tables.RECORDED.exists() else {"whole_period": {}}
+    recorded = (
+        json.loads(tables.RECORDED.read_text())
+        if tables.RECORDED.exists()
+        else {"whole_period": {}}
+    )
     check_growth(check, figures["whole_period"], recorded["whole_period"])
     return 1 if check.failed else 0
 

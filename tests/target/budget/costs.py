@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: MIT
 """Cycles of operations, from costs.toml."""
-import tomllib
+
 from pathlib import Path
+
+import tomllib
 
 from origin import FLASH
 
 
 class Costs:
-    def __init__(self, path=Path(__file__).with_name("costs.toml")):
-        with open(path, "rb") as file:
+    def __init__(self):
+        with open(Path(__file__).with_name("costs.toml"), "rb") as file:
             data = tomllib.load(file)
         self.clock_Hz, self.band, self.limits = data["clock_Hz"], data["band"], data["limits"]
         self.target_share = data["target_share"]
@@ -18,7 +20,10 @@ class Costs:
         self.loops, self.loops_of, self.features = data["loops"], data["loops_of"], data["features"]
         flash = data["flash"]
         own = data["cost"]
-        waits = {name + FLASH: cost / flash["float" if name in flash["of_float"] else "other"] for name, cost in own.items()}
+        waits = {
+            name + FLASH: cost / flash["float" if name in flash["of_float"] else "other"]
+            for name, cost in own.items()
+        }
         self.of = {**own, **waits, **data["library"], **data["board"]}
         self.slow_division = data["without_fast_rts"]["fp_div"]
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What the replay image executed, tick by tick, from the emulator's log."""
+
 import subprocess
 from collections import Counter
 
@@ -12,10 +13,23 @@ def run(command, directory=None):
         raise RuntimeError(f"{command[0]} ended with {status}")
 
 
-EMULATOR = ["qemu-system-arm", "-M", "mps2-an386", "-display", "none", "-monitor", "none", "-serial", "none",
-            "-semihosting-config", "enable=on,target=native"]  # fmt: skip
+EMULATOR = [
+    "qemu-system-arm",
+    "-M",
+    "mps2-an386",
+    "-display",
+    "none",
+    "-monitor",
+    "none",
+    "-serial",
+    "none",
+    "-semihosting-config",
+    "enable=on,target=native",
+]
 TICKS = ("drive_tick", "pi_foc_tick")
-ICOUNT_SHIFT = 8  # chosen: 256 ns per instruction are 6.4 timer counts, enough to tell instructions apart
+ICOUNT_SHIFT = (
+    8  # chosen: 256 ns per instruction are 6.4 timer counts, enough to tell instructions apart
+)
 COUNTS_PER_INSTRUCTION = 256e-9 * 25e6
 
 
@@ -40,11 +54,16 @@ class Steps:
         step = self.known.get(key)
         if step is None:
             counts, instructions = self._count(*key)
-            step = self.known[key] = (tuple(cost(counts) for cost in self.tables), instructions, counts)
+            step = self.known[key] = (
+                tuple(cost(counts) for cost in self.tables),
+                instructions,
+                counts,
+            )
         return step
 
     def _run(self, block, after):
-        """Instructions from block on, and whether the last one leaves it: the emulator ends a block early at the end of a page."""
+        """Instructions from block on, and whether the last one leaves it: the emulator ends a block
+        early at the end of a page."""
         i, end, passed, short = self.code[int(block, 16)], int(after, 16) if after else None, [], 0
         while True:
             passed.append(i)
@@ -61,10 +80,14 @@ class Steps:
         """[(feature, counts)] of the instructions from block on, and of where the last one goes."""
         passed, leaves = self._run(block, after)
         end = int(after, 16) if after else None
-        return [(i.feature, i.counts) for i in passed] + ([(passed[-1].feature, self._leave(passed[-1], end))] if leaves else [])
+        return [(i.feature, i.counts) for i in passed] + (
+            [(passed[-1].feature, self._leave(passed[-1], end))] if leaves else []
+        )
 
     def _count(self, block, after):
-        return sum((counts for _, counts in self._parts(block, after)), Counter()), len(self._run(block, after)[0])
+        return sum((counts for _, counts in self._parts(block, after)), Counter()), len(
+            self._run(block, after)[0]
+        )
 
     def by_feature(self, edges):
         """{feature: counts} of [(block, next block)]."""
@@ -101,13 +124,15 @@ class Steps:
 
 
 def log_of(image, directory, *options):
-    """The emulator writing one line per executed block; the block's address is the line's second field."""
+    """The emulator writing one line per executed block; the block's address is the line's second
+    field."""
     command = EMULATOR + ["-d", "exec,nochain", *options, "-D", "/dev/stdout", "-kernel", image]
     return subprocess.Popen(command, cwd=directory, stdout=subprocess.PIPE, bufsize=1 << 20)
 
 
 def walk_ticks(image, directory, symbols, steps):
-    """Yields (function, costs, instructions, path) of each call of drive_tick and pi_foc_tick, in order."""
+    """Yields (function, costs, instructions, path) of each call of drive_tick and pi_foc_tick, in
+    order."""
     begin, end = symbols["image_core_begin"][0], symbols["image_core_end"][0]
     starts = {b"%08x" % symbols[name][0]: name for name in TICKS}
     others = {b"%08x" % symbols[name][0] for name in ("drive_init", "pi_foc_init")}
@@ -137,7 +162,8 @@ def walk_ticks(image, directory, symbols, steps):
 
 
 class Away:
-    """Where control comes back to after a block that ends in a call of a library function; None for any other block."""
+    """Where control comes back to after a block that ends in a call of a library function; None for
+    any other block."""
 
     def __init__(self, code, library):
         self.code, self.library, self.known = code, library, {}
@@ -153,8 +179,8 @@ class Away:
 
 
 def calls_in(log, start, steps, away):
-    """Yields the path of each call of the function at start. The log may hold anything before and after a call, and in it
-    what a library function calls in turn: both are left out."""
+    """Yields the path of each call of the function at start. The log may hold anything before and
+    after a call, and in it what a library function calls in turn: both are left out."""
     path, depth, back = [], 0, None
     for block in log:
         if path:
@@ -173,7 +199,8 @@ def calls_in(log, start, steps, away):
 
 
 def walk_calls(image, directory, symbols, name, steps):
-    """Yields the path of each call of a function of the image; away from it is all that is not in its code."""
+    """Yields the path of each call of a function of the image; away from it is all that is not in
+    its code."""
     begin, end = symbols["image_core_begin"][0], symbols["image_core_end"][0]
     with log_of(image, directory, "-dfilter", f"{begin:#x}..{end - 1:#x}") as emulator:
         log = (line.split(b"/", 2)[1] for line in emulator.stdout)
@@ -183,11 +210,16 @@ def walk_calls(image, directory, symbols, name, steps):
 
 
 def single_steps(image, directory, symbols, calls):
-    """[(all instructions, those of the core)] of the first calls of a tick, one log line per instruction."""
+    """[(all instructions, those of the core)] of the first calls of a tick, one log line per
+    instruction."""
     begin, end = symbols["image_core_begin"][0], symbols["image_core_end"][0]
     starts = {symbols[name][0] for name in TICKS}
     # What calls the ticks, as far as the compiler did not inline it into main.
-    callers = [range(symbols[f][0], sum(symbols[f][:2])) for f in ("main", "replay_run", "replay") if f in symbols]
+    callers = [
+        range(symbols[f][0], sum(symbols[f][:2]))
+        for f in ("main", "replay_run", "replay")
+        if f in symbols
+    ]
     result, inside = [], False
     with log_of(image, directory, "-singlestep") as emulator:
         for line in emulator.stdout:

@@ -49,7 +49,9 @@ class LongestPath:
             if leaves:
                 raise ValueError(f"conditional tail call at {i.address:x}")
             ways = ((i.target, "taken"), (i.next.address, "not_taken"))
-            return [(goal, add(counts, {} if i.free else {way + i.memory: 1})) for goal, way in ways]
+            return [
+                (goal, add(counts, {} if i.free else {way + i.memory: 1})) for goal, way in ways
+            ]
         return [(i.next.address, counts)] if i.next else []
 
     def _function(self, name):
@@ -127,7 +129,12 @@ def collapse(graph, head, body, passes, cost):
     inside = {node: [e for e in graph[node] if e[0] in body and e[0] != head] for node in body}
     ways = dearest(inside, head, cost)
     once = max(
-        (add(ways[node], counts) for node in body for target, counts in graph[node] if target == head and node in ways),
+        (
+            add(ways[node], counts)
+            for node in body
+            for target, counts in graph[node]
+            if target == head and node in ways
+        ),
         key=cost,
     )
     exits = [
@@ -143,7 +150,8 @@ def collapse(graph, head, body, passes, cost):
 
 
 def dearest(graph, start, cost):
-    """{node: counts} of the dearest way from start to each node of an acyclic graph; None is the end."""
+    """{node: counts} of the dearest way from start to each node of an acyclic graph; None is the
+    end."""
     order, seen = [], set()
     stack = [(start, False)]
     while stack:

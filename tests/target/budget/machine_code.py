@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Disassembled Cortex-M4F code: what kind of operation each instruction is, and where control goes."""
+"""Disassembled Cortex-M4F code: what kind of operation each instruction is, and where control
+goes."""
+
 import re
 import struct
 import subprocess
@@ -7,7 +9,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 
 from origin import FLASH, OTHER, read_frames
-from registers import count_spills, numbers
+from registers import count_spills
 
 CONDITIONS = "eq ne cs hs cc lo mi pl vs vc hi ls ge lt gt le".split()
 KINDS = {
@@ -23,8 +25,10 @@ KINDS = {
     "load": ("vldr", "ldr", "ldrh", "ldrsh", "ldrb", "ldrsb", "ldrd"),
     "store": ("vstr", "str", "strh", "strb", "strd"),
     "integer": (
-        "adc adcs add adds addw and ands asr asrs bfc bfi bic bics clz cmn cmp eor eors lsl lsls lsr lsrs mla mls mov movs "
-        "movt movw mul muls mvn mvns neg negs orr orrs ror rsb rsbs sbc sbfx smlabb smlal smulbb smull sub subs subw sxtab sxtah sxtb sxth teq tst "
+        "adc adcs add adds addw and ands asr asrs bfc bfi bic bics clz cmn cmp eor eors lsl lsls "
+        "lsr lsrs mla mls mov movs "
+        "movt movw mul muls mvn mvns neg negs orr orrs ror rsb rsbs sbc sbfx smlabb smlal smulbb "
+        "smull sub subs subw sxtab sxtah sxtb sxth teq tst "
         "ubfx umlal umull uxtab uxtah uxtb uxth"
     ).split(),
     "int_div": ("udiv", "sdiv"),
@@ -32,9 +36,17 @@ KINDS = {
 KIND_OF = {name: kind for kind, names in KINDS.items() for name in names}
 MULTIPLE_LOAD = ("ldmia", "ldmdb", "ldm", "pop", "vpop", "vldmia", "vldmdb")
 MULTIPLE_STORE = ("stmia", "stmdb", "stm", "push", "vpush", "vstmia", "vstmdb")
-NEAR_OCTETS = 16  # of a structure: eight words, what an instruction of the C28x reaches without an index register
-LAW = ("check", "reset", "step", "counts_ok")  # functions of law_t that a drive calls, in their order
-LAW_WORDS = len(LAW) + 3  # then what visits the constants, the law's number, the size of its constants
+# of a structure: eight words, what an instruction of the C28x reaches without an index register
+NEAR_OCTETS = 16
+LAW = (
+    "check",
+    "reset",
+    "step",
+    "counts_ok",
+)  # functions of law_t that a drive calls, in their order
+LAW_WORDS = (
+    len(LAW) + 3
+)  # then what visits the constants, the law's number, the size of its constants
 OCTETS_BY = {"memset": "word_set", "memcpy": "word_copied"}  # calls that cost by the octets in r2
 
 
@@ -63,7 +75,11 @@ def run(*command):
 def base_name(mnemonic):
     """(name, conditional) of e.g. vmovgt.f32, beq.n."""
     name = mnemonic.split(".")[0]
-    known = name in KIND_OF or name in MULTIPLE_LOAD + MULTIPLE_STORE or name in ("b", "bl", "bx", "blx")
+    known = (
+        name in KIND_OF
+        or name in MULTIPLE_LOAD + MULTIPLE_STORE
+        or name in ("b", "bl", "bx", "blx")
+    )
     if not known and name[-2:] in CONDITIONS and name[:-2]:
         return name[:-2], True
     return name, False
@@ -128,32 +144,52 @@ def classify(i):
 def law_functions(prefix, image):
     """{offset in law_t: (address, name)} of the functions of the one law in an image."""
     table = symbols(prefix, image)
-    laws = [name for name, (_, size) in table.items() if re.fullmatch(r"law_\w+", name) and size == 4 * LAW_WORDS]
+    laws = [
+        name
+        for name, (_, size) in table.items()
+        if re.fullmatch(r"law_\w+", name) and size == 4 * LAW_WORDS
+    ]
     if len(laws) != 1:
         raise ValueError(f"one law is expected in the image, found {laws}")
     start, size = table[laws[0]]
-    dump = run(f"{prefix}objdump", "-s", f"--start-address={start}", f"--stop-address={start + size}", image)
-    octets = bytes.fromhex("".join(re.findall(r"^ [0-9a-f]+ ((?:[0-9a-f]{2,8} )+)", dump, re.M)).replace(" ", ""))
-    addresses = [pointer & ~1 for (pointer,) in struct.iter_unpack("<I", octets)]  # the lowest bit says Thumb
+    dump = run(
+        f"{prefix}objdump",
+        "-s",
+        f"--start-address={start}",
+        f"--stop-address={start + size}",
+        image,
+    )
+    octets = bytes.fromhex(
+        "".join(re.findall(r"^ [0-9a-f]+ ((?:[0-9a-f]{2,8} )+)", dump, re.M)).replace(" ", "")
+    )
+    addresses = [
+        pointer & ~1 for (pointer,) in struct.iter_unpack("<I", octets)
+    ]  # the lowest bit says Thumb
     return {4 * n: (address, name) for n, (address, name) in enumerate(zip(addresses, LAW))}
 
 
 def loaded_from(before, register, pattern):
-    """Match of the last instruction that gave the register its value, if it is of this pattern; moves are followed back."""
+    """Match of the last instruction that gave the register its value, if it is of this pattern;
+    moves are followed back."""
     for earlier in reversed(before):
         if not earlier.conditional:
             if match := re.match(pattern.format(register), f"{earlier.name} {earlier.operands}"):
                 return match
-            if earlier.name == "mov" and (match := re.match(rf"{register}, (\w+)$", earlier.operands)):
+            if earlier.name == "mov" and (
+                match := re.match(rf"{register}, (\w+)$", earlier.operands)
+            ):
                 register = match[1]
                 continue
-        if re.match(rf"{register}\b|.*\{{.*\b{register}\b", earlier.operands) and not is_read(earlier):
+        if re.match(rf"{register}\b|.*\{{.*\b{register}\b", earlier.operands) and not is_read(
+            earlier
+        ):
             break
     return None
 
 
 def resolve(before, i, functions):
-    """Gives the indirect call i its target: a member of law_t, loaded into its register by what stands before."""
+    """Gives the indirect call i its target: a member of law_t, loaded into its register by what
+    stands before."""
     match = loaded_from(before, i.register, r"ldr {}, \[\w+(?:, #(\d+))?\]$")
     offset = int(match[1] or 0) if match else None
     if offset not in functions:
@@ -162,7 +198,8 @@ def resolve(before, i, functions):
 
 
 def count_words(before, i):
-    """Gives a call of memset() or memcpy() its words; one of a size that is not a number there has no price."""
+    """Gives a call of memset() or memcpy() its words; one of a size that is not a number there has
+    no price."""
     match = loaded_from(before, "r2", r"movs? {}, #(\d+)$")
     if match:
         i.counts[OCTETS_BY[i.target_name]] += (int(match[1]) + 1) // 2
@@ -175,7 +212,8 @@ def is_read(i):
 
 
 def read_code(prefix, image, functions=(), origin=None):
-    """{address: Instruction} of the section .core, linked within each function; functions: see law_functions()."""
+    """{address: Instruction} of the section .core, linked within each function; functions: see
+    law_functions()."""
     text = run(f"{prefix}objdump", "-d", "--no-show-raw-insn", "-j", ".core", image)
     code, function, before, names, block = {}, "", None, set(), []
     for line in text.splitlines():
@@ -214,16 +252,25 @@ def read_code(prefix, image, functions=(), origin=None):
         code[address].feature = origin.feature(found)
         if origin.in_flash(found):
             code[address].memory = FLASH
-            code[address].counts = Counter({name + FLASH: n for name, n in code[address].counts.items()})
+            code[address].counts = Counter(
+                {name + FLASH: n for name, n in code[address].counts.items()}
+            )
     return code
 
 
 def count_choices(code, intrinsic):
-    """A float that a comparison chooses takes a branch there, but in an intrinsic each comparison is one instruction."""
+    """A float that a comparison chooses takes a branch there, but in an intrinsic each comparison
+    is one instruction."""
     ordered = list(code.values())
     for flags, condition, chosen in zip(ordered, ordered[1:], ordered[2:]):
         chain = flags.next is condition and condition.next is chosen
-        if chain and flags.name == "vmrs" and condition.counts["integer"] and chosen.conditional and chosen.name[0] == "v":
+        if (
+            chain
+            and flags.name == "vmrs"
+            and condition.counts["integer"]
+            and chosen.conditional
+            and chosen.name[0] == "v"
+        ):
             condition.counts["select"] = condition.counts.pop("integer")
     for i in ordered:
         if i.address in intrinsic:
@@ -256,7 +303,11 @@ def section_sizes(prefix, archive):
 
 def linked_sizes(prefix, archive, image):
     """The same of what an image took from an archive, known by name."""
-    wanted = {line.split()[-1] for line in run(f"{prefix}nm", "--defined-only", archive).splitlines() if " " in line}
+    wanted = {
+        line.split()[-1]
+        for line in run(f"{prefix}nm", "--defined-only", archive).splitlines()
+        if " " in line
+    }
     sizes = Counter()
     for line in run(f"{prefix}nm", "-S", image).splitlines():
         fields = line.split()

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Source of each instruction, from the debug information of an image: its feature, its memory, its intrinsics."""
+"""Source of each instruction, from the debug information of an image: its feature, its memory, its
+intrinsics."""
+
 import re
 import subprocess
 from fnmatch import fnmatch
@@ -12,10 +14,13 @@ OTHER = "other"
 
 
 def read_frames(prefix, image, addresses):
-    """{address: ((function, file), ..)}, inlined functions first, the one that the linker sees last."""
+    """{address: ((function, file), ..)}, inlined functions first, the one that the linker sees
+    last."""
     command = [f"{prefix}addr2line", "-a", "-i", "-f", "-e", image]
     asked = "".join(f"{address:#x}\n" for address in addresses)
-    answer = subprocess.run(command, input=asked, check=True, capture_output=True, text=True).stdout.splitlines()
+    answer = subprocess.run(
+        command, input=asked, check=True, capture_output=True, text=True
+    ).stdout.splitlines()
     frames, at = {}, None
     for n, line in enumerate(answer):
         if re.fullmatch(r"0x[0-9a-f]+", line):
@@ -35,18 +40,22 @@ def cmake_list(text, name):
 
 
 def flash_files(text, law, controls, others):
-    """Files whose functions the F28335 runs from the flash, by the text of the board's CMakeLists.txt; controls: of the core."""
+    """Files whose functions the F28335 runs from the flash, by the text of the board's
+    CMakeLists.txt; controls: of the core."""
     if not re.search(r"target_compile_options\(control_core PRIVATE --ramfunc=on\)", text):
         raise ValueError("the CMakeLists.txt of the board does not put the core into RAM")
     patterns = cmake_list(text, "core_flash_sources")
     in_ram = cmake_list(text, "app_ram_sources") | cmake_list(text, "board_ram_sources")
     if f"set(app_flash_sources_{law} " in text:
         in_ram -= cmake_list(text, f"app_flash_sources_{law}")
-    return {name for name in controls if any(fnmatch(name, p) for p in patterns)} | (set(others) - in_ram)
+    return {name for name in controls if any(fnmatch(name, p) for p in patterns)} | (
+        set(others) - in_ram
+    )
 
 
 def intrinsics(text):
-    """Functions of base.h that TI's compiler makes one MINF32 or MAXF32 for each __fmin() or __fmax() in them."""
+    """Functions of base.h that TI's compiler makes one MINF32 or MAXF32 for each __fmin() or
+    __fmax() in them."""
     bodies = re.findall(r"static inline float (\w+)\([^)]*\)\s*\{(.*?)\n\}", text, re.S)
     return {name for name, body in bodies if re.search(r"__fm(in|ax)\(", body)}
 
@@ -66,10 +75,15 @@ class Origin:
         files = {name: {path.name for path in (FIRMWARE / name).rglob("*.c")} for name in FOLDERS}
         others = set().union(*(files[name] for name in FOLDERS[1:]))
         (base,) = FIRMWARE.rglob("base.h")
-        return cls(features, flash_files(board, law, files["control"], others), intrinsics(base.read_text()))
+        return cls(
+            features,
+            flash_files(board, law, files["control"], others),
+            intrinsics(base.read_text()),
+        )
 
     def feature(self, frames):
-        """The innermost function or file that a feature names: a helper in a header belongs to its caller."""
+        """The innermost function or file that a feature names: a helper in a header belongs to its
+        caller."""
         for function, file in frames:
             for name in (function, file):
                 if name in self.feature_of:

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""Float registers of compiled code, counted as a machine with eight of them would have to move them.
+"""Float registers of compiled code, counted as a machine with eight of them would have to move
+them.
 
-The Cortex-M4F keeps 32 values, the C28x eight. Each function is walked once, block by block in the order of its addresses.
-A value that is read and not held is loaded again. The value whose next use is farthest gives way to another one. It is stored
-first, unless it has a copy in memory: a load, a constant and a stored value have one.
-A call, a division and a square root keep four values: R4H to R7H belong to the caller. Further passes of a loop are not walked.
+The Cortex-M4F keeps 32 values, the C28x eight. Each function is walked once, block by block in the
+order of its addresses. A value that is read and not held is loaded again. The value whose next use
+is farthest gives way to another one. It is stored first, unless it has a copy in memory: a load, a
+constant and a stored value have one. A call, a division and a square root keep four values: R4H to
+R7H belong to the caller. Further passes of a loop are not walked.
 """
+
 import re
 
 FLOAT_REGISTERS = 8
@@ -27,7 +30,8 @@ def numbers(text):
 
 
 def access(i):
-    """(registers read, registers written) of one instruction; what a call does not save may hold its results."""
+    """(registers read, registers written) of one instruction; what a call does not save may hold
+    its results."""
     if i.flow == "call":
         return (), tuple(range(SAVED_BY_CALLED))
     if not i.name.startswith("v") or i.name in ("vpush", "vpop", "vmrs"):
@@ -51,14 +55,21 @@ def is_call(i):
 
 def successors(i, code):
     found = [i.next] if i.next and i.flow in ("", "conditional", "call") else []
-    if i.flow in ("branch", "conditional") and i.target in code and code[i.target].function == i.function:
+    if (
+        i.flow in ("branch", "conditional")
+        and i.target in code
+        and code[i.target].function == i.function
+    ):
         found.append(code[i.target])
     return found
 
 
 def next_uses(function, code, accesses):
     """{address: {register: instructions to its next use}} before each instruction."""
-    uses, after = {i.address: {} for i in function}, {i.address: successors(i, code) for i in function}
+    uses, after = (
+        {i.address: {} for i in function},
+        {i.address: successors(i, code) for i in function},
+    )
     changed = True
     while changed:
         changed = False
@@ -78,7 +89,8 @@ def next_uses(function, code, accesses):
 
 
 class Held:
-    """Values in the registers of the machine, and those of all values that have a copy in memory."""
+    """Values in the registers of the machine, and those of all values that have a copy in
+    memory."""
 
     def __init__(self, held=(), stored=()):
         self.held, self.stored, self.moves = set(held), set(stored), 0

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The figures of a budget as plain numbers, and as tables."""
+
 import json
 from collections import Counter
 
@@ -47,7 +48,11 @@ def by_feature(costs, *parts):
             board = {name: n for name, n in counts.items() if name in costs.board}
             result[BOARD] += costs.cycles(board)
             result[feature] += costs.cycles(counts) - costs.cycles(board)
-    return {name: round(cycles) for name, cycles in sorted(result.items(), key=lambda item: (-item[1], item[0])) if round(cycles)}
+    return {
+        name: round(cycles)
+        for name, cycles in sorted(result.items(), key=lambda item: (-item[1], item[0]))
+        if round(cycles)
+    }
 
 
 def figures(costs, replays, apps, shipped):
@@ -56,24 +61,37 @@ def figures(costs, replays, apps, shipped):
     result = {
         "band_percent": round(100 * costs.band),
         "target_percent": round(100 * costs.target_share),
-        "whole_period": {}, "law": {}, "bound": {}, "features": {}, "period_cycles": {}, "scenarios": {},
-        "application": {"cycles": costs.span(costs.cycles(app.counts)), "operations": operations(costs, app.counts),
-                        "flash": round(costs.in_flash(app.counts)), "interrupt": costs.interrupt},
-    }  # fmt: skip
+        "whole_period": {},
+        "law": {},
+        "bound": {},
+        "features": {},
+        "period_cycles": {},
+        "scenarios": {},
+        "application": {
+            "cycles": costs.span(costs.cycles(app.counts)),
+            "operations": operations(costs, app.counts),
+            "flash": round(costs.in_flash(app.counts)),
+            "interrupt": costs.interrupt,
+        },
+    }
     for r in replays.values():
         around = costs.cycles(apps[r.law].counts) + costs.interrupt
         result["bound"][r.name] = costs.span(costs.cycles(r.bound))
-        result["scenarios"] |= {f"{r.name}: {run}": [w.instructions, round(w.cycles)] for run, w in r.by_run.items()}
+        result["scenarios"] |= {
+            f"{r.name}: {run}": [w.instructions, round(w.cycles)] for run, w in r.by_run.items()
+        }
         for kind, worst in r.kinds.items():
             counts = r.counts[kind]
             result["period_cycles"][kind] = costs.clock_Hz // r.rate_Hz
             result["whole_period"][kind] = costs.span(costs.cycles(counts) + around)
             result["features"][kind] = by_feature(costs, r.features(kind), apps[r.law].features)
             result["law"][kind] = {
-                "cycles": costs.span(costs.cycles(counts)), "plain_division": costs.slow(counts), "where": worst.where,
+                "cycles": costs.span(costs.cycles(counts)),
+                "plain_division": costs.slow(counts),
+                "where": worst.where,
                 "operations": operations(costs, counts),
                 "instructions": [worst.instructions, round(worst.total / worst.ticks)],
-            }  # fmt: skip
+            }
     return result
 
 
@@ -83,15 +101,21 @@ def memory(prefix, target, replays):
     result = {"gain table of the shipped drive": (constants["text"] + constants["rodata"]) // 2}
     for r in replays.values():
         sizes = linked_sizes(prefix, f"{target}/firmware/libcontrol_core.a", r.image)
-        result[r.name] = {"flash: core": sizes["flash"] // 2, "RAM: drive_t": r.table["drive"][1] // 2,
-                          "RAM: other data of the core": sizes["data"] // 2,
-                          "RAM: stack of drive_tick": stack_depth(r.code, "drive_tick") // 2}  # fmt: skip
+        result[r.name] = {
+            "flash: core": sizes["flash"] // 2,
+            "RAM: drive_t": r.table["drive"][1] // 2,
+            "RAM: other data of the core": sizes["data"] // 2,
+            "RAM: stack of drive_tick": stack_depth(r.code, "drive_tick") // 2,
+        }
     return result
 
 
 def dearest(f, column):
     """Whole period of a column, that which starts a run included."""
-    return max((f["whole_period"][k] for k in (column, f"{column}, start") if k in f["whole_period"]), key=lambda ends: ends[1])
+    return max(
+        (f["whole_period"][k] for k in (column, f"{column}, start") if k in f["whole_period"]),
+        key=lambda ends: ends[1],
+    )
 
 
 def text(f):
@@ -99,8 +123,10 @@ def text(f):
     parts = []
     for name, part in f.items():
         if isinstance(part, dict) and part:
-            inner = ",\n".join(f"  {json.dumps(key)}: {json.dumps(value)}" for key, value in part.items())
-            parts.append(f' {json.dumps(name)}: {{\n{inner}\n }}')
+            inner = ",\n".join(
+                f"  {json.dumps(key)}: {json.dumps(value)}" for key, value in part.items()
+            )
+            parts.append(f" {json.dumps(name)}: {{\n{inner}\n }}")
         else:
             parts.append(f" {json.dumps(name)}: {json.dumps(part)}")
     return "{\n" + ",\n".join(parts) + "\n}\n"
@@ -129,22 +155,45 @@ def share(ends, period):
 def show(f):
     laws, app, period = f["law"], f["application"], f["period_cycles"]
     rows = [
-        (text, *(str(law["operations"][text]) for law in laws.values()), str(app["operations"][text])) for text in OPERATIONS
+        (
+            text,
+            *(str(law["operations"][text]) for law in laws.values()),
+            str(app["operations"][text]),
+        )
+        for text in OPERATIONS
     ]
     rows += [
         ("cycles", *(span(law["cycles"]) for law in laws.values()), span(app["cycles"])),
-        ("  share of the period", *(share(law["cycles"], period[kind]) for kind, law in laws.items()), ""),
+        (
+            "  share of the period",
+            *(share(law["cycles"], period[kind]) for kind, law in laws.items()),
+            "",
+        ),
         ("  with plain division", *(str(law["plain_division"]) for law in laws.values()), ""),
         ("whole period", *(span(f["whole_period"][kind]) for kind in laws), ""),
-        ("  share of the period", *(share(f["whole_period"][kind], period[kind]) for kind in laws), ""),
+        (
+            "  share of the period",
+            *(share(f["whole_period"][kind], period[kind]) for kind in laws),
+            "",
+        ),
         ("Cortex-M4F, instructions", *(str(law["instructions"][0]) for law in laws.values()), ""),
         ("  mean", *(str(law["instructions"][1]) for law in laws.values()), ""),
     ]
-    print_table(f"Dearest tick, operations and estimated C28x cycles (+-{f['band_percent']} %)", [*laws, "application"], rows)
+    print_table(
+        f"Dearest tick, operations and estimated C28x cycles (+-{f['band_percent']} %)",
+        [*laws, "application"],
+        rows,
+    )
     for kind, law in laws.items():
         print(f"  {kind}: {law['where']}")
-    print("  application: dearest of app_tick() on host_stub while the law runs, without the core, with the calls of board.h;")
-    print(f"  {app['flash']} of its cycles are instructions from the flash; interrupt around it: {app['interrupt']} cycles")
+    print(
+        "  application: dearest of app_tick() on host_stub while the law runs, without the core, "
+        "with the calls of board.h;"
+    )
+    print(
+        f"  {app['flash']} of its cycles are instructions from the flash; interrupt around it: "
+        f"{app['interrupt']} cycles"
+    )
 
     kinds = list(f["features"])
     names = list(dict.fromkeys(name for kind in kinds for name in f["features"][kind]))
@@ -153,11 +202,20 @@ def show(f):
     print_table("Cycles of the whole period by feature, middle of the band", kinds, rows)
 
     rows = [(name, span(ends), share(ends, period[name])) for name, ends in f["bound"].items()]
-    print_table("Dearest way through the compiled law, whether or not anything can take it", ["cycles", "share"], rows)
+    print_table(
+        "Dearest way through the compiled law, whether or not anything can take it",
+        ["cycles", "share"],
+        rows,
+    )
     rows = [(name, *(str(n) for n in pair)) for name, pair in f["scenarios"].items()]
-    print_table("Worst after the start, per scenario (nd3: order 3)", ["instructions", "C28x cycles"], rows)
+    print_table(
+        "Worst after the start, per scenario (nd3: order 3)", ["instructions", "C28x cycles"], rows
+    )
     if words := f.get("memory"):
         print(f"\nWords of memory: {words}")
     for kind, law in laws.items():
         most = f["target_percent"] * period[kind] // 100
-        print(f"  target of {most} cycles ({f['target_percent']} %), {kind} without the application: {verdict(law['cycles'][1], most)}")
+        print(
+            f"  target of {most} cycles ({f['target_percent']} %), {kind} without the application: "
+            f"{verdict(law['cycles'][1], most)}"
+        )

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Counting and pricing on code small enough to count by hand; needs no cross compiler."""
+
 import sys
 import unittest
-from collections import Counter
 from pathlib import Path
 from unittest import mock
 
@@ -54,7 +54,12 @@ LAW_LISTING = """
  124:	vadd.f32	s0, s0, s1
  128:	bx	lr
 """
-LAW_FUNCTIONS = {0: (0x130, "check"), 4: (0x120, "reset"), 8: (0x124, "step"), 12: (0x140, "counts_ok")}
+LAW_FUNCTIONS = {
+    0: (0x130, "check"),
+    4: (0x120, "reset"),
+    8: (0x124, "step"),
+    12: (0x140, "counts_ok"),
+}
 
 
 def code_of(listing, functions=()):
@@ -82,9 +87,22 @@ class Counting(unittest.TestCase):
     def test_path_with_loop_and_library_call(self):
         # Block 100 runs through 106 to the branch; 106 is then entered once more by that branch.
         path = trace(0x120, 0x12E, 0x100, 0x106, 0x10E, 0x116, 0x132)
-        self.assertEqual(counted(path_counts(path, self.steps)), {
-            "store": 3, "integer": 4, "taken": 2, "not_taken": 1, "call": 1, "constant": 2, "fp_add": 2,
-            "fp_sqrt": 1, "sinf": 1, "load": 1, "return": 2})  # fmt: skip
+        self.assertEqual(
+            counted(path_counts(path, self.steps)),
+            {
+                "store": 3,
+                "integer": 4,
+                "taken": 2,
+                "not_taken": 1,
+                "call": 1,
+                "constant": 2,
+                "fp_add": 2,
+                "fp_sqrt": 1,
+                "sinf": 1,
+                "load": 1,
+                "return": 2,
+            },
+        )
 
     def test_block_cut_at_the_end_of_a_page(self):
         counts, instructions = self.steps._count(b"00000126", b"0000012a")
@@ -130,12 +148,21 @@ class Counting(unittest.TestCase):
             " 108:\tbne.n\t102 <f+0x2>\n 10a:\tcmp\tr0, r2\n 10c:\tbne.n\t100 <f>\n 10e:\tbx\tlr\n"
         )
         bound = LongestPath(code_of(listing), set(), {"f": [3, 6]}, unit_cost).function("f")
-        self.assertEqual(counted(bound), {
-            "integer": 3 * (1 + 6 + 1), "fp_mul": 18, "taken": 3 * 5 + 2, "not_taken": 4, "return": 1})  # fmt: skip
+        self.assertEqual(
+            counted(bound),
+            {
+                "integer": 3 * (1 + 6 + 1),
+                "fp_mul": 18,
+                "taken": 3 * 5 + 2,
+                "not_taken": 4,
+                "return": 1,
+            },
+        )
 
     def test_only_the_first_eight_words_of_a_structure_are_near(self):
         code = code_of(
-            "00000100 <f>:\n 100:\tvldr\ts0, [r0, #12]\n 104:\tvstr\ts0, [r0, #16]\n 108:\tvldr\ts1, [sp, #64]\n"
+            "00000100 <f>:\n 100:\tvldr\ts0, [r0, #12]\n 104:\tvstr\ts0, [r0, #16]\n "
+            "108:\tvldr\ts1, [sp, #64]\n"
             " 10c:\tldr\tr1, [r2]\n 110:\tvldr\ts2, [r0, #-4]\n 114:\tbx\tlr\n"
         )
         self.assertEqual([i.counts["far"] for i in code.values()], [0, 1, 0, 0, 1, 0])
@@ -143,9 +170,19 @@ class Counting(unittest.TestCase):
     def test_calls_of_the_law_are_resolved(self):
         code = code_of(LAW_LISTING, LAW_FUNCTIONS)
         bound = LongestPath(code, set(), {}, unit_cost).function("tick")
-        self.assertEqual(counted(bound), {
-            "store": 6, "load": 5, "far": 1, "integer": 1, "call": 1, "branch": 1, "fp_add": 1,
-            "return": 2})  # fmt: skip
+        self.assertEqual(
+            counted(bound),
+            {
+                "store": 6,
+                "load": 5,
+                "far": 1,
+                "integer": 1,
+                "call": 1,
+                "branch": 1,
+                "fp_add": 1,
+                "return": 2,
+            },
+        )
         self.assertEqual(machine_code.stack_depth(code, "tick"), 8 + 12)
         steps = Steps(code, set(), (unit_cost,))
         self.assertEqual(steps[(b"00000100", b"00000124")][2]["call"], 1)
@@ -153,7 +190,11 @@ class Counting(unittest.TestCase):
             steps[(b"00000100", b"00000120")]
 
     def test_a_call_through_anything_else_is_refused(self):
-        for old, new in (("#8]", "#16]"), ("mov\tr1, r9", "mov\tsl, r9"), ("mov\tr1, r9", "ldmia\tr0!, {r4, sl}")):
+        for old, new in (
+            ("#8]", "#16]"),
+            ("mov\tr1, r9", "mov\tsl, r9"),
+            ("mov\tr1, r9", "ldmia\tr0!, {r4, sl}"),
+        ):
             with self.subTest(new=new), self.assertRaisesRegex(ValueError, "computed jump at 10c"):
                 self.assertIn(old, LAW_LISTING)
                 code_of(LAW_LISTING.replace(old, new, 1), LAW_FUNCTIONS)
@@ -161,9 +202,12 @@ class Counting(unittest.TestCase):
             code_of(LAW_LISTING)
 
     def test_the_law_of_an_image(self):
-        answers = {"nm": "00000200 0000001c T law_noc\n00000300 00000004 T law_other\n",
-                   "objdump": "\nContents of section .text:\n 0200 31010000 21010000 25010000 41010000  1...!...%...A...\n"
-                             " 0210 51010000 01000000 34010000           Q.......4...\n"}
+        answers = {
+            "nm": "00000200 0000001c T law_noc\n00000300 00000004 T law_other\n",
+            "objdump": "\nContents of section .text:\n 0200 31010000 21010000 25010000 41010000  "
+            "1...!...%...A...\n"
+            " 0210 51010000 01000000 34010000           Q.......4...\n",
+        }
         with mock.patch.object(machine_code, "run", lambda command, *_: answers[command]):
             self.assertEqual(machine_code.law_functions("", "image"), LAW_FUNCTIONS)
             answers["nm"] += "00000214 0000001c T law_pid\n"

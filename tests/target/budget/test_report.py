@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Sums by feature, limits, the record and the tables of docs/hardware.md."""
+
 import contextlib
 import io
 import json
@@ -22,12 +23,21 @@ class Figures(unittest.TestCase):
         core = {"law": Counter(fp_compare=100), "observer": Counter(fp_compare=300)}
         app = {"gates": Counter(fp_compare=7, board_cycles=2), "law": Counter(fp_compare=50)}
         found = report.by_feature(costs, core, app)
-        self.assertEqual(found, {report.BOARD: round(costs.interrupt + 2 * costs.of["board_cycles"]), "observer": 300,
-                                 "law": 150, "gates": 7})  # fmt: skip
+        self.assertEqual(
+            found,
+            {
+                report.BOARD: round(costs.interrupt + 2 * costs.of["board_cycles"]),
+                "observer": 300,
+                "law": 150,
+                "gates": 7,
+            },
+        )
         self.assertEqual(sorted(found.values(), reverse=True), list(found.values()))
 
     def test_flash_counts_as_the_same_operation(self):
-        found = report.operations(Costs(), {"fp_add": 2, "fp_add, flash": 3, "taken": 1, "not_taken, flash": 1})
+        found = report.operations(
+            Costs(), {"fp_add": 2, "fp_add, flash": 3, "taken": 1, "not_taken, flash": 1}
+        )
         self.assertEqual((found["add, subtract"], found["branch"]), (5, 2))
         with self.assertRaises(AssertionError):
             report.operations(Costs(), {"unknown": 1})
@@ -39,8 +49,18 @@ class Figures(unittest.TestCase):
         self.assertEqual(Costs().slow({"fp_div": 2, "limit": 1}), round(1.11 * 445))
 
     def test_the_period_that_starts_a_run_counts(self):
-        f = {"whole_period": {"noc": [1, 5], "noc, start": [2, 7], "noc, position": [3, 9], "noc_h": [4, 8]}}
-        self.assertEqual([report.dearest(f, column) for column in f["whole_period"]], [[2, 7], [2, 7], [3, 9], [4, 8]])
+        f = {
+            "whole_period": {
+                "noc": [1, 5],
+                "noc, start": [2, 7],
+                "noc, position": [3, 9],
+                "noc_h": [4, 8],
+            }
+        }
+        self.assertEqual(
+            [report.dearest(f, column) for column in f["whole_period"]],
+            [[2, 7], [2, 7], [3, 9], [4, 8]],
+        )
 
     def test_json_has_a_line_for_each_entry(self):
         f = {"band_percent": 11, "law": {"noc": {"cycles": [1, 2]}, "noc_h": {}}, "bound": {}}
@@ -62,13 +82,18 @@ class Record(unittest.TestCase):
     def test_a_dearer_period_fails(self):
         failed, said = self.growth({"noc": [0, 101]}, {"noc": [0, 100]})
         self.assertTrue(failed)
-        self.assertIn("FAIL whole period of noc: 101 cycles, recorded 100: ./dev budget record", said)
+        self.assertIn(
+            "FAIL whole period of noc: 101 cycles, recorded 100: ./dev budget record", said
+        )
 
     def test_a_period_without_a_record_fails(self):
         self.assertTrue(self.growth({"noc": [0, 1]}, {})[0])
 
     def test_a_cheaper_or_equal_one_passes(self):
-        self.assertEqual(self.growth({"noc": [0, 100]}, {"noc": [0, 100]}), (False, "ok   whole period of noc: 100 cycles, recorded 100\n"))
+        self.assertEqual(
+            self.growth({"noc": [0, 100]}, {"noc": [0, 100]}),
+            (False, "ok   whole period of noc: 100 cycles, recorded 100\n"),
+        )
         failed, said = self.growth({"noc": [0, 99]}, {"noc": [0, 100]})
         self.assertFalse(failed)
         self.assertIn("./dev budget record", said)
@@ -77,13 +102,19 @@ class Record(unittest.TestCase):
 class Tables(unittest.TestCase):
     def setUp(self):
         self.figures = json.loads(tables.RECORDED.read_text())
-        self.page = "".join(f"a\n<!-- budget {name} -->\n<!-- end -->\n" for name in ("limits", "laws", "features", "operations", "memory", "frequencies"))
+        self.page = "".join(
+            f"a\n<!-- budget {name} -->\n<!-- end -->\n"
+            for name in ("limits", "laws", "features", "operations", "memory", "frequencies")
+        )
 
     def test_tables_follow_the_figures(self):
         goals = {"noc": {"goal": 1, "step": 10**6}}
         page = tables.filled(self.page, self.figures, goals)
         self.assertEqual(page, tables.filled(page, self.figures, goals))
-        self.assertRegex(page, r"\| encoder form \| \d+ \.\. \d+ \| [^|]+ \| 1, missed by \d+ % \| 1000000, met \|")
+        self.assertRegex(
+            page,
+            r"\| encoder form \| \d+ \.\. \d+ \| [^|]+ \| 1, missed by \d+ % \| 1000000, met \|",
+        )
         self.figures["whole_period"]["noc"][1] += 1
         self.assertNotEqual(page, tables.filled(page, self.figures, goals))
 

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: MIT
 """The files of tests/target/tick_file.h: recorded runs, and what the replay answered."""
+
 import struct
 from dataclasses import dataclass
 
 NAME_SIZE = 64
-HEAD = struct.Struct("<6I")  # layout, size of this head and all up to the ticks, tick size, law, order, ticks
+HEAD = struct.Struct(
+    "<6I"
+)  # layout, size of this head and all up to the ticks, tick size, law, order, ticks
 PUBLIC = struct.Struct("<10f3f3fI")  # end of a tick, after the core's memory
 RESULT = struct.Struct("<III3f3f")
 GATE = 4

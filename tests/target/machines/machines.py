@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: MIT
 """The core and its unit tests on machines unlike this one.
 
-    machines.py m4f     Cortex-M4F with a single-precision unit, emulated by QEMU: unit tests, and the numbers of a run
-    machines.py avr     ATmega2560, whose int has 16 bits and double 32, simulated by simavr: the numbers of a run
+    machines.py m4f     Cortex-M4F with a single-precision unit, emulated by QEMU: unit tests, and
+                        the numbers of a run
+    machines.py avr     ATmega2560, whose int has 16 bits and double 32, simulated by simavr: the
+                        numbers of a run
 
 The numbers (same_numbers.c) have to be those of this machine within MOST_ULP.
 """
+
 import re
 import struct
 import subprocess
@@ -18,22 +21,48 @@ sys.path.insert(0, str(HERE.parents[1] / "quality"))
 import unit_build as ub  # noqa: E402
 
 STUB = ub.ROOT / "firmware/board/host_stub"
-# In units of the last place of a duty ratio near one half, 6e-8, and of the speed. The arithmetic is IEEE 754 in both, without
-# fused operations.
+# In units of the last place of a duty ratio near one half, 6e-8, and of the speed. The arithmetic
+# is IEEE 754 in both, without fused operations.
 MOST_ULP = {"m4f": 0, "avr": 0}
-SECONDS = 900 # of a program: the tests' oracles are in double, by software
+SECONDS = 900  # of a program: the tests' oracles are in double, by software
 
-M4F = ["arm-none-eabi-gcc", "-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16", "-fno-math-errno"]
-M4F_LINK = ["-nostartfiles", "--specs=nosys.specs", f"-T{STUB}/image.ld", "-Wl,--defsym=end=0x20200000",
-            "-Wl,--no-warn-rwx-segments"]
+M4F = [
+    "arm-none-eabi-gcc",
+    "-mcpu=cortex-m4",
+    "-mthumb",
+    "-mfloat-abi=hard",
+    "-mfpu=fpv4-sp-d16",
+    "-fno-math-errno",
+]
+M4F_LINK = [
+    "-nostartfiles",
+    "--specs=nosys.specs",
+    f"-T{STUB}/image.ld",
+    "-Wl,--defsym=end=0x20200000",
+    "-Wl,--no-warn-rwx-segments",
+]
 M4F_START = [STUB / "startup.c", STUB / "semihosting.c", HERE / "out_m4f.c"]
-EMULATOR = ["qemu-system-arm", "-M", "mps2-an386", "-display", "none", "-monitor", "none", "-serial", "none",
-            "-semihosting-config", "enable=on,target=native", "-kernel"]
+EMULATOR = [
+    "qemu-system-arm",
+    "-M",
+    "mps2-an386",
+    "-display",
+    "none",
+    "-monitor",
+    "none",
+    "-serial",
+    "none",
+    "-semihosting-config",
+    "enable=on,target=native",
+    "-kernel",
+]
 AVR = ["avr-gcc", "-mmcu=atmega2560", "-Wl,--gc-sections", "-ffunction-sections", "-fdata-sections"]
 SIMULATOR = ["simavr", "-m", "atmega2560", "-f", "16000000"]
 
 COMMON = ["-O2", "-fno-strict-aliasing", *ub.FLAGS, f"-I{HERE}", f"-I{STUB}"]
-CORE = [p for p in ub.sources() if ub.room_of(p) == "control"] + [ub.ROOT / "firmware/config/gain_tables.c"]
+CORE = [p for p in ub.sources() if ub.room_of(p) == "control"] + [
+    ub.ROOT / "firmware/config/gain_tables.c"
+]
 # It lets a timer of the host interrupt the application.
 LEFT_OUT = {"test_app"}
 
@@ -51,30 +80,73 @@ def compare(machine, mine, theirs):
     for a, b in zip(mine, theirs):
         for x, y, size in zip(a, b, (0.5, 0.5, 0.5, max(abs(a[3]), 1.0))):
             worst = max(worst, abs(x - y) / (size * 2.0**-23))
-    print(f"{machine}: {len(mine)} rows of a run, worst difference {worst:.1f} ULP, allowed {MOST_ULP[machine]}")
+    print(
+        f"{machine}: {len(mine)} rows of a run, worst difference {worst:.1f} ULP, allowed "
+        f"{MOST_ULP[machine]}"
+    )
     return worst <= MOST_ULP[machine]
 
 
 def numbers_here(out):
-    ub.require(["gcc", *COMMON, HERE / "same_numbers.c", HERE / "out_host.c", *CORE, "-lm", "-o", out / "here"])
+    ub.require(
+        [
+            "gcc",
+            *COMMON,
+            HERE / "same_numbers.c",
+            HERE / "out_host.c",
+            *CORE,
+            "-lm",
+            "-o",
+            out / "here",
+        ]
+    )
     return words(ub.run([out / "here"]).stdout)
 
 
 def emulate(command, image):
     try:
-        done = subprocess.run([*command, str(image)], capture_output=True, text=True, timeout=SECONDS, errors="replace")
+        done = subprocess.run(
+            [*command, str(image)],
+            capture_output=True,
+            text=True,
+            timeout=SECONDS,
+            errors="replace",
+        )
     except subprocess.TimeoutExpired:
         return 124, ""
     return done.returncode, done.stdout + done.stderr
 
 
 def numbers_m4f(out):
-    ub.require([*M4F, *COMMON, HERE / "same_numbers.c", *M4F_START, *CORE, *M4F_LINK, "-lm", "-o", out / "numbers.elf"])
+    ub.require(
+        [
+            *M4F,
+            *COMMON,
+            HERE / "same_numbers.c",
+            *M4F_START,
+            *CORE,
+            *M4F_LINK,
+            "-lm",
+            "-o",
+            out / "numbers.elf",
+        ]
+    )
     return words(emulate(EMULATOR, out / "numbers.elf")[1])
 
 
 def numbers_avr(out):
-    ub.require([*AVR, *COMMON, HERE / "same_numbers.c", HERE / "out_avr.c", *CORE, "-lm", "-o", out / "numbers.elf"])
+    ub.require(
+        [
+            *AVR,
+            *COMMON,
+            HERE / "same_numbers.c",
+            HERE / "out_avr.c",
+            *CORE,
+            "-lm",
+            "-o",
+            out / "numbers.elf",
+        ]
+    )
     return words(emulate(SIMULATOR, out / "numbers.elf")[1])
 
 
@@ -82,13 +154,24 @@ def unit_tests_m4f(out):
     """Every unit test, its output character by character; a failure is its exit code."""
     tables = []
     for name, drive in ub.TABLES.items():
-        ub.require([ub.ROOT / "build/host/bin/sdre-gains", "generate", ub.ROOT / f"firmware/config/drives/{drive}.toml",
-                    "--out", out / name])
+        ub.require(
+            [
+                ub.ROOT / "build/host/bin/sdre-gains",
+                "generate",
+                ub.ROOT / f"firmware/config/drives/{drive}.toml",
+                "--out",
+                out / name,
+            ]
+        )
         tables.append((out / name / "gain_tables.c", [f"-Dgain_tables_drive={name}_drive"]))
     unity = ["-DUNITY_OUTPUT_CHAR=out_char", "-include", HERE / "out.h"]
     parts = [(p, []) for p in ub.sources()] + tables + [(p, []) for p in M4F_START]
-    parts += [(ub.ROOT / "firmware/config/board_config.c", []), (ub.ROOT / "firmware/config/gain_tables.c", []),
-              (ub.ROOT / "build/unity/unity.c", unity), (ub.ROOT / "tests/support/fake_board.c", [])]
+    parts += [
+        (ub.ROOT / "firmware/config/board_config.c", []),
+        (ub.ROOT / "firmware/config/gain_tables.c", []),
+        (ub.ROOT / "build/unity/unity.c", unity),
+        (ub.ROOT / "tests/support/fake_board.c", []),
+    ]
     objects = []
     for n, (source, extra) in enumerate(parts):
         objects.append(out / f"{n}_{Path(source).stem}.o")
@@ -96,11 +179,25 @@ def unit_tests_m4f(out):
 
     def one(name):
         image = out / f"{name}.elf"
-        built = ub.run([*M4F, *COMMON, *unity, ub.ROOT / f"tests/unit/{name}.c", *objects, *M4F_LINK, "-lm", "-o", image])
+        built = ub.run(
+            [
+                *M4F,
+                *COMMON,
+                *unity,
+                ub.ROOT / f"tests/unit/{name}.c",
+                *objects,
+                *M4F_LINK,
+                "-lm",
+                "-o",
+                image,
+            ]
+        )
         if built.returncode != 0:
             return name, "does not link: " + built.stderr[-300:]
         code, text = emulate(EMULATOR, image)
-        return name, "" if code == 0 else f"exit code {code}: " + " ".join(t for t in text.splitlines() if "FAIL" in t)[:400]
+        return name, "" if code == 0 else f"exit code {code}: " + " ".join(
+            t for t in text.splitlines() if "FAIL" in t
+        )[:400]
 
     with ThreadPoolExecutor(ub.JOBS) as pool:
         results = list(pool.map(one, [n for n in ub.tests() if n not in LEFT_OUT]))

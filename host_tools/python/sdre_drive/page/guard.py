@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Access to the page: only with the token in its address, only from this machine, and from no other page of the browser."""
+"""Access to the page: only with the token in its address, only from this machine, and from no other
+page of the browser."""
 
 from __future__ import annotations
 
@@ -8,7 +9,9 @@ from http.cookies import CookieError, SimpleCookie
 from typing import Any, Awaitable, Callable, Dict, List
 from urllib.parse import parse_qs
 
-Asgi = Callable[[Dict[str, Any], Callable[..., Awaitable[Any]], Callable[..., Awaitable[Any]]], Awaitable[None]]
+Asgi = Callable[
+    [Dict[str, Any], Callable[..., Awaitable[Any]], Callable[..., Awaitable[Any]]], Awaitable[None]
+]
 
 
 def cookie_name(port: int) -> str:
@@ -22,7 +25,8 @@ def headers_of(scope: Dict[str, Any]) -> Dict[str, str]:
 
 
 def is_allowed(scope: Dict[str, Any], token: str, port: int) -> bool:
-    """Host and Origin are this page's own (another site can neither rebind its name nor post here), and the token is right."""
+    """Host and Origin are this page's own (another site can neither rebind its name nor post here),
+    and the token is right."""
     headers = headers_of(scope)
     hosts = (f"127.0.0.1:{port}", f"localhost:{port}")
     if headers.get("host") not in hosts:
@@ -31,7 +35,10 @@ def is_allowed(scope: Dict[str, Any], token: str, port: int) -> bool:
         return False
     if scope["type"] == "websocket" and "origin" not in headers:
         return False
-    return any(hmac.compare_digest(given.encode(), token.encode()) for given in _tokens(scope, headers, port))
+    return any(
+        hmac.compare_digest(given.encode(), token.encode())
+        for given in _tokens(scope, headers, port)
+    )
 
 
 def _tokens(scope: Dict[str, Any], headers: Dict[str, str], port: int) -> List[str]:
@@ -77,5 +84,11 @@ async def _refuse(scope: Dict[str, Any], receive: Any, send: Any) -> None:
         await send({"type": "websocket.close", "code": 4403})
         return
     text = b"open the address that sdre-drive printed: it has the token"
-    await send({"type": "http.response.start", "status": 403, "headers": [(b"content-type", b"text/plain")]})
+    await send(
+        {
+            "type": "http.response.start",
+            "status": 403,
+            "headers": [(b"content-type", b"text/plain")],
+        }
+    )
     await send({"type": "http.response.body", "body": text})

@@ -54,12 +54,20 @@ class Page:
     def _commands(self) -> None:
         unit = "r/min" if self.pole_pairs else "rad/s electrical"
         with ui.card().classes(CARD):
-            self.arm = ui.switch("arm: let this page write to the drive", on_change=self._armed).mark("arm")
-            self.speed = ui.number(f"speed [{unit}]", value=1000 if self.pole_pairs else 200).classes("w-full").mark("speed")
+            self.arm = ui.switch(
+                "arm: let this page write to the drive", on_change=self._armed
+            ).mark("arm")
+            self.speed = (
+                ui.number(f"speed [{unit}]", value=1000 if self.pole_pairs else 200)
+                .classes("w-full")
+                .mark("speed")
+            )
             with ui.row():
                 for words, colour, action in (
-                    ("run", "positive", self._run), ("stop", "negative", self._stop), ("reset", "primary", self._reset),
-                ):  # fmt: skip
+                    ("run", "positive", self._run),
+                    ("stop", "negative", self._stop),
+                    ("reset", "primary", self._reset),
+                ):
                     button = ui.button(words, color=colour, on_click=action).mark(words)
                     button.bind_enabled_from(self.arm, "value")
 
@@ -68,7 +76,11 @@ class Page:
         self.load_words = ui.label("")
         self.load = ui.slider(min=-2.0, max=2.0, step=0.05, value=0.0).mark("load")
         self.load.on("update:model-value", self._set_load, throttle=0.1)
-        self.fault = ui.select(list(FAULTS), value=next(iter(FAULTS)), label="break").classes("w-full").mark("fault")
+        self.fault = (
+            ui.select(list(FAULTS), value=next(iter(FAULTS)), label="break")
+            .classes("w-full")
+            .mark("fault")
+        )
         with ui.row():
             inject = ui.button("break it", color="warning", on_click=self._break)
             mend = ui.button("mend all", on_click=self._mend)
@@ -92,7 +104,10 @@ class Page:
 
     async def _run(self) -> None:
         speed = float(self.speed.value or 0.0)
-        await self._do(self.watcher.start_motor, e_radps_of(speed, self.pole_pairs) if self.pole_pairs else speed)
+        await self._do(
+            self.watcher.start_motor,
+            e_radps_of(speed, self.pole_pairs) if self.pole_pairs else speed,
+        )
 
     async def _stop(self) -> None:
         await self._do(self.watcher.stop_motor)
@@ -116,16 +131,28 @@ class Page:
         reading = self.watcher.reading
         known = reading is not None and reading.mode in set(Mode)
         self.badge.set_text(Mode(reading.mode).name if reading and known else "NO DRIVE")
-        colour = {Mode.RUN: "green", Mode.FAULT: "red", Mode.READY: "blue"}.get(Mode(reading.mode)) if reading and known else None
+        colour = (
+            {Mode.RUN: "green", Mode.FAULT: "red", Mode.READY: "blue"}.get(Mode(reading.mode))
+            if reading and known
+            else None
+        )
         self.badge.props(f"color={colour or 'orange'}")
         self.state.set_text(
-            f"{reading.mode_words}; {speed_words(reading.speed_e_radps, self.pole_pairs)}, {reading.dc_link_V:.0f} V, "
-            f"{reading.temperature_degC:.0f} degC" if reading else self.watcher.trouble)  # fmt: skip
-        self._show_reasons(faults.explain(reading.why) + faults.warnings(reading.conditions) if reading else [])
+            f"{reading.mode_words}; {speed_words(reading.speed_e_radps, self.pole_pairs)}, "
+            f"{reading.dc_link_V:.0f} V, "
+            f"{reading.temperature_degC:.0f} degC"
+            if reading
+            else self.watcher.trouble
+        )
+        self._show_reasons(
+            faults.explain(reading.why) + faults.warnings(reading.conditions) if reading else []
+        )
         truth = self.watcher.truth
         self.bench.set_visibility(bool(truth))
         if truth:
-            self.load_words.set_text(f"load {truth['load_Nm']:.2f} N m, torque {truth['torque_Nm']:.2f} N m")
+            self.load_words.set_text(
+                f"load {truth['load_Nm']:.2f} N m, torque {truth['torque_Nm']:.2f} N m"
+            )
         self.traces.refresh()
         self.scope.refresh()
         self.params.refresh()
@@ -137,7 +164,9 @@ class Page:
         self.reasons.clear()
         with self.reasons:
             for entry in entries:
-                with ui.card().classes(CARD + (" bg-amber-1" if entry.group == "condition" else " bg-red-1")):
+                with ui.card().classes(
+                    CARD + (" bg-amber-1" if entry.group == "condition" else " bg-red-1")
+                ):
                     ui.label(f"{entry.group} {entry.number} {entry.name}").classes("font-bold")
                     ui.label(entry.meaning)
                     ui.label("Causes: " + "; ".join(entry.causes) + ".").classes("text-sm")

@@ -21,10 +21,20 @@ class ParamsCard:
         self.shown: Optional[List[Value]] = None
         self.fields: Dict[str, ui.number] = {}
         self.defaults: Dict[str, ui.label] = {}
-        with ui.expansion("Parameters: kept over power", icon="tune", on_value_change=self._opened).classes("w-full").mark("params"):
+        with (
+            ui.expansion("Parameters: kept over power", icon="tune", on_value_change=self._opened)
+            .classes("w-full")
+            .mark("params")
+        ):
             with ui.row().classes("items-center gap-2"):
-                self.buttons = [ui.button(words, color=colour, on_click=action).mark(f"params-{words}") for words, colour, action in (
-                    ("write", "primary", self._write), ("save", "positive", self._save), ("defaults", "warning", self._restore))]  # fmt: skip
+                self.buttons = [
+                    ui.button(words, color=colour, on_click=action).mark(f"params-{words}")
+                    for words, colour, action in (
+                        ("write", "primary", self._write),
+                        ("save", "positive", self._save),
+                        ("defaults", "warning", self._restore),
+                    )
+                ]
                 self.words = ui.label("").mark("params-state")
             with ui.grid().classes("w-full items-center gap-x-3 gap-y-0").style(COLUMNS):
                 for title in ("", "value", "unit", "range", "default", ""):
@@ -35,11 +45,15 @@ class ParamsCard:
     def _row(self, p: Any) -> None:
         name = p.register.name
         ui.label(name).classes("font-mono text-sm").tooltip(p.text)
-        self.fields[name] = ui.number(min=p.low, max=p.high, step=p.register.step or 1).props("dense").mark(name)
+        self.fields[name] = (
+            ui.number(min=p.low, max=p.high, step=p.register.step or 1).props("dense").mark(name)
+        )
         ui.label(p.register.unit).classes("text-sm")
         ui.label(f"{text_of(p.low)} .. {text_of(p.high)}").classes("text-sm")
         self.defaults[name] = ui.label("").classes("text-sm")
-        ui.label("needs a stop" if p.stopped else "").classes("text-xs text-gray-600 whitespace-nowrap")
+        ui.label("needs a stop" if p.stopped else "").classes(
+            "text-xs text-gray-600 whitespace-nowrap"
+        )
 
     def refresh(self) -> None:
         """Shows what was read, once: what is being typed stays."""
@@ -60,9 +74,19 @@ class ParamsCard:
 
     async def _write(self) -> None:
         had = {v.name: v for v in self.shown or []}
-        typed = {name: field.value for name, field in self.fields.items() if name in had and field.value is not None}
-        await self.do(self.watcher.write_parameters, {
-            name: float(value) for name, value in typed.items() if text_of(float(value)) != text_of(had[name].value)})  # fmt: skip
+        typed = {
+            name: field.value
+            for name, field in self.fields.items()
+            if name in had and field.value is not None
+        }
+        await self.do(
+            self.watcher.write_parameters,
+            {
+                name: float(value)
+                for name, value in typed.items()
+                if text_of(float(value)) != text_of(had[name].value)
+            },
+        )
 
     async def _save(self) -> None:
         await self.do(self.watcher.save_parameters)

@@ -29,7 +29,13 @@ def require_free(port: int) -> None:
             raise DriveError(f"--page-port {port}: {e.strerror}") from e
 
 
-def serve(target: Target, bench: Optional[Tuple[str, int]], pole_pairs: Optional[int], port: int, browser: bool) -> None:
+def serve(
+    target: Target,
+    bench: Optional[Tuple[str, int]],
+    pole_pairs: Optional[int],
+    port: int,
+    browser: bool,
+) -> None:
     """Until Ctrl-C; a motor that was started from a page is stopped then."""
     require_free(port)
     token = secrets.token_urlsafe(16)
@@ -49,5 +55,12 @@ def serve(target: Target, bench: Optional[Tuple[str, int]], pole_pairs: Optional
     app.add_middleware(Guard, token=token, port=port)
     app.on_startup(started)
     app.on_shutdown(watcher.close)
-    ui.run(host=HOST, port=port, reload=False, show=False, show_welcome_message=False, title="sdre-drive",
-           reconnect_timeout=RECONNECT_S)  # fmt: skip
+    ui.run(
+        host=HOST,
+        port=port,
+        reload=False,
+        show=False,
+        show_welcome_message=False,
+        title="sdre-drive",
+        reconnect_timeout=RECONNECT_S,
+    )

@@ -25,7 +25,8 @@ ABANDONED_S = 2.0  # without any page that is open, a motor that was started her
 
 
 class Point(NamedTuple):
-    """A sample of the traces; time since the drive's start, s: a virtual one may be slower than the clock."""
+    """A sample of the traces; time since the drive's start, s: a virtual one may be slower than the
+    clock."""
 
     time_s: float
     speed_e_radps: float
@@ -37,7 +38,9 @@ class Point(NamedTuple):
 class Watcher(threading.Thread):
     """Asks again and again; a drive that goes away and comes back is found again."""
 
-    def __init__(self, target: Target, bench: Optional[Tuple[str, int]], pole_pairs: Optional[int]) -> None:
+    def __init__(
+        self, target: Target, bench: Optional[Tuple[str, int]], pole_pairs: Optional[int]
+    ) -> None:
         super().__init__(daemon=True)
         self.drive = Drive(target)
         self.pole_pairs = pole_pairs  # None: not known yet
@@ -149,8 +152,12 @@ class Watcher(threading.Thread):
         if self.reading and reading.time_s < self.reading.time_s:
             self._forget()
         self.reading = reading
-        _append(self.drive_trace, Point(reading.time_s, reading.speed_e_radps, reading.iq_A, reading.id_A,
-                                        reading.dc_link_V))  # fmt: skip
+        _append(
+            self.drive_trace,
+            Point(
+                reading.time_s, reading.speed_e_radps, reading.iq_A, reading.id_A, reading.dc_link_V
+            ),
+        )
         if reading.mode == Mode.FAULT:
             self.started_here = False
         self._look_at_scope()
@@ -204,8 +211,16 @@ class Watcher(threading.Thread):
         for k, t in enumerate(trace["time_s"]):
             if t >= self._truth_until_s + TRUTH_STEP_S:
                 self._truth_until_s = t
-                _append(self.true_trace, Point(t - self._ahead_s, trace["speed_e_radps"][k], trace["iq_A"][k],
-                                               trace["id_A"][k], trace["dc_link_V"][k]))  # fmt: skip
+                _append(
+                    self.true_trace,
+                    Point(
+                        t - self._ahead_s,
+                        trace["speed_e_radps"][k],
+                        trace["iq_A"][k],
+                        trace["id_A"][k],
+                        trace["dc_link_V"][k],
+                    ),
+                )
 
 
 def _append(trace: Deque[Point], point: Point) -> None:
@@ -214,6 +229,8 @@ def _append(trace: Deque[Point], point: Point) -> None:
         trace.popleft()
 
 
-def column(trace: Deque[Point], value: Callable[[Point], float], now_s: float) -> List[Tuple[float, float]]:
+def column(
+    trace: Deque[Point], value: Callable[[Point], float], now_s: float
+) -> List[Tuple[float, float]]:
     """(seconds ago as a negative number, value) for a plot."""
     return [(round(p.time_s - now_s, 3), round(value(p), 3)) for p in list(trace)]

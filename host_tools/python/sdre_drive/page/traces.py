@@ -28,8 +28,12 @@ def plots(pole_pairs: Optional[int]) -> List[Plot]:
         if pole_pairs
         else Plot("speed [rad/s electrical]", lambda p: p.speed_e_radps)
     )
-    return [speed, Plot("i_q [A]", lambda p: p.iq_A), Plot("i_d [A]", lambda p: p.id_A),
-            Plot("dc link [V]", lambda p: p.dc_link_V)]  # fmt: skip
+    return [
+        speed,
+        Plot("i_q [A]", lambda p: p.iq_A),
+        Plot("i_d [A]", lambda p: p.id_A),
+        Plot("dc link [V]", lambda p: p.dc_link_V),
+    ]
 
 
 class Traces:
@@ -56,14 +60,48 @@ class Traces:
         return {
             "animation": False,
             "legend": {"data": [TELLS, TRUTH], "top": 0},
-            "grid": [{"left": 60, "right": 15, "top": f"{7 + 23 * k}%", "height": "18%"} for k in range(count)],
-            "xAxis": [{"type": "value", "min": -TRACE_S, "max": 0, "gridIndex": k, "axisLine": {"onZero": False},
-                       "axisLabel": {"show": k == last, "formatter": "{value} s"}}
-                      for k in range(count)],
-            "yAxis": [{"type": "value", "scale": True, "gridIndex": k, "name": p.title, "nameLocation": "end",
-                       "nameGap": 6, "position": "left", "axisLine": {"onZero": False}, "nameTextStyle": {"align": "left"}, "splitNumber": 3}
-                      for k, p in enumerate(self.plots)],
-            "series": [{"type": "line", "name": name, "xAxisIndex": k, "yAxisIndex": k, "showSymbol": False,
-                        "lineStyle": {"width": 1.5}, "color": COLOURS[name], "data": []}
-                       for k in range(count) for name in (TRUTH, TELLS)],
-        }  # fmt: skip
+            "grid": [
+                {"left": 60, "right": 15, "top": f"{7 + 23 * k}%", "height": "18%"}
+                for k in range(count)
+            ],
+            "xAxis": [
+                {
+                    "type": "value",
+                    "min": -TRACE_S,
+                    "max": 0,
+                    "gridIndex": k,
+                    "axisLine": {"onZero": False},
+                    "axisLabel": {"show": k == last, "formatter": "{value} s"},
+                }
+                for k in range(count)
+            ],
+            "yAxis": [
+                {
+                    "type": "value",
+                    "scale": True,
+                    "gridIndex": k,
+                    "name": p.title,
+                    "nameLocation": "end",
+                    "nameGap": 6,
+                    "position": "left",
+                    "axisLine": {"onZero": False},
+                    "nameTextStyle": {"align": "left"},
+                    "splitNumber": 3,
+                }
+                for k, p in enumerate(self.plots)
+            ],
+            "series": [
+                {
+                    "type": "line",
+                    "name": name,
+                    "xAxisIndex": k,
+                    "yAxisIndex": k,
+                    "showSymbol": False,
+                    "lineStyle": {"width": 1.5},
+                    "color": COLOURS[name],
+                    "data": [],
+                }
+                for k in range(count)
+                for name in (TRUTH, TELLS)
+            ],
+        }

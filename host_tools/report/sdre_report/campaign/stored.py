@@ -20,7 +20,10 @@ def read(tools: Tools) -> List[Dict[str, Any]]:
     """If it is of the drive file that there is."""
     found = json.loads(FILE.read_text(encoding="ascii"))
     if found["digest"] != tools.design(DRIVE)["digest"]:
-        raise ReportError(f"{FILE.name} is not of this {DRIVE}.toml: run its campaigns again, then ./dev report campaign DIRECTORY..")
+        raise ReportError(
+            f"{FILE.name} is not of this {DRIVE}.toml: run its campaigns again, then ./dev report "
+            f"campaign DIRECTORY.."
+        )
     return list(found["campaigns"])
 
 
@@ -28,7 +31,10 @@ def write(tools: Tools, directories: Sequence[Path], file: Path = FILE) -> None:
     """From finished campaigns."""
     digest = tools.design(DRIVE)["digest"]
     campaigns = [campaign_in(directory, digest) for directory in directories]
-    file.write_text(json.dumps({"drive": DRIVE, "digest": digest, "campaigns": campaigns}, indent=1) + "\n", encoding="ascii")
+    file.write_text(
+        json.dumps({"drive": DRIVE, "digest": digest, "campaigns": campaigns}, indent=1) + "\n",
+        encoding="ascii",
+    )
 
 
 def campaign_in(directory: Path, digest: str) -> Dict[str, Any]:
@@ -37,11 +43,21 @@ def campaign_in(directory: Path, digest: str) -> Dict[str, Any]:
         about = json.loads((directory / "campaign.json").read_text(encoding="utf-8"))
         summary = json.loads((directory / "summary.json").read_text(encoding="utf-8"))
     except OSError as error:
-        raise ReportError(f"{directory}: is no finished campaign: {Path(error.filename).name} is missing") from error
+        raise ReportError(
+            f"{directory}: is no finished campaign: {Path(error.filename).name} is missing"
+        ) from error
     if about.get("drive_digest") != digest:
         raise ReportError(f"{directory}: is not a campaign of this {DRIVE}.toml")
-    summary["worst"] = [{key: value for key, value in one.items() if key != "results"} for one in summary["worst"][:WORST]]
-    return {"name": about["name"], "method": about["method"], "variables": about["variables"], "summary": rounded(summary)}
+    summary["worst"] = [
+        {key: value for key, value in one.items() if key != "results"}
+        for one in summary["worst"][:WORST]
+    ]
+    return {
+        "name": about["name"],
+        "method": about["method"],
+        "variables": about["variables"],
+        "summary": rounded(summary),
+    }
 
 
 def rounded(value: Any) -> Any:

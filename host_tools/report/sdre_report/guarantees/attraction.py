@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Region of attraction with a limited voltage: an ellipsoid from which the linear loop returns although the inverter cuts.
+"""Region of attraction with a limited voltage: an ellipsoid from which the linear loop returns
+although the inverter cuts.
 
-x+ = A x - B psi(F x), psi(u) = u - sat(u): motor and observer both get the limited voltage, as in the firmware. Each axis may use its side
-of the largest square in the circle that the steady voltage leaves.
+x+ = A x - B psi(F x), psi(u) = u - sat(u): motor and observer both get the limited voltage, as in
+the firmware. Each axis may use its side of the largest square in the circle that the steady voltage
+leaves.
 """
 
 from __future__ import annotations
@@ -32,14 +34,18 @@ class Ellipsoid:
     iq_A: float
     id_A: float
     load_Nm: float
-    returned_square: float  # share of the starts on the surface that came back, limited as in the proof
+    returned_square: (
+        float  # share of the starts on the surface that came back, limited as in the proof
+    )
     returned_circle: float  # the same with the vector's length cut to the circle
 
 
 def room_V(loops: Loops, p: Point) -> Tuple[float, np.ndarray]:
     """Half the side of the square, and the steady voltage v_q, v_d."""
     m = loops.motor
-    vq = m["stator_resistance_Ohm"] * p.iq + p.speed * (m["pm_flux_Wb"] + m["d_axis_inductance_H"] * p.id)
+    vq = m["stator_resistance_Ohm"] * p.iq + p.speed * (
+        m["pm_flux_Wb"] + m["d_axis_inductance_H"] * p.id
+    )
     vd = m["stator_resistance_Ohm"] * p.id - p.speed * m["q_axis_inductance_H"] * p.iq
     steady = np.array([vq, vd])
     return (loops.dc_link_V / np.sqrt(3.0) - float(np.linalg.norm(steady))) / np.sqrt(2.0), steady
@@ -56,7 +62,10 @@ def search(A: np.ndarray, B: np.ndarray, F: np.ndarray) -> np.ndarray:
     """W of the ellipsoid, in sizes; voltages in units of the room."""
     W, Z, d = cvxpy.Variable((10, 10), symmetric=True), cvxpy.Variable((2, 10)), cvxpy.Variable(2)
     D, rules, total = cvxpy.diag(d), [], 0
-    rules.append(cvxpy.bmat([[W, -Z.T, W @ A.T], [-Z, 2 * D, -D @ B.T], [A @ W, -B @ D, W]]) >> 1e-7 * np.eye(22))
+    rules.append(
+        cvxpy.bmat([[W, -Z.T, W @ A.T], [-Z, 2 * D, -D @ B.T], [A @ W, -B @ D, W]])
+        >> 1e-7 * np.eye(22)
+    )
     for i in range(2):
         side = F[i : i + 1] @ W - Z[i : i + 1]
         rules.append(cvxpy.bmat([[W, side.T], [side, np.ones((1, 1))]]) >> 0)
@@ -101,5 +110,12 @@ def largest(loops: Loops, p: Point) -> Ellipsoid:
         return (v * np.minimum(1.0, circle / np.maximum(size, 1e-9)) - steady) / room
 
     l3 = loops.motor["pole_pairs"] / loops.motor["inertia_kgm2"]
-    return Ellipsoid(room, reach["speed_e_radps"], reach["iq_A"], reach["id_A"], reach["d_w"] / l3,
-                     returned(A, B, F, W, lambda u: np.clip(u, -1, 1)), returned(A, B, F, W, length))  # fmt: skip
+    return Ellipsoid(
+        room,
+        reach["speed_e_radps"],
+        reach["iq_A"],
+        reach["id_A"],
+        reach["d_w"] / l3,
+        returned(A, B, F, W, lambda u: np.clip(u, -1, 1)),
+        returned(A, B, F, W, length),
+    )

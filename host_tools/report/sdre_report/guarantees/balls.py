@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Arithmetic that is sure: numbers as middle and radius, with their derivatives by several variables, many cells at once.
+"""Arithmetic that is sure: numbers as middle and radius, with their derivatives by several
+variables, many cells at once.
 
-A `Dual` holds, for every cell, a value and its derivatives: arrays (cells, 1 + variables, ..). The true value over the whole cell lies
-within `radius` of `middle`, every rounding error included.
+A `Dual` holds, for every cell, a value and its derivatives: arrays (cells, 1 + variables, ..). The
+true value over the whole cell lies within `radius` of `middle`, every rounding error included.
 """
 
 from __future__ import annotations
@@ -50,7 +51,9 @@ class Dual:
 
     def __mul__(self, other: Any) -> "Dual":
         if not isinstance(other, Dual):  # a plain number
-            return Dual(self.m * other, (self.r * abs(other) + UNIT * np.abs(self.m * other)) * SLACK)
+            return Dual(
+                self.m * other, (self.r * abs(other) + UNIT * np.abs(self.m * other)) * SLACK
+            )
         return _product(self, other, np.multiply, 1)
 
     __rmul__ = __mul__
@@ -72,9 +75,17 @@ class Dual:
         square = value * value  # of the values: the derivatives are still zero
         slope = Dual(-self.m.copy(), self.r.copy())
         slope.m[:, 0], slope.r[:, 0] = 0.0, 0.0
-        flat = Dual(np.repeat(square.m[:, :1], self.m.shape[1], 1), np.repeat(square.r[:, :1], self.m.shape[1], 1))
+        flat = Dual(
+            np.repeat(square.m[:, :1], self.m.shape[1], 1),
+            np.repeat(square.r[:, :1], self.m.shape[1], 1),
+        )
         m2 = slope.m * flat.m
-        r2 = (np.abs(slope.m) * flat.r + slope.r * np.abs(flat.m) + slope.r * flat.r + UNIT * np.abs(m2)) * SLACK
+        r2 = (
+            np.abs(slope.m) * flat.r
+            + slope.r * np.abs(flat.m)
+            + slope.r * flat.r
+            + UNIT * np.abs(m2)
+        ) * SLACK
         m2[:, 0], r2[:, 0] = value.m[:, 0], value.r[:, 0]
         return Dual(m2, r2)
 
@@ -84,7 +95,9 @@ def _product(a: Dual, b: Dual, times: Callable, n: int) -> Dual:
 
     def one(am: np.ndarray, ar: np.ndarray, bm: np.ndarray, br: np.ndarray) -> tuple:
         size = times(np.abs(am), np.abs(bm))
-        return times(am, bm), times(np.abs(am), br) + times(ar, np.abs(bm)) + times(ar, br) + (n + 2) * UNIT * size
+        return times(am, bm), times(np.abs(am), br) + times(ar, np.abs(bm)) + times(ar, br) + (
+            n + 2
+        ) * UNIT * size
 
     m1, r1 = one(a.m, a.r, b.m[:, :1], b.r[:, :1])
     m2, r2 = one(a.m[:, :1], a.r[:, :1], b.m, b.r)
@@ -107,7 +120,9 @@ def variables(centre: np.ndarray, radius: np.ndarray) -> list:
 def matrix(rows: list) -> Dual:
     """Matrix of scalars and plain numbers."""
     like = next(x for row in rows for x in row if isinstance(x, Dual))
-    cells = [[x if isinstance(x, Dual) else Dual.constant(float(x), like) for x in row] for row in rows]
+    cells = [
+        [x if isinstance(x, Dual) else Dual.constant(float(x), like) for x in row] for row in rows
+    ]
     stack = lambda part: np.stack([np.stack([part(x) for x in row], -1) for row in cells], -2)  # noqa: E731
     return Dual(stack(lambda x: x.m), stack(lambda x: x.r))
 
@@ -123,6 +138,14 @@ def exponential(X: Dual, terms: int = 16) -> Dual:
     size = (np.abs(X.m) + X.r).sum(-1).max(-1)  # (cells, 1 + variables), infinity norms
     norm = size[:, 0]
     factorial = float(np.prod(np.arange(1.0, terms + 1)))
-    rest = np.exp(norm) * norm**terms / factorial  # of e^X below this times the norm, of the derivatives times theirs
-    total.r += SLACK * 1.01 * (rest[:, None] * np.maximum(size, norm[:, None] * (np.arange(size.shape[1]) == 0)))[..., None, None]
+    rest = (
+        np.exp(norm) * norm**terms / factorial
+    )  # of e^X below this times the norm, of the derivatives times theirs
+    total.r += (
+        SLACK
+        * 1.01
+        * (rest[:, None] * np.maximum(size, norm[:, None] * (np.arange(size.shape[1]) == 0)))[
+            ..., None, None
+        ]
+    )
     return total

@@ -16,13 +16,26 @@ from .stored import DRIVE, FILE
 
 MOTORS, SEED = 4000, 1  # drawn at every share
 LYAPUNOV_SHARE = 0.14  # 0.15 was not finished within eight minutes on a busy machine
-MU_POINTS = ((298, 1), (1191, 0), (1191, 1))  # speed [rad/s], sign of iq: beside the two that the verdict judges
-ATTRACTION_POINTS = ((0, 0), (0, 1), (149, 0), (298, 0), (298, 1), (521, 0))  # at 521 rad/s the largest current leaves no voltage
+MU_POINTS = (
+    (298, 1),
+    (1191, 0),
+    (1191, 1),
+)  # speed [rad/s], sign of iq: beside the two that the verdict judges
+ATTRACTION_POINTS = (
+    (0, 0),
+    (0, 1),
+    (149, 0),
+    (298, 0),
+    (298, 1),
+    (521, 0),
+)  # at 521 rad/s the largest current leaves no voltage
 
 
 def pick(loops: Loops, speed: float, sign: int) -> Point:
     """The tool's point nearest to this speed with current of this sign."""
-    return min((p for p in loops.points if np.sign(p.iq) == sign), key=lambda p: abs(p.speed - speed))
+    return min(
+        (p for p in loops.points if np.sign(p.iq) == sign), key=lambda p: abs(p.speed - speed)
+    )
 
 
 def random_share(loops: Loops, p: Point) -> float:
@@ -45,8 +58,15 @@ def shares(loops: Loops, tell: Callable[[str], None]) -> List[Dict[str, float]]:
     for p in [*loops.box_points, *(pick(loops, *at) for at in MU_POINTS)]:
         tell(f"mu at {p.speed:.0f} rad/s, iq {p.iq:.2f} A")
         corner = mu.corner_share(loops, p)
-        found.append({"speed_e_radps": p.speed, "iq_A": p.iq, "mu": mu.largest_share(loops, p, corner), "corners": corner,
-                      "drawn": random_share(loops, p)})  # fmt: skip
+        found.append(
+            {
+                "speed_e_radps": p.speed,
+                "iq_A": p.iq,
+                "mu": mu.largest_share(loops, p, corner),
+                "corners": corner,
+                "drawn": random_share(loops, p),
+            }
+        )
     return found
 
 
@@ -59,16 +79,27 @@ def function(loops: Loops, design: Dict[str, Any], tell: Callable[[str], None]) 
     proof = lyapunov.prove(loop, region, LYAPUNOV_SHARE, R)
     if proof is None:
         raise ReportError("the Lyapunov function is not proved")
-    return {"share": proof.share, "rate_at_corners": at_corners, "rate": proof.rate, "cells": proof.cells, "sizes": lyapunov.SIZES[:10].tolist(),
-            "R": R.tolist(), "speed_e_radps": [float(region.low[0, 0]), float(region.high[-1, 0])],
-            "iq_A": [float(region.low[:, 1].min()), float(region.high[:, 1].max())],
-            "id_A": [float(region.low[:, 2].min()), float(region.high[:, 2].max())]}  # fmt: skip
+    return {
+        "share": proof.share,
+        "rate_at_corners": at_corners,
+        "rate": proof.rate,
+        "cells": proof.cells,
+        "sizes": lyapunov.SIZES[:10].tolist(),
+        "R": R.tolist(),
+        "speed_e_radps": [float(region.low[0, 0]), float(region.high[-1, 0])],
+        "iq_A": [float(region.low[:, 1].min()), float(region.high[:, 1].max())],
+        "id_A": [float(region.low[:, 2].min()), float(region.high[:, 2].max())],
+    }
 
 
 def compute(tools: Tools) -> Dict[str, Any]:
     """All three."""
     design, loops = tools.design(DRIVE), Loops(tools.loops(DRIVE))
-    out: Dict[str, Any] = {"drive": DRIVE, "digest": design["digest"], "verdict_share": design["whole_loop"]["box_share"]}
+    out: Dict[str, Any] = {
+        "drive": DRIVE,
+        "digest": design["digest"],
+        "verdict_share": design["whole_loop"]["box_share"],
+    }
     out["attraction"] = []
     for at in ATTRACTION_POINTS:
         p = pick(loops, *at)

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The sampled loop of EQ-CERT-3 with any motor: the controller as `sdre-gains report --loops` writes it, the motor exact.
+"""The sampled loop of EQ-CERT-3 with any motor: the controller as `sdre-gains report --loops`
+writes it, the motor exact.
 
-State [w iq id (theta - theta^) | d_w^ d_q^ d_d^ w^ iq^ id^], of the controller alone [d_w^ d_q^ d_d^ w^ iq^ id^ theta^].
+State [w iq id (theta - theta^) | d_w^ d_q^ d_d^ w^ iq^ id^], of the controller alone [d_w^ d_q^
+d_d^ w^ iq^ id^ theta^].
 """
 
 from __future__ import annotations
@@ -50,12 +52,19 @@ class Loops:
     """All points of one drive."""
 
     def __init__(self, written: Dict[str, Any]) -> None:
-        self.motor, self.ts, self.drive = written["motor"], written["control_period_s"], written["drive"]
+        self.motor, self.ts, self.drive = (
+            written["motor"],
+            written["control_period_s"],
+            written["drive"],
+        )
         self.dc_link_V = written["dc_link_V"]
         self.points = [self._point(p) for p in written["points"]]
         self.box_points = [self._point(p) for p in written["box_points"]]
         for p in self.points + self.box_points:
-            if np.abs(self.matrix(p, Factors()) - p.believed).max() > AGREES * np.abs(p.believed).max():
+            if (
+                np.abs(self.matrix(p, Factors()) - p.believed).max()
+                > AGREES * np.abs(p.believed).max()
+            ):
                 raise ReportError(f"the loop at {p.speed:.0f} rad/s is not that of sdre-gains")
 
     @staticmethod
@@ -63,19 +72,29 @@ class Loops:
         P, G, PL, F = (np.array(p[k]) for k in ("P", "G", "L_Ts", "F"))
         PL = P @ PL
         C = np.eye(7)[4:]
-        return Point(p["speed_e_radps"], p["iq_A"], p["id_A"], P - PL @ C + G @ F, PL, F, G, np.array(p["A"]))
+        return Point(
+            p["speed_e_radps"], p["iq_A"], p["id_A"], P - PL @ C + G @ F, PL, F, G, np.array(p["A"])
+        )
 
     def plant(self, p: Point, f: Factors) -> Tuple[np.ndarray, np.ndarray]:
         """EQ-MOTOR-2 linearised, states w, iq, id, theta; inputs v_q, v_d."""
         m, n_p = self.motor, self.motor["pole_pairs"]
-        R, flux, J = f.R * m["stator_resistance_Ohm"], f.flux * m["pm_flux_Wb"], f.J * m["inertia_kgm2"]
+        R, flux, J = (
+            f.R * m["stator_resistance_Ohm"],
+            f.flux * m["pm_flux_Wb"],
+            f.J * m["inertia_kgm2"],
+        )
         Ld, Lq = f.L * m["d_axis_inductance_H"], f.L * m["q_axis_inductance_H"]
         shape = np.broadcast(R, Ld, flux, J).shape
         A, B = np.zeros((*shape, 4, 4)), np.zeros((*shape, 4, 2))
         k = 1.5 * n_p**2 / J
         A[..., 0, 0] = -m["viscous_friction_Nms"] / J
         A[..., 0, 1], A[..., 0, 2] = k * (flux + (Ld - Lq) * p.id), k * (Ld - Lq) * p.iq
-        A[..., 1, 0], A[..., 1, 1], A[..., 1, 2] = -(flux + Ld * p.id) / Lq, -R / Lq, -p.speed * Ld / Lq
+        A[..., 1, 0], A[..., 1, 1], A[..., 1, 2] = (
+            -(flux + Ld * p.id) / Lq,
+            -R / Lq,
+            -p.speed * Ld / Lq,
+        )
         A[..., 2, 0], A[..., 2, 1], A[..., 2, 2] = p.iq * Lq / Ld, p.speed * Lq / Ld, -R / Ld
         A[..., 3, 0] = 1.0
         B[..., 1, 0], B[..., 2, 1] = 1 / Lq, 1 / Ld
@@ -100,7 +119,8 @@ class Loops:
 
 
 def compose(p: Point, Phi: np.ndarray, Gamma: np.ndarray) -> np.ndarray:
-    """Motor and controller; theta and theta^ become their difference, of which alone anything depends."""
+    """Motor and controller; theta and theta^ become their difference, of which alone anything
+    depends."""
     A = np.zeros((*Phi.shape[:-2], 11, 11))
     A[..., :4, :4], A[..., :4, 4:] = Phi, Gamma @ p.F
     A[..., 4:, 1:4], A[..., 4:, 4:] = p.B_c, p.A_c

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Structured singular value: the largest share of the box of EQ-CERT-5 in which no constant motor makes the loop unstable.
+"""Structured singular value: the largest share of the box of EQ-CERT-5 in which no constant motor
+makes the loop unstable.
 
-Real uncertainties: 1/J, flux in the torque and in the EMF, R, 1/L of both axes, L in the torque. They are taken as independent, which
-the motor's are not. The share is therefore a lower bound. Over a period the middle of the box is exact; the trapezoidal rule adds the
-uncertainties. `modelled` compared with Loops.matrix shows the error of that.
+Real uncertainties: 1/J, flux in the torque and in the EMF, R, 1/L of both axes, L in the torque.
+They are taken as independent, which the motor's are not. The share is therefore a lower bound. Over
+a period the middle of the box is exact; the trapezoidal rule adds the uncertainties. `modelled`
+compared with Loops.matrix shows the error of that.
 """
 
 from __future__ import annotations
@@ -16,7 +18,9 @@ from scipy.linalg import expm
 
 from .loop import Factors, Loops, Point, box, corners
 
-FREQUENCIES = 64  # chosen: evenly over the logarithm from a ten-thousandth of the sampling rate to half of it
+FREQUENCIES = (
+    64  # chosen: evenly over the logarithm from a ten-thousandth of the sampling rate to half of it
+)
 REAL = np.ones(8, dtype=np.int32)
 ACCURACY = 0.01  # of the share
 BLOCKS = 8
@@ -45,15 +49,21 @@ def uncertain(loops: Loops, p: Point, share: float) -> Tuple[np.ndarray, ...]:
         return centre * form + W[len(z) - 1]
 
     torque = times(psi * iq, f, df) + times((Ld - Lq) * (p.id * iq + p.iq * id_), L, dL)
-    w_dot = times((1.5 * n_p**2 * torque - m["viscous_friction_Nms"] * w) / m["inertia_kgm2"], i, di)
-    iq_dot = times((vq - times(Rs * iq, R, dR) - times(psi * w, f, df)) / Lq, g, dg) - Ld / Lq * (p.speed * id_ + p.id * w)
+    w_dot = times(
+        (1.5 * n_p**2 * torque - m["viscous_friction_Nms"] * w) / m["inertia_kgm2"], i, di
+    )
+    iq_dot = times((vq - times(Rs * iq, R, dR) - times(psi * w, f, df)) / Lq, g, dg) - Ld / Lq * (
+        p.speed * id_ + p.id * w
+    )
     id_dot = times((vd - times(Rs * id_, R, dR)) / Ld, g, dg) + Lq / Ld * (p.speed * iq + p.iq * w)
     x_dot = np.array([w_dot, iq_dot, id_dot, w])
     Z = np.array(z)
     return (x_dot[:, :4], x_dot[:, 4:6], x_dot[:, 6:], Z[:, :4], Z[:, 4:6], Z[:, 6:])
 
 
-def closed(loops: Loops, p: Point, share: float) -> Tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def closed(
+    loops: Loops, p: Point, share: float
+) -> Tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """The whole sampled loop from w to z: A, B, C, D."""
     A, B, Bw, C, Dv, Dw = uncertain(loops, p, share)
     h = loops.ts
@@ -62,7 +72,12 @@ def closed(loops: Loops, p: Point, share: float) -> Tuple[np.ndarray, np.ndarray
     Cx, Cv, Cw = 0.5 * C @ (np.eye(4) + Phi), Dv + 0.5 * C @ Gamma, Dw + 0.5 * C @ Gw
     E = expm(h * np.block([[A, B], [np.zeros((2, 6))]]))  # the middle of the box exactly
     whole = np.zeros((11, 11))
-    whole[:4, :4], whole[:4, 4:], whole[4:, 1:4], whole[4:, 4:] = E[:4, :4], E[:4, 4:] @ p.F, p.B_c, p.A_c
+    whole[:4, :4], whole[:4, 4:], whole[4:, 1:4], whole[4:, 4:] = (
+        E[:4, :4],
+        E[:4, 4:] @ p.F,
+        p.B_c,
+        p.A_c,
+    )
     inputs = np.zeros((11, BLOCKS))
     inputs[:4] = Gw
     outputs = np.hstack([Cx, Cv @ p.F])
@@ -83,7 +98,8 @@ def modelled(loops: Loops, p: Point, share: float, f: Factors) -> np.ndarray:
 
 
 def peak(loops: Loops, p: Point, share: float) -> float:
-    """Largest upper bound of mu over the frequencies; infinite when the middle of the box is unstable."""
+    """Largest upper bound of mu over the frequencies; infinite when the middle of the box is
+    unstable."""
     A, B, C, D = closed(loops, p, share)
     if np.abs(np.linalg.eigvals(A)).max() >= 1.0:
         return float("inf")
@@ -111,7 +127,8 @@ def largest_share(loops: Loops, p: Point, most: float) -> float:
 
 
 def corner_share(loops: Loops, p: Point) -> float:
-    """Largest share at which the exact loop is stable in all corners: no share that is proved can be larger."""
+    """Largest share at which the exact loop is stable in all corners: no share that is proved can
+    be larger."""
     stable, unstable = 0.0, 1.0
     while unstable - stable > 0.001:
         middle = 0.5 * (stable + unstable)

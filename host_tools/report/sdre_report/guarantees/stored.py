@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Results of the last computation: guarantees.json, so that a report needs neither minutes nor solvers."""
+"""Results of the last computation: guarantees.json, so that a report needs neither minutes nor
+solvers."""
 
 from __future__ import annotations
 
