@@ -210,16 +210,14 @@ static bridge_t run(drive_t *d, const drive_sample_t *sample, const drive_comman
     return (wrong == DRIVE_FAULT_NONE) ? modulate(d, sample->dc_link_V) : trip(d, wrong);
 }
 
-/* With the currents that the law expects at this instant, for laws without a prediction those of the period before. */
-static bridge_t run_without_currents(drive_t *d, const drive_sample_t *sample,
-                                     const drive_command_t *command, float change_A)
+/* A sample with the currents that the law expects at this instant, for laws without a prediction those of the period before. */
+static drive_sample_t without_currents(const drive_t *d, const drive_sample_t *sample)
 {
     const law_output_t *out = &d->wanted; /* its angle is that of the middle of this period */
     const dq_t          i_A = {.d = out->now.id_A, .q = out->now.iq_A};
     const float theta_rad   = out->theta_rad - (0.5f * d->config->ts_s * out->now.omega_e_radps);
 
-    const drive_sample_t replaced = current_gate_replaced(sample, i_A, theta_rad);
-    return run(d, &replaced, command, change_A);
+    return current_gate_replaced(sample, i_A, theta_rad);
 }
 
 /* Expected are the currents of the middle of this period, a twentieth of a turn ahead at the most. */
@@ -263,11 +261,15 @@ bridge_t drive_tick(drive_t *d, const drive_sample_t *sample, const drive_comman
         d->state = DRIVE_OFF;
         return bridge_open();
     }
+    const drive_sample_t *used = sample;
+    drive_sample_t        replaced;
     if (currents == CURRENT_GATE_SPIKE) {
-        return run_without_currents(d, sample, command, change_A);
-    }
-    if (d->state == DRIVE_OFF) {
+        replaced = without_currents(d, sample);
+        used     = &replaced;
+    } else if (d->state == DRIVE_OFF) {
         start(d, sample);
+    } else {
+        /* runs, with what was measured */
     }
-    return run(d, sample, command, change_A);
+    return run(d, used, command, change_A); /* the one call, so that the compiler puts it here */
 }
