@@ -27,8 +27,8 @@ void prove_gate(void)
     config.overmodulation       = any_bool();
     config.positions            = any_bool();
     drive.wanted.arrived        = any_bool();
-    drive.motion_watch.voltage_next = any_bool();
-    drive.wanted.waits              = any_bool();
+    drive.motion_watch.look     = (motion_watch_look_t)any_between(0, 2);
+    drive.wanted.waits          = any_bool();
 
     const drive_state_t before  = drive.state;
     drive_sample_t      sample  = any_sample;

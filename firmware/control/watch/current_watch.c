@@ -62,41 +62,45 @@ CTL_PART void current_watch_expect(current_watch_t *w, const current_watch_expec
     w->models           = e->predicted;
 }
 
-/* What both phases are held against. */
+/* Bounds of both phases. */
 typedef struct {
     float forget; /* Ts / tau */
     float long_A; /* beyond it for LONG_s */
-    float most_A; /* beyond it at once */
-    float jump_A; /* of r alone */
-    float ts_s;
 } bounds_t;
 
 static bounds_t bounds_of(const current_watch_scale_t *scale)
 {
-    const float    i_A    = scale->current_max_A;
-    const float    jump_A = scale->jump_A;
-    const bounds_t bounds = {.forget = FORGET_1ps * scale->ts_s,
-                             .long_A = base_max(LONG_share * i_A, LONG_jump * jump_A),
-                             .most_A = base_max(LIES_share * i_A, LIES_jump * jump_A),
-                             .jump_A = jump_A,
-                             .ts_s   = scale->ts_s};
+    const bounds_t bounds = {
+        .forget = FORGET_1ps * scale->ts_s,
+        .long_A = base_max(LONG_share * scale->current_max_A, LONG_jump * scale->jump_A)};
     return bounds;
 }
 
+/* Beyond long_A: too far, or for too long. */
+static bool goes_on(current_watch_phase_t *p, float beyond_A, const current_watch_scale_t *scale)
+{
+    const float most_A = base_max(LIES_share * scale->current_max_A, LIES_jump * scale->jump_A);
+
+    p->lying_s += scale->ts_s;
+    return !(beyond_A <= most_A) || (p->lying_s > LONG_s);
+}
+
 /* EQ-CURRENT-WATCH-2, 3 */
-static inline bool lies(current_watch_phase_t *p, float i_A, const bounds_t *bounds)
+static inline bool lies(current_watch_phase_t *p, float i_A, const bounds_t *bounds,
+                        const current_watch_scale_t *scale)
 {
     const float change_A   = i_A - p->slow_A;
     const float residual_A = i_A - p->model_A;
     const float sum_A      = p->residual_A + (residual_A - (bounds->forget * p->residual_A));
     const float beyond_A   = fabsf(sum_A) - (EXPLAINED * fabsf(change_A));
-    const float step_s = (beyond_A > bounds->long_A) ? bounds->ts_s : (-RECOVERS * bounds->ts_s);
 
     p->slow_A += bounds->forget * change_A;
     p->residual_A = sum_A;
-    p->lying_s    = base_max(p->lying_s + step_s, 0.0f);
-    return !(beyond_A <= bounds->most_A) || (p->lying_s > LONG_s) ||
-           !base_within(residual_A, bounds->jump_A);
+    if (!(beyond_A <= bounds->long_A)) {
+        return goes_on(p, beyond_A, scale) || !base_within(residual_A, scale->jump_A);
+    }
+    p->lying_s = base_max(p->lying_s - (RECOVERS * scale->ts_s), 0.0f);
+    return !base_within(residual_A, scale->jump_A);
 }
 
 /* EQ-CURRENT-WATCH-4 */
@@ -126,7 +130,7 @@ CTL_PART current_watch_verdict_t current_watch_judge(current_watch_t *w, float i
         return CURRENT_WATCH_GOOD;
     }
     const bounds_t bounds = bounds_of(scale);
-    const bool     a_lies = lies(&w->phase[0], ia_A, &bounds);
-    const bool     b_lies = lies(&w->phase[1], ib_A, &bounds);
+    const bool     a_lies = lies(&w->phase[0], ia_A, &bounds, scale);
+    const bool     b_lies = lies(&w->phase[1], ib_A, &bounds, scale);
     return (a_lies || b_lies) ? CURRENT_WATCH_SENSOR : CURRENT_WATCH_GOOD;
 }

@@ -6,7 +6,7 @@
 #define DEAD_TIME 0.02f
 #define ODD_s     10.0e-3f /* chosen: twice what a step at the voltage limit takes */
 
-#define TURNS 2.0f /* the two halves take turns */
+#define LOOKS 3.0f /* take turns, one in a period */
 
 #define AT_LIMIT2 0.81f /* 0.9 of the limit */
 #define STILL_s                                                                                    \
@@ -22,7 +22,7 @@
 
 CTL_PART void motion_watch_reset(motion_watch_t *w)
 {
-    static const motion_watch_t rest = {.voltage_next = false};
+    static const motion_watch_t rest = {.look = MOTION_WATCH_LOOK_STALL};
 
     *w = rest;
 }
@@ -44,17 +44,16 @@ static bool is_odd(const motion_watch_input_t *in)
 }
 
 /* EQ-MOTION-WATCH-3 */
-static bool goes_away(motion_watch_t *w, const motion_watch_input_t *in, bool at_limit,
-                      float off_e_radps)
+static bool goes_away(motion_watch_t *w, const motion_watch_input_t *in, bool at_limit, float off)
 {
     const float change = in->command_e_radps - w->command_e_radps;
 
     if (!at_limit || !base_within(change, 1.0f)) {
         w->command_e_radps = in->command_e_radps;
-        w->nearest_e_radps = off_e_radps;
+        w->nearest_e_radps = off;
     }
-    w->nearest_e_radps = base_min(w->nearest_e_radps, off_e_radps);
-    return (off_e_radps > FAR_e_radps) && (off_e_radps > (w->nearest_e_radps + AWAY_e_radps));
+    w->nearest_e_radps = base_min(w->nearest_e_radps, off);
+    return (off > FAR_e_radps) && (off > (w->nearest_e_radps + AWAY_e_radps));
 }
 
 static motion_watch_verdict_t judge_voltage(motion_watch_t *w, const motion_watch_input_t *in,
@@ -64,31 +63,52 @@ static motion_watch_verdict_t judge_voltage(motion_watch_t *w, const motion_watc
     return (w->odd_s > ODD_s) ? MOTION_WATCH_ODD : MOTION_WATCH_GOOD;
 }
 
-static motion_watch_verdict_t judge_motion(motion_watch_t *w, const motion_watch_input_t *in,
-                                           float step_s)
+static bool is_at_limit(const motion_watch_input_t *in)
 {
-    const float i2_A2    = (in->now.id_A * in->now.id_A) + (in->now.iq_A * in->now.iq_A);
-    const float off      = fabsf(in->command_e_radps - in->now.omega_e_radps);
-    const bool  at_limit = i2_A2 > (AT_LIMIT2 * in->current_max_A * in->current_max_A);
-    const bool  pushes   = at_limit && (off > SLOW_e_radps);
-    const bool  no_edge  = in->edge_gap_s > base_min(w->still_s, GAP_SEEN_s);
+    const float i2_A2 = (in->now.id_A * in->now.id_A) + (in->now.iq_A * in->now.iq_A);
+
+    return i2_A2 > (AT_LIMIT2 * in->current_max_A * in->current_max_A);
+}
+
+static float off_e_radps(const motion_watch_input_t *in)
+{
+    return fabsf(in->command_e_radps - in->now.omega_e_radps);
+}
+
+static motion_watch_verdict_t judge_stall(motion_watch_t *w, const motion_watch_input_t *in,
+                                          float step_s)
+{
+    const bool pushes  = is_at_limit(in) && (off_e_radps(in) > SLOW_e_radps);
+    const bool no_edge = in->edge_gap_s > base_min(w->still_s, GAP_SEEN_s);
 
     w->still_s = counted(w->still_s, pushes && no_edge, step_s);
     w->slow_s =
         counted(w->slow_s, pushes && base_within(in->now.omega_e_radps, SLOW_e_radps), step_s);
-    w->away_s = counted(w->away_s, goes_away(w, in, at_limit, off), step_s);
+    return ((w->still_s > STILL_s) || (w->slow_s > SLOW_s)) ? MOTION_WATCH_STALL
+                                                            : MOTION_WATCH_GOOD;
+}
 
-    if ((w->still_s > STILL_s) || (w->slow_s > SLOW_s)) {
-        return MOTION_WATCH_STALL;
-    }
+static motion_watch_verdict_t judge_away(motion_watch_t *w, const motion_watch_input_t *in,
+                                         float step_s)
+{
+    w->away_s = counted(w->away_s, goes_away(w, in, is_at_limit(in), off_e_radps(in)), step_s);
     return (w->away_s > AWAY_s) ? MOTION_WATCH_AWAY : MOTION_WATCH_GOOD;
 }
 
 CTL_PART motion_watch_verdict_t motion_watch_judge(motion_watch_t             *w,
                                                    const motion_watch_input_t *in)
 {
-    const float step_s = TURNS * in->ts_s;
+    const float               step_s = LOOKS * in->ts_s;
+    const motion_watch_look_t look   = w->look;
 
-    w->voltage_next = !w->voltage_next;
-    return w->voltage_next ? judge_motion(w, in, step_s) : judge_voltage(w, in, step_s);
+    if (look == MOTION_WATCH_LOOK_STALL) {
+        w->look = MOTION_WATCH_LOOK_VOLTAGE;
+        return judge_stall(w, in, step_s);
+    }
+    if (look == MOTION_WATCH_LOOK_VOLTAGE) {
+        w->look = MOTION_WATCH_LOOK_AWAY;
+        return judge_voltage(w, in, step_s);
+    }
+    w->look = MOTION_WATCH_LOOK_STALL;
+    return judge_away(w, in, step_s);
 }

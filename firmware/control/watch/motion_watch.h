@@ -29,14 +29,21 @@ typedef enum {
     MOTION_WATCH_AWAY
 } motion_watch_verdict_t;
 
+/** The looks take turns, one in a period. */
+typedef enum {
+    MOTION_WATCH_LOOK_STALL = 0, /**< EQ-MOTION-WATCH-2 */
+    MOTION_WATCH_LOOK_VOLTAGE,   /**< EQ-MOTION-WATCH-1 */
+    MOTION_WATCH_LOOK_AWAY       /**< EQ-MOTION-WATCH-3 */
+} motion_watch_look_t;
+
 typedef struct {
     float odd_s;   /**< in a row, as the others */
     float still_s; /**< no edge */
     float slow_s;
     float away_s;
     float command_e_radps;
-    float nearest_e_radps; /**< least distance to it since it was given, at the current limit */
-    bool  voltage_next;    /**< EQ-MOTION-WATCH-1 is looked at in the next period */
+    float nearest_e_radps;    /**< least distance to it since it was given, at the current limit */
+    motion_watch_look_t look; /**< of the next period */
 } motion_watch_t;
 
 /** What a period knows. */
@@ -55,8 +62,8 @@ typedef struct {
 CTL_PART void motion_watch_reset(motion_watch_t *w);
 
 /**
- * @brief One period: EQ-MOTION-WATCH-1 or the other two, in turn. Each is found a period later than if it were looked at in
- * every one, which is nothing beside the shortest of their times, 10 ms.
+ * @brief One period looks at one of the three equations. Each is found up to two periods late: at 5 kHz 0.4 ms of 10 ms, the
+ * shortest of their times.
  *
  * Context: control ISR. No division.
  */
