@@ -54,13 +54,32 @@ typedef enum {
  * A NaN compares false everywhere but on the C28x, where it is an infinity of its sign. What is said of a NaN below holds
  * under both rules (tests/target/test_c28x_floats.cpp). */
 
-/** x limited to [lo, hi]; a NaN comes out as one of the two, so that no NaN passes a limit. As the larger and the smaller
- * of two numbers, for which processors have one instruction each. */
+/** a where it is the smaller one, else b; so b where one of them is a NaN, but on the C28x. */
+static inline float base_min(float a, float b)
+{
+#ifdef __TMS320C28XX_FPU32__
+    return __fmin(a, b);
+#else
+    return (a < b) ? a : b;
+#endif
+}
+
+/** a where it is the larger one, else b; so b where one of them is a NaN, but on the C28x. */
+static inline float base_max(float a, float b)
+{
+#ifdef __TMS320C28XX_FPU32__
+    return __fmax(a, b);
+#else
+    return (a > b) ? a : b;
+#endif
+}
+
+/** x limited to [lo, hi]; a NaN comes out as one of the two, so that no NaN passes a limit. */
 static inline float base_clamp(float x, float lo, float hi)
 {
-    const float at_least = (x >= lo) ? x : lo;
+    const float at_least = base_max(x, lo);
     /*@ admit number: \is_NaN(lo) || !\is_NaN(at_least); */ /* for tests/prove, which does not see it */
-    return (at_least > hi) ? hi : at_least;
+    return base_min(at_least, hi);
 }
 
 /** true when lo <= x <= hi; false for NaN, so it is the one check for untrusted numbers. */
@@ -73,18 +92,6 @@ static inline bool base_in_range(float x, float lo, float hi)
 static inline bool base_within(float x, float limit)
 {
     return fabsf(x) <= limit;
-}
-
-/** The smaller one of two numbers. */
-static inline float base_min(float a, float b)
-{
-    return (a < b) ? a : b;
-}
-
-/** The larger one of two numbers. */
-static inline float base_max(float a, float b)
-{
-    return (a > b) ? a : b;
 }
 
 #endif /* BASE_H */

@@ -14,8 +14,6 @@
 
 #include "base.h"
 
-#define FRAMES_ANGLE_MAX 5.0e4f /**< whose quarter turns an int16_t counts */
-
 /* Inline, because a call costs more than the arithmetic. In C and C++: members are set in their order. */
 
 /** An electrical angle, kept as its cosine and sine. */
@@ -27,13 +25,15 @@ typedef struct {
 /**
  * @brief Cosine and sine of an angle, the same bits on every machine.
  *
- * The angle less its multiple of pi/2 is at most pi/4; there both are polynomials:
+ * With r, the angle less its turns, within +-pi, and the sine as a polynomial within +-pi/2:
  *
- *     sin r = r + r^3 (s_1 + s_2 r^2 + s_3 r^4),  cos r = 1 - r^2 / 2 + r^4 (c_1 + c_2 r^2 + c_3 r^4)   EQ-FRAMES-3
+ *     sin = S(min(max(r, -pi - r), pi - r)),  cos = S(pi/2 - |r|)
+ *     S(x) = x + x^3 (s_1 + s_2 x^2 + s_3 x^4 + s_4 x^6)                    EQ-FRAMES-3
  *
- * Worst error within +-2 turns 9e-8, further out half a digit of the angle more (tests/unit/control/base/test_frames.c).
+ * Worst error within +-2 turns 1.7e-7, further out half a digit of the angle more (tests/unit/control/base/test_frames.c). Sums are
+ * rounded to the nearest number.
  *
- * @param theta_e_rad electrical angle of the d axis from phase a, +-FRAMES_ANGLE_MAX; beyond it the result has no
+ * @param theta_e_rad electrical angle of the d axis from phase a, +-5e4; beyond it the result has no
  *                    meaning, and of a NaN it is none.
  *
  * Context: control ISR. No division.

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "near_optimal.h"
 
-#include <math.h>
 #include <stddef.h>
 
 #include "current_clamp.h"
 #include "feedforward.h"
+#include "fpu.h"
 #include "frames.h"
 #include "voltage.h"
 
@@ -110,7 +110,8 @@ static float shared_error(near_optimal_t *s, float e_w, float asked, float allow
     if (base_within(asked - allowed, 0.0f)) {
         return e_w;
     }
-    const float share = allowed / asked; /* the limits are on both sides of zero: asked is none */
+    const float share =
+        allowed * fpu_inverse(asked); /* the limits are on both sides of zero: asked is none */
 
     s->theta_error_e_rad *= share;
     return share * e_w;
@@ -171,7 +172,8 @@ static dq_t clamped_V(const near_optimal_config_t *c, const motor_reduced_t *m,
                       const law_input_t *in)
 {
     const float share =
-        reached ? 1.0f : (in->sample->dc_link_V * BASE_1_SQRT3 / sqrtf(voltage_square(u_V)));
+        reached ? 1.0f
+                : (in->sample->dc_link_V * BASE_1_SQRT3 * fpu_inverse_root(voltage_square(u_V)));
     const dq_t v_V  = {.d = share * u_V.d, .q = share * u_V.q};
     const dq_t held = current_clamp_V(m, view->est, &view->now, v_V, in->v_V,
                                       c->current_ref.current_max_A, c->current_ref.samples_1ps);

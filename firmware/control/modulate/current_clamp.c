@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "current_clamp.h"
 
-#include <math.h>
+#include "fpu.h"
 
 /* Chosen: references end at the limit itself; noise and dead time stay inside this. */
 #define LIMIT_RATIO 1.03f
@@ -31,7 +31,7 @@ CTL_PART dq_t current_clamp_V(const motor_reduced_t *m, const nodo_t *est, const
     dq_t        out_V = v_V;
 
     if (step2 > (most * most)) { /* false of a NaN, which find_wrong() sees */
-        const float short_of = (most / sqrtf(step2)) - 1.0f;
+        const float short_of = (most * fpu_inverse_root(step2)) - 1.0f;
         out_V.q += m->inv_l6 * short_of * step_q;
         out_V.d += m->inv_l8 * short_of * step_d;
     }

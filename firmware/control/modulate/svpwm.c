@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "svpwm.h"
 
+#include "fpu.h"
 #include "frames.h"
 
 /* Three phase voltages, their middle and the distance of the outer two. */
@@ -33,14 +34,14 @@ CTL_PART abc_t svpwm_duty(ab_t v_V, float v_dc_V)
 {
     const phases_t phases = phases_of(v_V);
 
-    return duty_of(&phases, 1.0f / v_dc_V);
+    return duty_of(&phases, fpu_inverse(v_dc_V));
 }
 
 CTL_PART svpwm_t svpwm_within(ab_t v_V, float v_dc_V)
 {
     const phases_t phases  = phases_of(v_V);
     const bool     outside = phases.spread_V > v_dc_V;
-    const float    inv_V   = 1.0f / (outside ? phases.spread_V : v_dc_V);
+    const float    inv_V   = fpu_inverse(outside ? phases.spread_V : v_dc_V);
 
     const svpwm_t out = {.duty  = duty_of(&phases, inv_V),
                          .share = outside ? (v_dc_V * inv_V) : 1.0f}; /* EQ-SVPWM-2 */

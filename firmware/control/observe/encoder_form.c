@@ -2,6 +2,7 @@
 #include "encoder_form.h"
 
 #include "check.h"
+#include "fpu.h"
 
 CTL_PART bool encoder_form_check(const encoder_form_limits_t *limits)
 {
@@ -48,7 +49,7 @@ CTL_PART float encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad,
     /* T and 1 / T, of the gap or of the way of two counts; one division for all reciprocals. */
     const bool  by_gap  = (gap_s * speed) < two_rad;
     const float over    = by_gap ? gap_s : (speed * two_rad);
-    const float both    = 1.0f / (over * gains->d_omega_1ps2 * ts_s);
+    const float both    = fpu_inverse(over * gains->d_omega_1ps2 * ts_s);
     const float inv     = both * gains->d_omega_1ps2 * ts_s;
     const float inv_ts  = both * over * gains->d_omega_1ps2;
     const float inv_d   = both * over * ts_s;
@@ -140,7 +141,7 @@ CTL_PART float encoder_form_learn(encoder_form_edges_t *edges, const drive_sampl
     if ((before != 0) && (edges->edge[1] != 0)) {
         learn(edges, s, 0.5f * count_rad, LEARN_PERIODS * ts_s);
     }
-    const float per_gap_1ps = 1.0f / base_max(s->edge_gap_s, GAP_MIN_s);
+    const float per_gap_1ps = fpu_inverse(base_max(s->edge_gap_s, GAP_MIN_s));
     edges->omega_e_radps    = s->omega_e_radps;
     edges->per_gap_1ps      = per_gap_1ps;
     edges->edge[1]          = before;

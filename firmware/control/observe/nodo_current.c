@@ -2,6 +2,7 @@
 #include "nodo_current.h"
 
 #include "check.h"
+#include "fpu.h"
 #include "frames.h"
 
 enum { ROW_D_OMEGA, ROW_OMEGA, ROW_IQ, ROW_ID, ROW_THETA };
@@ -31,7 +32,7 @@ void nodo_current_correct(nodo_t *x, float *theta_rad, const nodo_current_gains_
 {
     const float   sign  = (x->omega_e_radps < 0.0f) ? -1.0f : 1.0f;
     const float   last  = (float)(NODO_CURRENT_NODES - 1);
-    const float   root  = sqrtf(base_min(fabsf(x->omega_e_radps), 1.0e9f));
+    const float   root  = fpu_root(base_min(fabsf(x->omega_e_radps), 1.0e9f));
     const float   place = base_clamp(g->nodes_per_root * (root - g->root), 0.0f, last);
     const int16_t node  = (int16_t)base_min(place, last - 1.0f);
     const float   share = place - (float)node;

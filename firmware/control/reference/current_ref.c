@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "current_ref.h"
 
-#include <math.h>
-
 #include "check.h"
+#include "fpu.h"
 
 /* Chosen: where the back-EMF is below this share of the voltage circle, no current inside the circle of
  * the shipped motors needs flux weakening; it also keeps every division by the speed away from zero. */
@@ -33,11 +32,6 @@ CTL_PART void current_ref_reset(current_ref_t *r, const current_ref_config_t *c)
     r->iq_circle_A  = c->current_max_A;
 }
 
-static float positive_sqrt(float x)
-{
-    return (x > 0.0f) ? sqrtf(x) : 0.0f;
-}
-
 /* Below this share of k^2 two terms of the series are nearer to the difference than what single precision leaves of it. */
 #define SERIES_SHARE 1.0e-3f
 
@@ -48,14 +42,14 @@ static float root_beyond_k(const current_ref_config_t *c, float x)
     const float share = c->mtpa_half_1pA * half; /* x / (2 k)^2 */
 
     return (share < (0.25f * SERIES_SHARE)) ? (half * (1.0f - share))
-                                            : (sqrtf((c->mtpa_A * c->mtpa_A) + x) - c->mtpa_A);
+                                            : (fpu_root((c->mtpa_A * c->mtpa_A) + x) - c->mtpa_A);
 }
 
 /* Acceleration per ampere of iq. It vanishes at id = l1 / -l11 > 0; it is held well above. */
 static float accel_per_A(const current_ref_config_t *c, const motor_reduced_t *m, float id_A)
 {
     const float l1_id = m->l1 + (m->l11 * id_A);
-    return (l1_id > c->l1_min) ? l1_id : c->l1_min;
+    return base_max(l1_id, c->l1_min);
 }
 
 static circle_t voltage_circle(const current_ref_config_t *c, const motor_reduced_t *m,
@@ -66,7 +60,7 @@ static circle_t voltage_circle(const current_ref_config_t *c, const motor_reduce
     circle_t    circle = {.active = (FW_SPEED_SHARE * v_6) < (c->flux_A * fabsf(w))};
 
     if (circle.active) {
-        const float both   = 1.0f / (w * accel); /* one division for both reciprocals */
+        const float both   = fpu_inverse(w * accel); /* one division for both reciprocals */
         const float inv_w  = accel * both;
         circle.inv_w_accel = both;
         circle.f_A         = v_6 * fabsf(inv_w);
@@ -88,7 +82,7 @@ static float id_weakening_A(const current_ref_config_t *c, const motor_reduced_t
         const float u = 0.5f * root_beyond_k(c, 2.0f * f2);
         q_flux        = -base_min(dq - v->f_A, u);
     } else {
-        q_flux = positive_sqrt(f2 - (dq * dq));
+        q_flux = fpu_root(f2 - (dq * dq));
     }
     return m->l9 * (q_flux - m->l5 - v->x_A);
 }
@@ -129,7 +123,7 @@ static float limit_regeneration(const current_ref_config_t *c, const circle_t *v
     const float power = share * c->regen_max_W_norm;
 
     if (-iq_A * w_accel > power) {
-        return -power * (v->active ? v->inv_w_accel : (1.0f / w_accel));
+        return -power * (v->active ? v->inv_w_accel : fpu_inverse(w_accel));
     }
     return iq_A;
 }
@@ -142,7 +136,7 @@ static void limit_iq(current_ref_t *r, const current_ref_config_t *c, const moto
     const float allowed  = 1.0f - in->derating;
     const float max_A    = allowed * c->current_max_A;
     const float room_A2  = (max_A * max_A) - (r->i_A.d * r->i_A.d);
-    const float circle_A = positive_sqrt(room_A2);
+    const float circle_A = fpu_root(room_A2);
     const float hi_A     = base_min(circle_A, allowed * c->iq_max_A);
     r->iq_circle_A       = circle_A;
     r->iq_lo_A           = -hi_A;
@@ -150,7 +144,7 @@ static void limit_iq(current_ref_t *r, const current_ref_config_t *c, const moto
 
     if (v->active) {
         const float q_A    = m->l5 + (m->l10 * in->state->id_A) + v->x_A;
-        const float half_A = positive_sqrt((v->f_A * v->f_A) - (q_A * q_A));
+        const float half_A = fpu_root((v->f_A * v->f_A) - (q_A * q_A));
         r->iq_lo_A         = base_clamp(v->y_A - half_A, -hi_A, 0.0f);
         r->iq_hi_A         = base_clamp(v->y_A + half_A, 0.0f, hi_A);
     }
@@ -195,7 +189,7 @@ CTL_PART void current_ref_update(current_ref_t *r, const current_ref_config_t *c
 {
     const float    accel = accel_per_A(c, m, in->state->id_A);
     const circle_t v     = voltage_circle(c, m, in, accel);
-    const float    inv   = v.active ? (in->state->omega_e_radps * v.inv_w_accel) : (1.0f / accel);
+    const float    inv = v.active ? (in->state->omega_e_radps * v.inv_w_accel) : fpu_inverse(accel);
     const float    load  = (m->l2 * w->omega_e_radps) - in->est->d_omega;
     const float    iq_A  = inv * (load + w->omega_dot_e_radps2); /* EQ-CURRENT-REF-1 */
     const float    all_A = inv * (load + w->accel_wanted_e_radps2) + in->iq_speed_A;

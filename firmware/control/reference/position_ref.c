@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "position_ref.h"
 
+#include "fpu.h"
+
 /* Of false position: with one the end takes some periods longer, with more than two it is no sooner (docs/equations.md). */
 #define PASSES 2
 
@@ -43,7 +45,7 @@ void position_ref_start(position_ref_t *r, const position_t *at, float omega_e_r
 static float braking_way_rad(const limits_t *l, float omega)
 {
     return ((omega * l->jerk) <= (l->decel * l->decel))
-               ? (omega * sqrtf(omega * l->per_jerk))
+               ? (omega * fpu_root(omega * l->per_jerk))
                : (0.5f * omega * ((omega * l->per_decel) + (l->decel * l->per_jerk)));
 }
 
@@ -89,7 +91,7 @@ static float accel_to_limit(const limits_t *l, const motion_t *m)
         l->of->speed_e_radps - (m->omega + (0.5f * l->ts_s * m->accel)); /* half a period on */
     const float half = 0.5f * l->ts_s * l->of->jerk_e_radps3;
     const float accel =
-        sqrtf((half * half) + (2.0f * l->of->jerk_e_radps3 * fabsf(missing))) - half;
+        fpu_root((half * half) + (2.0f * l->of->jerk_e_radps3 * fabsf(missing))) - half;
 
     return (missing < 0.0f) ? -accel : accel;
 }
@@ -98,7 +100,7 @@ static float accel_to_limit(const limits_t *l, const motion_t *m)
 static float next_jerk(const limits_t *l, const motion_t *m)
 {
     const float jerk  = l->of->jerk_e_radps3;
-    const float per_s = 1.0f / l->ts_s;
+    const float per_s = fpu_inverse(l->ts_s);
     const float most  = (m->omega < 0.0f) ? l->of->decel_e_radps2 : l->of->accel_e_radps2;
     const float up    = base_min(accel_to_limit(l, m), most);
     float       high  = base_clamp((up - m->accel) * per_s, -jerk, jerk);
@@ -116,9 +118,10 @@ static float next_jerk(const limits_t *l, const motion_t *m)
     }
     for (int16_t pass = 0; pass < PASSES;
          pass++) { /* false position; an end that stays counts half */
-        const float between = low + ((high - low) * spare_low / (spare_low - spare_high));
-        then                = after(l, m, between);
-        const float spare   = spare_rad(l, &then);
+        const float between =
+            low + ((high - low) * spare_low * fpu_inverse(spare_low - spare_high));
+        then              = after(l, m, between);
+        const float spare = spare_rad(l, &then);
         if (spare >= 0.0f) {
             low       = between;
             spare_low = spare;
@@ -129,7 +132,7 @@ static float next_jerk(const limits_t *l, const motion_t *m)
             spare_low *= 0.5f;
         }
     }
-    return low + ((high - low) * spare_low / (spare_low - spare_high));
+    return low + ((high - low) * spare_low * fpu_inverse(spare_low - spare_high));
 }
 
 /* What one period of jerk can end. */
@@ -143,7 +146,7 @@ static bool is_there(const limits_t *l, const motion_t *m)
 
 static void arrive(position_ref_t *r, const position_t *target, float ts_s)
 {
-    r->omega_2dot_e_radps3 = -r->omega_dot_e_radps2 / ts_s;
+    r->omega_2dot_e_radps3 = -r->omega_dot_e_radps2 * fpu_inverse(ts_s);
     r->at                  = *target;
     r->omega_e_radps       = 0.0f;
     r->omega_dot_e_radps2  = 0.0f;
@@ -182,8 +185,8 @@ void position_ref_update(position_ref_t *r, const position_profile_t *profile,
     const limits_t l     = {.of        = profile,
                             .jerk      = jerk,
                             .decel     = decel,
-                            .per_jerk  = 1.0f / jerk,
-                            .per_decel = 1.0f / decel,
+                            .per_jerk  = fpu_inverse(jerk),
+                            .per_decel = fpu_inverse(decel),
                             .ts_s      = ts_s};
     const motion_t seen  = {.way_rad = position_way_rad(&r->at, target),
                             .omega   = r->omega_e_radps,

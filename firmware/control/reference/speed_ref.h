@@ -19,6 +19,7 @@
 #define SPEED_REF_H
 
 #include "base.h"
+#include "fpu.h"
 
 typedef struct {
     float omega_e_radps;         /**< w_d, electrical */
@@ -49,7 +50,7 @@ static inline float speed_ref_stopping_acceleration(float distance, float jerk_s
     const float at_once = fabsf(distance) * samples_1ps;
     const float half    = 0.5f * jerk_step;
     const float accel   = (at_once > jerk_step)
-                              ? (sqrtf((half * half) + (2.0f * jerk_step * at_once)) - half)
+                              ? (fpu_root((half * half) + (2.0f * jerk_step * at_once)) - half)
                               : at_once; /* the last step lands on the command */
     return (distance < 0.0f) ? -accel : accel;
 }
