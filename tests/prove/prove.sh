@@ -19,7 +19,7 @@ laws=(noc noc_speed noc_h conventional dobc pid pi_foc ladrc)
 
 # How many states are told apart in these functions; in others Eva joins them where paths meet.
 declare -A apart=(
-    [prove_tick]=half_turn_of:40,double_series_row:200,dobc_update:400
+    [prove_tick]=double_series_row:200,dobc_update:400
     [prove_init]=check:100,check_finite:60,check_parity:30,check_rows:2000,conventional_check:200,dobc_check:300,\
 drive_config_check:100,drive_init:50,limits_ok:20,near_optimal_check:50,nodo_check:200,nodo_encoder_check:200,\
 nodo_harmonic_check:400,nodo_parity_check:100,nosc_check:200,numbers_ok:50,order_ok:5,prove_init:50,\

@@ -10,8 +10,8 @@
  * library's division costs more, and takes registers.
  *
  * On other machines the quotient itself stands for the estimate; all after it is the same code. TI does not publish the
- * estimates, so that last bits may differ there. Whatever the estimate, EQ-FPU-1 is within 2 units of the last place and EQ-FPU-2
- * within 2.5 (tests/unit/control/base/test_fpu.c); here the first is within 0.5 and the second within 1.5.
+ * estimates, so that last bits may differ there. Here EQ-FPU-1 is within 0.5 units of the last place and EQ-FPU-2 within 1.5.
+ * From any estimate of eight bits they are within 2 and 2.5 (tests/unit/control/base/test_fpu.c).
  *
  * Inline, because a call costs more. Context: control ISR. Pure.
  */

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "nodo_harmonic.h"
 
-#include <math.h>
-
+#include "check.h"
+#include "fpu.h"
 #include "frames.h"
 #include "nodo_encoder.h"
-
-#include "check.h"
 
 void nodo_harmonic_reset(nodo_harmonic_t *s, const nodo_meas_t *y, float theta_rad)
 {
@@ -41,7 +39,7 @@ static void look_up(lookup_t *at, const nodo_harmonic_gains_t *g, float omega_e_
                     const float r[3])
 {
     const int16_t last  = (int16_t)(g->n_nodes - 1);
-    const float   root  = g->nodes_per_root * sqrtf(fabsf(omega_e_radps));
+    const float   root  = g->nodes_per_root * fpu_root(fabsf(omega_e_radps));
     const float   place = base_clamp(root, 0.0f, (float)last);
     const int16_t whole = (int16_t)place;
     const int16_t below = (whole < last) ? whole : (int16_t)(last - 1);
@@ -67,8 +65,9 @@ static void multiply(change_t *out, const nodo_harmonic_gains_t *g, const lookup
     const float  *y    = at->by_upper;
 
     for (int16_t row = 0; row < rows; row++) {
-        const float *l = g->gain[row][at->below];
-        const float *u = g->gain[row][at->below + 1];
+        const float(*const node)[NODO_HARMONIC_N_G] = &g->gain[row][at->below];
+        const float *const l                        = node[0];
+        const float *const u                        = node[1];
 
         out->row[row] = (l[0] * x[0]) + (l[1] * x[1]) + (l[2] * x[2]) + (l[3] * x[3]) +
                         (l[4] * x[4]) + (l[5] * x[5]) + (u[0] * y[0]) + (u[1] * y[1]) +
@@ -130,54 +129,11 @@ void nodo_harmonic_correct(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, d
     apply(s, g, &change, sign);
 }
 
-/* The turn of a pair of order one in half a period, and that of orders 2, 4, 8, 16. */
-#define POWERS 5
-typedef struct {
-    float          dtheta_rad; /* of a whole period */
-    frames_angle_t power[POWERS];
-} half_turn_t;
-
-static frames_angle_t joined(frames_angle_t x, frames_angle_t y)
-{
-    const frames_angle_t z = {.cos = (x.cos * y.cos) - (x.sin * y.sin),
-                              .sin = (x.sin * y.cos) + (x.cos * y.sin)};
-    return z;
-}
-
 static frames_angle_t doubled(frames_angle_t x)
 {
     const float          two_sin = 2.0f * x.sin;
     const frames_angle_t z       = {.cos = 1.0f - (two_sin * x.sin), .sin = two_sin * x.cos};
     return z;
-}
-
-static void half_turn_of_order_one(half_turn_t *turn, float dtheta_rad)
-{
-    turn->dtheta_rad = dtheta_rad;
-    turn->power[0]   = frames_angle(0.5f * dtheta_rad);
-    for (int16_t i = 1; i < POWERS; i++) {
-        turn->power[i] = doubled(turn->power[i - 1]);
-    }
-}
-
-/* A whole order is a product of powers, which costs half of a sine and cosine. */
-static frames_angle_t half_turn_of(const half_turn_t *turn, float order)
-{
-    const float    size  = fabsf(order);
-    uint16_t       bits  = (uint16_t)size;
-    frames_angle_t angle = {.cos = 1.0f, .sin = 0.0f};
-
-    if (((float)bits < size) || (bits >= (1U << POWERS))) {
-        return frames_angle(0.5f * order * turn->dtheta_rad);
-    }
-    for (int16_t i = 0; bits != 0U; i++) {
-        if ((bits & 1U) != 0U) {
-            angle = joined(angle, turn->power[i]);
-        }
-        bits = (uint16_t)(bits >> 1);
-    }
-    angle.sin = (order < 0.0f) ? -angle.sin : angle.sin;
-    return angle;
 }
 
 /* What the pairs add to the disturbances; current sensors disturb nothing. */
@@ -215,20 +171,18 @@ static void turn_pair(nodo_harmonic_pair_t *pair, frames_angle_t half, frames_an
 static void turn_pairs(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, float dtheta_rad,
                        added_t *sum)
 {
-    half_turn_t    turn;
     frames_angle_t half   = {.cos = 1.0f, .sin = 0.0f};
     frames_angle_t whole  = {.cos = g->keep, .sin = 0.0f};
     float          before = 0.0f; /* a pair of order 0 does not turn */
 
-    half_turn_of_order_one(&turn, dtheta_rad);
     for (int16_t i = 0; i < g->n_pairs; i++) {
         const float order = g->pair[i].order;
 
         if ((order < before) || (order > before)) {
-            const float keep =
-                (fabsf(order * dtheta_rad) < NODO_HARMONIC_TURN_MAX) ? g->keep : g->keep_fast;
+            const float turn = order * dtheta_rad;
+            const float keep = base_within(turn, NODO_HARMONIC_TURN_MAX) ? g->keep : g->keep_fast;
 
-            half      = half_turn_of(&turn, order);
+            half      = frames_angle(0.5f * turn);
             whole     = doubled(half);
             whole.cos = keep * whole.cos;
             whole.sin = keep * whole.sin;

@@ -107,7 +107,7 @@ void nodo_harmonic_correct(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, d
 /**
  * @brief EQ-HARMONIC-1, 4: one period ahead with the voltage in force; view: what the law needs there.
  *
- * Context: control ISR. One sine and cosine, and one more for every order that is no whole number or beyond 31.
+ * Context: control ISR. One sine and cosine for each order, of neighbours in the list.
  */
 void nodo_harmonic_predict(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g,
                            const motor_reduced_t *m, dq_t v_V, float ts_s,
