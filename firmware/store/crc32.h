@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file crc32.h
- * @brief Check sum of words: CRC-32 of ISO-HDLC (polynomial 04C11DB7, reflected), the high octet of each word first.
+ * @brief CRC-32/ISO-HDLC (polynomial 04C11DB7, reflected) of 16-bit words.
  *
- * The same as zlib's crc32() of those octets.
+ * Each word enters high octet first. zlib's crc32() of the same octets gives the same value.
  */
 #ifndef CRC32_H
 #define CRC32_H
@@ -11,9 +11,18 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define CRC32_START 0UL /**< of no words */
+#define CRC32_START 0UL /**< CRC of an empty sequence */
 
-/** `crc` is that of the words before, CRC32_START at the beginning. */
+/**
+ * @brief Continues a CRC over further words.
+ *
+ * @param crc   CRC of the preceding words, or CRC32_START.
+ * @param words First of the words to add.
+ * @param count Number of words.
+ * @return CRC of all words so far.
+ *
+ * Context: any. Cost is proportional to `count`: 16 shifts a word.
+ */
 uint32_t crc32_words(uint32_t crc, const uint16_t *words, uint32_t count);
 
 #endif /* CRC32_H */

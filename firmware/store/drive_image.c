@@ -9,10 +9,10 @@
 
 static uint16_t octet(char c)
 {
-    return (uint16_t)((uint16_t)c & 0xFFU); /* a char of 16 bits has more */
+    return (uint16_t)((uint16_t)c & 0xFFU); /* a C28x char has 16 bits */
 }
 
-/* Two characters a word; the text has one more for its end. */
+/* Each word holds two characters. The buffer x has one more character, the terminating zero. */
 static void text(fields_t *f, char *x, uint16_t words)
 {
     for (uint16_t n = 0U; n < words; n++) {
@@ -25,7 +25,7 @@ static void text(fields_t *f, char *x, uint16_t words)
     x[2U * words] = '\0';
 }
 
-/* As much of a text as there is room for, filled up with zeros. */
+/* Copies a text, cut to 2 * words characters and padded with zeros. */
 static void copy_text(char *to, const char *from, uint16_t words)
 {
     uint16_t n = 0U;

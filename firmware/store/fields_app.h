@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file fields_app.h
- * @brief Walk over the constants of application and board; the table of temperatures is left as it is.
+ * @brief Serialises the constants of application and board, without the temperature table.
  */
 #ifndef FIELDS_APP_H
 #define FIELDS_APP_H
@@ -9,6 +9,7 @@
 #include "app_config.h"
 #include "fields.h"
 
+/** Reads or writes all members of `c`, as `f` was created for. Context: init, loader. */
 void fields_app(fields_t *f, app_config_t *c);
 
 #endif /* FIELDS_APP_H */

@@ -6,7 +6,7 @@
 #include "board.h"
 #include "crc32.h"
 
-/* Words of the head. */
+/* Word offsets in the head. */
 enum {
     HEAD_MARK = 0,
     HEAD_KIND,
@@ -18,7 +18,7 @@ enum {
     HEAD_CRC_LO
 };
 
-#define SUMMED_WORDS ((uint32_t)(HEAD_CRC_HI - HEAD_KIND)) /* of the head, in the CRC */
+#define SUMMED_WORDS ((uint32_t)(HEAD_CRC_HI - HEAD_KIND)) /* head words covered by the CRC */
 
 static uint16_t high(uint32_t x)
 {
@@ -81,7 +81,7 @@ static store_content_t look(store_kind_t kind, uint16_t slot)
     return found;
 }
 
-/* The slot of the newest content, and whether there is any. */
+/* Newest valid content of a kind and its slot. Without any, words is NULL and slot is the first. */
 static store_content_t find(store_kind_t kind, uint16_t *slot)
 {
     const uint16_t        first = first_slot(kind);
@@ -146,6 +146,6 @@ bool store_forget(store_kind_t kind)
     const store_content_t newest = find(kind, &slot);
     const uint16_t        other  = (uint16_t)((2U * first_slot(kind)) + 1U - slot);
 
-    /* The older one first: a cut in between leaves the newest. */
+    /* Erase the older slot first: a power cut between the two then leaves the newest content. */
     return board_store_erase(other) && ((newest.words == NULL) || board_store_erase(slot));
 }

@@ -1,19 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file store.h
- * @brief Words that outlast a power cut: two flash sectors in turn, so that the old ones stay until the new ones are whole.
+ * @brief Power-fail-safe non-volatile memory: two flash sectors per kind of content.
  *
- * A sector (board.h calls it a slot) begins with a head:
+ * A write goes to the older sector. The newest content stays valid until the write is complete.
+ *
+ * A sector (a slot in board.h) begins with a head; 32-bit values have the high word first:
  *
  *     0        STORE_MARK, written last: without it the slot is empty
- *     1        what the words are, store_kind_t; a reader looks for its own kind only
- *     2, 3     how many there are, high word first, as everywhere here
- *     4, 5     number of the writing; of two whole slots the higher one counts
+ *     1        kind of content, store_kind_t
+ *     2, 3     number of content words
+ *     4, 5     sequence number; the valid slot with the higher number is the newest
  *     6, 7     CRC-32 of words 1 to 5 and of the content
  *     8 ..     the content
  *
- * A power cut at any moment leaves the newer slot without mark, or with a mark and whole. Flash is erased to ones and
- * written once; a sector in which an erasure was cut holds anything, which the CRC tells.
+ * After a power cut during a write, the slot has no mark or is complete. An erased flash word is
+ * 0xFFFF and is written once. An interrupted erasure leaves undefined words; the CRC detects them.
  */
 #ifndef STORE_H
 #define STORE_H
@@ -21,48 +23,69 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define STORE_MARK       0x5D2EU /**< chosen; neither erased nor all zero, which a cut erasure leaves */
+#define STORE_MARK       0x5D2EU /**< chosen: neither all ones nor all zeros */
 #define STORE_HEAD_WORDS 8U
 
-/** Kinds of content; each has two slots of its own, 2 kind - 2 and 2 kind - 1. */
+/** Kinds of content. Each kind has two slots: 2 kind - 2 and 2 kind - 1. */
 typedef enum { STORE_IMAGE = 1, STORE_PARAMETERS } store_kind_t;
 
-/** What is being written. */
+/** A write in progress, from store_begin() to store_commit(). */
 typedef struct {
     store_kind_t kind;
     uint16_t     slot;
     uint32_t     count;  /**< words of the content */
-    uint32_t     number; /**< of the writing */
+    uint32_t     number; /**< sequence number */
 } store_write_t;
 
+/** Content in the flash. */
 typedef struct {
-    const uint16_t *words; /**< NULL: nothing is there */
+    const uint16_t *words; /**< NULL: there is no valid content */
     uint32_t        count;
-    uint32_t        number; /**< 1 and up */
+    uint32_t        number; /**< sequence number, from 1 */
 } store_content_t;
 
-/** Largest content, in words; 0 on a board without a store. */
+/** Largest content [words]; 0: the board has no store. Context: any. */
 uint32_t store_room(void);
 
-/** The newest whole content. Context: init, or the loader. */
+/** Finds the newest valid content of a kind. Context: init, or the loader. */
 store_content_t store_newest(store_kind_t kind);
 
-/** Erases the slot that does not hold the newest content. @return false: no room, or the board failed. Context: loader. */
+/**
+ * @brief Begins a write: erases the slot that does not hold the newest content.
+ *
+ * @param count Words of the new content.
+ * @return false: `count` exceeds store_room(), or the erasure failed.
+ *
+ * Context: loader. Takes seconds.
+ */
 bool store_begin(store_write_t *w, store_kind_t kind, uint32_t count);
 
-/** Writes words of the content from `offset` on; each of them once. @return false: beyond it, or the board failed. */
+/**
+ * @brief Writes part of the content. Each word may be written once.
+ *
+ * @param offset Position of the first word in the content.
+ * @return false: the words exceed the announced content, or programming failed.
+ *
+ * Context: loader.
+ */
 bool store_put(const store_write_t *w, uint32_t offset, const uint16_t *words, uint16_t count);
 
-/** The content as it is in the flash now, to be looked at before store_commit(). */
+/** The content as the flash holds it now, for checks before store_commit(). Context: loader. */
 store_content_t store_written(const store_write_t *w);
 
-/** CRC-32 of the head that store_commit() would write and of the content. */
+/** CRC-32 over the content and the head that store_commit() writes for it. */
 uint32_t store_crc(store_kind_t kind, const store_content_t *content);
 
-/** Makes the content the newest. @return false: the board failed; the old content stays in force. Context: loader. */
+/**
+ * @brief Completes a write: writes CRC and mark, and reads the content back.
+ *
+ * @return false: programming failed. The previous content stays valid.
+ *
+ * Context: loader.
+ */
 bool store_commit(const store_write_t *w);
 
-/** Erases both slots. @return false: the board failed. Context: loader. */
+/** Erases both slots of a kind. @return false: an erasure failed. Context: loader. */
 bool store_forget(store_kind_t kind);
 
 #endif /* STORE_H */
