@@ -6,19 +6,19 @@
 #include "svpwm.h"
 
 #define TRIP_RATIO 1.05f
-/* Chosen: with the bridge open. */
+/* Chosen: time of a watch with the bridge open. */
 #define WATCH_s    0.2f
 #define WATCHES    25 /* five seconds to come to rest */
 #define ZERO_SHARE 0.05f
 #define STAND_CNT  4L
-/* Nothing that is measured here is larger. */
+/* Plausibility limit of every result in SI units. */
 #define LARGEST    1.0e9f
 #define LOSS_SHARE 0.1f
 #define FADE_SHARE 0.005f
-/* Chosen: three degrees; they make the smaller of two inductances with a ratio of 7 by 2 % too large. */
+/* Chosen: three degrees. With an inductance ratio of 7 they raise the smaller inductance by 2 %. */
 #define AGAIN_rad 0.05f
 
-/* Longest time of a stage, and how far it is when it begins. */
+/* Time limit of a stage, and the progress at its start. */
 typedef struct {
     float   most_s;
     int16_t percent;
@@ -115,7 +115,7 @@ static commission_reason_t judge(commission_t *m, const commission_sample_t *s, 
                : COMMISSION_REASON_NONE;
 }
 
-/* Means of the currents with the bridge open. */
+/* Measures the current offsets with the bridge open. */
 static bridge_t watch(commission_t *m, const commission_sample_t *s)
 {
     const int32_t ticks = commission_ticks(WATCH_s, m->config->ts_s);
@@ -137,7 +137,7 @@ static bridge_t watch(commission_t *m, const commission_sample_t *s)
         (!still && (m->rounds >= WATCHES))) {
         return abort_for(m, COMMISSION_REASON_MOVING);
     }
-    if (!still) { /* it may come to rest, in a valley of its cogging */
+    if (!still) { /* cogging may still bring it to rest */
         m->rounds++;
         m->ticks    = 0L;
         m->zero_a_A = 0.0f;
@@ -228,7 +228,7 @@ static void next_stage(commission_t *m, const commission_signal_t *s)
         commission_spin_start(&m->work.spin, m->config, s, &m->found);
         break;
     default:
-        /* Axes that were this wrong were measured at the wrong angle. */
+        /* A larger correction means that MAP measured at a wrong angle: repeat it once. */
         if ((m->rounds == 0) && !base_within(m->found.moved_rad, AGAIN_rad)) {
             m->rounds++;
             m->stage = COMMISSION_MAP;
@@ -240,7 +240,7 @@ static void next_stage(commission_t *m, const commission_signal_t *s)
     }
 }
 
-/* Duty ratios of a voltage, with what the inverter loses added once it is known. Notes which voltage that is. */
+/* Duty ratios of the requested voltage plus the inverter loss, once known. Stores the voltage. */
 static bridge_t modulate(commission_t *m, const commission_answer_t *answer, float dc_link_V)
 {
     const svpwm_t wave  = svpwm_within(answer->v_V, dc_link_V);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "commission_angle.h"
 
-/* Chosen: one count of a coarse encoder, a degree electrical, then shows as 0.04 / Ts of it. */
+/* Chosen: one count of a coarse encoder is 1 deg electrical and appears as a speed of 0.04 deg /
+ * Ts. */
 #define POLE_PER_TS 0.04f
 
 /* Minimax fit on 0 .. 1. */
@@ -33,7 +34,7 @@ float commission_angle_shaft_rad(const commission_result_t *known, int32_t posit
 {
     const int32_t turn   = known->counts_per_turn;
     const int32_t within = position_cnt % turn;
-    /* Whole electrical turns go, in integers: below 1e6 counts and 100 pole pairs nothing overflows. */
+    /* Integer modulo removes whole turns. No overflow up to 1e6 counts and 100 pole pairs. */
     const int32_t steps = (within * (int32_t)known->pole_pairs) % turn;
     const float   share = ((float)steps + (0.5f * (float)known->pole_pairs)) / (float)turn;
     const float   angle = (float)known->direction * BASE_TWO_PI * share; /* EQ-COMMISSION-7 */

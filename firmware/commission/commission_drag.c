@@ -1,29 +1,31 @@
 /* SPDX-License-Identifier: MIT */
 #include "commission_drag.h"
 
-/* Chosen: shares of the current bound; first try, most, least. */
+/* Chosen: shares of the current limit: first try, largest, smallest. */
 #define FIRST_SHARE 0.1f
 #define MOST_SHARE  0.6f
 #define LEAST_SHARE 0.02f
 #define RAMP_s      0.5f
 #define STILL_s     0.2f
 #define PATIENCE_s  6.0f
-/* Chosen: electrical. Below a third of what the rotor swings at, it follows; slower than the least takes minutes. */
+/* Chosen, electrical speeds. The rotor follows below a third of its oscillation frequency. The
+ * least speed keeps the test below minutes. */
 #define SWING_SHARE   0.3f
 #define SLOWEST_radps 1.2f
 #define FASTEST_radps 6.0f
 #define SPEED_RAMP_s  1.0f
-/* Whole mechanical turns, but no more electrical ones than this; and to find two indexes. */
+/* Limit of electrical turns for a whole mechanical turn, and for two index pulses. */
 #define MOST_TURNS  8
 #define INDEX_TURNS 64
-/* x above this many S I is a magnet; the current is then below a third of where the magnet would let go. */
+/* x above this ratio to S I means a magnet. The current then stays well below the one at which the
+ * rotor leaves the d axis. */
 #define MAGNET_RATIO 1.4f
 #define HOLD_RATIO   3.0f
 #define LESS         0.4f
-/* Pole pairs are whole within this. */
+/* Tolerance of a whole number of pole pairs. */
 #define WHOLE 0.1f
 
-/* Parts of a pass. */
+/* Parts of a pass, in order. */
 enum { SETTLE = 0, LEAD_FORWARD, FORWARD, TURN, BACKWARD, RELEASE, PARTS };
 
 static void begin_part(commission_drag_t *d, int16_t part)
@@ -69,7 +71,7 @@ static void note_index(commission_drag_t *d, const commission_signal_t *s,
         const int32_t turn     = commission_moved_cnt(s->index_cnt, d->index_cnt);
         found->counts_per_turn = (turn < 0L) ? -turn : turn;
     } else {
-        /* one more of the same */
+        /* further index pulses add nothing */
     }
     d->indexes++;
     found->indexed   = true;
@@ -83,7 +85,7 @@ static int16_t turns_of(const commission_result_t *found)
                                               : found->pole_pairs;
 }
 
-/* Counts and kind of alignment are known: the pass that finds the offset. */
+/* Begins the pass that measures the offset. Counts and type of alignment are known. */
 static void begin_second(commission_drag_t *d, const commission_config_t *c,
                          const commission_result_t *found)
 {
@@ -97,7 +99,7 @@ static void begin_second(commission_drag_t *d, const commission_config_t *c,
                (found->counts_per_turn > 0L) ? turns_of(found) : INDEX_TURNS);
 }
 
-/* A rotor that stays behind gets more current, unless less was tried than one that it followed. */
+/* The rotor did not follow: doubles the current. If an earlier current worked, uses that one. */
 static commission_step_t try_again(commission_drag_t *d, const commission_config_t *c,
                                    const commission_result_t *found)
 {
@@ -114,7 +116,7 @@ static commission_step_t try_again(commission_drag_t *d, const commission_config
     return COMMISSION_BUSY;
 }
 
-/* What the first pass says. */
+/* Evaluates the first pass. */
 static commission_step_t judge_first(commission_drag_t *d, const commission_config_t *c,
                                      commission_result_t *found)
 {
@@ -168,7 +170,8 @@ static commission_step_t judge_second(commission_drag_t *d, const commission_con
     return COMMISSION_DONE;
 }
 
-/* With an unknown number of counts the second pass waits for two indexes, which give the pole pairs too, and begins again. */
+/* True at the end of the forward part. With unknown counts per turn, the second pass waits for two
+ * index pulses; they also give the pole pairs. Then the pass begins again. */
 static bool forward_done(commission_drag_t *d, commission_result_t *found)
 {
     const float turned = d->way_rad / BASE_TWO_PI;
@@ -250,7 +253,7 @@ commission_answer_t commission_drag_tick(commission_drag_t *d, const commission_
     } else if (ends) {
         begin_part(d, (int16_t)(d->part + 1));
     } else {
-        /* goes on */
+        /* the part continues */
     }
     answer.v_V = out.out_V;
     answer.i_A = frames_inverse_park(out.i_A, frames_angle(d->theta_rad));

@@ -3,9 +3,9 @@
 
 #include "commission_angle.h"
 
-/* Measured on six motors (docs/commissioning.md): what the scatter of one run does not show. */
+/* Systematic error that the scatter of one run does not show; six motors, docs/commissioning.md. */
 #define SYSTEMATIC 0.005f
-/* An induced voltage below this share of the dc link says nothing about the magnet's direction. */
+/* A back-EMF below this share of the dc link does not show the magnet's direction. */
 #define EMF_SHARE 0.03f
 
 void commission_emf_add(commission_emf_t e[2], const commission_result_t *known,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "commission_fit.h"
 
-/* Columns whose angle has a smaller squared sine than this are the same in single precision. */
+/* Below this squared sine of their angle, two columns are parallel in single precision. */
 #define LEAST_SINE2 1.0e-5f
 
 void commission_fit_reset(commission_fit_t *f)

@@ -25,16 +25,16 @@ typedef struct {
     float x1;
     float error0; /**< twice the standard deviation */
     float error1;
-    bool  valid; /**< the two columns can be told apart */
+    bool  valid; /**< the two columns are linearly independent */
 } commission_fitted_t;
 
-/** Empty. */
+/** Removes all equations. */
 void commission_fit_reset(commission_fit_t *f);
 
-/** One equation. Context: control ISR. */
+/** Adds the equation y = x0 a + x1 b. Context: control ISR. */
 void commission_fit_add(commission_fit_t *f, float a, float b, float y);
 
-/** EQ-COMMISSION-1. Context: control ISR, at the end of a stage. */
+/** Solves the equations, EQ-COMMISSION-1. Context: control ISR, at the end of a stage. */
 commission_fitted_t commission_fit_solve(const commission_fit_t *f);
 
 #endif /* COMMISSION_FIT_H */

@@ -1,24 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 #include "commission_inductance.h"
 
-/* Chosen: a current whose reluctance torque hardly moves a rotor within the look, but of 25 times the noise of a usual sensor. */
+/* Chosen: the reluctance torque hardly moves the rotor, and the current is 25 times the usual
+ * noise. */
 #define LOOK_SHARE  0.06f
 #define LOOK_HALVES 40
 #define LOOK_AXES   4
 #define MAP_SHARE   0.8f
 #define MAP_HALVES  48
-/* Chosen: of the bound, in full when this share of the dc link is induced. */
+/* Chosen: share of the current limit; reached when the back-EMF is this share of the dc link. */
 #define BRAKE_SHARE     0.1f
 #define BRAKE_EMF_SHARE 0.02f
-/* Measured on six motors (docs/commissioning.md): what the scatter of one run does not show. */
+/* Systematic error that the scatter of one run does not show; six motors, docs/commissioning.md. */
 #define SYSTEMATIC 0.01f
-/* Beyond what a measurement of two equal inductances is off. */
+/* Chosen: exceeds the measurement error of two equal inductances. */
 #define CROSSED 1.1f
-/* Chosen: of a bin. Nearer to zero it is not known what the inverter loses. */
+/* Chosen: share of a bin. Closer to zero current the inverter loss is unknown. */
 #define CROSSING 0.4f
-/* Without voltage before each wave: the noise of the current is measured, and what is left of a current dies out. */
+/* Periods at zero voltage before each wave: the current decays and its noise is measured. */
 #define REST_TICKS 200
-/* The current has not died out before: in the second half it is noise. */
+/* The noise is measured after this many periods: the current has then decayed. */
 #define QUIET_TICKS 100
 
 void commission_inductance_start(commission_inductance_t *l)
@@ -50,7 +51,7 @@ static void next_axis(commission_inductance_t *l)
     l->wait_ticks = 0;
 }
 
-/* EQ-COMMISSION-5. L of a motor whose current rises slowest along q. */
+/* Inductances from LOOK, EQ-COMMISSION-5. The larger one is taken for the q axis. */
 static bool set_look(commission_inductance_t *l, const commission_config_t *c,
                      commission_result_t *found)
 {
@@ -74,8 +75,8 @@ static bool set_look(commission_inductance_t *l, const commission_config_t *c,
     return found->ld_H.value > 0.0f;
 }
 
-/* Where the wave acts: alpha, beta, then the axes that these two have shown: along them both inductances get a wave of
- * their own height, which the first two leave to the smaller one. */
+/* Direction of the wave: alpha, beta, then the two axes that these waves showed. Along its own axis
+ * each inductance gets its own amplitude. In alpha and beta the smaller inductance sets it. */
 static void set_direction(commission_inductance_t *l)
 {
     const commission_fitted_t a = commission_fit_solve(&l->alpha);
@@ -151,7 +152,7 @@ static void merge(commission_bin_t *into, const commission_bin_t *b)
     into->n += b->n;
 }
 
-/* EQ-COMMISSION-6; 0 where too little was seen. */
+/* EQ-COMMISSION-6; 0 with too few samples. */
 static commission_value_t bin_H(const commission_bin_t *b, float noise_A2, float ts_s)
 {
     commission_value_t out = {0.0f, 0.0f};
@@ -194,7 +195,7 @@ static void swap(float *a, float *b)
     *b               = kept;
 }
 
-/* A larger inductance along d than along q: what was taken for the magnet's axis is the reluctance motor's q axis. */
+/* Ld above Lq means that the assumed d axis is the q axis of a reluctance motor. Swaps the axes. */
 static void turn_if_crossed(commission_result_t *found)
 {
     if (!(found->ld_H.value > (CROSSED * found->lq_H.value))) {
@@ -211,8 +212,8 @@ static void turn_if_crossed(commission_result_t *found)
     found->reluctance       = true;
 }
 
-/* Shifts the wave so that its mean current brakes a rotor that has got speed: steps of the current are finer on the side to
- * which the induced voltage pushes, which would drive it on. */
+/* Shift of the wave: its mean current brakes a moving rotor. Without it the wave would drive the
+ * rotor, as the current steps are finer on the side towards which the back-EMF pushes. */
 static float brake_A(const commission_inductance_t *l, const commission_signal_t *s,
                      const commission_result_t *found, float bound_A)
 {

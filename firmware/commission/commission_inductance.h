@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file commission_inductance.h
- * @brief Inductances from square waves of voltage, in the stator's frame without knowing the angle, or along d and q.
+ * @brief Inductances from square-wave voltages, in the stator frame or along d and q.
  *
  *     v Ts = L di + (R i + loss) Ts,  L 2 x 2 by least squares from v and di              EQ-COMMISSION-4
  *     axis of the larger one: tan 2 a = 2 L_ab / (L_aa - L_bb)                            EQ-COMMISSION-5
  *     along an axis: L = Ts sum(di (v - R i - e)) / (sum(di^2) - n var)                   EQ-COMMISSION-6
  *
- * R i and what the inverter loses are odd in the current and di is even over a full wave, so that both hardly touch L;
- * what is known of R is subtracted all the same. e is what the moving magnet induces in q, from the counted speed. var:
- * of the noise of di, from the samples of a standing motor; it would make L too small.
+ * The stator-frame measurement needs no rotor angle. R i and the inverter loss are odd in the
+ * current and di is even over a full wave: both hardly change L. The known part of R i is
+ * subtracted anyway.
+ *
+ * Here e is the back-EMF in the q axis, from the counted speed. The variance var is that of the
+ * noise of di, from samples with the motor at rest; without this correction L would be too small.
  */
 #ifndef COMMISSION_INDUCTANCE_H
 #define COMMISSION_INDUCTANCE_H
@@ -28,28 +31,28 @@ typedef struct {
 
 typedef struct {
     commission_wave_t  wave;
-    int16_t            axis;      /**< of the look 0 .. 3, of the map d, q */
-    frames_angle_t     direction; /**< of the look's wave */
+    int16_t            axis;      /**< LOOK: 0 .. 3, MAP: d, q */
+    frames_angle_t     direction; /**< of the wave in LOOK */
     int16_t            wait_ticks;
     commission_fit_t   alpha; /**< v_alpha against di, both axes' waves */
     commission_fit_t   beta;
     commission_bin_t   bins[2][2][COMMISSION_BINS]; /**< axis, sign of the current, bin */
-    float              noise_A2; /**< variance of di of a standing current, both axes' mean */
+    float              noise_A2; /**< variance of di at rest, mean of both axes */
     float              noise_n;
     int32_t            before_cnt;
-    commission_angle_t angle; /**< its speed */
+    commission_angle_t angle; /**< tracks the angle for the speed */
 } commission_inductance_t;
 
-/** Context: control ISR. */
+/** Starts LOOK or MAP. Context: control ISR. */
 void commission_inductance_start(commission_inductance_t *l);
 
-/** One period of the first look: L and its axis in the stator's frame. */
+/** Executes one period of LOOK: inductances and their axis in the stator frame. */
 commission_answer_t commission_inductance_look(commission_inductance_t   *l,
                                                const commission_config_t *c,
                                                const commission_signal_t *s,
                                                commission_result_t       *found);
 
-/** One period along d and q of a rotor whose angle is known; it may move. */
+/** Executes one period of MAP: inductances along d and q. The rotor angle is known; it may move. */
 commission_answer_t commission_inductance_map(commission_inductance_t   *l,
                                               const commission_config_t *c,
                                               const commission_signal_t *s,

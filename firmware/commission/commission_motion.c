@@ -3,9 +3,9 @@
 
 #include "commission_fit.h"
 
-/* Chosen: an inertia that is known no better than this is none. */
+/* Chosen: largest relative error of an inertia that is accepted. */
 #define WORST 0.25f
-/* Windows without current, below which their two columns rest on noise. */
+/* Fewer windows without current cannot separate the two kinds of friction from noise. */
 #define LEAST_COASTING 4
 
 void commission_motion_start(commission_motion_t *m)
@@ -32,7 +32,7 @@ static float rad_per_cnt(const commission_result_t *known)
     return (float)known->direction * BASE_TWO_PI / (float)known->counts_per_turn;
 }
 
-/* The speed at the instant is known: the window that it ends is whole. */
+/* Closes the window that ends at the instant; its speed is now known. */
 static void close_window(commission_motion_t *m, const commission_config_t *c,
                          const commission_result_t *known, int32_t position_cnt)
 {
@@ -94,7 +94,7 @@ typedef struct {
     float error_radps2;
 } slowing_t;
 
-/* J, with what is known of the slowing. */
+/* Inertia from the driven windows and the known deceleration. */
 static commission_value_t inertia_of(const commission_motion_t *m, const commission_result_t *known,
                                      const slowing_t *slow)
 {
@@ -122,7 +122,7 @@ static commission_value_t inertia_of(const commission_motion_t *m, const commiss
     return j;
 }
 
-/* Friction alone, viscous or dry, where the two together say that one of them drives. */
+/* Makes both coefficients non-negative: if one is negative, refits the other one alone. */
 static void keep_braking(slowing_t *slow, const commission_fit_t *f)
 {
     if ((slow->rate_1ps < 0.0f) && (f->bb > 0.0f)) {
@@ -132,13 +132,13 @@ static void keep_braking(slowing_t *slow, const commission_fit_t *f)
         slow->rate_radps2 = 0.0f;
         slow->rate_1ps    = f->ay / f->aa;
     } else {
-        /* both brake */
+        /* both are non-negative, or a refit is impossible */
     }
     slow->rate_1ps    = base_max(slow->rate_1ps, 0.0f);
     slow->rate_radps2 = base_max(slow->rate_radps2, 0.0f);
 }
 
-/* @return false: it did not coast for long enough. */
+/* Deceleration from the coasting windows. @return false: the shaft did not coast long enough. */
 static bool slowing_of(const commission_motion_t *m, const commission_result_t *known,
                        float per_inertia, slowing_t *slow)
 {
@@ -164,7 +164,7 @@ static bool slowing_of(const commission_motion_t *m, const commission_result_t *
     return true;
 }
 
-/* The torque is as wrong as what makes it. */
+/* Relative torque error: that of the flux, or of Lq - Ld in a reluctance motor. */
 static float relative_torque_error(const commission_result_t *r)
 {
     const float flux = r->flux_Wb.error / base_max(r->flux_Wb.value, 1.0e-9f);
@@ -173,8 +173,8 @@ static float relative_torque_error(const commission_result_t *r)
     return r->reluctance ? base_min(l, 1.0f) : base_min(flux, 1.0f);
 }
 
-/* A shaft that stops before it has coasted: both torques' windows, forward and backward, tell J from dry friction, and
- * nothing tells that from viscous. */
+/* For a shaft that stops too early to coast. Windows with torque in both directions separate J from
+ * dry friction. Dry and viscous friction cannot be separated. */
 static bool solve_driven(const commission_motion_t *m, commission_result_t *found)
 {
     commission_fit_t fit;

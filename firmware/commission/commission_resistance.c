@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "commission_resistance.h"
 
-/* Chosen: shares of the current bound. */
+/* Chosen: shares of the current limit. */
 #define PULL_SHARE  0.05f
 #define LEVEL_SHARE 0.15f
 #define LEVELS      4
-/* Chosen: times. The mean takes many periods of noise; the shaft gets a few seconds to stand, then it is measured all the
- * same: what a swinging magnet induces along the vector has no mean. */
+/* Chosen: times. A mean covers many periods of noise. The shaft has a few seconds to come to rest.
+ * After that the measurement goes on: the voltage induced by an oscillating magnet averages to
+ * zero. */
 #define RAMP_s      0.5f
 #define STILL_s     0.2f
 #define PATIENCE_s  12.0f
@@ -95,12 +96,12 @@ commission_answer_t commission_resistance_tick(commission_resistance_t   *r,
     const bool ramped = fabsf(out.length_A - length_A) <= (0.01f * length_A);
 
     if (ramped && (r->at_angle != r->angle)) {
-        r->at_angle = r->angle; /* turned with a small current only */
+        r->at_angle = r->angle; /* the vector turns at a small current only */
         r->ticks    = 0L;
     } else if (ramped) {
         r->ticks++;
     } else {
-        /* on the way to the level */
+        /* the current ramps to the level */
     }
     const bool still = commission_vector_still(&r->vector, STILL_s);
     const bool late  = r->ticks > commission_ticks(PATIENCE_s, c->ts_s);

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file commission_resistance.h
- * @brief Resistance and what the inverter loses, from direct currents.
+ * @brief Resistance and inverter voltage loss, from direct currents.
  *
  *     v_along = R I + 4/3 v_loss,  four currents at each of three angles 120 degrees apart    EQ-COMMISSION-8
  *
- * At these angles one phase carries I and the others -I/2 each; of three phases that lose v_loss against their currents
- * 4/3 v_loss is left along the vector, the same for all levels. The slope therefore has nothing of it. The three slopes
- * differ by what the windings and the current sensors differ; their spread is the error.
+ * At these angles one phase carries I and the other two carry -I/2. Each phase loses v_loss against
+ * its current. Along the vector this is 4/3 v_loss at every current level, so the slope is R alone.
+ * Windings and current sensors differ: the spread of the three slopes is the error.
  *
- * The current rises on a ramp, and first to a level at which a rotor that swings into place induces little.
+ * The current rises on a ramp. The first level is small, so that a rotor swinging into place
+ * induces little voltage.
  */
 #ifndef COMMISSION_RESISTANCE_H
 #define COMMISSION_RESISTANCE_H
@@ -25,21 +26,21 @@ typedef struct {
     commission_fit_t    line;
     commission_fitted_t lines[COMMISSION_ANGLES];
     int16_t             angle;
-    int16_t             at_angle; /**< where the vector is */
-    int16_t             level;    /**< -1: pulls the rotor into place */
+    int16_t             at_angle; /**< present angle of the vector, 0 .. 2 */
+    int16_t             level;    /**< -1: aligns the rotor */
     int32_t             ticks;
-    int32_t             mean_ticks; /**< of the mean that is being taken; 0: the current settles */
+    int32_t             mean_ticks; /**< length of the present mean; 0: the current settles */
     int32_t             sums;
     float               sum_v_V;
     float               sum_i_A;
     float               half_swing_s;
 } commission_resistance_t;
 
-/** Context: control ISR. */
+/** Starts at the first angle. Context: control ISR. */
 void commission_resistance_start(commission_resistance_t *r, const commission_config_t *c,
                                  const commission_result_t *known);
 
-/** One period. */
+/** Executes one period. `found` gets the results with COMMISSION_DONE. Context: control ISR. */
 commission_answer_t commission_resistance_tick(commission_resistance_t   *r,
                                                const commission_config_t *c,
                                                const commission_signal_t *s,

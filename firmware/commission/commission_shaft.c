@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "commission_shaft.h"
 
-/* Speeds are counted over this time; a single step may be this many times the largest speed and a few counts. */
+/* Speeds are counted over SPEED_s. One step may be a multiple of the speed limit plus a few
+ * counts. */
 #define SPEED_s    0.001f
 #define STEP_RATIO 3.0f
 #define STEP_CNT   6.0f
@@ -13,7 +14,7 @@ void commission_shaft_start(commission_shaft_t *w, int32_t position_cnt)
     w->speed_ticks  = 0L;
 }
 
-/* The position may move by so many counts in a time. */
+/* Largest plausible movement of the position in a time. */
 static float most_cnt(const commission_config_t *c, int32_t counts_per_turn, float time_s)
 {
     return c->speed_max_m_radps * time_s * (float)counts_per_turn / BASE_TWO_PI;

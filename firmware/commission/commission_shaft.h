@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file commission_shaft.h
- * @brief Whether a position can be: its step from sample to sample, and the speed over a millisecond.
+ * @brief Plausibility of the position: its step between samples, and the speed over a millisecond.
  */
 #ifndef COMMISSION_SHAFT_H
 #define COMMISSION_SHAFT_H
@@ -16,14 +16,14 @@ typedef enum {
 
 typedef struct {
     int32_t position_cnt;
-    int32_t speed_cnt; /**< position at the beginning of the window of the speed */
+    int32_t speed_cnt; /**< position at the start of the speed window */
     int32_t speed_ticks;
 } commission_shaft_t;
 
-/** Begin here. Context: control ISR. */
+/** Starts at this position. Context: control ISR. */
 void commission_shaft_start(commission_shaft_t *w, int32_t position_cnt);
 
-/** One period. @param counts_per_turn 0: not known, nothing is judged. Context: control ISR. */
+/** Judges one sample. @param counts_per_turn 0: unknown, no judgement. Context: control ISR. */
 commission_shaft_judgement_t commission_shaft_judge(commission_shaft_t        *w,
                                                     const commission_config_t *c,
                                                     int32_t counts_per_turn, int32_t position_cnt);

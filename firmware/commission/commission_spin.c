@@ -1,35 +1,36 @@
 /* SPDX-License-Identifier: MIT */
 #include "commission_spin.h"
 
-/* Chosen: current loops far below the sampling rate, with one period and a half of delay. */
+/* Chosen: current loop bandwidth far below the sampling rate; the delay is 1.5 periods. */
 #define BANDWIDTH_PER_TS 0.2f
 #define INTEGRAL_SHARE   0.1f
-/* Chosen: shares of the current bound. */
+/* Chosen: shares of the current limit. */
 #define TRY_SHARE   0.1f
 #define USUAL_SHARE 0.3f
 #define MOST_SHARE  0.6f
 #define LEAST_SHARE 0.05f
-/* Chosen: the trial ends after two electrical turns, or when nothing moves. */
+/* Chosen: the trial ends after two electrical turns or after TRY_s. */
 #define TRY_TURNS      2.0f
 #define LEAST_TURNS    0.25f
 #define TRY_s          1.5f
 #define REST_s         0.2f
 #define PATIENCE_s     5.0f
 #define STANDING_radps 3.0f
-/* Chosen: largest speed, of the bound and of what the dc link holds. */
+/* Chosen: largest speed, as shares of the speed limit and of the voltage limit. */
 #define SPEED_SHARE   0.85f
 #define VOLTAGE_SHARE 0.55f
-/* Chosen: an acceleration takes this long, if current and speed allow: long beside the current's rise, short for patience. */
+/* Chosen: duration of an acceleration within the limits; long beside the rise time of the
+ * current. */
 #define QUICKEST_s 0.3f
 #define SLOWEST_s  2.5f
-/* Chosen: coasting ends below this share of its start or after this long. */
+/* Chosen: coasting ends below this share of its initial speed, or after the time limit. */
 #define COAST_SHARE   0.4f
 #define COAST_PER_WAY 6.0f
 #define COAST_s       8.0f
 #define LOW_SHARE     0.3f
 #define DRIVE_WINDOWS 10
 #define COAST_WINDOWS 8
-/* Periods after which a current has settled at w_c, generously. */
+/* Periods in which a current with bandwidth w_c settles, with ample margin. */
 #define SETTLE_TICKS 60L
 
 enum { REST = 0, TRIAL, UP, COAST_UP, DOWN, COAST_DOWN, LOW, COAST_LOW, STOP, PARTS };
@@ -60,7 +61,7 @@ static bool coasts(const commission_spin_t *p)
     return (p->part == COAST_UP) || (p->part == COAST_DOWN) || (p->part == COAST_LOW);
 }
 
-/* Current for a torque of this sign. */
+/* Current reference of given length and sign of torque. */
 static dq_t current_of(const commission_result_t *known, float size_A, float sign)
 {
     const dq_t magnet     = {0.0f, sign * size_A};
@@ -92,7 +93,7 @@ static dq_t wanted_A(const commission_spin_t *p, const commission_result_t *know
     }
 }
 
-/* Voltage in the rotor's frame of this sample. */
+/* Output of the current controllers, in the rotor frame of this sample. */
 static dq_t control_V(commission_spin_t *p, const commission_config_t *c,
                       const commission_result_t *known, dq_t i_A, dq_t ref_A, float limit_V)
 {
@@ -112,7 +113,7 @@ static dq_t control_V(commission_spin_t *p, const commission_config_t *c,
     return v_V;
 }
 
-/* Largest electrical speed with a current: bound of the speed, reach of the voltage. */
+/* Largest electrical speed at a current, by the speed limit and the dc link. */
 static float top_speed(const commission_config_t *c, const commission_result_t *known,
                        float dc_link_V, float size_A)
 {
@@ -131,7 +132,7 @@ static float torque_of(const commission_result_t *known, float size_A)
     return commission_motion_torque(known, i_A.q, i_A.d * i_A.q);
 }
 
-/* Current, speed and times of what follows, from the acceleration of the trial. */
+/* Plans current, speed and times of the run from the acceleration of the trial. */
 static void plan(commission_spin_t *p, const commission_config_t *c, const commission_signal_t *s,
                  const commission_result_t *known, float accel_radps2)
 {
@@ -147,7 +148,7 @@ static void plan(commission_spin_t *p, const commission_config_t *c, const commi
     } else if (way_s > SLOWEST_s) {
         size_A = MOST_SHARE * c->current_max_A;
     } else {
-        /* as usual */
+        /* the plan stays */
     }
     const float accel = per_Nm * torque_of(known, size_A);
     top               = base_min(top_speed(c, known, s->dc_link_V, size_A), SLOWEST_s * accel);
@@ -174,7 +175,7 @@ static void begin_part(commission_spin_t *p, int16_t part, const commission_sign
     }
 }
 
-/* The waves before may have left some speed. */
+/* True when the shaft is at rest: the waves of MAP may have left some speed. */
 static bool rests(const commission_spin_t *p, const commission_config_t *c)
 {
     const float time_s = (float)p->ticks * c->ts_s;
@@ -182,7 +183,7 @@ static bool rests(const commission_spin_t *p, const commission_config_t *c)
            (time_s > PATIENCE_s);
 }
 
-/* Moves two turns, or is given more current. */
+/* Trial: ends after two electrical turns. If the rotor does not move, doubles the current. */
 static commission_step_t trial(commission_spin_t *p, const commission_config_t *c,
                                const commission_signal_t *s, const commission_result_t *found)
 {
@@ -208,7 +209,7 @@ static commission_step_t trial(commission_spin_t *p, const commission_config_t *
         p->current_A = base_min(2.0f * p->current_A, MOST_SHARE * c->current_max_A);
         begin_part(p, TRIAL, s);
     } else {
-        /* goes on */
+        /* the trial continues */
     }
     return COMMISSION_BUSY;
 }

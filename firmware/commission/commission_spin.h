@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file commission_spin.h
- * @brief Turns the motor with its encoder's angle: flux, offset, inertia, friction.
+ * @brief Runs the motor with the encoder angle and measures flux, offset, inertia and friction.
  *
- * Current loops from the measured R and L; accelerates with a known current, coasts without any, the other way round, and
- * once more from a lower speed. While it coasts the voltage that keeps the current at zero is what the magnet induces:
+ * The current loops use the measured R and L. The motor accelerates with a known current and coasts
+ * with zero current, in both directions, then again from a lower speed. While it coasts, the
+ * voltage that keeps the current at zero is the back-EMF:
  *
  *     flux = sum(v_q w) / sum(w^2)                                             EQ-COMMISSION-12
  *     offset error = atan(sum(v_d w) / sum(v_q w)), mean of both directions     EQ-COMMISSION-13
  *
- * An angle that is late turns v by as much one way as the other, which the mean takes away. The current of a reluctance
- * motor is at 135 degrees, where it has most torque.
+ * A delayed angle turns v by opposite angles in the two directions: the mean removes it. In a
+ * reluctance motor the current is at 135 degrees, where the torque is largest.
  */
 #ifndef COMMISSION_SPIN_H
 #define COMMISSION_SPIN_H
@@ -35,11 +36,11 @@ typedef struct {
     float               begun_radps; /**< speed at which the part began */
 } commission_spin_t;
 
-/** Context: control ISR. */
+/** Starts with the rotor at rest. Context: control ISR. */
 void commission_spin_start(commission_spin_t *p, const commission_config_t *c,
                            const commission_signal_t *s, const commission_result_t *known);
 
-/** One period. */
+/** Executes one period. `found` gets the results with COMMISSION_DONE. Context: control ISR. */
 commission_answer_t commission_spin_tick(commission_spin_t *p, const commission_config_t *c,
                                          const commission_signal_t *s, commission_result_t *found);
 

@@ -3,7 +3,8 @@
 
 #include "commission_angle.h"
 
-/* A rotor that follows moves by the same counts both ways, within this share; and by this many at least. */
+/* A rotor that follows moves equally in both directions, within SAME_WAY, and by LEAST_CNT or
+ * more. */
 #define SAME_WAY  0.1f
 #define LEAST_CNT 20L
 
@@ -81,12 +82,12 @@ void commission_turns_solve(const commission_turns_t turns[2], float speed_radps
     const float vector      = found->reluctance ? (0.5f * BASE_PI) : 0.0f;
     found->offset_rad.value = frames_wrap(frames_wrap(middle - vector));
     found->lag_rad          = -0.5f * between;
-    if (!found->reluctance) { /* more current than before: less of it is friction's */
+    if (!found->reluctance) { /* at this larger current friction matters less */
         float i_A            = 0.0f;
         found->flux_Wb.value = commission_turns_beyond_Wb(turns, found, speed_radps, &i_A);
     }
     found->ripple_rad = sqrtf(spread);
-    /* Chosen: a tenth of what friction and swinging do in all, since their means cancel. */
+    /* Chosen: a tenth of the lag and ripple, since their means cancel. */
     found->offset_rad.error = (0.1f * (fabsf(found->lag_rad) + found->ripple_rad)) +
                               (BASE_PI * whole / (float)found->counts_per_turn);
 }

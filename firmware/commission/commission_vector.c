@@ -3,11 +3,12 @@
 
 #define BANDWIDTH_PER_TS 0.2f
 #define INTEGRAL_SHARE   0.05f
-/* Chosen: the integral within what a winding at standstill can ever need. */
+/* Chosen: limit of the integral; a winding at standstill needs less. */
 #define MOST_SHARE 0.5f
-/* Chosen: of the current bound, so that with the vector of 0.6 of it two thirds of the bound are used. */
+/* Chosen: share of the current limit. With a vector of 0.6, the sum uses two thirds of the
+ * limit. */
 #define CROSS_SHARE 0.3f
-/* Chosen: counts back from the furthest point that are a reversal, beyond what the disc's edges do. */
+/* Chosen: counts back from the extreme position that are a reversal; edge errors are smaller. */
 #define REVERSAL_CNT 6L
 
 void commission_vector_start(commission_vector_t *v, const commission_config_t *c,
@@ -52,11 +53,11 @@ static void watch_shaft(commission_vector_t *v, int32_t position_cnt)
         v->extreme_cnt  = position_cnt;
         v->swing_ticks  = 0L;
     } else {
-        /* on its way back, not far enough to count */
+        /* not yet a reversal */
     }
 }
 
-/* So that the resistance is the reactance at the frequency of the swing. */
+/* Added resistance: the sum equals the reactance at the oscillation frequency. */
 static float damping_Ohm(const commission_vector_t *v)
 {
     if (!(v->half_swing_s > 0.0f)) {

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 #include "commission_wave.h"
 
-/* Chosen: shares of the dc link. The smallest is below what dead times lose, the largest within the hexagon. */
+/* Chosen: shares of the dc link. The smallest is below the dead-time loss, the largest in the
+ * hexagon. */
 #define LEAST_SHARE 0.002f
 #define MOST_SHARE  0.45f
-/* Chosen: a half wave from bound to bound has about so many samples; fewer would leave little between the noise of two. */
+/* Chosen: samples of a half wave from limit to limit. With fewer, the step of two samples is
+ * noisy. */
 #define WANTED_SAMPLES 12
-/* Chosen: a growth in which the step of the current cannot jump over the bound. */
+/* Chosen: amplitude growth per half wave; the current step cannot jump over the limit. */
 #define GROWTH 1.25f
-/* A half wave ends here whatever the current does: while a voltage is looked for, and with the largest one. */
+/* A half wave ends here at any current: while the amplitude is searched, and afterwards. */
 #define MOST_SAMPLES 16
 #define LAST_SAMPLE  250
 #define FIRST_SHARE  0.707f
@@ -47,7 +49,7 @@ float commission_wave_tick(commission_wave_t *w, float i_A, float di_A, float dc
     }
     w->samples++;
     const float ahead_A = w->sign * (i_A + (2.0f * di_A)); /* EQ-COMMISSION-2 */
-    /* Two samples pass before a turn shows. */
+    /* A reversal appears in the current after two samples. */
     const int16_t most = w->found ? LAST_SAMPLE : MOST_SAMPLES;
     if ((w->samples > 2) && ((ahead_A > w->first_A) || (w->samples >= most))) {
         turn(w, dc_link_V);

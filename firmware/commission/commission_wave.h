@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file commission_wave.h
- * @brief A square wave of voltage along one axis that swings the current between two bounds, without knowing the inductance.
+ * @brief Square-wave voltage along one axis that moves the current between two limits.
  *
- * It begins with a voltage so small that no motor notices, and grows from half wave to half wave until one has few enough
- * samples. The sign changes when the next sample but one would be beyond the bound:
+ * The inductance need not be known. The amplitude starts very small and grows with each half wave,
+ * until a half wave has few enough samples. The sign changes when the extrapolated current of the
+ * sample after the next would exceed the limit:
  *
  *     |i_k + 2 (i_k - i_(k-1))| > I                                            EQ-COMMISSION-2
  *
- * because what is decided now acts one period later. The current of a sample then never exceeds I by more than its noise.
- * The first half wave turns at 0.7 I: so the torque of a current that goes through the q axis leaves no mean speed.
+ * The decision acts one period later. A sampled current therefore exceeds I by its noise at most.
+ * The first half wave ends at 0.7 I, so that the torque of a q-axis current leaves no mean speed.
  */
 #ifndef COMMISSION_WAVE_H
 #define COMMISSION_WAVE_H
@@ -19,17 +20,17 @@
 typedef struct {
     float   bound_A;
     float   first_A; /**< bound of the first half wave, then bound_A */
-    float   v_V;     /**< present height */
+    float   v_V;     /**< present amplitude */
     float   sign;
     int16_t samples; /**< of the present half wave */
-    int16_t halves;  /**< since the height was found */
+    int16_t halves;  /**< since the amplitude was found */
     bool    found;
 } commission_wave_t;
 
-/** Begin with the smallest height. Context: control ISR. */
+/** Starts with the smallest amplitude. Context: control ISR. */
 void commission_wave_start(commission_wave_t *w, float bound_A);
 
-/** Voltage for the next period. Context: control ISR. No division. */
+/** @return voltage for the next period. Context: control ISR. No division. */
 float commission_wave_tick(commission_wave_t *w, float i_A, float di_A, float dc_link_V);
 
 #endif /* COMMISSION_WAVE_H */
