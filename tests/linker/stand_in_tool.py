@@ -5,7 +5,6 @@ things."""
 
 import json
 import os
-import pathlib
 import sys
 
 VERSION = os.environ.get("STAND_IN_VERSION", "00000022.00000006.00000000")
@@ -27,6 +26,11 @@ def value(option, arguments):
     return found[-1] if found else None
 
 
+def write(path, text):
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
 def main():
     tool, arguments = sys.argv[1], sys.argv[2:]
     if "STAND_IN_LOG" in os.environ:
@@ -41,14 +45,14 @@ def main():
         value("--preproc_dependency", arguments),
     ]
     if tool == "cl2000" and not any(outputs):
-        outputs = [pathlib.Path(a).stem + ".obj" for a in arguments if a.endswith(".c")]
+        outputs = [os.path.splitext(os.path.basename(a))[0] + ".obj" for a in arguments if a.endswith(".c")]
     if tool == "ar2000":
         outputs = [arguments[1]]
     for output in filter(None, outputs):
         text = "" if output == value("--preproc_dependency", arguments) else IDENTITY
-        pathlib.Path(output).write_text(text, encoding="utf-8")
+        write(output, text)
     if value("--map_file", arguments):
-        pathlib.Path(value("--map_file", arguments)).write_text(MAP, encoding="utf-8")
+        write(value("--map_file", arguments), MAP)
 
 
 main()
