@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file board_config.h
- * @brief The constants of the board that is built; sdre-gains makes those of the F28335 from the drive file.
+ * @brief Constants of the board. For the F28335, sdre-gains generates them from the drive file.
  */
 #ifndef BOARD_CONFIG_H
 #define BOARD_CONFIG_H

@@ -5,8 +5,9 @@
 
 #define POWER_UP_CYCLES (CLOCK_SYSCLK_Hz / 200UL) /* 5 ms, data sheet */
 #define POWER_UP        0xE0U                     /* band gap, reference and converter */
-/* Device advisory: the first pair of a sequence is wrong unless the window is longer than 160 ns. Here it is 6 ADC
- * clocks, 240 ns, and the first pair is converted twice, the first result left alone. docs/hardware.md: source impedance */
+/* Device advisory: the first pair of a sequence needs a window above 160 ns. The window here is 6
+ * ADC clocks, 240 ns. The first pair is also converted twice and its first result ignored. The
+ * allowed source impedance is in docs/hardware.md. */
 #define ACQUISITION 5U
 #define PAIRS       3U
 
@@ -17,8 +18,8 @@
 
 void adc_init(void)
 {
-    EALLOW;    /* as TI calls it: the trim registers may be protected */
-    ADC_cal(); /* factory trim; a debugger's load skips the boot ROM, which would have called it */
+    EALLOW;    /* as in TI's code: the trim registers may be protected */
+    ADC_cal(); /* factory trim; a load by debugger skips the boot ROM's call */
     EDIS;
 
     AdcRegs.ADCTRL3.all = POWER_UP;
@@ -30,7 +31,7 @@ void adc_init(void)
     AdcRegs.ADCTRL3.bit.SMODE_SEL = 1U; /* inputs A and B of a pair are held at the same instant */
     AdcRegs.ADCMAXCONV.all        = PAIRS - 1U;
     AdcRegs.ADCCHSELSEQ1.all      = 0U;
-    AdcRegs.ADCCHSELSEQ1.bit.CONV00 = 0U; /* A0, B0: left alone */
+    AdcRegs.ADCCHSELSEQ1.bit.CONV00 = 0U; /* A0, B0: result ignored */
     AdcRegs.ADCCHSELSEQ1.bit.CONV01 = 0U; /* A0, B0: phase currents */
     AdcRegs.ADCCHSELSEQ1.bit.CONV02 = 1U; /* A1, B1: dc link, temperature */
     AdcRegs.ADCTRL2.all             = RUN;

@@ -22,11 +22,11 @@ static bool is_beyond(uint16_t current_cnt)
 static void open_bridge(void)
 {
     board_gate_trip();
-    bench_wanted.gates = 0U; /* wanted anew by the debugger */
+    bench_wanted.gates = 0U; /* the debugger must request them again */
     bench_seen.on      = false;
 }
 
-/* Off before anything else; on after everything else. */
+/* One tick: a trip comes first, an enable comes last. */
 static void tick(void)
 {
     const board_sample_t sample = *board_sample();

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file bench.h
- * @brief The program of the image for a debugger (f28335-ram): the board layer without application, law and Modbus.
+ * @brief Program of the debugger image (f28335-ram): the board layer without application and law.
  *
- * A debugger writes bench_wanted and reads bench_seen; docs/bring-up.md says when. It is for the power stage alone: duty ratios are
- * open loop, and no motor turns with it.
+ * A debugger writes bench_wanted and reads bench_seen, as docs/bring-up.md describes. It tests the
+ * power stage only: duty ratios are open loop, and no motor is connected.
  */
 #ifndef BENCH_H
 #define BENCH_H
 
 #include "board.h"
 
-#define BENCH_GATES 0x6A7EU /**< bench_wanted.gates: chosen, so that no stray write is it */
+#define BENCH_GATES 0x6A7EU /**< bench_wanted.gates: chosen, unlikely as a stray write */
 
 typedef struct {
     uint16_t     gates;       /**< BENCH_GATES: the bridge follows `duty`; anything else opens it */

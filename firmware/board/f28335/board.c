@@ -3,12 +3,12 @@
 #include "peripherals.h"
 #include "prepare.h"
 
-/* Half of the capture timer's 16 bits: an edge of the period before the latch still has its age, also when the interrupt
- * comes late by a period. */
+/* Half the range of the 16-bit capture timer. An edge in the period before the latch keeps its age,
+ * even if the interrupt is late by a period. */
 #define CAPTURE_CYCLES_MAX (65535UL << (CLOCK_CAPTURE_SHIFT - 1U))
 
 static const board_setup_t *in_force;
-static bool                 clocked; /* the clock can be trusted */
+static bool                 clocked; /* the clock is good */
 
 bool board_fits(const board_setup_t *s)
 {

@@ -4,8 +4,9 @@
 #include "peripherals.h"
 #include "yield.h"
 
-/* The PLL locks within 131072 crystal cycles (data sheet), which is 32768 processor cycles at the
- * quarter speed of that time; a poll takes four or more, so that this is at least five times as long. */
+/* The PLL locks within 131072 crystal cycles (data sheet). The processor then runs at a quarter of
+ * the crystal rate, so these are 32768 processor cycles. A poll takes four or more cycles: the
+ * limit is at least five times the lock time. */
 #define LOCK_POLLS 40000U
 
 static bool wait_for_lock(void)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file clock_tree.h
- * @brief Every rate of this board that no drive changes, derived from the crystal; the one place to change them.
+ * @brief All rates of this board that do not depend on the drive, derived from the crystal.
  *
- * Preprocessor arithmetic, so that a rate that a register cannot hold stops the compiler.
+ * The preprocessor computes them: a rate that a register cannot hold is a compile error.
  */
 #ifndef CLOCK_TREE_H
 #define CLOCK_TREE_H
@@ -22,7 +22,7 @@
 #define CLOCK_LOSPCP    2U
 #define CLOCK_LSPCLK_Hz (CLOCK_SYSCLK_Hz / (2UL * CLOCK_LOSPCP))
 
-/** The converter runs on HSPCLK undivided: at its maximum, for the shortest sampling delay. */
+/** The converter runs on HSPCLK undivided, at its maximum, for the shortest sampling delay. */
 #define CLOCK_ADCCLK_Hz     CLOCK_HSPCLK_Hz
 #define CLOCK_ADCCLK_MAX_Hz 25000000UL /**< data sheet */
 
@@ -39,18 +39,19 @@
 #define CLOCK_BAUD_Hz 115200UL
 /** BRR of the nearest rate: LSPCLK / (8 baud) - 1. */
 #define CLOCK_BRR(baud_Bd) (((CLOCK_LSPCLK_Hz + (4UL * (baud_Bd))) / (8UL * (baud_Bd))) - 1UL)
-/** That rate, within 2 % of what is wanted: with as much at the other end, half a bit in eleven is not reached. */
+/** Rate of this BRR, within 2 % of `baud_Bd`. With 2 % at the other end too, the error stays below
+ *  half a bit in eleven. */
 #define CLOCK_BAUD_ACTUAL_Hz(baud_Bd) (CLOCK_LSPCLK_Hz / (8UL * (CLOCK_BRR(baud_Bd) + 1UL)))
 #define CLOCK_BAUD_FITS(baud_Bd)                                                                   \
     ((CLOCK_BRR(baud_Bd) <= 65535UL) &&                                                            \
      ((CLOCK_BAUD_ACTUAL_Hz(baud_Bd) * 100UL) <= ((baud_Bd)*102UL)) &&                             \
      ((CLOCK_BAUD_ACTUAL_Hz(baud_Bd) * 100UL) >= ((baud_Bd)*98UL)))
 
-/** Longest pass of the background, chosen: 0.4 ms with the longest frame, and as much again for the control interrupt. */
+/** Longest background pass. Chosen: 0.4 ms with the longest frame, doubled for the interrupt. */
 #define CLOCK_PASS_MAX_us 1000UL
 /** The watchdog's period: 256 * 512 crystal cycles. */
 #define CLOCK_WATCHDOG_us ((256UL * 512UL) / (CLOCK_CRYSTAL_Hz / 1000000UL))
-/** For so long the receiver's FIFO of 16 octets takes what comes without a pause, 11 bits an octet. */
+/** Time in which continuous octets of 11 bits fill the receive FIFO of 16 octets. */
 #define CLOCK_FIFO_us(baud_Bd)            ((16UL * 11UL * 1000000UL) / CLOCK_BAUD_ACTUAL_Hz(baud_Bd))
 #define CLOCK_FIFO_OUTLASTS_PASS(baud_Bd) (CLOCK_FIFO_us(baud_Bd) > CLOCK_PASS_MAX_us)
 

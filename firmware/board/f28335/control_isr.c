@@ -5,7 +5,7 @@
 static void (*control_tick)(void);
 static board_sample_t sample;
 static uint32_t       entry_cycles;
-static uint32_t       late_cycles; /* one and a half control periods: one was left out */
+static uint32_t       late_cycles; /* 1.5 control periods: a later tick means that one was lost */
 static bool           first;
 
 void control_isr_init(void (*tick)(void), uint32_t period_cycles)
@@ -27,8 +27,8 @@ static void take_sample(void)
     sample.valid       = converted && located;
 }
 
-/* With the interrupt masked for a whole period the converter would have filled the next result registers, and
- * the ones read here would be old. */
+/* Detects a lost tick. If the interrupt was masked for a whole period, the converter has already
+ * filled the next result registers and the ones read here are old. */
 static void check_entry(void)
 {
     const uint32_t now = board_cycles();
@@ -46,10 +46,10 @@ __interrupt void control_isr(void)
     trip_check();
     take_sample();
     line_release();
-    EINT; /* for tick_watch.c alone: the processor has taken this interrupt's own bit out of IER */
+    EINT; /* for tick_watch.c only: the processor has cleared this interrupt's IER bit */
     control_tick();
     DINT;
-    if (adc_is_done()) { /* the next period's conversion, already */
+    if (adc_is_done()) { /* the conversion of the next period is complete */
         trip_latch(BOARD_FAULT_OVERRUN);
     }
     PieCtrlRegs.PIEACK.all = PIEACK_GROUP1;

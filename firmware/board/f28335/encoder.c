@@ -9,8 +9,8 @@
 #define LATCH_AT_TIMEOUT 1U /* QCLM */
 #define EVERY_EDGE       0U /* UPPS */
 
-/* An edge is timed only when it came in the period before the latch: the capture timer does not run over in that time
- * (board.c). */
+/* Only an edge in the period before the latch is timed. The capture timer does not overflow in that
+ * time (board.c). */
 #if (BOARD_CAPTURE_Hz << CLOCK_CAPTURE_SHIFT) != CLOCK_SYSCLK_Hz
 #error "BOARD_CAPTURE_Hz is not the capture clock of this board"
 #endif
@@ -23,7 +23,8 @@
 
 #define TURNED_BACK 0x0004U /* QEPSTS: CDEF, written 1 to clear */
 
-/* Three phase errors within 10 ms trip, a single one does not: each adds 10 ms to what runs off again with time. */
+/* Three phase errors within 10 ms trip, a single one does not. Each error adds 10 ms to a level
+ * that decreases with time. */
 #define PER_10_ms 100UL
 
 static uint32_t pwm_cycles;   /* of a PWM period */
@@ -70,8 +71,8 @@ void encoder_start(uint16_t updates_per_period)
     EQep1Regs.QEPCTL.bit.UTE = 1U;
 }
 
-/* Ties the unit timer to the PWM counter every period, so that neither a halt by a debugger nor one
- * cycle more or less in the timer's period adds up. */
+/* Aligns the unit timer with the PWM counter in every period. A debugger halt or a cycle of
+ * difference in the timer's period then does not accumulate. */
 static void align(void)
 {
     const bool down = EPwm1Regs.TBSTS.bit.CTRDIR == 0U; /* less than half a period since PRD */

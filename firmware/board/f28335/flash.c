@@ -21,5 +21,5 @@ void flash_init(void)
     FlashRegs.FACTIVEWAIT.bit.ACTIVEWAIT = WAKE_UP_WAIT;
     EDIS;
 
-    asm(" RPT #7 || NOP"); /* the last write has to get through before the return to flash */
+    asm(" RPT #7 || NOP"); /* the last write must take effect before the return to flash */
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The store can be read, and written by a programming tool only: TI's flash API for this device is a COFF library, and an EABI
- * image does not link it (docs/loading.md). */
+/* The firmware reads the store; only a programming tool writes it. TI's flash API for this device
+ * is a COFF library, which an EABI image cannot link (docs/loading.md). */
 #include <stddef.h>
 
 #include "peripherals.h"

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* The direction pin of a transceiver. The control interrupt releases the line, as a pass of the background may last longer than
- * the silence after which a master sends again. An image has this file in flash: the RAM has no room for it. */
+/* Direction pin of a transceiver. The control interrupt releases the line: a background pass may
+ * take longer than the silence after which a master sends again. This file runs from flash, as the
+ * RAM has no space for it. */
 #include "DSP28x_Project.h"
 #include "peripherals.h"
 
 #define DIRECTION_PIN (1UL << 27) /* GPIO27, gpio.c */
 
 static volatile bool     used;
-static volatile bool     follows; /* false: an octet is just being written */
+static volatile bool     follows; /* false: an octet is being written */
 static volatile bool     empty;   /* the transmitter has been since empty_cycles */
 static volatile uint32_t empty_cycles;
 static uint32_t          bit_cycles;
@@ -36,8 +37,8 @@ void line_send(uint16_t octet)
     follows           = used;
 }
 
-/* Back to listening when the transmitter has been empty for a bit. The manual leaves open whether it is empty before the last
- * stop bit has ended. */
+/* Releases the line when the transmitter has been empty for one bit time. The manual does not say
+ * whether it reads empty before the end of the last stop bit. */
 void line_release(void)
 {
     if (!follows) {
@@ -46,12 +47,12 @@ void line_release(void)
     if (line_is_sending()) {
         empty = false;
     } else if (!empty) {
-        empty_cycles = board_cycles(); /* first: this may be interrupted by itself */
+        empty_cycles = board_cycles(); /* before `empty`: the interrupt calls this function too */
         empty        = true;
     } else if ((uint32_t)(board_cycles() - empty_cycles) > bit_cycles) {
         GpioDataRegs.GPACLEAR.all = DIRECTION_PIN;
         follows                   = false;
     } else {
-        /* the stop bit */
+        /* the stop bit may still be on the line */
     }
 }

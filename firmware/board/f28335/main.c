@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Start-up order: safe pins, full clock and armed trip (board_prepare), constants with their sums, peripherals, application,
- * interrupts. The bridge stays off until a run is commanded. */
+/* Start-up order: board_prepare() makes the pins safe, sets the clock and arms the trip. Then
+ * follow constants with their check sums, peripherals, application and interrupts. The bridge stays
+ * off until a run is commanded. */
 #include "app.h"
 #include "app_loader.h"
 #include "board_config.h"
@@ -8,11 +9,11 @@
 #include "prepare.h"
 #include "yield.h"
 
-/* What board and tick read from now on: the linker puts it where there are no wait states. */
+/* Constants in use by board and tick. The linker places them in RAM without wait states. */
 static app_image_t in_force;
 
-/* Without a clock that is known to be right, or with a PWM that is not the drive's, nothing may switch. The watchdog does not run yet, so this lasts until the
- * power is cycled. */
+/* Keeps the bridge off for good, after a failure of the clock, the constants or the PWM setup. The
+ * watchdog does not run yet: only a power cycle ends this. */
 static void stay_off(void)
 {
     board_gate_trip();
@@ -45,7 +46,7 @@ int main(void)
         }
     }
     (void)app_init(&in_force.image.app,
-                   &in_force.image.drive); /* refused: runs, stays in FAULT, tells why */
+                   &in_force.image.drive); /* if refused: stays in FAULT and reports the reason */
     app_tell_image(&in_force);
     app_take_parameters(stored);
     board_start(app_tick, in_force.image.drive.hardware.updates_per_period);

@@ -5,8 +5,8 @@
 
 #define VECTORS ((uint16_t)(sizeof(PieVectTable) / sizeof(PINT)))
 
-/* Nothing but the control interrupt and its watch is ever enabled: a trap, an NMI or a fault of the program. The
- * watchdog, no longer served, ends it. */
+/* Only the control interrupt and its watch are enabled. Any other one is a trap, an NMI or a
+ * program error. The loop does not serve the watchdog, which then resets the device. */
 static __interrupt void unexpected(void)
 {
     board_gate_trip();
@@ -43,7 +43,7 @@ void pie_init(void)
     PieCtrlRegs.PIEIER12.all = 0U;
     PieCtrlRegs.PIEIFR1.all  = 0U;
 
-    PieCtrlRegs.PIECTRL.bit.ENPIE = 1U; /* traps too are looked up here from now on */
+    PieCtrlRegs.PIECTRL.bit.ENPIE = 1U; /* traps use this vector table from here on */
 }
 
 void pie_start(void)
@@ -52,5 +52,5 @@ void pie_start(void)
     PieCtrlRegs.PIEACK.all        = PIEACK_GROUP1;
     IER                           = M_INT1 | M_INT13; /* CPU timer 1: tick_watch.c */
     EINT;
-    ERTM; /* and while a debugger looks on */
+    ERTM; /* interrupts stay on under a debugger */
 }

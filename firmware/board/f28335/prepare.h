@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file prepare.h
- * @brief The start of main(), before anything that takes time.
+ * @brief First step of main(), before anything that takes time.
  */
 #ifndef PREPARE_H
 #define PREPARE_H
@@ -9,11 +9,11 @@
 #include <stdbool.h>
 
 /**
- * @brief Makes the pins safe, then sets clock, flash timing and trip up; all six switches stay off.
+ * @brief Makes the pins safe, then sets up clock, flash timing and trip. All six switches stay off.
  *
- * @return false: the clock cannot be trusted (BOARD_FAULT_CLOCK); board_init() refuses everything then.
+ * @return false: the clock failed (BOARD_FAULT_CLOCK). board_init() then returns false too.
  *
- * Context: init, once, first of all and before board_init(), interrupts off. About 5 ms.
+ * Context: init, once, before any other call, interrupts off. About 5 ms.
  */
 bool board_prepare(void);
 

@@ -4,7 +4,7 @@
 #include "peripherals.h"
 
 #define HSPCLKDIV_BY_2    1U
-#define HALT_AT_CYCLE_END 1U /* a debugger's halt leaves all upper switches on: zero voltage */
+#define HALT_AT_CYCLE_END 1U /* a debugger halt ends with all upper switches on: zero voltage */
 
 /* CMPCTL: A and B with shadows. */
 #define LOADS_AT_PRD  0x0005U
@@ -20,8 +20,8 @@
 static uint16_t full_cnt;      /* compare counts of duty one: TBPRD */
 static bool     loads_at_zero; /* two updates per period */
 
-/* The counter goes 0 .. TBPRD .. 0. The upper switch is on around 0, all lower ones around TBPRD: there the
- * currents are sampled, and there a control period begins. */
+/* The counter goes 0 .. TBPRD .. 0. The upper switch is on around 0, all lower ones are on around
+ * TBPRD. At TBPRD the currents are sampled and a control period begins. */
 static void set_up_leg(volatile struct EPWM_REGS *leg, uint16_t dead_time_cnt)
 {
     leg->TBCTL.bit.CTRMODE   = TB_FREEZE;
@@ -60,8 +60,9 @@ void pwm_init(const board_setup_t *setup)
     set_up_leg(&EPwm3Regs, setup->dead_time_cnt);
 }
 
-/* Samples are taken while all lower switches are on; with two updates also while all upper ones are, for which a unit
- * has no second trigger of its own. A new duty acts from the start of the next control period on. */
+/* The converter samples while all lower switches are on. With two updates it also samples while all
+ * upper ones are on; unit 2 triggers this, as unit 1 has no second trigger. A new duty acts from
+ * the start of the next control period. */
 void pwm_start(uint16_t updates_per_period)
 {
     loads_at_zero = updates_per_period == 2U;
@@ -85,9 +86,10 @@ void pwm_start(uint16_t updates_per_period)
     EDIS;
 }
 
-/* The guide leaves open whether the old or the new compare value counts at the instant of a load. So no compare makes a
- * level there: PRD (and ZERO, where it loads) does, by an action that is written before and has no shadow. CMPA stays
- * below TBPRD; CMPB may be TBPRD, where CBU gives way to PRD, and is at least 1 where ZERO loads. */
+/* The guide does not say whether the old or the new compare value acts at the instant of a load.
+ * Therefore no compare event sets a level there. An action at PRD, and at ZERO if it loads, sets
+ * it: actions have no shadow and are written before. CMPA stays below TBPRD. CMPB may be TBPRD,
+ * where PRD has priority over CBU. If ZERO loads, CMPB is at least 1. */
 static void write_leg(volatile struct EPWM_REGS *leg, uint16_t duty_cnt)
 {
     const bool full    = duty_cnt >= full_cnt;

@@ -18,7 +18,7 @@ typedef struct {
     uint16_t brr;
 } rate_t;
 
-/* The fastest last: the receiver's FIFO has to outlast a pass of the background (clock_tree.h). */
+/* The fastest rate is last: its FIFO time must exceed a background pass (clock_tree.h). */
 static const rate_t rates[] = {{9600UL, (uint16_t)CLOCK_BRR(9600UL)},
                                {19200UL, (uint16_t)CLOCK_BRR(19200UL)},
                                {38400UL, (uint16_t)CLOCK_BRR(38400UL)},
@@ -31,7 +31,7 @@ static const uint16_t formats[] = {0x0067U, 0x0027U, 0x0087U};
 #define RATES   ((uint16_t)(sizeof rates / sizeof rates[0]))
 #define FORMATS ((uint16_t)(sizeof formats / sizeof formats[0]))
 
-/* An error stops the receiver until this, which stops the transmitter too. */
+/* Restarts the receiver, which stops at an error. The restart also stops the transmitter. */
 static void restart_receiver(void)
 {
     SciaRegs.SCICTL1.all = ENABLE;
@@ -62,7 +62,7 @@ void serial_init(void)
     set_up((uint16_t)CLOCK_BRR(CLOCK_BAUD_Hz), formats[BOARD_LINE_EVEN]);
 }
 
-/* RATES: there is none. */
+/* Index of a baud rate in the table, or RATES if it is not supported. */
 static uint16_t rate_of(uint32_t baud_Bd)
 {
     uint16_t n = 0U;
@@ -94,10 +94,10 @@ bool board_serial_read(uint16_t *octet)
 {
     line_release(); /* here too: the loader has no control interrupt */
     if ((SciaRegs.SCIRXST.bit.RXERROR != 0U) || (SciaRegs.SCIFFRX.bit.RXFFOVF != 0U)) {
-        if (!line_is_sending()) { /* an answer on its way is not cut */
+        if (!line_is_sending()) { /* do not cut a response that is being sent */
             restart_receiver();
         }
-        return false; /* the rest of a broken frame is worth nothing */
+        return false; /* the frame is lost */
     }
     if (SciaRegs.SCIFFRX.bit.RXFFST == 0U) {
         return false;

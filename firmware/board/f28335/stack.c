@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "peripherals.h"
 
-#define GUARD_WORDS 8U /* chosen: what the smallest interrupt pushes at once is more */
+#define GUARD_WORDS 8U /* chosen: the smallest interrupt pushes more words than this */
 
-/* Where the linker puts the stack; codestart.asm has filled it before main(). It grows upwards. */
+/* The stack, placed by the linker. codestart.asm fills it before main(). It grows upwards. */
 extern volatile uint16_t codestart_stack[BOARD_STACK_WORDS];
 
 bool board_stack_is_whole(void)

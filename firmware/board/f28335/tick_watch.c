@@ -2,11 +2,12 @@
 #include "DSP28x_Project.h"
 #include "peripherals.h"
 
-/* A control interrupt that comes later than one and a half periods trips by itself (control_isr.c); a quarter more, so
- * that this one is the first to know only when there is none, or when it does not end. */
+/* Time limit in quarters of a control period. A control interrupt that is later than 1.5 periods
+ * trips by itself (control_isr.c). This limit, 1.75 periods, detects a tick that is missing or
+ * never ends. */
 #define QUARTERS 7UL
 
-/* CPU timer 1 asks the processor without the PIE in between, and may interrupt a tick. It starts anew on its own. */
+/* ISR of CPU timer 1. It bypasses the PIE and may interrupt a tick. The timer reloads by itself. */
 static __interrupt void tick_is_missing(void)
 {
     trip_overdue();

@@ -8,8 +8,8 @@
 /* The control interrupt and its tick write `latched`; INT13, which may interrupt the tick, has its own word. */
 static volatile uint16_t latched;
 static volatile bool     overdue;
-static volatile bool     enabled; /* false: the bridge is off on our own account */
-static volatile bool     wanted;  /* to be enabled at the start of the next period */
+static volatile bool     enabled; /* false: the software keeps the bridge off */
+static volatile bool     wanted;  /* enable at the start of the next period */
 
 static void arm(volatile struct EPWM_REGS *leg)
 {
@@ -62,7 +62,8 @@ static uint16_t faults(void)
     return (uint16_t)(latched | (overdue ? (uint16_t)BOARD_FAULT_OVERRUN : 0U));
 }
 
-/* With all lower switches on, just after PRD, where the duty ratios of the tick before have become active. */
+/* Enables the gates. Runs just after PRD: all lower switches are on, and the duty ratios of the
+ * previous tick have become active. */
 static void enable(void)
 {
     if (!clock_is_good()) {
@@ -80,13 +81,13 @@ static void enable(void)
     EPwm2Regs.TZCLR.all = CLEAR_ALL;
     EPwm3Regs.TZCLR.all = CLEAR_ALL;
     EDIS;
-    if (is_tripped()) { /* the input fell just now */
+    if (is_tripped()) { /* the input went low just now */
         trip_latch(BOARD_FAULT_TRIP);
         return;
     }
 
     enabled                 = true;
-    GpioDataRegs.GPASET.all = GATE_ENABLE_PIN; /* last: now the bridge follows the PWM */
+    GpioDataRegs.GPASET.all = GATE_ENABLE_PIN; /* last: from here the bridge follows the PWM */
 }
 
 void trip_check(void)
@@ -102,12 +103,13 @@ void trip_check(void)
         enable();
     }
     if (!enabled) {
-        board_gate_trip(); /* every period: a pin or a one-shot that has changed by itself */
+        board_gate_trip(); /* every period, in case a pin or a one-shot flag changed by itself */
     }
 }
 
-/* A control interrupt in between takes a one-shot for the hardware's while `enabled` is set: that goes first. One that
- * has enabled the gates again, for a tick in between has asked, is found at the end. */
+/* `enabled` is cleared before the one-shots: otherwise a control interrupt in between would report
+ * them as a hardware trip. A control interrupt may also enable the gates in between, at the request
+ * of a tick. The loop condition detects this. */
 void board_gate_trip(void)
 {
     do {
@@ -125,7 +127,7 @@ void board_gate_trip(void)
 void board_gate_enable(void)
 {
     if (enabled) {
-        return; /* a trip of this very moment must not be cleared */
+        return; /* must not clear a trip that occurs now */
     }
 
     latched = BOARD_FAULT_NONE;

@@ -5,26 +5,26 @@
 
 #define WDCR_STOP 0x68U
 #define WDFLAG    0x80U /* WDCR: reported as the watchdog's reset; written 1 to clear */
-/* 256 * 512 crystal cycles = 4.37 ms, the shortest there is: four of the longest background passes (clock_tree.h). Bits
- * 5:3 have to be 101 in every write. */
+/* The shortest period, 256 * 512 crystal cycles = 4.37 ms: four of the longest background passes
+ * (clock_tree.h). Bits 5:3 must be 101 in every write. */
 #define WDCR_RUN  0x29U
-#define SCSR_LOCK 0x01U /* reset, not interrupt; and the watchdog cannot be stopped any more */
+#define SCSR_LOCK 0x01U /* reset, not interrupt; the watchdog cannot be stopped after this */
 
 #define WDCR_RESET 0x00U /* check bits that are not 101: a reset at once */
-/* Chosen. Memory after power-on says this and its complement once in 2^64; WDFLAG is not asked, it may say either after any
- * reset (docs/hardware.md, "Reset"). */
+/* Chosen. Random memory after power-on holds this and its complement once in 2^64. WDFLAG is not
+ * used: it is unreliable after any reset (docs/hardware.md, "Reset"). */
 #define WANT_LOADER 0x10ADE401UL
 #define COMPLEMENT  (WANT_LOADER ^ 0xFFFFFFFFUL)
 
 static board_reset_t cause;
 
-/* Survives a reset: no start-up code touches it. */
+/* Survives a reset: no start-up code writes it. */
 #ifdef __TI_COMPILER_VERSION__
 #pragma NOINIT(watchdog_after_reset)
 #endif
 volatile uint32_t watchdog_after_reset[2];
 
-/* The same. */
+/* Survives a reset too. */
 #ifdef __TI_COMPILER_VERSION__
 #pragma NOINIT(kept)
 #endif
@@ -34,7 +34,7 @@ void watchdog_stop(void)
 {
     cause = ((SysCtrlRegs.WDCR & WDFLAG) != 0U) ? BOARD_RESET_WATCHDOG : BOARD_RESET_PIN;
     EALLOW;
-    SysCtrlRegs.WDCR = WDCR_STOP | WDFLAG; /* forgotten: the next reset tells its own cause */
+    SysCtrlRegs.WDCR = WDCR_STOP | WDFLAG; /* cleared: the next reset sets its own cause */
     EDIS;
 }
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file yield.h
- * @brief One idle instruction; every loop that waits for hardware or other contexts contains it.
+ * @brief One idle instruction for every loop that waits for hardware or another context.
  *
- * A simulation of the device gives its own meaning to asm(), and lets time pass here.
+ * The simulated device replaces asm() and advances its time here.
  */
 #ifndef YIELD_H
 #define YIELD_H

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* board.h with a motor that is calculated, from the constants of the drive. Time passes in host_stub_period() only, so
- * that every run is the same. */
+/* Implementation of board.h on a simulated motor with the drive's constants. Only
+ * host_stub_period() advances time: every run is identical. */
 #include "board.h"
 
 #include <stddef.h>
@@ -12,7 +12,7 @@
 
 #define DC_LINK_V       300.0f /* chosen: an ideal supply within the drive's range */
 #define TEMPERATURE_cnt 10240U /* 25 degC, board_config.c */
-#define START_rad       1.0f   /* chosen: anything but where alignment leads */
+#define START_rad       1.0f   /* chosen: away from the alignment angle */
 
 static struct {
     void (*tick)(void);
@@ -192,7 +192,7 @@ uint32_t board_cycles(void)
 
 bool board_stack_is_whole(void)
 {
-    return true; /* it is the program's */
+    return true; /* the stack is the host program's */
 }
 
 void board_watchdog_serve(void) {}

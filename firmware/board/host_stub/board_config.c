@@ -4,8 +4,8 @@
 #define TICKS_PER_ms 5U /* 200 us */
 #define DUTY_FULL    2500U
 
-/* Sensors as board.c makes them, chosen: +-12 A over all codes, 0 .. 450 V over all codes, and a temperature that falls
- * by 100 K over half of the codes. */
+/* Sensors as simulated in board.c. Chosen: +-12 A and 0 .. 450 V over all codes; the temperature
+ * falls by 100 K over half of the codes. */
 #define CURRENT_SPAN_A 24.0f
 #define DC_LINK_SPAN_V 450.0f
 #define NTC_FIRST_cnt  4096U
@@ -70,7 +70,7 @@ const app_config_t board_config = {
     },
     .heat         = {.motor_A = 2.6f, .motor_s = 30.0f, .inverter_A = 5.0f, .inverter_s = 2.0f},
     .zero_drift_A = 0.4f,
-    .temperature_limit_degC = 80.0f, /* as there */
+    .temperature_limit_degC = 80.0f, /* as on the F28335's board */
     .temperature_trip_degC  = 90.0f,
     .boot_ticks             = 10U * TICKS_PER_ms, /* chosen: nothing has to settle */
     .calibrate_ticks        = 20U * TICKS_PER_ms, /* chosen: there is no noise */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file board_limits.h
- * @brief The numbers of the board interface: ranges of what board.h hands over, and the PWM period.
+ * @brief Constants of the board interface: ranges of the values of board.h.
  *
- * Chosen unlike those of the F28335: the application must not know any of them by itself.
+ * They differ from those of the F28335 on purpose: the application must not assume any of them.
  */
 #ifndef BOARD_LIMITS_H
 #define BOARD_LIMITS_H

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* One run of the application: start-up, alignment, a speed, stop. The exit code says how far it came; 0 is all. */
+/* Runs the application once: start-up, alignment, a speed, stop. The exit code names the failed
+ * step; 0 is success. */
 #include "app.h"
 #include "app_control.h"
 #include "board_config.h"
@@ -52,7 +53,7 @@ static bool command(float omega_e_radps, bool run)
     return app_command_write(&wanted);
 }
 
-/* Both what the application tells and what the motor does. */
+/* Checks the reported speed and the true speed. */
 static bool holds_speed(void)
 {
     bool holds = true;
@@ -76,7 +77,7 @@ int main(void)
     }
     drive = gain_tables_drive;
     drive.hardware.encoder_positions =
-        board_config.board.positions; /* the tables are of another encoder */
+        board_config.board.positions; /* the tables belong to another encoder */
     if (app_init(&board_config, &drive) != CTL_OK) {
         return EXIT_CONFIG;
     }

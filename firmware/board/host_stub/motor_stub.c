@@ -36,7 +36,7 @@ void motor_stub_drive(motor_stub_t *m, const motor_reduced_t *l, uint16_t pole_p
                       float ts_s)
 {
     const float dt_s = ts_s / (float)STEPS;
-    /* The star point takes the mean of the three. */
+    /* The star point has the mean of the three voltages. */
     const ab_t v_ab = {((2.0f * v_V.a) - v_V.b - v_V.c) / 3.0f, (v_V.b - v_V.c) * BASE_1_SQRT3};
 
     for (int16_t step = 0; step < STEPS; step++) {

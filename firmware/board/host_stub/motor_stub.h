@@ -23,7 +23,7 @@ abc_t motor_stub_current_A(const motor_stub_t *m, uint16_t pole_pairs);
 void motor_stub_drive(motor_stub_t *m, const motor_reduced_t *l, uint16_t pole_pairs, abc_t v_V,
                       float ts_s);
 
-/** Advances by a period with the bridge open: the currents are gone at once. */
+/** Advances by a period with the bridge open: the currents become zero at once. */
 void motor_stub_coast(motor_stub_t *m, const motor_reduced_t *l, uint16_t pole_pairs, float ts_s);
 
 #endif /* MOTOR_STUB_H */

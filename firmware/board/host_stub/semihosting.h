@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file semihosting.h
- * @brief Files of the host and the end of the program, asked of the emulator (Arm semihosting).
+ * @brief Host files and program exit through the emulator (Arm semihosting).
  */
 #ifndef SEMIHOSTING_H
 #define SEMIHOSTING_H
@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/** Binary file of the emulator's working directory; negative: it cannot be opened. */
+/** Opens a binary file in the emulator's working directory. @return handle; negative: failed. */
 int32_t semihosting_open(const char *name, bool for_writing);
 
 /** true when all of it was read. */
