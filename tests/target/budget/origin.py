@@ -54,10 +54,10 @@ def flash_files(text, law, controls, others):
 
 
 def intrinsics(text):
-    """Functions of base.h that TI's compiler makes one MINF32 or MAXF32 for each __fmin() or
-    __fmax() in them."""
+    """Functions that TI's compiler makes one instruction for each __fmin(), __fmax(), __einvf32()
+    or __eisqrtf32() in them."""
     bodies = re.findall(r"static inline float (\w+)\([^)]*\)\s*\{(.*?)\n\}", text, re.S)
-    return {name for name, body in bodies if re.search(r"__fm(in|ax)\(", body)}
+    return {name for name, body in bodies if re.search(r"__(fm(in|ax)|e(inv|isqrt)f32)\(", body)}
 
 
 class Origin:
@@ -74,11 +74,11 @@ class Origin:
         board = (FIRMWARE / "board/f28335/CMakeLists.txt").read_text()
         files = {name: {path.name for path in (FIRMWARE / name).rglob("*.c")} for name in FOLDERS}
         others = set().union(*(files[name] for name in FOLDERS[1:]))
-        (base,) = FIRMWARE.rglob("base.h")
+        (base,), (fpu,) = FIRMWARE.rglob("base.h"), FIRMWARE.rglob("fpu.h")
         return cls(
             features,
             flash_files(board, law, files["control"], others),
-            intrinsics(base.read_text()),
+            intrinsics(base.read_text() + fpu.read_text()),
         )
 
     def feature(self, frames):

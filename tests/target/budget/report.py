@@ -10,7 +10,7 @@ from origin import FLASH
 OPERATIONS = {
     "add, subtract": ("fp_add",),
     "multiply": ("fp_mul",),
-    "divide": ("fp_div",),
+    "divide": ("fp_div", "estimate"),
     "square root": ("fp_sqrt",),
     "compare": ("fp_compare", "fp_flags"),
     "choose after a comparison": ("select",),

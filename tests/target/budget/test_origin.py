@@ -108,14 +108,25 @@ class Choices(unittest.TestCase):
         lines = (*LIMIT[:2], "ite\tgt", "movgt\tr0, #1", "movle\tr0, #0", "bx\tlr")
         self.assertEqual(self.counts_of(*lines), {"fp_compare": 1, "fp_flags": 1, "integer": 3})
 
+    def test_the_quotient_of_an_intrinsic_is_an_estimate(self):
+        lines = (
+            "vmov.f32\ts1, #112",
+            "vsqrt.f32\ts0, s0",
+            "vdiv.f32\ts0, s1, s0",
+            "bx\tlr",
+        )
+        self.assertEqual(self.counts_of(*lines, intrinsic=True), {"estimate": 1})
+        self.assertEqual(self.counts_of(*lines), {"constant": 1, "fp_sqrt": 1, "fp_div": 1})
+
     def test_intrinsics_are_read_from_base_h(self):
         text = (
             "static inline float base_min(float a, float b)\n{\n    return __fmin(a, b);\n}\n"
+            "static inline float estimate(float x)\n{\n    return __einvf32(x);\n}\n"
             "static inline float base_sum(float a, float b)\n{\n    return a + b;\n}\n"
             "static inline float base_clamp(float x, float lo, float hi)\n{\n    return "
             "__fmin(__fmax(x, lo), hi);\n}\n"
         )
-        self.assertEqual(origin.intrinsics(text), {"base_min", "base_clamp"})
+        self.assertEqual(origin.intrinsics(text), {"base_min", "estimate", "base_clamp"})
 
 
 class Memory(unittest.TestCase):
