@@ -44,7 +44,7 @@ class SpeedEnv(gymnasium.Env):
         self._drive, self._source = drive, scenario
         self._scenario = Scenario(scenario, drive)
         self._plant = Plant(self._scenario)
-        self._action = np.zeros(2, dtype=np.float32)
+        self._action: NDArray[np.float32] = np.zeros(2, dtype=np.float32)
         self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (6,), np.float32)
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (2,), np.float32)
 

@@ -108,4 +108,5 @@ class ControlLaw:
         )
         self._tick += 1
         _, duty = self._control(measured)
-        return Bridge(*(float(one) for one in duty))
+        a, b, c = duty
+        return Bridge(float(a), float(b), float(c))

@@ -113,9 +113,8 @@ class Summary:
     margin_mean: float
     margin_deviation: float
     margin_least: float
-    histograms: Dict[
-        str, NDArray[np.int64]
-    ]  # of the margin and of its two parts, bins of HISTOGRAM_EDGES
+    # Of the margin and of its two parts, bins of HISTOGRAM_EDGES.
+    histograms: Dict[str, NDArray[np.int64]]
     sensitivities: List[Sensitivity]
     worst: List[Worst]
 
@@ -152,7 +151,7 @@ def summarise(spec: Spec, tables: Iterable[pa.Table]) -> Summary:
     faults: Dict[int, int] = {}
     total = square = 0.0
     least = np.inf
-    histograms = {
+    histograms: Dict[str, NDArray[np.int64]] = {
         name: np.zeros(len(HISTOGRAM_EDGES) - 1, dtype=np.int64)
         for name in ("least", "speed", "current")
     }

@@ -84,7 +84,7 @@ def _checked(path: Path, octets: bytes) -> Program:
     return Program(octets[: 2 * (at + 1)], entry, tuple(blocks))
 
 
-def _lock(line, longest_s: float) -> None:  # type: ignore[no-untyped-def]
+def _lock(line, longest_s: float) -> None:
     end_s = time.monotonic() + longest_s
     while time.monotonic() < end_s:
         line.write(bytes([AUTOBAUD]))
@@ -97,7 +97,7 @@ def _lock(line, longest_s: float) -> None:  # type: ignore[no-untyped-def]
 
 def send(
     line, program: Program, progress: Callable[[float], None], longest_s: float = LOCK_S
-) -> None:  # type: ignore[no-untyped-def]
+) -> None:
     """`line`: an open serial port, 8N1, whose read() returns after ECHO_S at the latest."""
     line.reset_input_buffer()
     _lock(line, longest_s)

@@ -257,9 +257,8 @@ class Drive:
             answer = self._tried(call, *args, **self._unit, **kwargs)
         if answer.isError():
             code = getattr(answer, "exception_code", None)
-            raise Refused(
-                f"the drive {EXCEPTION_WORDS.get(code, f'answers with exception {code}')}"
-            )
+            words = EXCEPTION_WORDS.get(code) if isinstance(code, int) else None
+            raise Refused(f"the drive {words or f'answers with exception {code}'}")
         return answer
 
     def _tried(self, call: str, *args: Any, **kwargs: Any) -> Any:

@@ -29,9 +29,8 @@ NOT_A_WARNING = 4
 class Recipe:
     """How to see an entry in the virtual drive."""
 
-    at_e_radps: float = (
-        0.0  # the drive runs at this speed first, rad/s electrical; 0: it does not run
-    )
+    # The drive runs at this speed first, rad/s electrical; 0: it does not run.
+    at_e_radps: float = 0.0
     bench: Tuple[str, ...] = ()
     wait_s: float = 3.0  # it is there at the latest after this
     then: str = ""
@@ -59,13 +58,15 @@ def _addressed(text: str) -> str:
 def _entry(group: str, keys: Dict[str, Any]) -> Entry:
     how = keys["reproduce"]
     if isinstance(how, dict):
-        how = Recipe(**{k: tuple(v) if isinstance(v, list) else v for k, v in how.items()})
-    rest = {
+        recipe: Dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in how.items()}
+        how = Recipe(**recipe)
+    rest: Dict[str, Any] = {
         k: tuple(map(_addressed, v)) if isinstance(v, list) else v
         for k, v in keys.items()
         if k != "reproduce"
     }
-    return Entry(group=group, reproduce=how, **{**rest, "meaning": _addressed(rest["meaning"])})
+    rest["meaning"] = _addressed(rest["meaning"])
+    return Entry(group=group, reproduce=how, **rest)
 
 
 @lru_cache(maxsize=None)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Optional, Tuple
+from typing import Any, Dict, Optional, Tuple
 
 import typer
 from typing_extensions import Annotated
@@ -53,7 +53,7 @@ Unit = Annotated[
     int, typer.Option("--unit", min=1, max=247, help="address of the drive", envvar="SDRE_UNIT")
 ]
 
-_line = {"baud": 115200, "format": "8E1", "unit": 1}  # of all commands
+_line: Dict[str, Any] = {"baud": 115200, "format": "8E1", "unit": 1}  # of all commands
 
 
 def use_line(line: str, unit: int) -> None:
