@@ -20,8 +20,8 @@
 namespace {
 
 using Eigen::MatrixXd;
-using support::relative_error;
 using support::LongMatrix;
+using support::relative_error;
 
 constexpr double gain_tolerance_0 = 1e-9; // asked for; measured 1e-12
 constexpr double gain_tolerance_n = 1e-7; // asked for; measured 1e-12

@@ -164,7 +164,8 @@ TEST(lyapunov_refuses, a_double_integrator_in_other_coordinates)
         A(0, 1)          = 1.0;
         A(2, 2)          = -1.0;
         const MatrixXd T = random_matrix(3, 3, generator) + 4.0 * MatrixXd::Identity(3, 3);
-        EXPECT_NE(design_error(T * A * support::inverse(T)).find("A is not Hurwitz"), std::string::npos);
+        EXPECT_NE(design_error(T * A * support::inverse(T)).find("A is not Hurwitz"),
+                  std::string::npos);
     }
 }
 

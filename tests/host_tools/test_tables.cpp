@@ -528,12 +528,30 @@ TEST(Tables, AllFormsAreC99)
     for (const sdre::Design *design : designs) {
         const TempDir dir;
         sdre::write_tables(sdre::table_text(*design), dir.path());
-        const auto result = support::run_command(
-            {compiler, "-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only",
-             "-I", SDRE_SOURCE_DIR "/firmware/control", "-I", SDRE_SOURCE_DIR "/firmware/control/base", "-I",
-             SDRE_SOURCE_DIR "/firmware/control/observe", "-I", SDRE_SOURCE_DIR "/firmware/control/reference", "-I",
-             SDRE_SOURCE_DIR "/firmware/control/laws", "-I", SDRE_SOURCE_DIR "/firmware/control/watch", "-I",
-             SDRE_SOURCE_DIR "/firmware/control/modulate", "-I", SDRE_SOURCE_DIR "/firmware/control/fields", (dir / "gain_tables.c").string()});
+        const auto result = support::run_command({compiler,
+                                                  "-std=c99",
+                                                  "-Wall",
+                                                  "-Wextra",
+                                                  "-Wpedantic",
+                                                  "-Werror",
+                                                  "-fsyntax-only",
+                                                  "-I",
+                                                  SDRE_SOURCE_DIR "/firmware/control",
+                                                  "-I",
+                                                  SDRE_SOURCE_DIR "/firmware/control/base",
+                                                  "-I",
+                                                  SDRE_SOURCE_DIR "/firmware/control/observe",
+                                                  "-I",
+                                                  SDRE_SOURCE_DIR "/firmware/control/reference",
+                                                  "-I",
+                                                  SDRE_SOURCE_DIR "/firmware/control/laws",
+                                                  "-I",
+                                                  SDRE_SOURCE_DIR "/firmware/control/watch",
+                                                  "-I",
+                                                  SDRE_SOURCE_DIR "/firmware/control/modulate",
+                                                  "-I",
+                                                  SDRE_SOURCE_DIR "/firmware/control/fields",
+                                                  (dir / "gain_tables.c").string()});
         EXPECT_EQ(result.exit_code, 0) << result.err;
     }
 }

@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "command.hpp"
+#include "facts/commissioned_text.hpp"
 #include "shipped_drive.hpp"
 #include "sil/commission/bench.hpp"
 #include "sil/commission/board_bench.hpp"
-#include "facts/commissioned_text.hpp"
 #include "sil/commission/report.hpp"
 #include "temp_dir.hpp"
 

@@ -71,8 +71,9 @@ std::string drawn(const char *script, const std::string &csv, const std::string 
     const Workplace             work;
     const std::filesystem::path data = work / "data.csv";
     const std::filesystem::path out  = work / ("picture" + picture.extension().string());
-    std::vector<std::string>    arguments{SDRE_PYTHON, data_file(std::string("host_tools/python/sdre_plot/") + script).string(),
-                                       data.string(), title, out.string()};
+    std::vector<std::string>    arguments{
+        SDRE_PYTHON, data_file(std::string("host_tools/python/sdre_plot/") + script).string(),
+        data.string(), title, out.string()};
     write_files({{data, csv}});
     if (!marks.empty()) {
         arguments.push_back((work / "marks.json").string());
