@@ -4,8 +4,9 @@
 ///     code = floor(4096 V / 3), held within 0 .. 4095                          EQ-CONVERTER-1
 ///     all results after 2.5 + (1 + ACQ_PS) + 5 + (pairs - 1)(3 + ACQ_PS) ADCCLK  EQ-CONVERTER-2
 ///
-/// All pairs are taken at the trigger: some tenths of a microsecond are short beside everything the currents and the
-/// shaft do. With a window of 160 ns or less the first pair of every sequence reads full scale (device advisory).
+/// All pairs are sampled at the trigger: the true delay of some 0.1 us is negligible for currents
+/// and shaft. With a window of 160 ns or less, the first pair of a sequence reads full scale
+/// (advisory).
 #pragma once
 
 #include <array>

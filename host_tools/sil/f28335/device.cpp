@@ -21,8 +21,8 @@ constexpr int per_group    = 8;
 
 // Chosen: a poll of a register costs about this much; it makes a polling loop's time-out worth testing.
 constexpr std::int64_t poll_cycles = 20;
-// What the PLL lasts to lock, the longest of those loops, and a fifth. Beyond, the firmware loops without interrupts for good,
-// as the loader does.
+// Derived: 1.2 times the polls of the longest such loop, the lock time of the PLL. Beyond this
+// count the firmware loops without interrupts for good, as the loader does.
 constexpr std::int64_t most_polls = 40'000;
 // Chosen: a pass of the background loop, short beside the 96 us of an octet on the line.
 constexpr std::int64_t background_ticks = 3750;

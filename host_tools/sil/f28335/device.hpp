@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// A virtual TMS320F28335: runs firmware against the register model.
 ///
-/// Registers are plain memory. The model takes what was written and refreshes what is read at the firmware's hooks:
-/// EALLOW, EDIS, EINT, DINT, asm(), DELAY_US, the return of an ISR, and the accesses that the headers
-/// count (SCIRXBUF, SCITXBUF, WDKEY). Time passes in asm(" NOP"), in DELAY_US, and where a test says so; between two hooks
-/// the firmware takes no time. One device at a time: the registers exist once.
+/// Registers are plain memory. At the firmware's hooks the model takes the written values and
+/// refreshes the values to be read. Hooks are EALLOW, EDIS, EINT, DINT, asm(), DELAY_US and the
+/// return of an ISR. The accesses that the headers count are hooks too (SCIRXBUF, SCITXBUF, WDKEY).
+///
+/// Time passes in asm(" NOP"), in DELAY_US, and where a test advances it. Between two hooks the
+/// firmware takes no time. Only one device may exist at a time, because the registers exist once.
 #pragma once
 
 #include <array>
@@ -26,7 +28,8 @@
 #include "sil/f28335/surroundings.hpp"
 #include "sil/f28335/watchdog.hpp"
 
-/// The stack of the image, full of what code_start fills it with. No firmware runs on it here: a test may spoil it.
+/// The stack of the image, filled as code_start fills it. No firmware runs on it here: a test may
+/// write it.
 extern "C" volatile Uint16 codestart_stack[0x700];
 
 namespace sdre::f28335 {
@@ -36,7 +39,7 @@ constexpr double watchdog_pulse_s = 512 / 30e6;
 
 struct DeviceOptions {
     ClockFaults clock;
-    double      dead_time_s = 0.0; ///< what the bridge needs; less is reported
+    double      dead_time_s = 0.0; ///< required by the bridge; a shorter one is reported
     double xrs_low_s = 0.2; ///< the reset pin before the start: a supervisor's time after power-on
     AtLoad at_load   = AtLoad::old_values;
 };
@@ -98,7 +101,7 @@ public:
         return clock_;
     }
 
-    // What may go wrong from outside.
+    // External faults.
     void set_fault_pin(bool low);
     void lose_crystal();
     /// No conversion is started from now on.

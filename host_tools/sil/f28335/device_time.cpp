@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the device's units do as time passes, and what the bridge sees of it.
+// The device's units as time passes, and their effect on the bridge.
 #include "sil/f28335/device.hpp"
 
 #include <algorithm>
@@ -96,7 +96,7 @@ void Device::begin_control_period(Count count)
                           fmt::format("the gates of leg {} are not made from one signal", n + 1),
                           time_s());
         }
-        // Half a count: the wanted time need not be a whole number of counts.
+        // Tolerance of half a count: the required time need not be a whole number of counts.
         if (legs_[n] && gap &&
             period.seconds(*gap) + 0.5 * period.seconds(1) < options_.dead_time_s) {
             findings_.add(Finding::dead_time,

@@ -2,7 +2,9 @@
 /// eQEP1: position counter 0 .. QPOSMAX, latch at the unit timer and at the index, phase error, and the edge capture:
 ///
 ///     QCTMR counts SYSCLK / 2^CCPS from one unit position event to the next, which comes every 2^UPPS edges
-///     event: QCTMR -> QCPRD; UPEVNT; COEF when QCTMR ran over since the event before, CDEF when the direction changed
+///     event:   QCTMR -> QCPRD, UPEVNT is set
+///     COEF:    QCTMR overflowed since the previous event
+///     CDEF:    the direction changed
 #pragma once
 
 #include <cstdint>
@@ -14,11 +16,11 @@ namespace sdre::f28335 {
 
 /// An edge on track A or B.
 struct ShaftEdge {
-    double age_s     = 0.0; ///< from it until now
+    double age_s     = 0.0; ///< time since the edge
     int    direction = 1;   ///< +-1
 };
 
-/// What came in on the encoder's wires.
+/// Signals from the encoder since the last look.
 struct ShaftCount {
     std::int64_t           count       = 0;     ///< edges since any start, with sign
     bool                   index       = false; ///< the index went high since the last look

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What the model noticed that a real device would take amiss or punish silently.
+/// Diagnostics: misuse of the device that real hardware does not report.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@ namespace sdre::f28335 {
 enum class Finding {
     eallow,        ///< protected register written without EALLOW; the write has no effect
     no_clock,      ///< register of a unit written while its clock is off; no effect
-    unsupported,   ///< a setting that the model does not know; results are then worthless
+    unsupported,   ///< a setting that the model lacks; results are then invalid
     clock,         ///< clock tree used out of order or out of range
     adc,           ///< converter used before it is ready, too fast, or triggered while busy
-    interrupt,     ///< interrupt without vector, or a group that nobody acknowledges
-    trip,          ///< the fault pin is low and a leg goes on switching, or its gates float
+    interrupt,     ///< interrupt without vector, or a group without acknowledge
+    trip,          ///< the fault pin is low, but a leg switches or its gates float
     dead_time,     ///< both switches of a leg on, or closer than the bridge needs
     flash,         ///< flash changed with interrupts on, or beside the watchdog
     watchdog_reset ///< the device has reset itself

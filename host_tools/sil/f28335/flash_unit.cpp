@@ -21,7 +21,7 @@ void take(double time_s)
 
 } // namespace
 
-/// In place of firmware/board/f28335/flash_store.c, which cannot write: what a store that can be written would do.
+/// Replaces firmware/board/f28335/flash_store.c, which cannot write, by a writable store.
 extern "C" {
 
 const Uint16 *f28335_board_store(Uint16 slot)
@@ -29,7 +29,7 @@ const Uint16 *f28335_board_store(Uint16 slot)
     return (slot < slots) ? memory[slot] : nullptr;
 }
 
-/// All words to zero first, then all to one: a cut leaves zeros.
+/// Sets all words to zero first, then to 0xFFFF: an interrupted erasure leaves zeros.
 bool f28335_board_store_erase(Uint16 slot)
 {
     if (slot >= slots) {

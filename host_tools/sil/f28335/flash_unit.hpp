@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The four flash sectors that the firmware keeps its store in. They outlast a device: only the power of the program ends them.
+/// The four flash sectors of the firmware's store. They outlive a device, until the program ends.
 #pragma once
 
 namespace sdre::f28335 {

@@ -42,7 +42,7 @@ struct Candidate {
     int  field;
 };
 
-/// The first that happens and does something.
+/// Action of the first event in order of priority that happens and has an action.
 int field_of(std::uint16_t aqctl, std::initializer_list<Candidate> by_priority)
 {
     for (const Candidate &c : by_priority) {
@@ -53,7 +53,7 @@ int field_of(std::uint16_t aqctl, std::initializer_list<Candidate> by_priority)
     return aq_none;
 }
 
-/// By definition the counter goes down at its top.
+/// Action at TBPRD. By definition the counter counts down there.
 int field_at_top(std::uint16_t aqctl, int tbprd, int cmpa, int cmpb)
 {
     const bool a = cmpa >= tbprd;
@@ -61,7 +61,7 @@ int field_at_top(std::uint16_t aqctl, int tbprd, int cmpa, int cmpb)
     return field_of(aqctl, {{b, aq_cbd}, {a, aq_cad}, {true, aq_prd}, {b, aq_cbu}, {a, aq_cau}});
 }
 
-/// And up at zero.
+/// Action at ZERO. By definition the counter counts up there.
 int field_at_zero(std::uint16_t aqctl, int cmpa, int cmpb)
 {
     const bool a = cmpa == 0;
@@ -74,7 +74,7 @@ struct Action {
     int field;
 };
 
-/// All that may happen to a signal in the period, in order.
+/// All actions on a signal in the period, in order of time.
 std::vector<Action> actions_of(const LegRegisters &r, std::uint16_t aqctl, Count count)
 {
     std::vector<Action> actions;

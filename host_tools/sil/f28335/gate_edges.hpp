@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// From register values to the gates of one leg: action qualifier and dead band over one control period.
 ///
-/// Counter values count up and down; a control period runs from TBPRD to TBPRD, so ZERO is in its middle; with two
-/// updates per PWM period it is one way of the counter.
+/// The counter counts up and down. A control period runs from TBPRD to TBPRD, with ZERO in its
+/// middle. With two updates per PWM period, it is one direction of the counter.
 ///
 ///     output(t) = last action at or before t;  in the counter's direction B, A, the counter's own, then the
 ///                 compares of the other direction                                  EQ-GATES-1
@@ -17,14 +17,14 @@
 
 namespace sdre::f28335 {
 
-/// The way of the counter in a control period.
+/// Directions of the counter in a control period.
 enum class Count { down_up, down, up };
 
-/// Which compare values count at the instant at which the active ones are loaded. TI's guide leaves it open and says how
-/// to live with either: with loads at PRD none of TBPRD, with loads at ZERO none of 0.
+/// Compare values that act at the instant of a load. TI's guide does not specify it and gives rules
+/// that avoid the case: with loads at PRD no value TBPRD, with loads at ZERO no value 0.
 enum class AtLoad { old_values, new_values };
 
-/// What the registers of a leg hold, the compare values being the active ones.
+/// Register values of a leg. The compare values are the active ones.
 struct LegRegisters {
     int           tbprd  = 0;
     int           cmpa   = 0;
@@ -34,12 +34,12 @@ struct LegRegisters {
     std::uint16_t dbctl  = 0;
     std::uint16_t dbred  = 0; ///< only ten bits act
     std::uint16_t dbfed  = 0;
-    /// At the first instant of the period alone; none: as above.
+    /// Value at the first instant of the period only; none: as above.
     std::optional<int> cmpa_at_start{};
     std::optional<int> cmpb_at_start{};
 };
 
-/// Changes from here back are alike: a dead band has 1023 counts at most.
+/// Older changes have no effect: a dead band has at most 1023 counts.
 constexpr int long_ago_cnt = -100000;
 
 /// The level of a signal and its last changes, in counts before the coming control period (<= 0, >= long_ago_cnt).

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Registers that may not be written just now: EALLOW protection, and units without a clock. A register is
-/// plain memory, so the guard compares it with a copy whenever the model looks, and puts it back.
+/// Write protection of registers: EALLOW, and units without a clock. A register is plain memory. At
+/// each look the guard compares it with a copy and restores it.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ class Guard {
 public:
     Guard();
 
-    /// Takes what is there now as allowed.
+    /// Accepts the present values.
     void remember();
-    /// Undoes and reports what was written without leave since the last remember(), then remembers.
+    /// Restores and reports forbidden writes since the last remember(), then remembers.
     void check(bool eallow, Findings &findings, double time_s);
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sums over the stored images take no time in the model by themselves; on the device they are most of the start.
+// Adds the time of the CRC over the stored images. On the device it is most of the start-up time.
 #include <algorithm>
 
 #include "sil/f28335/device.hpp"

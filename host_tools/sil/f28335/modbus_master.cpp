@@ -81,7 +81,7 @@ void ModbusMaster::poll()
         got_.push_back(static_cast<std::uint8_t>(octet));
     }
     if (!busy()) {
-        errors_ += got_.empty() ? 0 : 1; // spoken without being asked
+        errors_ += got_.empty() ? 0 : 1; // unsolicited octets
         got_.clear();
         return;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The other end of the serial line: a Modbus RTU master. Own checksum, so that it does not share an error with the
+/// A Modbus RTU master at the other end of the serial line. Its CRC is independent of the
 /// firmware's.
 #pragma once
 
@@ -23,13 +23,13 @@ public:
     void write(std::uint16_t first, const std::vector<std::uint16_t> &values);
     /// Function 4.
     void read_input(std::uint16_t address, std::uint16_t count);
-    /// Takes what has come; call it now and then.
+    /// Takes the received octets; call it repeatedly.
     void poll();
     bool busy() const
     {
         return expected_ != 0;
     }
-    /// Of the last read; empty before its answer is there.
+    /// Values of the last read; empty until its answer has come.
     const std::vector<std::uint16_t> &values() const
     {
         return values_;
@@ -38,7 +38,7 @@ public:
     {
         return answers_;
     }
-    /// Answers that were no good: checksum, exception, wrong length.
+    /// Number of bad answers: CRC, exception, wrong length.
     int errors() const
     {
         return errors_;

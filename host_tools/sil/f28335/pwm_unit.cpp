@@ -63,7 +63,7 @@ void PwmUnit::check_settings(Findings &findings, double time_s) const
     refuse(r_.ETSEL.bit.SOCASEL > 2U && r_.ETSEL.bit.SOCAEN != 0U,
            "SOCA at a compare is not modelled");
     refuse(r_.AQSFRC.all != 0U || r_.AQCSFRC.all != 0U, "software forcing is not modelled");
-    // It has no shadow: what it does at the ends of a control period alone may change within.
+    // AQCTLA has no shadow. Only its actions at the ends of a control period may change within it.
     const unsigned at_ends = two_updates() ? 0xFU : 0xCU;
     refuse(began_ && ((r_.AQCTLA.all ^ aqctla_) & ~at_ends) != 0U,
            "AQCTLA changes within a control period");

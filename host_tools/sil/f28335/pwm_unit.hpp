@@ -10,7 +10,7 @@
 
 namespace sdre::f28335 {
 
-/// What an instant brings.
+/// Events of one instant.
 struct PwmEvents {
     bool zero      = false;
     bool period    = false;
@@ -22,7 +22,7 @@ class PwmUnit {
 public:
     PwmUnit(volatile EPWM_REGS &registers, int number);
 
-    /// Takes what was written, presents what is read. `fault_pin_low`: TZ1 is connected and active.
+    /// Takes the written registers, refreshes those to be read. `fault_pin_low`: TZ1 is active.
     void sync(bool fault_pin_low, Findings &findings, double time_s);
     /// SYSCLK cycles to the next ZERO or PRD; -1: the counter stands.
     std::int64_t cycles_to_event() const;
@@ -45,7 +45,7 @@ public:
     bool at_zero() const; ///< the counter is at 0 at this very cycle
     /// Gates over the control period that begins now.
     LegPeriod begin_period(Count count, AtLoad at_load);
-    /// What trip does to the outputs, 0 HiZ, 1 high, 2 low, 3 nothing; the worse of A and B.
+    /// Trip action on the outputs, 0 HiZ, 1 high, 2 low, 3 nothing; the worse of A and B.
     int trip_action_a() const;
     int trip_action_b() const;
 

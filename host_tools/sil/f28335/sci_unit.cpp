@@ -17,7 +17,7 @@ constexpr unsigned      count_shift = 8;
 constexpr unsigned      count_mask  = 0x1F00;
 constexpr double        octet_bits  = 11.0;
 constexpr double        baud_room   = 0.045; // half a bit in eleven
-constexpr double        frame_gap   = 3.5;   // octets: beyond it another answer begins
+constexpr double        frame_gap   = 3.5;   // octets: a longer gap begins another answer
 
 double device_baud_Bd(const Clock &clock)
 {
@@ -108,8 +108,8 @@ void SciUnit::sync(Findings &findings, double time_s)
         error_    = false;
         shifting_ = false;
     }
-    // Hold and release within one stretch of the firmware leave only the release: a write that
-    // finds the overflow flag counts as both.
+    // Hold and release between two hooks leave only the release. A write while the overflow flag is
+    // set counts as both.
     const bool written = SciaRegs.SCIFFRX.all != presented_ffrx_;
     if ((SciaRegs.SCIFFRX.all & not_reset) == 0U || (written && overflow_)) {
         rx_.clear();

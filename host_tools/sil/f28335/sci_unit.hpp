@@ -11,19 +11,19 @@
 
 namespace sdre::f28335 {
 
-/// How the other end of the line is set up.
+/// Settings of the other end of the line.
 struct LineEnd {
     double baud_Bd = 115200.0;
     char   parity  = 'E'; ///< E, O, or N with two stop bits: 11 bits always
 };
 
-/// What the direction pin of a transceiver did, in ticks; the last time each.
+/// Timing of a transceiver's direction pin, in ticks, at its last use.
 struct Direction {
     int          rises       = 0;
     std::int64_t lead_ticks  = -1; ///< from the rise to the first bit
     std::int64_t tail_ticks  = -1; ///< from the end of the last stop bit to the fall
-    int          cut_octets  = 0;  ///< while it was low: nobody hears them
-    int          deaf_octets = 0;  ///< came while it was high
+    int          cut_octets  = 0;  ///< sent while it was low, hence lost
+    int          deaf_octets = 0;  ///< received while it was high, hence lost
     std::int64_t longest_gap = 0;  ///< between two octets of an answer
 };
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* In the simulation main() binds board and application to these instead of the generated tables; they are written before each
- * run, with the constants of the scenario's drive. */
+/* In the simulation, main() uses these constants instead of the generated tables. They are set from
+ * the scenario's drive before each run. */
 #include "app_config.h"
 #include "drive_config.h"
 

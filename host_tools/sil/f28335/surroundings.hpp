@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What is connected to the device's pins, as the device sees it.
+/// The circuit at the device's pins, as the device sees it.
 #pragma once
 
 #include <array>
@@ -29,9 +29,9 @@ public:
     Surroundings &operator=(const Surroundings &) = delete;
     virtual ~Surroundings()                       = default;
 
-    /// The counters have reached their top; the gates will do this until they are there again.
+    /// The counters are at TBPRD. `period` has the gate signals until they reach TBPRD again.
     virtual void period_begins(const ControlPeriod &period) = 0;
-    /// Which legs follow the PWM from now on; the others have both switches off.
+    /// Legs that follow the PWM from now on. The others have both switches off.
     virtual void legs_change(const std::array<bool, 3> &enabled, double into_period_s) = 0;
     /// Voltage at a converter input, now: side 0 = A, 1 = B.
     virtual double analog_V(int side, int number) = 0;

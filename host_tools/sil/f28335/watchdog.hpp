@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// The watchdog counts crystal / 512 / prescale up to 256, then resets the device.
 ///
-/// WDFLAG is no memory of that: the device looks at XRS some time after the beginning of a reset, and sets the flag when the
-/// pin is high again (TI's answer on WDFLAG of the 2823x/2833x).
+/// WDFLAG does not record this reset. Some time after the start of any reset the device samples
+/// XRS, and sets the flag if the pin is high again (TI's answer on WDFLAG of the 2823x/2833x).
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ private:
     std::int64_t period_ticks() const;
 
     bool          disabled_       = true;
-    bool          locked_         = false; ///< WDOVERRIDE was cleared: cannot be stopped any more
+    bool          locked_         = false; ///< WDOVERRIDE was cleared: cannot be stopped
     bool          half_key_       = false;
     bool          reset_          = false;
     bool          flag_           = false; ///< WDFLAG

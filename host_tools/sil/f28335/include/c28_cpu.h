@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file c28_cpu.h
- * @brief What the C28x compiler and core give the drivers: keywords, inline assembly, IER, IFR, delays.
+ * @brief Stand-ins for C28x compiler and core: keywords, inline assembly, IER, IFR, delays.
  *
- * Every one of these is a point at which the model looks at the registers (host_tools/sil/f28335/hooks.cpp).
- * The model's own C++ sources see the functions, not the keywords.
+ * At each of them the model reads and updates the registers (host_tools/sil/f28335/hooks.cpp). The
+ * model's own C++ sources use the functions, not the keywords.
  */
 #ifndef C28_CPU_H
 #define C28_CPU_H
