@@ -127,7 +127,7 @@ def header(groups: List[Group]) -> str:
         count = sum(1 for _ in of_space(groups, space))
         lines += [f"#define APP_REGISTERS_MAP_{space.upper()} {count}U", ""]
     lines += [
-        "/** By address, upwards. */",
+        "/** Rows in ascending order of the address. */",
         "extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];",
         "extern const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT];",
         "",

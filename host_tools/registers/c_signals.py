@@ -19,7 +19,7 @@ def signals_header(found: List[Signal]) -> str:
         "/* clang-format off */",
         "/**",
         " * @file app_scope_signals.h",
-        " * @brief What the scope can show. Units: docs/modbus.md.",
+        " * @brief Signals of the scope. Units: docs/modbus.md.",
         " */",
         "#ifndef APP_SCOPE_SIGNALS_H",
         "#define APP_SCOPE_SIGNALS_H",
@@ -56,7 +56,7 @@ def signals_source(found: List[Signal]) -> str:
         "/* clang-format off */",
         '#include "app_scope_signals.h"',
         "",
-        "/* Of a running drive the estimate. */",
+        "/* While the drive runs this is its estimate. */",
         "static float app_scope_speed(const app_modes_t *m)",
         "{",
         "    return (m->drive.state == DRIVE_RUN) ? m->drive.wanted.now.omega_e_radps : "

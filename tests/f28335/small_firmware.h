@@ -42,7 +42,7 @@ extern small_firmware_mistake_t small_firmware_mistake;
 /** Compare value of all legs, and whether the gate driver is enabled. */
 extern uint16_t small_firmware_compare;
 
-/** What the ISR has seen. */
+/** Values that the ISR saw. */
 extern volatile uint32_t small_firmware_ticks;
 extern volatile uint16_t small_firmware_codes[4];
 extern volatile uint16_t small_firmware_position;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// One flipped bit in what the application keeps in RAM while it drives: its state, its constants, the tables. What follows
-// may be nothing, or a trip; it must not be a current beyond 1.5 times the limit that nobody notices.
+// Flips one bit in the RAM of the running application: its state, its constants, the tables. The
+// result may be no effect or a trip. A current beyond 1.5 times the limit without a trip is a
+// failure.
 //
-// Every flip is a process of its own, from the same instant of the same run. SDRE_BIT_FLIPS sets their number.
+// Every flip has its own process and starts from the same instant of the same run. SDRE_BIT_FLIPS
+// sets their number.
 #include <sys/wait.h>
 #include <unistd.h>
 

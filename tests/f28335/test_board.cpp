@@ -191,7 +191,8 @@ TEST_F(F28335Board, EncoderRegisters)
 TEST_F(F28335Board, PinRegisters)
 {
     start();
-    // Two bits a pin: ePWM1A..3B on 0..5, TZ1 on 12; eQEP1A, B, I on 20, 21, 23 and SCI-A on 28, 29 (second register from 16).
+    // Two bits a pin. First register: ePWM1A..3B on 0..5, TZ1 on 12. Second register, from pin 16:
+    // eQEP1A, B, I on 20, 21, 23 and SCI-A on 28, 29.
     EXPECT_EQ(GpioCtrlRegs.GPAMUX1.all, 0x555U | (1UL << 24));
     EXPECT_EQ(GpioCtrlRegs.GPAMUX2.all,
               (1UL << 8) | (1UL << 10) | (1UL << 14) | (1UL << 24) | (1UL << 26));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The application with its drivers on the virtual device against the same application on board.h: the same codes and counts
-// go in, so the same duty ratios have to come out, bit for bit.
+// Compares the application with its drivers on the virtual device with the same application on
+// board.h. The same codes and counts must give the same duty ratios, bit for bit.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

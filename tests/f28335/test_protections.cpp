@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What breaks on the board, with the application and the drivers behind it: time to an open bridge and peak current.
-// docs/assurance.md has the table.
+// Faults of the board with the application and its drivers: time to an open bridge and peak
+// current. docs/assurance.md has the table.
 #include <algorithm>
 
 #include <fmt/format.h>

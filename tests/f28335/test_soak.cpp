@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A long run on the virtual F28335: random speeds and loads, things that break and heal, an operator who talks Modbus and
-// resets what has tripped. Nothing may drift, stay stuck, or leave its limits.
+// A long run on the virtual F28335 with random speeds, loads and temporary faults. An operator
+// sends Modbus requests and resets trips. Nothing may drift, stay stuck, or leave its limits.
 //
 // SDRE_SOAK_s sets the simulated seconds.
 #include <algorithm>

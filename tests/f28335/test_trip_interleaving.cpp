@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// trip.c and line.c with an interrupt at every access to memory, of a register or a variable. The compiler marks the accesses (the calls
-// that ThreadSanitizer would take); here they are the places at which the background is interrupted by the control interrupt,
-// and its tick by INT13. The registers do what the trip needs: TZFRC, TZCLR, the input, the enable pin.
+// Runs trip.c and line.c with an interrupt at every memory access, of a register or a variable. The
+// compiler marks the accesses with ThreadSanitizer's calls. At each of them the control interrupt
+// interrupts the background, or INT13 interrupts the tick. The registers model only what the trip
+// needs: TZFRC, TZCLR, the input, the enable pin.
 #include <functional>
 #include <string>
 #include <vector>
@@ -53,7 +54,7 @@ bool   sends     = false; ///< level of the direction pin
 
 std::uint32_t cycles = 0;
 
-/// What the hardware makes of the last access.
+/// Effect of the last access on the hardware.
 void settle()
 {
     for (volatile EPWM_REGS *leg : legs) {

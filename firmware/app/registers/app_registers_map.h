@@ -207,7 +207,7 @@ struct app_registers_wanted;
 
 #define APP_REGISTERS_MAP_INPUT 98U
 
-/** By address, upwards. */
+/** Rows in ascending order of the address. */
 extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];
 extern const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT];
 

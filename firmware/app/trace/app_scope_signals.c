@@ -3,7 +3,7 @@
 /* clang-format off */
 #include "app_scope_signals.h"
 
-/* Of a running drive the estimate. */
+/* While the drive runs this is its estimate. */
 static float app_scope_speed(const app_modes_t *m)
 {
     return (m->drive.state == DRIVE_RUN) ? m->drive.wanted.now.omega_e_radps : m->reading.omega_e_radps;

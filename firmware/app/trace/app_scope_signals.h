@@ -3,7 +3,7 @@
 /* clang-format off */
 /**
  * @file app_scope_signals.h
- * @brief What the scope can show. Units: docs/modbus.md.
+ * @brief Signals of the scope. Units: docs/modbus.md.
  */
 #ifndef APP_SCOPE_SIGNALS_H
 #define APP_SCOPE_SIGNALS_H

@@ -114,7 +114,7 @@ static void constants_changed(void)
     drive_config.constants = &answer;
 }
 
-/* What the watches find takes some periods: they are brought to the one before. */
+/* A watch needs some periods to trip: its state is set to one period before that. */
 static void phase_without_current(void)
 {
     drive.current_watch.expects    = true;
@@ -196,7 +196,7 @@ static void test_law_without_counts_runs(void)
     TEST_ASSERT_TRUE(drive_tick(&drive, &sample, &command).gate_enable);
 }
 
-/* What ends loops in the constants of the shipped laws. */
+/* Loop limits in the constants of the shipped laws. */
 
 static law_noc_config_t          noc;
 static law_noc_speed_config_t    noc_speed;
@@ -449,7 +449,7 @@ static void test_each_condition_of_a_start_alone_keeps_the_gates_off(void)
     }
 }
 
-/* What is no reason to stay off: the other half of a pair. */
+/* One condition of a pair alone does not prevent a start. */
 static void test_what_alone_is_not_in_the_way(void)
 {
     go_ready();

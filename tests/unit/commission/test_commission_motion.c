@@ -105,7 +105,7 @@ static void test_a_shaft_that_does_not_coast(void)
     run(-0.9, true, 300, -300.0, 100000);
 
     TEST_ASSERT_TRUE(commission_motion_solve(&motion, &known));
-    /* What is viscous counts as dry and as inertia: 0.03 N m of 0.32. */
+    /* Viscous friction appears as dry friction and as inertia: 0.03 N m of 0.32. */
     TEST_ASSERT_DOUBLE_WITHIN(0.03 * INERTIA, INERTIA, (double)known.inertia_kgm2.value);
     const double drag_Nm = DRY_Nm + (VISCOUS_Nms * 150.0);
     TEST_ASSERT_DOUBLE_WITHIN(0.1 * drag_Nm, drag_Nm, (double)known.coulomb_Nm.value);

@@ -90,8 +90,9 @@ static void test_no_constant_is_left_out(void)
     }
 }
 
-/* The same of application and board. What no word shows is padding and the three pointers, which no walk visits: so many
- * units of 16 bits on this machine. One more is a member that fields_app.c forgets. */
+/* The same for application and board. Padding and the three pointers appear in no word: their size
+ * on this machine is known, in units of 16 bits. One unit more is a member that fields_app.c
+ * omits. */
 static void test_no_constant_of_the_application_is_left_out(void)
 {
     if (sizeof(void *) != 8U) {

@@ -251,7 +251,7 @@ static void test_second_alignment_forgets_the_first(void)
     TEST_ASSERT_FALSE(tick().gate_enable);
 }
 
-/* Of EQ-APP-ALIGN-1, with R = 2.48 Ohm, L_d = 74.98 mH, w_c = 100 1/s, I = 2 A, 200 us. */
+/* Gains of EQ-APP-ALIGN-1 with R = 2.48 Ohm, L_d = 74.98 mH, w_c = 100 1/s, I = 2 A, 200 us. */
 static void test_gains_follow_the_winding(void)
 {
     config.bandwidth_radps = 100.0f;

@@ -344,8 +344,8 @@ static void test_edge_times_give_angle_and_speed(void)
     }
 }
 
-/* After a change of direction the capture has no time; the edge is taken in the middle of its period, and nothing is learned
- * from which of a line's edges it is. */
+/* After a change of direction the capture has no time. The edge is taken in the middle of its
+ * period, and its place within the line is not learned. */
 static void test_an_edge_without_a_time_is_none_of_a_line(void)
 {
     start_edges(4321.7);

@@ -72,8 +72,8 @@ static void go(app_control_state_t to)
     TEST_ASSERT_EQUAL_INT(to, control.state);
 }
 
-/* Oracle: table 28 of transitions of the standard, by the pattern of the control word's bits 0 to 3, written down again by
- * state and word; -1: nothing happens. */
+/* Oracle: the transitions of the standard, table 28, by the pattern of the control word's bits 0 to
+ * 3. The table here is written anew by state and word; -1: no transition. */
 static int oracle(int state, int word)
 {
     enum { NRTSO, SOD, RTSO, SO, OE, QSA, FRA, F };
@@ -110,7 +110,7 @@ static void test_every_transition_and_no_other(void)
             go((app_control_state_t)state);
             ticks((uint16_t)word, 4);
             const int want = oracle(state, word);
-            /* What follows by itself from where that word leads to, with the same word. */
+            /* Follows the automatic transitions with the same word. */
             int end = (want < 0) ? state : want;
             for (int n = 0; (n < 4) && (oracle(end, word) >= 0); n++) {
                 end = oracle(end, word);

@@ -521,7 +521,7 @@ static void test_board_faults_and_over_current_open_at_any_speed(void)
     TEST_ASSERT_FALSE(out.gate_enable);
 }
 
-/* The speed is not known any more: the short stays, until the operator ends it. */
+/* The speed is unknown: the short stays until the operator ends it. */
 static void test_a_lost_encoder_at_speed_leaves_the_motor_shorted(void)
 {
     run_fast();

@@ -165,7 +165,7 @@ static void test_can_be_armed_again_at_any_time(void)
     }
 }
 
-/* What was before it was armed says nothing about the level. */
+/* Samples from before the arming do not count for the level crossing. */
 static void test_the_first_sample_has_none_before_it(void)
 {
     setup.trigger = APP_SCOPE_RISING;
