@@ -149,11 +149,8 @@ static void limit_iq(current_ref_t *r, const current_ref_config_t *c, const moto
         r->iq_hi_A         = base_clamp(v->y_A + half_A, 0.0f, hi_A);
     }
     /* iq_lo <= 0 <= iq_hi: only the one against the speed feeds back. */
-    if (w > 0.0f) {
-        r->iq_lo_A = limit_regeneration(c, v, w * accel, in->dc_link_V, r->iq_lo_A);
-    } else {
-        r->iq_hi_A = limit_regeneration(c, v, w * accel, in->dc_link_V, r->iq_hi_A);
-    }
+    float *const back_A = (w > 0.0f) ? &r->iq_lo_A : &r->iq_hi_A;
+    *back_A             = limit_regeneration(c, v, w * accel, in->dc_link_V, *back_A);
 }
 
 CTL_PART speed_ref_limits_t current_ref_speed_limits(const current_ref_t        *r,
