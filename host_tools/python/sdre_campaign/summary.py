@@ -113,7 +113,7 @@ class Summary:
     margin_mean: float
     margin_deviation: float
     margin_least: float
-    # Of the margin and of its two parts, bins of HISTOGRAM_EDGES.
+    # Counts in the bins of HISTOGRAM_EDGES: the margin and its two parts.
     histograms: Dict[str, NDArray[np.int64]]
     sensitivities: List[Sensitivity]
     worst: List[Worst]
