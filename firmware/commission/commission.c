@@ -31,6 +31,18 @@ static const stage_plan_t plans[] = {
     [COMMISSION_SPIN] = {200.0f, 80},    [COMMISSION_FINISHED] = {1.0e6f, 100},
     [COMMISSION_ABORTED] = {1.0e6f, 100}};
 
+static bool is_stage(commission_stage_t stage)
+{
+    return ((int16_t)stage >= (int16_t)COMMISSION_IDLE) &&
+           ((int16_t)stage <= (int16_t)COMMISSION_ABORTED);
+}
+
+/* A flipped bit of the stage must not read outside the table. */
+static const stage_plan_t *plan_of(commission_stage_t stage)
+{
+    return &plans[is_stage(stage) ? stage : COMMISSION_ABORTED];
+}
+
 ctl_status_t commission_init(commission_t *m, const commission_config_t *c)
 {
     const bool ok = base_in_range(c->ts_s, 1.0e-5f, 1.0e-2f) && check_positive(c->current_max_A) &&
@@ -110,7 +122,7 @@ static commission_reason_t judge(commission_t *m, const commission_sample_t *s, 
     if (moved != COMMISSION_REASON_NONE) {
         return moved;
     }
-    return (m->ticks > commission_ticks(plans[m->stage].most_s, m->config->ts_s))
+    return (m->ticks > commission_ticks(plan_of(m->stage)->most_s, m->config->ts_s))
                ? COMMISSION_REASON_TIMEOUT
                : COMMISSION_REASON_NONE;
 }
@@ -259,6 +271,9 @@ static bridge_t modulate(commission_t *m, const commission_answer_t *answer, flo
 
 bridge_t commission_tick(commission_t *m, const commission_sample_t *sample, bool run)
 {
+    if (!is_stage(m->stage)) {
+        return abort_for(m, COMMISSION_REASON_NUMERIC);
+    }
     if ((m->stage == COMMISSION_IDLE) || (m->stage >= COMMISSION_FINISHED)) {
         return bridge_open();
     }
@@ -290,5 +305,5 @@ bridge_t commission_tick(commission_t *m, const commission_sample_t *sample, boo
 
 int16_t commission_percent(commission_stage_t stage, commission_stage_t last_stage)
 {
-    return plans[(stage == COMMISSION_ABORTED) ? last_stage : stage].percent;
+    return plan_of((stage == COMMISSION_ABORTED) ? last_stage : stage)->percent;
 }

@@ -181,6 +181,27 @@ static void test_a_motor_that_is_not_there_ends_it(void)
     TEST_ASSERT_EQUAL_INT(COMMISSION_REASON_INDUCTANCE, module.reason);
 }
 
+static void test_a_flipped_bit_of_the_stage_ends_it(void)
+{
+    drive_on();
+    const int stage = (int)module.stage;
+
+    for (int bit = 0; bit < 15; bit++) {
+        const int flipped = stage ^ (1 << bit);
+        if ((flipped >= COMMISSION_IDLE) && (flipped <= COMMISSION_ABORTED)) {
+            continue;
+        }
+        module.stage         = (commission_stage_t)flipped;
+        const int16_t behind = commission_percent(module.stage, COMMISSION_DRAG);
+        TEST_ASSERT_EQUAL_INT16(100, behind);
+        TEST_ASSERT_EQUAL_INT16(100, commission_percent(COMMISSION_ABORTED, module.stage));
+        expect_abort(COMMISSION_REASON_NUMERIC);
+    }
+    module.stage = (commission_stage_t)-1;
+    TEST_ASSERT_EQUAL_INT16(100, commission_percent(module.stage, COMMISSION_DRAG));
+    expect_abort(COMMISSION_REASON_NUMERIC);
+}
+
 static void test_it_can_start_again(void)
 {
     drive_on();
@@ -226,6 +247,7 @@ int main(void)
     RUN_TEST(test_a_position_that_jumps_opens_at_once);
     RUN_TEST(test_over_speed_opens);
     RUN_TEST(test_a_motor_that_is_not_there_ends_it);
+    RUN_TEST(test_a_flipped_bit_of_the_stage_ends_it);
     RUN_TEST(test_it_can_start_again);
     RUN_TEST(test_bounds_out_of_range_are_refused);
     return UNITY_END();
