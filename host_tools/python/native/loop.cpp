@@ -14,7 +14,7 @@
 
 #include "common/errors.hpp"
 #include "sil/run/simulation.hpp"
-#include "trace_columns.hpp"
+#include "sil/run/trace_columns.hpp"
 
 extern "C" {
 #include "svpwm.h"

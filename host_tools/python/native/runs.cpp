@@ -13,7 +13,7 @@
 #include "common/toml_reader.hpp"
 #include "sil/eval/plot.hpp"
 #include "sil/eval/results.hpp"
-#include "trace_columns.hpp"
+#include "sil/run/trace_columns.hpp"
 
 namespace nb = nanobind;
 

@@ -8,6 +8,7 @@
 
 #include "common/errors.hpp"
 #include "common/json.hpp"
+#include "sil/run/trace_columns.hpp"
 
 namespace sdre {
 namespace {
@@ -76,26 +77,34 @@ bool is_shown(const std::string &metric, const Scenario &scenario)
     return metric.rfind("position", 0) != 0 || !scenario.position_reference.empty();
 }
 
-const char *const trace_head =
-    "time_s,omega_ref_e_radps,omega_e_radps,iq_A,id_A,iq_ref_A,id_ref_A,vq_V,vd_V,d_omega_hat,"
-    "d_q_hat,d_d_hat,load_torque_Nm,torque_Nm,dc_link_V,position_e_rad,position_ref_e_rad,"
-    "ia_A,ib_A,ic_A\n";
-
 constexpr std::ptrdiff_t rows_of_a_piece = 4096; // chosen: some hundred kilobytes
 
-void append_rows(std::string &s, Trace::const_iterator begin, Trace::const_iterator end)
+std::vector<TraceColumn> csv_columns()
+{
+    std::vector<TraceColumn> columns;
+    std::copy_if(trace_columns().begin(), trace_columns().end(), std::back_inserter(columns),
+                 [](const TraceColumn &column) { return column.digits > 0; });
+    return columns;
+}
+
+std::string trace_head(const std::vector<TraceColumn> &columns)
+{
+    std::string s;
+    for (const TraceColumn &column : columns) {
+        s += s.empty() ? "" : ",";
+        s += column.name;
+    }
+    return s + "\n";
+}
+
+void append_rows(std::string &s, const std::vector<TraceColumn> &columns,
+                 Trace::const_iterator begin, Trace::const_iterator end)
 {
     for (auto r = begin; r != end; ++r) {
-        fmt::format_to(std::back_inserter(s),
-                       "{:.10g},{:.10g},{:.10g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},",
-                       r->time_s, r->omega_ref_e_radps, r->omega_e_radps, r->iq_A, r->id_A,
-                       r->iq_ref_A, r->id_ref_A, r->vq_V, r->vd_V);
-        fmt::format_to(std::back_inserter(s), "{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},",
-                       r->d_omega_hat, r->d_q_hat, r->d_d_hat, r->load_torque_Nm, r->torque_Nm,
-                       r->dc_link_V);
-        fmt::format_to(std::back_inserter(s), "{:.12g},{:.12g},{:.9g},{:.9g},{:.9g}\n",
-                       r->position_e_rad, r->position_ref_e_rad, r->phase_A[0], r->phase_A[1],
-                       r->phase_A[2]);
+        for (const TraceColumn &column : columns) {
+            fmt::format_to(std::back_inserter(s), "{:.{}g},", column.of(*r), column.digits);
+        }
+        s.back() = '\n';
     }
 }
 
@@ -124,17 +133,19 @@ const MetricLabel &metric_label(const std::string &metric)
 
 std::string trace_csv(const Trace &trace)
 {
-    std::string s = trace_head;
-    append_rows(s, trace.begin(), trace.end());
+    const std::vector<TraceColumn> columns = csv_columns();
+    std::string                    s       = trace_head(columns);
+    append_rows(s, columns, trace.begin(), trace.end());
     return s;
 }
 
 OutputFile trace_file(const std::filesystem::path &path, const Trace &trace)
 {
-    return {path, trace_head, [row = trace.begin(), end = trace.end()]() mutable {
+    const std::vector<TraceColumn> columns = csv_columns();
+    return {path, trace_head(columns), [columns, row = trace.begin(), end = trace.end()]() mutable {
                 const auto  rows = std::min<std::ptrdiff_t>(rows_of_a_piece, end - row);
                 std::string s;
-                append_rows(s, row, row + rows);
+                append_rows(s, columns, row, row + rows);
                 row += rows;
                 return s;
             }};
