@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_commission.h
- * @brief Self-commissioning (commission.h) on the board's samples: bounds of the command, a count that does not end with the turn.
+ * @brief Runs self-commissioning (commission.h) on the board's samples.
  *
- * The drive's tables may be of another motor. Of them the control period, the dc link's range, the positions of a turn and
- * the largest current are used: what is the board's.
+ * It checks the limits of the command and extends the encoder count over many turns. The drive's
+ * tables may belong to another motor. Only their board data are used: control period, dc-link
+ * range, positions per turn and current limit.
  */
 #ifndef APP_COMMISSION_H
 #define APP_COMMISSION_H
@@ -14,16 +15,16 @@
 #include "commission.h"
 #include "drive_config.h"
 
-/** What the operator allows. */
+/** Limits set by the operator. */
 typedef struct {
     float current_A;     /**< > 0, at most the drive's limit */
     float speed_m_radps; /**< mechanical, > 0 */
 } app_commission_bounds_t;
 
-/** How it stands, and what was found. */
+/** Progress and results. */
 typedef struct {
     commission_stage_t  stage;
-    commission_stage_t  last_stage; /**< the one that ran when it ended */
+    commission_stage_t  last_stage; /**< stage that ran when it ended */
     commission_reason_t reason;
     int16_t             percent;
     commission_result_t found;
@@ -32,27 +33,27 @@ typedef struct {
 typedef struct {
     commission_config_t config;
     commission_t        module;
-    float               current_max_A; /**< that may be allowed */
+    float               current_max_A; /**< largest allowed limit */
     uint16_t            positions;     /**< of a turn */
     uint16_t            before_cnt;
     int32_t             position_cnt; /**< since the start */
 } app_commission_t;
 
-/** Nothing was commissioned yet. Context: init. */
+/** Sets up, without results. Context: init. */
 void app_commission_init(app_commission_t *a, const drive_config_t *drive);
 
-/** true when these bounds can be started with. Context: control ISR. */
+/** True if the limits are valid. Context: control ISR. */
 bool app_commission_allows(const app_commission_t *a, const app_commission_bounds_t *bounds);
 
-/** From the beginning, at this position. Context: control ISR. */
+/** Starts at the first stage, at this position. Context: control ISR. */
 void app_commission_start(app_commission_t *a, const app_commission_bounds_t *bounds,
                           uint16_t position_cnt);
 
-/** One period. @param run false: withdrawn. Context: control ISR. */
+/** Executes one period. @param run false ends it. Context: control ISR. */
 bridge_t app_commission_tick(app_commission_t *a, const app_scale_sample_t *sample,
                              const board_sample_t *raw, bool run);
 
-/** Context: background; of one tick, unless one interrupts. */
+/** Status of one tick, unless a tick interrupts the call. Context: background. */
 app_commission_status_t app_commission_status(const volatile app_commission_t *a);
 
 #endif /* APP_COMMISSION_H */

@@ -14,7 +14,7 @@ static app_control_ask_t asked_for(uint16_t controlword)
     } else if (!app_control_has(controlword, APP_CONTROL_ENABLE)) {
         ask = APP_CONTROL_ASK_SWITCH_ON;
     } else {
-        /* operation */
+        /* APP_CONTROL_ASK_ENABLE */
     }
     return ask;
 }
@@ -29,7 +29,8 @@ static bool stands(const app_control_t *c, const app_control_seen_t *seen)
     return base_within(seen->speed_e_radps, c->config->stop.still_e_radps);
 }
 
-/* Commanded to run, and running: the ticks that cost most, and all below would leave it as it is. */
+/* Steady run, the most expensive ticks: the state machine is skipped, as it would change
+ * nothing. */
 static bool is_steady(const app_control_t *c, const app_control_seen_t *seen, app_control_ask_t ask)
 {
     return (seen->mode == APP_MODE_RUN) && (c->state == APP_CONTROL_OPERATION_ENABLED) &&
@@ -41,7 +42,8 @@ static bool is_stopping(const app_control_t *c, app_control_ask_t ask)
     return (c->state == APP_CONTROL_QUICK_STOP_ACTIVE) || (ask != APP_CONTROL_ASK_ENABLE);
 }
 
-/* A stop along a ramp, until the shaft stands. Else the modes end the run as the drive's file says. */
+/* True during a stop along a ramp, until standstill. Otherwise app_modes ends the run as the drive
+ * file says. */
 static bool brakes(const app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
                    app_control_ask_t ask)
 {
@@ -55,7 +57,7 @@ static bool brakes(const app_control_t *c, const app_objects_t *o, const app_con
     } else if (ask == APP_CONTROL_ASK_SWITCH_ON) {
         ramps = o->disable_option != 0;
     } else {
-        /* at once */
+        /* no ramp */
     }
     const bool stays = (c->state == APP_CONTROL_QUICK_STOP_ACTIVE) && app_control_stays_quick(o);
     return ramps && (stays || !stands(c, seen)) && (seen->mode == APP_MODE_RUN);
@@ -69,7 +71,7 @@ static float deceleration(const app_control_t *c, const app_objects_t *o)
     return fast ? o->quick_e_radps2 : o->decel_e_radps2;
 }
 
-/* Away from zero speed by the one, towards it by the other; 0: at once. */
+/* Ramps the reference speed: away from zero with accel, towards zero with decel; 0: a step. */
 static void ramp(app_control_t *c, float target, float accel, float decel)
 {
     const float ref   = c->ref_e_radps;
@@ -115,7 +117,7 @@ void app_control_tick(app_control_t *c, const app_objects_t *o, const app_contro
     if (out->positioning) {
         out->target    = c->setpoint.target;
         out->profile   = c->setpoint.now.profile;
-        c->ref_e_radps = seen->speed_e_radps; /* where a stop begins */
+        c->ref_e_radps = seen->speed_e_radps; /* a stop ramp begins here */
     } else {
         move_reference(c, o, seen, stopping);
     }

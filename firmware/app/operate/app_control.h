@@ -1,17 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_control.h
- * @brief The operator's side of the drive in the terms of CiA 402 (IEC 61800-7-201): control word, states, modes of
- *        operation, ramps and stop options. It turns them into the command of app_modes.h, which does the work.
+ * @brief State machine of CiA 402 (IEC 61800-7-201), towards the operator.
+ *
+ * It turns control word, mode of operation, ramps and stop options into the command of app_modes.h.
  *
  *     NOT_READY -> SWITCH_ON_DISABLED -> READY_TO_SWITCH_ON -> SWITCHED_ON -> OPERATION_ENABLED -> QUICK_STOP_ACTIVE
  *     any state -> FAULT_REACTION_ACTIVE -> FAULT -> SWITCH_ON_DISABLED
  *
- * Transitions that a control word asks for are a table; docs/modbus.md has it. What is not in it is not done. A fault wins
- * over every control word, and the operation is enabled only by bit 3 rising while nothing is in its way.
+ * A table defines the transitions by control word (docs/modbus.md). All other requests are ignored.
+ * A fault has priority over every control word. Only a rising bit 3 enables the operation, if no
+ * condition prevents a start.
  *
- * The bridge may be on in OPERATION_ENABLED and QUICK_STOP_ACTIVE, which are left after the bridge has opened. Without a
- * deceleration of its own (0) a drive stops as its file says (app_stop.h) or, along a ramp, as fast as it can.
+ * The bridge may be on in OPERATION_ENABLED and QUICK_STOP_ACTIVE. The drive leaves these states
+ * after the bridge has opened. A deceleration of 0 means a ramp at the drive's limit. Without a
+ * ramp, a run ends as the drive file says (app_stop.h).
  */
 #ifndef APP_CONTROL_H
 #define APP_CONTROL_H
@@ -30,7 +33,7 @@ enum {
     APP_CONTROL_AT_ONCE        = 32,
     APP_CONTROL_RELATIVE       = 64,
     APP_CONTROL_FAULT_RESET    = 128, /**< acts when it rises */
-    APP_CONTROL_HALT           = 256  /**< to zero speed, and stays enabled */
+    APP_CONTROL_HALT           = 256  /**< stops at zero speed and stays enabled */
 };
 
 /** Control words of the commands. */
@@ -42,7 +45,7 @@ enum {
     APP_CONTROL_ENABLE_OPERATION = 15
 };
 
-/** What an option is about: 605Ah. */
+/** Quick stop options: 605Ah. */
 enum {
     APP_CONTROL_QUICK_OFF       = 0, /**< as if disabled */
     APP_CONTROL_QUICK_RAMP      = 1, /**< profile deceleration, then SWITCH_ON_DISABLED */
@@ -51,33 +54,33 @@ enum {
     APP_CONTROL_QUICK_FAST_STAY = 6
 };
 
-/** Reactions to silence: 6007h. */
+/** Reactions to a communication time-out: 6007h. */
 enum { APP_CONTROL_LOST_DISABLE = 2, APP_CONTROL_LOST_QUICK_STOP = 3 };
 
 typedef struct {
     const app_config_t *config;
     float               ts_s;
-    float               speed_max_e_radps; /**< of a command */
+    float               speed_max_e_radps; /**< speed limit of a command */
     float               per_current_max;   /**< 1 / largest current */
     app_control_state_t state;
-    int16_t             mode;        /**< of operation, in force */
-    bool                armed;       /**< bit 3 was seen low since the last start */
-    bool                reset_high;  /**< bit 7 was there before */
-    bool                asked;       /**< the modes have had a tick to begin */
-    bool                moved;       /**< and have begun */
+    int16_t             mode;        /**< present mode of operation */
+    bool                armed;       /**< bit 3 was low after the last start */
+    bool                reset_high;  /**< bit 7 in the previous tick */
+    bool                asked;       /**< app_modes had one tick to begin */
+    bool                moved;       /**< app_modes has begun */
     bool                done;        /**< homing or commissioning has ended */
-    float               ref_e_radps; /**< of the ramp */
+    float               ref_e_radps; /**< output of the ramp */
     bool                holds;       /**< profile position: the set-points have begun */
     app_setpoint_t      setpoint;
 } app_control_t;
 
-/** What the modes tell of the tick before. */
+/** Status of app_modes after the previous tick. */
 typedef struct {
-    app_mode_t mode;
-    bool       shorted;    /**< FAULT: the motor is shorted */
-    bool       in_the_way; /**< something keeps a run from starting; of use in READY only */
-    float      speed_e_radps;
-    bool       arrived; /**< at the commanded position */
+    app_mode_t            mode;
+    bool                  shorted;    /**< FAULT: the motor is shorted */
+    bool                  in_the_way; /**< a condition prevents a start; valid in READY */
+    float                 speed_e_radps;
+    bool                  arrived; /**< at the commanded position */
     const app_position_t *position;
 } app_control_seen_t;
 
@@ -85,22 +88,28 @@ typedef struct {
 ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
                               const drive_config_t *drive);
 
-/** What the operator wants before anyone has said so. */
+/** Default values of the operator's objects. */
 app_objects_t app_control_default(const drive_config_t *drive);
 
-/** Whether these objects are ones that the drive knows: mode of operation and options. */
+/** True if the drive supports this mode of operation and these options. */
 bool app_control_knows(const app_objects_t *o, const drive_config_t *drive);
 
-/** Whether a word has a bit. */
+/** True if the word has this bit. */
 static inline bool app_control_has(uint16_t word, int bit)
 {
     return (word & (uint16_t)bit) != 0U;
 }
 
-/** The control word asks for OPERATION_ENABLED. */
+/** True if the control word requests OPERATION_ENABLED. */
 bool app_control_enables(uint16_t controlword);
 
-/** One period: the command of the modes, in place. Its bounds are set with `commission` only. Context: control ISR. */
+/**
+ * @brief Executes one period and updates the command of app_modes in place.
+ *
+ * The bounds in the command are set only together with `commission`.
+ *
+ * Context: control ISR.
+ */
 void app_control_tick(app_control_t *c, const app_objects_t *wanted, const app_control_seen_t *seen,
                       app_command_t *out);
 

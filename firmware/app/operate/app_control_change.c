@@ -3,9 +3,9 @@
 
 #include "check.h"
 
-#define WINDOW_E_RADPS 5.0f /* chosen: what noise and ripple leave */
+#define WINDOW_E_RADPS 5.0f /* chosen: above noise and ripple */
 
-#define POSITION_WINDOW_CNT 4U /* chosen: a line; a shaft at rest hunts by one count or two */
+#define POSITION_WINDOW_CNT 4U /* chosen: one line; a shaft at rest moves by one or two counts */
 
 #define STAY APP_CONTROL_STATES
 
@@ -60,7 +60,7 @@ static bool is_moving(const app_control_seen_t *seen)
            (seen->mode == APP_MODE_COMMISSION);
 }
 
-/* The state that follows without the bridge being on: what the modes say comes first. */
+/* State with the bridge off, as the application mode dictates. */
 static app_control_state_t by_modes(const app_control_t *c, const app_control_seen_t *seen)
 {
     app_control_state_t next = c->state;
@@ -73,7 +73,7 @@ static app_control_state_t by_modes(const app_control_t *c, const app_control_se
                (c->state >= APP_CONTROL_FAULT_REACTION_ACTIVE)) {
         next = APP_CONTROL_SWITCH_ON_DISABLED;
     } else {
-        /* the operator's */
+        /* the operator's request decides */
     }
     return next;
 }
@@ -90,7 +90,8 @@ static void start(app_control_t *c, const app_objects_t *o, const app_control_se
     c->holds       = false;
 }
 
-/* Bridge off: a start needs bit 3 to rise, and is not made up for later. */
+/* Change with the bridge off. A start needs a rising bit 3; a refused start is not repeated
+ * later. */
 static void change_at_rest(app_control_t *c, app_control_state_t to, const app_objects_t *o,
                            const app_control_seen_t *seen)
 {
@@ -104,7 +105,7 @@ static void change_at_rest(app_control_t *c, app_control_state_t to, const app_o
     }
 }
 
-/* Bridge on or about to be: it is left when the modes have opened the bridge. */
+/* Change while the bridge is on or starts. The state ends after app_modes has opened the bridge. */
 static void change_enabled(app_control_t *c, app_control_state_t to, const app_objects_t *o,
                            const app_control_seen_t *seen)
 {
@@ -128,7 +129,7 @@ static void change_enabled(app_control_t *c, app_control_state_t to, const app_o
 
 static app_control_state_t next_of(app_control_state_t state, app_control_ask_t ask)
 {
-    /* The commanded transitions, by state and by what is asked for; their numbers in CiA 402 are those of docs/modbus.md. */
+    /* Commanded transitions by state and request. docs/modbus.md has their numbers in CiA 402. */
     static const app_control_state_t transitions[APP_CONTROL_STATES][APP_CONTROL_ASKS] = {
         /* disable voltage, quick stop, shut down, switch on, enable operation */
         {STAY, STAY, STAY, STAY, STAY},                           /* NOT_READY */
@@ -142,7 +143,7 @@ static app_control_state_t next_of(app_control_state_t state, app_control_ask_t 
         {APP_CONTROL_SWITCH_ON_DISABLED, STAY, STAY, STAY,
          APP_CONTROL_OPERATION_ENABLED}, /* QUICK_STOP */
         {STAY, STAY, STAY, STAY, STAY},  /* FAULT_REACTION_ACTIVE */
-        {STAY, STAY, STAY, STAY, STAY}   /* FAULT: left by a reset, which the modes do */
+        {STAY, STAY, STAY, STAY, STAY}   /* FAULT: a reset in app_modes ends it */
     };
     return transitions[state][ask];
 }
@@ -164,7 +165,7 @@ void app_control_change(app_control_t *c, const app_objects_t *o, const app_cont
     } else if (to != STAY) {
         change_at_rest(c, to, o, seen);
     } else {
-        /* nothing is asked for that this state knows */
+        /* this state has no transition for the request */
     }
     c->armed = c->armed || !app_control_has(o->controlword, APP_CONTROL_ENABLE);
 }
@@ -176,8 +177,7 @@ bool app_control_position(app_control_t *c, const app_objects_t *o, const app_co
         c->holds = false;
         return false;
     }
-    if (!seen->position
-             ->known) { /* not yet; or counts were lost, and nobody knows where it would go */
+    if (!seen->position->known) { /* not referenced yet, or counts were lost */
         c->state = c->holds ? APP_CONTROL_QUICK_STOP_ACTIVE : c->state;
         return false;
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_control_change.h
- * @brief What app_control.c does not do in every tick of a run: changes of state, positions, the start. An image has it in flash.
+ * @brief Rare parts of app_control.c: changes of state, positions, the start. They run from flash.
  *
  * Context: control ISR.
  */
@@ -10,7 +10,7 @@
 
 #include "app_control.h"
 
-/** What a control word asks for. */
+/** Requests that a control word can express. */
 typedef enum {
     APP_CONTROL_ASK_DISABLE_VOLTAGE = 0,
     APP_CONTROL_ASK_QUICK_STOP,
@@ -20,29 +20,35 @@ typedef enum {
     APP_CONTROL_ASKS
 } app_control_ask_t;
 
-/** The bridge may be on. */
+/** True in the states in which the bridge may be on. */
 static inline bool app_control_is_enabled(app_control_state_t state)
 {
     return (state == APP_CONTROL_OPERATION_ENABLED) || (state == APP_CONTROL_QUICK_STOP_ACTIVE);
 }
 
-/** The modes in which the drive has the bridge. */
+/** True in the modes of operation in which the drive controls the bridge. */
 static inline bool app_control_runs(const app_control_t *c)
 {
     return (c->mode == APP_CONTROL_PROFILE_VELOCITY) || (c->mode == APP_CONTROL_PROFILE_POSITION);
 }
 
-/** A quick stop after which the drive stays enabled. */
+/** True if the drive stays enabled after a quick stop. */
 static inline bool app_control_stays_quick(const app_objects_t *o)
 {
     return o->quick_option >= APP_CONTROL_QUICK_RAMP_STAY;
 }
 
-/** The state that follows: what the modes say first, then what is asked for. */
+/** Changes the state: application modes have priority over the requests. */
 void app_control_change(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
                         app_control_ask_t ask);
 
-/** Profile position. True: on the way to a position, or holding one; halted, or stopping, the drive has a speed, zero in the end. */
+/**
+ * @brief Executes profile position for one period.
+ *
+ * @return true: the drive moves to a position or holds one. false: it follows a speed, which a halt
+ * or
+ *         a stop ramps to zero.
+ */
 bool app_control_position(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
                           bool stopping);
 

@@ -12,7 +12,7 @@ ctl_status_t app_gate_check(const app_gate_config_t *c, uint16_t full_cnt)
     return ok ? CTL_OK : CTL_BAD_CONFIG;
 }
 
-/* A pulse of this length, or the nearest that is not too short. */
+/* Nearest allowed pulse length: 0, or min_cnt and more. */
 static uint16_t passed(uint16_t pulse_cnt, uint16_t min_cnt)
 {
     if (pulse_cnt >= min_cnt) {
@@ -21,7 +21,7 @@ static uint16_t passed(uint16_t pulse_cnt, uint16_t min_cnt)
     return ((2U * pulse_cnt) < min_cnt) ? 0U : min_cnt;
 }
 
-/* Neither switch's pulse is too short. */
+/* Nearest duty for which the pulses of both switches are allowed. */
 static uint16_t passed_both(uint16_t wanted_cnt, uint16_t full_cnt, uint16_t min_cnt)
 {
     const uint16_t upper_cnt = passed(wanted_cnt, min_cnt);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_gate.h
- * @brief What the gate drivers ask for: pulses that they pass, and the charge of their supplies.
+ * @brief Requirements of the gate drivers: shortest pulse, and charge of bootstrap supplies.
  *
- * Isolated supplies leave all duty ratios and need no start. A bootstrap supply of an upper driver is charged through the
- * lower switch: all lower switches are on for some periods before the first pulse (a shorted motor, hence at low speed
- * only), and for a while in every period.
+ * Isolated supplies allow all duty ratios and need no precharge. A bootstrap supply of an upper
+ * driver charges through the lower switch. Therefore all lower switches are on for some periods
+ * before the first pulse, and for a part of every period. The precharge shorts the motor: it is
+ * allowed at low speed only.
  */
 #ifndef APP_GATE_H
 #define APP_GATE_H
@@ -16,11 +17,11 @@
 typedef struct {
     uint16_t precharge_ticks; /**< all lower switches on before a run; 0: isolated supplies */
     float
-        precharge_speed_e_radps; /**< no start above, with a precharge; the shorted motor's current there,
-                                           flux omega / R, has to be within the limit */
+        precharge_speed_e_radps; /**< no start above it with a precharge; the short-circuit current,
+                                           flux omega / R, must be within the limit */
     uint16_t
-        duty_max_cnt; /**< largest duty below full, half of full .. full; full is then not used either */
-    uint16_t pulse_min_cnt; /**< shorter pulses of either switch are left out or made this long,
+        duty_max_cnt; /**< largest duty, half of full .. full; below full, duty one is not used */
+    uint16_t pulse_min_cnt; /**< shorter pulses of either switch become 0 or this long,
                                  whichever is nearer; 0 .. a quarter of full */
 } app_gate_config_t;
 
@@ -32,10 +33,10 @@ typedef struct {
  */
 ctl_status_t app_gate_check(const app_gate_config_t *config, uint16_t full_cnt);
 
-/** Nearest compare values that the drivers pass, for ratios of a bridge_t, which are in [0, 1]. Context: control ISR. */
+/** Nearest allowed compare values for duty ratios in [0, 1]. Context: control ISR. */
 board_duty_t app_gate_duty(const app_gate_config_t *config, uint16_t full_cnt, abc_t duty);
 
-/** Whether a run may begin at this speed. */
+/** True if a run may start at this speed. */
 bool app_gate_may_start(const app_gate_config_t *config, float omega_e_radps);
 
 #endif /* APP_GATE_H */

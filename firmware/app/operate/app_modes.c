@@ -3,7 +3,7 @@
 
 #include "app_states.h"
 
-/* Two statements of the same number, both in single precision. */
+/* Tolerance between two single-precision copies of one number. */
 #define SAME_RATIO 1.0e-4f
 
 static bool same(float x, float y)
@@ -84,13 +84,14 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *c, const drive_c
     return ok ? CTL_OK : CTL_BAD_CONFIG;
 }
 
-/* Share of the way from the limit to the trip. */
+/* (T - T_limit) / (T_trip - T_limit) of the heat sink. */
 static float warmth_of_sink(const app_modes_t *m)
 {
     return (m->sample.temperature_degC - m->config->temperature_limit_degC) * m->per_sink_degC;
 }
 
-/* SI units and angle of this tick. After an invalid sample the count cannot be trusted any more. */
+/* Converts the sample to SI units and angle. An invalid sample drops the angle reference, because
+ * counts may be lost. */
 static void measure(app_modes_t *m, const board_sample_t *raw)
 {
     app_scale_sample(&m->scale, raw, &m->sample);
@@ -111,7 +112,8 @@ static void measure(app_modes_t *m, const board_sample_t *raw)
     }
 }
 
-/* What would be wrong in any mode, then what matters as soon as samples are used, then what needs the bridge. */
+/* First fault found. Order: faults of any mode, faults of the samples, faults that need a driven
+ * motor. */
 static app_fault_t watch(const app_modes_t *m, const app_modes_input_t *in)
 {
     const bool driving = (m->mode == APP_MODE_ALIGN) || (m->mode == APP_MODE_PRECHARGE) ||
@@ -130,7 +132,8 @@ static app_fault_t watch(const app_modes_t *m, const app_modes_input_t *in)
     if (m->gate_on && in->tick_missing) {
         return APP_FAULT_TICK;
     }
-    if (m->reading.index_fault && (m->mode != APP_MODE_COMMISSION)) { /* of lines not known yet */
+    if (m->reading.index_fault &&
+        (m->mode != APP_MODE_COMMISSION)) { /* the lines are unknown there */
         return APP_FAULT_INDEX;
     }
     if ((driving || (m->mode == APP_MODE_CALIBRATE)) && !m->sample.valid) {
@@ -163,7 +166,7 @@ bridge_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in)
     return out;
 }
 
-/* What is in the way of a start and may go again. An unknown temperature is a fault of the run instead. */
+/* An unknown temperature does not prevent a start; it is a fault of the run. */
 bool app_modes_in_the_way(const app_modes_t *m)
 {
     return (m->hot && m->sample.temperature_valid) || m->dc_link_out || m->tripped ||

@@ -3,7 +3,7 @@
 
 #include "app_control.h"
 
-/* As fast as the drive can: above any limit of its own, which then counts. */
+/* Means "no limit": it exceeds every limit of the drive, which then acts. */
 #define ANY_LIMIT 1.0e9f
 
 static float limit_of(float asked)
@@ -50,7 +50,7 @@ static app_setpoint_one_t wanted(const app_setpoint_t *s, const app_objects_t *o
     const int32_t             from_cnt = relative ? before->target_cnt : 0L;
 
     const app_setpoint_one_t one = {.target_cnt =
-                                        held(from_cnt + held(o->target_cnt)), /* 2e9 at the most */
+                                        held(from_cnt + held(o->target_cnt)), /* at most 2e9 */
                                     .profile = profile_of(o)};
     return one;
 }
@@ -75,7 +75,7 @@ void app_setpoint_tick(app_setpoint_t *s, const app_objects_t *o, const app_posi
         s->waits        = true;
         s->acknowledged = true;
     } else {
-        /* goes on; there is no room for a third */
+        /* the set-point stays; there is no room for a third one */
     }
     s->new_high     = high;
     s->acknowledged = s->acknowledged && (high || s->waits);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_setpoint.h
- * @brief Set-points of profile position and their hand-shake, as CiA 402 has it: one is on the way, one more may wait.
+ * @brief Set-points of profile position and their handshake by CiA 402: one active, one waiting.
  *
- * New set-point (bit 4 of the control word) rises: taken, when there is room, and acknowledged (bit 12 of the status word)
- * until bit 4 has fallen and there is room again. With bit 5 it takes the place of the one on the way, else it follows it. With
- * bit 6 it counts from the set-point before.
+ * A rising bit 4 of the control word offers a new set-point. It is taken if there is room, and
+ * acknowledged by bit 12 of the status word. The acknowledge ends when bit 4 is low and there is
+ * room. With bit 5 the new set-point replaces the active one, otherwise it follows it. With bit 6
+ * it is relative to the previous set-point.
  */
 #ifndef APP_SETPOINT_H
 #define APP_SETPOINT_H
@@ -22,16 +23,16 @@ typedef struct {
 typedef struct {
     app_setpoint_one_t now;
     app_setpoint_one_t next;
-    position_t         target; /**< of now */
-    bool               waits;  /**< next is one */
+    position_t         target; /**< active set-point */
+    bool               waits;  /**< `next` holds a waiting set-point */
     bool               acknowledged;
-    bool               new_high; /**< bit 4 was there before */
+    bool               new_high; /**< bit 4 in the previous tick */
 } app_setpoint_t;
 
-/** Start of a run: what holds the shaft where it is; bit 4 has to rise anew. Context: control ISR. */
+/** Starts a run: holds the present position until bit 4 rises again. Context: control ISR. */
 void app_setpoint_start(app_setpoint_t *s, const app_objects_t *o, const app_position_t *position);
 
-/** One period of a run; `arrived` at the target of now. Context: control ISR. */
+/** Executes one period. @param arrived The active target is reached. Context: control ISR. */
 void app_setpoint_tick(app_setpoint_t *s, const app_objects_t *o, const app_position_t *position,
                        bool arrived);
 

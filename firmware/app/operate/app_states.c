@@ -41,7 +41,8 @@ static bridge_t drive_to_a_stop(app_modes_t *m, const app_modes_input_t *in)
     return app_states_drive(m, &stop, true);
 }
 
-/* RUN and STOP. A drive whose encoder is lost brakes until it is too slow to go on without, which is its fault. */
+/* RUN and STOP. After loss of the encoder the drive brakes until it is too slow to run without one;
+ * then it trips. */
 bridge_t app_states_run(app_modes_t *m, const app_modes_input_t *in)
 {
     const bool lost = m->drive.wanted.without_angle;

@@ -3,7 +3,7 @@
 
 #include <stddef.h>
 
-/* Chosen: 20 ms, in which a motor's current dies out several times; and a mean over as many. */
+/* Chosen: 20 ms, several times the decay of a motor's current; the mean covers as many ticks. */
 #define ZERO_TICKS   100U
 #define ZERO_FORGETS 0.03f
 
@@ -30,7 +30,8 @@ static bridge_t fault_bridge(app_modes_t *m, const app_modes_input_t *in)
     return app_stop_bridge(&m->stop, &now);
 }
 
-/* Of a running drive the estimate: a sample that is not valid has no speed, and an encoder that fails has a wrong one. */
+/* A running drive gives its speed estimate. The measured speed is missing in an invalid sample and
+ * wrong with a failing encoder. */
 bridge_t app_states_trip(app_modes_t *m, const app_modes_input_t *in, app_fault_t fault)
 {
     const float          speed_e_radps = (m->drive.state == DRIVE_OFF) ? m->reading.omega_e_radps
@@ -89,8 +90,9 @@ static void enter_run(app_modes_t *m)
     app_states_enter(m, precharge ? APP_MODE_PRECHARGE : APP_MODE_RUN);
 }
 
-/* The zeros after every stop, as a mean over some tens of ticks; currents die out first, and beyond omega_link (app_stop.h)
- * some flow through an open bridge. */
+/* True while the current offsets stay in tolerance after a stop. The check uses a mean over some
+ * tens of ticks. It waits until the currents have decayed, and until the speed is below omega_link
+ * (app_stop.h): above it, current flows through the open bridge. */
 static bool zeros_hold(app_modes_t *m)
 {
     if (!m->sample.valid || !base_within(m->reading.omega_e_radps, m->stop.link_e_radps)) {
@@ -107,7 +109,8 @@ static bool zeros_hold(app_modes_t *m)
            base_within(m->zero_b_A, m->config->zero_drift_A);
 }
 
-/* The bounds are those of the start; the angle is not known any more afterwards. */
+/* True if commissioning starts. It requires a rising request, no run, no start condition and valid
+ * limits. */
 static bool commissioning_starts(app_modes_t *m, const app_modes_input_t *in)
 {
     const app_command_t *c = &in->command;
@@ -141,12 +144,12 @@ static void enter_align(app_modes_t *m, const app_modes_input_t *in)
     app_states_enter(m, APP_MODE_ALIGN);
 }
 
-/* The bridge stays open in this tick: the next one looks at everything again in the new mode. */
+/* The bridge stays open in this tick. The next tick checks everything again in the new mode. */
 static bridge_t ready(app_modes_t *m, const app_modes_input_t *in)
 {
     m->tripped = (in->board_faults & (uint16_t)BOARD_FAULT_INPUT) != 0U;
     if (!zeros_hold(m)) {
-        m->calibrated = false; /* a reset measures them again */
+        m->calibrated = false; /* a reset measures the offsets again */
         return app_states_trip(m, in, APP_FAULT_OFFSET);
     }
     if (commissioning_starts(m, in)) {
@@ -163,18 +166,18 @@ static bridge_t ready(app_modes_t *m, const app_modes_input_t *in)
         return bridge_open();
     }
     const bool start = m->armed && !app_modes_in_the_way(m);
-    m->armed         = false; /* a refused start is not made up for later */
+    m->armed         = false; /* a refused start is not repeated later */
     if (start && (m->angle.reference != APP_ANGLE_NONE)) {
         enter_run(m);
     } else if (start) {
         enter_align(m, in);
     } else {
-        /* stays */
+        /* stays in READY */
     }
     return bridge_open();
 }
 
-/* The drive itself stays off: it only checks samples and command against its limits. False: one of them is wrong. */
+/* Lets the drive, which stays off, check samples and command. False: a limit is exceeded. */
 static bool drive_watches(app_modes_t *m, const app_modes_input_t *in)
 {
     (void)app_states_drive(m, &in->command, false);
@@ -198,7 +201,8 @@ static bridge_t precharge(app_modes_t *m, const app_modes_input_t *in)
     return bridge_shorted();
 }
 
-/* By the index, on the way. Who asked for an alignment alone has what it is for. */
+/* The angle is found. An alignment without run is complete and returns to READY; otherwise run
+ * starts. */
 static bridge_t aligned(app_modes_t *m, const app_modes_input_t *in)
 {
     if (!in->command.run) {
@@ -218,7 +222,8 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
     if (!drive_watches(m, in)) {
         return app_states_trip(m, in, APP_FAULT_DRIVE);
     }
-    if (m->angle.reference == APP_ANGLE_INDEX) { /* the mark came by: better than alignment */
+    if (m->angle.reference ==
+        APP_ANGLE_INDEX) { /* the index was found while turning: better than alignment */
         app_position_forget(&m->position);
         return aligned(m, in);
     }
@@ -236,7 +241,8 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
     return out;
 }
 
-/* Withdrawn, the bridge opens at once: no speed of a commissioning induces more than the dc link holds. */
+/* A withdrawn command opens the bridge at once. At commissioning speeds the EMF is below the dc
+ * link. */
 static bridge_t commissioning(app_modes_t *m, const app_modes_input_t *in)
 {
     const bool     wanted = in->command.commission && !in->command.run;
@@ -261,7 +267,7 @@ static void leave_fault(app_modes_t *m)
     app_states_enter(m, m->calibrated ? APP_MODE_READY : APP_MODE_BOOT);
 }
 
-/* A shorted motor whose speed nobody knows is the operator's to open. */
+/* If the speed of a shorted motor is unknown, only the operator's reset opens the bridge. */
 static bridge_t in_fault(app_modes_t *m, const app_modes_input_t *in)
 {
     const bridge_t out   = fault_bridge(m, in);

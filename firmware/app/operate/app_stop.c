@@ -3,11 +3,11 @@
 
 #include "check.h"
 
-/* Chosen: leaves the short well before the EMF reaches the dc link's largest voltage. */
+/* Chosen: the short ends when the EMF is well below the dc link's upper limit. */
 #define OPEN_BELOW 0.8f
 
 #define FLUX_MOST_Wb  1.0e3f
-#define FLUX_LEAST_Wb 1.0e-9f /* a rotor without magnets has no EMF: above every speed */
+#define FLUX_LEAST_Wb 1.0e-9f /* without magnets there is no EMF: omega_link exceeds every speed */
 
 ctl_status_t app_stop_init(app_stop_t *s, const app_stop_config_t *c, const drive_config_t *drive)
 {

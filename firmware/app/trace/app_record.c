@@ -11,7 +11,7 @@ void app_record_init(app_record_t *r)
     r->kept_next  = 0U;
     r->kept_count = 0U;
     r->number     = 0U;
-    r->was_fault  = true; /* one of the start has nothing before it */
+    r->was_fault  = true; /* a fault at the start has no samples before it */
 }
 
 static void keep(app_record_t *r)
@@ -24,7 +24,8 @@ static void keep(app_record_t *r)
     r->count      = 0U;
 }
 
-/* The scope's signals of the same name, from where they are: in every tick a switch for each would cost ten times as much. */
+/* Copies the scope signals of the same names directly. A switch for each costs ten times as
+ * much. */
 static void take(float to[APP_RECORD_SIGNALS], const app_modes_t *m, const abc_t *duty)
 {
     to[0] = m->sample.ia_A;

@@ -31,7 +31,7 @@ bool app_scope_knows(const app_scope_setup_t *setup)
 
 void app_scope_arm(volatile app_scope_t *s, const app_scope_setup_t *setup)
 {
-    s->state      = APP_SCOPE_IDLE; /* no tick looks at it from here on */
+    s->state      = APP_SCOPE_IDLE; /* from here on no tick accesses it */
     s->setup      = *setup;
     s->wait_ticks = 0U;
     s->next       = 0U;
@@ -46,7 +46,7 @@ void app_scope_stop(volatile app_scope_t *s)
     s->state = APP_SCOPE_IDLE;
 }
 
-/* The level was passed since the sample before. A value that is no number passes nothing. */
+/* True if x crossed the level since the previous sample. A NaN crosses no level. */
 static bool is_triggered(app_scope_t *s, float x)
 {
     const float level   = s->setup.level;
@@ -60,7 +60,7 @@ static bool is_triggered(app_scope_t *s, float x)
     } else if (s->setup.trigger == (uint16_t)APP_SCOPE_FALLING) {
         matches = known && falls;
     } else {
-        /* at once */
+        /* APP_SCOPE_AT_ONCE: triggers always */
     }
     s->last      = x;
     s->have_last = true;
@@ -73,7 +73,7 @@ static app_scope_state_t take_rest(app_scope_t *s)
     return (s->left == 0U) ? APP_SCOPE_DONE : APP_SCOPE_TAKES;
 }
 
-/* A sample has been put down; x is that of the channel that triggers. */
+/* Next state after a sample was stored; x is its value of the trigger channel. */
 static app_scope_state_t go_on(app_scope_t *s, float x, uint32_t ticks)
 {
     app_scope_state_t state     = s->state;

@@ -3,10 +3,10 @@
 
 #include "check.h"
 
-#define STARTS   0.9f  /* chosen: the room in which the limit comes down */
+#define STARTS   0.9f  /* chosen: the limit decreases from here to 1 */
 #define PER_ROOM 10.0f /* 1 / (1 - STARTS) */
 #define TOO_HOT  1.1f
-#define HALF     0.5f /* chosen: what a hot heat sink leaves at the least */
+#define HALF     0.5f /* chosen: least share that a hot heat sink leaves */
 #define THIRD    0.333333333f
 
 static void part_init(app_watch_heat_part_t *p, float nominal_A, float tau_s, float max_A,
@@ -33,7 +33,7 @@ ctl_status_t app_watch_heat_init(app_watch_heat_t *h, const app_watch_heat_confi
     return ok ? CTL_OK : CTL_BAD_CONFIG;
 }
 
-/* EQ-APP-HEAT-1 and 2: what this part takes of the limit. */
+/* EQ-APP-HEAT-1 and 2: derating by this part. */
 static float warm(app_watch_heat_part_t *p, float i2_A2)
 {
     p->x += p->per_tick * ((i2_A2 * p->per_A2) - p->x);

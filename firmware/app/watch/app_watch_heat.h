@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_watch_heat.h
- * @brief How warm the current has made motor and inverter, and how much of the current limit they leave.
+ * @brief Thermal model (I^2 t) of motor and inverter, and the derating of the current limit.
  *
- *     x' = (i^2 / i_n^2 - x) / tau, of each                                        EQ-APP-HEAT-1
+ *     x' = (i^2 / i_n^2 - x) / tau, for each                                        EQ-APP-HEAT-1
  *     derating = (1 - i_n / i_max) (x - 0.9) / 0.1, held within 0 .. (1 - i_n / i_max)    EQ-APP-HEAT-2
  *     heat sink: (T - T_limit) / (T_trip - T_limit) / 2, held within 0 .. 1/2          EQ-APP-HEAT-3
  *
- * i is the length of the current vector, i_n what may flow for ever. The largest of the three acts. A drive that follows it
- * stays below x = 1; x > 1.1 is a fault.
+ * Here i is the length of the current vector and i_n the continuous current. The largest of the
+ * three deratings acts. A drive that follows it stays below x = 1; x > 1.1 is a fault.
  */
 #ifndef APP_WATCH_HEAT_H
 #define APP_WATCH_HEAT_H
@@ -32,7 +32,7 @@ typedef struct {
 typedef struct {
     app_watch_heat_part_t motor;
     app_watch_heat_part_t inverter;
-    float                 derating; /**< share of the current limit that may not be used */
+    float                 derating; /**< unusable share of the current limit */
 } app_watch_heat_t;
 
 /** @return CTL_BAD_CONFIG, h unusable, when a constant is out of range. Context: init. */
@@ -40,11 +40,11 @@ ctl_status_t app_watch_heat_init(app_watch_heat_t *h, const app_watch_heat_confi
                                  float current_max_A, float ts_s);
 
 /**
- * @brief One tick, whatever the mode.
+ * @brief Executes one tick, in every mode.
  *
  * @param ia_A, ib_A Phase currents.
- * @param warmth     Share of the way from the heat sink's limit to its trip, any number.
- * @return false: too hot for too long.
+ * @param warmth     (T - T_limit) / (T_trip - T_limit) of the heat sink, any number.
+ * @return false: x exceeds 1.1.
  *
  * Context: control ISR. No division.
  */
