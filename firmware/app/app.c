@@ -10,16 +10,16 @@
 #include "app_watch_memory.h"
 #include "app_watch_tick.h"
 
-/* Reading takes less than a twentieth of a period: the second one succeeds unless ticks overrun. */
+/* Reading takes below a twentieth of a period: the second attempt succeeds unless ticks overrun. */
 #define STATUS_READS 3U
 
 #define CYCLES_SHOWN_MAX 65535UL
 
-/* Written by both sides; see app.h for who writes what. */
+/* Data shared by both sides. Each comment names the writer; app.h describes the protocol. */
 static volatile struct {
     uint16_t      background_count; /* background */
     uint32_t      ticks;            /* tick, at its end */
-    bool          command_full;     /* background raises, tick lowers */
+    bool          command_full;     /* background sets, tick clears */
     bool          tick_missing;     /* the same */
     bool          memory_changed;   /* background; stays */
     app_objects_t command;          /* background, while command_full is false */
@@ -28,7 +28,7 @@ static volatile struct {
     uint16_t      cycles_worst;
 } shared;
 
-/* Written by the tick only; app_status_read() looks at it. */
+/* Written by the tick only; app_status_read() reads it. */
 static struct {
     app_config_t          config;
     app_modes_t           modes;
@@ -41,19 +41,19 @@ static struct {
     uint16_t              background_age_ticks;
 } tick_side;
 
-/* Scope and record: who may write what stands in their headers. */
+/* Scope and record. Their headers name the writer of each member. */
 static struct {
     app_scope_t  scope;
     app_record_t record;
 } traces;
 
-/* Only the background. */
+/* Used by the background only. */
 static struct {
     app_modbus_t       modbus;
     app_registers_t    registers;
     app_loader_t       loader;
     app_parameters_t   parameters;
-    app_status_t       read; /* may be of two ticks */
+    app_status_t       read; /* may mix two ticks while it is read */
     app_watch_tick_t   watch;
     app_watch_memory_t memory;
     uint32_t           served_ticks;
@@ -75,12 +75,12 @@ static ctl_status_t init_tick_side(const app_config_t *config, const drive_confi
     return (control == CTL_OK) ? modes : control;
 }
 
-/* What the tick reads and nobody writes. */
+/* Registers the constants that the tick reads and nothing writes. */
 static void watch_memory(app_watch_memory_t *w, const drive_config_t *drive, bool drive_ok)
 {
     app_watch_memory_reset(w);
     if (!drive_ok) {
-        return; /* nothing will run */
+        return; /* the drive will not run */
     }
     app_watch_memory_add(w, drive, (uint32_t)sizeof *drive);
     app_watch_memory_add(w, drive->constants, drive->law->constants_chars);
@@ -103,7 +103,7 @@ static void read_once(app_status_t *status)
     status->tick_cycles_worst = shared.cycles_worst;
 }
 
-/* In place: copies on the stack took a third of it. */
+/* Reads in place: copies would take a third of the stack. */
 static void read_status(void)
 {
     for (uint16_t reads = 0U; reads < STATUS_READS; reads++) {
@@ -179,7 +179,7 @@ static bool background_lost(void)
     return tick_side.background_age_ticks > tick_side.modes.config->background_ticks;
 }
 
-/* Off before anything else; on after everything else. */
+/* Opens the bridge first, or enables it last. */
 static void drive_bridge(const bridge_t *out, bool was_on)
 {
     const board_duty_t duty =
@@ -194,7 +194,7 @@ static void drive_bridge(const bridge_t *out, bool was_on)
     }
 }
 
-/* The last thing of a tick: the count tells the background that what it was reading is old. */
+/* Ends a tick. The new count tells the background that values it read before are old. */
 static void finish(uint16_t board_faults, uint32_t start_cycles)
 {
     const uint32_t cycles = (uint32_t)(board_cycles() - start_cycles);
@@ -208,7 +208,8 @@ static void finish(uint16_t board_faults, uint32_t start_cycles)
     shared.ticks = shared.ticks + 1UL;
 }
 
-/* The pointers that the tick follows: to constants of this file, and to the drive's. */
+/* True if the pointers that the tick follows are intact: to constants of this file and of the
+ * drive. */
 static bool pointers_hold(void)
 {
     const app_config_t *const c = &tick_side.config;
@@ -221,7 +222,8 @@ static bool pointers_hold(void)
            (c->scale.ntc_degC == tick_side.ntc_degC);
 }
 
-/* Nothing can be looked at any more; the background tells. */
+/* Ends a tick with damaged pointers: opens the bridge without further reads. The background
+ * reports. */
 static void give_up(uint32_t start_cycles)
 {
     board_gate_trip();
@@ -255,7 +257,8 @@ void app_tick(void)
     finish(in->board_faults, start_cycles);
 }
 
-/* Into the loader, or to store parameters, when the answer that says so is out. A bridge that came on meanwhile cancels it. */
+/* Restarts for the loader or to store parameters, after the Modbus answer is sent. If the bridge is
+ * on by then, the restart is cancelled. */
 static void restart_when_asked(uint32_t now_ticks)
 {
     app_loader_t    *l    = &background_side.loader;

@@ -1,23 +1,27 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app.h
- * @brief The drive application on a board: what runs in the control ISR and what runs behind it.
+ * @brief The drive application on a board: the tick in the control ISR, and the background.
  *
- * The tick owns everything that drives the bridge; the background owns the serial line, the registers and the
- * watchdog. They share, in one place (app.c), without masking interrupts:
+ * The tick owns everything that drives the bridge. The background owns the serial line, the
+ * registers and the watchdog. The tick interrupts the background, never the reverse.
  *
- * | what | writer | how it stays whole |
- * |---|---|---|
- * | life sign of the background, tick count | one side each | one aligned access, which the C28x does not split |
- * | command | background | written only while its flag is down, then raised; the tick takes it and lowers the flag |
- * | missing ticks | background | raised by it after it has opened the bridge, lowered by the next tick |
- * | status | tick | the background reads what the tick keeps, and again when the tick count has moved meanwhile |
+ * They share data in app.c only, without masking interrupts:
  *
- * The tick interrupts the background, never the other way round.
+ * - Life sign of the background, tick count: each has one writer and is one aligned access, which
+ *   the C28x does not split.
+ * - Command: the background writes it only while its flag is false, then sets the flag. The tick
+ * takes
+ *   the command and clears the flag.
+ * - Missing ticks: the background sets the flag after it has opened the bridge. The next tick
+ * clears
+ *   it.
+ * - Status: the background reads data of the tick. It reads again if the tick count changed
+ * meanwhile.
  *
- * Watchdog, both ways: the background serves it only when a tick has ended since it did so last; a tick trips
- * when the background has given no sign for config->background_ticks. The background opens the bridge when no tick ends
- * any more (app_watch_tick.h).
+ * Both sides watch each other. The background serves the watchdog only if a tick has ended since
+ * the last service. It opens the bridge when ticks stop (app_watch_tick.h). A tick trips if the
+ * background gives no life sign for config->background_ticks.
  */
 #ifndef APP_H
 #define APP_H
@@ -28,50 +32,54 @@
 #include "app_status.h"
 
 /**
- * @brief Everything to its start; the bridge stays off.
+ * @brief Initialises the application. The bridge stays off.
  *
  * @param config Board constants.
- * @param drive  Drive constants, must stay.
- * @return CTL_BAD_CONFIG: the application runs and answers, but stays in APP_MODE_FAULT.
+ * @param drive  Drive constants; must stay valid.
+ * @return CTL_BAD_CONFIG: the application runs and communicates, but stays in APP_MODE_FAULT.
  *
  * Context: init, before board_start().
  */
 ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive);
 
 /**
- * @brief What the constants are called, for who asks over Modbus, and the way into the loader: without this call the
- *        registers of app_loader.h do not exist.
+ * @brief Publishes the name of the constants over Modbus and enables the loader.
+ *
+ * Without this call the registers of app_loader.h do not exist.
  *
  * Context: init, after app_init().
  */
 void app_tell_image(const app_image_t *image);
 
 /**
- * @brief What became of a command to store parameters, and the parameters that are stored, with the line that they ask
- *        for; without this call the drive has its defaults and stores nothing.
+ * @brief Loads the stored parameters and sets up the serial line by them.
+ *
+ * Without this call the drive uses its defaults and cannot store parameters.
+ *
+ * @param done Result of a command to store parameters before the restart.
  *
  * Context: init, after app_init().
  */
 void app_take_parameters(app_parameters_done_t done);
 
-/** One control period. Context: control ISR. */
+/** Executes one control period. Context: control ISR. */
 void app_tick(void);
 
-/** One pass of the background; to be called for ever. Context: background. */
+/** Executes one background pass; call it in an endless loop. Context: background. */
 void app_background(void);
 
 /**
- * @brief Give a command (app_control.h); it acts from the next tick on.
- * @return false: the command before has not been taken yet, try again after a tick.
+ * @brief Gives a command (app_control.h), which acts from the next tick on.
+ * @return false: the tick has not taken the previous command yet; retry after a tick.
  *
  * Context: background.
  */
 bool app_command_write(const app_objects_t *command);
 
-/** The status after the last tick during which nothing was read: of one instant. Context: background. */
+/** Status of one instant, after a recent tick. Context: background. */
 app_status_t app_status_read(void);
 
-/** The drive, for tracing; consistent only where no tick can interrupt. */
+/** The drive, for tracing; consistent only if no tick can interrupt. */
 const drive_t *app_drive(void);
 
 #endif /* APP_H */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_config.h
- * @brief The constants of one board with its drive, by const pointer; made by sdre-gains from the drive file.
+ * @brief Constants of one board with its drive. sdre-gains generates them from the drive file.
  *
- * Times are counted in ticks. the tables mean PWM periods, and app_init() makes control periods of them where a
- * drive has two updates per PWM period.
+ * Times are in ticks. In board_config.c a tick is a PWM period. app_init() converts them to control
+ * periods for a drive with two updates per PWM period.
  */
 #ifndef APP_CONFIG_H
 #define APP_CONFIG_H
@@ -26,12 +26,12 @@ typedef struct {
     app_gate_config_t       gate;
     app_stop_config_t       stop;
     app_watch_heat_config_t heat;
-    float       zero_drift_A; /**< a current's zero may be off by this with the bridge open, > 0 */
+    float       zero_drift_A; /**< allowed drift of a current offset with the bridge open, > 0 */
     float       temperature_limit_degC; /**< no start above */
     float       temperature_trip_degC;  /**< fault above; > the limit */
     uint16_t    boot_ticks;
     uint16_t    calibrate_ticks;      /**< samples in the mean of a current's zero, > 0 */
-    uint16_t    background_ticks;     /**< without the background for longer is a fault, > 0 */
+    uint16_t    background_ticks;     /**< longest time without background, > 0 */
     uint16_t    modbus_address;       /**< 1 .. 247 */
     uint16_t    modbus_gap_ticks;     /**< silence that ends a frame, > 0 */
     uint16_t    modbus_timeout_ticks; /**< silence that withdraws run, > 0 */
@@ -39,7 +39,7 @@ typedef struct {
     const char *digest;               /**< of the drive file */
 } app_config_t;
 
-/** The same with its times in control periods, where board_config.c counts PWM periods. Context: init. */
+/** Copies the constants and converts their times from PWM to control periods. Context: init. */
 void app_config_for(app_config_t *out, const app_config_t *config, uint16_t updates_per_period);
 
 #endif /* APP_CONFIG_H */

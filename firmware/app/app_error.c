@@ -6,7 +6,7 @@
 
 uint16_t app_error_code(app_fault_t fault, drive_fault_t drive_fault)
 {
-    /* FF00 and on: what the standard has no code for. */
+    /* FF00 and up: faults without a code in the standard. */
     static const uint16_t of_app[APP_FAULTS] = {
         0x0000U, 0x6320U, /* CONFIG: parameter */
         0x5400U,          /* BOARD: power section */

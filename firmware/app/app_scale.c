@@ -79,9 +79,10 @@ static void convert_temperature(const app_scale_t *s, uint16_t code_cnt, app_sca
         return;
     }
     const uint16_t from_cnt = (uint16_t)(code_cnt - c->ntc_first_cnt);
-    /* The quotient is at least half a code from a whole number, so that rounding cannot move it across. */
+    /* The quotient is at least half a code from an integer: rounding cannot change its integer
+     * part. */
     const uint16_t point = (uint16_t)(((float)from_cnt + 0.5f) * s->inv_ntc_step);
-    if ((uint16_t)(point + 1U) >= c->ntc_points) { /* nothing to draw the line to */
+    if ((uint16_t)(point + 1U) >= c->ntc_points) { /* there is no next point */
         return;
     }
     const uint16_t past_cnt = (uint16_t)(from_cnt - (uint16_t)(point * c->ntc_step_cnt));

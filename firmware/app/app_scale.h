@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_scale.h
- * @brief Raw codes to SI units.
+ * @brief Converts raw codes to SI units.
  *
  *     i = A_per_cnt (code - zero),   v_dc = V_per_cnt code                     EQ-APP-SCALE-1
  *
- * The zero of each current is measured with the bridge off. Temperature: straight lines between the points
- * of a table over the code, because the curve of an NTC at a divider needs a logarithm otherwise.
+ * The zero of each current is measured with the bridge off. The temperature is interpolated
+ * linearly in a table over the code: the curve of an NTC at a divider would need a logarithm.
  */
 #ifndef APP_SCALE_H
 #define APP_SCALE_H
@@ -17,7 +17,7 @@
 typedef struct {
     float        current_A_per_cnt; /**< > 0 */
     float        current_zero_cnt;  /**< code of no current, nominal */
-    float        offset_max_cnt; /**< a measured zero further than this from it is refused, > 0 */
+    float        offset_max_cnt;    /**< largest accepted deviation of a measured zero, > 0 */
     float        dc_link_V_per_cnt; /**< > 0 */
     uint16_t     ntc_first_cnt;     /**< code of the first point */
     uint16_t     ntc_step_cnt;      /**< codes from point to point, > 0 */
@@ -44,8 +44,8 @@ typedef struct {
 } app_scale_sample_t;
 
 /**
- * @param positions      Of the encoder per turn; a sample beyond is not valid.
- * @param trip_current_A Must be within what the converter can show at the worst accepted zero.
+ * @param positions      Encoder positions per turn. A sample with a larger position is invalid.
+ * @param trip_current_A Must be in the converter's range at the worst accepted zero.
  * @return CTL_BAD_CONFIG, s unusable, when a constant is out of range.
  *
  * Context: init.
@@ -54,8 +54,8 @@ ctl_status_t app_scale_init(app_scale_t *s, const app_scale_config_t *config, ui
                             float trip_current_A);
 
 /**
- * @brief Take the mean of `count` codes per phase, with no current flowing, as the zeros.
- * @return false, zeros unchanged, when one is further from the nominal zero than offset_max_cnt.
+ * @brief Sets the zeros to the mean of `count` codes per phase, taken without current.
+ * @return false: a mean differs from the nominal zero by more than offset_max_cnt; zeros unchanged.
  *
  * Context: control ISR, once.
  */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_modes.h"
 
-#define AT_LIMIT2 0.81f /* 0.9, as motion_watch.c has it */
+#define AT_LIMIT2 0.81f /* 0.9^2, as in motion_watch.c */
 
 void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_status_t *s)
 {
@@ -49,7 +49,7 @@ void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_
     s->ticks             = m->ticks;
     s->snapshot          = m->snapshot;
     s->commission        = app_commission_status(&m->commission);
-    s->state             = APP_CONTROL_NOT_READY; /* and the next: app.c knows */
+    s->state             = APP_CONTROL_NOT_READY; /* app.c sets this and the next */
     s->mode_of_operation = 0;
     s->done              = false;
     s->demand_e_radps    = 0.0f;

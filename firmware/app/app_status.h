@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_status.h
- * @brief What the application tells about itself: modes, faults, measurements. docs/modbus.md repeats the numbers.
+ * @brief Status of the application: modes, faults, measurements. docs/modbus.md has their numbers.
  */
 #ifndef APP_STATUS_H
 #define APP_STATUS_H
@@ -16,14 +16,14 @@
 
 typedef enum {
     APP_MODE_BOOT = 0,  /**< sensors and converter settle; bridge off */
-    APP_MODE_CALIBRATE, /**< zeros of the currents; bridge off */
+    APP_MODE_CALIBRATE, /**< measures the current offsets; bridge off */
     APP_MODE_READY,     /**< bridge off, waits for run to rise */
     APP_MODE_ALIGN,     /**< finds the angle */
     APP_MODE_RUN,       /**< drive_tick() has the bridge */
     APP_MODE_FAULT,     /**< bridge off until a reset without run */
     APP_MODE_PRECHARGE, /**< all lower switches on: the gate drivers' supplies are charged */
     APP_MODE_STOP,      /**< run was withdrawn; the drive brakes before the bridge opens */
-    APP_MODE_COMMISSION /**< finds the motor, commission.h */
+    APP_MODE_COMMISSION /**< measures the motor, commission.h */
 } app_mode_t;
 
 /** Why the mode is FAULT; the first reason is kept. */
@@ -33,19 +33,19 @@ typedef enum {
     APP_FAULT_BOARD,              /**< see the board's flags */
     APP_FAULT_BACKGROUND,         /**< the background loop stood still */
     APP_FAULT_SAMPLE,             /**< invalid sample in CALIBRATE, ALIGN or RUN */
-    APP_FAULT_OFFSET,             /**< zero of a current too far from where it should be */
+    APP_FAULT_OFFSET,             /**< a current offset is too far from nominal */
     APP_FAULT_TEMPERATURE_SENSOR, /**< broken, shorted, or too cold to tell */
     APP_FAULT_TEMPERATURE,        /**< heat sink too hot */
-    APP_FAULT_INDEX,              /**< index pulse far from where it should be */
+    APP_FAULT_INDEX,              /**< index pulse at a wrong position */
     APP_FAULT_ALIGN,              /**< alignment failed */
     APP_FAULT_DRIVE,              /**< see the drive's fault */
     APP_FAULT_TICK,               /**< no tick for too long; the background opened the bridge */
-    APP_FAULT_HEAT,               /**< more current for longer than motor or inverter endure */
+    APP_FAULT_HEAT,               /**< thermal model of motor or inverter tripped */
     APP_FAULT_MEMORY,             /**< constants in RAM have changed, or the stack was too short */
     APP_FAULT_COMMISSION          /**< see the reason of the commissioning */
 } app_fault_t;
 
-/** The tick of the first fault; kept, also after a reset, until the next fault. */
+/** Snapshot of the tick of the first fault. It is kept until the next fault, even after a reset. */
 typedef struct {
     app_fault_t    fault;
     app_mode_t     mode; /**< in which it happened */
@@ -58,32 +58,32 @@ typedef struct {
 } app_snapshot_t;
 
 typedef struct {
-    app_mode_t    mode;
-    app_fault_t   fault;
-    drive_fault_t drive_fault;
-    uint16_t      board_faults; /**< flags of this tick */
-    bool          hot;          /**< above the temperature limit: no start */
-    bool          dc_link_out;  /**< outside the drive's range: no start */
-    bool          tripped;      /**< the trip input is active: no start */
-    bool          shorted;      /**< FAULT: the lower switches short the motor */
-    bool          gate_enable;
-    bool          voltage_limited; /**< the voltage that acts next is less than wanted */
-    bool          current_limited; /**< the current is at nine tenths of the limit or more */
-    float         derating;        /**< share of the current limit that heat takes */
-    float         motor_heat;      /**< 1: what it endures for ever, app_watch_heat.h */
-    float         inverter_heat;
-    uint16_t      position_jumps; /**< since the start; each dropped the reference */
+    app_mode_t            mode;
+    app_fault_t           fault;
+    drive_fault_t         drive_fault;
+    uint16_t              board_faults; /**< flags of this tick */
+    bool                  hot;          /**< above the temperature limit: no start */
+    bool                  dc_link_out;  /**< outside the drive's range: no start */
+    bool                  tripped;      /**< the trip input is active: no start */
+    bool                  shorted;      /**< FAULT: the lower switches short the motor */
+    bool                  gate_enable;
+    bool                  voltage_limited; /**< the next voltage is limited */
+    bool                  current_limited; /**< the current is at 0.9 of the limit or above */
+    float                 derating;        /**< share of the current limit removed by heat */
+    float                 motor_heat;      /**< 1: continuous load, app_watch_heat.h */
+    float                 inverter_heat;
+    uint16_t              position_jumps; /**< since the start; each dropped the reference */
     app_angle_reference_t reference;
     app_align_stage_t     align_stage;
     uint16_t              position_cnt;
     uint16_t              index_corrections;
     uint16_t              phase_errors;   /**< of the encoder since the start */
-    uint16_t              ignored_angles; /**< samples of this run, angle_gate.h */
-    bool           without_angle; /**< the encoder is lost: the drive stops by the currents alone */
-    uint16_t       ignored_currents; /**< samples since the start or a reset, current_gate.h */
+    uint16_t              ignored_angles; /**< rejected samples of this run, angle_gate.h */
+    bool           without_angle;    /**< encoder lost: the drive brakes by the currents alone */
+    uint16_t       ignored_currents; /**< rejected since start or reset, current_gate.h */
     board_reset_t  reset_cause;
     float          theta_e_rad;
-    float          speed_e_radps; /**< RUN: estimate of the drive; otherwise by difference */
+    float          speed_e_radps; /**< RUN: estimate; otherwise by difference */
     float          dc_link_V;
     float          temperature_degC;
     dq_t           i_A;     /**< RUN only */
@@ -99,26 +99,26 @@ typedef struct {
     app_control_state_t     state;             /**< app_control.h, as the next three */
     int16_t                 mode_of_operation; /**< in force */
     bool                    done;              /**< homing or commissioning has ended */
-    float                   demand_e_radps;    /**< speed that the ramp asks for */
+    float                   demand_e_radps;    /**< output of the speed ramp */
     app_position_t          position;
-    int32_t                 target_cnt;   /**< of the set-point on the way */
+    int32_t                 target_cnt;   /**< of the active set-point */
     bool                    acknowledged; /**< app_setpoint.h */
     bool                    arrived;      /**< the reference rests at the target */
-    bool                    waits;        /**< the reference, for a shaft that cannot follow it */
+    bool                    waits;        /**< the reference waits for a shaft that cannot follow */
 } app_status_t;
 
-/** What the modes are told to do. */
+/** Command of the application modes. */
 typedef struct {
     float omega_e_radps; /**< speed; out of the drive's range is a fault in RUN */
     bool  run;
     bool  reset;      /**< leave FAULT; ignored together with run */
-    bool  commission; /**< find the motor; starts when it rises in READY without run */
-    bool  align;      /**< find the angle anew; the same */
-    float derating;   /**< share of the current limit that is not wanted, 0 .. 1 */
-    app_commission_bounds_t bounds;      /**< of that */
-    bool                    positioning; /**< a position is wanted, the next two; else the speed */
-    position_t              target;
-    position_profile_t      profile;
+    bool  commission; /**< measure the motor; starts when it rises in READY without run */
+    bool  align;      /**< find the angle again; starts in the same way */
+    float derating;   /**< unused share of the current limit, 0 .. 1 */
+    app_commission_bounds_t bounds; /**< of the commissioning */
+    bool               positioning; /**< true: follow a position, the next two; false: the speed */
+    position_t         target;
+    position_profile_t profile;
 } app_command_t;
 
 #endif /* APP_STATUS_H */

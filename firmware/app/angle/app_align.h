@@ -1,24 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_align.h
- * @brief Finds the electrical angle without an index: pulls the rotor's d axis to phase a with a current vector.
+ * @brief Finds the electrical angle without an index: a current vector pulls the d axis to phase a.
  *
- *     watch    bridge off, the shaft must stand
+ *     watch    bridge off, the shaft must be at rest
  *     ramp     current vector at -180 degrees, length 0 -> I
- *     sweep    vector turns from -180 to 0 degrees; it takes a rotor along that stood at the dead point opposite
+ *     sweep    vector turns from -180 to 0 degrees; it moves a rotor from the opposite dead point too
  *     settle   vector at 0; the shaft must come to rest
  *
- * From the middle of the sweep to the rest the rotor must have turned a quarter of an electrical turn forward: that
- * proves phase order, direction and pole pairs.
+ * From the middle of the sweep to rest, the rotor must turn forward by a quarter of an electrical
+ * turn. This proves phase order, direction and pole pairs.
  *
  *     v_along = k_p (I - i_along) + integral of k_i (I - i_along),  v_cross = -k_p i_cross    EQ-APP-ALIGN-1
  *     k_p = w_c L_d,  k_i = w_c R_s,  each within +-2 R_s I
  *
- * Across the vector there is no integral: the winding then looks like a resistance of R_s + k_p, which brakes the
- * swinging rotor. With an ideal current source it would be friction alone, which takes seconds.
+ * Across the vector there is no integral. The winding then acts as a resistance R_s + k_p, which
+ * damps the oscillating rotor. With an ideal current source only friction would damp it, in
+ * seconds.
  *
- * Load: the rotor holds against 1.5 n_p (flux I - (L_q - L_d) I^2) N m per electrical radian near the vector. A load
- * or friction torque T turns it away by T over that, and the angle is wrong by as much.
+ * Load: near the vector the stiffness is 1.5 n_p (flux I - (L_q - L_d) I^2) N m per electrical
+ * radian. A load or friction torque T causes an angle error of T divided by the stiffness.
  */
 #ifndef APP_ALIGN_H
 #define APP_ALIGN_H
@@ -28,15 +29,15 @@
 #include "drive_config.h"
 
 typedef struct {
-    float current_A;       /**< I, > 0, at most half of the drive's current limit */
-    float bandwidth_radps; /**< w_c, > 0, far below the sampling rate */
-    float theta_e_rad; /**< of the rotor at the end, [0, 2 pi); 0 but for a rotor without magnets */
-    uint32_t watch_ticks; /**< > 0, like all of the times */
+    float    current_A;       /**< I, > 0, at most half of the drive's current limit */
+    float    bandwidth_radps; /**< w_c, > 0, far below the sampling rate */
+    float    theta_e_rad;     /**< rotor angle at the end, [0, 2 pi); 0 with magnets */
+    uint32_t watch_ticks;     /**< > 0, like all times below */
     uint32_t ramp_ticks;
     uint32_t sweep_ticks;
     uint32_t settle_ticks;      /**< the vector stands; longer than still_ticks */
     uint32_t still_ticks;       /**< end of settle in which the shaft must rest */
-    uint16_t still_cnt;         /**< counts of movement that are rest */
+    uint16_t still_cnt;         /**< largest movement that counts as rest */
     uint16_t quarter_error_cnt; /**< accepted error of the quarter turn */
 } app_align_config_t;
 
@@ -45,8 +46,8 @@ typedef enum {
     APP_ALIGN_RAMP,
     APP_ALIGN_SWEEP,
     APP_ALIGN_SETTLE,
-    APP_ALIGN_DONE, /**< the d axis stands at phase a */
-    APP_ALIGN_FAILED /**< the shaft turned, did not come to rest or went the wrong way, or too much current */
+    APP_ALIGN_DONE,  /**< the d axis stands at phase a */
+    APP_ALIGN_FAILED /**< shaft turned, went the wrong way or did not rest, or over-current */
 } app_align_stage_t;
 
 typedef struct {
@@ -71,13 +72,14 @@ typedef struct {
 ctl_status_t app_align_init(app_align_t *a, const app_align_config_t *config,
                             const drive_config_t *drive);
 
-/** Begin at the first stage. Context: control ISR. */
+/** Starts at the first stage. Context: control ISR. */
 void app_align_start(app_align_t *a, uint16_t position_cnt);
 
 /**
- * @brief One period; a->stage says how it stands. The bridge is open in WATCH and FAILED.
+ * @brief Executes one period; a->stage is the result. The bridge is open in WATCH and FAILED.
  *
- * The caller checks currents and dc link against the drive's trip levels; here the current limit is watched.
+ * The caller checks the trip levels of currents and dc link. This function checks the current
+ * limit.
  *
  * Context: control ISR. One sine, one cosine, one division (modulator).
  */

@@ -3,17 +3,17 @@
 
 #include "encoder_form.h"
 
-#define TURNS_MOST     128.0f /* electrical ones in a turn of the shaft: more than there are */
-#define EDGE_AGE_MAX_s 1.0f   /* chosen: a count per second is a shaft that stands */
+#define TURNS_MOST     128.0f /* above any number of electrical turns in a shaft turn */
+#define EDGE_AGE_MAX_s 1.0f   /* chosen: below one count per second the shaft is at rest */
 #define EDGE_GAP_MAX_s                                                                             \
-    0.05f /* chosen: what a longer time would tell of speed and load is next to nothing */
-/* Chosen by simulation: the noise of v_q falls to three fifths, the dip grows by a sixteenth; with half a count a limit
- * cycle comes. */
+    0.05f /* chosen: a longer time gives almost no information on speed and load */
+/* Chosen by simulation: the noise of v_q falls to three fifths, and the speed drop grows by a
+ * sixteenth. Half a count causes a limit cycle. */
 #define QUARTER_cnt 0.25f
-/* Chosen by simulation: counts that come more often are better taken for their middle. With 1 a crawl of a count in three
- * periods is a fifth too fast, with 8 a limit cycle comes at standstill. */
+/* Chosen by simulation: more frequent counts are better taken at their middle. With 1, a low speed
+ * of one count in three periods is a fifth too fast. With 8, a limit cycle occurs at standstill. */
 #define ALONE_PERIODS 3.5f
-#define WIDEST_cnt    1.5f    /* chosen: a state of the disc is at most so wide */
+#define WIDEST_cnt    1.5f    /* chosen: widest state of the disc */
 #define POLE_PAIRS    64U     /* keeps half counts times pole pairs within 32 bits */
 #define POSITIONS     65532UL /* whole lines; half of it, either way, is a signed number of 16 bits */
 
@@ -81,9 +81,10 @@ static float within_turn(float theta_rad)
     return (theta_rad >= BASE_TWO_PI) ? (theta_rad - BASE_TWO_PI) : theta_rad;
 }
 
-/* Angle at `half` half counts past the lower edge of a position. Whole half counts below 2^23, and whole turns taken from them:
- * exact. Half of a half count keeps the quotient from whole turns, so that rounding moves it across with a turn of millions
- * of half counts at the most, and then within_turn() sees to it. */
+/* Angle at `half` half counts past the lower edge of a position. Half counts are integers below
+ * 2^23: removing whole turns from them is exact. The added half of a half count keeps the quotient
+ * away from integers. With millions of half counts per turn rounding may still cross one;
+ * within_turn() corrects that. */
 static float theta_at(const app_angle_t *a, uint16_t position_cnt, uint32_t half)
 {
     const uint32_t from_zero_cnt =
@@ -106,8 +107,8 @@ static void refer_to_index(app_angle_t *a, uint16_t index_cnt)
     a->zero_theta_rad = a->config->index_theta_e_rad;
 }
 
-/* How far the index is from where the reference in use expects it, in counts. Alignment knows the electrical
- * angle only, not which of the pole pairs it is. */
+/* Distance of the index from its expected position [counts]. After an alignment only the electrical
+ * angle is known, not the pole pair. */
 static float index_error_cnt(const app_angle_t *a, uint16_t index_cnt)
 {
     if (a->reference == APP_ANGLE_INDEX) {
@@ -117,7 +118,7 @@ static float index_error_cnt(const app_angle_t *a, uint16_t index_cnt)
     return error_rad / a->rad_per_cnt;
 }
 
-/* False when the index came where it cannot be. */
+/* False if the index came at a wrong position. */
 static bool take_index(app_angle_t *a, uint16_t index_cnt)
 {
     if (a->reference == APP_ANGLE_NONE) {
@@ -139,7 +140,7 @@ static bool take_index(app_angle_t *a, uint16_t index_cnt)
     return true;
 }
 
-/* EQ-APP-ANGLE-3, for the last edge of this period, which begins the position `edge_cnt` from below. */
+/* EQ-APP-ANGLE-3 for the last edge of this period, at the lower end of the position `edge_cnt`. */
 static void take_edge(app_angle_t *a, uint16_t edge_cnt, float age_s)
 {
     const float turned_cnt = (float)app_angle_turned_cnt(a->positions, a->edge_cnt, edge_cnt);
@@ -153,7 +154,7 @@ static void take_edge(app_angle_t *a, uint16_t edge_cnt, float age_s)
     a->edge_age_s = age_s;
 }
 
-/* A speed that would have brought the next edge by now was too high. */
+/* Reduces a speed at which the next edge would already have come. */
 static void wait_for_edge(app_angle_t *a)
 {
     if (!base_within(a->edge_speed_e_radps * a->edge_age_s, a->rad_per_cnt)) {
@@ -175,7 +176,7 @@ static void read_edges(app_angle_t *a, uint16_t position_cnt, bool timed, float 
         const bool     forward = turned_cnt > 0;
         const uint32_t edge    = (uint32_t)position_cnt + (forward ? 0U : 1U);
 
-        const bool after_edge = a->have_edge; /* else the gap is none between edges */
+        const bool after_edge = a->have_edge; /* otherwise the gap does not begin at an edge */
         a->edge_gap_s         = base_min(a->edge_age_s - age_s, EDGE_GAP_MAX_s);
         take_edge(a, (uint16_t)((edge < a->positions) ? edge : 0U), age_s);
         reading->edge_gap_s = a->edge_gap_s;
@@ -189,7 +190,7 @@ static void read_edges(app_angle_t *a, uint16_t position_cnt, bool timed, float 
             within_turn(reading->theta_e_rad + (forward ? beyond_rad : -beyond_rad));
     } else {
         if (turned_cnt != 0) {
-            a->have_edge        = false; /* forth and back: which edge it was is not known */
+            a->have_edge        = false; /* forth and back: the edge is unknown */
             a->edge_age_s       = a->ts_s;
             a->edge_gap_s       = 0.0f;
             reading->edge_gap_s = a->ts_s;
@@ -205,7 +206,7 @@ static void read_edges(app_angle_t *a, uint16_t position_cnt, bool timed, float 
     }
 }
 
-/* An edge after a change of direction has no time: it is taken as EQ-APP-ANGLE-5 says. */
+/* An edge after a change of direction has no time: EQ-APP-ANGLE-5 applies. */
 static void read_times(app_angle_t *a, const board_sample_t *raw, int16_t turned_cnt,
                        app_angle_reading_t *reading)
 {
@@ -253,7 +254,8 @@ static void drop_after_jump(app_angle_t *a, int16_t turned_cnt)
     a->have_turned = true;
 }
 
-/* More than a turn, and what a correction may put right, without the mark. Begins anew with the complaint. */
+/* True after more than a turn plus the largest correction without an index. Restarts the count
+ * then. */
 static bool index_is_missing(app_angle_t *a, bool seen, int16_t turned_cnt)
 {
     const int32_t most_cnt = (int32_t)a->positions + (int32_t)a->config->index_correct_max_cnt;
@@ -267,7 +269,7 @@ static bool index_is_missing(app_angle_t *a, bool seen, int16_t turned_cnt)
     return a->have_index;
 }
 
-/* What two positions in a row say of the counter. */
+/* Checks the counter by two consecutive positions. */
 static void check_counter(app_angle_t *a, const board_sample_t *raw, int16_t turned_cnt,
                           app_angle_reading_t *reading)
 {

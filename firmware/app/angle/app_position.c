@@ -3,7 +3,7 @@
 
 #include "frames.h"
 
-#define TURNS_NEAR 64.0f /* electrical ones in a turn of the shaft, at most */
+#define TURNS_NEAR 64.0f /* most electrical turns in a shaft turn */
 
 void app_position_init(app_position_t *p, const app_angle_t *angle)
 {
@@ -23,7 +23,7 @@ void app_position_forget(app_position_t *p)
     p->known = false;
 }
 
-/* The nearest whole number, within this. */
+/* Nearest integer, limited to +-most. */
 static int32_t rounded(float x, float most)
 {
     float beyond = base_clamp(x, -most, most) + 0.5f;
@@ -34,7 +34,7 @@ static int32_t rounded(float x, float most)
     return (int32_t)beyond;
 }
 
-/* The middle of the count in which the angle was found: the nearest of its like. */
+/* Sets the zero: the middle of the reference count that is nearest to the present position. */
 static void find_zero(app_position_t *p, const app_angle_t *angle)
 {
     const int16_t turned_cnt =
@@ -64,11 +64,11 @@ void app_position_track(app_position_t *p, const app_angle_t *angle,
     } else if (!p->known) {
         find_zero(p, angle);
     } else {
-        /* stays where it was found */
+        /* the zero stays */
     }
 }
 
-/* Whole turns of the shaft first: what is left is less than one, and every product fits. */
+/* Removes whole shaft turns first: the rest is below one turn, and no product overflows. */
 position_t app_position_at(const app_position_t *p, int32_t counts)
 {
     const int32_t per_turn = (int32_t)p->positions;
@@ -87,7 +87,7 @@ position_t app_position_at(const app_position_t *p, int32_t counts)
 int32_t app_position_cnt(const app_position_t *p, const position_t *at)
 {
     if (p->pole_pairs == 0U) {
-        return 0L; /* nothing was read yet */
+        return 0L; /* no sample yet */
     }
     const int32_t per_turn = (int32_t)p->positions;
     const int32_t pairs    = (int32_t)p->pole_pairs;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_position.h
- * @brief Where the shaft is, over any number of turns, in counts of the encoder from a zero.
+ * @brief Shaft position over any number of turns, in encoder counts from a zero.
  *
  *     counts = (position - zero) N / (2 pi n_p)                                EQ-APP-POSITION-1
  *
- * The zero is the count in which the angle was found: that of the index mark, or the one at which the motor was aligned. It is
- * known as long as the angle is referenced; homing finds it anew. Whole turns are counted in whole numbers, so that a
- * count is a count after any number of them.
+ * The zero is the count at which the angle was found, by the index mark or by alignment. It is
+ * known while the angle is referenced; homing finds it again. Whole turns are counted in integers:
+ * the resolution stays one count after any number of turns.
  */
 #ifndef APP_POSITION_H
 #define APP_POSITION_H
@@ -15,7 +15,7 @@
 #include "app_angle.h"
 #include "position.h"
 
-/** Counts either way that a target may be away. */
+/** Limit of a target position, in either direction [counts]. */
 #define APP_POSITION_CNT_MAX 1000000000L
 
 typedef struct {
@@ -25,20 +25,21 @@ typedef struct {
     position_t is;          /**< of the last sample */
     position_t zero;
     bool       have;  /**< there was a sample */
-    bool       known; /**< and the zero is one */
+    bool       known; /**< the zero is known */
 } app_position_t;
 
-/** Context: init. */
+/** Sets up, with unknown zero. Context: init. */
 void app_position_init(app_position_t *p, const app_angle_t *angle);
 
-/** One sample, behind app_angle_update(). Context: control ISR, every tick. */
+/** Takes one sample, after app_angle_update(). Context: control ISR, every tick. */
 void app_position_track(app_position_t *p, const app_angle_t *angle,
                         const app_angle_reading_t *reading);
 
-/** The zero is that of the next sample's reference. Context: control ISR. */
+/** Drops the zero. The next referenced sample gives a new one. Context: control ISR. */
 void app_position_forget(app_position_t *p);
 
-/** Of counts within +-APP_POSITION_CNT_MAX. Context: control ISR. Four divisions of whole numbers. */
+/** Position of a count within +-APP_POSITION_CNT_MAX. Context: control ISR. Four integer
+ * divisions. */
 position_t app_position_at(const app_position_t *p, int32_t counts);
 
 /** Counts of a position, rounded, within +-APP_POSITION_CNT_MAX. Context: any. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_image.h
- * @brief Which constants the drive runs with: the newest stored image that everything accepts, else what is compiled in.
+ * @brief Chooses the drive's constants: the newest valid stored image, else the compiled-in ones.
  */
 #ifndef APP_IMAGE_H
 #define APP_IMAGE_H
@@ -10,21 +10,22 @@
 #include "store.h"
 
 typedef struct {
-    drive_image_t image;  /**< in force; the tick reads it */
-    uint32_t      number; /**< of its writing (store.h); 0: compiled in */
+    drive_image_t image;  /**< in use; the tick reads it */
+    uint32_t      number; /**< sequence number (store.h); 0: compiled in */
 } app_image_t;
 
 /**
- * @brief Everything that has to accept the constants of an image: their own ranges, the board's registers, the application.
+ * @brief Checks the constants of an image: their ranges, the board's registers, the application.
  *
- * Context: init before board_start(), or the loader: the application is initialised and not left as it was.
+ * It initialises the application as a side effect. Context: init before board_start(), or the
+ * loader.
  */
 drive_image_result_t app_image_check(const drive_image_t *image);
 
 /**
- * @brief Makes the choice.
+ * @brief Chooses the constants and copies them.
  *
- * @return false: what is compiled in has no law, or is too large; nothing may run.
+ * @return false: the compiled-in constants have no law or are too large. Nothing may run then.
  *
  * Context: init, before board_init().
  */

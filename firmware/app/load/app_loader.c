@@ -114,7 +114,7 @@ static void restart(app_loader_t *l, bool into_loader)
     l->enter   = into_loader;
 }
 
-/* A command with as many registers behind it as it needs. */
+/* Takes a command with the registers of its arguments. */
 static app_loader_result_t command(app_loader_t *l, const uint16_t *values, uint16_t count)
 {
     const bool     runs = l->image != NULL; /* the loader, not the application */
@@ -144,7 +144,7 @@ static app_loader_result_t content(app_loader_t *l, const uint16_t *values, uint
     const uint16_t words = (uint16_t)(count - 2U);
 
     if ((l->state != APP_LOADER_WRITING) || (pair(values) != l->put_words)) {
-        return APP_LOADER_BAD_VALUE; /* in turn, each once: a word of flash is written once */
+        return APP_LOADER_BAD_VALUE; /* in ascending order, each once: a flash word is written once */
     }
     if (!store_put(&l->write, l->put_words, &values[2], words)) {
         l->state = APP_LOADER_FLASH;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The loader in place of the application: Modbus alone, its time from the processor's cycles, because nothing ticks. */
+/* Runs the loader instead of the application: Modbus only. Time comes from the cycle count, as
+ * there are no ticks. */
 #include "app_loader.h"
 
 #include <stddef.h>
@@ -11,7 +12,7 @@ static struct {
     app_registers_t  registers;
     app_parameters_t parameters;
     app_modbus_t     modbus;
-    app_config_t     config; /**< of the image that was in force: the room of that one is needed */
+    app_config_t     config; /**< copy: the loader overwrites the image */
     drive_config_t   drive;
     uint32_t         tick_cycles;
     uint32_t         cycles; /**< at the last whole tick */
@@ -29,7 +30,8 @@ void app_loader_start(app_image_t *image)
     side.registers.loader = &side.loader;
     (void)app_modbus_init(&side.modbus, side.config.modbus_gap_ticks);
     app_parameters_take(&side.parameters, &side.registers, APP_PARAMETERS_NOT_ASKED);
-    side.registers.parameters = NULL; /* address and line are wanted; nothing is stored from here */
+    side.registers.parameters =
+        NULL; /* the loader uses address and line only; it stores no parameters */
     board_line_set(&side.registers.wanted.line);
     app_modbus_follow(&side.modbus, &side.registers.wanted.line, side.drive.ts_s,
                       side.config.modbus_gap_ticks);
@@ -51,7 +53,7 @@ void app_loader_pass(void)
     count_ticks();
     app_modbus_poll(&side.modbus, &side.registers, side.ticks);
     if (!app_modbus_is_quiet(&side.modbus, side.ticks)) {
-        return; /* an answer is on its way */
+        return; /* an answer is being sent */
     }
     if (side.loader.restart) {
         board_restart(side.loader.enter);

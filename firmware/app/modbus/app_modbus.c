@@ -9,7 +9,7 @@
 
 #define FRAME_MIN 4U /* address, function, CRC */
 
-#define QUIET_GAPS 4U /* one ends the request; the answer to a command takes less than two more */
+#define QUIET_GAPS 4U /* one gap ends the request; the answer takes less than two more */
 
 #define GAP_OCTETS 3.5f  /* by the protocol, as the next */
 #define OCTET_BITS 11.0f /* start, eight, parity or a second stop, stop */
@@ -35,7 +35,7 @@ ctl_status_t app_modbus_init(app_modbus_t *m, uint16_t gap_ticks)
 void app_modbus_follow(app_modbus_t *m, const board_line_t *line, float ts_s, uint16_t least_ticks)
 {
     const float silence_s = GAP_OCTETS * OCTET_BITS / (float)line->baud_Bd;
-    /* rounded up, and one: a tick counts that has just begun */
+    /* rounded up, plus one: the first tick may be almost over */
     const float    up    = base_min(silence_s / ts_s, 65000.0f) + 2.0f;
     const uint16_t ticks = (uint16_t)up;
 
@@ -64,7 +64,7 @@ static void count(uint16_t *counter)
     *counter = (uint16_t)(*counter + 1U);
 }
 
-/* A frame that is whole, whoever it is for. */
+/* True if the frame has a good CRC, for any server. */
 static bool frame_ok(app_modbus_t *m)
 {
     if (m->rx_spoilt) {
@@ -105,14 +105,15 @@ static void take_request(app_modbus_t *m, app_registers_t *r, uint32_t now_ticks
 
     m->request_ticks = now_ticks;
     count(&m->counts.requests);
-    r->loader     = all ? NULL : loader; /* nobody loads all drives at once */
+    r->loader     = all ? NULL : loader; /* a broadcast cannot load drives */
     r->parameters = all ? NULL : parameters;
     app_modbus_answer(m, r);
     r->loader     = loader;
     r->parameters = parameters;
     if (all) {
         if (app_control_enables(r->wanted.objects.controlword) && !app_control_enables(before)) {
-            r->wanted.objects.controlword = before; /* it may stop all motors, and start none */
+            r->wanted.objects.controlword =
+                before; /* a broadcast may stop motors, but not start them */
         }
         m->tx_count = 0U;
         count(&m->counts.unanswered);
@@ -142,7 +143,7 @@ static void send(app_modbus_t *m)
     }
 }
 
-/* True when something came. */
+/* True if an octet was received. */
 static bool receive(app_modbus_t *m, uint32_t now_ticks)
 {
     uint16_t octet = 0U;

@@ -3,8 +3,8 @@
  * @file app_modbus.h
  * @brief Modbus RTU server on the board's serial line: functions 3, 4, 6, 8, 16, 23 and 43/14, broadcast writes.
  *
- * A frame ends by silence, measured in control ticks. Every other character time is not checked: the line is polled.
- * The line must not echo what is sent.
+ * Silence, measured in control ticks, ends a frame. Other character times are not checked, as the
+ * line is polled. The line must not echo transmitted octets.
  *
  * Not answered: a wrong CRC, another address, a broadcast, a length that does not fit the function.
  * Exceptions: 1 function, 2 address, 3 value or quantity, 4 not while the bridge is on.
@@ -18,13 +18,13 @@
 
 #define APP_MODBUS_READ_MAX 125U /**< registers that fit an answer, by the protocol */
 
-/** What the line has seen since the start or since function 8 has set them to 0; they wrap. */
+/** Counters of the line since the start, or since function 8 cleared them; they wrap. */
 typedef struct {
-    uint16_t frames;     /**< of anyone, with a good CRC */
+    uint16_t frames;     /**< with a good CRC, for any server */
     uint16_t bad_frames; /**< wrong CRC, or too short for one */
-    uint16_t exceptions; /**< answers that were one */
+    uint16_t exceptions; /**< exception answers */
     uint16_t requests;   /**< for this server, broadcasts included */
-    uint16_t unanswered; /**< of these */
+    uint16_t unanswered; /**< requests without an answer */
     uint16_t overruns;   /**< longer than any frame, or came while answering */
 } app_modbus_counts_t;
 
@@ -47,11 +47,11 @@ typedef struct {
 ctl_status_t app_modbus_init(app_modbus_t *m, uint16_t gap_ticks);
 
 /**
- * @brief Receive, answer, send; to be called again and again.
+ * @brief Receives, answers and sends; call it in every background pass.
  *
- * At most 16 octets are taken and one request is answered per call.
+ * One call takes at most 16 octets and answers at most one request.
  *
- * @param r         Registers to read and write; own address and time-out are among them.
+ * @param r         Registers to read and write, including own address and time-out.
  * @param now_ticks Control ticks, wraps.
  *
  * Context: background.
@@ -59,18 +59,18 @@ ctl_status_t app_modbus_init(app_modbus_t *m, uint16_t gap_ticks);
 void app_modbus_poll(app_modbus_t *m, app_registers_t *r, uint32_t now_ticks);
 
 /**
- * @brief Follows a line: the silence that ends a frame is 3.5 octets or 1.75 ms, whichever is longer, by the protocol.
+ * @brief Sets the silence that ends a frame for a line: 3.5 octets or 1.75 ms, the longer one.
  *
- * @param least_ticks Of the fast lines, from the constants.
+ * @param least_ticks Lower limit of the silence, from the constants; it covers fast lines.
  *
  * Context: init.
  */
 void app_modbus_follow(app_modbus_t *m, const board_line_t *line, float ts_s, uint16_t least_ticks);
 
-/** True when the last answer is out and a while has passed in which its last octets left the board. */
+/** True if the last answer is sent and enough time has passed for its last octets. */
 bool app_modbus_is_quiet(const app_modbus_t *m, uint32_t now_ticks);
 
-/** CRC of `count` octets; its low octet is sent first. */
+/** CRC of `count` octets. The line sends its low octet first. */
 uint16_t app_modbus_crc(const uint16_t *octets, uint16_t count);
 
 #endif /* APP_MODBUS_H */

@@ -73,7 +73,7 @@ static bool quantity_ok(uint16_t quantity, uint16_t most)
     return (quantity >= 1U) && (quantity <= most);
 }
 
-/* Address and quantity stand at `at` of the request. */
+/* Reads registers; address and quantity are at index `at` of the request. */
 static void read_registers(app_modbus_t *m, const app_registers_t *r, uint16_t at)
 {
     const uint16_t first    = app_modbus_answer_asked(m, at);
@@ -110,7 +110,8 @@ static void answer_write(app_modbus_t *m, app_registers_result_t result)
     app_modbus_answer_word(m, app_modbus_answer_asked(m, 4U));
 }
 
-/* The registers from here on in the request: address, quantity, octets, data. False: the quantity is no good. */
+/* Takes address, quantity, octet count and data from index `at` on. False: the quantity is
+ * invalid. */
 static bool take_values(app_modbus_t *m, uint16_t at, uint16_t most)
 {
     const uint16_t quantity = app_modbus_answer_asked(m, (uint16_t)(at + 2U));
@@ -144,7 +145,7 @@ static void write_many(app_modbus_t *m, app_registers_t *r)
     }
 }
 
-/* Writes, then reads; what cannot be read is not written either. */
+/* Writes, then reads. If the read would fail, nothing is written. */
 static void exchange(app_modbus_t *m, app_registers_t *r)
 {
     const uint16_t first    = app_modbus_answer_asked(m, 2U);

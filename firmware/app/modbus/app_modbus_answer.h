@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_modbus_answer.h
- * @brief What the server answers to a request that is whole: the functions of Modbus. Context: background.
+ * @brief Executes complete Modbus requests and builds the answers. Context: background.
  */
 #ifndef APP_MODBUS_ANSWER_H
 #define APP_MODBUS_ANSWER_H
@@ -16,13 +16,13 @@ enum {
     APP_MODBUS_NOT_NOW     = 4
 };
 
-/** Whether the request is as long as its function says; of one that is not known it may be anything. */
+/** True if the request length fits its function. An unknown function may have any length. */
 bool app_modbus_answer_length_ok(const app_modbus_t *m);
 
-/** Does what the request asks for and puts the answer together, without its CRC. */
+/** Executes the request and builds the answer, without its CRC. */
 void app_modbus_answer(app_modbus_t *m, app_registers_t *r);
 
-/* For the files that make answers. */
+/* For the files that build answers. */
 
 /** Begins the answer of the request's function. */
 void app_modbus_answer_begin(app_modbus_t *m);

@@ -15,7 +15,7 @@
 #define COUNT_SILENT    15U
 #define COUNT_OVERRUNS  18U
 
-#define DIAGNOSTICS_SIZE 8U /* all but the loop-back, CRC included */
+#define DIAGNOSTICS_SIZE 8U /* length of all but the loop-back, with CRC */
 
 #define MEI_IDENTIFY 14U
 #define READ_BASIC   1U
@@ -29,9 +29,9 @@
 #define LAST_ALL     0xFFU
 
 #define OBJECTS  7U
-#define TEXT_MAX 24U /* all of them fit one answer */
+#define TEXT_MAX 24U /* chosen: all objects fit one answer */
 
-/* A text, or the words of an image that was loaded: a name, two characters each, or a number in hexadecimal digits. */
+/* Source of an object: a text, a name in image words of two characters, or a hexadecimal number. */
 typedef struct {
     uint16_t    id;
     const char *text;
@@ -119,7 +119,7 @@ static void put_object(app_modbus_t *m, const object_t *o)
     m->tx_octets[at - 1U] = (uint16_t)(m->tx_count - at);
 }
 
-/* The last object that a request for a stream of this kind tells. */
+/* Last object in a stream of this kind. */
 static uint16_t last_of(uint16_t code)
 {
     uint16_t last = LAST_ALL;
@@ -129,7 +129,7 @@ static uint16_t last_of(uint16_t code)
     } else if (code == READ_REGULAR) {
         last = LAST_REGULAR;
     } else {
-        /* all */
+        /* all objects */
     }
     return last;
 }

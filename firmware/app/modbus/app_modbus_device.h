@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_modbus_device.h
- * @brief What a master asks about line and device: function 8, diagnostics, and 43/14, identification.
+ * @brief Modbus functions 8, diagnostics of the line, and 43/14, device identification.
  */
 #ifndef APP_MODBUS_DEVICE_H
 #define APP_MODBUS_DEVICE_H

@@ -6,7 +6,7 @@
 #include "app_registers.h"
 #include "crc32.h"
 
-/* The words that outlast the restart. */
+/* Layout of the words that survive the restart. */
 #define KEPT_MARK    0U
 #define KEPT_COMMAND 1U
 #define KEPT_CRC     2U /* two words */
@@ -51,7 +51,7 @@ void app_parameters_take(app_parameters_t *p, app_registers_t *r, app_parameters
     r->parameters = p;
 }
 
-/* Of command and record. */
+/* CRC of command and record. */
 static uint32_t kept_crc(const uint16_t *kept)
 {
     return crc32_words(crc32_words(CRC32_START, &kept[KEPT_COMMAND], 1UL), &kept[KEPT_RECORD],
@@ -84,7 +84,7 @@ app_parameters_done_t app_parameters_work(void)
     const bool      asked = (kept[KEPT_MARK] == MARK) && (two(&kept[KEPT_CRC]) == kept_crc(kept));
     bool            ok    = false;
 
-    kept[KEPT_MARK] = 0U; /* once */
+    kept[KEPT_MARK] = 0U; /* executes only once */
     if (asked && (kept[KEPT_COMMAND] == (uint16_t)APP_PARAMETERS_STORE)) {
         ok = store_record(&kept[KEPT_RECORD]);
     } else if (asked) {

@@ -1,22 +1,23 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_parameters.h
- * @brief The registers that are kept over power: docs/parameters.md.
+ * @brief Non-volatile parameters: the registers that survive a power cut (docs/parameters.md).
  *
  * All of them are one record of the store, written as a whole:
  *
- *     0, 1     APP_REGISTERS_SAVED_VERSION, high word first: what the words mean
+ *     0, 1     APP_REGISTERS_SAVED_VERSION, high word first: version of the format
  *     2 ..     the words of the parameters as a master reads them, in the order of registers.toml
  *
- * Flash cannot be read while it is written, and the watchdog of a running application cannot be stopped: so the command
- * puts the record into words that outlast a reset, restarts the drive, and main() writes it before anything else runs.
+ * Flash cannot be read while it is written, and the watchdog of a running application cannot be
+ * stopped. Therefore the command copies the record into words that survive a reset, and restarts
+ * the drive. main() then writes the record before anything else runs.
  */
 #ifndef APP_PARAMETERS_H
 #define APP_PARAMETERS_H
 
 #include "store.h"
 
-/** What is asked for: 1010h, 1011h. */
+/** Commands of the objects 1010h and 1011h. */
 typedef enum {
     APP_PARAMETERS_NO_COMMAND = 0,
     APP_PARAMETERS_STORE,
@@ -25,33 +26,33 @@ typedef enum {
 
 typedef enum {
     APP_PARAMETERS_DEFAULT = 0,   /**< nothing is stored */
-    APP_PARAMETERS_STORED,        /**< in force */
-    APP_PARAMETERS_OTHER_VERSION, /**< of a firmware with other parameters: defaults */
-    APP_PARAMETERS_OUT_OF_RANGE   /**< one of the values: defaults */
+    APP_PARAMETERS_STORED,        /**< the stored parameters are in use */
+    APP_PARAMETERS_OTHER_VERSION, /**< stored by another firmware version: defaults */
+    APP_PARAMETERS_OUT_OF_RANGE   /**< a stored value is out of range: defaults */
 } app_parameters_state_t;
 
-/** What became of a command. */
+/** Result of a command. */
 typedef enum {
     APP_PARAMETERS_NOT_ASKED = 0,
     APP_PARAMETERS_DONE,
-    APP_PARAMETERS_FLASH /**< it failed: what was stored before stays */
+    APP_PARAMETERS_FLASH /**< the flash failed; the previous record stays valid */
 } app_parameters_done_t;
 
 typedef struct {
     app_parameters_state_t state;
     app_parameters_done_t  done;
-    uint32_t               number; /**< of the writing in force; 0: defaults */
+    uint32_t               number; /**< sequence number of the record in use; 0: defaults */
 } app_parameters_t;
 
 struct app_registers;
 
-/** The newest record into the registers, which are as after their init. Context: init. */
+/** Loads the newest record into freshly initialised registers. Context: init. */
 void app_parameters_take(app_parameters_t *p, struct app_registers *r, app_parameters_done_t done);
 
-/** Leaves word of a command for app_parameters_work(), with the parameters as they are. Context: background. */
+/** Saves a command and the present parameters for app_parameters_work(). Context: background. */
 void app_parameters_ask(const struct app_registers *r, app_parameters_command_t command);
 
-/** Does what was asked for before the restart, once. Context: init, before board_start(); lasts seconds. */
+/** Executes a saved command once. Takes seconds. Context: init, before board_start(). */
 app_parameters_done_t app_parameters_work(void);
 
 #endif /* APP_PARAMETERS_H */

@@ -18,7 +18,7 @@ typedef struct {
 static const map_t holding = {app_registers_map_holding, APP_REGISTERS_MAP_HOLDING, false};
 static const map_t input   = {app_registers_map_input, APP_REGISTERS_MAP_INPUT, true};
 
-/* Member by member, and from constants: on the stack they would take a quarter of it. */
+/* Sets member by member: a local copy would take a quarter of the stack. */
 ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
                                 const drive_config_t *drive)
 {
@@ -75,7 +75,7 @@ static uint32_t value_of(const app_registers_t *r, const map_t *map, const app_r
                                   e);
 }
 
-/* The entry that this address belongs to, and whether it is its second word; count where there is none. */
+/* Index of the entry with this address, also for its second word; map->count: not found. */
 static uint16_t find(const map_t *map, uint16_t address)
 {
     for (uint16_t k = 0U; k < map->count; k++) {
@@ -107,10 +107,10 @@ static app_registers_result_t read_map(const app_registers_t *r, const map_t *ma
     for (; (k < map->count) && (n < count); k++) {
         const app_registers_entry_t *e     = &map->entries[k];
         const uint32_t               value = value_of(r, map, e);
-        const uint16_t               at    = (uint16_t)(first + n); /* below the last entry's end */
+        const uint16_t at = (uint16_t)(first + n); /* below the end of the last entry */
 
         if ((at < e->address) || ((uint16_t)(at - e->address) >= app_registers_count_words(e))) {
-            break; /* behind a block */
+            break; /* end of a block */
         }
         if ((app_registers_count_words(e) == 2U) && (at == e->address)) {
             values[n] = (uint16_t)(value >> 16);

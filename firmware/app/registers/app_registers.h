@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_registers.h
- * @brief The application as 16-bit registers. Their table is registers.toml; with units: docs/modbus.md.
+ * @brief The application as 16-bit registers, from registers.toml. docs/modbus.md has the units.
  *
- * Holding registers are what the operator wants, input registers what the application tells. Values are
- * rounded to their unit and held at the ends of their type. Context: background.
+ * Holding registers are commands of the operator; input registers report the application. Values
+ * are rounded to their unit and limited to their type. Context: background.
  */
 #ifndef APP_REGISTERS_H
 #define APP_REGISTERS_H
@@ -18,7 +18,7 @@
 #include "app_status.h"
 #include "app_traces.h"
 
-/** Input registers are read as holding registers too, from here on: function 23 reads those only. */
+/** Input registers are also holding registers from this address on, for function 23. */
 #define APP_REGISTERS_INPUTS_TOO 4096U
 
 /** Bits of APP_REGISTERS_CONDITIONS. */
@@ -45,7 +45,7 @@ enum {
     APP_REGISTERS_REACHED            = 1024,
     APP_REGISTERS_LIMITED            = 2048,
     APP_REGISTERS_OF_MODE =
-        4096, /**< profile velocity: speed is zero; position: set-point taken; homing: the angle was found */
+        4096, /**< profile velocity: speed is zero; position: set-point taken; homing: angle found */
     APP_REGISTERS_FOLLOWING_ERROR =
         8192, /**< profile position: the reference waits for a shaft that cannot follow */
     APP_REGISTERS_BRIDGE_ON = 16384
@@ -58,12 +58,12 @@ enum { APP_REGISTERS_SAMPLE_VALID = 1, APP_REGISTERS_SAMPLE_INDEX = 2 };
 
 typedef enum {
     APP_REGISTERS_OK = 0,
-    APP_REGISTERS_BAD_ADDRESS, /**< not all of the registers exist, or half of a value is written */
+    APP_REGISTERS_BAD_ADDRESS, /**< a register does not exist, or half of a value is written */
     APP_REGISTERS_BAD_VALUE,   /**< out of range; nothing was written */
-    APP_REGISTERS_BUSY         /**< not while the bridge is on; nothing was written */
+    APP_REGISTERS_BUSY         /**< refused while the bridge is on; nothing was written */
 } app_registers_result_t;
 
-/** What holding registers hold. */
+/** Contents of the holding registers. */
 typedef struct app_registers_wanted {
     app_objects_t     objects;
     app_scope_setup_t scope;
@@ -80,50 +80,50 @@ typedef struct app_registers {
     float                        rpm_per_e_radps;
     app_status_t                 status;
     app_registers_wanted_t       wanted;
-    app_registers_wanted_t       trial; /**< a write, until all of it is known to be good */
-    volatile app_scope_t        *scope; /**< NULL: there is none, and no record */
+    app_registers_wanted_t       trial; /**< copy that a write changes until it is accepted */
+    volatile app_scope_t        *scope; /**< NULL: neither scope nor record */
     const volatile app_record_t *record;
-    app_loader_t           *loader;     /**< answers from APP_LOADER_FIRST on; NULL: nothing does */
-    const app_parameters_t *parameters; /**< NULL: they cannot be stored now */
-    bool                    changed;    /**< command is new; its taker clears this */
-    bool                    silent; /**< stopped because nobody talked; until it is enabled again */
+    app_loader_t                *loader;     /**< serves APP_LOADER_FIRST and up; NULL: none */
+    const app_parameters_t      *parameters; /**< NULL: they cannot be stored now */
+    bool                         changed;    /**< command is new; its taker clears this */
+    bool                         silent;     /**< stopped by a communication time-out */
 } app_registers_t;
 
 /**
- * @brief What the constants say; both must stay.
- * @return CTL_BAD_CONFIG when the address or the time-out is out of range. Context: init.
+ * @brief Sets the registers from the constants, which must stay valid.
+ * @return CTL_BAD_CONFIG: the address or the time-out is out of range. Context: init.
  */
 ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
                                 const drive_config_t *drive);
 
-/** `count` holding registers from `first` on; from APP_REGISTERS_INPUTS_TOO on the input registers. */
+/** Reads `count` holding registers. APP_REGISTERS_INPUTS_TOO and up are the input registers. */
 app_registers_result_t app_registers_read_holding(const app_registers_t *r, uint16_t first,
                                                   uint16_t count, uint16_t *values);
 
-/** `count` input registers from `first` on. */
+/** Reads `count` input registers from `first` on. */
 app_registers_result_t app_registers_read_input(const app_registers_t *r, uint16_t first,
                                                 uint16_t count, uint16_t *values);
 
-/** All of them or, when one address or value is refused, none. */
+/** Writes all registers, or none if one address or value is refused. */
 app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, uint16_t count,
                                            const uint16_t *values);
 
-/** The words of all parameters, APP_REGISTERS_SAVED_WORDS. */
+/** Reads the APP_REGISTERS_SAVED_WORDS words of all parameters. */
 void app_registers_saved_read(const app_registers_t *r, uint16_t *words);
 
-/** Takes them over, or, when one is out of its range, none. @return false: so it was. Context: init. */
+/** Sets all parameters. @return false: one is out of range, and none was set. Context: init. */
 bool app_registers_saved_take(app_registers_t *r, const uint16_t *words);
 
-/** Nobody talks any more: an operation that is enabled is stopped. */
+/** Communication time-out: stops an enabled operation. */
 void app_registers_silence(app_registers_t *r);
 
-/** Control periods of so many seconds; below an hour. */
+/** Number of control periods in a time below one hour. */
 uint32_t app_registers_ticks(const app_registers_t *r, float time_s);
 
-/** Counts of the shaft's position, as of the target. */
+/** Shaft position in the counts of the target. */
 int32_t app_registers_position(const app_registers_t *r);
 
-/** Two's complement. */
+/** The value as a 32-bit two's complement. */
 uint32_t app_registers_signed(int16_t x);
 
 /** Value of APP_REGISTERS_STATUSWORD. */

@@ -10,7 +10,7 @@ uint16_t app_registers_count_words(const app_registers_entry_t *e)
     return ((e->type == APP_REGISTERS_U16) || (e->type == APP_REGISTERS_I16)) ? 1U : 2U;
 }
 
-/* Both ends are a float that its type holds. */
+/* Both limits are floats within the type. */
 static uint32_t signed_count(float scaled, float least, float most)
 {
     const float   held    = base_clamp(scaled, least, most);
@@ -25,8 +25,8 @@ static uint32_t unsigned_count(float scaled, float most)
     return (uint32_t)rounded;
 }
 
-/* At least 4 digits: x = digits 10^power. No more than 45 powers of ten are between any two numbers of single precision
- * that are not denormal. */
+/* x = digits 10^power with at least 4 digits. For normal single-precision numbers 45 steps suffice
+ * in each loop. */
 static uint32_t decimal(float x)
 {
     float   digits = base_clamp(x, -1.0e30f, 1.0e30f);
@@ -62,7 +62,7 @@ uint32_t app_registers_count_of(float x, const app_registers_entry_t *e)
     }
 }
 
-/* Two's complement without relying on the conversion. */
+/* Reads a two's complement without an implementation-defined conversion. */
 static float signed_32(uint32_t count)
 {
     const uint32_t below = ~count; /* of a negative number: how far below -1 */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* Words of bits that are made of several things. */
+/* Registers whose bits come from several sources. */
 #include "app_registers.h"
 
 #include <stddef.h>
 
-/* What acts and never trips. */
+/* Active limits. They never trip. */
 static uint16_t limits(const app_status_t *s)
 {
     const uint16_t voltage = s->voltage_limited ? (uint16_t)APP_REGISTERS_VOLTAGE_LIMIT : 0U;
@@ -44,7 +44,7 @@ uint32_t app_registers_signed(int16_t x)
     return (uint32_t)wide;
 }
 
-/* By CiA 402; bit 5 is low while a quick stop is active. */
+/* State bits of CiA 402. Bit 5 is low while a quick stop is active. */
 static uint16_t state_bits(app_control_state_t state)
 {
     static const uint16_t bits[APP_CONTROL_STATES] = {0x0000U, 0x0040U, 0x0021U, 0x0023U,
@@ -57,7 +57,7 @@ static uint16_t bit_if(bool x, int bit)
     return x ? (uint16_t)bit : 0U;
 }
 
-/* The reference rests at the target, and the shaft is near. */
+/* True if the reference rests at the target and the shaft is near it. */
 static bool is_at_target(const app_registers_t *r)
 {
     const int32_t off_cnt  = app_registers_position(r) - r->status.target_cnt;
@@ -81,7 +81,7 @@ static bool is_reached(const app_registers_t *r)
                                                                            : s->done;
 }
 
-/* Bit 12 means something else in every mode. */
+/* Bit 12, whose meaning depends on the mode. */
 static bool is_of_mode(const app_registers_t *r)
 {
     const app_status_t *s = &r->status;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a write does to the holding registers. */
+/* Writes to the holding registers. */
 #include "app_registers.h"
 
 #include <stddef.h>
@@ -10,7 +10,7 @@
 #define SCOPE_ARM  1U /* values of SCOPE_COMMAND */
 #define SCOPE_STOP 2U
 
-/* A write may come to within half of what a register shows. */
+/* Range check with a tolerance of half a count of the register. */
 static bool is_in(const app_registers_entry_t *e, float x)
 {
     const float room = (e->per_unit > 0.0f) ? (0.5f / e->per_unit) : 0.5f;
@@ -23,7 +23,8 @@ static bool is_stopped(const app_registers_t *r)
            (r->status.state != APP_CONTROL_QUICK_STOP_ACTIVE);
 }
 
-/* What a register has already may be written at any time: a master that sends all of its command. */
+/* True if the register already has this value. Such a write is always allowed, as a master may send
+ * its whole command each time. */
 static bool is_there(const app_registers_t *r, const app_registers_entry_t *e,
                      const uint16_t *words)
 {
@@ -35,8 +36,8 @@ static bool is_there(const app_registers_t *r, const app_registers_entry_t *e,
     return (value & (wide ? 0xFFFFFFFFUL : 0xFFFFUL)) == ((high << 16) | low);
 }
 
-/* A command that restarts the drive: its signature, so that a stray write does nothing; at standstill, because a restart
- * leaves the motor alone for seconds. */
+/* A command that restarts the drive. It needs its signature, against stray writes. It needs
+ * standstill, because the motor is uncontrolled for seconds. */
 static app_registers_result_t try_command(app_registers_t *r, const app_registers_entry_t *e,
                                           const uint16_t *words)
 {
@@ -71,7 +72,7 @@ static app_registers_result_t try_one(app_registers_t *r, const app_registers_en
     return APP_REGISTERS_OK;
 }
 
-/* What a table of constants cannot tell. */
+/* Checks that depend on the drive or on several registers. */
 static bool may_be_wanted(const app_registers_t *r, const app_registers_wanted_t *w)
 {
     const float most = r->drive->speed_max_e_radps;
@@ -80,7 +81,7 @@ static bool may_be_wanted(const app_registers_t *r, const app_registers_wanted_t
            board_line_fits(&w->line);
 }
 
-/* Every value whole. */
+/* True if the range contains no half of a two-word value. */
 static bool are_whole(uint16_t first, uint16_t count)
 {
     uint16_t k = app_registers_holding_find(first);
@@ -119,7 +120,7 @@ static void command_scope(app_registers_t *r)
     } else if ((r->scope != NULL) && (command == SCOPE_STOP)) {
         app_scope_stop(r->scope);
     } else {
-        /* nothing is asked for */
+        /* no command */
     }
 }
 
