@@ -45,7 +45,9 @@ def main():
         value("--preproc_dependency", arguments),
     ]
     if tool == "cl2000" and not any(outputs):
-        outputs = [os.path.splitext(os.path.basename(a))[0] + ".obj" for a in arguments if a.endswith(".c")]
+        outputs = [
+            os.path.splitext(os.path.basename(a))[0] + ".obj" for a in arguments if a.endswith(".c")
+        ]
     if tool == "ar2000":
         outputs = [arguments[1]]
     for output in filter(None, outputs):

@@ -47,7 +47,9 @@ def make_compiler(root):
         touch(path)
         stand_in = shlex.quote(str(HERE / "stand_in_tool.py"))
         # -I -S: started hundreds of times, and half of a start is looking for packages
-        path.write_text(f'#!/bin/sh\nexec {shlex.quote(sys.executable)} -I -S {stand_in} {tool} "$@"\n')
+        path.write_text(
+            f'#!/bin/sh\nexec {shlex.quote(sys.executable)} -I -S {stand_in} {tool} "$@"\n'
+        )
         path.chmod(path.stat().st_mode | stat.S_IXUSR)
     touch(root / "include" / "stdint.h")
     touch(root / "lib" / "rts2800_fpu32_eabi.lib")

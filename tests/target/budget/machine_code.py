@@ -260,7 +260,8 @@ def read_code(prefix, image, functions=(), origin=None):
 
 def count_choices(code, intrinsic):
     """A float that a comparison chooses takes a branch there, but in an intrinsic each comparison
-    is one instruction. So is the quotient that stands for an estimate, with its root and its one."""
+    is one instruction. So is the quotient that stands for an estimate, with its root and its
+    one."""
     ordered = list(code.values())
     for flags, condition, chosen in zip(ordered, ordered[1:], ordered[2:]):
         chain = flags.next is condition and condition.next is chosen
@@ -278,7 +279,12 @@ def count_choices(code, intrinsic):
                 i.counts["limit"] = i.counts.pop("fp_compare")
             elif i.name == "vdiv":
                 i.counts["estimate"] = i.counts.pop("fp_div")
-            elif i.name in ("vmrs", "vsqrt") or i.counts["constant"] or i.conditional or i.counts["select"]:
+            elif (
+                i.name in ("vmrs", "vsqrt")
+                or i.counts["constant"]
+                or i.conditional
+                or i.counts["select"]
+            ):
                 i.counts.clear()
                 i.free = i.flow == "conditional"
 
