@@ -5,11 +5,11 @@
 
 void app_commission_init(app_commission_t *a, const drive_config_t *drive)
 {
-    const commission_config_t        board   = {.ts_s          = drive->ts_s,
-                                                .current_max_A = drive->current_max_A,
+    const commission_config_t        board   = {.ts_s              = drive->ts_s,
+                                                .current_max_A     = drive->current_max_A,
                                                 .speed_max_m_radps = 1.0f, /* placeholder */
-                                                .dc_link_min_V = drive->dc_link_min_V,
-                                                .dc_link_max_V = drive->dc_link_max_V,
+                                                .dc_link_min_V     = drive->dc_link_min_V,
+                                                .dc_link_max_V     = drive->dc_link_max_V,
                                                 .counts_per_turn =
                                                     (int32_t)drive->hardware.encoder_positions};
     static const commission_result_t nothing = {.counts_per_turn = 0L}; /* not on the stack */

@@ -30,8 +30,7 @@ typedef enum {
 typedef struct {
     app_stop_reaction_t reaction;
     float               still_e_radps; /**< RAMP opens below; > 0 */
-    bool
-        short_circuit; /**< a fault above omega_link shorts the motor; false: it opens the bridge,
+    bool short_circuit; /**< a fault above omega_link shorts the motor; false: it opens the bridge,
                              for a dc link that withstands the EMF at any speed */
 } app_stop_config_t;
 
