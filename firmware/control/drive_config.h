@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file drive_config.h
- * @brief The constants of one drive, made by sdre-gains from its drive file.
+ * @brief Constants of one drive. sdre-gains generates them from the drive file.
  */
 #ifndef DRIVE_CONFIG_H
 #define DRIVE_CONFIG_H
@@ -11,7 +11,7 @@
 #include "law.h"
 #include "motor.h"
 
-/** What the constants take board, bridge and encoder for; the application compares them with its own. */
+/** Board, bridge and encoder data that the constants assume. The application compares them. */
 typedef struct {
     uint32_t encoder_positions;  /**< per mechanical turn */
     uint16_t pole_pairs;         /**< 1 .. 64 */
@@ -23,23 +23,25 @@ typedef struct {
 /** Everything that depends on the motor and the board: generated, constant, checked by drive_init(). */
 typedef struct drive_config {
     float ts_s;               /**< control period [s], 1e-5 .. 1e-2 */
-    float current_max_A;      /**< what the drive may ask for, peak; > 0 */
+    float current_max_A;      /**< current limit, peak; > 0 */
     float trip_current_A;     /**< a phase current beyond this is a fault, > current_max_A */
     float trip_speed_e_radps; /**< a speed beyond this is a fault, > 0 */
     float speed_max_e_radps;  /**< a command beyond this is a fault, > 0, <= trip_speed_e_radps */
     float dc_link_min_V;      /**< accepted dc link, > 0 */
     float dc_link_max_V;      /**< > dc_link_min_V */
-    bool  positions;          /**< the law takes positions too */
+    bool  positions;          /**< the law accepts positions too */
     bool  overmodulation;     /**< voltages may use the hexagon outside the circle */
     motor_reduced_t    motor;
     dead_time_config_t dead_time;
     drive_hardware_t   hardware;
-    const law_t       *law;       /**< what turns samples into a voltage */
+    const law_t       *law;       /**< control law: samples to voltage */
     const void        *constants; /**< of that law: law_noc_config_t for law_noc and so on */
 } drive_config_t;
 
 /**
- * @brief CTL_OK when every constant, the law's too, is finite and within its documented range.
+ * @brief Checks that every constant, the law's too, is finite and within its documented range.
+ *
+ * @return CTL_OK or CTL_BAD_CONFIG.
  *
  * Context: init.
  */

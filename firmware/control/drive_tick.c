@@ -6,10 +6,10 @@
 #include "frames.h"
 #include "voltage.h"
 
-/* Beyond anything a law asks for, and below where squares overflow. */
+/* Exceeds the voltage of every law; its square does not overflow. */
 #define VOLTAGE_ANY_V 1.0e9f
 
-/* Longer than any drive stands still; a number, for all that is divided by it. */
+/* Exceeds every standstill; finite, so that divisions by it are defined. */
 #define EDGE_GAP_MAX_s 1.0e9f
 
 static const dq_t  zero_dq  = {0.0f, 0.0f};
@@ -51,7 +51,7 @@ void drive_reset(drive_t *d)
     current_gate_reset(&d->current_gate);
 }
 
-/* A speed in range, or a position that the drive takes. */
+/* True for a speed in range, or for a position if the drive accepts positions. */
 static bool command_ok(const drive_config_t *c, const drive_command_t *command)
 {
     const position_command_t *p = command->position;
@@ -87,7 +87,7 @@ static drive_fault_t find_fault(const drive_config_t *c, const drive_sample_t *s
     return DRIVE_FAULT_NONE;
 }
 
-/* What is wrong with an answer. The voltage limit would turn a NaN into full voltage. */
+/* Checks an answer of the law. Without it, the voltage limit would turn a NaN into full voltage. */
 static drive_fault_t find_wrong(const drive_config_t *c, const law_output_t *wanted)
 {
     drive_fault_t fault = DRIVE_FAULT_NONE;
@@ -100,7 +100,7 @@ static drive_fault_t find_wrong(const drive_config_t *c, const law_output_t *wan
                !base_within(wanted->v_V.q, VOLTAGE_ANY_V)) {
         fault = DRIVE_FAULT_NUMERIC;
     } else {
-        /* as it should be */
+        /* no fault */
     }
     return fault;
 }
@@ -113,7 +113,7 @@ static bridge_t trip(drive_t *d, drive_fault_t fault)
     return bridge_open();
 }
 
-/* Bumpless: the law takes over the measurement. */
+/* Bumpless start: the law takes over the measurement. */
 static void start(drive_t *d, const drive_sample_t *sample)
 {
     d->config->law->reset(&d->law, d->config, sample);
@@ -213,14 +213,15 @@ static bridge_t run(drive_t *d, const drive_sample_t *sample, const drive_comman
 /* A sample with the currents that the law expects at this instant, for laws without a prediction those of the period before. */
 static drive_sample_t without_currents(const drive_t *d, const drive_sample_t *sample)
 {
-    const law_output_t *out = &d->wanted; /* its angle is that of the middle of this period */
+    const law_output_t *out = &d->wanted; /* its angle belongs to the middle of this period */
     const dq_t          i_A = {.d = out->now.id_A, .q = out->now.iq_A};
     const float theta_rad   = out->theta_rad - (0.5f * d->config->ts_s * out->now.omega_e_radps);
 
     return current_gate_replaced(sample, i_A, theta_rad);
 }
 
-/* Expected are the currents of the middle of this period, a twentieth of a turn ahead at the most. */
+/* The predicted currents belong to the middle of this period, at most a twentieth of a turn
+ * ahead. */
 static current_gate_verdict_t judge_currents(drive_t *d, const drive_sample_t *sample,
                                              float change_A)
 {
@@ -232,7 +233,8 @@ static current_gate_verdict_t judge_currents(drive_t *d, const drive_sample_t *s
     return current_gate_judge(&d->current_gate, sample->ia_A, sample->ib_A, &in);
 }
 
-/* What a wild read would follow from. A pointer that has changed is not used, not even to look. */
+/* False if a pointer or count has changed, which could cause a wild read. A changed pointer is
+ * never dereferenced. */
 static bool is_whole(const drive_t *d)
 {
     if (d->config != d->config_again) {

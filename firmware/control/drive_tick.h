@@ -4,14 +4,17 @@
  * @brief One control period: sensors -> observer -> reference -> law -> modulator.
  *
  * Call drive_tick() once per control period. Its duty ratios take effect one period later and hold for
- * one period; the voltage is turned to the angle in the middle of that period.       EQ-DRIVE-2
+ * one period. The voltage is turned to the angle in the middle of that period.       EQ-DRIVE-2
  *
- * Observer, reference and law are those of the law that the constants name (law.h). Checks, voltage limit and
- * modulator stand here and are the same for all.
+ * The constants name a law (law.h), which brings observer, reference and feedback. Checks, voltage
+ * limit and modulator are the same for all laws.
  *
- * Nothing received is trusted: an invalid, non-finite or out-of-range sample or command opens the bridge
- * in the same call and latches the first reason until drive_reset(). A single sample of the currents beyond the trip
- * level is not used instead, current_gate.h. Currents that are not those of the motor trip, current_watch.h.
+ * Every input is checked before use. An invalid, non-finite or out-of-range sample or command opens
+ * the bridge in the same call. The first reason is latched until drive_reset().
+ *
+ * One current sample beyond the trip level is discarded, and the predicted current replaces it. Two
+ * of three such samples trip (current_gate.h). Currents that do not match the motor model trip too
+ * (current_watch.h).
  */
 #ifndef DRIVE_TICK_H
 #define DRIVE_TICK_H
@@ -26,12 +29,12 @@
 #include "sample.h"
 
 typedef struct {
-    float omega_e_radps; /**< wanted electrical speed, within +-speed_max_e_radps */
+    float omega_e_radps; /**< reference speed, electrical, within +-speed_max_e_radps */
     bool  run;           /**< false opens the bridge */
     float
-        derating; /**< share of the current limit that may not be used, 0 .. 1, of laws with near_optimal.h */
-    const position_command_t *
-        position; /**< NULL: the speed is wanted; else a position, and the speed is not looked at */
+        derating; /**< unusable share of the current limit, 0 .. 1; for laws with near_optimal.h */
+    const position_command_t
+        *position; /**< reference position; NULL: the speed is commanded instead */
 } drive_command_t;
 
 typedef enum { DRIVE_OFF = 0, DRIVE_RUN, DRIVE_FAULT } drive_state_t;
@@ -39,31 +42,31 @@ typedef enum { DRIVE_OFF = 0, DRIVE_RUN, DRIVE_FAULT } drive_state_t;
 /** Why the bridge was opened; the first reason is kept. */
 typedef enum {
     DRIVE_FAULT_NONE = 0,
-    DRIVE_FAULT_SAMPLE, /**< sample marked invalid, or angle not a number in range */
-    DRIVE_FAULT_OVER_CURRENT, /**< phase current beyond the trip level in two of three samples, or not a number */
-    DRIVE_FAULT_DC_LINK,    /**< dc link outside its accepted range, or not a number */
+    DRIVE_FAULT_SAMPLE,       /**< sample marked invalid, or angle not a number in range */
+    DRIVE_FAULT_OVER_CURRENT, /**< phase current above the trip level in two of three samples, or NaN */
+    DRIVE_FAULT_DC_LINK,      /**< dc link outside its accepted range, or not a number */
     DRIVE_FAULT_OVER_SPEED, /**< speed beyond the trip level, or not a number */
     DRIVE_FAULT_ENCODER,    /**< the angle jumped, or stands still while the motor turns fast */
-    DRIVE_FAULT_COMMAND, /**< commanded speed or position out of range, not a number, or not one that the drive takes */
-    DRIVE_FAULT_NUMERIC,        /**< the law produced a voltage that is not a number */
-    DRIVE_FAULT_CURRENT_SENSOR, /**< a phase current is not that of the motor, current_watch.h */
+    DRIVE_FAULT_COMMAND, /**< command out of range, NaN, or a position that the drive cannot take */
+    DRIVE_FAULT_NUMERIC, /**< the law produced a voltage that is not a number */
+    DRIVE_FAULT_CURRENT_SENSOR, /**< a phase current does not match the model, current_watch.h */
     DRIVE_FAULT_PHASE,          /**< a phase carries no current, current_watch.h */
-    DRIVE_FAULT_MODEL, /**< the motor needs another voltage than it should: encoder or sensor, motion_watch.h */
+    DRIVE_FAULT_MODEL, /**< the voltage does not match the model: encoder or sensor, motion_watch.h */
     DRIVE_FAULT_STALL, /**< no motion at the current limit, motion_watch.h */
     DRIVE_FAULT_AWAY,  /**< the speed leaves its command at the current limit, motion_watch.h */
-    DRIVE_FAULT_MEMORY /**< a pointer or a count of the constants has changed; until drive_init() */
+    DRIVE_FAULT_MEMORY /**< a pointer or a count has changed; kept until drive_init() */
 } drive_fault_t;
 
 typedef struct {
     const drive_config_t *config;
-    const drive_config_t *config_again;    /**< the same: a flipped bit shows */
+    const drive_config_t *config_again;    /**< copy that reveals a flipped bit */
     const law_t          *law_again;       /**< config->law */
     const void           *constants_again; /**< config->constants */
     drive_state_t         state;
     drive_fault_t         fault;
-    law_state_t           law;    /**< state of config->law */
-    law_output_t          wanted; /**< what the law answered last */
-    dq_t                  v_V;    /**< limited voltage computed last; in force from the next tick */
+    law_state_t           law;       /**< state of config->law */
+    law_output_t          wanted;    /**< last answer of the law */
+    dq_t                  v_V;       /**< last voltage after limits; acts from the next tick */
     bool                  v_limited; /**< v_V was limited */
     abc_t                 i_hat_A;   /**< phase currents that the law expects */
     current_gate_t        current_gate;
@@ -73,11 +76,12 @@ typedef struct {
 } drive_t;
 
 /**
- * @brief Bind a drive to its constants and start in DRIVE_OFF.
+ * @brief Binds a drive to its constants and starts in DRIVE_OFF.
  *
  * @param config Must outlive d.
- * @return CTL_BAD_CONFIG, with d left unusable (every tick keeps the bridge open), when a constant is
- *         outside its documented range.
+ * @return CTL_BAD_CONFIG: a constant is outside its documented range. Every tick then keeps the
+ * bridge
+ *         open.
  *
  * Context: init.
  */
@@ -87,14 +91,14 @@ ctl_status_t drive_init(drive_t *d, const drive_config_t *config);
 void drive_reset(drive_t *d);
 
 /**
- * @brief One control period.
+ * @brief Executes one control period.
  *
  * @param d       Drive.
  * @param sample  Measurements of this instant.
- * @param command Wanted speed and run flag.
+ * @param command Reference speed or position, and the run flag.
  * @return        Duty ratios for the next period and the gate request for now.
  *
- * Context: control ISR. Bounded: no loop but the sums of the law.
+ * Context: control ISR. Bounded: the only loops are sums of fixed length in the law.
  */
 bridge_t drive_tick(drive_t *d, const drive_sample_t *sample, const drive_command_t *command);
 

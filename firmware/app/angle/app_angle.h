@@ -87,15 +87,14 @@ typedef struct {
 
 typedef struct {
     float   theta_e_rad;  /**< 0 .. 2 pi */
-    float   band_rad;     /**< uncertainty of theta_e_rad; 0: it is exact to an edge */
+    float   band_rad;     /**< uncertainty of theta_e_rad; 0: it is a measurement */
     int16_t edge_of_line; /**< edge within the line that gave theta_e_rad, 1 .. 4; 0: none */
     float
-        edge_gap_s; /**< time between the last two edges, or since the last one if longer; 0: unknown */
+        edge_gap_s; /**< between the last two edges, or since the last one if longer; 0: unknown */
     float edge_age_s;    /**< since the edge of edge_of_line; 0: none */
     float omega_e_radps; /**< 0 unless speed_valid */
     bool  speed_valid;   /**< the previous sample was valid too */
-    bool
-        index_fault; /**< the index came at a wrong position or is missing; the reference is dropped */
+    bool  index_fault;   /**< index at a wrong position, or missing; the reference is dropped */
 } app_angle_reading_t;
 
 /** @return CTL_BAD_CONFIG, a unusable, when a constant is out of range. Context: init. */

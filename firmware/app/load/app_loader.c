@@ -144,7 +144,7 @@ static app_loader_result_t content(app_loader_t *l, const uint16_t *values, uint
     const uint16_t words = (uint16_t)(count - 2U);
 
     if ((l->state != APP_LOADER_WRITING) || (pair(values) != l->put_words)) {
-        return APP_LOADER_BAD_VALUE; /* in ascending order, each once: a flash word is written once */
+        return APP_LOADER_BAD_VALUE; /* ascending, each once: a flash word is written once */
     }
     if (!store_put(&l->write, l->put_words, &values[2], words)) {
         l->state = APP_LOADER_FLASH;

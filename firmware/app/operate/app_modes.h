@@ -3,7 +3,9 @@
  * @file app_modes.h
  * @brief The application's state machine: one period from raw samples to duty ratios and a gate request.
  *
- *     BOOT -> CALIBRATE -> READY -> (ALIGN, unless the angle is referenced) -> (PRECHARGE, if needed) -> RUN
+ *     BOOT -> CALIBRATE -> READY
+ *     READY -> (ALIGN, without a reference) -> (PRECHARGE, if needed) -> RUN
+ *
  *     RUN -> (STOP, while an open bridge is unsafe, or on request) -> READY
  *     READY -> COMMISSION, or ALIGN alone, on request -> READY
  *

@@ -45,7 +45,7 @@ enum {
     APP_REGISTERS_REACHED            = 1024,
     APP_REGISTERS_LIMITED            = 2048,
     APP_REGISTERS_OF_MODE =
-        4096, /**< profile velocity: speed is zero; position: set-point taken; homing: angle found */
+        4096, /**< velocity mode: speed is zero; position: set-point taken; homing: done */
     APP_REGISTERS_FOLLOWING_ERROR =
         8192, /**< profile position: the reference waits for a shaft that cannot follow */
     APP_REGISTERS_BRIDGE_ON = 16384

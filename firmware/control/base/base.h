@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file base.h
- * @brief Vector types and the two range helpers every module of the core shares.
+ * @brief Vector types and range helpers shared by all modules of the core.
  *
- * Amplitude-invariant (peak) scaling everywhere: the length of a current vector is the peak of the
- * phase current. Single precision only; nothing here allocates, reads a clock or touches hardware.
+ * Scaling is amplitude invariant: the length of a current vector is the peak of the phase current.
+ * The core uses single precision only. It does not allocate, read a clock or access hardware.
  */
 #ifndef BASE_H
 #define BASE_H
@@ -18,8 +18,9 @@
 #define BASE_SQRT3   1.73205081f
 #define BASE_1_SQRT3 0.577350269f
 
-/* In front of the functions of a module that one place of the tick calls, in header and source. Nothing, but for images:
- * there the tick is two translation units that hold those modules (firmware/one_unit), and a call and its arguments cost nothing. */
+/* Linkage of functions that the tick calls in one place only. It is empty on hosts. In an image the
+ * tick is two translation units (firmware/one_unit): there the functions are static inline, without
+ * cost of a call. */
 #ifndef CTL_PART
 #define CTL_PART
 #endif
@@ -51,8 +52,8 @@ typedef enum {
 
 /* Inline, because a call costs more than the comparison and the tick makes about sixty of them.
  *
- * A NaN compares false everywhere but on the C28x, where it is an infinity of its sign. What is said of a NaN below holds
- * under both rules (tests/target/test_c28x_floats.cpp). */
+ * A NaN compares false, except on the C28x: there it acts as an infinity of its sign. The
+ * statements on NaN below hold under both rules (tests/target/test_c28x_floats.cpp). */
 
 /** a where it is the smaller one, else b; so b where one of them is a NaN, but on the C28x. */
 static inline float base_min(float a, float b)
@@ -82,7 +83,7 @@ static inline float base_clamp(float x, float lo, float hi)
     return base_min(at_least, hi);
 }
 
-/** true when lo <= x <= hi; false for NaN, so it is the one check for untrusted numbers. */
+/** True if lo <= x <= hi; false for NaN. It is the check for all inputs. */
 static inline bool base_in_range(float x, float lo, float hi)
 {
     return (x >= lo) && (x <= hi);

@@ -72,7 +72,7 @@ static inline ab_t frames_inverse_park(dq_t x, frames_angle_t angle)
     return y;
 }
 
-/** An angle moved into +-pi; exact for angles within +-3 pi. */
+/** Wraps an angle into +-pi; exact for angles within +-3 pi. */
 static inline float frames_wrap(float angle_rad)
 {
     if (angle_rad > BASE_PI) {

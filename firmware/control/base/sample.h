@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file sample.h
- * @brief What was measured at one instant, in SI units, and what a law makes of it in the rotor frame.
+ * @brief Measurements of one instant in SI units, and their values in the rotor frame.
  */
 #ifndef SAMPLE_H
 #define SAMPLE_H
@@ -17,20 +17,17 @@ typedef struct {
     float ib_A;        /**< phase current, positive into the motor */
     float dc_link_V;   /**< dc-link voltage */
     float theta_e_rad; /**< electrical angle, -2 pi .. 2 pi */
+    float band_rad;    /**< uncertainty of the angle, 0 .. pi; 0: it is a measurement */
+    float edge_gap_s; /**< time between the last two encoder edges, or since the last one if longer;
+                           0: not timed by edges, or an edge in every period */
     float
-        band_rad; /**< differences to it up to here say nothing, 0 .. pi; 0: it is a measurement */
-    float
-        edge_gap_s; /**< what the angle rests on: time between the last two edges of the encoder, or since
-                           the last one when that is longer; 0: another measurement, or an edge in every period */
-    float
-        omega_e_radps; /**< electrical speed; a law that observes the angle reads it only when it starts */
-    float edge_age_s; /**< time since the edge that the angle was timed with; 0: none */
-    bool  valid;      /**< all of the above were measured in this period */
-    int16_t
-        edge_of_line; /**< the one of a line's four edges that the angle was timed with, 1 .. 4; 0: none */
+        omega_e_radps; /**< electrical speed; a law with angle observer uses it only at its start */
+    float   edge_age_s;   /**< time since the edge that the angle was timed with; 0: none */
+    bool    valid;        /**< all of the above were measured in this period */
+    int16_t edge_of_line; /**< edge within the line that gave the angle, 1 .. 4; 0: none */
 } drive_sample_t;
 
-/** Whether one of the three phase currents, c from the other two, is beyond a limit or no number. Context: control ISR. */
+/** True if a phase current exceeds the limit or is NaN; c is -(a + b). Context: control ISR. */
 static inline bool sample_over_current(float ia_A, float ib_A, float limit_A)
 {
     return !base_within(ia_A, limit_A) || !base_within(ib_A, limit_A) ||
@@ -51,7 +48,8 @@ static inline nodo_meas_t sample_measurement(const drive_sample_t *s)
     return y;
 }
 
-/** From the measured speed: the angle of the middle of the period in which the new voltage acts, EQ-DRIVE-2. */
+/** Angle in the middle of the period in which the new voltage acts, by measured speed,
+ * EQ-DRIVE-2. */
 static inline float sample_middle_angle_rad(const drive_sample_t *s, float ts_s)
 {
     return s->theta_e_rad + (1.5f * ts_s * s->omega_e_radps);

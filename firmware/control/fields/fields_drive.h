@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file fields_drive.h
- * @brief Walk over the constants of a drive that no law changes; law and its constants are left as they are.
+ * @brief Walk over the constants of a drive, without the law and its constants.
  */
 #ifndef FIELDS_DRIVE_H
 #define FIELDS_DRIVE_H

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file fields_encoder_form.h
- * @brief Walks over what the laws that measure the angle have besides their gains.
+ * @brief Walks over the constants of the encoder form other than the gains.
  */
 #ifndef FIELDS_ENCODER_FORM_H
 #define FIELDS_ENCODER_FORM_H

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file bridge.h
- * @brief What the inverter's three legs are told for a period.
+ * @brief Duty ratios and gate request of the inverter for one period.
  */
 #ifndef BRIDGE_H
 #define BRIDGE_H
@@ -11,7 +11,7 @@
 /* Inline functions in C and C++: members are set in their order. */
 
 typedef struct {
-    abc_t duty;        /**< upper switches, 0 .. 1; one half each while the bridge is open */
+    abc_t duty;        /**< upper switches, 0 .. 1; 1/2 each while the bridge is open */
     bool  gate_enable; /**< false: all six switches off, now */
 } bridge_t;
 
@@ -22,7 +22,7 @@ static inline bridge_t bridge_open(void)
     return open;
 }
 
-/** Switching with these ratios, limited to [0, 1]; a NaN comes out as 0. The only place that limits duty ratios. */
+/** Switching with these ratios, limited to [0, 1]; a NaN becomes 0. All ratios are limited here. */
 static inline bridge_t bridge_closed(abc_t duty)
 {
     const bridge_t closed = {{base_clamp(duty.a, 0.0f, 1.0f), base_clamp(duty.b, 0.0f, 1.0f),

@@ -3,11 +3,12 @@
 
 #include "fpu.h"
 
-/* Chosen: references end at the limit itself; noise and dead time stay inside this. */
+/* Chosen: references reach the limit itself; noise and dead time stay inside this ratio. */
 #define LIMIT_RATIO 1.03f
-/* Chosen: data sheets give inductances without saturation and within 20 to 30 %. */
+/* Chosen: data-sheet inductances ignore saturation and have tolerances of 20 to 30 %. */
 #define INDUCTANCE_SHARE 0.7f
-/* What that makes of the period before, which is already in the prediction once. */
+/* Correction of the previous period, which the prediction contains once with the nominal
+ * inductance. */
 #define BEFORE (1.0f - INDUCTANCE_SHARE)
 
 CTL_PART dq_t current_clamp_V(const motor_reduced_t *m, const nodo_t *est, const nodo_meas_t *now,
@@ -17,7 +18,7 @@ CTL_PART dq_t current_clamp_V(const motor_reduced_t *m, const nodo_t *est, const
     const float iq    = now->iq_A;
     const float id    = now->id_A;
     const float scale = samples_1ps * INDUCTANCE_SHARE;
-    /* Without a voltage. */
+    /* Derivatives without voltage. */
     const float free_d = (m->l9 * w * iq) - (m->l7 * id) + est->d_d;
     const float free_q = est->d_q - (m->l4 * iq) - (w * (m->l5 + (m->l10 * id)));
     const float most_A = LIMIT_RATIO * max_A;

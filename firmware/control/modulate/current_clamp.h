@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file current_clamp.h
- * @brief The voltage of one period, held back where it would drive the current beyond the limit.
+ * @brief Reduces the voltage of one period if it would drive the current beyond the limit.
  *
  *     i+ = i + Ts ((1 / s - 1) i'(v_0) + i'(v) / s)
  *     where |i+| > r I:  v += s L / Ts (r I / |i+| - 1) i+                                 EQ-CURRENT-CLAMP-1
  *
- * i is the current at which v begins to act, predicted with v_0 from the measured one a period before, i' the motor's equation
- * with the observer's disturbances, I the limit. i+ is that of a winding with s = 0.7 of the inductance that is believed.
- * With low inductance one period of full voltage is most of the limit, and no feedback comes in between. Inside the circle
- * r I nothing changes, so the certificate holds there as it is.
+ * Here i is the current at which v begins to act. It is predicted with v_0 from the current
+ * measured one period before. i' is the motor's equation with the observer's disturbances, and I is
+ * the limit. i+ is the current with the share s = 0.7 of the nominal inductance.
+ *
+ * With low inductance, one period of full voltage changes the current by most of the limit, and no
+ * feedback acts in between. Inside the circle r I the voltage stays unchanged: the certificate
+ * holds.
  */
 #ifndef CURRENT_CLAMP_H
 #define CURRENT_CLAMP_H
@@ -22,11 +25,11 @@
  * @param m           Reduced parameters.
  * @param est         Observer, for d_q and d_d.
  * @param now         Speed and currents at which the voltage begins to act.
- * @param v_V         Wanted; what the inverter can produce of it.
- * @param v_0_V       In force until then.
+ * @param v_V         Requested voltage within the inverter's reach.
+ * @param v_0_V       Voltage that acts until then.
  * @param max_A       Current limit [A peak], > 0.
  * @param samples_1ps 1 / Ts.
- * @return            The voltage, or what is left of it.
+ * @return            The voltage, reduced if necessary.
  *
  * Context: control ISR. Beyond the circle one division and a square root.
  */

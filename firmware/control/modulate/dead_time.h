@@ -3,12 +3,12 @@
  * @file dead_time.h
  * @brief Dead-time compensation on the duty ratios.
  *
- * During the dead time the current, not the switch, sets a phase's voltage: the phase loses the share
- * Td / T_pwm of the dc link when its current is positive and gains it when negative.
+ * During the dead time the current, not the switch, sets a phase's voltage. The phase loses the
+ * share Td / T_pwm of the dc link with positive current, and gains it with negative current.
  *
  *     duty_x += share clamp(i_x / i_fade, -1, 1)                               EQ-DEAD-TIME-1
  *
- * Around zero current the sign is not known and the loss is smaller, hence the fade.
+ * Around zero current the sign is unknown and the loss is smaller, hence the fade.
  */
 #ifndef DEAD_TIME_H
 #define DEAD_TIME_H

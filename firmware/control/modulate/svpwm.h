@@ -7,8 +7,8 @@
  *
  *     share  = v_dc / (max - min)                                             EQ-SVPWM-2
  *
- * Identical to classic SVPWM with the zero time split equally; linear up to |v| = v_dc / sqrt(3) in every
- * direction and up to share |v| in the direction of v: the hexagon.
+ * It equals classic SVPWM with the zero time split equally. It is linear up to |v| = v_dc / sqrt(3)
+ * in every direction. In the direction of v it is linear up to share |v|, the hexagon.
  */
 #ifndef SVPWM_H
 #define SVPWM_H
@@ -18,7 +18,7 @@
 /**
  * @brief Duty ratios of the upper switches.
  *
- * @param v_V     Wanted stator voltage.
+ * @param v_V     Requested stator voltage.
  * @param v_dc_V  Measured dc-link voltage [V], > 0.
  * @return        Three ratios, in [0, 1] within the linear range; bridge_closed() limits them.
  *
@@ -26,14 +26,16 @@
  */
 CTL_PART abc_t svpwm_duty(ab_t v_V, float v_dc_V);
 
-/** What the inverter can produce of a vector. */
+/** Part of a vector that the inverter can produce. */
 typedef struct {
-    abc_t duty;  /**< of share times the vector, in [0, 1] */
+    abc_t duty;  /**< duty ratios of share times the vector, in [0, 1] */
     float share; /**< EQ-SVPWM-2, at most 1 */
 } svpwm_t;
 
 /**
- * @brief As svpwm_duty() for the part of a vector within the hexagon: there v_dc cancels, and one division makes both.
+ * @brief Duty ratios of the part of a vector within the hexagon, and the share of it.
+ *
+ * At the hexagon v_dc cancels: one division gives both.
  *
  * Context: control ISR. One division.
  */

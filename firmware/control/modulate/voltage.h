@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file voltage.h
- * @brief What the inverter can produce of a wanted voltage: the vector's length is cut, its direction stays.
+ * @brief Limits a voltage vector to what the inverter can produce; its direction stays.
  *
  *     v = c u,  c = min(1, reach / |u|)                                        EQ-VOLTAGE-1
  *
- * With flux errors x = (Ld e_id, Lq e_iq), the voltage h that holds the currents asked for, and any pull g > 0,
+ * Take flux errors x = (Ld e_id, Lq e_iq), the voltage h that holds the current references, and any
+ * gain g > 0. Then
  *
  *     u = h - g x                                                              EQ-VOLTAGE-2
  *
- * makes the cut stable, motoring and generating, in both directions: |x| never grows as long as |h| <= reach, and
- * falls unless v = h. Reason: docs/equations.md, "The voltage limit". A law has to see to EQ-VOLTAGE-2 itself
- * (near_optimal.c).
+ * makes the limit stable, motoring and generating, in both directions. While |h| <= reach, |x|
+ * never grows, and it falls unless v = h. Reason: docs/equations.md, "The voltage limit". Each law
+ * must ensure EQ-VOLTAGE-2 itself (near_optimal.c).
  */
 #ifndef VOLTAGE_H
 #define VOLTAGE_H
@@ -37,19 +38,20 @@ static inline bool voltage_is_outside(dq_t u_V, float dc_link_V)
 
 typedef struct {
     dq_t  v_V;
-    abc_t duty;    /**< that produce it, EQ-SVPWM-1 */
-    bool  limited; /**< it is not the voltage that was wanted */
+    abc_t duty;    /**< duty ratios for it, EQ-SVPWM-1 */
+    bool  limited; /**< it differs from the requested voltage */
 } voltage_t;
 
 /**
- * @brief EQ-VOLTAGE-1 with the circle, or with the hexagon around it, as reach, and its duty ratios.
+ * @brief Limits a voltage by EQ-VOLTAGE-1 and computes its duty ratios.
  *
- * @param u_V            Wanted; finite.
- * @param angle          In which the voltage is produced.
+ * @param u_V            Requested voltage; finite.
+ * @param angle          Rotor angle at which the voltage acts.
  * @param dc_link_V      Measured [V], > 0.
- * @param overmodulation Whether the hexagon outside the circle may be used.
+ * @param overmodulation true: the reach is the hexagon; false: it is the circle.
  *
- * Context: control ISR. One division; outside the circle, where that is the reach, one more and a square root.
+ * Context: control ISR. One division. Outside the circle without overmodulation: one more and a
+ * square root.
  */
 CTL_PART voltage_t voltage_produce(dq_t u_V, frames_angle_t angle, float dc_link_V,
                                    bool overmodulation);

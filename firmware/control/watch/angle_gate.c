@@ -4,13 +4,13 @@
 #include "check.h"
 #include "frames.h"
 
-/* Counts around an angle that stands: one to either side, and half a count of rounding. */
+/* Tolerance of a standing angle: one count to either side, and half a count of rounding. */
 #define STANDS_cnt 1.5f
 
-/* Chosen: what the shaft must have turned beyond the band. Quantised speeds are wrong by less. */
+/* Chosen: least rotation beyond the band. Errors of quantised speeds are smaller. */
 #define BEYOND_cnt 2.0f
 
-/* Chosen: three errors of the same jump differ by what the shaft may do meanwhile, twice the gate. */
+/* Chosen: three errors of the same jump differ by the possible motion meanwhile, twice the gate. */
 #define SAME_GATES 2.0f
 
 CTL_PART bool angle_gate_check(const angle_gate_config_t *c)

@@ -1,25 +1,28 @@
 /* SPDX-License-Identifier: MIT */
 #include "current_watch.h"
 
-/* Chosen by simulation of 500 motors within +-50 % of resistance, inductance and flux, x0.5 .. x3 of inertia, and of sensors
- * that fail at 0 .. 800 rad/s: healthy ones stay below 0.28 i_max, and below 0.15 i_max but for 3 ms. */
+/* Chosen by simulation of 500 motors: +-50 % of resistance, inductance and flux, x0.5 .. x3 of
+ * inertia, and sensors that fail at 0 .. 800 rad/s. Healthy sensors stay below 0.28 i_max. They
+ * exceed 0.15 i_max for at most 3 ms. */
 #define FORGET_1ps 200.0f /* 1 / tau */
 #define SLOW_1ps   400.0f
 #define LIES_share 0.375f
-#define LIES_jump  0.875f /* six periods, as the observers of all motors need */
+#define LIES_jump  0.875f /* six periods, enough for the observers of all motors */
 #define LONG_jump  0.375f
 #define LONG_share 0.15f
 #define LONG_s     6.0e-3f
-/* A motor with half or with one and a half times the inductance leaves half of what the current changes by. */
+/* An inductance error of 50 % leaves a residual of half the change of the current. */
 #define EXPLAINED 0.6f
 #define RECOVERS  0.25f
 
-/* Eight times the noise of the shipped board, and twice that; a tenth of the rated torque asks for 0.06 i_max. */
+/* Eight times the noise of the shipped board, and twice that. A tenth of the rated torque needs
+ * 0.06 i_max. */
 #define NONE_share  0.02f
 #define ASKED_share 0.04f
 #define OPEN_MIN_s  10.0e-3f
 #define OPEN_MAX_s  1.0f
-/* Chosen by simulation of a pump with 1024 counts, held against half of its torque: 30 ms trip one run in twenty, 58 none. */
+/* Chosen by simulation of a pump with 1024 counts at standstill with half of its torque. A time of
+ * 30 ms trips one run in twenty, 58 ms none. */
 #define OPEN_per_way 4.0f
 
 CTL_PART float current_watch_open_s(float count_rad, float accel_max_radps2)
@@ -37,7 +40,7 @@ CTL_PART void current_watch_reset(current_watch_t *w, float ia_A, float ib_A)
     *w = start;
 }
 
-/* Back by a small angle: a rotation to first order. */
+/* Rotates back by a small angle, to first order. */
 static dq_t turned_back(dq_t x, float by_rad)
 {
     const dq_t y = {.d = x.d + (by_rad * x.q), .q = x.q - (by_rad * x.d)};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "motion_watch.h"
 
-/* A motor whose R, L and flux are half off leaves half of its voltage, and what is left of the compensated dead time. */
+/* Errors of one half in R, L and flux leave half of the voltage, plus the rest of the dead time. */
 #define HALF_OFF  0.6f
 #define DEAD_TIME 0.02f
 #define ODD_s     10.0e-3f /* chosen: twice what a step at the voltage limit takes */
@@ -10,15 +10,14 @@
 
 #define AT_LIMIT2 0.81f /* 0.9 of the limit */
 #define STILL_s                                                                                    \
-    50.0e-3f /* chosen; the limit's torque turns three times the motor's inertia by 2 rad meanwhile */
-#define GAP_SEEN_s   45.0e-3f /* gaps are told up to 50 ms (app_angle.c) */
+    50.0e-3f /* chosen: in this time the limit's torque turns 3 x the motor's inertia by 2 rad */
+#define GAP_SEEN_s   45.0e-3f /* gaps are measured up to 50 ms (app_angle.c) */
 #define SLOW_e_radps 10.0f    /* one and a half counts per period */
 #define SLOW_s                                                                                     \
     0.5f /* chosen: longer than a heavy load takes to start, shorter than the motor to heat up */
 #define AWAY_e_radps 20.0f /* chosen: three counts per period, the noise of a plain difference */
 #define FAR_e_radps  50.0f /* chosen: a tenth of the rated speed of the shipped motor */
-#define AWAY_s                                                                                     \
-    0.25f /* chosen: an overload of a tenth of a second and the way back from it are no reason to stop */
+#define AWAY_s       0.25f /* chosen: an overload of 0.1 s and the recovery from it must not trip */
 
 CTL_PART void motion_watch_reset(motion_watch_t *w)
 {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file motion_watch.h
- * @brief A motor that does not move as it should: jammed, dragged away, or with an encoder that does not show its motion.
+ * @brief Detects a locked rotor, an overhauling load, and an encoder that does not show the motion.
  *
- *     odd:     the voltage that the model does not know of,
+ *     odd:     voltage error of the model,
  *              max(Lq abs(d_q), Ld abs(d_d)) > 0.6 (R j + (flux + Lq j) abs(w)) + 0.02 v_dc,  j = abs(id) + abs(iq)
  *              for 10 ms                                                           EQ-MOTION-WATCH-1
  *     stall:   abs(i) > 0.9 i_max and abs(w* - w) > 10 rad/s, and for 50 ms no edge of the encoder, or for 0.5 s
@@ -11,9 +11,9 @@
  *     away:    abs(i) > 0.9 i_max, and abs(w* - w) is beyond 50 rad/s and for 250 ms 20 rad/s more than it has been with
  *              this command and current                                            EQ-MOTION-WATCH-3
  *
- * d are the observer's disturbances of the current equations, behind a low-pass. The bound of EQ-MOTION-WATCH-1 is what a
- * motor leaves whose parameters are half off, and the dead time. A shaft that turns while the encoder stands still
- * leaves its EMF. Laws without a prediction have no such check.
+ * d are the low-pass filtered disturbances of the observer's current equations. The limit of
+ * EQ-MOTION-WATCH-1 covers parameter errors of one half, and the dead time. A shaft that turns with
+ * a dead encoder leaves its EMF as an error. Laws without a prediction have no such check.
  */
 #ifndef MOTION_WATCH_H
 #define MOTION_WATCH_H
@@ -37,16 +37,16 @@ typedef enum {
 } motion_watch_look_t;
 
 typedef struct {
-    float odd_s;   /**< in a row, as the others */
+    float odd_s;   /**< duration without interruption, as the others */
     float still_s; /**< no edge */
     float slow_s;
     float away_s;
     float command_e_radps;
-    float nearest_e_radps;    /**< least distance to it since it was given, at the current limit */
+    float nearest_e_radps;    /**< least speed error at the current limit since the command */
     motion_watch_look_t look; /**< of the next period */
 } motion_watch_t;
 
-/** What a period knows. */
+/** Inputs of one period. */
 typedef struct {
     const motor_reduced_t *motor;
     float                  current_max_A;
@@ -58,7 +58,7 @@ typedef struct {
     dq_t                   d_Aps;      /**< zero where a law has no prediction */
 } motion_watch_input_t;
 
-/** Start of a run. Context: control ISR. */
+/** Starts a run. Context: control ISR. */
 CTL_PART void motion_watch_reset(motion_watch_t *w);
 
 /**
