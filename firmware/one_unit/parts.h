@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file parts.h
- * @brief Modules of the tick that one place calls, for one translation unit of an image.
+ * @brief Modules of the tick with one caller each, collected in one translation unit of an image.
  *
- * The compiler then puts each where it is called: no call, no return, no arguments and results by way of memory, a quarter of
- * the tick (docs/hardware.md, "Cycle budget"). What a unit does not call is left out. Hosts and tests compile every file of firmware/control by itself;
- * the results are the same, test unit.one_unit.
+ * The compiler then inlines each module, which saves calls and arguments: a quarter of the tick
+ * (docs/hardware.md, "Cycle budget"). It omits modules that the unit does not call. Hosts and tests
+ * compile every file of firmware/control separately; test unit.one_unit shows equal results.
  */
 #ifndef PARTS_H
 #define PARTS_H

@@ -35,7 +35,8 @@ CTL_PART void conventional_update(nodo_t *x, const conventional_gains_t *g,
     const float w  = x->omega_e_radps;
     const float iq = x->iq_A;
     const float id = x->id_A;
-    /* Beyond the range in which the held gain is certified, the products of estimates would outrun it. */
+    /* The clamp keeps the products of estimates in the range for which the held gain is
+     * certified. */
     const double_series_point_t a           = held(iq, id, g->i_certified_A);
     const double_series_point_t at          = held(iq, id, g->i_max_A);
     const float                 r[NODO_N_Y] = {y->omega_e_radps - w, y->iq_A - iq, y->id_A - id};

@@ -1,20 +1,23 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file conventional.h
- * @brief The conventional near optimal control that paper A compares itself with: both gains are series in two
- * variables.
+ * @brief Conventional near optimal control, paper A's reference for comparison.
+ *
+ * Both gains are series in two variables:
  *
  *     u_fb = -Lambda(e_iq, e_id) e                                          EQ-CONVENTIONAL-1
  *
- * Its error dynamics keep l11 e_iq e_id, l9 e_iq e_w and -l10 e_id e_w; paper A cancels the last two in the
- * feed-forward, here they stay in it with the other sign:
+ * Its error dynamics keep l11 e_iq e_id, l9 e_iq e_w and -l10 e_id e_w. Paper A cancels the last
+ * two in the feed-forward. Here they stay, so the feed-forward contains them with the opposite
+ * sign:
  *
  *     u_q: -l10 e_id e_w / l6,   u_d: +l9 e_iq e_w / l8                     EQ-CONVENTIONAL-2
  *
  *     x^' = A_d(iq^, id^) x^ + [0 0 0 0 l6 vq l8 vd]' + L(iq^, id^)(y - C_d x^)     EQ-CONVENTIONAL-3
  *
- * with the states of nodo.h and the product -l10 id^ w^ in A_d. The observer of the load torque alone has zero rows
- * for d_q and d_d, which thus stay zero. What paper A leaves open: docs/errata.md.
+ * The states are those of nodo.h, and A_d contains the product -l10 id^ w^. The observer of the
+ * load torque alone has zero rows for d_q and d_d, which stay zero. docs/errata.md lists the points
+ * that paper A leaves open.
  */
 #ifndef CONVENTIONAL_H
 #define CONVENTIONAL_H
@@ -44,7 +47,7 @@ CTL_PART bool conventional_check(const conventional_gains_t *g);
  * @brief Feedback voltage, EQ-CONVENTIONAL-1, and the products that the feed-forward must not cancel,
  * EQ-CONVENTIONAL-2.
  *
- * Beyond g->i_error_max_A the gain is held at its boundary value.
+ * Beyond g->i_error_max_A the gain keeps its boundary value.
  *
  * Context: control ISR. Pure, no division, 4 (N+1)(N+2) + 2 N + 8 multiplications.
  */

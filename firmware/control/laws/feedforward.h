@@ -16,7 +16,8 @@
 #include "motor.h"
 #include "nodo.h"
 
-/* Inline, because a law asks twice for it when a voltage is out of reach. In C and C++: members are set in their order. */
+/* Inline, as a law calls it twice if a voltage is out of reach. C++ includes it: it needs the
+ * members in their order. */
 
 /**
  * @param m           Reduced parameters.
@@ -45,7 +46,7 @@ static inline dq_t feedforward_V(const motor_reduced_t *m, const current_ref_t *
  *
  *     h_q = (l4 iq + l5 w + l10 w id - d_q) / l6                            EQ-FEEDFORWARD-3
  *
- * Mostly the back-EMF: a voltage limit has to cover this first.
+ * It is mostly the back-EMF. The voltage limit must cover it first.
  */
 float feedforward_hold_q_V(const motor_reduced_t *m, const nodo_meas_t *y, float d_q);
 

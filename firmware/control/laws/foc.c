@@ -6,14 +6,17 @@
 #include "check.h"
 #include "voltage.h"
 
-/* Chosen: a current step asks for several times the voltage circle; what is beyond this share of it does not weaken more. */
+/* Chosen: a current step requests several times the voltage circle. An excess above this share of
+ * it does not increase the weakening. */
 #define WEAKENING_SHARE 0.25f
 
-/* Chosen: a q current this share of the largest one away from its reference, with the voltage at its limit, is short of it. */
+/* Chosen: at the voltage limit, a q current error above this share of the largest current is
+ * "short". */
 #define SHORT_SHARE 0.05f
 
-/* Chosen by simulation: what the d axis takes at most of the circle leaves 31 % of it to brake the q current with. With all
- * of it, the speed overshoots by 39 rad/s after a step to 400 rad/s with 5 A; less is slower into flux weakening. */
+/* Chosen by simulation: largest share of the circle for the d axis. It leaves 31 % to brake the q
+ * current. A share of 1 overshoots by 39 rad/s after a step to 400 rad/s with 5 A; a smaller share
+ * enters flux weakening more slowly. */
 #define D_SHARE 0.95f
 
 static bool axis_check(const foc_axis_t *a)
@@ -94,12 +97,12 @@ static float limit_of(const foc_t *s, const foc_config_t *c, float iq_wanted_A, 
                !base_within(s->e_A.q, SHORT_SHARE * c->current_max_A)) {
         limit = sign_of(s->e_A.q);
     } else {
-        /* the q current goes where it is wanted */
+        /* no limit acts against the q current */
     }
     return limit;
 }
 
-/* The d axis first. */
+/* Voltage limit with priority of the d axis. */
 static dq_t d_first_V(dq_t u_V, float dc_link_V)
 {
     const float circle_V = dc_link_V * BASE_1_SQRT3;
@@ -110,7 +113,8 @@ static dq_t d_first_V(dq_t u_V, float dc_link_V)
     return v_V;
 }
 
-/* A limit would turn a NaN into full current or voltage; drive_tick() refuses it. */
+/* Passes a NaN on, which drive_tick() refuses. A limit would turn it into full current or
+ * voltage. */
 static dq_t answer_V(const foc_t *s, const foc_config_t *c, float accel_wanted_e_radps2,
                      float dc_link_V)
 {

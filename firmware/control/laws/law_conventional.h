@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file law_conventional.h
- * @brief What paper A compares itself with: the speed form with observer and feedback of conventional.h.
+ * @brief Paper A's reference for comparison: the speed form with conventional.h.
  */
 #ifndef LAW_CONVENTIONAL_H
 #define LAW_CONVENTIONAL_H

@@ -3,15 +3,15 @@
  * @file law_ladrc.h
  * @brief Linear active disturbance rejection of the speed, on the current loops of foc.h.
  *
- * To the law, the speed is w' = a + f with a the acceleration by the motor's
- * torque, (l1 + l11 id) iq, and everything else in f. The linear extended state observer has both poles at
- * -w_o, sampled at beta = exp(-w_o Ts), and corrects with the present sample:
+ * The law models the speed as w' = a + f. a is the acceleration by the motor's torque, (l1 + l11
+ * id) iq, and f is everything else. The linear extended state observer has both poles at -w_o, in
+ * discrete time beta = exp(-w_o Ts). It corrects with the present sample:
  *
  *     z_w = z_w + Ts (z_f + (a(k-1) + a(k)) / 2),  e = w - z_w              EQ-LADRC-1
  *     z_w = z_w + (1 - beta^2) e,  z_f = z_f + (1 - beta)^2 e / Ts          EQ-LADRC-2
  *     a_ref = w_c (command - z_w) - z_f                                     EQ-LADRC-3
  *
- * It is told the torque of the measured currents, so that no limit can make it wrong.
+ * The observer gets the torque of the measured currents: limits do not disturb it.
  */
 #ifndef LAW_LADRC_H
 #define LAW_LADRC_H
@@ -19,7 +19,7 @@
 #include "foc.h"
 #include "speed_difference.h"
 
-/** Of observer and speed loop. */
+/** Gains of observer and speed loop. */
 typedef struct {
     float gain_w;     /**< 1 - beta^2, (0, 1] */
     float gain_f_1ps; /**< (1 - beta)^2 / Ts, > 0 */
@@ -37,7 +37,7 @@ typedef struct {
     speed_difference_t speed;
     float              z_e_radps; /**< z_w */
     float              z_f_e_radps2;
-    float              accel_e_radps2; /**< a of the sample before */
+    float              accel_e_radps2; /**< a of the previous sample */
 } law_ladrc_state_t;
 
 void law_ladrc_fields(fields_t *f, void *constants); /**< for law_ladrc.fields */

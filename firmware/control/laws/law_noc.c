@@ -23,7 +23,7 @@ static void reset(law_state_t *state, const drive_config_t *drive, const drive_s
     near_optimal_reset(&s->near_optimal, &c->near_optimal, y.omega_e_radps);
 }
 
-/* With an encoder whose angle is believed, or held for some samples. */
+/* Corrects with an encoder whose angle is used, or ignored for some samples. */
 static void correct(law_noc_state_t *s, const law_noc_config_t *c, const drive_config_t *drive,
                     const drive_sample_t *sample, const angle_gate_result_t *angle)
 {

@@ -3,8 +3,8 @@
  * @file law_noc.h
  * @brief Near optimal control of paper A with an observer that measures the encoder's angle.
  *
- * The observer is corrected with this sample and predicted to the instant at which the new voltage takes effect;
- * references and law act on the prediction.
+ * This sample corrects the observer. The observer then predicts the instant at which the new
+ * voltage takes effect. References and law act on the prediction.
  */
 #ifndef LAW_NOC_ENCODER_H
 #define LAW_NOC_ENCODER_H
@@ -18,7 +18,7 @@ typedef struct {
     near_optimal_config_t near_optimal;
     encoder_form_limits_t plausible;
     angle_gate_config_t   gate;
-    encoder_form_gains_t  rare; /**< for edges that come less often than samples */
+    encoder_form_gains_t  rare; /**< for edges that are rarer than samples */
     nodo_encoder_gains_t  nodo;
     nodo_current_gains_t  currents; /**< for a lost encoder */
 } law_noc_config_t;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file law_noc_h.h
- * @brief Near optimal control with an observer that knows what repeats with the angle (nodo_harmonic.h).
+ * @brief Near optimal control with an observer of angle-periodic disturbances (nodo_harmonic.h).
  */
 #ifndef LAW_NOC_H_H
 #define LAW_NOC_H_H
@@ -14,13 +14,13 @@ typedef struct {
     near_optimal_config_t near_optimal;
     encoder_form_limits_t plausible;
     angle_gate_config_t   gate;
-    encoder_form_gains_t  rare; /**< for edges that come less often than samples */
+    encoder_form_gains_t  rare; /**< for edges that are rarer than samples */
     nodo_harmonic_gains_t nodo;
 } law_noc_h_config_t;
 
 typedef struct {
     nodo_harmonic_t      observer;
-    nodo_harmonic_view_t known; /**< what the law needs of it */
+    nodo_harmonic_view_t known; /**< view of the observer for the law */
     near_optimal_t       near_optimal;
     encoder_form_edges_t edges;
     angle_gate_t         gate;

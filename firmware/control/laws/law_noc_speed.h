@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file law_noc_speed.h
- * @brief Near optimal control as paper A has it: a measured speed, and a law that acts on the measurement.
+ * @brief Near optimal control as in paper A: with measured speed, acting on the measurement.
  */
 #ifndef LAW_NOC_SPEED_H
 #define LAW_NOC_SPEED_H
@@ -14,7 +14,7 @@ typedef struct {
     nodo_gains_t          nodo;
 } law_noc_speed_config_t;
 
-/** Of the conventional law too. */
+/** State, also of the conventional law. */
 typedef struct {
     nodo_t         observer;
     near_optimal_t near_optimal;
@@ -24,7 +24,7 @@ void law_noc_speed_fields(fields_t *f, void *constants); /**< for law_noc_speed.
 
 extern const law_t law_noc_speed;
 
-/** Start of a run from the measured speed. Context: control ISR. */
+/** Starts a run from the measured speed. Context: control ISR. */
 void law_noc_speed_reset(law_noc_speed_state_t *s, const near_optimal_config_t *c,
                          const drive_sample_t *sample);
 

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file law_pi_foc.h
- * @brief Cascaded PI field-oriented control: what a drive usually has (foc.h), with a PI for the speed.
+ * @brief Cascaded PI field-oriented control: the usual drive (foc.h) with a PI for the speed.
  *
  *     r(k+1) = r + (command - r) Ts / T_i                                   EQ-PI-FOC-1, against the overshoot
  *     a = k_p e + s,  e = r - w                                             EQ-PI-FOC-2
- *     s(k+1) = s + k_i e, or s where the current limit cut off what e asks for   EQ-PI-FOC-3
+ *     s(k+1) = s + k_i e, or s if the current limit acts towards e               EQ-PI-FOC-3
  *
- * a is the acceleration that the motor's torque is to make. Unlike with back-calculation the sum is still the load's torque
- * after a long time at the limit, so that the speed does not overshoot. k_p and T_i are those of the symmetrical optimum (docs/equations.md).
+ * Here a is the acceleration requested of the motor's torque. The sum s holds the load torque even
+ * after a long time at the limit. With back-calculation it would not, and the speed would
+ * overshoot. k_p and T_i follow the symmetrical optimum (docs/equations.md).
  */
 #ifndef LAW_PI_FOC_H
 #define LAW_PI_FOC_H
@@ -16,7 +17,7 @@
 #include "foc.h"
 #include "speed_difference.h"
 
-/** Of the speed's PI. */
+/** Gains of the speed PI. */
 typedef struct {
     float kp_1ps;    /**< > 0 */
     float ki_per_kp; /**< k_i Ts / k_p = Ts / T_i, of the reference's filter too, (0, 1] */

@@ -10,7 +10,7 @@ static bool check(const drive_config_t *drive)
     return pid_law_check(&c->pid) && pid_law_check(&c->id_pi);
 }
 
-/* The integral starts at the back-EMF, so that a turning motor is caught. */
+/* The integral starts at the back-EMF, for a bumpless start of a turning motor. */
 static void reset(law_state_t *state, const drive_config_t *drive, const drive_sample_t *sample)
 {
     law_pid_state_t  *s = &state->pid;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file laws.h
- * @brief The list of laws: a line each, for its state and for its constants.
+ * @brief The list of laws: for each, one line for its state and one for its constants.
  *
- * Naming a state here costs memory (the largest counts), no code: a law's functions are linked when the tables name it.
+ * A state in the list costs memory only, that of the largest one. The linker takes the functions of
+ * the law that the tables name.
  */
 #ifndef LAWS_H
 #define LAWS_H
@@ -18,7 +19,7 @@
 #include "law_pi_foc.h"
 #include "law_pid.h"
 
-#define LAW_OWN_FLOATS 16 /**< chosen: room for a law that is tried out before it is listed */
+#define LAW_OWN_FLOATS 16 /**< chosen: space for a law under test that is not in the list */
 
 union law_state {
     law_noc_state_t          noc;
@@ -32,7 +33,7 @@ union law_state {
     float                    own[LAW_OWN_FLOATS];
 };
 
-/** The constants of one law, in memory of their own: what an image gives a drive. */
+/** Memory for the constants of one law, when they come from an image. */
 #ifdef LAW_CONSTANTS /* An image refuses the constants of a law that it does not link. */
 typedef LAW_CONSTANTS law_constants_t;
 #else

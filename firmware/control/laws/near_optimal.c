@@ -38,7 +38,7 @@ static position_profile_t within(const position_profile_t *asked, const position
     return p;
 }
 
-/* The position of the view's instant: that of the sample and what the estimate is ahead of it. */
+/* Position at the instant of the view: that of the sample, moved by the prediction. */
 static position_t seen_position(const near_optimal_view_t *view, const position_command_t *command,
                                 float ts_s)
 {
@@ -47,7 +47,7 @@ static position_t seen_position(const near_optimal_view_t *view, const position_
     return position_moved(&command->is, frames_wrap(theta_rad - command->is.theta_e_rad));
 }
 
-/* The way to a position as a speed reference, and the angle's error. */
+/* Updates the position reference, its speed reference and the angle error. */
 static void update_position(near_optimal_t *s, const near_optimal_config_t *c,
                             const drive_config_t *drive, const near_optimal_view_t *view,
                             const position_command_t *command)
@@ -69,7 +69,7 @@ static void update_position(near_optimal_t *s, const near_optimal_config_t *c,
     s->theta_error_e_rad     = position_way_rad(&r->at, &is);
 }
 
-/* EQ-POSITION-4: the errors of speed and angle as one, in a speed run that of the speed. */
+/* EQ-POSITION-4: combined error of speed and angle; in a speed run the speed error. */
 static float asking_e_radps(const near_optimal_t *s, const near_optimal_config_t *c,
                             float speed_error_e_radps)
 {
@@ -104,14 +104,14 @@ static void update_references(near_optimal_t *s, const near_optimal_config_t *c,
     current_ref_update(&s->current_ref, &c->current_ref, &drive->motor, &s->speed_ref, &from);
 }
 
-/* Of a limit to what both ask for each gets its share: the speed's, and the angle's in s. */
+/* Speed error and angle error share one limit. Both are scaled by the same factor. */
 static float shared_error(near_optimal_t *s, float e_w, float asked, float allowed)
 {
     if (base_within(asked - allowed, 0.0f)) {
         return e_w;
     }
     const float share =
-        allowed * fpu_inverse(asked); /* the limits are on both sides of zero: asked is none */
+        allowed * fpu_inverse(asked); /* the limits include zero, hence asked is not zero here */
 
     s->theta_error_e_rad *= share;
     return share * e_w;
@@ -136,7 +136,7 @@ CTL_PART nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_c
     return limited;
 }
 
-/* EQ-FEEDFORWARD-1, 2 for the reference as far as it is followed. */
+/* EQ-FEEDFORWARD-1, 2 for the limited reference. */
 static dq_t forward_V(const near_optimal_t *s, const motor_reduced_t *m,
                       const near_optimal_view_t *view, const nosc_error_t *e)
 {
@@ -145,8 +145,9 @@ static dq_t forward_V(const near_optimal_t *s, const motor_reduced_t *m,
     return feedforward_V(m, &s->current_ref, w_d, &view->now, view->est);
 }
 
-/* EQ-VOLTAGE-2: the voltage that holds the currents asked for (EQ-NOSC-3), and one pull for both axes. Written as what it has
- * beyond the feed-forward, with a the q current that the errors ask for (EQ-POSITION-4) and x_q the way to it:
+/* EQ-VOLTAGE-2: the voltage that holds the requested currents (EQ-NOSC-3), and one gain for both
+ * axes. It is written relative to the feed-forward. a is the q current requested by the errors
+ * (EQ-POSITION-4), and x_q is the distance to it:
  *
  *     u_q = ff_q + (l5 e_w - l4 a - l10 w e_d) / l6 - k x_q,   u_d = ff_d + w x_q / l6 - k l10 e_d,   x_q = e_q + a
  */
@@ -165,8 +166,9 @@ static dq_t out_of_reach_V(const near_optimal_t *s, const near_optimal_config_t 
     return u_V;
 }
 
-/* Without a current beyond the limit, where a voltage in reach can see to that: beyond, EQ-VOLTAGE-2 is the stable one. A
- * voltage that needs no clamp stays as it was asked for. */
+/* Clamps the voltage against currents beyond the limit, if the inverter can produce the clamped
+ * one. Otherwise EQ-VOLTAGE-2 is the stable choice. Without need for a clamp the voltage stays
+ * unchanged. */
 static dq_t clamped_V(const near_optimal_config_t *c, const motor_reduced_t *m,
                       const near_optimal_view_t *view, dq_t u_V, bool reached,
                       const law_input_t *in)

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file near_optimal.h
- * @brief What the laws of near optimal control share: references, tracking error, feed-forward.
+ * @brief Common part of the near optimal laws: references, tracking error, feed-forward.
  *
  *     u = -Lambda(e) e - d_dq + u_ff                                           EQ-DRIVE-1, paper A (42)
  *
- * A law brings its observer and its feedback; in between stand near_optimal_error() and near_optimal_answer().
+ * A law adds its observer and its feedback. It calls near_optimal_error() before the feedback and
+ * near_optimal_answer() after it.
  */
 #ifndef NEAR_OPTIMAL_H
 #define NEAR_OPTIMAL_H
@@ -20,31 +21,30 @@
 typedef struct {
     current_ref_config_t current_ref;
     nosc_gains_t         nosc;     /**< conventional: Lambda_00 alone, for EQ-NOSC-3 */
-    position_gains_t     position; /**< of a drive that takes positions; else not looked at */
+    position_gains_t     position; /**< only for a drive that takes positions */
 } near_optimal_config_t;
 
 typedef struct {
-    speed_ref_t    speed_ref; /**< in a position run what position_ref says of the speed */
+    speed_ref_t    speed_ref; /**< in a position run the speed of position_ref */
     current_ref_t  current_ref;
     position_ref_t position_ref;
-    float
-         theta_error_e_rad; /**< to position_ref, as far as the limits let it be followed; 0 in a speed run */
-    bool positioning;
+    float          theta_error_e_rad; /**< limited error to position_ref; 0 in a speed run */
+    bool           positioning;
 } near_optimal_t;
 
-/** What the observer knows, all of one instant. */
+/** View of the observer, all of one instant. */
 typedef struct {
     const nodo_t *est;         /**< disturbance estimates */
     nodo_meas_t   now;         /**< speed and currents: measured, or predicted */
-    float         d_omega_dot; /**< d_w' [rad/s^3]; 0 when nothing is known of it */
+    float         d_omega_dot; /**< d_w' [rad/s^3]; 0: unknown */
     float         theta_rad;   /**< as law_output_t */
     bool          plausible;   /**< as law_output_t */
 } near_optimal_view_t;
 
-/** true when all constants are in range, current limit and sampling rate those of the drive. Context: init. */
+/** True if all constants are in range and agree with the drive's limit and rate. Context: init. */
 CTL_PART bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *drive);
 
-/** References start at the present speed without current. */
+/** Starts the references at the present speed with zero current. */
 CTL_PART void near_optimal_reset(near_optimal_t *s, const near_optimal_config_t *c,
                                  float omega_e_radps);
 
@@ -54,7 +54,7 @@ static inline bool near_optimal_counts_ok(const near_optimal_config_t *c)
     return nosc_order_ok(&c->nosc) && nosc_order_ok(&c->position.nosc);
 }
 
-/** The gains in force: of the position's design in a position run, else of the speed's. */
+/** Gains in use: of the position design in a position run, otherwise of the speed design. */
 static inline const nosc_gains_t *near_optimal_gains(const near_optimal_t        *s,
                                                      const near_optimal_config_t *c)
 {
@@ -62,22 +62,22 @@ static inline const nosc_gains_t *near_optimal_gains(const near_optimal_t       
 }
 
 /**
- * @brief References of this period and the error to them, its speed part as far as the limits let it be followed.
+ * @brief Updates the references and returns the tracking error with its speed part limited.
  *
- * In a position run the angle's error, in s, is a part of it.
+ * In a position run the angle error, in s, is limited with it.
  *
- * Context: control ISR. The cost of speed_ref_update() or position_ref_update(), and of current_ref_update(); in a position run
- * at the limits one more division.
+ * Context: control ISR. Cost: speed_ref_update() or position_ref_update(), plus
+ * current_ref_update(). In a position run at the limits, one more division.
  */
 CTL_PART nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *c,
                                          const drive_config_t      *drive,
                                          const near_optimal_view_t *view, const law_input_t *in);
 
 /**
- * @brief Feedback plus feed-forward, EQ-DRIVE-1, with all that a law answers.
+ * @brief Feedback plus feed-forward, EQ-DRIVE-1, and the other members of the answer.
  *
- * Where that voltage lies outside the circle, EQ-VOLTAGE-2 takes its place: with it cutting the vector's length is
- * stable (voltage.h). Either is held back from currents beyond the limit (current_clamp.h).
+ * Outside the circle, EQ-VOLTAGE-2 replaces this voltage: cutting its length is stable (voltage.h).
+ * current_clamp.h limits either voltage against currents beyond the limit.
  *
  * Context: control ISR. Outside the circle a division and a square root, beyond the current limit one more of each.
  */
@@ -87,9 +87,9 @@ CTL_PART void near_optimal_answer(const near_optimal_t *s, const near_optimal_co
                                   law_output_t *out);
 
 /**
- * @brief Both, with the feedback of nosc.h between them: the rest of a period after the observer.
+ * @brief Both calls with the feedback of nosc.h between them: the period after the observer.
  *
- * Inline, because it is no more than some calls. Context: control ISR.
+ * Inline, as it contains only calls. Context: control ISR.
  */
 static inline void near_optimal_step(near_optimal_t *s, const near_optimal_config_t *c,
                                      const drive_config_t *drive, const near_optimal_view_t *view,

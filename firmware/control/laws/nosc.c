@@ -5,7 +5,7 @@
 
 enum { ROW_Q = 0, ROW_D = 1, COLUMN_OMEGA = 0, COLUMN_IQ = 1, COLUMN_ID = 2 };
 
-/* What speed and iq, and what id contribute to a row. */
+/* Contributions to a row: of speed and iq, and of id. */
 static float of_speed_and_iq(const float row[NOSC_N_E], const nosc_error_t *e)
 {
     return (row[COLUMN_OMEGA] * e->omega_e_radps) + (row[COLUMN_IQ] * e->iq_A);
@@ -55,7 +55,7 @@ CTL_PART dq_t nosc_feedback_V(const nosc_gains_t *g, const nosc_error_t *e)
     return u_V;
 }
 
-/* The two quotients are each other's inverse, or both nothing. */
+/* True if the two quotients are reciprocal, or both zero. */
 static bool quotients_ok(const nosc_gains_t *g)
 {
     const float product = g->speed_A_per_radps * g->speed_radps_per_A;

@@ -6,7 +6,7 @@
  *     u_fb = -Lambda(e_iq) e                                                EQ-NOSC-1, paper A (26), (42)
  *     Lambda(e_iq) = Lambda_0 + Lambda_1 e_iq + ... + Lambda_N e_iq^N       EQ-NOSC-2
  *
- * Gains come from sdre-gains; no number is typed by hand here.
+ * sdre-gains generates all gains.
  */
 #ifndef NOSC_H
 #define NOSC_H
@@ -29,13 +29,13 @@ typedef struct {
 typedef struct {
     int16_t order;             /**< N, 0 .. NOSC_ORDER_MAX */
     float   iq_error_max_A;    /**< certified for |e_iq| <= this; > 0 */
-    float   iq_speed_max_A;    /**< most q current that the speed error may ask for; > 0 */
+    float   iq_speed_max_A;    /**< limit of the q current requested by the speed error; > 0 */
     float   speed_A_per_radps; /**< k_w / k_iq of Lambda_0, EQ-NOSC-3; >= 0 */
-    float   speed_radps_per_A; /**< k_iq / k_w; 0 when the speed error asks for nothing */
+    float   speed_radps_per_A; /**< k_iq / k_w; 0 if k_w is 0 */
     float   lambda[NOSC_ORDER_MAX + 1][NOSC_N_U][NOSC_N_E]; /**< Lambda_n; k_iq > 0 */
 } nosc_gains_t;
 
-/** Whether the order is one that the table holds. Context: control ISR. */
+/** True if the order is within the table. Context: control ISR. */
 static inline bool nosc_order_ok(const nosc_gains_t *g)
 {
     return (g->order >= 0) && (g->order <= NOSC_ORDER_MAX);
@@ -53,7 +53,8 @@ static inline float nosc_current_gain(const nosc_gains_t *g)
 }
 
 /**
- * @brief The q current that the speed error asks for, -(k_w / k_iq) e_w within +-iq_speed_max_A (EQ-NOSC-3).
+ * @brief q current requested by the speed error, -(k_w / k_iq) e_w within +-iq_speed_max_A
+ * (EQ-NOSC-3).
  *
  * Context: control ISR. No division.
  */
@@ -64,12 +65,13 @@ static inline float nosc_speed_current_A(const nosc_gains_t *g, float omega_erro
 }
 
 /**
- * @brief The error with its speed part limited so that the q current it asks for stays in a range.
+ * @brief Limits the speed part of the error, so that its requested q current stays in a range.
  *
  * Row v_q of EQ-NOSC-1 at n = 0 is -k_iq (iq - (iq_ref - (k_w / k_iq) e_w)): a current loop whose command
  * is the bracket. Limiting e_w limits that command and nothing else.           EQ-NOSC-3
- * The command also stays within iq_speed_max_A of iq_ref: the voltage limits how fast the current follows, and
- * a loop that asks for more than it gets in time starts to oscillate.
+ *
+ * The command also stays within iq_speed_max_A of iq_ref. The voltage limits the slew rate of the
+ * current, and larger requests would make the loop oscillate.
  *
  * @param g         Gains.
  * @param e         Tracking error.
@@ -93,11 +95,11 @@ static inline nosc_error_t nosc_limit_speed_error(const nosc_gains_t *g, nosc_er
 /**
  * @brief Feedback voltage, EQ-NOSC-1.
  *
- * Beyond g->iq_error_max_A the gain is held at its boundary value: a truncated power series is only
- * trustworthy where it was certified.
+ * Beyond g->iq_error_max_A the gain keeps its boundary value, because the truncated series is
+ * certified only up to there.
  *
- * With id mirrored in the d axis the motor is its own mirror image, so that half of every Lambda_n is zero: an even n
- * has speed and iq in v_q and id in v_d, an odd n the other way round.
+ * The motor is symmetrical to the d axis, so half of every Lambda_n is zero. For even n, v_q
+ * depends on speed and iq, and v_d depends on id. For odd n the rows are exchanged.
  *
  * Context: control ISR. Pure, no division, 5 (N+1) multiply-adds.
  */

@@ -4,7 +4,7 @@
  * @brief PID with the realised voltage fed back: paper B's speed law for comparison, and its d-axis law.
  *
  *     u(k) = k_p e(k) + i(k) + k_d (e(k) - e(k-1))                         EQ-PID-1
- *     i(k+1) = i(k) + k_i e(k), or i(k) where the limit cut off what e asks for  EQ-PID-2
+ *     i(k+1) = i(k) + k_i e(k), or i(k) if the limit cuts the voltage towards e  EQ-PID-2
  *
  * k_i and k_d hold the control period. All gains come from sdre-gains.
  */
@@ -20,7 +20,7 @@ typedef struct {
 } pid_law_config_t;
 
 typedef struct {
-    bool  running;    /**< error is the one of a period before */
+    bool  running;    /**< error belongs to the previous period */
     float integral_V; /**< i */
     float error;
     float u_V; /**< before any limit */
@@ -42,7 +42,7 @@ float pid_law_update(pid_law_t *s, const pid_law_config_t *c, float error);
 /**
  * @brief EQ-PID-2. Call once after each update.
  *
- * @param v_V What became of the voltage that pid_law_update() returned.
+ * @param v_V Realised part of the voltage that pid_law_update() returned.
  *
  * Context: control ISR. No division.
  */

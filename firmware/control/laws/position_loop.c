@@ -15,7 +15,7 @@ dq_t position_loop_V(const position_gains_t *g, float theta_error_e_rad, float i
     const float eiq_A = base_clamp(iq_error_A, -g->nosc.iq_error_max_A, g->nosc.iq_error_max_A);
     dq_t        sum   = {0.0f, 0.0f};
 
-    /* Horner: times e_iq an even power becomes an odd one, v_q's share one of v_d. */
+    /* Horner: each factor e_iq changes the parity, so the v_q sum becomes a v_d sum. */
     for (int16_t n = g->nosc.order; n >= 0; n--) {
         const bool even = ((uint16_t)n & 1U) == 0U;
         sum.d           = (sum.d * eiq_A) + (even ? 0.0f : g->theta[n]);

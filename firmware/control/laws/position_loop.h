@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file position_loop.h
- * @brief Near optimal control of the position: nosc.h with the angle's error as a fourth state.
+ * @brief Near optimal control of the position: nosc.h with the angle error as a fourth state.
  *
  *     theta' = w,   e = (e_theta, e_w, e_iq, e_id)                          EQ-POSITION-2
  *     u_fb = -Lambda(e_iq) (e_w, e_iq, e_id) - (lambda_0 + lambda_1 e_iq + ...) e_theta      EQ-POSITION-3
  *
- * with gains of a design of its own: no term of Lambda is that of the speed's. The angle has the parity of speed and iq: it
- * acts on v_q with an even power of e_iq and on v_d with an odd one. As in EQ-NOSC-3
+ * The gains have their own design and differ from those of the speed controller. The angle has the
+ * parity
+ * of speed and iq. It acts on v_q with even powers of e_iq, and on v_d with odd powers. As in
+ * EQ-NOSC-3,
  *
  *     e_w + (k_theta / k_w) e_theta                                         EQ-POSITION-4
  *
- * is what the errors ask for, and is limited as a whole.
+ * is the combined request of the errors, and it is limited as a whole.
  */
 #ifndef POSITION_LOOP_H
 #define POSITION_LOOP_H
@@ -24,10 +26,10 @@ typedef struct {
     float        theta[NOSC_TERMS]; /**< lambda_n: of v_q for an even n, of v_d for an odd one */
     float        speed_per_rad;     /**< k_theta / k_w of n = 0 [1/s], > 0 */
     float        near_rad;          /**< a reference further away waits for the shaft, (0, pi] */
-    position_profile_t most;        /**< of any profile */
+    position_profile_t most;        /**< limits of every profile */
 } position_gains_t;
 
-/** What a law gets when a position is commanded. */
+/** Position command to a law. */
 typedef struct {
     position_t         is; /**< of the sample's angle */
     position_t         target;
@@ -38,7 +40,7 @@ typedef struct {
 bool position_loop_check(const position_gains_t *g);
 
 /**
- * @brief The angle's part of EQ-POSITION-3.
+ * @brief Part of EQ-POSITION-3 by the angle error.
  *
  * Context: control ISR. N + 1 multiply-adds.
  */

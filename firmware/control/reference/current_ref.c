@@ -4,10 +4,10 @@
 #include "check.h"
 #include "fpu.h"
 
-/* Chosen: where the back-EMF is below this share of the voltage circle, no current inside the circle of
- * the shipped motors needs flux weakening; it also keeps every division by the speed away from zero. */
+/* Chosen: below this share of the voltage circle by back-EMF, no current of the shipped motors
+ * needs flux weakening. It also keeps every division by the speed away from zero. */
 #define FW_SPEED_SHARE 0.25f
-/* Chosen: the q current can always be asked to change by this share of what a motor at rest allows. */
+/* Chosen: least slew rate of the q current, as a share of the one at rest. */
 #define SLEW_SHARE_MIN 0.4f
 
 /* l1_min is half of l1 without load. */
@@ -15,7 +15,7 @@
 
 /* The voltage circle in amperes of q-axis flux linkage, around the present operating point. */
 typedef struct {
-    bool  active;      /**< fast enough to matter; only then the rest is set */
+    bool  active;      /**< the speed is high enough; only then the rest is set */
     float inv_w_accel; /**< 1 / (speed times acceleration per ampere) */
     float f_A;         /**< radius */
     float y_A;         /**< resistive drop and disturbance on the d axis */
@@ -32,7 +32,8 @@ CTL_PART void current_ref_reset(current_ref_t *r, const current_ref_config_t *c)
     r->iq_circle_A  = c->current_max_A;
 }
 
-/* Below this share of k^2 two terms of the series are nearer to the difference than what single precision leaves of it. */
+/* Below this share of k^2, two terms of the series are more accurate than the difference in single
+ * precision. */
 #define SERIES_SHARE 1.0e-3f
 
 /* sqrt(k^2 + x) - k, x >= 0. */
@@ -45,7 +46,7 @@ static float root_beyond_k(const current_ref_config_t *c, float x)
                                             : (fpu_root((c->mtpa_A * c->mtpa_A) + x) - c->mtpa_A);
 }
 
-/* Acceleration per ampere of iq. It vanishes at id = l1 / -l11 > 0; it is held well above. */
+/* Acceleration per ampere of iq. It vanishes at id = l1 / -l11 > 0, so it is limited from below. */
 static float accel_per_A(const current_ref_config_t *c, const motor_reduced_t *m, float id_A)
 {
     const float l1_id = m->l1 + (m->l11 * id_A);
@@ -70,7 +71,7 @@ static circle_t voltage_circle(const current_ref_config_t *c, const motor_reduce
     return circle;
 }
 
-/* EQ-CURRENT-REF-3 and 4 for the iq that is wanted, not for the one that fits already. */
+/* EQ-CURRENT-REF-3 and 4 for the requested iq, not for the limited one. */
 static float id_weakening_A(const current_ref_config_t *c, const motor_reduced_t *m,
                             const circle_t *v, float iq_A)
 {
@@ -93,7 +94,7 @@ static float id_mtpa_A(const current_ref_config_t *c, float iq2)
     return -(c->mtpa_exact ? root_beyond_k(c, iq2) : (c->mtpa_half_1pA * iq2));
 }
 
-/* Whether a current is below that of EQ-CURRENT-REF-2, by squares: without its root. False of a NaN. */
+/* True if id is below EQ-CURRENT-REF-2. It compares squares to avoid the root. False for a NaN. */
 static bool is_below_mtpa(const current_ref_config_t *c, float id_A, float iq2)
 {
     const float beyond = -id_A;
@@ -128,7 +129,7 @@ static float limit_regeneration(const current_ref_config_t *c, const circle_t *v
     return iq_A;
 }
 
-/* The current circle, EQ-CURRENT-REF-6 and 7. */
+/* Limits iq by the current circle, EQ-CURRENT-REF-6 and 7. */
 static void limit_iq(current_ref_t *r, const current_ref_config_t *c, const motor_reduced_t *m,
                      const circle_t *v, float accel, const current_ref_input_t *in)
 {
@@ -148,7 +149,7 @@ static void limit_iq(current_ref_t *r, const current_ref_config_t *c, const moto
         r->iq_lo_A         = base_clamp(v->y_A - half_A, -hi_A, 0.0f);
         r->iq_hi_A         = base_clamp(v->y_A + half_A, 0.0f, hi_A);
     }
-    /* iq_lo <= 0 <= iq_hi: only the one against the speed feeds back. */
+    /* iq_lo <= 0 <= iq_hi: only the limit against the speed regenerates. */
     float *const back_A = (w > 0.0f) ? &r->iq_lo_A : &r->iq_hi_A;
     *back_A             = limit_regeneration(c, v, w * accel, in->dc_link_V, *back_A);
 }
@@ -163,8 +164,9 @@ CTL_PART speed_ref_limits_t current_ref_speed_limits(const current_ref_t        
     const float accel    = c->torque_share * accel_per_A(c, m, r->i_A.d);
     const float unforced = in->est->d_omega - (m->l2 * w);
     const float top      = m->l6 * c->voltage_share * in->v_max_V;
-    /* What is there at both ends of the way; with the EMF's help not more than without any, as the d axis needs some. By
-     * simulation: with half as much again 1.5 rad/s too far after a step of 200 rad/s, and no earlier. */
+    /* The voltage available at both ends of the speed change. The EMF's help is not counted, as the
+     * d axis needs some voltage. Simulation: 1.5 times the slew rate overshoots a step of 200 rad/s
+     * by 1.5 rad/s and is not faster. */
     const float highest = base_max(w, command_e_radps);
     const float lowest  = base_min(w, command_e_radps);
     const float up      = base_max(top - (m->l5 * highest), SLEW_SHARE_MIN * top);
@@ -190,7 +192,7 @@ CTL_PART void current_ref_update(current_ref_t *r, const current_ref_config_t *c
     const float    load  = (m->l2 * w->omega_e_radps) - in->est->d_omega;
     const float    iq_A  = inv * (load + w->omega_dot_e_radps2); /* EQ-CURRENT-REF-1 */
     const float    all_A = inv * (load + w->accel_wanted_e_radps2) + in->iq_speed_A;
-    const float    hi_A  = r->iq_circle_A; /* of the id_ref before */
+    const float    hi_A  = r->iq_circle_A; /* for the previous id_ref */
 
     /* id_ref is a first-order filter's output, so its derivative is exact. */
     const float id_A      = id_target_A(c, m, &v, r->i_A.q, base_clamp(all_A, -hi_A, hi_A));

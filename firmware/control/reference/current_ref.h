@@ -8,8 +8,9 @@
  *     id_mtpa = k - sqrt(k^2 + iq^2),  k = l5 / (2 (1 - l10))               EQ-CURRENT-REF-2, for (7b)
  *     (speed form: its second-order term -iq^2 / (2 k), as the paper prints it)
  *
- * With y = l10 (l7 id - d_d) / w and x = (l4 iq - d_q) / w, the voltage that holds a current is
- * l6 |v| / |w| = |(y - iq, l5 + l10 id + x)|, and it must stay below f = l6 v_max / |w|.
+ * Define y = l10 (l7 id - d_d) / w and x = (l4 iq - d_q) / w. The voltage that holds a current is
+ *
+ *     l6 |v| / |w| = |(y - iq, l5 + l10 id + x)|,  at most f = l6 v_max / |w|
  *
  *     id_fw   = l9 (sqrt(f^2 - (iq - y)^2) - l5 - x)                        EQ-CURRENT-REF-3, for (7b)
  *     beyond |iq - y| = f:  id_fw = -l9 (l5 + x + min(|iq - y| - f, u)),
@@ -17,9 +18,9 @@
  *     id_ref  = min(id_mtpa, id_fw)                                         EQ-CURRENT-REF-5, for (7a)
  *     |iq_ref - y| <= sqrt(f^2 - (l5 + l10 id + x)^2)                       EQ-CURRENT-REF-6
  *     iq_ref w (l1 + l11 id) >= -P(v_dc) / (J / np^2)                       EQ-CURRENT-REF-7
- *     id_ref <= id_rest, of a motor with next to no magnet                  EQ-CURRENT-REF-8
+ *     id_ref <= id_rest, for a motor with a very weak magnet                EQ-CURRENT-REF-8
  *
- * and the current circle. Reasons: docs/errata.md.
+ * The current circle is a further limit. Reasons: docs/errata.md.
  */
 #ifndef CURRENT_REF_H
 #define CURRENT_REF_H
@@ -35,46 +36,46 @@ typedef struct {
     float mtpa_A;        /**< k of EQ-CURRENT-REF-2 [A], > 0; large without saliency */
     float mtpa_half_1pA; /**< 1 / (2 k) */
     bool  mtpa_exact;    /**< false: the second-order term only */
-    float voltage_share; /**< of the voltage circle that steady currents may need, (0, 1] */
-    float torque_share;  /**< of the available torque that the speed reference may use, (0, 1] */
-    float near_e_radps;  /**< speed error that asks for the whole current [rad/s], > 0 */
+    float voltage_share; /**< usable share of the voltage circle for steady currents, (0, 1] */
+    float torque_share;  /**< share of the available torque for the speed reference, (0, 1] */
+    float near_e_radps;  /**< speed error that requests the full current [rad/s], > 0 */
     float id_rest_A;     /**< d current without load [A], <= 0; 0 with a magnet of any strength */
-    float flux_A;        /**< flux / Lq from which weakening is looked after [A], >= l5, > 0 */
+    float flux_A;        /**< flux / Lq at which weakening begins [A], >= l5, > 0 */
     float l1_min;        /**< smallest l1 + l11 id [rad/s^2/A], > 0 */
     float filter_per_period; /**< Ts / time constant of the id filter, (0, 1] */
     float filter_1ps;        /**< 1 / that time constant [1/s], > 0 */
     float samples_1ps;       /**< 1 / Ts, for the speed reference [1/s], > 0 */
     float regen_max_W_norm;  /**< np^2 / J times the largest power fed back to the dc link, >= 0 */
     float regen_start_V;     /**< dc link at which that power begins to fall, > 0 */
-    float regen_per_V; /**< its slope [1/V]: nothing is fed back 1 / slope above the start, > 0 */
+    float regen_per_V;       /**< its slope [1/V], > 0; no feedback above start + 1 / slope */
 } current_ref_config_t;
 
 typedef struct {
     dq_t  i_A;       /**< references */
     dq_t  i_dot_Aps; /**< their derivatives */
-    float iq_lo_A;   /**< the q current may be commanded in iq_lo_A .. iq_hi_A now */
+    float iq_lo_A;   /**< present range of the q current: iq_lo_A .. iq_hi_A */
     float iq_hi_A;
-    float iq_circle_A; /**< what id leaves of the current circle */
+    float iq_circle_A; /**< |iq| that the current circle allows beside id */
 } current_ref_t;
 
-/** What the references are made of, all of one instant. */
+/** Inputs of the references, all of one instant. */
 typedef struct {
     const nodo_t      *est;         /**< disturbance estimates */
     const nodo_meas_t *state;       /**< speed and currents */
-    float              iq_speed_A;  /**< q current that the speed feedback asks for on top */
+    float              iq_speed_A;  /**< additional q current requested by the speed feedback */
     float              dc_link_V;   /**< measured dc link */
     float              v_max_V;     /**< radius of the voltage circle, > 0 */
     float              d_omega_dot; /**< d_w' [rad/s^3]; 0 when nothing is known of it */
-    float              derating;    /**< share of current_max_A that may not be used, 0 .. 1 */
+    float              derating;    /**< unusable share of current_max_A, 0 .. 1 */
 } current_ref_input_t;
 
 /** true when every constant is finite and within its documented range. Context: init. */
 CTL_PART bool current_ref_check(const current_ref_config_t *c);
 
-/** References and derivatives start at zero current, the range at nothing. */
+/** Starts with zero references, derivatives and range. */
 CTL_PART void current_ref_reset(current_ref_t *r, const current_ref_config_t *c);
 
-/** The accelerations and the jerk that the limits leave to the speed reference. Context: control ISR. */
+/** Limits of acceleration and jerk for the speed reference. Context: control ISR. */
 CTL_PART speed_ref_limits_t current_ref_speed_limits(const current_ref_t        *r,
                                                      const current_ref_config_t *c,
                                                      const motor_reduced_t      *m,
@@ -82,7 +83,7 @@ CTL_PART speed_ref_limits_t current_ref_speed_limits(const current_ref_t        
                                                      float                       command_e_radps);
 
 /**
- * @brief One period of EQ-CURRENT-REF-1 to 7.
+ * @brief Executes one period of EQ-CURRENT-REF-1 to 7.
  *
  * @param r   References, updated in place.
  * @param c   Limits and constants, checked at init.

@@ -3,24 +3,25 @@
 
 #include "fpu.h"
 
-/* Of false position: with one the end takes some periods longer, with more than two it is no sooner (docs/equations.md). */
+/* Steps of false position. With one, the end takes some periods longer; more than two give no gain
+ * (docs/equations.md). */
 #define PASSES 2
 
-/* Share of deceleration and jerk that the way is planned with. Chosen: the hundredth that is left puts right what single
- * precision adds up to on a long way. */
+/* Planned share of deceleration and jerk. Chosen: the reserve of 1 % corrects the rounding errors
+ * of a long motion. */
 #define PLANNED 0.99f
 
 #define THIRD 0.333333333f
 #define SIXTH 0.166666667f
 
-/* A reference and what is left of its way, all counted towards the target. */
+/* A reference and its remaining distance, positive towards the target. */
 typedef struct {
     float way_rad;
     float omega;
     float accel;
 } motion_t;
 
-/* The profile, and what of it the way to the target is planned with. */
+/* The profile, and the limits used for planning. */
 typedef struct {
     const position_profile_t *of;
     float                     jerk; /* planned, as the next three */
@@ -62,13 +63,13 @@ static float stopping_way_rad(const limits_t *l, float omega, float accel)
     return sign * ((t * (w + (THIRD * a * t))) + braking_way_rad(l, w_1));
 }
 
-/* What is covered in a period with a jerk. */
+/* Distance covered in a period with a jerk. */
 static float covered_rad(const limits_t *l, const motion_t *m, float jerk)
 {
     return l->ts_s * (m->omega + (l->ts_s * ((0.5f * m->accel) + (SIXTH * l->ts_s * jerk))));
 }
 
-/* A period later with a jerk. */
+/* State after a period with a jerk. */
 static motion_t after(const limits_t *l, const motion_t *m, float jerk)
 {
     const float    step = l->ts_s * jerk;
@@ -78,17 +79,17 @@ static motion_t after(const limits_t *l, const motion_t *m, float jerk)
     return out;
 }
 
-/* How much further the target is than the way on which it stops. */
+/* Remaining distance minus stopping distance. */
 static float spare_rad(const limits_t *l, const motion_t *m)
 {
     return m->way_rad - stopping_way_rad(l, m->omega, m->accel);
 }
 
-/* The acceleration from which the speed rests at its limit: as EQ-SPEED-REF-1, for a period of steady jerk. */
+/* Acceleration that ends at the speed limit: EQ-SPEED-REF-1 for a period of constant jerk. */
 static float accel_to_limit(const limits_t *l, const motion_t *m)
 {
     const float missing =
-        l->of->speed_e_radps - (m->omega + (0.5f * l->ts_s * m->accel)); /* half a period on */
+        l->of->speed_e_radps - (m->omega + (0.5f * l->ts_s * m->accel)); /* half a period later */
     const float half = 0.5f * l->ts_s * l->of->jerk_e_radps3;
     const float accel =
         fpu_root((half * half) + (2.0f * l->of->jerk_e_radps3 * fabsf(missing))) - half;
@@ -117,7 +118,7 @@ static float next_jerk(const limits_t *l, const motion_t *m)
         return low;
     }
     for (int16_t pass = 0; pass < PASSES;
-         pass++) { /* false position; an end that stays counts half */
+         pass++) { /* false position, Illinois variant: a retained end counts half */
         const float between =
             low + ((high - low) * spare_low * fpu_inverse(spare_low - spare_high));
         then              = after(l, m, between);
@@ -135,7 +136,7 @@ static float next_jerk(const limits_t *l, const motion_t *m)
     return low + ((high - low) * spare_low * fpu_inverse(spare_low - spare_high));
 }
 
-/* What one period of jerk can end. */
+/* True if one period of jerk ends the motion. */
 static bool is_there(const limits_t *l, const motion_t *m)
 {
     const float a = l->ts_s * l->of->jerk_e_radps3;
@@ -165,7 +166,7 @@ static void advance(position_ref_t *r, const limits_t *l, const motion_t *now, f
     r->arrived             = false;
 }
 
-/* The reference waits for a shaft that cannot follow. */
+/* Holds the reference near a shaft that cannot follow. */
 static void hold_near(position_ref_t *r, const position_t *is, float near_rad)
 {
     const float ahead = position_way_rad(is, &r->at);

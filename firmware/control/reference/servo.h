@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file servo.h
- * @brief What paper B's laws share: speed to q voltage directly, a PI that keeps id at zero.
+ * @brief Common part of paper B's laws: speed error to q voltage, and a PI that keeps id at zero.
  *
- * They act on the measurement and on the command itself: they have neither a prediction nor a reference model, and no
- * current limit; the trip is the only bound. The measured speed must be time-stamped at the encoder's edges: one
- * count per 100 us period is 63 rad/s electrical with 10,000 counts and 4 pole pairs.
+ * They act on measurement and command directly, without prediction or reference model. They have no
+ * current limit; only the trip limits the current. The measured speed must use edge times: with
+ * 10,000 counts and 4 pole pairs, one count per 100 us is 63 rad/s electrical.
  */
 #ifndef SERVO_H
 #define SERVO_H
@@ -14,7 +14,7 @@
 #include "pid_law.h"
 #include "sample.h"
 
-/** The answer of a law that wants this voltage for this measurement. Context: control ISR. */
+/** Answer of a law with this voltage and this measurement. Context: control ISR. */
 static inline void servo_answer(const drive_config_t *drive, const law_input_t *in,
                                 const nodo_meas_t *y, dq_t v_V, law_output_t *out)
 {
@@ -36,7 +36,7 @@ static inline void servo_answer(const drive_config_t *drive, const law_input_t *
     out->predicted       = false;
 }
 
-/** d voltage of EQ-PID-1 for id = 0, after what the limits left of the one before. Context: control ISR. */
+/** d voltage of EQ-PID-1 for id = 0, after EQ-PID-2 for the realised one. Context: control ISR. */
 static inline float servo_d_voltage_V(pid_law_t *s, const pid_law_config_t *c,
                                       const law_input_t *in, float id_A)
 {

@@ -1,19 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file speed_ref.h
- * @brief Reference model: the fastest speed profile within given limits of acceleration and jerk.
+ * @brief Reference model: time-optimal speed profile within limits on acceleration and jerk.
  *
- * The voltage that changes the q current is the limit less the back-EMF one way, and the limit and the back-EMF the other
- * way: w_d'' goes from -j_down to j_up. With period Ts, and j the one that ends the acceleration, which is j_down below the
- * command and j_up above, the acceleration that still stops at the command is
+ * The voltage that changes the q current is the voltage limit minus the back-EMF in one direction,
+ * and plus the back-EMF in the other one. Therefore w_d'' has two limits, -j_down and j_up.
+ *
+ * Let j be the jerk that ends the acceleration: j_down below the command, j_up above it. With
+ * period Ts, the largest acceleration that still ends at the command is
  *
  *     a* = sqrt((j Ts / 2)^2 + 2 j |command - w_d|) - j Ts / 2                  EQ-SPEED-REF-1
- * (|command - w_d| / Ts when that is less), and
+ * or |command - w_d| / Ts if that is less. The reference follows
  *
  *     w_d'' = j_up or -j_down towards clamp(+-a*, lowest, highest acceleration) EQ-SPEED-REF-2
  *
- * The last step may pass the command by j Ts^2 / 8; the end is exact. Both derivatives are known,
- * so that nothing has to be differentiated.
+ * The last step may pass the command by j Ts^2 / 8; the end is exact. Both derivatives are
+ * available without differentiation.
  */
 #ifndef SPEED_REF_H
 #define SPEED_REF_H
@@ -25,16 +27,16 @@ typedef struct {
     float omega_e_radps;         /**< w_d, electrical */
     float omega_dot_e_radps2;    /**< w_d' */
     float omega_2dot_e_radps3;   /**< w_d'' over the last step */
-    float accel_wanted_e_radps2; /**< w_d' that the command asks for, whatever the limits */
+    float accel_wanted_e_radps2; /**< w_d' requested by the command, before limits */
 } speed_ref_t;
 
-/** What the drive can do now. */
+/** Present limits of the drive. */
 typedef struct {
     float accel_hi_e_radps2;  /**< highest acceleration */
     float accel_lo_e_radps2;  /**< lowest (most negative) acceleration */
     float jerk_up_e_radps3;   /**< highest w_d'', > 0 */
     float jerk_down_e_radps3; /**< highest -w_d'', > 0 */
-    float near_e_radps;       /**< w_d stays this close to the speed, > 0 */
+    float near_e_radps;       /**< largest distance of w_d from the speed, > 0 */
     float samples_1ps;        /**< 1 / Ts */
 } speed_ref_limits_t;
 
@@ -56,12 +58,12 @@ static inline float speed_ref_stopping_acceleration(float distance, float jerk_s
 }
 
 /**
- * @brief Advance by one period towards the command.
+ * @brief Advances by one period towards the command.
  *
  * @param r               Reference, updated in place.
- * @param limits          What the drive can do now.
+ * @param limits          Present limits of the drive.
  * @param command_e_radps Commanded electrical speed.
- * @param omega_e_radps   Actual speed: a reference further away than limits->near_e_radps waits for it.
+ * @param omega_e_radps   Actual speed. A reference further away than limits->near_e_radps waits for it.
  * @param ts_s            Control period [s].
  *
  * Context: control ISR. No division, one square root.
