@@ -18,7 +18,6 @@ FAST_RTS = "rts2800_fpu32_fast_supplement_eabi.lib"
 TICK = [
     "app.c",
     "app_angle.c",
-    "app_control.c",
     "app_gate.c",
     "app_modes.c",
     "app_scale.c",
@@ -205,7 +204,7 @@ class TargetBuild(unittest.TestCase):
             "f28335-flash", arguments=[*arguments, "-DSDRE_SCOPE_SAMPLES=256"]
         )
         self.assertIn("-DLAW_CONSTANTS=law_noc_h_config_t", compiled["drive_image.c"])
-        for name in ("app_control.c", "app_modes.c"):
+        for name in ("app.c", "app_control.c", "app_modes.c"):
             self.assertNotIn("--ramfunc=on", compiled[name])
         self.assertIn("--ramfunc=on", compiled["app_states.c"])
 
