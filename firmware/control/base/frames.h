@@ -23,18 +23,19 @@ typedef struct {
 } frames_angle_t;
 
 /**
- * @brief Cosine and sine of an angle, the same bits on every machine.
+ * @brief Cosine and sine of an angle, bit-identical on every machine.
  *
- * With r, the angle less its turns, within +-pi, and the sine as a polynomial within +-pi/2:
+ * r is the angle without its turns, within +-pi. S is a sine polynomial within +-pi/2:
  *
  *     sin = S(min(max(r, -pi - r), pi - r)),  cos = S(pi/2 - |r|)
  *     S(x) = x + x^3 (s_1 + s_2 x^2 + s_3 x^4 + s_4 x^6)                    EQ-FRAMES-3
  *
- * Worst error within +-2 turns 1.7e-7, further out half a digit of the angle more (tests/unit/control/base/test_frames.c). Sums are
- * rounded to the nearest number.
+ * Worst error within +-2 turns: 1.7e-7. For larger angles, half a digit of the angle is added
+ * (tests/unit/control/base/test_frames.c). Sums are rounded to nearest.
  *
- * @param theta_e_rad electrical angle of the d axis from phase a, +-5e4; beyond it the result has no
- *                    meaning, and of a NaN it is none.
+ * @param theta_e_rad Electrical angle of the d axis from phase a, within +-5e4. Beyond it and for a
+ * NaN
+ *                    the result is undefined.
  *
  * Context: control ISR. No division.
  */

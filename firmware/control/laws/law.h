@@ -47,9 +47,8 @@ typedef struct {
     bool     waits;           /**< the position reference waits for a shaft that cannot follow */
     bool     without_angle;   /**< the encoder is lost; the law brakes without it */
     bool     plausible;       /**< false: the angle is wrong */
-    bool
-        predicted; /**< `now` is predicted for the instant from which v_V acts; d_q and d_d adapt to the
-                         real motor within some ms */
+    bool predicted; /**< `now` is predicted for the instant at which v_V begins to act; d_q and d_d
+                         adapt to the real motor within some ms */
 } law_output_t;
 
 typedef struct {

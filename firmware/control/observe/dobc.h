@@ -12,9 +12,9 @@
  * x^ = [current error | per oscillator its value and rate | polynomial and its derivatives]. GPIOBC has no
  * oscillators, HDOBC no polynomial, CDOBC both: one recursion, three tables.
  *
- * u_qi(k-1) is what the limits left of the voltage computed in the period before, at the time it was
- * computed: with that the computing delay does not detune the oscillators, and a limited voltage is not
- * mistaken for a disturbance. All matrices come from sdre-gains.
+ * u_qi(k-1) is the realised part of the voltage computed in the previous period, at its time of
+ * computation. The computing delay thus does not detune the oscillators, and a voltage limit does
+ * not act as a disturbance. sdre-gains generates all matrices.
  */
 #ifndef DOBC_H
 #define DOBC_H
@@ -35,7 +35,7 @@ typedef struct {
 } dobc_config_t;
 
 typedef struct {
-    bool  running; /**< e_radps holds the error of a period before */
+    bool  running; /**< e_radps holds the error of the previous period */
     float x[DOBC_N_X_MAX];
     float e_radps; /**< e_w of the last update */
     float ui_V;    /**< u_qi as realised */
@@ -44,14 +44,15 @@ typedef struct {
 /** true when every constant is finite and within its documented range. Context: init. */
 bool dobc_check(const dobc_config_t *c);
 
-/** Estimates zero; the first update takes its error as the one before, so that it makes no kick. */
+/** Clears the estimates. The first update takes its error for the previous one too, without a
+ * jump. */
 void dobc_reset(dobc_t *s);
 
 /** EQ-DOBC-1: the voltage that holds a speed without load. */
 float dobc_direct_V(const dobc_config_t *c, float omega_e_radps, float id_A);
 
 /**
- * @brief One period: EQ-DOBC-3 with this sample, then EQ-DOBC-2.
+ * @brief Executes one period: EQ-DOBC-3 with this sample, then EQ-DOBC-2.
  *
  * @param s       State, updated in place.
  * @param c       Checked by drive_init().
@@ -62,7 +63,7 @@ float dobc_direct_V(const dobc_config_t *c, float omega_e_radps, float id_A);
  */
 float dobc_update(dobc_t *s, const dobc_config_t *c, float e_radps);
 
-/** What became of the voltage that dobc_update() returned. Call once after each update. */
+/** Takes the realised part of the voltage of dobc_update(). Call it once after each update. */
 void dobc_realise(dobc_t *s, float ui_V);
 
 #endif /* DOBC_H */

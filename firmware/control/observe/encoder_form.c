@@ -15,12 +15,15 @@ CTL_PART bool encoder_form_gains_check(const encoder_form_gains_t *gains)
            check_positive(gains->d_omega_1ps2) && check_positive(gains->count_rad);
 }
 
-/* 2 would explain all of the error by the acceleration. Chosen by simulation of the scenario board_hold: with 0.5 a motor of 0.6
- * times the believed inertia hunts at standstill (v_q noise of 76 V rms, with 0.15 2.5 V) and a crawl takes 7.2 V instead of
- * 4.2 V; a load step at standstill is settled after 8 ms instead of 12 ms. With 0.1 a reversal has three times the ripple. */
+/* Least share s; 2 would explain the whole error by the acceleration. Chosen by simulation of the
+ * scenario board_hold. With 0.5, a motor of 0.6 times the nominal inertia oscillates at standstill:
+ * v_q noise is 76 V rms instead of 2.5 V. At low speed the noise is 7.2 V instead of 4.2 V. A load
+ * step at standstill settles in 8 ms instead of 12 ms. With 0.1, a reversal has three times the
+ * ripple. */
 #define D_OMEGA_SHARE 0.15f
 
-/* Not less than the gain of one sample, but of at most so much: with an edge in every period nothing changes. */
+/* Upper limit of s. In this range s follows the gain of one sample: with an edge in every period
+ * nothing changes. */
 #define D_OMEGA_SHARE_MOST 0.5f
 
 static float d_omega_share(const encoder_form_gains_t *gains, float ts_s)
@@ -28,7 +31,8 @@ static float d_omega_share(const encoder_form_gains_t *gains, float ts_s)
     return base_clamp(gains->d_omega_1ps2 * ts_s * ts_s, D_OMEGA_SHARE, D_OMEGA_SHARE_MOST);
 }
 
-/* Twice as many edges as samples: T is Ts, and the gains of one sample are what they are, unless they are limited. */
+/* True with two or more edges per sample: T is Ts, and the gains of one sample apply if no limit
+ * acts. */
 static bool is_one_sample(const encoder_form_gains_t *gains, float speed_e_radps, float two_rad,
                           float ts_s)
 {
@@ -46,7 +50,7 @@ CTL_PART float encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad,
     if (is_one_sample(gains, speed, two_rad, ts_s)) {
         return 1.0f;
     }
-    /* T and 1 / T, of the gap or of the way of two counts; one division for all reciprocals. */
+    /* T and 1 / T, by the gap or by the time of two counts. One division gives all reciprocals. */
     const bool  by_gap  = (gap_s * speed) < two_rad;
     const float over    = by_gap ? gap_s : (speed * two_rad);
     const float both    = fpu_inverse(over * gains->d_omega_1ps2 * ts_s);
@@ -72,14 +76,15 @@ CTL_PART void encoder_form_edges_reset(encoder_form_edges_t *edges)
     *edges = nothing;
 }
 
-/* Chosen: a tenth of what three edges say (1 + 2 * 2 + 1 squares of the three shares): known to a tenth within some forty
- * samples that meet other edges, and a disc whose lines differ disturbs it by a third of that. */
+/* Learning rate. Chosen: a tenth of the exact step for three edges, whose squared weights sum to
+ * 1 + 2 * 2 + 1. The offsets then converge to a tenth within some forty samples at different edges.
+ * Lines that differ disturb them by a third of that. */
 #define LEARN (0.1f / 6.0f)
-/* Chosen: times between edges that are further apart are of a shaft that starts or stops. */
+/* Chosen: a larger ratio of edge intervals means a shaft that starts or stops. */
 #define LEARN_RHO_MAX 4.0f
-/* Chosen: between edges that come less often the speed is not constant. */
+/* Chosen: the speed is not constant over longer edge intervals. */
 #define LEARN_PERIODS 4.0f
-/* Chosen: a state of the disc is at most so wide [count]. */
+/* Chosen: widest state of the disc [count]. */
 #define WIDEST    1.5f
 #define GAP_MIN_s 1.0e-7f
 
@@ -117,7 +122,7 @@ static void learn(encoder_form_edges_t *edges, const drive_sample_t *s, float mo
     add_offset(edges, first, rho * step_rad, most_rad);
 }
 
-/* A place in offset_rad, or none; what else it were would be a flipped bit. */
+/* Index in offset_rad, or none. Any other value is a flipped bit. */
 static int16_t place(int16_t edge)
 {
     return ((edge >= 0) && (edge <= ENCODER_FORM_EDGES)) ? edge : 0;
@@ -129,7 +134,7 @@ CTL_PART float encoder_form_learn(encoder_form_edges_t *edges, const drive_sampl
     const int16_t edge = s->edge_of_line;
 
     if ((edge < 1) || (edge > ENCODER_FORM_EDGES)) {
-        /* An edge without a time, or edges of which nothing is known. */
+        /* An edge without a time, or an edge of unknown place. */
         if ((s->edge_age_s > 0.0f) || !encoder_form_is_rare(s, ts_s)) {
             edges->edge[0] = 0;
         }
@@ -173,7 +178,7 @@ CTL_PART angle_gate_result_t encoder_form_innovation(angle_gate_t              *
     } else if (s->edge_gap_s > 0.0f) {
         angle.innovation_rad -= encoder_form_learn(edges, s, c->count_rad, ts_s);
     } else {
-        /* counts */
+        /* no edge times */
     }
     return angle;
 }

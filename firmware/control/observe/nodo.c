@@ -23,7 +23,8 @@ void nodo_update(nodo_t *x, const nodo_gains_t *g, const motor_reduced_t *m, con
     const float iq   = x->iq_A;
     const float id   = x->id_A;
     const float iq_A = base_clamp(iq, -g->iq_max_A, g->iq_max_A);
-    /* Beyond the range in which the held gain is certified, the products of estimates would outrun it. */
+    /* The clamp keeps the products of estimates in the range for which the held gain is
+     * certified. */
     const float       iq_s = base_clamp(iq, -g->iq_certified_A, g->iq_certified_A);
     nodo_innovation_t r    = {.odd = {ts_s * (y->omega_e_radps - w), ts_s * (y->iq_A - iq)},
                               .id  = ts_s * (y->id_A - id)};

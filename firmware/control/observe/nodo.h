@@ -7,8 +7,8 @@
  *     x^' = A_d(iq^) x^ + u_d + L(iq^) (y - C_d x^),   y = [w iq id] measured      EQ-NODO-1
  *     L(iq^) = L_0 + L_1 iq^ + ... + L_Nd iq^Nd                                    EQ-NODO-2, (39)
  *
- * A_d holds EQ-MOTOR-2 with the product terms l11 iq^ id^ and l9 iq^ w^; u_d carries
- * -l10 id w + l6 vq and l8 vd with the voltage really applied, (27).
+ * A_d contains EQ-MOTOR-2 with the products l11 iq^ id^ and l9 iq^ w^. u_d contains -l10 id w + l6
+ * vq and l8 vd with the applied voltage, (27).
  */
 #ifndef NODO_H
 #define NODO_H
@@ -27,7 +27,7 @@ typedef struct {
     float   gain[NODO_ORDER_MAX + 1][NODO_N_X][NODO_N_Y]; /**< L_n, n <= order */
 } nodo_gains_t;
 
-/** What the observer measures. */
+/** Measurements of the observer. */
 typedef struct {
     float omega_e_radps;
     float iq_A;
@@ -47,18 +47,22 @@ typedef struct {
 /**
  * @brief Innovation by parity.
  *
- * Mirrored in the d axis (w, iq, theta, d_w, d_q change sign, id, d_d do not, vq does, vd does not) the motor is itself,
- * and L(iq) is mirrored with it. So an even L_n leads from odd signals to odd states and from id to d_d and id; an
- * odd L_n from odd signals to d_d and id and from id to odd states. All else in the tables is zero, and not
- * multiplied.
+ * The motor is symmetrical to the d axis. Mirroring changes the signs of the odd signals w, iq,
+ * theta, d_w, d_q and vq. It keeps those of the even signals id, d_d and vd. L(iq) has the same
+ * symmetry:
+ *
+ * - An even L_n maps odd signals to odd states, and id to d_d and id.
+ * - An odd L_n maps odd signals to d_d and id, and id to odd states.
+ *
+ * All other elements of the tables are zero and are not multiplied.
  */
 typedef struct {
     float odd[2]; /**< the odd signals in the order of the table's columns */
     float id;
 } nodo_innovation_t;
 
-/* Adds L_n r to the six estimates; l holds at least the rows of nodo_t, id stands in column id_column. Inline: the
- * heart of both observers, and the column is known to each. */
+/* The functions add L_n r to the six estimates. l has at least the rows of nodo_t, and id is in
+ * column id_column. They are inline, as each observer knows this column at compile time. */
 
 /** Column of the second odd signal: 2 of (iq, id, theta), 1 of (w, iq, id); the first one stands in column 0. */
 static inline int16_t nodo_second_column(int16_t id_column)
@@ -115,15 +119,15 @@ bool nodo_check(const nodo_gains_t *g);
 void nodo_reset(nodo_t *x, const nodo_meas_t *y);
 
 /**
- * @brief One step: corrects with y and advances to the next sampling instant.
+ * @brief Corrects with y and advances to the next sampling instant.
  *
  * L is evaluated at iq^ clamped to +-g->iq_max_A, A_d at iq^ clamped to +-g->iq_certified_A.
  *
  * @param x     Estimates, advanced in place.
  * @param g     Gains.
- * @param m     Reduced parameters the gains were made for.
+ * @param m     Reduced parameters of the gains.
  * @param y     Measurement at this instant.
- * @param v_V   Voltage in force during the coming period (after every limit).
+ * @param v_V   Voltage that acts in the coming period, after every limit.
  * @param ts_s  Control period [s].
  *
  * Context: control ISR. No division, 13 (Nd+1) + 19 multiplications at most.

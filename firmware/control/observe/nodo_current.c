@@ -16,7 +16,7 @@ bool nodo_current_check(const nodo_current_gains_t *g)
            check_positive(g->nodes_per_root) && check_finite(&g->gain[0][0][0], count);
 }
 
-/* Row times innovation at a place between two nodes. */
+/* Row times innovation, interpolated between two nodes. */
 static inline float product(const nodo_current_gains_t *g, int16_t node, float share, int16_t row,
                             const float r[NODO_CURRENT_N_Y])
 {

@@ -11,7 +11,7 @@ CTL_PART void nodo_encoder_correct(nodo_t *x, float *theta_rad, const nodo_encod
 {
     const float       iq_A  = base_clamp(x->iq_A, -g->iq_max_A, g->iq_max_A);
     float             theta = *theta_rad;
-    nodo_t            sum   = *x; /* in registers, as far as they go */
+    nodo_t            sum   = *x; /* local, so that the compiler keeps it in registers */
     nodo_innovation_t r     = {.odd = {ts_s * (i_A.q - x->iq_A), ts_s * angle_error},
                                .id  = ts_s * (i_A.d - x->id_A)};
 
@@ -40,7 +40,8 @@ typedef struct {
     float id_dot_Aps;
 } rate_t;
 
-/* EQ-MOTOR-2 at (w, iq, id); u is the part that voltages and disturbances hold constant over the period. */
+/* EQ-MOTOR-2 at (w, iq, id); u is the part by voltages and disturbances, constant over the
+ * period. */
 static inline rate_t rates(const motor_reduced_t *m, float w, float iq, float id, const rate_t *u)
 {
     const rate_t f = {.omega_dot_e_radps2 =
@@ -68,7 +69,8 @@ CTL_PART void nodo_encoder_predict(nodo_t *x, float *theta_rad, const motor_redu
     *theta_rad = frames_wrap(*theta_rad + (ts_s * w));
 }
 
-/* The load's row has 1/s^3: 4e13 with a small motor at 20 kHz. It meets Ts and an angle, so that 1e18 stays finite. */
+/* The row of the load has the unit 1/s^3 and reaches 4e13 with a small motor at 20 kHz. It is
+ * multiplied by Ts and an angle: products of 1e18 stay finite. */
 #define GAIN_LARGEST 1.0e18f
 
 static bool rows_check(const float row[][NODO_ENCODER_N_Y])

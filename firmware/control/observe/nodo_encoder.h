@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file nodo_encoder.h
- * @brief Disturbance observer that measures the encoder angle instead of a differenced speed.
+ * @brief Disturbance observer with the encoder angle as its measurement.
  *
  *     x^ = [d_w d_q d_d | w iq id | theta]^,   y = [iq id theta] measured
  *     correction:  x^+ = x^- + Ts L(iq^-) (y - C x^-)                            EQ-NODO-ENCODER-1
@@ -9,7 +9,7 @@
  *     L(iq^) = L_0 + L_1 iq^ + ... + L_Nd iq^Nd                                  EQ-NODO-ENCODER-3
  *
  * f is EQ-MOTOR-2 with constant disturbances and theta' = w. The prediction covers the computing delay: a
- * law that reads it acts on the state at the instant its voltage takes effect.
+ * law that uses it acts on the state at the instant its voltage takes effect.
  */
 #ifndef NODO_ENCODER_H
 #define NODO_ENCODER_H
@@ -47,7 +47,7 @@ CTL_PART void nodo_encoder_correct(nodo_t *x, float *theta_rad, const nodo_encod
                                    dq_t i_A, float angle_error, float ts_s);
 
 /**
- * @brief EQ-NODO-ENCODER-2: one period ahead with the voltage in force.
+ * @brief Predicts one period with the voltage that acts, EQ-NODO-ENCODER-2.
  *
  * Context: control ISR. No division, 28 multiplications.
  */

@@ -19,10 +19,10 @@ void nodo_harmonic_reset(nodo_harmonic_t *s, const nodo_meas_t *y, float theta_r
     }
 }
 
-/* Harmonics beyond this have no angle left at any speed that a drive runs at. */
+/* Largest order. At a higher one, a pair exceeds NODO_HARMONIC_TURN_MAX at every useful speed. */
 #define ORDER_MAX 1.0e3f
 
-/* A node of the table and the one above it, and what their columns are multiplied by. */
+/* A node of the table, and the factors for its columns and those of the next node. */
 typedef struct {
     int16_t below;
     float   by_lower[NODO_HARMONIC_N_G];
@@ -34,7 +34,8 @@ typedef struct {
     float row[NODO_HARMONIC_N_X_MAX];
 } change_t;
 
-/* EQ-HARMONIC-3 for the innovation r of measured iq, id, theta, which with iq are those of the mirror image. */
+/* EQ-HARMONIC-3 for the innovation r of measured iq, id, theta. For w < 0, r and iq are
+ * mirrored. */
 static void look_up(lookup_t *at, const nodo_harmonic_gains_t *g, float omega_e_radps, float iq_A,
                     const float r[3])
 {
@@ -57,7 +58,7 @@ static void look_up(lookup_t *at, const nodo_harmonic_gains_t *g, float omega_e_
     }
 }
 
-/* In one loop over rows whose two nodes lie side by side: half of the cost of this observer. */
+/* One loop over rows with adjacent nodes. It is half of the cost of this observer. */
 static void multiply(change_t *out, const nodo_harmonic_gains_t *g, const lookup_t *at)
 {
     const int16_t rows = (int16_t)(NODO_HARMONIC_N_BASE + (2 * g->n_pairs));
@@ -81,7 +82,7 @@ static bool a_is_odd(nodo_harmonic_channel_t channel)
     return (channel == NODO_HARMONIC_TORQUE) || (channel == NODO_HARMONIC_VOLTAGE_Q);
 }
 
-/* sign turns the odd signals back from the mirror image. */
+/* Adds the change to the state; `sign` converts odd signals back from the mirror image. */
 static void apply(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, const change_t *change,
                   float sign)
 {
@@ -136,7 +137,7 @@ static frames_angle_t doubled(frames_angle_t x)
     return z;
 }
 
-/* What the pairs add to the disturbances; current sensors disturb nothing. */
+/* Contributions of the pairs to the disturbances. SENSOR pairs contribute none. */
 enum { OMEGA, Q, D, DISTURBANCES };
 typedef struct {
     float middle[DISTURBANCES]; /* in the middle of this period */
@@ -144,7 +145,7 @@ typedef struct {
     float d_w_dot;              /* middle of the next one */
 } added_t;
 
-/* One pair by one period, EQ-HARMONIC-1: by half of it, and by the whole with what is kept. */
+/* Turns a pair by half a period, and by a whole one with decay, EQ-HARMONIC-1. */
 static void turn_pair(nodo_harmonic_pair_t *pair, frames_angle_t half, frames_angle_t whole,
                       const nodo_harmonic_order_t *of, float w, added_t *sum)
 {

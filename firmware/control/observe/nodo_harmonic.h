@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file nodo_harmonic.h
- * @brief The encoder-form observer with models of what repeats with the angle.
+ * @brief The encoder-form observer with models of angle-periodic disturbances.
  *
- * A harmonic of electrical order h is a pair (a, b) that turns h times as fast as the rotor, so that it keeps
- * its phase to the angle at any speed:
+ * A harmonic of electrical order h is a pair (a, b) that turns h times as fast as the rotor. It
+ * keeps its phase to the angle at any speed:
  *
  *     (a, b)^(k+1) = keep R(h dtheta) (a, b)^(k)                                   EQ-HARMONIC-1
  *
@@ -17,8 +17,8 @@
  *     correction with K = G_0(|w|) + iq G_1(|w|), linear between two nodes of sqrt|w|     EQ-HARMONIC-3
  *     prediction: EQ-NODO-ENCODER-2 with all disturbances of the middle of the period        EQ-HARMONIC-4
  *
- * For w < 0 the motor is the mirror image of itself at -w: signs of the odd signals change, gains stay. The
- * estimated currents are the true ones: what the sensors add is kept apart from them.
+ * For w < 0 the motor is the mirror image of itself at -w: signs of the odd signals change, gains
+ * stay. The estimated currents are the true ones, without the sensor errors.
  */
 #ifndef NODO_HARMONIC_H
 #define NODO_HARMONIC_H
@@ -33,8 +33,9 @@
 #define NODO_HARMONIC_N_X_MAX   (NODO_HARMONIC_N_BASE + (2 * NODO_HARMONIC_PAIRS_MAX))
 #define NODO_HARMONIC_N_G       6 /**< G_0 then G_1, columns measured iq, id, theta */
 
-/** A pair that turns faster than this per period [rad] is given up: six samples of a harmonic's period are few to
- * compensate it with, and the inertia filters what it would do. */
+/** Largest turn of a pair per period [rad]; a faster pair decays. Six samples per period of a
+ * harmonic are
+ *  too few to compensate it, and the inertia filters its effect. */
 #define NODO_HARMONIC_TURN_MAX 1.0f
 
 typedef enum {
@@ -54,10 +55,10 @@ typedef struct {
     int16_t               n_nodes;        /**< 2 .. NODO_HARMONIC_NODES_MAX */
     float                 iq_max_A;       /**< the series is used for |iq^| <= this; > 0 */
     float                 nodes_per_root; /**< node = this times sqrt|w|, > 0 */
-    float                 keep;      /**< share of a pair that is left after a period, (0, 1] */
-    float                 keep_fast; /**< the same beyond NODO_HARMONIC_TURN_MAX, (0, 1] */
+    float                 keep;           /**< factor of a pair per period, (0, 1] */
+    float                 keep_fast;      /**< the same beyond NODO_HARMONIC_TURN_MAX, (0, 1] */
     nodo_harmonic_order_t pair[NODO_HARMONIC_PAIRS_MAX];
-    /** K: a row for every state; in it the nodes side by side. */
+    /** K: one row per state; the nodes are adjacent in it. */
     float gain[NODO_HARMONIC_N_X_MAX][NODO_HARMONIC_NODES_MAX][NODO_HARMONIC_N_G];
 } nodo_harmonic_gains_t;
 
@@ -71,28 +72,28 @@ typedef struct {
     nodo_t               base;            /**< constants and states, without the pairs */
     float                slope;           /**< d_w' */
     float                theta_rad;       /**< estimated electrical angle, within +-pi */
-    float                theta_pairs_rad; /**< angle that the pairs belong to, within +-pi */
+    float                theta_pairs_rad; /**< angle at which the pairs are valid, within +-pi */
     nodo_harmonic_pair_t pair[NODO_HARMONIC_PAIRS_MAX];
 } nodo_harmonic_t;
 
-/** What a law needs to know of all disturbances. */
+/** All disturbances, as the law needs them. */
 typedef struct {
     nodo_t total; /**< base with the pairs added: d_w of the instant of the prediction, d_q and d_d
                                       of the middle of the period after it */
     float  d_omega_dot; /**< d_w' in the middle of that period [rad/s^3] */
 } nodo_harmonic_view_t;
 
-/** Whether the numbers of pairs and nodes are ones that the table holds. Context: control ISR. */
+/** True if the numbers of pairs and nodes are within the table. Context: control ISR. */
 bool nodo_harmonic_counts_ok(const nodo_harmonic_gains_t *g);
 
 /** true when every constant is finite and within its documented range. Context: init. */
 bool nodo_harmonic_check(const nodo_harmonic_gains_t *g);
 
-/** Nothing known of any harmonic. */
+/** Starts at the measurement, with all harmonics zero. */
 void nodo_harmonic_reset(nodo_harmonic_t *s, const nodo_meas_t *y, float theta_rad);
 
 /**
- * @brief EQ-HARMONIC-2, 3: correct with a sample.
+ * @brief Corrects with a sample, EQ-HARMONIC-2, 3.
  *
  * @param s           State, corrected in place.
  * @param g           Gains, checked at init.

@@ -28,7 +28,7 @@ static float difference(speed_difference_t *s, const speed_difference_config_t *
                         float theta_e_rad)
 {
     if ((s->oldest < 0) || (s->oldest >= c->periods)) {
-        s->oldest = 0; /* a flipped bit: a place in theta_rad again */
+        s->oldest = 0; /* a flipped bit: back to a valid index */
     }
     const float now_rad   = frames_wrap(theta_e_rad);
     const float moved_rad = frames_wrap(now_rad - s->theta_rad[s->oldest]);

@@ -63,7 +63,7 @@ static inline float speed_ref_stopping_acceleration(float distance, float jerk_s
  * @param r               Reference, updated in place.
  * @param limits          Present limits of the drive.
  * @param command_e_radps Commanded electrical speed.
- * @param omega_e_radps   Actual speed. A reference further away than limits->near_e_radps waits for it.
+ * @param omega_e_radps   Actual speed. A reference outside limits->near_e_radps waits for it.
  * @param ts_s            Control period [s].
  *
  * Context: control ISR. No division, one square root.

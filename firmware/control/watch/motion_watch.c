@@ -6,7 +6,7 @@
 #define DEAD_TIME 0.02f
 #define ODD_s     10.0e-3f /* chosen: twice what a step at the voltage limit takes */
 
-#define LOOKS 3.0f /* take turns, one in a period */
+#define LOOKS 3.0f /* in turn, one per period */
 
 #define AT_LIMIT2 0.81f /* 0.9 of the limit */
 #define STILL_s                                                                                    \

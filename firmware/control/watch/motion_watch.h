@@ -62,8 +62,9 @@ typedef struct {
 CTL_PART void motion_watch_reset(motion_watch_t *w);
 
 /**
- * @brief One period looks at one of the three equations. Each is found up to two periods late: at 5 kHz 0.4 ms of 10 ms, the
- * shortest of their times.
+ * @brief Evaluates one of the three equations per period, in turn.
+ *
+ * The delay is at most two periods: at 5 kHz 0.4 ms, beside the shortest time of 10 ms.
  *
  * Context: control ISR. No division.
  */
