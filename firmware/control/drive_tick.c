@@ -210,7 +210,8 @@ static bridge_t run(drive_t *d, const drive_sample_t *sample, const drive_comman
     return (wrong == DRIVE_FAULT_NONE) ? modulate(d, sample->dc_link_V) : trip(d, wrong);
 }
 
-/* A sample with the currents that the law expects at this instant, for laws without a prediction those of the period before. */
+/* A sample with the currents that the law predicts for this instant. A law without a prediction
+ * uses those of the previous period. */
 static drive_sample_t without_currents(const drive_t *d, const drive_sample_t *sample)
 {
     const law_output_t *out = &d->wanted; /* its angle belongs to the middle of this period */

@@ -55,7 +55,7 @@ typedef enum {
  * A NaN compares false, except on the C28x: there it acts as an infinity of its sign. The
  * statements on NaN below hold under both rules (tests/target/test_c28x_floats.cpp). */
 
-/** a where it is the smaller one, else b; so b where one of them is a NaN, but on the C28x. */
+/** The smaller one of a and b. If one is a NaN the result is b, except on the C28x. */
 static inline float base_min(float a, float b)
 {
 #ifdef __TMS320C28XX_FPU32__
@@ -65,7 +65,7 @@ static inline float base_min(float a, float b)
 #endif
 }
 
-/** a where it is the larger one, else b; so b where one of them is a NaN, but on the C28x. */
+/** The larger one of a and b. If one is a NaN the result is b, except on the C28x. */
 static inline float base_max(float a, float b)
 {
 #ifdef __TMS320C28XX_FPU32__
@@ -75,7 +75,7 @@ static inline float base_max(float a, float b)
 #endif
 }
 
-/** x limited to [lo, hi]; a NaN comes out as one of the two, so that no NaN passes a limit. */
+/** x limited to [lo, hi]. A NaN becomes one of the two limits. */
 static inline float base_clamp(float x, float lo, float hi)
 {
     const float at_least = base_max(x, lo);

@@ -3,9 +3,9 @@
  * @file law_ladrc.h
  * @brief Linear active disturbance rejection of the speed, on the current loops of foc.h.
  *
- * The law models the speed as w' = a + f. a is the acceleration by the motor's torque, (l1 + l11
- * id) iq, and f is everything else. The linear extended state observer has both poles at -w_o, in
- * discrete time beta = exp(-w_o Ts). It corrects with the present sample:
+ * The law models the speed as w' = a + f. Here a is the acceleration by the motor's torque, (l1 +
+ * l11 id) iq, and f is everything else. The linear extended state observer has both poles at -w_o,
+ * in discrete time beta = exp(-w_o Ts). It corrects with the present sample:
  *
  *     z_w = z_w + Ts (z_f + (a(k-1) + a(k)) / 2),  e = w - z_w              EQ-LADRC-1
  *     z_w = z_w + (1 - beta^2) e,  z_f = z_f + (1 - beta)^2 e / Ts          EQ-LADRC-2

@@ -72,10 +72,10 @@ CTL_PART void encoder_form_edges_reset(encoder_form_edges_t *edges);
  *     o_c += mu r,  o_c1 -= (1 + rho) mu r,  o_c2 += rho mu r                       EQ-ENCODER-FORM-3
  *     off = o_c + (o_c - o_c1) age / T
  *
- * w is the sample's speed between its last two edges, which are T apart. c is the last edge; the
- * indexes 1 and 2 mean one and two edges before. The angle is extrapolated from the edge with w,
- * hence the second term. No estimate enters, because an observer would follow the offsets and hide
- * them. The shaft's acceleration is independent of the edge and averages out.
+ * w is the sample's speed between its last two edges, which are T apart. Edge c is the last one.
+ * The indexes 1 and 2 mean one and two edges before. The angle is extrapolated from the edge with
+ * w, hence the second term. No estimate enters, because an observer would follow the offsets and
+ * hide them. The shaft's acceleration is independent of the edge and averages out.
  *
  * @param edges     Learned offsets.
  * @param s         This sample, with edge_gap_s > 0.

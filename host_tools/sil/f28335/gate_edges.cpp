@@ -53,7 +53,7 @@ int field_of(std::uint16_t aqctl, std::initializer_list<Candidate> by_priority)
     return aq_none;
 }
 
-/// Action at TBPRD. By definition the counter counts down there.
+/// Action at TBPRD. There the counter counts down, as its definition says.
 int field_at_top(std::uint16_t aqctl, int tbprd, int cmpa, int cmpb)
 {
     const bool a = cmpa >= tbprd;
@@ -61,7 +61,7 @@ int field_at_top(std::uint16_t aqctl, int tbprd, int cmpa, int cmpb)
     return field_of(aqctl, {{b, aq_cbd}, {a, aq_cad}, {true, aq_prd}, {b, aq_cbu}, {a, aq_cau}});
 }
 
-/// Action at ZERO. By definition the counter counts up there.
+/// Action at ZERO. There the counter counts up, as its definition says.
 int field_at_zero(std::uint16_t aqctl, int cmpa, int cmpb)
 {
     const bool a = cmpa == 0;

@@ -16,7 +16,7 @@
 static drive_config_t   config;
 static test_constants_t constants; /* of config */
 
-/* What a constant may be besides a positive number. */
+/* Allowed sign of a constant. */
 typedef enum { POSITIVE, ZERO_OR_MORE, ZERO_OR_LESS } range_t;
 
 typedef struct {
@@ -462,7 +462,7 @@ static void test_every_gain_of_the_harmonics_in_use_is_checked(void)
         assert_harmonics(CTL_BAD_CONFIG);
         *gain = good;
     }
-    table->n_pairs--; /* the last two rows are no longer in use */
+    table->n_pairs--; /* the last two rows are now unused */
     table->gain[rows - 1][0][0] = NAN;
     assert_harmonics(CTL_OK);
 }

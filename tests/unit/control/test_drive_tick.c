@@ -541,8 +541,9 @@ static void test_one_axis_that_is_not_a_number_is_enough_to_trip(void)
     assert_trips(DRIVE_FAULT_NUMERIC);
 }
 
-/* EQ-DRIVE-1 from what the drive publishes: (26) power by power, (41) as printed, the speed error held where
- * the q current it asks for ends (EQ-NOSC-3). */
+/* EQ-DRIVE-1 from the drive's published state: (26) power by power, and (41) as printed. The speed
+ * error
+ * is limited at the limit of its requested q current (EQ-NOSC-3). */
 typedef struct {
     double v_q;
     double v_d;

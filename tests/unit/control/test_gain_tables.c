@@ -111,7 +111,7 @@ static void test_near_speed_is_twice_what_asks_for_all_its_current(void)
                     shared->current_ref.near_e_radps);
 }
 
-/* Nothing is fed back any more where the dc link trips. */
+/* Regeneration is zero at the trip level of the dc link. */
 static void test_regeneration_ends_before_the_dc_link_trips(void)
 {
     const current_ref_config_t *c      = &shared->current_ref;

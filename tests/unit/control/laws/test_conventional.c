@@ -7,7 +7,7 @@
 #include "unit_support.h"
 #include "unity.h"
 
-/* Of the sum of absolute values, which is what single precision rounds against. */
+/* Relative to the sum of absolute values, which determines the rounding error. */
 #define TOL_RELATIVE 1.5e-6
 
 #define CASES 300

@@ -80,8 +80,8 @@ static void test_start_takes_over_the_sample_whatever_the_past(void)
                      (s->near_optimal.current_ref.i_A.q == 0.0f));
 }
 
-/* The order of a period: correct with this sample in the frame of the estimated angle, predict with the voltage in
- * force, then references, feedback and feed-forward on the prediction. */
+/* Order of a period: correct with this sample in the frame of the estimated angle, then predict
+ * with the acting voltage. References, feedback and feed-forward follow on the prediction. */
 static void test_step_is_made_of_its_parts(void)
 {
     for (int n = 0; n < CASES; n++) {

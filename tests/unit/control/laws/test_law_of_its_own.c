@@ -299,7 +299,7 @@ static void test_answer_beyond_any_voltage_trips(void)
     TEST_ASSERT_TRUE(tick().gate_enable && drive.v_limited);
 }
 
-/* Of what the law acted on; the measured speed is in range. */
+/* The speed in the law's answer trips, although the measured speed is in range. */
 static void test_speed_of_its_answer_beyond_the_trip_level_trips(void)
 {
     const float trip     = config.trip_speed_e_radps;

@@ -195,8 +195,8 @@ static dq_t oracle_hold_V(const nosc_error_t *e, dq_t *asked_A)
     return h_V;
 }
 
-/* EQ-VOLTAGE-2 with the pull of the q axis for both, and what makes the limit stable: wherever the held voltage can be
- * produced, the cut vector does not drive the flux error away. */
+/* EQ-VOLTAGE-2 with the gain of the q axis for both axes. The limit is stable: if the holding
+ * voltage can be produced, the cut vector does not increase the flux error. */
 static void test_answer_out_of_reach_pulls_both_axes_alike(void)
 {
     const support_motor_t m      = support_motor(&drive.motor);

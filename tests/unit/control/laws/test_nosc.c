@@ -6,7 +6,7 @@
 #include "unit_support.h"
 #include "unity.h"
 
-/* Of the sum of absolute values, which is what single precision rounds against. */
+/* Relative to the sum of absolute values, which determines the rounding error. */
 #define TOL_RELATIVE 1.3e-6 /* worst 2.6e-7 */
 #define TOL_V        1.5e-3 /* V, shipped gains, speed errors up to 50 rad/s; worst 2.9e-4 */
 #define TOL_A        3.6e-6 /* A, currents up to 12 A; worst 7.1e-7 */

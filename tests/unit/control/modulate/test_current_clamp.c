@@ -119,7 +119,7 @@ static void test_current_ends_inside_or_on_the_circle(void)
     TEST_ASSERT_LESS_THAN(CASES * 9 / 10, held);
 }
 
-/* What drive_tick() has to see is still there. */
+/* A NaN passes the clamp, so that drive_tick() detects it. */
 static void test_what_is_no_number_stays_none(void)
 {
     for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {

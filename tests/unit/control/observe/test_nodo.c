@@ -6,7 +6,7 @@
 #include "unit_support.h"
 #include "unity.h"
 
-/* Of the largest summand of a row, which is what single precision rounds against. */
+/* Relative to the largest summand of a row, which determines the rounding error. */
 #define TOL_RELATIVE 1.4e-6 /* worst 2.7e-7 */
 
 #define TOL_DISTURBANCE 5.0e-5 /* ratio, of a constant disturbance after 0.2 s; worst 1.0e-5 */
@@ -44,8 +44,9 @@ void setUp(void)
 
 void tearDown(void) {}
 
-/* Oracle: x^ + Ts (A_d(iq^) x^ + u_d + L(iq^) (y - C_d x^)), each matrix of (27), (28), (31), (39) formed in
- * double; magnitude is the same sum of absolute values. */
+/* Oracle: x^ + Ts (A_d(iq^) x^ + u_d + L(iq^) (y - C_d x^)).
+ * The matrices of (27), (28), (31), (39) are formed in double. `magnitude` is the sum of absolute
+ * values. */
 typedef struct {
     double x[NODO_N_X];
     double magnitude[NODO_N_X];

@@ -165,7 +165,7 @@ static void test_perfect_estimate_is_not_corrected(void)
                      (x.id_A == before.id_A) && (theta_rad == 0.5f));
 }
 
-/* What a correction changes, with the same estimate before it. */
+/* Change by a correction of the present estimate. */
 static state_t change(innovation_t y)
 {
     const nodo_t  start  = x;

@@ -459,8 +459,9 @@ static void test_not_a_number_is_not_hidden(void)
     TEST_ASSERT_TRUE(isnan(s.base.omega_e_radps) && isnan(s.theta_rad) && isnan(s.pair[0].a));
 }
 
-/* The generated gains on the motor itself, whose current sensors have an offset that stands in the stator frame: the
- * offset is found, and the estimated current is the true one, on which no measurement agrees with it. */
+/* The generated gains on a motor whose current sensors have an offset, constant in the stator
+ * frame. The observer finds the offset. Its estimated current is the true one, which no measurement
+ * shows. */
 static void test_sensor_offset_is_found_and_kept_out_of_the_current(void)
 {
     const nodo_harmonic_gains_t *g       = &law_constants_noc_h(&harmonic_tables_drive)->nodo;

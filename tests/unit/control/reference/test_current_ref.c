@@ -62,7 +62,7 @@ void setUp(void)
 
 void tearDown(void) {}
 
-/* What the current circle leaves beside i_A.d. */
+/* Largest |iq| of the current circle beside i_A.d. */
 static double circle_A(const current_ref_t *of)
 {
     const double max_A = (double)config.current_max_A;
@@ -94,8 +94,8 @@ static void ask_for(double iq_A)
     w_ref.accel_wanted_e_radps2 = w_ref.omega_dot_e_radps2;
 }
 
-/* The voltage equations of the motor in SI units: length of the vector that holds (id, iq) while the
- * resistive drop is that of the measured currents. */
+/* Length of the voltage vector that holds (id, iq), by the motor's voltage equations in SI units.
+ * The resistive drop is that of the measured currents. */
 static double voltage_V(double id_A, double iq_A)
 {
     const double w = (double)y.omega_e_radps;
@@ -151,8 +151,9 @@ static double oracle_mtpv_A(double f_A)
     return 0.5 * (lo + hi);
 }
 
-/* Oracle: the id closest to zero flux weakening that fits, found in volts; where none fits, the id that
- * needs least voltage, and as far beyond it as the iq is beyond the circle, to maximum torque per volt. */
+/* Oracle: the id with the least flux weakening that fits, found in volts. If none fits, it is the
+ * id with the least voltage. It moves on by the excess of iq over the circle, up to maximum torque
+ * per volt. */
 static double oracle_fw_A(double iq_A)
 {
     const double w = (double)y.omega_e_radps;

@@ -17,7 +17,7 @@
 
 #define BEYOND_RAD 1.0e-4 /* worst 4e-5 */
 
-/* What rounding of the angle, in every period the same way, makes of a slow way. */
+/* Share of a slow motion that rounding of the angle causes, always in the same direction. */
 #define ROUNDED_SHARE 1.0e-3
 
 #define TICKS_MAX 1000000L

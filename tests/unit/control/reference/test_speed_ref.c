@@ -98,8 +98,8 @@ static void test_command_at_the_reference_changes_nothing(void)
     TEST_ASSERT_TRUE((r.omega_2dot_e_radps3 == 0.0f) && (r.accel_wanted_e_radps2 == 0.0f));
 }
 
-/* Oracle for EQ-SPEED-REF-1: n whole steps of the jerk, a* = n j Ts, come to rest within the distance
- * j Ts^2 n (n + 1) / 2; between them the wish is the positive root of that quadratic in n. */
+/* Oracle for EQ-SPEED-REF-1. With n whole steps of the jerk, a* = n j Ts ends within the distance
+ * j Ts^2 n (n + 1) / 2. Between them, a* follows the positive root of that quadratic in n. */
 static void test_wanted_acceleration_is_the_one_that_still_stops(void)
 {
     set_jerk(1.0e6f, 1.7e6f);
@@ -147,8 +147,8 @@ static void test_wish_ignores_the_limits_of_acceleration(void)
 }
 
 /* From rest to rest over any distance: within the limits at every step, no overshoot, the command exactly.
- * What is shorter than one jerk step passes the command: with n j Ts between one and two of them left to go,
- * by (n - 1) (2 - n) / 2 j Ts^2, an eighth of j Ts^2 at most. */
+ * A rest below one jerk step passes the command. With n j Ts left, n between one and two, it passes
+ * by (n - 1) (2 - n) / 2 j Ts^2, at most an eighth of j Ts^2. */
 static void assert_travels(float start, float distance)
 {
     const float  command   = start + distance;

@@ -165,7 +165,7 @@ static void test_constant_disturbances_are_the_motors(void)
     TEST_ASSERT_FLOAT_WITHIN(1.0f, -500.0f, watch.d_slow_Aps.q);
 }
 
-/* What an observer makes of a sensor with an offset: it predicts the reading with disturbances that turn. */
+/* With a sensor offset, an observer predicts the reading by disturbances that turn. */
 static void test_disturbances_that_turn_are_a_sensors(void)
 {
     bool found = false;
