@@ -16,8 +16,8 @@
  *     x^' = A_d(iq^, id^) x^ + [0 0 0 0 l6 vq l8 vd]' + L(iq^, id^)(y - C_d x^)     EQ-CONVENTIONAL-3
  *
  * The states are those of nodo.h, and A_d contains the product -l10 id^ w^. The observer of the
- * load torque alone has zero rows for d_q and d_d, which stay zero. docs/errata.md lists the points
- * that paper A leaves open.
+ * load torque alone has zero rows for d_q and d_d, which stay zero. The page docs/errata.md lists
+ * the points that paper A leaves open.
  */
 #ifndef CONVENTIONAL_H
 #define CONVENTIONAL_H

@@ -12,7 +12,7 @@
  *     s(k+1) = s + k_i (e + (v - u) / k_p)                                  EQ-FOC-6, v: realised part of u
  *
  * Here u is the requested voltage. If it is outside the circle of v_dc / sqrt(3) and id is short of
- * its reference, the d axis has priority and q gets the rest. Flux weakening thus gets its current.
+ * its reference, the d axis has priority. Flux weakening thus gets its current; q gets the rest.
  * In all other cases drive_tick() cuts the length. The MTPA part of id_ref follows iq_ref at once;
  * the integrator makes the flux weakening.
  */

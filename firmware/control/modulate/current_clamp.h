@@ -8,7 +8,7 @@
  *
  * Here i is the current at which v begins to act. It is predicted with v_0 from the current
  * measured one period before. Here i' is the motor's equation with the observer's disturbances, and
- * I is the limit. i+ is the current with the share s = 0.7 of the nominal inductance.
+ * I is the limit. Finally i+ is the current with the share s = 0.7 of the nominal inductance.
  *
  * With low inductance, one period of full voltage changes the current by most of the limit, and no
  * feedback acts in between. Inside the circle r I the voltage stays unchanged: the certificate

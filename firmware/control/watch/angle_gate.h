@@ -18,8 +18,8 @@
  * changes each time, the angle is lost. It is also lost if it stands although no load could stop
  * the shaft so fast.
  *
- * theta_0 and w_0 are angle and estimated speed at the last sample at which the angle moved; a is
- * the largest acceleration that a load causes. If one of the two tracks fails, the last count
+ * theta_0 and w_0 are angle and estimated speed at the last sample at which the angle moved. Here a
+ * is the largest acceleration that a load causes. If one of the two tracks fails, the last count
  * toggles within the band.
  */
 #ifndef ANGLE_GATE_H

@@ -14,8 +14,8 @@
  *
  * i^ is the observer's prediction with its disturbances d of the two current equations. d_slow and
  * i_slow are low-pass filtered. A motor that differs from the nominal one causes an r proportional
- * to the change D of the current, or disturbances d_slow that are constant in the rotor frame. An
- * error that is constant in the stator frame is a sensor's.
+ * to the change D of the current. It may also cause constant disturbances d_slow in the rotor
+ * frame. An error that is constant in the stator frame is a sensor's.
  *
  * Until d_slow is known, an EMF error of half the voltage circle adds 0.14 jump per period. With
  * low inductance this is much of the limit. Laws without a prediction have no such check.

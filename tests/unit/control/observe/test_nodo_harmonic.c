@@ -384,7 +384,7 @@ static void test_a_pair_that_turns_too_fast_is_given_up(void)
 /* EQ-HARMONIC-1, 4 in closed form: what the view shows, and what the motor is predicted with. */
 static void test_view_is_the_closed_form(void)
 {
-    /* What is no product of powers, and the largest that is one. */
+    /* Orders that are no product of powers, and the largest one that is. */
     const float others[NODO_HARMONIC_PAIRS_MAX] = {-1.5f, -31.0f, 7.0f,  15.0f,
                                                    31.5f, 32.0f,  31.0f, 0.75f};
     for (int n = 0; n < CASES; n++) {
