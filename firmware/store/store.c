@@ -81,13 +81,25 @@ static store_content_t look(store_kind_t kind, uint16_t slot)
     return found;
 }
 
+/* Sequence numbers wrap (serial arithmetic): `b` is newer when it is at most half the range ahead of `a`. Equal is not. */
+static bool is_newer(uint32_t b, uint32_t a)
+{
+    return (uint32_t)(b - a - 1UL) < 0x7FFFFFFFUL;
+}
+
+/* 0 means that there is no content. */
+static uint32_t next_number(uint32_t number)
+{
+    return (number == 0xFFFFFFFFUL) ? 1UL : (number + 1UL);
+}
+
 /* Newest valid content of a kind and its slot. Without any, words is NULL and slot is the first. */
 static store_content_t find(store_kind_t kind, uint16_t *slot)
 {
     const uint16_t        first = first_slot(kind);
     const store_content_t a     = look(kind, first);
     const store_content_t b     = look(kind, (uint16_t)(first + 1U));
-    const bool            use_b = (b.words != NULL) && ((a.words == NULL) || (b.number > a.number));
+    const bool use_b = (b.words != NULL) && ((a.words == NULL) || is_newer(b.number, a.number));
 
     *slot = use_b ? (uint16_t)(first + 1U) : first;
     return use_b ? b : a;
@@ -108,7 +120,7 @@ bool store_begin(store_write_t *w, store_kind_t kind, uint32_t count)
     w->kind   = kind;
     w->slot   = (newest.words == NULL) ? slot : (uint16_t)((2U * first_slot(kind)) + 1U - slot);
     w->count  = count;
-    w->number = newest.number + 1UL;
+    w->number = next_number(newest.number);
     return (count <= store_room()) && board_store_erase(w->slot);
 }
 

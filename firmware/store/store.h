@@ -10,7 +10,7 @@
  *     0        STORE_MARK, written last: without it the slot is empty
  *     1        kind of content, store_kind_t
  *     2, 3     number of content words
- *     4, 5     sequence number; the valid slot with the higher number is the newest
+ *     4, 5     sequence number from 1, wraps to 1; the slot that is at most half the range ahead is the newest
  *     6, 7     CRC-32 of words 1 to 5 and of the content
  *     8 ..     the content
  *
@@ -41,7 +41,7 @@ typedef struct {
 typedef struct {
     const uint16_t *words; /**< NULL: there is no valid content */
     uint32_t        count;
-    uint32_t        number; /**< sequence number, from 1 */
+    uint32_t        number; /**< sequence number, from 1; wraps to 1 */
 } store_content_t;
 
 /** Largest content [words]; 0: the board has no store. Context: any. */

@@ -79,6 +79,45 @@ static void test_the_newest_of_many_is_there_and_slots_take_turns(void)
     }
 }
 
+/* Writes content `n` under a sequence number of the test's choice. */
+static void write_numbered(uint16_t n, uint32_t number)
+{
+    store_write_t w;
+    TEST_ASSERT_TRUE(store_begin(&w, STORE_IMAGE, COUNT));
+    w.number = number;
+    for (uint32_t k = 0U; k < COUNT; k++) {
+        const uint16_t word = word_of(n, k);
+        TEST_ASSERT_TRUE(store_put(&w, k, &word, 1U));
+    }
+    TEST_ASSERT_TRUE(store_commit(&w));
+}
+
+static void test_the_newest_counts_from_every_number_on(void)
+{
+    const uint32_t starts[] = {1UL,          2UL,          0x7FFFFFFEUL, 0x7FFFFFFFUL,
+                               0x80000000UL, 0x80000001UL, 0xFFFFFFFCUL, 0xFFFFFFFDUL,
+                               0xFFFFFFFEUL, 0xFFFFFFFFUL};
+
+    for (size_t i = 0U; i < (sizeof starts / sizeof starts[0]); i++) {
+        fake_board_erase_store();
+        write_numbered(1U, starts[i]);
+        uint32_t number = starts[i];
+        for (uint16_t n = 2U; n <= 6U; n++) {
+            number = (number == 0xFFFFFFFFUL) ? 1UL : (number + 1UL);
+            TEST_ASSERT_TRUE(write_content(n, COUNT));
+            TEST_ASSERT_EQUAL_UINT16(n, content());
+            TEST_ASSERT_EQUAL_UINT32(number, store_newest(STORE_IMAGE).number);
+        }
+    }
+}
+
+static void test_of_two_equal_numbers_the_first_slot_counts(void)
+{
+    write_numbered(1U, 7UL);
+    write_numbered(2U, 7UL);
+    TEST_ASSERT_EQUAL_UINT16(1U, content());
+}
+
 /* Each word where something ends or begins, some of those that are only erased. */
 static int next_cut(int budget)
 {
@@ -177,6 +216,8 @@ int main(void)
     RUN_TEST(test_crc_is_the_usual_one);
     RUN_TEST(test_erased_store_holds_nothing);
     RUN_TEST(test_the_newest_of_many_is_there_and_slots_take_turns);
+    RUN_TEST(test_the_newest_counts_from_every_number_on);
+    RUN_TEST(test_of_two_equal_numbers_the_first_slot_counts);
     RUN_TEST(test_a_power_cut_at_any_word_leaves_old_or_new);
     RUN_TEST(test_a_power_cut_while_forgetting_leaves_the_newest_or_nothing);
     RUN_TEST(test_every_flipped_bit_is_noticed);
