@@ -73,14 +73,14 @@ TEST(Stack, WhatReachesItsEndIsAFault)
     const Scenario   s = broken(300.0, 1.5, "kind = \"trigger_lost\"\n");
     const Controller c = prepare_controller(s);
     set_firmware(c.config, s.drive);
-    for (const std::size_t word : {0x000U, 0x3F7U, 0x3F8U, 0x3FFU}) { // the last eight are watched
+    for (const std::size_t word : {0x000U, 0x6F7U, 0x6F8U, 0x6FFU}) { // the last eight are watched
         F28335Run run(s, MotorBench::never, 3e-6);
         run.step();
         ASSERT_EQ(app_status_read().fault, APP_FAULT_NONE);
         codestart_stack[word] = 0;
         run.step();
         run.step();
-        EXPECT_EQ(app_status_read().fault, word < 0x3F8U ? APP_FAULT_NONE : APP_FAULT_MEMORY)
+        EXPECT_EQ(app_status_read().fault, word < 0x6F8U ? APP_FAULT_NONE : APP_FAULT_MEMORY)
             << word;
     }
 }
