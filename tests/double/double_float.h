@@ -15,5 +15,6 @@
 #define sqrtf sqrt
 #define fabsf fabs
 #define float double
+#define FRAMES_ONES 6755399441055744.0 /* 1.5 times 2^52: frames.c */
 
 #endif /* DOUBLE_FLOAT_H */

@@ -130,6 +130,7 @@ class TargetBuild(unittest.TestCase):
                 for option in (
                     "--float_operations_allowed=32",
                     "--fp_single_precision_constant",
+                    "--fp_mode=strict",
                     "--gen_data_subsections=on",
                     "-O2",
                     "--c99",

@@ -7,8 +7,11 @@
 #define TURNS_1prad 0.159154943f
 #define HALF_PI     1.57079633f
 
-/* 1.5 times 2^23, where the last place counts ones: a number added to it and taken off again is the nearest integer. */
-#define ONES 12582912.0f
+/* 1.5 times 2^23, where the last place counts ones: a number added to it and taken off again is the nearest integer. The
+ * FPU has to round to nearest, as TI's compiler sets it at the start of every interrupt. Another type has another number. */
+#ifndef FRAMES_ONES
+#define FRAMES_ONES 12582912.0f
+#endif
 
 /* Minimax fit on +-pi/2: largest relative error 6.1e-9. */
 #define S1 -1.66666597e-1f
@@ -26,7 +29,7 @@ static inline float sine(float r)
 
 frames_angle_t frames_angle(float theta_e_rad)
 {
-    const float turns = ((theta_e_rad * TURNS_1prad) + ONES) - ONES;
+    const float turns = ((theta_e_rad * TURNS_1prad) + FRAMES_ONES) - FRAMES_ONES;
     const float r     = (theta_e_rad - (turns * TURN_UPPER)) - (turns * TURN_LOWER); /* +-pi */
     const float up    = base_max(r, -BASE_PI - r);
 
