@@ -23,7 +23,7 @@ import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-CLONE = "/root/sdre-drive"
+CLONE = "/srv/sdre-drive"
 SHEET = ROOT / "tests/data/facts/servo_60w.toml"  # the facts that README's own motor is read from
 READY = b"Ctrl-C ends it"  # the last line of sdre-sil serve before it serves
 KEPT = (
