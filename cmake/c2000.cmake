@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
 # Where TI's software is: -D first, then the environment. Included before any compiler is looked for.
 # Messages begin with a space: CMake then leaves them on one line.
+# A later build finds the directory without the environment. Another environment replaces it, but not one given by -D.
 foreach(name C2000_CGT_ROOT C2000WARE_ROOT)
-    if(NOT ${name} AND NOT "$ENV{${name}}" STREQUAL "")
+    if(NOT "$ENV{${name}}" STREQUAL "" AND (NOT ${name} OR "${${name}}" STREQUAL "${c2000_environment_${name}}"))
         file(TO_CMAKE_PATH "$ENV{${name}}" root)
-        set(${name} "${root}" CACHE PATH "" FORCE) # a later build finds it without the environment
+        set(${name} "${root}" CACHE PATH "" FORCE)
+        set(c2000_environment_${name} "${root}" CACHE INTERNAL "what the environment said")
     endif()
 endforeach()
 

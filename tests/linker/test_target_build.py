@@ -5,7 +5,9 @@ stood in for by stand_in_tool.py: whether they accept it, this test cannot tell.
 import json
 import os
 import pathlib
+import re
 import shlex
+import shutil
 import stat
 import subprocess
 import sys
@@ -283,6 +285,25 @@ class TargetBuild(unittest.TestCase):
         make_headers(ware, fast_rts=False)  # the refused values are forgotten
         done = self.configure("f28335-flash", f"-DC2000_CGT_ROOT={cgt}", f"-DC2000WARE_ROOT={ware}")
         self.assertEqual(done.returncode, 0, done.stdout)
+
+    def test_another_environment_replaces_the_directory_of_the_first(self):
+        first, second, given = (self.top / name for name in ("first", "second", "given"))
+        for root in (first, second, given):
+            make_headers(root, fast_rts=False)
+
+        def root_of_cache(*arguments, **variables):
+            done = self.configure("board-check", *arguments, **variables)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            cache = (self.build / "CMakeCache.txt").read_text()
+            return re.search(r"^C2000WARE_ROOT:PATH=(.*)$", cache, re.M)[1]
+
+        self.assertEqual(root_of_cache(C2000WARE_ROOT=str(first)), str(first))
+        shutil.rmtree(first)
+        self.assertEqual(root_of_cache(C2000WARE_ROOT=str(second)), str(second))
+        self.assertEqual(root_of_cache(), str(second))
+        wanted = f"-DC2000WARE_ROOT:PATH={given}"
+        self.assertEqual(root_of_cache(wanted, C2000WARE_ROOT=str(second)), str(given))
+        self.assertEqual(root_of_cache(C2000WARE_ROOT=str(second)), str(given))
 
     def test_flash_api_is_not_offered(self):
         done = self.configure("f28335-flash", f"-DSDRE_FLASH_API={self.top}")
