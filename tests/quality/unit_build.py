@@ -93,7 +93,8 @@ class Build:
             (ROOT / "build/unity/unity.c", "unity", []),
             (ROOT / "tests/support/fake_board.c", "fake_board", []),
         ]
-        work += [(test_files()[n], n, []) for n in tests()]
+        files = test_files()
+        work += [(files[n], n, []) for n in tests()]
         work += [(path, name, [f"-Dgain_tables_drive={name}_drive"]) for name, path in tables]
         with ThreadPoolExecutor(JOBS) as pool:
             list(
