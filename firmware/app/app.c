@@ -292,7 +292,7 @@ void app_background(void)
     app_registers_t *r         = &background_side.registers;
     const uint32_t   now_ticks = shared.ticks;
 
-    if (!app_watch_memory_pass(&background_side.memory) || !board_stack_is_whole()) {
+    if (!app_watch_memory_pass(&background_side.memory) || !board_memory_is_whole()) {
         board_gate_trip();
         shared.memory_changed = true;
     }

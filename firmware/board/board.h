@@ -170,8 +170,12 @@ bool board_store_program(uint16_t slot, uint32_t offset, const uint16_t *words, 
 /** Free-running count of processor cycles; wraps at 2^32. Context: any. */
 uint32_t board_cycles(void);
 
-/** False: the stack has used its last words. Context: background. */
-bool board_stack_is_whole(void);
+/**
+ * @brief False: the stack has used its last words, or code in the RAM differs from the flash.
+ *
+ * Each call compares the next 32 words of that code. Context: background.
+ */
+bool board_memory_is_whole(void);
 
 /** Serves the watchdog, which resets the processor after 4 ms without it. Context: background. */
 void board_watchdog_serve(void);

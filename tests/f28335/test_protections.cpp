@@ -13,6 +13,7 @@
 
 extern "C" {
 #include "app.h"
+#include "sil/f28335/code_start.h"
 }
 
 using namespace sdre;
@@ -82,6 +83,25 @@ TEST(Stack, WhatReachesItsEndIsAFault)
         run.step();
         EXPECT_EQ(app_status_read().fault, word < 0x6F8U ? APP_FAULT_NONE : APP_FAULT_MEMORY)
             << word;
+    }
+}
+
+// 32 words a pass: both parts take five passes.
+TEST(Copies, EachWordOfTheCodeThatChangesIsAFault)
+{
+    const Scenario   s = broken(300.0, 1.5, "kind = \"trigger_lost\"\n");
+    const Controller c = prepare_controller(s);
+    set_firmware(c.config, s.drive);
+    for (unsigned word = 0; word < CODE_START_WORDS; word++) {
+        F28335Run run(s, MotorBench::never, 3e-6);
+        run.step();
+        ASSERT_EQ(app_status_read().fault, APP_FAULT_NONE);
+        code_start_ram[word] = code_start_ram[word] ^ (1U << (word % 16U));
+        for (int k = 0; k < 20; k++) {
+            run.step();
+        }
+        EXPECT_EQ(app_status_read().fault, APP_FAULT_MEMORY) << word;
+        code_start_ram[word] = code_start_flash[word];
     }
 }
 

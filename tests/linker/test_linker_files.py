@@ -140,13 +140,33 @@ def check_symbols(sections):
     source = (BOARD / "codestart.asm").read_text()
     fill = re.search(r"STACK_FILL .set 0x([0-9A-F]+)", source).group(1)
     if f"BOARD_STACK_FILL  0x{fill}U" not in (BOARD / "peripherals.h").read_text():
-        raise Refused("codestart.asm fills the stack with something else than stack.c looks for")
+        raise Refused("codestart.asm fills the stack with something else than memory.c looks for")
     size = re.search(r"--stack_size=(\w+)", (BOARD / "CMakeLists.txt").read_text()).group(1)
     if f"BOARD_STACK_WORDS {size}U" not in (BOARD / "peripherals.h").read_text():
-        raise Refused("stack.c does not know the stack's size")
+        raise Refused("memory.c does not know the stack's size")
+    check_copies(source)
     used = set(re.findall(r"\bcodestart_\w+", re.sub(r";.*", "", source)))
     if used != names:
         raise Refused(f"codestart.asm and the linker differ in {used ^ names}")
+
+
+def check_copies(source):
+    """The background compares what the start copies, in the order of board_copy_t."""
+    copied = re.findall(
+        r"\s+".join(
+            rf"MOVL +{register}, #(codestart_\w+)" for register in ("XAR4", "XAR5", "XAR6")
+        ),
+        source,
+    )
+    compared = re.findall(r"^ +\.long +(\w+), (\w+), (\w+)$", source, flags=re.M)
+    if compared != copied:
+        raise Refused(f"board_copies has {compared}, the start copies {copied}")
+    header = (BOARD / "peripherals.h").read_text()
+    if f"BOARD_COPIES      {len(copied)}U" not in header:
+        raise Refused("BOARD_COPIES is not the number of copies")
+    members = re.search(r"typedef struct \{(.*?)\} board_copy_t;", header, flags=re.S).group(1)
+    if re.findall(r"(\w+);", members) != ["load", "run", "words"]:
+        raise Refused("board_copy_t has another order than board_copies")
 
 
 def table_sources():

@@ -194,7 +194,7 @@ uint32_t board_cycles(void)
     return fake_board.cycles;
 }
 
-bool board_stack_is_whole(void)
+bool board_memory_is_whole(void)
 {
     return !fake_board.stack_spoilt;
 }

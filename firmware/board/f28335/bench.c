@@ -60,7 +60,7 @@ int main(void)
         board_gate_trip();
     }
     for (;;) {
-        if (!board_stack_is_whole()) {
+        if (!board_memory_is_whole()) {
             board_gate_trip();
         }
         board_watchdog_serve();

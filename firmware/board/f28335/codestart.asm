@@ -2,7 +2,7 @@
 ; First code after the boot ROM. The linker puts code_start where the boot ROM jumps to, and defines the
 ; symbols codestart_*.
 
-        .def    code_start
+        .def    code_start, board_copies
         .ref    _c_int00
         .ref    codestart_stack, codestart_stack_words
         .ref    codestart_code_load, codestart_code_run, codestart_code_words
@@ -62,4 +62,12 @@ tables_check:
         BANZ    tables, AR6--
 
         LB      _c_int00
+
+; The copies, for the background: board_copy_t of peripherals.h
+        .sect   ".const:board_copies"
+        .retain
+        .align  2
+board_copies:
+        .long   codestart_code_load, codestart_code_run, codestart_code_words
+        .long   codestart_tables_load, codestart_tables_run, codestart_tables_words
         .end

@@ -13,6 +13,16 @@
 
 #define BOARD_STACK_WORDS 0x700U  /**< --stack_size of CMakeLists.txt */
 #define BOARD_STACK_FILL  0xC0DEU /**< STACK_FILL of codestart.asm */
+#define BOARD_COPIES      2U      /**< entries of board_copies */
+
+/** Words that codestart.asm has copied from the flash to the RAM. */
+typedef struct {
+    const volatile uint16_t *load;
+    const volatile uint16_t *run;
+    uint32_t                 words;
+} board_copy_t;
+
+extern const board_copy_t board_copies[BOARD_COPIES]; /**< code and tables; codestart.asm */
 
 void gpio_make_safe(void);     /**< gate driver off and bridge pins low; call it first */
 void gpio_connect(void);       /**< pins to their peripherals; the bridge must be tripped */

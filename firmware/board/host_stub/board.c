@@ -190,9 +190,9 @@ uint32_t board_cycles(void)
     return stub.periods * board_config.board.pwm_cycles;
 }
 
-bool board_stack_is_whole(void)
+bool board_memory_is_whole(void)
 {
-    return true; /* the stack is the host program's */
+    return true; /* stack and code are the host program's */
 }
 
 void board_watchdog_serve(void) {}

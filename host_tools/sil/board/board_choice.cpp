@@ -53,7 +53,7 @@ void                  f28335_board_gate_trip(void);
 uint16_t              f28335_board_fault_read(void);
 board_reset_t         f28335_board_reset_cause(void);
 uint32_t              f28335_board_cycles(void);
-bool                  f28335_board_stack_is_whole(void);
+bool                  f28335_board_memory_is_whole(void);
 void                  f28335_board_watchdog_serve(void);
 bool                  f28335_board_serial_read(uint16_t *octet);
 bool                  f28335_board_serial_write(uint16_t octet);
@@ -178,9 +178,9 @@ uint32_t board_cycles(void)
     return the_fake != nullptr ? the_fake->cycles() : f28335_board_cycles();
 }
 
-bool board_stack_is_whole(void)
+bool board_memory_is_whole(void)
 {
-    return the_fake != nullptr || f28335_board_stack_is_whole();
+    return the_fake != nullptr || f28335_board_memory_is_whole();
 }
 
 void board_watchdog_serve(void)

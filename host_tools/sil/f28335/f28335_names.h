@@ -22,7 +22,7 @@
 #define board_fault_read       f28335_board_fault_read
 #define board_reset_cause      f28335_board_reset_cause
 #define board_cycles           f28335_board_cycles
-#define board_stack_is_whole   f28335_board_stack_is_whole
+#define board_memory_is_whole  f28335_board_memory_is_whole
 #define board_watchdog_serve   f28335_board_watchdog_serve
 #define board_serial_read      f28335_board_serial_read
 #define board_serial_write     f28335_board_serial_write
