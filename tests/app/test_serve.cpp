@@ -12,7 +12,10 @@
 #include <gtest/gtest.h>
 #include <modbus.h>
 
+#include "../support/temp_dir.hpp"
+#include "common/errors.hpp"
 #include "sil/serve/control.hpp"
+#include "sil/serve/endpoints.hpp"
 #include "sil/serve/rtu_frame.hpp"
 #include "sil/serve/served_drive.hpp"
 #include "sil/serve/server.hpp"
@@ -177,6 +180,71 @@ TEST(Serve, SpinsForAClientOverTcpWhileAnotherReads)
     }
     done = true;
     other.join();
+}
+
+// Made, then left by a run that was killed.
+std::string dead_link_at(const std::string &path)
+{
+    const std::string target = "/dev/pts/4000000"; // above any kernel's limit
+    std::filesystem::create_symlink(target, path);
+    return target;
+}
+
+TEST(ServePath, LinkOfAKilledRunIsReplacedAndTheOwnOneRemoved)
+{
+    const support::TempDir dir;
+    const std::string      path = dir / "drive";
+    const std::string      dead = dead_link_at(path);
+    {
+        const PseudoTerminal p(path);
+        EXPECT_NE(std::filesystem::read_symlink(path), dead);
+    }
+    EXPECT_FALSE(std::filesystem::is_symlink(path));
+}
+
+TEST(ServePath, AnothersLinkOrFileStays)
+{
+    const support::TempDir dir;
+    const std::string      file   = dir.write("file", "text");
+    const std::string      link   = dir / "link";
+    const std::string      broken = dir / "broken";
+    std::filesystem::create_symlink(file, link);
+    std::filesystem::create_symlink(dir / "nothing", broken);
+    for (const std::string &path : {file, link, broken}) {
+        EXPECT_THROW(PseudoTerminal{path}, InputError) << path;
+    }
+    EXPECT_EQ(std::filesystem::read_symlink(link), file);
+    EXPECT_TRUE(std::filesystem::is_symlink(broken));
+
+    const std::string    live = dir / "live";
+    const PseudoTerminal first(live);
+    const auto           target = std::filesystem::read_symlink(live);
+    EXPECT_THROW(PseudoTerminal{live}, InputError);
+    EXPECT_EQ(std::filesystem::read_symlink(live), target);
+}
+
+TEST(ServePath, WhatHasTakenTheLinksPlaceStays)
+{
+    const support::TempDir dir;
+    const std::string      path = dir / "drive";
+    {
+        const PseudoTerminal p(path);
+        std::filesystem::remove(path);
+        std::filesystem::create_symlink("/dev/null", path);
+    }
+    EXPECT_EQ(std::filesystem::read_symlink(path), "/dev/null");
+}
+
+TEST(ServePath, RunThatFailsLeavesTheLinkOfAKilledOne)
+{
+    const support::TempDir dir;
+    ServeOptions           o;
+    o.pty                   = dir / "drive";
+    const std::string dead  = dead_link_at(o.pty);
+    const Descriptor  taken = listen_on_loopback(0);
+    o.tcp                   = port_of(taken);
+    EXPECT_THROW(Server(shipped(), 1, o), InputError);
+    EXPECT_EQ(std::filesystem::read_symlink(o.pty), dead);
 }
 
 TEST(ServeFrames, TcpRequestsComeInPieces)

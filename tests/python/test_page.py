@@ -4,15 +4,20 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
+import http.client
+import json
 import os
+import signal
 import socket
 import subprocess
 import sys
 import time
 import urllib.error
+import urllib.parse
 import urllib.request
 from pathlib import Path
-from typing import Dict, Iterator
+from typing import Dict, Iterator, Tuple
 
 import browser
 import pytest
@@ -36,9 +41,12 @@ SCOPE_DRAWN = """(() => { const c = document.querySelectorAll('canvas')[1];
 DRAWN = "(() => document.querySelector('canvas').toDataURL())()"
 
 
-@pytest.fixture
-def address(served: Served) -> Iterator[str]:
-    """Address of a page for the virtual drive, with its token."""
+POLL = "/_nicegui_ws/socket.io/?EIO=4&transport=polling"  # what a page without WebSocket asks for
+
+
+@contextlib.contextmanager
+def page_of(served: Served) -> Iterator[Tuple[str, subprocess.Popen]]:
+    """A page for the virtual drive: its address with its token, and its process."""
     with socket.socket() as s:
         s.bind(("127.0.0.1", 0))
         port = s.getsockname()[1]
@@ -69,10 +77,17 @@ def address(served: Served) -> Iterator[str]:
                 if s.connect_ex(("127.0.0.1", port)) == 0:
                     break
             time.sleep(0.1)
-        yield where
+        yield where, page
     finally:
         page.terminate()
         page.wait(20)
+
+
+@pytest.fixture
+def address(served: Served) -> Iterator[str]:
+    """Address of a page for the virtual drive, with its token."""
+    with page_of(served) as (where, _page):
+        yield where
 
 
 def answer(address: str, headers: Dict[str, str]) -> int:
@@ -94,6 +109,33 @@ def test_only_who_has_the_token_from_this_page(address: str) -> None:
     assert answer(address, {"Origin": "http://example.org"}) == 403
     assert answer(address, {"Host": "example.org"}) == 403
     assert answer(plain + "_nicegui_ws/socket.io/?EIO=4&transport=polling", {}) == 403
+
+
+def test_a_signal_ends_it_with_a_client_that_hangs_and_a_drive_that_is_silent(
+    served: Served,
+) -> None:
+    with page_of(served) as (where, page):
+        at = urllib.parse.urlsplit(where)
+        client = http.client.HTTPConnection("127.0.0.1", at.port)
+        client.request("GET", f"{at.path}?{at.query}")
+        first = client.getresponse()
+        first.read()
+        cookie = {"Cookie": first.getheader("Set-Cookie", "").split(";")[0]}
+        client.request("GET", POLL, headers=cookie)
+        opened = client.getresponse().read().decode()
+        session_id = json.loads(opened[1:])["sid"]
+        client.request("POST", f"{POLL}&sid={session_id}", "40", headers=cookie)
+        client.getresponse().read()
+        client.request("GET", f"{POLL}&sid={session_id}", headers=cookie)
+        client.getresponse().read()
+        client.request("GET", f"{POLL}&sid={session_id}", headers=cookie)  # waits for an event
+        served.process.send_signal(signal.SIGSTOP)
+        try:
+            page.terminate()
+            page.wait(10)  # 5 s are allowed; the rest is for a busy machine
+        finally:
+            served.process.send_signal(signal.SIGCONT)
+            client.close()
 
 
 async def use(address: str, pictures: str) -> None:

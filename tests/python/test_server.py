@@ -93,6 +93,34 @@ def test_two_hundred_connections(served: Served, drive: Drive) -> None:
         until(another, lambda r: r.mode == Mode.RUN, 0.5)
 
 
+def test_traces_that_nobody_reads_hold_up_no_master(served: Served, drive: Drive) -> None:
+    run_at(drive, 200.0)
+    s = connect(served.control)
+    s.setblocking(False)
+    with kept_alive(drive):
+        for _ in range(40):
+            with contextlib.suppress(BlockingIOError):
+                s.send(b"trace 20\n" * 400)
+            time.sleep(0.05)
+        assert served.bench().ask("state")["time_s"] > 0.0
+    s.close()
+    reading = stay(drive, 0.5)
+    assert reading.mode == Mode.RUN and abs(reading.speed_e_radps - 200.0) < 10.0
+
+
+def test_connections_that_ask_nothing_make_room(served: Served, drive: Drive) -> None:
+    run_at(drive, 200.0)
+    with kept_alive(drive):
+        idle = [connect(served.tcp) for _ in range(40)]
+        with Drive(served.target()) as another:
+            until(another, lambda r: r.mode == Mode.RUN, 0.5)
+        idle[0].settimeout(5)
+        assert idle[0].recv(1) == b"", "the quietest was not closed"
+    for s in idle:
+        s.close()
+    assert stay(drive, 0.5).mode == Mode.RUN
+
+
 @pytest.mark.parametrize(
     "line",
     [

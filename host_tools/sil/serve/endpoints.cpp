@@ -49,10 +49,20 @@ void set_raw(int fd)
     }
 }
 
-bool is_link(const std::string &path)
+/// Target of a symbolic link; empty: the path is none.
+std::string link_target(const std::string &path)
 {
-    struct stat s {};
-    return lstat(path.c_str(), &s) == 0 && S_ISLNK(s.st_mode);
+    std::array<char, 256> target{};
+    const ssize_t         n = readlink(path.c_str(), target.data(), target.size());
+    return n > 0 ? std::string(target.data(), static_cast<std::size_t>(n)) : std::string();
+}
+
+/// A link that a killed run has left: to a pseudo-terminal that is no more.
+bool is_left_over(const std::string &path)
+{
+    struct stat       s {};
+    const std::string target = link_target(path);
+    return target.rfind("/dev/pts/", 0) == 0 && stat(target.c_str(), &s) != 0;
 }
 
 } // namespace
@@ -83,19 +93,23 @@ PseudoTerminal::PseudoTerminal(std::string path)
     }
     set_raw(slave_.get());
     set_non_blocking(master_.get());
-    if (is_link(path_)) {
+    name_ = name;
+    if (is_left_over(path_)) {
         unlink(path_.c_str());
     }
     if (symlink(name, path_.c_str()) != 0) {
-        const std::string where = path_;
-        path_.clear(); // not ours to remove
-        fail(where);
+        name_.clear(); // the path is not ours
+        if (errno == EEXIST) {
+            throw InputError(
+                fmt::format("serve: --pty {} exists: remove it, or choose another path", path_));
+        }
+        fail(path_);
     }
 }
 
 PseudoTerminal::~PseudoTerminal()
 {
-    if (master_ && is_link(path_)) {
+    if (master_ && !name_.empty() && link_target(path_) == name_) {
         unlink(path_.c_str());
     }
 }

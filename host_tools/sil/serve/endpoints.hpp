@@ -35,10 +35,11 @@ private:
     int fd_ = -1;
 };
 
-/// A pseudo-terminal whose other end has a name of the user's: a symbolic link, removed at the end.
+/// A pseudo-terminal whose other end has a name of the user's: a symbolic link, removed at the end. A link that something
+/// else has put in its place stays.
 class PseudoTerminal {
 public:
-    /// InputError when the path is there already and is no link of an earlier run, or cannot be made.
+    /// InputError when the path exists and is no link of a killed run, or cannot be made.
     explicit PseudoTerminal(std::string path);
     PseudoTerminal(PseudoTerminal &&) noexcept            = default;
     PseudoTerminal &operator=(PseudoTerminal &&) noexcept = default;
@@ -50,6 +51,7 @@ public:
 
 private:
     std::string path_;
+    std::string name_; ///< the link's target
     Descriptor  master_;
     Descriptor  slave_; ///< held open: the line stays when a client hangs up
 };

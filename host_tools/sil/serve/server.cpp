@@ -50,13 +50,13 @@ Server::Server(const Drive &drive, std::uint64_t seed, const ServeOptions &optio
     : options_(options), drive_(drive, seed)
 {
     pace_.speed_factor = options.speed_factor;
-    if (!options.pty.empty()) {
-        pty_ = std::make_unique<PseudoTerminal>(options.pty);
-        clients_.emplace(0, Client{Kind::pty, {}, {}, 0.0, {}});
-    }
     open(Kind::tcp, options.tcp);
     open(Kind::rtu, options.rtu_tcp);
     open(Kind::control, options.control);
+    if (!options.pty.empty()) { // last: a link is made by a run that has everything else
+        pty_ = std::make_unique<PseudoTerminal>(options.pty);
+        clients_.emplace(0, Client{Kind::pty, {}, {}, 0.0, {}, 0});
+    }
 }
 
 void Server::open(Kind kind, std::optional<int> port)
@@ -81,14 +81,30 @@ std::string Server::greeting() const
     return s;
 }
 
-void Server::accept_all()
+/// When all places are taken, the client that has been quiet for longest goes.
+void Server::make_room()
+{
+    if (clients_.size() < most_clients) {
+        return;
+    }
+    const auto quietest =
+        std::min_element(clients_.begin(), clients_.end(), [](const auto &one, const auto &other) {
+            const bool line = one.second.kind == Kind::pty;
+            return line == (other.second.kind == Kind::pty)
+                       ? one.second.last_s < other.second.last_s
+                       : !line;
+        });
+    bus_.forget(quietest->first);
+    clients_.erase(quietest);
+}
+
+void Server::accept_all(double wall_s)
 {
     for (auto &[kind, listener] : listeners_) {
         for (Descriptor client = accept_client(listener); client;
              client            = accept_client(listener)) {
-            if (clients_.size() < most_clients) {
-                clients_.emplace(next_client_++, Client{kind, std::move(client), {}, 0.0, {}});
-            }
+            make_room();
+            clients_.emplace(next_client_++, Client{kind, std::move(client), {}, wall_s, {}, 0});
         }
     }
 }
@@ -125,34 +141,54 @@ void Server::take_requests(long id, Client &client)
     }
 }
 
-void Server::take_lines(Client &client)
+/// A client of the control port gets an answer when it has taken the one before.
+bool Server::takes_more(const Client &client) const
 {
-    for (auto end                      = std::find(client.come.begin(), client.come.end(), '\n');
-         end != client.come.end(); end = std::find(client.come.begin(), client.come.end(), '\n')) {
-        std::string line(client.come.begin(), end);
-        client.come.erase(client.come.begin(), end + 1);
-        if (!line.empty() && line.back() == '\r') {
-            line.pop_back();
+    return client.kind != Kind::control || client.come.size() <= longest_line;
+}
+
+/// Of all clients that wait on the control port, the one whose turn is longest ago. An answer may take longer than a slice,
+/// and Modbus is served in between.
+void Server::answer_one_line()
+{
+    Client *next = nullptr;
+    for (auto &[id, client] : clients_) {
+        const bool waits =
+            client.kind == Kind::control && client.fd && client.go.empty() &&
+            std::find(client.come.begin(), client.come.end(), '\n') != client.come.end();
+        if (waits && (next == nullptr || client.turn < next->turn)) {
+            next = &client;
         }
-        const std::string answer = control_answer(line, drive_, record_, pace_);
-        send(client, Octets(answer.begin(), answer.end()));
     }
-    if (client.come.size() > longest_line) {
-        client.fd = {};
+    if (next == nullptr) {
+        return;
     }
+    const auto  end = std::find(next->come.begin(), next->come.end(), '\n');
+    std::string line(next->come.begin(), end);
+    next->come.erase(next->come.begin(), end + 1);
+    next->turn = next_turn_++;
+    if (!line.empty() && line.back() == '\r') {
+        line.pop_back();
+    }
+    const std::string answer = control_answer(line, drive_, record_, pace_);
+    send(*next, Octets(answer.begin(), answer.end()));
 }
 
 void Server::read_from(long id, Client &client, double wall_s)
 {
     const std::size_t before = client.come.size();
-    if (!read_available(client.fd_of(pty_.get()), client.come) && client.kind != Kind::pty) {
+    if (takes_more(client) && !read_available(client.fd_of(pty_.get()), client.come) &&
+        client.kind != Kind::pty) {
         client.fd = {};
         return;
     }
     write_rest(client);
     client.last_s = client.come.size() > before ? wall_s : client.last_s;
     if (client.kind == Kind::control) {
-        take_lines(client);
+        if (!takes_more(client) &&
+            std::find(client.come.begin(), client.come.end(), '\n') == client.come.end()) {
+            client.fd = {}; // no command is as long
+        }
     } else if (client.kind == Kind::tcp) {
         take_requests(id, client);
     } else {
@@ -232,7 +268,7 @@ void Server::wait(double seconds)
         all.push_back({listener.get(), POLLIN, 0});
     }
     for (const auto &[id, client] : clients_) {
-        if (client.fd) {
+        if (client.fd && takes_more(client)) {
             all.push_back({client.fd.get(), POLLIN, 0});
         }
     }
@@ -255,8 +291,9 @@ void Server::run()
             origin_s += late_s / pace_.speed_factor;
             pace_.slipped_s += late_s;
         }
-        accept_all();
+        accept_all(wall_s);
         read_all(wall_s);
+        answer_one_line();
         run_until(std::min(wanted_s, drive_.time_s() + most_late_s));
         wait(slice_s);
     }

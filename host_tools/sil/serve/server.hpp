@@ -48,8 +48,9 @@ private:
         Kind       kind;
         Descriptor fd; ///< not of the pseudo-terminal
         Octets     come;
-        double     last_s = 0.0; ///< when something came last
+        double     last_s = 0.0; ///< when something came last, or when it was accepted
         Octets     go;           ///< what its connection has not taken yet
+        long       turn = 0;     ///< number of its last answer on the control port
         int        fd_of(const PseudoTerminal *pty) const
         {
             return kind == Kind::pty ? pty->fd() : fd.get();
@@ -57,12 +58,14 @@ private:
     };
 
     void open(Kind kind, std::optional<int> port);
-    void accept_all();
+    void accept_all(double wall_s);
+    void make_room();
     void read_all(double wall_s);
     void read_from(long id, Client &client, double wall_s);
     void take_frame(long id, Client &client, double wall_s);
     void take_requests(long id, Client &client);
-    void take_lines(Client &client);
+    bool takes_more(const Client &client) const;
+    void answer_one_line();
     void send(Client &client, const Octets &octets);
     void write_rest(Client &client);
     void deliver(const BusRequest &request, const Octets &answer);
@@ -78,6 +81,7 @@ private:
     std::map<Kind, Descriptor>      listeners_;
     std::map<long, Client>          clients_;
     long                            next_client_ = 1;
+    long                            next_turn_   = 1;
     std::atomic<bool>               stopped_{false};
 };
 

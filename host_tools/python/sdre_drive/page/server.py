@@ -3,9 +3,13 @@
 
 from __future__ import annotations
 
+import os
 import secrets
+import signal
 import socket
+import threading
 import webbrowser
+from types import FrameType
 from typing import Optional, Tuple
 
 from nicegui import app, ui
@@ -17,6 +21,8 @@ from sdre_drive.page.state import Watcher
 
 HOST = "127.0.0.1"
 RECONNECT_S = 20.0  # chosen: a browser on a busy machine keeps its page
+FAREWELL_S = 2  # chosen: pages may close their connections
+LONGEST_END_S = 4.0  # chosen: longest time from a signal to the end of the process
 
 
 def require_free(port: int) -> None:
@@ -27,6 +33,21 @@ def require_free(port: int) -> None:
             s.bind((HOST, port))
         except OSError as e:
             raise DriveError(f"--page-port {port}: {e.strerror}") from e
+
+
+def end_in_any_case(number: int) -> None:
+    """After LONGEST_END_S from the signal the process ends, whatever still waits. The drive's
+    time-out stops the motor then."""
+    orderly = signal.getsignal(number)
+
+    def asked(seen: int, frame: Optional[FrameType]) -> None:
+        last = threading.Timer(LONGEST_END_S, os._exit, [128 + seen])
+        last.daemon = True
+        last.start()
+        if callable(orderly):
+            orderly(seen, frame)
+
+    signal.signal(number, asked)
 
 
 def serve(
@@ -47,6 +68,8 @@ def serve(
         Page(watcher)
 
     def started() -> None:
+        for number in (signal.SIGINT, signal.SIGTERM):
+            end_in_any_case(number)
         watcher.start()
         print(f"{address}\nCtrl-C ends it", flush=True)
         if browser:
@@ -63,4 +86,5 @@ def serve(
         show_welcome_message=False,
         title="sdre-drive",
         reconnect_timeout=RECONNECT_S,
+        timeout_graceful_shutdown=FAREWELL_S,
     )
