@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "common/data_files.hpp"
 #include "drive/drive_file.hpp"
 #include "sil/commands/commands.hpp"
 #include "sil/serve/server.hpp"
@@ -28,7 +29,7 @@ struct Options {
 
 void declare(OptionList &list, Options &o)
 {
-    list.required("DRIVE", o.drive, "drive file (TOML)");
+    list.text("DRIVE", o.drive, "drive file (TOML; default: the shipped ipmsm_390w)");
     list.text("--pty", o.pty, "Modbus RTU on a pseudo-terminal of this name");
     list.number(
         "--tcp", o.tcp, {0, ports},
@@ -61,7 +62,9 @@ int run(const Options &o)
     if (s.pty.empty() && !s.tcp && !s.rtu_tcp) {
         s.tcp = default_tcp;
     }
-    Server server(read_drive_file(o.drive), static_cast<std::uint64_t>(o.seed), s);
+    const auto drive = o.drive.empty() ? data_file("firmware/config/drives/ipmsm_390w.toml")
+                                       : std::filesystem::path(o.drive);
+    Server     server(read_drive_file(drive), static_cast<std::uint64_t>(o.seed), s);
     fmt::print("{}Ctrl-C ends it\n", server.greeting());
     std::fflush(stdout);
     server.run();

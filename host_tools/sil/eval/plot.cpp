@@ -64,6 +64,13 @@ private:
     std::filesystem::path path_;
 };
 
+/// The build's Python, unless the environment names another: a wheel's tools draw with the Python that they stand in.
+std::string python()
+{
+    const char *named = std::getenv("SDRE_PYTHON");
+    return named ? named : SDRE_PYTHON;
+}
+
 std::string drawn(const char *script, const std::string &csv, const std::string &title,
                   const std::filesystem::path &picture, const std::string &marks = {})
 {
@@ -72,7 +79,7 @@ std::string drawn(const char *script, const std::string &csv, const std::string 
     const std::filesystem::path data = work / "data.csv";
     const std::filesystem::path out  = work / ("picture" + picture.extension().string());
     std::vector<std::string>    arguments{
-        SDRE_PYTHON, data_file(std::string("host_tools/python/sdre_plot/") + script).string(),
+        python(), data_file(std::string("host_tools/python/sdre_plot/") + script).string(),
         data.string(), title, out.string()};
     write_files({{data, csv}});
     if (!marks.empty()) {
@@ -93,7 +100,7 @@ void require_plot(const std::filesystem::path &picture)
     if (kind != ".png" && kind != ".svg") {
         throw InputError(fmt::format("{}: a plot is a .png or a .svg", picture.string()));
     }
-    if (std::string(SDRE_PYTHON).empty()) {
+    if (python().empty()) {
         throw InputError("--plot: this build found no Python with matplotlib");
     }
 }
