@@ -12,6 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PLACES = {
     "CMakeLists.txt": r"project\(sdre-drive VERSION ([\d.]+)",
     "host_tools/python/pyproject.toml": r'^version = "([\d.]+)"',
+    "host_tools/python/drive/pyproject.toml": r'^version = "([\d.]+)"',
     "host_tools/python/sdre_drive/register_map.py": r'^VERSION = "([\d.]+)"',
     "firmware/app/registers/app_registers_map.h": r'APP_REGISTERS_VERSION "([\d.]+)"',
     "CITATION.cff": r"^version: ([\d.]+)",

@@ -33,7 +33,7 @@ mapfile -t includes < <(find firmware/{control,commission,store,config,app} -typ
 check "ruff check" "$tools/ruff" check --no-cache --quiet .
 check "ruff format" "$tools/ruff" format --no-cache --quiet --diff .
 check mypy "$tools/mypy" --config-file host_tools/python/pyproject.toml --cache-dir build/style/mypy --no-error-summary \
-    host_tools/python/{sdre,sdre_campaign,sdre_drive}
+    host_tools/python/{sdre,sdre_campaign,sdre_drive,sdre_tools}
 check clang-format "$tools/clang-format" --dry-run -Werror "${c_like[@]}"
 check clang-tidy tidy
 check "seeded defects" "$tools/python" -B tests/style/test_seeds.py --quiet
