@@ -23,8 +23,7 @@ static bool ntc_ok(const app_scale_config_t *c)
     return true;
 }
 
-ctl_status_t app_scale_init(app_scale_t *s, const app_scale_config_t *c, uint16_t positions,
-                            float trip_current_A)
+ctl_status_t app_scale_check(const app_scale_config_t *c, float trip_current_A)
 {
     const float top_cnt    = (float)(BOARD_ADC_CODES - 1U);
     const bool  current_ok = base_in_range(c->current_A_per_cnt, 1.0e-6f, 1.0e3f) &&
@@ -35,12 +34,20 @@ ctl_status_t app_scale_init(app_scale_t *s, const app_scale_config_t *c, uint16_
     const bool ok = current_ok && ((room_cnt * c->current_A_per_cnt) > trip_current_A) &&
                     base_in_range(c->dc_link_V_per_cnt, 1.0e-6f, 1.0e3f) && ntc_ok(c);
 
+    return ok ? CTL_OK : CTL_BAD_CONFIG;
+}
+
+ctl_status_t app_scale_init(app_scale_t *s, const app_scale_config_t *c, uint16_t positions,
+                            float trip_current_A)
+{
+    const ctl_status_t status = app_scale_check(c, trip_current_A);
+
     s->config       = c;
     s->zero_a_cnt   = c->current_zero_cnt;
     s->zero_b_cnt   = c->current_zero_cnt;
     s->positions    = positions;
-    s->inv_ntc_step = ok ? (1.0f / (float)c->ntc_step_cnt) : 0.0f;
-    return ok ? CTL_OK : CTL_BAD_CONFIG;
+    s->inv_ntc_step = (status == CTL_OK) ? (1.0f / (float)c->ntc_step_cnt) : 0.0f;
+    return status;
 }
 
 static bool zero_ok(const app_scale_config_t *c, float zero_cnt)

@@ -44,9 +44,15 @@ typedef struct {
 } app_scale_sample_t;
 
 /**
- * @param positions      Encoder positions per turn. A sample with a larger position is invalid.
  * @param trip_current_A Must be in the converter's range at the worst accepted zero.
- * @return CTL_BAD_CONFIG, s unusable, when a constant is out of range.
+ * @return CTL_BAD_CONFIG when a constant is out of range. Context: init, or the loader.
+ */
+ctl_status_t app_scale_check(const app_scale_config_t *config, float trip_current_A);
+
+/**
+ * @param positions      Encoder positions per turn. A sample with a larger position is invalid.
+ * @param trip_current_A As for app_scale_check().
+ * @return Result of app_scale_check(). After CTL_BAD_CONFIG s is unusable.
  *
  * Context: init.
  */

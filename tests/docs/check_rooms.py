@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Compares the table of rooms in docs/architecture.md with the sdre_room() calls of host_tools."""
+"""Compares the table of rooms in docs/architecture.md with the sdre_room() calls of host_tools.
+No circle of calls or of includes between files of the firmware."""
 
 from __future__ import annotations
 
@@ -9,6 +10,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 HOST = ROOT / "host_tools"
+ABOVE_BOARD = ("firmware/app", "firmware/store", "firmware/commission", "firmware/control")
 FIRMWARE = {"control_core", "drive_app", "drive_app_headers", "drive_image", "commission"}
 
 
@@ -39,8 +41,47 @@ def rooms_of_page() -> dict:
     return {name: set(re.findall(r"\w+", uses)) for name, uses in rows if name != "room"}
 
 
+def code_of(file: Path) -> str:
+    """A C file without comments and strings."""
+    text = re.sub(r"/\*.*?\*/", "", file.read_text(encoding="utf-8"), flags=re.S)
+    return re.sub(r'"[^"\n]*"', "", text)
+
+
+def calls() -> dict:
+    """Each .c file of the firmware above board.h, and the files whose functions it names."""
+    code = {p: code_of(p) for room in ABOVE_BOARD for p in (ROOT / room).rglob("*.c")}
+    definition = re.compile(r"^(?!static|typedef)\w[\w \*]*?\b(\w+)\([^;{}]*\)\n\{", re.M)
+    home = {name: p for p, text in code.items() for name in definition.findall(text)}
+    return {
+        p: {home[w] for w in set(re.findall(r"\w+", text)) if home.get(w, p) != p}
+        for p, text in code.items()
+    }
+
+
+def includes() -> dict:
+    """Each header of the firmware above board.h, and the headers that it includes."""
+    headers = {p.name: p for room in ABOVE_BOARD for p in (ROOT / room).rglob("*.h")}
+    named = re.compile(r'#include "(\w+\.h)"')
+    return {
+        p: {headers[n] for n in named.findall(p.read_text(encoding="utf-8")) if n in headers}
+        for p in headers.values()
+    }
+
+
+def circles(uses: dict) -> list:
+    """The files on a circle, or between two. Those at either end of a chain are taken away."""
+    left = {p: set(q) for p, q in uses.items()}
+    while True:
+        used = set().union(*left.values()) if left else set()
+        free = [p for p in left if not left[p] & left.keys() or p not in used]
+        if not free:
+            return sorted(left)
+        for p in free:
+            del left[p]
+
+
 def main() -> int:
-    """Prints each room whose row is missing or wrong."""
+    """Prints each room whose row is missing or wrong, and each file on a circle."""
     cmake, page = rooms_of_cmake(), rooms_of_page()
     wrong = [
         f"{name}: docs/architecture.md has no row of it, it uses {', '.join(sorted(uses)) or '-'}"
@@ -57,6 +98,8 @@ def main() -> int:
         for name in sorted(page)
         if not (HOST / name).is_dir()
     ]
+    for kind, uses in (("calls", calls()), ("includes", includes())):
+        wrong += [f"{p.relative_to(ROOT)} is on a circle of {kind}" for p in circles(uses)]
     print("\n".join(wrong), end="\n" if wrong else "", file=sys.stderr)
     return 1 if wrong or not cmake else 0
 

@@ -6,20 +6,28 @@
 #include "frames.h"
 #include "svpwm.h"
 
+ctl_status_t app_align_check(const app_align_config_t *c, const drive_config_t *drive)
+{
+    const bool times_ok = (c->watch_ticks > 0UL) && (c->ramp_ticks > 0UL) &&
+                          (c->sweep_ticks > 0UL) && (c->still_ticks > 0UL) &&
+                          (c->settle_ticks > c->still_ticks);
+    const bool ok = times_ok && (drive->hardware.pole_pairs > 0U) &&
+                    (drive->hardware.encoder_positions <= UINT16_MAX) &&
+                    base_in_range(c->current_A, 1.0e-3f, 0.5f * drive->current_max_A) &&
+                    base_in_range(c->bandwidth_radps * drive->ts_s, 1.0e-4f, 0.1f) &&
+                    base_in_range(c->theta_e_rad, 0.0f, BASE_TWO_PI);
+
+    return ok ? CTL_OK : CTL_BAD_CONFIG;
+}
+
 ctl_status_t app_align_init(app_align_t *a, const app_align_config_t *c,
                             const drive_config_t *drive)
 {
-    const uint16_t pole_pairs    = drive->hardware.pole_pairs;
-    const uint32_t positions     = drive->hardware.encoder_positions;
-    const float    current_max_A = drive->current_max_A;
-    const bool     times_ok      = (c->watch_ticks > 0UL) && (c->ramp_ticks > 0UL) &&
-                          (c->sweep_ticks > 0UL) && (c->still_ticks > 0UL) &&
-                          (c->settle_ticks > c->still_ticks);
-    const bool ok = times_ok && (pole_pairs > 0U) && (positions <= UINT16_MAX) &&
-                    base_in_range(c->current_A, 1.0e-3f, 0.5f * current_max_A) &&
-                    base_in_range(c->bandwidth_radps * drive->ts_s, 1.0e-4f, 0.1f) &&
-                    base_in_range(c->theta_e_rad, 0.0f, BASE_TWO_PI);
-    const float rs_Ohm = drive->motor.l7 * drive->motor.inv_l8;
+    const ctl_status_t status     = app_align_check(c, drive);
+    const bool         ok         = status == CTL_OK;
+    const uint16_t     pole_pairs = drive->hardware.pole_pairs;
+    const uint32_t     positions  = drive->hardware.encoder_positions;
+    const float        rs_Ohm     = drive->motor.l7 * drive->motor.inv_l8;
 
     a->config          = c;
     a->positions       = (uint16_t)positions;
@@ -27,13 +35,13 @@ ctl_status_t app_align_init(app_align_t *a, const app_align_config_t *c,
     a->kp_VpA          = c->bandwidth_radps * drive->motor.inv_l8;
     a->ki_VpA          = c->bandwidth_radps * rs_Ohm * drive->ts_s;
     a->v_max_V         = 2.0f * rs_Ohm * c->current_A;
-    a->current_max2_A2 = current_max_A * current_max_A;
+    a->current_max2_A2 = drive->current_max_A * drive->current_max_A;
 
     a->current_per_tick_A = ok ? (c->current_A / (float)c->ramp_ticks) : 0.0f;
     a->angle_per_tick_rad = ok ? (BASE_PI / (float)c->sweep_ticks) : 0.0f;
     a->quarter_cnt        = (int16_t)(ok ? (positions / (4UL * (uint32_t)pole_pairs)) : 0UL);
     app_align_start(a, 0U);
-    return ok ? CTL_OK : CTL_BAD_CONFIG;
+    return status;
 }
 
 static void enter(app_align_t *a, app_align_stage_t stage, uint16_t position_cnt)

@@ -68,7 +68,10 @@ typedef struct {
     uint16_t                  middle_cnt; /**< position in the middle of the sweep */
 } app_align_t;
 
-/** @return CTL_BAD_CONFIG, a unusable, when a constant is out of range. Context: init. */
+/** @return CTL_BAD_CONFIG when a constant is out of range. Context: init, or the loader. */
+ctl_status_t app_align_check(const app_align_config_t *config, const drive_config_t *drive);
+
+/** @return Result of the check. After CTL_BAD_CONFIG a is unusable. Context: init. */
 ctl_status_t app_align_init(app_align_t *a, const app_align_config_t *config,
                             const drive_config_t *drive);
 

@@ -17,24 +17,38 @@
 #define POLE_PAIRS    64U     /* keeps half counts times pole pairs within 32 bits */
 #define POSITIONS     65532UL /* whole lines; half of it, either way, is a signed number of 16 bits */
 
-ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c,
-                            const drive_config_t *drive)
+static bool turn_ok(uint32_t positions)
+{
+    return (positions >= (uint32_t)ENCODER_FORM_EDGES) && (positions <= POSITIONS) &&
+           ((positions % (uint32_t)ENCODER_FORM_EDGES) == 0UL);
+}
+
+ctl_status_t app_angle_check(const app_angle_config_t *c, const drive_config_t *drive)
 {
     const uint16_t pole_pairs = drive->hardware.pole_pairs;
     const uint32_t positions  = drive->hardware.encoder_positions;
-    const float    ts_s       = drive->ts_s;
-    const bool turn_ok = (positions >= (uint32_t)ENCODER_FORM_EDGES) && (positions <= POSITIONS) &&
-                         ((positions % (uint32_t)ENCODER_FORM_EDGES) == 0UL);
-    const bool ok = turn_ok && (pole_pairs >= 1U) && (pole_pairs <= POLE_PAIRS) &&
+    const bool     ok = turn_ok(positions) && (pole_pairs >= 1U) && (pole_pairs <= POLE_PAIRS) &&
                     base_in_range(c->index_theta_e_rad, 0.0f, BASE_TWO_PI) &&
                     (c->index_theta_e_rad < BASE_TWO_PI) &&
                     (c->index_correct_max_cnt >= c->index_tolerance_cnt) &&
                     (c->index_correct_max_cnt < (positions / 4U)) && (c->jump_cnt > 0U) &&
-                    base_in_range(ts_s, 1.0e-5f, 1.0e-2f);
+                    base_in_range(drive->ts_s, 1.0e-5f, 1.0e-2f);
+
+    return ok ? CTL_OK : CTL_BAD_CONFIG;
+}
+
+ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c,
+                            const drive_config_t *drive)
+{
+    const uint16_t     pole_pairs = drive->hardware.pole_pairs;
+    const uint32_t     positions  = drive->hardware.encoder_positions;
+    const float        ts_s       = drive->ts_s;
+    const ctl_status_t status     = app_angle_check(c, drive);
+    const bool         ok         = status == CTL_OK;
 
     a->config             = c;
     a->pole_pairs         = pole_pairs;
-    a->positions          = (uint16_t)(turn_ok ? positions : 0UL);
+    a->positions          = (uint16_t)(turn_ok(positions) ? positions : 0UL);
     a->edge_times         = drive->hardware.edge_times;
     a->ts_s               = ts_s;
     a->half_cnt_per_turn  = 2.0f * (float)a->positions;
@@ -58,7 +72,7 @@ ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c,
     a->have_index         = false;
     a->jumps              = 0U;
     a->corrections        = 0U;
-    return ok ? CTL_OK : CTL_BAD_CONFIG;
+    return status;
 }
 
 int16_t app_angle_turned_cnt(uint16_t positions, uint16_t from_cnt, uint16_t to_cnt)

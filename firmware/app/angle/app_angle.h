@@ -97,7 +97,10 @@ typedef struct {
     bool  index_fault;   /**< index at a wrong position, or missing; the reference is dropped */
 } app_angle_reading_t;
 
-/** @return CTL_BAD_CONFIG, a unusable, when a constant is out of range. Context: init. */
+/** @return CTL_BAD_CONFIG when a constant is out of range. Context: init, or the loader. */
+ctl_status_t app_angle_check(const app_angle_config_t *config, const drive_config_t *drive);
+
+/** @return Result of the check. After CTL_BAD_CONFIG a is unusable. Context: init. */
 ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *config,
                             const drive_config_t *drive);
 

@@ -3,13 +3,12 @@
 
 #include <stddef.h>
 
-#include "app.h"
+#include "app_config_check.h"
 
 drive_image_result_t app_image_check(const drive_image_t *image)
 {
-    const bool accepted = (drive_config_check(&image->drive) == CTL_OK) &&
-                          board_fits(&image->app.board) &&
-                          (app_init(&image->app, &image->drive) == CTL_OK);
+    const bool accepted =
+        board_fits(&image->app.board) && (app_config_check(&image->app, &image->drive) == CTL_OK);
 
     return accepted ? DRIVE_IMAGE_OK : DRIVE_IMAGE_REFUSED;
 }

@@ -15,10 +15,9 @@ typedef struct {
 } app_image_t;
 
 /**
- * @brief Checks the constants of an image: their ranges, the board's registers, the application.
+ * @brief Checks the constants of an image: what the board's registers hold, and app_config_check().
  *
- * It initialises the application as a side effect. Context: init before board_start(), or the
- * loader.
+ * Context: init, or the loader.
  */
 drive_image_result_t app_image_check(const drive_image_t *image);
 

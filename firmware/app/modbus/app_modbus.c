@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "app_modbus_answer.h"
+#include "app_modbus_frame.h"
 
 #define ADDRESS_BROADCAST 0U
 
@@ -86,8 +87,8 @@ static void put_crc(app_modbus_t *m)
 {
     const uint16_t crc = app_modbus_crc(m->tx_octets, m->tx_count);
 
-    app_modbus_answer_octet(m, crc);
-    app_modbus_answer_octet(m, (uint16_t)(crc >> 8));
+    app_modbus_frame_octet(m, crc);
+    app_modbus_frame_octet(m, (uint16_t)(crc >> 8));
 }
 
 bool app_modbus_is_quiet(const app_modbus_t *m, uint32_t now_ticks)

@@ -2,6 +2,7 @@
 #include "app_modbus_answer.h"
 
 #include "app_modbus_device.h"
+#include "app_modbus_frame.h"
 
 #define FUNCTION_READ_HOLDING 3U
 #define FUNCTION_READ_INPUT   4U
@@ -10,8 +11,6 @@
 #define FUNCTION_WRITE_MANY   16U
 #define FUNCTION_EXCHANGE     23U
 #define FUNCTION_IDENTIFY     43U
-
-#define EXCEPTION_FLAG 0x80U
 
 #define WRITE_MAX    123U /* registers that fit a request, by the protocol */
 #define EXCHANGE_MAX 121U
@@ -22,50 +21,12 @@
 #define WRITE_HEAD        7U  /* function 16, up to its data */
 #define EXCHANGE_HEAD     11U /* function 23 */
 
-static uint16_t function_of(const app_modbus_t *m)
-{
-    return m->rx_octets[1];
-}
-
-uint16_t app_modbus_answer_asked(const app_modbus_t *m, uint16_t at)
-{
-    return (uint16_t)((uint16_t)(m->rx_octets[at] << 8) | m->rx_octets[at + 1U]);
-}
-
-void app_modbus_answer_octet(app_modbus_t *m, uint16_t octet)
-{
-    m->tx_octets[m->tx_count] = (uint16_t)(octet & 0xFFU);
-    m->tx_count               = (uint16_t)(m->tx_count + 1U);
-}
-
-void app_modbus_answer_word(app_modbus_t *m, uint16_t word)
-{
-    app_modbus_answer_octet(m, (uint16_t)(word >> 8));
-    app_modbus_answer_octet(m, word);
-}
-
-void app_modbus_answer_begin(app_modbus_t *m)
-{
-    m->tx_count = 0U;
-    m->tx_sent  = 0U;
-    app_modbus_answer_octet(m, m->address);
-    app_modbus_answer_octet(m, function_of(m));
-}
-
-void app_modbus_answer_exception(app_modbus_t *m, uint16_t exception)
-{
-    app_modbus_answer_begin(m);
-    m->tx_octets[1] = (uint16_t)(m->tx_octets[1] | EXCEPTION_FLAG);
-    app_modbus_answer_octet(m, exception);
-    m->counts.exceptions = (uint16_t)(m->counts.exceptions + 1U);
-}
-
 static void refuse(app_modbus_t *m, app_registers_result_t result)
 {
     const uint16_t exception = (result == APP_REGISTERS_BAD_ADDRESS) ? APP_MODBUS_NO_ADDRESS
                                : (result == APP_REGISTERS_BUSY)      ? APP_MODBUS_NOT_NOW
                                                                      : APP_MODBUS_NO_VALUE;
-    app_modbus_answer_exception(m, exception);
+    app_modbus_frame_exception(m, exception);
 }
 
 static bool quantity_ok(uint16_t quantity, uint16_t most)
@@ -76,25 +37,25 @@ static bool quantity_ok(uint16_t quantity, uint16_t most)
 /* Reads registers; address and quantity are at index `at` of the request. */
 static void read_registers(app_modbus_t *m, const app_registers_t *r, uint16_t at)
 {
-    const uint16_t first    = app_modbus_answer_asked(m, at);
-    const uint16_t quantity = app_modbus_answer_asked(m, (uint16_t)(at + 2U));
+    const uint16_t first    = app_modbus_frame_asked(m, at);
+    const uint16_t quantity = app_modbus_frame_asked(m, (uint16_t)(at + 2U));
 
     if (!quantity_ok(quantity, APP_MODBUS_READ_MAX)) {
-        app_modbus_answer_exception(m, APP_MODBUS_NO_VALUE);
+        app_modbus_frame_exception(m, APP_MODBUS_NO_VALUE);
         return;
     }
     const app_registers_result_t result =
-        (function_of(m) == FUNCTION_READ_INPUT)
+        (app_modbus_frame_function(m) == FUNCTION_READ_INPUT)
             ? app_registers_read_input(r, first, quantity, m->values)
             : app_registers_read_holding(r, first, quantity, m->values);
     if (result != APP_REGISTERS_OK) {
         refuse(m, result);
         return;
     }
-    app_modbus_answer_begin(m);
-    app_modbus_answer_octet(m, (uint16_t)(2U * quantity));
+    app_modbus_frame_begin(m);
+    app_modbus_frame_octet(m, (uint16_t)(2U * quantity));
     for (uint16_t i = 0U; i < quantity; i++) {
-        app_modbus_answer_word(m, m->values[i]);
+        app_modbus_frame_word(m, m->values[i]);
     }
 }
 
@@ -105,37 +66,37 @@ static void answer_write(app_modbus_t *m, app_registers_result_t result)
         refuse(m, result);
         return;
     }
-    app_modbus_answer_begin(m);
-    app_modbus_answer_word(m, app_modbus_answer_asked(m, 2U));
-    app_modbus_answer_word(m, app_modbus_answer_asked(m, 4U));
+    app_modbus_frame_begin(m);
+    app_modbus_frame_word(m, app_modbus_frame_asked(m, 2U));
+    app_modbus_frame_word(m, app_modbus_frame_asked(m, 4U));
 }
 
 /* Takes address, quantity, octet count and data from index `at` on. False: the quantity is
  * invalid. */
 static bool take_values(app_modbus_t *m, uint16_t at, uint16_t most)
 {
-    const uint16_t quantity = app_modbus_answer_asked(m, (uint16_t)(at + 2U));
+    const uint16_t quantity = app_modbus_frame_asked(m, (uint16_t)(at + 2U));
 
     if (!quantity_ok(quantity, most) || (m->rx_octets[at + 4U] != (uint16_t)(2U * quantity))) {
-        app_modbus_answer_exception(m, APP_MODBUS_NO_VALUE);
+        app_modbus_frame_exception(m, APP_MODBUS_NO_VALUE);
         return false;
     }
     for (uint16_t i = 0U; i < quantity; i++) {
-        m->values[i] = app_modbus_answer_asked(m, (uint16_t)(at + 5U + (2U * i)));
+        m->values[i] = app_modbus_frame_asked(m, (uint16_t)(at + 5U + (2U * i)));
     }
     return true;
 }
 
 static app_registers_result_t write_values(app_modbus_t *m, app_registers_t *r, uint16_t at)
 {
-    return app_registers_write(r, app_modbus_answer_asked(m, at),
-                               app_modbus_answer_asked(m, (uint16_t)(at + 2U)), m->values);
+    return app_registers_write(r, app_modbus_frame_asked(m, at),
+                               app_modbus_frame_asked(m, (uint16_t)(at + 2U)), m->values);
 }
 
 static void write_one(app_modbus_t *m, app_registers_t *r)
 {
-    const uint16_t value = app_modbus_answer_asked(m, 4U);
-    answer_write(m, app_registers_write(r, app_modbus_answer_asked(m, 2U), 1U, &value));
+    const uint16_t value = app_modbus_frame_asked(m, 4U);
+    answer_write(m, app_registers_write(r, app_modbus_frame_asked(m, 2U), 1U, &value));
 }
 
 static void write_many(app_modbus_t *m, app_registers_t *r)
@@ -148,11 +109,11 @@ static void write_many(app_modbus_t *m, app_registers_t *r)
 /* Writes, then reads. If the read would fail, nothing is written. */
 static void exchange(app_modbus_t *m, app_registers_t *r)
 {
-    const uint16_t first    = app_modbus_answer_asked(m, 2U);
-    const uint16_t quantity = app_modbus_answer_asked(m, 4U);
+    const uint16_t first    = app_modbus_frame_asked(m, 2U);
+    const uint16_t quantity = app_modbus_frame_asked(m, 4U);
 
     if (!quantity_ok(quantity, APP_MODBUS_READ_MAX)) {
-        app_modbus_answer_exception(m, APP_MODBUS_NO_VALUE);
+        app_modbus_frame_exception(m, APP_MODBUS_NO_VALUE);
         return;
     }
     const app_registers_result_t readable =
@@ -174,7 +135,7 @@ static void exchange(app_modbus_t *m, app_registers_t *r)
 
 bool app_modbus_answer_length_ok(const app_modbus_t *m)
 {
-    switch (function_of(m)) {
+    switch (app_modbus_frame_function(m)) {
     case FUNCTION_READ_HOLDING:
     case FUNCTION_READ_INPUT:
     case FUNCTION_WRITE_ONE:
@@ -196,7 +157,7 @@ bool app_modbus_answer_length_ok(const app_modbus_t *m)
 
 void app_modbus_answer(app_modbus_t *m, app_registers_t *r)
 {
-    switch (function_of(m)) {
+    switch (app_modbus_frame_function(m)) {
     case FUNCTION_READ_HOLDING:
     case FUNCTION_READ_INPUT:
         read_registers(m, r, 2U);
@@ -217,7 +178,7 @@ void app_modbus_answer(app_modbus_t *m, app_registers_t *r)
         app_modbus_device_identify(m, r);
         break;
     default:
-        app_modbus_answer_exception(m, APP_MODBUS_NO_FUNCTION);
+        app_modbus_frame_exception(m, APP_MODBUS_NO_FUNCTION);
         break;
     }
 }

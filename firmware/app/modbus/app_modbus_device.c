@@ -3,7 +3,7 @@
 
 #include <stddef.h>
 
-#include "app_modbus_answer.h"
+#include "app_modbus_frame.h"
 
 /* Sub-functions of 8, by the protocol. */
 #define LOOP_BACK       0U
@@ -39,16 +39,16 @@ typedef struct {
 
 static void answer_number(app_modbus_t *m, uint16_t number)
 {
-    app_modbus_answer_begin(m);
-    app_modbus_answer_word(m, app_modbus_answer_asked(m, 2U));
-    app_modbus_answer_word(m, number);
+    app_modbus_frame_begin(m);
+    app_modbus_frame_word(m, app_modbus_frame_asked(m, 2U));
+    app_modbus_frame_word(m, number);
 }
 
 static void loop_back(app_modbus_t *m)
 {
-    app_modbus_answer_begin(m);
+    app_modbus_frame_begin(m);
     for (uint16_t i = 2U; i < (uint16_t)(m->rx_count - 2U); i++) {
-        app_modbus_answer_octet(m, m->rx_octets[i]);
+        app_modbus_frame_octet(m, m->rx_octets[i]);
     }
 }
 
@@ -80,19 +80,19 @@ static void tell_count(app_modbus_t *m, uint16_t which)
         answer_number(m, m->counts.overruns);
         break;
     default:
-        app_modbus_answer_exception(m, APP_MODBUS_NO_FUNCTION);
+        app_modbus_frame_exception(m, APP_MODBUS_NO_FUNCTION);
         break;
     }
 }
 
 void app_modbus_device_diagnose(app_modbus_t *m)
 {
-    const uint16_t which = app_modbus_answer_asked(m, 2U);
+    const uint16_t which = app_modbus_frame_asked(m, 2U);
 
     if (which == LOOP_BACK) {
         loop_back(m);
-    } else if ((m->rx_count != DIAGNOSTICS_SIZE) || (app_modbus_answer_asked(m, 4U) != 0U)) {
-        app_modbus_answer_exception(m, APP_MODBUS_NO_VALUE);
+    } else if ((m->rx_count != DIAGNOSTICS_SIZE) || (app_modbus_frame_asked(m, 4U) != 0U)) {
+        app_modbus_frame_exception(m, APP_MODBUS_NO_VALUE);
     } else if (which == CLEAR) {
         clear(m);
         answer_number(m, 0U);
@@ -106,14 +106,14 @@ static void put_text(app_modbus_t *m, const char *text)
     const uint16_t from = m->tx_count;
 
     for (const char *c = text; (*c != '\0') && ((uint16_t)(m->tx_count - from) < TEXT_MAX); c++) {
-        app_modbus_answer_octet(m, (uint16_t)((uint16_t)*c & 0x7FU));
+        app_modbus_frame_octet(m, (uint16_t)((uint16_t)*c & 0x7FU));
     }
 }
 
 static void put_object(app_modbus_t *m, const object_t *o)
 {
-    app_modbus_answer_octet(m, o->id);
-    app_modbus_answer_octet(m, 0U); /* its length: below */
+    app_modbus_frame_octet(m, o->id);
+    app_modbus_frame_octet(m, 0U); /* its length: below */
     const uint16_t at = m->tx_count;
     put_text(m, o->text);
     m->tx_octets[at - 1U] = (uint16_t)(m->tx_count - at);
@@ -166,24 +166,24 @@ void app_modbus_device_identify(app_modbus_t *m, const app_registers_t *r)
     uint16_t       count            = 0U;
 
     if (m->rx_octets[2] != MEI_IDENTIFY) {
-        app_modbus_answer_exception(m, APP_MODBUS_NO_FUNCTION);
+        app_modbus_frame_exception(m, APP_MODBUS_NO_FUNCTION);
         return;
     }
     if ((code < READ_BASIC) || (code > READ_ONE)) {
-        app_modbus_answer_exception(m, APP_MODBUS_NO_VALUE);
+        app_modbus_frame_exception(m, APP_MODBUS_NO_VALUE);
         return;
     }
     if ((code == READ_ONE) && (known == 0U)) {
-        app_modbus_answer_exception(m, APP_MODBUS_NO_ADDRESS);
+        app_modbus_frame_exception(m, APP_MODBUS_NO_ADDRESS);
         return;
     }
-    app_modbus_answer_begin(m);
-    app_modbus_answer_octet(m, MEI_IDENTIFY);
-    app_modbus_answer_octet(m, code);
-    app_modbus_answer_octet(m, CONFORMITY);
-    app_modbus_answer_octet(m, 0U); /* nothing follows: all fits one answer */
-    app_modbus_answer_octet(m, 0U);
-    app_modbus_answer_octet(m, 0U); /* how many: below */
+    app_modbus_frame_begin(m);
+    app_modbus_frame_octet(m, MEI_IDENTIFY);
+    app_modbus_frame_octet(m, code);
+    app_modbus_frame_octet(m, CONFORMITY);
+    app_modbus_frame_octet(m, 0U); /* nothing follows: all fits one answer */
+    app_modbus_frame_octet(m, 0U);
+    app_modbus_frame_octet(m, 0U); /* how many: below */
     const uint16_t at = (uint16_t)(m->tx_count - 1U);
     for (uint16_t k = 0U; k < OBJECTS; k++) {
         if (belongs(objects[k].id, code, wanted)) {

@@ -23,19 +23,6 @@
 #include "app_setpoint.h"
 #include "app_status.h"
 
-/** Bits of the control word. */
-enum {
-    APP_CONTROL_SWITCH_ON      = 1,
-    APP_CONTROL_ENABLE_VOLTAGE = 2,
-    APP_CONTROL_NO_QUICK_STOP  = 4,
-    APP_CONTROL_ENABLE         = 8,
-    APP_CONTROL_NEW_SETPOINT   = 16, /**< profile position, as the next two: app_setpoint.h */
-    APP_CONTROL_AT_ONCE        = 32,
-    APP_CONTROL_RELATIVE       = 64,
-    APP_CONTROL_FAULT_RESET    = 128, /**< acts when it rises */
-    APP_CONTROL_HALT           = 256  /**< stops at zero speed and stays enabled */
-};
-
 /** Control words of the commands. */
 enum {
     APP_CONTROL_DISABLE_VOLTAGE  = 0,
@@ -93,12 +80,6 @@ app_objects_t app_control_default(const drive_config_t *drive);
 
 /** True if the drive supports this mode of operation and these options. */
 bool app_control_knows(const app_objects_t *o, const drive_config_t *drive);
-
-/** True if the word has this bit. */
-static inline bool app_control_has(uint16_t word, int bit)
-{
-    return (word & (uint16_t)bit) != 0U;
-}
 
 /** True if the control word requests OPERATION_ENABLED. */
 bool app_control_enables(uint16_t controlword);

@@ -1,34 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_modes.h"
 
+#include "app_config_check.h"
 #include "app_states.h"
-
-/* Tolerance between two single-precision copies of one number. */
-#define SAME_RATIO 1.0e-4f
-
-static bool same(float x, float y)
-{
-    return base_in_range(x, y * (1.0f - SAME_RATIO), y * (1.0f + SAME_RATIO));
-}
-
-static bool drive_fits(const app_config_t *c, const drive_config_t *d)
-{
-    const drive_hardware_t *h       = &d->hardware;
-    const float             top_cnt = (float)(BOARD_ADC_CODES - 1U);
-
-    return (h->updates_per_period >= 1U) && (h->updates_per_period <= BOARD_UPDATES_MAX) &&
-           same(d->ts_s * (float)h->updates_per_period, c->pwm_period_s) &&
-           (h->encoder_positions == c->board.positions) && same(h->dead_time_s, c->dead_time_s) &&
-           (d->dc_link_max_V <= (top_cnt * c->scale.dc_link_V_per_cnt));
-}
-
-static bool values_ok(const app_config_t *c)
-{
-    return base_in_range(c->temperature_trip_degC, -100.0f, 300.0f) &&
-           base_in_range(c->temperature_limit_degC, -100.0f, c->temperature_trip_degC) &&
-           (c->calibrate_ticks > 0U) && (c->background_ticks > 0U) &&
-           base_in_range(c->zero_drift_A, 1.0e-6f, 1.0e6f);
-}
 
 static void clear_snapshot(app_snapshot_t *s)
 {
@@ -38,20 +12,16 @@ static void clear_snapshot(app_snapshot_t *s)
 
 ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *c, const drive_config_t *d)
 {
-    const bool drive_ok = drive_init(&m->drive, d) == CTL_OK;
-    const bool scale_ok =
-        app_scale_init(&m->scale, &c->scale, c->board.positions, d->trip_current_A) == CTL_OK;
-    const bool angle_ok = app_angle_init(&m->angle, &c->angle, d) == CTL_OK;
-    const bool align_ok = app_align_init(&m->align, &c->align, d) == CTL_OK;
-    const bool gate_ok  = app_gate_check(&c->gate, c->board.duty_full_cnt) == CTL_OK;
-    const bool stop_ok  = app_stop_init(&m->stop, &c->stop, d) == CTL_OK;
-    const bool heat_ok =
-        app_watch_heat_init(&m->heat, &c->heat, d->current_max_A, d->ts_s) == CTL_OK;
-    const bool ok = drive_ok && scale_ok && angle_ok && align_ok && gate_ok && stop_ok && heat_ok &&
-                    drive_fits(c, d) && values_ok(c);
+    const bool                ok         = app_config_check(c, d) == CTL_OK;
     const app_scale_sample_t  no_sample  = {.valid = false};
     const app_angle_reading_t no_reading = {.speed_valid = false};
 
+    (void)drive_init(&m->drive, d);
+    (void)app_scale_init(&m->scale, &c->scale, c->board.positions, d->trip_current_A);
+    (void)app_angle_init(&m->angle, &c->angle, d);
+    (void)app_align_init(&m->align, &c->align, d);
+    (void)app_stop_init(&m->stop, &c->stop, d);
+    (void)app_watch_heat_init(&m->heat, &c->heat, d->current_max_A, d->ts_s);
     app_position_init(&m->position, &m->angle);
     m->config           = c;
     m->mode             = ok ? APP_MODE_BOOT : APP_MODE_FAULT;
@@ -151,6 +121,13 @@ static app_fault_t watch(const app_modes_t *m, const app_modes_input_t *in)
     return APP_FAULT_NONE;
 }
 
+static bridge_t act(app_modes_t *m, const app_modes_input_t *in)
+{
+    const bool runs = (m->mode == APP_MODE_RUN) || (m->mode == APP_MODE_STOP);
+
+    return runs ? app_states_run(m, in) : app_states_rest(m, in);
+}
+
 bridge_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in)
 {
     if (m->fault == APP_FAULT_CONFIG) {
@@ -160,15 +137,7 @@ bridge_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in)
     measure(m, in->raw);
 
     const app_fault_t fault = (m->mode == APP_MODE_FAULT) ? APP_FAULT_NONE : watch(m, in);
-    const bridge_t    out =
-        (fault == APP_FAULT_NONE) ? app_states_act(m, in) : app_states_trip(m, in, fault);
-    m->gate_on = out.gate_enable;
+    const bridge_t    out = (fault == APP_FAULT_NONE) ? act(m, in) : app_states_trip(m, in, fault);
+    m->gate_on            = out.gate_enable;
     return out;
-}
-
-/* An unknown temperature does not prevent a start; it is a fault of the run. */
-bool app_modes_in_the_way(const app_modes_t *m)
-{
-    return (m->hot && m->sample.temperature_valid) || m->dc_link_out || m->tripped ||
-           !app_gate_may_start(&m->config->gate, m->reading.omega_e_radps);
 }

@@ -22,6 +22,19 @@ typedef enum {
     APP_CONTROL_STATES
 } app_control_state_t;
 
+/** Bits of the control word. */
+enum {
+    APP_CONTROL_SWITCH_ON      = 1,
+    APP_CONTROL_ENABLE_VOLTAGE = 2,
+    APP_CONTROL_NO_QUICK_STOP  = 4,
+    APP_CONTROL_ENABLE         = 8,
+    APP_CONTROL_NEW_SETPOINT   = 16, /**< profile position, as the next two: app_setpoint.h */
+    APP_CONTROL_AT_ONCE        = 32,
+    APP_CONTROL_RELATIVE       = 64,
+    APP_CONTROL_FAULT_RESET    = 128, /**< acts when it rises */
+    APP_CONTROL_HALT           = 256  /**< stops at zero speed and stays enabled */
+};
+
 /** Modes of operation: 6060h. */
 enum {
     APP_CONTROL_COMMISSIONING    = -1, /**< measures the motor, commission.h */
@@ -49,5 +62,11 @@ typedef struct {
     float                   jerk_e_radps3;
     uint16_t                position_window_cnt; /**< tolerance of "target reached" */
 } app_objects_t;
+
+/** True if the word has this bit. */
+static inline bool app_control_has(uint16_t word, int bit)
+{
+    return (word & (uint16_t)bit) != 0U;
+}
 
 #endif /* APP_OBJECTS_H */

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_setpoint.h"
 
-#include "app_control.h"
-
 /* Means "no limit": it exceeds every limit of the drive, which then acts. */
 #define ANY_LIMIT 1.0e9f
 

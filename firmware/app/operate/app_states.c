@@ -63,10 +63,3 @@ bridge_t app_states_run(app_modes_t *m, const app_modes_input_t *in)
     }
     return out;
 }
-
-bridge_t app_states_act(app_modes_t *m, const app_modes_input_t *in)
-{
-    const bool runs = (m->mode == APP_MODE_RUN) || (m->mode == APP_MODE_STOP);
-
-    return runs ? app_states_run(m, in) : app_states_rest(m, in);
-}

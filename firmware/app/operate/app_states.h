@@ -8,13 +8,11 @@
 
 #include "app_modes.h"
 
-/** Executes the present mode for one tick. The caller has found no fault. */
-bridge_t app_states_act(app_modes_t *m, const app_modes_input_t *in);
-
-/** RUN and STOP, the most expensive ticks: app_states.c runs from RAM. */
+/** Executes a tick of RUN or STOP, the most expensive ones: app_states.c runs from RAM. The caller has
+ * found no fault. */
 bridge_t app_states_run(app_modes_t *m, const app_modes_input_t *in);
 
-/** All other modes: app_states_rest.c runs from flash. */
+/** Executes a tick of any other mode: app_states_rest.c runs from flash. */
 bridge_t app_states_rest(app_modes_t *m, const app_modes_input_t *in);
 
 /** Executes a tick of the drive. @param run false: the drive stays off. */
@@ -22,6 +20,9 @@ bridge_t app_states_drive(app_modes_t *m, const app_command_t *wanted, bool run)
 
 /** Enters a mode and clears its timer and sums. */
 void app_states_enter(app_modes_t *m, app_mode_t mode);
+
+/** Executes a tick of FAULT: the bridge is open, or shorts the motor (app_stop.h). */
+bridge_t app_states_fault(app_modes_t *m, const app_modes_input_t *in);
 
 /** Enters FAULT: stores a snapshot, and opens the bridge or shorts the motor. */
 bridge_t app_states_trip(app_modes_t *m, const app_modes_input_t *in, app_fault_t fault);

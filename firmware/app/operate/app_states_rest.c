@@ -7,58 +7,6 @@
 #define ZERO_TICKS   100U
 #define ZERO_FORGETS 0.03f
 
-void app_states_enter(app_modes_t *m, app_mode_t mode)
-{
-    m->mode             = mode;
-    m->timer_ticks      = 0U;
-    m->sum_a_cnt        = 0UL;
-    m->sum_b_cnt        = 0UL;
-    m->armed            = false;
-    m->commission_armed = false;
-    m->align_armed      = false;
-    m->zero_a_A         = 0.0f;
-    m->zero_b_A         = 0.0f;
-}
-
-static bridge_t fault_bridge(app_modes_t *m, const app_modes_input_t *in)
-{
-    const app_stop_input_t now = {.omega_e_radps = m->reading.omega_e_radps,
-                                  .ia_A          = m->sample.ia_A,
-                                  .ib_A          = m->sample.ib_A,
-                                  .valid         = m->sample.valid && m->reading.speed_valid,
-                                  .board_faults  = in->board_faults};
-    return app_stop_bridge(&m->stop, &now);
-}
-
-/* A running drive gives its speed estimate. The measured speed is missing in an invalid sample and
- * wrong with a failing encoder. */
-bridge_t app_states_trip(app_modes_t *m, const app_modes_input_t *in, app_fault_t fault)
-{
-    const float          speed_e_radps = (m->drive.state == DRIVE_OFF) ? m->reading.omega_e_radps
-                                                                       : m->drive.wanted.now.omega_e_radps;
-    const app_snapshot_t snapshot      = {.fault          = fault,
-                                          .mode           = m->mode,
-                                          .drive_fault    = m->drive.fault,
-                                          .board_faults   = in->board_faults,
-                                          .raw            = *in->raw,
-                                          .speed_e_radps  = m->reading.omega_e_radps,
-                                          .wanted_e_radps = in->command.omega_e_radps,
-                                          .ticks          = m->ticks};
-    const bool           encoder = ((in->board_faults & (uint16_t)BOARD_FAULT_ENCODER) != 0U) ||
-                         (m->drive.fault == DRIVE_FAULT_ENCODER);
-
-    if (encoder) {
-        app_angle_drop(&m->angle);
-    }
-    m->snapshot = snapshot;
-    m->fault    = fault;
-    app_states_enter(m, APP_MODE_FAULT);
-    if (m->gate_on) {
-        app_stop_fault(&m->stop, speed_e_radps, m->drive.fault, in->board_faults);
-    }
-    return fault_bridge(m, in);
-}
-
 static bridge_t boot(app_modes_t *m)
 {
     m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
@@ -270,7 +218,7 @@ static void leave_fault(app_modes_t *m)
 /* If the speed of a shorted motor is unknown, only the operator's reset opens the bridge. */
 static bridge_t in_fault(app_modes_t *m, const app_modes_input_t *in)
 {
-    const bridge_t out   = fault_bridge(m, in);
+    const bridge_t out   = app_states_fault(m, in);
     const bool     known = m->sample.valid && m->reading.speed_valid;
 
     if (in->command.reset && !in->command.run && !(m->stop.shorted && known)) {

@@ -9,19 +9,30 @@
 #define FLUX_MOST_Wb  1.0e3f
 #define FLUX_LEAST_Wb 1.0e-9f /* without magnets there is no EMF: omega_link exceeds every speed */
 
-ctl_status_t app_stop_init(app_stop_t *s, const app_stop_config_t *c, const drive_config_t *drive)
+static float flux_of(const drive_config_t *drive)
 {
-    const float flux_Wb = drive->motor.l5 * drive->motor.inv_l6;
-    const bool  ok      = check_positive(c->still_e_radps) &&
-                    base_in_range(flux_Wb, 0.0f, FLUX_MOST_Wb) &&
+    return drive->motor.l5 * drive->motor.inv_l6;
+}
+
+ctl_status_t app_stop_check(const app_stop_config_t *c, const drive_config_t *drive)
+{
+    const bool ok = check_positive(c->still_e_radps) &&
+                    base_in_range(flux_of(drive), 0.0f, FLUX_MOST_Wb) &&
                     ((c->reaction == APP_STOP_COAST) || (c->reaction == APP_STOP_RAMP));
 
-    s->config = c;
-    s->link_e_radps =
-        ok ? (drive->dc_link_max_V * BASE_1_SQRT3 / base_max(flux_Wb, FLUX_LEAST_Wb)) : 0.0f;
+    return ok ? CTL_OK : CTL_BAD_CONFIG;
+}
+
+ctl_status_t app_stop_init(app_stop_t *s, const app_stop_config_t *c, const drive_config_t *drive)
+{
+    const ctl_status_t status  = app_stop_check(c, drive);
+    const float        flux_Wb = base_max(flux_of(drive), FLUX_LEAST_Wb);
+
+    s->config         = c;
+    s->link_e_radps   = (status == CTL_OK) ? (drive->dc_link_max_V * BASE_1_SQRT3 / flux_Wb) : 0.0f;
     s->trip_current_A = drive->trip_current_A;
     s->shorted        = false;
-    return ok ? CTL_OK : CTL_BAD_CONFIG;
+    return status;
 }
 
 bool app_stop_is_braking(const app_stop_t *s, float omega_e_radps)

@@ -41,7 +41,10 @@ typedef struct {
     bool                     shorted;
 } app_stop_t;
 
-/** @return CTL_BAD_CONFIG when a constant is out of range. Context: init. */
+/** @return CTL_BAD_CONFIG when a constant is out of range. Context: init, or the loader. */
+ctl_status_t app_stop_check(const app_stop_config_t *config, const drive_config_t *drive);
+
+/** @return Result of the check. After CTL_BAD_CONFIG s is unusable. Context: init. */
 ctl_status_t app_stop_init(app_stop_t *s, const app_stop_config_t *config,
                            const drive_config_t *drive);
 

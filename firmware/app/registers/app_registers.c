@@ -53,12 +53,6 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
                : CTL_BAD_CONFIG;
 }
 
-uint32_t app_registers_ticks(const app_registers_t *r, float time_s)
-{
-    const float ticks = (time_s / r->drive->ts_s) + 0.5f;
-    return (uint32_t)ticks;
-}
-
 static bool is_whole(const app_registers_entry_t *e)
 {
     return (e->type != APP_REGISTERS_DEC) && !(e->per_unit > 0.0f);

@@ -44,6 +44,12 @@ uint32_t app_registers_signed(int16_t x)
     return (uint32_t)wide;
 }
 
+uint32_t app_registers_ticks(const app_registers_t *r, float time_s)
+{
+    const float ticks = (time_s / r->drive->ts_s) + 0.5f;
+    return (uint32_t)ticks;
+}
+
 /* State bits of CiA 402. Bit 5 is low while a quick stop is active. */
 static uint16_t state_bits(app_control_state_t state)
 {

@@ -18,19 +18,26 @@ static void part_init(app_watch_heat_part_t *p, float nominal_A, float tau_s, fl
     p->x        = 0.0f;
 }
 
-ctl_status_t app_watch_heat_init(app_watch_heat_t *h, const app_watch_heat_config_t *c,
-                                 float current_max_A, float ts_s)
+ctl_status_t app_watch_heat_check(const app_watch_heat_config_t *c, float current_max_A, float ts_s)
 {
     const bool ok = check_positive(c->motor_A) && check_positive(c->motor_s) &&
                     check_positive(c->inverter_A) && check_positive(c->inverter_s) &&
                     check_positive(current_max_A) && (c->motor_s > ts_s) && (c->inverter_s > ts_s);
 
-    if (ok) {
+    return ok ? CTL_OK : CTL_BAD_CONFIG;
+}
+
+ctl_status_t app_watch_heat_init(app_watch_heat_t *h, const app_watch_heat_config_t *c,
+                                 float current_max_A, float ts_s)
+{
+    const ctl_status_t status = app_watch_heat_check(c, current_max_A, ts_s);
+
+    if (status == CTL_OK) {
         part_init(&h->motor, c->motor_A, c->motor_s, current_max_A, ts_s);
         part_init(&h->inverter, c->inverter_A, c->inverter_s, current_max_A, ts_s);
     }
     h->derating = 0.0f;
-    return ok ? CTL_OK : CTL_BAD_CONFIG;
+    return status;
 }
 
 /* EQ-APP-HEAT-1 and 2: derating by this part. */

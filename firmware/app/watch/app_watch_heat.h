@@ -35,7 +35,11 @@ typedef struct {
     float                 derating; /**< unusable share of the current limit */
 } app_watch_heat_t;
 
-/** @return CTL_BAD_CONFIG, h unusable, when a constant is out of range. Context: init. */
+/** @return CTL_BAD_CONFIG when a constant is out of range. Context: init, or the loader. */
+ctl_status_t app_watch_heat_check(const app_watch_heat_config_t *config, float current_max_A,
+                                  float ts_s);
+
+/** @return Result of the check. After CTL_BAD_CONFIG h is unusable. Context: init. */
 ctl_status_t app_watch_heat_init(app_watch_heat_t *h, const app_watch_heat_config_t *config,
                                  float current_max_A, float ts_s);
 

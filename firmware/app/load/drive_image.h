@@ -52,7 +52,7 @@ void drive_image_fields(fields_t *f, drive_image_t *image, const law_t *law);
 /**
  * @brief Reads the image from words. It checks the format only.
  *
- * drive_config_check(), app_init() and board_fits() check the ranges.
+ * app_config_check() and board_fits() check the ranges.
  *
  * @param law The law of this firmware. The image then points to it.
  * @return DRIVE_IMAGE_OK. After any other result the image must not be used.
