@@ -147,7 +147,7 @@ bool Server::takes_more(const Client &client) const
     return client.kind != Kind::control || client.come.size() <= longest_line;
 }
 
-/// Of all clients that wait on the control port, the one whose turn is longest ago. An answer may take longer than a slice,
+/// Answers the waiting client whose turn on the control port is longest ago. An answer may take longer than a slice,
 /// and Modbus is served in between.
 void Server::answer_one_line()
 {
