@@ -58,10 +58,10 @@ void app_align_start(app_align_t *a, uint16_t position_cnt)
     a->middle_cnt = position_cnt;
 }
 
-static bool within(int16_t x, uint16_t limit)
+static bool within(int32_t x, uint16_t limit)
 {
     const int32_t most = (int32_t)limit;
-    return ((int32_t)x <= most) && ((int32_t)x >= -most);
+    return (x <= most) && (x >= -most);
 }
 
 static bool stands(const app_align_t *a, uint16_t position_cnt)
@@ -72,8 +72,8 @@ static bool stands(const app_align_t *a, uint16_t position_cnt)
 
 static bool turned_a_quarter(const app_align_t *a, uint16_t position_cnt)
 {
-    const int16_t turned_cnt = app_angle_turned_cnt(a->positions, a->middle_cnt, position_cnt);
-    return within((int16_t)(turned_cnt - a->quarter_cnt), a->config->quarter_error_cnt);
+    const int32_t turned_cnt = app_angle_turned_cnt(a->positions, a->middle_cnt, position_cnt);
+    return within(turned_cnt - a->quarter_cnt, a->config->quarter_error_cnt);
 }
 
 static void watch(app_align_t *a, uint16_t position_cnt)
