@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "commission_inductance.h"
 
-/* Chosen: the reluctance torque hardly moves the rotor, and the current is 25 times the usual
- * noise. */
-#define LOOK_SHARE  0.06f
+/* Chosen: the reluctance torque hardly moves the rotor. */
+#define LOOK_SHARE 0.06f
+/* Chosen. The extrapolation of EQ-COMMISSION-2 has sqrt(13) times the noise of a sample. The end of a
+ * half wave is then five standard deviations away. */
+#define LOOK_NOISES 25.0f
+/* With more noise than this share the current stays at it. */
+#define LOOK_MOST   0.3f
 #define LOOK_HALVES 40
 #define LOOK_AXES   4
 #define MAP_SHARE   0.8f
@@ -39,10 +43,37 @@ static commission_answer_t rest(commission_inductance_t *l, const commission_sig
         l->wait_ticks++;
     }
     if (l->wait_ticks > QUIET_TICKS) {
-        l->noise_A2 += 0.5f * (square(s->di_A.alpha) + square(s->di_A.beta));
-        l->noise_n += 1.0f;
+        commission_fit_add(&l->noise, s->di_A.alpha, s->di_A.beta, 0.0f);
     }
     return commission_rest(COMMISSION_BUSY);
+}
+
+/* Variance of di by noise, mean of both axes. */
+static float noise_of(const commission_inductance_t *l)
+{
+    return 0.5f * (l->noise.aa + l->noise.bb) / base_max((float)l->noise.n, 1.0f);
+}
+
+/* EQ-COMMISSION-4 without the noise of di. */
+static commission_fitted_t solve(const commission_inductance_t *l, const commission_fit_t *sums)
+{
+    const float      share = (float)sums->n / base_max((float)l->noise.n, 1.0f);
+    commission_fit_t clean = *sums;
+
+    clean.aa -= share * l->noise.aa;
+    clean.ab -= share * l->noise.ab;
+    clean.bb -= share * l->noise.bb;
+    commission_fitted_t out = commission_fit_solve(&clean);
+    out.valid               = out.valid && (clean.aa > 0.0f);
+    return out;
+}
+
+/* Current of LOOK: small, and well above the noise of one sample. */
+static float look_A(const commission_inductance_t *l, const commission_config_t *c)
+{
+    const float noise_A = sqrtf(0.5f * noise_of(l));
+    return base_clamp(LOOK_NOISES * noise_A, LOOK_SHARE * c->current_max_A,
+                      LOOK_MOST * c->current_max_A);
 }
 
 static void next_axis(commission_inductance_t *l)
@@ -55,14 +86,8 @@ static void next_axis(commission_inductance_t *l)
 static bool set_look(commission_inductance_t *l, const commission_config_t *c,
                      commission_result_t *found)
 {
-    const float noise = l->noise_A2 / base_max(l->noise_n, 1.0f);
-    l->alpha.aa -= noise * (float)l->alpha.n;
-    l->alpha.bb -= noise * (float)l->alpha.n;
-    l->beta.aa = l->alpha.aa;
-    l->beta.bb = l->alpha.bb;
-
-    const commission_fitted_t a = commission_fit_solve(&l->alpha);
-    const commission_fitted_t b = commission_fit_solve(&l->beta);
+    const commission_fitted_t a = solve(l, &l->alpha);
+    const commission_fitted_t b = solve(l, &l->beta);
     if (!a.valid || !b.valid) {
         return false;
     }
@@ -79,8 +104,8 @@ static bool set_look(commission_inductance_t *l, const commission_config_t *c,
  * each inductance gets its own amplitude. In alpha and beta the smaller inductance sets it. */
 static void set_direction(commission_inductance_t *l)
 {
-    const commission_fitted_t a = commission_fit_solve(&l->alpha);
-    const commission_fitted_t b = commission_fit_solve(&l->beta);
+    const commission_fitted_t a = solve(l, &l->alpha);
+    const commission_fitted_t b = solve(l, &l->beta);
     const float large = 0.5f * commission_angle_of(a.x1 + b.x0, a.x0 - b.x1); /* EQ-COMMISSION-5 */
     const frames_angle_t alpha = {1.0f, 0.0f};
     const frames_angle_t beta  = {0.0f, 1.0f};
@@ -109,9 +134,10 @@ commission_answer_t commission_inductance_look(commission_inductance_t   *l,
     if (l->wait_ticks < REST_TICKS) {
         if (l->wait_ticks == 0) {
             set_direction(l);
-            commission_wave_start(&l->wave, LOOK_SHARE * c->current_max_A);
         }
-        return rest(l, s);
+        const commission_answer_t zero = rest(l, s);
+        commission_wave_start(&l->wave, look_A(l, c));
+        return zero;
     }
     if (l->wave.halves > 0) {
         commission_fit_add(&l->alpha, s->di_A.alpha, s->di_A.beta,
@@ -171,7 +197,7 @@ static commission_value_t bin_H(const commission_bin_t *b, float noise_A2, float
 static void set_map(commission_inductance_t *l, const commission_config_t *c,
                     commission_result_t *found)
 {
-    const float      noise  = l->noise_A2 / base_max(l->noise_n, 1.0f);
+    const float      noise  = noise_of(l);
     commission_bin_t all[2] = {{0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f, 0.0f}};
 
     for (int16_t k = 0; k < COMMISSION_BINS; k++) {

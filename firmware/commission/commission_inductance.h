@@ -12,7 +12,8 @@
  * subtracted anyway.
  *
  * Here e is the back-EMF in the q axis, from the counted speed. The variance var is that of the
- * noise of di, from samples with the motor at rest; without this correction L would be too small.
+ * noise of di, from samples with the motor at rest. Without this correction L would be too small. In
+ * the stator frame the noise would also turn the axis of the larger one.
  */
 #ifndef COMMISSION_INDUCTANCE_H
 #define COMMISSION_INDUCTANCE_H
@@ -37,8 +38,7 @@ typedef struct {
     commission_fit_t   alpha; /**< v_alpha against di, both axes' waves */
     commission_fit_t   beta;
     commission_bin_t   bins[2][2][COMMISSION_BINS]; /**< axis, sign of the current, bin */
-    float              noise_A2; /**< variance of di at rest, mean of both axes */
-    float              noise_n;
+    commission_fit_t   noise; /**< sums of di at rest; the two sensors' noise is not isotropic */
     int32_t            before_cnt;
     commission_angle_t angle; /**< tracks the angle for the speed */
 } commission_inductance_t;

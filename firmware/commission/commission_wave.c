@@ -13,7 +13,9 @@
 /* A half wave ends here at any current: while the amplitude is searched, and afterwards. */
 #define MOST_SAMPLES 16
 #define LAST_SAMPLE  250
-#define FIRST_SHARE  0.707f
+/* Chosen: so many short half waves in a row prove the amplitude. A noise peak ends a single one. */
+#define PROOFS      3
+#define FIRST_SHARE 0.707f
 
 void commission_wave_start(commission_wave_t *w, float bound_A)
 {
@@ -23,19 +25,34 @@ void commission_wave_start(commission_wave_t *w, float bound_A)
                                      .sign    = 1.0f,
                                      .samples = 0,
                                      .halves  = 0,
+                                     .proofs  = 0,
                                      .found   = false};
     *w                            = fresh;
+}
+
+/* A short half wave keeps the amplitude; a long one raises it and begins the search again. */
+static void search(commission_wave_t *w, float most_V)
+{
+    const bool enough = (w->samples <= WANTED_SAMPLES) || (w->v_V >= most_V);
+
+    w->proofs = enough ? (int16_t)(w->proofs + 1) : (int16_t)0;
+    w->found  = w->proofs >= PROOFS;
+    w->halves = 0;
+    if (!enough) {
+        w->v_V = base_min(GROWTH * w->v_V, most_V);
+    }
 }
 
 static void turn(commission_wave_t *w, float dc_link_V)
 {
     const float most_V = MOST_SHARE * dc_link_V;
 
-    if (!w->found) {
-        w->found = (w->samples <= WANTED_SAMPLES) || (w->v_V >= most_V);
-        w->v_V   = w->found ? w->v_V : base_min(GROWTH * w->v_V, most_V);
+    if (!w->found || ((w->samples >= LAST_SAMPLE) && (w->v_V < most_V))) {
+        search(w, most_V);
     } else if (w->halves < INT16_MAX) {
         w->halves++;
+    } else {
+        /* the counter is full */
     }
     w->first_A = w->bound_A;
     w->sign    = -w->sign;

@@ -4,7 +4,7 @@
  * @brief Square-wave voltage along one axis that moves the current between two limits.
  *
  * The inductance need not be known. The amplitude starts very small and grows with each half wave,
- * until a half wave has few enough samples. The sign changes when the extrapolated current of the
+ * until three half waves in a row have few enough samples. The sign changes when the extrapolated current of the
  * sample after the next would exceed the limit:
  *
  *     |i_k + 2 (i_k - i_(k-1))| > I                                            EQ-COMMISSION-2
@@ -24,6 +24,7 @@ typedef struct {
     float   sign;
     int16_t samples; /**< of the present half wave */
     int16_t halves;  /**< since the amplitude was found */
+    int16_t proofs;  /**< short half waves in a row */
     bool    found;
 } commission_wave_t;
 

@@ -41,10 +41,10 @@ namespace {
 /// The plant's board as the module sees it.
 class Bench {
 public:
-    Bench(const Drive &truth, const CommissionOptions &o)
-        : scenario_(commission_scenario(truth, o)), board_(scenario_),
-          period_s_(control_period_s(truth)), reversed_(o.seed % 2 == 0),
-          channel_a_(channel_a(scenario_.sensors)), channel_b_(channel_b(scenario_.sensors))
+    explicit Bench(const Scenario &scenario)
+        : scenario_(scenario), board_(scenario_), period_s_(control_period_s(scenario.drive)),
+          reversed_(scenario.seed % 2 == 0), channel_a_(channel_a(scenario_.sensors)),
+          channel_b_(channel_b(scenario_.sensors))
     {
     }
 
@@ -116,7 +116,7 @@ commission_config_t commission_config_of(const Drive &d, const CommissionOptions
 {
     commission_config_t c{};
     c.ts_s              = static_cast<float>(control_period_s(d));
-    c.current_max_A     = static_cast<float>(d.motor.max_current_A);
+    c.current_max_A     = static_cast<float>(o.current_share * d.motor.max_current_A);
     c.speed_max_m_radps = static_cast<float>(
         std::max(d.motor.rated_speed_e_radps, d.motor.max_speed_e_radps) / d.motor.pole_pairs);
     c.dc_link_min_V   = static_cast<float>(dc_link_low * d.inverter.dc_link_V);
@@ -127,10 +127,16 @@ commission_config_t commission_config_of(const Drive &d, const CommissionOptions
 
 CommissionRun commission(const Drive &truth, const CommissionOptions &o)
 {
+    return commission_in(commission_scenario(truth, o), o);
+}
+
+CommissionRun commission_in(const Scenario &scenario, const CommissionOptions &o)
+{
+    const Drive              &truth  = scenario.drive;
     const commission_config_t config = commission_config_of(truth, o);
     const double              ts     = control_period_s(truth);
     const long                most   = std::lround(longest_s / ts);
-    Bench                     bench(truth, o);
+    Bench                     bench(scenario);
     commission_t              module{};
     CommissionRun             run;
     double                    peak_A = 0.0;

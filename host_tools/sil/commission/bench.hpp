@@ -23,6 +23,7 @@ struct CommissionOptions {
     double        cogging_share = 0.0;  ///< amplitude, of the rated torque; 6 periods per pole pair
     bool          lines_known   = true; ///< else counted from index to index
     int           trace_every   = 0;    ///< periods between two rows of the trace; 0: none
+    double        current_share = 1.0;  ///< bound of the current, of the drive's limit
 };
 
 /// One row of the trace, of the plant.
@@ -61,6 +62,9 @@ Scenario commission_scenario(const Drive &truth, const CommissionOptions &option
 commission_config_t commission_config_of(const Drive &drive, const CommissionOptions &options);
 
 CommissionRun commission(const Drive &truth, const CommissionOptions &options);
+
+/// The same in surroundings of the caller's choice: faults, load, inverter, disc.
+CommissionRun commission_in(const Scenario &scenario, const CommissionOptions &options);
 
 const char *commission_stage_name(commission_stage_t stage);
 const char *commission_reason_text(commission_reason_t reason);

@@ -28,6 +28,20 @@ void setUp(void)
 
 void tearDown(void) {}
 
+/* Adds the noise of two sensors. Its variance in beta is 5/3 of that in alpha. */
+static commission_signal_t noisy(commission_signal_t s, support_random_t *dice, double noise_A)
+{
+    static ab_t  before;
+    const double a  = noise_A * (double)support_uniform(dice, -1.7321f, 1.7321f);
+    const double b  = noise_A * (double)support_uniform(dice, -1.7321f, 1.7321f);
+    const ab_t   is = {s.i_A.alpha + (float)a, s.i_A.beta + (float)((a + (2.0 * b)) / sqrt(3.0))};
+    s.i_A           = is;
+    s.di_A.alpha    = is.alpha - before.alpha;
+    s.di_A.beta     = is.beta - before.beta;
+    before          = is;
+    return s;
+}
+
 static void set_angle(double angle_rad)
 {
     winding.angle_rad = angle_rad;
@@ -83,6 +97,40 @@ static void test_look_of_a_reluctance_motor(void)
     }
 }
 
+/* A 300th of the bound. Without their noise taken off, the sums show an axis that is not there. */
+static void test_look_in_noise(void)
+{
+    const double noise_A = 9.0 / 300.0;
+    const int    seeds   = 60;
+    double       ld_H    = 0.0;
+    double       lq_H    = 0.0;
+
+    winding.ld_H   = 0.012;
+    winding.lq_H   = 0.0385;
+    winding.r_Ohm  = 0.54;
+    winding.loss_V = 3.0;
+    for (int seed = 0; seed < seeds; seed++) {
+        support_random_t  dice    = {(unsigned)seed + 1u};
+        ab_t              asked_V = {0.0f, 0.0f};
+        commission_step_t step    = COMMISSION_BUSY;
+        commission_inductance_start(&stage);
+        winding.angle_rad = 0.1047 * seed;
+        for (long k = 0; (k < 100000L) && (step == COMMISSION_BUSY); k++) {
+            const commission_signal_t s = noisy(winding_step(&winding, asked_V), &dice, noise_A);
+            const commission_answer_t a = commission_inductance_look(&stage, &config, &s, &found);
+            asked_V                     = a.v_V;
+            step                        = a.step;
+        }
+        TEST_ASSERT_EQUAL_INT(COMMISSION_DONE, step);
+        TEST_ASSERT_DOUBLE_WITHIN(0.15 * winding.ld_H, winding.ld_H, (double)found.ld_H.value);
+        TEST_ASSERT_DOUBLE_WITHIN(0.25 * winding.lq_H, winding.lq_H, (double)found.lq_H.value);
+        ld_H += (double)found.ld_H.value / seeds;
+        lq_H += (double)found.lq_H.value / seeds;
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(0.02 * winding.ld_H, winding.ld_H, ld_H);
+    TEST_ASSERT_DOUBLE_WITHIN(0.02 * winding.lq_H, winding.lq_H, lq_H);
+}
+
 static void test_map_of_a_constant_inductance_is_flat(void)
 {
     set_angle(0.7);
@@ -135,6 +183,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_look_finds_both_at_any_angle);
     RUN_TEST(test_look_of_a_reluctance_motor);
+    RUN_TEST(test_look_in_noise);
     RUN_TEST(test_map_of_a_constant_inductance_is_flat);
     RUN_TEST(test_map_shows_saturation);
     RUN_TEST(test_crossed_axes_are_put_right);

@@ -17,9 +17,9 @@ typedef struct {
 } swung_t;
 
 /* A winding; what is asked for at a sample acts from the next one to the one after. */
-static swung_t swing(double l_H, double r_Ohm, float noise_A)
+static swung_t swing_of(double l_H, double r_Ohm, float noise_A, unsigned seed)
 {
-    support_random_t  random_state = {17u};
+    support_random_t  random_state = {seed};
     commission_wave_t w;
     swung_t           out    = {0.0, 0.0, 0, false};
     double            i_A    = 0.0;
@@ -39,6 +39,11 @@ static swung_t swing(double l_H, double r_Ohm, float noise_A)
     out.half_waves = w.halves;
     out.found      = w.found;
     return out;
+}
+
+static swung_t swing(double l_H, double r_Ohm, float noise_A)
+{
+    return swing_of(l_H, r_Ohm, noise_A, 17u);
 }
 
 void setUp(void) {}
@@ -62,6 +67,32 @@ static void test_noise_adds_no_more_than_itself(void)
     for (double l_H = 0.003; l_H < 0.9; l_H *= 1.37) {
         TEST_ASSERT_TRUE(swing(l_H, 0.5, 0.05f).peak_A <= (BOUND_A + 0.3));
     }
+}
+
+/* The noise is a 14th of the bound, as of 3 A and 10 mA in LOOK. Its peaks end half waves. */
+static void test_a_noise_peak_does_not_end_the_search(void)
+{
+    for (unsigned seed = 1u; seed <= 400u; seed++) {
+        const swung_t s = swing_of(0.1, 0.5, 1.0f, seed);
+
+        TEST_ASSERT_TRUE(s.found);
+        TEST_ASSERT_TRUE(s.peak_A > (0.3 * BOUND_A));
+        TEST_ASSERT_TRUE(s.half_waves > 40);
+    }
+}
+
+/* An amplitude that does not move the current is searched again. */
+static void test_an_amplitude_that_is_too_small_grows_again(void)
+{
+    commission_wave_t w;
+    commission_wave_start(&w, (float)BOUND_A);
+    w.v_V    = 1.0f;
+    w.found  = true;
+    w.halves = 7;
+    for (int k = 0; k < TICKS; k++) {
+        (void)commission_wave_tick(&w, 0.0f, 0.0f, LINK_V);
+    }
+    TEST_ASSERT_TRUE(w.v_V > (0.4f * LINK_V));
 }
 
 static void test_mean_current_is_small(void)
@@ -97,6 +128,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_current_never_exceeds_its_bound);
     RUN_TEST(test_noise_adds_no_more_than_itself);
+    RUN_TEST(test_a_noise_peak_does_not_end_the_search);
+    RUN_TEST(test_an_amplitude_that_is_too_small_grows_again);
     RUN_TEST(test_mean_current_is_small);
     RUN_TEST(test_a_resistive_winding_swings_too);
     RUN_TEST(test_height_is_within_its_share_of_the_dc_link);
