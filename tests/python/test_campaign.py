@@ -6,6 +6,8 @@ from __future__ import annotations
 import csv
 import json
 import os
+import resource
+import shutil
 import signal
 import subprocess
 import sys
@@ -16,12 +18,16 @@ from typing import Any, Dict, List
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
+from distributed import Client
+from distributed.security import Security
 from test_sdre import SCENARIOS, SHIPPED, TOOLS
 
 import sdre
 from sdre.scenario import changed
 from sdre_campaign.batch import run_batch
+from sdre_campaign.cluster import connected
 from sdre_campaign.draw import even_numbers
+from sdre_campaign.parts import Directory
 from sdre_campaign.spec import read_spec
 from sdre_campaign.summary import summarise
 
@@ -112,7 +118,7 @@ def test_killed_client_loses_and_repeats_nothing_that_was_written(
     client.send_signal(signal.SIGKILL)
     client.wait()
     (out / "parts" / ".part-000011.parquet.tmp").write_bytes(b"half a part")
-    before = {path: path.stat().st_mtime_ns for path in (out / "parts").glob("part-*")}
+    before = {path: path.stat().st_mtime_ns for path in (out / "parts").glob("part-*.parquet")}
     assert 2 <= len(before) < 12
 
     assert "--resume goes on" in campaign(spec, "--out", out, exit_code=1)
@@ -171,6 +177,68 @@ def test_cluster_of_others_writes_the_same_bytes(whole: Path, tmp_path: Path) ->
         )
 
     assert parts(tmp_path / "out") == parts(whole)
+
+
+def test_local_scheduler_runs_nothing_of_strangers() -> None:
+    with connected(None, 1) as client:
+        address = client.scheduler.address
+        assert client.submit(sum, (1, 2)).result() == 3
+        for secret in (None, Security.temporary()):
+            stranger = address if secret else address.replace("tls:", "tcp:")
+            with pytest.raises(OSError):
+                Client(stranger, security=secret, timeout=5)
+
+
+def test_part_that_has_changed_is_computed_again(whole: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    shutil.copytree(whole, out)
+    spec = read_spec(write_spec(tmp_path))
+    with Directory(out, spec, resume=True) as directory:
+        assert directory.missing() == []
+        part = out / "parts/part-000003.parquet"
+        octets = part.read_bytes()
+        for bit in range(
+            0, 8 * len(octets), 61
+        ):  # a prime: every part of the file, every bit of an octet
+            changed_octets = bytearray(octets)
+            changed_octets[bit // 8] ^= 1 << bit % 8
+            part.write_bytes(changed_octets)
+            assert directory.missing() == [3], bit
+        with pytest.raises(sdre.InputError, match="part-000003.*is damaged"):
+            list(directory.tables())
+        (out / "sums/part-000005.sha256").unlink()
+        assert directory.missing() == [3, 5]
+    campaign(tmp_path / "short.toml", "--out", out, "--workers", 1, "--resume")
+    assert parts(out) == parts(whole)
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "\x00", '{"digest": 3}'])
+def test_damaged_campaign_file_is_one_clear_line(whole: Path, tmp_path: Path, text: str) -> None:
+    out = tmp_path / "out"
+    shutil.copytree(whole, out)
+    (out / "campaign.json").write_text(text)
+    said = campaign(
+        write_spec(tmp_path), "--out", out, "--workers", 1, "--resume", exit_code=1
+    ).strip()
+    assert len(said.splitlines()) == 1 and str(out) in said
+    assert parts(out) == parts(whole)
+
+
+def test_full_disk_is_one_clear_line(whole: Path, tmp_path: Path) -> None:
+    spec, out = write_spec(tmp_path), tmp_path / "out"
+    most = 3000  # octets of a file; campaign.json has fewer, a part has more
+    done = subprocess.run(
+        command(spec, "--out", out, "--workers", 1),
+        capture_output=True,
+        text=True,
+        timeout=300,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)),
+    )
+    assert done.returncode == 1
+    assert len(done.stderr.splitlines()) == 1 and "cannot be written" in done.stderr, done.stderr
+    assert not list((out / "parts").glob("*.parquet"))
+    campaign(spec, "--out", out, "--workers", 1, "--resume")
+    assert parts(out) == parts(whole)
 
 
 def test_no_scheduler_is_one_clear_line(tmp_path: Path) -> None:
@@ -409,7 +477,7 @@ def test_killed_scheduler_ends_the_client_and_loses_nothing_that_was_written(
     assert client.returncode == 1 and said.strip().splitlines()[-1].endswith("--resume goes on"), (
         said
     )
-    before = {path: path.stat().st_mtime_ns for path in (out / "parts").glob("part-*")}
+    before = {path: path.stat().st_mtime_ns for path in (out / "parts").glob("part-*.parquet")}
     campaign(spec, "--out", out, "--workers", 1, "--resume")
     assert parts(out) == parts(whole)
     assert {path: path.stat().st_mtime_ns for path in before} == before

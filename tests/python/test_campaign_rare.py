@@ -302,8 +302,12 @@ def test_what_nothing_leads_to_is_said_to_be_unknown(tmp_path: Path) -> None:
     """The current's margin is the noise's alone; a floor that is reached ends the search."""
     text = RARE_SHORT.replace("[0.6, 1.0]", "[0.9, 1.0]").replace("repeats = 2", "repeats = 1")
     stuck, floor = tmp_path / "stuck", tmp_path / "floor"
+    one_motor = text.replace('"speed"', '"current"')
+    for bounds, point in (("0.9, 1.0", 0.95), ("1.1, 1.4", 1.2), ("0.5, 0.7", 0.6)):
+        assert bounds in one_motor
+        one_motor = one_motor.replace(bounds, f"{point}, {point + 1e-6}")
     said = campaign(
-        write_spec(stuck, text.replace('"speed"', '"current"')),
+        write_spec(stuck, one_motor),
         "--out",
         stuck / "out",
         "--workers",

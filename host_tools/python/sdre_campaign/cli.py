@@ -40,7 +40,7 @@ def campaign(
         0, min=0, help="processes of the local cluster [default: one for each core]"
     ),
     scheduler: Optional[str] = typer.Option(
-        None, help="tcp://HOST:PORT of a Dask scheduler instead"
+        None, help="address of a Dask scheduler instead, such as tls://HOST:PORT"
     ),
     cases: Optional[int] = typer.Option(None, min=1, max=MOST_CASES, help="instead of the file's"),
 ) -> None:
@@ -141,6 +141,8 @@ def main() -> None:
         sys.exit(_say(str(error), EXIT_BAD_INPUT if isinstance(error, sdre.InputError) else 2))
     except ClusterError as error:
         sys.exit(_say(f"{error}; --resume goes on", EXIT_BAD_INPUT))
+    except OSError as error:  # a full disk, a directory that is gone
+        sys.exit(_say(str(error), EXIT_BAD_INPUT))
 
 
 def _say(line: str, code: int) -> int:

@@ -13,7 +13,9 @@ import dask
 from distributed import Client, LocalCluster, as_completed
 from distributed.client import FutureCancelledError
 from distributed.scheduler import KilledWorker
+from distributed.security import Security
 
+import sdre
 from sdre_campaign.batch import Done
 from sdre_campaign.spec import Spec
 
@@ -38,7 +40,8 @@ _PATIENCE = {
 
 @contextmanager
 def connected(scheduler: Optional[str], workers: int) -> Iterator[Client]:
-    """A client of a scheduler, or of a local cluster of processes with one thread each."""
+    """A client of a scheduler, or of a local cluster of processes with one thread each. A scheduler
+    runs what it is given. The local one accepts TLS with a certificate of this run alone."""
     if scheduler is not None:
         with _client(scheduler) as client:
             yield client
@@ -50,6 +53,7 @@ def connected(scheduler: Optional[str], workers: int) -> Iterator[Client]:
             processes=True,
             dashboard_address="127.0.0.1:0",
             memory_limit=0,
+            security=Security.temporary(),
             silence_logs=logging.CRITICAL,
         )
         client = Client(cluster)
@@ -83,6 +87,14 @@ def run_tasks(
     todo = iter(tasks)
     running: Any = as_completed()
 
+    def keeping(result: Done) -> None:
+        try:
+            keep(result)
+        except OSError as error:  # not the cluster's
+            raise sdre.InputError(
+                f"a result cannot be written: {error}; --resume goes on"
+            ) from error
+
     def submit(count: int) -> None:
         for task in itertools.islice(todo, count):
             running.add(client.submit(work, spec, task, pure=False))
@@ -91,7 +103,7 @@ def run_tasks(
     submit(threads * (1 + _AHEAD))
     try:
         for future in running:
-            keep(future.result())
+            keeping(future.result())
             now = max(1, sum(client.nthreads().values()))  # workers come and go
             submit(1 + max(0, now - threads) * (1 + _AHEAD))
             threads = max(threads, now)
