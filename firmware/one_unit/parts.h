@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file parts.h
- * @brief Modules of the tick with one caller each, collected in one translation unit of an image.
+ * @brief Modules of the tick with one caller each, collected in one translation unit.
  *
  * The compiler then inlines each module, which saves calls and arguments: a quarter of the tick
- * (docs/hardware.md, "Cycle budget"). It omits modules that the unit does not call. Hosts and tests
- * compile every file of firmware/control separately; test unit.one_unit shows equal results.
+ * (docs/hardware.md, "Cycle budget"). It omits modules that the unit does not call. A host
+ * without sanitizers compiles these units too. With sanitizers every file of firmware/control is
+ * compiled separately. The tests of the tick and of the laws run with both.
  */
 #ifndef PARTS_H
 #define PARTS_H

@@ -4,24 +4,7 @@
 #include <cmath>
 
 namespace sdre {
-namespace {
-
-/// The finaliser of splitmix64: neighbouring seeds end up far apart.
-std::uint64_t mix(std::uint64_t z)
-{
-    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebULL;
-    return z ^ (z >> 31U);
-}
-
-// The step of splitmix64: its sequence is mix(seed + n step).
-constexpr std::uint64_t step = 0x9e3779b97f4a7c15ULL;
-
-} // namespace
-
-Uniform::Uniform(std::uint64_t seed, std::uint64_t stream) : generator_(mix(seed + step * stream))
-{
-}
+Uniform::Uniform(std::uint64_t seed, std::uint64_t stream) : generator_(splitmix(seed, stream)) {}
 
 double Uniform::next(double lo, double hi)
 {
@@ -30,10 +13,9 @@ double Uniform::next(double lo, double hi)
     return lo + (hi - lo) * share;
 }
 
-double even_number(std::uint64_t seed, NoiseStream stream, std::uint64_t index)
+EvenNumbers::EvenNumbers(std::uint64_t seed, NoiseStream stream)
+    : begin_(splitmix(seed, static_cast<std::uint64_t>(stream)))
 {
-    const std::uint64_t begin = mix(seed + step * static_cast<std::uint64_t>(stream));
-    return static_cast<double>(mix(begin + step * (index + 1U)) >> 11U) * 0x1p-52 - 1.0;
 }
 
 Noise::Noise(std::uint64_t seed, NoiseStream stream)

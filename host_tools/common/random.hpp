@@ -11,6 +11,15 @@ namespace sdre {
 /// another.
 enum class NoiseStream : std::uint64_t { adc_a = 1, adc_b = 2, encoder_disc = 3, start_angle = 4 };
 
+/// Number n of the sequence splitmix64: neighbouring seeds end up far apart.
+inline std::uint64_t splitmix(std::uint64_t seed, std::uint64_t n)
+{
+    std::uint64_t z = seed + 0x9e3779b97f4a7c15ULL * n;
+    z               = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9ULL;
+    z               = (z ^ (z >> 27U)) * 0x94d049bb133111ebULL;
+    return z ^ (z >> 31U);
+}
+
 /// Evenly distributed numbers, a sequence per seed and stream.
 class Uniform {
 public:
@@ -24,7 +33,18 @@ private:
 };
 
 /// An evenly distributed number of -1 .. 1 for every index, without a generator's state.
-double even_number(std::uint64_t seed, NoiseStream stream, std::uint64_t index);
+class EvenNumbers {
+public:
+    EvenNumbers(std::uint64_t seed, NoiseStream stream);
+
+    double at(std::uint64_t index) const
+    {
+        return static_cast<double>(splitmix(begin_, index + 1U) >> 11U) * 0x1p-52 - 1.0;
+    }
+
+private:
+    std::uint64_t begin_;
+};
 
 /// Gaussian numbers: std::mt19937_64, whose sequence the standard fixes, and Box-Muller.
 class Noise {

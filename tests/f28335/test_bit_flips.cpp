@@ -125,7 +125,8 @@ TEST(BitFlips, NoneLeadsToTooMuchCurrentUnnoticed)
     int         trips = 0, missed = 0, crashed = 0;
     for (int n = 0; n < flips; n++) {
         const auto place = static_cast<std::size_t>(
-            (0.5 + 0.5 * even_number(7, NoiseStream::start_angle, static_cast<std::uint64_t>(n))) *
+            (0.5 +
+             0.5 * EvenNumbers(7, NoiseStream::start_angle).at(static_cast<std::uint64_t>(n))) *
             static_cast<double>(8 * bytes - 1));
         std::size_t at = place / 8;
         std::size_t r  = 0;

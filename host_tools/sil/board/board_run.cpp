@@ -185,9 +185,8 @@ BoardResult simulate_on_board(const Scenario &scenario, BoardKind kind,
         inject_faults(s, time_s, bench.period_s(), *run);
         const bool alive = run->step();
         end.ended        = !alive ? device_reset_fault : bench.runaway() ? runaway_fault : 0;
-        if (end.ended != runaway_fault) {
-            end.row.peak_current_A = bench.peak_current_A();
-        }
+        end.row.peak_current_A =
+            end.ended == runaway_fault ? instant_A(end.row) : bench.peak_current_A();
         return end;
     });
     const app_status_t status = app_status_read();

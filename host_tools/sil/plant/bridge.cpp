@@ -19,7 +19,7 @@ constexpr int most_zeros = 8;
 } // namespace
 
 Bridge::Bridge(const BridgeTiming &timing, const InverterSettings &settings, double dead_time_s)
-    : timing_(timing)
+    : timing_(timing), least_width_s_(0.01 / timing.pwm_frequency_Hz)
 {
     configure(settings, dead_time_s);
 }
@@ -43,7 +43,7 @@ void Bridge::begin_period(const bridge_t &output)
     volt_seconds_ = {};
     for (std::size_t x = 0; x < 3; x++) {
         duty_[x] = std::clamp(asked[x], settings_.duty_min, settings_.duty_max);
-        legs_[x].begin_period(timing_.period_s, dead_time_s_, dead_time_s_);
+        begin_leg(x, dead_time_s_, dead_time_s_);
         if (settings_.model == InverterModel::switched) {
             legs_[x].plan_duty(duty_[x], timing_.period_s, carrier);
         }
@@ -55,9 +55,15 @@ void Bridge::begin_period(const std::array<LegTiming, 3> &legs)
     volt_seconds_ = {};
     for (std::size_t x = 0; x < 3; x++) {
         duty_[x] = legs[x].duty;
-        legs_[x].begin_period(timing_.period_s, legs[x].rise_delay_s, legs[x].fall_delay_s);
+        begin_leg(x, legs[x].rise_delay_s, legs[x].fall_delay_s);
         legs_[x].plan(legs[x]);
     }
+}
+
+void Bridge::begin_leg(std::size_t x, double rise_delay_s, double fall_delay_s)
+{
+    legs_[x].begin_period(timing_.period_s, rise_delay_s, fall_delay_s);
+    width_s_[x] = std::max({rise_delay_s, fall_delay_s, least_width_s_});
 }
 
 bool Bridge::switched() const
@@ -135,7 +141,7 @@ void Bridge::advance_piece(const Circuit &c, double now_s, double dt_s)
 
 void Bridge::move_plant(const Circuit &c, const Terminals &t, double dt_s)
 {
-    const int floating = t.floating_count();
+    const int floating = t.any_open ? t.floating_count() : 0;
     if (floating == 0) {
         c.plant.advance(clarke(t.v_V), c.load, dt_s);
     } else if (floating == 1) {

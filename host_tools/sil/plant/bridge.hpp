@@ -99,6 +99,7 @@ private:
         int    dying; ///< that phase, -1: none
     };
 
+    void      begin_leg(std::size_t x, double rise_delay_s, double fall_delay_s);
     bool      switched() const;
     double    next_event_s(double now_s, double to_s);
     void      advance_piece(const Circuit &c, double now_s, double dt_s);
@@ -117,9 +118,11 @@ private:
     void  apply(const Circuit &c, const Terminals &t, double dt_s);
 
     BridgeTiming          timing_;
+    double                least_width_s_; ///< with drops alone: a hundredth of the period
     InverterSettings      settings_;
     double                dead_time_s_ = 0.0;
     std::array<double, 3> duty_{};
+    std::array<double, 3> width_s_{}; ///< EQ-INVERTER-4: T_d, the longer one
     std::array<bool, 3>   enabled_{true, true, true};
     bool rising_half_ = true; ///< with half_periods: the carrier runs down, switches close
     std::array<Leg, 3>    legs_{};

@@ -7,11 +7,8 @@ namespace sdre {
 
 void Bridge::average_leg(Terminals &t, std::size_t x, double current_A, double dc_link_V) const
 {
-    const Leg &leg = legs_[x];
-    // EQ-INVERTER-4; with drops alone the width is that of a hundredth of the period.
-    const double width_s =
-        std::max({leg.rise_delay_s(), leg.fall_delay_s(), 0.01 / timing_.pwm_frequency_Hz});
-    const double width_A = width_s * dc_link_V / timing_.inductance_H;
+    const Leg   &leg     = legs_[x];
+    const double width_A = width_s_[x] * dc_link_V / timing_.inductance_H; // EQ-INVERTER-4
     const double sign    = std::clamp(current_A / width_A, -1.0, 1.0);
     const bool   edges   = duty_[x] > 0.0 && duty_[x] < 1.0;
     // Outwards the upper switch comes late, inwards the lower one.

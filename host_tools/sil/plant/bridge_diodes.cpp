@@ -82,7 +82,11 @@ void Bridge::place_diodes(const Circuit &c, Terminals &t, const std::array<doubl
             place(t, x, diode_[x], 0.0, dc_link_V);
         }
     }
-    if (t.floating_count() > 1) {
+    const int floating = t.floating_count();
+    if (floating == 0) {
+        return;
+    }
+    if (floating > 1) {
         place_by_emf(c, t);
     }
     for (std::size_t x = 0; t.floating_count() == 1 && x < 3; x++) {

@@ -115,6 +115,8 @@ private:
     void move_two_masses(const Voltage &voltage, const ShaftLoad &load, double dt_s);
     template <typename Voltage>
     void        move(const Voltage &voltage, const ShaftLoad &load, double dt_s);
+    bool        advance_by_series(RotorVector v_V, const ShaftLoad &load, double dt_s);
+    void        end_step(double dt_s);
     RotorVector inductances_H(RotorVector i) const;
     double floating_V(const MotorState &x, RotorVector i, RotorVector v_V, RotorVector axis) const;
     void   renew();

@@ -19,13 +19,11 @@ inline Rotation rotation_by(double angle_rad)
     return {std::cos(angle_rad), std::sin(angle_rad)};
 }
 
-/// Taylor to the 7th power. Its error at the bound is 0.1^8 / 8! = 2.5e-13; beyond it the library is asked.
-inline Rotation small_rotation(double x)
+constexpr double series_bound_rad = 0.1;
+
+/// Taylor to the 7th power. Its error at the bound is 0.1^8 / 8! = 2.5e-13.
+inline Rotation series_rotation(double x)
 {
-    constexpr double bound_rad = 0.1;
-    if (std::abs(x) > bound_rad) {
-        return rotation_by(x);
-    }
     constexpr double c2 = 1.0 / 2.0;
     constexpr double c3 = 1.0 / 6.0;
     constexpr double c4 = 1.0 / 24.0;
@@ -34,6 +32,12 @@ inline Rotation small_rotation(double x)
     constexpr double c7 = 1.0 / 5040.0;
     const double     y  = x * x;
     return {1.0 - y * (c2 - y * (c4 - y * c6)), x * (1.0 - y * (c3 - y * (c5 - y * c7)))};
+}
+
+/// Beyond the bound of the series the library is asked.
+inline Rotation small_rotation(double x)
+{
+    return std::abs(x) > series_bound_rad ? rotation_by(x) : series_rotation(x);
 }
 
 /// One rotation after another. One Newton step of 1/sqrt keeps the length at one over many of them.

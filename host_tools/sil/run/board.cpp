@@ -41,6 +41,7 @@ Board::Board(const Scenario &s)
       bridge_(timing_of(s), s.inverter, dead_time_of(s.sensors, s.inverter, s.drive)),
       dc_link_(s.inverter, s.dc_link_V),
       encoder_(s.sensors, s.drive.encoder.lines, s.drive.motor.pole_pairs, period_s_, s.seed),
+      channel_a_(channel_a(s.sensors)), channel_b_(channel_b(s.sensors)),
       noise_a_(s.seed, NoiseStream::adc_a), noise_b_(s.seed, NoiseStream::adc_b),
       load_(s.load_torque, s.load_ramps, s.load_sine), brake_(s.load_brake),
       first_dead_time_s_(dead_time_of(s.sensors, s.inverter, s.drive)), faults_(s.faults)
@@ -92,7 +93,9 @@ void Board::update_motor()
 void Board::apply(const PlantChange &change)
 {
     if (change.sensors) {
-        sensors_ = *change.sensors;
+        sensors_   = *change.sensors;
+        channel_a_ = channel_a(sensors_);
+        channel_b_ = channel_b(sensors_);
         encoder_.configure(sensors_);
     }
     encoder_.lose(change.lost_counts);
@@ -194,21 +197,19 @@ drive_sample_t Board::measured_sample()
         return ideal_sample();
     }
     const PhaseVector i = plant_.phase_current_A();
-    const AdcChannel  a = channel_a(sensors_);
-    const AdcChannel  b = channel_b(sensors_);
     drive_sample_t    s{};
     const double      ia_A = faults_.sensed_A(0, i.a) + glitch_.ia_A;
     const double      ib_A = faults_.sensed_A(1, i.b) + glitch_.ib_A;
-    s.ia_A                 = static_cast<float>(adc_current_A(a, adc_code(a, ia_A, noise_a_)));
-    s.ib_A                 = static_cast<float>(adc_current_A(b, adc_code(b, ib_A, noise_b_)));
-    s.dc_link_V            = static_cast<float>(dc_link_.voltage_V());
-    s.theta_e_rad          = static_cast<float>(position.theta_e_rad);
-    s.band_rad             = static_cast<float>(position.band_e_rad);
-    s.edge_gap_s           = static_cast<float>(position.edge_gap_s);
-    s.edge_age_s           = static_cast<float>(position.edge_age_s);
-    s.edge_of_line         = static_cast<std::int16_t>(position.edge_of_line);
-    s.omega_e_radps        = static_cast<float>(position.omega_e_radps);
-    s.valid                = true;
+    s.ia_A = static_cast<float>(adc_current_A(channel_a_, adc_code(channel_a_, ia_A, noise_a_)));
+    s.ib_A = static_cast<float>(adc_current_A(channel_b_, adc_code(channel_b_, ib_A, noise_b_)));
+    s.dc_link_V     = static_cast<float>(dc_link_.voltage_V());
+    s.theta_e_rad   = static_cast<float>(position.theta_e_rad);
+    s.band_rad      = static_cast<float>(position.band_e_rad);
+    s.edge_gap_s    = static_cast<float>(position.edge_gap_s);
+    s.edge_age_s    = static_cast<float>(position.edge_age_s);
+    s.edge_of_line  = static_cast<std::int16_t>(position.edge_of_line);
+    s.omega_e_radps = static_cast<float>(position.omega_e_radps);
+    s.valid         = true;
     return s;
 }
 
@@ -228,11 +229,11 @@ RawSample Board::raw_sample()
     plant_.path().restart();
     const PhaseVector i = plant_.phase_current_A();
     RawSample         s;
-    s.ia_code   = adc_code(channel_a(sensors_), faults_.sensed_A(0, i.a) + glitch_.ia_A, noise_a_);
-    s.ib_code   = adc_code(channel_b(sensors_), faults_.sensed_A(1, i.b) + glitch_.ib_A, noise_b_);
-    s.dc_link_V = dc_link_.voltage_V();
-    s.count     = position.raw_count;
-    s.index     = position.index && faults_.active(FaultKind::index_missing) == nullptr;
+    s.ia_code     = adc_code(channel_a_, faults_.sensed_A(0, i.a) + glitch_.ia_A, noise_a_);
+    s.ib_code     = adc_code(channel_b_, faults_.sensed_A(1, i.b) + glitch_.ib_A, noise_b_);
+    s.dc_link_V   = dc_link_.voltage_V();
+    s.count       = position.raw_count;
+    s.index       = position.index && faults_.active(FaultKind::index_missing) == nullptr;
     s.index_count = position.index_count;
     return s;
 }

@@ -114,6 +114,8 @@ private:
     DcLink                   dc_link_;
     QuadratureEncoder        encoder_;
     std::vector<EncoderEdge> edges_;
+    AdcChannel               channel_a_;
+    AdcChannel               channel_b_;
     Noise                    noise_a_;
     Noise                    noise_b_;
     LoadProfile              load_;

@@ -40,7 +40,8 @@ TickEnd Simulation::step(double omega_ref_e_radps)
     in_force_.gate_enable = in_force_.gate_enable && core_tick_.output.gate_enable; // off at once
     board_.run_period(in_force_);
     if (board_.runaway()) {
-        end.ended = runaway_fault; // the currents of this period may be no numbers
+        end.ended              = runaway_fault; // the currents of this period may be no numbers
+        end.row.peak_current_A = instant_A(end.row);
     } else {
         end.row.peak_current_A = board_.peak_current_A();
     }

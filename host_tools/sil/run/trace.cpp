@@ -28,18 +28,6 @@ double sensor_offset_A(const nodo_harmonic_gains_t &g, const nodo_harmonic_t &st
     return 0.0;
 }
 
-std::array<double, 3> phase_currents_A(const PlantState &plant)
-{
-    const double          third = 2.0 * std::acos(-1.0) / 3.0;
-    std::array<double, 3> out{};
-    for (int phase = 0; phase < 3; phase++) {
-        const double angle = plant.theta_e_rad - third * phase;
-        out[static_cast<std::size_t>(phase)] =
-            plant.current_A.d * std::cos(angle) - plant.current_A.q * std::sin(angle);
-    }
-    return out;
-}
-
 /// Columns of a single law.
 void add_law(TraceRow &row, const drive_t &drive)
 {
@@ -56,6 +44,13 @@ void add_law(TraceRow &row, const drive_t &drive)
 
 } // namespace
 
+double TraceRow::phase_A(int phase) const
+{
+    const double third = 2.0 * std::acos(-1.0) / 3.0;
+    const double angle = theta_e_rad - third * phase;
+    return id_A * std::cos(angle) - iq_A * std::sin(angle);
+}
+
 TraceRow row_of(double time_s, double omega_ref_e_radps, const PlantState &plant)
 {
     TraceRow row;
@@ -67,10 +62,14 @@ TraceRow row_of(double time_s, double omega_ref_e_radps, const PlantState &plant
     row.load_torque_Nm    = plant.load_Nm;
     row.torque_Nm         = plant.torque_Nm;
     row.dc_link_V         = plant.dc_link_V;
+    row.theta_e_rad       = plant.theta_e_rad;
     row.position_e_rad    = plant.theta_e_rad;
-    row.phase_A           = phase_currents_A(plant);
-    row.peak_current_A    = std::hypot(plant.current_A.d, plant.current_A.q);
     return row;
+}
+
+double instant_A(const TraceRow &row)
+{
+    return std::hypot(row.id_A, row.iq_A);
 }
 
 void add_drive(TraceRow &row, const drive_t &drive)

@@ -2,7 +2,6 @@
 /// The record of a run: one row per control period.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "common/large_memory.hpp"
@@ -29,19 +28,22 @@ struct TraceRow {
     double load_torque_Nm      = 0.0;
     double torque_Nm           = 0.0;
     double dc_link_V           = 0.0;
-    std::array<double, 3> phase_A{}; ///< a, b, c
-    double                position_e_rad =
-        0.0; ///< of the shaft, not wrapped; in a run to positions from the first sample
-    double position_ref_e_rad =
-        0.0;                     ///< the core's reference, the same; the shaft's own in a speed run
-    double peak_current_A = 0.0; ///< largest |i| from this instant to the next
+    double theta_e_rad         = 0.0; ///< of the shaft, not wrapped
+    double position_e_rad      = 0.0; ///< the same; in a run to positions from the first sample
+    double position_ref_e_rad  = 0.0; ///< the core's reference; the shaft's own in a speed run
+    double peak_current_A      = 0.0; ///< largest |i| from this instant to the next
+
+    /// Current of phase 0 .. 2: from the others of the row, because few runs ask for it.
+    double phase_A(int phase) const;
 };
 
 /// The rows of a whole run, of any length.
 using Trace = std::vector<TraceRow, LargeAllocator<TraceRow>>;
 
-/// The plant's part of a row; the peak is that of the instant.
+/// The plant's part of a row, without the peak.
 TraceRow row_of(double time_s, double omega_ref_e_radps, const PlantState &plant);
+/// |i| at the instant of a row.
+double instant_A(const TraceRow &row);
 /// The drive's part of a row: references, voltages, estimated disturbances.
 void add_drive(TraceRow &row, const drive_t &drive);
 

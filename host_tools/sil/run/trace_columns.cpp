@@ -9,9 +9,9 @@ template <double TraceRow::*Value> double value(const TraceRow &row)
     return row.*Value;
 }
 
-template <std::size_t Phase> double phase_A(const TraceRow &row)
+template <int Phase> double phase_A(const TraceRow &row)
 {
-    return row.phase_A[Phase];
+    return row.phase_A(Phase);
 }
 
 } // namespace

@@ -29,13 +29,14 @@ void QuadratureEncoder::configure(const SensorSettings &settings)
 {
     settings_        = settings;
     counts_per_turn_ = 4 * static_cast<std::int64_t>(settings.encoder_lines.value_or(drive_lines_));
+    offset_rad_      = settings.encoder_offset_e_rad / pole_pairs_;
     disc_            = EncoderDisc(settings.encoder_disc, counts_per_turn_, seed_);
 }
 
 double QuadratureEncoder::shaft_turns(double theta_e_rad) const
 {
     const double theta_m = theta_e_rad / pole_pairs_; // EQ-ENCODER-1
-    double       shaft   = theta_m + settings_.encoder_offset_e_rad / pole_pairs_;
+    double       shaft   = theta_m + offset_rad_;
     if (settings_.encoder_eccentricity_rad != 0.0) {
         shaft += settings_.encoder_eccentricity_rad * std::sin(theta_m);
     }
@@ -102,33 +103,40 @@ double QuadratureEncoder::edge_time_s(const PathPiece &piece, std::int64_t edge)
         zero_of(piece, [&](double share) { return position_cnt(piece.theta_e_rad(share)) - at; }));
 }
 
+/// The last edge of a path: the count before it and its time; the end of the path before where only the counter jumps.
+QuadratureEncoder::Jump QuadratureEncoder::last_jump(const ShaftPath &path, std::int64_t now) const
+{
+    const std::vector<ShaftPath::Point> &points = path.points();
+    for (std::size_t n = points.size() - 1; n > 0; n--) {
+        const StepPieces pieces = pieces_of(points[n - 1], points[n]);
+        for (std::size_t m = pieces.count; m > 0; m--) {
+            const PathPiece   &piece  = pieces.piece[m - 1];
+            const std::int64_t begins = count_at(piece.theta_e_rad(piece.from));
+            if (begins != now) {
+                return {begins, edge_time_s(piece, begins < now ? now : now + 1)};
+            }
+        }
+    }
+    return {true_before_, 0.0};
+}
+
 /// The last edge that the shaft has passed and the speed from there to the one noted before.
 void QuadratureEncoder::note_last_edge(const ShaftPath &path, std::int64_t now)
 {
-    const double per_count = pole_pairs_ * two_pi / static_cast<double>(counts_per_turn_);
-    const std::vector<PathPiece> pieces      = pieces_of(path);
-    const double                 beginning_s = edge_age_s_;
+    const double per_count   = pole_pairs_ * two_pi / static_cast<double>(counts_per_turn_);
+    const double beginning_s = edge_age_s_;
     edge_age_s_ += path.duration_s();
-    double       passed_s = 0.0; // where the counter jumps
-    std::int64_t from     = true_before_;
-    for (auto p = pieces.rbegin(); p != pieces.rend(); ++p) {
-        const std::int64_t begins = count_at(p->theta_e_rad(p->from));
-        if (begins != now) {
-            from     = begins;
-            passed_s = edge_time_s(*p, begins < now ? now : now + 1);
-            break;
-        }
-    }
-    const double since_s = beginning_s + passed_s; // the edge before
-    if (from == now || since_s <= 0.0) {
+    const Jump   jump    = last_jump(path, now);
+    const double since_s = beginning_s + jump.time_s; // the edge before
+    if (jump.from == now || since_s <= 0.0) {
         const double most = per_count / edge_age_s_;
         edge_speed_       = std::clamp(edge_speed_, -most, most);
         return;
     }
-    const std::int64_t edge = from < now ? now : now + 1;
+    const std::int64_t edge = jump.from < now ? now : now + 1;
     edge_speed_ = per_count * static_cast<double>(edge - edge_) / since_s; // EQ-ENCODER-5
     edge_       = edge;
-    edge_age_s_ = path.duration_s() - passed_s;
+    edge_age_s_ = path.duration_s() - jump.time_s;
 }
 
 void QuadratureEncoder::list_edges(const ShaftPath &path, std::vector<EncoderEdge> &edges) const
@@ -144,9 +152,13 @@ void QuadratureEncoder::list_edges(const ShaftPath &path, std::vector<EncoderEdg
             edges.push_back({time_s, count - lost_for_good_, direction});
         }
     };
-    step(count_at(path.points().front().theta_e_rad), nullptr);
-    for (const PathPiece &piece : pieces_of(path)) {
-        step(count_at(piece.theta_e_rad(piece.to)), &piece);
+    const std::vector<ShaftPath::Point> &points = path.points();
+    step(count_at(points.front().theta_e_rad), nullptr);
+    for (std::size_t n = 1; n < points.size(); n++) {
+        const StepPieces pieces = pieces_of(points[n - 1], points[n]);
+        for (std::size_t m = 0; m < pieces.count; m++) {
+            step(count_at(pieces.piece[m].theta_e_rad(pieces.piece[m].to)), &pieces.piece[m]);
+        }
     }
 }
 

@@ -73,6 +73,10 @@ public:
     Reading read(double theta_e_rad, double omega_e_radps = 0.0);
 
 private:
+    struct Jump {
+        std::int64_t from;
+        double       time_s;
+    };
     double           shaft_turns(double theta_e_rad) const;
     std::int64_t     count_at(double theta_e_rad) const;
     std::int64_t     turn_of(std::int64_t count) const;
@@ -81,6 +85,7 @@ private:
     void             note_index(std::int64_t now, Reading &r) const;
     double           position_cnt(double theta_e_rad) const;
     double           edge_time_s(const PathPiece &piece, std::int64_t edge) const;
+    Jump             last_jump(const ShaftPath &path, std::int64_t now) const;
     void             note_last_edge(const ShaftPath &path, std::int64_t now);
     void             list_edges(const ShaftPath &path, std::vector<EncoderEdge> &edges) const;
     void             read_counts(Reading &r, std::int64_t now);
@@ -92,6 +97,7 @@ private:
     double         period_s_;
     std::uint64_t  seed_;
     std::int64_t   counts_per_turn_ = 0;
+    double         offset_rad_      = 0.0; ///< of the disc on the shaft
     EncoderDisc    disc_{{}, 4, 1};
     std::int64_t   before_        = 0;
     std::int64_t   lost_          = 0;

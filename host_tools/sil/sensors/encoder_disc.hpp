@@ -8,8 +8,10 @@
 /// gaps by duty. The numbers u(n) are evenly distributed, with mean 0 and standard deviation 1.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
+#include "common/random.hpp"
 #include "sil/setup/board_settings.hpp"
 
 namespace sdre {
@@ -27,8 +29,11 @@ public:
 private:
     EncoderDiscSettings settings_;
     std::int64_t        counts_per_turn_;
-    std::uint64_t       seed_;
-    bool                perfect_;
+    // In the order of a line: A rises, B rises, A falls, B falls.
+    std::array<double, 4> track_cnt_;
+    std::array<double, 4> pulse_cnt_;
+    EvenNumbers           jitter_;
+    bool                  perfect_;
 };
 
 } // namespace sdre

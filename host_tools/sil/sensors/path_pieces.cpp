@@ -1,48 +1,49 @@
 // SPDX-License-Identifier: MIT
 #include "sil/sensors/path_pieces.hpp"
 
-#include <algorithm>
-#include <array>
+#include <utility>
 
 namespace sdre {
 namespace {
 
 /// Where the shaft turns around inside a step: at most two places, in order.
-std::vector<double> turns_of(const Slope &f)
+struct Turns {
+    std::array<double, 2> at;
+    std::size_t           count = 0;
+};
+
+Turns turns_of(const Slope &f)
 {
-    std::vector<double> found;
-    const double        root2 = f.b * f.b - 4.0 * f.a * f.c;
+    Turns        found;
+    const double root2 = f.b * f.b - 4.0 * f.a * f.c;
     if (root2 <= 0.0) {
         return found;
     }
     // Without cancellation: one root by the sum, the other from their product.
     const double q = -0.5 * (f.b + std::copysign(std::sqrt(root2), f.b));
-    for (const std::array<double, 2> &part : {std::array{q, f.a}, std::array{f.c, q}}) {
-        const double s = part[0] / part[1];
+    for (const double s : {q / f.a, f.c / q}) {
         if (s > 0.0 && s < 1.0) {
-            found.push_back(s);
+            found.at[found.count++] = s;
         }
     }
-    std::sort(found.begin(), found.end());
+    if (found.count == 2 && found.at[1] < found.at[0]) {
+        std::swap(found.at[0], found.at[1]);
+    }
     return found;
 }
 
 } // namespace
 
-std::vector<PathPiece> pieces_of(const ShaftPath &path)
+StepPieces pieces_of(const ShaftPath::Point &p, const ShaftPath::Point &q)
 {
-    std::vector<PathPiece> pieces;
-    const auto            &points = path.points();
-    // One for each step, and as a rule at most one place where it turns around.
-    pieces.reserve(points.size() + 1);
-    for (std::size_t n = 1; n < points.size(); n++) {
-        double from = 0.0;
-        for (const double turn : turns_of(slope_of(points[n - 1], points[n]))) {
-            pieces.push_back({points[n - 1], points[n], from, turn});
-            from = turn;
-        }
-        pieces.push_back({points[n - 1], points[n], from, 1.0});
+    StepPieces  pieces;
+    double      from  = 0.0;
+    const Turns turns = turns_of(slope_of(p, q));
+    for (std::size_t n = 0; n < turns.count; n++) {
+        pieces.piece[pieces.count++] = {p, q, from, turns.at[n]};
+        from                         = turns.at[n];
     }
+    pieces.piece[pieces.count++] = {p, q, from, 1.0};
     return pieces;
 }
 

@@ -2,8 +2,9 @@
 /// A shaft's path cut into pieces in which it turns one way.
 #pragma once
 
+#include <array>
 #include <cmath>
-#include <vector>
+#include <cstddef>
 
 #include "sil/plant/shaft_path.hpp"
 
@@ -47,8 +48,14 @@ struct PathPiece {
     }
 };
 
-/// In the order of time.
-std::vector<PathPiece> pieces_of(const ShaftPath &path);
+/// The pieces of one step, in the order of time: the shaft turns around at most twice.
+struct StepPieces {
+    std::array<PathPiece, 3> piece;
+    std::size_t              count = 0;
+};
+
+/// Between two neighbouring points of a path.
+StepPieces pieces_of(const ShaftPath::Point &p, const ShaftPath::Point &q);
 
 /// The share of the piece at which a quantity that rises or falls over it is zero; it is not at its ends alike.
 template <typename Quantity> double zero_of(const PathPiece &piece, const Quantity &quantity)

@@ -220,7 +220,7 @@ double start_theta_e_rad(const Scenario &s)
         return s.initial_angle_e_rad.value_or(0.0);
     }
     const double half_turn = std::acos(-1.0) * s.drive.motor.pole_pairs;
-    return half_turn * even_number(s.seed, NoiseStream::start_angle, 0);
+    return half_turn * EvenNumbers(s.seed, NoiseStream::start_angle).at(0);
 }
 
 } // namespace sdre
