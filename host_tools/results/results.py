@@ -272,15 +272,30 @@ def table(experiments, recorded, name):
     return "".join("| " + " | ".join(cells) + " |\n" for cells in lines)
 
 
+def elsewhere(experiments):
+    """A Markdown table of the figures that other commands make."""
+    lines = [["figures", "command", "page"], ["---"] * 3]
+    for what, (command, link) in experiments.elsewhere.items():
+        page = link.partition("#")[0]
+        lines.append([what, f"`{command}`", f"[{page}]({link})"])
+    return "".join("| " + " | ".join(cells) + " |\n" for cells in lines)
+
+
 def pages(experiments, recorded):
     """(path, text as it is, text as it has to be)."""
     marked = re.compile(r"(<!-- results (\w+) -->\n).*?(<!-- end -->)", re.S)
+
+    def block(m):
+        name = m[2]
+        made = elsewhere(experiments) if name == "elsewhere" else table(experiments, recorded, name)
+        return f"{m[1]}\n{made}\n{m[3]}"
+
     for name in PAGES:
         text = (ROOT / name).read_text()
         yield (
             ROOT / name,
             text,
-            marked.sub(lambda m: f"{m[1]}\n{table(experiments, recorded, m[2])}\n{m[3]}", text),
+            marked.sub(block, text),
         )
 
 
@@ -350,8 +365,8 @@ def main():
     write(experiments)
     if options.what == "record":
         print("not run here:")
-        for what, command in experiments.elsewhere.items():
-            print(f"  {what}: {command}")
+        for what, (command, page) in experiments.elsewhere.items():
+            print(f"  {what}: {command}, docs/{page}")
     return 0
 
 
