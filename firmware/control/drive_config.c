@@ -11,7 +11,8 @@ static bool limits_ok(const drive_config_t *c)
            check_positive(c->trip_current_A) && (c->trip_current_A > c->current_max_A) &&
            check_positive(c->trip_speed_e_radps) && check_positive(c->speed_max_e_radps) &&
            (c->speed_max_e_radps <= c->trip_speed_e_radps) && check_positive(c->dc_link_min_V) &&
-           check_positive(c->dc_link_max_V) && (c->dc_link_max_V > c->dc_link_min_V);
+           check_positive(c->dc_link_max_V) && (c->dc_link_max_V > c->dc_link_min_V) &&
+           check_not_negative(c->hardware.dead_time_s);
 }
 
 ctl_status_t drive_config_check(const drive_config_t *c)

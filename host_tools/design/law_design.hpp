@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "design/constants_text.hpp"
 #include "design/design.hpp"
 
 namespace sdre {
@@ -20,7 +21,7 @@ struct LawDesign {
     std::string (*summary)(const Design &design); ///< lines of the comment above the tables
     /// Preprocessor conditions, of which none may hold for the control core.
     std::vector<std::string> (*mismatches)(const Design &design);
-    std::string (*table)(const Design &design); ///< the initialiser of the constants
+    Layout (*layout)(const Design &design); ///< how its arrays read in the table
 };
 
 /// That of the drive. Every drive that read_drive_file() accepts has one.

@@ -95,15 +95,4 @@ std::vector<MatrixXd> feedback_gains(const Design &d)
     return all;
 }
 
-std::string position_block(const position_gains_t &g)
-{
-    return c_block("position",
-                   nosc_block(g.nosc) + c_field("theta", c_list(g.theta, g.nosc.order + 1)) +
-                       c_field("speed_per_rad", g.speed_per_rad) + c_field("near_rad", g.near_rad) +
-                       c_block("most", c_field("speed_e_radps", g.most.speed_e_radps) +
-                                           c_field("accel_e_radps2", g.most.accel_e_radps2) +
-                                           c_field("decel_e_radps2", g.most.decel_e_radps2) +
-                                           c_field("jerk_e_radps3", g.most.jerk_e_radps3)));
-}
-
 } // namespace sdre

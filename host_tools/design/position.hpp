@@ -26,7 +26,4 @@ position_gains_t position_constants(const Design &design);
 /// it, also Lambda_0 of the position (2 x 4).
 std::vector<Eigen::MatrixXd> feedback_gains(const Design &design);
 
-/// ".position = {..},\n"
-std::string position_block(const position_gains_t &g);
-
 } // namespace sdre

@@ -17,95 +17,144 @@ template <typename Numbers> std::string listed(const Numbers &numbers)
     return s;
 }
 
+// Each structure is taken apart into all of its members. A new member does not compile until it is
+// named here, above the text that it belongs to.
+
+std::string normalised_nosc(const NoscSpec &spec)
+{
+    const auto &[order, Q, T] = spec;
+    return fmt::format("nosc;{};", order) + listed(Q) + listed(T);
+}
+
+std::string normalised_nodo(const NodoSpec &spec)
+{
+    const auto &[form, order, Q, T] = spec;
+    return fmt::format("nodo;{};{};", nodo_form_name(form), order) + listed(Q) + listed(T);
+}
+
+std::string normalised_position(const PositionSpec &spec)
+{
+    const auto &[Q, T] = spec;
+    return "position;" + listed(Q) + listed(T);
+}
+
 std::string normalised_weights(const Drive &d)
 {
-    std::string s = fmt::format("nosc;{};", d.nosc.order) + listed(d.nosc.Q) + listed(d.nosc.T) +
-                    fmt::format("nodo;{};{};", nodo_form_name(d.nodo.form), d.nodo.order) +
-                    listed(d.nodo.Q) + listed(d.nodo.T);
-    if (d.position) {
-        s += "position;" + listed(d.position->Q) + listed(d.position->T);
-    }
-    return s;
+    return normalised_nosc(d.nosc) + normalised_nodo(d.nodo) +
+           (d.position ? normalised_position(*d.position) : "");
 }
 
-std::string normalised_harmonics(const Drive &d)
+std::string normalised_harmonics(const HarmonicSpec &spec, int slots)
 {
-    const HarmonicSpec &h = d.harmonics;
-    std::string         s = fmt::format("{};", law_name(d.law));
-    for (const auto *orders : {&h.sensor, &h.voltage, &h.cogging}) {
-        s += listed(*orders) + "|";
-    }
-    return s + fmt::format("{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{};",
-                           h.sensor_weight, h.voltage_weight, h.cogging_weight,
-                           h.cogging_voltage_weight, h.slope_weight, h.weight_speed_e_radps,
-                           h.leak_1ps, d.motor.slots);
+    const auto &[sensor, voltage, cogging, sensor_weight, voltage_weight, cogging_weight,
+                 cogging_voltage_weight, slope_weight, weight_speed_e_radps, leak_1ps] = spec;
+    return listed(sensor) + "|" + listed(voltage) + "|" + listed(cogging) + "|" +
+           fmt::format("{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{};", sensor_weight,
+                       voltage_weight, cogging_weight, cogging_voltage_weight, slope_weight,
+                       weight_speed_e_radps, leak_1ps, slots);
 }
 
-std::string normalised_servo(const Drive &d)
+std::string normalised_d_axis(const DAxisSpec &spec)
 {
-    const DobcSpec &o = d.dobc;
-    std::string     s = fmt::format("{};{:.17g};{:.17g};", law_name(d.law),
-                                    d.d_axis.proportional_V_per_A, d.d_axis.integral_V_per_As);
-    if (d.law == Law::pid) {
-        return s + fmt::format("{:.17g};{:.17g};{:.17g};", d.pid.proportional_Vs_per_rad,
-                               d.pid.integral_V_per_rad, d.pid.derivative_Vs2_per_rad);
-    }
-    s += fmt::format("{};{};{:.17g};{:.17g};{:.17g};{:.17g};",
-                     o.preset == DobcPreset::printed ? "printed" : "repaired", o.polynomial_order,
-                     o.design_speed_e_radps, o.controller_pole_1ps, o.observer_pole_1ps,
-                     o.oscillator_damping_1ps);
-    return s + listed(o.harmonics_per_turn);
+    const auto &[proportional, integral] = spec;
+    return fmt::format("{:.17g};{:.17g};", proportional, integral);
 }
 
-std::string normalised_cascade(const Drive &d)
+std::string normalised_pid(const PidSpec &spec)
 {
-    const CascadeSpec &c = d.cascade;
-    return fmt::format("{};{:.17g};{:.17g};{:.17g};{:.17g};", law_name(d.law),
-                       c.current_bandwidth_Hz, c.symmetrical_optimum_a, c.controller_radps,
-                       c.observer_radps);
+    const auto &[proportional, integral, derivative] = spec;
+    return fmt::format("{:.17g};{:.17g};{:.17g};", proportional, integral, derivative);
 }
 
-std::string normalised_sensors(const Drive &d)
+std::string normalised_dobc(const DobcSpec &spec)
 {
-    const CurrentSensors   &s = d.current_sensors;
-    const BoardDescription &b = d.board;
-    std::string text = fmt::format("{:.17g};{:.17g};{};{:.17g};{:.17g};", s.range_A, s.noise_rms_A,
-                                   s.adc_bits, d.encoder.index_angle_e_rad, b.dc_link_range_V);
-    text +=
-        fmt::format("{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};", b.ntc_resistance_Ohm, b.ntc_beta_K,
-                    b.ntc_divider_Ohm, b.temperature_limit_degC, b.temperature_trip_degC);
-    text += fmt::format("{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};", b.align_current_A.value_or(0.0),
-                        b.motor_current_A.value_or(0.0), b.motor_time_constant_s,
-                        b.inverter_current_A, b.inverter_time_constant_s);
-    return text + fmt::format("{};{:.17g};{:.17g};{:.17g};", stop_reaction_name(b.stop),
-                              b.precharge_s, b.duty_max, b.pulse_min_s);
+    const auto &[preset, polynomial_order, harmonics_per_turn, design_speed, controller_pole,
+                 observer_pole, oscillator_damping] = spec;
+    return fmt::format("{};{};{:.17g};{:.17g};{:.17g};{:.17g};",
+                       preset == DobcPreset::printed ? "printed" : "repaired", polynomial_order,
+                       design_speed, controller_pole, observer_pole, oscillator_damping) +
+           listed(harmonics_per_turn);
 }
 
-std::string normalised(const Drive &d)
+std::string normalised_cascade(const CascadeSpec &spec)
 {
-    const Motor    &m = d.motor;
-    const Inverter &i = d.inverter;
-    std::string     s = fmt::format("schema={};name={};", drive_schema, d.name);
-    s += fmt::format("{};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};",
-                     m.pole_pairs, m.stator_resistance_Ohm, m.d_axis_inductance_H,
-                     m.q_axis_inductance_H, m.pm_flux_Wb, m.inertia_kgm2, m.viscous_friction_Nms,
-                     m.rated_speed_e_radps, m.rated_torque_Nm, m.max_current_A);
-    s += fmt::format("{:.17g};{:.17g};{:.17g};{};{};", i.dc_link_V, i.pwm_frequency_Hz,
-                     i.dead_time_s, i.updates_per_period, d.encoder.lines);
-    s += i.dead_time_compensation ? "compensated;" : "uncompensated;";
-    s += i.overmodulation ? "hexagon;" : "circle;";
-    s += i.regeneration != DcLinkSink::none ? fmt::format("{};", dc_link_sink_name(i.regeneration))
-                                            : "";
-    s += d.encoder.edge_times ? "edges;" : "";
-    s += normalised_sensors(d);
-    s += m.max_speed_e_radps > 0.0 ? fmt::format("{:.17g};", m.max_speed_e_radps) : "";
+    const auto &[bandwidth, optimum_a, controller, observer] = spec;
+    return fmt::format("{:.17g};{:.17g};{:.17g};{:.17g};", bandwidth, optimum_a, controller,
+                       observer);
+}
+
+/// The sections that the law reads.
+std::string normalised_law(const Drive &d)
+{
+    const std::string name = fmt::format("{};", law_name(d.law));
     if (d.law == Law::noc_h) {
-        return s + normalised_weights(d) + normalised_harmonics(d);
+        return normalised_weights(d) + name + normalised_harmonics(d.harmonics, d.motor.slots);
+    }
+    if (is_near_optimal(d.law)) {
+        return normalised_weights(d);
     }
     if (is_cascade(d.law)) {
-        return s + normalised_cascade(d);
+        return name + normalised_cascade(d.cascade);
     }
-    return s + (is_near_optimal(d.law) ? normalised_weights(d) : normalised_servo(d));
+    return name + normalised_d_axis(d.d_axis) +
+           (d.law == Law::pid ? normalised_pid(d.pid) : normalised_dobc(d.dobc));
+}
+
+std::string normalised_motor(const Motor &motor)
+{
+    const auto &[pole_pairs, resistance, ld, lq, flux, inertia, friction, rated_speed, rated_torque,
+                 max_current, max_speed, slots] = motor;
+    static_cast<void>(max_speed); // at the end, and only when the file has it
+    static_cast<void>(slots);     // for noc_h's harmonics
+    return fmt::format(
+        "{};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};", pole_pairs,
+        resistance, ld, lq, flux, inertia, friction, rated_speed, rated_torque, max_current);
+}
+
+std::string normalised_hardware(const Inverter &inverter, const Encoder &encoder)
+{
+    const auto &[dc_link, pwm, pwm_wanted, dead_time, updates, compensation, overmodulation,
+                 regeneration]                   = inverter;
+    const auto &[lines, edge_times, index_angle] = encoder;
+    static_cast<void>(pwm_wanted);  // everything is designed for the one that the counter has
+    static_cast<void>(index_angle); // beside the sensors
+    std::string s =
+        fmt::format("{:.17g};{:.17g};{:.17g};{};{};", dc_link, pwm, dead_time, updates, lines);
+    s += compensation ? "compensated;" : "uncompensated;";
+    s += overmodulation ? "hexagon;" : "circle;";
+    s +=
+        regeneration != DcLinkSink::none ? fmt::format("{};", dc_link_sink_name(regeneration)) : "";
+    return s + (edge_times ? "edges;" : "");
+}
+
+std::string normalised_sensors(const CurrentSensors &sensors, double index_angle)
+{
+    const auto &[range, noise, bits] = sensors;
+    return fmt::format("{:.17g};{:.17g};{};{:.17g};", range, noise, bits, index_angle);
+}
+
+std::string normalised_board(const BoardDescription &board)
+{
+    const auto &[dc_link_range, ntc, ntc_beta, ntc_divider, limit, trip, align, motor,
+                 motor_time_constant, inverter, inverter_time_constant, stop, precharge, duty_max,
+                 pulse_min] = board;
+    std::string s = fmt::format("{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};", dc_link_range,
+                                ntc, ntc_beta, ntc_divider, limit, trip);
+    s += fmt::format("{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};", align.value_or(0.0),
+                     motor.value_or(0.0), motor_time_constant, inverter, inverter_time_constant);
+    return s + fmt::format("{};{:.17g};{:.17g};{:.17g};", stop_reaction_name(stop), precharge,
+                           duty_max, pulse_min);
+}
+
+std::string normalised(const Drive &drive)
+{
+    const auto &[name, motor, inverter, encoder, current_sensors, board, law, nosc, nodo, position,
+                 harmonics, dobc, pid, d_axis, cascade] = drive;
+    std::string s = fmt::format("schema={};name={};", drive_schema, name);
+    s += normalised_motor(motor) + normalised_hardware(inverter, encoder);
+    s += normalised_sensors(current_sensors, encoder.index_angle_e_rad) + normalised_board(board);
+    s += motor.max_speed_e_radps > 0.0 ? fmt::format("{:.17g};", motor.max_speed_e_radps) : "";
+    return s + normalised_law(drive);
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 
 #include "common/errors.hpp"
 #include "design/board/board_constants.hpp"
+#include "design/named_constants.hpp"
 
 extern "C" {
 #include "crc32.h"
@@ -49,21 +50,40 @@ std::string hex_line(unsigned kind, unsigned address, const std::vector<std::uin
     return line + fmt::format("{:02X}\n", (0x100U - (sum & 0xFFU)) & 0xFFU);
 }
 
-} // namespace
-
-std::vector<std::uint16_t> image_words(const Design &design)
+std::unique_ptr<drive_image_t> image_of(const Design &design)
 {
-    const auto     image = std::make_unique<drive_image_t>();
+    auto           image = std::make_unique<drive_image_t>();
     BoardConstants board = board_constants(design.drive);
     if (!drive_image_copy(image.get(), &board.bind(), &design.config)) {
         throw DesignError(fmt::format("{}: its constants do not fit an image", design.drive.name));
     }
+    return image;
+}
+
+} // namespace
+
+std::vector<std::uint16_t> image_words(const Design &design)
+{
+    const auto                 image = image_of(design);
     std::vector<std::uint16_t> words(drive_image_write(image.get(), nullptr, 0));
     if (drive_image_write(image.get(), words.data(), static_cast<std::uint32_t>(words.size())) !=
         words.size()) {
         throw std::logic_error("image: two lengths");
     }
     return words;
+}
+
+std::string image_list(const Design &design)
+{
+    constexpr int numbers   = 2 + DRIVE_IMAGE_DIGEST_WORDS + DRIVE_IMAGE_NAME_WORDS;
+    const auto    image     = image_of(design);
+    auto          constants = named_constants(
+        [&](fields_t &f) { drive_image_fields(&f, image.get(), design.config.law); });
+    const auto is_text = [](const NamedConstant &c) {
+        return c.name == "digest" || c.name == "name";
+    };
+    constants.erase(std::remove_if(constants.begin(), constants.end(), is_text), constants.end());
+    return constants_list(constants, numbers);
 }
 
 std::string image_octets(const std::vector<std::uint16_t> &words)

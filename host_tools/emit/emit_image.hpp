@@ -13,6 +13,9 @@ namespace sdre {
 /// InputError when the board cannot have the drive.
 std::vector<std::uint16_t> image_words(const Design &design);
 
+/// A line for each number of the image: its first word, its name, its value.
+std::string image_list(const Design &design);
+
 /// The words as octets, the high one of each first: what `sdre-drive load` takes.
 std::string image_octets(const std::vector<std::uint16_t> &words);
 

@@ -53,38 +53,9 @@ std::string conditions(const Design &d)
     return fmt::format("#if ({})\n", fmt::join(all, ") || \\\n    ("));
 }
 
-std::string motor_block(const motor_reduced_t &m)
-{
-    return c_block("motor", c_field("l1", m.l1) + c_field("l2", m.l2) + c_field("l3", m.l3) +
-                                c_field("l4", m.l4) + c_field("l5", m.l5) + c_field("l6", m.l6) +
-                                c_field("l7", m.l7) + c_field("l8", m.l8) + c_field("l9", m.l9) +
-                                c_field("l10", m.l10) + c_field("l11", m.l11) +
-                                c_field("inv_l6", m.inv_l6) + c_field("inv_l8", m.inv_l8));
-}
-
-std::string hardware_block(const drive_hardware_t &h)
-{
-    return c_block("hardware",
-                   c_field("encoder_positions", fmt::format("{}UL", h.encoder_positions)) +
-                       c_field("pole_pairs", fmt::format("{}U", h.pole_pairs)) +
-                       c_field("updates_per_period", fmt::format("{}U", h.updates_per_period)) +
-                       c_field("dead_time_s", h.dead_time_s) +
-                       c_field("edge_times", std::string(h.edge_times ? "true" : "false")));
-}
-
 std::string config_fields(const drive_config_t &c, const char *law)
 {
-    return c_field("ts_s", c.ts_s) + c_field("current_max_A", c.current_max_A) +
-           c_field("trip_current_A", c.trip_current_A) +
-           c_field("trip_speed_e_radps", c.trip_speed_e_radps) +
-           c_field("speed_max_e_radps", c.speed_max_e_radps) +
-           c_field("dc_link_min_V", c.dc_link_min_V) + c_field("dc_link_max_V", c.dc_link_max_V) +
-           c_field("positions", std::string(c.positions ? "true" : "false")) +
-           c_field("overmodulation", std::string(c.overmodulation ? "true" : "false")) +
-           motor_block(c.motor) +
-           c_block("dead_time", c_field("share", c.dead_time.share) +
-                                    c_field("inv_fade_1pA", c.dead_time.inv_fade_1pA)) +
-           hardware_block(c.hardware) + c_field("law", "&" + std::string(law)) +
+    return constants_text(drive_constants(c), {}) + c_field("law", "&" + std::string(law)) +
            c_field("constants", "&" + std::string(constants_name));
 }
 
@@ -98,7 +69,8 @@ std::string source_text(const Design &d)
                      law.name);
     s += conditions(d);
     s += "#error \"gain_tables.c does not match the control core: regenerate\"\n#endif\n\n";
-    s += c_object(law.constants_type, constants_name, law.table(d));
+    s += c_object(law.constants_type, constants_name,
+                  constants_text(law_constants(d.config), law.layout(d)));
     return s + "const drive_config_t gain_tables_drive = {\n" +
            c_indented(config_fields(d.config, law.name)) + "};\n";
 }

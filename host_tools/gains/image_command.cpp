@@ -16,6 +16,7 @@ struct Options {
     std::string drive;
     std::string out;
     std::string hex;
+    std::string list;
 };
 
 void declare(OptionList &list, Options &o)
@@ -23,12 +24,13 @@ void declare(OptionList &list, Options &o)
     list.required("DRIVE", o.drive, "drive file (TOML)");
     list.text("--out", o.out, "image to write, for sdre-drive load");
     list.text("--hex", o.hex, "the same as Intel HEX, for a programming tool");
+    list.text("--list", o.list, "its numbers as text: word, name, value");
 }
 
 int run(const Options &o)
 {
-    if (o.out.empty() && o.hex.empty()) {
-        throw InputError("image: give --out FILE, --hex FILE or both");
+    if (o.out.empty() && o.hex.empty() && o.list.empty()) {
+        throw InputError("image: give --out FILE, --hex FILE or --list FILE");
     }
     const Design design = design_drive(read_drive_file(o.drive), Precision::extended);
     if (!design.certificate.passed()) {
@@ -42,6 +44,9 @@ int run(const Options &o)
     }
     if (!o.hex.empty()) {
         files.push_back({o.hex, image_hex(words)});
+    }
+    if (!o.list.empty()) {
+        files.push_back({o.list, image_list(design)});
     }
     write_files(files);
     fmt::print("{}", pwm_note(design.drive.inverter));

@@ -40,16 +40,22 @@ static void copy_text(char *to, const char *from, uint16_t words)
 
 void drive_image_fields(fields_t *f, drive_image_t *image, const law_t *law)
 {
+    FIELDS_BEGIN(f, digest);
     text(f, image->digest, DRIVE_IMAGE_DIGEST_WORDS);
+    FIELDS_END(f);
+    FIELDS_BEGIN(f, name);
     text(f, image->name, DRIVE_IMAGE_NAME_WORDS);
-    fields_app(f, &image->app);
+    FIELDS_END(f);
+    FIELDS_PART(fields_app, f, image, app);
     if (image->app.scale.ntc_points > DRIVE_IMAGE_TEMPERATURES) {
         f->ok = false;
         return;
     }
+    FIELDS_BEGIN(f, ntc_degC);
     fields_floats(f, image->ntc_degC, image->app.scale.ntc_points);
-    fields_drive(f, &image->drive);
-    law->fields(f, &image->constants);
+    FIELDS_END(f);
+    FIELDS_PART(fields_drive, f, image, drive);
+    FIELDS_PART(law->fields, f, image, constants);
 }
 
 static void point_inside(drive_image_t *image, const law_t *law)

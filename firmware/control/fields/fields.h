@@ -7,6 +7,9 @@
  * function does both, so that the formats cannot differ. A 32-bit number is two words, the high one
  * first. A float is its IEEE 754 bits; a flag is 0 or 1. The modules check the values after
  * reading.
+ *
+ * With FIELDS_NAMED a walk also tells a listener the name of each member (fields_named.h): the
+ * host's tools write C text from it. An image of the target has no names.
  */
 #ifndef FIELDS_H
 #define FIELDS_H
@@ -14,12 +17,20 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-typedef struct {
+#ifdef FIELDS_NAMED
+#include "fields_named.h"
+#endif
+
+typedef struct fields {
     const uint16_t *from;  /**< read from here; NULL: the walk writes or counts */
     uint16_t       *to;    /**< write to here; both NULL: the walk only counts */
     uint32_t        count; /**< available words */
     uint32_t        at;    /**< words visited; above count: a word was missing */
     bool            ok;    /**< no word was missing and every flag 0 or 1 */
+#ifdef FIELDS_NAMED
+    const fields_listener_t *listener; /**< NULL: nobody listens */
+    const char              *name;     /**< of the next number; NULL: none */
+#endif
 } fields_t;
 
 /** A walk that reads the members from `count` words. Context: init. */
@@ -37,5 +48,18 @@ void fields_floats(fields_t *f, float *x, uint16_t count);
 
 /** True if a walk has visited all words and none was missing. */
 bool fields_complete(const fields_t *f);
+
+#ifndef FIELDS_NAMED
+/** The address of c->member. */
+#define FIELD(f, c, member) (&(c)->member)
+/** Visits the structure c->member by its own walk. */
+#define FIELDS_PART(walk, f, c, member) (walk)((f), &(c)->member)
+/** The numbers up to FIELDS_END() are the array `name`. */
+#define FIELDS_BEGIN(f, name) ((void)0)
+#define FIELDS_END(f)         ((void)0)
+/** `name` is that of the next number, which is not visited in its structure. */
+#define FIELDS_NAME(f, name)    ((void)0)
+#define FIELDS_TELL(f, kind, x) ((void)0)
+#endif
 
 #endif /* FIELDS_H */

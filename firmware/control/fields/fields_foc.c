@@ -3,26 +3,26 @@
 
 static void axis(fields_t *f, foc_axis_t *c)
 {
-    fields_float(f, &c->kp_V_per_A);
-    fields_float(f, &c->ki_tick);
-    fields_float(f, &c->ki_per_kp);
+    fields_float(f, FIELD(f, c, kp_V_per_A));
+    fields_float(f, FIELD(f, c, ki_tick));
+    fields_float(f, FIELD(f, c, ki_per_kp));
 }
 
 void fields_foc(fields_t *f, foc_config_t *c)
 {
-    axis(f, &c->d);
-    axis(f, &c->q);
-    fields_float(f, &c->current_max_A);
-    fields_float(f, &c->iq_max_A);
-    fields_float(f, &c->mtpa_A);
-    fields_float(f, &c->id_min_A);
-    fields_float(f, &c->voltage_share);
-    fields_float(f, &c->weakening_A_per_V);
+    FIELDS_PART(axis, f, c, d);
+    FIELDS_PART(axis, f, c, q);
+    fields_float(f, FIELD(f, c, current_max_A));
+    fields_float(f, FIELD(f, c, iq_max_A));
+    fields_float(f, FIELD(f, c, mtpa_A));
+    fields_float(f, FIELD(f, c, id_min_A));
+    fields_float(f, FIELD(f, c, voltage_share));
+    fields_float(f, FIELD(f, c, weakening_A_per_V));
 }
 
 void fields_speed_difference(fields_t *f, speed_difference_config_t *c)
 {
-    fields_i16(f, &c->periods);
-    fields_float(f, &c->inv_span_1ps);
-    fields_float(f, &c->edge_gap_max_s);
+    fields_i16(f, FIELD(f, c, periods));
+    fields_float(f, FIELD(f, c, inv_span_1ps));
+    fields_float(f, FIELD(f, c, edge_gap_max_s));
 }

@@ -4,18 +4,20 @@
 
 static void gains(fields_t *f, law_ladrc_gains_t *c)
 {
-    fields_float(f, &c->gain_w);
-    fields_float(f, &c->gain_f_1ps);
-    fields_float(f, &c->w_c_1ps);
+    fields_float(f, FIELD(f, c, gain_w));
+    fields_float(f, FIELD(f, c, gain_f_1ps));
+    fields_float(f, FIELD(f, c, w_c_1ps));
 }
 
 void law_ladrc_fields(fields_t *f, void *constants)
 {
     law_ladrc_config_t *c = constants;
 
-    fields_foc(f, &c->foc);
-    fields_speed_difference(f, &c->speed);
+    FIELDS_PART(fields_foc, f, c, foc);
+    FIELDS_PART(fields_speed_difference, f, c, speed);
+    FIELDS_BEGIN(f, gains);
     for (uint16_t i = 0U; i < (uint16_t)SPEED_DIFFERENCE_MODES; i++) {
-        gains(f, &c->gains[i]);
+        FIELDS_PART(gains, f, c, gains[i]);
     }
+    FIELDS_END(f);
 }

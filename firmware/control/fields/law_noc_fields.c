@@ -5,35 +5,39 @@
 
 static void nodo(fields_t *f, nodo_encoder_gains_t *c)
 {
-    fields_i16(f, &c->order);
-    fields_float(f, &c->iq_max_A);
+    fields_i16(f, FIELD(f, c, order));
+    fields_float(f, FIELD(f, c, iq_max_A));
+    FIELDS_BEGIN(f, gain);
     for (uint16_t i = 0U; i <= (uint16_t)NODO_ORDER_MAX; i++) {
         for (uint16_t j = 0U; j < (uint16_t)NODO_ENCODER_N_X; j++) {
             fields_floats(f, c->gain[i][j], NODO_ENCODER_N_Y);
         }
     }
+    FIELDS_END(f);
 }
 
 static void currents(fields_t *f, nodo_current_gains_t *c)
 {
-    fields_float(f, &c->from_e_radps);
-    fields_float(f, &c->root);
-    fields_float(f, &c->nodes_per_root);
+    fields_float(f, FIELD(f, c, from_e_radps));
+    fields_float(f, FIELD(f, c, root));
+    fields_float(f, FIELD(f, c, nodes_per_root));
+    FIELDS_BEGIN(f, gain);
     for (uint16_t i = 0U; i < (uint16_t)NODO_CURRENT_NODES; i++) {
         for (uint16_t j = 0U; j < (uint16_t)NODO_CURRENT_N_X; j++) {
             fields_floats(f, c->gain[i][j], NODO_CURRENT_N_Y);
         }
     }
+    FIELDS_END(f);
 }
 
 void law_noc_fields(fields_t *f, void *constants)
 {
     law_noc_config_t *c = constants;
 
-    fields_near_optimal(f, &c->near_optimal);
-    fields_angle_limits(f, &c->plausible);
-    fields_angle_gate(f, &c->gate);
-    fields_rare_edges(f, &c->rare);
-    nodo(f, &c->nodo);
-    currents(f, &c->currents);
+    FIELDS_PART(fields_near_optimal, f, c, near_optimal);
+    FIELDS_PART(fields_angle_limits, f, c, plausible);
+    FIELDS_PART(fields_angle_gate, f, c, gate);
+    FIELDS_PART(fields_rare_edges, f, c, rare);
+    FIELDS_PART(nodo, f, c, nodo);
+    FIELDS_PART(currents, f, c, currents);
 }

@@ -6,6 +6,6 @@ void law_pid_fields(fields_t *f, void *constants)
 {
     law_pid_config_t *c = constants;
 
-    fields_pid_law(f, &c->pid);
-    fields_pid_law(f, &c->id_pi);
+    FIELDS_PART(fields_pid_law, f, c, pid);
+    FIELDS_PART(fields_pid_law, f, c, id_pi);
 }

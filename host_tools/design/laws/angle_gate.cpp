@@ -50,11 +50,4 @@ angle_gate_config_t angle_gate_constants(const encoder_form_limits_t &limits,
             static_cast<float>(std::min(step_rad, most_rad)), gains.count_rad, limits.d_omega};
 }
 
-std::string gate_block(const angle_gate_config_t &gate)
-{
-    return c_block("gate", c_field("gate_rad", gate.gate_rad) + c_field("step_rad", gate.step_rad) +
-                               c_field("count_rad", gate.count_rad) +
-                               c_field("slow_e_radps2", gate.slow_e_radps2));
-}
-
 } // namespace sdre

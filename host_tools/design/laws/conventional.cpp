@@ -96,23 +96,20 @@ std::string terms_block(const char *name, const std::vector<const char *> &label
     return c_block(name, s);
 }
 
-std::string table(const Design &d)
+Layout layout(const Design &d)
 {
-    const auto                 &c = *constants_of<law_conventional_config_t>(d.config);
-    const conventional_gains_t &g = c.gains;
-    return near_optimal_block(d, c.near_optimal) +
-           c_block("gains",
-                   c_field("nosc_order", g.nosc_order) + c_field("nodo_order", g.nodo_order) +
-                       c_field("i_error_max_A", g.i_error_max_A) + c_field("i_max_A", g.i_max_A) +
-                       c_field("i_certified_A", g.i_certified_A) +
-                       terms_block("lambda", {"v_q", "v_d"}, g.nosc_order, g.lambda) +
-                       terms_block("gain", {"d_w", "d_q", "d_d", "w", "iq", "id"}, g.nodo_order,
-                                   g.gain));
+    const auto                 &c      = *constants_of<law_conventional_config_t>(d.config);
+    const conventional_gains_t &g      = c.gains;
+    Layout                      layout = near_optimal_layout(d, c.near_optimal);
+    layout["gains.lambda"] = terms_block("lambda", {"v_q", "v_d"}, g.nosc_order, g.lambda);
+    layout["gains.gain"] =
+        terms_block("gain", {"d_w", "d_q", "d_d", "w", "iq", "id"}, g.nodo_order, g.gain);
+    return layout;
 }
 
 } // namespace
 
 const LawDesign conventional_design = {
-    "law_conventional", "law_conventional_config_t", is_for, solve, summary, mismatches, table};
+    "law_conventional", "law_conventional_config_t", is_for, solve, summary, mismatches, layout};
 
 } // namespace sdre

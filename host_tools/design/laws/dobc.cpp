@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "common/c_text.hpp"
 #include "design/laws/servo.hpp"
 
 namespace sdre {
@@ -58,25 +59,23 @@ std::vector<std::string> mismatches(const Design &d)
     return {fmt::format("DOBC_N_X_MAX < {}", constants_of<law_dobc_config_t>(d.config)->dobc.n_x)};
 }
 
-std::string table(const Design &d)
+/// The matrices have as many states as the law's observer.
+Layout layout(const Design &d)
 {
-    const auto          &c = *constants_of<law_dobc_config_t>(d.config);
-    const dobc_config_t &o = c.dobc;
+    const dobc_config_t &o = constants_of<law_dobc_config_t>(d.config)->dobc;
     std::string          m;
     for (int i = 0; i < o.n_x; i++) {
         m += c_list(o.m[i], o.n_x) + ",\n";
     }
-    return c_block("dobc", c_field("n_x", o.n_x) + c_field("direct_Vs", o.direct_Vs) +
-                               c_field("ld_H", o.ld_H) + c_field("k_omega_Vs", o.k_omega_Vs) +
-                               c_field("k_x", c_list(o.k_x, o.n_x)) + c_block("m", m) +
-                               c_field("g", c_list(o.g, o.n_x)) +
-                               c_field("h", c_list(o.h, o.n_x))) +
-           pid_block("id_pi", c.id_pi);
+    return {{"dobc.k_x", c_field("k_x", c_list(o.k_x, o.n_x))},
+            {"dobc.m", c_block("m", m)},
+            {"dobc.g", c_field("g", c_list(o.g, o.n_x))},
+            {"dobc.h", c_field("h", c_list(o.h, o.n_x))}};
 }
 
 } // namespace
 
 const LawDesign dobc_design = {"law_dobc", "law_dobc_config_t", is_for, solve,
-                               summary,    mismatches,          table};
+                               summary,    mismatches,          layout};
 
 } // namespace sdre

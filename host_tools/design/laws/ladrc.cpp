@@ -44,18 +44,14 @@ std::vector<std::string> mismatches(const Design &)
     return {};
 }
 
-std::string table(const Design &d)
+Layout layout(const Design &d)
 {
-    const auto &c = *constants_of<law_ladrc_config_t>(d.config);
-    return cascade_blocks(c.foc, c.speed) + gains_block(c.gains, [](const law_ladrc_gains_t &g) {
-               return c_field("gain_w", g.gain_w) + c_field("gain_f_1ps", g.gain_f_1ps) +
-                      c_field("w_c_1ps", g.w_c_1ps);
-           });
+    return gains_layout(d.config);
 }
 
 } // namespace
 
 const LawDesign ladrc_design = {"law_ladrc", "law_ladrc_config_t", is_for, solve,
-                                summary,     mismatches,           table};
+                                summary,     mismatches,           layout};
 
 } // namespace sdre

@@ -123,20 +123,14 @@ current_ref_config_t current_ref_constants(const Design &d, bool exact)
     return c;
 }
 
-std::string current_ref_block(const current_ref_config_t &c)
+std::string lambda_block(const nosc_gains_t &g)
 {
-    return c_block(
-        "current_ref",
-        c_field("current_max_A", c.current_max_A) + c_field("iq_max_A", c.iq_max_A) +
-            c_field("mtpa_A", c.mtpa_A) + c_field("mtpa_half_1pA", c.mtpa_half_1pA) +
-            c_field("mtpa_exact", std::string(c.mtpa_exact ? "true" : "false")) +
-            c_field("voltage_share", c.voltage_share) + c_field("torque_share", c.torque_share) +
-            c_field("near_e_radps", c.near_e_radps) + c_field("id_rest_A", c.id_rest_A) +
-            c_field("flux_A", c.flux_A) + c_field("l1_min", c.l1_min) +
-            c_field("filter_per_period", c.filter_per_period) +
-            c_field("filter_1ps", c.filter_1ps) + c_field("samples_1ps", c.samples_1ps) +
-            c_field("regen_max_W_norm", c.regen_max_W_norm) +
-            c_field("regen_start_V", c.regen_start_V) + c_field("regen_per_V", c.regen_per_V));
+    std::string terms;
+    for (int n = 0; n <= g.order; n++) {
+        terms += term_block(n, "omega_e_radps             iq_A             id_A", {"v_q", "v_d"},
+                            g.lambda[n]);
+    }
+    return c_block("lambda", terms);
 }
 
 } // namespace
@@ -261,37 +255,17 @@ std::string observer_line(const SampledLoop &o)
                        o.worst_pole_1ps, o.spectral_radius, o.range_A);
 }
 
-std::string nosc_block(const nosc_gains_t &g)
+Layout near_optimal_layout(const Design &d, const near_optimal_config_t &c)
 {
-    std::string terms;
-    for (int n = 0; n <= g.order; n++) {
-        terms += term_block(n, "omega_e_radps             iq_A             id_A", {"v_q", "v_d"},
-                            g.lambda[n]);
+    Layout layout{{"near_optimal.nosc.lambda", lambda_block(c.nosc)}};
+    if (d.position) {
+        const position_gains_t &p                   = c.position;
+        layout["near_optimal.position.nosc.lambda"] = lambda_block(p.nosc);
+        layout["near_optimal.position.theta"] = c_field("theta", c_list(p.theta, p.nosc.order + 1));
+    } else {
+        layout["near_optimal.position"] = "";
     }
-    return c_block("nosc", c_field("order", g.order) + c_field("iq_error_max_A", g.iq_error_max_A) +
-                               c_field("iq_speed_max_A", g.iq_speed_max_A) +
-                               c_field("speed_A_per_radps", g.speed_A_per_radps) +
-                               c_field("speed_radps_per_A", g.speed_radps_per_A) +
-                               c_block("lambda", terms));
-}
-
-std::string near_optimal_block(const Design &d, const near_optimal_config_t &c)
-{
-    return c_block("near_optimal", current_ref_block(c.current_ref) + nosc_block(c.nosc) +
-                                       (d.position ? position_block(c.position) : ""));
-}
-
-std::string limits_block(const encoder_form_limits_t &limits)
-{
-    return c_block("plausible",
-                   c_field("angle_rad", limits.angle_rad) + c_field("d_omega", limits.d_omega));
-}
-
-std::string rare_block(const encoder_form_gains_t &gains)
-{
-    return c_block("rare", c_field("theta", gains.theta) + c_field("omega_1ps", gains.omega_1ps) +
-                               c_field("d_omega_1ps2", gains.d_omega_1ps2) +
-                               c_field("count_rad", gains.count_rad));
+    return layout;
 }
 
 std::string term_block(int n, const char *columns, const std::vector<std::string> &labels,

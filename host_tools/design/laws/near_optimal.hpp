@@ -104,18 +104,8 @@ std::string residual_line(double worst);
 std::string controller_line(const SampledLoop &controller);
 std::string observer_line(const SampledLoop &observer);
 
-/// ".nosc = {..},\n"
-std::string nosc_block(const nosc_gains_t &g);
-/// ".near_optimal = {..},\n"; with the position's gains where the drive has them.
-std::string near_optimal_block(const Design &design, const near_optimal_config_t &c);
-/// ".plausible = {..},\n"
-std::string limits_block(const encoder_form_limits_t &limits);
-
-/// ".gate = {..},\n"
-std::string gate_block(const angle_gate_config_t &gate);
-
-/// ".rare = {..},\n"
-std::string rare_block(const encoder_form_gains_t &gains);
+/// Layout of the constants "near_optimal". A drive without positions gets no gains of them.
+Layout near_optimal_layout(const Design &design, const near_optimal_config_t &c);
 
 /// A term of a series: a comment, the columns' names, rows with labels.
 std::string term_block(int n, const char *columns, const std::vector<std::string> &labels,

@@ -76,21 +76,20 @@ std::vector<std::string> mismatches(const Design &d)
     return all;
 }
 
-std::string table(const Design &d)
+Layout layout(const Design &d)
 {
-    const auto &c = *constants_of<law_noc_config_t>(d.config);
-    return near_optimal_block(d, c.near_optimal) + limits_block(c.plausible) + gate_block(c.gate) +
-           rare_block(c.rare) +
-           c_block("nodo", c_field("order", c.nodo.order) + c_field("iq_max_A", c.nodo.iq_max_A) +
-                               gain_block("         iq_A             id_A      theta_e_rad",
-                                          {"d_w", "d_q", "d_d", "w", "iq", "id", "theta"},
-                                          c.nodo.order, c.nodo.gain)) +
-           nodo_current_block(c.currents);
+    const auto &c      = *constants_of<law_noc_config_t>(d.config);
+    Layout      layout = near_optimal_layout(d, c.near_optimal);
+    layout["nodo.gain"] =
+        gain_block("         iq_A             id_A      theta_e_rad",
+                   {"d_w", "d_q", "d_d", "w", "iq", "id", "theta"}, c.nodo.order, c.nodo.gain);
+    layout["currents.gain"] = nodo_current_block(c.currents);
+    return layout;
 }
 
 } // namespace
 
 const LawDesign noc_design = {"law_noc", "law_noc_config_t", is_for, solve,
-                              summary,   mismatches,         table};
+                              summary,   mismatches,         layout};
 
 } // namespace sdre

@@ -181,28 +181,28 @@ std::string nodes_block(const nodo_harmonic_gains_t &g)
     return c_block("gain", s);
 }
 
-std::string table(const Design &d)
+std::string pairs_block(const nodo_harmonic_gains_t &g)
 {
-    const auto                  &c = *constants_of<law_noc_h_config_t>(d.config);
-    const nodo_harmonic_gains_t &g = c.nodo;
-    std::string                  pairs;
+    std::string pairs;
     for (int i = 0; i < g.n_pairs; i++) {
         pairs += fmt::format("{{ .channel = {}, .order = {} }},\n",
                              channel_symbol(g.pair[i].channel), c_number(g.pair[i].order));
     }
-    return near_optimal_block(d, c.near_optimal) + limits_block(c.plausible) + gate_block(c.gate) +
-           rare_block(c.rare) +
-           c_block("nodo", c_field("n_pairs", g.n_pairs) + c_field("n_nodes", g.n_nodes) +
-                               c_field("iq_max_A", g.iq_max_A) +
-                               c_field("nodes_per_root", g.nodes_per_root) +
-                               c_field("keep", g.keep) + c_field("keep_fast", g.keep_fast) +
-                               (g.n_pairs > 0 ? c_block("pair", pairs) : "") + // {} is not C99
-                               nodes_block(g));
+    return g.n_pairs > 0 ? c_block("pair", pairs) : ""; // {} is not C99
+}
+
+Layout layout(const Design &d)
+{
+    const auto &c       = *constants_of<law_noc_h_config_t>(d.config);
+    Layout      layout  = near_optimal_layout(d, c.near_optimal);
+    layout["nodo.pair"] = pairs_block(c.nodo);
+    layout["nodo.gain"] = nodes_block(c.nodo);
+    return layout;
 }
 
 } // namespace
 
 const LawDesign noc_h_design = {"law_noc_h", "law_noc_h_config_t", is_for, solve,
-                                summary,     mismatches,           table};
+                                summary,     mismatches,           layout};
 
 } // namespace sdre

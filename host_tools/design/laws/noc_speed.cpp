@@ -40,20 +40,19 @@ std::vector<std::string> mismatches(const Design &d)
     return all;
 }
 
-std::string table(const Design &d)
+Layout layout(const Design &d)
 {
-    const auto &c = *constants_of<law_noc_speed_config_t>(d.config);
-    return near_optimal_block(d, c.near_optimal) +
-           c_block("nodo", c_field("order", c.nodo.order) + c_field("iq_max_A", c.nodo.iq_max_A) +
-                               c_field("iq_certified_A", c.nodo.iq_certified_A) +
-                               gain_block("omega_e_radps             iq_A             id_A",
-                                          {"d_w", "d_q", "d_d", "w", "iq", "id"}, c.nodo.order,
-                                          c.nodo.gain));
+    const auto &c      = *constants_of<law_noc_speed_config_t>(d.config);
+    Layout      layout = near_optimal_layout(d, c.near_optimal);
+    layout["nodo.gain"] =
+        gain_block("omega_e_radps             iq_A             id_A",
+                   {"d_w", "d_q", "d_d", "w", "iq", "id"}, c.nodo.order, c.nodo.gain);
+    return layout;
 }
 
 } // namespace
 
 const LawDesign noc_speed_design = {
-    "law_noc_speed", "law_noc_speed_config_t", is_for, solve, summary, mismatches, table};
+    "law_noc_speed", "law_noc_speed_config_t", is_for, solve, summary, mismatches, layout};
 
 } // namespace sdre

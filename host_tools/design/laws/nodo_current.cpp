@@ -170,9 +170,7 @@ std::string nodo_current_block(const nodo_current_gains_t &g)
         nodes += fmt::format("{{ /* {:.1f} rad/s: iq_A, id_A */\n", root * root) +
                  c_indented(rows) + "},\n";
     }
-    return c_block("currents", c_field("from_e_radps", g.from_e_radps) + c_field("root", g.root) +
-                                   c_field("nodes_per_root", g.nodes_per_root) +
-                                   c_block("gain", nodes));
+    return c_block("gain", nodes);
 }
 
 } // namespace sdre

@@ -24,7 +24,7 @@ CurrentObserver design_nodo_current(const ReducedParameters &l, const Drive &dri
 double nodo_current_radius(const nodo_current_gains_t &gains, const ReducedParameters &motor,
                            const OperatingPoint &at, double ts_s);
 
-/// ".currents = {..},\n"
+/// ".gain = {..},\n"
 std::string nodo_current_block(const nodo_current_gains_t &gains);
 
 } // namespace sdre

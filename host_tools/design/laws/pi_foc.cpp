@@ -42,17 +42,14 @@ std::vector<std::string> mismatches(const Design &)
     return {};
 }
 
-std::string table(const Design &d)
+Layout layout(const Design &d)
 {
-    const auto &c = *constants_of<law_pi_foc_config_t>(d.config);
-    return cascade_blocks(c.foc, c.speed) + gains_block(c.gains, [](const law_pi_foc_gains_t &g) {
-               return c_field("kp_1ps", g.kp_1ps) + c_field("ki_per_kp", g.ki_per_kp);
-           });
+    return gains_layout(d.config);
 }
 
 } // namespace
 
 const LawDesign pi_foc_design = {
-    "law_pi_foc", "law_pi_foc_config_t", is_for, solve, summary, mismatches, table};
+    "law_pi_foc", "law_pi_foc_config_t", is_for, solve, summary, mismatches, layout};
 
 } // namespace sdre

@@ -40,15 +40,14 @@ std::vector<std::string> mismatches(const Design &)
     return {};
 }
 
-std::string table(const Design &d)
+Layout layout(const Design &)
 {
-    const auto &c = *constants_of<law_pid_config_t>(d.config);
-    return pid_block("pid", c.pid) + pid_block("id_pi", c.id_pi);
+    return {};
 }
 
 } // namespace
 
 const LawDesign pid_design = {"law_pid", "law_pid_config_t", is_for, solve,
-                              summary,   mismatches,         table};
+                              summary,   mismatches,         layout};
 
 } // namespace sdre

@@ -33,10 +33,4 @@ std::string servo_summary(const Design &d, const std::string &method)
            verdict_lines(*d.certificate.loop);
 }
 
-std::string pid_block(const char *name, const pid_law_config_t &c)
-{
-    return c_block(name, c_field("kp", c.kp) + c_field("ki_per_tick", c.ki_per_tick) +
-                             c_field("kd_tick", c.kd_tick));
-}
-
 } // namespace sdre

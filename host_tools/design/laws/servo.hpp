@@ -2,7 +2,6 @@
 /// Common part of the designs of paper B's laws.
 #pragma once
 
-#include "common/c_text.hpp"
 #include "design/laws/laws.hpp"
 
 namespace sdre {
@@ -15,8 +14,5 @@ void certify_servo(Design &design);
 
 /// Method, then a line for each loop.
 std::string servo_summary(const Design &design, const std::string &method);
-
-/// ".name = {..},\n"
-std::string pid_block(const char *name, const pid_law_config_t &c);
 
 } // namespace sdre

@@ -61,6 +61,7 @@ static const entry_t entries[] = {
     {&constants.near_optimal.current_ref.regen_per_V, POSITIVE},
     {&config.dead_time.share, ZERO_OR_MORE},
     {&config.dead_time.inv_fade_1pA, POSITIVE},
+    {&config.hardware.dead_time_s, ZERO_OR_MORE},
     {&constants.near_optimal.nosc.iq_error_max_A, POSITIVE},
     {&constants.near_optimal.nosc.iq_speed_max_A, POSITIVE},
 };
