@@ -305,6 +305,7 @@ void app_background(void)
     serve_watchdog(now_ticks);
 
     read_status();
+    app_parameters_rest(&background_side.parameters, (float)now_ticks * tick_side.drive->ts_s);
     app_modbus_poll(&background_side.modbus, r, now_ticks);
     if (r->changed && app_command_write(&r->wanted.objects)) {
         r->changed = false;
@@ -316,6 +317,7 @@ void app_tell_image(const app_image_t *image)
 {
     app_loader_init(&background_side.loader, image);
     background_side.registers.loader = &background_side.loader;
+    tick_side.modes.locked           = tick_side.modes.locked || image->fallback;
 }
 
 void app_take_parameters(app_parameters_done_t done)
@@ -323,6 +325,8 @@ void app_take_parameters(app_parameters_done_t done)
     app_registers_t *r = &background_side.registers;
 
     app_parameters_take(&background_side.parameters, r, done);
+    tick_side.modes.locked =
+        tick_side.modes.locked || (background_side.parameters.state == APP_PARAMETERS_LOST);
     board_line_set(&r->wanted.line);
     app_modbus_follow(&background_side.modbus, &r->wanted.line, tick_side.drive->ts_s,
                       tick_side.config.modbus_gap_ticks);

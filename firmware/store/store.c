@@ -20,6 +20,23 @@ enum {
 
 #define SUMMED_WORDS ((uint32_t)(HEAD_CRC_HI - HEAD_KIND)) /* head words covered by the CRC */
 
+#define COPY_WORDS 16U /* chosen: flash cannot be read while it is written */
+
+/* A slot, by its mark and its CRC. */
+typedef struct {
+    store_content_t content; /* words NULL: not whole */
+    bool            committed;
+    bool            replaced;
+} slot_t;
+
+/* Both slots of a kind. */
+typedef struct {
+    store_content_t content; /* newest in force; without one, newest of those that were replaced */
+    uint16_t        slot;    /* of the content; without any, the first */
+    bool            in_force;
+    bool            lost;
+} slots_t;
+
 static uint16_t high(uint32_t x)
 {
     return (uint16_t)(x >> 16);
@@ -64,21 +81,42 @@ uint32_t store_crc(store_kind_t kind, const store_content_t *content)
                        content->count);
 }
 
-static store_content_t look(store_kind_t kind, uint16_t slot)
+/* A mark with one flipped bit is still that mark: no two of them differ in less than seven. */
+static bool is_mark(uint16_t word, uint16_t mark)
+{
+    const uint16_t differs = (uint16_t)(word ^ mark);
+
+    return (differs & (uint16_t)(differs - 1U)) == 0U;
+}
+
+/* The content of a slot; words is NULL unless its CRC is right. */
+static store_content_t whole(store_kind_t kind, uint16_t slot)
 {
     const store_content_t nothing = {.words = NULL, .count = 0UL, .number = 0UL};
     const uint16_t *const head    = board_store(slot);
+    const store_content_t found   = {.words  = &head[STORE_HEAD_WORDS],
+                                     .count  = pair(&head[HEAD_COUNT_HI]),
+                                     .number = pair(&head[HEAD_NUMBER_HI])};
+    const bool ok = (head[HEAD_KIND] == (uint16_t)kind) && (found.count <= store_room()) &&
+                    (store_crc(kind, &found) == pair(&head[HEAD_CRC_HI]));
 
-    if ((head == NULL) || (head[HEAD_MARK] != STORE_MARK) || (head[HEAD_KIND] != (uint16_t)kind)) {
-        return nothing;
+    return ok ? found : nothing;
+}
+
+static slot_t look(store_kind_t kind, uint16_t slot)
+{
+    const slot_t          empty = {.committed = false, .replaced = false};
+    const uint16_t *const head  = board_store(slot);
+    slot_t                s     = empty;
+
+    if (head != NULL) {
+        s.committed = is_mark(head[HEAD_MARK], STORE_MARK);
+        s.replaced  = is_mark(head[HEAD_MARK], STORE_REPLACED);
+        if (s.committed || s.replaced) {
+            s.content = whole(kind, slot);
+        }
     }
-    const store_content_t found = {.words  = &head[STORE_HEAD_WORDS],
-                                   .count  = pair(&head[HEAD_COUNT_HI]),
-                                   .number = pair(&head[HEAD_NUMBER_HI])};
-    if ((found.count > store_room()) || (store_crc(kind, &found) != pair(&head[HEAD_CRC_HI]))) {
-        return nothing;
-    }
-    return found;
+    return s;
 }
 
 /* Sequence numbers wrap (serial arithmetic): `b` is newer when it is at most half the range ahead of `a`. Equal is not. */
@@ -93,35 +131,74 @@ static uint32_t next_number(uint32_t number)
     return (number == 0xFFFFFFFFUL) ? 1UL : (number + 1UL);
 }
 
-/* Newest valid content of a kind and its slot. Without any, words is NULL and slot is the first. */
-static store_content_t find(store_kind_t kind, uint16_t *slot)
+/* The newer content of the two, or of the one that is whole; the first if their numbers are equal. */
+static void take(slots_t *s, const slot_t *a, bool use_a, const slot_t *b, bool use_b)
 {
-    const uint16_t        first = first_slot(kind);
-    const store_content_t a     = look(kind, first);
-    const store_content_t b     = look(kind, (uint16_t)(first + 1U));
-    const bool use_b = (b.words != NULL) && ((a.words == NULL) || is_newer(b.number, a.number));
+    const bool b_wins = use_b && (!use_a || is_newer(b->content.number, a->content.number));
 
-    *slot = use_b ? (uint16_t)(first + 1U) : first;
-    return use_b ? b : a;
+    if (use_a || use_b) {
+        s->content = b_wins ? b->content : a->content;
+        s->slot    = (uint16_t)(s->slot + (b_wins ? 1U : 0U));
+    }
+}
+
+static slots_t find(store_kind_t kind)
+{
+    const uint16_t first  = first_slot(kind);
+    const slot_t   a      = look(kind, first);
+    const slot_t   b      = look(kind, (uint16_t)(first + 1U));
+    const bool     have_a = a.content.words != NULL;
+    const bool     have_b = b.content.words != NULL;
+    slots_t        s      = {.slot = first, .in_force = false, .lost = false};
+
+    s.in_force = (have_a && a.committed) || (have_b && b.committed);
+    if (s.in_force) {
+        take(&s, &a, have_a && a.committed, &b, have_b && b.committed);
+    } else {
+        take(&s, &a, have_a, &b, have_b);
+    }
+    s.lost = (a.committed && !have_a) || (b.committed && !have_b) ||
+             (!s.in_force && (s.content.words != NULL));
+    return s;
 }
 
 store_content_t store_newest(store_kind_t kind)
 {
-    uint16_t slot = 0U;
+    const slots_t   s     = find(kind);
+    store_content_t found = s.content;
 
-    return find(kind, &slot);
+    if (found.count == 0UL) { /* store_forget() */
+        found.words = NULL;
+    }
+    found.lost = s.lost;
+    return found;
+}
+
+uint32_t store_writes(store_kind_t kind)
+{
+    return find(kind).content.number;
+}
+
+/* Takes the mark of a slot that has one: its content counts no more. */
+static bool retire(uint16_t slot)
+{
+    const uint16_t mark = STORE_REPLACED;
+
+    return !is_mark(board_store(slot)[HEAD_MARK], STORE_MARK) ||
+           board_store_program(slot, HEAD_MARK, &mark, 1U);
 }
 
 bool store_begin(store_write_t *w, store_kind_t kind, uint32_t count)
 {
-    uint16_t              slot   = 0U;
-    const store_content_t newest = find(kind, &slot);
+    const slots_t  s     = find(kind);
+    const uint16_t other = (uint16_t)((2U * first_slot(kind)) + 1U - s.slot);
 
     w->kind   = kind;
-    w->slot   = (newest.words == NULL) ? slot : (uint16_t)((2U * first_slot(kind)) + 1U - slot);
+    w->slot   = (s.content.words == NULL) ? s.slot : other;
     w->count  = count;
-    w->number = next_number(newest.number);
-    return (count <= store_room()) && board_store_erase(w->slot);
+    w->number = next_number(s.content.number);
+    return (count <= store_room()) && (store_room() > 0UL) && retire(w->slot) &&
+           board_store_erase(w->slot);
 }
 
 bool store_put(const store_write_t *w, uint32_t offset, const uint16_t *words, uint16_t count)
@@ -146,18 +223,40 @@ bool store_commit(const store_write_t *w)
     make_head(head, w->kind, w->count, w->number);
     head[HEAD_CRC_HI] = high(crc);
     head[HEAD_CRC_LO] = low(crc);
-    return board_store_program(w->slot, HEAD_KIND, &head[HEAD_KIND],
-                               (uint16_t)(STORE_HEAD_WORDS - HEAD_KIND)) &&
-           board_store_program(w->slot, HEAD_MARK, &head[HEAD_MARK], 1U) &&
-           (look(w->kind, w->slot).words != NULL);
+    const bool ok     = board_store_program(w->slot, HEAD_KIND, &head[HEAD_KIND],
+                                            (uint16_t)(STORE_HEAD_WORDS - HEAD_KIND)) &&
+                    board_store_program(w->slot, HEAD_MARK, &head[HEAD_MARK], 1U) &&
+                    (look(w->kind, w->slot).content.words != NULL);
+
+    if (ok) { /* the newer number counts, even if this fails */
+        (void)retire((uint16_t)((2U * first_slot(w->kind)) + 1U - w->slot));
+    }
+    return ok;
+}
+
+bool store_write(store_kind_t kind, const uint16_t *words, uint32_t count)
+{
+    store_write_t w;
+    uint32_t      at = 0UL;
+    bool          ok = store_begin(&w, kind, count);
+
+    while (ok && (at < count)) {
+        uint16_t       copy[COPY_WORDS];
+        const uint32_t left = count - at;
+        const uint16_t n    = (uint16_t)((left < COPY_WORDS) ? left : COPY_WORDS);
+
+        for (uint16_t k = 0U; k < n; k++) {
+            copy[k] = words[at + k];
+        }
+        ok = store_put(&w, at, copy, n);
+        at += n;
+    }
+    return ok && store_commit(&w);
 }
 
 bool store_forget(store_kind_t kind)
 {
-    uint16_t              slot   = 0U;
-    const store_content_t newest = find(kind, &slot);
-    const uint16_t        other  = (uint16_t)((2U * first_slot(kind)) + 1U - slot);
+    const store_content_t newest = store_newest(kind);
 
-    /* Erase the older slot first: a power cut between the two then leaves the newest content. */
-    return board_store_erase(other) && ((newest.words == NULL) || board_store_erase(slot));
+    return ((newest.words == NULL) && !newest.lost) || store_write(kind, NULL, 0UL);
 }

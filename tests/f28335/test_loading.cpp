@@ -135,7 +135,7 @@ TEST_F(Loading, PinsAreSafeAtOnceAndTheDriveIsReadySoon)
     EXPECT_LE(served.ready_s(), 10e-3);
     for (std::uint16_t slot = 0; slot < 2; slot++) {
         std::uint16_t *const  words = const_cast<std::uint16_t *>(f28335_board_store(slot));
-        const store_content_t content{words + STORE_HEAD_WORDS, store_room(), slot + 1U};
+        const store_content_t content{words + STORE_HEAD_WORDS, store_room(), slot + 1U, false};
         std::fill_n(words, BOARD_STORE_WORDS, std::uint16_t{0x1234});
         const std::uint32_t crc = store_crc(STORE_IMAGE, &content);
         const std::uint16_t head[]{STORE_MARK,
@@ -208,5 +208,38 @@ TEST_F(Loading, APowerCutLeavesTheOldImageOrTheNewOne)
     served.power_cycle();
     pass(0.5);
     EXPECT_EQ(name(), "cd");
+    EXPECT_TRUE(served.findings().empty());
+}
+
+TEST_F(Loading, ALostImageDoesNotRunUntilWhatIsLeftIsAccepted)
+{
+    pass(0.5);
+    load(image(300.0, "ab"));
+    load(image(400.0, "cd"));
+    const_cast<std::uint16_t *>(f28335_board_store(1))[STORE_HEAD_WORDS + 100] ^= 0x10U;
+    served.power_cycle();
+    pass(0.5);
+    EXPECT_EQ(name(), "ab");
+    EXPECT_EQ(input(APP_REGISTERS_CONDITIONS) & 0x1C00, APP_REGISTERS_IMAGE_LOST);
+    const auto start = [this] {
+        EXPECT_TRUE(write(APP_REGISTERS_CONTROLWORD, {APP_CONTROL_SHUT_DOWN}));
+        pass(0.01);
+        EXPECT_TRUE(write(APP_REGISTERS_CONTROLWORD, {APP_CONTROL_ENABLE_OPERATION}));
+        pass(0.2);
+        return input(APP_REGISTERS_MODE);
+    };
+    EXPECT_EQ(start(), APP_MODE_READY);
+    ASSERT_TRUE(write(APP_REGISTERS_CONTROLWORD, {APP_CONTROL_DISABLE_VOLTAGE}));
+    pass(0.01);
+
+    EXPECT_FALSE(write(APP_REGISTERS_ACCEPT_FALLBACK, {0x656B, 0x6175}));
+    ASSERT_TRUE(write(APP_REGISTERS_ACCEPT_FALLBACK, {0x656B, 0x6174}));
+    pass(erased_s + 0.5);
+    EXPECT_EQ(input(APP_REGISTERS_CONDITIONS) & 0x1C00, 0);
+    EXPECT_EQ(input(APP_REGISTERS_PARAMETERS_DONE), 1);
+    EXPECT_EQ(name(), "ab");
+    EXPECT_EQ(loader(APP_LOADER_NUMBER_LO), 2);
+    EXPECT_FALSE(write(APP_REGISTERS_ACCEPT_FALLBACK, {0x656B, 0x6174})) << "nothing is lost";
+    EXPECT_EQ(start(), APP_MODE_ALIGN);
     EXPECT_TRUE(served.findings().empty());
 }

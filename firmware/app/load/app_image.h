@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_image.h
- * @brief Chooses the drive's constants: the newest valid stored image, else the compiled-in ones.
+ * @brief Chooses the drive's constants: the image that was stored last, else the compiled-in ones.
+ *
+ * A stored image that is damaged, missing or refused leaves a fall-back: the image before it, or the
+ * compiled-in constants. They may be those of another motor. The drive communicates with them, and
+ * does not run until they are accepted.
  */
 #ifndef APP_IMAGE_H
 #define APP_IMAGE_H
@@ -10,8 +14,9 @@
 #include "store.h"
 
 typedef struct {
-    drive_image_t image;  /**< in use; the tick reads it */
-    uint32_t      number; /**< sequence number (store.h); 0: compiled in */
+    drive_image_t image;    /**< in use; the tick reads it */
+    uint32_t      number;   /**< sequence number (store.h); 0: compiled in */
+    bool          fallback; /**< not what was stored last */
 } app_image_t;
 
 /**
@@ -29,5 +34,14 @@ drive_image_result_t app_image_check(const drive_image_t *image);
  * Context: init, before board_init().
  */
 bool app_image_choose(app_image_t *chosen, const app_config_t *app, const drive_config_t *drive);
+
+/**
+ * @brief Stores a fall-back as the last image, so that it runs from now on. Changes nothing else.
+ *
+ * @return false: the flash failed, and it stays a fall-back.
+ *
+ * Context: init, before board_start(). Takes seconds.
+ */
+bool app_image_accept(app_image_t *chosen);
 
 #endif /* APP_IMAGE_H */

@@ -20,9 +20,10 @@ void app_loader_init(app_loader_t *l, const app_image_t *in_force)
 {
     const app_loader_t none = {.state = APP_LOADER_AWAY, .reason = DRIVE_IMAGE_OK};
 
-    *l        = none;
-    l->number = in_force->number;
-    l->law    = in_force->image.drive.law->number;
+    *l          = none;
+    l->fallback = in_force->fallback;
+    l->number   = in_force->number;
+    l->law      = in_force->image.drive.law->number;
 }
 
 static bool exist(uint16_t first, uint16_t count, uint16_t all)

@@ -39,7 +39,7 @@ typedef enum {
     APP_LOADER_ENTER = 1, /**< from the application, bridge off: restart into the loader */
     APP_LOADER_BEGIN,     /**< erase the older slot */
     APP_LOADER_COMMIT,    /**< check everything, then make it the newest */
-    APP_LOADER_FORGET,    /**< erase both slots: back to compiled-in constants */
+    APP_LOADER_FORGET,    /**< back to compiled-in constants */
     APP_LOADER_LEAVE      /**< restart into the application */
 } app_loader_command_t;
 
@@ -76,9 +76,10 @@ typedef struct {
     uint32_t             crc;
     store_write_t        write;
     uint32_t             put_words;
-    bool                 restart; /**< after the answer has been sent */
-    bool                 enter;   /**< the restart enters the loader */
-    uint32_t             number;  /**< of the image in use, as the next */
+    bool                 restart;  /**< after the answer has been sent */
+    bool                 enter;    /**< the restart enters the loader */
+    bool                 fallback; /**< app_image_t, as the next */
+    uint32_t             number;   /**< of the image in use, as the next */
     uint16_t             law;
     app_image_t         *image; /**< buffer to check an image; NULL: the application runs */
 } app_loader_t;

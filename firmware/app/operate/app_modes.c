@@ -39,6 +39,7 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *c, const drive_c
     m->hot              = true;
     m->dc_link_out      = true;
     m->tripped          = false;
+    m->locked           = false;
     m->gate_on          = false;
     m->phase_errors     = 0U;
     m->current_max_A    = d->current_max_A;

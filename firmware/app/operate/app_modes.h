@@ -65,6 +65,7 @@ typedef struct {
     bool                hot;         /**< above the temperature limit, or temperature unknown */
     bool                dc_link_out; /**< outside the drive's range */
     bool                tripped;     /**< READY: the trip input is active */
+    bool                locked;      /**< no start: a stored image or record is lost */
     bool                gate_on;     /**< gates were enabled by an earlier tick */
     uint16_t            phase_errors;
     app_snapshot_t      snapshot;

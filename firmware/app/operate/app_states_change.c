@@ -57,6 +57,6 @@ bridge_t app_states_trip(app_modes_t *m, const app_modes_input_t *in, app_fault_
 /* An unknown temperature does not prevent a start; it is a fault of the run. */
 bool app_modes_in_the_way(const app_modes_t *m)
 {
-    return (m->hot && m->sample.temperature_valid) || m->dc_link_out || m->tripped ||
+    return (m->hot && m->sample.temperature_valid) || m->dc_link_out || m->tripped || m->locked ||
            !app_gate_may_start(&m->config->gate, m->reading.omega_e_radps);
 }

@@ -16,7 +16,10 @@
 #define VERSION_WORDS 2U
 #define RECORD_WORDS  (VERSION_WORDS + APP_REGISTERS_SAVED_WORDS)
 
-#if (KEPT_RECORD + VERSION_WORDS + APP_REGISTERS_SAVED_WORDS) > BOARD_KEPT_WORDS
+#define KEPT_WRITES  (KEPT_RECORD + RECORD_WORDS) /* since power-on; then its complement */
+#define KEPT_INVERSE (KEPT_WRITES + 1U)
+
+#if (KEPT_INVERSE + 1U) > BOARD_KEPT_WORDS
 #error "the parameters do not fit the words that outlast a restart"
 #endif
 
@@ -31,24 +34,56 @@ static uint32_t two(const uint16_t *words)
     return ((uint32_t)words[0] << 16) | words[1];
 }
 
+/* Writes since power-on, which leaves any bits in these words. */
+static uint16_t burst(void)
+{
+    const uint16_t *const kept = board_kept();
+
+    return ((kept[KEPT_WRITES] ^ kept[KEPT_INVERSE]) == 0xFFFFU) ? kept[KEPT_WRITES] : 0U;
+}
+
+static void count_burst(void)
+{
+    uint16_t *const kept = board_kept();
+    const uint16_t  now  = burst();
+
+    kept[KEPT_WRITES]  = (uint16_t)(now + ((now < APP_PARAMETERS_BURST) ? 1U : 0U));
+    kept[KEPT_INVERSE] = (uint16_t)(kept[KEPT_WRITES] ^ 0xFFFFU);
+}
+
+static app_parameters_state_t take_record(app_registers_t *r, const store_content_t *stored)
+{
+    app_parameters_state_t state = APP_PARAMETERS_STORED;
+
+    if (stored->words == NULL) {
+        state = APP_PARAMETERS_DEFAULT;
+    } else if ((stored->count != RECORD_WORDS) ||
+               (two(stored->words) != APP_REGISTERS_SAVED_VERSION)) {
+        state = APP_PARAMETERS_OTHER_VERSION;
+    } else if (!app_registers_saved_take(r, &stored->words[VERSION_WORDS])) {
+        state = APP_PARAMETERS_OUT_OF_RANGE;
+    } else {
+        /* taken */
+    }
+    return state;
+}
+
 void app_parameters_take(app_parameters_t *p, app_registers_t *r, app_parameters_done_t done)
 {
-    const store_content_t stored = store_newest(STORE_PARAMETERS);
+    const store_content_t        stored = store_newest(STORE_PARAMETERS);
+    const app_parameters_state_t state  = take_record(r, &stored);
 
-    p->done   = done;
-    p->number = 0UL;
-    if (stored.words == NULL) {
-        p->state = APP_PARAMETERS_DEFAULT;
-    } else if ((stored.count != RECORD_WORDS) ||
-               (two(stored.words) != APP_REGISTERS_SAVED_VERSION)) {
-        p->state = APP_PARAMETERS_OTHER_VERSION;
-    } else if (!app_registers_saved_take(r, &stored.words[VERSION_WORDS])) {
-        p->state = APP_PARAMETERS_OUT_OF_RANGE;
-    } else {
-        p->state  = APP_PARAMETERS_STORED;
-        p->number = stored.number;
-    }
+    p->done       = done;
+    p->number     = (state == APP_PARAMETERS_STORED) ? stored.number : 0UL;
+    p->state      = stored.lost ? APP_PARAMETERS_LOST : state;
+    p->writes     = store_writes(STORE_PARAMETERS);
+    p->rested     = burst() < APP_PARAMETERS_BURST;
     r->parameters = p;
+}
+
+void app_parameters_rest(app_parameters_t *p, float since_start_s)
+{
+    p->rested = p->rested || (since_start_s > APP_PARAMETERS_REST_s);
 }
 
 /* CRC of command and record. */
@@ -69,29 +104,32 @@ void app_parameters_ask(const app_registers_t *r, app_parameters_command_t comma
     kept[KEPT_MARK] = MARK;
 }
 
-static bool store_record(const uint16_t *record)
+/* Stores the fall-backs as the last contents. */
+static bool accept(app_image_t *in_force)
 {
-    const uint16_t count = RECORD_WORDS;
-    store_write_t  w;
+    const store_content_t stored = store_newest(STORE_PARAMETERS);
+    const bool            image  = app_image_accept(in_force);
 
-    return store_begin(&w, STORE_PARAMETERS, count) && store_put(&w, 0UL, record, count) &&
-           store_commit(&w);
+    return (!stored.lost || store_write(STORE_PARAMETERS, stored.words, stored.count)) && image;
 }
 
-app_parameters_done_t app_parameters_work(void)
+app_parameters_done_t app_parameters_work(app_image_t *in_force)
 {
     uint16_t *const kept  = board_kept();
     const bool      asked = (kept[KEPT_MARK] == MARK) && (two(&kept[KEPT_CRC]) == kept_crc(kept));
     bool            ok    = false;
 
     kept[KEPT_MARK] = 0U; /* executes only once */
-    if (asked && (kept[KEPT_COMMAND] == (uint16_t)APP_PARAMETERS_STORE)) {
-        ok = store_record(&kept[KEPT_RECORD]);
-    } else if (asked) {
-        ok = store_forget(STORE_PARAMETERS);
-    } else {
-        /* nothing to do */
+    if (!asked) {
+        return APP_PARAMETERS_NOT_ASKED;
     }
-    const app_parameters_done_t done = ok ? APP_PARAMETERS_DONE : APP_PARAMETERS_FLASH;
-    return asked ? done : APP_PARAMETERS_NOT_ASKED;
+    count_burst();
+    if (kept[KEPT_COMMAND] == (uint16_t)APP_PARAMETERS_STORE) {
+        ok = store_write(STORE_PARAMETERS, &kept[KEPT_RECORD], RECORD_WORDS);
+    } else if (kept[KEPT_COMMAND] == (uint16_t)APP_PARAMETERS_ACCEPT) {
+        ok = accept(in_force);
+    } else {
+        ok = store_forget(STORE_PARAMETERS);
+    }
+    return ok ? APP_PARAMETERS_DONE : APP_PARAMETERS_FLASH;
 }

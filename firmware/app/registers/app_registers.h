@@ -33,7 +33,9 @@ enum {
     APP_REGISTERS_VOLTAGE_LIMIT = 128,
     APP_REGISTERS_CURRENT_LIMIT = 256,
     APP_REGISTERS_DERATED       = 512,
-    APP_REGISTERS_DEFAULTS      = 1024
+    APP_REGISTERS_DEFAULTS      = 1024,
+    APP_REGISTERS_IMAGE_LOST    = 2048,
+    APP_REGISTERS_RECORD_LOST   = 4096
 };
 
 /** Bits of APP_REGISTERS_STATUSWORD; the state has bits 0 to 3, 5 and 6. */
@@ -139,6 +141,10 @@ uint32_t app_registers_record_count(const app_registers_t *r);
 uint32_t app_registers_stored_state(const app_registers_t *r);
 uint32_t app_registers_stored_done(const app_registers_t *r);
 uint32_t app_registers_stored_number(const app_registers_t *r);
+uint32_t app_registers_stored_writes(const app_registers_t *r);
+
+/** Conditions that prevent a start: APP_REGISTERS_IMAGE_LOST, APP_REGISTERS_RECORD_LOST. */
+uint16_t app_registers_lost(const app_registers_t *r);
 
 /** Value of APP_REGISTERS_CONDITIONS. */
 uint16_t app_registers_conditions(const app_registers_t *r);

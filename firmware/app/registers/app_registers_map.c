@@ -37,6 +37,7 @@ const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING]
     {APP_REGISTERS_SCOPE_BEFORE, APP_REGISTERS_U16, 0.0f, 0.0f, 511.0f, false, false, 0UL},
     {APP_REGISTERS_STORE_PARAMETERS, APP_REGISTERS_U32, 0.0f, 1.70225701e+09f, 1.70225701e+09f, false, false, 0x65766173UL},
     {APP_REGISTERS_RESTORE_PARAMETERS, APP_REGISTERS_U32, 0.0f, 1.68410712e+09f, 1.68410712e+09f, false, false, 0x64616F6CUL},
+    {APP_REGISTERS_ACCEPT_FALLBACK, APP_REGISTERS_U32, 0.0f, 1.70153612e+09f, 1.70153612e+09f, false, false, 0x656B6174UL},
     {APP_REGISTERS_TARGET_POSITION, APP_REGISTERS_I32, 0.0f, -1e+09f, 1e+09f, false, false, 0UL},
     {APP_REGISTERS_PROFILE_VELOCITY, APP_REGISTERS_U32, 10.0f, 0.0f, 1000000.0f, false, true, 0UL},
     {APP_REGISTERS_PROFILE_JERK, APP_REGISTERS_U32, 1.0f, 0.0f, 4e+09f, false, true, 0UL},
@@ -129,6 +130,7 @@ const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
     {APP_REGISTERS_PARAMETERS_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
     {APP_REGISTERS_PARAMETERS_DONE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
     {APP_REGISTERS_PARAMETERS_NUMBER, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, false, 0UL},
+    {APP_REGISTERS_PARAMETERS_WRITES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, false, 0UL},
     {APP_REGISTERS_SUPPORTED_MODES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, false, 0UL},
     {APP_REGISTERS_POLE_PAIRS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, false, 0UL},
     {APP_REGISTERS_ENCODER_POSITIONS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, false, 0UL},
@@ -263,6 +265,9 @@ uint32_t app_registers_map_holding_whole(const app_registers_t *r, uint16_t addr
         x = 1U;
         break;
     case APP_REGISTERS_RESTORE_PARAMETERS:
+        x = 1U;
+        break;
+    case APP_REGISTERS_ACCEPT_FALLBACK:
         x = 1U;
         break;
     case APP_REGISTERS_TARGET_POSITION:
@@ -578,6 +583,9 @@ uint32_t app_registers_map_input_whole(const app_registers_t *r, uint16_t addres
     case APP_REGISTERS_PARAMETERS_NUMBER:
         x = app_registers_stored_number(r);
         break;
+    case APP_REGISTERS_PARAMETERS_WRITES:
+        x = app_registers_stored_writes(r);
+        break;
     case APP_REGISTERS_SUPPORTED_MODES:
         x = r->drive->positions ? 0x00010025UL : 0x00010024UL;
         break;
@@ -694,6 +702,9 @@ void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, 
         break;
     case APP_REGISTERS_RESTORE_PARAMETERS:
         w->store_command = (uint16_t)APP_PARAMETERS_RESTORE;
+        break;
+    case APP_REGISTERS_ACCEPT_FALLBACK:
+        w->store_command = (uint16_t)APP_PARAMETERS_ACCEPT;
         break;
     case APP_REGISTERS_TARGET_POSITION:
         w->objects.target_cnt = n;

@@ -11,7 +11,7 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "c8205ca0" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "81bbead0" /**< of what a master can see of the map */
 
 #define APP_REGISTERS_SAVED_WORDS   24U          /**< of all parameters */
 #define APP_REGISTERS_SAVED_VERSION 0x184D64ABUL /**< of what these words mean */
@@ -57,8 +57,9 @@ enum {
     APP_REGISTERS_SCOPE_END = 107,
     APP_REGISTERS_STORE_PARAMETERS = 128,
     APP_REGISTERS_RESTORE_PARAMETERS = 130,
+    APP_REGISTERS_ACCEPT_FALLBACK = 132,
     APP_REGISTERS_STORE_FIRST = 128,
-    APP_REGISTERS_STORE_END = 132,
+    APP_REGISTERS_STORE_END = 134,
     APP_REGISTERS_TARGET_POSITION = 160,
     APP_REGISTERS_PROFILE_VELOCITY = 162,
     APP_REGISTERS_PROFILE_JERK = 164,
@@ -162,8 +163,9 @@ enum {
     APP_REGISTERS_PARAMETERS_STATE = 224,
     APP_REGISTERS_PARAMETERS_DONE = 225,
     APP_REGISTERS_PARAMETERS_NUMBER = 226,
+    APP_REGISTERS_PARAMETERS_WRITES = 228,
     APP_REGISTERS_STORED_FIRST = 224,
-    APP_REGISTERS_STORED_END = 228,
+    APP_REGISTERS_STORED_END = 230,
     APP_REGISTERS_SUPPORTED_MODES = 256,
     APP_REGISTERS_POLE_PAIRS = 258,
     APP_REGISTERS_ENCODER_POSITIONS = 259,
@@ -203,9 +205,9 @@ typedef struct {
 struct app_registers;
 struct app_registers_wanted;
 
-#define APP_REGISTERS_MAP_HOLDING 37U
+#define APP_REGISTERS_MAP_HOLDING 38U
 
-#define APP_REGISTERS_MAP_INPUT 98U
+#define APP_REGISTERS_MAP_INPUT 99U
 
 /** Rows in ascending order of the address. */
 extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];

@@ -15,9 +15,21 @@ static uint16_t limits(const app_status_t *s)
 
 static uint16_t refused_parameters(const app_registers_t *r)
 {
-    const uint32_t state = app_registers_stored_state(r);
-    return (state >= (uint32_t)APP_PARAMETERS_OTHER_VERSION) ? (uint16_t)APP_REGISTERS_DEFAULTS
-                                                             : 0U;
+    const uint32_t state   = app_registers_stored_state(r);
+    const bool     refused = (state == (uint32_t)APP_PARAMETERS_OTHER_VERSION) ||
+                         (state == (uint32_t)APP_PARAMETERS_OUT_OF_RANGE);
+
+    return refused ? (uint16_t)APP_REGISTERS_DEFAULTS : 0U;
+}
+
+uint16_t app_registers_lost(const app_registers_t *r)
+{
+    const bool     image  = (r->loader != NULL) && r->loader->fallback;
+    const uint16_t record = (app_registers_stored_state(r) == (uint32_t)APP_PARAMETERS_LOST)
+                                ? (uint16_t)APP_REGISTERS_RECORD_LOST
+                                : 0U;
+
+    return (uint16_t)((image ? (uint16_t)APP_REGISTERS_IMAGE_LOST : 0U) | record);
 }
 
 uint16_t app_registers_conditions(const app_registers_t *r)
@@ -30,7 +42,7 @@ uint16_t app_registers_conditions(const app_registers_t *r)
     const uint16_t shorted = r->status.shorted ? (uint16_t)APP_REGISTERS_SHORTED : 0U;
     const uint16_t lost    = r->status.without_angle ? (uint16_t)APP_REGISTERS_WITHOUT_ANGLE : 0U;
     return (uint16_t)(hot | silent | gate | dc | trip | shorted | lost | limits(&r->status) |
-                      refused_parameters(r));
+                      refused_parameters(r) | app_registers_lost(r));
 }
 
 int32_t app_registers_position(const app_registers_t *r)
@@ -102,9 +114,10 @@ static bool is_of_mode(const app_registers_t *r)
 
 uint16_t app_registers_statusword(const app_registers_t *r)
 {
-    const app_status_t *s       = &r->status;
-    const bool          warns   = s->hot || s->dc_link_out || s->tripped || s->without_angle;
-    const bool          limited = limits(s) != 0U;
+    const app_status_t *s = &r->status;
+    const bool          warns =
+        s->hot || s->dc_link_out || s->tripped || s->without_angle || (app_registers_lost(r) != 0U);
+    const bool limited = limits(s) != 0U;
 
     return (uint16_t)(state_bits(s->state) | bit_if(!s->dc_link_out, APP_REGISTERS_VOLTAGE) |
                       bit_if(warns, APP_REGISTERS_WARNING) |
@@ -161,4 +174,9 @@ uint32_t app_registers_stored_done(const app_registers_t *r)
 uint32_t app_registers_stored_number(const app_registers_t *r)
 {
     return (r->parameters != NULL) ? r->parameters->number : 0UL;
+}
+
+uint32_t app_registers_stored_writes(const app_registers_t *r)
+{
+    return (r->parameters != NULL) ? r->parameters->writes : 0UL;
 }

@@ -37,17 +37,20 @@ static bool is_there(const app_registers_t *r, const app_registers_entry_t *e,
 }
 
 /* A command that restarts the drive. It needs its signature, against stray writes. It needs
- * standstill, because the motor is uncontrolled for seconds. */
+ * standstill, because the motor is uncontrolled for seconds. It needs a rest, because the flash
+ * wears. */
 static app_registers_result_t try_command(app_registers_t *r, const app_registers_entry_t *e,
                                           const uint16_t *words)
 {
     const uint32_t given  = ((uint32_t)words[0] << 16) | words[1];
     const bool     stands = base_within(r->status.speed_e_radps, r->config->stop.still_e_radps);
+    const bool     idle =
+        (e->address == (uint16_t)APP_REGISTERS_ACCEPT_FALLBACK) && (app_registers_lost(r) == 0U);
 
     if (given != e->signature) {
         return APP_REGISTERS_BAD_VALUE;
     }
-    if ((r->parameters == NULL) || !is_stopped(r) || !stands) {
+    if ((r->parameters == NULL) || !r->parameters->rested || !is_stopped(r) || !stands || idle) {
         return APP_REGISTERS_BUSY;
     }
     app_registers_map_put(r, &r->trial, e->address, 0.0f, 0L);

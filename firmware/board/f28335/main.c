@@ -40,7 +40,7 @@ int main(void)
         stay_off();
     }
     if (board_loader_is_wanted()) {
-        stored = app_parameters_work();
+        stored = app_parameters_work(&in_force);
         if (stored == APP_PARAMETERS_NOT_ASKED) {
             load();
         }

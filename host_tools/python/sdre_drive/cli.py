@@ -21,7 +21,9 @@ from sdre_drive import boot_rom, record, scope, session, show
 from sdre_drive import commission as finder
 from sdre_drive import load as loader
 from sdre_drive import move as mover
+from sdre_drive import params as parameters
 from sdre_drive.connection import Drive, DriveError
+from sdre_drive.faults import bits
 from sdre_drive.options import (
     Control,
     Line,
@@ -187,6 +189,13 @@ def load(
     forget: Annotated[
         bool, typer.Option("--forget", help="back to the constants that are compiled in")
     ] = False,
+    accept: Annotated[
+        bool,
+        typer.Option(
+            "--accept-fallback",
+            help="the drive lost what was stored last: let it run with what it uses instead",
+        ),
+    ] = False,
     boot: Annotated[
         Optional[Path],
         typer.Option(
@@ -202,8 +211,8 @@ def load(
     tcp: Tcp = None,
 ) -> None:
     """Writes a motor's constants into the drive's flash, and restarts it with them."""
-    if sum(map(bool, (image, forget, boot))) > 1:
-        raise DriveError("load: give an image, --forget or --boot-rom")
+    if sum(map(bool, (image, forget, accept, boot))) > 1:
+        raise DriveError("load: give an image, --forget, --accept-fallback or --boot-rom")
     if boot:
         _load_ram(boot, rate, port)
         return
@@ -215,8 +224,13 @@ def load(
                 task = bar.add_task("writing", total=1.0)
                 found = loader.load(drive, image, lambda share: bar.update(task, completed=share))
         else:
+            if accept:
+                parameters.accept(drive)
             found = loader.in_force(drive)
+        lost = bits("condition", drive.read().conditions & parameters.LOST)
     out.print(f"in force: {found.words}", soft_wrap=True)
+    for entry in lost:
+        err.print(f"{entry.name}: {entry.meaning}", soft_wrap=True)
 
 
 @app.command()

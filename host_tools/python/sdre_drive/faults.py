@@ -20,7 +20,7 @@ GROUPS = ("application", "drive", "board", "condition")
 BIT_GROUPS = ("board", "condition")
 APPLICATION_BOARD, APPLICATION_DRIVE = 2, 10  # what sends the reader on to another group
 # Conditions that keep a drive from starting.
-NO_START = 1 | 8 | 16
+NO_START = 1 | 8 | 16 | 2048 | 4096
 # Conditions that need no action.
 NOT_A_WARNING = 4
 

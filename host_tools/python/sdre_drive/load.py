@@ -186,7 +186,7 @@ def load(drive: Drive, path: Path, progress: Callable[[float], None]) -> InForce
 
 
 def forget(drive: Drive) -> InForce:
-    """Erases both slots and restarts the drive."""
+    """Back to the compiled-in constants; the drive restarts."""
     _enter(drive)
     drive.write_words(COMMAND, [FORGET])
     found = _wait(drive, [STORED, FLASH], ERASE_S)

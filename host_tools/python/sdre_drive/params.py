@@ -21,13 +21,20 @@ except ModuleNotFoundError:  # before Python 3.11
     import tomli as tomllib  # type: ignore[no-redef]
 
 NAMES = {p.register.name: p for p in PARAMETERS}
-SIGNATURES = {"STORE_PARAMETERS": b"save", "RESTORE_PARAMETERS": b"load"}  # CiA 301
+# The first two as in CiA 301.
+SIGNATURES = {
+    "STORE_PARAMETERS": b"save",
+    "RESTORE_PARAMETERS": b"load",
+    "ACCEPT_FALLBACK": b"take",
+}
 STATES = (
     "defaults: nothing is stored",
     "as stored",
     "DEFAULTS: what is stored belongs to another firmware",
     "DEFAULTS: a stored value is out of its range",
+    "RECORD_LOST: what was stored last is lost",
 )
+LOST = 2048 | 4096  # conditions that ACCEPT_FALLBACK ends
 DONE, FLASH_FAILED = 1, 2
 # data sheet: a sector is erased in 2 s typical, 15 s at most; two of them, and requests without an
 # answer
@@ -151,7 +158,10 @@ def _command(drive: Drive, name: str, after: Dict[str, float]) -> Stored:
     try:
         drive.write_words(BY_NAME[name].address, [signature >> 16, signature & 0xFFFF])
     except Refused as e:
-        raise DriveError(f"{e}: the motor has to stand still, with the bridge off") from e
+        raise DriveError(
+            f"{e}: the motor has to stand still, with the bridge off; after eight writings since "
+            f"power-on the next one has to wait for an hour"
+        ) from e
     except DriveError:
         pass  # the answer was lost: what has become of it will be seen
     _new_line(drive, after)
@@ -181,6 +191,13 @@ def save(drive: Drive) -> Stored:
 def restore(drive: Drive) -> Stored:
     """Forgets what is stored; the drive restarts with its defaults."""
     return _command(drive, "RESTORE_PARAMETERS", {v.name: v.default for v in read(drive)})
+
+
+def accept(drive: Drive) -> Stored:
+    """Accepts what is in use instead of what is lost; the drive restarts."""
+    if not drive.read().conditions & LOST:
+        raise DriveError("nothing is lost: there is no fall-back to accept")
+    return _command(drive, "ACCEPT_FALLBACK", {v.name: v.value for v in read(drive)})
 
 
 def toml(found: List[Value], name: str) -> str:

@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "c8205ca0"
+DIGEST = "81bbead0"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -74,6 +74,7 @@ SCOPE: Tuple[Register, ...] = (  # holding
 STORE: Tuple[Register, ...] = (  # holding
     Register("STORE_PARAMETERS", 128, "u32", 0.0, ""),
     Register("RESTORE_PARAMETERS", 130, "u32", 0.0, ""),
+    Register("ACCEPT_FALLBACK", 132, "u32", 0.0, ""),
 )
 
 TARGET: Tuple[Register, ...] = (  # holding
@@ -181,6 +182,7 @@ STORED: Tuple[Register, ...] = (  # input
     Register("PARAMETERS_STATE", 224, "u16", 0.0, ""),
     Register("PARAMETERS_DONE", 225, "u16", 0.0, ""),
     Register("PARAMETERS_NUMBER", 226, "u32", 0.0, ""),
+    Register("PARAMETERS_WRITES", 228, "u32", 0.0, ""),
 )
 
 CONSTANTS: Tuple[Register, ...] = (  # input

@@ -12,6 +12,7 @@
 extern "C" {
 int                           firmware_main(void);
 extern volatile std::uint32_t watchdog_after_reset[2]; // firmware/board/f28335/watchdog.c
+std::uint16_t                *f28335_board_kept(void);
 }
 
 namespace sdre {
@@ -53,7 +54,7 @@ ServedDrive::ServedDrive(const Drive &drive, std::uint64_t seed)
       surroundings_(bench_, false, drive.board.dc_link_range_V, 1)
 {
     f28335::erase_flash();
-    power_up(false);
+    power_cycle();
 }
 
 void ServedDrive::power_up(bool after_reset)
@@ -82,6 +83,9 @@ void ServedDrive::power_cycle()
 {
     for (volatile std::uint32_t &word : watchdog_after_reset) {
         word = 0x9E3779B9U * ++power_cycles_;
+    }
+    for (std::size_t n = 0; n < BOARD_KEPT_WORDS; n++) {
+        f28335_board_kept()[n] = static_cast<std::uint16_t>((0x9E3779B9U * ++power_cycles_) >> 16U);
     }
     power_up(false);
 }

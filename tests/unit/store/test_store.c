@@ -115,6 +115,8 @@ static void test_of_two_equal_numbers_the_first_slot_counts(void)
 {
     write_numbered(1U, 7UL);
     write_numbered(2U, 7UL);
+    TEST_ASSERT_EQUAL_UINT16(2U, content()); /* it has replaced the first */
+    fake_board_store[0][0] = STORE_MARK;
     TEST_ASSERT_EQUAL_UINT16(1U, content());
 }
 
@@ -144,6 +146,7 @@ static void cut_everywhere(uint16_t before, bool (*change)(void), uint16_t after
         done                    = change();
         fake_board.store_budget = -1;
         const uint16_t left     = content();
+        TEST_ASSERT_FALSE_MESSAGE(store_newest(STORE_IMAGE).lost, "lost by a power cut");
         TEST_ASSERT_TRUE_MESSAGE((left == before) || (left == after), "neither old nor new");
         if (done) {
             TEST_ASSERT_EQUAL_UINT16(after, left);
@@ -181,20 +184,158 @@ static void test_a_power_cut_while_forgetting_leaves_the_newest_or_nothing(void)
     cut_everywhere(1U, forget, 0U);
 }
 
-static void test_every_flipped_bit_is_noticed(void)
+/* Flips one bit: the content is the same, or lost. */
+static bool flip_is_told(uint16_t slot, uint32_t n, uint16_t bit, const store_content_t *before)
 {
-    TEST_ASSERT_TRUE(write_content(1U, COUNT));
-    const uint16_t *const words = store_newest(STORE_IMAGE).words;
-    uint16_t *const       head  = &fake_board_store[0][0];
-    TEST_ASSERT_TRUE(words == &head[STORE_HEAD_WORDS]);
-    for (uint32_t n = 0U; n < (STORE_HEAD_WORDS + COUNT); n++) {
-        for (uint16_t bit = 0U; bit < 16U; bit++) {
-            head[n] = (uint16_t)(head[n] ^ (1U << bit));
-            TEST_ASSERT_TRUE(store_newest(STORE_IMAGE).words == NULL);
-            head[n] = (uint16_t)(head[n] ^ (1U << bit));
+    uint16_t *const word = &fake_board_store[slot][n];
+
+    *word                       = (uint16_t)(*word ^ (1U << bit));
+    const store_content_t after = store_newest(STORE_IMAGE);
+    *word                       = (uint16_t)(*word ^ (1U << bit));
+    if (!after.lost) {
+        TEST_ASSERT_TRUE((after.words == before->words) && (after.count == before->count) &&
+                         (after.number == before->number));
+    }
+    return after.lost;
+}
+
+/* Flips every bit of the first words of each slot. @return how many lose the content. */
+static int flip_first(uint32_t words)
+{
+    const store_content_t before = store_newest(STORE_IMAGE);
+    int                   lost   = 0;
+
+    TEST_ASSERT_FALSE(before.lost);
+    for (uint16_t slot = 0U; slot < BOARD_STORE_SLOTS; slot++) {
+        for (uint32_t n = 0U; n < words; n++) {
+            for (uint16_t bit = 0U; bit < 16U; bit++) {
+                lost += flip_is_told(slot, n, bit, &before) ? 1 : 0;
+            }
         }
     }
-    TEST_ASSERT_EQUAL_UINT16(1U, content());
+    return lost;
+}
+
+static int flip_everywhere(void)
+{
+    return flip_first(STORE_HEAD_WORDS + COUNT + 2U);
+}
+
+/* All bits of head and content but those of the mark. */
+#define SUMMED_BITS(count) (16 * ((int)STORE_HEAD_WORDS - 1 + (int)(count)))
+
+static void test_no_flipped_bit_of_the_whole_store_changes_the_content(void)
+{
+    TEST_ASSERT_EQUAL_INT(0, flip_everywhere()); /* never loaded */
+    for (uint16_t n = 1U; n <= 3U; n++) {
+        TEST_ASSERT_TRUE(write_content(n, COUNT));
+        TEST_ASSERT_EQUAL_INT(SUMMED_BITS(COUNT), flip_everywhere());
+    }
+    TEST_ASSERT_EQUAL_INT(SUMMED_BITS(COUNT), flip_first(BOARD_STORE_WORDS));
+    TEST_ASSERT_TRUE(store_forget(STORE_IMAGE));
+    TEST_ASSERT_EQUAL_INT(SUMMED_BITS(0), flip_everywhere());
+}
+
+static void test_no_flipped_bit_after_a_power_cut_changes_the_content(void)
+{
+    const int ends[] = {1, (int)BOARD_STORE_WORDS, (int)BOARD_STORE_WORDS + 10,
+                        (int)BOARD_STORE_WORDS + 27};
+
+    for (size_t i = 0U; i < (sizeof ends / sizeof ends[0]); i++) {
+        fake_board_erase_store();
+        TEST_ASSERT_TRUE(write_content(1U, COUNT));
+        TEST_ASSERT_TRUE(write_content(2U, COUNT));
+        fake_board.store_budget = ends[i];
+        TEST_ASSERT_FALSE(write_content(3U, COUNT));
+        fake_board.store_budget = -1;
+        TEST_ASSERT_EQUAL_UINT16(2U, content());
+        TEST_ASSERT_EQUAL_INT(SUMMED_BITS(COUNT), flip_everywhere());
+    }
+    /* complete, and not yet taken from the one before */
+    fake_board_erase_store();
+    TEST_ASSERT_TRUE(write_content(1U, COUNT));
+    TEST_ASSERT_TRUE(write_content(2U, COUNT));
+    fake_board_store[0][0] = STORE_MARK;
+    TEST_ASSERT_EQUAL_UINT16(2U, content());
+    TEST_ASSERT_EQUAL_INT(2 * SUMMED_BITS(COUNT), flip_everywhere());
+}
+
+/* The newest content is lost: what is left, and what a new one or none makes of it. */
+static void assert_lost(uint16_t left)
+{
+    const store_content_t c = store_newest(STORE_IMAGE);
+
+    TEST_ASSERT_TRUE(c.lost);
+    TEST_ASSERT_EQUAL_UINT16(left, content());
+}
+
+static void test_a_lost_sector_is_told_until_something_is_written(void)
+{
+    for (int how = 0; how < 4; how++) {
+        for (uint16_t writes = 1U; writes <= 4U; writes++) {
+            fake_board_erase_store();
+            for (uint16_t n = 1U; n <= writes; n++) {
+                TEST_ASSERT_TRUE(write_content(n, COUNT));
+            }
+            uint16_t *const newest = fake_board_store[(writes - 1U) % 2U];
+            if (how == 3) {
+                for (uint32_t n = 0U; n < BOARD_STORE_WORDS; n++) {
+                    newest[n] = 0xFFFFU; /* erased by a tool */
+                }
+            } else {
+                newest[STORE_HEAD_WORDS + 3U] ^= 0x0101U;
+            }
+            if ((how == 3) && (writes == 1U)) {
+                TEST_ASSERT_FALSE(
+                    store_newest(STORE_IMAGE).lost); /* as if nothing had been stored */
+                continue;
+            }
+            assert_lost((uint16_t)(writes - 1U));
+            if (how == 0) {
+                TEST_ASSERT_TRUE(write_content(7U, COUNT));
+                TEST_ASSERT_EQUAL_UINT16(7U, content());
+                TEST_ASSERT_EQUAL_UINT32(writes, store_writes(STORE_IMAGE));
+            } else if (how == 1) {
+                TEST_ASSERT_TRUE(store_forget(STORE_IMAGE));
+                TEST_ASSERT_EQUAL_UINT16(0U, content());
+            } else {
+                const store_content_t c = store_newest(STORE_IMAGE);
+                TEST_ASSERT_TRUE(store_write(STORE_IMAGE, c.words, c.count));
+                TEST_ASSERT_EQUAL_UINT16(writes - 1U, content());
+            }
+            TEST_ASSERT_FALSE(store_newest(STORE_IMAGE).lost);
+        }
+    }
+}
+
+static void test_both_sectors_damaged_is_told(void)
+{
+    for (int begin = 0; begin < 2; begin++) {
+        fake_board_erase_store();
+        TEST_ASSERT_TRUE(write_content(1U, COUNT));
+        TEST_ASSERT_TRUE(write_content(2U, COUNT));
+        fake_board_store[0][STORE_HEAD_WORDS] ^= 1U;
+        fake_board_store[1][STORE_HEAD_WORDS] ^= 1U;
+        assert_lost(0U);
+        if (begin == 1) { /* the first slot, and then the damaged one counts no more */
+            TEST_ASSERT_TRUE(write_content(3U, COUNT));
+        } else {
+            TEST_ASSERT_TRUE(store_forget(STORE_IMAGE));
+        }
+        TEST_ASSERT_FALSE(store_newest(STORE_IMAGE).lost);
+    }
+}
+
+static void test_nothing_is_written_to_forget_nothing(void)
+{
+    fake_board.store_budget = 0;
+    TEST_ASSERT_TRUE(store_forget(STORE_IMAGE));
+    fake_board.store_budget = -1;
+    TEST_ASSERT_TRUE(write_content(1U, COUNT));
+    TEST_ASSERT_TRUE(store_forget(STORE_IMAGE));
+    TEST_ASSERT_EQUAL_UINT32(2U, store_writes(STORE_IMAGE));
+    TEST_ASSERT_TRUE(store_forget(STORE_IMAGE));
+    TEST_ASSERT_EQUAL_UINT32(2U, store_writes(STORE_IMAGE));
 }
 
 static void test_what_does_not_fit_is_refused(void)
@@ -220,7 +361,11 @@ int main(void)
     RUN_TEST(test_of_two_equal_numbers_the_first_slot_counts);
     RUN_TEST(test_a_power_cut_at_any_word_leaves_old_or_new);
     RUN_TEST(test_a_power_cut_while_forgetting_leaves_the_newest_or_nothing);
-    RUN_TEST(test_every_flipped_bit_is_noticed);
+    RUN_TEST(test_no_flipped_bit_of_the_whole_store_changes_the_content);
+    RUN_TEST(test_no_flipped_bit_after_a_power_cut_changes_the_content);
+    RUN_TEST(test_a_lost_sector_is_told_until_something_is_written);
+    RUN_TEST(test_both_sectors_damaged_is_told);
+    RUN_TEST(test_nothing_is_written_to_forget_nothing);
     RUN_TEST(test_what_does_not_fit_is_refused);
     return UNITY_END();
 }

@@ -186,6 +186,104 @@ static void test_a_stored_image_that_the_board_refuses_is_not_used(void)
 
     TEST_ASSERT_EQUAL_UINT32(0U, in_force.number);
     TEST_ASSERT_TRUE(in_force.image.drive.speed_max_e_radps == gain_tables_drive.speed_max_e_radps);
+    TEST_ASSERT_TRUE(in_force.fallback);
+}
+
+/* Stores images with these speeds, one after the other. */
+static void load_all(const float *speeds_e_radps, int images)
+{
+    for (int n = 0; n < images; n++) {
+        use(&gain_tables_drive, speeds_e_radps[n]);
+        start_again();
+        load();
+        TEST_ASSERT_EQUAL_UINT16(APP_LOADER_STORED, input(APP_LOADER_STATE));
+    }
+    start_again();
+}
+
+static const float speeds[] = {500.0f, 600.0f, 700.0f};
+
+static void test_a_flipped_bit_changes_nothing_or_is_told(void)
+{
+    for (int images = 1; images <= 3; images += 2) {
+        int told = 0;
+        fake_board_erase_store();
+        load_all(speeds, images);
+        TEST_ASSERT_FALSE(in_force.fallback);
+        for (uint16_t slot = 0U; slot < 2U; slot++) {
+            for (uint32_t n = 0U; n < (STORE_HEAD_WORDS + count + 1U); n++) {
+                const uint16_t bit = (uint16_t)(1U << (n % 16U));
+                fake_board_store[slot][n] ^= bit;
+                start_again();
+                fake_board_store[slot][n] ^= bit;
+                TEST_ASSERT_TRUE(in_force.fallback ||
+                                 (in_force.image.drive.speed_max_e_radps == speeds[images - 1]));
+                told += in_force.fallback ? 1 : 0;
+            }
+        }
+        TEST_ASSERT_EQUAL_INT(STORE_HEAD_WORDS - 1U + count, told); /* all but the mark's */
+    }
+}
+
+/* Damages the image in force. */
+static void lose(int images)
+{
+    fake_board_erase_store();
+    load_all(speeds, images);
+    fake_board_store[(images - 1) % 2][STORE_HEAD_WORDS + 40U] ^= 8U;
+    start_again();
+    TEST_ASSERT_TRUE(in_force.fallback);
+}
+
+static void test_a_lost_image_leaves_the_one_before_or_the_compiled_one(void)
+{
+    lose(1);
+    TEST_ASSERT_EQUAL_UINT32(0U, in_force.number);
+    TEST_ASSERT_TRUE(in_force.image.drive.speed_max_e_radps == gain_tables_drive.speed_max_e_radps);
+    lose(2);
+    TEST_ASSERT_EQUAL_UINT32(1U, in_force.number);
+    TEST_ASSERT_TRUE(in_force.image.drive.speed_max_e_radps == 500.0f);
+}
+
+static void test_an_accepted_fallback_is_in_force_for_good(void)
+{
+    for (int images = 1; images <= 3; images++) {
+        lose(images);
+        TEST_ASSERT_TRUE(app_image_accept(&in_force));
+        TEST_ASSERT_FALSE(in_force.fallback);
+        const uint32_t number = in_force.number;
+        const float    speed  = in_force.image.drive.speed_max_e_radps;
+        start_again();
+        TEST_ASSERT_FALSE(in_force.fallback);
+        TEST_ASSERT_EQUAL_UINT32(number, in_force.number);
+        TEST_ASSERT_EQUAL_UINT32((images == 1) ? 0U : (uint32_t)images, number);
+        TEST_ASSERT_TRUE(in_force.image.drive.speed_max_e_radps == speed);
+    }
+}
+
+static void test_accepting_touches_nothing_else_and_tells_a_flash_that_fails(void)
+{
+    load_all(speeds, 2);
+    fake_board.store_budget = 0;
+    TEST_ASSERT_TRUE(app_image_accept(&in_force)); /* nothing to do */
+    TEST_ASSERT_EQUAL_UINT32(2U, in_force.number);
+    fake_board.store_budget = -1;
+    lose(2);
+    fake_board.store_budget = 100;
+    TEST_ASSERT_FALSE(app_image_accept(&in_force));
+    TEST_ASSERT_TRUE(in_force.fallback);
+    fake_board.store_budget = -1;
+
+    load(); /* another image ends it too */
+    start_again();
+    TEST_ASSERT_FALSE(in_force.fallback);
+    load();
+    fake_board.misfit = true; /* a whole image that is refused */
+    start_again();
+    TEST_ASSERT_TRUE(app_image_accept(&in_force));
+    start_again();
+    TEST_ASSERT_FALSE(in_force.fallback);
+    TEST_ASSERT_EQUAL_UINT32(0U, in_force.number);
 }
 
 static void test_words_come_in_turn_and_once(void)
@@ -326,6 +424,64 @@ static void test_the_application_enters_the_loader_and_not_by_broadcast(void)
     TEST_ASSERT_TRUE(fake_board.restart_loader);
 }
 
+/* True if the mode is left towards a run, an alignment or a commissioning. */
+static bool starts(int16_t mode_of_operation)
+{
+    app_objects_t o     = app_control_default(&in_force.image.drive);
+    bool          begun = false;
+
+    o.mode_of_operation    = mode_of_operation;
+    o.bounds.current_A     = 1.0f;
+    o.bounds.speed_m_radps = 10.0f;
+    (void)app_init(&in_force.image.app, &in_force.image.drive);
+    app_tell_image(&in_force);
+    app_take_parameters(APP_PARAMETERS_NOT_ASKED);
+    for (int n = 0; n < 20000; n++) {
+        o.controlword =
+            (uint16_t)((n < 15000) ? APP_CONTROL_SHUT_DOWN : APP_CONTROL_ENABLE_OPERATION);
+        (void)app_command_write(&o);
+        tick_and_pass();
+        begun = begun || (app_status_read().mode == APP_MODE_ALIGN) ||
+                (app_status_read().mode == APP_MODE_COMMISSION) || app_status_read().gate_enable;
+    }
+    return begun;
+}
+
+static uint16_t conditions(void)
+{
+    const int octets[6] = {1, 4, 0, APP_REGISTERS_CONDITIONS, 0, 1};
+
+    while (fake_board_sent() >= 0) {
+    }
+    modbus_frame_receive(octets, 6);
+    for (int n = 0; n < 200; n++) {
+        tick_and_pass();
+    }
+    for (int n = 0; n < 3; n++) {
+        (void)fake_board_sent();
+    }
+    const int high = fake_board_sent();
+    return (uint16_t)((high << 8) | fake_board_sent());
+}
+
+static void test_nothing_starts_with_a_fallback_until_it_is_accepted(void)
+{
+    static const int16_t modes[] = {APP_CONTROL_PROFILE_VELOCITY, APP_CONTROL_HOMING,
+                                    APP_CONTROL_COMMISSIONING};
+
+    for (size_t i = 0U; i < (sizeof modes / sizeof modes[0]); i++) {
+        lose(2);
+        TEST_ASSERT_FALSE(starts(modes[i]));
+        TEST_ASSERT_EQUAL_UINT16(APP_REGISTERS_IMAGE_LOST, conditions() & 0x1C00U);
+        TEST_ASSERT_TRUE(app_image_accept(&in_force));
+        TEST_ASSERT_TRUE(starts(modes[i]));
+        TEST_ASSERT_EQUAL_UINT16(0U, conditions() & 0x1C00U);
+    }
+    fake_board_store[2][0] = STORE_MARK; /* a record of parameters that is not whole */
+    TEST_ASSERT_FALSE(starts(APP_CONTROL_PROFILE_VELOCITY));
+    TEST_ASSERT_EQUAL_UINT16(APP_REGISTERS_RECORD_LOST, conditions() & 0x1C00U);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -334,6 +490,11 @@ int main(void)
     RUN_TEST(test_a_wrong_sum_is_refused_and_the_old_image_stays);
     RUN_TEST(test_images_that_cannot_run_are_refused_with_their_reason);
     RUN_TEST(test_a_stored_image_that_the_board_refuses_is_not_used);
+    RUN_TEST(test_a_flipped_bit_changes_nothing_or_is_told);
+    RUN_TEST(test_a_lost_image_leaves_the_one_before_or_the_compiled_one);
+    RUN_TEST(test_an_accepted_fallback_is_in_force_for_good);
+    RUN_TEST(test_accepting_touches_nothing_else_and_tells_a_flash_that_fails);
+    RUN_TEST(test_nothing_starts_with_a_fallback_until_it_is_accepted);
     RUN_TEST(test_words_come_in_turn_and_once);
     RUN_TEST(test_commands_have_their_place_and_their_length);
     RUN_TEST(test_a_task_is_done_after_its_answer_and_nothing_else_meanwhile);

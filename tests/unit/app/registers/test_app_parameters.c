@@ -15,23 +15,30 @@
 
 static app_registers_t  registers;
 static app_parameters_t parameters;
+static app_image_t      in_force;
 
 /* The start of the drive, with what was asked for before it. */
 static void start_again(void)
 {
-    const app_parameters_done_t done = app_parameters_work();
+    const app_parameters_done_t done = app_parameters_work(&in_force);
 
     TEST_ASSERT_EQUAL_INT(CTL_OK,
                           app_registers_init(&registers, &board_config, &gain_tables_drive));
     app_parameters_take(&parameters, &registers, done);
 }
 
+static void power_on(void)
+{
+    (void)memset(board_kept(), 0xA5, BOARD_KEPT_WORDS * sizeof(uint16_t));
+    start_again();
+}
+
 void setUp(void)
 {
     fake_board_reset();
     fake_board_erase_store();
-    (void)memset(board_kept(), 0xA5, BOARD_KEPT_WORDS * sizeof(uint16_t)); /* after power-on */
-    start_again();
+    TEST_ASSERT_TRUE(app_image_choose(&in_force, &board_config, &gain_tables_drive));
+    power_on();
 }
 
 void tearDown(void) {}
@@ -105,9 +112,13 @@ static void assert_others(bool are)
 
 static void assert_state(app_parameters_state_t state)
 {
+    const bool refused =
+        (state == APP_PARAMETERS_OTHER_VERSION) || (state == APP_PARAMETERS_OUT_OF_RANGE);
+    const bool lost = state == APP_PARAMETERS_LOST;
+
     TEST_ASSERT_EQUAL_UINT16(state, input(APP_REGISTERS_PARAMETERS_STATE));
-    TEST_ASSERT_EQUAL_UINT16((state >= APP_PARAMETERS_OTHER_VERSION) ? 1024U : 0U,
-                             input(APP_REGISTERS_CONDITIONS) & 1024U);
+    TEST_ASSERT_EQUAL_UINT16((refused ? 1024U : 0U) | (lost ? 4096U : 0U),
+                             input(APP_REGISTERS_CONDITIONS) & (1024U | 4096U));
 }
 
 static void test_the_test_knows_every_parameter(void)
@@ -304,7 +315,7 @@ static void cut_everywhere(uint16_t before, bool restoring)
     bool done = false;
     for (int budget = 0; !done; budget = next_cut(budget)) {
         fake_board_erase_store();
-        start_again();
+        power_on();
         for (uint16_t n = 1U; n <= before; n++) {
             TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_SPEED_WINDOW, 100 + n));
             store();
@@ -320,7 +331,7 @@ static void cut_everywhere(uint16_t before, bool restoring)
         done = parameters.done == APP_PARAMETERS_DONE;
         TEST_ASSERT_TRUE(done || (parameters.done == APP_PARAMETERS_FLASH));
         fake_board.store_budget = -1;
-        start_again(); /* power returns */
+        power_on();
 
         const uint16_t window = holding(APP_REGISTERS_SPEED_WINDOW);
         const uint16_t old    = (before > 0U) ? (uint16_t)(100U + before) : 50U;
@@ -348,16 +359,158 @@ static void test_a_power_cut_while_restoring_leaves_the_newest_or_defaults(void)
     cut_everywhere(2U, true);
 }
 
+/* Flips every bit of both slots of the parameters, and starts. */
+static void flip_everywhere(uint16_t window, uint32_t number, int *lost)
+{
+    for (uint16_t slot = 2U; slot < 4U; slot++) {
+        for (uint32_t n = 0U; n < (STORE_HEAD_WORDS + 4U + APP_REGISTERS_SAVED_WORDS); n++) {
+            for (uint16_t bit = 0U; bit < 16U; bit++) {
+                fake_board_store[slot][n] ^= (uint16_t)(1U << bit);
+                power_on();
+                if (parameters.state == APP_PARAMETERS_LOST) {
+                    (*lost)++;
+                    assert_state(APP_PARAMETERS_LOST);
+                } else {
+                    TEST_ASSERT_EQUAL_UINT16(window, holding(APP_REGISTERS_SPEED_WINDOW));
+                    TEST_ASSERT_EQUAL_UINT32(number, parameters.number);
+                }
+                fake_board_store[slot][n] ^= (uint16_t)(1U << bit);
+            }
+        }
+    }
+}
+
+static void store_window(int window)
+{
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_SPEED_WINDOW, window));
+    store();
+}
+
+static void test_a_flipped_bit_changes_nothing_or_is_told(void)
+{
+    /* kind, count, number, CRC and the record, of the slot in force; the mark is known with one bit wrong */
+    const int each = 16 * (int)(STORE_HEAD_WORDS - 1U + 2U + APP_REGISTERS_SAVED_WORDS);
+    int       lost = 0;
+
+    flip_everywhere(50U, 0U, &lost);
+    TEST_ASSERT_EQUAL_INT(0, lost);
+    for (int n = 1; n <= 3; n++) {
+        lost = 0;
+        store_window(100 + n);
+        flip_everywhere((uint16_t)(100 + n), (uint32_t)n, &lost);
+        TEST_ASSERT_EQUAL_INT(each, lost);
+    }
+    lost = 0;
+    app_parameters_ask(&registers, APP_PARAMETERS_RESTORE);
+    start_again();
+    flip_everywhere(50U, 0U, &lost);
+    TEST_ASSERT_EQUAL_INT(16 * (int)(STORE_HEAD_WORDS - 1U), lost);
+}
+
+static app_registers_result_t ask_accept(void)
+{
+    return write_two(APP_REGISTERS_ACCEPT_FALLBACK, 0x656B, 0x6174); /* "take" */
+}
+
+/* Damages the record in force after `writes` writes. */
+static void lose(int writes)
+{
+    for (int n = 1; n <= writes; n++) {
+        store_window(100 + n);
+    }
+    fake_board_store[2 + ((writes - 1) % 2)][STORE_HEAD_WORDS + 5U] ^= 0x0400U;
+    start_again();
+    assert_state(APP_PARAMETERS_LOST);
+}
+
+static void test_what_is_lost_is_replaced_on_command_only(void)
+{
+    static const struct {
+        int      writes;
+        uint16_t window; /* of the fall-back */
+        uint32_t writes_after;
+    } cases[] = {{1, 50U, 1UL}, {2, 101U, 2UL}, {3, 102U, 3UL}};
+
+    for (size_t i = 0U; i < (sizeof cases / sizeof cases[0]); i++) {
+        setUp();
+        lose(cases[i].writes);
+        TEST_ASSERT_EQUAL_UINT16(cases[i].window, holding(APP_REGISTERS_SPEED_WINDOW));
+        TEST_ASSERT_EQUAL_UINT16(128U, input(APP_REGISTERS_STATUSWORD) & 128U);
+        power_on();
+        assert_state(APP_PARAMETERS_LOST); /* another start does not help */
+
+        TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, ask_accept());
+        restart();
+        TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_DONE, parameters.done);
+        assert_state((cases[i].writes == 1) ? APP_PARAMETERS_DEFAULT : APP_PARAMETERS_STORED);
+        TEST_ASSERT_EQUAL_UINT16(cases[i].window, holding(APP_REGISTERS_SPEED_WINDOW));
+        TEST_ASSERT_EQUAL_UINT32(cases[i].writes_after, parameters.writes);
+        TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BUSY, ask_accept()); /* nothing is lost */
+    }
+    for (int restoring = 0; restoring < 2; restoring++) { /* another writing helps too */
+        setUp();
+        lose(2);
+        app_parameters_ask(&registers,
+                           (restoring != 0) ? APP_PARAMETERS_RESTORE : APP_PARAMETERS_STORE);
+        start_again();
+        assert_state((restoring != 0) ? APP_PARAMETERS_DEFAULT : APP_PARAMETERS_STORED);
+    }
+}
+
+static void test_a_power_cut_while_accepting_leaves_lost_or_accepted(void)
+{
+    bool done = false;
+    for (int budget = 0; !done; budget = next_cut(budget)) {
+        setUp();
+        lose(2);
+        app_parameters_ask(&registers, APP_PARAMETERS_ACCEPT);
+        fake_board.store_budget = budget;
+        start_again();
+        done                    = parameters.done == APP_PARAMETERS_DONE;
+        fake_board.store_budget = -1;
+        power_on();
+        TEST_ASSERT_TRUE((parameters.state == APP_PARAMETERS_STORED) ||
+                         (!done && (parameters.state == APP_PARAMETERS_LOST)));
+        TEST_ASSERT_EQUAL_UINT16(101U, holding(APP_REGISTERS_SPEED_WINDOW));
+    }
+}
+
+static void test_writes_are_counted_and_need_a_rest(void)
+{
+    for (uint32_t n = 1U; n <= 8U; n++) {
+        store();
+        TEST_ASSERT_EQUAL_UINT16(n, input(APP_REGISTERS_PARAMETERS_WRITES + 1));
+    }
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BUSY, ask_store());
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BUSY,
+                          write_two(APP_REGISTERS_RESTORE_PARAMETERS, 0x6461, 0x6F6C));
+    app_parameters_rest(&parameters, 3599.9f);
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BUSY, ask_store());
+    app_parameters_rest(&parameters, 3600.1f);
+    app_parameters_rest(&parameters, 0.0f); /* the count of ticks wraps */
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, ask_store());
+    restart();
+    TEST_ASSERT_EQUAL_UINT16(9U, input(APP_REGISTERS_PARAMETERS_WRITES + 1));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BUSY, ask_store());
+    power_on();
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, ask_store());
+
+    app_parameters_ask(&registers, APP_PARAMETERS_RESTORE); /* forgetting is a write */
+    start_again();
+    TEST_ASSERT_EQUAL_UINT16(10U, input(APP_REGISTERS_PARAMETERS_WRITES + 1));
+    TEST_ASSERT_EQUAL_UINT16(0U, input(APP_REGISTERS_PARAMETERS_NUMBER + 1));
+}
+
 static void test_a_request_is_done_once_and_only_whole(void)
 {
     write_others();
     app_parameters_ask(&registers, APP_PARAMETERS_STORE);
-    TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_DONE, app_parameters_work());
-    TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_NOT_ASKED, app_parameters_work());
+    TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_DONE, app_parameters_work(&in_force));
+    TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_NOT_ASKED, app_parameters_work(&in_force));
     for (uint16_t n = 0U; n < (uint16_t)(6U + APP_REGISTERS_SAVED_WORDS); n++) {
         app_parameters_ask(&registers, APP_PARAMETERS_STORE);
         board_kept()[n] ^= 0x0100U;
-        TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_NOT_ASKED, app_parameters_work());
+        TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_NOT_ASKED, app_parameters_work(&in_force));
     }
 }
 
@@ -376,7 +529,7 @@ static void request(int unit, int address, int high, int low)
 static void run_application(void)
 {
     TEST_ASSERT_EQUAL_INT(CTL_OK, app_init(&board_config, &gain_tables_drive));
-    app_take_parameters(app_parameters_work());
+    app_take_parameters(app_parameters_work(&in_force));
 }
 
 static void test_the_application_restarts_to_store_and_takes_its_line(void)
@@ -397,12 +550,11 @@ static void test_the_application_restarts_to_store_and_takes_its_line(void)
     request(5, APP_REGISTERS_STORE_PARAMETERS, 0x6576, 0x6173);
     TEST_ASSERT_GREATER_THAN_INT(0, fake_board.restarts);
     TEST_ASSERT_TRUE(fake_board.restart_loader);
-    TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_DONE, app_parameters_work());
+    TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_DONE, app_parameters_work(&in_force));
 }
 
 static void test_the_loader_has_the_stored_line_and_address_and_stores_nothing(void)
 {
-    static app_image_t in_force;
     (void)write_two(APP_REGISTERS_BAUD_RATE, 0, 19200);
     store();
     TEST_ASSERT_TRUE(app_image_choose(&in_force, &board_config, &gain_tables_drive));
@@ -439,6 +591,10 @@ int main(void)
     RUN_TEST(test_one_value_out_of_range_gives_defaults_for_all);
     RUN_TEST(test_a_power_cut_at_any_word_leaves_old_or_new);
     RUN_TEST(test_a_power_cut_while_restoring_leaves_the_newest_or_defaults);
+    RUN_TEST(test_a_flipped_bit_changes_nothing_or_is_told);
+    RUN_TEST(test_what_is_lost_is_replaced_on_command_only);
+    RUN_TEST(test_a_power_cut_while_accepting_leaves_lost_or_accepted);
+    RUN_TEST(test_writes_are_counted_and_need_a_rest);
     RUN_TEST(test_a_request_is_done_once_and_only_whole);
     RUN_TEST(test_the_application_restarts_to_store_and_takes_its_line);
     RUN_TEST(test_the_loader_has_the_stored_line_and_address_and_stores_nothing);
