@@ -5,11 +5,26 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Iterable, List
+from typing import Iterable, List, Tuple
 
 from table import SPACES, Group, Register, of_space
 
 NOTE = "/* Generated from registers.toml. Do not edit: python3 host_tools/registers/generate.py. */"
+HOMES = {
+    "": "COMPUTED",
+    "wanted": "app_registers_wanted_t",
+    "status": "app_status_t",
+    "drive": "drive_config_t",
+    "config": "app_config_t",
+}
+MEMBERS = {
+    "u16": "uint16_t",
+    "i16": "int16_t",
+    "u32": "uint32_t",
+    "i32": "int32_t",
+    "float": "float",
+    "bool": "bool",
+}
 TYPES = {"u16": "U16", "i16": "I16", "u32": "U32", "i32": "I32", "dec": "DEC"}
 
 
@@ -108,6 +123,27 @@ def header(groups: List[Group]) -> str:
         "    APP_REGISTERS_DEC /**< two words: digits and power of ten, both signed */",
         "} app_registers_type_t;",
         "",
+        "/** Where a value is. */",
+        "typedef enum {",
+        "    APP_REGISTERS_COMPUTED = 0, /**< app_registers_map_real() and its kin */",
+        "    APP_REGISTERS_WANTED, /**< a member of the app_registers_wanted_t */",
+        "    APP_REGISTERS_STATUS, /**< of the app_status_t */",
+        "    APP_REGISTERS_DRIVE,  /**< of the drive_config_t */",
+        "    APP_REGISTERS_CONFIG  /**< of the app_config_t */",
+        "} app_registers_home_t;",
+        "",
+        "/** Type of that member. */",
+        "typedef enum {",
+        "    APP_REGISTERS_AS_U16 = 0,",
+        "    APP_REGISTERS_AS_I16,",
+        "    APP_REGISTERS_AS_U32,",
+        "    APP_REGISTERS_AS_I32,",
+        "    APP_REGISTERS_AS_FLOAT,",
+        "    APP_REGISTERS_AS_BOOL,",
+        "    APP_REGISTERS_AS_CHAR, /**< an enumeration of this size */",
+        "    APP_REGISTERS_AS_INT",
+        "} app_registers_kind_t;",
+        "",
         "typedef struct {",
         "    uint16_t             address; /**< of the first word */",
         "    app_registers_type_t type;",
@@ -117,6 +153,10 @@ def header(groups: List[Group]) -> str:
         "    bool                 stopped;   /**< written while the bridge is off only */",
         "    bool                 saved;     /**< a parameter: kept over power */",
         "    uint32_t             signature; /**< the one value that is taken; 0: no such thing */",
+        "    app_registers_home_t home;",
+        "    app_registers_kind_t kind;",
+        "    uint16_t             offset; /**< of the member; of a computed value its number */",
+        "    bool                 rpm;    /**< the member is electrical rad/s */",
         "} app_registers_entry_t;",
         "",
         "struct app_registers;",
@@ -132,25 +172,35 @@ def header(groups: List[Group]) -> str:
         "extern const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT];",
         "",
     ]
-    for space in SPACES:
-        lines += [
-            "/** The value of a register with a unit, and of one without. 0 where there is "
-            "none. */",
-            f"float    app_registers_map_{space}_real(const struct app_registers *r, uint16_t "
-            f"address);",
-            f"uint32_t app_registers_map_{space}_whole(const struct app_registers *r, uint16_t "
-            f"address);",
-            "",
-        ]
     lines += [
-        "/** Puts a value that is in its range into w; n are its counts, of those with a sign. */",
+        "/** A computed value with a unit, and one without, by its number; 0: there is none. */",
+        "float    app_registers_map_real(const struct app_registers *r, uint16_t number);",
+        "uint32_t app_registers_map_whole(const struct app_registers *r, uint16_t number);",
+        "",
+        "/** Puts a value that is in its range into w, as its number says. */",
         "void app_registers_map_put(const struct app_registers *r, struct app_registers_wanted *w, "
-        "uint16_t address, float x, int32_t n);",
+        "uint16_t number, float x);",
         "",
         "#endif /* APP_REGISTERS_MAP_H */",
         "",
     ]
     return "\n".join(lines)
+
+
+def _computed(groups: List[Group]) -> List[Register]:
+    """The registers that are no members, by their number."""
+    return [r for space in SPACES for r in of_space(groups, space) if not r.member]
+
+
+def _place(groups: List[Group], r: Register) -> str:
+    """Home, kind, offset and unit of a row."""
+    if not r.member:
+        number = _computed(groups).index(r)
+        return f"APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, {number}U, false"
+    of = HOMES[r.home]
+    kind = f"APP_REGISTERS_AS_{r.kind.upper()}" if r.kind in MEMBERS else f"OF_ENUM({r.kind})"
+    at = f"AT({of}, {r.member})"
+    return f"APP_REGISTERS_{r.home.upper()}, {kind}, {at}, {_c_bool(r.rpm)}"
 
 
 def _table(groups: List[Group], space: str) -> List[str]:
@@ -162,35 +212,35 @@ def _table(groups: List[Group], space: str) -> List[str]:
         low, high = r.range or (0.0, 0.0)
         lines.append(
             f"    {{APP_REGISTERS_{r.name}, APP_REGISTERS_{TYPES[r.type]}, {_c_float(r.per_unit)}, "
-            f"{_c_float(low)}, "
-            f"{_c_float(high)}, {_c_bool(r.stopped)}, {_c_bool(r.saved)}, "
-            f"{f'0x{r.signature:08X}UL' if r.signature else '0UL'}}},"
+            f"{_c_float(low)}, {_c_float(high)}, {_c_bool(r.stopped)}, {_c_bool(r.saved)}, "
+            f"{f'0x{r.signature:08X}UL' if r.signature else '0UL'}, {_place(groups, r)}}},"
         )
     return [*lines, "};", ""]
 
 
-def _is_real(r: Register) -> bool:
-    return r.step is not None or r.type == "dec"
+def _switch(cases: Iterable[Tuple[int, str, str]]) -> List[str]:
+    lines = ["    switch (number) {"]
+    for number, name, line in cases:
+        lines += [f"    case {number}U: /* {name} */", f"        {line};", "        break;"]
+    return [*lines, "    default:", "        break;", "    }"]
 
 
-def _getter(groups: List[Group], space: str, real: bool) -> List[str]:
+def _getter(groups: List[Group], real: bool) -> List[str]:
     kind, name = ("float", "real") if real else ("uint32_t", "whole")
     zero = "0.0f" if real else "0U"
-    lines = [
-        f"{kind} app_registers_map_{space}_{name}(const app_registers_t *r, uint16_t address)",
+    found = [
+        (n, r.name, f"x = {r.source}") for n, r in enumerate(_computed(groups)) if r.is_real == real
+    ]
+    return [
+        f"{kind} app_registers_map_{name}(const app_registers_t *r, uint16_t number)",
         "{",
         f"    {kind} x = {zero};",
         "",
-        "    switch (address) {",
+        *_switch(found),
+        "    return x;",
+        "}",
+        "",
     ]
-    for r in of_space(groups, space):
-        if _is_real(r) == real:
-            lines += [
-                f"    case APP_REGISTERS_{r.name}:",
-                f"        x = {r.source};",
-                "        break;",
-            ]
-    return [*lines, "    default:", "        break;", "    }", "    return x;", "}", ""]
 
 
 def source(groups: List[Group]) -> str:
@@ -201,18 +251,53 @@ def source(groups: List[Group]) -> str:
         "/* clang-format off */",
         '#include "app_registers.h"',
         "",
+        "#include <stddef.h>",
+        "",
+        "/* Offset of a member. Test unit.app_registers compares its type. */",
+        "#define AT(t, m) ((uint16_t)offsetof(t, m))",
+        "",
+        "/* An enumeration is as short as a char, or an int. */",
+        "#define OF_ENUM(t) \\",
+        "    ((sizeof(t) == sizeof(unsigned char)) ? APP_REGISTERS_AS_CHAR : APP_REGISTERS_AS_INT)",
+        "",
     ]
     for space in SPACES:
         lines += _table(groups, space)
-    for space in SPACES:
-        lines += _getter(groups, space, True) + _getter(groups, space, False)
+    put = [(n, r.name, r.target) for n, r in enumerate(_computed(groups)) if r.target]
     lines += [
+        *_getter(groups, True),
+        *_getter(groups, False),
         "void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, uint16_t "
-        "address, float x, int32_t n)",
+        "number, float x)",
         "{",
-        "    switch (address) {",
+        *_switch(put),
+        "}",
+        "",
     ]
-    for r in of_space(groups, "holding"):
-        lines += [f"    case APP_REGISTERS_{r.name}:", f"        {r.target};", "        break;"]
-    lines += ["    default:", "        break;", "    }", "}", ""]
     return "\n".join(lines)
+
+
+def types(groups: List[Group]) -> str:
+    """register_types.h, of the unit test."""
+    lines = [
+        "/* SPDX-License-Identifier: MIT */",
+        NOTE,
+        "/* clang-format off */",
+        "/* Does not compile if a member has another type than its row says, or an enumeration "
+        "another size. */",
+        "#ifndef REGISTER_TYPES_H",
+        "#define REGISTER_TYPES_H",
+        "",
+        "#define IS(t, m, type) (void)sizeof((1) ? &((const t *)0)->m : (const type *)0)",
+        "#define FITS(type) \\",
+        "    (void)sizeof(char[((sizeof(type) == 1U) || (sizeof(type) == sizeof(int))) ? 1 : -1])",
+        "",
+        "static void register_types(void)",
+        "{",
+    ]
+    rows = [r for space in SPACES for r in of_space(groups, space) if r.member]
+    lines += sorted(
+        {f"    IS({HOMES[r.home]}, {r.member}, {MEMBERS.get(r.kind, r.kind)});" for r in rows}
+    )
+    lines += sorted({f"    FITS({r.kind});" for r in rows if r.kind not in MEMBERS})
+    return "\n".join([*lines, "}", "", "#endif /* REGISTER_TYPES_H */", ""])

@@ -18,7 +18,7 @@ from typing import Dict, List
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from c_map import digest_of, header, saved, source, version  # noqa: E402
+from c_map import digest_of, header, saved, source, types, version  # noqa: E402
 from c_signals import signals_header, signals_source  # noqa: E402
 from table import Group, Register, Signal, TableError, read, signals  # noqa: E402
 
@@ -219,6 +219,7 @@ def files(groups: List[Group], found: List[Signal]) -> Dict[Path, str]:
     return {
         ROOT / "firmware/app/registers/app_registers_map.h": header(groups),
         ROOT / "firmware/app/registers/app_registers_map.c": source(groups),
+        ROOT / "tests/unit/app/registers/register_types.h": types(groups),
         ROOT / "firmware/app/trace/app_scope_signals.h": signals_header(found),
         ROOT / "firmware/app/trace/app_scope_signals.c": signals_source(found),
         doc: documented(groups, found, doc.read_text(encoding="utf-8")),

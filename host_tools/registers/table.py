@@ -12,6 +12,9 @@ try:
 except ModuleNotFoundError:  # before Python 3.11
     import tomli as tomllib  # type: ignore[no-redef]
 
+# Structures whose members registers show, and types of members.
+HOMES = ("wanted", "status", "drive", "config")
+MEMBERS = ("u16", "i16", "u32", "i32", "float", "bool")
 WORDS = {"u16": 1, "i16": 1, "u32": 2, "i32": 2, "dec": 2}
 SPACES = ("holding", "input")
 KEYS = {
@@ -19,6 +22,9 @@ KEYS = {
     "type",
     "unit",
     "step",
+    "at",
+    "c",
+    "rpm",
     "from",
     "to",
     "range",
@@ -45,6 +51,10 @@ class Register:
     type: str
     unit: str
     step: Optional[float]
+    home: str
+    member: str
+    kind: str
+    rpm: bool
     source: str
     target: str
     range: Optional[Tuple[float, float]]
@@ -64,6 +74,11 @@ class Register:
     def numbers(self) -> str:
         """Address or addresses as text."""
         return f"{self.address}" if self.words == 1 else f"{self.address}, {self.address + 1}"
+
+    @property
+    def is_real(self) -> bool:
+        """Has a unit that it counts, or digits and a power of ten."""
+        return self.step is not None or self.type == "dec"
 
     @property
     def per_unit(self) -> float:
@@ -112,14 +127,25 @@ def signals(path: Path) -> List[Signal]:
 
 def _register(keys: Dict[str, Any], address: int, space: str) -> Register:
     name = keys.get("name", "?")
-    if not keys.keys() <= KEYS or not {"name", "type", "from", "text"} <= keys.keys():
+    if not keys.keys() <= KEYS or not {"name", "type", "text"} <= keys.keys():
         raise TableError(f"{name}: keys {sorted(keys)}")
     if keys["type"] not in WORDS:
         raise TableError(f"{name}: type {keys['type']}")
+    if ("at" in keys) == ("from" in keys) or ("at" in keys and "to" in keys):
+        raise TableError(f"{name}: either at, or from and to")
+    home, _, member = keys.get("at", "").partition(".")
+    real = "step" in keys or keys["type"] == "dec"
+    kind = keys.get("c", "float" if real else keys["type"])
+    known = kind in MEMBERS or kind.endswith("_t")
+    if member and (home not in HOMES or not known or (kind == "float") != real):
+        raise TableError(f"{name}: at {keys['at']}, c {kind}")
     signature = int.from_bytes(keys.get("signature", "").encode(), "little")
     given = keys.get("range") or ([signature, signature] if signature else None)
-    if (space == "holding") != ("to" in keys and given is not None and "default" in keys):
-        raise TableError(f"{name}: to, range and default belong to holding registers, all of them")
+    written = "to" in keys or home == "wanted"
+    if (space == "holding") != (written and given is not None and "default" in keys):
+        raise TableError(
+            f"{name}: to or wanted, range and default belong to holding registers, all of them"
+        )
     if (space != "holding" and ("saved" in keys or signature)) or (
         signature and keys["type"] != "u32"
     ):
@@ -132,7 +158,11 @@ def _register(keys: Dict[str, Any], address: int, space: str) -> Register:
         type=keys["type"],
         unit=keys.get("unit", ""),
         step=keys.get("step"),
-        source=keys["from"],
+        home=home,
+        member=member,
+        kind=kind,
+        rpm=keys.get("rpm", False),
+        source=keys.get("from", ""),
         target=keys.get("to", ""),
         range=(given[0], given[1]) if given else None,
         default=keys.get("default", ""),

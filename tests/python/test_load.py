@@ -68,6 +68,10 @@ def test_what_cannot_be_loaded_is_one_line(served: Served, tmp_path: Path, renam
             refused.returncode == 1 and said in refused.stderr and "Traceback" not in refused.stderr
         ), refused
     assert "compiled in" in command("load", *served.options()).stdout
+    refused = command("load", "--accept-fallback", *served.options())
+    assert refused.returncode == 1 and "nothing is lost" in refused.stderr, refused
+    refused = command("load", "--accept-fallback", "--forget", *served.options())
+    assert refused.returncode == 1 and "load: give an image" in refused.stderr, refused
 
 
 def test_a_lost_answer_is_made_good(

@@ -5,6 +5,7 @@
 
 #include "app_registers_count.h"
 #include "app_registers_holding.h"
+#include "app_registers_place.h"
 
 #define RPM_PER_RADPS 9.54929659f /* 60 / (2 pi) */
 #define ADDRESS_MAX   247U        /* by the protocol */
@@ -12,11 +13,10 @@
 typedef struct {
     const app_registers_entry_t *entries;
     uint16_t                     count;
-    bool                         input;
 } map_t;
 
-static const map_t holding = {app_registers_map_holding, APP_REGISTERS_MAP_HOLDING, false};
-static const map_t input   = {app_registers_map_input, APP_REGISTERS_MAP_INPUT, true};
+static const map_t holding = {app_registers_map_holding, APP_REGISTERS_MAP_HOLDING};
+static const map_t input   = {app_registers_map_input, APP_REGISTERS_MAP_INPUT};
 
 /* Sets member by member: a local copy would take a quarter of the stack. */
 ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
@@ -53,22 +53,6 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
                : CTL_BAD_CONFIG;
 }
 
-static bool is_whole(const app_registers_entry_t *e)
-{
-    return (e->type != APP_REGISTERS_DEC) && !(e->per_unit > 0.0f);
-}
-
-static uint32_t value_of(const app_registers_t *r, const map_t *map, const app_registers_entry_t *e)
-{
-    if (is_whole(e)) {
-        return map->input ? app_registers_map_input_whole(r, e->address)
-                          : app_registers_map_holding_whole(r, e->address);
-    }
-    return app_registers_count_of(map->input ? app_registers_map_input_real(r, e->address)
-                                             : app_registers_map_holding_real(r, e->address),
-                                  e);
-}
-
 /* Index of the entry with this address, also for its second word; map->count: not found. */
 static uint16_t find(const map_t *map, uint16_t address)
 {
@@ -87,11 +71,6 @@ uint16_t app_registers_holding_find(uint16_t address)
     return find(&holding, address);
 }
 
-uint32_t app_registers_holding_value(const app_registers_t *r, const app_registers_entry_t *e)
-{
-    return value_of(r, &holding, e);
-}
-
 static app_registers_result_t read_map(const app_registers_t *r, const map_t *map, uint16_t first,
                                        uint16_t count, uint16_t *values)
 {
@@ -100,7 +79,7 @@ static app_registers_result_t read_map(const app_registers_t *r, const map_t *ma
 
     for (; (k < map->count) && (n < count); k++) {
         const app_registers_entry_t *e     = &map->entries[k];
-        const uint32_t               value = value_of(r, map, e);
+        const uint32_t               value = app_registers_place_value(r, e);
         const uint16_t at = (uint16_t)(first + n); /* below the end of the last entry */
 
         if ((at < e->address) || ((uint16_t)(at - e->address) >= app_registers_count_words(e))) {

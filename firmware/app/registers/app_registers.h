@@ -125,9 +125,6 @@ uint32_t app_registers_ticks(const app_registers_t *r, float time_s);
 /** Shaft position in the counts of the target. */
 int32_t app_registers_position(const app_registers_t *r);
 
-/** The value as a 32-bit two's complement. */
-uint32_t app_registers_signed(int16_t x);
-
 /** Value of APP_REGISTERS_STATUSWORD. */
 uint16_t app_registers_statusword(const app_registers_t *r);
 

@@ -11,7 +11,4 @@
 /** Index of this address in app_registers_map_holding; APP_REGISTERS_MAP_HOLDING: not found. */
 uint16_t app_registers_holding_find(uint16_t address);
 
-/** Present value of its words; of two words the high one is the upper half. */
-uint32_t app_registers_holding_value(const app_registers_t *r, const app_registers_entry_t *e);
-
 #endif /* APP_REGISTERS_HOLDING_H */

@@ -191,6 +191,27 @@ typedef enum {
     APP_REGISTERS_DEC /**< two words: digits and power of ten, both signed */
 } app_registers_type_t;
 
+/** Where a value is. */
+typedef enum {
+    APP_REGISTERS_COMPUTED = 0, /**< app_registers_map_real() and its kin */
+    APP_REGISTERS_WANTED, /**< a member of the app_registers_wanted_t */
+    APP_REGISTERS_STATUS, /**< of the app_status_t */
+    APP_REGISTERS_DRIVE,  /**< of the drive_config_t */
+    APP_REGISTERS_CONFIG  /**< of the app_config_t */
+} app_registers_home_t;
+
+/** Type of that member. */
+typedef enum {
+    APP_REGISTERS_AS_U16 = 0,
+    APP_REGISTERS_AS_I16,
+    APP_REGISTERS_AS_U32,
+    APP_REGISTERS_AS_I32,
+    APP_REGISTERS_AS_FLOAT,
+    APP_REGISTERS_AS_BOOL,
+    APP_REGISTERS_AS_CHAR, /**< an enumeration of this size */
+    APP_REGISTERS_AS_INT
+} app_registers_kind_t;
+
 typedef struct {
     uint16_t             address; /**< of the first word */
     app_registers_type_t type;
@@ -200,6 +221,10 @@ typedef struct {
     bool                 stopped;   /**< written while the bridge is off only */
     bool                 saved;     /**< a parameter: kept over power */
     uint32_t             signature; /**< the one value that is taken; 0: no such thing */
+    app_registers_home_t home;
+    app_registers_kind_t kind;
+    uint16_t             offset; /**< of the member; of a computed value its number */
+    bool                 rpm;    /**< the member is electrical rad/s */
 } app_registers_entry_t;
 
 struct app_registers;
@@ -213,15 +238,11 @@ struct app_registers_wanted;
 extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];
 extern const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT];
 
-/** The value of a register with a unit, and of one without. 0 where there is none. */
-float    app_registers_map_holding_real(const struct app_registers *r, uint16_t address);
-uint32_t app_registers_map_holding_whole(const struct app_registers *r, uint16_t address);
+/** A computed value with a unit, and one without, by its number; 0: there is none. */
+float    app_registers_map_real(const struct app_registers *r, uint16_t number);
+uint32_t app_registers_map_whole(const struct app_registers *r, uint16_t number);
 
-/** The value of a register with a unit, and of one without. 0 where there is none. */
-float    app_registers_map_input_real(const struct app_registers *r, uint16_t address);
-uint32_t app_registers_map_input_whole(const struct app_registers *r, uint16_t address);
-
-/** Puts a value that is in its range into w; n are its counts, of those with a sign. */
-void app_registers_map_put(const struct app_registers *r, struct app_registers_wanted *w, uint16_t address, float x, int32_t n);
+/** Puts a value that is in its range into w, as its number says. */
+void app_registers_map_put(const struct app_registers *r, struct app_registers_wanted *w, uint16_t number, float x);
 
 #endif /* APP_REGISTERS_MAP_H */

@@ -50,12 +50,6 @@ int32_t app_registers_position(const app_registers_t *r)
     return app_position_cnt(&r->status.position, &r->status.position.is);
 }
 
-uint32_t app_registers_signed(int16_t x)
-{
-    const int32_t wide = x;
-    return (uint32_t)wide;
-}
-
 uint32_t app_registers_ticks(const app_registers_t *r, float time_s)
 {
     const float ticks = (time_s / r->drive->ts_s) + 0.5f;

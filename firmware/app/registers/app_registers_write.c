@@ -6,6 +6,7 @@
 
 #include "app_registers_count.h"
 #include "app_registers_holding.h"
+#include "app_registers_place.h"
 
 #define SCOPE_ARM  1U /* values of SCOPE_COMMAND */
 #define SCOPE_STOP 2U
@@ -28,7 +29,7 @@ static bool is_stopped(const app_registers_t *r)
 static bool is_there(const app_registers_t *r, const app_registers_entry_t *e,
                      const uint16_t *words)
 {
-    const uint32_t value = app_registers_holding_value(r, e);
+    const uint32_t value = app_registers_place_value(r, e);
     const bool     wide  = app_registers_count_words(e) == 2U;
     const uint32_t high  = wide ? words[0] : 0U;
     const uint32_t low   = wide ? words[1] : words[0];
@@ -53,7 +54,7 @@ static app_registers_result_t try_command(app_registers_t *r, const app_register
     if ((r->parameters == NULL) || !r->parameters->rested || !is_stopped(r) || !stands || idle) {
         return APP_REGISTERS_BUSY;
     }
-    app_registers_map_put(r, &r->trial, e->address, 0.0f, 0L);
+    app_registers_place_put(r, &r->trial, e, 0.0f, 0L);
     return APP_REGISTERS_OK;
 }
 
@@ -71,7 +72,7 @@ static app_registers_result_t try_one(app_registers_t *r, const app_registers_en
     if (e->stopped && !is_stopped(r) && !is_there(r, e, words)) {
         return APP_REGISTERS_BUSY;
     }
-    app_registers_map_put(r, &r->trial, e->address, x, app_registers_count_whole(e, words));
+    app_registers_place_put(r, &r->trial, e, x, app_registers_count_whole(e, words));
     return APP_REGISTERS_OK;
 }
 

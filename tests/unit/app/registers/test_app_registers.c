@@ -5,6 +5,7 @@
 
 #include "board_config.h"
 #include "gain_tables.h"
+#include "register_types.h"
 #include "register_words.h"
 #include "unit_support.h"
 #include "unity.h"
@@ -569,6 +570,7 @@ static void test_target_positions_are_taken_to_the_count(void)
 
 int main(void)
 {
+    register_types();
     UNITY_BEGIN();
     RUN_TEST(test_target_positions_are_taken_to_the_count);
     RUN_TEST(test_input_registers_are_what_the_table_says);
