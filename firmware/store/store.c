@@ -20,8 +20,6 @@ enum {
 
 #define SUMMED_WORDS ((uint32_t)(HEAD_CRC_HI - HEAD_KIND)) /* head words covered by the CRC */
 
-#define COPY_WORDS 16U /* chosen: flash cannot be read while it is written */
-
 /* A slot, by its mark and its CRC. */
 typedef struct {
     store_content_t content; /* words NULL: not whole */
@@ -195,7 +193,7 @@ bool store_begin(store_write_t *w, store_kind_t kind, uint32_t count)
 
     w->kind   = kind;
     w->slot   = (s.content.words == NULL) ? s.slot : other;
-    w->count  = count;
+    w->count  = (count <= store_room()) ? count : 0UL;
     w->number = next_number(s.content.number);
     return (count <= store_room()) && (store_room() > 0UL) && retire(w->slot) &&
            board_store_erase(w->slot);
@@ -237,19 +235,11 @@ bool store_commit(const store_write_t *w)
 bool store_write(store_kind_t kind, const uint16_t *words, uint32_t count)
 {
     store_write_t w;
-    uint32_t      at = 0UL;
     bool          ok = store_begin(&w, kind, count);
 
-    while (ok && (at < count)) {
-        uint16_t       copy[COPY_WORDS];
-        const uint32_t left = count - at;
-        const uint16_t n    = (uint16_t)((left < COPY_WORDS) ? left : COPY_WORDS);
-
-        for (uint16_t k = 0U; k < n; k++) {
-            copy[k] = words[at + k];
-        }
-        ok = store_put(&w, at, copy, n);
-        at += n;
+    for (uint32_t at = 0UL; ok && (at < count); at++) {
+        const uint16_t word = words[at]; /* flash cannot be read while it is written */
+        ok                  = store_put(&w, at, &word, 1U);
     }
     return ok && store_commit(&w);
 }

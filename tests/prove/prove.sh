@@ -30,6 +30,8 @@ speed_difference_check:20,terms_ok:50
     [prove_modbus]=read_map:400,are_whole:300,app_registers_write:300,read_registers:300,take_values:400,answer_write:20,\
 app_modbus_answer_begin:20,app_modbus_device_identify:50
 )
+apart[prove_store]=use:1
+apart[prove_image]=prove_image:1
 apart[prove_refused]=${apart[prove_init]}
 declare -A options=(
     [prove_tick]=""
@@ -39,6 +41,8 @@ declare -A options=(
     [prove_app_tick]=""
     [prove_control]="-eva-partition-history 4 -eva-interprocedural-history"
     [prove_modbus]="-eva-domains octagon"
+    [prove_store]=""
+    [prove_image]="-eva-split-return full"
 )
 # Where each entry is; beside the core it needs the application, or not.
 declare -A sources=(
@@ -49,6 +53,8 @@ declare -A sources=(
     [prove_app_tick]=tests/prove/prove_app.c
     [prove_control]=tests/prove/prove_app.c
     [prove_modbus]=tests/prove/prove_app.c
+    [prove_store]=tests/prove/prove_store.c
+    [prove_image]=tests/prove/prove_store.c
 )
 
 # files_of LAW ENTRY: the core with one law, or with none, and the application where the entry is one of its
@@ -56,6 +62,7 @@ files_of()
 {
     printf '%s\n' "${sources[$2]}"
     [[ ${sources[$2]} != *prove_app.c ]] || { find "$app" -name 'app_*.c' && echo "$config/board_config.c"; }
+    [[ ${sources[$2]} != *prove_store.c ]] || { find firmware/store -name '*.c' && printf '%s\n' "$app"/load/{drive_image,fields_app}.c; }
     find "$core" -name '*.c' ! -name 'law_*.c'
     case $1 in
         any) ;;
@@ -91,4 +98,4 @@ fi
 for law in "${laws[@]}"; do
     printf "%s\n" "$law prove_tick" "$law prove_init"
     [[ $law == pid ]] || printf "%s\n" "$law prove_refused" # it has no whole constants
-done | { printf '%s\n' 'any prove_gate' 'any prove_app_tick' 'any prove_control' && cat; } | xargs -P "$(nproc)" -L 1 tests/prove/prove.sh
+done | { printf '%s\n' 'any prove_gate' 'any prove_app_tick' 'any prove_control' 'any prove_store' 'noc prove_image' && cat; } | xargs -P "$(nproc)" -L 1 tests/prove/prove.sh

@@ -56,6 +56,7 @@ static void any_state(void)
     modes.hot                         = any_bool();
     modes.dc_link_out                 = any_bool();
     modes.tripped                     = any_bool();
+    modes.locked                      = any_bool();
     modes.gate_on                     = any_bool();
     modes.too_hot                     = any_bool();
     modes.angle.have_turned           = any_bool();
