@@ -14,6 +14,7 @@
 
 #include "../support/temp_dir.hpp"
 #include "common/errors.hpp"
+#include "sil/serve/boot_rom.hpp"
 #include "sil/serve/control.hpp"
 #include "sil/serve/endpoints.hpp"
 #include "sil/serve/rtu_frame.hpp"
@@ -324,4 +325,88 @@ TEST(ServeControl, LoadSupplyFaultsAndWhatTheyDo)
     EXPECT_NE(say("\xff\xfe").find("error"), std::string::npos);
     EXPECT_NE(say("trace 0.1").find("\"speed_e_radps\":["), std::string::npos);
     EXPECT_EQ(say("mend").find("error"), std::string::npos);
+}
+
+namespace {
+
+using Words = std::vector<std::uint16_t>;
+
+/// The answers of the loader to "A" and to the octets of these words.
+std::vector<int> answers(BootRom &rom, const Words &words)
+{
+    std::vector<int> all;
+    const auto       tell = [&](std::uint8_t octet) {
+        const auto answer = rom.answer(octet);
+        all.push_back(answer ? *answer : -1);
+    };
+    tell('A');
+    for (const std::uint16_t word : words) {
+        tell(static_cast<std::uint8_t>(word & 0xFFU));
+        tell(static_cast<std::uint8_t>(word >> 8U));
+    }
+    return all;
+}
+
+const Words header{0x08AA, 1, 2, 3, 4, 5, 6, 7, 8, 0x0000, 0x8001};
+
+Words operator+(Words a, const Words &b)
+{
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+} // namespace
+
+TEST(BootRom, EveryOctetIsAnsweredAndTheBlocksArrive)
+{
+    BootRom     rom;
+    const Words words =
+        header + Words{2, 0, 0x8000, 0x56BF, 0x0006, 1, 0, 0x0001, 0xABCD, 1, 0, 0xFFFF, 7, 0};
+    EXPECT_FALSE(rom.answer('B')); // the rate is not locked
+    const std::vector<int> said = answers(rom, words);
+    std::vector<int>       wanted{'A'};
+    for (const std::uint16_t word : words) {
+        wanted.push_back(word & 0xFF);
+        wanted.push_back(word >> 8);
+    }
+    EXPECT_EQ(said, wanted);
+    EXPECT_TRUE(rom.loaded());
+    EXPECT_EQ(rom.entry(), 0x8001U);
+    const std::map<std::uint32_t, std::uint16_t> memory{
+        {0x8000, 0x56BF}, {0x8001, 0x0006}, {0x0001, 0xABCD}, {0xFFFF, 7}};
+    EXPECT_EQ(rom.memory(), memory);
+    EXPECT_EQ(rom.said(), "boot ROM: 4 words in RAM, entry 008001h");
+    EXPECT_FALSE(rom.answer('A')); // the line is the program's
+}
+
+TEST(BootRom, TheStreamIsNotOverBeforeItsEnd)
+{
+    const Words words = header + Words{1, 0, 0x8001, 0, 0};
+    for (std::size_t n = 0; n < words.size(); n++) {
+        BootRom rom;
+        answers(rom, Words(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(n)));
+        EXPECT_FALSE(rom.over()) << n;
+    }
+}
+
+TEST(BootRom, AnotherKeyStartsTheFlash)
+{
+    BootRom rom;
+    answers(rom, {0x10AA, 0});
+    EXPECT_TRUE(rom.over());
+    EXPECT_FALSE(rom.loaded());
+    EXPECT_NE(rom.said().find("another key"), std::string::npos);
+}
+
+TEST(BootRom, SaysWhatIsNoRamAndAnEmptyEntry)
+{
+    for (const std::uint16_t address : Words{0x0002, 0x004F, 0x0800, 0x7FFF}) {
+        BootRom rom;
+        answers(rom, header + Words{1, 0, address, 1, 0});
+        EXPECT_NE(rom.said().find("1 words were for addresses that are no RAM"), std::string::npos);
+        EXPECT_NE(rom.said().find("nothing was loaded at the entry"), std::string::npos);
+    }
+    BootRom rom;
+    answers(rom, header + Words{2, 0, 0xFFFF, 1, 2, 0});
+    EXPECT_NE(rom.said().find("1 words were"), std::string::npos);
 }

@@ -6,6 +6,8 @@ from __future__ import annotations
 
 import os
 import pty
+import re
+import subprocess
 import threading
 import tty
 from pathlib import Path
@@ -19,6 +21,9 @@ from sdre_drive import boot_rom
 from sdre_drive.connection import DriveError
 
 Blocks = List[Tuple[int, List[int]]]
+SIL = os.environ.get(
+    "SDRE_SIL", str(Path(__file__).resolve().parents[2] / "build/host/bin/sdre-sil")
+)
 ENTRY = 0x8000
 BLOCKS: Blocks = [
     (ENTRY, [0x56BF, 0x0006, 0xFFFF]),
@@ -122,6 +127,29 @@ def test_command_loads_and_says_what(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     assert done.stdout == "305 words in RAM, started at 008000h\n"
     assert rom.entry == ENTRY
+
+
+def test_virtual_device_loads_and_starts_its_firmware(tmp_path: Path) -> None:
+    line = str(tmp_path / "drive")
+    with subprocess.Popen(
+        [SIL, "serve", "--boot-rom", "--pty", line, "--tcp", "0", "--control", "0", "--for", "60"],
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as device:
+        try:
+            assert device.stdout
+            text = "".join(iter(device.stdout.readline, "Ctrl-C ends it\n"))
+            tcp = re.search(r"Modbus/TCP +(127\.0\.0\.1:\d+)", text)
+            assert tcp
+            file = str(write(tmp_path / "p.a00", stream()))
+            done = command("load", "--boot-rom", file, "--port", line)
+            assert done.returncode == 0, done.stderr
+            assert device.stdout.readline() == (
+                "boot ROM: 305 words in RAM, entry 008000h; the firmware starts\n"
+            )
+            assert "ready, bridge off" in command("status", "--tcp", tcp[1]).stdout
+        finally:
+            device.terminate()
 
 
 def test_rom_that_locks_late_is_waited_for(tmp_path: Path) -> None:

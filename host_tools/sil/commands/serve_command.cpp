@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/data_files.hpp"
+#include "common/errors.hpp"
 #include "drive/drive_file.hpp"
 #include "sil/commands/commands.hpp"
 #include "sil/serve/server.hpp"
@@ -25,6 +26,7 @@ struct Options {
     double      speed_factor = 1.0;
     double      end_s        = 0.0;
     int         seed         = 1;
+    bool        boot_rom     = false;
 };
 
 void declare(OptionList &list, Options &o)
@@ -41,6 +43,9 @@ void declare(OptionList &list, Options &o)
                 "simulated seconds per second (default 1)");
     list.number("--for", o.end_s, {0.0, 1e9},
                 "end after so many simulated seconds (default: never)");
+    list.flag("--boot-rom", o.boot_rom,
+              "begin as the boot ROM's serial loader on the pseudo-terminal, until it has loaded a "
+              "program; then the firmware starts");
     list.number("--seed", o.seed, {0, 1000000},
                 "of the noise and of the rotor's angle (default 1)");
 }
@@ -59,6 +64,10 @@ int run(const Options &o)
     s.control      = port(o.control == any_port ? default_control : o.control);
     s.speed_factor = o.speed_factor;
     s.end_s        = o.end_s;
+    s.boot_rom     = o.boot_rom;
+    if (o.boot_rom && s.pty.empty()) {
+        throw InputError("--boot-rom: the ROM loads by a serial line; name one with --pty");
+    }
     if (s.pty.empty() && !s.tcp && !s.rtu_tcp) {
         s.tcp = default_tcp;
     }

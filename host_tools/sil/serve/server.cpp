@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <vector>
 
 #include <poll.h>
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "sil/serve/boot_rom.hpp"
 
 namespace sdre {
 namespace {
@@ -23,6 +25,7 @@ constexpr double most_late_s = 0.02;
 // Chosen: a pause in a client's octets ends a frame. Longer than the line's own 1.75 ms: an operating system may deliver a
 // frame in pieces.
 constexpr double       frame_pause_s     = 4e-3;
+constexpr int          end_check_ms      = 100; // chosen: a person does not notice it
 constexpr std::size_t  longest_frame     = 256;
 constexpr std::size_t  longest_line      = 4096;
 constexpr std::size_t  most_clients      = 32;
@@ -276,11 +279,37 @@ void Server::wait(double seconds)
     poll(all.data(), all.size(), ms); // early when something has come
 }
 
+/// The boot ROM has the line. The firmware starts after it: this device has no processor for the words that were loaded.
+void Server::boot()
+{
+    BootRom rom;
+    while (asked_to_end == 0 && !stopped_ && !rom.over()) {
+        Octets come;
+        Octets go;
+        read_available(pty_->fd(), come);
+        for (const std::uint8_t octet : come) {
+            if (const auto answer = rom.answer(octet)) {
+                go.push_back(*answer);
+            }
+        }
+        write_some(pty_->fd(), go);
+        pollfd line{pty_->fd(), POLLIN, 0};
+        poll(&line, 1, end_check_ms);
+    }
+    if (rom.over()) {
+        fmt::print("{}; the firmware starts\n", rom.said());
+        std::fflush(stdout);
+    }
+}
+
 void Server::run()
 {
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGINT, ask_to_end);
     std::signal(SIGTERM, ask_to_end);
+    if (options_.boot_rom) {
+        boot();
+    }
     double origin_s = wall_now_s() - drive_.time_s() / pace_.speed_factor;
     while (asked_to_end == 0 && !stopped_ &&
            (options_.end_s <= 0.0 || drive_.time_s() < options_.end_s)) {

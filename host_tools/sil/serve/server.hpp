@@ -21,6 +21,8 @@ struct ServeOptions {
     std::optional<int> control; ///< port of control.hpp's commands
     double             speed_factor = 1.0;
     double             end_s        = 0.0; ///< simulated time after which it ends; 0: never
+    bool               boot_rom =
+        false; ///< the pseudo-terminal is first the boot ROM's, until it has loaded a program
 };
 
 class Server {
@@ -69,6 +71,7 @@ private:
     void send(Client &client, const Octets &octets);
     void write_rest(Client &client);
     void deliver(const BusRequest &request, const Octets &answer);
+    void boot();
     void run_until(double time_s);
     void wait(double seconds);
 
