@@ -409,4 +409,10 @@ TEST(BootRom, SaysWhatIsNoRamAndAnEmptyEntry)
     BootRom rom;
     answers(rom, header + Words{2, 0, 0xFFFF, 1, 2, 0});
     EXPECT_NE(rom.said().find("1 words were"), std::string::npos);
+    BootRom far;
+    answers(far, header + Words{1, 1, 0x8001, 5, 0}); // 18001h
+    EXPECT_TRUE(far.memory().empty());
+    BootRom beyond;
+    answers(beyond, {0x08AA, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0x8001, 1, 0, 0x8001, 5, 0});
+    EXPECT_EQ(beyond.entry(), 0x18001U);
 }
