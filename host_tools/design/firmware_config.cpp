@@ -1,36 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "design/firmware_config.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include "design/board/board_constants.hpp"
+#include "design/trip_levels.hpp"
 
 namespace sdre {
 namespace {
 
-// Chosen: room for regeneration and for a weak supply; the board's hardware limits stand behind it.
-constexpr double dc_link_min_ratio  = 0.3;
-constexpr double dc_link_max_ratio  = 1.35;
-constexpr double trip_current_ratio = 2.0;
 // Chosen: 2.5 % of the current limit, ten times the rms noise of the shipped board's sensors.
 constexpr double dead_time_fade_ratio = 0.025;
 
-/// The speed at which the line EMF alone reaches the dc link's trip level through the diodes of an open bridge.
-double emf_limit_e_radps(const Drive &d) // EQ-OPEN-3
-{
-    return dc_link_max_ratio * d.inverter.dc_link_V / (std::sqrt(3.0) * d.motor.pm_flux_Wb);
-}
-
 } // namespace
-
-double largest_command_e_radps(const Drive &d)
-{
-    const double said =
-        d.motor.max_speed_e_radps > 0.0 ? d.motor.max_speed_e_radps : trip_speed_e_radps(d);
-    return d.inverter.regeneration == DcLinkSink::none ? std::min(said, emf_limit_e_radps(d))
-                                                       : said;
-}
 
 drive_config_t common_config(const Design &d)
 {
@@ -41,13 +20,11 @@ drive_config_t common_config(const Design &d)
     drive_config_t c{};
     c.ts_s          = single(control_period_s(d.drive));
     c.current_max_A = single(m.max_current_A);
-    c.trip_current_A =
-        single(std::min(trip_current_ratio * m.max_current_A, largest_shown_current_A(d.drive)));
+    c.trip_current_A = single(trip_current_A(d.drive));
     c.trip_speed_e_radps = single(trip_speed_e_radps(d.drive));
     c.speed_max_e_radps  = single(largest_command_e_radps(d.drive));
-    c.dc_link_min_V      = single(dc_link_min_ratio * inv.dc_link_V);
-    c.dc_link_max_V =
-        single(std::min(dc_link_max_ratio * inv.dc_link_V, largest_shown_dc_link_V(d.drive)));
+    c.dc_link_min_V      = single(trip_dc_link_min_V(d.drive));
+    c.dc_link_max_V = single(trip_dc_link_max_V(d.drive));
     c.positions      = d.drive.position.has_value();
     c.overmodulation = inv.overmodulation;
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "design/firmware_config.hpp"
+#include "design/trip_levels.hpp"
 #include "design/laws/near_optimal.hpp"
 #include "design/motor_model.hpp"
 #include "design/sampled_model.hpp"

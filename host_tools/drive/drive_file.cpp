@@ -36,10 +36,6 @@ constexpr Range noise_A{0.0, 1e2};
 constexpr double range_per_limit = 2.5;
 // Chosen: two codes of 12 bits, a Hall sensor with its amplifier.
 constexpr double noise_per_range = 1e-3;
-// Chosen: room for what the speed does beyond a reference that is the largest command.
-constexpr double trip_per_max_speed = 1.2;
-// Chosen: the flux-weakening range of the shipped motors ends below twice the rated speed.
-constexpr double trip_per_rated_speed = 3.0;
 
 Motor read_motor(TomlReader t)
 {
@@ -199,13 +195,6 @@ const char *dc_link_sink_name(DcLinkSink sink)
 double control_period_s(const Drive &drive)
 {
     return 1.0 / (drive.inverter.pwm_frequency_Hz * drive.inverter.updates_per_period);
-}
-
-double trip_speed_e_radps(const Drive &drive)
-{
-    const Motor &m = drive.motor;
-    return m.max_speed_e_radps > 0.0 ? trip_per_max_speed * m.max_speed_e_radps
-                                     : trip_per_rated_speed * m.rated_speed_e_radps;
 }
 
 double count_e_rad(const Drive &drive)

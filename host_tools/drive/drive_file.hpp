@@ -190,8 +190,6 @@ const char *dc_link_sink_name(DcLinkSink sink);
 
 /// Control period: 1 / (pwm_frequency_Hz * updates_per_period).
 double control_period_s(const Drive &drive);
-/// Trip speed: above the largest command when the file has one, else three times the rated speed.
-double trip_speed_e_radps(const Drive &drive);
 /// From one edge of the encoder to the next, electrical [rad].
 double count_e_rad(const Drive &drive);
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "design/firmware_config.hpp"
+#include "design/trip_levels.hpp"
 #include "design/machine_points.hpp"
 
 namespace sdre {

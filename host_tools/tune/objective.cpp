@@ -10,7 +10,7 @@
 #include "common/errors.hpp"
 #include "common/parallel.hpp"
 #include "design/design.hpp"
-#include "design/firmware_config.hpp"
+#include "design/trip_levels.hpp"
 #include "design/sampled_model.hpp"
 #include "design/sampled_observer.hpp"
 #include "linalg/covariance.hpp"

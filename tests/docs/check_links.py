@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+QUESTIONS = 15  # at least, in the table of architecture.md
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 MENTION = re.compile(r"(?<![\w/])docs/([\w/]+\.(?:md|png|svg))\b")
 HEADING = re.compile(r"(docs/[\w/]+\.md|README\.md), \"([^\"]+)\"")
@@ -62,6 +63,29 @@ def wrong_headings(files: list) -> list:
     return found
 
 
+def wrong_places(page: Path) -> list:
+    """One line for each answer of the table "Where is ...?" that the tree does not have: a file, or
+    a function in none of its row's files."""
+    text = page.read_text(encoding="utf-8")
+    rows = re.findall(r"^\| (Where .*\?) \| (.*) \|$", text, re.M)
+    found = [] if len(rows) >= QUESTIONS else [f"{page.name}: {len(rows)} of {QUESTIONS} questions"]
+    for question, answer in rows:
+        files = []
+        for name in re.findall(r"[\w/]*\w\.(?:cpp|c|hpp|h|py|toml)\b", answer):
+            bases = [ROOT, ROOT / "host_tools", *(file.parent for file in files)]
+            places = [base / name for base in bases if (base / name).is_file()]
+            files += places[:1]
+            found += [] if places else [f"{question} {name} is not there"]
+        content = "".join(file.read_text(encoding="utf-8") for file in files)
+        found += [
+            f"{question} {function}() is in none of its files"
+            for function in re.findall(r"`(\w+)\(\)`", answer)
+            if f"{function}(" not in content
+        ]
+        found += [] if files else [f"{question} no file answers"]
+    return found
+
+
 def sources() -> list:
     """Tracked files; in an export without git, those of the rooms that name pages."""
     done = subprocess.run(
@@ -83,6 +107,7 @@ def main() -> int:
     pages = sorted((ROOT / "docs").rglob("*.md"))
     wrong = [line for page in [ROOT / "README.md", *pages] for line in wrong_links(page)]
     wrong += wrong_headings(sources())
+    wrong += wrong_places(ROOT / "docs/architecture.md")
     site = (ROOT / "host_tools/site/mkdocs.yml").read_text(encoding="utf-8")
     wrong += [
         f"{name} is not in host_tools/site/mkdocs.yml"

@@ -10,6 +10,7 @@
 #include "design/board/align_design.hpp"
 #include "design/motor_model.hpp"
 #include "design/sampled_model.hpp"
+#include "design/trip_levels.hpp"
 #include "drive/core_types.hpp"
 #include "drive/pwm_frequency.hpp"
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "design/certificate.hpp"
-#include "design/firmware_config.hpp"
+#include "design/trip_levels.hpp"
 #include "design/sampled_model.hpp"
 #include "design/sampled_observer.hpp"
 #include "linalg/covariance.hpp"

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "design/certificate.hpp"
-#include "design/firmware_config.hpp"
+#include "design/trip_levels.hpp"
 #include "design/laws/near_optimal.hpp"
 #include "design/laws/nodo_current.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "common/parallel.hpp"
 #include "design/certificate.hpp"
-#include "design/firmware_config.hpp"
+#include "design/trip_levels.hpp"
 #include "design/laws/near_optimal.hpp"
 #include "design/noc_h/harmonic_loop.hpp"
 #include "design/sampled_model.hpp"

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+/// The levels at which a drive opens its bridge, and the largest speed command below them.
+#pragma once
+
+#include "drive/drive_file.hpp"
+
+namespace sdre {
+
+/// Trip speed: above the largest command when the file has one, else three times the rated speed.
+/// Certificates reach up to it.
+double trip_speed_e_radps(const Drive &drive);
+
+/// Over-current level of a phase.
+double trip_current_A(const Drive &drive);
+
+/// Accepted dc link.
+double trip_dc_link_min_V(const Drive &drive);
+double trip_dc_link_max_V(const Drive &drive);
+
+/// Largest command [rad/s electrical]: that of the drive file, else the trip speed. Without a sink
+/// for returned energy, it is at most the speed at which the EMF reaches the dc link's trip level.
+double largest_command_e_radps(const Drive &drive);
+
+} // namespace sdre
