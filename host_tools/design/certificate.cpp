@@ -7,10 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "design/trip_levels.hpp"
+#include "design/law_design.hpp"
 #include "design/position.hpp"
 #include "design/sampled_model.hpp"
 #include "design/sampled_observer.hpp"
+#include "design/trip_levels.hpp"
 
 namespace sdre {
 namespace {
@@ -217,7 +218,7 @@ void certify(Design &design)
         judge("position", "position", *design.position, *certificate.position,
               certificate.failures);
     }
-    if (design.drive.law != Law::noc_h) { // which has an observer of its own
+    if (!law_design(design.drive).own_observer) {
         certificate.nodo = sweep_nodo(design);
         const bool whole = design.drive.nodo.form == NodoForm::encoder; // EQ-CERT-3, else EQ-CERT-2
         judge("nodo", whole ? "nosc, nodo and motor" : "nodo", design.nodo, certificate.nodo,

@@ -18,15 +18,15 @@ drive_config_t common_config(const Design &d)
     const ReducedParameters &l   = d.l;
 
     drive_config_t c{};
-    c.ts_s          = single(control_period_s(d.drive));
-    c.current_max_A = single(m.max_current_A);
-    c.trip_current_A = single(trip_current_A(d.drive));
+    c.ts_s               = single(control_period_s(d.drive));
+    c.current_max_A      = single(m.max_current_A);
+    c.trip_current_A     = single(trip_current_A(d.drive));
     c.trip_speed_e_radps = single(trip_speed_e_radps(d.drive));
     c.speed_max_e_radps  = single(largest_command_e_radps(d.drive));
     c.dc_link_min_V      = single(trip_dc_link_min_V(d.drive));
-    c.dc_link_max_V = single(trip_dc_link_max_V(d.drive));
-    c.positions      = d.drive.position.has_value();
-    c.overmodulation = inv.overmodulation;
+    c.dc_link_max_V      = single(trip_dc_link_max_V(d.drive));
+    c.positions          = d.drive.position.has_value();
+    c.overmodulation     = inv.overmodulation;
 
     c.motor = {single(l[1]),  single(l[2]),       single(l[3]),      single(l[4]), single(l[5]),
                single(l[6]),  single(l[7]),       single(l[8]),      single(l[9]), single(l[10]),

@@ -3,6 +3,7 @@
 /// written.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,21 @@
 #include "design/design.hpp"
 
 namespace sdre {
+
+/// The key that trades a law's noise for its speed.
+struct NoiseKnob {
+    const char *law;                           ///< in drive files
+    void (*turn)(Drive &drive, double factor); ///< above 1: faster and noisier
+    std::string (*text)(const Drive &drive);   ///< key and value
+};
+
+/// Currents that schedule the gain series, as reports name them.
+struct Scheduling {
+    std::vector<const char *> controller;
+    std::vector<const char *> observer;
+};
+
+enum class Weights { none, by_physics, by_goals }; ///< ways in which `tune` finds them
 
 struct LawDesign {
     const char *name; ///< of the firmware's object and of its header: "law_noc"
@@ -22,10 +38,21 @@ struct LawDesign {
     /// Preprocessor conditions, of which none may hold for the control core.
     std::vector<std::string> (*mismatches)(const Design &design);
     Layout (*layout)(const Design &design); ///< how its arrays read in the table
+
+    bool       own_observer = false; ///< solve() designs and certifies one, in place of nodo
+    bool       predicts     = false; ///< its loop is EQ-CERT-3's: load steps are predicted
+    Weights    weights      = Weights::none;
+    Scheduling scheduling{}; ///< empty: no series for an order study
+    std::string (*report_rows)(const Drive &drive) = nullptr; ///< settings beside the current loops
+    double (*design_speed_e_radps)(const Drive &drive) = nullptr; ///< of its model of harmonics
+    std::optional<NoiseKnob> noise_knob{};
 };
 
 /// That of the drive. Every drive that read_drive_file() accepts has one.
 const LawDesign &law_design(const Drive &drive);
+
+/// "noc, noc_h .. or ladrc": the laws with a noise_knob.
+std::string noise_knob_laws();
 
 /// Keeps the constants and points the configuration at them.
 template <typename Constants> void keep_constants(Design &design, const Constants &constants)

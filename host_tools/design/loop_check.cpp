@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "design/law_design.hpp"
 #include "linalg/eigenvalues.hpp"
 #include "linalg/transfer_function.hpp"
 
@@ -70,11 +71,11 @@ LoopCheck check_loop(const BrokenLoop &loop, std::vector<SensitivityAt> disturba
 
 std::vector<SensitivityAt> disturbance_frequencies(const Drive &drive)
 {
-    const int    np      = drive.motor.pole_pairs;
-    const double design  = drive.law == Law::noc_h ? drive.harmonics.weight_speed_e_radps
-                                                   : drive.dobc.design_speed_e_radps;
-    const double speed   = design > 0.0 ? design : drive.motor.rated_speed_e_radps;
-    const double turn_Hz = speed / np / (2.0 * pi);
+    const int                  np      = drive.motor.pole_pairs;
+    const auto                 of_law  = law_design(drive).design_speed_e_radps;
+    const double               design  = of_law != nullptr ? of_law(drive) : 0.0;
+    const double               speed   = design > 0.0 ? design : drive.motor.rated_speed_e_radps;
+    const double               turn_Hz = speed / np / (2.0 * pi);
     std::vector<SensitivityAt> out{{"current sensor offset", np * turn_Hz, 0.0},
                                    {"current sensor gain", 2 * np * turn_Hz, 0.0},
                                    {"dead time", 6 * np * turn_Hz, 0.0}};

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "design/trip_levels.hpp"
 #include "design/laws/near_optimal.hpp"
 #include "design/motor_model.hpp"
 #include "design/sampled_model.hpp"
+#include "design/trip_levels.hpp"
 
 namespace sdre {
 namespace {

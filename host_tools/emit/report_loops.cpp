@@ -4,6 +4,7 @@
 #include "common/errors.hpp"
 #include "common/json.hpp"
 #include "common/version.hpp"
+#include "design/law_design.hpp"
 #include "design/laws/near_optimal.hpp"
 #include "design/sampled_model.hpp"
 #include "design/verdict.hpp"
@@ -42,7 +43,7 @@ Json point_json(const Design &d, const OperatingPoint &at)
 
 std::string loops_json(const Design &d)
 {
-    if (d.drive.law != Law::noc || d.drive.nodo.form != NodoForm::encoder) {
+    if (!law_design(d.drive).predicts) {
         throw InputError("--loops: needs law noc with form = \"encoder\"");
     }
     const Motor &m      = d.drive.motor;

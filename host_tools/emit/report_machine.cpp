@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "design/trip_levels.hpp"
 #include "design/machine_points.hpp"
+#include "design/trip_levels.hpp"
 
 namespace sdre {
 namespace {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "design/law_design.hpp"
 #include "drive/pwm_frequency.hpp"
 #include "emit/report_machine.hpp"
 #include "emit/report_parts.hpp"
@@ -12,7 +13,7 @@
 namespace sdre {
 namespace {
 
-std::string loop_text(const char *name, const char *variable, const SampledLoop &loop)
+std::string loop_text(const char *name, const std::string &variable, const SampledLoop &loop)
 {
     std::string s =
         fmt::format("  {}, {} in +-{:g} A (series used in +-{:.2f} A, gain held beyond)\n", name,
@@ -127,11 +128,7 @@ std::string cascade_text(const Design &d)
     const CascadeSpec &spec = d.drive.cascade;
     std::string        s =
         fmt::format("\ncontroller\n  current loops {:g} Hz, ", spec.current_bandwidth_Hz);
-    s += d.drive.law == Law::pi_foc
-             ? fmt::format("symmetrical optimum with a = {:g}\n", spec.symmetrical_optimum_a)
-             : fmt::format("speed loop {:g} rad/s, observer {:g} rad/s\n", spec.controller_radps,
-                           spec.observer_radps);
-    return s;
+    return s + law_design(d.drive).report_rows(d.drive);
 }
 
 std::string harmonic_text(const Design &d)
@@ -162,9 +159,13 @@ std::string observer_heading(NodoForm form)
                        encoder ? ", theta" : "", encoder ? "iq, id, theta" : "w, iq, id");
 }
 
+std::string both(const std::vector<const char *> &currents)
+{
+    return fmt::format("{}", fmt::join(currents, " and "));
+}
+
 std::string noc_text(const Design &d)
 {
-    const bool  two = d.drive.law == Law::conventional_noc;
     std::string s =
         "\ncontroller (rows v_q, v_d; columns e_w, e_iq, e_id)\n" + gain_text("Lambda", d.nosc);
     s += "  poles" + poles_text(d.nosc.series.care.closed_loop_eigenvalues) + " 1/s\n";
@@ -173,9 +174,10 @@ std::string noc_text(const Design &d)
     }
     s += observer_heading(d.drive.nodo.form) + gain_text("L", d.nodo);
     s += "  poles" + poles_text(d.nodo.series.care.closed_loop_eigenvalues) + " 1/s\n";
+    const Scheduling &scheduling = law_design(d.drive).scheduling;
     return s + "\ncertificate\n" +
-           loop_text("controller", two ? "e_iq and e_id" : "e_iq", d.certificate.nosc) +
-           loop_text("observer", two ? "iq_hat and id_hat" : "iq_hat", d.certificate.nodo);
+           loop_text("controller", both(scheduling.controller), d.certificate.nosc) +
+           loop_text("observer", both(scheduling.observer), d.certificate.nodo);
 }
 
 } // namespace

@@ -8,7 +8,7 @@
 
 #include "common/errors.hpp"
 #include "common/json.hpp"
-#include "design/design.hpp"
+#include "design/law_design.hpp"
 
 namespace sdre {
 namespace {
@@ -58,23 +58,28 @@ LoopOrders orders_of(const std::string &name, const std::string &variable, const
     return out;
 }
 
+std::string listed(const std::vector<const char *> &currents)
+{
+    return fmt::format("{}", fmt::join(currents, ", "));
+}
+
 } // namespace
 
 OrderStudy study_orders(Drive drive, int highest)
 {
-    if (drive.law != Law::noc && drive.law != Law::conventional_noc) {
+    const Scheduling &scheduling = law_design(drive).scheduling;
+    if (scheduling.controller.empty()) {
         throw InputError(
             fmt::format("{}: law = \"{}\" has no series", drive.name, law_name(drive.law)));
     }
     drive.nosc.order   = highest;
     drive.nodo.order   = highest;
     const Design d     = design_drive(drive);
-    const bool   two   = drive.law == Law::conventional_noc;
     const double range = 2.0 * drive.motor.max_current_A;
     return {drive.name,
             drive.motor.max_current_A,
-            {orders_of("controller", two ? "e_iq, e_id" : "e_iq", d.nosc, range),
-             orders_of("observer", two ? "iq_hat, id_hat" : "iq_hat", d.nodo, range)}};
+            {orders_of("controller", listed(scheduling.controller), d.nosc, range),
+             orders_of("observer", listed(scheduling.observer), d.nodo, range)}};
 }
 
 std::string orders_text(const OrderStudy &study)

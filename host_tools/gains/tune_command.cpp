@@ -3,7 +3,7 @@
 
 #include "common/errors.hpp"
 #include "common/file_output.hpp"
-#include "design/design.hpp"
+#include "design/law_design.hpp"
 #include "drive/pwm_frequency.hpp"
 #include "gains/commands.hpp"
 #include "tune/auto_tune.hpp"
@@ -71,9 +71,9 @@ Tuned by_physics(const Options &o, const Drive &drive)
 
 int run(const Options &o)
 {
-    const Drive drive  = read_drive_file(o.drive);
-    const bool  angles = drive.nodo.form == NodoForm::encoder;
-    if (drive.law != Law::noc && !(drive.law == Law::noc_h && o.spec.empty() && angles)) {
+    const Drive   drive   = read_drive_file(o.drive);
+    const Weights weights = law_design(drive).weights;
+    if (weights == Weights::none || (weights == Weights::by_physics && !o.spec.empty())) {
         throw InputError(
             fmt::format("{}: law = \"{}\" has no weights to tune", o.drive, law_name(drive.law)));
     }

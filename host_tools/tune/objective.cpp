@@ -10,9 +10,9 @@
 #include "common/errors.hpp"
 #include "common/parallel.hpp"
 #include "design/design.hpp"
-#include "design/trip_levels.hpp"
 #include "design/sampled_model.hpp"
 #include "design/sampled_observer.hpp"
+#include "design/trip_levels.hpp"
 #include "linalg/covariance.hpp"
 
 namespace sdre {

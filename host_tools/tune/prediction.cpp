@@ -2,6 +2,7 @@
 #include "tune/prediction.hpp"
 
 #include "common/errors.hpp"
+#include "design/law_design.hpp"
 #include "tune/goals.hpp"
 #include "tune/objective.hpp"
 
@@ -9,7 +10,7 @@ namespace sdre {
 
 std::optional<Prediction> predicted(const Drive &drive)
 {
-    if (drive.law != Law::noc || drive.nodo.form != NodoForm::encoder) {
+    if (!law_design(drive).predicts) {
         return {};
     }
     try {

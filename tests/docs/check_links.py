@@ -64,8 +64,8 @@ def wrong_headings(files: list) -> list:
 
 
 def wrong_places(page: Path) -> list:
-    """One line for each answer of the table "Where is ...?" that the tree does not have: a file, or
-    a function in none of its row's files."""
+    """One line for each answer of the table "Where is ...?" that is not in the tree. A function has
+    to be in a file of its row."""
     text = page.read_text(encoding="utf-8")
     rows = re.findall(r"^\| (Where .*\?) \| (.*) \|$", text, re.M)
     found = [] if len(rows) >= QUESTIONS else [f"{page.name}: {len(rows)} of {QUESTIONS} questions"]

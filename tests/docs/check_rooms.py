@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Compares the table of rooms in docs/architecture.md with the sdre_room() calls of host_tools.
-No circle of calls or of includes between files of the firmware."""
+No circle of calls or of includes between files of the firmware. A single law is named in its own
+rooms only: the others ask its LawDesign."""
 
 from __future__ import annotations
 
@@ -11,6 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 HOST = ROOT / "host_tools"
 ABOVE_BOARD = ("firmware/app", "firmware/store", "firmware/commission", "firmware/control")
+LAWS = ("drive/", "design/laws/", "tune/start_weights.cpp")  # the last makes a drive of law noc
 FIRMWARE = {"control_core", "drive_app", "drive_app_headers", "drive_image", "commission"}
 
 
@@ -80,6 +82,12 @@ def circles(uses: dict) -> list:
             del left[p]
 
 
+def laws_elsewhere() -> list:
+    """The host's files that name a single law and have another way to ask for what it can do."""
+    files = [p for p in HOST.rglob("*.[ch]pp") if "Law::" in p.read_text(encoding="utf-8")]
+    return sorted(p for p in files if not p.relative_to(HOST).as_posix().startswith(LAWS))
+
+
 def main() -> int:
     """Prints each room whose row is missing or wrong, and each file on a circle."""
     cmake, page = rooms_of_cmake(), rooms_of_page()
@@ -100,6 +108,9 @@ def main() -> int:
     ]
     for kind, uses in (("calls", calls()), ("includes", includes())):
         wrong += [f"{p.relative_to(ROOT)} is on a circle of {kind}" for p in circles(uses)]
+    wrong += [
+        f"{p.relative_to(ROOT)} names a law: ask law_design() instead" for p in laws_elsewhere()
+    ]
     print("\n".join(wrong), end="\n" if wrong else "", file=sys.stderr)
     return 1 if wrong or not cmake else 0
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "design/trip_levels.hpp"
 #include "design/laws/near_optimal.hpp"
+#include "design/trip_levels.hpp"
 
 namespace sdre {
 namespace {

@@ -109,7 +109,16 @@ Layout layout(const Design &d)
 
 } // namespace
 
-const LawDesign conventional_design = {
-    "law_conventional", "law_conventional_config_t", is_for, solve, summary, mismatches, layout};
+const LawDesign conventional_design = [] {
+    LawDesign d{"law_conventional",
+                "law_conventional_config_t",
+                is_for,
+                solve,
+                summary,
+                mismatches,
+                layout};
+    d.scheduling = {{"e_iq", "e_id"}, {"iq_hat", "id_hat"}};
+    return d;
+}();
 
 } // namespace sdre

@@ -75,7 +75,10 @@ Layout layout(const Design &d)
 
 } // namespace
 
-const LawDesign dobc_design = {"law_dobc", "law_dobc_config_t", is_for, solve,
-                               summary,    mismatches,          layout};
+const LawDesign dobc_design = [] {
+    LawDesign d{"law_dobc", "law_dobc_config_t", is_for, solve, summary, mismatches, layout};
+    d.design_speed_e_radps = [](const Drive &drive) { return drive.dobc.design_speed_e_radps; };
+    return d;
+}();
 
 } // namespace sdre

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "design/foc/foc_design.hpp"
 #include "design/laws/cascade.hpp"
 
@@ -49,9 +51,31 @@ Layout layout(const Design &d)
     return gains_layout(d.config);
 }
 
+std::string report_rows(const Drive &drive)
+{
+    return fmt::format("speed loop {:g} rad/s, observer {:g} rad/s\n",
+                       drive.cascade.controller_radps, drive.cascade.observer_radps);
+}
+
+void turn(Drive &drive, double factor)
+{
+    drive.cascade.controller_radps *= factor;
+    drive.cascade.observer_radps *= factor;
+}
+
+std::string knob_text(const Drive &drive)
+{
+    return fmt::format("controller_radps = {:.4g} observer_radps = {:.4g}",
+                       drive.cascade.controller_radps, drive.cascade.observer_radps);
+}
+
 } // namespace
 
-const LawDesign ladrc_design = {"law_ladrc", "law_ladrc_config_t", is_for, solve,
-                                summary,     mismatches,           layout};
+const LawDesign ladrc_design = [] {
+    LawDesign d{"law_ladrc", "law_ladrc_config_t", is_for, solve, summary, mismatches, layout};
+    d.report_rows = report_rows;
+    d.noise_knob  = NoiseKnob{"ladrc", turn, knob_text};
+    return d;
+}();
 
 } // namespace sdre

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "design/certificate.hpp"
-#include "design/trip_levels.hpp"
 #include "design/sampled_model.hpp"
 #include "design/sampled_observer.hpp"
+#include "design/trip_levels.hpp"
 #include "linalg/covariance.hpp"
 
 namespace sdre {
@@ -276,6 +276,20 @@ std::string term_block(int n, const char *columns, const std::vector<std::string
         s += c_row(label, *rows++, 3);
     }
     return fmt::format("{{ /* n = {} */\n", n) + c_indented(s) + "},\n";
+}
+
+NoiseKnob observer_knob(const char *law)
+{
+    return {law,
+            [](Drive &drive, double factor) {
+                for (double &weight : drive.nodo.T) {
+                    weight /= factor;
+                }
+            },
+            [](const Drive &drive) {
+                const auto &T = drive.nodo.T;
+                return fmt::format("[nodo] T = [{:.4g} {:.4g} {:.4g}]", T[0], T[1], T[2]);
+            }};
 }
 
 std::vector<std::string> nosc_mismatches(const near_optimal_config_t &c)

@@ -122,6 +122,9 @@ std::string gain_block(const char *columns, const std::vector<std::string> &labe
     return c_block("gain", s);
 }
 
+/// The observer's T, for `law` of drive files.
+NoiseKnob observer_knob(const char *law);
+
 /// For LawDesign::mismatches.
 std::vector<std::string> nosc_mismatches(const near_optimal_config_t &c);
 

@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "design/certificate.hpp"
-#include "design/trip_levels.hpp"
 #include "design/laws/near_optimal.hpp"
 #include "design/laws/nodo_current.hpp"
+#include "design/trip_levels.hpp"
 
 namespace sdre {
 namespace {
@@ -89,7 +89,13 @@ Layout layout(const Design &d)
 
 } // namespace
 
-const LawDesign noc_design = {"law_noc", "law_noc_config_t", is_for, solve,
-                              summary,   mismatches,         layout};
+const LawDesign noc_design = [] {
+    LawDesign d{"law_noc", "law_noc_config_t", is_for, solve, summary, mismatches, layout};
+    d.predicts   = true;
+    d.weights    = Weights::by_goals;
+    d.scheduling = {{"e_iq"}, {"iq_hat"}};
+    d.noise_knob = observer_knob("noc");
+    return d;
+}();
 
 } // namespace sdre

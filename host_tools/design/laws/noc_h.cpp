@@ -6,10 +6,10 @@
 
 #include "common/parallel.hpp"
 #include "design/certificate.hpp"
-#include "design/trip_levels.hpp"
 #include "design/laws/near_optimal.hpp"
 #include "design/noc_h/harmonic_loop.hpp"
 #include "design/sampled_model.hpp"
+#include "design/trip_levels.hpp"
 
 namespace sdre {
 namespace {
@@ -202,7 +202,15 @@ Layout layout(const Design &d)
 
 } // namespace
 
-const LawDesign noc_h_design = {"law_noc_h", "law_noc_h_config_t", is_for, solve,
-                                summary,     mismatches,           layout};
+const LawDesign noc_h_design = [] {
+    LawDesign d{"law_noc_h", "law_noc_h_config_t", is_for, solve, summary, mismatches, layout};
+    d.own_observer         = true;
+    d.weights              = Weights::by_physics;
+    d.design_speed_e_radps = [](const Drive &drive) {
+        return drive.harmonics.weight_speed_e_radps;
+    };
+    d.noise_knob = observer_knob("noc_h");
+    return d;
+}();
 
 } // namespace sdre

@@ -52,7 +52,13 @@ Layout layout(const Design &d)
 
 } // namespace
 
-const LawDesign noc_speed_design = {
-    "law_noc_speed", "law_noc_speed_config_t", is_for, solve, summary, mismatches, layout};
+const LawDesign noc_speed_design = [] {
+    LawDesign d{"law_noc_speed", "law_noc_speed_config_t", is_for, solve, summary, mismatches,
+                layout};
+    d.weights    = Weights::by_goals;
+    d.scheduling = {{"e_iq"}, {"iq_hat"}};
+    d.noise_knob = observer_knob("noc");
+    return d;
+}();
 
 } // namespace sdre

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include <fmt/format.h>
+
 #include "design/foc/foc_design.hpp"
 #include "design/laws/cascade.hpp"
 
@@ -7,6 +11,8 @@ namespace {
 
 // Chosen: at 300 rad/s of the shipped encoder a count is 0.4 % of the angle turned in it.
 constexpr double window_s = 1e-3;
+// Chosen: where the symmetrical optimum has no phase left.
+constexpr double smallest_a = 1.05;
 
 bool is_for(const Drive &drive)
 {
@@ -47,9 +53,36 @@ Layout layout(const Design &d)
     return gains_layout(d.config);
 }
 
+std::string report_rows(const Drive &drive)
+{
+    return fmt::format("symmetrical optimum with a = {:g}\n", drive.cascade.symmetrical_optimum_a);
+}
+
+void turn(Drive &drive, double factor)
+{
+    double &a = drive.cascade.symmetrical_optimum_a;
+    a         = std::max(a / factor, smallest_a);
+}
+
+std::string knob_text(const Drive &drive)
+{
+    return fmt::format("symmetrical_optimum_a = {:.4g}", drive.cascade.symmetrical_optimum_a);
+}
+
 } // namespace
 
-const LawDesign pi_foc_design = {
-    "law_pi_foc", "law_pi_foc_config_t", is_for, solve, summary, mismatches, layout};
+void use_pi_foc(Drive &drive, double current_bandwidth_Hz, double symmetrical_optimum_a)
+{
+    drive.law                           = Law::pi_foc;
+    drive.cascade.current_bandwidth_Hz  = current_bandwidth_Hz;
+    drive.cascade.symmetrical_optimum_a = symmetrical_optimum_a;
+}
+
+const LawDesign pi_foc_design = [] {
+    LawDesign d{"law_pi_foc", "law_pi_foc_config_t", is_for, solve, summary, mismatches, layout};
+    d.report_rows = report_rows;
+    d.noise_knob  = NoiseKnob{"pi_foc", turn, knob_text};
+    return d;
+}();
 
 } // namespace sdre

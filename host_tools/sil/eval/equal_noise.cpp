@@ -7,13 +7,12 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "design/law_design.hpp"
 #include "sil/eval/seeds.hpp"
 
 namespace sdre {
 namespace {
 
-// Chosen: where the symmetrical optimum has no phase left.
-constexpr double smallest_a = 1.05;
 // Chosen: the observer's bandwidth goes with a root of its weights; 1.6^30 is beyond any use.
 constexpr double first_step    = 1.6;
 constexpr int    steps_most    = 30;
@@ -35,41 +34,20 @@ std::optional<double> noise_at(const Scenario &scenario, double factor, int seed
 
 Drive with_bandwidth(const Drive &drive, double factor)
 {
-    Drive d = drive;
-    switch (drive.law) {
-    case Law::noc:
-    case Law::noc_h:
-        for (double &weight : d.nodo.T) {
-            weight /= factor;
-        }
-        return d;
-    case Law::pi_foc:
-        d.cascade.symmetrical_optimum_a =
-            std::max(drive.cascade.symmetrical_optimum_a / factor, smallest_a);
-        return d;
-    case Law::ladrc:
-        d.cascade.controller_radps *= factor;
-        d.cascade.observer_radps *= factor;
-        return d;
-    default:
-        throw InputError(fmt::format("--equal-noise: {}: law \"{}\" has no bandwidth to turn: must "
-                                     "be noc, noc_h, pi_foc or ladrc",
-                                     drive.name, law_name(drive.law)));
+    const std::optional<NoiseKnob> &knob = law_design(drive).noise_knob;
+    if (!knob) {
+        throw InputError(
+            fmt::format("--equal-noise: {}: law \"{}\" has no bandwidth to turn: must be {}",
+                        drive.name, law_name(drive.law), noise_knob_laws()));
     }
+    Drive d = drive;
+    knob->turn(d, factor);
+    return d;
 }
 
 std::string knob_text(const Drive &d)
 {
-    switch (d.law) {
-    case Law::pi_foc:
-        return fmt::format("symmetrical_optimum_a = {:.4g}", d.cascade.symmetrical_optimum_a);
-    case Law::ladrc:
-        return fmt::format("controller_radps = {:.4g} observer_radps = {:.4g}",
-                           d.cascade.controller_radps, d.cascade.observer_radps);
-    default:
-        return fmt::format("[nodo] T = [{:.4g} {:.4g} {:.4g}]", d.nodo.T[0], d.nodo.T[1],
-                           d.nodo.T[2]);
-    }
+    return law_design(d).noise_knob->text(d);
 }
 
 std::optional<double> noise_V(const Scenario &scenario, int seeds)

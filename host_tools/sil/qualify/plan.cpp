@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "design/trip_levels.hpp"
 #include "design/laws/near_optimal.hpp"
 #include "design/sampled_model.hpp"
+#include "design/trip_levels.hpp"
 #include "sil/setup/board_reader.hpp"
 #include "tune/goals.hpp"
 #include "tune/prediction.hpp"

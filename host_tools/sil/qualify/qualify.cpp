@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
-#include "design/design.hpp"
+#include "design/laws/laws.hpp"
 #include "sil/eval/random_motors.hpp"
 #include "sil/eval/seeds.hpp"
 
@@ -113,11 +113,9 @@ std::optional<Rival> best_rival(const Drive &drive, const Trial &load_step, doub
     const double       fs = 1.0 / control_period_s(drive);
     for (const double share : {12.5, 18.0, 25.0, 40.0}) { // of the sampling rate
         for (const double a : {2.0, 2.5, 3.2, 4.5}) {
-            Trial  t                        = load_step;
-            Drive &d                        = t.scenario.drive;
-            d.law                           = Law::pi_foc;
-            d.cascade.current_bandwidth_Hz  = fs / share;
-            d.cascade.symmetrical_optimum_a = a;
+            Trial  t = load_step;
+            Drive &d = t.scenario.drive;
+            use_pi_foc(d, fs / share, a);
             if (has_design(d)) { // without a magnet there is none
                 rivals.push_back({fs / share, a, {}});
                 trials.push_back(t);
@@ -186,7 +184,7 @@ Qualification qualify(const Drive &drive, const QualifyOptions &o)
                                         q.motors.count - q.motors.good, q.motors.count,
                                         100.0 * share_limit));
     }
-    q.compared = o.against && drive.law != Law::pi_foc;
+    q.compared = o.against && &law_design(drive) != &pi_foc_design;
     if (q.compared) {
         compare(q, drive, plan.trials.front(), o.seeds);
     }
