@@ -154,9 +154,9 @@ static void take_command(void)
         .mode          = m->mode,
         .shorted       = m->stop.shorted,
         .in_the_way    = (m->mode != APP_MODE_READY) || app_modes_in_the_way(m),
-        .speed_e_radps = (m->drive.state == DRIVE_RUN) ? m->drive.wanted.now.omega_e_radps
+        .speed_e_radps = (m->drive.state == DRIVE_RUN) ? m->drive.answer.now.omega_e_radps
                                                        : m->reading.omega_e_radps,
-        .arrived       = (m->drive.state == DRIVE_RUN) && m->drive.wanted.arrived,
+        .arrived       = (m->drive.state == DRIVE_RUN) && m->drive.answer.arrived,
         .position      = &m->position};
 
     if (shared.command_full) {

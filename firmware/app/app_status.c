@@ -7,7 +7,7 @@ void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_
 {
     const bool  running = (m->mode == APP_MODE_RUN) || (m->mode == APP_MODE_STOP);
     const dq_t  zero    = {0.0f, 0.0f};
-    const dq_t  now_A   = {.d = m->drive.wanted.now.id_A, .q = m->drive.wanted.now.iq_A};
+    const dq_t  now_A   = {.d = m->drive.answer.now.id_A, .q = m->drive.answer.now.iq_A};
     const float max_A   = m->current_max_A * (1.0f - m->heat.derating);
     const float i2_A2   = (now_A.d * now_A.d) + (now_A.q * now_A.q);
 
@@ -31,16 +31,16 @@ void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_
     s->position_cnt      = m->angle.before_cnt;
     s->index_corrections = m->angle.corrections;
     s->phase_errors      = m->phase_errors;
-    s->ignored_angles    = m->drive.wanted.ignored_angles;
-    s->without_angle     = running && m->drive.wanted.without_angle;
+    s->ignored_angles    = m->drive.answer.ignored_angles;
+    s->without_angle     = running && m->drive.answer.without_angle;
     s->ignored_currents  = m->drive.current_gate.ignored;
     s->reset_cause       = BOARD_RESET_PIN;
     s->theta_e_rad       = m->reading.theta_e_rad;
-    s->speed_e_radps     = running ? m->drive.wanted.now.omega_e_radps : m->reading.omega_e_radps;
+    s->speed_e_radps     = running ? m->drive.answer.now.omega_e_radps : m->reading.omega_e_radps;
     s->dc_link_V         = m->sample.dc_link_V;
     s->temperature_degC  = m->sample.temperature_degC;
     s->i_A               = running ? now_A : zero;
-    s->i_ref_A           = running ? m->drive.wanted.i_ref_A : zero;
+    s->i_ref_A           = running ? m->drive.answer.i_ref_A : zero;
     s->v_V               = running ? m->drive.v_V : zero;
     s->zero_a_cnt        = m->scale.zero_a_cnt;
     s->zero_b_cnt        = m->scale.zero_b_cnt;
@@ -54,8 +54,8 @@ void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_
     s->done              = false;
     s->demand_e_radps    = 0.0f;
     s->position          = m->position;
-    s->arrived           = running && m->drive.wanted.arrived;
-    s->waits             = running && m->drive.wanted.waits;
+    s->arrived           = running && m->drive.answer.arrived;
+    s->waits             = running && m->drive.answer.waits;
     s->target_cnt        = 0L;
     s->acknowledged      = false;
 }

@@ -44,7 +44,7 @@ void drive_reset(drive_t *d)
 
     d->state     = DRIVE_OFF;
     d->fault     = DRIVE_FAULT_NONE;
-    d->wanted    = nothing;
+    d->answer    = nothing;
     d->v_V       = zero_dq;
     d->v_limited = false;
     d->i_hat_A   = zero_abc;
@@ -88,16 +88,16 @@ static drive_fault_t find_fault(const drive_config_t *c, const drive_sample_t *s
 }
 
 /* Checks an answer of the law. Without it, the voltage limit would turn a NaN into full voltage. */
-static drive_fault_t find_wrong(const drive_config_t *c, const law_output_t *wanted)
+static drive_fault_t find_wrong(const drive_config_t *c, const law_output_t *answer)
 {
     drive_fault_t fault = DRIVE_FAULT_NONE;
 
-    if (!wanted->plausible) {
+    if (!answer->plausible) {
         fault = DRIVE_FAULT_ENCODER;
-    } else if (!base_within(wanted->now.omega_e_radps, c->trip_speed_e_radps)) {
+    } else if (!base_within(answer->now.omega_e_radps, c->trip_speed_e_radps)) {
         fault = DRIVE_FAULT_OVER_SPEED;
-    } else if (!base_within(wanted->v_V.d, VOLTAGE_ANY_V) ||
-               !base_within(wanted->v_V.q, VOLTAGE_ANY_V)) {
+    } else if (!base_within(answer->v_V.d, VOLTAGE_ANY_V) ||
+               !base_within(answer->v_V.q, VOLTAGE_ANY_V)) {
         fault = DRIVE_FAULT_NUMERIC;
     } else {
         /* no fault */
@@ -127,7 +127,7 @@ static void start(drive_t *d, const drive_sample_t *sample)
 static bridge_t modulate(drive_t *d, float dc_link_V)
 {
     const drive_config_t *c     = d->config;
-    const law_output_t   *out   = &d->wanted;
+    const law_output_t   *out   = &d->answer;
     const frames_angle_t  angle = frames_angle(out->theta_rad);
     const dq_t            i_A   = {.d = out->now.id_A, .q = out->now.iq_A};
 
@@ -176,11 +176,11 @@ static drive_fault_t watch_motion(drive_t *d, const drive_sample_t *sample, floa
     const motion_watch_input_t in = {.motor           = &d->config->motor,
                                      .current_max_A   = d->config->current_max_A,
                                      .ts_s            = d->config->ts_s,
-                                     .now             = d->wanted.now,
+                                     .now             = d->answer.now,
                                      .command_e_radps = command_e_radps,
                                      .dc_link_V       = sample->dc_link_V,
                                      .edge_gap_s      = sample->edge_gap_s,
-                                     .d_Aps = d->wanted.predicted ? d->current_watch.d_slow_Aps
+                                     .d_Aps = d->answer.predicted ? d->current_watch.d_slow_Aps
                                                                   : zero_dq};
     return faults[motion_watch_judge(&d->motion_watch, &in)];
 }
@@ -199,13 +199,13 @@ static bridge_t run(drive_t *d, const drive_sample_t *sample, const drive_comman
                             .v_V             = d->v_V,
                             .derating        = base_clamp(command->derating, 0.0f, 1.0f)};
 
-    d->config->law->step(&d->law, d->config, &in, &d->wanted);
+    d->config->law->step(&d->law, d->config, &in, &d->answer);
 
-    drive_fault_t wrong = find_wrong(d->config, &d->wanted);
+    drive_fault_t wrong = find_wrong(d->config, &d->answer);
     if (wrong == DRIVE_FAULT_NONE) {
         wrong = watch_motion(d, sample,
                              (command->position == NULL) ? command->omega_e_radps
-                                                         : d->wanted.profile_e_radps);
+                                                         : d->answer.profile_e_radps);
     }
     return (wrong == DRIVE_FAULT_NONE) ? modulate(d, sample->dc_link_V) : trip(d, wrong);
 }
@@ -214,7 +214,7 @@ static bridge_t run(drive_t *d, const drive_sample_t *sample, const drive_comman
  * uses those of the previous period. */
 static drive_sample_t without_currents(const drive_t *d, const drive_sample_t *sample)
 {
-    const law_output_t *out = &d->wanted; /* its angle belongs to the middle of this period */
+    const law_output_t *out = &d->answer; /* its angle belongs to the middle of this period */
     const dq_t          i_A = {.d = out->now.id_A, .q = out->now.iq_A};
     const float theta_rad   = out->theta_rad - (0.5f * d->config->ts_s * out->now.omega_e_radps);
 

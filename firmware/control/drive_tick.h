@@ -65,7 +65,7 @@ typedef struct {
     drive_state_t         state;
     drive_fault_t         fault;
     law_state_t           law;       /**< state of config->law */
-    law_output_t          wanted;    /**< last answer of the law */
+    law_output_t          answer;    /**< last answer of the law */
     dq_t                  v_V;       /**< last voltage after limits; acts from the next tick */
     bool                  v_limited; /**< v_V was limited */
     abc_t                 i_hat_A;   /**< phase currents that the law expects */

@@ -59,7 +59,7 @@ def signals_source(found: List[Signal]) -> str:
         "/* While the drive runs this is its estimate. */",
         "static float app_scope_speed(const app_modes_t *m)",
         "{",
-        "    return (m->drive.state == DRIVE_RUN) ? m->drive.wanted.now.omega_e_radps : "
+        "    return (m->drive.state == DRIVE_RUN) ? m->drive.answer.now.omega_e_radps : "
         "m->reading.omega_e_radps;",
         "}",
         "",

@@ -66,12 +66,12 @@ static void any_state(void)
     modes.drive.config_again          = &config;
     modes.drive.law_again             = config.law;
     modes.drive.constants_again       = config.constants;
-    modes.drive.wanted.predicted      = any_bool();
+    modes.drive.answer.predicted      = any_bool();
     modes.drive.current_watch.expects = any_bool();
     modes.drive.current_watch.models  = any_bool();
     modes.drive.motion_watch.look     = (motion_watch_look_t)any_between(0, 2);
-    modes.drive.wanted.arrived        = any_bool();
-    modes.drive.wanted.waits          = any_bool();
+    modes.drive.answer.arrived        = any_bool();
+    modes.drive.answer.waits          = any_bool();
     modes.position.have               = any_bool();
     modes.position.known              = any_bool();
     modes.position.is.turns           = any_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
@@ -83,8 +83,8 @@ static void any_state(void)
     modes.drive.state                 = any_between(DRIVE_OFF, DRIVE_FAULT);
     modes.drive.fault                 = any_between(DRIVE_FAULT_NONE, DRIVE_FAULT_MEMORY);
     modes.drive.v_limited             = any_bool();
-    modes.drive.wanted.plausible      = any_bool();
-    modes.drive.wanted.without_angle  = any_bool();
+    modes.drive.answer.plausible      = any_bool();
+    modes.drive.answer.without_angle  = any_bool();
     modes.drive.current_gate.jumped   = any_bool();
     modes.scale.config                = &board_config.scale;
     modes.scale.positions    = board_config.board.positions; /* by their inits, as the other two */

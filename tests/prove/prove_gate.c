@@ -18,17 +18,17 @@ void prove_gate(void)
     drive.law_again             = any_bool() ? &any_law : NULL;
     drive.constants_again       = any_bool() ? config.constants : NULL;
     drive.state                 = any_bool() ? DRIVE_OFF : (any_bool() ? DRIVE_RUN : DRIVE_FAULT);
-    drive.wanted.plausible      = any_bool();
+    drive.answer.plausible      = any_bool();
     drive.current_gate.jumped   = any_bool();
     drive.current_watch.expects = any_bool();
     drive.current_watch.models  = any_bool();
-    drive.wanted.predicted      = any_bool();
+    drive.answer.predicted      = any_bool();
     config.law                  = &any_law;
     config.overmodulation       = any_bool();
     config.positions            = any_bool();
-    drive.wanted.arrived        = any_bool();
+    drive.answer.arrived        = any_bool();
     drive.motion_watch.look     = (motion_watch_look_t)any_between(0, 2);
-    drive.wanted.waits          = any_bool();
+    drive.answer.waits          = any_bool();
 
     const drive_state_t before  = drive.state;
     drive_sample_t      sample  = any_sample;
@@ -46,7 +46,7 @@ void prove_gate(void)
         //@ check bound: drive.config == &config;
         //@ check whole: drive.config_again == &config && drive.law_again == &any_law && drive.constants_again == &config;
         //@ check no_fault_left: before != DRIVE_FAULT;
-        //@ check plausible: drive.wanted.plausible != 0;
+        //@ check plausible: drive.answer.plausible != 0;
     } else {
         //@ check off: drive.config == \null || drive.state != DRIVE_RUN;
         //@ check halves: out.duty.a == 0.5 && out.duty.b == 0.5 && out.duty.c == 0.5;

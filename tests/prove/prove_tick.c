@@ -121,12 +121,12 @@ static void any_drive(void)
     drive.constants_again       = config.constants;
     drive.state                 = any_between(DRIVE_OFF, DRIVE_FAULT);
     drive.fault                 = any_between(DRIVE_FAULT_NONE, DRIVE_FAULT_MEMORY);
-    drive.wanted.plausible      = any_between(0, 1);
-    drive.wanted.without_angle  = any_between(0, 1);
+    drive.answer.plausible      = any_between(0, 1);
+    drive.answer.without_angle  = any_between(0, 1);
     drive.v_limited             = any_between(0, 1);
-    drive.wanted.predicted      = any_between(0, 1);
-    drive.wanted.arrived        = any_between(0, 1);
-    drive.wanted.waits          = any_between(0, 1);
+    drive.answer.predicted      = any_between(0, 1);
+    drive.answer.arrived        = any_between(0, 1);
+    drive.answer.waits          = any_between(0, 1);
     drive.current_gate.jumped   = any_between(0, 1);
     drive.current_watch.expects = any_between(0, 1);
     drive.current_watch.models  = any_between(0, 1);

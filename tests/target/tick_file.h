@@ -61,7 +61,7 @@ typedef struct {
     drive_state_t   state;
     drive_fault_t   fault;
     law_state_t     law;
-    law_output_t    wanted;
+    law_output_t    answer;
     dq_t            v_V;
     uint32_t        v_limited;
     abc_t           i_hat_A;
@@ -114,7 +114,7 @@ static inline tick_file_drive_t tick_file_from_drive(const drive_t *d)
     x.state         = d->state;
     x.fault         = d->fault;
     x.law           = d->law;
-    x.wanted        = d->wanted;
+    x.answer        = d->answer;
     x.v_V           = d->v_V;
     x.v_limited     = d->v_limited ? 1u : 0u;
     x.i_hat_A       = d->i_hat_A;
@@ -130,7 +130,7 @@ static inline void tick_file_to_drive(const tick_file_drive_t *x, drive_t *d)
     d->state         = x->state;
     d->fault         = x->fault;
     d->law           = x->law;
-    d->wanted        = x->wanted;
+    d->answer        = x->answer;
     d->v_V           = x->v_V;
     d->v_limited     = x->v_limited != 0u;
     d->i_hat_A       = x->i_hat_A;

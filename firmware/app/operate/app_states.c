@@ -45,7 +45,7 @@ static bridge_t drive_to_a_stop(app_modes_t *m, const app_modes_input_t *in)
  * then it trips. */
 bridge_t app_states_run(app_modes_t *m, const app_modes_input_t *in)
 {
-    const bool lost = m->drive.wanted.without_angle;
+    const bool lost = m->drive.answer.without_angle;
     const bool brake =
         (m->drive.state == DRIVE_RUN) &&
         (lost || (!in->command.run && app_stop_is_braking(&m->stop, m->reading.omega_e_radps)));

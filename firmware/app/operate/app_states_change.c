@@ -30,7 +30,7 @@ bridge_t app_states_fault(app_modes_t *m, const app_modes_input_t *in)
 bridge_t app_states_trip(app_modes_t *m, const app_modes_input_t *in, app_fault_t fault)
 {
     const float          speed_e_radps = (m->drive.state == DRIVE_OFF) ? m->reading.omega_e_radps
-                                                                       : m->drive.wanted.now.omega_e_radps;
+                                                                       : m->drive.answer.now.omega_e_radps;
     const app_snapshot_t snapshot      = {.fault          = fault,
                                           .mode           = m->mode,
                                           .drive_fault    = m->drive.fault,

@@ -31,7 +31,7 @@ static void take(float to[APP_RECORD_SIGNALS], const app_modes_t *m, const abc_t
     to[0] = m->sample.ia_A;
     to[1] = m->sample.ib_A;
     to[2] = m->sample.dc_link_V;
-    to[3] = (m->drive.state == DRIVE_RUN) ? m->drive.wanted.now.omega_e_radps
+    to[3] = (m->drive.state == DRIVE_RUN) ? m->drive.answer.now.omega_e_radps
                                           : m->reading.omega_e_radps;
     to[4] = duty->a;
     to[5] = duty->b;

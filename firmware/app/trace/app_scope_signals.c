@@ -6,7 +6,7 @@
 /* While the drive runs this is its estimate. */
 static float app_scope_speed(const app_modes_t *m)
 {
-    return (m->drive.state == DRIVE_RUN) ? m->drive.wanted.now.omega_e_radps : m->reading.omega_e_radps;
+    return (m->drive.state == DRIVE_RUN) ? m->drive.answer.now.omega_e_radps : m->reading.omega_e_radps;
 }
 
 float app_scope_signals_value(const app_scope_view_t *v, uint16_t signal)
@@ -27,16 +27,16 @@ float app_scope_signals_value(const app_scope_view_t *v, uint16_t signal)
         x = v->command->omega_e_radps;
         break;
     case APP_SCOPE_IQ:
-        x = v->modes->drive.wanted.now.iq_A;
+        x = v->modes->drive.answer.now.iq_A;
         break;
     case APP_SCOPE_ID:
-        x = v->modes->drive.wanted.now.id_A;
+        x = v->modes->drive.answer.now.id_A;
         break;
     case APP_SCOPE_IQ_REF:
-        x = v->modes->drive.wanted.i_ref_A.q;
+        x = v->modes->drive.answer.i_ref_A.q;
         break;
     case APP_SCOPE_ID_REF:
-        x = v->modes->drive.wanted.i_ref_A.d;
+        x = v->modes->drive.answer.i_ref_A.d;
         break;
     case APP_SCOPE_VQ:
         x = v->modes->drive.v_V.q;
@@ -66,7 +66,7 @@ float app_scope_signals_value(const app_scope_view_t *v, uint16_t signal)
         x = v->out->duty.c;
         break;
     case APP_SCOPE_LOAD:
-        x = v->modes->drive.wanted.d_omega;
+        x = v->modes->drive.answer.d_omega;
         break;
     case APP_SCOPE_MODE:
         x = (float)v->modes->mode;

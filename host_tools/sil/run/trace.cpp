@@ -74,13 +74,13 @@ double instant_A(const TraceRow &row)
 
 void add_drive(TraceRow &row, const drive_t &drive)
 {
-    row.iq_ref_A    = static_cast<double>(drive.wanted.i_ref_A.q);
-    row.id_ref_A    = static_cast<double>(drive.wanted.i_ref_A.d);
+    row.iq_ref_A    = static_cast<double>(drive.answer.i_ref_A.q);
+    row.id_ref_A    = static_cast<double>(drive.answer.i_ref_A.d);
     row.vq_V        = static_cast<double>(drive.v_V.q);
     row.vd_V        = static_cast<double>(drive.v_V.d);
-    row.d_omega_hat = static_cast<double>(drive.wanted.d_omega);
-    row.d_q_hat     = static_cast<double>(drive.wanted.d_q);
-    row.d_d_hat     = static_cast<double>(drive.wanted.d_d);
+    row.d_omega_hat = static_cast<double>(drive.answer.d_omega);
+    row.d_q_hat     = static_cast<double>(drive.answer.d_q);
+    row.d_d_hat     = static_cast<double>(drive.answer.d_d);
     if (drive.config != nullptr) {
         add_law(row, drive);
     }

@@ -524,7 +524,7 @@ static void test_each_condition_of_a_stop_alone_opens_the_bridge(void)
         turn(4);
         TEST_ASSERT_TRUE(out.gate_enable);
         in.command.run                   = false;
-        modes.drive.wanted.without_angle = rows[i].lost;
+        modes.drive.answer.without_angle = rows[i].lost;
         modes.drive.state                = rows[i].running ? DRIVE_RUN : DRIVE_OFF;
         turn(1);
         TEST_ASSERT_TRUE_MESSAGE(out.gate_enable == rows[i].on, "row");

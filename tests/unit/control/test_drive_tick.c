@@ -265,12 +265,12 @@ static void test_reset_zeroes_everything_that_is_published(void)
         (void)tick();
     }
     drive.v_limited = true;
-    TEST_ASSERT_TRUE((drive.wanted.d_omega != 0.0f) && (drive.wanted.i_ref_A.q != 0.0f) &&
-                     (drive.wanted.theta_rad != 0.0f) && drive.wanted.plausible);
+    TEST_ASSERT_TRUE((drive.answer.d_omega != 0.0f) && (drive.answer.i_ref_A.q != 0.0f) &&
+                     (drive.answer.theta_rad != 0.0f) && drive.answer.plausible);
 
     drive_reset(&drive);
 
-    const law_output_t *w = &drive.wanted;
+    const law_output_t *w = &drive.answer;
     TEST_ASSERT_EQUAL_INT(DRIVE_OFF, drive.state);
     TEST_ASSERT_TRUE((drive.v_V.d == 0.0f) && (drive.v_V.q == 0.0f) && !drive.v_limited);
     TEST_ASSERT_TRUE((w->now.omega_e_radps == 0.0f) && (w->now.iq_A == 0.0f) &&
@@ -503,8 +503,8 @@ static void test_bad_sample_leaves_no_trace_in_the_measurement(void)
 
     (void)tick();
 
-    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, -0.1, (double)drive.wanted.now.id_A);
-    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, 0.5, (double)drive.wanted.now.iq_A);
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, -0.1, (double)drive.answer.now.id_A);
+    TEST_ASSERT_DOUBLE_WITHIN(TOL_A, 0.5, (double)drive.answer.now.iq_A);
 }
 
 static void test_estimate_that_is_not_finite_trips_before_it_reaches_the_bridge(void)
@@ -553,7 +553,7 @@ typedef struct {
 static double oracle_asked_iq_A(void)
 {
     const nosc_gains_t *g     = &constants.near_optimal.nosc;
-    const double        w     = (double)drive.wanted.now.omega_e_radps;
+    const double        w     = (double)drive.answer.now.omega_e_radps;
     const double        iqr   = (double)references->current_ref.i_A.q;
     const double        ratio = (double)g->lambda[0][0][0] / (double)g->lambda[0][0][1];
     const double        asked = iqr - (ratio * (w - (double)references->speed_ref.omega_e_radps));
@@ -567,14 +567,14 @@ static voltages_t oracle_law(void)
 {
     const motor_reduced_t *m     = &config.motor;
     const nosc_gains_t    *g     = &constants.near_optimal.nosc;
-    const double           w     = (double)drive.wanted.now.omega_e_radps;
+    const double           w     = (double)drive.answer.now.omega_e_radps;
     const double           iqr   = (double)references->current_ref.i_A.q;
     const double           idr   = (double)references->current_ref.i_A.d;
     const double           ratio = (double)g->lambda[0][0][0] / (double)g->lambda[0][0][1];
     const double           e_w   = (iqr - oracle_asked_iq_A()) / ratio;
     const double           w_d   = w - e_w;
-    const double           e[3]  = {e_w, (double)drive.wanted.now.iq_A - iqr,
-                                    (double)drive.wanted.now.id_A - idr};
+    const double           e[3]  = {e_w, (double)drive.answer.now.iq_A - iqr,
+                                    (double)drive.answer.now.id_A - idr};
     const double           limit = (double)g->iq_error_max_A;
     const double           held  = support_limit(e[1], -limit, limit);
 
@@ -633,18 +633,18 @@ static voltages_t oracle_beyond(void)
     const motor_reduced_t *m    = &config.motor;
     const nosc_gains_t    *g    = &constants.near_optimal.nosc;
     const current_ref_t   *ref  = &references->current_ref;
-    const double           w    = (double)drive.wanted.now.omega_e_radps;
+    const double           w    = (double)drive.answer.now.omega_e_radps;
     const double           k_iq = (double)g->lambda[0][0][1];
     const double           id   = (double)ref->i_A.d;
     const double           iq   = oracle_asked_iq_A();
     const double           pull = k_iq * (double)m->l6;
     const double q = ((double)m->l4 * iq) + (w * ((double)m->l5 + ((double)m->l10 * id))) +
-                     (double)ref->i_dot_Aps.q - (double)drive.wanted.d_q;
+                     (double)ref->i_dot_Aps.q - (double)drive.answer.d_q;
     const double d = ((double)m->l7 * id) - ((double)m->l9 * w * iq) + (double)ref->i_dot_Aps.d -
-                     (double)drive.wanted.d_d;
+                     (double)drive.answer.d_d;
     const voltages_t u = {
-        .v_q = (q - (pull * ((double)drive.wanted.now.iq_A - iq))) / (double)m->l6,
-        .v_d = (d - (pull * ((double)drive.wanted.now.id_A - id))) / (double)m->l8};
+        .v_q = (q - (pull * ((double)drive.answer.now.iq_A - iq))) / (double)m->l6,
+        .v_d = (d - (pull * ((double)drive.answer.now.id_A - id))) / (double)m->l8};
     return u;
 }
 
@@ -656,10 +656,10 @@ static bool is_clamped(dq_t u_V, dq_t v_0_V)
     const dq_t   v_V      = {.d = share * u_V.d, .q = share * u_V.q};
     nodo_t       est;
     memset(&est, 0, sizeof est);
-    est.d_q = drive.wanted.d_q;
-    est.d_d = drive.wanted.d_d;
+    est.d_q = drive.answer.d_q;
+    est.d_d = drive.answer.d_d;
 
-    const dq_t held = current_clamp_V(&config.motor, &est, &drive.wanted.now, v_V, v_0_V,
+    const dq_t held = current_clamp_V(&config.motor, &est, &drive.answer.now, v_V, v_0_V,
                                       config.current_max_A, 1.0f / config.ts_s);
     return !voltage_is_outside(held, sample.dc_link_V) && ((held.d != v_V.d) || (held.q != v_V.q));
 }
@@ -714,7 +714,7 @@ static void test_observer_is_driven_by_the_limited_voltage_of_the_previous_tick(
         draw_inputs();
 
         (void)tick();
-        nodo_update(&expected, &constants.noc_speed.nodo, &config.motor, &drive.wanted.now,
+        nodo_update(&expected, &constants.noc_speed.nodo, &config.motor, &drive.answer.now,
                     in_force_V, config.ts_s);
 
         TEST_ASSERT_TRUE((speed_form->observer.d_omega == expected.d_omega) &&
@@ -735,9 +735,9 @@ static void assert_references_follow(void (*draw)(void))
         draw();
 
         TEST_ASSERT_TRUE(tick().gate_enable);
-        const float               e_w = drive.wanted.now.omega_e_radps - speed.omega_e_radps;
+        const float               e_w = drive.answer.now.omega_e_radps - speed.omega_e_radps;
         const current_ref_input_t in  = {.est   = &speed_form->observer,
-                                         .state = &drive.wanted.now,
+                                         .state = &drive.answer.now,
                                          .iq_speed_A =
                                              nosc_speed_current_A(&constants.near_optimal.nosc, e_w),
                                          .dc_link_V = sample.dc_link_V,
@@ -745,7 +745,7 @@ static void assert_references_follow(void (*draw)(void))
         const speed_ref_limits_t  limits =
             current_ref_speed_limits(&current, &constants.near_optimal.current_ref, &config.motor,
                                      &in, command.omega_e_radps);
-        speed_ref_update(&speed, &limits, command.omega_e_radps, drive.wanted.now.omega_e_radps,
+        speed_ref_update(&speed, &limits, command.omega_e_radps, drive.answer.now.omega_e_radps,
                          config.ts_s);
         current_ref_update(&current, &constants.near_optimal.current_ref, &config.motor, &speed,
                            &in);
@@ -835,7 +835,7 @@ static void test_dead_time_is_compensated_for_the_currents_of_the_law(void)
         const bridge_t       out = tick();
         const frames_angle_t angle =
             frames_angle(sample.theta_e_rad + (1.5f * config.ts_s * sample.omega_e_radps));
-        const dq_t  i_A   = {.d = drive.wanted.now.id_A, .q = drive.wanted.now.iq_A};
+        const dq_t  i_A   = {.d = drive.answer.now.id_A, .q = drive.answer.now.iq_A};
         const abc_t i_abc = frames_inverse_clarke(frames_inverse_park(i_A, angle));
         const abc_t plain = svpwm_duty(frames_inverse_park(drive.v_V, angle), sample.dc_link_V);
 
@@ -1037,7 +1037,7 @@ static void test_drive_goes_on_without_its_encoder_until_it_is_slow(void)
             sample.theta_e_rad = stuck;
             TEST_ASSERT_TRUE(loop_step(&loop, 0.75).gate_enable);
             TEST_ASSERT_DOUBLE_WITHIN(20.0, speeds[i], loop.plant.omega);
-            TEST_ASSERT_TRUE((n < 10) || drive.wanted.without_angle);
+            TEST_ASSERT_TRUE((n < 10) || drive.answer.without_angle);
             TEST_ASSERT_DOUBLE_WITHIN(
                 0.17, 0.0, /* 10 degrees; the estimate is a period ahead */
                 remainder((double)encoder_form->theta_hat_rad - loop.plant.theta,
@@ -1195,7 +1195,7 @@ static void test_noc_h_loop_settles_at_the_command_and_finds_the_load(void)
             sample = encoder_sample(&loop.plant);
             (void)loop_step(&loop, 0.75);
             mean += loop.plant.omega / 500.0;
-            d_w += (double)drive.wanted.d_omega / 500.0;
+            d_w += (double)drive.answer.d_omega / 500.0;
         }
         TEST_ASSERT_EQUAL_INT(DRIVE_RUN, drive.state);
         TEST_ASSERT_DOUBLE_WITHIN(TOL_MEAN_RADPS, speeds[i], mean);
@@ -1241,8 +1241,8 @@ static void test_encoder_form_acts_on_the_prediction(void)
                          (encoder_form->observer.d_q == x.d_q) &&
                          (encoder_form->observer.d_d == x.d_d) &&
                          (encoder_form->theta_hat_rad == theta));
-        TEST_ASSERT_TRUE((drive.wanted.now.omega_e_radps == x.omega_e_radps) &&
-                         (drive.wanted.now.iq_A == x.iq_A) && (drive.wanted.now.id_A == x.id_A));
+        TEST_ASSERT_TRUE((drive.answer.now.omega_e_radps == x.omega_e_radps) &&
+                         (drive.answer.now.iq_A == x.iq_A) && (drive.answer.now.id_A == x.id_A));
         const double ahead = (double)theta + (0.5 * (double)config.ts_s * (double)x.omega_e_radps);
         const double complex v_V = realised_V(out) * cexp(support_complex(0.0, -ahead));
         TEST_ASSERT_DOUBLE_WITHIN(TOL_DUTY_V, (double)drive.v_V.d, creal(v_V));

@@ -930,9 +930,9 @@ static void test_status_repeats_what_is_inside(void)
     TEST_ASSERT_EQUAL_UINT(5U, s.board_faults);
     TEST_ASSERT_EQUAL_UINT(3U, s.position_cnt);
     TEST_ASSERT_TRUE(s.gate_enable && !s.hot);
-    TEST_ASSERT_TRUE(s.speed_e_radps == modes.drive.wanted.now.omega_e_radps);
-    TEST_ASSERT_TRUE((s.i_A.q == modes.drive.wanted.now.iq_A) &&
-                     (s.i_A.d == modes.drive.wanted.now.id_A));
+    TEST_ASSERT_TRUE(s.speed_e_radps == modes.drive.answer.now.omega_e_radps);
+    TEST_ASSERT_TRUE((s.i_A.q == modes.drive.answer.now.iq_A) &&
+                     (s.i_A.d == modes.drive.answer.now.id_A));
     TEST_ASSERT_TRUE((s.i_A.q != 0.0f) && (s.i_A.d > 0.1f));
     TEST_ASSERT_TRUE((s.zero_a_cnt == 2050.0f) && (s.zero_b_cnt == 2041.0f));
     TEST_ASSERT_TRUE((s.v_V.q == modes.drive.v_V.q) && (s.v_V.q != 0.0f));
@@ -954,12 +954,12 @@ static void test_status_tells_a_current_at_its_limit(void)
     go_run();
     const float limit_A         = drive_config.current_max_A;
     modes.heat.derating         = 0.5f;
-    modes.drive.wanted.now.id_A = 0.0f;
-    modes.drive.wanted.now.iq_A = -0.46f * limit_A;
+    modes.drive.answer.now.id_A = 0.0f;
+    modes.drive.answer.now.iq_A = -0.46f * limit_A;
     TEST_ASSERT_TRUE(status_of(0U).current_limited);
-    modes.drive.wanted.now.iq_A = -0.44f * limit_A;
+    modes.drive.answer.now.iq_A = -0.44f * limit_A;
     TEST_ASSERT_FALSE(status_of(0U).current_limited);
-    modes.drive.wanted.now.iq_A = -limit_A;
+    modes.drive.answer.now.iq_A = -limit_A;
     modes.drive.v_limited       = true;
     modes.mode                  = APP_MODE_STOP;
     TEST_ASSERT_TRUE(status_of(0U).current_limited && status_of(0U).voltage_limited);

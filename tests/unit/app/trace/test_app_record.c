@@ -116,7 +116,7 @@ static void test_each_place_is_a_signal_of_the_scope(void)
     modes.sample.ib_A                    = 2.0f;
     modes.sample.dc_link_V               = 3.0f;
     modes.reading.omega_e_radps          = 4.0f;
-    modes.drive.wanted.now.omega_e_radps = 5.0f;
+    modes.drive.answer.now.omega_e_radps = 5.0f;
     out.duty.a                           = 6.0f;
     out.duty.b                           = 7.0f;
     out.duty.c                           = 8.0f;

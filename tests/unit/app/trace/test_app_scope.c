@@ -208,13 +208,13 @@ static void test_settings_that_are_none_are_refused(void)
 static void test_signals_are_what_they_are_called(void)
 {
     modes.drive.state                    = DRIVE_RUN;
-    modes.drive.wanted.now.omega_e_radps = 1.0f;
+    modes.drive.answer.now.omega_e_radps = 1.0f;
     modes.reading.omega_e_radps          = 2.0f;
     command.omega_e_radps                = 3.0f;
-    modes.drive.wanted.now.iq_A          = 4.0f;
-    modes.drive.wanted.now.id_A          = 5.0f;
-    modes.drive.wanted.i_ref_A.q         = 6.0f;
-    modes.drive.wanted.i_ref_A.d         = 7.0f;
+    modes.drive.answer.now.iq_A          = 4.0f;
+    modes.drive.answer.now.id_A          = 5.0f;
+    modes.drive.answer.i_ref_A.q         = 6.0f;
+    modes.drive.answer.i_ref_A.d         = 7.0f;
     modes.drive.v_V.q                    = 8.0f;
     modes.drive.v_V.d                    = 9.0f;
     modes.sample.ia_A                    = 10.0f;
@@ -224,7 +224,7 @@ static void test_signals_are_what_they_are_called(void)
     out.duty.a                           = 14.0f;
     out.duty.b                           = 15.0f;
     out.duty.c                           = 16.0f;
-    modes.drive.wanted.d_omega           = 17.0f;
+    modes.drive.answer.d_omega           = 17.0f;
     modes.mode                           = APP_MODE_FAULT; /* 5 */
     for (uint16_t k = 0U; k < 18U; k++) {
         TEST_ASSERT_TRUE(app_scope_signals_value(&view, k) == (float)k);

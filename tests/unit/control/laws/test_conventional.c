@@ -213,7 +213,7 @@ static void test_tick_runs_the_observer_and_the_feedback_of_this_law(void)
         (void)drive_tick(&b, &sample, &command);
         nodo_t expected = before;
         if (k > 0) { /* the first tick starts the observer */
-            conventional_update(&expected, &constants.gains, &c.motor, &a.wanted.now, v_V, c.ts_s);
+            conventional_update(&expected, &constants.gains, &c.motor, &a.answer.now, v_V, c.ts_s);
             TEST_ASSERT_TRUE((expected.iq_A == a.law.conventional.observer.iq_A) &&
                              (expected.id_A == a.law.conventional.observer.id_A) &&
                              (expected.d_omega == a.law.conventional.observer.d_omega));
@@ -241,7 +241,7 @@ static void test_tick_takes_its_feedback_from_the_table_of_this_law(void)
     (void)drive_tick(&a, &sample, &command);
     (void)drive_tick(&b, &sample, &command);
 
-    const double e_id_A = (double)(a.wanted.now.id_A - a.wanted.i_ref_A.d);
+    const double e_id_A = (double)(a.answer.now.id_A - a.answer.i_ref_A.d);
     const double more_V = -0.5 * (double)constants.gains.lambda[1][2] * e_id_A;
     TEST_ASSERT_TRUE(fabs(more_V) > 1.0);
     TEST_ASSERT_FALSE(a.v_limited || b.v_limited);

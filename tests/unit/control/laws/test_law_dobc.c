@@ -180,7 +180,7 @@ static void test_tick_runs_the_law_on_the_measurement(void)
     TEST_ASSERT_TRUE(out.gate_enable);
     TEST_ASSERT_FALSE(d.v_limited);
     TEST_ASSERT_TRUE((d.v_V.d == want.v_V.d) && (d.v_V.q == want.v_V.q));
-    TEST_ASSERT_TRUE(d.wanted.now.omega_e_radps == 200.0f);
+    TEST_ASSERT_TRUE(d.answer.now.omega_e_radps == 200.0f);
     (void)drive_tick(&d, &sample, &command);
     in.v_V = want.v_V;
     TEST_ASSERT_TRUE(d.v_V.q == law_answer(&drive, &state, &in).v_V.q);

@@ -199,7 +199,7 @@ static void test_it_gets_the_limited_voltage_of_the_period_before(void)
         TEST_ASSERT_TRUE((drive.law.own[OWN_V_D] == before_V.d) &&
                          (drive.law.own[OWN_V_Q] == before_V.q));
         TEST_ASSERT_DOUBLE_WITHIN(TOL_V, 295.0 / sqrt(3.0), support_length(before_V));
-        TEST_ASSERT_TRUE(drive.wanted.v_V.q == 400.0f);
+        TEST_ASSERT_TRUE(drive.answer.v_V.q == 400.0f);
     }
 
     command.run = false;
