@@ -14,7 +14,28 @@
 
 #include "base.h"
 
+#define FRAMES_TURNS_1prad 0.159154943f /* turns in a rad */
+#define FRAMES_HALF_PI     1.57079633f
+
+/* Minimax fit on +-pi/2: largest relative error 6.1e-9. */
+#define FRAMES_S1 -1.66666597e-1f
+#define FRAMES_S2 8.33306555e-3f
+#define FRAMES_S3 -1.98095222e-4f
+#define FRAMES_S4 2.60559204e-6f
+
+/* 1.5 times 2^23, where the last place counts ones: a number added to it and taken off again is the nearest integer. The
+ * FPU has to round to nearest, as TI's compiler sets it at the start of every interrupt. Another type has another number. */
+#ifndef FRAMES_ONES
+#define FRAMES_ONES 12582912.0f
+#endif
+
 /* Inline, because a call costs more than the arithmetic. In C and C++: members are set in their order. */
+
+/** Whole turns nearest to an angle. */
+static inline float frames_turns(float angle_rad)
+{
+    return ((angle_rad * FRAMES_TURNS_1prad) + FRAMES_ONES) - FRAMES_ONES;
+}
 
 /** An electrical angle, kept as its cosine and sine. */
 typedef struct {
@@ -40,6 +61,23 @@ typedef struct {
  * Context: control ISR. No division.
  */
 frames_angle_t frames_angle(float theta_e_rad);
+
+/** EQ-FRAMES-3: the sine of an angle within +-pi/2. */
+static inline float frames_sine(float r)
+{
+    const float r2 = r * r;
+    const float s  = FRAMES_S1 + (r2 * (FRAMES_S2 + (r2 * (FRAMES_S3 + (r2 * FRAMES_S4)))));
+
+    return r + ((r * r2) * s);
+}
+
+/** frames_angle() of an angle within +-pi/2, bit for bit, inline and without a search for its turns. */
+static inline frames_angle_t frames_small_angle(float theta_e_rad)
+{
+    const frames_angle_t angle = {frames_sine(FRAMES_HALF_PI - fabsf(theta_e_rad)),
+                                  frames_sine(theta_e_rad)};
+    return angle;
+}
 
 /** Phase currents a and b to the stator frame. */
 static inline ab_t frames_clarke(float a, float b)
@@ -73,13 +111,10 @@ static inline ab_t frames_inverse_park(dq_t x, frames_angle_t angle)
     return y;
 }
 
-/** Wraps an angle into +-pi; exact for angles within +-3 pi. */
+/** Wraps an angle into +-pi; exact for angles within +-3 pi. No branch. */
 static inline float frames_wrap(float angle_rad)
 {
-    if (angle_rad > BASE_PI) {
-        return angle_rad - BASE_TWO_PI;
-    }
-    return (angle_rad < -BASE_PI) ? (angle_rad + BASE_TWO_PI) : angle_rad;
+    return angle_rad - (frames_turns(angle_rad) * BASE_TWO_PI);
 }
 
 #endif /* FRAMES_H */

@@ -211,6 +211,20 @@ static void test_wrap_moves_angles_of_three_half_turns_into_one(void)
     }
 }
 
+/* Every angle within a quarter turn of zero, in steps of 2^-15 rad and at the ends. */
+static void test_small_angle_is_the_angle_bit_for_bit(void)
+{
+    const int ends = 51471; /* below pi/2 */
+
+    for (int step = -ends; step <= ends; step++) {
+        const float          theta_rad = (float)step / 32768.0f;
+        const frames_angle_t any       = frames_angle(theta_rad);
+        const frames_angle_t small     = frames_small_angle(theta_rad);
+
+        TEST_ASSERT_EQUAL_MEMORY(&any, &small, sizeof any);
+    }
+}
+
 static void test_wrap_leaves_what_is_in_range(void)
 {
     TEST_ASSERT_TRUE(frames_wrap(BASE_PI) == BASE_PI);
@@ -237,6 +251,7 @@ int main(void)
     RUN_TEST(test_balanced_phases_become_constant_in_the_rotor_frame);
     RUN_TEST(test_not_a_number_is_not_hidden);
     RUN_TEST(test_wrap_moves_angles_of_three_half_turns_into_one);
+    RUN_TEST(test_small_angle_is_the_angle_bit_for_bit);
     RUN_TEST(test_wrap_leaves_what_is_in_range);
     return UNITY_END();
 }
