@@ -10,7 +10,7 @@ records every tick; replay_LAW.elf replays them on that machine. The answers mus
 instructions are counted, and the operations executed are priced with the C28x's cycles of
 costs.toml. The figures go to JSON, unless columns are named: then those alone are made. Exit code
 1: a check failed, or a whole period takes more than docs/budget.json has; record makes that file
-and the tables of docs/hardware.md.
+and the tables of docs/hardware.md. It refuses a default drive above its ceiling.
 """
 
 import json
@@ -271,6 +271,21 @@ def check_growth(check, whole_period, recorded):
         check(most <= before, f"whole period of {column}: {most} cycles, recorded {before}{hint}")
 
 
+def read_record():
+    return json.loads(tables.RECORDED.read_text()) if tables.RECORDED.exists() else {}
+
+
+def record_figures(check, figures, before):
+    """Writes the record and the tables. It refuses a dearer default drive."""
+    spent = report.dearest(figures, SHIPPED)[1]
+    figures = {**figures, "ceiling": min(spent, before.get("ceiling", spent))}
+    wrong = report.exceeds(figures, SHIPPED)
+    check(not wrong, f"whole period of the default drive: {wrong or f'{spent} cycles'}")
+    if not check.failed:
+        tables.RECORDED.write_text(report.text(figures))
+        tables.write()
+
+
 def main(host, target, path, *arguments):
     costs, check = Costs(), Checks()
     record, columns = arguments == ("record",), [c for c in arguments if c != "record"]
@@ -303,15 +318,9 @@ def main(host, target, path, *arguments):
         Path(path).write_text(report.text(figures))
     report.show(figures)
     show_limits(costs, figures)
-    if record and not check.failed:
-        tables.RECORDED.write_text(report.text(figures))
-        tables.write()
-    recorded = (
-        json.loads(tables.RECORDED.read_text())
-        if tables.RECORDED.exists()
-        else {"whole_period": {}}
-    )
-    check_growth(check, figures["whole_period"], recorded["whole_period"])
+    if record:
+        record_figures(check, figures, read_record())
+    check_growth(check, figures["whole_period"], read_record().get("whole_period", {}))
     return 1 if check.failed else 0
 
 

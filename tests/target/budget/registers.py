@@ -105,10 +105,11 @@ class Held:
         return Held(self.held, self.stored)
 
     def make_room(self, room, uses, busy=()):
-        """Values give way until no more than room are held."""
+        """Values give way until no more than room are held. Those in use give way last."""
         self.held &= set(uses) | set(busy)
         while len(self.held) > room:
-            victim = max(self.held - set(busy), key=lambda r: (uses[r], r))
+            free = self.held - set(busy) or self.held
+            victim = max(free, key=lambda r: (uses.get(r, 0), r))
             self.held.remove(victim)
             if victim not in self.stored:
                 self.stored.add(victim)

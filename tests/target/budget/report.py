@@ -132,6 +132,14 @@ def text(f):
     return "{\n" + ",\n".join(parts) + "\n}\n"
 
 
+def exceeds(f, shipped):
+    """Error of a record, or an empty text: the default drive never costs more than its ceiling."""
+    spent, ceiling = dearest(f, shipped)[1], f.get("ceiling")
+    if ceiling is None:
+        return "no ceiling of the default drive"
+    return f"{spent} cycles, its ceiling is {ceiling}" if spent > ceiling else ""
+
+
 def verdict(cycles, most):
     return "met" if cycles <= most else f"missed by {100 * (cycles / most - 1):.0f} %"
 

@@ -67,6 +67,14 @@ class Registers(unittest.TestCase):
             spills(*made, "bl\t100 <f>", *uses, "bx\tlr"), [0] * 6 + [2] + [0] * 4 + [1, 1, 0]
         )
 
+    def test_what_a_called_function_leaves_alone_is_counted_beyond_eight(self):
+        # gcc knows that f leaves s0 .. s9 alone, and ten values live on behind the call. The tool
+        # takes them for results: it stores the last two, and loads them again.
+        made = [f"vmov\ts{n}, r{n}" for n in range(10)]
+        uses = [f"vstr\ts{n}, [r1]" for n in range(10)]
+        found = spills(*made, "bl\t100 <f>", *uses, "bx\tlr")
+        self.assertEqual(found[10:], [2] + [0] * 8 + [1, 1, 0])
+
     def test_a_division_is_a_call(self):
         made = [f"vmov\ts{n}, r{n}" for n in range(6)]
         uses = [f"vstr\ts{n}, [r1]" for n in range(6)]

@@ -8,6 +8,7 @@ import sys
 import unittest
 from collections import Counter
 from pathlib import Path
+from unittest import mock
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).parent))
@@ -97,6 +98,45 @@ class Record(unittest.TestCase):
         failed, said = self.growth({"noc": [0, 99]}, {"noc": [0, 100]})
         self.assertFalse(failed)
         self.assertIn("./dev budget record", said)
+
+
+class Ceiling(unittest.TestCase):
+    """The default drive only becomes cheaper; the others may cost more."""
+
+    def record(self, start, before, failed=False):
+        """(text written or None, what was said)"""
+        check, said, kept = budget.Checks(), io.StringIO(), []
+        check.failed = failed
+        figures = {"whole_period": {"noc": [1, 90], "noc, start": [2, start], "noc_h": [3, 999]}}
+        with contextlib.redirect_stdout(said), mock.patch.object(budget, "tables") as written:
+            written.RECORDED.write_text = kept.append
+            budget.record_figures(check, figures, before)
+        return (json.loads(kept[0]) if kept else None), said.getvalue()
+
+    def test_a_cheaper_period_lowers_it(self):
+        self.assertEqual(self.record(100, {"ceiling": 110})[0]["ceiling"], 100)
+        self.assertEqual(self.record(110, {"ceiling": 110})[0]["ceiling"], 110)
+        self.assertEqual(self.record(100, {})[0]["ceiling"], 100)
+
+    def test_a_dearer_one_is_not_recorded(self):
+        kept, said = self.record(111, {"ceiling": 110})
+        self.assertIsNone(kept)
+        self.assertIn(
+            "FAIL whole period of the default drive: 111 cycles, its ceiling is 110", said
+        )
+
+    def test_nothing_is_recorded_after_a_failed_check(self):
+        self.assertIsNone(self.record(100, {"ceiling": 110}, failed=True)[0])
+
+    def test_the_record_of_this_tree_is_under_it(self):
+        figures = json.loads(tables.RECORDED.read_text())
+        self.assertEqual(report.exceeds(figures, tables.SHIPPED), "")
+        for kind in ("noc", "noc, start"):
+            dearer = json.loads(tables.RECORDED.read_text())
+            dearer["whole_period"][kind][1] = dearer["ceiling"] + 1
+            self.assertIn("ceiling", report.exceeds(dearer, tables.SHIPPED))
+        del figures["ceiling"]
+        self.assertIn("no ceiling", report.exceeds(figures, tables.SHIPPED))
 
 
 class Tables(unittest.TestCase):
