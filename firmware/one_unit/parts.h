@@ -24,6 +24,7 @@
 #include "motion_watch.c"
 #include "near_optimal.c"
 #include "nodo_encoder.c"
+#include "nodo_harmonic.c"
 #include "nosc.c"
 #include "svpwm.c"
 #include "voltage.c"

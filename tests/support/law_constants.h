@@ -11,7 +11,7 @@
 #include "drive_config.h"
 #include "laws.h"
 
-/** Room for those of any shipped law. The laws of near optimal control begin with what they share. */
+/** Room for those of any shipped law. Those of near optimal control but noc_h begin with what they share. */
 typedef union {
     near_optimal_config_t     near_optimal;
     law_noc_config_t          noc;
@@ -56,8 +56,12 @@ static inline const law_pid_config_t *law_constants_pid(const drive_config_t *d)
 /** Common constants of the near optimal laws; NULL for any other law. */
 static inline const near_optimal_config_t *law_constants_near_optimal(const drive_config_t *d)
 {
-    const bool is_one = (d->law == &law_noc) || (d->law == &law_noc_speed) ||
-                        (d->law == &law_noc_h) || (d->law == &law_conventional);
+    const bool is_one =
+        (d->law == &law_noc) || (d->law == &law_noc_speed) || (d->law == &law_conventional);
+
+    if (d->law == &law_noc_h) {
+        return &law_constants_noc_h(d)->near_optimal;
+    }
     return is_one ? (const near_optimal_config_t *)d->constants : NULL;
 }
 

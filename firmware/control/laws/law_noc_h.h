@@ -11,11 +11,11 @@
 #include "nodo_harmonic.h"
 
 typedef struct {
+    nodo_harmonic_gains_t nodo; /**< first: a pointer walks through it in every period */
     near_optimal_config_t near_optimal;
     encoder_form_limits_t plausible;
     angle_gate_config_t   gate;
     encoder_form_gains_t  rare; /**< for edges that are rarer than samples */
-    nodo_harmonic_gains_t nodo;
 } law_noc_h_config_t;
 
 typedef struct {

@@ -6,7 +6,7 @@
 #include "frames.h"
 #include "nodo_encoder.h"
 
-void nodo_harmonic_reset(nodo_harmonic_t *s, const nodo_meas_t *y, float theta_rad)
+CTL_PART void nodo_harmonic_reset(nodo_harmonic_t *s, const nodo_meas_t *y, float theta_rad)
 {
     const nodo_harmonic_pair_t nothing = {0.0f, 0.0f};
 
@@ -58,21 +58,23 @@ static void look_up(lookup_t *at, const nodo_harmonic_gains_t *g, float omega_e_
     }
 }
 
-/* One loop over rows with adjacent nodes. It is half of the cost of this observer. */
+/* One loop over rows with adjacent nodes. It is a third of the cost of this observer. */
 static void multiply(change_t *out, const nodo_harmonic_gains_t *g, const lookup_t *at)
 {
-    const int16_t rows = (int16_t)(NODO_HARMONIC_N_BASE + (2 * g->n_pairs));
-    const float  *x    = at->by_lower;
-    const float  *y    = at->by_upper;
+    const float       *x   = at->by_lower;
+    const float       *y   = at->by_upper;
+    const float *const end = &out->row[NODO_HARMONIC_N_BASE + (2 * g->n_pairs)];
 
-    for (int16_t row = 0; row < rows; row++) {
-        const float(*const node)[NODO_HARMONIC_N_G] = &g->gain[row][at->below];
-        const float *const l                        = node[0];
-        const float *const u                        = node[1];
+    const float(*gain)[NODO_HARMONIC_NODES_MAX][NODO_HARMONIC_N_G] = g->gain;
 
-        out->row[row] = (l[0] * x[0]) + (l[1] * x[1]) + (l[2] * x[2]) + (l[3] * x[3]) +
-                        (l[4] * x[4]) + (l[5] * x[5]) + (u[0] * y[0]) + (u[1] * y[1]) +
-                        (u[2] * y[2]) + (u[3] * y[3]) + (u[4] * y[4]) + (u[5] * y[5]);
+    for (float *to = out->row; to < end; to++) {
+        const float *const l = (*gain)[at->below];
+        const float *const u = (*gain)[at->below + 1];
+
+        *to = (l[0] * x[0]) + (l[1] * x[1]) + (l[2] * x[2]) + (l[3] * x[3]) + (l[4] * x[4]) +
+              (l[5] * x[5]) + (u[0] * y[0]) + (u[1] * y[1]) + (u[2] * y[2]) + (u[3] * y[3]) +
+              (u[4] * y[4]) + (u[5] * y[5]);
+        gain++;
     }
 }
 
@@ -97,17 +99,24 @@ static void apply(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, const chan
     x->id_A += row[5];
     s->theta_rad = frames_wrap(s->theta_rad + (sign * row[6]));
     s->slope += sign * row[7];
-    for (int16_t i = 0; i < g->n_pairs; i++) {
-        const float *of_pair = &row[NODO_HARMONIC_N_BASE + (2 * i)];
-        const bool   odd     = a_is_odd(g->pair[i].channel);
 
-        s->pair[i].a += (odd ? sign : 1.0f) * of_pair[0];
-        s->pair[i].b += (odd ? 1.0f : sign) * of_pair[1];
+    row = &change->row[NODO_HARMONIC_N_BASE];
+    for (int16_t i = 0; i < g->n_pairs; i++) {
+        nodo_harmonic_pair_t *p = &s->pair[i];
+
+        if (a_is_odd(g->pair[i].channel)) {
+            p->a += sign * row[0];
+            p->b += row[1];
+        } else {
+            p->a += row[0];
+            p->b += sign * row[1];
+        }
+        row = &row[2];
     }
 }
 
-void nodo_harmonic_correct(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, dq_t i_A,
-                           float angle_error)
+CTL_PART void nodo_harmonic_correct(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, dq_t i_A,
+                                    float angle_error)
 {
     const nodo_t *x    = &s->base;
     const float   sign = (x->omega_e_radps < 0.0f) ? -1.0f : 1.0f;
@@ -137,17 +146,23 @@ static frames_angle_t doubled(frames_angle_t x)
     return z;
 }
 
-/* Contributions of the pairs to the disturbances. SENSOR pairs contribute none. */
-enum { OMEGA, Q, D, DISTURBANCES };
+/* Contribution of the pairs of a channel to a disturbance. */
 typedef struct {
-    float middle[DISTURBANCES]; /* in the middle of this period */
-    float after[DISTURBANCES];  /* torque: at its end; voltages: middle of the next one */
-    float d_w_dot;              /* middle of the next one */
+    float middle; /* in the middle of this period */
+    float after;  /* torque: at its end; voltages: middle of the next one */
 } added_t;
+
+/* SENSOR pairs contribute none. */
+typedef struct {
+    added_t omega;
+    added_t q;
+    added_t d;
+    float   d_w_dot; /* middle of the next period */
+} sums_t;
 
 /* Turns a pair by half a period, and by a whole one with decay, EQ-HARMONIC-1. */
 static void turn_pair(nodo_harmonic_pair_t *pair, frames_angle_t half, frames_angle_t whole,
-                      const nodo_harmonic_order_t *of, float w, added_t *sum)
+                      const nodo_harmonic_order_t *of, float w, sums_t *sum)
 {
     const nodo_harmonic_pair_t p   = *pair;
     const nodo_harmonic_pair_t end = {.a = (p.a * whole.cos) - (p.b * whole.sin),
@@ -157,20 +172,23 @@ static void turn_pair(nodo_harmonic_pair_t *pair, frames_angle_t half, frames_an
     if (of->channel == NODO_HARMONIC_SENSOR) {
         return;
     }
-    const int16_t to = (int16_t)of->channel - (int16_t)NODO_HARMONIC_TORQUE;
+    const float middle = (p.a * half.cos) - (p.b * half.sin);
 
-    sum->middle[to] += (p.a * half.cos) - (p.b * half.sin);
-    if (to == OMEGA) {
-        sum->after[to] += end.a;
+    if (of->channel == NODO_HARMONIC_TORQUE) {
+        sum->omega.middle += middle;
+        sum->omega.after += end.a;
         sum->d_w_dot -= of->order * w * ((end.a * half.sin) + (end.b * half.cos));
     } else {
-        sum->after[to] += (end.a * half.cos) - (end.b * half.sin);
+        added_t *to = (of->channel == NODO_HARMONIC_VOLTAGE_Q) ? &sum->q : &sum->d;
+
+        to->middle += middle;
+        to->after += (end.a * half.cos) - (end.b * half.sin);
     }
 }
 
 /* Neighbours of one order share the turn. */
 static void turn_pairs(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, float dtheta_rad,
-                       added_t *sum)
+                       sums_t *sum)
 {
     frames_angle_t half   = {.cos = 1.0f, .sin = 0.0f};
     frames_angle_t whole  = {.cos = g->keep, .sin = 0.0f};
@@ -179,11 +197,12 @@ static void turn_pairs(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, float
     for (int16_t i = 0; i < g->n_pairs; i++) {
         const float order = g->pair[i].order;
 
-        if ((order < before) || (order > before)) {
+        if (!base_within(order - before, 0.0f)) {
             const float turn = order * dtheta_rad;
-            const float keep = base_within(turn, NODO_HARMONIC_TURN_MAX) ? g->keep : g->keep_fast;
+            const bool  slow = base_within(turn, NODO_HARMONIC_TURN_MAX);
+            const float keep = slow ? g->keep : g->keep_fast;
 
-            half      = frames_angle(0.5f * turn);
+            half      = slow ? frames_small_angle(0.5f * turn) : frames_angle(0.5f * turn);
             whole     = doubled(half);
             whole.cos = keep * whole.cos;
             whole.sin = keep * whole.sin;
@@ -193,22 +212,22 @@ static void turn_pairs(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, float
     }
 }
 
-void nodo_harmonic_predict(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g,
-                           const motor_reduced_t *m, dq_t v_V, float ts_s,
-                           nodo_harmonic_view_t *view)
+CTL_PART void nodo_harmonic_predict(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g,
+                                    const motor_reduced_t *m, dq_t v_V, float ts_s,
+                                    nodo_harmonic_view_t *view)
 {
     const float advanced   = s->theta_rad + (ts_s * s->base.omega_e_radps);
     const float dtheta_rad = frames_wrap(advanced - s->theta_pairs_rad);
-    added_t     pairs      = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f};
+    sums_t      pairs      = {{0.0f, 0.0f}, {0.0f, 0.0f}, {0.0f, 0.0f}, 0.0f};
     nodo_t      x;
 
     turn_pairs(s, g, dtheta_rad, &pairs);
     s->theta_pairs_rad = frames_wrap(s->theta_pairs_rad + dtheta_rad);
 
     x = s->base;
-    x.d_omega += (0.5f * ts_s * s->slope) + pairs.middle[OMEGA];
-    x.d_q += pairs.middle[Q];
-    x.d_d += pairs.middle[D];
+    x.d_omega += (0.5f * ts_s * s->slope) + pairs.omega.middle;
+    x.d_q += pairs.q.middle;
+    x.d_d += pairs.d.middle;
     nodo_encoder_predict(&x, &s->theta_rad, m, v_V, ts_s); /* EQ-HARMONIC-4 */
     s->base.omega_e_radps = x.omega_e_radps;
     s->base.iq_A          = x.iq_A;
@@ -216,13 +235,13 @@ void nodo_harmonic_predict(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g,
     s->base.d_omega += ts_s * s->slope;
 
     view->total = s->base;
-    view->total.d_omega += pairs.after[OMEGA];
-    view->total.d_q += pairs.after[Q];
-    view->total.d_d += pairs.after[D];
+    view->total.d_omega += pairs.omega.after;
+    view->total.d_q += pairs.q.after;
+    view->total.d_d += pairs.d.after;
     view->d_omega_dot = s->slope + pairs.d_w_dot;
 }
 
-bool nodo_harmonic_counts_ok(const nodo_harmonic_gains_t *g)
+CTL_PART bool nodo_harmonic_counts_ok(const nodo_harmonic_gains_t *g)
 {
     return (g->n_pairs >= 0) && (g->n_pairs <= NODO_HARMONIC_PAIRS_MAX) && (g->n_nodes >= 2) &&
            (g->n_nodes <= NODO_HARMONIC_NODES_MAX);
@@ -235,7 +254,7 @@ static bool numbers_ok(const nodo_harmonic_gains_t *g)
            check_positive(g->keep_fast) && (g->keep_fast <= 1.0f);
 }
 
-bool nodo_harmonic_check(const nodo_harmonic_gains_t *g)
+CTL_PART bool nodo_harmonic_check(const nodo_harmonic_gains_t *g)
 {
     bool ok = numbers_ok(g);
 

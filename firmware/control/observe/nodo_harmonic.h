@@ -51,6 +51,8 @@ typedef struct {
 } nodo_harmonic_order_t;
 
 typedef struct {
+    /** K: one row per state; the nodes are adjacent in it. First, because each element is read in every period. */
+    float                 gain[NODO_HARMONIC_N_X_MAX][NODO_HARMONIC_NODES_MAX][NODO_HARMONIC_N_G];
     int16_t               n_pairs;        /**< 0 .. NODO_HARMONIC_PAIRS_MAX */
     int16_t               n_nodes;        /**< 2 .. NODO_HARMONIC_NODES_MAX */
     float                 iq_max_A;       /**< the series is used for |iq^| <= this; > 0 */
@@ -58,8 +60,6 @@ typedef struct {
     float                 keep;           /**< factor of a pair per period, (0, 1] */
     float                 keep_fast;      /**< the same beyond NODO_HARMONIC_TURN_MAX, (0, 1] */
     nodo_harmonic_order_t pair[NODO_HARMONIC_PAIRS_MAX];
-    /** K: one row per state; the nodes are adjacent in it. */
-    float gain[NODO_HARMONIC_N_X_MAX][NODO_HARMONIC_NODES_MAX][NODO_HARMONIC_N_G];
 } nodo_harmonic_gains_t;
 
 /** A pair turned to one instant. */
@@ -84,13 +84,13 @@ typedef struct {
 } nodo_harmonic_view_t;
 
 /** True if the numbers of pairs and nodes are within the table. Context: control ISR. */
-bool nodo_harmonic_counts_ok(const nodo_harmonic_gains_t *g);
+CTL_PART bool nodo_harmonic_counts_ok(const nodo_harmonic_gains_t *g);
 
 /** true when every constant is finite and within its documented range. Context: init. */
-bool nodo_harmonic_check(const nodo_harmonic_gains_t *g);
+CTL_PART bool nodo_harmonic_check(const nodo_harmonic_gains_t *g);
 
 /** Starts at the measurement, with all harmonics zero. */
-void nodo_harmonic_reset(nodo_harmonic_t *s, const nodo_meas_t *y, float theta_rad);
+CTL_PART void nodo_harmonic_reset(nodo_harmonic_t *s, const nodo_meas_t *y, float theta_rad);
 
 /**
  * @brief Corrects with a sample, EQ-HARMONIC-2, 3.
@@ -102,16 +102,16 @@ void nodo_harmonic_reset(nodo_harmonic_t *s, const nodo_meas_t *y, float theta_r
  *
  * Context: control ISR. One square root, 12 multiply-adds per state.
  */
-void nodo_harmonic_correct(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, dq_t i_A,
-                           float angle_error);
+CTL_PART void nodo_harmonic_correct(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g, dq_t i_A,
+                                    float angle_error);
 
 /**
  * @brief EQ-HARMONIC-1, 4: one period ahead with the voltage in force; view: what the law needs there.
  *
  * Context: control ISR. One sine and cosine for each order, of neighbours in the list.
  */
-void nodo_harmonic_predict(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g,
-                           const motor_reduced_t *m, dq_t v_V, float ts_s,
-                           nodo_harmonic_view_t *view);
+CTL_PART void nodo_harmonic_predict(nodo_harmonic_t *s, const nodo_harmonic_gains_t *g,
+                                    const motor_reduced_t *m, dq_t v_V, float ts_s,
+                                    nodo_harmonic_view_t *view);
 
 #endif /* NODO_HARMONIC_H */

@@ -198,7 +198,7 @@ class Replay:
             compare(check, runs, results)
             check_counting(check, self.image, directory, self.table, self.steps, results)
             self.execute(directory, runs, results)
-        loops = {**costs.loops, "step": costs.loops_of[self.law]}
+        loops = {**costs.loops, **costs.loops_of[self.law]}
         self.bound = LongestPath(self.code, costs.library, loops, costs.cycles).function(
             "drive_tick"
         )

@@ -138,6 +138,19 @@ static void test_shipped_drives_are_accepted(void)
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&conventional_tables_drive));
 }
 
+/* Where a constant that the laws share is in those of one of them: noc_h does not begin with it. */
+static entry_t in_law(const drive_config_t *base, const entry_t *shared)
+{
+    const uintptr_t begin = (uintptr_t)&constants.near_optimal;
+    const uintptr_t words = ((uintptr_t)shared->constant - begin) / sizeof(float);
+    entry_t         entry = *shared;
+
+    if ((base->law == &law_noc_h) && (words < (sizeof(near_optimal_config_t) / sizeof(float)))) {
+        entry.constant = (float *)&constants.noc_h.near_optimal + words;
+    }
+    return entry;
+}
+
 static void test_every_constant_is_checked_with_every_law(void)
 {
     const drive_config_t *const all[] = {&speed_tables_drive, &gain_tables_drive,
@@ -145,7 +158,8 @@ static void test_every_constant_is_checked_with_every_law(void)
 
     for (int i = 0; i < SUPPORT_COUNT(entries); i++) {
         for (int k = 0; k < SUPPORT_COUNT(all); k++) {
-            assert_entry_checked(all[k], &entries[i]);
+            const entry_t entry = in_law(all[k], &entries[i]);
+            assert_entry_checked(all[k], &entry);
         }
     }
 }
@@ -363,10 +377,10 @@ static void test_noc_h_needs_references_and_feedback_too(void)
 {
     use_harmonics();
     assert_harmonics(CTL_OK);
-    constants.near_optimal.nosc.order = -1;
+    constants.noc_h.near_optimal.nosc.order = -1;
     assert_harmonics(CTL_BAD_CONFIG);
     use_harmonics();
-    constants.near_optimal.current_ref.mtpa_A = NAN;
+    constants.noc_h.near_optimal.current_ref.mtpa_A = NAN;
     assert_harmonics(CTL_BAD_CONFIG);
 }
 
