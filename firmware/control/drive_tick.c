@@ -10,7 +10,7 @@
 #define VOLTAGE_ANY_V 1.0e9f
 
 /* Exceeds every standstill; finite, so that divisions by it are defined. */
-#define EDGE_GAP_MAX_s 1.0e9f
+#define EDGE_TIMES_MAX_s 1.0e9f
 
 static const dq_t  zero_dq  = {0.0f, 0.0f};
 static const abc_t zero_abc = {0.0f, 0.0f, 0.0f};
@@ -63,13 +63,19 @@ static bool command_ok(const drive_config_t *c, const drive_command_t *command)
            position_profile_is_any(&p->profile);
 }
 
+/* Uncertainty of the angle and both times of edges: none negative, and a NaN or an infinity shows in the sum. */
+static bool edges_ok(const drive_sample_t *s)
+{
+    const float least = base_min(base_min(s->band_rad, s->edge_gap_s), s->edge_age_s);
+    const float sum   = s->band_rad + s->edge_gap_s + s->edge_age_s;
+
+    return (least >= 0.0f) && (sum <= EDGE_TIMES_MAX_s) && (s->band_rad <= BASE_PI);
+}
+
 static drive_fault_t find_fault(const drive_config_t *c, const drive_sample_t *s,
                                 const drive_command_t *command, current_gate_verdict_t currents)
 {
-    if (!s->valid || !base_within(s->theta_e_rad, BASE_TWO_PI) ||
-        !base_in_range(s->band_rad, 0.0f, BASE_PI) ||
-        !base_in_range(s->edge_gap_s, 0.0f, EDGE_GAP_MAX_s) ||
-        !base_in_range(s->edge_age_s, 0.0f, EDGE_GAP_MAX_s)) {
+    if (!s->valid || !base_within(s->theta_e_rad, BASE_TWO_PI) || !edges_ok(s)) {
         return DRIVE_FAULT_SAMPLE;
     }
     if (currents == CURRENT_GATE_TRIP) {

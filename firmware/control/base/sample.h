@@ -30,8 +30,10 @@ typedef struct {
 /** True if a phase current exceeds the limit or is NaN; c is -(a + b). Context: control ISR. */
 static inline bool sample_over_current(float ia_A, float ib_A, float limit_A)
 {
-    return !base_within(ia_A, limit_A) || !base_within(ib_A, limit_A) ||
-           !base_within(ia_A + ib_A, limit_A);
+    const float two_A = base_max(fabsf(ia_A), fabsf(ib_A));
+
+    /* A NaN in a or b is one in c, and the second operand's NaN is the maximum. */
+    return !base_within(base_max(two_A, fabsf(ia_A + ib_A)), limit_A);
 }
 
 /** Currents in the frame of an angle. Context: control ISR. */

@@ -29,7 +29,7 @@ static void correct(law_noc_state_t *s, const law_noc_config_t *c, const drive_c
 {
     float used_error = angle->innovation_rad;
 
-    s->theta_hat_rad = frames_wrap(s->theta_hat_rad + angle->jump_rad);
+    s->theta_hat_rad = encoder_form_jumped_rad(angle, s->theta_hat_rad);
     const dq_t i_A   = sample_current_A(sample, s->theta_hat_rad);
     if (encoder_form_is_rare(sample, drive->ts_s)) {
         used_error *= encoder_form_correct_rare(&s->observer, &s->theta_hat_rad, &c->rare,

@@ -32,7 +32,7 @@ static near_optimal_view_t observe(law_noc_h_state_t *s, const law_noc_h_config_
                                 s->observer.theta_rad, drive->ts_s);
     float used_error = angle.innovation_rad;
 
-    s->observer.theta_rad = frames_wrap(s->observer.theta_rad + angle.jump_rad);
+    s->observer.theta_rad = encoder_form_jumped_rad(&angle, s->observer.theta_rad);
     const dq_t i_A        = sample_current_A(in->sample, s->observer.theta_rad);
     if (encoder_form_is_rare(in->sample, drive->ts_s)) {
         used_error *= encoder_form_correct_rare(&s->observer.base, &s->observer.theta_rad, &c->rare,

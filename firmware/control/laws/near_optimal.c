@@ -57,16 +57,30 @@ static void update_position(near_optimal_t *s, const near_optimal_config_t *c,
     position_ref_t          *r       = &s->position_ref;
     speed_ref_t             *w       = &s->speed_ref;
 
-    if (!s->positioning) {
-        position_ref_start(r, &is, w->omega_e_radps, w->omega_dot_e_radps2);
-        s->positioning = true;
-    }
     position_ref_update(r, &profile, &command->target, &is, c->position.near_rad, drive->ts_s);
     w->omega_e_radps         = r->omega_e_radps;
     w->omega_dot_e_radps2    = r->omega_dot_e_radps2;
     w->omega_2dot_e_radps3   = r->omega_2dot_e_radps3;
     w->accel_wanted_e_radps2 = r->omega_dot_e_radps2;
     s->theta_error_e_rad     = position_way_rad(&r->at, &is);
+}
+
+/* A speed run, or a position run that may begin here. All that follows in the period depends on it. */
+static void choose_run(near_optimal_t *s, const near_optimal_view_t *view,
+                       const position_command_t *command, float ts_s)
+{
+    if (command == NULL) {
+        s->positioning       = false;
+        s->theta_error_e_rad = 0.0f;
+    } else if (!s->positioning) {
+        const position_t is = seen_position(view, command, ts_s);
+
+        position_ref_start(&s->position_ref, &is, s->speed_ref.omega_e_radps,
+                           s->speed_ref.omega_dot_e_radps2);
+        s->positioning = true;
+    } else {
+        /* the position run goes on */
+    }
 }
 
 /* EQ-POSITION-4: combined error of speed and angle; in a speed run the speed error. */
@@ -97,8 +111,6 @@ static void update_references(near_optimal_t *s, const near_optimal_config_t *c,
     } else {
         const speed_ref_limits_t limits = current_ref_speed_limits(
             &s->current_ref, &c->current_ref, &drive->motor, &from, in->command_e_radps);
-        s->positioning       = false;
-        s->theta_error_e_rad = 0.0f;
         speed_ref_update(&s->speed_ref, &limits, in->command_e_radps, w, drive->ts_s);
     }
     current_ref_update(&s->current_ref, &c->current_ref, &drive->motor, &s->speed_ref, &from);
@@ -121,6 +133,7 @@ CTL_PART nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_c
                                          const drive_config_t      *drive,
                                          const near_optimal_view_t *view, const law_input_t *in)
 {
+    choose_run(s, view, in->position, drive->ts_s);
     update_references(s, c, drive, view, in);
 
     const current_ref_t *ref = &s->current_ref;

@@ -112,6 +112,12 @@ CTL_PART angle_gate_result_t encoder_form_innovation(angle_gate_t              *
                                                      const drive_sample_t *s, const nodo_t *est,
                                                      float theta_hat_rad, float ts_s);
 
+/** The estimated angle, with the jump of an ignored sample: a used one has none. */
+static inline float encoder_form_jumped_rad(const angle_gate_result_t *angle, float theta_hat_rad)
+{
+    return angle->used ? theta_hat_rad : frames_wrap(theta_hat_rad + angle->jump_rad);
+}
+
 /**
  * @brief Corrects with an edge that comes once in T > Ts, or with the angle range after it.
  *

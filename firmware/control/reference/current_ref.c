@@ -97,11 +97,11 @@ static float id_mtpa_A(const current_ref_config_t *c, float iq2)
 /* True if id is below EQ-CURRENT-REF-2. It compares squares to avoid the root. False for a NaN. */
 static bool is_below_mtpa(const current_ref_config_t *c, float id_A, float iq2)
 {
-    const float beyond = -id_A;
+    const float beyond = base_max(-id_A, 0.0f); /* 0 is never below */
     const float square =
         c->mtpa_exact ? (beyond * ((2.0f * c->mtpa_A) + beyond)) : (beyond * 2.0f * c->mtpa_A);
 
-    return (beyond > 0.0f) && (square > iq2);
+    return square > iq2;
 }
 
 /* EQ-CURRENT-REF-5 and 8. */

@@ -29,8 +29,14 @@ CTL_PART current_gate_verdict_t current_gate_judge(current_gate_t *s, float ia_A
 {
     const bool     beyond = sample_over_current(ia_A, ib_A, in->trip_A);
     const bool     far    = is_far(ia_A, ib_A, in);
-    const bool     spike  = beyond || (far && !s->jumped);
     const uint16_t before = (uint16_t)(((uint16_t)(s->recent << 1)) & LAST_THREE);
+
+    if (!beyond && !far) {
+        s->recent = before;
+        s->jumped = false;
+        return CURRENT_GATE_GOOD;
+    }
+    const bool spike = beyond || !s->jumped;
 
     s->recent = (uint16_t)(before | (beyond ? 1U : 0U));
     s->jumped = far;

@@ -107,14 +107,13 @@ static inline bool lies(current_watch_phase_t *p, float i_A, const bounds_t *bou
 }
 
 /* EQ-CURRENT-WATCH-4 */
-static inline bool is_empty(float *empty_s, float i_A, float ref_A,
-                            const current_watch_scale_t *scale)
+static inline void time_empty(float *empty_s, float i_A, float ref_A,
+                              const current_watch_scale_t *scale)
 {
     const bool without = base_within(i_A, NONE_share * scale->current_max_A) &&
                          !base_within(ref_A, ASKED_share * scale->current_max_A);
 
     *empty_s = without ? (*empty_s + scale->ts_s) : 0.0f;
-    return *empty_s > scale->open_s;
 }
 
 CTL_PART current_watch_verdict_t current_watch_judge(current_watch_t *w, float ia_A, float ib_A,
@@ -123,10 +122,10 @@ CTL_PART current_watch_verdict_t current_watch_judge(current_watch_t *w, float i
     if (!w->expects) {
         return CURRENT_WATCH_GOOD;
     }
-    const bool a_empty = is_empty(&w->empty_s[0], ia_A, w->ref_A.a, scale);
-    const bool b_empty = is_empty(&w->empty_s[1], ib_A, w->ref_A.b, scale);
-    const bool c_empty = is_empty(&w->empty_s[2], -(ia_A + ib_A), w->ref_A.c, scale);
-    if (a_empty || b_empty || c_empty) {
+    time_empty(&w->empty_s[0], ia_A, w->ref_A.a, scale);
+    time_empty(&w->empty_s[1], ib_A, w->ref_A.b, scale);
+    time_empty(&w->empty_s[2], ia_A + ib_A, w->ref_A.c, scale); /* but for its sign */
+    if (base_max(base_max(w->empty_s[0], w->empty_s[1]), w->empty_s[2]) > scale->open_s) {
         return CURRENT_WATCH_OPEN;
     }
     if (!w->models) {

@@ -494,6 +494,9 @@ static void test_bad_times_and_bands_of_the_angle_trip(void)
             assert_trips(DRIVE_FAULT_SAMPLE);
         }
     }
+    start_over();
+    sample.band_rad = nextafterf(BASE_PI, 4.0f);
+    assert_trips(DRIVE_FAULT_SAMPLE);
 }
 
 static void test_bad_sample_leaves_no_trace_in_the_measurement(void)
