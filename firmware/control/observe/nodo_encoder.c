@@ -3,34 +3,63 @@
 
 #include "check.h"
 
-enum { ROW_THETA = NODO_N_X };
+enum {
+    OBSERVED_D_OMEGA,
+    OBSERVED_D_Q,
+    OBSERVED_D_D,
+    OBSERVED_OMEGA,
+    OBSERVED_IQ,
+    OBSERVED_ID,
+    OBSERVED_THETA
+};
 enum { OF_IQ, OF_ID, OF_THETA }; /* columns */
+
+/* A row of an odd state: L_0 meets the odd signals, L_1 the even one. */
+static inline float odd_state(float x, const float *l0, const float *l1, const nodo_innovation_t *r,
+                              float id_1)
+{
+    return x + ((l0[OF_IQ] * r->odd[0]) + (l0[OF_THETA] * r->odd[1])) + (l1[OF_ID] * id_1);
+}
+
+/* A row of d_d or id. */
+static inline float even_state(float x, const float *l0, const float *l1, float id,
+                               const nodo_innovation_t *r_1)
+{
+    return x + (l0[OF_ID] * id) + ((l1[OF_IQ] * r_1->odd[0]) + (l1[OF_THETA] * r_1->odd[1]));
+}
+
+/* EQ-NODO-ENCODER-3 of order 1, row by row: no value waits for another row in a register. */
+static void add_linear(nodo_t *x, float *theta, const nodo_encoder_gains_t *g,
+                       const nodo_innovation_t *r, float iq_A)
+{
+    const float(*l0)[NODO_ENCODER_N_Y] = g->gain[0];
+    const float(*l1)[NODO_ENCODER_N_Y] = g->gain[1];
+    const nodo_innovation_t r_1        = nodo_next_power(*r, iq_A);
+
+    x->d_omega = odd_state(x->d_omega, l0[OBSERVED_D_OMEGA], l1[OBSERVED_D_OMEGA], r, r_1.id);
+    x->d_q     = odd_state(x->d_q, l0[OBSERVED_D_Q], l1[OBSERVED_D_Q], r, r_1.id);
+    x->omega_e_radps =
+        odd_state(x->omega_e_radps, l0[OBSERVED_OMEGA], l1[OBSERVED_OMEGA], r, r_1.id);
+    x->iq_A = odd_state(x->iq_A, l0[OBSERVED_IQ], l1[OBSERVED_IQ], r, r_1.id);
+    *theta  = odd_state(*theta, l0[OBSERVED_THETA], l1[OBSERVED_THETA], r, r_1.id);
+    x->d_d  = even_state(x->d_d, l0[OBSERVED_D_D], l1[OBSERVED_D_D], r->id, &r_1);
+    x->id_A = even_state(x->id_A, l0[OBSERVED_ID], l1[OBSERVED_ID], r->id, &r_1);
+}
 
 CTL_PART void nodo_encoder_correct(nodo_t *x, float *theta_rad, const nodo_encoder_gains_t *g,
                                    dq_t i_A, float angle_error, float ts_s)
 {
-    const float       iq_A  = base_clamp(x->iq_A, -g->iq_max_A, g->iq_max_A);
-    float             theta = *theta_rad;
-    nodo_t            sum   = *x; /* local, so that the compiler keeps it in registers */
-    nodo_innovation_t r     = {.odd = {ts_s * (i_A.q - x->iq_A), ts_s * angle_error},
-                               .id  = ts_s * (i_A.d - x->id_A)};
+    const float             iq_A = base_clamp(x->iq_A, -g->iq_max_A, g->iq_max_A);
+    const nodo_innovation_t r    = {.odd = {ts_s * (i_A.q - x->iq_A), ts_s * angle_error},
+                                    .id  = ts_s * (i_A.d - x->id_A)};
 
     /* EQ-NODO-ENCODER-1 and 3: L_n meets iq^^n Ts (y - C x^); L itself is never formed. */
-    for (int16_t n = 0; n <= g->order; n = (int16_t)(n + 2)) {
-        const float(*l)[NODO_ENCODER_N_Y] = g->gain[n];
-
-        nodo_add_even(&sum, l, OF_ID, &r);
-        theta += (l[ROW_THETA][OF_IQ] * r.odd[0]) + (l[ROW_THETA][OF_THETA] * r.odd[1]);
-        if (n < g->order) {
-            l = g->gain[n + 1];
-            r = nodo_next_power(r, iq_A);
-            nodo_add_odd(&sum, l, OF_ID, &r);
-            theta += l[ROW_THETA][OF_ID] * r.id;
-            r = nodo_next_power(r, iq_A);
-        }
+    if (g->order == 1) {
+        add_linear(x, theta_rad, g, &r, iq_A);
+    } else {
+        nodo_encoder_add_series(x, theta_rad, g, &r, iq_A);
     }
-    *x         = sum;
-    *theta_rad = frames_wrap(theta);
+    *theta_rad = frames_wrap(*theta_rad);
 }
 
 /* Derivatives of w, iq, id. */

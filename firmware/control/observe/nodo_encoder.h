@@ -47,6 +47,18 @@ CTL_PART void nodo_encoder_correct(nodo_t *x, float *theta_rad, const nodo_encod
                                    dq_t i_A, float angle_error, float ts_s);
 
 /**
+ * @brief EQ-NODO-ENCODER-3 of any order: adds L_n r iq^n to the estimates.
+ *
+ * It is apart, because the shipped drives have order 1, and an image keeps it outside the fast memory.
+ *
+ * @param r Ts times the innovation.
+ *
+ * Context: control ISR.
+ */
+void nodo_encoder_add_series(nodo_t *x, float *theta, const nodo_encoder_gains_t *g,
+                             const nodo_innovation_t *r, float iq_A);
+
+/**
  * @brief Predicts one period with the voltage that acts, EQ-NODO-ENCODER-2.
  *
  * Context: control ISR. No division, 28 multiplications.
