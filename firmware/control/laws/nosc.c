@@ -3,56 +3,24 @@
 
 #include "check.h"
 
-enum { ROW_Q = 0, ROW_D = 1, COLUMN_OMEGA = 0, COLUMN_IQ = 1, COLUMN_ID = 2 };
+enum { ROW_Q = 0, ROW_D = 1, COLUMN_IQ = 1, COLUMN_ID = 2 };
 
-/* Contributions to a row: of speed and iq, and of id. */
-static float of_speed_and_iq(const float row[NOSC_N_E], const nosc_error_t *e)
+/* EQ-NOSC-2 of order 2, and EQ-NOSC-1. */
+static dq_t quadratic_V(const nosc_gains_t *g, const nosc_error_t *e, float eiq_A)
 {
-    return (row[COLUMN_OMEGA] * e->omega_e_radps) + (row[COLUMN_IQ] * e->iq_A);
-}
-
-static float of_id(const float row[NOSC_N_E], const nosc_error_t *e)
-{
-    return row[COLUMN_ID] * e->id_A;
-}
-
-/* A step of Horner: the sum so far times e_iq, and Lambda_n e of an even or odd n. */
-static dq_t even_terms_V(dq_t sum_V, const float l[NOSC_N_U][NOSC_N_E], float eiq_A,
-                         const nosc_error_t *e)
-{
-    const dq_t next_V = {.d = (sum_V.d * eiq_A) + of_id(l[ROW_D], e),
-                         .q = (sum_V.q * eiq_A) + of_speed_and_iq(l[ROW_Q], e)};
-    return next_V;
-}
-
-static dq_t odd_terms_V(dq_t sum_V, const float l[NOSC_N_U][NOSC_N_E], float eiq_A,
-                        const nosc_error_t *e)
-{
-    const dq_t next_V = {.d = (sum_V.d * eiq_A) + of_speed_and_iq(l[ROW_D], e),
-                         .q = (sum_V.q * eiq_A) + of_id(l[ROW_Q], e)};
-    return next_V;
+    const dq_t two_V = nosc_even_V(g->lambda[2], e);
+    const dq_t one_V = nosc_odd_V(g->lambda[1], e);
+    const dq_t ke_V  = nosc_even_V(g->lambda[0], e);
+    const dq_t u_V   = {.d = -((((two_V.d * eiq_A) + one_V.d) * eiq_A) + ke_V.d),
+                        .q = -((((two_V.q * eiq_A) + one_V.q) * eiq_A) + ke_V.q)};
+    return u_V;
 }
 
 CTL_PART dq_t nosc_feedback_V(const nosc_gains_t *g, const nosc_error_t *e)
 {
     const float eiq_A = base_clamp(e->iq_A, -g->iq_error_max_A, g->iq_error_max_A);
-    int16_t     n     = g->order;
-    dq_t        ke_V  = {0.0f, 0.0f};
 
-    /* EQ-NOSC-2 by Horner on the vectors Lambda_n e: Lambda itself is never formed. An even n in every pass. */
-    if (((uint16_t)n & 1U) != 0U) {
-        ke_V = odd_terms_V(ke_V, g->lambda[n], eiq_A, e);
-        n--;
-    }
-    ke_V = even_terms_V(ke_V, g->lambda[n], eiq_A, e);
-    while (n >= 2) {
-        ke_V = odd_terms_V(ke_V, g->lambda[n - 1], eiq_A, e);
-        ke_V = even_terms_V(ke_V, g->lambda[n - 2], eiq_A, e);
-        n    = (int16_t)(n - 2);
-    }
-
-    const dq_t u_V = {.d = -ke_V.d, .q = -ke_V.q}; /* EQ-NOSC-1 */
-    return u_V;
+    return (g->order == 2) ? quadratic_V(g, e, eiq_A) : nosc_series_V(g, e, eiq_A);
 }
 
 /* True if the two quotients are reciprocal, or both zero. */

@@ -92,6 +92,31 @@ static inline nosc_error_t nosc_limit_speed_error(const nosc_gains_t *g, nosc_er
     return e;
 }
 
+/** Lambda_n e of an even n, half of which is zero. */
+static inline dq_t nosc_even_V(const float l[NOSC_N_U][NOSC_N_E], const nosc_error_t *e)
+{
+    const dq_t v_V = {l[1][2] * e->id_A, (l[0][0] * e->omega_e_radps) + (l[0][1] * e->iq_A)};
+    return v_V;
+}
+
+/** Lambda_n e of an odd n. */
+static inline dq_t nosc_odd_V(const float l[NOSC_N_U][NOSC_N_E], const nosc_error_t *e)
+{
+    const dq_t v_V = {(l[1][0] * e->omega_e_radps) + (l[1][1] * e->iq_A), l[0][2] * e->id_A};
+    return v_V;
+}
+
+/**
+ * @brief EQ-NOSC-1 of any order, by Horner on the vectors Lambda_n e: Lambda itself is never formed.
+ *
+ * It is apart, because the shipped drives have order 2, and an image keeps it outside the fast memory.
+ *
+ * @param eiq_A Error of the q current, limited.
+ *
+ * Context: control ISR.
+ */
+dq_t nosc_series_V(const nosc_gains_t *g, const nosc_error_t *e, float eiq_A);
+
 /**
  * @brief Feedback voltage, EQ-NOSC-1.
  *
