@@ -172,6 +172,8 @@ class TargetBuild(unittest.TestCase):
             "drive_config.c",
             "motor.c",
             "nodo_current.c",
+            "nodo_encoder_series.c",
+            "nosc_series.c",
             "position_loop.c",
             "position_ref.c",
         }
