@@ -15,7 +15,7 @@ uint16_t          words[100];
 drive_image_t     image;
 
 #define NAMED_(a, b) a##b
-#define NAMED(a, b) NAMED_(a, b)
+#define NAMED(a, b)  NAMED_(a, b)
 
 static bool any_bool(void)
 {
