@@ -318,6 +318,10 @@ void app_tell_image(const app_image_t *image)
     app_loader_init(&background_side.loader, image);
     background_side.registers.loader = &background_side.loader;
     tick_side.modes.locked           = tick_side.modes.locked || image->fallback;
+    if (image->other_board) {
+        tick_side.modes.mode  = APP_MODE_FAULT;
+        tick_side.modes.fault = APP_FAULT_CONFIG;
+    }
 }
 
 void app_take_parameters(app_parameters_done_t done)

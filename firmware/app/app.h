@@ -45,6 +45,7 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive);
 /**
  * @brief Publishes the name of the constants over Modbus and enables the loader.
  *
+ * With compiled-in constants of another board the application stays in APP_MODE_FAULT.
  * Without this call the registers of app_loader.h do not exist.
  *
  * Context: init, after app_init().

@@ -79,3 +79,29 @@ const app_config_t board_config = {
     .drive_name = "ipmsm_390w",
     .digest = "fnv1a64:c48703d13ca3a772",
 };
+
+const board_identity_t board_identity = {
+    .name = "board_390w",
+    .fact = {
+        7.50000000e+07f, /* pwm_clock_Hz */
+        1.00000000e+00f, /* gate_on_level */
+        3.00000011e-06f, /* dead_time_min_s */
+        0.00000000e+00f, /* precharge_s */
+        1.00000000e+00f, /* duty_max */
+        0.00000000e+00f, /* pulse_min_s */
+        1.00000000e+01f, /* current_range_A */
+        5.00000000e+00f, /* rated_current_A */
+        9.00000000e+00f, /* trip_current_A */
+        4.50000000e+02f, /* dc_link_range_V */
+        4.50000000e+02f, /* rated_dc_link_V */
+        1.00000000e+04f, /* ntc_resistance_Ohm */
+        3.43500000e+03f, /* ntc_beta_K */
+        2.20000000e+03f, /* ntc_divider_Ohm */
+        8.00000000e+01f, /* temperature_limit_degC */
+        9.00000000e+01f, /* temperature_trip_degC */
+        5.00000000e+00f, /* inverter_current_A */
+        2.00000000e+00f, /* inverter_time_constant_s */
+        6.25000000e+06f, /* encoder_edges_Hz */
+    },
+    .sum = 0xA6978B18UL,
+};

@@ -35,7 +35,7 @@ double trip_speed_e_radps(const Drive &drive)
 
 double trip_current_A(const Drive &drive)
 {
-    return std::min(trip_current_ratio * drive.motor.max_current_A, largest_shown_current_A(drive));
+    return std::min(trip_current_ratio * drive.motor.max_current_A, largest_trip_current_A(drive));
 }
 
 double trip_dc_link_min_V(const Drive &drive)
@@ -45,7 +45,7 @@ double trip_dc_link_min_V(const Drive &drive)
 
 double trip_dc_link_max_V(const Drive &drive)
 {
-    return std::min(dc_link_max_ratio * drive.inverter.dc_link_V, largest_shown_dc_link_V(drive));
+    return std::min(dc_link_max_ratio * drive.inverter.dc_link_V, largest_trip_dc_link_V(drive));
 }
 
 double largest_command_e_radps(const Drive &d)

@@ -36,9 +36,11 @@ StopReaction read_stop(TomlReader &t)
 
 void read_supply(TomlReader &t, BoardDescription &b)
 {
-    b.precharge_s = t.number_or("precharge_s", precharge_s, b.precharge_s);
-    b.duty_max    = t.number_or("duty_max", duty, b.duty_max);
-    b.pulse_min_s = t.number_or("pulse_min_s", pulse_s, b.pulse_min_s);
+    b.precharge_s =
+        board_number(t, "precharge_s", precharge_s, b.file, BOARD_FACT_PRECHARGE_s, b.precharge_s);
+    b.duty_max = board_number(t, "duty_max", duty, b.file, BOARD_FACT_DUTY_MAX, b.duty_max);
+    b.pulse_min_s =
+        board_number(t, "pulse_min_s", pulse_s, b.file, BOARD_FACT_PULSE_MIN_s, b.pulse_min_s);
 }
 
 void read_heat(TomlReader &t, BoardDescription &b)
@@ -47,28 +49,33 @@ void read_heat(TomlReader &t, BoardDescription &b)
         b.motor_current_A = t.number("motor_current_A", current_A);
     }
     b.motor_time_constant_s = t.number_or("motor_time_constant_s", time_s, b.motor_time_constant_s);
-    b.inverter_current_A    = t.number_or("inverter_current_A", current_A, b.inverter_current_A);
+    b.inverter_current_A    = board_number(t, "inverter_current_A", current_A, b.file,
+                                           BOARD_FACT_INVERTER_CURRENT_A, b.inverter_current_A);
     b.inverter_time_constant_s =
-        t.number_or("inverter_time_constant_s", time_s, b.inverter_time_constant_s);
+        board_number(t, "inverter_time_constant_s", time_s, b.file,
+                     BOARD_FACT_INVERTER_TIME_CONSTANT_s, b.inverter_time_constant_s);
 }
 
 void read_temperature(TomlReader &t, BoardDescription &b)
 {
-    b.ntc_resistance_Ohm = t.number_or("ntc_resistance_Ohm", resistance_Ohm, b.ntc_resistance_Ohm);
-    b.ntc_beta_K         = t.number_or("ntc_beta_K", beta_K, b.ntc_beta_K);
-    b.ntc_divider_Ohm    = t.number_or("ntc_divider_Ohm", resistance_Ohm, b.ntc_divider_Ohm);
+    b.ntc_resistance_Ohm = board_number(t, "ntc_resistance_Ohm", resistance_Ohm, b.file,
+                                        BOARD_FACT_NTC_RESISTANCE_Ohm, b.ntc_resistance_Ohm);
+    b.ntc_beta_K =
+        board_number(t, "ntc_beta_K", beta_K, b.file, BOARD_FACT_NTC_BETA_K, b.ntc_beta_K);
+    b.ntc_divider_Ohm = board_number(t, "ntc_divider_Ohm", resistance_Ohm, b.file,
+                                     BOARD_FACT_NTC_DIVIDER_Ohm, b.ntc_divider_Ohm);
     b.temperature_limit_degC =
-        t.number_or("temperature_limit_degC", temperature_degC, b.temperature_limit_degC);
+        board_number(t, "temperature_limit_degC", temperature_degC, b.file,
+                     BOARD_FACT_TEMPERATURE_LIMIT_degC, b.temperature_limit_degC);
     b.temperature_trip_degC =
-        t.number_or("temperature_trip_degC", temperature_degC, b.temperature_trip_degC);
+        board_number(t, "temperature_trip_degC", temperature_degC, b.file,
+                     BOARD_FACT_TEMPERATURE_TRIP_degC, b.temperature_trip_degC);
     if (b.temperature_limit_degC >= b.temperature_trip_degC) {
         t.fail("temperature_limit_degC",
                fmt::format("= {:g} is not allowed: must be below temperature_trip_degC = {:g}",
                            b.temperature_limit_degC, b.temperature_trip_degC));
     }
 }
-
-} // namespace
 
 BoardDescription default_board(const Motor &motor, const Inverter &inverter)
 {
@@ -78,14 +85,41 @@ BoardDescription default_board(const Motor &motor, const Inverter &inverter)
     return b;
 }
 
+std::string beyond(double value, const BoardFile &board, const char *bound, board_fact_t fact)
+{
+    return fmt::format("= {:g} is not allowed: must be {} {} = {:g} of board \"{}\"", value, bound,
+                       board_field_name(static_cast<std::uint16_t>(fact + 1)), board[fact],
+                       board.name);
+}
+
+} // namespace
+
+double board_number(TomlReader &t, const std::string &key, Range allowed,
+                    const std::optional<BoardFile> &board, board_fact_t fact, double fallback)
+{
+    const double of_board = board ? (*board)[fact] : fallback;
+    const double value    = t.number_or(key, allowed, of_board);
+    if (board && value != of_board) {
+        t.fail(key,
+               fmt::format("= {:g} is not allowed: board \"{}\" has {:g}; leave the key out, or "
+                           "change {}",
+                           value, board->name, of_board, board->file));
+    }
+    return value;
+}
+
 BoardDescription read_board(std::optional<TomlReader> t, const Motor &motor,
-                            const Inverter &inverter)
+                            const Inverter &inverter, const std::string &file)
 {
     BoardDescription b = default_board(motor, inverter);
     if (!t) {
         return b;
     }
-    b.dc_link_range_V = t->number_or("dc_link_range_V", range_V, b.dc_link_range_V);
+    if (t->has("name")) {
+        b.file = find_board(*t, file);
+    }
+    b.dc_link_range_V = board_number(*t, "dc_link_range_V", range_V, b.file,
+                                     BOARD_FACT_DC_LINK_RANGE_V, b.dc_link_range_V);
     if (t->has("align_current_A")) {
         b.align_current_A = t->number("align_current_A", {1e-3, 0.5 * motor.max_current_A});
     }
@@ -95,6 +129,27 @@ BoardDescription read_board(std::optional<TomlReader> t, const Motor &motor,
     read_supply(*t, b);
     t->reject_unknown_keys();
     return b;
+}
+
+std::pair<std::string, std::string> board_refusal(const Drive &d)
+{
+    if (!d.board.file) {
+        return {};
+    }
+    const BoardFile &b = *d.board.file;
+    if (d.inverter.dead_time_s < b[BOARD_FACT_DEAD_TIME_MIN_s]) {
+        return {"[inverter] dead_time_s",
+                beyond(d.inverter.dead_time_s, b, "at least", BOARD_FACT_DEAD_TIME_MIN_s)};
+    }
+    if (d.motor.max_current_A > b[BOARD_FACT_RATED_CURRENT_A]) {
+        return {"[motor] max_current_A",
+                beyond(d.motor.max_current_A, b, "at most", BOARD_FACT_RATED_CURRENT_A)};
+    }
+    if (d.inverter.dc_link_V > b[BOARD_FACT_RATED_DC_LINK_V]) {
+        return {"[inverter] dc_link_V",
+                beyond(d.inverter.dc_link_V, b, "at most", BOARD_FACT_RATED_DC_LINK_V)};
+    }
+    return {};
 }
 
 const char *stop_reaction_name(StopReaction reaction)

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
-/// [board] of the drive file: the board around the processor. Every key has a default from physics.
+/// [board] of the drive file: the board's name, and what a drive asks of its board. Without a name every key has a
+/// default from physics, for simulations.
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "common/toml_reader.hpp"
+#include "drive/board_file.hpp"
 
 namespace sdre {
 
+struct Drive;
 struct Motor;
 struct Inverter;
 
@@ -15,6 +19,8 @@ struct Inverter;
 enum class StopReaction { coast, brake };
 
 struct BoardDescription {
+    std::optional<BoardFile> file; ///< without it no image can be made
+
     double dc_link_range_V        = 0.0;    ///< gives the converter's full scale
     double ntc_resistance_Ohm     = 10e3;   ///< of the heat sink's sensor at 25 degC
     double ntc_beta_K             = 3435.0; ///< its B value
@@ -33,12 +39,17 @@ struct BoardDescription {
     double pulse_min_s = 0.0; ///< shortest pulse that the drivers pass
 };
 
-/// Values of a file without [board].
-BoardDescription default_board(const Motor &motor, const Inverter &inverter);
-
-/// The table, or the defaults without one.
+/// The table, or the defaults without one. Keys of the board that the table repeats must agree with the board file.
+/// @param file The drive file; board files are looked for beside it.
 BoardDescription read_board(std::optional<TomlReader> t, const Motor &motor,
-                            const Inverter &inverter);
+                            const Inverter &inverter, const std::string &file);
+
+/// The board's fact, else `fallback`; a key that repeats the fact must agree with it.
+double board_number(TomlReader &t, const std::string &key, Range allowed,
+                    const std::optional<BoardFile> &board, board_fact_t fact, double fallback);
+
+/// A limit of the drive that the board does not allow: "[motor] max_current_A", "= 7 is not allowed: ..". Empty: none.
+std::pair<std::string, std::string> board_refusal(const Drive &drive);
 
 /// "coast", "brake".
 const char *stop_reaction_name(StopReaction reaction);

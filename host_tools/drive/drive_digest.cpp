@@ -135,7 +135,8 @@ std::string normalised_sensors(const CurrentSensors &sensors, double index_angle
 
 std::string normalised_board(const BoardDescription &board)
 {
-    const auto &[dc_link_range, ntc, ntc_beta, ntc_divider, limit, trip, align, motor,
+    // The board file has a sum of its own (board_identity.h).
+    const auto &[file, dc_link_range, ntc, ntc_beta, ntc_divider, limit, trip, align, motor,
                  motor_time_constant, inverter, inverter_time_constant, stop, precharge, duty_max,
                  pulse_min] = board;
     std::string s = fmt::format("{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};", dc_link_range,

@@ -104,11 +104,14 @@ Encoder read_encoder(TomlReader t)
     return encoder;
 }
 
-CurrentSensors read_current_sensors(std::optional<TomlReader> t, const Motor &motor)
+CurrentSensors read_current_sensors(std::optional<TomlReader> t, const Motor &motor,
+                                    const std::optional<BoardFile> &board)
 {
     CurrentSensors s = default_current_sensors(motor);
+    s.range_A        = board ? (*board)[BOARD_FACT_CURRENT_RANGE_A] : s.range_A;
     if (t) {
-        s.range_A  = t->number_or("range_A", current_A, s.range_A);
+        s.range_A =
+            board_number(*t, "range_A", current_A, board, BOARD_FACT_CURRENT_RANGE_A, s.range_A);
         s.adc_bits = t->integer_or("adc_bits", adc_bits, s.adc_bits);
     }
     s.noise_rms_A = noise_per_range * s.range_A;
@@ -139,7 +142,7 @@ void settle_pwm_frequency(const TomlReader &t, Drive &drive) // EQ-BOARD-1
     }
 }
 
-Drive read_drive(const toml::table &root, const std::string &source)
+Drive read_drive(const toml::table &root, const std::string &source, const std::string &file)
 {
     TomlReader t(source, "", root);
     Drive      drive;
@@ -155,15 +158,19 @@ Drive read_drive(const toml::table &root, const std::string &source)
             std::string::npos) {
         t.fail("name", "must be one or more of A-Z a-z 0-9 _ - .");
     }
-    drive.motor           = read_motor(t.table("motor"));
-    drive.inverter        = read_inverter(t.table("inverter"));
-    drive.encoder         = read_encoder(t.table("encoder"));
-    drive.current_sensors = read_current_sensors(t.table_if("current_sensors"), drive.motor);
-    drive.board           = read_board(t.table_if("board"), drive.motor, drive.inverter);
-    drive.law             = read_law(t);
+    drive.motor    = read_motor(t.table("motor"));
+    drive.inverter = read_inverter(t.table("inverter"));
+    drive.encoder  = read_encoder(t.table("encoder"));
+    drive.board    = read_board(t.table_if("board"), drive.motor, drive.inverter, file);
+    drive.current_sensors =
+        read_current_sensors(t.table_if("current_sensors"), drive.motor, drive.board.file);
+    drive.law = read_law(t);
     read_law_sections(t, drive);
     t.reject_unknown_keys();
     settle_pwm_frequency(t, drive);
+    if (const auto [key, why] = board_refusal(drive); !key.empty()) {
+        t.fail(key, why);
+    }
     return drive;
 }
 
@@ -171,12 +178,12 @@ Drive read_drive(const toml::table &root, const std::string &source)
 
 Drive read_drive_file(const std::filesystem::path &file)
 {
-    return read_drive(parse_toml_file(file), file.string());
+    return read_drive(parse_toml_file(file), file.string(), file.string());
 }
 
-Drive read_drive_text(const std::string &text, const std::string &source)
+Drive read_drive_text(const std::string &text, const std::string &source, const std::string &file)
 {
-    return read_drive(parse_toml_text(text, source), source);
+    return read_drive(parse_toml_text(text, source), source, file.empty() ? source : file);
 }
 
 CurrentSensors default_current_sensors(const Motor &motor)

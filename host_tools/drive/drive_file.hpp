@@ -179,8 +179,9 @@ constexpr int drive_schema = 1;
 
 /// InputError in one line on anything missing, unknown, not finite or out of range.
 Drive read_drive_file(const std::filesystem::path &file);
-/// The same of a text; `source` names it in messages.
-Drive read_drive_text(const std::string &text, const std::string &source);
+/// The same of a text; `source` names it in messages. Boards are looked for beside `file`, or beside `source`.
+Drive read_drive_text(const std::string &text, const std::string &source,
+                      const std::string &file = "");
 
 /// Values of a drive file without [current_sensors].
 CurrentSensors default_current_sensors(const Motor &motor);

@@ -53,6 +53,7 @@ std::string inverter(const Drive &d)
 {
     const Inverter &i = d.inverter;
     std::string     s = heading("Inverter and sensors");
+    s += row("board", d.board.file ? d.board.file->name : "none: for simulations only");
     s += row("dc link", with_unit(i.dc_link_V, "V"));
     s += row("PWM", pwm_words(i));
     s += row("control period", fmt::format("{:g} us", 1e6 * control_period_s(d)));

@@ -6,6 +6,7 @@
 #include "common/c_text.hpp"
 #include "common/version.hpp"
 #include "design/board/board_constants.hpp"
+#include "design/board/identity.hpp"
 #include "design/constants_text.hpp"
 
 extern "C" {
@@ -45,6 +46,20 @@ std::string temperatures(const BoardConstants &b)
     return s + "};\n\n";
 }
 
+/// Each fact with its key in the board file.
+std::string identity_block(const board_identity_t &b)
+{
+    std::string facts;
+    for (std::size_t n = 0; n < BOARD_FACT_COUNT; n++) {
+        facts += fmt::format("{}, /* {} */\n", c_number(b.fact[n]),
+                             board_field_name(static_cast<std::uint16_t>(n + 1)));
+    }
+    return "const board_identity_t board_identity = {\n" +
+           c_indented(c_field("name", fmt::format("\"{}\"", b.name)) + c_block("fact", facts) +
+                      fmt::format(".sum = 0x{:08X}UL,\n", b.sum)) +
+           "};\n";
+}
+
 } // namespace
 
 std::string board_config_text(const Drive &drive)
@@ -57,7 +72,8 @@ std::string board_config_text(const Drive &drive)
         "EQ-BOARD. */\n",
         tool_version, drive_digest(drive));
     s += "/* clang-format off */\n#include \"board_config.h\"\n\n" + temperatures(b);
-    return s + "const app_config_t board_config = {\n" + c_indented(fields(b.config)) + "};\n";
+    return s + "const app_config_t board_config = {\n" + c_indented(fields(b.config)) + "};\n\n" +
+           identity_block(board_identity_of(drive));
 }
 
 } // namespace sdre

@@ -9,6 +9,7 @@
 
 #include "common/errors.hpp"
 #include "design/board/board_constants.hpp"
+#include "design/board/identity.hpp"
 #include "design/named_constants.hpp"
 
 extern "C" {
@@ -52,9 +53,10 @@ std::string hex_line(unsigned kind, unsigned address, const std::vector<std::uin
 
 std::unique_ptr<drive_image_t> image_of(const Design &design)
 {
-    auto           image = std::make_unique<drive_image_t>();
-    BoardConstants board = board_constants(design.drive);
-    if (!drive_image_copy(image.get(), &board.bind(), &design.config)) {
+    auto                   image    = std::make_unique<drive_image_t>();
+    BoardConstants         board    = board_constants(design.drive);
+    const board_identity_t identity = board_identity_of(design.drive);
+    if (!drive_image_copy(image.get(), &board.bind(), &design.config, &identity)) {
         throw DesignError(fmt::format("{}: its constants do not fit an image", design.drive.name));
     }
     return image;
@@ -75,12 +77,13 @@ std::vector<std::uint16_t> image_words(const Design &design)
 
 std::string image_list(const Design &design)
 {
-    constexpr int numbers   = 2 + DRIVE_IMAGE_DIGEST_WORDS + DRIVE_IMAGE_NAME_WORDS;
-    const auto    image     = image_of(design);
-    auto          constants = named_constants(
+    constexpr int numbers =
+        2 + DRIVE_IMAGE_DIGEST_WORDS + DRIVE_IMAGE_NAME_WORDS + BOARD_NAME_WORDS;
+    const auto image     = image_of(design);
+    auto       constants = named_constants(
         [&](fields_t &f) { drive_image_fields(&f, image.get(), design.config.law); });
     const auto is_text = [](const NamedConstant &c) {
-        return c.name == "digest" || c.name == "name";
+        return c.name == "digest" || c.name == "name" || c.name == "board_name";
     };
     constants.erase(std::remove_if(constants.begin(), constants.end(), is_text), constants.end());
     return constants_list(constants, numbers);

@@ -290,6 +290,8 @@ Facts parse_facts(const std::string &source, const toml::table &table)
             out.name = *text;
         } else if (key == "regeneration" && text) {
             out.regeneration = *text;
+        } else if (key == "board" && text) {
+            out.board = *text;
         } else if (key == "edge_times" && node.is_boolean()) {
             out.edge_times = *node.value<bool>();
         } else if (node.is_number()) {

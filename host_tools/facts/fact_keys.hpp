@@ -27,6 +27,8 @@ struct Facts {
     std::string       source; ///< file, for complaints
     std::string       name;   ///< of the drive, "" when not given
     std::string       regeneration;
+    std::string       board;      ///< of the board file, "" when not given
+    std::string       drive_file; ///< that will be written; board files are looked for beside it
     bool              edge_times = true;
     std::vector<Fact> facts;
 

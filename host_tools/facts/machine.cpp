@@ -12,6 +12,7 @@
 #include "design/machine_points.hpp"
 #include "design/motor_model.hpp"
 #include "design/sampled_model.hpp"
+#include "drive/board_file.hpp"
 #include "drive/pwm_frequency.hpp"
 
 namespace sdre {
@@ -336,6 +337,21 @@ Motor motor_of(const Machine &m)
     return motor;
 }
 
+/// Without a fact, the least of the board.
+Value dead_time(Reader &r, const Facts &facts, double pwm_Hz)
+{
+    if (facts.board.empty()) {
+        return r.or_chosen("dead_time", default_dead_share / pwm_Hz,
+                           "1.5 % of a PWM period, not given");
+    }
+    const std::optional<BoardFile> board = named_board(facts.board, facts.drive_file);
+    if (!board) {
+        throw InputError(fmt::format("{}: board {}", facts.source, no_such_board(facts.board)));
+    }
+    return r.or_chosen("dead_time", (*board)[BOARD_FACT_DEAD_TIME_MIN_s],
+                       "least of the board, not given");
+}
+
 } // namespace
 
 double mtpa_torque_Nm(const Machine &m, double current_A)
@@ -375,14 +391,14 @@ Machine machine_of(const Facts &facts, const std::string &default_name, Findings
     m.pwm_wanted_Hz      = m.pwm_Hz.si;
     m.pwm_Hz.si          = counted_pwm_Hz(std::max(pwm_full_cnt(m.pwm_wanted_Hz), 1.0));
     m.updates_per_period = r.or_chosen("updates_per_period", 1.0, "one a PWM period");
-    m.dead_time_s        = r.or_chosen("dead_time", default_dead_share / m.pwm_Hz.si,
-                                       "1.5 % of a PWM period, not given");
+    m.dead_time_s        = dead_time(r, facts, m.pwm_Hz.si);
     m.lines              = encoder_lines(r);
     m.range_A            = r.plain("current_range");
     m.noise_A            = r.plain("current_noise");
     m.adc_bits           = r.plain("adc_bits");
     m.slots              = r.plain("slots");
     m.regeneration       = facts.regeneration;
+    m.board              = facts.board;
     m.edge_times         = facts.edge_times;
     if (m.ld_H.si > m.lq_H.si && m.flux_Wb.si <= 0.0) {
         std::swap(m.ld_H, m.lq_H);

@@ -40,6 +40,7 @@ struct Machine {
     Value       adc_bits;
     Value       slots;
     std::string regeneration;
+    std::string board; ///< name of its file, "": none
     bool        edge_times = true;
 };
 

@@ -71,6 +71,11 @@ std::string inverter_text(const Machine &m)
     return s;
 }
 
+std::string board_text(const Machine &m)
+{
+    return m.board.empty() ? "" : fmt::format("\n[board]\nname = \"{}\"\n", m.board);
+}
+
 std::string sensors_text(const Machine &m)
 {
     std::string s = "\n[encoder]\n" + whole("lines", m.lines) +
@@ -119,7 +124,7 @@ std::string new_drive_text(const Machine &m)
                        "from. Weights: the start of `sdre-gains tune`.\n"
                        "schema = 1\nname = \"{}\"\n\n",
                        m.name) +
-           motor_text(m) + inverter_text(m) + sensors_text(m) + "\n" +
+           motor_text(m) + inverter_text(m) + board_text(m) + sensors_text(m) + "\n" +
            start_sections(start_weights(drive_of(m)));
 }
 

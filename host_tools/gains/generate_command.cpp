@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "design/board/identity.hpp"
 #include "design/design.hpp"
 #include "drive/pwm_frequency.hpp"
 #include "emit/emit_tables.hpp"
@@ -35,7 +36,9 @@ int run(const Options &o)
     if (o.out.empty() == o.check.empty()) {
         throw InputError("generate: give either --out DIR or --check DIR");
     }
-    const Design design    = design_drive(read_drive_file(o.drive), Precision::extended);
+    const Drive drive = read_drive_file(o.drive);
+    require_board(drive, o.drive);
+    const Design design    = design_drive(drive, Precision::extended);
     const bool   certified = design.certificate.passed();
     if (!certified && !o.uncertified) {
         throw DesignError(fmt::format("{}: not certified: {}", o.drive,

@@ -3,6 +3,7 @@
 
 #include "common/errors.hpp"
 #include "common/file_output.hpp"
+#include "design/board/identity.hpp"
 #include "design/design.hpp"
 #include "design/law_design.hpp"
 #include "drive/pwm_frequency.hpp"
@@ -32,7 +33,9 @@ int run(const Options &o)
     if (o.out.empty() && o.hex.empty() && o.list.empty()) {
         throw InputError("image: give --out FILE, --hex FILE or --list FILE");
     }
-    const Design design = design_drive(read_drive_file(o.drive), Precision::extended);
+    const Drive drive = read_drive_file(o.drive);
+    require_board(drive, o.drive);
+    const Design design = design_drive(drive, Precision::extended);
     if (!design.certificate.passed()) {
         throw DesignError(fmt::format("{}: not certified: {}", o.drive,
                                       fmt::join(design.certificate.failures, "; ")));

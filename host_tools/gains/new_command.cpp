@@ -19,6 +19,7 @@ struct Options {
     std::string              facts;
     std::string              out;
     std::string              name;
+    std::string              board;
     std::vector<std::string> values;
     bool                     keys  = false;
     bool                     force = false;
@@ -29,6 +30,7 @@ void declare(OptionList &list, Options &o)
     list.text("--facts", o.facts, "what the data sheet says (TOML): one key a fact, see --keys");
     list.repeated("--set", o.values, "one more fact, KEY=VALUE");
     list.text("--name", o.name, "of the drive; without it the facts file's");
+    list.text("--board", o.board, "name of its board file; without it the facts file's");
     list.text("--out", o.out, "drive file to write");
     list.flag("--keys", o.keys, "list what can be said, with its units");
     list.flag("--force", o.force, "write in spite of contradictions");
@@ -85,7 +87,7 @@ int run(const Options &o)
     if (o.keys) {
         fmt::print("{}poles, speeds and currents as data sheets write them; phase_ or "
                    "line_to_line_ and _rms or _peak say how a value is meant.\nregeneration "
-                   "(\"none\", \"brake_chopper\", \"supply\"), edge_times (true), name\n",
+                   "(\"none\", \"brake_chopper\", \"supply\"), edge_times (true), name, board\n",
                    quantity_names());
         return exit_ok;
     }
@@ -97,12 +99,14 @@ int run(const Options &o)
     Findings                    findings;
     Facts                       facts = all_facts(o);
     facts.name                        = o.name.empty() ? facts.name : o.name;
+    facts.board                       = o.board.empty() ? facts.board : o.board;
+    facts.drive_file                  = o.out;
     const Machine machine             = machine_of(facts, stem, findings);
     check_ratings(facts, machine, findings);
     check_machine(machine, findings);
     say(findings, o);
-    const std::string text  = new_drive_text(machine);
-    const Drive       drive = read_drive_text(text, facts.source); // whose ranges are the tools'
+    const std::string text = new_drive_text(machine);
+    const Drive drive = read_drive_text(text, facts.source, o.out); // whose ranges are the tools'
     write_files({{o.out, text}});
     fmt::print("{}{}: written; `sdre-gains tune {} --out TUNED.toml` finds its weights\n",
                pwm_note(drive.inverter), o.out, o.out);

@@ -8,7 +8,8 @@ pages.
     results.py check                exit code 1: a page or the JSON is stale
     results.py recompute SDRE_SIL   runs a few cheap experiments and compares them with the JSON
 
-A recorded run has the digests of its drive file, its scenario and the trace in tests/regression.
+A recorded run has the digests of its drive and board file, its scenario and the trace in
+tests/regression.
 With another drive, scenario or core it is stale.
 """
 
@@ -28,6 +29,7 @@ RECORDED = ROOT / "docs/results.json"
 PAGES = ("README.md", "docs/results.md")
 SCENARIOS = ROOT / "host_tools/sil/scenarios"
 DRIVES = ROOT / "firmware/config/drives"
+BOARDS = ROOT / "firmware/config/boards"
 TRACES = ROOT / "tests/regression/expected.json"
 SEEDS = 20  # chosen: the worst of 20 moves by some per cent with another 20
 
@@ -111,8 +113,10 @@ class Experiments:
         first = "servo_case_1_2" if drive.startswith("servo_") else "board_load_step"
         names = (f"trace {name} {drive}" for name in (what["file"], first))
         trace = next(self.traces[name] for name in names if name in self.traces)
+        file = tomllib.loads((DRIVES / f"{drive}.toml").read_text())
+        board = tomllib.loads((BOARDS / f"{file['board']['name']}.toml").read_text())
         return {
-            "drive": digest(tomllib.loads((DRIVES / f"{drive}.toml").read_text())),
+            "drive": digest([file, board]),
             "scenario": digest(
                 [tomllib.loads((SCENARIOS / f"{what['file']}.toml").read_text()), what]
             ),

@@ -103,7 +103,7 @@ json answer(const json &request)
     const std::string toml =
         changed(scenarios / (name + ".toml"), request.value("scenario_changes", json::object()),
                 "drive.toml");
-    const Drive    d = read_drive_text(drive_t, drive.filename().string());
+    const Drive    d = read_drive_text(drive_t, drive.filename().string(), drive.string());
     const Scenario scenario =
         read_scenario_table(parse_toml_text(toml, name), name, "scenario", d, d.law);
     const SimulationResult result = simulate(scenario);

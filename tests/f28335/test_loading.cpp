@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A drive's constants over Modbus into the flash of the virtual device, with power cuts; simulated time only.
+#include <cstring>
+#include <functional>
+
 #include <gtest/gtest.h>
 
+#include "design/board/identity.hpp"
 #include "design/design.hpp"
 #include "emit/emit_image.hpp"
 #include "served_client.hpp"
@@ -21,7 +25,8 @@ using namespace sdre;
 
 namespace {
 
-constexpr double erased_s = 2.1; // a sector: 2 s
+constexpr double      erased_s        = 2.1; // a sector: 2 s
+constexpr std::size_t first_fact_word = 42;  // drive_image.h
 
 /// The same motor, faster or slower: an image that can be told from the compiled constants.
 Words image(double speed_max_e_radps, const std::string &name)
@@ -30,6 +35,18 @@ Words image(double speed_max_e_radps, const std::string &name)
     drive.name                    = name;
     drive.motor.max_speed_e_radps = speed_max_e_radps;
     return image_words(design_drive(drive, Precision::quick));
+}
+
+/// The words of an image whose board has another fact; the constants are this board's.
+Words with_fact(const Words &words, std::size_t fact, float value)
+{
+    Words         out  = words;
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    const std::size_t at = first_fact_word + 2 * fact;
+    out.at(at)           = static_cast<std::uint16_t>(bits >> 16U);
+    out.at(at + 1)       = static_cast<std::uint16_t>(bits);
+    return out;
 }
 
 class Loading : public ServedClient {
@@ -78,14 +95,43 @@ protected:
         }
         return true;
     }
-    bool commit(const Words &words)
+    bool commit(const Words &words, int state = APP_LOADER_STORED)
     {
         const auto          count = static_cast<std::uint32_t>(words.size());
         const std::uint32_t crc   = crc32_words(CRC32_START, words.data(), count);
         return work(APP_LOADER_COMMIT,
                     {0, static_cast<std::uint16_t>(count), static_cast<std::uint16_t>(crc >> 16U),
                      static_cast<std::uint16_t>(crc)},
-                    APP_LOADER_STORED);
+                    state);
+    }
+    float loader_float(unsigned number)
+    {
+        const std::uint32_t bits = static_cast<std::uint32_t>(loader(number)) << 16U |
+                                   static_cast<std::uint32_t>(loader(number + 1));
+        float value = 0.0F;
+        std::memcpy(&value, &bits, sizeof value);
+        return value;
+    }
+    std::string field_name()
+    {
+        std::string s;
+        for (unsigned n = 0; n < APP_LOADER_NAME_WORDS; n++) {
+            const int word = loader(APP_LOADER_FIELD_NAME + n);
+            s += static_cast<char>(word >> 8);
+            s += static_cast<char>(word & 0xFF);
+        }
+        return s.c_str();
+    }
+    /// Loads an image that is refused with this field, in a loader that runs.
+    void refused(const Words &words, unsigned field)
+    {
+        ASSERT_TRUE(work(APP_LOADER_BEGIN, {0, static_cast<std::uint16_t>(words.size())},
+                         APP_LOADER_WRITING));
+        ASSERT_TRUE(put(words));
+        ASSERT_TRUE(commit(words, APP_LOADER_IMAGE));
+        EXPECT_EQ(loader(APP_LOADER_REASON), DRIVE_IMAGE_OTHER_BOARD);
+        EXPECT_EQ(loader(APP_LOADER_FIELD), static_cast<int>(field));
+        EXPECT_EQ(field_name(), board_field_name(static_cast<std::uint16_t>(field)));
     }
     void load(const Words &words)
     {
@@ -123,6 +169,60 @@ TEST_F(Loading, AnImageIsInForceAfterTheRestartAndTheMotorRunsWithIt)
     EXPECT_NEAR(input(APP_REGISTERS_SPEED_NOW + 1), 2000, 30);
     EXPECT_FALSE(command(APP_LOADER_ENTER)) << "the bridge is on";
     EXPECT_EQ(served.resets(), 2);
+    EXPECT_TRUE(served.findings().empty());
+}
+
+// Every fact of the board file, each alone, and the name.
+TEST_F(Loading, AnImageOfAnotherBoardIsRefusedByTheNameOfTheField)
+{
+    pass(0.5);
+    const Words            own   = image(300.0, "ab");
+    const board_identity_t board = board_identity_of(shipped_drive());
+    enter();
+    for (unsigned fact = 0; fact < BOARD_FACT_COUNT; fact++) {
+        const float other = 2.0F * board.fact[fact] + 0.5F;
+        refused(with_fact(own, fact, other), fact + 1);
+        EXPECT_EQ(loader_float(APP_LOADER_IMAGE_HI), other);
+        EXPECT_EQ(loader_float(APP_LOADER_BOARD_HI), board.fact[fact]);
+    }
+    Words renamed = own;
+    renamed.at(30) ^= 1U;
+    refused(renamed, BOARD_FIELD_NAME);
+    ASSERT_TRUE(command(APP_LOADER_LEAVE));
+    pass(0.5);
+    EXPECT_EQ(loader(APP_LOADER_NUMBER_LO), 0);
+    load(own);
+    EXPECT_EQ(loader(APP_LOADER_NUMBER_LO), 1);
+    EXPECT_EQ(loader(APP_LOADER_FIELD), BOARD_FIELD_NONE);
+    EXPECT_TRUE(served.findings().empty());
+}
+
+// A drive that was changed after it was read, as an own tool could do: its image says that it is for this board.
+TEST_F(Loading, AShortDeadTimeAndAnotherRangeAreRefused)
+{
+    pass(0.5);
+    enter();
+    const auto words_of = [](const std::function<void(Drive &)> &change) {
+        Drive drive = shipped_drive();
+        change(drive);
+        drive.board.file.reset();
+        Words       words = image_words(design_drive(drive, Precision::quick));
+        const Words own   = image(300.0, "ab");
+        std::copy_n(own.begin() + 30, BOARD_IDENTITY_WORDS, words.begin() + 30);
+        return words;
+    };
+    refused(words_of([](Drive &d) { d.inverter.dead_time_s = 5e-8; }),
+            BOARD_FACT_DEAD_TIME_MIN_s + 1);
+    EXPECT_NEAR(loader_float(APP_LOADER_IMAGE_HI), 4 / 75e6, 1e-12);
+    refused(words_of([](Drive &d) {
+                d.motor.max_current_A     = 2.0;
+                d.current_sensors.range_A = 5.0;
+            }),
+            BOARD_FACT_CURRENT_RANGE_A + 1);
+    EXPECT_NEAR(loader_float(APP_LOADER_IMAGE_HI), 5.0, 1e-6);
+    EXPECT_NEAR(loader_float(APP_LOADER_BOARD_HI), 10.0, 1e-6);
+    refused(words_of([](Drive &d) { d.motor.max_current_A = 5.5; }),
+            BOARD_FACT_RATED_CURRENT_A + 1);
     EXPECT_TRUE(served.findings().empty());
 }
 

@@ -6,6 +6,13 @@
 #include "common/errors.hpp"
 #include "design/board/align_design.hpp"
 #include "design/board/board_constants.hpp"
+#include "design/board/identity.hpp"
+#include "design/design.hpp"
+#include "temp_dir.hpp"
+
+extern "C" {
+#include "app_board_check.h"
+}
 
 using namespace sdre;
 
@@ -40,7 +47,8 @@ TEST(BoardConstants, RegistersOfTheShippedDrive)
 
 TEST(BoardConstants, RegistersFollowTheFile)
 {
-    Drive d                     = shipped();
+    Drive d = shipped();
+    d.board.file.reset(); // its gates need more dead time
     d.inverter.pwm_frequency_Hz = 20e3;
     d.inverter.dead_time_s      = 0.5e-6; // 37.5 counts: no less
     d.encoder.lines             = 1024;
@@ -158,4 +166,74 @@ TEST(BoardConstants, AlignmentHoldsTheAxisThatHolds)
     EXPECT_GT(align_design(d).decay_1ps, 1.0);
     d.board.align_current_A = 1.0;
     EXPECT_DOUBLE_EQ(align_design(d).current_A, 1.0);
+}
+
+// The range belongs to the board: half the current limit does not halve it.
+TEST(BoardConstants, ACurrentLimitBelowTheBoardsKeepsItsRange)
+{
+    std::string text =
+        support::read_file(SDRE_SOURCE_DIR "/firmware/config/drives/ipmsm_390w.toml");
+    const std::string from = "max_current_A         = 4.0";
+    text.replace(text.find(from), from.size(), "max_current_A = 2.0");
+    const Drive        d = read_drive_text(text, "half");
+    const app_config_t c = board_constants(d).config;
+    EXPECT_EQ(d.current_sensors.range_A, 10.0);
+    EXPECT_EQ(c.scale.current_A_per_cnt, board_constants(shipped()).config.scale.current_A_per_cnt);
+    EXPECT_EQ(c.heat.inverter_A, 5.0F);
+    EXPECT_EQ(c.zero_drift_A, board_constants(shipped()).config.zero_drift_A);
+}
+
+TEST(BoardConstants, ADriveThatWasChangedIsHeldToItsBoard)
+{
+    Drive d                = shipped();
+    d.inverter.dead_time_s = 5e-8;
+    EXPECT_NE(refusal(d).find("dead_time_s = 5e-08"), std::string::npos);
+    d                     = shipped();
+    d.motor.max_current_A = 5.1;
+    EXPECT_NE(refusal(d).find("max_current_A = 5.1"), std::string::npos);
+    d               = shipped();
+    d.encoder.lines = 15000;
+    EXPECT_NE(refusal(d).find("encoder_edges_Hz = 6.25e+06"), std::string::npos) << refusal(d);
+}
+
+TEST(BoardConstants, TripLevelsAreWithinTheBoard)
+{
+    Drive d = shipped();
+    EXPECT_EQ(largest_trip_current_A(d), 9.0);
+    EXPECT_NEAR(largest_trip_dc_link_V(d), 449.89, 0.01);
+    d.board.file->facts[BOARD_FACT_RATED_DC_LINK_V] = 400.0;
+    EXPECT_EQ(largest_trip_dc_link_V(d), 400.0);
+    d.board.file.reset();
+    EXPECT_NEAR(largest_trip_current_A(d), 9.502, 0.001);
+}
+
+TEST(BoardIdentity, IsThatOfTheBoardFileWithItsSum)
+{
+    const Drive            d = shipped();
+    const board_identity_t b = board_identity_of(d);
+    EXPECT_STREQ(b.name, "board_390w");
+    for (std::size_t n = 0; n < BOARD_FACT_COUNT; n++) {
+        EXPECT_EQ(b.fact[n], static_cast<float>(d.board.file->facts[n]))
+            << board_field_name(static_cast<std::uint16_t>(n + 1));
+    }
+    EXPECT_EQ(b.sum, board_identity_sum(&b));
+}
+
+// A simulated board has the drive's own values: the firmware accepts its constants.
+TEST(BoardIdentity, OfADriveWithoutBoardHoldsForItsConstants)
+{
+    Drive d = shipped();
+    d.board.file.reset();
+    d.board.precharge_s = 0.02;
+    d.board.duty_max    = 0.97;
+    d.board.pulse_min_s = 1.3e-6;
+    for (const double scale : {1.0, 0.1, 7.0}) {
+        d.current_sensors.range_A       = 10.0 * scale;
+        d.motor.max_current_A           = 4.0 * scale;
+        const Design             design = design_drive(d, Precision::quick);
+        BoardConstants           c      = board_constants(d);
+        const board_identity_t   b      = board_identity_of(d);
+        const board_difference_t found  = app_board_check(&b, &c.bind(), &design.config);
+        EXPECT_STREQ(board_field_name(found.field), "") << scale;
+    }
 }

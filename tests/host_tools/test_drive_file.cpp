@@ -2,8 +2,10 @@
 #include "drive/drive_file.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -781,4 +783,179 @@ TEST(DriveFile, DigestSeesEveryHarmonic)
     digests.insert(sdre::drive_digest(read(harmonic_text().set("motor", "slots", "30").str())));
     digests.insert(sdre::drive_digest(read(encoder_text().str())));
     EXPECT_EQ(digests.size(), changes.size() + 3);
+}
+
+// -- boards --
+
+namespace {
+
+const std::string shipped_boards_dir = SDRE_SOURCE_DIR "/firmware/config/boards";
+
+std::string board_text()
+{
+    return support::read_file(shipped_boards_dir + "/board_390w.toml");
+}
+
+/// The line of a key with another value; "" takes the line away.
+std::string with_line(const std::string &text, const std::string &key, const std::string &value)
+{
+    const std::size_t at  = text.find("\n" + key + " ") + 1;
+    const std::size_t end = text.find('\n', at) + 1;
+    return text.substr(0, at) + (value.empty() ? "" : key + " = " + value + "\n") +
+           text.substr(end);
+}
+
+/// The complaint about a board file, beside the drive file; without the directory.
+std::string board_complaint(const std::string &board)
+{
+    const TempDir dir;
+    dir.write("own.toml", board);
+    const auto file = dir.write(
+        "drive.toml", DriveText().add_section("board").set("board", "name", "\"own\"").str());
+    try {
+        sdre::read_drive_file(file);
+    } catch (const sdre::InputError &error) {
+        const std::string what  = error.what();
+        const std::string where = (dir / "own.toml").string() + ": ";
+        EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+        EXPECT_EQ(what.rfind(where, 0), 0U) << what;
+        return what.substr(where.size());
+    }
+    return "accepted";
+}
+
+std::string own_text()
+{
+    return with_line(board_text(), "name", "\"own\"");
+}
+
+std::string fact_name(int fact)
+{
+    return board_field_name(static_cast<std::uint16_t>(fact + 1));
+}
+
+DriveText on_board()
+{
+    return DriveText().add_section("board").set("board", "name", "\"board_390w\"");
+}
+
+} // namespace
+
+TEST(DriveFile, ABoardGivesWhatIsItsOwn)
+{
+    const sdre::Drive drive = read(on_board().set("motor", "max_current_A", "2.0").str());
+    ASSERT_TRUE(drive.board.file);
+    const sdre::BoardFile &board = *drive.board.file;
+    EXPECT_EQ(board.name, "board_390w");
+    EXPECT_EQ(drive.current_sensors.range_A, 10.0);
+    EXPECT_EQ(drive.board.dc_link_range_V, 450.0);
+    EXPECT_EQ(drive.board.inverter_current_A, 5.0);
+    EXPECT_FALSE(read(DriveText().str()).board.file);
+    EXPECT_EQ(read(DriveText().set("motor", "max_current_A", "2.0").str()).current_sensors.range_A,
+              5.0); // for simulations
+}
+
+// Every key that a board owns too.
+TEST(DriveFile, AKeyThatRepeatsTheBoardAgreesWithIt)
+{
+    const std::vector<std::tuple<std::string, std::string, board_fact_t>> keys{
+        {"current_sensors", "range_A", BOARD_FACT_CURRENT_RANGE_A},
+        {"board", "dc_link_range_V", BOARD_FACT_DC_LINK_RANGE_V},
+        {"board", "ntc_resistance_Ohm", BOARD_FACT_NTC_RESISTANCE_Ohm},
+        {"board", "ntc_beta_K", BOARD_FACT_NTC_BETA_K},
+        {"board", "ntc_divider_Ohm", BOARD_FACT_NTC_DIVIDER_Ohm},
+        {"board", "temperature_limit_degC", BOARD_FACT_TEMPERATURE_LIMIT_degC},
+        {"board", "temperature_trip_degC", BOARD_FACT_TEMPERATURE_TRIP_degC},
+        {"board", "inverter_current_A", BOARD_FACT_INVERTER_CURRENT_A},
+        {"board", "inverter_time_constant_s", BOARD_FACT_INVERTER_TIME_CONSTANT_s},
+        {"board", "precharge_s", BOARD_FACT_PRECHARGE_s},
+        {"board", "duty_max", BOARD_FACT_DUTY_MAX},
+        {"board", "pulse_min_s", BOARD_FACT_PULSE_MIN_s}};
+    const sdre::BoardFile board = sdre::read_board_file(shipped_boards_dir + "/board_390w.toml");
+    for (const auto &[section, key, fact] : keys) {
+        const double own   = board[fact];
+        const double other = fact == BOARD_FACT_PULSE_MIN_s ? 1e-6
+                             : fact == BOARD_FACT_DUTY_MAX || fact == BOARD_FACT_PRECHARGE_s
+                                 ? 0.5
+                                 : 1.01 * own;
+        const auto   with  = [&](double value) {
+            DriveText text = on_board();
+            if (section != "board") {
+                text.add_section(section);
+            }
+            return text.set(section, key, fmt::format("{:.17g}", value));
+        };
+        EXPECT_EQ(complaint(with(own)), "accepted") << key;
+        expect_complaint(with(other), {fmt::format("[{}] {} = ", section, key), "board_390w",
+                                       fmt::format("has {:g}", own)});
+    }
+}
+
+TEST(DriveFile, LimitsBeyondTheBoardAreRefused)
+{
+    expect_complaint(on_board().set("inverter", "dead_time_s", "5e-8"),
+                     {"[inverter] dead_time_s = 5e-08 is not allowed", "dead_time_min_s = 3e-06",
+                      "\"board_390w\""});
+    expect_complaint(on_board().set("motor", "max_current_A", "5.01"),
+                     {"[motor] max_current_A = 5.01", "rated_current_A = 5"});
+    expect_complaint(on_board().set("inverter", "dc_link_V", "451.0"),
+                     {"[inverter] dc_link_V = 451", "rated_dc_link_V = 450"});
+    expect_complaint(on_board().set("board", "name", "\"none\""),
+                     {"[board] name = \"none\"", "board_200w, board_390w"});
+    expect_complaint(on_board().set("board", "name", "\"../board_390w\""), {"[board] name must"});
+}
+
+TEST(BoardFile, EveryFactIsRequiredAndHasItsRange)
+{
+    EXPECT_EQ(board_complaint(own_text()), "accepted");
+    for (int fact = 0; fact < BOARD_FACT_COUNT; fact++) {
+        const std::string key = fact_name(fact);
+        EXPECT_EQ(board_complaint(with_line(own_text(), key, "")).rfind(key + " is missing", 0), 0U)
+            << key;
+        for (const char *value : {"-1e3", "1e12", "nan", "inf", "\"1\"", "true"}) {
+            EXPECT_EQ(board_complaint(with_line(own_text(), key, value)).rfind(key + " ", 0), 0U)
+                << key << value;
+        }
+    }
+    EXPECT_NE(board_complaint(own_text() + "colour = 1\n").find("colour"), std::string::npos);
+    EXPECT_EQ(board_complaint(board_text()).rfind("name = \"board_390w\"", 0), 0U);
+    EXPECT_EQ(board_complaint(with_line(own_text(), "schema", "2")).rfind("schema = 2", 0), 0U);
+}
+
+TEST(BoardFile, RatingsAreInOrder)
+{
+    for (const auto &[key, value, bound] :
+         std::vector<std::tuple<std::string, std::string, std::string>>{
+             {"rated_current_A", "9.0", "trip_current_A = 9"},
+             {"trip_current_A", "10.1", "current_range_A = 10"},
+             {"rated_dc_link_V", "450.1", "dc_link_range_V = 450"},
+             {"temperature_limit_degC", "90.0", "temperature_trip_degC = 90"}}) {
+        const std::string what = board_complaint(with_line(own_text(), key, value));
+        EXPECT_EQ(what.rfind(key + " = ", 0), 0U) << what;
+        EXPECT_NE(what.find(bound), std::string::npos) << what;
+    }
+    EXPECT_EQ(board_complaint(with_line(own_text(), "trip_current_A", "10.0")), "accepted");
+}
+
+// Beside the drive file first, then in ../boards, then the shipped ones, which are compiled in.
+TEST(BoardFile, IsFoundBesideTheDriveFirst)
+{
+    const TempDir     dir;
+    const std::string drive = on_board().str();
+    std::filesystem::create_directories(dir / "drives");
+    std::filesystem::create_directories(dir / "boards");
+    const auto file    = dir.write("drives/d.toml", drive);
+    const auto trip_of = [&] {
+        return (*sdre::read_drive_file(file).board.file)[BOARD_FACT_TRIP_CURRENT_A];
+    };
+    EXPECT_EQ(trip_of(), 9.0);
+    EXPECT_EQ((*sdre::read_drive_text(drive, "somewhere").board.file)[BOARD_FACT_TRIP_CURRENT_A],
+              9.0);
+    dir.write("boards/board_390w.toml", with_line(board_text(), "trip_current_A", "8.0"));
+    EXPECT_EQ(trip_of(), 8.0);
+    dir.write("drives/board_390w.toml", with_line(board_text(), "trip_current_A", "7.0"));
+    EXPECT_EQ(trip_of(), 7.0);
+    EXPECT_EQ(
+        (*sdre::read_drive_text(drive, "d", file.string()).board.file)[BOARD_FACT_TRIP_CURRENT_A],
+        7.0);
 }

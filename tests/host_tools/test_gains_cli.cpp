@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "command.hpp"
+#include "drive/drive_file.hpp"
 #include "drive_text.hpp"
 #include "json.hpp"
 #include "temp_dir.hpp"
@@ -37,10 +40,16 @@ void expect_refused(const std::vector<std::string> &arguments, int exit_code,
     support::expect_refused(gains(arguments), exit_code, tool, pieces);
 }
 
+/// Tables are made for a board only.
+DriveText on_board()
+{
+    return DriveText().add_section("board").set("board", "name", "\"board_390w\"");
+}
+
 /// A drive that solves but must not be written: the observer is too quick for the control period.
 DriveText uncertified()
 {
-    return DriveText().set("nodo", "Q", "[1.0e14, 1.1e14, 1.2e14, 85.0e6, 86.0e6, 90.0e6]");
+    return on_board().set("nodo", "Q", "[1.0e14, 1.1e14, 1.2e14, 85.0e6, 86.0e6, 90.0e6]");
 }
 
 } // namespace
@@ -265,7 +274,7 @@ TEST(GainsCli, UnsolvableDesignIsExitTwo)
 {
     const TempDir     dir;
     const std::string drive = dir.write(
-        "drive.toml", DriveText().set("nodo", "Q", "[0.0, 0.0, 0.0, 85.0, 86.0, 90.0]").str());
+        "drive.toml", on_board().set("nodo", "Q", "[0.0, 0.0, 0.0, 85.0, 86.0, 90.0]").str());
 
     expect_refused({"generate", drive, "--out", dir / "out"}, 2, {});
     expect_refused({"report", drive}, 2, {});
@@ -299,6 +308,66 @@ TEST(GainsCli, ReportOfTheShippedDriveIsCertified)
     EXPECT_EQ(support::Json::parse(json.out).at("certificate").at("certified"), true);
 }
 
+namespace {
+
+/// The board of the 390 W motor with other ratings.
+std::string board_for_560_V()
+{
+    std::string text =
+        support::read_file(SDRE_SOURCE_DIR "/firmware/config/boards/board_390w.toml");
+    for (const auto &[from, to] : std::vector<std::pair<std::string, std::string>>{
+             {"\"board_390w\"", "\"spm\""},
+             {"= 3e-6", "= 1.5e-6"},
+             {"= 10.0 ", "= 40.0 "},
+             {"rated_current_A          = 5.0", "rated_current_A = 15.0"},
+             {"trip_current_A           = 9.0", "trip_current_A = 30.0"},
+             {"dc_link_range_V          = 450.0", "dc_link_range_V = 900.0"},
+             {"rated_dc_link_V          = 450.0", "rated_dc_link_V = 800.0"}}) {
+        const std::size_t at = text.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        text.replace(at, from.size(), to);
+    }
+    return text;
+}
+
+} // namespace
+
+// A drive without board is for simulations: it is designed and reported, and no image is made.
+TEST(GainsCli, TablesAndImagesNeedABoard)
+{
+    const TempDir     dir;
+    const std::string drive = dir.write("drive.toml", DriveText().str());
+    EXPECT_EQ(gains({"report", drive}).exit_code, 0);
+    for (const std::vector<std::string> &arguments :
+         {std::vector<std::string>{"generate", drive, "--out", dir / "out"},
+          {"image", drive, "--out", dir / "image"},
+          {"image", drive, "--hex", dir / "image.hex"}}) {
+        expect_refused(arguments, 1,
+                       {drive + ": [board] name is missing", "board_200w, board_390w"});
+    }
+    EXPECT_EQ(support::names_in(dir.path()), std::set<std::string>{"drive.toml"});
+}
+
+TEST(GainsCli, NewWritesTheBoardAndItsDeadTime)
+{
+    const TempDir     dir;
+    const std::string drive = dir / "d.toml";
+    const std::string facts = SDRE_TEST_DATA_DIR "/facts/spm_1500w.toml";
+    dir.write("spm.toml", board_for_560_V());
+    std::string text = support::read_file(facts);
+    text.replace(text.find("dead_time_ns = 1500\n"), 20, "board = \"spm\"\n");
+    const std::string own = dir.write("facts.toml", text);
+    ASSERT_EQ(gains({"new", "--facts", own, "--out", drive}).exit_code, 0);
+    EXPECT_NE(support::read_file(drive).find("[board]\nname = \"spm\"\n"), std::string::npos);
+    EXPECT_NE(support::read_file(drive).find("1.5e-06      # chosen: least of the board"),
+              std::string::npos);
+    EXPECT_EQ(sdre::read_drive_file(drive).current_sensors.range_A, 40.0);
+    expect_refused({"new", "--facts", facts, "--board", "nix", "--out", drive}, 1,
+                   {"board = \"nix\"", "board_200w, board_390w"});
+    expect_refused({"new", "--facts", facts, "--board", "board_390w", "--out", dir / "x"}, 1,
+                   {"dead_time_s = 1.5e-06", "board_390w"});
+}
+
 TEST(GainsCli, FrequencyThatTheCounterHasNotGoesThroughEveryCommand)
 {
     const std::string both = "7999.147 Hz, the nearest to 8000 Hz that the counter has";
@@ -310,7 +379,9 @@ TEST(GainsCli, FrequencyThatTheCounterHasNotGoesThroughEveryCommand)
         EXPECT_EQ(r.exit_code, 0) << arguments[0] << r.err;
         EXPECT_NE(r.out.find(both), std::string::npos) << arguments[0] << r.out;
     };
-    says({"new", "--facts", SDRE_TEST_DATA_DIR "/facts/spm_1500w.toml", "--out", drive});
+    dir.write("spm.toml", board_for_560_V());
+    says({"new", "--facts", SDRE_TEST_DATA_DIR "/facts/spm_1500w.toml", "--board", "spm", "--out",
+          drive});
     EXPECT_NE(support::read_file(drive).find("8000.0       # pwm_frequency_kHz = 8; the counter's "
                                              "nearest is 7999.147"),
               std::string::npos);

@@ -62,7 +62,7 @@ files_of()
 {
     printf '%s\n' "${sources[$2]}"
     [[ ${sources[$2]} != *prove_app.c ]] || { find "$app" -name 'app_*.c' && echo "$config/board_config.c"; }
-    [[ ${sources[$2]} != *prove_store.c ]] || { find firmware/store -name '*.c' && printf '%s\n' "$app"/load/{drive_image,fields_app}.c; }
+    [[ ${sources[$2]} != *prove_store.c ]] || { find firmware/store -name '*.c' && printf '%s\n' "$app"/load/{board_identity,drive_image,fields_app,fields_text}.c; }
     find "$core" -name '*.c' ! -name 'law_*.c'
     case $1 in
         any) ;;

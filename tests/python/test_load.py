@@ -74,6 +74,28 @@ def test_what_cannot_be_loaded_is_one_line(served: Served, tmp_path: Path, renam
     assert refused.returncode == 1 and "load: give an image" in refused.stderr, refused
 
 
+def test_an_image_of_another_board_is_refused_by_the_name_of_the_field(
+    served: Served, tmp_path: Path
+) -> None:
+    board = (ROOT / "firmware/config/boards/board_390w.toml").read_text()
+    board = board.replace('"board_390w"', '"own"')
+    (tmp_path / "own.toml").write_text(board)
+    drive_file = tmp_path / "drive.toml"
+    drive_file.write_text(SHIPPED.read_text().replace('"board_390w"', '"own"'))
+    for change, said in (
+        ((r"dead_time_min_s .*", "dead_time_min_s = 1e-6"), "dead_time_min_s is 1e-06"),
+        ((r"current_range_A .*", "current_range_A = 20.0"), "current_range_A is 20"),
+        ((r"name = .*", 'name = "own"'), "it is an image for own, the drive is a board_390w"),
+    ):
+        (tmp_path / "own.toml").write_text(re.sub(*change, board, count=1))
+        file = image(drive_file, tmp_path / "own.image")
+        refused = command("load", str(file), *served.options())
+        assert refused.returncode == 1 and said in refused.stderr, refused
+        assert "an image for own" in refused.stderr and "board_390w" in refused.stderr
+        assert "in force: what is compiled in" in refused.stderr
+        assert "Traceback" not in refused.stderr
+
+
 def test_a_lost_answer_is_made_good(
     served: Served, renamed: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -3,31 +3,83 @@
 
 #include <stddef.h>
 
+#include "app_board_check.h"
 #include "app_config_check.h"
 
-drive_image_result_t app_image_check(const drive_image_t *image)
-{
-    const bool accepted =
-        board_fits(&image->app.board) && (app_config_check(&image->app, &image->drive) == CTL_OK);
+static const board_difference_t no_difference = {.field = (uint16_t)BOARD_FIELD_NONE};
 
-    return accepted ? DRIVE_IMAGE_OK : DRIVE_IMAGE_REFUSED;
+static bool is_in_range(const drive_image_t *image)
+{
+    return board_fits(&image->app.board) &&
+           (app_config_check(&image->app, &image->drive) == CTL_OK);
 }
 
-static bool read(drive_image_t *image, const store_content_t *stored, const law_t *law)
+static bool is_different(const app_image_t *chosen)
 {
-    return (stored->words != NULL) && (law != NULL) &&
-           (drive_image_read(image, law, stored->words, stored->count) == DRIVE_IMAGE_OK) &&
-           (app_image_check(image) == DRIVE_IMAGE_OK);
+    return chosen->difference.field != (uint16_t)BOARD_FIELD_NONE;
 }
 
-bool app_image_choose(app_image_t *chosen, const app_config_t *app, const drive_config_t *drive)
+/* Constants out of range are not compared with the board: a quotient of them may be none. */
+static drive_image_result_t check(app_image_t *chosen)
+{
+    const drive_image_t *const image  = &chosen->image;
+    drive_image_result_t       result = DRIVE_IMAGE_OK;
+
+    chosen->difference = board_identity_compare(&image->board, chosen->board);
+    if (is_different(chosen)) {
+        result = DRIVE_IMAGE_OTHER_BOARD;
+    } else if (!is_in_range(image)) {
+        result = DRIVE_IMAGE_REFUSED;
+    } else {
+        chosen->difference = app_board_check(chosen->board, &image->app, &image->drive);
+        result             = is_different(chosen) ? DRIVE_IMAGE_OTHER_BOARD : DRIVE_IMAGE_OK;
+    }
+    return result;
+}
+
+void app_image_take(app_image_t *chosen, const law_t *law, const store_content_t *content)
+{
+    chosen->difference = no_difference;
+    chosen->result     = drive_image_read(&chosen->image, law, content->words, content->count);
+    if (chosen->result == DRIVE_IMAGE_OK) {
+        chosen->result = check(chosen);
+    }
+}
+
+/* Constants out of range are no matter of the board: app_init() refuses them. */
+static bool take_compiled(app_image_t *chosen, const app_config_t *app, const drive_config_t *drive)
+{
+    const board_difference_t stored = chosen->difference;
+
+    if (!drive_image_copy(&chosen->image, app, drive, chosen->board)) {
+        return false;
+    }
+    chosen->other_board = check(chosen) == DRIVE_IMAGE_OTHER_BOARD;
+    if (chosen->other_board) {
+        chosen->result = DRIVE_IMAGE_OTHER_BOARD;
+    } else {
+        chosen->difference = stored;
+    }
+    return true;
+}
+
+bool app_image_choose(app_image_t *chosen, const app_config_t *app, const drive_config_t *drive,
+                      const board_identity_t *board)
 {
     const store_content_t stored = store_newest(STORE_IMAGE);
-    const bool            taken  = read(&chosen->image, &stored, drive->law);
+    bool                  taken  = false;
 
+    chosen->board       = board;
+    chosen->result      = DRIVE_IMAGE_OK;
+    chosen->difference  = no_difference;
+    chosen->other_board = false;
+    if ((stored.words != NULL) && (drive->law != NULL)) {
+        app_image_take(chosen, drive->law, &stored);
+        taken = chosen->result == DRIVE_IMAGE_OK;
+    }
     chosen->number   = taken ? stored.number : 0UL;
     chosen->fallback = stored.lost || (!taken && (stored.words != NULL));
-    return taken || drive_image_copy(&chosen->image, app, drive);
+    return taken || take_compiled(chosen, app, drive);
 }
 
 bool app_image_accept(app_image_t *chosen)

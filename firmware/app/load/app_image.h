@@ -5,7 +5,7 @@
  *
  * A stored image that is damaged, missing or refused leaves a fall-back: the image before it, or the
  * compiled-in constants. They may be those of another motor. The drive communicates with them, and
- * does not run until they are accepted.
+ * does not run until they are accepted. All of them must belong to the board of this firmware.
  */
 #ifndef APP_IMAGE_H
 #define APP_IMAGE_H
@@ -14,26 +14,33 @@
 #include "store.h"
 
 typedef struct {
-    drive_image_t image;    /**< in use; the tick reads it */
-    uint32_t      number;   /**< sequence number (store.h); 0: compiled in */
-    bool          fallback; /**< not what was stored last */
+    drive_image_t           image;    /**< in use; the tick reads it */
+    uint32_t                number;   /**< sequence number (store.h); 0: compiled in */
+    bool                    fallback; /**< not what was stored last */
+    const board_identity_t *board;    /**< of this firmware */
+    drive_image_result_t result; /**< of the last check: of the stored image, or of the loader's */
+    board_difference_t   difference; /**< DRIVE_IMAGE_OTHER_BOARD: the first one */
+    bool other_board; /**< the compiled-in constants contradict the board: the drive must not run */
 } app_image_t;
 
 /**
- * @brief Checks the constants of an image: what the board's registers hold, and app_config_check().
+ * @brief Reads words into chosen->image and checks them: format, board, ranges.
  *
+ * The outcome is in chosen->result. After any but DRIVE_IMAGE_OK the image must not be used.
  * Context: init, or the loader.
  */
-drive_image_result_t app_image_check(const drive_image_t *image);
+void app_image_take(app_image_t *chosen, const law_t *law, const store_content_t *content);
 
 /**
  * @brief Chooses the constants and copies them.
  *
+ * @param board Must stay valid.
  * @return false: the compiled-in constants have no law or are too large. Nothing may run then.
  *
  * Context: init, before board_init().
  */
-bool app_image_choose(app_image_t *chosen, const app_config_t *app, const drive_config_t *drive);
+bool app_image_choose(app_image_t *chosen, const app_config_t *app, const drive_config_t *drive,
+                      const board_identity_t *board);
 
 /**
  * @brief Stores a fall-back as the last image, so that it runs from now on. Changes nothing else.

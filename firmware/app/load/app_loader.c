@@ -16,11 +16,47 @@ static void put_pair(uint16_t *words, uint32_t x)
     words[1] = (uint16_t)(x & 0xFFFFUL);
 }
 
+static void put_float(uint16_t *words, float x)
+{
+    fields_t f = fields_writer(words, 2UL);
+
+    fields_float(&f, &x);
+}
+
+/* The next character of a text, and zeros behind its end. */
+static uint16_t next_octet(const char **text)
+{
+    const uint16_t octet = (uint16_t)((uint16_t) * *text & 0x7FU);
+
+    if (octet != 0U) {
+        *text = &(*text)[1];
+    }
+    return octet;
+}
+
+/* The registers from APP_LOADER_FIELD on. */
+static void put_board(uint16_t *words, const app_image_t *image)
+{
+    const board_difference_t *const d    = &image->difference;
+    const char                     *name = board_field_name(d->field);
+
+    words[0] = d->field;
+    put_float(&words[APP_LOADER_IMAGE_HI - APP_LOADER_FIELD], d->image);
+    put_float(&words[APP_LOADER_BOARD_HI - APP_LOADER_FIELD], d->board);
+    for (uint16_t n = 0U; n < (uint16_t)APP_LOADER_NAME_WORDS; n++) {
+        const uint16_t high                                   = next_octet(&name);
+        const uint16_t low                                    = next_octet(&name);
+        words[(APP_LOADER_FIELD_NAME - APP_LOADER_FIELD) + n] = (uint16_t)((high << 8) | low);
+    }
+    put_pair(&words[APP_LOADER_SUM_HI - APP_LOADER_FIELD], image->board->sum);
+}
+
 void app_loader_init(app_loader_t *l, const app_image_t *in_force)
 {
-    const app_loader_t none = {.state = APP_LOADER_AWAY, .reason = DRIVE_IMAGE_OK};
+    const app_loader_t none = {.state = APP_LOADER_AWAY};
 
     *l          = none;
+    l->in_force = in_force;
     l->fallback = in_force->fallback;
     l->number   = in_force->number;
     l->law      = in_force->image.drive.law->number;
@@ -39,11 +75,12 @@ bool app_loader_read(const app_loader_t *l, uint16_t first, uint16_t count, uint
         return false;
     }
     all[APP_LOADER_STATE]  = (uint16_t)l->state;
-    all[APP_LOADER_REASON] = (uint16_t)l->reason;
+    all[APP_LOADER_REASON] = (uint16_t)l->in_force->result;
     put_pair(&all[APP_LOADER_PUT_HI], l->put_words);
     put_pair(&all[APP_LOADER_ROOM_HI], store_room());
     all[APP_LOADER_LAW] = l->law;
     put_pair(&all[APP_LOADER_NUMBER_HI], l->number);
+    put_board(&all[APP_LOADER_FIELD], l->in_force);
     for (uint16_t n = 0U; n < count; n++) {
         values[n] = all[first + n];
     }
@@ -63,8 +100,8 @@ bool app_loader_read_holding(uint16_t first, uint16_t count, uint16_t *values)
 
 static void begin(app_loader_t *l)
 {
-    l->put_words = 0UL;
-    l->reason    = DRIVE_IMAGE_OK;
+    l->put_words     = 0UL;
+    l->image->result = DRIVE_IMAGE_OK;
     l->state =
         store_begin(&l->write, STORE_IMAGE, l->count) ? APP_LOADER_WRITING : APP_LOADER_FLASH;
 }
@@ -77,12 +114,8 @@ static void commit(app_loader_t *l)
         l->state = APP_LOADER_SUM;
         return;
     }
-    drive_image_t *const image = &l->image->image;
-    l->reason = drive_image_read(image, image->drive.law, content.words, content.count);
-    if (l->reason == DRIVE_IMAGE_OK) {
-        l->reason = app_image_check(image);
-    }
-    if (l->reason != DRIVE_IMAGE_OK) {
+    app_image_take(l->image, l->image->image.drive.law, &content);
+    if (l->image->result != DRIVE_IMAGE_OK) {
         l->state = APP_LOADER_IMAGE;
         return;
     }

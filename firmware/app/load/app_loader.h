@@ -16,8 +16,9 @@
 
 #include "app_image.h"
 
-#define APP_LOADER_FIRST 8000U
-#define APP_LOADER_DATA  100U /**< most content words in a request; Modbus allows 123 */
+#define APP_LOADER_FIRST      8000U
+#define APP_LOADER_NAME_WORDS 12   /**< of a field: 24 characters, the longest has as many */
+#define APP_LOADER_DATA       100U /**< most content words in a request; Modbus allows 123 */
 
 /** Holding registers, from APP_LOADER_FIRST on; values of 32 bits high word first. */
 enum {
@@ -46,14 +47,23 @@ typedef enum {
 /** Input registers, from APP_LOADER_FIRST on. */
 enum {
     APP_LOADER_STATE = 0, /**< app_loader_state_t */
-    APP_LOADER_REASON,    /**< drive_image_result_t of a COMMIT that was refused */
-    APP_LOADER_PUT_HI,    /**< words written since BEGIN */
+    APP_LOADER_REASON, /**< drive_image_result_t of a COMMIT, or of the stored image at the start */
+    APP_LOADER_PUT_HI, /**< words written since BEGIN */
     APP_LOADER_PUT_LO,
     APP_LOADER_ROOM_HI, /**< largest image [words]; 0: the board has no store */
     APP_LOADER_ROOM_LO,
     APP_LOADER_LAW,       /**< number of the firmware's law */
     APP_LOADER_NUMBER_HI, /**< sequence number of the image in use; 0: compiled in */
     APP_LOADER_NUMBER_LO,
+    APP_LOADER_FIELD, /**< of the board, with DRIVE_IMAGE_OTHER_BOARD (board_identity.h); else 0 */
+    APP_LOADER_IMAGE_HI, /**< value of the image: bits of a float, as the next */
+    APP_LOADER_IMAGE_LO,
+    APP_LOADER_BOARD_HI, /**< value of the board */
+    APP_LOADER_BOARD_LO,
+    APP_LOADER_FIELD_NAME, /**< two characters a word, the first one high, zero padded */
+    APP_LOADER_SUM_HI =
+        APP_LOADER_FIELD_NAME + APP_LOADER_NAME_WORDS, /**< of the board's identity */
+    APP_LOADER_SUM_LO,
     APP_LOADER_INPUT_COUNT
 };
 
@@ -70,7 +80,6 @@ typedef enum {
 
 typedef struct {
     app_loader_state_t   state;
-    drive_image_result_t reason;
     app_loader_command_t task;  /**< in state BUSY */
     uint32_t             count; /**< argument of the command, as the next */
     uint32_t             crc;
@@ -78,8 +87,9 @@ typedef struct {
     uint32_t             put_words;
     bool                 restart;  /**< after the answer has been sent */
     bool                 enter;    /**< the restart enters the loader */
-    bool                 fallback; /**< app_image_t, as the next */
-    uint32_t             number;   /**< of the image in use, as the next */
+    const app_image_t   *in_force; /**< the next three are copied: the loader overwrites them */
+    bool                 fallback;
+    uint32_t             number;
     uint16_t             law;
     app_image_t         *image; /**< buffer to check an image; NULL: the application runs */
 } app_loader_t;

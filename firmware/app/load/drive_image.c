@@ -6,24 +6,7 @@
 
 #include "fields_app.h"
 #include "fields_drive.h"
-
-static uint16_t octet(char c)
-{
-    return (uint16_t)((uint16_t)c & 0xFFU); /* a C28x char has 16 bits */
-}
-
-/* Each word holds two characters. The buffer x has one more character, the terminating zero. */
-static void text(fields_t *f, char *x, uint16_t words)
-{
-    for (uint16_t n = 0U; n < words; n++) {
-        char *const c    = &x[2U * n];
-        uint16_t    word = (uint16_t)((uint16_t)(octet(c[0]) << 8) | octet(c[1]));
-        fields_u16(f, &word);
-        c[0] = (char)(word >> 8);
-        c[1] = (char)(word & 0xFFU);
-    }
-    x[2U * words] = '\0';
-}
+#include "fields_text.h"
 
 /* Copies a text, cut to 2 * words characters and padded with zeros. */
 static void copy_text(char *to, const char *from, uint16_t words)
@@ -41,11 +24,12 @@ static void copy_text(char *to, const char *from, uint16_t words)
 void drive_image_fields(fields_t *f, drive_image_t *image, const law_t *law)
 {
     FIELDS_BEGIN(f, digest);
-    text(f, image->digest, DRIVE_IMAGE_DIGEST_WORDS);
+    fields_text(f, image->digest, DRIVE_IMAGE_DIGEST_WORDS);
     FIELDS_END(f);
     FIELDS_BEGIN(f, name);
-    text(f, image->name, DRIVE_IMAGE_NAME_WORDS);
+    fields_text(f, image->name, DRIVE_IMAGE_NAME_WORDS);
     FIELDS_END(f);
+    board_identity_fields(f, &image->board);
     FIELDS_PART(fields_app, f, image, app);
     if (image->app.scale.ntc_points > DRIVE_IMAGE_TEMPERATURES) {
         f->ok = false;
@@ -103,7 +87,8 @@ uint32_t drive_image_write(drive_image_t *image, uint16_t *to, uint32_t room)
     return f.ok ? f.at : 0UL;
 }
 
-bool drive_image_copy(drive_image_t *image, const app_config_t *app, const drive_config_t *drive)
+bool drive_image_copy(drive_image_t *image, const app_config_t *app, const drive_config_t *drive,
+                      const board_identity_t *board)
 {
     const law_t *const law = drive->law;
 
@@ -114,6 +99,7 @@ bool drive_image_copy(drive_image_t *image, const app_config_t *app, const drive
     (void)memset(image, 0, sizeof *image);
     image->app   = *app;
     image->drive = *drive;
+    image->board = *board;
     for (uint16_t n = 0U; n < app->scale.ntc_points; n++) {
         image->ntc_degC[n] = app->scale.ntc_degC[n];
     }

@@ -10,28 +10,32 @@
  *     1        number of the law (law.h)
  *     2 .. 13  digest of the drive file: text, two characters a word, first one high, zero padded
  *     14 .. 29 name of the drive, in the same format
- *     30 ..    constants of application and board, temperatures, drive, law; order of fields.h
+ *     30 .. 41 name of the board that it was made for, in the same format
+ *     42 ..    facts of that board (board_identity.h), two words each
+ *     80 ..    constants of application and board, temperatures, drive, law; order of fields.h
  */
 #ifndef DRIVE_IMAGE_H
 #define DRIVE_IMAGE_H
 
 #include "app_config.h"
+#include "board_identity.h"
 #include "drive_config.h"
 #include "laws.h"
 
-#define DRIVE_IMAGE_SCHEMA       2U  /**< incremented when the meaning of a word changes */
+#define DRIVE_IMAGE_SCHEMA       3U  /**< incremented when the meaning of a word changes */
 #define DRIVE_IMAGE_DIGEST_WORDS 12U /**< length that sdre-gains writes */
 #define DRIVE_IMAGE_NAME_WORDS   16U /**< chosen: 32 characters; longer names are cut */
 #define DRIVE_IMAGE_TEMPERATURES 32U /**< chosen: sdre-gains writes 28 points */
 
 /** Constants of one drive. Its pointers point into the object itself: it must not be moved. */
 typedef struct {
-    char            digest[(2U * DRIVE_IMAGE_DIGEST_WORDS) + 1U];
-    char            name[(2U * DRIVE_IMAGE_NAME_WORDS) + 1U];
-    app_config_t    app;
-    float           ntc_degC[DRIVE_IMAGE_TEMPERATURES];
-    drive_config_t  drive;
-    law_constants_t constants;
+    char             digest[(2U * DRIVE_IMAGE_DIGEST_WORDS) + 1U];
+    char             name[(2U * DRIVE_IMAGE_NAME_WORDS) + 1U];
+    board_identity_t board; /**< that the constants were made for; a read one has no sum */
+    app_config_t     app;
+    float            ntc_degC[DRIVE_IMAGE_TEMPERATURES];
+    drive_config_t   drive;
+    law_constants_t  constants;
 } drive_image_t;
 
 typedef enum {
@@ -39,7 +43,8 @@ typedef enum {
     DRIVE_IMAGE_OTHER_SCHEMA, /**< written by an incompatible sdre-gains */
     DRIVE_IMAGE_OTHER_LAW,    /**< the firmware was linked with another law */
     DRIVE_IMAGE_DAMAGED,      /**< wrong length, or a flag is neither 0 nor 1 */
-    DRIVE_IMAGE_REFUSED       /**< constant out of range, or the board does not fit */
+    DRIVE_IMAGE_REFUSED,      /**< constant out of range, or the board does not fit */
+    DRIVE_IMAGE_OTHER_BOARD   /**< made for another board, or contradicts this one */
 } drive_image_result_t;
 
 /**
@@ -73,6 +78,7 @@ uint32_t drive_image_write(drive_image_t *image, uint16_t *words, uint32_t room)
  *
  * Context: init.
  */
-bool drive_image_copy(drive_image_t *image, const app_config_t *app, const drive_config_t *drive);
+bool drive_image_copy(drive_image_t *image, const app_config_t *app, const drive_config_t *drive,
+                      const board_identity_t *board);
 
 #endif /* DRIVE_IMAGE_H */

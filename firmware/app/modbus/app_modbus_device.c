@@ -28,7 +28,7 @@
 #define LAST_REGULAR 0x7FU
 #define LAST_ALL     0xFFU
 
-#define OBJECTS  7U
+#define OBJECTS  8U
 #define TEXT_MAX 24U /* chosen: all objects fit one answer */
 
 /* Source of an object: a text, a name in image words of two characters, or a hexadecimal number. */
@@ -151,6 +151,11 @@ static bool is_known(const object_t *objects, uint16_t id)
     return known;
 }
 
+static const char *board_name(const app_registers_t *r)
+{
+    return (r->loader != NULL) ? r->loader->in_force->board->name : "";
+}
+
 void app_modbus_device_identify(app_modbus_t *m, const app_registers_t *r)
 {
     const object_t objects[OBJECTS] = {{0U, "sdre-drive"},
@@ -159,7 +164,8 @@ void app_modbus_device_identify(app_modbus_t *m, const app_registers_t *r)
                                        {4U, "sdre-drive"},
                                        {0x80U, r->config->drive_name},
                                        {0x81U, r->config->digest},
-                                       {0x82U, APP_REGISTERS_DIGEST}};
+                                       {0x82U, APP_REGISTERS_DIGEST},
+                                       {0x83U, board_name(r)}};
     const uint16_t code             = m->rx_octets[3];
     const uint16_t known            = is_known(objects, m->rx_octets[4]) ? 1U : 0U;
     const uint16_t wanted           = ((code == READ_ONE) || (known != 0U)) ? m->rx_octets[4] : 0U;

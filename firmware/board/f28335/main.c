@@ -35,7 +35,8 @@ int main(void)
 {
     app_parameters_done_t stored = APP_PARAMETERS_NOT_ASKED;
 
-    if (!board_prepare() || !app_image_choose(&in_force, &board_config, &gain_tables_drive) ||
+    if (!board_prepare() ||
+        !app_image_choose(&in_force, &board_config, &gain_tables_drive, &board_identity) ||
         !board_init(&in_force.image.app.board)) {
         stay_off();
     }

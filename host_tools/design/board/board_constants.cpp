@@ -218,17 +218,27 @@ app_watch_heat_config_t heat_of(const Drive &d)
             single(d.board.inverter_time_constant_s)};
 }
 
-} // namespace
-
-double largest_shown_current_A(const Drive &drive)
+double edges_Hz(const Drive &d)
 {
-    // Less the zero's largest error, and a code.
-    return drive.current_sensors.range_A * (1.0 - 2.0 * (offset_max_cnt + 2.0) / codes);
+    return trip_speed_e_radps(d) / count_e_rad(d);
 }
 
-double largest_shown_dc_link_V(const Drive &drive)
+} // namespace
+
+double largest_trip_current_A(const Drive &drive)
 {
-    return drive.board.dc_link_range_V * (codes - 1.0) / codes;
+    // Less the zero's largest error, and a code.
+    const double shown =
+        drive.current_sensors.range_A * (1.0 - 2.0 * (offset_max_cnt + 2.0) / codes);
+    return drive.board.file ? std::min(shown, (*drive.board.file)[BOARD_FACT_TRIP_CURRENT_A])
+                            : shown;
+}
+
+double largest_trip_dc_link_V(const Drive &drive)
+{
+    const double shown = drive.board.dc_link_range_V * (codes - 1.0) / codes;
+    return drive.board.file ? std::min(shown, (*drive.board.file)[BOARD_FACT_RATED_DC_LINK_V])
+                            : shown;
 }
 
 BoardConstants board_constants(const Drive &d)
@@ -259,6 +269,16 @@ BoardConstants board_constants(const Drive &d)
     c.modbus_address         = 1U;
     c.modbus_gap_ticks       = static_cast<std::uint16_t>(std::ceil(1e-3 * gap_ms * pwm_Hz) + 1.0);
     c.modbus_timeout_ticks   = ticks16(1e-3 * timeout_ms, pwm_Hz);
+    if (const auto [key, why] = board_refusal(d); !key.empty()) {
+        throw InputError(d.name + ": " + key + " " + why); // one that was changed since
+    }
+    if (const BoardFile *const b = d.board.file ? &*d.board.file : nullptr;
+        b != nullptr && edges_Hz(d) > (*b)[BOARD_FACT_ENCODER_EDGES_Hz]) {
+        throw InputError(fmt::format(
+            "{}: [encoder] lines = {} is not allowed: {:.3g} edges a second "
+            "at the trip speed, encoder_edges_Hz = {:g} of board \"{}\"",
+            d.name, d.encoder.lines, edges_Hz(d), (*b)[BOARD_FACT_ENCODER_EDGES_Hz], b->name));
+    }
     return out;
 }
 

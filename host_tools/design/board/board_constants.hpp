@@ -37,8 +37,8 @@ struct BoardConstants {
 /// InputError in one line on the first quantity that the board cannot do or show, with what it can.
 BoardConstants board_constants(const Drive &drive);
 
-/// Largest values that the converters show. A trip level beyond them would never act.
-double largest_shown_current_A(const Drive &drive);
-double largest_shown_dc_link_V(const Drive &drive);
+/// Largest trip levels: what the converters show, since one beyond would never act, and the board's own limits.
+double largest_trip_current_A(const Drive &drive);
+double largest_trip_dc_link_V(const Drive &drive);
 
 } // namespace sdre

@@ -4,6 +4,7 @@ of app_loader.h."""
 
 from __future__ import annotations
 
+import struct
 import time
 import zlib
 from dataclasses import dataclass
@@ -17,9 +18,10 @@ FIRST = 8000
 COMMAND, OFFSET = FIRST, FIRST + 5
 ENTER, BEGIN, COMMIT, FORGET, LEAVE = 1, 2, 3, 4, 5
 # Objects of function 43/14
-NAME, DIGEST = 0x80, 0x81
+NAME, DIGEST, BOARD = 0x80, 0x81, 0x83
 # Input registers
-STATE, PUT, ROOM, LAW, NUMBER, COUNT = 0, 2, 4, 6, 7, 9
+STATE, PUT, ROOM, LAW, NUMBER, FIELD, COUNT = 0, 2, 4, 6, 7, 9, 28
+IMAGE_VALUE, BOARD_VALUE, FIELD_NAME, SUM_OF_BOARD = 10, 12, 14, 26
 AWAY, IDLE, BUSY, WRITING, STORED, SUM, IMAGE, FLASH = range(8)
 REASONS = {
     1: "it was made by another sdre-gains: make it again with the one that belongs to this "
@@ -28,6 +30,7 @@ REASONS = {
     3: "it is damaged",
     4: "a constant is out of range, or it does not fit the board",
 }
+OTHER_BOARD = 5
 LAWS = {
     1: "noc",
     2: "noc_speed",
@@ -42,7 +45,8 @@ LAWS = {
 PER_REQUEST = 100  # words; of 123 that a request has room for
 RESTART_S = 10.0  # chosen: many times what a start needs, and two requests without an answer
 ERASE_S = 60.0  # data sheet: 2 s typical, 15 s at most, of a sector; two of them
-HEAD_WORDS = 30
+BOARD_NAME = slice(30, 42)  # words of an image: the board it was made for
+HEAD_WORDS = 80
 
 NOT_TAKEN = (
     "the flash did not take it; an F28335's is written with a programming tool (docs/loading.md)"
@@ -59,6 +63,9 @@ class Loader:
     room_words: int
     law: int
     number: int
+    field: str  # of the board file: the first in which image and board differ
+    image_value: float
+    board_value: float
 
 
 @dataclass(frozen=True)
@@ -68,28 +75,52 @@ class InForce:
     number: int
     name: str
     digest: str
+    board: str
+    refused: str  # the stored image, at the start; "" when there is none
 
     @property
     def words(self) -> str:
         """For messages."""
         where = f"image {self.number}" if self.number else "what is compiled in"
-        return f"{where}: {self.name}, {self.digest}"
+        stored = f"; the stored image is not used: {self.refused}" if self.refused else ""
+        return f"{where}: {self.name}, {self.digest}, for {self.board}{stored}"
 
 
 def _pair(values: List[int], at: int) -> int:
     return (values[at] << 16) | values[at + 1]
 
 
+def _float(values: List[int], at: int) -> float:
+    return float(struct.unpack(">f", struct.pack(">I", _pair(values, at)))[0])
+
+
+def _text(words: List[int]) -> str:
+    octets = b"".join(word.to_bytes(2, "big") for word in words)
+    return octets.split(b"\0")[0].decode("ascii", "replace")
+
+
 def look(drive: Drive) -> Loader:
     """DriveError when the firmware has no loader."""
     v = drive.words(FIRST, COUNT)
-    return Loader(v[STATE], v[1], _pair(v, PUT), _pair(v, ROOM), v[LAW], _pair(v, NUMBER))
+    return Loader(
+        v[STATE],
+        v[1],
+        _pair(v, PUT),
+        _pair(v, ROOM),
+        v[LAW],
+        _pair(v, NUMBER),
+        _text(v[FIELD_NAME:SUM_OF_BOARD]),
+        _float(v, IMAGE_VALUE),
+        _float(v, BOARD_VALUE),
+    )
 
 
 def in_force(drive: Drive) -> InForce:
     """The same, with the names of function 43/14."""
     found, of = look(drive), drive.identify()
-    return InForce(found.number, of.get(NAME, ""), of.get(DIGEST, ""))
+    board = of.get(BOARD, "")
+    refused = _reason(found, board, "") if found.state == AWAY and found.reason else ""
+    return InForce(found.number, of.get(NAME, ""), of.get(DIGEST, ""), board, refused)
 
 
 def read_image(path: Path) -> List[int]:
@@ -178,7 +209,8 @@ def load(drive: Drive, path: Path, progress: Callable[[float], None]) -> InForce
             COMMAND, [COMMIT, len(words) >> 16, len(words) & 0xFFFF, crc >> 16, crc & 0xFFFF]
         )
         found = _wait(drive, [STORED, SUM, IMAGE, FLASH], ERASE_S)
-    why = _refusal(found)
+    of = drive.identify().get(BOARD, "") if found.state == IMAGE else ""
+    why = _refusal(found, of, _text(words[BOARD_NAME]))
     now = _leave(drive)
     if why:
         raise DriveError(f"{path}: {why}; in force: {now.words}")
@@ -191,16 +223,31 @@ def forget(drive: Drive) -> InForce:
     drive.write_words(COMMAND, [FORGET])
     found = _wait(drive, [STORED, FLASH], ERASE_S)
     now = _leave(drive)
-    if why := _refusal(found):
+    if why := _refusal(found, "", ""):
         raise DriveError(f"{why}; in force: {now.words}")
     return now
 
 
-def _refusal(found: Loader) -> Optional[str]:
+def _reason(found: Loader, board: str, made_for: str) -> str:
+    """Why an image is refused; board: that of the firmware, made_for: that of the image or ""."""
+    if found.reason != OTHER_BOARD:
+        return REASONS.get(found.reason, f"reason {found.reason}")
+    if found.field == "sum":
+        return "the firmware's own board identity is damaged: program the firmware again"
+    image = f"an image for {made_for}" if made_for else "the image"
+    if found.field == "name":
+        return f"it is {image}, the drive is a {board}; make it with the drive's own board file"
+    return (
+        f"{found.field} is {found.image_value:g} in {image} and {found.board_value:g} of the "
+        f"drive's {board}; make it with [board] name = \"{board}\" and this board's file"
+    )
+
+
+def _refusal(found: Loader, board: str, made_for: str) -> Optional[str]:
     if found.state == FLASH:
         return NOT_TAKEN
     if found.state == SUM:
         return "it arrived damaged"
     if found.state == IMAGE:
-        return f"the drive refuses it: {REASONS.get(found.reason, f'reason {found.reason}')}"
+        return f"the drive refuses it: {_reason(found, board, made_for)}"
     return None

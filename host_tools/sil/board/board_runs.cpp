@@ -7,14 +7,16 @@
 
 #include "common/errors.hpp"
 #include "design/board/board_constants.hpp"
+#include "design/board/identity.hpp"
 
 extern "C" {
 #include "app.h"
 #include "app_registers.h"
 
-extern drive_config_t sil_drive_config;
-extern app_config_t   sil_board_config;
-int                   firmware_main(void);
+extern drive_config_t   sil_drive_config;
+extern app_config_t     sil_board_config;
+extern board_identity_t sil_board_identity;
+int                     firmware_main(void);
 }
 
 namespace sdre {
@@ -39,9 +41,10 @@ float omega_of(int tenths)
 void set_firmware(const drive_config_t &config, const Drive &drive)
 {
     static BoardConstants constants;
-    constants        = board_constants(drive);
-    sil_drive_config = config;
-    sil_board_config = constants.bind();
+    constants          = board_constants(drive);
+    sil_drive_config   = config;
+    sil_board_config   = constants.bind();
+    sil_board_identity = board_identity_of(drive);
 }
 
 ApiRun::ApiRun(const Scenario &s, long start_tick, double dead_time_s)

@@ -9,7 +9,8 @@ extern "C" {
 #include "store.h"
 
 const std::uint16_t *f28335_board_store(std::uint16_t slot);
-bool f28335_image_choose(app_image_t *chosen, const app_config_t *app, const drive_config_t *drive);
+bool f28335_image_choose(app_image_t *chosen, const app_config_t *app, const drive_config_t *drive,
+                         const board_identity_t *board);
 }
 
 namespace {
@@ -30,8 +31,9 @@ std::int64_t summed_words()
 
 } // namespace
 
-bool f28335_image_choose(app_image_t *chosen, const app_config_t *app, const drive_config_t *drive)
+bool f28335_image_choose(app_image_t *chosen, const app_config_t *app, const drive_config_t *drive,
+                         const board_identity_t *board)
 {
     sdre::f28335::Device::current().spend_cycles(cycles_per_word * summed_words());
-    return app_image_choose(chosen, app, drive);
+    return app_image_choose(chosen, app, drive, board);
 }

@@ -23,7 +23,7 @@ static app_loader_t  loader;
 
 static void use(const drive_config_t *drive, float speed_max_e_radps)
 {
-    TEST_ASSERT_TRUE(drive_image_copy(&other, &board_config, drive));
+    TEST_ASSERT_TRUE(drive_image_copy(&other, &board_config, drive, &board_identity));
     other.drive.speed_max_e_radps = speed_max_e_radps;
     other.name[0]                 = 'x';
     count                         = drive_image_write(&other, words, ROOM);
@@ -32,7 +32,8 @@ static void use(const drive_config_t *drive, float speed_max_e_radps)
 
 static void start_again(void)
 {
-    TEST_ASSERT_TRUE(app_image_choose(&in_force, &board_config, &gain_tables_drive));
+    TEST_ASSERT_TRUE(
+        app_image_choose(&in_force, &board_config, &gain_tables_drive, &board_identity));
     app_loader_init(&loader, &in_force);
 }
 
@@ -173,9 +174,121 @@ static void test_images_that_cannot_run_are_refused_with_their_reason(void)
     fake_board.misfit = true; /* board_fits() */
     TEST_ASSERT_EQUAL_UINT16(DRIVE_IMAGE_REFUSED, reason_of_load());
     fake_board.misfit     = false;
-    other.app.dead_time_s = 1e-6f; /* not that of the drive: app_init() */
+    other.app.dead_time_s = 1e-6f; /* not that of the drive: app_config_check() */
     count                 = drive_image_write(&other, words, ROOM);
     TEST_ASSERT_EQUAL_UINT16(DRIVE_IMAGE_REFUSED, reason_of_load());
+}
+
+/* The loader's registers about a field. */
+static void expect_field(uint16_t field, float image, float board)
+{
+    uint16_t    all[APP_LOADER_INPUT_COUNT];
+    const char *name = board_field_name(field);
+
+    TEST_ASSERT_TRUE(app_loader_read(&loader, 0U, APP_LOADER_INPUT_COUNT, all));
+    TEST_ASSERT_EQUAL_UINT16(DRIVE_IMAGE_OTHER_BOARD, all[APP_LOADER_REASON]);
+    TEST_ASSERT_EQUAL_UINT16(field, all[APP_LOADER_FIELD]);
+    const uint32_t bits[2] = {((uint32_t)all[APP_LOADER_IMAGE_HI] << 16) | all[APP_LOADER_IMAGE_LO],
+                              ((uint32_t)all[APP_LOADER_BOARD_HI] << 16) |
+                                  all[APP_LOADER_BOARD_LO]};
+    TEST_ASSERT_EQUAL_MEMORY(&bits[0], &image, sizeof image);
+    TEST_ASSERT_EQUAL_MEMORY(&bits[1], &board, sizeof board);
+    for (uint16_t n = 0U; n < 2U * (uint16_t)APP_LOADER_NAME_WORDS; n++) {
+        const uint16_t word  = all[APP_LOADER_FIELD_NAME + (n / 2U)];
+        const uint16_t octet = (uint16_t)(((n & 1U) == 0U) ? (word >> 8) : (word & 0xFFU));
+        TEST_ASSERT_EQUAL_UINT16((uint16_t)*name, octet);
+        name += (*name != '\0') ? 1 : 0;
+    }
+    TEST_ASSERT_EQUAL_HEX32(board_identity.sum,
+                            ((uint32_t)all[APP_LOADER_SUM_HI] << 16) | all[APP_LOADER_SUM_LO]);
+}
+
+/* Every field, each alone. The old image stays. */
+static void test_an_image_of_another_board_is_refused_by_the_name_of_the_field(void)
+{
+    for (uint16_t n = 0U; n < (uint16_t)BOARD_FACT_COUNT; n++) {
+        use(&gain_tables_drive, 500.0f);
+        other.board.fact[n] = (2.0f * other.board.fact[n]) + 0.5f;
+        count               = drive_image_write(&other, words, ROOM);
+        start_again();
+        load();
+        TEST_ASSERT_EQUAL_UINT16(APP_LOADER_IMAGE, input(APP_LOADER_STATE));
+        expect_field((uint16_t)(n + 1U), other.board.fact[n], board_identity.fact[n]);
+        start_again();
+        TEST_ASSERT_EQUAL_UINT32(0U, in_force.number);
+    }
+    use(&gain_tables_drive, 500.0f);
+    other.board.name[0] = 'x';
+    count               = drive_image_write(&other, words, ROOM);
+    TEST_ASSERT_EQUAL_UINT16(DRIVE_IMAGE_OTHER_BOARD, reason_of_load());
+}
+
+/* With right sums, and made for this board by its own words. */
+static void test_constants_that_contradict_the_board_are_refused(void)
+{
+    other.app.board.dead_time_cnt    = 4U;
+    other.app.dead_time_s            = 5e-8f;
+    other.drive.hardware.dead_time_s = 5e-8f;
+    count                            = drive_image_write(&other, words, ROOM);
+    start_again();
+    load();
+    expect_field((uint16_t)BOARD_FACT_DEAD_TIME_MIN_s + 1U, 4.0f / 75e6f, 3e-6f);
+
+    use(&gain_tables_drive, 500.0f);
+    other.drive.trip_current_A = 9.2f;
+    count                      = drive_image_write(&other, words, ROOM);
+    load();
+    expect_field((uint16_t)BOARD_FACT_TRIP_CURRENT_A + 1U, 9.2f, 9.0f);
+    use(&gain_tables_drive, 500.0f);
+    load();
+    TEST_ASSERT_EQUAL_UINT16(APP_LOADER_STORED, input(APP_LOADER_STATE));
+    TEST_ASSERT_EQUAL_UINT16(DRIVE_IMAGE_OK, input(APP_LOADER_REASON));
+    TEST_ASSERT_EQUAL_UINT16(BOARD_FIELD_NONE, input(APP_LOADER_FIELD));
+}
+
+static void start_on(const board_identity_t *board)
+{
+    TEST_ASSERT_TRUE(app_image_choose(&in_force, &board_config, &gain_tables_drive, board));
+    app_loader_init(&loader, &in_force);
+}
+
+/* A newer firmware, for another board: the image in the store and what is compiled in. */
+static void test_a_stored_image_of_another_board_is_not_used_and_is_told(void)
+{
+    load();
+    board_identity_t edited                 = board_identity;
+    edited.fact[BOARD_FACT_RATED_CURRENT_A] = 4.5f;
+    edited.sum                              = board_identity_sum(&edited);
+    start_on(&edited);
+    TEST_ASSERT_EQUAL_UINT32(0U, in_force.number);
+    TEST_ASSERT_FALSE(in_force.other_board);
+    TEST_ASSERT_EQUAL_UINT16(DRIVE_IMAGE_OTHER_BOARD, input(APP_LOADER_REASON));
+    TEST_ASSERT_EQUAL_UINT16((uint16_t)BOARD_FACT_RATED_CURRENT_A + 1U, input(APP_LOADER_FIELD));
+    (void)app_init(&in_force.image.app, &in_force.image.drive);
+    app_tell_image(&in_force);
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_NONE, app_status_read().fault);
+}
+
+static void test_compiled_constants_of_another_board_stay_in_fault(void)
+{
+    board_identity_t edited                 = board_identity;
+    edited.fact[BOARD_FACT_CURRENT_RANGE_A] = 20.0f;
+    edited.sum                              = board_identity_sum(&edited);
+    for (int damaged = 0; damaged < 2; damaged++) {
+        start_on(&edited);
+        TEST_ASSERT_TRUE(in_force.other_board);
+        TEST_ASSERT_EQUAL_INT(CTL_OK, app_init(&in_force.image.app, &in_force.image.drive));
+        app_tell_image(&in_force);
+        for (int n = 0; n < 2000; n++) {
+            app_tick();
+            app_background();
+        }
+        TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, app_status_read().mode);
+        TEST_ASSERT_EQUAL_INT(APP_FAULT_CONFIG, app_status_read().fault);
+        edited     = board_identity;
+        edited.sum = edited.sum ^ 1U; /* the board's own identity is damaged */
+    }
+    TEST_ASSERT_EQUAL_UINT16(BOARD_FIELD_SUM, input(APP_LOADER_FIELD));
 }
 
 static void test_a_stored_image_that_the_board_refuses_is_not_used(void)
@@ -489,6 +602,10 @@ int main(void)
     RUN_TEST(test_forgetting_brings_the_compiled_ones_back);
     RUN_TEST(test_a_wrong_sum_is_refused_and_the_old_image_stays);
     RUN_TEST(test_images_that_cannot_run_are_refused_with_their_reason);
+    RUN_TEST(test_an_image_of_another_board_is_refused_by_the_name_of_the_field);
+    RUN_TEST(test_constants_that_contradict_the_board_are_refused);
+    RUN_TEST(test_a_stored_image_of_another_board_is_not_used_and_is_told);
+    RUN_TEST(test_compiled_constants_of_another_board_stay_in_fault);
     RUN_TEST(test_a_stored_image_that_the_board_refuses_is_not_used);
     RUN_TEST(test_a_flipped_bit_changes_nothing_or_is_told);
     RUN_TEST(test_a_lost_image_leaves_the_one_before_or_the_compiled_one);

@@ -31,7 +31,7 @@ static const drive_config_t *const drives[] = {&gain_tables_drive, &speed_tables
 
 static uint32_t written(const drive_config_t *drive)
 {
-    TEST_ASSERT_TRUE(drive_image_copy(&image, &board_config, drive));
+    TEST_ASSERT_TRUE(drive_image_copy(&image, &board_config, drive, &board_identity));
     const uint32_t count = drive_image_write(&image, words, ROOM);
     TEST_ASSERT_GREATER_THAN_UINT32(0U, count);
     return count;
@@ -39,7 +39,7 @@ static uint32_t written(const drive_config_t *drive)
 
 static void test_copy_is_what_was_compiled_in_and_points_into_itself(void)
 {
-    TEST_ASSERT_TRUE(drive_image_copy(&image, &board_config, &gain_tables_drive));
+    TEST_ASSERT_TRUE(drive_image_copy(&image, &board_config, &gain_tables_drive, &board_identity));
 
     TEST_ASSERT_TRUE(image.drive.constants == &image.constants);
     TEST_ASSERT_TRUE(image.drive.law == gain_tables_drive.law);
@@ -118,7 +118,7 @@ static void test_a_long_name_is_cut_and_none_is_empty(void)
     app_config_t named = board_config;
     named.drive_name   = "a name with more than two and thirty characters";
     named.digest       = NULL;
-    TEST_ASSERT_TRUE(drive_image_copy(&image, &named, &gain_tables_drive));
+    TEST_ASSERT_TRUE(drive_image_copy(&image, &named, &gain_tables_drive, &board_identity));
 
     TEST_ASSERT_EQUAL_STRING("a name with more than two and th", image.app.drive_name);
     TEST_ASSERT_EQUAL_STRING("", image.app.digest);
@@ -159,8 +159,8 @@ static void test_more_temperatures_than_room_are_refused(void)
     drive_config_t none   = gain_tables_drive;
     none.law              = NULL;
 
-    TEST_ASSERT_FALSE(drive_image_copy(&back, &many, &gain_tables_drive));
-    TEST_ASSERT_FALSE(drive_image_copy(&back, &board_config, &none));
+    TEST_ASSERT_FALSE(drive_image_copy(&back, &many, &gain_tables_drive, &board_identity));
+    TEST_ASSERT_FALSE(drive_image_copy(&back, &board_config, &none, &board_identity));
 
     /* the same in the words: the number of points stands before the temperatures */
     uint32_t at = 0U;

@@ -275,14 +275,22 @@ static void test_identification_tells_firmware_drive_and_digests(void)
     REQUEST(ADDRESS, 43, 14, 2, 0);
     TEST_ASSERT_EQUAL_INT(4, answer[7]);
     REQUEST(ADDRESS, 43, 14, 3, 0);
-    TEST_ASSERT_EQUAL_INT(7, answer[7]);
+    TEST_ASSERT_EQUAL_INT(8, answer[7]);
     assert_object(0x80, "a drive");
     assert_object(0x81, "1234");
     assert_object(0x82, APP_REGISTERS_DIGEST);
+    assert_object(0x83, ""); /* nobody has told of a board */
+    const app_image_t   image  = {.board = &board_identity};
+    app_loader_t        loader = {.in_force = &image};
+    app_loader_t *const kept   = registers.loader;
+    registers.loader           = &loader;
+    REQUEST(ADDRESS, 43, 14, 4, 0x83);
+    assert_object(0x83, "board_390w");
+    registers.loader = kept;
     REQUEST(ADDRESS, 43, 14, 3, 0x81);
-    TEST_ASSERT_EQUAL_INT(2, answer[7]);
+    TEST_ASSERT_EQUAL_INT(3, answer[7]);
     REQUEST(ADDRESS, 43, 14, 3, 77); /* unknown: from the beginning, by the protocol */
-    TEST_ASSERT_EQUAL_INT(7, answer[7]);
+    TEST_ASSERT_EQUAL_INT(8, answer[7]);
     REQUEST(ADDRESS, 43, 14, 4, 0x80);
     TEST_ASSERT_EQUAL_INT(1, answer[7]);
     assert_object(0x80, "a drive");

@@ -37,7 +37,8 @@ void setUp(void)
 {
     fake_board_reset();
     fake_board_erase_store();
-    TEST_ASSERT_TRUE(app_image_choose(&in_force, &board_config, &gain_tables_drive));
+    TEST_ASSERT_TRUE(
+        app_image_choose(&in_force, &board_config, &gain_tables_drive, &board_identity));
     power_on();
 }
 
@@ -557,7 +558,8 @@ static void test_the_loader_has_the_stored_line_and_address_and_stores_nothing(v
 {
     (void)write_two(APP_REGISTERS_BAUD_RATE, 0, 19200);
     store();
-    TEST_ASSERT_TRUE(app_image_choose(&in_force, &board_config, &gain_tables_drive));
+    TEST_ASSERT_TRUE(
+        app_image_choose(&in_force, &board_config, &gain_tables_drive, &board_identity));
     app_loader_start(&in_force);
     TEST_ASSERT_EQUAL_UINT32(19200UL, fake_board.line.baud_Bd);
 }

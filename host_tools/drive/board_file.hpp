@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+/// Board file: the facts of a board around the processor (firmware/config/boards).
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "common/toml_reader.hpp"
+
+extern "C" {
+#include "board_identity.h"
+}
+
+namespace sdre {
+
+struct BoardFile {
+    std::string                          name;
+    std::string                          file; ///< that it was read from
+    std::array<double, BOARD_FACT_COUNT> facts{};
+
+    double operator[](board_fact_t fact) const
+    {
+        return facts.at(fact);
+    }
+};
+
+constexpr int board_schema = 1;
+
+/// InputError in one line on anything missing, unknown or out of range.
+BoardFile read_board_file(const std::filesystem::path &file);
+
+/// The board of this name: NAME.toml beside the drive file, in ../boards from there, or shipped; nothing: nowhere.
+std::optional<BoardFile> named_board(const std::string &name, const std::string &drive_file);
+
+/// The board that key `name` of [board] names.
+BoardFile find_board(TomlReader &section, const std::string &drive_file);
+
+/// "= "NAME" is not allowed: .." with the shipped boards.
+std::string no_such_board(const std::string &name);
+
+/// Names of the shipped boards, "a, b".
+std::string shipped_boards();
+
+} // namespace sdre
