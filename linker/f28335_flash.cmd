@@ -27,12 +27,7 @@ SECTIONS
     .seldom      :
     {
         *(.TI.ramfunc:adc_init)
-        *(.TI.ramfunc:app_angle_align)
-        *(.TI.ramfunc:app_angle_drop)
-        *(.TI.ramfunc:app_angle_check)
-        *(.TI.ramfunc:app_angle_init)
         *(.TI.ramfunc:app_background)
-        *(.TI.ramfunc:app_control_enables)
         *(.TI.ramfunc:app_gate_check)
         *(.TI.ramfunc:app_gate_may_start)
         *(.TI.ramfunc:app_init)
@@ -75,6 +70,7 @@ SECTIONS
         *(.TI.ramfunc:speed_ref_reset)
         *(.TI.ramfunc:tick_watch_start)
         *(.TI.ramfunc:trip_init)
+        *(.TI.ramfunc:trip_overdue)
     }
                    > FLASH
 

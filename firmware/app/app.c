@@ -7,6 +7,7 @@
 #include "app_modes.h"
 #include "app_record.h"
 #include "app_scope.h"
+#include "app_slow.h"
 #include "app_watch_memory.h"
 #include "app_watch_tick.h"
 
@@ -35,6 +36,11 @@ static struct {
     app_modes_input_t     in;
     app_control_t         control;
     app_objects_t         wanted;
+    app_mode_t            decided; /* mode of the last app_control_decide() */
+    bool                  taken;   /* a command came after it */
+    uint16_t              due;     /* pieces of work, APP_SLOW_ */
+    uint16_t              slow_periods;
+    uint16_t              slow_period;
     const drive_config_t *drive;
     const float          *ntc_degC;
     uint16_t              background_count;
@@ -65,6 +71,11 @@ static ctl_status_t init_tick_side(const app_config_t *config, const drive_confi
 
     tick_side.in.command           = none;
     tick_side.wanted               = app_control_default(drive);
+    tick_side.decided              = APP_MODE_BOOT;
+    tick_side.taken                = false;
+    tick_side.due                  = (uint16_t)APP_SLOW_TURN;
+    tick_side.slow_periods         = app_slow_periods(drive->ts_s);
+    tick_side.slow_period          = 0U;
     tick_side.background_count     = 0U;
     tick_side.background_age_ticks = 0U;
     app_config_for(&tick_side.config, config, drive->hardware.updates_per_period);
@@ -147,23 +158,99 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
                                                                               : CTL_BAD_CONFIG;
 }
 
-static void take_command(void)
+/* The modes as the operator's side sees them. */
+static app_control_seen_t seen_now(void)
 {
     const app_modes_t *const m    = &tick_side.modes;
+    const bool               runs = m->drive.state == DRIVE_RUN;
     const app_control_seen_t seen = {
         .mode          = m->mode,
         .shorted       = m->stop.shorted,
         .in_the_way    = (m->mode != APP_MODE_READY) || app_modes_in_the_way(m),
-        .speed_e_radps = (m->drive.state == DRIVE_RUN) ? m->drive.answer.now.omega_e_radps
-                                                       : m->reading.omega_e_radps,
-        .arrived       = (m->drive.state == DRIVE_RUN) && m->drive.answer.arrived,
+        .speed_e_radps = runs ? m->drive.answer.now.omega_e_radps : m->reading.omega_e_radps,
+        .arrived       = runs && m->drive.answer.arrived,
         .position      = &m->position};
+    return seen;
+}
 
-    if (shared.command_full) {
-        tick_side.wanted    = shared.command;
-        shared.command_full = false;
+static void take_command(void)
+{
+    tick_side.wanted    = shared.command;
+    tick_side.taken     = true;
+    shared.command_full = false;
+}
+
+static void decide(app_mode_t mode)
+{
+    const app_control_seen_t seen = seen_now();
+
+    app_control_decide(&tick_side.control, &tick_side.wanted, &seen, &tick_side.in.command);
+    tick_side.taken   = false;
+    tick_side.decided = mode;
+    tick_side.due     = (uint16_t)(tick_side.due | (uint16_t)APP_SLOW_AIM);
+}
+
+static void aim(void)
+{
+    const app_control_seen_t seen = seen_now();
+
+    app_control_aim(&tick_side.control, &tick_side.wanted, &seen, &tick_side.in.command);
+}
+
+/* One piece of the work of app_slow.h. */
+static void work_slowly(app_mode_t mode)
+{
+    uint16_t piece = 0U;
+
+    if ((tick_side.due & (uint16_t)APP_SLOW_AIM) != 0U) {
+        piece = (uint16_t)APP_SLOW_AIM; /* what was decided acts before anything else is */
+    } else if (tick_side.taken || (mode != tick_side.decided)) {
+        piece = (uint16_t)APP_SLOW_DECIDE;
+    } else if (shared.command_full) {
+        take_command();
+    } else {
+        piece = (uint16_t)(tick_side.due & (0U - tick_side.due));
     }
-    app_control_tick(&tick_side.control, &tick_side.wanted, &seen, &tick_side.in.command);
+    tick_side.due     = (uint16_t)(tick_side.due & ~(uint32_t)piece);
+    tick_side.in.slow = piece;
+    if (piece == (uint16_t)APP_SLOW_DECIDE) {
+        decide(mode);
+    } else if (piece == (uint16_t)APP_SLOW_AIM) {
+        aim();
+    } else {
+        /* app_modes does it */
+    }
+    app_control_follow(&tick_side.control, &tick_side.in.command);
+}
+
+/* Without the law a period has time for all at once. */
+static void work_at_rest(app_mode_t mode)
+{
+    if (shared.command_full) {
+        take_command();
+    }
+    tick_side.in.slow = tick_side.due;
+    decide(mode);
+    aim();
+    tick_side.due = 0U;
+    app_control_follow(&tick_side.control, &tick_side.in.command);
+}
+
+static void work(void)
+{
+    const app_mode_t mode = tick_side.modes.mode;
+    const uint16_t   next = (uint16_t)(tick_side.slow_period + 1U);
+
+    tick_side.slow_period = next;
+    if (next >= tick_side.slow_periods) {
+        tick_side.slow_period = 0U;
+        tick_side.due         = (uint16_t)APP_SLOW_TURN;
+    }
+    if ((mode == APP_MODE_RUN) || (mode == APP_MODE_STOP)) {
+        work_slowly(mode);
+    } else {
+        work_at_rest(mode);
+    }
 }
 
 static bool background_lost(void)
@@ -241,7 +328,7 @@ void app_tick(void)
         give_up(start_cycles);
         return;
     }
-    take_command();
+    work();
     in->raw               = board_sample();
     in->board_faults      = board_fault_read();
     in->background_lost   = background_lost();

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_config_check.h"
 
+#include "app_slow.h"
+
 /* Tolerance between two single-precision copies of one number. */
 #define SAME_RATIO 1.0e-4f
 
@@ -53,7 +55,7 @@ static bool parts_ok(const app_config_t *c, const drive_config_t *d)
            (app_angle_check(&c->angle, d) == CTL_OK) && (app_align_check(&c->align, d) == CTL_OK) &&
            (app_gate_check(&c->gate, c->board.duty_full_cnt) == CTL_OK) &&
            (app_stop_check(&c->stop, d) == CTL_OK) &&
-           (app_watch_heat_check(&c->heat, d->current_max_A, d->ts_s) == CTL_OK);
+           (app_watch_heat_check(&c->heat, d->current_max_A, app_slow_s(d->ts_s)) == CTL_OK);
 }
 
 ctl_status_t app_config_check(const app_config_t *config, const drive_config_t *drive)

@@ -70,42 +70,26 @@ bool app_scale_set_zero(app_scale_t *s, uint32_t sum_a_cnt, uint32_t sum_b_cnt, 
     return true;
 }
 
+#if (BOARD_ADC_CODES & (BOARD_ADC_CODES - 1U)) != 0U
+#error "raw_ok() needs a power of two"
+#endif
+
+/* Codes in range set no bit above those of the converter: one comparison for all four. */
 static bool raw_ok(const app_scale_t *s, const board_sample_t *raw)
 {
-    return raw->valid && (raw->ia_cnt < BOARD_ADC_CODES) && (raw->ib_cnt < BOARD_ADC_CODES) &&
-           (raw->dc_link_cnt < BOARD_ADC_CODES) && (raw->temperature_cnt < BOARD_ADC_CODES) &&
-           (raw->position_cnt < s->positions) &&
+    const uint16_t codes_cnt =
+        (uint16_t)(raw->ia_cnt | raw->ib_cnt | raw->dc_link_cnt | raw->temperature_cnt);
+
+    return raw->valid && (codes_cnt < BOARD_ADC_CODES) && (raw->position_cnt < s->positions) &&
            (!raw->index_seen || (raw->index_cnt < s->positions));
 }
 
-static void convert_temperature(const app_scale_t *s, uint16_t code_cnt, app_scale_sample_t *out)
+APP_MEASURE_PART void app_scale_sample(const app_scale_t *s, const board_sample_t *raw,
+                                       app_scale_sample_t *out)
 {
     const app_scale_config_t *c = s->config;
 
-    if (code_cnt < c->ntc_first_cnt) {
-        return;
-    }
-    const uint16_t from_cnt = (uint16_t)(code_cnt - c->ntc_first_cnt);
-    /* The quotient is at least half a code from an integer: rounding cannot change its integer
-     * part. */
-    const uint16_t point = (uint16_t)(((float)from_cnt + 0.5f) * s->inv_ntc_step);
-    if ((uint16_t)(point + 1U) >= c->ntc_points) { /* there is no next point */
-        return;
-    }
-    const uint16_t past_cnt = (uint16_t)(from_cnt - (uint16_t)(point * c->ntc_step_cnt));
-    const float    share    = (float)past_cnt * s->inv_ntc_step;
-    const float    here     = c->ntc_degC[point];
-    out->temperature_degC   = here + (share * (c->ntc_degC[point + 1U] - here));
-    out->temperature_valid  = true;
-}
-
-void app_scale_sample(const app_scale_t *s, const board_sample_t *raw, app_scale_sample_t *out)
-{
-    const app_scale_config_t *c = s->config;
-
-    out->valid             = raw_ok(s, raw);
-    out->temperature_valid = false;
-    out->temperature_degC  = 0.0f;
+    out->valid = raw_ok(s, raw);
     if (!out->valid) {
         out->ia_A      = 0.0f;
         out->ib_A      = 0.0f;
@@ -115,5 +99,4 @@ void app_scale_sample(const app_scale_t *s, const board_sample_t *raw, app_scale
     out->ia_A      = c->current_A_per_cnt * ((float)raw->ia_cnt - s->zero_a_cnt);
     out->ib_A      = c->current_A_per_cnt * ((float)raw->ib_cnt - s->zero_b_cnt);
     out->dc_link_V = c->dc_link_V_per_cnt * (float)raw->dc_link_cnt;
-    convert_temperature(s, raw->temperature_cnt, out);
 }

@@ -11,6 +11,7 @@
 #ifndef APP_SCALE_H
 #define APP_SCALE_H
 
+#include "app_part.h"
 #include "base.h"
 #include "board.h"
 
@@ -38,9 +39,9 @@ typedef struct {
     float ia_A;
     float ib_A;
     float dc_link_V;
-    float temperature_degC;  /**< 0 unless temperature_valid */
-    bool  temperature_valid; /**< the code is within the table: no broken or shorted sensor */
     bool  valid;             /**< marked valid by the board, and no code out of range */
+    bool  temperature_valid; /**< the code is within the table: no broken or shorted sensor */
+    float temperature_degC;  /**< of app_scale_temperature(), 0 unless temperature_valid */
 } app_scale_sample_t;
 
 /**
@@ -67,7 +68,13 @@ ctl_status_t app_scale_init(app_scale_t *s, const app_scale_config_t *config, ui
  */
 bool app_scale_set_zero(app_scale_t *s, uint32_t sum_a_cnt, uint32_t sum_b_cnt, uint16_t count);
 
-/** Context: control ISR. No division. */
-void app_scale_sample(const app_scale_t *s, const board_sample_t *raw, app_scale_sample_t *out);
+/** All but the temperature. Context: control ISR. No division. */
+APP_MEASURE_PART void app_scale_sample(const app_scale_t *s, const board_sample_t *raw,
+                                       app_scale_sample_t *out);
+
+/** Temperature of a sample that app_scale_sample() has found valid or not. Context: control ISR.
+ * No division. */
+void app_scale_temperature(const app_scale_t *s, const board_sample_t *raw,
+                           app_scale_sample_t *out);
 
 #endif /* APP_SCALE_H */

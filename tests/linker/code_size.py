@@ -71,6 +71,7 @@ LINK = [
     "-Wl,--no-warn-rwx-segments",
 ]
 
+APP_UNITS = ("app.c", "app_measure.c")
 Function = namedtuple("Function", "name source halfwords")
 
 
@@ -101,15 +102,23 @@ def core_sources():
     ]
 
 
+def app_parts():
+    """Files that app.c and app_measure.c of one_unit have in them."""
+    text = (FIRMWARE / "CMakeLists.txt").read_text()
+    units = re.findall(r"set\(sdre_app_(?:measure_)?unit ([^)]*)\)", text)
+    return {FIRMWARE / "app" / name for unit in units for name in unit.split()}
+
+
 def sources():
-    found = core_sources()
+    found, parts = core_sources(), app_parts()
     for folder in ("app", "commission", "store", "board/f28335"):
         found += [
             source
             for source in sorted((FIRMWARE / folder).rglob("*.c"))
-            if source.name != "bench.c"
+            if source.name != "bench.c" and source not in parts
         ]
-    return found + [FIRMWARE / "config" / "board_config.c"]
+    units = [FIRMWARE / "one_unit" / name for name in APP_UNITS]
+    return [*found, *units, FIRMWARE / "config" / "board_config.c"]
 
 
 def _compile(source, work):
@@ -205,6 +214,8 @@ def runs_from_ram(law):
         folder, name = re.fullmatch(
             r"(app|f28335|control|one_unit|commission|store|config|tables)_(\w+)", source
         ).groups()
+        if source in {f"one_unit_{pathlib.Path(unit).stem}" for unit in APP_UNITS}:
+            return f"{name}.c" in ram["app"]
         if folder in ("control", "one_unit"):
             return not any(re.fullmatch(pattern, f"{name}.c") for pattern in flash)
         return f"{name}.c" in ram.get(folder, ())

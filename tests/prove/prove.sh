@@ -26,7 +26,7 @@ nodo_harmonic_check:400,nodo_parity_check:100,nosc_check:200,numbers_ok:50,order
 speed_difference_check:20,terms_ok:50
     [prove_gate]=prove_gate:50
     [prove_app_tick]=prove_app_tick:2
-    [prove_control]=app_control_tick:200,step:200,change_at_rest:50,change_enabled:100,by_modes:20,prove_control:200,tick_control:200
+    [prove_control]=app_control_tick:200,app_control_decide:200,app_control_aim:200,step:200,change_at_rest:50,change_enabled:100,by_modes:20,prove_control:200,tick_control:200
     [prove_modbus]=read_map:400,are_whole:300,app_registers_write:300,read_registers:300,take_values:400,answer_write:20,\
 app_modbus_answer_begin:20,app_modbus_device_identify:50
 )

@@ -58,6 +58,7 @@ static void any_state(void)
     modes.tripped                     = any_bool();
     modes.locked                      = any_bool();
     modes.gate_on                     = any_bool();
+    modes.sink_fault                  = any_between(APP_FAULT_NONE, APP_FAULT_MEMORY);
     modes.too_hot                     = any_bool();
     modes.angle.have_turned           = any_bool();
     modes.angle.have_index            = any_bool();
@@ -122,6 +123,7 @@ void prove_app_tick(void)
     in.background_lost   = any_bool();
     in.tick_missing      = any_bool();
     in.memory_changed    = any_bool();
+    in.slow              = (uint16_t)any_int;
     in.command.run       = any_bool();
     in.command.reset     = any_bool();
     in.command.align     = any_bool();
@@ -181,7 +183,7 @@ static void tick_control(app_mode_t mode, app_control_state_t state)
 
     app_command_t out;
 
-    app_control_tick(&control, &wanted, &seen, &out);
+    app_control_decide(&control, &wanted, &seen, &out);
 
     //@ check state: APP_CONTROL_NOT_READY <= control.state < APP_CONTROL_STATES;
     if (mode == APP_MODE_FAULT) {
@@ -191,6 +193,8 @@ static void tick_control(app_mode_t mode, app_control_state_t state)
         (control.state != APP_CONTROL_QUICK_STOP_ACTIVE)) {
         //@ check off: out.run == 0 && out.commission == 0 && out.align == 0;
     }
+    app_control_aim(&control, &wanted, &seen, &out); /* neither changes what was decided */
+    app_control_follow(&control, &out);
 }
 
 /* Entry: a tick of the operator's side in any state, with any objects, whatever the modes do. */

@@ -38,6 +38,7 @@
 #ifndef APP_ANGLE_H
 #define APP_ANGLE_H
 
+#include "app_part.h"
 #include "base.h"
 #include "board.h"
 #include "drive_config.h"
@@ -109,7 +110,8 @@ ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *config,
  *
  * Context: control ISR, once per tick. At most one division.
  */
-void app_angle_update(app_angle_t *a, const board_sample_t *raw, app_angle_reading_t *reading);
+APP_MEASURE_PART void app_angle_update(app_angle_t *a, const board_sample_t *raw,
+                                       app_angle_reading_t *reading);
 
 /** References the angle: the rotor is at theta_e_rad, [0, 2 pi). Context: control ISR. */
 void app_angle_align(app_angle_t *a, uint16_t position_cnt, float theta_e_rad);
@@ -118,6 +120,16 @@ void app_angle_align(app_angle_t *a, uint16_t position_cnt, float theta_e_rad);
 void app_angle_drop(app_angle_t *a);
 
 /** Counts from one position to another, in the shorter direction. */
-int16_t app_angle_turned_cnt(uint16_t positions, uint16_t from_cnt, uint16_t to_cnt);
+static inline int16_t app_angle_turned_cnt(uint16_t positions, uint16_t from_cnt, uint16_t to_cnt)
+{
+    int32_t turned_cnt = (int32_t)to_cnt - (int32_t)from_cnt;
+
+    if (turned_cnt > (int32_t)(positions / 2U)) {
+        turned_cnt -= (int32_t)positions;
+    } else if (turned_cnt < -(int32_t)(positions / 2U)) {
+        turned_cnt += (int32_t)positions;
+    }
+    return (int16_t)turned_cnt;
+}
 
 #endif /* APP_ANGLE_H */

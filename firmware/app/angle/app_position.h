@@ -13,6 +13,7 @@
 #define APP_POSITION_H
 
 #include "app_angle.h"
+#include "app_part.h"
 #include "position.h"
 
 /** Limit of a target position, in either direction [counts]. */
@@ -32,8 +33,12 @@ typedef struct {
 void app_position_init(app_position_t *p, const app_angle_t *angle);
 
 /** Takes one sample, after app_angle_update(). Context: control ISR, every tick. */
-void app_position_track(app_position_t *p, const app_angle_t *angle,
-                        const app_angle_reading_t *reading);
+APP_MEASURE_PART void app_position_track(app_position_t *p, const app_angle_t *angle,
+                                         const app_angle_reading_t *reading);
+
+/** Sets the zero: the middle of the reference count that is nearest to the present position.
+ * Context: control ISR, once after a reference. */
+void app_position_find_zero(app_position_t *p, const app_angle_t *angle);
 
 /** Drops the zero. The next referenced sample gives a new one. Context: control ISR. */
 void app_position_forget(app_position_t *p);

@@ -50,14 +50,19 @@ typedef struct {
     float               speed_max_e_radps; /**< speed limit of a command */
     float               per_current_max;   /**< 1 / largest current */
     app_control_state_t state;
-    int16_t             mode;        /**< present mode of operation */
-    bool                armed;       /**< bit 3 was low after the last start */
-    bool                reset_high;  /**< bit 7 in the previous tick */
-    bool                asked;       /**< app_modes had one tick to begin */
-    bool                moved;       /**< app_modes has begun */
-    bool                done;        /**< homing or commissioning has ended */
-    float               ref_e_radps; /**< output of the ramp */
-    bool                holds;       /**< profile position: the set-points have begun */
+    int16_t             mode;         /**< present mode of operation */
+    bool                armed;        /**< bit 3 was low after the last start */
+    bool                reset_high;   /**< bit 7 in the previous tick */
+    bool                asked;        /**< app_modes had one tick to begin */
+    bool                moved;        /**< app_modes has begun */
+    bool                done;         /**< homing or commissioning has ended */
+    float               ref_e_radps;  /**< output of the ramp, as the next three */
+    float               goal_e_radps; /**< its end */
+    float               up_e_radps;   /**< its step up in a period, >= 0 */
+    float               down_e_radps; /**< its step down */
+    bool                positioning;  /**< a position is followed, no speed */
+    bool                stopping;     /**< a stop was asked for */
+    bool                holds;        /**< profile position: the set-points have begun */
     app_setpoint_t      setpoint;
 } app_control_t;
 
@@ -85,12 +90,34 @@ bool app_control_knows(const app_objects_t *o, const drive_config_t *drive);
 bool app_control_enables(uint16_t controlword);
 
 /**
- * @brief Executes one period and updates the command of app_modes in place.
+ * @brief Moves the reference speed along its ramp. Context: control ISR, every period.
+ *
+ * app_control_aim() sets the ramp by the sign of the reference. After a zero crossing the steps of
+ * the other direction hold until its next call.
+ */
+static inline void app_control_follow(app_control_t *c, app_command_t *out)
+{
+    const float ref = c->ref_e_radps;
+
+    c->ref_e_radps     = base_clamp(c->goal_e_radps, ref - c->down_e_radps, ref + c->up_e_radps);
+    out->omega_e_radps = c->ref_e_radps;
+}
+
+/**
+ * @brief Decides what app_modes shall do, and updates its command in place.
  *
  * The bounds in the command are set only together with `commission`.
  *
- * Context: control ISR.
+ * Context: control ISR, at each change and once in a millisecond.
  */
+void app_control_decide(app_control_t *c, const app_objects_t *wanted,
+                        const app_control_seen_t *seen, app_command_t *out);
+
+/** Sets target, ramp and current limit of what was decided. Context: as above, after it. */
+void app_control_aim(app_control_t *c, const app_objects_t *wanted, const app_control_seen_t *seen,
+                     app_command_t *out);
+
+/** Executes one period: all three. Context: control ISR, without a running law. */
 void app_control_tick(app_control_t *c, const app_objects_t *wanted, const app_control_seen_t *seen,
                       app_command_t *out);
 

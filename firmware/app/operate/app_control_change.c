@@ -26,6 +26,11 @@ ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
     c->speed_max_e_radps = drive->speed_max_e_radps;
     c->done              = false;
     c->ref_e_radps       = 0.0f;
+    c->goal_e_radps      = 0.0f;
+    c->up_e_radps        = 0.0f;
+    c->down_e_radps      = 0.0f;
+    c->stopping          = false;
+    c->positioning       = false;
     c->holds             = false;
     return ok ? CTL_OK : CTL_BAD_CONFIG;
 }
@@ -168,6 +173,30 @@ void app_control_change(app_control_t *c, const app_objects_t *o, const app_cont
         /* this state has no transition for the request */
     }
     c->armed = c->armed || !app_control_has(o->controlword, APP_CONTROL_ENABLE);
+}
+
+static bool stands(const app_control_t *c, const app_control_seen_t *seen)
+{
+    return base_within(seen->speed_e_radps, c->config->stop.still_e_radps);
+}
+
+bool app_control_brakes(const app_control_t *c, const app_objects_t *o,
+                        const app_control_seen_t *seen, app_control_ask_t ask)
+{
+    bool ramps = false;
+
+    if (c->state == APP_CONTROL_QUICK_STOP_ACTIVE) {
+        ramps =
+            (o->quick_option != APP_CONTROL_QUICK_OFF) && (ask != APP_CONTROL_ASK_DISABLE_VOLTAGE);
+    } else if (ask == APP_CONTROL_ASK_SHUT_DOWN) {
+        ramps = o->shutdown_option != 0;
+    } else if (ask == APP_CONTROL_ASK_SWITCH_ON) {
+        ramps = o->disable_option != 0;
+    } else {
+        /* no ramp */
+    }
+    const bool stays = (c->state == APP_CONTROL_QUICK_STOP_ACTIVE) && app_control_stays_quick(o);
+    return ramps && (stays || !stands(c, seen)) && (seen->mode == APP_MODE_RUN);
 }
 
 bool app_control_position(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,

@@ -43,6 +43,14 @@ void app_control_change(app_control_t *c, const app_objects_t *o, const app_cont
                         app_control_ask_t ask);
 
 /**
+ * @brief True during a stop along a ramp, until standstill.
+ *
+ * Otherwise app_modes ends the run as the drive file says.
+ */
+bool app_control_brakes(const app_control_t *c, const app_objects_t *o,
+                        const app_control_seen_t *seen, app_control_ask_t ask);
+
+/**
  * @brief Executes profile position for one period.
  *
  * @return true: the drive moves to a position or holds one. false: it follows a speed, which a halt

@@ -39,7 +39,7 @@ static uint16_t least(uint16_t x, uint16_t y)
     return (x < y) ? x : y;
 }
 
-board_duty_t app_gate_duty(const app_gate_config_t *c, uint16_t full_cnt, abc_t duty)
+APP_PART board_duty_t app_gate_duty(const app_gate_config_t *c, uint16_t full_cnt, abc_t duty)
 {
     const float    full    = (float)full_cnt;
     const uint16_t min_cnt = c->pulse_min_cnt;

@@ -11,6 +11,7 @@
 #ifndef APP_GATE_H
 #define APP_GATE_H
 
+#include "app_part.h"
 #include "base.h"
 #include "board.h"
 
@@ -34,7 +35,7 @@ typedef struct {
 ctl_status_t app_gate_check(const app_gate_config_t *config, uint16_t full_cnt);
 
 /** Nearest allowed compare values for duty ratios in [0, 1]. Context: control ISR. */
-board_duty_t app_gate_duty(const app_gate_config_t *config, uint16_t full_cnt, abc_t duty);
+APP_PART board_duty_t app_gate_duty(const app_gate_config_t *config, uint16_t full_cnt, abc_t duty);
 
 /** True if a run may start at this speed. */
 bool app_gate_may_start(const app_gate_config_t *config, float omega_e_radps);

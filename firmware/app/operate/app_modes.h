@@ -23,6 +23,7 @@
 #define APP_MODES_H
 
 #include "app_config.h"
+#include "app_part.h"
 #include "app_status.h"
 
 typedef struct {
@@ -31,6 +32,7 @@ typedef struct {
     bool                  background_lost; /**< the background has not run for too long */
     bool          tick_missing;   /**< ticks stood still, and the background opened the bridge */
     bool          memory_changed; /**< constants have changed, app_watch_memory.h */
+    uint16_t      slow;           /**< APP_SLOW_SINK, APP_SLOW_HEAT: work of this period */
     app_command_t command;        /**< reset is true for one tick only */
 } app_modes_input_t;
 
@@ -49,7 +51,9 @@ typedef struct {
     app_commission_t    commission;
     float               current_max_A; /**< of the drive */
     float               per_sink_degC; /**< 1 / (trip - limit) of the heat sink */
-    bool                too_hot;       /**< app_watch_heat_tick() returned false */
+    float               warmth;        /**< (T - limit) / (trip - limit) of the heat sink */
+    app_fault_t         sink_fault;    /**< of a driven motor: temperature or its sensor */
+    bool                too_hot;       /**< the same: app_watch_heat_tick() returned false */
     float               zero_a_A; /**< READY: mean of the measured currents with the bridge open */
     float               zero_b_A;
     app_scale_sample_t  sample;
@@ -82,7 +86,7 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *config,
                             const drive_config_t *drive);
 
 /** Executes one period. Context: control ISR. Cost: twice drive_tick() or app_align_tick(). */
-bridge_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in);
+APP_PART bridge_t app_modes_tick(app_modes_t *m, const app_modes_input_t *in);
 
 /** True if a temporary condition prevented a start in the previous tick. Context: control ISR. */
 bool app_modes_in_the_way(const app_modes_t *m);

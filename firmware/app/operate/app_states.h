@@ -24,6 +24,9 @@ void app_states_enter(app_modes_t *m, app_mode_t mode);
 /** Executes a tick of FAULT: the bridge is open, or shorts the motor (app_stop.h). */
 bridge_t app_states_fault(app_modes_t *m, const app_modes_input_t *in);
 
+/** First fault of this tick. It runs from flash. */
+app_fault_t app_fault_of(const app_modes_t *m, const app_modes_input_t *in);
+
 /** Enters FAULT: stores a snapshot, and opens the bridge or shorts the motor. */
 bridge_t app_states_trip(app_modes_t *m, const app_modes_input_t *in, app_fault_t fault);
 

@@ -13,6 +13,7 @@
 #ifndef APP_RECORD_H
 #define APP_RECORD_H
 
+#include "app_part.h"
 #include "app_scope_signals.h"
 
 #define APP_RECORD_SAMPLES 64U /**< a power of two */
@@ -33,7 +34,10 @@ typedef struct {
 void app_record_init(app_record_t *r);
 
 /** Call it at the end of a tick. Context: control ISR. */
-void app_record_tick(app_record_t *r, const app_scope_view_t *view);
+APP_PART void app_record_tick(app_record_t *r, const app_scope_view_t *view);
+
+/** Begins a new record and keeps this one. Context: control ISR, at a fault. */
+void app_record_keep(app_record_t *r);
 
 /** Reads a signal of sample `at` of the record, 0 .. kept_count - 1. Context: background. */
 float app_record_read(const volatile app_record_t *r, uint16_t at, uint16_t signal);

@@ -18,11 +18,12 @@ enum {
 };
 
 /* Chosen, with about a tenth of room: longer than board_config.c's times. */
-#define READY_TICKS  200U
-#define ALIGN_TICKS  15000U
-#define SETTLE_TICKS 1500U /* 0.3 s */
-#define WATCH_TICKS  500U
-#define STOP_TICKS   3U
+#define READY_TICKS       200U
+#define ALIGN_TICKS       15000U
+#define SETTLE_TICKS      1500U /* 0.3 s */
+#define WATCH_TICKS       500U
+#define NEW_COMMAND_TICKS (SETTLE_TICKS + 100U)
+#define STOP_TICKS        3U
 
 #define SPEED_E_RADPS    150.0f /* chosen: a moderate speed; rated is 523 */
 #define TOL_TRUE_E_RADPS 5.0f   /* worst 1.2 */
@@ -60,6 +61,9 @@ static bool holds_speed(void)
 
     for (uint16_t k = 0U; k < (SETTLE_TICKS + WATCH_TICKS); k++) {
         period();
+        if (k == NEW_COMMAND_TICKS) { /* as a master does that repeats its commands */
+            holds = holds && command(SPEED_E_RADPS, true);
+        }
         if (k >= SETTLE_TICKS) {
             const app_status_t s = app_status_read();
             holds                = holds && (s.mode == APP_MODE_RUN) &&

@@ -5,6 +5,7 @@
 #include "app_control.h"
 #include "app_registers.h"
 
+#include <math.h>
 #include <signal.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -12,6 +13,7 @@
 #include <sys/time.h>
 
 #include "app_modes.h"
+#include "app_slow.h"
 #include "board_config.h"
 #include "fake_board.h"
 #include "gain_tables.h"
@@ -108,7 +110,7 @@ static void test_gates_are_enabled_once_and_after_everything_else(void)
     }
 
     command(0.0f, false);
-    both(2);
+    both(3); /* a run reads a command first, and obeys it a period later */
     command(0.0f, true);
     both(1);
     fake_board.event_count = 0;
@@ -258,6 +260,117 @@ static void test_each_pointer_of_the_tick_alone_opens_the_bridge(void)
         app_tick();
         TEST_ASSERT_FALSE(fake_board.gate);
     }
+}
+
+/* Sink and thermal model, once in five periods, and never in one: whatever is commanded meanwhile. */
+static void test_slow_work_comes_once_in_a_millisecond_and_one_piece_in_a_period(void)
+{
+    const app_modes_t *const m = modes_inside();
+
+    go_run();
+    for (int way = 0; way < 2; way++) {
+        int sinks = 0, heats = 0;
+        fake_board.sample.ia_cnt = 2100U;
+        for (int n = 0; n < 100; n++) {
+            const float    x      = m->heat.motor.x;
+            const uint16_t before = m->phase_errors;
+            fake_board.sample.phase_errors++;
+            if ((way == 1) && ((n % 5) == 0)) {
+                command(0.0f, true);
+            }
+            both(1);
+            const bool heat = m->heat.motor.x != x;
+            const bool sink = m->phase_errors != before;
+            TEST_ASSERT_FALSE(heat && sink);
+            heats += heat ? 1 : 0;
+            sinks += sink ? 1 : 0;
+        }
+        TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
+        TEST_ASSERT_INT_WITHIN(1, 20, sinks);
+        TEST_ASSERT_INT_WITHIN(1, 20, heats);
+    }
+}
+
+static void test_broken_sensor_trips_within_a_millisecond_in_every_phase(void)
+{
+    for (int phase = 0; phase < 5; phase++) {
+        setUp();
+        go_run();
+        both(phase);
+        fake_board.sample.temperature_cnt = 0U;
+        both(5);
+        TEST_ASSERT_FALSE(fake_board.gate);
+        TEST_ASSERT_EQUAL_INT(APP_FAULT_TEMPERATURE_SENSOR, app_status_read().fault);
+    }
+}
+
+/* Oracle: 1 - exp(-t / tau) of the squared ratio; in a fault, where every period has time for all. */
+static void test_thermal_model_keeps_time(void)
+{
+    const double current_A = 400.0 * 20.0 / 4096.0, per_nominal = current_A / 2.6;
+
+    config.heat.motor_s = 0.5f;
+    config.heat.motor_A = 2.6f;
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_init(&config, &speed_tables_drive));
+    both(READY_TICKS);
+    fake_board.sample.ia_cnt = (uint16_t)(fake_board.sample.ia_cnt + 400U);
+    fake_board.sample.ib_cnt = (uint16_t)(fake_board.sample.ib_cnt - 200U);
+    both(2500);
+    TEST_ASSERT_DOUBLE_WITHIN(0.004, per_nominal * per_nominal * (1.0 - exp(-1.0)),
+                              (double)app_status_read().motor_heat);
+}
+
+static float demand(void)
+{
+    return app_status_read().demand_e_radps;
+}
+
+/* In every period by one step, from the third after the command on, through zero, exactly to the end. */
+static void test_ramp_of_a_run_has_no_steps(void)
+{
+    static const float TS_s = 200.0e-6f, ACCEL = 1000.0f, DECEL = 500.0f, WORST = 1000.0f;
+    app_objects_t      o = app_control_default(&speed_tables_drive);
+
+    o.controlword    = APP_CONTROL_ENABLE_OPERATION;
+    o.accel_e_radps2 = ACCEL;
+    o.decel_e_radps2 = DECEL;
+    for (int phase = 0; phase < 5; phase++) {
+        setUp();
+        go_run();
+        both(phase);
+        static const float ends[] = {5.0f, -5.0f, 0.0f};
+        for (int k = 0; k < 3; k++) {
+            const float from = demand(), end = ends[k];
+            const float way_s = (fabsf(from) / DECEL) + (fabsf(end) / ACCEL);
+            const int   most  = (int)(way_s / TS_s) + 8;
+            int         still = 0, n = 0;
+            o.omega_e_radps = end;
+            TEST_ASSERT_TRUE(app_command_write(&o));
+            for (; (n < most) && (demand() != end); n++) {
+                const float before = demand();
+                app_tick();
+                TEST_ASSERT_TRUE(fabsf(demand() - before) <= (WORST * TS_s * 1.001f));
+                still += (demand() == before) ? 1 : 0;
+                app_background();
+            }
+            TEST_ASSERT_TRUE(demand() == end);
+            TEST_ASSERT_INT_WITHIN(6, (int)(way_s / TS_s) + 2, n);
+            TEST_ASSERT_TRUE(still <= 3);
+            both(10);
+            TEST_ASSERT_TRUE(demand() == end);
+        }
+    }
+}
+
+static void test_slow_periods_of_every_rate(void)
+{
+    TEST_ASSERT_EQUAL_UINT(5U, app_slow_periods(200.0e-6f));
+    TEST_ASSERT_EQUAL_UINT(10U, app_slow_periods(100.0e-6f));
+    TEST_ASSERT_EQUAL_UINT(40U, app_slow_periods(25.0e-6f));
+    TEST_ASSERT_EQUAL_UINT(5U,
+                           app_slow_periods(1.0f / 2289.0f)); /* a piece never finds no period */
+    TEST_ASSERT_EQUAL_UINT(100U, app_slow_periods(0.0f));
+    TEST_ASSERT_UINT_WITHIN(48U, 53U, app_slow_periods(NAN));
 }
 
 static void test_changed_constants_open_the_bridge_within_some_passes(void)
@@ -603,6 +716,11 @@ int main(void)
     RUN_TEST(test_background_that_lives_late_is_enough);
     RUN_TEST(test_spoilt_end_of_the_stack_opens_the_bridge_at_once);
     RUN_TEST(test_each_pointer_of_the_tick_alone_opens_the_bridge);
+    RUN_TEST(test_slow_work_comes_once_in_a_millisecond_and_one_piece_in_a_period);
+    RUN_TEST(test_broken_sensor_trips_within_a_millisecond_in_every_phase);
+    RUN_TEST(test_thermal_model_keeps_time);
+    RUN_TEST(test_ramp_of_a_run_has_no_steps);
+    RUN_TEST(test_slow_periods_of_every_rate);
     RUN_TEST(test_changed_constants_open_the_bridge_within_some_passes);
     RUN_TEST(test_background_opens_the_bridge_when_ticks_stand_still);
     RUN_TEST(test_second_command_waits_until_the_first_was_taken);

@@ -44,6 +44,7 @@ static app_scale_sample_t converted(void)
 
     (void)memset(&sample, 0xFF, sizeof sample); /* every member has to be set */
     app_scale_sample(&scale, &raw, &sample);
+    app_scale_temperature(&scale, &raw, &sample);
     return sample;
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "app_modes.h"
+#include "app_slow.h"
 #include "board_config.h"
 #include "gain_tables.h"
 #include "unit_support.h"
@@ -269,7 +270,7 @@ static void init(void)
                                      .dc_link_cnt     = 2685U,
                                      .temperature_cnt = 3357U,
                                      .valid           = true};
-    const app_modes_input_t quiet = {.raw = &raw};
+    const app_modes_input_t quiet = {.raw = &raw, .slow = APP_SLOW_TURN};
 
     raw      = rest;
     in       = quiet;

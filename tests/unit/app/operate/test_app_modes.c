@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_modes.h"
+#include "app_slow.h"
 
 #include <string.h>
 
@@ -29,7 +30,7 @@ static void init(void)
                                      .dc_link_cnt     = 2685U,
                                      .temperature_cnt = 3357U,
                                      .valid           = true};
-    const app_modes_input_t quiet = {.raw = &raw};
+    const app_modes_input_t quiet = {.raw = &raw, .slow = APP_SLOW_TURN};
     raw                           = rest;
     in                            = quiet;
     (void)memset(&modes, 0xFF, sizeof modes); /* init has to set everything */
@@ -620,7 +621,7 @@ static void test_currents_that_die_out_are_no_drift(void)
 
 static void test_heat_takes_from_the_limit_and_trips_when_nobody_follows(void)
 {
-    config.heat.motor_s = 0.01f;
+    config.heat.motor_s = 0.05f; /* every tick here is the one in a millisecond */
     init();
     go_run();
     raw.ia_cnt = 2048U + 614U; /* a vector of 3 A along phase a: 1.33 times the square of 2.6 A */
@@ -632,6 +633,34 @@ static void test_heat_takes_from_the_limit_and_trips_when_nobody_follows(void)
     ticks(50);
     TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, modes.mode);
     TEST_ASSERT_EQUAL_INT(APP_FAULT_HEAT, modes.fault);
+}
+
+/* Only a driven motor must not be too hot: it cools in READY, and a start is a fault. */
+static void test_heat_trips_no_drive_at_rest(void)
+{
+    go_ready();
+    see_index();
+    modes.heat.motor.x = 2.0f;
+    ticks(20);
+    TEST_ASSERT_TRUE(modes.too_hot);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    in.command.run = true;
+    ticks(2);
+    assert_fault(APP_FAULT_HEAT);
+}
+
+/* As if the slow work never came. */
+static void test_start_before_the_first_temperature_faults(void)
+{
+    in.slow = 0U;
+    go_ready();
+    see_index();
+    modes.dc_link_out = false;
+    in.command.run    = true;
+    tick();
+    assert_open();
+    tick();
+    assert_fault(APP_FAULT_TEMPERATURE_SENSOR);
 }
 
 static void test_changed_constants_are_a_fault_in_every_mode(void)
@@ -1170,6 +1199,8 @@ int main(void)
     RUN_TEST(test_a_zero_that_has_drifted_is_found_after_the_stop);
     RUN_TEST(test_currents_that_die_out_are_no_drift);
     RUN_TEST(test_heat_takes_from_the_limit_and_trips_when_nobody_follows);
+    RUN_TEST(test_heat_trips_no_drive_at_rest);
+    RUN_TEST(test_start_before_the_first_temperature_faults);
     RUN_TEST(test_changed_constants_are_a_fault_in_every_mode);
     RUN_TEST(test_temperature_beyond_the_trip_level_trips);
     RUN_TEST(test_broken_temperature_sensor_trips);

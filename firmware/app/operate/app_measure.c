@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+#include "app_measure.h"
+
+#include "app_slow.h"
+#include "app_warmth.h"
+
+void app_measure(app_modes_t *m, const app_modes_input_t *in)
+{
+    app_scale_sample(&m->scale, in->raw, &m->sample);
+    if (m->sample.valid) {
+        app_angle_update(&m->angle, in->raw, &m->reading);
+        app_position_track(&m->position, &m->angle, &m->reading);
+        if ((in->slow & (uint16_t)APP_SLOW_SINK) != 0U) {
+            app_warmth_sink(m, in->raw);
+        }
+        if ((in->slow & (uint16_t)APP_SLOW_HEAT) != 0U) {
+            app_warmth_heat(m);
+        }
+    } else {
+        app_angle_drop(&m->angle);
+        m->reading.speed_valid = false;
+        m->reading.index_fault = false;
+    }
+}
