@@ -26,7 +26,6 @@ SECTIONS
      * are not taken by it. */
     .seldom      :
     {
-        *(.TI.ramfunc:adc_init)
         *(.TI.ramfunc:app_background)
         *(.TI.ramfunc:app_gate_check)
         *(.TI.ramfunc:app_gate_may_start)
@@ -39,8 +38,6 @@ SECTIONS
         *(.TI.ramfunc:app_tell_image)
         *(.TI.ramfunc:board_gate_enable)
         *(.TI.ramfunc:check)
-        *(.TI.ramfunc:clock_init)
-        *(.TI.ramfunc:clock_peripherals)
         *(.TI.ramfunc:control_isr_init)
         *(.TI.ramfunc:cycles_init)
         *(.TI.ramfunc:cycles_wait)

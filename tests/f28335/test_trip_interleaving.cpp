@@ -24,7 +24,6 @@ void line_init(bool uses_direction, std::uint32_t cycles_per_bit);
 void line_send(std::uint16_t octet);
 void line_release(void);
 void f28335_asm(const char *text);
-bool clock_is_good(void);
 void __tsan_init(void);
 void __tsan_func_entry(void *);
 void __tsan_func_exit(void);
@@ -189,10 +188,6 @@ extern "C" {
 void f28335_asm(const char *)
 {
     access();
-}
-bool clock_is_good(void)
-{
-    return true;
 }
 std::uint32_t f28335_board_cycles(void)
 {

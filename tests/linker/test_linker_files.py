@@ -225,7 +225,7 @@ def check_registers(text):
     if symbols != device.PERIPHERALS:
         raise Refused(f"peripherals: {set(symbols.items()) ^ set(device.PERIPHERALS.items())}")
     used = set()
-    for source in BOARD.glob("*.c"):
+    for source in (*BOARD.glob("*.c"), *BOARD.glob("*.h")):
         used |= set(
             re.findall(
                 r"\b(\w+Regs|AdcMirror|PieVectTable|ADC_cal|board_store_memory)\b",

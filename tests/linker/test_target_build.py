@@ -21,8 +21,6 @@ ROOT = HERE.parents[1]
 FAST_RTS = "rts2800_fpu32_fast_supplement_eabi.lib"
 TICK = [
     *code_size.APP_UNITS,
-    "adc.c",
-    "clock.c",
     "control_isr.c",
     "cycles.c",
     "encoder.c",

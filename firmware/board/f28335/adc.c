@@ -11,11 +11,6 @@
 #define ACQUISITION 5U
 #define PAIRS       3U
 
-/* ADCTRL2: trigger from ePWM, interrupt at the end of each sequence; and the same with a rewind. */
-#define RUN        0x0900U
-#define REWIND     0x4900U
-#define CLEAR_DONE 0x0010U /* ADCST: INT_SEQ1_CLR */
-
 void adc_init(void)
 {
     EALLOW;    /* as in TI's code: the trim registers may be protected */
@@ -34,25 +29,6 @@ void adc_init(void)
     AdcRegs.ADCCHSELSEQ1.bit.CONV00 = 0U; /* A0, B0: result ignored */
     AdcRegs.ADCCHSELSEQ1.bit.CONV01 = 0U; /* A0, B0: phase currents */
     AdcRegs.ADCCHSELSEQ1.bit.CONV02 = 1U; /* A1, B1: dc link, temperature */
-    AdcRegs.ADCTRL2.all             = RUN;
+    AdcRegs.ADCTRL2.all             = ADC_RUN;
     adc_rewind();
-}
-
-bool adc_is_done(void)
-{
-    return AdcRegs.ADCST.bit.INT_SEQ1 != 0U;
-}
-
-void adc_rewind(void)
-{
-    AdcRegs.ADCTRL2.all = REWIND;
-    AdcRegs.ADCST.all   = CLEAR_DONE;
-}
-
-void adc_read(board_sample_t *sample)
-{
-    sample->ia_cnt          = AdcMirror.ADCRESULT2;
-    sample->ib_cnt          = AdcMirror.ADCRESULT3;
-    sample->dc_link_cnt     = AdcMirror.ADCRESULT4;
-    sample->temperature_cnt = AdcMirror.ADCRESULT5;
 }

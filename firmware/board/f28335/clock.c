@@ -20,11 +20,6 @@ static bool wait_for_lock(void)
     return false;
 }
 
-bool clock_is_good(void)
-{
-    return SysCtrlRegs.PLLSTS.bit.MCLKSTS == 0U;
-}
-
 bool clock_init(void)
 {
     if (!clock_is_good()) {

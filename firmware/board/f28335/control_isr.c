@@ -4,7 +4,7 @@
 
 static void (*control_tick)(void);
 static board_sample_t sample;
-static uint32_t       entry_cycles;
+static uint32_t       entry_left;  /* cycles_left() at the last one */
 static uint32_t       late_cycles; /* 1.5 control periods: a later tick means that one was lost */
 static bool           first;
 
@@ -31,12 +31,12 @@ static void take_sample(void)
  * filled the next result registers and the ones read here are old. */
 static void check_entry(void)
 {
-    const uint32_t now = board_cycles();
-    if (!first && ((now - entry_cycles) > late_cycles)) {
+    const uint32_t left = cycles_left();
+    if (!first && ((entry_left - left) > late_cycles)) {
         trip_latch(BOARD_FAULT_OVERRUN);
     }
-    first        = false;
-    entry_cycles = now;
+    first      = false;
+    entry_left = left;
 }
 
 __interrupt void control_isr(void)

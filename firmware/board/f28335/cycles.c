@@ -15,7 +15,7 @@ void cycles_init(void)
 
 uint32_t board_cycles(void)
 {
-    return 0xFFFFFFFFUL - CpuTimer0Regs.TIM.all; /* it counts down */
+    return 0xFFFFFFFFUL - cycles_left();
 }
 
 void cycles_wait(uint32_t cycles)

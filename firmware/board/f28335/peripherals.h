@@ -11,6 +11,11 @@
 #include "DSP28x_Project.h"
 #include "board.h"
 
+/* ADCTRL2: trigger from ePWM, interrupt at the end of each sequence; and the same with a rewind. */
+#define ADC_RUN        0x0900U
+#define ADC_REWIND     0x4900U
+#define ADC_CLEAR_DONE 0x0010U /* ADCST: INT_SEQ1_CLR */
+
 #define BOARD_STACK_WORDS 0x700U  /**< --stack_size of CMakeLists.txt */
 #define BOARD_STACK_FILL  0xC0DEU /**< STACK_FILL of codestart.asm */
 #define BOARD_COPIES      2U      /**< entries of board_copies */
@@ -30,7 +35,6 @@ void gpio_use_direction(void); /**< the line's direction pin becomes an output, 
 
 bool clock_init(void);        /**< false: no crystal or no lock */
 void clock_peripherals(void); /**< dividers and module clocks; PWM time bases stand still */
-bool clock_is_good(void);     /**< the crystal is there. Context: any */
 
 void flash_init(void); /**< wait states and pipeline; runs from RAM */
 
@@ -46,10 +50,7 @@ void trip_overdue(void); /**< the same for an overrun. Context: INT13 */
 void pwm_init(const board_setup_t *setup);
 void pwm_start(uint16_t updates_per_period); /**< all three legs at once */
 
-void adc_init(void);                   /**< about 5 ms */
-bool adc_is_done(void);                /**< a conversion is complete. Context: control ISR */
-void adc_rewind(void);                 /**< ready for the next one. Context: control ISR */
-void adc_read(board_sample_t *sample); /**< context: control ISR */
+void adc_init(void); /**< about 5 ms */
 
 void encoder_init(const board_setup_t *setup);
 void encoder_start(uint16_t updates_per_period); /**< call it next to pwm_start() */
@@ -60,7 +61,6 @@ void cycles_init(void);
 void cycles_wait(uint32_t cycles);
 
 void tick_watch_start(uint32_t period_cycles); /**< before the first control interrupt */
-void tick_watch_serve(void); /**< an interrupt has come. Context: start of the control ISR */
 
 /** "Loader wanted" and its complement. board_restart() preserves it; undefined after power-on. */
 extern volatile uint32_t watchdog_after_reset[2];
@@ -76,6 +76,48 @@ bool line_is_sending(void);              /**< an octet is on its way. Context: a
 void line_send(uint16_t octet);          /**< the FIFO must have room. Context: background */
 void line_release(
     void); /**< listens again after the last octet. Context: control ISR, background */
+
+/* Inline, because a call costs more than these accesses, and each period makes them. */
+
+/** True if the crystal is there. Context: any. */
+static inline bool clock_is_good(void)
+{
+    return SysCtrlRegs.PLLSTS.bit.MCLKSTS == 0U;
+}
+
+/** Processor cycles, counted down. Context: any. */
+static inline uint32_t cycles_left(void)
+{
+    return CpuTimer0Regs.TIM.all;
+}
+
+/** A control interrupt has come: reloads the timer of tick_watch.c. Context: start of the ISR. */
+static inline void tick_watch_serve(void)
+{
+    CpuTimer1Regs.TCR.bit.TRB = 1U;
+}
+
+/** True if a conversion is complete. Context: control ISR. */
+static inline bool adc_is_done(void)
+{
+    return AdcRegs.ADCST.bit.INT_SEQ1 != 0U;
+}
+
+/** Makes the converter ready for the next trigger. Context: control ISR. */
+static inline void adc_rewind(void)
+{
+    AdcRegs.ADCTRL2.all = ADC_REWIND;
+    AdcRegs.ADCST.all   = ADC_CLEAR_DONE;
+}
+
+/** Takes the results of the conversion. Context: control ISR. */
+static inline void adc_read(board_sample_t *sample)
+{
+    sample->ia_cnt          = AdcMirror.ADCRESULT2;
+    sample->ib_cnt          = AdcMirror.ADCRESULT3;
+    sample->dc_link_cnt     = AdcMirror.ADCRESULT4;
+    sample->temperature_cnt = AdcMirror.ADCRESULT5;
+}
 
 void             control_isr_init(void (*tick)(void), uint32_t period_cycles);
 __interrupt void control_isr(void);

@@ -26,8 +26,3 @@ void tick_watch_start(uint32_t period_cycles)
     tick_watch_serve();
     CpuTimer1Regs.TCR.bit.TSS = 0U;
 }
-
-void tick_watch_serve(void)
-{
-    CpuTimer1Regs.TCR.bit.TRB = 1U; /* reload */
-}

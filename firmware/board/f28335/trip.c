@@ -3,6 +3,7 @@
 #include "peripherals.h"
 
 #define GATE_ENABLE_PIN 0x40UL /* GPIO6 */
+#define ONE_SHOT        4U     /* TZFLG: OST */
 #define CLEAR_ALL       7U     /* one-shot, cycle by cycle, and the summary flag */
 
 /* The control interrupt and its tick write `latched`; INT13, which may interrupt the tick, has its own word. */
@@ -25,8 +26,11 @@ static void arm(volatile struct EPWM_REGS *leg)
 
 static bool is_tripped(void)
 {
-    return (EPwm1Regs.TZFLG.bit.OST != 0U) || (EPwm2Regs.TZFLG.bit.OST != 0U) ||
-           (EPwm3Regs.TZFLG.bit.OST != 0U);
+    const uint16_t first  = EPwm1Regs.TZFLG.all;
+    const uint16_t second = EPwm2Regs.TZFLG.all;
+    const uint16_t third  = EPwm3Regs.TZFLG.all;
+
+    return ((first | second | third) & ONE_SHOT) != 0U;
 }
 
 static bool pin_is_active(void)
