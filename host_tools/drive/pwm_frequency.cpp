@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "drive/cycle_budget.hpp"
 #include "drive/drive_file.hpp"
 
 extern "C" {
@@ -20,34 +21,24 @@ constexpr double cycles_per_cnt = 2.0 * CLOCK_SYSCLK_PER_TBCLK; // up and down
 constexpr double most_cycles    = 65535.0; // of a PWM period: the capture timer's run, board.c
 // Half a count of these is the 0.1 % by which a frequency may differ.
 constexpr double least_full_cnt = 500.0;
-// Chosen: the background's longest pass, 0.32 ms alone, then takes 2.1 of the 3 ms that it may.
-constexpr double background_share = 0.15;
-
-/// Upper end of a whole period's cycles (docs/hardware.md, "Cycle budget"); the dearer of a run's first and the others.
-constexpr double noc_cycles          = 6167.0;
-constexpr double noc_speed_cycles    = 5873.0;
-constexpr double noc_h_cycles        = 9423.0;
-constexpr double conventional_cycles = 7441.0;
-constexpr double position_cycles     = 1231.0; // more on the way to a position
-
-double law_cycles(const Drive &d)
+double           law_cycles(const Drive &d)
 {
     switch (d.law) {
     case Law::noc_h:
-        return noc_h_cycles;
+        return cycle_budget::noc_h;
     case Law::conventional_noc:
-        return conventional_cycles;
+        return cycle_budget::conventional;
     case Law::noc:
-        return d.nodo.form == NodoForm::encoder ? noc_cycles : noc_speed_cycles;
+        return d.nodo.form == NodoForm::encoder ? cycle_budget::noc : cycle_budget::noc_speed;
     default: // not priced; on a host each takes half of the encoder form's time or less
-        return noc_cycles;
+        return cycle_budget::noc;
     }
 }
 
 double least_cycles(const Drive &d)
 {
-    const double law = law_cycles(d) + (d.position ? position_cycles : 0.0);
-    return law / (1.0 - background_share);
+    const double law = law_cycles(d) + (d.position ? cycle_budget::position : 0.0);
+    return law / (1.0 - cycle_budget::background_share);
 }
 
 /// A count is 61 ppm at the least.

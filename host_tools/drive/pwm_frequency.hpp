@@ -15,7 +15,7 @@ double pwm_full_cnt(double pwm_Hz);
 /// The frequency of so many counts.
 double counted_pwm_Hz(double full_cnt);
 
-/// Counts in half a period: at least what the law's cycles take, at most what the capture timer allows. EQ-BOARD-6
+/// Counts in half a period: at least what the whole period's cycles take, at most what the capture timer allows. EQ-BOARD-6
 struct FullCountRange {
     double least;
     double most;

@@ -14,6 +14,7 @@ class Costs:
             data = tomllib.load(file)
         self.clock_Hz, self.band, self.limits = data["clock_Hz"], data["band"], data["limits"]
         self.target_share = data["target_share"]
+        self.background = data["background"]["pass_ms"] / data["background"]["most_ms"]
         self.board = set(data["board"])
         self.library = set(data["library"]) | self.board
         self.interrupt = sum(data["interrupt"].values())

@@ -53,6 +53,14 @@ def flash_files(text, law, controls, others):
     )
 
 
+def seldom_functions(text):
+    """Functions that the linker puts into the flash although their file is compiled for the RAM."""
+    found = re.search(r"^ *\.seldom +:\s*\{(.*?)\}", text, re.M | re.S)
+    if not found:
+        raise ValueError("no section .seldom in linker/f28335_flash.cmd")
+    return set(re.findall(r"\.TI\.ramfunc:(\w+)\)", found[1]))
+
+
 def intrinsics(text):
     """Functions that TI's compiler makes one instruction for each __fmin(), __fmax(), __einvf32()
     or __eisqrtf32() in them."""
@@ -63,8 +71,8 @@ def intrinsics(text):
 class Origin:
     """features: {feature: [names of files, or of functions for a part of a file]}."""
 
-    def __init__(self, features, flash, one_instruction):
-        self.flash, self.intrinsics = flash, one_instruction
+    def __init__(self, features, flash, one_instruction, seldom=frozenset()):
+        self.flash, self.intrinsics, self.seldom = flash, one_instruction, seldom
         self.feature_of = {name: feature for feature, names in features.items() for name in names}
         if len(self.feature_of) != sum(map(len, features.values())):
             raise ValueError("a file or function stands in two features")
@@ -79,6 +87,7 @@ class Origin:
             features,
             flash_files(board, law, files["control"], others),
             intrinsics(base.read_text() + fpu.read_text()),
+            seldom_functions((FIRMWARE.parent / "linker/f28335_flash.cmd").read_text()),
         )
 
     def feature(self, frames):
@@ -91,7 +100,9 @@ class Origin:
         return OTHER
 
     def in_flash(self, frames):
-        return bool(frames) and frames[-1][1] in self.flash
+        return bool(frames) and (
+            frames[-1][1] in self.flash or frames[-1][0].partition(".")[0] in self.seldom
+        )
 
     def is_intrinsic(self, frames):
         return bool(frames) and frames[0][0] in self.intrinsics

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The cycles in docs/hardware.md, from docs/budget.json.
+"""The cycles in docs/hardware.md and host_tools/drive/cycle_budget.hpp, from docs/budget.json.
 
-    tables.py write    rewrites the tables between the markers
-    tables.py check    exit code 1: a table is not that of the JSON, or the default drive costs
-                       more than its ceiling
+    tables.py write    rewrites the tables between the markers, and the header
+    tables.py check    exit code 1: a table or the header is not that of the JSON, or the default
+                       drive costs more than its ceiling
 
-./dev budget record makes the JSON and writes the tables.
+./dev budget record makes the JSON and writes both.
 """
 
 import json
@@ -21,8 +21,7 @@ ROOT = Path(__file__).resolve().parents[3]
 RECORDED = ROOT / "docs/budget.json"
 PAGE = ROOT / "docs/hardware.md"
 CLOCK_Hz = 150e6
-# share of a period that stays for the background, as in host_tools/drive/pwm_frequency.cpp
-BACKGROUND = 0.15
+HEADER = ROOT / "host_tools/drive/cycle_budget.hpp"
 SHIPPED = "noc"
 COLUMNS = {
     "noc_speed": "speed form",
@@ -108,17 +107,44 @@ def operations(f):
     return table(["operations", *COLUMNS.values(), "application"], rows)
 
 
-def frequencies(f):
+PRICED = ("noc_speed", "noc", "noc_h", "conventional")
+
+
+def position(f):
+    """Cycles more on the way to a position."""
+    return f["whole_period"]["noc, position"][1] - f["whole_period"]["noc"][1]
+
+
+def frequencies(f, background):
     """EQ-BOARD-6: with one update in a PWM period, in kHz."""
-    laws = ("noc_speed", "noc", "noc_h", "conventional")
-    more = f["whole_period"]["noc, position"][1] - f["whole_period"]["noc"][1]
     rows = []
-    for text, added in (("without positions", 0), ("with `[position]`", more)):
-        spent = [dearest(f, column)[1] + added for column in laws]
+    for text, added in (("without positions", 0), ("with `[position]`", position(f))):
+        spent = [dearest(f, column)[1] + added for column in PRICED]
         rows.append(
-            [text, *(f"{1e-3 * CLOCK_Hz * (1 - BACKGROUND) / cycles:.1f}" for cycles in spent)]
+            [text, *(f"{1e-3 * CLOCK_Hz * (1 - background) / cycles:.1f}" for cycles in spent)]
         )
-    return table(["highest PWM frequency in kHz", *(COLUMNS[column] for column in laws)], rows)
+    return table(["highest PWM frequency in kHz", *(COLUMNS[column] for column in PRICED)], rows)
+
+
+def header(f, background):
+    """The budget for pwm_frequency.cpp."""
+    numbers = {law: f"{dearest(f, law)[1]}.0;" for law in PRICED}
+    numbers["position"] = f"{position(f)}.0;"
+    numbers["background_share"] = f"{background:.6f};"
+    width = max(map(len, numbers))
+    lines = [
+        "// SPDX-License-Identifier: MIT",
+        "// Generated from docs/budget.json. Do not edit: ./dev budget record.",
+        "/// Upper ends of a whole period's cycles, the dearer of a run's first and the others; position: more on the way to a position.",
+        "#pragma once",
+        "",
+        "namespace sdre::cycle_budget {",
+        "",
+        *(f"constexpr double {name:{width}} = {number}" for name, number in numbers.items()),
+        "",
+        "} // namespace sdre::cycle_budget",
+    ]
+    return "\n".join(lines) + "\n"
 
 
 def memory(f):
@@ -127,15 +153,15 @@ def memory(f):
     return table(["words", *(COLUMNS[law] for law in words)], rows)
 
 
-def filled(page, f, goals):
+def filled(page, f, costs):
     """The page with every table as the figures have it."""
     tables = {
-        "limits": limits(f, goals),
+        "limits": limits(f, costs.limits),
         "laws": laws(f),
         "features": features(f),
         "operations": operations(f),
         "memory": memory(f),
-        "frequencies": frequencies(f),
+        "frequencies": frequencies(f, costs.background),
     }
     marked = re.compile(r"(<!-- budget (\w+) -->\n).*?(<!-- end -->)", re.S)
     if sorted(name for _, name, _ in marked.findall(page)) != sorted(tables):
@@ -146,27 +172,34 @@ def filled(page, f, goals):
 
 
 def write():
-    PAGE.write_text(filled(PAGE.read_text(), json.loads(RECORDED.read_text()), Costs().limits))
+    costs, recorded = Costs(), json.loads(RECORDED.read_text())
+    PAGE.write_text(filled(PAGE.read_text(), recorded, costs))
+    HEADER.write_text(header(recorded, costs.background))
 
 
 def main(command):
     if command == "write":
         write()
         return 0
-    page, figures = PAGE.read_text(), json.loads(RECORDED.read_text())
-    good = page == filled(page, figures, Costs().limits)
-    print(
-        "ok   docs/hardware.md has the tables of docs/budget.json"
-        if good
-        else "FAIL docs/hardware.md has other tables than docs/budget.json: "
-        "tests/target/budget/tables.py write"
-    )
-    if wrong := exceeds(figures, SHIPPED):
+    page, costs, recorded = PAGE.read_text(), Costs(), json.loads(RECORDED.read_text())
+    same = {
+        "docs/hardware.md": page == filled(page, recorded, costs),
+        "host_tools/drive/cycle_budget.hpp": HEADER.exists()
+        and HEADER.read_text() == header(recorded, costs.background),
+    }
+    for name, good in same.items():
+        print(
+            f"ok   {name} has the cycles of docs/budget.json"
+            if good
+            else f"FAIL {name} has other cycles than docs/budget.json: "
+            "tests/target/budget/tables.py write"
+        )
+    if wrong := exceeds(recorded, SHIPPED):
         print(
             f"FAIL docs/budget.json, whole period of the default drive: {wrong}; "
             "what costs more becomes an option"
         )
-    return 0 if good and not wrong else 1
+    return 0 if all(same.values()) and not wrong else 1
 
 
 if __name__ == "__main__":

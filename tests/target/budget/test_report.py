@@ -148,15 +148,23 @@ class Tables(unittest.TestCase):
         )
 
     def test_tables_follow_the_figures(self):
-        goals = {"noc": {"goal": 1, "step": 10**6}}
-        page = tables.filled(self.page, self.figures, goals)
-        self.assertEqual(page, tables.filled(page, self.figures, goals))
+        costs = Costs()
+        costs.limits = {"noc": {"goal": 1, "step": 10**6}}
+        page = tables.filled(self.page, self.figures, costs)
+        self.assertEqual(page, tables.filled(page, self.figures, costs))
         self.assertRegex(
             page,
             r"\| encoder form \| \d+ \.\. \d+ \| [^|]+ \| 1, missed by \d+ % \| 1000000, met \|",
         )
         self.figures["whole_period"]["noc"][1] += 1
-        self.assertNotEqual(page, tables.filled(page, self.figures, goals))
+        self.assertNotEqual(page, tables.filled(page, self.figures, costs))
+
+    def test_header_follows_the_figures(self):
+        for column in ("noc", "noc, start", "noc, position", "conventional"):
+            before = tables.header(self.figures, 0.1)
+            self.figures["whole_period"][column][1] += 1000
+            self.assertNotEqual(before, tables.header(self.figures, 0.1))
+        self.assertNotEqual(tables.header(self.figures, 0.1), tables.header(self.figures, 0.2))
 
     def test_features_add_up_to_the_whole_period(self):
         for kind, parts in self.figures["features"].items():
@@ -165,7 +173,7 @@ class Tables(unittest.TestCase):
 
     def test_a_page_without_a_marker_is_refused(self):
         with self.assertRaisesRegex(ValueError, "markers"):
-            tables.filled(self.page.replace("budget laws", "budget law"), self.figures, {})
+            tables.filled(self.page.replace("budget laws", "budget law"), self.figures, Costs())
 
 
 if __name__ == "__main__":

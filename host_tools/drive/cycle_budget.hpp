@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Generated from docs/budget.json. Do not edit: ./dev budget record.
+/// Upper ends of a whole period's cycles, the dearer of a run's first and the others; position: more on the way to a position.
+#pragma once
+
+namespace sdre::cycle_budget {
+
+constexpr double noc_speed        = 6186.0;
+constexpr double noc              = 6758.0;
+constexpr double noc_h            = 10542.0;
+constexpr double conventional     = 8171.0;
+constexpr double position         = 1766.0;
+constexpr double background_share = 0.106667;
+
+} // namespace sdre::cycle_budget
