@@ -239,9 +239,12 @@ TEST(Conventional, OrdersBeyondTheTableAreRefused)
 
 TEST(Conventional, GeneratedTablesMatchTheirDriveFileAndNoOther)
 {
-    const TempDir     dir;
-    const std::string file  = dir.write("d.toml", drive_text("load", 2).str());
-    const std::string other = dir.write("e.toml", drive_text("all", 2).str());
+    const TempDir dir;
+    const auto    text = [](const char *disturbances) {
+        return drive_text(disturbances, 2).str() + "\n[board]\nname = \"board_390w\"\n";
+    };
+    const std::string file  = dir.write("d.toml", text("load"));
+    const std::string other = dir.write("e.toml", text("all"));
     const auto        gains = [&](const std::string &drive, const char *option) {
         return support::run_command({SDRE_GAINS_EXE, "generate", drive, option, dir / "t"})
             .exit_code;

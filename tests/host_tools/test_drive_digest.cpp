@@ -25,10 +25,13 @@ struct Change {
 Change change_at(const std::string &text, const std::string &line, std::size_t at,
                  const std::string &number)
 {
-    const bool   whole = number.find_first_of(".e") == std::string::npos;
-    const double old   = std::stod(number);
-    Change       change{line, {}};
-    for (const double x : {whole ? old + 1.0 : 1.01 * old + 1e-3, whole ? old - 1.0 : 0.99 * old}) {
+    const bool                whole = number.find_first_of(".e") == std::string::npos;
+    const double              old   = std::stod(number);
+    Change                    change{line, {}};
+    const std::vector<double> others =
+        whole ? std::vector<double>{old + 1.0, old - 1.0}
+              : std::vector<double>{1.01 * old + 1e-3, 0.99 * old, 1.01 * old};
+    for (const double x : others) {
         std::string other = text;
         other.replace(at, number.size(), fmt::format(whole ? "{:.0f}" : "{:.12e}", x));
         change.texts.push_back(other);
