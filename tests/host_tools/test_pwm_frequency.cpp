@@ -63,9 +63,10 @@ double whole(const std::string &column)
 {
     std::ifstream file(source_dir + "/docs/budget.json");
     std::string   all(std::istreambuf_iterator<char>(file), {});
-    all                  = all.substr(all.find("\"whole_period\""));
-    const std::size_t at = all.find("\"" + column + "\": [");
-    return at < all.find('}') ? std::stod(all.substr(all.find(',', at) + 1)) : 0.0;
+    all                    = all.substr(all.find("\"whole_period\""));
+    const std::string name = "\"" + column + "\": [";
+    const std::size_t at   = all.find(name);
+    return at < all.find('}') ? std::stod(all.substr(all.find(',', at + name.size()) + 1)) : 0.0;
 }
 
 double dearest(const std::string &column)
