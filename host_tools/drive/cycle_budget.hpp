@@ -5,10 +5,10 @@
 
 namespace sdre::cycle_budget {
 
-constexpr double noc_speed        = 6186.0;
-constexpr double noc              = 6758.0;
-constexpr double noc_h            = 10542.0;
-constexpr double conventional     = 8171.0;
+constexpr double noc_speed        = 5607.0;
+constexpr double noc              = 5923.0;
+constexpr double noc_h            = 9516.0;
+constexpr double conventional     = 7630.0;
 constexpr double position         = 1766.0;
 constexpr double background_share = 0.106667;
 
