@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Generated from docs/budget.json. Do not edit: ./dev budget record.
-/// Upper ends of a whole period's cycles, the dearer of a run's first and the others; position: more on the way to a position.
+/// Upper ends of a whole period's cycles, the dearer of a run's first and the others.
+/// position: more on the way to a position.
 #pragma once
 
 namespace sdre::cycle_budget {

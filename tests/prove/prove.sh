@@ -31,7 +31,7 @@ speed_difference_check:20,terms_ok:50
 app_modbus_answer_begin:20,app_modbus_device_identify:50
 )
 apart[prove_store]=use:1
-apart[prove_image]=prove_image:1
+apart[prove_image]=prove_image:20,drive_image_read:50
 apart[prove_refused]=${apart[prove_init]}
 declare -A options=(
     [prove_tick]=""

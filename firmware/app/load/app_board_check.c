@@ -29,7 +29,7 @@ static void note(check_t *c, board_fact_t fact, float image, bool ok)
     }
 }
 
-static void same(check_t *c, board_fact_t fact, float image)
+static void must_be(check_t *c, board_fact_t fact, float image)
 {
     const float board = c->board->fact[fact];
     const float slack = SAME_RATIO * fabsf(board);
@@ -56,7 +56,7 @@ static void check_gates(check_t *c)
     const float              dead_s  = (float)s->dead_time_cnt / clock;
     const float              pulse_s = (float)g->pulse_min_cnt / clock;
 
-    same(c, BOARD_FACT_PWM_CLOCK_Hz, (2.0f * full) / c->app->pwm_period_s);
+    must_be(c, BOARD_FACT_PWM_CLOCK_Hz, (2.0f * full) / c->app->pwm_period_s);
     at_least(c, BOARD_FACT_DEAD_TIME_MIN_s, dead_s);
     at_least(c, BOARD_FACT_DEAD_TIME_MIN_s, c->app->dead_time_s);
     at_least(c, BOARD_FACT_DEAD_TIME_MIN_s, c->drive->hardware.dead_time_s);
@@ -103,8 +103,8 @@ static void check_temperature(check_t *c)
             base_in_range(r_Ohm, board * (1.0f - SAME_NTC_RATIO), board * (1.0f + SAME_NTC_RATIO)));
         code_cnt += (float)s->ntc_step_cnt;
     }
-    same(c, BOARD_FACT_TEMPERATURE_LIMIT_degC, c->app->temperature_limit_degC);
-    same(c, BOARD_FACT_TEMPERATURE_TRIP_degC, c->app->temperature_trip_degC);
+    must_be(c, BOARD_FACT_TEMPERATURE_LIMIT_degC, c->app->temperature_limit_degC);
+    must_be(c, BOARD_FACT_TEMPERATURE_TRIP_degC, c->app->temperature_trip_degC);
 }
 
 static void check_scale(check_t *c)
@@ -112,22 +112,24 @@ static void check_scale(check_t *c)
     const app_scale_config_t *s       = &c->app->scale;
     const float               top_cnt = (float)BOARD_ADC_CODES;
 
-    same(c, BOARD_FACT_CURRENT_RANGE_A, s->current_A_per_cnt * s->current_zero_cnt);
-    same(c, BOARD_FACT_CURRENT_RANGE_A, s->current_A_per_cnt * (top_cnt - s->current_zero_cnt));
-    same(c, BOARD_FACT_DC_LINK_RANGE_V, s->dc_link_V_per_cnt * top_cnt);
+    must_be(c, BOARD_FACT_CURRENT_RANGE_A, s->current_A_per_cnt * s->current_zero_cnt);
+    must_be(c, BOARD_FACT_CURRENT_RANGE_A, s->current_A_per_cnt * (top_cnt - s->current_zero_cnt));
+    must_be(c, BOARD_FACT_DC_LINK_RANGE_V, s->dc_link_V_per_cnt * top_cnt);
 }
 
 static void check_limits(check_t *c)
 {
-    const drive_config_t *d = c->drive;
-    const float turn_Hz     = d->trip_speed_e_radps / (TURN_rad * (float)d->hardware.pole_pairs);
+    const drive_config_t *d         = c->drive;
+    const float           pairs     = (float)d->hardware.pole_pairs;
+    const float           positions = (float)d->hardware.encoder_positions;
+    const float           turn_Hz   = d->trip_speed_e_radps / (TURN_rad * pairs);
 
     at_most(c, BOARD_FACT_RATED_CURRENT_A, d->current_max_A);
     at_most(c, BOARD_FACT_TRIP_CURRENT_A, d->trip_current_A);
     at_most(c, BOARD_FACT_RATED_DC_LINK_V, d->dc_link_max_V);
-    same(c, BOARD_FACT_INVERTER_CURRENT_A, c->app->heat.inverter_A);
-    same(c, BOARD_FACT_INVERTER_TIME_CONSTANT_s, c->app->heat.inverter_s);
-    at_most(c, BOARD_FACT_ENCODER_EDGES_Hz, turn_Hz * (float)d->hardware.encoder_positions);
+    must_be(c, BOARD_FACT_INVERTER_CURRENT_A, c->app->heat.inverter_A);
+    must_be(c, BOARD_FACT_INVERTER_TIME_CONSTANT_s, c->app->heat.inverter_s);
+    at_most(c, BOARD_FACT_ENCODER_EDGES_Hz, turn_Hz * positions);
 }
 
 board_difference_t app_board_check(const board_identity_t *board, const app_config_t *config,

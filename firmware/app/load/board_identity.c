@@ -7,32 +7,39 @@
 
 const char *board_field_name(uint16_t field)
 {
-    static const char *const names[BOARD_FIELD_COUNT] = {
-        [BOARD_FIELD_NONE]                        = "",
-        [1 + BOARD_FACT_PWM_CLOCK_Hz]             = "pwm_clock_Hz",
-        [1 + BOARD_FACT_GATE_ON_LEVEL]            = "gate_on_level",
-        [1 + BOARD_FACT_DEAD_TIME_MIN_s]          = "dead_time_min_s",
-        [1 + BOARD_FACT_PRECHARGE_s]              = "precharge_s",
-        [1 + BOARD_FACT_DUTY_MAX]                 = "duty_max",
-        [1 + BOARD_FACT_PULSE_MIN_s]              = "pulse_min_s",
-        [1 + BOARD_FACT_CURRENT_RANGE_A]          = "current_range_A",
-        [1 + BOARD_FACT_RATED_CURRENT_A]          = "rated_current_A",
-        [1 + BOARD_FACT_TRIP_CURRENT_A]           = "trip_current_A",
-        [1 + BOARD_FACT_DC_LINK_RANGE_V]          = "dc_link_range_V",
-        [1 + BOARD_FACT_RATED_DC_LINK_V]          = "rated_dc_link_V",
-        [1 + BOARD_FACT_NTC_RESISTANCE_Ohm]       = "ntc_resistance_Ohm",
-        [1 + BOARD_FACT_NTC_BETA_K]               = "ntc_beta_K",
-        [1 + BOARD_FACT_NTC_DIVIDER_Ohm]          = "ntc_divider_Ohm",
-        [1 + BOARD_FACT_TEMPERATURE_LIMIT_degC]   = "temperature_limit_degC",
-        [1 + BOARD_FACT_TEMPERATURE_TRIP_degC]    = "temperature_trip_degC",
-        [1 + BOARD_FACT_INVERTER_CURRENT_A]       = "inverter_current_A",
-        [1 + BOARD_FACT_INVERTER_TIME_CONSTANT_s] = "inverter_time_constant_s",
-        [1 + BOARD_FACT_ENCODER_EDGES_Hz]         = "encoder_edges_Hz",
-        [BOARD_FIELD_NAME]                        = "name",
-        [BOARD_FIELD_SUM]                         = "sum",
+    static const char *const facts[BOARD_FACT_COUNT] = {
+        [BOARD_FACT_PWM_CLOCK_Hz]             = "pwm_clock_Hz",
+        [BOARD_FACT_GATE_ON_LEVEL]            = "gate_on_level",
+        [BOARD_FACT_DEAD_TIME_MIN_s]          = "dead_time_min_s",
+        [BOARD_FACT_PRECHARGE_s]              = "precharge_s",
+        [BOARD_FACT_DUTY_MAX]                 = "duty_max",
+        [BOARD_FACT_PULSE_MIN_s]              = "pulse_min_s",
+        [BOARD_FACT_CURRENT_RANGE_A]          = "current_range_A",
+        [BOARD_FACT_RATED_CURRENT_A]          = "rated_current_A",
+        [BOARD_FACT_TRIP_CURRENT_A]           = "trip_current_A",
+        [BOARD_FACT_DC_LINK_RANGE_V]          = "dc_link_range_V",
+        [BOARD_FACT_RATED_DC_LINK_V]          = "rated_dc_link_V",
+        [BOARD_FACT_NTC_RESISTANCE_Ohm]       = "ntc_resistance_Ohm",
+        [BOARD_FACT_NTC_BETA_K]               = "ntc_beta_K",
+        [BOARD_FACT_NTC_DIVIDER_Ohm]          = "ntc_divider_Ohm",
+        [BOARD_FACT_TEMPERATURE_LIMIT_degC]   = "temperature_limit_degC",
+        [BOARD_FACT_TEMPERATURE_TRIP_degC]    = "temperature_trip_degC",
+        [BOARD_FACT_INVERTER_CURRENT_A]       = "inverter_current_A",
+        [BOARD_FACT_INVERTER_TIME_CONSTANT_s] = "inverter_time_constant_s",
+        [BOARD_FACT_ENCODER_EDGES_Hz]         = "encoder_edges_Hz",
     };
+    const char *name = "";
 
-    return names[(field < (uint16_t)BOARD_FIELD_COUNT) ? field : (uint16_t)BOARD_FIELD_NONE];
+    if (field == (uint16_t)BOARD_FIELD_NAME) {
+        name = "name";
+    } else if (field == (uint16_t)BOARD_FIELD_SUM) {
+        name = "sum";
+    } else if ((field > 0U) && (field <= (uint16_t)BOARD_FACT_COUNT)) {
+        name = facts[field - 1U];
+    } else {
+        /* none */
+    }
+    return name;
 }
 
 void board_identity_fields(fields_t *f, board_identity_t *b)
@@ -48,9 +55,10 @@ void board_identity_fields(fields_t *f, board_identity_t *b)
 uint32_t board_identity_sum(const board_identity_t *b)
 {
     uint16_t         words[BOARD_IDENTITY_WORDS];
-    board_identity_t copy = *b;
-    fields_t         f    = fields_writer(words, BOARD_IDENTITY_WORDS);
+    board_identity_t copy;
+    fields_t         f = fields_writer(words, BOARD_IDENTITY_WORDS);
 
+    copy = *b;
     board_identity_fields(&f, &copy);
     return crc32_words(CRC32_START, words, BOARD_IDENTITY_WORDS);
 }
@@ -59,7 +67,7 @@ static bool same_name(const board_identity_t *x, const board_identity_t *y)
 {
     bool same = true;
 
-    for (uint16_t n = 0U; n < (uint16_t)(2U * BOARD_NAME_WORDS); n++) {
+    for (uint16_t n = 0U; n < BOARD_NAME_CHARS; n++) {
         same = same && (x->name[n] == y->name[n]);
     }
     return same;

@@ -38,10 +38,11 @@ typedef enum {
 } board_fact_t;
 
 #define BOARD_NAME_WORDS     12U /**< of two characters; chosen: all texts of 43/14 have 24 */
+#define BOARD_NAME_CHARS     (2U * BOARD_NAME_WORDS)
 #define BOARD_IDENTITY_WORDS (BOARD_NAME_WORDS + (2U * (uint16_t)BOARD_FACT_COUNT))
 
 typedef struct {
-    char     name[(2U * BOARD_NAME_WORDS) + 1U];
+    char     name[BOARD_NAME_CHARS + 1U];
     float    fact[BOARD_FACT_COUNT];
     uint32_t sum; /**< board_identity_sum() */
 } board_identity_t;

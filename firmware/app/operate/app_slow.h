@@ -38,9 +38,9 @@ static inline uint16_t app_slow_periods(float ts_s)
 /** Time of that many periods [s]. Context: init. */
 static inline float app_slow_s(float ts_s)
 {
-    const uint16_t periods = app_slow_periods(ts_s);
+    const float periods = (float)app_slow_periods(ts_s);
 
-    return ts_s * (float)periods;
+    return ts_s * periods;
 }
 
 #endif /* APP_SLOW_H */

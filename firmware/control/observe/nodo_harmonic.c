@@ -67,13 +67,16 @@ static void multiply(change_t *out, const nodo_harmonic_gains_t *g, const lookup
 
     const float(*gain)[NODO_HARMONIC_NODES_MAX][NODO_HARMONIC_N_G] = g->gain;
 
-    for (float *to = out->row; to < end; to++) {
+    float *to = out->row;
+
+    while (to < end) {
         const float *const l = (*gain)[at->below];
         const float *const u = (*gain)[at->below + 1];
 
         *to = (l[0] * x[0]) + (l[1] * x[1]) + (l[2] * x[2]) + (l[3] * x[3]) + (l[4] * x[4]) +
               (l[5] * x[5]) + (u[0] * y[0]) + (u[1] * y[1]) + (u[2] * y[2]) + (u[3] * y[3]) +
               (u[4] * y[4]) + (u[5] * y[5]);
+        to++;
         gain++;
     }
 }
