@@ -15,10 +15,11 @@ from typing import Dict, List, Optional, Tuple
 
 import pytest
 import serial
-from support import command
+from support import command, until
 
 from sdre_drive import boot_rom
-from sdre_drive.connection import DriveError
+from sdre_drive.connection import Drive, DriveError, Target
+from sdre_drive.registers import Mode
 
 Blocks = List[Tuple[int, List[int]]]
 SIL = os.environ.get(
@@ -147,7 +148,8 @@ def test_virtual_device_loads_and_starts_its_firmware(tmp_path: Path) -> None:
             assert device.stdout.readline() == (
                 "boot ROM: 305 words in RAM, entry 008000h; the firmware starts\n"
             )
-            assert "ready, bridge off" in command("status", "--tcp", tcp[1]).stdout
+            with Drive(Target(tcp_port=int(tcp[1].split(":")[1]))) as drive:
+                until(drive, lambda r: r.mode == Mode.READY)
         finally:
             device.terminate()
 
@@ -202,7 +204,7 @@ def test_a_port_is_needed_and_only_one_task(tmp_path: Path) -> None:
     file = str(write(tmp_path / "p.a00", stream()))
     assert "--port" in command("load", "--boot-rom", file).stderr
     assert (
-        "give an image, --forget or --boot-rom"
+        "give an image, --forget, --accept-fallback or --boot-rom"
         in command("load", "--boot-rom", file, "--forget").stderr
     )
     assert "No such file" in command("load", "--boot-rom", file + "x", "--port", "/dev/null").stderr
