@@ -35,7 +35,7 @@ static struct {
     app_modes_t           modes;
     app_modes_input_t     in;
     app_control_t         control;
-    app_objects_t         wanted;
+    app_objects_t         requested;
     app_mode_t            decided; /* mode of the last app_control_decide() */
     bool                  taken;   /* a command came after it */
     uint16_t              due;     /* pieces of work, APP_SLOW_ */
@@ -70,7 +70,7 @@ static ctl_status_t init_tick_side(const app_config_t *config, const drive_confi
     const app_command_t none = {.omega_e_radps = 0.0f, .run = false, .reset = false};
 
     tick_side.in.command           = none;
-    tick_side.wanted               = app_control_default(drive);
+    tick_side.requested            = app_control_default(drive);
     tick_side.decided              = APP_MODE_BOOT;
     tick_side.taken                = false;
     tick_side.due                  = (uint16_t)APP_SLOW_TURN;
@@ -149,7 +149,7 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
     shared.command_full     = false;
     shared.tick_missing     = false;
     shared.memory_changed   = false;
-    shared.command          = tick_side.wanted;
+    shared.command          = tick_side.requested;
     shared.board_faults     = 0U;
     shared.cycles           = 0U;
     shared.cycles_worst     = 0U;
@@ -175,7 +175,7 @@ static app_control_seen_t seen_now(void)
 
 static void take_command(void)
 {
-    tick_side.wanted    = shared.command;
+    tick_side.requested = shared.command;
     tick_side.taken     = true;
     shared.command_full = false;
 }
@@ -184,7 +184,7 @@ static void decide(app_mode_t mode)
 {
     const app_control_seen_t seen = seen_now();
 
-    app_control_decide(&tick_side.control, &tick_side.wanted, &seen, &tick_side.in.command);
+    app_control_decide(&tick_side.control, &tick_side.requested, &seen, &tick_side.in.command);
     tick_side.taken   = false;
     tick_side.decided = mode;
     tick_side.due     = (uint16_t)(tick_side.due | (uint16_t)APP_SLOW_AIM);
@@ -194,7 +194,7 @@ static void aim(void)
 {
     const app_control_seen_t seen = seen_now();
 
-    app_control_aim(&tick_side.control, &tick_side.wanted, &seen, &tick_side.in.command);
+    app_control_aim(&tick_side.control, &tick_side.requested, &seen, &tick_side.in.command);
 }
 
 /* One piece of the work of app_slow.h. */
@@ -244,7 +244,7 @@ static void work(void)
     tick_side.slow_period = next;
     if (next >= tick_side.slow_periods) {
         tick_side.slow_period = 0U;
-        tick_side.due         = (uint16_t)APP_SLOW_TURN;
+        tick_side.due         = (uint16_t)(tick_side.due | (uint16_t)APP_SLOW_TURN);
     }
     if ((mode == APP_MODE_RUN) || (mode == APP_MODE_STOP)) {
         work_slowly(mode);
@@ -352,17 +352,17 @@ static void restart_when_asked(uint32_t now_ticks)
     app_registers_t *r    = &background_side.registers;
     const bool       on   = r->status.gate_enable;
     const bool       idle = app_modbus_is_quiet(&background_side.modbus, now_ticks);
-    const bool store      = !on && (r->wanted.store_command != (uint16_t)APP_PARAMETERS_NO_COMMAND);
+    const bool store = !on && (r->requested.store_command != (uint16_t)APP_PARAMETERS_NO_COMMAND);
 
     l->restart = l->restart && !on;
     if (store && idle) {
-        app_parameters_ask(r, (app_parameters_command_t)r->wanted.store_command);
+        app_parameters_ask(r, (app_parameters_command_t)r->requested.store_command);
     }
     if ((store || l->restart) && idle) {
         board_restart(store || l->enter);
     }
     if (on) {
-        r->wanted.store_command = (uint16_t)APP_PARAMETERS_NO_COMMAND;
+        r->requested.store_command = (uint16_t)APP_PARAMETERS_NO_COMMAND;
     }
 }
 
@@ -394,7 +394,7 @@ void app_background(void)
     read_status();
     app_parameters_rest(&background_side.parameters, (float)now_ticks * tick_side.drive->ts_s);
     app_modbus_poll(&background_side.modbus, r, now_ticks);
-    if (r->changed && app_command_write(&r->wanted.objects)) {
+    if (r->changed && app_command_write(&r->requested.objects)) {
         r->changed = false;
     }
     restart_when_asked(now_ticks);
@@ -418,8 +418,8 @@ void app_take_parameters(app_parameters_done_t done)
     app_parameters_take(&background_side.parameters, r, done);
     tick_side.modes.locked =
         tick_side.modes.locked || (background_side.parameters.state == APP_PARAMETERS_LOST);
-    board_line_set(&r->wanted.line);
-    app_modbus_follow(&background_side.modbus, &r->wanted.line, tick_side.drive->ts_s,
+    board_line_set(&r->requested.line);
+    app_modbus_follow(&background_side.modbus, &r->requested.line, tick_side.drive->ts_s,
                       tick_side.config.modbus_gap_ticks);
 }
 

@@ -59,7 +59,7 @@ static bool command_ok(const drive_config_t *c, const drive_command_t *command)
     if (p == NULL) {
         return base_within(command->omega_e_radps, c->speed_max_e_radps);
     }
-    return c->positions && position_ok(&p->is) && position_ok(&p->target) &&
+    return c->positions && position_ok(&p->actual) && position_ok(&p->target) &&
            position_profile_is_any(&p->profile);
 }
 

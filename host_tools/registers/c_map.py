@@ -12,7 +12,7 @@ from table import SPACES, Group, Register, of_space
 NOTE = "/* Generated from registers.toml. Do not edit: python3 host_tools/registers/generate.py. */"
 HOMES = {
     "": "COMPUTED",
-    "wanted": "app_registers_wanted_t",
+    "requested": "app_registers_request_t",
     "status": "app_status_t",
     "drive": "drive_config_t",
     "config": "app_config_t",
@@ -126,7 +126,7 @@ def header(groups: List[Group]) -> str:
         "/** Where a value is. */",
         "typedef enum {",
         "    APP_REGISTERS_COMPUTED = 0, /**< app_registers_map_real() and its kin */",
-        "    APP_REGISTERS_WANTED, /**< a member of the app_registers_wanted_t */",
+        "    APP_REGISTERS_REQUESTED, /**< a member of the app_registers_request_t */",
         "    APP_REGISTERS_STATUS, /**< of the app_status_t */",
         "    APP_REGISTERS_DRIVE,  /**< of the drive_config_t */",
         "    APP_REGISTERS_CONFIG  /**< of the app_config_t */",
@@ -160,7 +160,7 @@ def header(groups: List[Group]) -> str:
         "} app_registers_entry_t;",
         "",
         "struct app_registers;",
-        "struct app_registers_wanted;",
+        "struct app_registers_request;",
         "",
     ]
     for space in SPACES:
@@ -178,7 +178,7 @@ def header(groups: List[Group]) -> str:
         "uint32_t app_registers_map_whole(const struct app_registers *r, uint16_t number);",
         "",
         "/** Puts a value that is in its range into w, as its number says. */",
-        "void app_registers_map_put(const struct app_registers *r, struct app_registers_wanted *w, "
+        "void app_registers_map_put(const struct app_registers *r, struct app_registers_request *w, "
         "uint16_t number, float x);",
         "",
         "#endif /* APP_REGISTERS_MAP_H */",
@@ -267,7 +267,7 @@ def source(groups: List[Group]) -> str:
     lines += [
         *_getter(groups, True),
         *_getter(groups, False),
-        "void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, uint16_t "
+        "void app_registers_map_put(const app_registers_t *r, app_registers_request_t *w, uint16_t "
         "number, float x)",
         "{",
         *_switch(put),

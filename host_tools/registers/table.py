@@ -13,7 +13,7 @@ except ModuleNotFoundError:  # before Python 3.11
     import tomli as tomllib  # type: ignore[no-redef]
 
 # Structures whose members registers show, and types of members.
-HOMES = ("wanted", "status", "drive", "config")
+HOMES = ("requested", "status", "drive", "config")
 MEMBERS = ("u16", "i16", "u32", "i32", "float", "bool")
 WORDS = {"u16": 1, "i16": 1, "u32": 2, "i32": 2, "dec": 2}
 SPACES = ("holding", "input")
@@ -141,10 +141,10 @@ def _register(keys: Dict[str, Any], address: int, space: str) -> Register:
         raise TableError(f"{name}: at {keys['at']}, c {kind}")
     signature = int.from_bytes(keys.get("signature", "").encode(), "little")
     given = keys.get("range") or ([signature, signature] if signature else None)
-    written = "to" in keys or home == "wanted"
+    written = "to" in keys or home == "requested"
     if (space == "holding") != (written and given is not None and "default" in keys):
         raise TableError(
-            f"{name}: to or wanted, range and default belong to holding registers, all of them"
+            f"{name}: to or requested, range and default belong to holding registers, all of them"
         )
     if (space != "holding" and ("saved" in keys or signature)) or (
         signature and keys["type"] != "u32"

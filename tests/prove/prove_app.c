@@ -75,7 +75,7 @@ static void any_state(void)
     modes.drive.answer.waits          = any_bool();
     modes.position.have               = any_bool();
     modes.position.known              = any_bool();
-    modes.position.is.turns           = any_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
+    modes.position.actual.turns       = any_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
     modes.position.pole_pairs         = (uint16_t)any_between(1, 64);
     modes.position.positions          = board_config.board.positions;
     modes.angle.pole_pairs            = modes.position.pole_pairs;
@@ -175,7 +175,7 @@ static void tick_control(app_mode_t mode, app_control_state_t state)
     app_position_t position = any_position;
     position.known          = any_bool();
     position.have           = any_bool();
-    position.is.turns       = any_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
+    position.actual.turns   = any_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
     position.zero.turns     = any_between(-TURN_cnt, TURN_cnt); /* of the first turns */
     position.pole_pairs     = (uint16_t)any_between(1, 64);
     position.positions      = board_config.board.positions;
@@ -230,21 +230,21 @@ static void any_registers(void)
 {
     app_status_t *const s = &registers.status;
 
-    *s                         = any_status;
-    s->hot                     = any_bool();
-    s->dc_link_out             = any_bool();
-    s->tripped                 = any_bool();
-    s->shorted                 = any_bool();
-    s->gate_enable             = any_bool();
-    s->without_angle           = any_bool();
-    s->snapshot.raw.valid      = any_bool();
-    s->snapshot.raw.index_seen = any_bool();
-    registers.config           = &board_config;
-    registers.drive            = &config;
-    registers.parameters       = NULL;
-    registers.wanted.objects   = any_objects;
-    registers.silent           = any_bool();
-    registers.changed          = any_bool();
+    *s                          = any_status;
+    s->hot                      = any_bool();
+    s->dc_link_out              = any_bool();
+    s->tripped                  = any_bool();
+    s->shorted                  = any_bool();
+    s->gate_enable              = any_bool();
+    s->without_angle            = any_bool();
+    s->snapshot.raw.valid       = any_bool();
+    s->snapshot.raw.index_seen  = any_bool();
+    registers.config            = &board_config;
+    registers.drive             = &config;
+    registers.parameters        = NULL;
+    registers.requested.objects = any_objects;
+    registers.silent            = any_bool();
+    registers.changed           = any_bool();
 }
 
 /* Entry: a pass of the server in any state. */

@@ -165,7 +165,7 @@ void prove_tick(void)
 
     position_command_t position =
         any_position; /* drive_tick() refuses other turns: unit.position_run */
-    position.is.turns     = any_turns();
+    position.actual.turns = any_turns();
     position.target.turns = any_turns();
     command.position      = any_between(0, 1) ? &position : NULL;
 

@@ -9,10 +9,10 @@ APP_MEASURE_PART void app_position_track(app_position_t *p, const app_angle_t *a
     const float theta_rad = frames_wrap(reading->theta_e_rad);
 
     if (!p->have) {
-        p->is.theta_e_rad = theta_rad;
-        p->have           = true;
+        p->actual.theta_e_rad = theta_rad;
+        p->have               = true;
     }
-    p->is = position_followed(&p->is, theta_rad);
+    p->actual = position_followed(&p->actual, theta_rad);
     if (angle->reference == APP_ANGLE_NONE) {
         p->known = false;
     } else if (!p->known) {

@@ -23,7 +23,7 @@ typedef struct {
     uint16_t   pole_pairs;
     uint16_t   positions;   /**< per turn */
     float      rad_per_cnt; /**< electrical */
-    position_t is;          /**< of the last sample */
+    position_t actual;      /**< of the last sample */
     position_t zero;
     bool       have;  /**< there was a sample */
     bool       known; /**< the zero is known */

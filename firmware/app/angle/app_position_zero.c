@@ -12,7 +12,7 @@ void app_position_init(app_position_t *p, const app_angle_t *angle)
     p->pole_pairs  = angle->pole_pairs;
     p->positions   = angle->positions;
     p->rad_per_cnt = angle->rad_per_cnt;
-    p->is          = origin;
+    p->actual      = origin;
     p->zero        = origin;
     p->have        = false;
     p->known       = false;
@@ -41,9 +41,9 @@ void app_position_find_zero(app_position_t *p, const app_angle_t *angle)
     const float middle_rad = angle->zero_theta_rad + (0.5f * p->rad_per_cnt); /* below 3 pi */
     const float theta_rad  = frames_wrap(middle_rad);
     const float way_rad    = (float)turned_cnt * p->rad_per_cnt;
-    const float turns      = (p->is.theta_e_rad - theta_rad - way_rad) * (1.0f / BASE_TWO_PI);
+    const float turns      = (p->actual.theta_e_rad - theta_rad - way_rad) * (1.0f / BASE_TWO_PI);
 
-    p->zero.turns       = p->is.turns + rounded(turns, TURNS_NEAR);
+    p->zero.turns       = p->actual.turns + rounded(turns, TURNS_NEAR);
     p->zero.theta_e_rad = theta_rad;
     p->known            = true;
 }

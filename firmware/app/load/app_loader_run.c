@@ -32,8 +32,8 @@ void app_loader_start(app_image_t *image)
     app_parameters_take(&side.parameters, &side.registers, APP_PARAMETERS_NOT_ASKED);
     side.registers.parameters =
         NULL; /* the loader uses address and line only; it stores no parameters */
-    board_line_set(&side.registers.wanted.line);
-    app_modbus_follow(&side.modbus, &side.registers.wanted.line, side.drive.ts_s,
+    board_line_set(&side.registers.requested.line);
+    app_modbus_follow(&side.modbus, &side.registers.requested.line, side.drive.ts_s,
                       side.config.modbus_gap_ticks);
     side.tick_cycles = side.config.board.pwm_cycles / side.drive.hardware.updates_per_period;
     side.cycles      = board_cycles();

@@ -99,7 +99,7 @@ bool app_modbus_is_quiet(const app_modbus_t *m, uint32_t now_ticks)
 
 static void take_request(app_modbus_t *m, app_registers_t *r, uint32_t now_ticks)
 {
-    const uint16_t                before     = r->wanted.objects.controlword;
+    const uint16_t                before     = r->requested.objects.controlword;
     const bool                    all        = m->rx_octets[0] == ADDRESS_BROADCAST;
     app_loader_t *const           loader     = r->loader;
     const app_parameters_t *const parameters = r->parameters;
@@ -112,8 +112,8 @@ static void take_request(app_modbus_t *m, app_registers_t *r, uint32_t now_ticks
     r->loader     = loader;
     r->parameters = parameters;
     if (all) {
-        if (app_control_enables(r->wanted.objects.controlword) && !app_control_enables(before)) {
-            r->wanted.objects.controlword =
+        if (app_control_enables(r->requested.objects.controlword) && !app_control_enables(before)) {
+            r->requested.objects.controlword =
                 before; /* a broadcast may stop motors, but not start them */
         }
         m->tx_count = 0U;
@@ -128,7 +128,7 @@ static void end_frame(app_modbus_t *m, app_registers_t *r, uint32_t now_ticks)
     if (frame_ok(m)) {
         const uint16_t to = m->rx_octets[0];
 
-        m->address = r->wanted.modbus_address;
+        m->address = r->requested.modbus_address;
         if (((to == m->address) || (to == ADDRESS_BROADCAST)) && app_modbus_answer_length_ok(m)) {
             take_request(m, r, now_ticks);
         }
@@ -172,7 +172,7 @@ void app_modbus_poll(app_modbus_t *m, app_registers_t *r, uint32_t now_ticks)
         ((uint32_t)(now_ticks - m->heard_ticks) >= (uint32_t)m->gap_ticks)) {
         end_frame(m, r, now_ticks);
     }
-    if ((uint32_t)(now_ticks - m->request_ticks) > r->wanted.modbus_timeout_ticks) {
+    if ((uint32_t)(now_ticks - m->request_ticks) > r->requested.modbus_timeout_ticks) {
         app_registers_silence(r);
     }
 }

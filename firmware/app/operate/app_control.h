@@ -110,15 +110,15 @@ static inline void app_control_follow(app_control_t *c, app_command_t *out)
  *
  * Context: control ISR, at each change and once in a millisecond.
  */
-void app_control_decide(app_control_t *c, const app_objects_t *wanted,
+void app_control_decide(app_control_t *c, const app_objects_t *requested,
                         const app_control_seen_t *seen, app_command_t *out);
 
 /** Sets target, ramp and current limit of what was decided. Context: as above, after it. */
-void app_control_aim(app_control_t *c, const app_objects_t *wanted, const app_control_seen_t *seen,
-                     app_command_t *out);
+void app_control_aim(app_control_t *c, const app_objects_t *requested,
+                     const app_control_seen_t *seen, app_command_t *out);
 
 /** Executes one period: all three. Context: control ISR, without a running law. */
-void app_control_tick(app_control_t *c, const app_objects_t *wanted, const app_control_seen_t *seen,
-                      app_command_t *out);
+void app_control_tick(app_control_t *c, const app_objects_t *requested,
+                      const app_control_seen_t *seen, app_command_t *out);
 
 #endif /* APP_CONTROL_H */

@@ -26,9 +26,9 @@ static int32_t held(int32_t counts)
 
 void app_setpoint_start(app_setpoint_t *s, const app_objects_t *o, const app_position_t *position)
 {
-    s->now.target_cnt = app_position_cnt(position, &position->is);
+    s->now.target_cnt = app_position_cnt(position, &position->actual);
     s->now.profile    = profile_of(o);
-    s->target         = position->is;
+    s->target         = position->actual;
     s->waits          = false;
     s->acknowledged   = false;
     s->new_high       = true;
@@ -41,7 +41,7 @@ static void begin(app_setpoint_t *s, const app_setpoint_one_t *one, const app_po
     s->target = app_position_at(position, one->target_cnt);
 }
 
-static app_setpoint_one_t wanted(const app_setpoint_t *s, const app_objects_t *o)
+static app_setpoint_one_t asked_for(const app_setpoint_t *s, const app_objects_t *o)
 {
     const app_setpoint_one_t *before   = s->waits ? &s->next : &s->now;
     const bool                relative = app_control_has(o->controlword, APP_CONTROL_RELATIVE);
@@ -65,11 +65,11 @@ void app_setpoint_tick(app_setpoint_t *s, const app_objects_t *o, const app_posi
         begin(s, &s->next, position);
     }
     if (rose && ((arrived && !follows) || app_control_has(o->controlword, APP_CONTROL_AT_ONCE))) {
-        const app_setpoint_one_t one = wanted(s, o);
+        const app_setpoint_one_t one = asked_for(s, o);
         begin(s, &one, position);
         s->acknowledged = true;
     } else if (rose && !s->waits) {
-        s->next         = wanted(s, o);
+        s->next         = asked_for(s, o);
         s->waits        = true;
         s->acknowledged = true;
     } else {

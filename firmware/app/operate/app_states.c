@@ -18,19 +18,19 @@ static drive_sample_t drive_sample(const app_modes_t *m)
     return s;
 }
 
-bridge_t app_states_drive(app_modes_t *m, const app_command_t *wanted, bool run)
+bridge_t app_states_drive(app_modes_t *m, const app_command_t *asked, bool run)
 {
     const drive_sample_t sample = drive_sample(m);
 
-    if (wanted->positioning) {
-        m->to_position.is      = m->position.is;
-        m->to_position.target  = wanted->target;
-        m->to_position.profile = wanted->profile;
+    if (asked->positioning) {
+        m->to_position.actual  = m->position.actual;
+        m->to_position.target  = asked->target;
+        m->to_position.profile = asked->profile;
     }
-    const drive_command_t command = {.omega_e_radps = wanted->omega_e_radps,
+    const drive_command_t command = {.omega_e_radps = asked->omega_e_radps,
                                      .run           = run,
-                                     .derating      = base_max(m->heat.derating, wanted->derating),
-                                     .position      = wanted->positioning ? &m->to_position : NULL};
+                                     .derating      = base_max(m->heat.derating, asked->derating),
+                                     .position      = asked->positioning ? &m->to_position : NULL};
     return drive_tick(&m->drive, &sample, &command);
 }
 

@@ -16,7 +16,7 @@ bridge_t app_states_run(app_modes_t *m, const app_modes_input_t *in);
 bridge_t app_states_rest(app_modes_t *m, const app_modes_input_t *in);
 
 /** Executes a tick of the drive. @param run false: the drive stays off. */
-bridge_t app_states_drive(app_modes_t *m, const app_command_t *wanted, bool run);
+bridge_t app_states_drive(app_modes_t *m, const app_command_t *asked, bool run);
 
 /** Enters a mode and clears its timer and sums. */
 void app_states_enter(app_modes_t *m, app_mode_t mode);

@@ -193,10 +193,10 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
  * link. */
 static bridge_t commissioning(app_modes_t *m, const app_modes_input_t *in)
 {
-    const bool     wanted = in->command.commission && !in->command.run;
-    const bridge_t out    = app_commission_tick(&m->commission, &m->sample, in->raw, wanted);
+    const bool     goes_on = in->command.commission && !in->command.run;
+    const bridge_t out     = app_commission_tick(&m->commission, &m->sample, in->raw, goes_on);
 
-    if (!wanted || (m->commission.module.stage == COMMISSION_FINISHED)) {
+    if (!goes_on || (m->commission.module.stage == COMMISSION_FINISHED)) {
         app_angle_drop(&m->angle);
         app_states_enter(m, APP_MODE_READY);
         return bridge_open();

@@ -29,24 +29,24 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
     static const board_line_t      line  = {
               .baud_Bd = 115200UL, .format = (uint16_t)BOARD_LINE_EVEN, .direction = 0U};
 
-    r->wanted.objects              = app_control_default(drive);
-    r->wanted.scope                = scope;
-    r->wanted.scope_command        = 0U;
-    r->wanted.store_command        = (uint16_t)APP_PARAMETERS_NO_COMMAND;
-    r->wanted.line                 = line;
-    r->parameters                  = NULL;
-    r->scope                       = NULL;
-    r->record                      = NULL;
-    r->wanted.modbus_address       = config->modbus_address;
-    r->wanted.modbus_timeout_ticks = config->modbus_timeout_ticks;
-    r->config                      = config;
-    r->drive                       = drive;
-    r->rpm_per_e_radps             = RPM_PER_RADPS / ((pairs > 0U) ? (float)pairs : 1.0f);
-    r->status                      = nothing;
-    r->trial                       = r->wanted;
-    r->changed                     = false;
-    r->silent                      = false;
-    r->loader                      = NULL;
+    r->requested.objects              = app_control_default(drive);
+    r->requested.scope                = scope;
+    r->requested.scope_command        = 0U;
+    r->requested.store_command        = (uint16_t)APP_PARAMETERS_NO_COMMAND;
+    r->requested.line                 = line;
+    r->parameters                     = NULL;
+    r->scope                          = NULL;
+    r->record                         = NULL;
+    r->requested.modbus_address       = config->modbus_address;
+    r->requested.modbus_timeout_ticks = config->modbus_timeout_ticks;
+    r->config                         = config;
+    r->drive                          = drive;
+    r->rpm_per_e_radps                = RPM_PER_RADPS / ((pairs > 0U) ? (float)pairs : 1.0f);
+    r->status                         = nothing;
+    r->trial                          = r->requested;
+    r->changed                        = false;
+    r->silent                         = false;
+    r->loader                         = NULL;
     return ((config->modbus_address >= 1U) && (config->modbus_address <= ADDRESS_MAX) &&
             (config->modbus_timeout_ticks > 0U))
                ? CTL_OK

@@ -66,7 +66,7 @@ typedef enum {
 } app_registers_result_t;
 
 /** Contents of the holding registers. */
-typedef struct app_registers_wanted {
+typedef struct app_registers_request {
     app_objects_t     objects;
     app_scope_setup_t scope;
     uint16_t          scope_command; /**< 1 arms, 2 stops */
@@ -74,15 +74,15 @@ typedef struct app_registers_wanted {
     uint32_t          modbus_timeout_ticks;
     board_line_t      line;
     uint16_t          store_command; /**< app_parameters_command_t */
-} app_registers_wanted_t;
+} app_registers_request_t;
 
 typedef struct app_registers {
     const app_config_t          *config;
     const drive_config_t        *drive;
     float                        rpm_per_e_radps;
     app_status_t                 status;
-    app_registers_wanted_t       wanted;
-    app_registers_wanted_t       trial; /**< copy that a write changes until it is accepted */
+    app_registers_request_t      requested;
+    app_registers_request_t      trial; /**< copy that a write changes until it is accepted */
     volatile app_scope_t        *scope; /**< NULL: neither scope nor record */
     const volatile app_record_t *record;
     app_loader_t                *loader;     /**< serves APP_LOADER_FIRST and up; NULL: none */

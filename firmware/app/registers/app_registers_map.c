@@ -13,44 +13,44 @@
     ((sizeof(t) == sizeof(unsigned char)) ? APP_REGISTERS_AS_CHAR : APP_REGISTERS_AS_INT)
 
 const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING] = {
-    {APP_REGISTERS_CONTROLWORD, APP_REGISTERS_U16, 0.0f, 0.0f, 65535.0f, false, false, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_U16, AT(app_registers_wanted_t, objects.controlword), false},
-    {APP_REGISTERS_MODE_OF_OPERATION, APP_REGISTERS_I16, 0.0f, -1.0f, 6.0f, true, false, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_I16, AT(app_registers_wanted_t, objects.mode_of_operation), false},
-    {APP_REGISTERS_SPEED, APP_REGISTERS_I32, 10.0f, -1000000.0f, 1000000.0f, false, false, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_wanted_t, objects.omega_e_radps), false},
-    {APP_REGISTERS_SPEED_RPM, APP_REGISTERS_I32, 10.0f, -10000000.0f, 10000000.0f, false, false, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_wanted_t, objects.omega_e_radps), true},
-    {APP_REGISTERS_SPEED_RPM_16, APP_REGISTERS_I16, 1.0f, -32768.0f, 32767.0f, false, false, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_wanted_t, objects.omega_e_radps), true},
-    {APP_REGISTERS_ACCELERATION, APP_REGISTERS_U32, 1.0f, 0.0f, 1000000.0f, false, true, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_wanted_t, objects.accel_e_radps2), false},
-    {APP_REGISTERS_DECELERATION, APP_REGISTERS_U32, 1.0f, 0.0f, 1000000.0f, false, true, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_wanted_t, objects.decel_e_radps2), false},
-    {APP_REGISTERS_QUICK_STOP_DECELERATION, APP_REGISTERS_U32, 1.0f, 0.0f, 1000000.0f, false, true, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_wanted_t, objects.quick_e_radps2), false},
-    {APP_REGISTERS_QUICK_STOP_OPTION, APP_REGISTERS_I16, 0.0f, 0.0f, 6.0f, false, true, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_I16, AT(app_registers_wanted_t, objects.quick_option), false},
-    {APP_REGISTERS_SHUTDOWN_OPTION, APP_REGISTERS_I16, 0.0f, 0.0f, 1.0f, false, true, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_I16, AT(app_registers_wanted_t, objects.shutdown_option), false},
-    {APP_REGISTERS_DISABLE_OPTION, APP_REGISTERS_I16, 0.0f, 0.0f, 1.0f, false, true, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_I16, AT(app_registers_wanted_t, objects.disable_option), false},
-    {APP_REGISTERS_LOST_OPTION, APP_REGISTERS_I16, 0.0f, 2.0f, 3.0f, false, true, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_I16, AT(app_registers_wanted_t, objects.lost_option), false},
-    {APP_REGISTERS_MAX_CURRENT, APP_REGISTERS_I32, 1000.0f, 0.0f, 1000000.0f, false, true, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_wanted_t, objects.current_max_A), false},
-    {APP_REGISTERS_SPEED_WINDOW, APP_REGISTERS_U16, 10.0f, 0.0f, 6553.5f, false, true, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_wanted_t, objects.window_e_radps), false},
-    {APP_REGISTERS_COMMISSION_CURRENT, APP_REGISTERS_U16, 100.0f, 0.0f, 655.35f, false, false, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_wanted_t, objects.bounds.current_A), false},
-    {APP_REGISTERS_COMMISSION_SPEED, APP_REGISTERS_U16, 10.0f, 0.0f, 6553.5f, false, false, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_wanted_t, objects.bounds.speed_m_radps), false},
-    {APP_REGISTERS_MODBUS_ADDRESS, APP_REGISTERS_U16, 0.0f, 1.0f, 247.0f, false, true, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_U16, AT(app_registers_wanted_t, modbus_address), false},
+    {APP_REGISTERS_CONTROLWORD, APP_REGISTERS_U16, 0.0f, 0.0f, 65535.0f, false, false, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, objects.controlword), false},
+    {APP_REGISTERS_MODE_OF_OPERATION, APP_REGISTERS_I16, 0.0f, -1.0f, 6.0f, true, false, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_I16, AT(app_registers_request_t, objects.mode_of_operation), false},
+    {APP_REGISTERS_SPEED, APP_REGISTERS_I32, 10.0f, -1000000.0f, 1000000.0f, false, false, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.omega_e_radps), false},
+    {APP_REGISTERS_SPEED_RPM, APP_REGISTERS_I32, 10.0f, -10000000.0f, 10000000.0f, false, false, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.omega_e_radps), true},
+    {APP_REGISTERS_SPEED_RPM_16, APP_REGISTERS_I16, 1.0f, -32768.0f, 32767.0f, false, false, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.omega_e_radps), true},
+    {APP_REGISTERS_ACCELERATION, APP_REGISTERS_U32, 1.0f, 0.0f, 1000000.0f, false, true, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.accel_e_radps2), false},
+    {APP_REGISTERS_DECELERATION, APP_REGISTERS_U32, 1.0f, 0.0f, 1000000.0f, false, true, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.decel_e_radps2), false},
+    {APP_REGISTERS_QUICK_STOP_DECELERATION, APP_REGISTERS_U32, 1.0f, 0.0f, 1000000.0f, false, true, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.quick_e_radps2), false},
+    {APP_REGISTERS_QUICK_STOP_OPTION, APP_REGISTERS_I16, 0.0f, 0.0f, 6.0f, false, true, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_I16, AT(app_registers_request_t, objects.quick_option), false},
+    {APP_REGISTERS_SHUTDOWN_OPTION, APP_REGISTERS_I16, 0.0f, 0.0f, 1.0f, false, true, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_I16, AT(app_registers_request_t, objects.shutdown_option), false},
+    {APP_REGISTERS_DISABLE_OPTION, APP_REGISTERS_I16, 0.0f, 0.0f, 1.0f, false, true, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_I16, AT(app_registers_request_t, objects.disable_option), false},
+    {APP_REGISTERS_LOST_OPTION, APP_REGISTERS_I16, 0.0f, 2.0f, 3.0f, false, true, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_I16, AT(app_registers_request_t, objects.lost_option), false},
+    {APP_REGISTERS_MAX_CURRENT, APP_REGISTERS_I32, 1000.0f, 0.0f, 1000000.0f, false, true, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.current_max_A), false},
+    {APP_REGISTERS_SPEED_WINDOW, APP_REGISTERS_U16, 10.0f, 0.0f, 6553.5f, false, true, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.window_e_radps), false},
+    {APP_REGISTERS_COMMISSION_CURRENT, APP_REGISTERS_U16, 100.0f, 0.0f, 655.35f, false, false, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.bounds.current_A), false},
+    {APP_REGISTERS_COMMISSION_SPEED, APP_REGISTERS_U16, 10.0f, 0.0f, 6553.5f, false, false, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.bounds.speed_m_radps), false},
+    {APP_REGISTERS_MODBUS_ADDRESS, APP_REGISTERS_U16, 0.0f, 1.0f, 247.0f, false, true, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, modbus_address), false},
     {APP_REGISTERS_MODBUS_TIMEOUT, APP_REGISTERS_U16, 1000.0f, 0.01f, 60.0f, false, true, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 0U, false},
-    {APP_REGISTERS_BAUD_RATE, APP_REGISTERS_U32, 0.0f, 9600.0f, 115200.0f, true, true, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_U32, AT(app_registers_wanted_t, line.baud_Bd), false},
-    {APP_REGISTERS_LINE_FORMAT, APP_REGISTERS_U16, 0.0f, 0.0f, 2.0f, true, true, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_U16, AT(app_registers_wanted_t, line.format), false},
-    {APP_REGISTERS_DIRECTION_PIN, APP_REGISTERS_U16, 0.0f, 0.0f, 1.0f, true, true, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_U16, AT(app_registers_wanted_t, line.direction), false},
+    {APP_REGISTERS_BAUD_RATE, APP_REGISTERS_U32, 0.0f, 9600.0f, 115200.0f, true, true, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U32, AT(app_registers_request_t, line.baud_Bd), false},
+    {APP_REGISTERS_LINE_FORMAT, APP_REGISTERS_U16, 0.0f, 0.0f, 2.0f, true, true, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, line.format), false},
+    {APP_REGISTERS_DIRECTION_PIN, APP_REGISTERS_U16, 0.0f, 0.0f, 1.0f, true, true, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, line.direction), false},
     {APP_REGISTERS_SCOPE_COMMAND, APP_REGISTERS_U16, 0.0f, 0.0f, 2.0f, false, false, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 1U, false},
-    {APP_REGISTERS_SCOPE_SIGNAL_1, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false, false, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_U16, AT(app_registers_wanted_t, scope.signal[0]), false},
-    {APP_REGISTERS_SCOPE_SIGNAL_2, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false, false, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_U16, AT(app_registers_wanted_t, scope.signal[1]), false},
-    {APP_REGISTERS_SCOPE_SIGNAL_3, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false, false, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_U16, AT(app_registers_wanted_t, scope.signal[2]), false},
-    {APP_REGISTERS_SCOPE_SIGNAL_4, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false, false, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_U16, AT(app_registers_wanted_t, scope.signal[3]), false},
-    {APP_REGISTERS_SCOPE_DECIMATION, APP_REGISTERS_U16, 0.0f, 1.0f, 65535.0f, false, false, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_U16, AT(app_registers_wanted_t, scope.decimation), false},
-    {APP_REGISTERS_SCOPE_TRIGGER, APP_REGISTERS_U16, 0.0f, 0.0f, 2.0f, false, false, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_U16, AT(app_registers_wanted_t, scope.trigger), false},
+    {APP_REGISTERS_SCOPE_SIGNAL_1, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false, false, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, scope.signal[0]), false},
+    {APP_REGISTERS_SCOPE_SIGNAL_2, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false, false, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, scope.signal[1]), false},
+    {APP_REGISTERS_SCOPE_SIGNAL_3, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false, false, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, scope.signal[2]), false},
+    {APP_REGISTERS_SCOPE_SIGNAL_4, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false, false, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, scope.signal[3]), false},
+    {APP_REGISTERS_SCOPE_DECIMATION, APP_REGISTERS_U16, 0.0f, 1.0f, 65535.0f, false, false, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, scope.decimation), false},
+    {APP_REGISTERS_SCOPE_TRIGGER, APP_REGISTERS_U16, 0.0f, 0.0f, 2.0f, false, false, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, scope.trigger), false},
     {APP_REGISTERS_SCOPE_CHANNEL, APP_REGISTERS_U16, 0.0f, 1.0f, 4.0f, false, false, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 2U, false},
-    {APP_REGISTERS_SCOPE_LEVEL, APP_REGISTERS_I32, 1000.0f, -1000000.0f, 1000000.0f, false, false, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_wanted_t, scope.level), false},
-    {APP_REGISTERS_SCOPE_BEFORE, APP_REGISTERS_U16, 0.0f, 0.0f, 511.0f, false, false, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_U16, AT(app_registers_wanted_t, scope.before), false},
+    {APP_REGISTERS_SCOPE_LEVEL, APP_REGISTERS_I32, 1000.0f, -1000000.0f, 1000000.0f, false, false, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, scope.level), false},
+    {APP_REGISTERS_SCOPE_BEFORE, APP_REGISTERS_U16, 0.0f, 0.0f, 511.0f, false, false, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, scope.before), false},
     {APP_REGISTERS_STORE_PARAMETERS, APP_REGISTERS_U32, 0.0f, 1.70225701e+09f, 1.70225701e+09f, false, false, 0x65766173UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 3U, false},
     {APP_REGISTERS_RESTORE_PARAMETERS, APP_REGISTERS_U32, 0.0f, 1.68410712e+09f, 1.68410712e+09f, false, false, 0x64616F6CUL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 4U, false},
     {APP_REGISTERS_ACCEPT_FALLBACK, APP_REGISTERS_U32, 0.0f, 1.70153612e+09f, 1.70153612e+09f, false, false, 0x656B6174UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 5U, false},
-    {APP_REGISTERS_TARGET_POSITION, APP_REGISTERS_I32, 0.0f, -1e+09f, 1e+09f, false, false, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_I32, AT(app_registers_wanted_t, objects.target_cnt), false},
-    {APP_REGISTERS_PROFILE_VELOCITY, APP_REGISTERS_U32, 10.0f, 0.0f, 1000000.0f, false, true, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_wanted_t, objects.profile_e_radps), false},
-    {APP_REGISTERS_PROFILE_JERK, APP_REGISTERS_U32, 1.0f, 0.0f, 4e+09f, false, true, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_wanted_t, objects.jerk_e_radps3), false},
-    {APP_REGISTERS_POSITION_WINDOW, APP_REGISTERS_U16, 0.0f, 1.0f, 65535.0f, false, true, 0UL, APP_REGISTERS_WANTED, APP_REGISTERS_AS_U16, AT(app_registers_wanted_t, objects.position_window_cnt), false},
+    {APP_REGISTERS_TARGET_POSITION, APP_REGISTERS_I32, 0.0f, -1e+09f, 1e+09f, false, false, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_I32, AT(app_registers_request_t, objects.target_cnt), false},
+    {APP_REGISTERS_PROFILE_VELOCITY, APP_REGISTERS_U32, 10.0f, 0.0f, 1000000.0f, false, true, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.profile_e_radps), false},
+    {APP_REGISTERS_PROFILE_JERK, APP_REGISTERS_U32, 1.0f, 0.0f, 4e+09f, false, true, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.jerk_e_radps3), false},
+    {APP_REGISTERS_POSITION_WINDOW, APP_REGISTERS_U16, 0.0f, 1.0f, 65535.0f, false, true, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, objects.position_window_cnt), false},
 };
 
 const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
@@ -161,7 +161,7 @@ float app_registers_map_real(const app_registers_t *r, uint16_t number)
 
     switch (number) {
     case 0U: /* MODBUS_TIMEOUT */
-        x = (float)r->wanted.modbus_timeout_ticks * r->drive->ts_s;
+        x = (float)r->requested.modbus_timeout_ticks * r->drive->ts_s;
         break;
     default:
         break;
@@ -178,7 +178,7 @@ uint32_t app_registers_map_whole(const app_registers_t *r, uint16_t number)
         x = 0U;
         break;
     case 2U: /* SCOPE_CHANNEL */
-        x = (uint32_t)r->wanted.scope.channel + 1U;
+        x = (uint32_t)r->requested.scope.channel + 1U;
         break;
     case 3U: /* STORE_PARAMETERS */
         x = 1U;
@@ -237,7 +237,7 @@ uint32_t app_registers_map_whole(const app_registers_t *r, uint16_t number)
     return x;
 }
 
-void app_registers_map_put(const app_registers_t *r, app_registers_wanted_t *w, uint16_t number, float x)
+void app_registers_map_put(const app_registers_t *r, app_registers_request_t *w, uint16_t number, float x)
 {
     switch (number) {
     case 0U: /* MODBUS_TIMEOUT */

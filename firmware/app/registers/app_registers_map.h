@@ -194,7 +194,7 @@ typedef enum {
 /** Where a value is. */
 typedef enum {
     APP_REGISTERS_COMPUTED = 0, /**< app_registers_map_real() and its kin */
-    APP_REGISTERS_WANTED, /**< a member of the app_registers_wanted_t */
+    APP_REGISTERS_REQUESTED, /**< a member of the app_registers_request_t */
     APP_REGISTERS_STATUS, /**< of the app_status_t */
     APP_REGISTERS_DRIVE,  /**< of the drive_config_t */
     APP_REGISTERS_CONFIG  /**< of the app_config_t */
@@ -228,7 +228,7 @@ typedef struct {
 } app_registers_entry_t;
 
 struct app_registers;
-struct app_registers_wanted;
+struct app_registers_request;
 
 #define APP_REGISTERS_MAP_HOLDING 38U
 
@@ -243,6 +243,6 @@ float    app_registers_map_real(const struct app_registers *r, uint16_t number);
 uint32_t app_registers_map_whole(const struct app_registers *r, uint16_t number);
 
 /** Puts a value that is in its range into w, as its number says. */
-void app_registers_map_put(const struct app_registers *r, struct app_registers_wanted *w, uint16_t number, float x);
+void app_registers_map_put(const struct app_registers *r, struct app_registers_request *w, uint16_t number, float x);
 
 #endif /* APP_REGISTERS_MAP_H */

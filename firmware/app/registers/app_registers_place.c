@@ -13,7 +13,7 @@ static bool is_whole(const app_registers_entry_t *e)
 /* The member of a row. */
 static const void *place(const app_registers_t *r, const app_registers_entry_t *e)
 {
-    const void *home = &r->wanted;
+    const void *home = &r->requested;
 
     if (e->home == APP_REGISTERS_STATUS) {
         home = &r->status;
@@ -22,7 +22,7 @@ static const void *place(const app_registers_t *r, const app_registers_entry_t *
     } else if (e->home == APP_REGISTERS_CONFIG) {
         home = r->config;
     } else {
-        /* APP_REGISTERS_WANTED */
+        /* APP_REGISTERS_REQUESTED */
     }
     return &((const char *)home)[e->offset];
 }
@@ -78,7 +78,7 @@ uint32_t app_registers_place_value(const app_registers_t *r, const app_registers
     return app_registers_count_of(computed ? app_registers_map_real(r, e->offset) : real(r, e), e);
 }
 
-/* Only the types of app_registers_wanted_t. */
+/* Only the types of app_registers_request_t. */
 static void put(const app_registers_entry_t *e, void *at, float x, int32_t n)
 {
     switch (e->kind) {
@@ -105,12 +105,12 @@ static void put(const app_registers_entry_t *e, void *at, float x, int32_t n)
     }
 }
 
-void app_registers_place_put(const app_registers_t *r, app_registers_wanted_t *w,
+void app_registers_place_put(const app_registers_t *r, app_registers_request_t *w,
                              const app_registers_entry_t *e, float x, int32_t n)
 {
     if (e->home == APP_REGISTERS_COMPUTED) {
         app_registers_map_put(r, w, e->offset, x);
-    } else if (e->home == APP_REGISTERS_WANTED) {
+    } else if (e->home == APP_REGISTERS_REQUESTED) {
         void *const home = w;
         put(e, &((char *)home)[e->offset], e->rpm ? (x / r->rpm_per_e_radps) : x, n);
     } else {

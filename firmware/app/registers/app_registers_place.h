@@ -17,7 +17,7 @@ uint32_t app_registers_place_value(const app_registers_t *r, const app_registers
  * @param x In SI units.
  * @param n In counts, for a whole number with a sign.
  */
-void app_registers_place_put(const app_registers_t *r, app_registers_wanted_t *w,
+void app_registers_place_put(const app_registers_t *r, app_registers_request_t *w,
                              const app_registers_entry_t *e, float x, int32_t n);
 
 #endif /* APP_REGISTERS_PLACE_H */

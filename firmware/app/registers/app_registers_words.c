@@ -47,7 +47,7 @@ uint16_t app_registers_conditions(const app_registers_t *r)
 
 int32_t app_registers_position(const app_registers_t *r)
 {
-    return app_position_cnt(&r->status.position, &r->status.position.is);
+    return app_position_cnt(&r->status.position, &r->status.position.actual);
 }
 
 uint32_t app_registers_ticks(const app_registers_t *r, float time_s)
@@ -73,18 +73,18 @@ static uint16_t bit_if(bool x, int bit)
 static bool is_at_target(const app_registers_t *r)
 {
     const int32_t off_cnt  = app_registers_position(r) - r->status.target_cnt;
-    const int32_t most_cnt = (int32_t)r->wanted.objects.position_window_cnt;
+    const int32_t most_cnt = (int32_t)r->requested.objects.position_window_cnt;
 
     return r->status.arrived && (off_cnt <= most_cnt) && (off_cnt >= -most_cnt);
 }
 
 static bool is_reached(const app_registers_t *r)
 {
-    const app_status_t *s      = &r->status;
-    const bool          halted = app_control_has(r->wanted.objects.controlword, APP_CONTROL_HALT);
-    const float         target = halted ? 0.0f : r->wanted.objects.omega_e_radps;
-    const bool runs = (s->state == APP_CONTROL_OPERATION_ENABLED) && (s->mode == APP_MODE_RUN);
-    const bool near = base_within(s->speed_e_radps - target, r->wanted.objects.window_e_radps);
+    const app_status_t *s = &r->status;
+    const bool  halted    = app_control_has(r->requested.objects.controlword, APP_CONTROL_HALT);
+    const float target    = halted ? 0.0f : r->requested.objects.omega_e_radps;
+    const bool  runs = (s->state == APP_CONTROL_OPERATION_ENABLED) && (s->mode == APP_MODE_RUN);
+    const bool  near = base_within(s->speed_e_radps - target, r->requested.objects.window_e_radps);
 
     if (s->mode_of_operation == (int16_t)APP_CONTROL_PROFILE_POSITION) {
         return runs && (halted ? near : is_at_target(r));

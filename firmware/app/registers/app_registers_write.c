@@ -77,7 +77,7 @@ static app_registers_result_t try_one(app_registers_t *r, const app_registers_en
 }
 
 /* Checks that depend on the drive or on several registers. */
-static bool may_be_wanted(const app_registers_t *r, const app_registers_wanted_t *w)
+static bool may_be_requested(const app_registers_t *r, const app_registers_request_t *w)
 {
     const float most = r->drive->speed_max_e_radps;
     return base_in_range(w->objects.omega_e_radps, -most, most) &&
@@ -116,11 +116,11 @@ static app_registers_result_t write_loader(app_registers_t *r, uint16_t first, u
 
 static void command_scope(app_registers_t *r)
 {
-    const uint16_t command = r->wanted.scope_command;
+    const uint16_t command = r->requested.scope_command;
 
-    r->wanted.scope_command = 0U;
+    r->requested.scope_command = 0U;
     if ((r->scope != NULL) && (command == SCOPE_ARM)) {
-        app_scope_arm(r->scope, &r->wanted.scope);
+        app_scope_arm(r->scope, &r->requested.scope);
     } else if ((r->scope != NULL) && (command == SCOPE_STOP)) {
         app_scope_stop(r->scope);
     } else {
@@ -140,7 +140,7 @@ app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, u
     if (!are_whole(first, count)) {
         return APP_REGISTERS_BAD_ADDRESS;
     }
-    r->trial = r->wanted;
+    r->trial = r->requested;
     while (n < count) {
         const app_registers_entry_t *e      = &app_registers_map_holding[k];
         const app_registers_result_t result = try_one(r, e, &values[n]);
@@ -150,12 +150,12 @@ app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, u
         n = (uint16_t)(n + app_registers_count_words(e));
         k = (uint16_t)(k + 1U);
     }
-    if (!may_be_wanted(r, &r->trial)) {
+    if (!may_be_requested(r, &r->trial)) {
         return APP_REGISTERS_BAD_VALUE;
     }
-    r->wanted = r->trial;
+    r->requested = r->trial;
     command_scope(r);
-    r->silent  = r->silent && !app_control_enables(r->wanted.objects.controlword);
+    r->silent  = r->silent && !app_control_enables(r->requested.objects.controlword);
     r->changed = true;
     return APP_REGISTERS_OK;
 }
@@ -165,7 +165,7 @@ bool app_registers_saved_take(app_registers_t *r, const uint16_t *words)
     uint16_t n  = 0U;
     bool     ok = true;
 
-    r->trial = r->wanted;
+    r->trial = r->requested;
     for (uint16_t k = 0U; k < APP_REGISTERS_MAP_HOLDING; k++) {
         const app_registers_entry_t *e = &app_registers_map_holding[k];
 
@@ -174,9 +174,9 @@ bool app_registers_saved_take(app_registers_t *r, const uint16_t *words)
             n  = (uint16_t)(n + app_registers_count_words(e));
         }
     }
-    if (ok && may_be_wanted(r, &r->trial)) {
-        r->wanted  = r->trial;
-        r->changed = true;
+    if (ok && may_be_requested(r, &r->trial)) {
+        r->requested = r->trial;
+        r->changed   = true;
         return true;
     }
     return false;
@@ -184,7 +184,7 @@ bool app_registers_saved_take(app_registers_t *r, const uint16_t *words)
 
 void app_registers_silence(app_registers_t *r)
 {
-    app_objects_t *o = &r->wanted.objects;
+    app_objects_t *o = &r->requested.objects;
 
     if (app_control_enables(o->controlword)) {
         o->controlword = (o->lost_option == (int16_t)APP_CONTROL_LOST_QUICK_STOP)

@@ -44,7 +44,7 @@ static position_t seen_position(const near_optimal_view_t *view, const position_
 {
     const float theta_rad =
         view->theta_rad - (0.5f * ts_s * view->now.omega_e_radps); /* EQ-DRIVE-2 */
-    return position_moved(&command->is, frames_wrap(theta_rad - command->is.theta_e_rad));
+    return position_moved(&command->actual, frames_wrap(theta_rad - command->actual.theta_e_rad));
 }
 
 /* Updates the position reference, its speed reference and the angle error. */

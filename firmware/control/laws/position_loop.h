@@ -31,7 +31,7 @@ typedef struct {
 
 /** Position command to a law. */
 typedef struct {
-    position_t         is; /**< of the sample's angle */
+    position_t         actual; /**< of the sample's angle */
     position_t         target;
     position_profile_t profile;
 } position_command_t;

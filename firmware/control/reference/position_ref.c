@@ -23,7 +23,7 @@ typedef struct {
 
 /* The profile, and the limits used for planning. */
 typedef struct {
-    const position_profile_t *of;
+    const position_profile_t *profile;
     float                     jerk; /* planned, as the next three */
     float                     decel;
     float                     per_jerk;
@@ -88,11 +88,11 @@ static float spare_rad(const limits_t *l, const motion_t *m)
 /* Acceleration that ends at the speed limit: EQ-SPEED-REF-1 for a period of constant jerk. */
 static float accel_to_limit(const limits_t *l, const motion_t *m)
 {
-    const float missing =
-        l->of->speed_e_radps - (m->omega + (0.5f * l->ts_s * m->accel)); /* half a period later */
-    const float half = 0.5f * l->ts_s * l->of->jerk_e_radps3;
+    const float missing = l->profile->speed_e_radps -
+                          (m->omega + (0.5f * l->ts_s * m->accel)); /* half a period later */
+    const float half = 0.5f * l->ts_s * l->profile->jerk_e_radps3;
     const float accel =
-        fpu_root((half * half) + (2.0f * l->of->jerk_e_radps3 * fabsf(missing))) - half;
+        fpu_root((half * half) + (2.0f * l->profile->jerk_e_radps3 * fabsf(missing))) - half;
 
     return (missing < 0.0f) ? -accel : accel;
 }
@@ -100,13 +100,13 @@ static float accel_to_limit(const limits_t *l, const motion_t *m)
 /* EQ-POSITION-REF-2: the jerk of this period. */
 static float next_jerk(const limits_t *l, const motion_t *m)
 {
-    const float jerk  = l->of->jerk_e_radps3;
+    const float jerk  = l->profile->jerk_e_radps3;
     const float per_s = fpu_inverse(l->ts_s);
-    const float most  = (m->omega < 0.0f) ? l->of->decel_e_radps2 : l->of->accel_e_radps2;
+    const float most  = (m->omega < 0.0f) ? l->profile->decel_e_radps2 : l->profile->accel_e_radps2;
     const float up    = base_min(accel_to_limit(l, m), most);
     float       high  = base_clamp((up - m->accel) * per_s, -jerk, jerk);
     float       low =
-        base_min(base_clamp((-l->of->decel_e_radps2 - m->accel) * per_s, -jerk, jerk), high);
+        base_min(base_clamp((-l->profile->decel_e_radps2 - m->accel) * per_s, -jerk, jerk), high);
     motion_t then       = after(l, m, high);
     float    spare_high = spare_rad(l, &then);
     if (spare_high >= 0.0f) {
@@ -139,7 +139,7 @@ static float next_jerk(const limits_t *l, const motion_t *m)
 /* True if one period of jerk ends the motion. */
 static bool is_there(const limits_t *l, const motion_t *m)
 {
-    const float a = l->ts_s * l->of->jerk_e_radps3;
+    const float a = l->ts_s * l->profile->jerk_e_radps3;
 
     return base_within(m->accel, a) && base_within(m->omega, l->ts_s * a) &&
            base_within(m->way_rad, l->ts_s * l->ts_s * a);
@@ -183,7 +183,7 @@ void position_ref_update(position_ref_t *r, const position_profile_t *profile,
 {
     const float    jerk  = PLANNED * profile->jerk_e_radps3;
     const float    decel = PLANNED * profile->decel_e_radps2;
-    const limits_t l     = {.of        = profile,
+    const limits_t l     = {.profile   = profile,
                             .jerk      = jerk,
                             .decel     = decel,
                             .per_jerk  = fpu_inverse(jerk),

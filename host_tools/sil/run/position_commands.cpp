@@ -43,11 +43,11 @@ void PositionCommands::follow(float theta_e_rad)
 {
     const float theta = frames_wrap(theta_e_rad);
     if (!started_) {
-        command_.is = {0, theta};
-        zero_       = command_.is;
-        started_    = true;
+        command_.actual = {0, theta};
+        zero_           = command_.actual;
+        started_        = true;
     }
-    command_.is = position_followed(&command_.is, theta);
+    command_.actual = position_followed(&command_.actual, theta);
 }
 
 const position_command_t *PositionCommands::at(double time_s, const drive_sample_t &sample)

@@ -362,6 +362,27 @@ static void test_ramp_of_a_run_has_no_steps(void)
     }
 }
 
+/* A command that comes just before the aim of the decision before it waits for that. */
+static void test_command_begins_its_ramp_in_the_third_or_fourth_period(void)
+{
+    for (int phase = 0; phase < 5; phase++) {
+        app_objects_t o = app_control_default(&speed_tables_drive);
+        int           n = 0;
+
+        setUp();
+        go_run();
+        both(phase);
+        o.controlword    = APP_CONTROL_ENABLE_OPERATION;
+        o.accel_e_radps2 = 1000.0f;
+        o.omega_e_radps  = 50.0f;
+        TEST_ASSERT_TRUE(app_command_write(&o));
+        for (; (n < 10) && (demand() == 0.0f); n++) {
+            both(1);
+        }
+        TEST_ASSERT_EQUAL_INT((phase == 4) ? 4 : 3, n);
+    }
+}
+
 static void test_slow_periods_of_every_rate(void)
 {
     TEST_ASSERT_EQUAL_UINT(5U, app_slow_periods(200.0e-6f));
@@ -720,6 +741,7 @@ int main(void)
     RUN_TEST(test_broken_sensor_trips_within_a_millisecond_in_every_phase);
     RUN_TEST(test_thermal_model_keeps_time);
     RUN_TEST(test_ramp_of_a_run_has_no_steps);
+    RUN_TEST(test_command_begins_its_ramp_in_the_third_or_fourth_period);
     RUN_TEST(test_slow_periods_of_every_rate);
     RUN_TEST(test_changed_constants_open_the_bridge_within_some_passes);
     RUN_TEST(test_background_opens_the_bridge_when_ticks_stand_still);

@@ -63,7 +63,7 @@ static void turn_to(int64_t to)
 
 static int32_t shown(void)
 {
-    return app_position_cnt(&position, &position.is);
+    return app_position_cnt(&position, &position.actual);
 }
 
 static const struct {

@@ -118,7 +118,7 @@ static void assert_answer(const int *body, int count)
 
 static bool enabled(void)
 {
-    return app_control_enables(registers.wanted.objects.controlword);
+    return app_control_enables(registers.requested.objects.controlword);
 }
 
 static void test_crc_matches_long_division(void)
@@ -162,10 +162,10 @@ static void test_holding_registers_are_written_and_read(void)
 {
     REQUEST(ADDRESS, 6, 0, APP_REGISTERS_SPEED_RPM_16, 0xFC, 0x18); /* -1000 r/min, 2 pole pairs */
     ASSERT_ANSWER(ADDRESS, 6, 0, APP_REGISTERS_SPEED_RPM_16, 0xFC, 0x18);
-    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, -209.43951f, registers.wanted.objects.omega_e_radps);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, -209.43951f, registers.requested.objects.omega_e_radps);
     REQUEST(ADDRESS, 16, 0, 0, 0, 4, 8, 0, 15, 0, 3, 0, 0, 0x0B, 0xB8);
     ASSERT_ANSWER(ADDRESS, 16, 0, 0, 0, 4);
-    TEST_ASSERT_TRUE(enabled() && (registers.wanted.objects.omega_e_radps == 300.0f));
+    TEST_ASSERT_TRUE(enabled() && (registers.requested.objects.omega_e_radps == 300.0f));
     REQUEST(ADDRESS, 3, 0, 0, 0, 4);
     ASSERT_ANSWER(ADDRESS, 3, 8, 0, 15, 0, 3, 0, 0, 0x0B, 0xB8);
 }
@@ -175,7 +175,7 @@ static void test_an_exchange_writes_and_then_reads(void)
 {
     REQUEST(ADDRESS, 23, 0, 0, 0, 4, 0, 2, 0, 2, 4, 0xFF, 0xFF, 0xF4, 0x48);
     ASSERT_ANSWER(ADDRESS, 23, 8, 0, 0, 0, 3, 0xFF, 0xFF, 0xF4, 0x48);
-    TEST_ASSERT_TRUE(registers.wanted.objects.omega_e_radps == -300.0f);
+    TEST_ASSERT_TRUE(registers.requested.objects.omega_e_radps == -300.0f);
     REQUEST(ADDRESS, 23, 0, 0, 0, 126, 0, 2, 0, 2, 4, 0, 0, 0, 1);
     ASSERT_ANSWER(ADDRESS, 0x97, 3);
     REQUEST(ADDRESS, 23, 0, 0, 0, 0, 0, 2, 0, 2, 4, 0, 0, 0, 1);
@@ -188,13 +188,13 @@ static void test_an_exchange_writes_and_then_reads(void)
     ASSERT_ANSWER(ADDRESS, 0x97, 3);
     REQUEST(ADDRESS, 23, 0, 0, 0, 1, 0, 2, 0, 2, 4, 0, 0, 0);
     TEST_ASSERT_EQUAL_INT(0, answer_count);
-    TEST_ASSERT_TRUE(registers.wanted.objects.omega_e_radps == -300.0f);
+    TEST_ASSERT_TRUE(registers.requested.objects.omega_e_radps == -300.0f);
     int longest[11 + 242] = {ADDRESS, 23, 0, 0, 0, 1, 0, 0, 0, 121, 242};
     request(longest, 11 + 242);
     ASSERT_ANSWER(ADDRESS, 0x97, 2);
     REQUEST(0, 23, 0, 0, 0, 1, 0, 2, 0, 2, 4, 0, 0, 0, 10);
     TEST_ASSERT_EQUAL_INT(0, answer_count);
-    TEST_ASSERT_TRUE(registers.wanted.objects.omega_e_radps == 1.0f);
+    TEST_ASSERT_TRUE(registers.requested.objects.omega_e_radps == 1.0f);
 }
 
 static int count_of(int which)
@@ -391,7 +391,7 @@ static void test_broadcast_writes_are_done_and_not_answered(void)
     TEST_ASSERT_TRUE(enabled());
     REQUEST(0, 16, 0, 2, 0, 2, 4, 0, 0, 0, 10);
     TEST_ASSERT_EQUAL_INT(0, answer_count);
-    TEST_ASSERT_TRUE(registers.wanted.objects.omega_e_radps == 1.0f);
+    TEST_ASSERT_TRUE(registers.requested.objects.omega_e_radps == 1.0f);
     REQUEST(0, 3, 0, 0, 0, 1);
     TEST_ASSERT_EQUAL_INT(0, answer_count);
     REQUEST(0, 99, 0, 0, 0, 1);
@@ -404,7 +404,7 @@ static void test_a_broadcast_stops_every_motor_and_starts_none(void)
     TEST_ASSERT_FALSE(enabled());
     REQUEST(0, 16, 0, 0, 0, 4, 8, 0, 15, 0, 3, 0, 0, 0, 10);
     TEST_ASSERT_FALSE(enabled());
-    TEST_ASSERT_TRUE(registers.wanted.objects.omega_e_radps == 1.0f);
+    TEST_ASSERT_TRUE(registers.requested.objects.omega_e_radps == 1.0f);
     REQUEST(ADDRESS, 6, 0, 0, 0, 15);
     REQUEST(0, 6, 0, 0, 0, 0);
     TEST_ASSERT_FALSE(enabled());

@@ -397,7 +397,7 @@ static void hold_position(int32_t counts, float speed_e_radps)
     const app_angle_t angle = {.pole_pairs = 2U, .positions = 10000U, .rad_per_cnt = 1.2566371e-3f};
     app_position_init(&position, &angle);
     position.known           = true;
-    position.is              = app_position_at(&position, counts);
+    position.actual          = app_position_at(&position, counts);
     wanted.mode_of_operation = APP_CONTROL_PROFILE_POSITION;
     seen.position            = &position;
     seen.speed_e_radps       = speed_e_radps;

@@ -19,9 +19,9 @@ void setUp(void)
     const app_objects_t nothing = {.controlword = APP_CONTROL_ENABLE_OPERATION};
 
     app_position_init(&position, &angle);
-    position.known = true;
-    position.is    = app_position_at(&position, 123);
-    wanted         = nothing;
+    position.known  = true;
+    position.actual = app_position_at(&position, 123);
+    wanted          = nothing;
     app_setpoint_start(&setpoint, &wanted, &position);
 }
 

@@ -73,7 +73,7 @@ static app_registers_result_t ask_store(void)
 /* As app.c does it when the answer is out. */
 static void restart(void)
 {
-    app_parameters_ask(&registers, (app_parameters_command_t)registers.wanted.store_command);
+    app_parameters_ask(&registers, (app_parameters_command_t)registers.requested.store_command);
     start_again();
 }
 
@@ -189,7 +189,7 @@ static void test_a_stray_write_does_nothing(void)
     TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_VALUE,
                           write_two(APP_REGISTERS_RESTORE_PARAMETERS, 0x6576, 0x6173));
     TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_ADDRESS, write(APP_REGISTERS_STORE_PARAMETERS, 0x6576));
-    TEST_ASSERT_EQUAL_UINT16(APP_PARAMETERS_NO_COMMAND, registers.wanted.store_command);
+    TEST_ASSERT_EQUAL_UINT16(APP_PARAMETERS_NO_COMMAND, registers.requested.store_command);
 }
 
 static void test_nothing_is_stored_unless_the_motor_stands_still(void)
@@ -226,7 +226,7 @@ static void test_parameters_that_need_a_stop_are_refused_while_enabled(void)
         refused += needs ? 1 : 0;
     }
     TEST_ASSERT_EQUAL_INT(3, refused); /* the line */
-    TEST_ASSERT_EQUAL_UINT32(115200UL, registers.wanted.line.baud_Bd);
+    TEST_ASSERT_EQUAL_UINT32(115200UL, registers.requested.line.baud_Bd);
 }
 
 static void test_a_line_that_the_board_cannot_have_is_refused(void)

@@ -155,9 +155,9 @@ static void test_commissioning_is_asked_for_with_its_bounds(void)
     TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_COMMISSION_SPEED, 1500));
     TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_MODE_OF_OPERATION, -1));
 
-    TEST_ASSERT_EQUAL_INT(APP_CONTROL_COMMISSIONING, registers.wanted.objects.mode_of_operation);
-    TEST_ASSERT_FLOAT_WITHIN(1.0e-5f, 2.5f, registers.wanted.objects.bounds.current_A);
-    TEST_ASSERT_FLOAT_WITHIN(1.0e-4f, 150.0f, registers.wanted.objects.bounds.speed_m_radps);
+    TEST_ASSERT_EQUAL_INT(APP_CONTROL_COMMISSIONING, registers.requested.objects.mode_of_operation);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-5f, 2.5f, registers.requested.objects.bounds.current_A);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-4f, 150.0f, registers.requested.objects.bounds.speed_m_radps);
     TEST_ASSERT_EQUAL_HEX16(0xFFFFU, holding(APP_REGISTERS_MODE_OF_OPERATION));
     TEST_ASSERT_EQUAL_INT(250, holding(APP_REGISTERS_COMMISSION_CURRENT));
     TEST_ASSERT_EQUAL_INT(1500, holding(APP_REGISTERS_COMMISSION_SPEED));
@@ -166,7 +166,7 @@ static void test_commissioning_is_asked_for_with_its_bounds(void)
 /* Every object is taken in its unit and read back as it was written. */
 static void test_objects_are_written_and_read_back(void)
 {
-    const app_objects_t *o = &registers.wanted.objects;
+    const app_objects_t *o = &registers.requested.objects;
     static const struct {
         int      address;
         uint32_t value;
@@ -233,19 +233,19 @@ static void test_statusword(void)
 
 static void test_target_reached_and_what_bit_12_says(void)
 {
-    app_status_t *s                         = &registers.status;
-    registers.wanted.objects.omega_e_radps  = 300.0f;
-    registers.wanted.objects.window_e_radps = 5.0f;
-    s->state                                = APP_CONTROL_OPERATION_ENABLED;
-    s->mode                                 = APP_MODE_RUN;
-    s->mode_of_operation                    = APP_CONTROL_PROFILE_VELOCITY;
-    s->speed_e_radps                        = 296.0f;
+    app_status_t *s                            = &registers.status;
+    registers.requested.objects.omega_e_radps  = 300.0f;
+    registers.requested.objects.window_e_radps = 5.0f;
+    s->state                                   = APP_CONTROL_OPERATION_ENABLED;
+    s->mode                                    = APP_MODE_RUN;
+    s->mode_of_operation                       = APP_CONTROL_PROFILE_VELOCITY;
+    s->speed_e_radps                           = 296.0f;
     TEST_ASSERT_EQUAL_HEX16(0x0400, input(APP_REGISTERS_STATUSWORD) & 0x1400);
     s->speed_e_radps = 294.0f;
     TEST_ASSERT_EQUAL_HEX16(0x0000, input(APP_REGISTERS_STATUSWORD) & 0x1400);
     s->speed_e_radps = 1.0f;
     TEST_ASSERT_EQUAL_HEX16(0x1000, input(APP_REGISTERS_STATUSWORD) & 0x1400);
-    registers.wanted.objects.controlword = 0x010FU; /* halt */
+    registers.requested.objects.controlword = 0x010FU; /* halt */
     TEST_ASSERT_EQUAL_HEX16(0x1400, input(APP_REGISTERS_STATUSWORD) & 0x1400);
     s->mode_of_operation = APP_CONTROL_HOMING;
     TEST_ASSERT_EQUAL_HEX16(0x0000, input(APP_REGISTERS_STATUSWORD) & 0x1400);
@@ -330,19 +330,19 @@ static void test_a_fast_motor_can_be_commanded_and_told(void)
     drive.speed_max_e_radps = 6500.0f;
     TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK,
                           app_registers_write(&registers, APP_REGISTERS_SPEED, 2U, fast));
-    TEST_ASSERT_TRUE(registers.wanted.objects.omega_e_radps == 6500.0f);
+    TEST_ASSERT_TRUE(registers.requested.objects.omega_e_radps == 6500.0f);
     registers.status.speed_e_radps = -6500.0f;
     TEST_ASSERT_EQUAL_INT(-65000, (int32_t)input_32(APP_REGISTERS_SPEED_NOW));
     TEST_ASSERT_EQUAL_INT(-206901,
                           (int32_t)input_32(APP_REGISTERS_SPEED_NOW_RPM)); /* 20690.14 r/min */
     TEST_ASSERT_EQUAL_INT(20690, (int16_t)holding(APP_REGISTERS_SPEED_RPM_16));
-    registers.wanted.objects.omega_e_radps = 3.0f; /* -1000 r/min, then 10.5 r/min */
+    registers.requested.objects.omega_e_radps = 3.0f; /* -1000 r/min, then 10.5 r/min */
     TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_SPEED_RPM_16, -1000));
-    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, -314.15927f, registers.wanted.objects.omega_e_radps);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, -314.15927f, registers.requested.objects.omega_e_radps);
     const uint16_t slow[] = {0U, 105U};
     TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK,
                           app_registers_write(&registers, APP_REGISTERS_SPEED_RPM, 2U, slow));
-    TEST_ASSERT_FLOAT_WITHIN(1.0e-5f, 3.2986723f, registers.wanted.objects.omega_e_radps);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-5f, 3.2986723f, registers.requested.objects.omega_e_radps);
     TEST_ASSERT_EQUAL_INT(33, holding(APP_REGISTERS_SPEED + 1));
 }
 
@@ -491,7 +491,7 @@ static void test_every_speed_in_range_is_taken_and_read_back(void)
 {
     for (int tenths = -15690; tenths <= 15690; tenths++) {
         TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write_speed(tenths));
-        TEST_ASSERT_TRUE(fabs((double)registers.wanted.objects.omega_e_radps - (0.1 * tenths)) <
+        TEST_ASSERT_TRUE(fabs((double)registers.requested.objects.omega_e_radps - (0.1 * tenths)) <
                          1.0e-4);
         TEST_ASSERT_EQUAL_HEX16((uint16_t)tenths, holding(APP_REGISTERS_SPEED + 1));
         TEST_ASSERT_EQUAL_HEX16((tenths < 0) ? 0xFFFFU : 0U, holding(APP_REGISTERS_SPEED));
@@ -560,7 +560,7 @@ static void test_target_positions_are_taken_to_the_count(void)
         TEST_ASSERT_EQUAL_INT(
             APP_REGISTERS_OK,
             app_registers_write(&registers, APP_REGISTERS_TARGET_POSITION, 2U, words));
-        TEST_ASSERT_EQUAL_INT32(counts[i], registers.wanted.objects.target_cnt);
+        TEST_ASSERT_EQUAL_INT32(counts[i], registers.requested.objects.target_cnt);
     }
     const uint16_t beyond[2] = {0x4000U, 0U};
     TEST_ASSERT_EQUAL_INT(

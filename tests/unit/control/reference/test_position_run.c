@@ -30,7 +30,7 @@ static void take(const drive_config_t *base)
 void setUp(void)
 {
     const drive_sample_t     at_rest = {.dc_link_V = 295.0f, .theta_e_rad = 0.3f, .valid = true};
-    const position_command_t ahead   = {.is      = {7, 0.3f},
+    const position_command_t ahead   = {.actual  = {7, 0.3f},
                                         .target  = {9, -1.0f},
                                         .profile = {.speed_e_radps  = 300.0f,
                                                     .accel_e_radps2 = 4.0e3f,
@@ -73,10 +73,10 @@ static void test_the_speed_is_not_looked_at_on_the_way_to_a_position(void)
 static void test_positions_and_profiles_out_of_range_are_refused(void)
 {
     const position_command_t good = position;
-    float *const   floats[]       = {&position.is.theta_e_rad,         &position.target.theta_e_rad,
+    float *const   floats[]       = {&position.actual.theta_e_rad,     &position.target.theta_e_rad,
                                      &position.profile.speed_e_radps,  &position.profile.accel_e_radps2,
                                      &position.profile.decel_e_radps2, &position.profile.jerk_e_radps3};
-    int32_t *const turns[]        = {&position.is.turns, &position.target.turns};
+    int32_t *const turns[]        = {&position.actual.turns, &position.target.turns};
 
     assert_fault(DRIVE_FAULT_NONE);
     for (int i = 0; i < SUPPORT_COUNT(floats); i++) {
@@ -113,9 +113,9 @@ static law_input_t near_its_reference(void)
     view.now.iq_A          = support_uniform(&random_state, -1.0f, 1.0f);
     view.now.id_A          = support_uniform(&random_state, -0.5f, 0.0f);
     view.theta_rad         = support_uniform(&random_state, -3.0f, 3.0f);
-    position.is.theta_e_rad =
+    position.actual.theta_e_rad =
         frames_wrap(view.theta_rad + support_uniform(&random_state, -0.05f, 0.05f));
-    position.target = position.is;
+    position.target = position.actual;
     near_optimal_reset(&state, laws, view.now.omega_e_radps);
     return in;
 }
@@ -139,10 +139,10 @@ static void test_errors_of_angle_and_speed_are_limited_as_one_in_the_same_share(
         const law_input_t  in = near_its_reference();
         const nosc_error_t e  = error_of(&in, support_uniform(&random_state, -0.05f, 0.05f),
                                          support_uniform(&random_state, -8.0f, 8.0f));
-        const position_t   is =
-            position_moved(&position.is, frames_wrap(view.theta_rad -
-                                                     (0.5f * config.ts_s * view.now.omega_e_radps) -
-                                                     position.is.theta_e_rad));
+        const position_t   is = position_moved(
+              &position.actual,
+              frames_wrap(view.theta_rad - (0.5f * config.ts_s * view.now.omega_e_radps) -
+                          position.actual.theta_e_rad));
         const double e_theta = (double)position_way_rad(&state.position_ref.at, &is);
         const double e_w = (double)view.now.omega_e_radps - (double)state.speed_ref.omega_e_radps;
         const double asked_A   = -gain * (e_w + (per_rad * e_theta));
