@@ -9,10 +9,6 @@
 namespace sdre {
 namespace {
 
-// Chosen: room for what the speed does beyond a reference that is the largest command.
-constexpr double trip_per_max_speed = 1.2;
-// Chosen: the flux-weakening range of the shipped motors ends below twice the rated speed.
-constexpr double trip_per_rated_speed = 3.0;
 // Chosen: room for regeneration and for a weak supply; the board's hardware limits stand behind it.
 constexpr double dc_link_min_ratio  = 0.3;
 constexpr double dc_link_max_ratio  = 1.35;
@@ -25,13 +21,6 @@ double emf_limit_e_radps(const Drive &d) // EQ-OPEN-3
 }
 
 } // namespace
-
-double trip_speed_e_radps(const Drive &drive)
-{
-    const Motor &m = drive.motor;
-    return m.max_speed_e_radps > 0.0 ? trip_per_max_speed * m.max_speed_e_radps
-                                     : trip_per_rated_speed * m.rated_speed_e_radps;
-}
 
 double trip_current_A(const Drive &drive)
 {

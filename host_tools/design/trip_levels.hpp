@@ -6,10 +6,6 @@
 
 namespace sdre {
 
-/// Trip speed: above the largest command when the file has one, else three times the rated speed.
-/// Certificates reach up to it.
-double trip_speed_e_radps(const Drive &drive);
-
 /// Over-current level of a phase.
 double trip_current_A(const Drive &drive);
 

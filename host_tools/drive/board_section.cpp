@@ -149,6 +149,13 @@ std::pair<std::string, std::string> board_refusal(const Drive &d)
         return {"[inverter] dc_link_V",
                 beyond(d.inverter.dc_link_V, b, "at most", BOARD_FACT_RATED_DC_LINK_V)};
     }
+    if (encoder_edges_Hz(d) > b[BOARD_FACT_ENCODER_EDGES_Hz]) {
+        return {"[encoder] lines",
+                fmt::format("= {} is not allowed: {:.3g} edges a second at the trip speed of "
+                            "{:g} rad/s, at most encoder_edges_Hz = {:g} of board \"{}\"",
+                            d.encoder.lines, encoder_edges_Hz(d), trip_speed_e_radps(d),
+                            b[BOARD_FACT_ENCODER_EDGES_Hz], b.name)};
+    }
     return {};
 }
 

@@ -36,6 +36,10 @@ constexpr Range noise_A{0.0, 1e2};
 constexpr double range_per_limit = 2.5;
 // Chosen: two codes of 12 bits, a Hall sensor with its amplifier.
 constexpr double noise_per_range = 1e-3;
+// Chosen: room for what the speed does beyond a reference that is the largest command.
+constexpr double trip_per_max_speed = 1.2;
+// Chosen: the flux-weakening range of the shipped motors ends below twice the rated speed.
+constexpr double trip_per_rated_speed = 3.0;
 
 Motor read_motor(TomlReader t)
 {
@@ -207,6 +211,18 @@ double control_period_s(const Drive &drive)
 double count_e_rad(const Drive &drive)
 {
     return 4.0 * std::acos(0.0) * drive.motor.pole_pairs / (4.0 * drive.encoder.lines);
+}
+
+double trip_speed_e_radps(const Drive &drive)
+{
+    const Motor &m = drive.motor;
+    return m.max_speed_e_radps > 0.0 ? trip_per_max_speed * m.max_speed_e_radps
+                                     : trip_per_rated_speed * m.rated_speed_e_radps;
+}
+
+double encoder_edges_Hz(const Drive &drive)
+{
+    return trip_speed_e_radps(drive) / count_e_rad(drive);
 }
 
 double &motor_value(Motor &m, const std::string &key)

@@ -193,6 +193,11 @@ const char *dc_link_sink_name(DcLinkSink sink);
 double control_period_s(const Drive &drive);
 /// From one edge of the encoder to the next, electrical [rad].
 double count_e_rad(const Drive &drive);
+/// Speed at which the drive opens its bridge: above the largest command when the file has one, else
+/// three times the rated speed. Certificates reach up to it.
+double trip_speed_e_radps(const Drive &drive);
+/// Edges of both tracks in a second at that speed.
+double encoder_edges_Hz(const Drive &drive);
 
 /// "fnv1a64:<16 hex digits>" of every value of the drive; independent of layout and comments.
 std::string drive_digest(const Drive &drive);

@@ -900,6 +900,9 @@ TEST(DriveFile, LimitsBeyondTheBoardAreRefused)
                      {"[motor] max_current_A = 5.01", "rated_current_A = 5"});
     expect_complaint(on_board().set("inverter", "dc_link_V", "451.0"),
                      {"[inverter] dc_link_V = 451", "rated_dc_link_V = 450"});
+    expect_complaint(on_board().set("encoder", "lines", "15000"),
+                     {"[encoder] lines = 15000 is not allowed", "edges a second at the trip speed",
+                      "encoder_edges_Hz = 6.25e+06", "\"board_390w\""});
     expect_complaint(on_board().set("board", "name", "\"none\""),
                      {"[board] name = \"none\"", "board_200w, board_390w"});
     expect_complaint(on_board().set("board", "name", "\"../board_390w\""), {"[board] name must"});

@@ -218,11 +218,6 @@ app_watch_heat_config_t heat_of(const Drive &d)
             single(d.board.inverter_time_constant_s)};
 }
 
-double edges_Hz(const Drive &d)
-{
-    return trip_speed_e_radps(d) / count_e_rad(d);
-}
-
 } // namespace
 
 double largest_trip_current_A(const Drive &drive)
@@ -271,13 +266,6 @@ BoardConstants board_constants(const Drive &d)
     c.modbus_timeout_ticks   = ticks16(1e-3 * timeout_ms, pwm_Hz);
     if (const auto [key, why] = board_refusal(d); !key.empty()) {
         throw InputError(d.name + ": " + key + " " + why); // one that was changed since
-    }
-    if (const BoardFile *const b = d.board.file ? &*d.board.file : nullptr;
-        b != nullptr && edges_Hz(d) > (*b)[BOARD_FACT_ENCODER_EDGES_Hz]) {
-        throw InputError(fmt::format(
-            "{}: [encoder] lines = {} is not allowed: {:.3g} edges a second "
-            "at the trip speed, encoder_edges_Hz = {:g} of board \"{}\"",
-            d.name, d.encoder.lines, edges_Hz(d), (*b)[BOARD_FACT_ENCODER_EDGES_Hz], b->name));
     }
     return out;
 }

@@ -5,7 +5,6 @@
 
 #include "common/errors.hpp"
 #include "design/board/board_constants.hpp"
-#include "design/trip_levels.hpp"
 #include "drive/core_types.hpp"
 
 extern "C" {
@@ -38,7 +37,7 @@ BoardFile simulated(const Drive &d)
     s.facts[BOARD_FACT_TEMPERATURE_TRIP_degC]    = b.temperature_trip_degC;
     s.facts[BOARD_FACT_INVERTER_CURRENT_A]       = b.inverter_current_A;
     s.facts[BOARD_FACT_INVERTER_TIME_CONSTANT_s] = b.inverter_time_constant_s;
-    s.facts[BOARD_FACT_ENCODER_EDGES_Hz]         = trip_speed_e_radps(d) / count_e_rad(d);
+    s.facts[BOARD_FACT_ENCODER_EDGES_Hz]         = encoder_edges_Hz(d);
     return s;
 }
 
