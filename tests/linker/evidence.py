@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
 """One page of what TI's tools made of the images: sizes, places, frames, cycles, inlining, each
-against what this project expects.
+against what this project expects. Cycles are those of `./dev budget`, at its prices.
 
     evidence.py BUILD_DIRECTORY IMAGE..      IMAGE: flash, ram
 
 It writes evidence.md there, and fails when something is not as expected.
 """
 
+import json
 import re
 import sys
 from pathlib import Path
@@ -17,11 +18,11 @@ import check_stack
 import code_size
 import command_file
 import listing
+import pricing
 
 ROOT = Path(__file__).resolve().parents[2]
 LEFT = 0.15  # as tests/linker/test_table_sizes.py
 PERIOD_cycles = 30000
-GOAL_cycles = 4500  # docs/hardware.md, "Cycle budget": the whole period of the default drive
 
 
 class Page:
@@ -181,32 +182,48 @@ def frames(page, functions):
     ]
 
 
-def cycles(page, functions, entry="control_isr"):
-    """No execution costs more than the dearest way; loops count once, and callees without a listing
-    as a call."""
+def cycles(page, functions, law, in_flash, entry="control_isr", core="drive_tick"):
+    """The dearest way through the core against the budget's, at the same prices."""
     rows = []
     for name in sorted(functions, key=lambda n: -functions[n].words)[:20]:
-        rows.append(
-            (
-                name,
-                functions[name].words,
-                listing.dearest({name: functions[name]}, name),
-                listing.dearest(functions, name),
-            )
-        )
+        alone, _, _ = pricing.dearest({name: functions[name]}, name, law, in_flash)
+        whole, _, _ = pricing.dearest(functions, name, law, in_flash)
+        rows.append((name, functions[name].words, alone, whole))
     page.table("Dearest ways", ("function", "words", "cycles alone", "with its callees"), rows)
-    if entry not in functions:
-        page.wrong.append(f"no listing of {entry}()")
-        return
-    whole = listing.dearest(functions, entry)
+    for name in (entry, core):
+        if name not in functions:
+            page.wrong.append(f"no listing of {name}()")
+            return
+    whole, _, _ = pricing.dearest(functions, entry, law, in_flash)
+    verdict = page.judge(
+        whole <= PERIOD_cycles / 2, f"{entry}(): {whole} cycles are more than half a period"
+    )
     page.lines += [
         "",
-        f"{entry}(): {whole} cycles, {100 * whole / PERIOD_cycles:.1f} % of the period. Goal for "
-        f"the default drive: {GOAL_cycles}. "
-        + page.judge(
-            whole <= PERIOD_cycles / 2, f"{entry}(): {whole} cycles are more than half a period"
-        ),
+        f"{entry}(): {whole} cycles, {100 * whole / PERIOD_cycles:.1f} % of the period. {verdict}",
     ]
+    found, unpriced, unbounded = pricing.dearest(functions, core, law, in_flash)
+    budget = json.loads((ROOT / "docs" / "budget.json").read_text())["bound"].get(law)
+    if budget is None:
+        page.lines += ["", f"{core}(): {found} cycles. The budget does not price law {law}."]
+        return
+    verdict = page.judge(
+        found <= budget[1], f"{core}(): {found} cycles, the budget says {budget[0]} .. {budget[1]}"
+    )
+    below = ", below the budget's band" if found < budget[0] else ""
+    page.table(
+        "Cycles of the core",
+        ("law", "dearest way by the budget", "by the listing", ""),
+        [(law, f"{budget[0]} .. {budget[1]}", found, verdict + below)],
+    )
+    if unpriced:
+        page.lines += ["", f"Calls counted without their body: {', '.join(sorted(unpriced))}."]
+    if unbounded:
+        page.lines += [
+            "",
+            "Loops that the budget does not know, each with the law's largest number of passes: "
+            f"{', '.join(sorted(unbounded))}.",
+        ]
 
 
 def parts():
@@ -218,7 +235,7 @@ def parts():
 
 
 def inlining(page, linked):
-    apart = sorted(parts() & linked)
+    apart = sorted(parts() & set(linked))
     page.table(
         "Inlining",
         ("part of the tick", "found"),
@@ -240,9 +257,10 @@ def law_of(build):
 
 
 def make(build, images):
-    page, functions, linked = Page(), {}, set()
+    page, functions, linked, law = Page(), {}, {}, law_of(build)
     for file in sorted((build / "listings").rglob("*.lst")):
-        functions.update(listing.read(file.read_text(errors="replace")))
+        if not re.match(r"law_", file.name) or file.stem == f"law_{law}":
+            functions.update(listing.read(file.read_text(errors="replace")))
     if not functions:
         page.wrong.append("no listings")
     for image in images:
@@ -251,10 +269,11 @@ def make(build, images):
         places(page, image, groups)
         if image == "flash":
             linked = names
-            estimate(page, groups, law_of(build))
+            estimate(page, groups, law)
     kept = {name: function for name, function in functions.items() if name in linked}
+    in_flash = {n for n, section in linked.items() if section == ".text"} | set(code_size.seldom())
     frames(page, kept)
-    cycles(page, kept)
+    cycles(page, kept, law, in_flash)
     inlining(page, linked)
     head = ["# Evidence of TI's tools", ""] + (
         [f"- {wrong}" for wrong in page.wrong] or ["Everything is as expected."]
@@ -266,7 +285,10 @@ def main():
     if len(sys.argv) < 3:
         raise SystemExit(__doc__)
     build = Path(sys.argv[1])
-    text, wrong = make(build, sys.argv[2:])
+    try:
+        text, wrong = make(build, sys.argv[2:])
+    except ValueError as error:
+        raise SystemExit(f"evidence.py: {error}") from None
     (build / "evidence.md").write_text(text)
     print(
         f"{build / 'evidence.md'}: "

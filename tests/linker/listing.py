@@ -12,6 +12,7 @@ LONG_BRANCH_TAKEN, BRANCH = 7, 4
 RETURNS = ("LRETR", "LRET", "LRETE", "IRET")
 CALLS = ("LCR", "LC", "FFC")
 BRANCHES = ("B", "BF", "SB", "SBF", "LB", "BAR", "BANZ")
+SLOW_BRANCHES = ("B", "SB")
 
 Area = namedtuple("Area", "name origin length used")
 Group = namedtuple("Group", "name load run size")
@@ -24,29 +25,6 @@ class Function:
         self.name, self.frame, self.words = name, None, 0
         self.lines = []  # (mnemonic, operands)
         self.labels = {}  # label -> index of the next line
-
-    def edges(self, index):
-        """[(next index or None, cycles, callee or None)]; a branch backwards is not taken: a loop
-        counts once."""
-        mnemonic, operands = self.lines[index]
-        following = index + 1 if index + 1 < len(self.lines) else None
-        if mnemonic in RETURNS:
-            return [(None, RETURN, None)]
-        target = re.search(r"\|\|([^|]+)\|\|", operands)
-        if mnemonic in CALLS:
-            return [(following, CALL, target.group(1) if target else "*")]
-        if mnemonic in BRANCHES:
-            to = self.labels.get(target.group(1)) if target else None
-            if to is None and target and mnemonic == "LB":
-                return [(None, BRANCH, target.group(1))]
-            taken = (
-                [(to, LONG_BRANCH_TAKEN if mnemonic == "B" else BRANCH, None)]
-                if to is not None and to > index
-                else []
-            )
-            always = mnemonic != "BANZ" and ("UNC" in operands or "," not in operands)
-            return taken if always and taken else taken + [(following, BRANCH, None)]
-        return [(following, 1, None)]
 
 
 def read(text):
@@ -77,33 +55,14 @@ def read(text):
     return {name: function for name, function in functions.items() if function.words}
 
 
-def dearest(functions, name, path=()):
-    """Cycles of the dearest way through a function with what it calls; a callee without a listing
-    counts as its call."""
-    if name in path:
-        raise ValueError("recursion: " + " -> ".join((*path, name)))
-    function = functions[name]
-    most = {None: 0}
-    for index in range(len(function.lines) - 1, -1, -1):
-        most[index] = max(
-            (
-                cycles
-                + most.get(to, 0)
-                + (dearest(functions, callee, (*path, name)) if callee in functions else 0)
-                for to, cycles, callee in function.edges(index)
-            ),
-            default=0,
-        )
-    return most.get(0, 0)
-
-
 def _number(element, tag):
     text = element.findtext(tag)
     return int(text, 16) if text else None
 
 
 def read_link(text):
-    """(areas, groups, names of functions that are linked) of a link information file."""
+    """(areas, groups, {function that is linked: .text or .TI.ramfunc}) of a link information
+    file."""
     root = ElementTree.fromstring(text)
     areas = [
         Area(
@@ -121,9 +80,9 @@ def read_link(text):
         for g in root.iter("logical_group")
     ]
     parts = [c.findtext("name") or "" for c in root.iter("object_component")]
-    linked = {
-        name.partition(":")[2]
-        for name in parts
-        if name.partition(":")[0] in (".text", ".TI.ramfunc") and ":" in name
-    }
+    linked = {}
+    for part in parts:
+        section, _, name = part.partition(":")
+        if name and section in (".text", ".TI.ramfunc") and linked.get(name) != ".text":
+            linked[name] = section
     return areas, groups, linked

@@ -3,6 +3,7 @@
 the form of TI's tools."""
 
 import pathlib
+import re
 import sys
 import tempfile
 import unittest
@@ -12,6 +13,7 @@ sys.dont_write_bytecode = True
 import command_file
 import evidence
 import listing
+import pricing
 
 LISTING = """
        1 00000000               .sect   ".TI.ramfunc:control_isr"
@@ -43,7 +45,17 @@ LISTING = """
 """
 
 
-def link_information(image, change=None, functions=("control_isr", "drive_tick")):
+TICK_cycles = 1 + 3 * 1 + 3 * 4 + 8  # its loop three times: the most of a loop of law noc
+
+
+def longer(cycles):
+    """The listing with a core that takes as many cycles."""
+    line = "      23 00000000 D008          MOVB      XAR0,#8               ; [CPU_ALU]\n"
+    assert LISTING.count(line) == 1
+    return LISTING.replace(line, line * (cycles - TICK_cycles + 1))
+
+
+def link_information(image, change=None, functions=("control_isr", "drive_tick"), slow=()):
     """Every section at the beginning of its range, behind what is there already."""
     ranges, sections = command_file.parse(
         (evidence.ROOT / "linker" / f"f28335_{image}.cmd").read_text(), ("FAST_RTS",)
@@ -79,7 +91,8 @@ def link_information(image, change=None, functions=("control_isr", "drive_tick")
         for r in ranges.values()
     )
     xml += "".join(
-        f"<object_component><name>.TI.ramfunc:{name}</name></object_component>"
+        f"<object_component><name>{'.text' if name in slow else '.TI.ramfunc'}:{name}</name>"
+        "</object_component>"
         for name in functions
     )
     return f"<link_info>{xml}</link_info>"
@@ -93,6 +106,7 @@ class Evidence(unittest.TestCase):
         functions=("control_isr", "drive_tick"),
         listings=LISTING,
         there=False,
+        slow=(),
     ):
         with tempfile.TemporaryDirectory() as directory:
             build = pathlib.Path(directory)
@@ -103,7 +117,7 @@ class Evidence(unittest.TestCase):
                 )
             for image in ("flash", "ram"):
                 (build / f"sdre_f28335_{image}.xml").write_text(
-                    link_information(image, change if image == "flash" else None, functions)
+                    link_information(image, change if image == "flash" else None, functions, slow)
                 )
             with mock.patch.object(evidence.code_size, "is_there", lambda: there):
                 return evidence.make(build, ["flash", "ram"])
@@ -124,22 +138,11 @@ class Evidence(unittest.TestCase):
         ):
             self.assertIn(part, text)
 
-    def test_listing_is_read_and_priced(self):
+    def test_listing_is_read(self):
         functions = listing.read(LISTING.replace("{frame}", "8"))
         isr, tick = functions["control_isr"], functions["drive_tick"]
         self.assertEqual((isr.words, isr.frame, len(isr.lines)), (11, 8, 8))
         self.assertEqual((tick.words, tick.frame), (6, 4))
-        # 1, 1, branch not taken 4, return 8: the loop counts once
-        self.assertEqual(listing.dearest(functions, "drive_tick"), 14)
-        # four before the branch, not taken 4, call 4 with its callee, one issue of a pair, return
-        # 8: 5 more than the branch taken
-        self.assertEqual(listing.dearest(functions, "control_isr"), 4 + 4 + 4 + 14 + 1 + 8)
-        self.assertEqual(listing.dearest({"control_isr": isr}, "control_isr"), 4 + 4 + 4 + 1 + 8)
-
-    def test_recursion_is_found(self):
-        functions = listing.read(LISTING.replace("drive_tick", "control_isr"))
-        with self.assertRaises(ValueError):
-            listing.dearest(functions, "control_isr")
 
     def test_wrong_images_are_seen(self):
         def at(name, key, value):
@@ -171,6 +174,45 @@ class Evidence(unittest.TestCase):
         self.refused("no listings", listings="")
         self.refused("no listing of control_isr()", functions=("drive_tick",))
 
+    def test_core_is_held_to_the_budget(self):
+        low, high = evidence.json.loads((evidence.ROOT / "docs/budget.json").read_text())["bound"][
+            "noc"
+        ]
+        text, wrong = self.make()
+        self.assertIn(f"| noc | {low} .. {high} | {TICK_cycles} | as expected, below", text)
+        self.assertIn("largest number of passes: drive_tick.", text)
+        text, wrong = self.make(listings=longer(high))
+        self.assertEqual(wrong, [])
+        self.assertIn(f"| noc | {low} .. {high} | {high} | as expected |", text)
+        self.refused(
+            f"drive_tick(): {high + 1} cycles, the budget says {low} .. {high}",
+            listings=longer(high + 1),
+        )
+
+    def test_functions_in_flash_take_its_waits(self):
+        slow = round((TICK_cycles - 3) / 0.62 + 3 / 0.76)
+        self.assertIn(f"| {slow} | as expected, below", self.make(slow=("drive_tick",))[0])
+        with mock.patch.object(evidence.code_size, "seldom", lambda: ["drive_tick"]):
+            self.assertIn(f"| {slow} | as expected, below", self.make()[0])
+
+    def test_law_without_a_budget_is_said(self):
+        with mock.patch.object(evidence, "law_of", lambda build: "pid"):
+            text, wrong = self.make()
+        self.assertEqual(wrong, [])
+        self.assertIn("The budget does not price law pid.", text)
+
+    def test_other_laws_have_functions_of_the_same_name(self):
+        with tempfile.TemporaryDirectory() as directory:
+            build = pathlib.Path(directory)
+            (build / "listings").mkdir()
+            for law, cycles in (("noc", 100), ("pid", 10000)):
+                text = longer(cycles).replace("{frame}", "8")
+                (build / "listings" / f"law_{law}.lst").write_text(text)
+            for image in ("flash", "ram"):
+                (build / f"sdre_f28335_{image}.xml").write_text(link_information(image))
+            with mock.patch.object(evidence.code_size, "is_there", lambda: False):
+                self.assertEqual(evidence.make(build, ["flash", "ram"])[1], [])
+
     def test_frames_and_sizes_are_compared_with_the_count(self):
         graph = mock.Mock(frame={"control_isr.c:control_isr": 10, "drive_tick.c:drive_tick": 4})
         functions = {"noc": [evidence.code_size.Function("step", "control_laws_noc", 7000)]}
@@ -183,6 +225,74 @@ class Evidence(unittest.TestCase):
             self.refused("frames: 490 words beyond the count", there=True, frame=500)
             functions["noc"] = [evidence.code_size.Function("step", "control_laws_noc", 5000)]
             self.refused("code in RAM: 9000 words, estimated 4389 ..", there=True)
+
+
+def priced(text, name="f", in_flash=(), law="noc"):
+    functions = {}
+    for function, lines in re.findall(r"(\w+):\n((?:    .*\n)+)", text):
+        made = functions[function] = listing.Function(function)
+        for line in lines.splitlines():
+            label, _, code = line.strip().rpartition("> ")
+            if label:
+                made.labels[label] = len(made.lines)
+            mnemonic, _, operands = code.partition(" ")
+            made.lines.append((mnemonic, operands))
+    return pricing.dearest(functions, name, law, in_flash)
+
+
+class Prices(unittest.TestCase):
+    """Small ways whose cycles are counted by hand."""
+
+    def test_calls_branches_and_loops(self):
+        functions = listing.read(LISTING.replace("{frame}", "8"))
+        self.assertEqual(
+            pricing.dearest(functions, "drive_tick", "noc"), (TICK_cycles, set(), {"drive_tick"})
+        )
+        # four before the branch, not taken 4, call 4 with its callee, one issue of a pair, return 8
+        self.assertEqual(
+            pricing.dearest(functions, "control_isr", "noc")[0], 4 + 4 + 4 + TICK_cycles + 1 + 8
+        )
+        alone = {"control_isr": functions["control_isr"]}
+        self.assertEqual(
+            pricing.dearest(alone, "control_isr", "noc"), (4 + 4 + 4 + 1 + 8, {"drive_tick"}, set())
+        )
+
+    def test_bounds_are_those_of_the_budget(self):
+        text = "{}:\n    L> ADDL ACC,XAR4\n    BANZ ||L||,AR0--\n    LRETR \n"
+        for name, law, passes, unknown in (
+            ("nodo_update", "noc", 2, set()),
+            ("f", "noc", 3, {"f"}),
+            ("f", "noc_h", 24, {"f"}),
+        ):
+            self.assertEqual(
+                priced(text.format(name), name, law=law), (5 * passes + 8, set(), unknown)
+            )
+
+    def test_a_jump_back_is_followed(self):
+        text = "f:\n    B ||M||,UNC\n    L> ADDL ACC,XAR4\n    LRETR \n    M> ADDL ACC,XAR5\n"
+        self.assertEqual(priced(text + "    B ||L||,UNC\n")[0], 7 + 1 + 7 + 1 + 8)
+
+    def test_flash_takes_its_waits(self):
+        text = "f:\n    MPYF32 R0H,R1H,R2H\n    NOP \n    MOV32 R0H,*+XAR4[2]\n    LRETR \n"
+        self.assertEqual(priced(text)[0], 3 + 8)
+        self.assertEqual(priced(text, in_flash=("f",))[0], round(2 / 0.76 + 9 / 0.62))
+
+    def test_the_library_has_the_budgets_prices(self):
+        text = "f:\n    LCR #||__c28xabi_divf||\n    LCR #||other||\n    LRETR \n"
+        self.assertEqual(priced(text), (27 + 4 + 8, {"other"}, set()))
+
+    def test_a_repeated_instruction_counts_each_time(self):
+        self.assertEqual(priced("f:\n    RPT #6\n    NOP \n    LRETR \n")[0], 8 + 8)
+
+    def test_calls_of_the_law_are_resolved(self):
+        rest = "reset:\n    NOP \n    LRETR \nstep:\n    NOP \n    NOP \n    LRETR \n"
+        for word, cycles in ((2, 9), (4, 10)):
+            text = f"f:\n    MOVL XAR7,*+XAR4[{word}]\n    LCR *XAR7\n    LRETR \n"
+            self.assertEqual(priced(text + rest)[0], 1 + 4 + cycles + 8)
+
+    def test_recursion_is_found(self):
+        with self.assertRaises(ValueError):
+            priced("f:\n    LCR #||f||\n    LRETR \n")
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ class Costs:
         self.library = set(data["library"]) | self.board
         self.interrupt = sum(data["interrupt"].values())
         self.loops, self.loops_of, self.features = data["loops"], data["loops_of"], data["features"]
-        flash = data["flash"]
+        self.flash = flash = data["flash"]
         own = data["cost"]
         waits = {
             name + FLASH: cost / flash["float" if name in flash["of_float"] else "other"]
