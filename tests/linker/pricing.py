@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Cycles of the dearest way through a listing, by the rules of `./dev budget`: its flash factors,
-its library prices, its bounds of loops, and its search (tests/target/budget/longest_path.py)."""
+"""Cycles of the dearest way through a listing. Flash factors, library prices, bounds of loops and
+the search are those of `./dev budget`."""
 
 import re
 import sys
