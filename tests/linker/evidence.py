@@ -114,6 +114,24 @@ def places(page, image, groups):
     page.table(f"{image}: sections", ("section", "", "address", "words", "range", ""), rows)
 
 
+def functions_in_flash(page, linked):
+    """Names of functions that run from the flash: those compiled for it, and the seldom ones. It
+    judges where each runs."""
+    seldom = set(code_size.seldom())
+    ranges, sections = command_file.parse(
+        (ROOT / "linker" / "f28335_flash.cmd").read_text(), ("FAST_RTS",)
+    )
+    slow = set()
+    for name, found in linked.items():
+        for part in found:
+            flash = part.section == ".text" or name in seldom
+            item = ranges[sections[".text" if flash else ".TI.ramfunc"].run]
+            if part.address is not None and not item.origin <= part.address < item.end:
+                page.wrong.append(f"{name}() runs at {part.address:#x}, outside {item.name}")
+            slow |= {name} if flash else set()
+    return slow
+
+
 def estimate(page, groups, law):
     """Code in RAM against the estimate's band; the run-time library is in the found one only."""
     if not code_size.is_there():
@@ -271,7 +289,7 @@ def make(build, images):
             linked = names
             estimate(page, groups, law)
     kept = {name: function for name, function in functions.items() if name in linked}
-    in_flash = {n for n, section in linked.items() if section == ".text"} | set(code_size.seldom())
+    in_flash = functions_in_flash(page, linked)
     frames(page, kept)
     cycles(page, kept, law, in_flash)
     inlining(page, linked)

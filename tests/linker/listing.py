@@ -15,6 +15,7 @@ BRANCHES = ("B", "BF", "SB", "SBF", "LB", "BAR", "BANZ")
 SLOW_BRANCHES = ("B", "SB")
 
 Area = namedtuple("Area", "name origin length used")
+Linked = namedtuple("Linked", "section address")  # address where it runs
 Group = namedtuple("Group", "name load run size")
 
 
@@ -61,8 +62,7 @@ def _number(element, tag):
 
 
 def read_link(text):
-    """(areas, groups, {function that is linked: .text or .TI.ramfunc}) of a link information
-    file."""
+    """(areas, groups, {function: [Linked of each of this name]}) of a link information file."""
     root = ElementTree.fromstring(text)
     areas = [
         Area(
@@ -79,10 +79,12 @@ def read_link(text):
         )
         for g in root.iter("logical_group")
     ]
-    parts = [c.findtext("name") or "" for c in root.iter("object_component")]
     linked = {}
-    for part in parts:
-        section, _, name = part.partition(":")
-        if name and section in (".text", ".TI.ramfunc") and linked.get(name) != ".text":
-            linked[name] = section
+    for part in root.iter("object_component"):
+        section, _, name = (part.findtext("name") or "").partition(":")
+        if name and section in (".text", ".TI.ramfunc"):
+            address = _number(part, "run_address")
+            linked.setdefault(name, []).append(
+                Linked(section, _number(part, "load_address") if address is None else address)
+            )
     return areas, groups, linked

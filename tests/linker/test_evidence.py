@@ -55,7 +55,7 @@ def longer(cycles):
     return LISTING.replace(line, line * (cycles - TICK_cycles + 1))
 
 
-def link_information(image, change=None, functions=("control_isr", "drive_tick"), slow=()):
+def link_information(image, change=None, functions=("control_isr", "drive_tick"), slow=(), at=None):
     """Every section at the beginning of its range, behind what is there already."""
     ranges, sections = command_file.parse(
         (evidence.ROOT / "linker" / f"f28335_{image}.cmd").read_text(), ("FAST_RTS",)
@@ -92,6 +92,8 @@ def link_information(image, change=None, functions=("control_isr", "drive_tick")
     )
     xml += "".join(
         f"<object_component><name>{'.text' if name in slow else '.TI.ramfunc'}:{name}</name>"
+        f"<load_address>0x320000</load_address><run_address>"
+        f"{(at or {}).get(name, 0x320000 if name in slow else 0x8000):#x}</run_address>"
         "</object_component>"
         for name in functions
     )
@@ -107,6 +109,7 @@ class Evidence(unittest.TestCase):
         listings=LISTING,
         there=False,
         slow=(),
+        at=None,
     ):
         with tempfile.TemporaryDirectory() as directory:
             build = pathlib.Path(directory)
@@ -117,7 +120,9 @@ class Evidence(unittest.TestCase):
                 )
             for image in ("flash", "ram"):
                 (build / f"sdre_f28335_{image}.xml").write_text(
-                    link_information(image, change if image == "flash" else None, functions, slow)
+                    link_information(
+                        image, change if image == "flash" else None, functions, slow, at
+                    )
                 )
             with mock.patch.object(evidence.code_size, "is_there", lambda: there):
                 return evidence.make(build, ["flash", "ram"])
@@ -193,7 +198,21 @@ class Evidence(unittest.TestCase):
         slow = round((TICK_cycles - 3) / 0.62 + 3 / 0.76)
         self.assertIn(f"| {slow} | as expected, below", self.make(slow=("drive_tick",))[0])
         with mock.patch.object(evidence.code_size, "seldom", lambda: ["drive_tick"]):
-            self.assertIn(f"| {slow} | as expected, below", self.make()[0])
+            text, wrong = self.make(at={"drive_tick": 0x321000})
+            self.assertIn(f"| {slow} | as expected, below", text)
+            self.assertEqual(wrong, [])
+
+    def test_functions_in_the_wrong_memory_are_seen(self):
+        self.refused("drive_tick() runs at 0x321000, outside RAML", at={"drive_tick": 0x321000})
+        both = ("control_isr", "drive_tick", "app_init")
+        self.refused("app_init() runs at 0x8000, outside FLASH", functions=both)
+        self.assertEqual(self.make(functions=both, at={"app_init": 0x321000})[1], [])
+        self.refused(
+            "app_align() runs at 0x9000, outside FLASH",
+            functions=(*both[:2], "app_align"),
+            slow=("app_align",),
+            at={"app_align": 0x9000},
+        )
 
     def test_law_without_a_budget_is_said(self):
         with mock.patch.object(evidence, "law_of", lambda build: "pid"):

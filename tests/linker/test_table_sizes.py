@@ -84,6 +84,26 @@ def code():
     return code_size.functions(laws())
 
 
+def called(bodies, entry):
+    """Functions of bodies that entry reaches, itself included."""
+    found, todo = set(), [entry]
+    while todo:
+        name = todo.pop()
+        if name not in found:
+            found.add(name)
+            todo += [n for n in re.findall(r"\b(\w+)\(", bodies[name]) if n in bodies]
+    return found
+
+
+def interrupt_of_the_board():
+    """Functions of the board layer that the control interrupt reaches by name."""
+    board, bodies = FIRMWARE / "board" / "f28335", {}
+    for source in sorted(board.glob("*.c")):
+        text = re.sub(r"/\*.*?\*/", "", source.read_text(), flags=re.S)
+        bodies |= dict(re.findall(r"^[\w ]+[ *](\w+)\([^;{]*\)\n\{\n(.*?)^\}", text, re.M | re.S))
+    return called(bodies, "control_isr")
+
+
 def length(section, image="flash"):
     ranges, sections = command_file.parse((ROOT / "linker" / f"f28335_{image}.cmd").read_text())
     return ranges[sections[section].run].length
@@ -167,6 +187,11 @@ class TableSizes(unittest.TestCase):
             from_ram = code_size.runs_from_ram(law)
             known |= {f.name for f in functions if from_ram(f.source)}
         self.assertEqual(named - known, set())
+
+    def test_nothing_of_the_interrupt_is_named(self):
+        hot = interrupt_of_the_board()
+        self.assertLessEqual({"check_entry", "take_sample", "encoder_read", "trip_check"}, hot)
+        self.assertEqual(hot & set(code_size.seldom()), set())
 
 
 if __name__ == "__main__":

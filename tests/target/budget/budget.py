@@ -69,6 +69,8 @@ COLUMNS = {
 }
 # Chosen: what knowing the harmonics may cost, of the shipped law's cycles.
 HARMONIC_RATIO = 2.5
+# Chosen: a function that the linker puts into the flash as seldom runs in one tick of so many.
+SELDOM_ticks = 1000
 ORDER = 2  # of the shipped drives; a run of a higher order stands only in the list of scenarios
 SINGLE_STEPPED = 100  # chosen: more than one way through the code, in a second
 
@@ -149,18 +151,20 @@ class Application:
         table = symbols(PREFIX, image)
         steps = Steps(code, costs.library, (costs.cycles,))
         core = table["image_app_end"][0]
-        self.counts, self.features, found = Counter(), {}, False
+        self.counts, self.features, self.calls = Counter(), {}, Counter()
         with tempfile.TemporaryDirectory() as directory:
-            for path in set(walk_calls(image, directory, table, "app_tick", steps)):
-                if any(code[int(block, 16)].function == "step" for block in path):
+            walked = Counter(walk_calls(image, directory, table, "app_tick", steps))
+            for path, ticks in walked.items():
+                functions = frozenset(code[int(block, 16)].function for block in path)
+                if "step" in functions:
                     edges = [
                         edge for edge in zip(path, path[1:] + (None,)) if int(edge[0], 16) < core
                     ]
                     counts = sum((steps[edge][2] for edge in edges), Counter())
-                    found = True
+                    self.calls[functions] += ticks
                     if costs.cycles(counts) > costs.cycles(self.counts):
                         self.counts, self.features = counts, steps.by_feature(edges)
-        if not found:
+        if not self.calls:
             raise RuntimeError("the application on host_stub never ran the law")
 
 
@@ -174,6 +178,21 @@ def applications(costs, origins, image):
     return {law: made[frozenset(origin.flash)] for law, origin in origins.items()}
 
 
+def check_seldom(check, what, calls, seldom):
+    """Functions that the linker puts into the flash run in one tick of SELDOM_ticks at most; calls:
+    {functions that a tick runs: ticks}."""
+    runs = Counter()
+    for functions, ticks in calls.items():
+        for name in {name.partition(".")[0] for name in functions} & seldom:
+            runs[name] += ticks
+    often = sorted(n for n, ticks in runs.items() if SELDOM_ticks * ticks > sum(calls.values()))
+    check(
+        not often,
+        f"{what}: functions of .seldom run in one tick of {SELDOM_ticks} at most"
+        + (f", but not {' '.join(often)}" if often else ""),
+    )
+
+
 class Replay:
     """One image with the ticks of its law."""
 
@@ -185,7 +204,7 @@ class Replay:
         )  # the emulator runs in another directory
         self.code = read_code(PREFIX, self.image, law_functions(PREFIX, self.image), origin)
         self.table = symbols(PREFIX, self.image)
-        self.steps = Steps(self.code, costs.library, (costs.cycles,))
+        self.steps, self.known = Steps(self.code, costs.library, (costs.cycles,)), {}
         law = f"{self.law}={DRIVES / drive}" if drive else self.law
         scenarios = sorted(str(path) for name in chosen for path in SCENARIOS.glob(f"{name}.toml"))
         with tempfile.TemporaryDirectory() as directory:
@@ -198,6 +217,7 @@ class Replay:
             compare(check, runs, results)
             check_counting(check, self.image, directory, self.table, self.steps, results)
             self.execute(directory, runs, results)
+        check_seldom(check, name, self.calls, origin.seldom)
         loops = {**costs.loops, **costs.loops_of[self.law]}
         self.bound = LongestPath(self.code, costs.library, loops, costs.cycles).function(
             "drive_tick"
@@ -228,12 +248,15 @@ class Replay:
             {self.name: Worst()},
             {recorded.name: Worst() for recorded in runs},
         )
+        self.calls = Counter()  # functions that a tick runs -> ticks
         walked = walk_ticks(self.image, directory, self.table, self.steps)
         for recorded, replayed in zip(runs, results):
             for k, result in enumerate(replayed):
                 for function, timer in zip(TICKS, result):
                     name, cycles, _, path = next(walked)
                     assert name == function
+                    if function == "drive_tick":
+                        self.calls[self.functions_of(path)] += 1
                     kind = self.kind_of(function, recorded, k)
                     seen = [self.kinds.setdefault(kind, Worst())] if kind else []
                     if function == "drive_tick" and k > 0:
@@ -246,6 +269,11 @@ class Replay:
                             f"{recorded.name}, tick {k}",
                         )
         assert next(walked, None) is None
+
+    def functions_of(self, path):
+        if path not in self.known:
+            self.known[path] = frozenset(self.code[int(block, 16)].function for block in path)
+        return self.known[path]
 
     def features(self, kind):
         path = self.kinds[kind].path
@@ -302,6 +330,7 @@ def main(host, target, path, *arguments):
         for law in (SHIPPED, *(c[0] for c in COLUMNS.values()))
     }
     apps = applications(costs, origins, str(Path(images, "host_stub.elf").resolve()))
+    check_seldom(check, "application", apps[SHIPPED].calls, origins[SHIPPED].seldom)
     recorder = f"{host}/record_ticks"
     replays = {
         name: Replay(name, images, recorder, costs, origins[COLUMNS[name][0]], check)

@@ -168,6 +168,19 @@ class Memory(unittest.TestCase):
             costs.in_flash({"load, flash": 31, "load": 9}), 50 * costs.of["load"]
         )
 
+    def test_functions_that_the_linker_names_come_from_the_flash(self):
+        source = origin.Origin({}, set(), set(), {"shown"})
+        self.assertTrue(source.in_flash(FRAMES[0x200]))
+        self.assertTrue(source.in_flash((("shown.part.0", "shows.c"),)))
+        self.assertFalse(source.in_flash(FRAMES[0x100]))
+        self.assertFalse(source.in_flash((("shown", "parts.h"), ("tick", "tick.c"))))
+
+    def test_the_linker_file_is_read(self):
+        text = "    .seldom :\n    {\n  *(.TI.ramfunc:a_b)\n  *(.TI.ramfunc:c)\n    }\n > FLASH\n"
+        self.assertEqual(origin.seldom_functions(text + "*(.TI.ramfunc:d)"), {"a_b", "c"})
+        with self.assertRaises(ValueError):
+            origin.seldom_functions(text.replace(".seldom", ".rare"))
+
     def test_cycles_go_to_the_innermost_named_source(self):
         found = {
             name: +counts

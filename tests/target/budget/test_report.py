@@ -18,6 +18,20 @@ import tables  # noqa: E402
 from costs import Costs  # noqa: E402
 
 
+class Seldom(unittest.TestCase):
+    def verdict(self, calls):
+        said = []
+        budget.check_seldom(lambda good, text: said.append((good, text)), "x", calls, {"reset"})
+        return said[0]
+
+    def test_one_tick_of_a_thousand_may_run_them(self):
+        start, hot = frozenset({"tick", "reset.part.0"}), frozenset({"tick"})
+        self.assertTrue(self.verdict({start: 1, hot: 999})[0])
+        good, text = self.verdict({start: 1, hot: 998})
+        self.assertFalse(good)
+        self.assertTrue(text.endswith("but not reset"), text)
+
+
 class Figures(unittest.TestCase):
     def test_calls_of_the_board_stand_with_the_interrupt(self):
         costs = Costs()
