@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file board_config.h
- * @brief Constants of the board. For the F28335, sdre-gains generates them from drive and board file.
+ * @brief Constants of the board. For the F28335, sdre-gains generates them from drive and board
+ * file.
  */
 #ifndef BOARD_CONFIG_H
 #define BOARD_CONFIG_H

@@ -20,7 +20,8 @@ typedef struct {
     bool     edge_times;         /**< angle and speed from the times of the encoder's edges */
 } drive_hardware_t;
 
-/** Everything that depends on the motor and the board: generated, constant, checked by drive_init(). */
+/** Everything that depends on the motor and the board: generated, constant, checked by
+ * drive_init(). */
 typedef struct drive_config {
     float ts_s;               /**< control period [s], 1e-5 .. 1e-2 */
     float current_max_A;      /**< current limit, peak; > 0 */

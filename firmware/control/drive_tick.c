@@ -63,7 +63,8 @@ static bool command_ok(const drive_config_t *c, const drive_command_t *command)
            position_profile_is_any(&p->profile);
 }
 
-/* Uncertainty of the angle and both times of edges: none negative, and a NaN or an infinity shows in the sum. */
+/* Uncertainty of the angle and both times of edges: none negative, and a NaN or an infinity shows
+ * in the sum. */
 static bool edges_ok(const drive_sample_t *s)
 {
     const float least = base_min(base_min(s->band_rad, s->edge_gap_s), s->edge_age_s);

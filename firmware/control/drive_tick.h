@@ -3,8 +3,8 @@
  * @file drive_tick.h
  * @brief One control period: sensors -> observer -> reference -> law -> modulator.
  *
- * Call drive_tick() once per control period. Its duty ratios take effect one period later and hold for
- * one period. The voltage is turned to the angle in the middle of that period.       EQ-DRIVE-2
+ * Call drive_tick() once per control period. Its duty ratios take effect one period later and hold
+ * for one period. The voltage is turned to the angle in the middle of that period.       EQ-DRIVE-2
  *
  * The constants name a law (law.h), which brings observer, reference and feedback. Checks, voltage
  * limit and modulator are the same for all laws.
@@ -43,15 +43,15 @@ typedef enum { DRIVE_OFF = 0, DRIVE_RUN, DRIVE_FAULT } drive_state_t;
 typedef enum {
     DRIVE_FAULT_NONE = 0,
     DRIVE_FAULT_SAMPLE,       /**< sample marked invalid, or angle not a number in range */
-    DRIVE_FAULT_OVER_CURRENT, /**< phase current above the trip level in two of three samples, or NaN */
+    DRIVE_FAULT_OVER_CURRENT, /**< current above its trip level in two of three samples, or NaN */
     DRIVE_FAULT_DC_LINK,      /**< dc link outside its accepted range, or not a number */
-    DRIVE_FAULT_OVER_SPEED, /**< speed beyond the trip level, or not a number */
-    DRIVE_FAULT_ENCODER,    /**< the angle jumped, or stands still while the motor turns fast */
+    DRIVE_FAULT_OVER_SPEED,   /**< speed beyond the trip level, or not a number */
+    DRIVE_FAULT_ENCODER,      /**< the angle jumped, or stands still while the motor turns fast */
     DRIVE_FAULT_COMMAND, /**< command out of range, NaN, or a position that the drive cannot take */
     DRIVE_FAULT_NUMERIC, /**< the law produced a voltage that is not a number */
     DRIVE_FAULT_CURRENT_SENSOR, /**< a phase current does not match the model, current_watch.h */
     DRIVE_FAULT_PHASE,          /**< a phase carries no current, current_watch.h */
-    DRIVE_FAULT_MODEL, /**< the voltage does not match the model: encoder or sensor, motion_watch.h */
+    DRIVE_FAULT_MODEL, /**< voltage does not match the model: encoder or sensor, motion_watch.h */
     DRIVE_FAULT_STALL, /**< no motion at the current limit, motion_watch.h */
     DRIVE_FAULT_AWAY,  /**< the speed leaves its command at the current limit, motion_watch.h */
     DRIVE_FAULT_MEMORY /**< a pointer or a count has changed; kept until drive_init() */

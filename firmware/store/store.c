@@ -117,7 +117,8 @@ static slot_t look(store_kind_t kind, uint16_t slot)
     return s;
 }
 
-/* Sequence numbers wrap (serial arithmetic): `b` is newer when it is at most half the range ahead of `a`. Equal is not. */
+/* Sequence numbers wrap (serial arithmetic): `b` is newer when it is at most half the range ahead
+ * of `a`. Equal is not. */
 static bool is_newer(uint32_t b, uint32_t a)
 {
     return (uint32_t)(b - a - 1UL) < 0x7FFFFFFFUL;
@@ -129,7 +130,8 @@ static uint32_t next_number(uint32_t number)
     return (number == 0xFFFFFFFFUL) ? 1UL : (number + 1UL);
 }
 
-/* The newer content of the two, or of the one that is whole; the first if their numbers are equal. */
+/* The newer content of the two, or of the one that is whole; the first if their numbers are
+ * equal. */
 static void take(slots_t *s, const slot_t *a, bool use_a, const slot_t *b, bool use_b)
 {
     const bool b_wins = use_b && (!use_a || is_newer(b->content.number, a->content.number));

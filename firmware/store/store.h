@@ -10,7 +10,7 @@
  *     0        mark: STORE_MARK is written last; STORE_REPLACED when a newer content is complete
  *     1        kind of content, store_kind_t
  *     2, 3     number of content words; 0: the content was forgotten
- *     4, 5     sequence number from 1, wraps to 1; the slot that is at most half the range ahead is the newest
+ *     4, 5     sequence number from 1, wraps to 1; at most half the range ahead is the newest
  *     6, 7     CRC-32 of words 1 to 5 and of the content
  *     8 ..     the content
  *

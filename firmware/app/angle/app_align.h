@@ -5,13 +5,14 @@
  *
  *     watch    bridge off, the shaft must be at rest
  *     ramp     current vector at -180 degrees, length 0 -> I
- *     sweep    vector turns from -180 to 0 degrees; it moves a rotor from the opposite dead point too
+ *     sweep    vector turns from -180 to 0 degrees; it also moves a rotor from the opposite point
  *     settle   vector at 0; the shaft must come to rest
  *
  * From the middle of the sweep to rest, the rotor must turn forward by a quarter of an electrical
  * turn. This proves phase order, direction and pole pairs.
  *
- *     v_along = k_p (I - i_along) + integral of k_i (I - i_along),  v_cross = -k_p i_cross    EQ-APP-ALIGN-1
+ *     v_along = k_p (I - i_along) + integral of k_i (I - i_along),                EQ-APP-ALIGN-1
+ *     v_cross = -k_p i_cross
  *     k_p = w_c L_d,  k_i = w_c R_s,  each within +-2 R_s I
  *
  * Across the vector there is no integral. The winding then acts as a resistance R_s + k_p, which

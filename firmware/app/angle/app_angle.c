@@ -39,7 +39,8 @@ static void wait_for_edge(app_angle_t *a)
     }
 }
 
-/* EQ-APP-ANGLE-3, 4, with the last edge of the period at the age age_s; without one, `timed` is false. */
+/* EQ-APP-ANGLE-3, 4, with the last edge of the period at the age age_s; without one, `timed` is
+ * false. */
 static void read_edges(app_angle_t *a, uint16_t position_cnt, bool timed, float age_s,
                        int16_t turned_cnt, app_angle_reading_t *reading)
 {

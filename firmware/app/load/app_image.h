@@ -3,9 +3,9 @@
  * @file app_image.h
  * @brief Chooses the drive's constants: the image that was stored last, else the compiled-in ones.
  *
- * A stored image that is damaged, missing or refused leaves a fall-back: the image before it, or the
- * compiled-in constants. They may be those of another motor. The drive communicates with them, and
- * does not run until they are accepted. All of them must belong to the board of this firmware.
+ * A stored image that is damaged, missing or refused leaves a fall-back: the image before it, or
+ * the compiled-in constants. They may be those of another motor. The drive communicates with them,
+ * and does not run until they are accepted. All of them must belong to the board of this firmware.
  */
 #ifndef APP_IMAGE_H
 #define APP_IMAGE_H

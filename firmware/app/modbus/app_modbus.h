@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_modbus.h
- * @brief Modbus RTU server on the board's serial line: functions 3, 4, 6, 8, 16, 23 and 43/14, broadcast writes.
+ * @brief Modbus RTU server on the board's serial line: functions 3, 4, 6, 8, 16, 23 and 43/14,
+ * broadcast writes.
  *
  * Silence, measured in control ticks, ends a frame. Other character times are not checked, as the
  * line is polled. The line must not echo transmitted octets.

@@ -5,7 +5,8 @@
  *
  * It turns control word, mode of operation, ramps and stop options into the command of app_modes.h.
  *
- *     NOT_READY -> SWITCH_ON_DISABLED -> READY_TO_SWITCH_ON -> SWITCHED_ON -> OPERATION_ENABLED -> QUICK_STOP_ACTIVE
+ *     NOT_READY -> SWITCH_ON_DISABLED -> READY_TO_SWITCH_ON -> SWITCHED_ON -> OPERATION_ENABLED
+ *         -> QUICK_STOP_ACTIVE
  *     any state -> FAULT_REACTION_ACTIVE -> FAULT -> SWITCH_ON_DISABLED
  *
  * A table defines the transitions by control word (docs/modbus.md). All other requests are ignored.

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_modes.h
- * @brief The application's state machine: one period from raw samples to duty ratios and a gate request.
+ * @brief The application's state machine: one period from raw samples to duty ratios and a gate
+ * request.
  *
  *     BOOT -> CALIBRATE -> READY
  *     READY -> (ALIGN, without a reference) -> (PRECHARGE, if needed) -> RUN

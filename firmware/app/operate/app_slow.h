@@ -4,8 +4,8 @@
  * @brief Work that is due once in a millisecond. While the law runs, a period has one piece of it.
  *
  * To read a command is such a piece too. A change of the mode and a command have priority: the
- * command is read, and obeyed in the next period. Its ramp begins in the third one, or in the fourth
- * after an aim that was due. A piece that had to wait comes in the next free period.
+ * command is read, and obeyed in the next period. Its ramp begins in the third one, or in the
+ * fourth after an aim that was due. A piece that had to wait comes in the next free period.
  */
 #ifndef APP_SLOW_H
 #define APP_SLOW_H

@@ -8,8 +8,8 @@
 
 #include "app_modes.h"
 
-/** Executes a tick of RUN or STOP, the most expensive ones: app_states.c runs from RAM. The caller has
- * found no fault. */
+/** Executes a tick of RUN or STOP, the most expensive ones: app_states.c runs from RAM. The caller
+ * has found no fault. */
 bridge_t app_states_run(app_modes_t *m, const app_modes_input_t *in);
 
 /** Executes a tick of any other mode: app_states_rest.c runs from flash. */

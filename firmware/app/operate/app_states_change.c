@@ -29,17 +29,17 @@ bridge_t app_states_fault(app_modes_t *m, const app_modes_input_t *in)
  * wrong with a failing encoder. */
 bridge_t app_states_trip(app_modes_t *m, const app_modes_input_t *in, app_fault_t fault)
 {
-    const float          speed_e_radps = (m->drive.state == DRIVE_OFF) ? m->reading.omega_e_radps
-                                                                       : m->drive.answer.now.omega_e_radps;
-    const app_snapshot_t snapshot      = {.fault          = fault,
-                                          .mode           = m->mode,
-                                          .drive_fault    = m->drive.fault,
-                                          .board_faults   = in->board_faults,
-                                          .raw            = *in->raw,
-                                          .speed_e_radps  = m->reading.omega_e_radps,
-                                          .wanted_e_radps = in->command.omega_e_radps,
-                                          .ticks          = m->ticks};
-    const bool           encoder = ((in->board_faults & (uint16_t)BOARD_FAULT_ENCODER) != 0U) ||
+    const bool  off           = (m->drive.state == DRIVE_OFF);
+    const float speed_e_radps = off ? m->reading.omega_e_radps : m->drive.answer.now.omega_e_radps;
+    const app_snapshot_t snapshot = {.fault          = fault,
+                                     .mode           = m->mode,
+                                     .drive_fault    = m->drive.fault,
+                                     .board_faults   = in->board_faults,
+                                     .raw            = *in->raw,
+                                     .speed_e_radps  = m->reading.omega_e_radps,
+                                     .wanted_e_radps = in->command.omega_e_radps,
+                                     .ticks          = m->ticks};
+    const bool           encoder  = ((in->board_faults & (uint16_t)BOARD_FAULT_ENCODER) != 0U) ||
                          (m->drive.fault == DRIVE_FAULT_ENCODER);
 
     if (encoder) {

@@ -3,7 +3,8 @@
 /* clang-format off */
 /**
  * @file app_registers_map.h
- * @brief Addresses and kinds of the registers, and where their values come from. docs/modbus.md says what they mean.
+ * @brief Addresses and kinds of the registers, and where their values come from.
+ * docs/modbus.md says what they mean.
  */
 #ifndef APP_REGISTERS_MAP_H
 #define APP_REGISTERS_MAP_H
@@ -243,6 +244,7 @@ float    app_registers_map_real(const struct app_registers *r, uint16_t number);
 uint32_t app_registers_map_whole(const struct app_registers *r, uint16_t number);
 
 /** Puts a value that is in its range into w, as its number says. */
-void app_registers_map_put(const struct app_registers *r, struct app_registers_request *w, uint16_t number, float x);
+void app_registers_map_put(const struct app_registers *r,
+                           struct app_registers_request *w, uint16_t number, float x);
 
 #endif /* APP_REGISTERS_MAP_H */

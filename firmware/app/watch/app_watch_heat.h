@@ -3,9 +3,9 @@
  * @file app_watch_heat.h
  * @brief Thermal model (I^2 t) of motor and inverter, and the derating of the current limit.
  *
- *     x' = (i^2 / i_n^2 - x) / tau, for each                                        EQ-APP-HEAT-1
- *     derating = (1 - i_n / i_max) (x - 0.9) / 0.1, held within 0 .. (1 - i_n / i_max)    EQ-APP-HEAT-2
- *     heat sink: (T - T_limit) / (T_trip - T_limit) / 2, held within 0 .. 1/2          EQ-APP-HEAT-3
+ *     x' = (i^2 / i_n^2 - x) / tau, for each                                          EQ-APP-HEAT-1
+ *     derating = (1 - i_n / i_max) (x - 0.9) / 0.1, within 0 .. (1 - i_n / i_max)     EQ-APP-HEAT-2
+ *     heat sink: (T - T_limit) / (T_trip - T_limit) / 2, held within 0 .. 1/2         EQ-APP-HEAT-3
  *
  * Here i is the length of the current vector and i_n the continuous current. The largest of the
  * three deratings acts. A drive that follows it stays below x = 1; x > 1.1 is a fault.

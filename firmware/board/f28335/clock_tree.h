@@ -52,7 +52,8 @@
 /** The watchdog's period: 256 * 512 crystal cycles. */
 #define CLOCK_WATCHDOG_us ((256UL * 512UL) / (CLOCK_CRYSTAL_Hz / 1000000UL))
 /** Time in which continuous octets of 11 bits fill the receive FIFO of 16 octets. */
-#define CLOCK_FIFO_us(baud_Bd)            ((16UL * 11UL * 1000000UL) / CLOCK_BAUD_ACTUAL_Hz(baud_Bd))
+#define CLOCK_FIFO_us(baud_Bd) ((16UL * 11UL * 1000000UL) / CLOCK_BAUD_ACTUAL_Hz(baud_Bd))
+/** True while a whole pass fits in that time. */
 #define CLOCK_FIFO_OUTLASTS_PASS(baud_Bd) (CLOCK_FIFO_us(baud_Bd) > CLOCK_PASS_MAX_us)
 
 #if CLOCK_SYSCLK_Hz != 150000000UL

@@ -8,8 +8,8 @@
 #define PLAIN_PINS      (Uint32)0x3FFF /* two multiplexer bits each: GPIO0 .. GPIO6 */
 #define QUALIFY_ASYNC   3U             /* straight through, no clock needed */
 #define QUALIFY_6       2U             /* six equal samples */
-/* A sample every 4 cycles: glitches below 130 ns vanish. At the trip speed, 785 rad/s of the shaft, a level
- * of a track lasts 1.6 us. */
+/* A sample every 4 cycles: glitches below 130 ns vanish. At the trip speed, 785 rad/s of the shaft,
+ * a level of a track lasts 1.6 us. */
 #define ENCODER_QUALPRD 2U
 
 void gpio_make_safe(void)

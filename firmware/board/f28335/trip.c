@@ -6,7 +6,8 @@
 #define ONE_SHOT        4U     /* TZFLG: OST */
 #define CLEAR_ALL       7U     /* one-shot, cycle by cycle, and the summary flag */
 
-/* The control interrupt and its tick write `latched`; INT13, which may interrupt the tick, has its own word. */
+/* The control interrupt and its tick write `latched`; INT13, which may interrupt the tick, has its
+ * own word. */
 static volatile uint16_t latched;
 static volatile bool     overdue;
 static volatile bool     enabled; /* false: the software keeps the bridge off */

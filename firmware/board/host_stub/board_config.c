@@ -42,7 +42,8 @@ const app_config_t board_config = {
             .index_correct_max_cnt = 40U,
             .jump_cnt              = 16U,
         },
-    /* The motor is that of the F28335's board; derivations stand in its board_config.c. Counts are of 4096 a turn. */
+    /* The motor is that of the F28335's board; derivations stand in its board_config.c. Counts are
+     * of 4096 a turn. */
     .align =
         {
             .current_A         = 2.0f,

@@ -79,7 +79,8 @@ static inline float base_max(float a, float b)
 static inline float base_clamp(float x, float lo, float hi)
 {
     const float at_least = base_max(x, lo);
-    /*@ admit number: \is_NaN(lo) || !\is_NaN(at_least); */ /* for tests/prove, which does not see it */
+    /* For tests/prove, which does not see it: */
+    /*@ admit number: \is_NaN(lo) || !\is_NaN(at_least); */
     return base_min(at_least, hi);
 }
 

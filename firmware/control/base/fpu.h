@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file fpu.h
- * @brief Inverses and square roots, from the estimates that the C28x's FPU has an instruction for, by Newton's method.
+ * @brief Inverses and square roots, from the estimates that the C28x's FPU has an instruction for,
+ * by Newton's method.
  *
  *     y' = y (2 - x y), twice, towards 1 / x                                    EQ-FPU-1
  *     y' = y (3/2 - x y^2 / 2), twice, towards 1 / sqrt(x)                      EQ-FPU-2
  *
- * Each step squares the relative error. TI states eight bits for the estimate: 2^-8, 2^-16, then single precision. A call of the
- * library's division costs more, and takes registers.
+ * Each step squares the relative error. TI states eight bits for the estimate: 2^-8, 2^-16, then
+ * single precision. A call of the library's division costs more, and takes registers.
  *
- * On other machines the quotient itself stands for the estimate; all after it is the same code. TI does not publish the
- * estimates, so that last bits may differ there. Here EQ-FPU-1 is within 0.5 units of the last place and EQ-FPU-2 within 1.5.
- * From any estimate of eight bits they are within 2 and 2.5 (tests/unit/control/base/test_fpu.c).
+ * On other machines the quotient itself stands for the estimate; all after it is the same code. TI
+ * does not publish the estimates, so that last bits may differ there. Here EQ-FPU-1 is within 0.5
+ * units of the last place and EQ-FPU-2 within 1.5. From any estimate of eight bits they are within
+ * 2 and 2.5 (tests/unit/control/base/test_fpu.c).
  *
  * Inline, because a call costs more. Context: control ISR. Pure.
  */
@@ -60,15 +62,16 @@ static inline float fpu_inverse_root_from(float x, float y)
 /**
  * @brief 1 / x.
  *
- * @param x |x| from 2^-126 to 2^125. Smaller, zero, infinite or no number: the result is none, or infinite, and every
- *          base_within() of it is false.
+ * @param x |x| from 2^-126 to 2^125. Smaller, zero, infinite or no number: the result is none, or
+ *          infinite, and every base_within() of it is false.
  */
 static inline float fpu_inverse(float x)
 {
     return fpu_inverse_from(x, fpu_inverse_estimate(x));
 }
 
-/** 1 / sqrt(x), for x from 2^-126 to the largest number. Other numbers, negative ones too, are as in fpu_inverse(). */
+/** 1 / sqrt(x), for x from 2^-126 to the largest number. Other numbers, negative ones too, are as
+ * in fpu_inverse(). */
 static inline float fpu_inverse_root(float x)
 {
     return fpu_inverse_root_from(x, fpu_inverse_root_estimate(x));

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "frames.h"
 
-/* A turn in two parts: the first has eight bits, so that its products with small integers are exact. */
+/* A turn in two parts: the first has eight bits, so that its products with small integers are
+ * exact. */
 #define TURN_UPPER 6.28125f
 #define TURN_LOWER 1.93530717e-3f
 

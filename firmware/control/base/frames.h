@@ -23,13 +23,15 @@
 #define FRAMES_S3 -1.98095222e-4f
 #define FRAMES_S4 2.60559204e-6f
 
-/* 1.5 times 2^23, where the last place counts ones: a number added to it and taken off again is the nearest integer. The
- * FPU has to round to nearest, as TI's compiler sets it at the start of every interrupt. Another type has another number. */
+/* 1.5 times 2^23, where the last place counts ones: a number added to it and taken off again is the
+ * nearest integer. The FPU has to round to nearest, as TI's compiler sets it at the start of every
+ * interrupt. Another type has another number. */
 #ifndef FRAMES_ONES
 #define FRAMES_ONES 12582912.0f
 #endif
 
-/* Inline, because a call costs more than the arithmetic. In C and C++: members are set in their order. */
+/* Inline, because a call costs more than the arithmetic. In C and C++: members are set in their
+ * order. */
 
 /** Whole turns nearest to an angle. */
 static inline float frames_turns(float angle_rad)
@@ -71,7 +73,8 @@ static inline float frames_sine(float r)
     return r + ((r * r2) * s);
 }
 
-/** frames_angle() of an angle within +-pi/2, bit for bit, inline and without a search for its turns. */
+/** frames_angle() of an angle within +-pi/2, bit for bit, inline and without a search for its
+ * turns. */
 static inline frames_angle_t frames_small_angle(float theta_e_rad)
 {
     const frames_angle_t angle = {frames_sine(FRAMES_HALF_PI - fabsf(theta_e_rad)),

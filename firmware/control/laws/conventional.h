@@ -11,9 +11,9 @@
  * two in the feed-forward. Here they stay, so the feed-forward contains them with the opposite
  * sign:
  *
- *     u_q: -l10 e_id e_w / l6,   u_d: +l9 e_iq e_w / l8                     EQ-CONVENTIONAL-2
+ *     u_q: -l10 e_id e_w / l6,   u_d: +l9 e_iq e_w / l8                           EQ-CONVENTIONAL-2
  *
- *     x^' = A_d(iq^, id^) x^ + [0 0 0 0 l6 vq l8 vd]' + L(iq^, id^)(y - C_d x^)     EQ-CONVENTIONAL-3
+ *     x^' = A_d(iq^, id^) x^ + [0 0 0 0 l6 vq l8 vd]' + L(iq^, id^)(y - C_d x^)   EQ-CONVENTIONAL-3
  *
  * The states are those of nodo.h, and A_d contains the product -l10 id^ w^. The observer of the
  * load torque alone has zero rows for d_q and d_d, which stay zero. The page docs/errata.md lists
@@ -28,7 +28,8 @@
 #include "nodo.h"
 #include "nosc.h"
 
-/** Series in s1 = q-axis current, s2 = d-axis current; of the errors in lambda, of the estimates in gain. */
+/** Series in s1 = q-axis current, s2 = d-axis current; of the errors in lambda, of the estimates in
+ * gain. */
 typedef struct {
     int16_t nosc_order;    /**< N, 0 .. DOUBLE_SERIES_ORDER_MAX */
     float   i_error_max_A; /**< the series is used for |e_iq|, |e_id| <= this; > 0 */
@@ -44,8 +45,8 @@ typedef struct {
 CTL_PART bool conventional_check(const conventional_gains_t *g);
 
 /**
- * @brief Feedback voltage, EQ-CONVENTIONAL-1, and the products that the feed-forward must not cancel,
- * EQ-CONVENTIONAL-2.
+ * @brief Feedback voltage, EQ-CONVENTIONAL-1, and the products that the feed-forward must not
+ * cancel, EQ-CONVENTIONAL-2.
  *
  * Beyond g->i_error_max_A the gain keeps its boundary value.
  *

@@ -5,7 +5,8 @@
  *
  *     y = sum over n + m <= N of s1^n s2^m (G_nm x)                         EQ-DOUBLE-SERIES-1
  *
- * Terms are stored by rising degree n + m, within a degree by falling n: G_00, G_10, G_01, G_20, G_11, ...
+ * Terms are stored by rising degree n + m, within a degree by falling n: G_00, G_10, G_01, G_20,
+ * G_11, ...
  */
 #ifndef DOUBLE_SERIES_H
 #define DOUBLE_SERIES_H

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file feedforward.h
- * @brief Voltages that cancel everything but the error dynamics: references, cross coupling, disturbances.
+ * @brief Voltages that cancel everything but the error dynamics: references, cross coupling,
+ * disturbances.
  *
- *     u_q = (l4 iq_ref + l5 w_d + iq_ref' + l10 w id - d_q) / l6            EQ-FEEDFORWARD-1, paper A (41), (42)
+ *     u_q = (l4 iq_ref + l5 w_d + iq_ref' + l10 w id - d_q) / l6           EQ-FEEDFORWARD-1
  *     u_d = (l7 id_ref + id_ref' - l9 w iq - d_d) / l8                      EQ-FEEDFORWARD-2
  *
  * These are the printed sums with their products collected (docs/equations.md).

@@ -3,18 +3,19 @@
  * @file foc.h
  * @brief Inner part of field-oriented control: current references and a PI for each current.
  *
- *     iq_ref = clamp(a / (l1 + l11 id_ref(k-1)), +-most)                    EQ-FOC-1, a: requested acceleration
- *     id_ref = -iq_ref^2 / (k + sqrt(k^2 + iq_ref^2)) + id_fw               EQ-FOC-2, exact MTPA as EQ-CURRENT-REF-2
- *     id_fw(k+1) = clamp(id_fw + g (share v_dc / sqrt(3) - |u|), id_lo, 0)  EQ-FOC-3, voltage feedback
+ *     iq_ref = clamp(a / (l1 + l11 id_ref(k-1)), +-most)                    EQ-FOC-1
+ *     id_ref = -iq_ref^2 / (k + sqrt(k^2 + iq_ref^2)) + id_fw               EQ-FOC-2
+ *     id_fw(k+1) = clamp(id_fw + g (share v_dc / sqrt(3) - |u|), id_lo, 0)  EQ-FOC-3
  *     most = sqrt(i_max^2 - id_ref(k-1)^2)                                  EQ-FOC-4
  *
  *     u = k_p e + s + (-w Lq iq, w (Ld id + flux)),  e = i_ref - i          EQ-FOC-5
- *     s(k+1) = s + k_i (e + (v - u) / k_p)                                  EQ-FOC-6, v: realised part of u
+ *     s(k+1) = s + k_i (e + (v - u) / k_p)                                  EQ-FOC-6
  *
- * Here u is the requested voltage. If it is outside the circle of v_dc / sqrt(3) and id is short of
- * its reference, the d axis has priority. Flux weakening thus gets its current; q gets the rest.
- * In all other cases drive_tick() cuts the length. The MTPA part of id_ref follows iq_ref at once;
- * the integrator makes the flux weakening.
+ * Here a is the requested acceleration, u the requested voltage and v its realised part. The exact
+ * MTPA of EQ-FOC-2 is that of EQ-CURRENT-REF-2. If u is outside the circle of v_dc / sqrt(3) and id
+ * is short of its reference, the d axis has priority. Flux weakening thus gets its current; q gets
+ * the rest. In all other cases drive_tick() cuts the length. The MTPA part of id_ref follows iq_ref
+ * at once; the integrator makes the flux weakening.
  */
 #ifndef FOC_H
 #define FOC_H

@@ -52,7 +52,8 @@ typedef struct {
 } law_output_t;
 
 typedef struct {
-    /** true when all constants of the law are finite and within their documented ranges. Context: init. */
+    /** true when all constants of the law are finite and within their documented ranges. Context:
+     * init. */
     bool (*check)(const struct drive_config *config);
 
     /** Starts a run: takes over the sample, with zero disturbances. Context: control ISR. */

@@ -3,13 +3,14 @@
  * @file law_pi_foc.h
  * @brief Cascaded PI field-oriented control: the usual drive (foc.h) with a PI for the speed.
  *
- *     r(k+1) = r + (command - r) Ts / T_i                                   EQ-PI-FOC-1, against the overshoot
- *     a = k_p e + s,  e = r - w                                             EQ-PI-FOC-2
+ *     r(k+1) = r + (command - r) Ts / T_i                                        EQ-PI-FOC-1
+ *     a = k_p e + s,  e = r - w                                                  EQ-PI-FOC-2
  *     s(k+1) = s + k_i e, or s if the current limit acts towards e               EQ-PI-FOC-3
  *
- * Here a is the acceleration requested of the motor's torque. The sum s holds the load torque even
- * after a long time at the limit. With back-calculation it would not, and the speed would
- * overshoot. k_p and T_i follow the symmetrical optimum (docs/equations.md).
+ * EQ-PI-FOC-1 acts against the overshoot. Here a is the acceleration requested of the motor's
+ * torque. The sum s holds the load torque even after a long time at the limit. With
+ * back-calculation it would not, and the speed would overshoot. k_p and T_i follow the symmetrical
+ * optimum (docs/equations.md).
  */
 #ifndef LAW_PI_FOC_H
 #define LAW_PI_FOC_H

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file law_pid.h
- * @brief PID of the electrical speed error to the q voltage, paper B's law for comparison (pid_law.h).
+ * @brief PID of the electrical speed error to the q voltage, paper B's law for comparison
+ * (pid_law.h).
  */
 #ifndef LAW_PID_H
 #define LAW_PID_H

@@ -65,7 +65,8 @@ static void update_position(near_optimal_t *s, const near_optimal_config_t *c,
     s->theta_error_e_rad     = position_way_rad(&r->at, &is);
 }
 
-/* A speed run, or a position run that may begin here. All that follows in the period depends on it. */
+/* A speed run, or a position run that may begin here. All that follows in the period depends on
+ * it. */
 static void choose_run(near_optimal_t *s, const near_optimal_view_t *view,
                        const position_command_t *command, float ts_s)
 {
@@ -162,7 +163,8 @@ static dq_t forward_V(const near_optimal_t *s, const motor_reduced_t *m,
  * axes. It is written relative to the feed-forward. a is the q current requested by the errors
  * (EQ-POSITION-4), and x_q is the distance to it:
  *
- *     u_q = ff_q + (l5 e_w - l4 a - l10 w e_d) / l6 - k x_q,   u_d = ff_d + w x_q / l6 - k l10 e_d,   x_q = e_q + a
+ *     u_q = ff_q + (l5 e_w - l4 a - l10 w e_d) / l6 - k x_q,
+ *     u_d = ff_d + w x_q / l6 - k l10 e_d,   x_q = e_q + a
  */
 static dq_t out_of_reach_V(const near_optimal_t *s, const near_optimal_config_t *c,
                            const motor_reduced_t *m, float w, const nosc_error_t *e, dq_t ff_V)

@@ -3,7 +3,7 @@
  * @file near_optimal.h
  * @brief Common part of the near optimal laws: references, tracking error, feed-forward.
  *
- *     u = -Lambda(e) e - d_dq + u_ff                                           EQ-DRIVE-1, paper A (42)
+ *     u = -Lambda(e) e - d_dq + u_ff                                       EQ-DRIVE-1, paper A (42)
  *
  * A law adds its observer and its feedback. It calls near_optimal_error() before the feedback and
  * near_optimal_answer() after it.
@@ -79,7 +79,8 @@ CTL_PART nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_c
  * Outside the circle, EQ-VOLTAGE-2 replaces this voltage: cutting its length is stable (voltage.h).
  * current_clamp.h limits either voltage against currents beyond the limit.
  *
- * Context: control ISR. Outside the circle a division and a square root, beyond the current limit one more of each.
+ * Context: control ISR. Outside the circle a division and a square root, beyond the current limit
+ * one more of each.
  */
 CTL_PART void near_optimal_answer(const near_optimal_t *s, const near_optimal_config_t *c,
                                   const motor_reduced_t *m, const near_optimal_view_t *view,

@@ -3,7 +3,7 @@
  * @file nosc.h
  * @brief Near optimal speed controller: stator voltage fed back from the tracking error.
  *
- *     u_fb = -Lambda(e_iq) e                                                EQ-NOSC-1, paper A (26), (42)
+ *     u_fb = -Lambda(e_iq) e                                          EQ-NOSC-1, paper A (26), (42)
  *     Lambda(e_iq) = Lambda_0 + Lambda_1 e_iq + ... + Lambda_N e_iq^N       EQ-NOSC-2
  *
  * sdre-gains generates all gains.
@@ -67,8 +67,8 @@ static inline float nosc_speed_current_A(const nosc_gains_t *g, float omega_erro
 /**
  * @brief Limits the speed part of the error, so that its requested q current stays in a range.
  *
- * Row v_q of EQ-NOSC-1 at n = 0 is -k_iq (iq - (iq_ref - (k_w / k_iq) e_w)): a current loop whose command
- * is the bracket. Limiting e_w limits that command and nothing else.           EQ-NOSC-3
+ * Row v_q of EQ-NOSC-1 at n = 0 is -k_iq (iq - (iq_ref - (k_w / k_iq) e_w)): a current loop whose
+ * command is the bracket. Limiting e_w limits that command and nothing else.           EQ-NOSC-3
  *
  * The command also stays within iq_speed_max_A of iq_ref. The voltage limits the slew rate of the
  * current, and larger requests would make the loop oscillate.
@@ -107,9 +107,11 @@ static inline dq_t nosc_odd_V(const float l[NOSC_N_U][NOSC_N_E], const nosc_erro
 }
 
 /**
- * @brief EQ-NOSC-1 of any order, by Horner on the vectors Lambda_n e: Lambda itself is never formed.
+ * @brief EQ-NOSC-1 of any order, by Horner on the vectors Lambda_n e: Lambda itself is never
+ * formed.
  *
- * It is apart, because the shipped drives have order 2, and an image keeps it outside the fast memory.
+ * It is apart, because the shipped drives have order 2, and an image keeps it outside the fast
+ * memory.
  *
  * @param eiq_A Error of the q current, limited.
  *

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file pid_law.h
- * @brief PID with the realised voltage fed back: paper B's speed law for comparison, and its d-axis law.
+ * @brief PID with the realised voltage fed back: paper B's speed law for comparison, and its d-axis
+ * law.
  *
- *     u(k) = k_p e(k) + i(k) + k_d (e(k) - e(k-1))                         EQ-PID-1
+ *     u(k) = k_p e(k) + i(k) + k_d (e(k) - e(k-1))                               EQ-PID-1
  *     i(k+1) = i(k) + k_i e(k), or i(k) if the limit cuts the voltage towards e  EQ-PID-2
  *
  * k_i and k_d hold the control period. All gains come from sdre-gains.

@@ -4,7 +4,7 @@
  * @brief Near optimal control of the position: nosc.h with the angle error as a fourth state.
  *
  *     theta' = w,   e = (e_theta, e_w, e_iq, e_id)                          EQ-POSITION-2
- *     u_fb = -Lambda(e_iq) (e_w, e_iq, e_id) - (lambda_0 + lambda_1 e_iq + ...) e_theta      EQ-POSITION-3
+ *     u_fb = -Lambda(e_iq) (e_w, e_iq, e_id) - (lambda_0 + lambda_1 e_iq ..) e_theta  EQ-POSITION-3
  *
  * The gains have their own design and differ from those of the speed controller. The angle has the
  * parity

@@ -4,7 +4,7 @@
  * @brief Reduces the voltage of one period if it would drive the current beyond the limit.
  *
  *     i+ = i + Ts ((1 / s - 1) i'(v_0) + i'(v) / s)
- *     where |i+| > r I:  v += s L / Ts (r I / |i+| - 1) i+                                 EQ-CURRENT-CLAMP-1
+ *     where |i+| > r I:  v += s L / Ts (r I / |i+| - 1) i+                       EQ-CURRENT-CLAMP-1
  *
  * Here i is the current at which v begins to act. It is predicted with v_0 from the current
  * measured one period before. Here i' is the motor's equation with the observer's disturbances, and

@@ -23,7 +23,8 @@ typedef struct {
 /** true when every constant is finite and within its documented range. Context: init. */
 bool dead_time_check(const dead_time_config_t *c);
 
-/* Inline, because a call costs more than the arithmetic. In C and C++: members are set in their order. */
+/* Inline, because a call costs more than the arithmetic. In C and C++: members are set in their
+ * order. */
 
 /** EQ-DEAD-TIME-1 of one phase. */
 static inline float dead_time_duty(const dead_time_config_t *c, float duty, float i_A)
@@ -32,7 +33,8 @@ static inline float dead_time_duty(const dead_time_config_t *c, float duty, floa
     return duty + (c->share * direction);
 }
 
-/** Duty ratios with EQ-DEAD-TIME-1 added; bridge_closed() limits them. Context: control ISR. No division. */
+/** Duty ratios with EQ-DEAD-TIME-1 added; bridge_closed() limits them. Context: control ISR. No
+ * division. */
 static inline abc_t dead_time_compensate(const dead_time_config_t *c, abc_t duty, abc_t i_A)
 {
     const abc_t out = {dead_time_duty(c, duty.a, i_A.a), dead_time_duty(c, duty.b, i_A.b),

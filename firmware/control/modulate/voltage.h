@@ -28,7 +28,8 @@ static inline float voltage_square(dq_t u_V)
     return (u_V.d * u_V.d) + (u_V.q * u_V.q);
 }
 
-/** true when a vector is longer than the radius of the circle, v_dc / sqrt(3). Context: control ISR. */
+/** true when a vector is longer than the radius of the circle, v_dc / sqrt(3). Context: control
+ * ISR. */
 static inline bool voltage_is_outside(dq_t u_V, float dc_link_V)
 {
     const float circle_V = dc_link_V * BASE_1_SQRT3;

@@ -9,8 +9,8 @@
  *     u_qi = k_omega e_w + k_x x^                                         EQ-DOBC-2, paper B (9)
  *     x^(k) = M x^(k-1) + g (e_w(k) - e_w(k-1)) + h u_qi(k-1)             EQ-DOBC-3, paper B (8)
  *
- * x^ = [current error | per oscillator its value and rate | polynomial and its derivatives]. GPIOBC has no
- * oscillators, HDOBC no polynomial, CDOBC both: one recursion, three tables.
+ * x^ = [current error | per oscillator its value and rate | polynomial and its derivatives]. GPIOBC
+ * has no oscillators, HDOBC no polynomial, CDOBC both: one recursion, three tables.
  *
  * u_qi(k-1) is the realised part of the voltage computed in the previous period, at its time of
  * computation. The computing delay thus does not detune the oscillators, and a voltage limit does

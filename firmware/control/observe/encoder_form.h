@@ -37,7 +37,7 @@ CTL_PART bool encoder_form_gains_check(const encoder_form_gains_t *gains);
 /**
  * @brief Measured minus estimated angle, within +-pi, reduced by the uncertainty of the sample.
  *
- *     e = wrap(theta - theta^) - clamp(wrap(theta - theta^), -band, band)          EQ-ENCODER-FORM-1
+ *     e = wrap(theta - theta^) - clamp(wrap(theta - theta^), -band, band)         EQ-ENCODER-FORM-1
  *
  * Context: control ISR.
  */
@@ -69,7 +69,7 @@ CTL_PART void encoder_form_edges_reset(encoder_form_edges_t *edges);
  * @brief Returns the edge error in this sample's angle, and learns from three consecutive edges.
  *
  *     r = (w - w_1) T - (o_c - o_c1) + rho (o_c1 - o_c2),   rho = T / T_1
- *     o_c += mu r,  o_c1 -= (1 + rho) mu r,  o_c2 += rho mu r                       EQ-ENCODER-FORM-3
+ *     o_c += mu r,  o_c1 -= (1 + rho) mu r,  o_c2 += rho mu r                     EQ-ENCODER-FORM-3
  *     off = o_c + (o_c - o_c1) age / T
  *
  * w is the sample's speed between its last two edges, which are T apart. Edge c is the last one.

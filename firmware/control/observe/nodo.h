@@ -64,7 +64,8 @@ typedef struct {
 /* The functions add L_n r to the six estimates. l has at least the rows of nodo_t, and id is in
  * column id_column. They are inline, as each observer knows this column at compile time. */
 
-/** Column of the second odd signal: 2 of (iq, id, theta), 1 of (w, iq, id); the first one stands in column 0. */
+/** Column of the second odd signal: 2 of (iq, id, theta), 1 of (w, iq, id); the first one stands in
+ * column 0. */
 static inline int16_t nodo_second_column(int16_t id_column)
 {
     return (int16_t)(3 - id_column);
@@ -102,7 +103,8 @@ static inline void nodo_add_odd(nodo_t *x, const float (*l)[NODO_N_Y], int16_t i
     x->id_A += (l[5][0] * a) + (l[5][second] * b);
 }
 
-/** true when the first rows of an even or odd L_n are zero where its parity says so. Context: init. */
+/** true when the first rows of an even or odd L_n are zero where its parity says so. Context:
+ * init. */
 bool nodo_parity_check(const float (*l)[NODO_N_Y], int16_t rows, bool even, int16_t id_column);
 
 /** The innovation of the next power of iq^. */

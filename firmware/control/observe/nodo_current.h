@@ -5,7 +5,7 @@
  *
  *     [d_w w theta]^+ = [d_w w theta]^- + K r,  r = i - i^
  *     i^+ = R(-K_theta r)(i^- + K_i r)                                            EQ-NODO-CURRENT-1
- *     K linear between nodes of sqrt abs(w); w < 0: mirror image                   EQ-NODO-CURRENT-2
+ *     K linear between nodes of sqrt abs(w); w < 0: mirror image                  EQ-NODO-CURRENT-2
  *
  * The back-EMF carries speed and angle, so the correction works above a minimum speed. The
  * correction of the angle by K_theta r leaves the currents unchanged in the stator frame. Therefore

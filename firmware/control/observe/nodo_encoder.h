@@ -8,8 +8,8 @@
  *     prediction:  x^-(k+1) = x^+ + Ts f(x^+ + Ts/2 f(x^+, v), v)                EQ-NODO-ENCODER-2
  *     L(iq^) = L_0 + L_1 iq^ + ... + L_Nd iq^Nd                                  EQ-NODO-ENCODER-3
  *
- * f is EQ-MOTOR-2 with constant disturbances and theta' = w. The prediction covers the computing delay: a
- * law that uses it acts on the state at the instant its voltage takes effect.
+ * f is EQ-MOTOR-2 with constant disturbances and theta' = w. The prediction covers the computing
+ * delay: a law that uses it acts on the state at the instant its voltage takes effect.
  */
 #ifndef NODO_ENCODER_H
 #define NODO_ENCODER_H
@@ -49,7 +49,8 @@ CTL_PART void nodo_encoder_correct(nodo_t *x, float *theta_rad, const nodo_encod
 /**
  * @brief EQ-NODO-ENCODER-3 of any order: adds L_n r iq^n to the estimates.
  *
- * It is apart, because the shipped drives have order 1, and an image keeps it outside the fast memory.
+ * It is apart, because the shipped drives have order 1, and an image keeps it outside the fast
+ * memory.
  *
  * @param r Ts times the innovation.
  *

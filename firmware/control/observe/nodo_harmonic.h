@@ -8,14 +8,14 @@
  *
  *     (a, b)^(k+1) = keep R(h dtheta) (a, b)^(k)                                   EQ-HARMONIC-1
  *
- * SENSOR     current sensors: (a, b) = (d, q) error of the measured current. An offset stands still in the stator
- *            frame (h = -1), unequal gains turn backwards in it (h = -2).
+ * SENSOR     current sensors: (a, b) = (d, q) error of the measured current. An offset stands
+ *            still in the stator frame (h = -1), unequal gains turn backwards in it (h = -2).
  * TORQUE     a adds to d_w: cogging.
  * VOLTAGE_Q  a adds to d_q, VOLTAGE_D a adds to d_d: dead time (h = 6).
  *
- *     y = [iq + sum b, id + sum a, theta]  over the SENSOR pairs                   EQ-HARMONIC-2
- *     correction with K = G_0(|w|) + iq G_1(|w|), linear between two nodes of sqrt|w|     EQ-HARMONIC-3
- *     prediction: EQ-NODO-ENCODER-2 with all disturbances of the middle of the period        EQ-HARMONIC-4
+ *     y = [iq + sum b, id + sum a, theta]  over the SENSOR pairs                      EQ-HARMONIC-2
+ *     correction with K = G_0(|w|) + iq G_1(|w|), linear between nodes of sqrt|w|     EQ-HARMONIC-3
+ *     prediction: EQ-NODO-ENCODER-2 with all disturbances of mid-period               EQ-HARMONIC-4
  *
  * For w < 0 the motor is the mirror image of itself at -w: signs of the odd signals change, gains
  * stay. The estimated currents are the true ones, without the sensor errors.
@@ -51,7 +51,8 @@ typedef struct {
 } nodo_harmonic_order_t;
 
 typedef struct {
-    /** K: one row per state; the nodes are adjacent in it. First, because each element is read in every period. */
+    /** K: one row per state; the nodes are adjacent in it. First, because each element is read in
+     * every period. */
     float                 gain[NODO_HARMONIC_N_X_MAX][NODO_HARMONIC_NODES_MAX][NODO_HARMONIC_N_G];
     int16_t               n_pairs;        /**< 0 .. NODO_HARMONIC_PAIRS_MAX */
     int16_t               n_nodes;        /**< 2 .. NODO_HARMONIC_NODES_MAX */
@@ -106,7 +107,8 @@ CTL_PART void nodo_harmonic_correct(nodo_harmonic_t *s, const nodo_harmonic_gain
                                     float angle_error);
 
 /**
- * @brief EQ-HARMONIC-1, 4: one period ahead with the voltage in force; view: what the law needs there.
+ * @brief EQ-HARMONIC-1, 4: one period ahead with the voltage in force; view: what the law needs
+ * there.
  *
  * Context: control ISR. One sine and cosine for each order, of neighbours in the list.
  */

@@ -4,21 +4,21 @@
  * @brief Current references: maximum torque per ampere, flux weakening, and the torque they leave.
  *
  *     iq_ref  = (l2 w_d + w_d' - d_w) / (l1 + l11 id),  iq_ref' = (w_d'' - d_w') / (l1 + l11 id)
- *                                                                           EQ-CURRENT-REF-1, paper A (40)
- *     id_mtpa = k - sqrt(k^2 + iq^2),  k = l5 / (2 (1 - l10))               EQ-CURRENT-REF-2, for (7b)
+ *                                                                    EQ-CURRENT-REF-1, paper A (40)
+ *     id_mtpa = k - sqrt(k^2 + iq^2),  k = l5 / (2 (1 - l10))        EQ-CURRENT-REF-2, for (7b)
  *     (speed form: its second-order term -iq^2 / (2 k), as the paper prints it)
  *
  * Define y = l10 (l7 id - d_d) / w and x = (l4 iq - d_q) / w. The voltage that holds a current is
  *
  *     l6 |v| / |w| = |(y - iq, l5 + l10 id + x)|,  at most f = l6 v_max / |w|
  *
- *     id_fw   = l9 (sqrt(f^2 - (iq - y)^2) - l5 - x)                        EQ-CURRENT-REF-3, for (7b)
+ *     id_fw   = l9 (sqrt(f^2 - (iq - y)^2) - l5 - x)                     EQ-CURRENT-REF-3, for (7b)
  *     beyond |iq - y| = f:  id_fw = -l9 (l5 + x + min(|iq - y| - f, u)),
- *     u = (sqrt(k^2 + 2 f^2) - k) / 2 at maximum torque per volt            EQ-CURRENT-REF-4
- *     id_ref  = min(id_mtpa, id_fw)                                         EQ-CURRENT-REF-5, for (7a)
- *     |iq_ref - y| <= sqrt(f^2 - (l5 + l10 id + x)^2)                       EQ-CURRENT-REF-6
- *     iq_ref w (l1 + l11 id) >= -P(v_dc) / (J / np^2)                       EQ-CURRENT-REF-7
- *     id_ref <= id_rest, for a motor with a very weak magnet                EQ-CURRENT-REF-8
+ *     u = (sqrt(k^2 + 2 f^2) - k) / 2 at maximum torque per volt         EQ-CURRENT-REF-4
+ *     id_ref  = min(id_mtpa, id_fw)                                      EQ-CURRENT-REF-5, for (7a)
+ *     |iq_ref - y| <= sqrt(f^2 - (l5 + l10 id + x)^2)                    EQ-CURRENT-REF-6
+ *     iq_ref w (l1 + l11 id) >= -P(v_dc) / (J / np^2)                    EQ-CURRENT-REF-7
+ *     id_ref <= id_rest, for a motor with a very weak magnet             EQ-CURRENT-REF-8
  *
  * The current circle is a further limit. Reasons: docs/errata.md.
  */

@@ -7,14 +7,15 @@
  * acceleration falls with the jerk j to the deceleration, and returns to zero. Both limits are used
  * to 99 %. With t = a / j and w_1 = w + a t / 2, the speed at which a is zero,
  *
- *     s(w, a) = t (w + a t / 3) + s_1(w_1),   s_1 = w_1 sqrt(w_1 / j)              for w_1 j <= a_dec^2
+ *     s(w, a) = t (w + a t / 3) + s_1(w_1),   s_1 = w_1 sqrt(w_1 / j)      for w_1 j <= a_dec^2
  *                                             s_1 = w_1 (w_1 / a_dec + a_dec / j) / 2  beyond
  *     with opposite signs if w + a |t| / 2 < 0                                 EQ-POSITION-REF-1
  *
  * The jerk is constant in a period. It is the largest one towards the target for which, a period
  * later,
  *
- *     |a| <= a_acc or a_dec,   the speed that follows <= w_max,   s(w, a) <= way to the target     EQ-POSITION-REF-2
+ *     |a| <= a_acc or a_dec,   the speed that follows <= w_max,
+ *     s(w, a) <= way to the target                                           EQ-POSITION-REF-2
  *
  * While the shaft brakes, the third condition holds with equality. Two steps of false position then
  * find the jerk, and the next period corrects their error. The end is exact. Limits and target may

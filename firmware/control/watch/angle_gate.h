@@ -5,7 +5,7 @@
  *
  *     beyond:  abs(e) > gate                                                       EQ-ANGLE-GATE-1
  *     within:  used as clamp(e, -step, step)                                       EQ-ANGLE-GATE-4
- *     stands:  abs(theta - theta_0) <= band over n periods, while the motor must have turned further:
+ *     stands:  abs(theta - theta_0) <= band over n periods while the motor must have turned more:
  *              sum_k max(abs(w_0) - k a Ts, 0) Ts > band + 2 counts                EQ-ANGLE-GATE-2
  *
  * e is the innovation, measured minus estimated angle. step is the largest innovation that a load

@@ -3,9 +3,9 @@
  * @file current_gate.h
  * @brief Distinguishes over-current from an outlier of the phase current samples.
  *
- *     over current:  beyond the trip level in two of the last three samples         EQ-CURRENT-GATE-1
+ *     over current:  beyond the trip level in two of the last three samples       EQ-CURRENT-GATE-1
  *     spike:         beyond it in this one alone; or, if the previous sample was none,
- *                    abs(i - i^) > 2 v_dc Ts / L in a phase                         EQ-CURRENT-GATE-2
+ *                    abs(i - i^) > 2 v_dc Ts / L in a phase                       EQ-CURRENT-GATE-2
  *
  * i^ is the law's prediction and L the smaller inductance. In one period a winding's current
  * changes by at most half of the limit in EQ-CURRENT-GATE-2. A true over-current is therefore still

@@ -5,12 +5,12 @@
  *
  * Sensor. The difference between a phase current and its model is summed with forgetting:
  *
- *     r = i - i_model,  i_model = i^ - Ts (d - d_slow)                             EQ-CURRENT-WATCH-1
- *     R+ = (1 - Ts / tau) R + r,  D = i - i_slow                                   EQ-CURRENT-WATCH-2
+ *     r = i - i_model,  i_model = i^ - Ts (d - d_slow)                           EQ-CURRENT-WATCH-1
+ *     R+ = (1 - Ts / tau) R + r,  D = i - i_slow                                 EQ-CURRENT-WATCH-2
  *     lies:  x = abs(R) - 0.6 abs(D) > max(3/8 i_max, 7/8 jump), or
- *            > max(0.15 i_max, 3/8 jump) for 6 ms, in phase a or b                   EQ-CURRENT-WATCH-3
+ *            > max(0.15 i_max, 3/8 jump) for 6 ms, in phase a or b               EQ-CURRENT-WATCH-3
  *
- *     or abs(r) > jump, in a sample that the gate (current_gate.h) let pass: the second one in a row
+ *     or abs(r) > jump, in a sample that the gate (current_gate.h) let pass: the second in a row
  *
  * i^ is the observer's prediction with its disturbances d of the two current equations. d_slow and
  * i_slow are low-pass filtered. A motor that differs from the nominal one causes an r proportional
@@ -23,7 +23,7 @@
  * Wire. A phase has no current although the reference requires some, for longer than a current
  * needs to follow:
  *
- *     open:  abs(i) < 0.02 i_max while abs(i_ref) > 0.04 i_max, for open_s in a row    EQ-CURRENT-WATCH-4
+ *     open:  abs(i) < 0.02 i_max while abs(i_ref) > 0.04 i_max, for open_s     EQ-CURRENT-WATCH-4
  *     open_s = max(10 ms, 4 sqrt(count / a_max)),  a_max = (l1 + abs(l11) i_max) i_max
  *
  * Near standstill the observer detects a load only after the shaft has turned by a count, in the

@@ -4,12 +4,12 @@
  * @brief Detects a locked rotor, an overhauling load, and an encoder that does not show the motion.
  *
  *     odd:     voltage error of the model,
- *              max(Lq abs(d_q), Ld abs(d_d)) > 0.6 (R j + (flux + Lq j) abs(w)) + 0.02 v_dc,  j = abs(id) + abs(iq)
- *              for 10 ms                                                           EQ-MOTION-WATCH-1
- *     stall:   abs(i) > 0.9 i_max and abs(w* - w) > 10 rad/s, and for 50 ms no edge of the encoder, or for 0.5 s
- *              abs(w) < 10 rad/s                                                   EQ-MOTION-WATCH-2
- *     away:    abs(i) > 0.9 i_max, and abs(w* - w) is beyond 50 rad/s and for 250 ms 20 rad/s more than it has been with
- *              this command and current                                            EQ-MOTION-WATCH-3
+ *              max(Lq abs(d_q), Ld abs(d_d)) > 0.6 (R j + (flux + Lq j) abs(w)) + 0.02 v_dc
+ *              for 10 ms, j = abs(id) + abs(iq)                                 EQ-MOTION-WATCH-1
+ *     stall:   abs(i) > 0.9 i_max and abs(w* - w) > 10 rad/s,
+ *              and for 50 ms no edge, or for 0.5 s abs(w) < 10 rad/s            EQ-MOTION-WATCH-2
+ *     away:    abs(i) > 0.9 i_max, and abs(w* - w) is beyond 50 rad/s and for 250 ms
+ *              20 rad/s more than it has been with this command and current     EQ-MOTION-WATCH-3
  *
  * d are the low-pass filtered disturbances of the observer's current equations. The limit of
  * EQ-MOTION-WATCH-1 covers parameter errors of one half, and the dead time. A shaft that turns with
