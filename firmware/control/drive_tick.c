@@ -49,6 +49,7 @@ void drive_reset(drive_t *d)
     d->v_limited = false;
     d->i_hat_A   = zero_abc;
     current_gate_reset(&d->current_gate);
+    current_watch_reset(&d->current_watch);
 }
 
 /* True for a speed in range, or for a position if the drive accepts positions. */
@@ -124,7 +125,7 @@ static bridge_t trip(drive_t *d, drive_fault_t fault)
 static void start(drive_t *d, const drive_sample_t *sample)
 {
     d->config->law->reset(&d->law, d->config, sample);
-    current_watch_reset(&d->current_watch, sample->ia_A, sample->ib_A);
+    current_watch_start(&d->current_watch, sample->ia_A, sample->ib_A);
     motion_watch_reset(&d->motion_watch);
     d->v_V   = zero_dq;
     d->state = DRIVE_RUN;
@@ -268,6 +269,8 @@ bridge_t drive_tick(drive_t *d, const drive_sample_t *sample, const drive_comman
         return trip(d, fault);
     }
     if (!command->run) {
+        /* Not at the start: the first tick of a run is a dear one. */
+        current_watch_reset(&d->current_watch);
         d->state = DRIVE_OFF;
         return bridge_open();
     }

@@ -24,8 +24,7 @@ bool app_control_enables(uint16_t controlword)
     return asked_for(controlword) == APP_CONTROL_ASK_ENABLE;
 }
 
-/* Steady run, the most expensive ticks: the state machine is skipped, as it would change
- * nothing. */
+/* Steady run: the state machine is skipped, as it would change nothing. */
 static bool is_steady(const app_control_t *c, const app_control_seen_t *seen, app_control_ask_t ask)
 {
     return (seen->mode == APP_MODE_RUN) && (c->state == APP_CONTROL_OPERATION_ENABLED) &&
@@ -87,13 +86,32 @@ static void set_reference(app_control_t *c, const app_objects_t *o, const app_co
     }
 }
 
+/* A steady run at a speed, the most expensive ticks, has one answer. */
+static void keep_running(app_control_t *c, app_command_t *out)
+{
+    c->moved        = true;
+    c->stopping     = false;
+    c->positioning  = false;
+    c->asked        = true;
+    out->run        = true;
+    out->reset      = false;
+    out->commission = false;
+    out->align      = false;
+}
+
 void app_control_decide(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
                         app_command_t *out)
 {
     const bool              reset_now = app_control_has(o->controlword, APP_CONTROL_FAULT_RESET);
     const app_control_ask_t ask       = asked_for(o->controlword);
+    const bool              steady    = is_steady(c, seen, ask);
 
-    if (is_steady(c, seen, ask)) {
+    if (steady && (c->mode == APP_CONTROL_PROFILE_VELOCITY) && !c->done) {
+        keep_running(c, out);
+        c->reset_high = reset_now;
+        return;
+    }
+    if (steady) {
         c->moved    = true;
         c->stopping = false;
     } else {

@@ -39,12 +39,12 @@ void app_warmth_sink(app_modes_t *m, const board_sample_t *raw)
     m->warmth             = over_degC * m->per_sink_degC;
     m->sink_fault         = fault_of_sink(m);
     m->hot                = !m->sample.temperature_valid || !(over_degC <= 0.0f);
-    m->dc_link_out        = !base_in_range(m->sample.dc_link_V, m->drive.config->dc_link_min_V,
-                                           m->drive.config->dc_link_max_V);
     m->phase_errors       = raw->phase_errors;
 }
 
 void app_warmth_heat(app_modes_t *m)
 {
-    m->too_hot = !app_watch_heat_tick(&m->heat, m->sample.ia_A, m->sample.ib_A, m->warmth);
+    m->too_hot     = !app_watch_heat_tick(&m->heat, m->sample.ia_A, m->sample.ib_A, m->warmth);
+    m->dc_link_out = !base_in_range(m->sample.dc_link_V, m->drive.config->dc_link_min_V,
+                                    m->drive.config->dc_link_max_V);
 }

@@ -14,10 +14,10 @@
 /** Starts with an unknown temperature. Context: init. */
 void app_warmth_init(app_modes_t *m, const app_config_t *config, const drive_config_t *drive);
 
-/** Heat sink and dc link, of a valid sample. Context: control ISR. */
+/** Heat sink, of a valid sample. Context: control ISR. */
 void app_warmth_sink(app_modes_t *m, const board_sample_t *raw);
 
-/** Thermal model, with a valid sample. Context: control ISR. */
+/** Thermal model and dc link, of a valid sample. Context: control ISR. */
 void app_warmth_heat(app_modes_t *m);
 
 #endif /* APP_WARMTH_H */

@@ -33,11 +33,17 @@ CTL_PART float current_watch_open_s(float count_rad, float accel_max_radps2)
     return base_max(OPEN_per_way * sqrtf(count_rad / accel_max_radps2), OPEN_MIN_s);
 }
 
-CTL_PART void current_watch_reset(current_watch_t *w, float ia_A, float ib_A)
+CTL_PART void current_watch_reset(current_watch_t *w)
 {
-    const current_watch_t start = {.phase = {{.slow_A = ia_A}, {.slow_A = ib_A}}, .expects = false};
+    const current_watch_t start = {.expects = false};
 
     *w = start;
+}
+
+CTL_PART void current_watch_start(current_watch_t *w, float ia_A, float ib_A)
+{
+    w->phase[0].slow_A = ia_A;
+    w->phase[1].slow_A = ib_A;
 }
 
 /* Rotates back by a small angle, to first order. */

@@ -86,8 +86,11 @@ typedef struct {
  */
 CTL_PART float current_watch_open_s(float count_rad, float accel_max_radps2);
 
-/** Starts a run. Context: control ISR. */
-CTL_PART void current_watch_reset(current_watch_t *w, float ia_A, float ib_A);
+/** Forgets everything. Context: init, and control ISR without a run. */
+CTL_PART void current_watch_reset(current_watch_t *w);
+
+/** Starts a run after current_watch_reset(). Context: control ISR. */
+CTL_PART void current_watch_start(current_watch_t *w, float ia_A, float ib_A);
 
 /** Stores the prediction of the next sample at the end of a period. Context: control ISR. No
  * division. */

@@ -1187,6 +1187,34 @@ static void test_noc_h_starts_afresh(void)
                      (used.law.noc_h.known.d_omega_dot == harmonic_form->known.d_omega_dot));
 }
 
+/* After a stop, and after a fault that is reset, the watch is that of a first run. */
+static void test_each_run_starts_with_a_current_watch_that_knows_nothing(void)
+{
+    for (int way = 0; way < 2; way++) {
+        use_encoder_form();
+        (void)settled_loop(300.0, 0.5);
+        TEST_ASSERT_TRUE((drive.current_watch.d_slow_Aps.q != 0.0f) &&
+                         (drive.current_watch.phase[0].slow_A != 0.0f));
+        if (way == 0) {
+            command.run = false;
+            (void)tick();
+        } else {
+            drive_reset(&drive);
+        }
+        sample                     = sample_at(0.1, 0.5, 1.0, 300.0);
+        command.run                = true;
+        const bridge_t        last = tick();
+        const current_watch_t used = drive.current_watch;
+
+        use_encoder_form();
+        sample = sample_at(0.1, 0.5, 1.0, 300.0);
+        assert_same_output(tick(), last);
+        TEST_ASSERT_EQUAL_MEMORY(&drive.current_watch, &used, sizeof used);
+        TEST_ASSERT_EQUAL_FLOAT(sample.ia_A, used.phase[0].slow_A);
+        TEST_ASSERT_EQUAL_FLOAT(sample.ib_A, used.phase[1].slow_A);
+    }
+}
+
 static void test_noc_h_loop_settles_at_the_command_and_finds_the_load(void)
 {
     static const double speeds[] = {300.0, -300.0, 0.0};
@@ -1339,6 +1367,7 @@ int main(void)
     RUN_TEST(test_noc_h_trips_on_estimates_that_are_not_finite);
     RUN_TEST(test_noc_h_trips_on_every_input_that_is_not_finite);
     RUN_TEST(test_noc_h_starts_afresh);
+    RUN_TEST(test_each_run_starts_with_a_current_watch_that_knows_nothing);
     RUN_TEST(test_noc_h_loop_settles_at_the_command_and_finds_the_load);
     return UNITY_END();
 }

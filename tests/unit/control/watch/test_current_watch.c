@@ -15,7 +15,7 @@ static float theta; /* of the sample */
 void setUp(void)
 {
     theta = 0.3f;
-    current_watch_reset(&watch, 0.0f, 0.0f);
+    current_watch_reset(&watch);
 }
 
 void tearDown(void) {}
@@ -146,7 +146,8 @@ static void test_what_the_current_changes_by_itself_explains_a_part(void)
             TEST_ASSERT_EQUAL_INT(CURRENT_WATCH_GOOD,
                                   current_watch_judge(&watch, i.a, i.b, &quick));
         } else {
-            current_watch_reset(&watch, i.a, i.b);
+            current_watch_reset(&watch);
+            current_watch_start(&watch, i.a, i.b);
         }
     }
 }
