@@ -6,11 +6,11 @@
 
 namespace sdre::cycle_budget {
 
-constexpr double noc_speed        = 5607.0;
-constexpr double noc              = 5923.0;
-constexpr double noc_h            = 9516.0;
-constexpr double conventional     = 7630.0;
-constexpr double position         = 1766.0;
+constexpr double noc_speed        = 5332.0;
+constexpr double noc              = 5708.0;
+constexpr double noc_h            = 9232.0;
+constexpr double conventional     = 7356.0;
+constexpr double position         = 1715.0;
 constexpr double background_share = 0.106667;
 
 } // namespace sdre::cycle_budget

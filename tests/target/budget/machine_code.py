@@ -38,6 +38,8 @@ MULTIPLE_LOAD = ("ldmia", "ldmdb", "ldm", "pop", "vpop", "vldmia", "vldmdb")
 MULTIPLE_STORE = ("stmia", "stmdb", "stm", "push", "vpush", "vstmia", "vstmdb")
 # of a structure: eight words, what an instruction of the C28x reaches without an index register
 NEAR_OCTETS = 16
+# R4H to R7H: the float registers that a function of the C28x keeps for its caller.
+SAVED_FLOATS = 4
 LAW = (
     "check",
     "reset",
@@ -113,7 +115,8 @@ def classify(i):
         return
     if i.name in MULTIPLE_LOAD + MULTIPLE_STORE:
         kind = "load" if i.name in MULTIPLE_LOAD else "store"
-        i.counts[kind] += list_length(i.operands)
+        saved = list_length(i.operands)
+        i.counts[kind] += min(saved, SAVED_FLOATS) if i.name in ("vpush", "vpop") else saved
         if "pc" in i.operands:
             if i.conditional:
                 raise ValueError(f"conditional return at {i.address:x}")

@@ -167,6 +167,15 @@ class Counting(unittest.TestCase):
         )
         self.assertEqual([i.counts["far"] for i in code.values()], [0, 1, 0, 0, 1, 0])
 
+    def test_a_function_keeps_four_float_registers_for_its_caller(self):
+        code = code_of(
+            "00000100 <f>:\n 100:\tvpush\t{d8-d15}\n 104:\tvpush\t{d8}\n 108:\tvpop\t{d8}\n"
+            " 10c:\tvpop\t{d8-d10}\n 110:\tvldmia\tr0!, {s0-s5}\n 114:\tbx\tlr\n"
+        )
+        self.assertEqual([i.counts["store"] for i in code.values()], [4, 2, 0, 0, 0, 0])
+        self.assertEqual([i.counts["load"] for i in code.values()], [0, 0, 2, 4, 6, 0])
+        self.assertEqual(machine_code.stack_depth(code, "f"), 4 * (16 + 2))
+
     def test_calls_of_the_law_are_resolved(self):
         code = code_of(LAW_LISTING, LAW_FUNCTIONS)
         bound = LongestPath(code, set(), {}, unit_cost).function("tick")
