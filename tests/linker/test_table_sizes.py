@@ -84,6 +84,17 @@ def code():
     return code_size.functions(laws())
 
 
+def documented():
+    """{law, "others" or "debugger": (percent of code, percent of data or None)} of hardware.md."""
+    text = (ROOT / "docs" / "hardware.md").read_text()
+    head = "| law | code in L0..L3 at most | data in L4..L7 at most |"
+    table = text[text.index(head) :].split("\n\n")[0]
+    rows = re.findall(r"^\| (\w+) \| (\d+) % \| (\d+) % \|$", table, flags=re.M)
+    found = {law: (int(code), int(data)) for law, code, data in rows}
+    ram = re.search(r"scope and store: at most (\d+) % of L0..L3", text)
+    return {**found, "debugger": (int(ram[1]), None)}
+
+
 def called(bodies, entry):
     """Functions of bodies that entry reaches, itself included."""
     found, todo = set(), [entry]
@@ -131,6 +142,11 @@ class TableSizes(unittest.TestCase):
                     f"{100 * total / room:.0f} %"
                 )
                 self.assertLessEqual(total, (1 - LEFT) * room)
+                self.assertLessEqual(total, self.said(law)[1] / 100 * room, "docs/hardware.md")
+
+    def said(self, law):
+        pages = documented()
+        return pages.get(law, pages["others"])
 
     def test_noc_h_with_the_whole_scope_would_not(self):
         SAMPLES_of_all = SAMPLES.pop("noc_h")
@@ -166,6 +182,7 @@ class TableSizes(unittest.TestCase):
                     "firmware/board/f28335/CMakeLists.txt and .seldom choose what runs from RAM",
                 )
                 self.assertLessEqual(everything + CONSTANTS_words, (1 - LEFT) * flash)
+                self.assertLessEqual(most, self.said(law)[0] / 100 * room, "docs/hardware.md")
 
     @unittest.skipUnless(code_size.is_there(), f"no {code_size.COMPILER}: ./dev budget installs it")
     def test_image_for_a_debugger_leaves_room(self):
@@ -179,6 +196,7 @@ class TableSizes(unittest.TestCase):
             f"image for a debugger: code at most {most} of {room} words: {100 * most / room:.0f} %"
         )
         self.assertLessEqual(most, (1 - LEFT) * room)
+        self.assertLessEqual(most, documented()["debugger"][0] / 100 * room, "docs/hardware.md")
 
     @unittest.skipUnless(code_size.is_there(), f"no {code_size.COMPILER}: ./dev budget installs it")
     def test_what_is_named_exists_and_is_compiled_for_the_ram(self):
