@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Lines and branches of firmware/control and firmware/app that the unit tests reach, by gcov.
+"""Lines and branches of the firmware above the board that the unit tests reach, by gcov.
 
     coverage.py [-v]     -v: every line and branch that is missed
 
-Exit code 1 below 100 % of the lines or 95 % of the branches of either directory.
+Exit code 1 below 100 % of the lines or 95 % of the branches of any room.
 """
 
 import json
@@ -50,7 +50,7 @@ def main():
         for problem in filter(None, pool.map(one, names)):
             print(problem)
     good = True
-    for directory in ("control", "app"):
+    for directory in ub.ROOMS:
         lines = missed_lines = branches = missed_branches = 0
         for source, rows in measured(build):
             if ub.room_of(source) != directory:

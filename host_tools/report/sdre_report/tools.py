@@ -53,6 +53,10 @@ class Tools:
             )
         return done.stdout
 
+    def _simulate(self, scenario: Path, drive: str, *options: str) -> None:
+        file = str(DRIVES / f"{drive}.toml")
+        self._call("sdre-sil", ["run", str(scenario), "--drive", file, *options], [FAULTED])
+
     def run(
         self, scenario: str, drive: str, changes: Optional[Dict[str, str]] = None, name: str = ""
     ) -> Run:
@@ -63,20 +67,7 @@ class Tools:
         if changes:
             path = self._changed(path, changes, name)
         csv, result = self._data / f"{name}.csv", self._data / f"{name}.json"
-        self._call(
-            "sdre-sil",
-            [
-                "run",
-                str(path),
-                "--drive",
-                str(DRIVES / f"{drive}.toml"),
-                "--csv",
-                str(csv),
-                "--json",
-                str(result),
-            ],
-            [FAULTED],
-        )
+        self._simulate(path, drive, "--csv", str(csv), "--json", str(result))
         return Run(read_trace(csv), json.loads(result.read_text()))
 
     def seeds(self, scenario: str, drive: str, count: int, name: str = "") -> Dict[str, Any]:
@@ -84,20 +75,8 @@ class Tools:
         name = name or f"{scenario}-{drive}-seeds"
         self.tell(name)
         result = self._data / f"{name}.json"
-        self._call(
-            "sdre-sil",
-            [
-                "run",
-                str(SCENARIOS / f"{scenario}.toml"),
-                "--drive",
-                str(DRIVES / f"{drive}.toml"),
-                "--seeds",
-                str(count),
-                "--json",
-                str(result),
-            ],
-            [FAULTED],
-        )
+        path = SCENARIOS / f"{scenario}.toml"
+        self._simulate(path, drive, "--seeds", str(count), "--json", str(result))
         return json.loads(result.read_text())
 
     def spectrum(self, scenario: str, drive: str) -> Dict[str, np.ndarray]:
@@ -105,18 +84,7 @@ class Tools:
         name = f"{scenario}-{drive}-spectrum"
         self.tell(name)
         csv = self._data / f"{name}.csv"
-        self._call(
-            "sdre-sil",
-            [
-                "run",
-                str(SCENARIOS / f"{scenario}.toml"),
-                "--drive",
-                str(DRIVES / f"{drive}.toml"),
-                "--spectrum",
-                str(csv),
-            ],
-            [FAULTED],
-        )
+        self._simulate(SCENARIOS / f"{scenario}.toml", drive, "--spectrum", str(csv))
         found: Dict[str, list] = {}
         for line in csv.read_text().splitlines()[1:]:
             measure, *numbers = line.split(",")

@@ -17,8 +17,10 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[1] / "quality"))
+sys.path[:0] = [str(HERE.parents[1] / "quality"), str(HERE.parent / "budget")]
 import unit_build as ub  # noqa: E402
+
+from execution import EMULATOR  # noqa: E402
 
 STUB = ub.ROOT / "firmware/board/host_stub"
 # In units of the last place of a duty ratio near one half, 6e-8, and of the speed. The arithmetic
@@ -42,20 +44,6 @@ M4F_LINK = [
     "-Wl,--no-warn-rwx-segments",
 ]
 M4F_START = [STUB / "startup.c", STUB / "semihosting.c", HERE / "out_m4f.c"]
-EMULATOR = [
-    "qemu-system-arm",
-    "-M",
-    "mps2-an386",
-    "-display",
-    "none",
-    "-monitor",
-    "none",
-    "-serial",
-    "none",
-    "-semihosting-config",
-    "enable=on,target=native",
-    "-kernel",
-]
 AVR = ["avr-gcc", "-mmcu=atmega2560", "-Wl,--gc-sections", "-ffunction-sections", "-fdata-sections"]
 SIMULATOR = ["simavr", "-m", "atmega2560", "-f", "16000000"]
 
@@ -131,7 +119,7 @@ def numbers_m4f(out):
             out / "numbers.elf",
         ]
     )
-    return words(emulate(EMULATOR, out / "numbers.elf")[1])
+    return words(emulate([*EMULATOR, "-kernel"], out / "numbers.elf")[1])
 
 
 def numbers_avr(out):
@@ -194,7 +182,7 @@ def unit_tests_m4f(out):
         )
         if built.returncode != 0:
             return name, "does not link: " + built.stderr[-300:]
-        code, text = emulate(EMULATOR, image)
+        code, text = emulate([*EMULATOR, "-kernel"], image)
         return name, "" if code == 0 else f"exit code {code}: " + " ".join(
             t for t in text.splitlines() if "FAIL" in t
         )[:400]

@@ -1,0 +1,239 @@
+/* SPDX-License-Identifier: MIT */
+/* Registers whose values are computed: position mode, scope, record, loader, stored parameters. */
+#include "app_registers.h"
+
+#include <string.h>
+
+#include "board_config.h"
+#include "fake_board.h"
+#include "gain_tables.h"
+#include "register_words.h"
+#include "unit_support.h"
+#include "unity.h"
+
+#define REACHED 0x0400
+#define OF_MODE 0x1000
+
+static app_registers_t  registers;
+static drive_config_t   drive;
+static app_scope_t      scope;
+static app_record_t     record;
+static app_loader_t     loader;
+static app_image_t      in_force;
+static app_parameters_t parameters;
+
+void setUp(void)
+{
+    drive = gain_tables_drive;
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_registers_init(&registers, &board_config, &drive));
+    app_scope_init(&scope);
+    (void)memset(&record, 0, sizeof record);
+}
+
+void tearDown(void) {}
+
+static uint16_t input(int address)
+{
+    return register_words_input(&registers, address);
+}
+
+static app_registers_result_t write(int address, int value)
+{
+    return register_words_write(&registers, address, value);
+}
+
+static uint16_t statusword(int bits)
+{
+    return (uint16_t)(input(APP_REGISTERS_STATUSWORD) & (uint16_t)bits);
+}
+
+static uint32_t input_32(int address)
+{
+    return ((uint32_t)input(address) << 16) | input(address + 1);
+}
+
+static void test_a_position_is_reached_at_rest_within_the_window(void)
+{
+    app_status_t *s                                 = &registers.status;
+    const int32_t here_cnt                          = app_registers_position(&registers);
+    registers.requested.objects.position_window_cnt = 3U;
+    s->state                                        = APP_CONTROL_OPERATION_ENABLED;
+    s->mode                                         = APP_MODE_RUN;
+    s->mode_of_operation                            = APP_CONTROL_PROFILE_POSITION;
+    s->arrived                                      = true;
+    for (int32_t off = -5; off <= 5; off++) {
+        s->target_cnt = here_cnt - off;
+        TEST_ASSERT_EQUAL_HEX16(((off >= -3) && (off <= 3)) ? REACHED : 0, statusword(REACHED));
+    }
+    s->target_cnt = here_cnt;
+    s->arrived    = false;
+    TEST_ASSERT_EQUAL_HEX16(0, statusword(REACHED));
+    s->arrived = true;
+    s->mode    = APP_MODE_STOP;
+    TEST_ASSERT_EQUAL_HEX16(0, statusword(REACHED));
+}
+
+static void test_a_halted_position_run_is_reached_at_standstill(void)
+{
+    app_status_t *s                            = &registers.status;
+    registers.requested.objects.controlword    = 0x010FU;
+    registers.requested.objects.window_e_radps = 5.0f;
+    s->state                                   = APP_CONTROL_OPERATION_ENABLED;
+    s->mode                                    = APP_MODE_RUN;
+    s->mode_of_operation                       = APP_CONTROL_PROFILE_POSITION;
+    s->speed_e_radps                           = 6.0f;
+    TEST_ASSERT_EQUAL_HEX16(0, statusword(REACHED));
+    s->speed_e_radps = -4.0f;
+    TEST_ASSERT_EQUAL_HEX16(REACHED, statusword(REACHED));
+}
+
+static void test_bit_12_of_a_position_run_is_the_acknowledgement(void)
+{
+    registers.status.mode_of_operation = APP_CONTROL_PROFILE_POSITION;
+    registers.status.acknowledged      = false;
+    TEST_ASSERT_EQUAL_HEX16(0, statusword(OF_MODE));
+    registers.status.acknowledged = true;
+    TEST_ASSERT_EQUAL_HEX16(OF_MODE, statusword(OF_MODE));
+}
+
+static void test_modes_of_a_drive_without_positions(void)
+{
+    drive.positions = true;
+    TEST_ASSERT_EQUAL_HEX32(0x00010025UL, input_32(APP_REGISTERS_SUPPORTED_MODES));
+    drive.positions = false;
+    TEST_ASSERT_EQUAL_HEX32(0x00010024UL, input_32(APP_REGISTERS_SUPPORTED_MODES));
+}
+
+static void test_without_scope_and_record_their_registers_are_zero(void)
+{
+    TEST_ASSERT_EQUAL_HEX16(0, input(APP_REGISTERS_SCOPE_STATE));
+    TEST_ASSERT_EQUAL_HEX32(0, input_32(APP_REGISTERS_SCOPE_TICKS));
+    TEST_ASSERT_EQUAL_HEX16(0, input(APP_REGISTERS_RECORD_NUMBER));
+    TEST_ASSERT_EQUAL_HEX16(0, input(APP_REGISTERS_RECORD_COUNT));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_SCOPE_COMMAND, 1));
+    TEST_ASSERT_EQUAL_INT(APP_SCOPE_IDLE, scope.state);
+}
+
+static void test_the_scope_is_armed_and_stopped(void)
+{
+    registers.scope = &scope;
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_SCOPE_CHANNEL, 3));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_SCOPE_BEFORE, 7));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_SCOPE_COMMAND, 1));
+    TEST_ASSERT_EQUAL_UINT16(2U, scope.setup.channel); /* counted from 0 */
+    TEST_ASSERT_EQUAL_UINT16(7U, scope.setup.before);
+    TEST_ASSERT_NOT_EQUAL(APP_SCOPE_IDLE, scope.state);
+    TEST_ASSERT_EQUAL_HEX16(scope.state, input(APP_REGISTERS_SCOPE_STATE));
+    TEST_ASSERT_EQUAL_HEX16(3, register_words_holding(&registers, APP_REGISTERS_SCOPE_CHANNEL));
+    TEST_ASSERT_EQUAL_HEX16(0, register_words_holding(&registers, APP_REGISTERS_SCOPE_COMMAND));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_SCOPE_COMMAND, 2));
+    TEST_ASSERT_EQUAL_INT(APP_SCOPE_IDLE, scope.state);
+}
+
+static void test_samples_are_read_when_there_are_any(void)
+{
+    uint16_t values[2];
+
+    registers.scope  = &scope;
+    registers.record = &record;
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BUSY,
+                          app_registers_read_input(&registers, APP_TRACES_SCOPE, 2U, values));
+    scope.state         = APP_SCOPE_DONE;
+    scope.count         = APP_SCOPE_SAMPLES;
+    scope.trigger_ticks = 0x12345678UL;
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK,
+                          app_registers_read_input(&registers, APP_TRACES_SCOPE, 2U, values));
+    TEST_ASSERT_EQUAL_INT(
+        APP_REGISTERS_BAD_ADDRESS,
+        app_registers_read_input(
+            &registers, (uint16_t)(APP_TRACES_SCOPE + (8U * APP_SCOPE_SAMPLES)), 2U, values));
+    TEST_ASSERT_EQUAL_HEX32(0x12345678UL, input_32(APP_REGISTERS_SCOPE_TICKS));
+    record.number     = 5U;
+    record.kept_count = 9U;
+    TEST_ASSERT_EQUAL_HEX16(5, input(APP_REGISTERS_RECORD_NUMBER));
+    TEST_ASSERT_EQUAL_HEX16(9, input(APP_REGISTERS_RECORD_COUNT));
+}
+
+static void test_the_loaders_registers_are_beyond_the_map(void)
+{
+    uint16_t value = 0U;
+
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_ADDRESS,
+                          app_registers_read_input(&registers, APP_LOADER_FIRST, 1U, &value));
+    fake_board_erase_store();
+    TEST_ASSERT_TRUE(
+        app_image_choose(&in_force, &board_config, &gain_tables_drive, &board_identity));
+    app_loader_init(&loader, &in_force);
+    registers.loader = &loader;
+    loader.state     = APP_LOADER_BUSY;
+    TEST_ASSERT_EQUAL_HEX16(APP_LOADER_BUSY, input(APP_LOADER_FIRST + APP_LOADER_STATE));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK,
+                          app_registers_read_holding(&registers, APP_LOADER_FIRST, 1U, &value));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_ADDRESS,
+                          app_registers_read_holding(&registers, 0x7FFFU, 1U, &value));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_ADDRESS, write(0x7FFF, 0));
+}
+
+static app_registers_result_t write_text(int address, const char *text)
+{
+    const uint16_t words[2] = {(uint16_t)(((uint16_t)text[3] << 8) | (uint16_t)text[2]),
+                               (uint16_t)(((uint16_t)text[1] << 8) | (uint16_t)text[0])};
+    return app_registers_write(&registers, (uint16_t)address, 2U, words);
+}
+
+static void test_commands_of_the_store_need_their_words(void)
+{
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BUSY, write_text(APP_REGISTERS_STORE_PARAMETERS, "save"));
+    registers.parameters = &parameters;
+    registers.loader     = &loader;
+    parameters.rested    = true;
+    loader.fallback      = true; /* there is something to accept */
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write_text(APP_REGISTERS_STORE_PARAMETERS, "save"));
+    TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_STORE, registers.requested.store_command);
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write_text(APP_REGISTERS_RESTORE_PARAMETERS, "load"));
+    TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_RESTORE, registers.requested.store_command);
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write_text(APP_REGISTERS_ACCEPT_FALLBACK, "take"));
+    TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_ACCEPT, registers.requested.store_command);
+    registers.requested.store_command = 0U;
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_VALUE,
+                          write_text(APP_REGISTERS_STORE_PARAMETERS, "sane"));
+    TEST_ASSERT_EQUAL_INT(0, registers.requested.store_command);
+}
+
+static void test_every_address_is_read_with_one_answer(void)
+{
+    int inputs   = 0;
+    int holdings = 0;
+
+    for (uint32_t address = 0U; address < APP_REGISTERS_INPUTS_TOO; address++) {
+        uint16_t       a     = 0U;
+        uint16_t       b     = 0U;
+        const uint16_t at    = (uint16_t)address;
+        const bool     there = app_registers_read_input(&registers, at, 1U, &a) == APP_REGISTERS_OK;
+        const uint16_t twin  = (uint16_t)(at + APP_REGISTERS_INPUTS_TOO);
+        TEST_ASSERT_EQUAL_INT(there, app_registers_read_holding(&registers, twin, 1U, &b) ==
+                                         APP_REGISTERS_OK);
+        TEST_ASSERT_EQUAL_HEX16(a, b);
+        inputs += there ? 1 : 0;
+        holdings +=
+            (app_registers_read_holding(&registers, at, 1U, &b) == APP_REGISTERS_OK) ? 1 : 0;
+    }
+    TEST_ASSERT_GREATER_OR_EQUAL_INT(APP_REGISTERS_MAP_INPUT, inputs);
+    TEST_ASSERT_GREATER_OR_EQUAL_INT(APP_REGISTERS_MAP_HOLDING, holdings);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_position_is_reached_at_rest_within_the_window);
+    RUN_TEST(test_a_halted_position_run_is_reached_at_standstill);
+    RUN_TEST(test_bit_12_of_a_position_run_is_the_acknowledgement);
+    RUN_TEST(test_modes_of_a_drive_without_positions);
+    RUN_TEST(test_without_scope_and_record_their_registers_are_zero);
+    RUN_TEST(test_the_scope_is_armed_and_stopped);
+    RUN_TEST(test_samples_are_read_when_there_are_any);
+    RUN_TEST(test_the_loaders_registers_are_beyond_the_map);
+    RUN_TEST(test_commands_of_the_store_need_their_words);
+    RUN_TEST(test_every_address_is_read_with_one_answer);
+    return UNITY_END();
+}
