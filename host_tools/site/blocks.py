@@ -3,6 +3,9 @@
 """Draws the block diagrams of docs/theory from blocks.toml, as SVG files that lie beside the pages
 and need nothing else.
 
+Positions come from the file: the signal path runs from left to right, with the feedback below it.
+A layout program would place the blocks by itself, and the site would need it.
+
 Usage: blocks.py [--check]    --check: exit code 1 when a file is not what would be drawn
 """
 

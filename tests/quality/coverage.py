@@ -3,6 +3,9 @@
 
     coverage.py [-v]     -v: every line and branch that is missed
 
+The counts are gcov's own. gcovr would be one more package, and it knows neither the rooms nor their
+limits.
+
 Exit code 1 below 100 % of the lines or 95 % of the branches of any room.
 """
 
