@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-import re
-from pathlib import Path
 from typing import Iterable, List, Tuple
 
 from table import SPACES, Group, Register, of_space
+from versions import digest_of, saved, version, version_of
 
 NOTE = "/* Generated from registers.toml. Do not edit: python3 host_tools/registers/generate.py. */"
 HOMES = {
@@ -26,41 +25,6 @@ MEMBERS = {
     "bool": "bool",
 }
 TYPES = {"u16": "U16", "i16": "I16", "u32": "U32", "i32": "I32", "dec": "DEC"}
-
-
-def version() -> str:
-    """Version of the project."""
-    text = (Path(__file__).resolve().parents[2] / "CMakeLists.txt").read_text(encoding="utf-8")
-    return re.search(r"project\(sdre-drive VERSION ([0-9.]+)", text).group(1)
-
-
-def _digest(lines: Iterable[str]) -> int:
-    """FNV-1a, 32 bits."""
-    h = 0x811C9DC5
-    for line in lines:
-        for c in f"{line}\n".encode():
-            h = ((h ^ c) * 0x01000193) & 0xFFFFFFFF
-    return h
-
-
-def digest_of(groups: List[Group]) -> str:
-    """Digest of the part of the map that a master can see."""
-    lines = (
-        f"{g.space} {r.address} {r.name} {r.type} {r.step} {r.unit} {r.range} {r.stopped} {r.saved}"
-        for g in groups
-        for r in g.registers
-    )
-    return f"{_digest(lines):08x}"
-
-
-def saved(groups: List[Group]) -> List[Register]:
-    """The parameters, in the order of their words in the store."""
-    return [r for r in of_space(groups, "holding") if r.saved]
-
-
-def version_of(groups: List[Group]) -> int:
-    """Digest of the meaning of the stored parameters' words."""
-    return _digest(f"{r.name} {r.type} {r.step} {r.unit}" for r in saved(groups))
 
 
 def _c_float(x: float) -> str:

@@ -18,9 +18,10 @@ from typing import Dict, List
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from c_map import digest_of, header, saved, source, types, version  # noqa: E402
+from c_map import header, source, types  # noqa: E402
 from c_signals import signals_header, signals_source  # noqa: E402
 from table import Group, Register, Signal, TableError, read, signals  # noqa: E402
+from versions import digest_of, saved, version  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 TABLE = ROOT / "firmware/app/registers/registers.toml"

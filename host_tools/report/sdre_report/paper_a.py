@@ -4,10 +4,11 @@ signals and on the board."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, Dict, List
 
 from . import plots
+from .paper_a_cases import CASES, Case
+from .paper_a_tables import table_2, table_3, table_3_conventional
 from .settling import Settled, settle
 from .tables import Figure, Section, Table, Value, or_never
 from .tools import Run, Tools
@@ -26,52 +27,6 @@ STEP_S = 0.4
 BOARD = {"ideal = true": "ideal = false"}
 
 
-@dataclass(frozen=True)
-class Case:
-    """One figure of the paper."""
-
-    number: int
-    scenario: str
-    measure: str
-    title: str
-    shown_ms: float  # after the step
-    end_s: float
-
-
-CASES = (
-    Case(
-        5,
-        "fig5_load_step",
-        "load_step",
-        "load 0.75 to 1.5 N m at 300 rad/s, the controller knows the motor",
-        60,
-        0.8,
-    ),
-    Case(
-        6,
-        "fig6_load_step_varied",
-        "load_step",
-        "the same, controller with 200 % J, B and 150 % R, L, flux",
-        60,
-        0.8,
-    ),
-    Case(
-        7,
-        "fig7_speed_step",
-        "speed_step",
-        "200 to 400 rad/s at 0.75 N m, 200/150 % controller",
-        100,
-        0.8,
-    ),
-    Case(
-        8,
-        "fig8_flux_weakening",
-        "speed_step",
-        "400 to 720 rad/s at 0.1 N m, dc link 173 V, 200/150 % controller",
-        200,
-        1.2,
-    ),
-)
 COLUMNS = ("proposed, ideal", "conventional, ideal", "proposed, board", "conventional, board")
 
 
@@ -197,96 +152,6 @@ def compare(case: Case, runs: List[Run], printed: Dict[str, Any]) -> Table:
         "conventional observer has no "
         "d_q and d_d. Fig. 7: beyond the final value is here all of the current that accelerates."
     )
-    return table
-
-
-def table_3(found: Dict[int, List[Run]], printed: Dict[str, Any]) -> Table:
-    """The paper's summary, row by row."""
-    table = Table(
-        "A-table3",
-        "Table 3, proposed control",
-        (
-            "",
-            *(
-                f"{q}, {who}"
-                for q in ("d_w", "d_q", "d_d", "speed", "t_s [ms]")
-                for who in ("paper", "here")
-            ),
-        ),
-        note="Speed: the steady error after a load step. For the speed step the paper prints 56 "
-        "(conventional: 117) rad/s "
-        "and does not say of what; here stands the overshoot. d_w and the other estimates: "
-        'docs/errata.md, "Not reproduced".',
-    )
-    for number, name in (
-        (5, "load step, exact parameters"),
-        (6, "load step, 200/150 %"),
-        (7, "speed step"),
-        (8, "flux weakening"),
-    ):
-        case = CASES[number - 5]
-        ours, run = printed[f"fig{number}"]["proposed"], found[number][0]
-        measure = run.measure(case.measure)
-        last = {
-            k: ours[k][-1] if isinstance(ours[k], list) else ours[k] for k in ("d_w", "d_q", "d_d")
-        }
-        speed = measure["steady_state_error_e_radps" if number <= 6 else "overshoot_e_radps"]
-        table.add(
-            name,
-            last["d_w"],
-            measure["d_omega_hat"],
-            last["d_q"],
-            f"{measure['d_q_hat']:.1f}",
-            last["d_d"],
-            f"{measure['d_d_hat']:.1f}",
-            ours.get("error", ours.get("omega_e", "-")),
-            f"{speed:.3f}",
-            ours["speed_ms"],
-            or_never(measure["settling_time_s"], 1e3),
-        )
-    return table
-
-
-def table_3_conventional(found: Dict[int, List[Run]], printed: Dict[str, Any]) -> Table:
-    """Its lower half, which has speeds and times alone."""
-    table = Table(
-        "A-table3-conventional",
-        "Table 3, conventional control",
-        ("", "speed, paper", "speed, here", "t_s [ms], paper", "t_s [ms], here"),
-    )
-    for number, name in (
-        (5, "load step, exact parameters"),
-        (6, "load step, 200/150 %"),
-        (7, "speed step"),
-        (8, "flux weakening"),
-    ):
-        theirs, run = printed[f"fig{number}"]["conventional"], found[number][1]
-        measure = run.measure(CASES[number - 5].measure)
-        speed = measure["steady_state_error_e_radps" if number <= 6 else "overshoot_e_radps"]
-        table.add(
-            name,
-            theirs.get("error", theirs.get("omega_e", "-")),
-            f"{speed:.3f}",
-            theirs["speed_ms"],
-            or_never(measure["settling_time_s"], 1e3),
-        )
-    return table
-
-
-def table_2(design: Dict[str, Any], drive: Dict[str, Any], printed: Dict[str, Any]) -> Table:
-    """The motor, as printed and as it stands in the drive file; and the reduced parameters, which
-    the paper does not print."""
-    table = Table(
-        "A-table2",
-        "Table 2 and equation (2): the motor",
-        ("", "paper", "drive file"),
-        note="The printed current of 1.3 A does not give the printed torque (docs/errata.md, A6).",
-    )
-    values = {**drive["motor"], **drive["inverter"]}
-    for key in printed:
-        table.add(key, f"{printed[key]:g}", f"{values[key]:g}")
-    for name, value in design["reduced_parameters"].items():
-        table.add(name, "-", value, digits=6)
     return table
 
 
