@@ -84,7 +84,9 @@ void bind_design(nb::module_ &m)
         .def_prop_ro("trip_speed_e_radps", &trip_speed_e_radps)
         .def_prop_ro("dc_link_V", [](const Drive &d) { return d.inverter.dc_link_V; })
         .def_prop_ro("motor", &motor_numbers);
-    m.def("read_drive", &read_drive_text);
+    m.def("read_drive", [](const std::string &text, const std::string &source) {
+        return read_drive_text(text, source);
+    });
     m.def("report", &report);
     m.def("tune", &tune);
     m.def("care", &care, nb::arg("A"), nb::arg("B").none(), nb::arg("R").none(),
