@@ -4,26 +4,20 @@ drive has tripped."""
 
 from __future__ import annotations
 
-import signal
 import sys
-import threading
 from pathlib import Path
 from typing import Optional
 
-import serial
 import typer
-from rich.console import Console
 from rich.live import Live
 from rich.progress import Progress
 from typing_extensions import Annotated
 
-from sdre_drive import boot_rom, record, scope, session, show
 from sdre_drive import commission as finder
-from sdre_drive import load as loader
 from sdre_drive import move as mover
-from sdre_drive import params as parameters
+from sdre_drive import record, scope, session, show
 from sdre_drive.connection import Drive, DriveError
-from sdre_drive.faults import bits
+from sdre_drive.load_command import load
 from sdre_drive.options import (
     Control,
     Line,
@@ -38,9 +32,10 @@ from sdre_drive.options import (
 )
 from sdre_drive.params_commands import params
 from sdre_drive.registers import Mode
+from sdre_drive.terminal import For, end_by_signal, err, out
+from sdre_drive.trace_commands import log, take_scope, watch
 
 EXIT_BAD, EXIT_TRIPPED = 1, 4
-LOG_PERIOD_S = 0.02  # the line carries about 50 readings per second
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -49,20 +44,6 @@ app = typer.Typer(
     help="Reads, commands and explains an sdre-drive, real or virtual.",
 )
 app.add_typer(params, name="params")
-out = Console()
-err = Console(stderr=True, soft_wrap=True)
-
-For = Annotated[
-    Optional[float], typer.Option("--for", min=0.0, help="end after so many seconds", metavar="S")
-]
-
-
-def end_by_signal() -> threading.Event:
-    """Set by Ctrl-C or a request to end, so that the drive can be stopped in peace."""
-    end = threading.Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: end.set())
-    return end
 
 
 @app.callback()
@@ -165,72 +146,7 @@ def reset(port: Port = None, tcp: Tcp = None) -> None:
         out.print(show.line(session.reset(drive), None))
 
 
-def _load_ram(file: Path, rate: int, port: Optional[str]) -> None:
-    program = boot_rom.read_program(file)
-    if not port:
-        raise DriveError("load --boot-rom: name the serial port with --port")
-    try:
-        with (
-            serial.Serial(port, rate, timeout=boot_rom.ECHO_S) as line,
-            Progress(console=err, transient=True) as bar,
-        ):
-            task = bar.add_task("loading", total=1.0)
-            boot_rom.send(line, program, lambda share: bar.update(task, completed=share))
-    except serial.SerialException as e:
-        raise DriveError(f"{port}: {e}") from e
-    out.print(f"{program.words} words in RAM, started at {program.entry:06X}h", soft_wrap=True)
-
-
-@app.command()
-def load(
-    image: Annotated[
-        Optional[Path], typer.Argument(help="of `sdre-gains image`; none: show what is in force")
-    ] = None,
-    forget: Annotated[
-        bool, typer.Option("--forget", help="back to the constants that are compiled in")
-    ] = False,
-    accept: Annotated[
-        bool,
-        typer.Option(
-            "--accept-fallback",
-            help="the drive lost what was stored last: let it run with what it uses instead",
-        ),
-    ] = False,
-    boot: Annotated[
-        Optional[Path],
-        typer.Option(
-            "--boot-rom",
-            help="a program for an F28335's RAM, of hex2000 --boot --sci8 -a",
-            metavar="FILE",
-        ),
-    ] = None,
-    rate: Annotated[
-        int, typer.Option("--rate", min=300, max=115200, help="Bd, of --boot-rom")
-    ] = 38400,
-    port: Port = None,
-    tcp: Tcp = None,
-) -> None:
-    """Writes a motor's constants into the drive's flash, and restarts it with them."""
-    if sum(map(bool, (image, forget, accept, boot))) > 1:
-        raise DriveError("load: give an image, --forget, --accept-fallback or --boot-rom")
-    if boot:
-        _load_ram(boot, rate, port)
-        return
-    with Drive(target(port, tcp)) as drive:
-        if forget:
-            found = loader.forget(drive)
-        elif image:
-            with Progress(console=err, transient=True) as bar:
-                task = bar.add_task("writing", total=1.0)
-                found = loader.load(drive, image, lambda share: bar.update(task, completed=share))
-        else:
-            if accept:
-                parameters.accept(drive)
-            found = loader.in_force(drive)
-        lost = bits("condition", drive.read().conditions & parameters.LOST)
-    out.print(f"in force: {found.words}", soft_wrap=True)
-    for entry in lost:
-        err.print(f"{entry.name}: {entry.meaning}", soft_wrap=True)
+app.command()(load)
 
 
 @app.command()
@@ -283,78 +199,9 @@ def faults(
         raise typer.Exit(EXIT_TRIPPED)
 
 
-@app.command()
-def watch(
-    length_s: For = None, port: Port = None, tcp: Tcp = None, pole_pairs: PolePairs = None
-) -> None:
-    """Shows the drive until Ctrl-C. A running drive keeps running meanwhile."""
-    end = end_by_signal()
-    with Drive(target(port, tcp)) as drive, Live(console=out, auto_refresh=False) as live:
-        pairs = pole_pairs_of(pole_pairs, drive)
-        for reading in session.follow(drive, end, 0.1, length_s):
-            live.update(show.status(reading, pairs), refresh=True)
-
-
-@app.command()
-def log(
-    csv: Annotated[
-        Optional[Path], typer.Option("--csv", help="file of lines", metavar="FILE")
-    ] = None,
-    parquet: Annotated[
-        Optional[Path], typer.Option("--parquet", help="file of columns", metavar="FILE")
-    ] = None,
-    period_s: Annotated[
-        float, typer.Option("--period", min=0.0, max=0.4, help="seconds between readings")
-    ] = LOG_PERIOD_S,
-    length_s: For = None,
-    port: Port = None,
-    tcp: Tcp = None,
-) -> None:
-    """Writes readings to a file until Ctrl-C. A running drive keeps running meanwhile."""
-    if (csv is None) == (parquet is None):
-        raise DriveError("give one of --csv and --parquet")
-    end = end_by_signal()
-    with Drive(target(port, tcp)) as drive:
-        readings = session.follow(drive, end, period_s, length_s)
-        count = (
-            record.write_csv(csv, readings)
-            if csv
-            else record.write_parquet(parquet or Path(), readings)
-        )
-    out.print(f"{count} readings written to {csv or parquet}")
-
-
-@app.command(name="scope")
-def take_scope(
-    csv: Annotated[Path, typer.Option("--csv", help="file of 512 lines", metavar="FILE")],
-    signals: Annotated[
-        str, typer.Option("--signals", help="up to four of " + ", ".join(scope.NAMES[1:]))
-    ] = "SPEED,IQ,ID,DC_LINK",
-    decimation: Annotated[
-        int, typer.Option("--decimation", min=1, max=65535, help="control periods between samples")
-    ] = 1,
-    trigger: Annotated[str, typer.Option("--trigger", help="now, rising or falling")] = "now",
-    channel: Annotated[
-        int, typer.Option("--channel", min=1, max=4, help="the signal that triggers")
-    ] = 1,
-    level: Annotated[float, typer.Option("--level", help="in its unit")] = 0.0,
-    before: Annotated[
-        int, typer.Option("--before", min=0, max=511, help="samples before the trigger")
-    ] = 0,
-    wait_s: Annotated[
-        float, typer.Option("--wait", min=0.0, help="for the trigger", metavar="S")
-    ] = 10.0,
-    port: Port = None,
-    tcp: Tcp = None,
-) -> None:
-    """Takes 512 samples of four signals in the control interrupt. A running drive keeps running
-    meanwhile."""
-    setup = scope.Setup(signals.split(","), decimation, trigger, channel, level, before)
-    scope.require_possible(setup)
-    with Drive(target(port, tcp)) as drive:
-        capture = scope.take(drive, setup, wait_s)
-    record.write_capture(csv, capture)
-    out.print(f"{len(capture.time_s)} samples of {', '.join(capture.signals)} written to {csv}")
+app.command()(watch)
+app.command()(log)
+app.command(name="scope")(take_scope)
 
 
 @app.command()
