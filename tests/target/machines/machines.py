@@ -165,6 +165,8 @@ def unit_tests_m4f(out):
         objects.append(out / f"{n}_{Path(source).stem}.o")
         ub.require([*M4F, *COMMON, "-std=gnu99", *extra, "-c", source, "-o", objects[-1]])
 
+    files = ub.test_files()
+
     def one(name):
         image = out / f"{name}.elf"
         built = ub.run(
@@ -172,7 +174,7 @@ def unit_tests_m4f(out):
                 *M4F,
                 *COMMON,
                 *unity,
-                ub.ROOT / f"tests/unit/{name}.c",
+                files[name],
                 *objects,
                 *M4F_LINK,
                 "-lm",
