@@ -120,7 +120,7 @@ static void drop_after_jump(app_angle_t *a, int16_t turned_cnt)
     const int32_t change_cnt = (int32_t)turned_cnt - (int32_t)a->turned_cnt;
     const int32_t most_cnt   = (int32_t)a->config->jump_cnt;
 
-    if (a->have_turned && ((change_cnt > most_cnt) || (change_cnt < -most_cnt))) {
+    if (a->have_turned && !app_angle_cnt_within(change_cnt, most_cnt)) {
         a->reference = APP_ANGLE_NONE;
         if (a->jumps < UINT16_MAX) {
             a->jumps = (uint16_t)(a->jumps + 1U);

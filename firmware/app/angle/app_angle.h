@@ -119,15 +119,21 @@ void app_angle_align(app_angle_t *a, uint16_t position_cnt, float theta_e_rad);
 /** Drops the reference after lost counts. The next sample has no speed. Context: control ISR. */
 void app_angle_drop(app_angle_t *a);
 
+/** True if |cnt| <= most_cnt, in one comparison; most_cnt >= 0. */
+static inline bool app_angle_cnt_within(int32_t cnt, int32_t most_cnt)
+{
+    const uint32_t most = (uint32_t)most_cnt;
+
+    return ((uint32_t)cnt + most) <= (2UL * most); /* below -most wraps to a large number */
+}
+
 /** Counts from one position to another, in the shorter direction. */
 static inline int16_t app_angle_turned_cnt(uint16_t positions, uint16_t from_cnt, uint16_t to_cnt)
 {
     int32_t turned_cnt = (int32_t)to_cnt - (int32_t)from_cnt;
 
-    if (turned_cnt > (int32_t)(positions / 2U)) {
-        turned_cnt -= (int32_t)positions;
-    } else if (turned_cnt < -(int32_t)(positions / 2U)) {
-        turned_cnt += (int32_t)positions;
+    if (!app_angle_cnt_within(turned_cnt, (int32_t)(positions / 2U))) {
+        turned_cnt += (turned_cnt < 0) ? (int32_t)positions : -(int32_t)positions;
     }
     return (int16_t)turned_cnt;
 }

@@ -86,6 +86,9 @@ static void align(void)
 
 static void count_phase_errors(bool error)
 {
+    if (!error && (error_level == 0U)) {
+        return; /* every period without errors */
+    }
     error_level = (uint16_t)(error_level - ((error_level > 0U) ? 1U : 0U));
     if (error) {
         phase_errors = (uint16_t)(phase_errors + 1U);

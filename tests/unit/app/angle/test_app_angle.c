@@ -96,6 +96,41 @@ static void test_index_refers_the_angle_at_every_position(void)
     }
 }
 
+static void test_counts_are_within_a_limit_up_to_both_ends(void)
+{
+    static const int32_t numbers[] = {
+        INT32_MIN, INT32_MIN + 1, -65536, -101,  -100,     -99, -1, 0, 1,
+        99,        100,           101,    65536, INT32_MAX};
+    static const int32_t limits[] = {0, 1, 100, 65536, INT32_MAX};
+    for (int i = 0; i < SUPPORT_COUNT(numbers); i++) {
+        for (int k = 0; k < SUPPORT_COUNT(limits); k++) {
+            const int64_t cnt = numbers[i];
+            TEST_ASSERT_EQUAL_INT((cnt <= limits[k]) && (cnt >= -(int64_t)limits[k]),
+                                  app_angle_cnt_within(numbers[i], limits[k]));
+        }
+    }
+}
+
+/* Every pair of positions: the same place, in the shorter direction. */
+static void test_turned_counts_take_the_shorter_way(void)
+{
+    for (int positions = 2; positions < 40; positions++) {
+        for (int from = 0; from < positions; from++) {
+            for (int to = 0; to < positions; to++) {
+                const int turned =
+                    app_angle_turned_cnt((uint16_t)positions, (uint16_t)from, (uint16_t)to);
+                TEST_ASSERT_EQUAL_INT(0, (from + turned - to) % positions);
+                TEST_ASSERT_TRUE((2 * turned <= positions) && (-2 * turned <= positions));
+                if (2 * (to - from) == positions || 2 * (from - to) == positions) {
+                    TEST_ASSERT_EQUAL_INT(to - from, turned); /* neither way is shorter */
+                }
+            }
+        }
+    }
+    TEST_ASSERT_EQUAL_INT(-1, app_angle_turned_cnt(65535U, 0U, 65534U));
+    TEST_ASSERT_EQUAL_INT(1, app_angle_turned_cnt(65535U, 65534U, 0U));
+}
+
 static void test_speed_is_the_difference_of_positions_either_way_round(void)
 {
     static const int from[] = {0, 1, 4999, 5000, 9998, 9999};
@@ -564,6 +599,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_angle_means_nothing_before_the_first_index);
     RUN_TEST(test_index_refers_the_angle_at_every_position);
+    RUN_TEST(test_counts_are_within_a_limit_up_to_both_ends);
+    RUN_TEST(test_turned_counts_take_the_shorter_way);
     RUN_TEST(test_speed_is_the_difference_of_positions_either_way_round);
     RUN_TEST(test_first_sample_has_no_speed);
     RUN_TEST(test_dropped_reference_takes_angle_and_speed_away);
