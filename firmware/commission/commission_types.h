@@ -104,8 +104,7 @@ static inline int32_t commission_moved_cnt(int32_t a, int32_t b)
 /** Number of periods in a time, at least one. */
 static inline int32_t commission_ticks(float time_s, float ts_s)
 {
-    const float ticks = time_s / ts_s;
-    return (ticks >= 1.0f) ? (int32_t)base_min(ticks, 1.0e9f) : (int32_t)1;
+    return (int32_t)base_clamp(time_s / ts_s, 1.0f, 1.0e9f); /* 1 for a NaN too */
 }
 
 #endif /* COMMISSION_TYPES_H */

@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: MIT */
+/* One period of the self-commissioning, for the analyser (docs/assurance.md): any sample, any stage, every float any bits. Counts
+ * of the state are within what the stages let them reach, and the shaft's encoder within what a drive file allows. */
+#include "commission.h"
+
+/* The analyser starts with any value in what is not constant. */
+volatile int                     any_int;
+volatile int32_t                 any_long;
+volatile commission_result_t     any_result;
+volatile commission_inductance_t any_inductance;
+volatile commission_resistance_t any_resistance;
+volatile commission_drag_t       any_drag;
+volatile commission_spin_t       any_spin;
+commission_t                     state;
+commission_config_t              config;
+commission_sample_t              sample;
+
+#define TICKS_MAX  10000000L /* 100 s at the shortest period, above the limit of every stage */
+#define COUNTS_MAX 1000000L
+#define PAIRS_MAX  100L
+#define SHORT_MAX  30000L /* of the counts in 16 bits */
+
+static bool any_bool(void)
+{
+    return any_int != 0;
+}
+
+static int32_t between(int32_t lo, int32_t hi)
+{
+    const int32_t x = any_long;
+
+    return (x < lo) ? lo : ((x > hi) ? hi : x);
+}
+
+static void any_vector(commission_vector_t *v)
+{
+    v->still_ticks = between(0L, TICKS_MAX);
+    v->swing_ticks = between(0L, TICKS_MAX);
+    v->way         = (int16_t)between(-1L, 1L);
+}
+
+static void any_state(commission_stage_t stage)
+{
+    state.config                = &config;
+    state.stage                 = stage;
+    state.last_stage            = stage;
+    state.reason                = COMMISSION_REASON_NONE;
+    state.ticks                 = between(0L, TICKS_MAX);
+    state.rounds                = (int16_t)between(0L, 2L);
+    state.shaft.speed_ticks     = between(0L, TICKS_MAX);
+    state.found                 = any_result;
+    state.found.counts_per_turn = between(1L, COUNTS_MAX);
+    state.found.pole_pairs      = (int16_t)between(0L, PAIRS_MAX);
+    state.found.direction       = (int16_t)between(-1L, 1L);
+    state.found.indexed         = any_bool();
+    state.found.reluctance      = any_bool();
+    config.counts_per_turn      = between(0L, COUNTS_MAX);
+    sample.index_seen           = any_bool();
+    sample.valid                = any_bool();
+}
+
+static void tick(void)
+{
+    (void)commission_tick(&state, &sample, any_bool());
+    (void)commission_percent(state.stage, state.last_stage);
+}
+
+/* Entry: WATCH, and every stage that does nothing. */
+void prove_commission_rest(void)
+{
+    any_state((commission_stage_t)between(COMMISSION_IDLE, COMMISSION_WATCH));
+    tick();
+    any_state((commission_stage_t)between(COMMISSION_FINISHED, COMMISSION_ABORTED));
+    tick();
+}
+
+static void any_wave(void)
+{
+    commission_inductance_t *const l = &state.work.inductance;
+
+    *l              = any_inductance;
+    l->axis         = (int16_t)between(0L, 4L);
+    l->wait_ticks   = (int16_t)between(0L, SHORT_MAX);
+    l->wave.found   = any_bool();
+    l->wave.samples = (int16_t)between(0L, SHORT_MAX);
+    l->wave.halves  = (int16_t)between(0L, SHORT_MAX);
+    l->wave.proofs  = (int16_t)between(0L, SHORT_MAX);
+    l->alpha.n = l->beta.n = l->noise.n = between(0L, TICKS_MAX);
+}
+
+/* Entry: LOOK. */
+void prove_commission_look(void)
+{
+    any_state(COMMISSION_LOOK);
+    any_wave();
+    tick();
+}
+
+/* Entry: MAP. */
+void prove_commission_map(void)
+{
+    any_state(COMMISSION_MAP);
+    any_wave();
+    state.work.inductance.axis = (int16_t)between(0L, 2L);
+    tick();
+}
+
+/* Entry: RESISTANCE. */
+void prove_commission_resistance(void)
+{
+    commission_resistance_t *const r = &state.work.resistance;
+
+    any_state(COMMISSION_RESISTANCE);
+    *r            = any_resistance;
+    r->angle      = (int16_t)between(0L, COMMISSION_ANGLES);
+    r->at_angle   = (int16_t)between(0L, COMMISSION_ANGLES - 1);
+    r->level      = (int16_t)between(-1L, 3L);
+    r->ticks      = between(0L, TICKS_MAX);
+    r->mean_ticks = between(0L, TICKS_MAX);
+    r->sums       = between(0L, TICKS_MAX);
+    r->line.n     = between(0L, TICKS_MAX);
+    for (int k = 0; k < COMMISSION_ANGLES; k++) {
+        r->lines[k].valid = any_bool();
+    }
+    any_vector(&r->vector);
+    tick();
+}
+
+/* Entry: DRAG. */
+void prove_commission_drag(void)
+{
+    commission_drag_t *const d = &state.work.drag;
+
+    any_state(COMMISSION_DRAG);
+    *d         = any_drag;
+    d->ticks   = between(0L, TICKS_MAX);
+    d->part    = (int16_t)between(0L, 6L);
+    d->turns   = (int16_t)between(0L, 64L);
+    d->indexes = (int16_t)between(0L, SHORT_MAX);
+    d->second  = any_bool();
+    any_vector(&d->vector);
+    tick();
+}
+
+/* Entry: SPIN. */
+void prove_commission_spin(void)
+{
+    commission_spin_t *const p = &state.work.spin;
+
+    any_state(COMMISSION_SPIN);
+    *p                     = any_spin;
+    p->part                = (int16_t)between(0L, 9L);
+    p->ticks               = between(0L, TICKS_MAX);
+    p->coast_ticks         = between(0L, TICKS_MAX);
+    p->window_ticks        = between(0L, TICKS_MAX);
+    p->motion.count        = (int16_t)between(0L, COMMISSION_WINDOWS);
+    p->motion.ticks        = between(-TICKS_MAX, TICKS_MAX);
+    p->motion.length_ticks = between(0L, TICKS_MAX);
+    p->motion.around_ticks = between(0L, TICKS_MAX);
+    p->motion.have_last    = any_bool();
+    p->motion.driven       = any_bool();
+    for (int k = 0; k < COMMISSION_WINDOWS; k++) {
+        p->motion.windows[k].driven = any_bool();
+    }
+    tick();
+}
