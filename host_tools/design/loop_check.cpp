@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -24,7 +25,8 @@ constexpr double golden_section = 0.6180339887498949;
 
 double sensitivity(const TransferFunction &loop, double frequency_Hz, double ts_s) // EQ-CERT-4
 {
-    return std::abs(1.0 + loop.at(std::polar(1.0, 2.0 * pi * frequency_Hz * ts_s)));
+    const double s = std::abs(1.0 + loop.at(std::polar(1.0, 2.0 * pi * frequency_Hz * ts_s)));
+    return std::isfinite(s) ? s : std::numeric_limits<double>::infinity();
 }
 
 } // namespace

@@ -24,7 +24,7 @@ struct BrokenLoop {
     double             ts_s = 0.0;
 };
 
-/// |S| at a frequency below half the sampling rate.
+/// |S| at a frequency below half the sampling rate; infinite, never NaN, when a number of the loop is not finite.
 double sensitivity(const BrokenLoop &loop, double frequency_Hz);
 
 struct SensitivityAt {
@@ -33,6 +33,7 @@ struct SensitivityAt {
     double      value        = 0.0;
 };
 
+/// Infinite, never NaN, when a number of the loop is not finite.
 struct LoopCheck {
     double                     spectral_radius = 0.0;
     double                     peak            = 0.0; ///< M_s, the largest |S|

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,7 +18,7 @@ namespace {
 // an encoder has less information than any linear model assumes.
 constexpr double counts_that_tell = 8.0;
 
-/// The larger one, and no number above all.
+/// The larger one; NaN is larger than any number.
 double worse(double a, double b)
 {
     return a <= b || std::isnan(b) ? b : a;
@@ -37,14 +36,11 @@ Found examine_point(const LoopFamily &family, const Drive &drive, const Operatin
     Found                         found;
     found.channels.resize(family.channels.size());
     for (std::size_t i = 0; i < loops.size(); i++) {
-        LoopCheck now = check_loop(loops[i], disturbance_frequencies(drive));
-        if (!loops[i].A.allFinite()) { // of such a matrix the eigenvalues say nothing
-            now.spectral_radius = std::numeric_limits<double>::infinity();
-        }
+        LoopCheck  now        = check_loop(loops[i], disturbance_frequencies(drive));
         LoopCheck &kept       = found.channels[i % family.channels.size()];
-        found.spectral_radius = worse(found.spectral_radius, now.spectral_radius);
-        const double radius   = worse(kept.spectral_radius, now.spectral_radius);
-        if (!(now.peak <= kept.peak)) {
+        found.spectral_radius = std::max(found.spectral_radius, now.spectral_radius);
+        const double radius   = std::max(kept.spectral_radius, now.spectral_radius);
+        if (now.peak > kept.peak) {
             kept = std::move(now);
         }
         kept.spectral_radius = radius;
@@ -74,7 +70,7 @@ double radius_of(const LoopFamily &family, const Motor &motor)
 
 void keep_worst(Verdict &v, const Found &found, const OperatingPoint &at)
 {
-    if (!(found.spectral_radius <= v.spectral_radius)) {
+    if (found.spectral_radius > v.spectral_radius) {
         v.spectral_radius = found.spectral_radius;
         v.radius_at       = at;
     }
@@ -82,7 +78,7 @@ void keep_worst(Verdict &v, const Found &found, const OperatingPoint &at)
         Channel     &kept = v.channels[c];
         const double radius =
             std::max(kept.worst.spectral_radius, found.channels[c].spectral_radius);
-        if (!(found.channels[c].peak <= kept.worst.peak)) {
+        if (found.channels[c].peak > kept.worst.peak) {
             kept.worst = found.channels[c];
             kept.at    = at;
         }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 
 #include <Eigen/Eigenvalues>
 
@@ -64,7 +65,8 @@ Eigen::VectorXcd sorted_eigenvalues(const Eigen::MatrixXd &A)
 
 double spectral_radius(const Eigen::MatrixXd &A)
 {
-    return eigenvalues(A).cwiseAbs().maxCoeff();
+    return A.allFinite() ? eigenvalues(A).cwiseAbs().maxCoeff()
+                         : std::numeric_limits<double>::infinity();
 }
 
 } // namespace sdre

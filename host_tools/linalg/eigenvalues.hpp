@@ -11,7 +11,7 @@ Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd &A);
 /// Sorted by real, then imaginary part.
 Eigen::VectorXcd sorted_eigenvalues(const Eigen::MatrixXd &A);
 
-/// Largest |eigenvalue|.
+/// Largest |eigenvalue|; infinite when an element is infinite or not a number.
 double spectral_radius(const Eigen::MatrixXd &A);
 
 } // namespace sdre

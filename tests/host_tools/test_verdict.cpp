@@ -210,15 +210,66 @@ TEST(Verdict, TripsThatAHealthyDriveReachesAreRefused)
         << failures[0];
 }
 
-/// Not a number is not below a limit.
+/// Not a number is not below a limit. It stands in a pole or an input, at the first, a middle or the last point.
 TEST(Verdict, NotANumberIsRefused)
 {
-    LoopFamily f = healthy();
-    f.loops      = [](const Motor &, const OperatingPoint &p) {
-        const double pole = p.iq_A > 0.0 ? std::nan("") : good;
+    const std::vector<OperatingPoint> points = sdre::verdict_points(shipped());
+    for (const double no_number : {std::nan(""), HUGE_VAL}) {
+        for (const std::size_t at : {std::size_t{0}, points.size() / 2, points.size() - 1}) {
+            for (const std::size_t channel : {std::size_t{0}, std::size_t{1}}) {
+                const auto is_there = [&points, at](const OperatingPoint &p) {
+                    return p.omega_e_radps == points[at].omega_e_radps && p.iq_A == points[at].iq_A;
+                };
+                LoopFamily f = healthy();
+                f.loops      = [&](const Motor &, const OperatingPoint &p) {
+                    std::vector<BrokenLoop> loops{one_pole(good), one_pole(good)};
+                    loops[channel] = is_there(p) ? one_pole(no_number) : loops[channel];
+                    return loops;
+                };
+                expect_one(f, "does not settle");
+                f.loops = [&](const Motor &, const OperatingPoint &p) {
+                    std::vector<BrokenLoop> loops{one_pole(good), one_pole(good)};
+                    loops[channel] = is_there(p) ? one_pole(good, no_number) : loops[channel];
+                    return loops;
+                };
+                expect_one(f, f.channels[channel] + ": sensitivity peak inf");
+            }
+        }
+    }
+}
+
+/// The same with one motor of the box only.
+TEST(Verdict, NotANumberOfAnotherMotorIsRefused)
+{
+    const Motor &own = shipped().drive.motor;
+    LoopFamily   f   = healthy();
+    f.loops          = [&own](const Motor &m, const OperatingPoint &) {
+        const double pole = m.inertia_kgm2 < 0.55 * own.inertia_kgm2 ? std::nan("") : good;
         return std::vector<BrokenLoop>{one_pole(pole), one_pole(pole)};
     };
-    EXPECT_FALSE(failures_of(f).empty());
+    expect_one(f, "J x0.5");
+}
+
+/// A verdict with a figure that is not a number is refused, and a search sees no way below the limit.
+TEST(Verdict, FiguresThatAreNoNumbersAreRefused)
+{
+    const double  nan  = std::nan("");
+    const Verdict fine = sdre::examine(healthy(), shipped().drive);
+    const auto    bad  = [&fine](const auto &change) {
+        Verdict                  v = fine;
+        std::vector<std::string> failures;
+        change(v);
+        sdre::judge(v, ts_s, failures);
+        EXPECT_EQ(failures.size(), 1U);
+        EXPECT_FALSE(sdre::excess(v, ts_s) <= 1.0);
+    };
+    EXPECT_LE(sdre::excess(fine, ts_s), 1.0);
+    bad([nan](Verdict &v) { v.spectral_radius = nan; });
+    bad([nan](Verdict &v) { v.channels[0].worst.peak = nan; });
+    bad([nan](Verdict &v) { v.channels[1].worst.peak = nan; });
+    bad([nan](Verdict &v) { v.box->share = nan; });
+    bad([nan](Verdict &v) { v.alone->share = nan; });
+    bad([nan](Verdict &v) { v.trips = {{"disturbance", 10.0, nan}, {"other", 10.0, 1.0}}; });
 }
 
 /// Six times the sensor noise of the weights plus the step of the full torque stays far from the
