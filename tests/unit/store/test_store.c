@@ -111,6 +111,24 @@ static void test_the_newest_counts_from_every_number_on(void)
     }
 }
 
+/* A power cut between the new mark and the end of the old one leaves two. A number counts as newer up to half the
+ * range ahead. */
+static void test_of_two_in_force_the_one_ahead_counts(void)
+{
+    const uint32_t starts[] = {1UL, 0x7FFFFFFFUL, 0x80000000UL, 0xC0000000UL, 0xFFFFFFFFUL};
+    const uint32_t ahead[]  = {1UL, 2UL, 0x7FFFFFFFUL, 0x80000000UL, 0x80000001UL, 0xFFFFFFFFUL};
+
+    for (size_t i = 0U; i < (sizeof starts / sizeof starts[0]); i++) {
+        for (size_t k = 0U; k < (sizeof ahead / sizeof ahead[0]); k++) {
+            fake_board_erase_store();
+            write_numbered(1U, starts[i]);
+            write_numbered(2U, starts[i] + ahead[k]);
+            fake_board_store[0][0] = STORE_MARK;
+            TEST_ASSERT_EQUAL_UINT16((ahead[k] < 0x80000000UL) ? 2U : 1U, content());
+        }
+    }
+}
+
 static void test_of_two_equal_numbers_the_first_slot_counts(void)
 {
     write_numbered(1U, 7UL);
@@ -358,6 +376,7 @@ int main(void)
     RUN_TEST(test_erased_store_holds_nothing);
     RUN_TEST(test_the_newest_of_many_is_there_and_slots_take_turns);
     RUN_TEST(test_the_newest_counts_from_every_number_on);
+    RUN_TEST(test_of_two_in_force_the_one_ahead_counts);
     RUN_TEST(test_of_two_equal_numbers_the_first_slot_counts);
     RUN_TEST(test_a_power_cut_at_any_word_leaves_old_or_new);
     RUN_TEST(test_a_power_cut_while_forgetting_leaves_the_newest_or_nothing);

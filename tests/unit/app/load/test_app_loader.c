@@ -11,6 +11,7 @@
 #include "gain_tables.h"
 #include "harmonic_tables.h"
 #include "modbus_frame.h"
+#include "start_race.h"
 #include "unity.h"
 
 #define ROOM 8192U
@@ -537,6 +538,25 @@ static void test_the_application_enters_the_loader_and_not_by_broadcast(void)
     TEST_ASSERT_TRUE(fake_board.restart_loader);
 }
 
+/* A run that begins before the answer is out cancels the restart, for good. */
+static void test_a_bridge_that_comes_on_cancels_the_restart(void)
+{
+    int ends[3] = {0};
+
+    for (int from = 0; from < 60; from++) {
+        const int enter[6] = {
+            1, 6, APP_LOADER_FIRST >> 8, APP_LOADER_FIRST & 0xFF, 0, APP_LOADER_ENTER};
+        setUp();
+        (void)app_init(&in_force.image.app, &in_force.image.drive);
+        app_tell_image(&in_force);
+        start_race_ready(&in_force.image.drive);
+        modbus_frame_receive(enter, 6);
+        ends[start_race(&in_force.image.drive, from) + 1]++;
+    }
+    TEST_ASSERT_GREATER_THAN_INT(0, ends[1]);
+    TEST_ASSERT_GREATER_THAN_INT(0, ends[2]);
+}
+
 /* True if the mode is left towards a run, an alignment or a commissioning. */
 static bool starts(int16_t mode_of_operation)
 {
@@ -619,5 +639,6 @@ int main(void)
     RUN_TEST(test_a_flash_that_fails_is_told);
     RUN_TEST(test_the_loader_answers_without_ticks_and_leaves_after_its_answer);
     RUN_TEST(test_the_application_enters_the_loader_and_not_by_broadcast);
+    RUN_TEST(test_a_bridge_that_comes_on_cancels_the_restart);
     return UNITY_END();
 }

@@ -214,6 +214,52 @@ static void test_reset_acts_when_its_bit_rises(void)
     TEST_ASSERT_FALSE(out.reset); /* nothing to leave */
 }
 
+/* A bit that is set at the start has not risen: the fault stays until the master has seen it. */
+static void test_a_reset_that_is_there_at_the_start_is_no_edge(void)
+{
+    seen.mode = APP_MODE_FAULT;
+    for (int n = 0; n < 5; n++) {
+        tick(128U);
+        TEST_ASSERT_FALSE(out.reset);
+    }
+    TEST_ASSERT_EQUAL_INT(APP_CONTROL_FAULT, control.state);
+    tick(0U);
+    tick(128U);
+    TEST_ASSERT_TRUE(out.reset);
+}
+
+/* Bit 7 rises during a steady run, and a fault comes: the edge is over. */
+static void test_a_reset_that_rose_in_a_run_does_not_end_a_later_fault(void)
+{
+    go(APP_CONTROL_OPERATION_ENABLED);
+    ticks(15U, 3);
+    ticks(143U, 3);
+    TEST_ASSERT_FALSE(out.reset);
+    seen.mode = APP_MODE_FAULT;
+    for (int n = 0; n < 3; n++) {
+        tick(143U);
+        TEST_ASSERT_FALSE(out.reset);
+    }
+    tick(15U);
+    tick(143U);
+    TEST_ASSERT_TRUE(out.reset);
+}
+
+/* The command of the tick before is still in `out` when a run begins. */
+static void test_a_steady_run_asks_for_nothing_else(void)
+{
+    go(APP_CONTROL_OPERATION_ENABLED);
+    ticks(15U, 3);
+    (void)memset(&out, 0xFF, sizeof out);
+    out.run        = false;
+    out.reset      = true;
+    out.commission = true;
+    out.align      = true;
+    tick(15U);
+    TEST_ASSERT_TRUE(out.run);
+    TEST_ASSERT_FALSE(out.reset || out.commission || out.align);
+}
+
 static void test_quick_stop_options(void)
 {
     static const struct {
@@ -492,6 +538,9 @@ int main(void)
     RUN_TEST(test_a_run_that_does_not_begin_or_ends_leaves_the_state);
     RUN_TEST(test_a_fault_wins_over_every_control_word);
     RUN_TEST(test_reset_acts_when_its_bit_rises);
+    RUN_TEST(test_a_reset_that_is_there_at_the_start_is_no_edge);
+    RUN_TEST(test_a_reset_that_rose_in_a_run_does_not_end_a_later_fault);
+    RUN_TEST(test_a_steady_run_asks_for_nothing_else);
     RUN_TEST(test_quick_stop_options);
     RUN_TEST(test_stop_options);
     RUN_TEST(test_the_state_is_left_when_the_bridge_has_opened);

@@ -1167,6 +1167,156 @@ static void test_what_watches_a_run_watches_a_commissioning(void)
     raw.temperature_cnt = CODE_90_degC;
     tick();
     assert_fault(APP_FAULT_TEMPERATURE);
+    init();
+    go_commission();
+    in.tick_missing = true;
+    tick();
+    assert_fault(APP_FAULT_TICK);
+    init();
+    go_commission();
+    in.memory_changed = true;
+    tick();
+    assert_fault(APP_FAULT_MEMORY);
+}
+
+/* The lines of the encoder are unknown there: an index out of place says nothing. */
+static void test_an_index_out_of_place_does_not_end_a_commissioning(void)
+{
+    go_ready();
+    see_index();
+    in.command.bounds.current_A     = 3.0f;
+    in.command.bounds.speed_m_radps = 150.0f;
+    tick();
+    in.command.commission = true;
+    tick();
+    raw.index_cnt = 700U;
+    see_index();
+    ticks(20);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_COMMISSION, modes.mode);
+}
+
+/* Requests that start without run: alignment alone, and commissioning. */
+typedef struct {
+    bool      *request;
+    app_mode_t mode;
+} request_t;
+
+static const request_t requests[] = {{&in.command.align, APP_MODE_ALIGN},
+                                     {&in.command.commission, APP_MODE_COMMISSION}};
+
+static void allow_commissioning(void)
+{
+    in.command.bounds.current_A     = 3.0f;
+    in.command.bounds.speed_m_radps = 150.0f;
+}
+
+/* It stays in READY with the request, and starts when the request rises again. */
+static void assert_waits_for_an_edge(const request_t *r)
+{
+    for (int n = 0; n < 5; n++) {
+        tick();
+        TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    }
+    *r->request = false;
+    tick();
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    *r->request = true;
+    tick();
+    TEST_ASSERT_EQUAL_INT(r->mode, modes.mode);
+}
+
+static void test_a_request_that_was_there_before_ready_needs_an_edge(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(requests); i++) {
+        init();
+        allow_commissioning();
+        *requests[i].request = true;
+        go_ready();
+        assert_waits_for_an_edge(&requests[i]);
+    }
+}
+
+static void test_a_request_that_stays_after_the_fault_it_led_to_needs_an_edge(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(requests); i++) {
+        init();
+        allow_commissioning();
+        go_ready();
+        tick();
+        *requests[i].request = true;
+        ticks(3);
+        in.memory_changed = true;
+        tick();
+        assert_fault(APP_FAULT_MEMORY);
+        in.memory_changed = false;
+        in.command.reset  = true;
+        tick();
+        in.command.reset = false;
+        TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+        assert_waits_for_an_edge(&requests[i]);
+    }
+}
+
+static void test_a_refused_request_is_not_repeated_later(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(requests); i++) {
+        init();
+        allow_commissioning();
+        go_ready();
+        tick();
+        raw.dc_link_cnt      = 0U;
+        in.slow              = APP_SLOW_TURN;
+        *requests[i].request = false;
+        ticks(3);
+        *requests[i].request = true;
+        ticks(3);
+        TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+        raw.dc_link_cnt = 2685U;
+        assert_waits_for_an_edge(&requests[i]);
+    }
+}
+
+/* A run has priority. */
+static void test_a_request_together_with_a_run_is_a_run(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(requests); i++) {
+        init();
+        allow_commissioning();
+        go_ready();
+        see_index();
+        tick();
+        *requests[i].request = true;
+        in.command.run       = true;
+        tick();
+        TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+        in.command.run = false; /* the request is still there: it rose before */
+        tick();
+        assert_waits_for_an_edge(&requests[i]);
+    }
+}
+
+static void test_a_request_that_rises_in_a_run_needs_an_edge_after_it(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(requests); i++) {
+        init();
+        allow_commissioning();
+        go_run();
+        *requests[i].request = true;
+        in.command.run       = false;
+        tick();
+        assert_waits_for_an_edge(&requests[i]);
+    }
+}
+
+static void test_a_run_that_ends_a_commissioning_needs_an_edge(void)
+{
+    go_commission();
+    in.command.run = true;
+    ticks(5);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    in.command.commission = false;
+    ticks(5);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
 }
 
 int main(void)
@@ -1227,5 +1377,12 @@ int main(void)
     RUN_TEST(test_commissioning_that_is_withdrawn_opens_the_bridge);
     RUN_TEST(test_commissioning_that_is_aborted_is_a_fault_with_its_reason);
     RUN_TEST(test_what_watches_a_run_watches_a_commissioning);
+    RUN_TEST(test_an_index_out_of_place_does_not_end_a_commissioning);
+    RUN_TEST(test_a_request_that_was_there_before_ready_needs_an_edge);
+    RUN_TEST(test_a_request_that_stays_after_the_fault_it_led_to_needs_an_edge);
+    RUN_TEST(test_a_refused_request_is_not_repeated_later);
+    RUN_TEST(test_a_request_together_with_a_run_is_a_run);
+    RUN_TEST(test_a_request_that_rises_in_a_run_needs_an_edge_after_it);
+    RUN_TEST(test_a_run_that_ends_a_commissioning_needs_an_edge);
     return UNITY_END();
 }

@@ -11,6 +11,7 @@
 #include "gain_tables.h"
 #include "modbus_frame.h"
 #include "register_words.h"
+#include "start_race.h"
 #include "unity.h"
 
 static app_registers_t  registers;
@@ -554,6 +555,36 @@ static void test_the_application_restarts_to_store_and_takes_its_line(void)
     TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_DONE, app_parameters_work(&in_force));
 }
 
+/* The same of the restart that stores: what was asked before a run is not stored after it. */
+static void test_a_bridge_that_comes_on_cancels_the_storing(void)
+{
+    int ends[3] = {0};
+
+    for (int from = 0; from < 60; from++) {
+        const int store_all[11] = {1,
+                                   16,
+                                   APP_REGISTERS_STORE_PARAMETERS >> 8,
+                                   APP_REGISTERS_STORE_PARAMETERS & 0xFF,
+                                   0,
+                                   2,
+                                   4,
+                                   0x65,
+                                   0x76,
+                                   0x61,
+                                   0x73};
+        setUp();
+        run_application();
+        start_race_ready(&gain_tables_drive);
+        modbus_frame_receive(store_all, 11);
+        const int end = start_race(&gain_tables_drive, from);
+        TEST_ASSERT_EQUAL_INT((end == 1) ? APP_PARAMETERS_DONE : APP_PARAMETERS_NOT_ASKED,
+                              app_parameters_work(&in_force));
+        ends[end + 1]++;
+    }
+    TEST_ASSERT_GREATER_THAN_INT(0, ends[1]);
+    TEST_ASSERT_GREATER_THAN_INT(0, ends[2]);
+}
+
 static void test_the_loader_has_the_stored_line_and_address_and_stores_nothing(void)
 {
     (void)write_two(APP_REGISTERS_BAUD_RATE, 0, 19200);
@@ -599,6 +630,7 @@ int main(void)
     RUN_TEST(test_writes_are_counted_and_need_a_rest);
     RUN_TEST(test_a_request_is_done_once_and_only_whole);
     RUN_TEST(test_the_application_restarts_to_store_and_takes_its_line);
+    RUN_TEST(test_a_bridge_that_comes_on_cancels_the_storing);
     RUN_TEST(test_the_loader_has_the_stored_line_and_address_and_stores_nothing);
     RUN_TEST(test_silence_follows_the_baud_rate);
     return UNITY_END();

@@ -53,6 +53,19 @@ static void test_a_current_that_does_not_follow_is_a_fault(void)
     TEST_ASSERT_FALSE(flow(MAX_A, 0.05f, 0.0f));
 }
 
+/* An inverter for 2 A with a motor for 8 A: 4 of the square, 1.1 after 0.1 s ln(4 / 2.9) = 32 ms. */
+static void test_the_inverter_alone_derates_and_is_a_fault(void)
+{
+    const app_watch_heat_config_t small = {
+        .motor_A = 8.0f, .motor_s = 1.0f, .inverter_A = 2.0f, .inverter_s = 0.1f};
+
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_watch_heat_init(&heat, &small, MAX_A, TS_s));
+    TEST_ASSERT_TRUE(flow(MAX_A, 0.030f, 0.0f));
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-6f, 0.5f, heat.derating); /* 2 A of 4 A remain */
+    TEST_ASSERT_FALSE(flow(MAX_A, 0.004f, 0.0f));
+    TEST_ASSERT_TRUE(heat.motor.x < 0.1f);
+}
+
 static void test_a_warm_heat_sink_halves_the_limit(void)
 {
     TEST_ASSERT_TRUE(flow(0.0f, TS_s, 0.5f));
@@ -76,6 +89,12 @@ static void test_bad_constants_are_refused(void)
     bad            = config;
     bad.inverter_s = NAN;
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_watch_heat_init(&heat, &bad, MAX_A, TS_s));
+    bad         = config;
+    bad.motor_s = TS_s; /* the filter would jump */
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_watch_heat_init(&heat, &bad, MAX_A, TS_s));
+    bad            = config;
+    bad.inverter_s = TS_s;
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_watch_heat_init(&heat, &bad, MAX_A, TS_s));
 }
 
 int main(void)
@@ -84,6 +103,7 @@ int main(void)
     RUN_TEST(test_warms_up_like_the_square_with_its_time_constant);
     RUN_TEST(test_the_limit_comes_down_to_what_may_flow_for_ever);
     RUN_TEST(test_a_current_that_does_not_follow_is_a_fault);
+    RUN_TEST(test_the_inverter_alone_derates_and_is_a_fault);
     RUN_TEST(test_a_warm_heat_sink_halves_the_limit);
     RUN_TEST(test_a_current_that_is_no_number_is_a_fault);
     RUN_TEST(test_bad_constants_are_refused);
