@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "common/json.hpp"
 #include "common/parallel.hpp"
@@ -64,7 +65,8 @@ SeedSpread spread_of(const std::string &metric, const std::vector<std::vector<Me
 /// Results of one seed.
 struct SeedRun {
     std::vector<Metrics> metrics;
-    bool                 faulted = false;
+    int                  fault        = 0;
+    double               fault_time_s = 0.0;
     SimulationResult     result; ///< of seed 1 only: a trace is large
 };
 
@@ -74,7 +76,7 @@ SeedRun run_seed(const Scenario &scenario, std::size_t seed, const Controller &c
     Scenario seeded         = scenario;
     seeded.seed             = seed;
     SimulationResult result = run_once(seeded, controller);
-    SeedRun          run{measure(seeded, result.trace), result.fault != 0, {}};
+    SeedRun          run{measure(seeded, result.trace), result.fault, result.fault_time_s, {}};
     if (seed == 1) {
         run.result = std::move(result);
     }
@@ -87,7 +89,11 @@ SeedRuns gathered(SeedRun *runs, std::size_t count)
     std::vector<std::vector<Metrics>> metrics;
     for (std::size_t i = 0; i < count; i++) {
         metrics.push_back(runs[i].metrics);
-        out.faults += runs[i].faulted ? 1 : 0;
+        if (runs[i].fault != 0) {
+            out.faults++;
+            out.fault_codes.insert(runs[i].fault);
+            out.last_trip_s = std::max(out.last_trip_s, runs[i].fault_time_s);
+        }
     }
     out.seeds         = static_cast<int>(count);
     out.first         = std::move(runs[0].result);
@@ -165,12 +171,16 @@ std::string seeds_json(const Scenario &scenario, const SeedRuns &runs)
         measures[m.name] = {{"time_s", m.time_s}, {"worst", worst},   {"q99", q99},
                             {"q95", q95},         {"median", median}, {"mean", mean}};
     }
-    const Json out{{"scenario", scenario.name},
+    const std::vector<int> codes(runs.fault_codes.begin(), runs.fault_codes.end());
+    const Json             last_trip_s = runs.faults > 0 ? Json(runs.last_trip_s) : Json();
+    const Json             out{{"scenario", scenario.name},
                    {"drive", scenario.drive.name},
                    {"gains", runs.first.compiled_table ? "compiled table" : "solved in process"},
                    {"uncertified", runs.first.uncertified},
                    {"seeds", runs.seeds},
                    {"faults", runs.faults},
+                   {"fault_codes", codes},
+                   {"last_trip_s", last_trip_s},
                    {"measures", measures}};
     return out.text();
 }
@@ -184,7 +194,9 @@ std::string seeds_text(const Scenario &scenario, const SeedRuns &runs)
         s += fmt::format("not certified: {}\n", why);
     }
     if (runs.faults > 0) {
-        s += fmt::format("FAULT in {} of {} seeds\n", runs.faults, runs.seeds);
+        s += fmt::format("FAULT {} in {} of {} seeds, the latest at {:.4f} s\n",
+                         fmt::join(runs.fault_codes, ", "), runs.faults, runs.seeds,
+                         runs.last_trip_s);
     }
     if (runs.measures.empty()) {
         return s + no_measures;

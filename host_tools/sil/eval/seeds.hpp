@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,10 @@ struct SeedMeasure {
 
 struct SeedRuns {
     int                      seeds  = 0;
-    int                      faults = 0; ///< seeds in which the drive tripped
-    SimulationResult         first;      ///< of seed 1
+    int                      faults = 0;        ///< seeds in which the drive tripped
+    std::set<int>            fault_codes;       ///< of their trips, as SimulationResult::fault
+    double                   last_trip_s = 0.0; ///< the latest of them; 0 without any
+    SimulationResult         first;             ///< of seed 1
     std::vector<Metrics>     first_metrics;
     std::vector<SeedMeasure> measures;
 };
