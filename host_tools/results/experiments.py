@@ -79,6 +79,12 @@ class Experiments:
         )
         return sorted({cell[:2] for cell in cells if not isinstance(cell, str)})
 
+    def unused_faults(self):
+        """Files of faults that no experiment runs."""
+        used = {what["file"] for what in self.scenarios.values()}
+        found = (f"faults/{path.stem}" for path in sorted((SCENARIOS / "faults").glob("*.toml")))
+        return [name for name in found if name not in used]
+
     def inputs(self, scenario, drive):
         """Digests of all that a run depends on."""
         what = self.scenarios[scenario]
@@ -110,11 +116,8 @@ def with_keys(text, changes):
 
 def scenario_text(what):
     """The scenario with the keys of an experiment, for any directory."""
-    text = (
-        (SCENARIOS / f"{what['file']}.toml")
-        .read_text()
-        .replace("../../../firmware/config/drives", str(DRIVES))
-    )
+    text = (SCENARIOS / f"{what['file']}.toml").read_text()
+    text = re.sub(r"(\.\./)+firmware/config/drives", str(DRIVES), text)
     return with_keys(text, what.get("set", {}))
 
 
@@ -122,7 +125,8 @@ def run(sil, what, drive):
     """{measure: {statistic: {metric: value}}} of one experiment; of random motors {"all": {"worst":
     ..}}."""
     with tempfile.TemporaryDirectory() as directory:
-        scenario, out = Path(directory, f"{what['file']}.toml"), Path(directory, "out.json")
+        name = Path(what["file"]).name
+        scenario, out = Path(directory, f"{name}.toml"), Path(directory, "out.json")
         scenario.write_text(scenario_text(what))
         motors = what.get("motors")
         count = ["--count", motors] if motors else ["--seeds", what.get("seeds", SEEDS)]
@@ -130,6 +134,7 @@ def run(sil, what, drive):
             sil,
             "motors" if motors else "run",
             scenario,
+            *(["--board", what["board"]] if "board" in what else []),
             "--drive",
             DRIVES / f"{drive}.toml",
             *count,
@@ -155,6 +160,13 @@ def run(sil, what, drive):
         }
     metrics = {metric for metric, _ in FIELDS.values()}
     values = {"faults": data["faults"]}
+    if "fault_s" in what:
+        last = data["last_trip_s"]
+        values["trips"] = {
+            "codes": data["fault_codes"],
+            "seeds": data["seeds"],
+            "after_s": None if last is None else float(f"{last - what['fault_s']:.6g}"),
+        }
     for name, measure in data["measures"].items():
         values[name] = {
             s: {

@@ -5,7 +5,10 @@ import re
 
 from experiments import FIELDS, ROOT
 
-PAGES = ("README.md", "docs/results.md")
+PAGES = ("README.md", "docs/assurance.md", "docs/results.md")
+
+# host_tools/sil/run/faults.hpp
+APPLICATION, RESET = 100, 200
 
 
 class Never(float):
@@ -15,9 +18,24 @@ class Never(float):
         return "never"
 
 
+def reason(code):
+    """A fault by the numbers of docs/modbus.md."""
+    if code == RESET:
+        return "watchdog reset"
+    if code > APPLICATION:
+        return f"application {code - APPLICATION}"
+    return f"drive {code}"
+
+
 def fields(values):
     """Named values of a cell."""
     found = {}
+    trips = values.get("trips")
+    if trips:
+        after_s = trips["after_s"]
+        found["reported"] = ", ".join(reason(code) for code in trips["codes"]) or "-"
+        found["tripped"] = f"{values['faults']} of {trips['seeds']}"
+        found["trip_ms"] = Never() if after_s is None else 1e3 * after_s
     for statistic, suffix in (("worst", ""), ("median", "_median")):
         of = values.get(statistic, {})
         for name, (metric, factor) in FIELDS.items():
@@ -45,7 +63,8 @@ def table(experiments, recorded, name):
             cell = experiments.cell(row, column)
             if not isinstance(cell, str):
                 values = recorded[f"{cell[0]} {cell[1]}"]
-                cell = "trips" if values["faults"] else shown(cell[2], values)
+                known = "trips" in values or not values["faults"]
+                cell = shown(cell[2], values) if known else "trips"
             cells.append(cell)
         lines.append(cells)
     return "".join("| " + " | ".join(cells) + " |\n" for cells in lines)

@@ -127,12 +127,15 @@ private:
     std::mt19937_64 random_{1}; // its numbers are the same everywhere
 };
 
-/// A seed, or all of a directory.
+/// A seed, or all below a directory.
 void add(std::vector<std::string> &seeds, const fs::path &path)
 {
     std::vector<fs::path> files = {path};
     if (fs::is_directory(path)) {
-        files.assign(fs::directory_iterator(path), fs::directory_iterator{});
+        files.assign(fs::recursive_directory_iterator(path), fs::recursive_directory_iterator{});
+        files.erase(std::remove_if(files.begin(), files.end(),
+                                   [](const fs::path &file) { return fs::is_directory(file); }),
+                    files.end());
         std::sort(files.begin(), files.end()); // the same order everywhere
     }
     for (const fs::path &file : files) {

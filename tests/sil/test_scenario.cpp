@@ -111,10 +111,14 @@ TEST(Scenario, DefaultsAreThoseOfTheDrive)
 TEST(Scenario, ShippedScenariosAreRead)
 {
     int count = 0;
-    for (const auto &entry : std::filesystem::directory_iterator(scenarios)) {
+    for (const auto &entry : std::filesystem::recursive_directory_iterator(scenarios)) {
+        if (entry.is_directory()) {
+            continue;
+        }
         const sdre::Scenario s = sdre::read_scenario_file(entry.path());
         EXPECT_EQ(s.name, entry.path().stem());
-        const bool board     = s.name.rfind("board_", 0) == 0;
+        const bool fault     = entry.path().parent_path().stem() == "faults";
+        const bool board     = s.name.rfind("board_", 0) == 0 || fault;
         const bool servo     = s.name.rfind("servo_", 0) == 0;
         const bool harmonics = s.name.rfind("harmonics_", 0) == 0;
         EXPECT_EQ(s.drive.name, servo       ? "servo_200w_cdobc"
@@ -126,8 +130,8 @@ TEST(Scenario, ShippedScenariosAreRead)
         EXPECT_FALSE(s.measures.empty());
         count++;
     }
-    // Fig. 4 with four orders, Fig. 5 to 8; fifteen on the realistic board; two of paper B; two of noc_h
-    EXPECT_EQ(count, 28);
+    // Fig. 4 with four orders, Fig. 5 to 8; sixteen on the realistic board; two of paper B; two of noc_h; faults
+    EXPECT_EQ(count, 28 + 18);
     EXPECT_EQ(sdre::read_scenario_file(scenarios / "fig4_parameter_steps_nd3.toml").nodo_order, 3);
     EXPECT_EQ(sdre::read_scenario_file(scenarios / "fig8_flux_weakening.toml").dc_link_V, 173.2);
 }
