@@ -4,16 +4,19 @@ sees it.
 
     mutate.py [COUNT] [FILE..]     COUNT mutants (default 200), drawn evenly, the same every time;
                                    of these files only
+    mutate.py aimed                the changes of aimed_mutants.toml, each by the test that it names
 
 A mutant that no compiler accepts, or that makes the same object, is not counted. Each is tried by
 the tests of its own module first, then by all others. Prints what survives and the share that is
-killed; exit code 1 below 90 %.
+killed; exit code 1 below 90 %. All aimed mutants have to be killed.
 """
 
 import random
 import re
 import sys
+import tomllib
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import unit_build as ub
 
@@ -90,17 +93,30 @@ class Judge:
         index, source, number, changed = job
         lines = source.read_text().split("\n")
         lines[number] = changed
+        return self.tried(index, source, "\n".join(lines), order_of(self.names, source.stem))
+
+    def aimed(self, job):
+        """The same of a mutant of the list; 'stale' when its text is not there once."""
+        index, mutant = job
+        source = next(s for s in ub.sources() if s.name == mutant["file"])
+        text = source.read_text()
+        if text.count(mutant["old"]) != 1:
+            return "stale"
+        text = text.replace(mutant["old"], mutant["new"])
+        return self.tried(index, source, text, [mutant["test"]]) or "stale"
+
+    def tried(self, index, source, text, names):
         work = self.build.directory / f"mutant{index}"
         work.mkdir(exist_ok=True)
         file, target = work / source.name, work / "mutant.o"
-        file.write_text("\n".join(lines))
+        file.write_text(text)
         try:
             compiled = ub.run(
                 ["gcc", *self.build.flags, f"-I{source.parent}", "-c", file, "-o", target], cwd=work
             )
             if compiled.returncode != 0 or target.read_bytes() == self.plain(source):
                 return ""
-            for name in order_of(self.names, source.stem):
+            for name in names:
                 program = work / "test"
                 linked = self.build.link(name, program, {source.stem: target})
                 if linked.returncode != 0:
@@ -114,8 +130,23 @@ class Judge:
             work.rmdir()
 
 
+def aimed():
+    file = Path(__file__).with_name("aimed_mutants.toml")
+    mutants_of_list = tomllib.loads(file.read_text())["mutant"]
+    judge = Judge(ub.Build(ub.ROOT / "build/mutate", ["-O1"]))
+    with ThreadPoolExecutor(ub.JOBS) as pool:
+        verdicts = list(pool.map(judge.aimed, enumerate(mutants_of_list)))
+    for mutant, verdict in zip(mutants_of_list, verdicts):
+        if verdict != "killed":
+            print(f"{mutant['file']}: {verdict}: {mutant['old'].strip()}")
+    print(f"{verdicts.count('killed')} of {len(verdicts)} aimed mutants killed")
+    return 0 if verdicts.count("killed") == len(verdicts) else 1
+
+
 def main():
     arguments = sys.argv[1:]
+    if arguments == ["aimed"]:
+        return aimed()
     count = int(arguments.pop(0)) if arguments and arguments[0].isdigit() else 200
     sources = [s for s in ub.sources() if not arguments or s.name in arguments]
     build = ub.Build(ub.ROOT / "build/mutate", ["-O1"])
