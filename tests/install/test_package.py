@@ -43,6 +43,11 @@ class Package(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue(picture.read_bytes().startswith(b"\x89PNG"))
 
+    def test_components_and_notices_are_there(self):
+        docs = self.root / "usr/share/doc/sdre-drive"
+        self.assertIn(b"CycloneDX", (docs / "sdre-drive.cdx.json").read_bytes())
+        self.assertIn(b"Eigen", (docs / "THIRD_PARTY.txt").read_bytes())
+
     def test_design_runs(self):
         drive = self.root / "usr/share/sdre-drive/firmware/config/drives/ipmsm_390w.toml"
         done = run(self.root / "usr/bin/sdre-gains", "report", drive, cwd="/")
