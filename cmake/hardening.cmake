@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# The host tools against a memory error that nobody has found: checked copies, a guard behind each array on the
-# stack, and addresses of functions that cannot be written once the program runs. Link it PRIVATE. Position-independent
-# programs are the compiler's default on Debian. Test install.sbom reads the programs.
+# Hardening of the host tools against a memory error that nobody has found. Copies are checked, and an array on the stack has a
+# guard behind it. Addresses of functions cannot be written once the program runs. Position-independent programs are the
+# compiler's default on Debian. Test install.sbom reads the programs. Link it PRIVATE.
 #
 # A build with sanitizers finds more, and the core has the flags of the target.
 add_library(sdre_hardening INTERFACE)

@@ -18,8 +18,9 @@ import json
 import re
 import subprocess
 import sys
-import tomllib
 from pathlib import Path
+
+import tomllib
 
 ROOT = Path(__file__).resolve().parents[2]
 REQUIREMENTS = ("host_tools/python/drive.txt", "host_tools/python/packages.txt")

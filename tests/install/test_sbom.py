@@ -11,8 +11,9 @@ import re
 import subprocess
 import sys
 import tempfile
-import tomllib
 import unittest
+
+import tomllib
 
 BUILD = pathlib.Path(sys.argv.pop() if len(sys.argv) > 1 else "build/host").resolve()
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -90,7 +91,9 @@ class Hardening(unittest.TestCase):
         for program in PROGRAMS:
             symbols = run("readelf", "-sW", program)
             self.assertTrue("__stack_chk_fail" in symbols, program)
-            self.assertTrue(re.search(r"__(memcpy|memmove|snprintf|read|fread)_chk", symbols), program)
+            self.assertTrue(
+                re.search(r"__(memcpy|memmove|snprintf|read|fread)_chk", symbols), program
+            )
 
 
 if __name__ == "__main__":

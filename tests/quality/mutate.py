@@ -14,10 +14,10 @@ killed; exit code 1 below 90 %. All aimed mutants have to be killed.
 import random
 import re
 import sys
-import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import tomllib
 import unit_build as ub
 
 WANTED = 90.0
