@@ -272,6 +272,22 @@ TEST(Verdict, FiguresThatAreNoNumbersAreRefused)
     bad([nan](Verdict &v) { v.trips = {{"disturbance", 10.0, nan}, {"other", 10.0, 1.0}}; });
 }
 
+/// 1 is the allowed radius, whatever else is far from its limit.
+TEST(Verdict, ExcessIsOneAtTheAllowedRadius)
+{
+    Verdict v         = sdre::examine(healthy(), shipped().drive);
+    v.spectral_radius = std::exp(-ts_s / sdre::slowest_mode_s);
+    EXPECT_NEAR(sdre::excess(v, ts_s), 1.0, 1e-9);
+}
+
+/// The slow point is without load, as the loop is judged there for its encoder.
+TEST(Verdict, SlowPointHasNoTorque)
+{
+    const std::vector<OperatingPoint> points = sdre::verdict_box_points(shipped());
+    EXPECT_EQ(points.at(0).iq_A, 0.0);
+    EXPECT_GT(points.at(1).iq_A, 0.0);
+}
+
 /// Six times the sensor noise of the weights plus the step of the full torque stays far from the
 /// trip. A drive with a noisy sensor that trusts it is refused.
 TEST(Verdict, NoiseBelongsBelowTheTrip)
