@@ -36,6 +36,9 @@ json files_of(const fs::path &directory)
 {
     json found = json::object();
     for (const fs::directory_entry &entry : fs::directory_iterator(directory)) {
+        if (!entry.is_regular_file()) {
+            continue; // the room of the faults
+        }
         std::ostringstream text;
         text << toml::json_formatter(parse_toml_file(entry.path()));
         found[entry.path().stem().string()] = json::parse(text.str());
