@@ -50,6 +50,7 @@ void drive_reset(drive_t *d)
     d->i_hat_A   = zero_abc;
     current_gate_reset(&d->current_gate);
     current_watch_reset(&d->current_watch);
+    motion_watch_reset(&d->motion_watch);
 }
 
 /* True for a speed in range, or for a position if the drive accepts positions. */
@@ -126,7 +127,6 @@ static void start(drive_t *d, const drive_sample_t *sample)
 {
     d->config->law->reset(&d->law, d->config, sample);
     current_watch_start(&d->current_watch, sample->ia_A, sample->ib_A);
-    motion_watch_reset(&d->motion_watch);
     d->v_V   = zero_dq;
     d->state = DRIVE_RUN;
 }
@@ -140,11 +140,12 @@ static bridge_t modulate(drive_t *d, float dc_link_V)
     const dq_t            i_A   = {.d = out->now.id_A, .q = out->now.iq_A};
 
     const voltage_t v     = voltage_produce(out->v_V, angle, dc_link_V, c->overmodulation);
-    const abc_t     i_abc = frames_inverse_clarke(frames_inverse_park(i_A, angle));
+    const ab_t      i_ab  = frames_inverse_park(i_A, angle);
+    const abc_t     i_abc = frames_inverse_clarke(i_ab);
 
     const current_watch_expected_t expected = {.angle     = angle,
                                                .ahead_rad = 0.5f * c->ts_s * out->now.omega_e_radps,
-                                               .i_A       = i_A,
+                                               .i_A       = i_ab,
                                                .d_Aps     = {.d = out->d_d, .q = out->d_q},
                                                .i_ref_A   = out->i_ref_A,
                                                .predicted = out->predicted};
@@ -161,19 +162,39 @@ static float jump_A(const drive_config_t *c, float dc_link_V)
     return 2.0f * c->ts_s * base_max(c->motor.l6, c->motor.l8) * dc_link_V;
 }
 
-static drive_fault_t watch_currents(drive_t *d, const drive_sample_t *sample, float change_A)
+static current_watch_scale_t scale_of(const drive_t *d, float change_A)
 {
-    const current_watch_scale_t   scale = {.ts_s          = d->config->ts_s,
-                                           .current_max_A = d->config->current_max_A,
-                                           .open_s        = d->wire_open_s,
-                                           .jump_A        = change_A};
-    const current_watch_verdict_t found =
-        current_watch_judge(&d->current_watch, sample->ia_A, sample->ib_A, &scale);
+    const current_watch_scale_t scale = {.ts_s          = d->config->ts_s,
+                                         .current_max_A = d->config->current_max_A,
+                                         .open_s        = d->wire_open_s,
+                                         .jump_A        = change_A};
+    return scale;
+}
 
+static drive_fault_t fault_of_currents(current_watch_verdict_t found)
+{
     if (found == CURRENT_WATCH_GOOD) {
         return DRIVE_FAULT_NONE;
     }
     return (found == CURRENT_WATCH_OPEN) ? DRIVE_FAULT_PHASE : DRIVE_FAULT_CURRENT_SENSOR;
+}
+
+static drive_fault_t watch_currents(drive_t *d, const drive_sample_t *sample, float change_A)
+{
+    const current_watch_scale_t scale = scale_of(d, change_A);
+
+    return fault_of_currents(
+        current_watch_judge(&d->current_watch, sample->ia_A, sample->ib_A, &scale));
+}
+
+static drive_fault_t look_at_currents(drive_t *d, const drive_sample_t *sample, float change_A)
+{
+    const current_watch_scale_t scale = scale_of(d, change_A);
+
+    d->motion_watch.look = MOTION_WATCH_LOOK_STALL;
+    return fault_of_currents(current_watch_look(&d->current_watch, sample->ia_A, sample->ib_A,
+                                                d->answer.now.omega_e_radps,
+                                                MOTION_WATCH_LOOKS * scale.ts_s, &scale));
 }
 
 static drive_fault_t watch_motion(drive_t *d, const drive_sample_t *sample, float command_e_radps)
@@ -191,6 +212,17 @@ static drive_fault_t watch_motion(drive_t *d, const drive_sample_t *sample, floa
                                      .d_Aps = d->answer.predicted ? d->current_watch.d_slow_Aps
                                                                   : zero_dq};
     return faults[motion_watch_judge(&d->motion_watch, &in)];
+}
+
+static drive_fault_t watch_in_turn(drive_t *d, const drive_sample_t *sample,
+                                   const drive_command_t *command, float change_A)
+{
+    const float aim_e_radps =
+        (command->position == NULL) ? command->omega_e_radps : d->answer.profile_e_radps;
+
+    return (d->motion_watch.look == MOTION_WATCH_LOOK_CURRENTS)
+               ? look_at_currents(d, sample, change_A)
+               : watch_motion(d, sample, aim_e_radps);
 }
 
 static bridge_t run(drive_t *d, const drive_sample_t *sample, const drive_command_t *command,
@@ -211,9 +243,7 @@ static bridge_t run(drive_t *d, const drive_sample_t *sample, const drive_comman
 
     drive_fault_t wrong = find_wrong(d->config, &d->answer);
     if (wrong == DRIVE_FAULT_NONE) {
-        wrong = watch_motion(d, sample,
-                             (command->position == NULL) ? command->omega_e_radps
-                                                         : d->answer.profile_e_radps);
+        wrong = watch_in_turn(d, sample, command, change_A);
     }
     return (wrong == DRIVE_FAULT_NONE) ? modulate(d, sample->dc_link_V) : trip(d, wrong);
 }
@@ -271,6 +301,7 @@ bridge_t drive_tick(drive_t *d, const drive_sample_t *sample, const drive_comman
     if (!command->run) {
         /* Not at the start: the first tick of a run is a dear one. */
         current_watch_reset(&d->current_watch);
+        motion_watch_reset(&d->motion_watch);
         d->state = DRIVE_OFF;
         return bridge_open();
     }

@@ -68,9 +68,8 @@ static void any_state(void)
     modes.drive.law_again             = config.law;
     modes.drive.constants_again       = config.constants;
     modes.drive.answer.predicted      = any_bool();
-    modes.drive.current_watch.expects = any_bool();
     modes.drive.current_watch.models  = any_bool();
-    modes.drive.motion_watch.look     = (motion_watch_look_t)any_between(0, 2);
+    modes.drive.motion_watch.look     = (motion_watch_look_t)any_between(0, 3);
     modes.drive.answer.arrived        = any_bool();
     modes.drive.answer.waits          = any_bool();
     modes.position.have               = any_bool();

@@ -20,14 +20,13 @@ void prove_gate(void)
     drive.state                 = any_bool() ? DRIVE_OFF : (any_bool() ? DRIVE_RUN : DRIVE_FAULT);
     drive.answer.plausible      = any_bool();
     drive.current_gate.jumped   = any_bool();
-    drive.current_watch.expects = any_bool();
     drive.current_watch.models  = any_bool();
     drive.answer.predicted      = any_bool();
     config.law                  = &any_law;
     config.overmodulation       = any_bool();
     config.positions            = any_bool();
     drive.answer.arrived        = any_bool();
-    drive.motion_watch.look     = (motion_watch_look_t)any_between(0, 2);
+    drive.motion_watch.look     = (motion_watch_look_t)any_between(0, 3);
     drive.answer.waits          = any_bool();
 
     const drive_state_t before  = drive.state;

@@ -128,9 +128,8 @@ static void any_drive(void)
     drive.answer.arrived        = any_between(0, 1);
     drive.answer.waits          = any_between(0, 1);
     drive.current_gate.jumped   = any_between(0, 1);
-    drive.current_watch.expects = any_between(0, 1);
     drive.current_watch.models  = any_between(0, 1);
-    drive.motion_watch.look     = (motion_watch_look_t)any_between(0, 2);
+    drive.motion_watch.look     = (motion_watch_look_t)any_between(0, 3);
 }
 
 static void state_is_kept(void)

@@ -20,10 +20,22 @@
  * Until d_slow is known, an EMF error of half the voltage circle adds 0.14 jump per period. With
  * low inductance this is much of the limit. Laws without a prediction have no such check.
  *
+ * Drift. The same steps are summed in the stator frame, with a longer memory:
+ *
+ *     S+ = (1 - min(0.2 abs(w), 60/s) Ts) (S + exp(j theta) Ts (d - d_slow))     EQ-CURRENT-WATCH-5
+ *     drifts:  abs(S) > max(0.25 i_max, 0.63 jump) and a phase carries more than 0.31 i_max,
+ *              above 60 rad/s                                                    EQ-CURRENT-WATCH-6
+ *
+ * The error of a sensor stands still in the stator frame, so that its steps add up. An error of the
+ * motor turns there, and its steps cancel. Without load, a moved zero has a larger S than itself:
+ * the dead time is compensated for a wrong current. The watch forgets a part of S in each look, for
+ * the periods since the look before.
+ *
  * Wire. A phase has no current although the reference requires some, for longer than a current
  * needs to follow:
  *
- *     open:  abs(i) < 0.02 i_max while abs(i_ref) > 0.04 i_max, for open_s     EQ-CURRENT-WATCH-4
+ *     open:  abs(i) < 0.02 i_max while abs(i_ref) > 0.04 i_max in any phase,
+ *            for open_s in a row                                                 EQ-CURRENT-WATCH-4
  *     open_s = max(10 ms, 4 sqrt(count / a_max)),  a_max = (l1 + abs(l11) i_max) i_max
  *
  * Near standstill the observer detects a load only after the shaft has turned by a count, in the
@@ -38,7 +50,7 @@
 
 typedef enum {
     CURRENT_WATCH_GOOD = 0,
-    CURRENT_WATCH_SENSOR, /**< EQ-CURRENT-WATCH-3 */
+    CURRENT_WATCH_SENSOR, /**< EQ-CURRENT-WATCH-3, 6 */
     CURRENT_WATCH_OPEN    /**< EQ-CURRENT-WATCH-4 */
 } current_watch_verdict_t;
 
@@ -60,18 +72,18 @@ typedef struct {
 
 typedef struct {
     current_watch_phase_t phase[2]; /**< a, b */
-    abc_t                 ref_A;    /**< references at the next sample */
+    ab_t                  ref_A;    /**< references at the next sample */
     dq_t                  d_slow_Aps;
-    float                 empty_s[3]; /**< in a row */
-    bool                  expects;    /**< ref_A belongs to the next sample */
-    bool                  models;     /**< model_A too */
+    ab_t                  drift_A; /**< S */
+    float                 empty_s; /**< in a row */
+    bool                  models;  /**< model_A too */
 } current_watch_t;
 
 /** Predictions of the law for the next sample. */
 typedef struct {
     frames_angle_t angle; /**< ahead of that instant by ahead_rad, a small angle */
     float          ahead_rad;
-    dq_t           i_A;       /**< predicted */
+    ab_t           i_A;       /**< predicted, turned by angle */
     dq_t           d_Aps;     /**< disturbances in that prediction */
     dq_t           i_ref_A;   /**< zero where a law has no references */
     bool           predicted; /**< i_A and d_Aps are valid */
@@ -97,8 +109,19 @@ CTL_PART void current_watch_start(current_watch_t *w, float ia_A, float ib_A);
 CTL_PART void current_watch_expect(current_watch_t *w, const current_watch_expected_t *e,
                                    float ts_s);
 
-/** Judges a sample. Context: control ISR. No division. */
+/** EQ-CURRENT-WATCH-3 for a sample. Context: control ISR. No division. */
 CTL_PART current_watch_verdict_t current_watch_judge(current_watch_t *w, float ia_A, float ib_A,
                                                      const current_watch_scale_t *scale);
+
+/**
+ * @brief EQ-CURRENT-WATCH-4 to 6, once in some periods.
+ * @param omega_e_radps Electrical speed at that sample.
+ * @param step_s        Time since the look before.
+ *
+ * Context: control ISR. No division.
+ */
+CTL_PART current_watch_verdict_t current_watch_look(current_watch_t *w, float ia_A, float ib_A,
+                                                    float omega_e_radps, float step_s,
+                                                    const current_watch_scale_t *scale);
 
 #endif /* CURRENT_WATCH_H */

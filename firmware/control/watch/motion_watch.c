@@ -6,8 +6,6 @@
 #define DEAD_TIME 0.02f
 #define ODD_s     10.0e-3f /* chosen: twice what a step at the voltage limit takes */
 
-#define LOOKS 3.0f /* in turn, one per period */
-
 #define AT_LIMIT2 0.81f /* 0.9 of the limit */
 #define STILL_s                                                                                    \
     50.0e-3f /* chosen: in this time the limit's torque turns 3 x the motor's inertia by 2 rad */
@@ -97,7 +95,7 @@ static motion_watch_verdict_t judge_away(motion_watch_t *w, const motion_watch_i
 CTL_PART motion_watch_verdict_t motion_watch_judge(motion_watch_t             *w,
                                                    const motion_watch_input_t *in)
 {
-    const float               step_s = LOOKS * in->ts_s;
+    const float               step_s = MOTION_WATCH_LOOKS * in->ts_s;
     const motion_watch_look_t look   = w->look;
 
     if (look == MOTION_WATCH_LOOK_STALL) {
@@ -108,6 +106,10 @@ CTL_PART motion_watch_verdict_t motion_watch_judge(motion_watch_t             *w
         w->look = MOTION_WATCH_LOOK_AWAY;
         return judge_voltage(w, in, step_s);
     }
+    if (look == MOTION_WATCH_LOOK_AWAY) {
+        w->look = MOTION_WATCH_LOOK_CURRENTS;
+        return judge_away(w, in, step_s);
+    }
     w->look = MOTION_WATCH_LOOK_STALL;
-    return judge_away(w, in, step_s);
+    return MOTION_WATCH_GOOD;
 }

@@ -29,12 +29,16 @@ typedef enum {
     MOTION_WATCH_AWAY
 } motion_watch_verdict_t;
 
-/** The looks take turns, one in a period. */
+/** The looks take turns, one in a period. The last one judges currents: together, none is dearer
+ * than the dearest. */
 typedef enum {
     MOTION_WATCH_LOOK_STALL = 0, /**< EQ-MOTION-WATCH-2 */
     MOTION_WATCH_LOOK_VOLTAGE,   /**< EQ-MOTION-WATCH-1 */
-    MOTION_WATCH_LOOK_AWAY       /**< EQ-MOTION-WATCH-3 */
+    MOTION_WATCH_LOOK_AWAY,      /**< EQ-MOTION-WATCH-3 */
+    MOTION_WATCH_LOOK_CURRENTS   /**< current_watch_look(), which the caller does */
 } motion_watch_look_t;
+
+#define MOTION_WATCH_LOOKS 4.0f
 
 typedef struct {
     float odd_s;   /**< duration without interruption, as the others */
@@ -62,9 +66,9 @@ typedef struct {
 CTL_PART void motion_watch_reset(motion_watch_t *w);
 
 /**
- * @brief Evaluates one of the three equations per period, in turn.
+ * @brief Evaluates one of the three equations in three of four periods, in turn.
  *
- * The delay is at most two periods: at 5 kHz 0.4 ms, beside the shortest time of 10 ms.
+ * The delay is at most three periods: at 5 kHz 0.6 ms, beside the shortest time of 10 ms.
  *
  * Context: control ISR. No division.
  */

@@ -118,16 +118,25 @@ static void constants_changed(void)
 /* A watch needs some periods to trip: its state is set to one period before that. */
 static void phase_without_current(void)
 {
-    drive.current_watch.expects    = true;
-    drive.current_watch.ref_A.b    = 3.0f;
-    drive.current_watch.empty_s[1] = 1.0f;
+    drive.motion_watch.look        = MOTION_WATCH_LOOK_CURRENTS;
+    drive.current_watch.ref_A.beta = 3.0f;
+    drive.current_watch.empty_s    = 1.0f;
 }
 
 static void current_of_another_motor(void)
 {
-    drive.current_watch.expects             = true;
     drive.current_watch.models              = true;
     drive.current_watch.phase[0].residual_A = 10.0f;
+}
+
+static void current_sensor_drifted(void)
+{
+    drive.motion_watch.look           = MOTION_WATCH_LOOK_CURRENTS;
+    drive.current_watch.models        = true;
+    drive.current_watch.drift_A.alpha = 10.0f;
+    answer.predicted                  = true;
+    answer.now.omega_e_radps          = 300.0f;
+    sample.ia_A                       = 1.5f;
 }
 
 static void voltage_of_another_motor(void)
@@ -162,6 +171,7 @@ static const row_t core_rows[] = {
     {"v.q", .number = &answer.v_V.q, .to = (float)NAN, .fault = DRIVE_FAULT_NUMERIC},
     {"phase", .change = phase_without_current, .fault = DRIVE_FAULT_PHASE},
     {"current sensor", .change = current_of_another_motor, .fault = DRIVE_FAULT_CURRENT_SENSOR},
+    {"drift", .change = current_sensor_drifted, .fault = DRIVE_FAULT_CURRENT_SENSOR},
     {"motion", .change = voltage_of_another_motor, .fault = DRIVE_FAULT_MODEL},
 };
 
@@ -177,7 +187,7 @@ static void test_each_condition_of_the_core_alone_keeps_the_gates_off(void)
             TEST_ASSERT_TRUE_MESSAGE(drive_tick(&drive, &sample, &command).gate_enable,
                                      core_rows[i].what);
             drive = before;
-            if ((periods == 0) && (i >= SUPPORT_COUNT(core_rows) - 3)) {
+            if ((periods == 0) && (i >= SUPPORT_COUNT(core_rows) - 4)) {
                 continue; /* a start resets the watches */
             }
             apply(&core_rows[i]);

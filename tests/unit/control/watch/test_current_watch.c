@@ -33,16 +33,21 @@ static void expect(dq_t model, dq_t ref, dq_t d_Aps, bool predicted)
     const float                    ahead = 0.5f * W * TS_s;
     const current_watch_expected_t e     = {.angle     = frames_angle(theta + ahead),
                                             .ahead_rad = ahead,
-                                            .i_A       = model,
+                                            .i_A =
+                                                frames_inverse_park(model, frames_angle(theta + ahead)),
                                             .d_Aps     = d_Aps,
                                             .i_ref_A   = ref,
                                             .predicted = predicted};
     current_watch_expect(&watch, &e, TS_s);
 }
 
+/* Both, in every period. */
 static current_watch_verdict_t judge(float ia_A, float ib_A)
 {
-    return current_watch_judge(&watch, ia_A, ib_A, &scale);
+    const current_watch_verdict_t now = current_watch_judge(&watch, ia_A, ib_A, &scale);
+
+    return (now == CURRENT_WATCH_GOOD) ? current_watch_look(&watch, ia_A, ib_A, W, TS_s, &scale)
+                                       : now;
 }
 
 static const dq_t none = {0.0f, 0.0f};
@@ -139,7 +144,7 @@ static void test_what_the_current_changes_by_itself_explains_a_part(void)
         const float model  = (k == 10) ? 0.0f : now;
         theta              = 0.0f;
         const current_watch_expected_t e = {
-            .angle = frames_angle(0.0f), .i_A = {.d = model, .q = 0.0f}, .predicted = true};
+            .angle = frames_angle(0.0f), .i_A = {.alpha = model, .beta = 0.0f}, .predicted = true};
         current_watch_expect(&watch, &e, TS_s);
         const abc_t i = phases(actual);
         if (k > 0) { /* after the first sample all is as before */
@@ -179,6 +184,88 @@ static void test_disturbances_that_turn_are_a_sensors(void)
         found         = found || (judge(i.a, i.b) == CURRENT_WATCH_SENSOR);
     }
     TEST_ASSERT_TRUE(found);
+}
+
+/* To an observer, a sensor that drifts is a disturbance that stands still in the stator. At 300 rad/s
+ * S goes to 0.6 d / 60 per s: the filter of d takes the rest. Samples until it is found. */
+static int drift_found_after(float d_Aps, float ia_A, float omega_e_radps)
+{
+    for (int k = 1; k <= 5000; k++) {
+        const float                    at = frames_wrap(omega_e_radps * TS_s * (float)k);
+        const dq_t                     d  = {.d = d_Aps * cosf(at), .q = -d_Aps * sinf(at)};
+        const current_watch_expected_t e  = {
+             .angle = frames_angle(at), .d_Aps = d, .predicted = true};
+        current_watch_expect(&watch, &e, TS_s);
+        if (current_watch_look(&watch, ia_A, 0.0f, omega_e_radps, TS_s, &scale) !=
+            CURRENT_WATCH_GOOD) {
+            return k;
+        }
+    }
+    return 0;
+}
+
+/* 0.63 jump are 1.07 A: 107 A/s */
+static void test_a_slow_drift_is_found_by_its_sum(void)
+{
+    TEST_ASSERT_EQUAL_INT(0, drift_found_after(102.0f, 2.0f, W));
+    for (int way = 0; way < 2; way++) {
+        const float sign = (way == 0) ? 1.0f : -1.0f;
+
+        setUp();
+        TEST_ASSERT_INT_WITHIN(100, 250, drift_found_after(sign * 112.0f, 2.0f, W));
+        setUp();
+        TEST_ASSERT_INT_WITHIN(100, 250, drift_found_after(112.0f, sign * 2.0f, -sign * W));
+    }
+    setUp();
+    const int samples = drift_found_after(1000.0f, 2.0f, W);
+    TEST_ASSERT_GREATER_THAN(4, samples);
+    TEST_ASSERT_LESS_THAN(15, samples);
+}
+
+/* At 100 rad/s the filter leaves 0.24 d, and a fifth of the speed is forgotten. */
+static void test_slow_turns_are_remembered_longer(void)
+{
+    TEST_ASSERT_EQUAL_INT(0, drift_found_after(80.0f, 2.0f, 100.0f));
+    setUp();
+    TEST_ASSERT_GREATER_THAN(0, drift_found_after(95.0f, 2.0f, 100.0f));
+}
+
+/* A quarter of i_max: 2 A */
+static void test_the_bound_is_one_of_the_current(void)
+{
+    current_watch_scale_t twice = scale;
+
+    twice.current_max_A = 2.0f * MAX_A;
+    watch.models        = true;
+    for (int way = 0; way < 2; way++) {
+        float *const sum_A = (way == 0) ? &watch.drift_A.alpha : &watch.drift_A.beta;
+
+        *sum_A = 1.95f;
+        TEST_ASSERT_EQUAL_INT(CURRENT_WATCH_GOOD,
+                              current_watch_look(&watch, 0.0f, 3.0f, W, TS_s, &twice));
+        *sum_A = -2.1f;
+        TEST_ASSERT_EQUAL_INT(CURRENT_WATCH_SENSOR,
+                              current_watch_look(&watch, 0.0f, 3.0f, W, TS_s, &twice));
+        *sum_A = 0.0f;
+    }
+}
+
+static void test_a_sum_means_nothing_at_rest_or_without_current(void)
+{
+    TEST_ASSERT_EQUAL_INT(0, drift_found_after(1000.0f, 2.0f, 59.0f));
+    setUp();
+    TEST_ASSERT_GREATER_THAN(0, drift_found_after(1000.0f, 2.0f, 61.0f));
+    setUp();
+    TEST_ASSERT_EQUAL_INT(0, drift_found_after(200.0f, 1.2f, W));
+    TEST_ASSERT_GREATER_THAN(0, drift_found_after(200.0f, 1.3f, W));
+    setUp();
+    watch.drift_A.alpha = NAN;
+    watch.models        = true;
+    TEST_ASSERT_EQUAL_INT(CURRENT_WATCH_SENSOR,
+                          current_watch_look(&watch, 0.0f, 2.0f, W, TS_s, &scale));
+    watch.models = false;
+    TEST_ASSERT_EQUAL_INT(CURRENT_WATCH_GOOD,
+                          current_watch_look(&watch, 0.0f, 2.0f, W, TS_s, &scale));
 }
 
 /* Four times the way through a count: the shipped motor's 0.34 ms leave 10 ms, a pump's 14.4 ms give 58. */
@@ -260,6 +347,10 @@ int main(void)
     RUN_TEST(test_what_the_current_changes_by_itself_explains_a_part);
     RUN_TEST(test_constant_disturbances_are_the_motors);
     RUN_TEST(test_disturbances_that_turn_are_a_sensors);
+    RUN_TEST(test_a_slow_drift_is_found_by_its_sum);
+    RUN_TEST(test_slow_turns_are_remembered_longer);
+    RUN_TEST(test_the_bound_is_one_of_the_current);
+    RUN_TEST(test_a_sum_means_nothing_at_rest_or_without_current);
     RUN_TEST(test_time_without_current_is_that_of_the_encoder);
     RUN_TEST(test_without_a_prediction_there_is_no_residual);
     RUN_TEST(test_a_phase_without_current_is_found_after_ten_milliseconds);
