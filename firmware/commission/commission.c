@@ -74,6 +74,7 @@ void commission_start(commission_t *m)
     m->zero_a_A   = 0.0f;
     m->zero_b_A   = 0.0f;
     m->rounds     = 0;
+    m->checked    = false;
 }
 
 static bridge_t abort_for(commission_t *m, commission_reason_t reason)
@@ -159,7 +160,7 @@ static bridge_t watch(commission_t *m, const commission_sample_t *s)
     m->rounds = 0;
     m->stage  = COMMISSION_LOOK;
     m->ticks  = 0L;
-    commission_inductance_start(&m->work.inductance);
+    commission_check_start(&m->work.check);
     return bridge_open();
 }
 
@@ -173,11 +174,60 @@ static commission_signal_t signal_of(commission_t *m, const commission_sample_t 
     return signal;
 }
 
+/* LOOK begins with the check. */
+static commission_answer_t check_and_look(commission_t *m, const commission_signal_t *s)
+{
+    const bool          checked = m->checked;
+    commission_answer_t out =
+        checked ? commission_inductance_look(&m->work.inductance, m->config, s, &m->found)
+                : commission_check_tick(&m->work.check, m->config, s, &m->admittance);
+
+    if (!checked && (out.step == COMMISSION_DONE)) {
+        m->checked = true;
+        commission_guard_start(&m->guard);
+        commission_inductance_start(&m->work.inductance);
+        out.step = COMMISSION_BUSY;
+    } else if ((out.step == COMMISSION_DONE) &&
+               !commission_guard_agrees(&m->admittance, &m->found)) {
+        m->checked = false;
+        out.step   = COMMISSION_FAILED;
+    } else {
+        /* the check or LOOK continues, or has ended */
+    }
+    return out;
+}
+
+/* False when the sensors do not show the current of the voltage. */
+static bool voltage_explained(commission_t *m, const commission_signal_t *s)
+{
+    const commission_config_t *c     = m->config;
+    const commission_result_t *known = &m->found;
+    bool                       ok    = true;
+
+    switch ((int16_t)m->stage) {
+    case COMMISSION_LOOK:
+        ok = !m->checked || commission_guard_look(&m->guard, c, s, &m->admittance);
+        break;
+    case COMMISSION_RESISTANCE:
+        ok = commission_guard_vector(&m->guard, c, s, known) &&
+             commission_resistance_follows(&m->work.resistance, c, known);
+        break;
+    case COMMISSION_DRAG:
+        ok = commission_guard_vector(&m->guard, c, s, known) &&
+             commission_drag_follows(&m->work.drag, c, known);
+        break;
+    default:
+        ok = commission_guard_rotor(&m->guard, c, s, known);
+        break;
+    }
+    return ok;
+}
+
 static commission_answer_t run_stage(commission_t *m, const commission_signal_t *s)
 {
     switch ((int16_t)m->stage) {
     case COMMISSION_LOOK:
-        return commission_inductance_look(&m->work.inductance, m->config, s, &m->found);
+        return check_and_look(m, s);
     case COMMISSION_RESISTANCE:
         return commission_resistance_tick(&m->work.resistance, m->config, s, &m->found);
     case COMMISSION_DRAG:
@@ -191,9 +241,9 @@ static commission_answer_t run_stage(commission_t *m, const commission_signal_t 
     }
 }
 
-static commission_reason_t failure_of(commission_stage_t stage)
+static commission_reason_t failure_of(const commission_t *m)
 {
-    switch ((int16_t)stage) {
+    switch ((int16_t)m->stage) {
     case COMMISSION_RESISTANCE:
         return COMMISSION_REASON_RESISTANCE;
     case COMMISSION_DRAG:
@@ -201,7 +251,7 @@ static commission_reason_t failure_of(commission_stage_t stage)
     case COMMISSION_SPIN:
         return COMMISSION_REASON_SPIN;
     default:
-        return COMMISSION_REASON_INDUCTANCE;
+        return m->checked ? COMMISSION_REASON_INDUCTANCE : COMMISSION_REASON_SENSOR;
     }
 }
 
@@ -218,10 +268,17 @@ static bool results_are_numbers(const commission_result_t *r)
            is_number(r->offset_rad.value);
 }
 
+/* A voltage cannot be explained by what is no number. */
+static commission_reason_t unexplained_reason(const commission_t *m)
+{
+    return results_are_numbers(&m->found) ? COMMISSION_REASON_SENSOR : COMMISSION_REASON_NUMERIC;
+}
+
 static void next_stage(commission_t *m, const commission_signal_t *s)
 {
     m->last_stage = m->stage;
     m->ticks      = 0L;
+    commission_guard_start(&m->guard);
     switch ((int16_t)m->stage) {
     case COMMISSION_LOOK:
         m->stage = COMMISSION_RESISTANCE;
@@ -284,11 +341,13 @@ bridge_t commission_tick(commission_t *m, const commission_sample_t *sample, boo
     if (m->stage == COMMISSION_WATCH) {
         return watch(m, sample);
     }
-    const commission_signal_t s      = signal_of(m, sample);
-    const commission_answer_t answer = run_stage(m, &s);
+    const commission_signal_t s         = signal_of(m, sample);
+    const bool                explained = voltage_explained(m, &s);
+    const commission_answer_t answer =
+        explained ? run_stage(m, &s) : commission_rest(COMMISSION_FAILED);
     m->ticks++;
     if (answer.step == COMMISSION_FAILED) {
-        return abort_for(m, failure_of(m->stage));
+        return abort_for(m, explained ? failure_of(m) : unexplained_reason(m));
     }
     if (!is_number(answer.v_V.alpha) || !is_number(answer.v_V.beta)) {
         return abort_for(m, COMMISSION_REASON_NUMERIC);

@@ -16,7 +16,9 @@
 #define COMMISSION_H
 
 #include "bridge.h"
+#include "commission_check.h"
 #include "commission_drag.h"
+#include "commission_guard.h"
 #include "commission_inductance.h"
 #include "commission_resistance.h"
 #include "commission_shaft.h"
@@ -26,7 +28,7 @@
 typedef enum {
     COMMISSION_IDLE = 0,
     COMMISSION_WATCH,      /**< bridge open: current offsets; the shaft must be at rest */
-    COMMISSION_LOOK,       /**< inductances in the stator frame */
+    COMMISSION_LOOK,       /**< check of phases and sensors; inductances in the stator frame */
     COMMISSION_RESISTANCE, /**< resistance and inverter voltage loss */
     COMMISSION_DRAG,       /**< direction, pole pairs, offset */
     COMMISSION_MAP,        /**< inductances along d and q */
@@ -47,14 +49,16 @@ typedef enum {
     COMMISSION_REASON_TIMEOUT,    /**< a stage exceeded its time limit */
     COMMISSION_REASON_WITHDRAWN,  /**< the command was withdrawn */
     COMMISSION_REASON_MOVING,     /**< with the bridge open: shaft turns or current flows */
-    COMMISSION_REASON_INDUCTANCE, /**< currents do not follow the voltage; check for an open phase */
+    COMMISSION_REASON_INDUCTANCE, /**< currents do not follow the voltage; phase open? */
     COMMISSION_REASON_RESISTANCE,
-    COMMISSION_REASON_DRAG,   /**< the rotor does not follow, or the pole pair count is not whole */
-    COMMISSION_REASON_SPIN,   /**< the acceleration does not match the torque */
-    COMMISSION_REASON_NUMERIC /**< a result is not a finite number */
+    COMMISSION_REASON_DRAG, /**< the rotor does not follow, or the pole pair count is not whole */
+    COMMISSION_REASON_SPIN, /**< the acceleration does not match the torque */
+    COMMISSION_REASON_NUMERIC, /**< a result is not a finite number */
+    COMMISSION_REASON_SENSOR   /**< a current sensor or a phase does not answer as it should */
 } commission_reason_t;
 
 typedef union {
+    commission_check_t      check;
     commission_inductance_t inductance;
     commission_resistance_t resistance;
     commission_drag_t       drag;
@@ -68,6 +72,9 @@ typedef struct {
     commission_reason_t        reason;
     commission_result_t        found;
     commission_work_t          work;
+    bool                       checked;    /**< phases and sensors answer */
+    commission_admittance_t    admittance; /**< from the check */
+    commission_guard_t         guard;
     int32_t                    ticks; /**< since the stage began */
     ab_t                       i_A;
     ab_t                       v_now_V;    /**< requested at the last sample; acts after this one */

@@ -24,6 +24,16 @@
 #define LESS         0.4f
 /* Tolerance of a whole number of pole pairs. */
 #define WHOLE 0.1f
+/* Chosen: share of the limit that the loop acts on; a healthy one is behind by more while a rotor
+ * snaps only. */
+#define ERROR_SHARE 0.1f
+#define FOLLOW_s    0.05f
+/* Chosen: mean distance of the current to its reference, share of the limit; healthy 0.033. */
+#define BEHIND_SHARE 0.1f
+/* Chosen: R of this share of the limit is the largest mean voltage. A salient rotor that flips
+ * takes more. Ten motors need half of it: docs/commissioning.md. */
+#define VOLTAGE_SHARE  1.2f
+#define SALIENCY_SHARE 0.15f
 
 /* Parts of a pass, in order. */
 enum { SETTLE = 0, LEAD_FORWARD, FORWARD, TURN, BACKWARD, RELEASE, PARTS };
@@ -56,6 +66,7 @@ void commission_drag_start(commission_drag_t *d, const commission_config_t *c,
         d->speed_radps = base_clamp(SWING_SHARE * BASE_PI / swing, SLOWEST_radps, FASTEST_radps);
     }
     commission_vector_start(&d->vector, c, known, RAMP_s);
+    commission_vector_allow(&d->vector, ERROR_SHARE * c->current_max_A, FOLLOW_s);
     begin_pass(d, FIRST_SHARE * c->current_max_A, 1);
 }
 
@@ -219,6 +230,15 @@ static bool part_ends(commission_drag_t *d, const commission_config_t *c, float 
         *wanted_radps = 0.0f;
         return settled || late;
     }
+}
+
+bool commission_drag_follows(const commission_drag_t *d, const commission_config_t *c,
+                             const commission_result_t *known)
+{
+    const float saliency = known->lq_H.value / base_max(known->ld_H.value, 1.0e-12f);
+    const float share    = VOLTAGE_SHARE + (SALIENCY_SHARE * saliency);
+    return commission_vector_follows(&d->vector, BEHIND_SHARE * c->current_max_A,
+                                     share * known->r_Ohm.value * c->current_max_A);
 }
 
 commission_answer_t commission_drag_tick(commission_drag_t *d, const commission_config_t *c,

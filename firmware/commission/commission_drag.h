@@ -50,6 +50,10 @@ typedef struct {
 void commission_drag_start(commission_drag_t *d, const commission_config_t *c,
                            const commission_result_t *known);
 
+/** False when a current sensor or a phase cannot be right. Context: control ISR. */
+bool commission_drag_follows(const commission_drag_t *d, const commission_config_t *c,
+                             const commission_result_t *known);
+
 /** Executes one period. `found` gets the results with COMMISSION_DONE. Context: control ISR. */
 commission_answer_t commission_drag_tick(commission_drag_t *d, const commission_config_t *c,
                                          const commission_signal_t *s, commission_result_t *found);

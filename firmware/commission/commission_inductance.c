@@ -97,6 +97,7 @@ static bool set_look(commission_inductance_t *l, const commission_config_t *c,
     const float half  = sqrtf(square(cos2) + square(sin2));
     found->ld_H.value = mean - half;
     found->lq_H.value = mean + half;
+    found->odd_V      = l->power_W / base_max(l->size_A, 1.0e-9f);
     return found->ld_H.value > 0.0f;
 }
 
@@ -123,6 +124,14 @@ static void set_direction(commission_inductance_t *l)
     }
 }
 
+/* The stored energy has no mean over whole waves: v i is what R and the inverter take. */
+static void add_power(commission_inductance_t *l, const commission_signal_t *s)
+{
+    const ab_t mid_A = {s->i_A.alpha - (0.5f * s->di_A.alpha), s->i_A.beta - (0.5f * s->di_A.beta)};
+    l->power_W += (s->v_V.alpha * mid_A.alpha) + (s->v_V.beta * mid_A.beta);
+    l->size_A += sqrtf(square(mid_A.alpha) + square(mid_A.beta));
+}
+
 commission_answer_t commission_inductance_look(commission_inductance_t   *l,
                                                const commission_config_t *c,
                                                const commission_signal_t *s,
@@ -143,6 +152,7 @@ commission_answer_t commission_inductance_look(commission_inductance_t   *l,
         commission_fit_add(&l->alpha, s->di_A.alpha, s->di_A.beta,
                            s->v_V.alpha); /* EQ-COMMISSION-4 */
         commission_fit_add(&l->beta, s->di_A.alpha, s->di_A.beta, s->v_V.beta);
+        add_power(l, s);
     }
     if (l->wave.halves > LOOK_HALVES) {
         next_axis(l);

@@ -38,7 +38,9 @@ typedef struct {
     commission_fit_t   alpha; /**< v_alpha against di, both axes' waves */
     commission_fit_t   beta;
     commission_bin_t   bins[2][2][COMMISSION_BINS]; /**< axis, sign of the current, bin */
-    commission_fit_t   noise; /**< sums of di at rest; the two sensors' noise is not isotropic */
+    commission_fit_t   noise;   /**< sums of di at rest; the two sensors' noise is not isotropic */
+    float              power_W; /**< LOOK: sum of v i, and of |i| */
+    float              size_A;
     int32_t            before_cnt;
     commission_angle_t angle; /**< tracks the angle for the speed */
 } commission_inductance_t;

@@ -14,18 +14,37 @@
 #define SETTLE_s    0.25f
 #define MEAN_s      0.1f
 #define LONG_MEAN_s 2.0f
+/* Chosen: limits of the mean voltage at the first angle, twice the largest of ten healthy motors.
+ * PULL: to the voltage of LOOK. LEVEL: voltage per ampere, to that of a smaller current. The
+ * inverter's loss makes this ratio smaller, and a rotor that snaps into place makes it larger. */
+#define PULL_RATIO  3.0f
+#define FIRST_RATIO 1.3f
+#define LEVEL_RATIO 2.0f
+/* Chosen: share of the voltage that the first angle's line has at the current limit; healthy 1. */
+#define KNOWN_SHARE 1.6f
+/* Chosen: share of the limit that the loop acts on. */
+#define ERROR_SHARE 0.05f
+/* Chosen: mean distance of the current to its reference, share of the limit, and its time. At the
+ * larger levels of the first angle a rotor may snap; healthy 0.09 there and 0.028 elsewhere. */
+#define FOLLOW_s     0.02f
+#define BEHIND_SHARE 0.045f
+#define SNAP_SHARE   0.15f
 
 void commission_resistance_start(commission_resistance_t *r, const commission_config_t *c,
                                  const commission_result_t *known)
 {
     commission_resistance_t fresh = {.level = -1};
     *r                            = fresh;
+    r->before_V                   = known->odd_V;
     commission_vector_start(&r->vector, c, known, RAMP_s);
+    commission_vector_allow(&r->vector, ERROR_SHARE * c->current_max_A, FOLLOW_s);
     commission_fit_reset(&r->line);
 }
 
 static void next_level(commission_resistance_t *r)
 {
+    r->before_V = base_max(r->before_V, r->vector.mean_V);
+    r->before_A = r->vector.length_A;
     r->level++;
     r->ticks      = 0L;
     r->mean_ticks = 0L;
@@ -77,6 +96,35 @@ static bool set_result(const commission_resistance_t *r, commission_result_t *fo
     found->v_loss_V.error = 0.75f * r->lines[0].error1;
     found->half_swing_s   = r->half_swing_s;
     return mean > 0.0f;
+}
+
+/* Largest mean voltage along the vector of a healthy motor. */
+static float healthy_most_V(const commission_resistance_t *r, const commission_config_t *c,
+                            const commission_result_t *known)
+{
+    const commission_fitted_t *line   = &r->lines[0];
+    const float                ratio  = (r->level == 0) ? FIRST_RATIO : LEVEL_RATIO;
+    const float                next_A = c->current_max_A * LEVEL_SHARE * (float)(r->level + 1);
+    float                      most_V = PULL_RATIO * known->odd_V;
+
+    if (r->angle > 0) {
+        most_V = KNOWN_SHARE * ((line->x0 * c->current_max_A) + base_max(line->x1, 0.0f));
+    } else if (r->level >= 0) {
+        most_V = ratio * r->before_V * next_A / base_max(r->before_A, 1.0e-6f);
+    } else {
+        /* the rotor aligns */
+    }
+    return most_V;
+}
+
+bool commission_resistance_follows(const commission_resistance_t *r, const commission_config_t *c,
+                                   const commission_result_t *known)
+{
+    const bool  done  = r->angle >= COMMISSION_ANGLES; /* the results are next */
+    const bool  snaps = (r->angle == 0) && (r->level > 0);
+    const float share = snaps ? SNAP_SHARE : BEHIND_SHARE;
+    return done || commission_vector_follows(&r->vector, share * c->current_max_A,
+                                             healthy_most_V(r, c, known));
 }
 
 commission_answer_t commission_resistance_tick(commission_resistance_t   *r,

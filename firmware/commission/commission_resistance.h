@@ -34,11 +34,17 @@ typedef struct {
     float               sum_v_V;
     float               sum_i_A;
     float               half_swing_s;
+    float               before_V; /**< mean voltage and current of the level before */
+    float               before_A;
 } commission_resistance_t;
 
 /** Starts at the first angle. Context: control ISR. */
 void commission_resistance_start(commission_resistance_t *r, const commission_config_t *c,
                                  const commission_result_t *known);
+
+/** False when a current sensor or a phase cannot be right. Context: control ISR. */
+bool commission_resistance_follows(const commission_resistance_t *r, const commission_config_t *c,
+                                   const commission_result_t *known);
 
 /** Executes one period. `found` gets the results with COMMISSION_DONE. Context: control ISR. */
 commission_answer_t commission_resistance_tick(commission_resistance_t   *r,

@@ -74,10 +74,11 @@ typedef struct {
     float              ld_map_H[2][COMMISSION_BINS]; /**< differential, d current > 0 and < 0 */
     float              lq_map_H[COMMISSION_BINS];
     float              map_step_A; /**< width of a bin */
-    float   ripple_rad;   /**< rms angle error along the turned vector: cogging, oscillation */
-    float   lag_rad;      /**< lag behind the vector by friction */
-    float   moved_rad;    /**< correction of the DRAG offset by SPIN */
-    float   half_swing_s; /**< oscillation about a fixed vector; 0: none */
+    float              odd_V; /**< mean voltage with the current in LOOK: R i and inverter loss */
+    float   ripple_rad;       /**< rms angle error along the turned vector: cogging, oscillation */
+    float   lag_rad;          /**< lag behind the vector by friction */
+    float   moved_rad;        /**< correction of the DRAG offset by SPIN */
+    float   half_swing_s;     /**< oscillation about a fixed vector; 0: none */
     int32_t counts_per_turn;
     int16_t direction; /**< 1: the position rises with the electrical angle, -1: it falls */
     int16_t pole_pairs;

@@ -8,6 +8,8 @@
 /* Chosen: share of the current limit. With a vector of 0.6, the sum uses two thirds of the
  * limit. */
 #define CROSS_SHARE 0.3f
+/* Chosen: a rotor that snaps into place takes more voltage for a shorter time. */
+#define MEAN_s 0.05f
 /* Chosen: counts back from the extreme position that are a reversal; edge errors are smaller. */
 #define REVERSAL_CNT 6L
 
@@ -24,7 +26,16 @@ void commission_vector_start(commission_vector_t *v, const commission_config_t *
                                    .ramp_A = c->current_max_A * c->ts_s / ramp_s};
     fresh.cross_max_A           = CROSS_SHARE * c->current_max_A;
     fresh.half_swing_s          = known->half_swing_s;
+    fresh.error_max_A           = c->current_max_A;
+    fresh.behind_share          = 1.0f;
+    fresh.mean_share            = base_min(c->ts_s / MEAN_s, 1.0f);
     *v                          = fresh;
+}
+
+void commission_vector_allow(commission_vector_t *v, float error_A, float follow_s)
+{
+    v->error_max_A  = error_A;
+    v->behind_share = base_min(v->ts_s / follow_s, 1.0f);
 }
 
 static void watch_shaft(commission_vector_t *v, int32_t position_cnt)
@@ -79,12 +90,16 @@ commission_vector_out_t commission_vector_tick(commission_vector_t *v, const com
     watch_shaft(v, s->position_cnt);
     v->length_A = base_clamp(length_A, v->length_A - v->ramp_A, v->length_A + v->ramp_A);
 
-    const float error_A  = v->length_A - out.i_A.d;
+    const float behind_A = v->length_A - out.i_A.d;
+    const float error_A  = base_clamp(behind_A, -v->error_max_A, v->error_max_A);
+    v->behind_A += v->behind_share * (behind_A - v->behind_A);
+    v->mean_V += v->mean_share * (out.v_V.d - v->mean_V);
     v->integral_V        = base_clamp(v->integral_V + (v->ki_VpA * error_A), -most_V, most_V);
     const float beyond_A = out.i_A.q - base_clamp(out.i_A.q, -v->cross_max_A, v->cross_max_A);
+    const float over_A   = base_clamp(beyond_A, -v->error_max_A, v->error_max_A);
     const dq_t  v_V      = {/* EQ-COMMISSION-3 */
                       v->integral_V + (v->kp_VpA * error_A),
-                      (-damping_Ohm(v) * out.i_A.q) - (v->kp_VpA * beyond_A)};
+                      (-damping_Ohm(v) * out.i_A.q) - (v->kp_VpA * over_A)};
     out.out_V            = frames_inverse_park(v_V, then);
     out.length_A         = v->length_A;
     return out;
@@ -93,4 +108,9 @@ commission_vector_out_t commission_vector_tick(commission_vector_t *v, const com
 bool commission_vector_still(const commission_vector_t *v, float time_s)
 {
     return ((float)v->still_ticks * v->ts_s) >= time_s;
+}
+
+bool commission_vector_follows(const commission_vector_t *v, float most_A, float most_V)
+{
+    return base_within(v->behind_A, most_A) && base_within(v->mean_V, most_V);
 }

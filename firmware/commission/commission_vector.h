@@ -27,6 +27,11 @@ typedef struct {
     float length_A; /**< present reference, ramps to the commanded length */
     float ramp_A;   /**< per period */
     float cross_max_A;
+    float error_max_A;  /**< the loop acts on this much at most */
+    float behind_share; /**< of a new value in behind_A */
+    float behind_A;     /**< mean of reference less current */
+    float mean_share;   /**< of a new value in mean_V */
+    float mean_V;       /**< mean voltage along the vector, over 50 ms */
 
     int32_t still_cnt; /**< position at which the shaft rests */
     int32_t still_ticks;
@@ -48,6 +53,17 @@ void commission_vector_start(commission_vector_t *v, const commission_config_t *
                              const commission_result_t *known, float ramp_s);
 
 /**
+ * @brief Sets how far and how long the current may be away from its reference.
+ *
+ * @param error_A  The loop acts on this much of an error at most: a sensor that fails then raises
+ *                 the voltage slowly.
+ * @param follow_s Time of the mean error, as commission_vector_follows() judges it.
+ *
+ * Context: control ISR, after commission_vector_start().
+ */
+void commission_vector_allow(commission_vector_t *v, float error_A, float follow_s);
+
+/**
  * @brief Executes one period of the current control.
  *
  * @param theta_rad  Stator angle of the vector at this sample.
@@ -58,6 +74,10 @@ void commission_vector_start(commission_vector_t *v, const commission_config_t *
  */
 commission_vector_out_t commission_vector_tick(commission_vector_t *v, const commission_signal_t *s,
                                                float theta_rad, float turned_rad, float length_A);
+
+/** False when the mean current is off its reference by more than `most_A`, or takes more than
+ * `most_V`. A current sensor or a phase is then wrong. Context: control ISR. */
+bool commission_vector_follows(const commission_vector_t *v, float most_A, float most_V);
 
 /** True if the shaft has stayed within one count for `time_s`. */
 bool commission_vector_still(const commission_vector_t *v, float time_s);

@@ -57,7 +57,7 @@ declare -A sources=(
     [prove_store]=tests/prove/prove_store.c
     [prove_image]=tests/prove/prove_store.c
 )
-stages=(rest look resistance drag map spin)
+stages=(rest check look resistance drag map spin)
 for stage in "${stages[@]}"; do
     sources[prove_commission_$stage]=tests/prove/prove_commission.c
 done

@@ -7,6 +7,9 @@
 volatile int                     any_int;
 volatile int32_t                 any_long;
 volatile commission_result_t     any_result;
+volatile commission_guard_t      any_guard;
+volatile commission_admittance_t any_admittance;
+volatile commission_check_t      any_check;
 volatile commission_inductance_t any_inductance;
 volatile commission_resistance_t any_resistance;
 volatile commission_drag_t       any_drag;
@@ -54,6 +57,10 @@ static void any_state(commission_stage_t stage)
     state.found.direction       = (int16_t)between(-1L, 1L);
     state.found.indexed         = any_bool();
     state.found.reluctance      = any_bool();
+    state.checked               = any_bool();
+    state.guard                 = any_guard;
+    state.guard.begun           = any_bool();
+    state.admittance            = any_admittance;
     config.counts_per_turn      = between(0L, COUNTS_MAX);
     sample.index_seen           = any_bool();
     sample.valid                = any_bool();
@@ -88,10 +95,25 @@ static void any_wave(void)
     l->alpha.n = l->beta.n = l->noise.n = between(0L, TICKS_MAX);
 }
 
+/* Entry: LOOK, before the phases and sensors have answered. */
+void prove_commission_check(void)
+{
+    commission_check_t *const k = &state.work.check;
+
+    any_state(COMMISSION_LOOK);
+    state.checked = false;
+    *k            = any_check;
+    k->found      = any_bool();
+    k->tick       = (int16_t)between(0L, SHORT_MAX);
+    k->patterns   = (int16_t)between(0L, SHORT_MAX);
+    tick();
+}
+
 /* Entry: LOOK. */
 void prove_commission_look(void)
 {
     any_state(COMMISSION_LOOK);
+    state.checked = true;
     any_wave();
     tick();
 }

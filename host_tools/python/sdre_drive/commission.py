@@ -28,6 +28,7 @@ REASONS = {
     12: "the rotor does not follow",
     13: "the shaft does not turn as it should",
     14: "a value is no number",
+    15: "a current sensor or a motor wire does not answer",
 }
 # Key of the file, and the register whose error is beside it.
 VALUES = (

@@ -230,6 +230,8 @@ const char *commission_reason_text(commission_reason_t reason)
         return "the shaft does not turn as its torque says";
     case COMMISSION_REASON_NUMERIC:
         return "a result is no number";
+    case COMMISSION_REASON_SENSOR:
+        return "a current sensor or a phase does not answer";
     }
     return "?";
 }

@@ -178,7 +178,7 @@ static void test_a_motor_that_is_not_there_ends_it(void)
         (void)step();
     }
     TEST_ASSERT_EQUAL_INT(COMMISSION_ABORTED, module.stage);
-    TEST_ASSERT_EQUAL_INT(COMMISSION_REASON_INDUCTANCE, module.reason);
+    TEST_ASSERT_EQUAL_INT(COMMISSION_REASON_SENSOR, module.reason);
 }
 
 static void test_a_flipped_bit_of_the_stage_ends_it(void)

@@ -49,6 +49,9 @@ static void go(commission_stage_t stage)
     module.found.ld_H.value  = 0.03f;
     module.found.lq_H.value  = 0.05f;
     module.found.pole_pairs  = 2;
+    module.checked           = true;
+    module.admittance.aa     = 1.0f / 0.03f;
+    module.admittance.bb     = 1.0f / 0.05f;
     module.stage             = stage;
     module.ticks             = 1L;
     switch ((int)stage) {
