@@ -8,8 +8,8 @@
  * checked    relative residuals <= 1e-16
  *            controller: slowest pole -551 1/s, sampled spectral radius 0.890, |e_iq| <= 8 A
  *            observer:   slowest pole -621 1/s, sampled spectral radius 0.924, |iq| <= 8 A
- * checked    q axis:     sensitivity peak 1.84 at 255 Hz, sampled spectral radius 0.9651
- * checked    d axis:     sensitivity peak 1.65 at 198 Hz, sampled spectral radius 0.9651
+ * checked    q axis:     sensitivity peak 1.92 at 278 Hz, sampled spectral radius 0.9844
+ * checked    d axis:     sensitivity peak 1.8 at 207 Hz, sampled spectral radius 0.9844
  *            motors:     stable in 0.57 of EQ-CERT-5's box
  */
 #ifndef GAIN_TABLES_H

@@ -41,6 +41,9 @@ struct LoopCheck {
     std::vector<SensitivityAt> at; ///< the disturbances' frequencies
 };
 
+/// The largest |S| of few frequencies: tells which of many loops is the worst.
+double rough_peak(const BrokenLoop &loop);
+
 LoopCheck check_loop(const BrokenLoop &loop, std::vector<SensitivityAt> disturbances);
 
 /// Current sensors, dead time and the harmonics of the drive file, at its design speed (rated speed without one).

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace sdre {
 namespace {
@@ -28,25 +29,52 @@ MatrixXd observer_input(const ReducedParameters &l)
 
 } // namespace
 
-MatrixXd encoder_form_law(const ReducedParameters &l, const MatrixXd &Lambda,
-                          const OperatingPoint &at)
+namespace {
+
+/// EQ-CERT-6: adds what the references do, iq_ref as a row of the observer's states.
+LawRows with_references(const ReducedParameters &l, const MatrixXd &Lambda, const MatrixXd &F,
+                        const Eigen::RowVectorXd &iq_ref, const MovingReference &m)
 {
-    const double D      = l[1] + l[11] * at.id_A;
-    const bool   angle  = has_angle(Lambda);
-    const double k_ref  = Lambda(0, angle ? 2 : 1) + l[4] / l[6]; // v_q per ampere of iq_ref
-    MatrixXd     F      = MatrixXd::Zero(2, 7);
-    F.block(0, 3, 2, 3) = -Lambda.rightCols(3);
+    const Eigen::Vector2d per_id_ref(Lambda(0, Lambda.cols() - 1),
+                                     Lambda(1, Lambda.cols() - 1) + l[7] / l[8]);
+    const Eigen::Vector2d per_step(0.0, m.filter / (m.ts_s * l[8])); // the derivative's part
+    const Eigen::Vector2d per_target = m.filter * per_id_ref + per_step;
+
+    LawRows law{F + per_target * m.of_estimate, MatrixXd(2, 2), MatrixXd(2, 7),
+                MatrixXd::Zero(2, 2)};
+    law.F_ref << per_id_ref - per_target, m.of_iq_ref * per_target;
+    law.B_ref << m.filter * m.of_estimate, iq_ref;
+    law.A_ref.row(0) << 1.0 - m.filter, m.filter * m.of_iq_ref;
+    return law;
+}
+
+} // namespace
+
+LawRows encoder_form_law(const ReducedParameters &l, const MatrixXd &Lambda,
+                         const OperatingPoint &at, const MovingReference *moving)
+{
+    const double       D      = l[1] + l[11] * at.id_A;
+    const bool         angle  = has_angle(Lambda);
+    const double       k_ref  = Lambda(0, angle ? 2 : 1) + l[4] / l[6]; // v_q per ampere of iq_ref
+    Eigen::RowVectorXd iq_ref = Eigen::RowVectorXd::Zero(7);
+    MatrixXd           F      = MatrixXd::Zero(2, 7);
+    iq_ref(0)                 = -1.0 / D;
+    iq_ref(5)                 = -at.iq_A * l[11] / D;
+    F.block(0, 3, 2, 3)       = -Lambda.rightCols(3);
     if (angle) {
         F.col(6) = -Lambda.col(0);
     }
-    F(0, 0) = -k_ref / D;
+    F.row(0) += k_ref * iq_ref;
     F(0, 1) = -1.0 / l[6];
     F(0, 3) += l[10] * at.id_A / l[6];
-    F(0, 5) += l[10] * at.omega_e_radps / l[6] - k_ref * at.iq_A * l[11] / D;
+    F(0, 5) += l[10] * at.omega_e_radps / l[6];
     F(1, 2) = -1.0 / l[8];
     F(1, 3) -= l[9] * at.iq_A / l[8];
     F(1, 4) -= l[9] * at.omega_e_radps / l[8];
-    return F;
+    if (moving != nullptr) {
+        return with_references(l, Lambda, F, iq_ref, *moving);
+    }
+    return {F, MatrixXd(2, 0), MatrixXd(0, 7), MatrixXd(0, 0)};
 }
 
 Held<MatrixXd> held_motor(const ReducedParameters &l, const OperatingPoint &at, double ts)
@@ -79,44 +107,59 @@ Eigen::Matrix3d motor_jacobian(const ReducedParameters &l, const OperatingPoint 
 }
 
 SampledModel sampled_model(const ReducedParameters &motor, const ReducedParameters &model,
-                           const LoopGains &gains, const OperatingPoint &at, double ts)
+                           const LoopGains &gains, const OperatingPoint &at, double ts,
+                           const MovingReference *moving)
 {
     const Held<MatrixXd> held = held_motor(motor, at, ts);
     const auto [P, G]         = predicted_encoder_form(model, at, ts);
-    const MatrixXd F          = encoder_form_law(model, gains.Lambda, at);
-    const MatrixXd C          = nodo_model(model, NodoForm::encoder).C;
-    const MatrixXd PL         = ts * P * gains.L; // EQ-NODO-ENCODER-1, then the prediction
+    const LawRows      law    = encoder_form_law(model, gains.Lambda, at, moving);
+    const MatrixXd     C      = nodo_model(model, NodoForm::encoder).C;
+    const MatrixXd     PL     = ts * P * gains.L; // EQ-NODO-ENCODER-1, then the prediction
+    const Eigen::Index n_ref  = law.A_ref.rows();
+    const Eigen::Index n      = 11 + n_ref; // (w iq id theta | observer | references)
 
-    MatrixXd A                = MatrixXd::Zero(11, 11); // (w iq id theta | observer)
-    A.topLeftCorner(4, 4)     = held.Phi;
-    A.topRightCorner(4, 7)    = held.Gamma.leftCols(2) * F;
-    A.bottomLeftCorner(7, 4)  = PL * C.rightCols(4);
-    A.bottomRightCorner(7, 7) = P - PL * C + G * F;
+    MatrixXd A                        = MatrixXd::Zero(n, n);
+    A.topLeftCorner(4, 4)             = held.Phi;
+    A.block(0, 4, 4, 7)               = held.Gamma.leftCols(2) * law.F;
+    A.block(4, 0, 7, 4)               = PL * C.rightCols(4);
+    A.block(4, 4, 7, 7)               = P - PL * C + G * law.F;
+    A.topRightCorner(4, n_ref)        = held.Gamma.leftCols(2) * law.F_ref;
+    A.block(4, 11, 7, n_ref)          = G * law.F_ref;
+    A.block(11, 4, n_ref, 7)          = law.B_ref;
+    A.bottomRightCorner(n_ref, n_ref) = law.A_ref;
+
+    MatrixXd b_load          = MatrixXd::Zero(n, 1);
+    b_load.topRows(4)        = held.Gamma.col(2);
+    MatrixXd B_voltage       = MatrixXd::Zero(n, 2);
+    B_voltage.topRows(4)     = held.Gamma.leftCols(2);
+    MatrixXd B_noise         = MatrixXd::Zero(n, 3);
+    B_noise.middleRows(4, 7) = PL;
+    MatrixXd C_voltage(2, n);
+    C_voltage << MatrixXd::Zero(2, 4), law.F, law.F_ref;
 
     // The motor depends on theta - theta^ only, not on the angle itself. With that difference as a
     // state, theta^ is an integrator that only a position's law reads. Otherwise theta^ is left
     // out.
-    const Eigen::Index n = has_angle(gains.Lambda) ? 11 : 10;
-    MatrixXd           S = MatrixXd::Identity(11, 11);
-    S(3, 10)             = -1.0;
-    MatrixXd S_inverse   = MatrixXd::Identity(11, 11);
-    S_inverse(3, 10)     = 1.0;
-
-    Eigen::VectorXd b_load = Eigen::VectorXd::Zero(11);
-    b_load.head(4)         = held.Gamma.col(2);
-    MatrixXd B_voltage     = MatrixXd::Zero(11, 2);
-    B_voltage.topRows(4)   = held.Gamma.leftCols(2);
-    MatrixXd B_noise       = MatrixXd::Zero(11, 3);
-    B_noise.bottomRows(7)  = PL;
+    constexpr Eigen::Index    hat = 10;
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index i = 0; i < n; i++) {
+        if (i != hat || has_angle(gains.Lambda)) {
+            rows.push_back(i);
+        }
+    }
+    MatrixXd S         = MatrixXd::Identity(n, n);
+    S(3, hat)          = -1.0;
+    MatrixXd S_inverse = MatrixXd::Identity(n, n);
+    S_inverse(3, hat)  = 1.0;
+    const auto all     = Eigen::all;
 
     SampledModel out;
-    out.ts_s                       = ts;
-    out.A                          = (S * A * S_inverse).topLeftCorner(n, n);
-    out.C_voltage                  = MatrixXd::Zero(2, n);
-    out.C_voltage.rightCols(n - 4) = F.leftCols(n - 4);
-    out.b_load                     = (S * b_load).head(n);
-    out.B_noise                    = (S * B_noise).topRows(n);
-    out.B_voltage                  = (S * B_voltage).topRows(n);
+    out.ts_s      = ts;
+    out.A         = MatrixXd(S * A * S_inverse)(rows, rows);
+    out.C_voltage = C_voltage(all, rows); // the law reads theta^ or not, but not their difference
+    out.b_load    = MatrixXd(S * b_load)(rows, all);
+    out.B_noise   = MatrixXd(S * B_noise)(rows, all);
+    out.B_voltage = MatrixXd(S * B_voltage)(rows, all);
     return out;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// The sampled closed loop of the encoder form, linearised at an operating point: true motor,
 /// observer, law, one period of delay. The state [w iq id (theta - theta^) | d_w^ d_q^ d_d^ w^ iq^
-/// id^] has deviations from the operating point. A position's law adds theta^: n = 10 or 11.
+/// id^] has deviations from the operating point. A position's law adds theta^, a moving d-current reference [id_ref iq_ref]:
+/// n = 10 to 13.
 #pragma once
 
 #include "design/motor_model.hpp"
@@ -55,14 +56,32 @@ struct PredictedObserver {
 PredictedObserver predicted_encoder_form(const ReducedParameters &model, const OperatingPoint &at,
                                          double ts_s);
 
-/// The firmware's law as two rows on the predicted observer state (2 x 7), for speed or position.
-/// It is EQ-NOSC-1 and EQ-FEEDFORWARD-1, 2 with iq_ref of EQ-CURRENT-REF-1 and a constant id_ref.
-Eigen::MatrixXd encoder_form_law(const ReducedParameters &l, const Eigen::MatrixXd &Lambda,
-                                 const OperatingPoint &at);
+/// Target of id_ref, linearised, and the first-order filter to it.
+struct MovingReference {
+    Eigen::RowVectorXd of_estimate;     ///< the target's slopes, 7
+    double             of_iq_ref = 0.0; ///< of the period before
+    double             filter    = 1.0; ///< share of the way in a period
+    double             ts_s      = 0.0;
+};
 
-/// @param motor what the motor is, @param model what the controller believes.
+/// The law on the n predicted states of the observer (EQ-CERT-6). The references of the period before are r = [id_ref iq_ref].
+/// v = F x^ + F_ref r, r(k+1) = B_ref x^ + A_ref r. A constant id_ref has no r.
+struct LawRows {
+    Eigen::MatrixXd F;     ///< 2 x n
+    Eigen::MatrixXd F_ref; ///< 2 x 2 or 2 x 0
+    Eigen::MatrixXd B_ref; ///< 2 x n or 0 x n
+    Eigen::MatrixXd A_ref; ///< 2 x 2 or 0 x 0
+};
+
+/// The firmware's law for speed or position, n = 7. It is EQ-NOSC-1 and EQ-FEEDFORWARD-1, 2 with iq_ref of EQ-CURRENT-REF-1.
+/// Without `moving` id_ref is constant.
+LawRows encoder_form_law(const ReducedParameters &l, const Eigen::MatrixXd &Lambda,
+                         const OperatingPoint &at, const MovingReference *moving = nullptr);
+
+/// @param motor what the motor is, @param model what the controller believes. The references of `moving` are two states more.
 SampledModel sampled_model(const ReducedParameters &motor, const ReducedParameters &model,
-                           const LoopGains &gains, const OperatingPoint &at, double ts_s);
+                           const LoopGains &gains, const OperatingPoint &at, double ts_s,
+                           const MovingReference *moving = nullptr);
 
 /// The exact MTPA current id for an iq, 0 without saliency.
 double mtpa_id_A(const ReducedParameters &l, double iq_A);

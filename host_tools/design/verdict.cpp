@@ -55,9 +55,10 @@ bool is_same(const Eigen::MatrixXd &a, const Eigen::MatrixXd &b)
 
 double radius_of(const LoopFamily &family, const Motor &motor)
 {
-    double worst = 0.0;
+    const auto &loops_at = family.loops_of_others ? family.loops_of_others : family.loops;
+    double      worst    = 0.0;
     for (const OperatingPoint &at : family.box_points) {
-        const std::vector<BrokenLoop> loops = family.loops(motor, at);
+        const std::vector<BrokenLoop> loops = loops_at(motor, at);
         for (std::size_t i = 0; i < loops.size(); i++) {
             if (i == 0 ||
                 !is_same(loops[i].A, loops[i - 1].A)) { // most are one loop, opened elsewhere
@@ -84,6 +85,36 @@ void keep_worst(Verdict &v, const Found &found, const OperatingPoint &at)
         }
         kept.worst.spectral_radius = radius;
     }
+}
+
+/// Points of the plane with the largest spectral radius and the largest rough peak of each channel.
+std::vector<OperatingPoint> worst_of_plane(const LoopFamily &family, const Drive &drive)
+{
+    if (family.plane.empty()) {
+        return {};
+    }
+    const std::size_t                n = family.channels.size();
+    std::vector<std::vector<double>> found(family.plane.size(), std::vector<double>(n + 1, 0.0));
+    parallel_for(found.size(), [&](std::size_t i) {
+        const std::vector<BrokenLoop> loops = family.loops(drive.motor, family.plane[i]);
+        for (std::size_t k = 0; k < loops.size(); k++) {
+            const bool   finite = loops[k].A.allFinite();
+            const double none   = std::numeric_limits<double>::infinity();
+            if (k == 0 || !is_same(loops[k].A, loops[k - 1].A)) {
+                found[i][n] = worse(found[i][n], finite ? spectral_radius(loops[k].A) : none);
+            }
+            found[i][k % n] = worse(found[i][k % n], finite ? rough_peak(loops[k]) : none);
+        }
+    });
+    std::vector<OperatingPoint> worst;
+    for (std::size_t k = 0; k <= n; k++) {
+        std::size_t most = 0;
+        for (std::size_t i = 1; i < found.size(); i++) {
+            most = found[i][k] <= found[most][k] ? most : i;
+        }
+        worst.push_back(family.plane[most]);
+    }
+    return worst;
 }
 
 std::string point_name(const OperatingPoint &at)
@@ -151,15 +182,19 @@ std::vector<BrokenLoop> broken_at_voltages(const Eigen::MatrixXd &A, const Eigen
 
 Verdict examine(const LoopFamily &family, const Drive &drive)
 {
+    std::vector<OperatingPoint> points = family.points;
+    for (const OperatingPoint &at : worst_of_plane(family, drive)) {
+        points.push_back(at);
+    }
     Verdict v;
     for (const std::string &name : family.channels) {
         v.channels.push_back({name, {}, {}});
     }
-    std::vector<Found> found(family.points.size());
+    std::vector<Found> found(points.size());
     parallel_for(found.size(),
-                 [&](std::size_t i) { found[i] = examine_point(family, drive, family.points[i]); });
+                 [&](std::size_t i) { found[i] = examine_point(family, drive, points[i]); });
     for (std::size_t i = 0; i < found.size(); i++) {
-        keep_worst(v, found[i], family.points[i]);
+        keep_worst(v, found[i], points[i]);
     }
     if (!family.box_points.empty()) {
         const auto radius = [&](const Motor &motor) { return radius_of(family, motor); };

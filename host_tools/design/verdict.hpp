@@ -26,6 +26,10 @@ struct LoopFamily {
     /// several modes.
     std::function<std::vector<BrokenLoop>(const Motor &motor, const OperatingPoint &at)> loops;
     std::vector<OperatingPoint> points; ///< where stability and margin are judged
+    std::vector<OperatingPoint> plane;  ///< where stability is, and of which the worst margins are
+    /// The same for other motors, where it is not `loops`.
+    std::function<std::vector<BrokenLoop>(const Motor &motor, const OperatingPoint &at)>
+        loops_of_others;
     std::vector<OperatingPoint>
         box_points; ///< points where every other motor must be stable; none: other motors are not required
 };

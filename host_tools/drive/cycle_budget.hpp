@@ -6,11 +6,11 @@
 
 namespace sdre::cycle_budget {
 
-constexpr double noc_speed        = 5298.0;
-constexpr double noc              = 5634.0;
-constexpr double noc_h            = 9198.0;
-constexpr double conventional     = 7322.0;
-constexpr double position         = 1727.0;
+constexpr double noc_speed        = 5279.0;
+constexpr double noc              = 5633.0;
+constexpr double noc_h            = 9168.0;
+constexpr double conventional     = 7340.0;
+constexpr double position         = 1717.0;
 constexpr double background_share = 0.106667;
 
 } // namespace sdre::cycle_budget

@@ -35,7 +35,7 @@ Json point_json(const Design &d, const OperatingPoint &at)
             {"P", to_json(P)},
             {"G", to_json(G)},
             {"L_Ts", to_json(ts_s * gains.L)},
-            {"F", to_json(encoder_form_law(d.l, gains.Lambda, at))},
+            {"F", to_json(encoder_form_law(d.l, gains.Lambda, at).F)},
             {"A", to_json(sampled_model(d.l, d.l, gains, at, ts_s).A)}};
 }
 

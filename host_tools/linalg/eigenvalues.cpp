@@ -5,10 +5,10 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <optional>
 
 #include <Eigen/Eigenvalues>
 
-#include "common/errors.hpp"
 #include "linalg/hessenberg.hpp"
 #include "linalg/schur.hpp"
 
@@ -16,17 +16,18 @@ namespace sdre {
 namespace {
 
 // The sampled loops of all laws fit without an allocation; what is larger has time for long double.
-constexpr int small = 32;
+constexpr int small = 34;
 using Small         = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, small, small>;
 
-Eigen::VectorXcd eigenvalues_of(Small H)
+/// None when the iteration does not converge.
+std::optional<Eigen::VectorXcd> eigenvalues_of(Small H)
 {
     const Eigen::Index n = H.rows();
     reduce_to_hessenberg(H);
     Eigen::RealSchur<Small> schur(n);
     schur.computeFromHessenberg(H, H, false);
     if (schur.info() != Eigen::Success) {
-        throw DesignError("the eigenvalue iteration did not converge");
+        return std::nullopt;
     }
     const Small     &T = schur.matrixT();
     Eigen::VectorXcd values(n);
@@ -49,7 +50,9 @@ Eigen::VectorXcd eigenvalues_of(Small H)
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd &A)
 {
     if (A.rows() <= small) {
-        return eigenvalues_of(A);
+        if (const auto found = eigenvalues_of(A)) {
+            return *found;
+        }
     }
     return extended::eigenvalues(A.cast<long double>()).cast<std::complex<double>>();
 }

@@ -606,11 +606,11 @@ TEST(Design, FirmwareConstantsFollowTheirDefinitions)
     const current_ref_config_t  &ref    = shared.current_ref;
     near(ref.current_max_A, 4.0);
     near(of_encoder_form(shipped("ipmsm_390w").config).plausible.angle_rad, 0.45);
-    near(ref.voltage_share, 0.995);
+    near(ref.circle_ApVs, 0.995 / std::sqrt(3.0) / m.q_axis_inductance_H);
     near(shared.nosc.iq_speed_max_A, 1.0); // a quarter of 4 A
     near(ref.torque_share, 0.995);
-    near(ref.filter_per_period, 0.125);
-    near(ref.filter_1ps, 625.0);
+    near(ref.mtpa_per_period, 1.0 / 8.0);
+    near(ref.weakening_per_period, 1.0 / 64.0);
     near(ref.samples_1ps, 5000.0);
     near(ref.near_e_radps, 2.0 * 0.25 * 4.0 * d.nosc.gain[0](0, 1) / d.nosc.gain[0](0, 0));
     near(ref.l1_min, 0.5 * 1.5 * 4 * m.pm_flux_Wb / m.inertia_kgm2);

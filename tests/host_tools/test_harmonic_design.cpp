@@ -205,12 +205,12 @@ TEST(HarmonicDesign, MatricesAreTheFirmwaresOwnStep)
                 EXPECT_NEAR(found(i), expected(i), noise) << name << " " << i << ", " << j;
             }
             // The law on the shown state: EQ-CURRENT-REF-1 takes d_w' to v_q.
-            VectorXd law = sdre::encoder_form_law(d.l, d.nosc.gain[0], at) * found.segment(n, 7);
+            VectorXd law = sdre::encoder_form_law(d.l, d.nosc.gain[0], at).F * found.segment(n, 7);
             law(0) -= found(n + 7) / (d.l[6] * (d.l[1] + d.l[11] * at.id_A));
-            const VectorXd shown = o.F * A * e;
+            const VectorXd shown = o.law.F * A * e;
             for (Index i = 0; i < 2; i++) {
                 const double noise =
-                    2e-3 * std::abs(shown(i)) + 2e-5 * (o.F * A).row(i).cwiseAbs().dot(step);
+                    2e-3 * std::abs(shown(i)) + 2e-5 * (o.law.F * A).row(i).cwiseAbs().dot(step);
                 EXPECT_NEAR(law(i), shown(i), noise) << name << " law " << i << ", " << j;
             }
         }

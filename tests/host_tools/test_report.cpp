@@ -199,19 +199,16 @@ TEST(Report, RoundingNoiseIsZeroAsInTheTables)
     EXPECT_TRUE(contains(sdre::report_text(d), "\n                 0 ")) << sdre::report_text(d);
 }
 
-TEST(Report, LoopsAreThoseOfTheVerdictAndConsistOfTheirParts)
+TEST(Report, LoopsConsistOfTheirParts)
 {
     sdre::Drive drive = sdre::read_drive_file(support::shipped_drive("ipmsm_390w"));
     drive.position.reset(); // the points are those of the speed's law
     const sdre::Design d       = sdre::design_drive(drive);
     const Json         written = Json::parse(sdre::loops_json(d));
-    double at_top = 0.0; // the largest command's speed, where the verdict finds its worst
-    double top    = 0.0;
+    double     worst = 0.0; // with a d-current reference that stands still
     for (const Json &point : written.at("points")) {
         const Eigen::MatrixXd A     = support::matrix_of(point.at("A"));
-        const double          speed = point.at("speed_e_radps").number();
-        at_top                  = std::max(speed > top ? 0.0 : at_top, sdre::spectral_radius(A));
-        top                     = std::max(top, speed);
+        worst                   = std::max(worst, sdre::spectral_radius(A));
         const Eigen::MatrixXd P = support::matrix_of(point.at("P"));
         const Eigen::MatrixXd K = P * support::matrix_of(point.at("L_Ts"));
         Eigen::MatrixXd       controller =
@@ -220,7 +217,8 @@ TEST(Report, LoopsAreThoseOfTheVerdictAndConsistOfTheirParts)
         EXPECT_LT((A.block(4, 4, 6, 6) - controller.topLeftCorner(6, 6)).norm(), 1e-9 * A.norm());
         EXPECT_LT((A.block(4, 1, 6, 3) - K.topRows(6)).norm(), 1e-9 * A.norm());
     }
-    EXPECT_NEAR(at_top, d.certificate.loop->spectral_radius, 1e-7); // a speed in single precision
+    EXPECT_GT(worst, 0.8);
+    EXPECT_LT(worst, d.certificate.loop->spectral_radius); // its reference moves, slowly
     EXPECT_EQ(written.at("box_points").size(), 2U);
     EXPECT_THROW(sdre::loops_json(certified()), sdre::InputError); // speed form
 }

@@ -11,7 +11,9 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
+#include "common/random.hpp"
 #include "design/design.hpp"
+#include "design/id_reference.hpp"
 #include "linalg/expm.hpp"
 #include "linear.hpp"
 #include "shipped_drive.hpp"
@@ -41,6 +43,12 @@ sdre::LoopGains gains_at(const sdre::Design &d, double iq_A)
         L += std::pow(held, static_cast<double>(n)) * d.nodo.gain[n];
     }
     return {d.nosc.gain[0], L};
+}
+
+sdre::IdReference references_of(const sdre::Design &d)
+{
+    const auto &c = *static_cast<const law_noc_config_t *>(d.config.constants);
+    return sdre::id_reference(d, c.near_optimal.current_ref);
 }
 
 /// Largest distance of an eigenvalue of one set to the nearest one of the other set, both ways.
@@ -261,6 +269,100 @@ TEST(SampledModel, SmallLoadStepIsThatOfTheNonlinearLoop)
                 << omega << " period " << k;
         }
     }
+}
+
+/// EQ-CERT-6: in flux weakening id_ref moves with the estimates. With a reference that stands still the answer is another one.
+TEST(SampledModel, SmallLoadStepInFluxWeakeningMovesTheReference)
+{
+    constexpr double        step_Nm = 0.02;
+    const sdre::Design     &d       = board();
+    const sdre::IdReference id      = references_of(d);
+    for (const auto &[omega, load_Nm] : {std::pair{500.0, 2.0}, {744.0, 1.3}, {1000.0, 0.8}}) {
+        const StepResponse found = nonlinear_step(d, omega, load_Nm, step_Nm, 0.3);
+        EXPECT_FALSE(found.limited);
+        const sdre::SteadyState s = sdre::steady_state(id, d.l, d.l, omega, found.before.iq_A);
+        EXPECT_NEAR(s.at.id_A, found.before.id_A, 1.5e-2) << omega; // a held voltage turns
+        EXPECT_LT(s.at.id_A, sdre::mtpa_id_A(d.l, s.at.iq_A) - 0.1) << omega;
+
+        const sdre::LoopGains       gains  = gains_at(d, s.at.iq_A);
+        const sdre::MovingReference moving = sdre::moving_reference(id, d.l, gains.Lambda, s);
+        const double                ts     = sdre::control_period_s(d.drive);
+        const auto                  expected =
+            linear_step(sdre::sampled_model(d.l, d.l, gains, s.at, ts, &moving), step_Nm);
+        const auto   frozen = linear_step(sdre::sampled_model(d.l, d.l, gains, s.at, ts), step_Nm);
+        const double dip    = -*std::min_element(expected.begin(), expected.end());
+        double       other  = 0.0;
+        for (std::size_t k = 0; k < expected.size(); k++) {
+            EXPECT_NEAR(found.deviation_e_radps[k], expected[k], 0.08 * dip) << omega << " " << k;
+            other = std::max(other, std::abs(found.deviation_e_radps[k] - frozen[k]));
+        }
+        EXPECT_GT(other, 0.1 * dip) << omega;
+    }
+}
+
+/// Rated speed and nearly the largest torque, half the inertia: a filter of eight periods has a limit cycle in the simulation.
+TEST(SampledModel, LightMotorNeedsASlowReference)
+{
+    const sdre::Design &d     = board();
+    sdre::Motor         light = d.drive.motor;
+    light.inertia_kgm2 *= 0.5;
+    const sdre::ReducedParameters motor  = sdre::reduced_parameters(light);
+    const auto                    radius = [&](float share) {
+        sdre::IdReference id      = references_of(d);
+        id.c.weakening_per_period = share;
+        const double speed        = d.drive.motor.rated_speed_e_radps;
+        const auto   at           = sdre::loaded_point(id, d.l, speed, 1.0);
+        const auto   s      = sdre::steady_state(id, motor, d.l, speed, at.iq_A);
+        const auto   gains  = gains_at(d, s.at.iq_A);
+        const auto   moving = sdre::moving_reference(id, d.l, gains.Lambda, s);
+        return sdre::spectral_radius(sdre::sampled_model(motor, d.l, gains, s.at, 2e-4, &moving).A);
+    };
+    EXPECT_GT(radius(1.0F / 8.0F), 1.01);
+    EXPECT_LT(radius(references_of(d).c.weakening_per_period), 0.998);
+}
+
+TEST(SampledModel, TargetOfTheReferenceIsTheFirmwares)
+{
+    const sdre::Design   &d  = board();
+    sdre::IdReference     id = references_of(d);
+    current_ref_config_t &c  = id.c;
+    c.mtpa_per_period = c.weakening_per_period = 1.0F; // the target at once
+    sdre::Uniform random(7, 1);
+    int           weakened = 0;
+    for (int n = 0; n < 2000; n++) {
+        const auto draw = [&](double lo, double hi) {
+            return static_cast<float>(random.next(lo, hi));
+        };
+        nodo_t est{};
+        est.d_omega = draw(-7000.0, 7000.0);
+        est.d_q     = draw(-300.0, 300.0);
+        est.d_d     = draw(-300.0, 300.0);
+        const nodo_meas_t y{draw(-1500.0, 1500.0), draw(-4.0, 4.0), draw(-4.0, 1.0)};
+        speed_ref_t       w{};
+        w.omega_e_radps = y.omega_e_radps;
+        current_ref_t r{};
+        current_ref_reset(&r, &c);
+        r.i_A.q = draw(-3.3, 3.3);
+        sdre::IdInputs in;
+        in.d_omega         = static_cast<double>(est.d_omega);
+        in.d_q             = static_cast<double>(est.d_q);
+        in.d_d             = static_cast<double>(est.d_d);
+        in.omega_e_radps   = static_cast<double>(y.omega_e_radps);
+        in.iq_A            = static_cast<double>(y.iq_A);
+        in.id_A            = static_cast<double>(y.id_A);
+        in.iq_ref_A        = static_cast<double>(r.i_A.q);
+        in.iq_speed_A      = static_cast<double>(draw(-0.5, 0.5));
+        in.profile_e_radps = in.omega_e_radps;
+        const current_ref_input_t from{
+            &est, &y,  static_cast<float>(in.iq_speed_A), 295.0F, static_cast<float>(id.most_Aps),
+            0.0F, 0.0F};
+        r.iq_circle_A = 100.0F; // the limit of what is requested is not in the model
+        current_ref_update(&r, &c, &d.config.motor, &w, &from);
+        const double expected = sdre::id_target_A(id, d.l, in);
+        EXPECT_NEAR(static_cast<double>(r.i_A.d), expected, 2e-4) << n;
+        weakened += expected < sdre::mtpa_id_A(d.l, in.iq_ref_A) - 0.1 ? 1 : 0;
+    }
+    EXPECT_GT(weakened, 300);
 }
 
 TEST(SampledModel, AngleItselfDoesNotMatter)

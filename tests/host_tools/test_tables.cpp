@@ -87,10 +87,10 @@ void add_nosc(std::vector<float> &v, const nosc_gains_t &g)
 void add_near_optimal(std::vector<float> &v, const near_optimal_config_t &c)
 {
     const current_ref_config_t &r = c.current_ref;
-    v.insert(v.end(),
-             {r.current_max_A, r.iq_max_A, r.mtpa_A, r.mtpa_half_1pA, r.voltage_share,
-              r.torque_share, r.near_e_radps, r.id_rest_A, r.flux_A, r.l1_min, r.filter_per_period,
-              r.filter_1ps, r.samples_1ps, r.regen_max_W_norm, r.regen_start_V, r.regen_per_V});
+    v.insert(v.end(), {r.current_max_A, r.iq_max_A, r.mtpa_A, r.mtpa_half_1pA, r.circle_ApVs,
+                       r.torque_share, r.near_e_radps, r.id_rest_A, r.flux_A, r.l1_min,
+                       r.mtpa_per_period, r.weakening_per_period, r.chord_from, r.chord_slope,
+                       r.samples_1ps, r.regen_max_W_norm, r.regen_start_V, r.regen_per_V});
     add_nosc(v, c.nosc);
     if (c.position.near_rad > 0.0F) {
         const position_gains_t &p = c.position;

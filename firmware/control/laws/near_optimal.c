@@ -104,7 +104,7 @@ static void update_references(near_optimal_t *s, const near_optimal_config_t *c,
         .state       = &view->now,
         .iq_speed_A  = nosc_speed_current_A(near_optimal_gains(s, c), asking_e_radps(s, c, e_w)),
         .dc_link_V   = in->sample->dc_link_V,
-        .v_max_V     = in->sample->dc_link_V * BASE_1_SQRT3,
+        .v_max_Aps   = c->current_ref.circle_ApVs * in->sample->dc_link_V,
         .d_omega_dot = view->d_omega_dot,
         .derating    = in->derating};
     if (in->position != NULL) {

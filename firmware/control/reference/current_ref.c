@@ -4,9 +4,9 @@
 #include "check.h"
 #include "fpu.h"
 
-/* Chosen: below this share of the voltage circle by back-EMF, no current of the shipped motors
- * needs flux weakening. It also keeps every division by the speed away from zero. */
-#define FW_SPEED_SHARE 0.25f
+/* Chosen: share of the circle for the d current. The rest is for the noise of v_q. Without it the
+ * limit of iq cuts noise on one side, and the mean speed is low (docs/theory/references.md). */
+#define WEAKENING_SHARE 0.965f
 /* Chosen: least slew rate of the q current, as a share of the one at rest. */
 #define SLEW_SHARE_MIN 0.4f
 
@@ -57,14 +57,13 @@ static circle_t voltage_circle(const current_ref_config_t *c, const motor_reduce
                                const current_ref_input_t *in, float accel)
 {
     const float w      = in->state->omega_e_radps;
-    const float v_6    = m->l6 * c->voltage_share * in->v_max_V;
-    circle_t    circle = {.active = (FW_SPEED_SHARE * v_6) < (c->flux_A * fabsf(w))};
+    circle_t    circle = {.active = in->v_max_Aps < (c->flux_A * fabsf(w))};
 
     if (circle.active) {
         const float both   = fpu_inverse(w * accel); /* one division for both reciprocals */
         const float inv_w  = accel * both;
         circle.inv_w_accel = both;
-        circle.f_A         = v_6 * fabsf(inv_w);
+        circle.f_A         = in->v_max_Aps * fabsf(inv_w);
         circle.y_A         = m->l10 * ((m->l7 * in->state->id_A) - in->est->d_d) * inv_w;
         circle.x_A         = ((m->l4 * in->state->iq_A) - in->est->d_q) * inv_w;
     }
@@ -76,14 +75,15 @@ static float id_weakening_A(const current_ref_config_t *c, const motor_reduced_t
                             const circle_t *v, float iq_A)
 {
     const float dq = fabsf(iq_A - v->y_A);
-    const float f2 = v->f_A * v->f_A;
+    const float g  = WEAKENING_SHARE * v->f_A;
+    const float g2 = g * g;
     float       q_flux;
 
-    if (dq > v->f_A) {
-        const float u = 0.5f * root_beyond_k(c, 2.0f * f2);
-        q_flux        = -base_min(dq - v->f_A, u);
+    if (dq > (c->chord_from * g)) {
+        const float u = 0.5f * root_beyond_k(c, 2.0f * g2);
+        q_flux        = -base_min(c->chord_slope * (dq - g), u);
     } else {
-        q_flux = fpu_root(f2 - (dq * dq));
+        q_flux = fpu_root(g2 - (dq * dq));
     }
     return m->l9 * (q_flux - m->l5 - v->x_A);
 }
@@ -104,15 +104,20 @@ static bool is_below_mtpa(const current_ref_config_t *c, float id_A, float iq2)
     return square > iq2;
 }
 
-/* EQ-CURRENT-REF-5 and 8. */
-static float id_target_A(const current_ref_config_t *c, const motor_reduced_t *m, const circle_t *v,
-                         float iq_A, float iq_wanted_A)
+/* EQ-CURRENT-REF-5, 8 and 9. id_ref is the output of a first-order filter, so its derivative is
+ * exact. */
+static void move_id(current_ref_t *r, const current_ref_config_t *c, const motor_reduced_t *m,
+                    const circle_t *v, float iq_wanted_A, float max_A)
 {
-    const float iq2  = iq_A * iq_A;
-    const float fw_A = v->active ? id_weakening_A(c, m, v, iq_wanted_A) : 0.0f;
-    const float id_A = is_below_mtpa(c, fw_A, iq2) ? fw_A : id_mtpa_A(c, iq2);
+    const float iq2   = r->i_A.q * r->i_A.q;
+    const float fw_A  = v->active ? id_weakening_A(c, m, v, iq_wanted_A) : 0.0f;
+    const bool  fw    = is_below_mtpa(c, fw_A, iq2);
+    const float id_A  = fw ? fw_A : id_mtpa_A(c, iq2);
+    const float share = fw ? c->weakening_per_period : c->mtpa_per_period;
+    const float step  = share * (base_max(base_min(id_A, c->id_rest_A), -max_A) - r->i_A.d);
 
-    return base_clamp(id_A, -c->current_max_A, c->id_rest_A);
+    r->i_dot_Aps.d = c->samples_1ps * step;
+    r->i_A.d += step;
 }
 
 /* EQ-CURRENT-REF-7: the least iq w. */
@@ -131,27 +136,29 @@ static float limit_regeneration(const current_ref_config_t *c, const circle_t *v
 
 /* Limits iq by the current circle, EQ-CURRENT-REF-6 and 7. */
 static void limit_iq(current_ref_t *r, const current_ref_config_t *c, const motor_reduced_t *m,
-                     const circle_t *v, float accel, const current_ref_input_t *in)
+                     const circle_t *v, float accel, const current_ref_input_t *in, float allowed,
+                     float max_A)
 {
     const float w        = in->state->omega_e_radps;
-    const float allowed  = 1.0f - in->derating;
-    const float max_A    = allowed * c->current_max_A;
     const float room_A2  = (max_A * max_A) - (r->i_A.d * r->i_A.d);
     const float circle_A = fpu_root(room_A2);
     const float hi_A     = base_min(circle_A, allowed * c->iq_max_A);
-    r->iq_circle_A       = circle_A;
-    r->iq_lo_A           = -hi_A;
-    r->iq_hi_A           = hi_A;
+    float       from_A   = -hi_A;
+    float       to_A     = hi_A;
 
     if (v->active) {
         const float q_A    = m->l5 + (m->l10 * in->state->id_A) + v->x_A;
         const float half_A = fpu_root((v->f_A * v->f_A) - (q_A * q_A));
-        r->iq_lo_A         = base_clamp(v->y_A - half_A, -hi_A, 0.0f);
-        r->iq_hi_A         = base_clamp(v->y_A + half_A, 0.0f, hi_A);
+        from_A             = base_clamp(v->y_A - half_A, -hi_A, 0.0f);
+        to_A               = base_clamp(v->y_A + half_A, 0.0f, hi_A);
     }
-    /* iq_lo <= 0 <= iq_hi: only the limit against the speed regenerates. */
-    float *const back_A = (w > 0.0f) ? &r->iq_lo_A : &r->iq_hi_A;
-    *back_A             = limit_regeneration(c, v, w * accel, in->dc_link_V, *back_A);
+    /* from <= 0 <= to: only the limit against the speed regenerates. */
+    const bool  forwards = w > 0.0f;
+    const float back_A =
+        limit_regeneration(c, v, w * accel, in->dc_link_V, forwards ? from_A : to_A);
+    r->iq_circle_A = circle_A;
+    r->iq_lo_A     = forwards ? back_A : from_A;
+    r->iq_hi_A     = forwards ? to_A : back_A;
 }
 
 CTL_PART speed_ref_limits_t current_ref_speed_limits(const current_ref_t        *r,
@@ -163,7 +170,7 @@ CTL_PART speed_ref_limits_t current_ref_speed_limits(const current_ref_t        
     const float w        = in->state->omega_e_radps;
     const float accel    = c->torque_share * accel_per_A(c, m, r->i_A.d);
     const float unforced = in->est->d_omega - (m->l2 * w);
-    const float top      = m->l6 * c->voltage_share * in->v_max_V;
+    const float top      = in->v_max_Aps;
     /* The voltage available at both ends of the speed change. The EMF's help is not counted, as the
      * d axis needs some voltage. Simulation: 1.5 times the slew rate overshoots a step of 200 rad/s
      * by 1.5 rad/s and is not faster. */
@@ -194,16 +201,15 @@ CTL_PART void current_ref_update(current_ref_t *r, const current_ref_config_t *c
     const float    all_A = inv * (load + w->accel_wanted_e_radps2) + in->iq_speed_A;
     const float    hi_A  = r->iq_circle_A; /* for the previous id_ref */
 
-    /* id_ref is a first-order filter's output, so its derivative is exact. */
-    const float id_A      = id_target_A(c, m, &v, r->i_A.q, base_clamp(all_A, -hi_A, hi_A));
-    const float id_lo_A   = (in->derating - 1.0f) * c->current_max_A;
-    const float id_step_A = base_max(id_A, id_lo_A) - r->i_A.d;
-    r->i_dot_Aps.d        = c->filter_1ps * id_step_A;
-    r->i_A.d += c->filter_per_period * id_step_A;
+    const float allowed = 1.0f - in->derating;
+    const float max_A   = allowed * c->current_max_A;
 
-    limit_iq(r, c, m, &v, accel, in);
-    r->i_A.q       = base_clamp(iq_A, r->iq_lo_A, r->iq_hi_A);
-    r->i_dot_Aps.q = base_in_range(iq_A, r->iq_lo_A, r->iq_hi_A)
+    move_id(r, c, m, &v, base_clamp(all_A, -hi_A, hi_A), max_A);
+    limit_iq(r, c, m, &v, accel, in, allowed, max_A);
+    const float limited_A = base_clamp(iq_A, r->iq_lo_A, r->iq_hi_A);
+
+    r->i_A.q       = limited_A;
+    r->i_dot_Aps.q = base_within(iq_A - limited_A, 0.0f)
                          ? (inv * (w->omega_2dot_e_radps3 - in->d_omega_dot))
                          : 0.0f;
 }
@@ -213,11 +219,13 @@ CTL_PART bool current_ref_check(const current_ref_config_t *c)
     return check_positive(c->current_max_A) && check_positive(c->iq_max_A) &&
            (c->iq_max_A <= c->current_max_A) && check_positive(c->mtpa_A) &&
            base_in_range(2.0f * c->mtpa_A * c->mtpa_half_1pA, 0.999f, 1.001f) &&
-           base_in_range(c->voltage_share, 1.0e-3f, 1.0f) &&
-           base_in_range(c->torque_share, 1.0e-3f, 1.0f) && check_positive(c->near_e_radps) &&
+           check_positive(c->circle_ApVs) && base_in_range(c->torque_share, 1.0e-3f, 1.0f) &&
+           check_positive(c->near_e_radps) &&
            base_in_range(c->id_rest_A, -c->current_max_A, 0.0f) && check_positive(c->flux_A) &&
-           check_positive(c->l1_min) && base_in_range(c->filter_per_period, 1.0e-6f, 1.0f) &&
-           check_positive(c->filter_1ps) && check_positive(c->samples_1ps) &&
+           check_positive(c->l1_min) && base_in_range(c->mtpa_per_period, 1.0e-6f, 1.0f) &&
+           base_in_range(c->weakening_per_period, 1.0e-6f, 1.0f) &&
+           base_in_range(c->chord_from, 0.0f, 1.0f) && check_not_negative(c->chord_slope) &&
+           check_positive(c->samples_1ps) &&
            base_in_range(c->regen_max_W_norm, 0.0f, CHECK_LARGEST) &&
            check_positive(c->regen_start_V) && check_positive(c->regen_per_V);
 }

@@ -12,13 +12,14 @@
  *
  *     l6 |v| / |w| = |(y - iq, l5 + l10 id + x)|,  at most f = l6 v_max / |w|
  *
- *     id_fw   = l9 (sqrt(f^2 - (iq - y)^2) - l5 - x)                     EQ-CURRENT-REF-3, for (7b)
- *     beyond |iq - y| = f:  id_fw = -l9 (l5 + x + min(|iq - y| - f, u)),
- *     u = (sqrt(k^2 + 2 f^2) - k) / 2 at maximum torque per volt         EQ-CURRENT-REF-4
+ *     id_fw   = l9 (sqrt(g^2 - (iq - y)^2) - l5 - x),  g = 0.965 f       EQ-CURRENT-REF-3, for (7b)
+ *     beyond |iq - y| = c g:  id_fw = -l9 (l5 + x + min(s (|iq - y| - g), u)), s a chord's slope,
+ *     u = (sqrt(k^2 + 2 g^2) - k) / 2 at maximum torque per volt         EQ-CURRENT-REF-4
  *     id_ref  = min(id_mtpa, id_fw)                                      EQ-CURRENT-REF-5, for (7a)
  *     |iq_ref - y| <= sqrt(f^2 - (l5 + l10 id + x)^2)                    EQ-CURRENT-REF-6
  *     iq_ref w (l1 + l11 id) >= -P(v_dc) / (J / np^2)                    EQ-CURRENT-REF-7
  *     id_ref <= id_rest, for a motor with a very weak magnet             EQ-CURRENT-REF-8
+ *     id_ref goes there by a first-order filter, slower when it weakens  EQ-CURRENT-REF-9
  *
  * The current circle is a further limit. Reasons: docs/errata.md.
  */
@@ -36,18 +37,21 @@ typedef struct {
     float mtpa_A;        /**< k of EQ-CURRENT-REF-2 [A], > 0; large without saliency */
     float mtpa_half_1pA; /**< 1 / (2 k) */
     bool  mtpa_exact;    /**< false: the second-order term only */
-    float voltage_share; /**< usable share of the voltage circle for steady currents, (0, 1] */
-    float torque_share;  /**< share of the available torque for the speed reference, (0, 1] */
-    float near_e_radps;  /**< speed error that requests the full current [rad/s], > 0 */
-    float id_rest_A;     /**< d current without load [A], <= 0; 0 with a magnet of any strength */
-    float flux_A;        /**< flux / Lq at which weakening begins [A], >= l5, > 0 */
-    float l1_min;        /**< smallest l1 + l11 id [rad/s^2/A], > 0 */
-    float filter_per_period; /**< Ts / time constant of the id filter, (0, 1] */
-    float filter_1ps;        /**< 1 / that time constant [1/s], > 0 */
-    float samples_1ps;       /**< 1 / Ts, for the speed reference [1/s], > 0 */
-    float regen_max_W_norm;  /**< np^2 / J times the largest power fed back to the dc link, >= 0 */
-    float regen_start_V;     /**< dc link at which that power begins to fall, > 0 */
-    float regen_per_V;       /**< its slope [1/V], > 0; no feedback above start + 1 / slope */
+    float
+        circle_ApVs; /**< l6 times the voltage for steady currents, per volt of the dc link, > 0 */
+    float torque_share; /**< share of the available torque for the speed reference, (0, 1] */
+    float near_e_radps; /**< speed error that requests the full current [rad/s], > 0 */
+    float id_rest_A;    /**< d current without load [A], <= 0; 0 with a magnet of any strength */
+    float flux_A;       /**< flux / Lq at which weakening begins at four times the speed [A], > 0 */
+    float l1_min;       /**< smallest l1 + l11 id [rad/s^2/A], > 0 */
+    float mtpa_per_period; /**< Ts / time constant of the id filter on the MTPA curve, (0, 1] */
+    float weakening_per_period; /**< the same where id weakens the flux, (0, 1] */
+    float chord_from; /**< share of the circle's q current from which a chord replaces it, 0 .. 1 */
+    float chord_slope;      /**< of that chord, sqrt((1 + chord_from) / (1 - chord_from)), >= 0 */
+    float samples_1ps;      /**< 1 / Ts [1/s], > 0 */
+    float regen_max_W_norm; /**< np^2 / J times the largest power fed back to the dc link, >= 0 */
+    float regen_start_V;    /**< dc link at which that power begins to fall, > 0 */
+    float regen_per_V;      /**< its slope [1/V], > 0; no feedback above start + 1 / slope */
 } current_ref_config_t;
 
 typedef struct {
@@ -64,7 +68,7 @@ typedef struct {
     const nodo_meas_t *state;       /**< speed and currents */
     float              iq_speed_A;  /**< additional q current requested by the speed feedback */
     float              dc_link_V;   /**< measured dc link */
-    float              v_max_V;     /**< radius of the voltage circle, > 0 */
+    float              v_max_Aps;   /**< l6 times the voltage for steady currents, > 0 */
     float              d_omega_dot; /**< d_w' [rad/s^3]; 0 when nothing is known of it */
     float              derating;    /**< unusable share of current_max_A, 0 .. 1 */
 } current_ref_input_t;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "design/certificate.hpp"
+#include "design/machine_points.hpp"
 #include "design/sampled_model.hpp"
 #include "design/sampled_observer.hpp"
 #include "design/trip_levels.hpp"
@@ -17,7 +18,14 @@ namespace {
 
 // Chosen: eight periods. Long against the limit cycle that a shorter one lets through with wrong
 // parameters, short against the speed loop (docs/errata.md, d/dt of the current references).
-constexpr double reference_filter_periods = 8.0;
+constexpr double mtpa_filter_periods = 8.0;
+// Chosen: a motor with half the inertia is then stable in a speed run, and v_d is as noisy as below flux weakening. With 48 that
+// motor is at the edge of stability, with 32 unstable. A load step takes 8 ms more than with 8.
+constexpr double weakening_filter_periods = 64.0;
+// Chosen: see chord_slope(). More would need a slower filter, less takes more d current than the circle.
+constexpr double most_slope = 3.0;
+// Chosen: with 1 the chord would be the whole circle.
+constexpr double least_slope = 1.05;
 // Chosen: half the nominal l1, reached at e_id = l1 / (2 |l11|).
 constexpr double smallest_l1_ratio = 0.5;
 // Chosen: twice the torque of the motor, so that a motor with half the nominal inertia does not
@@ -39,9 +47,12 @@ constexpr double regen_end_ratio   = 1.25;
 constexpr double largest_mtpa_A = 1e6;
 // A motor without a magnet has k = 0; this share of the limit leaves the curve where it is.
 constexpr double least_mtpa_ratio = 1e-3;
+// Chosen: below this share of the voltage circle by back-EMF, no current of the shipped motors needs flux weakening. It also keeps
+// every division by the speed away from zero.
+constexpr double weakening_speed_share = 0.25;
 // Chosen: flux weakening is active from nine tenths of the speed at which the largest current needs
-// the whole circle. current_ref.c starts it at a quarter of the circle with the magnet's flux.
-constexpr double weakening_current_share = 0.25 / 0.9;
+// the whole circle.
+constexpr double weakening_current_share = weakening_speed_share / 0.9;
 // Chosen: 0.5 % of the voltage circle, and what the hexagon holds outside it, stay free for transients.
 constexpr double voltage_share = 0.995;
 
@@ -93,6 +104,14 @@ double weakening_flux_A(const Design &d, double k)
     return std::max(d.l[5], weakening_current_share * std::hypot(iq_A, d_A));
 }
 
+/// Slope of the chord of EQ-CURRENT-REF-4 for which id_ref changes by at most most_slope times as much as the iq that it makes
+/// room for. The resistive drop of id takes voltage from iq and steepens the circle.
+double chord_slope(const Design &d)
+{
+    const double base = machine_points(d.drive).limit.speed_e_radps;
+    return std::max(most_slope / (1.0 + most_slope * d.l[7] / base), least_slope);
+}
+
 current_ref_config_t current_ref_constants(const Design &d, bool exact)
 {
     const Motor &m      = d.drive.motor;
@@ -103,23 +122,26 @@ current_ref_config_t current_ref_constants(const Design &d, bool exact)
     const double full_W = 1.5 * v_dc / std::sqrt(3.0) * m.max_current_A;
 
     current_ref_config_t c{};
-    c.current_max_A     = single(m.max_current_A);
-    c.iq_max_A          = single(largest_iq_A(m, k, exact));
-    c.mtpa_A            = single(std::max(k, least_mtpa_ratio * m.max_current_A));
-    c.mtpa_half_1pA     = single(0.5 / std::max(k, least_mtpa_ratio * m.max_current_A));
-    c.mtpa_exact        = exact;
-    c.voltage_share     = single(voltage_share);
-    c.torque_share      = single(torque_share);
-    c.near_e_radps      = single(near_e_radps(d));
-    c.id_rest_A         = single(d.l[0]);
-    c.flux_A            = single(weakening_flux_A(d, k));
-    c.l1_min            = single(smallest_l1_ratio * at_rest(d.l)[1]);
-    c.filter_per_period = single(1.0 / reference_filter_periods);
-    c.filter_1ps        = single(1.0 / (reference_filter_periods * ts));
-    c.samples_1ps       = single(1.0 / ts);
-    c.regen_max_W_norm  = single(np * np / m.inertia_kgm2 * full_W); // EQ-CURRENT-REF-7
-    c.regen_start_V     = single(regen_start_ratio * v_dc);
-    c.regen_per_V       = single(1.0 / ((regen_end_ratio - regen_start_ratio) * v_dc));
+    c.current_max_A        = single(m.max_current_A);
+    c.iq_max_A             = single(largest_iq_A(m, k, exact));
+    c.mtpa_A               = single(std::max(k, least_mtpa_ratio * m.max_current_A));
+    c.mtpa_half_1pA        = single(0.5 / std::max(k, least_mtpa_ratio * m.max_current_A));
+    c.mtpa_exact           = exact;
+    c.circle_ApVs          = single(voltage_share * d.l[6] / std::sqrt(3.0));
+    c.torque_share         = single(torque_share);
+    c.near_e_radps         = single(near_e_radps(d));
+    c.id_rest_A            = single(d.l[0]);
+    c.flux_A               = single(weakening_flux_A(d, k) / weakening_speed_share);
+    c.l1_min               = single(smallest_l1_ratio * at_rest(d.l)[1]);
+    c.mtpa_per_period      = single(1.0 / mtpa_filter_periods);
+    c.weakening_per_period = single(1.0 / weakening_filter_periods);
+    const double slope     = chord_slope(d);
+    c.chord_from           = single((slope * slope - 1.0) / (slope * slope + 1.0));
+    c.chord_slope          = single(slope);
+    c.samples_1ps          = single(1.0 / ts);
+    c.regen_max_W_norm     = single(np * np / m.inertia_kgm2 * full_W); // EQ-CURRENT-REF-7
+    c.regen_start_V        = single(regen_start_ratio * v_dc);
+    c.regen_per_V          = single(1.0 / ((regen_end_ratio - regen_start_ratio) * v_dc));
     return c;
 }
 
@@ -150,6 +172,18 @@ double largest_iq_A(const Motor &motor, double k, bool exact)
         return std::sqrt(i2 - id_A * id_A);
     }
     return std::sqrt(2.0 * i2 / (1.0 + std::sqrt(1.0 + i2 / (k * k))));
+}
+
+std::vector<OperatingPoint> loaded_points(const Design &d, const IdReference &r)
+{
+    const double                top = static_cast<double>(d.config.speed_max_e_radps);
+    std::vector<OperatingPoint> points;
+    for (const double speed : {0.0, d.drive.motor.rated_speed_e_radps, top}) {
+        for (const double share : {0.0, 1.0, -1.0}) {
+            points.push_back(loaded_point(r, d.l, speed, share));
+        }
+    }
+    return points;
 }
 
 void solve_near_optimal(Design &d)

@@ -4,6 +4,7 @@
 
 #include "common/c_text.hpp"
 #include "design/certificate.hpp"
+#include "design/id_reference.hpp"
 #include "design/laws/laws.hpp"
 #include "design/position.hpp"
 #include "linalg/linalg_checks.hpp"
@@ -44,30 +45,49 @@ TripMargin disturbance_margin(const Design &design, const encoder_form_limits_t 
 /// series is held, as in the firmware.
 LoopGains encoder_form_gains(const Design &design, double iq_A, const Eigen::MatrixXd &Lambda);
 
-/// The verdict of a law that observes the angle. `model_at(design, motor, point, Lambda)` has the A, B_voltage, C_voltage and B_noise of
-/// EQ-CERT-3, of all its feedback_gains(); `angle_weight` as for disturbance_margin().
+/// The points of verdict_points() with the currents that the references settle at.
+std::vector<OperatingPoint> loaded_points(const Design &design, const IdReference &r);
+
+/// The verdict of a law that observes the angle. `model_at(design, motor, point, Lambda, reference)` has the A, B_voltage, C_voltage
+/// and B_noise of EQ-CERT-3 and 6, of all its feedback_gains(); `angle_weight` as for disturbance_margin(). Other motors are judged with
+/// a d-current reference that stands still.
 template <typename ModelAt>
 void certify_whole(Design &d, const encoder_form_limits_t &limits, double angle_weight,
-                   const ModelAt &model_at)
+                   const current_ref_config_t &references, const ModelAt &model_at)
 {
+    const IdReference id          = id_reference(d, references);
+    const auto        at_voltages = [&](const auto &m, std::vector<BrokenLoop> &all) {
+        const auto two =
+            broken_at_voltages(m.A, m.B_voltage, m.C_voltage, control_period_s(d.drive));
+        all.insert(all.end(), two.begin(), two.end());
+    };
     LoopFamily f;
     f.channels   = {"q axis", "d axis"};
-    f.points     = verdict_points(d);
+    f.points     = loaded_points(d, id);
     f.box_points = verdict_box_points(d);
-    f.loops      = [&](const Motor &motor, const OperatingPoint &at) {
+    if (d.precision == Precision::extended) { // tables that are written
+        f.plane = plane_points(id, d.l, static_cast<double>(d.config.speed_max_e_radps),
+                               plane_points_per_side);
+    }
+    f.loops = [&](const Motor &, const OperatingPoint &at) {
         std::vector<BrokenLoop> all;
+        const SteadyState       s = steady_state(id, d.l, d.l, at.omega_e_radps, at.iq_A);
         for (const Eigen::MatrixXd &Lambda : feedback_gains(d)) {
-            const auto m = model_at(d, motor, at, Lambda);
-            const auto two =
-                broken_at_voltages(m.A, m.B_voltage, m.C_voltage, control_period_s(d.drive));
-            all.insert(all.end(), two.begin(), two.end());
+            const MovingReference moving = moving_reference(id, d.l, Lambda, s);
+            at_voltages(model_at(d, d.l, s.at, Lambda, &moving), all);
         }
         return all;
     };
-    const auto m =
-        model_at(d, d.drive.motor,
-                 OperatingPoint{d.drive.motor.rated_speed_e_radps, 0.0, mtpa_id_A(d.l, 0.0)},
-                 d.nosc.gain[0]);
+    f.loops_of_others = [&](const Motor &motor, const OperatingPoint &at) {
+        std::vector<BrokenLoop> all;
+        for (const Eigen::MatrixXd &Lambda : feedback_gains(d)) {
+            at_voltages(model_at(d, reduced_parameters(motor), at, Lambda, nullptr), all);
+        }
+        return all;
+    };
+    const auto m = model_at(
+        d, d.l, OperatingPoint{d.drive.motor.rated_speed_e_radps, 0.0, mtpa_id_A(d.l, 0.0)},
+        d.nosc.gain[0], nullptr);
     certify_loop(d, f, {disturbance_margin(d, limits, m.A, m.B_noise, angle_weight)});
 }
 

@@ -33,11 +33,11 @@ void certify_currents(Design &d, const CurrentObserver &o)
     }
 }
 
-SampledModel model_at(const Design &d, const Motor &motor, const OperatingPoint &at,
-                      const Eigen::MatrixXd &Lambda)
+SampledModel model_at(const Design &d, const ReducedParameters &motor, const OperatingPoint &at,
+                      const Eigen::MatrixXd &Lambda, const MovingReference *moving)
 {
-    return sampled_model(reduced_parameters(motor), d.l, encoder_form_gains(d, at.iq_A, Lambda), at,
-                         control_period_s(d.drive));
+    return sampled_model(motor, d.l, encoder_form_gains(d, at.iq_A, Lambda), at,
+                         control_period_s(d.drive), moving);
 }
 
 void solve(Design &d)
@@ -55,7 +55,7 @@ void solve(Design &d)
     const CurrentObserver currents = design_nodo_current(d.l, d.drive, trip_speed_e_radps(d.drive));
     c.currents                     = currents.gains;
     certify_currents(d, currents);
-    certify_whole(d, c.plausible, d.drive.nodo.T[2], model_at);
+    certify_whole(d, c.plausible, d.drive.nodo.T[2], c.near_optimal.current_ref, model_at);
     keep_constants(d, c);
 }
 

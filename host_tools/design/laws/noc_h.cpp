@@ -59,11 +59,11 @@ void sweep(Design &d)
                                   disturbance_frequencies(d.drive));
 }
 
-HarmonicSampled model_at(const Design &d, const Motor &motor, const OperatingPoint &at,
-                         const Eigen::MatrixXd &Lambda)
+HarmonicSampled model_at(const Design &d, const ReducedParameters &motor, const OperatingPoint &at,
+                         const Eigen::MatrixXd &Lambda, const MovingReference *moving)
 {
-    return sampled_harmonic_model(reduced_parameters(motor), d.l, *d.harmonics->table, Lambda, at,
-                                  control_period_s(d.drive));
+    return sampled_harmonic_model(motor, d.l, *d.harmonics->table, Lambda, at,
+                                  control_period_s(d.drive), moving);
 }
 
 void certify_harmonics(Design &d)
@@ -108,7 +108,8 @@ void solve(Design &d)
     c.rare              = sample_gains(d);
     c.gate              = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
     c.plausible.d_omega = believed_d_omega(c.plausible, c.rare, control_period_s(d.drive));
-    certify_whole(d, c.plausible, angle_weight(d.drive, m.rated_speed_e_radps), model_at);
+    certify_whole(d, c.plausible, angle_weight(d.drive, m.rated_speed_e_radps),
+                  c.near_optimal.current_ref, model_at);
     keep_constants(d, c);
 }
 

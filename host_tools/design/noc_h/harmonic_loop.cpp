@@ -92,8 +92,8 @@ MatrixXd predicted(const nodo_harmonic_gains_t &t, const MatrixXd &H, const Matr
 }
 
 /// The law on what it is shown: torques of the instant, voltages and d_w' of the middle of the next period.
-MatrixXd shown_law(const ReducedParameters &l, const nodo_harmonic_gains_t &t, const MatrixXd &H,
-                   const MatrixXd &Lambda, const OperatingPoint &at)
+LawRows shown_law(const ReducedParameters &l, const nodo_harmonic_gains_t &t, const MatrixXd &H,
+                  const MatrixXd &Lambda, const OperatingPoint &at, const MovingReference *moving)
 {
     const Index n     = H.rows();
     MatrixXd    shown = collect(t, MatrixXd::Identity(n, n), true, false);
@@ -106,9 +106,12 @@ MatrixXd shown_law(const ReducedParameters &l, const nodo_harmonic_gains_t &t, c
                 static_cast<double>(t.pair[i].order) * at.omega_e_radps * H.row(first_row(i) + 1);
         }
     }
-    MatrixXd F = encoder_form_law(l, Lambda, at) * shown;
-    F.row(0) -= d_dot / (l[6] * (l[1] + l[11] * at.id_A)); // EQ-CURRENT-REF-1 in EQ-FEEDFORWARD-1
-    return F;
+    LawRows law = encoder_form_law(l, Lambda, at, moving);
+    law.F       = MatrixXd(law.F * shown);
+    law.B_ref   = MatrixXd(law.B_ref * shown);
+    law.F.row(0) -=
+        d_dot / (l[6] * (l[1] + l[11] * at.id_A)); // EQ-CURRENT-REF-1 in EQ-FEEDFORWARD-1
+    return law;
 }
 
 /// As in sampled_model(), theta - theta^ replaces theta. A position's law alone reads theta^;
@@ -160,37 +163,44 @@ MatrixXd harmonic_gain(const nodo_harmonic_gains_t &t, double w, double iq_A)
 
 HarmonicObserver linear_harmonic_observer(const ReducedParameters     &l,
                                           const nodo_harmonic_gains_t &t, const MatrixXd &Lambda,
-                                          const OperatingPoint &at, double ts)
+                                          const OperatingPoint &at, double ts,
+                                          const MovingReference *moving)
 {
     const MatrixXd          H     = half_turn(t, at.omega_e_radps, ts);
     const PredictedObserver plain = predicted_encoder_form(l, at, ts);
     MatrixXd                G     = MatrixXd::Zero(H.rows(), 2);
     G.topRows(7)                  = plain.G;
     return {measured(t), predicted(t, H, plain.P, at.omega_e_radps, ts), G,
-            shown_law(l, t, H, Lambda, at)};
+            shown_law(l, t, H, Lambda, at, moving)};
 }
 
 HarmonicSampled sampled_harmonic_model(const ReducedParameters &motor, const ReducedParameters &l,
                                        const nodo_harmonic_gains_t &t, const MatrixXd &Lambda,
-                                       const OperatingPoint &at, double ts)
+                                       const OperatingPoint &at, double ts,
+                                       const MovingReference *moving)
 {
-    const HarmonicObserver o    = linear_harmonic_observer(l, t, Lambda, at, ts);
-    const MatrixXd         K    = harmonic_gain(t, at.omega_e_radps, at.iq_A);
-    const Held<MatrixXd>   held = held_motor(motor, at, ts);
-    const Index            n    = o.P.rows();
-    const MatrixXd         PK   = o.P * K;
+    const HarmonicObserver o     = linear_harmonic_observer(l, t, Lambda, at, ts, moving);
+    const MatrixXd         K     = harmonic_gain(t, at.omega_e_radps, at.iq_A);
+    const Held<MatrixXd>   held  = held_motor(motor, at, ts);
+    const Index            n     = o.P.rows();
+    const Index            n_ref = o.law.A_ref.rows();
+    const Index            all   = n_motor + n + n_ref;
+    const MatrixXd         PK    = o.P * K;
 
-    MatrixXd A                                  = MatrixXd::Zero(n + n_motor, n + n_motor);
-    A.topLeftCorner(n_motor, n_motor)           = held.Phi;
-    A.topRightCorner(n_motor, n)                = held.Gamma.leftCols(2) * o.F;
-    A.bottomLeftCorner(n, n_motor).rightCols(3) = PK; // y = [iq id theta]
-    A.bottomRightCorner(n, n)                   = o.P - PK * o.C + o.G * o.F;
+    MatrixXd A                              = MatrixXd::Zero(all, all);
+    A.topLeftCorner(n_motor, n_motor)       = held.Phi;
+    A.block(0, n_motor, n_motor, n)         = held.Gamma.leftCols(2) * o.law.F;
+    A.topRightCorner(n_motor, n_ref)        = held.Gamma.leftCols(2) * o.law.F_ref;
+    A.block(n_motor, 1, n, 3)               = PK; // y = [iq id theta]
+    A.block(n_motor, n_motor, n, n)         = o.P - PK * o.C + o.G * o.law.F;
+    A.block(n_motor, n_motor + n, n, n_ref) = o.G * o.law.F_ref;
+    A.block(n_motor + n, n_motor, n_ref, n) = o.law.B_ref;
+    A.bottomRightCorner(n_ref, n_ref)       = o.law.A_ref;
 
-    HarmonicSampled m{A, MatrixXd::Zero(n + n_motor, 2), MatrixXd::Zero(2, n + n_motor),
-                      MatrixXd::Zero(n + n_motor, 3)};
+    HarmonicSampled m{A, MatrixXd::Zero(all, 2), MatrixXd(2, all), MatrixXd::Zero(all, 3)};
     m.B_voltage.topRows(n_motor) = held.Gamma.leftCols(2);
-    m.C_voltage.rightCols(n)     = o.F;
-    m.B_noise.bottomRows(n)      = PK;
+    m.C_voltage << MatrixXd::Zero(2, n_motor), o.law.F, o.law.F_ref;
+    m.B_noise.middleRows(n_motor, n) = PK;
     return in_angle_error(m, K.row(slope).isZero(0.0), has_angle(Lambda));
 }
 

@@ -20,23 +20,23 @@ struct HarmonicSampled {
     Eigen::MatrixXd B_noise; ///< per ampere of iq, id and radian of angle error in the measurement
 };
 
-/// The observer's own half: x^-(k+1) = P (x^- + K (y - C x^-)) + G v, v = F x^- (deviations), rows as the firmware's.
+/// The observer's own half: x^-(k+1) = P (x^- + K (y - C x^-)) + G v, v by the law (deviations), rows as the firmware's.
 struct HarmonicObserver {
-    Eigen::MatrixXd C; ///< 3 x n
-    Eigen::MatrixXd P; ///< n x n
-    Eigen::MatrixXd G; ///< n x 2
-    Eigen::MatrixXd F; ///< 2 x n, the law on what nodo_harmonic_view_t shows it
+    Eigen::MatrixXd C;   ///< 3 x n
+    Eigen::MatrixXd P;   ///< n x n
+    Eigen::MatrixXd G;   ///< n x 2
+    LawRows         law; ///< on what nodo_harmonic_view_t shows it
 };
 
 HarmonicObserver linear_harmonic_observer(const ReducedParameters     &l,
                                           const nodo_harmonic_gains_t &table,
                                           const Eigen::MatrixXd &Lambda, const OperatingPoint &at,
-                                          double ts_s);
+                                          double ts_s, const MovingReference *moving = nullptr);
 
 /// @param motor what the motor is, @param l what the controller believes.
 HarmonicSampled sampled_harmonic_model(const ReducedParameters &motor, const ReducedParameters &l,
                                        const nodo_harmonic_gains_t &table,
                                        const Eigen::MatrixXd &Lambda, const OperatingPoint &at,
-                                       double ts_s);
+                                       double ts_s, const MovingReference *moving = nullptr);
 
 } // namespace sdre

@@ -49,12 +49,14 @@ static const entry_t entries[] = {
     {&constants.near_optimal.current_ref.iq_max_A, POSITIVE},
     {&constants.near_optimal.current_ref.mtpa_A, POSITIVE},
     {&constants.near_optimal.current_ref.mtpa_half_1pA, POSITIVE},
-    {&constants.near_optimal.current_ref.voltage_share, POSITIVE},
+    {&constants.near_optimal.current_ref.circle_ApVs, POSITIVE},
     {&constants.near_optimal.current_ref.torque_share, POSITIVE},
     {&constants.near_optimal.current_ref.near_e_radps, POSITIVE},
     {&constants.near_optimal.current_ref.l1_min, POSITIVE},
-    {&constants.near_optimal.current_ref.filter_per_period, POSITIVE},
-    {&constants.near_optimal.current_ref.filter_1ps, POSITIVE},
+    {&constants.near_optimal.current_ref.mtpa_per_period, POSITIVE},
+    {&constants.near_optimal.current_ref.weakening_per_period, POSITIVE},
+    {&constants.near_optimal.current_ref.chord_from, ZERO_OR_MORE},
+    {&constants.near_optimal.current_ref.chord_slope, ZERO_OR_MORE},
     {&constants.near_optimal.current_ref.samples_1ps, POSITIVE},
     {&constants.near_optimal.current_ref.regen_max_W_norm, ZERO_OR_MORE},
     {&constants.near_optimal.current_ref.regen_start_V, POSITIVE},
@@ -243,9 +245,12 @@ static void test_inverses_are_those_of_their_constants(void)
 
 static void test_shares_end_at_one(void)
 {
-    assert_bounds(&constants.near_optimal.current_ref.voltage_share, 1.0e-3f, 1.0f);
     assert_bounds(&constants.near_optimal.current_ref.torque_share, 1.0e-3f, 1.0f);
-    assert_bounds(&constants.near_optimal.current_ref.filter_per_period, 1.0e-6f, 1.0f);
+    assert_bounds(&constants.near_optimal.current_ref.mtpa_per_period, 1.0e-6f, 1.0f);
+    assert_bounds(&constants.near_optimal.current_ref.weakening_per_period, 1.0e-6f, 1.0f);
+    TEST_ASSERT_EQUAL_INT(CTL_OK, check_with(&constants.near_optimal.current_ref.chord_from, 1.0f));
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, check_with(&constants.near_optimal.current_ref.chord_from,
+                                                     nextafterf(1.0f, INFINITY)));
 }
 
 static void test_implausible_angle_ends_at_half_a_turn(void)

@@ -739,13 +739,13 @@ static void assert_references_follow(void (*draw)(void))
 
         TEST_ASSERT_TRUE(tick().gate_enable);
         const float               e_w = drive.answer.now.omega_e_radps - speed.omega_e_radps;
-        const current_ref_input_t in  = {.est   = &speed_form->observer,
-                                         .state = &drive.answer.now,
-                                         .iq_speed_A =
-                                             nosc_speed_current_A(&constants.near_optimal.nosc, e_w),
-                                         .dc_link_V = sample.dc_link_V,
-                                         .v_max_V   = sample.dc_link_V * BASE_1_SQRT3};
-        const speed_ref_limits_t  limits =
+        const current_ref_input_t in  = {
+             .est        = &speed_form->observer,
+             .state      = &drive.answer.now,
+             .iq_speed_A = nosc_speed_current_A(&constants.near_optimal.nosc, e_w),
+             .dc_link_V  = sample.dc_link_V,
+             .v_max_Aps  = constants.near_optimal.current_ref.circle_ApVs * sample.dc_link_V};
+        const speed_ref_limits_t limits =
             current_ref_speed_limits(&current, &constants.near_optimal.current_ref, &config.motor,
                                      &in, command.omega_e_radps);
         speed_ref_update(&speed, &limits, command.omega_e_radps, drive.answer.now.omega_e_radps,

@@ -87,8 +87,9 @@ static void test_constants_of_the_references_agree_with_the_motor(void)
 
     assert_constant(0.193 / (2.0 * (0.11391 - 0.07498)), c->mtpa_A);
     assert_constant(0.5 / (double)c->mtpa_A, c->mtpa_half_1pA);
-    assert_constant((double)drive->ts_s * (double)c->filter_1ps, c->filter_per_period);
     assert_constant(1.0 / (double)drive->ts_s, c->samples_1ps);
+    assert_constant(sqrt((1.0 + (double)c->chord_from) / (1.0 - (double)c->chord_from)),
+                    c->chord_slope);
     assert_constant(0.5 * (double)drive->motor.l1, c->l1_min);
     assert_constant(2.0e-4, drive->ts_s);
 }

@@ -101,11 +101,12 @@ static void test_references_are_made_of_the_view(void)
         current_ref_t current = state.current_ref;
         const float   w       = view.now.omega_e_radps;
         const float   asked_A = nosc_speed_current_A(&config->nosc, w - speed.omega_e_radps);
-        const current_ref_input_t from   = {.est         = &est,
-                                            .state       = &view.now,
-                                            .iq_speed_A  = asked_A,
-                                            .dc_link_V   = sample.dc_link_V,
-                                            .v_max_V     = sample.dc_link_V * BASE_1_SQRT3,
+        const current_ref_input_t from   = {.est        = &est,
+                                            .state      = &view.now,
+                                            .iq_speed_A = asked_A,
+                                            .dc_link_V  = sample.dc_link_V,
+                                            .v_max_Aps =
+                                                config->current_ref.circle_ApVs * sample.dc_link_V,
                                             .d_omega_dot = view.d_omega_dot};
         const speed_ref_limits_t  limits = current_ref_speed_limits(
              &current, &config->current_ref, &drive.motor, &from, in.command_e_radps);

@@ -31,6 +31,18 @@ static float                dc_link_V;
 static float                d_omega_dot;
 static current_ref_t        r;
 
+static void use_filter(float per_period)
+{
+    config.mtpa_per_period      = per_period;
+    config.weakening_per_period = per_period;
+}
+
+/* l6 times the voltage for steady currents. */
+static float motor_Aps(void)
+{
+    return motor.l6 * (0.995f * V_MAX_V);
+}
+
 static void use_motor(motor_reduced_t m)
 {
     const float saliency = fmaxf(1.0f - m.l10, 1.0e-9f);
@@ -45,11 +57,10 @@ void setUp(void)
     const nodo_meas_t rest    = {0.0f, 0.0f, 0.0f};
     const nodo_t      nothing = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
 
-    random_state.state       = 19u;
-    config                   = law_constants_near_optimal(&speed_tables_drive)->current_ref;
-    config.filter_per_period = 1.0f; /* id_ref is its target at once */
-    config.filter_1ps        = (float)(1.0 / TS_s);
-    config.regen_max_W_norm  = 1.0e12f; /* regeneration has its own tests */
+    random_state.state = 19u;
+    config             = law_constants_near_optimal(&speed_tables_drive)->current_ref;
+    use_filter(1.0f);                  /* id_ref is its target at once */
+    config.regen_max_W_norm = 1.0e12f; /* regeneration has its own tests */
     use_motor(speed_tables_drive.motor);
     dc_link_V   = 295.0f;
     d_omega_dot = 0.0f;
@@ -75,7 +86,7 @@ static void update(void)
                                     .state       = &y,
                                     .iq_speed_A  = iq_speed_A,
                                     .dc_link_V   = dc_link_V,
-                                    .v_max_V     = V_MAX_V,
+                                    .v_max_Aps   = motor_Aps(),
                                     .d_omega_dot = d_omega_dot};
     /* The tests set i_A.d themselves. */
     r.iq_circle_A = (float)circle_A(&r);
@@ -108,16 +119,22 @@ static double voltage_V(double id_A, double iq_A)
 
 static double usable_V(void)
 {
-    return (double)config.voltage_share * (double)V_MAX_V;
+    return (double)motor_Aps() / (double)motor.l6;
 }
 
-/* Bisects between a current that fits the voltage and one that does not. */
-static double search(bool along_d, double other_A, double fits_A, double fails_A)
+/* Radius of the circle for the d current, EQ-CURRENT-REF-3. */
+static double weakening_V(void)
+{
+    return 0.965 * usable_V();
+}
+
+/* Bisects between a current that fits a voltage and one that does not. */
+static double search(bool along_d, double other_A, double fits_A, double fails_A, double most_V)
 {
     for (int halving = 0; halving < 60; halving++) {
         const double middle_A = 0.5 * (fits_A + fails_A);
         const double v_V = along_d ? voltage_V(middle_A, other_A) : voltage_V(other_A, middle_A);
-        if (v_V <= usable_V()) {
+        if (v_V <= most_V) {
             fits_A = middle_A;
         } else {
             fails_A = middle_A;
@@ -151,20 +168,22 @@ static double oracle_mtpv_A(double f_A)
     return 0.5 * (lo + hi);
 }
 
-/* Oracle: the id with the least flux weakening that fits, found in volts. If none fits, it is the
- * id with the least voltage. It moves on by the excess of iq over the circle, up to maximum torque
- * per volt. */
+/* Oracle: the id with the least flux weakening that fits, found in volts. Beyond a share of the
+ * circle it is on the chord to no flux at the whole of it. It ends at maximum torque per volt. */
 static double oracle_fw_A(double iq_A)
 {
     const double w = (double)y.omega_e_radps;
     const double rest =
         (si.rs_Ohm * (double)y.iq_A) - (si.lq_H * (double)est.d_q) + (w * si.flux_Wb);
     const double least = -rest / (w * si.ld_H);
-    const double f_A   = usable_V() / (fabs(w) * si.lq_H);
+    const double g_A   = weakening_V() / (fabs(w) * si.lq_H);
     const double y_A = ((si.rs_Ohm * (double)y.id_A) - (si.ld_H * (double)est.d_d)) / (w * si.lq_H);
-    return (voltage_V(least, iq_A) <= usable_V())
-               ? search(true, iq_A, least, least + 1.0e3)
-               : least - (fmin(fabs(iq_A - y_A) - f_A, oracle_mtpv_A(f_A)) * si.lq_H / si.ld_H);
+    const double from_A  = (double)config.chord_from * g_A;
+    const double from_Wb = sqrt((g_A * g_A) - (from_A * from_A)) * si.lq_H;
+    const double beyond  = (fabs(iq_A - y_A) - from_A) / (g_A - from_A); /* 1 at the whole circle */
+    const double most_Wb = -oracle_mtpv_A(g_A) * si.lq_H;
+    return (beyond < 0.0) ? search(true, iq_A, least, least + 1.0e3, weakening_V())
+                          : least + (fmax(from_Wb * (1.0 - beyond), most_Wb) / si.ld_H);
 }
 
 static double oracle_id_A(double iq_before_A, double iq_wanted_A)
@@ -183,7 +202,7 @@ static double oracle_iq_limit_A(double direction, double id_ref_A)
     const double id_A    = (double)y.id_A;
     const double least   = ((si.rs_Ohm * id_A) - (si.ld_H * (double)est.d_d)) / (w * si.lq_H);
     const double voltage = (voltage_V(id_A, least) <= usable_V())
-                               ? search(false, id_A, least, least + (direction * 1.0e3))
+                               ? search(false, id_A, least, least + (direction * 1.0e3), usable_V())
                                : least;
     const double i_max   = (double)config.current_max_A;
     const double current =
@@ -218,7 +237,7 @@ static void assert_inside_current_circle(void)
 
 static void test_room_on_the_circle_is_told_for_the_next_period(void)
 {
-    config.filter_per_period = 0.2f; /* id moves */
+    use_filter(0.2f); /* id moves */
     for (int n = 0; n < CASES; n++) {
         draw_fast_case();
         update();
@@ -357,16 +376,10 @@ static void test_id_matches_search_in_volts_at_high_speed(void)
         config.mtpa_exact     = (n % 2) == 0;
         ask_for(wanted_A);
         const double expected = oracle_id_A(before_A, wanted_A);
-        const double least    = voltage_V(oracle_fw_A(wanted_A) - 0.1, wanted_A);
-        const bool   touching = (least > usable_V());
 
         update();
 
-        if (touching) {
-            TEST_ASSERT_DOUBLE_WITHIN(TOL_STEEP_A, expected, (double)r.i_A.d);
-        } else {
-            TEST_ASSERT_DOUBLE_WITHIN(TOL_A, expected, (double)r.i_A.d);
-        }
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_A, expected, (double)r.i_A.d);
     }
 }
 
@@ -413,10 +426,10 @@ static void test_steady_references_need_no_more_than_the_usable_voltage(void)
     for (int speed = -1500; speed <= 1500; speed += 50) {
         for (int load = -3; load <= 3; load++) {
             setUp();
-            config.filter_per_period = 0.2f;
-            y.omega_e_radps          = (float)speed;
-            w_ref.omega_e_radps      = (float)speed;
-            est.d_omega              = 2500.0f * (float)load;
+            use_filter(0.2f);
+            y.omega_e_radps     = (float)speed;
+            w_ref.omega_e_radps = (float)speed;
+            est.d_omega         = 2500.0f * (float)load;
             for (int n = 0; n < 400; n++) {
                 update();
                 y.id_A += 0.2f * (r.i_A.d - y.id_A);
@@ -505,8 +518,7 @@ static void test_positive_id_never_turns_the_division_round(void)
 
 static void test_references_never_leave_the_current_circle(void)
 {
-    config.filter_per_period = 0.2f;
-    config.filter_1ps        = 1000.0f;
+    use_filter(0.2f);
     for (int n = 0; n < 20 * CASES; n++) {
         const float iq_before_A = r.i_A.q;
         draw_fast_case();
@@ -552,7 +564,7 @@ static void test_full_weakening_leaves_no_q_current(void)
 /* Speed, q quantities and the disturbances of their equations mirrored: motoring stays motoring. */
 static void test_reversed_rotation_mirrors_the_references(void)
 {
-    config.filter_per_period = 0.2f;
+    use_filter(0.2f);
     for (int n = 0; n < CASES; n++) {
         draw_fast_case();
         y.omega_e_radps     = support_uniform(&random_state, -1500.0f, 1500.0f);
@@ -587,10 +599,9 @@ static void test_reversed_rotation_mirrors_the_references(void)
 /* First-order response to a constant target, (1 - (1 - k)^n). */
 static void test_id_approaches_its_target_exponentially(void)
 {
-    config.filter_per_period = 0.2f;
-    config.filter_1ps        = 1000.0f;
-    y.omega_e_radps          = 1200.0f;
-    const double target_A    = oracle_id_A(0.0, 0.0);
+    use_filter(0.2f);
+    y.omega_e_radps       = 1200.0f;
+    const double target_A = oracle_id_A(0.0, 0.0);
     for (int n = 1; n <= 60; n++) {
         const double expected = target_A * (1.0 - pow(0.8, (double)n));
 
@@ -603,8 +614,7 @@ static void test_id_approaches_its_target_exponentially(void)
 
 static void test_derivative_of_id_is_its_difference_quotient(void)
 {
-    config.filter_per_period = 0.2f;
-    config.filter_1ps        = 1000.0f;
+    use_filter(0.2f);
     for (int n = 0; n < CASES; n++) {
         const double before_A = (double)r.i_A.d;
         const float  iq_A     = r.i_A.q;
@@ -685,12 +695,12 @@ static void test_full_dc_link_takes_nothing_back_but_leaves_motoring(void)
     }
 }
 
-/* Across base speed, where the circle begins to count, and zero speed: small steps give small changes. The
- * steepest place is where the wanted iq touches the circle: a root, 0.08 A for this step. */
+/* Across base speed, where the circle begins to count, and zero speed: small steps give small changes. Where
+ * id takes nearly the whole current, iq is a root without a bound of its slope. */
 static void test_references_are_continuous_in_the_speed(void)
 {
-    config                   = law_constants_near_optimal(&gain_tables_drive)->current_ref;
-    config.filter_per_period = 1.0f;
+    config = law_constants_near_optimal(&gain_tables_drive)->current_ref;
+    use_filter(1.0f);
     for (int load = -3; load <= 3; load++) {
         dq_t before_A = {0.0f, 0.0f};
         for (int step = -12000; step <= 12000; step++) {
@@ -704,8 +714,8 @@ static void test_references_are_continuous_in_the_speed(void)
             update();
 
             if (step > -12000) {
-                TEST_ASSERT_TRUE(fabsf(r.i_A.d - before_A.d) < 1.0e-1f);
-                TEST_ASSERT_TRUE(fabsf(r.i_A.q - before_A.q) < 3.0e-2f);
+                TEST_ASSERT_TRUE(fabsf(r.i_A.d - before_A.d) < 6.0e-2f);
+                TEST_ASSERT_TRUE((r.i_A.d < -3.9f) || (fabsf(r.i_A.q - before_A.q) < 3.0e-2f));
             }
             before_A = r.i_A;
         }
@@ -726,11 +736,12 @@ static void test_speed_limits_are_the_accelerations_of_the_current_range(void)
                             (double)config.torque_share;
         const double free_radps2 =
             (double)est.d_omega - ((double)motor.l2 * (double)y.omega_e_radps);
-        const double highest = fmax((double)y.omega_e_radps, (double)command);
-        const double lowest  = fmin((double)y.omega_e_radps, (double)command);
-        const double up_V    = usable_V() - (si.flux_Wb * highest); /* left for diq/dt > 0 */
-        const double down_V  = usable_V() + (si.flux_Wb * lowest);
-        const current_ref_input_t in = {&est, &y, iq_speed_A, dc_link_V, V_MAX_V, 0.0f, 0.0f};
+        const double highest   = fmax((double)y.omega_e_radps, (double)command);
+        const double lowest    = fmin((double)y.omega_e_radps, (double)command);
+        const double up_V      = usable_V() - (si.flux_Wb * highest); /* left for diq/dt > 0 */
+        const double down_V    = usable_V() + (si.flux_Wb * lowest);
+        const float  v_max_Aps = motor_Aps();
+        const current_ref_input_t in = {&est, &y, iq_speed_A, dc_link_V, v_max_Aps, 0.0f, 0.0f};
 
         const speed_ref_limits_t limits =
             current_ref_speed_limits(&r, &config, &motor, &in, command);
@@ -755,7 +766,7 @@ static void test_wish_beyond_the_circle_ends_at_maximum_torque_per_volt(void)
     config.iq_max_A      = 60.0f;
     for (int speed = 400; speed <= 1500; speed += 100) {
         y.omega_e_radps   = (float)speed;
-        const double f_A  = usable_V() / ((double)speed * si.lq_H);
+        const double f_A  = weakening_V() / ((double)speed * si.lq_H);
         const double id_A = -(si.flux_Wb + (oracle_mtpv_A(f_A) * si.lq_H)) / si.ld_H;
         r.i_A.d           = 0.0f;
         ask_for(30.0);
@@ -768,9 +779,8 @@ static void test_wish_beyond_the_circle_ends_at_maximum_torque_per_volt(void)
 
 static void test_steady_references_have_no_derivative(void)
 {
-    config.filter_per_period = 0.2f;
-    config.filter_1ps        = 1000.0f;
-    y.omega_e_radps          = 900.0f;
+    use_filter(0.2f);
+    y.omega_e_radps = 900.0f;
     ask_for(1.0);
 
     for (int n = 0; n < 400; n++) {
