@@ -30,6 +30,7 @@ TICKS = ("drive_tick", "pi_foc_tick")
 ICOUNT_SHIFT = (
     8  # chosen: 256 ns per instruction are 6.4 timer counts, enough to tell instructions apart
 )
+PAGE_BITS = 10  # of the emulated Cortex-M: no block goes on beyond 1 KB
 COUNTS_PER_INSTRUCTION = 256e-9 * 25e6
 
 
@@ -62,8 +63,8 @@ class Steps:
         return step
 
     def _run(self, block, after):
-        """Instructions from block on, and whether the last one leaves it: the emulator ends a block
-        early at the end of a page."""
+        """Instructions from block on, and whether the last one leaves it. The emulator ends a block
+        at the end of a page. The last instruction may lead to the same place."""
         i, end, passed, short = self.code[int(block, 16)], int(after, 16) if after else None, [], 0
         while True:
             passed.append(i)
@@ -72,7 +73,9 @@ class Steps:
             i = i.next
             if i.address == end:
                 short = len(passed)
-        if short and end not in self._goals(i):
+        if short and (
+            end not in self._goals(i) or (passed[short - 1].address ^ end) >> PAGE_BITS
+        ):
             return passed[:short], False
         return passed, True
 

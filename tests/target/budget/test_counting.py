@@ -108,6 +108,12 @@ class Counting(unittest.TestCase):
         counts, instructions = self.steps._count(b"00000126", b"0000012a")
         self.assertEqual((counted(counts), instructions), ({"fp_div": 1}, 1))
 
+    def test_block_cut_where_the_loop_of_its_end_begins(self):
+        whole = self.steps._count(b"00000100", b"00000106")[1]
+        with mock.patch("execution.PAGE_BITS", 1):
+            cut = Steps(self.code, {"sinf"}, (unit_cost,))._count(b"00000100", b"00000106")[1]
+        self.assertLess(cut, whole)
+
     def test_impossible_step_is_refused(self):
         with self.assertRaisesRegex(ValueError, "no way"):
             self.steps[(b"00000120", b"00000100")]
