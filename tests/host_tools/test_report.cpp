@@ -205,9 +205,9 @@ TEST(Report, LoopsConsistOfTheirParts)
     drive.position.reset(); // the points are those of the speed's law
     const sdre::Design d       = sdre::design_drive(drive);
     const Json         written = Json::parse(sdre::loops_json(d));
-    double     worst = 0.0; // with a d-current reference that stands still
+    double             worst   = 0.0; // with a d-current reference that stands still
     for (const Json &point : written.at("points")) {
-        const Eigen::MatrixXd A     = support::matrix_of(point.at("A"));
+        const Eigen::MatrixXd A = support::matrix_of(point.at("A"));
         worst                   = std::max(worst, sdre::spectral_radius(A));
         const Eigen::MatrixXd P = support::matrix_of(point.at("P"));
         const Eigen::MatrixXd K = P * support::matrix_of(point.at("L_Ts"));

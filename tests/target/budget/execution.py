@@ -73,9 +73,7 @@ class Steps:
             i = i.next
             if i.address == end:
                 short = len(passed)
-        if short and (
-            end not in self._goals(i) or (passed[short - 1].address ^ end) >> PAGE_BITS
-        ):
+        if short and (end not in self._goals(i) or (passed[short - 1].address ^ end) >> PAGE_BITS):
             return passed[:short], False
         return passed, True
 
