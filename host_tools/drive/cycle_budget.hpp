@@ -7,7 +7,7 @@
 namespace sdre::cycle_budget {
 
 constexpr double noc_speed        = 5279.0;
-constexpr double noc              = 5633.0;
+constexpr double noc              = 5630.0;
 constexpr double noc_h            = 9168.0;
 constexpr double conventional     = 7340.0;
 constexpr double position         = 1717.0;

@@ -141,8 +141,9 @@ static inline float lack_A(float i_A, float ref_A, float none_A)
     return base_max(i_A - none_A, (ASKED_per_none * none_A) - fabsf(ref_A));
 }
 
-/* EQ-CURRENT-WATCH-4: in any phase. */
-static bool is_empty(const current_watch_t *w, const abc_t *i_A, const current_watch_scale_t *scale)
+/* EQ-CURRENT-WATCH-4: the time that one phase is empty. */
+static void time_empty(current_watch_t *w, const abc_t *i_A, float step_s,
+                       const current_watch_scale_t *scale)
 {
     const float none_A = NONE_share * scale->current_max_A;
     const abc_t ref_A  = frames_inverse_clarke(w->ref_A);
@@ -150,7 +151,15 @@ static bool is_empty(const current_watch_t *w, const abc_t *i_A, const current_w
     const float b      = lack_A(i_A->b, ref_A.b, none_A);
     const float c      = lack_A(i_A->c, ref_A.c, none_A);
 
-    return base_min(base_min(a, b), c) < 0.0f;
+    if (base_min(base_min(a, b), c) < 0.0f) {
+        const int16_t others = (b < 0.0f) ? 2 : 3;
+        const int16_t phase  = (a < 0.0f) ? 1 : others;
+
+        w->empty_s = (phase == w->empty) ? (w->empty_s + step_s) : step_s;
+        w->empty   = phase;
+    } else {
+        w->empty_s = 0.0f;
+    }
 }
 
 /* EQ-CURRENT-WATCH-5, 6 */
@@ -182,7 +191,7 @@ CTL_PART current_watch_verdict_t current_watch_look(current_watch_t *w, float ia
     /* c but for its sign */
     const abc_t i_A = {.a = fabsf(ia_A), .b = fabsf(ib_A), .c = fabsf(ia_A + ib_A)};
 
-    w->empty_s = is_empty(w, &i_A, scale) ? (w->empty_s + step_s) : 0.0f;
+    time_empty(w, &i_A, step_s, scale);
     if (w->empty_s > scale->open_s) {
         return CURRENT_WATCH_OPEN;
     }

@@ -34,7 +34,7 @@
  * Wire. A phase has no current although the reference requires some, for longer than a current
  * needs to follow:
  *
- *     open:  abs(i) < 0.02 i_max while abs(i_ref) > 0.04 i_max in any phase,
+ *     open:  abs(i) < 0.02 i_max while abs(i_ref) > 0.04 i_max in one phase,
  *            for open_s in a row                                                 EQ-CURRENT-WATCH-4
  *     open_s = max(10 ms, 4 sqrt(count / a_max)),  a_max = (l1 + abs(l11) i_max) i_max
  *
@@ -76,6 +76,7 @@ typedef struct {
     dq_t                  d_slow_Aps;
     ab_t                  drift_A; /**< S */
     float                 empty_s; /**< in a row */
+    int16_t               empty;   /**< phase of that time, 1 to 3 */
     bool                  models;  /**< model_A too */
 } current_watch_t;
 

@@ -121,6 +121,7 @@ static void phase_without_current(void)
     drive.motion_watch.look        = MOTION_WATCH_LOOK_CURRENTS;
     drive.current_watch.ref_A.beta = 3.0f;
     drive.current_watch.empty_s    = 1.0f;
+    drive.current_watch.empty      = 2; /* b */
 }
 
 static void current_of_another_motor(void)

@@ -311,6 +311,21 @@ static void test_a_phase_without_current_is_found_after_ten_milliseconds(void)
     TEST_ASSERT_INT_WITHIN(1, 51, open_after(0.5f, -0.45f, in_bc));
 }
 
+/* A lagging current is near zero in one phase after another. */
+static void test_phases_without_current_in_turn_are_not_open(void)
+{
+    const dq_t all = {.d = 0.2f, .q = 0.4f}; /* a: 0.2 A, b: 0.25 A, c: -0.45 A */
+
+    for (int k = 0; k < 1500; k++) {
+        static const float turns[3][2]   = {{0.0f, 0.5f}, {0.5f, 0.0f}, {0.5f, -0.5f}};
+        const float *const i_A           = turns[(k / 10) % 3];
+        theta                            = 0.0f;
+        const current_watch_expected_t e = {.angle = frames_angle(0.0f), .i_ref_A = all};
+        current_watch_expect(&watch, &e, TS_s);
+        TEST_ASSERT_EQUAL_INT(CURRENT_WATCH_GOOD, judge(i_A[0], i_A[1]));
+    }
+}
+
 static void test_a_phase_that_carries_current_or_has_to_carry_none_is_not_open(void)
 {
     const dq_t in_a = {.d = 0.2f, .q = 0.0f};
@@ -354,6 +369,7 @@ int main(void)
     RUN_TEST(test_time_without_current_is_that_of_the_encoder);
     RUN_TEST(test_without_a_prediction_there_is_no_residual);
     RUN_TEST(test_a_phase_without_current_is_found_after_ten_milliseconds);
+    RUN_TEST(test_phases_without_current_in_turn_are_not_open);
     RUN_TEST(test_a_phase_that_carries_current_or_has_to_carry_none_is_not_open);
     RUN_TEST(test_a_residual_that_is_no_number_is_a_fault);
     return UNITY_END();
