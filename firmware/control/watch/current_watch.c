@@ -152,9 +152,13 @@ static void time_empty(current_watch_t *w, const abc_t *i_A, float step_s,
     const float c      = lack_A(i_A->c, ref_A.c, none_A);
 
     if (base_min(base_min(a, b), c) < 0.0f) {
-        const int16_t others = (b < 0.0f) ? 2 : 3;
-        const int16_t phase  = (a < 0.0f) ? 1 : others;
-
+        int16_t phase = 3;
+        if (b < 0.0f) {
+            phase = 2;
+        }
+        if (a < 0.0f) {
+            phase = 1;
+        }
         w->empty_s = (phase == w->empty) ? (w->empty_s + step_s) : step_s;
         w->empty   = phase;
     } else {
