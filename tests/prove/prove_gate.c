@@ -11,23 +11,23 @@ drive_t                  drive;
 
 void prove_gate(void)
 {
-    config.constants            = &config; /* the law reads none */
-    drive                       = any_drive;
-    drive.config                = any_bool() ? &config : NULL;
-    drive.config_again          = any_bool() ? &config : NULL;
-    drive.law_again             = any_bool() ? &any_law : NULL;
-    drive.constants_again       = any_bool() ? config.constants : NULL;
-    drive.state                 = any_bool() ? DRIVE_OFF : (any_bool() ? DRIVE_RUN : DRIVE_FAULT);
-    drive.answer.plausible      = any_bool();
-    drive.current_gate.jumped   = any_bool();
-    drive.current_watch.models  = any_bool();
-    drive.answer.predicted      = any_bool();
-    config.law                  = &any_law;
-    config.overmodulation       = any_bool();
-    config.positions            = any_bool();
-    drive.answer.arrived        = any_bool();
-    drive.motion_watch.look     = (motion_watch_look_t)any_between(0, 3);
-    drive.answer.waits          = any_bool();
+    config.constants           = &config; /* the law reads none */
+    drive                      = any_drive;
+    drive.config               = any_bool() ? &config : NULL;
+    drive.config_again         = any_bool() ? &config : NULL;
+    drive.law_again            = any_bool() ? &any_law : NULL;
+    drive.constants_again      = any_bool() ? config.constants : NULL;
+    drive.state                = any_bool() ? DRIVE_OFF : (any_bool() ? DRIVE_RUN : DRIVE_FAULT);
+    drive.answer.plausible     = any_bool();
+    drive.current_gate.jumped  = any_bool();
+    drive.current_watch.models = any_bool();
+    drive.answer.predicted     = any_bool();
+    config.law                 = &any_law;
+    config.overmodulation      = any_bool();
+    config.positions           = any_bool();
+    drive.answer.arrived       = any_bool();
+    drive.motion_watch.look    = (motion_watch_look_t)any_between(0, 3);
+    drive.answer.waits         = any_bool();
 
     const drive_state_t before  = drive.state;
     drive_sample_t      sample  = any_sample;

@@ -114,22 +114,22 @@ static void any_drive(void)
     state.dobc.running   = any_between(0, 1);
     state.id_pi.running  = any_between(0, 1);
 #endif
-    drive.law.PROVE_LAW         = state;
-    drive.config                = &config;
-    drive.config_again          = &config;
-    drive.law_again             = config.law;
-    drive.constants_again       = config.constants;
-    drive.state                 = any_between(DRIVE_OFF, DRIVE_FAULT);
-    drive.fault                 = any_between(DRIVE_FAULT_NONE, DRIVE_FAULT_MEMORY);
-    drive.answer.plausible      = any_between(0, 1);
-    drive.answer.without_angle  = any_between(0, 1);
-    drive.v_limited             = any_between(0, 1);
-    drive.answer.predicted      = any_between(0, 1);
-    drive.answer.arrived        = any_between(0, 1);
-    drive.answer.waits          = any_between(0, 1);
-    drive.current_gate.jumped   = any_between(0, 1);
-    drive.current_watch.models  = any_between(0, 1);
-    drive.motion_watch.look     = (motion_watch_look_t)any_between(0, 3);
+    drive.law.PROVE_LAW        = state;
+    drive.config               = &config;
+    drive.config_again         = &config;
+    drive.law_again            = config.law;
+    drive.constants_again      = config.constants;
+    drive.state                = any_between(DRIVE_OFF, DRIVE_FAULT);
+    drive.fault                = any_between(DRIVE_FAULT_NONE, DRIVE_FAULT_MEMORY);
+    drive.answer.plausible     = any_between(0, 1);
+    drive.answer.without_angle = any_between(0, 1);
+    drive.v_limited            = any_between(0, 1);
+    drive.answer.predicted     = any_between(0, 1);
+    drive.answer.arrived       = any_between(0, 1);
+    drive.answer.waits         = any_between(0, 1);
+    drive.current_gate.jumped  = any_between(0, 1);
+    drive.current_watch.models = any_between(0, 1);
+    drive.motion_watch.look    = (motion_watch_look_t)any_between(0, 3);
 }
 
 static void state_is_kept(void)
