@@ -92,6 +92,9 @@ bool commission_guard_rotor(commission_guard_t *g, const commission_config_t *c,
 
 bool commission_guard_agrees(const commission_admittance_t *y, const commission_result_t *known)
 {
-    const float found = (1.0f / known->ld_H.value) + (1.0f / known->lq_H.value);
-    return base_in_range(found / (y->aa + y->bb), LEAST_RATIO, MOST_RATIO);
+    const float ld_H = known->ld_H.value;
+    const float lq_H = known->lq_H.value;
+    const float at_1 = ld_H * lq_H * (y->aa + y->bb); /* ld + lq at a ratio of 1 */
+    return (ld_H > 0.0f) && (lq_H > 0.0f) &&
+           base_in_range(ld_H + lq_H, LEAST_RATIO * at_1, MOST_RATIO * at_1);
 }
