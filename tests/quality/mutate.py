@@ -57,12 +57,12 @@ CHANGES = [
 ]
 
 
-def mutants(source):
+def mutants(source, changes):
     """(line number, changed line) of every change that a file allows."""
     for number, line in enumerate(ub.code_lines(source.read_text())):
         if line.startswith("}") or not line.startswith(" "):
             continue  # declarations
-        for pattern, to in CHANGES:
+        for pattern, to in changes:
             for match in re.finditer(pattern, line):
                 changed = line[: match.start()] + match.expand(to) + line[match.end() :]
                 if changed != line:
@@ -151,7 +151,7 @@ def main():
     sources = [s for s in ub.sources() if not arguments or s.name in arguments]
     build = ub.Build(ub.ROOT / "build/mutate", ["-O1"])
     judge = Judge(build)
-    everything = [(s, n, line) for s in sources for n, line in mutants(s)]
+    everything = [(s, n, line) for s in sources for n, line in mutants(s, CHANGES)]
     drawn = random.Random(1).sample(everything, min(count, len(everything)))
     drawn = [(i, *m) for i, m in enumerate(drawn)]
     with ThreadPoolExecutor(ub.JOBS) as pool:

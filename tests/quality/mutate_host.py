@@ -11,7 +11,6 @@ host_survivors.toml names with a reason are counted apart. Exit code 1 below 90 
 
 import json
 import random
-import re
 import shlex
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -46,18 +45,6 @@ CHANGES = [
     (r"\bcos\b", "sin"),
     (r"\bsin\b", "cos"),
 ]
-
-
-def mutants(source):
-    """(line number, changed line) of every change that a file allows."""
-    for number, line in enumerate(ub.code_lines(source.read_text())):
-        if line.startswith("}") or not line.startswith(" "):
-            continue  # declarations
-        for pattern, to in CHANGES:
-            for match in re.finditer(pattern, line):
-                changed = line[: match.start()] + match.expand(to) + line[match.end() :]
-                if changed != line:
-                    yield number, changed
 
 
 def compiled_as(source):
@@ -145,7 +132,7 @@ def main():
     enough = True
     for module in arguments or MODULES:
         judge = Judge(module)
-        everything = list(mutants(judge.source))
+        everything = list(mutate.mutants(judge.source, CHANGES))
         drawn = random.Random(1).sample(everything, min(count, len(everything)))
         with ThreadPoolExecutor(ub.JOBS) as pool:
             verdicts = list(pool.map(judge.verdict, [(i, *m) for i, m in enumerate(drawn)]))
