@@ -110,6 +110,12 @@ double id_target_A(const IdReference &r, const ReducedParameters &l, const IdInp
     return std::clamp(id_A, -most, number(r.c.id_rest_A));
 }
 
+SteadyState state_at(const ReducedParameters &motor, const ReducedParameters &model,
+                     const OperatingPoint &at)
+{
+    return {at, estimates(motor, model, at)};
+}
+
 SteadyState steady_state(const IdReference &r, const ReducedParameters &motor,
                          const ReducedParameters &model, double omega_e_radps, double iq_A)
 {
@@ -120,8 +126,7 @@ SteadyState steady_state(const IdReference &r, const ReducedParameters &motor,
         const IdInputs in   = estimates(motor, model, {omega_e_radps, iq_A, id_A});
         (id_target_A(r, model, in) > id_A ? lo : hi) = id_A;
     }
-    const OperatingPoint at{omega_e_radps, iq_A, 0.5 * (lo + hi)};
-    return {at, estimates(motor, model, at)};
+    return state_at(motor, model, {omega_e_radps, iq_A, 0.5 * (lo + hi)});
 }
 
 double most_iq_A(const IdReference &r, const ReducedParameters &l, double omega_e_radps,

@@ -42,6 +42,10 @@ struct SteadyState {
     IdInputs       in;
 };
 
+/// At a point that is one. @param motor what the motor is, @param model what the controller believes.
+SteadyState state_at(const ReducedParameters &motor, const ReducedParameters &model,
+                     const OperatingPoint &at);
+
 /// id_ref = id_target_A(). @param motor what the motor is, @param model what the controller believes.
 SteadyState steady_state(const IdReference &r, const ReducedParameters &motor,
                          const ReducedParameters &model, double omega_e_radps, double iq_A);

@@ -29,6 +29,33 @@ double sensitivity(const TransferFunction &loop, double frequency_Hz, double ts_
     return std::isfinite(s) ? s : std::numeric_limits<double>::infinity();
 }
 
+struct Peak {
+    double value = 0.0;
+    double at_Hz = 0.0;
+};
+
+/// Ratio of neighbouring frequencies.
+double step_of(int points)
+{
+    return std::pow(0.5 / sweep_from, 1.0 / points);
+}
+
+/// The largest |S| of points + 1 frequencies.
+Peak sweep(const TransferFunction &loop, double ts_s, int points)
+{
+    const double rate_Hz = 1.0 / ts_s;
+    const double step    = step_of(points);
+    Peak         peak;
+    for (int i = 0; i <= points; i++) {
+        const double f = rate_Hz * sweep_from * std::pow(step, i);
+        const double s = sensitivity(loop, f, ts_s);
+        if (s > peak.value) {
+            peak = {s, f};
+        }
+    }
+    return peak;
+}
+
 } // namespace
 
 double sensitivity(const BrokenLoop &loop, double frequency_Hz)
@@ -40,35 +67,23 @@ double rough_peak(const BrokenLoop &loop)
 {
     constexpr int          points = 40; // chosen: 24 % apart
     const TransferFunction transfer(loop.A, loop.B, loop.c);
-    const double           step = std::pow(0.5 / sweep_from, 1.0 / points);
-    double                 peak = 0.0;
-    for (int i = 0; i <= points; i++) {
-        const double f = sweep_from * std::pow(step, i) / loop.ts_s;
-        const double s = sensitivity(transfer, f, loop.ts_s);
-        peak           = s <= peak ? peak : s;
-    }
-    return peak;
+    return sweep(transfer, loop.ts_s, points).value;
 }
 
 LoopCheck check_loop(const BrokenLoop &loop, std::vector<SensitivityAt> disturbances)
 {
     const double rate_Hz = 1.0 / loop.ts_s;
-    const double step    = std::pow(0.5 / sweep_from, 1.0 / sweep_points);
+    const double step    = step_of(sweep_points);
     LoopCheck    out;
 
     const TransferFunction transfer(loop.A, loop.B, loop.c);
     const auto             at_Hz = [&](double f) { return sensitivity(transfer, f, loop.ts_s); };
     out.spectral_radius          = spectral_radius(loop.A);
-    for (int i = 0; i <= sweep_points; i++) {
-        const double f = rate_Hz * sweep_from * std::pow(step, i);
-        const double s = at_Hz(f);
-        if (s > out.peak) {
-            out.peak    = s;
-            out.peak_Hz = f;
-        }
-    }
-    double lo = out.peak_Hz / step;
-    double hi = std::min(out.peak_Hz * step, 0.5 * rate_Hz);
+    const Peak found             = sweep(transfer, loop.ts_s, sweep_points);
+    out.peak                     = found.value;
+    out.peak_Hz                  = found.at_Hz;
+    double lo                    = out.peak_Hz / step;
+    double hi                    = std::min(out.peak_Hz * step, 0.5 * rate_Hz);
     for (int i = 0; i < peak_halvings; i++) {
         const double left  = hi - golden_section * (hi - lo);
         const double right = lo + golden_section * (hi - lo);

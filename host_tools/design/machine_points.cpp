@@ -71,6 +71,17 @@ double steady_voltage_V(const Motor &m, double id_A, double iq_A, double w)
                       m.stator_resistance_Ohm * id_A - w * m.q_axis_inductance_H * iq_A);
 }
 
+MachinePoint limit_point(const Drive &d)
+{
+    const Motor &m        = d.motor;
+    const auto   l        = reduced_parameters(m);
+    const double circle_V = d.inverter.dc_link_V / std::sqrt(3.0);
+    const double iq_A     = largest_iq_A(m, mtpa_A(l), true);
+    const double id_A     = mtpa_id_A(l, iq_A);
+    const double highest  = 10.0 * largest_command_e_radps(d);
+    return point(m, id_A, iq_A, base_speed(m, id_A, iq_A, circle_V, highest));
+}
+
 MachinePoints machine_points(const Drive &d)
 {
     const Motor            &m       = d.motor;
@@ -86,12 +97,9 @@ MachinePoints machine_points(const Drive &d)
         point(m, rated_id_A, rated_iq_A,
               std::min(m.rated_speed_e_radps,
                        base_speed(m, rated_id_A, rated_iq_A, out.circle_V, m.rated_speed_e_radps)));
-    const double limit_iq_A = largest_iq_A(m, mtpa_A(l), true);
-    const double limit_id_A = mtpa_id_A(l, limit_iq_A);
-    out.limit               = point(m, limit_id_A, limit_iq_A,
-                                    base_speed(m, limit_id_A, limit_iq_A, out.circle_V, 10.0 * largest));
-    out.fastest             = most_torque(m, largest, out.circle_V);
-    out.mtpv = std::hypot(out.fastest.id_A, out.fastest.iq_A) < 0.999 * m.max_current_A;
+    out.limit   = limit_point(d);
+    out.fastest = most_torque(m, largest, out.circle_V);
+    out.mtpv    = std::hypot(out.fastest.id_A, out.fastest.iq_A) < 0.999 * m.max_current_A;
     return out;
 }
 

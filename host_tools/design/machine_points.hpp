@@ -30,6 +30,9 @@ struct MachinePoints {
 
 MachinePoints machine_points(const Drive &drive);
 
+/// MachinePoints::limit alone; the others take longer.
+MachinePoint limit_point(const Drive &drive);
+
 /// Length of the phase voltage in steady state [V].
 double steady_voltage_V(const Motor &motor, double id_A, double iq_A, double speed_e_radps);
 

@@ -53,18 +53,23 @@ bool is_same(const Eigen::MatrixXd &a, const Eigen::MatrixXd &b)
     return a.rows() == b.rows() && a == b;
 }
 
+double largest_radius(const std::vector<BrokenLoop> &loops)
+{
+    double worst = 0.0;
+    for (std::size_t i = 0; i < loops.size(); i++) {
+        if (i == 0 || !is_same(loops[i].A, loops[i - 1].A)) { // most are one loop, opened elsewhere
+            worst = std::max(worst, spectral_radius(loops[i].A));
+        }
+    }
+    return worst;
+}
+
 double radius_of(const LoopFamily &family, const Motor &motor)
 {
     const auto &loops_at = family.loops_of_others ? family.loops_of_others : family.loops;
     double      worst    = 0.0;
     for (const OperatingPoint &at : family.box_points) {
-        const std::vector<BrokenLoop> loops = loops_at(motor, at);
-        for (std::size_t i = 0; i < loops.size(); i++) {
-            if (i == 0 ||
-                !is_same(loops[i].A, loops[i - 1].A)) { // most are one loop, opened elsewhere
-                worst = std::max(worst, spectral_radius(loops[i].A));
-            }
-        }
+        worst = std::max(worst, largest_radius(loops_at(motor, at)));
     }
     return worst;
 }
@@ -97,20 +102,16 @@ std::vector<OperatingPoint> worst_of_plane(const LoopFamily &family, const Drive
     std::vector<std::vector<double>> found(family.plane.size(), std::vector<double>(n + 1, 0.0));
     parallel_for(found.size(), [&](std::size_t i) {
         const std::vector<BrokenLoop> loops = family.loops(drive.motor, family.plane[i]);
+        found[i][n]                         = largest_radius(loops);
         for (std::size_t k = 0; k < loops.size(); k++) {
-            const bool   finite = loops[k].A.allFinite();
-            const double none   = std::numeric_limits<double>::infinity();
-            if (k == 0 || !is_same(loops[k].A, loops[k - 1].A)) {
-                found[i][n] = worse(found[i][n], finite ? spectral_radius(loops[k].A) : none);
-            }
-            found[i][k % n] = worse(found[i][k % n], finite ? rough_peak(loops[k]) : none);
+            found[i][k % n] = std::max(found[i][k % n], rough_peak(loops[k]));
         }
     });
     std::vector<OperatingPoint> worst;
     for (std::size_t k = 0; k <= n; k++) {
         std::size_t most = 0;
         for (std::size_t i = 1; i < found.size(); i++) {
-            most = found[i][k] <= found[most][k] ? most : i;
+            most = found[i][k] > found[most][k] ? i : most;
         }
         worst.push_back(family.plane[most]);
     }
@@ -182,10 +183,8 @@ std::vector<BrokenLoop> broken_at_voltages(const Eigen::MatrixXd &A, const Eigen
 
 Verdict examine(const LoopFamily &family, const Drive &drive)
 {
-    std::vector<OperatingPoint> points = family.points;
-    for (const OperatingPoint &at : worst_of_plane(family, drive)) {
-        points.push_back(at);
-    }
+    std::vector<OperatingPoint> points = worst_of_plane(family, drive);
+    points.insert(points.begin(), family.points.begin(), family.points.end());
     Verdict v;
     for (const std::string &name : family.channels) {
         v.channels.push_back({name, {}, {}});

@@ -108,7 +108,7 @@ double weakening_flux_A(const Design &d, double k)
 /// room for. The resistive drop of id takes voltage from iq and steepens the circle.
 double chord_slope(const Design &d)
 {
-    const double base = machine_points(d.drive).limit.speed_e_radps;
+    const double base = limit_point(d.drive).speed_e_radps;
     return std::max(most_slope / (1.0 + most_slope * d.l[7] / base), least_slope);
 }
 

@@ -71,10 +71,10 @@ void certify_whole(Design &d, const encoder_form_limits_t &limits, double angle_
     }
     f.loops = [&](const Motor &, const OperatingPoint &at) {
         std::vector<BrokenLoop> all;
-        const SteadyState       s = steady_state(id, d.l, d.l, at.omega_e_radps, at.iq_A);
+        const SteadyState       s = state_at(d.l, d.l, at);
         for (const Eigen::MatrixXd &Lambda : feedback_gains(d)) {
             const MovingReference moving = moving_reference(id, d.l, Lambda, s);
-            at_voltages(model_at(d, d.l, s.at, Lambda, &moving), all);
+            at_voltages(model_at(d, d.l, at, Lambda, &moving), all);
         }
         return all;
     };
