@@ -2,6 +2,7 @@
 """Feature, memory and intrinsics of instructions, and what they change in the price; small enough
 to count by hand."""
 
+import re
 import sys
 import unittest
 from collections import Counter
@@ -245,6 +246,14 @@ class Memory(unittest.TestCase):
                     self.assertTrue(
                         name in files or any(f" {name}(" in text for text in files.values())
                     )
+
+    def test_every_function_of_the_tick_is_named(self):
+        """Those that no row names would count as checks of the core, as drive_tick.c does."""
+        text = (origin.FIRMWARE / "control/drive_tick.c").read_text()
+        found = re.findall(r"^static (?:inline )?\w+ (\w+)\(", text, re.M)
+        named = {name for names in Costs().features.values() for name in names}
+        self.assertGreater(len(found), 15)
+        self.assertEqual(set(found) - named, set())
 
 
 if __name__ == "__main__":
