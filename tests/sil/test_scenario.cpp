@@ -131,7 +131,7 @@ TEST(Scenario, ShippedScenariosAreRead)
         count++;
     }
     // Fig. 4 with four orders, Fig. 5 to 8; seventeen on the realistic board; two of paper B; two of noc_h; faults
-    EXPECT_EQ(count, 29 + 18);
+    EXPECT_EQ(count, 29 + 20);
     EXPECT_EQ(sdre::read_scenario_file(scenarios / "fig4_parameter_steps_nd3.toml").nodo_order, 3);
     EXPECT_EQ(sdre::read_scenario_file(scenarios / "fig8_flux_weakening.toml").dc_link_V, 173.2);
 }
