@@ -189,7 +189,19 @@ void certify_loop(Design &d, const LoopFamily &family, const std::vector<TripMar
 {
     d.certificate.loop        = examine(family, d.drive);
     d.certificate.loop->trips = trips;
+    if (d.harmonics) {
+        d.certificate.loop->slowest_mode_s = learning_mode_s;
+    }
     judge(*d.certificate.loop, control_period_s(d.drive), d.certificate.failures);
+}
+
+std::string verdict_words(const Design &d)
+{
+    if (d.certificate.passed()) {
+        return "certified";
+    }
+    return d.drive.reproduces.empty() ? "not certified"
+                                      : "not certified, faithful to " + d.drive.reproduces;
 }
 
 std::string verdict_lines(const Verdict &v)

@@ -17,6 +17,9 @@ void certify(Design &design);
 void certify_loop(Design &design, const LoopFamily &family,
                   const std::vector<TripMargin> &trips = {});
 
+/// "certified", "not certified", or "not certified, faithful to ..." what the drive file reproduces.
+std::string verdict_words(const Design &design);
+
 /// Lines of the comment above the tables.
 std::string verdict_lines(const Verdict &verdict);
 

@@ -81,8 +81,6 @@ constexpr double series_error_limit = 0.1;
 /// Largest peak sensitivity of a certified loop. Chosen: a phase margin of 19 degrees is then left; paper B's repaired
 /// design has 2.55, the printed one 122.
 constexpr double peak_sensitivity_limit = 3.0;
-/// Largest time constant of a certified loop. Chosen: twice the fifty seconds in which noc_h's harmonics are forgotten.
-constexpr double slowest_mode_s = 100.0;
 /// Share of the box of EQ-CERT-5 in which a loop has to be stable. Chosen: R, L, flux x0.76 .. 1.18, J x0.76 .. 1.55 all at
 /// once; a data sheet's tolerances are 10 to 20 %.
 constexpr double box_share_limit = 0.4;

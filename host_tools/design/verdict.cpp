@@ -207,7 +207,7 @@ double excess(const Verdict &v, double ts_s)
 {
     // A spectral radius counts by its distance to 1, relative to the allowed one. An unstable loop
     // counts as far off.
-    const double room  = -std::log(std::min(v.spectral_radius, 1.0)) * slowest_mode_s / ts_s;
+    const double room  = -std::log(std::min(v.spectral_radius, 1.0)) * v.slowest_mode_s / ts_s;
     double       worst = 1.0 / std::max(room, 1e-3);
     for (const Channel &c : v.channels) {
         worst = worse(worst, c.worst.peak / peak_sensitivity_limit);
@@ -222,7 +222,7 @@ double excess(const Verdict &v, double ts_s)
 
 void judge(const Verdict &v, double ts_s, std::vector<std::string> &failures)
 {
-    const double largest = std::exp(-ts_s / slowest_mode_s);
+    const double largest = std::exp(-ts_s / v.slowest_mode_s);
     if (!(v.spectral_radius <= largest)) {
         failures.push_back(
             fmt::format("the loop does not settle at {}: spectral radius {:.6f}, at most "

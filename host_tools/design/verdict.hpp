@@ -17,6 +17,12 @@ namespace sdre {
 
 struct Design;
 
+/// Largest time constant of a certified loop. Chosen: who changes a load or a command sees the end of it. The slowest shipped loop,
+/// the d current of paper B's laws, has 1.1 s.
+constexpr double slowest_mode_s = 2.0;
+/// The same of a law that learns harmonics. Chosen: twice the fifty seconds in which noc_h's harmonics are forgotten.
+constexpr double learning_mode_s = 100.0;
+
 /// A law's closed loop, linearised, with the tables of the drive and a motor that may be another.
 struct LoopFamily {
     /// Names of the places where the loop is opened, one at a time with everything else closed: "q
@@ -48,7 +54,8 @@ struct Channel {
 };
 
 struct Verdict {
-    double               spectral_radius = 0.0; ///< of all points
+    double               slowest_mode_s  = sdre::slowest_mode_s; ///< allowed at most
+    double               spectral_radius = 0.0;                  ///< of all points
     OperatingPoint       radius_at;
     std::vector<Channel> channels;
     std::optional<RobustBox>

@@ -149,8 +149,9 @@ std::string normalised_board(const BoardDescription &board)
 
 std::string normalised(const Drive &drive)
 {
-    const auto &[name, motor, inverter, encoder, current_sensors, board, law, nosc, nodo, position,
-                 harmonics, dobc, pid, d_axis, cascade] = drive;
+    // reproduces changes no number
+    const auto &[name, reproduces, motor, inverter, encoder, current_sensors, board, law, nosc,
+                 nodo, position, harmonics, dobc, pid, d_axis, cascade] = drive;
     std::string s = fmt::format("schema={};name={};", drive_schema, name);
     s += normalised_motor(motor) + normalised_hardware(inverter, encoder);
     s += normalised_sensors(current_sensors, encoder.index_angle_e_rad) + normalised_board(board);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "drive/drive_file.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <map>
 #include <optional>
 
@@ -146,6 +148,21 @@ void settle_pwm_frequency(const TomlReader &t, Drive &drive) // EQ-BOARD-1
     }
 }
 
+/// It stands in generated comments: one line of plain text.
+std::string read_reproduces(TomlReader &t)
+{
+    constexpr std::size_t longest = 60; // chosen: a source and a place in it
+    const std::string     text    = t.text_or("reproduces", "");
+    const bool            plain   = std::all_of(text.begin(), text.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == ' ' || c == '.' || c == ',' || c == '-';
+    });
+    if (!plain || text.size() > longest) {
+        t.fail("reproduces",
+               fmt::format("must be at most {} letters, digits, spaces, '.', ',' or '-'", longest));
+    }
+    return text;
+}
+
 Drive read_drive(const toml::table &root, const std::string &source, const std::string &file)
 {
     TomlReader t(source, "", root);
@@ -162,10 +179,11 @@ Drive read_drive(const toml::table &root, const std::string &source, const std::
             std::string::npos) {
         t.fail("name", "must be one or more of A-Z a-z 0-9 _ - .");
     }
-    drive.motor    = read_motor(t.table("motor"));
-    drive.inverter = read_inverter(t.table("inverter"));
-    drive.encoder  = read_encoder(t.table("encoder"));
-    drive.board    = read_board(t.table_if("board"), drive.motor, drive.inverter, file);
+    drive.reproduces = read_reproduces(t);
+    drive.motor      = read_motor(t.table("motor"));
+    drive.inverter   = read_inverter(t.table("inverter"));
+    drive.encoder    = read_encoder(t.table("encoder"));
+    drive.board      = read_board(t.table_if("board"), drive.motor, drive.inverter, file);
     drive.current_sensors =
         read_current_sensors(t.table_if("current_sensors"), drive.motor, drive.board.file);
     drive.law = read_law(t);

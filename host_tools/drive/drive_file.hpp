@@ -158,6 +158,7 @@ struct HarmonicSpec {
 
 struct Drive {
     std::string      name;
+    std::string      reproduces; ///< whose design it repeats as printed; empty: it is our own
     Motor            motor;
     Inverter         inverter;
     Encoder          encoder;

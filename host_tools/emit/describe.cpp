@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "design/board/board_constants.hpp"
+#include "design/certificate.hpp"
 #include "design/law_design.hpp"
 #include "drive/pwm_frequency.hpp"
 #include "emit/report_machine.hpp"
@@ -110,7 +111,8 @@ std::string description(const Design &design, const std::optional<Prediction> &p
     const Drive &d = design.drive;
     std::string  s = fmt::format(
          "# {}\n\nLaw `{}`, {}. Digest of the drive file: `{}`.\n", d.name, law_name(d.law),
-        design.certificate.passed() ? "certified" : "**not certified**", drive_digest(d));
+        design.certificate.passed() ? "certified" : fmt::format("**{}**", verdict_words(design)),
+         drive_digest(d));
     s += motor(d) + inverter(d) + "\n## What it can do\n";
     s += fenced(machine_text(design, prediction).substr(1));
     s += board(d) + "\n## Gains and certificate\n";

@@ -5,6 +5,7 @@
 
 #include "common/json.hpp"
 #include "common/version.hpp"
+#include "design/certificate.hpp"
 #include "drive/pwm_frequency.hpp"
 #include "emit/report_machine.hpp"
 #include "emit/report_parts.hpp"
@@ -164,6 +165,7 @@ Json noc_h_json(const Design &d)
             {"certificate",
              {{"certified", c.passed()},
               {"failures", c.failures},
+              {"verdict", verdict_words(d)},
               {"nosc", loop_json(c.nosc, "e_iq")}}}};
 }
 
@@ -209,7 +211,8 @@ Json servo_json(const Design &d)
         out["dobc"] = dobc_json(*servo.dobc);
     }
     out["certificate"] = {{"certified", d.certificate.passed()},
-                          {"failures", d.certificate.failures}};
+                          {"failures", d.certificate.failures},
+                          {"verdict", verdict_words(d)}};
     return out;
 }
 
@@ -217,7 +220,9 @@ Json cascade_json(const Design &d)
 {
     return {{"law", law_name(d.drive.law)},
             {"certificate",
-             {{"certified", d.certificate.passed()}, {"failures", d.certificate.failures}}}};
+             {{"certified", d.certificate.passed()},
+              {"failures", d.certificate.failures},
+              {"verdict", verdict_words(d)}}}};
 }
 
 Json noc_json(const Design &d)
@@ -228,6 +233,7 @@ Json noc_json(const Design &d)
             {"certificate",
              {{"certified", c.passed()},
               {"failures", c.failures},
+              {"verdict", verdict_words(d)},
               {"range",
                {{"e_iq_A", {-c.nosc.range_A, c.nosc.range_A}},
                 {"i_q_hat_A", {-c.nodo.range_A, c.nodo.range_A}}}},

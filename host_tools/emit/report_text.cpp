@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "design/certificate.hpp"
 #include "design/law_design.hpp"
 #include "drive/pwm_frequency.hpp"
 #include "emit/report_machine.hpp"
@@ -193,7 +194,7 @@ std::string report_text(const Design &d, const std::optional<Prediction> &predic
     }
     s += d.servo ? servo_text(d) : is_cascade(d.drive.law) ? cascade_text(d) : noc_text(d);
     s += verdict_text(d.certificate);
-    s += d.certificate.passed() ? "\nverdict: certified\n" : "\nverdict: refused\n";
+    s += fmt::format("\nverdict: {}\n", verdict_words(d));
     for (const std::string &failure : d.certificate.failures) {
         s += "  " + failure + "\n";
     }

@@ -5,6 +5,7 @@
 
 #include "common/errors.hpp"
 #include "design/board/identity.hpp"
+#include "design/certificate.hpp"
 #include "design/design.hpp"
 #include "drive/pwm_frequency.hpp"
 #include "emit/emit_tables.hpp"
@@ -41,16 +42,16 @@ int run(const Options &o)
     const Design design    = design_drive(drive, Precision::extended);
     const bool   certified = design.certificate.passed();
     if (!certified && !o.uncertified) {
-        throw DesignError(fmt::format("{}: not certified: {}", o.drive,
+        throw DesignError(fmt::format("{}: {}: {}; --uncertified writes it all the same", o.drive,
+                                      verdict_words(design),
                                       fmt::join(design.certificate.failures, "; ")));
     }
-    const char     *verdict = certified ? "certified" : "NOT CERTIFIED";
-    const TableText text    = table_text(design);
+    const TableText text = table_text(design);
     fmt::print("{}", pwm_note(design.drive.inverter));
     if (!o.out.empty()) {
         write_tables(text, o.out);
         fmt::print("{}: {}; wrote gain_tables.h, gain_tables.c and board_config.c to {}\n",
-                   design.drive.name, verdict, o.out);
+                   design.drive.name, verdict_words(design), o.out);
         return exit_ok;
     }
     const std::string difference = compare_tables(text, o.check);
@@ -58,7 +59,7 @@ int run(const Options &o)
         fmt::print(stderr, "sdre-gains: {}\n", difference);
         return exit_check_mismatch;
     }
-    fmt::print("{}: {}; {} matches\n", design.drive.name, verdict, o.check);
+    fmt::print("{}: {}; {} matches\n", design.drive.name, verdict_words(design), o.check);
     return exit_ok;
 }
 

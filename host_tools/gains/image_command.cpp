@@ -4,6 +4,7 @@
 #include "common/errors.hpp"
 #include "common/file_output.hpp"
 #include "design/board/identity.hpp"
+#include "design/certificate.hpp"
 #include "design/design.hpp"
 #include "design/law_design.hpp"
 #include "drive/pwm_frequency.hpp"
@@ -37,7 +38,7 @@ int run(const Options &o)
     require_board(drive, o.drive);
     const Design design = design_drive(drive, Precision::extended);
     if (!design.certificate.passed()) {
-        throw DesignError(fmt::format("{}: not certified: {}", o.drive,
+        throw DesignError(fmt::format("{}: {}: {}", o.drive, verdict_words(design),
                                       fmt::join(design.certificate.failures, "; ")));
     }
     const std::vector<std::uint16_t> words = image_words(design);

@@ -192,11 +192,13 @@ TEST(Conventional, FirmwareTablesHoldTheGainAtEveryPoint)
     }
 }
 
-TEST(Conventional, ShippedDriveIsCertified)
+/// Its margins hold; half the inductance does not.
+TEST(Conventional, ShippedDriveFailsForLittleInductanceAlone)
 {
     const sdre::Design d = sdre::design_drive(sdre::read_drive_file(
         std::string(SDRE_SOURCE_DIR) + "/firmware/config/drives/ipmsm_390w_conventional.toml"));
-    EXPECT_TRUE(d.certificate.passed());
+    ASSERT_EQ(d.certificate.failures.size(), 1U);
+    EXPECT_NE(d.certificate.failures[0].find("L x0.50"), std::string::npos);
     for (const sdre::SampledLoop *loop : {&d.certificate.nosc, &d.certificate.nodo}) {
         EXPECT_EQ(loop->range_A, 8.0);
         EXPECT_LT(loop->spectral_radius, 1.0);
@@ -246,7 +248,8 @@ TEST(Conventional, GeneratedTablesMatchTheirDriveFileAndNoOther)
     const std::string file  = dir.write("d.toml", text("load"));
     const std::string other = dir.write("e.toml", text("all"));
     const auto        gains = [&](const std::string &drive, const char *option) {
-        return support::run_command({SDRE_GAINS_EXE, "generate", drive, option, dir / "t"})
+        return support::run_command(
+                          {SDRE_GAINS_EXE, "generate", drive, option, dir / "t", "--uncertified"})
             .exit_code;
     };
     EXPECT_EQ(gains(file, "--out"), 0);

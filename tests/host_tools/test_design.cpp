@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <tuple>
@@ -395,10 +396,16 @@ TEST(Design, EigenvaluesEqualTheReference)
     }
 }
 
-TEST(Design, DefaultDriveIsCertified)
+/// Repetitions of papers are judged as all others are. Nothing else may fail.
+TEST(Design, OnlyRepetitionsOfPapersAreNotCertified)
 {
-    EXPECT_TRUE(shipped("ipmsm_390w_speed").certificate.passed());
-    EXPECT_TRUE(shipped("ipmsm_390w_speed").certificate.failures.empty());
+    const std::filesystem::path directory =
+        std::filesystem::path(SDRE_SOURCE_DIR) / "firmware/config/drives";
+    for (const auto &file : std::filesystem::directory_iterator(directory)) {
+        const sdre::Design d = sdre::design_drive(sdre::read_drive_file(file.path()));
+        EXPECT_TRUE(d.certificate.loop.has_value()) << d.drive.name;
+        EXPECT_EQ(d.certificate.passed(), d.drive.reproduces.empty()) << d.drive.name;
+    }
 }
 
 TEST(Design, VerdictIsThatOfAnIndependentModel)
@@ -415,7 +422,11 @@ TEST(Design, VerdictIsThatOfAnIndependentModel)
             stable = stable && radius(sampled_controller(d, s)) < 1.0 &&
                      radius(MatrixXd::Identity(6, 6) + ts * observer_loop(d, s)) < 1.0;
         }
-        EXPECT_EQ(d.certificate.passed(), stable) << name;
+        const bool found_stable = std::none_of(
+            d.certificate.failures.begin(), d.certificate.failures.end(), [](const std::string &f) {
+                return f.rfind("nosc", 0) == 0 || f.rfind("nodo", 0) == 0;
+            });
+        EXPECT_EQ(found_stable, stable) << name;
     }
 }
 
@@ -671,7 +682,7 @@ TEST(Design, DeadTimeCompensationSwitchedOffIsAZeroShare)
     const sdre::Design d = sdre::design_drive(drive);
 
     EXPECT_EQ(d.config.dead_time.share, 0.0F);
-    EXPECT_TRUE(d.certificate.passed());
+    EXPECT_EQ(d.certificate.failures, shipped("ipmsm_390w_speed").certificate.failures);
 }
 
 TEST(Design, SurfaceMagnetMotorMayUseTheWholeCircle)

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -16,8 +15,8 @@
 #include "design/id_reference.hpp"
 #include "linalg/expm.hpp"
 #include "linear.hpp"
+#include "load_response.hpp"
 #include "shipped_drive.hpp"
-#include "sil/plant/plant.hpp"
 
 namespace {
 
@@ -100,104 +99,6 @@ Eigen::VectorXcd separate_loops(const sdre::Design &d, const sdre::LoopGains &ga
     return all;
 }
 
-/// One motor with the control core on it: exact sensors, no dead time, the duty one period late.
-class Loop {
-public:
-    Loop(const sdre::Design &d, double omega, double theta)
-        : config_(d.config), plant_(d.drive.motor), dc_V_(d.drive.inverter.dc_link_V)
-    {
-        config_.dead_time.share = 0.0F;
-        if (drive_init(&drive_, &config_) != CTL_OK) {
-            throw std::runtime_error("refused");
-        }
-        plant_.reset(omega, theta);
-        command_ = {static_cast<float>(omega), true, 0.0F, nullptr};
-    }
-
-    /// One control period; false when the drive has tripped.
-    bool tick(double load_Nm)
-    {
-        const sdre::StatorVector i = sdre::to_stator(plant_.current_A(), plant_.theta_e_rad());
-        const double             b = 0.5 * (-i.alpha + std::sqrt(3.0) * i.beta);
-        drive_sample_t           sample{};
-        sample.ia_A          = static_cast<float>(i.alpha);
-        sample.ib_A          = static_cast<float>(b);
-        sample.dc_link_V     = static_cast<float>(dc_V_);
-        sample.theta_e_rad   = static_cast<float>(std::remainder(plant_.theta_e_rad(), 2 * pi));
-        sample.omega_e_radps = static_cast<float>(plant_.omega_e_radps());
-        sample.valid         = true;
-        const bridge_t out   = drive_tick(&drive_, &sample, &command_);
-        limited_             = limited_ || drive_.v_limited;
-        plant_.step(voltage_, load_Nm, static_cast<double>(config_.ts_s), 20);
-        const auto a = static_cast<double>(out.duty.a);
-        const auto c = static_cast<double>(out.duty.c);
-        const auto m = static_cast<double>(out.duty.b);
-        voltage_     = {dc_V_ * (2.0 * a - m - c) / 3.0, dc_V_ * (m - c) / std::sqrt(3.0)};
-        return drive_.state == DRIVE_RUN;
-    }
-
-    const sdre::Plant &plant() const
-    {
-        return plant_;
-    }
-    bool limited() const
-    {
-        return limited_;
-    }
-    void forget_limit()
-    {
-        limited_ = false;
-    }
-
-private:
-    drive_config_t     config_;
-    sdre::Plant        plant_;
-    double             dc_V_;
-    drive_t            drive_{};
-    drive_command_t    command_{};
-    sdre::StatorVector voltage_;
-    bool               limited_ = false;
-};
-
-struct StepResponse {
-    std::vector<double>  deviation_e_radps; ///< after each period from the load step on
-    sdre::OperatingPoint before;
-    bool                 limited = false; ///< the voltage limit was reached after the step
-};
-
-constexpr int settle_ticks   = 2000; // 0.4 s
-constexpr int response_ticks = 200;  // 40 ms
-
-StepResponse nonlinear_step(const sdre::Design &d, double omega, double load_Nm, double step_Nm,
-                            double theta)
-{
-    Loop         loop(d, omega, theta);
-    StepResponse out;
-    for (int k = 0; k < settle_ticks; k++) {
-        EXPECT_TRUE(loop.tick(load_Nm));
-    }
-    const sdre::RotorVector i = loop.plant().current_A();
-    out.before                = {loop.plant().omega_e_radps(), i.q, i.d};
-    loop.forget_limit();
-    for (int k = 0; k < response_ticks; k++) {
-        EXPECT_TRUE(loop.tick(load_Nm + step_Nm));
-        out.deviation_e_radps.push_back(loop.plant().omega_e_radps() - out.before.omega_e_radps);
-    }
-    out.limited = loop.limited();
-    return out;
-}
-
-std::vector<double> linear_step(const sdre::SampledModel &m, double step_Nm)
-{
-    VectorXd            x = VectorXd::Zero(m.A.rows());
-    std::vector<double> out;
-    for (int k = 0; k < response_ticks; k++) {
-        x = m.A * x + m.b_load * step_Nm;
-        out.push_back(x(0));
-    }
-    return out;
-}
-
 } // namespace
 
 TEST(SampledModel, JacobianIsTheDerivativeOfTheMotor)
@@ -251,11 +152,12 @@ TEST(SampledModel, SmallLoadStepIsThatOfTheNonlinearLoop)
 {
     constexpr double step_Nm = 0.05;
     for (const double omega : {100.0, 300.0}) {
-        const StepResponse       found = nonlinear_step(board(), omega, 0.75, step_Nm, 0.3);
+        const support::StepResponse found =
+            support::nonlinear_step(board(), omega, 0.75, step_Nm, 0.3);
         const sdre::SampledModel model =
             sdre::sampled_model(board().l, board().l, gains_at(board(), found.before.iq_A),
                                 found.before, sdre::control_period_s(board().drive));
-        const std::vector<double> expected = linear_step(model, step_Nm);
+        const std::vector<double> expected = support::linear_step(model, step_Nm);
 
         EXPECT_FALSE(found.limited);
         EXPECT_NEAR(found.before.omega_e_radps, omega, 0.01);
@@ -278,7 +180,8 @@ TEST(SampledModel, SmallLoadStepInFluxWeakeningMovesTheReference)
     const sdre::Design     &d       = board();
     const sdre::IdReference id      = references_of(d);
     for (const auto &[omega, load_Nm] : {std::pair{500.0, 2.0}, {744.0, 1.3}, {1000.0, 0.8}}) {
-        const StepResponse found = nonlinear_step(d, omega, load_Nm, step_Nm, 0.3);
+        const support::StepResponse found =
+            support::nonlinear_step(d, omega, load_Nm, step_Nm, 0.3);
         EXPECT_FALSE(found.limited);
         const sdre::SteadyState s = sdre::steady_state(id, d.l, d.l, omega, found.before.iq_A);
         EXPECT_NEAR(s.at.id_A, found.before.id_A, 1.5e-2) << omega; // a held voltage turns
@@ -288,10 +191,11 @@ TEST(SampledModel, SmallLoadStepInFluxWeakeningMovesTheReference)
         const sdre::MovingReference moving = sdre::moving_reference(id, d.l, gains.Lambda, s);
         const double                ts     = sdre::control_period_s(d.drive);
         const auto                  expected =
-            linear_step(sdre::sampled_model(d.l, d.l, gains, s.at, ts, &moving), step_Nm);
-        const auto   frozen = linear_step(sdre::sampled_model(d.l, d.l, gains, s.at, ts), step_Nm);
-        const double dip    = -*std::min_element(expected.begin(), expected.end());
-        double       other  = 0.0;
+            support::linear_step(sdre::sampled_model(d.l, d.l, gains, s.at, ts, &moving), step_Nm);
+        const auto frozen =
+            support::linear_step(sdre::sampled_model(d.l, d.l, gains, s.at, ts), step_Nm);
+        const double dip   = -*std::min_element(expected.begin(), expected.end());
+        double       other = 0.0;
         for (std::size_t k = 0; k < expected.size(); k++) {
             EXPECT_NEAR(found.deviation_e_radps[k], expected[k], 0.08 * dip) << omega << " " << k;
             other = std::max(other, std::abs(found.deviation_e_radps[k] - frozen[k]));
@@ -368,12 +272,13 @@ TEST(SampledModel, TargetOfTheReferenceIsTheFirmwares)
 TEST(SampledModel, AngleItselfDoesNotMatter)
 {
     // The model has no angle, only its error: the nonlinear loop answers the same wherever it starts.
-    constexpr double   tolerance = 0.02; // of the dip; single precision of angle and currents
-    const StepResponse first     = nonlinear_step(board(), 300.0, 0.75, 0.05, 0.0);
-    const double       dip =
+    constexpr double tolerance        = 0.02; // of the dip; single precision of angle and currents
+    const support::StepResponse first = support::nonlinear_step(board(), 300.0, 0.75, 0.05, 0.0);
+    const double                dip =
         -*std::min_element(first.deviation_e_radps.begin(), first.deviation_e_radps.end());
     for (const double theta : {1.0, 2.5, -2.9, pi}) {
-        const StepResponse other = nonlinear_step(board(), 300.0, 0.75, 0.05, theta);
+        const support::StepResponse other =
+            support::nonlinear_step(board(), 300.0, 0.75, 0.05, theta);
         for (std::size_t k = 0; k < first.deviation_e_radps.size(); k++) {
             EXPECT_NEAR(other.deviation_e_radps[k], first.deviation_e_radps[k], tolerance * dip);
         }

@@ -503,7 +503,7 @@ TEST(Tables, GenerateAndCheckInTheEncoderForm)
     const auto checked = support::run_command({SDRE_GAINS_EXE, "generate", drive, "--check", out});
     const auto other =
         support::run_command({SDRE_GAINS_EXE, "generate",
-                              support::shipped_drive("ipmsm_390w_speed").string(), "--check", out});
+                              support::shipped_drive("ipmsm_390w_noc_h").string(), "--check", out});
 
     EXPECT_EQ(written.exit_code, 0) << written.err;
     EXPECT_EQ(checked.exit_code, 0) << checked.err;

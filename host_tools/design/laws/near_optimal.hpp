@@ -48,15 +48,14 @@ LoopGains encoder_form_gains(const Design &design, double iq_A, const Eigen::Mat
 /// The points of verdict_points() with the currents that the references settle at.
 std::vector<OperatingPoint> loaded_points(const Design &design, const IdReference &r);
 
-/// The verdict of a law that observes the angle. `model_at(design, motor, point, Lambda, reference)` has the A, B_voltage, C_voltage
-/// and B_noise of EQ-CERT-3 and 6, of all its feedback_gains(); `angle_weight` as for disturbance_margin(). Other motors are judged with
-/// a d-current reference that stands still.
+/// The whole loop with all feedback_gains(). `model_at(design, motor, point, Lambda, reference)` has the A, B_voltage and C_voltage
+/// of EQ-CERT-6. Other motors are judged with a d-current reference that stands still. The family refers to `d` and `model_at`.
 template <typename ModelAt>
-void certify_whole(Design &d, const encoder_form_limits_t &limits, double angle_weight,
-                   const current_ref_config_t &references, const ModelAt &model_at)
+LoopFamily whole_loop(const Design &d, const current_ref_config_t &references,
+                      const ModelAt &model_at)
 {
     const IdReference id          = id_reference(d, references);
-    const auto        at_voltages = [&](const auto &m, std::vector<BrokenLoop> &all) {
+    const auto        at_voltages = [&d](const auto &m, std::vector<BrokenLoop> &all) {
         const auto two =
             broken_at_voltages(m.A, m.B_voltage, m.C_voltage, control_period_s(d.drive));
         all.insert(all.end(), two.begin(), two.end());
@@ -69,7 +68,7 @@ void certify_whole(Design &d, const encoder_form_limits_t &limits, double angle_
         f.plane = plane_points(id, d.l, static_cast<double>(d.config.speed_max_e_radps),
                                plane_points_per_side);
     }
-    f.loops = [&](const Motor &, const OperatingPoint &at) {
+    f.loops = [&d, &model_at, id, at_voltages](const Motor &, const OperatingPoint &at) {
         std::vector<BrokenLoop> all;
         const SteadyState       s = state_at(d.l, d.l, at);
         for (const Eigen::MatrixXd &Lambda : feedback_gains(d)) {
@@ -78,17 +77,26 @@ void certify_whole(Design &d, const encoder_form_limits_t &limits, double angle_
         }
         return all;
     };
-    f.loops_of_others = [&](const Motor &motor, const OperatingPoint &at) {
+    f.loops_of_others = [&d, &model_at, at_voltages](const Motor &motor, const OperatingPoint &at) {
         std::vector<BrokenLoop> all;
         for (const Eigen::MatrixXd &Lambda : feedback_gains(d)) {
             at_voltages(model_at(d, reduced_parameters(motor), at, Lambda, nullptr), all);
         }
         return all;
     };
+    return f;
+}
+
+/// The verdict of a law that observes the angle; `angle_weight` as for disturbance_margin().
+template <typename ModelAt>
+void certify_whole(Design &d, const encoder_form_limits_t &limits, double angle_weight,
+                   const current_ref_config_t &references, const ModelAt &model_at)
+{
     const auto m = model_at(
         d, d.l, OperatingPoint{d.drive.motor.rated_speed_e_radps, 0.0, mtpa_id_A(d.l, 0.0)},
         d.nosc.gain[0], nullptr);
-    certify_loop(d, f, {disturbance_margin(d, limits, m.A, m.B_noise, angle_weight)});
+    certify_loop(d, whole_loop(d, references, model_at),
+                 {disturbance_margin(d, limits, m.A, m.B_noise, angle_weight)});
 }
 
 /// Limits of the innovation for an observer with these gains, EQ-ANGLE-GATE-3.

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "design/laws/near_optimal.hpp"
+#include "design/speed_form_model.hpp"
 
 namespace sdre {
 namespace {
@@ -9,6 +12,16 @@ namespace {
 bool is_for(const Drive &drive)
 {
     return drive.law == Law::noc && drive.nodo.form == NodoForm::speed;
+}
+
+SampledModel model_at(const Design &d, const ReducedParameters &motor, const OperatingPoint &at,
+                      const Eigen::MatrixXd &Lambda, const MovingReference *moving)
+{
+    const double    range = d.certificate.nodo.series_range_A;
+    const LoopGains gains{
+        Lambda, series_gain(d.nodo, {std::clamp(at.iq_A, -range, range)}, series_order(d.nodo))};
+    return speed_form_model(motor, d.l, d.drive.nodo.form, gains, at, control_period_s(d.drive),
+                            moving);
 }
 
 void solve(Design &d)
@@ -20,6 +33,7 @@ void solve(Design &d)
     c.nodo.iq_max_A       = static_cast<float>(d.certificate.nodo.series_range_A);
     c.nodo.iq_certified_A = static_cast<float>(d.certificate.nodo.range_A);
     copy_series(d.nodo, c.nodo.gain);
+    certify_loop(d, whole_loop(d, c.near_optimal.current_ref, model_at), {});
     keep_constants(d, c);
 }
 
@@ -28,7 +42,7 @@ std::string summary(const Design &d)
     return method_line(fmt::format("EQ-NOSC-2 with N = {}, EQ-NODO-2 with Nd = {}",
                                    d.drive.nosc.order, d.drive.nodo.order)) +
            residual_line(worst_residual(d)) + controller_line(d.certificate.nosc) +
-           observer_line(d.certificate.nodo);
+           observer_line(d.certificate.nodo) + verdict_lines(*d.certificate.loop);
 }
 
 std::vector<std::string> mismatches(const Design &d)

@@ -149,6 +149,7 @@ def unit_tests_m4f(out):
                 ub.ROOT / f"firmware/config/drives/{drive}.toml",
                 "--out",
                 out / name,
+                "--uncertified",
             ]
         )
         tables.append((out / name / "gain_tables.c", [f"-Dgain_tables_drive={name}_drive"]))
