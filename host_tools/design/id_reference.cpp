@@ -190,7 +190,8 @@ MovingReference moving_reference(const IdReference &r, const ReducedParameters &
     const std::array<double IdInputs::*, 6> states{&IdInputs::d_omega, &IdInputs::d_q,
                                                    &IdInputs::d_d,     &IdInputs::omega_e_radps,
                                                    &IdInputs::iq_A,    &IdInputs::id_A};
-    const std::array<double, 6> scale{model[1] * most, w * most, w * most, w, most, most};
+    const double                accel = at_rest(model)[1] * most; // without a magnet l1 alone is 0
+    const std::array<double, 6> scale{accel, w * most, w * most, w, most, most};
     const auto                  slope = [&](double IdInputs::*input, double by, const auto &f) {
         IdInputs more = s.in;
         IdInputs less = s.in;
