@@ -49,6 +49,15 @@ double room_A(const Motor &m, double id_A, double speed, double circle_V)
     return steady_voltage_V(m, id_A, by_limit, speed) <= circle_V ? by_limit : lo;
 }
 
+} // namespace
+
+double steady_voltage_V(const Motor &m, double id_A, double iq_A, double w)
+{
+    return std::hypot(m.stator_resistance_Ohm * iq_A +
+                          w * (m.d_axis_inductance_H * id_A + m.pm_flux_Wb),
+                      m.stator_resistance_Ohm * id_A - w * m.q_axis_inductance_H * iq_A);
+}
+
 MachinePoint most_torque(const Motor &m, double speed, double circle_V)
 {
     MachinePoint best{speed, 0.0, 0.0, 0.0, 0.0, 0.0};
@@ -60,15 +69,6 @@ MachinePoint most_torque(const Motor &m, double speed, double circle_V)
         }
     }
     return best;
-}
-
-} // namespace
-
-double steady_voltage_V(const Motor &m, double id_A, double iq_A, double w)
-{
-    return std::hypot(m.stator_resistance_Ohm * iq_A +
-                          w * (m.d_axis_inductance_H * id_A + m.pm_flux_Wb),
-                      m.stator_resistance_Ohm * id_A - w * m.q_axis_inductance_H * iq_A);
 }
 
 MachinePoint limit_point(const Drive &d)

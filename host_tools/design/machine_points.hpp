@@ -33,6 +33,9 @@ MachinePoints machine_points(const Drive &drive);
 /// MachinePoints::limit alone; the others take longer.
 MachinePoint limit_point(const Drive &drive);
 
+/// Most torque at a speed within the current limit and the circle; none where the circle is too small.
+MachinePoint most_torque(const Motor &motor, double speed_e_radps, double circle_V);
+
 /// Length of the phase voltage in steady state [V].
 double steady_voltage_V(const Motor &motor, double id_A, double iq_A, double speed_e_radps);
 

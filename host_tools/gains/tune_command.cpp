@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
+
 #include <fmt/format.h>
 
+#include "common/child_process.hpp"
 #include "common/errors.hpp"
 #include "common/file_output.hpp"
 #include "design/law_design.hpp"
@@ -18,6 +21,7 @@ struct Options {
     std::string drive;
     std::string spec;
     std::string out;
+    bool        alone = false;
 };
 
 void declare(OptionList &list, Options &o)
@@ -25,6 +29,7 @@ void declare(OptionList &list, Options &o)
     list.required("DRIVE", o.drive, "drive file (TOML)");
     list.text("--spec", o.spec, "specification (TOML); without one the goals follow from physics");
     list.text("--out", o.out, "drive file to write instead");
+    list.flag("--no-qualify", o.alone, "without the trials at the end");
 }
 
 void say_progress(int evaluations, double worst)
@@ -69,6 +74,28 @@ Tuned by_physics(const Options &o, const Drive &drive)
     }
 }
 
+/// Noise of v_q that the goals allow, per cent of the circle.
+int noise_percent(const TuneSpec &goals, const Drive &drive)
+{
+    const double circle_V = drive.inverter.dc_link_V / std::sqrt(3.0);
+    return static_cast<int>(std::ceil(100.0 * goals.voltage_noise_V / circle_V));
+}
+
+/// `sdre-sil qualify --short` on the result, which prints what it finds.
+int qualified(const std::string &file, int noise)
+{
+    const std::filesystem::path tool = program_beside("sdre-sil");
+    if (tool.empty()) {
+        fmt::print("not qualified: there is no sdre-sil beside this tool\n");
+        return exit_ok;
+    }
+    std::vector<std::string> arguments{tool.string(), "qualify", file, "--short"};
+    if (noise > 0) {
+        arguments.insert(arguments.end(), {"--noise", fmt::format("{}", noise)});
+    }
+    return run_program(arguments) == 0 ? exit_ok : exit_design_failed;
+}
+
 int run(const Options &o)
 {
     const Drive   drive   = read_drive_file(o.drive);
@@ -84,16 +111,21 @@ int run(const Options &o)
     const std::string out      = o.out.empty() ? o.drive : o.out;
     write_files({{out, with_sections(text, sections)}});
     fmt::print("{}{}{}: written; {}\n", sections, pwm_note(drive.inverter), out, tuned.remark);
-    return exit_ok;
+    if (o.alone) {
+        return exit_ok;
+    }
+    return qualified(out, o.spec.empty() ? 0 : noise_percent(tuned.spec, drive));
 }
 
 } // namespace
 
 Command tune_command()
 {
-    return command<Options>(
-        "tune", "find weights from physical specifications and write them to the drive file",
-        declare, run);
+    return command<Options>("tune",
+                            "find weights from physical specifications, write them to the drive "
+                            "file and qualify it; exit "
+                            "code 2 when it is not good",
+                            declare, run);
 }
 
 } // namespace sdre

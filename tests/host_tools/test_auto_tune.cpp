@@ -46,7 +46,25 @@ TEST(AutoTune, FromADataSheetToACertifiedDrive)
     ASSERT_EQ(first.exit_code, 0) << first.err;
     EXPECT_NE(first.out.find(" binds, "), std::string::npos) << first.out;
     EXPECT_NE(first.err.find("100 evaluations"), std::string::npos) << first.err;
+    EXPECT_NE(first.out.find("\noutrunner_24v: good\n"), std::string::npos) << first.out;
     EXPECT_EQ(gains({"report", tuned}).exit_code, 0);
+}
+
+/// It ends with the trials of qualify. A drive that is not good is written all the same; the exit code is 2.
+TEST(AutoTune, WhatIsNotGoodIsSaidWithTheNextStep)
+{
+    const TempDir     dir;
+    const std::string drive = dir / "drive.toml";
+    const std::string tuned = dir / "tuned.toml";
+    ASSERT_EQ(gains({"new", "--facts", sheet("pump_256"), "--out", drive}).exit_code, 0);
+    const auto r = gains({"tune", drive, "--out", tuned});
+    EXPECT_EQ(r.exit_code, 2) << r.err;
+    EXPECT_NE(r.out.find("\nnot good: plane on the board"), std::string::npos) << r.out;
+    EXPECT_NE(r.out.find("\nnext: more encoder lines"), std::string::npos) << r.out;
+    const auto alone = gains({"tune", drive, "--out", dir / "same.toml", "--no-qualify"});
+    EXPECT_EQ(alone.exit_code, 0);
+    EXPECT_EQ(alone.out.find("good"), std::string::npos) << alone.out;
+    EXPECT_EQ(support::read_file(tuned), support::read_file(dir / "same.toml"));
 }
 
 TEST(AutoTune, WishesBeyondPhysicsAreRefusedInOneLine)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -7,7 +8,10 @@
 #include "command.hpp"
 #include "json.hpp"
 #include "shipped_drive.hpp"
+#include "sil/eval/metrics.hpp"
+#include "sil/qualify/map.hpp"
 #include "sil/qualify/qualify.hpp"
+#include "sil/run/simulation.hpp"
 #include "temp_dir.hpp"
 
 namespace {
@@ -59,6 +63,79 @@ TEST(Qualify, TheShippedDriveIsGood)
     for (const Json &trial : r.json.at("trials")) {
         EXPECT_LE(trial.at("peak_current_A").number(), 4.4) << trial.at("what").text();
     }
+}
+
+/// The map: an independent run at one of its points has the same ripples, and every limit is judged.
+TEST(Qualify, MapIsOfSteadyRunsOverThePlane)
+{
+    const sdre::Drive    drive = sdre::read_drive_file(support::shipped_drive("ipmsm_390w"));
+    const sdre::PlaneMap map   = sdre::plane_map(drive, 3, 1);
+    ASSERT_EQ(map.points.size(), 9U);
+    EXPECT_TRUE(sdre::map_reasons(map).empty());
+    EXPECT_EQ(map.points[0].speed_e_radps, 0.0);
+    EXPECT_LT(map.points[0].torque_Nm, -2.4);
+    EXPECT_EQ(map.points[4].torque_Nm, 0.0);
+    EXPECT_GT(map.points[8].speed_e_radps, 1190.0);
+
+    sdre::Scenario s        = sdre::at_speed(drive, map.points[5].speed_e_radps, 0.0);
+    const double   friction = 1e-4 * 0.5 * map.points[5].speed_e_radps;
+    const double   ramp_s   = sdre::steady_after_s(drive);
+    s.load_ramps            = {{ramp_s, 2.0 * ramp_s, map.points[5].torque_Nm - friction}};
+    s.duration_s            = 3.0 * ramp_s + 0.2;
+    s.measures              = {{"steady", 3.0 * ramp_s - 1e-6, 1.0, {}}};
+    s.measures[0].tail_s    = 0.2;
+    const auto m            = sdre::measure(s, sdre::simulate(s).trace).at(0);
+    EXPECT_NEAR(m.effort.vq_noise_V, map.points[5].board.vq_V, 0.02 * map.points[5].board.vq_V);
+    EXPECT_NEAR(m.effort.vd_noise_V, map.points[5].board.vd_V, 0.02 * map.points[5].board.vd_V);
+    EXPECT_NEAR(m.iq_A, 2.0, 1.0);
+}
+
+TEST(Qualify, EveryLimitOfTheMapIsJudged)
+{
+    sdre::PlaneMap good;
+    good.points      = {sdre::MapPoint{}, sdre::MapPoint{}};
+    good.ideal_limit = {0.2, 0.2, 0.02};
+    good.board_limit = {10.0, 10.0, 0.0};
+    EXPECT_TRUE(sdre::map_reasons(good).empty());
+    const auto reasons = [&](auto change) {
+        sdre::PlaneMap bad = good;
+        change(bad.points[1]);
+        return sdre::map_reasons(bad);
+    };
+    const double nan = std::nan("");
+    for (const double much : {11.0, nan}) {
+        for (double sdre::Ripples::*value :
+             {&sdre::Ripples::vq_V, &sdre::Ripples::vd_V, &sdre::Ripples::speed_e_radps}) {
+            EXPECT_EQ(reasons([&](sdre::MapPoint &p) { p.ideal.*value = much; }).size(), 1U);
+        }
+        for (double sdre::Ripples::*value : {&sdre::Ripples::vq_V, &sdre::Ripples::vd_V}) {
+            EXPECT_EQ(reasons([&](sdre::MapPoint &p) { p.board.*value = much; }).size(), 1U);
+        }
+    }
+    EXPECT_EQ(reasons([](sdre::MapPoint &p) { p.faults = 1; }).size(), 1U);
+    EXPECT_EQ(reasons([](sdre::MapPoint &p) { p.board.speed_e_radps = 1.0; }).size(), 0U);
+}
+
+TEST(Qualify, PictureOfTheMapShowsWhatIsBeyond)
+{
+    sdre::PlaneMap map;
+    map.points      = std::vector<sdre::MapPoint>(4);
+    map.ideal_limit = {0.2, 0.2, 0.02};
+    map.board_limit = {10.0, 10.0, 0.0};
+    const auto reds = [&] {
+        const std::string svg = sdre::map_svg(map);
+        std::size_t       n   = 0;
+        for (std::size_t at = svg.find("#d7301f"); at != std::string::npos;
+             at             = svg.find("#d7301f", at + 1)) {
+            n++;
+        }
+        return n;
+    };
+    EXPECT_EQ(reds(), 0U);
+    map.points[3].board.vd_V = 10.5;
+    EXPECT_EQ(reds(), 1U);
+    map.points[0].ideal.vq_V = 0.3;
+    EXPECT_EQ(reds(), 2U);
 }
 
 /// The same motor with loops that are as noisy as PI loops on a real disc are: refused, and why.

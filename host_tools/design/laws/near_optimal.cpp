@@ -198,6 +198,21 @@ void solve_near_optimal(Design &d)
     certify(d);
 }
 
+const current_ref_config_t *current_references(const Design &d)
+{
+    if (const auto *c = constants_of<law_noc_config_t>(d.config)) {
+        return &c->near_optimal.current_ref;
+    }
+    if (const auto *c = constants_of<law_noc_h_config_t>(d.config)) {
+        return &c->near_optimal.current_ref;
+    }
+    if (const auto *c = constants_of<law_noc_speed_config_t>(d.config)) {
+        return &c->near_optimal.current_ref;
+    }
+    const auto *c = constants_of<law_conventional_config_t>(d.config);
+    return c != nullptr ? &c->near_optimal.current_ref : nullptr;
+}
+
 near_optimal_config_t near_optimal_constants(const Design &d, bool exact_mtpa, bool nosc_series)
 {
     near_optimal_config_t c{};

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int short_seeds  = 3;
 constexpr int short_motors = 40;
+constexpr int short_side   = 5;
 
 struct Options {
     std::string drive;
@@ -42,6 +43,7 @@ int run(const Options &o)
     if (o.quick) {
         q.seeds   = short_seeds;
         q.motors  = short_motors;
+        q.side    = short_side;
         q.against = false;
     }
     q.noise_share                  = 0.01 * o.noise;

@@ -5,10 +5,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include "common/child_process.hpp"
 #include "common/data_files.hpp"
 #include "common/errors.hpp"
 #include "common/file_output.hpp"
@@ -18,22 +17,6 @@
 
 namespace sdre {
 namespace {
-
-int run(const std::vector<std::string> &arguments)
-{
-    std::vector<char *> argv;
-    for (const std::string &argument : arguments) {
-        argv.push_back(const_cast<char *>(argument.c_str())); // posix_spawn does not write to them
-    }
-    argv.push_back(nullptr);
-    pid_t child  = 0;
-    int   status = 0;
-    if (posix_spawnp(&child, argv[0], nullptr, nullptr, argv.data(), environ) != 0 ||
-        waitpid(child, &status, 0) != child) {
-        return -1;
-    }
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
 
 /// A directory for what the script reads and writes.
 class Workplace {
@@ -86,7 +69,7 @@ std::string drawn(const char *script, const std::string &csv, const std::string 
         arguments.push_back((work / "marks.json").string());
         write_files({{arguments.back(), marks}});
     }
-    if (run(arguments) != 0) {
+    if (run_program(arguments) != 0) {
         throw InputError(fmt::format("{}: cannot draw", picture.string()));
     }
     return read_text_file(out);

@@ -28,11 +28,11 @@ std::string escaped(const std::string &text)
 std::string row(const TrialResult &r, const Qualification &q)
 {
     return fmt::format("<tr{}><td>{}</td><td>{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.2f}</td>"
-                       "<td>{:.2f}</td><td>{}</td></tr>\n",
+                       "<td>{:.2f}</td><td>{:.2f}</td><td>{}</td></tr>\n",
                        r.reasons.empty() ? "" : " class=\"bad\"", escaped(r.what),
                        settling_words(r), r.dip_e_radps, r.ripple_e_radps,
                        r.peak_current_A / q.limit_A, 100.0 * r.voltage_noise_V / q.circle_V,
-                       escaped(verdict_words(r)));
+                       100.0 * r.vd_noise_V / q.circle_V, escaped(verdict_words(r)));
 }
 
 std::string paragraph(const std::string &words)
@@ -48,7 +48,7 @@ std::string qualification_html(const Qualification &q)
     s += paragraph(pwm_note(q.inverter));
     s += "<table><tr><th>worst of all seeds</th><th>settles<br>ms</th><th>dip<br>rad/s</th>"
          "<th>ripple<br>rad/s</th><th>peak<br>of limit</th><th>noise of "
-         "v_q<br>%</th><th></th></tr>\n";
+         "v_q<br>%</th><th>noise of v_d<br>%</th><th></th></tr>\n";
     for (const TrialResult &r : q.trials) {
         s += row(r, q);
     }
@@ -58,12 +58,14 @@ std::string qualification_html(const Qualification &q)
                                   q.rival->current_bandwidth_Hz, q.rival->optimum_a);
         s += row(rival, q);
     }
-    s += "</table>\n";
+    s += "</table>\n<h2>Steady over speed and torque</h2>\n" +
+         (q.map.points.empty() ? "" : map_svg(q.map));
     s += paragraph(motors_words(q));
     s += paragraph(wide_motors_words(q));
     for (const std::string &reason : q.reasons) {
         s += paragraph("not good: " + escaped(reason));
     }
+    s += paragraph(next_step(q));
     return s + "</body></html>\n";
 }
 

@@ -67,20 +67,6 @@ double largest_torque(const Drive &d, const ReducedParameters &l)
     return torque_Nm(d.motor, mtpa_id_A(l, iq_A), iq_A);
 }
 
-Scenario at_speed(const Drive &d, double speed_e_radps, double load_Nm)
-{
-    Scenario s;
-    s.name                  = "qualify";
-    s.drive                 = d;
-    s.dc_link_V             = d.inverter.dc_link_V;
-    s.sensors               = sensors_of_drive(d);
-    s.sensors.ideal         = false;
-    s.initial_speed_e_radps = speed_e_radps;
-    s.speed_reference       = {{0.0, speed_e_radps}};
-    s.load_torque           = {{0.0, load_Nm}};
-    return s;
-}
-
 Trial load_step(const Drive &d, const Numbers &n, const std::string &what, double speed)
 {
     Trial     t{what, at_speed(d, speed, 0.5 * n.rated_Nm)};
@@ -199,9 +185,7 @@ Scenario for_motors(const Drive &d, const Numbers &n, const MotorRanges &ranges,
     return s;
 }
 
-} // namespace
-
-Plan qualification_plan(const Drive &d, double noise_share)
+Numbers numbers_of(const Drive &d, double noise_share)
 {
     const ReducedParameters l = reduced_parameters(d.motor);
     Numbers                 n{};
@@ -217,19 +201,47 @@ Plan qualification_plan(const Drive &d, double noise_share)
     n.load_band_e_radps =
         std::max(load_band * n.bound.dip_e_radps, noise ? noise_band * noise->ripple_e_radps : 0.0);
     n.start_s = start_error_cnt * count_e_rad(d) / n.ts_s / (start_share * n.accel);
+    return n;
+}
 
-    Plan         plan;
-    const double half = 0.5 * n.rated_e_radps;
-    plan.trials       = {
-              load_step(d, n, "load step", half),
-              load_step(d, n, "load step, whole counts a period",
-                        counts_per_period_e_radps(d, half, 0.0)),
-              load_step(d, n, "load step, half a count more", counts_per_period_e_radps(d, half, 0.5))};
+} // namespace
+
+Scenario at_speed(const Drive &d, double speed_e_radps, double load_Nm)
+{
+    Scenario s;
+    s.name                  = "qualify";
+    s.drive                 = d;
+    s.dc_link_V             = d.inverter.dc_link_V;
+    s.sensors               = sensors_of_drive(d);
+    s.sensors.ideal         = false;
+    s.initial_speed_e_radps = speed_e_radps;
+    s.speed_reference       = {{0.0, speed_e_radps}};
+    s.load_torque           = {{0.0, load_Nm}};
+    return s;
+}
+
+double steady_after_s(const Drive &d)
+{
+    const Numbers n = numbers_of(d, 0.0);
+    return n.after_s();
+}
+
+Plan qualification_plan(const Drive &d, double noise_share)
+{
+    const Numbers n = numbers_of(d, noise_share);
+    Plan          plan;
+    const double  half = 0.5 * n.rated_e_radps;
+    plan.trials        = {
+               load_step(d, n, "load step", half),
+               load_step(d, n, "load step, whole counts a period",
+                         counts_per_period_e_radps(d, half, 0.0)),
+               load_step(d, n, "load step, half a count more", counts_per_period_e_radps(d, half, 0.5))};
     add_speeds(d, n, plan.trials);
     add_slow(d, n, plan.trials);
     add_faults(d, n, plan.trials);
     // The weakest magnet carries 0.7 (0.5) of the torque: loads that it can.
-    const double carried = std::min(n.rated_Nm, 0.8 * largest_torque(d, l));
+    const double carried =
+        std::min(n.rated_Nm, 0.8 * largest_torque(d, reduced_parameters(d.motor)));
     plan.motors = for_motors(d, n, {{0.7, 1.3}, {0.7, 1.3}, {0.7, 1.3}, {0.5, 2.0}}, 0.7 * carried);
     plan.wide_motors =
         for_motors(d, n, {{0.5, 1.5}, {0.5, 1.5}, {0.5, 1.5}, {0.5, 3.0}}, 0.5 * carried);

@@ -27,6 +27,12 @@ struct Plan {
     Scenario wide_motors; ///< the same with +-50 % and J x0.5 .. 3
 };
 
+/// A run at one speed with one load on a real disc, without measures or an end.
+Scenario at_speed(const Drive &drive, double speed_e_radps, double load_Nm);
+
+/// Time in which a run is steady after its start [s].
+double steady_after_s(const Drive &drive);
+
 /// `noise_share` is the largest noise of v_q, of the circle.
 Plan qualification_plan(const Drive &drive, double noise_share);
 

@@ -39,6 +39,7 @@ TrialResult result_of(const Trial &trial, const SeedRuns &runs)
     r.dip_e_radps        = worst(m, "dip_e_radps").value_or(0.0);
     r.ripple_e_radps     = worst(m, "ripple_e_radps").value_or(0.0);
     r.voltage_noise_V    = worst(m, "vq_noise_V").value_or(0.0);
+    r.vd_noise_V         = worst(m, "vd_noise_V").value_or(0.0);
     for (const SeedMeasure &each : runs.measures) {
         r.peak_current_A = std::max(r.peak_current_A, worst(each, "peak_current_A").value_or(0.0));
     }
@@ -176,6 +177,10 @@ Qualification qualify(const Drive &drive, const QualifyOptions &o)
         for (const std::string &reason : r.reasons) {
             q.reasons.push_back(fmt::format("{}: {}", r.what, reason));
         }
+    }
+    q.map = plane_map(drive, o.side, o.seeds);
+    for (const std::string &reason : map_reasons(q.map)) {
+        q.reasons.push_back(reason);
     }
     q.motors = share_of(plan.motors, o.motors);
     q.wide   = share_of(plan.wide_motors, o.motors / 5);

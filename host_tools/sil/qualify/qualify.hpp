@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sil/qualify/map.hpp"
 #include "sil/qualify/plan.hpp"
 
 namespace sdre {
@@ -13,6 +14,7 @@ namespace sdre {
 struct QualifyOptions {
     int  seeds   = 10;
     int  motors  = 1000;
+    int  side    = 9;    ///< speeds of the map, and torques at each
     bool against = true; ///< compare the load step with pi_foc
     /// Largest noise of v_q, of the circle. Chosen: `tune` aims at 0.03 of its linear model.
     double noise_share = 0.04;
@@ -26,7 +28,8 @@ struct TrialResult {
     double                   dip_e_radps     = 0.0;
     double                   ripple_e_radps  = 0.0;
     double                   peak_current_A  = 0.0;
-    double                   voltage_noise_V = 0.0;
+    double                   voltage_noise_V = 0.0; ///< of v_q
+    double                   vd_noise_V      = 0.0;
     std::vector<std::string> reasons; ///< why it is not good; empty when it is
 };
 
@@ -53,6 +56,7 @@ struct Qualification {
     double                   circle_V  = 0.0;
     bool                     certified = false;
     std::vector<TrialResult> trials;
+    PlaneMap                 map;
     MotorShare               motors; ///< R, L, flux +-30 %, J x0.5 .. 2
     MotorShare               wide;   ///< R, L, flux +-50 %, J x0.5 .. 3; for information
     bool                     compared = false;

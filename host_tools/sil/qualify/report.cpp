@@ -11,10 +11,10 @@ namespace {
 
 std::string row_text(const TrialResult &r, const Qualification &q)
 {
-    return fmt::format("{:<34} {:>9} {:>9.3g} {:>9.3g} {:>8.2f} {:>8.2f}  {}\n", r.what,
+    return fmt::format("{:<34} {:>9} {:>9.3g} {:>9.3g} {:>8.2f} {:>8.2f} {:>8.2f}  {}\n", r.what,
                        settling_words(r), r.dip_e_radps, r.ripple_e_radps,
                        r.peak_current_A / q.limit_A, 100.0 * r.voltage_noise_V / q.circle_V,
-                       verdict_words(r));
+                       100.0 * r.vd_noise_V / q.circle_V, verdict_words(r));
 }
 
 std::string line(const std::string &words)
@@ -41,6 +41,7 @@ Json trial_json(const TrialResult &r)
            {"ripple_e_radps", r.ripple_e_radps},
            {"peak_current_A", r.peak_current_A},
            {"vq_noise_V", r.voltage_noise_V},
+           {"vd_noise_V", r.vd_noise_V},
            {"reasons", r.reasons}};
     if (r.settling_time_s) {
         j["settling_time_s"] = *r.settling_time_s;
@@ -48,6 +49,26 @@ Json trial_json(const TrialResult &r)
         j["settling_time_s"] = nullptr;
     }
     return j;
+}
+
+Json ripples_json(const Ripples &r)
+{
+    return {{"vq_V", r.vq_V}, {"vd_V", r.vd_V}, {"speed_e_radps", r.speed_e_radps}};
+}
+
+Json map_json(const PlaneMap &map)
+{
+    Json points = Json::array();
+    for (const MapPoint &p : map.points) {
+        points.push_back({{"speed_e_radps", p.speed_e_radps},
+                          {"torque_Nm", p.torque_Nm},
+                          {"ideal", ripples_json(p.ideal)},
+                          {"board", ripples_json(p.board)},
+                          {"faults", p.faults}});
+    }
+    return {{"ideal_limit", ripples_json(map.ideal_limit)},
+            {"board_limit", ripples_json(map.board_limit)},
+            {"points", points}};
 }
 
 Json share_json(const MotorShare &m)
@@ -61,19 +82,21 @@ std::string qualification_text(const Qualification &q)
 {
     std::string s =
         fmt::format("{}: {}\n{}\n", q.drive, q.good() ? "good" : "NOT GOOD", pwm_note(q.inverter));
-    s += fmt::format("{:<34} {:>9} {:>9} {:>9} {:>8} {:>8}\n", "worst of all seeds", "settles",
-                     "dip", "ripple", "peak", "noise");
-    s += fmt::format("{:<34} {:>9} {:>9} {:>9} {:>8} {:>8}\n", "", "ms", "rad/s", "rad/s",
-                     "of limit", "% v_q");
+    s += fmt::format("{:<34} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "worst of all seeds",
+                     "settles", "dip", "ripple", "peak", "v_q", "v_d");
+    s += fmt::format("{:<34} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "", "ms", "rad/s", "rad/s",
+                     "of limit", "noise %", "noise %");
     for (const TrialResult &r : q.trials) {
         s += row_text(r, q);
     }
     s += q.compared ? rival_text(q) : "";
+    s += map_text(q.map);
     s += line(motors_words(q));
     s += line(wide_motors_words(q));
     for (const std::string &reason : q.reasons) {
         s += "not good: " + reason + "\n";
     }
+    s += line(next_step(q));
     return s;
 }
 
@@ -91,6 +114,7 @@ std::string qualification_json(const Qualification &q)
            {"current_limit_A", q.limit_A},
            {"voltage_circle_V", q.circle_V},
            {"trials", trials},
+           {"map", map_json(q.map)},
            {"motors", share_json(q.motors)},
            {"wide_motors", share_json(q.wide)},
            {"reasons", q.reasons}};

@@ -27,6 +27,35 @@ std::string verdict_words(const TrialResult &r)
                               : "good";
 }
 
+std::string next_step(const Qualification &q)
+{
+    struct Advice {
+        const char *about; ///< in a reason
+        const char *what;
+    };
+    constexpr Advice all[] = {
+        {"not certified", "`sdre-gains tune` finds weights that are"},
+        {"trips", "a larger max_current_A or dc_link_V, or a smaller rated_torque_Nm"},
+        {"peak current", "a smaller rated_torque_Nm or a larger max_current_A; a higher pwm_kHz"},
+        {"noise of v_q", "more encoder lines or edge times, current sensors with less noise or "
+                         "range; a slower goal "
+                         "(docs/tuning.md), or --noise"},
+        {"plane on the board",
+         "more encoder lines or edge times, current sensors with less noise or range"},
+        {"plane", "a smaller largest speed or torque; other weights by `sdre-gains tune`"},
+        {"motors fail",
+         "a slower goal of settling time (docs/tuning.md), or facts with less tolerance"},
+        {"pi_foc", "a faster goal of settling time (docs/tuning.md): the noise leaves room"},
+        {"", "a larger dip or settling time as the goal (docs/tuning.md), a higher pwm_kHz, more "
+             "encoder lines"}};
+    for (const Advice &a : all) {
+        if (!q.reasons.empty() && q.reasons.front().find(a.about) != std::string::npos) {
+            return fmt::format("next: {}", a.what);
+        }
+    }
+    return "";
+}
+
 std::string motors_words(const Qualification &q)
 {
     return share_words("R, L, flux +-30 %, J x0.5 .. 2", q.motors);

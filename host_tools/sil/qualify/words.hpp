@@ -13,6 +13,8 @@ std::string settling_words(const TrialResult &r);
 /// "good", or why it is not.
 std::string verdict_words(const TrialResult &r);
 /// A line for each kind of random motors; empty when none were run.
+/// One line about the first reason; empty for a good drive.
+std::string next_step(const Qualification &q);
 std::string motors_words(const Qualification &q);
 std::string wide_motors_words(const Qualification &q);
 

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "sil/qualify/map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/parallel.hpp"
+#include "design/design.hpp"
+#include "design/id_reference.hpp"
+#include "design/laws/near_optimal.hpp"
+#include "design/machine_points.hpp"
+#include "design/trip_levels.hpp"
+#include "sil/eval/rows.hpp"
+#include "sil/qualify/plan.hpp"
+#include "sil/run/simulation.hpp"
+
+namespace sdre {
+namespace {
+
+// Chosen: of the largest q current in steady state; the limit of iq does not act there.
+constexpr double iq_share = 0.95;
+// Chosen: torque of a law without a d-current reference of its own, of what the machine has.
+constexpr double torque_share = 0.85;
+constexpr int    tail_periods = 1000;
+// Chosen: 0.2 V and 0.02 rad/s of the 390 W motor, whose circle is 170 V and whose rated speed 523 rad/s.
+constexpr double ideal_voltage_share = 0.2 / 170.3;
+constexpr double ideal_speed_share   = 0.02 / 523.0;
+constexpr double board_ratio = 2.0; // chosen: noise at any point, of that at half the rating
+
+Ripples ripples_of(const Trace &trace)
+{
+    const auto begin =
+        trace.end() - std::min<std::ptrdiff_t>(tail_periods, trace.end() - trace.begin());
+    const auto rms = [&](const auto &value) {
+        const double middle = mean(begin, trace.end(), value);
+        return std::sqrt(mean(begin, trace.end(),
+                              [&](const TraceRow &r) { return std::pow(value(r) - middle, 2); }));
+    };
+    return {rms([](const TraceRow &r) { return r.vq_V; }),
+            rms([](const TraceRow &r) { return r.vd_V; }),
+            rms([](const TraceRow &r) { return r.omega_e_radps; })};
+}
+
+Ripples largest(const Ripples &a, const Ripples &b)
+{
+    return {std::max(a.vq_V, b.vq_V), std::max(a.vd_V, b.vd_V),
+            std::max(a.speed_e_radps, b.speed_e_radps)};
+}
+
+/// The torque that a drive holds at a speed; share -1 generates all that it can, 1 motors.
+double held_torque_Nm(const Design &design, double speed_e_radps, double share)
+{
+    const Drive &d = design.drive;
+    if (const current_ref_config_t *references = current_references(design)) {
+        const OperatingPoint at = loaded_point(id_reference(design, *references), design.l,
+                                               speed_e_radps, iq_share * share);
+        return torque_Nm(d.motor, at.id_A, at.iq_A);
+    }
+    const double circle_V = d.inverter.dc_link_V / std::sqrt(3.0);
+    return torque_share * share * most_torque(d.motor, speed_e_radps, circle_V).torque_Nm;
+}
+
+std::vector<MapPoint> grid(const Drive &d, int per_side)
+{
+    const double          top    = largest_command_e_radps(d);
+    const Design          design = design_drive(d);
+    std::vector<MapPoint> points;
+    for (int i = 0; i < per_side; i++) {
+        const double speed = top * i / (per_side - 1);
+        for (int j = 0; j < per_side; j++) {
+            MapPoint p;
+            p.speed_e_radps = speed;
+            p.torque_Nm     = held_torque_Nm(design, speed, 2.0 * j / (per_side - 1) - 1.0);
+            points.push_back(p);
+        }
+    }
+    return points;
+}
+
+/// A run at the point, without noise or on the board. The load comes on a ramp: a drive with all its torque in use takes long to
+/// come back to its speed after a step.
+Scenario steady_run(const Drive &d, const MapPoint &p, double settling_s, bool ideal)
+{
+    const double friction_Nm = d.motor.viscous_friction_Nms * p.speed_e_radps / d.motor.pole_pairs;
+    Scenario     s           = at_speed(d, p.speed_e_radps, 0.0);
+    s.sensors.ideal          = ideal;
+    s.load_ramps             = {{settling_s, 2.0 * settling_s, p.torque_Nm - friction_Nm}};
+    s.duration_s             = 3.0 * settling_s + tail_periods * control_period_s(d);
+    return s;
+}
+
+/// Seeds 1 .. `seeds` on the board, and one run without noise.
+void run(const Drive &d, std::vector<MapPoint> &points, double settling_s, int seeds)
+{
+    const std::size_t    each  = static_cast<std::size_t>(seeds) + 1;
+    const Controller     noisy = prepare_controller(steady_run(d, points[0], settling_s, false));
+    const Controller     exact = prepare_controller(steady_run(d, points[0], settling_s, true));
+    std::vector<Ripples> found(points.size() * each);
+    std::vector<char>    tripped(found.size(), 0);
+    parallel_for(found.size(), [&](std::size_t n) {
+        const std::size_t seed   = n % each;
+        Scenario          s      = steady_run(d, points[n / each], settling_s, seed == 0);
+        s.seed                   = std::max<std::size_t>(seed, 1);
+        const SimulationResult r = simulate(s, seed == 0 ? exact : noisy);
+        found[n]                 = ripples_of(r.trace);
+        tripped[n]               = r.fault != 0 ? 1 : 0;
+    });
+    for (std::size_t i = 0; i < points.size(); i++) {
+        points[i].ideal = found[i * each];
+        for (std::size_t k = 0; k < each; k++) {
+            points[i].board = k == 0 ? Ripples{} : largest(points[i].board, found[i * each + k]);
+            points[i].faults += tripped[i * each + k];
+        }
+    }
+}
+
+struct Quantity {
+    const char *name;
+    const char *unit;
+    double Ripples::*value;
+};
+
+constexpr Quantity quantities[] = {{"v_q", "V", &Ripples::vq_V},
+                                   {"v_d", "V", &Ripples::vd_V},
+                                   {"speed", "rad/s", &Ripples::speed_e_radps}};
+
+std::string where(const MapPoint &p)
+{
+    return fmt::format("{:.4g} rad/s, {:.3g} N m", p.speed_e_radps, p.torque_Nm);
+}
+
+const MapPoint &worst(const PlaneMap &map, Ripples MapPoint::*kind, double Ripples::*value)
+{
+    return *std::max_element(
+        map.points.begin(), map.points.end(),
+        [&](const MapPoint &a, const MapPoint &b) { return (a.*kind).*value < (b.*kind).*value; });
+}
+
+std::string line(const PlaneMap &map, const char *what, Ripples MapPoint::*kind)
+{
+    std::string s = fmt::format("plane of speed and torque, {}: worst rms", what);
+    for (const Quantity &q : quantities) {
+        const MapPoint &p = worst(map, kind, q.value);
+        s += fmt::format("{} {} {:.3g} {} ({})", &q == quantities ? "" : ",", q.name,
+                         (p.*kind).*q.value, q.unit, where(p));
+    }
+    return s + "\n";
+}
+
+void judge(const PlaneMap &map, const char *what, Ripples MapPoint::*kind, const Ripples &limit,
+           std::vector<std::string> &reasons)
+{
+    for (const Quantity &q : quantities) {
+        const double most  = limit.*q.value;
+        const auto   above = [&](const MapPoint &p) { return !((p.*kind).*q.value <= most); };
+        const auto   count = std::count_if(map.points.begin(), map.points.end(), above);
+        if (most > 0.0 && count > 0) {
+            const MapPoint &p = worst(map, kind, q.value);
+            reasons.push_back(fmt::format(
+                "{}: {} {:.3g} {} rms at {}, at most {:.3g}; above at {} of {} points", what,
+                q.name, (p.*kind).*q.value, q.unit, where(p), most, count, map.points.size()));
+        }
+    }
+}
+
+} // namespace
+
+PlaneMap plane_map(const Drive &d, int per_side, int seeds)
+{
+    const double          circle_V   = d.inverter.dc_link_V / std::sqrt(3.0);
+    const double          settling_s = steady_after_s(d);
+    std::vector<MapPoint> half(1);
+    half[0].speed_e_radps = 0.5 * d.motor.rated_speed_e_radps;
+    half[0].torque_Nm     = 0.5 * d.motor.rated_torque_Nm;
+    run(d, half, settling_s, seeds);
+
+    PlaneMap map;
+    map.seeds  = seeds;
+    map.points = grid(d, per_side);
+    run(d, map.points, settling_s, seeds);
+    map.ideal_limit     = {ideal_voltage_share * circle_V, ideal_voltage_share * circle_V,
+                           ideal_speed_share * d.motor.rated_speed_e_radps};
+    const double most_V = board_ratio * std::max(half[0].board.vq_V, half[0].board.vd_V);
+    map.board_limit     = {most_V, most_V, 0.0};
+    return map;
+}
+
+std::vector<std::string> map_reasons(const PlaneMap &map)
+{
+    std::vector<std::string> reasons;
+    int                      faults = 0;
+    for (const MapPoint &p : map.points) {
+        faults += p.faults;
+    }
+    if (faults > 0) {
+        reasons.push_back(fmt::format("plane: {} runs trip", faults));
+    }
+    judge(map, "plane without noise", &MapPoint::ideal, map.ideal_limit, reasons);
+    judge(map, "plane on the board", &MapPoint::board, map.board_limit, reasons);
+    return reasons;
+}
+
+std::string map_text(const PlaneMap &map)
+{
+    if (map.points.empty()) {
+        return "";
+    }
+    return line(map, "without noise", &MapPoint::ideal) +
+           line(map, "on the board", &MapPoint::board);
+}
+
+} // namespace sdre
