@@ -546,6 +546,28 @@ TEST(Design, TooLongAControlPeriodIsNotCertified)
     EXPECT_FALSE(any_failure(d, "a pole at"));
 }
 
+/// The period grows from a sound one to one that is too long. A radius of one and more is refused, and no other.
+TEST(Design, SampledLoopIsRefusedFromARadiusOfOneOn)
+{
+    int just_above = 0;
+    int below      = 0;
+    for (const double frequency_Hz : {5000.0, 2000.0, 1800.0, 1750.0, 1700.0, 1300.0}) {
+        sdre::Drive drive               = shipped("ipmsm_390w_speed").drive;
+        drive.inverter.pwm_frequency_Hz = frequency_Hz;
+        const sdre::Design d            = sdre::design_drive(drive);
+        const double       found        = d.certificate.nodo.spectral_radius;
+        EXPECT_EQ(any_failure(d, "nodo: the sampled loop is unstable"), found >= 1.0)
+            << frequency_Hz;
+        EXPECT_EQ(any_failure(d, "nosc: the sampled loop is unstable"),
+                  d.certificate.nosc.spectral_radius >= 1.0)
+            << frequency_Hz;
+        just_above += found >= 1.0 && found < 1.1 ? 1 : 0;
+        below += found < 1.0 ? 1 : 0;
+    }
+    EXPECT_GT(just_above, 0);
+    EXPECT_GT(below, 0);
+}
+
 TEST(Design, HugeControllerWeightIsNotCertified)
 {
     sdre::Drive drive = shipped("ipmsm_390w_speed").drive;

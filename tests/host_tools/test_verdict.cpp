@@ -3,7 +3,10 @@
 #include "design/verdict.hpp"
 
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -307,4 +310,181 @@ TEST(Verdict, NoiseBelongsBelowTheTrip)
         said = said || failure.find("disturbance of the speed") == 0;
     }
     EXPECT_TRUE(said);
+}
+
+namespace {
+
+/// The pole of each loop as the point and the motor say; its gain as large as keeps |S| at 1 + gain / (1 - |pole|).
+LoopFamily poles_at(std::vector<OperatingPoint> points,
+                    std::function<std::vector<double>(const Motor &, const OperatingPoint &)> poles)
+{
+    LoopFamily f;
+    f.channels = {"q axis", "d axis"};
+    f.points   = std::move(points);
+    f.loops    = [poles](const Motor &m, const OperatingPoint &at) {
+        std::vector<BrokenLoop> loops;
+        for (const double pole : poles(m, at)) {
+            loops.push_back(one_pole(pole, 0.01));
+        }
+        return loops;
+    };
+    return f;
+}
+
+} // namespace
+
+/// Peak and radius are kept apart: the largest of each, of all loops and points, whatever the order.
+TEST(Verdict, KeepsTheLargestPeakAndTheLargestRadiusOfEachChannel)
+{
+    const std::vector<double> radius{0.2, 0.5, 0.7, 0.3}; // of z = pole, |S| peaks at z = -1
+    for (std::size_t turn = 0; turn < radius.size(); turn++) {
+        std::vector<OperatingPoint> points;
+        for (std::size_t k = 0; k < radius.size(); k++) {
+            points.push_back({10.0 * static_cast<double>((k + turn) % radius.size()), 0.0, 0.0});
+        }
+        // A positive pole has the larger radius, a negative one the larger peak at z = -1.
+        const auto poles = [&](const Motor &, const OperatingPoint &at) {
+            const double r = radius[static_cast<std::size_t>(at.omega_e_radps / 10.0)];
+            return std::vector<double>{r, 0.9 * r, -0.5 * r, -0.4 * r};
+        };
+        const Verdict v = sdre::examine(poles_at(points, poles), shipped().drive);
+        EXPECT_NEAR(v.spectral_radius, 0.7, 1e-12);
+        EXPECT_EQ(v.radius_at.omega_e_radps, 20.0);
+        EXPECT_NEAR(v.channels[0].worst.spectral_radius, 0.7, 1e-12);
+        EXPECT_NEAR(v.channels[1].worst.spectral_radius, 0.63, 1e-12);
+        EXPECT_NEAR(v.channels[0].worst.peak, 1.0 + 0.01 / (1.0 - 0.35), 1e-9);
+        EXPECT_NEAR(v.channels[1].worst.peak, 1.0 + 0.01 / (1.0 - 0.28), 1e-9);
+        EXPECT_EQ(v.channels[0].at.omega_e_radps, 20.0);
+        EXPECT_EQ(v.channels[1].at.omega_e_radps, 20.0);
+    }
+}
+
+/// The plane is swept roughly, and its worst points are judged as all others: one for the radius, one for each channel.
+TEST(Verdict, WorstPointsOfThePlaneAreJudged)
+{
+    for (const double scale : {1.0, 0.05}) { // 0.05: every radius is small
+        for (int worst = 0; worst < 7; worst++) {
+            for (int place = 0; place < 4;
+                 place++) { // loops: q and d axis of one mode, then of the other
+                const auto poles = [&](const Motor &, const OperatingPoint &at) {
+                    std::vector<double> p(4, 0.1 * scale);
+                    if (at.omega_e_radps == 100.0 + worst) {
+                        p[static_cast<std::size_t>(place)] = -0.9 * scale;
+                    }
+                    return p;
+                };
+                LoopFamily f = poles_at({{0.0, 0.0, 0.0}}, poles);
+                for (int k = 0; k < 7; k++) {
+                    f.plane.push_back({100.0 + k, 1.0, 0.0});
+                }
+                const Verdict v = sdre::examine(f, shipped().drive);
+                EXPECT_NEAR(v.spectral_radius, 0.9 * scale, 1e-12) << worst << place;
+                EXPECT_EQ(v.radius_at.omega_e_radps, 100.0 + worst);
+                const sdre::Channel &bad = v.channels[static_cast<std::size_t>(place % 2)];
+                EXPECT_NEAR(bad.worst.peak, 1.0 + 0.01 / (1.0 - 0.9 * scale), 1e-9);
+                EXPECT_EQ(bad.at.omega_e_radps, 100.0 + worst);
+            }
+        }
+    }
+}
+
+/// One point of the plane has the radius, others have the peaks of the channels: all three are judged.
+TEST(Verdict, PlaneHasAWorstPointForEachFigure)
+{
+    // x+ = pole x + gain r: |S| - 1 is gain / (1 - |pole|), so the radius does not choose the peaks.
+    LoopFamily f;
+    f.channels = {"q axis", "d axis"};
+    f.points   = {{0.0, 0.0, 0.0}};
+    f.loops    = [](const Motor &, const OperatingPoint &at) {
+        const double q = at.omega_e_radps == 2.0 ? 0.9 : 0.01;
+        const double d = at.omega_e_radps == 3.0 ? 0.8 : 0.01;
+        const double r = at.omega_e_radps == 4.0 ? 0.95 : 0.1;
+        return std::vector<BrokenLoop>{one_pole(-r, q), one_pole(-r, d)};
+    };
+    f.plane         = {{1.0, 0.0, 0.0}, {2.0, 0.0, 0.0}, {3.0, 0.0, 0.0}, {4.0, 0.0, 0.0}};
+    const Verdict v = sdre::examine(f, shipped().drive);
+    EXPECT_NEAR(v.spectral_radius, 0.95, 1e-12);
+    EXPECT_EQ(v.radius_at.omega_e_radps, 4.0);
+    EXPECT_NEAR(v.channels[0].worst.peak, 2.0, 1e-9);
+    EXPECT_EQ(v.channels[0].at.omega_e_radps, 2.0);
+    EXPECT_NEAR(v.channels[1].worst.peak, 1.0 + 0.8 / 0.9, 1e-9);
+    EXPECT_EQ(v.channels[1].at.omega_e_radps, 3.0);
+}
+
+/// A search minimises this. Each part is the largest once, and its value is known by hand.
+TEST(Verdict, ExcessIsTheLargestOfWhatIsFoundOverWhatIsAllowed)
+{
+    const auto excess = [](const auto &change) {
+        Verdict v;
+        v.spectral_radius        = std::exp(-ts_s / 1e-3); // a time constant of a millisecond
+        v.channels               = {{"q axis", {}, {}}, {"d axis", {}, {}}};
+        v.channels[0].worst.peak = v.channels[1].worst.peak = 1.0;
+        v.box = v.alone = sdre::RobustBox{1.0, ""};
+        v.trips         = {{"disturbance", 10.0, 1.0}, {"other", 4.0, 1.0}};
+        change(v);
+        return sdre::excess(v, ts_s);
+    };
+    EXPECT_NEAR(excess([](Verdict &) {}), 1.0, 1e-12); // one motor at a time: the whole range
+    for (const double wide : {1.3, 2.0, 7.0}) {
+        const auto mode = [&](Verdict &v) {
+            v.spectral_radius = std::exp(-ts_s / (wide * sdre::slowest_mode_s));
+        };
+        EXPECT_NEAR(excess(mode), wide, 1e-6 * wide);
+        for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+            const auto peak = [&](Verdict &v) { v.channels[k].worst.peak = 3.0 * wide; };
+            EXPECT_NEAR(excess(peak), wide, 1e-12);
+            const auto trip = [&](Verdict &v) { v.trips[k].healthy = wide * v.trips[k].limit; };
+            EXPECT_NEAR(excess(trip), wide, 1e-12);
+        }
+        EXPECT_NEAR(excess([&](Verdict &v) { v.box->share = 0.4 / wide; }), wide, 1e-12);
+        EXPECT_NEAR(excess([&](Verdict &v) { v.alone->share = 1.0 / wide; }), wide, 1e-12);
+    }
+    EXPECT_NEAR(excess([](Verdict &v) { v.box->share = 0.0; }), 400.0, 1e-9);
+    EXPECT_NEAR(excess([](Verdict &v) { v.alone->share = 0.0; }), 1000.0, 1e-9);
+    EXPECT_NEAR(excess([](Verdict &v) { v.spectral_radius = 1.0; }), 1000.0, 1e-9);
+    EXPECT_NEAR(excess([](Verdict &v) { v.spectral_radius = 1.05; }), 1000.0, 1e-9);
+    EXPECT_LT(excess([](Verdict &v) { v.box = v.alone = std::nullopt; }), 0.34); // the peaks' third
+}
+
+/// A figure at its limit passes. The next number beyond it does not.
+TEST(Verdict, LimitsThemselvesAreAllowed)
+{
+    const auto failures = [](const auto &change) {
+        Verdict v;
+        v.spectral_radius        = std::exp(-ts_s / 1e-3);
+        v.channels               = {{"q axis", {}, {}}, {"d axis", {}, {}}};
+        v.channels[0].worst.peak = v.channels[1].worst.peak = 1.5;
+        v.box = v.alone = sdre::RobustBox{1.0, ""};
+        v.trips         = {{"disturbance", 10.0, 1.0}};
+        change(v);
+        std::vector<std::string> lines;
+        sdre::judge(v, ts_s, lines);
+        return lines.size();
+    };
+    const auto up   = [](double x) { return std::nextafter(x, HUGE_VAL); };
+    const auto down = [](double x) { return std::nextafter(x, -HUGE_VAL); };
+    for (const double most_s : {2.0, 100.0}) {
+        const auto lines_of = [&](double radius) {
+            return failures([&](Verdict &v) {
+                v.slowest_mode_s  = most_s;
+                v.spectral_radius = radius;
+            });
+        };
+        for (const double share : {1e-3, 0.1, 0.5, 0.99}) {
+            EXPECT_EQ(lines_of(std::exp(-ts_s / (share * most_s))), 0U) << share;
+        }
+        const double slowest = std::exp(-ts_s / most_s);
+        EXPECT_EQ(lines_of(slowest), 0U);
+        EXPECT_EQ(lines_of(up(slowest)), 1U);
+    }
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+        EXPECT_EQ(failures([&](Verdict &v) { v.channels[k].worst.peak = 3.0; }), 0U);
+        EXPECT_EQ(failures([&](Verdict &v) { v.channels[k].worst.peak = up(3.0); }), 1U);
+    }
+    EXPECT_EQ(failures([](Verdict &v) { v.box->share = 0.4; }), 0U);
+    EXPECT_EQ(failures([&](Verdict &v) { v.box->share = down(0.4); }), 1U);
+    EXPECT_EQ(failures([](Verdict &v) { v.alone->share = 1.0; }), 0U);
+    EXPECT_EQ(failures([&](Verdict &v) { v.alone->share = down(1.0); }), 1U);
+    EXPECT_EQ(failures([](Verdict &v) { v.trips[0].healthy = 10.0; }), 0U);
+    EXPECT_EQ(failures([&](Verdict &v) { v.trips[0].healthy = up(10.0); }), 1U);
 }

@@ -26,11 +26,16 @@ SECONDS = 60
 # Modules with the tests that have to see their mutants.
 MODULES = {
     "design/certificate.cpp": ["host_tools_design", "host_tools_verdict"],
-    "design/verdict.cpp": ["host_tools_verdict"],
+    "design/verdict.cpp": ["host_tools_verdict", "host_tools_verdict_points"],
     "sil/eval/metrics.cpp": ["sil_metrics"],
     "sil/plant/plant.cpp": ["sil_plant", "sil_shaft", "sil_motor_effects", "sil_inverter"],
     "sil/sensors/adc.cpp": ["sil_adc"],
-    "sil/sensors/encoder.cpp": ["sil_encoder", "sil_encoder_edges", "sil_encoder_disc"],
+    "sil/sensors/encoder.cpp": [
+        "sil_encoder_readings",
+        "sil_encoder",
+        "sil_encoder_edges",
+        "sil_encoder_disc",
+    ],
 }
 
 CHANGES = [
@@ -90,6 +95,8 @@ class Judge:
         self.work = ub.ROOT / "build/mutate_host" / module
         self.work.mkdir(parents=True, exist_ok=True)
         self.plain = self.object_of(self.source.read_text(), "plain")
+        if self.tried("plain") != "survived":
+            sys.exit(f"{module}: its tests fail without a mutant")
 
     def object_of(self, text, name):
         """The object of a text, None when it does not compile."""
@@ -114,9 +121,13 @@ class Judge:
         made = self.object_of("\n".join(lines), index)
         if made is None or made == self.plain:
             return ""
-        program = self.work / f"{index}.test"
+        return self.tried(index)
+
+    def tried(self, name):
+        """The same of an object."""
+        program = self.work / f"{name}.test"
         for words, output in self.links:
-            mine = [*words[:output], program, self.work / f"{index}.o", *words[output + 1 :]]
+            mine = [*words[:output], program, self.work / f"{name}.o", *words[output + 1 :]]
             if ub.run(mine, cwd=BUILD).returncode != 0:
                 return ""
             if not ub.passes(program, SECONDS):

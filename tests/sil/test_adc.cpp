@@ -31,6 +31,65 @@ TEST(Adc, RoundsToTheNearestCode)
     EXPECT_DOUBLE_EQ(adc_current_A(quiet, 100), 100 * lsb_A);
 }
 
+/// Codes of one ampere: the halves are exact, and std::round() takes them away from zero.
+TEST(Adc, HalvesAreRoundedAwayFromZero)
+{
+    const AdcChannel one{12, 2048.0, 0.0, 0.0, 1.0};
+    for (int eighth = -8 * 2047; eighth <= 8 * 2046; eighth += 3) {
+        const double current_A = eighth / 8.0;
+        EXPECT_EQ(code_of(one, current_A), static_cast<int>(std::round(current_A))) << current_A;
+    }
+    for (int n = -2040; n < 2040; n++) {
+        EXPECT_EQ(code_of(one, n + 0.5), static_cast<int>(std::round(n + 0.5))) << n;
+    }
+}
+
+TEST(Adc, WhatIsNoNumberIsACode)
+{
+    for (const double x : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+        EXPECT_GE(code_of(quiet, x), -2048);
+        EXPECT_LE(code_of(quiet, x), 2047);
+    }
+    EXPECT_EQ(code_of(quiet, -HUGE_VAL), -2048);
+    EXPECT_EQ(code_of(quiet, HUGE_VAL), 2047);
+}
+
+/// Noise is added after gain and offset, with its own sign: against the same numbers drawn again.
+TEST(Adc, NoiseIsAddedToTheSignal)
+{
+    const AdcChannel channel{16, 10.0, 0.05, -0.3, 0.9};
+    Noise            noise(9, NoiseStream::adc_b);
+    Noise            again(9, NoiseStream::adc_b);
+    for (double i = -9.0; i < 9.0; i += 0.0137) {
+        const double signal_A = 0.9 * i - 0.3 + 0.05 * again.next();
+        const double code     = std::round(signal_A / (10.0 / 32768.0));
+        EXPECT_EQ(adc_code(channel, i, noise), static_cast<int>(code)) << i;
+    }
+}
+
+TEST(Adc, ChannelsHaveTheirOwnSettings)
+{
+    SensorSettings s;
+    s.adc_bits         = 11;
+    s.adc_full_scale_A = 7.0;
+    s.adc_noise_rms_A  = 0.5;
+    s.adc_offset_a_A   = 0.1;
+    s.adc_offset_b_A   = 0.2;
+    s.adc_gain_a       = 0.3;
+    s.adc_gain_b       = 0.4;
+    const AdcChannel a = channel_a(s);
+    const AdcChannel b = channel_b(s);
+    EXPECT_EQ(a.offset_A, 0.1);
+    EXPECT_EQ(b.offset_A, 0.2);
+    EXPECT_EQ(a.gain, 0.3);
+    EXPECT_EQ(b.gain, 0.4);
+    for (const AdcChannel &c : {a, b}) {
+        EXPECT_EQ(c.bits, 11);
+        EXPECT_EQ(c.full_scale_A, 7.0);
+        EXPECT_EQ(c.noise_rms_A, 0.5);
+    }
+}
+
 TEST(Adc, SaturatesAtFullScale)
 {
     EXPECT_EQ(code_of(quiet, 1e6), 2047);

@@ -238,3 +238,18 @@ TEST(Encoder, IndexIsSeenWhenItsCountIsEnteredFromEitherSide)
         }
     }
 }
+
+/// The middle of a count may be a whole number of turns: the angle is 0 then, never 2 pi.
+TEST(Encoder, AngleOfWholeTurnsIsZero)
+{
+    SensorSettings s;
+    s.encoder_disc = {0.0, 0.0, 0.0};
+    for (int n = -9; n <= 9; n++) {
+        QuadratureEncoder encoder(s, 1, 8, period_s);
+        const double      middle = 8 * 2.0 * pi * (n + 0.5) / 4.0;
+        encoder.start(middle, 0.0);
+        const auto r = encoder.read(middle);
+        EXPECT_EQ(r.count, n);
+        EXPECT_EQ(r.theta_e_rad, 0.0);
+    }
+}

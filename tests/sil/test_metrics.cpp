@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -540,6 +541,93 @@ TEST(Metrics, TailOfItsOwnLength)
 
     EXPECT_EQ(m.ripple_e_radps, 0.0);
     EXPECT_NEAR(m.offset_rpm, 0.0, 1e-9);
+}
+
+/// The edge of the band belongs to it: a speed that only touches it has reached it, from either side.
+TEST(Metrics, TouchingTheBandIsReachingIt)
+{
+    for (const double sign : {1.0, -1.0}) {
+        const auto m = only(
+            trace_of(
+                100, [&](double t) { return sign * (std::abs(t - 0.05) < 1e-6 ? 98.0 : 90.0); },
+                sign * 100.0),
+            2.0);
+        EXPECT_NEAR(m.dip_e_radps, 10.0, 1e-12); // fallen back
+        EXPECT_EQ(m.overshoot_e_radps, 0.0);
+        EXPECT_NEAR(m.steady_state_error_e_radps, 10.0, 1e-12); // a size, on either side
+    }
+}
+
+TEST(Metrics, RatesAboutZeroAreNone)
+{
+    sdre::Trace trace = trace_of(
+        100, [](double) { return 0.0; }, 0.0);
+    for (std::size_t k = 0; k < trace.size(); k++) {
+        trace[k].omega_e_radps = k % 2 == 0 ? 1.5 : -1.5;
+    }
+    const sdre::Metrics m = only(trace, 5.0);
+    EXPECT_EQ(m.fluctuation_rate_percent, 0.0);
+    EXPECT_EQ(m.overshoot_percent, 0.0);
+    EXPECT_NEAR(m.ripple_e_radps, 1.5, 1e-12);
+}
+
+/// The tail of a window in the middle of a trace: its last ticks, whatever follows and however long it is.
+TEST(Metrics, TailsAreTheLastTicksOfTheirOwnWindow)
+{
+    const auto trace = trace_of(
+        400, [](double) { return 0.0; }, 0.0);
+    for (int ticks = 1; ticks <= 90; ticks += 7) {
+        sdre::Scenario s = scenario_with({event("a", 0.0, 1.0), event("b", 0.1, 1.0)});
+        for (sdre::Measure &m : s.measures) {
+            m.tail_s = ticks * ts_s;
+        }
+        const auto windows = sdre::windows_of(s, trace);
+        ASSERT_EQ(windows.size(), 2U);
+        EXPECT_EQ(windows[0].end - windows[0].begin, 100);
+        EXPECT_EQ(windows[1].end - windows[1].begin, 300);
+        for (const sdre::Window &w : windows) {
+            EXPECT_EQ(w.end - w.tail, ticks);
+        }
+        s.measures[0].tail_s = s.measures[1].tail_s = std::nullopt;
+        const auto fifths                           = sdre::windows_of(s, trace);
+        EXPECT_EQ(fifths[0].end - fifths[0].tail, 20);
+        EXPECT_EQ(fifths[1].end - fifths[1].tail, 60);
+    }
+    sdre::Scenario longer     = scenario_with({event("a", 0.0, 1.0)});
+    longer.measures[0].tail_s = 5.0; // the whole window
+    EXPECT_EQ(sdre::windows_of(longer, trace)[0].tail, trace.begin());
+}
+
+/// Position in counts of 2 n_p pi / (4 lines): errors by hand, and the last entry into two counts.
+TEST(Metrics, PositionIsMeasuredInCounts)
+{
+    for (const int lines : {500, 2500}) {
+        const double   count_e   = 2.0 * std::acos(-1.0) * 3 / (4.0 * lines);
+        sdre::Scenario s         = scenario_with({event("m", 0.0, 1.0)});
+        s.drive.motor.pole_pairs = 3;
+        s.drive.encoder.lines    = lines;
+        s.position_reference     = {{0.0, 1.0}};
+        sdre::Trace trace        = trace_of(
+                   100, [](double) { return 0.0; }, 0.0);
+        for (std::size_t k = 0; k < trace.size(); k++) {
+            trace[k].position_ref_e_rad = k < 30 ? 5.0 * count_e : 20.0 * count_e; // a ramp's end
+            const double off_cnt        = k < 10   ? -7.0
+                                          : k < 50 ? 2.01
+                                          : k < 70 ? 1.99
+                                          : k < 90 ? -1.5
+                                                   : 0.5;
+            trace[k].position_e_rad     = trace[k].position_ref_e_rad + off_cnt * count_e;
+        }
+        const sdre::Metrics m = sdre::measure(s, trace).at(0);
+        EXPECT_NEAR(m.position_off_cnt.value_or(-1.0), 7.0, 1e-9);
+        EXPECT_NEAR(m.position_steady_cnt.value_or(-1.0), 1.5, 1e-9); // of the last fifth
+        EXPECT_NEAR(m.position_settled_s.value_or(-1.0), 50 * ts_s, 1e-12);
+
+        s.position_reference = {{0.05, 1.0}}; // begins later: a run at a speed until then
+        EXPECT_FALSE(sdre::measure(s, trace).at(0).position_off_cnt);
+        s.position_reference = {};
+        EXPECT_FALSE(sdre::measure(s, trace).at(0).position_settled_s);
+    }
 }
 
 TEST(Results, PublishedValuesStandBesideTheirOwnMeasure)

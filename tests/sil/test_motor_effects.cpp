@@ -301,6 +301,37 @@ TEST(MotorEffects, PowerBalances)
     }
 }
 
+/// Saturation and harmonics of the magnet together. At rest a locked shaft has i = v / R at every angle. A short pulse of
+/// voltage adds its volt-seconds to L(i) i.
+TEST(MotorEffects, SaturatedCurrentIsThatOfTheFluxWithoutTheMagnet)
+{
+    Motor m        = motor_390w();
+    m.inertia_kgm2 = 1e9; // locked
+    for (double theta = -3.0; theta < 3.1; theta += 0.4) {
+        MotorEffects e = harmonics();
+        e.saturation   = falling_map();
+        Plant plant(m);
+        plant.set_effects(e);
+        plant.reset(0.0, theta);
+        EXPECT_NEAR(std::hypot(plant.current_A().d, plant.current_A().q), 0.0, 1e-9);
+        for (const RotorVector wanted : {RotorVector{1.5, 2.5}, {-2.0, 1.0}, {0.5, -3.0}}) {
+            const RotorVector v{m.stator_resistance_Ohm * wanted.d,
+                                m.stator_resistance_Ohm * wanted.q};
+            plant.step(v, 0.0, 1e-5, 1);
+            plant.step(v, 0.0, 2.0, 4000); // forty time constants
+            EXPECT_NEAR(plant.current_A().d, wanted.d, 1e-6) << theta;
+            EXPECT_NEAR(plant.current_A().q, wanted.q, 1e-6) << theta;
+        }
+        // In a short time the flux linkages grow by the voltage: L(i) i of the map.
+        plant.clear_current();
+        plant.step(RotorVector{3000.0, -2000.0}, 0.0, 5e-5, 10);
+        const RotorVector i = plant.current_A();
+        const RotorVector L = inductance_H(falling_map(), i);
+        EXPECT_NEAR(L.d * i.d, 3000.0 * 5e-5, 5e-4);
+        EXPECT_NEAR(L.q * i.q, -2000.0 * 5e-5, 5e-4);
+    }
+}
+
 TEST(Iron, BrakesAMotorWithoutCurrentAsItsClosedFormSays)
 {
     Motor m                = motor_390w();

@@ -2,6 +2,7 @@
 #include "sil/plant/plant.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -284,6 +285,176 @@ TEST(Plant, AngleIsTheIntegralOfTheSpeed)
     plant.step(RotorVector{0.0, 0.0}, 0.0, 0.1, 10);
 
     EXPECT_NEAR(plant.theta_e_rad(), 25.3, 1e-12); // not wrapped
+}
+
+namespace {
+
+/// One step of each way to move: by the series, beyond its angle, with a held brake, elastic, coasting.
+std::vector<Plant> plants_that_move()
+{
+    std::vector<Plant> plants(3, Plant(motor_390w()));
+    sdre::MotorEffects dry;
+    sdre::MotorEffects elastic;
+    dry.coulomb_friction_Nm        = 0.01;
+    elastic.load_inertia_share     = 0.5;
+    elastic.shaft_stiffness_Nmprad = 100.0;
+    plants[1].set_effects(dry);
+    plants[2].set_effects(elastic);
+    return plants;
+}
+
+} // namespace
+
+/// Every step that a path is asked for is a point of it: time, angle and speed of the motor then.
+TEST(Plant, PathHasAPointForEveryStep)
+{
+    for (Plant &plant : plants_that_move()) {
+        for (const double speed : {300.0, 3000.0, -3000.0}) { // 0.015 and 0.15 rad in a step
+            plant.reset(speed, 0.7);
+            plant.path().lead_to(0.7, speed, 1e-4);
+            plant.path().restart();
+            for (int k = 1; k <= 8; k++) {
+                if (k % 4 == 0) {
+                    plant.coast({}, 5e-5);
+                } else if (k % 4 == 1) {
+                    plant.advance_floating({10.0, 5.0}, 1, {0.1}, 5e-5);
+                } else {
+                    plant.advance({10.0, -20.0}, {0.1}, 5e-5);
+                }
+                const auto &points = plant.path().points();
+                ASSERT_EQ(points.size(), static_cast<std::size_t>(k) + 1U) << speed;
+                EXPECT_NEAR(points.back().time_s, 5e-5 * k, 1e-15);
+                EXPECT_EQ(points.back().theta_e_rad, plant.theta_e_rad());
+                EXPECT_EQ(points.back().omega_e_radps, plant.omega_e_radps());
+            }
+        }
+    }
+}
+
+/// The peak is the largest length at the end of a step, and begins anew with the current of the moment.
+TEST(Plant, PeakCurrentIsTheLargestSinceItsReset)
+{
+    for (Plant &plant : plants_that_move()) {
+        plant.reset(300.0);
+        EXPECT_EQ(plant.peak_current_A(), 0.0);
+        double largest = 0.0;
+        for (int k = 0; k < 200; k++) { // up, down, and up again to less
+            const double volts = k < 60 ? 150.0 : (k < 120 ? -90.0 : 60.0);
+            plant.advance({volts, 0.3 * volts}, {}, 5e-5);
+            const double now = std::hypot(plant.current_A().d, plant.current_A().q);
+            largest          = std::max(largest, now);
+            EXPECT_NEAR(plant.peak_current_A(), largest, 1e-12) << k;
+            if (k % 50 == 49) {
+                plant.reset_peak();
+                largest = now;
+                EXPECT_NEAR(plant.peak_current_A(), now, 1e-12);
+            }
+        }
+        EXPECT_GT(largest, 0.5);
+        plant.clear_current();
+        plant.reset_peak();
+        EXPECT_EQ(plant.peak_current_A(), 0.0);
+        plant.reset(300.0);
+        EXPECT_EQ(plant.peak_current_A(), 0.0);
+    }
+}
+
+/// A fast shaft leaves the quick series: many short steps, which stay within it, are the measure.
+TEST(Plant, LongStepsOfAFastShaftAreRight)
+{
+    for (const double speed : {1900.0, -1900.0, 2100.0, 6000.0, -6000.0}) {
+        Plant long_steps(motor_390w());
+        Plant short_steps(motor_390w());
+        long_steps.reset(speed, 0.2);
+        short_steps.reset(speed, 0.2);
+        for (int k = 0; k < 40; k++) {
+            const StatorVector v{120.0 * std::cos(0.3 * k), 120.0 * std::sin(0.3 * k)};
+            long_steps.advance(v, {0.2}, 5e-5);
+            for (int n = 0; n < 20; n++) {
+                short_steps.advance(v, {0.2}, 2.5e-6);
+            }
+        }
+        const double turned = std::abs(speed) * 5e-5; // RK4: its error grows with the fifth power
+        const double bound  = 0.3 * std::pow(turned, 4);
+        EXPECT_NEAR(long_steps.current_A().d, short_steps.current_A().d, bound) << speed;
+        EXPECT_NEAR(long_steps.current_A().q, short_steps.current_A().q, bound) << speed;
+        EXPECT_NEAR(long_steps.theta_e_rad(), short_steps.theta_e_rad(), 1e-3 * bound) << speed;
+    }
+}
+
+/// Every torque of a brake, also without friction of its own, slows the shaft as its closed form says.
+TEST(Plant, AnyBrakeSlowsTheShaft)
+{
+    sdre::Motor m          = motor_390w();
+    m.pm_flux_Wb           = 1e-12;
+    m.viscous_friction_Nms = 0.0;
+    for (const double brake_Nm : {0.01, 0.1, 0.2, 0.5, 1.0, 1.1, 2.0}) {
+        for (const double sign : {1.0, -1.0}) {
+            Plant plant(m);
+            plant.reset(sign * 600.0);
+            const int steps = 20;
+            for (int k = 0; k < steps; k++) {
+                plant.advance({}, {0.0, 0.0, brake_Nm}, 5e-5);
+            }
+            const double slower = m.pole_pairs * brake_Nm / m.inertia_kgm2 * steps * 5e-5;
+            EXPECT_NEAR(plant.omega_e_radps(), sign * (600.0 - slower), 1e-9) << brake_Nm;
+        }
+    }
+}
+
+/// The floating terminal is where its phase has no current. The oracle holds all three terminals for a microsecond each.
+TEST(Plant, FloatingPhaseIsATerminalThatFollows)
+{
+    for (std::size_t phase = 0; phase < 3; phase++) {
+        for (const double theta : {0.2, 1.4, 2.9, -2.0}) {
+            Plant floating(motor_390w());
+            Plant pieces(motor_390w());
+            for (Plant *plant : {&floating, &pieces}) {
+                plant->reset(400.0, theta);
+                plant->step(StatorVector{60.0, 25.0}, 0.0, 5e-4, 10);
+                plant->align_angle();
+                plant->clear_current(phase);
+            }
+            const std::array<double, 3> terminals{140.0, -20.0, 55.0};
+            for (int k = 0; k < 40; k++) {
+                floating.advance_floating(sdre::clarke(terminals), phase, {0.1}, 1e-5);
+                for (int n = 0; n < 10; n++) {
+                    std::array<double, 3> held = terminals;
+                    held[phase]                = pieces.floating_V(terminals, phase);
+                    pieces.advance(sdre::clarke(held), {0.1}, 1e-6);
+                    pieces.clear_current(phase);
+                }
+            }
+            // The pieces' own error is of first order: 10 mA/us would be 1e-5 A.
+            EXPECT_NEAR(floating.current_A().d, pieces.current_A().d, 1e-4) << phase << theta;
+            EXPECT_NEAR(floating.current_A().q, pieces.current_A().q, 1e-4) << phase << theta;
+            EXPECT_NEAR(floating.omega_e_radps(), pieces.omega_e_radps(), 1e-3);
+            const sdre::PhaseVector i = floating.phase_current_A();
+            EXPECT_NEAR((std::array<double, 3>{i.a, i.b, i.c}[phase]), 0.0, 1e-12);
+            EXPECT_GT(std::hypot(floating.current_A().d, floating.current_A().q), 0.05);
+        }
+    }
+}
+
+/// The current of a phase after clear_current(phase) is zero; what is left is the closest current of the plane.
+TEST(Plant, ClearingAPhaseLeavesTheRestOfTheCurrent)
+{
+    for (std::size_t phase = 0; phase < 3; phase++) {
+        for (double theta = -3.0; theta < 3.0; theta += 0.37) {
+            Plant plant(motor_390w());
+            plant.reset(0.0, theta);
+            plant.step(StatorVector{90.0, -35.0}, 0.0, 1e-3, 20);
+            plant.align_angle();
+            const StatorVector i     = sdre::to_stator(plant.current_A(), plant.theta_e_rad());
+            const double       at    = 2.0 * std::acos(-1.0) / 3.0 * static_cast<double>(phase);
+            const double       along = i.alpha * std::cos(at) + i.beta * std::sin(at);
+            plant.clear_current(phase);
+            const StatorVector left = sdre::to_stator(plant.current_A(), plant.theta_e_rad());
+            EXPECT_NEAR(left.alpha, i.alpha - along * std::cos(at), 1e-12);
+            EXPECT_NEAR(left.beta, i.beta - along * std::sin(at), 1e-12);
+            EXPECT_GT(std::abs(i.alpha) + std::abs(i.beta), 0.5);
+        }
+    }
 }
 
 TEST(Plant, RotationsAreInverseAndKeepLength)
