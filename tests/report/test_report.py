@@ -39,6 +39,7 @@ TABLES = [
     "B-tables",
     "B-fig8-numbers",
     "A-optimal",
+    "A-implemented",
     "A-effort",
     "B-lemma1",
     "B-theorem1",

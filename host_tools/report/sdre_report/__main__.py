@@ -8,7 +8,6 @@ import sys
 from pathlib import Path
 from typing import List
 
-import tomllib
 from markupsafe import Markup
 
 from . import effort, fig4, near_optimal, pages, paper_a, paper_b, printed, summary, theorem
@@ -17,13 +16,7 @@ from .campaign import stored as campaigns
 from .guarantees import section as guarantees
 from .guarantees import stored
 from .tables import Section
-from .tools import DRIVES, ROOT, ReportError, Tools
-
-
-def read_toml(path: Path) -> dict:
-    """One TOML file."""
-    with open(path, "rb") as file:
-        return tomllib.load(file)
+from .tools import DRIVES, ROOT, ReportError, Tools, read_toml
 
 
 def collect(tools: Tools) -> List[Section]:
@@ -36,6 +29,7 @@ def collect(tools: Tools) -> List[Section]:
     a.parts[1:1] = fig4.parts(tools, published["A"]["fig4"], design)
     tools.tell("the optimum")
     a.parts.append(near_optimal.table(design, drive))
+    a.parts.append(near_optimal.implemented(design, drive))
     a.parts.append(
         effort.table(
             [(name, tools.design(f"ipmsm_390w_{name}")) for name in ("speed", "conventional")]

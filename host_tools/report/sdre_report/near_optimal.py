@@ -22,6 +22,12 @@ END_S = 0.03  # 25 time constants of the slowest mode
 INTERVALS, DEGREE = 60, 3  # of the collocation: twice as many move no digit that is shown
 # Errors (w [rad/s], iq, id [A]): the load step's largest, and what the current limit of 4 A allows.
 STARTS = ((-4.2, 1.0, 0.0), (0.0, 2.0, -2.0), (0.0, 3.5, 1.8), (10.0, -3.0, -2.0), (0.0, 4.0, -2.0))
+# id_ref of the current limit on the MTPA curve, and of flux weakening; errors as above.
+AT = tuple(
+    (i, s)
+    for i in (-1.85, -2.66)
+    for s in ((-4.2, 1.0, 0.0), (0.0, 2.0, 0.0), (0.0, 4.0, 0.0), (10.0, -3.0, -2.0))
+)
 GRID_A, GRID_POINTS = (
     8.0,
     801,
@@ -31,11 +37,15 @@ Gain = Callable[[np.ndarray], np.ndarray]
 
 
 class Problem:
-    """Equations (10) and (12) of one drive."""
+    """Equations (10) and (12) of one drive.
 
-    def __init__(self, design: Dict[str, Any], drive: Dict[str, Any]) -> None:
+    (10) has l1 where the firmware, whose iq_ref solves (40) with id_ref, leaves l1 + l11 id_ref."""
+
+    def __init__(
+        self, design: Dict[str, Any], drive: Dict[str, Any], id_ref_A: float = 0.0
+    ) -> None:
         l = {int(k[1:]): v for k, v in design["reduced_parameters"].items()}  # noqa: E741
-        self.A0 = np.array([[-l[2], l[1], 0], [-l[5], -l[4], 0], [0, 0, -l[7]]])
+        self.A0 = np.array([[-l[2], l[1] + l[11] * id_ref_A, 0], [-l[5], -l[4], 0], [0, 0, -l[7]]])
         self.dA = np.array([[0, 0, l[11]], [0, 0, 0], [0, 0, 0]])
         self.B = np.array([[0, 0], [l[6], 0], [0, l[8]]])
         self.Q, self.T = np.diag(drive["nosc"]["Q"]), np.diag(drive["nosc"]["T"])
@@ -140,6 +150,38 @@ def optimum(problem: Problem, exact: Gain, start: Tuple[float, ...]) -> float:
     if not solver.stats()["success"]:
         raise ReportError(f"the collocation finds no optimum from {start}")
     return float(found["f"])
+
+
+def implemented(design: Dict[str, Any], drive: Dict[str, Any]) -> Table:
+    """The same where the firmware's references leave l1 + l11 id_ref in the speed row.
+
+    It shows what the series is worth there."""
+    paper = Problem(design, drive)
+    gains = [paper.gain(X) for X in paper.series(2)]
+    hold_A = design["certificate"]["nosc"]["series_range_A"]
+    out = Table(
+        "A-implemented",
+        "The same with the firmware's references: cost beyond the optimum [%]",
+        ("", *(f"id_ref {i:g} A, e = ({', '.join(f'{v:g}' for v in s)})" for i, s in AT)),
+        note=f"Error dynamics of {drive['name']}.toml with l1 + l11 id_ref in the speed row. The "
+        "laws of (10) do not know id_ref; the last two are solved for it.",
+    )
+    columns = []
+    for id_ref_A, start in AT:
+        there = Problem(design, drive, id_ref_A)
+        exact = there.exact()
+        best = optimum(there, exact, start)
+        laws: List[Gain] = [series_gain(gains[: n + 1]) for n in range(3)]
+        laws += [series_gain(gains, hold_A), paper.exact()]
+        laws += [series_gain([there.gain(X) for X in there.series(0)]), exact]
+        columns.append([100.0 * (cost(there, law, start) / best - 1.0) for law in laws] + [best])
+    names = [f"order {n} of (10)" for n in range(3)]
+    names += [f"order 2 of (10), held beyond {hold_A:.2f} A (firmware)", "exact SDRE of (10)"]
+    names += ["order 0, scheduled in id_ref", "exact SDRE with id_ref"]
+    for n, name in enumerate(names):
+        out.add(name, *(x[n] if np.isinf(x[n]) else f"{x[n]:.2f}" for x in columns))
+    out.add("cost of the optimum", *(x[-1] for x in columns))
+    return out
 
 
 def table(design: Dict[str, Any], drive: Dict[str, Any]) -> Table:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Callable, Dict, Optional, Sequence
 
 import numpy as np
+import tomllib
 
 ROOT = Path(__file__).resolve().parents[3]
 SCENARIOS = ROOT / "host_tools/sil/scenarios"
@@ -20,6 +21,12 @@ REFUSED = 2  # of sdre-gains: the certificate is refused, the report is there
 
 class ReportError(Exception):
     """One line for the user."""
+
+
+def read_toml(path: Path) -> Dict[str, Any]:
+    """One TOML file."""
+    with open(path, "rb") as file:
+        return tomllib.load(file)
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from markupsafe import Markup
 
 from .. import plots
 from ..tables import Figure, Section, Table
+from ..tools import DRIVES, read_toml
 from .loop import box
 
 TEXT = """<p>Of the default drive, <code>{drive}</code>, and its sampled loop (EQ-CERT-3), linear
@@ -22,12 +23,15 @@ is that of EQ-CERT-5: R, L, flux x 0.5<sup>s</sup> .. 1.5<sup>s</sup>, J x 0.5<s
 of 17 speeds a box around all that the tool judges) there is one function
 V = |R x|<sup>2</sup> that falls in every period: |R A R<sup>-1</sup>| &lt; {rate:.6f} in all of
 {cells} cells that cover the set, in ball arithmetic with all
-rounding errors (found with cvxpy on corners: {corner:.4f} there). Motor, speed and currents may
-change as fast as they like within it. Negative speeds
+rounding errors (found with cvxpy on corners: {corner:.4f} there). In every period the matrix may
+be another one of the set. Negative speeds
 are the mirror image.</p>
-<p><b>What is not had.</b> The proof is of the linear loop: not of edges that come less often than
+<p><b>What is not had.</b> The proof is of the linear loop with the gain Lambda(0) and a d-current
+reference that stands still: not of the series in e_iq, of edges that come less often than
 eight counts a period, of the references'
-limits, or of the change to the voltage of EQ-VOLTAGE-2. For s = 0.15 a function was found on the
+limits, or of the change to the voltage of EQ-VOLTAGE-2. Flux weakening goes beyond the proved i_d.
+Motor and observer are linear about the same point, so nothing is said about large deviations from
+it: this is no contraction. For s = 0.15 a function was found on the
 corners (0.986), its proof was not finished in
 eight minutes; for s = 0.3 none was found over all speeds, for s = 0.4 none at one speed alone. mu
 is computed at 64 frequencies, with
@@ -89,6 +93,8 @@ def picture(found: Dict[str, Any]) -> Figure:
 
 def attraction(found: Dict[str, Any]) -> Table:
     """Half axes in what a user knows."""
+    motor = read_toml(DRIVES / f"{found['drive']}.toml")["motor"]
+    trip_A = 2.0 * motor["max_current_A"]
     out = Table(
         "G-attraction",
         "From where the loop returns although the inverter cuts",
@@ -106,13 +112,19 @@ def attraction(found: Dict[str, Any]) -> Table:
         "alone, either way. Linear loop, dead-zone "
         "sector condition, the square in the circle that the steady voltage leaves. Last columns: "
         "of 2,000 starts on the surface, limited "
-        "as in the proof, and with the vector cut to the circle as the firmware does. The "
-        "references' limits keep the firmware well inside.",
+        "as in the proof, and with the vector cut to the circle. Beyond the circle the "
+        "firmware's law is another one, EQ-VOLTAGE-2. Beyond the trip of "
+        f"{trip_A:g} A the drive is off, wherever the ellipsoid ends.",
     )
+
+    def reach(p: Dict[str, Any], key: str) -> Any:
+        beyond = key in ("iq_A", "id_A") and p[key] > trip_A
+        return "the trip" if beyond else p[key]
+
     for p in found["attraction"]:
         out.add(
             f"{p['at_speed_e_radps']:.0f} rad/s, i_q {p['at_iq_A']:.2f} A",
-            *(p[k] for k in ("speed_e_radps", "iq_A", "id_A", "load_Nm", "room_V")),
+            *(reach(p, k) for k in ("speed_e_radps", "iq_A", "id_A", "load_Nm", "room_V")),
             *(f"{100 * p[k]:g} %" for k in ("returned_square", "returned_circle")),
         )
     return out
