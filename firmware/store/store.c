@@ -167,9 +167,11 @@ store_content_t store_newest(store_kind_t kind)
     const slots_t   s     = find(kind);
     store_content_t found = s.content;
 
-    if (found.count == 0UL) { /* store_forget() */
+    if ((found.words == NULL) || (found.count == 0UL)) { /* none, or store_forget() */
         found.words = NULL;
+        found.count = 0UL;
     }
+    //@ split found.count == 0;
     found.lost = s.lost;
     return found;
 }

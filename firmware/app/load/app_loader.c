@@ -81,8 +81,11 @@ bool app_loader_read(const app_loader_t *l, uint16_t first, uint16_t count, uint
     all[APP_LOADER_LAW] = l->law;
     put_pair(&all[APP_LOADER_NUMBER_HI], l->number);
     put_board(&all[APP_LOADER_FIELD], l->in_force);
-    for (uint16_t n = 0U; n < count; n++) {
-        values[n] = all[first + n];
+    for (uint16_t at = 0U; at < (uint16_t)APP_LOADER_INPUT_COUNT; at++) {
+        const uint16_t n = (uint16_t)(at - first); /* below the first one: very large */
+        if (n < count) {
+            values[n] = all[at];
+        }
     }
     return true;
 }

@@ -29,18 +29,21 @@ static void refuse(app_modbus_t *m, app_registers_result_t result)
     app_modbus_frame_exception(m, exception);
 }
 
-static bool quantity_ok(uint16_t quantity, uint16_t most)
+/* Number of registers at an index of the request; 0: too many. */
+static uint16_t asked_quantity(const app_modbus_t *m, uint16_t at, uint16_t most)
 {
-    return (quantity >= 1U) && (quantity <= most);
+    const uint16_t quantity = app_modbus_frame_asked(m, at);
+
+    return (quantity <= most) ? quantity : 0U;
 }
 
 /* Reads registers; address and quantity are at index `at` of the request. */
 static void read_registers(app_modbus_t *m, const app_registers_t *r, uint16_t at)
 {
     const uint16_t first    = app_modbus_frame_asked(m, at);
-    const uint16_t quantity = app_modbus_frame_asked(m, (uint16_t)(at + 2U));
+    const uint16_t quantity = asked_quantity(m, (uint16_t)(at + 2U), APP_MODBUS_READ_MAX);
 
-    if (!quantity_ok(quantity, APP_MODBUS_READ_MAX)) {
+    if (quantity == 0U) {
         app_modbus_frame_exception(m, APP_MODBUS_NO_VALUE);
         return;
     }
@@ -75,9 +78,9 @@ static void answer_write(app_modbus_t *m, app_registers_result_t result)
  * invalid. */
 static bool take_values(app_modbus_t *m, uint16_t at, uint16_t most)
 {
-    const uint16_t quantity = app_modbus_frame_asked(m, (uint16_t)(at + 2U));
+    const uint16_t quantity = asked_quantity(m, (uint16_t)(at + 2U), most);
 
-    if (!quantity_ok(quantity, most) || (m->rx_octets[at + 4U] != (uint16_t)(2U * quantity))) {
+    if ((quantity == 0U) || (m->rx_octets[at + 4U] != (uint16_t)(2U * quantity))) {
         app_modbus_frame_exception(m, APP_MODBUS_NO_VALUE);
         return false;
     }
@@ -87,22 +90,23 @@ static bool take_values(app_modbus_t *m, uint16_t at, uint16_t most)
     return true;
 }
 
-static app_registers_result_t write_values(app_modbus_t *m, app_registers_t *r, uint16_t at)
+static app_registers_result_t write_values(app_modbus_t *m, app_registers_t *r, uint16_t at,
+                                           uint16_t most)
 {
     return app_registers_write(r, app_modbus_frame_asked(m, at),
-                               app_modbus_frame_asked(m, (uint16_t)(at + 2U)), m->values);
+                               asked_quantity(m, (uint16_t)(at + 2U), most), m->values);
 }
 
 static void write_one(app_modbus_t *m, app_registers_t *r)
 {
-    const uint16_t value = app_modbus_frame_asked(m, 4U);
-    answer_write(m, app_registers_write(r, app_modbus_frame_asked(m, 2U), 1U, &value));
+    m->values[0] = app_modbus_frame_asked(m, 4U);
+    answer_write(m, app_registers_write(r, app_modbus_frame_asked(m, 2U), 1U, m->values));
 }
 
 static void write_many(app_modbus_t *m, app_registers_t *r)
 {
     if (take_values(m, 2U, WRITE_MAX)) {
-        answer_write(m, write_values(m, r, 2U));
+        answer_write(m, write_values(m, r, 2U, WRITE_MAX));
     }
 }
 
@@ -110,9 +114,9 @@ static void write_many(app_modbus_t *m, app_registers_t *r)
 static void exchange(app_modbus_t *m, app_registers_t *r)
 {
     const uint16_t first    = app_modbus_frame_asked(m, 2U);
-    const uint16_t quantity = app_modbus_frame_asked(m, 4U);
+    const uint16_t quantity = asked_quantity(m, 4U, APP_MODBUS_READ_MAX);
 
-    if (!quantity_ok(quantity, APP_MODBUS_READ_MAX)) {
+    if (quantity == 0U) {
         app_modbus_frame_exception(m, APP_MODBUS_NO_VALUE);
         return;
     }
@@ -125,7 +129,7 @@ static void exchange(app_modbus_t *m, app_registers_t *r)
     if (!take_values(m, 6U, EXCHANGE_MAX)) {
         return;
     }
-    const app_registers_result_t result = write_values(m, r, 6U);
+    const app_registers_result_t result = write_values(m, r, 6U, EXCHANGE_MAX);
     if (result != APP_REGISTERS_OK) {
         refuse(m, result);
         return;

@@ -46,10 +46,13 @@ static void answer_number(app_modbus_t *m, uint16_t number)
 
 static void loop_back(app_modbus_t *m)
 {
+    const uint16_t end = (m->rx_count > 2U) ? (uint16_t)(m->rx_count - 2U) : 0U; /* CRC */
+
     app_modbus_frame_begin(m);
-    for (uint16_t i = 2U; i < (uint16_t)(m->rx_count - 2U); i++) {
-        app_modbus_frame_octet(m, m->rx_octets[i]);
+    for (uint16_t i = 2U; i < end; i++) {
+        m->tx_octets[i] = (uint16_t)(m->rx_octets[i] & 0xFFU);
     }
+    m->tx_count = end;
 }
 
 static void clear(app_modbus_t *m)
@@ -103,10 +106,8 @@ void app_modbus_device_diagnose(app_modbus_t *m)
 
 static void put_text(app_modbus_t *m, const char *text)
 {
-    const uint16_t from = m->tx_count;
-
-    for (const char *c = text; (*c != '\0') && ((uint16_t)(m->tx_count - from) < TEXT_MAX); c++) {
-        app_modbus_frame_octet(m, (uint16_t)((uint16_t)*c & 0x7FU));
+    for (uint16_t n = 0U; (n < TEXT_MAX) && (text[n] != '\0'); n++) {
+        app_modbus_frame_octet(m, (uint16_t)((uint16_t)text[n] & 0x7FU));
     }
 }
 

@@ -4,7 +4,6 @@
 #include <stddef.h>
 
 #include "app_registers_count.h"
-#include "app_registers_holding.h"
 #include "app_registers_place.h"
 
 #define RPM_PER_RADPS 9.54929659f /* 60 / (2 pi) */
@@ -53,45 +52,28 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
                : CTL_BAD_CONFIG;
 }
 
-/* Index of the entry with this address, also for its second word; map->count: not found. */
-static uint16_t find(const map_t *map, uint16_t address)
-{
-    for (uint16_t k = 0U; k < map->count; k++) {
-        const app_registers_entry_t *e = &map->entries[k];
-        if ((address >= e->address) &&
-            ((uint16_t)(address - e->address) < app_registers_count_words(e))) {
-            return k;
-        }
-    }
-    return map->count;
-}
-
-uint16_t app_registers_holding_find(uint16_t address)
-{
-    return find(&holding, address);
-}
-
+/* Rows have ascending addresses: a word that is not in a row is in a later one, or in none. */
 static app_registers_result_t read_map(const app_registers_t *r, const map_t *map, uint16_t first,
                                        uint16_t count, uint16_t *values)
 {
-    uint16_t k = find(map, first);
     uint16_t n = 0U;
 
-    for (; (k < map->count) && (n < count); k++) {
-        const app_registers_entry_t *e     = &map->entries[k];
-        const uint32_t               value = app_registers_place_value(r, e);
-        const uint16_t at = (uint16_t)(first + n); /* below the end of the last entry */
+    for (uint16_t k = 0U; (k < map->count) && (n < count); k++) {
+        const app_registers_entry_t *e    = &map->entries[k];
+        const uint16_t               all  = app_registers_count_words(e);
+        const uint16_t               word = (uint16_t)((first + n) - e->address);
 
-        if ((at < e->address) || ((uint16_t)(at - e->address) >= app_registers_count_words(e))) {
-            break; /* end of a block */
-        }
-        if ((app_registers_count_words(e) == 2U) && (at == e->address)) {
-            values[n] = (uint16_t)(value >> 16);
-            n         = (uint16_t)(n + 1U);
-        }
-        if (n < count) {
-            values[n] = (uint16_t)(value & 0xFFFFUL);
-            n         = (uint16_t)(n + 1U);
+        if (word < all) {
+            const uint32_t value = app_registers_place_value(r, e);
+
+            if ((all == 2U) && (word == 0U)) {
+                values[n] = (uint16_t)(value >> 16);
+                n         = (uint16_t)(n + 1U);
+            }
+            if (n < count) {
+                values[n] = (uint16_t)(value & 0xFFFFUL);
+                n         = (uint16_t)(n + 1U);
+            }
         }
     }
     return (n == count) ? APP_REGISTERS_OK : APP_REGISTERS_BAD_ADDRESS;

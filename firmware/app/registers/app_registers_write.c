@@ -5,17 +5,16 @@
 #include <stddef.h>
 
 #include "app_registers_count.h"
-#include "app_registers_holding.h"
 #include "app_registers_place.h"
 
 #define SCOPE_ARM  1U /* values of SCOPE_COMMAND */
 #define SCOPE_STOP 2U
 
-/* Range check with a tolerance of half a count of the register. */
-static bool is_in(const app_registers_entry_t *e, float x)
+/* Limits a value to its range, with a tolerance of half a count of the register. */
+static float held(const app_registers_entry_t *e, float x)
 {
     const float room = (e->per_unit > 0.0f) ? (0.5f / e->per_unit) : 0.5f;
-    return base_in_range(x, e->least - room, e->most + room);
+    return base_clamp(x, e->least - room, e->most + room);
 }
 
 static bool is_stopped(const app_registers_t *r)
@@ -61,12 +60,13 @@ static app_registers_result_t try_command(app_registers_t *r, const app_register
 static app_registers_result_t try_one(app_registers_t *r, const app_registers_entry_t *e,
                                       const uint16_t *words)
 {
-    const float x = app_registers_count_written(e, words);
+    const float given = app_registers_count_written(e, words);
+    const float x     = held(e, given);
 
     if (e->signature != 0UL) {
         return try_command(r, e, words);
     }
-    if (!is_in(e, x)) {
+    if (!base_in_range(given, x, x)) { /* beyond its range */
         return APP_REGISTERS_BAD_VALUE;
     }
     if (e->stopped && !is_stopped(r) && !is_there(r, e, words)) {
@@ -88,16 +88,13 @@ static bool may_be_requested(const app_registers_t *r, const app_registers_reque
 /* True if the range contains no half of a two-word value. */
 static bool are_whole(uint16_t first, uint16_t count)
 {
-    uint16_t k = app_registers_holding_find(first);
     uint16_t n = 0U;
 
-    for (; (k < APP_REGISTERS_MAP_HOLDING) && (n < count); k++) {
+    for (uint16_t k = 0U; (k < APP_REGISTERS_MAP_HOLDING) && (n < count); k++) {
         const app_registers_entry_t *e = &app_registers_map_holding[k];
-        if ((e->address != (uint16_t)(first + n)) ||
-            (app_registers_count_words(e) > (uint16_t)(count - n))) {
-            return false;
+        if (e->address == (uint16_t)(first + n)) {
+            n = (uint16_t)(n + app_registers_count_words(e));
         }
-        n = (uint16_t)(n + app_registers_count_words(e));
     }
     return (n == count) && (count > 0U);
 }
@@ -128,27 +125,39 @@ static void command_scope(app_registers_t *r)
     }
 }
 
+/* Changes the copy. All addresses are known to exist. */
+static app_registers_result_t try_all(app_registers_t *r, uint16_t first, uint16_t count,
+                                      const uint16_t *values)
+{
+    app_registers_result_t result = APP_REGISTERS_OK;
+    uint16_t               n      = 0U;
+
+    for (uint16_t k = 0U; (k < APP_REGISTERS_MAP_HOLDING) && (n < count); k++) {
+        const app_registers_entry_t *e = &app_registers_map_holding[k];
+        if (e->address == (uint16_t)(first + n)) {
+            result = try_one(r, e, &values[n]);
+            if (result != APP_REGISTERS_OK) {
+                return result;
+            }
+            n = (uint16_t)(n + app_registers_count_words(e));
+        }
+    }
+    return result;
+}
+
 app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, uint16_t count,
                                            const uint16_t *values)
 {
-    uint16_t k = app_registers_holding_find(first);
-    uint16_t n = 0U;
-
     if ((r->loader != NULL) && (first >= APP_LOADER_FIRST)) {
         return write_loader(r, first, count, values);
     }
     if (!are_whole(first, count)) {
         return APP_REGISTERS_BAD_ADDRESS;
     }
-    r->trial = r->requested;
-    while (n < count) {
-        const app_registers_entry_t *e      = &app_registers_map_holding[k];
-        const app_registers_result_t result = try_one(r, e, &values[n]);
-        if (result != APP_REGISTERS_OK) {
-            return result;
-        }
-        n = (uint16_t)(n + app_registers_count_words(e));
-        k = (uint16_t)(k + 1U);
+    r->trial                            = r->requested;
+    const app_registers_result_t result = try_all(r, first, count, values);
+    if (result != APP_REGISTERS_OK) {
+        return result;
     }
     if (!may_be_requested(r, &r->trial)) {
         return APP_REGISTERS_BAD_VALUE;
