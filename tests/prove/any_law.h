@@ -6,16 +6,10 @@
 #ifndef ANY_LAW_H
 #define ANY_LAW_H
 
+#include "any.h"
 #include "drive_tick.h"
 
-/* The analyser reads any bits from what is volatile; in what is not it starts with any value of its type. */
-volatile int          any_int;
 volatile law_output_t any_answer;
-
-static bool any_bool(void)
-{
-    return any_int != 0;
-}
 
 static bool check(const drive_config_t *c)
 {

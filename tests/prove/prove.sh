@@ -6,7 +6,7 @@
 #     prove.sh LAW ENTRY        one: prove.sh noc prove_tick; prove.sh any prove_gate
 #
 # Every analysis has to end without an alarm and with every property shown. Logs in build/prove/. prove_modbus is left
-# out of everything: it has alarms.
+# out of everything: it has an alarm.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -27,12 +27,15 @@ speed_difference_check:20,terms_ok:50
     [prove_gate]=prove_gate:50
     [prove_app_tick]=prove_app_tick:2
     [prove_control]=app_control_tick:200,app_control_decide:200,app_control_aim:200,step:200,change_at_rest:50,change_enabled:100,by_modes:20,prove_control:200,tick_control:200
-    [prove_modbus]=read_map:400,are_whole:300,app_registers_write:300,read_registers:300,take_values:400,answer_write:20,\
-app_modbus_answer_begin:20,app_modbus_device_identify:50
+    [prove_modbus]=app_modbus_device_identify:50,is_known:20
 )
 apart[prove_store]=use:1
-apart[prove_image]=prove_image:20,drive_image_read:50
 apart[prove_refused]=${apart[prove_init]}
+apart[prove_parameters]=app_registers_saved_take:300,app_registers_saved_read:300,read_map:400,store_newest:20,\
+accept:50,app_image_accept:50,take_record:20,app_parameters_take:50
+apart[prove_loader]=${apart[prove_init]/prove_init:50,/},drive_image_read:50,drive_image_fields:50,app_image_take:50,commit:50,\
+app_loader_work:20,app_loader_write:50,put_board:100
+apart[prove_image]=prove_image:20,drive_image_read:50
 declare -A options=(
     [prove_tick]=""
     [prove_init]="-eva-split-return full"
@@ -40,9 +43,11 @@ declare -A options=(
     [prove_gate]="-eva-partition-history 6 -eva-interprocedural-history"
     [prove_app_tick]=""
     [prove_control]="-eva-partition-history 4 -eva-interprocedural-history"
-    [prove_modbus]="-eva-domains octagon"
+    [prove_modbus]="-eva-min-loop-unroll 130"
     [prove_store]=""
     [prove_image]="-eva-split-return full"
+    [prove_loader]="-eva-split-return full"
+    [prove_parameters]="-eva-interprocedural-splits"
     [prove_commission_spin]="-eva-min-loop-unroll 66" # COMMISSION_WINDOWS and two
 )
 # Where each entry is; beside the core it needs the application, or not.
@@ -53,9 +58,11 @@ declare -A sources=(
     [prove_gate]=tests/prove/prove_gate.c
     [prove_app_tick]=tests/prove/prove_app.c
     [prove_control]=tests/prove/prove_app.c
-    [prove_modbus]=tests/prove/prove_app.c
+    [prove_modbus]=tests/prove/prove_load.c
     [prove_store]=tests/prove/prove_store.c
     [prove_image]=tests/prove/prove_store.c
+    [prove_loader]=tests/prove/prove_load.c
+    [prove_parameters]=tests/prove/prove_load.c
 )
 stages=(rest check look resistance drag map spin)
 for stage in "${stages[@]}"; do
@@ -66,6 +73,7 @@ done
 files_of()
 {
     printf '%s\n' "${sources[$2]}"
+    [[ ${sources[$2]} != *prove_load.c ]] || { find "$app" firmware/store -name '*.c' ! -name app.c && echo "$config/board_config.c"; }
     [[ ${sources[$2]} != *prove_app.c ]] || { find "$app" -name 'app_*.c' && echo "$config/board_config.c"; }
     [[ ${sources[$2]} != *prove_store.c ]] || { find firmware/store -name '*.c' && printf '%s\n' "$app"/load/{board_identity,drive_image,fields_app,fields_text}.c; }
     [[ ${sources[$2]} != *prove_commission.c ]] || find firmware/commission -name '*.c'
@@ -104,5 +112,6 @@ fi
 for law in "${laws[@]}"; do
     printf "%s\n" "$law prove_tick" "$law prove_init"
     [[ $law == pid ]] || printf "%s\n" "$law prove_refused" # it has no whole constants
-done | { printf '%s\n' 'any prove_gate' 'any prove_app_tick' 'any prove_control' 'any prove_store' 'noc prove_image' &&
+done | { printf '%s\n' 'any prove_gate' 'any prove_app_tick' 'any prove_control' 'any prove_store' 'noc prove_image' \
+    'noc prove_loader' 'any prove_parameters' &&
     printf 'any prove_commission_%s\n' "${stages[@]}" && cat; } | xargs -P "$(nproc)" -L 1 tests/prove/prove.sh

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* One period of the application and one pass of its Modbus server, for the analyser (docs/assurance.md): any sample of the
- * board, any command, any octets; the board's own constants; every number of the state any bits. The law is one that answers
- * anything, and the drive's constants are any finite numbers. */
+/* One period of the application, for the analyser (docs/assurance.md). The sample, the command and every number of the state
+ * are any bits. The constants of the board are its own, those of the drive any finite numbers. The law answers anything. */
 #include "any_law.h"
 #include "app_control.h"
-#include "app_modbus.h"
 #include "app_modes.h"
 #include "board_config.h"
 
@@ -12,24 +10,12 @@ volatile app_modes_t    any_modes;
 volatile board_sample_t any_raw;
 volatile app_command_t  any_command;
 volatile app_objects_t  any_objects;
-volatile app_modbus_t   any_modbus;
-volatile app_status_t   any_status;
-volatile unsigned       any_word;
 drive_config_t          config;
 app_modes_t             modes;
 board_sample_t          raw;
-app_modbus_t            modbus;
-app_registers_t         registers;
 
-/* What app_angle.c turns at the most without an index. */
+/* Most counts that app_angle.c turns without an index. */
 #define TURN_cnt ((int)board_config.board.positions + (int)board_config.angle.index_correct_max_cnt)
-
-static int any_between(int lo, int hi)
-{
-    const int x = any_int;
-
-    return (x < lo) ? lo : ((x > hi) ? hi : x);
-}
 
 static void any_sample(void)
 {
@@ -74,7 +60,7 @@ static void any_state(void)
     modes.drive.answer.waits         = any_bool();
     modes.position.have              = any_bool();
     modes.position.known             = any_bool();
-    modes.position.actual.turns      = any_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
+    modes.position.actual.turns      = any_long_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
     modes.position.pole_pairs        = (uint16_t)any_between(1, 64);
     modes.position.positions         = board_config.board.positions;
     modes.angle.pole_pairs           = modes.position.pole_pairs;
@@ -127,7 +113,7 @@ void prove_app_tick(void)
     in.command.reset     = any_bool();
     in.command.align     = any_bool();
     in.command.positioning  = any_bool();
-    in.command.target.turns = any_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
+    in.command.target.turns = any_long_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
     in.command.commission   = false; /* not proved: its own bounds and tests */
 
     const bridge_t     out = app_modes_tick(&modes, &in);
@@ -150,31 +136,32 @@ volatile app_position_t     any_position;
 
 static void tick_control(app_mode_t mode, app_control_state_t state)
 {
-    app_control_t      control       = any_control;
-    app_control_seen_t seen          = any_seen;
-    app_objects_t      wanted        = any_objects;
-    control.config                   = &board_config;
-    control.state                    = state;
-    control.armed                    = any_bool();
-    control.reset_high               = any_bool();
-    control.asked                    = any_bool();
-    control.moved                    = any_bool();
-    control.done                     = any_bool();
-    control.holds                    = any_bool();
-    control.setpoint.waits           = any_bool();
-    control.setpoint.acknowledged    = any_bool();
-    control.setpoint.new_high        = any_bool();
-    control.setpoint.now.target_cnt  = any_between(-APP_POSITION_CNT_MAX, APP_POSITION_CNT_MAX);
-    control.setpoint.next.target_cnt = any_between(-APP_POSITION_CNT_MAX, APP_POSITION_CNT_MAX);
-    seen.mode                        = mode;
-    seen.shorted                     = any_bool();
-    seen.in_the_way                  = any_bool();
-    seen.arrived                     = any_bool();
+    app_control_t      control      = any_control;
+    app_control_seen_t seen         = any_seen;
+    app_objects_t      wanted       = any_objects;
+    control.config                  = &board_config;
+    control.state                   = state;
+    control.armed                   = any_bool();
+    control.reset_high              = any_bool();
+    control.asked                   = any_bool();
+    control.moved                   = any_bool();
+    control.done                    = any_bool();
+    control.holds                   = any_bool();
+    control.setpoint.waits          = any_bool();
+    control.setpoint.acknowledged   = any_bool();
+    control.setpoint.new_high       = any_bool();
+    control.setpoint.now.target_cnt = any_long_between(-APP_POSITION_CNT_MAX, APP_POSITION_CNT_MAX);
+    control.setpoint.next.target_cnt =
+        any_long_between(-APP_POSITION_CNT_MAX, APP_POSITION_CNT_MAX);
+    seen.mode       = mode;
+    seen.shorted    = any_bool();
+    seen.in_the_way = any_bool();
+    seen.arrived    = any_bool();
 
     app_position_t position = any_position;
     position.known          = any_bool();
     position.have           = any_bool();
-    position.actual.turns   = any_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
+    position.actual.turns   = any_long_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
     position.zero.turns     = any_between(-TURN_cnt, TURN_cnt); /* of the first turns */
     position.pole_pairs     = (uint16_t)any_between(1, 64);
     position.positions      = board_config.board.positions;
@@ -204,58 +191,4 @@ void prove_control(void)
             tick_control(mode, state);
         }
     }
-}
-
-bool board_line_fits(const board_line_t *line)
-{
-    (void)line;
-    return any_bool();
-}
-
-/* The board's serial line: any octets, room or not. */
-bool board_serial_read(uint16_t *octet)
-{
-    *octet = (uint16_t)(any_word & 0xFFU);
-    return any_bool();
-}
-
-bool board_serial_write(uint16_t octet)
-{
-    (void)octet;
-    return any_bool();
-}
-
-static void any_registers(void)
-{
-    app_status_t *const s = &registers.status;
-
-    *s                          = any_status;
-    s->hot                      = any_bool();
-    s->dc_link_out              = any_bool();
-    s->tripped                  = any_bool();
-    s->shorted                  = any_bool();
-    s->gate_enable              = any_bool();
-    s->without_angle            = any_bool();
-    s->snapshot.raw.valid       = any_bool();
-    s->snapshot.raw.index_seen  = any_bool();
-    registers.config            = &board_config;
-    registers.drive             = &config;
-    registers.parameters        = NULL;
-    registers.requested.objects = any_objects;
-    registers.silent            = any_bool();
-    registers.changed           = any_bool();
-}
-
-/* Entry: a pass of the server in any state. */
-void prove_modbus(void)
-{
-    modbus           = any_modbus;
-    modbus.rx_count  = (uint16_t)any_between(0, APP_MODBUS_FRAME_MAX);
-    modbus.tx_count  = (uint16_t)any_between(0, APP_MODBUS_FRAME_MAX);
-    modbus.tx_sent   = (uint16_t)any_between(0, modbus.tx_count);
-    modbus.rx_spoilt = any_bool();
-    any_registers();
-    app_modbus_poll(&modbus, &registers, any_word);
-    //@ check received: modbus.rx_count <= APP_MODBUS_FRAME_MAX;
-    //@ check answered: modbus.tx_count <= APP_MODBUS_FRAME_MAX;
 }

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* One period of the self-commissioning, for the analyser (docs/assurance.md): any sample, any stage, every float any bits. Counts
  * of the state are within what the stages let them reach, and the shaft's encoder within what a drive file allows. */
+#include "any.h"
 #include "commission.h"
 
-/* The analyser starts with any value in what is not constant. */
-volatile int                     any_int;
-volatile int32_t                 any_long;
 volatile commission_result_t     any_result;
 volatile commission_guard_t      any_guard;
 volatile commission_admittance_t any_admittance;
@@ -23,23 +21,11 @@ commission_sample_t              sample;
 #define PAIRS_MAX  100L
 #define SHORT_MAX  30000L /* of the counts in 16 bits */
 
-static bool any_bool(void)
-{
-    return any_int != 0;
-}
-
-static int32_t between(int32_t lo, int32_t hi)
-{
-    const int32_t x = any_long;
-
-    return (x < lo) ? lo : ((x > hi) ? hi : x);
-}
-
 static void any_vector(commission_vector_t *v)
 {
-    v->still_ticks = between(0L, TICKS_MAX);
-    v->swing_ticks = between(0L, TICKS_MAX);
-    v->way         = (int16_t)between(-1L, 1L);
+    v->still_ticks = any_long_between(0L, TICKS_MAX);
+    v->swing_ticks = any_long_between(0L, TICKS_MAX);
+    v->way         = (int16_t)any_long_between(-1L, 1L);
 }
 
 static void any_state(commission_stage_t stage)
@@ -48,20 +34,20 @@ static void any_state(commission_stage_t stage)
     state.stage                 = stage;
     state.last_stage            = stage;
     state.reason                = COMMISSION_REASON_NONE;
-    state.ticks                 = between(0L, TICKS_MAX);
-    state.rounds                = (int16_t)between(0L, 2L);
-    state.shaft.speed_ticks     = between(0L, TICKS_MAX);
+    state.ticks                 = any_long_between(0L, TICKS_MAX);
+    state.rounds                = (int16_t)any_long_between(0L, 2L);
+    state.shaft.speed_ticks     = any_long_between(0L, TICKS_MAX);
     state.found                 = any_result;
-    state.found.counts_per_turn = between(1L, COUNTS_MAX);
-    state.found.pole_pairs      = (int16_t)between(0L, PAIRS_MAX);
-    state.found.direction       = (int16_t)between(-1L, 1L);
+    state.found.counts_per_turn = any_long_between(1L, COUNTS_MAX);
+    state.found.pole_pairs      = (int16_t)any_long_between(0L, PAIRS_MAX);
+    state.found.direction       = (int16_t)any_long_between(-1L, 1L);
     state.found.indexed         = any_bool();
     state.found.reluctance      = any_bool();
     state.checked               = any_bool();
     state.guard                 = any_guard;
     state.guard.begun           = any_bool();
     state.admittance            = any_admittance;
-    config.counts_per_turn      = between(0L, COUNTS_MAX);
+    config.counts_per_turn      = any_long_between(0L, COUNTS_MAX);
     sample.index_seen           = any_bool();
     sample.valid                = any_bool();
 }
@@ -75,9 +61,9 @@ static void tick(void)
 /* Entry: WATCH, and every stage that does nothing. */
 void prove_commission_rest(void)
 {
-    any_state((commission_stage_t)between(COMMISSION_IDLE, COMMISSION_WATCH));
+    any_state((commission_stage_t)any_long_between(COMMISSION_IDLE, COMMISSION_WATCH));
     tick();
-    any_state((commission_stage_t)between(COMMISSION_FINISHED, COMMISSION_ABORTED));
+    any_state((commission_stage_t)any_long_between(COMMISSION_FINISHED, COMMISSION_ABORTED));
     tick();
 }
 
@@ -86,13 +72,13 @@ static void any_wave(void)
     commission_inductance_t *const l = &state.work.inductance;
 
     *l              = any_inductance;
-    l->axis         = (int16_t)between(0L, 4L);
-    l->wait_ticks   = (int16_t)between(0L, SHORT_MAX);
+    l->axis         = (int16_t)any_long_between(0L, 4L);
+    l->wait_ticks   = (int16_t)any_long_between(0L, SHORT_MAX);
     l->wave.found   = any_bool();
-    l->wave.samples = (int16_t)between(0L, SHORT_MAX);
-    l->wave.halves  = (int16_t)between(0L, SHORT_MAX);
-    l->wave.proofs  = (int16_t)between(0L, SHORT_MAX);
-    l->alpha.n = l->beta.n = l->noise.n = between(0L, TICKS_MAX);
+    l->wave.samples = (int16_t)any_long_between(0L, SHORT_MAX);
+    l->wave.halves  = (int16_t)any_long_between(0L, SHORT_MAX);
+    l->wave.proofs  = (int16_t)any_long_between(0L, SHORT_MAX);
+    l->alpha.n = l->beta.n = l->noise.n = any_long_between(0L, TICKS_MAX);
 }
 
 /* Entry: LOOK, before the phases and sensors have answered. */
@@ -104,8 +90,8 @@ void prove_commission_check(void)
     state.checked = false;
     *k            = any_check;
     k->found      = any_bool();
-    k->tick       = (int16_t)between(0L, SHORT_MAX);
-    k->patterns   = (int16_t)between(0L, SHORT_MAX);
+    k->tick       = (int16_t)any_long_between(0L, SHORT_MAX);
+    k->patterns   = (int16_t)any_long_between(0L, SHORT_MAX);
     tick();
 }
 
@@ -123,7 +109,7 @@ void prove_commission_map(void)
 {
     any_state(COMMISSION_MAP);
     any_wave();
-    state.work.inductance.axis = (int16_t)between(0L, 2L);
+    state.work.inductance.axis = (int16_t)any_long_between(0L, 2L);
     tick();
 }
 
@@ -134,13 +120,13 @@ void prove_commission_resistance(void)
 
     any_state(COMMISSION_RESISTANCE);
     *r            = any_resistance;
-    r->angle      = (int16_t)between(0L, COMMISSION_ANGLES);
-    r->at_angle   = (int16_t)between(0L, COMMISSION_ANGLES - 1);
-    r->level      = (int16_t)between(-1L, 3L);
-    r->ticks      = between(0L, TICKS_MAX);
-    r->mean_ticks = between(0L, TICKS_MAX);
-    r->sums       = between(0L, TICKS_MAX);
-    r->line.n     = between(0L, TICKS_MAX);
+    r->angle      = (int16_t)any_long_between(0L, COMMISSION_ANGLES);
+    r->at_angle   = (int16_t)any_long_between(0L, COMMISSION_ANGLES - 1);
+    r->level      = (int16_t)any_long_between(-1L, 3L);
+    r->ticks      = any_long_between(0L, TICKS_MAX);
+    r->mean_ticks = any_long_between(0L, TICKS_MAX);
+    r->sums       = any_long_between(0L, TICKS_MAX);
+    r->line.n     = any_long_between(0L, TICKS_MAX);
     for (int k = 0; k < COMMISSION_ANGLES; k++) {
         r->lines[k].valid = any_bool();
     }
@@ -155,10 +141,10 @@ void prove_commission_drag(void)
 
     any_state(COMMISSION_DRAG);
     *d         = any_drag;
-    d->ticks   = between(0L, TICKS_MAX);
-    d->part    = (int16_t)between(0L, 6L);
-    d->turns   = (int16_t)between(0L, 64L);
-    d->indexes = (int16_t)between(0L, SHORT_MAX);
+    d->ticks   = any_long_between(0L, TICKS_MAX);
+    d->part    = (int16_t)any_long_between(0L, 6L);
+    d->turns   = (int16_t)any_long_between(0L, 64L);
+    d->indexes = (int16_t)any_long_between(0L, SHORT_MAX);
     d->second  = any_bool();
     any_vector(&d->vector);
     tick();
@@ -171,14 +157,14 @@ void prove_commission_spin(void)
 
     any_state(COMMISSION_SPIN);
     *p                     = any_spin;
-    p->part                = (int16_t)between(0L, 9L);
-    p->ticks               = between(0L, TICKS_MAX);
-    p->coast_ticks         = between(0L, TICKS_MAX);
-    p->window_ticks        = between(0L, TICKS_MAX);
-    p->motion.count        = (int16_t)between(0L, COMMISSION_WINDOWS);
-    p->motion.ticks        = between(-TICKS_MAX, TICKS_MAX);
-    p->motion.length_ticks = between(0L, TICKS_MAX);
-    p->motion.around_ticks = between(0L, TICKS_MAX);
+    p->part                = (int16_t)any_long_between(0L, 9L);
+    p->ticks               = any_long_between(0L, TICKS_MAX);
+    p->coast_ticks         = any_long_between(0L, TICKS_MAX);
+    p->window_ticks        = any_long_between(0L, TICKS_MAX);
+    p->motion.count        = (int16_t)any_long_between(0L, COMMISSION_WINDOWS);
+    p->motion.ticks        = any_long_between(-TICKS_MAX, TICKS_MAX);
+    p->motion.length_ticks = any_long_between(0L, TICKS_MAX);
+    p->motion.around_ticks = any_long_between(0L, TICKS_MAX);
     p->motion.have_last    = any_bool();
     p->motion.driven       = any_bool();
     for (int k = 0; k < COMMISSION_WINDOWS; k++) {

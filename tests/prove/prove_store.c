@@ -3,56 +3,15 @@
  * that is erased or written holds anything afterwards, and each of both may fail. */
 #include <string.h>
 
+#include "any_flash.h"
 #include "app_image.h"
 #include "store.h"
 
-/* The analyser starts with any value in what is not constant. */
-volatile int      any_int;
-volatile uint16_t any_word;
-volatile uint32_t any_long;
-uint16_t          flash[BOARD_STORE_SLOTS][BOARD_STORE_WORDS];
-uint16_t          words[100];
-drive_image_t     image;
+uint16_t      words[100];
+drive_image_t image;
 
 #define NAMED_(a, b) a##b
 #define NAMED(a, b)  NAMED_(a, b)
-
-static bool any_bool(void)
-{
-    return any_int != 0;
-}
-
-const uint16_t *board_store(uint16_t slot)
-{
-    return (slot < (uint16_t)BOARD_STORE_SLOTS) ? flash[slot] : NULL;
-}
-
-static void spoil(uint16_t slot)
-{
-    for (uint32_t n = 0U; n < BOARD_STORE_WORDS; n++) {
-        flash[slot][n] = any_word;
-    }
-}
-
-bool board_store_erase(uint16_t slot)
-{
-    //@ check known_to_erase: slot < 4;
-    spoil(slot);
-    return any_bool();
-}
-
-bool board_store_program(uint16_t slot, uint32_t offset, const uint16_t *from, uint16_t count)
-{
-    //@ check known_to_write: slot < 4;
-    uint16_t read = 0U;
-
-    for (uint16_t n = 0U; n < count; n++) {
-        read |= from[n];
-    }
-    (void)offset;
-    spoil(slot);
-    return (read != 0U) || any_bool();
-}
 
 /* Every word of a content is in the flash. */
 static void read_all(const store_content_t *c)
@@ -74,13 +33,13 @@ static void use(store_kind_t kind)
 
     read_all(&found);
     (void)store_writes(kind);
-    if (store_begin(&w, kind, any_long)) {
-        (void)store_put(&w, any_long, words, (uint16_t)(any_word % 101U));
+    if (store_begin(&w, kind, (uint32_t)any_long)) {
+        (void)store_put(&w, (uint32_t)any_long, words, (uint16_t)(any_word % 101U));
         const store_content_t written = store_written(&w);
         read_all(&written);
         (void)store_commit(&w);
     }
-    (void)store_write(kind, words, any_long % 101UL);
+    (void)store_write(kind, words, (uint32_t)any_long % 101UL);
     (void)store_forget(kind);
 }
 
@@ -95,7 +54,7 @@ void prove_store(void)
 void prove_image(void)
 {
 #ifndef PROVE_any /* a law with its fields */
-    const uint32_t count = any_long % (BOARD_STORE_WORDS + 1U);
+    const uint32_t count = (uint32_t)any_long % (BOARD_STORE_WORDS + 1U);
 
     (void)memset(&image, 0, sizeof image);
     if (drive_image_read(&image, &NAMED(law_, PROVE_LAW), flash[0], count) == DRIVE_IMAGE_OK) {

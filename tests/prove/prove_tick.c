@@ -3,6 +3,7 @@
  * any 32 bits, NaN and infinities included; whole numbers and booleans are what the types and drive_init() let them be. */
 #include <stddef.h>
 
+#include "any.h"
 #include "drive_tick.h"
 
 #define JOINED(a, b) a##b
@@ -12,10 +13,7 @@
 typedef NAMED(NAMED(law_, PROVE_LAW), _config_t) constants_t;
 typedef NAMED(NAMED(law_, PROVE_LAW), _state_t) state_t;
 
-/* The analyser reads any bits from what is volatile; in what is not it starts with any value of its type. */
-volatile int                any_int;
 volatile float              any_float;
-volatile int32_t            any_turn;
 volatile constants_t        any_constants;
 volatile state_t            any_state;
 volatile drive_t            any_drive_bits;
@@ -26,20 +24,10 @@ drive_config_t              config;
 constants_t                 constants;
 drive_t                     drive;
 
-static int any_between(int lo, int hi)
-{
-    const int x = any_int;
-
-    return (x < lo) ? lo : ((x > hi) ? hi : x);
-}
-
 /* What position.h keeps turns in. */
 static int32_t any_turns(void)
 {
-    const int32_t x = any_turn;
-
-    return (x < -POSITION_TURNS_MAX) ? -POSITION_TURNS_MAX
-                                     : ((x > POSITION_TURNS_MAX) ? POSITION_TURNS_MAX : x);
+    return any_long_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
 }
 
 /* Constants. */
