@@ -77,9 +77,10 @@ TEST(Qualify, MapIsOfSteadyRunsOverThePlane)
     EXPECT_EQ(map.points[4].torque_Nm, 0.0);
     EXPECT_GT(map.points[8].speed_e_radps, 1190.0);
 
-    sdre::Scenario s        = sdre::at_speed(drive, map.points[5].speed_e_radps, 0.0);
+    sdre::Scenario s        = sdre::at_speed(drive, 523.0, 0.0);
     const double   friction = 1e-4 * 0.5 * map.points[5].speed_e_radps;
-    const double   ramp_s   = sdre::steady_after_s(drive);
+    const double   ramp_s   = sdre::steady_after_s(drive, map.points[5].speed_e_radps - 523.0);
+    s.speed_reference       = {{0.0, map.points[5].speed_e_radps}};
     s.load_ramps            = {{ramp_s, 2.0 * ramp_s, map.points[5].torque_Nm - friction}};
     s.duration_s            = 3.0 * ramp_s + 0.2;
     s.measures              = {{"steady", 3.0 * ramp_s - 1e-6, 1.0, {}}};

@@ -27,6 +27,8 @@ constexpr int    tail_periods = 1000;
 // Chosen: 0.2 V and 0.02 rad/s of the 390 W motor, whose circle is 170 V and whose rated speed 523 rad/s.
 constexpr double ideal_voltage_share = 0.2 / 170.3;
 constexpr double ideal_speed_share   = 0.02 / 523.0;
+// Chosen: of the trip speed, where a drive may be commanded that far: noise and overshoot need room.
+constexpr double trip_share  = 0.95;
 constexpr double board_ratio = 2.0; // chosen: noise at any point, of that at half the rating
 
 Ripples ripples_of(const Trace &trace)
@@ -64,8 +66,8 @@ double held_torque_Nm(const Design &design, double speed_e_radps, double share)
 
 std::vector<MapPoint> grid(const Drive &d, int per_side)
 {
-    const double          top    = largest_command_e_radps(d);
-    const Design          design = design_drive(d);
+    const double top    = std::min(largest_command_e_radps(d), trip_share * trip_speed_e_radps(d));
+    const Design design = design_drive(d);
     std::vector<MapPoint> points;
     for (int i = 0; i < per_side; i++) {
         const double speed = top * i / (per_side - 1);
@@ -79,29 +81,32 @@ std::vector<MapPoint> grid(const Drive &d, int per_side)
     return points;
 }
 
-/// A run at the point, without noise or on the board. The load comes on a ramp: a drive with all its torque in use takes long to
-/// come back to its speed after a step.
-Scenario steady_run(const Drive &d, const MapPoint &p, double settling_s, bool ideal)
+/// A run at the point, without noise or on the board. It starts at the rated speed at most, as no drive starts in deep flux
+/// weakening. The load comes on a ramp: a drive with all its torque in use takes long to come back to its speed after a step.
+Scenario steady_run(const Drive &d, const MapPoint &p, bool ideal)
 {
+    const double start       = std::min(p.speed_e_radps, d.motor.rated_speed_e_radps);
+    const double settling_s  = steady_after_s(d, p.speed_e_radps - start);
     const double friction_Nm = d.motor.viscous_friction_Nms * p.speed_e_radps / d.motor.pole_pairs;
-    Scenario     s           = at_speed(d, p.speed_e_radps, 0.0);
+    Scenario     s           = at_speed(d, start, 0.0);
     s.sensors.ideal          = ideal;
+    s.speed_reference        = {{0.0, p.speed_e_radps}};
     s.load_ramps             = {{settling_s, 2.0 * settling_s, p.torque_Nm - friction_Nm}};
     s.duration_s             = 3.0 * settling_s + tail_periods * control_period_s(d);
     return s;
 }
 
 /// Seeds 1 .. `seeds` on the board, and one run without noise.
-void run(const Drive &d, std::vector<MapPoint> &points, double settling_s, int seeds)
+void run(const Drive &d, std::vector<MapPoint> &points, int seeds)
 {
     const std::size_t    each  = static_cast<std::size_t>(seeds) + 1;
-    const Controller     noisy = prepare_controller(steady_run(d, points[0], settling_s, false));
-    const Controller     exact = prepare_controller(steady_run(d, points[0], settling_s, true));
+    const Controller     noisy = prepare_controller(steady_run(d, points[0], false));
+    const Controller     exact = prepare_controller(steady_run(d, points[0], true));
     std::vector<Ripples> found(points.size() * each);
     std::vector<char>    tripped(found.size(), 0);
     parallel_for(found.size(), [&](std::size_t n) {
         const std::size_t seed   = n % each;
-        Scenario          s      = steady_run(d, points[n / each], settling_s, seed == 0);
+        Scenario          s      = steady_run(d, points[n / each], seed == 0);
         s.seed                   = std::max<std::size_t>(seed, 1);
         const SimulationResult r = simulate(s, seed == 0 ? exact : noisy);
         found[n]                 = ripples_of(r.trace);
@@ -169,17 +174,16 @@ void judge(const PlaneMap &map, const char *what, Ripples MapPoint::*kind, const
 
 PlaneMap plane_map(const Drive &d, int per_side, int seeds)
 {
-    const double          circle_V   = d.inverter.dc_link_V / std::sqrt(3.0);
-    const double          settling_s = steady_after_s(d);
+    const double          circle_V = d.inverter.dc_link_V / std::sqrt(3.0);
     std::vector<MapPoint> half(1);
     half[0].speed_e_radps = 0.5 * d.motor.rated_speed_e_radps;
     half[0].torque_Nm     = 0.5 * d.motor.rated_torque_Nm;
-    run(d, half, settling_s, seeds);
+    run(d, half, seeds);
 
     PlaneMap map;
     map.seeds  = seeds;
     map.points = grid(d, per_side);
-    run(d, map.points, settling_s, seeds);
+    run(d, map.points, seeds);
     map.ideal_limit     = {ideal_voltage_share * circle_V, ideal_voltage_share * circle_V,
                            ideal_speed_share * d.motor.rated_speed_e_radps};
     const double most_V = board_ratio * std::max(half[0].board.vq_V, half[0].board.vd_V);

@@ -31,7 +31,7 @@ struct PlaneMap {
     Ripples board_limit; ///< twice the noise of v_q or v_d at half the rating; the speed has none
 };
 
-/// `per_side` speeds from standstill to the largest command, with as many torques each, generating to motoring. The largest
+/// `per_side` speeds from standstill to the largest command (0.95 of the trip speed at most), with as many torques each, generating to motoring. The largest
 /// is that of 0.93 of the q current that the references reach; without such references 0.85 of the machine's. Board runs take seeds 1 .. `seeds`.
 PlaneMap plane_map(const Drive &drive, int per_side, int seeds);
 

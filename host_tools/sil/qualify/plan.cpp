@@ -34,6 +34,8 @@ constexpr double start_share     = 0.3;
 // Chosen: of the current limit, for flux weakening that leaves some torque.
 constexpr double weakening_share = 0.8;
 
+constexpr double weakening_times = 1.5; // chosen: there is less torque at higher speeds
+
 struct Numbers {
     PhysicalBound bound;
     double        ts_s;
@@ -118,7 +120,7 @@ void add_speeds(const Drive &d, const Numbers &n, std::vector<Trial> &trials)
     if (weak > 1.05 * w) {
         const double light_Nm = 0.05 * n.rated_Nm;
         trials.push_back(speed_step(d, n, "flux weakening", 0.8 * w, weak, light_Nm));
-        trials.back().scenario.duration_s *= 1.5; // less torque up there
+        trials.back().scenario.duration_s *= weakening_times;
     }
     trials.push_back(speed_step(d, n, "reversal", -0.6 * w, 0.6 * w, 0.0));
     Trial start = speed_step(d, n, "start while turning", 0.5 * w, 0.3 * w, 0.3 * n.rated_Nm);
@@ -220,10 +222,11 @@ Scenario at_speed(const Drive &d, double speed_e_radps, double load_Nm)
     return s;
 }
 
-double steady_after_s(const Drive &d)
+double steady_after_s(const Drive &d, double change_e_radps)
 {
     const Numbers n = numbers_of(d, 0.0);
-    return n.after_s();
+    return weakening_times *
+           n.way_s(change_e_radps, 0.0, largest_torque(d, reduced_parameters(d.motor)));
 }
 
 Plan qualification_plan(const Drive &d, double noise_share)

@@ -30,8 +30,8 @@ struct Plan {
 /// A run at one speed with one load on a real disc, without measures or an end.
 Scenario at_speed(const Drive &drive, double speed_e_radps, double load_Nm);
 
-/// Time in which a run is steady after its start [s].
-double steady_after_s(const Drive &drive);
+/// Time in which a run is steady after a change of the commanded speed without load [s].
+double steady_after_s(const Drive &drive, double change_e_radps);
 
 /// `noise_share` is the largest noise of v_q, of the circle.
 Plan qualification_plan(const Drive &drive, double noise_share);
