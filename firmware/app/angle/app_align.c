@@ -6,6 +6,10 @@
 #include "frames.h"
 #include "svpwm.h"
 
+/* Chosen: share of I that the current may be off while the shaft rests. The run begins with the
+ * measured current as its state: a sensor that moved in the last ticks must not be taken over. */
+#define OFF_SHARE 0.25f
+
 ctl_status_t app_align_check(const app_align_config_t *c, const drive_config_t *drive)
 {
     const bool times_ok = (c->watch_ticks > 0UL) && (c->ramp_ticks > 0UL) &&
@@ -95,11 +99,23 @@ static void sweep(app_align_t *a, uint16_t position_cnt)
     }
 }
 
+/* True in the end of settle, when shaft and current rest. */
+static bool is_resting(const app_align_t *a)
+{
+    return (a->stage == APP_ALIGN_DONE) ||
+           ((a->stage == APP_ALIGN_SETTLE) &&
+            (a->timer_ticks > (a->config->settle_ticks - a->config->still_ticks)));
+}
+
+static bool is_off(const app_align_t *a, dq_t i_A)
+{
+    const float most_A = OFF_SHARE * a->config->current_A;
+    return !base_within(i_A.d - a->config->current_A, most_A) || !base_within(i_A.q, most_A);
+}
+
 static void settle(app_align_t *a, uint16_t position_cnt)
 {
-    const uint32_t rest_from = a->config->settle_ticks - a->config->still_ticks;
-
-    if (a->timer_ticks <= rest_from) {
+    if (!is_resting(a)) {
         a->marked_cnt = position_cnt;
     } else if (!stands(a, position_cnt)) {
         a->stage = APP_ALIGN_FAILED;
@@ -168,7 +184,8 @@ bridge_t app_align_tick(app_align_t *a, float ia_A, float ib_A, float dc_link_V,
 
     const frames_angle_t angle = frames_angle(vector_angle_rad(a));
     const dq_t           i_A   = frames_park(frames_clarke(ia_A, ib_A), angle);
-    if (!base_in_range((i_A.d * i_A.d) + (i_A.q * i_A.q), 0.0f, a->current_max2_A2)) {
+    if (!base_in_range((i_A.d * i_A.d) + (i_A.q * i_A.q), 0.0f, a->current_max2_A2) ||
+        (is_resting(a) && is_off(a, i_A))) {
         a->stage = APP_ALIGN_FAILED;
     }
     if ((a->stage == APP_ALIGN_WATCH) || (a->stage == APP_ALIGN_FAILED)) {

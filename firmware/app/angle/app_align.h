@@ -9,7 +9,8 @@
  *     settle   vector at 0; the shaft must come to rest
  *
  * From the middle of the sweep to rest, the rotor must turn forward by a quarter of an electrical
- * turn. This proves phase order, direction and pole pairs.
+ * turn. This proves phase order, direction and pole pairs. At rest the current has to be that of
+ * the vector.
  *
  *     v_along = k_p (I - i_along) + integral of k_i (I - i_along),                EQ-APP-ALIGN-1
  *     v_cross = -k_p i_cross
@@ -48,7 +49,7 @@ typedef enum {
     APP_ALIGN_SWEEP,
     APP_ALIGN_SETTLE,
     APP_ALIGN_DONE,  /**< the d axis stands at phase a */
-    APP_ALIGN_FAILED /**< shaft turned, went the wrong way or did not rest, or over-current */
+    APP_ALIGN_FAILED /**< shaft turned, went the wrong way, shaft or current did not rest */
 } app_align_stage_t;
 
 typedef struct {

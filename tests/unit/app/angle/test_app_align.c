@@ -22,6 +22,8 @@ static test_motor_t       motor;
 static int                direction; /* of the encoder */
 static double             load_Nm;   /* comes when the bridge closes, like a brake that opens */
 static double             peak_A;
+static double             off_a_A; /* errors of the sensors */
+static double             off_b_A;
 
 void setUp(void)
 {
@@ -31,6 +33,8 @@ void setUp(void)
     direction = 1;
     peak_A    = 0.0;
     load_Nm   = 0.0;
+    off_a_A   = 0.0;
+    off_b_A   = 0.0;
     TEST_ASSERT_EQUAL_INT(CTL_OK, app_align_init(&align, &config, &speed_tables_drive));
     TEST_ASSERT_EQUAL_INT(APP_ALIGN_WATCH, align.stage);
 }
@@ -45,14 +49,35 @@ static uint16_t position(void)
 
 static bridge_t tick(void)
 {
-    const bridge_t out =
-        app_align_tick(&align, (float)test_motor_phase_A(&motor, 0),
-                       (float)test_motor_phase_A(&motor, 1), (float)motor.v_dc_V, position());
-    const double duty[3] = {(double)out.duty.a, (double)out.duty.b, (double)out.duty.c};
-    motor.load_Nm        = out.gate_enable ? load_Nm : 0.0;
+    const bridge_t out = app_align_tick(&align, (float)(test_motor_phase_A(&motor, 0) + off_a_A),
+                                        (float)(test_motor_phase_A(&motor, 1) + off_b_A),
+                                        (float)motor.v_dc_V, position());
+    const double   duty[3] = {(double)out.duty.a, (double)out.duty.b, (double)out.duty.c};
+    motor.load_Nm          = out.gate_enable ? load_Nm : 0.0;
     test_motor_period(&motor, duty, out.gate_enable);
     peak_A = fmax(peak_A, hypot(motor.id_A, motor.iq_A));
     return out;
+}
+
+/* A sensor that moves in the last ticks, or in the very last one, is not taken over by the run. Its movement reaches the
+ * loop slowly, so the current is off. */
+static void test_a_sensor_that_moves_at_the_end_is_refused(void)
+{
+    const int before[] = {1, 2, 10, 100, 400};
+
+    for (int n = 0; n < 20; n++) {
+        setUp();
+        const double off_A = ((n & 1) != 0) ? 0.9 : -0.9;
+        const bool   is_b  = (n & 2) != 0;
+        app_align_start(&align, position());
+        for (int k = 1; (k <= TICKS_ALL) && (align.stage < APP_ALIGN_DONE); k++) {
+            const bool off = k > (14000 - before[n / 4]);
+            off_a_A        = (off && !is_b) ? off_A : 0.0;
+            off_b_A        = (off && is_b) ? off_A : 0.0;
+            (void)tick();
+        }
+        TEST_ASSERT_EQUAL_INT(APP_ALIGN_FAILED, align.stage);
+    }
 }
 
 /* Returns the number of ticks until the end. */
@@ -182,6 +207,14 @@ static void test_wrong_pole_pairs_fail(void)
     TEST_ASSERT_EQUAL_INT(APP_ALIGN_FAILED, align.stage);
 }
 
+/* The current is that of the last vector. */
+static void tick_at(int position_cnt)
+{
+    const float along_A = config.current_A;
+    (void)app_align_tick(&align, along_A, -0.5f * along_A, 295.0f,
+                         (uint16_t)((position_cnt + 10000) % 10000));
+}
+
 /* Free of everything but its own counts: the encoder is moved by hand. */
 static void settle_with(int moved_cnt)
 {
@@ -189,9 +222,9 @@ static void settle_with(int moved_cnt)
     for (int n = 1; n < TICKS_BEFORE; n++) {
         const bool after_middle = n > (500 + 1500 + 3000);
         const int  there        = (after_middle ? 1250 : 0) + ((n > 13600) ? moved_cnt : 0);
-        (void)app_align_tick(&align, 0.0f, 0.0f, 295.0f, (uint16_t)((there + 10000) % 10000));
+        tick_at(there);
     }
-    (void)app_align_tick(&align, 0.0f, 0.0f, 295.0f, (uint16_t)((1250 + moved_cnt) % 10000));
+    tick_at(1250 + moved_cnt);
 }
 
 static void test_shaft_must_rest_at_the_end(void)
@@ -310,6 +343,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_free_shaft_is_found_from_anywhere);
+    RUN_TEST(test_a_sensor_that_moves_at_the_end_is_refused);
     RUN_TEST(test_dead_point_is_left_in_the_sweep);
     RUN_TEST(test_load_turns_the_result_by_the_stated_angle);
     RUN_TEST(test_parameters_of_the_motor_may_be_wrong_by_half);

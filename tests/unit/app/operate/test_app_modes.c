@@ -861,7 +861,7 @@ static void test_align_without_a_motor_fails(void)
     TEST_ASSERT_EQUAL_INT(APP_ANGLE_NONE, modes.angle.reference);
 }
 
-/* A rotor that follows the vector exactly; the currents do not matter. */
+/* A rotor that follows the vector exactly. The currents matter at the end: 2 A along phase a. */
 static void test_align_ends_in_run_with_the_angle_zero_here(void)
 {
     go_ready();
@@ -872,6 +872,8 @@ static void test_align_ends_in_run_with_the_angle_zero_here(void)
     for (int n = 1; (n < 14000) && (modes.mode == APP_MODE_ALIGN); n++) {
         const int swept  = (n > 2000) ? ((n < 8000) ? n - 2000 : 6000) : 0;
         raw.position_cnt = (uint16_t)((9000 + ((2500 * swept) / 6000)) % 10000);
+        raw.ia_cnt       = (n > 13000) ? (2048U + 410U) : 2048U;
+        raw.ib_cnt       = (n > 13000) ? (2048U - 205U) : 2048U;
         tick();
     }
     TEST_ASSERT_EQUAL_INT(APP_MODE_ALIGN, modes.mode);
