@@ -14,7 +14,11 @@
 /* Plausibility limit of every result in SI units. */
 #define LARGEST    1.0e9f
 #define LOSS_SHARE 0.1f
-#define FADE_SHARE 0.005f
+/* Four windows of the probe: gains that changed in LOOK or RESISTANCE show in them. */
+#define FIRST_TICKS (4L * COMMISSION_PROBE_TICKS)
+/* Chosen: largest amplitude of LOOK, in pulses of the check. One raised the current by more. */
+#define LOOK_PULSES 2.0f
+#define FADE_SHARE  0.005f
 /* Chosen: three degrees. With an inductance ratio of 7 they raise the smaller inductance by 2 %. */
 #define AGAIN_rad 0.05f
 
@@ -75,6 +79,7 @@ void commission_start(commission_t *m)
     m->zero_b_A   = 0.0f;
     m->rounds     = 0;
     m->checked    = false;
+    m->looked     = false;
 }
 
 static bridge_t abort_for(commission_t *m, commission_reason_t reason)
@@ -160,7 +165,7 @@ static bridge_t watch(commission_t *m, const commission_sample_t *s)
     m->rounds = 0;
     m->stage  = COMMISSION_LOOK;
     m->ticks  = 0L;
-    commission_check_start(&m->work.check);
+    commission_check_start(&m->asked.check);
     return bridge_open();
 }
 
@@ -174,25 +179,46 @@ static commission_signal_t signal_of(commission_t *m, const commission_sample_t 
     return signal;
 }
 
-/* LOOK begins with the check. */
+static commission_answer_t check(commission_t *m, const commission_signal_t *s)
+{
+    commission_admittance_t y   = m->admittance;
+    commission_answer_t     out = commission_check_tick(&m->asked.check, m->config, s, &y);
+
+    if (out.step != COMMISSION_DONE) {
+        return out;
+    }
+    out.step   = (m->looked && !commission_check_same(&y, &m->admittance)) ? COMMISSION_FAILED
+                                                                           : COMMISSION_BUSY;
+    m->checked = out.step == COMMISSION_BUSY;
+    commission_guard_start(&m->guard);
+    if (!m->looked) {
+        m->looked     = true;
+        m->admittance = y;
+        commission_inductance_start(&m->work.inductance, LOOK_PULSES * y.pulse_V);
+    }
+    return out;
+}
+
+/* LOOK begins with the check. Another one interrupts a wave that does not reach its current: a
+ * sensor may have died. */
 static commission_answer_t check_and_look(commission_t *m, const commission_signal_t *s)
 {
-    const bool          checked = m->checked;
+    if (!m->checked) {
+        return check(m, s);
+    }
     commission_answer_t out =
-        checked ? commission_inductance_look(&m->work.inductance, m->config, s, &m->found)
-                : commission_check_tick(&m->work.check, m->config, s, &m->admittance);
+        commission_inductance_look(&m->work.inductance, m->config, s, &m->found);
 
-    if (!checked && (out.step == COMMISSION_DONE)) {
-        m->checked = true;
-        commission_guard_start(&m->guard);
-        commission_inductance_start(&m->work.inductance);
-        out.step = COMMISSION_BUSY;
-    } else if ((out.step == COMMISSION_DONE) &&
-               !commission_guard_agrees(&m->admittance, &m->found)) {
+    if ((out.step == COMMISSION_DONE) && !commission_guard_agrees(&m->admittance, &m->found)) {
         m->checked = false;
         out.step   = COMMISSION_FAILED;
+    } else if (m->work.inductance.wave.lost) {
+        m->work.inductance.wave.lost = false;
+        m->checked                   = false;
+        commission_check_start(&m->asked.check);
+        out = commission_rest(COMMISSION_BUSY);
     } else {
-        /* the check or LOOK continues, or has ended */
+        /* LOOK continues, or has ended */
     }
     return out;
 }
@@ -223,6 +249,31 @@ static bool voltage_explained(commission_t *m, const commission_signal_t *s)
     return ok;
 }
 
+/* Adds pulses to a direct current that is off its reference, and to the first one. The sensors
+ * have to answer as in the check. */
+static void add_probe(commission_t *m, const commission_signal_t *s, commission_answer_t *out)
+{
+    const bool                 turns  = m->stage == COMMISSION_DRAG;
+    const bool                 direct = turns || (m->stage == COMMISSION_RESISTANCE);
+    const commission_vector_t *v      = turns ? &m->work.drag.vector : &m->work.resistance.vector;
+    const bool                 first  = m->ticks < FIRST_TICKS;
+    ab_t                       pulse_V;
+
+    if (!direct) {
+        return;
+    }
+    if ((out->step != COMMISSION_BUSY) || !(first || commission_vector_strays(v))) {
+        commission_probe_start(&m->asked.probe);
+        return;
+    }
+    if (!commission_probe_tick(&m->asked.probe, m->config, s, &m->admittance, &pulse_V)) {
+        m->checked = false;
+        out->step  = COMMISSION_FAILED;
+    }
+    out->v_V.alpha += pulse_V.alpha;
+    out->v_V.beta += pulse_V.beta;
+}
+
 static commission_answer_t run_stage(commission_t *m, const commission_signal_t *s)
 {
     switch ((int16_t)m->stage) {
@@ -243,6 +294,9 @@ static commission_answer_t run_stage(commission_t *m, const commission_signal_t 
 
 static commission_reason_t failure_of(const commission_t *m)
 {
+    if (!m->checked) {
+        return COMMISSION_REASON_SENSOR;
+    }
     switch ((int16_t)m->stage) {
     case COMMISSION_RESISTANCE:
         return COMMISSION_REASON_RESISTANCE;
@@ -251,7 +305,7 @@ static commission_reason_t failure_of(const commission_t *m)
     case COMMISSION_SPIN:
         return COMMISSION_REASON_SPIN;
     default:
-        return m->checked ? COMMISSION_REASON_INDUCTANCE : COMMISSION_REASON_SENSOR;
+        return COMMISSION_REASON_INDUCTANCE;
     }
 }
 
@@ -279,6 +333,7 @@ static void next_stage(commission_t *m, const commission_signal_t *s)
     m->last_stage = m->stage;
     m->ticks      = 0L;
     commission_guard_start(&m->guard);
+    commission_probe_start(&m->asked.probe);
     switch ((int16_t)m->stage) {
     case COMMISSION_LOOK:
         m->stage = COMMISSION_RESISTANCE;
@@ -290,7 +345,7 @@ static void next_stage(commission_t *m, const commission_signal_t *s)
         break;
     case COMMISSION_DRAG:
         m->stage = COMMISSION_MAP;
-        commission_inductance_start(&m->work.inductance);
+        commission_inductance_start(&m->work.inductance, LARGEST);
         break;
     case COMMISSION_MAP:
         m->stage = COMMISSION_SPIN;
@@ -301,7 +356,7 @@ static void next_stage(commission_t *m, const commission_signal_t *s)
         if ((m->rounds == 0) && !base_within(m->found.moved_rad, AGAIN_rad)) {
             m->rounds++;
             m->stage = COMMISSION_MAP;
-            commission_inductance_start(&m->work.inductance);
+            commission_inductance_start(&m->work.inductance, LARGEST);
         } else {
             m->stage = COMMISSION_FINISHED;
         }
@@ -343,8 +398,8 @@ bridge_t commission_tick(commission_t *m, const commission_sample_t *sample, boo
     }
     const commission_signal_t s         = signal_of(m, sample);
     const bool                explained = voltage_explained(m, &s);
-    const commission_answer_t answer =
-        explained ? run_stage(m, &s) : commission_rest(COMMISSION_FAILED);
+    commission_answer_t answer = explained ? run_stage(m, &s) : commission_rest(COMMISSION_FAILED);
+    add_probe(m, &s, &answer);
     m->ticks++;
     if (answer.step == COMMISSION_FAILED) {
         return abort_for(m, explained ? failure_of(m) : unexplained_reason(m));

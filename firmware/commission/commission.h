@@ -20,6 +20,7 @@
 #include "commission_drag.h"
 #include "commission_guard.h"
 #include "commission_inductance.h"
+#include "commission_probe.h"
 #include "commission_resistance.h"
 #include "commission_shaft.h"
 #include "commission_spin.h"
@@ -58,12 +59,17 @@ typedef enum {
 } commission_reason_t;
 
 typedef union {
-    commission_check_t      check;
     commission_inductance_t inductance;
     commission_resistance_t resistance;
     commission_drag_t       drag;
     commission_spin_t       spin;
 } commission_work_t;
+
+/** The check asks the sensors in LOOK, the probe in RESISTANCE and DRAG. */
+typedef union {
+    commission_check_t check;
+    commission_probe_t probe;
+} commission_asked_t;
 
 typedef struct {
     const commission_config_t *config;
@@ -72,7 +78,9 @@ typedef struct {
     commission_reason_t        reason;
     commission_result_t        found;
     commission_work_t          work;
+    commission_asked_t         asked;
     bool                       checked;    /**< phases and sensors answer */
+    bool                       looked;     /**< LOOK has begun; a check may interrupt it */
     commission_admittance_t    admittance; /**< from the check */
     commission_guard_t         guard;
     int32_t                    ticks; /**< since the stage began */

@@ -19,6 +19,10 @@
 /* Chosen: finds gains that differ by a factor of 1.7; eleven healthy motors have 0.13 at most. */
 #define MOST_SKEW 0.3f
 
+/* Chosen: mean admittance to an earlier one; healthy 0.95 .. 1.4. */
+#define LEAST_RATIO 0.6f
+#define MOST_RATIO  1.7f
+
 #define PATTERN_TICKS (PULSE_TICKS * 4)
 
 void commission_check_start(commission_check_t *k)
@@ -27,30 +31,21 @@ void commission_check_start(commission_check_t *k)
     *k                       = fresh;
 }
 
-static void clear_sums(commission_check_t *k)
+void commission_sums_add(commission_sums_t *k, ab_t di_A, ab_t v_V)
 {
-    k->aa = 0.0f;
-    k->ab = 0.0f;
-    k->ba = 0.0f;
-    k->bb = 0.0f;
-    k->vv = 0.0f;
-}
-
-static void add_products(commission_check_t *k, const commission_signal_t *s)
-{
-    k->aa += s->di_A.alpha * s->v_V.alpha;
-    k->ab += s->di_A.alpha * s->v_V.beta;
-    k->ba += s->di_A.beta * s->v_V.alpha;
-    k->bb += s->di_A.beta * s->v_V.beta;
-    k->vv += (s->v_V.alpha * s->v_V.alpha) + (s->v_V.beta * s->v_V.beta);
+    k->aa += di_A.alpha * v_V.alpha;
+    k->ab += di_A.alpha * v_V.beta;
+    k->ba += di_A.beta * v_V.alpha;
+    k->bb += di_A.beta * v_V.beta;
+    k->vv += (v_V.alpha * v_V.alpha) + (v_V.beta * v_V.beta);
 }
 
 /* Remembers the sums before the last quarter: a sensor that has died meanwhile is silent in it. */
 static void begin_last(commission_check_t *k)
 {
     if (k->patterns == (3 * AXES * PATTERNS / 4)) {
-        k->begun    = k->aa + k->bb;
-        k->begun_vv = k->vv;
+        k->begun    = k->sums.aa + k->sums.bb;
+        k->begun_vv = k->sums.vv;
     }
 }
 
@@ -58,36 +53,60 @@ static void begin_last(commission_check_t *k)
 static bool search_pulse(commission_check_t *k, const commission_config_t *c, float most_V)
 {
     /* Along the axis of phase a, v has its alpha component only. */
-    const float per_V  = sqrtf((k->aa * k->aa) + (k->ba * k->ba)) / base_max(k->vv, 1.0e-12f);
-    const float peak_A = (float)PULSE_TICKS * k->v_V * per_V;
+    const commission_sums_t none   = {.aa = 0.0f};
+    const float             answer = sqrtf((k->sums.aa * k->sums.aa) + (k->sums.ba * k->sums.ba));
+    const float             per_V  = answer / base_max(k->sums.vv, 1.0e-12f);
+    const float             peak_A = (float)PULSE_TICKS * k->v_V * per_V;
 
     k->found          = (peak_A >= (ANSWER_SHARE * c->current_max_A)) || (k->v_V >= most_V);
     const bool silent = k->found && !(peak_A >= (SILENT_SHARE * c->current_max_A));
     if (!k->found) {
         k->v_V = base_min(GROWTH * k->v_V, most_V);
     }
-    clear_sums(k);
+    k->sums = none;
     return !silent;
 }
 
-/* Judges the matrix: positive, not singular, symmetric. */
-static commission_step_t solve_matrix(const commission_check_t *k, float ts_s,
-                                      commission_admittance_t *y)
+static float mean_of(const commission_admittance_t *y)
+{
+    return 0.5f * (y->aa + y->bb);
+}
+
+float commission_check_det(const commission_admittance_t *y)
+{
+    const float mean = mean_of(y);
+    return ((y->aa * y->bb) - (y->ab * y->ab)) / base_max(mean * mean, 1.0e-12f);
+}
+
+bool commission_check_same(const commission_admittance_t *y, const commission_admittance_t *known)
+{
+    const float before = known->aa + known->bb;
+    return base_in_range(y->aa + y->bb, LEAST_RATIO * before, MOST_RATIO * before);
+}
+
+/* Positive, not singular, symmetric. */
+bool commission_sums_solve(const commission_sums_t *k, float ts_s, float least_det,
+                           commission_admittance_t *y)
 {
     const float scale = 2.0f / (ts_s * base_max(k->vv, 1.0e-12f)); /* EQ-COMMISSION-15 */
-    const float mean  = 0.5f * scale * (k->aa + k->bb);
     const float skew  = scale * (k->ab - k->ba);
 
-    y->aa            = scale * k->aa;
-    y->ab            = 0.5f * scale * (k->ab + k->ba);
-    y->bb            = scale * k->bb;
-    const float det  = (y->aa * y->bb) - (y->ab * y->ab);
-    const float last = scale * k->vv * 0.5f * ((k->aa + k->bb) - k->begun) /
-                       base_max(k->vv - k->begun_vv, 1.0e-12f);
-    return ((mean > 0.0f) && (last > (LAST_SHARE * mean)) && (det > (LEAST_DET * mean * mean)) &&
-            base_within(skew, MOST_SKEW * mean))
-               ? COMMISSION_DONE
-               : COMMISSION_FAILED;
+    y->aa = scale * k->aa;
+    y->ab = 0.5f * scale * (k->ab + k->ba);
+    y->bb = scale * k->bb;
+    return (mean_of(y) > 0.0f) && (commission_check_det(y) > least_det) &&
+           base_within(skew, MOST_SKEW * mean_of(y));
+}
+
+static commission_step_t solve(const commission_check_t *k, float ts_s, commission_admittance_t *y)
+{
+    const float all  = k->sums.aa + k->sums.bb;
+    const float last = k->sums.vv * (all - k->begun) / base_max(k->sums.vv - k->begun_vv, 1.0e-12f);
+    const bool  ok =
+        commission_sums_solve(&k->sums, ts_s, LEAST_DET, y) && (last > (LAST_SHARE * all));
+
+    y->pulse_V = k->v_V;
+    return ok ? COMMISSION_DONE : COMMISSION_FAILED;
 }
 
 commission_answer_t commission_check_tick(commission_check_t *k, const commission_config_t *c,
@@ -99,7 +118,7 @@ commission_answer_t commission_check_tick(commission_check_t *k, const commissio
     if (!(k->v_V > 0.0f)) {
         k->v_V = LEAST_SHARE * s->dc_link_V;
     }
-    add_products(k, s);
+    commission_sums_add(&k->sums, s->di_A, s->v_V);
     if (k->tick >= PATTERN_TICKS) {
         k->tick = 0;
         if (k->found) {
@@ -112,7 +131,7 @@ commission_answer_t commission_check_tick(commission_check_t *k, const commissio
         }
     }
     if (k->patterns >= (AXES * PATTERNS)) {
-        out.step = solve_matrix(k, c->ts_s, y);
+        out.step = solve(k, c->ts_s, y);
     }
     if (out.step == COMMISSION_BUSY) {
         const int16_t axis = (int16_t)(k->patterns % AXES);

@@ -25,21 +25,47 @@ typedef struct {
     float aa;
     float ab;
     float bb;
+    float pulse_V; /**< height of the pulses that gave it */
 } commission_admittance_t;
 
+/** Sums of di v: current's axis, voltage's axis. */
 typedef struct {
-    float   v_V; /**< height of the pulses */
-    float   aa;  /**< sums of di v: current's axis, voltage's axis */
-    float   ab;
-    float   ba;
-    float   bb;
-    float   vv;       /**< sum of |v|^2 */
-    float   begun;    /**< sum of aa and bb before the last quarter */
-    float   begun_vv; /**< vv before it */
-    int16_t tick;     /**< within the pattern */
-    int16_t patterns; /**< since v was found */
-    bool    found;    /**< v is large enough */
+    float aa;
+    float ab;
+    float ba;
+    float bb;
+    float vv; /**< sum of |v|^2 */
+} commission_sums_t;
+
+typedef struct {
+    float             v_V; /**< height of the pulses */
+    commission_sums_t sums;
+    float             begun;    /**< sum of aa and bb before the last quarter */
+    float             begun_vv; /**< vv before it */
+    int16_t           tick;     /**< within the pattern */
+    int16_t           patterns; /**< since v was found */
+    bool              found;    /**< v is large enough */
 } commission_check_t;
+
+/** Adds one period. Context: control ISR. */
+void commission_sums_add(commission_sums_t *k, ab_t di_A, ab_t v_V);
+
+/**
+ * @brief EQ-COMMISSION-15.
+ *
+ * @param least_det Smallest determinant, relative to that of two equal inductances.
+ * @return          false: the matrix is not that of a winding.
+ *
+ * Context: control ISR. One division.
+ */
+bool commission_sums_solve(const commission_sums_t *k, float ts_s, float least_det,
+                           commission_admittance_t *y);
+
+/** Determinant relative to that of two equal inductances, 0 .. 1. Context: control ISR. */
+float commission_check_det(const commission_admittance_t *y);
+
+/** True when both have the same mean within a gain of 1.7. Context: control ISR. */
+bool commission_check_same(const commission_admittance_t *y, const commission_admittance_t *known);
 
 /** Starts with the smallest pulses. Context: control ISR. */
 void commission_check_start(commission_check_t *k);

@@ -26,14 +26,14 @@
 #define WHOLE 0.1f
 /* Chosen: share of the limit that the loop acts on; a healthy one is behind by more while a rotor
  * snaps only. */
-#define ERROR_SHARE 0.1f
+#define ERROR_SHARE 0.05f
 #define FOLLOW_s    0.05f
+/* Chosen: R of this share of the limit is the largest voltage that damps the rotor. */
+#define DAMP_SHARE 0.5f
 /* Chosen: mean distance of the current to its reference, share of the limit; healthy 0.033. */
 #define BEHIND_SHARE 0.1f
-/* Chosen: R of this share of the limit is the largest mean voltage. A salient rotor that flips
- * takes more. Ten motors need half of it: docs/commissioning.md. */
-#define VOLTAGE_SHARE  1.2f
-#define SALIENCY_SHARE 0.15f
+/* Chosen: mean voltage above that of R, share of that at the limit; healthy 0.4. */
+#define VOLTAGE_SHARE 0.6f
 
 /* Parts of a pass, in order. */
 enum { SETTLE = 0, LEAD_FORWARD, FORWARD, TURN, BACKWARD, RELEASE, PARTS };
@@ -66,7 +66,8 @@ void commission_drag_start(commission_drag_t *d, const commission_config_t *c,
         d->speed_radps = base_clamp(SWING_SHARE * BASE_PI / swing, SLOWEST_radps, FASTEST_radps);
     }
     commission_vector_start(&d->vector, c, known, RAMP_s);
-    commission_vector_allow(&d->vector, ERROR_SHARE * c->current_max_A, FOLLOW_s);
+    commission_vector_allow(&d->vector, ERROR_SHARE * c->current_max_A,
+                            DAMP_SHARE * known->r_Ohm.value * c->current_max_A, FOLLOW_s);
     begin_pass(d, FIRST_SHARE * c->current_max_A, 1);
 }
 
@@ -235,10 +236,9 @@ static bool part_ends(commission_drag_t *d, const commission_config_t *c, float 
 bool commission_drag_follows(const commission_drag_t *d, const commission_config_t *c,
                              const commission_result_t *known)
 {
-    const float saliency = known->lq_H.value / base_max(known->ld_H.value, 1.0e-12f);
-    const float share    = VOLTAGE_SHARE + (SALIENCY_SHARE * saliency);
+    const float most_A = d->vector.length_A + (VOLTAGE_SHARE * c->current_max_A);
     return commission_vector_follows(&d->vector, BEHIND_SHARE * c->current_max_A,
-                                     share * known->r_Ohm.value * c->current_max_A);
+                                     most_A * known->r_Ohm.value);
 }
 
 commission_answer_t commission_drag_tick(commission_drag_t *d, const commission_config_t *c,

@@ -11,7 +11,9 @@
 /* Chosen: twice the largest of eleven healthy motors, as shares of the current bound. */
 #define LOOK_SHARE   0.85f
 #define VECTOR_SHARE 0.85f
-#define ROTOR_SHARE  0.6f
+#define ROTOR_SHARE  0.5f
+/* Chosen: DRAG's angle error of a salient rotor shows as much; SPIN corrects it. */
+#define ANGLE_rad 0.2f
 /* Chosen: a mean voltage that R and the induced voltage do not explain, and its time. */
 #define MEAN_SHARE 0.4f
 #define MEAN_s     0.1f
@@ -86,7 +88,9 @@ bool commission_guard_rotor(commission_guard_t *g, const commission_config_t *c,
     const ab_t           step = unexplained(g, frames_inverse_park(psi, angle), v_V, c->ts_s);
     add_leaky(&g->error_Wb, step, FORGET);
     add_leaky(&g->mean_Wb, step, base_min(c->ts_s / MEAN_s, 1.0f));
-    return is_shorter(g->error_Wb, ROTOR_SHARE * known->ld_H.value * c->current_max_A) &&
+    const float turned_H = ANGLE_rad * (known->lq_H.value - known->ld_H.value);
+    const float most_H   = (ROTOR_SHARE * known->ld_H.value) + base_max(turned_H, 0.0f);
+    return is_shorter(g->error_Wb, most_H * c->current_max_A) &&
            is_shorter(g->mean_Wb, MEAN_SHARE * MEAN_s * r * c->current_max_A);
 }
 

@@ -9,9 +9,13 @@
 /* With more noise than this share the current stays at it. */
 #define LOOK_MOST   0.3f
 #define LOOK_HALVES 40
-#define LOOK_AXES   4
-#define MAP_SHARE   0.8f
-#define MAP_HALVES  48
+/* Chosen: three times the samples of a half wave with this current; R and the loss are small. MAP
+ * has the voltage of R at its current. */
+#define LOOK_SAMPLES 36
+#define MAP_SAMPLES  250
+#define LOOK_AXES    4
+#define MAP_SHARE    0.8f
+#define MAP_HALVES   48
 /* Chosen: share of the current limit; reached when the back-EMF is this share of the dc link. */
 #define BRAKE_SHARE     0.1f
 #define BRAKE_EMF_SHARE 0.02f
@@ -26,10 +30,10 @@
 /* The noise is measured after this many periods: the current has then decayed. */
 #define QUIET_TICKS 100
 
-void commission_inductance_start(commission_inductance_t *l)
+void commission_inductance_start(commission_inductance_t *l, float most_V)
 {
-    commission_inductance_t fresh = {.axis = 0};
-    *l                            = fresh;
+    const commission_inductance_t fresh = {.most_V = most_V};
+    *l                                  = fresh;
 }
 
 static float square(float x)
@@ -145,7 +149,7 @@ commission_answer_t commission_inductance_look(commission_inductance_t   *l,
             set_direction(l);
         }
         const commission_answer_t zero = rest(l, s);
-        commission_wave_start(&l->wave, look_A(l, c));
+        commission_wave_start(&l->wave, look_A(l, c), LOOK_SAMPLES, l->most_V);
         return zero;
     }
     if (l->wave.halves > 0) {
@@ -272,7 +276,7 @@ commission_answer_t commission_inductance_map(commission_inductance_t   *l,
                                    : COMMISSION_FAILED);
     }
     if (l->wait_ticks < REST_TICKS) {
-        commission_wave_start(&l->wave, bound_A);
+        commission_wave_start(&l->wave, bound_A, MAP_SAMPLES, l->most_V);
         l->before_cnt = s->position_cnt;
         commission_angle_start(&l->angle, commission_angle_rad(found, s->position_cnt));
         return rest(l, s);

@@ -41,12 +41,13 @@ typedef struct {
     commission_fit_t   noise;   /**< sums of di at rest; the two sensors' noise is not isotropic */
     float              power_W; /**< LOOK: sum of v i, and of |i| */
     float              size_A;
+    float              most_V; /**< largest amplitude */
     int32_t            before_cnt;
     commission_angle_t angle; /**< tracks the angle for the speed */
 } commission_inductance_t;
 
-/** Starts LOOK or MAP. Context: control ISR. */
-void commission_inductance_start(commission_inductance_t *l);
+/** Starts LOOK or MAP. @param most_V Largest amplitude. Context: control ISR. */
+void commission_inductance_start(commission_inductance_t *l, float most_V);
 
 /** Executes one period of LOOK: inductances and their axis in the stator frame. */
 commission_answer_t commission_inductance_look(commission_inductance_t   *l,

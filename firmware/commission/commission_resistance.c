@@ -20,10 +20,10 @@
 #define PULL_RATIO  3.0f
 #define FIRST_RATIO 1.3f
 #define LEVEL_RATIO 2.0f
-/* Chosen: share of the voltage that the first angle's line has at the current limit; healthy 1. */
-#define KNOWN_SHARE 1.6f
+/* Chosen: voltage above the first angle's line, share of that of R at the limit; healthy 0.32. */
+#define KNOWN_SHARE 0.5f
 /* Chosen: share of the limit that the loop acts on. */
-#define ERROR_SHARE 0.05f
+#define ERROR_SHARE 0.04f
 /* Chosen: mean distance of the current to its reference, share of the limit, and its time. At the
  * larger levels of the first angle a rotor may snap; healthy 0.09 there and 0.028 elsewhere. */
 #define FOLLOW_s     0.02f
@@ -37,7 +37,7 @@ void commission_resistance_start(commission_resistance_t *r, const commission_co
     *r                            = fresh;
     r->before_V                   = known->odd_V;
     commission_vector_start(&r->vector, c, known, RAMP_s);
-    commission_vector_allow(&r->vector, ERROR_SHARE * c->current_max_A, FOLLOW_s);
+    commission_vector_allow(&r->vector, ERROR_SHARE * c->current_max_A, known->odd_V, FOLLOW_s);
     commission_fit_reset(&r->line);
 }
 
@@ -108,7 +108,8 @@ static float healthy_most_V(const commission_resistance_t *r, const commission_c
     float                      most_V = PULL_RATIO * known->odd_V;
 
     if (r->angle > 0) {
-        most_V = KNOWN_SHARE * ((line->x0 * c->current_max_A) + base_max(line->x1, 0.0f));
+        const float most_A = r->vector.length_A + (KNOWN_SHARE * c->current_max_A);
+        most_V             = (line->x0 * most_A) + base_max(line->x1, 0.0f);
     } else if (r->level >= 0) {
         most_V = ratio * r->before_V * next_A / base_max(r->before_A, 1.0e-6f);
     } else {

@@ -8,8 +8,14 @@
 /* Chosen: share of the current limit. With a vector of 0.6, the sum uses two thirds of the
  * limit. */
 #define CROSS_SHARE 0.3f
+/* Without a limit. */
+#define DAMP_MOST_V 1.0e6f
 /* Chosen: a rotor that snaps into place takes more voltage for a shorter time. */
 #define MEAN_s 0.05f
+/* Chosen: shares of the limit that make the probe ask the sensors, and their mean of 16 periods. */
+#define STRAY_SHARE 0.02f
+#define CROSS_STRAY 0.12f
+#define QUICK       0.0625f
 /* Chosen: counts back from the extreme position that are a reversal; edge errors are smaller. */
 #define REVERSAL_CNT 6L
 
@@ -27,14 +33,18 @@ void commission_vector_start(commission_vector_t *v, const commission_config_t *
     fresh.cross_max_A           = CROSS_SHARE * c->current_max_A;
     fresh.half_swing_s          = known->half_swing_s;
     fresh.error_max_A           = c->current_max_A;
+    fresh.damp_max_V            = DAMP_MOST_V;
     fresh.behind_share          = 1.0f;
     fresh.mean_share            = base_min(c->ts_s / MEAN_s, 1.0f);
+    fresh.stray_A.d             = STRAY_SHARE * c->current_max_A;
+    fresh.stray_A.q             = CROSS_STRAY * c->current_max_A;
     *v                          = fresh;
 }
 
-void commission_vector_allow(commission_vector_t *v, float error_A, float follow_s)
+void commission_vector_allow(commission_vector_t *v, float error_A, float damp_V, float follow_s)
 {
     v->error_max_A  = error_A;
+    v->damp_max_V   = damp_V;
     v->behind_share = base_min(v->ts_s / follow_s, 1.0f);
 }
 
@@ -93,13 +103,16 @@ commission_vector_out_t commission_vector_tick(commission_vector_t *v, const com
     const float behind_A = v->length_A - out.i_A.d;
     const float error_A  = base_clamp(behind_A, -v->error_max_A, v->error_max_A);
     v->behind_A += v->behind_share * (behind_A - v->behind_A);
+    v->quick_A.d += QUICK * (behind_A - v->quick_A.d);
+    v->quick_A.q += QUICK * (out.i_A.q - v->quick_A.q);
     v->mean_V += v->mean_share * (out.v_V.d - v->mean_V);
     v->integral_V        = base_clamp(v->integral_V + (v->ki_VpA * error_A), -most_V, most_V);
     const float beyond_A = out.i_A.q - base_clamp(out.i_A.q, -v->cross_max_A, v->cross_max_A);
     const float over_A   = base_clamp(beyond_A, -v->error_max_A, v->error_max_A);
+    const float damp_V   = damping_Ohm(v) * out.i_A.q;
     const dq_t  v_V      = {/* EQ-COMMISSION-3 */
                       v->integral_V + (v->kp_VpA * error_A),
-                      (-damping_Ohm(v) * out.i_A.q) - (v->kp_VpA * over_A)};
+                      -base_clamp(damp_V, -v->damp_max_V, v->damp_max_V) - (v->kp_VpA * over_A)};
     out.out_V            = frames_inverse_park(v_V, then);
     out.length_A         = v->length_A;
     return out;
@@ -113,4 +126,9 @@ bool commission_vector_still(const commission_vector_t *v, float time_s)
 bool commission_vector_follows(const commission_vector_t *v, float most_A, float most_V)
 {
     return base_within(v->behind_A, most_A) && base_within(v->mean_V, most_V);
+}
+
+bool commission_vector_strays(const commission_vector_t *v)
+{
+    return !base_within(v->quick_A.d, v->stray_A.d) || !base_within(v->quick_A.q, v->stray_A.q);
 }

@@ -28,8 +28,11 @@ typedef struct {
     float ramp_A;   /**< per period */
     float cross_max_A;
     float error_max_A;  /**< the loop acts on this much at most */
+    float damp_max_V;   /**< of the added resistance */
     float behind_share; /**< of a new value in behind_A */
     float behind_A;     /**< mean of reference less current */
+    dq_t  stray_A;      /**< largest of a rotor at rest */
+    dq_t  quick_A;      /**< reference less current, and current across: means of 16 periods */
     float mean_share;   /**< of a new value in mean_V */
     float mean_V;       /**< mean voltage along the vector, over 50 ms */
 
@@ -57,11 +60,12 @@ void commission_vector_start(commission_vector_t *v, const commission_config_t *
  *
  * @param error_A  The loop acts on this much of an error at most: a sensor that fails then raises
  *                 the voltage slowly.
+ * @param damp_V   The added resistance takes this much at most: R of a current that may flow.
  * @param follow_s Time of the mean error, as commission_vector_follows() judges it.
  *
  * Context: control ISR, after commission_vector_start().
  */
-void commission_vector_allow(commission_vector_t *v, float error_A, float follow_s);
+void commission_vector_allow(commission_vector_t *v, float error_A, float damp_V, float follow_s);
 
 /**
  * @brief Executes one period of the current control.
@@ -78,6 +82,10 @@ commission_vector_out_t commission_vector_tick(commission_vector_t *v, const com
 /** False when the mean current is off its reference by more than `most_A`, or takes more than
  * `most_V`. A current sensor or a phase is then wrong. Context: control ISR. */
 bool commission_vector_follows(const commission_vector_t *v, float most_A, float most_V);
+
+/** True while the current is not that of a rotor at rest. It moves, or a sensor or phase is wrong.
+ * Context: control ISR. */
+bool commission_vector_strays(const commission_vector_t *v);
 
 /** True if the shaft has stayed within one count for `time_s`. */
 bool commission_vector_still(const commission_vector_t *v, float time_s);

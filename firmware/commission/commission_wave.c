@@ -10,31 +10,45 @@
 #define WANTED_SAMPLES 12
 /* Chosen: amplitude growth per half wave; the current step cannot jump over the limit. */
 #define GROWTH 1.25f
-/* A half wave ends here at any current: while the amplitude is searched, and afterwards. */
+/* A half wave ends here at any current, while the amplitude is searched. */
 #define MOST_SAMPLES 16
-#define LAST_SAMPLE  250
 /* Chosen: so many short half waves in a row prove the amplitude. A noise peak ends a single one. */
 #define PROOFS      3
 #define FIRST_SHARE 0.707f
+/* Chosen: noise makes one. */
+#define MOST_SLIPS 3
 
-void commission_wave_start(commission_wave_t *w, float bound_A)
+void commission_wave_start(commission_wave_t *w, float bound_A, int16_t last, float most_V)
 {
     const commission_wave_t fresh = {.bound_A = bound_A,
                                      .first_A = FIRST_SHARE * bound_A,
                                      .v_V     = 0.0f,
+                                     .most_V  = most_V,
                                      .sign    = 1.0f,
+                                     .last    = last,
                                      .samples = 0,
                                      .halves  = 0,
                                      .proofs  = 0,
+                                     .slips   = 0,
+                                     .lost    = false,
                                      .found   = false};
     *w                            = fresh;
 }
 
-/* A short half wave keeps the amplitude; a long one raises it and begins the search again. */
-static void search(commission_wave_t *w, float most_V)
+/* A short half wave keeps the amplitude; a long one raises it and begins the search again. A dead
+ * sensor shows short and long ones in turn, or a long one with the largest amplitude. */
+static void search(commission_wave_t *w, float dc_most_V)
 {
-    const bool enough = (w->samples <= WANTED_SAMPLES) || (w->v_V >= most_V);
+    const float most_V = base_min(w->most_V, dc_most_V);
+    const bool  enough = (w->samples <= WANTED_SAMPLES) || (w->v_V >= dc_most_V);
 
+    if (!enough && (w->proofs > 0)) {
+        w->slips++;
+    }
+    if ((w->slips >= MOST_SLIPS) || (!enough && (w->v_V >= most_V))) {
+        w->slips = 0;
+        w->lost  = true;
+    }
     w->proofs = enough ? (int16_t)(w->proofs + 1) : (int16_t)0;
     w->found  = w->proofs >= PROOFS;
     w->halves = 0;
@@ -45,10 +59,11 @@ static void search(commission_wave_t *w, float most_V)
 
 static void turn(commission_wave_t *w, float dc_link_V)
 {
-    const float most_V = MOST_SHARE * dc_link_V;
+    const float dc_most_V = MOST_SHARE * dc_link_V;
 
-    if (!w->found || ((w->samples >= LAST_SAMPLE) && (w->v_V < most_V))) {
-        search(w, most_V);
+    w->lost = w->found && (w->samples >= w->last) && (w->v_V < dc_most_V);
+    if (!w->found || w->lost) {
+        search(w, dc_most_V);
     } else if (w->halves < INT16_MAX) {
         w->halves++;
     } else {
@@ -67,7 +82,7 @@ float commission_wave_tick(commission_wave_t *w, float i_A, float di_A, float dc
     w->samples++;
     const float ahead_A = w->sign * (i_A + (2.0f * di_A)); /* EQ-COMMISSION-2 */
     /* A reversal appears in the current after two samples. */
-    const int16_t most = w->found ? LAST_SAMPLE : MOST_SAMPLES;
+    const int16_t most = w->found ? w->last : MOST_SAMPLES;
     if ((w->samples > 2) && ((ahead_A > w->first_A) || (w->samples >= most))) {
         turn(w, dc_link_V);
     }

@@ -21,15 +21,27 @@ typedef struct {
     float   bound_A;
     float   first_A; /**< bound of the first half wave, then bound_A */
     float   v_V;     /**< present amplitude */
+    float   most_V;
     float   sign;
+    int16_t last;    /**< sample that ends a half wave at any current */
     int16_t samples; /**< of the present half wave */
     int16_t halves;  /**< since the amplitude was found */
     int16_t proofs;  /**< short half waves in a row */
+    int16_t slips;   /**< short half waves that a long one followed */
+    bool    lost;    /**< the current does not answer as it did */
     bool    found;
 } commission_wave_t;
 
-/** Starts with the smallest amplitude. Context: control ISR. */
-void commission_wave_start(commission_wave_t *w, float bound_A);
+/**
+ * @brief Starts with the smallest amplitude.
+ *
+ * @param last A half wave with so many samples ends, and the amplitude is searched again. A sensor
+ *             that has died lets the current rise for so long.
+ * @param most_V Largest amplitude; the dc link limits it too.
+ *
+ * Context: control ISR.
+ */
+void commission_wave_start(commission_wave_t *w, float bound_A, int16_t last, float most_V);
 
 /** @return voltage for the next period. Context: control ISR. No division. */
 float commission_wave_tick(commission_wave_t *w, float i_A, float di_A, float dc_link_V);

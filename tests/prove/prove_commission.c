@@ -8,6 +8,7 @@ volatile commission_result_t     any_result;
 volatile commission_guard_t      any_guard;
 volatile commission_admittance_t any_admittance;
 volatile commission_check_t      any_check;
+volatile commission_probe_t      any_probe;
 volatile commission_inductance_t any_inductance;
 volatile commission_resistance_t any_resistance;
 volatile commission_drag_t       any_drag;
@@ -44,6 +45,10 @@ static void any_state(commission_stage_t stage)
     state.found.indexed         = any_bool();
     state.found.reluctance      = any_bool();
     state.checked               = any_bool();
+    state.looked                = any_bool();
+    state.asked.probe           = any_probe;
+    state.asked.probe.tick      = (int16_t)any_long_between(0L, COMMISSION_PROBE_TICKS - 1);
+    state.asked.probe.full      = any_bool();
     state.guard                 = any_guard;
     state.guard.begun           = any_bool();
     state.admittance            = any_admittance;
@@ -75,6 +80,9 @@ static void any_wave(void)
     l->axis         = (int16_t)any_long_between(0L, 4L);
     l->wait_ticks   = (int16_t)any_long_between(0L, SHORT_MAX);
     l->wave.found   = any_bool();
+    l->wave.lost    = any_bool();
+    l->wave.last    = (int16_t)any_long_between(0L, SHORT_MAX);
+    l->wave.slips   = (int16_t)any_long_between(0L, SHORT_MAX);
     l->wave.samples = (int16_t)any_long_between(0L, SHORT_MAX);
     l->wave.halves  = (int16_t)any_long_between(0L, SHORT_MAX);
     l->wave.proofs  = (int16_t)any_long_between(0L, SHORT_MAX);
@@ -84,7 +92,7 @@ static void any_wave(void)
 /* Entry: LOOK, before the phases and sensors have answered. */
 void prove_commission_check(void)
 {
-    commission_check_t *const k = &state.work.check;
+    commission_check_t *const k = &state.asked.check;
 
     any_state(COMMISSION_LOOK);
     state.checked = false;

@@ -2,7 +2,9 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "command.hpp"
@@ -15,6 +17,7 @@
 
 #include "common/errors.hpp"
 #include "common/file_output.hpp"
+#include "common/parallel.hpp"
 
 using namespace sdre;
 
@@ -65,7 +68,37 @@ void run_seeds(const std::string &facts, int seeds, CommissionOptions o = {})
     }
 }
 
+/// Healthy runs with seeds from 1 on that do not end by themselves are counted, and each is printed.
+int failures(const std::string &name, const Drive &d, int seeds, double current_share)
+{
+    std::vector<CommissionRun> runs(static_cast<std::size_t>(seeds));
+    parallel_for(runs.size(), [&](std::size_t k) {
+        CommissionOptions o;
+        o.seed          = k + 1;
+        o.current_share = current_share;
+        runs[k]         = commission(d, o);
+    });
+    int failed = 0;
+    for (std::size_t k = 0; k < runs.size(); k++) {
+        if (!runs[k].finished()) {
+            fmt::print("{} seed {}: {} in {}\n", name, k + 1,
+                       commission_reason_text(runs[k].reason),
+                       commission_stage_name(runs[k].during));
+            failed++;
+        }
+    }
+    fmt::print("{}: {} of {} at the first try\n", name, seeds - failed, seeds);
+    return failed;
+}
+
 } // namespace
+
+/// The shipped motor with a bound of 3 A, as a user would begin.
+TEST(Commission, SucceedsAtTheFirstTry)
+{
+    const Drive d = read_drive_file(support::shipped_drive("ipmsm_390w"));
+    EXPECT_EQ(failures("ipmsm_390w", d, 3, 0.75), 0);
+}
 
 TEST(Commission, FindsAServoMotor)
 {
@@ -134,6 +167,19 @@ TEST(CommissionAll, OnBothBoards)
     for (const BoardKind kind : {BoardKind::api, BoardKind::f28335}) {
         const CommissionRun r = commission_on_board(d, {}, kind);
         expect_good(d, r);
+    }
+}
+
+/// 99.5 % of 200 seeds each.
+TEST(CommissionAll, FirstTry)
+{
+    for (const char *name :
+         {"ev_100kw", "outrunner_24v", "pump_256", "servo_2k2", "servo_600w_surface", "syrm_6k7"}) {
+        EXPECT_LE(failures(name, drive_of_facts(name), 200, 1.0), 1) << name;
+    }
+    for (const char *name : {"ipmsm_390w", "servo_200w"}) {
+        const Drive d = read_drive_file(support::shipped_drive(name));
+        EXPECT_LE(failures(name, d, 200, 0.75), 1) << name;
     }
 }
 

@@ -101,9 +101,12 @@ void expect_peaks(const std::vector<Case> &cases, const std::map<int, double> &l
 }
 
 // A tenth above the largest in docs/commissioning.md.
-const std::map<int, double> peak_limits{{COMMISSION_WATCH, 0.3},      {COMMISSION_LOOK, 3.9},
-                                        {COMMISSION_RESISTANCE, 3.7}, {COMMISSION_DRAG, 4.0},
-                                        {COMMISSION_MAP, 1.9},        {COMMISSION_SPIN, 1.5}};
+const std::map<int, double> dead_limits{{COMMISSION_WATCH, 0.3},      {COMMISSION_LOOK, 0.9},
+                                        {COMMISSION_RESISTANCE, 2.8}, {COMMISSION_DRAG, 1.55},
+                                        {COMMISSION_MAP, 1.45},       {COMMISSION_SPIN, 1.15}};
+const std::map<int, double> peak_limits{{COMMISSION_WATCH, 0.3},      {COMMISSION_LOOK, 2.2},
+                                        {COMMISSION_RESISTANCE, 2.8}, {COMMISSION_DRAG, 1.9},
+                                        {COMMISSION_MAP, 1.9},        {COMMISSION_SPIN, 1.2}};
 
 } // namespace
 
@@ -114,7 +117,7 @@ TEST(CommissionSensors, DeadAndFrozen)
     std::vector<Case> cases =
         cases_of(d, {{"zero", FaultKind::current_zero}, {"frozen", FaultKind::current_frozen}}, 2);
     run(d, cases);
-    expect_peaks(cases, peak_limits);
+    expect_peaks(cases, dead_limits);
     for (const Case &c : cases) {
         EXPECT_TRUE(c.ended) << c.fault.name << " " << c.sensors << " at " << c.time_s;
     }

@@ -34,7 +34,7 @@ typedef enum { LOOK, VECTOR, ROTOR } rule_t;
 /* One period with this voltage along alpha. The sensors show gain times the current. */
 static bool period(rule_t rule, float v_V, float gain, float offset_A)
 {
-    const commission_admittance_t y = {1.0f / L_H, 0.0f, 1.0f / L_H};
+    const commission_admittance_t y = {1.0f / L_H, 0.0f, 1.0f / L_H, 1.0f};
     true_A += TS_s * (v_V - (R_Ohm * true_A)) / L_H;
     const commission_signal_t s = {.i_A = {(gain * true_A) + offset_A, 0.0f}, .v_V = {v_V, 0.0f}};
     switch ((int)rule) {
@@ -121,7 +121,7 @@ static void test_what_is_not_a_number_ends_it(void)
 
 static void test_look_agrees_with_the_check(void)
 {
-    const commission_admittance_t y = {1.0f / L_H, 0.0f, 1.0f / L_H};
+    const commission_admittance_t y = {1.0f / L_H, 0.0f, 1.0f / L_H, 1.0f};
 
     TEST_ASSERT_TRUE(commission_guard_agrees(&y, &known));
     known.ld_H.value = known.lq_H.value = 0.5f * L_H;

@@ -23,7 +23,7 @@ void setUp(void)
     config  = c;
     found   = k;
     winding = w;
-    commission_inductance_start(&stage);
+    commission_inductance_start(&stage, 1.0e9f);
 }
 
 void tearDown(void) {}
@@ -90,7 +90,7 @@ static void test_look_of_a_reluctance_motor(void)
     winding.lq_H  = 0.0415;
     winding.r_Ohm = 0.54;
     for (double angle = 0.0; angle < 3.0; angle += 0.37) {
-        commission_inductance_start(&stage);
+        commission_inductance_start(&stage, 1.0e9f);
         winding.angle_rad = angle;
         TEST_ASSERT_EQUAL_INT(COMMISSION_DONE, run(false));
         expect_inductances(0.04);
@@ -113,7 +113,7 @@ static void test_look_in_noise(void)
         support_random_t  dice    = {(unsigned)seed + 1u};
         ab_t              asked_V = {0.0f, 0.0f};
         commission_step_t step    = COMMISSION_BUSY;
-        commission_inductance_start(&stage);
+        commission_inductance_start(&stage, 1.0e9f);
         winding.angle_rad = 0.1047 * seed;
         for (long k = 0; (k < 100000L) && (step == COMMISSION_BUSY); k++) {
             const commission_signal_t s = noisy(winding_step(&winding, asked_V), &dice, noise_A);

@@ -70,6 +70,39 @@ static void test_a_swing_is_timed_and_damped(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.2, -PI * 0.051 / half_s, (double)tick_with(1.0f, 0).out_V.beta);
 }
 
+static bool strays_with(float id_A, float iq_A, int ticks)
+{
+    setUp();
+    for (int k = 0; k < ticks; k++) {
+        const commission_signal_t s = {.i_A = {id_A, iq_A}, .dc_link_V = 540.0f};
+        (void)commission_vector_tick(&vector, &s, 0.0f, 0.0f, 0.0f);
+    }
+    return commission_vector_strays(&vector);
+}
+
+/* Bound 9 A: 0.02 of it along the vector, 0.12 across, as means of 16 periods. */
+static void test_a_current_off_its_reference_strays(void)
+{
+    TEST_ASSERT_FALSE(strays_with(0.17f, 1.07f, 200));
+    TEST_ASSERT_FALSE(strays_with(-0.17f, -1.07f, 200));
+    TEST_ASSERT_TRUE(strays_with(0.19f, 0.0f, 200));
+    TEST_ASSERT_TRUE(strays_with(-0.19f, 0.0f, 200));
+    TEST_ASSERT_TRUE(strays_with(0.0f, 1.09f, 200));
+    TEST_ASSERT_TRUE(strays_with(0.0f, -1.09f, 200));
+    TEST_ASSERT_FALSE(strays_with(1.0f, 0.0f, 2));
+    TEST_ASSERT_TRUE(strays_with(support_not_finite[0], 0.0f, 2));
+}
+
+/* 50 ms of a swing would add 3.2 Ohm; the added voltage is limited. */
+static void test_the_added_resistance_takes_a_limited_voltage(void)
+{
+    commission_vector_allow(&vector, 9.0f, 1.5f, 0.02f);
+    vector.half_swing_s = 0.05f;
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, -0.32, (double)tick_with(0.1f, 0).out_V.beta);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, -1.5, (double)tick_with(2.0f, 0).out_V.beta);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01, 1.5, (double)tick_with(-2.0f, 0).out_V.beta);
+}
+
 static void test_a_shaft_is_still_when_one_count_is_all(void)
 {
     for (int k = 0; k < 1000; k++) {
@@ -95,6 +128,8 @@ int main(void)
     RUN_TEST(test_current_reaches_its_length_without_overshoot);
     RUN_TEST(test_current_across_is_left_to_the_winding_up_to_a_bound);
     RUN_TEST(test_a_swing_is_timed_and_damped);
+    RUN_TEST(test_a_current_off_its_reference_strays);
+    RUN_TEST(test_the_added_resistance_takes_a_limited_voltage);
     RUN_TEST(test_a_shaft_is_still_when_one_count_is_all);
     RUN_TEST(test_counter_may_wrap);
     return UNITY_END();

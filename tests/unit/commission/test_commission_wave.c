@@ -25,7 +25,7 @@ static swung_t swing_of(double l_H, double r_Ohm, float noise_A, unsigned seed)
     double            i_A    = 0.0;
     double            before = 0.0;
     float             last_A = 0.0f;
-    commission_wave_start(&w, (float)BOUND_A);
+    commission_wave_start(&w, (float)BOUND_A, 250, 1.0e9f);
     for (int k = 0; k < TICKS; k++) {
         const float  seen_A = (float)i_A + (noise_A * support_uniform(&random_state, -1.0f, 1.0f));
         const double v_V    = (double)commission_wave_tick(&w, seen_A, seen_A - last_A, LINK_V);
@@ -85,7 +85,7 @@ static void test_a_noise_peak_does_not_end_the_search(void)
 static void test_an_amplitude_that_is_too_small_grows_again(void)
 {
     commission_wave_t w;
-    commission_wave_start(&w, (float)BOUND_A);
+    commission_wave_start(&w, (float)BOUND_A, 250, 1.0e9f);
     w.v_V    = 1.0f;
     w.found  = true;
     w.halves = 7;
@@ -93,6 +93,39 @@ static void test_an_amplitude_that_is_too_small_grows_again(void)
         (void)commission_wave_tick(&w, 0.0f, 0.0f, LINK_V);
     }
     TEST_ASSERT_TRUE(w.v_V > (0.4f * LINK_V));
+}
+
+/* A proved amplitude, or the largest one, does not move the current of a dead sensor. */
+static void test_a_current_that_does_not_answer_is_lost(void)
+{
+    for (int proved = 0; proved < 2; proved++) {
+        commission_wave_t w;
+        int               ticks = 0;
+        commission_wave_start(&w, (float)BOUND_A, 36, 10.0f);
+        w.v_V   = 1.0f;
+        w.found = proved != 0;
+        while (!w.lost && (ticks < TICKS)) {
+            (void)commission_wave_tick(&w, 0.0f, 0.0f, LINK_V);
+            ticks++;
+        }
+        TEST_ASSERT_TRUE(w.v_V <= 10.0f);
+        /* One half wave, or eleven that grow by a quarter. */
+        TEST_ASSERT_EQUAL_INT((proved != 0) ? 36 : (12 * 16), ticks);
+    }
+}
+
+/* A sensor that has died with a current: one direction is at its bound at once, the other never. */
+static void test_short_and_long_half_waves_in_turn_are_lost(void)
+{
+    commission_wave_t w;
+    int               ticks = 0;
+    commission_wave_start(&w, (float)BOUND_A, 36, 1.0e9f);
+    while (!w.lost && (ticks < 200)) {
+        (void)commission_wave_tick(&w, (float)(1.1 * BOUND_A), 0.0f, LINK_V);
+        ticks++;
+    }
+    TEST_ASSERT_TRUE(w.lost);
+    TEST_ASSERT_TRUE(w.v_V < (4.0f * 0.002f * LINK_V));
 }
 
 static void test_mean_current_is_small(void)
@@ -116,7 +149,7 @@ static void test_a_resistive_winding_swings_too(void)
 static void test_height_is_within_its_share_of_the_dc_link(void)
 {
     commission_wave_t w;
-    commission_wave_start(&w, (float)BOUND_A);
+    commission_wave_start(&w, (float)BOUND_A, 250, 1.0e9f);
     for (int k = 0; k < TICKS; k++) {
         const float v_V = commission_wave_tick(&w, 0.0f, 0.0f, LINK_V); /* an open phase */
         TEST_ASSERT_TRUE(fabsf(v_V) <= (0.4501f * LINK_V));
@@ -130,6 +163,8 @@ int main(void)
     RUN_TEST(test_noise_adds_no_more_than_itself);
     RUN_TEST(test_a_noise_peak_does_not_end_the_search);
     RUN_TEST(test_an_amplitude_that_is_too_small_grows_again);
+    RUN_TEST(test_a_current_that_does_not_answer_is_lost);
+    RUN_TEST(test_short_and_long_half_waves_in_turn_are_lost);
     RUN_TEST(test_mean_current_is_small);
     RUN_TEST(test_a_resistive_winding_swings_too);
     RUN_TEST(test_height_is_within_its_share_of_the_dc_link);
