@@ -31,6 +31,8 @@ static bool values_ok(const app_config_t *c)
 {
     return base_in_range(c->temperature_trip_degC, -100.0f, 300.0f) &&
            base_in_range(c->temperature_limit_degC, -100.0f, c->temperature_trip_degC) &&
+           ((c->board.current_sensors == 2U) ||
+            (c->board.current_sensors == (uint16_t)BOARD_CURRENT_SENSORS)) &&
            (c->calibrate_ticks > 0U) && (c->background_ticks > 0U) &&
            base_in_range(c->zero_drift_A, 1.0e-6f, 1.0e6f);
 }

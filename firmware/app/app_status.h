@@ -42,7 +42,8 @@ typedef enum {
     APP_FAULT_TICK,               /**< no tick for too long; the background opened the bridge */
     APP_FAULT_HEAT,               /**< thermal model of motor or inverter tripped */
     APP_FAULT_MEMORY,             /**< constants in RAM have changed, or the stack was too short */
-    APP_FAULT_COMMISSION          /**< see the reason of the commissioning */
+    APP_FAULT_COMMISSION,         /**< see the reason of the commissioning */
+    APP_FAULT_CURRENT_SUM         /**< the currents do not sum to zero, app_watch_sum.h */
 } app_fault_t;
 
 /** Snapshot of the tick of the first fault. It is kept until the next fault, even after a reset. */

@@ -17,6 +17,11 @@
 
 #include "board_limits.h"
 
+/** Current sensors that the firmware reads at most, 2 or 3. CMake finds them in board_config.c. */
+#ifndef BOARD_CURRENT_SENSORS
+#define BOARD_CURRENT_SENSORS 2
+#endif
+
 /** Measurements at the start of the present control period. */
 typedef struct {
     uint16_t ia_cnt;          /**< phase current a, 0 .. BOARD_ADC_CODES - 1 */
@@ -26,6 +31,8 @@ typedef struct {
     uint16_t position_cnt;    /**< 0 .. positions - 1, latched with the currents */
     uint16_t edge_age_cnt;    /**< from the last edge to the latch, ticks of BOARD_CAPTURE_Hz */
     uint16_t index_cnt;       /**< position latched at the last index pulse */
+    uint16_t ic_cnt;          /**< phase current c, of a board with three sensors; soon after the
+                                   others */
     uint16_t phase_errors;    /**< of the encoder since the start; wraps */
     bool     index_seen;      /**< an index pulse came since the previous sample */
     bool     edge_seen; /**< the position changed since the previous sample, in one direction only;
@@ -35,10 +42,11 @@ typedef struct {
 
 /** Board settings of a drive, in register units. sdre-gains computes them (EQ-BOARD-1). */
 typedef struct {
-    uint32_t pwm_cycles;    /**< processor cycles per PWM period */
-    uint16_t duty_full_cnt; /**< compare counts of duty one */
-    uint16_t dead_time_cnt; /**< of the gates, in the same counts */
-    uint16_t positions;     /**< of the encoder per turn: four for each line */
+    uint32_t pwm_cycles;      /**< processor cycles per PWM period */
+    uint16_t duty_full_cnt;   /**< compare counts of duty one */
+    uint16_t dead_time_cnt;   /**< of the gates, in the same counts */
+    uint16_t positions;       /**< of the encoder per turn: four for each line */
+    uint16_t current_sensors; /**< 2: phases a and b; 3: c too */
 } board_setup_t;
 
 /** On-time of the upper switches, 0 .. duty_full_cnt. A larger value acts as duty_full_cnt. */

@@ -19,6 +19,7 @@ const app_config_t board_config = {
         .duty_full_cnt = 7500U,
         .dead_time_cnt = 225U,
         .positions = 10000U,
+        .current_sensors = 2U,
     },
     .pwm_period_s = 1.99999995e-04f,
     .dead_time_s = 3.00000011e-06f,
@@ -90,6 +91,7 @@ const board_identity_t board_identity = {
         1.00000000e+00f, /* duty_max */
         0.00000000e+00f, /* pulse_min_s */
         1.00000000e+01f, /* current_range_A */
+        2.00000000e+00f, /* current_sensors */
         5.00000000e+00f, /* rated_current_A */
         9.00000000e+00f, /* trip_current_A */
         4.50000000e+02f, /* dc_link_range_V */
@@ -103,5 +105,5 @@ const board_identity_t board_identity = {
         2.00000000e+00f, /* inverter_time_constant_s */
         6.25000000e+06f, /* encoder_edges_Hz */
     },
-    .sum = 0xA6978B18UL,
+    .sum = 0x15FF87F9UL,
 };

@@ -9,7 +9,13 @@ namespace sdre {
 
 /// The user of random numbers. Each source has its own generator, so that one does not shift
 /// another.
-enum class NoiseStream : std::uint64_t { adc_a = 1, adc_b = 2, encoder_disc = 3, start_angle = 4 };
+enum class NoiseStream : std::uint64_t {
+    adc_a        = 1,
+    adc_b        = 2,
+    encoder_disc = 3,
+    start_angle  = 4,
+    adc_c        = 5
+};
 
 /// Number n of the sequence splitmix64: neighbouring seeds end up far apart.
 inline std::uint64_t splitmix(std::uint64_t seed, std::uint64_t n)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "drive/board_file.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "drive/shipped_boards.hpp"
@@ -15,10 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 
 // Wide enough for any board, narrow enough that a slipped unit is caught.
-constexpr Range current_A{1e-3, 1e4};
-constexpr Range dc_link_V{1.0, 2e4};
-constexpr Range resistance_Ohm{10.0, 1e7};
-constexpr Range temperature_degC{-40.0, 200.0};
+constexpr Range  current_A{1e-3, 1e4};
+constexpr Range  dc_link_V{1.0, 2e4};
+constexpr Range  resistance_Ohm{10.0, 1e7};
+constexpr Range  temperature_degC{-40.0, 200.0};
+constexpr double two_sensors = 2.0; // of a board file that does not tell
 
 std::array<Range, BOARD_FACT_COUNT> allowed_values()
 {
@@ -30,6 +33,7 @@ std::array<Range, BOARD_FACT_COUNT> allowed_values()
     a[BOARD_FACT_DUTY_MAX]        = {0.5, 1.0};
     a[BOARD_FACT_PULSE_MIN_s]     = {0.0, 2e-5};
     a[BOARD_FACT_CURRENT_RANGE_A] = current_A;
+    a[BOARD_FACT_CURRENT_SENSORS] = {2.0, 3.0};
     a[BOARD_FACT_RATED_CURRENT_A] = current_A;
     a[BOARD_FACT_TRIP_CURRENT_A]  = current_A;
     a[BOARD_FACT_DC_LINK_RANGE_V] = dc_link_V;
@@ -89,9 +93,16 @@ BoardFile read_board_table(const toml::table &root, const fs::path &file)
     }
     const std::array<Range, BOARD_FACT_COUNT> allowed = allowed_values();
     for (std::size_t fact = 0; fact < allowed.size(); fact++) {
-        b.facts.at(fact) = t.number(key_of(static_cast<int>(fact)), allowed.at(fact));
+        const char *key  = key_of(static_cast<int>(fact));
+        b.facts.at(fact) = fact == BOARD_FACT_CURRENT_SENSORS
+                               ? t.number_or(key, allowed.at(fact), two_sensors)
+                               : t.number(key, allowed.at(fact));
     }
     t.reject_unknown_keys();
+    if (b[BOARD_FACT_CURRENT_SENSORS] != std::floor(b[BOARD_FACT_CURRENT_SENSORS])) {
+        t.fail(key_of(BOARD_FACT_CURRENT_SENSORS),
+               fmt::format("= {:g} is not allowed: must be 2 or 3", b[BOARD_FACT_CURRENT_SENSORS]));
+    }
     ordered(t, b, BOARD_FACT_RATED_CURRENT_A, BOARD_FACT_TRIP_CURRENT_A, true);
     ordered(t, b, BOARD_FACT_TRIP_CURRENT_A, BOARD_FACT_CURRENT_RANGE_A, false);
     ordered(t, b, BOARD_FACT_RATED_DC_LINK_V, BOARD_FACT_DC_LINK_RANGE_V, false);

@@ -129,8 +129,9 @@ std::string normalised_hardware(const Inverter &inverter, const Encoder &encoder
 
 std::string normalised_sensors(const CurrentSensors &sensors, double index_angle)
 {
-    const auto &[range, noise, bits] = sensors;
-    return fmt::format("{:.17g};{:.17g};{};{:.17g};", range, noise, bits, index_angle);
+    const auto &[range, noise, bits, count] = sensors;
+    return fmt::format("{:.17g};{:.17g};{};{:.17g};", range, noise, bits, index_angle) +
+           (count == 3 ? "three sensors;" : "");
 }
 
 std::string normalised_board(const BoardDescription &board)

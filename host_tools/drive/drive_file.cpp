@@ -7,6 +7,8 @@
 #include <map>
 #include <optional>
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
@@ -32,6 +34,7 @@ constexpr Range encoder_lines{1, 1e6};
 constexpr Range slots{3, 1000};
 constexpr Range angle_e_rad{0.0, 6.283185};
 constexpr Range adc_bits{8, 16};
+constexpr Range sensor_count{2, 3};
 constexpr Range noise_A{0.0, 1e2};
 
 // Chosen: a trip at twice the limit is then seen. The 390 W motor's board has +-10 A.
@@ -115,10 +118,17 @@ CurrentSensors read_current_sensors(std::optional<TomlReader> t, const Motor &mo
 {
     CurrentSensors s = default_current_sensors(motor);
     s.range_A        = board ? (*board)[BOARD_FACT_CURRENT_RANGE_A] : s.range_A;
+    s.count          = board ? static_cast<int>((*board)[BOARD_FACT_CURRENT_SENSORS]) : s.count;
     if (t) {
         s.range_A =
             board_number(*t, "range_A", current_A, board, BOARD_FACT_CURRENT_RANGE_A, s.range_A);
         s.adc_bits = t->integer_or("adc_bits", adc_bits, s.adc_bits);
+        const double count =
+            board_number(*t, "count", sensor_count, board, BOARD_FACT_CURRENT_SENSORS, s.count);
+        if (count != std::floor(count)) {
+            t->fail("count", fmt::format("= {:g} is not allowed: must be 2 or 3", count));
+        }
+        s.count = static_cast<int>(count);
     }
     s.noise_rms_A = noise_per_range * s.range_A;
     if (t) {

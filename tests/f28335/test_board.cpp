@@ -29,7 +29,7 @@ protected:
         b                    = board_firmware_t{};
         b.serve              = true;
         b.updates            = 1;
-        b.setup              = {30000U, 7500U, 225U, 10000U}; // 5 kHz, 3 us, 2500 lines
+        b.setup              = {30000U, 7500U, 225U, 10000U, 2U}; // 5 kHz, 3 us, 2500 lines
         b.duty               = {3000, 3750, 7500};
         around.input_V[1][1] = 1.0;
     }
@@ -124,7 +124,7 @@ TEST_F(F28335Board, PwmRegisters)
 TEST_F(F28335Board, RegistersFollowTheSetup)
 {
     auto &b = const_cast<board_firmware_t &>(board_firmware);
-    b.setup = {7500U, 1875U, 38U, 4096U};
+    b.setup = {7500U, 1875U, 38U, 4096U, 2U};
     start();
     EXPECT_EQ(EPwm3Regs.TBPRD, 1875U);
     EXPECT_EQ(EPwm3Regs.DBRED, 38U);
@@ -143,10 +143,13 @@ TEST_F(F28335Board, SetupsThatNoRegisterHoldsAreRefused)
 {
     auto &b = const_cast<board_firmware_t &>(board_firmware);
     for (const board_setup_t &setup :
-         {board_setup_t{0U, 0U, 225U, 10000U}, board_setup_t{30004U, 7500U, 225U, 10000U},
-          board_setup_t{65536U, 16384U, 225U, 10000U}, board_setup_t{30000U, 7500U, 0U, 10000U},
-          board_setup_t{30000U, 7500U, 1024U, 10000U}, board_setup_t{1000U, 250U, 125U, 10000U},
-          board_setup_t{30000U, 7500U, 225U, 0U}}) {
+         {board_setup_t{0U, 0U, 225U, 10000U, 2U}, board_setup_t{30004U, 7500U, 225U, 10000U, 2U},
+          board_setup_t{65536U, 16384U, 225U, 10000U, 2U},
+          board_setup_t{30000U, 7500U, 0U, 10000U, 2U},
+          board_setup_t{30000U, 7500U, 1024U, 10000U, 2U},
+          board_setup_t{1000U, 250U, 125U, 10000U, 2U}, board_setup_t{30000U, 7500U, 225U, 0U, 2U},
+          board_setup_t{30000U, 7500U, 225U, 10000U, 1U},
+          board_setup_t{30000U, 7500U, 225U, 10000U, 4U}}) {
         b.setup       = setup;
         b.init_result = true;
         device.reset();
@@ -171,6 +174,26 @@ TEST_F(F28335Board, ConverterRegisters)
     // Three pairs: 0, 0 again, then 1.
     EXPECT_EQ(AdcRegs.ADCMAXCONV.all, 2U);
     EXPECT_EQ(AdcRegs.ADCCHSELSEQ1.all, 1U << 8);
+}
+
+TEST_F(F28335Board, ThirdCurrentSensorIsReadWhenThereIsOne)
+{
+    auto &b                  = const_cast<board_firmware_t &>(board_firmware);
+    b.setup                  = board_setup_t{30000U, 7500U, 225U, 10000U, 3U};
+    around.input_V[0][0]     = 1.0; // 1365.3
+    around.input_V[1][1]     = 1.5;
+    around.input_V[1][2]     = 2.0; // 2730.7
+    Device             &d    = start();
+    const std::uint32_t tick = board_firmware.ticks;
+    d.run_for(50 * period_s);
+    // Four pairs: the last is A2 and B2.
+    EXPECT_EQ(AdcRegs.ADCMAXCONV.all, 3U);
+    EXPECT_EQ(AdcRegs.ADCCHSELSEQ1.all, (1U << 8) | (2U << 12));
+    EXPECT_EQ(board_firmware.sample.ia_cnt, 1365);
+    EXPECT_EQ(board_firmware.sample.temperature_cnt, 2048);
+    EXPECT_EQ(board_firmware.sample.ic_cnt, 2730);
+    EXPECT_EQ(board_firmware.ticks - tick, 50U);
+    EXPECT_EQ(board_firmware.faults, BOARD_FAULT_NONE);
 }
 
 TEST_F(F28335Board, EncoderRegisters)

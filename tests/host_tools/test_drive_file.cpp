@@ -860,6 +860,7 @@ TEST(DriveFile, AKeyThatRepeatsTheBoardAgreesWithIt)
 {
     const std::vector<std::tuple<std::string, std::string, board_fact_t>> keys{
         {"current_sensors", "range_A", BOARD_FACT_CURRENT_RANGE_A},
+        {"current_sensors", "count", BOARD_FACT_CURRENT_SENSORS},
         {"board", "dc_link_range_V", BOARD_FACT_DC_LINK_RANGE_V},
         {"board", "ntc_resistance_Ohm", BOARD_FACT_NTC_RESISTANCE_Ohm},
         {"board", "ntc_beta_K", BOARD_FACT_NTC_BETA_K},
@@ -891,6 +892,19 @@ TEST(DriveFile, AKeyThatRepeatsTheBoardAgreesWithIt)
     }
 }
 
+TEST(DriveFile, HasTwoCurrentSensorsOrThree)
+{
+    const auto with = [](const char *count) {
+        DriveText text;
+        return text.add_section("current_sensors").set("current_sensors", "count", count);
+    };
+    EXPECT_EQ(read(DriveText().str()).current_sensors.count, 2);
+    EXPECT_EQ(read(with("3").str()).current_sensors.count, 3);
+    for (const char *count : {"1", "4", "2.5"}) {
+        expect_complaint(with(count), {"[current_sensors] count = "});
+    }
+}
+
 TEST(DriveFile, LimitsBeyondTheBoardAreRefused)
 {
     expect_complaint(on_board().set("inverter", "dead_time_s", "5e-8"),
@@ -913,8 +927,11 @@ TEST(BoardFile, EveryFactIsRequiredAndHasItsRange)
     EXPECT_EQ(board_complaint(own_text()), "accepted");
     for (int fact = 0; fact < BOARD_FACT_COUNT; fact++) {
         const std::string key = fact_name(fact);
-        EXPECT_EQ(board_complaint(with_line(own_text(), key, "")).rfind(key + " is missing", 0), 0U)
-            << key;
+        if (fact != BOARD_FACT_CURRENT_SENSORS) {
+            EXPECT_EQ(board_complaint(with_line(own_text(), key, "")).rfind(key + " is missing", 0),
+                      0U)
+                << key;
+        }
         for (const char *value : {"-1e3", "1e12", "nan", "inf", "\"1\"", "true"}) {
             EXPECT_EQ(board_complaint(with_line(own_text(), key, value)).rfind(key + " ", 0), 0U)
                 << key << value;

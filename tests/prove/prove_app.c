@@ -34,7 +34,7 @@ static void any_state(void)
     modes                            = any_modes;
     modes.config                     = &board_config;
     modes.mode                       = any_between(APP_MODE_BOOT, APP_MODE_STOP);
-    modes.fault                      = any_between(APP_FAULT_NONE, APP_FAULT_MEMORY);
+    modes.fault                      = any_between(APP_FAULT_NONE, APP_FAULT_CURRENT_SUM);
     modes.calibrated                 = any_bool();
     modes.armed                      = any_bool();
     modes.commission_armed           = any_bool();
@@ -44,7 +44,7 @@ static void any_state(void)
     modes.tripped                    = any_bool();
     modes.locked                     = any_bool();
     modes.gate_on                    = any_bool();
-    modes.sink_fault                 = any_between(APP_FAULT_NONE, APP_FAULT_MEMORY);
+    modes.sink_fault                 = any_between(APP_FAULT_NONE, APP_FAULT_CURRENT_SUM);
     modes.too_hot                    = any_bool();
     modes.angle.have_turned          = any_bool();
     modes.angle.have_index           = any_bool();
@@ -92,6 +92,8 @@ static void any_state(void)
     modes.sample.temperature_valid = any_bool();
     modes.reading.speed_valid      = any_bool();
     modes.reading.index_fault      = any_bool();
+    modes.sum.on                   = any_bool();
+    modes.sum_differs              = any_bool();
 }
 
 static void is_count(uint16_t cnt)
@@ -124,7 +126,7 @@ void prove_app_tick(void)
     is_count(duty.b_cnt);
     is_count(duty.c_cnt);
     //@ check mode: APP_MODE_BOOT <= modes.mode <= APP_MODE_STOP;
-    //@ check fault: APP_FAULT_NONE <= modes.fault <= APP_FAULT_MEMORY;
+    //@ check fault: APP_FAULT_NONE <= modes.fault <= APP_FAULT_CURRENT_SUM;
     //@ check stage: APP_ALIGN_WATCH <= modes.align.stage <= APP_ALIGN_FAILED;
     //@ check since_index: -12500 <= modes.angle.since_index_cnt <= 12500;
     //@ check reference: APP_ANGLE_NONE <= modes.angle.reference <= APP_ANGLE_INDEX;

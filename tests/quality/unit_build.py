@@ -32,7 +32,8 @@ FLAGS = [
     "-ffp-contract=off",
     "-DUNITY_INCLUDE_DOUBLE",
     "-DUNITY_SUPPORT_64",
-    "-DFIELDS_NAMED",  # as on every host
+    "-DFIELDS_NAMED",  # as on every host, and the next
+    "-DBOARD_CURRENT_SENSORS=3",
     *[f"-I{p}" for p in INCLUDES],
 ]
 # As tests/CMakeLists.txt: tables of drives that the shipped one is not.

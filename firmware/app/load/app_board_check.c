@@ -112,6 +112,7 @@ static void check_scale(check_t *c)
     const app_scale_config_t *s       = &c->app->scale;
     const float               top_cnt = (float)BOARD_ADC_CODES;
 
+    must_be(c, BOARD_FACT_CURRENT_SENSORS, (float)c->app->board.current_sensors);
     must_be(c, BOARD_FACT_CURRENT_RANGE_A, s->current_A_per_cnt * s->current_zero_cnt);
     must_be(c, BOARD_FACT_CURRENT_RANGE_A, s->current_A_per_cnt * (top_cnt - s->current_zero_cnt));
     must_be(c, BOARD_FACT_DC_LINK_RANGE_V, s->dc_link_V_per_cnt * top_cnt);

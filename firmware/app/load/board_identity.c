@@ -15,6 +15,7 @@ const char *board_field_name(uint16_t field)
         [BOARD_FACT_DUTY_MAX]                 = "duty_max",
         [BOARD_FACT_PULSE_MIN_s]              = "pulse_min_s",
         [BOARD_FACT_CURRENT_RANGE_A]          = "current_range_A",
+        [BOARD_FACT_CURRENT_SENSORS]          = "current_sensors",
         [BOARD_FACT_RATED_CURRENT_A]          = "rated_current_A",
         [BOARD_FACT_TRIP_CURRENT_A]           = "trip_current_A",
         [BOARD_FACT_DC_LINK_RANGE_V]          = "dc_link_range_V",

@@ -22,6 +22,7 @@ typedef enum {
     BOARD_FACT_DUTY_MAX,           /**< largest duty below 1 that the gate supplies bear */
     BOARD_FACT_PULSE_MIN_s,        /**< shortest pulse that the gate drivers pass */
     BOARD_FACT_CURRENT_RANGE_A,    /**< full scale of the converter, either sign */
+    BOARD_FACT_CURRENT_SENSORS,    /**< 2 or 3 */
     BOARD_FACT_RATED_CURRENT_A,    /**< largest current limit of a drive, peak */
     BOARD_FACT_TRIP_CURRENT_A,     /**< of the hardware trip; the drive's is not above */
     BOARD_FACT_DC_LINK_RANGE_V,    /**< full scale of the converter */

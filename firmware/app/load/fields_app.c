@@ -7,6 +7,7 @@ static void setup(fields_t *f, board_setup_t *c)
     fields_u16(f, FIELD(f, c, duty_full_cnt));
     fields_u16(f, FIELD(f, c, dead_time_cnt));
     fields_u16(f, FIELD(f, c, positions));
+    fields_u16(f, FIELD(f, c, current_sensors));
 }
 
 static void scale(fields_t *f, app_scale_config_t *c)

@@ -31,8 +31,12 @@ app_fault_t app_fault_of(const app_modes_t *m, const app_modes_input_t *in)
     if ((driving || (m->mode == APP_MODE_CALIBRATE)) && !m->sample.valid) {
         return APP_FAULT_SAMPLE;
     }
+    app_fault_t fault = driving ? m->sink_fault : APP_FAULT_NONE;
     if (driving && m->too_hot) {
-        return APP_FAULT_HEAT;
+        fault = APP_FAULT_HEAT;
     }
-    return driving ? m->sink_fault : APP_FAULT_NONE;
+    if (driving && app_modes_sum_differs(m)) {
+        fault = APP_FAULT_CURRENT_SUM;
+    }
+    return fault;
 }

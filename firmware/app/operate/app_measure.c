@@ -10,6 +10,9 @@ void app_measure(app_modes_t *m, const app_modes_input_t *in)
     if (m->sample.valid) {
         app_angle_update(&m->angle, in->raw, &m->reading);
         app_position_track(&m->position, &m->angle, &m->reading);
+#if BOARD_CURRENT_SENSORS == 3
+        m->sum_differs = app_watch_sum_differs(&m->sum, in->raw);
+#endif
         if ((in->slow & (uint16_t)APP_SLOW_SINK) != 0U) {
             app_warmth_sink(m, in->raw);
         }

@@ -47,6 +47,10 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *c, const drive_c
     m->zero_b_A = 0.0f;
     clear_snapshot(&m->snapshot);
     m->snapshot.fault = m->fault;
+#if BOARD_CURRENT_SENSORS == 3
+    app_watch_sum_init(&m->sum, c->board.current_sensors);
+    m->sum_differs = false;
+#endif
     return ok ? CTL_OK : CTL_BAD_CONFIG;
 }
 
@@ -56,7 +60,7 @@ static bool is_suspicious(const app_modes_t *m, const app_modes_input_t *in)
     return in->memory_changed || in->background_lost || in->tick_missing ||
            m->reading.index_fault || !m->sample.valid ||
            (in->board_faults != (uint16_t)BOARD_FAULT_NONE) || (m->sink_fault != APP_FAULT_NONE) ||
-           m->too_hot;
+           m->too_hot || app_modes_sum_differs(m);
 }
 
 static bridge_t act(app_modes_t *m, const app_modes_input_t *in)

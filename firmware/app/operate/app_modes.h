@@ -26,6 +26,7 @@
 #include "app_config.h"
 #include "app_part.h"
 #include "app_status.h"
+#include "app_watch_sum.h"
 
 typedef struct {
     const board_sample_t *raw;
@@ -74,6 +75,10 @@ typedef struct {
     bool                gate_on;     /**< gates were enabled by an earlier tick */
     uint16_t            phase_errors;
     app_snapshot_t      snapshot;
+#if BOARD_CURRENT_SENSORS == 3
+    app_watch_sum_t sum;
+    bool            sum_differs;
+#endif
 } app_modes_t;
 
 /**

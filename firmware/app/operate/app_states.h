@@ -30,4 +30,15 @@ app_fault_t app_fault_of(const app_modes_t *m, const app_modes_input_t *in);
 /** Enters FAULT: stores a snapshot, and opens the bridge or shorts the motor. */
 bridge_t app_states_trip(app_modes_t *m, const app_modes_input_t *in, app_fault_t fault);
 
+/** EQ-APP-SUM-1; false in firmware for two current sensors. Context: control ISR. */
+static inline bool app_modes_sum_differs(const app_modes_t *m)
+{
+#if BOARD_CURRENT_SENSORS == 3
+    return m->sum_differs;
+#else
+    (void)m;
+    return false;
+#endif
+}
+
 #endif /* APP_STATES_H */

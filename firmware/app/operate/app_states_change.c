@@ -13,6 +13,9 @@ void app_states_enter(app_modes_t *m, app_mode_t mode)
     m->align_armed      = false;
     m->zero_a_A         = 0.0f;
     m->zero_b_A         = 0.0f;
+#if BOARD_CURRENT_SENSORS == 3
+    app_watch_sum_begin(&m->sum);
+#endif
 }
 
 bridge_t app_states_fault(app_modes_t *m, const app_modes_input_t *in)

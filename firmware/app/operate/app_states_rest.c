@@ -16,15 +16,32 @@ static bridge_t boot(app_modes_t *m)
     return bridge_open();
 }
 
+static bool set_zeros(app_modes_t *m)
+{
+    const bool phases = app_scale_set_zero(&m->scale, m->sum_a_cnt, m->sum_b_cnt, m->timer_ticks);
+
+#if BOARD_CURRENT_SENSORS == 3
+    const app_scale_config_t *c = &m->config->scale;
+    const bool                sum =
+        app_watch_sum_set_zero(&m->sum, m->timer_ticks, c->current_zero_cnt, c->offset_max_cnt);
+    return phases && sum;
+#else
+    return phases;
+#endif
+}
+
 static bridge_t calibrate(app_modes_t *m, const app_modes_input_t *in)
 {
     m->sum_a_cnt += in->raw->ia_cnt;
     m->sum_b_cnt += in->raw->ib_cnt;
+#if BOARD_CURRENT_SENSORS == 3
+    app_watch_sum_add(&m->sum, in->raw);
+#endif
     m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
     if (m->timer_ticks < m->config->calibrate_ticks) {
         return bridge_open();
     }
-    if (!app_scale_set_zero(&m->scale, m->sum_a_cnt, m->sum_b_cnt, m->timer_ticks)) {
+    if (!set_zeros(m)) {
         return app_states_trip(m, in, APP_FAULT_OFFSET);
     }
     m->calibrated = true;

@@ -11,7 +11,7 @@
 #define ACQUISITION 5U
 #define PAIRS       3U
 
-void adc_init(void)
+void adc_init(const board_setup_t *setup)
 {
     EALLOW;    /* as in TI's code: the trim registers may be protected */
     ADC_cal(); /* factory trim; a load by debugger skips the boot ROM's call */
@@ -29,6 +29,10 @@ void adc_init(void)
     AdcRegs.ADCCHSELSEQ1.bit.CONV00 = 0U; /* A0, B0: result ignored */
     AdcRegs.ADCCHSELSEQ1.bit.CONV01 = 0U; /* A0, B0: phase currents */
     AdcRegs.ADCCHSELSEQ1.bit.CONV02 = 1U; /* A1, B1: dc link, temperature */
-    AdcRegs.ADCTRL2.all             = ADC_RUN;
+    if (setup->current_sensors == 3U) {
+        AdcRegs.ADCMAXCONV.all          = PAIRS; /* one more */
+        AdcRegs.ADCCHSELSEQ1.bit.CONV03 = 2U;    /* A2 is free, B2: phase current c */
+    }
+    AdcRegs.ADCTRL2.all = ADC_RUN;
     adc_rewind();
 }

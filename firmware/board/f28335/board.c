@@ -16,7 +16,8 @@ bool board_fits(const board_setup_t *s)
            (s->pwm_cycles == (2UL * CLOCK_SYSCLK_PER_TBCLK * (uint32_t)s->duty_full_cnt)) &&
            (s->pwm_cycles <= CAPTURE_CYCLES_MAX) && (s->dead_time_cnt > 0U) &&
            (s->dead_time_cnt <= CLOCK_DEAD_TIME_MAX_cnt) &&
-           ((2UL * (uint32_t)s->dead_time_cnt) < s->duty_full_cnt) && (s->positions > 0U);
+           ((2UL * (uint32_t)s->dead_time_cnt) < s->duty_full_cnt) && (s->positions > 0U) &&
+           ((s->current_sensors == 2U) || (s->current_sensors == (uint16_t)BOARD_CURRENT_SENSORS));
 }
 
 bool board_prepare(void)
@@ -44,7 +45,7 @@ bool board_init(const board_setup_t *setup)
     gpio_connect();
     cycles_init();
     encoder_init(setup);
-    adc_init();
+    adc_init(setup);
     serial_init();
     return true;
 }

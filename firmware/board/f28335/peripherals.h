@@ -50,7 +50,7 @@ void trip_overdue(void); /**< the same for an overrun. Context: INT13 */
 void pwm_init(const board_setup_t *setup);
 void pwm_start(uint16_t updates_per_period); /**< all three legs at once */
 
-void adc_init(void); /**< about 5 ms */
+void adc_init(const board_setup_t *setup); /**< about 5 ms */
 
 void encoder_init(const board_setup_t *setup);
 void encoder_start(uint16_t updates_per_period); /**< call it next to pwm_start() */
@@ -117,6 +117,9 @@ static inline void adc_read(board_sample_t *sample)
     sample->ib_cnt          = AdcMirror.ADCRESULT3;
     sample->dc_link_cnt     = AdcMirror.ADCRESULT4;
     sample->temperature_cnt = AdcMirror.ADCRESULT5;
+#if BOARD_CURRENT_SENSORS == 3
+    sample->ic_cnt = AdcMirror.ADCRESULT7; /* of a drive with two sensors: what it read last */
+#endif
 }
 
 void             control_isr_init(void (*tick)(void), uint32_t period_cycles);

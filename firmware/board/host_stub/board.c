@@ -145,7 +145,7 @@ board_reset_t board_reset_cause(void)
 
 bool board_fits(const board_setup_t *setup)
 {
-    return setup->pwm_cycles == board_config.board.pwm_cycles;
+    return (setup->pwm_cycles == board_config.board.pwm_cycles) && (setup->current_sensors == 2U);
 }
 
 bool board_loader_is_wanted(void)

@@ -17,10 +17,11 @@ static const float ntc_degC[NTC_POINTS] = {100.0f, 0.0f};
 const app_config_t board_config = {
     .board = /* chosen: a processor of 25 MHz, an encoder of 1024 lines */
     {
-        .pwm_cycles    = 5000UL,
-        .duty_full_cnt = DUTY_FULL,
-        .dead_time_cnt = 75U,
-        .positions     = 4096U,
+        .pwm_cycles      = 5000UL,
+        .duty_full_cnt   = DUTY_FULL,
+        .dead_time_cnt   = 75U,
+        .positions       = 4096U,
+        .current_sensors = 2U,
     },
     .pwm_period_s = 200.0e-6f,
     .dead_time_s  = 3.0e-6f,

@@ -112,7 +112,8 @@ board_setup_t setup_of(const Drive &d) // EQ-BOARD-1
     if (4 * d.encoder.lines > most_turn) {
         refuse(fmt::format("[encoder] lines = {}: at most {}", d.encoder.lines, most_turn / 4));
     }
-    s.positions = static_cast<std::uint16_t>(4 * d.encoder.lines);
+    s.positions       = static_cast<std::uint16_t>(4 * d.encoder.lines);
+    s.current_sensors = static_cast<std::uint16_t>(d.current_sensors.count);
     return s;
 }
 

@@ -26,6 +26,7 @@ BoardFile simulated(const Drive &d)
     s.facts[BOARD_FACT_DUTY_MAX]                 = b.duty_max;
     s.facts[BOARD_FACT_PULSE_MIN_s]              = b.pulse_min_s;
     s.facts[BOARD_FACT_CURRENT_RANGE_A]          = d.current_sensors.range_A;
+    s.facts[BOARD_FACT_CURRENT_SENSORS]          = d.current_sensors.count;
     s.facts[BOARD_FACT_RATED_CURRENT_A]          = d.motor.max_current_A;
     s.facts[BOARD_FACT_TRIP_CURRENT_A]           = d.current_sensors.range_A;
     s.facts[BOARD_FACT_DC_LINK_RANGE_V]          = b.dc_link_range_V;

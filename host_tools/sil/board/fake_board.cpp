@@ -53,6 +53,7 @@ void FakeBoard::take_sample()
     const RawSample &s  = bench_.sample();
     sample_.ia_cnt      = static_cast<std::uint16_t>(current_code(s.ia_code));
     sample_.ib_cnt      = static_cast<std::uint16_t>(current_code(s.ib_code));
+    sample_.ic_cnt      = static_cast<std::uint16_t>(current_code(s.ic_code));
     sample_.dc_link_cnt = static_cast<std::uint16_t>(dc_link_code(s.dc_link_V, dc_link_range_V_));
     sample_.temperature_cnt = temperature_code;
     sample_.position_cnt    = position_of(s.count, setup_.positions);

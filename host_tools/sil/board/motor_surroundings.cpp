@@ -62,6 +62,9 @@ double MotorSurroundings::analog_V(int side, int number)
         return voltage_V(side == 0 ? dc_link_code(s.dc_link_V, dc_link_range_V_)
                                    : temperature_code);
     }
+    if (number == 2 && side == 1) {
+        return voltage_V(current_code(s.ic_code));
+    }
     return 0.0;
 }
 

@@ -42,7 +42,8 @@ Board::Board(const Scenario &s)
       dc_link_(s.inverter, s.dc_link_V),
       encoder_(s.sensors, s.drive.encoder.lines, s.drive.motor.pole_pairs, period_s_, s.seed),
       channel_a_(channel_a(s.sensors)), channel_b_(channel_b(s.sensors)),
-      noise_a_(s.seed, NoiseStream::adc_a), noise_b_(s.seed, NoiseStream::adc_b),
+      channel_c_(channel_c(s.sensors)), noise_a_(s.seed, NoiseStream::adc_a),
+      noise_b_(s.seed, NoiseStream::adc_b), noise_c_(s.seed, NoiseStream::adc_c),
       load_(s.load_torque, s.load_ramps, s.load_sine), brake_(s.load_brake),
       first_dead_time_s_(dead_time_of(s.sensors, s.inverter, s.drive)), faults_(s.faults)
 {
@@ -96,6 +97,7 @@ void Board::apply(const PlantChange &change)
         sensors_   = *change.sensors;
         channel_a_ = channel_a(sensors_);
         channel_b_ = channel_b(sensors_);
+        channel_c_ = channel_c(sensors_);
         encoder_.configure(sensors_);
     }
     encoder_.lose(change.lost_counts);
@@ -229,8 +231,11 @@ RawSample Board::raw_sample()
     plant_.path().restart();
     const PhaseVector i = plant_.phase_current_A();
     RawSample         s;
-    s.ia_code     = adc_code(channel_a_, faults_.sensed_A(0, i.a) + glitch_.ia_A, noise_a_);
-    s.ib_code     = adc_code(channel_b_, faults_.sensed_A(1, i.b) + glitch_.ib_A, noise_b_);
+    s.ia_code = adc_code(channel_a_, faults_.sensed_A(0, i.a) + glitch_.ia_A, noise_a_);
+    s.ib_code = adc_code(channel_b_, faults_.sensed_A(1, i.b) + glitch_.ib_A, noise_b_);
+    if (sensors_.current_sensors == 3) {
+        s.ic_code = adc_code(channel_c_, faults_.sensed_A(2, i.c), noise_c_);
+    }
     s.dc_link_V   = dc_link_.voltage_V();
     s.count       = position.raw_count;
     s.index       = position.index && faults_.active(FaultKind::index_missing) == nullptr;

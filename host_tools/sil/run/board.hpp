@@ -19,6 +19,7 @@ namespace sdre {
 struct RawSample {
     int          ia_code     = 0; ///< two's complement
     int          ib_code     = 0;
+    int          ic_code     = 0; ///< of a drive with three current sensors
     double       dc_link_V   = 0.0;
     std::int64_t count       = 0; ///< of a counter without corrections, since the shaft's zero
     bool         index       = false;
@@ -116,8 +117,10 @@ private:
     std::vector<EncoderEdge> edges_;
     AdcChannel               channel_a_;
     AdcChannel               channel_b_;
+    AdcChannel               channel_c_;
     Noise                    noise_a_;
     Noise                    noise_b_;
+    Noise                    noise_c_;
     LoadProfile              load_;
     PowderBrake              brake_;
     double                   first_dead_time_s_; ///< the gates\'

@@ -28,7 +28,8 @@ double smooth(double x)
 MotorBench::MotorBench(const Scenario &s, long start_tick)
     : scenario_(s), period_s_(control_period_s(s.drive)), start_tick_(start_tick),
       held_encoder_(s.sensors, s.drive.encoder.lines, s.drive.motor.pole_pairs, period_s_, s.seed),
-      held_noise_a_(s.seed, NoiseStream::adc_a), held_noise_b_(s.seed, NoiseStream::adc_b)
+      held_noise_a_(s.seed, NoiseStream::adc_a), held_noise_b_(s.seed, NoiseStream::adc_b),
+      held_noise_c_(s.seed, NoiseStream::adc_c)
 {
     held_encoder_.start(held_theta_e_rad(0), 0.0);
 }
@@ -55,8 +56,11 @@ void MotorBench::hold()
     ShaftPath    path;
     path.lead_to(theta, (theta - held_theta_e_rad(tick_ - 1)) / period_s_, period_s_);
     const QuadratureEncoder::Reading position = held_encoder_.read(path, edges_);
-    sample_.ia_code     = adc_code(channel_a(scenario_.sensors), 0.0, held_noise_a_);
-    sample_.ib_code     = adc_code(channel_b(scenario_.sensors), 0.0, held_noise_b_);
+    sample_.ia_code = adc_code(channel_a(scenario_.sensors), 0.0, held_noise_a_);
+    sample_.ib_code = adc_code(channel_b(scenario_.sensors), 0.0, held_noise_b_);
+    if (scenario_.sensors.current_sensors == 3) {
+        sample_.ic_code = adc_code(channel_c(scenario_.sensors), 0.0, held_noise_c_);
+    }
     sample_.dc_link_V   = scenario_.dc_link_V;
     sample_.count       = position.raw_count;
     sample_.index       = position.index;

@@ -104,6 +104,7 @@ private:
     QuadratureEncoder        held_encoder_;
     Noise                    held_noise_a_;
     Noise                    held_noise_b_;
+    Noise                    held_noise_c_;
     std::unique_ptr<Board>   board_;
 };
 

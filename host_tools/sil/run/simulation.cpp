@@ -12,6 +12,10 @@ Simulation::Simulation(const Scenario &scenario, const Controller &controller)
         if (needs_processor(f.kind)) {
             throw InputError("[[fault]] of the processor needs --board f28335");
         }
+        if (is_of_a_sensor(f.kind) && f.phase == 2) {
+            throw InputError(
+                "[[fault]] of current sensor c needs --board: the application reads it");
+        }
     }
     if (drive_init(&drive_, &controller.config) != CTL_OK) {
         throw DesignError("the control core refuses these constants");

@@ -38,6 +38,11 @@ AdcChannel channel_b(const SensorSettings &s)
     return {s.adc_bits, s.adc_full_scale_A, s.adc_noise_rms_A, s.adc_offset_b_A, s.adc_gain_b};
 }
 
+AdcChannel channel_c(const SensorSettings &s)
+{
+    return {s.adc_bits, s.adc_full_scale_A, s.adc_noise_rms_A, s.adc_offset_c_A, s.adc_gain_c};
+}
+
 int adc_code(const AdcChannel &c, double current_A, Noise &noise)
 {
     const double signal = c.gain * current_A + c.offset_A + c.noise_rms_A * noise.next();

@@ -20,6 +20,7 @@ struct AdcChannel {
 
 AdcChannel channel_a(const SensorSettings &settings);
 AdcChannel channel_b(const SensorSettings &settings);
+AdcChannel channel_c(const SensorSettings &settings);
 
 /// The converter's code, two's complement.
 int adc_code(const AdcChannel &channel, double current_A, Noise &noise);

@@ -146,6 +146,7 @@ SensorSettings sensors_of_drive(const Drive &drive)
     s.adc_bits          = drive.current_sensors.adc_bits;
     s.adc_full_scale_A  = drive.current_sensors.range_A;
     s.adc_noise_rms_A   = drive.current_sensors.noise_rms_A;
+    s.current_sensors   = drive.current_sensors.count;
     return s;
 }
 
@@ -170,6 +171,10 @@ SensorSettings read_sensors(TomlReader t, SensorSettings s, const Drive &drive)
     s.adc_offset_b_A   = t.number_or("adc_offset_b_A", offset_A, s.adc_offset_b_A);
     s.adc_gain_a       = t.number_or("adc_gain_a", gain, s.adc_gain_a);
     s.adc_gain_b       = t.number_or("adc_gain_b", gain, s.adc_gain_b);
+    if (s.current_sensors == 3) {
+        s.adc_offset_c_A = t.number_or("adc_offset_c_A", offset_A, s.adc_offset_c_A);
+        s.adc_gain_c     = t.number_or("adc_gain_c", gain, s.adc_gain_c);
+    }
     const Range half_period_s{0.0, 0.5 * control_period_s(drive)};
     s.sampling_advance_s = t.number_or("sampling_advance_s", half_period_s, s.sampling_advance_s);
     t.reject_unknown_keys();

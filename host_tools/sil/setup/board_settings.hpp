@@ -33,6 +33,9 @@ struct SensorSettings {
     double              adc_offset_b_A   = 0.0;
     double              adc_gain_a       = 1.0;
     double              adc_gain_b       = 1.0;
+    int                 current_sensors = 2; ///< of the drive file; the application reads the third
+    double              adc_offset_c_A  = 0.0;
+    double              adc_gain_c      = 1.0;
     double sampling_advance_s = 0.0; ///< samples are taken this long before the period starts
 };
 

@@ -30,10 +30,10 @@ constexpr std::array<KindName, 10> kinds{{{"tick_hung", FaultKind::tick_hung, 0}
                                           {"interrupt_masked", FaultKind::interrupt_masked, 0},
                                           {"trigger_lost", FaultKind::trigger_lost, 0},
                                           {"phase_open", FaultKind::phase_open, 3},
-                                          {"current_zero", FaultKind::current_zero, 2},
-                                          {"current_frozen", FaultKind::current_frozen, 2},
-                                          {"current_drift", FaultKind::current_drift, 2},
-                                          {"current_gain", FaultKind::current_gain, 2},
+                                          {"current_zero", FaultKind::current_zero, 3},
+                                          {"current_frozen", FaultKind::current_frozen, 3},
+                                          {"current_drift", FaultKind::current_drift, 3},
+                                          {"current_gain", FaultKind::current_gain, 3},
                                           {"encoder_losing", FaultKind::encoder_losing, 0},
                                           {"index_missing", FaultKind::index_missing, 0}}};
 
@@ -86,6 +86,12 @@ std::vector<InjectedFault> read_injected_faults(TomlReader &t)
     }
     require_sorted(t, "fault", faults);
     return faults;
+}
+
+bool is_of_a_sensor(FaultKind kind)
+{
+    return kind == FaultKind::current_zero || kind == FaultKind::current_frozen ||
+           kind == FaultKind::current_drift || kind == FaultKind::current_gain;
 }
 
 bool needs_processor(FaultKind kind)

@@ -35,6 +35,9 @@ struct InjectedFault {
 /// The [[fault]] entries.
 std::vector<InjectedFault> read_injected_faults(TomlReader &t);
 
+/// Whether it is one of a current sensor.
+bool is_of_a_sensor(FaultKind kind);
+
 /// Whether the kind is one of the processor's, which the core alone has none of.
 bool needs_processor(FaultKind kind);
 
@@ -68,7 +71,7 @@ public:
 private:
     std::vector<InjectedFault> entries_;
     double                     time_s_ = 0.0;
-    std::array<double, 2>      held_A_{}; ///< of a, b: what was sensed last
+    std::array<double, 3>      held_A_{}; ///< of a, b, c: what was sensed last
 };
 
 } // namespace sdre

@@ -178,6 +178,12 @@ Scenario read_scenario(TomlReader &t, const std::string &name, const Drive &driv
     }
     s.glitches = read_glitches(t);
     s.faults   = read_injected_faults(t);
+    for (const InjectedFault &f : s.faults) {
+        if (is_of_a_sensor(f.kind) && f.phase == 2 && drive.current_sensors.count == 2) {
+            t.fail("fault",
+                   "has phase c: this drive has no current sensor there ([current_sensors] count)");
+        }
+    }
     s.measures = read_measures(t, s.drive.law, own);
     if (!s.measures.empty() && s.measures.back().time_s >= s.duration_s) {
         t.fail("measure", fmt::format("\"{}\": time_s must be before duration_s = {:g}",

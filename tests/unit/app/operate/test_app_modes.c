@@ -590,6 +590,72 @@ static void test_a_jump_drops_the_reference_in_ready(void)
     TEST_ASSERT_EQUAL_UINT16(2U, status_of(0U).position_jumps); /* on, and off */
 }
 
+static void three_sensors(void)
+{
+    config.board.current_sensors = 3U;
+    init();
+    raw.ic_cnt = 2048U;
+}
+
+/* EQ-APP-SUM-1, wherever the bridge may be closed; the third sample in a row. */
+static void test_currents_that_do_not_sum_to_zero_trip_a_driven_motor(void)
+{
+    void (*const starts[])(void) = {go_run, go_align};
+
+    for (int way = 0; way < 2; way++) {
+        setUp();
+        three_sensors();
+        starts[way]();
+        raw.ic_cnt = 2248U;
+        tick();
+        tick();
+        TEST_ASSERT_TRUE(out.gate_enable);
+        tick();
+        assert_fault(APP_FAULT_CURRENT_SUM);
+        raw.ic_cnt = 2048U;
+        assert_latched_until_reset(APP_FAULT_CURRENT_SUM, APP_MODE_READY);
+    }
+}
+
+static void test_a_sum_is_none_of_two_sensors_nor_of_an_open_bridge(void)
+{
+    go_run();
+    raw.ic_cnt = 2248U;
+    ticks(10);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+
+    setUp();
+    three_sensors();
+    go_ready();
+    raw.ic_cnt = 2248U;
+    ticks(10);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+}
+
+static void test_a_third_zero_beyond_its_bound_faults(void)
+{
+    three_sensors();
+    raw.ic_cnt = 2048U + 301U;
+    ticks(BOOT_TICKS + CALIBRATE_TICKS + 1);
+    assert_fault(APP_FAULT_OFFSET);
+    raw.ic_cnt       = 2048U + 299U;
+    in.command.reset = true;
+    tick();
+    in.command.reset = false;
+    ticks(BOOT_TICKS + CALIBRATE_TICKS + 1);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    TEST_ASSERT_EQUAL_FLOAT((3.0f * 2048.0f) + 299.0f, modes.sum.zero_cnt);
+}
+
+static void test_one_sensor_or_four_are_refused(void)
+{
+    for (uint16_t n = 0U; n < 6U; n++) {
+        config.board.current_sensors = n;
+        TEST_ASSERT_EQUAL_INT(((n == 2U) || (n == 3U)) ? CTL_OK : CTL_BAD_CONFIG,
+                              app_modes_init(&modes, &config, &drive_config));
+    }
+}
+
 static void test_a_zero_that_has_drifted_is_found_after_the_stop(void)
 {
     go_run();
@@ -1348,6 +1414,10 @@ int main(void)
     RUN_TEST(test_a_ramp_brakes_to_standstill);
     RUN_TEST(test_lost_background_trips_in_every_mode);
     RUN_TEST(test_a_jump_drops_the_reference_in_ready);
+    RUN_TEST(test_currents_that_do_not_sum_to_zero_trip_a_driven_motor);
+    RUN_TEST(test_a_sum_is_none_of_two_sensors_nor_of_an_open_bridge);
+    RUN_TEST(test_a_third_zero_beyond_its_bound_faults);
+    RUN_TEST(test_one_sensor_or_four_are_refused);
     RUN_TEST(test_a_zero_that_has_drifted_is_found_after_the_stop);
     RUN_TEST(test_currents_that_die_out_are_no_drift);
     RUN_TEST(test_heat_takes_from_the_limit_and_trips_when_nobody_follows);
