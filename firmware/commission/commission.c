@@ -179,22 +179,22 @@ static commission_signal_t signal_of(commission_t *m, const commission_sample_t 
     return signal;
 }
 
-static commission_answer_t check(commission_t *m, const commission_signal_t *s)
+static commission_answer_t check_sensors(commission_t *m, const commission_signal_t *s)
 {
     commission_admittance_t y   = m->admittance;
     commission_answer_t     out = commission_check_tick(&m->asked.check, m->config, s, &y);
 
-    if (out.step != COMMISSION_DONE) {
-        return out;
-    }
-    out.step   = (m->looked && !commission_check_same(&y, &m->admittance)) ? COMMISSION_FAILED
-                                                                           : COMMISSION_BUSY;
-    m->checked = out.step == COMMISSION_BUSY;
-    commission_guard_start(&m->guard);
-    if (!m->looked) {
-        m->looked     = true;
-        m->admittance = y;
-        commission_inductance_start(&m->work.inductance, LOOK_PULSES * y.pulse_V);
+    if (out.step == COMMISSION_DONE) {
+        const bool other = m->looked && !commission_check_same(&y, &m->admittance);
+
+        out.step   = other ? COMMISSION_FAILED : COMMISSION_BUSY;
+        m->checked = !other;
+        commission_guard_start(&m->guard);
+        if (!m->looked) {
+            m->looked     = true;
+            m->admittance = y;
+            commission_inductance_start(&m->work.inductance, LOOK_PULSES * y.pulse_V);
+        }
     }
     return out;
 }
@@ -204,7 +204,7 @@ static commission_answer_t check(commission_t *m, const commission_signal_t *s)
 static commission_answer_t check_and_look(commission_t *m, const commission_signal_t *s)
 {
     if (!m->checked) {
-        return check(m, s);
+        return check_sensors(m, s);
     }
     commission_answer_t out =
         commission_inductance_look(&m->work.inductance, m->config, s, &m->found);
@@ -257,21 +257,22 @@ static void add_probe(commission_t *m, const commission_signal_t *s, commission_
     const bool                 direct = turns || (m->stage == COMMISSION_RESISTANCE);
     const commission_vector_t *v      = turns ? &m->work.drag.vector : &m->work.resistance.vector;
     const bool                 first  = m->ticks < FIRST_TICKS;
-    ab_t                       pulse_V;
+    const bool asks = (out->step == COMMISSION_BUSY) && (first || commission_vector_strays(v));
 
-    if (!direct) {
-        return;
-    }
-    if ((out->step != COMMISSION_BUSY) || !(first || commission_vector_strays(v))) {
+    if (direct && asks) {
+        ab_t pulse_V;
+
+        if (!commission_probe_tick(&m->asked.probe, m->config, s, &m->admittance, &pulse_V)) {
+            m->checked = false;
+            out->step  = COMMISSION_FAILED;
+        }
+        out->v_V.alpha += pulse_V.alpha;
+        out->v_V.beta += pulse_V.beta;
+    } else if (direct) {
         commission_probe_start(&m->asked.probe);
-        return;
+    } else {
+        /* the other stages know their currents */
     }
-    if (!commission_probe_tick(&m->asked.probe, m->config, s, &m->admittance, &pulse_V)) {
-        m->checked = false;
-        out->step  = COMMISSION_FAILED;
-    }
-    out->v_V.alpha += pulse_V.alpha;
-    out->v_V.beta += pulse_V.beta;
 }
 
 static commission_answer_t run_stage(commission_t *m, const commission_signal_t *s)

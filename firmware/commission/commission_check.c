@@ -98,7 +98,8 @@ bool commission_sums_solve(const commission_sums_t *k, float ts_s, float least_d
            base_within(skew, MOST_SKEW * mean_of(y));
 }
 
-static commission_step_t solve(const commission_check_t *k, float ts_s, commission_admittance_t *y)
+static commission_step_t solve_admittance(const commission_check_t *k, float ts_s,
+                                          commission_admittance_t *y)
 {
     const float all  = k->sums.aa + k->sums.bb;
     const float last = k->sums.vv * (all - k->begun) / base_max(k->sums.vv - k->begun_vv, 1.0e-12f);
@@ -131,7 +132,7 @@ commission_answer_t commission_check_tick(commission_check_t *k, const commissio
         }
     }
     if (k->patterns >= (AXES * PATTERNS)) {
-        out.step = solve(k, c->ts_s, y);
+        out.step = solve_admittance(k, c->ts_s, y);
     }
     if (out.step == COMMISSION_BUSY) {
         const int16_t axis = (int16_t)(k->patterns % AXES);

@@ -35,7 +35,8 @@ static ab_t pulse_of(int16_t tick, float size_V)
     return out;
 }
 
-static bool judge(const commission_probe_t *p, float ts_s, const commission_admittance_t *known)
+static bool judge_probe(const commission_probe_t *p, float ts_s,
+                        const commission_admittance_t *known)
 {
     commission_admittance_t y;
     const float             det     = DET_SHARE * commission_check_det(known);
@@ -54,7 +55,7 @@ bool commission_probe_tick(commission_probe_t *p, const commission_config_t *c,
 
     commission_sums_add(&p->sums, s->di_A, pulse_of(acted, size_V));
     if (acted == (WINDOW - 1)) {
-        ok      = !p->full || judge(p, c->ts_s, known);
+        ok      = !p->full || judge_probe(p, c->ts_s, known);
         p->full = true;
         p->sums.aa *= KEEP;
         p->sums.ab *= KEEP;

@@ -11,7 +11,7 @@
 #define SCOPE_STOP 2U
 
 /* Limits a value to its range, with a tolerance of half a count of the register. */
-static float held(const app_registers_entry_t *e, float x)
+static float held_value(const app_registers_entry_t *e, float x)
 {
     const float room = (e->per_unit > 0.0f) ? (0.5f / e->per_unit) : 0.5f;
     return base_clamp(x, e->least - room, e->most + room);
@@ -61,7 +61,7 @@ static app_registers_result_t try_one(app_registers_t *r, const app_registers_en
                                       const uint16_t *words)
 {
     const float given = app_registers_count_written(e, words);
-    const float x     = held(e, given);
+    const float x     = held_value(e, given);
 
     if (e->signature != 0UL) {
         return try_command(r, e, words);
@@ -132,14 +132,12 @@ static app_registers_result_t try_all(app_registers_t *r, uint16_t first, uint16
     app_registers_result_t result = APP_REGISTERS_OK;
     uint16_t               n      = 0U;
 
-    for (uint16_t k = 0U; (k < APP_REGISTERS_MAP_HOLDING) && (n < count); k++) {
+    for (uint16_t k = 0U;
+         (k < APP_REGISTERS_MAP_HOLDING) && (n < count) && (result == APP_REGISTERS_OK); k++) {
         const app_registers_entry_t *e = &app_registers_map_holding[k];
         if (e->address == (uint16_t)(first + n)) {
             result = try_one(r, e, &values[n]);
-            if (result != APP_REGISTERS_OK) {
-                return result;
-            }
-            n = (uint16_t)(n + app_registers_count_words(e));
+            n      = (uint16_t)(n + app_registers_count_words(e));
         }
     }
     return result;
