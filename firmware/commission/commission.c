@@ -2,6 +2,7 @@
 #include "commission.h"
 
 #include "check.h"
+#include "commission_sensors.h"
 #include "dead_time.h"
 #include "svpwm.h"
 
@@ -14,11 +15,7 @@
 /* Plausibility limit of every result in SI units. */
 #define LARGEST    1.0e9f
 #define LOSS_SHARE 0.1f
-/* Four windows of the probe: gains that changed in LOOK or RESISTANCE show in them. */
-#define FIRST_TICKS (4L * COMMISSION_PROBE_TICKS)
-/* Chosen: largest amplitude of LOOK, in pulses of the check. One raised the current by more. */
-#define LOOK_PULSES 2.0f
-#define FADE_SHARE  0.005f
+#define FADE_SHARE 0.005f
 /* Chosen: three degrees. With an inductance ratio of 7 they raise the smaller inductance by 2 %. */
 #define AGAIN_rad 0.05f
 
@@ -179,107 +176,11 @@ static commission_signal_t signal_of(commission_t *m, const commission_sample_t 
     return signal;
 }
 
-static commission_answer_t check_sensors(commission_t *m, const commission_signal_t *s)
-{
-    commission_admittance_t y   = m->admittance;
-    commission_answer_t     out = commission_check_tick(&m->asked.check, m->config, s, &y);
-
-    if (out.step == COMMISSION_DONE) {
-        const bool other = m->looked && !commission_check_same(&y, &m->admittance);
-
-        out.step   = other ? COMMISSION_FAILED : COMMISSION_BUSY;
-        m->checked = !other;
-        commission_guard_start(&m->guard);
-        if (!m->looked) {
-            m->looked     = true;
-            m->admittance = y;
-            commission_inductance_start(&m->work.inductance, LOOK_PULSES * y.pulse_V);
-        }
-    }
-    return out;
-}
-
-/* LOOK begins with the check. Another one interrupts a wave that does not reach its current: a
- * sensor may have died. */
-static commission_answer_t check_and_look(commission_t *m, const commission_signal_t *s)
-{
-    if (!m->checked) {
-        return check_sensors(m, s);
-    }
-    commission_answer_t out =
-        commission_inductance_look(&m->work.inductance, m->config, s, &m->found);
-
-    if ((out.step == COMMISSION_DONE) && !commission_guard_agrees(&m->admittance, &m->found)) {
-        m->checked = false;
-        out.step   = COMMISSION_FAILED;
-    } else if (m->work.inductance.wave.lost) {
-        m->work.inductance.wave.lost = false;
-        m->checked                   = false;
-        commission_check_start(&m->asked.check);
-        out = commission_rest(COMMISSION_BUSY);
-    } else {
-        /* LOOK continues, or has ended */
-    }
-    return out;
-}
-
-/* False when the sensors do not show the current of the voltage. */
-static bool voltage_explained(commission_t *m, const commission_signal_t *s)
-{
-    const commission_config_t *c     = m->config;
-    const commission_result_t *known = &m->found;
-    bool                       ok    = true;
-
-    switch ((int16_t)m->stage) {
-    case COMMISSION_LOOK:
-        ok = !m->checked || commission_guard_look(&m->guard, c, s, &m->admittance);
-        break;
-    case COMMISSION_RESISTANCE:
-        ok = commission_guard_vector(&m->guard, c, s, known) &&
-             commission_resistance_follows(&m->work.resistance, c, known);
-        break;
-    case COMMISSION_DRAG:
-        ok = commission_guard_vector(&m->guard, c, s, known) &&
-             commission_drag_follows(&m->work.drag, c, known);
-        break;
-    default:
-        ok = commission_guard_rotor(&m->guard, c, s, known);
-        break;
-    }
-    return ok;
-}
-
-/* Adds pulses to a direct current that is off its reference, and to the first one. The sensors
- * have to answer as in the check. */
-static void add_probe(commission_t *m, const commission_signal_t *s, commission_answer_t *out)
-{
-    const bool                 turns  = m->stage == COMMISSION_DRAG;
-    const bool                 direct = turns || (m->stage == COMMISSION_RESISTANCE);
-    const commission_vector_t *v      = turns ? &m->work.drag.vector : &m->work.resistance.vector;
-    const bool                 first  = m->ticks < FIRST_TICKS;
-    const bool asks = (out->step == COMMISSION_BUSY) && (first || commission_vector_strays(v));
-
-    if (direct && asks) {
-        ab_t pulse_V;
-
-        if (!commission_probe_tick(&m->asked.probe, m->config, s, &m->admittance, &pulse_V)) {
-            m->checked = false;
-            out->step  = COMMISSION_FAILED;
-        }
-        out->v_V.alpha += pulse_V.alpha;
-        out->v_V.beta += pulse_V.beta;
-    } else if (direct) {
-        commission_probe_start(&m->asked.probe);
-    } else {
-        /* the other stages know their currents */
-    }
-}
-
 static commission_answer_t run_stage(commission_t *m, const commission_signal_t *s)
 {
     switch ((int16_t)m->stage) {
     case COMMISSION_LOOK:
-        return check_and_look(m, s);
+        return commission_sensors_look(m, s);
     case COMMISSION_RESISTANCE:
         return commission_resistance_tick(&m->work.resistance, m->config, s, &m->found);
     case COMMISSION_DRAG:
@@ -398,9 +299,9 @@ bridge_t commission_tick(commission_t *m, const commission_sample_t *sample, boo
         return watch(m, sample);
     }
     const commission_signal_t s         = signal_of(m, sample);
-    const bool                explained = voltage_explained(m, &s);
+    const bool                explained = commission_sensors_explain(m, &s);
     commission_answer_t answer = explained ? run_stage(m, &s) : commission_rest(COMMISSION_FAILED);
-    add_probe(m, &s, &answer);
+    commission_sensors_probe(m, &s, &answer);
     m->ticks++;
     if (answer.step == COMMISSION_FAILED) {
         return abort_for(m, explained ? failure_of(m) : unexplained_reason(m));
