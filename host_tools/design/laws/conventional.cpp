@@ -5,7 +5,6 @@
 
 #include "common/errors.hpp"
 #include "design/laws/near_optimal.hpp"
-#include "design/speed_form_model.hpp"
 
 namespace sdre {
 namespace {
@@ -48,17 +47,6 @@ conventional_gains_t gains(const Design &d)
     return g;
 }
 
-/// Held at the ends of the observer's range, as in the firmware.
-SampledModel model_at(const Design &d, const ReducedParameters &motor, const OperatingPoint &at,
-                      const Eigen::MatrixXd &Lambda, const MovingReference *moving)
-{
-    const double    range = d.certificate.nodo.series_range_A;
-    const Schedule  s{std::clamp(at.iq_A, -range, range), std::clamp(at.id_A, -range, range)};
-    const LoopGains gains{Lambda, series_gain(d.nodo, s, series_order(d.nodo))};
-    return speed_form_model(motor, d.l, d.drive.nodo.form, gains, at, control_period_s(d.drive),
-                            moving);
-}
-
 void solve(Design &d)
 {
     const int order = std::max(d.drive.nosc.order, d.drive.nodo.order);
@@ -71,7 +59,7 @@ void solve(Design &d)
     law_conventional_config_t c{};
     c.near_optimal = near_optimal_constants(d, false, false);
     c.gains        = gains(d);
-    certify_loop(d, whole_loop(d, c.near_optimal.current_ref, model_at), {});
+    certify_loop(d, whole_loop(d, c.near_optimal.current_ref, speed_form_at), {});
     keep_constants(d, c);
 }
 

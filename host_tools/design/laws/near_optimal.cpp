@@ -10,6 +10,7 @@
 #include "design/machine_points.hpp"
 #include "design/sampled_model.hpp"
 #include "design/sampled_observer.hpp"
+#include "design/speed_form_model.hpp"
 #include "design/trip_levels.hpp"
 #include "linalg/covariance.hpp"
 
@@ -269,6 +270,18 @@ LoopGains encoder_form_gains(const Design &d, double iq_A, const Eigen::MatrixXd
     const double   range = d.certificate.nodo.series_range_A;
     const Schedule s{std::clamp(iq_A, -range, range)};
     return {Lambda, series_gain(d.nodo, s, series_order(d.nodo))};
+}
+
+SampledModel speed_form_at(const Design &d, const ReducedParameters &motor,
+                           const OperatingPoint &at, const Eigen::MatrixXd &Lambda,
+                           const MovingReference *moving)
+{
+    const double range = d.certificate.nodo.series_range_A;
+    Schedule     s{std::clamp(at.iq_A, -range, range), std::clamp(at.id_A, -range, range)};
+    s.resize(d.nodo.problem.dA.size()); // iq alone, or both currents
+    const LoopGains gains{Lambda, series_gain(d.nodo, s, series_order(d.nodo))};
+    return speed_form_model(motor, d.l, d.drive.nodo.form, gains, at, control_period_s(d.drive),
+                            moving);
 }
 
 double worst_residual(const Design &d)

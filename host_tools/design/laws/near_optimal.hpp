@@ -51,6 +51,11 @@ LoopGains encoder_form_gains(const Design &design, double iq_A, const Eigen::Mat
 /// The points of verdict_points() with the currents that the references settle at.
 std::vector<OperatingPoint> loaded_points(const Design &design, const IdReference &r);
 
+/// EQ-CERT-7 of a law in a speed form, for whole_loop(). The observer's gain is held at the ends of its range, as in the firmware.
+SampledModel speed_form_at(const Design &design, const ReducedParameters &motor,
+                           const OperatingPoint &at, const Eigen::MatrixXd &Lambda,
+                           const MovingReference *moving);
+
 /// The whole loop with all feedback_gains(). `model_at(design, motor, point, Lambda, reference)` has the A, B_voltage and C_voltage
 /// of EQ-CERT-6. Other motors are judged with a d-current reference that stands still. The family refers to `d` and `model_at`.
 template <typename ModelAt>

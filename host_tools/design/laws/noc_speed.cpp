@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "design/laws/near_optimal.hpp"
-#include "design/speed_form_model.hpp"
 
 namespace sdre {
 namespace {
@@ -12,16 +9,6 @@ namespace {
 bool is_for(const Drive &drive)
 {
     return drive.law == Law::noc && drive.nodo.form == NodoForm::speed;
-}
-
-SampledModel model_at(const Design &d, const ReducedParameters &motor, const OperatingPoint &at,
-                      const Eigen::MatrixXd &Lambda, const MovingReference *moving)
-{
-    const double    range = d.certificate.nodo.series_range_A;
-    const LoopGains gains{
-        Lambda, series_gain(d.nodo, {std::clamp(at.iq_A, -range, range)}, series_order(d.nodo))};
-    return speed_form_model(motor, d.l, d.drive.nodo.form, gains, at, control_period_s(d.drive),
-                            moving);
 }
 
 void solve(Design &d)
@@ -33,7 +20,7 @@ void solve(Design &d)
     c.nodo.iq_max_A       = static_cast<float>(d.certificate.nodo.series_range_A);
     c.nodo.iq_certified_A = static_cast<float>(d.certificate.nodo.range_A);
     copy_series(d.nodo, c.nodo.gain);
-    certify_loop(d, whole_loop(d, c.near_optimal.current_ref, model_at), {});
+    certify_loop(d, whole_loop(d, c.near_optimal.current_ref, speed_form_at), {});
     keep_constants(d, c);
 }
 
