@@ -14,13 +14,6 @@ constexpr double audible_Hz = 100.0;
 // Share of the rated torque: a smaller change of the load is not a step.
 constexpr double step_share = 0.01;
 
-/// Mean square of the deviation from the mean.
-template <typename Value> double variance(Iterator begin, Iterator end, const Value &value)
-{
-    const double middle = mean(begin, end, value);
-    return mean(begin, end, [&](const TraceRow &r) { return std::pow(value(r) - middle, 2); });
-}
-
 /// Mean square of what a first-order high-pass leaves, from the mean on.
 template <typename Value>
 double audible(Iterator begin, Iterator end, double period_s, const Value &value)

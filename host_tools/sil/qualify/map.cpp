@@ -36,9 +36,7 @@ Ripples ripples_of(const Trace &trace)
     const auto begin =
         trace.end() - std::min<std::ptrdiff_t>(tail_periods, trace.end() - trace.begin());
     const auto rms = [&](const auto &value) {
-        const double middle = mean(begin, trace.end(), value);
-        return std::sqrt(mean(begin, trace.end(),
-                              [&](const TraceRow &r) { return std::pow(value(r) - middle, 2); }));
+        return std::sqrt(variance(begin, trace.end(), value));
     };
     return {rms([](const TraceRow &r) { return r.vq_V; }),
             rms([](const TraceRow &r) { return r.vd_V; }),
@@ -174,19 +172,21 @@ void judge(const PlaneMap &map, const char *what, Ripples MapPoint::*kind, const
 
 PlaneMap plane_map(const Drive &d, int per_side, int seeds)
 {
-    const double          circle_V = d.inverter.dc_link_V / std::sqrt(3.0);
-    std::vector<MapPoint> half(1);
-    half[0].speed_e_radps = 0.5 * d.motor.rated_speed_e_radps;
-    half[0].torque_Nm     = 0.5 * d.motor.rated_torque_Nm;
-    run(d, half, seeds);
+    const double circle_V = d.inverter.dc_link_V / std::sqrt(3.0);
+    MapPoint     half;
+    half.speed_e_radps = 0.5 * d.motor.rated_speed_e_radps;
+    half.torque_Nm     = 0.5 * d.motor.rated_torque_Nm;
 
     PlaneMap map;
     map.seeds  = seeds;
     map.points = grid(d, per_side);
+    map.points.push_back(half);
     run(d, map.points, seeds);
+    half = map.points.back();
+    map.points.pop_back();
     map.ideal_limit     = {ideal_voltage_share * circle_V, ideal_voltage_share * circle_V,
                            ideal_speed_share * d.motor.rated_speed_e_radps};
-    const double most_V = board_ratio * std::max(half[0].board.vq_V, half[0].board.vd_V);
+    const double most_V = board_ratio * std::max(half.board.vq_V, half.board.vd_V);
     map.board_limit     = {most_V, most_V, 0.0};
     return map;
 }
