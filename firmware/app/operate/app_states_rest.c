@@ -55,12 +55,22 @@ static void enter_run(app_modes_t *m)
     app_states_enter(m, precharge ? APP_MODE_PRECHARGE : APP_MODE_RUN);
 }
 
-/* True while the current offsets stay in tolerance after a stop. The check uses a mean over some
- * tens of ticks. It waits until the currents have decayed, and until the speed is below omega_link
- * (app_stop.h): above it, current flows through the open bridge. */
+/* Below omega_link no current flows through the open bridge (app_stop.h). */
+static bool sees_zeros(const app_modes_t *m)
+{
+    return m->sample.valid && base_within(m->reading.omega_e_radps, m->stop.link_e_radps);
+}
+
+static bool is_zero(const app_modes_t *m, float ia_A, float ib_A)
+{
+    return base_within(ia_A, m->config->zero_drift_A) && base_within(ib_A, m->config->zero_drift_A);
+}
+
+/* True while the current offsets stay in tolerance with an open bridge. The check uses a mean over
+ * some tens of ticks. It waits until the currents have decayed. */
 static bool zeros_hold(app_modes_t *m)
 {
-    if (!m->sample.valid || !base_within(m->reading.omega_e_radps, m->stop.link_e_radps)) {
+    if (!sees_zeros(m)) {
         m->timer_ticks = 0U;
         return true;
     }
@@ -70,8 +80,14 @@ static bool zeros_hold(app_modes_t *m)
         m->timer_ticks = (uint16_t)(m->timer_ticks + 1U);
         return true;
     }
-    return base_within(m->zero_a_A, m->config->zero_drift_A) &&
-           base_within(m->zero_b_A, m->config->zero_drift_A);
+    return is_zero(m, m->zero_a_A, m->zero_b_A);
+}
+
+/* A run takes the measured currents as its first state. A sensor that moved in this tick, which the
+ * mean does not show yet, delays it. */
+static bool reads_zero(const app_modes_t *m)
+{
+    return !sees_zeros(m) || is_zero(m, m->sample.ia_A, m->sample.ib_A);
 }
 
 /* True if commissioning starts. It requires a rising request, no run, no start condition and valid
@@ -130,6 +146,9 @@ static bridge_t ready(app_modes_t *m, const app_modes_input_t *in)
         m->armed = true;
         return bridge_open();
     }
+    if (!reads_zero(m)) {
+        return bridge_open();
+    }
     const bool start = m->armed && !app_modes_in_the_way(m);
     m->armed         = false; /* a refused start is not repeated later */
     if (start && (m->angle.reference != APP_ANGLE_NONE)) {
@@ -166,16 +185,22 @@ static bridge_t precharge(app_modes_t *m, const app_modes_input_t *in)
     return bridge_shorted();
 }
 
-/* The angle is found. An alignment without run is complete and returns to READY; otherwise run
- * starts. */
+/* The angle is found. The bridge stays open until the sensors have read zero, as before any start.
+ * Then an alignment without run returns to READY, otherwise run starts. */
 static bridge_t aligned(app_modes_t *m, const app_modes_input_t *in)
 {
-    if (!in->command.run) {
-        app_states_enter(m, APP_MODE_READY);
-        return bridge_open();
+    if (!zeros_hold(m)) {
+        m->calibrated = false;
+        return app_states_trip(m, in, APP_FAULT_OFFSET);
     }
-    enter_run(m);
-    return (m->mode == APP_MODE_RUN) ? app_states_run(m, in) : bridge_open();
+    if ((m->timer_ticks < ZERO_TICKS) || !reads_zero(m)) {
+        /* waits */
+    } else if (in->command.run) {
+        enter_run(m);
+    } else {
+        app_states_enter(m, APP_MODE_READY);
+    }
+    return bridge_open();
 }
 
 static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
@@ -187,10 +212,14 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
     if (!drive_watches(m, in)) {
         return app_states_trip(m, in, APP_FAULT_DRIVE);
     }
+    if (m->align.stage == APP_ALIGN_DONE) {
+        return aligned(m, in);
+    }
     if (m->angle.reference ==
         APP_ANGLE_INDEX) { /* the index was found while turning: better than alignment */
+        m->align.stage = APP_ALIGN_DONE;
         app_position_forget(&m->position);
-        return aligned(m, in);
+        return bridge_open();
     }
     const bridge_t out = app_align_tick(&m->align, m->sample.ia_A, m->sample.ib_A,
                                         m->sample.dc_link_V, in->raw->position_cnt);
@@ -200,8 +229,7 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
     if (m->align.stage == APP_ALIGN_DONE) {
         app_angle_align(&m->angle, in->raw->position_cnt, m->align.config->theta_e_rad);
         app_position_forget(&m->position);
-        app_states_enter(m, in->command.run ? APP_MODE_RUN : APP_MODE_READY);
-        return in->command.run ? out : bridge_open();
+        return bridge_open();
     }
     return out;
 }

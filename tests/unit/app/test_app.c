@@ -696,7 +696,7 @@ static void test_whole_loop_aligns_without_an_index_and_runs(void)
         command(0.0f, false);
         periods(2);
         command(0.0f, true);
-        periods(14005);
+        periods(14105);
         TEST_ASSERT_EQUAL_INT(APP_ANGLE_ALIGNED, app_status_read().reference);
         TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
         assert_runs_at(150.0f);
@@ -712,7 +712,7 @@ static void test_index_after_alignment_takes_over_on_the_run(void)
     command(0.0f, false);
     periods(2);
     command(0.0f, true);
-    periods(14005);
+    periods(14105);
     TEST_ASSERT_EQUAL_INT(APP_ANGLE_ALIGNED, app_status_read().reference);
     index_on = true;
     assert_runs_at(100.0f);

@@ -928,24 +928,43 @@ static void test_align_without_a_motor_fails(void)
 }
 
 /* A rotor that follows the vector exactly. The currents matter at the end: 2 A along phase a. */
-static void test_align_ends_in_run_with_the_angle_zero_here(void)
+static void go_aligned(void)
 {
     go_ready();
     raw.position_cnt = 9000U;
     tick();
     in.command.run = true;
     tick();
-    for (int n = 1; (n < 14000) && (modes.mode == APP_MODE_ALIGN); n++) {
+    for (int n = 1; n < 14000; n++) {
         const int swept  = (n > 2000) ? ((n < 8000) ? n - 2000 : 6000) : 0;
         raw.position_cnt = (uint16_t)((9000 + ((2500 * swept) / 6000)) % 10000);
         raw.ia_cnt       = (n > 13000) ? (2048U + 410U) : 2048U;
         raw.ib_cnt       = (n > 13000) ? (2048U - 205U) : 2048U;
         tick();
+        TEST_ASSERT_EQUAL_INT(APP_MODE_ALIGN, modes.mode);
     }
-    TEST_ASSERT_EQUAL_INT(APP_MODE_ALIGN, modes.mode);
     tick();
-    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+    raw.ia_cnt = 2048U;
+    raw.ib_cnt = 2048U;
+}
+
+static void go_align_with_an_index(void)
+{
+    go_align();
+    see_index();
+}
+
+/* The two ways to find the angle. */
+static void (*const found[])(void) = {go_aligned, go_align_with_an_index};
+
+#define ZERO_TICKS 100U
+
+static void test_align_ends_in_run_with_the_angle_zero_here(void)
+{
+    go_aligned();
     TEST_ASSERT_EQUAL_INT(APP_ANGLE_ALIGNED, modes.angle.reference);
+    ticks(ZERO_TICKS + 1U);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
     TEST_ASSERT_TRUE(out.gate_enable);
     tick();
     TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 0.0f, modes.reading.theta_e_rad);
@@ -954,12 +973,89 @@ static void test_align_ends_in_run_with_the_angle_zero_here(void)
 
 static void test_index_during_align_ends_it(void)
 {
-    go_align();
-    see_index();
-    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+    go_align_with_an_index();
     TEST_ASSERT_EQUAL_INT(APP_ANGLE_INDEX, modes.angle.reference);
+    ticks(ZERO_TICKS + 1U);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
     TEST_ASSERT_TRUE(out.gate_enable);
     TEST_ASSERT_EQUAL_INT(DRIVE_RUN, modes.drive.state);
+}
+
+static void test_sensors_read_zero_between_alignment_and_run(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(found); i++) {
+        init();
+        found[i]();
+        for (uint16_t n = 1U; n < ZERO_TICKS; n++) {
+            TEST_ASSERT_EQUAL_INT(APP_MODE_ALIGN, modes.mode);
+            assert_open();
+            tick();
+        }
+        tick();
+        TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+    }
+}
+
+static void test_a_sensor_off_after_alignment_trips(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(found); i++) {
+        init();
+        found[i]();
+        raw.ib_cnt = 2048U - 90U; /* 0.44 A */
+        ticks(ZERO_TICKS + 1U);
+        assert_fault(APP_FAULT_OFFSET);
+    }
+}
+
+/* Both ways to a run: from READY, and from an alignment. */
+static void test_a_sensor_that_moves_at_the_start_delays_and_trips(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(found); i++) {
+        init();
+        found[i]();
+        ticks(ZERO_TICKS - 1U);
+        raw.ib_cnt = 2048U - 200U; /* 0.98 A: the mean needs some ticks */
+        ticks(5);
+        TEST_ASSERT_EQUAL_INT(APP_MODE_ALIGN, modes.mode);
+        ticks(50);
+        assert_fault(APP_FAULT_OFFSET);
+    }
+    init();
+    go_ready();
+    see_index();
+    ticks(2U * ZERO_TICKS);
+    raw.ia_cnt     = 2048U + 200U;
+    in.command.run = true;
+    ticks(5);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    ticks(50);
+    assert_fault(APP_FAULT_OFFSET);
+}
+
+static void test_one_wrong_sample_at_the_start_delays_it_only(void)
+{
+    for (int i = 0; i < SUPPORT_COUNT(found); i++) {
+        init();
+        found[i]();
+        ticks(ZERO_TICKS - 1U);
+        raw.ib_cnt = 2048U - 900U;
+        tick();
+        raw.ib_cnt = 2048U;
+        TEST_ASSERT_EQUAL_INT(APP_MODE_ALIGN, modes.mode);
+        tick();
+        TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
+    }
+    init();
+    go_ready();
+    see_index();
+    ticks(2U * ZERO_TICKS);
+    raw.ia_cnt     = 2048U + 900U;
+    in.command.run = true;
+    tick();
+    raw.ia_cnt = 2048U;
+    TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
+    ticks(2);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, modes.mode);
 }
 
 static void test_second_alignment_starts_over(void)
@@ -1437,6 +1533,10 @@ int main(void)
     RUN_TEST(test_align_without_a_motor_fails);
     RUN_TEST(test_align_ends_in_run_with_the_angle_zero_here);
     RUN_TEST(test_index_during_align_ends_it);
+    RUN_TEST(test_sensors_read_zero_between_alignment_and_run);
+    RUN_TEST(test_a_sensor_off_after_alignment_trips);
+    RUN_TEST(test_a_sensor_that_moves_at_the_start_delays_and_trips);
+    RUN_TEST(test_one_wrong_sample_at_the_start_delays_it_only);
     RUN_TEST(test_second_alignment_starts_over);
     RUN_TEST(test_snapshot_keeps_the_first_fault);
     RUN_TEST(test_status_before_the_first_tick_promises_nothing);
