@@ -15,6 +15,12 @@
 static const dq_t  zero_dq  = {0.0f, 0.0f};
 static const abc_t zero_abc = {0.0f, 0.0f, 0.0f};
 
+/* EQ-CURRENT-GATE-2 */
+static float jump_ApV(const drive_config_t *c)
+{
+    return 2.0f * c->ts_s * base_max(c->motor.l6, c->motor.l8);
+}
+
 /* EQ-CURRENT-WATCH-4 */
 static float wire_open_s(const drive_config_t *c)
 {
@@ -34,6 +40,7 @@ ctl_status_t drive_init(drive_t *d, const drive_config_t *config)
     d->law_again       = (status == CTL_OK) ? config->law : NULL;
     d->constants_again = (status == CTL_OK) ? config->constants : NULL;
     d->wire_open_s     = (status == CTL_OK) ? wire_open_s(config) : 0.0f;
+    d->jump_ApV        = (status == CTL_OK) ? jump_ApV(config) : 0.0f;
     drive_reset(d);
     return status;
 }
@@ -154,12 +161,6 @@ static bridge_t modulate(drive_t *d, float dc_link_V)
     d->v_limited = v.limited;
     d->i_hat_A   = i_abc;
     return bridge_closed(dead_time_compensate(&c->dead_time, v.duty, i_abc));
-}
-
-/* EQ-CURRENT-GATE-2 */
-static float jump_A(const drive_config_t *c, float dc_link_V)
-{
-    return 2.0f * c->ts_s * base_max(c->motor.l6, c->motor.l8) * dc_link_V;
 }
 
 static current_watch_scale_t scale_of(const drive_t *d, float change_A)
@@ -292,7 +293,7 @@ bridge_t drive_tick(drive_t *d, const drive_sample_t *sample, const drive_comman
     if (!is_whole(d)) {
         return trip(d, DRIVE_FAULT_MEMORY);
     }
-    const float                  change_A = jump_A(d->config, sample->dc_link_V);
+    const float                  change_A = d->jump_ApV * sample->dc_link_V;
     const current_gate_verdict_t currents = judge_currents(d, sample, change_A);
     const drive_fault_t          fault    = find_fault(d->config, sample, command, currents);
     if (fault != DRIVE_FAULT_NONE) {

@@ -72,6 +72,7 @@ typedef struct {
     current_gate_t        current_gate;
     current_watch_t       current_watch;
     float                 wire_open_s; /**< EQ-CURRENT-WATCH-4 */
+    float                 jump_ApV;    /**< EQ-CURRENT-GATE-2 */
     motion_watch_t        motion_watch;
 } drive_t;
 

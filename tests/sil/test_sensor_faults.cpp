@@ -322,3 +322,36 @@ TEST(SensorFaults, LoadThatDragsTheShaftAwayIsFound)
         EXPECT_LE(peak_A(r), 1.05 * limit_A) << load_Nm;
     }
 }
+
+/// EQ-MOTION-WATCH-4: the angle turns unseen until the shaft runs away from its command.
+TEST(SensorFaults, CountsLostAtRestAreFoundBeforeTheShaftIsFast)
+{
+    for (const double counts_per_s : {-5000.0, -1000.0, 1000.0, 5000.0}) {
+        for (const double load_Nm : {0.0, 0.3, 1.0}) {
+            Scenario               s            = read(fmt::format("drive = \"" SDRE_SOURCE_DIR
+                                                                   "/firmware/config/drives/ipmsm_390w.toml\"\n"
+                                                                                            "duration_s = 2.5\n[sensors]\n"
+                                                                                            "[[speed_reference]]\ntime_s = 0.0\nvalue_e_radps = 0.0\n"
+                                                                                            "[[load_torque]]\ntime_s = 0.05\nvalue_Nm = {}\n"
+                                                                                            "[[fault]]\ntime_s = {}\nkind = \"encoder_losing\"\n"
+                                                                                            "counts_per_s = {}\n",
+                                                                   load_Nm, when_s, counts_per_s));
+            double                 away_s       = 0.0; // the shaft has passed 20 rad/s
+            double                 most_e_radps = 0.0;
+            const SimulationResult r            = simulate(s);
+            for (const TraceRow &row : r.trace) {
+                if (row.time_s < when_s || (r.fault != 0 && row.time_s > r.fault_time_s)) {
+                    continue;
+                }
+                most_e_radps = std::max(most_e_radps, std::abs(row.omega_e_radps));
+                if (away_s == 0.0 && most_e_radps > 20.0) {
+                    away_s = row.time_s;
+                }
+            }
+            EXPECT_NE(r.fault, 0) << counts_per_s << ", " << load_Nm;
+            EXPECT_LE(r.fault_time_s, away_s + 0.25) << counts_per_s << ", " << load_Nm;
+            EXPECT_LE(most_e_radps, 300.0) << counts_per_s << ", " << load_Nm;
+            EXPECT_LE(peak_A(r), 1.06 * limit_A) << counts_per_s << ", " << load_Nm;
+        }
+    }
+}

@@ -4,6 +4,7 @@
 /* Errors of one half in R, L and flux leave half of the voltage, plus the rest of the dead time. */
 #define HALF_OFF  0.6f
 #define DEAD_TIME 0.02f
+#define POWER_OFF 0.5f     /* errors of one half in flux, Lq - Ld and R */
 #define ODD_s     10.0e-3f /* chosen: twice what a step at the voltage limit takes */
 
 #define AT_LIMIT2 0.81f /* 0.9 of the limit */
@@ -29,15 +30,22 @@ static float counted(float so_far_s, bool on, float ts_s)
     return on ? (so_far_s + ts_s) : 0.0f;
 }
 
-/* EQ-MOTION-WATCH-1, divided by Lq; a NaN is odd. */
+/* EQ-MOTION-WATCH-1 and 4, divided by Lq; a NaN is odd. */
 static bool is_odd(const motion_watch_input_t *in)
 {
-    const motor_reduced_t *m = in->motor;
-    const float i_A          = fabsf(in->now.id_A) + fabsf(in->now.iq_A); /* at least the length */
-    const float mine_Aps     = (m->l4 * i_A) + ((m->l5 + i_A) * fabsf(in->now.omega_e_radps));
-    const float most_Aps     = (HALF_OFF * mine_Aps) + (DEAD_TIME * m->l6 * in->dc_link_V);
+    const motor_reduced_t *m    = in->motor;
+    const float            id_A = in->now.id_A;
+    const float            iq_A = in->now.iq_A;
+    const float            w    = in->now.omega_e_radps;
+    const float            i_A  = fabsf(id_A) + fabsf(iq_A); /* at least the length */
+    const float            rest = (HALF_OFF * m->l4 * i_A) + (DEAD_TIME * m->l6 * in->dc_link_V);
+    const float            most = (HALF_OFF * (m->l5 + i_A) * fabsf(w)) + rest;
 
-    return !base_within(in->d_Aps.q, most_Aps) || !base_within(in->d_Aps.d, m->l9 * most_Aps);
+    const float taken = (in->d_Aps.q * iq_A) + (m->l10 * in->d_Aps.d * id_A);
+    const float shaft = (m->l5 + ((m->l10 - 1.0f) * id_A)) * iq_A * w;
+
+    return !base_within(in->d_Aps.q, most) || !base_within(in->d_Aps.d, m->l9 * most) ||
+           !base_within(taken, (POWER_OFF * fabsf(shaft)) + (rest * i_A));
 }
 
 /* EQ-MOTION-WATCH-3 */
@@ -98,13 +106,13 @@ CTL_PART motion_watch_verdict_t motion_watch_judge(motion_watch_t             *w
     const float               step_s = MOTION_WATCH_LOOKS * in->ts_s;
     const motion_watch_look_t look   = w->look;
 
+    if (look == MOTION_WATCH_LOOK_VOLTAGE) { /* first: it is the dearest */
+        w->look = MOTION_WATCH_LOOK_AWAY;
+        return judge_voltage(w, in, step_s);
+    }
     if (look == MOTION_WATCH_LOOK_STALL) {
         w->look = MOTION_WATCH_LOOK_VOLTAGE;
         return judge_stall(w, in, step_s);
-    }
-    if (look == MOTION_WATCH_LOOK_VOLTAGE) {
-        w->look = MOTION_WATCH_LOOK_AWAY;
-        return judge_voltage(w, in, step_s);
     }
     if (look == MOTION_WATCH_LOOK_AWAY) {
         w->look = MOTION_WATCH_LOOK_CURRENTS;

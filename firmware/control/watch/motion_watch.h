@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file motion_watch.h
- * @brief Detects a locked rotor, an overhauling load, and an encoder that does not show the motion.
+ * @brief Detects a locked rotor, an overhauling load, and an encoder with a wrong angle or motion.
  *
  *     odd:     voltage error of the model,
  *              max(Lq abs(d_q), Ld abs(d_d)) > 0.6 (R j + (flux + Lq j) abs(w)) + 0.02 v_dc
  *              for 10 ms, j = abs(id) + abs(iq)                                 EQ-MOTION-WATCH-1
+ *     lost:    power that the model does not explain,
+ *              abs(Lq d_q iq + Ld d_d id)
+ *                > 0.5 abs((flux + (Ld - Lq) id) iq w) + (0.6 R j + 0.02 v_dc) j
+ *              for 10 ms, together with EQ-MOTION-WATCH-1                       EQ-MOTION-WATCH-4
  *     stall:   abs(i) > 0.9 i_max and abs(w* - w) > 10 rad/s,
  *              and for 50 ms no edge, or for 0.5 s abs(w) < 10 rad/s            EQ-MOTION-WATCH-2
  *     away:    abs(i) > 0.9 i_max, and abs(w* - w) is beyond 50 rad/s and for 250 ms
@@ -14,6 +18,10 @@
  * d are the low-pass filtered disturbances of the observer's current equations. The limit of
  * EQ-MOTION-WATCH-1 covers parameter errors of one half, and the dead time. A shaft that turns with
  * a dead encoder leaves its EMF as an error. Laws without a prediction have no such check.
+ *
+ * Voltage times current does not depend on the angle of the frame. With a wrong angle the motor
+ * takes another power than the model says: EQ-MOTION-WATCH-4 sees it beyond 60 degrees. An error of
+ * the inductances turns no power, but for their difference.
  */
 #ifndef MOTION_WATCH_H
 #define MOTION_WATCH_H
@@ -33,7 +41,7 @@ typedef enum {
  * than the dearest. */
 typedef enum {
     MOTION_WATCH_LOOK_STALL = 0, /**< EQ-MOTION-WATCH-2 */
-    MOTION_WATCH_LOOK_VOLTAGE,   /**< EQ-MOTION-WATCH-1 */
+    MOTION_WATCH_LOOK_VOLTAGE,   /**< EQ-MOTION-WATCH-1 and 4 */
     MOTION_WATCH_LOOK_AWAY,      /**< EQ-MOTION-WATCH-3 */
     MOTION_WATCH_LOOK_CURRENTS   /**< current_watch_look(), which the caller does */
 } motion_watch_look_t;
@@ -66,7 +74,7 @@ typedef struct {
 CTL_PART void motion_watch_reset(motion_watch_t *w);
 
 /**
- * @brief Evaluates one of the three equations in three of four periods, in turn.
+ * @brief Evaluates the equations in three of four periods, in turn.
  *
  * The delay is at most three periods: at 5 kHz 0.6 ms, beside the shortest time of 10 ms.
  *

@@ -130,7 +130,7 @@ def header(f, background):
     """The budget for pwm_frequency.cpp."""
     numbers = {law: f"{dearest(f, law)[1]}.0;" for law in PRICED}
     numbers["position"] = f"{position(f)}.0;"
-    numbers["background_share"] = f"{background:.6f};"
+    numbers["background_share"] = f"{background!r};"
     width = max(map(len, numbers))
     lines = [
         "// SPDX-License-Identifier: MIT",

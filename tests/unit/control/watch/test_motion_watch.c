@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "motion_watch.h"
 
+#include <math.h>
+
 #include "gain_tables.h"
 #include "unity.h"
 
@@ -42,7 +44,7 @@ static void test_a_motor_that_runs_as_it_should_is_good(void)
     TEST_ASSERT_EQUAL_INT(0, found_after(MOTION_WATCH_GOOD, 10000));
 }
 
-/* With 2.8 A: 0.6 (2.48 Ohm 2.8 A + (0.193 Wb + 0.11391 H 2.8 A) w) + 5.9 V */
+/* A voltage across the current, which takes no power. With 2.8 A: 0.6 (2.48 Ohm 2.8 A + (0.193 Wb + 0.11391 H 2.8 A) w) + 5.9 V */
 static void test_a_voltage_beyond_what_a_wrong_motor_explains_is_odd(void)
 {
     const float lq_H = 0.11391f;
@@ -52,6 +54,8 @@ static void test_a_voltage_beyond_what_a_wrong_motor_explains_is_odd(void)
         in.now.omega_e_radps = (way < 2) ? 0.0f : -200.0f;
         const float most_V   = (0.6f * (6.944f + (0.511948f * ((way < 2) ? 0.0f : 200.0f)))) + 5.9f;
         in.command_e_radps   = in.now.omega_e_radps;
+        in.now.iq_A          = ((way & 1) != 0) ? 2.8f : 0.0f;
+        in.now.id_A          = ((way & 1) != 0) ? 0.0f : -2.8f;
         float *const d       = ((way & 1) != 0) ? &in.d_Aps.d : &in.d_Aps.q;
         const float  l_H     = ((way & 1) != 0) ? ld_H : lq_H;
         *d                   = -0.99f * most_V / l_H;
@@ -62,6 +66,49 @@ static void test_a_voltage_beyond_what_a_wrong_motor_explains_is_odd(void)
     setUp();
     in.d_Aps.q = NAN;
     TEST_ASSERT_INT_WITHIN(1, 51, found_after(MOTION_WATCH_ODD, 200));
+}
+
+/* At 300 rad/s with 2.3 and -0.5 A, in W:
+ * 0.5 300 (0.193 + 0.03893 0.5) 2.3 + (0.6 2.48 2.8 + 5.9) 2.8 = 101.5 */
+static void test_power_that_a_wrong_motor_does_not_explain_is_found(void)
+{
+    const float most_W = 101.5f;
+    for (int way = 0; way < 4; way++) {
+        setUp();
+        const bool  along_d = (way & 1) != 0;
+        const float share   = (way < 2) ? 1.0f : -1.0f;
+        const float w_per_a = along_d ? (0.07498f * -0.5f) : (0.11391f * 2.3f);
+        /* along d alone, EQ-MOTION-WATCH-1 would be first: both axes */
+        in.d_Aps.q = share * 0.99f * most_W / (0.11391f * 2.3f);
+        if (along_d) {
+            in.d_Aps.q = share * 0.8f * most_W / (0.11391f * 2.3f);
+            in.d_Aps.d = share * 0.19f * most_W / w_per_a;
+        }
+        TEST_ASSERT_EQUAL_INT(0, found_after(MOTION_WATCH_GOOD, 200));
+        *(along_d ? &in.d_Aps.d : &in.d_Aps.q) += share * 0.02f * most_W / w_per_a;
+        TEST_ASSERT_INT_WITHIN(1, 51, found_after(MOTION_WATCH_ODD, 200));
+    }
+}
+
+/* The true motor is the believed one in another frame: the encoder's angle is off. */
+static void test_a_wrong_angle_is_found_from_80_to_280_degrees(void)
+{
+    for (int degrees = 0; degrees < 360; degrees += 10) {
+        setUp();
+        const float off_rad = (float)degrees * 0.0174533f;
+        in.now.id_A         = 0.0f;
+        in.now.iq_A         = 3.7f;
+        in.dc_link_V        = 60.0f; /* little of a dead time */
+        /* v = EMF of the magnets, turned, less the EMF that is expected */
+        in.d_Aps.q = gain_tables_drive.motor.l5 * 300.0f * (1.0f - cosf(off_rad));
+        in.d_Aps.d =
+            gain_tables_drive.motor.l5 * gain_tables_drive.motor.l9 * 300.0f * sinf(off_rad);
+        const bool far   = (degrees >= 80) && (degrees <= 280);
+        const bool near  = (degrees <= 60) || (degrees >= 300);
+        const int  found = found_after(MOTION_WATCH_ODD, 200);
+        TEST_ASSERT_TRUE(!far || (found > 0));
+        TEST_ASSERT_TRUE(!near || (found == 0));
+    }
 }
 
 static void push(float omega_e_radps)
@@ -138,6 +185,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_a_motor_that_runs_as_it_should_is_good);
     RUN_TEST(test_a_voltage_beyond_what_a_wrong_motor_explains_is_odd);
+    RUN_TEST(test_power_that_a_wrong_motor_does_not_explain_is_found);
+    RUN_TEST(test_a_wrong_angle_is_found_from_80_to_280_degrees);
     RUN_TEST(test_torque_without_an_edge_is_a_stall_after_50_ms);
     RUN_TEST(test_an_edge_begins_the_50_ms_anew);
     RUN_TEST(test_a_slow_shaft_at_the_limit_is_a_stall_after_half_a_second);
