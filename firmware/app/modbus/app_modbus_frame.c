@@ -15,8 +15,10 @@ uint16_t app_modbus_frame_asked(const app_modbus_t *m, uint16_t at)
 
 void app_modbus_frame_octet(app_modbus_t *m, uint16_t octet)
 {
-    m->tx_octets[m->tx_count] = (uint16_t)(octet & 0xFFU);
-    m->tx_count               = (uint16_t)(m->tx_count + 1U);
+    if (m->tx_count < APP_MODBUS_FRAME_MAX) {
+        m->tx_octets[m->tx_count] = (uint16_t)(octet & 0xFFU);
+        m->tx_count               = (uint16_t)(m->tx_count + 1U);
+    }
 }
 
 void app_modbus_frame_word(app_modbus_t *m, uint16_t word)

@@ -25,7 +25,7 @@ uint16_t app_modbus_frame_asked(const app_modbus_t *m, uint16_t at);
 /** Begins the answer of the request's function. */
 void app_modbus_frame_begin(app_modbus_t *m);
 
-/** Adds an octet to the answer. */
+/** Adds an octet to the answer, unless the frame is full. */
 void app_modbus_frame_octet(app_modbus_t *m, uint16_t octet);
 
 /** Adds two octets, the high one first. */

@@ -142,11 +142,8 @@ static bridge_t ready(app_modes_t *m, const app_modes_input_t *in)
         enter_align(m, in);
         return bridge_open();
     }
-    if (!in->command.run) {
-        m->armed = true;
-        return bridge_open();
-    }
-    if (!reads_zero(m)) {
+    if (!in->command.run || !reads_zero(m)) {
+        m->armed = m->armed || !in->command.run;
         return bridge_open();
     }
     const bool start = m->armed && !app_modes_in_the_way(m);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_modbus.h"
+#include "app_modbus_frame.h"
 
 #include <string.h>
 
@@ -619,6 +620,24 @@ static void test_any_request_for_us_keeps_the_run_alive_and_noise_does_not(void)
     TEST_ASSERT_FALSE(enabled());
 }
 
+/* No answer is as long: the guard is for a state that memory has lost. */
+static void test_an_answer_ends_with_its_frame(void)
+{
+    app_modbus_t       m;
+    const app_modbus_t before = {.values = {0x5AU}};
+
+    m = before;
+    for (uint16_t n = 0U; n < (APP_MODBUS_FRAME_MAX + 10U); n++) {
+        app_modbus_frame_octet(&m, n);
+    }
+    TEST_ASSERT_EQUAL_UINT(APP_MODBUS_FRAME_MAX, m.tx_count);
+    TEST_ASSERT_EQUAL_UINT(255U, m.tx_octets[255]);
+    TEST_ASSERT_EQUAL_UINT(0x5AU, m.values[0]);
+    m.tx_count = UINT16_MAX;
+    app_modbus_frame_word(&m, 0x1234U);
+    TEST_ASSERT_EQUAL_UINT(UINT16_MAX, m.tx_count);
+}
+
 static void test_arguments_out_of_range_are_refused(void)
 {
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_modbus_init(&modbus, 0U));
@@ -666,6 +685,7 @@ int main(void)
     RUN_TEST(test_octets_are_eight_bits_wide);
     RUN_TEST(test_silence_withdraws_run_after_its_time);
     RUN_TEST(test_any_request_for_us_keeps_the_run_alive_and_noise_does_not);
+    RUN_TEST(test_an_answer_ends_with_its_frame);
     RUN_TEST(test_arguments_out_of_range_are_refused);
     return UNITY_END();
 }
