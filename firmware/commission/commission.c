@@ -247,7 +247,7 @@ static void next_stage(commission_t *m, const commission_signal_t *s)
         break;
     case COMMISSION_DRAG:
         m->stage = COMMISSION_MAP;
-        commission_inductance_start(&m->work.inductance, LARGEST);
+        commission_inductance_start(&m->work.inductance, LARGEST, 0.0f);
         break;
     case COMMISSION_MAP:
         m->stage = COMMISSION_SPIN;
@@ -258,7 +258,7 @@ static void next_stage(commission_t *m, const commission_signal_t *s)
         if ((m->rounds == 0) && !base_within(m->found.moved_rad, AGAIN_rad)) {
             m->rounds++;
             m->stage = COMMISSION_MAP;
-            commission_inductance_start(&m->work.inductance, LARGEST);
+            commission_inductance_start(&m->work.inductance, LARGEST, 0.0f);
         } else {
             m->stage = COMMISSION_FINISHED;
         }

@@ -78,6 +78,12 @@ float commission_check_det(const commission_admittance_t *y)
     return ((y->aa * y->bb) - (y->ab * y->ab)) / base_max(mean * mean, 1.0e-12f);
 }
 
+float commission_check_least(const commission_admittance_t *y)
+{
+    const float half = 0.5f * (y->aa - y->bb);
+    return mean_of(y) - sqrtf((half * half) + (y->ab * y->ab));
+}
+
 bool commission_check_same(const commission_admittance_t *y, const commission_admittance_t *known)
 {
     const float before = known->aa + known->bb;

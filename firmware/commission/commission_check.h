@@ -64,6 +64,9 @@ bool commission_sums_solve(const commission_sums_t *k, float ts_s, float least_d
 /** Determinant relative to that of two equal inductances, 0 .. 1. Context: control ISR. */
 float commission_check_det(const commission_admittance_t *y);
 
+/** Smallest along any axis [A/(V s)]: of the largest inductance. Context: control ISR. */
+float commission_check_least(const commission_admittance_t *y);
+
 /** True when both have the same mean within a gain of 1.7. Context: control ISR. */
 bool commission_check_same(const commission_admittance_t *y, const commission_admittance_t *known);
 

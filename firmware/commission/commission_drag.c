@@ -20,8 +20,10 @@
 /* x above this ratio to S I means a magnet. The current then stays well below the one at which the
  * rotor leaves the d axis. */
 #define MAGNET_RATIO 1.4f
-#define HOLD_RATIO   3.0f
-#define LESS         0.4f
+/* Chosen: share of the inverter's loss that its compensation leaves; x has it over the speed. */
+#define LOSS_LEFT  0.004f
+#define HOLD_RATIO 3.0f
+#define LESS       0.4f
 /* Tolerance of a whole number of pole pairs. */
 #define WHOLE 0.1f
 /* Chosen: share of the limit that the loop acts on; a healthy one is behind by more while a rotor
@@ -141,7 +143,8 @@ static commission_step_t judge_first(commission_drag_t *d, const commission_conf
     const float x =
         commission_turns_beyond_Wb(d->sums, found, d->speed_radps, &i_A); /* EQ-COMMISSION-10 */
     found->direction     = (d->sums[0].moved_cnt > 0L) ? 1 : -1;
-    found->reluctance    = !(x > (MAGNET_RATIO * saliency * i_A));
+    const float left_Wb  = LOSS_LEFT * found->v_loss_V.value / d->speed_radps;
+    found->reluctance    = !(x > ((MAGNET_RATIO * saliency * i_A) + left_Wb));
     found->flux_Wb.value = found->reluctance ? 0.0f : x;
     d->followed_A        = d->length_A;
     if (found->counts_per_turn > 0L) {

@@ -30,9 +30,9 @@
 /* The noise is measured after this many periods: the current has then decayed. */
 #define QUIET_TICKS 100
 
-void commission_inductance_start(commission_inductance_t *l, float most_V)
+void commission_inductance_start(commission_inductance_t *l, float most_V, float most_Ohm)
 {
-    const commission_inductance_t fresh = {.most_V = most_V};
+    const commission_inductance_t fresh = {.most_V = most_V, .most_Ohm = most_Ohm};
     *l                                  = fresh;
 }
 
@@ -149,7 +149,8 @@ commission_answer_t commission_inductance_look(commission_inductance_t   *l,
             set_direction(l);
         }
         const commission_answer_t zero = rest(l, s);
-        commission_wave_start(&l->wave, look_A(l, c), LOOK_SAMPLES, l->most_V);
+        const float               i_A  = look_A(l, c);
+        commission_wave_start(&l->wave, i_A, LOOK_SAMPLES, base_max(l->most_V, i_A * l->most_Ohm));
         return zero;
     }
     if (l->wave.halves > 0) {

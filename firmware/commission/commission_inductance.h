@@ -41,13 +41,21 @@ typedef struct {
     commission_fit_t   noise;   /**< sums of di at rest; the two sensors' noise is not isotropic */
     float              power_W; /**< LOOK: sum of v i, and of |i| */
     float              size_A;
-    float              most_V; /**< largest amplitude */
+    float              most_V;   /**< largest amplitude; more if the current needs it: */
+    float              most_Ohm; /**< per ampere of the wave */
     int32_t            before_cnt;
     commission_angle_t angle; /**< tracks the angle for the speed */
 } commission_inductance_t;
 
-/** Starts LOOK or MAP. @param most_V Largest amplitude. Context: control ISR. */
-void commission_inductance_start(commission_inductance_t *l, float most_V);
+/**
+ * @brief Starts LOOK or MAP.
+ *
+ * @param most_V   Largest amplitude of the wave.
+ * @param most_Ohm The same per ampere of the wave; the larger one counts.
+ *
+ * Context: control ISR.
+ */
+void commission_inductance_start(commission_inductance_t *l, float most_V, float most_Ohm);
 
 /** Executes one period of LOOK: inductances and their axis in the stator frame. */
 commission_answer_t commission_inductance_look(commission_inductance_t   *l,

@@ -5,6 +5,16 @@
 #define FIRST_TICKS (4L * COMMISSION_PROBE_TICKS)
 /* Chosen: largest amplitude of LOOK, in pulses of the check. One raised the current by more. */
 #define LOOK_PULSES 2.0f
+/* Chosen: the same, to what the smallest admittance needs. The inverter's loss is not in it. */
+#define LOOK_RATIO 2.0f
+
+/* Largest amplitude of LOOK per ampere of its bound: the current crosses twice the bound in a half
+ * wave. */
+static float most_Ohm(const commission_admittance_t *y, float ts_s)
+{
+    const float time_s = (float)COMMISSION_WAVE_SAMPLES * ts_s;
+    return LOOK_RATIO * 2.0f / (time_s * commission_check_least(y)); /* > 0 after the check */
+}
 
 static commission_answer_t check_sensors(commission_t *m, const commission_signal_t *s)
 {
@@ -20,7 +30,8 @@ static commission_answer_t check_sensors(commission_t *m, const commission_signa
         if (!m->looked) {
             m->looked     = true;
             m->admittance = y;
-            commission_inductance_start(&m->work.inductance, LOOK_PULSES * y.pulse_V);
+            commission_inductance_start(&m->work.inductance, LOOK_PULSES * y.pulse_V,
+                                        most_Ohm(&y, m->config->ts_s));
         }
     }
     return out;

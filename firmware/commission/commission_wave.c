@@ -5,9 +5,6 @@
  * hexagon. */
 #define LEAST_SHARE 0.002f
 #define MOST_SHARE  0.45f
-/* Chosen: samples of a half wave from limit to limit. With fewer, the step of two samples is
- * noisy. */
-#define WANTED_SAMPLES 12
 /* Chosen: amplitude growth per half wave; the current step cannot jump over the limit. */
 #define GROWTH 1.25f
 /* A half wave ends here at any current, while the amplitude is searched. */
@@ -40,7 +37,7 @@ void commission_wave_start(commission_wave_t *w, float bound_A, int16_t last, fl
 static void search(commission_wave_t *w, float dc_most_V)
 {
     const float most_V = base_min(w->most_V, dc_most_V);
-    const bool  enough = (w->samples <= WANTED_SAMPLES) || (w->v_V >= dc_most_V);
+    const bool  enough = (w->samples <= COMMISSION_WAVE_SAMPLES) || (w->v_V >= dc_most_V);
 
     if (!enough && (w->proofs > 0)) {
         w->slips++;

@@ -17,6 +17,9 @@
 
 #include "base.h"
 
+/** Chosen: samples of a half wave from limit to limit. With fewer, the step of two is noisy. */
+#define COMMISSION_WAVE_SAMPLES 12
+
 typedef struct {
     float   bound_A;
     float   first_A; /**< bound of the first half wave, then bound_A */

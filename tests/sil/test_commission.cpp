@@ -170,14 +170,13 @@ TEST(CommissionAll, OnBothBoards)
     }
 }
 
-/// 99.5 % of 200 seeds each; the machine without a magnet misses that and has 96 %.
+/// At least 99.5 % of 200 seeds each.
 TEST(CommissionAll, FirstTry)
 {
     for (const char *name :
-         {"ev_100kw", "outrunner_24v", "pump_256", "servo_2k2", "servo_600w_surface"}) {
+         {"ev_100kw", "outrunner_24v", "pump_256", "servo_2k2", "servo_600w_surface", "syrm_6k7"}) {
         EXPECT_LE(failures(name, drive_of_facts(name), 200, 1.0), 1) << name;
     }
-    EXPECT_LE(failures("syrm_6k7", drive_of_facts("syrm_6k7"), 200, 1.0), 8);
     for (const char *name : {"ipmsm_390w", "servo_200w"}) {
         const Drive d = read_drive_file(support::shipped_drive(name));
         EXPECT_LE(failures(name, d, 200, 0.75), 1) << name;

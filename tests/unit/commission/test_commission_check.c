@@ -118,6 +118,18 @@ static void test_the_admittance_is_that_of_the_winding(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.05 * mean, mean - (half * cos(1.4)), (double)found.bb);
 }
 
+/* That of the larger inductance, at any angle. */
+static void test_the_least_admittance_is_that_of_the_larger_inductance(void)
+{
+    for (double angle = -3.0; angle < 3.0; angle += 0.37) {
+        setUp();
+        winding.angle_rad = angle;
+        TEST_ASSERT_EQUAL_INT(COMMISSION_DONE, run(1.0, 1.0));
+        TEST_ASSERT_DOUBLE_WITHIN(0.05 / 0.051, 1.0 / 0.051,
+                                  (double)commission_check_least(&found));
+    }
+}
+
 static void test_a_salient_rotor_passes(void)
 {
     for (double angle = -3.0; angle < 3.0; angle += 0.37) {
@@ -145,6 +157,7 @@ int main(void)
     RUN_TEST(test_a_sensor_that_dies_during_the_check_fails);
     RUN_TEST(test_two_dead_sensors_end_with_little_true_current);
     RUN_TEST(test_the_admittance_is_that_of_the_winding);
+    RUN_TEST(test_the_least_admittance_is_that_of_the_larger_inductance);
     RUN_TEST(test_a_salient_rotor_passes);
     RUN_TEST(test_what_is_not_a_number_fails);
     return UNITY_END();

@@ -65,7 +65,7 @@ static void go(commission_stage_t stage)
         commission_spin_start(&module.work.spin, &config, &quiet, &module.found);
         break;
     default:
-        commission_inductance_start(&module.work.inductance, 1.0e9f);
+        commission_inductance_start(&module.work.inductance, 1.0e9f, 0.0f);
         break;
     }
 }

@@ -23,7 +23,7 @@ void setUp(void)
     config  = c;
     found   = k;
     winding = w;
-    commission_inductance_start(&stage, 1.0e9f);
+    commission_inductance_start(&stage, 1.0e9f, 0.0f);
 }
 
 void tearDown(void) {}
@@ -90,11 +90,30 @@ static void test_look_of_a_reluctance_motor(void)
     winding.lq_H  = 0.0415;
     winding.r_Ohm = 0.54;
     for (double angle = 0.0; angle < 3.0; angle += 0.37) {
-        commission_inductance_start(&stage, 1.0e9f);
+        commission_inductance_start(&stage, 1.0e9f, 0.0f);
         winding.angle_rad = angle;
         TEST_ASSERT_EQUAL_INT(COMMISSION_DONE, run(false));
         expect_inductances(0.04);
     }
+}
+
+/* The largest amplitude is the larger of a voltage and of one per ampere: with neither, the wave stays too small. */
+static void test_look_needs_amplitude_along_the_larger_inductance(void)
+{
+    const float small_V  = 2.0f; /* for the smaller one */
+    const float need_Ohm = (float)(2.0 * 2.0 * 0.0415 / (12.0 * TS_s));
+
+    winding.ld_H  = 0.0062;
+    winding.lq_H  = 0.0415;
+    winding.r_Ohm = 0.54;
+    commission_inductance_start(&stage, small_V, 0.0f);
+    TEST_ASSERT_EQUAL_INT(COMMISSION_BUSY, run(false));
+    setUp();
+    winding.ld_H  = 0.0062;
+    winding.lq_H  = 0.0415;
+    winding.r_Ohm = 0.54;
+    commission_inductance_start(&stage, small_V, need_Ohm);
+    TEST_ASSERT_EQUAL_INT(COMMISSION_DONE, run(false));
 }
 
 /* A 300th of the bound. Without their noise taken off, the sums show an axis that is not there. */
@@ -113,7 +132,7 @@ static void test_look_in_noise(void)
         support_random_t  dice    = {(unsigned)seed + 1u};
         ab_t              asked_V = {0.0f, 0.0f};
         commission_step_t step    = COMMISSION_BUSY;
-        commission_inductance_start(&stage, 1.0e9f);
+        commission_inductance_start(&stage, 1.0e9f, 0.0f);
         winding.angle_rad = 0.1047 * seed;
         for (long k = 0; (k < 100000L) && (step == COMMISSION_BUSY); k++) {
             const commission_signal_t s = noisy(winding_step(&winding, asked_V), &dice, noise_A);
@@ -183,6 +202,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_look_finds_both_at_any_angle);
     RUN_TEST(test_look_of_a_reluctance_motor);
+    RUN_TEST(test_look_needs_amplitude_along_the_larger_inductance);
     RUN_TEST(test_look_in_noise);
     RUN_TEST(test_map_of_a_constant_inductance_is_flat);
     RUN_TEST(test_map_shows_saturation);
