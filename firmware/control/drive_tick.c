@@ -21,14 +21,16 @@ static float jump_ApV(const drive_config_t *c)
     return 2.0f * c->ts_s * base_max(c->motor.l6, c->motor.l8);
 }
 
-/* EQ-CURRENT-WATCH-4 */
-static float wire_open_s(const drive_config_t *c)
+/* EQ-CURRENT-WATCH-4 and EQ-DRIVE-3. Two edges are off by up to half a count, and so is the speed
+ * between them. The law's speed trips at the trip level itself. */
+static void set_encoder_limits(drive_t *d, const drive_config_t *c)
 {
     const float accel = (c->motor.l1 + (fabsf(c->motor.l11) * c->current_max_A)) * c->current_max_A;
     const float count_rad =
         BASE_TWO_PI * (float)c->hardware.pole_pairs / (float)c->hardware.encoder_positions;
 
-    return current_watch_open_s(count_rad, accel);
+    d->wire_open_s              = current_watch_open_s(count_rad, accel);
+    d->sample_speed_max_e_radps = c->trip_speed_e_radps + (count_rad / c->ts_s);
 }
 
 ctl_status_t drive_init(drive_t *d, const drive_config_t *config)
@@ -39,8 +41,10 @@ ctl_status_t drive_init(drive_t *d, const drive_config_t *config)
     d->config_again    = d->config;
     d->law_again       = (status == CTL_OK) ? config->law : NULL;
     d->constants_again = (status == CTL_OK) ? config->constants : NULL;
-    d->wire_open_s     = (status == CTL_OK) ? wire_open_s(config) : 0.0f;
     d->jump_ApV        = (status == CTL_OK) ? jump_ApV(config) : 0.0f;
+    if (status == CTL_OK) {
+        set_encoder_limits(d, config);
+    }
     drive_reset(d);
     return status;
 }
@@ -82,9 +86,11 @@ static bool edges_ok(const drive_sample_t *s)
     return (least >= 0.0f) && (sum <= EDGE_TIMES_MAX_s) && (s->band_rad <= BASE_PI);
 }
 
-static drive_fault_t find_fault(const drive_config_t *c, const drive_sample_t *s,
+static drive_fault_t find_fault(const drive_t *d, const drive_sample_t *s,
                                 const drive_command_t *command, current_gate_verdict_t currents)
 {
+    const drive_config_t *c = d->config;
+
     if (!s->valid || !base_within(s->theta_e_rad, BASE_TWO_PI) || !edges_ok(s)) {
         return DRIVE_FAULT_SAMPLE;
     }
@@ -94,7 +100,7 @@ static drive_fault_t find_fault(const drive_config_t *c, const drive_sample_t *s
     if (!base_in_range(s->dc_link_V, c->dc_link_min_V, c->dc_link_max_V)) {
         return DRIVE_FAULT_DC_LINK;
     }
-    if (!base_within(s->omega_e_radps, c->trip_speed_e_radps)) {
+    if (!base_within(s->omega_e_radps, d->sample_speed_max_e_radps)) {
         return DRIVE_FAULT_OVER_SPEED;
     }
     if (!command_ok(c, command)) {
@@ -295,7 +301,7 @@ bridge_t drive_tick(drive_t *d, const drive_sample_t *sample, const drive_comman
     }
     const float                  change_A = d->jump_ApV * sample->dc_link_V;
     const current_gate_verdict_t currents = judge_currents(d, sample, change_A);
-    const drive_fault_t          fault    = find_fault(d->config, sample, command, currents);
+    const drive_fault_t          fault    = find_fault(d, sample, command, currents);
     if (fault != DRIVE_FAULT_NONE) {
         return trip(d, fault);
     }

@@ -71,8 +71,9 @@ typedef struct {
     abc_t                 i_hat_A;   /**< phase currents that the law expects */
     current_gate_t        current_gate;
     current_watch_t       current_watch;
-    float                 wire_open_s; /**< EQ-CURRENT-WATCH-4 */
-    float                 jump_ApV;    /**< EQ-CURRENT-GATE-2 */
+    float                 wire_open_s;              /**< EQ-CURRENT-WATCH-4 */
+    float                 jump_ApV;                 /**< EQ-CURRENT-GATE-2 */
+    float                 sample_speed_max_e_radps; /**< EQ-DRIVE-3 */
     motion_watch_t        motion_watch;
 } drive_t;
 

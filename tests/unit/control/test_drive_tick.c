@@ -326,6 +326,21 @@ static void assert_trips(drive_fault_t reason)
     TEST_ASSERT_TRUE(tick().gate_enable);
 }
 
+/* EQ-DRIVE-3: a sample's speed may be beyond the trip level by a count in a period, while the law's own is not. */
+static void test_speed_between_two_edges_trips_a_count_beyond(void)
+{
+    for (int side = -1; side <= 1; side += 2) {
+        use_encoder_form();
+        const float one_e_radps = BASE_TWO_PI * (float)config.hardware.pole_pairs /
+                                  (float)config.hardware.encoder_positions / config.ts_s;
+        (void)tick();
+        sample.omega_e_radps = (float)side * (1569.0f + (0.99f * one_e_radps));
+        TEST_ASSERT_TRUE(tick().gate_enable);
+        sample.omega_e_radps = (float)side * (1569.0f + (1.01f * one_e_radps));
+        assert_trips(DRIVE_FAULT_OVER_SPEED);
+    }
+}
+
 static void test_invalid_sample_trips(void)
 {
     (void)tick();
@@ -1327,6 +1342,7 @@ int main(void)
     RUN_TEST(test_restart_forgets_the_past);
     RUN_TEST(test_reset_while_running_forgets_the_past);
     RUN_TEST(test_reset_zeroes_everything_that_is_published);
+    RUN_TEST(test_speed_between_two_edges_trips_a_count_beyond);
     RUN_TEST(test_invalid_sample_trips);
     RUN_TEST(test_every_input_that_is_not_finite_trips);
     RUN_TEST(test_every_input_just_out_of_range_trips);
