@@ -15,7 +15,7 @@ namespace sdre {
 namespace {
 
 // Chosen: eight counts in a period, where the observers of all laws use edges as they are. Below,
-// an encoder has less information than any linear model assumes.
+// an encoder has less information than any linear model assumes. A coarse encoder has that many beyond every command only.
 constexpr double counts_that_tell = 8.0;
 
 /// The larger one; NaN is larger than any number.
@@ -162,8 +162,10 @@ std::vector<OperatingPoint> verdict_points(const Design &d)
 
 std::vector<OperatingPoint> verdict_box_points(const Design &d)
 {
-    const double iq   = d.drive.motor.max_current_A;
-    const double slow = counts_that_tell * count_e_rad(d.drive) / control_period_s(d.drive);
+    const double iq = d.drive.motor.max_current_A;
+    const double slow =
+        std::min(counts_that_tell * count_e_rad(d.drive) / control_period_s(d.drive),
+                 static_cast<double>(d.config.speed_max_e_radps));
     std::vector<OperatingPoint> points{{slow, 0.0, mtpa_id_A(d.l, 0.0)}};
     const double                rated = d.drive.motor.rated_speed_e_radps;
     points.push_back(held_point(d, rated, iq));

@@ -38,6 +38,7 @@ struct CaseResult {
     double voltage_V       = 0.0; ///< largest in the load step, plus three standard deviations
     double voltage_noise_V = 0.0; ///< rms of v_q
     double spectral_radius = 0.0; ///< worst over speeds
+    double peak            = 0.0; ///< sensitivity at the largest speed, of rare edges
 };
 
 /// One result over its goal; at most 1 when the goal is met.

@@ -30,6 +30,10 @@ constexpr double angle_error_units = 0.38;
 // docs/motors.md.
 constexpr double edge_error_cnt = 0.025;
 
+// Chosen: the standard deviation that stands for an edge in n periods is n^(4/3) that of an edge. The density of the noise would
+// be n^(1/2). The rest makes the loops slower with n, as the sampled model has no edge that comes late.
+constexpr double rare_edges_exponent = 4.0 / 3.0;
+
 /// Acceleration per ampere, with the reluctance torque of the largest current.
 double accel_per_A(const Drive &d, const ReducedParameters &l)
 {
@@ -50,13 +54,20 @@ MotorUnits motor_units(const Drive &d, double pace)
     return u;
 }
 
+double periods_per_edge(const Drive &d)
+{
+    const double turned_rad = 0.5 * d.motor.rated_speed_e_radps * control_period_s(d);
+    return std::max(1.0, count_e_rad(d) / turned_rad);
+}
+
 SampleNoise sample_noise(const Drive &d)
 {
     const CurrentSensors &s     = d.current_sensors;
     const double          lsb_A = 2.0 * s.range_A / std::exp2(s.adc_bits);
     const double          whole = 1.0 / std::sqrt(12.0); // standard deviation of a rounded number
+    const double          edge  = count_e_rad(d) * (d.encoder.edge_times ? edge_error_cnt : whole);
     return {std::hypot(s.noise_rms_A, lsb_A * whole),
-            count_e_rad(d) * (d.encoder.edge_times ? edge_error_cnt : whole)};
+            edge * std::pow(periods_per_edge(d), rare_edges_exponent)};
 }
 
 double pace_of_sensors(const Drive &d)

@@ -25,10 +25,13 @@ MotorUnits motor_units(const Drive &drive, double pace);
 /// Variances of a sample in the observer's design.
 struct SampleNoise {
     double current_A; ///< standard deviation, quantisation included
-    double angle_rad; ///< the same, electrical
+    double angle_rad; ///< the same, electrical; more where edges are rarer than samples
 };
 
 SampleNoise sample_noise(const Drive &drive);
+
+/// Periods from one edge of the encoder to the next at half the rated speed; 1 when every period has one.
+double periods_per_edge(const Drive &drive);
 
 /// The pace at which the encoder's error is as large in motor_units() as on the 390 W motor; at least 1.
 double pace_of_sensors(const Drive &drive);

@@ -33,6 +33,9 @@ struct TuneSpec {
         0.0; ///< rms of v_q at constant speed and load, nominal case; 0: only voltage_headroom_V limits it
     bool noise_is_a_limit =
         false; ///< more noise is worse than any other goal missed; else one goal of several
+    bool rare_edges =
+        false; ///< fewer than samples, so that the sampled model is too good: a lively motor has to be stable, and the
+               ///< sensitivity at the largest speed is a goal
     // Sensors: standard deviations of one sample, quantisation included by the tool.
     double                      current_noise_A = 0.0;
     double                      current_lsb_A   = 0.0;

@@ -51,6 +51,43 @@ TEST(AutoTune, FromADataSheetToACertifiedDrive)
 }
 
 /// It ends with the trials of qualify. A drive that is not good is written all the same; the exit code is 2.
+namespace {
+
+/// The hub motor with another encoder, not tuned.
+std::string hub_motor(const TempDir &dir, const std::string &lines)
+{
+    std::string       text  = support::read_file(sheet("hub_motor"));
+    const std::string known = "encoder_lines = 1024";
+    text.replace(text.find(known), known.size(), "encoder_lines = " + lines);
+    const std::string drive = dir / "drive.toml";
+    EXPECT_EQ(gains({"new", "--facts", dir.write("facts.toml", text), "--out", drive}).exit_code,
+              0);
+    return drive;
+}
+
+} // namespace
+
+/// Edges are rarer than samples at ordinary speeds. Its largest speed is near the trip, and a speed between two edges is beyond.
+TEST(AutoTune, HubMotorsWithFewLinesAreGood)
+{
+    for (const char *lines : {"1024", "480"}) { // 68 and 32 per pole pair
+        const TempDir dir;
+        const auto    r = gains({"tune", hub_motor(dir, lines), "--out", dir / "tuned.toml"});
+        EXPECT_EQ(r.exit_code, 0) << lines << r.out;
+    }
+}
+
+TEST(AutoTune, TooFewLinesAreNamedAsTheNextStep)
+{
+    const TempDir dir;
+    const auto    r = support::run_command(
+           {SDRE_SIL_EXE, "qualify", hub_motor(dir, "120"), "--short", "--motors", "0"});
+    EXPECT_EQ(r.exit_code, 4);
+    EXPECT_NE(r.out.find("\nnext: encoder_lines = 471 or more; now an edge comes in 13.3 periods"),
+              std::string::npos)
+        << r.out;
+}
+
 TEST(AutoTune, WhatIsNotGoodIsSaidWithTheNextStep)
 {
     const TempDir     dir;

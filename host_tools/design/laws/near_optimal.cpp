@@ -35,8 +35,10 @@ constexpr double trip_torque_ratio = 2.0;
 // Chosen: what one count off does to the estimate of the load, once and a half, beside the whole torque. With much inertia
 // or few lines that is more than the torque again.
 constexpr double trip_kick_ratio = 1.5;
-// Two edges of a disc are off by this at most, and so is the speed between them with which a run starts.
+// Two edges of a disc are off by this at most, and so is the way between them. A run starts with the speed of that way.
 constexpr double start_error_cnt = 0.35;
+// Chosen: of the rated speed.
+constexpr double coarse_share = 0.5;
 // Chosen: an encoder wrong by this much turns a tenth of the torque into flux.
 constexpr double trip_angle_rad = 0.45;
 // Chosen: 0.5 % of the torque stays for the feedback while the reference accelerates.
@@ -254,14 +256,27 @@ TripMargin disturbance_margin(const Design &d, const encoder_form_limits_t &limi
                 as_noise * std::sqrt(P(d_omega, d_omega))};
 }
 
-float believed_d_omega(const encoder_form_limits_t &limits, const encoder_form_gains_t &gains,
-                       double ts_s)
+/// Error of the speed between two edges. A coarse encoder has two counts in a period at a speed to run at. Just below it one
+/// count comes alone, and its error is the largest.
+double start_error_e_radps(const Drive &d)
 {
+    const double per_period = count_e_rad(d) / control_period_s(d);
+    if (2.0 * per_period < coarse_share * d.motor.rated_speed_e_radps) {
+        return start_error_cnt * per_period;
+    }
+    const double fastest = std::min(trip_speed_e_radps(d), 2.0 * per_period);
+    return fastest * start_error_cnt / (1.0 - start_error_cnt);
+}
+
+float believed_d_omega(const encoder_form_limits_t &limits, const encoder_form_gains_t &gains,
+                       const Drive &drive)
+{
+    const double ts_s   = control_period_s(drive);
     const double torque = static_cast<double>(limits.d_omega) / trip_torque_ratio;
     const double count  = static_cast<double>(gains.count_rad);
     const double kick   = static_cast<double>(gains.d_omega_1ps2) * count;
     const double pace = std::cbrt(static_cast<double>(gains.d_omega_1ps2) / ts_s); // of three poles
-    const double start = 0.5 * pace * start_error_cnt * count / ts_s;
+    const double start = 0.5 * pace * start_error_e_radps(drive);
     return std::max(limits.d_omega, single(torque + trip_kick_ratio * kick + start));
 }
 

@@ -34,7 +34,7 @@ double largest_iq_A(const Motor &motor, double k, bool exact);
 encoder_form_limits_t encoder_limits(const Design &design);
 /// The largest load that can be right: of `limits`, or what the encoder's own error adds to the torque.
 float believed_d_omega(const encoder_form_limits_t &limits, const encoder_form_gains_t &gains,
-                       double ts_s);
+                       const Drive &drive);
 
 /// The estimated disturbance after a step of the full torque, plus six standard deviations of the
 /// sensors' noise, and its trip level.

@@ -51,7 +51,7 @@ void solve(Design &d)
     copy_series(d.nodo, c.nodo.gain);
     c.rare              = sample_gains(c.nodo, d.drive);
     c.gate              = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
-    c.plausible.d_omega = believed_d_omega(c.plausible, c.rare, control_period_s(d.drive));
+    c.plausible.d_omega = believed_d_omega(c.plausible, c.rare, d.drive);
     const CurrentObserver currents = design_nodo_current(d.l, d.drive, trip_speed_e_radps(d.drive));
     c.currents                     = currents.gains;
     certify_currents(d, currents);

@@ -107,7 +107,7 @@ void solve(Design &d)
     c.nodo              = *d.harmonics->table;
     c.rare              = sample_gains(d);
     c.gate              = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
-    c.plausible.d_omega = believed_d_omega(c.plausible, c.rare, control_period_s(d.drive));
+    c.plausible.d_omega = believed_d_omega(c.plausible, c.rare, d.drive);
     certify_whole(d, c.plausible, angle_weight(d.drive, m.rated_speed_e_radps),
                   c.near_optimal.current_ref, model_at);
     keep_constants(d, c);

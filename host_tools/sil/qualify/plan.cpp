@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "design/laws/near_optimal.hpp"
 #include "design/sampled_model.hpp"
 #include "design/trip_levels.hpp"
@@ -33,6 +35,10 @@ constexpr double start_error_cnt = 0.35;
 constexpr double start_share     = 0.3;
 // Chosen: of the current limit, for flux weakening that leaves some torque.
 constexpr double weakening_share = 0.8;
+
+// Chosen: counts of a wrong reading, and fewer of a coarse encoder. Beyond 0.45 rad a drive trips, as torque is then lost.
+constexpr double off_cnt      = 5.0;
+constexpr double most_off_rad = 0.35;
 
 constexpr double weakening_times = 1.5; // chosen: there is less torque at higher speeds
 
@@ -104,12 +110,13 @@ double weakened_e_radps(const Drive &d, const Numbers &n)
     return std::min({0.9 * largest_command_e_radps(d), 1.6 * n.rated_e_radps, by_voltage});
 }
 
-/// The speed near this one at which so many counts come in a period; none when the encoder is too coarse.
+/// The speed near this one at which so many counts come in a period. A coarse encoder has one count in so many periods.
 double counts_per_period_e_radps(const Drive &d, double near_e_radps, double fraction)
 {
     const double one   = count_e_rad(d) / control_period_s(d); // speed of one count a period
-    const double whole = std::max(std::round(near_e_radps / one), 1.0);
-    return (whole + fraction) * one;
+    const double share = near_e_radps / one;
+    return share < 0.5 ? one / (std::round(1.0 / share) + fraction)
+                       : (std::max(std::round(share), 1.0) + fraction) * one;
 }
 
 void add_speeds(const Drive &d, const Numbers &n, std::vector<Trial> &trials)
@@ -151,9 +158,10 @@ void add_faults(const Drive &d, const Numbers &n, std::vector<Trial> &trials)
     spike.scenario.glitches   = {{n.before_s(), 1, 0, 2.0 * d.current_sensors.range_A, 0.0}};
     spike.scenario.measures   = {{"spike", n.before_s(), speed_band * n.rated_e_radps, {}}};
     spike.scenario.duration_s = n.before_s() + n.after_s();
-    Trial jump                = spike;
-    jump.what                 = "encoder read 5 counts off";
-    jump.scenario.glitches    = {{n.before_s(), 1, 5, 0.0, 0.0}};
+    Trial     jump            = spike;
+    const int off             = static_cast<int>(std::min(off_cnt, most_off_rad / count_e_rad(d)));
+    jump.what                 = fmt::format("encoder read {} counts off", off);
+    jump.scenario.glitches    = {{n.before_s(), 1, off, 0.0, 0.0}};
     Trial dead                = spike;
     dead.what                 = "encoder dies";
     dead.scenario.glitches.clear();

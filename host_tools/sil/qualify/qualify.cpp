@@ -10,6 +10,7 @@
 #include "design/laws/laws.hpp"
 #include "sil/eval/random_motors.hpp"
 #include "sil/eval/seeds.hpp"
+#include "tune/start_weights.hpp"
 
 namespace sdre {
 namespace {
@@ -166,6 +167,8 @@ Qualification qualify(const Drive &drive, const QualifyOptions &o)
     q.inverter                    = drive.inverter;
     q.limit_A                     = drive.motor.max_current_A;
     q.circle_V                    = drive.inverter.dc_link_V / std::sqrt(3.0);
+    q.periods_per_edge            = periods_per_edge(drive);
+    q.lines                       = drive.encoder.lines;
     const Certificate certificate = design_drive(drive).certificate;
     q.certified                   = certificate.passed();
     if (!q.certified) {

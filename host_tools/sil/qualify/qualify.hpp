@@ -50,11 +50,13 @@ struct Rival {
 };
 
 struct Qualification {
-    std::string              drive;
-    Inverter                 inverter;
-    double                   limit_A   = 0.0;
-    double                   circle_V  = 0.0;
-    bool                     certified = false;
+    std::string drive;
+    Inverter    inverter;
+    double      limit_A          = 0.0;
+    double      circle_V         = 0.0;
+    bool        certified        = false;
+    double      periods_per_edge = 1.0; ///< at half the rated speed; 1: every period has an edge
+    double      lines            = 0.0; ///< of the encoder
     std::vector<TrialResult> trials;
     PlaneMap                 map;
     MotorShare               motors; ///< R, L, flux +-30 %, J x0.5 .. 2

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "sil/qualify/words.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace sdre {
 namespace {
+
+// A hub motor with an edge in 3.3 periods is good, with one in 4.4 it is not (docs/motors.md).
+constexpr double most_periods_per_edge = 3.4;
 
 std::string share_words(const char *what, const MotorShare &m)
 {
@@ -48,6 +53,12 @@ std::string next_step(const Qualification &q)
         {"pi_foc", "a faster goal of settling time (docs/tuning.md): the noise leaves room"},
         {"", "a larger dip or settling time as the goal (docs/tuning.md), a higher pwm_kHz, more "
              "encoder lines"}};
+    if (!q.good() && q.periods_per_edge > most_periods_per_edge) {
+        return fmt::format(
+            "next: encoder_lines = {:.0f} or more; now an edge comes in {:.1f} periods "
+            "at half the rated speed",
+            std::ceil(q.lines * q.periods_per_edge / most_periods_per_edge), q.periods_per_edge);
+    }
     for (const Advice &a : all) {
         if (!q.reasons.empty() && q.reasons.front().find(a.about) != std::string::npos) {
             return fmt::format("next: {}", a.what);
