@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@ struct Factors {
 };
 
 constexpr double accuracy = 0.01;
+constexpr double grid     = 0.1; // chosen: of the share
 
 /// The motors at a share of the box.
 using Motors = std::vector<Factors> (*)(double share);
@@ -82,20 +84,47 @@ double worst_of(const std::vector<Factors> &factors, const Motor &motor, const M
     return *worst;
 }
 
+/// A stable share and an unstable one above it.
+struct Edge {
+    double stable;
+    double unstable;
+};
+
+Edge bisected(Edge e, Motors motors, const Motor &motor, const MotorRadius &radius)
+{
+    while (e.unstable - e.stable > accuracy) {
+        const double middle = 0.5 * (e.stable + e.unstable);
+        (worst_of(motors(middle), motor, radius) < 1.0 ? e.stable : e.unstable) = middle;
+    }
+    return e;
+}
+
+/// The least unstable share of a grid below this one, if there is any.
+std::optional<double> unstable_below(double share, Motors motors, const Motor &motor,
+                                     const MotorRadius &radius)
+{
+    for (int k = 1; k * grid < share; k++) {
+        if (!(worst_of(motors(k * grid), motor, radius) < 1.0)) {
+            return k * grid;
+        }
+    }
+    return {};
+}
+
+/// Stability need not fall with the share: what the bisection finds is looked at on a grid.
 RobustBox largest_share(Motors motors, const Motor &motor, const MotorRadius &radius)
 {
-    if (worst_of(motors(1.0), motor, radius) < 1.0) {
-        return {1.0, ""};
-    }
-    double stable   = 0.0;
-    double unstable = 1.0;
-    while (unstable - stable > accuracy) {
-        const double middle = 0.5 * (stable + unstable);
-        (worst_of(motors(middle), motor, radius) < 1.0 ? stable : unstable) = middle;
+    const bool whole = worst_of(motors(1.0), motor, radius) < 1.0;
+    Edge       edge  = whole ? Edge{1.0, 1.0} : bisected({0.0, 1.0}, motors, motor, radius);
+    std::optional<double> below;
+    while ((below = unstable_below(edge.stable, motors, motor, radius))) {
+        edge = bisected({*below - grid, *below}, motors, motor, radius);
     }
     RobustBox box;
-    box.share = stable;
-    worst_of(motors(unstable), motor, radius, &box.corner);
+    box.share = edge.stable;
+    if (edge.stable < 1.0) {
+        worst_of(motors(edge.unstable), motor, radius, &box.corner);
+    }
     return box;
 }
 

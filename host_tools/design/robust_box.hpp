@@ -23,7 +23,7 @@ struct RobustBox {
     std::string corner;      ///< the first to become unstable, "" when the whole box is stable
 };
 
-/// Bisection to one hundredth.
+/// Bisection to one hundredth. At every tenth below the result the corners are stable too.
 RobustBox robust_box(const Motor &motor, const MotorRadius &radius);
 
 /// The same with one parameter at either end and the others nominal: eight motors instead of

@@ -2,6 +2,7 @@
 /// The verdict sees a loop that is bad at one place only, whatever place that is.
 #include "design/verdict.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -12,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "design/design.hpp"
+#include "design/robust_box.hpp"
 #include "shipped_drive.hpp"
 
 namespace {
@@ -487,4 +489,30 @@ TEST(Verdict, LimitsThemselvesAreAllowed)
     EXPECT_EQ(failures([&](Verdict &v) { v.alone->share = down(1.0); }), 1U);
     EXPECT_EQ(failures([](Verdict &v) { v.trips[0].healthy = 10.0; }), 0U);
     EXPECT_EQ(failures([&](Verdict &v) { v.trips[0].healthy = up(10.0); }), 1U);
+}
+
+/// Unstable with some motors inside the box, and stable again with those farther away: the box ends before the first of them.
+TEST(Verdict, BoxHasNoUnstableMotorInside)
+{
+    const Motor nominal = shipped().drive.motor;
+    const auto  radius  = [&](double from, double to) {
+        return [&nominal, from, to](const Motor &m) {
+            const double J = m.inertia_kgm2 / nominal.inertia_kgm2;
+            return J > from && J < to ? 1.1 : 0.9;
+        };
+    };
+    const double low = std::pow(0.5, 0.27); // of the share 0.27; 0.83 to 0.77: 0.27 .. 0.38
+    for (const auto &box : {sdre::robust_box(nominal, radius(0.77, low)),
+                            sdre::robust_alone(nominal, radius(0.77, low))}) {
+        EXPECT_LE(box.share, 0.27);
+        EXPECT_GT(box.share, 0.25);
+        EXPECT_NE(box.corner.find("J x0.8"), std::string::npos) << box.corner;
+    }
+    // Two of them: the inner one counts, also when bisection finds the outer one.
+    const auto two = [&](const Motor &m) {
+        return std::max(radius(0.77, low)(m), radius(0.0, std::pow(0.5, 0.8))(m));
+    };
+    EXPECT_NEAR(sdre::robust_box(nominal, two).share, 0.26, 0.01);
+    EXPECT_EQ(sdre::robust_box(nominal, radius(2.0, 1.0)).share, 1.0);
+    EXPECT_EQ(sdre::robust_box(nominal, radius(2.0, 1.0)).corner, "");
 }
