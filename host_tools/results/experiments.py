@@ -44,6 +44,7 @@ FIELDS = {
     "rest_cnt": ("position_steady_cnt", 1),
 }
 STATISTICS = ("worst", "median")
+OF_ANGLES = (*STATISTICS, "best")  # a range
 
 
 def digest(value):
@@ -118,6 +119,8 @@ def scenario_text(what):
     """The scenario with the keys of an experiment, for any directory."""
     text = (SCENARIOS / f"{what['file']}.toml").read_text()
     text = re.sub(r"(\.\./)+firmware/config/drives", str(DRIVES), text)
+    if "angles" in what:  # without the key every seed has an angle of its own
+        text = re.sub(r"^initial_angle_e_rad.*\n", "", text, flags=re.M)
     return with_keys(text, what.get("set", {}))
 
 
@@ -174,7 +177,7 @@ def run(sil, what, drive):
                 for m, v in measure[s].items()
                 if m in metrics
             }
-            for s in STATISTICS
+            for s in (OF_ANGLES if "angles" in what else STATISTICS)
             if s in measure
         }
     return values

@@ -5,7 +5,7 @@ import re
 
 from experiments import FIELDS, ROOT
 
-PAGES = ("README.md", "docs/assurance.md", "docs/results.md")
+PAGES = ("README.md", "docs/assurance.md", "docs/papers.md", "docs/results.md")
 
 # host_tools/sil/run/faults.hpp
 APPLICATION, RESET = 100, 200
@@ -36,7 +36,7 @@ def fields(values):
         found["reported"] = ", ".join(reason(code) for code in trips["codes"]) or "-"
         found["tripped"] = f"{values['faults']} of {trips['seeds']}"
         found["trip_ms"] = Never() if after_s is None else 1e3 * after_s
-    for statistic, suffix in (("worst", ""), ("median", "_median")):
+    for statistic, suffix in (("worst", ""), ("median", "_median"), ("best", "_best")):
         of = values.get(statistic, {})
         for name, (metric, factor) in FIELDS.items():
             if metric in of:

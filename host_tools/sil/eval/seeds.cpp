@@ -35,7 +35,7 @@ double quantile(const std::vector<double> &sorted, double share)
 SeedSpread spread_of(const std::string &metric, const std::vector<std::vector<Metrics>> &runs,
                      std::size_t measure)
 {
-    SeedSpread          s{metric, {}, {}, {}, {}, {}};
+    SeedSpread          s{metric, {}, {}, {}, {}, {}, {}};
     std::vector<double> values;
     for (const std::vector<Metrics> &run : runs) {
         for (const auto &[name, value] : metric_values(run[measure])) {
@@ -55,6 +55,7 @@ SeedSpread spread_of(const std::string &metric, const std::vector<std::vector<Me
     const double centre = is_signed(metric) ? *s.mean : 0.0;
     std::sort(values.begin(), values.end(),
               [centre](double a, double b) { return std::abs(a - centre) < std::abs(b - centre); });
+    s.best   = values.front();
     s.worst  = values.back();
     s.median = quantile(values, 0.5);
     s.q95    = quantile(values, 0.95);
@@ -161,15 +162,17 @@ std::string seeds_json(const Scenario &scenario, const SeedRuns &runs)
         Json q95    = Json::object();
         Json median = Json::object();
         Json mean   = Json::object();
+        Json best   = Json::object();
         for (const SeedSpread &s : m.spread) {
             worst[s.metric]  = s.worst;
             q99[s.metric]    = s.q99;
             q95[s.metric]    = s.q95;
             median[s.metric] = s.median;
             mean[s.metric]   = s.mean;
+            best[s.metric]   = s.best;
         }
-        measures[m.name] = {{"time_s", m.time_s}, {"worst", worst},   {"q99", q99},
-                            {"q95", q95},         {"median", median}, {"mean", mean}};
+        measures[m.name] = {{"time_s", m.time_s}, {"worst", worst}, {"q99", q99},  {"q95", q95},
+                            {"median", median},   {"mean", mean},   {"best", best}};
     }
     const std::vector<int> codes(runs.fault_codes.begin(), runs.fault_codes.end());
     const Json             last_trip_s = runs.faults > 0 ? Json(runs.last_trip_s) : Json();

@@ -22,6 +22,7 @@ struct SeedSpread {
     std::optional<double> median;
     std::optional<double> q95; ///< 95 % of the seeds are nearer to zero, or to the mean
     std::optional<double> q99;
+    std::optional<double> best; ///< nearest to zero, or to the mean
 };
 
 struct SeedMeasure {
