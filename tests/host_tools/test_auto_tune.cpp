@@ -70,7 +70,7 @@ std::string hub_motor(const TempDir &dir, const std::string &lines)
 /// Edges are rarer than samples at ordinary speeds. Its largest speed is near the trip, and a speed between two edges is beyond.
 TEST(AutoTune, HubMotorsWithFewLinesAreGood)
 {
-    for (const char *lines : {"1024", "480"}) { // 68 and 32 per pole pair
+    for (const char *lines : {"1024", "960"}) { // 68 and 64 per pole pair
         const TempDir dir;
         const auto    r = gains({"tune", hub_motor(dir, lines), "--out", dir / "tuned.toml"});
         EXPECT_EQ(r.exit_code, 0) << lines << r.out;
@@ -83,7 +83,7 @@ TEST(AutoTune, TooFewLinesAreNamedAsTheNextStep)
     const auto    r = support::run_command(
            {SDRE_SIL_EXE, "qualify", hub_motor(dir, "120"), "--short", "--motors", "0"});
     EXPECT_EQ(r.exit_code, 4);
-    EXPECT_NE(r.out.find("\nnext: encoder_lines = 471 or more; now an edge comes in 13.3 periods"),
+    EXPECT_NE(r.out.find("\nnext: encoder_lines = 800 or more; now an edge comes in 13.3 periods"),
               std::string::npos)
         << r.out;
 }

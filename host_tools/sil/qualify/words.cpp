@@ -8,8 +8,8 @@
 namespace sdre {
 namespace {
 
-// A hub motor with an edge in 3.3 periods is good, with one in 4.4 it is not (docs/motors.md).
-constexpr double most_periods_per_edge = 3.4;
+// A hub motor with an edge in 1.7 periods is good, with one in 3.3 it is not (docs/motors.md).
+constexpr double most_periods_per_edge = 2.0;
 
 std::string share_words(const char *what, const MotorShare &m)
 {
