@@ -157,8 +157,8 @@ TEST(Compare, WritesOneTableThreeWaysAlwaysTheSame)
         return std::count(text.begin(), text.end(), '\n');
     };
     const std::string csv = support::read_file(dir / "t.csv");
-    EXPECT_EQ(lines(csv), 1 + 2 * 7 * 2);
-    EXPECT_EQ(lines(r.out), 2 + 2 * 7 + 2 * 4); // neither of the four runs is of a certified drive
+    EXPECT_EQ(lines(csv), 1 + 2 * 8 * 2);
+    EXPECT_EQ(lines(r.out), 2 + 2 * 8 + 2 * 4); // neither of the four runs is of a certified drive
     const auto json = support::Json::read(dir / "t.json");
     EXPECT_EQ(json.at("runs").size(), 4U);
     EXPECT_EQ(json.at("runs").at(1).at("drive"), "ipmsm_390w_conventional");

@@ -132,7 +132,7 @@ const std::vector<std::string> &compare_default_metrics()
 {
     static const std::vector<std::string> names{
         "settling_time_s", "dip_e_radps",    "overshoot_e_radps", "steady_state_error_e_radps",
-        "ripple_e_radps",  "peak_current_A", "vq_noise_V"};
+        "ripple_e_radps",  "peak_current_A", "vq_noise_V",        "vd_noise_V"};
     return names;
 }
 
