@@ -10,6 +10,7 @@ import tempfile
 from pathlib import Path
 
 import tomllib
+from plane import recorded
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENARIOS = ROOT / "host_tools/sil/scenarios"
@@ -82,7 +83,7 @@ class Experiments:
 
     def unused_faults(self):
         """Files of faults that no experiment runs."""
-        used = {what["file"] for what in self.scenarios.values()}
+        used = {what.get("file") for what in self.scenarios.values()}
         found = (f"faults/{path.stem}" for path in sorted((SCENARIOS / "faults").glob("*.toml")))
         return [name for name in found if name not in used]
 
@@ -90,15 +91,14 @@ class Experiments:
         """Digests of all that a run depends on."""
         what = self.scenarios[scenario]
         first = "servo_case_1_2" if drive.startswith("servo_") else "board_load_step"
-        names = (f"trace {name} {drive}" for name in (what["file"], first))
+        names = (f"trace {name} {drive}" for name in (what.get("file"), first))
         trace = next(self.traces[name] for name in names if name in self.traces)
         file = tomllib.loads((DRIVES / f"{drive}.toml").read_text())
         board = tomllib.loads((BOARDS / f"{file['board']['name']}.toml").read_text())
+        path = SCENARIOS / f"{what['file']}.toml" if "file" in what else None
         return {
             "drive": digest([file, board]),
-            "scenario": digest(
-                [tomllib.loads((SCENARIOS / f"{what['file']}.toml").read_text()), what]
-            ),
+            "scenario": digest([tomllib.loads(path.read_text()) if path else {}, what]),
             "trace": trace["sha256"][:16],
         }
 
@@ -124,9 +124,24 @@ def scenario_text(what):
     return with_keys(text, what.get("set", {}))
 
 
+def run_plane(sil, what, drive):
+    """The map of `sdre-sil qualify`, which runs whatever is not good in it too."""
+    with tempfile.TemporaryDirectory() as directory:
+        out, file = Path(directory, "out.json"), DRIVES / f"{drive}.toml"
+        options = f"--alone --motors 0 --seeds {what['seeds']} --json".split()
+        command = [sil, "qualify", file, *options, out]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if not out.exists():
+            sys.exit(f"results: qualify {drive}: {done.stderr.strip()}")
+        found = json.loads(out.read_text())["map"]
+    return {"faults": sum(p["faults"] for p in found["points"]), "all": recorded(found)}
+
+
 def run(sil, what, drive):
     """{measure: {statistic: {metric: value}}} of one experiment; of random motors {"all": {"worst":
     ..}}."""
+    if "plane" in what:
+        return run_plane(sil, what, drive)
     with tempfile.TemporaryDirectory() as directory:
         name = Path(what["file"]).name
         scenario, out = Path(directory, f"{name}.toml"), Path(directory, "out.json")

@@ -3,9 +3,12 @@
 
 import re
 
+import plane
 from experiments import FIELDS, ROOT
+from plane_picture import svg
 
 PAGES = ("README.md", "docs/assurance.md", "docs/papers.md", "docs/results.md")
+PICTURES = {"docs/plots/plane.svg": "plane ipmsm_390w"}
 
 # host_tools/sil/run/faults.hpp
 APPLICATION, RESET = 100, 200
@@ -29,7 +32,7 @@ def reason(code):
 
 def fields(values):
     """Named values of a cell."""
-    found = {}
+    found = plane.fields(values["plane"]) if "plane" in values else {}
     trips = values.get("trips")
     if trips:
         after_s = trips["after_s"]
@@ -95,3 +98,6 @@ def pages(experiments, recorded):
             text,
             marked.sub(block, text),
         )
+    for name, run in PICTURES.items():
+        path = ROOT / name
+        yield path, path.read_text() if path.exists() else "", svg(recorded[run]["plane"])
