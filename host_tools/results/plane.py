@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Steady running over speed and torque, the map of `sdre-sil qualify`, as recorded figures.
 
-A point is a list: speed [rad/s], torque [N m], then v_q [V], v_d [V] and speed [rad/s] rms without
-noise, and the same on the board. `limits` has the six in the same order; zero is none.
+A point is a list: speed [rad/s] and torque [N m], then v_q [V], v_d [V] and speed [rad/s] rms. The
+three are there without noise first, then on the board. `limits` has six in this order; zero: none.
 """
 
 KINDS = ("ideal", "board")

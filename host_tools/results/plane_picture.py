@@ -24,7 +24,7 @@ SCALE_STEPS = 40
 
 
 def colour(share):
-    """Of a share of the limit."""
+    """The fill of a cell with this share of the limit."""
     if not share <= 1:
         return BEYOND
     place = 1 + math.log10(max(share, 10**-DECADES)) / DECADES
