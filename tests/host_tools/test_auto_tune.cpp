@@ -170,6 +170,22 @@ TEST(AutoTune, AMotorWithoutAMagnetHasARestCurrent)
     EXPECT_EQ(sdre::reduced_parameters(shipped().motor)[0], 0.0);
 }
 
+/// Its d current makes the flux. With a slow reference of id, iq takes all of the voltage and the currents are lost.
+TEST(AutoTune, AMotorWithoutAMagnetReverses)
+{
+    const TempDir     dir;
+    const std::string drive = dir / "drive.toml", tuned = dir / "tuned.toml";
+    ASSERT_EQ(gains({"new", "--facts", sheet("syrm_6k7"), "--out", drive}).exit_code, 0);
+    ASSERT_EQ(gains({"tune", drive, "--out", tuned, "--no-qualify"}).exit_code, 0);
+    const auto r =
+        support::run_command({SDRE_SIL_EXE, "qualify", tuned, "--seeds", "1", "--motors", "0"});
+    EXPECT_NE(r.out.find("\npi_foc: no tuning of the grid"), std::string::npos) << r.out << r.err;
+    EXPECT_NE(r.out.find("\nreversal "), std::string::npos) << r.out;
+    for (const char *trial : {"reversal", "start while turning"}) {
+        EXPECT_EQ(r.out.find(std::string("not good: ") + trial), std::string::npos) << r.out;
+    }
+}
+
 // docs/errata.md has 3.2 rad/s of the 390 W motor's load step from half to all of its torque at 300 rad/s.
 TEST(AutoTune, PhysicalBoundOfTheShippedMotor)
 {

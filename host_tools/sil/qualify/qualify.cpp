@@ -10,6 +10,7 @@
 #include "design/laws/laws.hpp"
 #include "sil/eval/random_motors.hpp"
 #include "sil/eval/seeds.hpp"
+#include "sil/run/simulation.hpp"
 #include "tune/start_weights.hpp"
 
 namespace sdre {
@@ -96,10 +97,13 @@ MotorShare share_of(const Scenario &scenario, int count)
     return s;
 }
 
+/// True if there are constants that the control core accepts.
 bool has_design(const Drive &d)
 {
     try {
-        design_drive(d);
+        Scenario s   = at_speed(d, 0.0, 0.0);
+        s.duration_s = control_period_s(d);
+        simulate(s, prepare_controller(s));
         return true;
     } catch (const DesignError &) {
         return false;
