@@ -3,18 +3,47 @@
 
 from __future__ import annotations
 
+import re
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pyarrow.parquet as pq
 import pytest
 from test_campaign import SHORT, write_spec
 from test_sdre import SCENARIOS
 
 import sdre
+from sdre_campaign.batch import run_batch
 from sdre_campaign.draw import even_numbers, seeds_of, values_of
 from sdre_campaign.spec import Spec, read_spec
 from sdre_campaign.summary import clopper_pearson
+
+ROOT = Path(__file__).resolve().parents[2]
+CAMPAIGNS = sorted((ROOT / "host_tools/python/campaigns").glob("*.toml"))
+
+
+@pytest.mark.parametrize("file", CAMPAIGNS, ids=lambda file: file.stem)
+def test_shipped_specification_is_read(file: Path) -> None:
+    assert read_spec(file).cases >= 490
+
+
+def test_map_of_the_docs_prints_the_worst_points(tmp_path: Path) -> None:
+    plane = next(file for file in CAMPAIGNS if file.stem == "ipmsm_390w_plane")
+    spec = replace(read_spec(plane), repeats=1, cases=49, batch=49)
+    parts = tmp_path / "build/campaigns/plane/parts"
+    parts.mkdir(parents=True)
+    pq.write_table(run_batch(spec, 0).table, parts / "part-000000.parquet")
+    page = (ROOT / "docs/campaign.md").read_text(encoding="utf-8")
+    block = page[page.index("## A map") :].split("```python\n")[1].split("```")[0]
+    done = subprocess.run(
+        [sys.executable, "-c", block], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    found = re.findall(r"^(v[qd]): ([0-9.]+) V rms at \d+ rad/s", done.stdout, flags=re.M)
+    assert [name for name, _ in found] == ["vq", "vd"]
+    assert [float(value) for _, value in found] == pytest.approx([10.0, 3.5], rel=0.2)
 
 
 def test_case_is_the_same_in_any_batch() -> None:
