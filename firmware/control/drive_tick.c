@@ -6,7 +6,7 @@
 #include "frames.h"
 #include "voltage.h"
 
-/* Exceeds the voltage of every law; its square does not overflow. */
+/* Exceeds the voltage of every law, d and q together; its square does not overflow. */
 #define VOLTAGE_ANY_V 1.0e9f
 
 /* Exceeds every standstill; finite, so that divisions by it are defined. */
@@ -118,8 +118,7 @@ static drive_fault_t find_wrong(const drive_config_t *c, const law_output_t *ans
         fault = DRIVE_FAULT_ENCODER;
     } else if (!base_within(answer->now.omega_e_radps, c->trip_speed_e_radps)) {
         fault = DRIVE_FAULT_OVER_SPEED;
-    } else if (!base_within(answer->v_V.d, VOLTAGE_ANY_V) ||
-               !base_within(answer->v_V.q, VOLTAGE_ANY_V)) {
+    } else if (!((fabsf(answer->v_V.d) + fabsf(answer->v_V.q)) <= VOLTAGE_ANY_V)) {
         fault = DRIVE_FAULT_NUMERIC;
     } else {
         /* no fault */

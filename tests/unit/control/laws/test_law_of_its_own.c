@@ -291,12 +291,22 @@ static void test_answer_beyond_any_voltage_trips(void)
 
         assert_tripped(tick(), DRIVE_FAULT_NUMERIC);
     }
+    for (int i = 0; i < 3; i++) { /* the sum of both counts */
+        setUp();
+        (void)tick();
+        own.d_V               = (i == 1) ? 0.0f : 0.5e9f * (1.0f + (float)(i == 0));
+        own.gain_Vs           = (i == 0) ? 0.0f : 0.5e9f * (1.0f + (float)(i == 1));
+        command.omega_e_radps = 299.0f;
+
+        TEST_ASSERT_TRUE(tick().gate_enable && drive.v_limited);
+    }
     setUp();
-    own.d_V               = 1.0e9f;
-    own.gain_Vs           = 1.0e9f;
+    (void)tick();
+    own.d_V               = 0.5e9f;
+    own.gain_Vs           = 0.50001e9f;
     command.omega_e_radps = 299.0f;
 
-    TEST_ASSERT_TRUE(tick().gate_enable && drive.v_limited);
+    assert_tripped(tick(), DRIVE_FAULT_NUMERIC);
 }
 
 /* The speed in the law's answer trips, although the measured speed is in range. */
