@@ -114,8 +114,9 @@ std::string normalised_motor(const Motor &motor)
 std::string normalised_hardware(const Inverter &inverter, const Encoder &encoder)
 {
     const auto &[dc_link, pwm, pwm_wanted, dead_time, updates, compensation, overmodulation,
-                 regeneration]                   = inverter;
-    const auto &[lines, edge_times, index_angle] = encoder;
+                 regeneration]                         = inverter;
+    const auto &[lines, edge_times, index_angle, disc] = encoder;
+    static_cast<void>(disc);        // no table depends on it
     static_cast<void>(pwm_wanted);  // everything is designed for the one that the counter has
     static_cast<void>(index_angle); // beside the sensors
     std::string s =

@@ -31,6 +31,10 @@ constexpr Range current_A{1e-3, 1e4};
 constexpr Range dc_link_V{1.0, 1e4};
 constexpr Range dead_time_s{0.0, 2e-5};
 constexpr Range encoder_lines{1, 1e6};
+constexpr Range pattern_cnt{0.0, 0.8};
+constexpr Range own_rms_cnt{0.0, 0.28};
+constexpr Range state_width_deg{0.0, 80.0};
+constexpr Range turn_cnt{0.0, 100.0};
 constexpr Range slots{3, 1000};
 constexpr Range angle_e_rad{0.0, 6.283185};
 constexpr Range adc_bits{8, 16};
@@ -103,12 +107,47 @@ Inverter read_inverter(TomlReader t)
     return inverter;
 }
 
+// A state of 90 degrees lies between two edges, each evenly distributed over +- sqrt(3) own_rms_cnt.
+// Its width is off by twice that at most.
+double own_rms_of_state_width_cnt(double state_width_error_deg)
+{
+    return state_width_error_deg / 90.0 / (2.0 * std::sqrt(3.0));
+}
+
+DiscErrors read_disc_errors(std::optional<TomlReader> t)
+{
+    DiscErrors disc;
+    if (!t) {
+        return disc;
+    }
+    disc.pattern_cnt = t->number_or("pattern_cnt", pattern_cnt, disc.pattern_cnt);
+    if (t->has("state_width_error_deg")) {
+        if (t->has("own_rms_cnt")) {
+            t->fail("own_rms_cnt", "is not allowed beside state_width_error_deg: give one of them");
+        }
+        disc.own_rms_cnt =
+            own_rms_of_state_width_cnt(t->number("state_width_error_deg", state_width_deg));
+    } else {
+        disc.own_rms_cnt = t->number_or("own_rms_cnt", own_rms_cnt, disc.own_rms_cnt);
+    }
+    disc.turn_cnt         = t->number_or("turn_cnt", turn_cnt, disc.turn_cnt);
+    const double most_cnt = disc.pattern_cnt + std::sqrt(3.0) * disc.own_rms_cnt;
+    if (most_cnt >= 0.5) {
+        t->fail("pattern_cnt", fmt::format("is not allowed with these own errors: an edge would be "
+                                           "off by {:.3g} counts, must be below 0.5",
+                                           most_cnt));
+    }
+    t->reject_unknown_keys();
+    return disc;
+}
+
 Encoder read_encoder(TomlReader t)
 {
     Encoder encoder;
     encoder.lines             = t.integer("lines", encoder_lines);
     encoder.edge_times        = t.boolean_or("edge_times", false);
     encoder.index_angle_e_rad = t.number_or("index_angle_e_rad", angle_e_rad, 0.0);
+    encoder.disc              = read_disc_errors(t.table_if("disc"));
     t.reject_unknown_keys();
     return encoder;
 }

@@ -46,10 +46,20 @@ struct Inverter {
     DcLinkSink regeneration           = DcLinkSink::none;
 };
 
+/// Where the edges of the encoder's disc are off, in counts (EQ-ENCODER-7). The defaults are near the
+/// better end of data sheets. The design takes own_rms_cnt, the simulated board all of them.
+struct DiscErrors {
+    double pattern_cnt =
+        0.14; ///< of quadrature and duty, the same in each line: the drive learns it
+    double own_rms_cnt = 0.02; ///< of each edge alone
+    double turn_cnt    = 0.0;  ///< amplitude of one sine per turn: a disc that is not centred
+};
+
 struct Encoder {
     int    lines      = 0;
     bool   edge_times = false; ///< angle and speed from the times of the edges; else from counts
     double index_angle_e_rad = 0.0; ///< electrical angle at the index mark; 0: it marks the d axis
+    DiscErrors disc;
 };
 
 /// Measurement of the phase currents. The defaults follow the motor: a range that shows a trip at

@@ -25,10 +25,11 @@ constexpr double speed_noise       = 0.13;
 constexpr double current_noise     = 3.7e-3;
 constexpr double angle_error_units = 0.38;
 
-// Edges of a disc that differ from their learned places, and the error of the learning: 2.3 degrees
-// of a line. On a real disc the noise of v_q is then that of the linear model, on every motor of
-// docs/motors.md.
-constexpr double edge_error_cnt = 0.025;
+// Edges that differ from their learned places, and the error of the learning. On a real disc the
+// noise of v_q is then that of the linear model, on every motor of docs/motors.md: 0.025 counts.
+constexpr double edge_error_per_own = 1.25;
+// Chosen: time resolution and vibration; a perfect disc needs finite weights too.
+constexpr double least_edge_error_cnt = 0.005;
 
 // Chosen: the standard deviation that stands for an edge in n periods is n^(4/3) that of an edge. The density of the noise would
 // be n^(1/2). The rest makes the loops slower with n, as the sampled model has no edge that comes late.
@@ -65,7 +66,9 @@ SampleNoise sample_noise(const Drive &d)
     const CurrentSensors &s     = d.current_sensors;
     const double          lsb_A = 2.0 * s.range_A / std::exp2(s.adc_bits);
     const double          whole = 1.0 / std::sqrt(12.0); // standard deviation of a rounded number
-    const double          edge  = count_e_rad(d) * (d.encoder.edge_times ? edge_error_cnt : whole);
+    const double          own =
+        std::max(edge_error_per_own * d.encoder.disc.own_rms_cnt, least_edge_error_cnt);
+    const double edge = count_e_rad(d) * (d.encoder.edge_times ? own : whole);
     return {std::hypot(s.noise_rms_A, lsb_A * whole),
             edge * std::pow(periods_per_edge(d), rare_edges_exponent)};
 }

@@ -158,6 +158,24 @@ TEST(AutoTune, StartWeightsScaleWithTheMotor)
     EXPECT_NEAR(wb.nodo.T[2] / wa.nodo.T[2], 1.0, three_digits);
 }
 
+// A disc whose edges have errors of their own is a worse sensor; a pattern of each line is learned. Counts do
+// not show where an edge is.
+TEST(AutoTune, TheDesignTakesItsAngleNoiseFromTheDisc)
+{
+    sdre::Drive  d             = shipped();
+    const double plain         = sdre::sample_noise(d).angle_rad;
+    d.encoder.disc.pattern_cnt = 0.0;
+    EXPECT_EQ(sdre::sample_noise(d).angle_rad, plain);
+    d.encoder.disc.own_rms_cnt = 0.1;
+    EXPECT_NEAR(sdre::sample_noise(d).angle_rad / plain, 5.0, 1e-9);
+    d.encoder.disc.own_rms_cnt = 0.0;
+    EXPECT_GT(sdre::sample_noise(d).angle_rad, 0.1 * plain);
+    d.encoder.edge_times       = false;
+    const double counts        = sdre::sample_noise(d).angle_rad;
+    d.encoder.disc.own_rms_cnt = 0.1;
+    EXPECT_EQ(sdre::sample_noise(d).angle_rad, counts);
+}
+
 // Without a magnet (Lq - Ld) id is all of the flux. A fifth of it is at a fifth of the d current at
 // the limit, which is the limit over the root of two.
 TEST(AutoTune, AMotorWithoutAMagnetHasARestCurrent)

@@ -257,7 +257,7 @@ TEST(DriveFile, UnknownKeyIsNamedWithTheKnownOnes)
     expect_complaint(DriveText().set("", "colour", "1"),
                      {" colour is not a known key", "motor", "schema", "nodo"});
     expect_complaint(DriveText().set("encoder", "Lines", "1"),
-                     {"allowed: edge_times, index_angle_e_rad, lines"});
+                     {"allowed: disc, edge_times, index_angle_e_rad, lines"});
     expect_complaint(DriveText().set("inverter", "dead_time_us", "3"),
                      {"dead_time_us", "dead_time_s", "updates_per_period"});
 }
@@ -558,6 +558,51 @@ TEST(DriveFile, EdgeTimesAreOffUnlessAskedFor)
               sdre::drive_digest(read(DriveText().str())));
     expect_complaint(DriveText().set("encoder", "edge_times", "1"),
                      {"edge_times", "must be true or false"});
+}
+
+namespace {
+
+std::string with_disc(const std::string &keys)
+{
+    return DriveText().str() + "[encoder.disc]\n" + keys + "\n";
+}
+
+} // namespace
+
+TEST(DriveFile, DiscIsAGoodOneUnlessTheFileSaysWhatItIs)
+{
+    const auto disc = [](const std::string &keys) { return read(with_disc(keys)).encoder.disc; };
+    const sdre::DiscErrors plain = read(DriveText().str()).encoder.disc;
+    EXPECT_EQ(plain.pattern_cnt, 0.14);
+    EXPECT_EQ(plain.own_rms_cnt, 0.02);
+    EXPECT_EQ(plain.turn_cnt, 0.0);
+    EXPECT_EQ(disc("pattern_cnt = 0.0").pattern_cnt, 0.0);
+    EXPECT_EQ(disc("own_rms_cnt = 0.1").own_rms_cnt, 0.1);
+    EXPECT_EQ(disc("turn_cnt = 0.15").turn_cnt, 0.15);
+    // A state between edges that are off by +- 0.25 counts at most is 90 +- 45 degrees wide.
+    EXPECT_NEAR(std::sqrt(3.0) * disc("state_width_error_deg = 45.0").own_rms_cnt, 0.25, 1e-12);
+    // No table depends on the disc.
+    EXPECT_EQ(sdre::drive_digest(read(with_disc("own_rms_cnt = 0.1"))),
+              sdre::drive_digest(read(DriveText().str())));
+}
+
+TEST(DriveFile, DiscThatCannotBeIsRefused)
+{
+    const std::vector<std::tuple<std::string, std::string>> cases{
+        {"colour = 1", "[disc] colour is not a known key; allowed: own_rms_cnt"},
+        {"own_rms_cnt = 0.3", "own_rms_cnt"},
+        {"own_rms_cnt = -0.1", "own_rms_cnt"},
+        {"own_rms_cnt = 0.1\nstate_width_error_deg = 20.0",
+         "own_rms_cnt is not allowed beside state_width_error_deg"},
+        {"pattern_cnt = 0.4\nown_rms_cnt = 0.1", "off by 0.573 counts, must be below 0.5"}};
+    for (const auto &[keys, complaint] : cases) {
+        try {
+            read(with_disc(keys));
+            ADD_FAILURE() << keys;
+        } catch (const sdre::InputError &e) {
+            EXPECT_NE(std::string(e.what()).find(complaint), std::string::npos) << e.what();
+        }
+    }
 }
 
 TEST(DriveFile, MotorValueReachesEveryScalableKey)

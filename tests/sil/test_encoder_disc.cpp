@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "common/errors.hpp"
+#include "drive/drive_file.hpp"
 #include "sil/sensors/encoder.hpp"
+#include "sil/setup/board_reader.hpp"
 #include "sil/setup/scenario.hpp"
 #include "temp_dir.hpp"
 
@@ -127,6 +129,21 @@ TEST(EncoderDisc, TimesBetweenEdgesOfOneKindKnowNothingOfStateAndPulseWidth)
     EXPECT_LT(best, 1e-6);
 }
 
+TEST(EncoderDisc, JitterRepeatsAfterTheEdgesThatAreGiven)
+{
+    const EncoderDisc repeats({0.0, 0.0, 0.1, 16}, counts, 3);
+    const EncoderDisc turn({0.0, 0.0, 0.1, 0}, counts, 3);
+    double            differs = 0.0;
+    for (std::int64_t n = 0; n < counts; n++) {
+        const auto at = static_cast<double>(n);
+        EXPECT_NEAR(repeats.edge_cnt(n) - at,
+                    repeats.edge_cnt(n % 16) - static_cast<double>(n % 16), 1e-9);
+        differs = std::max(differs, std::abs(repeats.edge_cnt(n) - turn.edge_cnt(n)));
+    }
+    EXPECT_GT(differs, 0.1);
+    EXPECT_EQ(repeats.edge_cnt(7), turn.edge_cnt(7));
+}
+
 namespace {
 
 Scenario scenario(const std::string &sensors)
@@ -150,8 +167,23 @@ TEST(EncoderDisc, KeysAreReadAndChecked)
     EXPECT_EQ(s.duty_error_cnt, -0.1);
     EXPECT_EQ(s.jitter_rms_cnt, 0.01);
     EXPECT_EQ(scenario("").sensors.encoder_disc.quadrature_error_cnt, 0.14);
+    EXPECT_EQ(scenario("encoder_jitter_repeats = 16\n").sensors.encoder_disc.jitter_repeats, 16);
+    EXPECT_THROW(scenario("encoder_jitter_repeats = -1\n"), InputError);
     EXPECT_THROW(scenario("encoder_quadrature_error_cnt = 1.0\n"), InputError);
     EXPECT_THROW(scenario("encoder_jitter_rms_cnt = -0.01\n"), InputError);
     EXPECT_THROW(scenario("encoder_quadrature_error_cnt = 0.5\nencoder_duty_error_cnt = -0.5\n"),
                  InputError);
+}
+
+TEST(EncoderDisc, TheDriveFileSaysWhichDiscTheBoardHas)
+{
+    Drive d        = read_drive_file(SDRE_SOURCE_DIR "/firmware/config/drives/ipmsm_390w.toml");
+    d.encoder.disc = {0.2, 0.05, 0.15};
+    const SensorSettings s = sensors_of_drive(d);
+    EXPECT_EQ(s.encoder_disc.quadrature_error_cnt, 0.2);
+    EXPECT_EQ(s.encoder_disc.duty_error_cnt, 0.2);
+    EXPECT_EQ(s.encoder_disc.jitter_rms_cnt, 0.05);
+    EXPECT_EQ(s.encoder_disc.jitter_repeats, 0);
+    EXPECT_NEAR(s.encoder_eccentricity_rad / (2.0 * std::acos(-1.0)) * 4.0 * d.encoder.lines, 0.15,
+                1e-12);
 }

@@ -27,7 +27,8 @@ double EncoderDisc::edge_cnt(std::int64_t count) const
     const std::int64_t rest  = count % counts_per_turn_;
     const std::int64_t n     = rest < 0 ? rest + counts_per_turn_ : rest;
     const auto         place = static_cast<std::size_t>(n % 4);
-    const double       u     = std::sqrt(3.0) * jitter_.at(static_cast<std::uint64_t>(n));
+    const std::int64_t own   = settings_.jitter_repeats > 0 ? n % settings_.jitter_repeats : n;
+    const double       u     = std::sqrt(3.0) * jitter_.at(static_cast<std::uint64_t>(own));
     return at + track_cnt_[place] + pulse_cnt_[place] +
            settings_.jitter_rms_cnt * u; // EQ-ENCODER-7
 }

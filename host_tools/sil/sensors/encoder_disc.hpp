@@ -5,7 +5,8 @@
 ///     e(n) = -+ quadrature/2 (track A, B) -+ duty/2 (rising, falling) + jitter u(n)
 ///
 /// Track B is late by quadrature, so that the states of a line are 1 +- quadrature counts wide. A track's pulses exceed its
-/// gaps by duty. The numbers u(n) are evenly distributed, with mean 0 and standard deviation 1.
+/// gaps by duty. The numbers u(n) are evenly distributed, with mean 0 and standard deviation 1. They repeat after
+/// jitter_repeats edges when that is given, else after a turn.
 #pragma once
 
 #include <array>

@@ -15,6 +15,7 @@ constexpr Range encoder_lines{1, 1e6};
 constexpr Range eccentricity_rad{0.0, 0.5};
 constexpr Range edge_error_cnt{-0.9, 0.9};
 constexpr Range edge_jitter_cnt{0.0, 0.28};
+constexpr Range jitter_repeats{0, 1000000};
 constexpr Range angle_e_rad{-3.2, 3.2};
 constexpr Range adc_bits{4, 24};
 constexpr Range current_A{1e-3, 1e4};
@@ -45,6 +46,8 @@ constexpr Range time_s{0.0, 1e4};
 
 // Chosen: at 0.5 rad the integrator takes 1e-4 of an oscillation per step, less than a shaft does.
 constexpr double most_rad_per_step = 0.5;
+
+constexpr double two_pi = 6.28318530717958647693;
 
 /// Points per axis of a saturation map; the least makes one cell.
 const std::vector<std::size_t> axis_lengths{2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16};
@@ -78,6 +81,7 @@ EncoderDiscSettings read_disc(TomlReader &t, EncoderDiscSettings s)
         t.number_or("encoder_quadrature_error_cnt", edge_error_cnt, s.quadrature_error_cnt);
     s.duty_error_cnt = t.number_or("encoder_duty_error_cnt", edge_error_cnt, s.duty_error_cnt);
     s.jitter_rms_cnt = t.number_or("encoder_jitter_rms_cnt", edge_jitter_cnt, s.jitter_rms_cnt);
+    s.jitter_repeats = t.integer_or("encoder_jitter_repeats", jitter_repeats, s.jitter_repeats);
     const double most_cnt = 0.5 * (std::abs(s.quadrature_error_cnt) + std::abs(s.duty_error_cnt)) +
                             std::sqrt(3.0) * s.jitter_rms_cnt;
     if (most_cnt >= 0.5) {
@@ -142,11 +146,14 @@ void read_shaft(TomlReader &t, MotorEffects &e)
 SensorSettings sensors_of_drive(const Drive &drive)
 {
     SensorSettings s;
-    s.encoder_edge_time = drive.encoder.edge_times;
-    s.adc_bits          = drive.current_sensors.adc_bits;
-    s.adc_full_scale_A  = drive.current_sensors.range_A;
-    s.adc_noise_rms_A   = drive.current_sensors.noise_rms_A;
-    s.current_sensors   = drive.current_sensors.count;
+    s.encoder_edge_time        = drive.encoder.edge_times;
+    const DiscErrors &disc     = drive.encoder.disc;
+    s.encoder_disc             = {disc.pattern_cnt, disc.pattern_cnt, disc.own_rms_cnt, 0};
+    s.encoder_eccentricity_rad = disc.turn_cnt * two_pi / (4.0 * drive.encoder.lines);
+    s.adc_bits                 = drive.current_sensors.adc_bits;
+    s.adc_full_scale_A         = drive.current_sensors.range_A;
+    s.adc_noise_rms_A          = drive.current_sensors.noise_rms_A;
+    s.current_sensors          = drive.current_sensors.count;
     return s;
 }
 

@@ -15,6 +15,7 @@ struct EncoderDiscSettings {
     double quadrature_error_cnt = 0.14; ///< of the width of a state: 12.6 degrees
     double duty_error_cnt       = 0.14; ///< of the width of a pulse: 12.6 degrees
     double jitter_rms_cnt       = 0.02; ///< of each edge: 1.8 degrees, 3.1 at most
+    int    jitter_repeats       = 0;    ///< edges after which the jitter is the same; 0: a turn
 };
 
 struct SensorSettings {
