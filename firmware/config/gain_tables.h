@@ -3,14 +3,14 @@
  *
  * generator  sdre-gains 1.0.0, schema 1
  * drive      ipmsm_390w
- * digest     fnv1a64:c48703d13ca3a772 (of the normalised drive file)
+ * digest     fnv1a64:2d3ceeadd1b197bf (of the normalised drive file)
  * method     EQ-NOSC-2 with N = 2, EQ-NODO-ENCODER-3 with Nd = 1
  * checked    relative residuals <= 1e-16
- *            controller: slowest pole -551 1/s, sampled spectral radius 0.890, |e_iq| <= 8 A
- *            observer:   slowest pole -621 1/s, sampled spectral radius 0.924, |iq| <= 8 A
- * checked    q axis:     sensitivity peak 1.92 at 278 Hz, sampled spectral radius 0.9844
- * checked    d axis:     sensitivity peak 1.8 at 207 Hz, sampled spectral radius 0.9844
- *            motors:     stable in 0.57 of EQ-CERT-5's box
+ *            controller: slowest pole -508 1/s, sampled spectral radius 0.899, |e_iq| <= 8 A
+ *            observer:   slowest pole -585 1/s, sampled spectral radius 0.922, |iq| <= 8 A
+ * checked    q axis:     sensitivity peak 1.85 at 256 Hz, sampled spectral radius 0.9844
+ * checked    d axis:     sensitivity peak 1.72 at 575 Hz, sampled spectral radius 0.9844
+ *            motors:     stable in 0.67 of EQ-CERT-5's box
  */
 #ifndef GAIN_TABLES_H
 #define GAIN_TABLES_H
@@ -19,7 +19,7 @@
 
 #define GAIN_TABLES_SCHEMA 1
 #define GAIN_TABLES_NAME   "ipmsm_390w"
-#define GAIN_TABLES_DIGEST "fnv1a64:c48703d13ca3a772"
+#define GAIN_TABLES_DIGEST "fnv1a64:2d3ceeadd1b197bf"
 
 extern const drive_config_t gain_tables_drive;
 

@@ -665,7 +665,7 @@ TEST(Design, FirmwareConstantsFollowTheirDefinitions)
 TEST(Design, GateIsSomeCountsAndTheWorstLoadStep)
 {
     for (const auto &[name, counts, gate_rad] :
-         {std::tuple{"ipmsm_390w", 4.0, 6.76e-3}, std::tuple{"ipmsm_390w_counts", 4.0, 11.72e-3}}) {
+         {std::tuple{"ipmsm_390w", 4.0, 7.08e-3}, std::tuple{"ipmsm_390w_counts", 4.0, 11.72e-3}}) {
         const sdre::Design d = shipped(name);
         const auto        &c = of_encoder_form(d.config);
         const double       a = static_cast<double>(c.plausible.d_omega);

@@ -149,8 +149,8 @@ TEST(Position, VerdictJudgesBothDesigns)
 
 TEST(Position, DriveFileSaysWhatItCannotTake)
 {
-    const std::string q = "Q = [25600.0, 0.64, 0.000213, 11.1]";
-    expect_refused(q, "Q = [25600.0, 0.64, 0.000213]", "[position] Q");
+    const std::string q = "Q = [12800.0, 0.464, 0.000989, 19.8]";
+    expect_refused(q, "Q = [12800.0, 0.464, 0.000989]", "[position] Q");
     expect_refused(q, "Q = [0.0, 0.64, 0.000213, 11.1]",
                    "[position] Q[0] = 0 is not allowed: must be");
     expect_refused(q, q + "\nspeed = 1", "[position]");

@@ -200,7 +200,7 @@ TEST(SampledModel, SmallLoadStepInFluxWeakeningMovesTheReference)
             EXPECT_NEAR(found.deviation_e_radps[k], expected[k], 0.08 * dip) << omega << " " << k;
             other = std::max(other, std::abs(found.deviation_e_radps[k] - frozen[k]));
         }
-        EXPECT_GT(other, 0.1 * dip) << omega;
+        EXPECT_GT(other, 0.09 * dip) << omega; // more than both answers differ by
     }
 }
 
