@@ -34,8 +34,11 @@
 #define DAMP_SHARE 0.5f
 /* Chosen: mean distance of the current to its reference, share of the limit; healthy 0.033. */
 #define BEHIND_SHARE 0.1f
-/* Chosen: mean voltage above that of R, share of that at the limit; healthy 0.4. */
+/* Chosen: mean voltage above that of R, share of that at the limit. With a small current a rotor
+ * snaps into place, healthy 0.47. With SNAP_SHARE and more, healthy 0.32. */
 #define VOLTAGE_SHARE 0.6f
+#define STIFF_SHARE   0.45f
+#define SNAP_SHARE    0.3f
 
 /* Parts of a pass, in order. */
 enum { SETTLE = 0, LEAD_FORWARD, FORWARD, TURN, BACKWARD, RELEASE, PARTS };
@@ -239,7 +242,9 @@ static bool part_ends(commission_drag_t *d, const commission_config_t *c, float 
 bool commission_drag_follows(const commission_drag_t *d, const commission_config_t *c,
                              const commission_result_t *known)
 {
-    const float most_A = d->vector.length_A + (VOLTAGE_SHARE * c->current_max_A);
+    const float snap_A = SNAP_SHARE * c->current_max_A;
+    const float share  = (d->vector.length_A < snap_A) ? VOLTAGE_SHARE : STIFF_SHARE;
+    const float most_A = d->vector.length_A + (share * c->current_max_A);
     return commission_vector_follows(&d->vector, BEHIND_SHARE * c->current_max_A,
                                      most_A * known->r_Ohm.value);
 }

@@ -5,6 +5,8 @@
 
 /* Chosen: longer than the delay of the loop, shorter than a swing of the rotor. */
 #define FORGET 0.0625f
+/* Chosen: R, L and the angle are known; twice as long. */
+#define ROTOR_FORGET 0.0416667f
 /* Chosen: R I on its ramp and the induced voltage of a swing are slower. */
 #define SLOW 0.015625f
 
@@ -14,9 +16,8 @@
 #define ROTOR_SHARE  0.5f
 /* Chosen: DRAG's angle error of a salient rotor shows as much; SPIN corrects it. */
 #define ANGLE_rad 0.2f
-/* Chosen: a mean voltage that R and the induced voltage do not explain, and its time. */
-#define MEAN_SHARE 0.4f
-#define MEAN_s     0.1f
+/* Chosen: time of the mean voltage that R and the induced voltage do not explain. */
+#define MEAN_s 0.1f
 /* Chosen: admittance of LOOK to that of the check; healthy 0.8 to 1.3. */
 #define LEAST_RATIO 0.6f
 #define MOST_RATIO  1.7f
@@ -77,7 +78,8 @@ bool commission_guard_vector(commission_guard_t *g, const commission_config_t *c
 }
 
 bool commission_guard_rotor(commission_guard_t *g, const commission_config_t *c,
-                            const commission_signal_t *s, const commission_result_t *known)
+                            const commission_signal_t *s, const commission_result_t *known,
+                            float mean_share)
 {
     const float          r     = known->r_Ohm.value;
     const frames_angle_t angle = frames_angle(commission_angle_rad(known, s->position_cnt));
@@ -86,12 +88,12 @@ bool commission_guard_rotor(commission_guard_t *g, const commission_config_t *c,
                                   known->lq_H.value * i_A.q};
     const ab_t           v_V = {s->v_V.alpha - (r * s->i_A.alpha), s->v_V.beta - (r * s->i_A.beta)};
     const ab_t           step = unexplained(g, frames_inverse_park(psi, angle), v_V, c->ts_s);
-    add_leaky(&g->error_Wb, step, FORGET);
+    add_leaky(&g->error_Wb, step, ROTOR_FORGET);
     add_leaky(&g->mean_Wb, step, base_min(c->ts_s / MEAN_s, 1.0f));
     const float turned_H = ANGLE_rad * (known->lq_H.value - known->ld_H.value);
     const float most_H   = (ROTOR_SHARE * known->ld_H.value) + base_max(turned_H, 0.0f);
     return is_shorter(g->error_Wb, most_H * c->current_max_A) &&
-           is_shorter(g->mean_Wb, MEAN_SHARE * MEAN_s * r * c->current_max_A);
+           is_shorter(g->mean_Wb, mean_share * MEAN_s * r * c->current_max_A);
 }
 
 bool commission_guard_agrees(const commission_admittance_t *y, const commission_result_t *known)

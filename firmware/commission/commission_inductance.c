@@ -14,7 +14,7 @@
 #define LOOK_SAMPLES 36
 #define MAP_SAMPLES  250
 #define LOOK_AXES    4
-#define MAP_SHARE    0.8f
+#define MAP_SHARE    0.68f
 #define MAP_HALVES   48
 /* Chosen: share of the current limit; reached when the back-EMF is this share of the dc link. */
 #define BRAKE_SHARE     0.1f

@@ -36,6 +36,7 @@ typedef struct {
     float               half_swing_s;
     float               before_V; /**< mean voltage and current of the level before */
     float               before_A;
+    float               slope_Ohm; /**< between the two levels before */
 } commission_resistance_t;
 
 /** Starts at the first angle. Context: control ISR. */

@@ -77,8 +77,11 @@ bool commission_sensors_explain(commission_t *m, const commission_signal_t *s)
         ok = commission_guard_vector(&m->guard, c, s, known) &&
              commission_drag_follows(&m->work.drag, c, known);
         break;
+    case COMMISSION_MAP:
+        ok = commission_guard_rotor(&m->guard, c, s, known, COMMISSION_GUARD_MAP_MEAN);
+        break;
     default:
-        ok = commission_guard_rotor(&m->guard, c, s, known);
+        ok = commission_guard_rotor(&m->guard, c, s, known, COMMISSION_GUARD_SPIN_MEAN);
         break;
     }
     return ok;
@@ -87,13 +90,15 @@ bool commission_sensors_explain(commission_t *m, const commission_signal_t *s)
 void commission_sensors_probe(commission_t *m, const commission_signal_t *s,
                               commission_answer_t *out)
 {
-    const bool                 turns  = m->stage == COMMISSION_DRAG;
-    const bool                 direct = turns || (m->stage == COMMISSION_RESISTANCE);
-    const commission_vector_t *v      = turns ? &m->work.drag.vector : &m->work.resistance.vector;
-    const bool                 first  = m->ticks < FIRST_TICKS;
-    const bool asks = (out->step == COMMISSION_BUSY) && (first || commission_vector_strays(v));
+    const bool                 turns   = m->stage == COMMISSION_DRAG;
+    const bool                 direct  = turns || (m->stage == COMMISSION_RESISTANCE);
+    const commission_vector_t *v       = turns ? &m->work.drag.vector : &m->work.resistance.vector;
+    const bool                 first   = m->ticks < FIRST_TICKS;
+    const bool                 settles = !turns && (m->work.resistance.mean_ticks == 0L);
+    const bool                 asks    = direct && (out->step == COMMISSION_BUSY) &&
+                      (first || settles || commission_vector_strays(v));
 
-    if (direct && asks) {
+    if (asks) {
         ab_t pulse_V;
 
         if (!commission_probe_tick(&m->asked.probe, m->config, s, &m->admittance, &pulse_V)) {

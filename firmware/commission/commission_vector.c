@@ -12,6 +12,9 @@
 #define DAMP_MOST_V 1.0e6f
 /* Chosen: a rotor that snaps into place takes more voltage for a shorter time. */
 #define MEAN_s 0.05f
+/* Chosen: a shaft that stays within a count for STAND_s induces nothing; the mean is shorter. */
+#define STAND_s 0.05f
+#define BRISK_s 0.02f
 /* Chosen: shares of the limit that make the probe ask the sensors, and their mean of 16 periods. */
 #define STRAY_SHARE 0.02f
 #define CROSS_STRAY 0.12f
@@ -36,6 +39,7 @@ void commission_vector_start(commission_vector_t *v, const commission_config_t *
     fresh.damp_max_V            = DAMP_MOST_V;
     fresh.behind_share          = 1.0f;
     fresh.mean_share            = base_min(c->ts_s / MEAN_s, 1.0f);
+    fresh.brisk_share           = base_min(c->ts_s / BRISK_s, 1.0f);
     fresh.stray_A.d             = STRAY_SHARE * c->current_max_A;
     fresh.stray_A.q             = CROSS_STRAY * c->current_max_A;
     *v                          = fresh;
@@ -106,6 +110,8 @@ commission_vector_out_t commission_vector_tick(commission_vector_t *v, const com
     v->quick_A.d += QUICK * (behind_A - v->quick_A.d);
     v->quick_A.q += QUICK * (out.i_A.q - v->quick_A.q);
     v->mean_V += v->mean_share * (out.v_V.d - v->mean_V);
+    v->cross_A += v->mean_share * (out.i_A.q - v->cross_A);
+    v->brisk_V += v->brisk_share * (out.v_V.d - v->brisk_V);
     v->integral_V        = base_clamp(v->integral_V + (v->ki_VpA * error_A), -most_V, most_V);
     const float beyond_A = out.i_A.q - base_clamp(out.i_A.q, -v->cross_max_A, v->cross_max_A);
     const float over_A   = base_clamp(beyond_A, -v->error_max_A, v->error_max_A);
@@ -126,6 +132,11 @@ bool commission_vector_still(const commission_vector_t *v, float time_s)
 bool commission_vector_follows(const commission_vector_t *v, float most_A, float most_V)
 {
     return base_within(v->behind_A, most_A) && base_within(v->mean_V, most_V);
+}
+
+bool commission_vector_stands(const commission_vector_t *v, float most_V)
+{
+    return !commission_vector_still(v, STAND_s) || base_within(v->brisk_V, most_V);
 }
 
 bool commission_vector_strays(const commission_vector_t *v)

@@ -35,6 +35,9 @@ typedef struct {
     dq_t  quick_A;      /**< reference less current, and current across: means of 16 periods */
     float mean_share;   /**< of a new value in mean_V */
     float mean_V;       /**< mean voltage along the vector, over 50 ms */
+    float cross_A;      /**< mean current across it, over 50 ms */
+    float brisk_share;  /**< of a new value in brisk_V */
+    float brisk_V;      /**< the same over 20 ms */
 
     int32_t still_cnt; /**< position at which the shaft rests */
     int32_t still_ticks;
@@ -82,6 +85,10 @@ commission_vector_out_t commission_vector_tick(commission_vector_t *v, const com
 /** False when the mean current is off its reference by more than `most_A`, or takes more than
  * `most_V`. A current sensor or a phase is then wrong. Context: control ISR. */
 bool commission_vector_follows(const commission_vector_t *v, float most_A, float most_V);
+
+/** False when the shaft stands and the mean voltage exceeds `most_V`: no motion explains it then.
+ * Context: control ISR. */
+bool commission_vector_stands(const commission_vector_t *v, float most_V);
 
 /** True while the current is not that of a rotor at rest. It moves, or a sensor or phase is wrong.
  * Context: control ISR. */

@@ -203,6 +203,26 @@ static void test_a_wrong_number_of_lines_ends_it(void)
     TEST_ASSERT_EQUAL_INT(COMMISSION_FAILED, run(&m));
 }
 
+static bool follows_with(float length_A, float mean_V)
+{
+    drag.vector.length_A = length_A;
+    drag.vector.mean_V   = mean_V;
+    return commission_drag_follows(&drag, &config, &found);
+}
+
+/* R takes 0.6 of 10 A more below 3 A, where a rotor may snap, and 0.45 more from there on. */
+static void test_a_voltage_above_that_of_r_ends_it(void)
+{
+    const commission_result_t k = {.r_Ohm = {(float)R_Ohm, 0.0f}};
+    found                       = k;
+    commission_drag_start(&drag, &config, &found);
+    TEST_ASSERT_TRUE(follows_with(2.9f, 0.5f * (2.9f + 5.9f)));
+    TEST_ASSERT_FALSE(follows_with(2.9f, 0.5f * (2.9f + 6.1f)));
+    TEST_ASSERT_TRUE(follows_with(3.1f, 0.5f * (3.1f + 4.4f)));
+    TEST_ASSERT_FALSE(follows_with(3.1f, 0.5f * (3.1f + 4.6f)));
+    TEST_ASSERT_FALSE(follows_with(3.1f, -0.5f * (3.1f + 4.6f)));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -214,5 +234,6 @@ int main(void)
     RUN_TEST(test_counts_are_found_with_the_index);
     RUN_TEST(test_an_encoder_that_stands_ends_it);
     RUN_TEST(test_a_wrong_number_of_lines_ends_it);
+    RUN_TEST(test_a_voltage_above_that_of_r_ends_it);
     return UNITY_END();
 }

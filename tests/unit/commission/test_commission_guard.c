@@ -29,7 +29,7 @@ void setUp(void)
 
 void tearDown(void) {}
 
-typedef enum { LOOK, VECTOR, ROTOR } rule_t;
+typedef enum { LOOK, VECTOR, ROTOR, MAP } rule_t;
 
 /* One period with this voltage along alpha. The sensors show gain times the current. */
 static bool period(rule_t rule, float v_V, float gain, float offset_A)
@@ -42,8 +42,10 @@ static bool period(rule_t rule, float v_V, float gain, float offset_A)
         return commission_guard_look(&guard, &config, &s, &y);
     case VECTOR:
         return commission_guard_vector(&guard, &config, &s, &known);
+    case MAP:
+        return commission_guard_rotor(&guard, &config, &s, &known, COMMISSION_GUARD_MAP_MEAN);
     default:
-        return commission_guard_rotor(&guard, &config, &s, &known);
+        return commission_guard_rotor(&guard, &config, &s, &known, COMMISSION_GUARD_SPIN_MEAN);
     }
 }
 
@@ -55,7 +57,7 @@ static float wave_V(int k)
 
 static void test_a_live_sensor_passes(void)
 {
-    for (int rule = 0; rule < 3; rule++) {
+    for (int rule = 0; rule <= MAP; rule++) {
         setUp();
         true_A = -0.4f * BOUND_A;
         for (int k = 0; k < 5000; k++) {
@@ -84,21 +86,37 @@ static void expect_end(rule_t rule, float gain, bool frozen)
 
 static void test_a_voltage_without_current_ends_it_below_the_bound(void)
 {
-    for (int rule = 0; rule < 3; rule++) {
+    for (int rule = 0; rule <= MAP; rule++) {
         expect_end((rule_t)rule, 0.0f, false);
         expect_end((rule_t)rule, 0.0f, true);
         expect_end((rule_t)rule, -1.0f, false);
     }
 }
 
-/* A sensor off by half the bound: the mean voltage does not fit to R. */
-static void test_a_mean_voltage_that_r_does_not_explain_ends_it(void)
+/* Periods until a voltage that brings no measured current ends it. */
+static int periods_with(rule_t rule, float v_V)
 {
     int k = 0;
-    while (period(ROTOR, (R_Ohm * 0.5f * BOUND_A), 0.0f, 0.0f) && (k < 2000)) {
+    setUp();
+    while (period(rule, v_V, 0.0f, 0.0f) && (k < 2000)) {
         k++;
     }
-    TEST_ASSERT_TRUE((k > 100) && (k < 1200));
+    return k;
+}
+
+/* 20 V against 0.24 and 0.4 of R times the bound, 1.8 V and 3 V, in a mean of 0.1 s. */
+static void test_a_mean_voltage_that_r_does_not_explain_ends_it(void)
+{
+    TEST_ASSERT_INT_WITHIN(2, 47, periods_with(MAP, 20.0f));
+    TEST_ASSERT_INT_WITHIN(2, 81, periods_with(ROTOR, 20.0f));
+    TEST_ASSERT_INT_WITHIN(100, 2000, periods_with(MAP, 1.7f));
+    TEST_ASSERT_INT_WITHIN(100, 2000, periods_with(ROTOR, 2.9f));
+}
+
+/* 30 V in a sum of 24 periods against half of L times the bound: 0.1125 Wb of 0.144 Wb. */
+static void test_flux_of_24_periods_ends_it(void)
+{
+    TEST_ASSERT_INT_WITHIN(2, 36, periods_with(ROTOR, 30.0f));
 }
 
 static void test_a_slow_voltage_is_no_matter_of_the_vector_rule(void)
@@ -110,7 +128,7 @@ static void test_a_slow_voltage_is_no_matter_of_the_vector_rule(void)
 
 static void test_what_is_not_a_number_ends_it(void)
 {
-    for (int rule = 0; rule < 3; rule++) {
+    for (int rule = 0; rule <= MAP; rule++) {
         for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
             setUp();
             TEST_ASSERT_TRUE(period((rule_t)rule, 0.0f, 1.0f, 0.0f));
@@ -138,6 +156,7 @@ int main(void)
     RUN_TEST(test_a_live_sensor_passes);
     RUN_TEST(test_a_voltage_without_current_ends_it_below_the_bound);
     RUN_TEST(test_a_mean_voltage_that_r_does_not_explain_ends_it);
+    RUN_TEST(test_flux_of_24_periods_ends_it);
     RUN_TEST(test_a_slow_voltage_is_no_matter_of_the_vector_rule);
     RUN_TEST(test_what_is_not_a_number_ends_it);
     RUN_TEST(test_look_agrees_with_the_check);

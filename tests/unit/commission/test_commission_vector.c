@@ -114,6 +114,35 @@ static void test_a_shaft_is_still_when_one_count_is_all(void)
     TEST_ASSERT_FALSE(commission_vector_still(&vector, 0.001f));
 }
 
+/* Shares of the last value after one time constant: 1 - 1/e. */
+static void test_means_of_voltage_and_current(void)
+{
+    for (int k = 0; k < 250; k++) {
+        const commission_signal_t s = {
+            .i_A = {0.0f, -2.0f}, .v_V = {8.0f, 0.0f}, .dc_link_V = 540.0f};
+        (void)commission_vector_tick(&vector, &s, 0.0f, 0.0f, 0.0f);
+        if (k == 99) { /* 20 ms */
+            TEST_ASSERT_FLOAT_WITHIN(0.03f, 8.0f * 0.632f, vector.brisk_V);
+        }
+    }
+    TEST_ASSERT_FLOAT_WITHIN(0.03f, 8.0f * 0.632f, vector.mean_V);
+    TEST_ASSERT_FLOAT_WITHIN(0.01f, -2.0f * 0.632f, vector.cross_A);
+}
+
+/* A shaft that has moved within 50 ms may induce any voltage. */
+static void test_a_shaft_that_stands_needs_no_more_than_its_voltage(void)
+{
+    for (int k = 0; k < 2; k++) {
+        vector.still_ticks = (k == 0) ? 249 : 251;
+        vector.brisk_V     = 4.9f;
+        TEST_ASSERT_TRUE(commission_vector_stands(&vector, 5.0f));
+        vector.brisk_V = 5.1f;
+        TEST_ASSERT_EQUAL_INT(k == 0, commission_vector_stands(&vector, 5.0f));
+        vector.brisk_V = -5.1f;
+        TEST_ASSERT_EQUAL_INT(k == 0, commission_vector_stands(&vector, 5.0f));
+    }
+}
+
 static void test_counter_may_wrap(void)
 {
     for (int k = 0; k < 500; k++) {
@@ -131,6 +160,8 @@ int main(void)
     RUN_TEST(test_a_current_off_its_reference_strays);
     RUN_TEST(test_the_added_resistance_takes_a_limited_voltage);
     RUN_TEST(test_a_shaft_is_still_when_one_count_is_all);
+    RUN_TEST(test_means_of_voltage_and_current);
+    RUN_TEST(test_a_shaft_that_stands_needs_no_more_than_its_voltage);
     RUN_TEST(test_counter_may_wrap);
     return UNITY_END();
 }
