@@ -6,6 +6,7 @@
 #include "facts/commissioned_text.hpp"
 #include "sil/commands/commands.hpp"
 #include "sil/commission/board_bench.hpp"
+#include "sil/commission/faults.hpp"
 #include "sil/commission/report.hpp"
 
 namespace sdre {
@@ -20,6 +21,8 @@ struct Options {
     int         seed          = 1;
     int         coulomb       = 10;
     int         cogging       = 0;
+    int         bound         = 100;
+    int         faults        = 0;
     bool        unknown_lines = false;
 };
 
@@ -38,7 +41,29 @@ void declare(OptionList &list, Options &o)
         "dry friction of the simulated shaft, thousandths of the rated torque (default 10)");
     list.number("--cogging", o.cogging, {0, 200},
                 "amplitude of its cogging, thousandths of the rated torque (default 0)");
+    list.number("--bound", o.bound, {5, 100},
+                "current that the drive may use, hundredths of its limit (default 100)");
+    list.number("--faults", o.faults, {1, 8},
+                "instead: faults of sensors, motor wires and encoder, at N times of each stage; "
+                "prints the largest true currents");
+    for (const char *other : {"--board", "--out", "--json", "--csv"}) {
+        list.exclude("--faults", other);
+    }
     list.flag("--unknown-lines", o.unknown_lines, "count the encoder's lines with its index");
+}
+
+int run_faults(const Drive &d, const CommissionOptions &c, int times)
+{
+    const auto cases = commission_with_faults(d, c, commission_faults(d), times);
+    fmt::print("{}: commissioning with faults, bound {:g} A, {} runs\n{}", d.name,
+               c.current_share * d.motor.max_current_A, cases.size(),
+               commission_fault_table(cases));
+    for (int stage = COMMISSION_WATCH; stage <= COMMISSION_SPIN; stage++) {
+        if (const CommissionCase *worst = worst_case(cases, stage)) {
+            fmt::print("  largest: {}\n", case_text(*worst));
+        }
+    }
+    return exit_ok;
 }
 
 int run(const Options &o)
@@ -48,8 +73,12 @@ int run(const Options &o)
     c.seed          = static_cast<std::uint64_t>(o.seed);
     c.coulomb_share = 1e-3 * o.coulomb;
     c.cogging_share = 1e-3 * o.cogging;
+    c.current_share = 1e-2 * o.bound;
     c.lines_known   = !o.unknown_lines;
     c.trace_every   = o.csv.empty() ? 0 : 10;
+    if (o.faults > 0) {
+        return run_faults(truth, c, o.faults);
+    }
     const CommissionRun result =
         o.board.empty()
             ? commission(truth, c)

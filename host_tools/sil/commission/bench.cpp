@@ -166,6 +166,7 @@ CommissionRun commission_in(const Scenario &scenario, const CommissionOptions &o
     run.reason            = module.reason;
     run.found             = module.found;
     run.time_s            = static_cast<double>(tick) * ts;
+    run.bound_A           = static_cast<double>(config.current_max_A);
     run.true_offset_e_rad = bench.offset_e_rad();
     run.true_coulomb_Nm   = bench.coulomb_Nm();
     run.reversed          = bench.reversed();

@@ -43,6 +43,7 @@ struct CommissionRun {
     commission_reason_t        reason = COMMISSION_REASON_NONE;
     commission_result_t        found{};
     double                     time_s            = 0.0;
+    double                     bound_A           = 0.0; ///< that the drive may use
     double                     peak_current_A    = 0.0; ///< |i| of the plant, also between samples
     double                     true_offset_e_rad = 0.0; ///< what offset_rad should be
     double                     true_coulomb_Nm   = 0.0;
@@ -52,6 +53,11 @@ struct CommissionRun {
     bool finished() const
     {
         return stage == COMMISSION_FINISHED;
+    }
+    /// Largest current, of the bound.
+    double peak_share() const
+    {
+        return peak_current_A / bound_A;
     }
 };
 

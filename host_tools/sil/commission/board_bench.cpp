@@ -86,11 +86,12 @@ CommissionRun commission_on_board(const Drive &truth, const CommissionOptions &o
     for (const std::string &finding : run->findings()) {
         throw InputError("--board: " + finding);
     }
-    result.stage  = s.commission.stage;
-    result.during = s.commission.last_stage;
-    result.reason = s.commission.reason;
-    result.found  = s.commission.found;
-    result.time_s = static_cast<double>(run->bench().tick() - start) * ts;
+    result.stage   = s.commission.stage;
+    result.during  = s.commission.last_stage;
+    result.reason  = s.commission.reason;
+    result.found   = s.commission.found;
+    result.bound_A = static_cast<double>(bounds.current_max_A);
+    result.time_s  = static_cast<double>(run->bench().tick() - start) * ts;
     result.true_offset_e_rad =
         std::remainder(static_cast<double>(first) * count_e_rad(truth), two_pi);
     result.true_coulomb_Nm = board.scenario.motor_effects.coulomb_friction_Nm;

@@ -87,7 +87,7 @@ std::string commission_text(const Drive &d, const CommissionRun &r)
                      180.0 / pi * r.found.ripple_rad,
                      r.found.reluctance ? "aligned by reluctance" : "aligned by the magnet");
     s += fmt::format("  peak current {:.4g} A, {:.3f} of the bound\n", r.peak_current_A,
-                     r.peak_current_A / d.motor.max_current_A);
+                     r.peak_share());
     return s;
 }
 
@@ -99,7 +99,7 @@ std::string commission_json(const Drive &d, const CommissionRun &r)
     root["stage"]      = commission_stage_name(r.finished() ? r.stage : r.during);
     root["reason"]     = commission_reason_text(r.reason);
     root["time_s"]     = r.time_s;
-    root["peak_share"] = r.peak_current_A / d.motor.max_current_A;
+    root["peak_share"] = r.peak_share();
     Json lines         = Json::object();
     for (const CommissionLine &l : commission_lines(d, r)) {
         Json one           = Json::object();
