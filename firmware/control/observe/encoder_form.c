@@ -15,54 +15,45 @@ CTL_PART bool encoder_form_gains_check(const encoder_form_gains_t *gains)
            check_positive(gains->d_omega_1ps2) && check_positive(gains->count_rad);
 }
 
-/* Least share s; 2 would explain the whole error by the acceleration. Chosen by simulation of the
- * scenario board_hold. With 0.5, a motor of 0.6 times the nominal inertia oscillates at standstill:
- * v_q noise is 76 V rms instead of 2.5 V. At low speed the noise is 7.2 V instead of 4.2 V. A load
- * step at standstill settles in 8 ms instead of 12 ms. With 0.1, a reversal has three times the
- * ripple. */
-#define D_OMEGA_SHARE 0.15f
-
-/* Upper limit of s. In this range s follows the gain of one sample: with an edge in every period
- * nothing changes. */
+/* Share s of the error that the acceleration explains, within 0.15 .. 0.5 the gain of one sample; 2
+ * would explain all of it. Chosen by simulation: with 0.1 a reversal has three times the ripple.
+ * With 0.5, a motor of 0.6 times the inertia oscillates at rest. A share that falls with the
+ * distance of the edges lets a pump with few lines oscillate. */
+#define D_OMEGA_SHARE      0.15f
 #define D_OMEGA_SHARE_MOST 0.5f
 
-static float d_omega_share(const encoder_form_gains_t *gains, float ts_s)
-{
-    return base_clamp(gains->d_omega_1ps2 * ts_s * ts_s, D_OMEGA_SHARE, D_OMEGA_SHARE_MOST);
-}
-
-/* True with two or more edges per sample: T is Ts, and the gains of one sample apply if no limit
- * acts. */
-static bool is_one_sample(const encoder_form_gains_t *gains, float speed_e_radps, float two_rad,
-                          float ts_s)
-{
-    return ((speed_e_radps * ts_s) >= two_rad) && ((gains->omega_1ps * ts_s) <= 1.0f) &&
-           ((gains->d_omega_1ps2 * ts_s * ts_s) <= D_OMEGA_SHARE_MOST);
-}
+/* Share s_w that the speed explains. Chosen by simulation at 1 .. 10 rad/s: with 1, edges with
+ * errors of their own have twice the ripple. At rest a share of 0.5 oscillates with 0.6 times the
+ * inertia, so it grows from 1.5 to 3 periods. */
+#define OMEGA_SHARE  0.5f
+#define OMEGA_GROWTH 0.33f
 
 CTL_PART float encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad,
                                          const encoder_form_gains_t *gains, float error_rad,
                                          float gap_s, float ts_s)
 {
-    const float two_rad = 2.0f * gains->count_rad;
-    const float speed   = fabsf(est->omega_e_radps);
+    const float count_rad = gains->count_rad;
+    const float speed     = fabsf(est->omega_e_radps);
 
-    if (is_one_sample(gains, speed, two_rad, ts_s)) {
-        return 1.0f;
+    if ((speed * ts_s) >= count_rad) {
+        return 1.0f; /* an edge or more in each sample: its gains apply */
     }
-    /* T and 1 / T, by the gap or by the time of two counts. One division gives all reciprocals. */
-    const bool  by_gap  = (gap_s * speed) < two_rad;
-    const float over    = by_gap ? gap_s : (speed * two_rad);
+    /* T and 1 / T, by the gap or by the time of a count. One division gives all reciprocals. */
+    const bool  by_gap  = (gap_s * speed) < count_rad;
+    const float over    = by_gap ? gap_s : (speed * count_rad);
     const float both    = fpu_inverse(over * gains->d_omega_1ps2 * ts_s);
     const float inv     = both * gains->d_omega_1ps2 * ts_s;
     const float inv_ts  = both * over * gains->d_omega_1ps2;
     const float inv_d   = both * over * ts_s;
-    const float every_s = base_max(by_gap ? gap_s : (two_rad * two_rad * inv), ts_s);
+    const float every_s = base_max(by_gap ? gap_s : (count_rad * count_rad * inv), ts_s);
     const float per_s   = base_min(by_gap ? inv : (speed * speed * inv), inv_ts);
     const float samples = every_s * inv_ts;
-    const float share   = base_min(samples, d_omega_share(gains, ts_s) * per_s * per_s * inv_d);
-    const float theta   = base_min(gains->theta * samples, 1.0f) - (share * gains->theta);
-    const float omega   = base_min(gains->omega_1ps * samples, per_s) - (share * gains->omega_1ps);
+    const float s =
+        base_clamp(gains->d_omega_1ps2 * ts_s * ts_s, D_OMEGA_SHARE, D_OMEGA_SHARE_MOST);
+    const float share    = base_min(samples, s * per_s * per_s * inv_d);
+    const float theta    = base_min(gains->theta * samples, 1.0f) - (share * gains->theta);
+    const float most_1ps = base_clamp(OMEGA_GROWTH * samples, OMEGA_SHARE, 1.0f) * per_s;
+    const float omega = base_min(gains->omega_1ps * samples, most_1ps) - (share * gains->omega_1ps);
 
     est->omega_e_radps += omega * error_rad;
     *theta_hat_rad = frames_wrap(*theta_hat_rad + (theta * error_rad));

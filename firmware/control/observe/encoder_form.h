@@ -122,16 +122,19 @@ static inline float encoder_form_jumped_rad(const angle_gate_result_t *angle, fl
  * @brief Corrects with an edge that comes once in T > Ts, or with the angle range after it.
  *
  * An edge represents T / Ts samples, so the gains of one sample are multiplied by that. Each gain
- * is limited to the value that explains the whole error e alone. The error may be one of the angle,
- * of the speed since the previous edge, or of the acceleration since then.
+ * is limited to a share of the value that explains the whole error e alone. The error may be one of
+ * the angle, of the speed since the previous edge, or of the acceleration since then.
  *
  *     theta^ += min(k_theta T / Ts, 1) e
- *     w^     += min(k_w T / Ts, 1 / T) e
+ *     w^     += min(k_w T / Ts, s_w / T) e
  *     d_w^   += min(k_d T / Ts, s / T^2) e, the other estimates in proportion    EQ-ENCODER-FORM-2
- *     T = min(gap, 2 count / |w^|), at least Ts;  s = k_d Ts^2 within 0.15 .. 0.5
+ *     T = min(gap, count / |w^|), at least Ts
+ *     s_w = 0.33 T / Ts within 0.5 .. 1;  s = k_d Ts^2 within 0.15 .. 0.5
+ *     an edge or more in each sample: the gains of one sample
  *
- * T is limited by the speed, because a shaft that starts after a long rest moved in a part of the
- * gap only.
+ * T is limited by the speed. A shaft that starts after a long rest moved in a part of the gap only.
+ * With one or two edges in each sample, the gap before two of them is longer than Ts, but no sample
+ * was without an edge.
  *
  * @param est           Estimates. The speed gets the part above its gain of one sample.
  * @param theta_hat_rad Estimated angle. It gets the part above its gain of one sample.
