@@ -275,12 +275,14 @@ TEST(BoardRunsMore, StuckEncoderIsAFault)
     ASSERT_EQ(app_status_read().mode, APP_MODE_RUN);
     run.bench().stick_encoder();
     step_to(2100);
+    EXPECT_EQ(app_status_read().mode, APP_MODE_STOP); // brakes first
+    step_to(2250);
     EXPECT_EQ(app_status_read().mode, APP_MODE_FAULT);
     EXPECT_EQ(app_status_read().drive_fault, DRIVE_FAULT_ENCODER);
 
     // And the operator reads so over the serial line.
     run.chat();
-    step_to(2160);
+    step_to(2310);
     ASSERT_GT(run.registers().size(), static_cast<std::size_t>(APP_REGISTERS_DRIVE_FAULT));
     EXPECT_EQ(run.registers()[APP_REGISTERS_MODE], APP_MODE_FAULT);
     EXPECT_EQ(run.registers()[APP_REGISTERS_DRIVE_FAULT], DRIVE_FAULT_ENCODER);

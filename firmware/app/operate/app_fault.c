@@ -24,8 +24,9 @@ app_fault_t app_fault_of(const app_modes_t *m, const app_modes_input_t *in)
     if (m->gate_on && in->tick_missing) {
         return APP_FAULT_TICK;
     }
-    if (m->reading.index_fault &&
-        (m->mode != APP_MODE_COMMISSION)) { /* the lines are unknown there */
+    /* The lines are unknown there; and a lost encoder is braked without. */
+    if (m->reading.index_fault && (m->mode != APP_MODE_COMMISSION) &&
+        !m->drive.answer.without_angle) {
         return APP_FAULT_INDEX;
     }
     if ((driving || (m->mode == APP_MODE_CALIBRATE)) && !m->sample.valid) {

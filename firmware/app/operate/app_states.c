@@ -36,7 +36,7 @@ bridge_t app_states_drive(app_modes_t *m, const app_command_t *asked, bool run)
 
 static bridge_t drive_to_a_stop(app_modes_t *m, const app_modes_input_t *in)
 {
-    const app_command_t stop = {.omega_e_radps = 0.0f, .derating = in->command.derating};
+    const app_command_t stop = app_states_stop_command(m, in);
 
     return app_states_drive(m, &stop, true);
 }

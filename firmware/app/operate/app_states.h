@@ -18,11 +18,17 @@ bridge_t app_states_rest(app_modes_t *m, const app_modes_input_t *in);
 /** Executes a tick of the drive. @param run false: the drive stays off. */
 bridge_t app_states_drive(app_modes_t *m, const app_command_t *asked, bool run);
 
+/** Returns the command that brakes: to standstill, or until the drive trips without encoder. */
+app_command_t app_states_stop_command(const app_modes_t *m, const app_modes_input_t *in);
+
 /** Enters a mode and clears its timer and sums. */
 void app_states_enter(app_modes_t *m, app_mode_t mode);
 
 /** Executes a tick of FAULT: the bridge is open, or shorts the motor (app_stop.h). */
 bridge_t app_states_fault(app_modes_t *m, const app_modes_input_t *in);
+
+/** True if the encoder tells the speed: it was not lost in the last run. */
+bool app_states_know_speed(const app_modes_t *m);
 
 /** First fault of this tick. It runs from flash. */
 app_fault_t app_fault_of(const app_modes_t *m, const app_modes_input_t *in);

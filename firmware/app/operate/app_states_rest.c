@@ -260,10 +260,9 @@ static void leave_fault(app_modes_t *m)
 /* If the speed of a shorted motor is unknown, only the operator's reset opens the bridge. */
 static bridge_t in_fault(app_modes_t *m, const app_modes_input_t *in)
 {
-    const bridge_t out   = app_states_fault(m, in);
-    const bool     known = m->sample.valid && m->reading.speed_valid;
+    const bridge_t out = app_states_fault(m, in);
 
-    if (in->command.reset && !in->command.run && !(m->stop.shorted && known)) {
+    if (in->command.reset && !in->command.run && !(m->stop.shorted && app_states_know_speed(m))) {
         leave_fault(m);
         return bridge_open();
     }

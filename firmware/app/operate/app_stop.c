@@ -53,7 +53,8 @@ void app_stop_fault(app_stop_t *s, float omega_e_radps, drive_fault_t drive_faul
 
 bridge_t app_stop_bridge(app_stop_t *s, const app_stop_input_t *in)
 {
-    const bool slow = in->valid && base_within(in->omega_e_radps, OPEN_BELOW * s->link_e_radps);
+    const bool slow =
+        in->speed_known && base_within(in->omega_e_radps, OPEN_BELOW * s->link_e_radps);
     const bool over_current =
         in->valid && sample_over_current(in->ia_A, in->ib_A, s->trip_current_A);
 

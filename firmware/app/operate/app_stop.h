@@ -55,12 +55,13 @@ bool app_stop_is_braking(const app_stop_t *s, float omega_e_radps);
 void app_stop_fault(app_stop_t *s, float omega_e_radps, drive_fault_t drive_fault,
                     uint16_t board_faults);
 
-/** Inputs of one tick: speed, phase currents, their validity, and the board's faults. */
+/** Inputs of one tick: speed, phase currents, whether each is known, and the board's faults. */
 typedef struct {
     float    omega_e_radps;
     float    ia_A;
     float    ib_A;
-    bool     valid;
+    bool     speed_known;
+    bool     valid; /**< currents */
     uint16_t board_faults;
 } app_stop_input_t;
 

@@ -20,6 +20,7 @@ static void reset(law_state_t *state, const drive_config_t *drive, const drive_s
     s->theta_hat_rad = frames_wrap(sample->theta_e_rad);
     encoder_form_edges_reset(&s->edges);
     angle_gate_reset(&s->gate, sample->theta_e_rad);
+    nodo_current_reset(&s->without);
     near_optimal_reset(&s->near_optimal, &c->near_optimal, y.omega_e_radps);
 }
 
@@ -44,9 +45,10 @@ static near_optimal_view_t observe(law_noc_state_t *s, const law_noc_config_t *c
     const angle_gate_result_t angle = encoder_form_innovation(
         &s->gate, &s->edges, &c->gate, in->sample, &s->observer, s->theta_hat_rad, drive->ts_s);
 
+    bool knows = true;
     if (s->gate.lost != 0) {
-        nodo_current_correct(&s->observer, &s->theta_hat_rad, &c->currents,
-                             sample_current_A(in->sample, s->theta_hat_rad));
+        knows = nodo_current_correct(&s->without, &s->observer, &s->theta_hat_rad, &c->currents,
+                                     &drive->motor, sample_current_A(in->sample, s->theta_hat_rad));
     } else {
         correct(s, c, drive, in->sample, &angle);
     }
@@ -55,9 +57,7 @@ static near_optimal_view_t observe(law_noc_state_t *s, const law_noc_config_t *c
     const bool held = (s->gate.lost != 0) || (s->gate.beyond > 1); /* and found out about */
     near_optimal_view_t view = encoder_form_view(&c->plausible, &s->observer, s->theta_hat_rad,
                                                  held ? 0.0f : angle.error_rad, drive->ts_s);
-    view.plausible =
-        view.plausible &&
-        ((s->gate.lost == 0) || nodo_current_knows(&c->currents, s->observer.omega_e_radps));
+    view.plausible           = view.plausible && knows;
     return view;
 }
 
@@ -70,7 +70,7 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in, out);
     out->ignored_angles = s->gate.ignored;
     out->without_angle  = s->gate.lost != 0;
-    out->predicted      = true;
+    out->predicted      = s->gate.lost == 0; /* without encoder it would blame the sensors */
 }
 
 static bool counts_ok(const drive_config_t *drive)

@@ -29,6 +29,7 @@ typedef struct {
     near_optimal_t       near_optimal;
     encoder_form_edges_t edges;
     angle_gate_t         gate;
+    nodo_current_t       without; /**< encoder */
 } law_noc_state_t;
 
 void law_noc_fields(fields_t *f, void *constants); /**< for law_noc.fields */

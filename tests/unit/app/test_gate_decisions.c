@@ -575,7 +575,7 @@ static const row_t short_rows[] = {
 
 static bool shorts(const row_t *row, bool known)
 {
-    const app_stop_input_t fast = {.omega_e_radps = 1206.0f, .valid = known};
+    const app_stop_input_t fast = {.omega_e_radps = 1206.0f, .speed_known = known, .valid = known};
 
     config        = board_config;
     now           = fast;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_modes.h"
 #include "app_slow.h"
+#include "app_states.h"
 
 #include <string.h>
 
@@ -535,6 +536,60 @@ static void test_a_lost_encoder_at_speed_leaves_the_motor_shorted(void)
     turn_ticks(1, 0U);
     TEST_ASSERT_EQUAL_INT(APP_MODE_READY, modes.mode);
     TEST_ASSERT_FALSE(out.gate_enable);
+}
+
+/* It stands, so that it reads zero, which is slow; over-current ends the short all the same. */
+static void test_a_dead_encoder_does_not_end_the_short(void)
+{
+    run_fast();
+    raw.temperature_cnt              = 0U; /* a fault while the drive brakes without encoder */
+    modes.drive.answer.without_angle = true;
+    turn_ticks(100, 0U);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, modes.mode);
+    TEST_ASSERT_TRUE(is_short());
+    TEST_ASSERT_EQUAL_INT(APP_ANGLE_NONE, modes.angle.reference);
+    raw.ia_cnt = 4000U;
+    turn_ticks(1, 0U);
+    TEST_ASSERT_FALSE(out.gate_enable);
+}
+
+static void test_fault_without_angle_is_the_encoder(void)
+{
+    static const drive_fault_t by_angle[] = {DRIVE_FAULT_OVER_SPEED, DRIVE_FAULT_CURRENT_SENSOR,
+                                             DRIVE_FAULT_PHASE,      DRIVE_FAULT_MODEL,
+                                             DRIVE_FAULT_STALL,      DRIVE_FAULT_AWAY};
+    static const drive_fault_t others[]   = {DRIVE_FAULT_SAMPLE,  DRIVE_FAULT_OVER_CURRENT,
+                                             DRIVE_FAULT_DC_LINK, DRIVE_FAULT_COMMAND,
+                                             DRIVE_FAULT_NUMERIC, DRIVE_FAULT_MEMORY};
+
+    for (int lost = 0; lost < 2; lost++) {
+        for (int i = 0; i < SUPPORT_COUNT(by_angle); i++) {
+            modes.drive.answer.without_angle = lost != 0;
+            modes.drive.fault                = by_angle[i];
+            (void)app_states_trip(&modes, &in, APP_FAULT_DRIVE);
+            TEST_ASSERT_EQUAL_INT((lost != 0) ? DRIVE_FAULT_ENCODER : by_angle[i],
+                                  modes.drive.fault);
+            TEST_ASSERT_EQUAL_INT(modes.drive.fault, modes.snapshot.drive_fault);
+        }
+        for (int i = 0; i < SUPPORT_COUNT(others); i++) {
+            modes.drive.fault = others[i];
+            (void)app_states_trip(&modes, &in, APP_FAULT_DRIVE);
+            TEST_ASSERT_EQUAL_INT(others[i], modes.drive.fault);
+        }
+    }
+}
+
+static void test_index_of_a_lost_encoder_does_not_end_the_braking(void)
+{
+    for (int lost = 0; lost < 2; lost++) {
+        run_fast();
+        raw.index_cnt                    = (uint16_t)((raw.position_cnt + 5000U) % 10000U);
+        raw.index_seen                   = true;
+        modes.drive.answer.without_angle = lost != 0;
+        turn_ticks(1, FAST_cnt);
+        TEST_ASSERT_EQUAL_INT((lost != 0) ? APP_FAULT_NONE : APP_FAULT_INDEX, modes.fault);
+        raw.index_seen = false;
+    }
 }
 
 static void test_a_stop_at_speed_brakes_before_it_opens(void)
@@ -1506,6 +1561,9 @@ int main(void)
     RUN_TEST(test_a_fault_at_low_speed_opens);
     RUN_TEST(test_board_faults_and_over_current_open_at_any_speed);
     RUN_TEST(test_a_lost_encoder_at_speed_leaves_the_motor_shorted);
+    RUN_TEST(test_a_dead_encoder_does_not_end_the_short);
+    RUN_TEST(test_fault_without_angle_is_the_encoder);
+    RUN_TEST(test_index_of_a_lost_encoder_does_not_end_the_braking);
     RUN_TEST(test_a_stop_at_speed_brakes_before_it_opens);
     RUN_TEST(test_a_ramp_brakes_to_standstill);
     RUN_TEST(test_lost_background_trips_in_every_mode);

@@ -51,8 +51,22 @@ static void test_coasting_brakes_down_to_the_limit_and_a_ramp_to_standstill(void
 
 static bridge_t tick_at(float omega_e_radps)
 {
-    const app_stop_input_t in = {.omega_e_radps = omega_e_radps, .valid = true};
+    const app_stop_input_t in = {
+        .omega_e_radps = omega_e_radps, .speed_known = true, .valid = true};
     return app_stop_bridge(&stop, &in);
+}
+
+/* A dead encoder reads zero. */
+static void test_short_of_unknown_speed_ends_by_over_current_only(void)
+{
+    app_stop_input_t in = {.omega_e_radps = 0.0f, .speed_known = false, .valid = true};
+
+    app_stop_fault(&stop, 1200.0f, DRIVE_FAULT_ENCODER, 0U);
+    TEST_ASSERT_TRUE(app_stop_bridge(&stop, &in).gate_enable);
+    in.ia_A = 2.0f * stop.trip_current_A;
+    TEST_ASSERT_FALSE(app_stop_bridge(&stop, &in).gate_enable);
+    in.ia_A = 0.0f;
+    TEST_ASSERT_FALSE(app_stop_bridge(&stop, &in).gate_enable);
 }
 
 static void test_short_begins_above_the_limit_and_ends_at_four_fifths(void)
@@ -95,6 +109,7 @@ int main(void)
     RUN_TEST(test_without_a_magnet_no_speed_charges_the_dc_link);
     RUN_TEST(test_coasting_brakes_down_to_the_limit_and_a_ramp_to_standstill);
     RUN_TEST(test_short_begins_above_the_limit_and_ends_at_four_fifths);
+    RUN_TEST(test_short_of_unknown_speed_ends_by_over_current_only);
     RUN_TEST(test_speed_that_is_no_number_counts_as_fast);
     RUN_TEST(test_constants_out_of_range_are_refused);
     return UNITY_END();

@@ -90,8 +90,10 @@ static void test_step_is_made_of_its_parts(void)
                             want.observer.omega_e_radps, drive->ts_s);
         want.theta_hat_rad = frames_wrap(want.theta_hat_rad + angle.jump_rad);
         const dq_t i_A     = sample_current_A(&sample, want.theta_hat_rad);
+        bool       knows   = true;
         if (want.gate.lost != 0) {
-            nodo_current_correct(&want.observer, &want.theta_hat_rad, &config->currents, i_A);
+            knows = nodo_current_correct(&want.without, &want.observer, &want.theta_hat_rad,
+                                         &config->currents, &drive->motor, i_A);
         } else {
             nodo_encoder_correct(&want.observer, &want.theta_hat_rad, &config->nodo, i_A,
                                  angle.innovation_rad, drive->ts_s);
@@ -101,9 +103,7 @@ static void test_step_is_made_of_its_parts(void)
         near_optimal_view_t view = encoder_form_view(
             &config->plausible, &want.observer, want.theta_hat_rad,
             ((want.gate.lost != 0) || (want.gate.beyond > 1)) ? 0.0f : error, drive->ts_s);
-        view.plausible =
-            view.plausible && ((want.gate.lost == 0) ||
-                               nodo_current_knows(&config->currents, want.observer.omega_e_radps));
+        view.plausible = view.plausible && knows;
         const nosc_error_t e =
             near_optimal_error(&want.near_optimal, &config->near_optimal, drive, &view, &in);
         const dq_t   fb = nosc_feedback_V(&config->near_optimal.nosc, &e);
@@ -124,6 +124,7 @@ static void test_step_is_made_of_its_parts(void)
             (s->near_optimal.current_ref.i_dot_Aps.q == want.near_optimal.current_ref.i_dot_Aps.q));
         TEST_ASSERT_EQUAL_UINT16(want.gate.ignored, out.ignored_angles);
         TEST_ASSERT_TRUE(out.without_angle == want.gate.lost);
+        TEST_ASSERT_TRUE(out.predicted != out.without_angle);
         if ((n % 50) == 49) { /* random samples drive the estimates away */
             start();
         }
