@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Checks that the report keeps results of the present drive file. Usage: check_report.py SDRE_GAINS."""
+"""Checks that the report keeps results of the present drive file. Argument: sdre-gains."""
 
 import json
 import re
