@@ -43,6 +43,7 @@ FIELDS = {
     "reached_ms": ("position_settled_s", 1e3),
     "off_cnt": ("position_off_cnt", 1),
     "rest_cnt": ("position_steady_cnt", 1),
+    "passed_cnt": ("position_overshoot_cnt", 1),
 }
 STATISTICS = ("worst", "median")
 OF_ANGLES = (*STATISTICS, "best")  # a range

@@ -445,6 +445,7 @@ TEST(Metrics, NamesAreTheJsonKeys)
     m.position_off_cnt           = 11.4;
     m.position_steady_cnt        = 11.45;
     m.position_settled_s         = 11.5;
+    m.position_overshoot_cnt     = 11.6;
     m.current_distortion_percent = 11.6;
     m.fluctuation_rpm            = 12.0;
     m.fluctuation_rate_percent   = 13.0;
@@ -479,6 +480,7 @@ TEST(Metrics, NamesAreTheJsonKeys)
                                                                {"position_off_cnt", 11.4},
                                                                {"position_steady_cnt", 11.45},
                                                                {"position_settled_s", 11.5},
+                                                               {"position_overshoot_cnt", 11.6},
                                                                {"current_distortion_percent", 11.6},
                                                                {"fluctuation_rpm", 12.0},
                                                                {"fluctuation_rate_percent", 13.0},
@@ -609,19 +611,26 @@ TEST(Metrics, PositionIsMeasuredInCounts)
         s.position_reference     = {{0.0, 1.0}};
         sdre::Trace trace        = trace_of(
                    100, [](double) { return 0.0; }, 0.0);
+        const double target_e = 2.0 * std::acos(-1.0) * 3; // a turn of the shaft
         for (std::size_t k = 0; k < trace.size(); k++) {
-            trace[k].position_ref_e_rad = k < 30 ? 5.0 * count_e : 20.0 * count_e; // a ramp's end
-            const double off_cnt        = k < 10   ? -7.0
-                                          : k < 50 ? 2.01
-                                          : k < 70 ? 1.99
-                                          : k < 90 ? -1.5
-                                                   : 0.5;
-            trace[k].position_e_rad     = trace[k].position_ref_e_rad + off_cnt * count_e;
+            const double off_cnt    = k < 10   ? -7.0
+                                      : k < 50 ? 2.01
+                                      : k < 70 ? 1.99
+                                      : k < 90 ? -1.5
+                                               : 0.5;
+            trace[k].position_e_rad = target_e + off_cnt * count_e;
+            // A reference that passes the target and comes to rest elsewhere.
+            trace[k].position_ref_e_rad = trace[k].position_e_rad - (k == 60 ? 9.0 : 4.0) * count_e;
         }
         const sdre::Metrics m = sdre::measure(s, trace).at(0);
-        EXPECT_NEAR(m.position_off_cnt.value_or(-1.0), 7.0, 1e-9);
-        EXPECT_NEAR(m.position_steady_cnt.value_or(-1.0), 1.5, 1e-9); // of the last fifth
+        EXPECT_NEAR(m.position_off_cnt.value_or(-1.0), 9.0, 1e-7);
+        EXPECT_NEAR(m.position_steady_cnt.value_or(-1.0), 1.5, 1e-7); // of the last fifth
         EXPECT_NEAR(m.position_settled_s.value_or(-1.0), 50 * ts_s, 1e-12);
+        EXPECT_NEAR(m.position_overshoot_cnt.value_or(-1.0), 2.01, 1e-7);
+        trace[0].position_e_rad = target_e + 20.0 * count_e; // from the other side
+        EXPECT_NEAR(sdre::measure(s, trace).at(0).position_overshoot_cnt.value_or(-1.0), 7.0, 1e-7);
+        trace[0].position_e_rad = target_e; // no motion
+        EXPECT_FALSE(sdre::measure(s, trace).at(0).position_overshoot_cnt);
 
         s.position_reference = {{0.05, 1.0}}; // begins later: a run at a speed until then
         EXPECT_FALSE(sdre::measure(s, trace).at(0).position_off_cnt);

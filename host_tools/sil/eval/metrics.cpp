@@ -120,14 +120,35 @@ double largest_off_e_rad(Iterator begin, Iterator end)
     }));
 }
 
-/// The target is where the reference rests at the end.
-void add_position(Metrics &m, Iterator begin, Iterator tail, Iterator end, double count_e_rad)
+/// How far the shaft passes the target; nothing if it is there at the beginning.
+std::optional<double> passed_e_rad(Iterator begin, Iterator end, double target, double count_e_rad)
 {
-    const double target   = (end - 1)->position_ref_e_rad;
+    const double way = target - begin->position_e_rad;
+    if (std::abs(way) <= settled_cnt * count_e_rad) {
+        return std::nullopt;
+    }
+    double passed = 0.0;
+    for (Iterator row = begin; row != end; ++row) {
+        passed = std::max(passed, std::copysign(1.0, way) * (row->position_e_rad - target));
+    }
+    return passed;
+}
+
+/// The target is the commanded one: a reference that passes it is an error too.
+void add_position(Metrics &m, const Window &window, double target, double count_e_rad)
+{
+    const auto &[measure, begin, tail, end] = window;
+    const auto position                     = [](const TraceRow &r) { return r.position_e_rad; };
+    double     steady                       = 0.0;
+    for (Iterator row = tail; row != end; ++row) {
+        steady = std::max(steady, std::abs(row->position_e_rad - target));
+    }
     m.position_off_cnt    = largest_off_e_rad(begin, end) / count_e_rad;
-    m.position_steady_cnt = largest_off_e_rad(tail, end) / count_e_rad;
-    m.position_settled_s  = settling_time_s(begin, end, target, settled_cnt * count_e_rad,
-                                            [](const TraceRow &r) { return r.position_e_rad; });
+    m.position_steady_cnt = steady / count_e_rad;
+    m.position_settled_s = settling_time_s(begin, end, target, settled_cnt * count_e_rad, position);
+    if (const auto passed = passed_e_rad(begin, end, target, count_e_rad)) {
+        m.position_overshoot_cnt = *passed / count_e_rad;
+    }
 }
 
 Metrics metrics_of(const Window &window, const Drive &drive, double load_before_Nm)
@@ -200,7 +221,9 @@ std::vector<Metrics> measure(const Scenario &scenario, const Trace &trace)
         out.push_back(metrics_of(window, scenario.drive, before->load_torque_Nm));
         const std::vector<Step> &positions = scenario.position_reference;
         if (!positions.empty() && positions.front().time_s <= window.measure.time_s) {
-            add_position(out.back(), window.begin, window.tail, window.end,
+            const double turns = value_at(positions, (window.end - 1)->time_s, 0.0);
+            add_position(out.back(), window,
+                         2.0 * std::acos(-1.0) * scenario.drive.motor.pole_pairs * turns,
                          count_e_rad(scenario.drive));
         }
     }
@@ -234,6 +257,7 @@ std::vector<std::pair<std::string, double>> metric_values(const Metrics &m)
         {"position_off_cnt", m.position_off_cnt},
         {"position_steady_cnt", m.position_steady_cnt},
         {"position_settled_s", m.position_settled_s},
+        {"position_overshoot_cnt", m.position_overshoot_cnt},
         {"current_distortion_percent", m.current_distortion_percent},
         {"fluctuation_rpm", m.fluctuation_rpm},
         {"fluctuation_rate_percent", m.fluctuation_rate_percent},

@@ -39,9 +39,10 @@ struct Metrics {
     double                id_A                = 0.0;
     double                sensor_offset_hat_A = 0.0; ///< noc_h: estimate, mean in the tail
     // Position run, in counts of the encoder.
-    std::optional<double> position_off_cnt;    ///< largest |shaft - reference| in the window
-    std::optional<double> position_steady_cnt; ///< the same in the tail
-    std::optional<double> position_settled_s;  ///< last entry into two counts about the target
+    std::optional<double> position_off_cnt;       ///< largest |shaft - reference| in the window
+    std::optional<double> position_steady_cnt;    ///< largest |shaft - target| in the tail
+    std::optional<double> position_settled_s;     ///< last entry into two counts about the target
+    std::optional<double> position_overshoot_cnt; ///< of a motion: how far it passes the target
     /// All of the true phase currents but their fundamental, rms over that of the fundamental, in the tail. At constant
     /// speed: the deviation of (id, iq) from its mean over that mean. None when the fundamental is below 1 % of the drive's
     /// largest current (chosen: a ratio to less says nothing of the current).

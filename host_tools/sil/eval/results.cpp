@@ -38,6 +38,7 @@ constexpr MetricLabel labels[] = {
     {"position_off_cnt", "position off [counts]", 1.0, "{:.1f}"},
     {"position_steady_cnt", "steadily off [counts]", 1.0, "{:.2f}"},
     {"position_settled_s", "within two counts [ms]", 1e3, "{:.1f}"},
+    {"position_overshoot_cnt", "passes target [counts]", 1.0, "{:.1f}"},
     {"current_distortion_percent", "current distortion [%]", 1.0, "{:.2f}"},
     {"fluctuation_rpm", "fluctuation [r/min]", 1.0, "{:.2f}"},
     {"fluctuation_rate_percent", "fluctuation rate [%]", 1.0, "{:.2f}"},

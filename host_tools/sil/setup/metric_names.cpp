@@ -31,6 +31,7 @@ const std::vector<std::string> &metric_names()
                                                 "position_off_cnt",
                                                 "position_steady_cnt",
                                                 "position_settled_s",
+                                                "position_overshoot_cnt",
                                                 "current_distortion_percent",
                                                 "fluctuation_rpm",
                                                 "fluctuation_rate_percent",
