@@ -198,21 +198,22 @@ static bool is_off_axis(const commission_drag_t *d, const commission_config_t *c
 static commission_step_t judge_second(commission_drag_t *d, const commission_config_t *c,
                                       commission_result_t *found)
 {
-    const float most_A = MOST_SHARE * c->current_max_A;
+    const float       most_A = MOST_SHARE * c->current_max_A;
+    commission_step_t out    = COMMISSION_BUSY;
 
-    if (!commission_turns_follow(d->sums) || !pairs_are_whole(d, found)) {
-        if (d->length_A >= most_A) {
-            return COMMISSION_FAILED;
+    if (commission_turns_follow(d->sums) && pairs_are_whole(d, found)) {
+        commission_turns_solve(d->sums, d->speed_radps, found);
+        if (is_off_axis(d, c, found)) {
+            begin_pass(d, LESS * d->length_A, d->turns);
+        } else {
+            out = COMMISSION_DONE;
         }
+    } else if (d->length_A < most_A) {
         begin_pass(d, base_min(2.0f * d->length_A, most_A), d->turns);
-        return COMMISSION_BUSY;
+    } else {
+        out = COMMISSION_FAILED;
     }
-    commission_turns_solve(d->sums, d->speed_radps, found);
-    if (is_off_axis(d, c, found)) {
-        begin_pass(d, LESS * d->length_A, d->turns);
-        return COMMISSION_BUSY;
-    }
-    return COMMISSION_DONE;
+    return out;
 }
 
 /* True at the end of the forward part. With unknown counts per turn, the second pass waits for two
