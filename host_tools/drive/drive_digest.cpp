@@ -153,7 +153,8 @@ std::string normalised(const Drive &drive)
 {
     // reproduces changes no number
     const auto &[name, reproduces, motor, inverter, encoder, current_sensors, board, law, nosc,
-                 nodo, position, harmonics, dobc, pid, d_axis, cascade] = drive;
+                 nodo, position, harmonics, dobc, pid, d_axis, cascade, uncertainty] = drive;
+    static_cast<void>(uncertainty); // of the machine, not of what is computed from the file
     std::string s = fmt::format("schema={};name={};", drive_schema, name);
     s += normalised_motor(motor) + normalised_hardware(inverter, encoder);
     s += normalised_sensors(current_sensors, encoder.index_angle_e_rad) + normalised_board(board);

@@ -237,6 +237,7 @@ Drive read_drive(const toml::table &root, const std::string &source, const std::
         read_current_sensors(t.table_if("current_sensors"), drive.motor, drive.board.file);
     drive.law = read_law(t);
     read_law_sections(t, drive);
+    drive.uncertainty = read_uncertainty(t.table_if("uncertainty"));
     t.reject_unknown_keys();
     settle_pwm_frequency(t, drive);
     if (const auto [key, why] = board_refusal(drive); !key.empty()) {

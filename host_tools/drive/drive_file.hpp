@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "drive/board_section.hpp"
+#include "drive/uncertainty.hpp"
 
 namespace sdre {
 
@@ -185,6 +186,7 @@ struct Drive {
     PidSpec      pid;       ///< pid only
     DAxisSpec    d_axis;    ///< laws of paper B
     CascadeSpec  cascade;   ///< pi_foc and ladrc only
+    Uncertainty  uncertainty;
 };
 
 constexpr int drive_schema = 1;

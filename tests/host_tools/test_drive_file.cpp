@@ -605,6 +605,55 @@ TEST(DriveFile, DiscThatCannotBeIsRefused)
     }
 }
 
+namespace {
+
+std::string with_uncertainty(const std::string &keys)
+{
+    return DriveText().str() + "[uncertainty]\n" + keys + "\n";
+}
+
+} // namespace
+
+TEST(DriveFile, UncertaintiesAreThoseOfADataSheetUnlessTheFileSaysMore)
+{
+    const sdre::Uncertainty plain = read(DriveText().str()).uncertainty;
+    const sdre::Uncertainty given =
+        read(with_uncertainty("inertia = 0.11\npm_flux = 0.12\ninductance = 0.13\n"
+                              "resistance = 0.14\ndead_time = 0.15\nfriction = 0.016\n"
+                              "angle_e_rad = 0.017\ndisc_own_cnt = 0.018"))
+            .uncertainty;
+    EXPECT_EQ(plain.inertia, 0.1);
+    EXPECT_EQ(plain.resistance, 0.2);
+    EXPECT_EQ(given.inertia, 0.11);
+    EXPECT_EQ(given.pm_flux, 0.12);
+    EXPECT_EQ(given.inductance, 0.13);
+    EXPECT_EQ(given.resistance, 0.14);
+    EXPECT_EQ(given.dead_time, 0.15);
+    EXPECT_EQ(given.friction, 0.016);
+    EXPECT_EQ(given.angle_e_rad, 0.017);
+    EXPECT_EQ(given.disc_own_cnt, 0.018);
+    // No table depends on them.
+    EXPECT_EQ(sdre::drive_digest(read(with_uncertainty("inertia = 0.3"))),
+              sdre::drive_digest(read(DriveText().str())));
+}
+
+TEST(DriveFile, UncertaintyThatLeavesNoMachineIsRefused)
+{
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {"colour = 1", "[uncertainty] colour is not a known key"},
+        {"inertia = 0.5", "[uncertainty] inertia = 0.5 is not allowed: must be in 0.001 .. 0.4"},
+        {"angle_e_rad = 0.0", "[uncertainty] angle_e_rad"},
+        {"disc_own_cnt = -0.1", "[uncertainty] disc_own_cnt"}};
+    for (const auto &[keys, complaint] : cases) {
+        try {
+            read(with_uncertainty(keys));
+            ADD_FAILURE() << keys;
+        } catch (const sdre::InputError &e) {
+            EXPECT_NE(std::string(e.what()).find(complaint), std::string::npos) << e.what();
+        }
+    }
+}
+
 TEST(DriveFile, MotorValueReachesEveryScalableKey)
 {
     std::set<double *> places;
