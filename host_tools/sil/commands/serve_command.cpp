@@ -19,6 +19,7 @@ constexpr int any_port        = -1; // not given
 
 struct Options {
     std::string drive;
+    std::string machine;
     std::string pty;
     int         tcp          = any_port;
     int         rtu_tcp      = any_port;
@@ -32,6 +33,8 @@ struct Options {
 void declare(OptionList &list, Options &o)
 {
     list.text("DRIVE", o.drive, "drive file (TOML; default: the shipped ipmsm_390w)");
+    list.text("--machine", o.machine,
+              "drive file of the motor and encoder disc on the bench (default: those of DRIVE)");
     list.text("--pty", o.pty, "Modbus RTU on a pseudo-terminal of this name");
     list.number(
         "--tcp", o.tcp, {0, ports},
@@ -63,8 +66,11 @@ int run(const Options &o)
     s.rtu_tcp      = port(o.rtu_tcp);
     s.control      = port(o.control == any_port ? default_control : o.control);
     s.speed_factor = o.speed_factor;
-    s.end_s        = o.end_s;
-    s.boot_rom     = o.boot_rom;
+    if (!o.machine.empty()) {
+        s.machine = read_drive_file(o.machine);
+    }
+    s.end_s    = o.end_s;
+    s.boot_rom = o.boot_rom;
     if (o.boot_rom && s.pty.empty()) {
         throw InputError("--boot-rom: the ROM loads by a serial line; name one with --pty");
     }

@@ -32,26 +32,59 @@ Controller bound(const Scenario &s)
     return c;
 }
 
+void require_same(const char *key, int drive, int machine)
+{
+    if (drive != machine) {
+        throw InputError(
+            fmt::format("--machine: {} = {} is not allowed: must be {}, as in the drive file", key,
+                        machine, drive));
+    }
+}
+
+MotorScale scale_of(Motor drive, Motor machine)
+{
+    MotorScale scale;
+    for (const char *key : {"stator_resistance_Ohm", "d_axis_inductance_H", "q_axis_inductance_H",
+                            "pm_flux_Wb", "inertia_kgm2", "viscous_friction_Nms"}) {
+        const double believed = motor_value(drive, key);
+        const double true_one = motor_value(machine, key);
+        if (believed == 0.0 && true_one != 0.0) {
+            throw InputError(fmt::format(
+                "--machine: {} = {:g} is not allowed: the drive file has 0", key, true_one));
+        }
+        if (true_one != believed) {
+            scale[key] = true_one / believed;
+        }
+    }
+    return scale;
+}
+
 } // namespace
 
-Scenario bench_scenario(const Drive &drive, std::uint64_t seed)
+Scenario bench_scenario(const Drive &drive, const Drive &machine, std::uint64_t seed)
 {
+    require_same("[motor] pole_pairs", drive.motor.pole_pairs, machine.motor.pole_pairs);
+    require_same("[encoder] lines", drive.encoder.lines, machine.encoder.lines);
     Scenario s;
-    s.name            = drive.name;
-    s.drive           = drive;
-    s.duration_s      = no_end_s;
-    s.dc_link_V       = drive.inverter.dc_link_V;
-    s.seed            = seed;
-    s.sensors         = sensors_of_drive(drive);
-    s.sensors.ideal   = false;
-    s.speed_reference = {{0.0, 0.0}};
-    s.load_torque     = {{0.0, 0.0}};
+    s.name                             = drive.name;
+    s.drive                            = drive;
+    s.duration_s                       = no_end_s;
+    s.dc_link_V                        = drive.inverter.dc_link_V;
+    s.seed                             = seed;
+    s.sensors                          = sensors_of_drive(drive);
+    s.sensors.ideal                    = false;
+    const SensorSettings true_ones     = sensors_of_drive(machine);
+    s.sensors.encoder_disc             = true_ones.encoder_disc;
+    s.sensors.encoder_eccentricity_rad = true_ones.encoder_eccentricity_rad;
+    s.plant_scale                      = scale_of(drive.motor, machine.motor);
+    s.speed_reference                  = {{0.0, 0.0}};
+    s.load_torque                      = {{0.0, 0.0}};
     return s;
 }
 
-ServedDrive::ServedDrive(const Drive &drive, std::uint64_t seed)
-    : scenario_(bench_scenario(drive, seed)), controller_(bound(scenario_)), bench_(scenario_, 0),
-      surroundings_(bench_, false, drive.board.dc_link_range_V, 1)
+ServedDrive::ServedDrive(const Drive &drive, const Drive &machine, std::uint64_t seed)
+    : scenario_(bench_scenario(drive, machine, seed)), controller_(bound(scenario_)),
+      bench_(scenario_, 0), surroundings_(bench_, false, drive.board.dc_link_range_V, 1)
 {
     f28335::erase_flash();
     power_cycle();

@@ -18,7 +18,9 @@ namespace sdre {
 class ServedDrive {
 public:
     /// InputError or DesignError when the board cannot have the drive, or no gains exist.
-    explicit ServedDrive(const Drive &drive, std::uint64_t seed);
+    /// @param machine Its motor and disc are on the bench; the firmware knows those of `drive`.
+    ServedDrive(const Drive &drive, const Drive &machine, std::uint64_t seed);
+    ServedDrive(const Drive &drive, std::uint64_t seed) : ServedDrive(drive, drive, seed) {}
 
     /// One control period. A device that its watchdog has reset starts again.
     void period();
@@ -120,7 +122,8 @@ private:
     double                          before_s_       = 0.0; ///< of the devices before the last reset
 };
 
-/// The scenario of a drive on its bench: realistic sensors and inverter, at rest, no load.
-Scenario bench_scenario(const Drive &drive, std::uint64_t seed);
+/// The scenario of a drive on its bench with a machine: realistic sensors and inverter, at rest, no load. InputError when the
+/// machine is none for this drive: other pole pairs or lines, or a value that the drive file has as 0.
+Scenario bench_scenario(const Drive &drive, const Drive &machine, std::uint64_t seed);
 
 } // namespace sdre

@@ -50,7 +50,7 @@ double wall_now_s()
 } // namespace
 
 Server::Server(const Drive &drive, std::uint64_t seed, const ServeOptions &options)
-    : options_(options), drive_(drive, seed)
+    : options_(options), drive_(drive, options.machine.value_or(drive), seed)
 {
     pace_.speed_factor = options.speed_factor;
     open(Kind::tcp, options.tcp);

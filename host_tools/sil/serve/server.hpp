@@ -15,13 +15,14 @@
 namespace sdre {
 
 struct ServeOptions {
-    std::string        pty;     ///< path of the pseudo-terminal; none when empty
-    std::optional<int> tcp;     ///< port of Modbus/TCP
-    std::optional<int> rtu_tcp; ///< port of RTU frames over TCP
-    std::optional<int> control; ///< port of control.hpp's commands
-    double             speed_factor = 1.0;
-    double             end_s        = 0.0; ///< simulated time after which it ends; 0: never
-    bool               boot_rom =
+    std::string          pty;     ///< path of the pseudo-terminal; none when empty
+    std::optional<int>   tcp;     ///< port of Modbus/TCP
+    std::optional<int>   rtu_tcp; ///< port of RTU frames over TCP
+    std::optional<int>   control; ///< port of control.hpp's commands
+    std::optional<Drive> machine; ///< motor and disc on the bench; the drive's own when not given
+    double               speed_factor = 1.0;
+    double               end_s        = 0.0; ///< simulated time after which it ends; 0: never
+    bool                 boot_rom =
         false; ///< the pseudo-terminal is first the boot ROM's, until it has loaded a program
 };
 
