@@ -16,5 +16,6 @@ Command bench_command();
 Command qualify_command();
 Command commission_command();
 Command serve_command();
+Command verify_command();
 
 } // namespace sdre
