@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 import re
 import subprocess
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Iterator, List, NamedTuple
 
@@ -44,6 +45,13 @@ class Served(NamedTuple):
 @pytest.fixture
 def served(tmp_path: Path) -> Iterator[Served]:
     """`sdre-sil serve` on ports of its own."""
+    with serving(tmp_path) as one:
+        yield one
+
+
+@contextmanager
+def serving(tmp_path: Path, *options: str) -> Iterator[Served]:
+    """The same with further options."""
     sil = os.environ.get("SDRE_SIL", str(ROOT / "build/host/bin/sdre-sil"))
     pty = str(tmp_path / "drive")
     process = subprocess.Popen(
@@ -61,6 +69,7 @@ def served(tmp_path: Path) -> Iterator[Served]:
             pty,
             "--for",
             str(LONGEST_S),
+            *options,
         ],
         stdout=subprocess.PIPE,
         text=True,

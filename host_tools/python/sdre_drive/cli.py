@@ -34,6 +34,7 @@ from sdre_drive.params_commands import params
 from sdre_drive.registers import Mode
 from sdre_drive.terminal import For, end_by_signal, err, out
 from sdre_drive.trace_commands import log, take_scope, watch
+from sdre_drive.verify_command import verify
 
 EXIT_BAD, EXIT_TRIPPED = 1, 4
 
@@ -199,6 +200,7 @@ def faults(
         raise typer.Exit(EXIT_TRIPPED)
 
 
+app.command()(verify)
 app.command()(watch)
 app.command()(log)
 app.command(name="scope")(take_scope)

@@ -20,7 +20,7 @@ NAMES = tuple(name for name, _ in register_map.SIGNALS)
 UNITS = dict(register_map.SIGNALS)
 TRIGGERS = ("now", "rising", "falling")
 ARM, STOP = 1, 2
-DONE = 4
+WAITS, DONE = 2, 4
 PERIOD_S = 0.05
 
 
@@ -88,6 +88,11 @@ def stop(drive: Drive) -> None:
 def is_done(drive: Drive) -> bool:
     """The last sample was taken."""
     return drive.traces()["SCOPE_STATE"] == DONE
+
+
+def is_filled(drive: Drive) -> bool:
+    """It has the samples before the trigger, for which it waits from now on."""
+    return drive.traces()["SCOPE_STATE"] >= WAITS
 
 
 def read(drive: Drive, setup: Setup) -> Capture:

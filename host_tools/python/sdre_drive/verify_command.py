@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: MIT
+"""`sdre-drive verify`."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+from typing import Optional
+
+import typer
+from rich.progress import Progress
+from typing_extensions import Annotated
+
+from sdre_drive import record
+from sdre_drive import verify as verifier
+from sdre_drive.connection import Drive
+from sdre_drive.options import Port, Tcp, target
+from sdre_drive.terminal import end_by_signal, err, out
+
+
+def verify(
+    drive_file: Annotated[Path, typer.Argument(metavar="DRIVE", help="that the drive runs")],
+    keep: Annotated[
+        Optional[Path], typer.Option("--records", help="keep what was recorded", metavar="FILE")
+    ] = None,
+    table: Annotated[str, typer.Option("--json", help="write the table", metavar="FILE")] = "",
+    sil: Annotated[
+        str, typer.Option("--sil", help="the program that simulates", envvar="SDRE_SIL")
+    ] = "sdre-sil",
+    port: Port = None,
+    tcp: Tcp = None,
+) -> None:
+    """Does it behave as its simulation says? The shaft turns, both ways, and has to be free."""
+    program = verifier.find_sil(sil)
+    end = end_by_signal()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        with Drive(target(port, tcp)) as drive, Progress(console=err, transient=True) as bar:
+            wanted = verifier.programme(program, drive_file, verifier.samples_of(drive), folder)
+            verifier.require_same(drive, wanted, drive_file)
+            task = bar.add_task("begins", total=1.0)
+            captures = verifier.Programme(drive, wanted, end).run(
+                lambda shot, share: bar.update(task, description=shot, completed=share)
+            )
+        file = keep or folder / "records.json"
+        record.write_text(file, verifier.records(wanted, captures))
+        err.print("recorded; some 1,000 simulations follow: 10 s to a minute")
+        done = verifier.judge(program, drive_file, file, table)
+    out.print(done.stdout, end="", markup=False, highlight=False, soft_wrap=True)
+    raise typer.Exit(done.returncode)
