@@ -25,7 +25,60 @@ sdre::Metrics load_step(const sdre::SimulationResult &run, const sdre::Scenario 
     return sdre::measure(s, run.trace).back();
 }
 
+struct Shaft {
+    const char *name;
+    double      inertia, load_Nm, friction_Nm;
+};
+
+/// Counts that a move of so many turns passes its target by, as fast as the drive can; of the shaft and of its reference.
+struct Passed {
+    double shaft_cnt, reference_cnt;
+};
+
+Passed passed(const Shaft &shaft, double turns)
+{
+    sdre::Scenario s     = scenario("ipmsm_390w");
+    s.duration_s         = 2.0;
+    s.position_reference = {{0.05, 0.0}, {0.2, turns}};
+    s.load_torque        = {{0.08, shaft.load_Nm}};
+    s.plant_scale        = {{"inertia_kgm2", shaft.inertia}};
+    s.measures.resize(1);
+    s.measures.front().time_s           = 0.2;
+    s.motor_effects.coulomb_friction_Nm = shaft.friction_Nm;
+
+    const auto   run    = sdre::simulate(s);
+    const double target = turns * turn_e_rad;
+    double       most   = 0.0;
+    for (const sdre::TraceRow &r : run.trace) {
+        if (r.time_s > 0.2) {
+            most = std::max(most, std::copysign(1.0, turns) * (r.position_ref_e_rad - target));
+        }
+    }
+    EXPECT_EQ(run.fault, 0) << shaft.name << " " << turns;
+    return {*load_step(run, s).position_overshoot_cnt, most / turn_e_rad * 1e4};
+}
+
 } // namespace
+
+TEST(PositionRun, OtherShaftsEndAtTheirTarget)
+{
+    const Shaft shafts[] = {
+        {"J x0.5", 0.5, 0.0, 0.0},  {"J x1", 1.0, 0.0, 0.0},      {"J x1.5", 1.5, 0.0, 0.0},
+        {"J x2", 2.0, 0.0, 0.0},    {"J x3", 3.0, 0.0, 0.0},      {"J x5", 5.0, 0.0, 0.0},
+        {"pushed", 1.0, -1.5, 0.0}, {"braked", 1.0, 1.5, 0.0},    {"rubs", 1.0, 0.0, 0.5},
+        {"1 N m", 1.0, 1.0, 0.0},   {"-1 N m", 1.0, -1.0, 0.0},   {"J x2, 1 N m", 2.0, 1.0, 0.0},
+        {"J x2, -1 N m", 2.0, -1.0, 0.0}, {"J x3, rubs", 3.0, 0.0, 0.5}};
+    for (const Shaft &shaft : shafts) {
+        for (const double turns : {2.5, -2.5, 8.0, -8.0, 20.0, -20.0}) {
+            const Passed p = passed(shaft, turns);
+            const double bound_cnt = shaft.inertia > 3.0   ? 26.0  // worst 23.7
+                                     : shaft.inertia < 1.0 ? 15.0  // hunts at rest
+                                                           : 9.0;
+            EXPECT_LT(p.shaft_cnt, bound_cnt) << shaft.name << " " << turns;
+            EXPECT_LT(p.reference_cnt, 0.5) << shaft.name << " " << turns;
+        }
+    }
+}
 
 TEST(PositionRun, IdealSensorsFollowTheProfileExactly)
 {

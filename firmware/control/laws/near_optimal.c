@@ -28,16 +28,6 @@ CTL_PART void near_optimal_reset(near_optimal_t *s, const near_optimal_config_t 
     s->theta_error_e_rad = 0.0f;
 }
 
-static position_profile_t within(const position_profile_t *asked, const position_profile_t *most)
-{
-    const position_profile_t p = {
-        .speed_e_radps  = base_min(asked->speed_e_radps, most->speed_e_radps),
-        .accel_e_radps2 = base_min(asked->accel_e_radps2, most->accel_e_radps2),
-        .decel_e_radps2 = base_min(asked->decel_e_radps2, most->decel_e_radps2),
-        .jerk_e_radps3  = base_min(asked->jerk_e_radps3, most->jerk_e_radps3)};
-    return p;
-}
-
 /* Position at the instant of the view: that of the sample, moved by the prediction. */
 static position_t seen_position(const near_optimal_view_t *view, const position_command_t *command,
                                 float ts_s)
@@ -52,10 +42,14 @@ static void update_position(near_optimal_t *s, const near_optimal_config_t *c,
                             const drive_config_t *drive, const near_optimal_view_t *view,
                             const position_command_t *command)
 {
-    const position_profile_t profile = within(&command->profile, &c->position.most);
-    const position_t         is      = seen_position(view, command, drive->ts_s);
-    position_ref_t          *r       = &s->position_ref;
-    speed_ref_t             *w       = &s->speed_ref;
+    const current_ref_t *i  = &s->current_ref;
+    const position_t     is = seen_position(view, command, drive->ts_s);
+    position_ref_t      *r  = &s->position_ref;
+    speed_ref_t         *w  = &s->speed_ref;
+    const float          share =
+        base_min(i->iq_hi_A, -i->iq_lo_A) * fpu_inverse(c->current_ref.iq_max_A);
+    const position_profile_t profile = position_ref_profile(
+        r, &command->profile, &c->position.most, &command->target, share, view->est->d_omega);
 
     position_ref_update(r, &profile, &command->target, &is, c->position.near_rad, drive->ts_s);
     w->omega_e_radps         = r->omega_e_radps;

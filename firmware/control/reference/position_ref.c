@@ -11,6 +11,13 @@
  * of a long motion. */
 #define PLANNED 0.99f
 
+/* Acceleration at the limit of the current, of the profile's: the profile uses half of the torque.
+ * Chosen: a tenth of the torque stays for the feedback. */
+#define REACH_RATIO 1.8f
+
+/* Chosen: a profile keeps a twentieth of its acceleration, so that every motion ends. */
+#define REACH_LEAST 0.05f
+
 #define THIRD 0.333333333f
 #define SIXTH 0.166666667f
 
@@ -38,8 +45,42 @@ void position_ref_start(position_ref_t *r, const position_t *at, float omega_e_r
     r->omega_e_radps       = omega_e_radps;
     r->omega_dot_e_radps2  = omega_dot_e_radps2;
     r->omega_2dot_e_radps3 = 0.0f;
+    r->reach_e_radps2      = 0.0f;
+    r->d_rest_e_radps2     = 0.0f;
     r->arrived             = false;
     r->waits               = false;
+}
+
+/* EQ-POSITION-REACH-1, 2. No reach is known in the first period of a run. */
+static void update_reach(position_ref_t *r, float now, float way_rad, float d_omega)
+{
+    if (r->arrived || (r->reach_e_radps2 <= 0.0f)) {
+        r->d_rest_e_radps2 = d_omega;
+        r->reach_e_radps2  = now;
+    } else if (fabsf(now * way_rad) >= (r->omega_e_radps * r->omega_e_radps)) {
+        r->reach_e_radps2 = base_min(r->reach_e_radps2, now);
+    } else {
+        /* brakes, or soon will: the way to rest must not grow */
+    }
+}
+
+position_profile_t position_ref_profile(position_ref_t *r, const position_profile_t *asked,
+                                        const position_profile_t *most, const position_t *target,
+                                        float share, float d_omega)
+{
+    const float rest = r->d_rest_e_radps2;
+    const float full = REACH_RATIO * share * most->accel_e_radps2;
+    const float now  = base_clamp(full - fabsf(rest) - fabsf(d_omega - rest),
+                                  REACH_LEAST * most->accel_e_radps2, most->accel_e_radps2);
+
+    update_reach(r, now, position_way_rad(&r->at, target), d_omega);
+    const position_profile_t p = {
+        .speed_e_radps  = base_min(asked->speed_e_radps, most->speed_e_radps),
+        .accel_e_radps2 = base_min(asked->accel_e_radps2, r->reach_e_radps2),
+        .decel_e_radps2 = base_min(asked->decel_e_radps2,
+                                   base_min(most->decel_e_radps2, r->reach_e_radps2)),
+        .jerk_e_radps3  = base_min(asked->jerk_e_radps3, most->jerk_e_radps3)};
+    return p;
 }
 
 /* s_1 of EQ-POSITION-REF-1. */

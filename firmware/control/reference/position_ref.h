@@ -20,6 +20,14 @@
  * While the shaft brakes, the third condition holds with equality. Two steps of false position then
  * find the jerk, and the next period corrects their error. The end is exact. Limits and target may
  * change at any time.
+ *
+ * The limits of a profile are those of what is there. With the share s of the q current's limit
+ * that is allowed now, and d_0 = d_w where the reference last rested,
+ *
+ *     a_now = clamp(1.8 s a_most - |d_0| - |d_w - d_0|, 0.05 a_most, a_most)  EQ-POSITION-REACH-1
+ *     a_acc, a_dec <= the least a_now of the motion with a_now |way| >= w^2   EQ-POSITION-REACH-2
+ *
+ * Another inertia shows in d_w while the shaft accelerates, a load before.
  */
 #ifndef POSITION_REF_H
 #define POSITION_REF_H
@@ -41,6 +49,8 @@ typedef struct {
     float      omega_e_radps;
     float      omega_dot_e_radps2;
     float      omega_2dot_e_radps3; /**< over the last step */
+    float      reach_e_radps2;      /**< acceleration that the profile may use; 0: not known */
+    float      d_rest_e_radps2;     /**< d_w where the reference last rested */
     bool       arrived;             /**< rests at the target */
     bool       waits;               /**< waits for the shaft */
 } position_ref_t;
@@ -70,6 +80,22 @@ static inline bool position_profile_is_any(const position_profile_t *p)
 /** Starts at a position with the given speed and acceleration. */
 void position_ref_start(position_ref_t *r, const position_t *at, float omega_e_radps,
                         float omega_dot_e_radps2);
+
+/**
+ * @brief Limits of the next period, EQ-POSITION-REACH-1 and 2.
+ *
+ * @param r       Reference; its reach is updated.
+ * @param asked   The operator's limits.
+ * @param most    The drive's. Its acceleration takes half of the torque.
+ * @param target  Target position.
+ * @param share   Of the q current limit, what may brake in this period, 0 .. 1.
+ * @param d_omega Disturbance of the speed equation [rad/s^2].
+ *
+ * Context: control ISR. No division.
+ */
+position_profile_t position_ref_profile(position_ref_t *r, const position_profile_t *asked,
+                                        const position_profile_t *most, const position_t *target,
+                                        float share, float d_omega);
 
 /**
  * @brief Advances by one period.
