@@ -62,17 +62,18 @@ Passed passed(const Shaft &shaft, double turns)
 
 TEST(PositionRun, OtherShaftsEndAtTheirTarget)
 {
-    const Shaft shafts[] = {
-        {"J x0.5", 0.5, 0.0, 0.0},  {"J x1", 1.0, 0.0, 0.0},      {"J x1.5", 1.5, 0.0, 0.0},
-        {"J x2", 2.0, 0.0, 0.0},    {"J x3", 3.0, 0.0, 0.0},      {"J x5", 5.0, 0.0, 0.0},
-        {"pushed", 1.0, -1.5, 0.0}, {"braked", 1.0, 1.5, 0.0},    {"rubs", 1.0, 0.0, 0.5},
-        {"1 N m", 1.0, 1.0, 0.0},   {"-1 N m", 1.0, -1.0, 0.0},   {"J x2, 1 N m", 2.0, 1.0, 0.0},
-        {"J x2, -1 N m", 2.0, -1.0, 0.0}, {"J x3, rubs", 3.0, 0.0, 0.5}};
+    const Shaft shafts[] = {{"J x0.5", 0.5, 0.0, 0.0},        {"J x1", 1.0, 0.0, 0.0},
+                            {"J x1.5", 1.5, 0.0, 0.0},        {"J x2", 2.0, 0.0, 0.0},
+                            {"J x3", 3.0, 0.0, 0.0},          {"J x5", 5.0, 0.0, 0.0},
+                            {"pushed", 1.0, -1.5, 0.0},       {"braked", 1.0, 1.5, 0.0},
+                            {"rubs", 1.0, 0.0, 0.5},          {"1 N m", 1.0, 1.0, 0.0},
+                            {"-1 N m", 1.0, -1.0, 0.0},       {"J x2, 1 N m", 2.0, 1.0, 0.0},
+                            {"J x2, -1 N m", 2.0, -1.0, 0.0}, {"J x3, rubs", 3.0, 0.0, 0.5}};
     for (const Shaft &shaft : shafts) {
         for (const double turns : {2.5, -2.5, 8.0, -8.0, 20.0, -20.0}) {
-            const Passed p = passed(shaft, turns);
-            const double bound_cnt = shaft.inertia > 3.0   ? 26.0  // worst 23.7
-                                     : shaft.inertia < 1.0 ? 15.0  // hunts at rest
+            const Passed p         = passed(shaft, turns);
+            const double bound_cnt = shaft.inertia > 3.0   ? 26.0 // worst 23.7
+                                     : shaft.inertia < 1.0 ? 15.0 // hunts at rest
                                                            : 9.0;
             EXPECT_LT(p.shaft_cnt, bound_cnt) << shaft.name << " " << turns;
             EXPECT_LT(p.reference_cnt, 0.5) << shaft.name << " " << turns;

@@ -46,8 +46,7 @@ static void update_position(near_optimal_t *s, const near_optimal_config_t *c,
     const position_t     is = seen_position(view, command, drive->ts_s);
     position_ref_t      *r  = &s->position_ref;
     speed_ref_t         *w  = &s->speed_ref;
-    const float          share =
-        base_min(i->iq_hi_A, -i->iq_lo_A) * fpu_inverse(c->current_ref.iq_max_A);
+    const float share = base_min(i->iq_hi_A, -i->iq_lo_A) * fpu_inverse(c->current_ref.iq_max_A);
     const position_profile_t profile = position_ref_profile(
         r, &command->profile, &c->position.most, &command->target, share, view->est->d_omega);
 

@@ -77,9 +77,9 @@ position_profile_t position_ref_profile(position_ref_t *r, const position_profil
     const position_profile_t p = {
         .speed_e_radps  = base_min(asked->speed_e_radps, most->speed_e_radps),
         .accel_e_radps2 = base_min(asked->accel_e_radps2, r->reach_e_radps2),
-        .decel_e_radps2 = base_min(asked->decel_e_radps2,
-                                   base_min(most->decel_e_radps2, r->reach_e_radps2)),
-        .jerk_e_radps3  = base_min(asked->jerk_e_radps3, most->jerk_e_radps3)};
+        .decel_e_radps2 =
+            base_min(asked->decel_e_radps2, base_min(most->decel_e_radps2, r->reach_e_radps2)),
+        .jerk_e_radps3 = base_min(asked->jerk_e_radps3, most->jerk_e_radps3)};
     return p;
 }
 
