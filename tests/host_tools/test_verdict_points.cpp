@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "common/parallel.hpp"
 #include "design/design.hpp"
+#include "design/laws/near_optimal.hpp"
 #include "design/verdict.hpp"
 #include "shipped_drive.hpp"
 
@@ -177,5 +179,59 @@ TEST(VerdictPoints, OfOtherMotorsAreEightCountsAPeriodAndTheRatedSpeed)
         EXPECT_EQ(points[0].id_A, 0.0); // no torque: no current at all
         EXPECT_EQ(points[1].omega_e_radps, drive.motor.rated_speed_e_radps);
         EXPECT_GT(points[1].iq_A, 0.5 * drive.motor.max_current_A);
+    }
+}
+
+namespace {
+
+/// The loop of `noc` with its references, as the verdict has it.
+sdre::SampledModel loop_at(const Design &d, const sdre::ReducedParameters &motor,
+                           const OperatingPoint &at, const Eigen::MatrixXd &Lambda,
+                           const sdre::MovingReference *moving)
+{
+    return sdre::sampled_model(motor, d.l, sdre::encoder_form_gains(d, at.iq_A, Lambda), at,
+                               sdre::control_period_s(d.drive), moving);
+}
+
+/// Every point by the fine sweep: the verdict refines only those with the worst rough peaks.
+void expect_no_worse_point(const std::string &name)
+{
+    Design d          = design_of(name);
+    d.precision       = sdre::Precision::extended; // has the plane
+    const auto family = sdre::whole_loop(d, *sdre::current_references(d), loop_at);
+    ASSERT_EQ(family.plane.size(), 1681U);
+    const sdre::Verdict verdict = sdre::examine(family, d.drive);
+
+    std::vector<double> peaks(family.plane.size() * 2, 0.0);
+    std::vector<double> radii(family.plane.size(), 0.0);
+    sdre::parallel_for(family.plane.size(), [&](std::size_t i) {
+        const auto loops = family.loops(d.drive.motor, family.plane[i]);
+        for (std::size_t k = 0; k < loops.size(); k++) {
+            const sdre::LoopCheck found = sdre::check_loop(loops[k], {});
+            peaks[2 * i + k % 2]        = std::max(peaks[2 * i + k % 2], found.peak);
+            radii[i]                    = std::max(radii[i], found.spectral_radius);
+        }
+    });
+    for (std::size_t i = 0; i < radii.size(); i++) {
+        const OperatingPoint &at = family.plane[i];
+        EXPECT_LT(radii[i], std::exp(-sdre::control_period_s(d.drive) / sdre::slowest_mode_s))
+            << name << " at " << at.omega_e_radps << " rad/s, " << at.iq_A << " A";
+        for (std::size_t c = 0; c < 2; c++) {
+            EXPECT_LE(peaks[2 * i + c], 1.01 * verdict.channels[c].worst.peak)
+                << name << " at " << at.omega_e_radps << " rad/s, " << at.iq_A << " A";
+            EXPECT_LE(peaks[2 * i + c], 3.0);
+        }
+    }
+    std::printf("%s: largest sensitivity of all points %.3f, of the verdict %.3f and %.3f\n",
+                name.c_str(), *std::max_element(peaks.begin(), peaks.end()),
+                verdict.channels[0].worst.peak, verdict.channels[1].worst.peak);
+}
+
+} // namespace
+
+TEST(VerdictPlane, NoPointIsWorseThanTheVerdictSays)
+{
+    for (const char *name : {"ipmsm_390w", "ipmsm_390w_10khz", "ipmsm_390w_elastic"}) {
+        expect_no_worse_point(name);
     }
 }
