@@ -17,6 +17,7 @@ import aiohttp
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 START_S, ANSWER_S = 60.0, 30.0
+KEYS = {"Enter": 13, " ": 32, "Escape": 27, "Tab": 9, "ArrowLeft": 37, "ArrowRight": 39}
 
 
 def path() -> Optional[str]:
@@ -131,6 +132,44 @@ class Browser:
             deviceScaleFactor=1,
             mobile=False,
         )
+
+    async def scheme(self, dark: bool) -> None:
+        """The colour scheme of the system from now on."""
+        feature = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+        await self.call("Emulation.setEmulatedMedia", features=[feature])
+
+    async def click(self, selector: str) -> None:
+        """As a hand does: at the middle of what is seen, and on whatever lies on top there."""
+        at = await self.script(
+            f"(e => {{ e.scrollIntoView({{block: 'center'}}); const r = e.getBoundingClientRect();"
+            f" return [r.left + r.width / 2, r.top + r.height / 2] }})"
+            f"(document.querySelector({json.dumps(selector)}))"
+        )
+        for kind in ("mousePressed", "mouseReleased"):
+            await self.call(
+                "Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], button="left", clickCount=1
+            )
+
+    async def press(self, key: str, code: str = "", text: str = "") -> None:
+        """One key, down and up, where the focus is."""
+        keys = {"key": key, "code": code or key, "windowsVirtualKeyCode": KEYS.get(key, 0)}
+        await self.call("Input.dispatchKeyEvent", type="keyDown", text=text, **keys)
+        await self.call("Input.dispatchKeyEvent", type="keyUp", **keys)
+
+    async def enter(self) -> None:
+        """The Enter key."""
+        await self.press("Enter", text="\r")
+
+    async def space(self) -> None:
+        """The space bar."""
+        await self.press(" ", "Space", " ")
+
+    async def fill(self, selector: str, text: str) -> None:
+        """Types into a field, in place of what it had."""
+        await self.script(
+            f"(e => {{ e.focus(); e.select(); }})(document.querySelector({json.dumps(selector)}))"
+        )
+        await self.call("Input.insertText", text=text)
 
     async def picture(self, file: Path) -> None:
         """Picture of the window."""

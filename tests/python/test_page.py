@@ -1,86 +1,25 @@
 # SPDX-License-Identifier: MIT
-"""The page in a headless browser, and who may see it."""
+"""A user of the page in a headless Chromium: hands, keyboard, two windows."""
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
-import http.client
 import json
 import os
 import signal
-import socket
-import subprocess
-import sys
-import time
-import urllib.error
-import urllib.parse
-import urllib.request
 from pathlib import Path
-from typing import Dict, Iterator, Tuple
+from typing import AsyncIterator, Iterator
 
 import browser
 import pytest
 from browser import Browser
 from conftest import Served
+from page_support import Viewer, page_of
 
-pytest.importorskip("nicegui")
-
-CLICK = (
-    "(words => { [...document.querySelectorAll('button')].find(b => "
-    "b.innerText.trim().toLowerCase() == words).click(); return true })"
-)
-TEXT = "document.body.innerText"
-# Everything that the plots hold: what moves changes it.
-# Pixels of the second line's green, which nothing else on its chart has.
-SCOPE_DRAWN = """(() => { const c = document.querySelectorAll('canvas')[1];
-  const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
-  let n = 0;
-  for (let k = 0; k < d.length; k += 4) if (d[k + 1] > d[k] + 30 && d[k + 1] > d[k + 2] + 30) n++;
-  return n })()"""
-DRAWN = "(() => document.querySelector('canvas').toDataURL())()"
-
-
-POLL = "/_nicegui_ws/socket.io/?EIO=4&transport=polling"  # what a page without WebSocket asks for
-
-
-@contextlib.contextmanager
-def page_of(served: Served) -> Iterator[Tuple[str, subprocess.Popen]]:
-    """A page for the virtual drive: its address with its token, and its process."""
-    with socket.socket() as s:
-        s.bind(("127.0.0.1", 0))
-        port = s.getsockname()[1]
-    # NiceGUI takes a run below pytest for a test of its own kind.
-    surroundings = {k: v for k, v in os.environ.items() if not k.startswith("PYTEST")}
-    page = subprocess.Popen(
-        [
-            sys.executable,
-            "-m",
-            "sdre_drive",
-            "ui",
-            "--no-browser",
-            "--page-port",
-            str(port),
-            *served.options(),
-            "--control",
-            f"127.0.0.1:{served.control}",
-        ],
-        stdout=subprocess.PIPE,
-        text=True,
-        env=surroundings,
-    )
-    assert page.stdout
-    try:
-        where = page.stdout.readline().strip()
-        for _ in range(100):  # it is said a little before the page listens
-            with socket.socket() as s:
-                if s.connect_ex(("127.0.0.1", port)) == 0:
-                    break
-            time.sleep(0.1)
-        yield where, page
-    finally:
-        page.terminate()
-        page.wait(20)
+PICTURES = os.environ.get("SDRE_PICTURES", "")
+BUSY_S = 60.0  # chosen: a browser on a busy machine
+needs_browser = pytest.mark.skipif(not browser.path(), reason="there is no Chromium")
 
 
 @pytest.fixture
@@ -90,143 +29,204 @@ def address(served: Served) -> Iterator[str]:
         yield where
 
 
-def answer(address: str, headers: Dict[str, str]) -> int:
-    """HTTP status."""
-    try:
-        with urllib.request.urlopen(
-            urllib.request.Request(address, headers=headers), timeout=20
-        ) as got:
-            return int(got.status)
-    except urllib.error.HTTPError as e:
-        return e.code
+def text(selector: str) -> str:
+    """Script: words of an element."""
+    return f"document.querySelector({json.dumps(selector)}).innerText"
 
 
-def test_only_who_has_the_token_from_this_page(address: str) -> None:
-    plain = address.split("?")[0]
-    assert answer(address, {}) == 200
-    assert answer(plain, {}) == 403
-    assert answer(plain + "?token=x", {}) == 403
-    assert answer(address, {"Origin": "http://example.org"}) == 403
-    assert answer(address, {"Host": "example.org"}) == 403
-    assert answer(plain + "_nicegui_ws/socket.io/?EIO=4&transport=polling", {}) == 403
+def value(selector: str) -> str:
+    """Script: what a field has."""
+    return f"document.querySelector({json.dumps(selector)}).value"
 
 
-def test_a_signal_ends_it_with_a_client_that_hangs_and_a_drive_that_is_silent(
+@contextlib.asynccontextmanager
+async def opened(address: str, width: int = 1280, height: int = 1000) -> AsyncIterator[Browser]:
+    """A window that shows a drive that is ready; no error in its end."""
+    async with Browser(address, width, height) as page:
+        await page.until("window.page && page.facts && page.state && page.state.reading", BUSY_S)
+        yield page
+        assert page.errors == []
+
+
+async def mode(page: Browser, name: str, longest_s: float = BUSY_S) -> None:
+    """Waits for it."""
+    await page.until(f"{text('#mode')} == {json.dumps(name)}", longest_s)
+
+
+async def arm(page: Browser) -> None:
+    """As a hand does."""
+    await page.click("#arm")
+    await page.until("page.armed")
+
+
+async def picture(page: Browser, name: str) -> None:
+    """For who asked for pictures."""
+    if PICTURES:
+        await page.picture(Path(PICTURES) / f"{name}.png")
+
+
+def test_a_signal_ends_it_with_a_viewer_that_hangs_and_a_drive_that_is_silent(
     served: Served,
 ) -> None:
-    with page_of(served) as (where, page):
-        at = urllib.parse.urlsplit(where)
-        client = http.client.HTTPConnection("127.0.0.1", at.port)
-        client.request("GET", f"{at.path}?{at.query}")
-        first = client.getresponse()
-        first.read()
-        cookie = {"Cookie": first.getheader("Set-Cookie", "").split(";")[0]}
-        client.request("GET", POLL, headers=cookie)
-        opened = client.getresponse().read().decode()
-        session_id = json.loads(opened[1:])["sid"]
-        client.request("POST", f"{POLL}&sid={session_id}", "40", headers=cookie)
-        client.getresponse().read()
-        client.request("GET", f"{POLL}&sid={session_id}", headers=cookie)
-        client.getresponse().read()
-        client.request("GET", f"{POLL}&sid={session_id}", headers=cookie)  # waits for an event
+    with page_of(served) as (where, page), Viewer(where):
         served.process.send_signal(signal.SIGSTOP)
         try:
             page.terminate()
             page.wait(10)  # 5 s are allowed; the rest is for a busy machine
         finally:
             served.process.send_signal(signal.SIGCONT)
-            client.close()
 
 
-async def use(address: str, pictures: str) -> None:
-    """Actions of a user."""
-    async with Browser(address) as page:
-        await page.until("document.querySelector('canvas') !== null", 60.0)
-        await page.until(f"{TEXT}.includes('READY') && {TEXT}.includes('Bench')")
-        await page.script(f"{CLICK}('run')")  # not armed: nothing
-        await asyncio.sleep(1.0)
-        assert "READY" in await page.script(TEXT)
-        await page.script("document.querySelector('.q-toggle').click()")
-        await page.until("[...document.querySelectorAll('button')].every(b => !b.disabled)")
-        await page.script(f"{CLICK}('run')")
-        await page.until(f"/99[0-9] r.min|100[0-9] r.min/.test({TEXT})", 60.0)
-        before = await page.script(DRAWN)
-        at = await page.script(
-            "(r => [r.left + 0.7 * r.width, r.top + 0.5 * r.height])"
-            "(document.querySelector('.q-slider__track-container').getBoundingClientRect())"
+async def run_and_stop(address: str) -> None:
+    """Hands on speed, load, scope, a fault, its reset."""
+    async with opened(address) as page:
+        await mode(page, "READY")
+        await page.click("#run")
+        assert "Arm this window first" in await page.script(text("#said"))
+        await arm(page)
+        await page.fill("#speed", "1000")
+        await page.click("#run")
+        await page.until("Math.abs(page.state.reading.speed_e_radps - 209.4) < 2", BUSY_S)
+        assert await page.script(value("#speed")) == "1000"
+        await page.fill("#load", "0.8")
+        await page.enter()
+        await page.until("Math.abs(page.state.bench.load_Nm - 0.8) < 1e-6")
+        before = await page.script("document.querySelector('#traces canvas').toDataURL()")
+        if PICTURES:
+            await page.resize(1280, 1100)
+            await page.script("scrollTo(0, 0)")
+            await asyncio.sleep(2.0)
+            await picture(page, "page")  # docs/page.png
+            await page.resize(1280, 1000)
+        await page.click("#scope > summary")
+        await page.click("#take")
+        await page.until("!document.querySelector('#scope .capture').hidden", BUSY_S)
+        assert await page.script("page.cards.find(c => c.capture).capture.found.time_s.length") > 60
+        assert before != await page.script("document.querySelector('#traces canvas').toDataURL()")
+        await picture(page, "page_scope")
+        places = "['control', 'break', 'traces', 'stop'].map(id => { const r = document" + (
+            ".getElementById(id).getBoundingClientRect(); return [r.left, r.top, r.width] })"
         )
-        for kind in ("mousePressed", "mouseReleased"):
-            await page.call(
-                "Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], button="left", clickCount=1
-            )
-        await page.until(f"{TEXT}.includes('load 0.8')")
-        await asyncio.sleep(3.0)
-        assert await page.script(DRAWN) != before
-        await page.script("document.querySelector('.q-expansion-item .q-item').click()")
-        await page.until(f"{TEXT}.includes('samples before')")
+        await page.script("scrollTo(0, 0)")
+        was = await page.script(places)
+        await page.script("document.getElementById('break').click()")
+        await mode(page, "FAULT")
+        await page.until("!!document.querySelector('#entries .entry ul')")
+        assert await page.script(places) == was, "a fault moves what is under the mouse"
+        assert await page.script(text("#alarm"))
+        await picture(page, "page_fault")
+        await page.click("#mend")
+        await page.until("page.state.bench.load_Nm === 0")
+        await page.click("#reset")
+        await mode(page, "READY")
+        await page.click("#history > summary")
+        await page.until("!!document.querySelector('#events .record')", BUSY_S)
+        await page.click("#events .record")
+        await page.until("!document.querySelector('#history .capture').hidden")
+        assert "drive" in await page.script(text("#events li"))
+
+
+async def keyboard_only(address: str) -> None:
+    """The space bar stops and never types or presses; Enter does what a form is for."""
+    async with opened(address) as page:
+        await mode(page, "READY")
+        await page.script("document.getElementById('arm').focus()")
+        await page.space()
         await asyncio.sleep(0.5)
-        await page.script(f"{CLICK}('take')")
-        await page.until(f"/\\bdone\\b/.test({TEXT})", 60.0)
-        await page.until(
-            f"document.querySelectorAll('canvas').length == 2 && {SCOPE_DRAWN} > 300", 20.0
+        assert not await page.script("page.armed"), "the space bar pressed a button"
+        await page.enter()
+        await page.until("page.armed")
+        for where in ("#speed", "#fault", "#arm", "#length", "body"):
+            await page.fill("#speed", "800")
+            await page.enter()
+            await mode(page, "RUN")
+            await page.script(f"document.querySelector({json.dumps(where)}).focus()")
+            await page.space()
+            await mode(page, "READY", 10.0)
+            assert await page.script(value("#speed")) == "800"
+            assert await page.script("page.armed")
+        await page.fill("#speed", "0,5")
+        await page.enter()
+        assert "0.5, with a point" in await page.script(text("#said"))
+        await page.fill("#speed", "99999")
+        await page.enter()
+        assert "is not within" in await page.script(text("#said"))
+        await page.script("document.querySelector('#traces canvas').focus()")
+        for _ in range(3):
+            await page.press("ArrowLeft")
+        assert " s: speed" in await page.script(text("#traces .values"))
+
+
+async def two_windows(address: str) -> None:
+    """One is armed at a time, both see, both stop; nothing is stale."""
+    async with opened(address) as one, opened(address) as other:
+        await mode(one, "READY")
+        await arm(one)
+        await one.fill("#speed", "700")
+        await one.enter()
+        await one.until("Math.abs(page.state.reading.speed_e_radps - 146.6) < 5", BUSY_S)
+        await one.fill("#load", "0.3")
+        await one.enter()
+        await other.until(f"{value('#speed')} == '700' && {value('#load')} == '0.30'", BUSY_S)
+        assert "other" == await other.script("page.state.armed")
+        assert await other.script(
+            "[...document.querySelectorAll('[data-writes]')].every(b => "
+            "b.getAttribute('aria-disabled') == 'true')"
         )
-        if pictures:
-            await page.resize(1280, 1570)  # traces and scope
-            await asyncio.sleep(0.5)
-            await page.picture(Path(pictures) / "page.png")
-            await page.resize(1280, 860)
-        await page.script(f"{CLICK}('break it')")
-        await page.until(f"{TEXT}.includes('FAULT') && {TEXT}.includes('Check:')")
-        if pictures:
-            await page.picture(Path(pictures) / "page_fault.png")
-        assert page.errors == []
+        await other.click("#stop")
+        await mode(one, "READY", 10.0)
+        await other.click("#arm")  # takes over
+        await one.until("page.state.armed == 'other'")
+        await other.click("#mend")
+        await one.until(f"{value('#load')} == '0.00'")
 
 
-FIELD = """(name => [...document.querySelectorAll('.q-expansion-item')]
-  .find(e => e.innerText.includes('Parameters'))
-  .querySelectorAll('input')[name])"""
-
-
-async def use_parameters(address: str, pictures: str) -> None:
-    """Actions of a user; the window is the ninth of them, 5 rad/s by default."""
-    async with Browser(address, 1280, 1100) as page:
-        await page.until(
-            f"document.querySelector('canvas') !== null && {TEXT}.includes('READY')", 60.0
-        )
+async def units(address: str) -> None:
+    """Chosen once, for fields, figures, ramps and files."""
+    async with opened(address) as page:
+        await mode(page, "READY")
         await page.script(
-            "[...document.querySelectorAll('.q-expansion-item .q-item')].at(-1).click()"
+            "(e => { e.value = 'radps'; e.dispatchEvent(new Event('change')) })"
+            "(document.getElementById('unit'))"
         )
-        await page.until(f"{TEXT}.includes('SPEED_WINDOW') && {TEXT}.includes('nothing is stored')")
-        await page.until(f"Number({FIELD}(8).value) == 5")
-        await page.script(f"{CLICK}('save')")  # not armed: nothing
-        await page.script("document.querySelector('.q-toggle').click()")
-        await page.until("[...document.querySelectorAll('button')].every(b => !b.disabled)")
-        await page.script(f"(f => {{ f.focus(); f.select(); return true }})({FIELD}(8))")
-        await page.call("Input.insertText", text="6.5")
-        await page.script(f"{FIELD}(8).blur() || true")
-        await asyncio.sleep(0.5)
-        await page.script(f"{CLICK}('write')")
-        await page.until(
-            "document.querySelector('.bg-amber-2') !== null"
-        )  # read back: not the default
-        if pictures:
-            await page.script("window.scrollTo(0, 1e6) || true")
-            await page.picture(Path(pictures) / "page_params.png")
-        await page.script(f"{CLICK}('save')")
-        await page.until(f"{TEXT}.includes('as stored, writing 1')", 60.0)
-        assert await page.script(f"{FIELD}(8).value") == "6.5"
-        await page.script(f"{CLICK}('defaults')")
-        await page.until(
-            f"{TEXT}.includes('nothing is stored') && Number({FIELD}(8).value) == 5", 60.0
+        assert await page.script(text("#run-form label")) == "Speed [rad/s]"
+        assert "rad/s" in await page.script(text("#figures"))
+        await page.click("#parameters > summary")
+        await page.until("!!document.getElementById('parameter-ACCELERATION')", BUSY_S)
+        await arm(page)
+        await page.fill("#parameter-ACCELERATION", "500")  # rad/s2 of the shaft; two pole pairs
+        await page.enter()
+        await page.until("!!document.querySelector('#parameters tr.changed')", BUSY_S)
+        rows = "page.cards.flatMap(c => c.rows || []).find(r => r.name == 'ACCELERATION').value"
+        assert await page.script(rows) == 1000
+        await page.script(
+            "(e => { e.value = 'rpm'; e.dispatchEvent(new Event('change')) })"
+            "(document.getElementById('unit'))"
         )
-        assert page.errors == []
+        assert abs(float(await page.script(value("#parameter-ACCELERATION"))) - 4774.65) < 0.1
+        assert "r/min/s" in await page.script(text("#parameters table"))
+        await picture(page, "page_params")
+        await page.click("#parameters-save")
+        await page.until(f"{text('#parameters-state')}.includes('as stored, writing 1')", BUSY_S)
+        await page.click("#parameters-defaults")
+        await page.until(f"{text('#parameters-state')}.includes('nothing is stored')", BUSY_S)
 
 
-@pytest.mark.skipif(not browser.path(), reason="there is no Chromium")
-def test_the_parameters_on_the_page(address: str) -> None:
-    asyncio.run(use_parameters(address, os.environ.get("SDRE_PICTURES", "")))
+@needs_browser
+def test_runs_loads_breaks_and_mends(address: str) -> None:
+    asyncio.run(run_and_stop(address))
 
 
-@pytest.mark.skipif(not browser.path(), reason="there is no Chromium")
-def test_a_user_of_the_page(address: str) -> None:
-    asyncio.run(use(address, os.environ.get("SDRE_PICTURES", "")))
+@needs_browser
+def test_the_keyboard_alone(address: str) -> None:
+    asyncio.run(keyboard_only(address))
+
+
+@needs_browser
+def test_two_windows(address: str) -> None:
+    asyncio.run(two_windows(address))
+
+
+@needs_browser
+def test_units_and_parameters(address: str) -> None:
+    asyncio.run(units(address))

@@ -24,5 +24,5 @@ for directory in host_tools/site host_tools/report tests/web tests/style; do
     lock "$directory/requirements.txt" "$directory/requirements.in"
 done
 lock host_tools/python/wheels.txt "$python" "$drive" "$build"
-lock host_tools/python/drive.txt --extra ui --extra test "$drive" "$build"
+lock host_tools/python/drive.txt --extra test "$drive" "$build"
 lock host_tools/python/packages.txt --extra campaign --extra examples --extra test "$python" "$drive" "$build"

@@ -30,6 +30,7 @@ from sdre_drive.options import (
     target,
     use_line,
 )
+from sdre_drive.page.server import serve
 from sdre_drive.params_commands import params
 from sdre_drive.registers import Mode
 from sdre_drive.terminal import For, end_by_signal, err, out
@@ -218,10 +219,6 @@ def ui(
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="open it")] = True,
 ) -> None:
     """A page with traces and switches, on this machine only."""
-    try:
-        from sdre_drive.page.server import serve
-    except ImportError as e:
-        raise DriveError("the page needs NiceGUI: pip install './host_tools/python[ui]'") from e
     where = target(port, tcp)
     bench = bench_address(control) if control or where.is_local else None
     serve(where, bench, pole_pairs, page_port, browser)

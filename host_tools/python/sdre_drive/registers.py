@@ -152,6 +152,7 @@ class Reading:
     why: Why
     conditions: int
     speed_e_radps: float
+    speed_demand_rpm: float
     iq_A: float
     id_A: float
     iq_ref_A: float
@@ -227,6 +228,7 @@ def decode(words: Sequence[int], period_s: float) -> Reading:
         why=Why(whole("FAULT"), whole("DRIVE_FAULT"), whole("BOARD_FAULTS")),
         conditions=whole("CONDITIONS"),
         speed_e_radps=raw["SPEED_NOW"],
+        speed_demand_rpm=raw["SPEED_DEMAND_RPM"],
         iq_A=raw["IQ"],
         id_A=raw["ID"],
         iq_ref_A=raw["IQ_REF"],

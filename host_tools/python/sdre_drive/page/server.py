@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Serves the page on this machine."""
+"""Serves the page on this machine: files, a stream of states, actions. Standard library only."""
 
 from __future__ import annotations
 
@@ -9,20 +9,33 @@ import signal
 import socket
 import threading
 import webbrowser
+from http.server import ThreadingHTTPServer
 from types import FrameType
 from typing import Optional, Tuple
 
-from nicegui import app, ui
-
 from sdre_drive.connection import DriveError, Target
-from sdre_drive.page.guard import Guard
-from sdre_drive.page.layout import Page
+from sdre_drive.page.actions import Actor
+from sdre_drive.page.handler import Handler
 from sdre_drive.page.state import Watcher
 
 HOST = "127.0.0.1"
-RECONNECT_S = 20.0  # chosen: a browser on a busy machine keeps its page
-FAREWELL_S = 2  # chosen: pages may close their connections
 LONGEST_END_S = 4.0  # chosen: longest time from a signal to the end of the process
+
+
+class PageServer(ThreadingHTTPServer):
+    """A thread for each connection; none of them holds up the end."""
+
+    daemon_threads = True
+    block_on_close = False
+    request_queue_size = 32
+
+    def __init__(self, port: int, token: str, watcher: Watcher) -> None:
+        self.token, self.watcher, self.actor = token, watcher, Actor(watcher)
+        self.ends = threading.Event()
+        super().__init__((HOST, port), Handler)
+
+    def handle_error(self, request: object, client_address: object) -> None:
+        """A client that breaks off is no error of this server."""
 
 
 def require_free(port: int) -> None:
@@ -35,19 +48,19 @@ def require_free(port: int) -> None:
             raise DriveError(f"--page-port {port}: {e.strerror}") from e
 
 
-def end_in_any_case(number: int) -> None:
+def _end_by_signal(server: PageServer) -> None:
     """After LONGEST_END_S from the signal the process ends, whatever still waits. The drive's
     time-out stops the motor then."""
-    orderly = signal.getsignal(number)
 
-    def asked(seen: int, frame: Optional[FrameType]) -> None:
+    def asked(seen: int, _frame: Optional[FrameType]) -> None:
         last = threading.Timer(LONGEST_END_S, os._exit, [128 + seen])
         last.daemon = True
         last.start()
-        if callable(orderly):
-            orderly(seen, frame)
+        server.ends.set()
+        threading.Thread(target=server.shutdown, daemon=True).start()
 
-    signal.signal(number, asked)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, asked)
 
 
 def serve(
@@ -62,29 +75,14 @@ def serve(
     token = secrets.token_urlsafe(16)
     address = f"http://{HOST}:{port}/?token={token}"
     watcher = Watcher(target, bench, pole_pairs)
-
-    @ui.page("/", title="sdre-drive")
-    def _page() -> None:
-        Page(watcher)
-
-    def started() -> None:
-        for number in (signal.SIGINT, signal.SIGTERM):
-            end_in_any_case(number)
-        watcher.start()
-        print(f"{address}\nCtrl-C ends it", flush=True)
-        if browser:
-            webbrowser.open(address)
-
-    app.add_middleware(Guard, token=token, port=port)
-    app.on_startup(started)
-    app.on_shutdown(watcher.close)
-    ui.run(
-        host=HOST,
-        port=port,
-        reload=False,
-        show=False,
-        show_welcome_message=False,
-        title="sdre-drive",
-        reconnect_timeout=RECONNECT_S,
-        timeout_graceful_shutdown=FAREWELL_S,
-    )
+    server = PageServer(port, token, watcher)
+    _end_by_signal(server)
+    watcher.start()
+    print(f"{address}\nCtrl-C ends it", flush=True)
+    if browser:
+        webbrowser.open(address)
+    try:
+        server.serve_forever(poll_interval=0.1)
+    finally:
+        watcher.close()
+        server.server_close()

@@ -1,107 +1,71 @@
 # SPDX-License-Identifier: MIT
-"""The plots: the drive's readings and, of a virtual drive, the true state of its motor."""
+"""The last seconds of the drive's readings and, of a virtual drive, of its true motor."""
 
 from __future__ import annotations
 
-from typing import Any, Callable, Dict, List, NamedTuple, Optional
+import math
+import threading
+from collections import deque
+from typing import Any, Deque, Dict, List, Optional, Tuple
 
-from nicegui import ui
+from sdre_drive.move import Where
+from sdre_drive.registers import Constants, Reading
 
-from sdre_drive.page.state import TRACE_S, Point, Watcher, column
-from sdre_drive.show import rpm_of
-
-TELLS, TRUTH = "the drive tells", "true motor"
-COLOURS = {TELLS: "#1565c0", TRUTH: "#ef6c00"}
-
-
-class Plot(NamedTuple):
-    """One of the four."""
-
-    title: str
-    value: Callable[[Point], float]
-
-
-def plots(pole_pairs: Optional[int]) -> List[Plot]:
-    """From top to bottom."""
-    speed = (
-        Plot("speed [r/min]", lambda p: rpm_of(p.speed_e_radps, pole_pairs))
-        if pole_pairs
-        else Plot("speed [rad/s electrical]", lambda p: p.speed_e_radps)
-    )
-    return [
-        speed,
-        Plot("i_q [A]", lambda p: p.iq_A),
-        Plot("i_d [A]", lambda p: p.id_A),
-        Plot("dc link [V]", lambda p: p.dc_link_V),
-    ]
+LENGTH_S = 10.0  # what a viewer that comes gets; it keeps more by itself
+DRIVE = ("time_s", "speed_e_radps", "demand_e_radps", "iq_A", "id_A", "dc_link_V", "turns")
+TRUTH = ("time_s", "speed_e_radps", "iq_A", "id_A", "dc_link_V", "torque_Nm", "load_Nm")
+Row = Tuple[Optional[float], ...]
 
 
 class Traces:
-    """A chart of four plots over the last seconds."""
+    """Rows are numbered, so that each viewer gets those that it has not got yet."""
 
-    def __init__(self, watcher: Watcher, pole_pairs: Optional[int]) -> None:
-        self.watcher = watcher
-        self.plots = plots(pole_pairs)
-        self.chart = ui.echart(self._options()).classes("w-full").style("height: 38rem")
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._rows: Dict[str, Deque[Row]] = {"drive": deque(), "truth": deque()}
+        self._taken = {"drive": 0, "truth": 0}  # of all times
+        self.generation = 0  # of the drive's starts
 
-    def refresh(self) -> None:
-        """Sends the data alone, not the whole chart."""
-        told = self.watcher.drive_trace
-        now_s = told[-1].time_s if told else 0.0
-        series = []
-        for plot in self.plots:
-            series.append({"data": column(self.watcher.true_trace, plot.value, now_s)})
-            series.append({"data": column(self.watcher.drive_trace, plot.value, now_s)})
-        self.chart.run_chart_method("setOption", {"series": series})
+    def clear(self) -> None:
+        """The drive's time begins again."""
+        with self._lock:
+            for rows in self._rows.values():
+                rows.clear()
+            self.generation += 1
 
-    def _options(self) -> Dict[str, Any]:
-        count = len(self.plots)
-        last = count - 1
-        return {
-            "animation": False,
-            "legend": {"data": [TELLS, TRUTH], "top": 0},
-            "grid": [
-                {"left": 60, "right": 15, "top": f"{7 + 23 * k}%", "height": "18%"}
-                for k in range(count)
-            ],
-            "xAxis": [
-                {
-                    "type": "value",
-                    "min": -TRACE_S,
-                    "max": 0,
-                    "gridIndex": k,
-                    "axisLine": {"onZero": False},
-                    "axisLabel": {"show": k == last, "formatter": "{value} s"},
-                }
-                for k in range(count)
-            ],
-            "yAxis": [
-                {
-                    "type": "value",
-                    "scale": True,
-                    "gridIndex": k,
-                    "name": p.title,
-                    "nameLocation": "end",
-                    "nameGap": 6,
-                    "position": "left",
-                    "axisLine": {"onZero": False},
-                    "nameTextStyle": {"align": "left"},
-                    "splitNumber": 3,
-                }
-                for k, p in enumerate(self.plots)
-            ],
-            "series": [
-                {
-                    "type": "line",
-                    "name": name,
-                    "xAxisIndex": k,
-                    "yAxisIndex": k,
-                    "showSymbol": False,
-                    "lineStyle": {"width": 1.5},
-                    "color": COLOURS[name],
-                    "data": [],
-                }
-                for k in range(count)
-                for name in (TRUTH, TELLS)
-            ],
-        }
+    def take_reading(
+        self, r: Reading, pole_pairs: int, where: Optional[Where], of: Constants
+    ) -> None:
+        """A reading of the drive."""
+        demand = r.speed_demand_rpm * pole_pairs * 2.0 * math.pi / 60.0
+        turns = where.now / of.encoder_counts if where and of.encoder_counts else None
+        row = (r.time_s, r.speed_e_radps, demand, r.iq_A, r.id_A, r.dc_link_V, turns)
+        self._append("drive", row)
+
+    def take_truth(self, samples: List[Dict[str, float]]) -> None:
+        """Samples of the bench."""
+        for sample in samples:
+            self._append("truth", tuple(sample[name] for name in TRUTH))
+
+    def since(self, seen: Dict[str, int]) -> Dict[str, Any]:
+        """Rows after those that were seen; `seen` then has them too."""
+        out: Dict[str, Any] = {"generation": self.generation}
+        with self._lock:
+            for name, rows in self._rows.items():
+                new = min(self._taken[name] - seen.get(name, 0), len(rows))
+                seen[name] = self._taken[name]
+                out[name] = [_short(rows[k]) for k in range(len(rows) - new, len(rows))]
+        return out
+
+    def _append(self, name: str, row: Row) -> None:
+        with self._lock:
+            rows = self._rows[name]
+            rows.append(row)
+            self._taken[name] += 1
+            last_s = row[0] or 0.0
+            while (rows[0][0] or 0.0) < last_s - LENGTH_S:
+                rows.popleft()
+
+
+def _short(row: Row) -> List[Optional[float]]:
+    return [None if x is None else round(x, 4) for x in row]
