@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a page looks like, for test_page_look.py: contrast, overflow, targets. An expression.
+// Judges the look of a page for test_page_look.py: contrast, overflow, targets. An expression.
 (() => {
   const LEAST_TARGET = 24; // pixels, WCAG 2.2, 2.5.8
   const canvas = document.createElement("canvas").getContext("2d", { willReadFrequently: true });

@@ -119,7 +119,7 @@ class Viewer:
         return str(told["error"])
 
     def get(self, what: str) -> Any:
-        """What is read once."""
+        """Data that a page reads once."""
         line = http.client.HTTPConnection(self.host, timeout=30)
         line.request("GET", f"/api/{what}?token={self.token}")
         answer = line.getresponse()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Who may see the page, who may ask it for something, and what its files may load."""
+"""Access to the page: token, Host and Origin, actions, and what its files may load."""
 
 from __future__ import annotations
 

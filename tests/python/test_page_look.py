@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The page at a phone's width and at a desk's, light and dark: nothing is cut off, all text can be
+"""The page at a phone's width and at a desk's, light and dark. Nothing is cut off, all text can be
 read, and every control has a name for a screen reader."""
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ NAMED |= {"image", "form", "region", "heading", "DisclosureTriangle", "spinbutto
 
 
 async def wrong(page: Browser) -> List[str]:
-    """What cannot be read, reached or seen."""
+    """Lists what cannot be read, reached or seen."""
     found: Dict[str, Any] = await page.script("(" + LOOKS)
     lines = [f"{kind}: {one}" for kind in ("faint", "beyond", "small") for one in found[kind]]
     lines += [f"{n}: {x:.2f}" for n, x in found["drawn"].items() if x < LEAST_CONTRAST]
@@ -32,7 +32,7 @@ async def wrong(page: Browser) -> List[str]:
 
 
 async def nameless(page: Browser) -> List[str]:
-    """What a screen reader cannot name."""
+    """Lists what a screen reader cannot name."""
     await page.call("Accessibility.enable")
     tree = await page.call("Accessibility.getFullAXTree")
     return [

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a viewer may ask for. STOP needs no arm switch; whatever writes to drive or bench does."""
+"""The actions of a viewer. STOP needs no arm switch; whatever writes to drive or bench does."""
 
 from __future__ import annotations
 
@@ -150,7 +150,7 @@ class Actor:
         self._turn = threading.Lock()
 
     def do(self, viewer: str, name: str, args: Args) -> str:
-        """What was done, in words; DriveError says why it was not."""
+        """Words for what was done; DriveError says why it was not."""
         if name == "arm":
             self.watcher.viewers.arm(viewer, flag(args, "take_over"))
             return ""

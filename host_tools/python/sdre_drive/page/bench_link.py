@@ -57,7 +57,7 @@ class BenchLink:
             return self.truth
 
     def for_page(self) -> Optional[Dict[str, Any]]:
-        """What it tells; None when no bench answers."""
+        """Its state; None when no bench answers."""
         return self.truth or None
 
     def load(self, torque_Nm: float, kind: str) -> None:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What a page asks for only when it has changed: the drive's constants, its parameters with what
-their numbers mean, and captures."""
+"""Data that change seldom: constants of the drive, parameters with the meaning of their numbers,
+captures."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def parameters(w: Watcher) -> Dict[str, Any]:
 
 
 def capture(found: Optional[Capture]) -> Optional[Dict[str, Any]]:
-    """Of the scope, or the record of a fault."""
+    """A capture of the scope, or the record of a fault."""
     if found is None:
         return None
     return {

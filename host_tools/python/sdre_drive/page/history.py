@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What has happened to the drive while the page watched: faults with their records, restarts,
-stops by silence."""
+"""Events of the drive while the page watched: faults with their records, restarts, stops by
+silence."""
 
 from __future__ import annotations
 

@@ -28,7 +28,7 @@ class Job:
 
 @dataclass(frozen=True)
 class Result:
-    """What a job has made."""
+    """The product of a job."""
 
     said: str
     file_name: str = ""

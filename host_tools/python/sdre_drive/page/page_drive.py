@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A drive with a STOP that is final: what was begun before it enables nothing any more."""
+"""A drive with a STOP that is final: an action that began before it enables nothing."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class PageDrive(Drive):
 
     @contextmanager
     def action(self) -> Iterator[None]:
-        """What this thread does within it ends with a stop."""
+        """A stop ends what this thread does within it."""
         self._mine.stops = self._stops
         try:
             yield

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Who looks at the page, and which of them may write to the drive: one at a time."""
+"""The viewers of the page. One of them at a time may write to the drive."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class Viewers:
                 raise DriveError("arm this window first")
 
     def state_of(self, viewer: str) -> str:
-        """Who is armed, as this viewer sees it: me, other, none."""
+        """The armed one, as this viewer sees it: me, other, none."""
         with self._lock:
             return "none" if self._armed is None else "me" if viewer == self._armed else "other"
 
@@ -80,7 +80,7 @@ class Viewers:
             return len(self._open)
 
     def abandoned(self) -> bool:
-        """True once, when the armed viewer has been away for too long. It is armed no longer."""
+        """True once, when the armed viewer has been away for too long. Nobody is armed then."""
         with self._lock:
             if self._left_s is None or time.monotonic() < self._left_s + ABANDONED_S:
                 return False

@@ -115,7 +115,7 @@ export class Bench {
     say(this.broken, `${words} ${truth.note || ""}`.trim());
   }
 
-  /** What a person does not change just now follows the bench. */
+  /** A field follows the bench unless somebody types into it. */
   showSettings(truth) {
     this.kindField.hidden = !truth.load_kind;
     follow(this.kind, this.kindTyped, truth.load_kind || "brake");

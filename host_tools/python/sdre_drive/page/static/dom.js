@@ -42,7 +42,7 @@ export function numberInput(properties = {}) {
   return el("input", { type: "text", inputMode: "decimal", autocomplete: "off", ...properties });
 }
 
-/** A field that nobody has typed into shows this. What is marked in it stays marked while nothing changes. */
+/** A field that nobody has typed into shows this. An equal text is left alone, so a selection stays. */
 export function follow(input, typed, text) {
   if (!typed && input.value !== text) {
     input.value = text;

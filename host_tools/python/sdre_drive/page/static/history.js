@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What has happened since the page's program was started: faults with the periods before them, restarts, stops by silence.
+// Events since the page's program was started: faults with the periods before them, restarts, stops by silence.
 import { byId, el, fixed } from "./dom.js";
 import { Capture } from "./capture.js";
 import { entryCard } from "./now.js";

@@ -48,7 +48,7 @@ export class HttpLink {
     }
   }
 
-  /** What is shown may be old: it is marked. */
+  /** Marks old values as old. */
   watch() {
     if (performance.now() > this.heard + SILENT_MS) {
       this.onState(null, "no news from sdre-drive");

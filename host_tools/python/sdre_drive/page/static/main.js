@@ -74,7 +74,7 @@ class Page {
     }
   }
 
-  /** What a form does: a wrong field is named, and nothing is sent. */
+  /** Does the work of a form: a wrong field is named, and nothing is sent. */
   async tried(work) {
     try {
       return await work();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the drive does now: its mode, figures, faults and warnings.
+// The present state of the drive: its mode, figures, faults and warnings.
 import { byId, el, fixed, say } from "./dom.js";
 import { speedName, speedOf, speedOfRpm } from "./units.js";
 

@@ -124,7 +124,7 @@ export class Traces {
     return plots;
   }
 
-  /** What is seen, in the order of time; a source that has no sample then has empty cells. */
+  /** The part that is seen, in the order of time; a source without a sample then has empty cells. */
   file() {
     const [from, to] = this.stack.seen;
     const speed = `speed_${speedColumn()}`;

@@ -29,7 +29,7 @@ export function chooseUnit(name) {
   }
 }
 
-/** Of the motor; the page shows mechanical speeds only. */
+/** Pole pairs of the motor; the page shows mechanical speeds only. */
 export function usePolePairs(count) {
   const changed = count && count !== polePairs;
   polePairs = count || polePairs;
