@@ -15,7 +15,6 @@
 #include "../support/temp_dir.hpp"
 #include "common/errors.hpp"
 #include "sil/serve/boot_rom.hpp"
-#include "sil/serve/control.hpp"
 #include "sil/serve/endpoints.hpp"
 #include "sil/serve/rtu_frame.hpp"
 #include "sil/serve/served_drive.hpp"
@@ -290,41 +289,6 @@ TEST(ServeFrames, ChecksumsAreMadeAndChecked)
     }
     EXPECT_FALSE(rtu_content({1, 4}));
     EXPECT_EQ(tcp_answer(0x1234, {1, 4, 0}), (Octets{0x12, 0x34, 0, 0, 0, 3, 1, 4, 0}));
-}
-
-TEST(ServeControl, LoadSupplyFaultsAndWhatTheyDo)
-{
-    ServedDrive drive(shipped(), 1);
-    MotorRecord record;
-    PaceReport  pace;
-    const auto  say = [&](const std::string &line) {
-        return control_answer(line, drive, record, pace);
-    };
-    EXPECT_NE(say("load 0.5").find("\"load_Nm\":0.5"), std::string::npos);
-    for (int n = 0; n < 2500; n++) { // half a second
-        drive.period();
-        record.note(drive);
-    }
-    EXPECT_LT(drive.plant_state().omega_e_radps, -100.0); // nothing holds the shaft
-    EXPECT_NEAR(static_cast<double>(record.samples().size()), 500.0, 3.0);
-    EXPECT_EQ(say("dc_link 250").find("error"), std::string::npos);
-    for (int n = 0; n < 100; n++) {
-        drive.period();
-    }
-    EXPECT_NEAR(drive.plant_state().dc_link_V, 250.0, 1.0);
-    EXPECT_NE(say("fault kind = \"tick_hung\"").find("\"resets\":0"), std::string::npos);
-    for (int n = 0; n < 100; n++) { // the watchdog ends it after 4.4 ms, and the drive starts again
-        drive.period();
-    }
-    EXPECT_NE(say("state").find("\"resets\":1"), std::string::npos);
-    EXPECT_NE(say("fault kind = \"nope\"").find("must be one of"), std::string::npos);
-    EXPECT_NE(say("fault kind = ").find("error"), std::string::npos);
-    EXPECT_NE(say("load nan").find("error"), std::string::npos);
-    EXPECT_NE(say("load 1 2").find("error"), std::string::npos);
-    EXPECT_NE(say("").find("is not a command"), std::string::npos);
-    EXPECT_NE(say("\xff\xfe").find("error"), std::string::npos);
-    EXPECT_NE(say("trace 0.1").find("\"speed_e_radps\":["), std::string::npos);
-    EXPECT_EQ(say("mend").find("error"), std::string::npos);
 }
 
 namespace {

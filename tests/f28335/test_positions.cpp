@@ -92,7 +92,7 @@ TEST_F(Positions, TurnsToATargetAndHoldsItUnderALoad)
     ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, 1.0));
     EXPECT_NEAR(now(), begin + 3 * counts_per_turn, within_cnt);
     EXPECT_NEAR(served.plant_state().theta_e_rad - start_e, 3 * 2 * 2 * std::acos(-1.0), 7e-3);
-    served.set_load_Nm(0.75);
+    served.dynamometer().drive(0.75);
     talk(0.3);
     EXPECT_NEAR(now(), begin + 3 * counts_per_turn, within_cnt);
     EXPECT_TRUE(served.findings().empty());
@@ -126,10 +126,10 @@ TEST_F(Positions, AShaftThatIsHeldBackIsWaitedForAndDoesNotJumpWhenItIsLetGo)
     enable();
     const int begin = now();
     ASSERT_TRUE(write(APP_REGISTERS_MAX_CURRENT, {0, 1500})); // below what the load takes
-    served.set_load_Nm(-1.2);
+    served.dynamometer().drive(-1.2);
     set_point(4 * counts_per_turn, APP_CONTROL_RELATIVE);
     EXPECT_TRUE(wait_for(APP_REGISTERS_FOLLOWING_ERROR, 0.2));
-    served.set_load_Nm(0.0);
+    served.dynamometer().drive(0.0);
     ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, 3.0));
     EXPECT_NEAR(now(), begin + 4 * counts_per_turn, within_cnt);
 }

@@ -21,6 +21,7 @@ struct Options {
     std::string drive;
     std::string machine;
     std::string pty;
+    std::string flash;
     int         tcp          = any_port;
     int         rtu_tcp      = any_port;
     int         control      = any_port;
@@ -41,7 +42,10 @@ void declare(OptionList &list, Options &o)
         "Modbus/TCP on this port of 127.0.0.1 (default 1502, unless another way is given); 0: any");
     list.number("--rtu-tcp", o.rtu_tcp, {0, ports}, "RTU frames over TCP on this port");
     list.number("--control", o.control, {0, ports},
-                "load, supply, faults and the motor itself on this port (default 1503)");
+                "load, supply, faults and the motor itself on this port (default: the next after "
+                "--tcp, 1503)");
+    list.text("--flash", o.flash,
+              "file that keeps the drive's flash: parameters and image last over its end");
     list.number("--speed-factor", o.speed_factor, {0.01, 100.0},
                 "simulated seconds per second (default 1)");
     list.number("--for", o.end_s, {0.0, 1e9},
@@ -58,13 +62,20 @@ std::optional<int> port(int given)
     return given == any_port ? std::nullopt : std::optional<int>(given);
 }
 
+/// The bench of a second drive is beside that drive.
+int control_beside(int tcp)
+{
+    return tcp > 0 && tcp < ports ? tcp + 1 : default_control;
+}
+
 int run(const Options &o)
 {
     ServeOptions s;
     s.pty          = o.pty;
     s.tcp          = port(o.tcp);
     s.rtu_tcp      = port(o.rtu_tcp);
-    s.control      = port(o.control == any_port ? default_control : o.control);
+    s.control      = port(o.control == any_port ? control_beside(o.tcp) : o.control);
+    s.flash        = o.flash;
     s.speed_factor = o.speed_factor;
     if (!o.machine.empty()) {
         s.machine = read_drive_file(o.machine);

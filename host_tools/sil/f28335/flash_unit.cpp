@@ -13,6 +13,9 @@ constexpr double erase_s    = 2.0;   // data sheet, typical, a sector of 32 K wo
 constexpr double program_s  = 50e-6; // the same, a word
 
 Uint16 memory[slots][slot_words];
+long   changes = 0;
+
+static_assert(sdre::f28335::flash_word_count == static_cast<std::size_t>(slots) * slot_words);
 
 void take(double time_s)
 {
@@ -35,8 +38,10 @@ bool f28335_board_store_erase(Uint16 slot)
     if (slot >= slots) {
         return false;
     }
+    changes++;
     std::fill_n(memory[slot], slot_words, Uint16{0});
     take(erase_s);
+    changes++;
     std::fill_n(memory[slot], slot_words, Uint16{0xFFFF});
     return true;
 }
@@ -54,6 +59,7 @@ bool f28335_board_store_program(Uint16 slot, std::uint32_t offset, const Uint16 
         }
         take(program_s);
         to[n] = words[n];
+        changes++;
     }
     return true;
 }
@@ -68,7 +74,22 @@ namespace {
 
 void erase_flash()
 {
-    std::fill_n(&memory[0][0], slots * slot_words, Uint16{0xFFFF});
+    std::fill_n(&memory[0][0], flash_word_count, Uint16{erased_word});
+}
+
+void set_flash(const FlashWords &words)
+{
+    std::copy_n(words.begin(), flash_word_count, &memory[0][0]);
+}
+
+FlashWords flash_words()
+{
+    return {&memory[0][0], &memory[0][0] + flash_word_count};
+}
+
+long flash_changes()
+{
+    return changes;
 }
 
 } // namespace sdre::f28335

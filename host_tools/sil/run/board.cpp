@@ -129,8 +129,9 @@ void Board::begin_tick(double time_s)
         update_motor();
     }
     shaft_load_.torque_Nm = load_.at(time_s, 0.5 * period_s_) + extra_load_Nm_;
+    shaft_load_.brake_Nm  = extra_brake_Nm_;
     if (brake_.present()) {
-        shaft_load_.brake_Nm = brake_.at(time_s, 0.5 * period_s_);
+        shaft_load_.brake_Nm += brake_.at(time_s, 0.5 * period_s_);
     }
     glitch_ = glitch_at(scenario_.glitches, time_s, period_s_);
     begin_faults();
@@ -262,7 +263,8 @@ void Board::begin_raw_period(const std::array<LegTiming, 3> &legs)
 /// Nothing but the plain motor under a constant averaged voltage.
 bool Board::plain_period() const
 {
-    return scenario_.faults.empty() && plain_inverter_ && plain_motor_ && sensors_.ideal;
+    return scenario_.faults.empty() && plain_inverter_ && plain_motor_ && sensors_.ideal &&
+           extra_brake_Nm_ == 0.0;
 }
 
 void Board::run_period(const bridge_t &in_force)

@@ -71,6 +71,11 @@ public:
     {
         extra_load_Nm_ = torque_Nm;
     }
+    /// Beside the scenario's brake, at least 0.
+    void set_extra_brake_Nm(double torque_Nm)
+    {
+        extra_brake_Nm_ = torque_Nm;
+    }
     void set_source_V(double voltage_V);
     void break_part(const InjectedFault &fault)
     {
@@ -130,6 +135,7 @@ private:
     int                      lost_counts_    = 0; ///< of the encoder, by a fault
     double                   time_s_         = 0.0;
     double                   extra_load_Nm_  = 0.0;
+    double                   extra_brake_Nm_ = 0.0;
     std::size_t              next_change_    = 0;
     bool                     plain_inverter_ = true;
     bool                     plain_motor_    = true;

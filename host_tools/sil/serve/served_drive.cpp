@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "sil/serve/served_drive.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
 #include "sil/board/board_choice.hpp"
 #include "sil/board/board_runs.hpp"
-#include "sil/f28335/flash_unit.hpp"
 #include "sil/setup/board_reader.hpp"
 
 extern "C" {
@@ -82,11 +83,17 @@ Scenario bench_scenario(const Drive &drive, const Drive &machine, std::uint64_t 
     return s;
 }
 
-ServedDrive::ServedDrive(const Drive &drive, const Drive &machine, std::uint64_t seed)
+ServedDrive::ServedDrive(const Drive &drive, const Drive &machine, std::uint64_t seed,
+                         const f28335::FlashWords &flash)
     : scenario_(bench_scenario(drive, machine, seed)), controller_(bound(scenario_)),
-      bench_(scenario_, 0), surroundings_(bench_, false, drive.board.dc_link_range_V, 1)
+      bench_(scenario_, 0), surroundings_(bench_, false, drive.board.dc_link_range_V, 1),
+      dynamometer_(drive), source_V_(scenario_.dc_link_V)
 {
-    f28335::erase_flash();
+    if (flash.empty()) {
+        f28335::erase_flash();
+    } else {
+        f28335::set_flash(flash);
+    }
     power_cycle();
 }
 
@@ -94,6 +101,9 @@ void ServedDrive::power_up(bool after_reset)
 {
     before_s_ += device_ ? device_->time_s() : 0.0;
     device_.reset(); // the registers exist once
+    broken_.erase(std::remove_if(broken_.begin(), broken_.end(),
+                                 [](const InjectedFault &f) { return needs_processor(f.kind); }),
+                  broken_.end());
     f28335::hang_ticks(false);
     device_ = std::make_unique<f28335::Device>(
         surroundings_, firmware_main,
@@ -130,11 +140,34 @@ void ServedDrive::period()
         power_up(true);
         return;
     }
+    const DynamometerTorque torque = dynamometer_.at(plant_state().omega_e_radps);
+    bench_.board()->set_extra_load_Nm(torque.active_Nm);
+    bench_.board()->set_extra_brake_Nm(torque.brake_Nm);
     device_->run_for(period_s());
+}
+
+void ServedDrive::set_dc_link_V(double voltage_V)
+{
+    bench_.board()->set_source_V(voltage_V);
+    source_V_ = voltage_V;
+}
+
+void ServedDrive::mend()
+{
+    bench_.board()->mend();
+    broken_.erase(std::remove_if(broken_.begin(), broken_.end(),
+                                 [](const InjectedFault &f) { return !needs_processor(f.kind); }),
+                  broken_.end());
+    if (bridge_on()) {
+        dynamometer_.brake(0.0);
+    } else {
+        dynamometer_.bring_to_rest();
+    }
 }
 
 void ServedDrive::break_part(const InjectedFault &fault)
 {
+    broken_.push_back(fault);
     switch (fault.kind) {
     case FaultKind::tick_hung:
         f28335::hang_ticks(true);

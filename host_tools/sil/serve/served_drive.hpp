@@ -10,8 +10,10 @@
 
 #include "sil/board/motor_surroundings.hpp"
 #include "sil/f28335/device.hpp"
+#include "sil/f28335/flash_unit.hpp"
 #include "sil/run/controller.hpp"
 #include "sil/run/motor_bench.hpp"
+#include "sil/serve/dynamometer.hpp"
 
 namespace sdre {
 
@@ -19,7 +21,9 @@ class ServedDrive {
 public:
     /// InputError or DesignError when the board cannot have the drive, or no gains exist.
     /// @param machine Its motor and disc are on the bench; the firmware knows those of `drive`.
-    ServedDrive(const Drive &drive, const Drive &machine, std::uint64_t seed);
+    /// @param flash   What its flash has at the start; empty: as from the factory.
+    ServedDrive(const Drive &drive, const Drive &machine, std::uint64_t seed,
+                const f28335::FlashWords &flash = {});
     ServedDrive(const Drive &drive, std::uint64_t seed) : ServedDrive(drive, drive, seed) {}
 
     /// One control period. A device that its watchdog has reset starts again.
@@ -59,24 +63,28 @@ public:
     }
 
     // The motor's surroundings.
-    void set_load_Nm(double torque_Nm)
+    Dynamometer &dynamometer()
     {
-        bench_.board()->set_extra_load_Nm(torque_Nm);
-        load_Nm_ = torque_Nm;
+        return dynamometer_;
     }
-    void set_dc_link_V(double voltage_V)
+    const Dynamometer &dynamometer() const
     {
-        bench_.board()->set_source_V(voltage_V);
+        return dynamometer_;
+    }
+    void set_dc_link_V(double voltage_V);
+    /// Voltage of the supply; the dc link's own is in plant_state().
+    double source_V() const
+    {
+        return source_V_;
     }
     void break_part(const InjectedFault &fault);
-    void mend()
+    /// Faults that hold now. A reset ends a fault of the processor.
+    const std::vector<InjectedFault> &broken() const
     {
-        bench_.board()->mend();
+        return broken_;
     }
-    double load_Nm() const
-    {
-        return load_Nm_;
-    }
+    /// Nothing is broken and the load is 0. A shaft that the drive does not have is brought to rest.
+    void              mend();
     const PlantState &plant_state() const
     {
         return bench_.plant_state();
@@ -113,7 +121,9 @@ private:
     MotorBench                      bench_;
     f28335::MotorSurroundings       surroundings_;
     std::unique_ptr<f28335::Device> device_;
-    double                          load_Nm_        = 0.0;
+    Dynamometer                     dynamometer_;
+    double                          source_V_;
+    std::vector<InjectedFault>      broken_;
     int                             resets_         = 0;
     double                          ready_s_        = 0.0;
     unsigned                        power_cycles_   = 0;

@@ -50,9 +50,10 @@ double wall_now_s()
 } // namespace
 
 Server::Server(const Drive &drive, std::uint64_t seed, const ServeOptions &options)
-    : options_(options), drive_(drive, options.machine.value_or(drive), seed)
+    : options_(options), flash_(options.flash),
+      drive_(drive, options.machine.value_or(drive), seed, flash_.words()),
+      pace_(options.speed_factor)
 {
-    pace_.speed_factor = options.speed_factor;
     open(Kind::tcp, options.tcp);
     open(Kind::rtu, options.rtu_tcp);
     open(Kind::control, options.control);
@@ -150,6 +151,13 @@ bool Server::takes_more(const Client &client) const
     return client.kind != Kind::control || client.come.size() <= longest_line;
 }
 
+ServerReport Server::report() const
+{
+    const auto tcp = listeners_.find(Kind::tcp);
+    return {pace_,
+            tcp == listeners_.end() ? std::nullopt : std::optional<int>(port_of(tcp->second))};
+}
+
 /// Answers the waiting client whose turn on the control port is longest ago. An answer may take longer than a slice,
 /// and Modbus is served in between.
 void Server::answer_one_line()
@@ -173,7 +181,7 @@ void Server::answer_one_line()
     if (!line.empty() && line.back() == '\r') {
         line.pop_back();
     }
-    const std::string answer = control_answer(line, drive_, record_, pace_);
+    const std::string answer = control_answer(line, drive_, record_, report());
     send(*next, Octets(answer.begin(), answer.end()));
 }
 
@@ -310,20 +318,28 @@ void Server::run()
     if (options_.boot_rom) {
         boot();
     }
-    double origin_s = wall_now_s() - drive_.time_s() / pace_.speed_factor;
+    double origin_s = wall_now_s() - drive_.time_s() / pace_.speed_factor();
     while (asked_to_end == 0 && !stopped_ &&
            (options_.end_s <= 0.0 || drive_.time_s() < options_.end_s)) {
         const double wall_s   = wall_now_s();
-        const double wanted_s = (wall_s - origin_s) * pace_.speed_factor;
+        const double wanted_s = (wall_s - origin_s) * pace_.speed_factor();
         const double late_s   = wanted_s - drive_.time_s() - most_late_s;
         if (late_s > 0.0) {
-            origin_s += late_s / pace_.speed_factor;
-            pace_.slipped_s += late_s;
+            origin_s += late_s / pace_.speed_factor();
+            pace_.slip(late_s);
+        }
+        pace_.note(wall_s, drive_.time_s());
+        if (pace_.has_become_slow()) {
+            fmt::print("slow: {:.2f} s of the drive in a second of the clock; the drive does not "
+                       "notice it\n",
+                       pace_.real_time_factor());
+            std::fflush(stdout);
         }
         accept_all(wall_s);
         read_all(wall_s);
         answer_one_line();
         run_until(std::min(wanted_s, drive_.time_s() + most_late_s));
+        flash_.keep();
         wait(slice_s);
     }
 }

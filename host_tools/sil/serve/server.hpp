@@ -10,6 +10,7 @@
 
 #include "sil/serve/control.hpp"
 #include "sil/serve/endpoints.hpp"
+#include "sil/serve/flash_file.hpp"
 #include "sil/serve/serial_bus.hpp"
 
 namespace sdre {
@@ -20,6 +21,7 @@ struct ServeOptions {
     std::optional<int>   rtu_tcp; ///< port of RTU frames over TCP
     std::optional<int>   control; ///< port of control.hpp's commands
     std::optional<Drive> machine; ///< motor and disc on the bench; the drive's own when not given
+    std::string          flash;   ///< file that keeps the flash; none when empty
     double               speed_factor = 1.0;
     double               end_s        = 0.0; ///< simulated time after which it ends; 0: never
     bool                 boot_rom =
@@ -60,27 +62,29 @@ private:
         }
     };
 
-    void open(Kind kind, std::optional<int> port);
-    void accept_all(double wall_s);
-    void make_room();
-    void read_all(double wall_s);
-    void read_from(long id, Client &client, double wall_s);
-    void take_frame(long id, Client &client, double wall_s);
-    void take_requests(long id, Client &client);
-    bool takes_more(const Client &client) const;
-    void answer_one_line();
-    void send(Client &client, const Octets &octets);
-    void write_rest(Client &client);
-    void deliver(const BusRequest &request, const Octets &answer);
-    void boot();
-    void run_until(double time_s);
-    void wait(double seconds);
+    void         open(Kind kind, std::optional<int> port);
+    void         accept_all(double wall_s);
+    void         make_room();
+    void         read_all(double wall_s);
+    void         read_from(long id, Client &client, double wall_s);
+    void         take_frame(long id, Client &client, double wall_s);
+    void         take_requests(long id, Client &client);
+    bool         takes_more(const Client &client) const;
+    ServerReport report() const;
+    void         answer_one_line();
+    void         send(Client &client, const Octets &octets);
+    void         write_rest(Client &client);
+    void         deliver(const BusRequest &request, const Octets &answer);
+    void         boot();
+    void         run_until(double time_s);
+    void         wait(double seconds);
 
     ServeOptions                    options_;
+    FlashFile                       flash_;
     ServedDrive                     drive_;
     MotorRecord                     record_;
     SerialBus                       bus_;
-    PaceReport                      pace_;
+    Pace                            pace_;
     std::unique_ptr<PseudoTerminal> pty_;
     std::map<Kind, Descriptor>      listeners_;
     std::map<long, Client>          clients_;

@@ -37,6 +37,12 @@ constexpr std::array<KindName, 10> kinds{{{"tick_hung", FaultKind::tick_hung, 0}
                                           {"encoder_losing", FaultKind::encoder_losing, 0},
                                           {"index_missing", FaultKind::index_missing, 0}}};
 
+const KindName &named(FaultKind kind)
+{
+    return *std::find_if(kinds.begin(), kinds.end(),
+                         [&](const KindName &k) { return k.kind == kind; });
+}
+
 const KindName &read_kind(TomlReader &entry)
 {
     const std::string name = entry.text("kind");
@@ -63,6 +69,16 @@ std::size_t read_phase(TomlReader &entry, int phases)
 }
 
 } // namespace
+
+const char *fault_kind_name(FaultKind kind)
+{
+    return named(kind).name;
+}
+
+bool needs_phase(FaultKind kind)
+{
+    return named(kind).phases > 0;
+}
 
 std::vector<InjectedFault> read_injected_faults(TomlReader &t)
 {

@@ -35,6 +35,12 @@ struct InjectedFault {
 /// The [[fault]] entries.
 std::vector<InjectedFault> read_injected_faults(TomlReader &t);
 
+/// "phase_open" and so on.
+const char *fault_kind_name(FaultKind kind);
+
+/// Whether it is one of a phase.
+bool needs_phase(FaultKind kind);
+
 /// Whether it is one of a current sensor.
 bool is_of_a_sensor(FaultKind kind);
 
