@@ -6,6 +6,8 @@ from __future__ import annotations
 import subprocess
 import sys
 import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
 from typing import Callable
 
 from sdre_drive import session
@@ -53,3 +55,13 @@ def run_at(drive: Drive, speed_e_radps: float) -> Reading:
 def stay(drive: Drive, seconds: float) -> Reading:
     """Asks for a while, as a master has to."""
     return list(session.follow(drive, threading.Event(), length_s=seconds))[-1]
+
+
+def while_it_runs(drive: Drive, *words: str) -> subprocess.CompletedProcess:
+    """A command, while this master goes on asking."""
+    with ThreadPoolExecutor(1) as one:
+        done = one.submit(command, *words)
+        while not done.done():
+            drive.read()
+            time.sleep(0.05)
+        return done.result()

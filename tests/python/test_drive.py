@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import signal
 import subprocess
 import sys
@@ -14,7 +15,7 @@ from typing import Dict, List
 
 import pytest
 from conftest import Served
-from support import command, run_at, stay, until
+from support import command, run_at, stay, until, while_it_runs
 
 from sdre_drive import faults, scope, session
 from sdre_drive.connection import Drive, DriveError, Refused, Target
@@ -86,7 +87,7 @@ def test_runs_on_a_serial_line(served: Served) -> None:
 
 def test_a_fault_is_said_in_words_and_reset(served: Served, drive: Drive) -> None:
     bench = served.bench()
-    bench.ask("load 0.75")
+    bench.ask("load 0.75 active")
     run = subprocess.Popen(
         [sys.executable, "-m", "sdre_drive", "run", "300", "--radps", *served.options()],
         stdout=subprocess.PIPE,
@@ -108,17 +109,56 @@ def test_a_fault_is_said_in_words_and_reset(served: Served, drive: Drive) -> Non
     assert kept.returncode == 0 and "CURRENT_SENSOR" in kept.stdout and "in mode RUN" in kept.stdout
 
 
-def test_ctrl_c_stops_the_motor(served: Served, drive: Drive) -> None:
-    run = subprocess.Popen(
-        [sys.executable, "-m", "sdre_drive", "run", "200", "--radps", *served.options()],
+def running(served: Served, *words: str) -> subprocess.Popen:
+    """`sdre-drive run`, which goes on."""
+    return subprocess.Popen(
+        [sys.executable, "-m", "sdre_drive", "run", *words, *served.options()],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
+        text=True,
     )
-    until(drive, lambda r: r.mode == Mode.RUN)
+
+
+def test_ctrl_c_stops_the_motor_by_its_ramp_and_waits(served: Served, drive: Drive) -> None:
+    drive.write("DECELERATION", 200.0)
+    run = running(served, "300", "--radps")
+    until(drive, lambda r: r.mode == Mode.RUN and r.speed_e_radps > 295.0)
+    run.send_signal(signal.SIGINT)
+    slower = until(drive, lambda r: r.speed_e_radps < 200.0)
+    assert slower.mode == Mode.RUN  # the drive brakes: nobody else does
+    run.communicate(timeout=60)
+    assert run.returncode == 0
+    stands = drive.read()
+    assert stands.mode == Mode.READY and not stands.conditions & 2
+    assert abs(served.bench().ask("state")["speed_e_radps"]) < 5.0
+    assert 0.6 < stands.time_s - slower.time_s  # 200 rad/s by 200 rad/s2, less what a reading takes
+
+
+def test_a_second_ctrl_c_opens_the_bridge_at_once(served: Served, drive: Drive) -> None:
+    drive.write("DECELERATION", 20.0)
+    run = running(served, "300", "--radps")
+    until(drive, lambda r: r.mode == Mode.RUN and r.speed_e_radps > 295.0)
+    run.send_signal(signal.SIGINT)
+    until(drive, lambda r: r.speed_e_radps < 290.0)
     run.send_signal(signal.SIGINT)
     run.communicate(timeout=60)
     assert run.returncode == 0
-    assert drive.read().mode == Mode.READY and not drive.read().conditions & 2
+    assert drive.read().mode == Mode.READY and served.bench().ask("state")["speed_e_radps"] > 200.0
+
+
+def test_stop_waits_for_the_ramp_unless_it_may_coast(served: Served, drive: Drive) -> None:
+    run_at(drive, 300.0)
+    assert while_it_runs(drive, "stop", *served.options()).returncode == 0
+    assert abs(served.bench().ask("state")["speed_e_radps"]) < 5.0
+    run_at(drive, 300.0)
+    assert while_it_runs(drive, "stop", "--coast", *served.options()).returncode == 0
+    assert served.bench().ask("state")["speed_e_radps"] > 200.0
+
+
+def test_a_negative_speed_needs_no_dashes(served: Served, drive: Drive) -> None:
+    done = command("run", "-500", "--for", "0.5", *served.options())
+    assert done.returncode == 0, done
+    assert until(drive, lambda r: r.mode == Mode.READY)
 
 
 def test_a_master_that_dies_stops_the_motor(served: Served) -> None:
@@ -235,11 +275,20 @@ def test_log_is_a_table(served: Served, tmp_path: Path) -> None:
     ("words", "said"),
     [
         (["status", "--tcp", "127.0.0.1:1"], "nothing answers at 127.0.0.1:1"),
-        (["status", "--port", "/dev/no-such-line"], "nothing answers at /dev/no-such-line"),
+        (
+            ["status", "--port", "/dev/no-such-line"],
+            "/dev/no-such-line: No such file or directory; serial",
+        ),
         (["status", "--tcp", "drive"], "is not HOST:PORT"),
         (["status", "--tcp", "a:1", "--port", "b"], "give one"),
         (["run", "1000", "--tcp", "127.0.0.1:1"], "nothing answers"),
         (["run", "fast"], "Invalid value for"),
+        (["run", "0,5"], "the decimal sign is a point: 0.5"),
+        (["params", "set", "MAX_CURRENT=2,5"], "the decimal sign is a point: 2.5"),
+        (["get", "COMISSION_REASON"], "is not a register: COMMISSION_REASON"),
+        (["set", "FAULT=1"], "FAULT can only be read"),
+        (["set", "LINE_FORMAT=straight"], "must be 0 even; 1 odd; 2 none"),
+        (["set", "SPEED_WINDOW=1e9"], "is not within 0 .. 6553.5"),
         (["log"], "give one of --csv and --parquet"),
         (["spin"], "spin"),
         (["scope", "--csv", "x", "--signals", "TORQUE"], 'there is no signal "TORQUE"'),
@@ -252,9 +301,32 @@ def test_bad_input_is_one_line(words: list, said: str) -> None:
 
 
 def test_a_speed_beyond_the_drive_is_refused(drive: Drive) -> None:
-    with pytest.raises(DriveError, match="out of the drive's range"):
+    until(drive, lambda r: r.mode == Mode.READY)
+    with pytest.raises(DriveError, match="out of the drive's range: at most .* r/min"):
         session.start(drive, 3000.0)
     assert drive.read().mode == Mode.READY
+
+
+def test_what_acts_otherwise_than_written_is_told(served: Served, drive: Drive) -> None:
+    told = command("params", "set", "MAX_CURRENT=9", "SPEED_WINDOW=10.04", *served.options())
+    assert told.returncode == 0, told
+    assert "MAX_CURRENT: 9 A acts as 4 A, the drive's limit (CURRENT_MAX)" in told.stdout
+    assert "SPEED_WINDOW: the drive has 10 rad/s electrical" in told.stdout
+    plain = command("set", "MAX_CURRENT=3", *served.options())
+    assert plain.stdout == "MAX_CURRENT = 3 A\n", plain
+
+
+def test_registers_by_name_with_their_meaning(served: Served, drive: Drive) -> None:
+    until(drive, lambda r: r.mode == Mode.READY)
+    told = command("get", "mode", "RESET_CAUSE", "FAULT", "DC_LINK", *served.options()).stdout
+    assert "MODE = 2: ready, bridge off" in told and "FAULT = 0: none" in told
+    assert "RESET_CAUSE = 0: power on, or the reset pin" in told and " V" in told
+    assert command("set", "LOST_OPTION=Quick Stop", *served.options()).returncode == 0
+    assert command("get", "LOST_OPTION", *served.options()).stdout == "3: quick stop\n"
+    numbers = json.loads(command("get", "POLE_PAIRS", "--json", "-", *served.options()).stdout)
+    assert numbers == {"POLE_PAIRS": 2}
+    listed = command("get").stdout
+    assert all(name in listed for name in ("COMMISSION_REASON", "CONTROLWORD", "CURRENT_TRIP"))
 
 
 class SmallScope:

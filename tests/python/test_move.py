@@ -4,18 +4,17 @@
 from __future__ import annotations
 
 import re
-import time
-from concurrent.futures import ThreadPoolExecutor
-from subprocess import CompletedProcess
 
 from conftest import Served
-from support import command, run_at, until
+from support import command, run_at, until, while_it_runs
 
 from sdre_drive import move, session
 from sdre_drive.connection import Drive
 from sdre_drive.registers import Mode
+from sdre_drive.units import e_radps_of
 
 WINDOW_CNT = 4  # POSITION_WINDOW
+TURN_CNT = 10000
 DRIFT_CNT = 200  # a shaft that is let go turns on, braked by its viscous friction alone
 
 
@@ -36,6 +35,7 @@ def test_move_goes_there_and_back(served: Served, drive: Drive) -> None:
     assert abs(let_go - 15000) <= DRIFT_CNT
     back = command(
         "move",
+        "-7500",
         "--relative",
         "--counts",
         "--for",
@@ -43,8 +43,6 @@ def test_move_goes_there_and_back(served: Served, drive: Drive) -> None:
         "--speed",
         "600",
         *served.options(),
-        "--",
-        "-7500",
     )
     found = where_it_says(back.stdout)
     assert back.returncode == 0 and abs(found.now - found.target) <= WINDOW_CNT, back
@@ -57,7 +55,7 @@ def test_a_load_does_not_move_it_away(served: Served, drive: Drive) -> None:
     session.start(drive, 0.0, move.PROFILE_POSITION)
     until(drive, lambda r: bool(r.statusword & move.REACHED))
     held = move.where(drive).target
-    served.bench().ask("load 1.0")
+    served.bench().ask("load 1.0 active")
     for _ in range(10):
         until(drive, lambda r: r.mode == Mode.RUN)
     until(drive, lambda r: r.iq_A > 1.2 and bool(r.statusword & move.REACHED))
@@ -65,14 +63,24 @@ def test_a_load_does_not_move_it_away(served: Served, drive: Drive) -> None:
     session.stop(drive)
 
 
-def while_it_runs(drive: Drive, *words: str) -> CompletedProcess:
-    """A command, while this master goes on asking."""
-    with ThreadPoolExecutor(1) as one:
-        done = one.submit(command, *words)
-        while not done.done():
-            drive.read()
-            time.sleep(0.05)
-        return done.result()
+def test_far_is_asked_for_and_the_zero_is_said(served: Served, drive: Drive) -> None:
+    """A run for a while takes the shaft far from its zero."""
+    run_at(drive, 600.0)
+    until(drive, lambda r: move.where(drive).now > 11 * TURN_CNT)
+    session.stop(drive)
+    far = command("move", "0", *served.options())
+    assert far.returncode == 1 and "turns away" in far.stderr and "--far" in far.stderr, far
+    assert drive.read().mode == Mode.READY
+    near = command("move", "0.5", "--relative", "--for", "0.1", *served.options())
+    assert near.returncode == 0 and "turns; zero: " in near.stdout.replace("\n", " "), near
+    back = command("move", "0", "--far", "--speed", "0", "--for", "0.1", *served.options())
+    assert back.returncode == 0 and abs(where_it_says(back.stdout).now) <= WINDOW_CNT, back
+
+
+def test_the_speed_on_the_way_is_a_quiet_one_unless_one_is_given(drive: Drive) -> None:
+    assert abs(move.default_speed(drive) - e_radps_of(300.0, 2)) < 0.1
+    drive.write("PROFILE_VELOCITY", 50.0)
+    assert move.default_speed(drive) == 50.0
 
 
 def test_a_run_in_another_mode_is_neither_taken_over_nor_disturbed(

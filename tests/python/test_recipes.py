@@ -41,10 +41,11 @@ def test_recipe(served: Served, drive: Drive, entry: Entry) -> None:
         bench.ask(line)
     began_s = drive.read().time_s
     if how.then == "run":
+        until(drive, lambda r: r.mode == Mode.READY)
         drive.set_run(True)
-    if how.then == "stop":
+    if how.then == "stop --coast":
         until(drive, lambda r: r.time_s > began_s + how.wait_s)
-        session.stop(drive)
+        session.stop(drive, coast=True)
         began_s = drive.read().time_s
     reading = until(
         drive,

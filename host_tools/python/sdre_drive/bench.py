@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import json
 import socket
-from typing import Any, Dict, Tuple
+from typing import Any, Dict, List, Tuple
 
 from sdre_drive.connection import DriveError
 
@@ -28,6 +28,46 @@ FAULTS = {
     "interrupts masked": 'fault kind = "interrupt_masked"',
     "no conversion is triggered": 'fault kind = "trigger_lost"',
 }
+
+
+def words_of(broken: str) -> str:
+    """A fault of the bench's state ("phase_open a") in the words of FAULTS."""
+    kind, _, phase = broken.partition(" ")
+    for words, line in FAULTS.items():
+        if f'"{kind}"' in line and (not phase or f'phase = "{phase}"' in line):
+            return words
+    return broken
+
+
+def load_words(state: Dict[str, Any]) -> str:
+    """The load as it is set."""
+    if state["load_kind"] == "active":
+        return f"{state['load_Nm']:g} N m against positive speed, whatever the shaft does"
+    return f"{state['load_Nm']:g} N m, a brake"
+
+
+def pace_words(state: Dict[str, Any]) -> str:
+    """Simulated seconds per second of the clock."""
+    words = f"{state['real_time_factor']:.2f} of real time"
+    wanted = float(state["speed_factor"])
+    return words if wanted == 1.0 else f"{words}, {wanted:g} wanted"
+
+
+def rows(state: Dict[str, Any]) -> List[Tuple[str, str]]:
+    """The bench as a person sees it: names and words."""
+    found = [
+        ("load", f"{load_words(state)}; at most {state['load_most_Nm']:.3g} N m"),
+        ("true speed", f"{state['speed_rpm']:.0f} r/min"),
+        ("true torque", f"{state['torque_Nm']:.3f} N m"),
+        ("supply", f"{state['source_V']:g} V"),
+        ("broken", ", ".join(words_of(b) for b in state["broken"]) or "nothing"),
+        ("pace", f"{pace_words(state)}, {state['slipped_s']:.1f} s left out"),
+        ("resets", str(state["resets"])),
+        ("caught", f"{state['catches']} times, at {state['catch_speed_rpm']:.0f} r/min"),
+    ]
+    found += [("note", state["note"])] if state["note"] else []
+    found += [("finding", text) for text in state["findings"]]
+    return found
 
 
 class Bench:

@@ -9,15 +9,15 @@ from pathlib import Path
 from typing import Optional
 
 import typer
-from rich.live import Live
 from rich.progress import Progress
 from typing_extensions import Annotated
 
 from sdre_drive import commission as finder
-from sdre_drive import move as mover
-from sdre_drive import record, scope, session, show
+from sdre_drive import discover, record, register_map, scope, session, show
+from sdre_drive.bench_command import EPILOG, bench, state_beside
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.load_command import load
+from sdre_drive.motion_commands import MOVE_EXAMPLES, NUMBERS, RUN_EXAMPLES, move, run, stop
 from sdre_drive.options import (
     Control,
     Line,
@@ -26,116 +26,106 @@ from sdre_drive.options import (
     Tcp,
     Unit,
     bench_address,
+    here,
     pole_pairs_of,
     target,
     use_line,
 )
 from sdre_drive.page.server import serve
+from sdre_drive.params import comma_words
 from sdre_drive.params_commands import params
+from sdre_drive.register_commands import GET_EXAMPLES, SET_EXAMPLES, get, set_registers
 from sdre_drive.registers import Mode
-from sdre_drive.terminal import For, end_by_signal, err, out
+from sdre_drive.terminal import (
+    Json,
+    Quiet,
+    Verbose,
+    end_by_signal,
+    err,
+    notes,
+    out,
+    set_volume,
+)
 from sdre_drive.trace_commands import log, take_scope, watch
 from sdre_drive.verify_command import verify
 
 EXIT_BAD, EXIT_TRIPPED = 1, 4
 
 app = typer.Typer(
-    no_args_is_help=True,
-    add_completion=False,
+    invoke_without_command=True,
     pretty_exceptions_enable=False,
     help="Reads, commands and explains an sdre-drive, real or virtual.",
+    epilog="Examples: sdre-drive (which drives are here?); sdre-drive status; sdre-drive run 1000",
 )
 app.add_typer(params, name="params")
 
 
+def show_version(wanted: bool) -> None:
+    """And the register map, which has to be that of the firmware."""
+    if wanted:
+        out.print(
+            f"sdre-drive {register_map.VERSION}, register map {register_map.DIGEST}",
+            highlight=False,
+        )
+        raise typer.Exit
+
+
 @app.callback()
-def common(line: Line = "115200-8E1", unit: Unit = 1) -> None:
+def common(
+    context: typer.Context,
+    line: Line = "115200-8E1",
+    unit: Unit = 1,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+    _version: Annotated[
+        bool,
+        typer.Option("--version", help="print it", callback=show_version, is_eager=True),
+    ] = False,
+) -> None:
     """For a drive whose line or address is not the one that it comes with."""
     use_line(line, unit)
+    set_volume(quiet, verbose)
+    if not context.invoked_subcommand:
+        find()
 
 
 @app.command()
-def status(port: Port = None, tcp: Tcp = None, pole_pairs: PolePairs = None) -> None:
+def find(json: Json = None) -> None:
+    """Lists the drives that answer here: serial ports, and TCP on this machine."""
+    found = discover.find(here())
+    if json:
+        record.write_json(json, [one.as_dict() for one in found])
+    for one in [] if json else found:
+        out.print(one.words, markup=False, highlight=False, soft_wrap=True)
+    if not found:
+        raise DriveError(discover.nothing_words(here()))
+    notes.print("sdre-drive --help lists what can be done with it")
+
+
+@app.command(epilog="Examples: sdre-drive status; sdre-drive status --port /dev/ttyUSB0")
+def status(
+    port: Port = None,
+    tcp: Tcp = None,
+    pole_pairs: PolePairs = None,
+    control: Control = None,
+    json: Json = None,
+) -> None:
     """Shows the state of the drive, and what to do about it."""
     with Drive(target(port, tcp)) as drive:
         reading = drive.read()
-        out.print(show.status(reading, pole_pairs_of(pole_pairs, drive)))
+        bench_state = state_beside(drive.target, control)
+        pairs = pole_pairs_of(pole_pairs, drive)
+    if json:
+        record.write_json(json, show.as_dict(reading, pairs, bench_state))
+    else:
+        out.print(show.status(reading, pairs, bench_state))
     if reading.mode == Mode.FAULT:
         raise typer.Exit(EXIT_TRIPPED)
 
 
-@app.command()
-def run(
-    speed: Annotated[
-        float, typer.Argument(help="negative: the other way; after -- on the command line")
-    ],
-    rpm: Annotated[
-        bool, typer.Option("--rpm/--radps", help="r/min of the shaft, or rad/s electrical")
-    ] = True,
-    length_s: For = None,
-    port: Port = None,
-    tcp: Tcp = None,
-    pole_pairs: PolePairs = None,
-) -> None:
-    """Runs at SPEED until Ctrl-C, then stops."""
-    end = end_by_signal()
-    with Drive(target(port, tcp)) as drive, Live(console=out, auto_refresh=False) as live:
-        pairs = pole_pairs_of(pole_pairs, drive)
-        wanted = show.e_radps_of(speed, pairs) if rpm else speed
-        update = lambda r: live.update(show.line(r, pairs), refresh=True)  # noqa: E731
-        update(session.hold(drive, wanted, end, length_s, update))
-
-
-@app.command()
-def move(
-    to: Annotated[
-        float,
-        typer.Argument(
-            metavar="TARGET",
-            help="turns of the shaft from the zero; negative after -- on the command line",
-        ),
-    ],
-    counts: Annotated[
-        bool,
-        typer.Option("--counts/--turns", help="TARGET is counts of the encoder, four per line"),
-    ] = False,
-    relative: Annotated[bool, typer.Option("--relative", help="from where it is")] = False,
-    speed: Annotated[
-        float,
-        typer.Option("--speed", min=0.0, help="largest on the way, r/min; 0: what the drive can"),
-    ] = 0.0,
-    length_s: Annotated[
-        Optional[float],
-        typer.Option("--for", min=0.0, help="holds it for so long, then stops", metavar="S"),
-    ] = None,
-    port: Port = None,
-    tcp: Tcp = None,
-    pole_pairs: PolePairs = None,
-) -> None:
-    """Turns the shaft to TARGET and holds it there until Ctrl-C."""
-    end = end_by_signal()
-    with Drive(target(port, tcp)) as drive, Live(console=out, auto_refresh=False) as live:
-        pairs = pole_pairs_of(pole_pairs, drive) or 1
-        wanted = round(to if counts else to * drive.constants().encoder_counts)
-        found = mover.go(
-            drive,
-            wanted,
-            relative,
-            show.e_radps_of(speed, pairs),
-            end,
-            length_s,
-            lambda r, w: live.update(
-                show.line(r, pairs) + f"  {w.now} counts of {w.target}", refresh=True
-            ),
-        )
-        live.update(f"{found.now} counts, wanted {found.target}", refresh=True)
-
-
-@app.command()
-def stop(port: Port = None, tcp: Tcp = None) -> None:
-    """Stops the drive."""
-    with Drive(target(port, tcp)) as drive:
-        out.print(show.line(session.stop(drive), None))
+app.command(context_settings=NUMBERS, epilog=RUN_EXAMPLES)(run)
+app.command(context_settings=NUMBERS, epilog=MOVE_EXAMPLES)(move)
+app.command()(stop)
 
 
 @app.command()
@@ -149,6 +139,9 @@ def reset(port: Port = None, tcp: Tcp = None) -> None:
 
 
 app.command()(load)
+app.command(epilog=GET_EXAMPLES)(get)
+app.command(name="set", epilog=SET_EXAMPLES)(set_registers)
+app.command(epilog=EPILOG, context_settings={"ignore_unknown_options": True})(bench)
 
 
 @app.command()
@@ -163,7 +156,7 @@ def commission(
 ) -> None:
     """Finds the motor: the shaft turns, both ways, and has to be free."""
     end = end_by_signal()
-    with Drive(target(port, tcp)) as drive, Progress(console=err, transient=True) as bar:
+    with Drive(target(port, tcp)) as drive, Progress(console=notes, transient=True) as bar:
         task = bar.add_task("begins", total=1.0)
         values = finder.run(
             drive,
@@ -240,7 +233,8 @@ def main() -> None:
         if not hasattr(e, "format_message"):
             raise
         if e.format_message():  # no command at all: the help is there already
-            err.print(f"sdre-drive: {e.format_message()}", markup=False, highlight=False)
+            words = e.format_message() + comma_words(" ".join(sys.argv[1:]))
+            err.print(f"sdre-drive: {words}", markup=False, highlight=False)
     sys.exit(code)
 
 

@@ -5,31 +5,60 @@ from-commissioning`."""
 from __future__ import annotations
 
 import threading
+from dataclasses import dataclass
 from typing import Callable, Dict, List
 
 from sdre_drive import register_map, session
 from sdre_drive.connection import Drive, DriveError
-from sdre_drive.registers import Mode
+from sdre_drive.registers import ANGLE_KNOWN, Mode
+from sdre_drive.units import rpm_of
 
 COMMISSIONING = -1  # mode of operation
 FINISHED, ABORTED = 7, 8
 STAGES = ("idle", "watch", "look", "resistance", "drag", "map", "spin", "finished", "aborted")
+
+
+@dataclass(frozen=True)
+class Reason:
+    """Why it gave up, what mostly causes that, and by what the bounds are then multiplied."""
+
+    words: str
+    cause: str
+    current: float = 1.0
+    speed: float = 1.0
+
+
 REASONS = {
-    2: "an invalid sample",
-    3: "over-current",
-    4: "the dc link",
-    5: "over-speed",
-    6: "the encoder",
-    7: "a time-out",
-    8: "it was withdrawn",
-    9: "shaft or currents were not at rest",
-    10: "the inductance",
-    11: "the resistance",
-    12: "the rotor does not follow",
-    13: "the shaft does not turn as it should",
-    14: "a value is no number",
-    15: "a current sensor or a motor wire does not answer",
+    0: Reason("none", ""),
+    1: Reason("a bound", "a bound is missing, or beyond the drive's limit"),
+    2: Reason("an invalid sample", "the converter or the supply of the processor is disturbed"),
+    3: Reason(
+        "over-current", "a current passed 1.05 of its bound: the motor has little inductance", 1.3
+    ),
+    4: Reason("the dc link", "the supply is off, or cannot take what braking gives back", 1.0, 0.7),
+    5: Reason("over-speed", "the shaft passed its bound", 1.0, 1.5),
+    6: Reason("the encoder", "the position jumped: cable, screen, or number of lines"),
+    7: Reason("a time-out", "too little torque for the inertia, or friction holds the shaft", 1.5),
+    8: Reason("it was withdrawn", "Ctrl-C, another master, or requests stopped"),
+    9: Reason(
+        "shaft or currents were not at rest", "something turns the shaft: wait until it stands"
+    ),
+    10: Reason("the inductance", "the current is small against its noise, or a wire is open", 1.5),
+    11: Reason(
+        "the resistance", "the current is small against its noise, or a contact is bad", 1.5
+    ),
+    12: Reason("the rotor does not follow", "the shaft is not free, or friction holds it", 1.5),
+    13: Reason(
+        "the shaft does not turn as it should", "a load, or friction beside the torque", 1.5
+    ),
+    14: Reason("a value is no number", "the current is small against its noise", 1.5),
+    15: Reason(
+        "a current sensor or a motor wire does not answer",
+        "a wire is open, or a sensor is dead or false; a small current looks the same",
+        1.5,
+    ),
 }
+WITHDRAWN_FAULT = 14  # COMMISSION: the next try leaves it by itself
 # Key of the file, and the register whose error is beside it.
 VALUES = (
     ("stator_resistance_Ohm", "FOUND_R"),
@@ -43,6 +72,9 @@ VALUES = (
     ("d_axis_angle_e_rad", "FOUND_OFFSET"),
 )
 START_S = 2.0
+REST_WAIT_S = 60.0  # chosen: a shaft without friction coasts for minutes, and nobody waits so long
+TURNS_E_RADPS = 10.0  # in READY one count in a control period is 6.3
+REST_READINGS = 6
 
 
 def found(drive: Drive) -> Dict[str, float]:
@@ -66,6 +98,51 @@ def text(values: Dict[str, float]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def bring_to_rest(
+    drive: Drive, end: threading.Event, progress: Callable[[str, float], None]
+) -> None:
+    """A shaft that coasts is braked when the drive knows its angle; if not, it has to come to rest
+    by itself."""
+    still, braked, begin_s = 0, False, drive.read().time_s
+    for reading in session.follow(drive, end):
+        turns = abs(reading.speed_e_radps) > TURNS_E_RADPS
+        still = 0 if turns else still + 1
+        if still >= REST_READINGS:
+            return
+        if turns and not braked and reading.statusword & ANGLE_KNOWN:
+            braked = True
+            progress("brakes the shaft", 0.0)
+            session.start(drive, 0.0)
+            session.stop(drive)
+        elif turns:
+            progress("waits until the shaft stands", 0.0)
+        if reading.time_s > begin_s + REST_WAIT_S:
+            raise DriveError("the shaft still turns: brake it by hand, then try again")
+    raise DriveError("ended before it began")
+
+
+def give_up(number: int, current_A: float, speed_rpm: float, most_A: float) -> str:
+    """The reason with its cause, and the bounds to try next."""
+    reason = REASONS.get(number)
+    if reason is None:
+        return f"commissioning gave up: reason {number}"
+    head = f"commissioning gave up: {reason.words} ({reason.cause})"
+    current = min(reason.current * current_A, most_A)
+    speed = reason.speed * speed_rpm
+    if (current, speed) == (current_A, speed_rpm):
+        return f"{head}; next: mend that, then the same again"
+    return f"{head}; next: --current {current:.3g} --speed {speed:.4g}"
+
+
+def get_ready(drive: Drive) -> None:
+    """READY, out of what the try before has left; DriveError with what to do."""
+    reading = drive.read()
+    if reading.mode == Mode.FAULT and reading.why.fault == WITHDRAWN_FAULT:
+        session.reset(drive)
+    if session.wait_for(drive, lambda r: r.mode == Mode.READY, session.BOOT_WAIT_S) is None:
+        raise DriveError("the drive is not ready: stop it, or reset its fault")
+
+
 def run(
     drive: Drive,
     current_A: float,
@@ -75,8 +152,11 @@ def run(
 ) -> Dict[str, float]:
     """From READY to its end. DriveError with the reason of an abort; Ctrl-C ends it with the bridge
     off."""
-    if session.wait_for(drive, lambda r: r.mode == Mode.READY, session.BOOT_WAIT_S) is None:
-        raise DriveError("the drive is not ready: stop it, or reset its fault")
+    most_A = drive.constants().current_max_A
+    if current_A > most_A:
+        raise DriveError(f"--current {current_A:g} A is beyond this drive: at most {most_A:g} A")
+    get_ready(drive)
+    bring_to_rest(drive, end, progress)
     drive.write("MODE_OF_OPERATION", COMMISSIONING)
     drive.write("COMMISSION_CURRENT", current_A)
     drive.write("COMMISSION_SPEED", speed_m_radps)
@@ -92,9 +172,13 @@ def run(
             stage = int(values["COMMISSION_STAGE"])
             progress(STAGES[stage], values["COMMISSION_PERCENT"] / 100.0)
             if stage == ABORTED:
-                reason = int(values["COMMISSION_REASON"])
                 raise DriveError(
-                    f"commissioning gave up: {REASONS.get(reason, f'reason {reason}')}"
+                    give_up(
+                        int(values["COMMISSION_REASON"]),
+                        current_A,
+                        rpm_of(speed_m_radps, 1),
+                        most_A,
+                    )
                 )
             if stage == FINISHED:
                 return values

@@ -12,11 +12,13 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 from pymodbus.client import ModbusSerialClient, ModbusTcpClient
 from pymodbus.exceptions import ModbusException
+from serial.tools import list_ports
 
 from sdre_drive import register_map, registers
 from sdre_drive.register_map import Register
 from sdre_drive.registers import BY_NAME, Constants, ControlWord, Reading
 
+log = logging.getLogger(__name__)
 MAP_OBJECT, VERSION_OBJECT = 0x82, 2  # of function 43/14
 FORMATS = {
     "8E1": ("E", 1),
@@ -103,12 +105,28 @@ def is_pseudo_terminal(serial_port: str) -> bool:
     return os.path.realpath(serial_port).startswith("/dev/pts/")
 
 
+def why_closed(serial_port: str) -> str:
+    """The operating system's own words about a port that cannot be opened, and what to do."""
+    try:
+        os.close(os.open(serial_port, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK))
+    except FileNotFoundError as e:
+        here = ", ".join(sorted(p.device for p in list_ports.comports())) or "none"
+        return f"{serial_port}: {e.strerror}; serial ports here: {here}"
+    except PermissionError as e:
+        return f"{serial_port}: {e.strerror}: its group, mostly dialout, has to have you"
+    except OSError as e:
+        return f"{serial_port}: {e.strerror or e}"
+    return f"{serial_port}: it opens, but is no serial port, or another program has it"
+
+
 class Drive:
     """Blocking requests; one at a time, from any thread. All of them raise DriveError."""
 
-    def __init__(self, target: Target) -> None:
+    def __init__(self, target: Target, once: bool = False) -> None:
+        """`once`: a question without an answer is not asked again."""
         logging.getLogger("pymodbus.logging").setLevel(logging.CRITICAL)  # what is wrong is raised
         self.target = target
+        self._tries = 1 if once else TRIES
         self._lock = threading.Lock()
         self._constants: Optional[Constants] = None
         self._client = self._client_of(target)
@@ -154,6 +172,8 @@ class Drive:
         except (OSError, ModbusException) as e:
             raise DriveError(f"{self.target.words}: {e}") from e
         if not connected:
+            if self.target.serial_port:
+                raise DriveError(why_closed(self.target.serial_port))
             raise DriveError(
                 f"nothing answers at {self.target.words}: is the drive on, or `./dev serve` "
                 f"running?"
@@ -173,6 +193,7 @@ class Drive:
         if self._constants is None:
             self._check_map()
             self._constants = registers.constants(self._block(register_map.CONSTANTS))
+            log.info("%s: %s", self.target.words, self._constants)
         return self._constants
 
     def _check_map(self) -> None:
@@ -181,10 +202,7 @@ class Drive:
         told = self.identify()
         if told.get(MAP_OBJECT) == register_map.DIGEST:
             return
-        answer = self._asked("read_device_information", read_code=1, object_id=0)
-        raise DriveError(
-            other_map(answer.information.get(VERSION_OBJECT, b"").decode("ascii", "replace"))
-        )
+        raise DriveError(other_map(self.identify_basic().get(VERSION_OBJECT, "")))
 
     def traces(self) -> Dict[str, float]:
         """How scope and record stand."""
@@ -205,9 +223,15 @@ class Drive:
         """Holding registers as they are."""
         return list(self._asked("read_holding_registers", first, count=count).registers)
 
+    def parameter(self, name: str) -> float:
+        """A holding register, in its unit."""
+        r = BY_NAME[name]
+        return registers.value_of(r, self.holding(r.address, registers.WORDS[r.type]))
+
     def write(self, name: str, value: float) -> None:
         """A holding register, in its unit."""
         r = BY_NAME[name]
+        log.info("%s: writes %s = %g %s", self.target.words, name, value, r.unit)
         try:
             words = registers.words_of(r, value)
         except ValueError as e:
@@ -242,7 +266,14 @@ class Drive:
 
     def identify(self) -> Dict[int, str]:
         """Objects of function 43/14, from the drive's name on."""
-        answer = self._asked("read_device_information", read_code=3, object_id=0x80)
+        return self._identified(3, 0x80)
+
+    def identify_basic(self) -> Dict[int, str]:
+        """Vendor, product and firmware version."""
+        return self._identified(1, 0)
+
+    def _identified(self, read_code: int, first: int) -> Dict[int, str]:
+        answer = self._asked("read_device_information", read_code=read_code, object_id=first)
         return {
             number: octets.decode("ascii", "replace")
             for number, octets in answer.information.items()
@@ -264,7 +295,7 @@ class Drive:
     def _tried(self, call: str, *args: Any, **kwargs: Any) -> Any:
         """Once more after a lost answer: to ask or write the same twice does nothing else."""
         why: Optional[Exception] = None
-        for _ in range(TRIES):
+        for _ in range(self._tries):
             try:
                 if self._client.connect():
                     return getattr(self._client, call)(*args, **kwargs)

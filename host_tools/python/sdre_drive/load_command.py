@@ -17,7 +17,7 @@ from sdre_drive import params as parameters
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.faults import bits
 from sdre_drive.options import Port, Tcp, target
-from sdre_drive.terminal import err, out
+from sdre_drive.terminal import err, notes, out
 
 
 def _load_ram(file: Path, rate: int, port: Optional[str]) -> None:
@@ -27,7 +27,7 @@ def _load_ram(file: Path, rate: int, port: Optional[str]) -> None:
     try:
         with (
             serial.Serial(port, rate, timeout=boot_rom.ECHO_S) as line,
-            Progress(console=err, transient=True) as bar,
+            Progress(console=notes, transient=True) as bar,
         ):
             task = bar.add_task("loading", total=1.0)
             boot_rom.send(line, program, lambda share: bar.update(task, completed=share))
@@ -74,7 +74,7 @@ def load(
         if forget:
             found = loader.forget(drive)
         elif image:
-            with Progress(console=err, transient=True) as bar:
+            with Progress(console=notes, transient=True) as bar:
                 task = bar.add_task("writing", total=1.0)
                 found = loader.load(drive, image, lambda share: bar.update(task, completed=share))
         else:

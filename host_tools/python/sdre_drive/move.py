@@ -9,12 +9,15 @@ from typing import Callable, Optional
 
 from sdre_drive import register_map, session
 from sdre_drive.connection import Drive, DriveError
-from sdre_drive.registers import ControlWord, Mode, Reading
+from sdre_drive.registers import ANGLE_KNOWN, PROFILE_POSITION, ControlWord, Mode, Reading
+from sdre_drive.units import e_radps_of
 
-PROFILE_POSITION = 1  # mode of operation
 NEW, AT_ONCE, RELATIVE = 1 << 4, 1 << 5, 1 << 6  # of the control word
 REACHED, ACKNOWLEDGED, FOLLOWING = 1 << 10, 1 << 12, 1 << 13  # of the status word
 LONGEST_MOVE_S = 600.0  # chosen: the longest acceptable wait
+FAR_TURNS = 10.0  # chosen: beyond, a shaft that counts from another zero unwinds for long
+DEFAULT_RPM = 300.0  # chosen: five turns in a second are seen
+ZEROS = {1: "where the rotor was aligned", 2: "the index mark"}  # of register REFERENCE
 
 
 @dataclass(frozen=True)
@@ -23,6 +26,10 @@ class Where:
 
     now: int
     target: int
+
+    def words(self, turn: int) -> str:
+        """In turns of that many counts."""
+        return f"{self.now / turn:.4f} of {self.target / turn:.4f} turns"
 
 
 def where(drive: Drive) -> Where:
@@ -37,6 +44,41 @@ def require_possible(drive: Drive) -> None:
         raise DriveError("this drive takes no positions: its file has no [position]")
 
 
+@dataclass(frozen=True)
+class Wanted:
+    """A command to move: counts from the zero, or from where the shaft is."""
+
+    counts: int
+    relative: bool = False
+    speed_e_radps: float = 0.0  # largest on the way; 0: what the drive can
+    far: bool = False  # more than FAR_TURNS are meant
+
+
+def require_near(drive: Drive, wanted: Wanted) -> None:
+    """DriveError when the shaft is further away than one would think."""
+    now = where(drive).now
+    turn = drive.constants().encoder_counts
+    turns = abs(wanted.counts if wanted.relative else wanted.counts - now) / turn
+    if turns > FAR_TURNS and not wanted.far:
+        raise DriveError(
+            f"that is {turns:.1f} turns away: the shaft is {now / turn:.2f} turns from its zero; "
+            f"--far goes there, --relative counts from where it is"
+        )
+
+
+def zero_words(drive: Drive) -> str:
+    """The zero of positions."""
+    reference = int(drive.values(register_map.LIVE)["REFERENCE"])
+    return ZEROS.get(reference, "not known yet")
+
+
+def default_speed(drive: Drive) -> float:
+    """rad/s electrical: the drive's own parameter, or a quiet one."""
+    kept = drive.parameter("PROFILE_VELOCITY")
+    known = drive.constants()
+    return kept or min(e_radps_of(DEFAULT_RPM, known.pole_pairs), known.speed_max_e_radps)
+
+
 def _set_point(drive: Drive, counts: int, bits: int) -> None:
     drive.write("CONTROLWORD", ControlWord.ENABLE)
     drive.write("TARGET_POSITION", counts)
@@ -49,28 +91,37 @@ def _set_point(drive: Drive, counts: int, bits: int) -> None:
     drive.write("CONTROLWORD", ControlWord.ENABLE)
 
 
+def _enable(drive: Drive, wanted: Wanted) -> None:
+    """The drive has the shaft, and the way is as long as it should be."""
+    session.start(drive, 0.0, PROFILE_POSITION)
+    if (
+        session.wait_for(drive, lambda r: r.mode in (Mode.RUN, Mode.FAULT), session.STOP_WAIT_S)
+        is None
+    ):
+        raise DriveError("the drive does not come to run")
+    require_near(drive, wanted)
+
+
 def go(
     drive: Drive,
-    counts: int,
-    relative: bool,
-    speed_e_radps: float,
+    wanted: Wanted,
     end: threading.Event,
     hold_s: Optional[float],
     show: Callable[[Reading, Where], None],
+    at_once: Optional[threading.Event] = None,
 ) -> Where:
     """Goes there and holds the shaft until `end`, or for hold_s after it has arrived; then stops.
     Where it was in the end."""
     require_possible(drive)
-    session.require_mode(drive.read(), PROFILE_POSITION)
-    drive.write("PROFILE_VELOCITY", speed_e_radps)
+    reading = drive.read()
+    session.require_mode(reading, PROFILE_POSITION)
+    session.require_speed(drive, wanted.speed_e_radps)
+    if reading.statusword & ANGLE_KNOWN:
+        require_near(drive, wanted)
+    drive.write("PROFILE_VELOCITY", wanted.speed_e_radps)
     try:
-        session.start(drive, 0.0, PROFILE_POSITION)
-        if (
-            session.wait_for(drive, lambda r: r.mode in (Mode.RUN, Mode.FAULT), session.STOP_WAIT_S)
-            is None
-        ):
-            raise DriveError("the drive does not come to run")
-        _set_point(drive, counts, AT_ONCE | (RELATIVE if relative else 0))
+        _enable(drive, wanted)
+        _set_point(drive, wanted.counts, AT_ONCE | (RELATIVE if wanted.relative else 0))
         arrived_s: Optional[float] = None
         found = where(drive)
         for reading in session.follow(drive, end, length_s=LONGEST_MOVE_S):
@@ -88,5 +139,5 @@ def go(
     except DriveError:
         session.withdraw(drive)
         raise
-    session.stop(drive)
+    session.stop(drive, at_once)
     return found

@@ -8,6 +8,7 @@ from typing import Any, Dict, Optional, Tuple
 import typer
 from typing_extensions import Annotated
 
+from sdre_drive import discover
 from sdre_drive.bench import DEFAULT
 from sdre_drive.connection import FORMATS, Drive, DriveError, Target
 
@@ -18,7 +19,7 @@ Tcp = Annotated[
     Optional[str],
     typer.Option(
         "--tcp",
-        help="Modbus/TCP (default 127.0.0.1:1502: a virtual drive here)",
+        help="Modbus/TCP; without --port and --tcp the only drive that answers here",
         metavar="HOST:PORT",
     ),
 ]
@@ -73,7 +74,7 @@ def address(text: str, option: str) -> Tuple[str, int]:
 
 
 def target(port: Optional[str], tcp: Optional[str]) -> Target:
-    """Address of the drive; by default a virtual one on this machine."""
+    """Address of the drive; by default the only one that answers on this machine."""
     if port and tcp:
         raise DriveError("--port and --tcp name two drives: give one")
     if port:
@@ -81,6 +82,11 @@ def target(port: Optional[str], tcp: Optional[str]) -> Target:
     if tcp:
         host, number = address(tcp, "--tcp")
         return Target(host=host, tcp_port=number, **_line)
+    return discover.the_only_one(here())
+
+
+def here() -> Target:
+    """This machine, with the options before the command."""
     return Target(**_line)
 
 

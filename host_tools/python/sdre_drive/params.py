@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import csv
+import re
 import time
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -114,6 +115,12 @@ def require_possible(wanted: Dict[str, float]) -> None:
         words_of(p.register, value)
 
 
+def comma_words(text: str) -> str:
+    """A hint for a text with a decimal comma; empty for any other."""
+    found = re.search(r"(?<!\S)-?\d+,\d+(?!\S)", text)
+    return f"; the decimal sign is a point: {found.group().replace(',', '.')}" if found else ""
+
+
 def parse(assignments: Iterable[str]) -> Dict[str, float]:
     """NAME=VALUE, each."""
     wanted: Dict[str, float] = {}
@@ -122,7 +129,7 @@ def parse(assignments: Iterable[str]) -> Dict[str, float]:
         try:
             wanted[name.strip().upper()] = float(number)
         except ValueError as e:
-            raise DriveError(f'"{text}" is not NAME=VALUE') from e
+            raise DriveError(f'"{text}" is not NAME=VALUE{comma_words(number)}') from e
     return wanted
 
 
@@ -138,6 +145,28 @@ def write(drive: Drive, wanted: Dict[str, float]) -> None:
             raise DriveError(f"{name}: {e}{why}") from e
         if name == "MODBUS_ADDRESS":
             drive.move_to(replace(drive.target, unit=int(wanted[name])))
+
+
+def acts_as(drive: Drive, wanted: Dict[str, float]) -> List[str]:
+    """A line for each value that acts otherwise than it was written."""
+    known = drive.constants()
+    most = {
+        "MAX_CURRENT": (known.current_max_A, "CURRENT_MAX"),
+        "PROFILE_VELOCITY": (known.speed_max_e_radps, "SPEED_MAX"),
+    }
+    lines = []
+    for name, value in wanted.items():
+        unit = NAMES[name].register.unit
+        has = drive.parameter(name)
+        if name in most and has > most[name][0]:
+            limit, register = most[name]
+            lines.append(
+                f"{name}: {text_of(value)} {unit} acts as {text_of(limit)} {unit}, the drive's "
+                f"limit ({register})"
+            )
+        elif text_of(has) != text_of(value):
+            lines.append(f"{name}: the drive has {text_of(has)} {unit}, the nearest that it keeps")
+    return lines
 
 
 def _new_line(drive: Drive, after: Dict[str, float]) -> None:

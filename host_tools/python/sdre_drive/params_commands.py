@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import List, Optional
+from typing import Dict, List, Optional
 
 import typer
 from rich.console import Console
@@ -17,6 +17,7 @@ from sdre_drive.connection import Drive, DriveError
 from sdre_drive.load import NAME
 from sdre_drive.options import Port, Tcp, target
 from sdre_drive.params import Value, text_of
+from sdre_drive.terminal import Json
 
 params = typer.Typer(
     no_args_is_help=False,
@@ -52,13 +53,16 @@ def show(
     csv: Annotated[
         Optional[Path], typer.Option("--csv", help="into a file instead", metavar="FILE")
     ] = None,
+    json: Json = None,
 ) -> None:
     """All of them; * is not the default."""
     if context.invoked_subcommand:
         return
     with Drive(target(port, tcp)) as drive:
         found, state = parameters.read(drive), parameters.stored(drive)
-    if csv:
+    if json:
+        record.write_json(json, [dict(zip(parameters.COLUMNS, r)) for r in parameters.rows(found)])
+    elif csv:
         parameters.write_csv(csv, found)
         out.print(f"{len(found)} parameters written to {csv}")
     else:
@@ -79,6 +83,18 @@ def get(name: str, port: Port = None, tcp: Tcp = None) -> None:
         )
 
 
+def _write(wanted: Dict[str, float], port: Optional[str], tcp: Optional[str]) -> None:
+    parameters.require_possible(wanted)
+    with Drive(target(port, tcp)) as drive:
+        parameters.write(drive, wanted)
+        for line in parameters.acts_as(drive, wanted):
+            out.print(line, highlight=False)
+    out.print(
+        f"{len(wanted)} set; they last until the drive restarts, or for good with: sdre-drive "
+        f"params save"
+    )
+
+
 @params.command(name="set")
 def set_values(
     assignments: Annotated[
@@ -89,13 +105,7 @@ def set_values(
     tcp: Tcp = None,
 ) -> None:
     """Changes some, until the drive is switched off: `save` keeps them."""
-    wanted = parameters.parse(assignments)
-    with Drive(target(port, tcp)) as drive:
-        parameters.write(drive, wanted)
-    out.print(
-        f"{len(wanted)} set; they last until the drive restarts, or for good with: sdre-drive "
-        f"params save"
-    )
+    _write(parameters.parse(assignments), port, tcp)
 
 
 def _line_words(drive: Drive) -> str:
@@ -135,10 +145,4 @@ def export_file(file: Path, port: Port = None, tcp: Tcp = None) -> None:
 def import_file(file: Path, port: Port = None, tcp: Tcp = None) -> None:
     """Sets what stands in a TOML file; nothing, when a name or value is no good."""
     wanted = parameters.read_toml(file)
-    parameters.require_possible(wanted)
-    with Drive(target(port, tcp)) as drive:
-        parameters.write(drive, wanted)
-    out.print(
-        f"{len(wanted)} set; they last until the drive restarts, or for good with: sdre-drive "
-        f"params save"
-    )
+    _write(wanted, port, tcp)

@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import csv
+import json
 import os
+import sys
 from pathlib import Path
 from typing import Any, Dict, Iterable, List
 
@@ -82,6 +84,15 @@ def write_parquet(path: Path, readings: Iterable[Reading]) -> int:
     except OSError as e:
         raise DriveError(f"{path}: {e.strerror or e}") from e
     return len(rows)
+
+
+def write_json(path: Path, data: Any) -> None:
+    """To a file, or with - to the terminal."""
+    text = json.dumps(data, indent=1) + "\n"
+    if str(path) == "-":
+        sys.stdout.write(text)
+    else:
+        write_text(path, text)
 
 
 def write_text(path: Path, text: str) -> None:

@@ -62,7 +62,8 @@ def values(registers: Iterable[Register], words: Sequence[int]) -> Dict[str, flo
     return out
 
 
-PROFILE_VELOCITY = 3  # mode of operation
+ANGLE_KNOWN = 1 << 15  # of the status word: with it the zero of positions
+PROFILE_POSITION, PROFILE_VELOCITY = 1, 3  # modes of operation
 
 
 class ControlWord(IntEnum):
@@ -108,6 +109,10 @@ class Mode(IntEnum):
     COMMISSION = 8
 
 
+RESET_WORDS = (
+    "power on, or the reset pin",
+    "its watchdog: the program before hung, or was asked to restart",
+)
 MODE_WORDS = {
     Mode.BOOT: "starts up",
     Mode.CALIBRATE: "measures the zeros of its current sensors",
@@ -172,6 +177,12 @@ class Reading:
     motor_heat: float
     inverter_heat: float
     derating: float
+
+    @property
+    def reset_words(self) -> str:
+        """The cause of the last start."""
+        known = self.reset_cause < len(RESET_WORDS)
+        return RESET_WORDS[self.reset_cause] if known else f"unknown cause {self.reset_cause}"
 
     @property
     def mode_words(self) -> str:

@@ -19,6 +19,7 @@ BLOCK = 120  # registers in a request
 NAMES = tuple(name for name, _ in register_map.SIGNALS)
 UNITS = dict(register_map.SIGNALS)
 TRIGGERS = ("now", "rising", "falling")
+STATES = ("idle", "fills", "waits for its trigger", "takes", "done")  # of register SCOPE_STATE
 ARM, STOP = 1, 2
 WAITS, DONE = 2, 4
 PERIOD_S = 0.05

@@ -3,19 +3,31 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from typing import Callable, Iterator, Optional
 
 from sdre_drive import faults
 from sdre_drive.connection import Drive, DriveError
-from sdre_drive.registers import PROFILE_VELOCITY, Mode, Reading
+from sdre_drive.registers import (
+    PROFILE_POSITION,
+    PROFILE_VELOCITY,
+    ControlWord,
+    Mode,
+    Reading,
+)
+from sdre_drive.units import speed_words
 
 MOVING = (Mode.PRECHARGE, Mode.ALIGN, Mode.RUN)
 PERIOD_S = 0.05  # well below the 500 ms after which the drive stops by itself
 BOOT_WAIT_S = 3.0  # chosen: the firmware needs 0.3 s
 ANSWER_WAIT_S = 1.0  # a command acts within a tick or two
 STOP_WAIT_S = 20.0  # chosen: mode STOP brakes first
+HALT = 1 << 8  # of the control word: to zero speed, and stays enabled
+STILL_E_RADPS = 2.0  # chosen: less than the estimate's noise at rest would never come
+STILL_READINGS = 3  # in a row: a shaft that only passes zero does not stand
+SLOWER_E_RADPS = 1.0  # in STOP_WAIT_S: with less a ramp does not end
 MOST_ERRORS = 3  # in a row; a single lost answer is nothing
 
 
@@ -54,6 +66,16 @@ def require_mode(reading: Reading, mode: int = PROFILE_VELOCITY) -> None:
         raise DriveError("the drive runs in another mode of operation: stop it first")
 
 
+def require_speed(drive: Drive, speed_e_radps: float) -> None:
+    """DriveError with the limit when the drive does not take that speed."""
+    known = drive.constants()
+    if abs(speed_e_radps) > known.speed_max_e_radps:
+        raise DriveError(
+            f"{speed_words(speed_e_radps, known.pole_pairs)} is out of the drive's range: at most "
+            f"{speed_words(known.speed_max_e_radps, known.pole_pairs)}, either way"
+        )
+
+
 def start(drive: Drive, speed_e_radps: float, mode: int = PROFILE_VELOCITY) -> None:
     """Starts it in a mode of operation, or gives one that runs in it this speed (rad/s
     electrical)."""
@@ -63,6 +85,7 @@ def start(drive: Drive, speed_e_radps: float, mode: int = PROFILE_VELOCITY) -> N
     if reading.mode == Mode.FAULT:
         raise Tripped(reading)
     require_mode(reading, mode)
+    require_speed(drive, speed_e_radps)
     drive.set_speed(speed_e_radps)
     if reading.mode in MOVING:
         return
@@ -79,9 +102,48 @@ def start(drive: Drive, speed_e_radps: float, mode: int = PROFILE_VELOCITY) -> N
         raise Tripped(reading)
 
 
-def stop(drive: Drive) -> Reading:
-    """Ends a run or commissioning, and waits until the bridge is off."""
-    drive.set_run(False)
+class _Ramp:
+    """Whether a shaft that is to stop stands, or gets no slower."""
+
+    def __init__(self) -> None:
+        self._still = 0
+        self._least = math.inf
+        self._since_s = math.inf
+
+    def is_over(self, reading: Reading) -> bool:
+        """After each reading."""
+        speed = abs(reading.speed_e_radps)
+        self._still = self._still + 1 if speed < STILL_E_RADPS else 0
+        if speed < self._least - SLOWER_E_RADPS:
+            self._least, self._since_s = speed, reading.time_s
+        stuck = reading.time_s > self._since_s + STOP_WAIT_S
+        return self._still >= STILL_READINGS or stuck
+
+
+def ramp_down(drive: Drive, at_once: Optional[threading.Event] = None) -> None:
+    """Brings a shaft that the drive has to rest, with the drive's own ramp (DECELERATION). Ends
+    early by `at_once`, with the drive, or when the shaft gets no slower."""
+    reading = drive.read()
+    if reading.mode != Mode.RUN or reading.mode_of_operation not in (
+        PROFILE_VELOCITY,
+        PROFILE_POSITION,
+    ):
+        return
+    drive.write("CONTROLWORD", ControlWord.ENABLE | HALT)
+    ramp = _Ramp()
+    for reading in follow(drive, at_once or threading.Event(), PERIOD_S / 2):
+        if reading.mode != Mode.RUN or ramp.is_over(reading):
+            return
+
+
+def stop(drive: Drive, at_once: Optional[threading.Event] = None, coast: bool = False) -> Reading:
+    """Ends a run or commissioning, and waits until the bridge is off. A run comes to rest by its
+    ramp first, unless it may coast."""
+    try:
+        if not coast:
+            ramp_down(drive, at_once)
+    finally:
+        drive.set_run(False)
     reading = wait_for(
         drive, lambda r: r.mode not in (*MOVING, Mode.STOP, Mode.COMMISSION), STOP_WAIT_S
     )
@@ -145,9 +207,10 @@ def hold(
     end: threading.Event,
     length_s: Optional[float],
     show: Callable[[Reading], None],
+    at_once: Optional[threading.Event] = None,
 ) -> Reading:
-    """Runs at this speed until `end` or for length_s, then stops. Whatever goes wrong once it is
-    ours: run is withdrawn."""
+    """Runs at this speed until `end` or for length_s, then stops by its ramp. Whatever goes wrong
+    once it is ours: run is withdrawn."""
     require_mode(drive.read())
     try:
         start(drive, speed_e_radps)
@@ -157,7 +220,7 @@ def hold(
     except DriveError:
         withdraw(drive)
         raise
-    return stop(drive)
+    return stop(drive, at_once)
 
 
 def withdraw(drive: Drive) -> None:

@@ -3,32 +3,20 @@
 
 from __future__ import annotations
 
-import math
-from typing import List, Optional
+from dataclasses import asdict
+from typing import Any, Dict, List, Optional
 
 from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from sdre_drive import bench as benches
 from sdre_drive import faults
 from sdre_drive.faults import Entry
 from sdre_drive.registers import Mode, Reading, state_words
-
-
-def rpm_of(speed_e_radps: float, pole_pairs: int) -> float:
-    """r/min of the shaft."""
-    return speed_e_radps / pole_pairs * 60.0 / (2.0 * math.pi)
-
-
-def e_radps_of(speed_rpm: float, pole_pairs: int) -> float:
-    """rad/s electrical."""
-    return speed_rpm * pole_pairs * 2.0 * math.pi / 60.0
-
-
-def speed_words(speed_e_radps: float, pole_pairs: Optional[int]) -> str:
-    """In r/min too where the pole pairs are known."""
-    words = f"{speed_e_radps:.1f} rad/s electrical"
-    return f"{rpm_of(speed_e_radps, pole_pairs):.0f} r/min ({words})" if pole_pairs else words
+from sdre_drive.units import e_radps_of as e_radps_of
+from sdre_drive.units import rpm_of as rpm_of
+from sdre_drive.units import speed_words as speed_words
 
 
 def line(reading: Reading, pole_pairs: Optional[int]) -> Text:
@@ -63,8 +51,18 @@ def reasons(reading: Reading) -> List[Text]:
     return [advice(e) for e in known]
 
 
-def status(reading: Reading, pole_pairs: Optional[int]) -> RenderableType:
-    """Everything of one reading."""
+def bench_words(state: Dict[str, Any]) -> str:
+    """The bench of a virtual drive in a line."""
+    parts = [f"load {benches.load_words(state)}", benches.pace_words(state)]
+    parts += [f"{benches.words_of(b)}" for b in state["broken"]]
+    parts += [state["note"]] if state["note"] else []
+    return "; ".join(parts)
+
+
+def status(
+    reading: Reading, pole_pairs: Optional[int], bench: Optional[Dict[str, Any]] = None
+) -> RenderableType:
+    """Everything of one reading, and how the bench of a virtual drive is set."""
     table = Table(show_header=False, box=None, padding=(0, 2, 0, 0))
     rows = (
         ("mode", f"{reading.mode_words}"),
@@ -86,10 +84,28 @@ def status(reading: Reading, pole_pairs: Optional[int]) -> RenderableType:
             f"derated by {100 * reading.derating:.0f} %",
         ),
         ("running since", f"{reading.time_s:.1f} s"),
+        ("started by", reading.reset_words),
+        *([("bench", bench_words(bench))] if bench else []),
     )
     for name, value in rows:
         table.add_row(name, value)
     return Group(table, *reasons(reading))
+
+
+def as_dict(
+    reading: Reading, pole_pairs: int, bench: Optional[Dict[str, Any]] = None
+) -> Dict[str, Any]:
+    """The same for --json: numbers as they are, and what is wrong by name."""
+    return {
+        **asdict(reading),
+        "mode_words": reading.mode_words,
+        "state": state_words(reading.statusword),
+        "started_by": reading.reset_words,
+        "speed_rpm": rpm_of(reading.speed_e_radps, pole_pairs),
+        "faults": [e.name for e in faults.explain(reading.why)],
+        "warnings": [e.name for e in faults.warnings(reading.conditions)],
+        "bench": bench,
+    }
 
 
 def first_fault(reading: Reading, pole_pairs: Optional[int]) -> RenderableType:

@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import logging
 import signal
 import threading
+from pathlib import Path
 from typing import Optional
 
 import typer
@@ -13,15 +15,49 @@ from typing_extensions import Annotated
 
 out = Console()
 err = Console(stderr=True, soft_wrap=True)
+notes = Console(stderr=True, soft_wrap=True)  # beside what was asked for; none with -q
+live_line = Console()  # what a command shows while it runs; none with -q
+
+Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="print only what was asked for")]
+Verbose = Annotated[
+    bool, typer.Option("-v", "--verbose", help="tell every drive that is met and every write")
+]
+Json = Annotated[
+    Optional[Path],
+    typer.Option("--json", help="write it as JSON instead; -: to the terminal", metavar="FILE"),
+]
 
 For = Annotated[
     Optional[float], typer.Option("--for", min=0.0, help="end after so many seconds", metavar="S")
 ]
 
 
-def end_by_signal() -> threading.Event:
+def set_volume(quiet: bool, verbose: bool) -> None:
+    """-q and -v."""
+    notes.quiet = live_line.quiet = quiet
+    log = logging.getLogger("sdre_drive")
+    if verbose and not log.handlers:
+        handler = logging.StreamHandler()
+        handler.setFormatter(logging.Formatter("sdre-drive: %(message)s"))
+        log.addHandler(handler)
+        log.setLevel(logging.INFO)
+
+
+class End(threading.Event):
+    """Set by the first request to end. A second one sets `at_once`: the ramp takes too long."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.at_once = threading.Event()
+
+    def ask(self) -> None:
+        """Ctrl-C, once more."""
+        (self.at_once if self.is_set() else self).set()
+
+
+def end_by_signal() -> End:
     """Set by Ctrl-C or a request to end, so that the drive can be stopped in peace."""
-    end = threading.Event()
+    end = End()
     for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: end.set())
+        signal.signal(number, lambda *_: end.ask())
     return end

@@ -13,7 +13,7 @@ from typing_extensions import Annotated
 from sdre_drive import record, scope, session, show
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.options import PolePairs, Port, Tcp, pole_pairs_of, target
-from sdre_drive.terminal import For, end_by_signal, out
+from sdre_drive.terminal import For, end_by_signal, live_line, out
 
 LOG_PERIOD_S = 0.02  # the line carries about 50 readings per second
 
@@ -23,7 +23,7 @@ def watch(
 ) -> None:
     """Shows the drive until Ctrl-C. A running drive keeps running meanwhile."""
     end = end_by_signal()
-    with Drive(target(port, tcp)) as drive, Live(console=out, auto_refresh=False) as live:
+    with Drive(target(port, tcp)) as drive, Live(console=live_line, auto_refresh=False) as live:
         pairs = pole_pairs_of(pole_pairs, drive)
         for reading in session.follow(drive, end, 0.1, length_s):
             live.update(show.status(reading, pairs), refresh=True)

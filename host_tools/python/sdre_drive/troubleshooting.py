@@ -18,7 +18,7 @@ Read [Safety first](hardware.md#safety-first) before you touch anything.
 
 1. Start `./dev serve`.
 2. Run `sdre-drive run .. --radps` at the speed of the entry.
-3. Send the lines to the control port (127.0.0.1:1503), or use the page (`sdre-drive ui`).
+3. Give the lines to `sdre-drive bench`, or use the page (`sdre-drive ui`).
 4. `mend` repairs the drive, and `sdre-drive reset` leaves the fault.
 
 `python3 -m sdre_drive.troubleshooting` in `host_tools/python` writes this page \

@@ -15,7 +15,7 @@ from sdre_drive import record
 from sdre_drive import verify as verifier
 from sdre_drive.connection import Drive
 from sdre_drive.options import Port, Tcp, target
-from sdre_drive.terminal import end_by_signal, err, out
+from sdre_drive.terminal import end_by_signal, notes, out
 
 
 def verify(
@@ -35,7 +35,7 @@ def verify(
     end = end_by_signal()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        with Drive(target(port, tcp)) as drive, Progress(console=err, transient=True) as bar:
+        with Drive(target(port, tcp)) as drive, Progress(console=notes, transient=True) as bar:
             wanted = verifier.programme(program, drive_file, verifier.samples_of(drive), folder)
             verifier.require_same(drive, wanted, drive_file)
             task = bar.add_task("begins", total=1.0)
@@ -44,7 +44,7 @@ def verify(
             )
         file = keep or folder / "records.json"
         record.write_text(file, verifier.records(wanted, captures))
-        err.print("recorded; some 1,000 simulations follow: 10 s to a minute")
+        notes.print("recorded; some 1,000 simulations follow: 10 s to a minute")
         done = verifier.judge(program, drive_file, file, table)
     out.print(done.stdout, end="", markup=False, highlight=False, soft_wrap=True)
     raise typer.Exit(done.returncode)

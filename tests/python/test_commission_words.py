@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: MIT
+"""The words of `sdre-drive commission` when it gives up, and its first step."""
+
+from __future__ import annotations
+
+import re
+import threading
+from pathlib import Path
+
+import pytest
+from conftest import ROOT, Served
+from support import command, until
+
+from sdre_drive import commission
+from sdre_drive.connection import Drive
+from sdre_drive.registers import Mode
+
+
+def reasons_of_the_firmware() -> int:
+    """How many commission_reason_t has."""
+    text = (ROOT / "firmware/commission/commission.h").read_text(encoding="utf-8")
+    return len(set(re.findall(r"\bCOMMISSION_REASON_[A-Z_]+\b(?= = 0|,|\s*/\*\*|\s*\n?\})", text)))
+
+
+def test_each_reason_has_a_cause() -> None:
+    assert sorted(commission.REASONS) == list(range(reasons_of_the_firmware()))
+    assert all(r.cause for number, r in commission.REASONS.items() if number > 0)
+
+
+def test_a_reason_says_the_next_values() -> None:
+    said = commission.give_up(10, 1.0, 1200.0, 4.0)
+    assert "the inductance (" in said and said.endswith("next: --current 1.5 --speed 1200")
+    assert commission.give_up(4, 1.0, 1200.0, 4.0).endswith("--current 1 --speed 840")
+    assert commission.give_up(12, 3.0, 1200.0, 4.0).endswith("--current 4 --speed 1200")
+    assert commission.give_up(12, 4.0, 1200.0, 4.0).endswith("the same again")
+
+
+def test_a_current_beyond_the_drive_names_the_limit(served: Served, tmp_path: Path) -> None:
+    words = ["--current", "9", "--speed", "1200", "--out", str(tmp_path / "x")]
+    told = command("commission", *words, *served.options())
+    assert told.returncode == 1 and "at most 4 A" in told.stderr, told
+
+
+def test_a_shaft_that_coasts_is_braked_first(served: Served, drive: Drive) -> None:
+    until(drive, lambda r: r.mode == Mode.READY)
+    assert command("run", "900", "--for", "3", *served.options()).returncode == 0  # angle known
+    served.bench().ask("load -0.5 active")
+    until(drive, lambda r: r.speed_e_radps > 200.0)
+    served.bench().ask("load 0")
+    said = []
+    commission.bring_to_rest(drive, threading.Event(), lambda words, _share: said.append(words))
+    assert "brakes the shaft" in said
+    assert abs(served.bench().ask("state")["speed_e_radps"]) < 10.0
+
+
+def test_a_shaft_whose_angle_is_unknown_is_waited_for(
+    served: Served, drive: Drive, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    until(drive, lambda r: r.mode == Mode.READY)
+    served.bench().ask("load -0.5 active")
+    until(drive, lambda r: r.speed_e_radps > 100.0)
+    monkeypatch.setattr(commission, "REST_WAIT_S", 0.5)
+    with pytest.raises(Exception, match="brake it by hand"):
+        commission.bring_to_rest(drive, threading.Event(), lambda *_: None)
+    served.bench().ask("load 2")
+    commission.bring_to_rest(drive, threading.Event(), lambda *_: None)
