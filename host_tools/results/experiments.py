@@ -173,6 +173,7 @@ def run(sil, what, drive):
                 "worst": {
                     "motors": data["motors"],
                     "failed": data["failed"],
+                    "tripped": data["tripped"],
                     "good": round(good, 4),
                 }
             }

@@ -44,7 +44,11 @@ def fields(values):
         for name, (metric, factor) in FIELDS.items():
             if metric in of:
                 found[name + suffix] = Never() if of[metric] is None else abs(factor * of[metric])
-        found |= {name + suffix: of[name] for name in ("motors", "failed", "good") if name in of}
+        found |= {
+            name + suffix: of[name]
+            for name in ("motors", "failed", "tripped", "good")
+            if name in of
+        }
     return found
 
 

@@ -335,7 +335,7 @@ def test_motors_are_those_of_sdre_sil(tmp_path: Path) -> None:
     assert len(rows) == len(ours) == 6
     for row, case in zip(rows, ours):
         assert int(row["motor"]) == case["seed"] and bool(int(row["failed"])) == case["failed"]
-        for name in ("resistance", "inductance", "flux", "inertia"):
+        for name in ("resistance", "d_axis_inductance", "q_axis_inductance", "flux", "inertia"):
             assert float(row[name]) == pytest.approx(case[f"value.{name}"], rel=1e-5)
 
 

@@ -2,6 +2,7 @@
 #include "sil/eval/random_motors.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +11,7 @@
 #include "common/parallel.hpp"
 #include "json.hpp"
 #include "scenario_text.hpp"
+#include "sil/eval/seeds.hpp"
 #include "sil/run/simulation.hpp"
 #include "temp_dir.hpp"
 
@@ -79,6 +81,7 @@ TEST(DrawMotor, FactorsFillTheirRangesAndNothingElse)
     const MotorRanges                    ranges{{0.5, 1.5}, {0.6, 1.4}, {0.7, 1.3}, {0.5, 3.0}};
     const std::pair<const char *, Range> expected[] = {{"stator_resistance_Ohm", {0.5, 1.5}},
                                                        {"d_axis_inductance_H", {0.6, 1.4}},
+                                                       {"q_axis_inductance_H", {0.6, 1.4}},
                                                        {"pm_flux_Wb", {0.7, 1.3}},
                                                        {"inertia_kgm2", {0.5, 3.0}}};
     for (const auto &[key, range] : expected) {
@@ -100,16 +103,22 @@ TEST(DrawMotor, FactorsFillTheirRangesAndNothingElse)
     }
 }
 
-TEST(DrawMotor, BothInductancesShareAFactorAndTheRestIsIndependent)
+TEST(DrawMotor, EveryFactorIsIndependentOfEachOther)
 {
     const MotorRanges ranges{{0.5, 1.5}, {0.5, 1.5}, {0.5, 1.5}, {0.5, 1.5}};
-    double            product = 0.0;
-    for (int motor = 1; motor <= 2000; motor++) {
-        const MotorScale m = draw_motor(ranges, 1, motor);
-        EXPECT_EQ(m.at("d_axis_inductance_H"), m.at("q_axis_inductance_H"));
-        product += (m.at("pm_flux_Wb") - 1.0) * (m.at("inertia_kgm2") - 1.0) / 2000.0;
+    const char *keys[] = {"stator_resistance_Ohm", "d_axis_inductance_H", "q_axis_inductance_H",
+                          "pm_flux_Wb", "inertia_kgm2"};
+    for (const char *a : keys) {
+        for (const char *b : keys) {
+            double product = 0.0;
+            for (int motor = 1; motor <= 2000; motor++) {
+                const MotorScale m = draw_motor(ranges, 1, motor);
+                product += (m.at(a) - 1.0) * (m.at(b) - 1.0) / 2000.0;
+            }
+            EXPECT_NEAR(product, a == b ? 1.0 / 12.0 : 0.0, 0.006) // 3 sigma
+                << a << " " << b;
+        }
     }
-    EXPECT_NEAR(product, 0.0, 0.006); // 3 sigma of independent factors
 }
 
 TEST(DrawMotor, SameNumbersSameMotor)
@@ -145,6 +154,96 @@ TEST(RandomMotors, FailuresSayWhatAndWhy)
     }
     EXPECT_NE(random_motors_text(s, runs).find("3 of 3 motors failed, 0.00 % good"),
               std::string::npos);
+}
+
+namespace {
+
+/// Steady running with a ripple of the speed and noise of both voltages, rms.
+SimulationResult ringing(const Scenario &s, double ripple_e_radps, double vq_V, double vd_V)
+{
+    SimulationResult r = simulate(s);
+    for (std::size_t i = 0; i < r.trace.size(); i++) {
+        const double sign        = i % 2 == 0 ? 1.0 : -1.0;
+        r.trace[i].omega_e_radps = 100.0 + sign * ripple_e_radps;
+        r.trace[i].vq_V          = sign * vq_V;
+        r.trace[i].vd_V          = sign * vd_V;
+    }
+    return r;
+}
+
+std::vector<std::string> judged(const Scenario &s, const SimulationResult &r)
+{
+    return judge(s, r, measure(s, r.trace), {{0.0, 0.5, 6.0, 4.0}});
+}
+
+} // namespace
+
+TEST(RandomMotors, RingingWithinTheBandIsNamedByWhatIsLoud)
+{
+    const Scenario s = read(text(good));
+
+    EXPECT_TRUE(judged(s, ringing(s, 0.49, 5.9, 3.9)).empty());
+    const auto ripple = judged(s, ringing(s, 0.51, 5.9, 3.9));
+    ASSERT_EQ(ripple.size(), 1U);
+    EXPECT_EQ(ripple[0], "whole: ripple 0.51 rad/s, allowed 0.5");
+    const auto vq = judged(s, ringing(s, 0.49, 6.2, 3.9));
+    ASSERT_EQ(vq.size(), 1U);
+    EXPECT_EQ(vq[0], "whole: v_q noise 6.2 V, allowed 6");
+    const auto vd = judged(s, ringing(s, 0.49, 5.9, 4.2));
+    ASSERT_EQ(vd.size(), 1U);
+    EXPECT_EQ(vd[0], "whole: v_d noise 4.2 V, allowed 4");
+    EXPECT_EQ(judged(s, ringing(s, 0.49, 5.9, std::nan(""))).size(), 1U);
+}
+
+/// The oracle: the medians of 20 seeds of the same scenario, from `run_seeds`.
+TEST(RandomMotors, LimitsAreThoseOfTheBelievedMotorInItsSeeds)
+{
+    Scenario s        = read(support::replaced(text(good), "ideal = true", ""));
+    s.plant_scale     = {{"inertia_kgm2", 0.7}}; // of no effect
+    const auto limits = noise_limits(s, prepare_controller(s));
+    ASSERT_EQ(limits.size(), 1U);
+
+    s.plant_scale.clear();
+    const SeedRuns runs   = run_seeds(s, 20);
+    const auto     median = [&](const std::string &metric) {
+        for (const SeedSpread &spread : runs.measures[0].spread) {
+            if (spread.metric == metric) {
+                return *spread.median;
+            }
+        }
+        return 0.0;
+    };
+    EXPECT_NEAR(limits[0].ripple_e_radps, 5.0 * median("ripple_e_radps"), 1e-9);
+    EXPECT_NEAR(limits[0].vq_noise_V, 3.0 * median("vq_noise_V"), 1e-9);
+    EXPECT_NEAR(limits[0].vd_noise_V, 3.0 * median("vd_noise_V"), 1e-9);
+}
+
+TEST(RandomMotors, ExactSignalsHaveTheQuietLimits)
+{
+    const Scenario s = read(support::replaced(text(good), "duration_s = 0.02", "duration_s = 2.0"));
+    const auto     limits = noise_limits(s, prepare_controller(s));
+    ASSERT_EQ(limits.size(), 1U);
+    const double circle_V = s.drive.inverter.dc_link_V / std::sqrt(3.0);
+    EXPECT_NEAR(limits[0].ripple_e_radps, 0.02 * s.drive.motor.rated_speed_e_radps / 523.0, 1e-9);
+    EXPECT_NEAR(limits[0].vq_noise_V, 0.2 * circle_V / 170.3, 1e-9);
+    EXPECT_NEAR(limits[0].vd_noise_V, 0.2 * circle_V / 170.3, 1e-9);
+}
+
+/// Half the inertia, a strong magnet and half the inductance: the speed stays within its band of 4 rad/s, and rings.
+TEST(RandomMotors, MotorThatRingsOnTheBoardFails)
+{
+    Scenario s =
+        read_scenario_file(SDRE_SOURCE_DIR "/host_tools/sil/scenarios/board_random_motors.toml");
+    s.motor_ranges          = MotorRanges{{1.0, 1.0}, {0.7, 0.7}, {1.4, 1.4}, {0.55, 0.55}};
+    const RandomMotors loud = run_random_motors(s, 1);
+    ASSERT_EQ(loud.failures.size(), 1U);
+    EXPECT_EQ(loud.tripped(), 0);
+    EXPECT_EQ(loud.good(), 0);
+    for (std::size_t i = 0; i + 1 < loud.failures[0].reasons.size(); i++) {
+        EXPECT_NE(loud.failures[0].reasons[i].find("allowed"), std::string::npos);
+    }
+    s.motor_ranges = MotorRanges{{1.0, 1.0}, {0.9, 0.9}, {1.1, 1.1}, {0.8, 0.8}};
+    EXPECT_TRUE(run_random_motors(s, 1).failures.empty());
 }
 
 /// Each of the three reasons, of motors that have no other.
@@ -236,7 +335,9 @@ TEST(RandomMotors, CommandPrintsTheShareAndSavesFailures)
     EXPECT_TRUE(std::filesystem::exists(dir / "out" / "case_motor_1.toml"));
     EXPECT_TRUE(std::filesystem::exists(dir / "out" / "case_motor_2.toml"));
     const std::string csv = support::read_file(dir / "m.csv");
-    EXPECT_EQ(csv.rfind("motor,resistance,inductance,flux,inertia,failed,reasons\n1,1,1,1,0.02", 0),
+    EXPECT_EQ(csv.rfind("motor,resistance,d_axis_inductance,q_axis_inductance,flux,inertia,failed,"
+                        "reasons\n1,1,1,1,1,0.02",
+                        0),
               0U)
         << csv;
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);

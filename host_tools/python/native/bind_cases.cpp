@@ -63,7 +63,7 @@ nb::tuple run_cases(CaseRunner &cases, const Values &values, const Seeds &seeds)
                           numpy_array(std::move(metrics), {n, columns}));
 }
 
-/// The factors of `sdre-sil motors`, motors first + 1 .. first + count: R, L, flux, J.
+/// The factors of `sdre-sil motors`, motors first + 1 .. first + count: R, Ld, Lq, flux, J.
 nb::object draw_motors(const Scenario &s, std::uint64_t seed, int first, int count)
 {
     if (!s.motor_ranges) {
@@ -72,12 +72,12 @@ nb::object draw_motors(const Scenario &s, std::uint64_t seed, int first, int cou
     std::vector<double> factors;
     for (int motor = first + 1; motor <= first + count; motor++) {
         const MotorScale scale = draw_motor(*s.motor_ranges, seed, motor);
-        for (const char *key :
-             {"stator_resistance_Ohm", "q_axis_inductance_H", "pm_flux_Wb", "inertia_kgm2"}) {
+        for (const char *key : {"stator_resistance_Ohm", "d_axis_inductance_H",
+                                "q_axis_inductance_H", "pm_flux_Wb", "inertia_kgm2"}) {
             factors.push_back(scale.at(key));
         }
     }
-    return nb::cast(numpy_array(std::move(factors), {static_cast<std::size_t>(count), 4}));
+    return nb::cast(numpy_array(std::move(factors), {static_cast<std::size_t>(count), 5}));
 }
 
 } // namespace

@@ -22,6 +22,11 @@ bool is_of_controller(const KeyPath &path)
            (path.front() == "inverter" && path.back() == "updates_per_period");
 }
 
+bool is_of_motor(const KeyPath &path)
+{
+    return path.front() == "plant_scale";
+}
+
 void set_value(CaseBase &base, const CaseVariable &variable, double value)
 {
     for (const KeyPath &path : variable.keys) {
@@ -83,10 +88,12 @@ CaseRunner::CaseRunner(CaseBase base, std::vector<CaseVariable> variables,
     base_.root.erase("motor_ranges"); // what varies is what the variables say
     first_ = read_scenario_table(base_.root, base_.source, base_.name, base_.drive, base_.own);
     other_controllers_ = false;
+    other_motors_only_ = !variables_.empty();
     for (const CaseVariable &variable : variables_) {
         for (const KeyPath &path : variable.keys) {
             table_of(base_.root, path, base_.source);
             other_controllers_ = other_controllers_ || is_of_controller(path);
+            other_motors_only_ = other_motors_only_ && is_of_motor(path);
         }
     }
     for (const std::string &name : metrics_) {
@@ -123,9 +130,12 @@ CaseResult CaseRunner::run(const double *values, std::uint64_t seed)
     const Scenario             s      = scenario_of(values, seed);
     const SimulationResult     result = other_controllers_ ? simulate(s) : simulate(s, controller_);
     const std::vector<Metrics> metrics = measure(s, result.trace);
-    CaseResult                 out;
-    out.fault          = result.fault;
-    out.failed         = !judge(s, result, metrics).empty();
+    if (other_motors_only_ && !limits_) {
+        limits_ = noise_limits(first_, controller_);
+    }
+    CaseResult out;
+    out.fault  = result.fault;
+    out.failed = !judge(s, result, metrics, limits_.value_or(std::vector<NoiseLimit>{})).empty();
     out.current_margin = result.fault == 0 ? current_margin(s, result) : -1.0;
     out.speed_margin   = result.fault == 0 ? speed_margin(s, result) : -1.0;
     out.metrics        = values_of(metrics, s, metrics_);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,9 @@ private:
     Scenario                  first_; ///< the file as it stands
     bool                      other_controllers_;
     Controller                controller_; ///< of all cases, unless a variable is the controller's
+    bool                      other_motors_only_;
+    std::optional<std::vector<NoiseLimit>>
+        limits_; ///< of the first run on, where only the motor varies
 };
 
 } // namespace sdre

@@ -109,9 +109,8 @@ def motor_variables() -> Tuple[Variable, ...]:
     """Those of `sdre-sil motors`, in the order of draw_motors()."""
     return (
         Variable("resistance", ("plant_scale.stator_resistance_Ohm",)),
-        Variable(
-            "inductance", ("plant_scale.d_axis_inductance_H", "plant_scale.q_axis_inductance_H")
-        ),
+        Variable("d_axis_inductance", ("plant_scale.d_axis_inductance_H",)),
+        Variable("q_axis_inductance", ("plant_scale.q_axis_inductance_H",)),
         Variable("flux", ("plant_scale.pm_flux_Wb",)),
         Variable("inertia", ("plant_scale.inertia_kgm2",)),
     )
@@ -120,8 +119,8 @@ def motor_variables() -> Tuple[Variable, ...]:
 def draw_motors(
     scenario: Scenario, first: int, count: int, seed: Optional[int] = None
 ) -> FloatArray:
-    """Factors of R, L, flux and J, count x 4, drawn as `sdre-sil motors` draws its motors first + 1
-    .. first + count."""
+    """Factors of R, Ld, Lq, flux and J, count x 5. `sdre-sil motors` draws its motors first + 1 ..
+    first + count so."""
     return np.asarray(
         _native.draw_motors(scenario._native, scenario.seed if seed is None else seed, first, count)
     )

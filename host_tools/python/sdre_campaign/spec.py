@@ -21,6 +21,8 @@ MARGINS = ("least", "speed", "current")
 DISTRIBUTIONS = ("uniform", "log_uniform", "normal", "values")
 #: Margins are always kept; these metrics too unless the specification names others.
 METRICS = ("settling_time_s", "dip_e_radps", "ripple_e_radps")
+#: Keys of [motor_ranges], of each of motor_variables().
+MOTOR_RANGES = ("resistance", "inductance", "inductance", "flux", "inertia")
 MOST_RARE = 1e-15  # further out a distribution function has no digits left below 1
 MOST_CASES = LARGEST_SEED  # a case's number is its seed
 
@@ -213,8 +215,8 @@ def _motors(scenario: Mapping[str, Any], path: Path) -> Tuple[Varied, ...]:
         raise sdre.InputError(f"{path}: [motor_ranges] is missing")
     try:
         return tuple(
-            Varied(one, "uniform", float(ranges[one.name][0]), float(ranges[one.name][1]))
-            for one in motor_variables()
+            Varied(one, "uniform", float(ranges[key][0]), float(ranges[key][1]))
+            for one, key in zip(motor_variables(), MOTOR_RANGES)
         )
     except (KeyError, IndexError, TypeError, ValueError) as error:
         raise sdre.InputError(

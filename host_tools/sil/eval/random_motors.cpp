@@ -18,15 +18,6 @@
 namespace sdre {
 namespace {
 
-MotorScale motor_scale(double resistance, double inductance, double flux, double inertia)
-{
-    return {{"stator_resistance_Ohm", resistance},
-            {"d_axis_inductance_H", inductance},
-            {"q_axis_inductance_H", inductance},
-            {"pm_flux_Wb", flux},
-            {"inertia_kgm2", inertia}};
-}
-
 LoopGains gains_at(const law_noc_config_t &config, double iq_A)
 {
     LoopGains                   g{Eigen::MatrixXd(2, 3), Eigen::MatrixXd::Zero(7, 3)};
@@ -84,7 +75,8 @@ std::string explain(const Scenario &s, const drive_config_t &config)
 } // namespace
 
 std::vector<std::string> judge(const Scenario &s, const SimulationResult &result,
-                               const std::vector<Metrics> &metrics)
+                               const std::vector<Metrics>    &metrics,
+                               const std::vector<NoiseLimit> &limits)
 {
     std::vector<std::string> reasons;
     if (result.fault != 0) {
@@ -105,17 +97,21 @@ std::vector<std::string> judge(const Scenario &s, const SimulationResult &result
                                           m.name, m.ripple_e_radps));
         }
     }
+    const std::vector<std::string> loud = noise_reasons(metrics, limits);
+    reasons.insert(reasons.end(), loud.begin(), loud.end());
     return reasons;
 }
 
 MotorScale draw_motor(const MotorRanges &r, std::uint64_t seed, int motor)
 {
-    Uniform      draw(seed, static_cast<std::uint64_t>(motor));
-    const double resistance = draw.next(r.resistance.lo, r.resistance.hi);
-    const double inductance = draw.next(r.inductance.lo, r.inductance.hi);
-    const double flux       = draw.next(r.flux.lo, r.flux.hi);
-    const double inertia    = draw.next(r.inertia.lo, r.inertia.hi);
-    return motor_scale(resistance, inductance, flux, inertia);
+    Uniform    draw(seed, static_cast<std::uint64_t>(motor));
+    MotorScale scale;
+    scale["stator_resistance_Ohm"] = draw.next(r.resistance.lo, r.resistance.hi);
+    scale["d_axis_inductance_H"]   = draw.next(r.inductance.lo, r.inductance.hi);
+    scale["q_axis_inductance_H"]   = draw.next(r.inductance.lo, r.inductance.hi);
+    scale["pm_flux_Wb"]            = draw.next(r.flux.lo, r.flux.hi);
+    scale["inertia_kgm2"]          = draw.next(r.inertia.lo, r.inertia.hi);
+    return scale;
 }
 
 RandomMotors run_random_motors(const Scenario &scenario, int count)
@@ -123,9 +119,10 @@ RandomMotors run_random_motors(const Scenario &scenario, int count)
     if (!scenario.motor_ranges) {
         throw InputError(fmt::format("scenario {}: [motor_ranges] is missing", scenario.name));
     }
-    const Controller          controller = prepare_controller(scenario);
-    std::vector<MotorFailure> runs(static_cast<std::size_t>(count));
-    Progress                  progress(runs.size(), "motors");
+    const Controller              controller = prepare_controller(scenario);
+    const std::vector<NoiseLimit> limits     = noise_limits(scenario, controller);
+    std::vector<MotorFailure>     runs(static_cast<std::size_t>(count));
+    Progress                      progress(runs.size(), "motors");
 
     parallel_for(runs.size(), [&](std::size_t i) {
         Scenario  one                 = scenario;
@@ -133,7 +130,8 @@ RandomMotors run_random_motors(const Scenario &scenario, int count)
         one.plant_scale               = draw_motor(*scenario.motor_ranges, scenario.seed, motor);
         one.seed                      = static_cast<std::uint64_t>(motor);
         const SimulationResult result = simulate(one, controller);
-        runs[i] = {motor, one.plant_scale, judge(one, result, measure(one, result.trace))};
+        runs[i]                       = {motor, result.fault != 0, one.plant_scale,
+                                         judge(one, result, measure(one, result.trace), limits)};
         if (!runs[i].reasons.empty()) {
             runs[i].reasons.push_back(explain(one, controller.config));
         }
@@ -150,15 +148,21 @@ RandomMotors run_random_motors(const Scenario &scenario, int count)
     return out;
 }
 
+int RandomMotors::tripped() const
+{
+    return static_cast<int>(std::count_if(failures.begin(), failures.end(),
+                                          [](const MotorFailure &f) { return f.tripped; }));
+}
+
 std::string random_motors_text(const Scenario &scenario, const RandomMotors &runs)
 {
-    const auto  failed = static_cast<int>(runs.failures.size());
-    std::string s = fmt::format("{} on {}: {} of {} motors failed, {:.2f} % good\n", scenario.name,
-                                scenario.drive.name, failed, runs.count,
-                                100.0 * (runs.count - failed) / runs.count);
+    std::string s = fmt::format("{} on {}: {} of {} motors failed, {:.2f} % good, {} tripped\n",
+                                scenario.name, scenario.drive.name, runs.failures.size(),
+                                runs.count, 100.0 * runs.good() / runs.count, runs.tripped());
     for (const MotorFailure &f : runs.failures) {
-        s += fmt::format("motor {}: R {:.2f}, L {:.2f}, flux {:.2f}, J {:.2f}\n", f.motor,
-                         f.scale.at("stator_resistance_Ohm"), f.scale.at("q_axis_inductance_H"),
+        s += fmt::format("motor {}: R {:.2f}, Ld {:.2f}, Lq {:.2f}, flux {:.2f}, J {:.2f}\n",
+                         f.motor, f.scale.at("stator_resistance_Ohm"),
+                         f.scale.at("d_axis_inductance_H"), f.scale.at("q_axis_inductance_H"),
                          f.scale.at("pm_flux_Wb"), f.scale.at("inertia_kgm2"));
         for (const std::string &reason : f.reasons) {
             s += fmt::format("  {}\n", reason);
@@ -169,15 +173,17 @@ std::string random_motors_text(const Scenario &scenario, const RandomMotors &run
 
 std::string random_motors_csv(const RandomMotors &runs)
 {
-    std::string s       = "motor,resistance,inductance,flux,inertia,failed,reasons\n";
-    auto        failure = runs.failures.begin();
+    std::string s =
+        "motor,resistance,d_axis_inductance,q_axis_inductance,flux,inertia,failed,reasons\n";
+    auto failure = runs.failures.begin();
     for (std::size_t i = 0; i < runs.scales.size(); i++) {
         const MotorScale &scale = runs.scales[i];
         const bool        failed =
             failure != runs.failures.end() && failure->motor == static_cast<int>(i) + 1;
-        s += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{},\"{}\"\n", i + 1,
-                         scale.at("stator_resistance_Ohm"), scale.at("q_axis_inductance_H"),
-                         scale.at("pm_flux_Wb"), scale.at("inertia_kgm2"), failed ? 1 : 0,
+        s += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},\"{}\"\n", i + 1,
+                         scale.at("stator_resistance_Ohm"), scale.at("d_axis_inductance_H"),
+                         scale.at("q_axis_inductance_H"), scale.at("pm_flux_Wb"),
+                         scale.at("inertia_kgm2"), failed ? 1 : 0,
                          failed ? fmt::format("{}", fmt::join(failure->reasons, "; ")) : "");
         failure += failed ? 1 : 0;
     }
@@ -190,11 +196,9 @@ std::string random_motors_json(const Scenario &scenario, const RandomMotors &run
     for (const MotorFailure &f : runs.failures) {
         failures.push_back({{"motor", f.motor}, {"scale", f.scale}, {"reasons", f.reasons}});
     }
-    return Json{{"scenario", scenario.name},
-                {"drive", scenario.drive.name},
-                {"motors", runs.count},
-                {"failed", runs.failures.size()},
-                {"failures", failures}}
+    return Json{{"scenario", scenario.name}, {"drive", scenario.drive.name},
+                {"motors", runs.count},      {"failed", runs.failures.size()},
+                {"tripped", runs.tripped()}, {"failures", failures}}
         .text();
 }
 

@@ -9,6 +9,7 @@
 
 #include "common/file_output.hpp"
 #include "sil/eval/metrics.hpp"
+#include "sil/eval/settled_noise.hpp"
 #include "sil/run/simulation.hpp"
 #include "sil/setup/scenario.hpp"
 
@@ -16,7 +17,8 @@ namespace sdre {
 
 /// Failure of one motor's run.
 struct MotorFailure {
-    int                      motor = 0; ///< 1 .. count; the noise seed too
+    int                      motor   = 0; ///< 1 .. count; the noise seed too
+    bool                     tripped = false;
     MotorScale               scale;
     std::vector<std::string> reasons; ///< what was seen, then the linear loop's view of why
 };
@@ -25,15 +27,22 @@ struct RandomMotors {
     int                       count = 0;
     std::vector<MotorScale>   scales;   ///< of all motors; motor n is scales[n - 1]
     std::vector<MotorFailure> failures; ///< by number
+
+    int good() const
+    {
+        return count - static_cast<int>(failures.size());
+    }
+    int tripped() const;
 };
 
 /// The current circle may be left by this factor: the project's bound for every shipped scenario.
 constexpr double allowed_current_ratio = 1.1;
 
-/// Reasons why a run fails: the drive trips, the current exceeds its limit by that factor. Another
-/// reason is a speed outside the band at the end of a measure. Empty: none.
+/// Reasons why a run fails: the drive trips, or the current exceeds its limit by that factor. Others are a speed outside
+/// the band at the end of a measure, and more noise than allowed in its steady part. Empty: none.
 std::vector<std::string> judge(const Scenario &scenario, const SimulationResult &result,
-                               const std::vector<Metrics> &metrics);
+                               const std::vector<Metrics>    &metrics,
+                               const std::vector<NoiseLimit> &limits);
 
 /// The factors of one motor, a function of seed and number only: uniform in Scenario::motor_ranges.
 MotorScale draw_motor(const MotorRanges &ranges, std::uint64_t seed, int motor);

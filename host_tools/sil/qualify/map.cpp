@@ -13,6 +13,7 @@
 #include "design/machine_points.hpp"
 #include "design/trip_levels.hpp"
 #include "sil/eval/rows.hpp"
+#include "sil/eval/settled_noise.hpp"
 #include "sil/qualify/plan.hpp"
 #include "sil/run/simulation.hpp"
 
@@ -24,9 +25,6 @@ constexpr double iq_share = 0.95;
 // Chosen: torque of a law without a d-current reference of its own, of what the machine has.
 constexpr double torque_share = 0.85;
 constexpr int    tail_periods = 1000;
-// Chosen: 0.2 V and 0.02 rad/s of the 390 W motor, whose circle is 170 V and whose rated speed 523 rad/s.
-constexpr double ideal_voltage_share = 0.2 / 170.3;
-constexpr double ideal_speed_share   = 0.02 / 523.0;
 // Chosen: of the trip speed, where a drive may be commanded that far: noise and overshoot need room.
 constexpr double trip_share  = 0.95;
 constexpr double board_ratio = 2.0; // chosen: noise at any point, of that at half the rating
@@ -184,8 +182,8 @@ PlaneMap plane_map(const Drive &d, int per_side, int seeds)
     run(d, map.points, seeds);
     half = map.points.back();
     map.points.pop_back();
-    map.ideal_limit     = {ideal_voltage_share * circle_V, ideal_voltage_share * circle_V,
-                           ideal_speed_share * d.motor.rated_speed_e_radps};
+    map.ideal_limit     = {quiet_voltage_share * circle_V, quiet_voltage_share * circle_V,
+                           quiet_speed_share * d.motor.rated_speed_e_radps};
     const double most_V = board_ratio * std::max(half.board.vq_V, half.board.vd_V);
     map.board_limit     = {most_V, most_V, 0.0};
     return map;

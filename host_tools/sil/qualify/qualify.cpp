@@ -91,8 +91,7 @@ MotorShare share_of(const Scenario &scenario, int count)
 {
     MotorShare s{count, 0};
     if (count > 0) {
-        const RandomMotors runs = run_random_motors(scenario, count);
-        s.good                  = count - static_cast<int>(runs.failures.size());
+        s.good = run_random_motors(scenario, count).good();
     }
     return s;
 }

@@ -16,7 +16,7 @@ using MotorScale = std::map<std::string, double>;
 /// Factors that one random motor of `sdre-sil motors` is drawn with, relative to the drive file.
 struct MotorRanges {
     Range resistance{1.0, 1.0};
-    Range inductance{1.0, 1.0}; ///< one factor for both axes
+    Range inductance{1.0, 1.0}; ///< of each axis, drawn independently
     Range flux{1.0, 1.0};
     Range inertia{1.0, 1.0};
 };
