@@ -43,6 +43,7 @@ from sdre.loop import (
 )
 from sdre.run import UNITS, Run, Trace, simulate, simulate_with
 from sdre.scenario import Scenario
+from sdre.virtual_drive import VirtualDrive
 
 __version__ = tool_version
 __all__ = [
@@ -72,6 +73,7 @@ __all__ = [
     "Trace",
     "UNITS",
     "Variable",
+    "VirtualDrive",
     "care",
     "design",
     "simulate",
