@@ -88,7 +88,7 @@ class VirtualDrive:
         return subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def _ports(self) -> Dict[str, int]:
-        """What the server says until it is ready; its error as InputError."""
+        """The ports that the server names. Raises InputError with its words when it ends."""
         assert self._process.stdout and self._process.stderr
         ports = {}
         for line in self._process.stdout:
