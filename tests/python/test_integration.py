@@ -26,12 +26,13 @@ NEEDS_LIBMODBUS = pytest.mark.skipif(
 )
 
 
-def block(language: str, port: int) -> str:
-    """The page's only block of this language, for the drive on this port."""
+def block(program: str, port: int) -> str:
+    """The page's only block with this program, for the drive on this port."""
     page = (ROOT / "docs/integration.md").read_text(encoding="utf-8")
-    blocks = re.findall(rf"```{language}\n(.*?)```", page, flags=re.S)
-    assert len(blocks) == 1 and "1502" in blocks[0]
-    return blocks[0].replace("1502", str(port))
+    blocks = re.findall(r"```(?:sh|python)\n(.*?)```", page, flags=re.S)
+    (found,) = [text for text in blocks if program in text]
+    assert "1502" in found
+    return found.replace("1502", str(port))
 
 
 @pytest.mark.skipif(not shutil.which("mbpoll"), reason="mbpoll is not installed")
@@ -39,7 +40,7 @@ def test_mbpoll(served: Served) -> None:
     with Drive(served.target()) as drive:
         until(drive, lambda r: r.mode == Mode.READY)
     told = subprocess.run(
-        ["sh", "-c", block("sh", served.tcp)], capture_output=True, text=True, timeout=100
+        ["sh", "-c", block("mbpoll", served.tcp)], capture_output=True, text=True, timeout=100
     )
     assert told.stdout.count("Written 1 references.") == 4, told
     modes = [int(m) for m in re.findall(r"^\[3\]:\s+(\d+)", told.stdout, flags=re.M)]
@@ -53,7 +54,7 @@ def test_mbpoll(served: Served) -> None:
 
 def test_pymodbus(served: Served) -> None:
     told = subprocess.run(
-        [sys.executable, "-c", block("python", served.tcp)],
+        [sys.executable, "-c", block("pymodbus", served.tcp)],
         capture_output=True,
         text=True,
         timeout=200,
@@ -103,7 +104,7 @@ def test_plc_cycle_in_c(served: Served, plc: str) -> None:
     with Drive(served.target()) as drive:
         until(drive, lambda r: r.mode == Mode.READY)
     told = subprocess.run(
-        [plc, str(served.tcp), *"run 6 silent 3 run 2 stop 1 run 6 stop 2".split()],
+        [plc, *block("plc_cycle", served.tcp).split("build/plc_cycle ")[-1].split()],
         capture_output=True,
         text=True,
         timeout=100,
