@@ -46,6 +46,9 @@
       }
     }
     const r = e.getBoundingClientRect();
+    if (e.matches(".wide") && e.scrollWidth > e.clientWidth + 1) {
+      beyond.push(`${named(e)} is cut`);
+    }
     if ((r.right > innerWidth + 1 || r.left < -1) && !e.closest(".wide, .aside")) {
       beyond.push(named(e));
     }

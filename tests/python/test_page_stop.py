@@ -56,6 +56,17 @@ def test_stop_twice_opens_the_bridge_at_once(address: str) -> None:
         one.until_mode("READY", 5.0)
 
 
+def test_a_run_right_after_a_stop_goes_on(address: str) -> None:
+    with Viewer(address) as one:
+        runs(one, 20.0)
+        for _ in range(5):
+            one.do("stop")
+            time.sleep(0.03)  # less than until the stop is looked after
+            one.do("run", speed_e_radps=20.0)
+            time.sleep(1.0)
+            assert one.state["reading"]["mode"] in ("ALIGN", "RUN")
+
+
 def test_stop_without_a_stream(address: str) -> None:
     with Viewer(address) as one:
         runs(one)

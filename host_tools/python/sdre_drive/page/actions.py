@@ -35,7 +35,7 @@ def _run(w: Watcher, args: Args) -> str:
     if w.constants and abs(speed) > w.constants.speed_max_e_radps:
         limit = w.words_of_speed(w.constants.speed_max_e_radps)
         raise DriveError(f"{w.words_of_speed(speed)} is too fast: at most {limit}")
-    w.started_here = True
+    w.begin_run()
     session.start(w.drive, speed)
     return f"runs to {w.words_of_speed(speed)}"
 
@@ -49,7 +49,7 @@ def _move(w: Watcher, args: Args) -> str:
     move.require_possible(w.drive)
     session.require_mode(w.drive.read(), move.PROFILE_POSITION)
     w.drive.write("PROFILE_VELOCITY", speed)
-    w.started_here = True
+    w.begin_run()
     session.start(w.drive, 0.0, move.PROFILE_POSITION)
     ready = session.wait_for(
         w.drive, lambda r: r.mode not in (Mode.PRECHARGE, Mode.ALIGN), session.STOP_WAIT_S

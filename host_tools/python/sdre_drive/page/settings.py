@@ -78,7 +78,7 @@ def commission(w: Watcher, args: Args) -> str:
         w.started_here = False
         return Result(f"the motor is found; {NEXT}", FOUND_FILE, finder.text(found))
 
-    w.started_here = True
+    w.begin_run()
     w.jobs.begin("commissioning", work)
     return ""
 

@@ -91,6 +91,11 @@ class Watcher(threading.Thread):
             self._wait_for_rest()
         self.drive.close()
 
+    def begin_run(self) -> None:
+        """The motor is started from here; a stop before that is over."""
+        self.started_here = True
+        self._stopping_s = None
+
     def stop_motor(self) -> str:
         """For every viewer, at any time: brakes, then opens the bridge. Asked once more, it opens
         the bridge at once. Words for the answer."""

@@ -26,7 +26,13 @@ export class History {
 
   async fetch() {
     try {
+      const first = this.newest === undefined;
       this.events = await this.page.link.get("history");
+      const newest = this.events[0];
+      if (newest && newest.number !== this.newest && newest.kind !== "fault" && !first) {
+        this.page.say(newest.what); // a fault is shown by its card
+      }
+      this.newest = newest ? newest.number : 0;
       this.draw();
     } catch {
       this.number = -1;

@@ -66,10 +66,6 @@ export class Parameters {
 
   row(p) {
     const { name: unit, factor } = shownAs(p.unit);
-    const words = (value) => {
-      const choice = p.choices.find(([number]) => number === value);
-      return choice ? `${choice[0]}: ${choice[1]}` : short(value * factor, 6);
-    };
     const input = p.choices.length
       ? el("select", {}, ...p.choices.map(([number, meaning]) => new Option(`${number}: ${meaning}`, number)))
       : numberInput();
@@ -78,9 +74,9 @@ export class Parameters {
     input.id = `parameter-${p.name}`;
     const shown = input.value;
     this.fields.set(p.name, { p, input, factor, shown });
-    const range = p.choices.length ? "one of these" : `${short(p.low * factor, 6)} .. ${short(p.high * factor, 6)}`;
+    const range = p.choices.length ? "see the list" : `${short(p.low * factor, 6)} .. ${short(p.high * factor, 6)}`;
     const meaning = `${p.text}${p.stopped ? " Needs a stop." : ""}`;
-    const cells = [p.name, input, unit, range, words(p.default), meaning].map((cell) => el("td", {}, cell));
+    const cells = [p.name, input, unit, range, short(p.default * factor, 6), meaning].map((cell) => el("td", {}, cell));
     cells[0].className = "name";
     [, , "unit", "range", "default"].forEach((label, k) => (k === 2 && !unit) || cells[k].setAttribute("data-label", label));
     return el("tr", { className: p.changed ? "changed" : "" }, ...cells);
