@@ -52,6 +52,9 @@ def test_moves_and_holds(viewer: Viewer) -> None:
     viewer.do("move", turns=0.0, relative=False, speed_e_radps=60.0)  # while it holds
     viewer.until(lambda s: s["where"]["target"] == 0 and near(s))
     assert "another mode of operation" in viewer.refuse("run", speed_e_radps=100.0)
+    assert "allow more than ten" in viewer.refuse(
+        "move", turns=11.0, relative=True, speed_e_radps=9.0
+    )
     viewer.do("stop")
     viewer.until_mode("READY", 10.0)
 
@@ -114,7 +117,7 @@ def test_the_history_has_faults_with_their_records_and_restarts(viewer: Viewer) 
     viewer.do("power_cycle")
     viewer.until(lambda s: s["reading"] and s["reading"]["mode"] == "READY")
     newest = viewer.get("history")[0]
-    assert newest["kind"] == "restart" and "power-on" in newest["what"]
+    assert newest["kind"] == "restart" and "power on" in newest["what"]
     assert viewer.get("record/999999") is None
 
 

@@ -213,7 +213,8 @@ def ui(
 ) -> None:
     """A page with traces and switches, on this machine only."""
     where = target(port, tcp)
-    bench = bench_address(control) if control or where.is_local else None
+    beside = (where.host, where.tcp_port + 1) if where.is_local else None
+    bench = bench_address(control) if control else beside
     serve(where, bench, pole_pairs, page_port, browser)
 
 

@@ -54,13 +54,17 @@ class Wanted:
     far: bool = False  # more than FAR_TURNS are meant
 
 
+class Far(DriveError):
+    """More than FAR_TURNS, and nobody said that they are meant."""
+
+
 def require_near(drive: Drive, wanted: Wanted) -> None:
-    """DriveError when the shaft is further away than one would think."""
+    """Far when the shaft is further away than one would think."""
     now = where(drive).now
     turn = drive.constants().encoder_counts
     turns = abs(wanted.counts if wanted.relative else wanted.counts - now) / turn
     if turns > FAR_TURNS and not wanted.far:
-        raise DriveError(
+        raise Far(
             f"that is {turns:.1f} turns away: the shaft is {now / turn:.2f} turns from its zero; "
             f"--far goes there, --relative counts from where it is"
         )
@@ -102,16 +106,8 @@ def _enable(drive: Drive, wanted: Wanted) -> None:
     require_near(drive, wanted)
 
 
-def go(
-    drive: Drive,
-    wanted: Wanted,
-    end: threading.Event,
-    hold_s: Optional[float],
-    show: Callable[[Reading, Where], None],
-    at_once: Optional[threading.Event] = None,
-) -> Where:
-    """Goes there and holds the shaft until `end`, or for hold_s after it has arrived; then stops.
-    Where it was in the end."""
+def begin(drive: Drive, wanted: Wanted) -> None:
+    """The shaft is on its way. Whatever goes wrong once the drive is ours: run is withdrawn."""
     require_possible(drive)
     reading = drive.read()
     session.require_mode(reading, PROFILE_POSITION)
@@ -122,6 +118,23 @@ def go(
     try:
         _enable(drive, wanted)
         _set_point(drive, wanted.counts, AT_ONCE | (RELATIVE if wanted.relative else 0))
+    except DriveError:
+        session.withdraw(drive)
+        raise
+
+
+def go(
+    drive: Drive,
+    wanted: Wanted,
+    end: threading.Event,
+    hold_s: Optional[float],
+    show: Callable[[Reading, Where], None],
+    at_once: Optional[threading.Event] = None,
+) -> Where:
+    """Goes there and holds the shaft until `end`, or for hold_s after it has arrived; then stops.
+    Where it was in the end."""
+    begin(drive, wanted)
+    try:
         arrived_s: Optional[float] = None
         found = where(drive)
         for reading in session.follow(drive, end, length_s=LONGEST_MOVE_S):

@@ -11,7 +11,6 @@ from sdre_drive.connection import DriveError
 from sdre_drive.page import settings
 from sdre_drive.page.checked import choice, flag, number, text
 from sdre_drive.page.state import Watcher
-from sdre_drive.registers import Mode
 from sdre_drive.scope import Setup
 
 Args = Dict[str, Any]
@@ -32,9 +31,7 @@ def _run(w: Watcher, args: Args) -> str:
     speed = number(args, "speed_e_radps", -1e6, 1e6)
     w.jobs.require_none()
     w.require_motor()
-    if w.constants and abs(speed) > w.constants.speed_max_e_radps:
-        limit = w.words_of_speed(w.constants.speed_max_e_radps)
-        raise DriveError(f"{w.words_of_speed(speed)} is too fast: at most {limit}")
+    session.require_speed(w.drive, speed)
     w.begin_run()
     session.start(w.drive, speed)
     return f"runs to {w.words_of_speed(speed)}"
@@ -43,21 +40,14 @@ def _run(w: Watcher, args: Args) -> str:
 def _move(w: Watcher, args: Args) -> str:
     turns = number(args, "turns", -LARGEST_TURNS, LARGEST_TURNS)
     speed = number(args, "speed_e_radps", 1e-3, 1e6)
-    relative = flag(args, "relative")
+    relative, far = flag(args, "relative"), flag(args, "far")
     w.jobs.require_none()
-    of = w.require_motor()
-    move.require_possible(w.drive)
-    session.require_mode(w.drive.read(), move.PROFILE_POSITION)
-    w.drive.write("PROFILE_VELOCITY", speed)
+    counts = round(turns * w.require_motor().encoder_counts)
     w.begin_run()
-    session.start(w.drive, 0.0, move.PROFILE_POSITION)
-    ready = session.wait_for(
-        w.drive, lambda r: r.mode not in (Mode.PRECHARGE, Mode.ALIGN), session.STOP_WAIT_S
-    )
-    if ready is None or ready.mode != Mode.RUN:
-        raise DriveError("the drive does not come to run")
-    relative_bit = move.RELATIVE if relative else 0
-    move._set_point(w.drive, round(turns * of.encoder_counts), move.AT_ONCE | relative_bit)
+    try:
+        move.begin(w.drive, move.Wanted(counts, relative, speed, far))
+    except move.Far as e:
+        raise DriveError(f"{str(e).partition(';')[0]}: allow more than ten turns first") from e
     return f"moves {'by' if relative else 'to'} {turns:g} turns, and holds the shaft there"
 
 

@@ -9,7 +9,7 @@ import threading
 import time
 from typing import Any, Dict, List, Optional, Tuple
 
-from sdre_drive.bench import FAULTS, Bench
+from sdre_drive.bench import FAULTS, Bench, words_of
 from sdre_drive.connection import DriveError
 
 RETRY_S = 1.0
@@ -58,12 +58,14 @@ class BenchLink:
 
     def for_page(self) -> Optional[Dict[str, Any]]:
         """Its state; None when no bench answers."""
-        return self.truth or None
+        truth = self.truth
+        if not truth:
+            return None
+        return {**truth, "broken": [words_of(one) for one in truth["broken"]]}
 
     def load(self, torque_Nm: float, kind: str) -> None:
-        """A brake, or a torque whatever the shaft does; a bench of one kind only is given none."""
-        known = kind if "load_kind" in self.truth else ""
-        self.tell(f"load {torque_Nm:g} {known}".rstrip())
+        """A brake, or a torque whatever the shaft does."""
+        self.tell(f"load {torque_Nm:g} {kind}")
 
     def break_part(self, words: str) -> str:
         """One of the faults in words; what has to happen before it shows."""
@@ -72,8 +74,7 @@ class BenchLink:
         return str(self.tell(FAULTS[words]).get("note") or "")
 
     def mend(self) -> None:
-        """Everything is whole, and nothing pulls at the shaft."""
-        self.tell("load 0")
+        """Everything is whole, and nothing pulls at the shaft, which comes to rest."""
         self.tell("mend")
 
     def _new(self, trace: Dict[str, List[float]], drive_time_s: float) -> List[Dict[str, float]]:

@@ -15,11 +15,6 @@ from sdre_drive.scope import Capture
 
 MOST = 50  # chosen: more than a screen shows
 SILENT = 2  # condition: the master was silent
-# of RESET_CAUSE
-CAUSES = {
-    0: "after power-on or by its reset pin",
-    1: "by its watchdog: the program hung, or it was asked to restart",
-}
 
 
 def told(entry: Entry) -> Dict[str, Any]:
@@ -47,8 +42,7 @@ class History:
         fetched."""
         before, self._before = self._before, reading
         if before is not None and reading.time_s < before.time_s:
-            cause = CAUSES.get(reading.reset_cause, "")
-            self._note(reading, "restart", f"the drive has restarted {cause}", [])
+            self._note(reading, "restart", f"the drive has restarted: {reading.reset_words}", [])
         if reading.mode == Mode.FAULT and (before is None or before.mode != Mode.FAULT):
             entries = faults.explain(reading.why)
             what = faults.one_line(entries[0]) if entries else "a fault"

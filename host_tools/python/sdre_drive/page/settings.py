@@ -5,21 +5,22 @@ from __future__ import annotations
 
 import base64
 import binascii
+import re
 import tempfile
 import threading
 from pathlib import Path, PurePath
 from typing import Any, Callable, Dict
 
 from sdre_drive import commission as finder
-from sdre_drive import load, params
+from sdre_drive import load, params, session
 from sdre_drive.connection import DriveError
 from sdre_drive.page.checked import number, text
 from sdre_drive.page.job import Progress, Result
 from sdre_drive.page.state import Watcher
-from sdre_drive.registers import Mode
 
 Args = Dict[str, Any]
 FOUND_FILE = "found.toml"
+BOUNDS = re.compile(r"--current (\S+) --speed (\S+)")  # the next ones, as options of a command
 NEXT = f"next: sdre-gains from-commissioning {FOUND_FILE} --drive DRIVE.toml --out NEW.toml"
 
 
@@ -69,12 +70,15 @@ def commission(w: Watcher, args: Args) -> str:
     largest = w.drive.constants().current_max_A
     if current_A > largest:
         raise DriveError(f"current: at most {largest:g} A, the limit of this drive")
-    if w.drive.read().mode != Mode.READY:
-        raise DriveError("the drive is not ready: STOP it, or reset its fault")
+    if w.drive.read().mode in session.MOVING:
+        raise DriveError("the motor runs: STOP it first")
 
     def work(progress: Progress, end: threading.Event) -> Result:
-        with w.drive.action():
-            found = finder.run(w.drive, current_A, speed_m_radps, end, progress)
+        try:
+            with w.drive.action():
+                found = finder.run(w.drive, current_A, speed_m_radps, end, progress)
+        except DriveError as e:
+            raise DriveError(BOUNDS.sub(r"current \1 A, speed \2 r/min", str(e))) from e
         w.started_here = False
         return Result(f"the motor is found; {NEXT}", FOUND_FILE, finder.text(found))
 

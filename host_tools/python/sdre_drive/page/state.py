@@ -19,7 +19,7 @@ from sdre_drive.params import Value
 from sdre_drive.registers import Constants, Mode, Reading, block, values
 from sdre_drive.scope import Capture, Setup
 from sdre_drive.session import MOVING
-from sdre_drive.show import speed_words
+from sdre_drive.units import speed_words
 
 PERIOD_S = 0.04
 RETRY_S = 0.5
@@ -247,6 +247,7 @@ def _told(reading: Reading) -> Dict[str, Any]:
             "mode_of_operation",
             "statusword",
             "mode_words",
+            "reset_cause",
             "time_s",
             "speed_e_radps",
             "speed_demand_rpm",

@@ -4,9 +4,7 @@ import { byId, el, field, fixed, follow, numberInput, numberOf, say } from "./do
 import { speedName, speedOf } from "./units.js";
 import { writer } from "./control.js";
 
-const LOAD_Nm = 2; // of the slider, when the bench names no limit
 const SLIDER_SHARE = 0.25; // of the bench's limit: about that of the motor at its current limit
-const PACE_S = 2; // so long the pace is measured
 
 export class Bench {
   constructor(page) {
@@ -25,7 +23,6 @@ export class Bench {
     this.pace = el("p", { id: "pace", className: "soft" }, "");
     const state = el("div", { id: "bench-state" }, this.figures, this.broken, this.pace);
     byId("bench").append(state, this.loadForm(), this.supplyForm(), this.faultForm());
-    this.marks = [];
   }
 
   form(id, name, work, ...parts) {
@@ -38,9 +35,8 @@ export class Bench {
   }
 
   loadForm() {
-    this.kindField = field("kind", this.kind);
     const set = writer("Set", { type: "submit", id: "set-load" });
-    const row = el("div", { className: "row" }, field("Load [N m]", this.load), this.kindField, set);
+    const row = el("div", { className: "row" }, field("Load [N m]", this.load), field("kind", this.kind), set);
     return this.form("load-form", "Load", () => this.setLoad(), row, this.slider);
   }
 
@@ -106,42 +102,25 @@ export class Bench {
         `load ${fixed(truth.load_Nm, 2)} N m, ${fixed(truth.dc_link_V, 0)} V.`,
     );
     this.showBroken(truth);
-    this.showPace(truth);
+    say(this.pace, `Simulated time runs at ${fixed(truth.real_time_factor, 2)} of the clock.`);
     this.showSettings(truth);
   }
 
   showBroken(truth) {
-    const words = truth.broken ? `Broken: ${truth.broken.join(", ") || "nothing"}.` : "";
-    say(this.broken, `${words} ${truth.note || ""}`.trim());
+    say(this.broken, `Broken: ${truth.broken.join(", ") || "nothing"}. ${truth.note}`.trim());
   }
 
   /** A field follows the bench unless somebody types into it. */
   showSettings(truth) {
-    this.kindField.hidden = !truth.load_kind;
-    follow(this.kind, this.kindTyped, truth.load_kind || "brake");
+    follow(this.kind, this.kindTyped, truth.load_kind);
     follow(this.load, this.typed, fixed(truth.load_Nm, 2));
-    follow(this.supply, this.supplyTyped, fixed(truth.source_V === undefined ? truth.dc_link_V : truth.source_V, 0));
-    const most = Math.max(truth.load_most_Nm ? SLIDER_SHARE * truth.load_most_Nm : LOAD_Nm, Math.abs(truth.load_Nm));
+    follow(this.supply, this.supplyTyped, fixed(truth.source_V, 0));
+    const most = Math.max(SLIDER_SHARE * truth.load_most_Nm, Math.abs(truth.load_Nm));
     this.slider.max = most;
-    this.slider.min = truth.load_kind && this.kind.value === "brake" ? 0 : -most;
-    this.slider.step = most / 40;
+    this.slider.min = this.kind.value === "brake" ? 0 : -most;
+    this.slider.step = most / 50;
     if (!this.sending) {
       this.slider.value = truth.load_Nm;
-    }
-  }
-
-  /** Simulated seconds in a second of the clock. */
-  showPace(truth) {
-    const now = performance.now() / 1000;
-    this.marks.push([now, truth.time_s]);
-    while (this.marks.length > 2 && this.marks[0][0] < now - PACE_S) {
-      this.marks.shift();
-    }
-    const [clock, time] = this.marks[0];
-    const measured = now - clock > PACE_S / 2 ? (truth.time_s - time) / (now - clock) : null;
-    const factor = truth.real_time_factor === undefined ? measured : truth.real_time_factor;
-    if (factor !== null) {
-      say(this.pace, `Simulated time runs at ${fixed(factor, 2)} of the clock.`);
     }
   }
 }

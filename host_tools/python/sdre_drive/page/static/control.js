@@ -50,7 +50,7 @@ export class Control {
       "form",
       { id: "move-form", noValidate: true, hidden: true, "aria-label": "Move to a position" },
       el("div", { className: "row" }, field("move", this.way), field("turns", this.turns), this.moveSpeedField),
-      el("small", {}, "by: from here; to: from the zero of the index"),
+      el("small", {}, "to: from the index mark, or from the alignment"),
       el("div", { className: "row" }, el("label", { className: "check" }, this.far, `more than ${FAR_TURNS} turns`)),
       el("div", { className: "row" }, writer("Move and hold", { type: "submit", id: "move", className: "main" })),
     );
@@ -111,7 +111,7 @@ export class Control {
     if (Math.abs(way) > FAR_TURNS && !this.far.checked) {
       throw new Error(`That is ${fixed(way, 1)} turns from here. Allow "more than ${FAR_TURNS} turns" first.`);
     }
-    await this.page.do("move", { turns, relative, speed_e_radps: eRadpsOf(speed) });
+    await this.page.do("move", { turns, relative, far: this.far.checked, speed_e_radps: eRadpsOf(speed) });
     this.far.checked = false;
   }
 

@@ -45,6 +45,7 @@ export class Now {
     this.put("heat sink", known(r && r.temperature_degC, 0, "°C"));
     this.put("heat of motor", percent(r && r.motor_heat));
     this.put("heat of inverter", percent(r && r.inverter_heat));
+    this.put("last start by", r ? ["power on", "its watchdog"][r.reset_cause] || "-" : "-");
     this.put("windows open", state.viewers ? String(state.viewers) : "-");
   }
 
