@@ -121,6 +121,17 @@ def test_the_history_has_faults_with_their_records_and_restarts(viewer: Viewer) 
     assert viewer.get("record/999999") is None
 
 
+def test_a_restart_by_the_watchdog_is_said(viewer: Viewer) -> None:
+    viewer.do("run", speed_e_radps=300.0)
+    viewer.until(lambda s: abs(s["reading"]["speed_e_radps"] - 300.0) < 5.0)
+    assert viewer.state["reading"]["reset_cause"] == 0
+    assert "watchdog" in viewer.do("break", fault="program hangs in the control interrupt")
+    viewer.until(lambda s: s["reading"] and s["reading"]["reset_cause"] == 1)
+    viewer.until(lambda s: s["history"] >= 1)
+    newest = viewer.get("history")[0]
+    assert newest["kind"] == "restart" and "watchdog" in newest["what"]
+
+
 def test_choices_are_within_the_ranges_and_in_the_words_of_the_register() -> None:
     for name, choices in CHOICES.items():
         p = NAMES[name]
