@@ -48,7 +48,7 @@ class Block(NamedTuple):
         return f"{self.page}:{self.line}"
 
     def marked(self, word: str) -> List[str]:
-        """What follows this word in the comment."""
+        """The rest of the comment after this word."""
         return [m[len(word) :].strip() for m in self.marks if m.split()[0] == word]
 
     def commands(self) -> str:

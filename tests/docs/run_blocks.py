@@ -58,7 +58,7 @@ def give(block: Block, at: Path) -> None:
 
 
 def complaint(block: Block, at: Path, environment: Dict[str, str]) -> Optional[str]:
-    """What was wrong with a shell's block."""
+    """Words for the error of a shell block."""
     give(block, at)
     expected = int((block.marked("exit") or ["0"])[0])
     done = subprocess.run(
