@@ -64,20 +64,11 @@ bool weakens(const IdReference &r, const ReducedParameters &l, const IdInputs &i
            id_weakening_A(r, l, in) < id_mtpa_A(r, in.iq_ref_A);
 }
 
-/// The v_q, v_d that hold a motor (EQ-MOTOR-2 at rest).
-Eigen::Vector2d voltage_V(const ReducedParameters &l, const OperatingPoint &at)
-{
-    const double w = at.omega_e_radps;
-    return {(l[4] * at.iq_A + l[5] * w + l[10] * w * at.id_A) / l[6],
-            (l[7] * at.id_A - l[9] * w * at.iq_A) / l[8]};
-}
-
 /// EQ-MOTOR-2 at rest: what voltages and load hold a motor, and what another model takes for disturbances.
-IdInputs estimates(const ReducedParameters &motor, const ReducedParameters &model,
-                   const OperatingPoint &at)
+IdInputs estimates(const TrueMotor &motor, const ReducedParameters &model, const OperatingPoint &at)
 {
     const double          w = at.omega_e_radps;
-    const Eigen::Vector2d v = voltage_V(motor, at);
+    const Eigen::Vector2d v = motor.voltage_V(at);
     IdInputs              in;
     in.d_omega = model[2] * w - (model[1] + model[11] * at.id_A) * at.iq_A;
     in.d_q     = model[4] * at.iq_A + model[5] * w + model[10] * w * at.id_A - model[6] * v(0);
@@ -110,13 +101,13 @@ double id_target_A(const IdReference &r, const ReducedParameters &l, const IdInp
     return std::clamp(id_A, -most, number(r.c.id_rest_A));
 }
 
-SteadyState state_at(const ReducedParameters &motor, const ReducedParameters &model,
+SteadyState state_at(const TrueMotor &motor, const ReducedParameters &model,
                      const OperatingPoint &at)
 {
     return {at, estimates(motor, model, at)};
 }
 
-SteadyState steady_state(const IdReference &r, const ReducedParameters &motor,
+SteadyState steady_state(const IdReference &r, const TrueMotor &motor,
                          const ReducedParameters &model, double omega_e_radps, double iq_A)
 {
     double lo = -number(r.c.current_max_A);
@@ -129,8 +120,8 @@ SteadyState steady_state(const IdReference &r, const ReducedParameters &motor,
     return state_at(motor, model, {omega_e_radps, iq_A, 0.5 * (lo + hi)});
 }
 
-double most_iq_A(const IdReference &r, const ReducedParameters &l, double omega_e_radps,
-                 double sign)
+double most_iq_A(const IdReference &r, const TrueMotor &motor, const ReducedParameters &l,
+                 double omega_e_radps, double sign)
 {
     constexpr int steps  = 100; // of the current limit
     const double  most   = number(r.c.current_max_A);
@@ -138,11 +129,12 @@ double most_iq_A(const IdReference &r, const ReducedParameters &l, double omega_
     double        best   = 0.0;
     double        least  = 0.0;
     for (int i = 1; i <= steps; i++) {
-        const double iq_A   = std::copysign(most * i / steps, sign);
-        const double id_A   = steady_state(r, l, l, omega_e_radps, iq_A).at.id_A;
-        const double torque = std::abs((l[1] + l[11] * id_A) * iq_A);
+        const double         iq_A = std::copysign(most * i / steps, sign);
+        const double         id_A = steady_state(r, motor, l, omega_e_radps, iq_A).at.id_A;
+        const OperatingPoint at{omega_e_radps, iq_A, id_A};
+        const double         torque = std::abs(motor.acceleration(at));
         if (std::hypot(iq_A, id_A) <= most && torque > least &&
-            voltage_V(l, {omega_e_radps, iq_A, id_A}).norm() <= most_V) {
+            motor.voltage_V(at).norm() <= most_V) {
             least = torque;
             best  = iq_A;
         }
@@ -155,27 +147,28 @@ IdReference id_reference(const Design &d, const current_ref_config_t &c)
     return {c, number(c.circle_ApVs) * d.drive.inverter.dc_link_V, control_period_s(d.drive)};
 }
 
-OperatingPoint loaded_point(const IdReference &r, const ReducedParameters &l, double omega_e_radps,
-                            double share)
+OperatingPoint loaded_point(const IdReference &r, const TrueMotor &motor,
+                            const ReducedParameters &l, double omega_e_radps, double share)
 {
-    const double iq_A = nearly * std::abs(share) * most_iq_A(r, l, omega_e_radps, share);
-    return steady_state(r, l, l, omega_e_radps, iq_A).at;
+    const double iq_A = nearly * std::abs(share) * most_iq_A(r, motor, l, omega_e_radps, share);
+    return steady_state(r, motor, l, omega_e_radps, iq_A).at;
 }
 
-std::vector<OperatingPoint> plane_points(const IdReference &r, const ReducedParameters &l,
-                                         double top_e_radps, int per_side)
+std::vector<OperatingPoint> plane_points(const IdReference &r, const TrueMotor &motor,
+                                         const ReducedParameters &l, double top_e_radps,
+                                         int per_side)
 {
     const auto                  side = static_cast<std::size_t>(per_side);
     const double                half = 0.5 * (per_side - 1);
     std::vector<OperatingPoint> points(side * side);
     parallel_for(side, [&](std::size_t i) {
         const double w          = top_e_radps * static_cast<double>(i) / (2.0 * half);
-        const double motoring   = nearly * most_iq_A(r, l, w, 1.0);
-        const double generating = nearly * most_iq_A(r, l, w, -1.0);
+        const double motoring   = nearly * most_iq_A(r, motor, l, w, 1.0);
+        const double generating = nearly * most_iq_A(r, motor, l, w, -1.0);
         for (std::size_t j = 0; j < side; j++) {
             const double share   = (static_cast<double>(j) - half) / half;
             const double iq_A    = share * (share < 0.0 ? -generating : motoring);
-            points[i * side + j] = steady_state(r, l, l, w, iq_A).at;
+            points[i * side + j] = steady_state(r, motor, l, w, iq_A).at;
         }
     });
     return points;

@@ -43,11 +43,11 @@ struct SteadyState {
 };
 
 /// At a point that is one. @param motor what the motor is, @param model what the controller believes.
-SteadyState state_at(const ReducedParameters &motor, const ReducedParameters &model,
+SteadyState state_at(const TrueMotor &motor, const ReducedParameters &model,
                      const OperatingPoint &at);
 
 /// id_ref = id_target_A(). @param motor what the motor is, @param model what the controller believes.
-SteadyState steady_state(const IdReference &r, const ReducedParameters &motor,
+SteadyState steady_state(const IdReference &r, const TrueMotor &motor,
                          const ReducedParameters &model, double omega_e_radps, double iq_A);
 
 /// The reference linearised there. `Lambda` as in LoopGains: its speed row makes iq_speed_A.
@@ -58,19 +58,22 @@ MovingReference moving_reference(const IdReference &r, const ReducedParameters &
 IdReference id_reference(const Design &design, const current_ref_config_t &c);
 
 /// The q current of the largest torque that current limit and voltage circle allow a motor in steady state, with the sign of `sign`.
-double most_iq_A(const IdReference &r, const ReducedParameters &l, double omega_e_radps,
-                 double sign);
+double most_iq_A(const IdReference &r, const TrueMotor &motor, const ReducedParameters &model,
+                 double omega_e_radps, double sign);
 
 /// The steady state at a share of nearly the largest q current, -1 .. 1.
-OperatingPoint loaded_point(const IdReference &r, const ReducedParameters &l, double omega_e_radps,
-                            double share);
+OperatingPoint loaded_point(const IdReference &r, const TrueMotor &motor,
+                            const ReducedParameters &model, double omega_e_radps, double share);
 
 /// loaded_point()s from standstill to `top_e_radps` and from the largest q current against the speed to the largest with it:
 /// per_side squared. A negative speed is the mirror image of a positive one with the other sign of current.
-std::vector<OperatingPoint> plane_points(const IdReference &r, const ReducedParameters &l,
-                                         double top_e_radps, int per_side);
+std::vector<OperatingPoint> plane_points(const IdReference &r, const TrueMotor &motor,
+                                         const ReducedParameters &model, double top_e_radps,
+                                         int per_side);
 
 /// Chosen: neighbouring points differ by 2.5 % of the largest speed and by 5 % of the largest q current.
 constexpr int plane_points_per_side = 41;
+/// The same while weights of a machine with a map are searched.
+constexpr int quick_points_per_side = 9;
 
 } // namespace sdre

@@ -76,7 +76,7 @@ MachinePoint limit_point(const Drive &d)
     const Motor &m        = d.motor;
     const auto   l        = reduced_parameters(m);
     const double circle_V = d.inverter.dc_link_V / std::sqrt(3.0);
-    const double iq_A     = largest_iq_A(m, mtpa_A(l), true);
+    const double iq_A     = largest_iq_A(m, l);
     const double id_A     = mtpa_id_A(l, iq_A);
     const double highest  = 10.0 * largest_command_e_radps(d);
     return point(m, id_A, iq_A, base_speed(m, id_A, iq_A, circle_V, highest));

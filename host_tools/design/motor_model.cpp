@@ -51,6 +51,8 @@ ReducedParameters reduced_parameters(const Motor &m)
     l[9]  = Lq / Ld;
     l[10] = Ld / Lq;
     l[11] = 1.5 * np * np * (Ld - Lq) / J;
+    l[12] = m.mtpa.k_A;
+    l[13] = m.mtpa.second_order ? 1.0 : 0.0;
     return l;
 }
 

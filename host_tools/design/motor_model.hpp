@@ -12,8 +12,9 @@ namespace sdre {
 
 /// l[1] .. l[11] of paper A (2). l[0] is the d current without load [A], at most 0. It supports a
 /// magnet that gives less than a fifth of the largest flux, so that every q current has some
-/// torque. It is 0 for all other motors.
-using ReducedParameters = std::array<double, 12>;
+/// torque. It is 0 for all other motors. With a fitted curve (Motor::mtpa) the k [A] of it is l[12], which is 0 otherwise. Its form is
+/// l[13]; 1 is the second-order one.
+using ReducedParameters = std::array<double, 14>;
 
 ReducedParameters reduced_parameters(const Motor &motor);
 

@@ -29,7 +29,7 @@ MatrixXd with_angle(const MatrixXd &of_three)
 position_profile_t fastest_profile(const Design &d)
 {
     const Motor &m        = d.drive.motor;
-    const double iq_A     = largest_iq_A(m, mtpa_A(d.l), true);
+    const double iq_A     = largest_iq_A(m, d.l);
     const double l1       = d.l[1] + d.l[11] * mtpa_id_A(d.l, iq_A);
     const double circle_V = d.drive.inverter.dc_link_V / std::sqrt(3.0);
     const double accel    = profile_torque_share * l1 * iq_A;

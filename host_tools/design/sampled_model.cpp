@@ -77,17 +77,6 @@ LawRows encoder_form_law(const ReducedParameters &l, const MatrixXd &Lambda,
     return {F, MatrixXd(2, 0), MatrixXd(0, 7), MatrixXd(0, 0)};
 }
 
-Held<MatrixXd> held_motor(const ReducedParameters &l, const OperatingPoint &at, double ts)
-{
-    MatrixXd A          = MatrixXd::Zero(4, 4);
-    MatrixXd B          = MatrixXd::Zero(4, 3);
-    A.block(0, 0, 3, 3) = motor_jacobian(l, at);
-    A(3, 0)             = 1.0;
-    B.block(0, 0, 3, 2) = nosc_input_matrix(l);
-    B(0, 2)             = -l[3];
-    return c2d(A, B, ts);
-}
-
 PredictedObserver predicted_encoder_form(const ReducedParameters &model, const OperatingPoint &at,
                                          double ts)
 {
@@ -97,16 +86,7 @@ PredictedObserver predicted_encoder_form(const ReducedParameters &model, const O
             ts * (I + 0.5 * ts * J) * observer_input(model)};
 }
 
-Eigen::Matrix3d motor_jacobian(const ReducedParameters &l, const OperatingPoint &at)
-{
-    Eigen::Matrix3d J;
-    J << -l[2], l[1] + l[11] * at.id_A, l[11] * at.iq_A,           //
-        -l[5] - l[10] * at.id_A, -l[4], -l[10] * at.omega_e_radps, //
-        l[9] * at.iq_A, l[9] * at.omega_e_radps, -l[7];
-    return J;
-}
-
-SampledModel sampled_model(const ReducedParameters &motor, const ReducedParameters &model,
+SampledModel sampled_model(const TrueMotor &motor, const ReducedParameters &model,
                            const LoopGains &gains, const OperatingPoint &at, double ts,
                            const MovingReference *moving)
 {
@@ -165,7 +145,11 @@ SampledModel sampled_model(const ReducedParameters &motor, const ReducedParamete
 
 double mtpa_id_A(const ReducedParameters &l, double iq_A)
 {
-    const double k    = 0.5 * l[5] / std::max(1.0 - l[10], 1e-9); // EQ-CURRENT-REF-2
+    const double k =
+        l[12] > 0.0 ? l[12] : 0.5 * l[5] / std::max(1.0 - l[10], 1e-9); // EQ-CURRENT-REF-2
+    if (l[13] > 0.0) {
+        return std::min(-0.5 * iq_A * iq_A / k, l[0]);
+    }
     const double most = iq_A == 0.0 ? 0.0 : -iq_A * iq_A / (k + std::hypot(k, iq_A));
     return std::min(most, l[0]);
 }

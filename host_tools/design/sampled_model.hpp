@@ -6,17 +6,10 @@
 #pragma once
 
 #include "design/motor_model.hpp"
-#include "linalg/c2d.hpp"
+#include "design/true_motor.hpp"
 #include "linalg/eigenvalues.hpp"
 
 namespace sdre {
-
-/// Where the loop is linearised.
-struct OperatingPoint {
-    double omega_e_radps = 0.0;
-    double iq_A          = 0.0;
-    double id_A          = 0.0;
-};
 
 /// The gains at that point: Lambda is 2 x 3, of a position 2 x 4 with the angle first. L is 7 x 3.
 struct LoopGains {
@@ -40,12 +33,6 @@ struct SampledModel {
     Eigen::MatrixXd B_voltage; ///< n x 2, per volt of v_q, v_d that the observer does not know
     double          ts_s = 0.0;
 };
-
-/// Jacobian of EQ-MOTOR-2 in (w, iq, id), 3 x 3.
-Eigen::Matrix3d motor_jacobian(const ReducedParameters &l, const OperatingPoint &at);
-
-/// The motor (w, iq, id, theta) over one period with v_q, v_d and T_load held.
-Held<Eigen::MatrixXd> held_motor(const ReducedParameters &l, const OperatingPoint &at, double ts_s);
 
 /// EQ-NODO-ENCODER-2 linearised: x^-(k+1) = P x^+ + G v.
 struct PredictedObserver {
@@ -79,7 +66,7 @@ LawRows encoder_form_law(const ReducedParameters &l, const Eigen::MatrixXd &Lamb
                          const OperatingPoint &at, const MovingReference *moving = nullptr);
 
 /// @param motor what the motor is, @param model what the controller believes. The references of `moving` are two states more.
-SampledModel sampled_model(const ReducedParameters &motor, const ReducedParameters &model,
+SampledModel sampled_model(const TrueMotor &motor, const ReducedParameters &model,
                            const LoopGains &gains, const OperatingPoint &at, double ts_s,
                            const MovingReference *moving = nullptr);
 

@@ -74,9 +74,9 @@ Split split(const MatrixXd &rows)
 
 } // namespace
 
-SampledModel speed_form_model(const ReducedParameters &motor, const ReducedParameters &model,
-                              NodoForm form, const LoopGains &gains, const OperatingPoint &at,
-                              double ts, const MovingReference *moving)
+SampledModel speed_form_model(const TrueMotor &motor, const ReducedParameters &model, NodoForm form,
+                              const LoopGains &gains, const OperatingPoint &at, double ts,
+                              const MovingReference *moving)
 {
     const Held<MatrixXd> held  = held_motor(motor, at, ts);
     const Observer       o     = observer_at(model, form, gains.L, at, ts);

@@ -13,8 +13,8 @@ namespace sdre {
 /// @param gains Lambda as in LoopGains, L 6 x 3, of the load alone 4 x 3.
 /// @param form speed, conventional_load or conventional_all.
 /// @return without B_noise: the speed's noise is another than that of an angle.
-SampledModel speed_form_model(const ReducedParameters &motor, const ReducedParameters &model,
-                              NodoForm form, const LoopGains &gains, const OperatingPoint &at,
-                              double ts_s, const MovingReference *moving = nullptr);
+SampledModel speed_form_model(const TrueMotor &motor, const ReducedParameters &model, NodoForm form,
+                              const LoopGains &gains, const OperatingPoint &at, double ts_s,
+                              const MovingReference *moving = nullptr);
 
 } // namespace sdre

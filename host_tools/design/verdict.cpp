@@ -120,7 +120,8 @@ std::vector<OperatingPoint> worst_of_plane(const LoopFamily &family, const Drive
 
 std::string point_name(const OperatingPoint &at)
 {
-    return fmt::format("{:.0f} rad/s, iq {:.2f} A", at.omega_e_radps, at.iq_A);
+    return fmt::format("{:.0f} rad/s, iq {:.2f} A, id {:.2f} A", at.omega_e_radps, at.iq_A,
+                       at.id_A);
 }
 
 } // namespace

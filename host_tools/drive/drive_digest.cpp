@@ -103,12 +103,26 @@ std::string normalised_law(const Drive &d)
 std::string normalised_motor(const Motor &motor)
 {
     const auto &[pole_pairs, resistance, ld, lq, flux, inertia, friction, rated_speed, rated_torque,
-                 max_current, max_speed, slots] = motor;
+                 max_current, max_speed, slots, mtpa] = motor;
+    static_cast<void>(mtpa);      // of the map
     static_cast<void>(max_speed); // at the end, and only when the file has it
     static_cast<void>(slots);     // for noc_h's harmonics
     return fmt::format(
         "{};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};", pole_pairs,
         resistance, ld, lq, flux, inertia, friction, rated_speed, rated_torque, max_current);
+}
+
+std::string normalised_saturation(const FluxMap &map)
+{
+    std::string s = "saturation;" + listed(map.id_A()) + listed(map.iq_A());
+    for (const double id_A : map.id_A()) {
+        for (const double iq_A : map.iq_A()) {
+            const FluxAt f = map.at(id_A, iq_A);
+            s += fmt::format("{:.9g};{:.9g};", f.d_Wb,
+                             f.q_Wb); // nodes of a cubic, less its rounding
+        }
+    }
+    return s;
 }
 
 std::string normalised_hardware(const Inverter &inverter, const Encoder &encoder)
@@ -152,12 +166,14 @@ std::string normalised_board(const BoardDescription &board)
 std::string normalised(const Drive &drive)
 {
     // reproduces changes no number
-    const auto &[name, reproduces, motor, inverter, encoder, current_sensors, board, law, nosc,
-                 nodo, position, harmonics, dobc, pid, d_axis, cascade, uncertainty] = drive;
+    const auto &[name, reproduces, motor, saturation, inverter, encoder, current_sensors, board,
+                 law, nosc, nodo, position, harmonics, dobc, pid, d_axis, cascade, uncertainty] =
+        drive;
     static_cast<void>(uncertainty); // of the machine, not of what is computed from the file
     std::string s = fmt::format("schema={};name={};", drive_schema, name);
     s += normalised_motor(motor) + normalised_hardware(inverter, encoder);
     s += normalised_sensors(current_sensors, encoder.index_angle_e_rad) + normalised_board(board);
+    s += saturation ? normalised_saturation(*saturation) : "";
     s += motor.max_speed_e_radps > 0.0 ? fmt::format("{:.17g};", motor.max_speed_e_radps) : "";
     return s + normalised_law(drive);
 }

@@ -14,7 +14,9 @@
 #include "common/errors.hpp"
 #include "common/toml_reader.hpp"
 #include "drive/law_sections.hpp"
+#include "drive/mtpa_fit.hpp"
 #include "drive/pwm_frequency.hpp"
+#include "drive/saturation_section.hpp"
 
 namespace sdre {
 namespace {
@@ -197,6 +199,19 @@ void settle_pwm_frequency(const TomlReader &t, Drive &drive) // EQ-BOARD-1
     }
 }
 
+/// A law with a d-current reference gets the curve of the map.
+void fit_to_iron(Drive &drive)
+{
+    if (drive.saturation && is_near_optimal(drive.law)) {
+        const bool printed = drive.law == Law::conventional_noc ||
+                             (drive.law == Law::noc && drive.nodo.form == NodoForm::speed);
+        drive.motor.mtpa = fit_mtpa(*drive.saturation, drive.motor,
+                                    printed ? MtpaForms::second_order : MtpaForms::both);
+    } else if (drive.saturation && is_cascade(drive.law)) {
+        drive.motor.mtpa = fit_mtpa(*drive.saturation, drive.motor, MtpaForms::exact);
+    }
+}
+
 /// It stands in generated comments: one line of plain text.
 std::string read_reproduces(TomlReader &t)
 {
@@ -230,6 +245,7 @@ Drive read_drive(const toml::table &root, const std::string &source, const std::
     }
     drive.reproduces = read_reproduces(t);
     drive.motor      = read_motor(t.table("motor"));
+    drive.saturation = read_saturation(t.table_if("saturation"), drive.motor);
     drive.inverter   = read_inverter(t.table("inverter"));
     drive.encoder    = read_encoder(t.table("encoder"));
     drive.board      = read_board(t.table_if("board"), drive.motor, drive.inverter, file);
@@ -237,6 +253,7 @@ Drive read_drive(const toml::table &root, const std::string &source, const std::
         read_current_sensors(t.table_if("current_sensors"), drive.motor, drive.board.file);
     drive.law = read_law(t);
     read_law_sections(t, drive);
+    fit_to_iron(drive);
     drive.uncertainty = read_uncertainty(t.table_if("uncertainty"));
     t.reject_unknown_keys();
     settle_pwm_frequency(t, drive);
@@ -262,6 +279,18 @@ CurrentSensors default_current_sensors(const Motor &motor)
 {
     const double range_A = range_per_limit * motor.max_current_A;
     return {range_A, noise_per_range * range_A};
+}
+
+FluxScale flux_scale(const Motor &from, const Motor &to)
+{
+    return {from.pm_flux_Wb > 0.0 ? to.pm_flux_Wb / from.pm_flux_Wb : 1.0,
+            to.d_axis_inductance_H / from.d_axis_inductance_H,
+            to.q_axis_inductance_H / from.q_axis_inductance_H};
+}
+
+SaturatedMotor saturated_motor(const Drive &drive, const Motor &now)
+{
+    return {drive.saturation, flux_scale(drive.motor, now)};
 }
 
 const char *dc_link_sink_name(DcLinkSink sink)

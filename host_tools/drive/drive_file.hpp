@@ -4,28 +4,37 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "drive/board_section.hpp"
+#include "drive/flux_map.hpp"
 #include "drive/uncertainty.hpp"
 
 namespace sdre {
 
+/// Fitted on a map of the iron, for EQ-CURRENT-REF-2; without one the inductances say it.
+struct MtpaCurve {
+    double k_A        = 0.0;   ///< 0: of the inductances
+    bool second_order = false; ///< id = -iq^2 / (2 k), else the exact curve of constant inductances
+};
+
 /// SI units; the unit is part of the TOML key. Peak (amplitude-invariant) currents and flux.
 struct Motor {
-    int    pole_pairs            = 0;
-    double stator_resistance_Ohm = 0.0;
-    double d_axis_inductance_H   = 0.0;
-    double q_axis_inductance_H   = 0.0;
-    double pm_flux_Wb            = 0.0;
-    double inertia_kgm2          = 0.0;
-    double viscous_friction_Nms  = 0.0; ///< acts on the mechanical speed
-    double rated_speed_e_radps   = 0.0; ///< electrical
-    double rated_torque_Nm       = 0.0;
-    double max_current_A         = 0.0; ///< peak of the phase current
-    double max_speed_e_radps     = 0.0; ///< largest command, electrical; 0 when not given
-    int    slots = 0; ///< stator slots, periods of cogging per turn; 0 when not given
+    int       pole_pairs            = 0;
+    double    stator_resistance_Ohm = 0.0;
+    double    d_axis_inductance_H   = 0.0;
+    double    q_axis_inductance_H   = 0.0;
+    double    pm_flux_Wb            = 0.0;
+    double    inertia_kgm2          = 0.0;
+    double    viscous_friction_Nms  = 0.0; ///< acts on the mechanical speed
+    double    rated_speed_e_radps   = 0.0; ///< electrical
+    double    rated_torque_Nm       = 0.0;
+    double    max_current_A         = 0.0; ///< peak of the phase current
+    double    max_speed_e_radps     = 0.0; ///< largest command, electrical; 0 when not given
+    int       slots = 0; ///< stator slots, periods of cogging per turn; 0 when not given
+    MtpaCurve mtpa;
 };
 
 /// Sink for the energy that a braking motor drives into the dc link, or its EMF with an open
@@ -169,16 +178,17 @@ struct HarmonicSpec {
 };
 
 struct Drive {
-    std::string      name;
-    std::string      reproduces; ///< whose design it repeats as printed; empty: it is our own
-    Motor            motor;
-    Inverter         inverter;
-    Encoder          encoder;
-    CurrentSensors   current_sensors;
-    BoardDescription board;
-    Law              law = Law::noc;
-    NoscSpec         nosc; ///< nosc and nodo: laws of near optimal control
-    NodoSpec         nodo;
+    std::string name;
+    std::string reproduces; ///< whose design it repeats as printed; empty: it is our own
+    Motor       motor;      ///< what the control believes
+    std::shared_ptr<const FluxMap> saturation; ///< what its iron is; none: as the inductances say
+    Inverter                       inverter;
+    Encoder                        encoder;
+    CurrentSensors                 current_sensors;
+    BoardDescription               board;
+    Law                            law = Law::noc;
+    NoscSpec                       nosc; ///< nosc and nodo: laws of near optimal control
+    NodoSpec                       nodo;
     std::optional<PositionSpec>
                  position;  ///< noc with form "encoder", noc_h: the drive takes positions too
     HarmonicSpec harmonics; ///< noc_h only
@@ -199,6 +209,11 @@ Drive read_drive_text(const std::string &text, const std::string &source,
 
 /// Values of a drive file without [current_sensors].
 CurrentSensors default_current_sensors(const Motor &motor);
+
+/// Factors between the values of two motors; of the magnet 1 where the first has none.
+FluxScale flux_scale(const Motor &from, const Motor &to);
+/// The machine of a drive file with [saturation], with values of [motor] scaled as in `now`.
+SaturatedMotor saturated_motor(const Drive &drive, const Motor &now);
 
 /// "none", "brake_chopper", "supply".
 const char *dc_link_sink_name(DcLinkSink sink);

@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "design/laws/near_optimal.hpp"
 #include "design/machine_points.hpp"
 #include "design/trip_levels.hpp"
+#include "drive/mtpa_fit.hpp"
 
 namespace sdre {
 namespace {
@@ -55,6 +57,34 @@ std::string trips_text(const Design &design)
                        c.dc_link_min_V, c.dc_link_max_V);
 }
 
+/// The machine by the map of its iron: least currents, and what the drive's curve takes more.
+std::string iron_text(const Drive &d)
+{
+    const FluxMap  &map   = *d.saturation;
+    const Motor    &m     = d.motor;
+    const MtpaPoint rated = least_current(map, m.pole_pairs, m.rated_torque_Nm, m.max_current_A);
+    const MtpaPoint limit = most_torque(map, m.pole_pairs, m.max_current_A);
+    const auto      point = [](const MtpaPoint &p) {
+        return fmt::format("{:.3f} N m with {:.2f} A (i_d {:.2f}, i_q {:.2f})", p.torque_Nm,
+                                p.current_A, p.id_A, p.iq_A);
+    };
+    const auto excess = [&](const MtpaCurve &curve) {
+        return fmt::format("{:.1f} % at {:.3g} N m, {:.1f} % at most",
+                           100.0 * excess_current(map, m.pole_pairs, curve, rated), rated.torque_Nm,
+                           100.0 * largest_excess(map, m, curve));
+    };
+    std::string s = fmt::format("  saturated iron: {}, {}\n", point(rated), point(limit));
+    if (m.mtpa.k_A > 0.0) {
+        Motor constant = m;
+        constant.mtpa  = {};
+        const double k = std::max(mtpa_A(reduced_parameters(constant)), 1e-3 * m.max_current_A);
+        s += fmt::format(
+            "  current beyond the least: {}; with the curve of constant inductances {}\n",
+            excess(m.mtpa), excess({k, false}));
+    }
+    return s;
+}
+
 std::string prediction_text(const Drive &d, const Prediction &p)
 {
     return fmt::format(
@@ -79,6 +109,7 @@ std::string machine_text(const Design &design, const std::optional<Prediction> &
     const Drive        &d = design.drive;
     const MachinePoints m = machine_points(d);
     std::string         s = "\nmachine\n";
+    s += d.saturation ? "  (with the inductances of [motor])\n" : "";
     s += point_text(d, "rated", m.rated);
     s += point_text(d, "at the current limit", m.limit);
     s += fastest_text(d, m);
@@ -87,6 +118,7 @@ std::string machine_text(const Design &design, const std::optional<Prediction> &
     s += d.motor.pm_flux_Wb > 0.0
              ? fmt::format("; {:.2f} A of d current cancel the magnet\n", m.current_for_no_flux_A)
              : "; no magnet\n";
+    s += d.saturation ? iron_text(d) : "";
     s += trips_text(design);
     return s + (prediction ? prediction_text(d, *prediction) : "");
 }

@@ -359,7 +359,7 @@ double mtpa_torque_Nm(const Machine &m, double current_A)
     Motor motor                  = motor_of(m);
     motor.max_current_A          = current_A;
     const ReducedParameters l    = reduced_parameters(motor);
-    const double            iq_A = largest_iq_A(motor, mtpa_A(l), true);
+    const double            iq_A = largest_iq_A(motor, l);
     return torque_Nm(motor, mtpa_id_A(l, iq_A), iq_A);
 }
 

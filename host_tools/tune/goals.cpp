@@ -86,7 +86,7 @@ PhysicalBound physical_bound(const Drive &d)
 void require_torque(const Drive &d, double load_Nm, const std::string &what)
 {
     const ReducedParameters l    = reduced_parameters(d.motor);
-    const double            iq_A = largest_iq_A(d.motor, mtpa_A(l), true);
+    const double            iq_A = largest_iq_A(d.motor, l);
     const double            most = torque_Nm(d.motor, mtpa_id_A(l, iq_A), iq_A);
     if (load_Nm > most) {
         throw InputError(fmt::format("{} = {:g} cannot be had: [motor] max_current_A = {:g} gives "

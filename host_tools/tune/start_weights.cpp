@@ -38,7 +38,7 @@ constexpr double rare_edges_exponent = 4.0 / 3.0;
 /// Acceleration per ampere, with the reluctance torque of the largest current.
 double accel_per_A(const Drive &d, const ReducedParameters &l)
 {
-    const double iq_A = largest_iq_A(d.motor, mtpa_A(l), true);
+    const double iq_A = largest_iq_A(d.motor, l);
     return l[3] * torque_Nm(d.motor, mtpa_id_A(l, iq_A), iq_A) / d.motor.max_current_A;
 }
 

@@ -215,7 +215,7 @@ TEST(SampledModel, LightMotorNeedsASlowReference)
         sdre::IdReference id      = references_of(d);
         id.c.weakening_per_period = share;
         const double speed        = d.drive.motor.rated_speed_e_radps;
-        const auto   at           = sdre::loaded_point(id, d.l, speed, 1.0);
+        const auto   at           = sdre::loaded_point(id, d.l, d.l, speed, 1.0);
         const auto   s      = sdre::steady_state(id, motor, d.l, speed, at.iq_A);
         const auto   gains  = gains_at(d, s.at.iq_A);
         const auto   moving = sdre::moving_reference(id, d.l, gains.Lambda, s);

@@ -130,7 +130,7 @@ std::vector<BrokenLoop> foc_loops(const Design &d, const Motor &motor_there,
     const Index         n     = first_step + steps + parts.own;
     const Signals       s     = signals(d, at, mode, n, steps);
 
-    const auto plant        = held_motor(reduced_parameters(motor_there), at, ts);
+    const auto plant        = held_motor(true_motor(d.drive, motor_there), at, ts);
     MatrixXd   motor        = MatrixXd::Zero(4, n);
     motor.leftCols(3)       = plant.Phi.leftCols(3);
     motor.middleCols(vq, 2) = plant.Gamma.leftCols(2);

@@ -88,7 +88,7 @@ GainSeries solve_nodo(const ReducedParameters &l, const Drive &drive, Precision 
 /// On the MTPA curve at the current limit.
 double largest_torque_Nm(const Motor &motor, const ReducedParameters &l)
 {
-    const double iq_A = largest_iq_A(motor, mtpa_A(l), true);
+    const double iq_A = largest_iq_A(motor, l);
     return torque_Nm(motor, mtpa_id_A(l, iq_A), iq_A);
 }
 
@@ -103,17 +103,17 @@ double near_e_radps(const Design &d)
 }
 
 /// The magnet, or what the largest current makes of the flux where that is far more: weakening begins at a share of it.
-double weakening_flux_A(const Design &d, double k)
+double weakening_flux_A(const Design &d)
 {
-    const double iq_A = largest_iq_A(d.drive.motor, k, true);
+    const double iq_A = largest_iq_A(d.drive.motor, d.l);
     const double d_A  = d.l[5] + d.l[10] * mtpa_id_A(d.l, iq_A);
     return std::max(d.l[5], weakening_current_share * std::hypot(iq_A, d_A));
 }
 
 /// The filter of id_ref has so many periods where id is not on the MTPA curve.
-double weakening_periods(const Design &d, double k)
+double weakening_periods(const Design &d)
 {
-    return weakening_flux_A(d, k) > d.l[5] ? flux_filter_periods : weakening_filter_periods;
+    return weakening_flux_A(d) > d.l[5] ? flux_filter_periods : weakening_filter_periods;
 }
 
 /// Slope of the chord of EQ-CURRENT-REF-4 for which id_ref changes by at most most_slope times as much as the iq that it makes
@@ -124,8 +124,9 @@ double chord_slope(const Design &d)
     return std::max(most_slope / (1.0 + most_slope * d.l[7] / base), least_slope);
 }
 
-current_ref_config_t current_ref_constants(const Design &d, bool exact)
+current_ref_config_t current_ref_constants(const Design &d, bool exact_mtpa)
 {
+    const bool   exact  = exact_mtpa && d.l[13] <= 0.0;
     const Motor &m      = d.drive.motor;
     const double ts     = control_period_s(d.drive);
     const double np     = m.pole_pairs;
@@ -143,10 +144,10 @@ current_ref_config_t current_ref_constants(const Design &d, bool exact)
     c.torque_share         = single(torque_share);
     c.near_e_radps         = single(near_e_radps(d));
     c.id_rest_A            = single(d.l[0]);
-    c.flux_A               = single(weakening_flux_A(d, k) / weakening_speed_share);
+    c.flux_A               = single(weakening_flux_A(d) / weakening_speed_share);
     c.l1_min               = single(smallest_l1_ratio * at_rest(d.l)[1]);
     c.mtpa_per_period      = single(1.0 / mtpa_filter_periods);
-    c.weakening_per_period = single(1.0 / weakening_periods(d, k));
+    c.weakening_per_period = single(1.0 / weakening_periods(d));
     const double slope     = chord_slope(d);
     c.chord_from           = single((slope * slope - 1.0) / (slope * slope + 1.0));
     c.chord_slope          = single(slope);
@@ -171,7 +172,13 @@ std::string lambda_block(const nosc_gains_t &g)
 
 double mtpa_A(const ReducedParameters &l)
 {
-    return std::min(0.5 * l[5] / std::max(1.0 - l[10], 1e-9), largest_mtpa_A);
+    const double k = l[12] > 0.0 ? l[12] : 0.5 * l[5] / std::max(1.0 - l[10], 1e-9);
+    return std::min(k, largest_mtpa_A);
+}
+
+double largest_iq_A(const Motor &motor, const ReducedParameters &l)
+{
+    return largest_iq_A(motor, mtpa_A(l), l[13] <= 0.0);
 }
 
 // Exact: id = k/2 - sqrt(k^2/4 + max^2/2); second order:
@@ -188,11 +195,12 @@ double largest_iq_A(const Motor &motor, double k, bool exact)
 
 std::vector<OperatingPoint> loaded_points(const Design &d, const IdReference &r)
 {
-    const double                top = static_cast<double>(d.config.speed_max_e_radps);
+    const TrueMotor             motor = true_motor(d.drive, d.drive.motor);
+    const double                top   = static_cast<double>(d.config.speed_max_e_radps);
     std::vector<OperatingPoint> points;
     for (const double speed : {0.0, d.drive.motor.rated_speed_e_radps, top}) {
         for (const double share : {0.0, 1.0, -1.0}) {
-            points.push_back(loaded_point(r, d.l, speed, share));
+            points.push_back(loaded_point(r, motor, d.l, speed, share));
         }
     }
     return points;
@@ -296,9 +304,8 @@ LoopGains encoder_form_gains(const Design &d, double iq_A, const Eigen::MatrixXd
     return {Lambda, series_gain(d.nodo, s, series_order(d.nodo))};
 }
 
-SampledModel speed_form_at(const Design &d, const ReducedParameters &motor,
-                           const OperatingPoint &at, const Eigen::MatrixXd &Lambda,
-                           const MovingReference *moving)
+SampledModel speed_form_at(const Design &d, const TrueMotor &motor, const OperatingPoint &at,
+                           const Eigen::MatrixXd &Lambda, const MovingReference *moving)
 {
     const double range = d.certificate.nodo.series_range_A;
     Schedule     s{std::clamp(at.iq_A, -range, range), std::clamp(at.id_A, -range, range)};

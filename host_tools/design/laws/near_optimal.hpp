@@ -30,6 +30,8 @@ constexpr double speed_current_ratio = 0.25;
 double mtpa_A(const ReducedParameters &l);
 /// The iq at which the MTPA curve meets the current circle.
 double largest_iq_A(const Motor &motor, double k, bool exact);
+/// The same of the motor's own curve, exact unless a map of its iron says otherwise.
+double largest_iq_A(const Motor &motor, const ReducedParameters &l);
 
 encoder_form_limits_t encoder_limits(const Design &design);
 /// The largest load that can be right: of `limits`, or what the encoder's own error adds to the torque.
@@ -52,9 +54,8 @@ LoopGains encoder_form_gains(const Design &design, double iq_A, const Eigen::Mat
 std::vector<OperatingPoint> loaded_points(const Design &design, const IdReference &r);
 
 /// EQ-CERT-7 of a law in a speed form, for whole_loop(). The observer's gain is held at the ends of its range, as in the firmware.
-SampledModel speed_form_at(const Design &design, const ReducedParameters &motor,
-                           const OperatingPoint &at, const Eigen::MatrixXd &Lambda,
-                           const MovingReference *moving);
+SampledModel speed_form_at(const Design &design, const TrueMotor &motor, const OperatingPoint &at,
+                           const Eigen::MatrixXd &Lambda, const MovingReference *moving);
 
 /// The whole loop with all feedback_gains(). `model_at(design, motor, point, Lambda, reference)` has the A, B_voltage and C_voltage
 /// of EQ-CERT-6. Other motors are judged with a d-current reference that stands still. The family refers to `d` and `model_at`.
@@ -69,26 +70,32 @@ LoopFamily whole_loop(const Design &d, const current_ref_config_t &references,
         all.insert(all.end(), two.begin(), two.end());
     };
     LoopFamily f;
-    f.channels   = {"q axis", "d axis"};
-    f.points     = loaded_points(d, id);
-    f.box_points = verdict_box_points(d);
-    if (d.precision == Precision::extended) { // tables that are written
-        f.plane = plane_points(id, d.l, static_cast<double>(d.config.speed_max_e_radps),
-                               plane_points_per_side);
+    f.channels               = {"q axis", "d axis"};
+    f.points                 = loaded_points(d, id);
+    f.box_points             = verdict_box_points(d);
+    const TrueMotor nominal  = true_motor(d.drive, d.drive.motor);
+    const int       per_side = d.precision == Precision::extended
+                                   ? plane_points_per_side // tables that are written
+                               : d.drive.saturation ? quick_points_per_side
+                                                    : 0;
+    if (per_side > 0) {
+        f.plane = plane_points(id, nominal, d.l, static_cast<double>(d.config.speed_max_e_radps),
+                               per_side);
     }
-    f.loops = [&d, &model_at, id, at_voltages](const Motor &, const OperatingPoint &at) {
+    f.loops = [&d, &model_at, id, at_voltages, nominal](const Motor &, const OperatingPoint &at) {
         std::vector<BrokenLoop> all;
-        const SteadyState       s = state_at(d.l, d.l, at);
+        const SteadyState       s = state_at(nominal, d.l, at);
         for (const Eigen::MatrixXd &Lambda : feedback_gains(d)) {
             const MovingReference moving = moving_reference(id, d.l, Lambda, s);
-            at_voltages(model_at(d, d.l, at, Lambda, &moving), all);
+            at_voltages(model_at(d, nominal, at, Lambda, &moving), all);
         }
         return all;
     };
     f.loops_of_others = [&d, &model_at, at_voltages](const Motor &motor, const OperatingPoint &at) {
         std::vector<BrokenLoop> all;
+        const TrueMotor         other = true_motor(d.drive, motor);
         for (const Eigen::MatrixXd &Lambda : feedback_gains(d)) {
-            at_voltages(model_at(d, reduced_parameters(motor), at, Lambda, nullptr), all);
+            at_voltages(model_at(d, other, at, Lambda, nullptr), all);
         }
         return all;
     };
@@ -100,9 +107,10 @@ template <typename ModelAt>
 void certify_whole(Design &d, const encoder_form_limits_t &limits, double angle_weight,
                    const current_ref_config_t &references, const ModelAt &model_at)
 {
-    const auto m = model_at(
-        d, d.l, OperatingPoint{d.drive.motor.rated_speed_e_radps, 0.0, mtpa_id_A(d.l, 0.0)},
-        d.nosc.gain[0], nullptr);
+    const auto m =
+        model_at(d, true_motor(d.drive, d.drive.motor),
+                 OperatingPoint{d.drive.motor.rated_speed_e_radps, 0.0, mtpa_id_A(d.l, 0.0)},
+                 d.nosc.gain[0], nullptr);
     certify_loop(d, whole_loop(d, references, model_at),
                  {disturbance_margin(d, limits, m.A, m.B_noise, angle_weight)});
 }

@@ -33,7 +33,7 @@ void certify_currents(Design &d, const CurrentObserver &o)
     }
 }
 
-SampledModel model_at(const Design &d, const ReducedParameters &motor, const OperatingPoint &at,
+SampledModel model_at(const Design &d, const TrueMotor &motor, const OperatingPoint &at,
                       const Eigen::MatrixXd &Lambda, const MovingReference *moving)
 {
     return sampled_model(motor, d.l, encoder_form_gains(d, at.iq_A, Lambda), at,

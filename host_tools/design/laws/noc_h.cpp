@@ -59,7 +59,7 @@ void sweep(Design &d)
                                   disturbance_frequencies(d.drive));
 }
 
-HarmonicSampled model_at(const Design &d, const ReducedParameters &motor, const OperatingPoint &at,
+HarmonicSampled model_at(const Design &d, const TrueMotor &motor, const OperatingPoint &at,
                          const Eigen::MatrixXd &Lambda, const MovingReference *moving)
 {
     return sampled_harmonic_model(motor, d.l, *d.harmonics->table, Lambda, at,

@@ -174,7 +174,7 @@ HarmonicObserver linear_harmonic_observer(const ReducedParameters     &l,
             shown_law(l, t, H, Lambda, at, moving)};
 }
 
-HarmonicSampled sampled_harmonic_model(const ReducedParameters &motor, const ReducedParameters &l,
+HarmonicSampled sampled_harmonic_model(const TrueMotor &motor, const ReducedParameters &l,
                                        const nodo_harmonic_gains_t &t, const MatrixXd &Lambda,
                                        const OperatingPoint &at, double ts,
                                        const MovingReference *moving)

@@ -34,7 +34,7 @@ HarmonicObserver linear_harmonic_observer(const ReducedParameters     &l,
                                           double ts_s, const MovingReference *moving = nullptr);
 
 /// @param motor what the motor is, @param l what the controller believes.
-HarmonicSampled sampled_harmonic_model(const ReducedParameters &motor, const ReducedParameters &l,
+HarmonicSampled sampled_harmonic_model(const TrueMotor &motor, const ReducedParameters &l,
                                        const nodo_harmonic_gains_t &table,
                                        const Eigen::MatrixXd &Lambda, const OperatingPoint &at,
                                        double ts_s, const MovingReference *moving = nullptr);

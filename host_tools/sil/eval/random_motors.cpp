@@ -45,7 +45,7 @@ LoopGains gains_at(const law_noc_config_t &config, double iq_A)
 double linear_radius(const Scenario &s, const law_noc_config_t &config)
 {
     const double            ts    = control_period_s(s.drive);
-    const ReducedParameters motor = reduced_parameters(scaled(s.drive.motor, s.plant_scale));
+    const TrueMotor         motor = true_motor(s.drive, scaled(s.drive.motor, s.plant_scale));
     const ReducedParameters model = reduced_parameters(scaled(s.drive.motor, s.controller_scale));
     double                  worst = 0.0;
     for (const Step &step : s.speed_reference) {

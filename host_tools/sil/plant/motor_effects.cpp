@@ -47,9 +47,10 @@ RotorVector flux_of(const SaturationMap &map, RotorVector i)
 
 bool any_effect(const MotorEffects &e)
 {
-    return e.saturation || e.cogging_amplitude_Nm != 0.0 || e.coulomb_friction_Nm != 0.0 ||
-           e.static_friction_Nm != 0.0 || e.load_inertia_share != 0.0 || e.flux_5th != 0.0 ||
-           e.flux_7th != 0.0 || e.iron_hysteresis_Nm != 0.0 || e.iron_eddy_Nms != 0.0;
+    return e.saturation || e.flux || e.cogging_amplitude_Nm != 0.0 ||
+           e.coulomb_friction_Nm != 0.0 || e.static_friction_Nm != 0.0 ||
+           e.load_inertia_share != 0.0 || e.flux_5th != 0.0 || e.flux_7th != 0.0 ||
+           e.iron_hysteresis_Nm != 0.0 || e.iron_eddy_Nms != 0.0;
 }
 
 double cogging_Nm(const MotorEffects &e, double theta_e_rad, int pole_pairs) // EQ-EFFECTS-2
@@ -128,6 +129,24 @@ RotorVector saturated_current_A(const SaturationMap &map, RotorVector flux, Roto
         const double      det    = dd * qq - dq * qd;
         i.d -= (qq * rd - dq * rq) / det;
         i.q -= (dd * rq - qd * rd) / det;
+    }
+    return i;
+}
+
+RotorVector saturated_current_A(const SaturatedMotor &motor, RotorVector flux, RotorVector guess)
+{
+    RotorVector  i         = guess;
+    const double tolerance = flux_tolerance * (1.0 + std::abs(flux.d) + std::abs(flux.q));
+    for (int n = 0; n < newton_steps; n++) {
+        const FluxAt found = motor.at(i.d, i.q);
+        const double rd    = found.d_Wb - motor.magnet_Wb() - flux.d;
+        const double rq    = found.q_Wb - flux.q;
+        if (std::abs(rd) + std::abs(rq) <= tolerance) {
+            break;
+        }
+        const auto step = by_inductance(found, rd, rq);
+        i.d -= step[0];
+        i.q -= step[1];
     }
     return i;
 }

@@ -2,6 +2,7 @@
 /// Saturation and what drags on the shaft.
 ///
 ///     psi_d = psi_m + L_d(i) i_d,  psi_q = L_q(i) i_q,  L bilinear in the map  EQ-EFFECTS-1
+///     or both fluxes of the drive file's map (drive/flux_map.hpp)              EQ-SATURATION-1
 ///     T_cogging = amplitude sin(order theta_m) + second sin(2 order theta_m + phase)   EQ-EFFECTS-2
 ///     F(w_m) = F_c + (F_s - F_c) exp(-(w_m / w_s)^2), against the motion       EQ-EFFECTS-3
 ///     psi_pm,d = psi_m (1 + (h5 + h7) cos 6 theta)                             EQ-EFFECTS-5
@@ -43,6 +44,10 @@ RotorVector inductance_H(const SaturationMap &map, RotorVector current_A);
 
 /// The current that makes this flux linkage without the magnet's (EQ-EFFECTS-1 solved for i), from a guess.
 RotorVector saturated_current_A(const SaturationMap &map, RotorVector flux_Wb, RotorVector guess_A);
+
+/// The same with both fluxes of a map, without its magnet.
+RotorVector saturated_current_A(const SaturatedMotor &motor, RotorVector flux_Wb,
+                                RotorVector guess_A);
 
 /// Temperature drift: the value after some time, never below a hundredth of the start.
 double drifted(double value, double share_per_s, double time_s);

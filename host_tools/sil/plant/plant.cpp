@@ -50,11 +50,17 @@ void Plant::renew()
 
 void Plant::set_current(RotorVector i)
 {
-    const RotorVector L      = inductances_H(i);
     const RotorVector magnet = magnet_flux(effects_, motor_.pm_flux_Wb, x_.theta_e).flux_Wb;
-    x_.psi_d                 = magnet.d + L.d * i.d;
-    x_.psi_q                 = magnet.q + L.q * i.q;
     i_                       = i;
+    if (effects_.flux) {
+        const FluxAt f = effects_.flux->at(i.d, i.q);
+        x_.psi_d       = magnet.d + f.d_Wb - effects_.flux->magnet_Wb();
+        x_.psi_q       = magnet.q + f.q_Wb;
+        return;
+    }
+    const RotorVector L = inductances_H(i);
+    x_.psi_d            = magnet.d + L.d * i.d;
+    x_.psi_q            = magnet.q + L.q * i.q;
 }
 
 RotorVector Plant::inductances_H(RotorVector i) const
@@ -67,9 +73,12 @@ RotorVector Plant::inductances_H(RotorVector i) const
 RotorVector Plant::current_at(const MotorState &x) const
 {
     const RotorVector magnet = magnet_flux(effects_, motor_.pm_flux_Wb, x.theta_e).flux_Wb;
+    const RotorVector of_current{x.psi_d - magnet.d, x.psi_q - magnet.q};
+    if (effects_.flux) {
+        return saturated_current_A(*effects_.flux, of_current, i_);
+    }
     if (effects_.saturation) {
-        return saturated_current_A(*effects_.saturation, {x.psi_d - magnet.d, x.psi_q - magnet.q},
-                                   i_);
+        return saturated_current_A(*effects_.saturation, of_current, i_);
     }
     return equations_.current_A(x, magnet);
 }
@@ -288,20 +297,34 @@ void Plant::align_angle()
 
 PhaseVector Plant::phase_current_rate_Aps(StatorVector v) const
 {
-    const RotorVector L    = inductances_H(i_);
-    const RotorVector flux = current_flux_rate_V(x_, i_, to_rotor(v, angle_));
+    const RotorVector rate = current_rate_Aps(i_, current_flux_rate_V(x_, i_, to_rotor(v, angle_)));
     const double      w    = omega_e_radps();
     // The rotor frame's own rotation comes in: d/dt (P i) = P (i' + w J i).
-    return phases_of(to_stator({flux.d / L.d - w * i_.q, flux.q / L.q + w * i_.d}, angle_));
+    return phases_of(to_stator({rate.d - w * i_.q, rate.q + w * i_.d}, angle_));
+}
+
+/// L^-1 times the rate of a flux, L incremental where the drive file has a map.
+RotorVector Plant::current_rate_Aps(RotorVector i, RotorVector flux_rate_V) const
+{
+    if (effects_.flux) {
+        const auto rate = by_inductance(effects_.flux->at(i.d, i.q), flux_rate_V.d, flux_rate_V.q);
+        return {rate[0], rate[1]};
+    }
+    const RotorVector L = inductances_H(i);
+    return {flux_rate_V.d / L.d, flux_rate_V.q / L.q};
 }
 
 /// EQ-OPEN-1: u (L^-1 (v - R i + w ..) + w J i) = 0, solved for what the terminal adds to v.
 double Plant::floating_V(const MotorState &x, RotorVector i, RotorVector v, RotorVector u) const
 {
-    const RotorVector L    = inductances_H(i);
-    const RotorVector flux = current_flux_rate_V(x, i, v);
+    const RotorVector own  = current_rate_Aps(i, current_flux_rate_V(x, i, v));
     const double      w    = equations_.omega_e_radps(x);
-    const double      rate = u.d * (flux.d / L.d - w * i.q) + u.q * (flux.q / L.q + w * i.d);
+    const double      rate = u.d * (own.d - w * i.q) + u.q * (own.q + w * i.d);
+    if (effects_.flux) {
+        const RotorVector per_V = current_rate_Aps(i, u);
+        return -1.5 * rate / (u.d * per_V.d + u.q * per_V.q);
+    }
+    const RotorVector L = inductances_H(i);
     return -1.5 * rate / (u.d * u.d / L.d + u.q * u.q / L.q);
 }
 

@@ -118,6 +118,7 @@ private:
     bool        advance_by_series(RotorVector v_V, const ShaftLoad &load, double dt_s);
     void        end_step(double dt_s);
     RotorVector inductances_H(RotorVector i) const;
+    RotorVector current_rate_Aps(RotorVector i, RotorVector flux_rate_V) const;
     double floating_V(const MotorState &x, RotorVector i, RotorVector v_V, RotorVector axis) const;
     void   renew();
     void   note_peak();

@@ -52,9 +52,11 @@ double held_torque_Nm(const Design &design, double speed_e_radps, double share)
 {
     const Drive &d = design.drive;
     if (const current_ref_config_t *references = current_references(design)) {
-        const OperatingPoint at = loaded_point(id_reference(design, *references), design.l,
+        const TrueMotor      motor = true_motor(d, d.motor);
+        const OperatingPoint at = loaded_point(id_reference(design, *references), motor, design.l,
                                                speed_e_radps, iq_share * share);
-        return torque_Nm(d.motor, at.id_A, at.iq_A);
+        return d.saturation ? motor.acceleration(at) * d.motor.inertia_kgm2 / d.motor.pole_pairs
+                            : torque_Nm(d.motor, at.id_A, at.iq_A);
     }
     const double circle_V = d.inverter.dc_link_V / std::sqrt(3.0);
     return torque_share * share * most_torque(d.motor, speed_e_radps, circle_V).torque_Nm;

@@ -71,7 +71,7 @@ struct Numbers {
 
 double largest_torque(const Drive &d, const ReducedParameters &l)
 {
-    const double iq_A = largest_iq_A(d.motor, mtpa_A(l), true);
+    const double iq_A = largest_iq_A(d.motor, l);
     return torque_Nm(d.motor, mtpa_id_A(l, iq_A), iq_A);
 }
 

@@ -27,6 +27,15 @@ double dead_time_of(const SensorSettings &sensors, const InverterSettings &inver
     return inverter.dead_time_s.value_or(sensors.ideal ? 0.0 : drive.inverter.dead_time_s);
 }
 
+/// The scenario's own inductances stand in for the drive file's map.
+std::optional<SaturatedMotor> iron_of(const Scenario &s)
+{
+    if (s.motor_effects.saturation || (!s.motor_effects.flux && !s.drive.saturation)) {
+        return {};
+    }
+    return s.motor_effects.flux ? *s.motor_effects.flux : saturated_motor(s.drive, s.drive.motor);
+}
+
 bool has_drift(const MotorEffects &e)
 {
     return e.resistance_drift != 0.0 || e.flux_drift != 0.0;
@@ -36,8 +45,8 @@ bool has_drift(const MotorEffects &e)
 
 Board::Board(const Scenario &s)
     : scenario_(s), period_s_(control_period_s(s.drive)),
-      motor_(scaled(s.drive.motor, s.plant_scale)), scale_(s.plant_scale), sensors_(s.sensors),
-      inverter_(s.inverter), source_V_(s.dc_link_V), plant_(motor_),
+      motor_(scaled(s.drive.motor, s.plant_scale)), scale_(s.plant_scale), iron_(iron_of(s)),
+      sensors_(s.sensors), inverter_(s.inverter), source_V_(s.dc_link_V), plant_(motor_),
       bridge_(timing_of(s), s.inverter, dead_time_of(s.sensors, s.inverter, s.drive)),
       dc_link_(s.inverter, s.dc_link_V),
       encoder_(s.sensors, s.drive.encoder.lines, s.drive.motor.pole_pairs, period_s_, s.seed),
@@ -49,9 +58,9 @@ Board::Board(const Scenario &s)
 {
     plant_.reset(s.initial_speed_e_radps, start_theta_e_rad(s));
     shaft_load_.fan_Nm_per_radps2 = s.load_fan_Nm_per_radps2;
-    plain_motor_ =
-        !any_effect(s.motor_effects) && s.load_fan_Nm_per_radps2 == 0.0 && !brake_.present();
-    if (any_effect(s.motor_effects)) {
+    plain_motor_ = !any_effect(s.motor_effects) && !iron_ && s.load_fan_Nm_per_radps2 == 0.0 &&
+                   !brake_.present();
+    if (any_effect(s.motor_effects) || iron_) {
         update_motor();
     }
     configure_inverter();
@@ -73,20 +82,20 @@ void Board::configure_inverter()
 /// The motor with its scale and the drift up to now.
 void Board::update_motor()
 {
-    const MotorEffects &effects = scenario_.motor_effects;
-    Motor               now     = motor_;
+    MotorEffects effects = scenario_.motor_effects;
+    Motor        now     = motor_;
     now.stator_resistance_Ohm =
         drifted(now.stator_resistance_Ohm, effects.resistance_drift, time_s_);
-    now.pm_flux_Wb = drifted(now.pm_flux_Wb, effects.flux_drift, time_s_);
-    plant_.set_motor(now);
+    now.pm_flux_Wb        = drifted(now.pm_flux_Wb, effects.flux_drift, time_s_);
+    const FluxScale scale = flux_scale(scenario_.drive.motor, now);
     if (effects.saturation) {
-        const Motor &nominal  = scenario_.drive.motor;
-        MotorEffects scaled_e = effects;
-        scaled_e.saturation =
-            scaled(*effects.saturation, motor_.d_axis_inductance_H / nominal.d_axis_inductance_H,
-                   motor_.q_axis_inductance_H / nominal.q_axis_inductance_H);
-        plant_.set_effects(scaled_e);
-    } else if (any_effect(effects)) {
+        effects.saturation = scaled(*effects.saturation, scale.ld, scale.lq);
+    } else if (iron_) {
+        effects.flux   = iron_->scaled(scale);
+        now.pm_flux_Wb = effects.flux->magnet_Wb();
+    }
+    plant_.set_motor(now);
+    if (any_effect(effects)) {
         plant_.set_effects(effects);
     }
 }

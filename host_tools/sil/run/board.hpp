@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "sil/plant/bridge.hpp"
@@ -108,17 +109,19 @@ private:
     drive_sample_t ideal_sample() const;
     drive_sample_t measured_sample();
 
-    const Scenario          &scenario_;
-    double                   period_s_;
-    Motor                    motor_; ///< scaled, before any drift
-    MotorScale               scale_;
-    SensorSettings           sensors_;
-    InverterSettings         inverter_;
-    double                   source_V_;
-    Plant                    plant_;
-    Bridge                   bridge_;
-    DcLink                   dc_link_;
-    QuadratureEncoder        encoder_;
+    const Scenario &scenario_;
+    double          period_s_;
+    Motor           motor_; ///< scaled, before any drift
+    MotorScale      scale_;
+    std::optional<SaturatedMotor>
+                      iron_; ///< before any scale; none where L is constant or the scenario's
+    SensorSettings    sensors_;
+    InverterSettings  inverter_;
+    double            source_V_;
+    Plant             plant_;
+    Bridge            bridge_;
+    DcLink            dc_link_;
+    QuadratureEncoder encoder_;
     std::vector<EncoderEdge> edges_;
     AdcChannel               channel_a_;
     AdcChannel               channel_b_;

@@ -78,8 +78,14 @@ Scenario bench_scenario(const Drive &drive, const Drive &machine, std::uint64_t 
     s.sensors.encoder_disc             = true_ones.encoder_disc;
     s.sensors.encoder_eccentricity_rad = true_ones.encoder_eccentricity_rad;
     s.plant_scale                      = scale_of(drive.motor, machine.motor);
-    s.speed_reference                  = {{0.0, 0.0}};
-    s.load_torque                      = {{0.0, 0.0}};
+    if (machine.saturation) {
+        s.motor_effects.flux = saturated_motor(machine, machine.motor);
+        s.plant_scale.erase("pm_flux_Wb"); // the map has them
+        s.plant_scale.erase("d_axis_inductance_H");
+        s.plant_scale.erase("q_axis_inductance_H");
+    }
+    s.speed_reference = {{0.0, 0.0}};
+    s.load_torque     = {{0.0, 0.0}};
     return s;
 }
 

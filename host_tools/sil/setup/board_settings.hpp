@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "drive/flux_map.hpp"
+
 namespace sdre {
 
 /// In counts: a quarter of a line, 90 electrical degrees of it. Data sheets allow +-10 to +-45 degrees of state width,
@@ -72,12 +74,13 @@ struct SaturationMap {
 };
 
 struct MotorEffects {
-    std::optional<SaturationMap> saturation;
-    double                       cogging_amplitude_Nm = 0.0;
-    double                       cogging_order        = 0.0; ///< periods per mechanical turn
-    double                       cogging_second_Nm    = 0.0; ///< amplitude at twice the order
-    double                       cogging_second_rad   = 0.0; ///< phase of the second
-    double                       coulomb_friction_Nm  = 0.0;
+    std::optional<SaturationMap>  saturation; ///< of a scenario
+    std::optional<SaturatedMotor> flux;       ///< of the drive file, where the scenario has none
+    double                        cogging_amplitude_Nm = 0.0;
+    double                        cogging_order        = 0.0; ///< periods per mechanical turn
+    double                        cogging_second_Nm    = 0.0; ///< amplitude at twice the order
+    double                        cogging_second_rad   = 0.0; ///< phase of the second
+    double                        coulomb_friction_Nm  = 0.0;
     double static_friction_Nm     = 0.0; ///< at rest; below the Coulomb friction: as that one
     double stribeck_speed_m_radps = 0.0; ///< at which 1/e of the difference is left
     double load_inertia_share     = 0.0; ///< of the motor's inertia: behind an elastic shaft

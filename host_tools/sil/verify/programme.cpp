@@ -25,7 +25,7 @@ constexpr double settle_s = 0.2;
 double largest_accel_e_radps2(const Drive &d)
 {
     const ReducedParameters l    = reduced_parameters(d.motor);
-    const double            iq_A = largest_iq_A(d.motor, mtpa_A(l), true);
+    const double            iq_A = largest_iq_A(d.motor, l);
     return torque_Nm(d.motor, mtpa_id_A(l, iq_A), iq_A) * d.motor.pole_pairs / d.motor.inertia_kgm2;
 }
 
