@@ -185,9 +185,8 @@ TEST(VerdictPoints, OfOtherMotorsAreEightCountsAPeriodAndTheRatedSpeed)
 namespace {
 
 /// The loop of `noc` with its references, as the verdict has it.
-sdre::SampledModel loop_at(const Design &d, const sdre::ReducedParameters &motor,
-                           const OperatingPoint &at, const Eigen::MatrixXd &Lambda,
-                           const sdre::MovingReference *moving)
+sdre::SampledModel loop_at(const Design &d, const sdre::TrueMotor &motor, const OperatingPoint &at,
+                           const Eigen::MatrixXd &Lambda, const sdre::MovingReference *moving)
 {
     return sdre::sampled_model(motor, d.l, sdre::encoder_form_gains(d, at.iq_A, Lambda), at,
                                sdre::control_period_s(d.drive), moving);
