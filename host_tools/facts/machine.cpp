@@ -14,6 +14,8 @@
 #include "design/sampled_model.hpp"
 #include "drive/board_file.hpp"
 #include "drive/pwm_frequency.hpp"
+#include "facts/block_commutation.hpp"
+#include "facts/encoder_facts.hpp"
 
 namespace sdre {
 namespace {
@@ -24,8 +26,6 @@ constexpr double same_within = 1.12;
 constexpr double rated_share        = 0.5;
 constexpr double default_pwm_Hz     = 10e3;
 constexpr double default_dead_share = 0.015; ///< of a PWM period: 3 us at 5 kHz
-constexpr int    default_lines      = 2500;
-constexpr int    counts_per_line    = 4;
 
 /// Reads facts into values, keeping what does not fit together.
 class Reader {
@@ -143,6 +143,12 @@ void inductances(Reader &r, Machine &m)
 /// A torque or EMF constant that does not say rms or peak: as the others say, else rms as data sheets have it.
 Value unsaid_flux(Reader &r, Fact f, double pairs, const std::vector<Value> &others)
 {
+    if (f.quantity == "kt" && is_block_commutated(r.facts())) {
+        r.note(fmt::format("{}: of block commutation, since kt x kv = 1: the same current as the "
+                           "peak of a sine gives 1 / {:.4g} of the torque",
+                           f.text, block_factor()));
+        return {block_flux_Wb(f.si, pairs), f.text};
+    }
     if (!others.empty()) {
         Fact peak      = f;
         peak.amplitude = Amplitude::peak;
@@ -188,10 +194,17 @@ Value current(Reader &r, const char *quantity)
 {
     std::vector<Value> values;
     for (const Fact &f : r.facts().of(quantity)) {
-        if (f.amplitude == Amplitude::unsaid) {
+        const bool unsaid = f.amplitude == Amplitude::unsaid;
+        const bool block =
+            unsaid && f.quantity == "rated_current" && is_block_commutated(r.facts());
+        if (block) {
+            r.note(fmt::format("{}: taken as dc current of block commutation: {:.4g} A peak of a "
+                               "sine heat as much",
+                               f.text, block_factor() * f.si));
+        } else if (unsaid) {
             r.note(fmt::format("{}: taken as peak; write _rms if it is", f.text));
         }
-        values.push_back({peak_A(f), f.text});
+        values.push_back({block ? block_factor() * f.si : peak_A(f), f.text});
     }
     return values.empty() ? Value{} : r.agreed(quantity, values);
 }
@@ -208,18 +221,8 @@ Value speed(Reader &r, const char *quantity, double pairs)
 Value encoder_lines(Reader &r)
 {
     std::vector<Value> values;
-    for (const Fact &f : r.facts().of("encoder_lines")) {
-        values.push_back({f.si, f.text});
-    }
-    for (const Fact &f : r.facts().of("encoder_counts")) {
-        values.push_back({std::floor(f.si / counts_per_line), f.text});
-    }
-    for (const Fact &f : r.facts().of("encoder_bits")) {
-        values.push_back({std::exp2(f.si - 2.0), f.text});
-    }
-    if (values.empty()) {
-        r.note(fmt::format("encoder_lines is not given: {} assumed", default_lines));
-        return {default_lines, "chosen: not given"};
+    for (const EncoderLines &e : encoder_lines_of(r.facts())) {
+        values.push_back({e.lines, e.text});
     }
     return r.agreed("encoder lines", values);
 }
@@ -237,8 +240,11 @@ Value inertia(Reader &r)
 /// The currents that a limit and a rating give; what is not given follows from the other.
 void ratings(Reader &r, Machine &m)
 {
-    const Value rated_A = current(r, "rated_current");
-    m.max_current_A     = current(r, "max_current");
+    Value rated_A   = current(r, "rated_current");
+    m.max_current_A = current(r, "max_current");
+    if (is_block_commutated(r.facts()) && m.max_current_A.si > 0.0) {
+        rated_A.si = std::min(rated_A.si, m.max_current_A.si);
+    }
     if (m.max_current_A.si <= 0.0) {
         if (rated_A.si <= 0.0) {
             throw InputError(

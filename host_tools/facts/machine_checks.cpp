@@ -23,6 +23,8 @@ constexpr double most_start_s  = 100.0;
 // Chosen: current that a period at full voltage adds, over the limit. One-step limits hold it below 1.
 constexpr double quick_slope = 0.5;
 constexpr double most_slope  = 2.0;
+// Chosen: L / R grows with the square of a machine's size. A small outrunner has 0.1 ms, a machine of 100 kW some 60 ms.
+constexpr double most_winding_s = 0.5;
 // Chosen: the angle of commutation is not known better than a count.
 constexpr double most_count_rad = 0.2;
 // Chosen: flux of the q axis at the largest current over what the rated voltage carries at the rated speed.
@@ -92,6 +94,12 @@ void check_period(const Machine &m, Findings &out)
     if (m.dead_time_s.si * m.pwm_Hz.si > 0.1) {
         out.contradictions.push_back(fmt::format("{} is more than a tenth of the period of {}",
                                                  m.dead_time_s.origin, m.pwm_Hz.origin));
+    }
+    const double slow_s = m.lq_H.si / m.resistance_Ohm.si;
+    if (slow_s > most_winding_s) {
+        out.contradictions.push_back(
+            fmt::format("{} and {}: L / R = {:.3g} s is above {:g} s: mH and H, or mOhm and Ohm?",
+                        m.lq_H.origin, m.resistance_Ohm.origin, slow_s, most_winding_s));
     }
     const double tau_s = m.ld_H.si / m.resistance_Ohm.si;
     if (tau_s < 0.5 * ts_s) {

@@ -211,6 +211,7 @@ TEST(Facts, ClassicMistakesAreFound)
         {"servo_2k2", "rated_current_A_peak = 12", {}, "is above max_current_peak_A = 9.12"},
         {"ev_100kw", "max_speed_rpm = 2000", {}, "is below base_speed_rpm = 3000"},
         {"outrunner_24v", "phase_inductance_nH = 30", {"phase_inductance_uH"}, "not understood"},
+        {"servo_2k2", "phase_resistance_mOhm = 3.6", {"phase_resistance_Ohm"}, "mOhm and Ohm?"},
         {"servo_2k2", "encoder_lines = 16", {}, "a count is 0.29 rad electrical"},
         {"servo_2k2", "dead_time_us = 30", {}, "more than a tenth of the period"}};
     for (const Slip &slip : slips) {
@@ -237,6 +238,55 @@ TEST(Facts, WhatIsAssumedIsSaid)
               std::string::npos);
     const Read bare = read("servo_2k2", "resistance_Ohm = 3.6", {"phase_resistance_Ohm"});
     EXPECT_NE(all(bare.findings.notes).find("taken as of one phase"), std::string::npos);
+}
+
+// Averages over 60 degrees of commutation, by hand: the dc current I flows through two phases while the line's EMF is at
+// its peak. The sine of the same heat has the peak 2 / sqrt 3 I, and 1.5 p flux times it is the same torque.
+TEST(Facts, SheetsOfBlockCommutationAreConverted)
+{
+    const double                   pairs = 4.0;
+    const double                   flux  = 0.0616;
+    const double                   kt    = std::sqrt(3.0) * pairs * flux;
+    const double                   kv    = 30.0 / pi / kt;
+    const std::vector<std::string> without{"ke_line_to_line_rms_V_per_krpm"};
+    const std::string both = fmt::format("kt_Nm_per_A = {:.3g}\nkv_rpm_per_V = {:.3g}\n", kt, kv);
+    const Read        r    = read("servo_600w_surface", both + "rated_current_A = 4.7", without);
+    EXPECT_EQ(all(r.findings.contradictions), "");
+    EXPECT_NEAR(r.machine.flux_Wb.si, flux, 0.01 * flux);
+    EXPECT_NE(all(r.findings.notes).find("of block commutation, since kt x kv = 1"),
+              std::string::npos);
+    EXPECT_NE(all(r.findings.notes).find("5.427 A peak of a sine"), std::string::npos);
+    const double by_block_Nm = kt * 4.7;
+    EXPECT_NEAR(1.5 * pairs * r.machine.flux_Wb.si * 5.427, by_block_Nm, 0.01 * by_block_Nm);
+    // A constant that says what it is stays what it says.
+    const std::string peak =
+        fmt::format("kt_Nm_per_A_peak = {:.4g}\nkv_rpm_per_V = {:.3g}\n", kt, kv);
+    EXPECT_NE(all(read("servo_600w_surface", peak, without).findings.contradictions), "");
+    // The torque follows from the rated current; the largest current bounds it.
+    const Read derived = read("servo_600w_surface", both + "rated_current_A = 11.0",
+                              {"ke_line_to_line_rms_V_per_krpm", "rated_torque_Nm"});
+    EXPECT_EQ(all(derived.findings.contradictions), "");
+    EXPECT_NEAR(derived.machine.rated_torque_Nm.si, 1.5 * pairs * flux * 12.0, 0.02);
+}
+
+TEST(Facts, EncodersThatTheDriveCannotReadAreRefused)
+{
+    const auto said = [](const std::string &more, bool lines) {
+        try {
+            read("servo_2k2", more,
+                 lines ? std::vector<std::string>{} : std::vector<std::string>{"encoder_lines"});
+        } catch (const sdre::InputError &e) {
+            return std::string(e.what());
+        }
+        return std::string();
+    };
+    EXPECT_NE(said("encoder_bits = 14", false).find("is of an absolute encoder"),
+              std::string::npos);
+    EXPECT_EQ(said("encoder_bits = 14", true), "");
+    EXPECT_NE(
+        said("encoder_cpr = 4000", false).find("write encoder_lines = 4000 or encoder_counts"),
+        std::string::npos);
+    EXPECT_NE(said("", false).find("encoder_lines is missing"), std::string::npos);
 }
 
 TEST(Facts, ATextThatReadsAndIsCertified)
