@@ -148,6 +148,14 @@ def test_bench_refuses_in_words(served: Served, line: str) -> None:
     s.close()
 
 
+def test_modbus_on_the_bench_is_hung_up_on_at_once(served: Served) -> None:
+    """Whoever looks for a drive does not wait for the bench."""
+    s = connect(served.control)
+    s.sendall(READ_ALL)
+    assert s.recv(1) == b""
+    s.close()
+
+
 def test_a_client_that_reads_slowly_gets_all_of_a_long_answer(served: Served) -> None:
     bench = served.bench()
     while bench.ask("state")["time_s"] < 4.0:

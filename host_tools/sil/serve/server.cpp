@@ -47,6 +47,14 @@ double wall_now_s()
     return duration<double>(steady_clock::now().time_since_epoch()).count();
 }
 
+/// No command is as long, or has a zero. Whoever looks for a drive here with Modbus/TCP need not wait for an answer.
+bool is_text(const Octets &come)
+{
+    const bool whole = std::find(come.begin(), come.end(), '\n') != come.end();
+    const bool zero  = std::find(come.begin(), come.end(), 0) != come.end();
+    return whole || (come.size() <= longest_line && !zero);
+}
+
 } // namespace
 
 Server::Server(const Drive &drive, std::uint64_t seed, const ServeOptions &options)
@@ -196,9 +204,8 @@ void Server::read_from(long id, Client &client, double wall_s)
     write_rest(client);
     client.last_s = client.come.size() > before ? wall_s : client.last_s;
     if (client.kind == Kind::control) {
-        if (!takes_more(client) &&
-            std::find(client.come.begin(), client.come.end(), '\n') == client.come.end()) {
-            client.fd = {}; // no command is as long
+        if (!is_text(client.come)) {
+            client.fd = {};
         }
     } else if (client.kind == Kind::tcp) {
         take_requests(id, client);
