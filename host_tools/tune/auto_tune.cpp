@@ -10,10 +10,10 @@
 
 #include "common/errors.hpp"
 #include "design/design.hpp"
-#include "design/verdict.hpp"
 #include "tune/goals.hpp"
 #include "tune/search.hpp"
 #include "tune/start_weights.hpp"
+#include "tune/verdict_penalty.hpp"
 
 namespace sdre {
 namespace {
@@ -28,10 +28,6 @@ constexpr double least_decades = 1.5;
 constexpr int    attempts     = 4;
 constexpr double slower       = 1.4;
 constexpr int    report_every = 100; // evaluations
-// Chosen: a verdict that does not hold outweighs every goal, and a hair's breadth of room is kept.
-constexpr double excess_weight = 100.0;
-constexpr double held          = 0.98;
-constexpr double no_design     = 1e3;
 
 /// The start weights with the searched ones changed by decades.
 Drive moved(const Drive &start, const Point &decades)
@@ -52,18 +48,6 @@ double without_feedback(const Point &decades)
 {
     return 1.0 + std::max(-least_decades - decades[0], 0.0) +
            std::max(-least_decades - decades[1], 0.0);
-}
-
-/// Excess of a design's verdict; a failed design counts as far off.
-double excess_of(const Drive &d)
-{
-    try {
-        const Design design = design_drive(d);
-        return design.certificate.loop ? excess(*design.certificate.loop, control_period_s(d))
-                                       : no_design;
-    } catch (const DesignError &) {
-        return no_design;
-    }
 }
 
 /// Whether the whole certificate passes; if not, why.
@@ -123,7 +107,7 @@ public:
     {
         return moved(found, improve({}, [&](const Point &x) {
                          const Drive d = moved(found, x);
-                         return evaluate(d) + excess_weight * std::max(excess_of(d) - held, 0.0);
+                         return evaluate(d) + verdict_penalty(d);
                      }));
     }
     int evaluations() const

@@ -49,7 +49,7 @@ std::string tuned_sections(const TuneResult &r, const TuneSpec &spec)
     std::string   s       = fmt::format(
                 "# The weights below were {} by `sdre-gains tune` ({} evaluations) on the sampled "
                         "closed loop,\n"
-                        "# for a load step of {:g} N m at {:g} rad/s. Linear model, believed parameters scaled:\n",
+                        "# for a load step of {:g} N m at {:g} rad/s. Linear model, believed parameters scaled.\n",
         r.kept ? "kept" : "found", r.evaluations, spec.load_step_Nm, spec.speed_e_radps);
     if (!pwm_note(d.inverter).empty()) {
         s += "# for " + pwm_note(d.inverter);
@@ -60,8 +60,8 @@ std::string tuned_sections(const TuneResult &r, const TuneSpec &spec)
         const std::string     inductance =
             w.inductance == 1.0 ? "" : fmt::format(", L x{:g} more", w.inductance);
         s += fmt::format("#   J, B x{:g}, R, L, flux x{:g}{}: dip {:.2f} (wanted {:g}), settled "
-                         "{:.1f} ms ({:g}), 3 sigma {:.2f} ({:g}) rad/s, "
-                         "{:.0f} V ({:g}), v_q noise {:.1f} V, pole {:.3f}\n",
+                         "{:.1f} ms ({:g}). With noise: 3 sigma {:.2f} ({:g}) rad/s, "
+                         "{:.0f} V ({:g}), v_q noise {:.1f} V, pole {:.3f}.\n",
                          w.mechanical, w.electrical, inductance, c.dip_e_radps, w.dip_e_radps,
                          1e3 * c.settling_time_s, 1e3 * w.settling_time_s, c.ripple_e_radps,
                          w.ripple_e_radps, c.voltage_V, spec.voltage_headroom_V, c.voltage_noise_V,

@@ -23,7 +23,8 @@ struct TuneResult {
 using TuneProgress = std::function<void(int evaluations, double worst_ratio)>;
 
 /// Searches the logarithms of six weights from a fixed start, so the same input gives the same weights, with every compiler.
-/// The drive's own weights stay when the best ones are not better by 3 %. DesignError when no stable design was found.
+/// Best weights that are not certified are moved until they are, or as near as a short search comes. The drive's own certified
+/// weights stay when the found ones are not better by 3 %. DesignError when no stable design was found.
 TuneResult tune_drive(const Drive &drive, const TuneSpec &spec, const TuneProgress &progress);
 
 } // namespace sdre
