@@ -9,6 +9,7 @@
 #include "design/design.hpp"
 #include "emit/emit_image.hpp"
 #include "served_client.hpp"
+#include "sweep.hpp"
 
 extern "C" {
 #include "app_control.h"
@@ -179,7 +180,7 @@ TEST_F(Loading, AnImageOfAnotherBoardIsRefusedByTheNameOfTheField)
     const Words            own   = image(300.0, "ab");
     const board_identity_t board = board_identity_of(shipped_drive());
     enter();
-    for (unsigned fact = 0; fact < BOARD_FACT_COUNT; fact++) {
+    for (unsigned fact = 0; fact < BOARD_FACT_COUNT; fact += support::swept(1U, 5U)) {
         const float other = 2.0F * board.fact[fact] + 0.5F;
         refused(with_fact(own, fact, other), fact + 1);
         EXPECT_EQ(loader_float(APP_LOADER_IMAGE_HI), other);
@@ -202,12 +203,12 @@ TEST_F(Loading, AShortDeadTimeAndAnotherRangeAreRefused)
 {
     pass(0.5);
     enter();
-    const auto words_of = [](const std::function<void(Drive &)> &change) {
+    const Words own      = image(300.0, "ab");
+    const auto  words_of = [&own](const std::function<void(Drive &)> &change) {
         Drive drive = shipped_drive();
         change(drive);
         drive.board.file.reset();
-        Words       words = image_words(design_drive(drive, Precision::quick));
-        const Words own   = image(300.0, "ab");
+        Words words = image_words(design_drive(drive, Precision::quick));
         std::copy_n(own.begin() + 30, BOARD_IDENTITY_WORDS, words.begin() + 30);
         return words;
     };

@@ -9,6 +9,7 @@
 
 #include "shipped_drive.hpp"
 #include "sil/commission/faults.hpp"
+#include "sweep.hpp"
 
 using namespace sdre;
 
@@ -54,8 +55,14 @@ TEST(CommissionSensors, DeadAndFrozen)
                                            f.kind != FaultKind::current_frozen;
                                 }),
                  faults.end());
+    std::size_t phases = 0;
+    for (CommissionFault &f : faults) {
+        f.phases = support::swept_each(f.phases, 3);
+        phases += f.phases.size();
+    }
+    EXPECT_EQ(phases, support::swept(2U * 3U, 2U));
     const auto cases = cases_with(d, faults, 2);
-    EXPECT_EQ(cases.size(), 6U * 2U * 2U * 3U);
+    EXPECT_EQ(cases.size(), 6U * 2U * phases);
     expect_peaks(cases, dead_limits);
     for (const CommissionCase &c : cases) {
         EXPECT_FALSE(c.finished) << case_text(c);

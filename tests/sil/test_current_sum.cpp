@@ -14,6 +14,7 @@
 
 #include "common/errors.hpp"
 #include "sil/board/board_run.hpp"
+#include "sweep.hpp"
 #include "temp_dir.hpp"
 
 extern "C" {
@@ -99,7 +100,7 @@ std::map<std::string, Row> rows_of(const std::string &drive, const std::string &
 {
     std::map<std::string, Row> rows;
     std::uint64_t              seed = 1;
-    for (const Kind &kind : kinds()) {
+    for (const Kind &kind : support::swept_each(kinds(), 7)) {
         for (const Case &c : cases) {
             for (int n = 0; n < seeds; n++) {
                 Scenario s               = scenario(drive, board, c.from, c.to, c.load, kind.text);

@@ -12,6 +12,7 @@
 
 #include "sil/board/board_run.hpp"
 #include "sil/run/faults.hpp"
+#include "sweep.hpp"
 #include "temp_dir.hpp"
 
 using namespace sdre;
@@ -158,7 +159,7 @@ TEST(EncoderLost, AnyMotorIsBrakedAndTheEncoderIsNamed)
         fmt::print("| motor | runs | below 60 rad/s | fastest | latest | peak |\n");
         fmt::print("|---|---:|---:|---:|---:|---:|\n");
     }
-    for (const Motor390 &m : motors) {
+    for (const Motor390 &m : support::swept_each(motors, 3)) {
         const Row r = row_of("ipmsm_390w", m, all() ? all_speeds : few_speeds, loads);
         EXPECT_LE(r.fastest, 110.0) << m.name;
         EXPECT_GE(r.stopped, r.runs - r.runs / 5) << m.name;
@@ -173,7 +174,7 @@ TEST(EncoderLost, AnyMotorIsBrakedAndTheEncoderIsNamed)
 TEST(EncoderLost, OtherLawsOpenAtOnceAndNameTheEncoder)
 {
     for (const char *drive : {"ipmsm_390w_noc_h", "ipmsm_390w_noc_h_edges"}) {
-        for (const Motor390 &m : motors) {
+        for (const Motor390 &m : support::swept_each(motors, 6)) {
             const Outcome o = outcome(scenario(drive, m, -300.0, -1.0));
             expect_safe(o, fmt::format("{} {}", drive, m.name));
             EXPECT_LE(o.after_s, 3e-3) << drive << ' ' << m.name;

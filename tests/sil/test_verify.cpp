@@ -12,9 +12,11 @@
 #include "sil/verify/detections.hpp"
 #include "sil/verify/records_file.hpp"
 #include "sil/verify/report.hpp"
+#include "sweep.hpp"
 #include "temp_dir.hpp"
 
 using namespace sdre;
+using support::swept;
 
 namespace {
 
@@ -32,9 +34,15 @@ const Programme &programme()
     return p;
 }
 
+/// Rehearsals behind an expectation.
+RehearsalCounts counts(const RehearsalCounts &whole = {})
+{
+    return swept(whole, {40, 15, 25});
+}
+
 const Expectation &expectation()
 {
-    static const Expectation e(drive(), programme());
+    static const Expectation e(drive(), programme(), counts());
     return e;
 }
 
@@ -136,20 +144,22 @@ TEST(Verify, MachineDiffersByTheUncertaintiesOfItsFile)
 // Few rehearsals have a narrow range: what the others need to be within widens it.
 TEST(Verify, BandIsWideEnoughForWholeProgrammes)
 {
-    const Expectation few(drive(), programme(), {100, 10, 100});
+    const Expectation few(drive(), programme(), counts({100, 10, 100}));
     const Controller  controller = controller_of(drive());
+    const int         machines   = swept(100, 15);
     int               outside    = 0;
-    for (std::uint64_t seed = 8000; seed < 8100; seed++) {
-        const Records r = rehearse(machine_on_bench(drive(), draw_difference(seed), seed),
-                                   controller, programme());
+    for (int k = 0; k < machines; k++) {
+        const std::uint64_t seed = 8000 + static_cast<std::uint64_t>(k);
+        const Records       r    = rehearse(machine_on_bench(drive(), draw_difference(seed), seed),
+                                            controller, programme());
         outside += few.judge(r).within() ? 0 : 1;
     }
-    EXPECT_LE(outside, 8); // three of a hundred on average
+    EXPECT_LE(outside, 0.08 * machines); // three of a hundred on average
 }
 
 TEST(Verify, EstimateIsTheMachine)
 {
-    for (std::uint64_t seed = 7000; seed < 7010; seed++) {
+    for (std::uint64_t seed = 7000; seed < swept<std::uint64_t>(7010, 7002); seed++) {
         Difference x             = draw_difference(seed);
         x[seed % believed_count] = seed % 2 == 0 ? 1.5 : 0.5;
         const Judgement j        = judged(machine_on_bench(drive(), x, seed));
@@ -213,7 +223,7 @@ TEST(Verify, ReportNamesTheValueInItsUnit)
 
 TEST(Verify, SameRecordsAreJudgedTheSame)
 {
-    const RehearsalCounts few{60, 20, 20};
+    const RehearsalCounts few     = swept<RehearsalCounts>({60, 20, 20}, {20, 4, 4});
     const Scenario        machine = machine_on_bench(drive(), {}, 2);
     const Records         r       = rehearse(machine, controller_of(drive()), programme());
     const Judgement       a       = Expectation(drive(), programme(), few).judge(r);

@@ -45,14 +45,16 @@ Estimator::Estimator(const std::vector<Difference> &differences, const Eigen::Ma
     weigh(rest * deviation_.cwiseInverse().asDiagonal());
 }
 
-/// The covariance of e in deviations: the strongest principal components, and the same rest for each feature.
+/// The covariance of e in deviations: the strongest principal components, and the same rest for each feature. They come from
+/// the products of the rehearsals, which are fewer than the features.
 void Estimator::weigh(const Eigen::MatrixXd &rest)
 {
-    const Eigen::Index                   n = std::min({shared_errors, rest.rows(), rest.cols()});
-    const Eigen::BDCSVD<Eigen::MatrixXd> svd(rest, Eigen::ComputeThinV);
-    const Eigen::MatrixXd                shared = svd.matrixV().leftCols(n);
-    const Eigen::VectorXd                variance =
-        svd.singularValues().head(n).array().square() / static_cast<double>(rest.rows());
+    const Eigen::Index n = std::min({shared_errors, rest.rows(), rest.cols()});
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> products(rest * rest.transpose());
+    const Eigen::VectorXd strength = products.eigenvalues().tail(n).cwiseMax(least_variance);
+    const Eigen::MatrixXd shared   = rest.transpose() * products.eigenvectors().rightCols(n) *
+                                   strength.cwiseSqrt().cwiseInverse().asDiagonal();
+    const Eigen::VectorXd variance = strength / static_cast<double>(rest.rows());
     const double own = std::max(1.0 - variance.sum() / static_cast<double>(rest.cols()), least_own);
     const Eigen::VectorXd less = (variance.array() / (own * (own + variance.array()))).matrix();
     const Eigen::MatrixXd weighted =
