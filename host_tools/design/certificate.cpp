@@ -212,10 +212,11 @@ std::string verdict_lines(const Verdict &v)
                          "spectral radius {:.4f}\n",
                          c.name + ":", c.worst.peak, c.worst.peak_Hz, c.worst.spectral_radius);
     }
-    return v.box
-               ? s + fmt::format(" *            motors:     stable in {:.2f} of EQ-CERT-5's box\n",
-                                 v.box->share)
-               : s;
+    if (v.box) {
+        s += fmt::format(" *            motors:     stable in {:.2f} of EQ-CERT-5's box\n",
+                         v.box->share);
+    }
+    return v.shaft ? s + fmt::format(" *            shaft:      {}\n", shaft_words(*v.shaft)) : s;
 }
 
 void certify(Design &design)

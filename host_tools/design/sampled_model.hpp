@@ -65,6 +65,17 @@ struct LawRows {
 LawRows encoder_form_law(const ReducedParameters &l, const Eigen::MatrixXd &Lambda,
                          const OperatingPoint &at, const MovingReference *moving = nullptr);
 
+/// A plant over one period at an operating point: its states begin with w iq id theta, its inputs are v_q, v_d, T_load.
+struct HeldPlant {
+    Held<Eigen::MatrixXd> held;
+    OperatingPoint        at;
+    double                ts_s = 0.0;
+};
+
+/// EQ-CERT-3 of any such plant. Its further states stand between (theta - theta^) and the observer's.
+SampledModel closed_loop(const HeldPlant &plant, const ReducedParameters &model,
+                         const LoopGains &gains, const MovingReference *moving = nullptr);
+
 /// @param motor what the motor is, @param model what the controller believes. The references of `moving` are two states more.
 SampledModel sampled_model(const TrueMotor &motor, const ReducedParameters &model,
                            const LoopGains &gains, const OperatingPoint &at, double ts_s,

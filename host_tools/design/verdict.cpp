@@ -220,6 +220,7 @@ double excess(const Verdict &v, double ts_s)
     for (const TripMargin &t : v.trips) {
         worst = worse(worst, t.healthy / t.limit);
     }
+    worst = v.shaft ? worse(worst, shaft_excess(*v.shaft)) : worst;
     return worst;
 }
 

@@ -12,6 +12,7 @@
 #include "design/loop_check.hpp"
 #include "design/robust_box.hpp"
 #include "design/sampled_model.hpp"
+#include "design/shaft_model.hpp"
 
 namespace sdre {
 
@@ -60,8 +61,9 @@ struct Verdict {
     std::vector<Channel> channels;
     std::optional<RobustBox>
         box; ///< EQ-CERT-5, every corner; where the family requires other motors
-    std::optional<RobustBox> alone; ///< the same of one parameter at a time
-    std::vector<TripMargin>  trips;
+    std::optional<RobustBox>    alone; ///< the same of one parameter at a time
+    std::vector<TripMargin>     trips;
+    std::optional<ShaftVerdict> shaft; ///< EQ-CERT-9, of a coupling that is not rigid
 };
 
 /// The steady operating point at a speed and a q current. It is on the MTPA curve. Where the dc

@@ -167,9 +167,10 @@ std::string normalised(const Drive &drive)
 {
     // reproduces changes no number
     const auto &[name, reproduces, motor, saturation, inverter, encoder, current_sensors, board,
-                 law, nosc, nodo, position, harmonics, dobc, pid, d_axis, cascade, uncertainty] =
-        drive;
+                 law, nosc, nodo, position, harmonics, dobc, pid, d_axis, cascade, uncertainty,
+                 mechanics] = drive;
     static_cast<void>(uncertainty); // of the machine, not of what is computed from the file
+    static_cast<void>(mechanics);   // no constant depends on it
     std::string s = fmt::format("schema={};name={};", drive_schema, name);
     s += normalised_motor(motor) + normalised_hardware(inverter, encoder);
     s += normalised_sensors(current_sensors, encoder.index_angle_e_rad) + normalised_board(board);

@@ -255,6 +255,7 @@ Drive read_drive(const toml::table &root, const std::string &source, const std::
     read_law_sections(t, drive);
     fit_to_iron(drive);
     drive.uncertainty = read_uncertainty(t.table_if("uncertainty"));
+    drive.mechanics   = read_mechanics(t.table_if("mechanics"));
     t.reject_unknown_keys();
     settle_pwm_frequency(t, drive);
     if (const auto [key, why] = board_refusal(drive); !key.empty()) {

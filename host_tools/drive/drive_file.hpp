@@ -10,6 +10,7 @@
 
 #include "drive/board_section.hpp"
 #include "drive/flux_map.hpp"
+#include "drive/mechanics.hpp"
 #include "drive/uncertainty.hpp"
 
 namespace sdre {
@@ -197,6 +198,7 @@ struct Drive {
     DAxisSpec    d_axis;    ///< laws of paper B
     CascadeSpec  cascade;   ///< pi_foc and ladrc only
     Uncertainty  uncertainty;
+    Mechanics    mechanics;
 };
 
 constexpr int drive_schema = 1;

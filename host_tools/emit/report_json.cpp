@@ -176,6 +176,12 @@ Json verdict_json(const Verdict &v)
         out["box_share"]           = v.box->share;
         out["one_at_a_time_share"] = v.alone->share;
     }
+    if (v.shaft) {
+        out["shaft_stable_Hz"] = Json::array();
+        for (const ResonanceRange &r : v.shaft->stable) {
+            out["shaft_stable_Hz"].push_back({r.from_Hz, r.to_Hz});
+        }
+    }
     for (const Channel &c : v.channels) {
         out["channels"][c.name] = loop_json(c.worst);
     }

@@ -113,6 +113,9 @@ std::string verdict_text(const Certificate &c)
     if (v.box) {
         s += box_text(*v.box, *v.alone);
     }
+    if (v.shaft) {
+        s += fmt::format("  elastic shaft: {}\n", shaft_words(*v.shaft));
+    }
     for (const TripMargin &t : v.trips) {
         s += fmt::format("  {}: {:.3g}, trip at {:.3g}\n", t.name, t.healthy, t.limit);
     }
@@ -194,6 +197,10 @@ std::string report_text(const Design &d, const std::optional<Prediction> &predic
     }
     s += d.servo ? servo_text(d) : is_cascade(d.drive.law) ? cascade_text(d) : noc_text(d);
     s += verdict_text(d.certificate);
+    if (d.drive.mechanics.coupling != Coupling::rigid &&
+        !(d.certificate.loop && d.certificate.loop->shaft)) {
+        s += fmt::format("  elastic shaft: not checked with law = \"{}\"\n", law_name(d.drive.law));
+    }
     s += fmt::format("\nverdict: {}\n", verdict_words(d));
     for (const std::string &failure : d.certificate.failures) {
         s += "  " + failure + "\n";

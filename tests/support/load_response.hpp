@@ -16,13 +16,14 @@ namespace support {
 /// One motor with the control core on it: exact sensors, no dead time, the duty one period late.
 class Loop {
 public:
-    Loop(const sdre::Design &d, double omega, double theta)
+    Loop(const sdre::Design &d, double omega, double theta, const sdre::MotorEffects &effects = {})
         : config_(d.config), plant_(d.drive.motor), dc_V_(d.drive.inverter.dc_link_V)
     {
         config_.dead_time.share = 0.0F;
         if (drive_init(&drive_, &config_) != CTL_OK) {
             throw std::runtime_error("refused");
         }
+        plant_.set_effects(effects);
         plant_.reset(omega, theta);
         command_ = {static_cast<float>(omega), true, 0.0F, nullptr};
     }
@@ -85,9 +86,10 @@ constexpr int settle_ticks = 2000;
 constexpr int response_ticks = 200;
 
 inline StepResponse nonlinear_step(const sdre::Design &d, double omega, double load_Nm,
-                                   double step_Nm, double theta)
+                                   double step_Nm, double theta,
+                                   const sdre::MotorEffects &effects = {})
 {
-    Loop         loop(d, omega, theta);
+    Loop         loop(d, omega, theta, effects);
     StepResponse out;
     for (int k = 0; k < settle_ticks; k++) {
         EXPECT_TRUE(loop.tick(load_Nm));

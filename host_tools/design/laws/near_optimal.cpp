@@ -124,6 +124,8 @@ double chord_slope(const Design &d)
     return std::max(most_slope / (1.0 + most_slope * d.l[7] / base), least_slope);
 }
 
+} // namespace
+
 current_ref_config_t current_ref_constants(const Design &d, bool exact_mtpa)
 {
     const bool   exact  = exact_mtpa && d.l[13] <= 0.0;
@@ -157,6 +159,8 @@ current_ref_config_t current_ref_constants(const Design &d, bool exact_mtpa)
     c.regen_per_V          = single(1.0 / ((regen_end_ratio - regen_start_ratio) * v_dc));
     return c;
 }
+
+namespace {
 
 std::string lambda_block(const nosc_gains_t &g)
 {

@@ -17,6 +17,9 @@ void solve_near_optimal(Design &design);
 /// The current references of a near optimal law; none of other laws.
 const current_ref_config_t *current_references(const Design &design);
 
+/// Needs `drive`, `l` and the first term of `nosc`.
+current_ref_config_t current_ref_constants(const Design &design, bool exact_mtpa);
+
 /// Current references and the series of the feedback; without nosc_series its first term alone (EQ-NOSC-3).
 near_optimal_config_t near_optimal_constants(const Design &design, bool exact_mtpa,
                                              bool nosc_series);

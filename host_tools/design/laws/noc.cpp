@@ -56,6 +56,7 @@ void solve(Design &d)
     c.currents                     = currents.gains;
     certify_currents(d, currents);
     certify_whole(d, c.plausible, d.drive.nodo.T[2], c.near_optimal.current_ref, model_at);
+    certify_shaft(d);
     keep_constants(d, c);
 }
 

@@ -223,6 +223,7 @@ Scenario at_speed(const Drive &d, double speed_e_radps, double load_Nm)
     s.drive                 = d;
     s.dc_link_V             = d.inverter.dc_link_V;
     s.sensors               = sensors_of_drive(d);
+    s.motor_effects         = effects_of_drive(d);
     s.sensors.ideal         = false;
     s.initial_speed_e_radps = speed_e_radps;
     s.speed_reference       = {{0.0, speed_e_radps}};

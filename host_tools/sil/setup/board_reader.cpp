@@ -230,9 +230,23 @@ InverterSettings read_board_inverter(TomlReader t, InverterSettings s, const Dri
     return s;
 }
 
-MotorEffects read_motor_effects(TomlReader t)
+MotorEffects effects_of_drive(const Drive &drive)
 {
-    MotorEffects e;
+    const Mechanics &m = drive.mechanics;
+    MotorEffects     e;
+    if (m.coupling == Coupling::known) {
+        const double reduced_kgm2 =
+            m.load_inertia_share * (1.0 - m.load_inertia_share) * drive.motor.inertia_kgm2;
+        const double w_r         = two_pi * m.resonance_Hz;
+        e.load_inertia_share     = m.load_inertia_share;
+        e.shaft_stiffness_Nmprad = w_r * w_r * reduced_kgm2;
+        e.shaft_damping_Nms      = 2.0 * m.least_damping * w_r * reduced_kgm2;
+    }
+    return e;
+}
+
+MotorEffects read_motor_effects(TomlReader t, MotorEffects e)
+{
     if (t.has("id_A") || t.has("iq_A") || t.has("ld_H") || t.has("lq_H")) {
         e.saturation = read_saturation(t);
     }

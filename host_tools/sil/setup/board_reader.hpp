@@ -17,9 +17,13 @@ struct Drive;
 /// Exact signals; everything else from the drive file.
 SensorSettings sensors_of_drive(const Drive &drive);
 
-SensorSettings   read_sensors(TomlReader t, SensorSettings now, const Drive &drive);
+SensorSettings read_sensors(TomlReader t, SensorSettings now, const Drive &drive);
+/// The shaft of a coupling whose resonance the drive file knows; else none.
+MotorEffects effects_of_drive(const Drive &drive);
+/// The keys of the table, on top of `effects`.
+MotorEffects     read_motor_effects(TomlReader t, MotorEffects effects);
 InverterSettings read_board_inverter(TomlReader t, InverterSettings now, const Drive &drive);
-MotorEffects     read_motor_effects(TomlReader t);
+
 /// An elastic shaft whose oscillation the plant's steps follow, with the motor's inertia so scaled.
 void     require_slow_shaft(const TomlReader &t, const MotorEffects &effects, const Drive &drive,
                             const MotorScale &scale);

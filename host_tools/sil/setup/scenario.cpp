@@ -105,8 +105,9 @@ void read_board(TomlReader &t, Scenario &s)
         s.sensors.ideal = false; // a table without `ideal` is the shipped board
         s.sensors       = read_sensors(*sensors, s.sensors, s.drive);
     }
+    s.motor_effects = effects_of_drive(s.drive);
     if (std::optional<TomlReader> effects = t.table_if("motor_effects")) {
-        s.motor_effects = read_motor_effects(*effects);
+        s.motor_effects = read_motor_effects(*effects, s.motor_effects);
     }
 }
 
