@@ -27,9 +27,14 @@ bool starts_with(const std::string &line, const char *prefix)
     return line.rfind(prefix, 0) == 0;
 }
 
-bool is_tuned_header(const std::string &line)
+constexpr const char *position_header = "[position]";
+
+/// Whether the tuned sections take the place of the one that begins here.
+bool is_replaced(const std::string &line, const std::string &sections)
 {
-    return starts_with(line, "[nosc]") || starts_with(line, "[nodo]");
+    return starts_with(line, "[nosc]") || starts_with(line, "[nodo]") ||
+           (starts_with(line, position_header) &&
+            sections.find(position_header) != std::string::npos);
 }
 
 bool is_old_note(const std::string &line)
@@ -37,7 +42,19 @@ bool is_old_note(const std::string &line)
     return starts_with(line, "# The weights below were found by") ||
            starts_with(line, "# The weights below were kept by") ||
            starts_with(line, "# for PWM at") || starts_with(line, "# for a load step of") ||
-           starts_with(line, "#   J, B x");
+           starts_with(line, "#   J, B x") || starts_with(line, "# Behind an elastic shaft");
+}
+
+/// Weights of positions, where the search has changed them.
+std::string position_section(const Drive &d)
+{
+    if (!d.position || d.mechanics.coupling == Coupling::rigid) {
+        return "";
+    }
+    const PositionSpec &p = *d.position;
+    return fmt::format("\n{}\n# angle: halved until the certificate passed; speed, i_q, i_d: as "
+                       "[nosc]\nQ = [{:.3g}, {:.3g}, {:.3g}, {:.3g}]\nT = [{:.3g}, {:.3g}]\n",
+                       position_header, p.Q[0], p.Q[1], p.Q[2], p.Q[3], p.T[0], p.T[1]);
 }
 
 } // namespace
@@ -67,6 +84,13 @@ std::string tuned_sections(const TuneResult &r, const TuneSpec &spec)
                          w.ripple_e_radps, c.voltage_V, spec.voltage_headroom_V, c.voltage_noise_V,
                          c.spectral_radius);
     }
+    const ShaftStep &shaft = r.cases.front().shaft;
+    if (shaft.ratio > 0.0) {
+        s +=
+            fmt::format("# Behind an elastic shaft of {:.0f} Hz it settles in {:.1f} ms, {:.2f} of "
+                        "its goal.\n",
+                        shaft.resonance_Hz, 1e3 * shaft.settling_time_s, shaft.ratio);
+    }
     s += fmt::format("[nosc]\norder = {}\n", d.nosc.order);
     s += fmt::format("Q = [{:.3g}, {:.3g}, {:.3g}] # speed, i_q: searched; i_d: 1 / ({:g} A)^2\n",
                      d.nosc.Q[0], d.nosc.Q[1], d.nosc.Q[2], spec.d_axis_error_A);
@@ -81,7 +105,7 @@ std::string tuned_sections(const TuneResult &r, const TuneSpec &spec)
                      "({:.3g} counts)\n",
                      sensors.current_A, sensors.angle_rad, spec.angle_error_cnt);
     s += fmt::format("T = [{:.3g}, {:.3g}, {:.3g}]\n", d.nodo.T[0], d.nodo.T[1], d.nodo.T[2]);
-    return s;
+    return s + position_section(d);
 }
 
 void require_rewritable(const std::filesystem::path &file, const std::string &text)
@@ -109,7 +133,7 @@ std::string with_sections(const std::string &text, const std::string &sections)
             continue;
         }
         if (line[0] == '[') {
-            skipping = is_tuned_header(line);
+            skipping = is_replaced(line, sections);
             out += skipping ? "" : pending;
             pending.clear();
         }

@@ -15,6 +15,7 @@
 #include "design/trip_levels.hpp"
 #include "design/verdict.hpp"
 #include "linalg/covariance.hpp"
+#include "tune/load_step.hpp"
 
 namespace sdre {
 namespace {
@@ -22,13 +23,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double pi = 3.14159265358979323846;
-// Chosen: a load step is followed for this many time constants of the slowest mode, and so long at least.
-constexpr double horizon_modes = 12.0;
-constexpr double horizon_s     = 0.06;
-constexpr double most_steps    = 20000.0; // a mode slower than that is told from its pole
-constexpr double noise_slope   = 3.0;     // a limit: beyond it nothing else counts
-constexpr double no_solution   = 1e12;    // of the Riccati equations: worse than any unstable loop
+constexpr double pi          = 3.14159265358979323846;
+constexpr double noise_slope = 3.0;  // a limit: beyond it nothing else counts
+constexpr double no_solution = 1e12; // of the Riccati equations: worse than any unstable loop
 
 // Chosen: with twice the inertia's tolerance and all of the flux's. No motor within R, L, flux x0.7 .. 1.3 and J x0.5 .. 2
 // accelerates as fast, and one near it has room for the delay of edges that the sampled model does not have.
@@ -61,27 +58,6 @@ OperatingPoint operating_point(const ReducedParameters &l, double speed, double 
         at.id_A = mtpa_id_A(l, at.iq_A);
     }
     return at;
-}
-
-int horizon_steps(const SampledModel &m)
-{
-    const double slowest = -1.0 / std::log(std::min(spectral_radius(m.A), 0.99999)); // periods
-    return static_cast<int>(
-        std::min(std::max(horizon_s / m.ts_s, horizon_modes * slowest), most_steps));
-}
-
-void load_step(const SampledModel &m, const TuneSpec &spec, CaseResult &result)
-{
-    VectorXd  x     = VectorXd::Zero(m.A.rows());
-    const int steps = horizon_steps(m);
-    for (int k = 1; k <= steps; k++) {
-        x                  = m.A * x + m.b_load * spec.load_step_Nm;
-        result.dip_e_radps = std::max(result.dip_e_radps, std::abs(x(0)));
-        result.voltage_V   = std::max(result.voltage_V, (m.C_voltage * x).norm());
-        if (!(std::abs(x(0)) <= spec.band_e_radps)) {
-            result.settling_time_s = k * m.ts_s;
-        }
-    }
 }
 
 Motor lively(Motor m)
@@ -177,6 +153,8 @@ double worst_radius(const Loop &loop, const Drive &drive, const RobustnessCase &
         worst              = radius < 1.0 ? worst : std::max(1.0, radius);
         const double other = spec.rare_edges ? radius_with_others(loop, drive, at) : 0.0;
         worst              = other < 1.0 ? worst : std::max(other, worst);
+        const double shaft = radius_with_shafts(drive, loop.gains);
+        worst              = shaft < 1.0 ? worst : std::max(shaft, worst);
     }
     return worst;
 }
@@ -189,17 +167,21 @@ CaseResult evaluate_case(const Drive &drive, const TuneSpec &spec, const Robustn
     CaseResult           result;
     result.spectral_radius = worst_radius(loop, drive, c, at, spec);
     if (result.spectral_radius < 1.0) {
-        const SampledModel m = loop.at(at);
-        load_step(m, spec, result);
-        const Sensors  sensors = sensors_of(drive, spec);
-        const double   i2      = sensors.current_A * sensors.current_A;
-        const MatrixXd P       = covariance(
-                  m.A, m.B_noise, Eigen::Vector3d(i2, i2, sensors.angle_rad * sensors.angle_rad));
+        const SampledModel m    = loop.at(at);
+        const LoadStep     step = load_step(m, spec);
+        result.dip_e_radps      = step.dip_e_radps;
+        result.settling_time_s  = step.settling_time_s;
+        result.voltage_V        = step.voltage_V;
+        const Sensors  sensors  = sensors_of(drive, spec);
+        const double   i2       = sensors.current_A * sensors.current_A;
+        const MatrixXd P        = covariance(
+                   m.A, m.B_noise, Eigen::Vector3d(i2, i2, sensors.angle_rad * sensors.angle_rad));
         const MatrixXd V = m.C_voltage * P * m.C_voltage.transpose();
         result.voltage_V += 3.0 * std::sqrt(V.trace());
         result.voltage_noise_V = std::sqrt(V(0, 0));
         result.peak            = spec.rare_edges && is_nominal(c) ? top_peak(loop, drive) : 0.0;
-        result.ripple_e_radps  = 3.0 * std::sqrt(std::max(P(0, 0), 0.0));
+        result.shaft = is_nominal(c) ? shaft_step(drive, spec, loop.gains, at) : ShaftStep{};
+        result.ripple_e_radps = 3.0 * std::sqrt(std::max(P(0, 0), 0.0));
     }
     return result;
 }
@@ -241,6 +223,7 @@ std::vector<GoalRatio> goal_ratios(const CaseResult &r, const RobustnessCase &c,
             {"sensitivity", peak},
             {"dip", r.dip_e_radps / c.dip_e_radps},
             {"settling time", r.settling_time_s / c.settling_time_s},
+            {"settling time behind an elastic shaft", r.shaft.ratio},
             {"ripple", r.ripple_e_radps / c.ripple_e_radps},
             {"slowest mode", (1.0 - spec.largest_pole) / (1.0 - r.spectral_radius)},
             {"voltage", r.voltage_V / spec.voltage_headroom_V}};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drive/drive_file.hpp"
+#include "tune/shaft_cases.hpp"
 #include "tune/tune_spec.hpp"
 
 namespace sdre {
@@ -32,13 +33,14 @@ Drive with_weights(Drive drive, const TuneSpec &spec, const Point &x);
 
 /// Results of one robustness case in the linear model.
 struct CaseResult {
-    double dip_e_radps     = 0.0;
-    double settling_time_s = 0.0; ///< the whole simulated time when it does not settle
-    double ripple_e_radps  = 0.0; ///< three standard deviations
-    double voltage_V       = 0.0; ///< largest in the load step, plus three standard deviations
-    double voltage_noise_V = 0.0; ///< rms of v_q
-    double spectral_radius = 0.0; ///< worst over speeds
-    double peak            = 0.0; ///< sensitivity at the largest speed, of rare edges
+    double    dip_e_radps     = 0.0;
+    double    settling_time_s = 0.0; ///< the whole simulated time when it does not settle
+    double    ripple_e_radps  = 0.0; ///< three standard deviations
+    double    voltage_V       = 0.0; ///< largest in the load step, plus three standard deviations
+    double    voltage_noise_V = 0.0; ///< rms of v_q
+    double    spectral_radius = 0.0; ///< worst over speeds
+    double    peak            = 0.0; ///< sensitivity at the largest speed, of rare edges
+    ShaftStep shaft{};               ///< nominal case
 };
 
 /// One result over its goal; at most 1 when the goal is met.

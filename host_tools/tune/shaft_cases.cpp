@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "tune/shaft_cases.hpp"
+
+#include <algorithm>
+
+#include "design/design.hpp"
+#include "design/shaft_model.hpp"
+#include "tune/load_step.hpp"
+
+namespace sdre {
+namespace {
+
+constexpr double two_pi = 6.283185307179586;
+
+constexpr double coarse_ratio =
+    1.09; // chosen: three times as far apart as those of the certificate
+// Chosen: of the spectral radius, for the certificate's other points and the position; never more than half of the shaft's own
+// decay.
+constexpr double room = 1e-3;
+
+// Chosen: a load step that a drive cannot settle in this time is bad, however long it lasts.
+constexpr double horizon_s  = 0.15;
+constexpr double step_ratio = 1.35; // chosen: of the resonances whose load steps are followed
+// Chosen: the energy of a known shaft can hardly be taken from it in fewer oscillations, and that of an unknown one takes more.
+constexpr double known_oscillations   = 1.6;
+constexpr double unknown_oscillations = 4.0;
+constexpr double nominal_times        = 2.0;
+
+TwoMasses masses_of(const Drive &drive, const LoopGains &gains)
+{
+    Design design;
+    design.drive = drive;
+    design.l     = reduced_parameters(drive.motor);
+    design.nosc.gain.push_back(gains.Lambda);
+    return TwoMasses(design);
+}
+
+/// At the least damping ratio.
+std::vector<Shaft> hardest_shafts(const Mechanics &mechanics, double ratio)
+{
+    Mechanics m    = mechanics;
+    m.most_damping = m.least_damping;
+    return shafts_of(m, ratio);
+}
+
+} // namespace
+
+double radius_with_shafts(const Drive &drive, const LoopGains &gains)
+{
+    const std::vector<Shaft> shafts = hardest_shafts(drive.mechanics, coarse_ratio);
+    if (shafts.empty()) {
+        return 0.0;
+    }
+    const TwoMasses masses = masses_of(drive, gains);
+    const double    ts     = control_period_s(drive);
+    const double    half   = 0.5 * drive.motor.rated_speed_e_radps;
+    double          worst  = 0.0;
+    for (const OperatingPoint &at : {masses.point(0.0, 0.0), masses.point(half, 1.0)}) {
+        for (const Shaft &shaft : shafts) {
+            const double own = two_pi * shaft.resonance_Hz * shaft.damping * ts;
+            worst            = std::max(worst, spectral_radius(masses.loop(shaft, at, gains).A) +
+                                                   std::min(room, 0.5 * own));
+        }
+    }
+    return worst;
+}
+
+ShaftStep shaft_step(const Drive &drive, const TuneSpec &spec, const LoopGains &gains,
+                     const OperatingPoint &at)
+{
+    ShaftStep worst;
+    if (drive.mechanics.coupling == Coupling::rigid) {
+        return worst;
+    }
+    const TwoMasses masses       = masses_of(drive, gains);
+    const int       periods      = static_cast<int>(horizon_s / control_period_s(drive));
+    const bool      known        = drive.mechanics.coupling == Coupling::known;
+    const double    oscillations = known ? known_oscillations : unknown_oscillations;
+    for (const Shaft &shaft : hardest_shafts(drive.mechanics, step_ratio)) {
+        const LoadStep step   = load_step(masses.loop(shaft, at, gains), spec, periods);
+        const double   goal_s = std::max(nominal_times * spec.cases[0].settling_time_s,
+                                         oscillations / shaft.resonance_Hz);
+        const double   ratio  = step.settling_time_s / goal_s;
+        if (ratio > worst.ratio) {
+            worst = {ratio, step.settling_time_s, shaft.resonance_Hz};
+        }
+    }
+    return worst;
+}
+
+} // namespace sdre
