@@ -78,9 +78,9 @@ std::string normalised_dobc(const DobcSpec &spec)
 
 std::string normalised_cascade(const CascadeSpec &spec)
 {
-    const auto &[bandwidth, optimum_a, controller, observer] = spec;
-    return fmt::format("{:.17g};{:.17g};{:.17g};{:.17g};", bandwidth, optimum_a, controller,
-                       observer);
+    const auto &[bandwidth, optimum_a, controller, observer, load_observer] = spec;
+    return fmt::format("{:.17g};{:.17g};{:.17g};{:.17g};{:.17g};", bandwidth, optimum_a, controller,
+                       observer, load_observer);
 }
 
 /// The sections that the law reads.

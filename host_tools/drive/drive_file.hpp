@@ -156,9 +156,10 @@ struct DAxisSpec {
 struct CascadeSpec {
     double current_bandwidth_Hz = 0.0; ///< of the current loops
     double symmetrical_optimum_a =
-        0.0;                       ///< pi_foc: ratio of the speed loop's crossover to its corners
-    double controller_radps = 0.0; ///< ladrc: pole of the speed loop, distance from 0
-    double observer_radps   = 0.0; ///< ladrc: the same of both poles of the observer
+        0.0; ///< pi_foc: ratio of the speed loop's crossover to its corners
+    double controller_radps    = 0.0; ///< ladrc: pole of the speed loop, distance from 0
+    double observer_radps      = 0.0; ///< ladrc: the same of both poles of the observer
+    double load_observer_radps = 0.0; ///< pi_foc: both poles of a load observer; 0: none
 };
 
 /// Model of repeating disturbances in noc_h's observer; weights are those of the observer's Q.

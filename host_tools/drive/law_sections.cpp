@@ -180,6 +180,7 @@ CascadeSpec read_cascade(TomlReader t, Law law)
     spec.current_bandwidth_Hz = t.number("current_bandwidth_Hz", bandwidth_Hz);
     if (law == Law::pi_foc) {
         spec.symmetrical_optimum_a = t.number("symmetrical_optimum_a", optimum_a);
+        spec.load_observer_radps   = t.number_or("load_observer_radps", pole_1ps, 0.0);
     } else {
         spec.controller_radps = t.number("controller_radps", pole_1ps);
         spec.observer_radps   = t.number("observer_radps", pole_1ps);

@@ -99,7 +99,7 @@ TEST(FocDesign, CurrentGainsCancelThePoleAtTheBandwidth)
         const Drive        d = shipped(name);
         const Design       x = design_drive(d);
         const foc_config_t c = foc_constants(d, x.l);
-        const double       w = 2.0 * pi * 400.0;
+        const double       w = 2.0 * pi * d.cascade.current_bandwidth_Hz;
         EXPECT_NEAR(static_cast<double>(c.q.kp_V_per_A), w * 0.11391, 1e-4);
         EXPECT_NEAR(static_cast<double>(c.d.kp_V_per_A), w * 0.07498, 1e-4);
         EXPECT_NEAR(static_cast<double>(c.q.ki_tick), w * 2.48 * 2e-4, 1e-6);
@@ -115,10 +115,10 @@ TEST(FocDesign, SpeedGainsAreTheSymmetricalOptimum)
     for (const bool edges : {false, true}) {
         const Drive  d      = shipped(edges ? "pi_foc_edges" : "pi_foc");
         const Design x      = design_drive(d);
-        const double a      = edges ? 2.4 : 2.0;
+        const double a      = d.cascade.symmetrical_optimum_a;
         const auto  &c      = *constants_of<law_pi_foc_config_t>(x.config);
-        const double lag[2] = {1.0 / (2.0 * pi * 400.0) + 0.5e-3,
-                               1.0 / (2.0 * pi * 400.0) + (edges ? 0.1e-3 : 0.5e-3)};
+        const double loop_s = 1.0 / (2.0 * pi * d.cascade.current_bandwidth_Hz);
+        const double lag[2] = {loop_s + 0.5e-3, loop_s + (edges ? 0.1e-3 : 0.5e-3)};
         for (int mode = 0; mode < 2; mode++) {
             const double kp   = static_cast<double>(c.gains[mode].kp_1ps);
             const double ti   = 2e-4 / static_cast<double>(c.gains[mode].ki_per_kp);
@@ -139,8 +139,18 @@ TEST(FocDesign, SpeedGainsAreTheSymmetricalOptimum)
 /// Difference of two runs of the firmware's law on the nonlinear motor, against the matrix that is certified.
 TEST(FocDesign, CertifiedLoopIsTheFirmwareOnTheMotor)
 {
+    std::vector<Drive> drives;
     for (const std::string &name : names) {
-        const Design x = design_drive(shipped(name));
+        drives.push_back(shipped(name));
+    }
+    for (const char *name : {"pi_foc", "pi_foc_edges"}) {
+        drives.push_back(shipped(name));
+        drives.back().name += " with a load observer";
+        drives.back().cascade.load_observer_radps = 300.0;
+    }
+    for (const Drive &drive : drives) {
+        const std::string &name = drive.name;
+        const Design       x    = design_drive(drive);
         for (const bool timed : {false, true}) {
             if (timed && !x.drive.encoder.edge_times) {
                 continue;
@@ -176,8 +186,8 @@ TEST(FocDesign, LadrcHasADoubleObserverPole)
     const Design x    = design_drive(shipped("ladrc_edges"));
     const auto  &g    = constants_of<law_ladrc_config_t>(x.config)->gains[SPEED_DIFFERENCE_TIMED];
     const double beta = std::exp(-x.drive.cascade.observer_radps * 2e-4);
-    const double gw   = static_cast<double>(g.gain_w);
-    const double gf   = static_cast<double>(g.gain_f_1ps);
+    const double gw   = static_cast<double>(g.observer.gain_w);
+    const double gf   = static_cast<double>(g.observer.gain_f_1ps);
     // Error of the prediction: z^2 - (2 - gw - gf Ts) z + (1 - gw) = (z - beta)^2.
     EXPECT_NEAR(2.0 - gw - gf * 2e-4, 2.0 * beta, 1e-6);
     EXPECT_NEAR(1.0 - gw, beta * beta, 1e-6);

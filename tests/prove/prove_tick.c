@@ -93,7 +93,9 @@ static void any_drive(void)
     state.gate.standing = any_between(0, ANGLE_GATE_HOLD);
     state.gate.lost     = any_between(0, 1);
 #elif defined PROVE_pi_foc || defined PROVE_ladrc
-    state.speed.oldest   = any_between(0, constants.speed.periods - 1);
+    state.speed.oldest        = any_between(0, constants.speed.periods - 1);
+    state.speed.edges.edge[0] = any_between(0, ENCODER_FORM_EDGES);
+    state.speed.edges.edge[1] = any_between(0, ENCODER_FORM_EDGES);
 #endif
 #if defined PROVE_pid
     state.pid.running   = any_between(0, 1);
@@ -132,6 +134,8 @@ static void state_is_kept(void)
     //@ check lost: 0 <= drive.law.PROVE_LAW.gate.lost <= 1;
 #elif defined PROVE_pi_foc || defined PROVE_ladrc
     //@ check oldest: 0 <= drive.law.PROVE_LAW.speed.oldest < SPEED_DIFFERENCE_PERIODS_MAX;
+    //@ check edge: 0 <= drive.law.PROVE_LAW.speed.edges.edge[0] <= ENCODER_FORM_EDGES;
+    //@ check edge_before: 0 <= drive.law.PROVE_LAW.speed.edges.edge[1] <= ENCODER_FORM_EDGES;
 #endif
 }
 

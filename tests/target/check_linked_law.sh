@@ -67,6 +67,6 @@ expect noc_h angle_gate current_clamp current_ref encoder_form fields_encoder_fo
 expect conventional conventional current_clamp current_ref double_series fields_near_optimal law_conventional law_conventional_fields law_noc_speed law_noc_speed_fields near_optimal nodo nosc nosc_series position_loop position_ref speed_ref
 expect dobc dobc fields_pid_law law_dobc law_dobc_fields pid_law
 expect pid feedforward fields_pid_law law_pid law_pid_fields pid_law
-expect pi_foc fields_foc foc law_pi_foc law_pi_foc_fields speed_difference
-expect ladrc fields_foc foc law_ladrc law_ladrc_fields speed_difference
+expect pi_foc angle_gate encoder_form fields_foc foc law_pi_foc law_pi_foc_fields speed_difference speed_observer
+expect ladrc angle_gate encoder_form fields_foc foc law_ladrc law_ladrc_fields speed_difference speed_observer
 exit "$status"

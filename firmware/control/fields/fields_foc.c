@@ -25,4 +25,11 @@ void fields_speed_difference(fields_t *f, speed_difference_config_t *c)
     fields_i16(f, FIELD(f, c, periods));
     fields_float(f, FIELD(f, c, inv_span_1ps));
     fields_float(f, FIELD(f, c, edge_gap_max_s));
+    fields_float(f, FIELD(f, c, count_rad));
+}
+
+void fields_speed_observer(fields_t *f, speed_observer_gains_t *c)
+{
+    fields_float(f, FIELD(f, c, gain_w));
+    fields_float(f, FIELD(f, c, gain_f_1ps));
 }

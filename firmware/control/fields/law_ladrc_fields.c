@@ -4,8 +4,7 @@
 
 static void gains(fields_t *f, law_ladrc_gains_t *c)
 {
-    fields_float(f, FIELD(f, c, gain_w));
-    fields_float(f, FIELD(f, c, gain_f_1ps));
+    FIELDS_PART(fields_speed_observer, f, c, observer);
     fields_float(f, FIELD(f, c, w_c_1ps));
 }
 

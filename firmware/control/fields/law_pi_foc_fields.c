@@ -6,6 +6,7 @@ static void gains(fields_t *f, law_pi_foc_gains_t *c)
 {
     fields_float(f, FIELD(f, c, kp_1ps));
     fields_float(f, FIELD(f, c, ki_per_kp));
+    FIELDS_PART(fields_speed_observer, f, c, load);
 }
 
 void law_pi_foc_fields(fields_t *f, void *constants)

@@ -4,8 +4,8 @@
 
 static bool gains_check(const law_ladrc_gains_t *g)
 {
-    return base_in_range(g->gain_w, 1.0e-9f, 1.0f) && check_positive(g->gain_f_1ps) &&
-           check_positive(g->w_c_1ps);
+    return speed_observer_check(&g->observer) && check_positive(g->observer.gain_w) &&
+           check_positive(g->observer.gain_f_1ps) && check_positive(g->w_c_1ps);
 }
 
 static bool check(const drive_config_t *drive)
@@ -17,11 +17,6 @@ static bool check(const drive_config_t *drive)
            gains_check(&c->gains[SPEED_DIFFERENCE_TIMED]);
 }
 
-static float accel_e_radps2(const motor_reduced_t *m, const nodo_meas_t *y)
-{
-    return (m->l1 + (m->l11 * y->id_A)) * y->iq_A; /* EQ-MOTOR-2 */
-}
-
 static void reset(law_state_t *state, const drive_config_t *drive, const drive_sample_t *sample)
 {
     const law_ladrc_config_t *c = drive->constants;
@@ -30,23 +25,7 @@ static void reset(law_state_t *state, const drive_config_t *drive, const drive_s
 
     foc_reset(&s->foc);
     speed_difference_reset(&s->speed, &c->speed, sample, drive->ts_s);
-    s->z_e_radps      = sample->omega_e_radps;
-    s->z_f_e_radps2   = 0.0f;
-    s->accel_e_radps2 = accel_e_radps2(&drive->motor, &y);
-}
-
-static void observe(law_ladrc_state_t *s, const law_ladrc_gains_t *g, const nodo_meas_t *y,
-                    const drive_config_t *drive)
-{
-    const float a = accel_e_radps2(&drive->motor, y);
-    const float z_w =
-        s->z_e_radps +
-        (drive->ts_s * (s->z_f_e_radps2 + (0.5f * (s->accel_e_radps2 + a)))); /* EQ-LADRC-1 */
-    const float e = y->omega_e_radps - z_w;
-
-    s->z_e_radps = z_w + (g->gain_w * e); /* EQ-LADRC-2 */
-    s->z_f_e_radps2 += g->gain_f_1ps * e;
-    s->accel_e_radps2 = a;
+    speed_observer_reset(&s->observer, &drive->motor, &y);
 }
 
 static void step(law_state_t *state, const drive_config_t *drive, const law_input_t *in,
@@ -56,15 +35,15 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     law_ladrc_state_t        *s = &state->ladrc;
     nodo_meas_t               y = sample_measurement(in->sample);
 
-    const law_ladrc_gains_t *g =
-        &c->gains[speed_difference_update(&s->speed, &c->speed, in->sample, &y.omega_e_radps)];
-    observe(s, g, &y, drive);
+    const law_ladrc_gains_t *g = &c->gains[speed_difference_update(&s->speed, &c->speed, in->sample,
+                                                                   drive->ts_s, &y.omega_e_radps)];
+    speed_observer_update(&s->observer, &g->observer, &drive->motor, &y, drive->ts_s);
 
-    const float wanted_e_radps2 =
-        (g->w_c_1ps * (in->command_e_radps - s->z_e_radps)) - s->z_f_e_radps2; /* EQ-LADRC-3 */
+    const float wanted_e_radps2 = (g->w_c_1ps * (in->command_e_radps - s->observer.z_e_radps)) -
+                                  s->observer.z_f_e_radps2; /* EQ-LADRC-3 */
     foc_realise(&s->foc, &c->foc, in);
     foc_answer(&s->foc, &c->foc, drive, in, &y, wanted_e_radps2, out);
-    out->d_omega = s->z_f_e_radps2;
+    out->d_omega = s->observer.z_f_e_radps2;
 }
 
 static bool counts_ok(const drive_config_t *drive)

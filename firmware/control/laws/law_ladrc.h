@@ -3,27 +3,22 @@
  * @file law_ladrc.h
  * @brief Linear active disturbance rejection of the speed, on the current loops of foc.h.
  *
- * The law models the speed as w' = a + f. Here a is the acceleration by the motor's torque, (l1 +
- * l11 id) iq, and f is everything else. The linear extended state observer has both poles at -w_o,
- * in discrete time beta = exp(-w_o Ts). It corrects with the present sample:
+ * The observer of speed_observer.h estimates the speed z_w and the lumped acceleration z_f of
+ * everything but the motor's torque (EQ-LADRC-1, 2):
  *
- *     z_w = z_w + Ts (z_f + (a(k-1) + a(k)) / 2),  e = w - z_w              EQ-LADRC-1
- *     z_w = z_w + (1 - beta^2) e,  z_f = z_f + (1 - beta)^2 e / Ts          EQ-LADRC-2
  *     a_ref = w_c (command - z_w) - z_f                                     EQ-LADRC-3
- *
- * The observer gets the torque of the measured currents: limits do not disturb it.
  */
 #ifndef LAW_LADRC_H
 #define LAW_LADRC_H
 
 #include "foc.h"
 #include "speed_difference.h"
+#include "speed_observer.h"
 
 /** Gains of observer and speed loop. */
 typedef struct {
-    float gain_w;     /**< 1 - beta^2, (0, 1] */
-    float gain_f_1ps; /**< (1 - beta)^2 / Ts, > 0 */
-    float w_c_1ps;    /**< > 0 */
+    speed_observer_gains_t observer; /**< both > 0 */
+    float                  w_c_1ps;  /**< > 0 */
 } law_ladrc_gains_t;
 
 typedef struct {
@@ -35,9 +30,7 @@ typedef struct {
 typedef struct {
     foc_t              foc;
     speed_difference_t speed;
-    float              z_e_radps; /**< z_w */
-    float              z_f_e_radps2;
-    float              accel_e_radps2; /**< a of the previous sample */
+    speed_observer_t   observer;
 } law_ladrc_state_t;
 
 void law_ladrc_fields(fields_t *f, void *constants); /**< for law_ladrc.fields */

@@ -4,7 +4,8 @@
 
 static bool gains_check(const law_pi_foc_gains_t *g)
 {
-    return check_positive(g->kp_1ps) && base_in_range(g->ki_per_kp, 1.0e-9f, 1.0f);
+    return check_positive(g->kp_1ps) && base_in_range(g->ki_per_kp, 1.0e-9f, 1.0f) &&
+           speed_observer_check(&g->load);
 }
 
 static bool check(const drive_config_t *drive)
@@ -20,9 +21,11 @@ static void reset(law_state_t *state, const drive_config_t *drive, const drive_s
 {
     const law_pi_foc_config_t *c = drive->constants;
     law_pi_foc_state_t        *s = &state->pi_foc;
+    const nodo_meas_t          y = sample_measurement(sample);
 
     foc_reset(&s->foc);
     speed_difference_reset(&s->speed, &c->speed, sample, drive->ts_s);
+    speed_observer_reset(&s->load, &drive->motor, &y);
     s->r_e_radps    = sample->omega_e_radps;
     s->sum_e_radps2 = 0.0f;
 }
@@ -34,13 +37,16 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     law_pi_foc_state_t        *s = &state->pi_foc;
     nodo_meas_t                y = sample_measurement(in->sample);
 
-    const law_pi_foc_gains_t *g =
-        &c->gains[speed_difference_update(&s->speed, &c->speed, in->sample, &y.omega_e_radps)];
+    const law_pi_foc_gains_t *g = &c->gains[speed_difference_update(
+        &s->speed, &c->speed, in->sample, drive->ts_s, &y.omega_e_radps)];
+    speed_observer_update(&s->load, &g->load, &drive->motor, &y, drive->ts_s);
+
     const float p_e_radps2 = g->kp_1ps * (s->r_e_radps - y.omega_e_radps);
 
     foc_realise(&s->foc, &c->foc, in);
-    foc_answer(&s->foc, &c->foc, drive, in, &y, p_e_radps2 + s->sum_e_radps2,
-               out);                         /* EQ-PI-FOC-2 */
+    foc_answer(&s->foc, &c->foc, drive, in, &y,
+               (p_e_radps2 + s->sum_e_radps2) - s->load.z_f_e_radps2, out); /* EQ-PI-FOC-2, 5 */
+    out->d_omega = s->load.z_f_e_radps2;
     if (p_e_radps2 * s->foc.limit <= 0.0f) { /* EQ-PI-FOC-3 */
         s->sum_e_radps2 += g->ki_per_kp * p_e_radps2;
     }

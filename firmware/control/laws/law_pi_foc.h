@@ -6,22 +6,28 @@
  *     r(k+1) = r + (command - r) Ts / T_i                                        EQ-PI-FOC-1
  *     a = k_p e + s,  e = r - w                                                  EQ-PI-FOC-2
  *     s(k+1) = s + k_i e, or s if the current limit acts towards e               EQ-PI-FOC-3
+ *     a = k_p e + s - z_f                                                        EQ-PI-FOC-5
  *
  * EQ-PI-FOC-1 acts against the overshoot. Here a is the acceleration requested of the motor's
  * torque. The sum s holds the load torque even after a long time at the limit. With
  * back-calculation it would not, and the speed would overshoot. k_p and T_i follow the symmetrical
  * optimum (docs/equations.md).
+ *
+ * With a load observer (speed_observer.h) its estimate z_f is fed forward, EQ-PI-FOC-5 in place of
+ * 2. Gains of zero switch it off: z_f then stays zero.
  */
 #ifndef LAW_PI_FOC_H
 #define LAW_PI_FOC_H
 
 #include "foc.h"
 #include "speed_difference.h"
+#include "speed_observer.h"
 
 /** Gains of the speed PI. */
 typedef struct {
     float kp_1ps;    /**< > 0 */
     float ki_per_kp; /**< k_i Ts / k_p = Ts / T_i, of the reference's filter too, (0, 1] */
+    speed_observer_gains_t load; /**< zero: no load observer */
 } law_pi_foc_gains_t;
 
 typedef struct {
@@ -33,6 +39,7 @@ typedef struct {
 typedef struct {
     foc_t              foc;
     speed_difference_t speed;
+    speed_observer_t   load;
     float              r_e_radps;
     float              sum_e_radps2;
 } law_pi_foc_state_t;

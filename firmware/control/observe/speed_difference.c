@@ -7,7 +7,7 @@ bool speed_difference_check(const speed_difference_config_t *c, float ts_s)
 {
     return (c->periods >= 1) && (c->periods <= SPEED_DIFFERENCE_PERIODS_MAX) &&
            base_in_range(c->inv_span_1ps * ts_s * (float)c->periods, 0.999f, 1.001f) &&
-           check_positive(c->edge_gap_max_s);
+           check_positive(c->edge_gap_max_s) && check_positive(c->count_rad);
 }
 
 void speed_difference_reset(speed_difference_t *s, const speed_difference_config_t *c,
@@ -21,6 +21,8 @@ void speed_difference_reset(speed_difference_t *s, const speed_difference_config
         s->theta_rad[i - 1] = theta;
     }
     s->oldest = 0;
+    encoder_form_edges_reset(&s->edges);
+    s->pattern_e_radps = 0.0f;
 }
 
 /* EQ-SPEED-DIFFERENCE-1 */
@@ -38,13 +40,40 @@ static float difference(speed_difference_t *s, const speed_difference_config_t *
     return moved_rad * c->inv_span_1ps;
 }
 
+/* The share of the speed that comes from the places of the last two edges. It is no motion. */
+static float pattern_e_radps(const encoder_form_edges_t *edges, int16_t edge)
+{
+    const int16_t before = edges->edge[1];
+
+    if ((edge < 1) || (edge > ENCODER_FORM_EDGES) || (before < 1) ||
+        (before > ENCODER_FORM_EDGES)) {
+        return 0.0f; /* the kind of one is unknown */
+    }
+    return (edges->offset_rad[edge - 1] - edges->offset_rad[before - 1]) * edges->per_gap_1ps;
+}
+
+/* EQ-SPEED-DIFFERENCE-2. A sample without an edge has the last two edges' speed and error. */
+static float between_edges(speed_difference_t *s, const speed_difference_config_t *c,
+                           const drive_sample_t *sample, float ts_s)
+{
+    if (sample->edge_gap_s > 0.0f) {
+        (void)encoder_form_learn(&s->edges, sample, c->count_rad, ts_s);
+        if (sample->edge_age_s > 0.0f) {
+            s->pattern_e_radps = pattern_e_radps(&s->edges, sample->edge_of_line);
+        }
+    }
+    return sample->omega_e_radps - s->pattern_e_radps;
+}
+
 speed_difference_mode_t speed_difference_update(speed_difference_t              *s,
                                                 const speed_difference_config_t *c,
-                                                const drive_sample_t *sample, float *omega_e_radps)
+                                                const drive_sample_t *sample, float ts_s,
+                                                float *omega_e_radps)
 {
     const float counted = difference(s, c, sample->theta_e_rad);
+    const float between = between_edges(s, c, sample, ts_s);
     const bool  timed   = (sample->edge_gap_s > 0.0f) && (sample->edge_gap_s <= c->edge_gap_max_s);
 
-    *omega_e_radps = timed ? sample->omega_e_radps : counted;
+    *omega_e_radps = timed ? between : counted;
     return timed ? SPEED_DIFFERENCE_TIMED : SPEED_DIFFERENCE_COUNTED;
 }

@@ -4,15 +4,21 @@
  * @brief Speed from angle differences, for laws without a speed observer.
  *
  *     w = wrap(theta(k) - theta(k-n)) / (n Ts)                              EQ-SPEED-DIFFERENCE-1
+ *     w = w_edges - (o_c - o_c1) / gap                                      EQ-SPEED-DIFFERENCE-2
  *
- * It is the mean over the last n periods and lags by half of them. A sample with edge times
- * contains the speed between its edges (drive_sample_t.omega_e_radps). With about one edge per
- * period, that speed lags by half a period. A law has gains for both.
+ * The first is the mean over the last n periods and lags by half of them. A sample with edge times
+ * contains the speed w_edges between its last two edges (drive_sample_t.omega_e_radps). With about
+ * one edge per period, that speed lags by half a period. A law has gains for both.
+ *
+ * The two edges are mostly of different kinds: their places in the line are c1 and c. o_c is how
+ * far kind c is from its nominal place (EQ-ENCODER-FORM-3). Without it the speed is that between
+ * edges of one kind, as if whole lines were timed: errors of quadrature and duty have no effect.
  */
 #ifndef SPEED_DIFFERENCE_H
 #define SPEED_DIFFERENCE_H
 
 #include "base.h"
+#include "encoder_form.h"
 #include "sample.h"
 
 #define SPEED_DIFFERENCE_PERIODS_MAX 20 /**< 1 ms at 20 kHz */
@@ -21,11 +27,14 @@ typedef struct {
     int16_t periods; /**< n, 1 .. SPEED_DIFFERENCE_PERIODS_MAX; below half a turn at every speed */
     float   inv_span_1ps;   /**< 1 / (n Ts) */
     float   edge_gap_max_s; /**< above this edge interval the difference is used, > 0 */
+    float   count_rad;      /**< nominal electrical angle from edge to edge, > 0 */
 } speed_difference_config_t;
 
 typedef struct {
-    float   theta_rad[SPEED_DIFFERENCE_PERIODS_MAX]; /**< the last n, within +-pi */
-    int16_t oldest;
+    float                theta_rad[SPEED_DIFFERENCE_PERIODS_MAX]; /**< the last n, within +-pi */
+    int16_t              oldest;
+    encoder_form_edges_t edges;           /**< where the edges of a line are */
+    float                pattern_e_radps; /**< what they change in the speed between the last two */
 } speed_difference_t;
 
 /** true when every constant is within its range for this control period. Context: init. */
@@ -46,9 +55,10 @@ typedef enum {
     SPEED_DIFFERENCE_MODES
 } speed_difference_mode_t;
 
-/** Measures the speed of this sample; once per period. Context: control ISR. No division. */
+/** Measures the speed of this sample; once per period. Context: control ISR. One division. */
 speed_difference_mode_t speed_difference_update(speed_difference_t              *s,
                                                 const speed_difference_config_t *c,
-                                                const drive_sample_t *sample, float *omega_e_radps);
+                                                const drive_sample_t *sample, float ts_s,
+                                                float *omega_e_radps);
 
 #endif /* SPEED_DIFFERENCE_H */

@@ -67,7 +67,14 @@ speed_difference_config_t speed_difference_constants(const Drive &d, double wind
     c.periods        = static_cast<int16_t>(std::max(n, 1.0));
     c.inv_span_1ps   = single(1.0 / (c.periods * ts));
     c.edge_gap_max_s = single(edge_gap_periods * ts);
+    c.count_rad      = single(2.0 * pi * d.motor.pole_pairs / (4.0 * d.encoder.lines));
     return c;
+}
+
+speed_observer_gains_t speed_observer_gains(double pole_1ps, double ts_s)
+{
+    const double beta = std::exp(-pole_1ps * ts_s);
+    return {single(1.0 - beta * beta), single((1.0 - beta) * (1.0 - beta) / ts_s)};
 }
 
 int speed_periods(const Drive &d, const speed_difference_config_t &c, speed_difference_mode_t mode)

@@ -23,6 +23,9 @@ speed_difference_config_t speed_difference_constants(const Drive &drive, double 
 double small_time_s(const Drive &drive, const speed_difference_config_t &c,
                     speed_difference_mode_t mode);
 
+/// EQ-LADRC-2: both poles at -pole_1ps; at 0 no observer.
+speed_observer_gains_t speed_observer_gains(double pole_1ps, double ts_s);
+
 /// Periods that the speed is the mean of.
 int speed_periods(const Drive &drive, const speed_difference_config_t &c,
                   speed_difference_mode_t mode);

@@ -30,10 +30,15 @@ struct Parts {
     Index                            own;
 };
 
+bool has_load_observer(const law_pi_foc_config_t &c)
+{
+    return c.gains[SPEED_DIFFERENCE_TIMED].load.gain_w > 0.0F;
+}
+
 Parts parts_of(const drive_config_t &config)
 {
     if (const auto *c = constants_of<law_pi_foc_config_t>(config)) {
-        return {&c->foc, &c->speed, 1};
+        return {&c->foc, &c->speed, has_load_observer(*c) ? 4 : 1};
     }
     const auto *c = constants_of<law_ladrc_config_t>(config);
     return {&c->foc, &c->speed, 3};
@@ -46,30 +51,49 @@ struct SpeedLaw {
     MatrixXd    next;
 };
 
-/// State: the sum, in the last column.
-SpeedLaw pi_law(const law_pi_foc_gains_t &c, const RowVectorXd &speed)
+/// Next z_w, z_f and acceleration of the period before. Their columns begin at `first`.
+MatrixXd observer_rows(const speed_observer_gains_t &c, const RowVectorXd &speed,
+                       const RowVectorXd &torque, double ts_s, Index first)
 {
-    const RowVectorXd sum   = RowVectorXd::Unit(speed.size(), speed.size() - 1);
-    const RowVectorXd accel = sum - wide(c.kp_1ps) * speed;  // EQ-PI-FOC-2
-    return {accel, sum + wide(c.ki_per_kp) * (accel - sum)}; // EQ-PI-FOC-3
+    const Index       n   = speed.size();
+    const RowVectorXd z_f = RowVectorXd::Unit(n, first + 1);
+    const RowVectorXd z_w = RowVectorXd::Unit(n, first) + ts_s * z_f +
+                            0.5 * ts_s * (RowVectorXd::Unit(n, first + 2) + torque); // EQ-LADRC-1
+    const RowVectorXd e = speed - z_w;
+
+    MatrixXd next(3, n);
+    next.row(0) = z_w + wide(c.gain_w) * e; // EQ-LADRC-2
+    next.row(1) = z_f + wide(c.gain_f_1ps) * e;
+    next.row(2) = torque;
+    return next;
 }
 
-/// States: z_w, z_f and the acceleration of the period before, in the last columns.
+/// State: those of a load observer, if there is one, then the sum, in the last columns.
+SpeedLaw pi_law(const law_pi_foc_gains_t &c, const RowVectorXd &speed, const RowVectorXd &torque,
+                double ts_s, bool observes)
+{
+    const Index       n    = speed.size();
+    const RowVectorXd sum  = RowVectorXd::Unit(n, n - 1);
+    const RowVectorXd wish = sum - wide(c.kp_1ps) * speed;                     // EQ-PI-FOC-2
+    const RowVectorXd next = sum - wide(c.ki_per_kp) * wide(c.kp_1ps) * speed; // EQ-PI-FOC-3
+    if (!observes) {
+        return {wish, next};
+    }
+    SpeedLaw law;
+    law.next.resize(4, n);
+    law.next.topRows(3) = observer_rows(c.load, speed, torque, ts_s, n - 4);
+    law.next.row(3)     = next;
+    law.accel           = wish - law.next.row(1); // EQ-PI-FOC-5
+    return law;
+}
+
+/// States: those of the observer, in the last columns.
 SpeedLaw ladrc_law(const law_ladrc_gains_t &c, const RowVectorXd &speed, const RowVectorXd &torque,
                    double ts_s)
 {
-    const Index       n   = speed.size();
-    const RowVectorXd z_f = RowVectorXd::Unit(n, n - 2);
-    const RowVectorXd z_w = RowVectorXd::Unit(n, n - 3) + ts_s * z_f +
-                            0.5 * ts_s * (RowVectorXd::Unit(n, n - 1) + torque); // EQ-LADRC-1
-    const RowVectorXd e = speed - z_w;
-
     SpeedLaw law;
-    law.next.resize(3, n);
-    law.next.row(0) = z_w + wide(c.gain_w) * e; // EQ-LADRC-2
-    law.next.row(1) = z_f + wide(c.gain_f_1ps) * e;
-    law.next.row(2) = torque;
-    law.accel       = -wide(c.w_c_1ps) * law.next.row(0) - law.next.row(1); // EQ-LADRC-3
+    law.next  = observer_rows(c.observer, speed, torque, ts_s, speed.size() - 3);
+    law.accel = -wide(c.w_c_1ps) * law.next.row(0) - law.next.row(1); // EQ-LADRC-3
     return law;
 }
 
@@ -100,8 +124,9 @@ Signals signals(const Design &d, const OperatingPoint &at, speed_difference_mode
 
     const auto    *pi    = constants_of<law_pi_foc_config_t>(d.config);
     const auto    *ladrc = constants_of<law_ladrc_config_t>(d.config);
-    const SpeedLaw law   = pi != nullptr ? pi_law(pi->gains[mode], speed)
-                                         : ladrc_law(ladrc->gains[mode], speed, torque, ts);
+    const SpeedLaw law   = pi != nullptr
+                               ? pi_law(pi->gains[mode], speed, torque, ts, has_load_observer(*pi))
+                               : ladrc_law(ladrc->gains[mode], speed, torque, ts);
 
     Signals s;
     s.bend   = -at.iq_A / std::hypot(wide(foc.mtpa_A), at.iq_A);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "design/foc/foc_design.hpp"
@@ -27,10 +25,8 @@ void solve(Design &d)
     const double fastest_s = small_time_s(d.drive, c.speed, SPEED_DIFFERENCE_TIMED);
     for (const auto mode : {SPEED_DIFFERENCE_COUNTED, SPEED_DIFFERENCE_TIMED}) {
         const double scale = fastest_s / small_time_s(d.drive, c.speed, mode);
-        const double beta  = std::exp(-scale * spec.observer_radps * ts);
-        c.gains[mode]      = {static_cast<float>(1.0 - beta * beta),
-                              static_cast<float>((1.0 - beta) * (1.0 - beta) / ts),
-                              static_cast<float>(scale * spec.controller_radps)}; // EQ-LADRC-2
+        c.gains[mode]      = {speed_observer_gains(scale * spec.observer_radps, ts),
+                              static_cast<float>(scale * spec.controller_radps)};
     }
     keep_constants(d, c);
     certify_cascade(d);

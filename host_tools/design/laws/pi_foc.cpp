@@ -25,14 +25,18 @@ bool is_for(const Drive &drive)
 ///     k_p = 1 / (a T_s),     T_i = a^2 T_s                                  EQ-PI-FOC-4
 void solve(Design &d)
 {
-    const double        a = d.drive.cascade.symmetrical_optimum_a;
+    const double        a    = d.drive.cascade.symmetrical_optimum_a;
+    const double        load = d.drive.cascade.load_observer_radps;
+    const double        ts   = control_period_s(d.drive);
     law_pi_foc_config_t c{};
-    c.foc   = foc_constants(d.drive, d.l);
-    c.speed = speed_difference_constants(d.drive, window_s);
+    c.foc                  = foc_constants(d.drive, d.l);
+    c.speed                = speed_difference_constants(d.drive, window_s);
+    const double fastest_s = small_time_s(d.drive, c.speed, SPEED_DIFFERENCE_TIMED);
     for (const auto mode : {SPEED_DIFFERENCE_COUNTED, SPEED_DIFFERENCE_TIMED}) {
         const double lag_s = small_time_s(d.drive, c.speed, mode);
         c.gains[mode]      = {static_cast<float>(1.0 / (a * lag_s)),
-                              static_cast<float>(control_period_s(d.drive) / (a * a * lag_s))};
+                              static_cast<float>(ts / (a * a * lag_s)),
+                              speed_observer_gains(load * fastest_s / lag_s, ts)};
     }
     keep_constants(d, c);
     certify_cascade(d);
@@ -40,7 +44,7 @@ void solve(Design &d)
 
 std::string summary(const Design &d)
 {
-    return cascade_summary(d, "EQ-FOC-1 to 8, EQ-PI-FOC-1 to 4");
+    return cascade_summary(d, "EQ-FOC-1 to 8, EQ-PI-FOC-1 to 5");
 }
 
 std::vector<std::string> mismatches(const Design &)
@@ -55,7 +59,9 @@ Layout layout(const Design &d)
 
 std::string report_rows(const Drive &drive)
 {
-    return fmt::format("symmetrical optimum with a = {:g}\n", drive.cascade.symmetrical_optimum_a);
+    const double load = drive.cascade.load_observer_radps;
+    return fmt::format("symmetrical optimum with a = {:g}{}\n", drive.cascade.symmetrical_optimum_a,
+                       load > 0.0 ? fmt::format(", load observer {:g} rad/s", load) : "");
 }
 
 void turn(Drive &drive, double factor)

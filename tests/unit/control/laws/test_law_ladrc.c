@@ -19,32 +19,34 @@ static law_input_t              in;
 static law_ladrc_gains_t gains(double w_o, double w_c)
 {
     const double            beta = exp(-w_o * 2.0e-4);
-    const law_ladrc_gains_t g    = {(float)(1.0 - (beta * beta)),
-                                    (float)((1.0 - beta) * (1.0 - beta) / 2.0e-4), (float)w_c};
+    const law_ladrc_gains_t g    = {
+           {(float)(1.0 - (beta * beta)), (float)((1.0 - beta) * (1.0 - beta) / 2.0e-4)}, (float)w_c};
     return g;
 }
 
 void setUp(void)
 {
-    const law_ladrc_config_t c = {
-        .foc   = {.d                 = {190.0f, 1.2f, 0.0063f},
-                  .q                 = {280.0f, 1.2f, 0.0043f},
-                  .current_max_A     = 4.0f,
-                  .iq_max_A          = 3.3f,
-                  .mtpa_A            = 2.5f,
-                  .id_min_A          = -2.5f,
-                  .voltage_share     = 0.95f,
-                  .weakening_A_per_V = 1.0e-3f},
-        .speed = {.periods = 3, .inv_span_1ps = 1.0f / 6.0e-4f, .edge_gap_max_s = 4.0e-4f}};
-    const drive_sample_t at      = {.ia_A          = 0.0f,
-                                    .ib_A          = 0.0f,
-                                    .dc_link_V     = 295.0f,
-                                    .theta_e_rad   = 0.0f,
-                                    .edge_gap_s    = 2.0e-4f,
-                                    .omega_e_radps = 200.0f,
-                                    .valid         = true};
-    const law_input_t    no_past = {
-           .sample = &sample, .command_e_radps = 200.0f, .v_V = {.d = 0.0f, .q = 0.0f}};
+    const law_ladrc_config_t c       = {.foc   = {.d                 = {190.0f, 1.2f, 0.0063f},
+                                                  .q                 = {280.0f, 1.2f, 0.0043f},
+                                                  .current_max_A     = 4.0f,
+                                                  .iq_max_A          = 3.3f,
+                                                  .mtpa_A            = 2.5f,
+                                                  .id_min_A          = -2.5f,
+                                                  .voltage_share     = 0.95f,
+                                                  .weakening_A_per_V = 1.0e-3f},
+                                        .speed = {.periods        = 3,
+                                                  .inv_span_1ps   = 1.0f / 6.0e-4f,
+                                                  .edge_gap_max_s = 4.0e-4f,
+                                                  .count_rad      = 1.2566371e-3f}};
+    const drive_sample_t     at      = {.ia_A          = 0.0f,
+                                        .ib_A          = 0.0f,
+                                        .dc_link_V     = 295.0f,
+                                        .theta_e_rad   = 0.0f,
+                                        .edge_gap_s    = 2.0e-4f,
+                                        .omega_e_radps = 200.0f,
+                                        .valid         = true};
+    const law_input_t        no_past = {
+               .sample = &sample, .command_e_radps = 200.0f, .v_V = {.d = 0.0f, .q = 0.0f}};
 
     config          = c;
     config.gains[0] = gains(800.0, 400.0);
@@ -74,9 +76,9 @@ static void test_disturbance_is_found_with_a_double_pole(void)
         (void)law_answer(&drive, &state, &in);
         sum += f * 2.0e-4 * (double)k * pow(beta, (double)(k - 1));
         const double found = (1.0 - beta) * (1.0 - beta) / 2.0e-4 * sum;
-        TEST_ASSERT_DOUBLE_WITHIN(3.0, found, (double)s->z_f_e_radps2);
+        TEST_ASSERT_DOUBLE_WITHIN(3.0, found, (double)s->observer.z_f_e_radps2);
     }
-    TEST_ASSERT_DOUBLE_WITHIN(10.0, f, (double)s->z_f_e_radps2);
+    TEST_ASSERT_DOUBLE_WITHIN(10.0, f, (double)s->observer.z_f_e_radps2);
 }
 
 /* The measured currents' torque is no disturbance: trapezoid of (l1 + l11 id) iq. */
@@ -97,16 +99,16 @@ static void test_torque_is_no_disturbance(void)
         a                    = torque;
         sample.omega_e_radps = (float)w;
         (void)law_answer(&drive, &state, &in);
-        TEST_ASSERT_DOUBLE_WITHIN(TOL_radps, w, (double)s->z_e_radps);
-        TEST_ASSERT_DOUBLE_WITHIN(0.5, 0.0, (double)s->z_f_e_radps2);
+        TEST_ASSERT_DOUBLE_WITHIN(TOL_radps, w, (double)s->observer.z_e_radps);
+        TEST_ASSERT_DOUBLE_WITHIN(0.5, 0.0, (double)s->observer.z_f_e_radps2);
     }
 }
 
 static void test_wish_cancels_the_disturbance(void)
 {
-    s->z_f_e_radps2    = -1500.0f;
-    s->z_e_radps       = 200.0f + (1500.0f * 2.0e-4f); /* its prediction hits the sample */
-    in.command_e_radps = 202.0f;
+    s->observer.z_f_e_radps2 = -1500.0f;
+    s->observer.z_e_radps    = 200.0f + (1500.0f * 2.0e-4f); /* its prediction hits the sample */
+    in.command_e_radps       = 202.0f;
 
     const law_output_t out = law_answer(&drive, &state, &in);
     const double       l1  = 1.5 * 4.0 * 0.193 / 0.00042;
@@ -145,10 +147,14 @@ static void test_start_forgets_the_past(void)
 
 static void test_check_wants_every_constant(void)
 {
-    float *const constants[] = {&config.foc.q.kp_V_per_A,    &config.speed.inv_span_1ps,
-                                &config.gains[0].gain_w,     &config.gains[1].gain_w,
-                                &config.gains[0].gain_f_1ps, &config.gains[1].gain_f_1ps,
-                                &config.gains[0].w_c_1ps,    &config.gains[1].w_c_1ps};
+    float *const constants[] = {&config.foc.q.kp_V_per_A,
+                                &config.speed.inv_span_1ps,
+                                &config.gains[0].observer.gain_w,
+                                &config.gains[1].observer.gain_w,
+                                &config.gains[0].observer.gain_f_1ps,
+                                &config.gains[1].observer.gain_f_1ps,
+                                &config.gains[0].w_c_1ps,
+                                &config.gains[1].w_c_1ps};
 
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_config_check(&drive));
     for (int i = 0; i < SUPPORT_COUNT(constants); i++) {
@@ -171,7 +177,7 @@ static void test_tick_trips_when_the_law_gives_no_number(void)
     for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
         (void)drive_init(&d, &drive);
         TEST_ASSERT_TRUE(drive_tick(&d, &sample, &command).gate_enable);
-        d.law.ladrc.z_f_e_radps2 = support_not_finite[k];
+        d.law.ladrc.observer.z_f_e_radps2 = support_not_finite[k];
         TEST_ASSERT_FALSE(drive_tick(&d, &sample, &command).gate_enable);
         TEST_ASSERT_EQUAL_INT(DRIVE_FAULT_NUMERIC, d.fault);
     }

@@ -9,7 +9,7 @@
     2.0e-3 /* rad/s: angles of some radians in single precision over 1 ms; worst 7e-4 */
 
 static const speed_difference_config_t config = {
-    .periods = 5, .inv_span_1ps = 1000.0f, .edge_gap_max_s = 4.0e-4f};
+    .periods = 5, .inv_span_1ps = 1000.0f, .edge_gap_max_s = 4.0e-4f, .count_rad = 1.2566371e-3f};
 static speed_difference_t s;
 static drive_sample_t     sample;
 
@@ -29,7 +29,7 @@ static double next(double theta_rad)
     float        w    = NAN;
 
     sample.theta_e_rad = (float)(theta_rad - (turn * floor(theta_rad / turn)));
-    (void)speed_difference_update(&s, &config, &sample, &w);
+    (void)speed_difference_update(&s, &config, &sample, TS_s, &w);
     return (double)w;
 }
 
@@ -89,15 +89,93 @@ static void test_edges_are_taken_while_they_are_frequent(void)
     sample.omega_e_radps = 123.0f;
     sample.edge_gap_s    = 4.0e-4f;
     TEST_ASSERT_EQUAL_INT(SPEED_DIFFERENCE_TIMED,
-                          speed_difference_update(&s, &config, &sample, &w));
+                          speed_difference_update(&s, &config, &sample, TS_s, &w));
     TEST_ASSERT_TRUE(w == 123.0f);
     sample.edge_gap_s = 4.1e-4f;
     TEST_ASSERT_EQUAL_INT(SPEED_DIFFERENCE_COUNTED,
-                          speed_difference_update(&s, &config, &sample, &w));
+                          speed_difference_update(&s, &config, &sample, TS_s, &w));
     TEST_ASSERT_FALSE(w == 123.0f);
     sample.edge_gap_s = 0.0f; /* not from edges */
     TEST_ASSERT_EQUAL_INT(SPEED_DIFFERENCE_COUNTED,
-                          speed_difference_update(&s, &config, &sample, &w));
+                          speed_difference_update(&s, &config, &sample, TS_s, &w));
+}
+
+/* The last edge of each period on a disc of 10,000 edges, two pole pairs, at a constant speed. Edge n is at n + off[n % 4]
+ * counts, which the sample does not know. */
+static void edge_sample(double speed_radps, double t, double *edge_s, long *edge)
+{
+    static const double off[] = {-0.17, 0.03, -0.03, 0.17}; /* quadrature 0.2, duty 0.14 */
+    const double        count = 2.0 * 3.14159265358979 * 2.0 / 10000.0;
+    const double        at    = (t * speed_radps) / count;
+    long                n     = (long)floor(at);
+
+    if (speed_radps > 0.0) {
+        n = (((double)(n + 1) + off[(((n + 1) % 4) + 4) % 4]) <= at) ? (n + 1) : n;
+        n = (((double)n + off[((n % 4) + 4) % 4]) > at) ? (n - 1) : n;
+    } else {
+        n = (((double)n + off[((n % 4) + 4) % 4]) < at) ? (n + 1) : n;
+        n = (((double)n + off[((n % 4) + 4) % 4]) < at) ? (n + 1) : n;
+    }
+    const double at_s = ((double)n + off[((n % 4) + 4) % 4]) * count / speed_radps;
+
+    if ((n != *edge) && (at_s > (t - 2.0e-4))) {
+        sample.omega_e_radps = (float)((double)(n - *edge) * count / (at_s - *edge_s));
+        sample.edge_gap_s    = (float)(at_s - *edge_s);
+        sample.edge_age_s    = (float)(t - at_s);
+        sample.edge_of_line  = (int16_t)(1 + (((n % 4) + 4) % 4));
+        *edge                = n;
+        *edge_s              = at_s;
+    } else {
+        sample.edge_age_s   = 0.0f;
+        sample.edge_of_line = 0;
+        sample.edge_gap_s   = (float)base_max(sample.edge_gap_s, (float)(t - *edge_s));
+    }
+}
+
+/* As if whole lines were timed: quadrature and duty errors of a fifth of a count leave nothing. */
+static void test_errors_of_quadrature_and_duty_have_no_effect(void)
+{
+    static const double speeds[] = {4.9, 23.0, 211.3, 300.0, -300.0, 523.0};
+
+    for (int i = 0; i < SUPPORT_COUNT(speeds); i++) {
+        double edge_s = 0.0;
+        double left   = 0.0; /* largest error at the end, and that of the sample */
+        double raw    = 0.0;
+        long   edge   = 0;
+
+        setUp();
+        for (int k = 1; k <= 3000; k++) {
+            float w = NAN;
+            edge_sample(speeds[i], 2.0e-4 * k, &edge_s, &edge);
+            const bool timed =
+                speed_difference_update(&s, &config, &sample, TS_s, &w) == SPEED_DIFFERENCE_TIMED;
+            if (timed && (k > 2500)) {
+                left = fmax(left, fabs((double)w - speeds[i]));
+                raw  = fmax(raw, fabs((double)sample.omega_e_radps - speeds[i]));
+            }
+        }
+        TEST_ASSERT_TRUE(raw > 0.5);
+        TEST_ASSERT_DOUBLE_WITHIN(0.02 * raw, 0.0, left);
+    }
+}
+
+/* A flipped bit in the kind of an edge before: no number of another place. */
+static void test_a_kind_that_does_not_exist_is_none(void)
+{
+    static const int16_t kinds[] = {-1, 0, 5, 32767};
+
+    for (int i = 0; i < SUPPORT_COUNT(kinds); i++) {
+        float w = NAN;
+
+        setUp();
+        s.edges.offset_rad[0] = 1.0e-4f;
+        s.edges.edge[0]       = kinds[i];
+        sample.edge_gap_s     = 2.0e-4f;
+        sample.edge_age_s     = 1.0e-5f;
+        sample.edge_of_line   = 1;
+        (void)speed_difference_update(&s, &config, &sample, TS_s, &w);
+        TEST_ASSERT_TRUE(w == sample.omega_e_radps);
+    }
 }
 
 static void test_check_wants_every_constant(void)
@@ -117,6 +195,9 @@ static void test_check_wants_every_constant(void)
         c.inv_span_1ps   = config.inv_span_1ps;
         c.edge_gap_max_s = support_not_finite[k];
         TEST_ASSERT_FALSE(speed_difference_check(&c, TS_s));
+        c           = config;
+        c.count_rad = support_not_finite[k];
+        TEST_ASSERT_FALSE(speed_difference_check(&c, TS_s));
         c = config;
     }
 }
@@ -129,6 +210,8 @@ int main(void)
     RUN_TEST(test_it_starts_at_the_samples_speed);
     RUN_TEST(test_a_place_that_does_not_exist_is_none);
     RUN_TEST(test_edges_are_taken_while_they_are_frequent);
+    RUN_TEST(test_errors_of_quadrature_and_duty_have_no_effect);
+    RUN_TEST(test_a_kind_that_does_not_exist_is_none);
     RUN_TEST(test_check_wants_every_constant);
     return UNITY_END();
 }
