@@ -28,6 +28,17 @@ const LawDesign &law_design(const Drive &drive)
     throw std::logic_error("a law without a design");
 }
 
+std::vector<const RivalLaw *> rival_laws()
+{
+    std::vector<const RivalLaw *> laws;
+    for (const LawDesign *law : all) {
+        if (law->rival) {
+            laws.push_back(&*law->rival);
+        }
+    }
+    return laws;
+}
+
 std::string noise_knob_laws()
 {
     std::vector<std::string> names;

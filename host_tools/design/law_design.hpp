@@ -19,6 +19,23 @@ struct NoiseKnob {
     std::string (*text)(const Drive &drive);   ///< key and value
 };
 
+/// A number of the drive file that a search varies: least + start x factor.
+struct RivalKey {
+    const char *key;
+    double CascadeSpec::*value;
+    double start; ///< chosen: in the middle of what is stable and quiet on the shipped motor
+    double least   = 0.0;
+    bool   is_rate = true; ///< `start` is a multiple of the sampling rate
+};
+
+/// A drive is compared with it (sil/qualify/rivals.hpp).
+struct RivalLaw {
+    const char *name;  ///< in drive files
+    bool        usual; ///< a good drive is not behind it
+    void (*use)(Drive &drive);
+    std::vector<std::vector<RivalKey>> tunings; ///< a search for each
+};
+
 /// Currents that schedule the gain series, as reports name them.
 struct Scheduling {
     std::vector<const char *> controller;
@@ -46,10 +63,13 @@ struct LawDesign {
     std::string (*report_rows)(const Drive &drive) = nullptr; ///< settings beside the current loops
     double (*design_speed_e_radps)(const Drive &drive) = nullptr; ///< of its model of harmonics
     std::optional<NoiseKnob> noise_knob{};
+    std::optional<RivalLaw>  rival{};
 };
 
 /// That of the drive. Every drive that read_drive_file() accepts has one.
 const LawDesign &law_design(const Drive &drive);
+
+std::vector<const RivalLaw *> rival_laws();
 
 /// "noc, noc_h .. or ladrc": the laws with a noise_knob.
 std::string noise_knob_laws();

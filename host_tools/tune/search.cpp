@@ -11,7 +11,7 @@
 namespace sdre {
 namespace {
 
-using Function = std::function<double(const Point &)>;
+using Function = std::function<double(const std::vector<double> &)>;
 
 constexpr double first_step = 0.5;  // decades
 constexpr double last_step  = 1e-3; // decades: a quarter of a per cent, weights have three digits
@@ -28,36 +28,54 @@ Point point_of(const std::vector<double> &x)
 
 double call(const std::vector<double> &x, std::vector<double> & /*gradient*/, void *function)
 {
-    return (*static_cast<const Function *>(function))(point_of(x));
+    return (*static_cast<const Function *>(function))(x);
 }
 
-Point search_from(const Point &start, const Function &f, double step, int evaluations)
+struct Steps {
+    double first;
+    double last;
+    int    evaluations;
+};
+
+std::vector<double> search_from(std::vector<double> x, Function f, const Steps &steps)
 {
-    nlopt::opt search(nlopt::LN_SBPLX, weight_count);
-    Function   function = f;
-    search.set_min_objective(call, &function);
-    search.set_initial_step(step);
-    search.set_xtol_abs(last_step);
-    search.set_maxeval(evaluations);
-    std::vector<double> x(start.begin(), start.end());
-    double              value = 0.0;
+    nlopt::opt search(nlopt::LN_SBPLX, static_cast<unsigned>(x.size()));
+    search.set_min_objective(call, &f);
+    search.set_initial_step(steps.first);
+    search.set_xtol_abs(steps.last);
+    search.set_maxeval(steps.evaluations);
+    double value = 0.0;
     try {
         search.optimize(x, value);
     } catch (const nlopt::roundoff_limited &) { // x is the best so far
     }
-    return point_of(x);
+    return x;
+}
+
+Point weights_from(const Point &start, const std::function<double(const Point &)> &f,
+                   const Steps &steps)
+{
+    return point_of(search_from(
+        {start.begin(), start.end()}, [&f](const std::vector<double> &x) { return f(point_of(x)); },
+        steps));
 }
 
 } // namespace
 
-Point minimise(const Point &start, const Function &f)
+Point minimise(const Point &start, const std::function<double(const Point &)> &f)
 {
-    return search_from(start, f, first_step, most_evaluations);
+    return weights_from(start, f, {first_step, last_step, most_evaluations});
 }
 
-Point improve(const Point &start, const Function &f)
+Point improve(const Point &start, const std::function<double(const Point &)> &f)
 {
-    return search_from(start, f, short_step, few_evaluations);
+    return weights_from(start, f, {short_step, last_step, few_evaluations});
+}
+
+std::vector<double> minimise_decades(const std::vector<double> &start, double last,
+                                     const std::function<double(const std::vector<double> &)> &f)
+{
+    return search_from(start, f, {short_step, last, most_evaluations});
 }
 
 } // namespace sdre

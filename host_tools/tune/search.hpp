@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "tune/objective.hpp"
 
@@ -13,5 +14,9 @@ Point minimise(const Point &start, const std::function<double(const Point &)> &f
 
 /// The same with short steps and few of them, for a point that is nearly good.
 Point improve(const Point &start, const std::function<double(const Point &)> &f);
+
+/// The best point of any number of coordinates, in decades: as many evaluations at most as minimise().
+std::vector<double> minimise_decades(const std::vector<double> &start, double last_step,
+                                     const std::function<double(const std::vector<double> &)> &f);
 
 } // namespace sdre

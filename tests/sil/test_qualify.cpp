@@ -143,7 +143,7 @@ TEST(Qualify, PictureOfTheMapShowsWhatIsBeyond)
 TEST(Qualify, ANoisyDriveIsNotGood)
 {
     const Qualified r =
-        qualify(support::shipped_drive("ipmsm_390w_pi_foc_edges"), {"--short", "--motors", "0"});
+        qualify(support::shipped_drive("ipmsm_390w_pi_foc"), {"--short", "--motors", "0"});
 
     EXPECT_EQ(r.exit_code, 4);
     EXPECT_EQ(r.json.at("good"), false);

@@ -6,6 +6,10 @@
 
 namespace sdre {
 
+/// Current loops where a search of rivals starts, as shares of the sampling rate.
+constexpr double start_bandwidth = 0.05;
+constexpr double start_1ps       = 2.0 * 3.14159265358979 * start_bandwidth;
+
 /// Checks the loops with the constants that the configuration has by now.
 void certify_cascade(Design &design);
 

@@ -71,6 +71,13 @@ const LawDesign ladrc_design = [] {
     LawDesign d{"law_ladrc", "law_ladrc_config_t", is_for, solve, summary, mismatches, layout};
     d.report_rows = report_rows;
     d.noise_knob  = NoiseKnob{"ladrc", turn, knob_text};
+    d.rival =
+        RivalLaw{"ladrc",
+                 false,
+                 [](Drive &drive) { drive.law = Law::ladrc; },
+                 {{{"current_bandwidth_Hz", &CascadeSpec::current_bandwidth_Hz, start_bandwidth},
+                   {"controller_radps", &CascadeSpec::controller_radps, 0.35 * start_1ps},
+                   {"observer_radps", &CascadeSpec::observer_radps, 0.9 * start_1ps}}}};
     return d;
 }();
 

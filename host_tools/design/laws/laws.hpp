@@ -15,7 +15,4 @@ extern const LawDesign pid_design;
 extern const LawDesign pi_foc_design;
 extern const LawDesign ladrc_design;
 
-/// Gives a drive the law that others are compared with, `pi_foc`.
-void use_pi_foc(Drive &drive, double current_bandwidth_Hz, double symmetrical_optimum_a);
-
 } // namespace sdre

@@ -77,17 +77,20 @@ std::string knob_text(const Drive &drive)
 
 } // namespace
 
-void use_pi_foc(Drive &drive, double current_bandwidth_Hz, double symmetrical_optimum_a)
-{
-    drive.law                           = Law::pi_foc;
-    drive.cascade.current_bandwidth_Hz  = current_bandwidth_Hz;
-    drive.cascade.symmetrical_optimum_a = symmetrical_optimum_a;
-}
-
 const LawDesign pi_foc_design = [] {
     LawDesign d{"law_pi_foc", "law_pi_foc_config_t", is_for, solve, summary, mismatches, layout};
     d.report_rows = report_rows;
     d.noise_knob  = NoiseKnob{"pi_foc", turn, knob_text};
+
+    const RivalKey bandwidth{"current_bandwidth_Hz", &CascadeSpec::current_bandwidth_Hz,
+                             start_bandwidth};
+    const RivalKey optimum{"symmetrical_optimum_a", &CascadeSpec::symmetrical_optimum_a, 1.2, 1.0,
+                           false};
+    const RivalKey load{"load_observer_radps", &CascadeSpec::load_observer_radps, 0.3 * start_1ps};
+    d.rival = RivalLaw{"pi_foc",
+                       true,
+                       [](Drive &drive) { drive.law = Law::pi_foc; },
+                       {{bandwidth, optimum}, {bandwidth, optimum, load}}};
     return d;
 }();
 

@@ -34,7 +34,7 @@ void declare(OptionList &list, Options &o)
     list.number("--noise", o.noise, {1, 100},
                 "largest noise of v_q, per cent of the circle (default 4)");
     list.flag("--short", o.quick, "3 seeds, 40 motors, no comparison: seconds");
-    list.flag("--alone", o.alone, "without the comparison with pi_foc");
+    list.flag("--alone", o.alone, "without the comparison with pi_foc and ladrc");
 }
 
 int run(const Options &o)

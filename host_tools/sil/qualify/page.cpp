@@ -52,14 +52,18 @@ std::string qualification_html(const Qualification &q)
     for (const TrialResult &r : q.trials) {
         s += row(r, q);
     }
-    if (q.rival) {
-        TrialResult rival = q.rival->load_step;
-        rival.what += fmt::format(" with pi_foc, {:.4g} Hz, a = {:g}",
-                                  q.rival->current_bandwidth_Hz, q.rival->optimum_a);
-        s += row(rival, q);
+    for (const Rival &rival : q.rivals) {
+        if (rival.load_step) {
+            TrialResult r = *rival.load_step;
+            r.what += fmt::format(" with {}", rival.law->name);
+            s += row(r, q);
+        }
     }
-    s += "</table>\n<h2>Steady over speed and torque</h2>\n" +
-         (q.map.points.empty() ? "" : map_svg(q.map));
+    s += "</table>\n";
+    for (const Rival &rival : q.rivals) {
+        s += paragraph(escaped(rival_words(rival))) + paragraph(rival_verdict(q, rival));
+    }
+    s += "<h2>Steady over speed and torque</h2>\n" + (q.map.points.empty() ? "" : map_svg(q.map));
     s += paragraph(motors_words(q));
     s += paragraph(wide_motors_words(q));
     for (const std::string &reason : q.reasons) {

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "common/errors.hpp"
-#include "design/laws/laws.hpp"
+#include "design/design.hpp"
 #include "sil/eval/random_motors.hpp"
 #include "sil/eval/seeds.hpp"
+#include "sil/qualify/rivals.hpp"
 #include "sil/run/simulation.hpp"
 #include "tune/start_weights.hpp"
 
@@ -18,8 +18,6 @@ namespace {
 
 constexpr double peak_ratio  = 1.1;  // the project's bound for every scenario
 constexpr double share_limit = 0.99; // of random motors
-// Chosen: periods between two load steps that cannot be told apart.
-constexpr double same_within = 1.05;
 
 std::optional<double> worst(const SeedMeasure &m, const std::string &metric)
 {
@@ -96,67 +94,27 @@ MotorShare share_of(const Scenario &scenario, int count)
     return s;
 }
 
-/// True if there are constants that the control core accepts.
-bool has_design(const Drive &d)
-{
-    try {
-        Scenario s   = at_speed(d, 0.0, 0.0);
-        s.duration_s = control_period_s(d);
-        simulate(s, prepare_controller(s));
-        return true;
-    } catch (const DesignError &) {
-        return false;
-    }
-}
-
-/// Every rival of the grid on the load step; tuned as a drive engineer would: as fast as the same noise allows.
-std::optional<Rival> best_rival(const Drive &drive, const Trial &load_step, double noise_V,
-                                int seeds)
-{
-    std::vector<Trial> trials;
-    std::vector<Rival> rivals;
-    const double       fs = 1.0 / control_period_s(drive);
-    for (const double share : {12.5, 18.0, 25.0, 40.0}) { // of the sampling rate
-        for (const double a : {2.0, 2.5, 3.2, 4.5}) {
-            Trial  t = load_step;
-            Drive &d = t.scenario.drive;
-            use_pi_foc(d, fs / share, a);
-            if (has_design(d)) { // without a magnet there is none
-                rivals.push_back({fs / share, a, {}});
-                trials.push_back(t);
-            }
-        }
-    }
-    const std::vector<TrialResult> results = run_trials(trials, seeds);
-    std::optional<Rival>           best;
-    for (std::size_t i = 0; i < rivals.size(); i++) {
-        const TrialResult &r = results[i];
-        const bool quiet = r.voltage_noise_V <= noise_V && r.settling_time_s && r.reasons.empty();
-        if (quiet &&
-            (!best || r.dip_e_radps * *r.settling_time_s <
-                          best->load_step.dip_e_radps * *best->load_step.settling_time_s)) {
-            best            = rivals[i];
-            best->load_step = r;
-        }
-    }
-    return best;
-}
-
-void compare(Qualification &q, const Drive &drive, const Trial &load_step, int seeds)
+/// A drive is not good when the usual law is as quiet and better. A better rival of another law is told (words.hpp).
+void compare(Qualification &q, const Trial &load_step, int seeds)
 {
     const TrialResult &own = q.trials.front();
-    q.rival                = best_rival(drive, load_step, own.voltage_noise_V * same_within, seeds);
-    if (!q.rival || !own.settling_time_s) {
-        return; // nothing of the grid is as quiet and settles
-    }
-    const TrialResult &r = q.rival->load_step;
-    if (own.dip_e_radps > same_within * r.dip_e_radps) {
-        q.reasons.push_back(fmt::format("load step: dip {:.4g} rad/s, pi_foc has {:.4g}",
-                                        own.dip_e_radps, r.dip_e_radps));
-    }
-    if (*own.settling_time_s > same_within * *r.settling_time_s) {
-        q.reasons.push_back(fmt::format("load step: settles in {:.4g} ms, pi_foc in {:.4g}",
-                                        1e3 * *own.settling_time_s, 1e3 * *r.settling_time_s));
+    q.rivals               = best_rivals(load_step, own, seeds, [](const Trial &trial, int count) {
+        return run_trials({trial}, count).front();
+    });
+    for (const Rival &rival : q.rivals) {
+        if (!rival.law->usual || !rival.load_step || !own.settling_time_s) {
+            continue;
+        }
+        const TrialResult &r = *rival.load_step;
+        if (own.dip_e_radps > same_within * r.dip_e_radps) {
+            q.reasons.push_back(fmt::format("load step: dip {:.4g} rad/s, {} has {:.4g}",
+                                            own.dip_e_radps, rival.law->name, r.dip_e_radps));
+        }
+        if (*own.settling_time_s > same_within * *r.settling_time_s) {
+            q.reasons.push_back(fmt::format("load step: settles in {:.4g} ms, {} in {:.4g}",
+                                            1e3 * *own.settling_time_s, rival.law->name,
+                                            1e3 * *r.settling_time_s));
+        }
     }
 }
 
@@ -195,9 +153,8 @@ Qualification qualify(const Drive &drive, const QualifyOptions &o)
                                         q.motors.count - q.motors.good, q.motors.count,
                                         100.0 * share_limit));
     }
-    q.compared = o.against && &law_design(drive) != &pi_foc_design;
-    if (q.compared) {
-        compare(q, drive, plan.trials.front(), o.seeds);
+    if (o.against && !is_cascade(drive.law)) {
+        compare(q, plan.trials.front(), o.seeds);
     }
     return q;
 }

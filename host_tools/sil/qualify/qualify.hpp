@@ -4,8 +4,10 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "design/law_design.hpp"
 #include "sil/qualify/map.hpp"
 #include "sil/qualify/plan.hpp"
 
@@ -15,7 +17,7 @@ struct QualifyOptions {
     int  seeds   = 10;
     int  motors  = 1000;
     int  side    = 9;    ///< speeds of the map, and torques at each
-    bool against = true; ///< compare the load step with pi_foc
+    bool against = true; ///< compare the load step with pi_foc and ladrc
     /// Largest noise of v_q, of the circle. Chosen: `tune` aims at 0.03 of its linear model.
     double noise_share = 0.04;
 };
@@ -42,11 +44,15 @@ struct MotorShare {
     }
 };
 
-/// pi_foc on the same sensors, tuned: the quickest of a grid that is not noisier and passes the trial.
+/// Chosen: ratio of two load steps that cannot be told apart.
+constexpr double same_within = 1.05;
+
+/// Another law on the same sensors, tuned by a search (rivals.hpp).
 struct Rival {
-    double      current_bandwidth_Hz = 0.0;
-    double      optimum_a            = 0.0;
-    TrialResult load_step;
+    const RivalLaw                              *law = nullptr;
+    std::vector<std::pair<const char *, double>> settings;        ///< keys of a drive file
+    int                                          evaluations = 0; ///< of the search
+    std::optional<TrialResult> load_step; ///< none: no tuning found is as quiet and settles
 };
 
 struct Qualification {
@@ -59,10 +65,9 @@ struct Qualification {
     double      lines            = 0.0; ///< of the encoder
     std::vector<TrialResult> trials;
     PlaneMap                 map;
-    MotorShare               motors; ///< R, L, flux +-30 %, J x0.5 .. 2
-    MotorShare               wide;   ///< R, L, flux +-50 %, J x0.5 .. 3; for information
-    bool                     compared = false;
-    std::optional<Rival>     rival;   ///< none: no tuning of the grid is as quiet and settles
+    MotorShare               motors;  ///< R, L, flux +-30 %, J x0.5 .. 2
+    MotorShare               wide;    ///< R, L, flux +-50 %, J x0.5 .. 3; for information
+    std::vector<Rival>       rivals;  ///< pi_foc and ladrc
     std::vector<std::string> reasons; ///< what is not good, all of it
 
     bool good() const

@@ -22,14 +22,18 @@ std::string line(const std::string &words)
     return words.empty() ? "" : words + "\n";
 }
 
-std::string rival_text(const Qualification &q)
+std::string rivals_text(const Qualification &q)
 {
-    if (!q.rival) {
-        return "pi_foc: no tuning of the grid is as quiet and settles\n";
+    std::string s;
+    for (const Rival &rival : q.rivals) {
+        if (rival.load_step) {
+            TrialResult r = *rival.load_step;
+            r.what += fmt::format(", {}", rival.law->name);
+            s += row_text(r, q);
+        }
+        s += line(rival_words(rival)) + line(rival_verdict(q, rival));
     }
-    return row_text(q.rival->load_step, q) +
-           fmt::format("  pi_foc with {:.4g} Hz, a = {:g}: the quickest that is not noisier\n",
-                       q.rival->current_bandwidth_Hz, q.rival->optimum_a);
+    return s;
 }
 
 Json trial_json(const TrialResult &r)
@@ -47,6 +51,19 @@ Json trial_json(const TrialResult &r)
         j["settling_time_s"] = *r.settling_time_s;
     } else {
         j["settling_time_s"] = nullptr;
+    }
+    return j;
+}
+
+/// Null when no tuning is as quiet and settles.
+Json rival_json(const Rival &rival)
+{
+    if (!rival.load_step) {
+        return nullptr;
+    }
+    Json j{{"evaluations", rival.evaluations}, {"load_step", trial_json(*rival.load_step)}};
+    for (const auto &[key, value] : rival.settings) {
+        j[key] = value;
     }
     return j;
 }
@@ -89,7 +106,7 @@ std::string qualification_text(const Qualification &q)
     for (const TrialResult &r : q.trials) {
         s += row_text(r, q);
     }
-    s += q.compared ? rival_text(q) : "";
+    s += rivals_text(q);
     s += map_text(q.map);
     s += line(motors_words(q));
     s += line(wide_motors_words(q));
@@ -118,13 +135,8 @@ std::string qualification_json(const Qualification &q)
            {"motors", share_json(q.motors)},
            {"wide_motors", share_json(q.wide)},
            {"reasons", q.reasons}};
-    if (q.compared && !q.rival) {
-        j["pi_foc"] = nullptr;
-    }
-    if (q.rival) {
-        j["pi_foc"] = {{"current_bandwidth_Hz", q.rival->current_bandwidth_Hz},
-                       {"symmetrical_optimum_a", q.rival->optimum_a},
-                       {"load_step", trial_json(q.rival->load_step)}};
+    for (const Rival &rival : q.rivals) {
+        j[rival.law->name] = rival_json(rival);
     }
     return j.text();
 }

@@ -32,6 +32,44 @@ std::string verdict_words(const TrialResult &r)
                               : "good";
 }
 
+std::string rival_words(const Rival &rival)
+{
+    if (!rival.load_step) {
+        return fmt::format("{}: none of {} tunings is certified, as quiet and settles",
+                           rival.law->name, rival.evaluations);
+    }
+    std::string settings;
+    for (const auto &[key, value] : rival.settings) {
+        settings += fmt::format("{}{} = {:g}", settings.empty() ? "" : ", ", key, value);
+    }
+    return fmt::format("{} with {}: the best of {} tunings that are not noisier", rival.law->name,
+                       settings, rival.evaluations);
+}
+
+std::string rival_verdict(const Qualification &q, const Rival &rival)
+{
+    const TrialResult &own = q.trials.front();
+    if (!rival.load_step || !own.settling_time_s) {
+        return "";
+    }
+    std::string ahead, behind;
+    const auto  add = [&](const char *what, double mine, double other) {
+        std::string &s = mine > same_within * other ? ahead : behind;
+        if (mine > same_within * other || other > same_within * mine) {
+            s += fmt::format("{}{} ({:.3g} for {:.3g})", s.empty() ? "" : ", ", what, other, mine);
+        }
+    };
+    add("settling time", 1e3 * *own.settling_time_s, 1e3 * *rival.load_step->settling_time_s);
+    add("dip", own.dip_e_radps, rival.load_step->dip_e_radps);
+    const auto said = [](const char *where, const std::string &what) {
+        return what.empty() ? "" : fmt::format(" {} in {}", where, what);
+    };
+    const std::string all = said("ahead", ahead) + (ahead.empty() || behind.empty() ? "" : ",") +
+                            said("behind", behind);
+    return fmt::format("{} against this drive:{}", rival.law->name,
+                       all.empty() ? " the same within 5 %" : all);
+}
+
 std::string next_step(const Qualification &q)
 {
     struct Advice {

@@ -12,6 +12,10 @@ namespace sdre {
 std::string settling_words(const TrialResult &r);
 /// "good", or why it is not.
 std::string verdict_words(const TrialResult &r);
+/// "pi_foc with current_bandwidth_Hz = 241, ..: the best of 212 tunings ..", or that none is as quiet and settles.
+std::string rival_words(const Rival &rival);
+/// Where the rival is ahead of the drive in the load step, and where behind.
+std::string rival_verdict(const Qualification &q, const Rival &rival);
 /// A line for each kind of random motors; empty when none were run.
 /// One line about the first reason; empty for a good drive.
 std::string next_step(const Qualification &q);
