@@ -309,14 +309,14 @@ std::vector<double> swing_e_radps(const char *drive)
     return worst;
 }
 
-/// Wanted are twice with edge times. The drive has a sixth of the noise of pi_foc, docs/results.md.
+/// Wanted are twice with edge times. The drive and pi_foc are equally noisy, docs/results.md.
 TEST(BoardScenarios, SwingingLoadMovesTheSpeedLess)
 {
     const std::vector<double> rival  = swing_e_radps("ipmsm_390w_pi_foc_edges");
     const std::vector<double> drive  = swing_e_radps("ipmsm_390w");
     const std::vector<double> faster = swing_e_radps("ipmsm_390w_10khz");
     ASSERT_EQ(rival.size(), 3U);
-    const double measured[] = {1.55, 1.2, 1.0};
+    const double measured[] = {1.4, 1.45, 1.45}; // 1.43, 1.50, 1.50
     for (std::size_t i = 0; i < rival.size(); i++) {
         EXPECT_GE(rival[i], measured[i] * drive[i]) << i;
         EXPECT_GE(rival[i], (i < 2 ? 2.0 : 1.7) * faster[i]) << i; // measured 2.5, 2.1, 1.8
