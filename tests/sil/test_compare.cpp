@@ -113,6 +113,17 @@ TEST(Compare, OrdersAreColumnsAndReachTheController)
     EXPECT_EQ(c.runs[0].cells.at("whole").at("dip_e_radps").value, metric.dip_e_radps);
 }
 
+TEST(Compare, DrivesOfOneNameAreCalledAsTheirFiles)
+{
+    const TempDir          dir;
+    const std::string      file = dir.write("case.toml", load_step());
+    const std::string      mine = dir.write("mine.toml", support::read_file(speed));
+    const sdre::Comparison c =
+        sdre::compare({{file}, {speed, mine, conventional}, {}, {"dip_e_radps"}, 1});
+    EXPECT_EQ(c.columns,
+              (std::vector<std::string>{"ipmsm_390w_speed", "mine", "ipmsm_390w_conventional"}));
+}
+
 TEST(Compare, PublishedValuesGoToTheirLaw)
 {
     const TempDir     dir;

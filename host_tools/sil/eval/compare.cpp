@@ -56,6 +56,19 @@ CompareRun run_of(const Scenario &scenario, const std::string &column, const See
     return out;
 }
 
+/// A column has the drive's name, or its file's without the ending when another drive has that name.
+std::vector<std::string> drive_columns(const std::vector<std::filesystem::path> &files,
+                                       const std::vector<std::string>           &names)
+{
+    std::vector<std::string> columns = names;
+    for (std::size_t k = 0; k < names.size(); k++) {
+        if (std::count(names.begin(), names.end(), names[k]) > 1) {
+            columns[k] = files[k].stem().string();
+        }
+    }
+    return columns;
+}
+
 /// The scenario as each column sees it: per drive, then per order.
 std::vector<std::pair<std::string, Scenario>> variants(const CompareRequest        &request,
                                                        const std::filesystem::path &scenario)
@@ -64,10 +77,17 @@ std::vector<std::pair<std::string, Scenario>> variants(const CompareRequest     
     if (drives.empty()) {
         drives.emplace_back(); // the scenario's own
     }
-    std::vector<std::pair<std::string, Scenario>> out;
+    std::vector<Scenario>    read;
+    std::vector<std::string> names;
     for (const std::filesystem::path &drive : drives) {
-        Scenario          s    = read_scenario_file(scenario, drive);
-        const std::string name = request.drives.empty() ? "own drive" : s.drive.name;
+        read.push_back(read_scenario_file(scenario, drive));
+        names.push_back(request.drives.empty() ? "own drive" : read.back().drive.name);
+    }
+    names = drive_columns(drives, names);
+    std::vector<std::pair<std::string, Scenario>> out;
+    for (std::size_t k = 0; k < drives.size(); k++) {
+        Scenario          &s    = read[k];
+        const std::string &name = names[k];
         if (request.orders.empty()) {
             out.emplace_back(name, s);
         }

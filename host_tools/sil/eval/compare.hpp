@@ -31,7 +31,7 @@ struct CompareCell {
 /// One drive on one scenario.
 struct CompareRun {
     std::string scenario;
-    std::string column;        ///< the drive's name, with the order when orders were given
+    std::string column; ///< the drive's name or its file's, with the order when orders were given
     int         faulted   = 0; ///< seeds in which the drive tripped
     bool        certified = true;
     std::map<std::string, std::map<std::string, CompareCell>> cells;    ///< by measure, by metric
@@ -49,7 +49,7 @@ struct Comparison {
 /// settling time, dip, overshoot, steady error, ripple, peak current.
 const std::vector<std::string> &compare_default_metrics();
 
-/// InputError on an unknown metric, two drives of one name, or a scenario given twice.
+/// InputError on an unknown metric, a drive or a scenario given twice.
 Comparison compare(const CompareRequest &request);
 
 /// One row per scenario, measure and metric, one column per drive, "(paper x)" behind a value that was published.
