@@ -224,33 +224,47 @@ double excess(const Verdict &v, double ts_s)
     return worst;
 }
 
+namespace {
+
+/// A figure of a loop that has none is no number.
+std::string known(const char *format, double value)
+{
+    return std::isnan(value) ? "unknown" : fmt::format(fmt::runtime(format), value);
+}
+
+} // namespace
+
 void judge(const Verdict &v, double ts_s, std::vector<std::string> &failures)
 {
     const double largest = std::exp(-ts_s / v.slowest_mode_s);
     if (!(v.spectral_radius <= largest)) {
         failures.push_back(
-            fmt::format("the loop does not settle at {}: spectral radius {:.6f}, at most "
+            fmt::format("the loop does not settle at {}: spectral radius {}, at most "
                         "{:.6f} is allowed",
-                        point_name(v.radius_at), v.spectral_radius, largest));
+                        point_name(v.radius_at), known("{:.6f}", v.spectral_radius), largest));
     }
     for (const Channel &c : v.channels) {
         if (!(c.worst.peak <= peak_sensitivity_limit)) {
-            failures.push_back(fmt::format(
-                "{}: sensitivity peak {:.3g} at {:.0f} Hz ({}) exceeds {:g}", c.name, c.worst.peak,
-                c.worst.peak_Hz, point_name(c.at), peak_sensitivity_limit));
+            failures.push_back(fmt::format("{}: sensitivity peak {} at {:.0f} Hz ({}) exceeds {:g}",
+                                           c.name, known("{:.3g}", c.worst.peak), c.worst.peak_Hz,
+                                           point_name(c.at), peak_sensitivity_limit));
         }
     }
     if (v.box && !(v.box->share >= box_share_limit)) {
         failures.push_back(fmt::format(
-            "unstable with a motor of {}: {:.2f} of the box of parameters, {:g} is required",
-            v.box->corner, v.box->share, box_share_limit));
+            "unstable with a motor of {}: {} of the box of parameters, {:g} is required",
+            v.box->corner, known("{:.2f}", v.box->share), box_share_limit));
     }
     if (v.alone && !(v.alone->share >= alone_share_limit)) {
         failures.push_back(fmt::format("unstable with a motor of {}, everything else as believed",
                                        v.alone->corner));
     }
     for (const TripMargin &t : v.trips) {
-        if (!(t.healthy <= t.limit)) {
+        if (std::isnan(t.healthy)) {
+            failures.push_back(fmt::format("{}: a healthy drive has no bound, as the loop does not "
+                                           "settle; its trip is at {:.3g}",
+                                           t.name, t.limit));
+        } else if (!(t.healthy <= t.limit)) {
             failures.push_back(
                 fmt::format("{}: a healthy drive reaches {:.3g}, its trip is at {:.3g}", t.name,
                             t.healthy, t.limit));

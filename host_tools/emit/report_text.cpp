@@ -117,7 +117,9 @@ std::string verdict_text(const Certificate &c)
         s += fmt::format("  elastic shaft: {}\n", shaft_words(*v.shaft));
     }
     for (const TripMargin &t : v.trips) {
-        s += fmt::format("  {}: {:.3g}, trip at {:.3g}\n", t.name, t.healthy, t.limit);
+        const std::string healthy =
+            std::isnan(t.healthy) ? "no bound" : fmt::format("{:.3g}", t.healthy);
+        s += fmt::format("  {}: {}, trip at {:.3g}\n", t.name, healthy, t.limit);
     }
     return s;
 }

@@ -265,7 +265,8 @@ TEST(Verdict, FiguresThatAreNoNumbersAreRefused)
         std::vector<std::string> failures;
         change(v);
         sdre::judge(v, ts_s, failures);
-        EXPECT_EQ(failures.size(), 1U);
+        ASSERT_EQ(failures.size(), 1U);
+        EXPECT_EQ(failures[0].find("nan"), std::string::npos) << failures[0];
         EXPECT_FALSE(sdre::excess(v, ts_s) <= 1.0);
     };
     EXPECT_LE(sdre::excess(fine, ts_s), 1.0);
