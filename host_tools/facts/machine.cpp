@@ -391,7 +391,8 @@ Machine machine_of(const Facts &facts, const std::string &default_name, Findings
     inductances(r, m);
     m.flux_Wb            = flux(r, m.pole_pairs.si);
     m.inertia_kgm2       = inertia(r);
-    m.friction_Nms       = r.or_chosen("viscous_friction", 0.0, "none is known");
+    m.friction_Nms       = r.or_chosen("viscous_friction", 0.0,
+                                       "none is known; the bench of `sdre-sil serve` has some");
     m.dc_link_V          = r.required("dc_link");
     m.pwm_Hz             = r.or_chosen("pwm", default_pwm_Hz, "not given");
     m.pwm_wanted_Hz      = m.pwm_Hz.si;

@@ -45,6 +45,19 @@ public:
 
 } // namespace
 
+TEST(ServeControl, AMotorWithoutFrictionGetsSomeOnTheBench)
+{
+    Drive own = shipped();
+    EXPECT_EQ(bench_friction_Nm(own), 0.0) << "its file has some";
+    EXPECT_EQ(bench_scenario(own, own, 1).motor_effects.coulomb_friction_Nm, 0.0);
+    own.motor.viscous_friction_Nms = 0.0;
+    EXPECT_DOUBLE_EQ(bench_scenario(own, own, 1).motor_effects.coulomb_friction_Nm,
+                     0.02 * own.motor.rated_torque_Nm);
+    const double rated_radps = own.motor.rated_speed_e_radps / own.motor.pole_pairs;
+    EXPECT_LT(own.motor.inertia_kgm2 * rated_radps / bench_friction_Nm(own), 10.0)
+        << "s until it stands";
+}
+
 TEST(ServeControl, LoadSupplyFaultsAndWhatTheyDo)
 {
     AtTheBench at;

@@ -88,9 +88,16 @@ int run(const Options &o)
     if (s.pty.empty() && !s.tcp && !s.rtu_tcp) {
         s.tcp = default_tcp;
     }
-    const auto drive = o.drive.empty() ? data_file("firmware/config/drives/ipmsm_390w.toml")
-                                       : std::filesystem::path(o.drive);
-    Server     server(read_drive_file(drive), static_cast<std::uint64_t>(o.seed), s);
+    const auto  drive = o.drive.empty() ? data_file("firmware/config/drives/ipmsm_390w.toml")
+                                        : std::filesystem::path(o.drive);
+    const Drive own   = read_drive_file(drive);
+    Server      server(own, static_cast<std::uint64_t>(o.seed), s);
+    if (const double friction_Nm = bench_friction_Nm(s.machine.value_or(own)); friction_Nm > 0.0) {
+        fmt::print(
+            "the drive file has no friction; on this bench it is {:.3g} N m, 2 % of the rated "
+            "torque\n",
+            friction_Nm);
+    }
     fmt::print("{}Ctrl-C ends it\n", server.greeting());
     std::fflush(stdout);
     server.run();

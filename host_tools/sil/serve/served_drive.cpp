@@ -33,6 +33,9 @@ Controller bound(const Scenario &s)
     return c;
 }
 
+// Chosen: bearings, seals and fan of a small machine take one to three per cent of its rated torque.
+constexpr double dry_friction_share = 0.02;
+
 void require_same(const char *key, int drive, int machine)
 {
     if (drive != machine) {
@@ -62,22 +65,29 @@ MotorScale scale_of(Motor drive, Motor machine)
 
 } // namespace
 
+double bench_friction_Nm(const Drive &machine)
+{
+    const Motor &m = machine.motor;
+    return m.viscous_friction_Nms > 0.0 ? 0.0 : dry_friction_share * m.rated_torque_Nm;
+}
+
 Scenario bench_scenario(const Drive &drive, const Drive &machine, std::uint64_t seed)
 {
     require_same("[motor] pole_pairs", drive.motor.pole_pairs, machine.motor.pole_pairs);
     require_same("[encoder] lines", drive.encoder.lines, machine.encoder.lines);
     Scenario s;
-    s.name                             = drive.name;
-    s.drive                            = drive;
-    s.duration_s                       = no_end_s;
-    s.dc_link_V                        = drive.inverter.dc_link_V;
-    s.seed                             = seed;
-    s.sensors                          = sensors_of_drive(drive);
-    s.sensors.ideal                    = false;
-    const SensorSettings true_ones     = sensors_of_drive(machine);
-    s.sensors.encoder_disc             = true_ones.encoder_disc;
-    s.sensors.encoder_eccentricity_rad = true_ones.encoder_eccentricity_rad;
-    s.plant_scale                      = scale_of(drive.motor, machine.motor);
+    s.name                              = drive.name;
+    s.drive                             = drive;
+    s.duration_s                        = no_end_s;
+    s.dc_link_V                         = drive.inverter.dc_link_V;
+    s.seed                              = seed;
+    s.sensors                           = sensors_of_drive(drive);
+    s.sensors.ideal                     = false;
+    const SensorSettings true_ones      = sensors_of_drive(machine);
+    s.sensors.encoder_disc              = true_ones.encoder_disc;
+    s.sensors.encoder_eccentricity_rad  = true_ones.encoder_eccentricity_rad;
+    s.plant_scale                       = scale_of(drive.motor, machine.motor);
+    s.motor_effects.coulomb_friction_Nm = bench_friction_Nm(machine);
     if (machine.saturation) {
         s.motor_effects.flux = saturated_motor(machine, machine.motor);
         s.plant_scale.erase("pm_flux_Wb"); // the map has them

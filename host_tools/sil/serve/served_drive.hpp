@@ -132,6 +132,10 @@ private:
     double                          before_s_       = 0.0; ///< of the devices before the last reset
 };
 
+/// Dry friction of the bench: 2 % of the rated torque when the motor's file has no friction, else 0. A data sheet seldom has
+/// it, and without any a shaft would coast for minutes.
+double bench_friction_Nm(const Drive &machine);
+
 /// The scenario of a drive on its bench with a machine: realistic sensors and inverter, at rest, no load. InputError when the
 /// machine is none for this drive: other pole pairs or lines, or a value that the drive file has as 0.
 Scenario bench_scenario(const Drive &drive, const Drive &machine, std::uint64_t seed);
