@@ -15,4 +15,7 @@ int run_program(const std::vector<std::string> &arguments);
 /// A program in the directory of this one; empty when there is none.
 std::filesystem::path program_beside(const std::string &name);
 
+/// A word of a line that a person copies into a shell: in quotes when the shell would split or change it.
+std::string shell_word(const std::string &text);
+
 } // namespace sdre

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "common/child_process.hpp"
 #include "common/errors.hpp"
 #include "common/file_output.hpp"
 #include "drive/drive_file.hpp"
@@ -109,7 +110,7 @@ int run(const Options &o)
     const Drive drive = read_drive_text(text, facts.source, o.out); // whose ranges are the tools'
     write_files({{o.out, text}});
     fmt::print("{}{}: written; `sdre-gains tune {} --out TUNED.toml` finds its weights\n",
-               pwm_note(drive.inverter), o.out, o.out);
+               pwm_note(drive.inverter), o.out, shell_word(o.out));
     return exit_ok;
 }
 

@@ -42,7 +42,11 @@ struct Tuned {
     TuneResult  result;
     TuneSpec    spec;
     std::string remark;
+    bool        met = true; ///< the specification, if there is one
 };
+
+// Chosen: weights have three digits.
+constexpr double met_within = 1.02;
 
 Tuned by_specification(const Options &o, const Drive &drive)
 {
@@ -57,8 +61,13 @@ Tuned by_specification(const Options &o, const Drive &drive)
             fmt::format("{}: the best weights found are not certified, nothing written: {}", o.spec,
                         fmt::join(certificate.failures, "; ")));
     }
-    t.remark = fmt::format("worst result / specification {:.2f}{}", t.result.worst_ratio,
-                           t.result.worst_ratio > 1.0 ? " (not all are met)" : "");
+    t.met    = t.result.worst_ratio <= met_within;
+    t.remark = t.met ? fmt::format("the specification is met, worst result at {:.2f} of it",
+                                   t.result.worst_ratio)
+                     : fmt::format("certified, and THE SPECIFICATION IS NOT MET: worst result at "
+                                   "{:.2f} of it\nnext: larger values in {}, a higher pwm_kHz, or "
+                                   "finer sensors",
+                                   t.result.worst_ratio, shell_word(o.spec));
     return t;
 }
 
@@ -66,7 +75,7 @@ Tuned by_physics(const Options &o, const Drive &drive)
 {
     try {
         const AutoTuneResult r = auto_tune(drive, say_progress);
-        return {r.tuned, r.goals, r.binding};
+        return {r.tuned, r.goals, "certified; " + r.binding};
     } catch (const InputError &e) {
         throw InputError(fmt::format("{}: {}", o.drive, e.what()));
     } catch (const DesignError &e) {
@@ -86,7 +95,8 @@ int qualified(const std::string &file, int noise)
 {
     const std::filesystem::path tool = program_beside("sdre-sil");
     if (tool.empty()) {
-        fmt::print("not qualified: there is no sdre-sil beside this tool\n");
+        fmt::print("not tried: there is no sdre-sil beside this tool; next: sdre-sil qualify {}\n",
+                   shell_word(file));
         return exit_ok;
     }
     std::vector<std::string> arguments{tool.string(), "qualify", file, "--short"};
@@ -111,10 +121,13 @@ int run(const Options &o)
     const std::string out      = o.out.empty() ? o.drive : o.out;
     write_files({{out, with_sections(text, sections)}});
     fmt::print("{}{}{}: written; {}\n", sections, pwm_note(drive.inverter), out, tuned.remark);
+    const int missed = tuned.met ? exit_ok : exit_design_failed;
     if (o.alone) {
-        return exit_ok;
+        fmt::print("not tried; next: sdre-sil qualify {}\n", shell_word(out));
+        return missed;
     }
-    return qualified(out, o.spec.empty() ? 0 : noise_percent(tuned.spec, drive));
+    const int tried = qualified(out, o.spec.empty() ? 0 : noise_percent(tuned.spec, drive));
+    return tried == exit_ok ? missed : tried;
 }
 
 } // namespace

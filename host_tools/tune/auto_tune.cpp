@@ -163,8 +163,8 @@ std::string binding_goal(const Score &s, const TuneSpec &goals)
     }
     const double noise = s.cases[0].voltage_noise_V / goals.voltage_noise_V;
     return fmt::format(
-        "{}{} binds, {:.2f} of its goal; v_q noise at {:.2f} of its limit. What would "
-        "relax it: {}",
+        "{}{} is {:.2f} times its goal from physics; v_q noise at {:.2f} of its limit. What would "
+        "improve it: {}",
         name, at == 0 ? "" : " of a motor that is not as believed", worst, noise,
         what_relaxes(noise > 0.9 ? "noise of v_q" : name));
 }

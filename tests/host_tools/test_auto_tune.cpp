@@ -44,7 +44,7 @@ TEST(AutoTune, FromADataSheetToACertifiedDrive)
 
     const auto first = gains({"tune", drive, "--out", tuned});
     ASSERT_EQ(first.exit_code, 0) << first.err;
-    EXPECT_NE(first.out.find(" binds, "), std::string::npos) << first.out;
+    EXPECT_NE(first.out.find(" times its goal from physics"), std::string::npos) << first.out;
     EXPECT_NE(first.err.find("100 evaluations"), std::string::npos) << first.err;
     EXPECT_NE(first.out.find("\noutrunner_24v: good\n"), std::string::npos) << first.out;
     EXPECT_EQ(gains({"report", tuned}).exit_code, 0);

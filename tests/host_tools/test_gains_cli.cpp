@@ -368,6 +368,21 @@ TEST(GainsCli, NewWritesTheBoardAndItsDeadTime)
                    {"dead_time_s = 1.5e-06", "board_390w"});
 }
 
+TEST(GainsCli, WhatIsToldToBeCopiedIsQuoted)
+{
+    const TempDir     dir;
+    const std::string sheet = SDRE_TEST_DATA_DIR "/facts/outrunner_24v.toml";
+    const std::string drive = dir / "it's a motor.toml";
+    const auto        r     = gains({"new", "--facts", sheet, "--out", drive});
+    ASSERT_EQ(r.exit_code, 0) << r.err;
+    const std::size_t from = r.out.find("tune ") + 5;
+    const std::string word = r.out.substr(from, r.out.find(" --out TUNED") - from);
+    EXPECT_EQ(support::run_command({"/bin/sh", "-c", "printf %s " + word}).out, drive);
+    const std::string plain = dir / "motor.toml";
+    const auto        same  = gains({"new", "--facts", sheet, "--out", plain});
+    EXPECT_NE(same.out.find("tune " + plain + " --out"), std::string::npos) << same.out;
+}
+
 TEST(GainsCli, FrequencyThatTheCounterHasNotGoesThroughEveryCommand)
 {
     const std::string both = "7999.147 Hz, the nearest to 8000 Hz that the counter has";

@@ -344,6 +344,23 @@ TEST(Tune, WeightsThatAreNotCertifiedAreMovedUntilTheyAre)
     EXPECT_TRUE(sdre::design_drive(found.drive).certificate.passed());
 }
 
+TEST(Tune, SpecificationThatIsMissedIsSaidAndIsExitTwo)
+{
+    const TempDir     dir;
+    std::string       text = read_file(board_spec);
+    const std::string dip  = "dip_e_radps     = 4.75";
+    text.replace(text.find(dip), dip.size(), "dip_e_radps = 4.0");
+    const std::string spec = dir.write("a spec.toml", text).string();
+    const std::string out  = (dir / "tuned.toml").string();
+    const auto r = support::run_command({SDRE_GAINS_EXE, "tune", board_drive.string(), "--spec",
+                                         spec, "--out", out, "--no-qualify"});
+    EXPECT_EQ(r.exit_code, 2) << r.err;
+    EXPECT_NE(r.out.find("written; certified, and THE SPECIFICATION IS NOT MET"), std::string::npos)
+        << r.out;
+    EXPECT_NE(r.out.find("next: larger values in '" + spec + "'"), std::string::npos) << r.out;
+    EXPECT_TRUE(sdre::design_drive(sdre::read_drive_file(out)).certificate.passed());
+}
+
 TEST(Tune, SpecificationFarOutOfReachWritesNothing)
 {
     const TempDir     dir;

@@ -4,6 +4,7 @@ drive has tripped."""
 
 from __future__ import annotations
 
+import shlex
 import sys
 from pathlib import Path
 from typing import Optional
@@ -167,7 +168,8 @@ def commission(
         )
     record.write_text(file, finder.text(values))
     out.print(
-        f"{file}: written; next: sdre-gains from-commissioning {file} --drive DRIVE --out NEW",
+        f"{file}: written; next: sdre-gains from-commissioning {shlex.quote(str(file))} --drive DRIVE "
+        "--out NEW",
         soft_wrap=True,
     )
 
