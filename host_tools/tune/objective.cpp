@@ -223,7 +223,7 @@ std::vector<GoalRatio> goal_ratios(const CaseResult &r, const RobustnessCase &c,
             {"sensitivity", peak},
             {"dip", r.dip_e_radps / c.dip_e_radps},
             {"settling time", r.settling_time_s / c.settling_time_s},
-            {"settling time behind an elastic shaft", r.shaft.ratio},
+            {"load step behind an elastic shaft", r.shaft.ratio},
             {"ripple", r.ripple_e_radps / c.ripple_e_radps},
             {"slowest mode", (1.0 - spec.largest_pole) / (1.0 - r.spectral_radius)},
             {"voltage", r.voltage_V / spec.voltage_headroom_V}};

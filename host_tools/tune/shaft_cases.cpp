@@ -2,10 +2,13 @@
 #include "tune/shaft_cases.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "design/design.hpp"
 #include "design/shaft_model.hpp"
+#include "linalg/covariance.hpp"
 #include "tune/load_step.hpp"
+#include "tune/objective.hpp"
 
 namespace sdre {
 namespace {
@@ -14,17 +17,18 @@ constexpr double two_pi = 6.283185307179586;
 
 constexpr double coarse_ratio =
     1.09; // chosen: three times as far apart as those of the certificate
-// Chosen: of the spectral radius, for the certificate's other points and the position; never more than half of the shaft's own
-// decay.
-constexpr double room = 1e-3;
+// Chosen: the loop leaves a shaft at least this share of its own decay. Noise keeps a shaft with less in motion.
+constexpr double own_decay = 0.5;
 
 // Chosen: a load step that a drive cannot settle in this time is bad, however long it lasts.
 constexpr double horizon_s  = 0.15;
 constexpr double step_ratio = 1.35; // chosen: of the resonances whose load steps are followed
 // Chosen: the energy of a known shaft can hardly be taken from it in fewer oscillations, and that of an unknown one takes more.
 constexpr double known_oscillations   = 1.6;
-constexpr double unknown_oscillations = 4.0;
+constexpr double unknown_oscillations = 8.0;
 constexpr double nominal_times        = 2.0;
+// Chosen: noise that keeps a shaft in motion leaves the most of the band in which a speed is settled.
+constexpr double ripple_share = 0.4;
 
 TwoMasses masses_of(const Drive &drive, const LoopGains &gains)
 {
@@ -43,6 +47,17 @@ std::vector<Shaft> hardest_shafts(const Mechanics &mechanics, double ratio)
     return shafts_of(m, ratio);
 }
 
+/// Three standard deviations of the motor's speed.
+double ripple_e_radps(const SampledModel &loop, const Sensors &sensors)
+{
+    if (!(spectral_radius(loop.A) < 1.0)) {
+        return 0.0; // its settling time tells
+    }
+    const double          i2 = sensors.current_A * sensors.current_A;
+    const Eigen::Vector3d variances(i2, i2, sensors.angle_rad * sensors.angle_rad);
+    return 3.0 * std::sqrt(std::max(covariance(loop.A, loop.B_noise, variances)(0, 0), 0.0));
+}
+
 } // namespace
 
 double radius_with_shafts(const Drive &drive, const LoopGains &gains)
@@ -58,8 +73,8 @@ double radius_with_shafts(const Drive &drive, const LoopGains &gains)
     for (const OperatingPoint &at : {masses.point(0.0, 0.0), masses.point(half, 1.0)}) {
         for (const Shaft &shaft : shafts) {
             const double own = two_pi * shaft.resonance_Hz * shaft.damping * ts;
-            worst            = std::max(worst, spectral_radius(masses.loop(shaft, at, gains).A) +
-                                                   std::min(room, 0.5 * own));
+            worst =
+                std::max(worst, spectral_radius(masses.loop(shaft, at, gains).A) + own_decay * own);
         }
     }
     return worst;
@@ -76,11 +91,15 @@ ShaftStep shaft_step(const Drive &drive, const TuneSpec &spec, const LoopGains &
     const int       periods      = static_cast<int>(horizon_s / control_period_s(drive));
     const bool      known        = drive.mechanics.coupling == Coupling::known;
     const double    oscillations = known ? known_oscillations : unknown_oscillations;
+    const Sensors   sensors      = sensors_of(drive, spec);
     for (const Shaft &shaft : hardest_shafts(drive.mechanics, step_ratio)) {
-        const LoadStep step   = load_step(masses.loop(shaft, at, gains), spec, periods);
-        const double   goal_s = std::max(nominal_times * spec.cases[0].settling_time_s,
-                                         oscillations / shaft.resonance_Hz);
-        const double   ratio  = step.settling_time_s / goal_s;
+        const SampledModel loop   = masses.loop(shaft, at, gains);
+        const LoadStep     step   = load_step(loop, spec, periods);
+        const double       goal_s = std::max(nominal_times * spec.cases[0].settling_time_s,
+                                             oscillations / shaft.resonance_Hz);
+        const double       ratio =
+            std::max(step.settling_time_s / goal_s,
+                     ripple_e_radps(loop, sensors) / (ripple_share * spec.band_e_radps));
         if (ratio > worst.ratio) {
             worst = {ratio, step.settling_time_s, shaft.resonance_Hz};
         }

@@ -26,6 +26,10 @@ constexpr double worth_a_change = 0.03;
 // Chosen: from further off, certified weights would not meet the goals by far.
 constexpr double near_goal = 2.0;
 
+// Chosen: a search that gains less than this is not begun again.
+constexpr double restart_gain  = 0.98;
+constexpr int    most_restarts = 6;
+
 constexpr int report_every = 100; // evaluations
 
 /// Whether these weights could have come from this search: what the specification fixes is the same, and three digits
@@ -50,6 +54,43 @@ bool certified(const Drive &drive)
     }
 }
 
+using Value     = std::function<double(const Point &)>;
+using Certified = std::function<bool(const Point &)>;
+
+/// A settling time jumps where an oscillation leaves its band, and a search ends there too early: it begins again.
+Point restarted(Point x, const Value &value)
+{
+    double before = 1e300;
+    for (int i = 0; i < most_restarts; i++) {
+        x                = minimise(x, value);
+        const double now = value(x);
+        if (now > restart_gain * before) {
+            break;
+        }
+        before = now;
+    }
+    return x;
+}
+
+/// The best of several starts; certified ones come first.
+Point best_with_shafts(const Value &value, const Certified &certified)
+{
+    Point  best{};
+    double least = 1e300;
+    bool   found = false;
+    for (const Point &from : {start, slow_start, slower_start}) {
+        const Point  x      = restarted(from, value);
+        const double now    = value(x);
+        const bool   passes = certified(x);
+        if ((passes && !found) || (passes == found && now < least)) {
+            best  = x;
+            least = now;
+            found = passes;
+        }
+    }
+    return best;
+}
+
 } // namespace
 
 TuneResult tune_drive(const Drive &own_drive, const TuneSpec &wanted, const TuneProgress &progress)
@@ -72,12 +113,9 @@ TuneResult tune_drive(const Drive &own_drive, const TuneSpec &wanted, const Tune
         }
         return s.value;
     };
-    Point found = minimise(elastic ? slow_start : start, value);
-    if (elastic) {
-        const Point other = minimise(slower_start, value);
-        found             = value(other) < value(found) ? other : found;
-    }
-    result.drive = with_weights(drive, spec, found);
+    const auto passes = [&](const Point &x) { return certified(with_weights(drive, spec, x)); };
+    Point      found  = elastic ? best_with_shafts(value, passes) : minimise(start, value);
+    result.drive      = with_weights(drive, spec, found);
     if ((elastic || best < near_goal) && !certified(result.drive)) {
         found        = improve(found, [&](const Point &x) {
             return value(x) + verdict_penalty(with_weights(drive, spec, x));
