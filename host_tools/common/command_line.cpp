@@ -65,6 +65,7 @@ int parse_and_run(const Tool &tool, int argc, char **argv)
         CLI::App  *sub = app.add_subcommand(command.name, command.help);
         OptionList options(*sub);
         command.declare(options);
+        sub->footer(fmt::format("Example:\n  {}", command.example));
         sub->final_callback([&chosen, &command] { chosen = &command; });
     }
     try {

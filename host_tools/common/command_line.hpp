@@ -49,17 +49,20 @@ struct Command {
     std::string                       name;
     std::string                       help;
     std::function<void(OptionList &)> declare;
-    std::function<int()>              run; ///< the exit code; errors.hpp lists the exceptions
+    std::function<int()>              run;     ///< the exit code; errors.hpp lists the exceptions
+    std::string                       example; ///< a line for a shell
 };
 
 /// A command from its options and what it does with them:
-/// command<Options>("report", "print ..", declare, run) with declare(OptionList &, Options &) and run(const Options &).
+/// command<Options>("report", "print ..", declare, run, "tool report file") with declare(OptionList &, Options &) and
+/// run(const Options &).
 template <typename Options, typename Declare, typename Run>
-Command command(const std::string &name, const std::string &help, Declare declare, Run run)
+Command command(const std::string &name, const std::string &help, Declare declare, Run run,
+                const std::string &example)
 {
     const auto options = std::make_shared<Options>();
     return {name, help, [options, declare](OptionList &list) { declare(list, *options); },
-            [options, run] { return run(*options); }};
+            [options, run] { return run(*options); }, example};
 }
 
 struct Tool {

@@ -249,7 +249,8 @@ int run(const Options &o)
 
 Command care_command()
 {
-    return command<Options>("care", "solve A'X + XA - XBR^-1B'X + Q = 0", declare, run);
+    return command<Options>("care", "solve A'X + XA - XBR^-1B'X + Q = 0", declare, run,
+                            "sdre-gains care problem.json --json");
 }
 
 } // namespace sdre

@@ -40,7 +40,7 @@ Command describe_command()
     return command<Options>("describe",
                             "write a page about a drive: what it is, can do and trips at; exit "
                             "code 2 when its certificate is refused",
-                            declare, run);
+                            declare, run, "sdre-gains describe my_motor.toml --out my_motor.md");
 }
 
 } // namespace sdre

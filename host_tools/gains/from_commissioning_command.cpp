@@ -45,9 +45,10 @@ int run(const Options &o)
 
 Command from_commissioning_command()
 {
-    return command<Options>("from-commissioning",
-                            "a drive file with the motor values that a drive's commissioning found",
-                            declare, run);
+    return command<Options>(
+        "from-commissioning",
+        "a drive file with the motor values that a drive's commissioning found", declare, run,
+        "sdre-gains from-commissioning found.toml --drive my_motor.toml --out true_motor.toml");
 }
 
 } // namespace sdre

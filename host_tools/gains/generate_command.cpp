@@ -70,7 +70,7 @@ Command generate_command()
     return command<Options>(
         "generate",
         "write gain_tables.h and .c and board_config.c, or compare them with the drive file",
-        declare, run);
+        declare, run, "sdre-gains generate my_motor.toml --out tables");
 }
 
 } // namespace sdre

@@ -68,7 +68,7 @@ Command image_command()
     return command<Options>("image",
                             "write a drive's constants as an image that a firmware loads without a "
                             "compiler",
-                            declare, run);
+                            declare, run, "sdre-gains image my_motor.toml --out my_motor.img");
 }
 
 } // namespace sdre

@@ -119,7 +119,7 @@ int run(const Options &o)
 Command new_command()
 {
     return command<Options>("new", "a drive file from what a data sheet says, cross-checked",
-                            declare, run);
+                            declare, run, "sdre-gains new --facts sheet.toml --out my_motor.toml");
 }
 
 } // namespace sdre

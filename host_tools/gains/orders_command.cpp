@@ -39,7 +39,7 @@ Command orders_command()
 {
     return command<Options>("orders",
                             "print how far every order of the two series is from the exact gains",
-                            declare, run);
+                            declare, run, "sdre-gains orders my_motor.toml");
 }
 
 } // namespace sdre

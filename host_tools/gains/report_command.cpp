@@ -43,7 +43,7 @@ Command report_command()
 {
     return command<Options>(
         "report", "print gains, poles and the certificate; exit code 2 when that is refused",
-        declare, run);
+        declare, run, "sdre-gains report my_motor.toml");
 }
 
 } // namespace sdre

@@ -138,7 +138,7 @@ Command tune_command()
                             "find weights from physical specifications, write them to the drive "
                             "file and qualify it; exit "
                             "code 2 when it is not good",
-                            declare, run);
+                            declare, run, "sdre-gains tune my_motor.toml --out my_motor.toml");
 }
 
 } // namespace sdre

@@ -60,6 +60,8 @@ def man(name, version, text, sections, commands):
         for kind in ("Positionals", "Options"):
             for option, what in commands[command].get(kind, []):
                 lines += [".TP", f".B {roff(option)}", roff(what)]
+        for example, more in commands[command].get("Example", []):
+            lines += [".PP", "Example:", f".B {roff(f'{example} {more}'.strip())}"]
     lines += [
         ".SH EXIT STATUS",
         "0: all is good. 1: bad input. 2: no acceptable design. 3: tables do not match the drive "

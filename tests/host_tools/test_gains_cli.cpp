@@ -9,6 +9,7 @@
 #include "command.hpp"
 #include "drive/drive_file.hpp"
 #include "drive_text.hpp"
+#include "examples.hpp"
 #include "json.hpp"
 #include "temp_dir.hpp"
 
@@ -366,6 +367,12 @@ TEST(GainsCli, NewWritesTheBoardAndItsDeadTime)
                    {"board = \"nix\"", "board_200w, board_390w"});
     expect_refused({"new", "--facts", facts, "--board", "board_390w", "--out", dir / "x"}, 1,
                    {"dead_time_s = 1.5e-06", "board_390w"});
+}
+
+TEST(GainsCli, EveryCommandHasAnExample)
+{
+    EXPECT_EQ(support::commands_of(SDRE_GAINS_EXE).size(), 9U);
+    support::expect_examples(SDRE_GAINS_EXE, tool);
 }
 
 TEST(GainsCli, WhatIsToldToBeCopiedIsQuoted)

@@ -56,6 +56,7 @@ class Package(unittest.TestCase):
     def test_man_pages_name_every_command(self):
         for tool in ("sdre-gains", "sdre-sil"):
             page = next((self.root / "usr/share/man/man1").glob(f"{tool}.1*")).read_text()
+            self.assertIn(f"Example:\n.B {tool}".replace("-", r"\-"), page)
             text = run(self.root / "usr/bin" / tool, "--help").stdout
             commands = [
                 line.split()[0]

@@ -14,6 +14,7 @@
 #include "command.hpp"
 #include "common/errors.hpp"
 #include "common/file_output.hpp"
+#include "examples.hpp"
 #include "json.hpp"
 #include "scenario_text.hpp"
 #include "sil/eval/results.hpp"
@@ -98,6 +99,12 @@ TEST(SilCli, HelpAndVersionAreNoErrors)
         EXPECT_NE(r.out.find("--help"), std::string::npos);
     }
     EXPECT_EQ(sil({"--version"}).out, "sdre-sil 1.0.0\n");
+}
+
+TEST(SilCli, EveryCommandHasAnExample)
+{
+    EXPECT_EQ(support::commands_of(SDRE_SIL_EXE).size(), 8U);
+    support::expect_examples(SDRE_SIL_EXE, tool);
 }
 
 TEST(SilCli, PrintsMetricsAndWritesNothingUnasked)

@@ -27,7 +27,8 @@ int run(const Options &o)
 
 Command bench_command()
 {
-    return command<Options>("bench", "print the speed of the simulation", declare, run);
+    return command<Options>("bench", "print the speed of the simulation", declare, run,
+                            "sdre-sil bench");
 }
 
 } // namespace sdre

@@ -107,7 +107,7 @@ Command commission_command()
         "commission",
         "let the firmware find the motor of a drive file by itself; exit code 4 "
         "when it cannot",
-        declare, run);
+        declare, run, "sdre-sil commission my_motor.toml --out found.toml");
 }
 
 } // namespace sdre

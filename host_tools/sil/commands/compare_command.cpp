@@ -79,10 +79,12 @@ int run(const Options &o)
 
 Command compare_command()
 {
-    return command<Options>("compare",
-                            "run several drives on the same scenarios and print one table; exit "
-                            "code 4 when one faults",
-                            declare, run);
+    return command<Options>(
+        "compare",
+        "run several drives on the same scenarios and print one table; exit "
+        "code 4 when one faults",
+        declare, run,
+        "sdre-sil compare load_step.toml --drive my_motor.toml --drive other.toml --seeds 5");
 }
 
 } // namespace sdre

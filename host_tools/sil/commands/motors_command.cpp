@@ -54,7 +54,7 @@ Command motors_command()
     return command<Options>("motors",
                             "run one scenario with random motors that the controller does not "
                             "know; exit code 4 when one of them fails",
-                            declare, run);
+                            declare, run, "sdre-sil motors random_motors.toml --csv motors.csv");
 }
 
 } // namespace sdre

@@ -70,7 +70,7 @@ Command qualify_command()
     return command<Options>("qualify",
                             "put a drive through everything at its own scale; exit code 4 when it "
                             "is not good",
-                            declare, run);
+                            declare, run, "sdre-sil qualify my_motor.toml --html my_motor.html");
 }
 
 } // namespace sdre

@@ -161,7 +161,7 @@ Command run_command()
 {
     return command<Options>(
         "run", "run one scenario and print its metrics; exit code 4 when the drive faults", declare,
-        run);
+        run, "sdre-sil run load_step.toml --drive my_motor.toml --seeds 20 --plot load_step.png");
 }
 
 } // namespace sdre

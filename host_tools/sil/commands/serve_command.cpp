@@ -110,7 +110,7 @@ Command serve_command()
 {
     return command<Options>(
         "serve", "a virtual drive to connect to: the firmware on a virtual F28335, in real time",
-        declare, run);
+        declare, run, "sdre-sil serve my_motor.toml --tcp 1502");
 }
 
 } // namespace sdre

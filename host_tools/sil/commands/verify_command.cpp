@@ -80,7 +80,8 @@ Command verify_command()
     return command<Options>("verify",
                             "compare records of a machine with simulations of its drive file; exit "
                             "code 4 when they do not agree",
-                            declare, run);
+                            declare, run,
+                            "sdre-sil verify my_motor.toml --programme programme.json");
 }
 
 } // namespace sdre
