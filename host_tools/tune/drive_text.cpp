@@ -86,10 +86,9 @@ std::string tuned_sections(const TuneResult &r, const TuneSpec &spec)
     }
     const ShaftStep &shaft = r.cases.front().shaft;
     if (shaft.ratio > 0.0) {
-        s +=
-            fmt::format("# Behind an elastic shaft of {:.0f} Hz it settles in {:.1f} ms. The "
-                        "farthest goal there is at {:.2f}.\n",
-                        shaft.resonance_Hz, 1e3 * shaft.settling_time_s, shaft.ratio);
+        s += fmt::format("# Behind an elastic shaft of {:.0f} Hz it settles in {:.1f} ms. The "
+                         "farthest goal there is at {:.2f}.\n",
+                         shaft.resonance_Hz, 1e3 * shaft.settling_time_s, shaft.ratio);
     }
     s += fmt::format("[nosc]\norder = {}\n", d.nosc.order);
     s += fmt::format("Q = [{:.3g}, {:.3g}, {:.3g}] # speed, i_q: searched; i_d: 1 / ({:g} A)^2\n",
