@@ -50,11 +50,11 @@ TEST(EqualNoise, EveryLawHasOneKnob)
     EXPECT_DOUBLE_EQ(d.nodo.T[0], plain.nodo.T[0] / 4.0);
     EXPECT_EQ(d.nodo.Q, plain.nodo.Q);
     d = with_bandwidth(read_drive_file(pi_foc), 0.5);
-    EXPECT_DOUBLE_EQ(d.cascade.symmetrical_optimum_a, 4.0);
+    EXPECT_DOUBLE_EQ(d.cascade.symmetrical_optimum_a, 4.26);
     EXPECT_DOUBLE_EQ(with_bandwidth(d, 1e3).cascade.symmetrical_optimum_a, 1.05);
     d = with_bandwidth(read_drive_file(ladrc), 0.5);
-    EXPECT_DOUBLE_EQ(d.cascade.controller_radps, 225.0);
-    EXPECT_DOUBLE_EQ(d.cascade.observer_radps, 450.0);
+    EXPECT_DOUBLE_EQ(d.cascade.controller_radps, 276.0);
+    EXPECT_DOUBLE_EQ(d.cascade.observer_radps, 355.0);
     EXPECT_THROW(with_bandwidth(read_drive_file(drives + "servo_200w_pid.toml"), 1.0), InputError);
 }
 
@@ -84,7 +84,7 @@ TEST(EqualNoise, TableIsThatOfTheFirstDrivesNoise)
     EXPECT_TRUE(c.missed.empty());
     const double wanted = *noise_V(read_scenario_file(file, pi_foc), 1);
     EXPECT_DOUBLE_EQ(*c.runs[0].cells.at("hold").at("vq_noise_V").value, wanted);
-    EXPECT_EQ(c.columns[0], "ipmsm_390w_pi_foc, symmetrical_optimum_a = 2");
+    EXPECT_EQ(c.columns[0], "ipmsm_390w_pi_foc, symmetrical_optimum_a = 2.13");
     for (const CompareRun &run : c.runs) {
         EXPECT_NEAR(*run.cells.at("hold").at("vq_noise_V").value, wanted, noise_tolerance * wanted)
             << run.column;
