@@ -513,6 +513,61 @@ TEST(SilCli, PlotsAreRealPictures)
               (std::set<std::string>{"case.toml", "p.png", "p.svg"}));
 }
 
+TEST(SilCli, PlotsAreRealPicturesOfEveryComparedDrive)
+{
+    if (!draws_plots()) {
+        GTEST_SKIP() << "built without a Python that has matplotlib";
+    }
+    const TempDir     dir;
+    const std::string scenario =
+        dir.write("case.toml", support::replaced(scenario_text(), "law = \"noc\"\n", ""));
+    const std::string drives = std::string(SDRE_SOURCE_DIR) + "/firmware/config/drives/";
+    const std::vector<std::string> common{"compare",  scenario,
+                                          "--drive",  drives + "ipmsm_390w_speed.toml",
+                                          "--drive",  drives + "ipmsm_390w_conventional.toml",
+                                          "--metric", "ripple_e_radps"};
+    const auto                     drawn = [&](const char *name) {
+        std::vector<std::string> arguments = common;
+        arguments.insert(arguments.end(), {"--plot", dir / name});
+        const CommandResult r = sil(arguments);
+        EXPECT_EQ(r.exit_code, 0) << r.err;
+        return support::read_file(dir / name);
+    };
+
+    EXPECT_EQ(drawn("p.png").substr(0, 8), "\x89PNG\r\n\x1a\n");
+    const std::string svg = drawn("p.svg");
+    for (const char *piece : {"<svg", "<!-- case -->", "<!-- whole, closer -->", "<!-- wanted -->",
+                              "<!-- ipmsm_390w_speed -->", "<!-- ipmsm_390w_conventional -->"}) {
+        EXPECT_NE(svg.find(piece), std::string::npos) << piece;
+    }
+    EXPECT_TRUE(svg == drawn("again.svg"));
+}
+
+TEST(SilCli, PythonWithoutMatplotlibIsOneLineBeforeAnythingRuns)
+{
+    if (!draws_plots()) {
+        GTEST_SKIP() << "built without a Python that has matplotlib";
+    }
+    const TempDir     dir;
+    const std::string scenario = dir.write("case.toml", scenario_text());
+    const std::string kept     = dir.write("kept.csv", "earlier");
+    const std::string bare     = dir.write("bare", "#!/bin/sh\nexit 1\n");
+    std::filesystem::permissions(bare, std::filesystem::perms::owner_all);
+
+    for (const std::string &python : {bare, (dir / "none").string()}) {
+        setenv("SDRE_PYTHON", python.c_str(), 1);
+        for (const char *command : {"run", "compare"}) {
+            expect_refused({command, scenario, "--csv", kept, "--plot", dir / "p.png"}, 1,
+                           {python, "no matplotlib", "install", "SDRE_PYTHON"});
+        }
+    }
+    unsetenv("SDRE_PYTHON");
+
+    EXPECT_TRUE(support::read_file(kept) == "earlier");
+    EXPECT_EQ(support::names_in(dir.path()),
+              (std::set<std::string>{"bare", "case.toml", "kept.csv"}));
+}
+
 TEST(SilCli, PlotThatCannotBeWrittenIsOneLine)
 {
     if (!draws_plots()) {

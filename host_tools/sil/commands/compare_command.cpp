@@ -7,6 +7,7 @@
 #include "common/file_output.hpp"
 #include "sil/commands/commands.hpp"
 #include "sil/eval/compare.hpp"
+#include "sil/eval/plot.hpp"
 
 namespace sdre {
 namespace {
@@ -22,6 +23,7 @@ struct Options {
     std::string              csv;
     std::string              json;
     std::string              markdown;
+    std::string              plot;
 };
 
 void declare(OptionList &list, Options &o)
@@ -40,12 +42,36 @@ void declare(OptionList &list, Options &o)
     list.text("--csv", o.csv, "write the values, one row each");
     list.text("--json", o.json, "write the values");
     list.text("--markdown", o.markdown, "write the printed table");
+    list.text("--plot", o.plot,
+              "draw speed, i_q and v_q of seed 1 over time, a line for each drive (.png or .svg)");
+}
+
+std::vector<OutputFile> files_of(const Options &o, const Comparison &comparison)
+{
+    std::vector<OutputFile> files;
+    if (!o.plot.empty()) {
+        files.push_back(
+            {o.plot, comparison_picture(comparison, "compared drives, seed 1", o.plot)});
+    }
+    if (!o.csv.empty()) {
+        files.push_back({o.csv, compare_csv(comparison)});
+    }
+    if (!o.json.empty()) {
+        files.push_back({o.json, compare_json(comparison)});
+    }
+    if (!o.markdown.empty()) {
+        files.push_back({o.markdown, compare_markdown(comparison)});
+    }
+    return files;
 }
 
 int run(const Options &o)
 {
     if (o.noise_V > 0 && !o.equal_noise) {
         throw InputError("--noise: needs --equal-noise");
+    }
+    if (!o.plot.empty()) {
+        require_plot(o.plot);
     }
     CompareRequest request{{o.scenarios.begin(), o.scenarios.end()},
                            {o.drives.begin(), o.drives.end()},
@@ -57,18 +83,8 @@ int run(const Options &o)
     if (o.noise_V > 0) {
         request.noise_V = o.noise_V;
     }
-    const Comparison        comparison = compare(request);
-    std::vector<OutputFile> files;
-    if (!o.csv.empty()) {
-        files.push_back({o.csv, compare_csv(comparison)});
-    }
-    if (!o.json.empty()) {
-        files.push_back({o.json, compare_json(comparison)});
-    }
-    if (!o.markdown.empty()) {
-        files.push_back({o.markdown, compare_markdown(comparison)});
-    }
-    write_files(files);
+    const Comparison comparison = compare(request);
+    write_files(files_of(o, comparison));
     fmt::print("{}", compare_markdown(comparison));
     const bool faulted = std::any_of(comparison.runs.begin(), comparison.runs.end(),
                                      [](const CompareRun &r) { return r.faulted > 0; });

@@ -182,10 +182,12 @@ Comparison compare(const CompareRequest &request)
         }
         require_different(c.columns);
     }
-    const std::vector<SeedRuns> runs = run_seeds(all, request.seeds);
+    std::vector<SeedRuns> runs = run_seeds(all, request.seeds);
     for (std::size_t i = 0; i < all.size(); i++) {
         c.runs.push_back(run_of(all[i], columns[i], runs[i], c.metrics));
+        c.traces.push_back(std::move(runs[i].first.trace));
     }
+    c.as_run = std::move(all);
     return c;
 }
 

@@ -8,6 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "sil/run/trace.hpp"
+#include "sil/setup/scenario.hpp"
+
 namespace sdre {
 
 struct CompareRequest {
@@ -41,7 +44,9 @@ struct CompareRun {
 struct Comparison {
     std::vector<std::string> columns;
     std::vector<std::string> metrics;
-    std::vector<CompareRun>  runs; ///< scenario by scenario, columns in order
+    std::vector<CompareRun>  runs;   ///< scenario by scenario, columns in order
+    std::vector<Scenario>    as_run; ///< of each run, with its drive
+    std::vector<Trace>       traces; ///< of each run, with seed 1
     std::vector<std::string>
         missed; ///< a line for each drive that cannot be as noisy as the others
 };

@@ -2,6 +2,7 @@
 #include "sil/eval/plot.hpp"
 
 #include <cstdlib>
+#include <iterator>
 #include <vector>
 
 #include <fmt/format.h>
@@ -57,7 +58,6 @@ std::string python()
 std::string drawn(const char *script, const std::string &csv, const std::string &title,
                   const std::filesystem::path &picture, const std::string &marks = {})
 {
-    require_plot(picture);
     const Workplace             work;
     const std::filesystem::path data = work / "data.csv";
     const std::filesystem::path out  = work / ("picture" + picture.extension().string());
@@ -75,20 +75,8 @@ std::string drawn(const char *script, const std::string &csv, const std::string 
     return read_text_file(out);
 }
 
-} // namespace
-
-void require_plot(const std::filesystem::path &picture)
-{
-    const std::string kind = picture.extension().string();
-    if (kind != ".png" && kind != ".svg") {
-        throw InputError(fmt::format("{}: a plot is a .png or a .svg", picture.string()));
-    }
-    if (python().empty()) {
-        throw InputError("--plot: this build found no Python with matplotlib");
-    }
-}
-
-std::string trace_marks(const Scenario &scenario, const Trace &trace)
+/// The marks of a trace for draw_trace.py.
+Json marks_of(const Scenario &scenario, const Trace &trace)
 {
     Json       measures = Json::array();
     const auto windows  = windows_of(scenario, trace);
@@ -103,7 +91,53 @@ std::string trace_marks(const Scenario &scenario, const Trace &trace)
         }
         measures.push_back(one);
     }
-    return Json{{"pole_pairs", scenario.drive.motor.pole_pairs}, {"measures", measures}}.text();
+    return Json{{"pole_pairs", scenario.drive.motor.pole_pairs}, {"measures", measures}};
+}
+
+/// The drawn columns of all runs, one below the other.
+std::string comparison_traces(const std::vector<Trace> &traces)
+{
+    std::string s = "run,time_s,omega_ref_e_radps,omega_e_radps,iq_A,vq_V\n";
+    for (std::size_t run = 0; run < traces.size(); run++) {
+        for (const TraceRow &row : traces[run]) {
+            fmt::format_to(std::back_inserter(s), "{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", run,
+                           row.time_s, row.omega_ref_e_radps, row.omega_e_radps, row.iq_A,
+                           row.vq_V);
+        }
+    }
+    return s;
+}
+
+/// Whether the Python that draws has what it draws with.
+bool has_matplotlib()
+{
+    return run_program({python(), "-c",
+                        "import importlib.util, sys; "
+                        "sys.exit(importlib.util.find_spec('matplotlib') is None)"}) == 0;
+}
+
+} // namespace
+
+void require_plot(const std::filesystem::path &picture)
+{
+    const std::string kind = picture.extension().string();
+    if (kind != ".png" && kind != ".svg") {
+        throw InputError(fmt::format("{}: a plot is a .png or a .svg", picture.string()));
+    }
+    if (python().empty()) {
+        throw InputError("--plot: this build found no Python with matplotlib; name one in the "
+                         "environment, as SDRE_PYTHON");
+    }
+    if (!has_matplotlib()) {
+        throw InputError(fmt::format("--plot: {} has no matplotlib; install it there, or name "
+                                     "another Python in the environment, as SDRE_PYTHON",
+                                     python()));
+    }
+}
+
+std::string trace_marks(const Scenario &scenario, const Trace &trace)
+{
+    return marks_of(scenario, trace).text();
 }
 
 std::string trace_picture(const Scenario &scenario, const Trace &trace, const std::string &title,
@@ -116,6 +150,20 @@ std::string spectrum_picture(const std::string &csv, const std::string &title,
                              const std::filesystem::path &picture)
 {
     return drawn("draw_spectrum.py", csv, title, picture);
+}
+
+std::string comparison_picture(const Comparison &comparison, const std::string &title,
+                               const std::filesystem::path &picture)
+{
+    Json marks = Json::array();
+    for (std::size_t i = 0; i < comparison.runs.size(); i++) {
+        Json one        = marks_of(comparison.as_run[i], comparison.traces[i]);
+        one["scenario"] = comparison.runs[i].scenario;
+        one["drive"]    = comparison.runs[i].column;
+        marks.push_back(one);
+    }
+    return drawn("draw_compare.py", comparison_traces(comparison.traces), title, picture,
+                 marks.text());
 }
 
 } // namespace sdre
