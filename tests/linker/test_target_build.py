@@ -168,12 +168,14 @@ class TargetBuild(unittest.TestCase):
             "check.c",
             "dead_time.c",
             "drive_config.c",
+            "inertia.c",
             "motor.c",
             "nodo_current.c",
             "nodo_encoder_series.c",
             "nosc_series.c",
             "position_loop.c",
             "position_ref.c",
+            "position_torque.c",
         }
         control = {
             source.name

@@ -22,6 +22,7 @@ static void reset(law_state_t *state, const drive_config_t *drive, const drive_s
     encoder_form_edges_reset(&s->edges);
     angle_gate_reset(&s->gate, sample->theta_e_rad);
     near_optimal_reset(&s->near_optimal, &c->near_optimal, y.omega_e_radps);
+    s->near_optimal.inertia.gain_most = 1.0f; /* with more and J x3 the loop is unstable */
 }
 
 static near_optimal_view_t observe(law_noc_h_state_t *s, const law_noc_h_config_t *c,
@@ -51,10 +52,12 @@ static near_optimal_view_t observe(law_noc_h_state_t *s, const law_noc_h_config_
 static void step(law_state_t *state, const drive_config_t *drive, const law_input_t *in,
                  law_output_t *out)
 {
-    const law_noc_h_config_t *c    = drive->constants;
-    law_noc_h_state_t        *s    = &state->noc_h;
-    const near_optimal_view_t view = observe(s, c, drive, in);
+    const law_noc_h_config_t *c       = drive->constants;
+    law_noc_h_state_t        *s       = &state->noc_h;
+    const near_optimal_view_t view    = observe(s, c, drive, in);
+    const float               d_omega = view.est->d_omega;
     near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in, out);
+    s->observer.base.d_omega += view.est->d_omega - d_omega; /* EQ-INERTIA-3 */
     out->ignored_angles = s->gate.ignored;
     out->without_angle  = s->gate.lost != 0;
 }

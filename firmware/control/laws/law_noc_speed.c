@@ -17,7 +17,7 @@ void law_noc_speed_reset(law_noc_speed_state_t *s, const near_optimal_config_t *
     near_optimal_reset(&s->near_optimal, c, y.omega_e_radps);
 }
 
-near_optimal_view_t law_noc_speed_view(const law_noc_speed_state_t *s, const nodo_meas_t *y,
+near_optimal_view_t law_noc_speed_view(law_noc_speed_state_t *s, const nodo_meas_t *y,
                                        const drive_sample_t *sample, float ts_s)
 {
     const near_optimal_view_t view = {.est         = &s->observer,

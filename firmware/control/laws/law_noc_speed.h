@@ -29,7 +29,7 @@ void law_noc_speed_reset(law_noc_speed_state_t *s, const near_optimal_config_t *
                          const drive_sample_t *sample);
 
 /** The measurement as the law sees it; every angle is plausible. Context: control ISR. */
-near_optimal_view_t law_noc_speed_view(const law_noc_speed_state_t *s, const nodo_meas_t *y,
+near_optimal_view_t law_noc_speed_view(law_noc_speed_state_t *s, const nodo_meas_t *y,
                                        const drive_sample_t *sample, float ts_s);
 
 #endif /* LAW_NOC_SPEED_H */

@@ -7,6 +7,7 @@
 #include "feedforward.h"
 #include "fpu.h"
 #include "frames.h"
+#include "position_torque.h"
 #include "voltage.h"
 
 CTL_PART bool near_optimal_check(const near_optimal_config_t *c, const drive_config_t *drive)
@@ -24,6 +25,7 @@ CTL_PART void near_optimal_reset(near_optimal_t *s, const near_optimal_config_t 
 {
     speed_ref_reset(&s->speed_ref, omega_e_radps);
     current_ref_reset(&s->current_ref, &c->current_ref);
+    inertia_reset(&s->inertia);
     s->positioning       = false;
     s->theta_error_e_rad = 0.0f;
 }
@@ -42,13 +44,14 @@ static void update_position(near_optimal_t *s, const near_optimal_config_t *c,
                             const drive_config_t *drive, const near_optimal_view_t *view,
                             const position_command_t *command)
 {
-    const current_ref_t *i  = &s->current_ref;
-    const position_t     is = seen_position(view, command, drive->ts_s);
-    position_ref_t      *r  = &s->position_ref;
-    speed_ref_t         *w  = &s->speed_ref;
-    const float share = base_min(i->iq_hi_A, -i->iq_lo_A) * fpu_inverse(c->current_ref.iq_max_A);
-    const position_profile_t profile = position_ref_profile(
-        r, &command->profile, &c->position.most, &command->target, share, view->est->d_omega);
+    const position_t is = seen_position(view, command, drive->ts_s);
+    position_ref_t  *r  = &s->position_ref;
+    speed_ref_t     *w  = &s->speed_ref;
+    /* A copy, so that in other runs the view need not be in memory. */
+    const near_optimal_view_t its_own = *view;
+    const position_torque_t   torque  = position_torque(s, c, &drive->motor, &its_own);
+    const position_profile_t  profile =
+        position_ref_profile(r, &command->profile, &c->position.most, &command->target, &torque);
 
     position_ref_update(r, &profile, &command->target, &is, c->position.near_rad, drive->ts_s);
     w->omega_e_radps         = r->omega_e_radps;
@@ -56,6 +59,7 @@ static void update_position(near_optimal_t *s, const near_optimal_config_t *c,
     w->omega_2dot_e_radps3   = r->omega_2dot_e_radps3;
     w->accel_wanted_e_radps2 = r->omega_dot_e_radps2;
     s->theta_error_e_rad     = position_way_rad(&r->at, &is);
+    view->est->d_omega += inertia_ahead(&s->inertia, r->omega_dot_e_radps2); /* EQ-INERTIA-3 */
 }
 
 /* A speed run, or a position run that may begin here. All that follows in the period depends on
@@ -64,14 +68,17 @@ static void choose_run(near_optimal_t *s, const near_optimal_view_t *view,
                        const position_command_t *command, float ts_s)
 {
     if (command == NULL) {
-        s->positioning       = false;
-        s->theta_error_e_rad = 0.0f;
+        s->positioning          = false;
+        s->theta_error_e_rad    = 0.0f;
+        s->position_ref.arrived = false;
+        s->position_ref.waits   = false;
     } else if (!s->positioning) {
         const position_t is = seen_position(view, command, ts_s);
 
         position_ref_start(&s->position_ref, &is, s->speed_ref.omega_e_radps,
                            s->speed_ref.omega_dot_e_radps2);
-        s->positioning = true;
+        s->inertia.accel_e_radps2 = s->speed_ref.omega_dot_e_radps2;
+        s->positioning            = true;
     } else {
         /* the position run goes on */
     }
@@ -110,14 +117,16 @@ static void update_references(near_optimal_t *s, const near_optimal_config_t *c,
     current_ref_update(&s->current_ref, &c->current_ref, &drive->motor, &s->speed_ref, &from);
 }
 
-/* Speed error and angle error share one limit. Both are scaled by the same factor. */
+/* Speed error and angle error share one limit. Both are scaled by the same factor, which contains
+ * EQ-INERTIA-4. */
 static float shared_error(near_optimal_t *s, float e_w, float asked, float allowed)
 {
-    if (base_within(asked - allowed, 0.0f)) {
-        return e_w;
+    float share = s->inertia.gain;
+
+    if (!base_within(asked - allowed, 0.0f)) {
+        /* the limits include zero, hence asked is not zero here */
+        share *= allowed * fpu_inverse(asked);
     }
-    const float share =
-        allowed * fpu_inverse(asked); /* the limits include zero, hence asked is not zero here */
 
     s->theta_error_e_rad *= share;
     return share * e_w;
@@ -132,10 +141,13 @@ CTL_PART nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_c
 
     const current_ref_t *ref = &s->current_ref;
     const float          e_w = view->now.omega_e_radps - s->speed_ref.omega_e_radps;
-    const nosc_error_t   e   = {.omega_e_radps = asking_e_radps(s, c, e_w),
+    nosc_error_t         e   = {.omega_e_radps = asking_e_radps(s, c, e_w),
                                 .iq_A          = view->now.iq_A - ref->i_A.q,
                                 .id_A          = view->now.id_A - ref->i_A.d};
-    nosc_error_t         limited =
+    if (s->positioning) {
+        e.omega_e_radps *= s->inertia.gain; /* EQ-INERTIA-4 */
+    }
+    nosc_error_t limited =
         nosc_limit_speed_error(near_optimal_gains(s, c), e, ref->i_A.q, ref->iq_lo_A, ref->iq_hi_A);
     if (s->positioning) {
         limited.omega_e_radps = shared_error(s, e_w, e.omega_e_radps, limited.omega_e_radps);
@@ -215,8 +227,8 @@ CTL_PART void near_optimal_answer(const near_optimal_t *s, const near_optimal_co
     out->d_d             = view->est->d_d;
     out->ignored_angles  = 0U;
     out->without_angle   = false;
-    out->arrived         = s->positioning && s->position_ref.arrived;
-    out->waits           = s->positioning && s->position_ref.waits;
+    out->arrived         = s->position_ref.arrived;
+    out->waits           = s->position_ref.waits;
     out->profile_e_radps = s->speed_ref.omega_e_radps;
     out->plausible       = view->plausible;
     out->predicted       = false;

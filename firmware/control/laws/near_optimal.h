@@ -14,6 +14,7 @@
 #include "base.h"
 #include "current_ref.h"
 #include "drive_config.h"
+#include "inertia.h"
 #include "nosc.h"
 #include "position_loop.h"
 #include "speed_ref.h"
@@ -25,20 +26,21 @@ typedef struct {
 } near_optimal_config_t;
 
 typedef struct {
-    speed_ref_t    speed_ref; /**< in a position run the speed of position_ref */
+    bool           positioning;
+    float          theta_error_e_rad; /**< limited error to position_ref; 0 in a speed run */
+    speed_ref_t    speed_ref;         /**< in a position run the speed of position_ref */
     current_ref_t  current_ref;
     position_ref_t position_ref;
-    float          theta_error_e_rad; /**< limited error to position_ref; 0 in a speed run */
-    bool           positioning;
+    inertia_t      inertia; /**< learned in position runs */
 } near_optimal_t;
 
 /** View of the observer, all of one instant. */
 typedef struct {
-    const nodo_t *est;         /**< disturbance estimates */
-    nodo_meas_t   now;         /**< speed and currents: measured, or predicted */
-    float         d_omega_dot; /**< d_w' [rad/s^3]; 0: unknown */
-    float         theta_rad;   /**< as law_output_t */
-    bool          plausible;   /**< as law_output_t */
+    nodo_t     *est;         /**< disturbance estimates; a position run adds to d_omega */
+    nodo_meas_t now;         /**< speed and currents: measured, or predicted */
+    float       d_omega_dot; /**< d_w' [rad/s^3]; 0: unknown */
+    float       theta_rad;   /**< as law_output_t */
+    bool        plausible;   /**< as law_output_t */
 } near_optimal_view_t;
 
 /** True if all constants are in range and agree with the drive's limit and rate. Context: init. */

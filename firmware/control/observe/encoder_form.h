@@ -164,7 +164,7 @@ CTL_PART float encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad,
  * Context: control ISR.
  */
 static inline near_optimal_view_t encoder_form_view(const encoder_form_limits_t *limits,
-                                                    const nodo_t *est, float theta_hat_rad,
+                                                    nodo_t *est, float theta_hat_rad,
                                                     float angle_error_rad, float ts_s)
 {
     const near_optimal_view_t view = {est,

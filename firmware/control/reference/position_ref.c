@@ -47,15 +47,18 @@ void position_ref_start(position_ref_t *r, const position_t *at, float omega_e_r
     r->omega_2dot_e_radps3 = 0.0f;
     r->reach_e_radps2      = 0.0f;
     r->d_rest_e_radps2     = 0.0f;
+    r->jerk_share          = 1.0f;
     r->arrived             = false;
     r->waits               = false;
 }
 
 /* EQ-POSITION-REACH-1, 2. No reach is known in the first period of a run. */
-static void update_reach(position_ref_t *r, float now, float way_rad, float d_omega)
+static void update_reach(position_ref_t *r, float now, float way_rad,
+                         const position_torque_t *torque, float per_inertia)
 {
     if (r->arrived || (r->reach_e_radps2 <= 0.0f)) {
-        r->d_rest_e_radps2 = d_omega;
+        r->d_rest_e_radps2 = torque->d_omega;
+        r->jerk_share      = per_inertia;
         r->reach_e_radps2  = now;
     } else if (fabsf(now * way_rad) >= (r->omega_e_radps * r->omega_e_radps)) {
         r->reach_e_radps2 = base_min(r->reach_e_radps2, now);
@@ -66,20 +69,23 @@ static void update_reach(position_ref_t *r, float now, float way_rad, float d_om
 
 position_profile_t position_ref_profile(position_ref_t *r, const position_profile_t *asked,
                                         const position_profile_t *most, const position_t *target,
-                                        float share, float d_omega)
+                                        const position_torque_t *torque)
 {
-    const float rest = r->d_rest_e_radps2;
-    const float full = REACH_RATIO * share * most->accel_e_radps2;
-    const float now  = base_clamp(full - fabsf(rest) - fabsf(d_omega - rest),
-                                  REACH_LEAST * most->accel_e_radps2, most->accel_e_radps2);
+    const float rest        = r->d_rest_e_radps2;
+    const float known       = (1.0f - torque->inertia) * r->omega_dot_e_radps2; /* EQ-INERTIA-1 */
+    const float per_inertia = fpu_inverse(base_max(torque->inertia, 1.0f));
+    const float full        = REACH_RATIO * torque->share * most->accel_e_radps2;
+    const float left        = full - fabsf(rest) - fabsf(torque->d_omega - rest - known);
+    const float now =
+        base_clamp(left * per_inertia, REACH_LEAST * most->accel_e_radps2, most->accel_e_radps2);
 
-    update_reach(r, now, position_way_rad(&r->at, target), d_omega);
+    update_reach(r, now, position_way_rad(&r->at, target), torque, per_inertia);
     const position_profile_t p = {
         .speed_e_radps  = base_min(asked->speed_e_radps, most->speed_e_radps),
         .accel_e_radps2 = base_min(asked->accel_e_radps2, r->reach_e_radps2),
         .decel_e_radps2 =
             base_min(asked->decel_e_radps2, base_min(most->decel_e_radps2, r->reach_e_radps2)),
-        .jerk_e_radps3 = base_min(asked->jerk_e_radps3, most->jerk_e_radps3)};
+        .jerk_e_radps3 = base_min(asked->jerk_e_radps3, r->jerk_share * most->jerk_e_radps3)};
     return p;
 }
 

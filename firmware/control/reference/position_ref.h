@@ -24,10 +24,11 @@
  * The limits of a profile are those of what is there. With the share s of the q current's limit
  * that is allowed now, and d_0 = d_w where the reference last rested,
  *
- *     a_now = clamp(1.8 s a_most - |d_0| - |d_w - d_0|, 0.05 a_most, a_most)  EQ-POSITION-REACH-1
+ *     a_now = clamp((1.8 s a_most - |d_0| - |d_w - d_0 - (1 - k) a_ref|) / max(k, 1),
+ *                   0.05 a_most, a_most)                                      EQ-POSITION-REACH-1
  *     a_acc, a_dec <= the least a_now of the motion with a_now |way| >= w^2   EQ-POSITION-REACH-2
  *
- * Another inertia shows in d_w while the shaft accelerates, a load before.
+ * k is the inertia (inertia.h). The jerk of a motion is divided by the max(k, 1) of its start.
  */
 #ifndef POSITION_REF_H
 #define POSITION_REF_H
@@ -51,9 +52,17 @@ typedef struct {
     float      omega_2dot_e_radps3; /**< over the last step */
     float      reach_e_radps2;      /**< acceleration that the profile may use; 0: not known */
     float      d_rest_e_radps2;     /**< d_w where the reference last rested */
+    float      jerk_share;          /**< of the drive's jerk, by the inertia known there, (0, 1] */
     bool       arrived;             /**< rests at the target */
     bool       waits;               /**< waits for the shaft */
 } position_ref_t;
+
+/** Torque that is there, and what it has to move. */
+typedef struct {
+    float share;   /**< of the q current limit, what may brake in this period, 0 .. 1 */
+    float d_omega; /**< disturbance of the speed equation [rad/s^2] */
+    float inertia; /**< of the shaft over the drive's, > 0 */
+} position_torque_t;
 
 #define POSITION_LEAST                                                                             \
     1.0e-3f /**< least limit: far below any drive's, and quotients of limits stay finite */
@@ -88,14 +97,13 @@ void position_ref_start(position_ref_t *r, const position_t *at, float omega_e_r
  * @param asked   The operator's limits.
  * @param most    The drive's. Its acceleration takes half of the torque.
  * @param target  Target position.
- * @param share   Of the q current limit, what may brake in this period, 0 .. 1.
- * @param d_omega Disturbance of the speed equation [rad/s^2].
+ * @param torque  Available torque.
  *
- * Context: control ISR. No division.
+ * Context: control ISR. One division.
  */
 position_profile_t position_ref_profile(position_ref_t *r, const position_profile_t *asked,
                                         const position_profile_t *most, const position_t *target,
-                                        float share, float d_omega);
+                                        const position_torque_t *torque);
 
 /**
  * @brief Advances by one period.

@@ -301,6 +301,15 @@ float believed_d_omega(const encoder_form_limits_t &limits, const encoder_form_g
     return std::max(limits.d_omega, single(torque + trip_kick_ratio * kick + start));
 }
 
+Eigen::MatrixXd learned_gains(const Design &d, const Motor &motor, Eigen::MatrixXd Lambda)
+{
+    const double ratio = std::clamp(motor.inertia_kgm2 / d.drive.motor.inertia_kgm2,
+                                    double{INERTIA_LEAST}, double{INERTIA_MOST});
+    const double gain  = static_cast<double>(inertia_gain(static_cast<float>(ratio)));
+    Lambda.leftCols(2) *= d.harmonics ? std::min(gain, 1.0) : gain; // as law_noc_h.c
+    return Lambda;
+}
+
 LoopGains encoder_form_gains(const Design &d, double iq_A, const Eigen::MatrixXd &Lambda)
 {
     const double   range = d.certificate.nodo.series_range_A;

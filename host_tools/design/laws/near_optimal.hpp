@@ -53,6 +53,9 @@ TripMargin disturbance_margin(const Design &design, const encoder_form_limits_t 
 /// series is held, as in the firmware.
 LoopGains encoder_form_gains(const Design &design, double iq_A, const Eigen::MatrixXd &Lambda);
 
+/// Gains of a position when the drive has learned the motor's inertia, EQ-INERTIA-4.
+Eigen::MatrixXd learned_gains(const Design &design, const Motor &motor, Eigen::MatrixXd Lambda);
+
 /// The points of verdict_points() with the currents that the references settle at.
 std::vector<OperatingPoint> loaded_points(const Design &design, const IdReference &r);
 
@@ -61,7 +64,8 @@ SampledModel speed_form_at(const Design &design, const TrueMotor &motor, const O
                            const Eigen::MatrixXd &Lambda, const MovingReference *moving);
 
 /// The whole loop with all feedback_gains(). `model_at(design, motor, point, Lambda, reference)` has the A, B_voltage and C_voltage
-/// of EQ-CERT-6. Other motors are judged with a d-current reference that stands still. The family refers to `d` and `model_at`.
+/// of EQ-CERT-6. Other motors are judged with a d-current reference that stands still, and for positions
+/// also with the gains for a learned inertia. The family refers to `d` and `model_at`.
 template <typename ModelAt>
 LoopFamily whole_loop(const Design &d, const current_ref_config_t &references,
                       const ModelAt &model_at)
@@ -99,6 +103,10 @@ LoopFamily whole_loop(const Design &d, const current_ref_config_t &references,
         const TrueMotor         other = true_motor(d.drive, motor);
         for (const Eigen::MatrixXd &Lambda : feedback_gains(d)) {
             at_voltages(model_at(d, other, at, Lambda, nullptr), all);
+            if (has_angle(Lambda)) {
+                const auto learned = learned_gains(d, motor, Lambda);
+                at_voltages(model_at(d, other, at, learned, nullptr), all);
+            }
         }
         return all;
     };

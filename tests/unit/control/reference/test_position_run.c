@@ -136,7 +136,9 @@ static void test_errors_of_angle_and_speed_are_limited_as_one_in_the_same_share(
     int          limited = 0;
 
     for (int i = 0; i < CASES; i++) {
-        const law_input_t  in = near_its_reference();
+        const law_input_t in  = near_its_reference();
+        state.inertia.gain    = support_uniform(&random_state, 0.5f, 3.0f); /* EQ-INERTIA-4 */
+        const double       g  = (double)state.inertia.gain;
         const nosc_error_t e  = error_of(&in, support_uniform(&random_state, -0.05f, 0.05f),
                                          support_uniform(&random_state, -8.0f, 8.0f));
         const position_t   is = position_moved(
@@ -145,15 +147,15 @@ static void test_errors_of_angle_and_speed_are_limited_as_one_in_the_same_share(
                           position.actual.theta_e_rad));
         const double e_theta = (double)position_way_rad(&state.position_ref.at, &is);
         const double e_w = (double)view.now.omega_e_radps - (double)state.speed_ref.omega_e_radps;
-        const double asked_A   = -gain * (e_w + (per_rad * e_theta));
+        const double asked_A   = -g * gain * (e_w + (per_rad * e_theta));
         const double iq_ref    = (double)state.current_ref.i_A.q;
         const double allowed_A = support_limit(
             support_limit(asked_A, -(double)laws->position.nosc.iq_speed_max_A,
                           (double)laws->position.nosc.iq_speed_max_A),
             (double)state.current_ref.iq_lo_A - iq_ref, (double)state.current_ref.iq_hi_A - iq_ref);
-        const double share = (asked_A == 0.0) ? 1.0 : (allowed_A / asked_A);
+        const double share = (asked_A == 0.0) ? g : (g * allowed_A / asked_A);
 
-        limited += (share < 0.99) ? 1 : 0;
+        limited += (share < (0.99 * g)) ? 1 : 0;
         TEST_ASSERT_DOUBLE_WITHIN(2.0e-6 + (TOL_SUM * fabs(e_theta)), share * e_theta,
                                   (double)state.theta_error_e_rad);
         TEST_ASSERT_DOUBLE_WITHIN(2.0e-4 + (TOL_SUM * fabs(e_w)), share * e_w,
