@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Iterable, List, Tuple
 
 from table import SPACES, Group, Register, of_space
-from versions import digest_of, saved, version, version_of
+from versions import digest_of, id_of, saved, version
 
 NOTE = "/* Generated from registers.toml. Do not edit: python3 host_tools/registers/generate.py. */"
 HOMES = {
@@ -67,10 +67,7 @@ def header(groups: List[Group]) -> str:
         f'#define APP_REGISTERS_DIGEST "{digest_of(groups)}" /**< of what a master can see of the '
         f"map */",
         "",
-        f"#define APP_REGISTERS_SAVED_WORDS   {sum(r.words for r in saved(groups))}U          /**< "
-        f"of all parameters */",
-        f"#define APP_REGISTERS_SAVED_VERSION 0x{version_of(groups):08X}UL /**< of what these "
-        f"words mean */",
+        f"#define APP_REGISTERS_SAVED {len(saved(groups))}U /**< parameters */",
         "",
     ]
     for space in SPACES:
@@ -115,7 +112,8 @@ def header(groups: List[Group]) -> str:
         "    float                least;    /**< what a write may bring, in SI units */",
         "    float                most;",
         "    bool                 stopped;   /**< written while the bridge is off only */",
-        "    bool                 saved;     /**< a parameter: kept over power */",
+        "    uint16_t             saved;     /**< a parameter, by the digest of name, type, unit; 0: "
+        "none */",
         "    uint32_t             signature; /**< the one value that is taken; 0: no such thing */",
         "    app_registers_home_t home;",
         "    app_registers_kind_t kind;",
@@ -176,7 +174,7 @@ def _table(groups: List[Group], space: str) -> List[str]:
         low, high = r.range or (0.0, 0.0)
         lines.append(
             f"    {{APP_REGISTERS_{r.name}, APP_REGISTERS_{TYPES[r.type]}, {_c_float(r.per_unit)}, "
-            f"{_c_float(low)}, {_c_float(high)}, {_c_bool(r.stopped)}, {_c_bool(r.saved)}, "
+            f"{_c_float(low)}, {_c_float(high)}, {_c_bool(r.stopped)}, 0x{id_of(r):04X}U, "
             f"{f'0x{r.signature:08X}UL' if r.signature else '0UL'}, {_place(groups, r)}}},"
         )
     return [*lines, "};", ""]

@@ -21,7 +21,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 from c_map import header, source, types  # noqa: E402
 from c_signals import signals_header, signals_source  # noqa: E402
 from table import Group, Register, Signal, TableError, read, signals  # noqa: E402
-from versions import digest_of, saved, version  # noqa: E402
+from versions import digest_of, require_different_ids, saved, version  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 TABLE = ROOT / "firmware/app/registers/registers.toml"
@@ -236,7 +236,9 @@ def main() -> int:
         print(f"generate.py: {' '.join(sys.argv[1:])} is not --check", file=sys.stderr)
         return 1
     try:
-        wanted = files(read(TABLE), signals(TABLE))
+        groups = read(TABLE)
+        require_different_ids(groups)
+        wanted = files(groups, signals(TABLE))
     except (TableError, KeyError) as e:
         print(f"registers.toml: {e}", file=sys.stderr)
         return 1

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Iterable, List
+from typing import Dict, Iterable, List
 
-from table import Group, Register, of_space
+from table import Group, Register, TableError, of_space
 
 
 def version() -> str:
@@ -40,6 +40,18 @@ def saved(groups: List[Group]) -> List[Register]:
     return [r for r in of_space(groups, "holding") if r.saved]
 
 
-def version_of(groups: List[Group]) -> int:
-    """Digest of the meaning of the stored parameters' words."""
-    return _digest(f"{r.name} {r.type} {r.step} {r.unit}" for r in saved(groups))
+def id_of(register: Register) -> int:
+    """A parameter is stored under this digest of name, type and unit: 16 bits, 0 for no parameter."""
+    if not register.saved:
+        return 0
+    h = _digest([f"{register.name} {register.type} {register.step} {register.unit}"])
+    return (h >> 16) ^ (h & 0xFFFF)
+
+
+def require_different_ids(groups: List[Group]) -> None:
+    """TableError if two parameters would be stored under the same digest, or one under none."""
+    found: Dict[int, str] = {0: "no parameter"}
+    for r in saved(groups):
+        other = found.setdefault(id_of(r), r.name)
+        if other != r.name:
+            raise TableError(f"{r.name}: its digest is that of {other}: choose another name")

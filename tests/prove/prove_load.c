@@ -160,7 +160,7 @@ void prove_parameters(void)
     any_image();
     any_registers();
     app_parameters_take(&parameters, &registers, APP_PARAMETERS_NOT_ASKED);
-    //@ check state: APP_PARAMETERS_DEFAULT <= parameters.state <= APP_PARAMETERS_LOST;
+    //@ check state: APP_PARAMETERS_DEFAULT <= parameters.state <= APP_PARAMETERS_PARTLY;
     app_parameters_rest(&parameters, any_float);
     app_parameters_ask(&registers, (app_parameters_command_t)any_between(0, 3));
     (void)app_parameters_work(&image);
@@ -174,7 +174,7 @@ void prove_modbus(void)
     any_loader_state();
     parameters.rested = any_bool();
     parameters.state =
-        (app_parameters_state_t)any_between(APP_PARAMETERS_DEFAULT, APP_PARAMETERS_LOST);
+        (app_parameters_state_t)any_between(APP_PARAMETERS_DEFAULT, APP_PARAMETERS_PARTLY);
     registers.loader     = any_bool() ? &loader : NULL;
     registers.parameters = any_bool() ? &parameters : NULL;
     registers.silent     = any_bool();

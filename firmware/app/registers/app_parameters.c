@@ -12,9 +12,11 @@
 #define KEPT_CRC     2U /* two words */
 #define KEPT_RECORD  4U
 
-#define MARK          0x9A7AU /* chosen */
+#define MARK          0x9A7AU      /* chosen */
+#define FORMAT        0x50415232UL /* chosen */
 #define VERSION_WORDS 2U
-#define RECORD_WORDS  (VERSION_WORDS + APP_REGISTERS_SAVED_WORDS)
+#define RECORD_WORDS  (VERSION_WORDS + (APP_REGISTERS_SAVED * APP_REGISTERS_SAVED_EACH))
+#define MOST_WORDS    (VERSION_WORDS + (64U * APP_REGISTERS_SAVED_EACH)) /* chosen */
 
 #define KEPT_WRITES  (KEPT_RECORD + RECORD_WORDS) /* since power-on; then its complement */
 #define KEPT_INVERSE (KEPT_WRITES + 1U)
@@ -51,30 +53,44 @@ static void count_burst(void)
     kept[KEPT_INVERSE] = (uint16_t)(kept[KEPT_WRITES] ^ 0xFFFFU);
 }
 
-static app_parameters_state_t take_record(app_registers_t *r, const store_content_t *stored)
+/* Parameters of a record of this format. */
+static app_parameters_state_t take_each(app_registers_t *r, const uint16_t *words, uint16_t count,
+                                        uint16_t *dropped)
 {
-    app_parameters_state_t state = APP_PARAMETERS_STORED;
+    if (!app_registers_saved_take(r, words, count, dropped)) {
+        return APP_PARAMETERS_OUT_OF_RANGE;
+    }
+    return (*dropped > 0U) ? APP_PARAMETERS_PARTLY : APP_PARAMETERS_STORED;
+}
+
+static app_parameters_state_t take_record(app_registers_t *r, const store_content_t *stored,
+                                          uint16_t *dropped)
+{
+    const uint32_t words = stored->count;
 
     if (stored->words == NULL) {
-        state = APP_PARAMETERS_DEFAULT;
-    } else if ((stored->count != RECORD_WORDS) ||
-               (two(stored->words) != APP_REGISTERS_SAVED_VERSION)) {
-        state = APP_PARAMETERS_OTHER_VERSION;
-    } else if (!app_registers_saved_take(r, &stored->words[VERSION_WORDS])) {
-        state = APP_PARAMETERS_OUT_OF_RANGE;
-    } else {
-        /* taken */
+        return APP_PARAMETERS_DEFAULT;
     }
-    return state;
+    if ((words < VERSION_WORDS) || (words > MOST_WORDS) || (two(stored->words) != FORMAT)) {
+        return APP_PARAMETERS_OTHER_VERSION;
+    }
+    if (((words - VERSION_WORDS) % APP_REGISTERS_SAVED_EACH) != 0U) {
+        return APP_PARAMETERS_OTHER_VERSION;
+    }
+    return take_each(r, &stored->words[VERSION_WORDS],
+                     (uint16_t)((words - VERSION_WORDS) / APP_REGISTERS_SAVED_EACH), dropped);
 }
 
 void app_parameters_take(app_parameters_t *p, app_registers_t *r, app_parameters_done_t done)
 {
-    const store_content_t        stored = store_newest(STORE_PARAMETERS);
-    const app_parameters_state_t state  = take_record(r, &stored);
+    const store_content_t        stored  = store_newest(STORE_PARAMETERS);
+    uint16_t                     dropped = 0U;
+    const app_parameters_state_t state   = take_record(r, &stored, &dropped);
+    const bool in_use = (state == APP_PARAMETERS_STORED) || (state == APP_PARAMETERS_PARTLY);
 
     p->done       = done;
-    p->number     = (state == APP_PARAMETERS_STORED) ? stored.number : 0UL;
+    p->number     = in_use ? stored.number : 0UL;
+    p->dropped    = in_use ? dropped : 0U;
     p->state      = stored.lost ? APP_PARAMETERS_LOST : state;
     p->writes     = store_writes(STORE_PARAMETERS);
     p->rested     = burst() < APP_PARAMETERS_BURST;
@@ -98,7 +114,7 @@ void app_parameters_ask(const app_registers_t *r, app_parameters_command_t comma
     uint16_t *const kept = board_kept();
 
     kept[KEPT_COMMAND] = (uint16_t)command;
-    put_two(&kept[KEPT_RECORD], APP_REGISTERS_SAVED_VERSION);
+    put_two(&kept[KEPT_RECORD], FORMAT);
     app_registers_saved_read(r, &kept[KEPT_RECORD + VERSION_WORDS]);
     put_two(&kept[KEPT_CRC], kept_crc(kept));
     kept[KEPT_MARK] = MARK;

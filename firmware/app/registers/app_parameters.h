@@ -5,8 +5,12 @@
  *
  * All of them are one record of the store, written as a whole:
  *
- *     0, 1     APP_REGISTERS_SAVED_VERSION, high word first: version of the format
- *     2 ..     the words of the parameters as a master reads them, in the order of registers.toml
+ *     0, 1     version of the format, high word first
+ *     2 ..     three words each: a digest of name, type and unit; then the value as a master reads
+ *              it, with a high word of 0 where it has one word
+ *
+ * Another firmware finds the parameters that it has too by their digests. It leaves out the others
+ * and tells how many they are.
  *
  * Flash cannot be read while it is written, and the watchdog of a running application cannot be
  * stopped. Therefore the command copies the record into words that survive a reset, and restarts
@@ -28,9 +32,10 @@ typedef enum {
 typedef enum {
     APP_PARAMETERS_DEFAULT = 0,   /**< nothing is stored */
     APP_PARAMETERS_STORED,        /**< the stored parameters are in use */
-    APP_PARAMETERS_OTHER_VERSION, /**< stored by another firmware version: defaults */
+    APP_PARAMETERS_OTHER_VERSION, /**< stored in another format: defaults */
     APP_PARAMETERS_OUT_OF_RANGE,  /**< a stored value is out of range: defaults */
-    APP_PARAMETERS_LOST           /**< the last record is lost: the one before it, or defaults */
+    APP_PARAMETERS_LOST,          /**< the last record is lost: the one before it, or defaults */
+    APP_PARAMETERS_PARTLY         /**< some are not of this firmware; the others are in use */
 } app_parameters_state_t;
 
 /** Result of a command. */
@@ -43,9 +48,10 @@ typedef enum {
 typedef struct {
     app_parameters_state_t state;
     app_parameters_done_t  done;
-    uint32_t               number; /**< sequence number of the record in use; 0: defaults */
-    uint32_t               writes; /**< of the parameters' two sectors, in turn */
-    bool                   rested; /**< a further write is allowed */
+    uint32_t               number;  /**< sequence number of the record in use; 0: defaults */
+    uint32_t               writes;  /**< of the parameters' two sectors, in turn */
+    uint16_t               dropped; /**< stored parameters that this firmware does not have */
+    bool                   rested;  /**< a further write is allowed */
 } app_parameters_t;
 
 /** Chosen: writes that are allowed after power-on without a rest. */

@@ -127,10 +127,16 @@ void app_registers_saved_read(const app_registers_t *r, uint16_t *words)
     uint16_t n = 0U;
 
     for (uint16_t k = 0U; k < holding.count; k++) {
-        const app_registers_entry_t *e     = &holding.entries[k];
-        const uint16_t               count = e->saved ? app_registers_count_words(e) : 0U;
+        const app_registers_entry_t *e = &holding.entries[k];
 
-        (void)read_map(r, &holding, e->address, count, &words[n]);
-        n = (uint16_t)(n + count);
+        if (e->saved != 0U) {
+            const uint16_t count = app_registers_count_words(e);
+
+            words[n]      = e->saved;
+            words[n + 1U] = 0U;
+            (void)read_map(r, &holding, e->address, count,
+                           &words[(n + APP_REGISTERS_SAVED_EACH) - count]);
+            n = (uint16_t)(n + APP_REGISTERS_SAVED_EACH);
+        }
     }
 }

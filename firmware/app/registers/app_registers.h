@@ -110,11 +110,26 @@ app_registers_result_t app_registers_read_input(const app_registers_t *r, uint16
 app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, uint16_t count,
                                            const uint16_t *values);
 
-/** Reads the APP_REGISTERS_SAVED_WORDS words of all parameters. */
+/** Words of a stored parameter: its digest (app_registers_entry_t), and the value as two words, the
+ * high one first. */
+#define APP_REGISTERS_SAVED_EACH 3U
+
+/** Reads the APP_REGISTERS_SAVED * APP_REGISTERS_SAVED_EACH words of all parameters. */
 void app_registers_saved_read(const app_registers_t *r, uint16_t *words);
 
-/** Sets all parameters. @return false: one is out of range, and none was set. Context: init. */
-bool app_registers_saved_take(app_registers_t *r, const uint16_t *words);
+/**
+ * @brief Sets the parameters that this firmware has too. Others stay as they are.
+ *
+ * @param r       Registers.
+ * @param words   Stored parameters in any order.
+ * @param count   Their number.
+ * @param unknown Number of those that this firmware does not have.
+ * @return false: one is out of range, and none was set.
+ *
+ * Context: init.
+ */
+bool app_registers_saved_take(app_registers_t *r, const uint16_t *words, uint16_t count,
+                              uint16_t *unknown);
 
 /** Communication time-out: stops an enabled operation. */
 void app_registers_silence(app_registers_t *r);
@@ -139,6 +154,7 @@ uint32_t app_registers_stored_state(const app_registers_t *r);
 uint32_t app_registers_stored_done(const app_registers_t *r);
 uint32_t app_registers_stored_number(const app_registers_t *r);
 uint32_t app_registers_stored_writes(const app_registers_t *r);
+uint32_t app_registers_stored_dropped(const app_registers_t *r);
 
 /** Conditions that prevent a start: APP_REGISTERS_IMAGE_LOST, APP_REGISTERS_RECORD_LOST. */
 uint16_t app_registers_lost(const app_registers_t *r);

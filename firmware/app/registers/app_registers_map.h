@@ -12,10 +12,9 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "81bbead0" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "46e0d0c4" /**< of what a master can see of the map */
 
-#define APP_REGISTERS_SAVED_WORDS   24U          /**< of all parameters */
-#define APP_REGISTERS_SAVED_VERSION 0x184D64ABUL /**< of what these words mean */
+#define APP_REGISTERS_SAVED 17U /**< parameters */
 
 /** Holding registers: those of two words are named by the first. */
 enum {
@@ -165,8 +164,9 @@ enum {
     APP_REGISTERS_PARAMETERS_DONE = 225,
     APP_REGISTERS_PARAMETERS_NUMBER = 226,
     APP_REGISTERS_PARAMETERS_WRITES = 228,
+    APP_REGISTERS_PARAMETERS_DROPPED = 230,
     APP_REGISTERS_STORED_FIRST = 224,
-    APP_REGISTERS_STORED_END = 230,
+    APP_REGISTERS_STORED_END = 231,
     APP_REGISTERS_SUPPORTED_MODES = 256,
     APP_REGISTERS_POLE_PAIRS = 258,
     APP_REGISTERS_ENCODER_POSITIONS = 259,
@@ -220,7 +220,7 @@ typedef struct {
     float                least;    /**< what a write may bring, in SI units */
     float                most;
     bool                 stopped;   /**< written while the bridge is off only */
-    bool                 saved;     /**< a parameter: kept over power */
+    uint16_t             saved;     /**< a parameter, by the digest of name, type, unit; 0: none */
     uint32_t             signature; /**< the one value that is taken; 0: no such thing */
     app_registers_home_t home;
     app_registers_kind_t kind;
@@ -233,7 +233,7 @@ struct app_registers_request;
 
 #define APP_REGISTERS_MAP_HOLDING 38U
 
-#define APP_REGISTERS_MAP_INPUT 99U
+#define APP_REGISTERS_MAP_INPUT 100U
 
 /** Rows in ascending order of the address. */
 extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];

@@ -17,7 +17,8 @@ static uint16_t refused_parameters(const app_registers_t *r)
 {
     const uint32_t state   = app_registers_stored_state(r);
     const bool     refused = (state == (uint32_t)APP_PARAMETERS_OTHER_VERSION) ||
-                         (state == (uint32_t)APP_PARAMETERS_OUT_OF_RANGE);
+                         (state == (uint32_t)APP_PARAMETERS_OUT_OF_RANGE) ||
+                         (state == (uint32_t)APP_PARAMETERS_PARTLY);
 
     return refused ? (uint16_t)APP_REGISTERS_DEFAULTS : 0U;
 }
@@ -173,4 +174,9 @@ uint32_t app_registers_stored_number(const app_registers_t *r)
 uint32_t app_registers_stored_writes(const app_registers_t *r)
 {
     return (r->parameters != NULL) ? r->parameters->writes : 0UL;
+}
+
+uint32_t app_registers_stored_dropped(const app_registers_t *r)
+{
+    return (r->parameters != NULL) ? (uint32_t)r->parameters->dropped : 0UL;
 }

@@ -167,20 +167,39 @@ app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, u
     return APP_REGISTERS_OK;
 }
 
-bool app_registers_saved_take(app_registers_t *r, const uint16_t *words)
+/* Words of a stored parameter by its digest; NULL: it is not stored. */
+static const uint16_t *stored_of(uint16_t digest, const uint16_t *words, uint16_t count)
 {
-    uint16_t n  = 0U;
-    bool     ok = true;
+    const uint16_t *found = NULL;
+
+    for (uint16_t k = 0U; (k < count) && (found == NULL); k++) {
+        const uint16_t *each = &words[(uint32_t)k * APP_REGISTERS_SAVED_EACH];
+
+        found = (each[0] == digest) ? each : NULL;
+    }
+    return found;
+}
+
+bool app_registers_saved_take(app_registers_t *r, const uint16_t *words, uint16_t count,
+                              uint16_t *unknown)
+{
+    uint16_t known = 0U;
+    bool     ok    = true;
 
     r->trial = r->requested;
     for (uint16_t k = 0U; k < APP_REGISTERS_MAP_HOLDING; k++) {
         const app_registers_entry_t *e = &app_registers_map_holding[k];
+        const uint16_t *stored = (e->saved != 0U) ? stored_of(e->saved, words, count) : NULL;
 
-        if (e->saved) {
-            ok = (try_one(r, e, &words[n]) == APP_REGISTERS_OK) && ok;
-            n  = (uint16_t)(n + app_registers_count_words(e));
+        if (stored != NULL) {
+            const uint16_t first =
+                (uint16_t)(APP_REGISTERS_SAVED_EACH - app_registers_count_words(e));
+
+            ok    = (try_one(r, e, &stored[first]) == APP_REGISTERS_OK) && ok;
+            known = (uint16_t)(known + 1U);
         }
     }
+    *unknown = (known < count) ? (uint16_t)(count - known) : 0U;
     if (ok && may_be_requested(r, &r->trial)) {
         r->requested = r->trial;
         r->changed   = true;

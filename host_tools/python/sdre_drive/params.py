@@ -31,9 +31,10 @@ SIGNATURES = {
 STATES = (
     "defaults: nothing is stored",
     "as stored",
-    "DEFAULTS: what is stored belongs to another firmware",
+    "DEFAULTS: what is stored has another format",
     "DEFAULTS: a stored value is out of its range",
     "RECORD_LOST: what was stored last is lost",
+    "as stored",
 )
 LOST = 2048 | 4096  # conditions that ACCEPT_FALLBACK ends
 DONE, FLASH_FAILED = 1, 2
@@ -68,12 +69,18 @@ class Stored:
     state: int
     done: int
     number: int
+    dropped: int = 0
 
     @property
     def words(self) -> str:
         """As text."""
         known = STATES[self.state] if self.state < len(STATES) else f"state {self.state}"
-        return f"{known}, writing {self.number}" if self.number else known
+        less = (
+            f", but {self.dropped} that this firmware does not have: compare with your export, then save"
+            if self.dropped
+            else ""
+        )
+        return (f"{known}, writing {self.number}" if self.number else known) + less
 
 
 def text_of(x: float) -> str:
@@ -97,7 +104,10 @@ def stored(drive: Drive) -> Stored:
     """Where they come from."""
     raw = drive.values(register_map.STORED)
     return Stored(
-        int(raw["PARAMETERS_STATE"]), int(raw["PARAMETERS_DONE"]), int(raw["PARAMETERS_NUMBER"])
+        int(raw["PARAMETERS_STATE"]),
+        int(raw["PARAMETERS_DONE"]),
+        int(raw["PARAMETERS_NUMBER"]),
+        int(raw["PARAMETERS_DROPPED"]),
     )
 
 

@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "81bbead0"
+DIGEST = "46e0d0c4"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -183,6 +183,7 @@ STORED: Tuple[Register, ...] = (  # input
     Register("PARAMETERS_DONE", 225, "u16", 0.0, ""),
     Register("PARAMETERS_NUMBER", 226, "u32", 0.0, ""),
     Register("PARAMETERS_WRITES", 228, "u32", 0.0, ""),
+    Register("PARAMETERS_DROPPED", 230, "u16", 0.0, ""),
 )
 
 CONSTANTS: Tuple[Register, ...] = (  # input

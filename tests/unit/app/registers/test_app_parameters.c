@@ -114,8 +114,8 @@ static void assert_others(bool are)
 
 static void assert_state(app_parameters_state_t state)
 {
-    const bool refused =
-        (state == APP_PARAMETERS_OTHER_VERSION) || (state == APP_PARAMETERS_OUT_OF_RANGE);
+    const bool refused = (state == APP_PARAMETERS_OTHER_VERSION) ||
+                         (state == APP_PARAMETERS_OUT_OF_RANGE) || (state == APP_PARAMETERS_PARTLY);
     const bool lost = state == APP_PARAMETERS_LOST;
 
     TEST_ASSERT_EQUAL_UINT16(state, input(APP_REGISTERS_PARAMETERS_STATE));
@@ -127,7 +127,7 @@ static void test_the_test_knows_every_parameter(void)
 {
     int saved = 0;
     for (int n = 0; n < (int)APP_REGISTERS_MAP_HOLDING; n++) {
-        saved += app_registers_map_holding[n].saved ? 1 : 0;
+        saved += (app_registers_map_holding[n].saved != 0U) ? 1 : 0;
     }
     TEST_ASSERT_EQUAL_INT(OTHERS, saved);
     write_others();
@@ -247,19 +247,91 @@ static void write_record(const uint16_t *words, uint16_t count)
     TEST_ASSERT_TRUE(store_commit(&w));
 }
 
+#define EACH  ((int)APP_REGISTERS_SAVED_EACH)
+#define WORDS ((uint16_t)(2U + (APP_REGISTERS_SAVED * APP_REGISTERS_SAVED_EACH)))
+
 /* The record of the other values. */
 static uint16_t record(uint16_t *words)
 {
     fake_board_erase_store();
     start_again();
     write_others();
-    words[0] = (uint16_t)(APP_REGISTERS_SAVED_VERSION >> 16);
-    words[1] = (uint16_t)(APP_REGISTERS_SAVED_VERSION & 0xFFFFU);
+    words[0] = 0x5041U;
+    words[1] = 0x5232U;
     app_registers_saved_read(&registers, &words[2]);
-    return (uint16_t)(2U + APP_REGISTERS_SAVED_WORDS);
+    return WORDS;
 }
 
-static void test_a_record_of_another_version_gives_defaults_and_is_told(void)
+static void test_another_order_changes_nothing(void)
+{
+    uint16_t words[64];
+    uint16_t turned[64];
+
+    (void)record(words);
+    (void)memcpy(turned, words, sizeof turned);
+    for (int n = 0; n < OTHERS; n++) {
+        (void)memcpy(&turned[2 + (EACH * n)], &words[2 + (EACH * (OTHERS - 1 - n))],
+                     (size_t)EACH * sizeof *words);
+    }
+    write_record(turned, WORDS);
+    start_again();
+    assert_others(true);
+    assert_state(APP_PARAMETERS_STORED);
+    TEST_ASSERT_EQUAL_UINT16(0U, input(APP_REGISTERS_PARAMETERS_DROPPED));
+}
+
+/* Stored by a firmware without the n-th parameter: that one has its default, the others are kept. */
+static void test_a_new_parameter_has_its_default(void)
+{
+    for (int n = 0; n < OTHERS; n++) {
+        uint16_t words[64];
+
+        (void)record(words);
+        (void)memmove(&words[2 + (EACH * n)], &words[2 + (EACH * (n + 1))],
+                      (size_t)(EACH * (OTHERS - 1 - n)) * sizeof *words);
+        write_record(words, (uint16_t)(WORDS - (uint16_t)EACH));
+        start_again();
+        assert_state(APP_PARAMETERS_STORED);
+        for (int k = 0; k < OTHERS; k++) {
+            const int low = other[k][0] + ((other[k][1] < 0) ? 0 : 1);
+            TEST_ASSERT_EQUAL_INT(k != n, holding(low) == (uint16_t)other[k][2]);
+        }
+    }
+}
+
+/* Stored by a firmware that had some more parameters, or another unit for the first ones. */
+static void test_parameters_that_are_gone_are_counted_and_the_others_kept(void)
+{
+    for (int more = 1; more <= 4; more++) {
+        uint16_t words[2 + (3 * (OTHERS + 4))];
+
+        (void)record(words);
+        for (int n = 0; n < more; n++) {
+            words[WORDS + (EACH * n)]     = (uint16_t)(1U + (unsigned)n); /* no digest of ours */
+            words[WORDS + (EACH * n) + 1] = 0xFFFFU;
+            words[WORDS + (EACH * n) + 2] = 0xFFFFU;
+        }
+        write_record(words, (uint16_t)(WORDS + (uint16_t)(EACH * more)));
+        start_again();
+        assert_others(true);
+        assert_state(APP_PARAMETERS_PARTLY);
+        TEST_ASSERT_EQUAL_UINT16(more, input(APP_REGISTERS_PARAMETERS_DROPPED));
+        TEST_ASSERT_EQUAL_UINT16(1U, input(APP_REGISTERS_PARAMETERS_NUMBER + 1));
+        store(); /* and they are gone */
+        assert_state(APP_PARAMETERS_STORED);
+        assert_others(true);
+    }
+}
+
+static void test_no_digest_is_one_of_the_test(void)
+{
+    for (int n = 0; n < (int)APP_REGISTERS_MAP_HOLDING; n++) {
+        const uint16_t digest = app_registers_map_holding[n].saved;
+        TEST_ASSERT_TRUE((digest == 0U) || (digest > 4U));
+    }
+}
+
+static void test_a_record_of_another_format_gives_defaults_and_is_told(void)
 {
     uint16_t words[64];
     for (uint16_t wrong = 0U; wrong < 4U; wrong++) {
@@ -284,7 +356,7 @@ static void test_a_record_of_another_version_gives_defaults_and_is_told(void)
 static void test_one_value_out_of_range_gives_defaults_for_all(void)
 {
     /* word of the record and what it must not be: an option, the address, the baud rate, the format */
-    static const int bad[][2] = {{8, 3}, {15, 0}, {15, 248}, {18, 9601}, {19, 3}, {20, 2}};
+    static const int bad[][2] = {{13, 3}, {31, 0}, {31, 248}, {37, 9601}, {40, 3}, {43, 2}};
     uint16_t         words[64];
     for (int n = 0; n < (int)(sizeof bad / sizeof bad[0]); n++) {
         const uint16_t count = record(words);
@@ -304,7 +376,7 @@ static void test_one_value_out_of_range_gives_defaults_for_all(void)
 static int next_cut(int budget)
 {
     const int slot = (int)BOARD_STORE_WORDS;
-    const int near = 40; /* head and record have fewer */
+    const int near = 80; /* head and record have fewer */
     const int into = budget % slot;
     if ((into < near) || (into >= (slot - near))) {
         return budget + 1;
@@ -365,7 +437,7 @@ static void test_a_power_cut_while_restoring_leaves_the_newest_or_defaults(void)
 static void flip_everywhere(uint16_t window, uint32_t number, int *lost)
 {
     for (uint16_t slot = 2U; slot < 4U; slot++) {
-        for (uint32_t n = 0U; n < (STORE_HEAD_WORDS + 4U + APP_REGISTERS_SAVED_WORDS); n++) {
+        for (uint32_t n = 0U; n < (STORE_HEAD_WORDS + 2U + WORDS); n++) {
             for (uint16_t bit = 0U; bit < 16U; bit++) {
                 fake_board_store[slot][n] ^= (uint16_t)(1U << bit);
                 power_on();
@@ -391,7 +463,7 @@ static void store_window(int window)
 static void test_a_flipped_bit_changes_nothing_or_is_told(void)
 {
     /* kind, count, number, CRC and the record, of the slot in force; the mark is known with one bit wrong */
-    const int each = 16 * (int)(STORE_HEAD_WORDS - 1U + 2U + APP_REGISTERS_SAVED_WORDS);
+    const int each = 16 * (int)(STORE_HEAD_WORDS - 1U + WORDS);
     int       lost = 0;
 
     flip_everywhere(50U, 0U, &lost);
@@ -509,7 +581,7 @@ static void test_a_request_is_done_once_and_only_whole(void)
     app_parameters_ask(&registers, APP_PARAMETERS_STORE);
     TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_DONE, app_parameters_work(&in_force));
     TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_NOT_ASKED, app_parameters_work(&in_force));
-    for (uint16_t n = 0U; n < (uint16_t)(6U + APP_REGISTERS_SAVED_WORDS); n++) {
+    for (uint16_t n = 0U; n < (uint16_t)(4U + WORDS); n++) {
         app_parameters_ask(&registers, APP_PARAMETERS_STORE);
         board_kept()[n] ^= 0x0100U;
         TEST_ASSERT_EQUAL_INT(APP_PARAMETERS_NOT_ASKED, app_parameters_work(&in_force));
@@ -620,7 +692,11 @@ int main(void)
     RUN_TEST(test_nothing_is_stored_unless_the_motor_stands_still);
     RUN_TEST(test_parameters_that_need_a_stop_are_refused_while_enabled);
     RUN_TEST(test_a_line_that_the_board_cannot_have_is_refused);
-    RUN_TEST(test_a_record_of_another_version_gives_defaults_and_is_told);
+    RUN_TEST(test_another_order_changes_nothing);
+    RUN_TEST(test_a_new_parameter_has_its_default);
+    RUN_TEST(test_parameters_that_are_gone_are_counted_and_the_others_kept);
+    RUN_TEST(test_no_digest_is_one_of_the_test);
+    RUN_TEST(test_a_record_of_another_format_gives_defaults_and_is_told);
     RUN_TEST(test_one_value_out_of_range_gives_defaults_for_all);
     RUN_TEST(test_a_power_cut_at_any_word_leaves_old_or_new);
     RUN_TEST(test_a_power_cut_while_restoring_leaves_the_newest_or_defaults);
