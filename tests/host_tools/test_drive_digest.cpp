@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,21 @@ std::optional<std::string> digest_of(const std::vector<std::string> &texts)
     return std::nullopt;
 }
 
+/// Without the sections that no table depends on: what is known of the disc and of the shaft. `tune` and the certificate read them.
+std::string without_sections_beside(const std::string &text)
+{
+    std::istringstream lines(text);
+    std::string        kept;
+    bool               beside = false;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.rfind('[', 0) == 0) {
+            beside = line.rfind("[encoder.disc]", 0) == 0 || line.rfind("[mechanics]", 0) == 0;
+        }
+        kept += beside ? "" : line + "\n";
+    }
+    return kept;
+}
+
 } // namespace
 
 TEST(DriveDigest, SeesEveryNumberOfEveryShippedDrive)
@@ -80,7 +96,7 @@ TEST(DriveDigest, SeesEveryNumberOfEveryShippedDrive)
         if (file.path().stem() == "ipmsm_390w_paper") {
             continue; // three of its six T do not act
         }
-        const std::string text   = support::read_file(file.path());
+        const std::string text   = without_sections_beside(support::read_file(file.path()));
         const std::string digest = sdre::drive_digest(sdre::read_drive_text(text, "shipped"));
         std::size_t       seen   = 0;
         for (const Change &change : changes(text)) {
