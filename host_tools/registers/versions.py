@@ -41,7 +41,7 @@ def saved(groups: List[Group]) -> List[Register]:
 
 
 def id_of(register: Register) -> int:
-    """A parameter is stored under this digest of name, type and unit: 16 bits, 0 for no parameter."""
+    """A parameter is stored under this digest of name, type and unit; 0: no parameter."""
     if not register.saved:
         return 0
     h = _digest([f"{register.name} {register.type} {register.step} {register.unit}"])

@@ -46,7 +46,7 @@ static void any_config(void)
     constants.nodo.order = any_between(0, NODO_ORDER_MAX);
 #elif defined PROVE_noc_speed
     any_near_optimal(&constants.near_optimal);
-    constants.nodo.order = any_between(0, NODO_ORDER_MAX);
+    constants.nodo.order      = any_between(0, NODO_ORDER_MAX);
 #elif defined PROVE_noc_h
     any_near_optimal(&constants.near_optimal);
     constants.nodo.n_pairs = any_between(0, NODO_HARMONIC_PAIRS_MAX);
@@ -101,8 +101,8 @@ static void any_drive(void)
     state.pid.running   = any_between(0, 1);
     state.id_pi.running = any_between(0, 1);
 #elif defined PROVE_dobc
-    state.dobc.running   = any_between(0, 1);
-    state.id_pi.running  = any_between(0, 1);
+    state.dobc.running        = any_between(0, 1);
+    state.id_pi.running       = any_between(0, 1);
 #endif
     drive.law.PROVE_LAW        = state;
     drive.config               = &config;

@@ -220,7 +220,7 @@ typedef struct {
     float                least;    /**< what a write may bring, in SI units */
     float                most;
     bool                 stopped;   /**< written while the bridge is off only */
-    uint16_t             saved;     /**< a parameter, by the digest of name, type, unit; 0: none */
+    uint16_t             saved;     /**< digest of a parameter; 0: it is none */
     uint32_t             signature; /**< the one value that is taken; 0: no such thing */
     app_registers_home_t home;
     app_registers_kind_t kind;

@@ -168,8 +168,8 @@ def commission(
         )
     record.write_text(file, finder.text(values))
     out.print(
-        f"{file}: written; next: sdre-gains from-commissioning {shlex.quote(str(file))} --drive DRIVE "
-        "--out NEW",
+        f"{file}: written; next: sdre-gains from-commissioning {shlex.quote(str(file))} "
+        "--drive DRIVE --out NEW",
         soft_wrap=True,
     )
 

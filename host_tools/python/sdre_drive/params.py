@@ -76,7 +76,8 @@ class Stored:
         """As text."""
         known = STATES[self.state] if self.state < len(STATES) else f"state {self.state}"
         less = (
-            f", but {self.dropped} that this firmware does not have: compare with your export, then save"
+            f", but {self.dropped} that this firmware does not have: compare with your export, "
+            "then save"
             if self.dropped
             else ""
         )
