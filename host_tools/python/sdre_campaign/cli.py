@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import logging
 import os
 import sys
 from dataclasses import replace
@@ -26,10 +27,17 @@ from sdre_campaign.workers import Workers
 
 EXIT_BAD_INPUT, EXIT_INTERRUPTED, EXIT_FAILED_CASES = 1, 130, 4
 
-app = typer.Typer(add_completion=False)
+app = typer.Typer(pretty_exceptions_enable=False)
 
 
-@app.command()
+def show_version(wanted: bool) -> None:
+    """The host libraries have the same one."""
+    if wanted:
+        print(f"sdre-campaign {sdre.__version__}")
+        raise typer.Exit
+
+
+@app.command(epilog="Example: sdre-campaign my_campaign.toml --out build/campaigns/mine -v")
 def campaign(
     spec_file: Path = typer.Argument(..., metavar="SPEC", help="campaign file (TOML)"),
     out: Optional[Path] = typer.Option(
@@ -43,9 +51,18 @@ def campaign(
         None, help="address of a Dask scheduler instead, such as tls://HOST:PORT"
     ),
     cases: Optional[int] = typer.Option(None, min=1, max=MOST_CASES, help="instead of the file's"),
+    quiet: bool = typer.Option(False, "-q", "--quiet", help="print only the result"),
+    verbose: bool = typer.Option(
+        False, "-v", "--verbose", help="tell what is there, who computes, and every part"
+    ),
+    _version: bool = typer.Option(
+        False, "--version", help="print it", callback=show_version, is_eager=True
+    ),
 ) -> None:
     """Runs a scenario with very many motors, loads, sensors, faults or seeds. Exit code 4 when a
     case failed."""
+    if verbose:
+        _tell_everything()
     spec = read_spec(spec_file)
     if cases is not None:
         if spec.method not in ("random", "motors"):
@@ -57,13 +74,23 @@ def campaign(
     path = out or Path("build/campaigns") / spec.name
     with (
         Directory(path, spec, resume) as directory,
-        Workers(spec, scheduler, workers or os.cpu_count() or 1) as crew,
+        Workers(spec, scheduler, workers or os.cpu_count() or 1, quiet) as crew,
     ):
         try:
             failed = (_rare if spec.method == "subset" else _plain)(directory, crew)
         except KeyboardInterrupt:
             raise typer.Exit(_say("interrupted; --resume goes on", EXIT_INTERRUPTED)) from None
     raise typer.Exit(EXIT_FAILED_CASES if failed else 0)
+
+
+def _tell_everything() -> None:
+    """-v."""
+    handler = logging.StreamHandler()
+    handler.setFormatter(logging.Formatter("sdre-campaign: %(message)s"))
+    log = logging.getLogger("sdre_campaign")
+    log.addHandler(handler)
+    log.setLevel(logging.INFO)
+    log.propagate = False
 
 
 def _plain(directory: Directory, crew: Workers) -> bool:
@@ -135,14 +162,22 @@ def _text(spec: Spec, s: Summary, path: Path) -> str:
 
 def main() -> None:
     """With one line about what is wrong, as the other tools."""
+    run = typer.main.get_command(app).main
     try:
-        app()
+        sys.exit(run(prog_name="sdre-campaign", standalone_mode=False) or 0)
     except (sdre.InputError, sdre.DesignError) as error:
         sys.exit(_say(str(error), EXIT_BAD_INPUT if isinstance(error, sdre.InputError) else 2))
     except ClusterError as error:
         sys.exit(_say(f"{error}; --resume goes on", EXIT_BAD_INPUT))
     except OSError as error:  # a full disk, a directory that is gone
         sys.exit(_say(str(error), EXIT_BAD_INPUT))
+    except typer.Abort:  # Ctrl-C before the first case
+        sys.exit(_say("interrupted", EXIT_INTERRUPTED))
+    except Exception as error:  # those of the command line have no common base in typer
+        if not hasattr(error, "format_message"):
+            raise
+        words = error.format_message()
+        sys.exit(_say(f"{words} (sdre-campaign --help has what there is)", EXIT_BAD_INPUT))
 
 
 def _say(line: str, code: int) -> int:

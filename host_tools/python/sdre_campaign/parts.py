@@ -13,6 +13,7 @@ from __future__ import annotations
 import fcntl
 import hashlib
 import json
+import logging
 import os
 from contextlib import suppress
 from pathlib import Path
@@ -24,6 +25,8 @@ import pyarrow.parquet as pq
 import sdre
 from sdre_campaign.batch import batches_of, span_of
 from sdre_campaign.spec import Spec
+
+_log = logging.getLogger(__name__)
 
 
 class Directory:
@@ -122,6 +125,7 @@ class Directory:
         octets = sink.getvalue().to_pybytes()
         write_text(self._sum_path(name), hashlib.sha256(octets).hexdigest() + "\n")
         _write(self._path(name), octets)
+        _log.info("%s: %d rows", self._path(name), table.num_rows)
 
     def read(self, name: str) -> pa.Table:
         """A part; InputError when it is not what was written."""

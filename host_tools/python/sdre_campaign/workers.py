@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import logging
 import time
 from contextlib import ExitStack
 from typing import Any, Callable, Optional, Sequence
@@ -15,11 +16,16 @@ from sdre_campaign.batch import Done
 from sdre_campaign.cluster import Work, connected, run_tasks
 from sdre_campaign.spec import Spec
 
+_log = logging.getLogger(__name__)
+
 
 class Workers:
     """Starts its cluster with the first task: a campaign that is finished needs none."""
 
-    def __init__(self, spec: Spec, scheduler: Optional[str], workers: int) -> None:
+    def __init__(
+        self, spec: Spec, scheduler: Optional[str], workers: int, quiet: bool = False
+    ) -> None:
+        self._quiet = quiet
         self._spec, self._scheduler, self._count = spec, scheduler, workers
         self._open = ExitStack()
         self._client: Optional[Client] = None
@@ -30,7 +36,7 @@ class Workers:
             TimeRemainingColumn(),
             TextColumn("{task.fields[rate]}"),
             console=console,
-            disable=not console.is_terminal,
+            disable=quiet or not console.is_terminal,
         )
         self._task = self._progress.add_task("cases", total=0, rate="")
         self._cases = 0
@@ -40,6 +46,7 @@ class Workers:
     def expect(self, total: int, there: int) -> None:
         """How many cases there will be, and how many of them there are."""
         self._progress.update(self._task, total=total, completed=there)
+        _log.info("%d of %d cases are there", there, total)
 
     def run(self, work: Work, tasks: Sequence[Any], keep: Callable[[Done], None]) -> None:
         """All tasks; `keep` gets each as it comes."""
@@ -49,6 +56,8 @@ class Workers:
             self._client = self._open.enter_context(connected(self._scheduler, self._count))
             self._open.enter_context(self._progress)
             self._client.wait_for_workers(1, timeout=60)
+            where = self._scheduler or "this machine"
+            _log.info("workers: %d, on %s", len(self._client.nthreads()), where)
         begin = time.monotonic()
         before = self._wall_s
 
@@ -66,8 +75,8 @@ class Workers:
         self._threads = sum(self._client.nthreads().values())
 
     def tell(self) -> None:
-        """A line about how fast it was, if something was run."""
-        if self._cases == 0:
+        """A line about how fast it was, if something was run; none with -q."""
+        if self._cases == 0 or self._quiet:
             return
         seconds = self._cases * float(self._spec.scenario["duration_s"])
         print(
