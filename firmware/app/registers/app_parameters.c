@@ -57,28 +57,31 @@ static void count_burst(void)
 static app_parameters_state_t take_each(app_registers_t *r, const uint16_t *words, uint16_t count,
                                         uint16_t *dropped)
 {
-    if (!app_registers_saved_take(r, words, count, dropped)) {
-        return APP_PARAMETERS_OUT_OF_RANGE;
+    app_parameters_state_t state = APP_PARAMETERS_OUT_OF_RANGE;
+
+    if (app_registers_saved_take(r, words, count, dropped)) {
+        state = (*dropped > 0U) ? APP_PARAMETERS_PARTLY : APP_PARAMETERS_STORED;
     }
-    return (*dropped > 0U) ? APP_PARAMETERS_PARTLY : APP_PARAMETERS_STORED;
+    return state;
 }
 
 static app_parameters_state_t take_record(app_registers_t *r, const store_content_t *stored,
                                           uint16_t *dropped)
 {
-    const uint32_t words = stored->count;
+    const uint32_t         words = stored->count;
+    app_parameters_state_t state = APP_PARAMETERS_OTHER_VERSION;
 
     if (stored->words == NULL) {
-        return APP_PARAMETERS_DEFAULT;
+        state = APP_PARAMETERS_DEFAULT;
+    } else if ((words < VERSION_WORDS) || (words > MOST_WORDS) || (two(stored->words) != FORMAT)) {
+        /* another format */
+    } else if (((words - VERSION_WORDS) % APP_REGISTERS_SAVED_EACH) == 0U) {
+        state = take_each(r, &stored->words[VERSION_WORDS],
+                          (uint16_t)((words - VERSION_WORDS) / APP_REGISTERS_SAVED_EACH), dropped);
+    } else {
+        /* not whole */
     }
-    if ((words < VERSION_WORDS) || (words > MOST_WORDS) || (two(stored->words) != FORMAT)) {
-        return APP_PARAMETERS_OTHER_VERSION;
-    }
-    if (((words - VERSION_WORDS) % APP_REGISTERS_SAVED_EACH) != 0U) {
-        return APP_PARAMETERS_OTHER_VERSION;
-    }
-    return take_each(r, &stored->words[VERSION_WORDS],
-                     (uint16_t)((words - VERSION_WORDS) / APP_REGISTERS_SAVED_EACH), dropped);
+    return state;
 }
 
 void app_parameters_take(app_parameters_t *p, app_registers_t *r, app_parameters_done_t done)
