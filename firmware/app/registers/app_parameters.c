@@ -73,13 +73,13 @@ static app_parameters_state_t take_record(app_registers_t *r, const store_conten
 
     if (stored->words == NULL) {
         state = APP_PARAMETERS_DEFAULT;
-    } else if ((words < VERSION_WORDS) || (words > MOST_WORDS) || (two(stored->words) != FORMAT)) {
-        /* another format */
-    } else if (((words - VERSION_WORDS) % APP_REGISTERS_SAVED_EACH) == 0U) {
+    } else if ((words >= VERSION_WORDS) && (words <= MOST_WORDS) &&
+               (two(stored->words) == FORMAT) &&
+               (((words - VERSION_WORDS) % APP_REGISTERS_SAVED_EACH) == 0U)) {
         state = take_each(r, &stored->words[VERSION_WORDS],
                           (uint16_t)((words - VERSION_WORDS) / APP_REGISTERS_SAVED_EACH), dropped);
     } else {
-        /* not whole */
+        /* another format */
     }
     return state;
 }
