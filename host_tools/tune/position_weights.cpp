@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "tune/position_weights.hpp"
 
-#include "common/errors.hpp"
-#include "design/design.hpp"
 #include "tune/objective.hpp"
+#include "tune/verdict_penalty.hpp"
 
 namespace sdre {
 namespace {
 
 constexpr int most_halvings = 8; // chosen: the angle is held with a sixteenth of the stiffness
-
-bool is_certified(const Drive &drive)
-{
-    try {
-        return design_drive(drive).certificate.passed();
-    } catch (const DesignError &) {
-        return false;
-    }
-}
 
 } // namespace
 

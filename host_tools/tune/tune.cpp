@@ -45,15 +45,6 @@ bool is_candidate(const Drive &own, const Drive &found)
            std::all_of(o.Q.begin(), o.Q.end(), is_text);
 }
 
-bool certified(const Drive &drive)
-{
-    try {
-        return design_drive(drive).certificate.passed();
-    } catch (const DesignError &) {
-        return false;
-    }
-}
-
 using Value     = std::function<double(const Point &)>;
 using Certified = std::function<bool(const Point &)>;
 
@@ -113,10 +104,10 @@ TuneResult tune_drive(const Drive &own_drive, const TuneSpec &wanted, const Tune
         }
         return s.value;
     };
-    const auto passes = [&](const Point &x) { return certified(with_weights(drive, spec, x)); };
+    const auto passes = [&](const Point &x) { return is_certified(with_weights(drive, spec, x)); };
     Point      found  = elastic ? best_with_shafts(value, passes) : minimise(start, value);
     result.drive      = with_weights(drive, spec, found);
-    if ((elastic || best < near_goal) && !certified(result.drive)) {
+    if ((elastic || best < near_goal) && !is_certified(result.drive)) {
         found        = improve(found, [&](const Point &x) {
             return value(x) + verdict_penalty(with_weights(drive, spec, x));
         });
@@ -125,7 +116,7 @@ TuneResult tune_drive(const Drive &own_drive, const TuneSpec &wanted, const Tune
     Score s = score(result.drive, spec);
     if (is_candidate(drive, result.drive)) {
         const Score own = score(drive, spec);
-        result.kept     = own.worst <= (1.0 + worth_a_change) * s.worst && certified(own_drive);
+        result.kept     = own.worst <= (1.0 + worth_a_change) * s.worst && is_certified(own_drive);
         if (result.kept) {
             result.drive = own_drive;
             s            = own;

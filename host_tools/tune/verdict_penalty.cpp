@@ -29,6 +29,15 @@ double excess_of(const Drive &d)
 
 } // namespace
 
+bool is_certified(const Drive &drive)
+{
+    try {
+        return design_drive(drive).certificate.passed();
+    } catch (const DesignError &) {
+        return false;
+    }
+}
+
 double verdict_penalty(const Drive &drive)
 {
     return excess_weight * std::max(excess_of(drive) - held, 0.0);

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/errors.hpp"
 #include "design/law_design.hpp"
 #include "tune/search.hpp"
+#include "tune/verdict_penalty.hpp"
 
 namespace sdre {
 namespace {
@@ -36,15 +36,6 @@ Drive rival_at(const Drive &drive, const RivalLaw &law, const Tuning &tuning,
         d.cascade.*tuning[i].value = value_at(tuning[i], decades[i], control_period_s(drive));
     }
     return d;
-}
-
-bool is_certified(const Drive &d)
-{
-    try {
-        return design_drive(d).certificate.passed();
-    } catch (const DesignError &) { // without a magnet there is none
-        return false;
-    }
 }
 
 double value_of(const TrialResult &r, const TrialResult &own, double settling_s)

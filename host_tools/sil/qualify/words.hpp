@@ -16,9 +16,9 @@ std::string verdict_words(const TrialResult &r);
 std::string rival_words(const Rival &rival);
 /// Where the rival is ahead of the drive in the load step, and where behind.
 std::string rival_verdict(const Qualification &q, const Rival &rival);
-/// A line for each kind of random motors; empty when none were run.
 /// One line about the first reason; empty for a good drive.
 std::string next_step(const Qualification &q);
+/// A line for each kind of random motors; empty when none were run.
 std::string motors_words(const Qualification &q);
 std::string wide_motors_words(const Qualification &q);
 
