@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -16,6 +14,7 @@
 #include "drive/mtpa_fit.hpp"
 #include "iron.hpp"
 #include "shipped_drive.hpp"
+#include "temp_dir.hpp"
 
 namespace {
 
@@ -28,25 +27,17 @@ const std::vector<double> iq_axis = support::even_axis(0.0, 0.5, 10);
 
 std::vector<double> psi_d(const Iron &iron)
 {
-    return support::over(id_axis, iq_axis, [&](double d, double q) { return iron.psi_d(d, q); });
+    return support::psi_d(iron, id_axis, iq_axis);
 }
 
 std::vector<double> psi_q(const Iron &iron)
 {
-    return support::over(id_axis, iq_axis, [&](double d, double q) { return iron.psi_q(d, q); });
+    return support::psi_q(iron, id_axis, iq_axis);
 }
 
 std::shared_ptr<const FluxMap> map_of(const Iron &iron)
 {
     return std::make_shared<const FluxMap>(id_axis, iq_axis, psi_d(iron), psi_q(iron));
-}
-
-std::string shipped_text()
-{
-    std::ifstream      file(support::shipped_drive("ipmsm_390w"));
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
 }
 
 struct Table {
@@ -63,8 +54,9 @@ struct Table {
 
 sdre::Drive drive_with(const Table &t)
 {
-    return sdre::read_drive_text(shipped_text() + t.text(), "drive.toml",
-                                 support::shipped_drive("ipmsm_390w").string());
+    return sdre::read_drive_text(support::read_file(support::shipped_drive("ipmsm_390w")) +
+                                     t.text(),
+                                 "drive.toml", support::shipped_drive("ipmsm_390w").string());
 }
 
 /// One line that has this in it.

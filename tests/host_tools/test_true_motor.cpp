@@ -4,39 +4,17 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "design/design.hpp"
 #include "iron.hpp"
-#include "shipped_drive.hpp"
 
 namespace {
 
 using sdre::Motor;
 using sdre::OperatingPoint;
 using support::Iron;
-
-const std::vector<double> id_axis = support::even_axis(-4.4, 0.2, 31);
-const std::vector<double> iq_axis = support::even_axis(0.0, 0.15, 31);
-
-sdre::Drive saturated(const Iron &iron)
-{
-    std::ifstream      file(support::shipped_drive("ipmsm_390w"));
-    std::ostringstream text;
-    text << file.rdbuf()
-         << fmt::format(
-                "\n[saturation]\nid_A = {}\niq_A = {}\npsi_d_Wb = {}\npsi_q_Wb = {}\n",
-                support::listed(id_axis), support::listed(iq_axis),
-                support::listed(support::over(
-                    id_axis, iq_axis, [&](double d, double q) { return iron.psi_d(d, q); })),
-                support::listed(support::over(
-                    id_axis, iq_axis, [&](double d, double q) { return iron.psi_q(d, q); })));
-    return sdre::read_drive_text(text.str(), "drive.toml",
-                                 support::shipped_drive("ipmsm_390w").string());
-}
 
 /// d/dt of (w, psi_q, psi_d).
 std::array<double, 3> rates(const Motor &m, const Iron &iron, const std::array<double, 3> &w_iq_id,
@@ -74,7 +52,7 @@ Eigen::Matrix2d inductances(const Iron &iron, double q, double d)
 TEST(TrueMotor, JacobianIsThatOfTheFluxEquations)
 {
     const Iron           iron;
-    const sdre::Drive    drive = saturated(iron);
+    const sdre::Drive    drive = support::saturated_drive(iron);
     const Motor         &m     = drive.motor;
     const auto           motor = sdre::true_motor(drive, m);
     const OperatingPoint at{400.0, 2.2, -1.1};
@@ -113,7 +91,7 @@ TEST(TrueMotor, MapOfConstantInductancesIsTheReducedMotor)
 {
     Iron linear;
     linear.b                    = 0.0;
-    const sdre::Drive     drive = saturated(linear);
+    const sdre::Drive     drive = support::saturated_drive(linear);
     const OperatingPoint  at{-250.0, 3.1, -0.7};
     const auto            l      = sdre::reduced_parameters(drive.motor);
     const auto            mapped = sdre::true_motor(drive, drive.motor);
@@ -134,13 +112,13 @@ TEST(TrueMotor, CertificateRefusesAMachineThatSaturatesTooMuch)
 {
     Iron mild;
     mild.b = 0.05;
-    EXPECT_TRUE(sdre::design_drive(saturated(mild)).certificate.passed());
+    EXPECT_TRUE(sdre::design_drive(support::saturated_drive(mild)).certificate.passed());
     Iron hard;
     hard.lq_H       = 0.11391;
     hard.b          = 0.3;
-    sdre::Drive bad = saturated(hard);
+    sdre::Drive bad = support::saturated_drive(hard);
     bad.motor.q_axis_inductance_H *= 2.5; // believed, not the map
-    bad.saturation    = saturated(hard).saturation;
+    bad.saturation    = support::saturated_drive(hard).saturation;
     const auto design = sdre::design_drive(bad);
     ASSERT_FALSE(design.certificate.passed());
 }

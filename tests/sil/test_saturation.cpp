@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// The plant with a map of the iron is compared with a machine in closed form. The map comes from the drive file.
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "common/toml_reader.hpp"
 #include "iron.hpp"
 #include "plant_motor.hpp"
-#include "shipped_drive.hpp"
 #include "sil/plant/plant.hpp"
 #include "sil/run/simulation.hpp"
 #include "sil/setup/scenario.hpp"
@@ -21,37 +18,14 @@ using sdre::RotorVector;
 using sdre::StatorVector;
 using support::Iron;
 
-const std::vector<double> id_axis = support::even_axis(-4.4, 0.2, 31);
-const std::vector<double> iq_axis = support::even_axis(0.0, 0.15, 31);
-
-std::vector<double> psi_d(const Iron &iron)
-{
-    return support::over(id_axis, iq_axis, [&](double d, double q) { return iron.psi_d(d, q); });
-}
-
-std::vector<double> psi_q(const Iron &iron)
-{
-    return support::over(id_axis, iq_axis, [&](double d, double q) { return iron.psi_q(d, q); });
-}
-
 sdre::MotorEffects effects_of(const Iron &iron)
 {
     sdre::MotorEffects e;
-    e.flux = sdre::SaturatedMotor(
-        std::make_shared<const sdre::FluxMap>(id_axis, iq_axis, psi_d(iron), psi_q(iron)));
+    e.flux = sdre::SaturatedMotor(std::make_shared<const sdre::FluxMap>(
+        support::fine_id_axis, support::fine_iq_axis,
+        support::psi_d(iron, support::fine_id_axis, support::fine_iq_axis),
+        support::psi_q(iron, support::fine_id_axis, support::fine_iq_axis)));
     return e;
-}
-
-sdre::Drive drive_with(const Iron &iron)
-{
-    std::ifstream      file(support::shipped_drive("ipmsm_390w"));
-    std::ostringstream text;
-    text << file.rdbuf()
-         << fmt::format("\n[saturation]\nid_A = {}\niq_A = {}\npsi_d_Wb = {}\npsi_q_Wb = {}\n",
-                        support::listed(id_axis), support::listed(iq_axis),
-                        support::listed(psi_d(iron)), support::listed(psi_q(iron)));
-    return sdre::read_drive_text(text.str(), "drive.toml",
-                                 support::shipped_drive("ipmsm_390w").string());
 }
 
 /// At 300 rad/s with a load of 1.5 N m.
@@ -165,7 +139,7 @@ TEST(Saturation, RunsWithTheMapOfTheDriveFile)
 {
     Iron iron;
     iron.b                       = 0.4;
-    const auto       drive       = drive_with(iron);
+    const auto       drive       = support::saturated_drive(iron);
     const auto       x           = steady(drive);
     constexpr double friction_Nm = 1e-4 * 150.0;
     EXPECT_NEAR(x.omega_e_radps, 300.0, 0.05);
@@ -185,9 +159,10 @@ TEST(Saturation, RunsWithTheMapOfTheDriveFile)
 TEST(Saturation, ScenarioHasItsOwnIron)
 {
     Iron iron;
-    iron.b       = 0.4;
-    const auto x = steady(drive_with(iron), "[motor_effects]\nid_A = [-5, 5]\niq_A = [-5, 5]\n"
-                                            "ld_H = [0.07, 0.07, 0.07, 0.07]\n"
-                                            "lq_H = [0.1, 0.1, 0.1, 0.1]\n");
+    iron.b = 0.4;
+    const auto x =
+        steady(support::saturated_drive(iron), "[motor_effects]\nid_A = [-5, 5]\niq_A = [-5, 5]\n"
+                                               "ld_H = [0.07, 0.07, 0.07, 0.07]\n"
+                                               "lq_H = [0.1, 0.1, 0.1, 0.1]\n");
     EXPECT_NEAR(3.0 * (0.193 + (0.07 - 0.1) * x.current_A.d) * x.current_A.q, 1.515, 5e-3);
 }

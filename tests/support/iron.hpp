@@ -8,6 +8,10 @@
 
 #include <fmt/format.h>
 
+#include "drive/drive_file.hpp"
+#include "shipped_drive.hpp"
+#include "temp_dir.hpp"
+
 namespace support {
 
 struct Iron {
@@ -58,9 +62,39 @@ std::vector<double> over(const std::vector<double> &id_A, const std::vector<doub
     return all;
 }
 
+/// Fluxes over two axes.
+inline std::vector<double> psi_d(const Iron &iron, const std::vector<double> &id_A,
+                                 const std::vector<double> &iq_A)
+{
+    return over(id_A, iq_A, [&](double d, double q) { return iron.psi_d(d, q); });
+}
+
+inline std::vector<double> psi_q(const Iron &iron, const std::vector<double> &id_A,
+                                 const std::vector<double> &iq_A)
+{
+    return over(id_A, iq_A, [&](double d, double q) { return iron.psi_q(d, q); });
+}
+
 inline std::string listed(const std::vector<double> &x)
 {
     return fmt::format("[{:.12g}]", fmt::join(x, ", "));
+}
+
+/// A fine map of ipmsm_390w.
+inline const std::vector<double> fine_id_axis = even_axis(-4.4, 0.2, 31);
+inline const std::vector<double> fine_iq_axis = even_axis(0.0, 0.15, 31);
+
+/// The shipped drive with that map in its file.
+inline sdre::Drive saturated_drive(const Iron &iron)
+{
+    const auto        file = shipped_drive("ipmsm_390w");
+    const std::string text =
+        read_file(file) +
+        fmt::format("\n[saturation]\nid_A = {}\niq_A = {}\npsi_d_Wb = {}\npsi_q_Wb = {}\n",
+                    listed(fine_id_axis), listed(fine_iq_axis),
+                    listed(psi_d(iron, fine_id_axis, fine_iq_axis)),
+                    listed(psi_q(iron, fine_id_axis, fine_iq_axis)));
+    return sdre::read_drive_text(text, "drive.toml", file.string());
 }
 
 } // namespace support
