@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Generates from firmware/app/registers/registers.toml: the firmware's map, its documentation as
-tables and as CSV, the client's names.
+tables and as CSV, the client's names, the tables of the page in a browser.
 
     python3 host_tools/registers/generate.py            writes what has changed
     python3 host_tools/registers/generate.py --check    says what would change; exit code 1 then
@@ -18,6 +18,7 @@ from typing import Dict, List
 
 sys.path.insert(0, str(Path(__file__).parent))
 
+from browser_tables import page_text  # noqa: E402
 from c_map import header, source, types  # noqa: E402
 from c_signals import signals_header, signals_source  # noqa: E402
 from table import Group, Register, Signal, TableError, read, signals  # noqa: E402
@@ -226,6 +227,9 @@ def files(groups: List[Group], found: List[Signal]) -> Dict[Path, str]:
         doc: documented(groups, found, doc.read_text(encoding="utf-8")),
         ROOT / "docs/registers.csv": csv_text(groups),
         ROOT / "host_tools/python/sdre_drive/register_map.py": python_text(groups, found),
+        ROOT / "host_tools/python/sdre_drive/page/static/direct/tables.js": page_text(
+            groups, found
+        ),
     }
 
 

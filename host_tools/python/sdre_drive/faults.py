@@ -69,12 +69,17 @@ def _entry(group: str, keys: Dict[str, Any]) -> Entry:
     return Entry(group=group, reproduce=how, **rest)
 
 
+def raw_table() -> Dict[str, List[Dict[str, Any]]]:
+    """faults.toml as it is, by group."""
+    with (Path(__file__).parent / "faults.toml").open("rb") as f:
+        read = tomllib.load(f)
+    return {g: read[g] for g in GROUPS}
+
+
 @lru_cache(maxsize=None)
 def table() -> Dict[str, Dict[int, Entry]]:
     """All entries by group and number."""
-    with (Path(__file__).parent / "faults.toml").open("rb") as f:
-        read = tomllib.load(f)
-    return {g: {e["number"]: _entry(g, e) for e in read[g]} for g in GROUPS}
+    return {g: {e["number"]: _entry(g, e) for e in found} for g, found in raw_table().items()}
 
 
 def find(group: str, number: int) -> Entry:

@@ -22,7 +22,7 @@ TYPES = {
     ".js": "text/javascript; charset=utf-8",
     ".svg": "image/svg+xml",
 }
-FILES = {f"/{p.name}": p for p in STATIC.iterdir() if p.suffix in TYPES}
+FILES = {f"/{p.relative_to(STATIC).as_posix()}": p for p in STATIC.rglob("*") if p.suffix in TYPES}
 STREAM_S = 0.1  # between two states
 MOST_OCTETS = 400_000  # of a request: an image of constants has less than half of it
 VIEWER = re.compile(r"[0-9a-f-]{8,40}")
