@@ -58,6 +58,24 @@ TEST(ServeControl, AMotorWithoutFrictionGetsSomeOnTheBench)
         << "s until it stands";
 }
 
+TEST(ServeControl, AMeasuredResonanceIsOnTheBench)
+{
+    Drive own = shipped();
+    EXPECT_EQ(bench_scenario(own, own, 1).motor_effects.shaft_stiffness_Nmprad, 0.0);
+    own.mechanics.coupling           = Coupling::known;
+    own.mechanics.resonance_Hz       = 120.0;
+    own.mechanics.least_damping      = 0.03;
+    own.mechanics.load_inertia_share = 0.4;
+    const MotorEffects e             = bench_scenario(own, own, 1).motor_effects;
+    // Two masses against each other: w^2 = k / J_r, with J_r = J_1 J_2 / (J_1 + J_2).
+    const double reduced_kgm2 = 0.4 * 0.6 * own.motor.inertia_kgm2;
+    const double w_radps      = 2.0 * 3.14159265358979 * 120.0;
+    EXPECT_NEAR(e.shaft_stiffness_Nmprad / (w_radps * w_radps * reduced_kgm2), 1.0, 1e-9);
+    EXPECT_NEAR(e.shaft_damping_Nms / (0.06 * w_radps * reduced_kgm2), 1.0, 1e-9);
+    EXPECT_EQ(e.load_inertia_share, 0.4);
+    EXPECT_EQ(e.coulomb_friction_Nm, 0.0);
+}
+
 TEST(ServeControl, LoadSupplyFaultsAndWhatTheyDo)
 {
     AtTheBench at;

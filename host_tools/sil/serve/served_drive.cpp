@@ -87,6 +87,7 @@ Scenario bench_scenario(const Drive &drive, const Drive &machine, std::uint64_t 
     s.sensors.encoder_disc              = true_ones.encoder_disc;
     s.sensors.encoder_eccentricity_rad  = true_ones.encoder_eccentricity_rad;
     s.plant_scale                       = scale_of(drive.motor, machine.motor);
+    s.motor_effects                     = effects_of_drive(machine);
     s.motor_effects.coulomb_friction_Nm = bench_friction_Nm(machine);
     if (machine.saturation) {
         s.motor_effects.flux = saturated_motor(machine, machine.motor);
