@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -12,6 +14,8 @@
 #include "facts/cross_checks.hpp"
 #include "facts/new_drive_text.hpp"
 #include "gains/commands.hpp"
+#include "tune/position_weights.hpp"
+#include "tune/verdict_penalty.hpp"
 
 namespace sdre {
 namespace {
@@ -83,6 +87,35 @@ void say(const Findings &findings, const Options &o)
     }
 }
 
+/// The complaint about a drive file with this text; empty when it has none.
+std::string refusal(const std::string &text, const Options &o)
+{
+    try {
+        (void)read_drive_text(text, "new", o.out);
+        return "";
+    } catch (const InputError &e) {
+        return e.what();
+    }
+}
+
+/// [position], or a note of what is in its way.
+std::string position_or_why_not(const Drive &drive, const std::string &text, const Options &o)
+{
+    std::string why = "with no weight of the angle is it certified; a finer encoder would help";
+    if (!is_certified(drive)) {
+        why = "even the start weights of the speed are not certified; `sdre-gains tune` finds "
+              "better ones";
+    } else if (const std::optional<PositionSpec> position = start_position(drive)) {
+        const std::string section = position_text(*position);
+        why                       = refusal(text + section, o);
+        if (why.empty()) {
+            return section;
+        }
+    }
+    fmt::print(stderr, "note: no [position], so the drive takes no positions: {}\n", why);
+    return "";
+}
+
 int run(const Options &o)
 {
     if (o.keys) {
@@ -106,8 +139,9 @@ int run(const Options &o)
     check_ratings(facts, machine, findings);
     check_machine(machine, findings);
     say(findings, o);
-    const std::string text = new_drive_text(machine);
+    std::string text  = new_drive_text(machine);
     const Drive drive = read_drive_text(text, facts.source, o.out); // whose ranges are the tools'
+    text += position_or_why_not(drive, text, o);
     write_files({{o.out, text}});
     fmt::print("{}{}: written; `sdre-gains tune {} --out TUNED.toml` finds its weights\n",
                pwm_note(drive.inverter), o.out, shell_word(o.out));

@@ -7,6 +7,7 @@
 
 #include "common/errors.hpp"
 #include "drive/pwm_frequency.hpp"
+#include "tune/position_weights.hpp"
 
 namespace sdre {
 namespace {
@@ -43,18 +44,6 @@ bool is_old_note(const std::string &line)
            starts_with(line, "# The weights below were kept by") ||
            starts_with(line, "# for PWM at") || starts_with(line, "# for a load step of") ||
            starts_with(line, "#   J, B x") || starts_with(line, "# Behind an elastic shaft");
-}
-
-/// Weights of positions, where the search has changed them.
-std::string position_section(const Drive &d)
-{
-    if (!d.position || d.mechanics.coupling == Coupling::rigid) {
-        return "";
-    }
-    const PositionSpec &p = *d.position;
-    return fmt::format("\n{}\n# angle: halved until the certificate passed; speed, i_q, i_d: as "
-                       "[nosc]\nQ = [{:.3g}, {:.3g}, {:.3g}, {:.3g}]\nT = [{:.3g}, {:.3g}]\n",
-                       position_header, p.Q[0], p.Q[1], p.Q[2], p.Q[3], p.T[0], p.T[1]);
 }
 
 } // namespace
@@ -104,7 +93,7 @@ std::string tuned_sections(const TuneResult &r, const TuneSpec &spec)
                      "({:.3g} counts)\n",
                      sensors.current_A, sensors.angle_rad, spec.angle_error_cnt);
     s += fmt::format("T = [{:.3g}, {:.3g}, {:.3g}]\n", d.nodo.T[0], d.nodo.T[1], d.nodo.T[2]);
-    return s + position_section(d);
+    return r.moved_position ? s + position_text(*d.position) : s;
 }
 
 void require_rewritable(const std::filesystem::path &file, const std::string &text)

@@ -125,8 +125,11 @@ TuneResult tune_drive(const Drive &own_drive, const TuneSpec &wanted, const Tune
     if (!(s.worst < unstable_score)) {
         throw DesignError("no stable design found for these specifications");
     }
-    if (own_drive.position && elastic && !result.kept) {
-        result.drive = with_position(result.drive, *own_drive.position);
+    const bool follows = own_drive.position && !result.kept &&
+                         (elastic || (follows_speed(own_drive) && !is_certified(result.drive)));
+    if (follows) {
+        result.drive          = with_position(result.drive, *own_drive.position);
+        result.moved_position = true;
     }
     result.cases       = s.cases;
     result.worst_ratio = s.worst;

@@ -369,6 +369,32 @@ TEST(GainsCli, NewWritesTheBoardAndItsDeadTime)
                    {"dead_time_s = 1.5e-06", "board_390w"});
 }
 
+TEST(GainsCli, NewWritesPositionsOrSaysWhyNot)
+{
+    const TempDir dir;
+    const auto    made = [&dir](const std::string &name, const std::string &why) {
+        const std::string out = dir / (name + ".toml");
+        const auto        r =
+            gains({"new", "--facts", std::string(SDRE_TEST_DATA_DIR "/facts/") + name + ".toml",
+                   "--out", out});
+        EXPECT_EQ(r.exit_code, 0) << r.err;
+        const bool takes = sdre::read_drive_file(out).position.has_value();
+        EXPECT_EQ(takes, r.err.find("note: no [position]") == std::string::npos) << name << r.err;
+        EXPECT_NE(r.err.find(why), std::string::npos) << name << r.err;
+        if (takes) {
+            EXPECT_NE(gains({"report", out}).out.find("verdict: certified"), std::string::npos)
+                << name;
+        }
+        return takes;
+    };
+    for (const char *name : {"servo_2k2", "servo_600w_surface", "torque_motor"}) {
+        EXPECT_TRUE(made(name, "")) << name;
+    }
+    EXPECT_FALSE(made("pump_256", "start weights of the speed are not certified"));
+    EXPECT_FALSE(made("ev_100kw", "start weights of the speed are not certified"));
+    EXPECT_FALSE(made("outrunner_24v", "pwm_frequency_Hz = 20000 is not allowed"));
+}
+
 TEST(GainsCli, EveryCommandHasAnExample)
 {
     EXPECT_EQ(support::commands_of(SDRE_GAINS_EXE).size(), 9U);
