@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What the page knows when it talks to a drive by itself: registers, parameters, and the words of
-the Python client for modes and faults. Standard library alone (Python 3.11)."""
+"""Writes the tables of a page that talks to a drive by itself: registers, parameters, and the words
+of the Python client. Standard library alone (Python 3.11)."""
 
 from __future__ import annotations
 
@@ -76,6 +76,8 @@ def page_text(groups: List[Group], found: List[Signal]) -> str:
         "FAULTS": _faults(groups),
         "MODES": {int(m): [m.name, words] for m, words in registers.MODE_WORDS.items()},
         "RESET_WORDS": list(registers.RESET_WORDS),
+        "STORED_WORDS": list(registers.STORED_WORDS),
+        "SIGNATURES": {r.name: r.signature for g in groups for r in g.registers if r.signature},
     }
     lines = [HEAD, f'export const DIGEST = "{digest_of(groups)}";']
     lines.append(f'export const VERSION = "{version()}";')

@@ -37,13 +37,13 @@ class Page:
         )
 
     def answer(self, call: str, **args: Any) -> Any:
-        """What it says, errors too."""
+        """Its answer, or its error."""
         assert self.process.stdin and self.process.stdout
         self.process.stdin.write(json.dumps({"call": call, **args}) + "\n")
         return json.loads(self.process.stdout.readline())
 
     def ask(self, call: str, **args: Any) -> Any:
-        """What it says, which has to be no error."""
+        """Its answer, which has to be no error."""
         return self.answer(call, **args)["told"]
 
 

@@ -14,7 +14,7 @@ from sdre_drive import register_map
 from sdre_drive.connection import FORMATS, Drive, DriveError, Refused, is_pseudo_terminal
 from sdre_drive.load import NOT_TAKEN
 from sdre_drive.register_map import BY_NAME, PARAMETERS, Parameter
-from sdre_drive.registers import block, values, words_of
+from sdre_drive.registers import STORED_WORDS, block, values, words_of
 
 try:
     import tomllib
@@ -28,14 +28,6 @@ SIGNATURES = {
     "RESTORE_PARAMETERS": b"load",
     "ACCEPT_FALLBACK": b"take",
 }
-STATES = (
-    "defaults: nothing is stored",
-    "as stored",
-    "DEFAULTS: what is stored has another format",
-    "DEFAULTS: a stored value is out of its range",
-    "RECORD_LOST: what was stored last is lost",
-    "as stored",
-)
 LOST = 2048 | 4096  # conditions that ACCEPT_FALLBACK ends
 DONE, FLASH_FAILED = 1, 2
 # data sheet: a sector is erased in 2 s typical, 15 s at most; two of them, and requests without an
@@ -74,7 +66,9 @@ class Stored:
     @property
     def words(self) -> str:
         """As text."""
-        known = STATES[self.state] if self.state < len(STATES) else f"state {self.state}"
+        known = (
+            STORED_WORDS[self.state] if self.state < len(STORED_WORDS) else f"state {self.state}"
+        )
         less = (
             f", but {self.dropped} that this firmware does not have: compare with your export, "
             "then save"

@@ -113,6 +113,14 @@ RESET_WORDS = (
     "power on, or the reset pin",
     "its watchdog: the program before hung, or was asked to restart",
 )
+STORED_WORDS = (  # register PARAMETERS_STATE
+    "defaults: nothing is stored",
+    "as stored",
+    "DEFAULTS: what is stored has another format",
+    "DEFAULTS: a stored value is out of its range",
+    "RECORD_LOST: what was stored last is lost",
+    "as stored",
+)
 MODE_WORDS = {
     Mode.BOOT: "starts up",
     Mode.CALIBRATE: "measures the zeros of its current sensors",

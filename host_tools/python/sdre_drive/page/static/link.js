@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The page's way to the drive: a stream of states, actions, and what is read once. Another transport has the same methods.
+// The page's way to the drive: a stream of states, actions, and what is read once. direct/link.js has the same
+// methods. `lacks` names the cards that a link cannot serve, with the reason.
 
 const AGAIN_MS = 1000;
 const SILENT_MS = 2000;
@@ -9,6 +10,7 @@ export class HttpLink {
   /** @param onState called with each state, or null and the reason why there is none */
   constructor(onState) {
     this.onState = onState;
+    this.lacks = {};
     this.viewer = crypto.randomUUID();
     this.heard = performance.now();
     this.look();

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Puts the page together: one link to the drive, and cards that show its states.
-import { byId, say } from "./dom.js";
+import { byId, el, say } from "./dom.js";
+import { DirectLink } from "./direct/link.js";
 import { HttpLink } from "./link.js";
 import { chooseUnit, onUnit, unit, usePolePairs } from "./units.js";
 import { Bench } from "./bench.js";
 import { Commission } from "./commission.js";
+import { Connect } from "./connect.js";
 import { Control } from "./control.js";
 import { History } from "./history.js";
 import { Image } from "./image.js";
@@ -17,14 +19,22 @@ class Page {
   constructor() {
     this.state = null;
     this.facts = null;
-    this.link = new HttpLink((state, why) => this.take(state, why));
-    this.cards = [Now, Control, Bench, Traces, Scope, History, Parameters, Commission, Image].map((Card) => new Card(this));
+    const Link = new URLSearchParams(location.search).get("drive") === "serial" ? DirectLink : HttpLink;
+    this.link = new Link((state, why) => this.take(state, why));
+    this.cards = [Connect, Now, Control, Bench, Traces, Scope, History, Parameters, Commission, Image].map((Card) => new Card(this));
+    Object.entries(this.link.lacks).forEach(([id, why]) => this.unable(id, why));
     byId("stop").addEventListener("click", () => this.stop());
     byId("unit").value = unit();
     byId("unit").addEventListener("change", (e) => chooseUnit(e.target.value));
     onUnit(() => this.show());
     window.addEventListener("keydown", (e) => this.key(e), true);
     window.addEventListener("keyup", (e) => this.key(e), true);
+  }
+
+  /** Switches a card off and says why. */
+  unable(id, why) {
+    byId(id).querySelectorAll("input, select, button").forEach((input) => (input.disabled = true));
+    byId(id).querySelector("summary").after(el("p", { className: "lacks" }, why));
   }
 
   /** The space bar stops, wherever the focus is: it never presses a button and never types. */

@@ -39,8 +39,9 @@ export class Master {
     return this.asked(() => readRequest(this.unit, 3, first, count), readAnswer);
   }
 
-  write(first, values) {
-    return this.asked(() => writeRequest(this.unit, first, values), writeAnswer);
+  /** @param allow called when its turn has come; throws when it must not be sent */
+  write(first, values, allow = () => undefined) {
+    return this.asked(() => allow() || writeRequest(this.unit, first, values), writeAnswer);
   }
 
   /** Before all that waits. */

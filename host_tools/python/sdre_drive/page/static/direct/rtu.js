@@ -14,7 +14,7 @@ const MOST_WRITTEN = 123; // registers of function 16
 
 /** The drive has answered, with an exception. */
 export class Refused extends Error {}
-/** What came is no answer to the request. */
+/** The octets are no answer to the request. */
 export class NoAnswer extends Error {}
 
 /** CRC of Modbus over octets: polynomial A001h, from FFFFh. */

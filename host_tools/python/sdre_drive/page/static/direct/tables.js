@@ -82,3 +82,16 @@ export const RESET_WORDS = [
   "power on, or the reset pin",
   "its watchdog: the program before hung, or was asked to restart",
 ];
+export const STORED_WORDS = [
+  "defaults: nothing is stored",
+  "as stored",
+  "DEFAULTS: what is stored has another format",
+  "DEFAULTS: a stored value is out of its range",
+  "RECORD_LOST: what was stored last is lost",
+  "as stored",
+];
+export const SIGNATURES = {
+  "STORE_PARAMETERS": 1702257011,
+  "RESTORE_PARAMETERS": 1684107116,
+  "ACCEPT_FALLBACK": 1701536116,
+};
