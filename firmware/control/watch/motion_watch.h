@@ -4,11 +4,12 @@
  * @brief Detects a locked rotor, an overhauling load, and an encoder with a wrong angle or motion.
  *
  *     odd:     voltage error of the model,
- *              max(Lq abs(d_q), Ld abs(d_d)) > 0.6 (R j + (flux + Lq j) abs(w)) + 0.02 v_dc
+ *              max(Lq abs(d_q), Ld abs(d_d)) > 0.6 (flux + Lq j) abs(w) + r
  *              for 10 ms, j = abs(id) + abs(iq)                                 EQ-MOTION-WATCH-1
+ *     r:       max(0.6 R j + 0.02 v_dc, 0.035 v_dc)                             EQ-MOTION-WATCH-5
  *     lost:    power that the model does not explain,
  *              abs(Lq d_q iq + Ld d_d id)
- *                > 0.5 abs((flux + (Ld - Lq) id) iq w) + (0.6 R j + 0.02 v_dc) j
+ *                > 0.5 abs((flux + (Ld - Lq) id) iq w) + r j
  *              for 10 ms, together with EQ-MOTION-WATCH-1                       EQ-MOTION-WATCH-4
  *     stall:   abs(i) > 0.9 i_max and abs(w* - w) > 10 rad/s,
  *              and for 50 ms no edge, or for 0.5 s abs(w) < 10 rad/s            EQ-MOTION-WATCH-2
@@ -18,6 +19,9 @@
  * d are the low-pass filtered disturbances of the observer's current equations. The limit of
  * EQ-MOTION-WATCH-1 covers parameter errors of one half, and the dead time. A shaft that turns with
  * a dead encoder leaves its EMF as an error. Laws without a prediction have no such check.
+ *
+ * A dead time that is wrong by T leaves up to 4/3 T f v_dc. With the right R, EQ-MOTION-WATCH-5
+ * covers a fortieth of the PWM period.
  *
  * Voltage times current does not depend on the angle of the frame. With a wrong angle the motor
  * takes another power than the model says: EQ-MOTION-WATCH-4 sees it beyond 60 degrees. An error of

@@ -44,7 +44,8 @@ static void test_a_motor_that_runs_as_it_should_is_good(void)
     TEST_ASSERT_EQUAL_INT(0, found_after(MOTION_WATCH_GOOD, 10000));
 }
 
-/* A voltage across the current, which takes no power. With 2.8 A: 0.6 (2.48 Ohm 2.8 A + (0.193 Wb + 0.11391 H 2.8 A) w) + 5.9 V */
+/* A voltage across the current, which takes no power. With 2.8 A: 0.6 (0.193 Wb + 0.11391 H 2.8 A) w
+ * + 0.035 295 V. The resistive part and 5.9 V are less than the last term. */
 static void test_a_voltage_beyond_what_a_wrong_motor_explains_is_odd(void)
 {
     const float lq_H = 0.11391f;
@@ -52,7 +53,7 @@ static void test_a_voltage_beyond_what_a_wrong_motor_explains_is_odd(void)
     for (int way = 0; way < 4; way++) {
         setUp();
         in.now.omega_e_radps = (way < 2) ? 0.0f : -200.0f;
-        const float most_V   = (0.6f * (6.944f + (0.511948f * ((way < 2) ? 0.0f : 200.0f)))) + 5.9f;
+        const float most_V   = (0.6f * 0.511948f * ((way < 2) ? 0.0f : 200.0f)) + 10.325f;
         in.command_e_radps   = in.now.omega_e_radps;
         in.now.iq_A          = ((way & 1) != 0) ? 2.8f : 0.0f;
         in.now.id_A          = ((way & 1) != 0) ? 0.0f : -2.8f;
@@ -66,6 +67,44 @@ static void test_a_voltage_beyond_what_a_wrong_motor_explains_is_odd(void)
     setUp();
     in.d_Aps.q = NAN;
     TEST_ASSERT_INT_WITHIN(1, 51, found_after(MOTION_WATCH_ODD, 200));
+}
+
+/* At rest, in V: the larger of 0.6 2.48 Ohm i + 0.02 v_dc and 0.035 v_dc. */
+static void test_at_rest_the_larger_of_both_allowances_counts(void)
+{
+    const float lq_H = 0.11391f;
+    for (int link = 0; link < 2; link++) {
+        for (float i_A = 0.0f; i_A < 4.0f; i_A += 0.25f) {
+            setUp();
+            in.dc_link_V         = (link == 0) ? 295.0f : 60.0f;
+            in.now.omega_e_radps = 0.0f;
+            in.command_e_radps   = 0.0f;
+            in.now.iq_A          = 0.0f;
+            in.now.id_A          = -i_A;
+            const float both_V   = (1.488f * i_A) + (0.02f * in.dc_link_V);
+            const float most_V   = fmaxf(both_V, 0.035f * in.dc_link_V);
+            in.d_Aps.q           = 0.99f * most_V / lq_H;
+            TEST_ASSERT_EQUAL_INT(0, found_after(MOTION_WATCH_GOOD, 200));
+            in.d_Aps.q = -1.01f * most_V / lq_H;
+            TEST_ASSERT_INT_WITHIN(1, 51, found_after(MOTION_WATCH_ODD, 200));
+        }
+    }
+}
+
+/* The whole error is 4/3 of the share that is wrong, on the axis of the current. */
+static void test_a_dead_time_wrong_by_5_us_of_200_is_good(void)
+{
+    for (float i_A = 0.1f; i_A < 4.0f; i_A += 0.1f) {
+        for (int way = -1; way <= 1; way += 2) {
+            setUp();
+            in.now.omega_e_radps = 0.0f;
+            in.command_e_radps   = 0.0f;
+            in.now.id_A          = 0.0f;
+            in.now.iq_A          = i_A;
+            in.d_Aps.q           = (float)way * (4.0f / 3.0f) * (5.0f / 200.0f) * 295.0f / 0.11391f;
+            TEST_ASSERT_EQUAL_INT(0, found_after(MOTION_WATCH_GOOD, 200));
+        }
+    }
 }
 
 /* At 300 rad/s with 2.3 and -0.5 A, in W:
@@ -185,6 +224,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_a_motor_that_runs_as_it_should_is_good);
     RUN_TEST(test_a_voltage_beyond_what_a_wrong_motor_explains_is_odd);
+    RUN_TEST(test_at_rest_the_larger_of_both_allowances_counts);
+    RUN_TEST(test_a_dead_time_wrong_by_5_us_of_200_is_good);
     RUN_TEST(test_power_that_a_wrong_motor_does_not_explain_is_found);
     RUN_TEST(test_a_wrong_angle_is_found_from_80_to_280_degrees);
     RUN_TEST(test_torque_without_an_edge_is_a_stall_after_50_ms);
