@@ -39,6 +39,11 @@ fields_t fields_reader(const uint16_t *words, uint32_t count);
 /** A walk that writes the members to words; words NULL: it counts only. Context: init. */
 fields_t fields_writer(uint16_t *words, uint32_t count);
 
+#ifdef FIELDS_NAMED
+/** A walk that counts words and tells the listener every member. */
+fields_t fields_told(const fields_listener_t *listener);
+#endif
+
 void fields_u16(fields_t *f, uint16_t *x);
 void fields_i16(fields_t *f, int16_t *x);
 void fields_u32(fields_t *f, uint32_t *x);

@@ -18,9 +18,6 @@ typedef struct fields_listener {
     void (*number)(void *self, const char *name, fields_kind_t kind, const void *x);
 } fields_listener_t;
 
-/** A walk that counts words and tells the listener every member. */
-struct fields fields_told(const fields_listener_t *listener);
-
 void fields_name(struct fields *f, const char *name);
 void fields_begin(struct fields *f, const char *name);
 void fields_end(struct fields *f);
