@@ -100,6 +100,10 @@ def _unit_word() -> str:
     )
 
 
+# Windows has neither, and its serial ports need neither.
+_NO_WAITING = getattr(os, "O_NOCTTY", 0) | getattr(os, "O_NONBLOCK", 0)
+
+
 def is_pseudo_terminal(serial_port: str) -> bool:
     """A virtual drive's."""
     return os.path.realpath(serial_port).startswith("/dev/pts/")
@@ -108,7 +112,7 @@ def is_pseudo_terminal(serial_port: str) -> bool:
 def why_closed(serial_port: str) -> str:
     """The operating system's own words about a port that cannot be opened, and what to do."""
     try:
-        os.close(os.open(serial_port, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK))
+        os.close(os.open(serial_port, os.O_RDWR | _NO_WAITING))
     except FileNotFoundError as e:
         here = ", ".join(sorted(p.device for p in list_ports.comports())) or "none"
         return f"{serial_port}: {e.strerror}; serial ports here: {here}"
