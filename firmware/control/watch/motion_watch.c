@@ -4,8 +4,8 @@
 /* Errors of one half in R, L and flux leave half of the voltage, plus the rest of the dead time. */
 #define HALF_OFF  0.6f
 #define DEAD_TIME 0.02f
-/* Chosen: a dead time wrong by a fortieth of the PWM period leaves 4/3 of that, and noise. Alone: with
- * the error of R as well, an encoder that stands still would be found late. */
+/* Chosen: a dead time wrong by a fortieth of the PWM period leaves 4/3 of that, and noise. Alone:
+ * with the error of R as well, an encoder that stands still would be found late. */
 #define DEAD_TIME_ALONE 0.035f
 #define POWER_OFF       0.5f     /* errors of one half in flux, Lq - Ld and R */
 #define ODD_s           10.0e-3f /* chosen: twice what a step at the voltage limit takes */
