@@ -105,6 +105,42 @@ constexpr double cap_s = 0.05;
 
 } // namespace
 
+/// An edge after the end of the period is counted there, and the angle is a count ahead: its time is another edge's.
+TEST(EncoderReadings, OfALateCountAreAheadByTheEdgesItHas)
+{
+    constexpr double late_s = 0.3 * period_s;
+    for (const bool edge_time : {false, true}) {
+        const std::vector<Tick> ticks = ride(7, 4000);
+        SensorSettings          s;
+        s.encoder_disc         = {0.0, 0.0, 0.0};
+        s.encoder_edge_time    = edge_time;
+        s.encoder_count_late_s = late_s;
+        QuadratureEncoder late(s, lines, pairs, period_s);
+        QuadratureEncoder prompt = encoder_of(edge_time, ticks[0]);
+        late.start(ticks[0].theta_e_rad, ticks[0].omega_e_radps);
+        int ahead = 0;
+        for (std::size_t k = 1; k < ticks.size(); k++) {
+            const Tick        &t      = ticks[k];
+            const auto         r      = late.read(t.theta_e_rad, t.omega_e_radps);
+            const auto         p      = prompt.read(t.theta_e_rad, t.omega_e_radps);
+            const double       later  = t.theta_e_rad + t.omega_e_radps * late_s;
+            const auto         wanted = static_cast<std::int64_t>(std::floor(later / count_rad));
+            const std::int64_t edges  = wanted - t.count;
+            ASSERT_EQ(r.count, wanted) << k;
+            ASSERT_EQ(r.raw_count, wanted) << k;
+            if (edge_time) {
+                expect_angle(r.theta_e_rad, p.theta_e_rad + static_cast<double>(edges) * count_rad);
+                EXPECT_EQ(r.omega_e_radps, p.omega_e_radps);
+                if (p.edge_of_line > 0) {
+                    EXPECT_EQ(((r.edge_of_line - p.edge_of_line - edges) % 4 + 4) % 4, 0) << k;
+                }
+            }
+            ahead += edges != 0 ? 1 : 0;
+        }
+        EXPECT_GT(ahead, 200);
+    }
+}
+
 /// EQ-ENCODER-5, 6: from one period's last edge to the last one of an earlier period.
 TEST(EncoderReadings, WithTimesAreThoseOfTheLastEdges)
 {

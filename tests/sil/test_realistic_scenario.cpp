@@ -299,6 +299,7 @@ TEST(RealisticScenario, WrongInputIsOneLine)
         {"[sensors]\nadc_bits = 40\n", "adc_bits"},
         {"[sensors]\nlines = 1\n", "lines"},
         {"[sensors]\nsampling_advance_s = 1.5e-4\n", "sampling_advance_s"},
+        {"[sensors]\nencoder_count_late_s = 2e-5\n", "encoder_count_late_s"},
         {"[sensors]\nlost_counts = 4\n", "lost_counts"},
         {"[inverter]\nmodel = \"magic\"\n", "model"},
         {"[inverter]\nregeneration = \"maybe\"\n", "regeneration"},

@@ -53,6 +53,16 @@ std::int64_t QuadratureEncoder::count_at(double theta_e_rad) const
     return disc_.count_at(position_cnt(theta_e_rad));
 }
 
+/// Edges that a late count has beyond the one at the end of the path.
+std::int64_t QuadratureEncoder::counted_late(const ShaftPath &path, std::int64_t now) const
+{
+    if (settings_.encoder_count_late_s <= 0.0) {
+        return 0;
+    }
+    const ShaftPath::Point &end = path.points().back();
+    return count_at(end.theta_e_rad + end.omega_e_radps * settings_.encoder_count_late_s) - now;
+}
+
 /// Whole turns, rounded down.
 std::int64_t QuadratureEncoder::turn_of(std::int64_t count) const
 {
@@ -241,9 +251,11 @@ QuadratureEncoder::Reading QuadratureEncoder::read_path(const ShaftPath &path)
     }
     lost_at_turn_ = turn;
 
-    Reading r;
+    const std::int64_t late = counted_late(path, now);
+    Reading            r;
     note_index(now, r);
-    r.count = now - lost_ + misread_; // EQ-ENCODER-2
+    r.raw_count += late;
+    r.count = now - lost_ + misread_ + late; // EQ-ENCODER-2
 
     // EQ-ENCODER-3 in whole half counts, so that the wrap is exact.
     const std::int64_t half_turn = 2 * counts_per_turn_;
@@ -265,7 +277,7 @@ QuadratureEncoder::Reading QuadratureEncoder::read_path(const ShaftPath &path)
             edge_gap_s_    = std::min(before_s - edge_age_s_, gap_max_s);
             r.edge_gap_s   = edge_gap_s_;
             r.edge_age_s   = edge_age_s_;
-            r.edge_of_line = 1 + static_cast<int>(((edge_ % 4) + 4) % 4);
+            r.edge_of_line = 1 + static_cast<int>((((edge_ + late) % 4) + 4) % 4);
         } else { // no edge in this period: within the count
             r.band_e_rad = pole_pairs_ * two_pi / (2.0 * per_turn);
         }

@@ -11,6 +11,8 @@
 /// A period without an edge keeps the speed of EQ-ENCODER-5, but at most one count in the time since the edge.
 /// Without times, an edge alone in four periods is in the middle of its period; EQ-ENCODER-5, 6 use that (EQ-ENCODER-8).
 /// An edge's time is the one at which the shaft passes it.
+///
+/// With encoder_count_late_s the count is that of a later instant. An edge between the two instants is counted, but not timed.
 #pragma once
 
 #include <cstdint>
@@ -79,6 +81,7 @@ private:
     };
     double           shaft_turns(double theta_e_rad) const;
     std::int64_t     count_at(double theta_e_rad) const;
+    std::int64_t     counted_late(const ShaftPath &path, std::int64_t now) const;
     std::int64_t     turn_of(std::int64_t count) const;
     Reading          read_path(const ShaftPath &path);
     const ShaftPath &seen(const ShaftPath &path);

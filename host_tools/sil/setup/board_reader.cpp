@@ -17,6 +17,7 @@ constexpr Range edge_error_cnt{-0.9, 0.9};
 constexpr Range edge_jitter_cnt{0.0, 0.28};
 constexpr Range jitter_repeats{0, 1000000};
 constexpr Range angle_e_rad{-3.2, 3.2};
+constexpr Range count_late_s{0.0, 1e-5};
 constexpr Range adc_bits{4, 24};
 constexpr Range current_A{1e-3, 1e4};
 constexpr Range noise_A{0.0, 1e3};
@@ -170,6 +171,8 @@ SensorSettings read_sensors(TomlReader t, SensorSettings s, const Drive &drive)
         t.number_or("encoder_eccentricity_rad", eccentricity_rad, s.encoder_eccentricity_rad);
     s.encoder_offset_e_rad =
         t.number_or("encoder_offset_e_rad", angle_e_rad, s.encoder_offset_e_rad);
+    s.encoder_count_late_s =
+        t.number_or("encoder_count_late_s", count_late_s, s.encoder_count_late_s);
     s.encoder_disc     = read_disc(t, s.encoder_disc);
     s.adc_bits         = t.integer_or("adc_bits", adc_bits, s.adc_bits);
     s.adc_full_scale_A = t.number_or("adc_full_scale_A", current_A, s.adc_full_scale_A);

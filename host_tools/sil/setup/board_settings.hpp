@@ -28,6 +28,8 @@ struct SensorSettings {
     bool               encoder_dead      = false; ///< the counter stands where it is
     double encoder_eccentricity_rad      = 0.0;   ///< mechanical, amplitude of one sine per turn
     double encoder_offset_e_rad          = 0.0;   ///< alignment error, electrical
+    double encoder_count_late_s =
+        0.0; ///< the count is latched this long after the times of its edges
     EncoderDiscSettings encoder_disc;
     int                 adc_bits = 12; ///< this and the next two: the drive file's unless given
     double              adc_full_scale_A = 10.0;
