@@ -67,6 +67,11 @@ class Package(unittest.TestCase):
             for command in commands:
                 self.assertIn(f".SS {command.replace('-', chr(92) + '-')}", page)
 
+    def test_programs_in_python_have_man_pages_too(self):
+        for tool in ("sdre-drive", "sdre-campaign"):
+            page = next((self.root / "usr/share/man/man1").glob(f"{tool}.1*")).read_text()
+            self.assertIn(f"{tool} \\- ", page)
+
     def test_bash_completes_commands_and_options(self):
         script = self.root / "usr/share/bash-completion/completions/sdre-sil"
         for words, wanted in (("sdre-sil qua", "qualify"), ("sdre-sil run --spec", "--spectrum")):

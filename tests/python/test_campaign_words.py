@@ -3,15 +3,21 @@
 
 from __future__ import annotations
 
+import json
+import math
 import os
 import subprocess
 from pathlib import Path
 from typing import Any
 
 import pytest
+from man_pages import require_kept_page
 from test_campaign import SHORT, command, write_spec
+from test_campaign_rare import RARE_SHORT
 
 import sdre
+from sdre_campaign.cli import _finite
+from sdre_campaign.subset import Estimate
 
 SMALL = SHORT.replace("cases = 240", "cases = 8").replace("batch = 20", "batch = 4")
 
@@ -87,3 +93,44 @@ def test_quiet_prints_the_result_alone_and_verbose_every_part(tmp_path: Path) ->
         f"sdre-campaign: {parts}/part-000000.parquet: 4 rows",
         f"sdre-campaign: {parts}/part-000001.parquet: 4 rows",
     ]
+
+
+def test_man_page_is_made_from_the_command() -> None:
+    require_kept_page("sdre-campaign")
+
+
+def refused(constant: str) -> float:
+    """NaN and Infinity are no JSON."""
+    raise AssertionError(constant)
+
+
+@pytest.mark.parametrize(
+    "text, cases, failures",
+    [
+        (SMALL, lambda s: s["cases"], lambda s: s["failures"]),
+        (RARE_SHORT, lambda s: s["first_level_samples"], lambda s: s["failed"]["cases"]),
+    ],
+    ids=["plain", "rare"],
+)
+def test_json_is_the_summary_and_nothing_else(
+    tmp_path: Path, text: str, cases: Any, failures: Any
+) -> None:
+    done = ran(write_spec(tmp_path, text), "--out", tmp_path / "out", "--workers", 1, "--json")
+    assert done.stderr == "" and done.stdout == (tmp_path / "out/summary.json").read_text()
+    summary = json.loads(done.stdout, parse_constant=refused)
+    assert cases(summary) == (8 if text == SMALL else 120)
+    assert done.returncode == (4 if failures(summary) else 0)
+
+
+def test_json_has_null_where_no_number_is_finite() -> None:
+    once = Estimate(0.0, math.inf, (0.0, 1.0), math.nan).as_dict()
+    assert _finite({"found": [once]}) == {
+        "found": [
+            {
+                "probability": 0.0,
+                "coefficient_of_variation": None,
+                "interval_95": [0.0, 1.0],
+                "interval_variation": None,
+            }
+        ]
+    }

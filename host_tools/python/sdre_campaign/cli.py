@@ -5,11 +5,12 @@ from __future__ import annotations
 
 import json
 import logging
+import math
 import os
 import sys
 from dataclasses import replace
 from pathlib import Path
-from typing import Optional
+from typing import Any, Optional, Union
 
 import typer
 
@@ -19,9 +20,9 @@ from sdre_campaign.cluster import ClusterError
 from sdre_campaign.parts import Directory, part_name, write_text
 from sdre_campaign.plot import draw_levels, draw_sensitivity
 from sdre_campaign.rare import Run, walk
-from sdre_campaign.rare_summary import summarise_runs
+from sdre_campaign.rare_summary import RareSummary, summarise_runs
 from sdre_campaign.replay import write_worst
-from sdre_campaign.spec import MOST_CASES, Spec, read_spec
+from sdre_campaign.spec import MOST_CASES, read_spec
 from sdre_campaign.summary import Summary, summarise
 from sdre_campaign.workers import Workers
 
@@ -55,6 +56,9 @@ def campaign(
     verbose: bool = typer.Option(
         False, "-v", "--verbose", help="tell what is there, who computes, and every part"
     ),
+    as_json: bool = typer.Option(
+        False, "--json", help="print summary.json, one JSON object, and nothing else"
+    ),
     _version: bool = typer.Option(
         False, "--version", help="print it", callback=show_version, is_eager=True
     ),
@@ -74,13 +78,27 @@ def campaign(
     path = out or Path("build/campaigns") / spec.name
     with (
         Directory(path, spec, resume) as directory,
-        Workers(spec, scheduler, workers or os.cpu_count() or 1, quiet) as crew,
+        Workers(spec, scheduler, workers or os.cpu_count() or 1, quiet or as_json) as crew,
     ):
         try:
-            failed = (_rare if spec.method == "subset" else _plain)(directory, crew)
+            summary = (_rare if spec.method == "subset" else _plain)(directory, crew)
         except KeyboardInterrupt:
             raise typer.Exit(_say("interrupted; --resume goes on", EXIT_INTERRUPTED)) from None
-    raise typer.Exit(EXIT_FAILED_CASES if failed else 0)
+    print(_json(summary) if as_json else summary.text(spec, path))
+    raise typer.Exit(EXIT_FAILED_CASES if summary.failures else 0)
+
+
+def _json(summary: Union[Summary, RareSummary]) -> str:
+    """One object. JSON has no infinity and no NaN: they become null."""
+    return json.dumps(_finite(summary.as_dict()), indent=1, allow_nan=False)
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: _finite(one) for name, one in value.items()}
+    if isinstance(value, list):
+        return [_finite(one) for one in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _tell_everything() -> None:
@@ -93,8 +111,8 @@ def _tell_everything() -> None:
     log.propagate = False
 
 
-def _plain(directory: Directory, crew: Workers) -> bool:
-    """Every case by itself; whether one has failed."""
+def _plain(directory: Directory, crew: Workers) -> Summary:
+    """Every case by itself."""
     spec = directory.spec
     missing = directory.missing()
     sizes = [span_of(spec, batch)[1] for batch in missing]
@@ -103,29 +121,27 @@ def _plain(directory: Directory, crew: Workers) -> bool:
     crew.tell()
     summary = summarise(spec, directory.tables())
     _write(directory, summary)
-    print(_text(spec, summary, directory.path))
-    return summary.failures > 0
+    return summary
 
 
-def _rare(directory: Directory, crew: Workers) -> bool:
-    """Level by level; whether a case has failed."""
+def _rare(directory: Directory, crew: Workers) -> RareSummary:
+    """Level by level."""
     spec = directory.spec
     runs = [Run(spec, number) for number in range(spec.repeats)]
     walk(directory, runs, crew)
     crew.tell()
     summary = summarise_runs(spec, runs, directory)
-    write_text(directory.path / "summary.json", json.dumps(summary.as_dict(), indent=1) + "\n")
+    write_text(directory.path / "summary.json", _json(summary) + "\n")
     write_worst(spec, summary.worst, directory.path / "worst")
     draw_levels(
         summary, f"{spec.name}: margins of {spec.drive().name}", directory.path / "levels.png"
     )
-    print(summary.text(directory.path))
-    return summary.failed_cases > 0
+    return summary
 
 
 def _write(directory: Directory, summary: Summary) -> None:
     spec = directory.spec
-    write_text(directory.path / "summary.json", json.dumps(summary.as_dict(), indent=1) + "\n")
+    write_text(directory.path / "summary.json", _json(summary) + "\n")
     write_worst(spec, summary.worst, directory.path / "worst")
     if summary.sensitivities:
         title = (
@@ -133,31 +149,6 @@ def _write(directory: Directory, summary: Summary) -> None:
             f"failed"
         )
         draw_sensitivity(summary, title, directory.path / "sensitivity.png")
-
-
-def _text(spec: Spec, s: Summary, path: Path) -> str:
-    low, high = s.interval
-    lines = [
-        f"{spec.name} on {spec.drive().name}: {s.failures} of {s.cases} cases failed",
-        f"failure probability {s.failures / s.cases:.3g}, 95 % interval {low:.3g} .. {high:.3g} "
-        f"(Clopper-Pearson)",
-        f"margin: mean {s.margin_mean:.3f}, least {s.margin_least:.3f}, below zero in {s.negative} "
-        f"cases",
-    ]
-    lines += [f"{count} x {fault}" for fault, count in s.faults.items()]
-    variance = s.margin_deviation**2
-    lines += [
-        f"{one.name}: explains {100.0 * one.first_order(variance, s.margin_mean):.1f} % of the "
-        f"margin's variance"
-        for one in s.sensitivities
-    ]
-    return "\n".join(
-        lines
-        + [
-            f"written: {path}/summary.json, parts/, worst/"
-            + (", sensitivity.png" if s.sensitivities else "")
-        ]
-    )
 
 
 def main() -> None:

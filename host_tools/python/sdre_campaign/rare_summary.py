@@ -87,9 +87,13 @@ class RareSummary:
             "worst": [one.__dict__ for one in self.worst],
         }
 
-    def text(self, path: Path) -> str:
+    @property
+    def failures(self) -> int:
+        """Cases that failed, of the samples below the limit."""
+        return self.failed_cases
+
+    def text(self, spec: Spec, path: Path) -> str:
         """For the terminal."""
-        spec = self.spec
         lines = [
             f"{spec.name} on {spec.drive().name}: {len(self.runs)} runs of subset simulation, "
             f"{self.cases} cases"

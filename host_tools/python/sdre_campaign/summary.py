@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import heapq
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, Dict, Iterable, List, Tuple
 
 import numpy as np
@@ -143,6 +144,26 @@ class Summary:
             },
             "worst": [one.__dict__ for one in self.worst],
         }
+
+    def text(self, spec: Spec, path: Path) -> str:
+        """For the terminal."""
+        low, high = self.interval
+        lines = [
+            f"{spec.name} on {spec.drive().name}: {self.failures} of {self.cases} cases failed",
+            f"failure probability {self.failures / self.cases:.3g}, 95 % interval "
+            f"{low:.3g} .. {high:.3g} (Clopper-Pearson)",
+            f"margin: mean {self.margin_mean:.3f}, least {self.margin_least:.3f}, below zero in "
+            f"{self.negative} cases",
+        ]
+        lines += [f"{count} x {fault}" for fault, count in self.faults.items()]
+        variance = self.margin_deviation**2
+        lines += [
+            f"{one.name}: explains {100.0 * one.first_order(variance, self.margin_mean):.1f} % of "
+            f"the margin's variance"
+            for one in self.sensitivities
+        ]
+        picture = ", sensitivity.png" if self.sensitivities else ""
+        return "\n".join([*lines, f"written: {path}/summary.json, parts/, worst/{picture}"])
 
 
 def summarise(spec: Spec, tables: Iterable[pa.Table]) -> Summary:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, Dict, List, Sequence, Tuple
 
 import numpy as np
@@ -201,7 +202,7 @@ def levels(campaign: Dict[str, Any], plain: List[Dict[str, Any]], ident: str) ->
     for k in range(max(len(run["levels"]) for run in s["runs"])):
         there = [run["levels"][k] for run in s["runs"] if k < len(run["levels"])]
         mean_of = [
-            float(np.mean([one[key] for one in there]))
+            float(np.mean([math.inf if one[key] is None else one[key] for one in there]))
             for key in ("threshold", "share", "gamma", "coefficient_of_variation")
         ]
         table.add(
