@@ -26,7 +26,8 @@ using TuneProgress = std::function<void(int evaluations, double worst_ratio)>;
 /// Searches the logarithms of six weights from a fixed start, so the same input gives the same weights, with every compiler.
 /// Best weights that are not certified are moved until they are, or as near as a short search comes. The drive's own certified
 /// weights stay when the found ones are not better by 3 %. With a coupling that
-/// is not rigid, and where the found weights are not certified with them, the drive's positions follow, see with_position(). DesignError when no stable design was found.
+/// is not rigid, and where the found weights are not certified with them, the drive's positions follow, see with_position().
+/// DesignError when no stable design was found.
 TuneResult tune_drive(const Drive &drive, const TuneSpec &spec, const TuneProgress &progress);
 
 } // namespace sdre

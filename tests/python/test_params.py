@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import csv
+import json
 from pathlib import Path
 
 import pytest
@@ -53,6 +54,39 @@ def test_set_save_and_defaults_over_restarts(served: Served, drive: Drive, tmp_p
         rows["BAUD_RATE"]["needs_stop"] == "1"
         and rows["MAX_CURRENT"]["default"] == rows["MAX_CURRENT"]["value"]
     )
+
+
+def test_compare_names_what_the_firmware_does_not_have(served: Served, tmp_path: Path) -> None:
+    file, was = tmp_path / "before.toml", tmp_path / "was.json"
+    assert command("params", "export", str(file), *served.options()).returncode == 0
+    same = command("params", "compare", str(file), *served.options())
+    assert same.returncode == 0 and "the drive has what stands in" in same.stdout, same
+
+    text = file.read_text().replace("SPEED_WINDOW = 5 ", "SPEED_WINDOW = 5.1 ")
+    assert "SPEED_WINDOW = 5.1 " in text
+    file.write_text(text + "OLD_RAMP = 12.5 # of a firmware that had it\n")
+    said = command("params", "compare", str(file), *served.options())
+    assert said.returncode == 0 and said.stdout.splitlines() == [
+        f"OLD_RAMP: 12.5 in {file}; this firmware does not have it",
+        f"SPEED_WINDOW: 5 in the drive, 5.1 in {file}",
+    ], said
+    assert command("params", "compare", str(file), "--json", str(was), *served.options())
+    assert json.loads(was.read_text()) == {
+        "unknown": {"OLD_RAMP": 12.5},
+        "different": {"SPEED_WINDOW": {"drive": 5.0, "file": 5.1}},
+        "dropped": 0,
+    }
+
+
+def test_what_was_left_out_is_told_with_the_command_that_names_it(tmp_path: Path) -> None:
+    assert "but 2 that" in params.Stored(5, 1, 7, 2).words
+    assert "params compare" in params.Stored(5, 1, 7, 2).words
+    assert "compare" not in params.Stored(1, 1, 7).words
+    file = tmp_path / "a.toml"
+    one = params.Comparison({"OLD": 1.0}, {}, 1).lines(file)
+    assert one == [f"OLD: 1 in {file}; this firmware does not have it"]
+    two = params.Comparison({"OLD": 1.0}, {}, 2).lines(file)
+    assert two[0] == one[0] and "left out 2" in two[1] and "has 1 of them" in two[1]
 
 
 def test_a_motor_that_runs_keeps_them(served: Served, drive: Drive) -> None:

@@ -8,7 +8,7 @@ import re
 import time
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Dict, Iterable, List, Tuple
+from typing import Any, Dict, Iterable, List, Tuple
 
 from sdre_drive import register_map
 from sdre_drive.connection import FORMATS, Drive, DriveError, Refused, is_pseudo_terminal
@@ -70,8 +70,8 @@ class Stored:
             STORED_WORDS[self.state] if self.state < len(STORED_WORDS) else f"state {self.state}"
         )
         less = (
-            f", but {self.dropped} that this firmware does not have: compare with your export, "
-            "then save"
+            f", but {self.dropped} that this firmware does not have: sdre-drive params compare "
+            "YOUR_EXPORT names them; then save"
             if self.dropped
             else ""
         )
@@ -266,6 +266,58 @@ def read_toml(path: Path) -> Dict[str, float]:
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             raise DriveError(f"{path}: {name} is not a number")
     return {name: float(value) for name, value in table.items()}
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """A drive beside an exported file."""
+
+    unknown: Dict[str, float]  # in the file, and no parameter of this firmware
+    different: Dict[str, Tuple[float, float]]  # name: of the drive, of the file
+    dropped: int  # stored parameters that the drive left out
+
+    def as_dict(self) -> Dict[str, Any]:
+        """For --json."""
+        return {
+            "unknown": self.unknown,
+            "different": {
+                name: {"drive": here, "file": there}
+                for name, (here, there) in self.different.items()
+            },
+            "dropped": self.dropped,
+        }
+
+    def lines(self, file: Path) -> List[str]:
+        """For the terminal."""
+        said = [
+            f"{name}: {text_of(value)} in {file}; this firmware does not have it"
+            for name, value in self.unknown.items()
+        ] + [
+            f"{name}: {text_of(here)} in the drive, {text_of(there)} in {file}"
+            for name, (here, there) in self.different.items()
+        ]
+        if self.dropped > len(self.unknown):
+            said.append(
+                f"the drive left out {self.dropped} stored parameters, and {file} has "
+                f"{len(self.unknown)} of them under a name that is gone: the others have "
+                "another unit or type now, or came later"
+            )
+        return said or [f"the drive has what stands in {file}"]
+
+
+def compare(drive: Drive, wanted: Dict[str, float]) -> Comparison:
+    """The drive's parameters beside those of a file, within the resolution of a register."""
+    found = {v.name: v for v in read(drive)}
+    return Comparison(
+        {name: value for name, value in wanted.items() if name not in found},
+        {
+            v.name: (v.value, wanted[v.name])
+            for v in found.values()
+            if v.name in wanted
+            and not abs(v.value - wanted[v.name]) <= 0.5 * (v.parameter.register.step or 1.0)
+        },
+        stored(drive).dropped,
+    )
 
 
 COLUMNS = ("name", "value", "unit", "least", "most", "default", "changed", "needs_stop", "object")

@@ -22,7 +22,7 @@ from sdre_drive.terminal import Json
 params = typer.Typer(
     no_args_is_help=False,
     help="The parameters, which the drive keeps over power: list, get, set, save, defaults, "
-    "export, import.",
+    "export, import, compare.",
 )
 out = Console(soft_wrap=True)
 
@@ -146,3 +146,19 @@ def import_file(file: Path, port: Port = None, tcp: Tcp = None) -> None:
     """Sets what stands in a TOML file; nothing, when a name or value is no good."""
     wanted = parameters.read_toml(file)
     _write(wanted, port, tcp)
+
+
+@params.command(
+    epilog="Example, after a new firmware: sdre-drive params compare before_update.toml"
+)
+def compare(file: Path, port: Port = None, tcp: Tcp = None, json: Json = None) -> None:
+    """Tells what differs from a TOML file of `export`, and which names this firmware does not
+    have."""
+    wanted = parameters.read_toml(file)
+    with Drive(target(port, tcp)) as drive:
+        found = parameters.compare(drive, wanted)
+    if json:
+        record.write_json(json, found.as_dict())
+        return
+    for line in found.lines(file):
+        out.print(line, highlight=False, markup=False)
