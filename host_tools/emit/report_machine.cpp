@@ -13,14 +13,15 @@
 namespace sdre {
 namespace {
 
-double rpm(const Drive &d, double omega_e_radps)
+double mechanical_rpm(const Drive &d, double omega_e_radps)
 {
     return omega_e_radps / d.motor.pole_pairs * 30.0 / std::acos(-1.0);
 }
 
 std::string speed_text(const Drive &d, double omega_e_radps)
 {
-    return fmt::format("{:.1f} rad/s el. ({:.0f} r/min)", omega_e_radps, rpm(d, omega_e_radps));
+    return fmt::format("{:.1f} rad/s el. ({:.0f} r/min)", omega_e_radps,
+                       mechanical_rpm(d, omega_e_radps));
 }
 
 std::string point_text(const Drive &d, const char *name, const MachinePoint &p)

@@ -21,7 +21,7 @@ namespace sdre {
 namespace {
 
 // Chosen: what two data sheets of one motor differ by.
-constexpr double same_within = 1.12;
+constexpr double alike_within = 1.12;
 // Chosen: a motor without a rated current is loaded with half of what it can.
 constexpr double rated_share        = 0.5;
 constexpr double default_pwm_Hz     = 10e3;
@@ -37,7 +37,7 @@ public:
     {
         for (std::size_t i = 1; i < values.size(); i++) {
             const double ratio = values[i].si / values[0].si;
-            if (!(std::max(ratio, 1.0 / ratio) <= same_within)) {
+            if (!(std::max(ratio, 1.0 / ratio) <= alike_within)) {
                 findings_.contradictions.push_back(fmt::format(
                     "{} and {} disagree: {} {:.4g} and {:.4g}{}", values[0].origin,
                     values[i].origin, what, values[0].si, values[i].si, usual_mistake(ratio)));

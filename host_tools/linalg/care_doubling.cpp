@@ -16,9 +16,9 @@ namespace {
 using Index = Eigen::Index;
 
 // Twice as many samples with every step: 2^16 are enough for poles that are 1e9 apart.
-constexpr int doublings_max = 16;
+constexpr int care_doublings_max = 16;
 // The error is squared with every step, so what is left is below the rounding of a double.
-constexpr double settled = 1e-8;
+constexpr double care_settled = 1e-8;
 // A Newton step squares the error of X.
 constexpr double newton_enough = 1e-9;
 // Chosen: rounding the entries of A, G, Q moves X by 1e-9 at most, so no assumption nearly fails.
@@ -96,7 +96,7 @@ private:
 
     static bool doubled(Square<N> E, Square<N> G, Square<N> &H)
     {
-        for (int k = 0; k < doublings_max; k++) {
+        for (int k = 0; k < care_doublings_max; k++) {
             Square<N> W = diagonal<N>(1.0);
             add(W, 1.0, product(G, H));
             if (!invert(W)) {
@@ -109,7 +109,7 @@ private:
             if (!std::isfinite(size)) {
                 return false;
             }
-            if (norm(step) <= settled * size) {
+            if (norm(step) <= care_settled * size) {
                 return true;
             }
             add(G, 1.0, symmetric_part(product(E, product(product(W, G), transposed(E)))));

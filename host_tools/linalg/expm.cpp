@@ -11,17 +11,17 @@ constexpr int degree = 16;
 
 template <class Matrix> Matrix scaled_and_squared(const Matrix &A)
 {
-    using Scalar = typename Matrix::Scalar;
-    int          halvings;
-    const Scalar size = A.cwiseAbs().colwise().sum().maxCoeff();
+    using Real = typename Matrix::Scalar;
+    int        halvings;
+    const Real size = A.cwiseAbs().colwise().sum().maxCoeff();
     std::frexp(size, &halvings); // size < 2^halvings
-    halvings = size > Scalar(0) && std::isfinite(size) ? std::max(0, halvings + 1) : 0;
+    halvings = size > Real(0) && std::isfinite(size) ? std::max(0, halvings + 1) : 0;
 
-    const Matrix X = A * std::ldexp(Scalar(1), -halvings);
+    const Matrix X = A * std::ldexp(Real(1), -halvings);
     Matrix       E = Matrix::Identity(A.rows(), A.cols());
     for (int k = degree; k > 0; k--) { // Horner
-        E = Matrix((X / Scalar(k)).lazyProduct(E));
-        E.diagonal().array() += Scalar(1);
+        E = Matrix((X / Real(k)).lazyProduct(E));
+        E.diagonal().array() += Real(1);
     }
     for (int k = 0; k < halvings; k++) {
         E = Matrix(E.lazyProduct(E));

@@ -17,8 +17,8 @@ using extended::product;
 using extended::symmetric_part;
 
 // 2^60 periods: a mode that has not settled by then never does.
-constexpr int         doublings_max = 60;
-constexpr long double settled       = 1e-17L;
+constexpr int         dare_doublings_max = 60;
+constexpr long double dare_settled       = 1e-17L;
 
 Matrix times(const Matrix &A, const Matrix &B, const Matrix &C)
 {
@@ -32,7 +32,7 @@ Matrix solve_riccati(const Matrix &A, const Matrix &G, const Matrix &Q)
     Matrix       E = A.transpose();
     Matrix       g = G;
     Matrix       H = Q;
-    for (int k = 0; k < doublings_max; k++) {
+    for (int k = 0; k < dare_doublings_max; k++) {
         const Matrix W    = extended::inverse(Matrix(I + product(g, H)));
         const Matrix WE   = product(W, E);
         const Matrix step = symmetric_part(times(E.transpose(), H, WE));
@@ -42,7 +42,7 @@ Matrix solve_riccati(const Matrix &A, const Matrix &G, const Matrix &Q)
         if (!std::isfinite(static_cast<double>(H.norm()))) {
             break;
         }
-        if (step.norm() <= settled * H.norm()) {
+        if (step.norm() <= dare_settled * H.norm()) {
             return H;
         }
     }

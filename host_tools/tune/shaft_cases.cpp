@@ -21,14 +21,14 @@ constexpr double coarse_ratio =
 constexpr double own_decay = 0.5;
 
 // Chosen: a load step that a drive cannot settle in this time is bad, however long it lasts.
-constexpr double horizon_s  = 0.15;
-constexpr double step_ratio = 1.35; // chosen: of the resonances whose load steps are followed
+constexpr double shaft_horizon_s = 0.15;
+constexpr double step_ratio      = 1.35; // chosen: of the resonances whose load steps are followed
 // Chosen: the energy of a known shaft can hardly be taken from it in fewer oscillations, and that of an unknown one takes more.
 constexpr double known_oscillations   = 1.6;
 constexpr double unknown_oscillations = 8.0;
 constexpr double nominal_times        = 2.0;
 // Chosen: noise that keeps a shaft in motion leaves the most of the band in which a speed is settled.
-constexpr double ripple_share = 0.4;
+constexpr double shaft_ripple_share = 0.4;
 
 TwoMasses masses_of(const Drive &drive, const LoopGains &gains)
 {
@@ -88,7 +88,7 @@ ShaftStep shaft_step(const Drive &drive, const TuneSpec &spec, const LoopGains &
         return worst;
     }
     const TwoMasses masses       = masses_of(drive, gains);
-    const int       periods      = static_cast<int>(horizon_s / control_period_s(drive));
+    const int       periods      = static_cast<int>(shaft_horizon_s / control_period_s(drive));
     const bool      known        = drive.mechanics.coupling == Coupling::known;
     const double    oscillations = known ? known_oscillations : unknown_oscillations;
     const Sensors   sensors      = sensors_of(drive, spec);
@@ -99,7 +99,7 @@ ShaftStep shaft_step(const Drive &drive, const TuneSpec &spec, const LoopGains &
                                              oscillations / shaft.resonance_Hz);
         const double       ratio =
             std::max(step.settling_time_s / goal_s,
-                     ripple_e_radps(loop, sensors) / (ripple_share * spec.band_e_radps));
+                     ripple_e_radps(loop, sensors) / (shaft_ripple_share * spec.band_e_radps));
         if (ratio > worst.ratio) {
             worst = {ratio, step.settling_time_s, shaft.resonance_Hz};
         }

@@ -9,6 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+UNITY = Path(os.environ.get("UNITY_ROOT") or ROOT / "build/unity").resolve()
 BOARD = ROOT / "firmware/board/f28335"
 ROOMS = ("control", "app", "store", "commission")  # of firmware; each with the rooms inside it
 INCLUDES = [
@@ -16,6 +17,7 @@ INCLUDES = [
     for name in ROOMS
     for path in (ROOT / "firmware" / name, *sorted((ROOT / "firmware" / name).glob("*/")))
 ]
+INCLUDES += [UNITY]
 INCLUDES += [
     ROOT / p
     for p in (
@@ -23,7 +25,6 @@ INCLUDES += [
         "firmware/board/f28335",
         "firmware/config",
         "tests/support",
-        "build/unity",
     )
 ]
 FLAGS = [
@@ -94,7 +95,7 @@ class Build:
         work += [
             (ROOT / "firmware/config/board_config.c", "board_config", []),
             (ROOT / "firmware/config/gain_tables.c", "gain_tables", []),
-            (ROOT / "build/unity/unity.c", "unity", []),
+            (UNITY / "unity.c", "unity", []),
             (ROOT / "tests/support/fake_board.c", "fake_board", []),
         ]
         files = test_files()
