@@ -87,33 +87,19 @@ void say(const Findings &findings, const Options &o)
     }
 }
 
-/// The complaint about a drive file with this text; empty when it has none.
-std::string refusal(const std::string &text, const Options &o)
-{
-    try {
-        (void)read_drive_text(text, "new", o.out);
-        return "";
-    } catch (const InputError &e) {
-        return e.what();
-    }
-}
-
 /// [position], or a note of what is in its way.
 std::string position_or_why_not(const Drive &drive, const std::string &text, const Options &o)
 {
-    std::string why = "with no weight of the angle is it certified; a finer encoder would help";
-    if (!is_certified(drive)) {
-        why = "even the start weights of the speed are not certified; `sdre-gains tune` finds "
-              "better ones";
-    } else if (const std::optional<PositionSpec> position = start_position(drive)) {
-        const std::string section = position_text(*position);
-        why                       = refusal(text + section, o);
-        if (why.empty()) {
-            return section;
-        }
+    const PositionSection found =
+        is_certified(drive)
+            ? position_section(drive, text, o.out)
+            : PositionSection{"", "even the start weights of the speed are not certified; "
+                                  "`sdre-gains tune` finds better ones, and positions with them"};
+    if (!found.why_not.empty()) {
+        fmt::print(stderr, "note: no [position], so the drive takes no positions: {}\n",
+                   found.why_not);
     }
-    fmt::print(stderr, "note: no [position], so the drive takes no positions: {}\n", why);
-    return "";
+    return found.text;
 }
 
 int run(const Options &o)

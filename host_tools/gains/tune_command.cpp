@@ -12,7 +12,9 @@
 #include "tune/auto_tune.hpp"
 #include "tune/drive_text.hpp"
 #include "tune/goals.hpp"
+#include "tune/position_weights.hpp"
 #include "tune/tune.hpp"
+#include "tune/verdict_penalty.hpp"
 
 namespace sdre {
 namespace {
@@ -106,6 +108,22 @@ int qualified(const std::string &file, int noise)
     return run_program(arguments) == 0 ? exit_ok : exit_design_failed;
 }
 
+/// [position], where the start weights were not certified and the found ones are: `new` left it out then. Else nothing.
+std::string added_position(const Drive &before, const Drive &found, const std::string &text,
+                           const std::string &file)
+{
+    if (before.position || law_design(before).weights != Weights::by_goals ||
+        is_certified(before)) {
+        return "";
+    }
+    const PositionSection position = position_section(found, text, file);
+    if (!position.why_not.empty()) {
+        fmt::print(stderr, "note: still no [position], so the drive takes no positions: {}\n",
+                   position.why_not);
+    }
+    return position.text;
+}
+
 int run(const Options &o)
 {
     const Drive   drive   = read_drive_file(o.drive);
@@ -117,8 +135,9 @@ int run(const Options &o)
     const std::string text = read_text_file(o.drive);
     require_rewritable(o.drive, text);
     const Tuned       tuned    = o.spec.empty() ? by_physics(o, drive) : by_specification(o, drive);
-    const std::string sections = tuned_sections(tuned.result, tuned.spec);
     const std::string out      = o.out.empty() ? o.drive : o.out;
+    std::string       sections = tuned_sections(tuned.result, tuned.spec);
+    sections += added_position(drive, tuned.result.drive, with_sections(text, sections), out);
     write_files({{out, with_sections(text, sections)}});
     fmt::print("{}{}{}: written; {}\n", sections, pwm_note(drive.inverter), out, tuned.remark);
     const int missed = tuned.met ? exit_ok : exit_design_failed;

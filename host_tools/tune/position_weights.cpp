@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "common/errors.hpp"
+#include "drive/drive_file.hpp"
 #include "tune/objective.hpp"
 #include "tune/start_weights.hpp"
 #include "tune/verdict_penalty.hpp"
@@ -44,6 +46,22 @@ std::optional<PositionSpec> start_position(const Drive &drive)
     const PositionSpec wanted = {{written(angle), c.Q[0], c.Q[1], c.Q[2]}, c.T};
     const Drive        found  = with_position(drive, wanted);
     return is_certified(found) ? found.position : std::nullopt;
+}
+
+PositionSection position_section(const Drive &drive, const std::string &text,
+                                 const std::string &file)
+{
+    const std::optional<PositionSpec> position = start_position(drive);
+    if (!position) {
+        return {"", "with no weight of the angle is it certified; a finer encoder would help"};
+    }
+    const std::string section = position_text(*position);
+    try {
+        (void)read_drive_text(text + section, file, file); // whose ranges are the tools'
+    } catch (const InputError &e) {
+        return {"", e.what()};
+    }
+    return {section, ""};
 }
 
 std::string position_text(const PositionSpec &p)

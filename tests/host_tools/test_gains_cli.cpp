@@ -395,6 +395,44 @@ TEST(GainsCli, NewWritesPositionsOrSaysWhyNot)
     EXPECT_FALSE(made("outrunner_24v", "pwm_frequency_Hz = 20000 is not allowed"));
 }
 
+TEST(GainsCli, TuneAddsThePositionsThatNewLeftOut)
+{
+    const TempDir     dir;
+    const std::string out = dir / "d.toml";
+    ASSERT_EQ(gains({"new", "--facts", SDRE_TEST_DATA_DIR "/facts/syrm_6k7.toml", "--out", out})
+                  .exit_code,
+              0);
+    ASSERT_FALSE(sdre::read_drive_file(out).position);
+    const std::vector<std::string> tune{"tune", out, "--no-qualify"};
+    ASSERT_EQ(gains(tune).exit_code, 0);
+    const sdre::Drive tuned = sdre::read_drive_file(out);
+    ASSERT_TRUE(tuned.position);
+    EXPECT_EQ(tuned.position->Q[1], tuned.nosc.Q[0]);
+    EXPECT_EQ(tuned.position->T, tuned.nosc.T);
+    EXPECT_NE(gains({"report", out}).out.find("verdict: certified"), std::string::npos);
+    ASSERT_EQ(gains(tune).exit_code, 0); // they stay, once
+    const std::string again = support::read_file(out);
+    EXPECT_NE(again.find("[position]"), std::string::npos);
+    EXPECT_EQ(again.find("[position]"), again.rfind("[position]"));
+}
+
+TEST(GainsCli, TuneAddsNoPositionsToADriveThatWasCertifiedWithout)
+{
+    const TempDir     dir;
+    const std::string made = dir / "made.toml";
+    ASSERT_EQ(
+        gains({"new", "--facts", SDRE_TEST_DATA_DIR "/facts/torque_motor.toml", "--out", made})
+            .exit_code,
+        0);
+    const std::string text = support::read_file(made);
+    const std::string out  = dir.write("d.toml", text.substr(0, text.find("[position]")));
+    ASSERT_FALSE(sdre::read_drive_file(out).position);
+    const auto r = gains({"tune", out, "--no-qualify"});
+    ASSERT_EQ(r.exit_code, 0) << r.err;
+    EXPECT_EQ(r.err.find("[position]"), std::string::npos) << r.err;
+    EXPECT_FALSE(sdre::read_drive_file(out).position);
+}
+
 TEST(GainsCli, EveryCommandHasAnExample)
 {
     EXPECT_EQ(support::commands_of(SDRE_GAINS_EXE).size(), 9U);
