@@ -13,6 +13,8 @@ A comment before a block says what differs from the usual; a reader of the page 
     changes FILE        TOML: these keys are replaced in a copy of FILE
     exit N              shell: ends with this code
     omit COMMAND        shell: the lines that begin so are not run: minutes, or after a fault only
+    output              text: what the block before it prints, all of it; "..." stands for any lines
+    output of any run   the same, with other figures and another width of the columns
 
 All blocks of one page are run in one directory, from its first line to its last. This directory
 looks like the project's."""
@@ -42,6 +44,7 @@ class Block(NamedTuple):
     language: str  # sh, toml, python, or text, which is not run
     text: str
     marks: Tuple[str, ...]
+    shown: Optional[Block] = None  # the block after it, with what this one prints
 
     def where(self) -> str:
         """For a message."""
@@ -105,6 +108,60 @@ def blocks_of(page: str, text: str) -> Iterator[Block]:
         at = end
 
 
+def with_output(blocks: List[Block]) -> List[Block]:
+    """A block and its output are one."""
+    found: List[Block] = []
+    for block in blocks:
+        if block.marked("output") and found and found[-1].language == "sh":
+            found[-1] = found[-1]._replace(shown=block)
+        found.append(block)
+    return found
+
+
+FIGURE = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+ANY_LINES = "..."
+
+
+def line_pattern(line: str, any_run: bool) -> str:
+    """A regular expression for this line of an output."""
+    if line == ANY_LINES:
+        return r"((?:.*\n)*?)"
+    if not any_run:
+        return f"({re.escape(line)} *\n)"
+    words = [r"-?\S*\d\S*" if FIGURE.search(w) else re.escape(w) for w in line.split()]
+    return f"( *{' +'.join(words)} *\n)"
+
+
+def output_match(shown: Block, printed: str, any_run: bool) -> Optional[re.Match]:
+    """A group for each line of the page, when that is what was printed."""
+    pattern = "".join(line_pattern(t.rstrip(), any_run) for t in shown.text.splitlines())
+    return re.fullmatch(pattern, printed.rstrip() + "\n")
+
+
+def output_complaint(shown: Block, printed: str) -> Optional[str]:
+    """Words for a page that does not show what was printed."""
+    if output_match(shown, printed, shown.marked("output") == ["of any run"]):
+        return None
+    renew = (
+        "other figures: tests/docs/run_blocks.py ROOM BIN --record writes them"
+        if output_match(shown, printed, True)
+        else "other words"
+    )
+    return f"{shown.where()}: the page shows what is not printed: {renew}\n{printed}"
+
+
+def recorded(shown: Block, printed: str, page: str) -> str:
+    """The page with these figures, when they are all that differs."""
+    match = output_match(shown, printed, True)
+    if not match or shown.marked("output") != [""]:
+        return page
+    lines = page.split("\n")
+    for k, line in enumerate(shown.text.splitlines()):
+        if line and line != ANY_LINES:
+            lines[shown.line - 1 + k] = "    " + match.group(k + 1).rstrip()
+    return "\n".join(lines)
+
+
 def pages() -> List[str]:
     """README.md, its neighbours and docs/."""
     told = subprocess.run(
@@ -115,7 +172,9 @@ def pages() -> List[str]:
 
 def all_blocks() -> Dict[str, List[Block]]:
     """Those of each page that has any."""
-    found = {p: list(blocks_of(p, (ROOT / p).read_text(encoding="utf-8"))) for p in pages()}
+    found = {
+        p: with_output(list(blocks_of(p, (ROOT / p).read_text(encoding="utf-8")))) for p in pages()
+    }
     return {page: blocks for page, blocks in found.items() if blocks}
 
 
@@ -124,7 +183,7 @@ def wrong(block: Block) -> List[str]:
     found = []
     if block.language not in (*OWN, "sh", "text"):
         found.append(f"{block.language} is not sh, toml, python or text")
-    if block.marks and block.language == "text":
+    if block.marks and block.language == "text" and not block.marked("output"):
         found.append("a comment before a block that is not run anyway")
     for mark in block.marks:
         word, _, rest = mark.partition(" ")
@@ -136,6 +195,7 @@ def wrong(block: Block) -> List[str]:
             "as": block.language == "toml" and bool(rest),
             "changes": block.language == "toml" and (ROOT / rest).is_file(),
             "exit": block.language == "sh" and rest.isdigit(),
+            "output": block.language == "text" and rest in ("", "of any run"),
             "omit": any(t.startswith(rest + " ") for t in block.text.splitlines()),
         }.get(word, False)
         found += [] if ok else [f'"{mark}" is not one of the words of tests/docs/blocks.py']

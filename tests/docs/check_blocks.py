@@ -8,7 +8,15 @@ from __future__ import annotations
 import sys
 from collections import Counter
 
-from blocks import Block, all_blocks, blocks_of, wrong
+from blocks import (
+    Block,
+    all_blocks,
+    blocks_of,
+    output_complaint,
+    recorded,
+    with_output,
+    wrong,
+)
 
 SEEDED = """Text.
 
@@ -36,8 +44,42 @@ def kind_of(block: Block) -> str:
     return (text + reason + own + [str(block.room())])[0]
 
 
+SHOWN = """    sdre-sil run x.toml
+
+<!-- block: output{} -->
+
+    dip [rad/s]   4.68
+    ...
+    peak [A]      2.96
+"""
+PRINTED = "dip [rad/s]   4.68 \nsettled 1\nsettled 2\npeak [A]      2.96\n"
+
+
+def check_outputs() -> None:
+    """A made up page is compared with what was printed."""
+
+    def complains(kind: str, printed: str) -> bool:
+        command, shown = with_output(list(blocks_of("made up", SHOWN.format(kind))))
+        assert command.shown is shown and not wrong(shown), command
+        return output_complaint(shown, printed) is not None
+
+    other = PRINTED.replace("4.68 ", "-14.7e3").replace("2.96", "-")
+    for kind in ("", " of any run"):
+        assert not complains(kind, PRINTED)
+        assert complains(kind, PRINTED.replace("dip", "drop"))
+        assert complains(kind, PRINTED + "more\n") and complains(kind, "first\n" + PRINTED)
+        assert complains(kind, other), "a figure that is none any more"
+    assert complains("", PRINTED.replace("4.68", "4.69"))
+    assert not complains(" of any run", PRINTED.replace("4.68", "-14.7e3"))
+    page = SHOWN.format("")
+    _, shown = with_output(list(blocks_of("made up", page)))
+    assert recorded(shown, PRINTED.replace("4.68", "4.69"), page) == page.replace("4.68", "4.69")
+    assert recorded(shown, "other words\n", page) == page
+
+
 def main() -> int:
     """Exit code 1 when a comment is wrong."""
+    check_outputs()
     seeded = list(blocks_of("made up", SEEDED))
     assert [b.language for b in seeded] == ["sh", "nothing", "text", "toml"], seeded
     assert [len(wrong(b)) for b in seeded] == [1, 1, 0, 0], [wrong(b) for b in seeded]

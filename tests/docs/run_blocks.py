@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Runs the shell blocks of the pages in a directory that looks like the project's.
 
-run_blocks.py tools|long BIN    BIN has sdre-gains and sdre-sil; exit code 1 when a block fails"""
+run_blocks.py tools|long BIN [--record]    BIN has sdre-gains and sdre-sil; exit code 1 when a block
+fails. --record writes the figures that the commands print into the pages."""
 
 from __future__ import annotations
 
@@ -14,7 +15,7 @@ import time
 from pathlib import Path
 from typing import Dict, List, Optional
 
-from blocks import ROOT, Block, all_blocks
+from blocks import ROOT, Block, all_blocks, blocks_of, output_complaint, recorded
 
 LONGEST_S = 600
 LINKED = "cmake CMakeLists.txt CMakePresets.json docs firmware host_tools linker tests".split()
@@ -57,6 +58,14 @@ def give(block: Block, at: Path) -> None:
         shutil.copyfile(ROOT / file, at / name)
 
 
+def record(shown: Block, printed: str) -> Block:
+    """The output with the figures that were printed; the page has them too."""
+    page = ROOT / shown.page
+    text = recorded(shown, printed, page.read_text(encoding="utf-8"))
+    page.write_text(text, encoding="utf-8")
+    return next(b for b in blocks_of(shown.page, text) if b.line == shown.line)
+
+
 def complaint(block: Block, at: Path, environment: Dict[str, str]) -> Optional[str]:
     """Words for the error of a shell block."""
     give(block, at)
@@ -70,9 +79,13 @@ def complaint(block: Block, at: Path, environment: Dict[str, str]) -> Optional[s
         text=True,
         timeout=LONGEST_S,
     )
+    printed = done.stdout + done.stderr
     if done.returncode == expected:
-        return None
-    tail = "\n".join((done.stdout + done.stderr).strip().splitlines()[-5:])
+        if block.shown is None:
+            return None
+        shown = record(block.shown, printed) if "--record" in sys.argv else block.shown
+        return output_complaint(shown, printed)
+    tail = "\n".join(printed.strip().splitlines()[-5:])
     return f"{block.where()}: exit code {done.returncode}, not {expected}\n{block.text}\n{tail}"
 
 
