@@ -14,7 +14,7 @@ from versions import digest_of, saved, version
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
 
-from sdre_drive import faults, registers  # noqa: E402
+from sdre_drive import faults, registers, scope_facts  # noqa: E402
 from sdre_drive.page.choices import CHOICES  # noqa: E402
 
 HEAD = (
@@ -73,6 +73,7 @@ def page_text(groups: List[Group], found: List[Signal]) -> str:
         "PARAMETERS": _parameters(groups),
         "PARAMETER_GROUPS": [g.name.upper() for g in groups if any(r.saved for r in g.registers)],
         "SIGNALS": [{"name": s.name, "unit": s.unit} for s in found],
+        "SCOPE": {name: fact for name, fact in vars(scope_facts).items() if name.isupper()},
         "FAULTS": _faults(groups),
         "MODES": {int(m): [m.name, words] for m, words in registers.MODE_WORDS.items()},
         "RESET_WORDS": list(registers.RESET_WORDS),

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import os
-import re
 import subprocess
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,7 +11,7 @@ from typing import Iterator, List, NamedTuple
 
 import pytest
 
-from sdre_drive.bench import Bench
+from sdre_drive.bench import Bench, served_ports
 from sdre_drive.connection import Drive, Target
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -75,13 +74,7 @@ def serving(tmp_path: Path, *options: str) -> Iterator[Served]:
         text=True,
     )
     assert process.stdout
-    ports = {}
-    for line in process.stdout:
-        found = re.match(r"  (\S.*?)\s+127\.0\.0\.1:(\d+)", line)
-        if found:
-            ports[found.group(1)] = int(found.group(2))
-        if line.startswith("Ctrl-C"):
-            break
+    ports = served_ports(process.stdout)
     try:
         yield Served(ports["Modbus/TCP"], ports["RTU over TCP"], ports["control"], pty, process)
         assert process.poll() is None, "the server has ended"

@@ -17,7 +17,7 @@ import pytest
 from conftest import Served
 from support import command, run_at, stay, until, while_it_runs
 
-from sdre_drive import faults, scope, session
+from sdre_drive import faults, scope, scope_facts, session
 from sdre_drive.connection import Drive, DriveError, Refused, Target
 from sdre_drive.registers import ControlWord, Mode, state_words
 
@@ -333,7 +333,7 @@ class SmallScope:
     """A firmware whose scope has that many samples; each register tells its own place."""
 
     def __init__(self, samples: int) -> None:
-        self.end = scope.SCOPE_FIRST + 2 * scope.CHANNELS * samples
+        self.end = scope_facts.SCOPE_FIRST + 2 * scope_facts.CHANNELS * samples
 
     def words(self, first: int, count: int) -> List[int]:
         if first + count > self.end:
@@ -344,7 +344,7 @@ class SmallScope:
         return SimpleNamespace(period_s=1e-4)
 
 
-@pytest.mark.parametrize("samples", scope.SAMPLES)
+@pytest.mark.parametrize("samples", scope_facts.SAMPLES)
 def test_scope_of_every_size_is_read_whole(samples: int) -> None:
     taken = scope.read(SmallScope(samples), scope.Setup(signals=("ia", "ib")))  # type: ignore[arg-type]
     assert len(taken.time_s) == samples

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import math
 import os
-import re
 import subprocess
 import tempfile
 import threading
@@ -89,15 +88,13 @@ class VirtualDrive:
 
     def _ports(self) -> Dict[str, int]:
         """The ports that the server names. Raises InputError with its words when it ends."""
+        from sdre_drive.bench import served_ports
+
         assert self._process.stdout and self._process.stderr
-        ports = {}
-        for line in self._process.stdout:
-            found = re.match(r"  (\S.*?)\s+127\.0\.0\.1:(\d+)", line)
-            if found:
-                ports[found.group(1)] = int(found.group(2))
-            if line.startswith("Ctrl-C"):
-                return ports
-        raise InputError(self._process.stderr.read().strip() or "sdre-sil serve has ended")
+        ports = served_ports(self._process.stdout)
+        if not ports:
+            raise InputError(self._process.stderr.read().strip() or "sdre-sil serve has ended")
+        return ports
 
     def _keep(self) -> None:
         """Reads now and then: a drive that nobody asks stops."""

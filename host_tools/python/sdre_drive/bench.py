@@ -5,8 +5,9 @@ motor really does."""
 from __future__ import annotations
 
 import json
+import re
 import socket
-from typing import Any, Dict, List, Tuple
+from typing import Any, Dict, Iterable, List, Tuple
 
 from sdre_drive.connection import DriveError
 
@@ -102,3 +103,15 @@ class Bench:
         if "error" in answer:
             raise DriveError(f"bench: {answer['error']}")
         return answer
+
+
+def served_ports(lines: Iterable[str]) -> Dict[str, int]:
+    """Ports that `sdre-sil serve` names in what it prints at its start; none if it ends."""
+    ports: Dict[str, int] = {}
+    for line in lines:
+        found = re.match(r"  (\S.*?)\s+127\.0\.0\.1:(\d+)", line)
+        if found:
+            ports[found.group(1)] = int(found.group(2))
+        if line.startswith("Ctrl-C"):
+            return ports
+    return {}

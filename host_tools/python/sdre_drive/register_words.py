@@ -6,7 +6,7 @@ from __future__ import annotations
 import difflib
 from typing import Dict, List
 
-from sdre_drive import commission, faults, params, scope
+from sdre_drive import commission, faults, params, scope, scope_facts
 from sdre_drive.connection import DriveError
 from sdre_drive.register_map import BY_NAME, HOLDING, Register
 from sdre_drive.registers import MODE_WORDS, RESET_WORDS, STORED_WORDS, state_words
@@ -51,7 +51,7 @@ ENUMERATIONS: Dict[str, Dict[int, str]] = {
     "COMMISSION_STAGE": _numbered(commission.STAGES),
     "COMMISSION_REASON": {n: r.words for n, r in commission.REASONS.items()},
     "FOUND_RELUCTANCE": NO_YES,
-    "SCOPE_STATE": _numbered(scope.STATES),
+    "SCOPE_STATE": _numbered(scope_facts.STATES),
     "PARAMETERS_STATE": _numbered(STORED_WORDS),
     "PARAMETERS_DONE": {0: "no command", 1: "done", 2: "the flash did not accept it"},
     **{f"SCOPE_SIGNAL_{n}": _numbered(scope.NAMES) for n in (1, 2, 3, 4)},

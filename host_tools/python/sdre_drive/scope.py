@@ -10,18 +10,22 @@ from typing import List, Sequence, Tuple
 
 from sdre_drive import register_map
 from sdre_drive.connection import Drive, DriveError, Refused
+from sdre_drive.scope_facts import (
+    ARM,
+    BLOCK,
+    CHANNELS,
+    DONE,
+    RECORD_FIRST,
+    RECORD_SIGNALS,
+    SAMPLES,
+    SCOPE_FIRST,
+    STOP,
+    TRIGGERS,
+    WAITS,
+)
 
-CHANNELS = 4
-SAMPLES = (512, 256, 128, 64)  # of each channel: SDRE_SCOPE_SAMPLES of the firmware's build
-SCOPE_FIRST, RECORD_FIRST = 16384, 24576
-RECORD_SIGNALS = ("IA", "IB", "DC_LINK", "SPEED", "DUTY_A", "DUTY_B", "DUTY_C")
-BLOCK = 120  # registers in a request
 NAMES = tuple(name for name, _ in register_map.SIGNALS)
 UNITS = dict(register_map.SIGNALS)
-TRIGGERS = ("now", "rising", "falling")
-STATES = ("idle", "fills", "waits for its trigger", "takes", "done")  # of register SCOPE_STATE
-ARM, STOP = 1, 2
-WAITS, DONE = 2, 4
 PERIOD_S = 0.05
 
 

@@ -7,7 +7,7 @@ import threading
 import time
 from typing import Any, Dict, List, Optional, Tuple
 
-from sdre_drive import faults, move, params, register_map, scope
+from sdre_drive import faults, move, params, register_map, scope, scope_facts
 from sdre_drive.connection import DriveError, Target
 from sdre_drive.page.bench_link import BenchLink
 from sdre_drive.page.history import History, told
@@ -30,7 +30,6 @@ STILL_S = 0.5  # chosen: a quick stop that stays enabled at rest ends after this
 SETTLED_S = 0.1  # chosen: a stop on its way has arrived
 QUICK_STOP = (0x6F, 0x07)  # mask and bits of the status word: quick stop active
 FAREWELL_S = 2.0  # chosen: so long the end of the program waits for the shaft
-SCOPE_STATES = ("idle", "fills", "waits for its trigger", "takes", "done")
 
 
 class Watcher(threading.Thread):
@@ -204,12 +203,12 @@ class Watcher(threading.Thread):
         if self._scope is None:
             return
         state = int(self.drive.traces()["SCOPE_STATE"])
-        self.scope_words = SCOPE_STATES[state]
-        if state == scope.DONE:
+        self.scope_words = scope_facts.STATES[state]
+        if state == scope_facts.DONE:
             self.scope_words = "is read"
             self.capture, self._scope = scope.read(self.drive, self._scope), None
             self.captures += 1
-            self.scope_words = SCOPE_STATES[state]
+            self.scope_words = scope_facts.STATES[state]
         elif state == 0:  # the drive has restarted, or another master gave up
             self._scope = None
 

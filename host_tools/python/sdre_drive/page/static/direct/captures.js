@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The drive's oscilloscope and the record of its last fault.
-import { SIGNALS } from "./tables.js";
+import { SCOPE, SIGNALS } from "./tables.js";
 import { Refused } from "./rtu.js";
 
-const CHANNELS = 4;
-const SAMPLES = [512, 256, 128, 64]; // of each channel: SDRE_SCOPE_SAMPLES of the firmware's build
-const SCOPE_FIRST = 16384;
-const RECORD_FIRST = 24576;
-const RECORD_SIGNALS = ["IA", "IB", "DC_LINK", "SPEED", "DUTY_A", "DUTY_B", "DUTY_C"];
-const BLOCK = 120; // registers in a request
-const ARM = 1;
-export const DONE = 4; // of register SCOPE_STATE
-export const TRIGGERS = ["now", "rising", "falling"];
-export const STATES = ["idle", "fills", "waits for its trigger", "takes", "done"];
+const { ARM, BLOCK, CHANNELS, RECORD_FIRST, RECORD_SIGNALS, SAMPLES, SCOPE_FIRST } = SCOPE;
+export const { DONE, STATES, TRIGGERS } = SCOPE;
 
 const numberOf = (name) => {
   const number = SIGNALS.findIndex((s) => s.name === name);
