@@ -42,6 +42,7 @@ void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_
     s->i_A               = running ? now_A : zero;
     s->i_ref_A           = running ? m->drive.answer.i_ref_A : zero;
     s->v_V               = running ? m->drive.v_V : zero;
+    s->d_omega           = running ? m->drive.answer.d_omega : 0.0f;
     s->zero_a_cnt        = m->scale.zero_a_cnt;
     s->zero_b_cnt        = m->scale.zero_b_cnt;
     s->tick_cycles       = 0U;

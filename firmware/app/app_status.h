@@ -90,6 +90,7 @@ typedef struct {
     dq_t           i_A;     /**< RUN only */
     dq_t           i_ref_A; /**< RUN only */
     dq_t           v_V;     /**< RUN only */
+    float          d_omega; /**< RUN only: disturbance of the speed equation [rad/s^2] */
     float          zero_a_cnt;
     float          zero_b_cnt;
     uint16_t       tick_cycles;       /**< of the last tick; 65535 if more */

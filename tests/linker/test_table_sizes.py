@@ -38,6 +38,7 @@ SPARE = 0x0100  # for the board's and the run-time library's; theirs are counted
 LEFT = 0.15  # chosen: of every memory, at the upper end of the estimate
 CONSTANTS_words = 0x2000  # chosen: gain tables of any law 5.3 K, registers 1.9 K, and some
 SAMPLES = {"noc_h": 256}  # of the scope; the others have 512
+WITHOUT_INERTIA = {"noc_h"}  # app_watch_inertia.h
 
 
 def laws():
@@ -48,6 +49,7 @@ def assembly(source, law):
     options = [
         f"-DLAW_CONSTANTS=law_{law}_config_t",
         f"-DAPP_SCOPE_SAMPLES={SAMPLES.get(law, 512)}U",
+        f"-DAPP_WATCH_INERTIA={0 if law in WITHOUT_INERTIA else 1}",
     ]
     return subprocess.run(
         [*COMPILER, *options], input=source, text=True, stdout=subprocess.PIPE, check=True

@@ -186,6 +186,7 @@ class TargetBuild(unittest.TestCase):
         for name in ("drive_image.c", "app.c", "main.c"):
             self.assertIn("-DLAW_CONSTANTS=law_noc_config_t", compiled[name])
         self.assertIn("-DAPP_SCOPE_SAMPLES=512U", compiled["app_scope.c"])
+        self.assertNotIn("-DAPP_WATCH_INERTIA=0", compiled["app_registers_inertia.c"])
 
     def test_noc_h_leaves_room_for_half_the_scope(self):
         own = self.top / "own"
@@ -209,6 +210,8 @@ class TargetBuild(unittest.TestCase):
             "f28335-flash", arguments=[*arguments, "-DSDRE_SCOPE_SAMPLES=256"]
         )
         self.assertIn("-DLAW_CONSTANTS=law_noc_h_config_t", compiled["drive_image.c"])
+        for name in ("app.c", "app_registers_inertia.c", "main.c"):
+            self.assertIn("-DAPP_WATCH_INERTIA=0", compiled[name])
         for name in ("app.c", "app_control.c"):
             self.assertNotIn("--ramfunc=on", compiled[name])
         self.assertIn("--ramfunc=on", compiled["app_measure.c"])

@@ -46,6 +46,9 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
     r->changed                        = false;
     r->silent                         = false;
     r->loader                         = NULL;
+#if APP_WATCH_INERTIA
+    app_watch_inertia_reset(&r->inertia);
+#endif
     return ((config->modbus_address >= 1U) && (config->modbus_address <= ADDRESS_MAX) &&
             (config->modbus_timeout_ticks > 0U))
                ? CTL_OK

@@ -17,6 +17,7 @@
 #include "app_registers_map.h"
 #include "app_status.h"
 #include "app_traces.h"
+#include "app_watch_inertia.h"
 
 /** Input registers are also holding registers from this address on, for function 23. */
 #define APP_REGISTERS_INPUTS_TOO 4096U
@@ -77,10 +78,13 @@ typedef struct app_registers_request {
 } app_registers_request_t;
 
 typedef struct app_registers {
-    const app_config_t          *config;
-    const drive_config_t        *drive;
-    float                        rpm_per_e_radps;
-    app_status_t                 status;
+    const app_config_t   *config;
+    const drive_config_t *drive;
+    float                 rpm_per_e_radps;
+    app_status_t          status;
+#if APP_WATCH_INERTIA
+    app_watch_inertia_t inertia; /**< that changes of speed showed */
+#endif
     app_registers_request_t      requested;
     app_registers_request_t      trial; /**< copy that a write changes until it is accepted */
     volatile app_scope_t        *scope; /**< NULL: neither scope nor record */
@@ -97,6 +101,16 @@ typedef struct app_registers {
  */
 ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
                                 const drive_config_t *drive);
+
+/** Lets the status that has just been read show the inertia, app_watch_inertia.h. A law without an
+ * estimate of the load shows none. */
+void app_registers_see_inertia(app_registers_t *r);
+
+/** Inertia of the shaft over the drive's; 1 until something was learned. */
+float app_registers_inertia(const app_registers_t *r);
+
+/** Changes of speed that taught it. */
+uint16_t app_registers_inertia_changes(const app_registers_t *r);
 
 /** Reads `count` holding registers. APP_REGISTERS_INPUTS_TOO and up are the input registers. */
 app_registers_result_t app_registers_read_holding(const app_registers_t *r, uint16_t first,

@@ -12,7 +12,7 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "46e0d0c4" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "df8bc9b4" /**< of what a master can see of the map */
 
 #define APP_REGISTERS_SAVED 17U /**< parameters */
 
@@ -127,6 +127,10 @@ enum {
     APP_REGISTERS_POSITION_TARGET = 66,
     APP_REGISTERS_POSITION_FIRST = 64,
     APP_REGISTERS_POSITION_END = 68,
+    APP_REGISTERS_INERTIA_RATIO = 96,
+    APP_REGISTERS_INERTIA_CHANGES = 97,
+    APP_REGISTERS_SHAFT_FIRST = 96,
+    APP_REGISTERS_SHAFT_END = 98,
     APP_REGISTERS_COMMISSION_STAGE = 128,
     APP_REGISTERS_COMMISSION_REASON = 129,
     APP_REGISTERS_COMMISSION_PERCENT = 130,
@@ -233,7 +237,7 @@ struct app_registers_request;
 
 #define APP_REGISTERS_MAP_HOLDING 38U
 
-#define APP_REGISTERS_MAP_INPUT 100U
+#define APP_REGISTERS_MAP_INPUT 102U
 
 /** Rows in ascending order of the address. */
 extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];

@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "46e0d0c4"
+DIGEST = "df8bc9b4"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -143,6 +143,11 @@ POSITION: Tuple[Register, ...] = (  # input
     Register("POSITION_TARGET", 66, "i32", 0.0, "counts"),
 )
 
+SHAFT: Tuple[Register, ...] = (  # input
+    Register("INERTIA_RATIO", 96, "u16", 0.001, ""),
+    Register("INERTIA_CHANGES", 97, "u16", 0.0, ""),
+)
+
 COMMISSIONING: Tuple[Register, ...] = (  # input
     Register("COMMISSION_STAGE", 128, "u16", 0.0, ""),
     Register("COMMISSION_REASON", 129, "u16", 0.0, ""),
@@ -203,7 +208,7 @@ CONSTANTS: Tuple[Register, ...] = (  # input
 )
 
 HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET)
-INPUT = (*LIVE, *POSITION, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS)
+INPUT = (*LIVE, *POSITION, *SHAFT, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS)
 
 # Blocks that hold parameters.
 PARAMETER_BLOCKS = (COMMAND, LINE, TARGET,)

@@ -17,6 +17,7 @@
 #include "board_config.h"
 #include "fake_board.h"
 #include "gain_tables.h"
+#include "modbus_frame.h"
 #include "speed_tables.h"
 #include "test_motor.h"
 #include "unit_support.h"
@@ -683,6 +684,30 @@ static void test_whole_loop_runs_from_the_index_and_follows_the_command(void)
     }
 }
 
+/* Registers 96 and 97: function 4, two of them. */
+static void test_whole_loop_shows_the_inertia_of_its_motor(void)
+{
+    const int request[] = {1, 4, 0, 96, 0, 2};
+    int       answer[9] = {0};
+
+    start_motor(&gain_tables_drive);
+    motor.omega_m_radps = 20.0;
+    motor.load_Nm       = 0.0;
+    periods(READY_TICKS + 500);
+    assert_runs_at(200.0f);
+    assert_runs_at(-150.0f);
+    while (fake_board_sent() >= 0) {
+    }
+    modbus_frame_receive(request, 6);
+    periods(14);
+    for (int i = 0; i < SUPPORT_COUNT(answer); i++) {
+        answer[i] = fake_board_sent();
+    }
+    TEST_ASSERT_EQUAL_INT(4, answer[2]); /* octets */
+    TEST_ASSERT_INT_WITHIN(60, 1000, (256 * answer[3]) + answer[4]);
+    TEST_ASSERT_EQUAL_INT(1, (256 * answer[5]) + answer[6]); /* a start has no rest before it */
+}
+
 static void test_whole_loop_aligns_without_an_index_and_runs(void)
 {
     const drive_config_t *const drives[] = {&speed_tables_drive, &gain_tables_drive};
@@ -754,6 +779,7 @@ int main(void)
     RUN_TEST(test_status_is_copied_whole_though_ticks_interrupt);
     RUN_TEST(test_lost_communication_opens_the_bridge);
     RUN_TEST(test_whole_loop_runs_from_the_index_and_follows_the_command);
+    RUN_TEST(test_whole_loop_shows_the_inertia_of_its_motor);
     RUN_TEST(test_whole_loop_aligns_without_an_index_and_runs);
     RUN_TEST(test_index_after_alignment_takes_over_on_the_run);
     return UNITY_END();

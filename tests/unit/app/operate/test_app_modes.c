@@ -1184,6 +1184,7 @@ static void test_status_repeats_what_is_inside(void)
     TEST_ASSERT_TRUE((s.i_A.q != 0.0f) && (s.i_A.d > 0.1f));
     TEST_ASSERT_TRUE((s.zero_a_cnt == 2050.0f) && (s.zero_b_cnt == 2041.0f));
     TEST_ASSERT_TRUE((s.v_V.q == modes.drive.v_V.q) && (s.v_V.q != 0.0f));
+    TEST_ASSERT_TRUE((s.d_omega == modes.drive.answer.d_omega) && (s.d_omega != 0.0f));
     TEST_ASSERT_FLOAT_WITHIN(0.1f, 25.0f, s.temperature_degC);
     TEST_ASSERT_FLOAT_WITHIN(0.1f, 295.0f, s.dc_link_V);
     TEST_ASSERT_TRUE(s.ticks == modes.ticks);

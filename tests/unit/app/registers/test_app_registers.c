@@ -114,6 +114,55 @@ static void test_snapshot_registers_are_what_the_table_says(void)
 }
 
 /* Values as digits and a power of ten. */
+/* A change of 200 rad/s by a shaft with three times the inertia, one pass of the background in each
+ * tick of 200 us. A load of zero stands for a law that estimates none. */
+static void turn(float accel, float load, int ticks)
+{
+    app_status_t *s = &registers.status;
+
+    for (int i = 0; i < ticks; i++) {
+        s->ticks++;
+        s->speed_e_radps += accel * 200.0e-6f;
+        s->d_omega = ((load < 0.0f) ? ((1.0f - 3.0f) * accel) : 0.0f) + load;
+        app_registers_see_inertia(&registers);
+    }
+}
+
+static void change_speed(float load)
+{
+    turn(0.0f, load, 500);
+    turn(2000.0f, load, 500);
+    turn(0.0f, load, 500);
+}
+
+static void test_the_inertia_is_shown_by_runs_with_a_speed_and_an_encoder(void)
+{
+    app_status_t *s = &registers.status;
+
+    TEST_ASSERT_EQUAL_UINT16(1000u, input(96));
+    s->mode              = APP_MODE_RUN;
+    s->mode_of_operation = 1; /* to a position: the law adds to d_w, EQ-INERTIA-3 */
+    change_speed(-3571.0f);
+    s->mode_of_operation = 3;
+    s->without_angle     = true;
+    change_speed(-3571.0f);
+    s->without_angle = false;
+    s->mode          = APP_MODE_FAULT;
+    change_speed(-3571.0f);
+    TEST_ASSERT_EQUAL_UINT16(1000u, input(96));
+    TEST_ASSERT_EQUAL_UINT16(0u, input(97));
+    s->mode = APP_MODE_RUN;
+    change_speed(0.0f); /* a law without an estimate of the load */
+    TEST_ASSERT_EQUAL_UINT16(0u, input(97));
+    change_speed(-3571.0f);
+    TEST_ASSERT_UINT16_WITHIN(20u, 2000u, input(96));
+    TEST_ASSERT_EQUAL_UINT16(1u, input(97));
+    s->mode = APP_MODE_FAULT;
+    change_speed(-3571.0f);
+    TEST_ASSERT_UINT16_WITHIN(20u, 2000u, input(96));
+    TEST_ASSERT_EQUAL_UINT16(1u, input(97));
+}
+
 static void test_commissioning_registers_are_what_the_table_says(void)
 {
     app_commission_status_t *c = &registers.status.commission;
@@ -575,6 +624,7 @@ int main(void)
     RUN_TEST(test_target_positions_are_taken_to_the_count);
     RUN_TEST(test_input_registers_are_what_the_table_says);
     RUN_TEST(test_snapshot_registers_are_what_the_table_says);
+    RUN_TEST(test_the_inertia_is_shown_by_runs_with_a_speed_and_an_encoder);
     RUN_TEST(test_commissioning_registers_are_what_the_table_says);
     RUN_TEST(test_commissioning_is_asked_for_with_its_bounds);
     RUN_TEST(test_registers_at_the_start);
