@@ -25,6 +25,7 @@
 #include "near_optimal.c"
 #include "nodo_encoder.c"
 #include "nodo_harmonic.c"
+#include "nodo_shaft.c"
 #include "nosc.c"
 #include "svpwm.c"
 #include "voltage.c"

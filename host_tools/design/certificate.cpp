@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "design/law_design.hpp"
+#include "design/noc_shaft/shaft_loop.hpp"
 #include "design/position.hpp"
 #include "design/sampled_model.hpp"
 #include "design/sampled_observer.hpp"
@@ -128,7 +129,9 @@ SampledLoop sweep_nodo(const Design &d)
 {
     const double              ts      = control_period_s(d.drive);
     const bool                encoder = d.drive.nodo.form == NodoForm::encoder;
-    const ObserverModel       model   = nodo_model(d.l, d.drive.nodo.form);
+    const bool                shaft   = law_design(d.drive).shaft_states;
+    const ObserverModel       model   = shaft ? shaft_observer_model(d.l, believed_shaft(d.drive))
+                                              : nodo_model(d.l, d.drive.nodo.form);
     const MatrixXd           &C       = model.C;
     const MatrixXd            I       = MatrixXd::Identity(C.cols(), C.cols());
     const std::vector<double> speeds  = speed_grid(d);
@@ -147,7 +150,10 @@ SampledLoop sweep_nodo(const Design &d)
         for (const double w : speeds) { // EQ-CERT-3: observer, law and motor at a steady state
             const OperatingPoint at{w, s[0], mtpa_id_A(d.l, s[0])};
             const LoopGains      gains{d.nosc.gain[0], L};
-            worst = std::max(worst, spectral_radius(sampled_model(d.l, d.l, gains, at, ts).A));
+            const SampledModel   m =
+                shaft ? sampled_shaft_model(d, d.l, believed_shaft(d.drive), at, gains)
+                        : sampled_model(d.l, d.l, gains, at, ts);
+            worst = std::max(worst, spectral_radius(m.A));
         }
         return worst;
     };
@@ -223,7 +229,9 @@ void certify(Design &design)
 {
     Certificate &certificate = design.certificate;
     certificate              = {};
-    certificate.nosc         = sweep_controller(design, design.nosc, nosc_input_matrix(design.l));
+    MatrixXd B               = MatrixXd::Zero(design.nosc.problem.A0.rows(), 2);
+    B.topRows(3)             = nosc_input_matrix(design.l); // the states of a shaft have no input
+    certificate.nosc         = sweep_controller(design, design.nosc, B);
     judge("nosc", "nosc", design.nosc, certificate.nosc, certificate.failures);
     if (design.position) {
         certificate.position =

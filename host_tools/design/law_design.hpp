@@ -58,6 +58,7 @@ struct LawDesign {
 
     bool       own_observer = false; ///< solve() designs and certifies one, in place of nodo
     bool       predicts     = false; ///< its loop is EQ-CERT-3's: load steps are predicted
+    bool       shaft_states = false; ///< observer and gains have those of an elastic shaft
     Weights    weights      = Weights::none;
     Scheduling scheduling{}; ///< empty: no series for an order study
     std::string (*report_rows)(const Drive &drive) = nullptr; ///< settings beside the current loops

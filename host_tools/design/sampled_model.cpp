@@ -96,42 +96,50 @@ SampledModel sampled_model(const TrueMotor &motor, const ReducedParameters &mode
 SampledModel closed_loop(const HeldPlant &plant, const ReducedParameters &model,
                          const LoopGains &gains, const MovingReference *moving)
 {
+    const PredictedObserver p = predicted_encoder_form(model, plant.at, plant.ts_s);
+    const LinearObserver    o{p.P, p.G, nodo_model(model, NodoForm::encoder).C,
+                           encoder_form_law(model, gains.Lambda, plant.at, moving)};
+    return closed_loop(plant, o, gains.L, has_angle(gains.Lambda));
+}
+
+SampledModel closed_loop(const HeldPlant &plant, const LinearObserver &observer, const MatrixXd &L,
+                         bool angle)
+{
     const auto &[held, at, ts] = plant;
-    const auto [P, G]          = predicted_encoder_form(model, at, ts);
-    const LawRows      law     = encoder_form_law(model, gains.Lambda, at, moving);
-    const MatrixXd     C       = nodo_model(model, NodoForm::encoder).C;
-    const MatrixXd     PL      = ts * P * gains.L; // EQ-NODO-ENCODER-1, then the prediction
+    const auto &[P, G, C, law] = observer;
+    const MatrixXd     PL      = ts * P * L; // EQ-NODO-ENCODER-1, then the prediction
     const Eigen::Index n_ref   = law.A_ref.rows();
     const Eigen::Index n_plant = held.Phi.rows();
-    const Eigen::Index refs    = n_plant + 7;
+    const Eigen::Index n_hat   = P.rows();
+    const Eigen::Index refs    = n_plant + n_hat;
     const Eigen::Index n       = refs + n_ref; // (plant | observer | references)
 
-    MatrixXd A                        = MatrixXd::Zero(n, n);
-    A.topLeftCorner(n_plant, n_plant) = held.Phi;
-    A.block(0, n_plant, n_plant, 7)   = held.Gamma.leftCols(2) * law.F;
-    A.block(n_plant, 0, 7, 4)         = PL * C.rightCols(4);
-    A.block(n_plant, n_plant, 7, 7)   = P - PL * C + G * law.F;
-    A.topRightCorner(n_plant, n_ref)  = held.Gamma.leftCols(2) * law.F_ref;
-    A.block(n_plant, refs, 7, n_ref)  = G * law.F_ref;
-    A.block(refs, n_plant, n_ref, 7)  = law.B_ref;
-    A.bottomRightCorner(n_ref, n_ref) = law.A_ref;
+    MatrixXd A                              = MatrixXd::Zero(n, n);
+    A.topLeftCorner(n_plant, n_plant)       = held.Phi;
+    A.block(0, n_plant, n_plant, n_hat)     = held.Gamma.leftCols(2) * law.F;
+    A.block(n_plant, 0, n_hat, 4)           = PL * C.middleCols(3, 4);
+    A.block(n_plant, n_plant, n_hat, n_hat) = P - PL * C + G * law.F;
+    A.topRightCorner(n_plant, n_ref)        = held.Gamma.leftCols(2) * law.F_ref;
+    A.block(n_plant, refs, n_hat, n_ref)    = G * law.F_ref;
+    A.block(refs, n_plant, n_ref, n_hat)    = law.B_ref;
+    A.bottomRightCorner(n_ref, n_ref)       = law.A_ref;
 
-    MatrixXd b_load                = MatrixXd::Zero(n, 1);
-    b_load.topRows(n_plant)        = held.Gamma.col(2);
-    MatrixXd B_voltage             = MatrixXd::Zero(n, 2);
-    B_voltage.topRows(n_plant)     = held.Gamma.leftCols(2);
-    MatrixXd B_noise               = MatrixXd::Zero(n, 3);
-    B_noise.middleRows(n_plant, 7) = PL;
+    MatrixXd b_load                    = MatrixXd::Zero(n, 1);
+    b_load.topRows(n_plant)            = held.Gamma.col(2);
+    MatrixXd B_voltage                 = MatrixXd::Zero(n, 2);
+    B_voltage.topRows(n_plant)         = held.Gamma.leftCols(2);
+    MatrixXd B_noise                   = MatrixXd::Zero(n, 3);
+    B_noise.middleRows(n_plant, n_hat) = PL;
     MatrixXd C_voltage(2, n);
     C_voltage << MatrixXd::Zero(2, n_plant), law.F, law.F_ref;
 
     // The motor depends on theta - theta^ only, not on the angle itself. With that difference as a
     // state, theta^ is an integrator that only a position's law reads. Otherwise theta^ is left
     // out.
-    const Eigen::Index        hat = refs - 1;
+    const Eigen::Index        hat = n_plant + 6;
     std::vector<Eigen::Index> rows;
     for (Eigen::Index i = 0; i < n; i++) {
-        if (i != hat || has_angle(gains.Lambda)) {
+        if (i != hat || angle) {
             rows.push_back(i);
         }
     }

@@ -72,6 +72,18 @@ struct HeldPlant {
     double                ts_s = 0.0;
 };
 
+/// An observer and its law in the firmware's order, at least those of the encoder form; the seventh state is theta^.
+struct LinearObserver {
+    Eigen::MatrixXd P;   ///< n x n, of the prediction
+    Eigen::MatrixXd G;   ///< n x 2
+    Eigen::MatrixXd C;   ///< 3 x n: iq, id, theta are measured
+    LawRows         law; ///< on the predicted states
+};
+
+/// EQ-CERT-3 with the corrections Ts L. `angle`: the law reads theta^.
+SampledModel closed_loop(const HeldPlant &plant, const LinearObserver &observer,
+                         const Eigen::MatrixXd &L, bool angle);
+
 /// EQ-CERT-3 of any such plant. Its further states stand between (theta - theta^) and the observer's.
 SampledModel closed_loop(const HeldPlant &plant, const ReducedParameters &model,
                          const LoopGains &gains, const MovingReference *moving = nullptr);

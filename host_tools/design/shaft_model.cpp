@@ -8,7 +8,9 @@
 
 #include "common/parallel.hpp"
 #include "design/design.hpp"
+#include "design/law_design.hpp"
 #include "design/laws/near_optimal.hpp"
+#include "design/noc_shaft/shaft_loop.hpp"
 #include "design/verdict.hpp"
 
 namespace sdre {
@@ -101,7 +103,7 @@ HeldPlant held_with_shaft(const TrueMotor &motor, const OperatingPoint &at, doub
 }
 
 TwoMasses::TwoMasses(const Design &d)
-    : motor_(true_motor(d.drive, d.drive.motor)), model_(d.l),
+    : design_(d), motor_(true_motor(d.drive, d.drive.motor)), model_(d.l),
       references_(id_reference(d, current_ref_constants(d, true)))
 {
 }
@@ -116,6 +118,9 @@ SampledModel TwoMasses::loop(const Shaft &shaft, const OperatingPoint &at,
 {
     const MovingReference moving =
         moving_reference(references_, model_, gains.Lambda, state_at(motor_, model_, at));
+    if (law_design(design_.drive).shaft_states) {
+        return sampled_shaft_model(design_, motor_, shaft, at, gains, &moving);
+    }
     return closed_loop(held_with_shaft(motor_, at, references_.ts_s, shaft), model_, gains,
                        &moving);
 }

@@ -23,7 +23,7 @@ struct Shaft {
 HeldPlant held_with_shaft(const TrueMotor &motor, const OperatingPoint &at, double ts_s,
                           const Shaft &shaft);
 
-/// A drive's loop with shafts. Its d-current reference moves (EQ-CERT-6). It needs `drive`, `l` and the first term of `nosc`.
+/// A drive's loop with shafts; it refers to the design. Its d-current reference moves (EQ-CERT-6). It needs `drive`, `l` and the first term of `nosc`.
 class TwoMasses {
 public:
     explicit TwoMasses(const Design &design);
@@ -33,6 +33,7 @@ public:
     SampledModel   loop(const Shaft &shaft, const OperatingPoint &at, const LoopGains &gains) const;
 
 private:
+    const Design     &design_;
     TrueMotor         motor_;
     ReducedParameters model_;
     IdReference       references_;
@@ -60,7 +61,7 @@ struct ShaftVerdict {
 };
 
 /// Looks at the shafts of the drive's [mechanics]. The points are standstill without current, and half and whole rated speed with the
-/// largest current, motoring and generating. The law must be noc in its encoder form.
+/// largest current, motoring and generating. The law must be noc in its encoder form, or noc_shaft.
 ShaftVerdict examine_shaft(const Design &design);
 
 /// The same as a part of the certificate, where the coupling is not rigid. The whole loop has been certified before.

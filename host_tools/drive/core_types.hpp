@@ -27,6 +27,10 @@ inline const law_t *law_of(const law_noc_h_config_t *)
 {
     return &law_noc_h;
 }
+inline const law_t *law_of(const law_noc_shaft_config_t *)
+{
+    return &law_noc_shaft;
+}
 inline const law_t *law_of(const law_conventional_config_t *)
 {
     return &law_conventional;

@@ -54,6 +54,14 @@ std::string normalised_harmonics(const HarmonicSpec &spec, int slots)
                        weight_speed_e_radps, leak_1ps, slots);
 }
 
+std::string normalised_shaft(const ShaftSpec &spec, const Mechanics &m)
+{
+    const auto &[Q, nodo_Q] = spec;
+    return listed(Q) + "|" + listed(nodo_Q) + "|" +
+           fmt::format("{:.17g};{:.17g};{:.17g};", m.resonance_Hz, m.least_damping,
+                       m.load_inertia_share);
+}
+
 std::string normalised_d_axis(const DAxisSpec &spec)
 {
     const auto &[proportional, integral] = spec;
@@ -89,6 +97,9 @@ std::string normalised_law(const Drive &d)
     const std::string name = fmt::format("{};", law_name(d.law));
     if (d.law == Law::noc_h) {
         return normalised_weights(d) + name + normalised_harmonics(d.harmonics, d.motor.slots);
+    }
+    if (d.law == Law::noc_shaft) {
+        return normalised_weights(d) + name + normalised_shaft(d.shaft, d.mechanics);
     }
     if (is_near_optimal(d.law)) {
         return normalised_weights(d);
@@ -167,10 +178,10 @@ std::string normalised(const Drive &drive)
 {
     // reproduces changes no number
     const auto &[name, reproduces, motor, saturation, inverter, encoder, current_sensors, board,
-                 law, nosc, nodo, position, harmonics, dobc, pid, d_axis, cascade, uncertainty,
-                 mechanics] = drive;
+                 law, nosc, nodo, position, harmonics, shaft, dobc, pid, d_axis, cascade,
+                 uncertainty, mechanics] = drive;
     static_cast<void>(uncertainty); // of the machine, not of what is computed from the file
-    static_cast<void>(mechanics);   // no constant depends on it
+    static_cast<void>(mechanics);   // beside the weights of noc_shaft
     std::string s = fmt::format("schema={};name={};", drive_schema, name);
     s += normalised_motor(motor) + normalised_hardware(inverter, encoder);
     s += normalised_sensors(current_sensors, encoder.index_angle_e_rad) + normalised_board(board);

@@ -256,6 +256,9 @@ Drive read_drive(const toml::table &root, const std::string &source, const std::
     fit_to_iron(drive);
     drive.uncertainty = read_uncertainty(t.table_if("uncertainty"));
     drive.mechanics   = read_mechanics(t.table_if("mechanics"));
+    if (drive.law == Law::noc_shaft && drive.mechanics.coupling != Coupling::known) {
+        t.fail("[mechanics]", "needs resonance_Hz: noc_shaft is for a known one");
+    }
     t.reject_unknown_keys();
     settle_pwm_frequency(t, drive);
     if (const auto [key, why] = board_refusal(drive); !key.empty()) {

@@ -110,9 +110,20 @@ struct NodoSpec {
     std::array<double, 3> T{};
 };
 
-/// The control law: paper A's, the same with a harmonic observer, paper A's rival, one of paper
+/// The control law: paper A's, the same with a harmonic observer or an elastic shaft, its rival, one of paper
 /// B's, or a cascade.
-enum class Law { noc, noc_h, conventional_noc, cdobc, gpiobc, hdobc, pid, pi_foc, ladrc };
+enum class Law {
+    noc,
+    noc_h,
+    noc_shaft,
+    conventional_noc,
+    cdobc,
+    gpiobc,
+    hdobc,
+    pid,
+    pi_foc,
+    ladrc
+};
 
 /// The laws with a controller and an observer from a state-dependent Riccati equation.
 bool is_near_optimal(Law law);
@@ -179,6 +190,12 @@ struct HarmonicSpec {
     double leak_1ps = 0.0; ///< decay of every pair
 };
 
+/// Weights of noc_shaft's load, beside those of [nosc] and [nodo].
+struct ShaftSpec {
+    std::array<double, 2> Q{};      ///< controller: speed of the load, twist
+    std::array<double, 2> nodo_Q{}; ///< observer: the same states
+};
+
 struct Drive {
     std::string name;
     std::string reproduces; ///< whose design it repeats as printed; empty: it is our own
@@ -194,6 +211,7 @@ struct Drive {
     std::optional<PositionSpec>
                  position;  ///< noc with form "encoder", noc_h: the drive takes positions too
     HarmonicSpec harmonics; ///< noc_h only
+    ShaftSpec    shaft;     ///< noc_shaft only
     DobcSpec     dobc;      ///< cdobc, gpiobc, hdobc only
     PidSpec      pid;       ///< pid only
     DAxisSpec    d_axis;    ///< laws of paper B

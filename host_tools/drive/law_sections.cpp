@@ -61,7 +61,8 @@ PositionSpec read_position(TomlReader t)
 void read_position_if(TomlReader &t, Drive &drive)
 {
     if (std::optional<TomlReader> section = t.table_if("position")) {
-        if (drive.law == Law::conventional_noc || drive.nodo.form != NodoForm::encoder) {
+        if (drive.law == Law::conventional_noc || drive.law == Law::noc_shaft ||
+            drive.nodo.form != NodoForm::encoder) {
             t.fail("[position]", "is not allowed: only laws noc and noc_h with [nodo] form = "
                                  "\"encoder\" take positions");
         }
@@ -109,11 +110,11 @@ NodoSpec read_conventional_nodo(TomlReader t)
 const std::map<std::string, Law> &laws()
 {
     static const std::map<std::string, Law> names{
-        {"noc", Law::noc},     {"conventional_noc", Law::conventional_noc},
-        {"noc_h", Law::noc_h}, {"cdobc", Law::cdobc},
-        {"hdobc", Law::hdobc}, {"gpiobc", Law::gpiobc},
-        {"pid", Law::pid},     {"pi_foc", Law::pi_foc},
-        {"ladrc", Law::ladrc}};
+        {"noc", Law::noc},       {"conventional_noc", Law::conventional_noc},
+        {"noc_h", Law::noc_h},   {"noc_shaft", Law::noc_shaft},
+        {"cdobc", Law::cdobc},   {"hdobc", Law::hdobc},
+        {"gpiobc", Law::gpiobc}, {"pid", Law::pid},
+        {"pi_foc", Law::pi_foc}, {"ladrc", Law::ladrc}};
     return names;
 }
 
@@ -225,6 +226,28 @@ HarmonicSpec read_harmonic_spec(TomlReader t, const Motor &motor)
     return spec;
 }
 
+ShaftSpec read_shaft(TomlReader t)
+{
+    ShaftSpec spec;
+    spec.Q      = last_of<2>(t.numbers("Q", {2}, state_weight));
+    spec.nodo_Q = last_of<2>(t.numbers("nodo_Q", {2}, state_weight));
+    t.reject_unknown_keys();
+    return spec;
+}
+
+/// Both laws with a larger observer need the encoder form and order 1.
+void need_sampled_series(TomlReader &t, const Drive &drive)
+{
+    const char *name = law_name(drive.law);
+    if (drive.nodo.form != NodoForm::encoder) {
+        t.fail("[nodo] form", fmt::format("is not allowed: {} needs \"encoder\"", name));
+    }
+    if (drive.nodo.order != 1) {
+        t.fail("[nodo] order",
+               fmt::format("= {} is not allowed: must be 1 with {}", drive.nodo.order, name));
+    }
+}
+
 } // namespace
 
 Law read_law(TomlReader &t)
@@ -233,7 +256,7 @@ Law read_law(TomlReader &t)
     const auto        found = laws().find(name);
     if (found == laws().end()) {
         t.fail("law",
-               fmt::format("= \"{}\" is not allowed: must be \"noc\", \"noc_h\", "
+               fmt::format("= \"{}\" is not allowed: must be \"noc\", \"noc_h\", \"noc_shaft\", "
                            "\"conventional_noc\", \"cdobc\", \"gpiobc\", \"hdobc\", \"pid\", "
                            "\"pi_foc\" or \"ladrc\"",
                            name));
@@ -249,16 +272,12 @@ void read_law_sections(TomlReader &t, Drive &drive)
         drive.nodo =
             conventional ? read_conventional_nodo(t.table("nodo")) : read_nodo(t.table("nodo"));
         read_position_if(t, drive);
-        if (drive.law != Law::noc_h) {
-            return;
-        }
-        drive.harmonics = read_harmonic_spec(t.table("harmonics"), drive.motor);
-        if (drive.nodo.form != NodoForm::encoder) {
-            t.fail("[nodo] form", "is not allowed: noc_h needs \"encoder\"");
-        }
-        if (drive.nodo.order != 1) {
-            t.fail("[nodo] order",
-                   fmt::format("= {} is not allowed: must be 1 with noc_h", drive.nodo.order));
+        if (drive.law == Law::noc_h) {
+            drive.harmonics = read_harmonic_spec(t.table("harmonics"), drive.motor);
+            need_sampled_series(t, drive);
+        } else if (drive.law == Law::noc_shaft) {
+            drive.shaft = read_shaft(t.table("shaft"));
+            need_sampled_series(t, drive);
         }
         return;
     }
@@ -276,7 +295,8 @@ void read_law_sections(TomlReader &t, Drive &drive)
 
 bool is_near_optimal(Law law)
 {
-    return law == Law::noc || law == Law::noc_h || law == Law::conventional_noc;
+    return law == Law::noc || law == Law::noc_h || law == Law::noc_shaft ||
+           law == Law::conventional_noc;
 }
 
 bool is_cascade(Law law)

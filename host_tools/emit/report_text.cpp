@@ -37,8 +37,11 @@ std::string gain_text(const char *symbol, const GainSeries &g)
         s += fmt::format("  {}_{} (relative residual {:.1e})\n", symbol,
                          fmt::join(g.series.terms[n].powers, ","), g.residuals[n]);
         for (Eigen::Index i = 0; i < g.gain[n].rows(); i++) {
-            s += fmt::format("    {:14.6g} {:14.6g} {:14.6g}\n", report_entry(g.gain[n], i, 0),
-                             report_entry(g.gain[n], i, 1), report_entry(g.gain[n], i, 2));
+            s += "   ";
+            for (Eigen::Index k = 0; k < g.gain[n].cols(); k++) {
+                s += fmt::format(" {:14.6g}", report_entry(g.gain[n], i, k));
+            }
+            s += "\n";
         }
     }
     return s;
@@ -157,12 +160,13 @@ std::string harmonic_text(const Design &d)
     return s + loop_text("speed loop", check.speed_loop);
 }
 
-std::string observer_heading(NodoForm form)
+std::string observer_heading(NodoForm form, bool shaft)
 {
     const bool encoder = form == NodoForm::encoder;
-    return fmt::format("\nobserver (rows d_w, {}w, iq, id{}; columns measured {})\n",
+    return fmt::format("\nobserver (rows d_w, {}w, iq, id{}{}; columns measured {})\n",
                        form == NodoForm::conventional_load ? "" : "d_q, d_d, ",
-                       encoder ? ", theta" : "", encoder ? "iq, id, theta" : "w, iq, id");
+                       encoder ? ", theta" : "", shaft ? ", w_load, twist" : "",
+                       encoder ? "iq, id, theta" : "w, iq, id");
 }
 
 std::string both(const std::vector<const char *> &currents)
@@ -172,13 +176,15 @@ std::string both(const std::vector<const char *> &currents)
 
 std::string noc_text(const Design &d)
 {
-    std::string s =
-        "\ncontroller (rows v_q, v_d; columns e_w, e_iq, e_id)\n" + gain_text("Lambda", d.nosc);
+    const bool  shaft = law_design(d.drive).shaft_states;
+    std::string s     = fmt::format("\ncontroller (rows v_q, v_d; columns e_w, e_iq, e_id{})\n",
+                                shaft ? ", slip, twist" : "") +
+                    gain_text("Lambda", d.nosc);
     s += "  poles" + poles_text(d.nosc.series.care.closed_loop_eigenvalues) + " 1/s\n";
     if (d.harmonics) {
         return s + harmonic_text(d);
     }
-    s += observer_heading(d.drive.nodo.form) + gain_text("L", d.nodo);
+    s += observer_heading(d.drive.nodo.form, shaft) + gain_text("L", d.nodo);
     s += "  poles" + poles_text(d.nodo.series.care.closed_loop_eigenvalues) + " 1/s\n";
     const Scheduling &scheduling = law_design(d.drive).scheduling;
     return s + "\ncertificate\n" +

@@ -30,13 +30,13 @@ constexpr double nominal_times        = 2.0;
 // Chosen: noise that keeps a shaft in motion leaves the most of the band in which a speed is settled.
 constexpr double shaft_ripple_share = 0.4;
 
-TwoMasses masses_of(const Drive &drive, const LoopGains &gains)
+Design design_of(const Drive &drive, const LoopGains &gains)
 {
     Design design;
     design.drive = drive;
     design.l     = reduced_parameters(drive.motor);
     design.nosc.gain.push_back(gains.Lambda);
-    return TwoMasses(design);
+    return design;
 }
 
 /// At the least damping ratio.
@@ -66,10 +66,11 @@ double radius_with_shafts(const Drive &drive, const LoopGains &gains)
     if (shafts.empty()) {
         return 0.0;
     }
-    const TwoMasses masses = masses_of(drive, gains);
-    const double    ts     = control_period_s(drive);
-    const double    half   = 0.5 * drive.motor.rated_speed_e_radps;
-    double          worst  = 0.0;
+    const Design    design = design_of(drive, gains);
+    const TwoMasses masses(design);
+    const double    ts    = control_period_s(drive);
+    const double    half  = 0.5 * drive.motor.rated_speed_e_radps;
+    double          worst = 0.0;
     for (const OperatingPoint &at : {masses.point(0.0, 0.0), masses.point(half, 1.0)}) {
         for (const Shaft &shaft : shafts) {
             const double own = two_pi * shaft.resonance_Hz * shaft.damping * ts;
@@ -87,7 +88,8 @@ ShaftStep shaft_step(const Drive &drive, const TuneSpec &spec, const LoopGains &
     if (drive.mechanics.coupling == Coupling::rigid) {
         return worst;
     }
-    const TwoMasses masses       = masses_of(drive, gains);
+    const Design    design = design_of(drive, gains);
+    const TwoMasses masses(design);
     const int       periods      = static_cast<int>(shaft_horizon_s / control_period_s(drive));
     const bool      known        = drive.mechanics.coupling == Coupling::known;
     const double    oscillations = known ? known_oscillations : unknown_oscillations;

@@ -77,10 +77,12 @@ std::string without_sections_beside(const std::string &text)
 {
     std::istringstream lines(text);
     std::string        kept;
-    bool               beside = false;
+    bool               beside   = false;
+    const bool         of_shaft = text.find("law = \"noc_shaft\"") != std::string::npos;
     for (std::string line; std::getline(lines, line);) {
         if (line.rfind('[', 0) == 0) {
-            beside = line.rfind("[encoder.disc]", 0) == 0 || line.rfind("[mechanics]", 0) == 0;
+            beside = line.rfind("[encoder.disc]", 0) == 0 ||
+                     (line.rfind("[mechanics]", 0) == 0 && !of_shaft);
         }
         kept += beside ? "" : line + "\n";
     }

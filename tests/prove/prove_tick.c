@@ -55,6 +55,9 @@ static void any_config(void)
         constants.nodo.pair[i].channel = any_between(NODO_HARMONIC_SENSOR, NODO_HARMONIC_VOLTAGE_D);
         constants.nodo.pair[i].order   = base_clamp(any_float, -1.0e3f, 1.0e3f); /* as checked */
     }
+#elif defined PROVE_noc_shaft
+    any_near_optimal(&constants.near_optimal);
+    constants.nodo.motor.order = 1;
 #elif defined PROVE_conventional
     any_near_optimal(&constants.near_optimal);
     constants.gains.nosc_order = any_between(0, DOUBLE_SERIES_ORDER_MAX);
@@ -80,13 +83,13 @@ static void any_drive(void)
 
     drive = any_drive_bits;
 #if defined PROVE_noc || defined PROVE_noc_speed || defined PROVE_noc_h ||                         \
-    defined                                                 PROVE_conventional
-    state.near_optimal.positioning = any_between(0, 1);
-    state.near_optimal.position_ref.arrived = any_between(0, 1);
-    state.near_optimal.position_ref.waits = any_between(0, 1);
+    defined PROVE_noc_shaft || defined PROVE_conventional
+    state.near_optimal.positioning           = any_between(0, 1);
+    state.near_optimal.position_ref.arrived  = any_between(0, 1);
+    state.near_optimal.position_ref.waits    = any_between(0, 1);
     state.near_optimal.position_ref.at.turns = any_turns();
 #endif
-#if defined PROVE_noc || defined PROVE_noc_h
+#if defined PROVE_noc || defined PROVE_noc_h || defined PROVE_noc_shaft
     state.edges.edge[0] = any_between(0, ENCODER_FORM_EDGES);
     state.edges.edge[1] = any_between(0, ENCODER_FORM_EDGES);
     state.gate.beyond   = any_between(0, ANGLE_GATE_HOLD);
@@ -126,7 +129,7 @@ static void state_is_kept(void)
 {
     //@ check state: DRIVE_OFF <= drive.state <= DRIVE_FAULT;
     //@ check fault: DRIVE_FAULT_NONE <= drive.fault <= DRIVE_FAULT_MEMORY;
-#if defined PROVE_noc || defined PROVE_noc_h
+#if defined PROVE_noc || defined PROVE_noc_h || defined PROVE_noc_shaft
     //@ check edge: 0 <= drive.law.PROVE_LAW.edges.edge[0] <= ENCODER_FORM_EDGES;
     //@ check edge_before: 0 <= drive.law.PROVE_LAW.edges.edge[1] <= ENCODER_FORM_EDGES;
     //@ check beyond: 0 <= drive.law.PROVE_LAW.gate.beyond <= ANGLE_GATE_HOLD;
@@ -176,7 +179,7 @@ static void any_bits(void)
 {
     constants = any_constants;
 #if defined PROVE_noc || defined PROVE_noc_speed || defined PROVE_noc_h ||                         \
-    defined                                                 PROVE_conventional
+    defined PROVE_noc_shaft || defined PROVE_conventional
     constants.near_optimal.current_ref.mtpa_exact = any_between(0, 1);
 #endif
     config.law       = &NAMED(law_, PROVE_LAW);
@@ -223,6 +226,9 @@ void prove_refused(void)
     REFUSED(constants.near_optimal.nosc.order, 0, NOSC_ORDER_MAX);
     REFUSED(constants.nodo.n_pairs, 0, NODO_HARMONIC_PAIRS_MAX);
     REFUSED(constants.nodo.n_nodes, 2, NODO_HARMONIC_NODES_MAX);
+#elif defined PROVE_noc_shaft
+    REFUSED(constants.near_optimal.nosc.order, 0, NOSC_ORDER_MAX);
+    REFUSED(constants.nodo.motor.order, 1, 1);
 #elif defined PROVE_conventional
     REFUSED(constants.gains.nosc_order, 0, DOUBLE_SERIES_ORDER_MAX);
     REFUSED(constants.gains.nodo_order, 0, DOUBLE_SERIES_ORDER_MAX);

@@ -42,6 +42,7 @@ TABLES = {
     "speed_tables": "ipmsm_390w_speed",
     "conventional_tables": "ipmsm_390w_conventional",
     "harmonic_tables": "ipmsm_390w_noc_h",
+    "shaft_tables": "ipmsm_390w_shaft",
 }
 JOBS = os.cpu_count() or 1
 

@@ -38,6 +38,11 @@ static inline const law_noc_h_config_t *law_constants_noc_h(const drive_config_t
     return (d->law == &law_noc_h) ? (const law_noc_h_config_t *)d->constants : NULL;
 }
 
+static inline const law_noc_shaft_config_t *law_constants_noc_shaft(const drive_config_t *d)
+{
+    return (d->law == &law_noc_shaft) ? (const law_noc_shaft_config_t *)d->constants : NULL;
+}
+
 static inline const law_conventional_config_t *law_constants_conventional(const drive_config_t *d)
 {
     return (d->law == &law_conventional) ? (const law_conventional_config_t *)d->constants : NULL;

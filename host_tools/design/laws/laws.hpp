@@ -9,6 +9,7 @@ namespace sdre {
 extern const LawDesign noc_design;
 extern const LawDesign noc_speed_design;
 extern const LawDesign noc_h_design;
+extern const LawDesign noc_shaft_design;
 extern const LawDesign conventional_design;
 extern const LawDesign dobc_design;
 extern const LawDesign pid_design;

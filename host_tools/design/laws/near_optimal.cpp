@@ -8,6 +8,7 @@
 
 #include "design/certificate.hpp"
 #include "design/machine_points.hpp"
+#include "design/noc_shaft/shaft_design.hpp"
 #include "design/sampled_model.hpp"
 #include "design/sampled_observer.hpp"
 #include "design/speed_form_model.hpp"
@@ -64,6 +65,9 @@ constexpr double voltage_share = 0.995;
 
 GainSeries solve_nosc(const ReducedParameters &l, const Drive &drive, Precision precision)
 {
+    if (drive.law == Law::noc_shaft) {
+        return solve_shaft_controller(l, drive, precision);
+    }
     const NoscSpec       &spec = drive.nosc;
     const Eigen::Vector2d T_inverse(1.0 / spec.T[0], 1.0 / spec.T[1]);
     const SdreProblem     problem = drive.law == Law::conventional_noc
@@ -75,6 +79,9 @@ GainSeries solve_nosc(const ReducedParameters &l, const Drive &drive, Precision 
 
 GainSeries solve_nodo(const ReducedParameters &l, const Drive &drive, Precision precision)
 {
+    if (drive.law == Law::noc_shaft) {
+        return solve_shaft_observer(l, drive);
+    }
     const NodoSpec &spec = drive.nodo;
     if (spec.form == NodoForm::encoder) {
         return solve_encoder_form(l, spec, control_period_s(drive));
@@ -230,6 +237,9 @@ const current_ref_config_t *current_references(const Design &d)
     if (const auto *c = constants_of<law_noc_h_config_t>(d.config)) {
         return &c->near_optimal.current_ref;
     }
+    if (const auto *c = constants_of<law_noc_shaft_config_t>(d.config)) {
+        return &c->near_optimal.current_ref;
+    }
     if (const auto *c = constants_of<law_noc_speed_config_t>(d.config)) {
         return &c->near_optimal.current_ref;
     }
@@ -275,6 +285,15 @@ TripMargin disturbance_margin(const Design &d, const encoder_form_limits_t &limi
     return {"disturbance of the speed [rad/s2]", static_cast<double>(limits.d_omega),
             d.l[3] * largest_torque_Nm(d.drive.motor, d.l) +
                 as_noise * std::sqrt(P(d_omega, d_omega))};
+}
+
+encoder_form_gains_t sample_gains(const nodo_encoder_gains_t &g, const Drive &drive)
+{
+    const double ts_s = control_period_s(drive);
+    const auto   gain = [&](int row) {
+        return static_cast<float>(ts_s * static_cast<double>(g.gain[0][row][2]));
+    };
+    return {gain(6), gain(3), gain(0), static_cast<float>(count_e_rad(drive))};
 }
 
 /// Error of the speed between two edges. A coarse encoder has two counts in a period at a speed to run at. Just below it one

@@ -37,6 +37,8 @@ double largest_iq_A(const Motor &motor, double k, bool exact);
 double largest_iq_A(const Motor &motor, const ReducedParameters &l);
 
 encoder_form_limits_t encoder_limits(const Design &design);
+/// L_0 Ts of the angle, for edges that are rarer than samples.
+encoder_form_gains_t sample_gains(const nodo_encoder_gains_t &gains, const Drive &drive);
 /// The largest load that can be right: of `limits`, or what the encoder's own error adds to the torque.
 float believed_d_omega(const encoder_form_limits_t &limits, const encoder_form_gains_t &gains,
                        const Drive &drive);

@@ -14,16 +14,6 @@ bool is_for(const Drive &drive)
     return drive.law == Law::noc && drive.nodo.form == NodoForm::encoder;
 }
 
-/// L_0 Ts, of the angle.
-encoder_form_gains_t sample_gains(const nodo_encoder_gains_t &g, const Drive &drive)
-{
-    const double ts_s = control_period_s(drive);
-    const auto   gain = [&](int row) {
-        return static_cast<float>(ts_s * static_cast<double>(g.gain[0][row][2]));
-    };
-    return {gain(6), gain(3), gain(0), static_cast<float>(count_e_rad(drive))};
-}
-
 void certify_currents(Design &d, const CurrentObserver &o)
 {
     if (!(o.spectral_radius < 1.0) || !(o.worst_residual <= residual_limit)) {

@@ -40,6 +40,7 @@ LAWS = {
     6: "pid",
     7: "pi_foc",
     8: "ladrc",
+    9: "noc_shaft",
 }
 
 PER_REQUEST = 100  # words; of 123 that a request has room for
