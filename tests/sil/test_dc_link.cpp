@@ -84,6 +84,68 @@ TEST(DcLink, SourceStepChargesThroughTheResistance)
     EXPECT_NEAR(link.voltage_V(), 250.0 + 50.0 * std::exp(-1.0), 1e-9);
 }
 
+/// EQ-DC-LINK-3.
+TEST(DcLink, RipplesAsItsSource)
+{
+    InverterSettings s = link_with(Regeneration::sinks, 0.0, 1e-3);
+    s.ripple_V         = 30.0;
+    s.ripple_Hz        = 250.0;
+    DcLink link(s, 300.0);
+    EXPECT_FALSE(link.stiff());
+    EXPECT_DOUBLE_EQ(link.voltage_V(), 300.0);
+    for (const double expected_V : {330.0, 300.0, 270.0, 300.0, 330.0}) { // quarter by quarter
+        for (int k = 0; k < 10; k++) {
+            link.advance(k % 2 == 0 ? 50.0 : -50.0, 1e-4); // any current
+        }
+        EXPECT_NEAR(link.voltage_V(), expected_V, 1e-9);
+    }
+    s.ripple_Hz = 500.0;
+    link.configure(s, 200.0); // in flight: the sine goes on from where it is
+    EXPECT_NEAR(link.voltage_V(), 230.0, 1e-9);
+    link.advance(0.0, 1e-3);
+    EXPECT_NEAR(link.voltage_V(), 170.0, 1e-9);
+    s.ripple_V = 0.0;
+    link.configure(s, 200.0);
+    EXPECT_TRUE(link.stiff());
+    EXPECT_DOUBLE_EQ(link.voltage_V(), 200.0);
+}
+
+TEST(DcLink, ACapacitorSmoothsTheRipple)
+{
+    InverterSettings s = link_with(Regeneration::sinks, 2.0, 1e-3); // 80 Hz
+    s.ripple_V         = 30.0;
+    s.ripple_Hz        = 400.0;
+    DcLink link(s, 300.0);
+    double least_V = 300.0;
+    double most_V  = 300.0;
+    for (int k = 0; k < 40000; k++) {
+        link.advance(0.0, 1e-6);
+        if (k > 20000) {
+            least_V = std::min(least_V, link.voltage_V());
+            most_V  = std::max(most_V, link.voltage_V());
+        }
+    }
+    const double expected_V = 30.0 / std::hypot(1.0, 2.0 * std::acos(-1.0) * 400.0 * 2e-3);
+    EXPECT_NEAR(0.5 * (most_V - least_V), expected_V, 1e-2 * expected_V);
+    EXPECT_NEAR(0.5 * (most_V + least_V), 300.0, 1e-2 * expected_V);
+}
+
+TEST(DcLink, ARectifierWithoutResistanceHoldsThePeak)
+{
+    InverterSettings s = link_with(Regeneration::blocks, 0.0, 1e-3);
+    s.ripple_V         = 30.0;
+    s.ripple_Hz        = 250.0;
+    DcLink link(s, 300.0);
+    for (int k = 0; k < 20; k++) {
+        link.advance(0.0, 1e-4);
+    }
+    EXPECT_NEAR(link.voltage_V(), 330.0, 1e-9); // at half a period, the source is at 300 V
+    for (int k = 0; k < 10; k++) {
+        link.advance(5.0, 1e-4); // the source falls by 30 V, the capacitor by 5 V
+    }
+    EXPECT_NEAR(link.voltage_V(), 325.0, 1e-9);
+}
+
 namespace {
 
 InverterSettings with_chopper(double on_V, double hysteresis_V, double resistance_Ohm)

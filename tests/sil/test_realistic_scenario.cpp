@@ -305,6 +305,11 @@ TEST(RealisticScenario, WrongInputIsOneLine)
         {"[inverter]\nregeneration = \"maybe\"\n", "regeneration"},
         {"[inverter]\nduty_min = 0.9\nduty_max = 0.5\n", "duty_min"},
         {"[inverter]\ndead_time_s = 1.0\n", "dead_time_s"},
+        {"[inverter]\nripple_V = -1.0\n", "[inverter] ripple_V = -1 is not allowed"},
+        {"[inverter]\nripple_V = 295.0\n", "ripple_V = 295 is not allowed: must be below the"},
+        {"[inverter]\nripple_V = 9.0\nripple_Hz = 0.5\n", "ripple_Hz = 0.5 is not allowed"},
+        {"[inverter]\nripple_V = 9.0\nripple_Hz = 1001.0\n", "ripple_Hz = 1001 is not allowed"},
+        {"[inverter]\nripple_V = true\n", "ripple_V = true is not allowed: must be a number"},
         {"[inverter]\nupdates_per_period = 3\n", "updates_per_period"},
         {"[motor_effects]\ncogging_amplitude_Nm = 0.1\n", "cogging_order"},
         {"[motor_effects]\nstribeck_speed_m_radps = 1.0\n", "static_friction_Nm"},
@@ -401,6 +406,35 @@ TEST(Runaway, ALoadThatDrivesTheTrippedMotorEndsTheRun)
         }
     }
     EXPECT_NE(std::string(fault_name(runaway_fault)).find("runs away"), std::string::npos);
+}
+
+TEST(RealisticScenario, RippleIsReadAndChanges)
+{
+    const InverterSettings none = read(head + body + "[inverter]\n").inverter;
+    EXPECT_EQ(none.ripple_V, 0.0);
+    EXPECT_EQ(none.ripple_Hz, 300.0);
+    const Scenario s = read(
+        head + body +
+        "[sensors]\n[inverter]\nripple_V = 29.5\nripple_Hz = 100.0\n"
+        "[[change]]\ntime_s = 0.02\nset = { inverter = { ripple_V = 0.0 } }\n"
+        "[[change]]\ntime_s = 0.03\nset = { inverter = { dc_link_V = 250.0, ripple_V = 5.0 } }\n");
+    EXPECT_EQ(s.inverter.ripple_V, 29.5);
+    EXPECT_EQ(s.inverter.ripple_Hz, 100.0);
+    ASSERT_EQ(s.changes.size(), 2U);
+    EXPECT_EQ(s.changes[0].inverter->ripple_V, 0.0);
+    EXPECT_EQ(s.changes[0].inverter->ripple_Hz, 100.0); // keeps what it does not name
+    EXPECT_EQ(s.changes[1].inverter->ripple_V, 5.0);
+    for (const TraceRow &row : simulate(s).trace) {
+        const double t = row.time_s;
+        if (t > 0.0202 && t < 0.0299) {
+            EXPECT_EQ(row.dc_link_V, 295.0) << t;
+        } else if (t > 0.0301) {
+            EXPECT_NEAR(row.dc_link_V, 250.0, 5.001) << t;
+        }
+    }
+    EXPECT_NE(error_of(head + body + "[inverter]\ndc_link_V = 200.0\nripple_V = 250.0\n")
+                  .find("the source's 200 V"),
+              std::string::npos);
 }
 
 TEST(RealisticScenario, ChopperIsReadAndNeedsALinkThatCanRise)

@@ -10,6 +10,8 @@ namespace {
 // Chosen: the chopper's current is constant over this share of R C; 1e-7 of a voltage's change is lost.
 constexpr double chopper_step = 1e-3;
 
+constexpr double two_pi = 6.28318530717958647693;
+
 } // namespace
 
 DcLink::DcLink(const InverterSettings &settings, double source_V) : v_V_(source_V)
@@ -19,7 +21,9 @@ DcLink::DcLink(const InverterSettings &settings, double source_V) : v_V_(source_
 
 void DcLink::configure(const InverterSettings &s, double source_V)
 {
-    source_V_       = source_V;
+    mean_V_         = source_V;
+    ripple_V_       = s.ripple_V;
+    ripple_radps_   = two_pi * s.ripple_Hz;
     resistance_Ohm_ = s.source_resistance_Ohm;
     capacitance_F_  = s.capacitance_F;
     blocks_         = s.regeneration == Regeneration::blocks;
@@ -28,6 +32,14 @@ void DcLink::configure(const InverterSettings &s, double source_V)
     chopper_on_V_   = s.chopper_on_V.value_or(0.0);
     chopper_off_V_  = chopper_on_V_ - s.chopper_hysteresis_V;
     chopping_       = chopping_ && chopper_Ohm_ > 0.0;
+    ripple(0.0);
+}
+
+/// EQ-DC-LINK-3.
+void DcLink::ripple(double dt_s)
+{
+    ripple_rad_ = std::fmod(ripple_rad_ + ripple_radps_ * dt_s, two_pi);
+    source_V_   = mean_V_ + ripple_V_ * std::sin(ripple_rad_);
     settle();
 }
 
@@ -42,13 +54,18 @@ void DcLink::settle()
 
 void DcLink::advance(double bridge_A, double dt_s)
 {
-    if (stiff_) {
-        return;
-    }
-    if (chopper_Ohm_ <= 0.0) {
+    if (chopper_Ohm_ > 0.0) {
+        chop(bridge_A, dt_s);
+    } else if (!stiff_) {
         charge(bridge_A, dt_s);
-        return;
     }
+    if (ripple_V_ > 0.0) {
+        ripple(dt_s);
+    }
+}
+
+void DcLink::chop(double bridge_A, double dt_s)
+{
     double left_s = dt_s;
     while (left_s > 0.0) {
         chopping_            = v_V_ >= chopper_on_V_ || (chopping_ && v_V_ > chopper_off_V_);

@@ -7,7 +7,11 @@
 ///
 ///     i_bridge + v / R_chopper in place of i_bridge: on at chopper_on_V, off chopper_hysteresis_V lower   EQ-DC-LINK-2
 ///
-/// A rectifier (Regeneration::blocks) gives no negative i_source. Solved exactly for a constant i_bridge,
+/// The source may ripple, by the sine that a rectified mains leaves,
+///
+///     v_source + ripple_V sin(2 pi ripple_Hz t), t from the start                                EQ-DC-LINK-3
+///
+/// It is held during advance(), for half a control period at most. A rectifier (Regeneration::blocks) gives no negative i_source. Solved exactly for a constant i_bridge,
 /// so that no time step is too long for a small R C.
 #pragma once
 
@@ -28,9 +32,10 @@ public:
     {
         return v_V_;
     }
+    /// Constant whatever the bridge takes.
     bool stiff() const
     {
-        return stiff_;
+        return stiff_ && ripple_V_ <= 0.0;
     }
     bool chopping() const
     {
@@ -45,8 +50,14 @@ public:
 private:
     void charge(double current_A, double dt_s); ///< without chopper
     void settle(); ///< a source without resistance holds the voltage at or above its own
+    void chop(double bridge_A, double dt_s);
+    void ripple(double dt_s);
 
-    double source_V_       = 0.0;
+    double mean_V_         = 0.0; ///< of the source
+    double ripple_V_       = 0.0;
+    double ripple_radps_   = 0.0;
+    double ripple_rad_     = 0.0;
+    double source_V_       = 0.0; ///< now
     double resistance_Ohm_ = 0.0;
     double capacitance_F_  = 0.0;
     bool   blocks_         = false;

@@ -30,6 +30,8 @@ constexpr Range duty{0.0, 1.0};
 constexpr Range resistance_Ohm{0.0, 1e3};
 constexpr Range hysteresis_V{0.1, 1e3};
 constexpr Range chopper_Ohm{0.1, 1e4};
+constexpr Range ripple_V{0.0, 1e4};
+constexpr Range ripple_Hz{1.0, 1e3};
 constexpr Range capacitance_F{1e-6, 10.0};
 constexpr Range torque_Nm{-1e5, 1e5};
 constexpr Range positive_torque_Nm{0.0, 1e5};
@@ -113,6 +115,17 @@ void read_chopper(TomlReader &t, InverterSettings &s, const Drive &drive)
     if (s.chopper_on_V && s.regeneration == Regeneration::sinks && s.source_resistance_Ohm <= 0.0) {
         t.fail("chopper_on_V", "is not allowed with a stiff source: it needs regeneration = "
                                "\"blocks\" or a source_resistance_Ohm");
+    }
+}
+
+void read_ripple(TomlReader &t, InverterSettings &s, const Drive &drive)
+{
+    s.ripple_V            = t.number_or("ripple_V", ripple_V, s.ripple_V);
+    s.ripple_Hz           = t.number_or("ripple_Hz", ripple_Hz, s.ripple_Hz);
+    const double source_V = s.dc_link_V.value_or(drive.inverter.dc_link_V);
+    if (s.ripple_V >= source_V) {
+        t.fail("ripple_V", fmt::format("= {:g} is not allowed: must be below the source's {:g} V",
+                                       s.ripple_V, source_V));
     }
 }
 
@@ -228,6 +241,7 @@ InverterSettings read_board_inverter(TomlReader t, InverterSettings s, const Dri
             fmt::format("= \"{}\" is not allowed: must be \"blocks\" or \"sinks\"", regeneration));
     }
     s.regeneration = regeneration == "blocks" ? Regeneration::blocks : Regeneration::sinks;
+    read_ripple(t, s, drive);
     read_chopper(t, s, drive);
     t.reject_unknown_keys();
     return s;
