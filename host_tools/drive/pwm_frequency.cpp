@@ -25,8 +25,9 @@ double           law_cycles(const Drive &d)
 {
     switch (d.law) {
     case Law::noc_h:
-    case Law::noc_shaft: // not priced; it has fewer states
         return cycle_budget::noc_h;
+    case Law::noc_shaft:
+        return cycle_budget::noc_shaft;
     case Law::conventional_noc:
         return cycle_budget::conventional;
     case Law::noc:

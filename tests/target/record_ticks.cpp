@@ -75,6 +75,10 @@ bool put_constants(tick_file_run_t &run, const drive_config_t &c)
         run.law             = TICK_FILE_NOC_H;
         run.order           = harmonic->near_optimal.nosc.order;
         run.constants.noc_h = *harmonic;
+    } else if (const auto *shaft = sdre::constants_of<law_noc_shaft_config_t>(c)) {
+        run.law                 = TICK_FILE_NOC_SHAFT;
+        run.order               = std::max(shaft->near_optimal.nosc.order, shaft->nodo.motor.order);
+        run.constants.noc_shaft = *shaft;
     } else if (const auto *other = sdre::constants_of<law_conventional_config_t>(c)) {
         run.law                    = TICK_FILE_CONVENTIONAL;
         run.order                  = std::max(other->gains.nosc_order, other->gains.nodo_order);
@@ -88,8 +92,8 @@ bool put_constants(tick_file_run_t &run, const drive_config_t &c)
 /// Whether a drive runs a scenario that was made for another one: of the same form, or of the speed form with another law.
 bool is_for(const sdre::Drive &drive, const sdre::Drive &own)
 {
-    const sdre::NodoForm form =
-        (drive.law == sdre::Law::noc) ? drive.nodo.form : sdre::NodoForm::speed;
+    const bool in_forms       = drive.law == sdre::Law::noc || drive.law == sdre::Law::noc_shaft;
+    const sdre::NodoForm form = in_forms ? drive.nodo.form : sdre::NodoForm::speed;
     return own.law == sdre::Law::noc && own.nodo.form == form;
 }
 
@@ -129,8 +133,8 @@ void write_run(std::ofstream &file, std::uint32_t law, const std::filesystem::pa
 /// The number of a law from its name on the command line.
 std::uint32_t law_number(const std::string &name)
 {
-    constexpr const char *names[] = {"noc", "noc_speed", "noc_h",
-                                     "conventional"}; // as tick_file_law_t counts
+    constexpr const char *names[] = {"noc", "noc_speed", "noc_h", "conventional",
+                                     "noc_shaft"}; // as tick_file_law_t counts
     const auto *const     found   = std::find(std::begin(names), std::end(names), name);
     if (found == std::end(names)) {
         throw std::runtime_error("no image replays the law " + name);

@@ -30,7 +30,8 @@ typedef enum {
     TICK_FILE_NOC = 0,
     TICK_FILE_NOC_SPEED,
     TICK_FILE_NOC_H,
-    TICK_FILE_CONVENTIONAL
+    TICK_FILE_CONVENTIONAL,
+    TICK_FILE_NOC_SHAFT
 } tick_file_law_t;
 
 /** The constants of any of them. */
@@ -39,6 +40,7 @@ typedef union {
     law_noc_speed_config_t    noc_speed;
     law_noc_h_config_t        noc_h;
     law_conventional_config_t conventional;
+    law_noc_shaft_config_t    noc_shaft;
 } tick_file_constants_t;
 
 enum { TICK_FILE_VALID = 1, TICK_FILE_RUN = 2, TICK_FILE_GATE = 4, TICK_FILE_POSITION = 8 };

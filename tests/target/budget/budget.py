@@ -59,6 +59,12 @@ COLUMNS = {
     SHIPPED: ("noc", None, 5000, ("*",)),
     HARMONIC: ("noc_h", None, 5000, ("*",)),
     "conventional": ("conventional", "ipmsm_390w_conventional.toml", 5000, ("*",)),
+    "noc_shaft": (
+        "noc_shaft",
+        "ipmsm_390w_shaft.toml",
+        5000,
+        ("board_flux_weakening", "board_regeneration", "board_load_step"),
+    ),
     # Chosen: the dearest ticks at 5 kHz are those of weakened flux, of braking and of a load step.
     "noc_10khz": (
         "noc",

@@ -28,6 +28,7 @@ COLUMNS = {
     "noc": "encoder form",
     "noc, position": "encoder form, position",
     "noc_h": "`noc_h`",
+    "noc_shaft": "`noc_shaft`",
     "noc_10khz": "encoder form, 10 kHz",
     "PI-FOC": "PI-FOC",
     "conventional": "`conventional_noc`",
@@ -107,7 +108,7 @@ def operations(f):
     return table(["operations", *COLUMNS.values(), "application"], rows)
 
 
-PRICED = ("noc_speed", "noc", "noc_h", "conventional")
+PRICED = ("noc_speed", "noc", "noc_h", "noc_shaft", "conventional")
 
 
 def position(f):
@@ -149,7 +150,7 @@ def header(f, background):
 
 
 def memory(f):
-    words = {law: f["memory"][law] for law in ("noc_speed", "noc", "noc_h")}
+    words = {law: f["memory"][law] for law in ("noc_speed", "noc", "noc_h", "noc_shaft")}
     rows = [[name, *(str(w[name]) for w in words.values())] for name in words["noc"]]
     return table(["words", *(COLUMNS[law] for law in words)], rows)
 
