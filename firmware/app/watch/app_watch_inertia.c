@@ -84,7 +84,7 @@ static void learn(app_watch_inertia_t *w, float change_e_radps, float least_e_ra
     }
 }
 
-/* The ring takes the block. The one that leaves belongs to the change if it came after its begin. */
+/* The ring takes the block. One that leaves, and came after the begin, belongs to the change. */
 static void keep_block(app_watch_inertia_t *w)
 {
     app_watch_inertia_block_t *b = &w->block[w->next];

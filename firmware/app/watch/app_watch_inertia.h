@@ -12,8 +12,8 @@
  *     u = T (r_0 + r_1 + |d_1 - d_0|) / (2 |D|)                                      EQ-INERTIA-6
  *     ratio += (k - ratio) / 2 if u <= 0.2 k, within 0.5 .. 5                        EQ-INERTIA-7
  *
- * u estimates what a load that changes adds to k. A load step, and a load that swings, teach nothing.
- * The result is for the operator: nothing in the drive acts on it. Context: background.
+ * u estimates what a load that changes adds to k. A load step, and a load that swings, teach
+ * nothing. The result is for the operator: nothing in the drive acts on it. Context: background.
  */
 #ifndef APP_WATCH_INERTIA_H
 #define APP_WATCH_INERTIA_H
