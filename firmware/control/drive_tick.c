@@ -3,14 +3,12 @@
 
 #include <stddef.h>
 
+#include "drive_fault.h"
 #include "frames.h"
 #include "voltage.h"
 
 /* Exceeds the voltage of every law, d and q together; its square does not overflow. */
 #define VOLTAGE_ANY_V 1.0e9f
-
-/* Exceeds every standstill; finite, so that divisions by it are defined. */
-#define EDGE_TIMES_MAX_s 1.0e9f
 
 static const dq_t  zero_dq  = {0.0f, 0.0f};
 static const abc_t zero_abc = {0.0f, 0.0f, 0.0f};
@@ -64,49 +62,30 @@ void drive_reset(drive_t *d)
     motion_watch_reset(&d->motion_watch);
 }
 
-/* True for a speed in range, or for a position if the drive accepts positions. */
-static bool command_ok(const drive_config_t *c, const drive_command_t *command)
+/* True if drive_fault_of() finds no wrong sample. Two comparisons tell: of the least distance from
+ * a limit, and of a sum in which a NaN or an infinity shows. */
+static bool is_in_range(const drive_t *d, const drive_sample_t *s)
 {
-    const position_command_t *p = command->position;
+    const drive_config_t *c     = d->config;
+    const float           theta = fabsf(s->theta_e_rad);
+    const float           omega = fabsf(s->omega_e_radps);
+    const float           edges = base_min(base_min(s->edge_gap_s, s->edge_age_s),
+                                           base_min(s->band_rad, BASE_PI - s->band_rad));
+    const float link  = base_min(s->dc_link_V - c->dc_link_min_V, c->dc_link_max_V - s->dc_link_V);
+    const float shaft = base_min(BASE_TWO_PI - theta, d->sample_speed_max_e_radps - omega);
+    const float least = base_min(base_min(edges, link), shaft);
+    const float sum   = theta + omega + s->edge_gap_s + s->edge_age_s + s->band_rad + s->dc_link_V;
 
-    if (p == NULL) {
-        return base_within(command->omega_e_radps, c->speed_max_e_radps);
-    }
-    return c->positions && position_ok(&p->actual) && position_ok(&p->target) &&
-           position_profile_is_any(&p->profile);
-}
-
-/* Uncertainty of the angle and both times of edges: none negative, and a NaN or an infinity shows
- * in the sum. */
-static bool edges_ok(const drive_sample_t *s)
-{
-    const float least = base_min(base_min(s->band_rad, s->edge_gap_s), s->edge_age_s);
-    const float sum   = s->band_rad + s->edge_gap_s + s->edge_age_s;
-
-    return (least >= 0.0f) && (sum <= EDGE_TIMES_MAX_s) && (s->band_rad <= BASE_PI);
+    return s->valid && (least >= 0.0f) && (sum <= DRIVE_FAULT_TIMES_MAX_s);
 }
 
 static drive_fault_t find_fault(const drive_t *d, const drive_sample_t *s,
                                 const drive_command_t *command, current_gate_verdict_t currents)
 {
-    const drive_config_t *c = d->config;
-
-    if (!s->valid || !base_within(s->theta_e_rad, BASE_TWO_PI) || !edges_ok(s)) {
-        return DRIVE_FAULT_SAMPLE;
-    }
-    if (currents == CURRENT_GATE_TRIP) {
-        return DRIVE_FAULT_OVER_CURRENT;
-    }
-    if (!base_in_range(s->dc_link_V, c->dc_link_min_V, c->dc_link_max_V)) {
-        return DRIVE_FAULT_DC_LINK;
-    }
-    if (!base_within(s->omega_e_radps, d->sample_speed_max_e_radps)) {
-        return DRIVE_FAULT_OVER_SPEED;
-    }
-    if (!command_ok(c, command)) {
-        return DRIVE_FAULT_COMMAND;
-    }
-    return DRIVE_FAULT_NONE;
+    return ((currents != CURRENT_GATE_TRIP) && is_in_range(d, s) &&
+            drive_fault_command_ok(d->config, command))
+               ? DRIVE_FAULT_NONE
+               : drive_fault_of(d, s, command, currents);
 }
 
 /* Checks an answer of the law. Without it, the voltage limit would turn a NaN into full voltage. */
@@ -159,9 +138,11 @@ static bridge_t modulate(drive_t *d, float dc_link_V)
                                                .ahead_rad = 0.5f * c->ts_s * out->now.omega_e_radps,
                                                .i_A       = i_ab,
                                                .d_Aps     = {.d = out->d_d, .q = out->d_q},
-                                               .i_ref_A   = out->i_ref_A,
                                                .predicted = out->predicted};
     current_watch_expect(&d->current_watch, &expected, c->ts_s);
+    if (d->motion_watch.look == MOTION_WATCH_LOOK_CURRENTS) { /* in the next period */
+        current_watch_ask(&d->current_watch, out->i_ref_A, angle);
+    }
     d->v_V       = v.v_V;
     d->v_limited = v.limited;
     d->i_hat_A   = i_abc;

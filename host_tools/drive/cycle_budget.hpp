@@ -6,12 +6,12 @@
 
 namespace sdre::cycle_budget {
 
-constexpr double noc_speed        = 5288.0;
-constexpr double noc              = 5582.0;
-constexpr double noc_h            = 9168.0;
-constexpr double noc_shaft        = 6184.0;
-constexpr double conventional     = 7330.0;
-constexpr double position         = 2319.0;
+constexpr double noc_speed        = 5165.0;
+constexpr double noc              = 5481.0;
+constexpr double noc_h            = 9032.0;
+constexpr double noc_shaft        = 6083.0;
+constexpr double conventional     = 7289.0;
+constexpr double position         = 2985.0;
 constexpr double background_share = 0.10666666666666667;
 
 } // namespace sdre::cycle_budget

@@ -13,6 +13,9 @@
 /** An angle of at most a turn too much or too little, within 0 .. 2 pi. */
 static inline float app_angle_in_turn(float theta_rad)
 {
+    if (fabsf(theta_rad - BASE_PI) < BASE_PI) { /* mostly, and in one comparison */
+        return theta_rad;
+    }
     if (theta_rad < 0.0f) {
         return theta_rad + BASE_TWO_PI;
     }

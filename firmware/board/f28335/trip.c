@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "DSP28x_Project.h"
 #include "peripherals.h"
-
-#define GATE_ENABLE_PIN 0x40UL /* GPIO6 */
-#define ONE_SHOT        4U     /* TZFLG: OST */
-#define CLEAR_ALL       7U     /* one-shot, cycle by cycle, and the summary flag */
+#include "trip_enable.h"
 
 /* The control interrupt and its tick write `latched`; INT13, which may interrupt the tick, has its
  * own word. */
@@ -23,20 +20,6 @@ static void arm(volatile struct EPWM_REGS *leg)
     leg->TZEINT.all      = 0U; /* the hardware needs no help; trip_check() looks once a period */
     leg->TZFRC.bit.OST   = 1U; /* off until board_gate_enable() */
     EDIS;
-}
-
-static bool is_tripped(void)
-{
-    const uint16_t first  = EPwm1Regs.TZFLG.all;
-    const uint16_t second = EPwm2Regs.TZFLG.all;
-    const uint16_t third  = EPwm3Regs.TZFLG.all;
-
-    return ((first | second | third) & ONE_SHOT) != 0U;
-}
-
-static bool pin_is_active(void)
-{
-    return GpioDataRegs.GPADAT.bit.GPIO12 == 0U;
 }
 
 void trip_init(void)
@@ -71,37 +54,33 @@ static uint16_t faults(void)
  * previous tick have become active. */
 static void enable(void)
 {
-    if (!clock_is_good()) {
-        latched |= BOARD_FAULT_CLOCK;
-    }
-    if (pin_is_active()) {
-        latched |= BOARD_FAULT_TRIP;
-    }
+    latched |= trip_hinders();
     if (faults() != BOARD_FAULT_NONE) {
         return;
     }
-
-    EALLOW;
-    EPwm1Regs.TZCLR.all = CLEAR_ALL;
-    EPwm2Regs.TZCLR.all = CLEAR_ALL;
-    EPwm3Regs.TZCLR.all = CLEAR_ALL;
-    EDIS;
-    if (is_tripped()) { /* the input went low just now */
+    trip_clear();
+    if (trip_is_tripped()) { /* the input went low just now */
         trip_latch(BOARD_FAULT_TRIP);
         return;
     }
 
     enabled                 = true;
-    GpioDataRegs.GPASET.all = GATE_ENABLE_PIN; /* last: from here the bridge follows the PWM */
+    GpioDataRegs.GPASET.all = TRIP_GATE_PIN; /* last: from here the bridge follows the PWM */
 }
 
 void trip_check(void)
 {
+    uint16_t found = BOARD_FAULT_NONE;
+
     if (!clock_is_good()) {
-        trip_latch(BOARD_FAULT_CLOCK);
+        found = BOARD_FAULT_CLOCK;
+    } else if (enabled && trip_is_tripped()) {
+        found = BOARD_FAULT_TRIP;
+    } else {
+        /* none */
     }
-    if (enabled && is_tripped()) {
-        trip_latch(BOARD_FAULT_TRIP);
+    if (found != BOARD_FAULT_NONE) {
+        trip_latch(found);
     }
     if (wanted) {
         wanted = false;
@@ -120,7 +99,7 @@ void board_gate_trip(void)
     do {
         wanted                    = false;
         enabled                   = false;
-        GpioDataRegs.GPACLEAR.all = GATE_ENABLE_PIN;
+        GpioDataRegs.GPACLEAR.all = TRIP_GATE_PIN;
         EALLOW;
         EPwm1Regs.TZFRC.bit.OST = 1U;
         EPwm2Regs.TZFRC.bit.OST = 1U;
@@ -142,5 +121,5 @@ void board_gate_enable(void)
 
 uint16_t board_fault_read(void)
 {
-    return (uint16_t)(faults() | (pin_is_active() ? (uint16_t)BOARD_FAULT_INPUT : 0U));
+    return (uint16_t)(faults() | (trip_pin_is_active() ? (uint16_t)BOARD_FAULT_INPUT : 0U));
 }

@@ -6,7 +6,7 @@
  *     u = -Lambda(e) e - d_dq + u_ff                                       EQ-DRIVE-1, paper A (42)
  *
  * A law adds its observer and its feedback. It calls near_optimal_error() before the feedback and
- * near_optimal_answer() after it.
+ * near_optimal_answer() after it. A law that takes positions has near_optimal_position.h too.
  */
 #ifndef NEAR_OPTIMAL_H
 #define NEAR_OPTIMAL_H
@@ -27,7 +27,7 @@ typedef struct {
 
 typedef struct {
     bool           positioning;
-    float          theta_error_e_rad; /**< limited error to position_ref; 0 in a speed run */
+    float          theta_error_e_rad; /**< of a position run: limited error to position_ref */
     speed_ref_t    speed_ref;         /**< in a position run the speed of position_ref */
     current_ref_t  current_ref;
     position_ref_t position_ref;
@@ -56,20 +56,11 @@ static inline bool near_optimal_counts_ok(const near_optimal_config_t *c)
     return nosc_order_ok(&c->nosc) && nosc_order_ok(&c->position.nosc);
 }
 
-/** Gains in use: of the position design in a position run, otherwise of the speed design. */
-static inline const nosc_gains_t *near_optimal_gains(const near_optimal_t        *s,
-                                                     const near_optimal_config_t *c)
-{
-    return s->positioning ? &c->position.nosc : &c->nosc;
-}
-
 /**
- * @brief Updates the references and returns the tracking error with its speed part limited.
+ * @brief Updates the references of a speed run and returns the tracking error with its speed part
+ * limited.
  *
- * In a position run the angle error, in s, is limited with it.
- *
- * Context: control ISR. Cost: speed_ref_update() or position_ref_update(), plus
- * current_ref_update(). In a position run at the limits, one more division.
+ * Context: control ISR. Cost: speed_ref_update() plus current_ref_update().
  */
 CTL_PART nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_config_t *c,
                                          const drive_config_t      *drive,
@@ -100,13 +91,7 @@ static inline void near_optimal_step(near_optimal_t *s, const near_optimal_confi
 {
     const nosc_error_t e = near_optimal_error(s, c, drive, view, in);
 
-    dq_t feedback_V = nosc_feedback_V(near_optimal_gains(s, c), &e);
-    if (s->positioning) {
-        const dq_t theta_V = position_loop_V(&c->position, s->theta_error_e_rad, e.iq_A);
-        feedback_V.d += theta_V.d;
-        feedback_V.q += theta_V.q;
-    }
-    near_optimal_answer(s, c, &drive->motor, view, &e, feedback_V, in, out);
+    near_optimal_answer(s, c, &drive->motor, view, &e, nosc_feedback_V(&c->nosc, &e), in, out);
 }
 
 #endif /* NEAR_OPTIMAL_H */

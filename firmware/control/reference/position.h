@@ -58,11 +58,13 @@ static inline position_t position_followed(const position_t *p, float theta_e_ra
     const float ahead_rad = theta_e_rad - p->theta_e_rad;
     int32_t     turns     = p->turns;
 
-    if ((ahead_rad < -BASE_PI) && (turns < POSITION_TURNS_MAX)) {
-        turns++;
-    }
-    if ((ahead_rad > BASE_PI) && (turns > -POSITION_TURNS_MAX)) {
-        turns--;
+    if (!base_within(ahead_rad, BASE_PI)) { /* seldom: one comparison in most periods */
+        if ((ahead_rad < 0.0f) && (turns < POSITION_TURNS_MAX)) {
+            turns++;
+        }
+        if ((ahead_rad > 0.0f) && (turns > -POSITION_TURNS_MAX)) {
+            turns--;
+        }
     }
     const position_t out = {turns, theta_e_rad};
     return out;

@@ -78,7 +78,6 @@ CTL_PART void current_watch_expect(current_watch_t *w, const current_watch_expec
     w->drift_A.beta += step_A.beta;
     w->phase[0].model_A = model.a;
     w->phase[1].model_A = model.b;
-    w->ref_A            = frames_inverse_park(e->i_ref_A, e->angle);
     w->models           = e->predicted;
 }
 

@@ -72,7 +72,7 @@ typedef struct {
 
 typedef struct {
     current_watch_phase_t phase[2]; /**< a, b */
-    ab_t                  ref_A;    /**< references at the next sample */
+    ab_t                  ref_A;    /**< references at the next look */
     dq_t                  d_slow_Aps;
     ab_t                  drift_A; /**< S */
     float                 empty_s; /**< in a row */
@@ -86,7 +86,6 @@ typedef struct {
     float          ahead_rad;
     ab_t           i_A;       /**< predicted, turned by angle */
     dq_t           d_Aps;     /**< disturbances in that prediction */
-    dq_t           i_ref_A;   /**< zero where a law has no references */
     bool           predicted; /**< i_A and d_Aps are valid */
 } current_watch_expected_t;
 
@@ -109,6 +108,17 @@ CTL_PART void current_watch_start(current_watch_t *w, float ia_A, float ib_A);
  * division. */
 CTL_PART void current_watch_expect(current_watch_t *w, const current_watch_expected_t *e,
                                    float ts_s);
+
+/**
+ * @brief Stores the current references of a period before a look at the currents.
+ * @param i_ref_A Zero where a law has no references.
+ *
+ * Inline, because a call costs more. Context: control ISR.
+ */
+static inline void current_watch_ask(current_watch_t *w, dq_t i_ref_A, frames_angle_t angle)
+{
+    w->ref_A = frames_inverse_park(i_ref_A, angle);
+}
 
 /** EQ-CURRENT-WATCH-3 for a sample. Context: control ISR. No division. */
 CTL_PART current_watch_verdict_t current_watch_judge(current_watch_t *w, float ia_A, float ib_A,

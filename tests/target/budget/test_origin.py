@@ -238,7 +238,7 @@ class Memory(unittest.TestCase):
         files = {
             path.name: path.read_text()
             for name in origin.FOLDERS
-            for path in (firmware / name).rglob("*.c")
+            for path in (firmware / name).rglob("*.[ch]")
         }
         for feature, names in Costs().features.items():
             for name in names:

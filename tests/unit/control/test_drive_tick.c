@@ -1203,6 +1203,26 @@ static void test_noc_h_starts_afresh(void)
 }
 
 /* After a stop, and after a fault that is reset, the watch is that of a first run. */
+/* References that change in every period: the look needs those of the period before it. */
+static void test_a_look_at_the_currents_has_the_references_of_the_period_before(void)
+{
+    int looks = 0;
+
+    for (int n = 0; n < 200; n++) {
+        draw_calm_inputs();
+        TEST_ASSERT_TRUE(tick().gate_enable);
+        if (drive.motion_watch.look == MOTION_WATCH_LOOK_CURRENTS) {
+            const dq_t ref_A = drive.answer.i_ref_A;
+
+            looks++;
+            TEST_ASSERT_DOUBLE_WITHIN(1.0e-5, support_length(ref_A),
+                                      hypot((double)drive.current_watch.ref_A.alpha,
+                                            (double)drive.current_watch.ref_A.beta));
+        }
+    }
+    TEST_ASSERT_EQUAL_INT(50, looks);
+}
+
 static void test_each_run_starts_with_a_current_watch_that_knows_nothing(void)
 {
     for (int way = 0; way < 2; way++) {
@@ -1383,6 +1403,7 @@ int main(void)
     RUN_TEST(test_noc_h_trips_on_estimates_that_are_not_finite);
     RUN_TEST(test_noc_h_trips_on_every_input_that_is_not_finite);
     RUN_TEST(test_noc_h_starts_afresh);
+    RUN_TEST(test_a_look_at_the_currents_has_the_references_of_the_period_before);
     RUN_TEST(test_each_run_starts_with_a_current_watch_that_knows_nothing);
     RUN_TEST(test_noc_h_loop_settles_at_the_command_and_finds_the_load);
     return UNITY_END();

@@ -36,9 +36,9 @@ static void expect(dq_t model, dq_t ref, dq_t d_Aps, bool predicted)
                                             .i_A =
                                                 frames_inverse_park(model, frames_angle(theta + ahead)),
                                             .d_Aps     = d_Aps,
-                                            .i_ref_A   = ref,
                                             .predicted = predicted};
     current_watch_expect(&watch, &e, TS_s);
+    current_watch_ask(&watch, ref, e.angle);
 }
 
 /* Both, in every period. */
@@ -290,8 +290,9 @@ static int open_after(float ia_A, float ib_A, dq_t ref)
 {
     for (int k = 1; k <= 500; k++) {
         theta                            = 0.0f;
-        const current_watch_expected_t e = {.angle = frames_angle(0.0f), .i_ref_A = ref};
+        const current_watch_expected_t e = {.angle = frames_angle(0.0f)};
         current_watch_expect(&watch, &e, TS_s);
+        current_watch_ask(&watch, ref, e.angle);
         if (judge(ia_A, ib_A) == CURRENT_WATCH_OPEN) {
             return k;
         }
@@ -320,8 +321,9 @@ static void test_phases_without_current_in_turn_are_not_open(void)
         static const float turns[3][2]   = {{0.0f, 0.5f}, {0.5f, 0.0f}, {0.5f, -0.5f}};
         const float *const i_A           = turns[(k / 10) % 3];
         theta                            = 0.0f;
-        const current_watch_expected_t e = {.angle = frames_angle(0.0f), .i_ref_A = all};
+        const current_watch_expected_t e = {.angle = frames_angle(0.0f)};
         current_watch_expect(&watch, &e, TS_s);
+        current_watch_ask(&watch, all, e.angle);
         TEST_ASSERT_EQUAL_INT(CURRENT_WATCH_GOOD, judge(i_A[0], i_A[1]));
     }
 }
@@ -337,8 +339,9 @@ static void test_a_phase_that_carries_current_or_has_to_carry_none_is_not_open(v
     setUp(); /* in a row */
     for (int k = 0; k < 500; k++) {
         theta                            = 0.0f;
-        const current_watch_expected_t e = {.angle = frames_angle(0.0f), .i_ref_A = in_a};
+        const current_watch_expected_t e = {.angle = frames_angle(0.0f)};
         current_watch_expect(&watch, &e, TS_s);
+        current_watch_ask(&watch, in_a, e.angle);
         TEST_ASSERT_EQUAL_INT(CURRENT_WATCH_GOOD, judge((k % 40) == 0 ? 0.1f : 0.0f, 0.5f));
     }
 }

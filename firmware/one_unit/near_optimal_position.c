@@ -1,0 +1,4 @@
+/* SPDX-License-Identifier: MIT */
+#include "parts.h"
+
+#include "../control/laws/near_optimal_position.c"
