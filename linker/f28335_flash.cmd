@@ -61,7 +61,6 @@ SECTIONS
         *(.TI.ramfunc:pwm_init)
         *(.TI.ramfunc:pwm_start)
         *(.TI.ramfunc:read_status)
-        *(.TI.ramfunc:reset)
         *(.TI.ramfunc:speed_difference_check)
         *(.TI.ramfunc:speed_difference_reset)
         *(.TI.ramfunc:speed_ref_reset)

@@ -260,7 +260,8 @@ TEST(SampledModel, TargetOfTheReferenceIsTheFirmwares)
         const current_ref_input_t from{
             &est, &y,  static_cast<float>(in.iq_speed_A), 295.0F, static_cast<float>(id.most_Aps),
             0.0F, 0.0F};
-        r.iq_circle_A = 100.0F; // the limit of what is requested is not in the model
+        r.v_low_Aps   = CHECK_LARGEST; // the link is constant
+        r.iq_circle_A = 100.0F;        // the limit of what is requested is not in the model
         current_ref_update(&r, &c, &d.config.motor, &w, &from);
         const double expected = sdre::id_target_A(id, d.l, in);
         EXPECT_NEAR(static_cast<double>(r.i_A.d), expected, 2e-4) << n;

@@ -88,9 +88,8 @@ static void read_times(app_angle_t *a, const board_sample_t *raw, int16_t turned
 {
     const float age_s = (float)raw->edge_age_cnt * (1.0f / (float)BOARD_CAPTURE_Hz);
     const bool  timed = raw->edge_seen && (turned_cnt != 0) && (age_s <= a->ts_s);
-    const bool  alone = (turned_cnt == 1) || (turned_cnt == -1);
 
-    if (timed || !alone || !a->have_edge) {
+    if (timed || !a->have_edge || ((turned_cnt != 1) && (turned_cnt != -1))) {
         read_edges(a, raw->position_cnt, timed, age_s, turned_cnt, reading);
     } else {
         read_edges(a, raw->position_cnt, true, 0.5f * a->ts_s, turned_cnt, reading);

@@ -20,6 +20,8 @@
  *     iq_ref w (l1 + l11 id) >= -P(v_dc) / (J / np^2)                    EQ-CURRENT-REF-7
  *     id_ref <= id_rest, for a motor with a very weak magnet             EQ-CURRENT-REF-8
  *     id_ref goes there by a first-order filter, slower when it weakens  EQ-CURRENT-REF-9
+ *     f of id_fw has v' = clamp(v_low, 0.8 v_max, v_max) for v_max,
+ *     v_low(k+1) = v' + a (v_max - v')                                   EQ-CURRENT-REF-10
  *
  * The current circle is a further limit. Reasons: docs/errata.md.
  */
@@ -60,6 +62,7 @@ typedef struct {
     float iq_lo_A;   /**< present range of the q current: iq_lo_A .. iq_hi_A */
     float iq_hi_A;
     float iq_circle_A; /**< |iq| that the current circle allows beside id */
+    float v_low_Aps;   /**< v_low, the least v_max of the last periods */
 } current_ref_t;
 
 /** Inputs of the references, all of one instant. */

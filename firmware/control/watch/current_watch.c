@@ -104,7 +104,7 @@ static bool goes_on(current_watch_phase_t *p, float beyond_A, const current_watc
     return !(beyond_A <= most_A) || (p->lying_s > LONG_s);
 }
 
-/* EQ-CURRENT-WATCH-2, 3 */
+/* EQ-CURRENT-WATCH-2, 3 without the jump. */
 static inline bool lies(current_watch_phase_t *p, float i_A, const bounds_t *bounds,
                         const current_watch_scale_t *scale)
 {
@@ -116,10 +116,10 @@ static inline bool lies(current_watch_phase_t *p, float i_A, const bounds_t *bou
     p->slow_A += bounds->forget * change_A;
     p->residual_A = sum_A;
     if (!(beyond_A <= bounds->long_A)) {
-        return goes_on(p, beyond_A, scale) || !base_within(residual_A, scale->jump_A);
+        return goes_on(p, beyond_A, scale);
     }
     p->lying_s = base_max(p->lying_s - (RECOVERS * scale->ts_s), 0.0f);
-    return !base_within(residual_A, scale->jump_A);
+    return false;
 }
 
 CTL_PART current_watch_verdict_t current_watch_judge(current_watch_t *w, float ia_A, float ib_A,
@@ -129,9 +129,13 @@ CTL_PART current_watch_verdict_t current_watch_judge(current_watch_t *w, float i
         return CURRENT_WATCH_GOOD;
     }
     const bounds_t bounds = bounds_of(scale);
-    const bool     a_lies = lies(&w->phase[0], ia_A, &bounds, scale);
-    const bool     b_lies = lies(&w->phase[1], ib_A, &bounds, scale);
-    return (a_lies || b_lies) ? CURRENT_WATCH_SENSOR : CURRENT_WATCH_GOOD;
+    /* A residual that is no number makes a sum that lies. */
+    const float jump_A =
+        base_max(fabsf(ia_A - w->phase[0].model_A), fabsf(ib_A - w->phase[1].model_A));
+    const bool a_lies = lies(&w->phase[0], ia_A, &bounds, scale);
+    const bool b_lies = lies(&w->phase[1], ib_A, &bounds, scale);
+    return (a_lies || b_lies || !(jump_A <= scale->jump_A)) ? CURRENT_WATCH_SENSOR
+                                                            : CURRENT_WATCH_GOOD;
 }
 
 /* Negative in a phase without current that needs some. */

@@ -50,7 +50,8 @@ static bool is_odd(const motion_watch_input_t *in)
     const float taken = (in->d_Aps.q * iq_A) + (d_d * id_A);
     const float shaft = (m->l5 + ((m->l10 - 1.0f) * id_A)) * iq_A * w;
 
-    return !base_within(in->d_Aps.q, most) || !base_within(d_d, most) ||
+    /* One comparison for both axes: a d_q that is no number is one in `taken`. */
+    return !(base_max(fabsf(in->d_Aps.q), fabsf(d_d)) <= most) ||
            !base_within(taken, (POWER_OFF * fabsf(shaft)) + (rest * i_A));
 }
 

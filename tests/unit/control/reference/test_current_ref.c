@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "current_ref.h"
 
+#include "check.h"
 #include "gain_tables.h"
 #include "law_constants.h"
 #include "speed_tables.h"
@@ -247,13 +248,14 @@ static void test_room_on_the_circle_is_told_for_the_next_period(void)
 
 static void test_reset_starts_everything_at_zero(void)
 {
-    current_ref_t used = {{1.0f, 2.0f}, {3.0f, 4.0f}, 5.0f, 6.0f, 7.0f};
+    current_ref_t used = {{1.0f, 2.0f}, {3.0f, 4.0f}, 5.0f, 6.0f, 7.0f, 8.0f};
 
     current_ref_reset(&used, &config);
 
     TEST_ASSERT_TRUE((used.i_A.d == 0.0f) && (used.i_A.q == 0.0f));
     TEST_ASSERT_TRUE((used.iq_lo_A == 0.0f) && (used.iq_hi_A == 0.0f));
     TEST_ASSERT_TRUE(used.iq_circle_A == config.current_max_A); /* all of it is left */
+    TEST_ASSERT_TRUE(used.v_low_Aps == CHECK_LARGEST);          /* the first voltage is the least */
     TEST_ASSERT_TRUE((used.i_dot_Aps.d == 0.0f) && (used.i_dot_Aps.q == 0.0f));
 }
 
@@ -819,6 +821,35 @@ static void test_bad_estimates_give_finite_references_inside_the_circle(void)
     }
 }
 
+/* EQ-CURRENT-REF-10: a drop acts at once, a rise a share per period, and the iq range has the present voltage. */
+static void test_weakening_has_the_least_voltage_of_the_last_periods(void)
+{
+    const float share = 1.0f / 64.0f;
+    double      low   = 0.0;
+
+    y.omega_e_radps = 900.0f;
+    use_filter(share);
+    for (int k = 0; k < 400; k++) {
+        const double              ripple = 1.0 + (0.3 * sin(0.1 * k)) + ((k > 200) ? -0.4 : 0.0);
+        const float               v_max  = (float)ripple * motor_Aps();
+        const current_ref_input_t in     = {
+                .est = &est, .state = &y, .dc_link_V = dc_link_V, .v_max_Aps = v_max};
+        low = (k == 0) ? (double)v_max : fmin(fmax(low, 0.8 * (double)v_max), (double)v_max);
+
+        /* The same with a constant link of that voltage, and no range of iq. */
+        current_ref_t             steady = r;
+        const current_ref_input_t same   = {
+              .est = &est, .state = &y, .dc_link_V = dc_link_V, .v_max_Aps = (float)low};
+        steady.v_low_Aps = CHECK_LARGEST;
+        current_ref_update(&steady, &config, &motor, &w_ref, &same);
+        current_ref_update(&r, &config, &motor, &w_ref, &in);
+
+        TEST_ASSERT_DOUBLE_WITHIN(2.0e-5, (double)steady.i_A.d, (double)r.i_A.d);
+        low += (double)share * ((double)v_max - low);
+        TEST_ASSERT_DOUBLE_WITHIN(1.0e-6 * (double)v_max, low, (double)r.v_low_Aps);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -853,5 +884,6 @@ int main(void)
     RUN_TEST(test_wish_beyond_the_circle_ends_at_maximum_torque_per_volt);
     RUN_TEST(test_steady_references_have_no_derivative);
     RUN_TEST(test_bad_estimates_give_finite_references_inside_the_circle);
+    RUN_TEST(test_weakening_has_the_least_voltage_of_the_last_periods);
     return UNITY_END();
 }
