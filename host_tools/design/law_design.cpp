@@ -12,9 +12,9 @@ namespace sdre {
 
 namespace {
 
-constexpr const LawDesign *all[] = {&noc_design,       &noc_speed_design,    &noc_h_design,
-                                    &noc_shaft_design, &conventional_design, &dobc_design,
-                                    &pid_design,       &pi_foc_design,       &ladrc_design};
+constexpr const LawDesign *all[] = {
+    &noc_design,          &noc_speed_design, &noc_h_design, &noc_shaft_design, &noc_iron_design,
+    &conventional_design, &dobc_design,      &pid_design,   &pi_foc_design,    &ladrc_design};
 
 } // namespace
 

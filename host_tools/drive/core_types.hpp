@@ -27,6 +27,10 @@ inline const law_t *law_of(const law_noc_h_config_t *)
 {
     return &law_noc_h;
 }
+inline const law_t *law_of(const law_noc_iron_config_t *)
+{
+    return &law_noc_iron;
+}
 inline const law_t *law_of(const law_noc_shaft_config_t *)
 {
     return &law_noc_shaft;

@@ -101,6 +101,9 @@ std::string normalised_law(const Drive &d)
     if (d.law == Law::noc_shaft) {
         return normalised_weights(d) + name + normalised_shaft(d.shaft, d.mechanics);
     }
+    if (d.law == Law::noc_iron) {
+        return normalised_weights(d) + name;
+    }
     if (is_near_optimal(d.law)) {
         return normalised_weights(d);
     }

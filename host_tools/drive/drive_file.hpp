@@ -110,12 +110,13 @@ struct NodoSpec {
     std::array<double, 3> T{};
 };
 
-/// The control law: paper A's, the same with a harmonic observer or an elastic shaft, its rival, one of paper
-/// B's, or a cascade.
+/// The control law: paper A's and its variants for harmonics, an elastic shaft or saturated iron, its rival, one of
+/// paper B's, or a cascade.
 enum class Law {
     noc,
     noc_h,
     noc_shaft,
+    noc_iron,
     conventional_noc,
     cdobc,
     gpiobc,
@@ -209,7 +210,7 @@ struct Drive {
     NoscSpec                       nosc; ///< nosc and nodo: laws of near optimal control
     NodoSpec                       nodo;
     std::optional<PositionSpec>
-                 position;  ///< noc with form "encoder", noc_h: the drive takes positions too
+        position; ///< noc with form "encoder", noc_h: the drive takes positions too
     HarmonicSpec harmonics; ///< noc_h only
     ShaftSpec    shaft;     ///< noc_shaft only
     DobcSpec     dobc;      ///< cdobc, gpiobc, hdobc only

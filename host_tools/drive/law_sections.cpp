@@ -62,7 +62,7 @@ void read_position_if(TomlReader &t, Drive &drive)
 {
     if (std::optional<TomlReader> section = t.table_if("position")) {
         if (drive.law == Law::conventional_noc || drive.law == Law::noc_shaft ||
-            drive.nodo.form != NodoForm::encoder) {
+            drive.law == Law::noc_iron || drive.nodo.form != NodoForm::encoder) {
             t.fail("[position]", "is not allowed: only laws noc and noc_h with [nodo] form = "
                                  "\"encoder\" take positions");
         }
@@ -110,11 +110,12 @@ NodoSpec read_conventional_nodo(TomlReader t)
 const std::map<std::string, Law> &laws()
 {
     static const std::map<std::string, Law> names{
-        {"noc", Law::noc},       {"conventional_noc", Law::conventional_noc},
-        {"noc_h", Law::noc_h},   {"noc_shaft", Law::noc_shaft},
-        {"cdobc", Law::cdobc},   {"hdobc", Law::hdobc},
-        {"gpiobc", Law::gpiobc}, {"pid", Law::pid},
-        {"pi_foc", Law::pi_foc}, {"ladrc", Law::ladrc}};
+        {"noc", Law::noc},           {"conventional_noc", Law::conventional_noc},
+        {"noc_h", Law::noc_h},       {"noc_shaft", Law::noc_shaft},
+        {"noc_iron", Law::noc_iron}, {"cdobc", Law::cdobc},
+        {"hdobc", Law::hdobc},       {"gpiobc", Law::gpiobc},
+        {"pid", Law::pid},           {"pi_foc", Law::pi_foc},
+        {"ladrc", Law::ladrc}};
     return names;
 }
 
@@ -235,7 +236,7 @@ ShaftSpec read_shaft(TomlReader t)
     return spec;
 }
 
-/// Both laws with a larger observer need the encoder form and order 1.
+/// The laws beside noc need the encoder form and order 1.
 void need_sampled_series(TomlReader &t, const Drive &drive)
 {
     const char *name = law_name(drive.law);
@@ -256,10 +257,11 @@ Law read_law(TomlReader &t)
     const auto        found = laws().find(name);
     if (found == laws().end()) {
         t.fail("law",
-               fmt::format("= \"{}\" is not allowed: must be \"noc\", \"noc_h\", \"noc_shaft\", "
-                           "\"conventional_noc\", \"cdobc\", \"gpiobc\", \"hdobc\", \"pid\", "
-                           "\"pi_foc\" or \"ladrc\"",
-                           name));
+               fmt::format(
+                   "= \"{}\" is not allowed: must be \"noc\", \"noc_h\", \"noc_shaft\", "
+                   "\"noc_iron\", \"conventional_noc\", \"cdobc\", \"gpiobc\", \"hdobc\", \"pid\", "
+                   "\"pi_foc\" or \"ladrc\"",
+                   name));
     }
     return found->second;
 }
@@ -278,6 +280,11 @@ void read_law_sections(TomlReader &t, Drive &drive)
         } else if (drive.law == Law::noc_shaft) {
             drive.shaft = read_shaft(t.table("shaft"));
             need_sampled_series(t, drive);
+        } else if (drive.law == Law::noc_iron) {
+            need_sampled_series(t, drive);
+            if (!drive.saturation) {
+                t.fail("[saturation]", "is missing: noc_iron is for a map of the iron");
+            }
         }
         return;
     }
@@ -295,7 +302,7 @@ void read_law_sections(TomlReader &t, Drive &drive)
 
 bool is_near_optimal(Law law)
 {
-    return law == Law::noc || law == Law::noc_h || law == Law::noc_shaft ||
+    return law == Law::noc || law == Law::noc_h || law == Law::noc_shaft || law == Law::noc_iron ||
            law == Law::conventional_noc;
 }
 

@@ -25,6 +25,7 @@ double           law_cycles(const Drive &d)
 {
     switch (d.law) {
     case Law::noc_h:
+    case Law::noc_iron: // not priced; noc_h takes more
         return cycle_budget::noc_h;
     case Law::noc_shaft:
         return cycle_budget::noc_shaft;

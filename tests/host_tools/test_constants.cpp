@@ -28,14 +28,15 @@ const std::vector<sdre::Design> &designs()
     static const std::vector<sdre::Design> all = [] {
         std::vector<sdre::Design> found;
         std::set<const law_t *>   laws;
-        for (const char *name : {"ipmsm_390w", "ipmsm_390w_speed", "ipmsm_390w_noc_h",
-                                 "ipmsm_390w_conventional", "servo_200w_cdobc", "servo_200w_pid",
-                                 "ipmsm_390w_pi_foc", "ipmsm_390w_ladrc", "ipmsm_390w_shaft"}) {
+        for (const char *name :
+             {"ipmsm_390w", "ipmsm_390w_speed", "ipmsm_390w_noc_h", "ipmsm_390w_conventional",
+              "servo_200w_cdobc", "servo_200w_pid", "ipmsm_390w_pi_foc", "ipmsm_390w_ladrc",
+              "ipmsm_390w_shaft", "ipmsm_390w_iron"}) {
             found.push_back(
                 sdre::design_drive(sdre::read_drive_file(support::shipped_drive(name))));
             laws.insert(found.back().config.law);
         }
-        EXPECT_EQ(laws.size(), 9U);
+        EXPECT_EQ(laws.size(), 10U);
         return found;
     }();
     return all;

@@ -14,7 +14,7 @@ app=firmware/app
 board=firmware/board/f28335
 config=firmware/config
 includes=$(find "$core" "$app" firmware/{commission,store} -type d -printf '-I%p ')
-laws=(noc noc_speed noc_h conventional dobc pid pi_foc ladrc noc_shaft)
+laws=(noc noc_speed noc_h conventional dobc pid pi_foc ladrc noc_shaft noc_iron)
 
 # How many states are told apart in these functions; in others Eva joins them where paths meet.
 declare -A apart=(

@@ -41,7 +41,7 @@ static void any_near_optimal(near_optimal_config_t *c)
 
 static void any_config(void)
 {
-#if defined PROVE_noc
+#if defined PROVE_noc || defined PROVE_noc_iron
     any_near_optimal(&constants.near_optimal);
     constants.nodo.order = any_between(0, NODO_ORDER_MAX);
 #elif defined PROVE_noc_speed
@@ -83,13 +83,13 @@ static void any_drive(void)
 
     drive = any_drive_bits;
 #if defined PROVE_noc || defined PROVE_noc_speed || defined PROVE_noc_h ||                         \
-    defined PROVE_noc_shaft || defined PROVE_conventional
+    defined PROVE_noc_shaft || defined PROVE_noc_iron || defined PROVE_conventional
     state.near_optimal.positioning           = any_between(0, 1);
     state.near_optimal.position_ref.arrived  = any_between(0, 1);
     state.near_optimal.position_ref.waits    = any_between(0, 1);
     state.near_optimal.position_ref.at.turns = any_turns();
 #endif
-#if defined PROVE_noc || defined PROVE_noc_h || defined PROVE_noc_shaft
+#if defined PROVE_noc || defined PROVE_noc_h || defined PROVE_noc_shaft || defined PROVE_noc_iron
     state.edges.edge[0] = any_between(0, ENCODER_FORM_EDGES);
     state.edges.edge[1] = any_between(0, ENCODER_FORM_EDGES);
     state.gate.beyond   = any_between(0, ANGLE_GATE_HOLD);
@@ -129,7 +129,7 @@ static void state_is_kept(void)
 {
     //@ check state: DRIVE_OFF <= drive.state <= DRIVE_FAULT;
     //@ check fault: DRIVE_FAULT_NONE <= drive.fault <= DRIVE_FAULT_MEMORY;
-#if defined PROVE_noc || defined PROVE_noc_h || defined PROVE_noc_shaft
+#if defined PROVE_noc || defined PROVE_noc_h || defined PROVE_noc_shaft || defined PROVE_noc_iron
     //@ check edge: 0 <= drive.law.PROVE_LAW.edges.edge[0] <= ENCODER_FORM_EDGES;
     //@ check edge_before: 0 <= drive.law.PROVE_LAW.edges.edge[1] <= ENCODER_FORM_EDGES;
     //@ check beyond: 0 <= drive.law.PROVE_LAW.gate.beyond <= ANGLE_GATE_HOLD;
@@ -179,7 +179,7 @@ static void any_bits(void)
 {
     constants = any_constants;
 #if defined PROVE_noc || defined PROVE_noc_speed || defined PROVE_noc_h ||                         \
-    defined PROVE_noc_shaft || defined PROVE_conventional
+    defined PROVE_noc_shaft || defined PROVE_noc_iron || defined PROVE_conventional
     constants.near_optimal.current_ref.mtpa_exact = any_between(0, 1);
 #endif
     config.law       = &NAMED(law_, PROVE_LAW);

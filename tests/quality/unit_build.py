@@ -43,6 +43,7 @@ TABLES = {
     "conventional_tables": "ipmsm_390w_conventional",
     "harmonic_tables": "ipmsm_390w_noc_h",
     "shaft_tables": "ipmsm_390w_shaft",
+    "iron_tables": "ipmsm_390w_iron",
 }
 JOBS = os.cpu_count() or 1
 

@@ -51,7 +51,7 @@ expect()
     fi
 }
 
-laws=(noc noc_speed noc_h conventional dobc pid pi_foc ladrc noc_shaft)
+laws=(noc noc_speed noc_h conventional dobc pid pi_foc ladrc noc_shaft noc_iron)
 for law in "${laws[@]}"; do
     linked "$law" | sort >"$work/$law.linked"
 done
@@ -64,6 +64,7 @@ fi
 expect noc angle_gate current_clamp current_ref encoder_form fields_encoder_form fields_near_optimal inertia law_noc law_noc_fields near_optimal near_optimal_position nodo nodo_current nodo_encoder nodo_encoder_series nosc nosc_series position_loop position_ref position_torque speed_ref
 expect noc_speed current_clamp current_ref fields_near_optimal law_noc_speed law_noc_speed_fields near_optimal nodo nosc nosc_series position_loop speed_ref
 expect noc_h angle_gate current_clamp current_ref encoder_form fields_encoder_form fields_near_optimal inertia law_noc_h law_noc_h_fields near_optimal near_optimal_position nodo nodo_encoder nodo_encoder_series nodo_harmonic nosc nosc_series position_loop position_ref position_torque speed_ref
+expect noc_iron angle_gate current_clamp current_ref encoder_form fields_encoder_form fields_near_optimal iron law_noc_iron law_noc_iron_fields near_optimal nodo nodo_current nodo_encoder nodo_encoder_series nosc nosc_series position_loop speed_ref
 expect noc_shaft angle_gate current_clamp current_ref encoder_form fields_encoder_form fields_near_optimal law_noc_shaft law_noc_shaft_fields near_optimal nodo nodo_encoder nodo_encoder_series nodo_shaft nosc nosc_series position_loop speed_ref
 expect conventional conventional current_clamp current_ref double_series fields_near_optimal law_conventional law_conventional_fields law_noc_speed law_noc_speed_fields near_optimal nodo nosc nosc_series position_loop speed_ref
 expect dobc dobc fields_pid_law law_dobc law_dobc_fields pid_law

@@ -15,6 +15,7 @@
 #include "law_ladrc.h"
 #include "law_noc.h"
 #include "law_noc_h.h"
+#include "law_noc_iron.h"
 #include "law_noc_shaft.h"
 #include "law_noc_speed.h"
 #include "law_pi_foc.h"
@@ -26,6 +27,7 @@ union law_state {
     law_noc_state_t          noc;
     law_noc_speed_state_t    noc_speed;
     law_noc_h_state_t        noc_h;
+    law_noc_iron_state_t     noc_iron;
     law_noc_shaft_state_t    noc_shaft;
     law_conventional_state_t conventional;
     law_dobc_state_t         dobc;
@@ -43,6 +45,7 @@ typedef union {
     law_noc_config_t          noc;
     law_noc_speed_config_t    noc_speed;
     law_noc_h_config_t        noc_h;
+    law_noc_iron_config_t     noc_iron;
     law_noc_shaft_config_t    noc_shaft;
     law_conventional_config_t conventional;
     law_dobc_config_t         dobc;

@@ -10,6 +10,7 @@ extern const LawDesign noc_design;
 extern const LawDesign noc_speed_design;
 extern const LawDesign noc_h_design;
 extern const LawDesign noc_shaft_design;
+extern const LawDesign noc_iron_design;
 extern const LawDesign conventional_design;
 extern const LawDesign dobc_design;
 extern const LawDesign pid_design;

@@ -237,6 +237,9 @@ const current_ref_config_t *current_references(const Design &d)
     if (const auto *c = constants_of<law_noc_h_config_t>(d.config)) {
         return &c->near_optimal.current_ref;
     }
+    if (const auto *c = constants_of<law_noc_iron_config_t>(d.config)) {
+        return &c->near_optimal.current_ref;
+    }
     if (const auto *c = constants_of<law_noc_shaft_config_t>(d.config)) {
         return &c->near_optimal.current_ref;
     }

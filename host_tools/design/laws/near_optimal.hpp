@@ -6,6 +6,7 @@
 #include "design/certificate.hpp"
 #include "design/id_reference.hpp"
 #include "design/laws/laws.hpp"
+#include "design/noc_iron/iron_loop.hpp"
 #include "design/position.hpp"
 #include "linalg/linalg_checks.hpp"
 
@@ -93,9 +94,11 @@ LoopFamily whole_loop(const Design &d, const current_ref_config_t &references,
     }
     f.loops = [&d, &model_at, id, at_voltages, nominal](const Motor &, const OperatingPoint &at) {
         std::vector<BrokenLoop> all;
-        const SteadyState       s = state_at(nominal, d.l, at);
+        const ReducedParameters l = believed_motor(d, at);
+        const SteadyState       s = state_at(nominal, l, at);
+        const IdReference       r = believed_reference(id, d.l, l);
         for (const Eigen::MatrixXd &Lambda : feedback_gains(d)) {
-            const MovingReference moving = moving_reference(id, d.l, Lambda, s);
+            const MovingReference moving = moving_reference(r, l, Lambda, s);
             at_voltages(model_at(d, nominal, at, Lambda, &moving), all);
         }
         return all;

@@ -78,8 +78,8 @@ class Drive:
 
     @property
     def law(self) -> str:
-        """The control law: noc, noc_h, noc_shaft, conventional_noc, cdobc, gpiobc, hdobc, pid,
-        pi_foc or ladrc."""
+        """The control law: noc, noc_h, noc_shaft, noc_iron, conventional_noc, cdobc, gpiobc, hdobc,
+        pid, pi_foc or ladrc."""
         return str(self._native.law)
 
     @property

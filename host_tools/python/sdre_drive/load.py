@@ -41,6 +41,7 @@ LAWS = {
     7: "pi_foc",
     8: "ladrc",
     9: "noc_shaft",
+    10: "noc_iron",
 }
 
 PER_REQUEST = 100  # words; of 123 that a request has room for

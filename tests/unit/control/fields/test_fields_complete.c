@@ -97,6 +97,7 @@ static void test_every_constant_of_every_law_is_visited_once(void)
     assert_law(law_noc_fields, sizeof(law_noc_config_t), 0U);
     assert_law(law_noc_speed_fields, sizeof(law_noc_speed_config_t), 0U);
     assert_law(law_noc_h_fields, sizeof(law_noc_h_config_t), NODO_HARMONIC_PAIRS_MAX);
+    assert_law(law_noc_iron_fields, sizeof(law_noc_iron_config_t), 0U);
     assert_law(law_noc_shaft_fields, sizeof(law_noc_shaft_config_t), 0U);
     assert_law(law_conventional_fields, sizeof(law_conventional_config_t), 0U);
     assert_law(law_dobc_fields, sizeof(law_dobc_config_t), 0U);

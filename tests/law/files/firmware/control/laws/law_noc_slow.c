@@ -53,5 +53,5 @@ const law_t law_noc_slow = {.check           = check,
                             .step            = step,
                             .counts_ok       = counts_ok,
                             .fields          = law_noc_slow_fields,
-                            .number          = 10U,
+                            .number          = 11U,
                             .constants_chars = (uint32_t)sizeof(law_noc_slow_config_t)};

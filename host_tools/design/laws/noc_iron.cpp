@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "design/certificate.hpp"
+#include "design/laws/near_optimal.hpp"
+#include "design/laws/nodo_current.hpp"
+#include "design/noc_iron/iron_design.hpp"
+#include "design/noc_iron/iron_loop.hpp"
+#include "design/trip_levels.hpp"
+
+namespace sdre {
+namespace {
+
+bool is_for(const Drive &drive)
+{
+    return drive.law == Law::noc_iron;
+}
+
+void certify_currents(Design &d, const CurrentObserver &o)
+{
+    if (!(o.spectral_radius < 1.0) || !(o.worst_residual <= residual_limit)) {
+        d.certificate.failures.push_back(fmt::format(
+            "observer without encoder: spectral radius {:.5f}, relative residual {:.1e}",
+            o.spectral_radius, o.worst_residual));
+    }
+}
+
+SampledModel model_at(const Design &d, const TrueMotor &motor, const OperatingPoint &at,
+                      const Eigen::MatrixXd &Lambda, const MovingReference *moving)
+{
+    return sampled_iron_model(d, motor, at, encoder_form_gains(d, at.iq_A, Lambda), moving);
+}
+
+void solve(Design &d)
+{
+    solve_near_optimal(d);
+    law_noc_iron_config_t c{};
+    c.near_optimal  = near_optimal_constants(d, true, true);
+    c.plausible     = encoder_limits(d);
+    c.nodo.order    = static_cast<int16_t>(d.drive.nodo.order);
+    c.nodo.iq_max_A = static_cast<float>(d.certificate.nodo.series_range_A);
+    copy_series(d.nodo, c.nodo.gain);
+    c.rare              = sample_gains(c.nodo, d.drive);
+    c.gate              = angle_gate_constants(c.plausible, c.rare, control_period_s(d.drive));
+    c.plausible.d_omega = believed_d_omega(c.plausible, c.rare, d.drive);
+    const CurrentObserver currents = design_nodo_current(d.l, d.drive, trip_speed_e_radps(d.drive));
+    c.currents                     = currents.gains;
+    certify_currents(d, currents);
+    c.iron = iron_table(d.drive);
+    keep_constants(d, c); // the loop reads the table
+    certify_whole(d, c.plausible, d.drive.nodo.T[2], c.near_optimal.current_ref, model_at);
+}
+
+std::string summary(const Design &d)
+{
+    return method_line(
+               fmt::format("EQ-NOSC-2 with N = {}, EQ-NODO-ENCODER-3 with Nd = {}, EQ-IRON-1 to 4",
+                           d.drive.nosc.order, d.drive.nodo.order)) +
+           residual_line(worst_residual(d)) + controller_line(d.certificate.nosc) +
+           observer_line(d.certificate.nodo) + verdict_lines(*d.certificate.loop);
+}
+
+std::vector<std::string> mismatches(const Design &d)
+{
+    const auto &c   = *constants_of<law_noc_iron_config_t>(d.config);
+    auto        all = nosc_mismatches(c.near_optimal);
+    all.insert(all.end(), {fmt::format("NODO_ORDER_MAX < {}", c.nodo.order),
+                           "NODO_ENCODER_N_X != 7", "NODO_ENCODER_N_Y != 3", "IRON_NODES_D != 7",
+                           "IRON_NODES_Q != 9", "IRON_VALUES != 5"});
+    return all;
+}
+
+std::string node_block(const iron_map_t &iron)
+{
+    std::string s = "/* columns psi_d, psi_q, d psi_d / d id, d psi_q / d iq, d psi_d / d iq */\n";
+    for (int i = 0; i < IRON_NODES_D; i++) {
+        std::string rows;
+        for (int j = 0; j < IRON_NODES_Q; j++) {
+            rows += c_row(fmt::format("{:.4g} A", static_cast<double>(iron.A_per_node_q) * j),
+                          iron.node[i][j], IRON_VALUES);
+        }
+        s += fmt::format("{{ /* id = {:.4g} A */\n", -static_cast<double>(iron.A_per_node_d) * i) +
+             c_indented(rows) + "},\n";
+    }
+    return c_block("node", s);
+}
+
+Layout layout(const Design &d)
+{
+    const auto &c      = *constants_of<law_noc_iron_config_t>(d.config);
+    Layout      layout = near_optimal_layout(d, c.near_optimal);
+    layout["nodo.gain"] =
+        gain_block("         iq_A             id_A      theta_e_rad",
+                   {"d_w", "d_q", "d_d", "w", "iq", "id", "theta"}, c.nodo.order, c.nodo.gain);
+    layout["currents.gain"] = nodo_current_block(c.currents);
+    layout["iron.node"]     = node_block(c.iron);
+    return layout;
+}
+
+} // namespace
+
+const LawDesign noc_iron_design = [] {
+    LawDesign d{"law_noc_iron", "law_noc_iron_config_t", is_for, solve, summary, mismatches,
+                layout};
+    d.scheduling = {{"e_iq"}, {"iq_hat"}};
+    return d;
+}();
+
+} // namespace sdre
