@@ -26,11 +26,11 @@ typedef struct {
 } stage_plan_t;
 
 static const stage_plan_t plans[] = {
-    [COMMISSION_IDLE] = {1.0e6f, 0},     [COMMISSION_WATCH] = {1.0f, 0},
-    [COMMISSION_LOOK] = {20.0f, 1},      [COMMISSION_RESISTANCE] = {250.0f, 5},
-    [COMMISSION_DRAG] = {400.0f, 20},    [COMMISSION_MAP] = {20.0f, 75},
-    [COMMISSION_SPIN] = {200.0f, 80},    [COMMISSION_FINISHED] = {1.0e6f, 100},
-    [COMMISSION_ABORTED] = {1.0e6f, 100}};
+    [COMMISSION_IDLE] = {1.0e6f, 0},       [COMMISSION_WATCH] = {1.0f, 0},
+    [COMMISSION_LOOK] = {20.0f, 1},        [COMMISSION_RESISTANCE] = {250.0f, 5},
+    [COMMISSION_DRAG] = {400.0f, 20},      [COMMISSION_MAP] = {20.0f, 75},
+    [COMMISSION_SPIN] = {200.0f, 80},      [COMMISSION_RING] = {150.0f, 88},
+    [COMMISSION_FINISHED] = {1.0e6f, 100}, [COMMISSION_ABORTED] = {1.0e6f, 100}};
 
 static bool is_stage(commission_stage_t stage)
 {
@@ -186,9 +186,11 @@ static commission_answer_t run_stage(commission_t *m, const commission_signal_t 
     case COMMISSION_DRAG:
         return commission_drag_tick(&m->work.drag, m->config, s, &m->found);
     case COMMISSION_MAP:
-        return commission_inductance_map(&m->work.inductance, m->config, s, &m->found);
+        return commission_inductance_map(&m->work.inductance, m->config, s, &m->found, &m->map);
     case COMMISSION_SPIN:
         return commission_spin_tick(&m->work.spin, m->config, s, &m->found);
+    case COMMISSION_RING:
+        return commission_ring_tick(&m->work.ring, m->config, s, &m->found);
     default:
         return commission_rest(COMMISSION_FAILED);
     }
@@ -206,6 +208,8 @@ static commission_reason_t failure_of(const commission_t *m)
         return COMMISSION_REASON_DRAG;
     case COMMISSION_SPIN:
         return COMMISSION_REASON_SPIN;
+    case COMMISSION_RING:
+        return m->work.ring.rings ? COMMISSION_REASON_RING : COMMISSION_REASON_SPIN;
     default:
         return COMMISSION_REASON_INDUCTANCE;
     }
@@ -221,7 +225,8 @@ static bool results_are_numbers(const commission_result_t *r)
     return is_number(r->r_Ohm.value) && is_number(r->ld_H.value) && is_number(r->lq_H.value) &&
            is_number(r->flux_Wb.value) && is_number(r->inertia_kgm2.value) &&
            is_number(r->friction_Nms.value) && is_number(r->coulomb_Nm.value) &&
-           is_number(r->offset_rad.value);
+           is_number(r->offset_rad.value) && is_number(r->resonance_Hz.value) &&
+           is_number(r->damping.value) && is_number(r->load_share.value);
 }
 
 /* A voltage cannot be explained by what is no number. */
@@ -253,15 +258,19 @@ static void next_stage(commission_t *m, const commission_signal_t *s)
         m->stage = COMMISSION_SPIN;
         commission_spin_start(&m->work.spin, m->config, s, &m->found);
         break;
-    default:
+    case COMMISSION_SPIN:
         /* A larger correction means that MAP measured at a wrong angle: repeat it once. */
         if ((m->rounds == 0) && !base_within(m->found.moved_rad, AGAIN_rad)) {
             m->rounds++;
             m->stage = COMMISSION_MAP;
             commission_inductance_start(&m->work.inductance, LARGEST, 0.0f);
         } else {
-            m->stage = COMMISSION_FINISHED;
+            m->stage = COMMISSION_RING;
+            commission_ring_start(&m->work.ring, m->config, s, &m->found);
         }
+        break;
+    default:
+        m->stage = COMMISSION_FINISHED;
         break;
     }
 }

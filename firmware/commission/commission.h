@@ -3,7 +3,7 @@
  * @file commission.h
  * @brief Self-commissioning: measures the motor data of a drive file with the drive's own sensors.
  *
- *     WATCH -> LOOK -> RESISTANCE -> DRAG -> MAP -> SPIN -> DONE,  anything wrong -> ABORTED
+ *     WATCH -> LOOK -> RESISTANCE -> DRAG -> MAP -> SPIN -> RING -> DONE,  else -> ABORTED
  *
  * Call it once per control period. Its duty ratios act one period later, like those of
  * drive_tick(). Any error opens the bridge in the same call. The first reason is kept until
@@ -22,6 +22,7 @@
 #include "commission_inductance.h"
 #include "commission_probe.h"
 #include "commission_resistance.h"
+#include "commission_ring.h"
 #include "commission_shaft.h"
 #include "commission_spin.h"
 #include "commission_types.h"
@@ -34,6 +35,7 @@ typedef enum {
     COMMISSION_DRAG,       /**< direction, pole pairs, offset */
     COMMISSION_MAP,        /**< inductances along d and q */
     COMMISSION_SPIN,       /**< flux, inertia, friction */
+    COMMISSION_RING,       /**< resonance of the shaft */
     COMMISSION_FINISHED,
     COMMISSION_ABORTED
 } commission_stage_t;
@@ -55,7 +57,8 @@ typedef enum {
     COMMISSION_REASON_DRAG, /**< the rotor does not follow, or the pole pair count is not whole */
     COMMISSION_REASON_SPIN, /**< the acceleration does not match the torque */
     COMMISSION_REASON_NUMERIC, /**< a result is not a finite number */
-    COMMISSION_REASON_SENSOR   /**< a current sensor or a phase does not answer as it should */
+    COMMISSION_REASON_SENSOR,  /**< a current sensor or a phase does not answer as it should */
+    COMMISSION_REASON_RING     /**< the shaft oscillates beyond its limit */
 } commission_reason_t;
 
 typedef union {
@@ -63,6 +66,7 @@ typedef union {
     commission_resistance_t resistance;
     commission_drag_t       drag;
     commission_spin_t       spin;
+    commission_ring_t       ring;
 } commission_work_t;
 
 /** The check asks the sensors in LOOK, the probe in RESISTANCE and DRAG. */
@@ -77,6 +81,7 @@ typedef struct {
     commission_stage_t         last_stage; /**< stage that ran when it ended */
     commission_reason_t        reason;
     commission_result_t        found;
+    commission_map_t           map;
     commission_work_t          work;
     commission_asked_t         asked;
     bool                       checked;    /**< phases and sensors answer */

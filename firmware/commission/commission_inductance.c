@@ -210,17 +210,17 @@ static commission_value_t bin_H(const commission_bin_t *b, float noise_A2, float
 
 /* Chord inductance up to the largest current: the mean over the bins. */
 static void set_map(commission_inductance_t *l, const commission_config_t *c,
-                    commission_result_t *found)
+                    commission_result_t *found, commission_map_t *map)
 {
     const float      noise  = noise_of(l);
     commission_bin_t all[2] = {{0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f, 0.0f}};
 
     for (int16_t k = 0; k < COMMISSION_BINS; k++) {
-        commission_bin_t q    = l->bins[1][0][k];
-        found->ld_map_H[0][k] = bin_H(&l->bins[0][0][k], noise, c->ts_s).value;
-        found->ld_map_H[1][k] = bin_H(&l->bins[0][1][k], noise, c->ts_s).value;
+        commission_bin_t q = l->bins[1][0][k];
+        map->ld_H[0][k]    = bin_H(&l->bins[0][0][k], noise, c->ts_s).value;
+        map->ld_H[1][k]    = bin_H(&l->bins[0][1][k], noise, c->ts_s).value;
         merge(&q, &l->bins[1][1][k]);
-        found->lq_map_H[k] = bin_H(&q, noise, c->ts_s).value;
+        map->lq_H[k] = bin_H(&q, noise, c->ts_s).value;
         merge(&all[0], &l->bins[0][0][k]);
         merge(&all[0], &l->bins[0][1][k]);
         merge(&all[1], &q);
@@ -237,7 +237,7 @@ static void swap(float *a, float *b)
 }
 
 /* Ld above Lq means that the assumed d axis is the q axis of a reluctance motor. Swaps the axes. */
-static void turn_if_crossed(commission_result_t *found)
+static void turn_if_crossed(commission_result_t *found, commission_map_t *map)
 {
     if (!(found->ld_H.value > (CROSSED * found->lq_H.value))) {
         return;
@@ -245,8 +245,8 @@ static void turn_if_crossed(commission_result_t *found)
     swap(&found->ld_H.value, &found->lq_H.value);
     swap(&found->ld_H.error, &found->lq_H.error);
     for (int16_t k = 0; k < COMMISSION_BINS; k++) {
-        swap(&found->ld_map_H[0][k], &found->lq_map_H[k]);
-        found->ld_map_H[1][k] = found->ld_map_H[0][k];
+        swap(&map->ld_H[0][k], &map->lq_H[k]);
+        map->ld_H[1][k] = map->ld_H[0][k];
     }
     found->offset_rad.value = frames_wrap(found->offset_rad.value - (0.5f * BASE_PI));
     found->flux_Wb.value    = 0.0f;
@@ -265,13 +265,13 @@ static float brake_A(const commission_inductance_t *l, const commission_signal_t
 commission_answer_t commission_inductance_map(commission_inductance_t   *l,
                                               const commission_config_t *c,
                                               const commission_signal_t *s,
-                                              commission_result_t       *found)
+                                              commission_result_t *found, commission_map_t *map)
 {
     const float bound_A = MAP_SHARE * c->current_max_A;
     if (l->axis > 1) {
-        found->map_step_A = bound_A / (float)COMMISSION_BINS;
-        set_map(l, c, found);
-        turn_if_crossed(found);
+        map->step_A = bound_A / (float)COMMISSION_BINS;
+        set_map(l, c, found, map);
+        turn_if_crossed(found, map);
         return commission_rest(((found->ld_H.value > 0.0f) && (found->lq_H.value > 0.0f))
                                    ? COMMISSION_DONE
                                    : COMMISSION_FAILED);

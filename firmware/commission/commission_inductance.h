@@ -67,6 +67,6 @@ commission_answer_t commission_inductance_look(commission_inductance_t   *l,
 commission_answer_t commission_inductance_map(commission_inductance_t   *l,
                                               const commission_config_t *c,
                                               const commission_signal_t *s,
-                                              commission_result_t       *found);
+                                              commission_result_t *found, commission_map_t *map);
 
 #endif /* COMMISSION_INDUCTANCE_H */

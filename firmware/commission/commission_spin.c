@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "commission_spin.h"
 
-/* Chosen: current loop bandwidth far below the sampling rate; the delay is 1.5 periods. */
-#define BANDWIDTH_PER_TS 0.2f
-#define INTEGRAL_SHARE   0.1f
+#include "commission_current.h"
+
 /* Chosen: shares of the current limit. */
 #define TRY_SHARE   0.1f
 #define USUAL_SHARE 0.3f
@@ -61,14 +60,6 @@ static bool coasts(const commission_spin_t *p)
     return (p->part == COAST_UP) || (p->part == COAST_DOWN) || (p->part == COAST_LOW);
 }
 
-/* Current reference of given length and sign of torque. */
-static dq_t current_of(const commission_result_t *known, float size_A, float sign)
-{
-    const dq_t magnet     = {0.0f, sign * size_A};
-    const dq_t reluctance = {-0.707f * size_A, 0.707f * sign * size_A};
-    return known->reluctance ? reluctance : magnet;
-}
-
 static dq_t wanted_A(const commission_spin_t *p, const commission_result_t *known)
 {
     const dq_t none = {0.0f, 0.0f};
@@ -79,45 +70,25 @@ static dq_t wanted_A(const commission_spin_t *p, const commission_result_t *know
     case REST:
         return base_within(w, STANDING_radps)
                    ? none
-                   : current_of(known, p->current_A, (w > 0.0f) ? -1.0f : 1.0f);
+                   : commission_current_of(known, p->current_A, (w > 0.0f) ? -1.0f : 1.0f);
     case TRIAL:
     case UP:
     case LOW:
-        return current_of(known, p->current_A, 1.0f);
+        return commission_current_of(known, p->current_A, 1.0f);
     case DOWN:
-        return current_of(known, p->current_A, -1.0f);
+        return commission_current_of(known, p->current_A, -1.0f);
     case STOP:
-        return current_of(known, p->current_A, (p->begun_radps > 0.0f) ? -1.0f : 1.0f);
+        return commission_current_of(known, p->current_A, (p->begun_radps > 0.0f) ? -1.0f : 1.0f);
     default:
         return none;
     }
-}
-
-/* Output of the current controllers, in the rotor frame of this sample. */
-static dq_t control_V(commission_spin_t *p, const commission_config_t *c,
-                      const commission_result_t *known, dq_t i_A, dq_t ref_A, float limit_V)
-{
-    const float w_radps = BANDWIDTH_PER_TS / c->ts_s;
-    const float ki      = INTEGRAL_SHARE * w_radps * c->ts_s * w_radps;
-    const float w       = p->angle.omega_e_radps;
-    const dq_t  error_A = {ref_A.d - i_A.d, ref_A.q - i_A.q};
-
-    p->integral_V.d =
-        base_clamp(p->integral_V.d + (ki * known->ld_H.value * error_A.d), -limit_V, limit_V);
-    p->integral_V.q =
-        base_clamp(p->integral_V.q + (ki * known->lq_H.value * error_A.q), -limit_V, limit_V);
-    const dq_t v_V = {(w_radps * known->ld_H.value * error_A.d) + p->integral_V.d -
-                          (w * known->lq_H.value * i_A.q),
-                      (w_radps * known->lq_H.value * error_A.q) + p->integral_V.q +
-                          (w * ((known->ld_H.value * i_A.d) + known->flux_Wb.value))};
-    return v_V;
 }
 
 /* Largest electrical speed at a current, by the speed limit and the dc link. */
 static float top_speed(const commission_config_t *c, const commission_result_t *known,
                        float dc_link_V, float size_A)
 {
-    const dq_t  i_A   = current_of(known, size_A, 1.0f);
+    const dq_t  i_A   = commission_current_of(known, size_A, 1.0f);
     const float psi_d = known->flux_Wb.value + (known->ld_H.value * i_A.d);
     const float psi_q = known->lq_H.value * i_A.q;
     const float psi   = sqrtf((psi_d * psi_d) + (psi_q * psi_q));
@@ -128,7 +99,7 @@ static float top_speed(const commission_config_t *c, const commission_result_t *
 
 static float torque_of(const commission_result_t *known, float size_A)
 {
-    const dq_t i_A = current_of(known, size_A, 1.0f);
+    const dq_t i_A = commission_current_of(known, size_A, 1.0f);
     return commission_motion_torque(known, i_A.q, i_A.d * i_A.q);
 }
 
@@ -272,10 +243,11 @@ commission_answer_t commission_spin_tick(commission_spin_t *p, const commission_
         commission_motion_tick(&p->motion, c, found, s->position_cnt, i_A);
     }
     p->ticks++;
-    const dq_t ref_A = wanted_A(p, found);
-    const dq_t v_V   = control_V(p, c, found, i_A, ref_A, 0.5f * s->dc_link_V);
-    answer.v_V       = frames_inverse_park(v_V, then);
-    answer.i_A       = frames_inverse_park(ref_A, then);
-    answer.step      = next_part(p, c, s, found);
+    const dq_t                 ref_A = wanted_A(p, found);
+    const commission_current_t loop  = {i_A, ref_A, p->angle.omega_e_radps, 0.5f * s->dc_link_V};
+    const dq_t                 v_V   = commission_current_V(&p->integral_V, c, found, &loop);
+    answer.v_V                       = frames_inverse_park(v_V, then);
+    answer.i_A                       = frames_inverse_park(ref_A, then);
+    answer.step                      = next_part(p, c, s, found);
     return answer;
 }

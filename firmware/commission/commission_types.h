@@ -11,7 +11,9 @@
 #include "base.h"
 #include "frames.h"
 
-#define COMMISSION_BINS 4 /**< current ranges of the inductance map */
+/** A search for a resonance begins here [Hz], as does an unknown coupling of a drive file. */
+#define COMMISSION_RING_FROM_Hz 40.0f
+#define COMMISSION_BINS         4 /**< current ranges of the inductance map */
 
 /** Limits and data of the board. */
 typedef struct {
@@ -60,25 +62,36 @@ typedef struct {
     float error;
 } commission_value_t;
 
+/** Between motor and load, as COMMISSION_RING finds it. */
+typedef enum {
+    COMMISSION_COUPLING_UNKNOWN = 0, /**< not searched */
+    COMMISSION_COUPLING_RIGID,       /**< no resonance in the range */
+    COMMISSION_COUPLING_ELASTIC,     /**< the resonance is known */
+    COMMISSION_COUPLING_BELOW,       /**< it is below the range */
+    COMMISSION_COUPLING_ABOVE        /**< it is above the range */
+} commission_coupling_t;
+
 /** All results. Later stages use the results of earlier ones. */
 typedef struct {
-    commission_value_t r_Ohm;
-    commission_value_t v_loss_V; /**< of one phase, by dead time and switches */
-    commission_value_t ld_H;     /**< mean up to the largest current used */
-    commission_value_t lq_H;
-    commission_value_t flux_Wb;
-    commission_value_t inertia_kgm2;
-    commission_value_t friction_Nms; /**< viscous */
-    commission_value_t coulomb_Nm;
-    commission_value_t offset_rad; /**< electrical angle of the d axis at position 0 */
-    float              ld_map_H[2][COMMISSION_BINS]; /**< differential, d current > 0 and < 0 */
-    float              lq_map_H[COMMISSION_BINS];
-    float              map_step_A; /**< width of a bin */
-    float              odd_V; /**< mean voltage with the current in LOOK: R i and inverter loss */
-    float   ripple_rad;       /**< rms angle error along the turned vector: cogging, oscillation */
-    float   lag_rad;          /**< lag behind the vector by friction */
-    float   moved_rad;        /**< correction of the DRAG offset by SPIN */
-    float   half_swing_s;     /**< oscillation about a fixed vector; 0: none */
+    commission_value_t    r_Ohm;
+    commission_value_t    v_loss_V; /**< of one phase, by dead time and switches */
+    commission_value_t    ld_H;     /**< mean up to the largest current used */
+    commission_value_t    lq_H;
+    commission_value_t    flux_Wb;
+    commission_value_t    inertia_kgm2;
+    commission_value_t    friction_Nms; /**< viscous */
+    commission_value_t    coulomb_Nm;
+    commission_value_t    offset_rad;   /**< electrical angle of the d axis at position 0 */
+    commission_value_t    resonance_Hz; /**< of motor and load against each other; 0: not known */
+    commission_value_t    damping;      /**< its damping ratio */
+    commission_value_t    load_share;   /**< of the inertia, behind the coupling */
+    float                 searched_Hz;  /**< from 40 Hz up to here, noise hid no resonance */
+    commission_coupling_t coupling;
+    float   odd_V;        /**< mean voltage with the current in LOOK: R i and inverter loss */
+    float   ripple_rad;   /**< rms angle error along the turned vector: cogging, oscillation */
+    float   lag_rad;      /**< lag behind the vector by friction */
+    float   moved_rad;    /**< correction of the DRAG offset by SPIN */
+    float   half_swing_s; /**< oscillation about a fixed vector; 0: none */
     int32_t counts_per_turn;
     int16_t direction; /**< 1: the position rises with the electrical angle, -1: it falls */
     int16_t pole_pairs;
@@ -86,6 +99,13 @@ typedef struct {
     bool    indexed;    /**< index_cnt is valid */
     int32_t index_cnt;  /**< position of the index within a turn, 0 .. counts_per_turn - 1 */
 } commission_result_t;
+
+/** Inductances over the current. */
+typedef struct {
+    float ld_H[2][COMMISSION_BINS]; /**< differential, d current > 0 and < 0 */
+    float lq_H[COMMISSION_BINS];
+    float step_A; /**< width of a bin */
+} commission_map_t;
 
 /* C++ includes this header: it needs the designated members in their order. */
 

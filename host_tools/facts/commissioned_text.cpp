@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -75,7 +76,48 @@ bool has_key(const std::string &line, const std::string &key)
            (line[key.size()] == ' ' || line[key.size()] == '=');
 }
 
+/// The table [mechanics] of what was found; empty when nobody has searched.
+std::string mechanics_table(const commission_result_t &f)
+{
+    if (f.coupling == COMMISSION_COUPLING_UNKNOWN) {
+        return "";
+    }
+    std::string text = "[mechanics]\n";
+    if (f.coupling != COMMISSION_COUPLING_ELASTIC) {
+        return text + fmt::format("coupling = \"rigid\" # commissioned: {}\n\n", coupling_words(f));
+    }
+    for (const auto &[key, v] :
+         {std::pair{"resonance_Hz", f.resonance_Hz}, std::pair{"damping", f.damping},
+          std::pair{"load_inertia_share", f.load_share}}) {
+        text += fmt::format(
+            "{:<18} = {:<9} # +- {:.2g}, commissioned: answers to an oscillating torque\n", key,
+            number(v.value), v.error);
+    }
+    return text + "\n";
+}
+
 } // namespace
+
+std::string coupling_words(const commission_result_t &f)
+{
+    const double from_Hz = COMMISSION_RING_FROM_Hz;
+    switch (f.coupling) {
+    case COMMISSION_COUPLING_ELASTIC:
+        return fmt::format("elastic: resonance {:.4g} Hz, damping ratio {:.2g}, {:.2g} of the "
+                           "inertia behind the coupling",
+                           f.resonance_Hz.value, f.damping.value, f.load_share.value);
+    case COMMISSION_COUPLING_RIGID:
+        return fmt::format("rigid: no resonance found between {:.0f} and {:.0f} Hz", from_Hz,
+                           f.searched_Hz);
+    case COMMISSION_COUPLING_BELOW:
+        return fmt::format("elastic: the resonance is below {:.0f} Hz", from_Hz);
+    case COMMISSION_COUPLING_ABOVE:
+        return fmt::format("elastic: the resonance is above {:.0f} Hz", f.searched_Hz);
+    case COMMISSION_COUPLING_UNKNOWN:
+        break;
+    }
+    return "not searched for a resonance";
+}
 
 std::string commissioned_text(const std::string &text, const commission_result_t &found,
                               const std::string &origin)
@@ -86,12 +128,18 @@ std::string commissioned_text(const std::string &text, const commission_result_t
                     "standard deviation.\n",
                     origin);
     std::string section;
+    std::string mechanics = mechanics_table(found);
+    const bool  searched  = !mechanics.empty();
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end  = std::min(text.find('\n', at), text.size() - 1) + 1;
         std::string       line = text.substr(at, end - at);
         at                     = end;
         if (line[0] == '[') {
+            out += section == "motor" ? std::exchange(mechanics, "") : "";
             section = line.substr(1, line.find(']') - 1);
+        }
+        if (section == "mechanics" && searched && line[0] != '#') {
+            continue;
         }
         for (Replacement &r : all) {
             if (r.section == section && has_key(line, r.key)) {
@@ -101,6 +149,7 @@ std::string commissioned_text(const std::string &text, const commission_result_t
         }
         out += line;
     }
+    out += mechanics.empty() ? "" : "\n" + mechanics;
     for (const Replacement &r : all) {
         if (!r.done) {
             throw InputError(

@@ -10,7 +10,10 @@ extern "C" {
 
 namespace sdre {
 
-/// InputError when a key of [motor] does not stand on a line of its own.
+/// Describes the shaft between motor and load, as the commissioning found it.
+std::string coupling_words(const commission_result_t &found);
+
+/// [mechanics] is that of the search for a resonance; without a search it stays. InputError when a key of [motor] does not stand on a line of its own.
 std::string commissioned_text(const std::string &drive_text, const commission_result_t &found,
                               const std::string &origin);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "facts/found_file.hpp"
 
+#include <fmt/format.h>
+
 #include "common/toml_reader.hpp"
 
 namespace sdre {
@@ -10,8 +12,11 @@ constexpr Range positive{1e-12, 1e9};
 constexpr Range not_negative{0.0, 1e9};
 constexpr Range any{-1e9, 1e9};
 constexpr Range direction_range{-1, 1};
-constexpr Range pairs_range{1, 64};       // as in a drive file
-constexpr Range counts_range{4, 1000000}; // the same, of its lines
+constexpr Range pairs_range{1, 64};        // as in a drive file
+constexpr Range counts_range{4, 1000000};  // the same, of its lines
+constexpr Range resonance_range{1.0, 2e3}; // the same, of [mechanics]
+constexpr Range damping_range{1e-3, 0.5};
+constexpr Range share_range{0.01, 0.99};
 
 commission_value_t value(TomlReader &file, const char *key, const Range &range)
 {
@@ -21,6 +26,32 @@ commission_value_t value(TomlReader &file, const char *key, const Range &range)
     v.error = static_cast<float>(t.number("uncertainty", not_negative));
     t.reject_unknown_keys();
     return v;
+}
+
+/// Without the key nobody has searched for a resonance.
+void read_coupling(TomlReader &t, commission_result_t &f)
+{
+    if (!t.has("coupling")) {
+        return;
+    }
+    const std::string name = t.text("coupling");
+    f.searched_Hz          = static_cast<float>(t.number("searched_Hz", not_negative));
+    if (name == "elastic") {
+        f.coupling     = COMMISSION_COUPLING_ELASTIC;
+        f.resonance_Hz = value(t, "resonance_Hz", resonance_range);
+        f.damping      = value(t, "damping", damping_range);
+        f.load_share   = value(t, "load_inertia_share", share_range);
+    } else if (name == "rigid") {
+        f.coupling = COMMISSION_COUPLING_RIGID;
+    } else if (name == "below") {
+        f.coupling = COMMISSION_COUPLING_BELOW;
+    } else if (name == "above") {
+        f.coupling = COMMISSION_COUPLING_ABOVE;
+    } else {
+        t.fail("coupling", fmt::format("= \"{}\" is not allowed: must be \"rigid\", \"elastic\", "
+                                       "\"below\" or \"above\"",
+                                       name));
+    }
 }
 
 } // namespace
@@ -46,6 +77,7 @@ commission_result_t read_found_file(const std::filesystem::path &file)
     f.friction_Nms = value(t, "viscous_friction_Nms", any);
     f.coulomb_Nm   = value(t, "coulomb_friction_Nm", any);
     f.offset_rad   = value(t, "d_axis_angle_e_rad", any);
+    read_coupling(t, f);
     t.reject_unknown_keys();
     return f;
 }

@@ -360,6 +360,67 @@ TEST(Found, GoesIntoTheDriveFileAndLeavesTheRest)
     EXPECT_EQ(after.nosc.Q, before.nosc.Q);
 }
 
+namespace {
+
+const std::string elastic_text = std::string(found_text) + R"(coupling = "elastic"
+searched_Hz = 600.0
+resonance_Hz = { value = 219.7, uncertainty = 0.1 }
+damping = { value = 0.031, uncertainty = 0.001 }
+load_inertia_share = { value = 0.42, uncertainty = 0.01 }
+)";
+
+std::string drive_with(const std::string &found)
+{
+    const std::string drive =
+        sdre::read_text_file(SDRE_SOURCE_DIR "/firmware/config/drives/ipmsm_390w_elastic.toml");
+    return sdre::commissioned_text(drive, found_of(found), "here");
+}
+
+} // namespace
+
+TEST(Found, AResonanceReplacesTheCouplingOfTheDriveFile)
+{
+    const std::string     text = drive_with(elastic_text);
+    const sdre::Mechanics m    = sdre::read_drive_text(text, "after").mechanics;
+    EXPECT_EQ(m.coupling, sdre::Coupling::known);
+    EXPECT_NEAR(m.resonance_Hz, 219.7, 1e-4);
+    EXPECT_NEAR(m.least_damping, 0.031, 1e-7);
+    EXPECT_NEAR(m.load_inertia_share, 0.42, 1e-6);
+    EXPECT_EQ(text.find("[mechanics]"), text.rfind("[mechanics]")) << text;
+    EXPECT_EQ(sdre::coupling_words(found_of(elastic_text)),
+              "elastic: resonance 219.7 Hz, damping ratio 0.031, 0.42 of the inertia behind the "
+              "coupling");
+}
+
+TEST(Found, WithoutAResonanceTheWordsStandInTheDriveFile)
+{
+    const std::pair<const char *, const char *> all[] = {
+        {"rigid", "rigid: no resonance found between 40 and 571 Hz"},
+        {"below", "elastic: the resonance is below 40 Hz"},
+        {"above", "elastic: the resonance is above 571 Hz"}};
+    for (const auto &[name, words] : all) {
+        const std::string text =
+            drive_with(fmt::format("{}coupling = \"{}\"\nsearched_Hz = 571.0\n", found_text, name));
+        EXPECT_EQ(sdre::read_drive_text(text, "after").mechanics.coupling, sdre::Coupling::rigid);
+        EXPECT_NE(text.find(words), std::string::npos) << text;
+    }
+    EXPECT_EQ(sdre::read_drive_text(drive_with(found_text), "after").mechanics.coupling,
+              sdre::Coupling::elastic)
+        << "nobody has searched: the file keeps what it says";
+}
+
+TEST(Found, ACouplingIsChecked)
+{
+    const std::string rigid = std::string(found_text) + "coupling = \"rigid\"\nsearched_Hz = 600\n";
+    EXPECT_EQ(found_of(rigid).coupling, COMMISSION_COUPLING_RIGID);
+    EXPECT_THROW(found_of(with(rigid, "rigid", "soft")), sdre::InputError);
+    EXPECT_THROW(found_of(with(rigid, "searched_Hz = 600\n", "")), sdre::InputError);
+    EXPECT_THROW(found_of(with(rigid, "rigid", "elastic")), sdre::InputError);
+    EXPECT_THROW(found_of(with(elastic_text, "value = 0.031", "value = 0.9")), sdre::InputError);
+    EXPECT_THROW(found_of(with(elastic_text, "value = 219.7", "value = 0.1")), sdre::InputError);
+    EXPECT_THROW(found_of(with(elastic_text, "value = 0.42", "value = 1.0")), sdre::InputError);
+}
+
 TEST(Found, EveryKeyIsNeededAndChecked)
 {
     std::istringstream lines(found_text);

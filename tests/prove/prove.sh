@@ -63,7 +63,7 @@ declare -A sources=(
     [prove_loader]=tests/prove/prove_load.c
     [prove_parameters]=tests/prove/prove_load.c
 )
-stages=(rest check look resistance drag map spin)
+stages=(rest check look resistance drag map spin ring)
 for stage in "${stages[@]}"; do
     sources[prove_commission_$stage]=tests/prove/prove_commission.c
 done

@@ -13,6 +13,7 @@ volatile commission_inductance_t any_inductance;
 volatile commission_resistance_t any_resistance;
 volatile commission_drag_t       any_drag;
 volatile commission_spin_t       any_spin;
+volatile commission_ring_t       any_ring;
 commission_t                     state;
 commission_config_t              config;
 commission_sample_t              sample;
@@ -178,5 +179,27 @@ void prove_commission_spin(void)
     for (int k = 0; k < COMMISSION_WINDOWS; k++) {
         p->motion.windows[k].driven = any_bool();
     }
+    tick();
+}
+
+/* Entry: RING. */
+void prove_commission_ring(void)
+{
+    commission_ring_t *const r = &state.work.ring;
+
+    any_state(COMMISSION_RING);
+    *r                  = any_ring;
+    r->block.samples    = any_long_between(4L, COUNTS_MAX);
+    r->block.cycles     = (int16_t)any_long_between(2L, 1000L);
+    r->block.at         = any_long_between(0L, r->block.samples - 1L);
+    r->block.turned_cnt = any_long_between(-COUNTS_MAX, COUNTS_MAX);
+    r->mean.n           = (int16_t)any_long_between(0L, SHORT_MAX);
+    r->seen.hidden      = (int16_t)any_long_between(0L, SHORT_MAX);
+    r->fit.n            = (int16_t)any_long_between(0L, COMMISSION_RING_ANSWERS);
+    r->part             = (int16_t)any_long_between(0L, 4L);
+    r->step             = (int16_t)any_long_between(0L, SHORT_MAX);
+    r->blocks           = (int16_t)any_long_between(0L, SHORT_MAX);
+    r->ticks            = any_long_between(0L, TICKS_MAX);
+    r->rings            = any_bool();
     tick();
 }

@@ -11,7 +11,7 @@ import pytest
 from conftest import ROOT, Served
 from support import command, until
 
-from sdre_drive import commission
+from sdre_drive import commission, register_map
 from sdre_drive.connection import Drive
 from sdre_drive.registers import Mode
 
@@ -33,6 +33,53 @@ def test_a_reason_says_the_next_values() -> None:
     assert commission.give_up(4, 1.0, 1200.0, 4.0).endswith("--current 1 --speed 840")
     assert commission.give_up(12, 3.0, 1200.0, 4.0).endswith("--current 4 --speed 1200")
     assert commission.give_up(12, 4.0, 1200.0, 4.0).endswith("the same again")
+
+
+FOUND = {
+    "FOUND_COUPLING": 2.0,
+    "FOUND_SEARCHED": 600.0,
+    "FOUND_RESONANCE": 219.7,
+    "FOUND_DAMPING": 0.031,
+    "FOUND_LOAD_SHARE": 0.42,
+}
+
+
+def test_the_stages_are_those_of_the_firmware() -> None:
+    text = (ROOT / "firmware/commission/commission.h").read_text(encoding="utf-8")
+    body = text[text.index("COMMISSION_IDLE") : text.index("} commission_stage_t")]
+    names = re.findall(r"COMMISSION_([A-Z]+)", body)
+    assert [n.lower() for n in names] == list(commission.STAGES)
+
+
+def test_the_couplings_are_those_of_the_firmware() -> None:
+    text = (ROOT / "firmware/commission/commission_types.h").read_text(encoding="utf-8")
+    names = re.findall(r"COMMISSION_COUPLING_([A-Z]+)", text)
+    assert [n.lower() for n in names[1:]] == list(commission.COUPLINGS[1:])
+    assert f"COMMISSION_RING_FROM_Hz {commission.FROM_HZ:.1f}f" in text
+
+
+def test_each_coupling_has_its_words() -> None:
+    assert commission.shaft_words(FOUND) == (
+        "the shaft has a resonance at 219.7 Hz, damping ratio 0.031, "
+        "0.42 of the inertia behind the coupling"
+    )
+    said = [commission.shaft_words({**FOUND, "FOUND_COUPLING": float(k)}) for k in (0, 1, 3, 4)]
+    assert said == [
+        "the shaft was not searched for a resonance",
+        "the shaft is rigid: no resonance found between 40 and 600 Hz",
+        "the shaft has a resonance below 40 Hz",
+        "the shaft has a resonance above 600 Hz",
+    ]
+
+
+def test_the_file_says_the_coupling() -> None:
+    values = dict.fromkeys((r.name for r in register_map.COMMISSIONING), 1.0)
+    text = commission.text({**values, **FOUND})
+    assert 'coupling = "elastic"' in text and "searched_Hz = 600.0" in text
+    assert "resonance_Hz = { value = 2.19700e+02" in text
+    rigid = commission.text({**values, **FOUND, "FOUND_COUPLING": 1.0})
+    assert 'coupling = "rigid"' in rigid and "resonance_Hz" not in rigid
+    assert "coupling" not in commission.text({**values, **FOUND, "FOUND_COUPLING": 0.0})
 
 
 def test_a_current_beyond_the_drive_names_the_limit(served: Served, tmp_path: Path) -> None:

@@ -37,10 +37,12 @@ void expect_peaks(const std::vector<CommissionCase> &cases, const std::map<int, 
 // docs/commissioning.md has the peaks.
 const std::map<int, double> dead_limits{{COMMISSION_WATCH, 0.3},      {COMMISSION_LOOK, 0.6},
                                         {COMMISSION_RESISTANCE, 0.8}, {COMMISSION_DRAG, 1.3},
-                                        {COMMISSION_MAP, 1.2},        {COMMISSION_SPIN, 1.0}};
+                                        {COMMISSION_MAP, 1.2},        {COMMISSION_SPIN, 1.0},
+                                        {COMMISSION_RING, 1.0}};
 const std::map<int, double> peak_limits{{COMMISSION_WATCH, 0.8},      {COMMISSION_LOOK, 1.5},
                                         {COMMISSION_RESISTANCE, 1.2}, {COMMISSION_DRAG, 1.5},
-                                        {COMMISSION_MAP, 1.5},        {COMMISSION_SPIN, 1.4}};
+                                        {COMMISSION_MAP, 1.5},        {COMMISSION_SPIN, 1.4},
+                                        {COMMISSION_RING, 1.5}};
 
 } // namespace
 
@@ -62,7 +64,7 @@ TEST(CommissionSensors, DeadAndFrozen)
     }
     EXPECT_EQ(phases, support::swept(2U * 3U, 2U));
     const auto cases = cases_with(d, faults, 2);
-    EXPECT_EQ(cases.size(), 6U * 2U * phases);
+    EXPECT_EQ(cases.size(), 7U * 2U * phases);
     expect_peaks(cases, dead_limits);
     for (const CommissionCase &c : cases) {
         EXPECT_FALSE(c.finished) << case_text(c);

@@ -167,6 +167,7 @@ def commission(
             lambda stage, share: bar.update(task, description=stage, completed=share),
         )
     record.write_text(file, finder.text(values))
+    out.print(finder.shaft_words(values), highlight=False, soft_wrap=True)
     out.print(
         f"{file}: written; next: sdre-gains from-commissioning {shlex.quote(str(file))} "
         "--drive DRIVE --out NEW",

@@ -14,8 +14,13 @@ from sdre_drive.registers import ANGLE_KNOWN, Mode
 from sdre_drive.units import rpm_of
 
 COMMISSIONING = -1  # mode of operation
-FINISHED, ABORTED = 7, 8
-STAGES = ("idle", "watch", "look", "resistance", "drag", "map", "spin", "finished", "aborted")
+STAGES = (
+    "idle", "watch", "look", "resistance", "drag", "map", "spin", "ring", "finished", "aborted",
+)  # fmt: skip
+FINISHED, ABORTED = STAGES.index("finished"), STAGES.index("aborted")
+COUPLINGS = ("not searched", "rigid", "elastic", "below", "above")
+RIGID, ELASTIC, BELOW, ABOVE = 1, 2, 3, 4
+FROM_HZ = 40.0  # of the search for a resonance
 
 
 @dataclass(frozen=True)
@@ -57,6 +62,10 @@ REASONS = {
         "a wire is open, or a sensor is dead or false; a small current looks the same",
         1.5,
     ),
+    16: Reason(
+        "the shaft oscillates beyond its limit",
+        "a coupling with hardly any damping, or one that slips: tighten or replace it",
+    ),
 }
 WITHDRAWN_FAULT = 14  # COMMISSION: the next try leaves it by itself
 # Key of the file, and the register whose error is beside it.
@@ -70,6 +79,11 @@ VALUES = (
     ("viscous_friction_Nms", "FOUND_FRICTION"),
     ("coulomb_friction_Nm", "FOUND_COULOMB"),
     ("d_axis_angle_e_rad", "FOUND_OFFSET"),
+)
+SHAFT_VALUES = (
+    ("resonance_Hz", "FOUND_RESONANCE"),
+    ("damping", "FOUND_DAMPING"),
+    ("load_inertia_share", "FOUND_LOAD_SHARE"),
 )
 START_S = 2.0
 REST_WAIT_S = 60.0  # chosen: a shaft without friction coasts for minutes, and nobody waits so long
@@ -91,11 +105,34 @@ def text(values: Dict[str, float]) -> str:
         f"counts_per_turn = {values['FOUND_COUNTS']:.0f}",
         f"reluctance = {'true' if values['FOUND_RELUCTANCE'] else 'false'}",
     ]
-    for key, name in VALUES:
+    coupling = int(values["FOUND_COUPLING"])
+    shown = VALUES + (SHAFT_VALUES if coupling == ELASTIC else ())
+    if coupling in (RIGID, ELASTIC, BELOW, ABOVE):
+        lines.append(f'coupling = "{COUPLINGS[coupling]}"')
+        lines.append(f"searched_Hz = {values['FOUND_SEARCHED']:.1f}")
+    for key, name in shown:
         lines.append(
             f"{key} = {{ value = {values[name]:.5e}, uncertainty = {values[name + '_ERROR']:.2e} }}"
         )
     return "\n".join(lines) + "\n"
+
+
+def shaft_words(values: Dict[str, float]) -> str:
+    """The shaft between motor and load, in one line."""
+    coupling, to_Hz = int(values["FOUND_COUPLING"]), values["FOUND_SEARCHED"]
+    if coupling == RIGID:
+        return f"the shaft is rigid: no resonance found between {FROM_HZ:g} and {to_Hz:.0f} Hz"
+    if coupling == ELASTIC:
+        return (
+            f"the shaft has a resonance at {values['FOUND_RESONANCE']:.4g} Hz, damping ratio "
+            f"{values['FOUND_DAMPING']:.2g}, {values['FOUND_LOAD_SHARE']:.2g} of the inertia "
+            "behind the coupling"
+        )
+    if coupling == BELOW:
+        return f"the shaft has a resonance below {FROM_HZ:g} Hz"
+    if coupling == ABOVE:
+        return f"the shaft has a resonance above {to_Hz:.0f} Hz"
+    return "the shaft was not searched for a resonance"
 
 
 def bring_to_rest(

@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "df8bc9b4"
+DIGEST = "885ce8ba"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -174,6 +174,14 @@ COMMISSIONING: Tuple[Register, ...] = (  # input
     Register("FOUND_COULOMB_ERROR", 166, "dec", 0.0, "N m"),
     Register("FOUND_OFFSET", 168, "dec", 0.0, "rad"),
     Register("FOUND_OFFSET_ERROR", 170, "dec", 0.0, "rad"),
+    Register("FOUND_COUPLING", 172, "u16", 0.0, ""),
+    Register("FOUND_SEARCHED", 173, "u16", 0.1, "Hz"),
+    Register("FOUND_RESONANCE", 174, "dec", 0.0, "Hz"),
+    Register("FOUND_RESONANCE_ERROR", 176, "dec", 0.0, "Hz"),
+    Register("FOUND_DAMPING", 178, "dec", 0.0, ""),
+    Register("FOUND_DAMPING_ERROR", 180, "dec", 0.0, ""),
+    Register("FOUND_LOAD_SHARE", 182, "dec", 0.0, ""),
+    Register("FOUND_LOAD_SHARE_ERROR", 184, "dec", 0.0, ""),
 )
 
 TRACES: Tuple[Register, ...] = (  # input

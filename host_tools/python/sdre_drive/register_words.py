@@ -51,6 +51,7 @@ ENUMERATIONS: Dict[str, Dict[int, str]] = {
     "COMMISSION_STAGE": _numbered(commission.STAGES),
     "COMMISSION_REASON": {n: r.words for n, r in commission.REASONS.items()},
     "FOUND_RELUCTANCE": NO_YES,
+    "FOUND_COUPLING": _numbered(commission.COUPLINGS),
     "SCOPE_STATE": _numbered(scope_facts.STATES),
     "PARAMETERS_STATE": _numbered(STORED_WORDS),
     "PARAMETERS_DONE": {0: "no command", 1: "done", 2: "the flash did not accept it"},

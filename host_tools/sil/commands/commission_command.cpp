@@ -58,7 +58,7 @@ int run_faults(const Drive &d, const CommissionOptions &c, int times)
     fmt::print("{}: commissioning with faults, bound {:g} A, {} runs\n{}", d.name,
                c.current_share * d.motor.max_current_A, cases.size(),
                commission_fault_table(cases));
-    for (int stage = COMMISSION_WATCH; stage <= COMMISSION_SPIN; stage++) {
+    for (int stage = COMMISSION_WATCH; stage <= COMMISSION_RING; stage++) {
         if (const CommissionCase *worst = worst_case(cases, stage)) {
             fmt::print("  largest: {}\n", case_text(*worst));
         }

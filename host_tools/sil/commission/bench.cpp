@@ -30,6 +30,7 @@ Scenario commission_scenario(const Drive &truth, const CommissionOptions &o)
     s.sensors                            = sensors_of_drive(truth);
     s.sensors.ideal                      = false;
     s.seed                               = o.seed;
+    s.motor_effects                      = effects_of_drive(truth);
     s.motor_effects.coulomb_friction_Nm  = o.coulomb_share * truth.motor.rated_torque_Nm;
     s.motor_effects.cogging_amplitude_Nm = o.cogging_share * truth.motor.rated_torque_Nm;
     s.motor_effects.cogging_order        = 6.0 * truth.motor.pole_pairs;
@@ -165,6 +166,7 @@ CommissionRun commission_in(const Scenario &scenario, const CommissionOptions &o
     run.during            = module.last_stage;
     run.reason            = module.reason;
     run.found             = module.found;
+    run.map               = module.map;
     run.time_s            = static_cast<double>(tick) * ts;
     run.bound_A           = static_cast<double>(config.current_max_A);
     run.true_offset_e_rad = bench.offset_e_rad();
@@ -190,6 +192,8 @@ const char *commission_stage_name(commission_stage_t stage)
         return "map";
     case COMMISSION_SPIN:
         return "spin";
+    case COMMISSION_RING:
+        return "ring";
     case COMMISSION_FINISHED:
         return "finished";
     case COMMISSION_ABORTED:
@@ -233,6 +237,8 @@ const char *commission_reason_text(commission_reason_t reason)
         return "a result is no number";
     case COMMISSION_REASON_SENSOR:
         return "a current sensor or a phase does not answer";
+    case COMMISSION_REASON_RING:
+        return "the shaft oscillates beyond its limit";
     }
     return "?";
 }

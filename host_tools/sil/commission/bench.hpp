@@ -42,6 +42,7 @@ struct CommissionRun {
     commission_stage_t         during = COMMISSION_IDLE; ///< last stage that ran
     commission_reason_t        reason = COMMISSION_REASON_NONE;
     commission_result_t        found{};
+    commission_map_t           map{}; ///< of the module alone
     double                     time_s            = 0.0;
     double                     bound_A           = 0.0; ///< that the drive may use
     double                     peak_current_A    = 0.0; ///< |i| of the plant, also between samples

@@ -112,7 +112,7 @@ std::vector<CommissionCase> commission_with_faults(const Drive &d, const Commiss
             const double time_s = span.first + (k + place) / times * (span.second - span.first);
             for (const CommissionFault &f : faults) {
                 for (const int phases : f.phases) {
-                    if (stage >= f.from_stage && stage <= COMMISSION_SPIN) {
+                    if (stage >= f.from_stage && stage <= COMMISSION_RING) {
                         cases.push_back({f, phases, stage, time_s});
                     }
                 }
@@ -159,13 +159,13 @@ std::string commission_fault_table(const std::vector<CommissionCase> &cases)
         share         = std::max(share, c.share);
     }
     std::string s = fmt::format("  {:<26}", "of the bound");
-    for (int stage = COMMISSION_WATCH; stage <= COMMISSION_SPIN; stage++) {
+    for (int stage = COMMISSION_WATCH; stage <= COMMISSION_RING; stage++) {
         s += fmt::format(" {:>10}", commission_stage_name(static_cast<commission_stage_t>(stage)));
     }
     s += "\n";
     for (const std::string &name : names) {
         s += fmt::format("  {:<26}", name);
-        for (int stage = COMMISSION_WATCH; stage <= COMMISSION_SPIN; stage++) {
+        for (int stage = COMMISSION_WATCH; stage <= COMMISSION_RING; stage++) {
             const auto at = rows[name].find(stage);
             s += at == rows[name].end() ? fmt::format(" {:>10}", "-")
                                         : fmt::format(" {:>10.2f}", at->second);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/json.hpp"
+#include "facts/commissioned_text.hpp"
 
 namespace sdre {
 namespace {
@@ -51,17 +52,24 @@ std::vector<CommissionLine> commission_lines(const Drive &d, const CommissionRun
     offset.relative = false;
     // Without a magnet, both ends of the d axis are the same.
     offset.error = std::remainder(offset.found - offset.truth, m.pm_flux_Wb > 0.0 ? 360.0 : 180.0);
-    return {line("resistance", "Ohm", m.stator_resistance_Ohm, f.r_Ohm),
-            line("Ld", "H", m.d_axis_inductance_H, f.ld_H),
-            line("Lq", "H", m.q_axis_inductance_H, f.lq_H),
-            line("flux", "Wb", m.pm_flux_Wb, f.flux_Wb),
-            line("inertia", "kg m2", m.inertia_kgm2, f.inertia_kgm2),
-            line("viscous friction", "N m s", m.viscous_friction_Nms, f.friction_Nms),
-            line("Coulomb friction", "N m", r.true_coulomb_Nm, f.coulomb_Nm),
-            offset,
-            exact("pole pairs", m.pole_pairs, f.pole_pairs),
-            exact("encoder counts", 4.0 * d.encoder.lines, f.counts_per_turn),
-            exact("direction", r.reversed ? -1.0 : 1.0, f.direction)};
+    std::vector<CommissionLine> lines = {
+        line("resistance", "Ohm", m.stator_resistance_Ohm, f.r_Ohm),
+        line("Ld", "H", m.d_axis_inductance_H, f.ld_H),
+        line("Lq", "H", m.q_axis_inductance_H, f.lq_H),
+        line("flux", "Wb", m.pm_flux_Wb, f.flux_Wb),
+        line("inertia", "kg m2", m.inertia_kgm2, f.inertia_kgm2),
+        line("viscous friction", "N m s", m.viscous_friction_Nms, f.friction_Nms),
+        line("Coulomb friction", "N m", r.true_coulomb_Nm, f.coulomb_Nm),
+        offset,
+        exact("pole pairs", m.pole_pairs, f.pole_pairs),
+        exact("encoder counts", 4.0 * d.encoder.lines, f.counts_per_turn),
+        exact("direction", r.reversed ? -1.0 : 1.0, f.direction)};
+    if (d.mechanics.coupling == Coupling::known) {
+        lines.push_back(line("resonance", "Hz", d.mechanics.resonance_Hz, f.resonance_Hz));
+        lines.push_back(line("damping ratio", "", d.mechanics.least_damping, f.damping));
+        lines.push_back(line("load inertia", "of J", d.mechanics.load_inertia_share, f.load_share));
+    }
+    return lines;
 }
 
 std::string commission_text(const Drive &d, const CommissionRun &r)
@@ -78,14 +86,17 @@ std::string commission_text(const Drive &d, const CommissionRun &r)
         s += fmt::format("  {:<17} {:>12.5g} {:>12.5g} {:>12.2g} {:>10}  {}\n", l.name, l.truth,
                          l.found, l.uncertainty, error_text(l), l.unit);
     }
-    s += map_text("Ld map", r.found.ld_map_H[0], r.found.map_step_A, 1.0);
-    s += map_text("Ld map", r.found.ld_map_H[1], r.found.map_step_A, -1.0);
-    s += map_text("Lq map", r.found.lq_map_H, r.found.map_step_A, 1.0);
+    if (r.map.step_A > 0.0F) {
+        s += map_text("Ld map", r.map.ld_H[0], r.map.step_A, 1.0);
+        s += map_text("Ld map", r.map.ld_H[1], r.map.step_A, -1.0);
+        s += map_text("Lq map", r.map.lq_H, r.map.step_A, 1.0);
+    }
     s += fmt::format("  a phase loses {:.3g} V; lag by friction {:.2f} deg, ripple {:.2f} deg; "
                      "{}\n",
                      r.found.v_loss_V.value, 180.0 / pi * r.found.lag_rad,
                      180.0 / pi * r.found.ripple_rad,
                      r.found.reluctance ? "aligned by reluctance" : "aligned by the magnet");
+    s += fmt::format("  shaft {}\n", coupling_words(r.found));
     s += fmt::format("  peak current {:.4g} A, {:.3f} of the bound\n", r.peak_current_A,
                      r.peak_share());
     return s;
@@ -112,6 +123,7 @@ std::string commission_json(const Drive &d, const CommissionRun &r)
         lines[l.name]      = one;
     }
     root["values"] = lines;
+    root["shaft"]  = coupling_words(r.found);
     return root.text();
 }
 

@@ -18,7 +18,8 @@ static const struct {
     commission_stage_t stage;
     float              most_s;
 } limits[] = {{COMMISSION_WATCH, 1.0f},  {COMMISSION_LOOK, 20.0f}, {COMMISSION_RESISTANCE, 250.0f},
-              {COMMISSION_DRAG, 400.0f}, {COMMISSION_MAP, 20.0f},  {COMMISSION_SPIN, 200.0f}};
+              {COMMISSION_DRAG, 400.0f}, {COMMISSION_MAP, 20.0f},  {COMMISSION_SPIN, 200.0f},
+              {COMMISSION_RING, 150.0f}};
 
 void setUp(void)
 {
@@ -64,6 +65,9 @@ static void go(commission_stage_t stage)
     case COMMISSION_SPIN:
         commission_spin_start(&module.work.spin, &config, &quiet, &module.found);
         break;
+    case COMMISSION_RING:
+        commission_ring_start(&module.work.ring, &config, &quiet, &module.found);
+        break;
     default:
         commission_inductance_start(&module.work.inductance, 1.0e9f, 0.0f);
         break;
@@ -87,6 +91,26 @@ static void test_every_stage_has_its_time_limit(void)
         TEST_ASSERT_EQUAL_INT(COMMISSION_REASON_TIMEOUT, module.reason);
         TEST_ASSERT_EQUAL_INT(COMMISSION_ABORTED, module.stage);
         TEST_ASSERT_EQUAL_INT(limits[k].stage, module.last_stage);
+    }
+}
+
+/* RING gives up when the shaft swings beyond its limit, or does not turn. */
+static void test_ring_has_two_reasons(void)
+{
+    for (int rings = 0; rings < 2; rings++) {
+        go(COMMISSION_RING);
+        module.found.inertia_kgm2.value     = 1.0f;
+        module.found.counts_per_turn        = 10000;
+        module.found.direction              = 1;
+        module.work.ring.slow_m_radps       = 15.0f;
+        module.work.ring.block.at           = module.work.ring.block.samples - 1L;
+        module.work.ring.block.way_cnt.re   = 1.0e9f;
+        module.work.ring.block.torque_Nm.re = 1.0f;
+        module.work.ring.part               = (rings == 1) ? 1 : 0;
+        module.work.ring.ticks              = 1000000L;
+        (void)commission_tick(&module, &sample, true);
+        TEST_ASSERT_EQUAL_INT((rings == 1) ? COMMISSION_REASON_RING : COMMISSION_REASON_SPIN,
+                              module.reason);
     }
 }
 
@@ -159,6 +183,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_every_stage_has_its_time_limit);
+    RUN_TEST(test_ring_has_two_reasons);
     RUN_TEST(test_a_result_that_is_no_number_ends_it);
     RUN_TEST(test_a_voltage_that_is_no_number_ends_it);
     return UNITY_END();

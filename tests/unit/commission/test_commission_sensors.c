@@ -84,7 +84,8 @@ static void test_pulses_ask_while_the_current_is_off_its_reference(void)
 
 static void test_the_other_stages_have_no_pulses(void)
 {
-    const commission_stage_t others[] = {COMMISSION_LOOK, COMMISSION_MAP, COMMISSION_SPIN};
+    const commission_stage_t others[] = {COMMISSION_LOOK, COMMISSION_MAP, COMMISSION_SPIN,
+                                         COMMISSION_RING};
     for (int k = 0; k < SUPPORT_COUNT(others); k++) {
         begin(others[k]);
         module.ticks = 0L;
@@ -109,6 +110,7 @@ static void test_map_and_spin_have_their_own_limits_of_the_mean(void)
 {
     TEST_ASSERT_INT_WITHIN(2, 47, periods_of(COMMISSION_MAP));
     TEST_ASSERT_INT_WITHIN(2, 81, periods_of(COMMISSION_SPIN));
+    TEST_ASSERT_INT_WITHIN(2, 81, periods_of(COMMISSION_RING));
 }
 
 int main(void)

@@ -80,7 +80,8 @@ def commission(w: Watcher, args: Args) -> str:
         except DriveError as e:
             raise DriveError(BOUNDS.sub(r"current \1 A, speed \2 r/min", str(e))) from e
         w.started_here = False
-        return Result(f"the motor is found; {NEXT}", FOUND_FILE, finder.text(found))
+        words = f"the motor is found; {finder.shaft_words(found)}; {NEXT}"
+        return Result(words, FOUND_FILE, finder.text(found))
 
     w.begin_run()
     w.jobs.begin("commissioning", work)

@@ -48,6 +48,9 @@ static void register_types(void)
     IS(app_status_t, commission.found.coulomb_Nm.error, float);
     IS(app_status_t, commission.found.coulomb_Nm.value, float);
     IS(app_status_t, commission.found.counts_per_turn, int32_t);
+    IS(app_status_t, commission.found.coupling, commission_coupling_t);
+    IS(app_status_t, commission.found.damping.error, float);
+    IS(app_status_t, commission.found.damping.value, float);
     IS(app_status_t, commission.found.direction, int16_t);
     IS(app_status_t, commission.found.flux_Wb.error, float);
     IS(app_status_t, commission.found.flux_Wb.value, float);
@@ -57,6 +60,8 @@ static void register_types(void)
     IS(app_status_t, commission.found.inertia_kgm2.value, float);
     IS(app_status_t, commission.found.ld_H.error, float);
     IS(app_status_t, commission.found.ld_H.value, float);
+    IS(app_status_t, commission.found.load_share.error, float);
+    IS(app_status_t, commission.found.load_share.value, float);
     IS(app_status_t, commission.found.lq_H.error, float);
     IS(app_status_t, commission.found.lq_H.value, float);
     IS(app_status_t, commission.found.offset_rad.error, float);
@@ -65,6 +70,9 @@ static void register_types(void)
     IS(app_status_t, commission.found.r_Ohm.error, float);
     IS(app_status_t, commission.found.r_Ohm.value, float);
     IS(app_status_t, commission.found.reluctance, bool);
+    IS(app_status_t, commission.found.resonance_Hz.error, float);
+    IS(app_status_t, commission.found.resonance_Hz.value, float);
+    IS(app_status_t, commission.found.searched_Hz, float);
     IS(app_status_t, commission.found.v_loss_V.error, float);
     IS(app_status_t, commission.found.v_loss_V.value, float);
     IS(app_status_t, commission.percent, int16_t);
@@ -129,6 +137,7 @@ static void register_types(void)
     FITS(app_fault_t);
     FITS(app_mode_t);
     FITS(board_reset_t);
+    FITS(commission_coupling_t);
     FITS(commission_reason_t);
     FITS(commission_stage_t);
     FITS(drive_fault_t);

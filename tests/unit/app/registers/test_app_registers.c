@@ -183,10 +183,18 @@ static void test_commissioning_registers_are_what_the_table_says(void)
     for (int i = 0; i < SUPPORT_COUNT(first); i++) {
         TEST_ASSERT_EQUAL_HEX16((uint16_t)first[i], input(128 + i));
     }
+    f->coupling           = COMMISSION_COUPLING_ELASTIC;
+    f->searched_Hz        = 571.4f;
+    f->resonance_Hz.value = 221.7f;
+    f->damping.value      = 0.0213f;
+    f->load_share.error   = 0.0041f;
+    TEST_ASSERT_EQUAL_UINT16(2U, input(172));
+    TEST_ASSERT_EQUAL_UINT16(5714U, input(173));
     static const struct {
         int    address;
         double value;
-    } found[] = {{136, 3.6006}, {138, 0.0081}, {140, 0.0}, {136 + 20, 8.3e-5}, {136 + 32, -1.25}};
+    } found[] = {{174, 221.7},  {178, 0.0213}, {184, 0.0041},      {136, 3.6006},
+                 {138, 0.0081}, {140, 0.0},    {136 + 20, 8.3e-5}, {136 + 32, -1.25}};
     for (int i = 0; i < SUPPORT_COUNT(found); i++) {
         const double digits = (int16_t)input(found[i].address);
         const double power  = (int16_t)input(found[i].address + 1);
@@ -195,7 +203,7 @@ static void test_commissioning_registers_are_what_the_table_says(void)
     }
     uint16_t value = 0U;
     TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_ADDRESS,
-                          app_registers_read_input(&registers, 172U, 1U, &value));
+                          app_registers_read_input(&registers, 186U, 1U, &value));
 }
 
 static void test_commissioning_is_asked_for_with_its_bounds(void)
@@ -491,7 +499,7 @@ static void test_limits_and_heat_are_told(void)
 static void test_blocks_that_do_not_exist_as_a_whole_are_refused(void)
 {
     static const uint32_t inputs[][2]   = {{62UL, 1UL},    {61UL, 2UL},    {0UL, 63UL},
-                                           {127UL, 2UL},   {100UL, 60UL},  {172UL, 1UL},
+                                           {127UL, 2UL},   {100UL, 60UL},  {186UL, 1UL},
                                            {65535UL, 1UL}, {65535UL, 2UL}, {1UL, 65535UL}};
     static const uint32_t holdings[][2] = {{22UL, 1UL}, {21UL, 2UL}, {0UL, 23UL}, {65535UL, 2UL}};
     uint16_t              values[96]    = {0U};
