@@ -46,6 +46,7 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
     r->changed                        = false;
     r->silent                         = false;
     r->loader                         = NULL;
+    app_watch_ring_reset(&r->ring);
 #if APP_WATCH_INERTIA
     app_watch_inertia_reset(&r->inertia);
 #endif

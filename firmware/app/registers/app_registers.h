@@ -18,6 +18,7 @@
 #include "app_status.h"
 #include "app_traces.h"
 #include "app_watch_inertia.h"
+#include "app_watch_ring.h"
 
 /** Input registers are also holding registers from this address on, for function 23. */
 #define APP_REGISTERS_INPUTS_TOO 4096U
@@ -36,7 +37,8 @@ enum {
     APP_REGISTERS_DERATED       = 512,
     APP_REGISTERS_DEFAULTS      = 1024,
     APP_REGISTERS_IMAGE_LOST    = 2048,
-    APP_REGISTERS_RECORD_LOST   = 4096
+    APP_REGISTERS_RECORD_LOST   = 4096,
+    APP_REGISTERS_RINGS         = 8192
 };
 
 /** Bits of APP_REGISTERS_STATUSWORD; the state has bits 0 to 3, 5 and 6. */
@@ -85,6 +87,7 @@ typedef struct app_registers {
 #if APP_WATCH_INERTIA
     app_watch_inertia_t inertia; /**< that changes of speed showed */
 #endif
+    app_watch_ring_t             ring; /**< oscillation of the torque current */
     app_registers_request_t      requested;
     app_registers_request_t      trial; /**< copy that a write changes until it is accepted */
     volatile app_scope_t        *scope; /**< NULL: neither scope nor record */
@@ -105,6 +108,12 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
 /** Lets the status that has just been read show the inertia, app_watch_inertia.h. A law without an
  * estimate of the load shows none. */
 void app_registers_see_inertia(app_registers_t *r);
+
+/** Lets the status that has just been read show an oscillation, app_watch_ring.h. */
+void app_registers_see_ring(app_registers_t *r);
+
+/** Frequency of the last oscillation [Hz]; 0: none since the start. */
+float app_registers_ring(const app_registers_t *r);
 
 /** Inertia of the shaft over the drive's; 1 until something was learned. */
 float app_registers_inertia(const app_registers_t *r);

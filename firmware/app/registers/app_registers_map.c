@@ -109,6 +109,7 @@ const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
     {APP_REGISTERS_POSITION_TARGET, APP_REGISTERS_I32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_I32, AT(app_status_t, target_cnt), false},
     {APP_REGISTERS_INERTIA_RATIO, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 11U, false},
     {APP_REGISTERS_INERTIA_CHANGES, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 12U, false},
+    {APP_REGISTERS_RING_FREQUENCY, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 13U, false},
     {APP_REGISTERS_COMMISSION_STAGE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, OF_ENUM(commission_stage_t), AT(app_status_t, commission.stage), false},
     {APP_REGISTERS_COMMISSION_REASON, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, OF_ENUM(commission_reason_t), AT(app_status_t, commission.reason), false},
     {APP_REGISTERS_COMMISSION_PERCENT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_I16, AT(app_status_t, commission.percent), false},
@@ -142,16 +143,16 @@ const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
     {APP_REGISTERS_FOUND_DAMPING_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_FLOAT, AT(app_status_t, commission.found.damping.error), false},
     {APP_REGISTERS_FOUND_LOAD_SHARE, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_FLOAT, AT(app_status_t, commission.found.load_share.value), false},
     {APP_REGISTERS_FOUND_LOAD_SHARE_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_FLOAT, AT(app_status_t, commission.found.load_share.error), false},
-    {APP_REGISTERS_SCOPE_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 13U, false},
-    {APP_REGISTERS_SCOPE_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 14U, false},
-    {APP_REGISTERS_RECORD_NUMBER, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 15U, false},
-    {APP_REGISTERS_RECORD_COUNT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 16U, false},
-    {APP_REGISTERS_PARAMETERS_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 17U, false},
-    {APP_REGISTERS_PARAMETERS_DONE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 18U, false},
-    {APP_REGISTERS_PARAMETERS_NUMBER, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 19U, false},
-    {APP_REGISTERS_PARAMETERS_WRITES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 20U, false},
-    {APP_REGISTERS_PARAMETERS_DROPPED, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 21U, false},
-    {APP_REGISTERS_SUPPORTED_MODES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 22U, false},
+    {APP_REGISTERS_SCOPE_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 14U, false},
+    {APP_REGISTERS_SCOPE_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 15U, false},
+    {APP_REGISTERS_RECORD_NUMBER, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 16U, false},
+    {APP_REGISTERS_RECORD_COUNT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 17U, false},
+    {APP_REGISTERS_PARAMETERS_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 18U, false},
+    {APP_REGISTERS_PARAMETERS_DONE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 19U, false},
+    {APP_REGISTERS_PARAMETERS_NUMBER, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 20U, false},
+    {APP_REGISTERS_PARAMETERS_WRITES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 21U, false},
+    {APP_REGISTERS_PARAMETERS_DROPPED, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 22U, false},
+    {APP_REGISTERS_SUPPORTED_MODES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 23U, false},
     {APP_REGISTERS_POLE_PAIRS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_DRIVE, APP_REGISTERS_AS_U16, AT(drive_config_t, hardware.pole_pairs), false},
     {APP_REGISTERS_ENCODER_POSITIONS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_DRIVE, APP_REGISTERS_AS_U32, AT(drive_config_t, hardware.encoder_positions), false},
     {APP_REGISTERS_CONTROL_PERIOD, APP_REGISTERS_U32, 1e+09f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_DRIVE, APP_REGISTERS_AS_FLOAT, AT(drive_config_t, ts_s), false},
@@ -176,6 +177,9 @@ float app_registers_map_real(const app_registers_t *r, uint16_t number)
         break;
     case 11U: /* INERTIA_RATIO */
         x = app_registers_inertia(r);
+        break;
+    case 13U: /* RING_FREQUENCY */
+        x = app_registers_ring(r);
         break;
     default:
         break;
@@ -221,34 +225,34 @@ uint32_t app_registers_map_whole(const app_registers_t *r, uint16_t number)
     case 12U: /* INERTIA_CHANGES */
         x = app_registers_inertia_changes(r);
         break;
-    case 13U: /* SCOPE_STATE */
+    case 14U: /* SCOPE_STATE */
         x = app_registers_scope_state(r);
         break;
-    case 14U: /* SCOPE_TICKS */
+    case 15U: /* SCOPE_TICKS */
         x = app_registers_scope_ticks(r);
         break;
-    case 15U: /* RECORD_NUMBER */
+    case 16U: /* RECORD_NUMBER */
         x = app_registers_record_number(r);
         break;
-    case 16U: /* RECORD_COUNT */
+    case 17U: /* RECORD_COUNT */
         x = app_registers_record_count(r);
         break;
-    case 17U: /* PARAMETERS_STATE */
+    case 18U: /* PARAMETERS_STATE */
         x = app_registers_stored_state(r);
         break;
-    case 18U: /* PARAMETERS_DONE */
+    case 19U: /* PARAMETERS_DONE */
         x = app_registers_stored_done(r);
         break;
-    case 19U: /* PARAMETERS_NUMBER */
+    case 20U: /* PARAMETERS_NUMBER */
         x = app_registers_stored_number(r);
         break;
-    case 20U: /* PARAMETERS_WRITES */
+    case 21U: /* PARAMETERS_WRITES */
         x = app_registers_stored_writes(r);
         break;
-    case 21U: /* PARAMETERS_DROPPED */
+    case 22U: /* PARAMETERS_DROPPED */
         x = app_registers_stored_dropped(r);
         break;
-    case 22U: /* SUPPORTED_MODES */
+    case 23U: /* SUPPORTED_MODES */
         x = r->drive->positions ? 0x00010025UL : 0x00010024UL;
         break;
     default:

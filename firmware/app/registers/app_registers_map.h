@@ -12,7 +12,7 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "885ce8ba" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "3aa4248b" /**< of what a master can see of the map */
 
 #define APP_REGISTERS_SAVED 17U /**< parameters */
 
@@ -129,8 +129,9 @@ enum {
     APP_REGISTERS_POSITION_END = 68,
     APP_REGISTERS_INERTIA_RATIO = 96,
     APP_REGISTERS_INERTIA_CHANGES = 97,
+    APP_REGISTERS_RING_FREQUENCY = 98,
     APP_REGISTERS_SHAFT_FIRST = 96,
-    APP_REGISTERS_SHAFT_END = 98,
+    APP_REGISTERS_SHAFT_END = 99,
     APP_REGISTERS_COMMISSION_STAGE = 128,
     APP_REGISTERS_COMMISSION_REASON = 129,
     APP_REGISTERS_COMMISSION_PERCENT = 130,
@@ -245,7 +246,7 @@ struct app_registers_request;
 
 #define APP_REGISTERS_MAP_HOLDING 38U
 
-#define APP_REGISTERS_MAP_INPUT 110U
+#define APP_REGISTERS_MAP_INPUT 111U
 
 /** Rows in ascending order of the address. */
 extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];

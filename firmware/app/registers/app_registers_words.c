@@ -42,8 +42,9 @@ uint16_t app_registers_conditions(const app_registers_t *r)
     const uint16_t trip    = r->status.tripped ? (uint16_t)APP_REGISTERS_TRIPPED : 0U;
     const uint16_t shorted = r->status.shorted ? (uint16_t)APP_REGISTERS_SHORTED : 0U;
     const uint16_t lost    = r->status.without_angle ? (uint16_t)APP_REGISTERS_WITHOUT_ANGLE : 0U;
-    return (uint16_t)(hot | silent | gate | dc | trip | shorted | lost | limits(&r->status) |
-                      refused_parameters(r) | app_registers_lost(r));
+    const uint16_t rings   = r->ring.rings ? (uint16_t)APP_REGISTERS_RINGS : 0U;
+    return (uint16_t)(hot | silent | gate | dc | trip | shorted | lost | rings |
+                      limits(&r->status) | refused_parameters(r) | app_registers_lost(r));
 }
 
 int32_t app_registers_position(const app_registers_t *r)

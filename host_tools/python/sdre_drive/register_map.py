@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "885ce8ba"
+DIGEST = "3aa4248b"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -146,6 +146,7 @@ POSITION: Tuple[Register, ...] = (  # input
 SHAFT: Tuple[Register, ...] = (  # input
     Register("INERTIA_RATIO", 96, "u16", 0.001, ""),
     Register("INERTIA_CHANGES", 97, "u16", 0.0, ""),
+    Register("RING_FREQUENCY", 98, "u16", 0.1, "Hz"),
 )
 
 COMMISSIONING: Tuple[Register, ...] = (  # input
