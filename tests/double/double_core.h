@@ -22,7 +22,7 @@ typedef struct {
     double band_rad;
     double edge_gap_s;
     double edge_age_s;
-    int    edge_of_line;
+    int    edge_of_pattern;
     int    valid;
     double command_e_radps;
 } double_in_t;

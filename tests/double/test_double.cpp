@@ -69,7 +69,7 @@ public:
                                    wide(s.band_rad),
                                    wide(s.edge_gap_s),
                                    wide(s.edge_age_s),
-                                   s.edge_of_line,
+                                   s.edge_of_pattern,
                                 s.valid ? 1 : 0,
                                    wide(command.omega_e_radps)};
         const double_out_t out  = double_core_tick(&in);

@@ -94,9 +94,9 @@ void spoil(fuzz::Bytes &in, int which, drive_sample_t &s, drive_command_t &comma
     } else if (which == 9) {
         s.valid = false;
     } else {
-        s.edge_of_line = static_cast<std::int16_t>(in.word());
-        s.edge_gap_s   = std::ldexp(1.0F, -static_cast<int>(in.octet() & 31U));
-        s.edge_age_s   = std::ldexp(1.0F, -static_cast<int>(in.octet() & 31U));
+        s.edge_of_pattern = static_cast<std::int16_t>(in.word());
+        s.edge_gap_s      = std::ldexp(1.0F, -static_cast<int>(in.octet() & 31U));
+        s.edge_age_s      = std::ldexp(1.0F, -static_cast<int>(in.octet() & 31U));
     }
 }
 

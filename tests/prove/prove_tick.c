@@ -46,7 +46,7 @@ static void any_config(void)
     constants.nodo.order = any_between(0, NODO_ORDER_MAX);
 #elif defined PROVE_noc_speed
     any_near_optimal(&constants.near_optimal);
-    constants.nodo.order      = any_between(0, NODO_ORDER_MAX);
+    constants.nodo.order = any_between(0, NODO_ORDER_MAX);
 #elif defined PROVE_noc_h
     any_near_optimal(&constants.near_optimal);
     constants.nodo.n_pairs = any_between(0, NODO_HARMONIC_PAIRS_MAX);
@@ -90,22 +90,18 @@ static void any_drive(void)
     state.near_optimal.position_ref.at.turns = any_turns();
 #endif
 #if defined PROVE_noc || defined PROVE_noc_h || defined PROVE_noc_shaft || defined PROVE_noc_iron
-    state.edges.edge[0] = any_between(0, ENCODER_FORM_EDGES);
-    state.edges.edge[1] = any_between(0, ENCODER_FORM_EDGES);
     state.gate.beyond   = any_between(0, ANGLE_GATE_HOLD);
     state.gate.standing = any_between(0, ANGLE_GATE_HOLD);
     state.gate.lost     = any_between(0, 1);
 #elif defined PROVE_pi_foc || defined PROVE_ladrc
-    state.speed.oldest        = any_between(0, constants.speed.periods - 1);
-    state.speed.edges.edge[0] = any_between(0, ENCODER_FORM_EDGES);
-    state.speed.edges.edge[1] = any_between(0, ENCODER_FORM_EDGES);
+    state.speed.oldest   = any_between(0, constants.speed.periods - 1);
 #endif
 #if defined PROVE_pid
     state.pid.running   = any_between(0, 1);
     state.id_pi.running = any_between(0, 1);
 #elif defined PROVE_dobc
-    state.dobc.running        = any_between(0, 1);
-    state.id_pi.running       = any_between(0, 1);
+    state.dobc.running   = any_between(0, 1);
+    state.id_pi.running  = any_between(0, 1);
 #endif
     drive.law.PROVE_LAW        = state;
     drive.config               = &config;
@@ -130,15 +126,11 @@ static void state_is_kept(void)
     //@ check state: DRIVE_OFF <= drive.state <= DRIVE_FAULT;
     //@ check fault: DRIVE_FAULT_NONE <= drive.fault <= DRIVE_FAULT_MEMORY;
 #if defined PROVE_noc || defined PROVE_noc_h || defined PROVE_noc_shaft || defined PROVE_noc_iron
-    //@ check edge: 0 <= drive.law.PROVE_LAW.edges.edge[0] <= ENCODER_FORM_EDGES;
-    //@ check edge_before: 0 <= drive.law.PROVE_LAW.edges.edge[1] <= ENCODER_FORM_EDGES;
     //@ check beyond: 0 <= drive.law.PROVE_LAW.gate.beyond <= ANGLE_GATE_HOLD;
     //@ check standing: 0 <= drive.law.PROVE_LAW.gate.standing <= ANGLE_GATE_HOLD;
     //@ check lost: 0 <= drive.law.PROVE_LAW.gate.lost <= 1;
 #elif defined PROVE_pi_foc || defined PROVE_ladrc
     //@ check oldest: 0 <= drive.law.PROVE_LAW.speed.oldest < SPEED_DIFFERENCE_PERIODS_MAX;
-    //@ check edge: 0 <= drive.law.PROVE_LAW.speed.edges.edge[0] <= ENCODER_FORM_EDGES;
-    //@ check edge_before: 0 <= drive.law.PROVE_LAW.speed.edges.edge[1] <= ENCODER_FORM_EDGES;
 #endif
 }
 

@@ -131,8 +131,9 @@ TEST(EncoderReadings, OfALateCountAreAheadByTheEdgesItHas)
             if (edge_time) {
                 expect_angle(r.theta_e_rad, p.theta_e_rad + static_cast<double>(edges) * count_rad);
                 EXPECT_EQ(r.omega_e_radps, p.omega_e_radps);
-                if (p.edge_of_line > 0) {
-                    EXPECT_EQ(((r.edge_of_line - p.edge_of_line - edges) % 4 + 4) % 4, 0) << k;
+                if (p.edge_of_pattern > 0) {
+                    EXPECT_EQ(((r.edge_of_pattern - p.edge_of_pattern - edges) % 16 + 16) % 16, 0)
+                        << k;
                 }
             }
             ahead += edges != 0 ? 1 : 0;
@@ -166,7 +167,7 @@ TEST(EncoderReadings, WithTimesAreThoseOfTheLastEdges)
                 const double beyond_cnt = speed * (now_s - last.time_s) / count_rad;
                 expect_angle(r.theta_e_rad, count_rad * (static_cast<double>(last.line) +
                                                          std::clamp(beyond_cnt, -1.5, 1.5)));
-                EXPECT_EQ(r.edge_of_line, 1 + static_cast<int>((last.line % 4 + 4) % 4));
+                EXPECT_EQ(r.edge_of_pattern, 1 + static_cast<int>((last.line % 16 + 16) % 16));
                 EXPECT_NEAR(r.edge_gap_s, gap_s, 1e-9);
                 EXPECT_NEAR(r.edge_age_s, now_s - last.time_s, 1e-9);
                 EXPECT_EQ(r.band_e_rad, 0.0);
@@ -177,7 +178,7 @@ TEST(EncoderReadings, WithTimesAreThoseOfTheLastEdges)
                 held += std::abs(speed) > count_rad / age_s ? 1 : 0;
                 speed = std::clamp(speed, -count_rad / age_s, count_rad / age_s);
                 expect_angle(r.theta_e_rad, count_rad * (static_cast<double>(t.count) + 0.5));
-                EXPECT_EQ(r.edge_of_line, 0);
+                EXPECT_EQ(r.edge_of_pattern, 0);
                 EXPECT_NEAR(r.edge_gap_s, std::min(std::max(age_s, gap_s), cap_s), 1e-9);
                 EXPECT_EQ(r.edge_age_s, 0.0);
                 EXPECT_NEAR(r.band_e_rad, 0.5 * count_rad, 1e-15);
@@ -230,7 +231,7 @@ TEST(EncoderReadings, WithoutTimesAreThoseOfTheCounts)
                             1e-9);
                 (turned == 0 ? none : many)++;
             }
-            EXPECT_EQ(r.edge_of_line, 0);
+            EXPECT_EQ(r.edge_of_pattern, 0);
             before = t.count;
         }
     }

@@ -56,7 +56,7 @@ tick_file_tick_t file_tick(const sdre::Recording &recording, std::size_t k, cons
     t.flags           = flag(s.valid, TICK_FILE_VALID) | flag(c.run, TICK_FILE_RUN) |
               flag(c.position != nullptr, TICK_FILE_POSITION) |
               flag(law.gate_enable, TICK_FILE_GATE) |
-              static_cast<std::uint32_t>(s.edge_of_line) << TICK_FILE_EDGE_SHIFT;
+              static_cast<std::uint32_t>(s.edge_of_pattern) << TICK_FILE_EDGE_SHIFT;
     return t;
 }
 

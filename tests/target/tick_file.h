@@ -93,12 +93,12 @@ typedef struct {
     abc_t              duty;
     abc_t              pi_duty;
     uint32_t
-        flags; /**< TICK_FILE_VALID, TICK_FILE_RUN, of the answer TICK_FILE_GATE, and the edge of the line */
+        flags; /**< TICK_FILE_VALID, TICK_FILE_RUN, of the answer TICK_FILE_GATE, and the edge's place in the pattern */
 } tick_file_tick_t;
 
-/** The edge of the line, 0 .. 4, in the flags. */
+/** The edge's place in the pattern, 0 .. 16, in the flags. */
 #define TICK_FILE_EDGE_SHIFT 8u
-#define TICK_FILE_EDGE_MASK  7u
+#define TICK_FILE_EDGE_MASK  31u
 
 /** What the replay answers to one tick. */
 typedef struct {

@@ -58,7 +58,7 @@ static void read_edges(app_angle_t *a, uint16_t position_cnt, bool timed, float 
         reading->edge_gap_s = a->edge_gap_s;
         reading->edge_age_s = age_s;
         if (after_edge) {
-            reading->edge_of_line = (int16_t)(1U + (a->edge_cnt % (uint16_t)ENCODER_FORM_EDGES));
+            reading->edge_of_pattern = (int16_t)(1U + (a->edge_cnt & a->pattern_mask));
         }
         const float beyond_rad =
             base_min(age_s * fabsf(a->edge_speed_e_radps), WIDEST_cnt * a->rad_per_cnt) - half_rad;
@@ -93,7 +93,7 @@ static void read_times(app_angle_t *a, const board_sample_t *raw, int16_t turned
         read_edges(a, raw->position_cnt, timed, age_s, turned_cnt, reading);
     } else {
         read_edges(a, raw->position_cnt, true, 0.5f * a->ts_s, turned_cnt, reading);
-        reading->edge_of_line = 0;
+        reading->edge_of_pattern = 0;
     }
 }
 
@@ -110,8 +110,8 @@ static void read_counts(app_angle_t *a, uint16_t position_cnt, int16_t turned_cn
         plain.band_rad = QUARTER_cnt * a->rad_per_cnt;
         *reading       = plain;
     }
-    reading->edge_of_line  = 0;
-    reading->omega_e_radps = plain.omega_e_radps;
+    reading->edge_of_pattern = 0;
+    reading->omega_e_radps   = plain.omega_e_radps;
 }
 
 static void drop_after_jump(app_angle_t *a, int16_t turned_cnt)
@@ -164,13 +164,13 @@ APP_MEASURE_PART void app_angle_update(app_angle_t *a, const board_sample_t *raw
     if (reading->index_fault) {
         a->reference = APP_ANGLE_NONE;
     }
-    reading->theta_e_rad   = app_angle_at(a, position_cnt, 1U);
-    reading->band_rad      = 0.0f;
-    reading->edge_of_line  = 0;
-    reading->edge_gap_s    = 0.0f;
-    reading->edge_age_s    = 0.0f;
-    reading->omega_e_radps = 0.0f;
-    reading->speed_valid   = a->have_before;
+    reading->theta_e_rad     = app_angle_at(a, position_cnt, 1U);
+    reading->band_rad        = 0.0f;
+    reading->edge_of_pattern = 0;
+    reading->edge_gap_s      = 0.0f;
+    reading->edge_age_s      = 0.0f;
+    reading->omega_e_radps   = 0.0f;
+    reading->speed_valid     = a->have_before;
     if (a->have_before) {
         const int16_t turned_cnt = app_angle_turned_cnt(a->positions, a->before_cnt, position_cnt);
 

@@ -60,7 +60,8 @@ typedef enum {
 typedef struct {
     const app_angle_config_t *config;
     uint16_t                  pole_pairs;
-    uint16_t                  positions; /**< per turn */
+    uint16_t                  positions;    /**< per turn */
+    uint16_t                  pattern_mask; /**< places of the disc's pattern, less one */
     bool                      edge_times;
     float                     ts_s;
     float                     half_cnt_per_turn;
@@ -87,12 +88,14 @@ typedef struct {
 } app_angle_t;
 
 typedef struct {
-    float   theta_e_rad;  /**< 0 .. 2 pi */
-    float   band_rad;     /**< uncertainty of theta_e_rad; 0: it is a measurement */
-    int16_t edge_of_line; /**< edge within the line that gave theta_e_rad, 1 .. 4; 0: none */
+    float theta_e_rad; /**< 0 .. 2 pi */
+    float band_rad;    /**< uncertainty of theta_e_rad; 0: it is a measurement */
+    int16_t
+        edge_of_pattern; /**< place in the disc's pattern of the edge that gave theta_e_rad, 1 .. 16;
+                                  0: none (EQ-ENCODER-FORM-4) */
     float
         edge_gap_s; /**< between the last two edges, or since the last one if longer; 0: unknown */
-    float edge_age_s;    /**< since the edge of edge_of_line; 0: none */
+    float edge_age_s;    /**< since the edge of edge_of_pattern; 0: none */
     float omega_e_radps; /**< 0 unless speed_valid */
     bool  speed_valid;   /**< the previous sample was valid too */
     bool  index_fault;   /**< index at a wrong position, or missing; the reference is dropped */

@@ -4,13 +4,13 @@
 #include "encoder_form.h"
 #include "frames.h"
 
-#define POLE_PAIRS 64U     /* keeps half counts times pole pairs within 32 bits */
+#define POLE_PAIRS 64U /* keeps half counts times pole pairs within 32 bits */
+#define LINE       4UL
 #define POSITIONS  65532UL /* whole lines; half of it, either way, is a signed number of 16 bits */
 
 static bool turn_ok(uint32_t positions)
 {
-    return (positions >= (uint32_t)ENCODER_FORM_EDGES) && (positions <= POSITIONS) &&
-           ((positions % (uint32_t)ENCODER_FORM_EDGES) == 0UL);
+    return (positions >= LINE) && (positions <= POSITIONS) && ((positions % LINE) == 0UL);
 }
 
 ctl_status_t app_angle_check(const app_angle_config_t *c, const drive_config_t *drive)
@@ -39,6 +39,7 @@ ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c,
     a->config             = c;
     a->pole_pairs         = pole_pairs;
     a->positions          = (uint16_t)(turn_ok(positions) ? positions : 0UL);
+    a->pattern_mask       = (uint16_t)(encoder_form_places(positions) - 1U);
     a->edge_times         = drive->hardware.edge_times;
     a->ts_s               = ts_s;
     a->half_cnt_per_turn  = 2.0f * (float)a->positions;

@@ -5,16 +5,16 @@
 
 static drive_sample_t drive_sample(const app_modes_t *m)
 {
-    const drive_sample_t s = {.ia_A          = m->sample.ia_A,
-                              .ib_A          = m->sample.ib_A,
-                              .dc_link_V     = m->sample.dc_link_V,
-                              .theta_e_rad   = m->reading.theta_e_rad,
-                              .band_rad      = m->reading.band_rad,
-                              .edge_gap_s    = m->reading.edge_gap_s,
-                              .omega_e_radps = m->reading.omega_e_radps,
-                              .edge_age_s    = m->reading.edge_age_s,
-                              .valid         = m->sample.valid && m->reading.speed_valid,
-                              .edge_of_line  = m->reading.edge_of_line};
+    const drive_sample_t s = {.ia_A            = m->sample.ia_A,
+                              .ib_A            = m->sample.ib_A,
+                              .dc_link_V       = m->sample.dc_link_V,
+                              .theta_e_rad     = m->reading.theta_e_rad,
+                              .band_rad        = m->reading.band_rad,
+                              .edge_gap_s      = m->reading.edge_gap_s,
+                              .omega_e_radps   = m->reading.omega_e_radps,
+                              .edge_age_s      = m->reading.edge_age_s,
+                              .valid           = m->sample.valid && m->reading.speed_valid,
+                              .edge_of_pattern = m->reading.edge_of_pattern};
     return s;
 }
 

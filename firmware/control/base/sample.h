@@ -22,9 +22,11 @@ typedef struct {
                            0: not timed by edges, or an edge in every period */
     float
         omega_e_radps; /**< electrical speed; a law with angle observer uses it only at its start */
-    float   edge_age_s;   /**< time since the edge that the angle was timed with; 0: none */
-    bool    valid;        /**< all of the above were measured in this period */
-    int16_t edge_of_line; /**< edge within the line that gave the angle, 1 .. 4; 0: none */
+    float edge_age_s;  /**< time since the edge that the angle was timed with; 0: none */
+    bool  valid;       /**< all of the above were measured in this period */
+    int16_t
+        edge_of_pattern; /**< place in the disc's pattern of the edge that gave the angle, 1 .. 16;
+                                  0: none (EQ-ENCODER-FORM-4) */
 } drive_sample_t;
 
 /** True if a phase current exceeds the limit or is NaN; c is -(a + b). Context: control ISR. */

@@ -62,14 +62,18 @@ CTL_PART float encoder_form_correct_rare(nodo_t *est, float *theta_hat_rad,
 
 CTL_PART void encoder_form_edges_reset(encoder_form_edges_t *edges)
 {
-    const encoder_form_edges_t nothing = {{0.0f, 0.0f, 0.0f, 0.0f}, 0.0f, 0.0f, {0, 0}};
+    int16_t edge;
 
-    *edges = nothing;
+    for (edge = 0; edge < ENCODER_FORM_LINE; edge++) {
+        edges->offset_rad[edge] = 0.0f; /* alike() copies them to the others */
+    }
+    edges->learned = 0U;
+    encoder_form_skip(edges);
 }
 
 /* Learning rate. Chosen: a tenth of the exact step for three edges, whose squared weights sum to
- * 1 + 2 * 2 + 1. The offsets then converge to a tenth within some forty samples at different edges.
- * Lines that differ disturb them by a third of that. */
+ * 1 + 2 * 2 + 1. The offsets of a line then converge to a tenth within some forty samples at
+ * different edges. Lines that differ disturb them by a third of that. */
 #define LEARN (0.1f / 6.0f)
 /* Chosen: a larger ratio of edge intervals means a shaft that starts or stops. */
 #define LEARN_RHO_MAX 4.0f
@@ -78,34 +82,38 @@ CTL_PART void encoder_form_edges_reset(encoder_form_edges_t *edges)
 /* Chosen: widest state of the disc [count]. */
 #define WIDEST    1.5f
 #define GAP_MIN_s 1.0e-7f
+/* Chosen: samples in which the lines of the pattern are taken as the same. After half of them, a
+ * speed that meets an edge four times before the next one leaves 0.03 counts. */
+#define ALIKE 512U
 
-static float offset_of(const encoder_form_edges_t *edges, int16_t edge)
+/* A bit flipped in the state leaves an index of offset_rad. */
+static uint16_t place(uint16_t stored)
 {
-    return edges->offset_rad[edge - 1];
+    return stored % (uint16_t)ENCODER_FORM_EDGES;
 }
 
-static void add_offset(encoder_form_edges_t *edges, int16_t edge, float step_rad, float most_rad)
+static void add_offset(encoder_form_edges_t *edges, uint16_t at, float step_rad, float most_rad)
 {
-    float *const at_rad = &edges->offset_rad[edge - 1];
+    float *const at_rad = &edges->offset_rad[at];
 
     *at_rad = base_clamp(*at_rad + step_rad, -most_rad, most_rad);
 }
 
-static void learn(encoder_form_edges_t *edges, const drive_sample_t *s, float most_rad,
-                  float most_s)
+static void learn(encoder_form_edges_t *edges, const drive_sample_t *s, uint16_t now,
+                  float most_rad, float most_s)
 {
-    const int16_t now    = s->edge_of_line;
-    const int16_t before = edges->edge[0];
-    const int16_t first  = edges->edge[1];
-    const float   rho    = s->edge_gap_s * edges->per_gap_1ps;
+    const uint16_t before = place(edges->place[0]);
+    const uint16_t first  = place(edges->place[1]);
+    const float    rho    = s->edge_gap_s * edges->per_gap_1ps;
 
     if ((rho * LEARN_RHO_MAX < 1.0f) || (rho > LEARN_RHO_MAX) || (s->edge_gap_s > most_s) ||
         (s->omega_e_radps * edges->omega_e_radps <= 0.0f)) {
         return;
     }
-    const float bend_rad  = (s->omega_e_radps - edges->omega_e_radps) * s->edge_gap_s;
-    const float known_rad = offset_of(edges, now) - offset_of(edges, before) -
-                            (rho * (offset_of(edges, before) - offset_of(edges, first)));
+    const float off_rad  = edges->offset_rad[before];
+    const float bend_rad = (s->omega_e_radps - edges->omega_e_radps) * s->edge_gap_s;
+    const float known_rad =
+        edges->offset_rad[now] - off_rad - (rho * (off_rad - edges->offset_rad[first]));
     const float step_rad = LEARN * base_clamp(bend_rad - known_rad, -most_rad, most_rad);
 
     add_offset(edges, now, step_rad, most_rad);
@@ -113,45 +121,55 @@ static void learn(encoder_form_edges_t *edges, const drive_sample_t *s, float mo
     add_offset(edges, first, rho * step_rad, most_rad);
 }
 
-/* Index in offset_rad, or none. Any other value is a flipped bit. */
-static int16_t place(int16_t edge)
+/* While all lines are taken as the same, an edge has its place in the first line. Each sample copies
+ * one offset of that line to another one. They all have them when they begin to differ. */
+static uint16_t alike(encoder_form_edges_t *edges, uint16_t seen)
 {
-    return ((edge >= 0) && (edge <= ENCODER_FORM_EDGES)) ? edge : 0;
+    const uint16_t n = edges->learned;
+
+    if (n >= ALIKE) {
+        return seen;
+    }
+    edges->offset_rad[place(n)] = edges->offset_rad[n % (uint16_t)ENCODER_FORM_LINE];
+    edges->learned              = (uint16_t)(n + 1U);
+    return seen % (uint16_t)ENCODER_FORM_LINE;
 }
 
 CTL_PART float encoder_form_learn(encoder_form_edges_t *edges, const drive_sample_t *s,
                                   float count_rad, float ts_s)
 {
-    const int16_t edge = s->edge_of_line;
+    const uint16_t seen = (uint16_t)((uint16_t)s->edge_of_pattern - 1U);
 
-    if ((edge < 1) || (edge > ENCODER_FORM_EDGES)) {
+    if (seen >= (uint16_t)ENCODER_FORM_EDGES) {
         /* An edge without a time, or an edge of unknown place. */
         if ((s->edge_age_s > 0.0f) || !encoder_form_is_rare(s, ts_s)) {
-            edges->edge[0] = 0;
+            edges->known = 0U;
         }
         return 0.0f;
     }
-    edges->edge[0]       = place(edges->edge[0]);
-    edges->edge[1]       = place(edges->edge[1]);
-    const int16_t before = edges->edge[0];
-    if ((before != 0) && (edges->edge[1] != 0)) {
-        learn(edges, s, 0.5f * count_rad, LEARN_PERIODS * ts_s);
-    }
-    const float per_gap_1ps = fpu_inverse(base_max(s->edge_gap_s, GAP_MIN_s));
-    edges->omega_e_radps    = s->omega_e_radps;
-    edges->per_gap_1ps      = per_gap_1ps;
-    edges->edge[1]          = before;
-    edges->edge[0]          = edge;
+    const uint16_t now         = alike(edges, seen);
+    const uint16_t before      = place(edges->place[0]);
+    const float    per_gap_1ps = fpu_inverse(base_max(s->edge_gap_s, GAP_MIN_s));
+    float          turned_rad  = 0.0f;
 
-    const float off_rad = offset_of(edges, edge);
-    const float turned  = (before != 0) ? (off_rad - offset_of(edges, before)) : 0.0f;
-    return off_rad + (turned * base_min(s->edge_age_s * per_gap_1ps, WIDEST));
+    if (edges->known >= 2U) {
+        learn(edges, s, now, 0.5f * count_rad, LEARN_PERIODS * ts_s);
+    }
+    const float off_rad = edges->offset_rad[now];
+    if (edges->known != 0U) {
+        turned_rad = off_rad - edges->offset_rad[before];
+    }
+    edges->known         = (edges->known != 0U) ? 2U : 1U;
+    edges->omega_e_radps = s->omega_e_radps;
+    edges->per_gap_1ps   = per_gap_1ps;
+    edges->place[1]      = before;
+    edges->place[0]      = now;
+    return off_rad + (turned_rad * base_min(s->edge_age_s * per_gap_1ps, WIDEST));
 }
 
 CTL_PART void encoder_form_skip(encoder_form_edges_t *edges)
 {
-    edges->edge[1] = 0;
-    edges->edge[0] = 0;
+    edges->known = 0U;
 }
 
 CTL_PART angle_gate_result_t encoder_form_innovation(angle_gate_t              *gate,

@@ -12,7 +12,8 @@
 #include "near_optimal.h"
 #include "sample.h"
 
-#define ENCODER_FORM_EDGES 4 /**< edges per line */
+#define ENCODER_FORM_LINE  4  /**< edges per line */
+#define ENCODER_FORM_EDGES 16 /**< places of the longest pattern: four lines */
 
 typedef struct {
     float angle_rad; /**< largest plausible angle error, (0, pi] */
@@ -53,13 +54,32 @@ static inline bool encoder_form_is_rare(const drive_sample_t *s, float ts_s)
     return s->edge_gap_s > ts_s;
 }
 
-/** Learned places of the four edges of a line. Their spacing differs by tens of per cent of a
+/**
+ * @brief Places of the disc's pattern: the most of 4, 8 and 16 that divide a turn.
+ *
+ *     place = 1 + edge mod places                                               EQ-ENCODER-FORM-4
+ *
+ * An edge then has the same place in every turn. All edges of a line have different places, so the
+ * errors of quadrature and duty are learned in any case.
+ *
+ * @param edges_per_turn A multiple of 4.
+ */
+static inline uint16_t encoder_form_places(uint32_t edges_per_turn)
+{
+    const uint16_t mask = (uint16_t)(edges_per_turn % (uint32_t)ENCODER_FORM_EDGES);
+
+    return (mask == 0U) ? (uint16_t)ENCODER_FORM_EDGES : ((mask == 8U) ? 8U : 4U);
+}
+
+/** Learned places of the edges of up to four lines. Their spacing differs by tens of per cent of a
  * count. */
 typedef struct {
-    float   offset_rad[ENCODER_FORM_EDGES]; /**< electrical; their sum is zero */
-    float   omega_e_radps;                  /**< between the last two edges, as measured */
-    float   per_gap_1ps;                    /**< one over the time between them */
-    int16_t edge[2];                        /**< the last two, 1 .. 4; 0: none */
+    float    offset_rad[ENCODER_FORM_EDGES]; /**< electrical; their sum is zero */
+    float    omega_e_radps;                  /**< between the last two edges, as measured */
+    float    per_gap_1ps;                    /**< one over the time between them */
+    uint16_t place[2];                       /**< of the last two, 0 .. 15 */
+    uint16_t known;                          /**< how many of these two */
+    uint16_t learned;                        /**< samples in which all lines were the same */
 } encoder_form_edges_t;
 
 /** Clears the learned offsets. */
@@ -73,7 +93,9 @@ CTL_PART void encoder_form_edges_reset(encoder_form_edges_t *edges);
  *     off = o_c + (o_c - o_c1) age / T
  *
  * w is the sample's speed between its last two edges, which are T apart. Edge c is the last one.
- * The indexes 1 and 2 mean one and two edges before. The angle is extrapolated from the edge with
+ * The indexes 1 and 2 mean one and two edges before. In the first 512 samples all lines are taken as
+ * the same, so that errors of quadrature and duty, the largest ones, are learned within some forty of
+ * them. Lines that differ take a second. The angle is extrapolated from the edge with
  * w, hence the second term. No estimate enters, because an observer would follow the offsets and
  * hide them. The shaft's acceleration is independent of the edge and averages out.
  *

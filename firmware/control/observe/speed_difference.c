@@ -41,15 +41,13 @@ static float difference(speed_difference_t *s, const speed_difference_config_t *
 }
 
 /* The share of the speed that comes from the places of the last two edges. It is no motion. */
-static float pattern_e_radps(const encoder_form_edges_t *edges, int16_t edge)
+static float pattern_e_radps(const encoder_form_edges_t *edges)
 {
-    const int16_t before = edges->edge[1];
-
-    if ((edge < 1) || (edge > ENCODER_FORM_EDGES) || (before < 1) ||
-        (before > ENCODER_FORM_EDGES)) {
-        return 0.0f; /* the kind of one is unknown */
+    if (edges->known < 2U) {
+        return 0.0f;
     }
-    return (edges->offset_rad[edge - 1] - edges->offset_rad[before - 1]) * edges->per_gap_1ps;
+    return (edges->offset_rad[edges->place[0]] - edges->offset_rad[edges->place[1]]) *
+           edges->per_gap_1ps;
 }
 
 /* EQ-SPEED-DIFFERENCE-2. A sample without an edge has the last two edges' speed and error. */
@@ -59,7 +57,7 @@ static float between_edges(speed_difference_t *s, const speed_difference_config_
     if (sample->edge_gap_s > 0.0f) {
         (void)encoder_form_learn(&s->edges, sample, c->count_rad, ts_s);
         if (sample->edge_age_s > 0.0f) {
-            s->pattern_e_radps = pattern_e_radps(&s->edges, sample->edge_of_line);
+            s->pattern_e_radps = pattern_e_radps(&s->edges);
         }
     }
     return sample->omega_e_radps - s->pattern_e_radps;

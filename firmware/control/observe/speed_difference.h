@@ -33,7 +33,7 @@ typedef struct {
 typedef struct {
     float                theta_rad[SPEED_DIFFERENCE_PERIODS_MAX]; /**< the last n, within +-pi */
     int16_t              oldest;
-    encoder_form_edges_t edges;           /**< where the edges of a line are */
+    encoder_form_edges_t edges;           /**< where the edges of the pattern are */
     float                pattern_e_radps; /**< what they change in the speed between the last two */
 } speed_difference_t;
 

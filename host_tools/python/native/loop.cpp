@@ -32,17 +32,17 @@ using Legs = std::tuple<float, float, float, bool>;
 
 Sample sample_of(const drive_sample_t &s)
 {
-    return {s.ia_A,       s.ib_A,          s.dc_link_V,  s.theta_e_rad,  s.band_rad,
-            s.edge_gap_s, s.omega_e_radps, s.edge_age_s, s.edge_of_line, s.valid};
+    return {s.ia_A,       s.ib_A,          s.dc_link_V,  s.theta_e_rad,     s.band_rad,
+            s.edge_gap_s, s.omega_e_radps, s.edge_age_s, s.edge_of_pattern, s.valid};
 }
 
 drive_sample_t sample_of(const Sample &x)
 {
     drive_sample_t s{};
-    int            edge_of_line                   = 0;
+    int            edge_of_pattern                   = 0;
     std::tie(s.ia_A, s.ib_A, s.dc_link_V, s.theta_e_rad, s.band_rad, s.edge_gap_s, s.omega_e_radps,
-             s.edge_age_s, edge_of_line, s.valid) = x;
-    s.edge_of_line                                = static_cast<std::int16_t>(edge_of_line);
+             s.edge_age_s, edge_of_pattern, s.valid) = x;
+    s.edge_of_pattern                                = static_cast<std::int16_t>(edge_of_pattern);
     return s;
 }
 

@@ -31,7 +31,7 @@ class Sample(NamedTuple):
     )
     omega_e_radps: float = 0.0  # electrical speed
     edge_age_s: float = 0.0  # time since the edge that the angle was timed with; 0: none
-    edge_of_line: int = 0  # 1 .. 4; 0: none
+    edge_of_pattern: int = 0  # its place in the disc's pattern, 1 .. 16; 0: none
     valid: bool = True
 
 

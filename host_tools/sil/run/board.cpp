@@ -214,14 +214,14 @@ drive_sample_t Board::measured_sample()
     const double      ib_A = faults_.sensed_A(1, i.b) + glitch_.ib_A;
     s.ia_A = static_cast<float>(adc_current_A(channel_a_, adc_code(channel_a_, ia_A, noise_a_)));
     s.ib_A = static_cast<float>(adc_current_A(channel_b_, adc_code(channel_b_, ib_A, noise_b_)));
-    s.dc_link_V     = static_cast<float>(dc_link_.voltage_V());
-    s.theta_e_rad   = static_cast<float>(position.theta_e_rad);
-    s.band_rad      = static_cast<float>(position.band_e_rad);
-    s.edge_gap_s    = static_cast<float>(position.edge_gap_s);
-    s.edge_age_s    = static_cast<float>(position.edge_age_s);
-    s.edge_of_line  = static_cast<std::int16_t>(position.edge_of_line);
-    s.omega_e_radps = static_cast<float>(position.omega_e_radps);
-    s.valid         = true;
+    s.dc_link_V       = static_cast<float>(dc_link_.voltage_V());
+    s.theta_e_rad     = static_cast<float>(position.theta_e_rad);
+    s.band_rad        = static_cast<float>(position.band_e_rad);
+    s.edge_gap_s      = static_cast<float>(position.edge_gap_s);
+    s.edge_age_s      = static_cast<float>(position.edge_age_s);
+    s.edge_of_pattern = static_cast<std::int16_t>(position.edge_of_pattern);
+    s.omega_e_radps   = static_cast<float>(position.omega_e_radps);
+    s.valid           = true;
     return s;
 }
 

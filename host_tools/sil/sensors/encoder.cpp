@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace sdre {
 namespace {
@@ -273,11 +274,13 @@ QuadratureEncoder::Reading QuadratureEncoder::read_path(const ShaftPath &path)
         r.omega_e_radps = edge_speed_;
         r.edge_gap_s    = std::min(std::max(edge_age_s_, edge_gap_s_), gap_max_s);
         if (edge_age_s_ <= period_s_) {
-            r.theta_e_rad  = edge_angle_rad(r.count, static_cast<double>(edge_ - now));
-            edge_gap_s_    = std::min(before_s - edge_age_s_, gap_max_s);
-            r.edge_gap_s   = edge_gap_s_;
-            r.edge_age_s   = edge_age_s_;
-            r.edge_of_line = 1 + static_cast<int>((((edge_ + late) % 4) + 4) % 4);
+            r.theta_e_rad             = edge_angle_rad(r.count, static_cast<double>(edge_ - now));
+            edge_gap_s_               = std::min(before_s - edge_age_s_, gap_max_s);
+            r.edge_gap_s              = edge_gap_s_;
+            r.edge_age_s              = edge_age_s_;
+            const std::int64_t places = std::gcd(counts_per_turn_, std::int64_t{16});
+            r.edge_of_pattern         = // EQ-ENCODER-FORM-4
+                1 + static_cast<int>((((edge_ + late) % places) + places) % places);
         } else { // no edge in this period: within the count
             r.band_e_rad = pole_pairs_ * two_pi / (2.0 * per_turn);
         }

@@ -35,10 +35,11 @@ struct EncoderEdge {
 class QuadratureEncoder {
 public:
     struct Reading {
-        std::int64_t count        = 0; ///< since the start, not wrapped
-        double       theta_e_rad  = 0.0;
-        int          edge_of_line = 0; ///< of the edge that theta_e_rad rests on, 1 .. 4
-        double       edge_gap_s =
+        std::int64_t count       = 0; ///< since the start, not wrapped
+        double       theta_e_rad = 0.0;
+        int          edge_of_pattern =
+            0; ///< place of the edge that theta_e_rad rests on, 1 .. 16 (EQ-ENCODER-FORM-4)
+        double edge_gap_s =
             0.0; ///< time between the last two edges, or since the last one when that is longer
         double       edge_age_s    = 0.0; ///< since the edge that theta_e_rad rests on
         double       band_e_rad    = 0.0; ///< the angle is this near; 0: a measurement

@@ -35,16 +35,16 @@ static pi_foc_t           pi;
 static tick_file_result_t replay(const tick_file_tick_t *t)
 {
     const drive_sample_t sample = {
-        .ia_A          = t->ia_A,
-        .ib_A          = t->ib_A,
-        .dc_link_V     = t->dc_link_V,
-        .theta_e_rad   = t->theta_e_rad,
-        .band_rad      = t->band_rad,
-        .edge_gap_s    = t->edge_gap_s,
-        .omega_e_radps = t->omega_e_radps,
-        .edge_age_s    = t->edge_age_s,
-        .valid         = (t->flags & TICK_FILE_VALID) != 0u,
-        .edge_of_line  = (int16_t)((t->flags >> TICK_FILE_EDGE_SHIFT) & TICK_FILE_EDGE_MASK)};
+        .ia_A            = t->ia_A,
+        .ib_A            = t->ib_A,
+        .dc_link_V       = t->dc_link_V,
+        .theta_e_rad     = t->theta_e_rad,
+        .band_rad        = t->band_rad,
+        .edge_gap_s      = t->edge_gap_s,
+        .omega_e_radps   = t->omega_e_radps,
+        .edge_age_s      = t->edge_age_s,
+        .valid           = (t->flags & TICK_FILE_VALID) != 0u,
+        .edge_of_pattern = (int16_t)((t->flags >> TICK_FILE_EDGE_SHIFT) & TICK_FILE_EDGE_MASK)};
     const bool            positions = (t->flags & TICK_FILE_POSITION) != 0u;
     const drive_command_t command   = {.omega_e_radps = t->command_e_radps,
                                        .run           = (t->flags & TICK_FILE_RUN) != 0u,

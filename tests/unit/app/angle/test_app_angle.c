@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "board_config.h"
+#include "encoder_form.h"
 #include "unit_support.h"
 #include "unity.h"
 
@@ -243,7 +244,7 @@ static void test_alignment_refers_to_the_angle_it_is_given(void)
 /* 16-bit counts of half a turn either way, whole lines. */
 static void test_encoders_that_the_counter_cannot_hold_are_refused(void)
 {
-    const uint32_t good[] = {16UL, 1024UL, 65532UL};
+    const uint32_t good[] = {16UL, 1024UL, 5000UL, 65532UL};
     const uint32_t bad[]  = {0UL, 2UL, 1023UL, 65536UL, 4000000UL};
 
     config.index_correct_max_cnt = 3U;
@@ -251,6 +252,7 @@ static void test_encoders_that_the_counter_cannot_hold_are_refused(void)
     for (int i = 0; i < SUPPORT_COUNT(good); i++) {
         drive.hardware.encoder_positions = good[i];
         TEST_ASSERT_EQUAL_INT(CTL_OK, app_angle_init(&angle, &config, &drive));
+        TEST_ASSERT_EQUAL_UINT(encoder_form_places(good[i]), angle.pattern_mask + 1u);
         const uint16_t half = (uint16_t)((good[i] / 2UL) - 1UL);
         TEST_ASSERT_EQUAL_INT((int)half, app_angle_turned_cnt(angle.positions, 0U, half));
         TEST_ASSERT_EQUAL_INT(-1,
@@ -364,13 +366,14 @@ static void test_edge_times_give_angle_and_speed(void)
             const double              theta = shaft_cnt * 2.0 * two_pi / 10000.0;
             const double              off   = remainder((double)r.theta_e_rad - theta, two_pi);
             if (r.band_rad > 0.0f) { /* no edge in this period */
-                TEST_ASSERT_EQUAL_INT(0, r.edge_of_line);
+                TEST_ASSERT_EQUAL_INT(0, r.edge_of_pattern);
                 TEST_ASSERT_TRUE((fabs(speeds[i]) < 10.0) || (n < 3));
                 TEST_ASSERT_TRUE(fabs(off) <= (double)r.band_rad + TOL_RAD);
             } else if (n > 3) {
                 const double passed =
                     (speeds[i] > 0.0) ? floor(shaft_cnt) : (floor(shaft_cnt) + 1.0);
-                TEST_ASSERT_EQUAL_INT(1 + (int)fmod(fmod(passed, 4.0) + 4.0, 4.0), r.edge_of_line);
+                TEST_ASSERT_EQUAL_INT(1 + (int)fmod(fmod(passed, 16.0) + 16.0, 16.0),
+                                      r.edge_of_pattern);
                 TEST_ASSERT_DOUBLE_WITHIN(TOL_RAD + (fabs(speeds[i]) * 1.4e-8), 0.0, off);
                 TEST_ASSERT_DOUBLE_WITHIN(fabs(speeds[i]) * 2.0e-4, speeds[i],
                                           (double)r.omega_e_radps);
@@ -385,7 +388,7 @@ static void test_an_edge_without_a_time_is_none_of_a_line(void)
 {
     start_edges(4321.7);
     app_angle_reading_t before = turn(20.0);
-    for (int n = 0; (n < 200) || (before.edge_of_line == 0); n++) {
+    for (int n = 0; (n < 200) || (before.edge_of_pattern == 0); n++) {
         before = turn(20.0);
     }
     const board_sample_t raw = {
@@ -393,7 +396,7 @@ static void test_an_edge_without_a_time_is_none_of_a_line(void)
 
     const app_angle_reading_t r = read_angle(&raw);
 
-    TEST_ASSERT_EQUAL_INT(0, r.edge_of_line);
+    TEST_ASSERT_EQUAL_INT(0, r.edge_of_pattern);
     TEST_ASSERT_TRUE(r.edge_gap_s > 0.0f);
     TEST_ASSERT_TRUE(r.band_rad == 0.0f);
 }
@@ -429,7 +432,7 @@ static void test_counts_that_come_one_at_a_time_tell_more_than_their_middle(void
             const double              theta = shaft_cnt * 2.0 * two_pi / 10000.0;
             const double              off   = remainder((double)r.theta_e_rad - theta, two_pi);
             const double              count = 2.0 * two_pi / 10000.0;
-            TEST_ASSERT_EQUAL_INT(0, r.edge_of_line);
+            TEST_ASSERT_EQUAL_INT(0, r.edge_of_pattern);
             if ((n > 20) && (r.band_rad > 0.0f)) {
                 TEST_ASSERT_DOUBLE_WITHIN(TOL_RAD, 0.5 * count, (double)r.band_rad);
                 TEST_ASSERT_TRUE(fabs(off) <= (double)r.band_rad + TOL_RAD);

@@ -119,16 +119,16 @@ static void edge_sample(double speed_radps, double t, double *edge_s, long *edge
     const double at_s = ((double)n + off[((n % 4) + 4) % 4]) * count / speed_radps;
 
     if ((n != *edge) && (at_s > (t - 2.0e-4))) {
-        sample.omega_e_radps = (float)((double)(n - *edge) * count / (at_s - *edge_s));
-        sample.edge_gap_s    = (float)(at_s - *edge_s);
-        sample.edge_age_s    = (float)(t - at_s);
-        sample.edge_of_line  = (int16_t)(1 + (((n % 4) + 4) % 4));
-        *edge                = n;
-        *edge_s              = at_s;
+        sample.omega_e_radps   = (float)((double)(n - *edge) * count / (at_s - *edge_s));
+        sample.edge_gap_s      = (float)(at_s - *edge_s);
+        sample.edge_age_s      = (float)(t - at_s);
+        sample.edge_of_pattern = (int16_t)(1 + (((n % 16) + 16) % 16));
+        *edge                  = n;
+        *edge_s                = at_s;
     } else {
-        sample.edge_age_s   = 0.0f;
-        sample.edge_of_line = 0;
-        sample.edge_gap_s   = (float)base_max(sample.edge_gap_s, (float)(t - *edge_s));
+        sample.edge_age_s      = 0.0f;
+        sample.edge_of_pattern = 0;
+        sample.edge_gap_s      = (float)base_max(sample.edge_gap_s, (float)(t - *edge_s));
     }
 }
 
@@ -159,22 +159,28 @@ static void test_errors_of_quadrature_and_duty_have_no_effect(void)
     }
 }
 
-/* A flipped bit in the kind of an edge before: no number of another place. */
-static void test_a_kind_that_does_not_exist_is_none(void)
+/* A flipped bit in the place of an edge before: never a number from beyond the pattern. */
+static void test_a_place_that_does_not_exist_is_bounded(void)
 {
-    static const int16_t kinds[] = {-1, 0, 5, 32767};
+    static const uint16_t places[] = {16U, 17U, 32768U, 65535U};
 
-    for (int i = 0; i < SUPPORT_COUNT(kinds); i++) {
-        float w = NAN;
+    for (int i = 0; i < SUPPORT_COUNT(places); i++) {
+        for (uint16_t known = 0U; known < 4U; known++) {
+            float w = NAN;
 
-        setUp();
-        s.edges.offset_rad[0] = 1.0e-4f;
-        s.edges.edge[0]       = kinds[i];
-        sample.edge_gap_s     = 2.0e-4f;
-        sample.edge_age_s     = 1.0e-5f;
-        sample.edge_of_line   = 1;
-        (void)speed_difference_update(&s, &config, &sample, TS_s, &w);
-        TEST_ASSERT_TRUE(w == sample.omega_e_radps);
+            setUp();
+            for (int k = 0; k < ENCODER_FORM_EDGES; k++) {
+                s.edges.offset_rad[k] = ((k % 2) == 0) ? 1.0e-4f : -1.0e-4f;
+            }
+            s.edges.place[0]       = places[i];
+            s.edges.place[1]       = places[i];
+            s.edges.known          = known;
+            sample.edge_gap_s      = 2.0e-4f;
+            sample.edge_age_s      = 1.0e-5f;
+            sample.edge_of_pattern = 1;
+            (void)speed_difference_update(&s, &config, &sample, TS_s, &w);
+            TEST_ASSERT_FLOAT_WITHIN((known == 0U) ? 0.0f : 1.1f, sample.omega_e_radps, w);
+        }
     }
 }
 
@@ -211,7 +217,7 @@ int main(void)
     RUN_TEST(test_a_place_that_does_not_exist_is_none);
     RUN_TEST(test_edges_are_taken_while_they_are_frequent);
     RUN_TEST(test_errors_of_quadrature_and_duty_have_no_effect);
-    RUN_TEST(test_a_kind_that_does_not_exist_is_none);
+    RUN_TEST(test_a_place_that_does_not_exist_is_bounded);
     RUN_TEST(test_check_wants_every_constant);
     return UNITY_END();
 }
