@@ -81,15 +81,14 @@ static near_optimal_view_t observe(law_noc_iron_state_t *s, const law_noc_iron_c
 
 /* The constants of the tangent's motor. The circle is a current over l6, and the gain beyond it
  * keeps the dynamics of the currents. */
-static near_optimal_config_t scaled(const near_optimal_config_t *c, float to_l6, float to_lq)
+static void scale(near_optimal_config_t *now, const near_optimal_config_t *c, float to_l6,
+                  float to_lq)
 {
-    near_optimal_config_t now = *c;
-
-    now.current_ref.circle_ApVs *= to_l6;
-    now.current_ref.flux_A *= to_l6;
-    now.current_ref.l1_min *= base_min(to_lq, 1.0f); /* the jerk of the constants */
-    now.nosc.lambda[0][0][1] *= to_lq;
-    return now;
+    *now = *c;
+    now->current_ref.circle_ApVs *= to_l6;
+    now->current_ref.flux_A *= to_l6;
+    now->current_ref.l1_min *= base_min(to_lq, 1.0f); /* the jerk of the constants */
+    now->nosc.lambda[0][0][1] *= to_lq;
 }
 
 /* EQ-IRON-3 */
@@ -112,16 +111,16 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     const motor_reduced_t       *m     = &s->tangent.motor;
     const float                  to_lq = drive->motor.l6 * m->inv_l6;
 
-    const near_optimal_config_t law  = scaled(&c->near_optimal, drive->motor.inv_l6 * m->l6, to_lq);
-    drive_config_t              iron = *drive;
-    nodo_t                      est  = iron_estimates(&c->iron, &s->tangent, &s->observer);
+    drive_config_t iron = *drive;
+    nodo_t         est  = iron_estimates(&c->iron, &s->tangent, &s->observer);
 
+    scale(&s->scaled, &c->near_optimal, drive->motor.inv_l6 * m->l6, to_lq);
     iron.motor           = *m;
     view.est             = &est;
-    const nosc_error_t e = near_optimal_error(n, &law, &iron, &view, in);
+    const nosc_error_t e = near_optimal_error(n, &s->scaled, &iron, &view, in);
     const dq_t         feedback_V =
         iron_V(&s->tangent, &drive->motor, nosc_feedback_V(&c->near_optimal.nosc, &e));
-    near_optimal_answer(n, &law, m, &view, &e, feedback_V, in, out);
+    near_optimal_answer(n, &s->scaled, m, &view, &e, feedback_V, in, out);
     out->d_omega        = s->observer.d_omega;
     out->d_q            = s->observer.d_q;
     out->d_d            = s->observer.d_d;
