@@ -88,17 +88,15 @@ typedef struct {
 } app_angle_t;
 
 typedef struct {
-    float theta_e_rad; /**< 0 .. 2 pi */
-    float band_rad;    /**< uncertainty of theta_e_rad; 0: it is a measurement */
-    int16_t
-        edge_of_pattern; /**< place in the disc's pattern of the edge that gave theta_e_rad, 1 .. 16;
-                                  0: none (EQ-ENCODER-FORM-4) */
-    float
-        edge_gap_s; /**< between the last two edges, or since the last one if longer; 0: unknown */
-    float edge_age_s;    /**< since the edge of edge_of_pattern; 0: none */
-    float omega_e_radps; /**< 0 unless speed_valid */
-    bool  speed_valid;   /**< the previous sample was valid too */
-    bool  index_fault;   /**< index at a wrong position, or missing; the reference is dropped */
+    float   theta_e_rad;     /**< 0 .. 2 pi */
+    float   band_rad;        /**< uncertainty of theta_e_rad; 0: it is a measurement */
+    int16_t edge_of_pattern; /**< place of the edge that gave theta_e_rad, 1 .. 16; 0: none
+                              * (EQ-ENCODER-FORM-4) */
+    float   edge_gap_s;      /**< between the last two edges, or since the last one; 0: unknown */
+    float   edge_age_s;      /**< since the edge of edge_of_pattern; 0: none */
+    float   omega_e_radps;   /**< 0 unless speed_valid */
+    bool    speed_valid;     /**< the previous sample was valid too */
+    bool    index_fault;     /**< index at a wrong position, or missing; the reference is dropped */
 } app_angle_reading_t;
 
 /** @return CTL_BAD_CONFIG when a constant is out of range. Context: init, or the loader. */

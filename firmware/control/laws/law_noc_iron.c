@@ -111,16 +111,17 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     const motor_reduced_t       *m     = &s->tangent.motor;
     const float                  to_lq = drive->motor.l6 * m->inv_l6;
 
-    drive_config_t iron = *drive;
-    nodo_t         est  = iron_estimates(&c->iron, &s->tangent, &s->observer);
+    near_optimal_config_t scaled;
+    drive_config_t        iron = *drive;
+    nodo_t                est  = iron_estimates(&c->iron, &s->tangent, &s->observer);
 
-    scale(&s->scaled, &c->near_optimal, drive->motor.inv_l6 * m->l6, to_lq);
+    scale(&scaled, &c->near_optimal, drive->motor.inv_l6 * m->l6, to_lq);
     iron.motor           = *m;
     view.est             = &est;
-    const nosc_error_t e = near_optimal_error(n, &s->scaled, &iron, &view, in);
+    const nosc_error_t e = near_optimal_error(n, &scaled, &iron, &view, in);
     const dq_t         feedback_V =
         iron_V(&s->tangent, &drive->motor, nosc_feedback_V(&c->near_optimal.nosc, &e));
-    near_optimal_answer(n, &s->scaled, m, &view, &e, feedback_V, in, out);
+    near_optimal_answer(n, &scaled, m, &view, &e, feedback_V, in, out);
     out->d_omega        = s->observer.d_omega;
     out->d_q            = s->observer.d_q;
     out->d_d            = s->observer.d_d;

@@ -39,8 +39,6 @@ typedef struct {
     encoder_form_edges_t edges;
     angle_gate_t         gate;
     nodo_current_t       without; /**< encoder */
-
-    near_optimal_config_t scaled; /**< constants of this period; the stack is too small for them */
 } law_noc_iron_state_t;
 
 void law_noc_iron_fields(fields_t *f, void *constants); /**< for law_noc_iron.fields */

@@ -86,12 +86,6 @@ CTL_PART void encoder_form_edges_reset(encoder_form_edges_t *edges)
  * speed that meets an edge four times before the next one leaves 0.03 counts. */
 #define ALIKE 512U
 
-/* A bit flipped in the state leaves an index of offset_rad. */
-static uint16_t place(uint16_t stored)
-{
-    return stored % (uint16_t)ENCODER_FORM_EDGES;
-}
-
 static void add_offset(encoder_form_edges_t *edges, uint16_t at, float step_rad, float most_rad)
 {
     float *const at_rad = &edges->offset_rad[at];
@@ -102,8 +96,8 @@ static void add_offset(encoder_form_edges_t *edges, uint16_t at, float step_rad,
 static void learn(encoder_form_edges_t *edges, const drive_sample_t *s, uint16_t now,
                   float most_rad, float most_s)
 {
-    const uint16_t before = place(edges->place[0]);
-    const uint16_t first  = place(edges->place[1]);
+    const uint16_t before = encoder_form_place(edges->place[0]);
+    const uint16_t first  = encoder_form_place(edges->place[1]);
     const float    rho    = s->edge_gap_s * edges->per_gap_1ps;
 
     if ((rho * LEARN_RHO_MAX < 1.0f) || (rho > LEARN_RHO_MAX) || (s->edge_gap_s > most_s) ||
@@ -121,8 +115,8 @@ static void learn(encoder_form_edges_t *edges, const drive_sample_t *s, uint16_t
     add_offset(edges, first, rho * step_rad, most_rad);
 }
 
-/* While all lines are taken as the same, an edge has its place in the first line. Each sample copies
- * one offset of that line to another one. They all have them when they begin to differ. */
+/* While all lines are taken as the same, an edge has its place in the first line. Each sample
+ * copies one offset of that line to another one. All have them when lines begin to differ. */
 static uint16_t alike(encoder_form_edges_t *edges, uint16_t seen)
 {
     const uint16_t n = edges->learned;
@@ -130,8 +124,8 @@ static uint16_t alike(encoder_form_edges_t *edges, uint16_t seen)
     if (n >= ALIKE) {
         return seen;
     }
-    edges->offset_rad[place(n)] = edges->offset_rad[n % (uint16_t)ENCODER_FORM_LINE];
-    edges->learned              = (uint16_t)(n + 1U);
+    edges->offset_rad[encoder_form_place(n)] = edges->offset_rad[n % (uint16_t)ENCODER_FORM_LINE];
+    edges->learned                           = (uint16_t)(n + 1U);
     return seen % (uint16_t)ENCODER_FORM_LINE;
 }
 
@@ -148,7 +142,7 @@ CTL_PART float encoder_form_learn(encoder_form_edges_t *edges, const drive_sampl
         return 0.0f;
     }
     const uint16_t now         = alike(edges, seen);
-    const uint16_t before      = place(edges->place[0]);
+    const uint16_t before      = encoder_form_place(edges->place[0]);
     const float    per_gap_1ps = fpu_inverse(base_max(s->edge_gap_s, GAP_MIN_s));
     float          turned_rad  = 0.0f;
 

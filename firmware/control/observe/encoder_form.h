@@ -82,6 +82,12 @@ typedef struct {
     uint16_t learned;                        /**< samples in which all lines were the same */
 } encoder_form_edges_t;
 
+/** A place as it is stored: a bit flipped in the state leaves an index of offset_rad. */
+static inline uint16_t encoder_form_place(uint16_t stored)
+{
+    return stored % (uint16_t)ENCODER_FORM_EDGES;
+}
+
 /** Clears the learned offsets. */
 CTL_PART void encoder_form_edges_reset(encoder_form_edges_t *edges);
 
@@ -93,8 +99,8 @@ CTL_PART void encoder_form_edges_reset(encoder_form_edges_t *edges);
  *     off = o_c + (o_c - o_c1) age / T
  *
  * w is the sample's speed between its last two edges, which are T apart. Edge c is the last one.
- * The indexes 1 and 2 mean one and two edges before. In the first 512 samples all lines are taken as
- * the same, so that errors of quadrature and duty, the largest ones, are learned within some forty of
+ * The indexes 1 and 2 mean one and two edges before. In the first 512 samples all lines are taken
+ * as the same. The largest errors are those of quadrature and duty, and some forty samples teach
  * them. Lines that differ take a second. The angle is extrapolated from the edge with
  * w, hence the second term. No estimate enters, because an observer would follow the offsets and
  * hide them. The shaft's acceleration is independent of the edge and averages out.

@@ -46,8 +46,9 @@ static float pattern_e_radps(const encoder_form_edges_t *edges)
     if (edges->known < 2U) {
         return 0.0f;
     }
-    return (edges->offset_rad[edges->place[0]] - edges->offset_rad[edges->place[1]]) *
-           edges->per_gap_1ps;
+    const float now_rad    = edges->offset_rad[encoder_form_place(edges->place[0])];
+    const float before_rad = edges->offset_rad[encoder_form_place(edges->place[1])];
+    return (now_rad - before_rad) * edges->per_gap_1ps;
 }
 
 /* EQ-SPEED-DIFFERENCE-2. A sample without an edge has the last two edges' speed and error. */
