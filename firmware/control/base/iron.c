@@ -86,11 +86,11 @@ typedef struct {
     float omega_dot_e_radps2;
     float iq_dot_Aps;
     float id_dot_Aps;
-} rate_t;
+} iron_rate_t;
 
 /* EQ-IRON-1 at (w, iq, id), with the disturbances of x. */
-static rate_t rates(const nodo_t *x, const iron_map_t *map, const iron_tangent_t *t, dq_t v_V,
-                    float w, float iq, float id)
+static iron_rate_t rates(const nodo_t *x, const iron_map_t *map, const iron_tangent_t *t, dq_t v_V,
+                         float w, float iq, float id)
 {
     const float d     = id - t->id_A;
     const float q     = iq - t->iq_A;
@@ -99,7 +99,7 @@ static rate_t rates(const nodo_t *x, const iron_map_t *map, const iron_tangent_t
     const float e_d   = (v_V.d - (map->rs_Ohm * id)) + (w * psi_q);
     const float e_q   = (v_V.q - (map->rs_Ohm * iq)) - (w * psi_d);
 
-    const rate_t f = {
+    const iron_rate_t f = {
         .omega_dot_e_radps2 =
             (map->accel_per_WbA * ((psi_d * iq) - (psi_q * id))) - (t->motor.l2 * w) + x->d_omega,
         .iq_dot_Aps = (t->inv_det_1pH2 * ((t->motor.inv_l8 * e_q) - (t->m_H * e_d))) + x->d_q,
@@ -110,11 +110,11 @@ static rate_t rates(const nodo_t *x, const iron_map_t *map, const iron_tangent_t
 void iron_predict(nodo_t *x, float *theta_rad, const iron_map_t *map, const iron_tangent_t *t,
                   dq_t v_V, float ts_s)
 {
-    const float  half_s = 0.5f * ts_s;
-    const rate_t f0     = rates(x, map, t, v_V, x->omega_e_radps, x->iq_A, x->id_A);
-    const float  w      = x->omega_e_radps + (half_s * f0.omega_dot_e_radps2);
-    const rate_t f1     = rates(x, map, t, v_V, w, x->iq_A + (half_s * f0.iq_dot_Aps),
-                                x->id_A + (half_s * f0.id_dot_Aps));
+    const float       half_s = 0.5f * ts_s;
+    const iron_rate_t f0     = rates(x, map, t, v_V, x->omega_e_radps, x->iq_A, x->id_A);
+    const float       w      = x->omega_e_radps + (half_s * f0.omega_dot_e_radps2);
+    const iron_rate_t f1     = rates(x, map, t, v_V, w, x->iq_A + (half_s * f0.iq_dot_Aps),
+                                     x->id_A + (half_s * f0.id_dot_Aps));
 
     x->omega_e_radps += ts_s * f1.omega_dot_e_radps2;
     x->iq_A += ts_s * f1.iq_dot_Aps;
