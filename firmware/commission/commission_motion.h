@@ -16,7 +16,7 @@
 
 #include "commission_types.h"
 
-#define COMMISSION_WINDOWS 64
+#define COMMISSION_WINDOWS 62
 
 /** One window, in mechanical units. */
 typedef struct {

@@ -8,7 +8,7 @@ namespace sdre::cycle_budget {
 
 constexpr double noc_speed        = 5152.0;
 constexpr double noc              = 5460.0;
-constexpr double noc_h            = 8893.0;
+constexpr double noc_h            = 8895.0;
 constexpr double noc_shaft        = 5994.0;
 constexpr double conventional     = 7273.0;
 constexpr double position         = 2995.0;

@@ -83,7 +83,9 @@ CTL_PART void encoder_form_edges_reset(encoder_form_edges_t *edges)
 #define WIDEST    1.5f
 #define GAP_MIN_s 1.0e-7f
 /* Chosen: samples in which the lines of the pattern are taken as the same. After half of them, a
- * speed that meets an edge four times before the next one leaves 0.03 counts. */
+ * speed that meets an edge four times before the next one leaves 0.03 counts. They follow one
+ * another: with fewer edges than samples, lines that differ would learn the shaft's ripple
+ * (sil.slow_speed). */
 #define ALIKE 512U
 
 static void add_offset(encoder_form_edges_t *edges, uint16_t at, float step_rad, float most_rad)
@@ -138,6 +140,9 @@ CTL_PART float encoder_form_learn(encoder_form_edges_t *edges, const drive_sampl
         /* An edge without a time, or an edge of unknown place. */
         if ((s->edge_age_s > 0.0f) || !encoder_form_is_rare(s, ts_s)) {
             edges->known = 0U;
+        }
+        if (edges->learned < ALIKE) {
+            edges->learned = 0U;
         }
         return 0.0f;
     }
