@@ -210,7 +210,7 @@ struct Drive {
     NoscSpec                       nosc; ///< nosc and nodo: laws of near optimal control
     NodoSpec                       nodo;
     std::optional<PositionSpec>
-        position; ///< noc with form "encoder", noc_h: the drive takes positions too
+                 position;  ///< noc with form "encoder", noc_h: the drive takes positions too
     HarmonicSpec harmonics; ///< noc_h only
     ShaftSpec    shaft;     ///< noc_shaft only
     DobcSpec     dobc;      ///< cdobc, gpiobc, hdobc only
