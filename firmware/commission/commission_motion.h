@@ -16,7 +16,7 @@
 
 #include "commission_types.h"
 
-#define COMMISSION_WINDOWS 62
+#define COMMISSION_WINDOWS 62 /**< chosen: what the data of noc_h leave room for */
 
 /** One window, in mechanical units. */
 typedef struct {

@@ -4,13 +4,13 @@
 #include "encoder_form.h"
 #include "frames.h"
 
-#define POLE_PAIRS 64U /* keeps half counts times pole pairs within 32 bits */
-#define LINE       4UL
+#define POLE_PAIRS 64U     /* keeps half counts times pole pairs within 32 bits */
 #define POSITIONS  65532UL /* whole lines; half of it, either way, is a signed number of 16 bits */
 
 static bool turn_ok(uint32_t positions)
 {
-    return (positions >= LINE) && (positions <= POSITIONS) && ((positions % LINE) == 0UL);
+    return (positions >= (uint32_t)ENCODER_FORM_LINE) && (positions <= POSITIONS) &&
+           ((positions % (uint32_t)ENCODER_FORM_LINE) == 0UL);
 }
 
 ctl_status_t app_angle_check(const app_angle_config_t *c, const drive_config_t *drive)
