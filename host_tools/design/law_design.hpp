@@ -9,6 +9,7 @@
 
 #include "design/constants_text.hpp"
 #include "design/design.hpp"
+#include "design/shaft_model.hpp"
 
 namespace sdre {
 
@@ -36,6 +37,16 @@ struct RivalLaw {
     std::vector<std::vector<RivalKey>> tunings; ///< a search for each
 };
 
+/// The sampled loop of a law that observes the angle, at a point with the gains there. A search moves its weights, and load steps are
+/// predicted with it.
+struct LinearLoop {
+    SampledModel (*at)(const Design &design, const TrueMotor &motor, const Shaft &shaft,
+                       const OperatingPoint &at, const LoopGains &gains);
+    /// Constants that at() reads, into a design with its drive, its reduced parameters and the part of its configuration that no
+    /// law changes. The drive's map is of the motor `of_map`. None: at() reads no constants, and knows no map.
+    void (*believe)(Design &design, const Motor &of_map) = nullptr;
+};
+
 /// Currents that schedule the gain series, as reports name them.
 struct Scheduling {
     std::vector<const char *> controller;
@@ -56,11 +67,11 @@ struct LawDesign {
     std::vector<std::string> (*mismatches)(const Design &design);
     Layout (*layout)(const Design &design); ///< how its arrays read in the table
 
-    bool       own_observer = false; ///< solve() designs and certifies one, in place of nodo
-    bool       predicts     = false; ///< its loop is EQ-CERT-3's: load steps are predicted
-    bool       shaft_states = false; ///< observer and gains have those of an elastic shaft
-    Weights    weights      = Weights::none;
-    Scheduling scheduling{}; ///< empty: no series for an order study
+    bool    own_observer = false; ///< solve() designs and certifies one, in place of nodo
+    bool    shaft_states = false; ///< observer and gains have those of an elastic shaft
+    Weights weights      = Weights::none;
+    std::optional<LinearLoop> loop{};
+    Scheduling                scheduling{}; ///< empty: no series for an order study
     std::string (*report_rows)(const Drive &drive) = nullptr; ///< settings beside the current loops
     double (*design_speed_e_radps)(const Drive &drive) = nullptr; ///< of its model of harmonics
     std::optional<NoiseKnob> noise_knob{};

@@ -128,6 +128,8 @@ enum class Law {
 
 /// The laws with a controller and an observer from a state-dependent Riccati equation.
 bool is_near_optimal(Law law);
+/// The laws with which a drive file may have [position].
+bool takes_positions(Law law);
 /// The laws with a speed loop around current loops.
 bool is_cascade(Law law);
 

@@ -61,8 +61,7 @@ PositionSpec read_position(TomlReader t)
 void read_position_if(TomlReader &t, Drive &drive)
 {
     if (std::optional<TomlReader> section = t.table_if("position")) {
-        if (drive.law == Law::conventional_noc || drive.law == Law::noc_shaft ||
-            drive.law == Law::noc_iron || drive.nodo.form != NodoForm::encoder) {
+        if (!takes_positions(drive.law) || drive.nodo.form != NodoForm::encoder) {
             t.fail("[position]", "is not allowed: only laws noc and noc_h with [nodo] form = "
                                  "\"encoder\" take positions");
         }
@@ -304,6 +303,11 @@ bool is_near_optimal(Law law)
 {
     return law == Law::noc || law == Law::noc_h || law == Law::noc_shaft || law == Law::noc_iron ||
            law == Law::conventional_noc;
+}
+
+bool takes_positions(Law law)
+{
+    return law == Law::noc || law == Law::noc_h;
 }
 
 bool is_cascade(Law law)

@@ -43,7 +43,7 @@ Json point_json(const Design &d, const OperatingPoint &at)
 
 std::string loops_json(const Design &d)
 {
-    if (!law_design(d.drive).predicts) {
+    if (constants_of<law_noc_config_t>(d.config) == nullptr) {
         throw InputError("--loops: needs law noc with form = \"encoder\"");
     }
     const Motor &m      = d.drive.motor;

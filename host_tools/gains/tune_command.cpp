@@ -53,7 +53,7 @@ constexpr double met_within = 1.02;
 Tuned by_specification(const Options &o, const Drive &drive)
 {
     Tuned t;
-    t.spec = read_tune_spec(o.spec);
+    t.spec = with_shaft_cases(read_tune_spec(o.spec), drive);
     require_torque(drive, t.spec.load_before_Nm + t.spec.load_step_Nm,
                    fmt::format("{}: load_before_Nm + load_step_Nm", o.spec));
     t.result                      = tune_drive(drive, t.spec, say_progress);
@@ -112,8 +112,8 @@ int qualified(const std::string &file, int noise)
 std::string added_position(const Drive &before, const Drive &found, const std::string &text,
                            const std::string &file)
 {
-    if (before.position || law_design(before).weights != Weights::by_goals ||
-        is_certified(before)) {
+    if (!takes_positions(before.law) || before.position ||
+        law_design(before).weights != Weights::by_goals || is_certified(before)) {
         return "";
     }
     const PositionSection position = position_section(found, text, file);
@@ -133,7 +133,7 @@ int run(const Options &o)
             fmt::format("{}: law = \"{}\" has no weights to tune", o.drive, law_name(drive.law)));
     }
     const std::string text = read_text_file(o.drive);
-    require_rewritable(o.drive, text);
+    require_rewritable(o.drive, text, drive);
     const Tuned       tuned    = o.spec.empty() ? by_physics(o, drive) : by_specification(o, drive);
     const std::string out      = o.out.empty() ? o.drive : o.out;
     std::string       sections = tuned_sections(tuned.result, tuned.spec);

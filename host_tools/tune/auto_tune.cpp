@@ -21,7 +21,7 @@ namespace {
 // Chosen: the best pace of these, relative to that of the sensors, is within a fifth of the best there is.
 constexpr std::array paces{0.6, 0.8, 1.0, 1.3, 1.7, 2.2, 3.0};
 // Chosen: with rare edges the search often ends beside the best weights. The best of these starts, relative to the best pace.
-constexpr std::array starts{1.0, 0.85, 0.7, 0.5};
+constexpr std::array rare_edges_starts{1.0, 0.85, 0.7, 0.5};
 // Chosen: with rare edges the search may leave through a valley without feedback, where large steps end in a limit cycle.
 constexpr double least_decades = 1.5;
 // Chosen: number of searches from slower starts, while the weights are not certified.
@@ -32,15 +32,20 @@ constexpr int    report_every = 100; // evaluations
 /// The start weights with the searched ones changed by decades.
 Drive moved(const Drive &start, const Point &decades)
 {
-    const auto x = [&](std::size_t i) { return std::pow(10.0, decades[i]); };
-    Drive      d = start;
-    d.nosc.Q[0]  = written(x(0) * start.nosc.Q[0]);
-    d.nosc.Q[1]  = written(x(1) * start.nosc.Q[1]);
-    d.nodo.Q[0]  = written(x(2) * start.nodo.Q[0]);
-    d.nodo.Q[1] = d.nodo.Q[2] = written(x(3) * start.nodo.Q[1]);
-    d.nodo.Q[3]               = written(x(4) * start.nodo.Q[3]);
-    d.nodo.Q[4] = d.nodo.Q[5] = written(x(5) * start.nodo.Q[4]);
+    Drive       d = start;
+    std::size_t i = 0;
+    for (const SearchedWeight &w : searched_weights(d)) {
+        for (double *weight : w.values) {
+            *weight = written(std::pow(10.0, decades[i]) * *weight);
+        }
+        i++;
+    }
     return d;
+}
+
+Point no_change(Drive start)
+{
+    return Point(searched_weights(start).size(), 0.0);
 }
 
 /// 1, or more where hardly any weight is left on the speed or the q current.
@@ -79,21 +84,22 @@ public:
         }
         return best;
     }
-    Drive from(double pace)
+    Drive from(const Drive &start)
     {
-        const Drive start = start_weights(drive_, pace);
-        const auto  value = [&](const Point &x) {
+        const auto value = [&](const Point &x) {
             return evaluate(moved(start, x)) * (goals_.rare_edges ? without_feedback(x) : 1.0);
         };
-        return moved(start, minimise({}, value));
+        const Point none = no_change(start);
+        return moved(start,
+                     has_own_plant(drive_) ? minimise_again(none, value) : minimise(none, value));
     }
     /// The best certified weights of several starts, if there are any.
-    std::optional<Drive> best_certified(double pace, std::string &refused)
+    std::optional<Drive> best_certified(const std::vector<Drive> &starts, std::string &refused)
     {
         std::optional<Drive> best;
         double               least = unstable_score;
-        for (const double start : starts) {
-            const Drive  found = from(start * pace);
+        for (const Drive &start : starts) {
+            const Drive  found = from(start);
             const double worst = score(found, goals_).worst;
             if (worst < least && passes(found, refused)) {
                 best  = found;
@@ -105,7 +111,7 @@ public:
     /// Weights near these that the verdict holds for, if there are any.
     Drive certifiable(const Drive &found)
     {
-        return moved(found, improve({}, [&](const Point &x) {
+        return moved(found, improve(no_change(found), [&](const Point &x) {
                          const Drive d = moved(found, x);
                          return evaluate(d) + verdict_penalty(d);
                      }));
@@ -162,11 +168,13 @@ std::string binding_goal(const Score &s, const TuneSpec &goals)
         }
     }
     const double noise = s.cases[0].voltage_noise_V / goals.voltage_noise_V;
+    const char  *whose = at == 0                            ? ""
+                         : goals.cases[at].resonance == 1.0 ? " of a motor that is not as believed"
+                                                            : " with another resonance";
     return fmt::format(
         "{}{} is {:.2f} times its goal from physics; v_q noise at {:.2f} of its limit. What would "
         "improve it: {}",
-        name, at == 0 ? "" : " of a motor that is not as believed", worst, noise,
-        what_relaxes(noise > 0.9 ? "noise of v_q" : name));
+        name, whose, worst, noise, what_relaxes(noise > 0.9 ? "noise of v_q" : name));
 }
 
 } // namespace
@@ -187,13 +195,21 @@ AutoTuneResult auto_tune(const Drive &drive, const TuneProgress &progress)
         r.binding              = binding_goal(s, r.goals);
         return r;
     };
-    if (r.goals.rare_edges) {
-        if (const auto best = search.best_certified(pace, refused)) {
+    std::vector<Drive> starts;
+    if (has_own_plant(drive)) {
+        starts = own_plant_starts(drive);
+    } else if (r.goals.rare_edges) {
+        for (const double start : rare_edges_starts) {
+            starts.push_back(start_weights(drive, start * pace));
+        }
+    }
+    if (!starts.empty()) {
+        if (const auto best = search.best_certified(starts, refused)) {
             return result_of(*best, score(*best, r.goals));
         }
     }
     for (int i = 0; i < attempts; i++, pace *= slower) {
-        Drive found   = search.from(pace);
+        Drive found   = search.from(start_weights(drive, pace));
         found.law     = drive.law;
         const Score s = score(found, r.goals);
         if (!(s.worst < unstable_score)) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "design/law_design.hpp"
 #include "drive/pwm_frequency.hpp"
 #include "tune/position_weights.hpp"
 
@@ -28,14 +29,21 @@ bool starts_with(const std::string &line, const char *prefix)
     return line.rfind(prefix, 0) == 0;
 }
 
-constexpr const char *position_header = "[position]";
-
 /// Whether the tuned sections take the place of the one that begins here.
 bool is_replaced(const std::string &line, const std::string &sections)
 {
-    return starts_with(line, "[nosc]") || starts_with(line, "[nodo]") ||
-           (starts_with(line, position_header) &&
-            sections.find(position_header) != std::string::npos);
+    const auto is = [&](const char *header) {
+        return starts_with(line, header) && sections.find(header) != std::string::npos;
+    };
+    return is("[nosc]") || is("[nodo]") || is("[shaft]") || is("[position]");
+}
+
+std::string shaft_section(const ShaftSpec &s)
+{
+    return fmt::format("\n[shaft]\n# controller: speed of the load against the motor's, twist; "
+                       "noise of the load's speed and of the twist\n"
+                       "Q = [{:.3g}, {:.3g}]\nnodo_Q = [{:.3g}, {:.3g}]\n",
+                       s.Q[0], s.Q[1], s.nodo_Q[0], s.nodo_Q[1]);
 }
 
 bool is_old_note(const std::string &line)
@@ -63,12 +71,13 @@ std::string tuned_sections(const TuneResult &r, const TuneSpec &spec)
     for (std::size_t i = 0; i < r.cases.size(); i++) {
         const CaseResult     &c = r.cases[i];
         const RobustnessCase &w = spec.cases[i];
-        const std::string     inductance =
+        std::string           further =
             w.inductance == 1.0 ? "" : fmt::format(", L x{:g} more", w.inductance);
+        further += w.resonance == 1.0 ? "" : fmt::format(", resonance x{:g}", w.resonance);
         s += fmt::format("#   J, B x{:g}, R, L, flux x{:g}{}: dip {:.2f} (wanted {:g}), settled "
                          "{:.1f} ms ({:g}). With noise: 3 sigma {:.2f} ({:g}) rad/s, "
                          "{:.0f} V ({:g}), v_q noise {:.1f} V, pole {:.3f}.\n",
-                         w.mechanical, w.electrical, inductance, c.dip_e_radps, w.dip_e_radps,
+                         w.mechanical, w.electrical, further, c.dip_e_radps, w.dip_e_radps,
                          1e3 * c.settling_time_s, 1e3 * w.settling_time_s, c.ripple_e_radps,
                          w.ripple_e_radps, c.voltage_V, spec.voltage_headroom_V, c.voltage_noise_V,
                          c.spectral_radius);
@@ -93,13 +102,19 @@ std::string tuned_sections(const TuneResult &r, const TuneSpec &spec)
                      "({:.3g} counts)\n",
                      sensors.current_A, sensors.angle_rad, spec.angle_error_cnt);
     s += fmt::format("T = [{:.3g}, {:.3g}, {:.3g}]\n", d.nodo.T[0], d.nodo.T[1], d.nodo.T[2]);
+    s += law_design(d).shaft_states ? shaft_section(d.shaft) : "";
     return r.moved_position ? s + position_text(*d.position) : s;
 }
 
-void require_rewritable(const std::filesystem::path &file, const std::string &text)
+void require_rewritable(const std::filesystem::path &file, const std::string &text,
+                        const Drive &drive)
 {
-    for (const char *header : {"[nosc]", "[nodo]"}) {
-        const std::vector<std::string> lines = lines_of(text);
+    std::vector<const char *> headers{"[nosc]", "[nodo]"};
+    if (law_design(drive).shaft_states) {
+        headers.push_back("[shaft]");
+    }
+    const std::vector<std::string> lines = lines_of(text);
+    for (const char *header : headers) {
         if (std::none_of(lines.begin(), lines.end(),
                          [header](const std::string &line) { return starts_with(line, header); })) {
             throw InputError(fmt::format("{}: {} must stand at the start of a line, so that its "

@@ -9,13 +9,14 @@
 
 namespace sdre {
 
-/// The [nosc] and [nodo] sections with every choice explained, ready for a drive file.
+/// The [nosc] and [nodo] sections, and [shaft] of noc_shaft, with every choice explained, ready for a drive file.
 std::string tuned_sections(const TuneResult &result, const TuneSpec &spec);
 
-/// InputError unless both sections begin with their header at the start of a line; call before the search.
-void require_rewritable(const std::filesystem::path &file, const std::string &drive_text);
+/// InputError unless these sections begin with their header at the start of a line; call before the search.
+void require_rewritable(const std::filesystem::path &file, const std::string &drive_text,
+                        const Drive &drive);
 
-/// A drive file's text with those two sections in place of its own, the rest byte for byte.
+/// A drive file's text with those sections in place of its own, the rest byte for byte.
 std::string with_sections(const std::string &drive_text, const std::string &sections);
 
 } // namespace sdre

@@ -7,10 +7,13 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "design/law_design.hpp"
 #include "design/laws/near_optimal.hpp"
 #include "design/machine_points.hpp"
 #include "design/motor_model.hpp"
+#include "design/noc_shaft/shaft_design.hpp"
 #include "design/sampled_model.hpp"
+#include "tune/shaft_cases.hpp"
 #include "tune/start_weights.hpp"
 
 namespace sdre {
@@ -75,12 +78,14 @@ PhysicalBound physical_bound(const Drive &d)
     const Steady            before = carrying(d, l, load_share * rated);
     const Steady            after  = carrying(d, l, rated);
     const double            speed  = speed_share * d.motor.rated_speed_e_radps;
-    const double reserve_V  = std::max(circle - hold_V(d, before, speed), least_reserve * circle);
-    const double way_s      = (after.iq_A - before.iq_A) * d.motor.q_axis_inductance_H / reserve_V;
-    const double accel      = l[3] * (1.0 - load_share) * rated;
-    const double seen_s     = std::sqrt(2.0 * sample_noise(d).angle_rad / accel);
-    const double reaction_s = 1.5 * ts + 0.5 * way_s + seen_s;
-    return {reaction_s, accel * reaction_s};
+    const double reserve_V = std::max(circle - hold_V(d, before, speed), least_reserve * circle);
+    const double way_s     = (after.iq_A - before.iq_A) * d.motor.q_axis_inductance_H / reserve_V;
+    const double accel     = l[3] * (1.0 - load_share) * rated;
+    const double seen_s    = std::sqrt(2.0 * sample_noise(d).angle_rad / accel);
+    const double shaft_s =
+        law_design(d).shaft_states ? 1.0 / resonance_radps(believed_shaft(d)) : 0.0;
+    const double reaction_s = 1.5 * ts + 0.5 * way_s + seen_s + shaft_s;
+    return {reaction_s, accel * reaction_s, shaft_s};
 }
 
 void require_torque(const Drive &d, double load_Nm, const std::string &what)
@@ -93,6 +98,19 @@ void require_torque(const Drive &d, double load_Nm, const std::string &what)
                                      "{:.3g} N m",
                                      what, load_Nm, d.motor.max_current_A, most));
     }
+}
+
+TuneSpec with_shaft_cases(TuneSpec spec, const Drive &d)
+{
+    const auto own = [](const RobustnessCase &c) { return c.resonance != 1.0; };
+    if (!law_design(d).shaft_states || std::any_of(spec.cases.begin(), spec.cases.end(), own)) {
+        return spec;
+    }
+    for (const double at_Hz : {d.mechanics.from_Hz, d.mechanics.to_Hz}) {
+        spec.cases.push_back(RobustnessCase(spec.cases.front()));
+        spec.cases.back().resonance = at_Hz / d.mechanics.resonance_Hz;
+    }
+    return spec;
 }
 
 TuneSpec goals_from_physics(const Drive &d)
@@ -115,7 +133,8 @@ TuneSpec goals_from_physics(const Drive &d)
     spec.speed_e_radps      = speed;
     spec.load_before_Nm     = load_share * d.motor.rated_torque_Nm;
     spec.load_step_Nm       = (1.0 - load_share) * d.motor.rated_torque_Nm;
-    spec.band_e_radps       = band_share * bound.dip_e_radps;
+    const double rigid      = 1.0 - bound.shaft_s / bound.reaction_s; ///< share
+    spec.band_e_radps       = band_share * rigid * bound.dip_e_radps;
     spec.voltage_headroom_V = headroom_share * circle;
     spec.voltage_noise_V    = noise_share * circle;
     spec.noise_is_a_limit   = true;
@@ -128,8 +147,12 @@ TuneSpec goals_from_physics(const Drive &d)
 
     RobustnessCase nominal;
     nominal.dip_e_radps     = dip_goal * bound.dip_e_radps;
-    nominal.settling_time_s = settling_goal * bound.reaction_s;
-    nominal.ripple_e_radps  = ripple_share * bound.dip_e_radps;
+    nominal.settling_time_s = settling_goal * rigid * bound.reaction_s;
+    if (law_design(d).shaft_states) {
+        nominal.settling_time_s =
+            shaft_settling_s(d.mechanics, nominal.settling_time_s, d.mechanics.resonance_Hz);
+    }
+    nominal.ripple_e_radps = ripple_share * bound.dip_e_radps;
     spec.cases.push_back(nominal);
     // Corners of R, L, flux x0.7 .. 1.3 and J x0.5 .. 2, those that accelerate fastest and slowest.
     spec.cases.push_back(robust(2.0, 1.0 / 1.3, 1.0, spec));
@@ -138,7 +161,7 @@ TuneSpec goals_from_physics(const Drive &d)
     spec.cases.push_back(robust(0.5, 1.0 / 0.7, 0.7 / 1.3, spec));
     spec.cases[1].dip_e_radps *= 2.0; // half the inertia
     spec.cases[2].dip_e_radps *= 2.0;
-    return spec;
+    return with_shaft_cases(spec, d);
 }
 
 } // namespace sdre

@@ -9,9 +9,11 @@
 
 #include "common/errors.hpp"
 #include "common/parallel.hpp"
-#include "design/design.hpp"
-#include "design/sampled_model.hpp"
-#include "design/sampled_observer.hpp"
+#include "design/firmware_config.hpp"
+#include "design/laws/laws.hpp"
+#include "design/laws/near_optimal.hpp"
+#include "design/machine_points.hpp"
+#include "design/noc_shaft/shaft_design.hpp"
 #include "design/trip_levels.hpp"
 #include "design/verdict.hpp"
 #include "linalg/covariance.hpp"
@@ -23,6 +25,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Chosen: the controller's weights have this unit, over the weight of a voltage.
+constexpr double weight_unit = 1e3;
 constexpr double pi          = 3.14159265358979323846;
 constexpr double noise_slope = 3.0;  // a limit: beyond it nothing else counts
 constexpr double no_solution = 1e12; // of the Riccati equations: worse than any unstable loop
@@ -33,10 +37,10 @@ constexpr double lively_flux    = 1.3;
 constexpr double lively_inertia = 0.45;
 // Chosen: the certificate looks at more points, and more finely.
 constexpr double peak_share = 0.8;
+// Chosen: where the noise fills the band, half of it stays for the load step, and the ripple is far from its goal.
+constexpr double least_band_share = 0.5;
 // The one parameter alone at which certificates of rare edges fail first.
 constexpr double low_inductance = 0.5;
-
-enum Weight { speed_error, q_axis_error, load_drift, voltage_drift, speed_noise, current_noise };
 
 Motor believed_motor(Motor m, const RobustnessCase &c)
 {
@@ -47,17 +51,6 @@ Motor believed_motor(Motor m, const RobustnessCase &c)
     m.q_axis_inductance_H *= c.electrical * c.inductance;
     m.pm_flux_Wb *= c.electrical;
     return m;
-}
-
-/// The steady operating point that carries a load torque on the MTPA curve.
-OperatingPoint operating_point(const ReducedParameters &l, double speed, double load_Nm)
-{
-    OperatingPoint at{speed, 0.0, l[0]};
-    for (int i = 0; i < 50; i++) { // contraction factor below 0.5
-        at.iq_A = (l[2] * speed + l[3] * load_Nm) / (l[1] + l[11] * at.id_A);
-        at.id_A = mtpa_id_A(l, at.iq_A);
-    }
-    return at;
 }
 
 Motor lively(Motor m)
@@ -74,50 +67,83 @@ Motor of_low_inductance(Motor m)
     return m;
 }
 
-/// One robustness case: the motor, and the controller's model with its gains.
-struct Loop {
-    ReducedParameters motor;
-    ReducedParameters model;
-    LoopGains         gains;
-    double            ts_s;
+/// Laws without a loop of their own are judged as noc.
+const LinearLoop &linear_loop(const Drive &drive)
+{
+    const auto &own = law_design(drive).loop;
+    return own ? *own : *noc_design.loop;
+}
 
+/// One robustness case: the motor and its shaft, and the controller's model with its gains.
+struct Loop {
+    const LinearLoop *law;
+    Design            believed;
+    Drive             own;
+    TrueMotor         motor;
+    Shaft             shaft;
+    LoopGains         gains;
+
+    SampledModel at(const OperatingPoint &point, const TrueMotor &plant) const
+    {
+        return law->at(believed, plant, shaft, point, gains);
+    }
     SampledModel at(const OperatingPoint &point) const
     {
-        return sampled_model(motor, model, gains, point, ts_s);
+        return at(point, motor);
     }
     double radius_at(const OperatingPoint &point) const
     {
         return spectral_radius(at(point).A);
+    }
+    /// With other values of [motor].
+    double radius_with(const Motor &other, const OperatingPoint &point) const
+    {
+        return spectral_radius(at(point, plant_of(other)).A);
+    }
+    /// A law with a map has the motor of the map.
+    TrueMotor plant_of(const Motor &m) const
+    {
+        return law->believe != nullptr ? true_motor(own, m) : TrueMotor(reduced_parameters(m));
     }
 };
 
 /// Only the gains of order 0: near the operating point the others do nothing.
 Loop loop_of(const Drive &drive, const RobustnessCase &c)
 {
-    const ReducedParameters model = reduced_parameters(believed_motor(drive.motor, c));
-    const Eigen::Vector2d   T_nosc(drive.nosc.T[0], drive.nosc.T[1]);
-    const SdreProblem       control = nosc_problem(at_rest(model), drive.nosc);
-    const MatrixXd          X       = solve_care(control.A0, control.G, control.Q).X;
-    const double            ts      = control_period_s(drive);
-    return {reduced_parameters(drive.motor),
-            model,
-            {T_nosc.cwiseInverse().asDiagonal() * nosc_input_matrix(model).transpose() * X,
-             solve_encoder_form(at_rest(model), drive.nodo, ts).gain[0]},
-            ts};
+    Loop loop{&linear_loop(drive), {}, drive, reduced_parameters(drive.motor), {}, {}};
+    loop.believed.drive       = drive;
+    loop.believed.drive.motor = believed_motor(drive.motor, c);
+    loop.believed.l           = reduced_parameters(loop.believed.drive.motor);
+    loop.believed.config      = common_config(loop.believed);
+    if (loop.law->believe != nullptr) {
+        loop.law->believe(loop.believed, drive.motor);
+    }
+    loop.gains = first_gains(loop.believed);
+    loop.motor = loop.plant_of(drive.motor);
+    loop.shaft = believed_shaft(drive);
+    loop.shaft.resonance_Hz *= c.resonance;
+    return loop;
 }
 
-double radius_with(const Motor &motor, const Loop &loop, const OperatingPoint &at)
+/// The steady operating point that carries a load torque on the MTPA curve.
+OperatingPoint operating_point(const Loop &loop, double speed, double load_Nm)
 {
-    const ReducedParameters l = reduced_parameters(motor);
-    return spectral_radius(sampled_model(l, loop.model, loop.gains, at, loop.ts_s).A);
+    const ReducedParameters l = reduced_parameters(loop.own.motor);
+    OperatingPoint          at{speed, loop.own.motor.max_current_A, l[0]};
+    for (int i = 0; i < 50; i++) { // contraction factor below 0.5
+        const double per_A = loop.motor.acceleration(at) / at.iq_A;
+        at.iq_A            = (l[2] * speed + l[3] * load_Nm) / per_A;
+        at.id_A            = mtpa_id_A(l, at.iq_A);
+    }
+    return at;
 }
 
 /// The larger radius of a lively motor, and of one with little inductance at the largest speed.
 double radius_with_others(const Loop &loop, const Drive &drive, const OperatingPoint &at)
 {
     const OperatingPoint top{largest_command_e_radps(drive), 0.0, at.id_A};
-    return std::max(radius_with(lively(drive.motor), loop, at),
-                    radius_with(of_low_inductance(drive.motor), loop, top));
+    return std::max(loop.radius_with(lively(drive.motor), at),
+                    loop.radius_with(of_low_inductance(drive.motor), top));
 }
 
 /// Rough peak of the sensitivity at the largest speed, with the largest q currents that can be held there.
@@ -125,7 +151,7 @@ double top_peak(const Loop &loop, const Drive &drive)
 {
     Design design;
     design.drive = drive;
-    design.l     = loop.motor;
+    design.l     = reduced_parameters(drive.motor);
     double worst = 0.0;
     for (const double share : {-1.0, 0.0, 1.0}) {
         const SampledModel m = loop.at(
@@ -147,41 +173,52 @@ double worst_radius(const Loop &loop, const Drive &drive, const RobustnessCase &
         worst = std::max(worst, loop.radius_at({speed, at.iq_A, at.id_A}));
     }
     if (is_nominal(c)) {
-        const double iq_A = 2.0 * drive.motor.max_current_A;
-        const double radius =
-            loop.radius_at({trip_speed_e_radps(drive), iq_A, mtpa_id_A(loop.motor, iq_A)});
-        worst              = radius < 1.0 ? worst : std::max(1.0, radius);
-        const double other = spec.rare_edges ? radius_with_others(loop, drive, at) : 0.0;
-        worst              = other < 1.0 ? worst : std::max(other, worst);
-        const double shaft = radius_with_shafts(drive, loop.gains);
-        worst              = shaft < 1.0 ? worst : std::max(shaft, worst);
+        const double beyond = loop.law->believe == nullptr ? 2.0 : 1.0; // of a map there is nothing
+        const double iq_A   = beyond * drive.motor.max_current_A;
+        const double id_A   = mtpa_id_A(reduced_parameters(drive.motor), iq_A);
+        const double radius = loop.radius_at({trip_speed_e_radps(drive), iq_A, id_A});
+        worst               = radius < 1.0 ? worst : std::max(1.0, radius);
+        const double other  = spec.rare_edges ? radius_with_others(loop, drive, at) : 0.0;
+        worst               = other < 1.0 ? worst : std::max(other, worst);
+        const double shaft  = radius_with_shafts(drive, loop.gains);
+        worst               = shaft < 1.0 ? worst : std::max(shaft, worst);
     }
     return worst;
+}
+
+/// With a shaft in its model, a speed is settled when noise leaves it in the band too.
+TuneSpec settled_with_noise(TuneSpec spec, double ripple_e_radps)
+{
+    spec.band_e_radps =
+        std::max(spec.band_e_radps - ripple_e_radps, least_band_share * spec.band_e_radps);
+    return spec;
 }
 
 CaseResult evaluate_case(const Drive &drive, const TuneSpec &spec, const RobustnessCase &c)
 {
     const Loop           loop = loop_of(drive, c);
-    const OperatingPoint at   = operating_point(loop.motor, spec.speed_e_radps,
-                                                spec.load_before_Nm + 0.5 * spec.load_step_Nm);
-    CaseResult           result;
+    const OperatingPoint at =
+        operating_point(loop, spec.speed_e_radps, spec.load_before_Nm + 0.5 * spec.load_step_Nm);
+    const bool shaft = law_design(drive).shaft_states;
+    CaseResult result;
     result.spectral_radius = worst_radius(loop, drive, c, at, spec);
     if (result.spectral_radius < 1.0) {
-        const SampledModel m    = loop.at(at);
-        const LoadStep     step = load_step(m, spec);
-        result.dip_e_radps      = step.dip_e_radps;
-        result.settling_time_s  = step.settling_time_s;
-        result.voltage_V        = step.voltage_V;
-        const Sensors  sensors  = sensors_of(drive, spec);
-        const double   i2       = sensors.current_A * sensors.current_A;
-        const MatrixXd P        = covariance(
-                   m.A, m.B_noise, Eigen::Vector3d(i2, i2, sensors.angle_rad * sensors.angle_rad));
-        const MatrixXd V = m.C_voltage * P * m.C_voltage.transpose();
-        result.voltage_V += 3.0 * std::sqrt(V.trace());
+        const SampledModel m       = loop.at(at);
+        const Sensors      sensors = sensors_of(drive, spec);
+        const double       i2      = sensors.current_A * sensors.current_A;
+        const MatrixXd     P       = covariance(
+                      m.A, m.B_noise, Eigen::Vector3d(i2, i2, sensors.angle_rad * sensors.angle_rad));
+        const MatrixXd V      = m.C_voltage * P * m.C_voltage.transpose();
+        result.ripple_e_radps = 3.0 * std::sqrt(std::max(P(0, 0), 0.0));
+        const LoadStep step =
+            load_step(m, shaft ? settled_with_noise(spec, result.ripple_e_radps) : spec);
+        result.dip_e_radps     = step.dip_e_radps;
+        result.settling_time_s = step.settling_time_s;
+        result.voltage_V       = step.voltage_V + 3.0 * std::sqrt(V.trace());
         result.voltage_noise_V = std::sqrt(V(0, 0));
         result.peak            = spec.rare_edges && is_nominal(c) ? top_peak(loop, drive) : 0.0;
-        result.shaft = is_nominal(c) ? shaft_step(drive, spec, loop.gains, at) : ShaftStep{};
-        result.ripple_e_radps = 3.0 * std::sqrt(std::max(P(0, 0), 0.0));
+        result.shaft           = is_nominal(c) && !shaft ? shaft_step(drive, spec, loop.gains, at)
+                                                         : ShaftStep{}; // its cases have it
     }
     return result;
 }
@@ -241,6 +278,32 @@ double written(double weight)
     return std::strtod(fmt::format("{:.3g}", weight).c_str(), nullptr);
 }
 
+std::vector<SearchedWeight> searched_weights(Drive &d)
+{
+    std::vector<SearchedWeight> all{{true, {&d.nosc.Q[0]}},  {true, {&d.nosc.Q[1]}},
+                                    {false, {&d.nodo.Q[0]}}, {false, {&d.nodo.Q[1], &d.nodo.Q[2]}},
+                                    {false, {&d.nodo.Q[3]}}, {false, {&d.nodo.Q[4], &d.nodo.Q[5]}}};
+    if (law_design(d).shaft_states) {
+        for (double &weight : d.shaft.Q) {
+            all.push_back({true, {&weight}});
+        }
+        for (double &weight : d.shaft.nodo_Q) {
+            all.push_back({false, {&weight}});
+        }
+    }
+    return all;
+}
+
+Point point_of(Drive drive)
+{
+    Point x;
+    for (const SearchedWeight &w : searched_weights(drive)) {
+        const double unit = w.controller ? weight_unit * drive.nosc.T[0] : 1.0;
+        x.push_back(std::log10(*w.values.front() / unit));
+    }
+    return x;
+}
+
 Drive with_weights(Drive drive, const TuneSpec &spec, const Point &x)
 {
     const double  ts        = control_period_s(drive);
@@ -249,19 +312,21 @@ Drive with_weights(Drive drive, const TuneSpec &spec, const Point &x)
     // A sampled sensor with standard deviation s is white noise of density s^2 Ts.
     const double t_current = written(sensors.current_A * sensors.current_A * ts);
     const double t_angle   = written(sensors.angle_rad * sensors.angle_rad * ts);
-    const auto   value     = [&x](Weight w, double unit) {
-        return written(std::pow(10.0, x[static_cast<std::size_t>(w)]) * unit);
-    };
-    const double voltage = value(voltage_drift, 1.0);
-    const double current = value(current_noise, 1.0);
 
     drive.nosc.T    = {t_voltage, t_voltage};
-    drive.nosc.Q    = {value(speed_error, 1e3 * t_voltage), value(q_axis_error, 1e3 * t_voltage),
-                       written(1.0 / (spec.d_axis_error_A * spec.d_axis_error_A))};
+    drive.nosc.Q[2] = written(1.0 / (spec.d_axis_error_A * spec.d_axis_error_A));
     drive.nodo.form = NodoForm::encoder;
     drive.nodo.T    = {t_current, t_current, t_angle};
-    drive.nodo.Q    = {
-           value(load_drift, 1.0), voltage, voltage, value(speed_noise, 1.0), current, current, 0.0};
+    drive.nodo.Q.resize(7);
+    drive.nodo.Q[6] = 0.0;
+    std::size_t i   = 0;
+    for (const SearchedWeight &w : searched_weights(drive)) {
+        const double unit = w.controller ? weight_unit * t_voltage : 1.0;
+        for (double *weight : w.values) {
+            *weight = written(std::pow(10.0, x[i]) * unit);
+        }
+        i++;
+    }
     return drive;
 }
 

@@ -10,7 +10,7 @@ namespace sdre {
 
 std::optional<Prediction> predicted(const Drive &drive)
 {
-    if (!law_design(drive).predicts) {
+    if (!law_design(drive).loop) {
         return {};
     }
     try {

@@ -19,12 +19,9 @@ constexpr int    most_evaluations = 1500; // chosen: twice what the shipped driv
 constexpr double short_step       = 0.15; // decades
 constexpr int few_evaluations = 250; // chosen: each looks at the whole verdict, a tenth of a second
 
-Point point_of(const std::vector<double> &x)
-{
-    Point p{};
-    std::copy(x.begin(), x.end(), p.begin());
-    return p;
-}
+// Chosen: a search that gains less than this is not begun again.
+constexpr double restart_gain  = 0.98;
+constexpr int    most_restarts = 6;
 
 double call(const std::vector<double> &x, std::vector<double> & /*gradient*/, void *function)
 {
@@ -52,24 +49,30 @@ std::vector<double> search_from(std::vector<double> x, Function f, const Steps &
     return x;
 }
 
-Point weights_from(const Point &start, const std::function<double(const Point &)> &f,
-                   const Steps &steps)
-{
-    return point_of(search_from(
-        {start.begin(), start.end()}, [&f](const std::vector<double> &x) { return f(point_of(x)); },
-        steps));
-}
-
 } // namespace
 
 Point minimise(const Point &start, const std::function<double(const Point &)> &f)
 {
-    return weights_from(start, f, {first_step, last_step, most_evaluations});
+    return search_from(start, f, {first_step, last_step, most_evaluations});
+}
+
+Point minimise_again(Point x, const std::function<double(const Point &)> &f)
+{
+    double before = 1e300;
+    for (int i = 0; i < most_restarts; i++) {
+        x                = minimise(x, f);
+        const double now = f(x);
+        if (now > restart_gain * before) {
+            break;
+        }
+        before = now;
+    }
+    return x;
 }
 
 Point improve(const Point &start, const std::function<double(const Point &)> &f)
 {
-    return weights_from(start, f, {short_step, last_step, few_evaluations});
+    return search_from(start, f, {short_step, last_step, few_evaluations});
 }
 
 std::vector<double> minimise_decades(const std::vector<double> &start, double last,

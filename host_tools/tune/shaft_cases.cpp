@@ -60,6 +60,13 @@ double ripple_e_radps(const SampledModel &loop, const Sensors &sensors)
 
 } // namespace
 
+double shaft_settling_s(const Mechanics &m, double rigid_s, double resonance_Hz)
+{
+    const double oscillations =
+        m.coupling == Coupling::known ? known_oscillations : unknown_oscillations;
+    return std::max(nominal_times * rigid_s, oscillations / resonance_Hz);
+}
+
 double radius_with_shafts(const Drive &drive, const LoopGains &gains)
 {
     const std::vector<Shaft> shafts = hardest_shafts(drive.mechanics, coarse_ratio);
@@ -90,16 +97,14 @@ ShaftStep shaft_step(const Drive &drive, const TuneSpec &spec, const LoopGains &
     }
     const Design    design = design_of(drive, gains);
     const TwoMasses masses(design);
-    const int       periods      = static_cast<int>(shaft_horizon_s / control_period_s(drive));
-    const bool      known        = drive.mechanics.coupling == Coupling::known;
-    const double    oscillations = known ? known_oscillations : unknown_oscillations;
-    const Sensors   sensors      = sensors_of(drive, spec);
+    const int       periods = static_cast<int>(shaft_horizon_s / control_period_s(drive));
+    const Sensors   sensors = sensors_of(drive, spec);
     for (const Shaft &shaft : hardest_shafts(drive.mechanics, step_ratio)) {
-        const SampledModel loop   = masses.loop(shaft, at, gains);
-        const LoadStep     step   = load_step(loop, spec, periods);
-        const double       goal_s = std::max(nominal_times * spec.cases[0].settling_time_s,
-                                             oscillations / shaft.resonance_Hz);
-        const double       ratio =
+        const SampledModel loop = masses.loop(shaft, at, gains);
+        const LoadStep     step = load_step(loop, spec, periods);
+        const double       goal_s =
+            shaft_settling_s(drive.mechanics, spec.cases[0].settling_time_s, shaft.resonance_Hz);
+        const double ratio =
             std::max(step.settling_time_s / goal_s,
                      ripple_e_radps(loop, sensors) / (shaft_ripple_share * spec.band_e_radps));
         if (ratio > worst.ratio) {

@@ -12,6 +12,10 @@ namespace sdre {
 /// half the rated speed with the largest current. Half of the decay that the shaft has by itself is added.
 double radius_with_shafts(const Drive &drive, const LoopGains &gains);
 
+/// Goal of the settling time behind a shaft of this resonance: twice that of a rigid coupling. It is
+/// never less than 1.6 oscillations of a known shaft, or 8 of an unknown one.
+double shaft_settling_s(const Mechanics &mechanics, double rigid_s, double resonance_Hz);
+
 /// The load step that is farthest beyond its goal.
 struct ShaftStep {
     double ratio =
@@ -20,8 +24,7 @@ struct ShaftStep {
     double resonance_Hz    = 0.0;
 };
 
-/// The nominal load step with some of these shafts, at the least damping ratio. The goal is twice the nominal settling time, but
-/// never less than 1.6 oscillations of a known shaft, or 8 of an unknown one. Three
+/// The nominal load step with some of these shafts, at the least damping ratio. The goal is shaft_settling_s(). Three
 /// standard deviations of the speed may be 0.4 of the band.
 ShaftStep shaft_step(const Drive &drive, const TuneSpec &spec, const LoopGains &gains,
                      const OperatingPoint &at);

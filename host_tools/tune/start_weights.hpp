@@ -7,6 +7,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "drive/drive_file.hpp"
 
@@ -36,9 +37,14 @@ double periods_per_edge(const Drive &drive);
 /// The pace at which the encoder's error is as large in motor_units() as on the 390 W motor; at least 1.
 double pace_of_sensors(const Drive &drive);
 
-/// The drive as law noc in its encoder form with these weights, each with three digits.
+/// The drive with these weights, each with three digits. Laws without a LinearLoop become noc in its encoder form.
 Drive start_weights(Drive drive, double pace);
 Drive start_weights(const Drive &drive);
+
+/// Whether its law knows more of the plant than law noc: an elastic shaft, or iron that saturates.
+bool has_own_plant(const Drive &drive);
+/// Starts of a search for such a law, which ends in different weights from each.
+std::vector<Drive> own_plant_starts(const Drive &drive);
 
 /// Its [nosc] and [nodo] sections.
 std::string start_sections(const Drive &drive);

@@ -4,20 +4,21 @@
 #include <algorithm>
 
 #include "common/errors.hpp"
-#include "design/design.hpp"
+#include "design/law_design.hpp"
 #include "tune/position_weights.hpp"
 #include "tune/search.hpp"
+#include "tune/start_weights.hpp"
 #include "tune/verdict_penalty.hpp"
 
 namespace sdre {
 namespace {
 
 /// Chosen: in the middle of the region in which the shipped motors are stable.
-constexpr Point start{{0.3, 0.9, 9.0, 7.0, 2.0, 1.0}};
+const Point start{0.3, 0.9, 9.0, 7.0, 2.0, 1.0};
 /// Chosen: a slow feedback of the speed with a quick load estimate, stable with most shafts.
-constexpr Point slow_start{{-1.7, -5.6, 9.5, 5.8, 0.8, 0.2}};
+const Point slow_start{-1.7, -5.6, 9.5, 5.8, 0.8, 0.2};
 /// Chosen: ten times slower.
-constexpr Point slower_start{{-2.8, -4.4, 10.5, 6.9, 0.0, -0.2}};
+const Point slower_start{-2.8, -4.4, 10.5, 6.9, 0.0, -0.2};
 
 // Chosen: the error of the linear model is larger (a dip of 5.1 rad/s is 5.5 on the board). A
 // smaller gain does not justify new tables.
@@ -25,10 +26,6 @@ constexpr double worth_a_change = 0.03;
 
 // Chosen: from further off, certified weights would not meet the goals by far.
 constexpr double near_goal = 2.0;
-
-// Chosen: a search that gains less than this is not begun again.
-constexpr double restart_gain  = 0.98;
-constexpr int    most_restarts = 6;
 
 constexpr int report_every = 100; // evaluations
 
@@ -48,29 +45,27 @@ bool is_candidate(const Drive &own, const Drive &found)
 using Value     = std::function<double(const Point &)>;
 using Certified = std::function<bool(const Point &)>;
 
-/// A settling time jumps where an oscillation leaves its band, and a search ends there too early: it begins again.
-Point restarted(Point x, const Value &value)
+/// noc_shaft's are those of goals from physics, and the others' are chosen.
+std::vector<Point> shaft_starts(const Drive &drive)
 {
-    double before = 1e300;
-    for (int i = 0; i < most_restarts; i++) {
-        x                = minimise(x, value);
-        const double now = value(x);
-        if (now > restart_gain * before) {
-            break;
+    std::vector<Point> starts{start, slow_start, slower_start};
+    if (law_design(drive).shaft_states) {
+        starts.clear();
+        for (const Drive &d : own_plant_starts(drive)) {
+            starts.push_back(point_of(d));
         }
-        before = now;
     }
-    return x;
+    return starts;
 }
 
 /// The best of several starts; certified ones come first.
-Point best_with_shafts(const Value &value, const Certified &certified)
+Point best_of(const std::vector<Point> &starts, const Value &value, const Certified &certified)
 {
     Point  best{};
     double least = 1e300;
     bool   found = false;
-    for (const Point &from : {start, slow_start, slower_start}) {
-        const Point  x      = restarted(from, value);
+    for (const Point &from : starts) {
+        const Point  x      = minimise_again(from, value);
         const double now    = value(x);
         const bool   passes = certified(x);
         if ((passes && !found) || (passes == found && now < least)) {
@@ -105,8 +100,8 @@ TuneResult tune_drive(const Drive &own_drive, const TuneSpec &wanted, const Tune
         return s.value;
     };
     const auto passes = [&](const Point &x) { return is_certified(with_weights(drive, spec, x)); };
-    Point      found  = elastic ? best_with_shafts(value, passes) : minimise(start, value);
-    result.drive      = with_weights(drive, spec, found);
+    Point found  = elastic ? best_of(shaft_starts(drive), value, passes) : minimise(start, value);
+    result.drive = with_weights(drive, spec, found);
     if ((elastic || best < near_goal) && !is_certified(result.drive)) {
         found        = improve(found, [&](const Point &x) {
             return value(x) + verdict_penalty(with_weights(drive, spec, x));

@@ -26,6 +26,7 @@ RobustnessCase read_case(TomlReader &t)
     c.mechanical      = t.number("mechanical", factor);
     c.electrical      = t.number("electrical", factor);
     c.inductance      = t.number_or("inductance", factor, 1.0);
+    c.resonance       = t.number_or("resonance", factor, 1.0);
     c.dip_e_radps     = t.number("dip_e_radps", deviation_e_radps);
     c.settling_time_s = t.number("settling_time_s", time_s);
     c.ripple_e_radps  = t.number("ripple_e_radps", deviation_e_radps);
@@ -37,7 +38,7 @@ RobustnessCase read_case(TomlReader &t)
 
 bool is_nominal(const RobustnessCase &c)
 {
-    return c.mechanical == 1.0 && c.electrical == 1.0 && c.inductance == 1.0;
+    return c.mechanical == 1.0 && c.electrical == 1.0 && c.inductance == 1.0 && c.resonance == 1.0;
 }
 
 TuneSpec read_tune_spec(const std::filesystem::path &file)

@@ -12,6 +12,7 @@ struct RobustnessCase {
     double mechanical      = 1.0; ///< on J and B
     double electrical      = 1.0; ///< on Rs, Ld, Lq and flux
     double inductance      = 1.0; ///< on Ld and Lq once more
+    double resonance       = 1.0; ///< of the shaft over the believed one; noc_shaft only
     double dip_e_radps     = 0.0; ///< largest speed deviation after the load step
     double settling_time_s = 0.0;
     double ripple_e_radps  = 0.0; ///< three standard deviations of the speed

@@ -297,6 +297,44 @@ TEST(RandomMotors, SavedFailureIsTheSameRun)
     }
 }
 
+/// A resonance that was measured is that of the machine, whatever its inertia is. A scenario's own shaft is as it says.
+TEST(RandomMotors, MeasuredResonanceStaysWithAnotherInertia)
+{
+    const auto content = [](const std::string &inertia, const std::string &more) {
+        const std::string plain = support::replaced(support::scenario_text("ipmsm_390w_shaft"),
+                                                    "law = \"noc\"", "law = \"noc_shaft\"");
+        return support::replaced(plain, "[plant_scale]\n", "[plant_scale]\n" + inertia) + more;
+    };
+    const std::string  twice = "inertia_kgm2 = 2.0\n";
+    const MotorEffects one   = read(content("", "")).motor_effects;
+    const MotorEffects two   = read(content(twice, "")).motor_effects;
+    const MotorEffects own   = read(content(twice, "[motor_effects]\nload_inertia_share = 0.5\n"
+                                                     "shaft_stiffness_Nmprad = 99.0\n"))
+                                 .motor_effects;
+    EXPECT_GT(one.shaft_stiffness_Nmprad, 0.0);
+    EXPECT_NEAR(two.shaft_stiffness_Nmprad, 2.0 * one.shaft_stiffness_Nmprad, 1e-9);
+    EXPECT_NEAR(two.shaft_damping_Nms, 2.0 * one.shaft_damping_Nms, 1e-12);
+    EXPECT_EQ(own.shaft_stiffness_Nmprad, 99.0);
+
+    const Scenario     s    = read(content("", light));
+    const RandomMotors runs = run_random_motors(s, 1);
+    Scenario           kept = s;
+    kept.plant_scale        = draw_motor(*s.motor_ranges, s.seed, 1);
+    kept.motor_effects.shaft_stiffness_Nmprad *= kept.plant_scale.at("inertia_kgm2");
+    kept.motor_effects.shaft_damping_Nms *= kept.plant_scale.at("inertia_kgm2");
+    const SimulationResult   run     = simulate(kept);
+    std::vector<std::string> of_kept = judge(kept, run, measure(kept, run.trace), {});
+    ASSERT_EQ(runs.failures.size(), 1U);
+    ASSERT_FALSE(of_kept.empty());
+    EXPECT_EQ(runs.failures[0].reasons[0], of_kept[0]);
+    const SimulationResult stiff = simulate([&] {
+        Scenario other      = kept;
+        other.motor_effects = s.motor_effects;
+        return other;
+    }());
+    EXPECT_NE(stiff.trace.back().omega_e_radps, run.trace.back().omega_e_radps);
+}
+
 TEST(RandomMotors, SavedFailureOfAnotherDriveNamesThatDrive)
 {
     const support::TempDir dir;

@@ -229,6 +229,14 @@ void solve_near_optimal(Design &d)
     certify(d);
 }
 
+LoopGains first_gains(const Design &d)
+{
+    Drive drive      = d.drive;
+    drive.nosc.order = 0;
+    return {solve_nosc(at_rest(d.l), drive, Precision::quick).gain[0],
+            solve_nodo(at_rest(d.l), drive, Precision::quick).gain[0]};
+}
+
 const current_ref_config_t *current_references(const Design &d)
 {
     if (const auto *c = constants_of<law_noc_config_t>(d.config)) {

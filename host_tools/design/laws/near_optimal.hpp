@@ -15,6 +15,9 @@ namespace sdre {
 /// nosc, nodo and certificate of both; noc_h has no nodo.
 void solve_near_optimal(Design &design);
 
+/// The first terms of both series, for the motor that the design believes. DesignError without a solution.
+LoopGains first_gains(const Design &design);
+
 /// The current references of a near optimal law; none of other laws.
 const current_ref_config_t *current_references(const Design &design);
 

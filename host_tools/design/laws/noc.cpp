@@ -30,6 +30,12 @@ SampledModel model_at(const Design &d, const TrueMotor &motor, const OperatingPo
                          control_period_s(d.drive), moving);
 }
 
+SampledModel loop_at(const Design &d, const TrueMotor &motor, const Shaft & /*rigid*/,
+                     const OperatingPoint &at, const LoopGains &gains)
+{
+    return sampled_model(motor, d.l, gains, at, control_period_s(d.drive));
+}
+
 void solve(Design &d)
 {
     solve_near_optimal(d);
@@ -82,7 +88,7 @@ Layout layout(const Design &d)
 
 const LawDesign noc_design = [] {
     LawDesign d{"law_noc", "law_noc_config_t", is_for, solve, summary, mismatches, layout};
-    d.predicts   = true;
+    d.loop       = LinearLoop{loop_at};
     d.weights    = Weights::by_goals;
     d.scheduling = {{"e_iq"}, {"iq_hat"}};
     d.noise_knob = observer_knob("noc");

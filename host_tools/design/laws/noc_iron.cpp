@@ -31,6 +31,19 @@ SampledModel model_at(const Design &d, const TrueMotor &motor, const OperatingPo
     return sampled_iron_model(d, motor, at, encoder_form_gains(d, at.iq_A, Lambda), moving);
 }
 
+SampledModel loop_at(const Design &d, const TrueMotor &motor, const Shaft & /*rigid*/,
+                     const OperatingPoint &at, const LoopGains &gains)
+{
+    return sampled_iron_model(d, motor, at, gains);
+}
+
+void believe(Design &d, const Motor &of_map)
+{
+    law_noc_iron_config_t c{};
+    c.iron = iron_table(d.drive.motor, {d.drive.saturation, flux_scale(of_map, d.drive.motor)});
+    keep_constants(d, c);
+}
+
 void solve(Design &d)
 {
     solve_near_optimal(d);
@@ -46,7 +59,7 @@ void solve(Design &d)
     const CurrentObserver currents = design_nodo_current(d.l, d.drive, trip_speed_e_radps(d.drive));
     c.currents                     = currents.gains;
     certify_currents(d, currents);
-    c.iron = iron_table(d.drive);
+    c.iron = iron_table(d.drive.motor, saturated_motor(d.drive, d.drive.motor));
     keep_constants(d, c); // the loop reads the table
     certify_whole(d, c.plausible, d.drive.nodo.T[2], c.near_optimal.current_ref, model_at);
 }
@@ -102,6 +115,8 @@ Layout layout(const Design &d)
 const LawDesign noc_iron_design = [] {
     LawDesign d{"law_noc_iron", "law_noc_iron_config_t", is_for, solve, summary, mismatches,
                 layout};
+    d.weights    = Weights::by_goals;
+    d.loop       = LinearLoop{loop_at, believe};
     d.scheduling = {{"e_iq"}, {"iq_hat"}};
     return d;
 }();

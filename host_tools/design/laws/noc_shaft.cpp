@@ -20,6 +20,12 @@ SampledModel model_at(const Design &d, const TrueMotor &motor, const OperatingPo
                                encoder_form_gains(d, at.iq_A, Lambda), moving);
 }
 
+SampledModel loop_at(const Design &d, const TrueMotor &motor, const Shaft &shaft,
+                     const OperatingPoint &at, const LoopGains &gains)
+{
+    return sampled_shaft_model(d, motor, shaft, at, gains);
+}
+
 law_noc_shaft_feedback_t feedback(const Design &d)
 {
     const Eigen::MatrixXd &Lambda = d.nosc.gain[0];
@@ -122,6 +128,8 @@ const LawDesign noc_shaft_design = [] {
     LawDesign d{"law_noc_shaft", "law_noc_shaft_config_t", is_for, solve, summary, mismatches,
                 layout};
     d.shaft_states = true;
+    d.weights      = Weights::by_goals;
+    d.loop         = LinearLoop{loop_at};
     d.scheduling   = {{"e_iq"}, {"iq_hat"}};
     return d;
 }();

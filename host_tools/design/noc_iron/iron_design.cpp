@@ -8,9 +8,8 @@
 
 namespace sdre {
 
-iron_map_t iron_table(const Drive &drive)
+iron_map_t iron_table(const Motor &m, const SaturatedMotor &iron)
 {
-    const Motor &m      = drive.motor;
     const double d_node = m.max_current_A / (IRON_NODES_D - 1);
     const double q_node = m.max_current_A / (IRON_NODES_Q - 1);
 
@@ -23,7 +22,7 @@ iron_map_t iron_table(const Drive &drive)
     t.accel_per_WbA = static_cast<float>(1.5 * m.pole_pairs * m.pole_pairs / m.inertia_kgm2);
     for (int i = 0; i < IRON_NODES_D; i++) {
         for (int j = 0; j < IRON_NODES_Q; j++) {
-            const FluxAt f           = drive.saturation->at(-d_node * i, q_node * j);
+            const FluxAt f           = iron.at(-d_node * i, q_node * j);
             t.node[i][j][IRON_PSI_D] = static_cast<float>(f.d_Wb);
             t.node[i][j][IRON_PSI_Q] = static_cast<float>(f.q_Wb);
             t.node[i][j][IRON_LD]    = static_cast<float>(f.dd_H);

@@ -16,10 +16,14 @@ using Eigen::VectorXd;
 
 constexpr double two_pi = 6.283185307179586;
 
+} // namespace
+
 double resonance_radps(const Shaft &shaft)
 {
     return two_pi * shaft.resonance_Hz;
 }
+
+namespace {
 
 /// EQ-CERT-9 in (w w_load twist) with inputs a = l1 iq + .. and d_w.
 struct Masses {

@@ -15,6 +15,9 @@ enum Row : Eigen::Index { d_omega, d_q, d_d, omega, iq, id, theta, omega_load, t
 /// The shaft that the control believes in.
 Shaft believed_shaft(const Drive &drive);
 
+/// w_r of a shaft [rad/s].
+double resonance_radps(const Shaft &shaft);
+
 /// Lambda in e_w, e_iq, e_id, the slip w_load - w and the twist: 2 x 5, scheduled by e_iq.
 GainSeries solve_shaft_controller(const ReducedParameters &l, const Drive &drive,
                                   Precision precision);

@@ -64,8 +64,9 @@ nb::tuple tune(const std::string &text, const std::string &source)
     std::string found, binding;
     {
         const nb::gil_scoped_release free;
-        require_rewritable(source, text);
-        const AutoTuneResult r = auto_tune(read_drive_text(text, source), [](int, double) {});
+        const Drive                  drive = read_drive_text(text, source);
+        require_rewritable(source, text, drive);
+        const AutoTuneResult r = auto_tune(drive, [](int, double) {});
         found                  = with_sections(text, tuned_sections(r.tuned, r.goals));
         binding                = r.binding;
     }

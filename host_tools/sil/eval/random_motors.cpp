@@ -14,6 +14,7 @@
 #include "common/random.hpp"
 #include "common/toml_reader.hpp"
 #include "design/sampled_model.hpp"
+#include "sil/setup/board_reader.hpp"
 
 namespace sdre {
 namespace {
@@ -114,6 +115,24 @@ MotorScale draw_motor(const MotorRanges &r, std::uint64_t seed, int motor)
     return scale;
 }
 
+namespace {
+
+/// The shaft of the drive file keeps its resonance with another inertia. A shaft of the scenario keeps its stiffness.
+void keep_resonance(Scenario &s)
+{
+    const MotorEffects own = effects_of_drive(s.drive);
+    MotorEffects      &e   = s.motor_effects;
+    if (e.load_inertia_share == own.load_inertia_share &&
+        e.shaft_stiffness_Nmprad == own.shaft_stiffness_Nmprad &&
+        e.shaft_damping_Nms == own.shaft_damping_Nms) {
+        const MotorEffects kept  = effects_of_drive(s.drive, s.plant_scale.at("inertia_kgm2"));
+        e.shaft_stiffness_Nmprad = kept.shaft_stiffness_Nmprad;
+        e.shaft_damping_Nms      = kept.shaft_damping_Nms;
+    }
+}
+
+} // namespace
+
 RandomMotors run_random_motors(const Scenario &scenario, int count)
 {
     if (!scenario.motor_ranges) {
@@ -125,9 +144,10 @@ RandomMotors run_random_motors(const Scenario &scenario, int count)
     Progress                      progress(runs.size(), "motors");
 
     parallel_for(runs.size(), [&](std::size_t i) {
-        Scenario  one                 = scenario;
-        const int motor               = static_cast<int>(i) + 1;
-        one.plant_scale               = draw_motor(*scenario.motor_ranges, scenario.seed, motor);
+        Scenario  one   = scenario;
+        const int motor = static_cast<int>(i) + 1;
+        one.plant_scale = draw_motor(*scenario.motor_ranges, scenario.seed, motor);
+        keep_resonance(one);
         one.seed                      = static_cast<std::uint64_t>(motor);
         const SimulationResult result = simulate(one, controller);
         runs[i]                       = {motor, result.fault != 0, one.plant_scale,

@@ -247,13 +247,13 @@ InverterSettings read_board_inverter(TomlReader t, InverterSettings s, const Dri
     return s;
 }
 
-MotorEffects effects_of_drive(const Drive &drive)
+MotorEffects effects_of_drive(const Drive &drive, double inertia_factor)
 {
     const Mechanics &m = drive.mechanics;
     MotorEffects     e;
     if (m.coupling == Coupling::known) {
-        const double reduced_kgm2 =
-            m.load_inertia_share * (1.0 - m.load_inertia_share) * drive.motor.inertia_kgm2;
+        const double reduced_kgm2 = m.load_inertia_share * (1.0 - m.load_inertia_share) *
+                                    inertia_factor * drive.motor.inertia_kgm2;
         const double w_r         = two_pi * m.resonance_Hz;
         e.load_inertia_share     = m.load_inertia_share;
         e.shaft_stiffness_Nmprad = w_r * w_r * reduced_kgm2;

@@ -19,7 +19,9 @@ SensorSettings sensors_of_drive(const Drive &drive);
 
 SensorSettings read_sensors(TomlReader t, SensorSettings now, const Drive &drive);
 /// The shaft of a coupling whose resonance the drive file knows; else none.
-MotorEffects effects_of_drive(const Drive &drive);
+/// A measured resonance is that of the machine as it is, also
+/// where its inertia is `inertia_factor` times the believed one.
+MotorEffects effects_of_drive(const Drive &drive, double inertia_factor = 1.0);
 /// The keys of the table, on top of `effects`.
 MotorEffects     read_motor_effects(TomlReader t, MotorEffects effects);
 InverterSettings read_board_inverter(TomlReader t, InverterSettings now, const Drive &drive);

@@ -105,7 +105,9 @@ void read_board(TomlReader &t, Scenario &s)
         s.sensors.ideal = false; // a table without `ideal` is the shipped board
         s.sensors       = read_sensors(*sensors, s.sensors, s.drive);
     }
-    s.motor_effects = effects_of_drive(s.drive);
+    const auto inertia = s.plant_scale.find("inertia_kgm2");
+    s.motor_effects =
+        effects_of_drive(s.drive, inertia == s.plant_scale.end() ? 1.0 : inertia->second);
     if (std::optional<TomlReader> effects = t.table_if("motor_effects")) {
         s.motor_effects = read_motor_effects(*effects, s.motor_effects);
     }
