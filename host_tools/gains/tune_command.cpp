@@ -53,7 +53,12 @@ constexpr double met_within = 1.02;
 Tuned by_specification(const Options &o, const Drive &drive)
 {
     Tuned t;
-    t.spec = with_shaft_cases(read_tune_spec(o.spec), drive);
+    t.spec = read_tune_spec(o.spec);
+    if (has_resonance(t.spec) && !law_design(drive).shaft_states) {
+        throw InputError(fmt::format(
+            "{}: [[case]] resonance is not allowed: only law = \"noc_shaft\" has one", o.spec));
+    }
+    t.spec = with_shaft_cases(t.spec, drive);
     require_torque(drive, t.spec.load_before_Nm + t.spec.load_step_Nm,
                    fmt::format("{}: load_before_Nm + load_step_Nm", o.spec));
     t.result                      = tune_drive(drive, t.spec, say_progress);

@@ -102,8 +102,7 @@ void require_torque(const Drive &d, double load_Nm, const std::string &what)
 
 TuneSpec with_shaft_cases(TuneSpec spec, const Drive &d)
 {
-    const auto own = [](const RobustnessCase &c) { return c.resonance != 1.0; };
-    if (!law_design(d).shaft_states || std::any_of(spec.cases.begin(), spec.cases.end(), own)) {
+    if (!law_design(d).shaft_states || has_resonance(spec)) {
         return spec;
     }
     for (const double at_Hz : {d.mechanics.from_Hz, d.mechanics.to_Hz}) {
@@ -133,7 +132,7 @@ TuneSpec goals_from_physics(const Drive &d)
     spec.speed_e_radps      = speed;
     spec.load_before_Nm     = load_share * d.motor.rated_torque_Nm;
     spec.load_step_Nm       = (1.0 - load_share) * d.motor.rated_torque_Nm;
-    const double rigid      = 1.0 - bound.shaft_s / bound.reaction_s; ///< share
+    const double rigid      = 1.0 - bound.shaft_s / bound.reaction_s; // share of a rigid drive
     spec.band_e_radps       = band_share * rigid * bound.dip_e_radps;
     spec.voltage_headroom_V = headroom_share * circle;
     spec.voltage_noise_V    = noise_share * circle;

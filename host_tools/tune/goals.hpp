@@ -14,11 +14,9 @@ namespace sdre {
 /// First the shaft turns by the encoder's error. A new voltage then acts after one and a half
 /// periods, and the current needs its rise time at full voltage.
 struct PhysicalBound {
-    double
-           reaction_s; ///< the shaft's way, delay, half of the current's way, and that of a known elastic shaft
+    double reaction_s;  ///< the sum of these, and of shaft_s
     double dip_e_radps; ///< acceleration of the step times that
-    double
-        shaft_s; ///< noc_shaft's part of the reaction: 1 / w_r, in which the spring passes a torque on
+    double shaft_s;     ///< noc_shaft: 1 / w_r, in which the spring passes a torque on; else 0
 };
 
 PhysicalBound physical_bound(const Drive &drive);

@@ -142,7 +142,8 @@ Drive start_weights(const Drive &d)
 
 bool has_own_plant(const Drive &d)
 {
-    return law_design(d).shaft_states || (d.law == Law::noc_iron);
+    const LawDesign &law = law_design(d);
+    return law.shaft_states || (law.loop && law.loop->believe != nullptr);
 }
 
 std::vector<Drive> own_plant_starts(const Drive &d)

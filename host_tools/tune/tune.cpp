@@ -39,7 +39,9 @@ bool is_candidate(const Drive &own, const Drive &found)
     return c.T == found.nosc.T && c.Q[2] == found.nosc.Q[2] && o.form == found.nodo.form &&
            o.T == found.nodo.T && o.Q[1] == o.Q[2] && o.Q[4] == o.Q[5] && o.Q[6] == 0.0 &&
            std::all_of(c.Q.begin(), c.Q.end(), is_text) &&
-           std::all_of(o.Q.begin(), o.Q.end(), is_text);
+           std::all_of(o.Q.begin(), o.Q.end(), is_text) &&
+           std::all_of(own.shaft.Q.begin(), own.shaft.Q.end(), is_text) &&
+           std::all_of(own.shaft.nodo_Q.begin(), own.shaft.nodo_Q.end(), is_text);
 }
 
 using Value     = std::function<double(const Point &)>;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tune/tune_spec.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/toml_reader.hpp"
@@ -41,6 +42,12 @@ bool is_nominal(const RobustnessCase &c)
     return c.mechanical == 1.0 && c.electrical == 1.0 && c.inductance == 1.0 && c.resonance == 1.0;
 }
 
+bool has_resonance(const TuneSpec &spec)
+{
+    return std::any_of(spec.cases.begin(), spec.cases.end(),
+                       [](const RobustnessCase &c) { return c.resonance != 1.0; });
+}
+
 TuneSpec read_tune_spec(const std::filesystem::path &file)
 {
     const toml::table root = parse_toml_file(file);
@@ -62,7 +69,7 @@ TuneSpec read_tune_spec(const std::filesystem::path &file)
         spec.cases.push_back(read_case(entry));
     }
     if (spec.cases.empty() || !is_nominal(spec.cases[0])) {
-        t.fail("case", "number 1 must be the nominal one: mechanical = 1, electrical = 1");
+        t.fail("case", "number 1 must be the nominal one: every factor 1");
     }
     t.reject_unknown_keys();
     return spec;

@@ -47,6 +47,9 @@ struct TuneSpec {
 /// The controller's model is exact.
 bool is_nominal(const RobustnessCase &c);
 
+/// Whether a case has a shaft that is not as believed.
+bool has_resonance(const TuneSpec &spec);
+
 /// InputError in one line on anything missing, unknown or out of range.
 TuneSpec read_tune_spec(const std::filesystem::path &file);
 

@@ -31,7 +31,7 @@ sdre::Drive shipped(const std::string &name)
     return sdre::read_drive_file(support::shipped_drive(name));
 }
 
-/// What `tune` reaches for the rigid drive: the settling time is at 1.82 of its goal (docs/motors.md has the goals).
+/// `tune` reaches this for the rigid drive: the settling time is at 1.82 of its goal (docs/motors.md has the goals).
 constexpr double rigid_worst = 1.82;
 
 void expect_as_good_as_rigid(const sdre::AutoTuneResult &r)
@@ -213,6 +213,25 @@ TEST(TuneLaws, CasesOfASpecificationStay)
         sdre::with_shaft_cases(sdre::read_tune_spec(dir.write("c.toml", text)), drive);
     EXPECT_EQ(same.cases.size(), own + 1);
     EXPECT_EQ(same.cases.back().resonance, 0.9);
+}
+
+TEST(TuneLaws, OnlyAShaftHasAResonance)
+{
+    const TempDir dir;
+    const auto    spec =
+        dir.write("spec.toml", support::read_file(std::filesystem::path(SDRE_SOURCE_DIR) /
+                                                  "firmware/config/specs/ipmsm_390w.toml") +
+                                   "[[case]]\nmechanical = 1\nelectrical = 1\nresonance = 0.9\n"
+                                   "dip_e_radps = 9\nsettling_time_s = 0.02\nripple_e_radps = 1\n");
+    const auto r =
+        support::run_command({SDRE_GAINS_EXE, "tune", support::shipped_drive("ipmsm_390w").string(),
+                              "--spec", spec.string(), "--out", (dir / "tuned.toml").string()});
+    EXPECT_EQ(r.exit_code, 1);
+    EXPECT_NE(r.err.find(spec.string() + ": [[case]] resonance is not allowed: only law = "
+                                         "\"noc_shaft\" has one"),
+              std::string::npos)
+        << r.err;
+    EXPECT_FALSE(std::filesystem::exists(dir / "tuned.toml"));
 }
 
 TEST(TuneLaws, SectionsOfAShaftAreReadBack)

@@ -198,7 +198,8 @@ TEST(Scenario, MissingAndUnknownKeysAreNamed)
 {
     expect_complaint("duration_s = 1.0\n", {" drive is missing"});
     expect_complaint(with("duration_s = 0.02\n", ""), {" duration_s is missing"});
-    expect_complaint(with("law", "lawn"), {" lawn is not a known key", "initial_speed_e_radps"});
+    expect_complaint(with("\nlaw", "\nlawn"),
+                     {" lawn is not a known key", "initial_speed_e_radps"});
     expect_complaint(with("value_e_radps = 100.0", ""),
                      {"[[speed_reference]] number 1: value_e_radps is missing"});
     expect_complaint(with("value_Nm", "value_mNm"), {"[[load_torque]] number 1: value_Nm"});

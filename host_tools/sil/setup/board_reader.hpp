@@ -18,9 +18,8 @@ struct Drive;
 SensorSettings sensors_of_drive(const Drive &drive);
 
 SensorSettings read_sensors(TomlReader t, SensorSettings now, const Drive &drive);
-/// The shaft of a coupling whose resonance the drive file knows; else none.
-/// A measured resonance is that of the machine as it is, also
-/// where its inertia is `inertia_factor` times the believed one.
+/// The shaft of a coupling whose resonance the drive file knows; else none. The resonance stays where the inertia is
+/// `inertia_factor` times the believed one: it was measured on the machine as it is.
 MotorEffects effects_of_drive(const Drive &drive, double inertia_factor = 1.0);
 /// The keys of the table, on top of `effects`.
 MotorEffects     read_motor_effects(TomlReader t, MotorEffects effects);
