@@ -58,7 +58,8 @@ static void read_edges(app_angle_t *a, uint16_t position_cnt, bool timed, float 
         reading->edge_gap_s = a->edge_gap_s;
         reading->edge_age_s = age_s;
         if (after_edge) {
-            reading->edge_of_pattern = (int16_t)(1U + (a->edge_cnt & a->pattern_mask));
+            const uint16_t place     = (uint16_t)(a->edge_cnt & a->pattern_mask);
+            reading->edge_of_pattern = (int16_t)((int16_t)place + 1);
         }
         const float beyond_rad =
             base_min(age_s * fabsf(a->edge_speed_e_radps), WIDEST_cnt * a->rad_per_cnt) - half_rad;
