@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "app.h"
 
+#include <stddef.h>
+
+#include "app_believe.h"
 #include "app_control.h"
 #include "app_loader.h"
 #include "app_modbus.h"
@@ -27,6 +30,9 @@ static volatile struct {
     uint16_t      board_faults;     /* tick, as the rest: for the status */
     uint16_t      cycles;
     uint16_t      cycles_worst;
+#if APP_BELIEVE
+    const drive_config_t *constants; /* background; the tick takes them with the command */
+#endif
 } shared;
 
 /* Written by the tick only; app_status_read() reads it. */
@@ -42,6 +48,7 @@ static struct {
     uint16_t              slow_periods;
     uint16_t              slow_period;
     const drive_config_t *drive;
+    const drive_config_t *in_force; /* the drive's constants or the second set */
     const float          *ntc_degC;
     uint16_t              background_count;
     uint16_t              background_age_ticks;
@@ -63,6 +70,9 @@ static struct {
     app_watch_tick_t   watch;
     app_watch_memory_t memory;
     uint32_t           served_ticks;
+#if APP_BELIEVE
+    app_believe_t believe; /* the tick reads it while it is in force */
+#endif
 } background_side;
 
 static ctl_status_t init_tick_side(const app_config_t *config, const drive_config_t *drive)
@@ -80,6 +90,7 @@ static ctl_status_t init_tick_side(const app_config_t *config, const drive_confi
     tick_side.background_age_ticks = 0U;
     app_config_for(&tick_side.config, config, drive->hardware.updates_per_period);
     tick_side.drive            = drive;
+    tick_side.in_force         = drive;
     tick_side.ntc_degC         = tick_side.config.scale.ntc_degC;
     const ctl_status_t control = app_control_init(&tick_side.control, &tick_side.config, drive);
     const ctl_status_t modes   = app_modes_init(&tick_side.modes, &tick_side.config, drive);
@@ -98,6 +109,9 @@ static void watch_memory(app_watch_memory_t *w, const drive_config_t *drive, boo
     app_watch_memory_add(w, &tick_side.config, (uint32_t)sizeof tick_side.config);
     app_watch_memory_add(w, tick_side.config.scale.ntc_degC,
                          (uint32_t)(tick_side.config.scale.ntc_points * sizeof(float)));
+#if APP_BELIEVE
+    app_watch_memory_add(w, &background_side.believe, (uint32_t)sizeof background_side.believe);
+#endif
 }
 
 static void read_once(app_status_t *status)
@@ -142,6 +156,10 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
     background_side.loader.restart   = false;
     background_side.served_ticks     = 0UL;
     app_watch_tick_reset(&background_side.watch);
+#if APP_BELIEVE
+    app_believe_init(&background_side.believe, drive);
+    shared.constants = drive;
+#endif
     watch_memory(&background_side.memory, drive, modes == CTL_OK);
 
     shared.background_count = 0U;
@@ -173,8 +191,27 @@ static app_control_seen_t seen_now(void)
     return seen;
 }
 
+#if APP_BELIEVE
+static void take_constants(void)
+{
+    drive_t *const              d    = &tick_side.modes.drive;
+    const drive_config_t *const next = shared.constants;
+
+    if ((next != tick_side.in_force) &&
+        ((next == tick_side.drive) || (next == &background_side.believe.drive))) {
+        drive_adopt(d, next);
+        if (d->config == next) {
+            tick_side.in_force = next;
+        }
+    }
+}
+#endif
+
 static void take_command(void)
 {
+#if APP_BELIEVE
+    take_constants();
+#endif
     tick_side.requested = shared.command;
     tick_side.taken     = true;
     shared.command_full = false;
@@ -304,8 +341,8 @@ static bool pointers_hold(void)
 
     return (m->config == c) && (m->scale.config == &c->scale) && (m->angle.config == &c->angle) &&
            (m->align.config == &c->align) && (m->stop.config == &c->stop) &&
-           (tick_side.control.config == c) && (m->align.drive == tick_side.drive) &&
-           ((m->drive.config == tick_side.drive) || (m->fault == APP_FAULT_CONFIG)) &&
+           (tick_side.control.config == c) &&
+           ((m->drive.config == tick_side.in_force) || (m->fault == APP_FAULT_CONFIG)) &&
            (c->scale.ntc_degC == tick_side.ntc_degC);
 }
 
@@ -374,6 +411,46 @@ static void serve_watchdog(uint32_t now_ticks)
     }
 }
 
+#if APP_BELIEVE
+static float believed(void)
+{
+    const bool own = tick_side.modes.drive.config != &background_side.believe.drive;
+
+    return own ? 1.0f : background_side.believe.ratio;
+}
+
+/* The next command takes its constants along, so that one for a position finds the drive's own. */
+static void choose_constants(app_registers_t *r)
+{
+    app_believe_t              *b        = &background_side.believe;
+    const drive_config_t *const in_force = tick_side.in_force;
+    bool                        made     = false;
+
+    if (shared.command_full || (in_force == NULL)) {
+        return;
+    }
+    const drive_config_t *const next =
+        app_believe_choose(b, tick_side.drive, in_force, app_registers_inertia_wanted(r), &made);
+    if (made) {
+        app_watch_memory_renew(&background_side.memory, b);
+    }
+    if (next != in_force) {
+        shared.constants = next;
+        r->changed       = true;
+    }
+}
+#else
+static float believed(void)
+{
+    return 1.0f;
+}
+
+static void choose_constants(const app_registers_t *r)
+{
+    (void)r;
+}
+#endif
+
 void app_background(void)
 {
     app_registers_t *r         = &background_side.registers;
@@ -392,10 +469,11 @@ void app_background(void)
     serve_watchdog(now_ticks);
 
     read_status();
-    app_registers_see_inertia(r);
+    app_registers_see_inertia(r, believed());
     app_registers_see_ring(r);
     app_parameters_rest(&background_side.parameters, (float)now_ticks * tick_side.drive->ts_s);
     app_modbus_poll(&background_side.modbus, r, now_ticks);
+    choose_constants(r);
     if (r->changed && app_command_write(&r->requested.objects)) {
         r->changed = false;
     }

@@ -182,6 +182,10 @@ static const law_noc_config_t constants = {
             },
         },
     },
+    .inertia = {
+        .least = 6.00000024e-01f,
+        .most = 5.00000000e+00f,
+    },
 };
 
 const drive_config_t gain_tables_drive = {

@@ -11,6 +11,7 @@
  * checked    q axis:     sensitivity peak 1.85 at 256 Hz, sampled spectral radius 0.9844
  * checked    d axis:     sensitivity peak 1.72 at 575 Hz, sampled spectral radius 0.9844
  *            motors:     stable in 0.67 of EQ-CERT-5's box
+ *            inertia:    may be learned within x0.6 .. x5
  */
 #ifndef GAIN_TABLES_H
 #define GAIN_TABLES_H

@@ -93,6 +93,15 @@ ctl_status_t drive_init(drive_t *d, const drive_config_t *config);
 void drive_reset(drive_t *d);
 
 /**
+ * @brief Goes over to constants for another inertia, between two periods.
+ *
+ * @param next The drive's constants, or what law_t.believe made of them. It must outlive d.
+ *
+ * Nothing changes without a valid configuration. Context: control ISR.
+ */
+void drive_adopt(drive_t *d, const drive_config_t *next);
+
+/**
  * @brief Executes one control period.
  *
  * @param d       Drive.

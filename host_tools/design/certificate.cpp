@@ -66,9 +66,12 @@ SampledLoop sweep(const GainSeries &g, double range, double ts, const Radius &ra
     const std::size_t           variables = g.problem.dA.size();
     const int                   per_side  = variables == 1 ? points_per_side : box_points_per_side;
     const std::vector<Schedule> s         = box_grid(variables, range, per_side);
-    const auto                  errors    = series_errors(g, s);
-    loop.series_range_A                   = usable_range(errors.back(), s, range, range / per_side);
-    loop.worst_pole_1ps                   = -1e300;
+    const auto errors   = g.held_A ? std::vector<std::vector<double>>{} : series_errors(g, s);
+    loop.series_range_A = g.held_A.value_or(0.0);
+    if (!g.held_A) {
+        loop.series_range_A = usable_range(errors.back(), s, range, range / per_side);
+    }
+    loop.worst_pole_1ps = -1e300;
     loop.series_error.assign(errors.size(), 0.0);
     loop.series_error_full.assign(errors.size(), 0.0);
 

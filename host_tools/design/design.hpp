@@ -92,7 +92,8 @@ constexpr double matching_error_limit = 1e-9;
 /// Solves both problems and certifies them. DesignError when a Riccati or Lyapunov equation has no
 /// acceptable solution; a failed certificate is reported in Design::certificate, not thrown.
 ///
-/// `extended` is for tables that are written: several times slower, the same to nine digits.
+/// `extended` is for tables that are written: several times slower, the same to nine digits. Only then law noc gets the range
+/// of inertias that it may believe (EQ-CERT-10).
 Design design_drive(const Drive &drive, Precision precision = Precision::quick);
 
 } // namespace sdre

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "design/sdre_series.hpp"
@@ -21,6 +22,7 @@ struct GainSeries {
     std::vector<double>
         residuals; ///< per term, relative: of the Riccati, then of the Lyapunov or Stein equations
     std::function<Eigen::MatrixXd(const Schedule &)> exact; ///< the gain without a series
+    std::optional<double> held_A; ///< gains that solve no equation: the series is used in +-held_A
 };
 
 /// Solves the series and reads the gains off it, (26), (32), (39).

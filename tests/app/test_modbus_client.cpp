@@ -333,8 +333,8 @@ TEST_F(ModbusClient, RefusesWithTheExceptionThatSaysWhy)
     std::array<std::uint8_t, 8>    bits{};
     expect_exception(modbus_read_input_registers(client_, input_count, 1, values.data()),
                      EMBXILADD);
-    expect_exception(modbus_read_registers(client_, 21, 2, values.data()), EMBXILADD);
-    expect_exception(modbus_write_register(client_, 22, 0), EMBXILADD);
+    expect_exception(modbus_read_registers(client_, 22, 2, values.data()), EMBXILADD);
+    expect_exception(modbus_write_register(client_, 23, 0), EMBXILADD);
     expect_exception(modbus_write_register(client_, 1, 2), EMBXILVAL);
     expect_exception(modbus_write_register(client_, holding_speed, 1), EMBXILADD); // a half
     expect_exception(write_speed(11914), EMBXILVAL);

@@ -29,8 +29,8 @@ const std::filesystem::path committed = std::filesystem::path(SDRE_SOURCE_DIR) /
 
 const sdre::Design &encoder_form()
 {
-    static const sdre::Design design =
-        sdre::design_drive(sdre::read_drive_file(support::shipped_drive("ipmsm_390w")));
+    static const sdre::Design design = sdre::design_drive(
+        sdre::read_drive_file(support::shipped_drive("ipmsm_390w")), sdre::Precision::extended);
     return design;
 }
 
@@ -152,6 +152,7 @@ std::vector<float> constants_in(const drive_config_t &c)
         add_gains(v, noc->rare);
         add_observer(v, {noc->nodo.iq_max_A}, noc->nodo.order, noc->nodo.gain);
         add_currents(v, noc->currents);
+        v.insert(v.end(), {noc->inertia.least, noc->inertia.most});
     } else if (const auto *speed = sdre::constants_of<law_noc_speed_config_t>(c)) {
         add_near_optimal(v, speed->near_optimal);
         add_observer(v, {speed->nodo.iq_max_A, speed->nodo.iq_certified_A}, speed->nodo.order,

@@ -39,6 +39,7 @@ LEFT = 0.15  # chosen: of every memory, at the upper end of the estimate
 CONSTANTS_words = 0x2000  # chosen: gain tables of any law 5.3 K, registers 1.9 K, and some
 SAMPLES = {"noc_h": 256}  # of the scope; the others have 512
 WITHOUT_INERTIA = {"noc_h"}  # app_watch_inertia.h
+BELIEVE = {"noc"}  # app_believe.h
 
 
 def laws():
@@ -50,6 +51,7 @@ def assembly(source, law):
         f"-DLAW_CONSTANTS=law_{law}_config_t",
         f"-DAPP_SCOPE_SAMPLES={SAMPLES.get(law, 512)}U",
         f"-DAPP_WATCH_INERTIA={0 if law in WITHOUT_INERTIA else 1}",
+        f"-DAPP_BELIEVE={1 if law in BELIEVE else 0}",
     ]
     return subprocess.run(
         [*COMPILER, *options], input=source, text=True, stdout=subprocess.PIPE, check=True
@@ -128,8 +130,8 @@ class TableSizes(unittest.TestCase):
         # motor: 13 floats; dead time: 2; seven scalars, a flag with a pad before the floats.
         # hardware: two long ones, two integers, a flag with a pad; two pointers.
         self.assertEqual(sizes["drive"], 2 * 13 + 2 * 2 + 2 * 7 + 2 + (2 * 2 + 2 + 2) + 2 * 2)
-        # five pointers and one long number; one integer with a pad
-        self.assertEqual(sizes["entry"], 6 * 2 + 2)
+        # seven pointers and one long number; one integer with a pad
+        self.assertEqual(sizes["entry"], 8 * 2 + 2)
 
     def test_data_of_every_law_leaves_room(self):
         self.assertGreaterEqual(len(laws()), 6)

@@ -167,9 +167,11 @@ class TargetBuild(unittest.TestCase):
         rare = {
             "check.c",
             "dead_time.c",
+            "drive_adopt.c",
             "drive_config.c",
             "drive_fault.c",
             "inertia.c",
+            "noc_inertia.c",
             "motor.c",
             "near_optimal_position.c",
             "nodo_current.c",
@@ -189,6 +191,7 @@ class TargetBuild(unittest.TestCase):
             self.assertIn("-DLAW_CONSTANTS=law_noc_config_t", compiled[name])
         self.assertIn("-DAPP_SCOPE_SAMPLES=512U", compiled["app_scope.c"])
         self.assertNotIn("-DAPP_WATCH_INERTIA=0", compiled["app_registers_inertia.c"])
+        self.assertNotIn("-DAPP_BELIEVE=0", compiled["app.c"])
 
     def test_noc_h_leaves_room_for_half_the_scope(self):
         own = self.top / "own"
@@ -214,6 +217,7 @@ class TargetBuild(unittest.TestCase):
         self.assertIn("-DLAW_CONSTANTS=law_noc_h_config_t", compiled["drive_image.c"])
         for name in ("app.c", "app_registers_inertia.c", "main.c"):
             self.assertIn("-DAPP_WATCH_INERTIA=0", compiled[name])
+            self.assertIn("-DAPP_BELIEVE=0", compiled[name])
         for name in ("app.c", "app_control.c"):
             self.assertNotIn("--ramfunc=on", compiled[name])
         self.assertIn("--ramfunc=on", compiled["app_measure.c"])

@@ -84,7 +84,6 @@ static void any_state(void)
     modes.angle.since_index_cnt    = any_between(-TURN_cnt, TURN_cnt);
     modes.angle.reference          = any_between(APP_ANGLE_NONE, APP_ANGLE_INDEX);
     modes.align.config             = &board_config.align;
-    modes.align.drive              = &config;
     modes.align.stage              = any_between(APP_ALIGN_WATCH, APP_ALIGN_FAILED);
     modes.stop.config              = &board_config.stop;
     modes.stop.shorted             = any_bool();

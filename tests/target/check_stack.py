@@ -82,6 +82,12 @@ SPILLED = range(8, 16)
 INTERRUPT_words = 15 + 2 * (1 + 8 + 1 + 1 + 1 + 8)
 # Which functions of a law are called by pointers of a file.
 POINTERS = {"drive_config.c": {"check"}, "drive_tick.c": {"reset", "step", "counts_ok"}}
+# The same of functions that are not static.
+NAMED = {
+    "drive_image.c": r"law_\w+_fields",
+    "drive_adopt.c": r"law_\w+_adopt",
+    "app_believe.c": r"law_\w+_believe",
+}
 
 
 class StackError(Exception):
@@ -121,8 +127,8 @@ class Graph:
             found.discard("__indirect_call")
             if name == "control_isr":
                 found.add("app_tick")
-            elif self.file[name] == "drive_image.c":
-                found |= {n for n in self.frame if re.fullmatch(r"law_\w+_fields", n)}
+            elif self.file[name] in NAMED:
+                found |= {n for n in self.frame if re.fullmatch(NAMED[self.file[name]], n)}
             elif self.file[name] in POINTERS:
                 found |= {n for n in self.laws if n.rsplit(":", 1)[1] in POINTERS[self.file[name]]}
             else:

@@ -35,7 +35,6 @@ ctl_status_t app_align_init(app_align_t *a, const app_align_config_t *c,
 
     a->config          = c;
     a->positions       = (uint16_t)positions;
-    a->drive           = drive;
     a->kp_VpA          = c->bandwidth_radps * drive->motor.inv_l8;
     a->ki_VpA          = c->bandwidth_radps * rs_Ohm * drive->ts_s;
     a->v_max_V         = 2.0f * rs_Ohm * c->current_A;
@@ -159,7 +158,8 @@ static float vector_angle_rad(const app_align_t *a)
                : 0.0f;
 }
 
-static abc_t drive_current(app_align_t *a, dq_t i_A, frames_angle_t angle, float dc_link_V)
+static abc_t drive_current(app_align_t *a, const dead_time_config_t *dead_time, dq_t i_A,
+                           frames_angle_t angle, float dc_link_V)
 {
     const float ref_A   = (a->stage == APP_ALIGN_RAMP)
                               ? (a->current_per_tick_A * (float)a->timer_ticks)
@@ -173,12 +173,12 @@ static abc_t drive_current(app_align_t *a, dq_t i_A, frames_angle_t angle, float
         .q = base_clamp(-a->kp_VpA * i_A.q, -a->v_max_V, a->v_max_V)};
     const dq_t  wanted_A = {.d = ref_A, .q = 0.0f};
     const abc_t phases_A = frames_inverse_clarke(frames_inverse_park(wanted_A, angle));
-    return dead_time_compensate(&a->drive->dead_time,
-                                svpwm_duty(frames_inverse_park(v_V, angle), dc_link_V), phases_A);
+    return dead_time_compensate(dead_time, svpwm_duty(frames_inverse_park(v_V, angle), dc_link_V),
+                                phases_A);
 }
 
-bridge_t app_align_tick(app_align_t *a, float ia_A, float ib_A, float dc_link_V,
-                        uint16_t position_cnt)
+bridge_t app_align_tick(app_align_t *a, const dead_time_config_t *dead_time, float ia_A, float ib_A,
+                        float dc_link_V, uint16_t position_cnt)
 {
     advance(a, position_cnt);
 
@@ -191,5 +191,5 @@ bridge_t app_align_tick(app_align_t *a, float ia_A, float ib_A, float dc_link_V,
     if ((a->stage == APP_ALIGN_WATCH) || (a->stage == APP_ALIGN_FAILED)) {
         return bridge_open();
     }
-    return bridge_closed(drive_current(a, i_A, angle, dc_link_V));
+    return bridge_closed(drive_current(a, dead_time, i_A, angle, dc_link_V));
 }

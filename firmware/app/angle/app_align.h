@@ -54,7 +54,6 @@ typedef enum {
 
 typedef struct {
     const app_align_config_t *config;
-    const drive_config_t     *drive;
     uint16_t                  positions; /**< of a turn */
     float                     kp_VpA;
     float                     ki_VpA; /**< k_i times the period */
@@ -88,7 +87,7 @@ void app_align_start(app_align_t *a, uint16_t position_cnt);
  *
  * Context: control ISR. One sine, one cosine, one division (modulator).
  */
-bridge_t app_align_tick(app_align_t *a, float ia_A, float ib_A, float dc_link_V,
-                        uint16_t position_cnt);
+bridge_t app_align_tick(app_align_t *a, const dead_time_config_t *dead_time, float ia_A, float ib_A,
+                        float dc_link_V, uint16_t position_cnt);
 
 #endif /* APP_ALIGN_H */

@@ -218,8 +218,8 @@ static bridge_t align(app_modes_t *m, const app_modes_input_t *in)
         app_position_forget(&m->position);
         return bridge_open();
     }
-    const bridge_t out = app_align_tick(&m->align, m->sample.ia_A, m->sample.ib_A,
-                                        m->sample.dc_link_V, in->raw->position_cnt);
+    const bridge_t out = app_align_tick(&m->align, &m->drive.config->dead_time, m->sample.ia_A,
+                                        m->sample.ib_A, m->sample.dc_link_V, in->raw->position_cnt);
     if (m->align.stage == APP_ALIGN_FAILED) {
         return app_states_trip(m, in, APP_FAULT_ALIGN);
     }

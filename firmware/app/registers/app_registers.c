@@ -32,6 +32,7 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
     r->requested.scope                = scope;
     r->requested.scope_command        = 0U;
     r->requested.store_command        = (uint16_t)APP_PARAMETERS_NO_COMMAND;
+    r->requested.inertia_start        = 0U;
     r->requested.line                 = line;
     r->parameters                     = NULL;
     r->scope                          = NULL;
@@ -48,7 +49,8 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
     r->loader                         = NULL;
     app_watch_ring_reset(&r->ring);
 #if APP_WATCH_INERTIA
-    app_watch_inertia_reset(&r->inertia);
+    app_watch_inertia_reset(&r->inertia, 1.0f);
+    r->inertia_started = 0U;
 #endif
     return ((config->modbus_address >= 1U) && (config->modbus_address <= ADDRESS_MAX) &&
             (config->modbus_timeout_ticks > 0U))

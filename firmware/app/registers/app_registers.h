@@ -77,6 +77,7 @@ typedef struct app_registers_request {
     uint32_t          modbus_timeout_ticks;
     board_line_t      line;
     uint16_t          store_command; /**< app_parameters_command_t */
+    uint16_t inertia_start; /**< INERTIA_START, in thousandths; 0: the law keeps the drive's */
 } app_registers_request_t;
 
 typedef struct app_registers {
@@ -85,7 +86,8 @@ typedef struct app_registers {
     float                 rpm_per_e_radps;
     app_status_t          status;
 #if APP_WATCH_INERTIA
-    app_watch_inertia_t inertia; /**< that changes of speed showed */
+    app_watch_inertia_t inertia;         /**< that changes of speed showed */
+    uint16_t            inertia_started; /**< INERTIA_START that it began with */
 #endif
     app_watch_ring_t             ring; /**< oscillation of the torque current */
     app_registers_request_t      requested;
@@ -106,8 +108,15 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
                                 const drive_config_t *drive);
 
 /** Lets the status that has just been read show the inertia, app_watch_inertia.h. A law without an
- * estimate of the load shows none. */
-void app_registers_see_inertia(app_registers_t *r);
+ * estimate of the load shows none. @param believed Inertia that the law has, over the drive's. */
+void app_registers_see_inertia(app_registers_t *r, float believed);
+
+/** Inertia that the law is to believe, over the drive's. If INERTIA_START allows it, that is the
+ * learned one in runs with a commanded speed and an encoder; else it is 1. */
+float app_registers_inertia_wanted(const app_registers_t *r);
+
+/** Inertia that the law believes, over the drive's. */
+float app_registers_inertia_believed(const app_registers_t *r);
 
 /** Lets the status that has just been read show an oscillation, app_watch_ring.h. */
 void app_registers_see_ring(app_registers_t *r);

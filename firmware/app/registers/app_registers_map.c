@@ -29,6 +29,7 @@ const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING]
     {APP_REGISTERS_SPEED_WINDOW, APP_REGISTERS_U16, 10.0f, 0.0f, 6553.5f, false, 0x1933U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.window_e_radps), false},
     {APP_REGISTERS_COMMISSION_CURRENT, APP_REGISTERS_U16, 100.0f, 0.0f, 655.35f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.bounds.current_A), false},
     {APP_REGISTERS_COMMISSION_SPEED, APP_REGISTERS_U16, 10.0f, 0.0f, 6553.5f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.bounds.speed_m_radps), false},
+    {APP_REGISTERS_INERTIA_START, APP_REGISTERS_U16, 0.0f, 0.0f, 5000.0f, false, 0x77A7U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, inertia_start), false},
     {APP_REGISTERS_MODBUS_ADDRESS, APP_REGISTERS_U16, 0.0f, 1.0f, 247.0f, false, 0xB5EFU, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, modbus_address), false},
     {APP_REGISTERS_MODBUS_TIMEOUT, APP_REGISTERS_U16, 1000.0f, 0.01f, 60.0f, false, 0x974DU, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 0U, false},
     {APP_REGISTERS_BAUD_RATE, APP_REGISTERS_U32, 0.0f, 9600.0f, 115200.0f, true, 0x76FFU, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U32, AT(app_registers_request_t, line.baud_Bd), false},
@@ -110,6 +111,7 @@ const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
     {APP_REGISTERS_INERTIA_RATIO, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 11U, false},
     {APP_REGISTERS_INERTIA_CHANGES, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 12U, false},
     {APP_REGISTERS_RING_FREQUENCY, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 13U, false},
+    {APP_REGISTERS_INERTIA_BELIEVED, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 14U, false},
     {APP_REGISTERS_COMMISSION_STAGE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, OF_ENUM(commission_stage_t), AT(app_status_t, commission.stage), false},
     {APP_REGISTERS_COMMISSION_REASON, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, OF_ENUM(commission_reason_t), AT(app_status_t, commission.reason), false},
     {APP_REGISTERS_COMMISSION_PERCENT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_I16, AT(app_status_t, commission.percent), false},
@@ -143,16 +145,16 @@ const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
     {APP_REGISTERS_FOUND_DAMPING_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_FLOAT, AT(app_status_t, commission.found.damping.error), false},
     {APP_REGISTERS_FOUND_LOAD_SHARE, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_FLOAT, AT(app_status_t, commission.found.load_share.value), false},
     {APP_REGISTERS_FOUND_LOAD_SHARE_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_FLOAT, AT(app_status_t, commission.found.load_share.error), false},
-    {APP_REGISTERS_SCOPE_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 14U, false},
-    {APP_REGISTERS_SCOPE_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 15U, false},
-    {APP_REGISTERS_RECORD_NUMBER, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 16U, false},
-    {APP_REGISTERS_RECORD_COUNT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 17U, false},
-    {APP_REGISTERS_PARAMETERS_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 18U, false},
-    {APP_REGISTERS_PARAMETERS_DONE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 19U, false},
-    {APP_REGISTERS_PARAMETERS_NUMBER, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 20U, false},
-    {APP_REGISTERS_PARAMETERS_WRITES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 21U, false},
-    {APP_REGISTERS_PARAMETERS_DROPPED, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 22U, false},
-    {APP_REGISTERS_SUPPORTED_MODES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 23U, false},
+    {APP_REGISTERS_SCOPE_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 15U, false},
+    {APP_REGISTERS_SCOPE_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 16U, false},
+    {APP_REGISTERS_RECORD_NUMBER, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 17U, false},
+    {APP_REGISTERS_RECORD_COUNT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 18U, false},
+    {APP_REGISTERS_PARAMETERS_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 19U, false},
+    {APP_REGISTERS_PARAMETERS_DONE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 20U, false},
+    {APP_REGISTERS_PARAMETERS_NUMBER, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 21U, false},
+    {APP_REGISTERS_PARAMETERS_WRITES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 22U, false},
+    {APP_REGISTERS_PARAMETERS_DROPPED, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 23U, false},
+    {APP_REGISTERS_SUPPORTED_MODES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 24U, false},
     {APP_REGISTERS_POLE_PAIRS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_DRIVE, APP_REGISTERS_AS_U16, AT(drive_config_t, hardware.pole_pairs), false},
     {APP_REGISTERS_ENCODER_POSITIONS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_DRIVE, APP_REGISTERS_AS_U32, AT(drive_config_t, hardware.encoder_positions), false},
     {APP_REGISTERS_CONTROL_PERIOD, APP_REGISTERS_U32, 1e+09f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_DRIVE, APP_REGISTERS_AS_FLOAT, AT(drive_config_t, ts_s), false},
@@ -180,6 +182,9 @@ float app_registers_map_real(const app_registers_t *r, uint16_t number)
         break;
     case 13U: /* RING_FREQUENCY */
         x = app_registers_ring(r);
+        break;
+    case 14U: /* INERTIA_BELIEVED */
+        x = app_registers_inertia_believed(r);
         break;
     default:
         break;
@@ -225,34 +230,34 @@ uint32_t app_registers_map_whole(const app_registers_t *r, uint16_t number)
     case 12U: /* INERTIA_CHANGES */
         x = app_registers_inertia_changes(r);
         break;
-    case 14U: /* SCOPE_STATE */
+    case 15U: /* SCOPE_STATE */
         x = app_registers_scope_state(r);
         break;
-    case 15U: /* SCOPE_TICKS */
+    case 16U: /* SCOPE_TICKS */
         x = app_registers_scope_ticks(r);
         break;
-    case 16U: /* RECORD_NUMBER */
+    case 17U: /* RECORD_NUMBER */
         x = app_registers_record_number(r);
         break;
-    case 17U: /* RECORD_COUNT */
+    case 18U: /* RECORD_COUNT */
         x = app_registers_record_count(r);
         break;
-    case 18U: /* PARAMETERS_STATE */
+    case 19U: /* PARAMETERS_STATE */
         x = app_registers_stored_state(r);
         break;
-    case 19U: /* PARAMETERS_DONE */
+    case 20U: /* PARAMETERS_DONE */
         x = app_registers_stored_done(r);
         break;
-    case 20U: /* PARAMETERS_NUMBER */
+    case 21U: /* PARAMETERS_NUMBER */
         x = app_registers_stored_number(r);
         break;
-    case 21U: /* PARAMETERS_WRITES */
+    case 22U: /* PARAMETERS_WRITES */
         x = app_registers_stored_writes(r);
         break;
-    case 22U: /* PARAMETERS_DROPPED */
+    case 23U: /* PARAMETERS_DROPPED */
         x = app_registers_stored_dropped(r);
         break;
-    case 23U: /* SUPPORTED_MODES */
+    case 24U: /* SUPPORTED_MODES */
         x = r->drive->positions ? 0x00010025UL : 0x00010024UL;
         break;
     default:

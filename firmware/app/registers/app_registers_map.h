@@ -12,9 +12,9 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "3aa4248b" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "3b977503" /**< of what a master can see of the map */
 
-#define APP_REGISTERS_SAVED 17U /**< parameters */
+#define APP_REGISTERS_SAVED 18U /**< parameters */
 
 /** Holding registers: those of two words are named by the first. */
 enum {
@@ -34,8 +34,9 @@ enum {
     APP_REGISTERS_SPEED_WINDOW = 19,
     APP_REGISTERS_COMMISSION_CURRENT = 20,
     APP_REGISTERS_COMMISSION_SPEED = 21,
+    APP_REGISTERS_INERTIA_START = 22,
     APP_REGISTERS_COMMAND_FIRST = 0,
-    APP_REGISTERS_COMMAND_END = 22,
+    APP_REGISTERS_COMMAND_END = 23,
     APP_REGISTERS_MODBUS_ADDRESS = 64,
     APP_REGISTERS_MODBUS_TIMEOUT = 65,
     APP_REGISTERS_BAUD_RATE = 66,
@@ -130,8 +131,9 @@ enum {
     APP_REGISTERS_INERTIA_RATIO = 96,
     APP_REGISTERS_INERTIA_CHANGES = 97,
     APP_REGISTERS_RING_FREQUENCY = 98,
+    APP_REGISTERS_INERTIA_BELIEVED = 99,
     APP_REGISTERS_SHAFT_FIRST = 96,
-    APP_REGISTERS_SHAFT_END = 99,
+    APP_REGISTERS_SHAFT_END = 100,
     APP_REGISTERS_COMMISSION_STAGE = 128,
     APP_REGISTERS_COMMISSION_REASON = 129,
     APP_REGISTERS_COMMISSION_PERCENT = 130,
@@ -244,9 +246,9 @@ typedef struct {
 struct app_registers;
 struct app_registers_request;
 
-#define APP_REGISTERS_MAP_HOLDING 38U
+#define APP_REGISTERS_MAP_HOLDING 39U
 
-#define APP_REGISTERS_MAP_INPUT 111U
+#define APP_REGISTERS_MAP_INPUT 112U
 
 /** Rows in ascending order of the address. */
 extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];

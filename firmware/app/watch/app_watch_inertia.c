@@ -7,11 +7,14 @@
 #define LEAST        0.05f   /* chosen: of the largest speed */
 #define BLOCKS_MOST  100U    /* chosen: 1 s; over a longer change the load is another one */
 #define SURE         0.2f    /* chosen: five times the motor's own inertia is then known to 1 */
-#define SHARE        0.5f    /* chosen: one change that was wrong is halved by the next */
+#define SHARE                                                                                      \
+    0.75f /* chosen: two changes leave a sixteenth, as does one after a wrong one a quarter */
 
-void app_watch_inertia_reset(app_watch_inertia_t *w)
+void app_watch_inertia_reset(app_watch_inertia_t *w, float ratio)
 {
-    const app_watch_inertia_t nothing = {.ratio = 1.0f};
+    const app_watch_inertia_t nothing = {
+        .believed = 1.0f,
+        .ratio    = base_clamp(ratio, APP_WATCH_INERTIA_LEAST, APP_WATCH_INERTIA_MOST)};
 
     *w = nothing;
 }
@@ -71,9 +74,10 @@ static void learn(app_watch_inertia_t *w, float change_e_radps, float least_e_ra
     }
     rest_of(w, &mean, &range);
     const float load = 0.5f * w->moved_s * (w->rest_mean + mean);
-    const float k    = 1.0f - ((w->integral - load) / change_e_radps); /* EQ-INERTIA-5 */
-    const float unsure =
-        0.5f * w->moved_s * (w->rest_range + range + fabsf(mean - w->rest_mean)); /* -6, times D */
+    const float k =
+        w->believed * (1.0f - ((w->integral - load) / change_e_radps)); /* EQ-INERTIA-5 */
+    const float unsure = 0.5f * w->believed * w->moved_s *
+                         (w->rest_range + range + fabsf(mean - w->rest_mean)); /* -6, times D */
 
     if (unsure <= (SURE * k * change)) { /* EQ-INERTIA-7; false for a NaN */
         w->ratio = base_clamp(w->ratio + (SHARE * (k - w->ratio)), APP_WATCH_INERTIA_LEAST,
@@ -135,10 +139,12 @@ void app_watch_inertia_see(app_watch_inertia_t *w, const app_watch_inertia_seen_
 {
     const float passed_s = (float)(seen->ticks - w->ticks) * ts_s;
 
-    w->ticks = seen->ticks;
+    w->ticks        = seen->ticks;
+    const bool same = base_within(seen->believed - w->believed, 0.0f);
+    w->believed     = seen->believed;
     if (!seen->runs) {
         w->begun = false;
-    } else if (!w->begun) {
+    } else if (!w->begun || !same) {
         begin(w, seen->omega_e_radps);
     } else {
         w->time_s += passed_s;

@@ -8,21 +8,19 @@
  * end. Between two rests the speed changes by D within the time T. With the mean d_0 and the range
  * r_0 of five blocks before, and d_1 and r_1 of five after,
  *
- *     k = 1 - (integral of d_w - T (d_0 + d_1) / 2) / D                              EQ-INERTIA-5
- *     u = T (r_0 + r_1 + |d_1 - d_0|) / (2 |D|)                                      EQ-INERTIA-6
- *     ratio += (k - ratio) / 2 if u <= 0.2 k, within 0.5 .. 5                        EQ-INERTIA-7
+ *     k = k_b (1 - (integral of d_w - T (d_0 + d_1) / 2) / D)                        EQ-INERTIA-5
+ *     u = k_b T (r_0 + r_1 + |d_1 - d_0|) / (2 |D|)                                  EQ-INERTIA-6
+ *     ratio += 0.75 (k - ratio) if u <= 0.2 k, within 0.5 .. 5                       EQ-INERTIA-7
  *
  * u estimates what a load that changes adds to k. A load step, and a load that swings, teach
- * nothing. The result is for the operator: nothing in the drive acts on it. Context: background.
+ * nothing. k_b is the inertia over the drive's that the law believes (app_believe.h). When it
+ * changes, a rest begins. Context: background.
  */
 #ifndef APP_WATCH_INERTIA_H
 #define APP_WATCH_INERTIA_H
 
+#include "app_options.h"
 #include "base.h"
-
-#ifndef APP_WATCH_INERTIA
-#define APP_WATCH_INERTIA 1 /**< 0: an image whose law leaves no room for it, noc_h */
-#endif
 
 #define APP_WATCH_INERTIA_REST  5U /**< blocks of a rest, chosen: a load of 20 Hz shows its range */
 #define APP_WATCH_INERTIA_LEAST 0.5f
@@ -48,6 +46,7 @@ typedef struct {
     float                     rest_range;    /**< r_0 */
     float                     integral; /**< of d_w, of the blocks that left the ring [rad/s] */
     float                     moved_s;  /**< their time */
+    float                     believed; /**< of the pass before */
     float                     ratio;    /**< 0.5 .. 5; 1 until something was learned */
     uint16_t                  changes;  /**< that taught, up to 65535 */
 } app_watch_inertia_t;
@@ -55,13 +54,14 @@ typedef struct {
 /** Input of a pass of the background. */
 typedef struct {
     uint32_t ticks;         /**< control periods since the start */
+    float    believed;      /**< k_b, inertia of the constants in force over the drive's, > 0 */
     bool     runs;          /**< the speed is controlled, with an encoder */
     float    omega_e_radps; /**< speed */
-    float    d_omega;       /**< d_w, estimated with the drive's inertia [rad/s^2] */
+    float    d_omega;       /**< d_w, estimated with that inertia [rad/s^2] */
 } app_watch_inertia_seen_t;
 
-/** Believes the drive's inertia. */
-void app_watch_inertia_reset(app_watch_inertia_t *w);
+/** Starts with a ratio, e.g. one that was kept; 1: the drive's inertia. */
+void app_watch_inertia_reset(app_watch_inertia_t *w, float ratio);
 
 /**
  * @brief EQ-INERTIA-5, 6 and 7.

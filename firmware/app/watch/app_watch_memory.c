@@ -36,6 +36,19 @@ void app_watch_memory_add(app_watch_memory_t *w, const void *first, uint32_t cha
     }
 }
 
+void app_watch_memory_renew(app_watch_memory_t *w, const void *first)
+{
+    for (uint16_t n = 0U; n < w->blocks; n++) {
+        app_watch_memory_block_t *b = &w->block[n];
+
+        if (b->first == first) {
+            b->sums = summed(0UL, b->first, b->chars);
+        }
+    }
+    w->next = 0UL; /* the pass through the present block begins anew */
+    w->sums = 0UL;
+}
+
 bool app_watch_memory_pass(app_watch_memory_t *w)
 {
     if (w->now >= w->blocks) {

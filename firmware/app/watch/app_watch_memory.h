@@ -10,9 +10,10 @@
 #ifndef APP_WATCH_MEMORY_H
 #define APP_WATCH_MEMORY_H
 
+#include "app_options.h"
 #include "base.h"
 
-#define APP_WATCH_MEMORY_BLOCKS 4
+#define APP_WATCH_MEMORY_BLOCKS (4 + APP_BELIEVE)
 /** Characters per pass. Chosen: 64 take 10 us; the shipped drive's 700 words take a dozen
  * passes. */
 #define APP_WATCH_MEMORY_CHARS 64UL
@@ -36,6 +37,9 @@ void app_watch_memory_reset(app_watch_memory_t *w);
 
 /** Adds a block with its present content. Ignored above APP_WATCH_MEMORY_BLOCKS. Context: init. */
 void app_watch_memory_add(app_watch_memory_t *w, const void *first, uint32_t chars);
+
+/** Takes the present content of the block that begins at `first`. Context: its writer. */
+void app_watch_memory_renew(app_watch_memory_t *w, const void *first);
 
 /** Sums the next characters. @return false: a completed block has changed. Context: background. */
 bool app_watch_memory_pass(app_watch_memory_t *w);

@@ -30,6 +30,12 @@ static void currents(fields_t *f, nodo_current_gains_t *c)
     FIELDS_END(f);
 }
 
+static void inertia(fields_t *f, law_noc_inertia_t *c)
+{
+    fields_float(f, FIELD(f, c, least));
+    fields_float(f, FIELD(f, c, most));
+}
+
 void law_noc_fields(fields_t *f, void *constants)
 {
     law_noc_config_t *c = constants;
@@ -40,4 +46,5 @@ void law_noc_fields(fields_t *f, void *constants)
     FIELDS_PART(fields_rare_edges, f, c, rare);
     FIELDS_PART(nodo, f, c, nodo);
     FIELDS_PART(currents, f, c, currents);
+    FIELDS_PART(inertia, f, c, inertia);
 }

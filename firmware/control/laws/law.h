@@ -64,6 +64,16 @@ typedef struct {
     void (*step)(law_state_t *state, const struct drive_config *config, const law_input_t *in,
                  law_output_t *out);
 
+    /** Makes `to` and `constants` of `from`, for `ratio` times the drive's inertia within the
+     * certified range. Returns that ratio. NULL: the law has one inertia. Context: background. */
+    float (*believe)(struct drive_config *to, void *constants, const struct drive_config *from,
+                     float ratio);
+
+    /** Takes a running state from one inertia to another, without a bump. NULL with the one above.
+     * Context: control ISR. */
+    void (*adopt)(law_state_t *state, const struct drive_config *from,
+                  const struct drive_config *to);
+
     /** True if loop counts and indexes in the constants are in range. NULL: there are none. It is
      * called
      *  in every period: a flipped bit there would cause an access outside the arrays. Context:

@@ -10,7 +10,9 @@ static bool check(const drive_config_t *drive)
 
     return near_optimal_check(&c->near_optimal, drive) && encoder_form_check(&c->plausible) &&
            angle_gate_check(&c->gate) && encoder_form_gains_check(&c->rare) &&
-           nodo_encoder_check(&c->nodo) && nodo_current_check(&c->currents);
+           nodo_encoder_check(&c->nodo) && nodo_current_check(&c->currents) &&
+           base_in_range(c->inertia.least, INERTIA_LEAST, 1.0f) &&
+           base_in_range(c->inertia.most, 1.0f, INERTIA_MOST);
 }
 
 static void reset(law_state_t *state, const drive_config_t *drive, const drive_sample_t *sample)
@@ -92,6 +94,8 @@ static bool counts_ok(const drive_config_t *drive)
 const law_t law_noc = {.check           = check,
                        .reset           = reset,
                        .step            = step,
+                       .believe         = law_noc_believe,
+                       .adopt           = law_noc_adopt,
                        .counts_ok       = counts_ok,
                        .fields          = law_noc_fields,
                        .number          = 1U,

@@ -14,6 +14,12 @@
 #include "nodo_current.h"
 #include "nodo_encoder.h"
 
+/** Certified range of the believed inertia over the drive's. */
+typedef struct {
+    float least; /**< 0.5 .. 1 */
+    float most;  /**< 1 .. 5 */
+} law_noc_inertia_t;
+
 typedef struct {
     near_optimal_config_t near_optimal;
     encoder_form_limits_t plausible;
@@ -21,6 +27,7 @@ typedef struct {
     encoder_form_gains_t  rare; /**< for edges that are rarer than samples */
     nodo_encoder_gains_t  nodo;
     nodo_current_gains_t  currents; /**< for a lost encoder */
+    law_noc_inertia_t     inertia;
 } law_noc_config_t;
 
 typedef struct {
@@ -31,6 +38,22 @@ typedef struct {
     angle_gate_t         gate;
     nodo_current_t       without; /**< encoder */
 } law_noc_state_t;
+
+/**
+ * @brief The constants for k times the drive's inertia, as law_t.believe.
+ *
+ *     l1, l2, l3, l11, l1_min, P over k;  e_w times sqrt k;  row of d_w over sqrt k    EQ-INERTIA-8
+ *
+ * They take no positions.
+ */
+float law_noc_believe(drive_config_t *to, void *constants, const drive_config_t *from, float ratio);
+
+/**
+ * @brief The same acceleration before and after, as law_t.adopt.
+ *
+ *     d_w += (l1 iq + l11 id iq - l2 w) of `from` - the same of `to`                   EQ-INERTIA-9
+ */
+void law_noc_adopt(law_state_t *state, const drive_config_t *from, const drive_config_t *to);
 
 void law_noc_fields(fields_t *f, void *constants); /**< for law_noc.fields */
 

@@ -3,6 +3,7 @@
 
 #include "design/certificate.hpp"
 #include "design/laws/near_optimal.hpp"
+#include "design/laws/noc_inertia.hpp"
 #include "design/laws/nodo_current.hpp"
 #include "design/trip_levels.hpp"
 
@@ -50,10 +51,15 @@ void solve(Design &d)
     c.plausible.d_omega = believed_d_omega(c.plausible, c.rare, d.drive);
     const CurrentObserver currents = design_nodo_current(d.l, d.drive, trip_speed_e_radps(d.drive));
     c.currents                     = currents.gains;
+    c.inertia                      = {1.0F, 1.0F};
     certify_currents(d, currents);
     certify_whole(d, c.plausible, d.drive.nodo.T[2], c.near_optimal.current_ref, model_at);
     certify_shaft(d);
     keep_constants(d, c);
+    if (d.precision == Precision::extended && d.certificate.passed()) {
+        c.inertia = believable_inertia(d, model_at);
+        keep_constants(d, c);
+    }
 }
 
 std::string summary(const Design &d)
@@ -61,7 +67,8 @@ std::string summary(const Design &d)
     return method_line(fmt::format("EQ-NOSC-2 with N = {}, EQ-NODO-ENCODER-3 with Nd = {}",
                                    d.drive.nosc.order, d.drive.nodo.order)) +
            residual_line(worst_residual(d)) + controller_line(d.certificate.nosc) +
-           observer_line(d.certificate.nodo) + verdict_lines(*d.certificate.loop);
+           observer_line(d.certificate.nodo) + verdict_lines(*d.certificate.loop) +
+           inertia_line(constants_of<law_noc_config_t>(d.config)->inertia);
 }
 
 std::vector<std::string> mismatches(const Design &d)

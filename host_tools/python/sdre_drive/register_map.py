@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "3aa4248b"
+DIGEST = "3b977503"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -48,6 +48,7 @@ COMMAND: Tuple[Register, ...] = (  # holding
     Register("SPEED_WINDOW", 19, "u16", 0.1, "rad/s electrical"),
     Register("COMMISSION_CURRENT", 20, "u16", 0.01, "A"),
     Register("COMMISSION_SPEED", 21, "u16", 0.1, "rad/s mechanical"),
+    Register("INERTIA_START", 22, "u16", 0.0, "0.001"),
 )
 
 LINE: Tuple[Register, ...] = (  # holding
@@ -147,6 +148,7 @@ SHAFT: Tuple[Register, ...] = (  # input
     Register("INERTIA_RATIO", 96, "u16", 0.001, ""),
     Register("INERTIA_CHANGES", 97, "u16", 0.0, ""),
     Register("RING_FREQUENCY", 98, "u16", 0.1, "Hz"),
+    Register("INERTIA_BELIEVED", 99, "u16", 0.001, ""),
 )
 
 COMMISSIONING: Tuple[Register, ...] = (  # input
@@ -234,6 +236,7 @@ PARAMETERS: Tuple[Parameter, ...] = (
     Parameter(BY_NAME["LOST_OPTION"], 2, 3, 2.0, False, "6007h", "2 disable voltage, 3 quick stop. It acts when no request arrives for MODBUS_TIMEOUT."),
     Parameter(BY_NAME["MAX_CURRENT"], 0, 1000000.0, None, False, "6073h", "limit of the current vector. It acts up to CURRENT_MAX. Below that the drive cannot detect a stall. Only laws with near_optimal.h use it, such as the shipped one."),
     Parameter(BY_NAME["SPEED_WINDOW"], 0, 6553.5, 5.0, False, "606Dh", "around the command: target reached"),
+    Parameter(BY_NAME["INERTIA_START"], 0, 5000, 0.0, False, "", "inertia over the drive's at the start; 0: not used. With 0 the law keeps the inertia of the drive file. With any other value it begins with that ratio, and then uses what changes of speed teach (INERTIA_RATIO): [Inertia](tuning.md#inertia). Below 500 it is 500. Only law noc has it."),
     Parameter(BY_NAME["MODBUS_ADDRESS"], 1, 247, 1.0, False, "", "of the drive. The answer to the write still has the old address."),
     Parameter(BY_NAME["MODBUS_TIMEOUT"], 0.01, 60.0, 0.5, False, "", "without a request for longer: LOST_OPTION"),
     Parameter(BY_NAME["BAUD_RATE"], 9600, 115200, 115200.0, True, "", "acts when stored. Allowed are 9600, 19200, 38400, 57600 and 115200. Baud rate, LINE_FORMAT and DIRECTION_PIN act with the restart that stores them."),

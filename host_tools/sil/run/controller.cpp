@@ -9,7 +9,7 @@ extern "C" {
 
 namespace sdre {
 
-Controller prepare_controller(const Scenario &s)
+Controller prepare_controller(const Scenario &s, Precision precision)
 {
     Drive believed      = s.drive;
     believed.motor      = scaled(s.drive.motor, s.controller_scale);
@@ -21,7 +21,7 @@ Controller prepare_controller(const Scenario &s)
         c.config         = gain_tables_drive;
         c.compiled_table = true;
     } else {
-        const Design design = design_drive(believed);
+        const Design design = design_drive(believed, precision);
         c.config            = design.config;
         c.constants         = design.constants;
         c.uncertified       = design.certificate.failures;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drive/core_types.hpp"
+#include "linalg/care.hpp"
 #include "sil/setup/scenario.hpp"
 
 namespace sdre {
@@ -19,7 +20,7 @@ struct Controller {
     std::shared_ptr<const void> constants; ///< what config points to, when solved here
 };
 
-/// DesignError when the gains cannot be solved.
-Controller prepare_controller(const Scenario &scenario);
+/// DesignError when the gains cannot be solved. `extended` is for a drive that learns its inertia (design.hpp).
+Controller prepare_controller(const Scenario &scenario, Precision precision = Precision::quick);
 
 } // namespace sdre

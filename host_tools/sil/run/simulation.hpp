@@ -26,6 +26,12 @@ public:
     /// One control period: the core's tick with this commanded speed, then the plant up to the next tick.
     TickEnd step(double omega_ref_e_radps);
 
+    /// The core goes over to these constants, which must outlive it (firmware/control/drive_tick.h).
+    void adopt(const drive_config_t &next)
+    {
+        drive_adopt(&drive_, &next);
+    }
+
     /// Load on the shaft beside the scenario's, from the next tick on.
     void set_extra_load_Nm(double torque_Nm)
     {

@@ -28,7 +28,7 @@ constexpr double no_end_s   = 1e9;
 /// The firmware's constants, before anything of the board is made.
 Controller bound(const Scenario &s)
 {
-    Controller c = prepare_controller(s);
+    Controller c = prepare_controller(s, Precision::extended);
     set_firmware(c.config, s.drive);
     return c;
 }

@@ -44,6 +44,8 @@ LAW = (
     "check",
     "reset",
     "step",
+    "believe",
+    "adopt",
     "counts_ok",
 )  # functions of law_t that a drive calls, in their order
 LAW_WORDS = (
@@ -173,8 +175,10 @@ def law_functions(prefix, image):
 
 def loaded_from(before, register, pattern):
     """Match of the last instruction that gave the register its value, if it is of this pattern;
-    moves are followed back."""
+    moves are followed back. Code after a return does not see the registers that it restores."""
     for earlier in reversed(before):
+        if earlier.flow == "return":
+            continue
         if not earlier.conditional:
             if match := re.match(pattern.format(register), f"{earlier.name} {earlier.operands}"):
                 return match

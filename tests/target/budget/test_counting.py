@@ -58,7 +58,9 @@ LAW_FUNCTIONS = {
     0: (0x130, "check"),
     4: (0x120, "reset"),
     8: (0x124, "step"),
-    12: (0x140, "counts_ok"),
+    12: (0x144, "believe"),
+    16: (0x148, "adopt"),
+    20: (0x140, "counts_ok"),
 }
 
 
@@ -206,7 +208,7 @@ class Counting(unittest.TestCase):
 
     def test_a_call_through_anything_else_is_refused(self):
         for old, new in (
-            ("#8]", "#16]"),
+            ("#8]", "#24]"),
             ("mov\tr1, r9", "mov\tsl, r9"),
             ("mov\tr1, r9", "ldmia\tr0!, {r4, sl}"),
         ):
@@ -216,16 +218,22 @@ class Counting(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "computed jump"):
             code_of(LAW_LISTING)
 
+    def test_a_return_restores_nothing_for_what_stands_after_it(self):
+        listing = LAW_LISTING.replace(" 10a:\tmov\tr1, r9\n", " 10a:\tpop\t{sl, pc}\n")
+        calls = [i for i in code_of(listing, LAW_FUNCTIONS).values() if i.name == "blx"]
+        self.assertEqual([i.target_name for i in calls], ["step"])
+
     def test_the_law_of_an_image(self):
         answers = {
-            "nm": "00000200 0000001c T law_noc\n00000300 00000004 T law_other\n",
-            "objdump": "\nContents of section .text:\n 0200 31010000 21010000 25010000 41010000  "
-            "1...!...%...A...\n"
-            " 0210 51010000 01000000 34010000           Q.......4...\n",
+            "nm": "00000200 00000024 T law_noc\n00000300 00000004 T law_other\n",
+            "objdump": "\nContents of section .text:\n 0200 31010000 21010000 25010000 45010000  "
+            "1...!...%...E...\n"
+            " 0210 49010000 41010000 51010000 01000000  I...A...Q.......\n"
+            " 0220 34010000                             4...\n",
         }
         with mock.patch.object(machine_code, "run", lambda command, *_: answers[command]):
             self.assertEqual(machine_code.law_functions("", "image"), LAW_FUNCTIONS)
-            answers["nm"] += "00000214 0000001c T law_pid\n"
+            answers["nm"] += "00000224 00000024 T law_pid\n"
             with self.assertRaisesRegex(ValueError, "law_pid"):
                 machine_code.law_functions("", "image")
 

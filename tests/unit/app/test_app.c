@@ -240,8 +240,7 @@ static void test_each_pointer_of_the_tick_alone_opens_the_bridge(void)
     const void **const    pointers[] = {
            (const void **)&m->config,       (const void **)&m->scale.config,
            (const void **)&m->angle.config, (const void **)&m->align.config,
-           (const void **)&m->stop.config,  (const void **)&m->align.drive,
-           (const void **)&m->drive.config,
+           (const void **)&m->stop.config,  (const void **)&m->drive.config,
     };
 
     elsewhere = config;
@@ -553,6 +552,77 @@ static void test_command_of_modbus_is_given_once(void)
     TEST_ASSERT_EQUAL_INT(APP_MODE_FAULT, mode());
 }
 
+/* With the shipped drive, whose law can. The way there and back, while the motor stands under control. */
+static void test_inertia_start_brings_the_second_set_of_constants(void)
+{
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_init(&config, &gain_tables_drive));
+    both(READY_TICKS);
+    fake_board.sample.index_seen = true;
+    both(1);
+    fake_board.sample.index_seen = false;
+    modbus_write(APP_REGISTERS_CONTROLWORD, 6);
+    modbus_write(APP_REGISTERS_CONTROLWORD, 15);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
+    TEST_ASSERT_TRUE(app_drive()->config == &gain_tables_drive);
+
+    modbus_write(APP_REGISTERS_INERTIA_START, 2000);
+    both(15); /* a run takes one piece in a period */
+    const drive_config_t *const second = app_drive()->config;
+    TEST_ASSERT_TRUE(second != &gain_tables_drive);
+    TEST_ASSERT_FLOAT_WITHIN(1.0f, 0.5f * gain_tables_drive.motor.l1, second->motor.l1);
+    both(500);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
+    TEST_ASSERT_TRUE(app_drive()->config == second);
+
+    modbus_write(APP_REGISTERS_INERTIA_START, 3000); /* by way of the drive's own */
+    both(15);                                        /* a run takes one piece in a period */
+    TEST_ASSERT_TRUE(app_drive()->config == second);
+    TEST_ASSERT_FLOAT_WITHIN(1.0f, gain_tables_drive.motor.l1 / 3.0f, second->motor.l1);
+    both(500);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
+
+    modbus_write(APP_REGISTERS_INERTIA_START, 0);
+    both(15); /* a run takes one piece in a period */
+    TEST_ASSERT_TRUE(app_drive()->config == &gain_tables_drive);
+    both(500);
+    TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
+    TEST_ASSERT_TRUE(fake_board.gate);
+}
+
+/* A run to a position has the drive's own inertia. The mode and its constants come together. */
+static void test_a_position_never_meets_the_second_set(void)
+{
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_init(&config, &gain_tables_drive));
+    both(READY_TICKS);
+    modbus_write(APP_REGISTERS_INERTIA_START, 2000);
+    TEST_ASSERT_TRUE(app_drive()->config != &gain_tables_drive);
+    modbus_write(APP_REGISTERS_MODE_OF_OPERATION, 1);
+    TEST_ASSERT_TRUE(app_drive()->config == &gain_tables_drive);
+    modbus_write(APP_REGISTERS_MODE_OF_OPERATION, 3);
+    TEST_ASSERT_TRUE(app_drive()->config != &gain_tables_drive);
+}
+
+static void test_a_changed_second_set_opens_the_bridge(void)
+{
+    TEST_ASSERT_EQUAL_INT(CTL_OK, app_init(&config, &gain_tables_drive));
+    both(READY_TICKS);
+    fake_board.sample.index_seen = true;
+    both(1);
+    fake_board.sample.index_seen = false;
+    modbus_write(APP_REGISTERS_INERTIA_START, 2000);
+    modbus_write(APP_REGISTERS_CONTROLWORD, 6);
+    modbus_write(APP_REGISTERS_CONTROLWORD, 15);
+    both(400);
+    TEST_ASSERT_TRUE(fake_board.gate);
+    drive_config_t *const second = (drive_config_t *)(uintptr_t)app_drive()->config;
+    TEST_ASSERT_TRUE(second != &gain_tables_drive);
+    second->motor.l2 += 0.01f;
+    for (int n = 0; n < 400; n++) {
+        app_background();
+    }
+    TEST_ASSERT_FALSE(fake_board.gate);
+}
+
 static void tick_as_interrupt(int signal)
 {
     (void)signal;
@@ -776,6 +846,9 @@ int main(void)
     RUN_TEST(test_init_forgets_everything);
     RUN_TEST(test_modbus_starts_stops_and_resets);
     RUN_TEST(test_command_of_modbus_is_given_once);
+    RUN_TEST(test_inertia_start_brings_the_second_set_of_constants);
+    RUN_TEST(test_a_position_never_meets_the_second_set);
+    RUN_TEST(test_a_changed_second_set_opens_the_bridge);
     RUN_TEST(test_status_is_copied_whole_though_ticks_interrupt);
     RUN_TEST(test_lost_communication_opens_the_bridge);
     RUN_TEST(test_whole_loop_runs_from_the_index_and_follows_the_command);

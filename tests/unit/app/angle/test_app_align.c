@@ -49,11 +49,11 @@ static uint16_t position(void)
 
 static bridge_t tick(void)
 {
-    const bridge_t out = app_align_tick(&align, (float)(test_motor_phase_A(&motor, 0) + off_a_A),
-                                        (float)(test_motor_phase_A(&motor, 1) + off_b_A),
-                                        (float)motor.v_dc_V, position());
-    const double   duty[3] = {(double)out.duty.a, (double)out.duty.b, (double)out.duty.c};
-    motor.load_Nm          = out.gate_enable ? load_Nm : 0.0;
+    const bridge_t out = app_align_tick(
+        &align, &speed_tables_drive.dead_time, (float)(test_motor_phase_A(&motor, 0) + off_a_A),
+        (float)(test_motor_phase_A(&motor, 1) + off_b_A), (float)motor.v_dc_V, position());
+    const double duty[3] = {(double)out.duty.a, (double)out.duty.b, (double)out.duty.c};
+    motor.load_Nm        = out.gate_enable ? load_Nm : 0.0;
     test_motor_period(&motor, duty, out.gate_enable);
     peak_A = fmax(peak_A, hypot(motor.id_A, motor.iq_A));
     return out;
@@ -211,7 +211,7 @@ static void test_wrong_pole_pairs_fail(void)
 static void tick_at(int position_cnt)
 {
     const float along_A = config.current_A;
-    (void)app_align_tick(&align, along_A, -0.5f * along_A, 295.0f,
+    (void)app_align_tick(&align, &speed_tables_drive.dead_time, along_A, -0.5f * along_A, 295.0f,
                          (uint16_t)((position_cnt + 10000) % 10000));
 }
 
@@ -246,11 +246,12 @@ static void test_voltage_is_limited_when_no_current_flows(void)
     double       seen_V = 0.0;
     app_align_start(&align, 0U);
     for (int n = 0; n < 4000; n++) {
-        const bridge_t out = app_align_tick(&align, 0.0f, 0.0f, 295.0f, 0U);
-        const double   a = (double)out.duty.a, b = (double)out.duty.b, c = (double)out.duty.c;
-        const double   alpha = 295.0 * ((2.0 * a) - b - c) / 3.0;
-        const double   beta  = 295.0 * (b - c) / sqrt(3.0);
-        seen_V               = fmax(seen_V, hypot(alpha, beta));
+        const bridge_t out =
+            app_align_tick(&align, &speed_tables_drive.dead_time, 0.0f, 0.0f, 295.0f, 0U);
+        const double a = (double)out.duty.a, b = (double)out.duty.b, c = (double)out.duty.c;
+        const double alpha = 295.0 * ((2.0 * a) - b - c) / 3.0;
+        const double beta  = 295.0 * (b - c) / sqrt(3.0);
+        seen_V             = fmax(seen_V, hypot(alpha, beta));
     }
     /* the dead time adds 4/3 of its share of the dc link */
     TEST_ASSERT_DOUBLE_WITHIN(0.01, most_V + (4.0 / 3.0 * 0.015 * 295.0), seen_V);
@@ -264,10 +265,11 @@ static void test_current_beyond_the_limit_opens_the_bridge_at_once(void)
         setUp();
         app_align_start(&align, 0U);
         for (int n = 0; n < 2500; n++) {
-            (void)app_align_tick(&align, 3.99f, -1.995f, 295.0f, 0U);
+            (void)app_align_tick(&align, &speed_tables_drive.dead_time, 3.99f, -1.995f, 295.0f, 0U);
         }
         TEST_ASSERT_EQUAL_INT(APP_ALIGN_SWEEP, align.stage);
-        const bridge_t out = app_align_tick(&align, too_much[i][0], too_much[i][1], 295.0f, 0U);
+        const bridge_t out = app_align_tick(&align, &speed_tables_drive.dead_time, too_much[i][0],
+                                            too_much[i][1], 295.0f, 0U);
         TEST_ASSERT_FALSE(out.gate_enable);
         TEST_ASSERT_EQUAL_INT(APP_ALIGN_FAILED, align.stage);
     }

@@ -86,9 +86,9 @@ static void store(void)
 
 /* Addresses, high and low word of a value of each parameter that is not its default; docs/modbus.md. */
 static const int other[][3] = {
-    {7, 0, 123}, {9, 1, 5},     {11, 2, 3},   {13, -1, 6},  {14, -1, 1},   {15, -1, 1},
-    {16, -1, 3}, {17, 0, 1500}, {19, -1, 77}, {64, -1, 42}, {65, -1, 700}, {66, 0, 19200},
-    {68, -1, 2}, {69, -1, 1},   {162, 1, 77}, {164, 2, 5},  {166, -1, 9}};
+    {7, 0, 123},    {9, 1, 5},     {11, 2, 3},   {13, -1, 6},    {14, -1, 1},  {15, -1, 1},
+    {16, -1, 3},    {17, 0, 1500}, {19, -1, 77}, {22, -1, 1500}, {64, -1, 42}, {65, -1, 700},
+    {66, 0, 19200}, {68, -1, 2},   {69, -1, 1},  {162, 1, 77},   {164, 2, 5},  {166, -1, 9}};
 
 #define OTHERS ((int)(sizeof other / sizeof other[0]))
 
@@ -356,7 +356,7 @@ static void test_a_record_of_another_format_gives_defaults_and_is_told(void)
 static void test_one_value_out_of_range_gives_defaults_for_all(void)
 {
     /* word of the record and what it must not be: an option, the address, the baud rate, the format */
-    static const int bad[][2] = {{13, 3}, {31, 0}, {31, 248}, {37, 9601}, {40, 3}, {43, 2}};
+    static const int bad[][2] = {{13, 3}, {34, 0}, {34, 248}, {40, 9601}, {43, 3}, {46, 2}};
     uint16_t         words[64];
     for (int n = 0; n < (int)(sizeof bad / sizeof bad[0]); n++) {
         const uint16_t count = record(words);

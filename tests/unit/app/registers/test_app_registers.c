@@ -124,7 +124,7 @@ static void turn(float accel, float load, int ticks)
         s->ticks++;
         s->speed_e_radps += accel * 200.0e-6f;
         s->d_omega = ((load < 0.0f) ? ((1.0f - 3.0f) * accel) : 0.0f) + load;
-        app_registers_see_inertia(&registers);
+        app_registers_see_inertia(&registers, 1.0f);
     }
 }
 
@@ -155,12 +155,55 @@ static void test_the_inertia_is_shown_by_runs_with_a_speed_and_an_encoder(void)
     change_speed(0.0f); /* a law without an estimate of the load */
     TEST_ASSERT_EQUAL_UINT16(0u, input(97));
     change_speed(-3571.0f);
-    TEST_ASSERT_UINT16_WITHIN(20u, 2000u, input(96));
+    TEST_ASSERT_UINT16_WITHIN(20u, 2500u, input(96));
     TEST_ASSERT_EQUAL_UINT16(1u, input(97));
     s->mode = APP_MODE_FAULT;
     change_speed(-3571.0f);
-    TEST_ASSERT_UINT16_WITHIN(20u, 2000u, input(96));
+    TEST_ASSERT_UINT16_WITHIN(20u, 2500u, input(96));
     TEST_ASSERT_EQUAL_UINT16(1u, input(97));
+}
+
+/* INERTIA_START lets the law use the ratio, begins with it, and takes the place of what was learned. */
+static void test_the_law_gets_the_inertia_on_request(void)
+{
+    app_status_t *s = &registers.status;
+
+    s->mode              = APP_MODE_RUN;
+    s->mode_of_operation = 3;
+    change_speed(-3571.0f);
+    TEST_ASSERT_TRUE(app_registers_inertia_wanted(&registers) == 1.0f);
+    TEST_ASSERT_EQUAL_UINT16(1000u, input(99)); /* INERTIA_BELIEVED */
+
+    registers.requested.inertia_start = 1700u;
+    turn(0.0f, -3571.0f, 1);
+    TEST_ASSERT_EQUAL_UINT16(1700u, input(96));
+    TEST_ASSERT_EQUAL_UINT16(0u, input(97));
+    TEST_ASSERT_TRUE(app_registers_inertia_wanted(&registers) == 1.7f);
+    app_registers_see_inertia(&registers, 1.7f);
+    TEST_ASSERT_EQUAL_UINT16(1700u, input(99));
+    change_speed(-3571.0f);
+    TEST_ASSERT_EQUAL_UINT16(1u, input(97));
+    TEST_ASSERT_TRUE(app_registers_inertia_wanted(&registers) > 2.0f);
+
+    s->without_angle = true;
+    TEST_ASSERT_TRUE(app_registers_inertia_wanted(&registers) == 1.0f);
+    s->without_angle     = false;
+    s->mode_of_operation = 1;
+    TEST_ASSERT_TRUE(app_registers_inertia_wanted(&registers) == 1.0f);
+    s->mode_of_operation                          = 3;
+    registers.requested.objects.mode_of_operation = 1; /* the next command */
+    TEST_ASSERT_TRUE(app_registers_inertia_wanted(&registers) == 1.0f);
+    registers.requested.objects.mode_of_operation = 3;
+    s->mode = APP_MODE_READY; /* the next run begins with it */
+    TEST_ASSERT_TRUE(app_registers_inertia_wanted(&registers) > 2.0f);
+
+    registers.requested.inertia_start = 0u;
+    turn(0.0f, -3571.0f, 1);
+    TEST_ASSERT_EQUAL_UINT16(1000u, input(96));
+    TEST_ASSERT_TRUE(app_registers_inertia_wanted(&registers) == 1.0f);
+    registers.requested.inertia_start = 200u; /* below the least */
+    turn(0.0f, -3571.0f, 1);
+    TEST_ASSERT_EQUAL_UINT16(500u, input(96));
 }
 
 static void test_commissioning_registers_are_what_the_table_says(void)
@@ -501,7 +544,7 @@ static void test_blocks_that_do_not_exist_as_a_whole_are_refused(void)
     static const uint32_t inputs[][2]   = {{62UL, 1UL},    {61UL, 2UL},    {0UL, 63UL},
                                            {127UL, 2UL},   {100UL, 60UL},  {186UL, 1UL},
                                            {65535UL, 1UL}, {65535UL, 2UL}, {1UL, 65535UL}};
-    static const uint32_t holdings[][2] = {{22UL, 1UL}, {21UL, 2UL}, {0UL, 23UL}, {65535UL, 2UL}};
+    static const uint32_t holdings[][2] = {{23UL, 1UL}, {22UL, 2UL}, {0UL, 24UL}, {65535UL, 2UL}};
     uint16_t              values[96]    = {0U};
     for (int i = 0; i < SUPPORT_COUNT(inputs); i++) {
         TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BAD_ADDRESS,
@@ -633,6 +676,7 @@ int main(void)
     RUN_TEST(test_input_registers_are_what_the_table_says);
     RUN_TEST(test_snapshot_registers_are_what_the_table_says);
     RUN_TEST(test_the_inertia_is_shown_by_runs_with_a_speed_and_an_encoder);
+    RUN_TEST(test_the_law_gets_the_inertia_on_request);
     RUN_TEST(test_commissioning_registers_are_what_the_table_says);
     RUN_TEST(test_commissioning_is_asked_for_with_its_bounds);
     RUN_TEST(test_registers_at_the_start);

@@ -32,14 +32,16 @@ static support_random_t    random_state;
 static uint32_t            ticks;
 static double              time_s;
 static double              speed;
+static float               believed; /* by the observer, over the drive's */
 
 void setUp(void)
 {
     random_state.state = 11u;
-    app_watch_inertia_reset(&watch);
-    ticks  = 4294967000u; /* wraps */
-    time_s = 0.0;
-    speed  = 0.0;
+    app_watch_inertia_reset(&watch, 1.0f);
+    believed = 1.0f;
+    ticks    = 4294967000u; /* wraps */
+    time_s   = 0.0;
+    speed    = 0.0;
 }
 
 void tearDown(void) {}
@@ -51,7 +53,7 @@ static double load_at(const load_t *l)
            ((time_s >= l->step_at_s) ? l->step : 0.0);
 }
 
-/* A shaft with k times the believed inertia, for a time at an acceleration. The background sees
+/* A shaft with k times the drive's inertia, for a time at an acceleration. The background sees
  * every `each`-th period. The observer's estimate is the present one: EQ-INERTIA-1 in double. */
 static void turn(double k, double accel, double for_s, const load_t *l, unsigned each)
 {
@@ -62,11 +64,12 @@ static void turn(double k, double accel, double for_s, const load_t *l, unsigned
         time_s += (double)TS_s;
         ticks++;
         if ((ticks % each) == 0u) {
-            const app_watch_inertia_seen_t seen = {.ticks         = ticks,
-                                                   .runs          = true,
-                                                   .omega_e_radps = (float)speed,
-                                                   .d_omega =
-                                                       (float)(((1.0 - k) * accel) + load_at(l))};
+            const app_watch_inertia_seen_t seen = {
+                .ticks         = ticks,
+                .believed      = believed,
+                .runs          = true,
+                .omega_e_radps = (float)speed,
+                .d_omega       = (float)(((1.0 - (k / (double)believed)) * accel) + load_at(l))};
             app_watch_inertia_see(&watch, &seen, MAX, TS_s);
         }
     }
@@ -85,7 +88,7 @@ static float uniform(float low, float high)
     return support_uniform(&random_state, low, high);
 }
 
-static void test_each_change_halves_the_error_for_every_inertia_load_and_way(void)
+static void test_each_change_leaves_a_quarter_for_every_inertia_load_and_way(void)
 {
     for (int i = 0; i < CASES; i++) {
         const double k     = (double)uniform(0.5f, 5.0f);
@@ -95,17 +98,62 @@ static void test_each_change_halves_the_error_for_every_inertia_load_and_way(voi
                               .per_speed = (double)uniform(-2.0f, 2.0f)};
         double       wants = 1.0;
 
-        app_watch_inertia_reset(&watch);
+        app_watch_inertia_reset(&watch, 1.0f);
         speed = -0.5 * by;
         for (uint16_t n = 1u; n <= 3u; n++) {
             const double way = ((n % 2u) == 1u) ? by : -by;
 
             change(k, way, accel, &load, 1u + (unsigned)(i % 9));
-            wants += 0.5 * (k - wants);
+            wants += 0.75 * (k - wants);
             TEST_ASSERT_EQUAL_UINT16(n, watch.changes);
             TEST_ASSERT_FLOAT_WITHIN(TOLERANCE * (float)k, (float)wants, watch.ratio);
         }
     }
+}
+
+/* The observer goes over to what was learned: the next change still shows the drive's ratio. */
+static void test_a_belief_that_follows_learns_the_same(void)
+{
+    for (int i = 0; i < CASES; i++) {
+        const double k     = (double)uniform(0.5f, 5.0f);
+        const load_t load  = {.constant = (double)uniform(-5000.0f, 5000.0f)};
+        double       wants = 1.0;
+
+        app_watch_inertia_reset(&watch, 1.0f);
+        believed = 1.0f;
+        speed    = -150.0;
+        for (int n = 0; n < 3; n++) {
+            change(k, ((n % 2) == 0) ? 300.0 : -300.0, 6000.0 / k, &load, 1u + (unsigned)(i % 9));
+            wants += 0.75 * (k - wants);
+            TEST_ASSERT_FLOAT_WITHIN(TOLERANCE * (float)k, (float)wants, watch.ratio);
+            believed = watch.ratio;
+        }
+    }
+}
+
+/* d_w has a step where the belief changes. The blocks before and after do not belong together. */
+static void test_a_new_belief_begins_a_rest(void)
+{
+    const load_t load = {.constant = 2000.0};
+
+    turn(2.0, 0.0, REST_s, &load, 1u);
+    turn(2.0, 3000.0, 0.05, &load, 1u);
+    believed = 1.5f;
+    turn(2.0, 3000.0, 0.05, &load, 1u);
+    turn(2.0, 0.0, REST_s, &load, 1u);
+    TEST_ASSERT_EQUAL_UINT16(0u, watch.changes);
+    change(2.0, 300.0, 3000.0, &load, 1u);
+    TEST_ASSERT_EQUAL_UINT16(1u, watch.changes);
+}
+
+static void test_it_starts_with_a_ratio_within_the_bounds(void)
+{
+    app_watch_inertia_reset(&watch, 2.5f);
+    TEST_ASSERT_TRUE((watch.ratio == 2.5f) && (watch.changes == 0u));
+    app_watch_inertia_reset(&watch, 0.001f);
+    TEST_ASSERT_TRUE(watch.ratio == APP_WATCH_INERTIA_LEAST);
+    app_watch_inertia_reset(&watch, 65.0f);
+    TEST_ASSERT_TRUE(watch.ratio == APP_WATCH_INERTIA_MOST);
 }
 
 static void test_the_ratio_stays_within_its_bounds(void)
@@ -191,7 +239,7 @@ static void test_a_change_with_a_pause_is_one_change(void)
     TEST_ASSERT_EQUAL_UINT16(0u, watch.changes);
     turn(3.0, 0.0, REST_s, &none, 1u);
     TEST_ASSERT_EQUAL_UINT16(1u, watch.changes);
-    TEST_ASSERT_FLOAT_WITHIN(TOLERANCE, 2.0f, watch.ratio);
+    TEST_ASSERT_FLOAT_WITHIN(TOLERANCE, 2.5f, watch.ratio);
 }
 
 static void test_a_change_longer_than_a_second_is_forgotten(void)
@@ -206,8 +254,11 @@ static void test_a_change_longer_than_a_second_is_forgotten(void)
 
 static void see_once(bool runs, float omega_e_radps, float d_omega)
 {
-    const app_watch_inertia_seen_t seen = {
-        .ticks = ++ticks, .runs = runs, .omega_e_radps = omega_e_radps, .d_omega = d_omega};
+    const app_watch_inertia_seen_t seen = {.ticks         = ++ticks,
+                                           .believed      = believed,
+                                           .runs          = runs,
+                                           .omega_e_radps = omega_e_radps,
+                                           .d_omega       = d_omega};
 
     app_watch_inertia_see(&watch, &seen, MAX, TS_s);
 }
@@ -274,7 +325,10 @@ static void test_the_count_stays_at_its_largest(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_each_change_halves_the_error_for_every_inertia_load_and_way);
+    RUN_TEST(test_each_change_leaves_a_quarter_for_every_inertia_load_and_way);
+    RUN_TEST(test_a_belief_that_follows_learns_the_same);
+    RUN_TEST(test_a_new_belief_begins_a_rest);
+    RUN_TEST(test_it_starts_with_a_ratio_within_the_bounds);
     RUN_TEST(test_the_ratio_stays_within_its_bounds);
     RUN_TEST(test_a_load_that_swings_teaches_nothing);
     RUN_TEST(test_a_load_step_in_a_change_teaches_nothing);

@@ -50,6 +50,36 @@ static void test_every_flipped_bit_is_found(void)
     }
 }
 
+/* At any place of the pass, which begins anew. */
+static void test_a_renewed_block_is_good_and_watched(void)
+{
+    for (int before = 0; before < 4; before++) {
+        for (int n = 0; n < before; n++) {
+            TEST_ASSERT_TRUE(app_watch_memory_pass(&watch));
+        }
+        one[7] = (unsigned char)(one[7] + 1U);
+        app_watch_memory_renew(&watch, one);
+        for (int n = 0; n < 12; n++) {
+            TEST_ASSERT_TRUE(app_watch_memory_pass(&watch));
+        }
+        one[100]  = (unsigned char)(one[100] ^ 4U);
+        bool same = true;
+        for (int n = 0; n < 8; n++) {
+            same = app_watch_memory_pass(&watch) && same;
+        }
+        TEST_ASSERT_FALSE(same);
+        one[100] = (unsigned char)(one[100] ^ 4U);
+        setUp();
+    }
+}
+
+static void test_a_block_that_is_not_watched_renews_nothing(void)
+{
+    one[7] = (unsigned char)(one[7] + 1U);
+    app_watch_memory_renew(&watch, &one[1]);
+    TEST_ASSERT_FALSE(all_passes() && all_passes());
+}
+
 static void test_swapped_characters_are_found(void)
 {
     one[3] = 28U;
@@ -65,9 +95,9 @@ static void test_without_blocks_all_is_good(void)
 
 static void test_blocks_beyond_the_last_are_left_out(void)
 {
-    app_watch_memory_add(&watch, one, 1U);
-    app_watch_memory_add(&watch, one, 1U);
-    app_watch_memory_add(&watch, one, 1U);
+    for (int n = 0; n < APP_WATCH_MEMORY_BLOCKS; n++) {
+        app_watch_memory_add(&watch, one, 1U);
+    }
     TEST_ASSERT_EQUAL_UINT16(APP_WATCH_MEMORY_BLOCKS, watch.blocks);
 }
 
@@ -76,6 +106,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_what_stays_is_good_for_ever);
     RUN_TEST(test_every_flipped_bit_is_found);
+    RUN_TEST(test_a_renewed_block_is_good_and_watched);
+    RUN_TEST(test_a_block_that_is_not_watched_renews_nothing);
     RUN_TEST(test_swapped_characters_are_found);
     RUN_TEST(test_without_blocks_all_is_good);
     RUN_TEST(test_blocks_beyond_the_last_are_left_out);

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file app_options.h
+ * @brief Parts that an image leaves out where its law leaves no room for them, or has no use.
+ */
+#ifndef APP_OPTIONS_H
+#define APP_OPTIONS_H
+
+#ifndef APP_WATCH_INERTIA
+#define APP_WATCH_INERTIA 1 /**< 0: no app_watch_inertia.h. noc_h */
+#endif
+
+#ifndef APP_BELIEVE
+#define APP_BELIEVE 1 /**< 0: no app_believe.h. Every law that has one inertia */
+#endif
+
+#endif /* APP_OPTIONS_H */
