@@ -471,6 +471,7 @@ void app_background(void)
     read_status();
     app_registers_see_inertia(r, believed());
     app_registers_see_ring(r);
+    app_registers_see_trim(r, &tick_side.modes.scale);
     app_parameters_rest(&background_side.parameters, (float)now_ticks * tick_side.drive->ts_s);
     app_modbus_poll(&background_side.modbus, r, now_ticks);
     choose_constants(r);

@@ -10,6 +10,10 @@
 #define APP_WATCH_INERTIA 1 /**< 0: no app_watch_inertia.h. noc_h */
 #endif
 
+#ifndef APP_TRIM
+#define APP_TRIM 1 /**< 0: no app_trim.h. noc_h */
+#endif
+
 #ifndef APP_BELIEVE
 #define APP_BELIEVE 1 /**< 0: no app_believe.h. Every law that has one inertia */
 #endif

@@ -42,11 +42,16 @@ ctl_status_t app_scale_init(app_scale_t *s, const app_scale_config_t *c, uint16_
 {
     const ctl_status_t status = app_scale_check(c, trip_current_A);
 
-    s->config       = c;
-    s->zero_a_cnt   = c->current_zero_cnt;
-    s->zero_b_cnt   = c->current_zero_cnt;
-    s->positions    = positions;
-    s->inv_ntc_step = (status == CTL_OK) ? (1.0f / (float)c->ntc_step_cnt) : 0.0f;
+    s->config     = c;
+    s->zero_a_cnt = c->current_zero_cnt;
+    s->zero_b_cnt = c->current_zero_cnt;
+#if APP_TRIM
+    s->a_A_per_cnt = c->current_A_per_cnt;
+    s->b_A_per_cnt = c->current_A_per_cnt;
+#endif
+    s->dc_link_V_per_cnt = c->dc_link_V_per_cnt;
+    s->positions         = positions;
+    s->inv_ntc_step      = (status == CTL_OK) ? (1.0f / (float)c->ntc_step_cnt) : 0.0f;
     return status;
 }
 
@@ -87,8 +92,6 @@ static bool raw_ok(const app_scale_t *s, const board_sample_t *raw)
 APP_MEASURE_PART void app_scale_sample(const app_scale_t *s, const board_sample_t *raw,
                                        app_scale_sample_t *out)
 {
-    const app_scale_config_t *c = s->config;
-
     out->valid = raw_ok(s, raw);
     if (!out->valid) {
         out->ia_A      = 0.0f;
@@ -96,7 +99,14 @@ APP_MEASURE_PART void app_scale_sample(const app_scale_t *s, const board_sample_
         out->dc_link_V = 0.0f;
         return;
     }
-    out->ia_A      = c->current_A_per_cnt * ((float)raw->ia_cnt - s->zero_a_cnt);
-    out->ib_A      = c->current_A_per_cnt * ((float)raw->ib_cnt - s->zero_b_cnt);
-    out->dc_link_V = c->dc_link_V_per_cnt * (float)raw->dc_link_cnt;
+#if APP_TRIM
+    const float a_A_per_cnt = s->a_A_per_cnt;
+    const float b_A_per_cnt = s->b_A_per_cnt;
+#else
+    const float a_A_per_cnt = s->config->current_A_per_cnt;
+    const float b_A_per_cnt = a_A_per_cnt;
+#endif
+    out->ia_A      = a_A_per_cnt * ((float)raw->ia_cnt - s->zero_a_cnt);
+    out->ib_A      = b_A_per_cnt * ((float)raw->ib_cnt - s->zero_b_cnt);
+    out->dc_link_V = s->dc_link_V_per_cnt * (float)raw->dc_link_cnt;
 }

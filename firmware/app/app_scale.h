@@ -5,12 +5,14 @@
  *
  *     i = A_per_cnt (code - zero),   v_dc = V_per_cnt code                     EQ-APP-SCALE-1
  *
- * The zero of each current is measured with the bridge off. The temperature is interpolated
- * linearly in a table over the code: the curve of an NTC at a divider would need a logarithm.
+ * The zero of each current is measured with the bridge off, and trimmed in a run (app_trim.h). The
+ * temperature is interpolated linearly in a table over the code: the curve of an NTC at a divider
+ * would need a logarithm.
  */
 #ifndef APP_SCALE_H
 #define APP_SCALE_H
 
+#include "app_options.h"
 #include "app_part.h"
 #include "base.h"
 #include "board.h"
@@ -28,10 +30,15 @@ typedef struct {
 
 typedef struct {
     const app_scale_config_t *config;
+    float                     inv_ntc_step;
     float                     zero_a_cnt;
     float                     zero_b_cnt;
-    float                     inv_ntc_step;
-    uint16_t                  positions;
+#if APP_TRIM
+    float a_A_per_cnt; /**< of phase a, > 0 */
+    float b_A_per_cnt; /**< of phase b, > 0 */
+#endif
+    float    dc_link_V_per_cnt;
+    uint16_t positions;
 } app_scale_t;
 
 /** Samples in SI units; all zero unless valid. */
@@ -67,6 +74,22 @@ ctl_status_t app_scale_init(app_scale_t *s, const app_scale_config_t *config, ui
  * Context: control ISR, once.
  */
 bool app_scale_set_zero(app_scale_t *s, uint32_t sum_a_cnt, uint32_t sum_b_cnt, uint16_t count);
+
+#if APP_TRIM
+/**
+ * @brief Moves the zeros, and sets the share of the gains.
+ *
+ * The gain of the sensor that reads less is raised, so that no reading becomes smaller.
+ *
+ * @param a_A  Moves the zero of phase a by this current, b_A that of phase b.
+ * @param gain Gain of sensor a less the gain of sensor b, as ratios.
+ * @return false: a zero would differ from the nominal one by more than offset_max_cnt, or a value
+ *         is not finite. Nothing has changed.
+ *
+ * Context: background, while the tick measures no zeros. The tick reads each member at once.
+ */
+bool app_scale_trim(volatile app_scale_t *s, float a_A, float b_A, float gain);
+#endif
 
 /** All but the temperature. Context: control ISR. No division. */
 APP_MEASURE_PART void app_scale_sample(const app_scale_t *s, const board_sample_t *raw,

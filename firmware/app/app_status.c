@@ -3,13 +3,21 @@
 
 #define AT_LIMIT2 0.81f /* 0.9^2, as in motion_watch.c */
 
+/* The drive has to run: without constants it does not. */
+static bool current_limited(const volatile app_modes_t *m)
+{
+    const float id_A  = m->drive.answer.now.id_A;
+    const float iq_A  = m->drive.answer.now.iq_A;
+    const float max_A = m->drive.config->current_max_A * (1.0f - m->heat.derating);
+
+    return ((id_A * id_A) + (iq_A * iq_A)) >= (AT_LIMIT2 * max_A * max_A);
+}
+
 void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_status_t *s)
 {
-    const bool  running = (m->mode == APP_MODE_RUN) || (m->mode == APP_MODE_STOP);
-    const dq_t  zero    = {0.0f, 0.0f};
-    const dq_t  now_A   = {.d = m->drive.answer.now.id_A, .q = m->drive.answer.now.iq_A};
-    const float max_A   = m->current_max_A * (1.0f - m->heat.derating);
-    const float i2_A2   = (now_A.d * now_A.d) + (now_A.q * now_A.q);
+    const bool running = (m->mode == APP_MODE_RUN) || (m->mode == APP_MODE_STOP);
+    const dq_t zero    = {0.0f, 0.0f};
+    const dq_t now_A   = {.d = m->drive.answer.now.id_A, .q = m->drive.answer.now.iq_A};
 
     s->mode              = m->mode;
     s->fault             = m->fault;
@@ -21,7 +29,7 @@ void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_
     s->shorted           = m->stop.shorted;
     s->gate_enable       = m->gate_on;
     s->voltage_limited   = running && m->drive.v_limited;
-    s->current_limited   = running && (i2_A2 >= (AT_LIMIT2 * max_A * max_A));
+    s->current_limited   = running && current_limited(m);
     s->derating          = m->heat.derating;
     s->motor_heat        = m->heat.motor.x;
     s->inverter_heat     = m->heat.inverter.x;
@@ -42,6 +50,10 @@ void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_
     s->i_A               = running ? now_A : zero;
     s->i_ref_A           = running ? m->drive.answer.i_ref_A : zero;
     s->v_V               = running ? m->drive.v_V : zero;
+#if APP_TRIM
+    s->ia_A = m->sample.ia_A;
+    s->ib_A = m->sample.ib_A;
+#endif
     s->d_omega           = running ? m->drive.answer.d_omega : 0.0f;
     s->zero_a_cnt        = m->scale.zero_a_cnt;
     s->zero_b_cnt        = m->scale.zero_b_cnt;

@@ -11,6 +11,7 @@
 #include "app_commission.h"
 #include "app_objects.h"
 #include "app_position.h"
+#include "app_trim.h"
 #include "board.h"
 #include "drive_tick.h"
 
@@ -80,23 +81,27 @@ typedef struct {
     uint16_t              index_corrections;
     uint16_t              phase_errors;   /**< of the encoder since the start */
     uint16_t              ignored_angles; /**< rejected samples of this run, angle_gate.h */
-    bool           without_angle;    /**< encoder lost: the drive brakes by the currents alone */
-    uint16_t       ignored_currents; /**< rejected since start or reset, current_gate.h */
-    board_reset_t  reset_cause;
-    float          theta_e_rad;
-    float          speed_e_radps; /**< RUN: estimate; otherwise by difference */
-    float          dc_link_V;
-    float          temperature_degC;
-    dq_t           i_A;     /**< RUN only */
-    dq_t           i_ref_A; /**< RUN only */
-    dq_t           v_V;     /**< RUN only */
-    float          d_omega; /**< RUN only: disturbance of the speed equation [rad/s^2] */
-    float          zero_a_cnt;
-    float          zero_b_cnt;
-    uint16_t       tick_cycles;       /**< of the last tick; 65535 if more */
-    uint16_t       tick_cycles_worst; /**< since the start */
-    uint32_t       ticks;
-    app_snapshot_t snapshot;
+    bool          without_angle;    /**< encoder lost: the drive brakes by the currents alone */
+    uint16_t      ignored_currents; /**< rejected since start or reset, current_gate.h */
+    board_reset_t reset_cause;
+    float         theta_e_rad;
+    float         speed_e_radps; /**< RUN: estimate; otherwise by difference */
+    float         dc_link_V;
+    float         temperature_degC;
+    dq_t          i_A;     /**< RUN only */
+    dq_t          i_ref_A; /**< RUN only */
+    dq_t          v_V;     /**< RUN only */
+#if APP_TRIM
+    float ia_A; /**< phase currents */
+    float ib_A;
+#endif
+    float                   d_omega; /**< RUN only: disturbance of the speed equation [rad/s^2] */
+    float                   zero_a_cnt;
+    float                   zero_b_cnt;
+    uint16_t                tick_cycles;       /**< of the last tick; 65535 if more */
+    uint16_t                tick_cycles_worst; /**< since the start */
+    uint32_t                ticks;
+    app_snapshot_t          snapshot;
     app_commission_status_t commission;
     app_control_state_t     state;             /**< app_control.h, as the next three */
     int16_t                 mode_of_operation; /**< in force */

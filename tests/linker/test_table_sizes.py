@@ -38,7 +38,7 @@ SPARE = 0x0100  # for the board's and the run-time library's; theirs are counted
 LEFT = 0.15  # chosen: of every memory, at the upper end of the estimate
 CONSTANTS_words = 0x2000  # chosen: gain tables of any law 5.3 K, registers 1.9 K, and some
 SAMPLES = {"noc_h": 256}  # of the scope; the others have 512
-WITHOUT_INERTIA = {"noc_h"}  # app_watch_inertia.h
+WITHOUT_LEARNING = {"noc_h"}  # app_watch_inertia.h, app_trim.h
 BELIEVE = {"noc"}  # app_believe.h
 
 
@@ -50,7 +50,8 @@ def assembly(source, law):
     options = [
         f"-DLAW_CONSTANTS=law_{law}_config_t",
         f"-DAPP_SCOPE_SAMPLES={SAMPLES.get(law, 512)}U",
-        f"-DAPP_WATCH_INERTIA={0 if law in WITHOUT_INERTIA else 1}",
+        f"-DAPP_WATCH_INERTIA={0 if law in WITHOUT_LEARNING else 1}",
+        f"-DAPP_TRIM={0 if law in WITHOUT_LEARNING else 1}",
         f"-DAPP_BELIEVE={1 if law in BELIEVE else 0}",
     ]
     return subprocess.run(

@@ -192,6 +192,7 @@ class TargetBuild(unittest.TestCase):
         self.assertIn("-DAPP_SCOPE_SAMPLES=512U", compiled["app_scope.c"])
         self.assertNotIn("-DAPP_WATCH_INERTIA=0", compiled["app_registers_inertia.c"])
         self.assertNotIn("-DAPP_BELIEVE=0", compiled["app.c"])
+        self.assertNotIn("-DAPP_TRIM=0", compiled["app_registers_trim.c"])
 
     def test_noc_h_leaves_room_for_half_the_scope(self):
         own = self.top / "own"
@@ -218,6 +219,7 @@ class TargetBuild(unittest.TestCase):
         for name in ("app.c", "app_registers_inertia.c", "main.c"):
             self.assertIn("-DAPP_WATCH_INERTIA=0", compiled[name])
             self.assertIn("-DAPP_BELIEVE=0", compiled[name])
+            self.assertIn("-DAPP_TRIM=0", compiled[name])
         for name in ("app.c", "app_control.c"):
             self.assertNotIn("--ramfunc=on", compiled[name])
         self.assertIn("--ramfunc=on", compiled["app_measure.c"])

@@ -41,7 +41,6 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *c, const drive_c
     m->tripped          = false;
     m->locked           = false;
     m->gate_on          = false;
-    m->current_max_A    = d->current_max_A;
     app_commission_init(&m->commission, d);
     m->zero_a_A = 0.0f;
     m->zero_b_A = 0.0f;

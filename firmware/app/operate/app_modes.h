@@ -43,7 +43,6 @@ typedef struct {
     app_mode_t          mode;
     app_fault_t         fault;
     drive_t             drive;
-    app_scale_t         scale;
     app_angle_t         angle;
     app_position_t      position;
     position_command_t  to_position; /**< position command to the drive */
@@ -51,13 +50,13 @@ typedef struct {
     app_stop_t          stop;
     app_watch_heat_t    heat;
     app_commission_t    commission;
-    float               current_max_A; /**< of the drive */
     float               per_sink_degC; /**< 1 / (trip - limit) of the heat sink */
     float               warmth;        /**< (T - limit) / (trip - limit) of the heat sink */
     app_fault_t         sink_fault;    /**< of a driven motor: temperature or its sensor */
     bool                too_hot;       /**< the same: app_watch_heat_tick() returned false */
     float               zero_a_A; /**< READY: mean of the measured currents with the bridge open */
     float               zero_b_A;
+    app_scale_t         scale; /**< beside sample: the tick reaches both by one pointer */
     app_scale_sample_t  sample;
     app_angle_reading_t reading;
     uint32_t            ticks;

@@ -32,7 +32,6 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
     r->requested.scope                = scope;
     r->requested.scope_command        = 0U;
     r->requested.store_command        = (uint16_t)APP_PARAMETERS_NO_COMMAND;
-    r->requested.inertia_start        = 0U;
     r->requested.line                 = line;
     r->parameters                     = NULL;
     r->scope                          = NULL;
@@ -43,15 +42,13 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
     r->drive                          = drive;
     r->rpm_per_e_radps                = RPM_PER_RADPS / ((pairs > 0U) ? (float)pairs : 1.0f);
     r->status                         = nothing;
-    r->trial                          = r->requested;
-    r->changed                        = false;
-    r->silent                         = false;
-    r->loader                         = NULL;
+    app_registers_init_inertia(r);
+    app_registers_init_trim(r);
+    r->trial   = r->requested;
+    r->changed = false;
+    r->silent  = false;
+    r->loader  = NULL;
     app_watch_ring_reset(&r->ring);
-#if APP_WATCH_INERTIA
-    app_watch_inertia_reset(&r->inertia, 1.0f);
-    r->inertia_started = 0U;
-#endif
     return ((config->modbus_address >= 1U) && (config->modbus_address <= ADDRESS_MAX) &&
             (config->modbus_timeout_ticks > 0U))
                ? CTL_OK

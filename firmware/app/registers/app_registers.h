@@ -17,6 +17,7 @@
 #include "app_registers_map.h"
 #include "app_status.h"
 #include "app_traces.h"
+#include "app_trim.h"
 #include "app_watch_inertia.h"
 #include "app_watch_ring.h"
 
@@ -77,7 +78,12 @@ typedef struct app_registers_request {
     uint32_t          modbus_timeout_ticks;
     board_line_t      line;
     uint16_t          store_command; /**< app_parameters_command_t */
+#if APP_WATCH_INERTIA
     uint16_t inertia_start; /**< INERTIA_START, in thousandths; 0: the law keeps the drive's */
+#endif
+#if APP_TRIM
+    uint16_t trim; /**< 1: trims the current sensors, app_trim.h */
+#endif
 } app_registers_request_t;
 
 typedef struct app_registers {
@@ -88,6 +94,10 @@ typedef struct app_registers {
 #if APP_WATCH_INERTIA
     app_watch_inertia_t inertia;         /**< that changes of speed showed */
     uint16_t            inertia_started; /**< INERTIA_START that it began with */
+#endif
+#if APP_TRIM
+    app_trim_t        trim;
+    app_trim_values_t trimmed; /**< values in force */
 #endif
     app_watch_ring_t             ring; /**< oscillation of the torque current */
     app_registers_request_t      requested;
@@ -107,6 +117,9 @@ typedef struct app_registers {
 ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
                                 const drive_config_t *drive);
 
+/** The shaft has the drive's inertia, and the law keeps it. */
+void app_registers_init_inertia(app_registers_t *r);
+
 /** Lets the status that has just been read show the inertia, app_watch_inertia.h. A law without an
  * estimate of the load shows none. @param believed Inertia that the law has, over the drive's. */
 void app_registers_see_inertia(app_registers_t *r, float believed);
@@ -115,11 +128,31 @@ void app_registers_see_inertia(app_registers_t *r, float believed);
  * learned one in runs with a commanded speed and an encoder; else it is 1. */
 float app_registers_inertia_wanted(const app_registers_t *r);
 
+/** Value of INERTIA_START, and a write to it. */
+uint16_t app_registers_inertia_start(const app_registers_t *r);
+void     app_registers_set_inertia_start(app_registers_request_t *w, float thousandths);
+
 /** Inertia that the law believes, over the drive's. */
 float app_registers_inertia_believed(const app_registers_t *r);
 
 /** Lets the status that has just been read show an oscillation, app_watch_ring.h. */
 void app_registers_see_ring(app_registers_t *r);
+
+/** Believes the current sensors, and learns them by default. Context: init. */
+void app_registers_init_trim(app_registers_t *r);
+
+/** Lets the status that has just been read trim the current sensors, app_trim.h. */
+void app_registers_see_trim(app_registers_t *r, volatile app_scale_t *scale);
+
+/** Value of SENSOR_TRIM, and a write to it. */
+uint16_t app_registers_trim_on(const app_registers_t *r);
+void     app_registers_set_trim(app_registers_request_t *w, float on);
+
+/** Values that are taken off the readings. An image without APP_TRIM has zeros. */
+app_trim_values_t app_registers_trimmed(const app_registers_t *r);
+
+/** Blocks that taught it. */
+uint16_t app_registers_trim_blocks(const app_registers_t *r);
 
 /** Frequency of the last oscillation [Hz]; 0: none since the start. */
 float app_registers_ring(const app_registers_t *r);

@@ -4,6 +4,23 @@
 #define START_STEP 0.001f /* of INERTIA_START */
 
 #if APP_WATCH_INERTIA
+void app_registers_init_inertia(app_registers_t *r)
+{
+    app_watch_inertia_reset(&r->inertia, 1.0f);
+    r->inertia_started         = 0U;
+    r->requested.inertia_start = 0U;
+}
+
+uint16_t app_registers_inertia_start(const app_registers_t *r)
+{
+    return r->requested.inertia_start;
+}
+
+void app_registers_set_inertia_start(app_registers_request_t *w, float thousandths)
+{
+    w->inertia_start = (uint16_t)thousandths;
+}
+
 /* A new INERTIA_START takes the place of what was learned. */
 static void start_anew(app_registers_t *r)
 {
@@ -58,6 +75,23 @@ uint16_t app_registers_inertia_changes(const app_registers_t *r)
     return r->inertia.changes;
 }
 #else
+void app_registers_init_inertia(app_registers_t *r)
+{
+    (void)r;
+}
+
+uint16_t app_registers_inertia_start(const app_registers_t *r)
+{
+    (void)r;
+    return 0U;
+}
+
+void app_registers_set_inertia_start(app_registers_request_t *w, float thousandths)
+{
+    (void)w;
+    (void)thousandths;
+}
+
 void app_registers_see_inertia(app_registers_t *r, float believed)
 {
     (void)r;

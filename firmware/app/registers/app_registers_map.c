@@ -29,40 +29,41 @@ const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING]
     {APP_REGISTERS_SPEED_WINDOW, APP_REGISTERS_U16, 10.0f, 0.0f, 6553.5f, false, 0x1933U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.window_e_radps), false},
     {APP_REGISTERS_COMMISSION_CURRENT, APP_REGISTERS_U16, 100.0f, 0.0f, 655.35f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.bounds.current_A), false},
     {APP_REGISTERS_COMMISSION_SPEED, APP_REGISTERS_U16, 10.0f, 0.0f, 6553.5f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.bounds.speed_m_radps), false},
-    {APP_REGISTERS_INERTIA_START, APP_REGISTERS_U16, 0.0f, 0.0f, 5000.0f, false, 0x77A7U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, inertia_start), false},
+    {APP_REGISTERS_INERTIA_START, APP_REGISTERS_U16, 0.0f, 0.0f, 5000.0f, false, 0x77A7U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 0U, false},
     {APP_REGISTERS_MODBUS_ADDRESS, APP_REGISTERS_U16, 0.0f, 1.0f, 247.0f, false, 0xB5EFU, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, modbus_address), false},
-    {APP_REGISTERS_MODBUS_TIMEOUT, APP_REGISTERS_U16, 1000.0f, 0.01f, 60.0f, false, 0x974DU, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 0U, false},
+    {APP_REGISTERS_MODBUS_TIMEOUT, APP_REGISTERS_U16, 1000.0f, 0.01f, 60.0f, false, 0x974DU, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 1U, false},
     {APP_REGISTERS_BAUD_RATE, APP_REGISTERS_U32, 0.0f, 9600.0f, 115200.0f, true, 0x76FFU, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U32, AT(app_registers_request_t, line.baud_Bd), false},
     {APP_REGISTERS_LINE_FORMAT, APP_REGISTERS_U16, 0.0f, 0.0f, 2.0f, true, 0x949EU, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, line.format), false},
     {APP_REGISTERS_DIRECTION_PIN, APP_REGISTERS_U16, 0.0f, 0.0f, 1.0f, true, 0x00A7U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, line.direction), false},
-    {APP_REGISTERS_SCOPE_COMMAND, APP_REGISTERS_U16, 0.0f, 0.0f, 2.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 1U, false},
+    {APP_REGISTERS_SCOPE_COMMAND, APP_REGISTERS_U16, 0.0f, 0.0f, 2.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 2U, false},
     {APP_REGISTERS_SCOPE_SIGNAL_1, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, scope.signal[0]), false},
     {APP_REGISTERS_SCOPE_SIGNAL_2, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, scope.signal[1]), false},
     {APP_REGISTERS_SCOPE_SIGNAL_3, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, scope.signal[2]), false},
     {APP_REGISTERS_SCOPE_SIGNAL_4, APP_REGISTERS_U16, 0.0f, 0.0f, 255.0f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, scope.signal[3]), false},
     {APP_REGISTERS_SCOPE_DECIMATION, APP_REGISTERS_U16, 0.0f, 1.0f, 65535.0f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, scope.decimation), false},
     {APP_REGISTERS_SCOPE_TRIGGER, APP_REGISTERS_U16, 0.0f, 0.0f, 2.0f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, scope.trigger), false},
-    {APP_REGISTERS_SCOPE_CHANNEL, APP_REGISTERS_U16, 0.0f, 1.0f, 4.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 2U, false},
+    {APP_REGISTERS_SCOPE_CHANNEL, APP_REGISTERS_U16, 0.0f, 1.0f, 4.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 3U, false},
     {APP_REGISTERS_SCOPE_LEVEL, APP_REGISTERS_I32, 1000.0f, -1000000.0f, 1000000.0f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, scope.level), false},
     {APP_REGISTERS_SCOPE_BEFORE, APP_REGISTERS_U16, 0.0f, 0.0f, 511.0f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, scope.before), false},
-    {APP_REGISTERS_STORE_PARAMETERS, APP_REGISTERS_U32, 0.0f, 1.70225701e+09f, 1.70225701e+09f, false, 0x0000U, 0x65766173UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 3U, false},
-    {APP_REGISTERS_RESTORE_PARAMETERS, APP_REGISTERS_U32, 0.0f, 1.68410712e+09f, 1.68410712e+09f, false, 0x0000U, 0x64616F6CUL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 4U, false},
-    {APP_REGISTERS_ACCEPT_FALLBACK, APP_REGISTERS_U32, 0.0f, 1.70153612e+09f, 1.70153612e+09f, false, 0x0000U, 0x656B6174UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 5U, false},
+    {APP_REGISTERS_STORE_PARAMETERS, APP_REGISTERS_U32, 0.0f, 1.70225701e+09f, 1.70225701e+09f, false, 0x0000U, 0x65766173UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 4U, false},
+    {APP_REGISTERS_RESTORE_PARAMETERS, APP_REGISTERS_U32, 0.0f, 1.68410712e+09f, 1.68410712e+09f, false, 0x0000U, 0x64616F6CUL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 5U, false},
+    {APP_REGISTERS_ACCEPT_FALLBACK, APP_REGISTERS_U32, 0.0f, 1.70153612e+09f, 1.70153612e+09f, false, 0x0000U, 0x656B6174UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 6U, false},
     {APP_REGISTERS_TARGET_POSITION, APP_REGISTERS_I32, 0.0f, -1e+09f, 1e+09f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_I32, AT(app_registers_request_t, objects.target_cnt), false},
     {APP_REGISTERS_PROFILE_VELOCITY, APP_REGISTERS_U32, 10.0f, 0.0f, 1000000.0f, false, 0xF4A4U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.profile_e_radps), false},
     {APP_REGISTERS_PROFILE_JERK, APP_REGISTERS_U32, 1.0f, 0.0f, 4e+09f, false, 0xF519U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.jerk_e_radps3), false},
     {APP_REGISTERS_POSITION_WINDOW, APP_REGISTERS_U16, 0.0f, 1.0f, 65535.0f, false, 0xA0A3U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, objects.position_window_cnt), false},
+    {APP_REGISTERS_SENSOR_TRIM, APP_REGISTERS_U16, 0.0f, 0.0f, 1.0f, false, 0x8D42U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 7U, false},
 };
 
 const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
-    {APP_REGISTERS_STATUSWORD, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 6U, false},
+    {APP_REGISTERS_STATUSWORD, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 8U, false},
     {APP_REGISTERS_MODE_NOW, APP_REGISTERS_I16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_I16, AT(app_status_t, mode_of_operation), false},
-    {APP_REGISTERS_ERROR_CODE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 7U, false},
+    {APP_REGISTERS_ERROR_CODE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 9U, false},
     {APP_REGISTERS_MODE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, OF_ENUM(app_mode_t), AT(app_status_t, mode), false},
     {APP_REGISTERS_FAULT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, OF_ENUM(app_fault_t), AT(app_status_t, fault), false},
     {APP_REGISTERS_DRIVE_FAULT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, OF_ENUM(drive_fault_t), AT(app_status_t, drive_fault), false},
     {APP_REGISTERS_BOARD_FAULTS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_U16, AT(app_status_t, board_faults), false},
-    {APP_REGISTERS_CONDITIONS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 8U, false},
+    {APP_REGISTERS_CONDITIONS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 10U, false},
     {APP_REGISTERS_REFERENCE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, OF_ENUM(app_angle_reference_t), AT(app_status_t, reference), false},
     {APP_REGISTERS_ALIGN_STAGE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, OF_ENUM(app_align_stage_t), AT(app_status_t, align_stage), false},
     {APP_REGISTERS_SPEED_NOW, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_FLOAT, AT(app_status_t, speed_e_radps), false},
@@ -102,16 +103,20 @@ const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
     {APP_REGISTERS_FIRST_TEMPERATURE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_U16, AT(app_status_t, snapshot.raw.temperature_cnt), false},
     {APP_REGISTERS_FIRST_POSITION, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_U16, AT(app_status_t, snapshot.raw.position_cnt), false},
     {APP_REGISTERS_FIRST_INDEX, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_U16, AT(app_status_t, snapshot.raw.index_cnt), false},
-    {APP_REGISTERS_FIRST_SAMPLE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 9U, false},
+    {APP_REGISTERS_FIRST_SAMPLE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 11U, false},
     {APP_REGISTERS_FIRST_SPEED, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_FLOAT, AT(app_status_t, snapshot.speed_e_radps), false},
     {APP_REGISTERS_FIRST_WANTED, APP_REGISTERS_I32, 10.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_FLOAT, AT(app_status_t, snapshot.wanted_e_radps), false},
     {APP_REGISTERS_FIRST_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_U32, AT(app_status_t, snapshot.ticks), false},
-    {APP_REGISTERS_POSITION_NOW, APP_REGISTERS_I32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 10U, false},
+    {APP_REGISTERS_POSITION_NOW, APP_REGISTERS_I32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 12U, false},
     {APP_REGISTERS_POSITION_TARGET, APP_REGISTERS_I32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_I32, AT(app_status_t, target_cnt), false},
-    {APP_REGISTERS_INERTIA_RATIO, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 11U, false},
-    {APP_REGISTERS_INERTIA_CHANGES, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 12U, false},
-    {APP_REGISTERS_RING_FREQUENCY, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 13U, false},
-    {APP_REGISTERS_INERTIA_BELIEVED, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 14U, false},
+    {APP_REGISTERS_INERTIA_RATIO, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 13U, false},
+    {APP_REGISTERS_INERTIA_CHANGES, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 14U, false},
+    {APP_REGISTERS_RING_FREQUENCY, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 15U, false},
+    {APP_REGISTERS_INERTIA_BELIEVED, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 16U, false},
+    {APP_REGISTERS_TRIM_A, APP_REGISTERS_I16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 17U, false},
+    {APP_REGISTERS_TRIM_B, APP_REGISTERS_I16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 18U, false},
+    {APP_REGISTERS_TRIM_GAIN, APP_REGISTERS_I16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 19U, false},
+    {APP_REGISTERS_TRIM_BLOCKS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 20U, false},
     {APP_REGISTERS_COMMISSION_STAGE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, OF_ENUM(commission_stage_t), AT(app_status_t, commission.stage), false},
     {APP_REGISTERS_COMMISSION_REASON, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, OF_ENUM(commission_reason_t), AT(app_status_t, commission.reason), false},
     {APP_REGISTERS_COMMISSION_PERCENT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_I16, AT(app_status_t, commission.percent), false},
@@ -145,16 +150,16 @@ const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
     {APP_REGISTERS_FOUND_DAMPING_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_FLOAT, AT(app_status_t, commission.found.damping.error), false},
     {APP_REGISTERS_FOUND_LOAD_SHARE, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_FLOAT, AT(app_status_t, commission.found.load_share.value), false},
     {APP_REGISTERS_FOUND_LOAD_SHARE_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_FLOAT, AT(app_status_t, commission.found.load_share.error), false},
-    {APP_REGISTERS_SCOPE_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 15U, false},
-    {APP_REGISTERS_SCOPE_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 16U, false},
-    {APP_REGISTERS_RECORD_NUMBER, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 17U, false},
-    {APP_REGISTERS_RECORD_COUNT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 18U, false},
-    {APP_REGISTERS_PARAMETERS_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 19U, false},
-    {APP_REGISTERS_PARAMETERS_DONE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 20U, false},
-    {APP_REGISTERS_PARAMETERS_NUMBER, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 21U, false},
-    {APP_REGISTERS_PARAMETERS_WRITES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 22U, false},
-    {APP_REGISTERS_PARAMETERS_DROPPED, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 23U, false},
-    {APP_REGISTERS_SUPPORTED_MODES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 24U, false},
+    {APP_REGISTERS_SCOPE_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 21U, false},
+    {APP_REGISTERS_SCOPE_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 22U, false},
+    {APP_REGISTERS_RECORD_NUMBER, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 23U, false},
+    {APP_REGISTERS_RECORD_COUNT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 24U, false},
+    {APP_REGISTERS_PARAMETERS_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 25U, false},
+    {APP_REGISTERS_PARAMETERS_DONE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 26U, false},
+    {APP_REGISTERS_PARAMETERS_NUMBER, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 27U, false},
+    {APP_REGISTERS_PARAMETERS_WRITES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 28U, false},
+    {APP_REGISTERS_PARAMETERS_DROPPED, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 29U, false},
+    {APP_REGISTERS_SUPPORTED_MODES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 30U, false},
     {APP_REGISTERS_POLE_PAIRS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_DRIVE, APP_REGISTERS_AS_U16, AT(drive_config_t, hardware.pole_pairs), false},
     {APP_REGISTERS_ENCODER_POSITIONS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_DRIVE, APP_REGISTERS_AS_U32, AT(drive_config_t, hardware.encoder_positions), false},
     {APP_REGISTERS_CONTROL_PERIOD, APP_REGISTERS_U32, 1e+09f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_DRIVE, APP_REGISTERS_AS_FLOAT, AT(drive_config_t, ts_s), false},
@@ -174,17 +179,26 @@ float app_registers_map_real(const app_registers_t *r, uint16_t number)
     float x = 0.0f;
 
     switch (number) {
-    case 0U: /* MODBUS_TIMEOUT */
+    case 1U: /* MODBUS_TIMEOUT */
         x = (float)r->requested.modbus_timeout_ticks * r->drive->ts_s;
         break;
-    case 11U: /* INERTIA_RATIO */
+    case 13U: /* INERTIA_RATIO */
         x = app_registers_inertia(r);
         break;
-    case 13U: /* RING_FREQUENCY */
+    case 15U: /* RING_FREQUENCY */
         x = app_registers_ring(r);
         break;
-    case 14U: /* INERTIA_BELIEVED */
+    case 16U: /* INERTIA_BELIEVED */
         x = app_registers_inertia_believed(r);
+        break;
+    case 17U: /* TRIM_A */
+        x = app_registers_trimmed(r).a_A;
+        break;
+    case 18U: /* TRIM_B */
+        x = app_registers_trimmed(r).b_A;
+        break;
+    case 19U: /* TRIM_GAIN */
+        x = app_registers_trimmed(r).gain;
         break;
     default:
         break;
@@ -197,67 +211,76 @@ uint32_t app_registers_map_whole(const app_registers_t *r, uint16_t number)
     uint32_t x = 0U;
 
     switch (number) {
-    case 1U: /* SCOPE_COMMAND */
+    case 0U: /* INERTIA_START */
+        x = app_registers_inertia_start(r);
+        break;
+    case 2U: /* SCOPE_COMMAND */
         x = 0U;
         break;
-    case 2U: /* SCOPE_CHANNEL */
+    case 3U: /* SCOPE_CHANNEL */
         x = (uint32_t)r->requested.scope.channel + 1U;
         break;
-    case 3U: /* STORE_PARAMETERS */
+    case 4U: /* STORE_PARAMETERS */
         x = 1U;
         break;
-    case 4U: /* RESTORE_PARAMETERS */
+    case 5U: /* RESTORE_PARAMETERS */
         x = 1U;
         break;
-    case 5U: /* ACCEPT_FALLBACK */
+    case 6U: /* ACCEPT_FALLBACK */
         x = 1U;
         break;
-    case 6U: /* STATUSWORD */
+    case 7U: /* SENSOR_TRIM */
+        x = app_registers_trim_on(r);
+        break;
+    case 8U: /* STATUSWORD */
         x = app_registers_statusword(r);
         break;
-    case 7U: /* ERROR_CODE */
+    case 9U: /* ERROR_CODE */
         x = app_error_code(r->status.fault, r->status.drive_fault);
         break;
-    case 8U: /* CONDITIONS */
+    case 10U: /* CONDITIONS */
         x = app_registers_conditions(r);
         break;
-    case 9U: /* FIRST_SAMPLE */
+    case 11U: /* FIRST_SAMPLE */
         x = app_registers_first_sample(r);
         break;
-    case 10U: /* POSITION_NOW */
+    case 12U: /* POSITION_NOW */
         x = (uint32_t)app_registers_position(r);
         break;
-    case 12U: /* INERTIA_CHANGES */
+    case 14U: /* INERTIA_CHANGES */
         x = app_registers_inertia_changes(r);
         break;
-    case 15U: /* SCOPE_STATE */
+    case 20U: /* TRIM_BLOCKS */
+        x = app_registers_trim_blocks(r);
+        break;
+    case 21U: /* SCOPE_STATE */
         x = app_registers_scope_state(r);
         break;
-    case 16U: /* SCOPE_TICKS */
+    case 22U: /* SCOPE_TICKS */
         x = app_registers_scope_ticks(r);
         break;
-    case 17U: /* RECORD_NUMBER */
+    case 23U: /* RECORD_NUMBER */
         x = app_registers_record_number(r);
         break;
-    case 18U: /* RECORD_COUNT */
+    case 24U: /* RECORD_COUNT */
         x = app_registers_record_count(r);
         break;
-    case 19U: /* PARAMETERS_STATE */
+    case 25U: /* PARAMETERS_STATE */
         x = app_registers_stored_state(r);
         break;
-    case 20U: /* PARAMETERS_DONE */
+    case 26U: /* PARAMETERS_DONE */
         x = app_registers_stored_done(r);
         break;
-    case 21U: /* PARAMETERS_NUMBER */
+    case 27U: /* PARAMETERS_NUMBER */
         x = app_registers_stored_number(r);
         break;
-    case 22U: /* PARAMETERS_WRITES */
+    case 28U: /* PARAMETERS_WRITES */
         x = app_registers_stored_writes(r);
         break;
-    case 23U: /* PARAMETERS_DROPPED */
+    case 29U: /* PARAMETERS_DROPPED */
         x = app_registers_stored_dropped(r);
         break;
-    case 24U: /* SUPPORTED_MODES */
+    case 30U: /* SUPPORTED_MODES */
         x = r->drive->positions ? 0x00010025UL : 0x00010024UL;
         break;
     default:
@@ -269,23 +292,29 @@ uint32_t app_registers_map_whole(const app_registers_t *r, uint16_t number)
 void app_registers_map_put(const app_registers_t *r, app_registers_request_t *w, uint16_t number, float x)
 {
     switch (number) {
-    case 0U: /* MODBUS_TIMEOUT */
+    case 0U: /* INERTIA_START */
+        app_registers_set_inertia_start(w, x);
+        break;
+    case 1U: /* MODBUS_TIMEOUT */
         w->modbus_timeout_ticks = app_registers_ticks(r, x);
         break;
-    case 1U: /* SCOPE_COMMAND */
+    case 2U: /* SCOPE_COMMAND */
         w->scope_command = (uint16_t)x;
         break;
-    case 2U: /* SCOPE_CHANNEL */
+    case 3U: /* SCOPE_CHANNEL */
         w->scope.channel = (uint16_t)(x - 1.0f);
         break;
-    case 3U: /* STORE_PARAMETERS */
+    case 4U: /* STORE_PARAMETERS */
         w->store_command = (uint16_t)APP_PARAMETERS_STORE;
         break;
-    case 4U: /* RESTORE_PARAMETERS */
+    case 5U: /* RESTORE_PARAMETERS */
         w->store_command = (uint16_t)APP_PARAMETERS_RESTORE;
         break;
-    case 5U: /* ACCEPT_FALLBACK */
+    case 6U: /* ACCEPT_FALLBACK */
         w->store_command = (uint16_t)APP_PARAMETERS_ACCEPT;
+        break;
+    case 7U: /* SENSOR_TRIM */
+        app_registers_set_trim(w, x);
         break;
     default:
         break;

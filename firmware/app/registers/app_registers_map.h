@@ -12,9 +12,9 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "3b977503" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "53e27b3d" /**< of what a master can see of the map */
 
-#define APP_REGISTERS_SAVED 18U /**< parameters */
+#define APP_REGISTERS_SAVED 19U /**< parameters */
 
 /** Holding registers: those of two words are named by the first. */
 enum {
@@ -66,7 +66,10 @@ enum {
     APP_REGISTERS_PROFILE_JERK = 164,
     APP_REGISTERS_POSITION_WINDOW = 166,
     APP_REGISTERS_TARGET_FIRST = 160,
-    APP_REGISTERS_TARGET_END = 167
+    APP_REGISTERS_TARGET_END = 167,
+    APP_REGISTERS_SENSOR_TRIM = 192,
+    APP_REGISTERS_TRIM_FIRST = 192,
+    APP_REGISTERS_TRIM_END = 193
 };
 
 /** Input registers: those of two words are named by the first. */
@@ -134,6 +137,12 @@ enum {
     APP_REGISTERS_INERTIA_BELIEVED = 99,
     APP_REGISTERS_SHAFT_FIRST = 96,
     APP_REGISTERS_SHAFT_END = 100,
+    APP_REGISTERS_TRIM_A = 112,
+    APP_REGISTERS_TRIM_B = 113,
+    APP_REGISTERS_TRIM_GAIN = 114,
+    APP_REGISTERS_TRIM_BLOCKS = 115,
+    APP_REGISTERS_TRIMMED_FIRST = 112,
+    APP_REGISTERS_TRIMMED_END = 116,
     APP_REGISTERS_COMMISSION_STAGE = 128,
     APP_REGISTERS_COMMISSION_REASON = 129,
     APP_REGISTERS_COMMISSION_PERCENT = 130,
@@ -246,9 +255,9 @@ typedef struct {
 struct app_registers;
 struct app_registers_request;
 
-#define APP_REGISTERS_MAP_HOLDING 39U
+#define APP_REGISTERS_MAP_HOLDING 40U
 
-#define APP_REGISTERS_MAP_INPUT 112U
+#define APP_REGISTERS_MAP_INPUT 116U
 
 /** Rows in ascending order of the address. */
 extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];

@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "3b977503"
+DIGEST = "53e27b3d"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -83,6 +83,10 @@ TARGET: Tuple[Register, ...] = (  # holding
     Register("PROFILE_VELOCITY", 162, "u32", 0.1, "rad/s electrical"),
     Register("PROFILE_JERK", 164, "u32", 1.0, "rad/s3 electrical"),
     Register("POSITION_WINDOW", 166, "u16", 0.0, "counts"),
+)
+
+TRIM: Tuple[Register, ...] = (  # holding
+    Register("SENSOR_TRIM", 192, "u16", 0.0, ""),
 )
 
 LIVE: Tuple[Register, ...] = (  # input
@@ -149,6 +153,13 @@ SHAFT: Tuple[Register, ...] = (  # input
     Register("INERTIA_CHANGES", 97, "u16", 0.0, ""),
     Register("RING_FREQUENCY", 98, "u16", 0.1, "Hz"),
     Register("INERTIA_BELIEVED", 99, "u16", 0.001, ""),
+)
+
+TRIMMED: Tuple[Register, ...] = (  # input
+    Register("TRIM_A", 112, "i16", 0.001, "A"),
+    Register("TRIM_B", 113, "i16", 0.001, "A"),
+    Register("TRIM_GAIN", 114, "i16", 0.0001, ""),
+    Register("TRIM_BLOCKS", 115, "u16", 0.0, ""),
 )
 
 COMMISSIONING: Tuple[Register, ...] = (  # input
@@ -218,11 +229,11 @@ CONSTANTS: Tuple[Register, ...] = (  # input
     Register("TEMPERATURE_TRIP", 276, "i16", 0.1, "degC"),
 )
 
-HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET)
-INPUT = (*LIVE, *POSITION, *SHAFT, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS)
+HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET, *TRIM)
+INPUT = (*LIVE, *POSITION, *SHAFT, *TRIMMED, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS)
 
 # Blocks that hold parameters.
-PARAMETER_BLOCKS = (COMMAND, LINE, TARGET,)
+PARAMETER_BLOCKS = (COMMAND, LINE, TARGET, TRIM,)
 
 BY_NAME = {r.name: r for r in (*HOLDING, *INPUT)}
 
@@ -245,6 +256,7 @@ PARAMETERS: Tuple[Parameter, ...] = (
     Parameter(BY_NAME["PROFILE_VELOCITY"], 0, 1000000.0, 0.0, False, "6081h", "largest profile speed; 0: the drive's limit. ACCELERATION and DECELERATION act too."),
     Parameter(BY_NAME["PROFILE_JERK"], 0, 4000000000.0, 0.0, False, "60A4h", "0: the drive's limit"),
     Parameter(BY_NAME["POSITION_WINDOW"], 1, 65535, 4.0, False, "6067h", "around the target: reached"),
+    Parameter(BY_NAME["SENSOR_TRIM"], 0, 1, 1.0, False, "", "1: learns errors of the current sensors in a run. 0 forgets what was learned: [Current sensors](hardware.md#trim-of-the-current-sensors). The image of noc_h has no room for it: there it is 0."),
 )
 
 # Signals of the scope by number: name and unit.

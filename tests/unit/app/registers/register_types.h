@@ -13,7 +13,6 @@ static void register_types(void)
 {
     IS(app_config_t, temperature_limit_degC, float);
     IS(app_config_t, temperature_trip_degC, float);
-    IS(app_registers_request_t, inertia_start, uint16_t);
     IS(app_registers_request_t, line.baud_Bd, uint32_t);
     IS(app_registers_request_t, line.direction, uint16_t);
     IS(app_registers_request_t, line.format, uint16_t);
