@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 # Every option of the project is declared here; any other SDRE_* name stops configuration.
-set(sdre_bool_options SDRE_BOARD_CHECK SDRE_BUILD_TESTS SDRE_PYTHON_EXTENSION SDRE_SANITIZE)
+set(sdre_bool_options SDRE_BOARD_CHECK SDRE_BUILD_TESTS SDRE_DISC_MAP SDRE_PYTHON_EXTENSION SDRE_SANITIZE)
 set(sdre_text_options SDRE_BOARD SDRE_IMAGE SDRE_PYTHON SDRE_SCOPE_SAMPLES SDRE_TABLES)
 
 option(SDRE_BOARD_CHECK "Only compile the board layer against TI's headers, with this compiler" OFF)
 option(SDRE_BUILD_TESTS "Build the tests (needs Unity and GoogleTest)" ON)
+option(SDRE_DISC_MAP "An image can use a map of the encoder disc" OFF)
 option(SDRE_PYTHON_EXTENSION "Also build the extension of the Python package sdre (needs nanobind)" OFF)
 option(SDRE_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 set(SDRE_BOARD f28335 CACHE STRING "Directory of firmware/board that is built: f28335 or host_stub")

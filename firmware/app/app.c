@@ -50,8 +50,11 @@ static struct {
     const drive_config_t *drive;
     const drive_config_t *in_force; /* the drive's constants or the second set */
     const float          *ntc_degC;
-    uint16_t              background_count;
-    uint16_t              background_age_ticks;
+#if APP_DISC_MAP
+    const uint16_t *disc;
+#endif
+    uint16_t background_count;
+    uint16_t background_age_ticks;
 } tick_side;
 
 /* Scope and record. Their headers name the writer of each member. */
@@ -89,9 +92,12 @@ static ctl_status_t init_tick_side(const app_config_t *config, const drive_confi
     tick_side.background_count     = 0U;
     tick_side.background_age_ticks = 0U;
     app_config_for(&tick_side.config, config, drive->hardware.updates_per_period);
-    tick_side.drive            = drive;
-    tick_side.in_force         = drive;
-    tick_side.ntc_degC         = tick_side.config.scale.ntc_degC;
+    tick_side.drive    = drive;
+    tick_side.in_force = drive;
+    tick_side.ntc_degC = tick_side.config.scale.ntc_degC;
+#if APP_DISC_MAP
+    tick_side.disc = NULL;
+#endif
     const ctl_status_t control = app_control_init(&tick_side.control, &tick_side.config, drive);
     const ctl_status_t modes   = app_modes_init(&tick_side.modes, &tick_side.config, drive);
     return (control == CTL_OK) ? modes : control;
@@ -339,9 +345,14 @@ static bool pointers_hold(void)
     const app_config_t *const c = &tick_side.config;
     const app_modes_t *const  m = &tick_side.modes;
 
-    return (m->config == c) && (m->scale.config == &c->scale) && (m->angle.config == &c->angle) &&
-           (m->align.config == &c->align) && (m->stop.config == &c->stop) &&
-           (tick_side.control.config == c) &&
+#if APP_DISC_MAP
+    const bool disc = m->angle.disc.octets == tick_side.disc;
+#else
+    const bool disc = true;
+#endif
+    return disc && (m->config == c) && (m->scale.config == &c->scale) &&
+           (m->angle.config == &c->angle) && (m->align.config == &c->align) &&
+           (m->stop.config == &c->stop) && (tick_side.control.config == c) &&
            ((m->drive.config == tick_side.in_force) || (m->fault == APP_FAULT_CONFIG)) &&
            (c->scale.ntc_degC == tick_side.ntc_degC);
 }
@@ -486,6 +497,10 @@ void app_tell_image(const app_image_t *image)
     app_loader_init(&background_side.loader, image);
     background_side.registers.loader = &background_side.loader;
     tick_side.modes.locked           = tick_side.modes.locked || image->fallback;
+#if APP_DISC_MAP
+    app_disc_take(&tick_side.modes.angle.disc, image->disc);
+    tick_side.disc = tick_side.modes.angle.disc.octets;
+#endif
     if (image->other_board) {
         tick_side.modes.mode  = APP_MODE_FAULT;
         tick_side.modes.fault = APP_FAULT_CONFIG;

@@ -71,4 +71,7 @@ void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_
     s->waits             = running && m->drive.answer.waits;
     s->target_cnt        = 0L;
     s->acknowledged      = false;
+#if APP_DISC_MAP
+    s->disc = m->angle.disc.state;
+#endif
 }

@@ -112,6 +112,9 @@ typedef struct {
     bool                    acknowledged; /**< app_setpoint.h */
     bool                    arrived;      /**< the reference rests at the target */
     bool                    waits;        /**< the reference waits for a shaft that cannot follow */
+#if APP_DISC_MAP
+    app_disc_state_t disc; /**< map of the disc, app_disc.h */
+#endif
 } app_status_t;
 
 /** Command of the application modes. */

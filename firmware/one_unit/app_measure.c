@@ -3,6 +3,9 @@
 #define APP_MEASURE_PART static inline
 
 #include "../app/operate/app_measure.c"
+
+#include "../app/angle/app_disc.c"
+
 #include "../app/angle/app_angle.c"
 #include "../app/angle/app_position.c"
 #include "../app/app_scale.c"

@@ -14,7 +14,8 @@ enum class NoiseStream : std::uint64_t {
     adc_b        = 2,
     encoder_disc = 3,
     start_angle  = 4,
-    adc_c        = 5
+    adc_c        = 5,
+    encoder_map  = 6
 };
 
 /// Number n of the sequence splitmix64: neighbouring seeds end up far apart.

@@ -6,11 +6,11 @@
 
 namespace sdre::cycle_budget {
 
-constexpr double noc_speed        = 5135.0;
-constexpr double noc              = 5443.0;
-constexpr double noc_h            = 8878.0;
-constexpr double noc_shaft        = 5976.0;
-constexpr double conventional     = 7256.0;
+constexpr double noc_speed        = 5134.0;
+constexpr double noc              = 5442.0;
+constexpr double noc_h            = 8876.0;
+constexpr double noc_shaft        = 5975.0;
+constexpr double conventional     = 7255.0;
 constexpr double position         = 2995.0;
 constexpr double background_share = 0.10666666666666667;
 

@@ -8,11 +8,13 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "common/file_output.hpp"
 #include "design/board/board_constants.hpp"
 #include "design/board/identity.hpp"
 #include "design/named_constants.hpp"
 
 extern "C" {
+#include "app_disc.h"
 #include "crc32.h"
 #include "drive_image.h"
 #include "store.h"
@@ -71,6 +73,27 @@ std::vector<std::uint16_t> image_words(const Design &design)
     if (drive_image_write(image.get(), words.data(), static_cast<std::uint32_t>(words.size())) !=
         words.size()) {
         throw std::logic_error("image: two lengths");
+    }
+    return words;
+}
+
+std::vector<std::uint16_t> read_disc_map(const std::filesystem::path &file, const Drive &drive)
+{
+    const std::string          octets = read_text_file(file);
+    std::vector<std::uint16_t> words;
+    for (std::size_t n = 0; n + 1 < octets.size(); n += 2) {
+        words.push_back(static_cast<std::uint16_t>((static_cast<unsigned char>(octets[n]) << 8U) |
+                                                   static_cast<unsigned char>(octets[n + 1])));
+    }
+    if (words.size() < APP_DISC_HEAD_WORDS || words[0] != APP_DISC_FORMAT ||
+        octets.size() % 2 != 0 ||
+        words.size() != APP_DISC_HEAD_WORDS + (words[1] + std::size_t{1}) / 2) {
+        throw InputError(fmt::format("{}: is no map of sdre-drive disc-map learn", file.string()));
+    }
+    const int positions = 4 * drive.encoder.lines;
+    if (words[1] != positions) {
+        throw InputError(fmt::format("{}: is of a disc with {} edges, and {} has {}", file.string(),
+                                     words[1], drive.name, positions));
     }
     return words;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,10 @@ namespace sdre {
 
 /// InputError when the board cannot have the drive.
 std::vector<std::uint16_t> image_words(const Design &design);
+
+/// The words of a file of `sdre-drive disc-map learn`, to follow those of an image (firmware/app/angle/app_disc.h).
+/// InputError when it is none, or one for another encoder.
+std::vector<std::uint16_t> read_disc_map(const std::filesystem::path &file, const Drive &drive);
 
 /// A line for each number of the image: its first word, its name, its value.
 std::string image_list(const Design &design);

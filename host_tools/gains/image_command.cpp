@@ -19,6 +19,7 @@ struct Options {
     std::string out;
     std::string hex;
     std::string list;
+    std::string disc_map;
 };
 
 void declare(OptionList &list, Options &o)
@@ -26,6 +27,7 @@ void declare(OptionList &list, Options &o)
     list.required("DRIVE", o.drive, "drive file (TOML)");
     list.text("--out", o.out, "image to write, for sdre-drive load");
     list.text("--hex", o.hex, "the same as Intel HEX, for a programming tool");
+    list.text("--disc-map", o.disc_map, "map of the encoder disc, of sdre-drive disc-map learn");
     list.text("--list", o.list, "its numbers as text: word, name, value");
 }
 
@@ -41,8 +43,12 @@ int run(const Options &o)
         throw DesignError(fmt::format("{}: {}: {}", o.drive, verdict_words(design),
                                       fmt::join(design.certificate.failures, "; ")));
     }
-    const std::vector<std::uint16_t> words = image_words(design);
-    std::vector<OutputFile>          files;
+    std::vector<std::uint16_t> words = image_words(design);
+    if (!o.disc_map.empty()) {
+        const std::vector<std::uint16_t> map = read_disc_map(o.disc_map, drive);
+        words.insert(words.end(), map.begin(), map.end());
+    }
+    std::vector<OutputFile> files;
     if (!o.out.empty()) {
         files.push_back({o.out, image_octets(words)});
     }

@@ -9,6 +9,7 @@ import re
 import subprocess
 import sys
 import unittest
+import unittest.mock
 
 sys.dont_write_bytecode = True
 import code_size
@@ -40,14 +41,16 @@ CONSTANTS_words = 0x2000  # chosen: gain tables of any law 5.3 K, registers 1.9 
 SAMPLES = {"noc_h": 256}  # of the scope; the others have 512
 WITHOUT_LEARNING = {"noc_h"}  # app_watch_inertia.h, app_trim.h
 BELIEVE = {"noc"}  # app_believe.h
+WITH_MAP = ["-DAPP_DISC_MAP=1"]  # SDRE_DISC_MAP=ON
 
 
 def laws():
     return re.findall(r'#include "law_(\w+)\.h"', (FIRMWARE / "control/laws/laws.h").read_text())
 
 
-def assembly(source, law):
+def assembly(source, law, more=()):
     options = [
+        *more,
         f"-DLAW_CONSTANTS=law_{law}_config_t",
         f"-DAPP_SCOPE_SAMPLES={SAMPLES.get(law, 512)}U",
         f"-DAPP_WATCH_INERTIA={0 if law in WITHOUT_LEARNING else 1}",
@@ -59,7 +62,7 @@ def assembly(source, law):
     ).stdout
 
 
-def words(law):
+def words(law, more=()):
     """{object: words} of what an image with this law keeps beside the variables."""
     types = {
         "law": f"law_{law}_config_t",
@@ -71,15 +74,15 @@ def words(law):
     source += "".join(f"const {type} size_{name} = {{0}};\n" for name, type in types.items())
     return {
         name: int(octets) // 2
-        for name, octets in re.findall(r"\.size\s+size_(\w+), (\d+)", assembly(source, law))
+        for name, octets in re.findall(r"\.size\s+size_(\w+), (\d+)", assembly(source, law, more))
     }
 
 
-def variables(law):
+def variables(law, more=()):
     """Words of what the application keeps: it lies beside the constants in force."""
     total = 0
     for source in sorted((FIRMWARE / "app").rglob("*.c")):
-        found = re.findall(r"\.comm\s+\w+,(\d+)", assembly(f'#include "{source}"\n', law))
+        found = re.findall(r"\.comm\s+\w+,(\d+)", assembly(f'#include "{source}"\n', law, more))
         total += sum(int(octets) // 2 for octets in found)
     return total
 
@@ -148,6 +151,18 @@ class TableSizes(unittest.TestCase):
                 )
                 self.assertLessEqual(total, (1 - LEFT) * room)
                 self.assertLessEqual(total, self.said(law)[1] / 100 * room, "docs/hardware.md")
+
+    def test_a_map_of_the_disc_leaves_room(self):
+        room = length(".in_force")
+        for law, samples in (("noc", 512), ("noc_h", 128)):
+            with self.subTest(law=law), unittest.mock.patch.dict(SAMPLES, {law: samples}):
+                sizes, kept = words(law, WITH_MAP), variables(law, WITH_MAP)
+                plain = variables(law) + words(law)["in_force"]
+                more = kept + sizes["in_force"] - plain
+                print(f"{law}: a map of the disc takes {more} words of data")
+                self.assertEqual(more, 32, "docs/disc_map.md")
+                total = kept + sizes["in_force"] + sizes["entry"] + SPARE
+                self.assertLessEqual(total, (1 - LEFT) * room)
 
     def said(self, law):
         pages = documented()

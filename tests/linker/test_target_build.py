@@ -193,6 +193,13 @@ class TargetBuild(unittest.TestCase):
         self.assertNotIn("-DAPP_WATCH_INERTIA=0", compiled["app_registers_inertia.c"])
         self.assertNotIn("-DAPP_BELIEVE=0", compiled["app.c"])
         self.assertNotIn("-DAPP_TRIM=0", compiled["app_registers_trim.c"])
+        self.assertIn("-DAPP_DISC_MAP=0", compiled["app.c"])
+
+    def test_a_map_of_the_disc_is_an_option(self):
+        compiled, _, _ = self.build_image("f28335-flash", arguments=["-DSDRE_DISC_MAP=ON"])
+        for name in ("app.c", "app_measure.c", "app_disc_index.c", "app_image.c", "main.c"):
+            self.assertIn("-DAPP_DISC_MAP=1", compiled[name])
+        self.assertNotIn("--ramfunc=on", compiled["app_disc_index.c"])
 
     def test_noc_h_leaves_room_for_half_the_scope(self):
         own = self.top / "own"
@@ -212,9 +219,14 @@ class TargetBuild(unittest.TestCase):
             " ".join(refused.stdout.split()),
         )
 
-        compiled, _, _ = self.build_image(
-            "f28335-flash", arguments=[*arguments, "-DSDRE_SCOPE_SAMPLES=256"]
+        half = [*arguments, "-DSDRE_SCOPE_SAMPLES=256"]
+        refused = self.configure("f28335-flash", *roots, *half, "-DSDRE_DISC_MAP=ON")
+        self.assertNotEqual(refused.returncode, 0)
+        self.assertIn(
+            "with noc_h there is room for a scope of 128 samples", " ".join(refused.stdout.split())
         )
+
+        compiled, _, _ = self.build_image("f28335-flash", arguments=[*half, "-DSDRE_DISC_MAP=OFF"])
         self.assertIn("-DLAW_CONSTANTS=law_noc_h_config_t", compiled["drive_image.c"])
         for name in ("app.c", "app_registers_inertia.c", "main.c"):
             self.assertIn("-DAPP_WATCH_INERTIA=0", compiled[name])

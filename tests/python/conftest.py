@@ -49,7 +49,7 @@ def served(tmp_path: Path) -> Iterator[Served]:
 
 
 @contextmanager
-def serving(tmp_path: Path, *options: str) -> Iterator[Served]:
+def serving(tmp_path: Path, *options: str, drive: Path = SHIPPED) -> Iterator[Served]:
     """The same with further options."""
     sil = os.environ.get("SDRE_SIL", str(ROOT / "build/host/bin/sdre-sil"))
     pty = str(tmp_path / "drive")
@@ -57,7 +57,7 @@ def serving(tmp_path: Path, *options: str) -> Iterator[Served]:
         [
             sil,
             "serve",
-            str(SHIPPED),
+            str(drive),
             "--tcp",
             "0",
             "--rtu-tcp",

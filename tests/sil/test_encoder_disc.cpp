@@ -144,6 +144,68 @@ TEST(EncoderDisc, JitterRepeatsAfterTheEdgesThatAreGiven)
     EXPECT_EQ(repeats.edge_cnt(7), turn.edge_cnt(7));
 }
 
+TEST(EncoderDisc, AMapIsTheDiscInStepsWithItsOwnError)
+{
+    const EncoderDiscSettings own{0.14, 0.14, 0.05};
+    EncoderDiscSettings       mapped = own;
+    const EncoderDisc         without(own, counts, 3);
+    for (const double error_cnt : {0.0, 0.01, 0.03}) {
+        mapped.map_error_rms_cnt = error_cnt;
+        const EncoderDisc disc(mapped, counts, 3);
+        double            square = 0.0;
+        double            shared = 0.0;
+        for (std::int64_t n = 0; n < counts; n++) {
+            EXPECT_EQ(disc.edge_cnt(n), without.edge_cnt(n)); // the disc itself is the same
+            EXPECT_EQ(without.mapped_cnt(n), 0.0);
+            const double o = disc.mapped_cnt(n);
+            EXPECT_EQ(256.0 * o, std::round(256.0 * o));
+            EXPECT_EQ(disc.mapped_cnt(n - 3 * counts), o);
+            const double off = o - (disc.edge_cnt(n) - static_cast<double>(n));
+            square += off * off / counts;
+            shared += off * (disc.edge_cnt(n) - static_cast<double>(n)) / counts;
+        }
+        const double step_cnt = 1.0 / 256.0 / std::sqrt(12.0);
+        EXPECT_NEAR(std::sqrt(square), std::hypot(error_cnt, step_cnt),
+                    0.03 * (error_cnt + step_cnt));
+        EXPECT_NEAR(shared, 0.0, 2e-4); // errors of the map are its own
+    }
+}
+
+TEST(EncoderDisc, AMapGivesTheShaftsAngleAndSpeed)
+{
+    SensorSettings s;
+    s.encoder_disc          = {0.3, 0.1, 0.05, 0, 0.0};
+    s.encoder_edge_time     = true;
+    constexpr double speed  = 503.0;
+    const double     period = 2e-4;
+    for (const double direction : {1.0, -1.0}) {
+        QuadratureEncoder with(s, lines, 2, period, 5);
+        s.encoder_disc.map_error_rms_cnt.reset();
+        QuadratureEncoder without(s, lines, 2, period, 5);
+        s.encoder_disc.map_error_rms_cnt = 0.0;
+        with.start(0.0, direction * speed);
+        without.start(0.0, direction * speed);
+        const double count_rad = 2 * 2.0 * std::acos(-1.0) / counts;
+        double       plain     = 0.0;
+        for (int k = 1; k < 3000; k++) {
+            const double theta  = direction * speed * period * k;
+            const auto   mapped = with.read(theta, direction * speed);
+            const auto   bare   = without.read(theta, direction * speed);
+            if (k < 3) {
+                continue; // the edge before the start is no edge of the disc
+            }
+            const double error = std::remainder(mapped.theta_e_rad - theta, 2.0 * std::acos(-1.0));
+            EXPECT_NEAR(error / count_rad, 0.0, 2.1e-3) << k; // half a step of the map
+            EXPECT_NEAR(mapped.omega_e_radps / (direction * speed), 1.0, 1e-4);
+            EXPECT_EQ(mapped.raw_count, bare.raw_count);
+            plain = std::max(
+                plain, std::abs(std::remainder(bare.theta_e_rad - theta, 2.0 * std::acos(-1.0))) /
+                           count_rad);
+        }
+        EXPECT_GT(plain, 0.2);
+    }
+}
+
 namespace {
 
 Scenario scenario(const std::string &sensors)
@@ -169,6 +231,10 @@ TEST(EncoderDisc, KeysAreReadAndChecked)
     EXPECT_EQ(scenario("").sensors.encoder_disc.quadrature_error_cnt, 0.14);
     EXPECT_EQ(scenario("encoder_jitter_repeats = 16\n").sensors.encoder_disc.jitter_repeats, 16);
     EXPECT_THROW(scenario("encoder_jitter_repeats = -1\n"), InputError);
+    EXPECT_FALSE(scenario("").sensors.encoder_disc.map_error_rms_cnt);
+    EXPECT_EQ(scenario("encoder_map_error_rms_cnt = 0.01\n").sensors.encoder_disc.map_error_rms_cnt,
+              0.01);
+    EXPECT_THROW(scenario("encoder_map_error_rms_cnt = -0.01\n"), InputError);
     EXPECT_THROW(scenario("encoder_quadrature_error_cnt = 1.0\n"), InputError);
     EXPECT_THROW(scenario("encoder_jitter_rms_cnt = -0.01\n"), InputError);
     EXPECT_THROW(scenario("encoder_quadrature_error_cnt = 0.5\nencoder_duty_error_cnt = -0.5\n"),

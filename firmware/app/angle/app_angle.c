@@ -18,8 +18,13 @@
 /* EQ-APP-ANGLE-3 for the last edge of this period, at the lower end of the position `edge_cnt`. */
 static void take_edge(app_angle_t *a, uint16_t edge_cnt, float age_s)
 {
-    const float turned_cnt = (float)app_angle_turned_cnt(a->positions, a->edge_cnt, edge_cnt);
     const float between_s  = a->edge_age_s - age_s; /* edge_age_s counts up to now */
+    float       turned_cnt = (float)app_angle_turned_cnt(a->positions, a->edge_cnt, edge_cnt);
+
+#if APP_DISC_MAP
+    turned_cnt = app_disc_turned_cnt(&a->disc, edge_cnt, turned_cnt,
+                                     a->have_edge ? between_s : 0.0f); /* EQ-DISC-3 */
+#endif
 
     if (a->have_edge && (between_s > 0.0f)) {
         a->edge_speed_e_radps = turned_cnt * a->rad_per_cnt / between_s;
@@ -63,8 +68,11 @@ static void read_edges(app_angle_t *a, uint16_t position_cnt, bool timed, float 
         }
         const float beyond_rad =
             base_min(age_s * fabsf(a->edge_speed_e_radps), WIDEST_cnt * a->rad_per_cnt) - half_rad;
-        reading->theta_e_rad =
-            app_angle_in_turn(reading->theta_e_rad + (forward ? beyond_rad : -beyond_rad));
+        float on_rad = forward ? beyond_rad : -beyond_rad;
+#if APP_DISC_MAP
+        on_rad += app_disc_off_cnt(&a->disc) * a->rad_per_cnt; /* EQ-DISC-2 */
+#endif
+        reading->theta_e_rad = app_angle_in_turn(reading->theta_e_rad + on_rad);
     } else {
         if (turned_cnt != 0) {
             a->have_edge        = false; /* forth and back: the edge is unknown */
@@ -150,6 +158,11 @@ static void check_counter(app_angle_t *a, const board_sample_t *raw, int16_t tur
                           app_angle_reading_t *reading)
 {
     drop_after_jump(a, turned_cnt);
+#if APP_DISC_MAP
+    if (raw->index_seen && raw->edge_seen && (turned_cnt > 0)) {
+        app_disc_index(&a->disc, raw->index_cnt);
+    }
+#endif
     if (index_is_missing(a, raw->index_seen, turned_cnt)) {
         reading->index_fault = true;
         a->reference         = APP_ANGLE_NONE;
@@ -183,6 +196,11 @@ APP_MEASURE_PART void app_angle_update(app_angle_t *a, const board_sample_t *raw
             read_counts(a, position_cnt, turned_cnt, reading);
         }
     }
+#if APP_DISC_MAP
+    if (a->reference == APP_ANGLE_NONE) {
+        app_disc_lose(&a->disc);
+    }
+#endif
     a->before_cnt  = position_cnt;
     a->have_before = true;
 }

@@ -38,6 +38,7 @@
 #ifndef APP_ANGLE_H
 #define APP_ANGLE_H
 
+#include "app_disc.h"
 #include "app_part.h"
 #include "base.h"
 #include "board.h"
@@ -85,6 +86,9 @@ typedef struct {
     float                     edge_gap_s; /**< time between the last two edges; 0: unknown */
     float                     edge_speed_e_radps;
     uint16_t                  corrections; /**< corrections by the index since the start; wraps */
+#if APP_DISC_MAP
+    app_disc_t disc;
+#endif
 } app_angle_t;
 
 typedef struct {
@@ -116,6 +120,16 @@ APP_MEASURE_PART void app_angle_update(app_angle_t *a, const board_sample_t *raw
 
 /** References the angle: the rotor is at theta_e_rad, [0, 2 pi). Context: control ISR. */
 void app_angle_align(app_angle_t *a, uint16_t position_cnt, float theta_e_rad);
+
+/**
+ * @brief Number of the edge that the last reading rests on, in the turn that begins at the index.
+ *
+ * It is -1 without such an edge, before an index came while the shaft turned forward, and in a
+ * program without APP_DISC_MAP.
+ *
+ * Context: control ISR, for the scope.
+ */
+float app_angle_edge(const app_angle_t *a, const app_angle_reading_t *reading);
 
 /** Drops the reference after lost counts. The next sample has no speed. Context: control ISR. */
 void app_angle_drop(app_angle_t *a);

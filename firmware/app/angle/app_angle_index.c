@@ -63,6 +63,9 @@ ctl_status_t app_angle_init(app_angle_t *a, const app_angle_config_t *c,
     a->have_index         = false;
     a->jumps              = 0U;
     a->corrections        = 0U;
+#if APP_DISC_MAP
+    app_disc_init(&a->disc, a->positions);
+#endif
     return status;
 }
 
@@ -120,4 +123,22 @@ void app_angle_drop(app_angle_t *a)
     a->have_turned     = false;
     a->have_edge       = false;
     a->since_index_cnt = 0L;
+#if APP_DISC_MAP
+    app_disc_lose(&a->disc);
+#endif
+}
+
+float app_angle_edge(const app_angle_t *a, const app_angle_reading_t *reading)
+{
+    float edge = -1.0f;
+
+#if APP_DISC_MAP
+    if (a->disc.have_zero && (reading->edge_of_pattern != 0)) {
+        edge = (float)app_disc_place(&a->disc, a->edge_cnt);
+    }
+#else
+    (void)a;
+    (void)reading;
+#endif
+    return edge;
 }

@@ -37,12 +37,48 @@ static drive_image_result_t check(app_image_t *chosen)
     return result;
 }
 
+/* A map of the encoder's disc may lie behind an image. */
+#if APP_DISC_MAP
+static void no_disc(app_image_t *chosen)
+{
+    chosen->disc = NULL;
+}
+
+static void take_disc(app_image_t *chosen, const uint16_t *words, uint32_t count)
+{
+    if (app_disc_check(words, count, chosen->image.drive.hardware.encoder_positions)) {
+        chosen->disc = words;
+    } else {
+        chosen->result = DRIVE_IMAGE_OTHER_DISC;
+    }
+}
+#else
+static void no_disc(const app_image_t *chosen)
+{
+    (void)chosen;
+}
+
+static void take_disc(app_image_t *chosen, const uint16_t *words, uint32_t count)
+{
+    (void)words;
+    (void)count;
+    chosen->result = DRIVE_IMAGE_OTHER_DISC;
+}
+#endif
+
 void app_image_take(app_image_t *chosen, const law_t *law, const store_content_t *content)
 {
+    uint32_t used = 0UL;
+
+    no_disc(chosen);
     chosen->difference = no_difference;
-    chosen->result     = drive_image_read(&chosen->image, law, content->words, content->count);
+    chosen->result =
+        drive_image_read_part(&chosen->image, law, content->words, content->count, &used);
     if (chosen->result == DRIVE_IMAGE_OK) {
         chosen->result = check(chosen);
+    }
+    if ((chosen->result == DRIVE_IMAGE_OK) && (used < content->count)) {
+        take_disc(chosen, &content->words[used], content->count - used);
     }
 }
 
@@ -51,6 +87,7 @@ static bool take_compiled(app_image_t *chosen, const app_config_t *app, const dr
 {
     const board_difference_t stored = chosen->difference;
 
+    no_disc(chosen);
     if (!drive_image_copy(&chosen->image, app, drive, chosen->board)) {
         return false;
     }
@@ -73,6 +110,7 @@ bool app_image_choose(app_image_t *chosen, const app_config_t *app, const drive_
     chosen->result      = DRIVE_IMAGE_OK;
     chosen->difference  = no_difference;
     chosen->other_board = false;
+    no_disc(chosen);
     if ((stored.words != NULL) && (drive->law != NULL)) {
         app_image_take(chosen, drive->law, &stored);
         taken = chosen->result == DRIVE_IMAGE_OK;

@@ -10,6 +10,7 @@
 #ifndef APP_IMAGE_H
 #define APP_IMAGE_H
 
+#include "app_disc.h"
 #include "drive_image.h"
 #include "store.h"
 
@@ -20,11 +21,14 @@ typedef struct {
     const board_identity_t *board;    /**< of this firmware */
     drive_image_result_t result; /**< of the last check: of the stored image, or of the loader's */
     board_difference_t   difference; /**< DRIVE_IMAGE_OTHER_BOARD: the first one */
+#if APP_DISC_MAP
+    const uint16_t *disc; /**< map of the disc behind the image in the store; NULL: none */
+#endif
     bool other_board; /**< the compiled-in constants contradict the board: the drive must not run */
 } app_image_t;
 
 /**
- * @brief Reads words into chosen->image and checks them: format, board, ranges.
+ * @brief Reads words into chosen->image and checks them: format, board, ranges, map of the disc.
  *
  * The outcome is in chosen->result. After any but DRIVE_IMAGE_OK the image must not be used.
  * Context: init, or the loader.

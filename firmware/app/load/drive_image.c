@@ -51,8 +51,8 @@ static void point_inside(drive_image_t *image, const law_t *law)
     image->drive.constants    = &image->constants;
 }
 
-drive_image_result_t drive_image_read(drive_image_t *image, const law_t *law, const uint16_t *from,
-                                      uint32_t count)
+drive_image_result_t drive_image_read_part(drive_image_t *image, const law_t *law,
+                                           const uint16_t *from, uint32_t count, uint32_t *used)
 {
     fields_t f      = fields_reader(from, count);
     uint16_t schema = 0U;
@@ -71,7 +71,17 @@ drive_image_result_t drive_image_read(drive_image_t *image, const law_t *law, co
     }
     drive_image_fields(&f, image, law);
     point_inside(image, law);
-    return fields_complete(&f) ? DRIVE_IMAGE_OK : DRIVE_IMAGE_DAMAGED;
+    *used = f.at;
+    return f.ok ? DRIVE_IMAGE_OK : DRIVE_IMAGE_DAMAGED;
+}
+
+drive_image_result_t drive_image_read(drive_image_t *image, const law_t *law, const uint16_t *from,
+                                      uint32_t count)
+{
+    uint32_t                   used   = 0UL;
+    const drive_image_result_t result = drive_image_read_part(image, law, from, count, &used);
+
+    return ((result == DRIVE_IMAGE_OK) && (used != count)) ? DRIVE_IMAGE_DAMAGED : result;
 }
 
 uint32_t drive_image_write(drive_image_t *image, uint16_t *to, uint32_t room)

@@ -13,6 +13,7 @@
  *     30 .. 41 name of the board that it was made for, in the same format
  *     42 ..    facts of that board (board_identity.h), two words each
  *     80 ..    constants of application and board, temperatures, drive, law; order of fields.h
+ *     ..       a map of the encoder disc (app_disc.h), or nothing
  */
 #ifndef DRIVE_IMAGE_H
 #define DRIVE_IMAGE_H
@@ -44,7 +45,8 @@ typedef enum {
     DRIVE_IMAGE_OTHER_LAW,    /**< the firmware was linked with another law */
     DRIVE_IMAGE_DAMAGED,      /**< wrong length, or a flag is neither 0 nor 1 */
     DRIVE_IMAGE_REFUSED,      /**< constant out of range, or the board does not fit */
-    DRIVE_IMAGE_OTHER_BOARD   /**< made for another board, or contradicts this one */
+    DRIVE_IMAGE_OTHER_BOARD,  /**< made for another board, or contradicts this one */
+    DRIVE_IMAGE_OTHER_DISC    /**< its map is for another encoder, or the firmware uses none */
 } drive_image_result_t;
 
 /**
@@ -66,6 +68,16 @@ void drive_image_fields(fields_t *f, drive_image_t *image, const law_t *law);
  */
 drive_image_result_t drive_image_read(drive_image_t *image, const law_t *law, const uint16_t *words,
                                       uint32_t count);
+
+/**
+ * @brief The same of words that may go on behind the image.
+ *
+ * @param used Words of the image, after DRIVE_IMAGE_OK.
+ *
+ * Context: init, or the loader.
+ */
+drive_image_result_t drive_image_read_part(drive_image_t *image, const law_t *law,
+                                           const uint16_t *words, uint32_t count, uint32_t *used);
 
 /** Writes the image as words; `words` NULL: counts only. @return Number of words; 0: above
  * `room`. */

@@ -154,6 +154,9 @@ app_trim_values_t app_registers_trimmed(const app_registers_t *r);
 /** Blocks that taught it. */
 uint16_t app_registers_trim_blocks(const app_registers_t *r);
 
+/** State of the map of the encoder disc, app_disc.h. */
+app_disc_state_t app_registers_disc(const app_registers_t *r);
+
 /** Frequency of the last oscillation [Hz]; 0: none since the start. */
 float app_registers_ring(const app_registers_t *r);
 

@@ -109,14 +109,15 @@ const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
     {APP_REGISTERS_FIRST_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_U32, AT(app_status_t, snapshot.ticks), false},
     {APP_REGISTERS_POSITION_NOW, APP_REGISTERS_I32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 12U, false},
     {APP_REGISTERS_POSITION_TARGET, APP_REGISTERS_I32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_I32, AT(app_status_t, target_cnt), false},
-    {APP_REGISTERS_INERTIA_RATIO, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 13U, false},
-    {APP_REGISTERS_INERTIA_CHANGES, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 14U, false},
-    {APP_REGISTERS_RING_FREQUENCY, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 15U, false},
-    {APP_REGISTERS_INERTIA_BELIEVED, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 16U, false},
-    {APP_REGISTERS_TRIM_A, APP_REGISTERS_I16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 17U, false},
-    {APP_REGISTERS_TRIM_B, APP_REGISTERS_I16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 18U, false},
-    {APP_REGISTERS_TRIM_GAIN, APP_REGISTERS_I16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 19U, false},
-    {APP_REGISTERS_TRIM_BLOCKS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 20U, false},
+    {APP_REGISTERS_DISC_MAP, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 13U, false},
+    {APP_REGISTERS_INERTIA_RATIO, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 14U, false},
+    {APP_REGISTERS_INERTIA_CHANGES, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 15U, false},
+    {APP_REGISTERS_RING_FREQUENCY, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 16U, false},
+    {APP_REGISTERS_INERTIA_BELIEVED, APP_REGISTERS_U16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 17U, false},
+    {APP_REGISTERS_TRIM_A, APP_REGISTERS_I16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 18U, false},
+    {APP_REGISTERS_TRIM_B, APP_REGISTERS_I16, 1000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 19U, false},
+    {APP_REGISTERS_TRIM_GAIN, APP_REGISTERS_I16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 20U, false},
+    {APP_REGISTERS_TRIM_BLOCKS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 21U, false},
     {APP_REGISTERS_COMMISSION_STAGE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, OF_ENUM(commission_stage_t), AT(app_status_t, commission.stage), false},
     {APP_REGISTERS_COMMISSION_REASON, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, OF_ENUM(commission_reason_t), AT(app_status_t, commission.reason), false},
     {APP_REGISTERS_COMMISSION_PERCENT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_I16, AT(app_status_t, commission.percent), false},
@@ -150,16 +151,16 @@ const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
     {APP_REGISTERS_FOUND_DAMPING_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_FLOAT, AT(app_status_t, commission.found.damping.error), false},
     {APP_REGISTERS_FOUND_LOAD_SHARE, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_FLOAT, AT(app_status_t, commission.found.load_share.value), false},
     {APP_REGISTERS_FOUND_LOAD_SHARE_ERROR, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_STATUS, APP_REGISTERS_AS_FLOAT, AT(app_status_t, commission.found.load_share.error), false},
-    {APP_REGISTERS_SCOPE_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 21U, false},
-    {APP_REGISTERS_SCOPE_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 22U, false},
-    {APP_REGISTERS_RECORD_NUMBER, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 23U, false},
-    {APP_REGISTERS_RECORD_COUNT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 24U, false},
-    {APP_REGISTERS_PARAMETERS_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 25U, false},
-    {APP_REGISTERS_PARAMETERS_DONE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 26U, false},
-    {APP_REGISTERS_PARAMETERS_NUMBER, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 27U, false},
-    {APP_REGISTERS_PARAMETERS_WRITES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 28U, false},
-    {APP_REGISTERS_PARAMETERS_DROPPED, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 29U, false},
-    {APP_REGISTERS_SUPPORTED_MODES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 30U, false},
+    {APP_REGISTERS_SCOPE_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 22U, false},
+    {APP_REGISTERS_SCOPE_TICKS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 23U, false},
+    {APP_REGISTERS_RECORD_NUMBER, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 24U, false},
+    {APP_REGISTERS_RECORD_COUNT, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 25U, false},
+    {APP_REGISTERS_PARAMETERS_STATE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 26U, false},
+    {APP_REGISTERS_PARAMETERS_DONE, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 27U, false},
+    {APP_REGISTERS_PARAMETERS_NUMBER, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 28U, false},
+    {APP_REGISTERS_PARAMETERS_WRITES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 29U, false},
+    {APP_REGISTERS_PARAMETERS_DROPPED, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 30U, false},
+    {APP_REGISTERS_SUPPORTED_MODES, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 31U, false},
     {APP_REGISTERS_POLE_PAIRS, APP_REGISTERS_U16, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_DRIVE, APP_REGISTERS_AS_U16, AT(drive_config_t, hardware.pole_pairs), false},
     {APP_REGISTERS_ENCODER_POSITIONS, APP_REGISTERS_U32, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_DRIVE, APP_REGISTERS_AS_U32, AT(drive_config_t, hardware.encoder_positions), false},
     {APP_REGISTERS_CONTROL_PERIOD, APP_REGISTERS_U32, 1e+09f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_DRIVE, APP_REGISTERS_AS_FLOAT, AT(drive_config_t, ts_s), false},
@@ -182,22 +183,22 @@ float app_registers_map_real(const app_registers_t *r, uint16_t number)
     case 1U: /* MODBUS_TIMEOUT */
         x = (float)r->requested.modbus_timeout_ticks * r->drive->ts_s;
         break;
-    case 13U: /* INERTIA_RATIO */
+    case 14U: /* INERTIA_RATIO */
         x = app_registers_inertia(r);
         break;
-    case 15U: /* RING_FREQUENCY */
+    case 16U: /* RING_FREQUENCY */
         x = app_registers_ring(r);
         break;
-    case 16U: /* INERTIA_BELIEVED */
+    case 17U: /* INERTIA_BELIEVED */
         x = app_registers_inertia_believed(r);
         break;
-    case 17U: /* TRIM_A */
+    case 18U: /* TRIM_A */
         x = app_registers_trimmed(r).a_A;
         break;
-    case 18U: /* TRIM_B */
+    case 19U: /* TRIM_B */
         x = app_registers_trimmed(r).b_A;
         break;
-    case 19U: /* TRIM_GAIN */
+    case 20U: /* TRIM_GAIN */
         x = app_registers_trimmed(r).gain;
         break;
     default:
@@ -247,40 +248,43 @@ uint32_t app_registers_map_whole(const app_registers_t *r, uint16_t number)
     case 12U: /* POSITION_NOW */
         x = (uint32_t)app_registers_position(r);
         break;
-    case 14U: /* INERTIA_CHANGES */
+    case 13U: /* DISC_MAP */
+        x = app_registers_disc(r);
+        break;
+    case 15U: /* INERTIA_CHANGES */
         x = app_registers_inertia_changes(r);
         break;
-    case 20U: /* TRIM_BLOCKS */
+    case 21U: /* TRIM_BLOCKS */
         x = app_registers_trim_blocks(r);
         break;
-    case 21U: /* SCOPE_STATE */
+    case 22U: /* SCOPE_STATE */
         x = app_registers_scope_state(r);
         break;
-    case 22U: /* SCOPE_TICKS */
+    case 23U: /* SCOPE_TICKS */
         x = app_registers_scope_ticks(r);
         break;
-    case 23U: /* RECORD_NUMBER */
+    case 24U: /* RECORD_NUMBER */
         x = app_registers_record_number(r);
         break;
-    case 24U: /* RECORD_COUNT */
+    case 25U: /* RECORD_COUNT */
         x = app_registers_record_count(r);
         break;
-    case 25U: /* PARAMETERS_STATE */
+    case 26U: /* PARAMETERS_STATE */
         x = app_registers_stored_state(r);
         break;
-    case 26U: /* PARAMETERS_DONE */
+    case 27U: /* PARAMETERS_DONE */
         x = app_registers_stored_done(r);
         break;
-    case 27U: /* PARAMETERS_NUMBER */
+    case 28U: /* PARAMETERS_NUMBER */
         x = app_registers_stored_number(r);
         break;
-    case 28U: /* PARAMETERS_WRITES */
+    case 29U: /* PARAMETERS_WRITES */
         x = app_registers_stored_writes(r);
         break;
-    case 29U: /* PARAMETERS_DROPPED */
+    case 30U: /* PARAMETERS_DROPPED */
         x = app_registers_stored_dropped(r);
         break;
-    case 30U: /* SUPPORTED_MODES */
+    case 31U: /* SUPPORTED_MODES */
         x = r->drive->positions ? 0x00010025UL : 0x00010024UL;
         break;
     default:

@@ -12,7 +12,7 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "53e27b3d" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "b42bedbd" /**< of what a master can see of the map */
 
 #define APP_REGISTERS_SAVED 19U /**< parameters */
 
@@ -129,8 +129,9 @@ enum {
     APP_REGISTERS_LIVE_END = 62,
     APP_REGISTERS_POSITION_NOW = 64,
     APP_REGISTERS_POSITION_TARGET = 66,
+    APP_REGISTERS_DISC_MAP = 68,
     APP_REGISTERS_POSITION_FIRST = 64,
-    APP_REGISTERS_POSITION_END = 68,
+    APP_REGISTERS_POSITION_END = 69,
     APP_REGISTERS_INERTIA_RATIO = 96,
     APP_REGISTERS_INERTIA_CHANGES = 97,
     APP_REGISTERS_RING_FREQUENCY = 98,
@@ -257,7 +258,7 @@ struct app_registers_request;
 
 #define APP_REGISTERS_MAP_HOLDING 40U
 
-#define APP_REGISTERS_MAP_INPUT 116U
+#define APP_REGISTERS_MAP_INPUT 117U
 
 /** Rows in ascending order of the address. */
 extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];

@@ -71,6 +71,9 @@ float app_scope_signals_value(const app_scope_view_t *v, uint16_t signal)
     case APP_SCOPE_MODE:
         x = (float)v->modes->mode;
         break;
+    case APP_SCOPE_EDGE:
+        x = app_angle_edge(&v->modes->angle, &v->modes->reading);
+        break;
     default:
         break;
     }

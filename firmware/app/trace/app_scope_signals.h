@@ -30,7 +30,8 @@ enum {
     APP_SCOPE_DUTY_C = 16,
     APP_SCOPE_LOAD = 17,
     APP_SCOPE_MODE = 18,
-    APP_SCOPE_SIGNALS = 19
+    APP_SCOPE_EDGE = 19,
+    APP_SCOPE_SIGNALS = 20
 };
 
 /** The end of a tick. */

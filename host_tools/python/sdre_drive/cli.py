@@ -17,6 +17,7 @@ from sdre_drive import commission as finder
 from sdre_drive import discover, record, register_map, scope, session, show
 from sdre_drive.bench_command import EPILOG, bench, state_beside
 from sdre_drive.connection import Drive, DriveError
+from sdre_drive.disc_command import disc_map
 from sdre_drive.load_command import load
 from sdre_drive.motion_commands import MOVE_EXAMPLES, NUMBERS, RUN_EXAMPLES, move, run, stop
 from sdre_drive.options import (
@@ -59,6 +60,7 @@ app = typer.Typer(
     epilog="Examples: sdre-drive (which drives are here?); sdre-drive status; sdre-drive run 1000",
 )
 app.add_typer(params, name="params")
+app.add_typer(disc_map, name="disc-map")
 
 
 def show_version(wanted: bool) -> None:

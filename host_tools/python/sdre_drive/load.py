@@ -29,6 +29,8 @@ REASONS = {
     2: "it is for another law than the firmware's",
     3: "it is damaged",
     4: "a constant is out of range, or it does not fit the board",
+    6: "its map of the disc is for another encoder, or the firmware was built without "
+    "SDRE_DISC_MAP",
 }
 OTHER_BOARD = 5
 LAWS = {

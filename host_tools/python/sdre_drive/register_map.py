@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "53e27b3d"
+DIGEST = "b42bedbd"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -146,6 +146,7 @@ LIVE: Tuple[Register, ...] = (  # input
 POSITION: Tuple[Register, ...] = (  # input
     Register("POSITION_NOW", 64, "i32", 0.0, "counts"),
     Register("POSITION_TARGET", 66, "i32", 0.0, "counts"),
+    Register("DISC_MAP", 68, "u16", 0.0, ""),
 )
 
 SHAFT: Tuple[Register, ...] = (  # input
@@ -280,4 +281,5 @@ SIGNALS = (
     ("DUTY_C", ""),
     ("LOAD", "rad/s2 electrical"),
     ("MODE", ""),
+    ("EDGE", ""),
 )

@@ -37,6 +37,8 @@ void check_sensors(const SensorSettings &s, const Drive &drive)
     require(std::abs(s.adc_full_scale_A - drive.current_sensors.range_A) < 1e-6,
             fmt::format("the range of the drive file's current sensors is {:g} A",
                         drive.current_sensors.range_A));
+    require(!s.encoder_disc.map_error_rms_cnt,
+            "a map of the disc is loaded with an image (sdre-sil serve)");
     require(s.encoder_count_late_s <= 0.0, "the eQEP latches count and time at once");
     require(s.sampling_advance_s <= 0.0, "samples are taken when the period begins");
 }

@@ -144,8 +144,10 @@ void QuadratureEncoder::note_last_edge(const ShaftPath &path, std::int64_t now)
         edge_speed_       = std::clamp(edge_speed_, -most, most);
         return;
     }
-    const std::int64_t edge = jump.from < now ? now : now + 1;
-    edge_speed_ = per_count * static_cast<double>(edge - edge_) / since_s; // EQ-ENCODER-5
+    const std::int64_t edge       = jump.from < now ? now : now + 1;
+    const double       mapped_cnt = disc_.mapped_cnt(edge) - disc_.mapped_cnt(edge_);
+    edge_speed_                   = per_count * (static_cast<double>(edge - edge_) + mapped_cnt) /
+                  since_s; // EQ-ENCODER-5, EQ-DISC-3
     edge_       = edge;
     edge_age_s_ = path.duration_s() - jump.time_s;
 }
@@ -274,7 +276,8 @@ QuadratureEncoder::Reading QuadratureEncoder::read_path(const ShaftPath &path)
         r.omega_e_radps = edge_speed_;
         r.edge_gap_s    = std::min(std::max(edge_age_s_, edge_gap_s_), gap_max_s);
         if (edge_age_s_ <= period_s_) {
-            r.theta_e_rad             = edge_angle_rad(r.count, static_cast<double>(edge_ - now));
+            r.theta_e_rad =
+                edge_angle_rad(r.count, static_cast<double>(edge_ - now) + disc_.mapped_cnt(edge_));
             edge_gap_s_               = std::min(before_s - edge_age_s_, gap_max_s);
             r.edge_gap_s              = edge_gap_s_;
             r.edge_age_s              = edge_age_s_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sil/sensors/encoder_disc.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sdre {
@@ -13,9 +14,28 @@ EncoderDisc::EncoderDisc(const EncoderDiscSettings &s, std::int64_t counts_per_t
                                                                   0.5 * s.quadrature_error_cnt},
       pulse_cnt_{-0.5 * s.duty_error_cnt, -0.5 * s.duty_error_cnt, 0.5 * s.duty_error_cnt,
                  0.5 * s.duty_error_cnt},
-      jitter_(seed, NoiseStream::encoder_disc),
+      jitter_(seed, NoiseStream::encoder_disc), map_error_(seed, NoiseStream::encoder_map),
       perfect_(s.quadrature_error_cnt == 0.0 && s.duty_error_cnt == 0.0 && s.jitter_rms_cnt == 0.0)
 {
+}
+
+std::int64_t EncoderDisc::in_turn(std::int64_t count) const
+{
+    const std::int64_t rest = count % counts_per_turn_;
+    return rest < 0 ? rest + counts_per_turn_ : rest;
+}
+
+double EncoderDisc::mapped_cnt(std::int64_t count) const
+{
+    if (!settings_.map_error_rms_cnt) {
+        return 0.0;
+    }
+    constexpr double   steps = 256.0;
+    const std::int64_t n     = in_turn(count);
+    const double       error = *settings_.map_error_rms_cnt * std::sqrt(3.0) *
+                         map_error_.at(static_cast<std::uint64_t>(n));
+    const double off = edge_cnt(n) - static_cast<double>(n) + error;
+    return std::clamp(std::round(steps * off), -128.0, 127.0) / steps;
 }
 
 double EncoderDisc::edge_cnt(std::int64_t count) const
@@ -24,8 +44,7 @@ double EncoderDisc::edge_cnt(std::int64_t count) const
     if (perfect_) {
         return at;
     }
-    const std::int64_t rest  = count % counts_per_turn_;
-    const std::int64_t n     = rest < 0 ? rest + counts_per_turn_ : rest;
+    const std::int64_t n     = in_turn(count);
     const auto         place = static_cast<std::size_t>(n % 4);
     const std::int64_t own   = settings_.jitter_repeats > 0 ? n % settings_.jitter_repeats : n;
     const double       u     = std::sqrt(3.0) * jitter_.at(static_cast<std::uint64_t>(own));

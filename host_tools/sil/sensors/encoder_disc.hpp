@@ -7,6 +7,8 @@
 /// Track B is late by quadrature, so that the states of a line are 1 +- quadrature counts wide. A track's pulses exceed its
 /// gaps by duty. The numbers u(n) are evenly distributed, with mean 0 and standard deviation 1. They repeat after
 /// jitter_repeats edges when that is given, else after a turn.
+///
+/// The map of a drive has edge n at n + o(n). Here o is e with an error of its own, in the steps of app_disc.h.
 #pragma once
 
 #include <array>
@@ -24,16 +26,21 @@ public:
 
     /// Position of the edge below a count.
     double edge_cnt(std::int64_t count) const;
+    /// o(n) of the edge below a count, as the drive's map has it (EQ-DISC-1); 0 without a map.
+    double mapped_cnt(std::int64_t count) const;
     /// The count of a position: the last edge that is not beyond it. Too far away for single counts: 0.
     std::int64_t count_at(double position_cnt) const;
 
 private:
+    std::int64_t in_turn(std::int64_t count) const;
+
     EncoderDiscSettings settings_;
     std::int64_t        counts_per_turn_;
     // In the order of a line: A rises, B rises, A falls, B falls.
     std::array<double, 4> track_cnt_;
     std::array<double, 4> pulse_cnt_;
     EvenNumbers           jitter_;
+    EvenNumbers           map_error_;
     bool                  perfect_;
 };
 

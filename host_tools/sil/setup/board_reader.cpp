@@ -16,6 +16,7 @@ constexpr Range eccentricity_rad{0.0, 0.5};
 constexpr Range edge_error_cnt{-0.9, 0.9};
 constexpr Range edge_jitter_cnt{0.0, 0.28};
 constexpr Range jitter_repeats{0, 1000000};
+constexpr Range map_error_cnt{0.0, 0.28};
 constexpr Range angle_e_rad{-3.2, 3.2};
 constexpr Range count_late_s{0.0, 1e-5};
 constexpr Range adc_bits{4, 24};
@@ -85,6 +86,9 @@ EncoderDiscSettings read_disc(TomlReader &t, EncoderDiscSettings s)
     s.duty_error_cnt = t.number_or("encoder_duty_error_cnt", edge_error_cnt, s.duty_error_cnt);
     s.jitter_rms_cnt = t.number_or("encoder_jitter_rms_cnt", edge_jitter_cnt, s.jitter_rms_cnt);
     s.jitter_repeats = t.integer_or("encoder_jitter_repeats", jitter_repeats, s.jitter_repeats);
+    if (t.has("encoder_map_error_rms_cnt")) {
+        s.map_error_rms_cnt = t.number("encoder_map_error_rms_cnt", map_error_cnt);
+    }
     const double most_cnt = 0.5 * (std::abs(s.quadrature_error_cnt) + std::abs(s.duty_error_cnt)) +
                             std::sqrt(3.0) * s.jitter_rms_cnt;
     if (most_cnt >= 0.5) {

@@ -18,6 +18,8 @@ struct EncoderDiscSettings {
     double duty_error_cnt       = 0.14; ///< of the width of a pulse: 12.6 degrees
     double jitter_rms_cnt       = 0.02; ///< of each edge: 1.8 degrees, 3.1 at most
     int    jitter_repeats       = 0;    ///< edges after which the jitter is the same; 0: a turn
+    /// The drive has a map of the disc that is off by this at each edge; none: it has no map.
+    std::optional<double> map_error_rms_cnt = std::nullopt;
 };
 
 struct SensorSettings {

@@ -122,6 +122,68 @@ static void test_a_loaded_image_is_in_force_after_the_next_start(void)
     TEST_ASSERT_EQUAL_UINT16(gain_tables_drive.law->number, input(APP_LOADER_LAW));
 }
 
+/* Puts a map of the disc behind the image. */
+static void add_disc(uint32_t positions)
+{
+    words[count]      = APP_DISC_FORMAT;
+    words[count + 1U] = (uint16_t)positions;
+    for (uint32_t n = 0U; n < (positions + 1U) / 2U; n++) {
+        words[count + 2U + n] = (uint16_t)(n * 40503U);
+    }
+    count += 2U + ((positions + 1U) / 2U);
+}
+
+static void test_a_map_of_the_disc_comes_with_its_image_and_goes_with_it(void)
+{
+    const uint32_t positions = gain_tables_drive.hardware.encoder_positions;
+    const uint32_t before    = count;
+
+    TEST_ASSERT_NULL(in_force.disc);
+    add_disc(positions);
+    load();
+    TEST_ASSERT_EQUAL_UINT16(APP_LOADER_STORED, input(APP_LOADER_STATE));
+    start_again();
+    TEST_ASSERT_TRUE(in_force.image.drive.speed_max_e_radps == 500.0f);
+    TEST_ASSERT_NOT_NULL(in_force.disc);
+    TEST_ASSERT_EQUAL_UINT16_ARRAY(&words[before], in_force.disc, count - before);
+
+    use(&gain_tables_drive, 500.0f);
+    load(); /* without a map */
+    start_again();
+    TEST_ASSERT_NULL(in_force.disc);
+    TEST_ASSERT_EQUAL_UINT32(2U, in_force.number);
+
+    add_disc(positions);
+    load();
+    start_again();
+    TEST_ASSERT_NOT_NULL(in_force.disc);
+    run_loader();
+    TEST_ASSERT_EQUAL_INT(APP_LOADER_OK, tell(APP_LOADER_FORGET, 0U, 0U, 1U));
+    start_again();
+    TEST_ASSERT_NULL(in_force.disc);
+}
+
+static void test_a_map_of_another_encoder_is_refused(void)
+{
+    const uint32_t positions = gain_tables_drive.hardware.encoder_positions;
+
+    add_disc(positions - 4U);
+    load();
+    TEST_ASSERT_EQUAL_UINT16(APP_LOADER_IMAGE, input(APP_LOADER_STATE));
+    TEST_ASSERT_EQUAL_UINT16(DRIVE_IMAGE_OTHER_DISC, input(APP_LOADER_REASON));
+    start_again();
+    TEST_ASSERT_EQUAL_UINT32(0U, in_force.number);
+
+    for (uint32_t less = 1U; less < 5U; less++) { /* part of a map, or words of something else */
+        use(&gain_tables_drive, 500.0f);
+        add_disc(positions);
+        count -= (less < 4U) ? less : ((positions / 2U) + 1U);
+        load();
+        TEST_ASSERT_EQUAL_UINT16(APP_LOADER_IMAGE, input(APP_LOADER_STATE));
+        TEST_ASSERT_EQUAL_UINT16(DRIVE_IMAGE_OTHER_DISC, input(APP_LOADER_REASON));
+    }
+}
+
 static void test_forgetting_brings_the_compiled_ones_back(void)
 {
     load();
@@ -619,6 +681,8 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_loaded_image_is_in_force_after_the_next_start);
+    RUN_TEST(test_a_map_of_the_disc_comes_with_its_image_and_goes_with_it);
+    RUN_TEST(test_a_map_of_another_encoder_is_refused);
     RUN_TEST(test_forgetting_brings_the_compiled_ones_back);
     RUN_TEST(test_a_wrong_sum_is_refused_and_the_old_image_stays);
     RUN_TEST(test_images_that_cannot_run_are_refused_with_their_reason);
