@@ -18,7 +18,8 @@ def test_page_has_every_command_and_option() -> None:
     commands = typer.main.get_command(app).commands  # type: ignore[attr-defined]
     assert len(commands) > 15
     for name, command in commands.items():
-        section = page[page.index(f".SS {name}\n") :]
+        heading = name.replace("-", "\\-")  # as roff has it
+        section = page[page.index(f".SS {heading}\n") :]
         section = section[: section[3:].find(".SS ") % len(section) + 3]
         for option in (word for one in command.params for word in one.opts):
             if option.startswith("--"):
