@@ -48,7 +48,7 @@ static struct {
     uint16_t              slow_periods;
     uint16_t              slow_period;
     const drive_config_t *drive;
-    const drive_config_t *in_force; /* the drive's constants or the second set */
+    const drive_config_t *in_force; /* the drive's constants or the second set; NULL: refused */
     const float          *ntc_degC;
 #if APP_DISC_MAP
     const uint16_t *disc;
@@ -93,13 +93,14 @@ static ctl_status_t init_tick_side(const app_config_t *config, const drive_confi
     tick_side.background_age_ticks = 0U;
     app_config_for(&tick_side.config, config, drive->hardware.updates_per_period);
     tick_side.drive    = drive;
-    tick_side.in_force = drive;
     tick_side.ntc_degC = tick_side.config.scale.ntc_degC;
 #if APP_DISC_MAP
     tick_side.disc = NULL;
 #endif
     const ctl_status_t control = app_control_init(&tick_side.control, &tick_side.config, drive);
     const ctl_status_t modes   = app_modes_init(&tick_side.modes, &tick_side.config, drive);
+
+    tick_side.in_force = tick_side.modes.drive.config;
     return (control == CTL_OK) ? modes : control;
 }
 
@@ -353,8 +354,7 @@ static bool pointers_hold(void)
     return disc && (m->config == c) && (m->scale.config == &c->scale) &&
            (m->angle.config == &c->angle) && (m->align.config == &c->align) &&
            (m->stop.config == &c->stop) && (tick_side.control.config == c) &&
-           ((m->drive.config == tick_side.in_force) || (m->fault == APP_FAULT_CONFIG)) &&
-           (c->scale.ntc_degC == tick_side.ntc_degC);
+           (m->drive.config == tick_side.in_force) && (c->scale.ntc_degC == tick_side.ntc_degC);
 }
 
 /* Ends a tick with damaged pointers: opens the bridge without further reads. The background
@@ -425,7 +425,7 @@ static void serve_watchdog(uint32_t now_ticks)
 #if APP_BELIEVE
 static float believed(void)
 {
-    const bool own = tick_side.modes.drive.config != &background_side.believe.drive;
+    const bool own = tick_side.in_force != &background_side.believe.drive;
 
     return own ? 1.0f : background_side.believe.ratio;
 }

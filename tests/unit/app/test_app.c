@@ -85,12 +85,17 @@ static app_mode_t mode(void)
     return app_status_read().mode;
 }
 
-static void go_run(void)
+static void pass_the_index(void)
 {
     both(READY_TICKS);
     fake_board.sample.index_seen = true;
     both(1);
     fake_board.sample.index_seen = false;
+}
+
+static void go_run(void)
+{
+    pass_the_index();
     command(0.0f, false);
     both(2);
     command(0.0f, true);
@@ -467,6 +472,18 @@ static void test_bad_constants_keep_the_bridge_off_and_are_told(void)
     TEST_ASSERT_TRUE(fake_board.served > READY_TICKS); /* alive, to be asked why */
 }
 
+static void test_a_drive_without_a_law_keeps_the_bridge_off(void)
+{
+    drive_config_t none = speed_tables_drive;
+    none.law            = NULL;
+    TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_init(&config, &none));
+    both(READY_TICKS);
+    command(0.0f, true);
+    both(10);
+    TEST_ASSERT_EQUAL_INT(APP_FAULT_CONFIG, app_status_read().fault);
+    TEST_ASSERT_FALSE(fake_board.gate);
+}
+
 static void test_init_forgets_everything(void)
 {
     fake_board.cycles_per_read = 500U;
@@ -507,10 +524,7 @@ static void modbus_write(int address, int value)
 
 static void test_modbus_starts_stops_and_resets(void)
 {
-    both(READY_TICKS);
-    fake_board.sample.index_seen = true;
-    both(1);
-    fake_board.sample.index_seen = false;
+    pass_the_index();
     modbus_write(APP_REGISTERS_SPEED_RPM_16, 100);
     modbus_write(APP_REGISTERS_CONTROLWORD, 15);
     TEST_ASSERT_EQUAL_INT(APP_MODE_READY, mode()); /* it has to be shut down first */
@@ -556,10 +570,7 @@ static void test_command_of_modbus_is_given_once(void)
 static void test_inertia_start_brings_the_second_set_of_constants(void)
 {
     TEST_ASSERT_EQUAL_INT(CTL_OK, app_init(&config, &gain_tables_drive));
-    both(READY_TICKS);
-    fake_board.sample.index_seen = true;
-    both(1);
-    fake_board.sample.index_seen = false;
+    pass_the_index();
     modbus_write(APP_REGISTERS_CONTROLWORD, 6);
     modbus_write(APP_REGISTERS_CONTROLWORD, 15);
     TEST_ASSERT_EQUAL_INT(APP_MODE_RUN, mode());
@@ -605,10 +616,7 @@ static void test_a_position_never_meets_the_second_set(void)
 static void test_a_changed_second_set_opens_the_bridge(void)
 {
     TEST_ASSERT_EQUAL_INT(CTL_OK, app_init(&config, &gain_tables_drive));
-    both(READY_TICKS);
-    fake_board.sample.index_seen = true;
-    both(1);
-    fake_board.sample.index_seen = false;
+    pass_the_index();
     modbus_write(APP_REGISTERS_INERTIA_START, 2000);
     modbus_write(APP_REGISTERS_CONTROLWORD, 6);
     modbus_write(APP_REGISTERS_CONTROLWORD, 15);
@@ -654,10 +662,7 @@ static void test_status_is_copied_whole_though_ticks_interrupt(void)
 
 static void test_lost_communication_opens_the_bridge(void)
 {
-    both(READY_TICKS);
-    fake_board.sample.index_seen = true;
-    both(1);
-    fake_board.sample.index_seen = false;
+    pass_the_index();
     modbus_write(APP_REGISTERS_CONTROLWORD, 6);
     modbus_write(APP_REGISTERS_CONTROLWORD, 15);
     both(2480);
@@ -843,6 +848,7 @@ int main(void)
     RUN_TEST(test_second_command_waits_until_the_first_was_taken);
     RUN_TEST(test_cycles_of_last_and_worst_tick_are_shown);
     RUN_TEST(test_bad_constants_keep_the_bridge_off_and_are_told);
+    RUN_TEST(test_a_drive_without_a_law_keeps_the_bridge_off);
     RUN_TEST(test_init_forgets_everything);
     RUN_TEST(test_modbus_starts_stops_and_resets);
     RUN_TEST(test_command_of_modbus_is_given_once);
