@@ -23,12 +23,9 @@
 #ifndef APP_DISC_H
 #define APP_DISC_H
 
+#include "app_options.h"
 #include "app_part.h"
 #include "base.h"
-
-#ifndef APP_DISC_MAP
-#define APP_DISC_MAP 0 /**< 1: the program can use a map */
-#endif
 
 #define APP_DISC_FORMAT     0xD15CU /**< chosen: neither erased nor cleared */
 #define APP_DISC_HEAD_WORDS 2UL
