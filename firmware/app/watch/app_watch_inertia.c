@@ -7,8 +7,7 @@
 #define LEAST        0.05f   /* chosen: of the largest speed */
 #define BLOCKS_MOST  100U    /* chosen: 1 s; over a longer change the load is another one */
 #define SURE         0.2f    /* chosen: five times the motor's own inertia is then known to 1 */
-#define SHARE                                                                                      \
-    0.75f /* chosen: two changes leave a sixteenth, as does one after a wrong one a quarter */
+#define SHARE        0.75f   /* chosen: two changes leave a sixteenth of a wrong ratio */
 
 void app_watch_inertia_reset(app_watch_inertia_t *w, float ratio)
 {
