@@ -11,7 +11,6 @@
 namespace sdre {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 // Chosen: the controller's weights have this unit, over the weight of a voltage.
 constexpr double weight_unit = 1e3;
 
@@ -19,9 +18,8 @@ constexpr double weight_unit = 1e3;
 
 Sensors sensors_of(const Drive &drive, const TuneSpec &spec)
 {
-    const double count_rad = 2.0 * pi * drive.motor.pole_pairs / (4.0 * drive.encoder.lines);
     return {std::hypot(spec.current_noise_A, spec.current_lsb_A / std::sqrt(12.0)),
-            count_rad * spec.angle_error_cnt};
+            count_e_rad(drive) * spec.angle_error_cnt};
 }
 
 double written(double weight)

@@ -67,7 +67,7 @@ speed_difference_config_t speed_difference_constants(const Drive &d, double wind
     c.periods        = static_cast<int16_t>(std::max(n, 1.0));
     c.inv_span_1ps   = single(1.0 / (c.periods * ts));
     c.edge_gap_max_s = single(edge_gap_periods * ts);
-    c.count_rad      = single(2.0 * pi * d.motor.pole_pairs / (4.0 * d.encoder.lines));
+    c.count_rad      = single(count_e_rad(d));
     return c;
 }
 
