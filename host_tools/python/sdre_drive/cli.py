@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Optional
 
 import typer
-from rich.progress import Progress
 from typing_extensions import Annotated
 
 from sdre_drive import commission as finder
@@ -46,6 +45,7 @@ from sdre_drive.terminal import (
     err,
     notes,
     out,
+    progress,
     set_volume,
 )
 from sdre_drive.trace_commands import log, take_scope, watch
@@ -159,14 +159,13 @@ def commission(
 ) -> None:
     """Finds the motor: the shaft turns, both ways, and has to be free."""
     end = end_by_signal()
-    with Drive(target(port, tcp)) as drive, Progress(console=notes, transient=True) as bar:
-        task = bar.add_task("begins", total=1.0)
+    with Drive(target(port, tcp)) as drive, progress("begins") as bar:
         values = finder.run(
             drive,
             current,
             show.e_radps_of(speed, 1),
             end,
-            lambda stage, share: bar.update(task, description=stage, completed=share),
+            bar.stage,
         )
     record.write_text(file, finder.text(values))
     out.print(finder.shaft_words(values), highlight=False, soft_wrap=True)

@@ -10,7 +10,7 @@ from operator import mul
 from pathlib import Path
 from typing import Callable, List, Sequence, Tuple
 
-from sdre_drive import register_map, scope, session
+from sdre_drive import record, register_map, scope, session
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.registers import Constants, Mode, Reading
 from sdre_drive.units import rpm_of
@@ -194,15 +194,15 @@ def words_of(offsets: Sequence[float]) -> List[int]:
 
 def write(path: Path, offsets: Sequence[float]) -> None:
     """A file for `sdre-gains image --disc-map`."""
-    try:
-        path.write_bytes(b"".join(word.to_bytes(2, "big") for word in words_of(offsets)))
-    except OSError as e:
-        raise DriveError(f"{path}: {e.strerror}") from e
+    record.write_bytes(path, b"".join(word.to_bytes(2, "big") for word in words_of(offsets)))
 
 
 def state(drive: Drive) -> int:
-    """Register DISC_MAP."""
-    return int(drive.values(register_map.POSITION)["DISC_MAP"])
+    """Register DISC_MAP. DriveError when the firmware cannot use a map."""
+    now = int(drive.values(register_map.POSITION)["DISC_MAP"])
+    if now == ABSENT:
+        raise DriveError(STATES[now])
+    return now
 
 
 def require_possible(known: Constants, speed_e_radps: float) -> None:

@@ -7,13 +7,12 @@ import shlex
 from pathlib import Path
 
 import typer
-from rich.progress import Progress
 from typing_extensions import Annotated
 
 from sdre_drive import disc
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.options import Port, Tcp, target
-from sdre_drive.terminal import notes, out
+from sdre_drive.terminal import out, progress
 from sdre_drive.units import e_radps_of
 
 CHECK_CAPTURES = 4  # chosen: 2,000 readings, a scatter within 2 %
@@ -40,20 +39,11 @@ def learn(
 ) -> None:
     """Learns where each edge of the disc is, while the shaft turns forward at five steady
     speeds."""
-    with Drive(target(port, tcp)) as drive, Progress(console=notes, transient=True) as bar:
-        now = disc.state(drive)
-        if now == disc.ABSENT:
-            raise DriveError(disc.STATES[now])
-        if now != disc.NONE:
+    with Drive(target(port, tcp)) as drive, progress("learning") as bar:
+        if disc.state(drive) != disc.NONE:
             raise DriveError("the drive has a map already: load its image without --disc-map first")
         known = drive.constants()
-        task = bar.add_task("learning", total=1.0)
-        tracks = disc.captures(
-            drive,
-            e_radps_of(speed, known.pole_pairs),
-            visits,
-            lambda share: bar.update(task, completed=share),
-        )
+        tracks = disc.captures(drive, e_radps_of(speed, known.pole_pairs), visits, bar.share)
     found = disc.learn(tracks, known.encoder_counts)
     disc.require_worth(found)
     disc.write(file, found.offsets)
@@ -70,9 +60,7 @@ def learn(
 def check(speed: Speed, port: Port = None, tcp: Tcp = None) -> None:
     """Tells whether the map is in force, and how far the edges are off with what is in force."""
     with Drive(target(port, tcp)) as drive:
-        now = disc.state(drive)
-        if now == disc.ABSENT:
-            raise DriveError(disc.STATES[now])
+        disc.state(drive)  # refuses firmware without maps before the shaft turns
         pairs = drive.constants().pole_pairs
         now, scatter = disc.check(drive, e_radps_of(speed, pairs), CHECK_CAPTURES)
     out.print(

@@ -8,7 +8,6 @@ from typing import Optional
 
 import serial
 import typer
-from rich.progress import Progress
 from typing_extensions import Annotated
 
 from sdre_drive import boot_rom
@@ -17,7 +16,7 @@ from sdre_drive import params as parameters
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.faults import bits
 from sdre_drive.options import Port, Tcp, target
-from sdre_drive.terminal import err, notes, out
+from sdre_drive.terminal import err, out, progress
 
 
 def _load_ram(file: Path, rate: int, port: Optional[str]) -> None:
@@ -27,10 +26,9 @@ def _load_ram(file: Path, rate: int, port: Optional[str]) -> None:
     try:
         with (
             serial.Serial(port, rate, timeout=boot_rom.ECHO_S) as line,
-            Progress(console=notes, transient=True) as bar,
+            progress("loading") as bar,
         ):
-            task = bar.add_task("loading", total=1.0)
-            boot_rom.send(line, program, lambda share: bar.update(task, completed=share))
+            boot_rom.send(line, program, bar.share)
     except serial.SerialException as e:
         raise DriveError(f"{port}: {e}") from e
     out.print(f"{program.words} words in RAM, started at {program.entry:06X}h", soft_wrap=True)
@@ -74,9 +72,8 @@ def load(
         if forget:
             found = loader.forget(drive)
         elif image:
-            with Progress(console=notes, transient=True) as bar:
-                task = bar.add_task("writing", total=1.0)
-                found = loader.load(drive, image, lambda share: bar.update(task, completed=share))
+            with progress("writing") as bar:
+                found = loader.load(drive, image, bar.share)
         else:
             if accept:
                 parameters.accept(drive)

@@ -7,8 +7,9 @@ import csv
 import json
 import os
 import sys
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Dict, Iterable, List
+from typing import Any, Dict, Iterable, Iterator, List
 
 from sdre_drive.connection import DriveError
 from sdre_drive.registers import Reading
@@ -77,12 +78,8 @@ def write_parquet(path: Path, readings: Iterable[Reading]) -> int:
             "--parquet needs pyarrow: pip install './host_tools/python[parquet]'"
         ) from e
     rows: List[Dict[str, Any]] = [row(r) for r in readings]
-    beside = path.with_name(path.name + ".part")
-    try:
-        parquet.write_table(arrow.Table.from_pylist(rows), beside)
-        os.replace(beside, path)
-    except OSError as e:
-        raise DriveError(f"{path}: {e.strerror or e}") from e
+    with _beside(path) as part:
+        parquet.write_table(arrow.Table.from_pylist(rows), part)
     return len(rows)
 
 
@@ -97,9 +94,22 @@ def write_json(path: Path, data: Any) -> None:
 
 def write_text(path: Path, text: str) -> None:
     """The whole file or none of it."""
+    with _beside(path) as part:
+        part.write_text(text)
+
+
+def write_bytes(path: Path, octets: bytes) -> None:
+    """The whole file or none of it."""
+    with _beside(path) as part:
+        part.write_bytes(octets)
+
+
+@contextmanager
+def _beside(path: Path) -> Iterator[Path]:
+    """A file to write, which then takes the place of `path`."""
     beside = path.with_name(path.name + ".part")
     try:
-        beside.write_text(text)
+        yield beside
         os.replace(beside, path)
     except OSError as e:
-        raise DriveError(f"{path}: {e.strerror}") from e
+        raise DriveError(f"{path}: {e.strerror or e}") from e

@@ -6,11 +6,13 @@ from __future__ import annotations
 import logging
 import signal
 import threading
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Optional
+from typing import Iterator, Optional
 
 import typer
 from rich.console import Console
+from rich.progress import Progress
 from typing_extensions import Annotated
 
 out = Console()
@@ -30,6 +32,27 @@ Json = Annotated[
 For = Annotated[
     Optional[float], typer.Option("--for", min=0.0, help="end after so many seconds", metavar="S")
 ]
+
+
+class Bar:
+    """How far something is, shown while it lasts."""
+
+    def __init__(self, bar: Progress, what: str) -> None:
+        self._bar = bar
+        self._task = bar.add_task(what, total=1.0)
+
+    def share(self, share: float) -> None:
+        self._bar.update(self._task, completed=share)
+
+    def stage(self, what: str, share: float) -> None:
+        """The same, with what is done now."""
+        self._bar.update(self._task, description=what, completed=share)
+
+
+@contextmanager
+def progress(what: str) -> Iterator[Bar]:
+    with Progress(console=notes, transient=True) as bar:
+        yield Bar(bar, what)
 
 
 def set_volume(quiet: bool, verbose: bool) -> None:

@@ -8,14 +8,13 @@ from pathlib import Path
 from typing import Optional
 
 import typer
-from rich.progress import Progress
 from typing_extensions import Annotated
 
 from sdre_drive import record
 from sdre_drive import verify as verifier
 from sdre_drive.connection import Drive
 from sdre_drive.options import Port, Tcp, target
-from sdre_drive.terminal import end_by_signal, notes, out
+from sdre_drive.terminal import end_by_signal, notes, out, progress
 
 
 def verify(
@@ -35,13 +34,11 @@ def verify(
     end = end_by_signal()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        with Drive(target(port, tcp)) as drive, Progress(console=notes, transient=True) as bar:
+        with Drive(target(port, tcp)) as drive:
             wanted = verifier.programme(program, drive_file, verifier.samples_of(drive), folder)
             verifier.require_same(drive, wanted, drive_file)
-            task = bar.add_task("begins", total=1.0)
-            captures = verifier.Programme(drive, wanted, end).run(
-                lambda shot, share: bar.update(task, description=shot, completed=share)
-            )
+            with progress("begins") as bar:
+                captures = verifier.Programme(drive, wanted, end).run(bar.stage)
         file = keep or folder / "records.json"
         record.write_text(file, verifier.records(wanted, captures))
         notes.print("recorded; some 1,000 simulations follow: 10 s to a minute")
