@@ -4,7 +4,7 @@
 #define BLOCK_s      0.25f /* chosen: with SHARE, a time constant of 1 s */
 #define SHARE        0.25f /* stable while L_q - L_d is below eight times the believed one */
 #define BLOCK_MOST_s 1.0f  /* chosen: a slower turn sees other currents */
-#define STEP_MOST    0.3f  /* chosen: [rad] of a control period; its double is sampled ten times */
+#define STEP_MOST    0.3f  /* chosen: [rad] of a control period; twice the angle has ten samples */
 #define GAP_MOST     1.5f  /* chosen: [rad] of a late pass, below half a turn */
 #define SPEED_MOVES  0.05f /* chosen: EQ-TRIM-1 has the mean speed for its end */
 #define SALIENCY     0.1f  /* derived: 10 % of L_d and L_q do not change the sign of L_q - L_d */
