@@ -51,6 +51,7 @@ class Bar:
 
 @contextmanager
 def progress(what: str) -> Iterator[Bar]:
+    """A bar that goes when its block ends; none with -q."""
     with Progress(console=notes, transient=True) as bar:
         yield Bar(bar, what)
 
