@@ -32,7 +32,7 @@ apart[prove_store]=use:1
 apart[prove_refused]=${apart[prove_init]}
 apart[prove_parameters]=app_registers_saved_take:300,app_registers_saved_read:300,read_map:400,store_newest:20,\
 accept:50,app_image_accept:50,take_record:20,app_parameters_take:50
-apart[prove_loader]=${apart[prove_init]/prove_init:50,/},drive_image_read:50,drive_image_fields:50,app_image_take:50,commit:50,\
+apart[prove_loader]=${apart[prove_init]/prove_init:50,/},drive_image_read_part:50,drive_image_fields:50,app_image_take:50,commit:50,\
 app_loader_work:20,app_loader_write:50,put_board:100
 apart[prove_image]=prove_image:20,drive_image_read:50
 declare -A options=(
