@@ -235,7 +235,7 @@ def report(compiler, verbose):
         [p for folder in FOLDERS for p in sorted(folder.glob("*.c")) if p.name != "bench.c"],
     )
     known = graph.whole()
-    start, loop, tick = known["main"], known["app_background"], known["control_isr"]
+    start, loop, tick = known["main"], known["firmware_pass"], known["control_isr"]
     nested = max(known[n] for n in known if n.endswith(("tick_is_missing", "pie.c:unexpected")))
     background = graph.frame["main"] + loop[0]
     words = max(start[0], background + tick[0] + nested[0] + 2 * INTERRUPT_words)
