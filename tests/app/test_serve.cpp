@@ -16,9 +16,9 @@
 #include "common/errors.hpp"
 #include "sil/serve/boot_rom.hpp"
 #include "sil/serve/endpoints.hpp"
-#include "sil/serve/rtu_frame.hpp"
-#include "sil/serve/served_drive.hpp"
 #include "sil/serve/server.hpp"
+#include "sil/served/rtu_frame.hpp"
+#include "sil/served/served_drive.hpp"
 
 extern "C" {
 #include "app_modes.h"

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "sil/serve/control.hpp"
+#include "sil/served/control.hpp"
 
 using namespace sdre;
 

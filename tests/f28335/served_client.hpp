@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "drive/drive_file.hpp"
-#include "sil/serve/rtu_frame.hpp"
-#include "sil/serve/served_drive.hpp"
+#include "sil/served/rtu_frame.hpp"
+#include "sil/served/served_drive.hpp"
 
 namespace sdre {
 

@@ -16,7 +16,6 @@ extern "C" {
 extern drive_config_t   sil_drive_config;
 extern app_config_t     sil_board_config;
 extern board_identity_t sil_board_identity;
-int                     firmware_main(void);
 }
 
 namespace sdre {
@@ -115,7 +114,7 @@ F28335Run::F28335Run(const Scenario &s, long start_tick, double dead_time_s)
     : BoardRun(s, start_tick),
       surroundings_(bench_, dead_time_s <= 0.0, s.drive.board.dc_link_range_V,
                     sil_board_config.board.duty_full_cnt),
-      device_(surroundings_, firmware_main, {{}, dead_time_s}),
+      device_(surroundings_, f28335::whole_firmware(), {{}, dead_time_s}),
       master_(device_.serial(), static_cast<std::uint8_t>(sil_board_config.modbus_address))
 {
     f28335::hang_ticks(false);

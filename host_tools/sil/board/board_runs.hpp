@@ -17,7 +17,6 @@ namespace sdre {
 /// A running application; constructed, it has booted up to its first tick.
 class BoardRun {
 public:
-    BoardRun()                            = default;
     BoardRun(const BoardRun &)            = delete;
     BoardRun &operator=(const BoardRun &) = delete;
     virtual ~BoardRun()                   = default;

@@ -38,12 +38,12 @@ Surroundings &after_reset(Surroundings &s)
 
 } // namespace
 
-Device::Device(Surroundings &surroundings, Firmware firmware, const DeviceOptions &options)
+Device::Device(Surroundings &surroundings, const Firmware &firmware, const DeviceOptions &options)
     : surroundings_(after_reset(surroundings)), options_(options), clock_(options.clock),
       watchdog_(options.xrs_low_s), pwm_{PwmUnit(EPwm1Regs, 1), PwmUnit(EPwm2Regs, 2),
                                          PwmUnit(EPwm3Regs, 3)},
       adc_([this](int side, int number) { return surroundings_.analog_V(side, number); }),
-      timer_(CpuTimer0Regs, 0), timer1_(CpuTimer1Regs, 1), main_([firmware] { firmware(); })
+      timer_(CpuTimer0Regs, 0), timer1_(CpuTimer1Regs, 1), main_(firmware, options.own_stack)
 {
     the_device = this;
     std::fill(std::begin(codestart_stack), std::end(codestart_stack), Uint16{0xC0DE});
@@ -63,9 +63,33 @@ Device &Device::current()
 
 void Device::run_for(double time_s)
 {
-    target_ = now_ + std::llround(time_s * tick_Hz);
-    while (now_ < target_ && !stopped()) {
-        main_.resume();
+    outside_ += std::llround(time_s * tick_Hz); // a pass may be ahead of it
+    target_ = outside_;
+    while (now_ < outside_ && !stopped()) {
+        if (main_.has_stack()) {
+            main_.resume();
+        } else {
+            try {
+                pass_or_idle();
+            } catch (const Abandoned &) {
+                return; // by a reset
+            }
+        }
+    }
+}
+
+/// Without a stack of its own: one pass, and then what main() waits after it, as far as the target.
+void Device::pass_or_idle()
+{
+    const bool resumed = idle_end_.has_value();
+    if (!resumed) {
+        const std::int64_t target = target_;
+        main_.pass();
+        target_   = target;
+        idle_end_ = now_ + idle_ticks();
+    }
+    if (wait_towards(*idle_end_, resumed)) {
+        idle_end_.reset();
     }
 }
 
@@ -117,21 +141,40 @@ void Device::sync()
 void Device::wait_ticks(std::int64_t ticks)
 {
     const std::int64_t end = now_ + ticks;
-    for (;;) {
+    for (bool resumed = false; !wait_towards(end, resumed); resumed = true) {
+        if (!main_.suspend(reset_)) {
+            target_ = end + 1; // the pass goes on
+        }
+    }
+}
+
+/// False: before this time, the device has been reset or what is outside has its turn.
+/// @param resumed After that, in the same wait.
+bool Device::wait_towards(std::int64_t end, bool resumed)
+{
+    for (;; resumed = false) {
         sync();
-        dispatch();
-        while (reset_ || now_ >= target_) {
-            main_.suspend();
-            sync(); // what happened meanwhile, from outside
+        if (!resumed) {
+            dispatch();
+        }
+        if (reset_ || now_ >= target_) {
+            return false;
         }
         if (now_ >= end) {
-            return;
+            return true;
         }
         std::int64_t       step  = std::min(end, target_) - now_;
         const std::int64_t event = ticks_to_event();
         step                     = event > 0 ? std::min(step, event) : step;
         elapse(step);
     }
+}
+
+/// How long an idle instruction takes.
+std::int64_t Device::idle_ticks()
+{
+    polls_ = intm_ ? polls_ + 1 : 0;
+    return intm_ && polls_ <= most_polls ? clock_.ticks_for(poll_cycles) : background_ticks;
 }
 
 /// Vector of the interrupt to serve now. Those of the PIE come before INT13, CPU timer 1.
@@ -199,9 +242,7 @@ void Device::instruction(const char *text)
         intm_ = false;
         dispatch();
     } else if (std::strcmp(text, " NOP") == 0) {
-        polls_ = intm_ ? polls_ + 1 : 0;
-        wait_ticks(intm_ && polls_ <= most_polls ? clock_.ticks_for(poll_cycles)
-                                                 : background_ticks);
+        wait_ticks(idle_ticks());
     } else if (std::strstr(text, "NOP") == nullptr && std::strstr(text, "DBGM") == nullptr) {
         findings_.add(Finding::unsupported, fmt::format("instruction{}", text), time_s());
     }

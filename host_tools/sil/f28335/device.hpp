@@ -15,7 +15,6 @@
 
 #include "sil/f28335/adc_unit.hpp"
 #include "sil/f28335/clock.hpp"
-#include "sil/f28335/coroutine.hpp"
 #include "sil/f28335/cpu_timer.hpp"
 #include "sil/f28335/encoder_unit.hpp"
 #include "sil/f28335/findings.hpp"
@@ -24,6 +23,7 @@
 #include "sil/f28335/pie.hpp"
 #include "sil/f28335/pwm_unit.hpp"
 #include "sil/f28335/registers.hpp"
+#include "sil/f28335/runner.hpp"
 #include "sil/f28335/sci_unit.hpp"
 #include "sil/f28335/surroundings.hpp"
 #include "sil/f28335/watchdog.hpp"
@@ -42,14 +42,17 @@ struct DeviceOptions {
     double      dead_time_s = 0.0; ///< required by the bridge; a shorter one is reported
     double xrs_low_s = 0.2; ///< the reset pin before the start: a supervisor's time after power-on
     AtLoad at_load   = AtLoad::old_values;
+    bool   own_stack = can_switch_stacks; ///< of the firmware; false: by passes (runner.hpp)
 };
 
 class Device {
 public:
-    using Firmware = int (*)();
-
     /// Power-up: registers as after reset, watchdog stopped as the start-up code leaves it.
-    Device(Surroundings &surroundings, Firmware firmware, const DeviceOptions &options);
+    Device(Surroundings &surroundings, const Firmware &firmware, const DeviceOptions &options);
+    Device(Surroundings &surroundings, int (*main)(), const DeviceOptions &options)
+        : Device(surroundings, Firmware{main}, options)
+    {
+    }
     ~Device();
     Device(const Device &)            = delete;
     Device &operator=(const Device &) = delete;
@@ -139,6 +142,9 @@ private:
     void               update_legs();
     bool               pins_are_safe() const;
     void               wait_ticks(std::int64_t ticks);
+    bool               wait_towards(std::int64_t end, bool resumed);
+    std::int64_t       idle_ticks();
+    void               pass_or_idle();
     std::int64_t       ticks_to_event() const;
     void               elapse(std::int64_t ticks);
     void               step_pwm(std::int64_t cycles);
@@ -150,35 +156,37 @@ private:
     bool               fault_pin_trips() const;
     double             into_period_s() const;
 
-    Surroundings          &surroundings_;
-    DeviceOptions          options_;
-    Findings               findings_;
-    std::int64_t           now_          = 0; ///< ticks of 1 / 150 MHz
-    std::int64_t           target_       = 0; ///< the firmware is suspended there
-    std::int64_t           period_began_ = 0;
-    bool                   reset_        = false;
-    bool                   intm_         = true; ///< interrupts masked
-    bool                   eallow_       = false;
-    bool                   fault_low_    = false;
-    std::int64_t           late_cycles_  = 0;
-    std::int64_t           cycles_       = 0; ///< of the processor
-    std::int64_t           pins_safe_    = -1;
-    std::int64_t           polls_        = 0; ///< with interrupts masked, in a row
-    bool                   trigger_lost_ = false;
-    bool                   masked_       = false;
-    std::array<bool, 3>    legs_{};
-    Clock                  clock_;
-    Watchdog               watchdog_;
-    Pie                    pie_;
-    Gpio                   gpio_;
-    std::array<PwmUnit, 3> pwm_;
-    AdcUnit                adc_;
-    EncoderUnit            encoder_;
-    CpuTimer               timer_;
-    CpuTimer               timer1_;
-    SciUnit                sci_;
-    Guard                  guard_;
-    Coroutine              main_;
+    Surroundings               &surroundings_;
+    DeviceOptions               options_;
+    Findings                    findings_;
+    std::int64_t                now_          = 0; ///< ticks of 1 / 150 MHz
+    std::int64_t                outside_      = 0; ///< how far the device was asked to run
+    std::int64_t                target_       = 0; ///< the firmware is suspended there
+    std::int64_t                period_began_ = 0;
+    bool                        reset_        = false;
+    bool                        intm_         = true; ///< interrupts masked
+    bool                        eallow_       = false;
+    bool                        fault_low_    = false;
+    std::int64_t                late_cycles_  = 0;
+    std::int64_t                cycles_       = 0; ///< of the processor
+    std::int64_t                pins_safe_    = -1;
+    std::optional<std::int64_t> idle_end_; ///< without a stack: of the wait between two passes
+    std::int64_t                polls_        = 0; ///< with interrupts masked, in a row
+    bool                        trigger_lost_ = false;
+    bool                        masked_       = false;
+    std::array<bool, 3>         legs_{};
+    Clock                       clock_;
+    Watchdog                    watchdog_;
+    Pie                         pie_;
+    Gpio                        gpio_;
+    std::array<PwmUnit, 3>      pwm_;
+    AdcUnit                     adc_;
+    EncoderUnit                 encoder_;
+    CpuTimer                    timer_;
+    CpuTimer                    timer1_;
+    SciUnit                     sci_;
+    Guard                       guard_;
+    Runner                      main_;
 };
 
 } // namespace sdre::f28335

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sil/f28335/device.hpp"
+#include "sil/f28335/firmware.hpp"
 
 extern "C" {
 #include "app_image.h"
@@ -11,6 +12,7 @@ extern "C" {
 const std::uint16_t *f28335_board_store(std::uint16_t slot);
 bool f28335_image_choose(app_image_t *chosen, const app_config_t *app, const drive_config_t *drive,
                          const board_identity_t *board);
+int  firmware_main(void);
 }
 
 namespace {
@@ -36,4 +38,9 @@ bool f28335_image_choose(app_image_t *chosen, const app_config_t *app, const dri
 {
     sdre::f28335::Device::current().spend_cycles(cycles_per_word * summed_words());
     return app_image_choose(chosen, app, drive, board);
+}
+
+sdre::f28335::Firmware sdre::f28335::whole_firmware()
+{
+    return {firmware_main, firmware_start, firmware_pass};
 }

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "sil/serve/rtu_frame.hpp"
+#include "sil/served/rtu_frame.hpp"
 
 namespace sdre {
 

@@ -8,10 +8,10 @@
 #include <optional>
 #include <string>
 
-#include "sil/serve/control.hpp"
 #include "sil/serve/endpoints.hpp"
 #include "sil/serve/flash_file.hpp"
-#include "sil/serve/serial_bus.hpp"
+#include "sil/served/control.hpp"
+#include "sil/served/serial_bus.hpp"
 
 namespace sdre {
 

@@ -6,7 +6,7 @@
 #include <deque>
 #include <functional>
 
-#include "sil/serve/rtu_frame.hpp"
+#include "sil/served/rtu_frame.hpp"
 
 namespace sdre {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sil/serve/pace.hpp"
+#include "sil/served/pace.hpp"
 
 namespace sdre {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "sil/serve/serial_bus.hpp"
+#include "sil/served/serial_bus.hpp"
 
 #include <algorithm>
 
-#include "sil/serve/served_drive.hpp"
+#include "sil/served/served_drive.hpp"
 
 namespace sdre {
 namespace {

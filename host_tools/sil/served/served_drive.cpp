@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sil/serve/served_drive.hpp"
+#include "sil/served/served_drive.hpp"
 
 #include <algorithm>
 
@@ -11,7 +11,6 @@
 #include "sil/setup/board_reader.hpp"
 
 extern "C" {
-int                           firmware_main(void);
 extern volatile std::uint32_t watchdog_after_reset[2]; // firmware/board/f28335/watchdog.c
 std::uint16_t                *f28335_board_kept(void);
 }
@@ -101,10 +100,10 @@ Scenario bench_scenario(const Drive &drive, const Drive &machine, std::uint64_t 
 }
 
 ServedDrive::ServedDrive(const Drive &drive, const Drive &machine, std::uint64_t seed,
-                         const f28335::FlashWords &flash)
+                         const f28335::FlashWords &flash, bool own_stack)
     : scenario_(bench_scenario(drive, machine, seed)), controller_(bound(scenario_)),
       bench_(scenario_, 0), surroundings_(bench_, false, drive.board.dc_link_range_V, 1),
-      dynamometer_(drive), source_V_(scenario_.dc_link_V)
+      own_stack_(own_stack), dynamometer_(drive), source_V_(scenario_.dc_link_V)
 {
     if (flash.empty()) {
         f28335::erase_flash();
@@ -123,10 +122,12 @@ void ServedDrive::power_up(bool after_reset)
                   broken_.end());
     f28335::hang_ticks(false);
     device_ = std::make_unique<f28335::Device>(
-        surroundings_, firmware_main,
+        surroundings_, f28335::whole_firmware(),
         f28335::DeviceOptions{{},
                               scenario_.drive.inverter.dead_time_s,
-                              after_reset ? watchdog_low_s_ : power_on_low_s_});
+                              after_reset ? watchdog_low_s_ : power_on_low_s_,
+                              f28335::AtLoad::old_values,
+                              own_stack_});
     const long before = bench_.tick();
     if (!device_->run_until([&] { return bench_.tick() > before; }, longest_boot_s) &&
         !after_reset) {

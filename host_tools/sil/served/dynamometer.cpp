@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sil/serve/dynamometer.hpp"
+#include "sil/served/dynamometer.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -13,7 +13,7 @@
 #include "sil/f28335/flash_unit.hpp"
 #include "sil/run/controller.hpp"
 #include "sil/run/motor_bench.hpp"
-#include "sil/serve/dynamometer.hpp"
+#include "sil/served/dynamometer.hpp"
 
 namespace sdre {
 
@@ -22,8 +22,9 @@ public:
     /// InputError or DesignError when the board cannot have the drive, or no gains exist.
     /// @param machine Its motor and disc are on the bench; the firmware knows those of `drive`.
     /// @param flash   What its flash has at the start; empty: as from the factory.
+    /// @param own_stack As of f28335::DeviceOptions.
     ServedDrive(const Drive &drive, const Drive &machine, std::uint64_t seed,
-                const f28335::FlashWords &flash = {});
+                const f28335::FlashWords &flash = {}, bool own_stack = f28335::can_switch_stacks);
     ServedDrive(const Drive &drive, std::uint64_t seed) : ServedDrive(drive, drive, seed) {}
 
     /// One control period. A device that its watchdog has reset starts again.
@@ -120,6 +121,7 @@ private:
     Controller                      controller_;
     MotorBench                      bench_;
     f28335::MotorSurroundings       surroundings_;
+    bool                            own_stack_;
     std::unique_ptr<f28335::Device> device_;
     Dynamometer                     dynamometer_;
     double                          source_V_;

@@ -4,7 +4,7 @@
 
 #include <deque>
 
-#include "sil/serve/served_drive.hpp"
+#include "sil/served/served_drive.hpp"
 
 namespace sdre {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sil/serve/rtu_frame.hpp"
+#include "sil/served/rtu_frame.hpp"
 
 #include "sil/f28335/modbus_master.hpp"
 

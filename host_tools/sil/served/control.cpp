@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sil/serve/control.hpp"
+#include "sil/served/control.hpp"
 
 #include <cmath>
 #include <sstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sil/serve/motor_record.hpp"
+#include "sil/served/motor_record.hpp"
 
 namespace sdre {
 namespace {

@@ -15,9 +15,9 @@
 #include <optional>
 #include <string>
 
-#include "sil/serve/motor_record.hpp"
-#include "sil/serve/pace.hpp"
-#include "sil/serve/served_drive.hpp"
+#include "sil/served/motor_record.hpp"
+#include "sil/served/pace.hpp"
+#include "sil/served/served_drive.hpp"
 
 namespace sdre {
 
