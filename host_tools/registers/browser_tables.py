@@ -14,7 +14,7 @@ from versions import digest_of, saved, version
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
 
-from sdre_drive import faults, registers, scope_facts  # noqa: E402
+from sdre_drive import bench_faults, faults, registers, scope_facts  # noqa: E402
 from sdre_drive.page.choices import CHOICES  # noqa: E402
 
 HEAD = (
@@ -78,6 +78,7 @@ def page_text(groups: List[Group], found: List[Signal]) -> str:
         "MODES": {int(m): [m.name, words] for m, words in registers.MODE_WORDS.items()},
         "RESET_WORDS": list(registers.RESET_WORDS),
         "STORED_WORDS": list(registers.STORED_WORDS),
+        "BENCH_FAULTS": bench_faults.FAULTS,
         "SIGNATURES": {r.name: r.signature for g in groups for r in g.registers if r.signature},
     }
     lines = [HEAD, f'export const DIGEST = "{digest_of(groups)}";']

@@ -11,9 +11,8 @@ import pytest
 from conftest import Served, serving
 from support import command, run_at, stay, until
 
-from sdre_drive import bench as benches
 from sdre_drive import params, session
-from sdre_drive.bench import FAULTS
+from sdre_drive.bench_faults import FAULTS, words_of
 from sdre_drive.connection import Drive
 from sdre_drive.registers import Mode
 
@@ -31,7 +30,7 @@ def test_any_client_reads_back_what_is_set(served: Served) -> None:
     assert "motor wire c broken" in bench(served, "break", "motor", "wire", "c", "broken")
     other = served.bench().ask("state")
     assert (other["load_Nm"], other["load_kind"]) == (0.75, "brake")
-    assert [benches.words_of(b) for b in other["broken"]] == ["motor wire c broken"]
+    assert [words_of(b) for b in other["broken"]] == ["motor wire c broken"]
     assert "-0.3 N m against positive speed" in bench(served, "load", "-0.3", "active")
     mended = bench(served, "mend")
     assert "load         0 N m, a brake" in mended and "broken       nothing" in mended
@@ -41,7 +40,7 @@ def test_every_fault_in_words_is_read_back_in_the_same_words(served: Served) -> 
     one = served.bench()
     for words, line in FAULTS.items():
         broken = one.ask(line)["broken"]
-        assert benches.words_of(broken[-1]) == words
+        assert words_of(broken[-1]) == words
         one.ask("mend")
 
 

@@ -11,7 +11,8 @@ from typing_extensions import Annotated
 
 from sdre_drive import bench as benches
 from sdre_drive import record
-from sdre_drive.bench import FAULTS, Bench
+from sdre_drive.bench import Bench
+from sdre_drive.bench_faults import FAULTS
 from sdre_drive.connection import DriveError, Target, is_pseudo_terminal
 from sdre_drive.options import Control, bench_address
 from sdre_drive.terminal import Json, out

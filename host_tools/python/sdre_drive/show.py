@@ -12,6 +12,7 @@ from rich.text import Text
 
 from sdre_drive import bench as benches
 from sdre_drive import faults
+from sdre_drive.bench_faults import words_of
 from sdre_drive.faults import Entry
 from sdre_drive.registers import Mode, Reading, state_words
 from sdre_drive.units import e_radps_of as e_radps_of
@@ -54,7 +55,7 @@ def reasons(reading: Reading) -> List[Text]:
 def bench_words(state: Dict[str, Any]) -> str:
     """The bench of a virtual drive in a line."""
     parts = [f"load {benches.load_words(state)}", benches.pace_words(state)]
-    parts += [f"{benches.words_of(b)}" for b in state["broken"]]
+    parts += [words_of(b) for b in state["broken"]]
     parts += [state["note"]] if state["note"] else []
     return "; ".join(parts)
 

@@ -9,7 +9,8 @@ import threading
 import time
 from typing import Any, Dict, List, Optional, Tuple
 
-from sdre_drive.bench import FAULTS, Bench, words_of
+from sdre_drive.bench import Bench
+from sdre_drive.bench_faults import FAULTS, words_of
 from sdre_drive.connection import DriveError
 
 RETRY_S = 1.0

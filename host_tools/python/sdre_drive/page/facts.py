@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import Any, Dict, Optional
 
-from sdre_drive import bench, register_map, scope, scope_facts
+from sdre_drive import bench_faults, register_map, scope, scope_facts
 from sdre_drive.load import BOARD, DIGEST, NAME
 from sdre_drive.page.choices import CHOICES
 from sdre_drive.page.state import Watcher
@@ -29,7 +29,7 @@ def facts(w: Watcher) -> Dict[str, Any]:
         "positions": bool(of and of.supported_modes & 1),
         "signals": [{"name": name, "unit": unit} for name, unit in register_map.SIGNALS[1:]],
         "triggers": list(scope_facts.TRIGGERS),
-        "faults": list(bench.FAULTS),
+        "faults": list(bench_faults.FAULTS),
     }
 
 

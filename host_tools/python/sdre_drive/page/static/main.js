@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Puts the page together: one link to the drive, and cards that show its states.
 import { byId, el, say } from "./dom.js";
-import { DirectLink } from "./direct/link.js";
+import { SerialLink } from "./direct/serial_link.js";
+import { SimulatedLink } from "./direct/simulated_link.js";
 import { HttpLink } from "./link.js";
 import { chooseUnit, onUnit, unit, usePolePairs } from "./units.js";
 import { Bench } from "./bench.js";
@@ -15,12 +16,20 @@ import { Parameters } from "./parameters.js";
 import { Scope } from "./scope.js";
 import { Traces } from "./traces.js";
 
+/** The page's address chooses: sdre-drive's server, a serial port, or a drive in the page itself. */
+function linkOf(address, onState) {
+  const drive = address.get("drive");
+  if (drive === "simulated") {
+    return new SimulatedLink(onState, address.get("name") || "ipmsm_390w");
+  }
+  return drive === "serial" ? new SerialLink(onState) : new HttpLink(onState);
+}
+
 class Page {
   constructor() {
     this.state = null;
     this.facts = null;
-    const Link = new URLSearchParams(location.search).get("drive") === "serial" ? DirectLink : HttpLink;
-    this.link = new Link((state, why) => this.take(state, why));
+    this.link = linkOf(new URLSearchParams(location.search), (state, why) => this.take(state, why));
     this.cards = [Connect, Now, Control, Bench, Traces, Scope, History, Parameters, Commission, Image].map((Card) => new Card(this));
     Object.entries(this.link.lacks).forEach(([id, why]) => this.unable(id, why));
     byId("stop").addEventListener("click", () => this.stop());

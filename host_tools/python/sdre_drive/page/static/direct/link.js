@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page's way to a drive without a server, by Web Serial. It has the methods of HttpLink.
+// The page's way to a drive without a server: a line of octets to it. It has the methods of HttpLink.
 import * as actions from "./actions.js";
 import { Drive } from "./drive.js";
 import { Master } from "./master.js";
@@ -9,37 +9,27 @@ import { TRIGGERS } from "./captures.js";
 import { Watcher } from "./watcher.js";
 
 const NAME_OBJECTS = { name: 0x80, digest: 0x81, board: 0x83 }; // of function 43/14
-const SILENT_MS = 200;
-const SLOW_OCTETS = 300; // of a line so slow that the longest answer takes more than that
-const NO_SERIAL = "this browser has no Web Serial: use Chromium, Chrome or Edge, at https or localhost";
 
 export class DirectLink {
   constructor(onState) {
-    Object.assign(this, { onState, watcher: null, armed: false, seen: 0, job: null });
+    Object.assign(this, { onState, watcher: null, armed: false, seen: 0, job: null, faults: [], actions });
     this.lacks = {
       commission: "Needs the program: sdre-drive commission, or its page. This page has no server.",
       image: "Needs the program: sdre-drive load, or its page. This page has no server.",
     };
     document.addEventListener("visibilitychange", () => document.hidden && this.watcher && this.watcher.release());
-    setTimeout(() => onState(null, "serial" in navigator ? "Connect the serial port of the drive." : NO_SERIAL));
   }
 
-  /** From a click: the browser asks for the port. */
-  async connect(baud, format, unit) {
-    if (!("serial" in navigator)) {
-      throw new Error(NO_SERIAL);
-    }
-    const line = await SerialLine.open(baud, format);
-    const master = new Master(line, unit, Math.max(SILENT_MS, (1000 * SLOW_OCTETS * 11) / baud));
-    const watcher = new Watcher(new Drive(master), () => this.tell());
+  /** From now on this drive, until its line ends. */
+  use(line, unit, timeout_ms, gone) {
+    const watcher = new Watcher(new Drive(new Master(line, unit, timeout_ms)), () => this.tell());
     line.onEnd = () => {
       watcher.ends = true;
       this.watcher = this.watcher === watcher ? null : this.watcher;
-      this.onState(null, "the serial port has gone: connect it again");
+      this.onState(null, gone);
     };
     this.watcher = watcher;
     watcher.watch();
-    return `connected: ${line.words}`;
   }
 
   tell() {
@@ -54,15 +44,24 @@ export class DirectLink {
       trouble: w.trouble,
       command_e_radps: w.command_e_radps,
       where: w.where,
-      bench: null,
+      bench: this.bench(),
       armed: this.armed ? "me" : "none",
       viewers: 1,
       job: this.job,
       scope: { words: w.scopeWords, number: w.captures },
       parameters: { words: w.parameters.words, number: w.parametersRead },
       history: w.events.number,
-      traces: { generation: w.generation, drive: rows, truth: [] },
+      traces: { generation: w.generation, drive: rows, truth: this.truth() },
     }, "");
+  }
+
+  /** Nothing is known beside a real drive. */
+  bench() {
+    return null;
+  }
+
+  truth() {
+    return [];
   }
 
   /** The drive that answers. Throws without one. */
@@ -85,7 +84,7 @@ export class DirectLink {
       (this.watcher || {}).parametersWanted = true;
       return "";
     }
-    const action = actions[name];
+    const action = this.actions[name];
     if (!action) {
       throw new Error("this needs the program sdre-drive");
     }
@@ -132,7 +131,7 @@ export class DirectLink {
       positions: Boolean(of.SUPPORTED_MODES & 1),
       signals: SIGNALS.slice(1),
       triggers: TRIGGERS,
-      faults: [],
+      faults: this.faults,
     };
   }
 }
