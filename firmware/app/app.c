@@ -160,6 +160,7 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
     app_record_init(&traces.record);
     background_side.registers.scope  = &traces.scope;
     background_side.registers.record = &traces.record;
+    background_side.registers.map    = &tick_side.modes.commission.module.map;
     background_side.loader.restart   = false;
     background_side.served_ticks     = 0UL;
     app_watch_tick_reset(&background_side.watch);

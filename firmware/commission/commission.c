@@ -59,8 +59,9 @@ ctl_status_t commission_init(commission_t *m, const commission_config_t *c)
 
 void commission_start(commission_t *m)
 {
-    const commission_result_t nothing = {.counts_per_turn = m->config->counts_per_turn};
-    const ab_t                zero    = {0.0f, 0.0f};
+    const commission_result_t nothing  = {.counts_per_turn = m->config->counts_per_turn};
+    const commission_map_t    unmapped = {.step_A = 0.0f};
+    const ab_t                zero     = {0.0f, 0.0f};
 
     if (m->reason == COMMISSION_REASON_CONFIG) {
         return;
@@ -68,6 +69,7 @@ void commission_start(commission_t *m)
     m->stage      = COMMISSION_WATCH;
     m->reason     = COMMISSION_REASON_NONE;
     m->found      = nothing;
+    m->map        = unmapped;
     m->ticks      = 0L;
     m->i_A        = zero;
     m->v_now_V    = zero;
@@ -186,7 +188,7 @@ static commission_answer_t run_stage(commission_t *m, const commission_signal_t 
     case COMMISSION_DRAG:
         return commission_drag_tick(&m->work.drag, m->config, s, &m->found);
     case COMMISSION_MAP:
-        return commission_inductance_map(&m->work.inductance, m->config, s, &m->found, &m->map);
+        return commission_map_tick(&m->work.inductance, m->config, s, &m->found, &m->map);
     case COMMISSION_SPIN:
         return commission_spin_tick(&m->work.spin, m->config, s, &m->found);
     case COMMISSION_RING:

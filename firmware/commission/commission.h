@@ -20,6 +20,7 @@
 #include "commission_drag.h"
 #include "commission_guard.h"
 #include "commission_inductance.h"
+#include "commission_map.h"
 #include "commission_probe.h"
 #include "commission_resistance.h"
 #include "commission_ring.h"
@@ -33,7 +34,7 @@ typedef enum {
     COMMISSION_LOOK,       /**< check of phases and sensors; inductances in the stator frame */
     COMMISSION_RESISTANCE, /**< resistance and inverter voltage loss */
     COMMISSION_DRAG,       /**< direction, pole pairs, offset */
-    COMMISSION_MAP,        /**< inductances along d and q */
+    COMMISSION_MAP,        /**< inductances along d and q over both currents */
     COMMISSION_SPIN,       /**< flux, inertia, friction */
     COMMISSION_RING,       /**< resonance of the shaft */
     COMMISSION_FINISHED,

@@ -1,19 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file commission_inductance.h
- * @brief Inductances from square-wave voltages, in the stator frame or along d and q.
+ * @brief Inductances from square-wave voltages in the stator frame.
  *
  *     v Ts = L di + (R i + loss) Ts,  L 2 x 2 by least squares from v and di              EQ-COMMISSION-4
  *     axis of the larger one: tan 2 a = 2 L_ab / (L_aa - L_bb)                            EQ-COMMISSION-5
- *     along an axis: L = Ts sum(di (v - R i - e)) / (sum(di^2) - n var)                   EQ-COMMISSION-6
  *
- * The stator-frame measurement needs no rotor angle. R i and the inverter loss are odd in the
- * current and di is even over a full wave: both hardly change L. The known part of R i is
- * subtracted anyway.
+ * No rotor angle is needed. R i and the inverter loss are odd in the current and di is even over a
+ * full wave: both hardly change L.
  *
- * Here e is the back-EMF in the q axis, from the counted speed. The variance var is that of the
- * noise of di, from samples with the motor at rest. Without this correction L would be too small. In
- * the stator frame the noise would also turn the axis of the larger one.
+ * The sums of di have its noise in them, which is measured with the motor at rest. Without this
+ * correction L would be too small, and the noise would turn the axis of the larger one. The waves
+ * along d and q use the same measurement of the noise: commission_map.h.
  */
 #ifndef COMMISSION_INDUCTANCE_H
 #define COMMISSION_INDUCTANCE_H
@@ -32,12 +30,13 @@ typedef struct {
 
 typedef struct {
     commission_wave_t  wave;
-    int16_t            axis;      /**< LOOK: 0 .. 3, MAP: d, q */
+    int16_t            axis;      /**< LOOK: 0 .. 3, MAP: 0 .. COMMISSION_MAP_WAVES - 1 */
     frames_angle_t     direction; /**< of the wave in LOOK */
     int16_t            wait_ticks;
     commission_fit_t   alpha; /**< v_alpha against di, both axes' waves */
     commission_fit_t   beta;
-    commission_bin_t   bins[2][2][COMMISSION_BINS]; /**< axis, sign of the current, bin */
+    commission_bin_t   bins[COMMISSION_MAP_ROWS][COMMISSION_BINS]; /**< of MAP */
+    bool               turned;                                     /**< MAP exchanged the axes */
     commission_fit_t   noise;   /**< sums of di at rest; the two sensors' noise is not isotropic */
     float              power_W; /**< LOOK: sum of v i, and of |i| */
     float              size_A;
@@ -63,10 +62,20 @@ commission_answer_t commission_inductance_look(commission_inductance_t   *l,
                                                const commission_signal_t *s,
                                                commission_result_t       *found);
 
-/** Executes one period of MAP: inductances along d and q. The rotor angle is known; it may move. */
-commission_answer_t commission_inductance_map(commission_inductance_t   *l,
-                                              const commission_config_t *c,
-                                              const commission_signal_t *s,
-                                              commission_result_t *found, commission_map_t *map);
+/** True at rest before a wave. Context: control ISR. */
+bool commission_inductance_rests(const commission_inductance_t *l);
+
+/** True in the first half of a rest: the current of the wave before decays. Context: control ISR. */
+bool commission_inductance_decays(const commission_inductance_t *l);
+
+/** Zero voltage of a rest, whose noise is measured. Context: control ISR. */
+commission_answer_t commission_inductance_rest(commission_inductance_t   *l,
+                                               const commission_signal_t *s);
+
+/** Variance of di by noise [A^2], mean of both axes. Context: control ISR. */
+float commission_inductance_noise(const commission_inductance_t *l);
+
+/** Goes on to the rest before the next wave. Context: control ISR. */
+void commission_inductance_next(commission_inductance_t *l);
 
 #endif /* COMMISSION_INDUCTANCE_H */

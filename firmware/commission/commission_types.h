@@ -100,11 +100,22 @@ typedef struct {
     int32_t index_cnt;  /**< position of the index within a turn, 0 .. counts_per_turn - 1 */
 } commission_result_t;
 
-/** Inductances over the current. */
+/** Waves of the map: along d; along q without d current, and with two negative ones. */
+#define COMMISSION_MAP_WAVES 4
+/** Rows of its bins: positive and negative d current; three of the q current. */
+#define COMMISSION_MAP_ROWS 5
+/** An inductance of the map that is equal to the mean. */
+#define COMMISSION_MAP_ONE 8192U
+/** Chosen: d current from one q wave to the next, in widths of a bin of the first one. Beside it the
+ * q current is so much smaller that the vector has the same length. */
+#define COMMISSION_MAP_BIAS 1.6f
+
+/** Differential inductances over both currents, of the middle of each bin, in
+ * 1 / COMMISSION_MAP_ONE of ld_H or lq_H of the result. 0: too few samples. */
 typedef struct {
-    float ld_H[2][COMMISSION_BINS]; /**< differential, d current > 0 and < 0 */
-    float lq_H[COMMISSION_BINS];
-    float step_A; /**< width of a bin */
+    uint16_t ld[2][COMMISSION_BINS]; /**< d current > 0 and < 0, no q current */
+    uint16_t lq[3][COMMISSION_BINS]; /**< |q current|; beside it d currents of 0, -1, -2 biases */
+    float    step_A; /**< width of a bin without the other current; 0: not measured */
 } commission_map_t;
 
 /* C++ includes this header: it needs the designated members in their order. */

@@ -155,8 +155,7 @@ TEST(Commission, AnAbortedRunWritesNoFile)
 
 TEST(Commission, AKeyThatCannotBeReplacedIsOneLine)
 {
-    commission_result_t found{};
-    EXPECT_THROW(commissioned_text("schema = 1\n[motor]\npole_pairs = 3\n", found, "here"),
+    EXPECT_THROW(commissioned_text("schema = 1\n[motor]\npole_pairs = 3\n", {}, 1.0, "here"),
                  InputError);
 }
 

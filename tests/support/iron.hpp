@@ -85,15 +85,16 @@ inline const std::vector<double> fine_id_axis = even_axis(-4.4, 0.2, 31);
 inline const std::vector<double> fine_iq_axis = even_axis(0.0, 0.15, 31);
 
 /// The shipped drive with that map in its file.
-inline sdre::Drive saturated_drive(const Iron &iron)
+inline sdre::Drive saturated_drive(const Iron                &iron,
+                                   const std::vector<double> &id_axis = fine_id_axis)
 {
     const auto        file = shipped_drive("ipmsm_390w");
     const std::string text =
         read_file(file) +
         fmt::format("\n[saturation]\nid_A = {}\niq_A = {}\npsi_d_Wb = {}\npsi_q_Wb = {}\n",
-                    listed(fine_id_axis), listed(fine_iq_axis),
-                    listed(psi_d(iron, fine_id_axis, fine_iq_axis)),
-                    listed(psi_q(iron, fine_id_axis, fine_iq_axis)));
+                    listed(id_axis), listed(fine_iq_axis),
+                    listed(psi_d(iron, id_axis, fine_iq_axis)),
+                    listed(psi_q(iron, id_axis, fine_iq_axis)));
     return sdre::read_drive_text(text, "drive.toml", file.string());
 }
 

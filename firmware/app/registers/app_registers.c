@@ -36,6 +36,7 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
     r->parameters                     = NULL;
     r->scope                          = NULL;
     r->record                         = NULL;
+    r->map                            = NULL;
     r->requested.modbus_address       = config->modbus_address;
     r->requested.modbus_timeout_ticks = config->modbus_timeout_ticks;
     r->config                         = config;

@@ -99,15 +99,16 @@ typedef struct app_registers {
     app_trim_t        trim;
     app_trim_values_t trimmed; /**< values in force */
 #endif
-    app_watch_ring_t             ring; /**< oscillation of the torque current */
-    app_registers_request_t      requested;
-    app_registers_request_t      trial; /**< copy that a write changes until it is accepted */
-    volatile app_scope_t        *scope; /**< NULL: neither scope nor record */
-    const volatile app_record_t *record;
-    app_loader_t                *loader;     /**< serves APP_LOADER_FIRST and up; NULL: none */
-    const app_parameters_t      *parameters; /**< NULL: they cannot be stored now */
-    bool                         changed;    /**< command is new; its taker clears this */
-    bool                         silent;     /**< stopped by a communication time-out */
+    app_watch_ring_t                 ring; /**< oscillation of the torque current */
+    app_registers_request_t          requested;
+    app_registers_request_t          trial; /**< copy that a write changes until it is accepted */
+    volatile app_scope_t            *scope; /**< NULL: neither scope nor record */
+    const volatile app_record_t     *record;
+    const volatile commission_map_t *map;        /**< of the commissioning; NULL: none */
+    app_loader_t                    *loader;     /**< serves APP_LOADER_FIRST and up; NULL: none */
+    const app_parameters_t          *parameters; /**< NULL: they cannot be stored now */
+    bool                             changed;    /**< command is new; its taker clears this */
+    bool                             silent;     /**< stopped by a communication time-out */
 } app_registers_t;
 
 /**
@@ -156,6 +157,15 @@ uint16_t app_registers_trim_blocks(const app_registers_t *r);
 
 /** State of the map of the encoder disc, app_disc.h. */
 app_disc_state_t app_registers_disc(const app_registers_t *r);
+
+/** Inductance of a bin over the mean; 0: not measured. @param row Of commission_map_t, first ld. */
+float app_registers_mapped(const app_registers_t *r, int16_t row, int16_t bin);
+
+/** Width of a bin [A]; 0: not measured. */
+float app_registers_map_step_A(const app_registers_t *r);
+
+/** d current beside the q waves [A]. */
+float app_registers_map_bias_A(const app_registers_t *r);
 
 /** Frequency of the last oscillation [Hz]; 0: none since the start. */
 float app_registers_ring(const app_registers_t *r);

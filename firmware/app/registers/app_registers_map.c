@@ -173,6 +173,28 @@ const app_registers_entry_t app_registers_map_input[APP_REGISTERS_MAP_INPUT] = {
     {APP_REGISTERS_DC_LINK_MAX, APP_REGISTERS_U16, 10.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_DRIVE, APP_REGISTERS_AS_FLOAT, AT(drive_config_t, dc_link_max_V), false},
     {APP_REGISTERS_TEMPERATURE_LIMIT, APP_REGISTERS_I16, 10.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_CONFIG, APP_REGISTERS_AS_FLOAT, AT(app_config_t, temperature_limit_degC), false},
     {APP_REGISTERS_TEMPERATURE_TRIP, APP_REGISTERS_I16, 10.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_CONFIG, APP_REGISTERS_AS_FLOAT, AT(app_config_t, temperature_trip_degC), false},
+    {APP_REGISTERS_FOUND_MAP_STEP, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 32U, false},
+    {APP_REGISTERS_FOUND_MAP_BIAS, APP_REGISTERS_DEC, 0.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 33U, false},
+    {APP_REGISTERS_FOUND_LD_POSITIVE_1, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 34U, false},
+    {APP_REGISTERS_FOUND_LD_POSITIVE_2, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 35U, false},
+    {APP_REGISTERS_FOUND_LD_POSITIVE_3, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 36U, false},
+    {APP_REGISTERS_FOUND_LD_POSITIVE_4, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 37U, false},
+    {APP_REGISTERS_FOUND_LD_NEGATIVE_1, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 38U, false},
+    {APP_REGISTERS_FOUND_LD_NEGATIVE_2, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 39U, false},
+    {APP_REGISTERS_FOUND_LD_NEGATIVE_3, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 40U, false},
+    {APP_REGISTERS_FOUND_LD_NEGATIVE_4, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 41U, false},
+    {APP_REGISTERS_FOUND_LQ_BESIDE_0_1, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 42U, false},
+    {APP_REGISTERS_FOUND_LQ_BESIDE_0_2, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 43U, false},
+    {APP_REGISTERS_FOUND_LQ_BESIDE_0_3, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 44U, false},
+    {APP_REGISTERS_FOUND_LQ_BESIDE_0_4, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 45U, false},
+    {APP_REGISTERS_FOUND_LQ_BESIDE_1_1, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 46U, false},
+    {APP_REGISTERS_FOUND_LQ_BESIDE_1_2, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 47U, false},
+    {APP_REGISTERS_FOUND_LQ_BESIDE_1_3, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 48U, false},
+    {APP_REGISTERS_FOUND_LQ_BESIDE_1_4, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 49U, false},
+    {APP_REGISTERS_FOUND_LQ_BESIDE_2_1, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 50U, false},
+    {APP_REGISTERS_FOUND_LQ_BESIDE_2_2, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 51U, false},
+    {APP_REGISTERS_FOUND_LQ_BESIDE_2_3, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 52U, false},
+    {APP_REGISTERS_FOUND_LQ_BESIDE_2_4, APP_REGISTERS_U16, 10000.0f, 0.0f, 0.0f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 53U, false},
 };
 
 float app_registers_map_real(const app_registers_t *r, uint16_t number)
@@ -200,6 +222,72 @@ float app_registers_map_real(const app_registers_t *r, uint16_t number)
         break;
     case 20U: /* TRIM_GAIN */
         x = app_registers_trimmed(r).gain;
+        break;
+    case 32U: /* FOUND_MAP_STEP */
+        x = app_registers_map_step_A(r);
+        break;
+    case 33U: /* FOUND_MAP_BIAS */
+        x = app_registers_map_bias_A(r);
+        break;
+    case 34U: /* FOUND_LD_POSITIVE_1 */
+        x = app_registers_mapped(r, 0, 0);
+        break;
+    case 35U: /* FOUND_LD_POSITIVE_2 */
+        x = app_registers_mapped(r, 0, 1);
+        break;
+    case 36U: /* FOUND_LD_POSITIVE_3 */
+        x = app_registers_mapped(r, 0, 2);
+        break;
+    case 37U: /* FOUND_LD_POSITIVE_4 */
+        x = app_registers_mapped(r, 0, 3);
+        break;
+    case 38U: /* FOUND_LD_NEGATIVE_1 */
+        x = app_registers_mapped(r, 1, 0);
+        break;
+    case 39U: /* FOUND_LD_NEGATIVE_2 */
+        x = app_registers_mapped(r, 1, 1);
+        break;
+    case 40U: /* FOUND_LD_NEGATIVE_3 */
+        x = app_registers_mapped(r, 1, 2);
+        break;
+    case 41U: /* FOUND_LD_NEGATIVE_4 */
+        x = app_registers_mapped(r, 1, 3);
+        break;
+    case 42U: /* FOUND_LQ_BESIDE_0_1 */
+        x = app_registers_mapped(r, 2, 0);
+        break;
+    case 43U: /* FOUND_LQ_BESIDE_0_2 */
+        x = app_registers_mapped(r, 2, 1);
+        break;
+    case 44U: /* FOUND_LQ_BESIDE_0_3 */
+        x = app_registers_mapped(r, 2, 2);
+        break;
+    case 45U: /* FOUND_LQ_BESIDE_0_4 */
+        x = app_registers_mapped(r, 2, 3);
+        break;
+    case 46U: /* FOUND_LQ_BESIDE_1_1 */
+        x = app_registers_mapped(r, 3, 0);
+        break;
+    case 47U: /* FOUND_LQ_BESIDE_1_2 */
+        x = app_registers_mapped(r, 3, 1);
+        break;
+    case 48U: /* FOUND_LQ_BESIDE_1_3 */
+        x = app_registers_mapped(r, 3, 2);
+        break;
+    case 49U: /* FOUND_LQ_BESIDE_1_4 */
+        x = app_registers_mapped(r, 3, 3);
+        break;
+    case 50U: /* FOUND_LQ_BESIDE_2_1 */
+        x = app_registers_mapped(r, 4, 0);
+        break;
+    case 51U: /* FOUND_LQ_BESIDE_2_2 */
+        x = app_registers_mapped(r, 4, 1);
+        break;
+    case 52U: /* FOUND_LQ_BESIDE_2_3 */
+        x = app_registers_mapped(r, 4, 2);
+        break;
+    case 53U: /* FOUND_LQ_BESIDE_2_4 */
+        x = app_registers_mapped(r, 4, 3);
         break;
     default:
         break;

@@ -85,6 +85,15 @@ SHAFT_VALUES = (
     ("damping", "FOUND_DAMPING"),
     ("load_inertia_share", "FOUND_LOAD_SHARE"),
 )
+# Key of the table [inductances], registers of its bins, register of their mean.
+MAP_ROWS = (
+    ("ld_positive_id_H", "FOUND_LD_POSITIVE", "FOUND_LD"),
+    ("ld_negative_id_H", "FOUND_LD_NEGATIVE", "FOUND_LD"),
+    ("lq_beside_0_H", "FOUND_LQ_BESIDE_0", "FOUND_LQ"),
+    ("lq_beside_1_H", "FOUND_LQ_BESIDE_1", "FOUND_LQ"),
+    ("lq_beside_2_H", "FOUND_LQ_BESIDE_2", "FOUND_LQ"),
+)
+BINS = 4
 START_S = 2.0
 REST_WAIT_S = 60.0  # chosen: a shaft without friction coasts for minutes, and nobody waits so long
 TURNS_E_RADPS = 10.0  # in READY one count in a control period is 6.3
@@ -93,7 +102,22 @@ REST_READINGS = 6
 
 def found(drive: Drive) -> Dict[str, float]:
     """The registers of the commissioning, by name."""
-    return drive.values(register_map.COMMISSIONING)
+    return {**drive.values(register_map.COMMISSIONING), **drive.values(register_map.MAP)}
+
+
+def map_lines(values: Dict[str, float]) -> List[str]:
+    """The inductances over the currents; nothing when they were not measured."""
+    shares = [[values[f"{register}_{k + 1}"] for k in range(BINS)] for _, register, _ in MAP_ROWS]
+    if not values["FOUND_MAP_STEP"] > 0.0 or not all(x > 0.0 for row in shares for x in row):
+        return []
+    lines = [
+        "[inductances] # of bins of current, incremental; lq also beside -1 and -2 bias_A of id",
+        f"step_A = {values['FOUND_MAP_STEP']:.5e}",
+        f"bias_A = {values['FOUND_MAP_BIAS']:.5e}",
+    ]
+    for (key, _, mean), row in zip(MAP_ROWS, shares):
+        lines.append(f"{key} = [{', '.join(f'{x * values[mean]:.4e}' for x in row)}]")
+    return lines
 
 
 def text(values: Dict[str, float]) -> str:
@@ -114,7 +138,7 @@ def text(values: Dict[str, float]) -> str:
         lines.append(
             f"{key} = {{ value = {values[name]:.5e}, uncertainty = {values[name + '_ERROR']:.2e} }}"
         )
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines + map_lines(values)) + "\n"
 
 
 def shaft_words(values: Dict[str, float]) -> str:

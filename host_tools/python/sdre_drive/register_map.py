@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "b42bedbd"
+DIGEST = "7f633e4d"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -230,8 +230,33 @@ CONSTANTS: Tuple[Register, ...] = (  # input
     Register("TEMPERATURE_TRIP", 276, "i16", 0.1, "degC"),
 )
 
+MAP: Tuple[Register, ...] = (  # input
+    Register("FOUND_MAP_STEP", 288, "dec", 0.0, "A"),
+    Register("FOUND_MAP_BIAS", 290, "dec", 0.0, "A"),
+    Register("FOUND_LD_POSITIVE_1", 292, "u16", 0.0001, ""),
+    Register("FOUND_LD_POSITIVE_2", 293, "u16", 0.0001, ""),
+    Register("FOUND_LD_POSITIVE_3", 294, "u16", 0.0001, ""),
+    Register("FOUND_LD_POSITIVE_4", 295, "u16", 0.0001, ""),
+    Register("FOUND_LD_NEGATIVE_1", 296, "u16", 0.0001, ""),
+    Register("FOUND_LD_NEGATIVE_2", 297, "u16", 0.0001, ""),
+    Register("FOUND_LD_NEGATIVE_3", 298, "u16", 0.0001, ""),
+    Register("FOUND_LD_NEGATIVE_4", 299, "u16", 0.0001, ""),
+    Register("FOUND_LQ_BESIDE_0_1", 300, "u16", 0.0001, ""),
+    Register("FOUND_LQ_BESIDE_0_2", 301, "u16", 0.0001, ""),
+    Register("FOUND_LQ_BESIDE_0_3", 302, "u16", 0.0001, ""),
+    Register("FOUND_LQ_BESIDE_0_4", 303, "u16", 0.0001, ""),
+    Register("FOUND_LQ_BESIDE_1_1", 304, "u16", 0.0001, ""),
+    Register("FOUND_LQ_BESIDE_1_2", 305, "u16", 0.0001, ""),
+    Register("FOUND_LQ_BESIDE_1_3", 306, "u16", 0.0001, ""),
+    Register("FOUND_LQ_BESIDE_1_4", 307, "u16", 0.0001, ""),
+    Register("FOUND_LQ_BESIDE_2_1", 308, "u16", 0.0001, ""),
+    Register("FOUND_LQ_BESIDE_2_2", 309, "u16", 0.0001, ""),
+    Register("FOUND_LQ_BESIDE_2_3", 310, "u16", 0.0001, ""),
+    Register("FOUND_LQ_BESIDE_2_4", 311, "u16", 0.0001, ""),
+)
+
 HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET, *TRIM)
-INPUT = (*LIVE, *POSITION, *SHAFT, *TRIMMED, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS)
+INPUT = (*LIVE, *POSITION, *SHAFT, *TRIMMED, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS, *MAP)
 
 # Blocks that hold parameters.
 PARAMETER_BLOCKS = (COMMAND, LINE, TARGET, TRIM,)

@@ -2,11 +2,15 @@
 #include "sil/commission/report.hpp"
 
 #include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <string>
 
 #include <fmt/format.h>
 
 #include "common/json.hpp"
 #include "facts/commissioned_text.hpp"
+#include "facts/found_map.hpp"
 
 namespace sdre {
 namespace {
@@ -27,13 +31,28 @@ CommissionLine exact(const char *name, double truth, double found)
     return {name, "", truth, found, 0.0, found - truth, false};
 }
 
-std::string map_text(const char *name, const float *bins, double step_A, double sign)
+std::string map_text(const std::string &name, const FoundMap::Row &l_H, double last_A)
 {
-    std::string s = fmt::format("  {}", name);
-    for (int k = 0; k < COMMISSION_BINS; k++) {
-        s += fmt::format("  {:g} A {:.4g}", sign * step_A * (k + 0.5), bins[k]);
+    std::string s = fmt::format("  {:<17}", name);
+    for (std::size_t k = 0; k < l_H.size(); k++) {
+        s += fmt::format(
+            "  {:.3g} A {:.4g} H",
+            last_A * (2.0 * static_cast<double>(k) + 1.0) / (2.0 * COMMISSION_BINS - 1.0), l_H[k]);
     }
     return s + "\n";
+}
+
+std::string map_text(const FoundMap &map)
+{
+    const std::size_t last = COMMISSION_BINS - 1;
+    const double      d_A  = map.step_A * (COMMISSION_BINS - 0.5);
+    std::string       s =
+        map_text("Ld at id", map.ld_H[0], d_A) + map_text("Ld at id", map.ld_H[1], -d_A);
+    for (std::size_t row = 0; row < map.lq_H.size(); row++) {
+        s += map_text(fmt::format("Lq, id {:.3g} A", 0.0 - map.bias_A * static_cast<double>(row)),
+                      map.lq_H[row], map.iq_A(row, last));
+    }
+    return s;
 }
 
 std::string error_text(const CommissionLine &l)
@@ -87,9 +106,7 @@ std::string commission_text(const Drive &d, const CommissionRun &r)
                          l.found, l.uncertainty, error_text(l), l.unit);
     }
     if (r.map.step_A > 0.0F) {
-        s += map_text("Ld map", r.map.ld_H[0], r.map.step_A, 1.0);
-        s += map_text("Ld map", r.map.ld_H[1], r.map.step_A, -1.0);
-        s += map_text("Lq map", r.map.lq_H, r.map.step_A, 1.0);
+        s += map_text(found_map(r.map, r.found));
     }
     s += fmt::format("  a phase loses {:.3g} V; lag by friction {:.2f} deg, ripple {:.2f} deg; "
                      "{}\n",
@@ -97,6 +114,10 @@ std::string commission_text(const Drive &d, const CommissionRun &r)
                      180.0 / pi * r.found.ripple_rad,
                      r.found.reluctance ? "aligned by reluctance" : "aligned by the magnet");
     s += fmt::format("  shaft {}\n", coupling_words(r.found));
+    if (r.finished() && r.map.step_A > 0.0F) {
+        s += fmt::format("  {}\n",
+                         iron_words({r.found, found_map(r.map, r.found)}, d.motor.max_current_A));
+    }
     s += fmt::format("  peak current {:.4g} A, {:.3f} of the bound\n", r.peak_current_A,
                      r.peak_share());
     return s;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "commission_check.h"
 
-#include "standing_winding.h"
+#include "held_winding.h"
 #include "unit_support.h"
 #include "unity.h"
 
@@ -11,14 +11,14 @@
 static commission_config_t     config;
 static commission_check_t      check;
 static commission_admittance_t found;
-static standing_winding_t      winding;
+static held_winding_t          winding;
 static double                  peak_A;
 static int                     dies_tick; /* of both sensors */
 
 void setUp(void)
 {
     const commission_config_t c = {.ts_s = (float)TS_s, .current_max_A = (float)BOUND_A};
-    const standing_winding_t  w = {.ts_s = TS_s, .r_Ohm = 3.6, .ld_H = 0.036, .lq_H = 0.051};
+    const held_winding_t      w = {.ts_s = TS_s, .r_Ohm = 3.6, .ld_H = 0.036, .lq_H = 0.051};
     config                      = c;
     winding                     = w;
     peak_A                      = 0.0;

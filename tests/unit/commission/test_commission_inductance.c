@@ -1,25 +1,23 @@
 /* SPDX-License-Identifier: MIT */
 #include "commission_inductance.h"
 
-#include "standing_winding.h"
+#include "held_winding.h"
 #include "unit_support.h"
 #include "unity.h"
 
-#define PI   3.14159265358979324
 #define TS_s 2.0e-4
 
 static commission_config_t     config;
 static commission_result_t     found;
-static commission_map_t        current_map;
 static commission_inductance_t stage;
-static standing_winding_t      winding;
+static held_winding_t          winding;
 
 void setUp(void)
 {
     const commission_config_t c = {.ts_s = (float)TS_s, .current_max_A = 9.0f};
     const commission_result_t k = {
         .r_Ohm = {3.6f, 0.0f}, .counts_per_turn = 10000, .pole_pairs = 3, .direction = 1};
-    const standing_winding_t w = {
+    const held_winding_t w = {
         .ts_s = TS_s, .angle_rad = 0.7, .r_Ohm = 3.6, .ld_H = 0.036, .lq_H = 0.051};
     config  = c;
     found   = k;
@@ -43,21 +41,12 @@ static commission_signal_t noisy(commission_signal_t s, support_random_t *dice, 
     return s;
 }
 
-static void set_angle(double angle_rad)
-{
-    winding.angle_rad = angle_rad;
-    /* So that position 0 is there: EQ-COMMISSION-7 has the middle of a count. */
-    found.offset_rad.value = (float)(angle_rad - (3.0 * PI / 10000.0));
-}
-
-static commission_step_t run(bool map)
+static commission_step_t run(void)
 {
     ab_t asked_V = {0.0f, 0.0f};
     for (long k = 0; k < 100000L; k++) {
         const commission_signal_t s = winding_step(&winding, asked_V);
-        const commission_answer_t a =
-            map ? commission_inductance_map(&stage, &config, &s, &found, &current_map)
-                : commission_inductance_look(&stage, &config, &s, &found);
+        const commission_answer_t a = commission_inductance_look(&stage, &config, &s, &found);
         TEST_ASSERT_TRUE(hypot(winding.id_A, winding.iq_A) <= 9.0);
         asked_V = a.v_V;
         if (a.step != COMMISSION_BUSY) {
@@ -80,7 +69,7 @@ static void test_look_finds_both_at_any_angle(void)
         setUp();
         winding.angle_rad = angle;
         winding.loss_V    = 1.0;
-        TEST_ASSERT_EQUAL_INT(COMMISSION_DONE, run(false));
+        TEST_ASSERT_EQUAL_INT(COMMISSION_DONE, run());
         expect_inductances(0.04);
     }
 }
@@ -94,7 +83,7 @@ static void test_look_of_a_reluctance_motor(void)
     for (double angle = 0.0; angle < 3.0; angle += 0.37) {
         commission_inductance_start(&stage, 1.0e9f, 0.0f);
         winding.angle_rad = angle;
-        TEST_ASSERT_EQUAL_INT(COMMISSION_DONE, run(false));
+        TEST_ASSERT_EQUAL_INT(COMMISSION_DONE, run());
         expect_inductances(0.04);
     }
 }
@@ -109,13 +98,13 @@ static void test_look_needs_amplitude_along_the_larger_inductance(void)
     winding.lq_H  = 0.0415;
     winding.r_Ohm = 0.54;
     commission_inductance_start(&stage, small_V, 0.0f);
-    TEST_ASSERT_EQUAL_INT(COMMISSION_BUSY, run(false));
+    TEST_ASSERT_EQUAL_INT(COMMISSION_BUSY, run());
     setUp();
     winding.ld_H  = 0.0062;
     winding.lq_H  = 0.0415;
     winding.r_Ohm = 0.54;
     commission_inductance_start(&stage, small_V, need_Ohm);
-    TEST_ASSERT_EQUAL_INT(COMMISSION_DONE, run(false));
+    TEST_ASSERT_EQUAL_INT(COMMISSION_DONE, run());
 }
 
 /* A 300th of the bound. Without their noise taken off, the sums show an axis that is not there. */
@@ -152,53 +141,6 @@ static void test_look_in_noise(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.02 * winding.lq_H, winding.lq_H, lq_H);
 }
 
-static void test_map_of_a_constant_inductance_is_flat(void)
-{
-    set_angle(0.7);
-    TEST_ASSERT_EQUAL_INT(COMMISSION_DONE, run(true));
-
-    expect_inductances(0.005);
-    for (int k = 0; k < COMMISSION_BINS; k++) {
-        TEST_ASSERT_DOUBLE_WITHIN(0.01 * 0.036, 0.036, (double)current_map.ld_H[0][k]);
-        TEST_ASSERT_DOUBLE_WITHIN(0.01 * 0.036, 0.036, (double)current_map.ld_H[1][k]);
-        TEST_ASSERT_DOUBLE_WITHIN(0.01 * 0.051, 0.051, (double)current_map.lq_H[k]);
-    }
-    TEST_ASSERT_TRUE(found.ld_H.error < (0.02f * found.ld_H.value));
-}
-
-/* Oracle: the differential inductance in the middle of each bin. */
-static void test_map_shows_saturation(void)
-{
-    set_angle(-2.0);
-    winding.fall_1pA = 0.06;
-    TEST_ASSERT_EQUAL_INT(COMMISSION_DONE, run(true));
-
-    for (int k = 0; k < COMMISSION_BINS; k++) {
-        const double at_A = (k + 0.5) * (double)current_map.step_A;
-        const double want = 0.051 * (1.0 - (0.06 * at_A));
-        TEST_ASSERT_DOUBLE_WITHIN(0.05 * want, want, (double)current_map.lq_H[k]);
-    }
-    TEST_ASSERT_TRUE(current_map.lq_H[3] < (0.75f * current_map.lq_H[0]));
-}
-
-/* The axis that was taken for d is q. */
-static void test_crossed_axes_are_put_right(void)
-{
-    winding.ld_H        = 0.0062;
-    winding.lq_H        = 0.0415;
-    winding.r_Ohm       = 0.54;
-    found.r_Ohm.value   = 0.54f;
-    found.flux_Wb.value = 0.1f;
-    set_angle(0.3);
-    found.offset_rad.value = frames_wrap(found.offset_rad.value + (0.5f * BASE_PI));
-    TEST_ASSERT_EQUAL_INT(COMMISSION_DONE, run(true));
-
-    expect_inductances(0.01);
-    TEST_ASSERT_TRUE(found.reluctance);
-    TEST_ASSERT_DOUBLE_WITHIN(0.002, 0.3, (double)found.offset_rad.value);
-    TEST_ASSERT_TRUE(found.flux_Wb.value == 0.0f);
-}
-
 int main(void)
 {
     UNITY_BEGIN();
@@ -206,8 +148,5 @@ int main(void)
     RUN_TEST(test_look_of_a_reluctance_motor);
     RUN_TEST(test_look_needs_amplitude_along_the_larger_inductance);
     RUN_TEST(test_look_in_noise);
-    RUN_TEST(test_map_of_a_constant_inductance_is_flat);
-    RUN_TEST(test_map_shows_saturation);
-    RUN_TEST(test_crossed_axes_are_put_right);
     return UNITY_END();
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "commission_probe.h"
 
-#include "standing_winding.h"
+#include "held_winding.h"
 #include "unit_support.h"
 #include "unity.h"
 
@@ -12,12 +12,12 @@
 static commission_config_t     config;
 static commission_probe_t      probe;
 static commission_admittance_t known;
-static standing_winding_t      winding;
+static held_winding_t          winding;
 
 void setUp(void)
 {
     const commission_config_t c = {.ts_s = (float)TS_s, .current_max_A = 9.0f};
-    const standing_winding_t  w = {.ts_s = TS_s, .r_Ohm = 3.6, .ld_H = 0.036, .lq_H = 0.051};
+    const held_winding_t      w = {.ts_s = TS_s, .r_Ohm = 3.6, .ld_H = 0.036, .lq_H = 0.051};
     config                      = c;
     winding                     = w;
     commission_probe_start(&probe);

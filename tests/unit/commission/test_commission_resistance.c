@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "commission_resistance.h"
 
-#include "standing_winding.h"
+#include "held_winding.h"
 #include "unit_support.h"
 #include "unity.h"
 
@@ -22,7 +22,7 @@ void setUp(void)
 
 void tearDown(void) {}
 
-static double run(standing_winding_t *w)
+static double run(held_winding_t *w)
 {
     ab_t   asked_V = {0.0f, 0.0f};
     double peak_A  = 0.0;
@@ -44,12 +44,12 @@ static double run(standing_winding_t *w)
 static void test_resistance_and_loss_over_two_decades(void)
 {
     for (double r_Ohm = 0.3; r_Ohm < 30.0; r_Ohm *= 2.1) {
-        standing_winding_t w = {.ts_s      = TS_s,
-                                .angle_rad = 1.1,
-                                .r_Ohm     = r_Ohm,
-                                .ld_H      = 0.036,
-                                .lq_H      = 0.051,
-                                .loss_V    = 8.1};
+        held_winding_t w = {.ts_s      = TS_s,
+                            .angle_rad = 1.1,
+                            .r_Ohm     = r_Ohm,
+                            .ld_H      = 0.036,
+                            .lq_H      = 0.051,
+                            .loss_V    = 8.1};
         setUp();
         const double peak_A = run(&w);
 
@@ -61,8 +61,7 @@ static void test_resistance_and_loss_over_two_decades(void)
 
 static void test_an_inverter_without_losses(void)
 {
-    standing_winding_t w = {
-        .ts_s = TS_s, .angle_rad = 0.0, .r_Ohm = 3.6, .ld_H = 0.036, .lq_H = 0.051};
+    held_winding_t w = {.ts_s = TS_s, .angle_rad = 0.0, .r_Ohm = 3.6, .ld_H = 0.036, .lq_H = 0.051};
     (void)run(&w);
 
     TEST_ASSERT_DOUBLE_WITHIN(0.003 * 3.6, 3.6, (double)found.r_Ohm.value);
@@ -75,7 +74,7 @@ static void test_an_inverter_without_losses(void)
 /* A healthy winding of 3.6 Ohm with 8.1 V of loss up to the means of a level. It follows in every period. */
 static void reach(int angle, int level)
 {
-    standing_winding_t w = {
+    held_winding_t w = {
         .ts_s = TS_s, .angle_rad = 0.0, .r_Ohm = 3.6, .ld_H = 0.036, .lq_H = 0.051, .loss_V = 8.1};
     ab_t asked_V = {0.0f, 0.0f};
     bool there   = false;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "commission_vector.h"
 
-#include "standing_winding.h"
+#include "held_winding.h"
 #include "unit_support.h"
 #include "unity.h"
 
@@ -27,7 +27,7 @@ void tearDown(void) {}
 static void test_current_reaches_its_length_without_overshoot(void)
 {
     for (double theta = -3.0; theta < 3.0; theta += 0.7) {
-        standing_winding_t w = {
+        held_winding_t w = {
             .ts_s = TS_s, .angle_rad = 0.4, .r_Ohm = 3.6, .ld_H = 0.036, .lq_H = 0.051};
         ab_t   asked_V = {0.0f, 0.0f};
         double along_A = 0.0;
