@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "facts/found_file.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "common/toml_reader.hpp"
@@ -54,17 +57,38 @@ void read_coupling(TomlReader &t, commission_result_t &f)
     }
 }
 
+FoundMap::Row read_row(TomlReader &t, const char *key)
+{
+    FoundMap::Row             row{};
+    const std::vector<double> values = t.numbers(key, {row.size()}, positive);
+    std::copy(values.begin(), values.end(), row.begin());
+    return row;
+}
+
+FoundMap read_map(TomlReader &t)
+{
+    FoundMap m;
+    m.step_A = t.number("step_A", positive);
+    m.bias_A = t.number("bias_A", positive);
+    m.ld_H   = {read_row(t, "ld_positive_id_H"), read_row(t, "ld_negative_id_H")};
+    m.lq_H   = {read_row(t, "lq_beside_0_H"), read_row(t, "lq_beside_1_H"),
+                read_row(t, "lq_beside_2_H")};
+    t.reject_unknown_keys();
+    return m;
+}
+
 } // namespace
 
-commission_result_t read_found_file(const std::filesystem::path &file)
+Found read_found_file(const std::filesystem::path &file)
 {
-    const toml::table   table = parse_toml_file(file);
-    TomlReader          t(file.string(), "", table);
-    commission_result_t f{};
-    f.direction       = static_cast<std::int16_t>(t.integer("direction", direction_range));
-    f.pole_pairs      = static_cast<std::int16_t>(t.integer("pole_pairs", pairs_range));
-    f.counts_per_turn = t.integer("counts_per_turn", counts_range);
-    f.reluctance      = t.boolean_or("reluctance", false);
+    const toml::table    table = parse_toml_file(file);
+    TomlReader           t(file.string(), "", table);
+    Found                found;
+    commission_result_t &f = found.values;
+    f.direction            = static_cast<std::int16_t>(t.integer("direction", direction_range));
+    f.pole_pairs           = static_cast<std::int16_t>(t.integer("pole_pairs", pairs_range));
+    f.counts_per_turn      = t.integer("counts_per_turn", counts_range);
+    f.reluctance           = t.boolean_or("reluctance", false);
     if (f.direction == 0) {
         t.fail("direction", "= 0 is not allowed: must be 1 or -1");
     }
@@ -78,8 +102,11 @@ commission_result_t read_found_file(const std::filesystem::path &file)
     f.coulomb_Nm   = value(t, "coulomb_friction_Nm", any);
     f.offset_rad   = value(t, "d_axis_angle_e_rad", any);
     read_coupling(t, f);
+    if (auto inductances = t.table_if("inductances")) {
+        found.map = read_map(*inductances);
+    }
     t.reject_unknown_keys();
-    return f;
+    return found;
 }
 
 } // namespace sdre

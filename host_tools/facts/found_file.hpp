@@ -9,10 +9,17 @@ extern "C" {
 #include "commission_types.h"
 }
 
+#include "facts/found_map.hpp"
+
 namespace sdre {
+
+struct Found {
+    commission_result_t values{};
+    FoundMap            map; ///< not measured by a drive that has no such registers
+};
 
 /// InputError in one line on anything missing, unknown or out of range. Values that a drive file
 /// does not accept stay zero.
-commission_result_t read_found_file(const std::filesystem::path &file);
+Found read_found_file(const std::filesystem::path &file);
 
 } // namespace sdre

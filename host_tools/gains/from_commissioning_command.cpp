@@ -31,12 +31,16 @@ int run(const Options &o)
     if (o.drive.empty() || o.out.empty()) {
         throw InputError("from-commissioning: give --drive DRIVE and --out FILE");
     }
-    const commission_result_t found = read_found_file(o.found);
-    (void)read_drive_file(o.drive);
-    const std::string text = commissioned_text(read_text_file(o.drive), found,
-                                               std::filesystem::path(o.found).filename().string());
+    const Found       found  = read_found_file(o.found);
+    const Drive       before = read_drive_file(o.drive);
+    const std::string text =
+        commissioned_text(read_text_file(o.drive), found, before.motor.max_current_A,
+                          std::filesystem::path(o.found).filename().string());
     (void)read_drive_text(text, o.out);
     write_files({{o.out, text}});
+    if (const std::string words = iron_words(found, before.motor.max_current_A); !words.empty()) {
+        fmt::print("{}\n", words);
+    }
     fmt::print("{}: written; weights for it: sdre-gains tune {}\n", o.out, o.out);
     return exit_ok;
 }

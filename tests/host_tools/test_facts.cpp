@@ -318,13 +318,13 @@ coulomb_friction_Nm = { value = 0.01, uncertainty = 1e-3 }
 d_axis_angle_e_rad = { value = 1.0, uncertainty = 0.01 }
 )";
 
-commission_result_t found_of(const std::string &text)
+sdre::Found found_of(const std::string &text)
 {
     const std::filesystem::path file =
         std::filesystem::temp_directory_path() / fmt::format("sdre_found_{}.toml", getpid());
     sdre::write_files({{file, text}});
     try {
-        const commission_result_t found = sdre::read_found_file(file);
+        const sdre::Found found = sdre::read_found_file(file);
         std::filesystem::remove(file);
         return found;
     } catch (...) {
@@ -347,7 +347,7 @@ TEST(Found, GoesIntoTheDriveFileAndLeavesTheRest)
         sdre::read_text_file(SDRE_SOURCE_DIR "/firmware/config/drives/ipmsm_390w.toml");
     const sdre::Drive before = sdre::read_drive_text(drive, "before");
     const sdre::Drive after  = sdre::read_drive_text(
-         sdre::commissioned_text(drive, found_of(found_text), "here"), "after");
+         sdre::commissioned_text(drive, found_of(found_text), 4.0, "here"), "after");
 
     EXPECT_EQ(after.motor.pole_pairs, 3);
     EXPECT_EQ(after.encoder.lines, 2000);
@@ -373,7 +373,7 @@ std::string drive_with(const std::string &found)
 {
     const std::string drive =
         sdre::read_text_file(SDRE_SOURCE_DIR "/firmware/config/drives/ipmsm_390w_elastic.toml");
-    return sdre::commissioned_text(drive, found_of(found), "here");
+    return sdre::commissioned_text(drive, found_of(found), 4.0, "here");
 }
 
 } // namespace
@@ -387,7 +387,7 @@ TEST(Found, AResonanceReplacesTheCouplingOfTheDriveFile)
     EXPECT_NEAR(m.least_damping, 0.031, 1e-7);
     EXPECT_NEAR(m.load_inertia_share, 0.42, 1e-6);
     EXPECT_EQ(text.find("[mechanics]"), text.rfind("[mechanics]")) << text;
-    EXPECT_EQ(sdre::coupling_words(found_of(elastic_text)),
+    EXPECT_EQ(sdre::coupling_words(found_of(elastic_text).values),
               "elastic: resonance 219.7 Hz, damping ratio 0.031, 0.42 of the inertia behind the "
               "coupling");
 }
@@ -412,13 +412,77 @@ TEST(Found, WithoutAResonanceTheWordsStandInTheDriveFile)
 TEST(Found, ACouplingIsChecked)
 {
     const std::string rigid = std::string(found_text) + "coupling = \"rigid\"\nsearched_Hz = 600\n";
-    EXPECT_EQ(found_of(rigid).coupling, COMMISSION_COUPLING_RIGID);
+    EXPECT_EQ(found_of(rigid).values.coupling, COMMISSION_COUPLING_RIGID);
     EXPECT_THROW(found_of(with(rigid, "rigid", "soft")), sdre::InputError);
     EXPECT_THROW(found_of(with(rigid, "searched_Hz = 600\n", "")), sdre::InputError);
     EXPECT_THROW(found_of(with(rigid, "rigid", "elastic")), sdre::InputError);
     EXPECT_THROW(found_of(with(elastic_text, "value = 0.031", "value = 0.9")), sdre::InputError);
     EXPECT_THROW(found_of(with(elastic_text, "value = 219.7", "value = 0.1")), sdre::InputError);
     EXPECT_THROW(found_of(with(elastic_text, "value = 0.42", "value = 1.0")), sdre::InputError);
+}
+
+namespace {
+
+const char *const inductances_text = R"([inductances]
+step_A = 0.7
+bias_A = 1.1
+ld_positive_id_H = [0.0096, 0.0095, 0.0094, 0.0093]
+ld_negative_id_H = [0.0097, 0.0098, 0.0099, 0.0100]
+lq_beside_0_H = [0.0145, 0.0140, 0.0130, 0.0115]
+lq_beside_1_H = [0.0148, 0.0143, 0.0134, 0.0120]
+lq_beside_2_H = [0.0150, 0.0146, 0.0138, 0.0125]
+)";
+
+} // namespace
+
+TEST(Found, InductancesThatChangeBecomeTheMapOfTheDriveFile)
+{
+    const std::string all  = std::string(found_text) + inductances_text;
+    const std::string text = drive_with(all);
+    const auto        map  = sdre::read_drive_text(text, "after").saturation;
+    ASSERT_TRUE(map != nullptr) << text;
+    EXPECT_NEAR(map->magnet_Wb(), 0.12, 1e-5);
+    // Incremental inductances in the middle of bins. Beside 2.2 A the vector of 2.8 A has less q current.
+    const double narrow = std::sqrt(2.8 * 2.8 - 2.2 * 2.2) / 4.0;
+    EXPECT_NEAR(map->at(0.0, 1.75).qq_H, 0.0130, 0.02 * 0.0130);
+    EXPECT_NEAR(map->at(-2.2, 2.5 * narrow).qq_H, 0.0138, 0.02 * 0.0138);
+    EXPECT_NEAR(map->at(-1.75, 0.0).dd_H, 0.0099, 0.02 * 0.0099);
+    EXPECT_EQ(sdre::iron_words(found_of(all), 4.0),
+              "inductances change by 30 % with the current: the map is in [saturation]; law "
+              "noc_iron has it in the firmware");
+    EXPECT_EQ(drive_with(all), text) << "the same bytes";
+}
+
+TEST(Found, AMapIsReplacedAndNeedsEnoughCurrent)
+{
+    const std::string drive =
+        sdre::read_text_file(SDRE_SOURCE_DIR "/firmware/config/drives/ipmsm_390w_iron.toml");
+    const sdre::Found found = found_of(std::string(found_text) + inductances_text);
+    const std::string text  = sdre::commissioned_text(drive, found, 4.0, "here");
+    EXPECT_EQ(text.find("\n[saturation]"), text.rfind("\n[saturation]")) << text;
+    EXPECT_NEAR(sdre::read_drive_text(text, "after").saturation->at(0.0, 1.75).qq_H, 0.0130, 3e-4);
+
+    EXPECT_EQ(sdre::commissioned_text(drive_with(found_text), found, 6.0, "here").find("\n[satur"),
+              std::string::npos)
+        << "too little current for the limit";
+    EXPECT_NE(sdre::iron_words(found, 6.0).find("next: 1.23 times the bound"), std::string::npos)
+        << sdre::iron_words(found, 6.0);
+}
+
+TEST(Found, InductancesThatHardlyChangeAreConstants)
+{
+    std::string all = std::string(found_text) + inductances_text;
+    for (const char *row : {"[0.0145, 0.0140, 0.0130, 0.0115]", "[0.0148, 0.0143, 0.0134, 0.0120]",
+                            "[0.0150, 0.0146, 0.0138, 0.0125]"}) {
+        all = with(all, row, "[0.0145, 0.0146, 0.0144, 0.0145]");
+    }
+    EXPECT_EQ(drive_with(all).find("[saturation]"), std::string::npos);
+    EXPECT_EQ(sdre::iron_words(found_of(all), 4.0),
+              "inductances change by 8 % with the current: constants will do");
+    EXPECT_EQ(sdre::iron_words(found_of(found_text), 4.0), "") << "not measured";
+    EXPECT_THROW(found_of(with(all, "bias_A = 1.1\n", "")), sdre::InputError);
+    EXPECT_THROW(found_of(with(all, "0.0093]", "0.0093, 0.0092]")), sdre::InputError);
+    EXPECT_THROW(found_of(with(all, "0.0093", "-0.0093")), sdre::InputError);
 }
 
 TEST(Found, EveryKeyIsNeededAndChecked)

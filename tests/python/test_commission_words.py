@@ -58,6 +58,25 @@ def test_the_couplings_are_those_of_the_firmware() -> None:
     assert f"COMMISSION_RING_FROM_Hz {commission.FROM_HZ:.1f}f" in text
 
 
+def mapped(share: float) -> dict[str, float]:
+    values = {"FOUND_MAP_STEP": 0.68, "FOUND_MAP_BIAS": 1.088, "FOUND_LD": 0.07, "FOUND_LQ": 0.1}
+    for _, register, _ in commission.MAP_ROWS:
+        values.update({f"{register}_{k}": share for k in range(1, commission.BINS + 1)})
+    return values
+
+
+def test_the_inductances_are_a_table_of_the_file() -> None:
+    lines = commission.map_lines({**mapped(1.0), "FOUND_LQ_BESIDE_2_4": 0.75})
+    assert lines[0].startswith("[inductances]")
+    assert "ld_negative_id_H = [7.0000e-02, 7.0000e-02, 7.0000e-02, 7.0000e-02]" in lines
+    assert lines[-1] == "lq_beside_2_H = [1.0000e-01, 1.0000e-01, 1.0000e-01, 7.5000e-02]"
+
+
+def test_inductances_that_were_not_measured_are_not_written() -> None:
+    assert commission.map_lines({**mapped(1.0), "FOUND_MAP_STEP": 0.0}) == []
+    assert commission.map_lines({**mapped(1.0), "FOUND_LD_POSITIVE_3": 0.0}) == []
+
+
 def test_each_coupling_has_its_words() -> None:
     assert commission.shaft_words(FOUND) == (
         "the shaft has a resonance at 219.7 Hz, damping ratio 0.031, "
@@ -73,7 +92,7 @@ def test_each_coupling_has_its_words() -> None:
 
 
 def test_the_file_says_the_coupling() -> None:
-    values = dict.fromkeys((r.name for r in register_map.COMMISSIONING), 1.0)
+    values = dict.fromkeys((r.name for r in (*register_map.COMMISSIONING, *register_map.MAP)), 1.0)
     text = commission.text({**values, **FOUND})
     assert 'coupling = "elastic"' in text and "searched_Hz = 600.0" in text
     assert "resonance_Hz = { value = 2.19700e+02" in text

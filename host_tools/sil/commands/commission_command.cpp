@@ -91,8 +91,11 @@ int run(const Options &o)
         files.push_back({o.csv, commission_csv(result)});
     }
     if (!o.out.empty() && result.finished()) {
-        files.push_back({o.out, commissioned_text(read_text_file(o.drive), result.found,
-                                                  fmt::format("simulated, seed {}", o.seed))});
+        files.push_back(
+            {o.out, commissioned_text(read_text_file(o.drive),
+                                      {result.found, found_map(result.map, result.found)},
+                                      truth.motor.max_current_A,
+                                      fmt::format("simulated, seed {}", o.seed))});
     }
     write_files(files);
     fmt::print("{}", commission_text(truth, result));
