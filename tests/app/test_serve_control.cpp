@@ -58,6 +58,19 @@ TEST(ServeControl, AMotorWithoutFrictionGetsSomeOnTheBench)
         << "s until it stands";
 }
 
+TEST(ServeControl, AMachineCogsByItsSlotsAndHasDryFriction)
+{
+    Drive own       = shipped();
+    own.motor.slots = 0;
+    MotorEffects e  = bench_scenario(own, {own, 0.05}, 1).motor_effects;
+    EXPECT_DOUBLE_EQ(e.cogging_amplitude_Nm, 0.05 * own.motor.rated_torque_Nm);
+    EXPECT_EQ(e.cogging_order, 12.0 * own.motor.pole_pairs);
+    EXPECT_DOUBLE_EQ(e.coulomb_friction_Nm, 0.02 * own.motor.rated_torque_Nm);
+    own.motor.slots = 18;
+    EXPECT_EQ(bench_scenario(own, {own, 0.05}, 1).motor_effects.cogging_order, 18.0);
+    EXPECT_EQ(bench_scenario(own, own, 1).motor_effects.cogging_amplitude_Nm, 0.0);
+}
+
 TEST(ServeControl, AMeasuredResonanceIsOnTheBench)
 {
     Drive own = shipped();

@@ -27,6 +27,7 @@ struct Options {
     int         control      = any_port;
     double      speed_factor = 1.0;
     double      end_s        = 0.0;
+    int         cogging      = 0;
     int         seed         = 1;
     bool        boot_rom     = false;
 };
@@ -36,6 +37,8 @@ void declare(OptionList &list, Options &o)
     list.text("DRIVE", o.drive, "drive file (TOML; default: the shipped ipmsm_390w)");
     list.text("--machine", o.machine,
               "drive file of the motor and encoder disc on the bench (default: those of DRIVE)");
+    list.number("--cogging", o.cogging, {0, 200},
+                "amplitude of its cogging, thousandths of the rated torque (default 0)");
     list.text("--pty", o.pty, "Modbus RTU on a pseudo-terminal of this name");
     list.number(
         "--tcp", o.tcp, {0, ports},
@@ -80,8 +83,9 @@ int run(const Options &o)
     if (!o.machine.empty()) {
         s.machine = read_drive_file(o.machine);
     }
-    s.end_s    = o.end_s;
-    s.boot_rom = o.boot_rom;
+    s.cogging_share = 1e-3 * o.cogging;
+    s.end_s         = o.end_s;
+    s.boot_rom      = o.boot_rom;
     if (o.boot_rom && s.pty.empty()) {
         throw InputError("--boot-rom: the ROM loads by a serial line; name one with --pty");
     }

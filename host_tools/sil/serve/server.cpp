@@ -59,7 +59,7 @@ bool is_text(const Octets &come)
 
 Server::Server(const Drive &drive, std::uint64_t seed, const ServeOptions &options)
     : options_(options), flash_(options.flash),
-      drive_(drive, options.machine.value_or(drive), seed, flash_.words()),
+      drive_(drive, {options.machine.value_or(drive), options.cogging_share}, seed, flash_.words()),
       pace_(options.speed_factor)
 {
     open(Kind::tcp, options.tcp);

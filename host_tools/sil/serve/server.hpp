@@ -21,7 +21,8 @@ struct ServeOptions {
     std::optional<int>   rtu_tcp; ///< port of RTU frames over TCP
     std::optional<int>   control; ///< port of control.hpp's commands
     std::optional<Drive> machine; ///< motor and disc on the bench; the drive's own when not given
-    std::string          flash;   ///< file that keeps the flash; none when empty
+    double               cogging_share = 0.0; ///< of the machine, as in Machine
+    std::string          flash;               ///< file that keeps the flash; none when empty
     double               speed_factor = 1.0;
     double               end_s        = 0.0; ///< simulated time after which it ends; 0: never
     bool                 boot_rom =

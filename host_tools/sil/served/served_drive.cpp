@@ -35,6 +35,9 @@ Controller bound(const Scenario &s)
 // Chosen: bearings, seals and fan of a small machine take one to three per cent of its rated torque.
 constexpr double dry_friction_share = 0.02;
 
+// Chosen: two slots for each phase and pole. Six would be the order of the dead time.
+constexpr int usual_slots_per_pair = 12;
+
 void require_same(const char *key, int drive, int machine)
 {
     if (drive != machine) {
@@ -70,8 +73,9 @@ double bench_friction_Nm(const Drive &machine)
     return m.viscous_friction_Nms > 0.0 ? 0.0 : dry_friction_share * m.rated_torque_Nm;
 }
 
-Scenario bench_scenario(const Drive &drive, const Drive &machine, std::uint64_t seed)
+Scenario bench_scenario(const Drive &drive, const Machine &bench, std::uint64_t seed)
 {
+    const Drive &machine = bench.drive;
     require_same("[motor] pole_pairs", drive.motor.pole_pairs, machine.motor.pole_pairs);
     require_same("[encoder] lines", drive.encoder.lines, machine.encoder.lines);
     Scenario s;
@@ -88,6 +92,13 @@ Scenario bench_scenario(const Drive &drive, const Drive &machine, std::uint64_t 
     s.plant_scale                       = scale_of(drive.motor, machine.motor);
     s.motor_effects                     = effects_of_drive(machine);
     s.motor_effects.coulomb_friction_Nm = bench_friction_Nm(machine);
+    if (bench.cogging_share > 0.0) {
+        const Motor &m                       = machine.motor;
+        s.motor_effects.cogging_amplitude_Nm = bench.cogging_share * m.rated_torque_Nm;
+        // Without dry friction a shaft at rest would swing in the cogging for seconds.
+        s.motor_effects.coulomb_friction_Nm = dry_friction_share * m.rated_torque_Nm;
+        s.motor_effects.cogging_order = m.slots > 0 ? m.slots : usual_slots_per_pair * m.pole_pairs;
+    }
     if (machine.saturation) {
         s.motor_effects.flux = saturated_motor(machine, machine.motor);
         s.plant_scale.erase("pm_flux_Wb"); // the map has them
@@ -99,7 +110,7 @@ Scenario bench_scenario(const Drive &drive, const Drive &machine, std::uint64_t 
     return s;
 }
 
-ServedDrive::ServedDrive(const Drive &drive, const Drive &machine, std::uint64_t seed,
+ServedDrive::ServedDrive(const Drive &drive, const Machine &machine, std::uint64_t seed,
                          const f28335::FlashWords &flash, bool own_stack)
     : scenario_(bench_scenario(drive, machine, seed)), controller_(bound(scenario_)),
       bench_(scenario_, 0), surroundings_(bench_, false, drive.board.dc_link_range_V, 1),

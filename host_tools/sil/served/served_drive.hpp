@@ -17,13 +17,22 @@
 
 namespace sdre {
 
+/// The machine on the bench. A drive file says what its motor and encoder disc are.
+struct Machine {
+    Machine(const Drive &like, double cogging = 0.0) : drive(like), cogging_share(cogging) {}
+
+    Drive drive;
+    double
+        cogging_share; ///< amplitude, of the rated torque; slots periods a turn, or 12 a pole pair
+};
+
 class ServedDrive {
 public:
     /// InputError or DesignError when the board cannot have the drive, or no gains exist.
-    /// @param machine Its motor and disc are on the bench; the firmware knows those of `drive`.
+    /// @param machine Is on the bench; the firmware knows the motor and disc of `drive`.
     /// @param flash   What its flash has at the start; empty: as from the factory.
     /// @param own_stack As of f28335::DeviceOptions.
-    ServedDrive(const Drive &drive, const Drive &machine, std::uint64_t seed,
+    ServedDrive(const Drive &drive, const Machine &machine, std::uint64_t seed,
                 const f28335::FlashWords &flash = {}, bool own_stack = f28335::can_switch_stacks);
     ServedDrive(const Drive &drive, std::uint64_t seed) : ServedDrive(drive, drive, seed) {}
 
@@ -140,6 +149,6 @@ double bench_friction_Nm(const Drive &machine);
 
 /// The scenario of a drive on its bench with a machine: realistic sensors and inverter, at rest, no load. InputError when the
 /// machine is none for this drive: other pole pairs or lines, or a value that the drive file has as 0.
-Scenario bench_scenario(const Drive &drive, const Drive &machine, std::uint64_t seed);
+Scenario bench_scenario(const Drive &drive, const Machine &machine, std::uint64_t seed);
 
 } // namespace sdre
