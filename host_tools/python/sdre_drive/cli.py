@@ -14,6 +14,7 @@ from typing_extensions import Annotated
 
 from sdre_drive import commission as finder
 from sdre_drive import discover, record, register_map, scope, session, show
+from sdre_drive.anticogging_command import anticogging
 from sdre_drive.bench_command import EPILOG, bench, state_beside
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.disc_command import disc_map
@@ -61,6 +62,7 @@ app = typer.Typer(
 )
 app.add_typer(params, name="params")
 app.add_typer(disc_map, name="disc-map")
+app.add_typer(anticogging, name="anticogging")
 
 
 def show_version(wanted: bool) -> None:

@@ -27,6 +27,7 @@ from sdre_drive.scope_facts import (
 NAMES = tuple(name for name, _ in register_map.SIGNALS)
 UNITS = dict(register_map.SIGNALS)
 PERIOD_S = 0.05
+LONGEST_WAY_S = 30.0  # chosen: for a picture that waits for nothing
 
 
 @dataclass(frozen=True)
@@ -122,6 +123,11 @@ def take(drive: Drive, setup: Setup, longest_s: float) -> Capture:
             raise DriveError(f"the trigger did not come within {longest_s:g} s")
         time.sleep(PERIOD_S)
     return read(drive, setup)
+
+
+def samples_of(drive: Drive) -> int:
+    """How many a picture has of each signal. That depends on the firmware's build."""
+    return len(take(drive, Setup(("SPEED",)), LONGEST_WAY_S).time_s)
 
 
 def record(drive: Drive) -> Capture:

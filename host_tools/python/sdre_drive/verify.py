@@ -33,11 +33,6 @@ def find_sil(given: str) -> str:
     return found
 
 
-def samples_of(drive: Drive) -> int:
-    """Length of a record; depends on the firmware's build."""
-    return len(scope.take(drive, scope.Setup(("SPEED",)), LONGEST_WAY_S).time_s)
-
-
 def programme(sil: str, drive_file: Path, samples: int, folder: Path) -> Dict[str, Any]:
     """Asks sdre-sil for that of a drive file, for a scope with so many samples."""
     file = folder / "programme.json"

@@ -10,7 +10,7 @@ from typing import Optional
 import typer
 from typing_extensions import Annotated
 
-from sdre_drive import record
+from sdre_drive import record, scope
 from sdre_drive import verify as verifier
 from sdre_drive.connection import Drive
 from sdre_drive.options import Port, Tcp, target
@@ -35,7 +35,7 @@ def verify(
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         with Drive(target(port, tcp)) as drive:
-            wanted = verifier.programme(program, drive_file, verifier.samples_of(drive), folder)
+            wanted = verifier.programme(program, drive_file, scope.samples_of(drive), folder)
             verifier.require_same(drive, wanted, drive_file)
             with progress("begins") as bar:
                 captures = verifier.Programme(drive, wanted, end).run(bar.stage)
