@@ -14,7 +14,7 @@ from types import SimpleNamespace
 from typing import Dict, List
 
 import pytest
-from conftest import Served
+from conftest import Served, serving
 from support import command, run_at, stay, until, while_it_runs
 
 from sdre_drive import faults, scope, scope_facts, session
@@ -153,6 +153,16 @@ def test_stop_waits_for_the_ramp_unless_it_may_coast(served: Served, drive: Driv
     run_at(drive, 300.0)
     assert while_it_runs(drive, "stop", "--coast", *served.options()).returncode == 0
     assert served.bench().ask("state")["speed_e_radps"] > 200.0
+
+
+def test_a_shaft_that_coasts_is_awaited_before_the_angle_is_sought(tmp_path: Path) -> None:
+    with serving(tmp_path, "--speed-factor", "2") as served, Drive(served.target()) as drive:
+        run_at(drive, 2.0)
+        assert while_it_runs(drive, "stop", "--coast", *served.options()).returncode == 0
+        served.bench().ask("power_cycle")
+        assert abs(served.bench().ask("state")["speed_e_radps"]) > 0.5  # no index within its way
+        done = command("run", "100", "--for", "1", *served.options())
+        assert done.returncode == 0, done  # the alignment would refuse it
 
 
 def test_a_negative_speed_needs_no_dashes(served: Served, drive: Drive) -> None:

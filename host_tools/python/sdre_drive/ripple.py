@@ -30,7 +30,7 @@ ONCE_OR_TWICE = (1, 2)  # a turn: a disc that runs out, a bent shaft
 
 @dataclass(frozen=True)
 class Ripple:
-    """Of the speed, in steady state."""
+    """Ripple of the speed in steady state."""
 
     speed_rpm: float
     pole_pairs: int
@@ -48,7 +48,7 @@ class Ripple:
         return self.amplitude_rpm[order - 1] if order <= len(self.amplitude_rpm) else 0.0
 
     def words(self, order: int) -> str:
-        """What makes such an order."""
+        """Says what makes such an order."""
         pairs = self.pole_pairs
         causes = {
             pairs: "offset of a current sensor",

@@ -8,9 +8,10 @@ import threading
 import time
 from typing import Callable, Iterator, Optional
 
-from sdre_drive import faults
+from sdre_drive import faults, register_map
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.registers import (
+    ANGLE_KNOWN,
     PROFILE_POSITION,
     PROFILE_VELOCITY,
     ControlWord,
@@ -28,6 +29,9 @@ HALT = 1 << 8  # of the control word: to zero speed, and stays enabled
 STILL_E_RADPS = 2.0  # chosen: less than the estimate's noise at rest would never come
 STILL_READINGS = 3  # in a row: a shaft that only passes zero does not stand
 SLOWER_E_RADPS = 1.0  # in STOP_WAIT_S: with less a ramp does not end
+REST_CNT = 4  # as the alignment's (host_tools/design/board): more is no rest
+REST_S = 0.15  # chosen: half as long again as it watches
+REST_WAIT_S = 30.0  # chosen: a motor with bearings alone has come to rest; what turns on is driven
 MOST_ERRORS = 3  # in a row; a single lost answer is nothing
 
 
@@ -76,6 +80,21 @@ def require_speed(drive: Drive, speed_e_radps: float) -> None:
         )
 
 
+def wait_for_rest(drive: Drive) -> None:
+    """Waits for a shaft that coasts, REST_WAIT_S at most: an alignment refuses one that turns."""
+    known = drive.constants()
+    rest, longest = REST_S / known.period_s, REST_WAIT_S / known.period_s
+    first = mark = drive.values(register_map.LIVE)
+    while True:
+        now = drive.values(register_map.LIVE)
+        moved_cnt = math.remainder(now["POSITION"] - mark["POSITION"], known.encoder_counts)
+        if abs(moved_cnt) > REST_CNT:
+            mark = now
+        if now["TICKS"] > min(mark["TICKS"] + rest, first["TICKS"] + longest):
+            return
+        time.sleep(PERIOD_S / 2)
+
+
 def start(drive: Drive, speed_e_radps: float, mode: int = PROFILE_VELOCITY) -> None:
     """Starts it in a mode of operation, or gives one that runs in it this speed (rad/s
     electrical)."""
@@ -93,6 +112,8 @@ def start(drive: Drive, speed_e_radps: float, mode: int = PROFILE_VELOCITY) -> N
     if in_the_way:
         raise DriveError("the drive cannot start: " + " ".join(e.meaning for e in in_the_way))
     drive.write("MODE_OF_OPERATION", mode)
+    if not reading.statusword & ANGLE_KNOWN:
+        wait_for_rest(drive)
     drive.set_run(False)  # enabling has to rise
     drive.set_run(True)
     reading = wait_for(drive, lambda r: r.mode != Mode.READY, ANSWER_WAIT_S)
