@@ -47,12 +47,12 @@ bool is_candidate(const Drive &own, const Drive &found)
 using Value     = std::function<double(const Point &)>;
 using Certified = std::function<bool(const Point &)>;
 
-/// noc_shaft's are those of goals from physics, and the others' are chosen.
+/// noc_shaft's are its own and those of goals from physics, and the others' are chosen.
 std::vector<Point> shaft_starts(const Drive &drive)
 {
     std::vector<Point> starts{start, slow_start, slower_start};
     if (law_design(drive).shaft_states) {
-        starts.clear();
+        starts.assign(1, point_of(drive));
         for (const Drive &d : own_plant_starts(drive)) {
             starts.push_back(point_of(d));
         }
@@ -60,16 +60,21 @@ std::vector<Point> shaft_starts(const Drive &drive)
     return starts;
 }
 
-/// The best of several starts; certified ones come first.
-Point best_of(const std::vector<Point> &starts, const Value &value, const Certified &certified)
+/// The best of several starts; certified ones come first. What is not certified is moved until it is, by `strict`.
+Point best_of(const std::vector<Point> &starts, const Value &value, const Value &strict,
+              const Certified &certified)
 {
     Point  best{};
     double least = 1e300;
     bool   found = false;
     for (const Point &from : starts) {
-        const Point  x      = minimise_again(from, value);
-        const double now    = value(x);
-        const bool   passes = certified(x);
+        Point x      = minimise_again(from, value);
+        bool  passes = certified(x);
+        if (!passes) {
+            x      = improve(x, strict);
+            passes = certified(x);
+        }
+        const double now = value(x);
         if ((passes && !found) || (passes == found && now < least)) {
             best  = x;
             least = now;
@@ -102,12 +107,14 @@ TuneResult tune_drive(const Drive &own_drive, const TuneSpec &wanted, const Tune
         return s.value;
     };
     const auto passes = [&](const Point &x) { return is_certified(with_weights(drive, spec, x)); };
-    Point found  = elastic ? best_of(shaft_starts(drive), value, passes) : minimise(start, value);
+    const auto strict = [&](const Point &x) {
+        return value(x) + verdict_penalty(with_weights(drive, spec, x));
+    };
+    Point found =
+        elastic ? best_of(shaft_starts(drive), value, strict, passes) : minimise(start, value);
     result.drive = with_weights(drive, spec, found);
-    if ((elastic || best < near_goal) && !is_certified(result.drive)) {
-        found        = improve(found, [&](const Point &x) {
-            return value(x) + verdict_penalty(with_weights(drive, spec, x));
-        });
+    if (!elastic && best < near_goal && !is_certified(result.drive)) {
+        found        = improve(found, strict);
         result.drive = with_weights(drive, spec, found);
     }
     Score s = score(result.drive, spec);
