@@ -60,7 +60,7 @@ std::vector<Point> shaft_starts(const Drive &drive)
     return starts;
 }
 
-/// The best of several starts; certified ones come first. What is not certified is moved until it is, by `strict`.
+/// Returns the best of several starts; certified ones come first. `strict` moves uncertified ones until they are certified.
 Point best_of(const std::vector<Point> &starts, const Value &value, const Value &strict,
               const Certified &certified)
 {
