@@ -12,7 +12,7 @@ from typing import Callable, List, Sequence, Tuple
 
 from sdre_drive import record, register_map, scope, session
 from sdre_drive.connection import Drive, DriveError
-from sdre_drive.registers import Constants, Mode, Reading
+from sdre_drive.registers import Constants
 from sdre_drive.units import rpm_of
 
 FORMAT = 0xD15C
@@ -222,19 +222,6 @@ def require_possible(known: Constants, speed_e_radps: float) -> None:
         )
 
 
-def _settle(drive: Drive, speed_e_radps: float) -> None:
-    session.start(drive, speed_e_radps)
-
-    def steady(r: Reading) -> bool:
-        session.require_moving(r)
-        return r.mode == Mode.RUN and abs(r.speed_e_radps / speed_e_radps - 1.0) < SPEED_WITHIN
-
-    first = session.wait_for(drive, steady, LONGEST_S)
-    if first is None:
-        raise DriveError("the drive does not reach the speed")
-    session.wait_for(drive, lambda r: r.time_s > first.time_s + SETTLE_S, LONGEST_S)
-
-
 def take(drive: Drive) -> Track:
     """One capture of a steady shaft; others are thrown away."""
     setup = scope.Setup(SIGNALS)
@@ -262,7 +249,7 @@ def captures(
     readings = 0
     try:
         for k, share in enumerate(SPEEDS):
-            _settle(drive, share * speed_e_radps)
+            session.run_steady(drive, share * speed_e_radps, SPEED_WITHIN, SETTLE_S, LONGEST_S)
             while readings < wanted * (k + 1) / len(SPEEDS) or len(tracks) < 2 * (k + 1):
                 tracks.append(take(drive))
                 readings += max(len(tracks[-1].edges) - 2 * WINDOW, 1)
@@ -278,7 +265,7 @@ def check(drive: Drive, speed_e_radps: float, count: int) -> Tuple[int, float]:
     """(register DISC_MAP, scatter of the readings) at this speed. It stops the drive in the end."""
     require_possible(drive.constants(), speed_e_radps)
     try:
-        _settle(drive, speed_e_radps)
+        session.run_steady(drive, speed_e_radps, SPEED_WITHIN, SETTLE_S, LONGEST_S)
         session.wait_for(drive, lambda _: state(drive) not in (NO_INDEX, COMPARES), LONGEST_S)
         tracks = [take(drive) for _ in range(count)]
         found = state(drive)

@@ -12,7 +12,7 @@ from typing import Any, Callable, Dict, List, Sequence
 
 from sdre_drive import scope, session
 from sdre_drive.connection import Drive, DriveError
-from sdre_drive.registers import Constants, Mode, Reading
+from sdre_drive.registers import Constants
 from sdre_drive.units import e_radps_of, rpm_of
 
 SIGNALS = ("THETA", "SPEED")
@@ -128,19 +128,6 @@ def decimation_of(known: Constants, speed_rpm: float, samples: int) -> int:
     return math.ceil(SPARE * periods / samples)
 
 
-def _settle(drive: Drive, speed_e_radps: float) -> None:
-    session.start(drive, speed_e_radps)
-
-    def there(r: Reading) -> bool:
-        session.require_moving(r)
-        return r.mode == Mode.RUN and abs(r.speed_e_radps / speed_e_radps - 1.0) < SPEED_WITHIN
-
-    first = session.wait_for(drive, there, LONGEST_S)
-    if first is None:
-        raise DriveError("the drive does not reach the speed")
-    session.wait_for(drive, lambda r: r.time_s > first.time_s + SETTLE_S, LONGEST_S)
-
-
 def measure(drive: Drive, speed_rpm: float, show: Callable[[float], None]) -> Ripple:
     """Runs the drive at this speed of the shaft. It stops the drive in the end, whatever
     happens."""
@@ -151,7 +138,7 @@ def measure(drive: Drive, speed_rpm: float, show: Callable[[float], None]) -> Ri
     session.require_speed(drive, speed)
     turns: List[List[float]] = []
     try:
-        _settle(drive, speed)
+        session.run_steady(drive, speed, SPEED_WITHIN, SETTLE_S, LONGEST_S)
         while len(turns) < CAPTURES:
             session.require_moving(drive.read())
             thetas, speeds = scope.take(drive, setup, LONGEST_S).values

@@ -82,17 +82,18 @@ def require_speed(drive: Drive, speed_e_radps: float) -> None:
 
 def wait_for_rest(drive: Drive) -> None:
     """Waits for a shaft that coasts, REST_WAIT_S at most: an alignment refuses one that turns."""
-    known = drive.constants()
-    rest, longest = REST_S / known.period_s, REST_WAIT_S / known.period_s
-    first = mark = drive.values(register_map.LIVE)
-    while True:
-        now = drive.values(register_map.LIVE)
-        moved_cnt = math.remainder(now["POSITION"] - mark["POSITION"], known.encoder_counts)
-        if abs(moved_cnt) > REST_CNT:
-            mark = now
-        if now["TICKS"] > min(mark["TICKS"] + rest, first["TICKS"] + longest):
-            return
-        time.sleep(PERIOD_S / 2)
+    counts = drive.constants().encoder_counts
+    mark_s, mark_cnt = math.inf, 0.0
+
+    def rests(reading: Reading) -> bool:
+        nonlocal mark_s, mark_cnt
+        now_cnt = drive.values(register_map.LIVE)["POSITION"]
+        restarted = reading.time_s < mark_s  # or the first reading
+        if restarted or abs(math.remainder(now_cnt - mark_cnt, counts)) > REST_CNT:
+            mark_s, mark_cnt = reading.time_s, now_cnt
+        return reading.time_s > mark_s + REST_S
+
+    wait_for(drive, rests, REST_WAIT_S)
 
 
 def start(drive: Drive, speed_e_radps: float, mode: int = PROFILE_VELOCITY) -> None:
@@ -121,6 +122,24 @@ def start(drive: Drive, speed_e_radps: float, mode: int = PROFILE_VELOCITY) -> N
         raise DriveError("the drive does not start")
     if reading.mode == Mode.FAULT:
         raise Tripped(reading)
+
+
+def run_steady(
+    drive: Drive, speed_e_radps: float, within: float, settle_s: float, longest_s: float
+) -> None:
+    """Starts it at this speed (rad/s electrical), and waits until the speed is there within this
+    share, and settle_s more."""
+    start(drive, speed_e_radps)
+
+    def is_there(reading: Reading) -> bool:
+        require_moving(reading)
+        off = abs(reading.speed_e_radps / speed_e_radps - 1.0)
+        return reading.mode == Mode.RUN and off < within
+
+    first = wait_for(drive, is_there, longest_s)
+    if first is None:
+        raise DriveError("the drive does not reach the speed")
+    wait_for(drive, lambda r: r.time_s > first.time_s + settle_s, longest_s)
 
 
 class _Ramp:
