@@ -23,8 +23,9 @@ struct TuneResult {
 /// Called now and then with the evaluations so far and the best worst ratio.
 using TuneProgress = std::function<void(int evaluations, double worst_ratio)>;
 
-/// Searches the logarithms of six weights from a fixed start, so the same input gives the same weights, with every compiler.
-/// Best weights that are not certified are moved until they are, or as near as a short search comes. The drive's own certified
+/// Searches the logarithms of six weights from fixed starts, of noc_shaft from the drive's own weights too. The same input gives the
+/// same weights, with every compiler. Best weights of a start that are not certified are moved until they are, or as near as a short
+/// search comes. The drive's own certified
 /// weights stay when the found ones are not better by 3 %. With a coupling that
 /// is not rigid, and where the found weights are not certified with them, the drive's positions follow, see with_position().
 /// DesignError when no stable design was found.
