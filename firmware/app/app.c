@@ -5,8 +5,7 @@
 
 #include "app_believe.h"
 #include "app_control.h"
-#include "app_loader.h"
-#include "app_modbus.h"
+#include "app_line.h"
 #include "app_modes.h"
 #include "app_record.h"
 #include "app_scope.h"
@@ -63,12 +62,8 @@ static struct {
     app_record_t record;
 } traces;
 
-/* Used by the background only. */
+/* Used by the background only, as app_line. */
 static struct {
-    app_modbus_t       modbus;
-    app_registers_t    registers;
-    app_loader_t       loader;
-    app_parameters_t   parameters;
     app_status_t       read; /* may mix two ticks while it is read */
     app_watch_tick_t   watch;
     app_watch_memory_t memory;
@@ -142,7 +137,7 @@ static void read_status(void)
         const uint32_t before = shared.ticks;
         read_once(&background_side.read);
         if (before == shared.ticks) {
-            background_side.registers.status = background_side.read;
+            app_line.registers.status = background_side.read;
             break;
         }
     }
@@ -152,16 +147,16 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
 {
     const ctl_status_t modes = init_tick_side(config, drive);
     const ctl_status_t modbus =
-        app_modbus_init(&background_side.modbus, tick_side.config.modbus_gap_ticks);
+        app_modbus_init(&app_line.modbus, tick_side.config.modbus_gap_ticks);
     const ctl_status_t registers =
-        app_registers_init(&background_side.registers, &tick_side.config, drive);
+        app_registers_init(&app_line.registers, &tick_side.config, drive);
 
     app_scope_init(&traces.scope);
     app_record_init(&traces.record);
-    background_side.registers.scope  = &traces.scope;
-    background_side.registers.record = &traces.record;
-    background_side.registers.map    = &tick_side.modes.commission.module.map;
-    background_side.loader.restart   = false;
+    app_line.registers.scope  = &traces.scope;
+    app_line.registers.record = &traces.record;
+    app_line.registers.map    = &tick_side.modes.commission.module.map;
+    app_line.loader.restart   = false;
     background_side.served_ticks     = 0UL;
     app_watch_tick_reset(&background_side.watch);
 #if APP_BELIEVE
@@ -397,10 +392,10 @@ void app_tick(void)
  * on by then, the restart is cancelled. */
 static void restart_when_asked(uint32_t now_ticks)
 {
-    app_loader_t    *l    = &background_side.loader;
-    app_registers_t *r    = &background_side.registers;
+    app_loader_t    *l    = &app_line.loader;
+    app_registers_t *r    = &app_line.registers;
     const bool       on   = r->status.gate_enable;
-    const bool       idle = app_modbus_is_quiet(&background_side.modbus, now_ticks);
+    const bool       idle = app_modbus_is_quiet(&app_line.modbus, now_ticks);
     const bool store = !on && (r->requested.store_command != (uint16_t)APP_PARAMETERS_NO_COMMAND);
 
     l->restart = l->restart && !on;
@@ -465,7 +460,7 @@ static void choose_constants(const app_registers_t *r)
 
 void app_background(void)
 {
-    app_registers_t *r         = &background_side.registers;
+    app_registers_t *r         = &app_line.registers;
     const uint32_t   now_ticks = shared.ticks;
 
     if (!app_watch_memory_pass(&background_side.memory) || !board_memory_is_whole()) {
@@ -484,8 +479,8 @@ void app_background(void)
     app_registers_see_inertia(r, believed());
     app_registers_see_ring(r);
     app_registers_see_trim(r, &tick_side.modes.scale);
-    app_parameters_rest(&background_side.parameters, (float)now_ticks * tick_side.drive->ts_s);
-    app_modbus_poll(&background_side.modbus, r, now_ticks);
+    app_parameters_rest(&app_line.parameters, (float)now_ticks * tick_side.drive->ts_s);
+    app_modbus_poll(&app_line.modbus, r, now_ticks);
     choose_constants(r);
     if (r->changed && app_command_write(&r->requested.objects)) {
         r->changed = false;
@@ -495,8 +490,8 @@ void app_background(void)
 
 void app_tell_image(const app_image_t *image)
 {
-    app_loader_init(&background_side.loader, image);
-    background_side.registers.loader = &background_side.loader;
+    app_loader_init(&app_line.loader, image);
+    app_line.registers.loader = &app_line.loader;
     tick_side.modes.locked           = tick_side.modes.locked || image->fallback;
 #if APP_DISC_MAP
     app_disc_take(&tick_side.modes.angle.disc, image->disc);
@@ -510,13 +505,13 @@ void app_tell_image(const app_image_t *image)
 
 void app_take_parameters(app_parameters_done_t done)
 {
-    app_registers_t *r = &background_side.registers;
+    app_registers_t *r = &app_line.registers;
 
-    app_parameters_take(&background_side.parameters, r, done);
+    app_parameters_take(&app_line.parameters, r, done);
     tick_side.modes.locked =
-        tick_side.modes.locked || (background_side.parameters.state == APP_PARAMETERS_LOST);
+        tick_side.modes.locked || (app_line.parameters.state == APP_PARAMETERS_LOST);
     board_line_set(&r->requested.line);
-    app_modbus_follow(&background_side.modbus, &r->requested.line, tick_side.drive->ts_s,
+    app_modbus_follow(&app_line.modbus, &r->requested.line, tick_side.drive->ts_s,
                       tick_side.config.modbus_gap_ticks);
 }
 
@@ -533,7 +528,7 @@ bool app_command_write(const app_objects_t *command)
 app_status_t app_status_read(void)
 {
     read_status();
-    return background_side.registers.status;
+    return app_line.registers.status;
 }
 
 const drive_t *app_drive(void)

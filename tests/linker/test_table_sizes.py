@@ -24,6 +24,7 @@ COMPILER = [
     "--target=arm-none-eabi",
     "-std=c99",
     "-ffreestanding",
+    "-fcommon",  # .comm of every variable
     "-nostdlibinc",
     "-isystem",
     str(ROOT / "tests/target/include"),
@@ -160,7 +161,7 @@ class TableSizes(unittest.TestCase):
                 plain = variables(law) + words(law)["in_force"]
                 more = kept + sizes["in_force"] - plain
                 print(f"{law}: a map of the disc takes {more} words of data")
-                self.assertEqual(more, 32, "docs/disc_map.md")
+                self.assertEqual(more, 30, "docs/disc_map.md")
                 total = kept + sizes["in_force"] + sizes["entry"] + SPARE
                 self.assertLessEqual(total, (1 - LEFT) * room)
 

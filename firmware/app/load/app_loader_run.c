@@ -5,35 +5,31 @@
 
 #include <stddef.h>
 
-#include "app_modbus.h"
+#include "app_line.h"
 
 static struct {
-    app_loader_t     loader;
-    app_registers_t  registers;
-    app_parameters_t parameters;
-    app_modbus_t     modbus;
-    app_config_t     config; /**< copy: the loader overwrites the image */
-    drive_config_t   drive;
-    uint32_t         tick_cycles;
-    uint32_t         cycles; /**< at the last whole tick */
-    uint32_t         ticks;
+    app_config_t   config; /**< copy: the loader overwrites the image */
+    drive_config_t drive;
+    uint32_t       tick_cycles;
+    uint32_t       cycles; /**< at the last whole tick */
+    uint32_t       ticks;
 } side;
 
 void app_loader_start(app_image_t *image)
 {
     side.drive = image->image.drive;
     app_config_for(&side.config, &image->image.app, side.drive.hardware.updates_per_period);
-    app_loader_init(&side.loader, image);
-    side.loader.state = APP_LOADER_IDLE;
-    side.loader.image = image;
-    (void)app_registers_init(&side.registers, &side.config, &side.drive);
-    side.registers.loader = &side.loader;
-    (void)app_modbus_init(&side.modbus, side.config.modbus_gap_ticks);
-    app_parameters_take(&side.parameters, &side.registers, APP_PARAMETERS_NOT_ASKED);
-    side.registers.parameters =
+    app_loader_init(&app_line.loader, image);
+    app_line.loader.state = APP_LOADER_IDLE;
+    app_line.loader.image = image;
+    (void)app_registers_init(&app_line.registers, &side.config, &side.drive);
+    app_line.registers.loader = &app_line.loader;
+    (void)app_modbus_init(&app_line.modbus, side.config.modbus_gap_ticks);
+    app_parameters_take(&app_line.parameters, &app_line.registers, APP_PARAMETERS_NOT_ASKED);
+    app_line.registers.parameters =
         NULL; /* the loader uses address and line only; it stores no parameters */
-    board_line_set(&side.registers.requested.line);
-    app_modbus_follow(&side.modbus, &side.registers.requested.line, side.drive.ts_s,
+    board_line_set(&app_line.registers.requested.line);
+    app_modbus_follow(&app_line.modbus, &app_line.registers.requested.line, side.drive.ts_s,
                       side.config.modbus_gap_ticks);
     side.tick_cycles = side.config.board.pwm_cycles / side.drive.hardware.updates_per_period;
     side.cycles      = board_cycles();
@@ -51,12 +47,12 @@ static void count_ticks(void)
 void app_loader_pass(void)
 {
     count_ticks();
-    app_modbus_poll(&side.modbus, &side.registers, side.ticks);
-    if (!app_modbus_is_quiet(&side.modbus, side.ticks)) {
+    app_modbus_poll(&app_line.modbus, &app_line.registers, side.ticks);
+    if (!app_modbus_is_quiet(&app_line.modbus, side.ticks)) {
         return; /* an answer is being sent */
     }
-    if (side.loader.restart) {
-        board_restart(side.loader.enter);
+    if (app_line.loader.restart) {
+        board_restart(app_line.loader.enter);
     }
-    app_loader_work(&side.loader);
+    app_loader_work(&app_line.loader);
 }

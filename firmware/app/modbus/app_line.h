@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file app_line.h
+ * @brief What serves the line: of the application or of the loader.
+ *
+ * A start runs one of them until the next restart. So both have the same memory.
+ */
+#ifndef APP_LINE_H
+#define APP_LINE_H
+
+#include "app_loader.h"
+#include "app_modbus.h"
+#include "app_parameters.h"
+#include "app_registers.h"
+
+typedef struct {
+    app_modbus_t     modbus;
+    app_registers_t  registers;
+    app_loader_t     loader;
+    app_parameters_t parameters;
+} app_line_t;
+
+/** Background only. */
+extern app_line_t app_line;
+
+#endif /* APP_LINE_H */
