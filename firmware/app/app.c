@@ -153,11 +153,11 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
 
     app_scope_init(&traces.scope);
     app_record_init(&traces.record);
-    app_line.registers.scope  = &traces.scope;
-    app_line.registers.record = &traces.record;
-    app_line.registers.map    = &tick_side.modes.commission.module.map;
-    app_line.loader.restart   = false;
-    background_side.served_ticks     = 0UL;
+    app_line.registers.scope     = &traces.scope;
+    app_line.registers.record    = &traces.record;
+    app_line.registers.map       = &tick_side.modes.commission.module.map;
+    app_line.loader.restart      = false;
+    background_side.served_ticks = 0UL;
     app_watch_tick_reset(&background_side.watch);
 #if APP_BELIEVE
     app_believe_init(&background_side.believe, drive);
@@ -492,7 +492,7 @@ void app_tell_image(const app_image_t *image)
 {
     app_loader_init(&app_line.loader, image);
     app_line.registers.loader = &app_line.loader;
-    tick_side.modes.locked           = tick_side.modes.locked || image->fallback;
+    tick_side.modes.locked    = tick_side.modes.locked || image->fallback;
 #if APP_DISC_MAP
     app_disc_take(&tick_side.modes.angle.disc, image->disc);
     tick_side.disc = tick_side.modes.angle.disc.octets;

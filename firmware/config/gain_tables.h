@@ -3,7 +3,7 @@
  *
  * generator  sdre-gains 1.0.0, schema 1
  * drive      ipmsm_390w
- * digest     fnv1a64:2d3ceeadd1b197bf (of the normalised drive file)
+ * digest     fnv1a64:72b598be4233e5e2 (of the normalised drive file)
  * method     EQ-NOSC-2 with N = 2, EQ-NODO-ENCODER-3 with Nd = 1
  * checked    relative residuals <= 1e-16
  *            controller: slowest pole -508 1/s, sampled spectral radius 0.899, |e_iq| <= 8 A
@@ -20,7 +20,7 @@
 
 #define GAIN_TABLES_SCHEMA 1
 #define GAIN_TABLES_NAME   "ipmsm_390w"
-#define GAIN_TABLES_DIGEST "fnv1a64:2d3ceeadd1b197bf"
+#define GAIN_TABLES_DIGEST "fnv1a64:72b598be4233e5e2"
 
 extern const drive_config_t gain_tables_drive;
 

@@ -8,6 +8,7 @@
 static bool limits_ok(const drive_config_t *c)
 {
     return base_in_range(c->ts_s, 1.0e-5f, 1.0e-2f) && check_positive(c->current_max_A) &&
+           check_positive(c->rated_current_A) && check_positive(c->rated_torque_Nm) &&
            check_positive(c->trip_current_A) && (c->trip_current_A > c->current_max_A) &&
            check_positive(c->trip_speed_e_radps) && check_positive(c->speed_max_e_radps) &&
            (c->speed_max_e_radps <= c->trip_speed_e_radps) && check_positive(c->dc_link_min_V) &&
@@ -19,7 +20,9 @@ ctl_status_t drive_config_check(const drive_config_t *c)
 {
     const bool law_ok = (c->law != NULL) && (c->constants != NULL) && c->law->check(c);
 
-    return (law_ok && limits_ok(c) && motor_check(&c->motor) && dead_time_check(&c->dead_time))
+    const bool can = law_ok && (!c->torques || c->law->takes_torque);
+
+    return (can && limits_ok(c) && motor_check(&c->motor) && dead_time_check(&c->dead_time))
                ? CTL_OK
                : CTL_BAD_CONFIG;
 }

@@ -34,6 +34,9 @@ typedef struct drive_config {
     bool  overmodulation;     /**< voltages may use the hexagon outside the circle */
     motor_reduced_t    motor;
     dead_time_config_t dead_time;
+    float              rated_current_A; /**< peak, with the rated torque: 6075h; > 0 */
+    float              rated_torque_Nm; /**< 6076h; > 0 */
+    bool               torques; /**< the law accepts torques too; only if law_t.takes_torque */
     drive_hardware_t   hardware;
     const law_t       *law;       /**< control law: samples to voltage */
     const void        *constants; /**< of that law: law_noc_config_t for law_noc and so on */

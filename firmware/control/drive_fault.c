@@ -1,10 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 #include "drive_fault.h"
 
-bool drive_fault_position_ok(const drive_config_t *c, const position_command_t *p)
+#include <stddef.h>
+
+static bool is_good_position(const drive_config_t *c, const position_command_t *p)
 {
     return c->positions && position_ok(&p->actual) && position_ok(&p->target) &&
            position_profile_is_any(&p->profile);
+}
+
+static bool is_good_torque(const drive_config_t *c, const torque_command_t *t)
+{
+    return c->torques && base_within(t->share, TORQUE_SHARE_MAX) &&
+           base_in_range(t->speed_max_e_radps, 0.0f, c->speed_max_e_radps);
+}
+
+bool drive_fault_aim_ok(const drive_config_t *c, const law_aim_t *aim)
+{
+    const bool moves = aim->position != NULL;
+
+    return (moves && is_good_position(c, aim->position)) ||
+           (!moves && (aim->torque != NULL) && is_good_torque(c, aim->torque));
 }
 
 /* Uncertainty of the angle and both times of edges: none negative, and a NaN or an infinity shows

@@ -16,16 +16,16 @@
 /** Exceeds every standstill; finite, so that divisions by it are defined. */
 #define DRIVE_FAULT_TIMES_MAX_s 1.0e9f
 
-/** True if the drive takes positions and each number of the command is in range. Context: control
+/** True if the drive takes what the run follows and each number of it is in range. Context: control
  * ISR. */
-bool drive_fault_position_ok(const drive_config_t *c, const position_command_t *p);
+bool drive_fault_aim_ok(const drive_config_t *c, const law_aim_t *aim);
 
-/** True for a speed in range, or for a position if the drive accepts positions. Inline, because a
- * call costs more than the comparison of a speed run. Context: control ISR. */
+/** True for a speed in range, or for a position or a torque if the drive accepts them. Inline,
+ * because a call costs more than the comparison of a speed run. Context: control ISR. */
 static inline bool drive_fault_command_ok(const drive_config_t *c, const drive_command_t *command)
 {
-    return (command->position == NULL) ? base_within(command->omega_e_radps, c->speed_max_e_radps)
-                                       : drive_fault_position_ok(c, command->position);
+    return (command->aim == NULL) ? base_within(command->omega_e_radps, c->speed_max_e_radps)
+                                  : drive_fault_aim_ok(c, command->aim);
 }
 
 /** The first fault of a sample or a command, or none. Context: control ISR. */

@@ -204,12 +204,11 @@ static drive_fault_t watch_motion(drive_t *d, const drive_sample_t *sample, floa
 static drive_fault_t watch_in_turn(drive_t *d, const drive_sample_t *sample,
                                    const drive_command_t *command, float change_A)
 {
-    const float aim_e_radps =
-        (command->position == NULL) ? command->omega_e_radps : d->answer.profile_e_radps;
-
-    return (d->motion_watch.look == MOTION_WATCH_LOOK_CURRENTS)
-               ? look_at_currents(d, sample, change_A)
-               : watch_motion(d, sample, aim_e_radps);
+    if (d->motion_watch.look == MOTION_WATCH_LOOK_CURRENTS) {
+        return look_at_currents(d, sample, change_A);
+    }
+    return watch_motion(
+        d, sample, (command->aim == NULL) ? command->omega_e_radps : d->answer.profile_e_radps);
 }
 
 static bridge_t run(drive_t *d, const drive_sample_t *sample, const drive_command_t *command,
@@ -222,7 +221,7 @@ static bridge_t run(drive_t *d, const drive_sample_t *sample, const drive_comman
 
     const law_input_t in = {.sample          = sample,
                             .command_e_radps = command->omega_e_radps,
-                            .position        = command->position,
+                            .aim             = command->aim,
                             .v_V             = d->v_V,
                             .derating        = base_clamp(command->derating, 0.0f, 1.0f)};
 

@@ -33,8 +33,7 @@ typedef struct {
     bool  run;           /**< false opens the bridge */
     float
         derating; /**< unusable share of the current limit, 0 .. 1; for laws with near_optimal.h */
-    const position_command_t
-        *position; /**< reference position; NULL: the speed is commanded instead */
+    const law_aim_t *aim; /**< position or torque; NULL: the speed is commanded */
 } drive_command_t;
 
 typedef enum { DRIVE_OFF = 0, DRIVE_RUN, DRIVE_FAULT } drive_state_t;
@@ -106,7 +105,7 @@ void drive_adopt(drive_t *d, const drive_config_t *next);
  *
  * @param d       Drive.
  * @param sample  Measurements of this instant.
- * @param command Reference speed or position, and the run flag.
+ * @param command Reference speed, position or torque, and the run flag.
  * @return        Duty ratios for the next period and the gate request for now.
  *
  * Context: control ISR. Bounded: the only loops are sums of fixed length in the law.

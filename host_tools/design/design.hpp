@@ -65,6 +65,7 @@ struct Design {
     GainSeries                nosc;     ///< and in the certificate: laws of near optimal control
     GainSeries                nodo;     ///< the same, but for noc_h
     std::optional<GainSeries> position; ///< drives with [position]; a state more
+    std::optional<GainSeries> torque;   ///< laws that follow a torque; 2 x 2, of order 0
     std::optional<HarmonicDesign> harmonics; ///< noc_h only
     HarmonicCheck                 harmonic_check;
     std::optional<ServoDesign>    servo;    ///< laws of paper B

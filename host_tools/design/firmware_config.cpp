@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "design/firmware_config.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "design/sampled_model.hpp"
 #include "design/trip_levels.hpp"
 
 namespace sdre {
@@ -8,6 +12,14 @@ namespace {
 
 // Chosen: 2.5 % of the current limit, ten times the rms noise of the shipped board's sensors.
 constexpr double dead_time_fade_ratio = 0.025;
+
+/// The MTPA curve has this current at the rated torque. It is within the current limit.
+double rated_current_A(const Design &d)
+{
+    const Motor &m    = d.drive.motor;
+    const double iq_A = mtpa_iq_A(m, d.l, m.rated_torque_Nm, m.max_current_A);
+    return std::min(std::hypot(iq_A, mtpa_id_A(d.l, iq_A)), m.max_current_A);
+}
 
 } // namespace
 
@@ -20,12 +32,15 @@ drive_config_t common_config(const Design &d)
     drive_config_t c{};
     c.ts_s               = single(control_period_s(d.drive));
     c.current_max_A      = single(m.max_current_A);
+    c.rated_current_A    = single(rated_current_A(d));
+    c.rated_torque_Nm    = single(m.rated_torque_Nm);
     c.trip_current_A     = single(trip_current_A(d.drive));
     c.trip_speed_e_radps = single(trip_speed_e_radps(d.drive));
     c.speed_max_e_radps  = single(largest_command_e_radps(d.drive));
     c.dc_link_min_V      = single(trip_dc_link_min_V(d.drive));
     c.dc_link_max_V      = single(trip_dc_link_max_V(d.drive));
     c.positions          = d.drive.position.has_value();
+    c.torques            = d.drive.torque && takes_torque(d.drive);
     c.overmodulation     = inv.overmodulation;
 
     c.motor = {single(l[1]),  single(l[2]),       single(l[3]),      single(l[4]), single(l[5]),

@@ -23,6 +23,9 @@ constexpr double sweep_from     = 1e-4; // of the sampling rate
 constexpr int    peak_halvings  = 60;
 constexpr double golden_section = 0.6180339887498949;
 
+constexpr double shaft_mode_share =
+    0.9; // chosen: the mode is then as far from 1 as slowest_mode_s is
+
 double sensitivity(const TransferFunction &loop, double frequency_Hz, double ts_s) // EQ-CERT-4
 {
     const double s = std::abs(1.0 + loop.at(std::polar(1.0, 2.0 * pi * frequency_Hz * ts_s)));
@@ -58,6 +61,23 @@ Peak sweep(const TransferFunction &loop, double ts_s, int points)
 
 } // namespace
 
+double spectral_radius(const BrokenLoop &loop)
+{
+    if (!(loop.shaft_mode > 0.0) || !loop.A.allFinite()) {
+        return spectral_radius(loop.A);
+    }
+    const Eigen::VectorXcd all = eigenvalues(loop.A);
+    Eigen::Index           own = 0;
+    (all.array() - loop.shaft_mode).abs().minCoeff(&own);
+    const bool left_out =
+        std::abs(all(own) - loop.shaft_mode) <= shaft_mode_share * (1.0 - loop.shaft_mode);
+    double most = 0.0;
+    for (Eigen::Index i = 0; i < all.size(); i++) {
+        most = std::max(most, left_out && i == own ? 0.0 : std::abs(all(i)));
+    }
+    return most;
+}
+
 double sensitivity(const BrokenLoop &loop, double frequency_Hz)
 {
     return sensitivity(TransferFunction(loop.A, loop.B, loop.c), frequency_Hz, loop.ts_s);
@@ -78,7 +98,7 @@ LoopCheck check_loop(const BrokenLoop &loop, std::vector<SensitivityAt> disturba
 
     const TransferFunction transfer(loop.A, loop.B, loop.c);
     const auto             at_Hz = [&](double f) { return sensitivity(transfer, f, loop.ts_s); };
-    out.spectral_radius          = spectral_radius(loop.A);
+    out.spectral_radius          = spectral_radius(loop);
     const Peak found             = sweep(transfer, loop.ts_s, sweep_points);
     out.peak                     = found.value;
     out.peak_Hz                  = found.at_Hz;

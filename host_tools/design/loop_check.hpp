@@ -22,7 +22,12 @@ struct BrokenLoop {
     Eigen::VectorXd    B;
     Eigen::RowVectorXd c;
     double             ts_s = 0.0;
+    double             shaft_mode =
+        0.0; ///< real eigenvalue that a free shaft has by its load; 0: the shaft is not free
 };
+
+/// A free shaft's own mode is left out while it stays within nine tenths of its distance to 1.
+double spectral_radius(const BrokenLoop &loop);
 
 /// |S| at a frequency below half the sampling rate; infinite, never NaN, when a number of the loop is not finite.
 double sensitivity(const BrokenLoop &loop, double frequency_Hz);

@@ -50,9 +50,57 @@ LawRows with_references(const ReducedParameters &l, const MatrixXd &Lambda, cons
 
 } // namespace
 
+namespace {
+
+/// noc_torque.c. A free shaft has Lambda(0, 0) = 0. Its error is that of the references of the period before, whose steps are fed forward. Where the speed limit acts, its references are those of this period, without a step of iq_ref.
+LawRows torque_law(const ReducedParameters &l, const MatrixXd &Lambda, const OperatingPoint &at,
+                   const MovingReference &m)
+{
+    const double       D       = l[1] + l[11] * at.id_A;
+    const bool         limited = Lambda(0, 0) > 0.0;
+    const double       per_s   = 1.0 / m.ts_s;
+    Eigen::RowVectorXd iq_ref  = Eigen::RowVectorXd::Zero(7);
+    iq_ref(5)                  = -at.iq_A * l[11] / D;
+    if (limited) {
+        iq_ref(0) = -1.0 / D;
+        iq_ref(3) = -Lambda(0, 0) / Lambda(0, 1);
+    }
+    const Eigen::RowVectorXd id_ref = m.filter * m.of_estimate;
+    MatrixXd                 F      = MatrixXd::Zero(2, 7);
+    F(0, 1)                         = -1.0 / l[6];
+    F(0, 3)                         = (l[5] + l[10] * at.id_A) / l[6];
+    F(0, 4)                         = -Lambda(0, 1);
+    F(0, 5)                         = l[10] * at.omega_e_radps / l[6];
+    F(1, 2)                         = -1.0 / l[8];
+    F(1, 3)                         = -l[9] * at.iq_A / l[8];
+    F(1, 4)                         = -l[9] * at.omega_e_radps / l[8];
+    F(1, 5)                         = -Lambda(1, 2);
+    const double k_q                = limited ? Lambda(0, 1) : 0.0; // of the new references
+    const double k_d                = limited ? Lambda(1, 2) : 0.0;
+    const double q_step             = limited ? 0.0 : per_s / l[6];
+    const double d_step             = per_s / l[8];
+    const double per_iq_ref         = k_q + l[4] / l[6] + q_step; // volts per ampere of them
+    const double per_id_ref         = k_d + l[7] / l[8] + d_step;
+    F.row(0) += per_iq_ref * iq_ref;
+    F.row(1) += per_id_ref * id_ref;
+
+    LawRows law{F, MatrixXd::Zero(2, 2), MatrixXd(2, 7), MatrixXd::Zero(2, 2)};
+    law.B_ref << id_ref, iq_ref;
+    law.A_ref.row(0) << 1.0 - m.filter, m.filter * m.of_iq_ref;
+    law.F_ref(0, 1)  = Lambda(0, 1) - k_q - q_step;
+    law.F_ref.row(1) = per_id_ref * law.A_ref.row(0);
+    law.F_ref(1, 0) += Lambda(1, 2) - k_d - d_step;
+    return law;
+}
+
+} // namespace
+
 LawRows encoder_form_law(const ReducedParameters &l, const MatrixXd &Lambda,
                          const OperatingPoint &at, const MovingReference *moving)
 {
+    if (moving != nullptr && moving->torque) {
+        return torque_law(l, Lambda, at, *moving);
+    }
     const double       D      = l[1] + l[11] * at.id_A;
     const bool         angle  = has_angle(Lambda);
     const double       k_ref  = Lambda(0, angle ? 2 : 1) + l[4] / l[6]; // v_q per ampere of iq_ref

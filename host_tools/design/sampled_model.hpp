@@ -49,6 +49,7 @@ struct MovingReference {
     double             of_iq_ref = 0.0; ///< of the period before
     double             filter    = 1.0; ///< share of the way in a period
     double             ts_s      = 0.0;
+    bool torque = false; ///< of a torque: EQ-TORQUE-2 makes iq_ref, and steps are fed forward
 };
 
 /// The law on the n predicted states of the observer (EQ-CERT-6). The references of the period before are r = [id_ref iq_ref].

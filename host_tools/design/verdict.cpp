@@ -58,7 +58,7 @@ double largest_radius(const std::vector<BrokenLoop> &loops)
     double worst = 0.0;
     for (std::size_t i = 0; i < loops.size(); i++) {
         if (i == 0 || !is_same(loops[i].A, loops[i - 1].A)) { // most are one loop, opened elsewhere
-            worst = std::max(worst, spectral_radius(loops[i].A));
+            worst = std::max(worst, spectral_radius(loops[i]));
         }
     }
     return worst;

@@ -38,10 +38,17 @@ std::string normalised_position(const PositionSpec &spec)
     return "position;" + listed(Q) + listed(T);
 }
 
+std::string normalised_torque(const TorqueSpec &spec)
+{
+    const auto &[weights] = spec;
+    return "torque;" + (weights ? listed(weights->Q) + listed(weights->T) : "");
+}
+
 std::string normalised_weights(const Drive &d)
 {
     return normalised_nosc(d.nosc) + normalised_nodo(d.nodo) +
-           (d.position ? normalised_position(*d.position) : "");
+           (d.position ? normalised_position(*d.position) : "") +
+           (d.torque ? normalised_torque(*d.torque) : "");
 }
 
 std::string normalised_harmonics(const HarmonicSpec &spec, int slots)
@@ -181,7 +188,7 @@ std::string normalised(const Drive &drive)
 {
     // reproduces changes no number
     const auto &[name, reproduces, motor, saturation, inverter, encoder, current_sensors, board,
-                 law, nosc, nodo, position, harmonics, shaft, dobc, pid, d_axis, cascade,
+                 law, nosc, nodo, position, torque, harmonics, shaft, dobc, pid, d_axis, cascade,
                  uncertainty, mechanics] = drive;
     static_cast<void>(uncertainty); // of the machine, not of what is computed from the file
     static_cast<void>(mechanics);   // beside the weights of noc_shaft

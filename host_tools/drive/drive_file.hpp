@@ -95,6 +95,16 @@ struct PositionSpec {
     std::array<double, 2> T{};
 };
 
+/// Weights of the current controller of a torque run: i_q, i_d error; v_q, v_d.
+struct TorqueWeights {
+    std::array<double, 2> Q{};
+    std::array<double, 2> T{};
+};
+
+struct TorqueSpec {
+    std::optional<TorqueWeights> weights; ///< without them they follow the control period
+};
+
 /// Measurement of paper A's observer beside the currents: speed or encoder angle. The conventional
 /// observer measures the speed; its two forms estimate the load alone or all three disturbances.
 enum class NodoForm { speed, encoder, conventional_load, conventional_all };
@@ -212,16 +222,20 @@ struct Drive {
     NoscSpec                       nosc; ///< nosc and nodo: laws of near optimal control
     NodoSpec                       nodo;
     std::optional<PositionSpec>
-                 position;  ///< noc with form "encoder", noc_h: the drive takes positions too
-    HarmonicSpec harmonics; ///< noc_h only
-    ShaftSpec    shaft;     ///< noc_shaft only
-    DobcSpec     dobc;      ///< cdobc, gpiobc, hdobc only
-    PidSpec      pid;       ///< pid only
-    DAxisSpec    d_axis;    ///< laws of paper B
-    CascadeSpec  cascade;   ///< pi_foc and ladrc only
-    Uncertainty  uncertainty;
-    Mechanics    mechanics;
+        position; ///< noc with form "encoder", noc_h: the drive takes positions too
+    std::optional<TorqueSpec> torque;    ///< noc with form "encoder": the drive takes torques too
+    HarmonicSpec              harmonics; ///< noc_h only
+    ShaftSpec                 shaft;     ///< noc_shaft only
+    DobcSpec                  dobc;      ///< cdobc, gpiobc, hdobc only
+    PidSpec                   pid;       ///< pid only
+    DAxisSpec                 d_axis;    ///< laws of paper B
+    CascadeSpec               cascade;   ///< pi_foc and ladrc only
+    Uncertainty               uncertainty;
+    Mechanics                 mechanics;
 };
+
+/// Whether a drive may have [torque]: law noc that observes the angle.
+bool takes_torque(const Drive &drive);
 
 constexpr int drive_schema = 1;
 

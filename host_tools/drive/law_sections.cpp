@@ -69,6 +69,27 @@ void read_position_if(TomlReader &t, Drive &drive)
     }
 }
 
+void read_torque_if(TomlReader &t, Drive &drive)
+{
+    std::optional<TomlReader> section = t.table_if("torque");
+    if (!section) {
+        return;
+    }
+    if (!takes_torque(drive)) {
+        t.fail("[torque]",
+               "is not allowed: only law noc with [nodo] form = \"encoder\" follows a torque");
+    }
+    constexpr Range acts{input_weight.lo, state_weight.hi}; // without it nothing holds a current
+    drive.torque.emplace();
+    if (section->has("Q") || section->has("T")) {
+        TorqueWeights w;
+        w.Q                   = last_of<2>(section->numbers("Q", {2}, acts));
+        w.T                   = last_of<2>(section->numbers("T", {2}, input_weight));
+        drive.torque->weights = w;
+    }
+    section->reject_unknown_keys();
+}
+
 NodoSpec read_nodo(TomlReader t)
 {
     NodoSpec          spec;
@@ -273,6 +294,7 @@ void read_law_sections(TomlReader &t, Drive &drive)
         drive.nodo =
             conventional ? read_conventional_nodo(t.table("nodo")) : read_nodo(t.table("nodo"));
         read_position_if(t, drive);
+        read_torque_if(t, drive);
         if (drive.law == Law::noc_h) {
             drive.harmonics = read_harmonic_spec(t.table("harmonics"), drive.motor);
             need_sampled_series(t, drive);
@@ -308,6 +330,11 @@ bool is_near_optimal(Law law)
 bool takes_positions(Law law)
 {
     return law == Law::noc || law == Law::noc_h;
+}
+
+bool takes_torque(const Drive &drive)
+{
+    return drive.law == Law::noc && drive.nodo.form == NodoForm::encoder;
 }
 
 bool is_cascade(Law law)

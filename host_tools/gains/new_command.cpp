@@ -15,6 +15,7 @@
 #include "facts/new_drive_text.hpp"
 #include "gains/commands.hpp"
 #include "tune/position_weights.hpp"
+#include "tune/torque_section.hpp"
 #include "tune/verdict_penalty.hpp"
 
 namespace sdre {
@@ -102,6 +103,16 @@ std::string position_or_why_not(const Drive &drive, const std::string &text, con
     return found.text;
 }
 
+/// The same of [torque].
+std::string torque_or_why_not(const Drive &drive)
+{
+    const TorqueSection found = takes_torque(drive) ? torque_section(drive) : TorqueSection{};
+    if (!found.why_not.empty()) {
+        fmt::print(stderr, "note: no [torque], so the drive takes no torques: {}\n", found.why_not);
+    }
+    return found.text;
+}
+
 int run(const Options &o)
 {
     if (o.keys) {
@@ -128,6 +139,7 @@ int run(const Options &o)
     std::string text  = new_drive_text(machine);
     const Drive drive = read_drive_text(text, facts.source, o.out); // whose ranges are the tools'
     text += position_or_why_not(drive, text, o);
+    text += torque_or_why_not(drive);
     write_files({{o.out, text}});
     fmt::print("{}{}: written; `sdre-gains tune {} --out TUNED.toml` finds its weights\n",
                pwm_note(drive.inverter), o.out, shell_word(o.out));

@@ -13,6 +13,7 @@
 #include "tune/drive_text.hpp"
 #include "tune/goals.hpp"
 #include "tune/position_weights.hpp"
+#include "tune/torque_section.hpp"
 #include "tune/tune.hpp"
 #include "tune/verdict_penalty.hpp"
 
@@ -129,6 +130,21 @@ std::string added_position(const Drive &before, const Drive &found, const std::s
     return position.text;
 }
 
+/// The same of [torque].
+std::string added_torque(const Drive &before, const Drive &found)
+{
+    if (!takes_torque(before) || before.torque || law_design(before).weights != Weights::by_goals ||
+        is_certified(before)) {
+        return "";
+    }
+    const TorqueSection torque = torque_section(found);
+    if (!torque.why_not.empty()) {
+        fmt::print(stderr, "note: still no [torque], so the drive takes no torques: {}\n",
+                   torque.why_not);
+    }
+    return torque.text;
+}
+
 int run(const Options &o)
 {
     const Drive   drive   = read_drive_file(o.drive);
@@ -143,6 +159,7 @@ int run(const Options &o)
     const std::string out      = o.out.empty() ? o.drive : o.out;
     std::string       sections = tuned_sections(tuned.result, tuned.spec);
     sections += added_position(drive, tuned.result.drive, with_sections(text, sections), out);
+    sections += added_torque(drive, tuned.result.drive);
     write_files({{out, with_sections(text, sections)}});
     fmt::print("{}{}{}: written; {}\n", sections, pwm_note(drive.inverter), out, tuned.remark);
     const int missed = tuned.met ? exit_ok : exit_design_failed;

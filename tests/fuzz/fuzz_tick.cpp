@@ -110,6 +110,12 @@ position_command_t any_position(fuzz::Bytes &in)
     return p;
 }
 
+/// Mostly in range.
+torque_command_t any_torque(fuzz::Bytes &in, const drive_config_t &config)
+{
+    return {1.05F * TORQUE_SHARE_MAX * in.share(), 1.05F * config.speed_max_e_radps * in.share()};
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size)
@@ -119,6 +125,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     drive_t               drive{};
     drive_command_t       command{0.0F, true, 0.0F, nullptr};
     position_command_t    position{};
+    torque_command_t      torque{};
+    law_aim_t             aim{};
     Rotor                 rotor;
     require(drive_init(&drive, &config) == CTL_OK);
     while (in.any()) {
@@ -132,8 +140,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
         case 1:
             command = {config.speed_max_e_radps * in.share(), (what & 15U) != 0U, 0.0F, nullptr};
             if ((what & 32U) != 0U && config.positions) {
-                position         = any_position(in);
-                command.position = &position;
+                position    = any_position(in);
+                aim         = {&position, nullptr};
+                command.aim = &aim;
+            } else if ((what & 16U) != 0U && config.torques) {
+                torque      = any_torque(in, config);
+                aim         = {nullptr, &torque};
+                command.aim = &aim;
             }
             break;
         case 2:

@@ -153,6 +153,7 @@ std::vector<float> constants_in(const drive_config_t &c)
         add_observer(v, {noc->nodo.iq_max_A}, noc->nodo.order, noc->nodo.gain);
         add_currents(v, noc->currents);
         v.insert(v.end(), {noc->inertia.least, noc->inertia.most});
+        v.insert(v.end(), {noc->torque.iq_VpA, noc->torque.id_VpA, noc->torque.id_max_A});
     } else if (const auto *speed = sdre::constants_of<law_noc_speed_config_t>(c)) {
         add_near_optimal(v, speed->near_optimal);
         add_observer(v, {speed->nodo.iq_max_A, speed->nodo.iq_certified_A}, speed->nodo.order,
@@ -178,7 +179,8 @@ std::vector<float> values_of(const drive_config_t &c)
                        c.speed_max_e_radps, c.dc_link_min_V, c.dc_link_max_V});
     v.insert(v.end(), {m.l1, m.l2, m.l3, m.l4, m.l5, m.l6, m.l7, m.l8, m.l9, m.l10, m.l11, m.inv_l6,
                        m.inv_l8});
-    v.insert(v.end(), {c.dead_time.share, c.dead_time.inv_fade_1pA, c.hardware.dead_time_s});
+    v.insert(v.end(), {c.dead_time.share, c.dead_time.inv_fade_1pA, c.rated_current_A,
+                       c.rated_torque_Nm, c.hardware.dead_time_s});
     return v;
 }
 

@@ -132,9 +132,9 @@ def length(section, image="flash"):
 class TableSizes(unittest.TestCase):
     def test_sizes_are_those_of_16_bit_words(self):
         sizes = words("noc")
-        # motor: 13 floats; dead time: 2; seven scalars, a flag with a pad before the floats.
+        # motor: 13 floats; dead time: 2; nine scalars, three flags with a pad before the floats.
         # hardware: two long ones, two integers, a flag with a pad; two pointers.
-        self.assertEqual(sizes["drive"], 2 * 13 + 2 * 2 + 2 * 7 + 2 + (2 * 2 + 2 + 2) + 2 * 2)
+        self.assertEqual(sizes["drive"], 2 * 13 + 2 * 2 + 2 * 9 + 4 + (2 * 2 + 2 + 2) + 2 * 2)
         # seven pointers and one long number; one integer with a pad
         self.assertEqual(sizes["entry"], 8 * 2 + 2)
 

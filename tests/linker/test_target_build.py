@@ -174,6 +174,7 @@ class TargetBuild(unittest.TestCase):
             "noc_inertia.c",
             "motor.c",
             "near_optimal_position.c",
+            "noc_torque.c",
             "nodo_current.c",
             "nodo_encoder_series.c",
             "nosc_series.c",

@@ -34,7 +34,7 @@ apart[prove_parameters]=app_registers_saved_take:300,app_registers_saved_read:30
 accept:50,app_image_accept:50,take_record:20,app_parameters_take:50
 apart[prove_loader]=${apart[prove_init]/prove_init:50,/},drive_image_read_part:50,drive_image_fields:50,app_image_take:50,commit:50,\
 app_loader_work:20,app_loader_write:50,put_board:100
-apart[prove_image]=prove_image:20,drive_image_read:50
+apart[prove_image]=prove_image:80,drive_image_read:200
 declare -A options=(
     [prove_tick]=""
     [prove_init]="-eva-split-return full"

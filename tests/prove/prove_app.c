@@ -49,6 +49,7 @@ static void any_state(void)
     modes.angle.have_turned          = any_bool();
     modes.angle.have_index           = any_bool();
     config.positions                 = any_bool();
+    config.torques                   = any_bool();
     modes.drive.config               = &config;
     modes.drive.config_again         = &config;
     modes.drive.law_again            = config.law;

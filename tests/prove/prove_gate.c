@@ -25,6 +25,7 @@ void prove_gate(void)
     config.law                 = &any_law;
     config.overmodulation      = any_bool();
     config.positions           = any_bool();
+    config.torques             = any_bool();
     drive.answer.arrived       = any_bool();
     drive.motion_watch.look    = (motion_watch_look_t)any_between(0, 3);
     drive.answer.waits         = any_bool();
@@ -34,7 +35,7 @@ void prove_gate(void)
     drive_command_t     command = any_command;
     sample.valid                = any_bool();
     command.run                 = any_bool();
-    command.position            = NULL; /* of another law's inside */
+    command.aim                 = NULL; /* of another law's inside */
 
     const bridge_t out = drive_tick(&drive, &sample, &command);
 

@@ -126,6 +126,7 @@ static void any_registers(void)
 
     drive.ts_s      = base_clamp(any_float, 1.0e-5f, 1.0e-2f); /* as checked, the next too */
     drive.positions = any_bool();
+    drive.torques   = any_bool();
     drive.hardware.pole_pairs = (uint16_t)any_between(1, 64);
     (void)app_registers_init(&registers, &board_config, &drive);
     *s                             = any_status;

@@ -20,6 +20,7 @@ volatile drive_t            any_drive_bits;
 volatile drive_sample_t     any_sample;
 volatile drive_command_t    any_command;
 volatile position_command_t any_position;
+volatile torque_command_t   any_torque;
 drive_config_t              config;
 constants_t                 constants;
 drive_t                     drive;
@@ -71,6 +72,7 @@ static void any_config(void)
 #endif
     config.overmodulation = any_between(0, 1);
     config.positions      = any_between(0, 1);
+    config.torques        = any_between(0, 1);
     config.law            = &NAMED(law_, PROVE_LAW);
     config.constants      = &constants;
 }
@@ -84,7 +86,7 @@ static void any_drive(void)
     drive = any_drive_bits;
 #if defined PROVE_noc || defined PROVE_noc_speed || defined PROVE_noc_h ||                         \
     defined PROVE_noc_shaft || defined PROVE_noc_iron || defined PROVE_conventional
-    state.near_optimal.positioning           = any_between(0, 1);
+    state.near_optimal.follows               = (near_optimal_follows_t)any_between(0, 2);
     state.near_optimal.position_ref.arrived  = any_between(0, 1);
     state.near_optimal.position_ref.waits    = any_between(0, 1);
     state.near_optimal.position_ref.at.turns = any_turns();
@@ -151,9 +153,13 @@ void prove_tick(void)
 
     position_command_t position =
         any_position; /* drive_tick() refuses other turns: unit.position_run */
-    position.actual.turns = any_turns();
-    position.target.turns = any_turns();
-    command.position      = any_between(0, 1) ? &position : NULL;
+    position.actual.turns   = any_turns();
+    position.target.turns   = any_turns();
+    torque_command_t torque = any_torque;
+    law_aim_t        aim;
+    aim.position = any_between(0, 1) ? &position : NULL;
+    aim.torque   = any_between(0, 1) ? &torque : NULL;
+    command.aim  = any_between(0, 1) ? &aim : NULL;
 
     bridge_t out;
 #if defined PROVE_dobc
@@ -177,6 +183,7 @@ static void any_bits(void)
     config.law       = &NAMED(law_, PROVE_LAW);
     config.constants = &constants;
     config.positions = any_between(0, 1);
+    config.torques   = any_between(0, 1);
 }
 
 /* Entry: constants that are any bits. */

@@ -446,6 +446,7 @@ TEST(Metrics, NamesAreTheJsonKeys)
     m.position_steady_cnt        = 11.45;
     m.position_settled_s         = 11.5;
     m.position_overshoot_cnt     = 11.6;
+    m.torque                     = sdre::TorqueMetrics{11.7, 11.8, 11.85, 11.9};
     m.current_distortion_percent = 11.6;
     m.fluctuation_rpm            = 12.0;
     m.fluctuation_rate_percent   = 13.0;
@@ -481,6 +482,10 @@ TEST(Metrics, NamesAreTheJsonKeys)
                                                                {"position_steady_cnt", 11.45},
                                                                {"position_settled_s", 11.5},
                                                                {"position_overshoot_cnt", 11.6},
+                                                               {"torque_rise_s", 11.7},
+                                                               {"torque_overshoot_percent", 11.8},
+                                                               {"torque_error_percent", 11.85},
+                                                               {"torque_ripple_percent", 11.9},
                                                                {"current_distortion_percent", 11.6},
                                                                {"fluctuation_rpm", 12.0},
                                                                {"fluctuation_rate_percent", 13.0},

@@ -130,8 +130,8 @@ TEST(Scenario, ShippedScenariosAreRead)
         EXPECT_FALSE(s.measures.empty());
         count++;
     }
-    // Fig. 4 with four orders, Fig. 5 to 8; seventeen on the realistic board; two of paper B; two of noc_h; faults
-    EXPECT_EQ(count, 29 + 20);
+    // Fig. 4 with four orders, Fig. 5 to 8; eighteen on the realistic board; two of paper B; two of noc_h; faults
+    EXPECT_EQ(count, 30 + 20);
     EXPECT_EQ(sdre::read_scenario_file(scenarios / "fig4_parameter_steps_nd3.toml").nodo_order, 3);
     EXPECT_EQ(sdre::read_scenario_file(scenarios / "fig8_flux_weakening.toml").dc_link_V, 173.2);
 }

@@ -61,7 +61,7 @@ if grep -E '^(law_|nodo|dobc|nosc|pid_law|near_optimal|foc|speed_difference)' "$
     status=1
 fi
 
-expect noc angle_gate current_clamp current_ref encoder_form fields_encoder_form fields_near_optimal inertia law_noc law_noc_fields near_optimal near_optimal_position noc_inertia nodo nodo_current nodo_encoder nodo_encoder_series nosc nosc_series position_loop position_ref position_torque speed_ref
+expect noc angle_gate current_clamp current_ref encoder_form fields_encoder_form fields_near_optimal inertia law_noc law_noc_fields near_optimal near_optimal_position noc_inertia noc_torque nodo nodo_current nodo_encoder nodo_encoder_series nosc nosc_series position_loop position_ref position_torque speed_ref
 expect noc_speed current_clamp current_ref fields_near_optimal law_noc_speed law_noc_speed_fields near_optimal nodo nosc nosc_series position_loop speed_ref
 expect noc_h angle_gate current_clamp current_ref encoder_form fields_encoder_form fields_near_optimal inertia law_noc_h law_noc_h_fields near_optimal near_optimal_position nodo nodo_encoder nodo_encoder_series nodo_harmonic nosc nosc_series position_loop position_ref position_torque speed_ref
 expect noc_iron angle_gate current_clamp current_ref encoder_form fields_encoder_form fields_near_optimal iron law_noc_iron law_noc_iron_fields near_optimal nodo nodo_current nodo_encoder nodo_encoder_series nosc nosc_series position_loop speed_ref

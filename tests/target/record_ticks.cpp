@@ -41,6 +41,7 @@ tick_file_tick_t file_tick(const sdre::Recording &recording, std::size_t k, cons
     tick_file_tick_t t{};
     t.drive           = tick_file_from_drive(&recording.drives[k]);
     t.position        = recording.positions[k];
+    t.torque          = recording.torques[k];
     t.ia_A            = s.ia_A;
     t.ib_A            = s.ib_A;
     t.dc_link_V       = s.dc_link_V;
@@ -54,7 +55,8 @@ tick_file_tick_t file_tick(const sdre::Recording &recording, std::size_t k, cons
     t.duty            = law.duty;
     t.pi_duty         = pi.duty;
     t.flags           = flag(s.valid, TICK_FILE_VALID) | flag(c.run, TICK_FILE_RUN) |
-              flag(c.position != nullptr, TICK_FILE_POSITION) |
+              flag(recording.aims[k].position != nullptr, TICK_FILE_POSITION) |
+              flag(recording.aims[k].torque != nullptr, TICK_FILE_TORQUE) |
               flag(law.gate_enable, TICK_FILE_GATE) |
               static_cast<std::uint32_t>(s.edge_of_pattern) << TICK_FILE_EDGE_SHIFT;
     return t;

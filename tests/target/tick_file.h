@@ -43,7 +43,13 @@ typedef union {
     law_noc_shaft_config_t    noc_shaft;
 } tick_file_constants_t;
 
-enum { TICK_FILE_VALID = 1, TICK_FILE_RUN = 2, TICK_FILE_GATE = 4, TICK_FILE_POSITION = 8 };
+enum {
+    TICK_FILE_VALID    = 1,
+    TICK_FILE_RUN      = 2,
+    TICK_FILE_GATE     = 4,
+    TICK_FILE_POSITION = 8,
+    TICK_FILE_TORQUE   = 16
+};
 
 typedef struct {
     char     name[TICK_FILE_NAME_SIZE];
@@ -80,6 +86,7 @@ typedef struct {
 typedef struct {
     tick_file_drive_t  drive;
     position_command_t position; /**< with TICK_FILE_POSITION */
+    torque_command_t   torque;   /**< with TICK_FILE_TORQUE */
     float              ia_A;
     float              ib_A;
     float              dc_link_V;

@@ -33,13 +33,13 @@ void drive_image_fields(fields_t *f, drive_image_t *image, const law_t *law)
     FIELDS_PART(fields_app, f, image, app);
     if (image->app.scale.ntc_points > DRIVE_IMAGE_TEMPERATURES) {
         f->ok = false;
-        return;
+    } else {
+        FIELDS_BEGIN(f, ntc_degC);
+        fields_floats(f, image->ntc_degC, image->app.scale.ntc_points);
+        FIELDS_END(f);
+        FIELDS_PART(fields_drive, f, image, drive);
+        FIELDS_PART(law->fields, f, image, constants);
     }
-    FIELDS_BEGIN(f, ntc_degC);
-    fields_floats(f, image->ntc_degC, image->app.scale.ntc_points);
-    FIELDS_END(f);
-    FIELDS_PART(fields_drive, f, image, drive);
-    FIELDS_PART(law->fields, f, image, constants);
 }
 
 static void point_inside(drive_image_t *image, const law_t *law)

@@ -23,7 +23,7 @@
 #include "drive_config.h"
 #include "laws.h"
 
-#define DRIVE_IMAGE_SCHEMA       4U  /**< incremented when the meaning of a word changes */
+#define DRIVE_IMAGE_SCHEMA       5U  /**< incremented when the meaning of a word changes */
 #define DRIVE_IMAGE_DIGEST_WORDS 12U /**< length that sdre-gains writes */
 #define DRIVE_IMAGE_NAME_WORDS   16U /**< chosen: 32 characters; longer names are cut */
 #define DRIVE_IMAGE_TEMPERATURES 32U /**< chosen: sdre-gains writes 28 points */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file app_line.h
- * @brief What serves the line: of the application or of the loader.
+ * @brief State of the line: the application or the loader has it.
  *
  * A start runs one of them until the next restart. So both have the same memory.
  */

@@ -74,6 +74,7 @@ typedef struct {
     bool                gate_on;     /**< gates were enabled by an earlier tick */
     uint16_t            phase_errors;
     app_snapshot_t      snapshot;
+    law_aim_t           aim; /**< to_position, to the drive */
 #if BOARD_CURRENT_SENSORS == 3
     app_watch_sum_t sum;
     bool            sum_differs;

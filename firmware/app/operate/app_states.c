@@ -26,11 +26,12 @@ bridge_t app_states_drive(app_modes_t *m, const app_command_t *asked, bool run)
         m->to_position.actual  = m->position.actual;
         m->to_position.target  = asked->target;
         m->to_position.profile = asked->profile;
+        m->aim.position        = &m->to_position;
     }
     const drive_command_t command = {.omega_e_radps = asked->omega_e_radps,
                                      .run           = run,
                                      .derating      = base_max(m->heat.derating, asked->derating),
-                                     .position      = asked->positioning ? &m->to_position : NULL};
+                                     .aim           = asked->positioning ? &m->aim : NULL};
     return drive_tick(&m->drive, &sample, &command);
 }
 

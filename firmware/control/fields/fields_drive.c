@@ -46,5 +46,8 @@ void fields_drive(fields_t *f, drive_config_t *c)
     fields_flag(f, FIELD(f, c, overmodulation));
     FIELDS_PART(motor, f, c, motor);
     FIELDS_PART(dead_time, f, c, dead_time);
+    fields_float(f, FIELD(f, c, rated_current_A));
+    fields_float(f, FIELD(f, c, rated_torque_Nm));
+    fields_flag(f, FIELD(f, c, torques));
     FIELDS_PART(hardware, f, c, hardware);
 }

@@ -36,6 +36,13 @@ static void inertia(fields_t *f, law_noc_inertia_t *c)
     fields_float(f, FIELD(f, c, most));
 }
 
+static void torque(fields_t *f, torque_gains_t *c)
+{
+    fields_float(f, FIELD(f, c, iq_VpA));
+    fields_float(f, FIELD(f, c, id_VpA));
+    fields_float(f, FIELD(f, c, id_max_A));
+}
+
 void law_noc_fields(fields_t *f, void *constants)
 {
     law_noc_config_t *c = constants;
@@ -47,4 +54,5 @@ void law_noc_fields(fields_t *f, void *constants)
     FIELDS_PART(nodo, f, c, nodo);
     FIELDS_PART(currents, f, c, currents);
     FIELDS_PART(inertia, f, c, inertia);
+    FIELDS_PART(torque, f, c, torque);
 }

@@ -16,20 +16,28 @@
 #include "nodo.h"
 #include "position_loop.h"
 #include "sample.h"
+#include "torque_loop.h"
 
 struct drive_config;
 
 /** The state of one law; laws.h lists them. */
 typedef union law_state law_state_t;
 
+/** A run follows this in place of a speed. There is one pointer for both, so that a speed run has
+ * one comparison. */
+typedef struct {
+    const position_command_t *position; /**< reference position, or NULL */
+    const torque_command_t   *torque;   /**< reference torque, if position is NULL */
+} law_aim_t;
+
 /** Inputs of a law in a period. */
 typedef struct {
-    const drive_sample_t     *sample;          /**< every value in range */
-    float                     command_e_radps; /**< reference speed, electrical, in range */
-    const position_command_t *position; /**< reference position; NULL: the speed is commanded */
-    dq_t                      v_V; /**< realised part of the voltage computed a period ago: it acts
+    const drive_sample_t *sample;          /**< every value in range */
+    float                 command_e_radps; /**< reference speed, electrical, in range */
+    const law_aim_t      *aim;             /**< NULL: the speed is commanded */
+    dq_t                  v_V;      /**< realised part of the voltage computed a period ago: it acts
                                     from this instant on; zero at the start of a run */
-    float                     derating; /**< unusable share of the current limit, 0 .. 1 */
+    float                 derating; /**< unusable share of the current limit, 0 .. 1 */
 } law_input_t;
 
 /** Answer of a law. */
@@ -82,6 +90,8 @@ typedef struct {
 
     /** Visits all constants (fields.h). NULL: images are not supported. Context: init. */
     void (*fields)(fields_t *f, void *constants);
+
+    bool takes_torque; /**< step() follows law_aim_t.torque, if the drive takes torques */
 
     uint16_t number; /**< identifies the law in an image, docs/architecture.md; 0: none */
 

@@ -3,14 +3,17 @@
 
 #include "laws.h"
 #include "near_optimal_position.h"
+#include "noc_torque.h"
 
 static bool check(const drive_config_t *drive)
 {
     const law_noc_config_t *c = drive->constants;
 
-    return near_optimal_check(&c->near_optimal, drive) && encoder_form_check(&c->plausible) &&
-           angle_gate_check(&c->gate) && encoder_form_gains_check(&c->rare) &&
-           nodo_encoder_check(&c->nodo) && nodo_current_check(&c->currents) &&
+    return near_optimal_check(&c->near_optimal, drive) &&
+           (!drive->torques || torque_loop_check(&c->torque)) &&
+           encoder_form_check(&c->plausible) && angle_gate_check(&c->gate) &&
+           encoder_form_gains_check(&c->rare) && nodo_encoder_check(&c->nodo) &&
+           nodo_current_check(&c->currents) &&
            base_in_range(c->inertia.least, INERTIA_LEAST, 1.0f) &&
            base_in_range(c->inertia.most, 1.0f, INERTIA_MOST);
 }
@@ -66,17 +69,28 @@ static near_optimal_view_t observe(law_noc_state_t *s, const law_noc_config_t *c
     return view;
 }
 
+/* A run to a position or a torque. */
+static void other_step(law_noc_state_t *s, const law_noc_config_t *c, const drive_config_t *drive,
+                       const near_optimal_view_t *view, const law_input_t *in, law_output_t *out)
+{
+    if (in->aim->position != NULL) {
+        near_optimal_position_step(&s->near_optimal, &c->near_optimal, drive, view, in, out);
+    } else {
+        noc_torque_step(s, c, drive, view, in, out);
+    }
+}
+
 static void step(law_state_t *state, const drive_config_t *drive, const law_input_t *in,
                  law_output_t *out)
 {
     const law_noc_config_t   *c    = drive->constants;
     law_noc_state_t          *s    = &state->noc;
     const near_optimal_view_t view = observe(s, c, drive, in);
-    if (in->position == NULL) {
+    if (in->aim == NULL) {
         near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in, out);
     } else {
         const near_optimal_view_t its_own = view; /* in a speed run the view is in registers */
-        near_optimal_position_step(&s->near_optimal, &c->near_optimal, drive, &its_own, in, out);
+        other_step(s, c, drive, &its_own, in, out);
     }
     out->ignored_angles = s->gate.ignored;
     out->without_angle  = s->gate.lost != 0;
@@ -98,5 +112,6 @@ const law_t law_noc = {.check           = check,
                        .adopt           = law_noc_adopt,
                        .counts_ok       = counts_ok,
                        .fields          = law_noc_fields,
+                       .takes_torque    = true,
                        .number          = 1U,
                        .constants_chars = (uint32_t)sizeof(law_noc_config_t)};

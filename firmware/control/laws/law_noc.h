@@ -13,6 +13,7 @@
 #include "near_optimal.h"
 #include "nodo_current.h"
 #include "nodo_encoder.h"
+#include "torque_loop.h"
 
 /** Certified range of the believed inertia over the drive's. */
 typedef struct {
@@ -28,6 +29,7 @@ typedef struct {
     nodo_encoder_gains_t  nodo;
     nodo_current_gains_t  currents; /**< for a lost encoder */
     law_noc_inertia_t     inertia;
+    torque_gains_t        torque; /**< only for a drive that takes torques */
 } law_noc_config_t;
 
 typedef struct {
@@ -37,6 +39,7 @@ typedef struct {
     encoder_form_edges_t edges;
     angle_gate_t         gate;
     nodo_current_t       without; /**< encoder */
+    torque_loop_t        torque;
 } law_noc_state_t;
 
 /**

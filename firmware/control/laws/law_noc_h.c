@@ -59,7 +59,7 @@ static void step(law_state_t *state, const drive_config_t *drive, const law_inpu
     law_noc_h_state_t        *s       = &state->noc_h;
     const near_optimal_view_t view    = observe(s, c, drive, in);
     const float               d_omega = view.est->d_omega;
-    if (in->position == NULL) {
+    if ((in->aim == NULL) || (in->aim->position == NULL)) { /* it takes no torques */
         near_optimal_step(&s->near_optimal, &c->near_optimal, drive, &view, in, out);
     } else {
         const near_optimal_view_t its_own = view; /* in a speed run the view is in registers */

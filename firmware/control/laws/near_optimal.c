@@ -19,7 +19,7 @@ CTL_PART void near_optimal_reset(near_optimal_t *s, const near_optimal_config_t 
     speed_ref_reset(&s->speed_ref, omega_e_radps);
     current_ref_reset(&s->current_ref, &c->current_ref);
     inertia_reset(&s->inertia);
-    s->positioning       = false;
+    s->follows           = NEAR_OPTIMAL_SPEED;
     s->theta_error_e_rad = 0.0f;
 }
 
@@ -33,7 +33,7 @@ CTL_PART nosc_error_t near_optimal_error(near_optimal_t *s, const near_optimal_c
          &s->current_ref, &c->current_ref, &drive->motor, &from, in->command_e_radps);
     const current_ref_t *ref = &s->current_ref;
 
-    s->positioning = false;
+    s->follows = NEAR_OPTIMAL_SPEED;
     speed_ref_update(&s->speed_ref, &limits, in->command_e_radps, w, drive->ts_s);
     current_ref_update(&s->current_ref, &c->current_ref, &drive->motor, &s->speed_ref, &from);
 

@@ -25,8 +25,15 @@ typedef struct {
     position_gains_t     position; /**< only for a drive that takes positions */
 } near_optimal_config_t;
 
+/** Kind of the references of the last period. */
+typedef enum {
+    NEAR_OPTIMAL_SPEED = 0,
+    NEAR_OPTIMAL_POSITION,
+    NEAR_OPTIMAL_TORQUE
+} near_optimal_follows_t;
+
 typedef struct {
-    bool           positioning;
+    near_optimal_follows_t follows;
     float          theta_error_e_rad; /**< of a position run: limited error to position_ref */
     speed_ref_t    speed_ref;         /**< in a position run the speed of position_ref */
     current_ref_t  current_ref;

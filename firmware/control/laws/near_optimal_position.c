@@ -39,14 +39,14 @@ static void update_position(near_optimal_t *s, const near_optimal_config_t *c,
 static void begin_run(near_optimal_t *s, const near_optimal_view_t *view,
                       const position_command_t *command, float ts_s)
 {
-    if (!s->positioning) {
+    if (s->follows != NEAR_OPTIMAL_POSITION) {
         const position_t is = seen_position(view, command, ts_s);
 
         position_ref_start(&s->position_ref, &is, s->speed_ref.omega_e_radps,
                            s->speed_ref.omega_dot_e_radps2);
         s->inertia.accel_e_radps2 = s->speed_ref.omega_dot_e_radps2;
         s->theta_error_e_rad      = 0.0f;
-        s->positioning            = true;
+        s->follows                = NEAR_OPTIMAL_POSITION;
     }
 }
 
@@ -69,12 +69,12 @@ nosc_error_t near_optimal_position_error(near_optimal_t *s, const near_optimal_c
                                          const drive_config_t      *drive,
                                          const near_optimal_view_t *view, const law_input_t *in)
 {
-    begin_run(s, view, in->position, drive->ts_s);
+    begin_run(s, view, in->aim->position, drive->ts_s);
 
     const current_ref_input_t from = near_optimal_inputs(s, c, view, in, true);
     const current_ref_t      *ref  = &s->current_ref;
 
-    update_position(s, c, drive, view, in->position);
+    update_position(s, c, drive, view, in->aim->position);
     current_ref_update(&s->current_ref, &c->current_ref, &drive->motor, &s->speed_ref, &from);
 
     const float  e_w = view->now.omega_e_radps - s->speed_ref.omega_e_radps;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * @file near_optimal_run.h
- * @brief Parts that speed runs and position runs share. Internal to near_optimal.c and
- * near_optimal_position.c.
+ * @brief Parts that runs to a speed, a position or a torque share. Internal to near_optimal.c,
+ * near_optimal_position.c and noc_torque.c.
  *
  * `positioning` is a constant of each caller: a speed run never asks whether it is one.
  */
@@ -104,7 +104,26 @@ static inline dq_t near_optimal_clamped_V(const near_optimal_config_t *c, const 
     return (same || voltage_is_outside(held, in->sample->dc_link_V)) ? u_V : held;
 }
 
-/** near_optimal_answer() of either kind of run. */
+/** The members of an answer beside its voltage. */
+static inline void near_optimal_run_fill(const near_optimal_t *s, const near_optimal_view_t *view,
+                                         law_output_t *out, bool positioning)
+{
+    out->theta_rad       = view->theta_rad;
+    out->now             = view->now;
+    out->i_ref_A         = s->current_ref.i_A;
+    out->d_omega         = view->est->d_omega;
+    out->d_q             = view->est->d_q;
+    out->d_d             = view->est->d_d;
+    out->ignored_angles  = 0U;
+    out->without_angle   = false;
+    out->arrived         = positioning && s->position_ref.arrived;
+    out->waits           = positioning && s->position_ref.waits;
+    out->profile_e_radps = s->speed_ref.omega_e_radps;
+    out->plausible       = view->plausible;
+    out->predicted       = false;
+}
+
+/** near_optimal_answer() of a run to a speed or a position. */
 static inline void near_optimal_run_answer(const near_optimal_t *s, const near_optimal_config_t *c,
                                            const motor_reduced_t     *m,
                                            const near_optimal_view_t *view, const nosc_error_t *e,
@@ -120,20 +139,8 @@ static inline void near_optimal_run_answer(const near_optimal_t *s, const near_o
         u_V = near_optimal_out_of_reach_V(s, c, m, view->now.omega_e_radps, e, ff_V, positioning);
         reached = !voltage_is_outside(u_V, dc_link_V);
     }
-    out->v_V             = near_optimal_clamped_V(c, m, view, u_V, reached, in);
-    out->theta_rad       = view->theta_rad;
-    out->now             = view->now;
-    out->i_ref_A         = s->current_ref.i_A;
-    out->d_omega         = view->est->d_omega;
-    out->d_q             = view->est->d_q;
-    out->d_d             = view->est->d_d;
-    out->ignored_angles  = 0U;
-    out->without_angle   = false;
-    out->arrived         = positioning && s->position_ref.arrived;
-    out->waits           = positioning && s->position_ref.waits;
-    out->profile_e_radps = s->speed_ref.omega_e_radps;
-    out->plausible       = view->plausible;
-    out->predicted       = false;
+    near_optimal_run_fill(s, view, out, positioning);
+    out->v_V = near_optimal_clamped_V(c, m, view, u_V, reached, in);
 }
 
 #endif /* NEAR_OPTIMAL_RUN_H */

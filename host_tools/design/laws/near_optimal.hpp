@@ -8,6 +8,7 @@
 #include "design/laws/laws.hpp"
 #include "design/noc_iron/iron_loop.hpp"
 #include "design/position.hpp"
+#include "design/torque.hpp"
 #include "linalg/linalg_checks.hpp"
 
 namespace sdre {
@@ -77,10 +78,13 @@ LoopFamily whole_loop(const Design &d, const current_ref_config_t &references,
                       const ModelAt &model_at)
 {
     const IdReference id          = id_reference(d, references);
-    const auto        at_voltages = [&d](const auto &m, std::vector<BrokenLoop> &all) {
-        const auto two =
-            broken_at_voltages(m.A, m.B_voltage, m.C_voltage, control_period_s(d.drive));
-        all.insert(all.end(), two.begin(), two.end());
+    const auto        at_voltages = [&d](const auto &m, std::vector<BrokenLoop> &all,
+                                  double shaft_mode = 0.0) {
+        for (BrokenLoop &loop :
+             broken_at_voltages(m.A, m.B_voltage, m.C_voltage, control_period_s(d.drive))) {
+            loop.shaft_mode = shaft_mode;
+            all.push_back(std::move(loop));
+        }
     };
     LoopFamily f;
     f.channels               = {"q axis", "d axis"};
@@ -95,7 +99,9 @@ LoopFamily whole_loop(const Design &d, const current_ref_config_t &references,
         f.plane = plane_points(id, nominal, d.l, static_cast<double>(d.config.speed_max_e_radps),
                                per_side);
     }
-    f.loops = [&d, &model_at, id, at_voltages, nominal](const Motor &, const OperatingPoint &at) {
+    const TrueMotor loaded = true_motor(d.drive, with_load_of_its_own(d.drive.motor));
+    f.loops                = [&d, &model_at, id, at_voltages, nominal, loaded](const Motor &,
+                                                                const OperatingPoint &at) {
         std::vector<BrokenLoop> all;
         const ReducedParameters l = believed_motor(d, at);
         const SteadyState       s = state_at(nominal, l, at);
@@ -103,6 +109,17 @@ LoopFamily whole_loop(const Design &d, const current_ref_config_t &references,
         for (const Eigen::MatrixXd &Lambda : feedback_gains(d)) {
             const MovingReference moving = moving_reference(r, l, Lambda, s);
             at_voltages(model_at(d, nominal, at, Lambda, &moving), all);
+        }
+        for (const Eigen::MatrixXd &Lambda : torque_gains(d)) {
+            MovingReference moving = moving_reference(r, l, Lambda, s);
+            moving.torque          = true;
+            if (is_limited(Lambda)) {
+                at_voltages(model_at(d, nominal, at, Lambda, &moving), all);
+            } else {
+                moving.of_estimate(0) = 0.0; // the torque does not follow the load
+                at_voltages(model_at(d, loaded, at, Lambda, &moving), all,
+                                           shaft_mode(d.drive.motor, control_period_s(d.drive)));
+            }
         }
         return all;
     };
@@ -114,6 +131,17 @@ LoopFamily whole_loop(const Design &d, const current_ref_config_t &references,
             if (has_angle(Lambda)) {
                 const auto learned = learned_gains(d, motor, Lambda);
                 at_voltages(model_at(d, other, at, learned, nullptr), all);
+            }
+        }
+        const TrueMotor       other_loaded = true_motor(d.drive, with_load_of_its_own(motor));
+        const double          ts           = control_period_s(d.drive);
+        const MovingReference still        = still_reference(ts);
+        for (const Eigen::MatrixXd &Lambda : torque_gains(d)) {
+            if (is_limited(Lambda)) {
+                at_voltages(model_at(d, other, at, Lambda, &still), all);
+            } else {
+                at_voltages(model_at(d, other_loaded, at, Lambda, &still), all,
+                            shaft_mode(motor, ts));
             }
         }
         return all;

@@ -41,6 +41,10 @@ void solve(Design &d)
 {
     solve_near_optimal(d);
     law_noc_config_t c{};
+    if (d.drive.torque) {
+        d.torque = solve_torque(at_rest(d.l), d.drive, d.precision);
+        c.torque = torque_constants(d);
+    }
     c.near_optimal  = near_optimal_constants(d, true, true);
     c.plausible     = encoder_limits(d);
     c.nodo.order    = static_cast<int16_t>(d.drive.nodo.order);
@@ -88,6 +92,9 @@ Layout layout(const Design &d)
         gain_block("         iq_A             id_A      theta_e_rad",
                    {"d_w", "d_q", "d_d", "w", "iq", "id", "theta"}, c.nodo.order, c.nodo.gain);
     layout["currents.gain"] = nodo_current_block(c.currents);
+    if (!d.torque) {
+        layout["torque"] = "";
+    }
     return layout;
 }
 

@@ -191,6 +191,21 @@ Metrics metrics_of(const Window &window, const Drive &drive, double load_before_
     return m;
 }
 
+void add_torque(Metrics &m, const Window &window, const Scenario &scenario)
+{
+    const std::vector<Step> &torques = scenario.torque_reference;
+    const double before_Nm = value_at(torques, window.measure.time_s - time_tolerance_s, 0.0);
+    const double target_Nm = value_at(torques, (window.end - 1)->time_s, 0.0);
+    m.torque = torque_metrics_of({window.begin, window.tail, window.end, before_Nm, target_Nm},
+                                 scenario.drive.motor.rated_torque_Nm);
+}
+
+/// Whether the steps have begun with a measure.
+bool has_begun(const std::vector<Step> &steps, const Measure &measure)
+{
+    return !steps.empty() && steps.front().time_s <= measure.time_s;
+}
+
 } // namespace
 
 std::vector<Window> windows_of(const Scenario &scenario, const Trace &trace)
@@ -220,7 +235,10 @@ std::vector<Metrics> measure(const Scenario &scenario, const Trace &trace)
         const Iterator before = window.begin == trace.begin() ? window.begin : window.begin - 1;
         out.push_back(metrics_of(window, scenario.drive, before->load_torque_Nm));
         const std::vector<Step> &positions = scenario.position_reference;
-        if (!positions.empty() && positions.front().time_s <= window.measure.time_s) {
+        if (has_begun(scenario.torque_reference, window.measure)) {
+            add_torque(out.back(), window, scenario);
+        }
+        if (has_begun(positions, window.measure)) {
             const double turns = value_at(positions, (window.end - 1)->time_s, 0.0);
             add_position(out.back(), window,
                          2.0 * std::acos(-1.0) * scenario.drive.motor.pole_pairs * turns,
@@ -232,6 +250,9 @@ std::vector<Metrics> measure(const Scenario &scenario, const Trace &trace)
 
 std::vector<std::pair<std::string, double>> metric_values(const Metrics &m)
 {
+    const auto torque = [&](auto TorqueMetrics::*value) {
+        return m.torque ? std::optional<double>((*m.torque).*value) : std::nullopt;
+    };
     const std::pair<const char *, std::optional<double>> all[] = {
         {"settling_time_s", m.settling_time_s},
         {"dip_e_radps", m.dip_e_radps},
@@ -258,6 +279,10 @@ std::vector<std::pair<std::string, double>> metric_values(const Metrics &m)
         {"position_steady_cnt", m.position_steady_cnt},
         {"position_settled_s", m.position_settled_s},
         {"position_overshoot_cnt", m.position_overshoot_cnt},
+        {"torque_rise_s", torque(&TorqueMetrics::rise_s)},
+        {"torque_overshoot_percent", torque(&TorqueMetrics::overshoot_percent)},
+        {"torque_error_percent", torque(&TorqueMetrics::error_percent)},
+        {"torque_ripple_percent", torque(&TorqueMetrics::ripple_percent)},
         {"current_distortion_percent", m.current_distortion_percent},
         {"fluctuation_rpm", m.fluctuation_rpm},
         {"fluctuation_rate_percent", m.fluctuation_rate_percent},

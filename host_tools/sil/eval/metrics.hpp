@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "sil/eval/effort.hpp"
+#include "sil/eval/torque_metrics.hpp"
 #include "sil/run/simulation.hpp"
 #include "sil/setup/metric_names.hpp"
 
@@ -43,6 +44,7 @@ struct Metrics {
     std::optional<double> position_steady_cnt;    ///< largest |shaft - target| in the tail
     std::optional<double> position_settled_s;     ///< last entry into two counts about the target
     std::optional<double> position_overshoot_cnt; ///< of a motion: how far it passes the target
+    std::optional<TorqueMetrics> torque;          ///< torque run
     /// All of the true phase currents but their fundamental, rms over that of the fundamental, in the tail. At constant
     /// speed: the deviation of (id, iq) from its mean over that mean. None when the fundamental is below 1 % of the drive's
     /// largest current (chosen: a ratio to less says nothing of the current).

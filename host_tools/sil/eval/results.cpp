@@ -2,6 +2,7 @@
 #include "sil/eval/results.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include <fmt/format.h>
@@ -39,6 +40,10 @@ constexpr MetricLabel labels[] = {
     {"position_steady_cnt", "steadily off [counts]", 1.0, "{:.2f}"},
     {"position_settled_s", "within two counts [ms]", 1e3, "{:.1f}"},
     {"position_overshoot_cnt", "passes target [counts]", 1.0, "{:.1f}"},
+    {"torque_rise_s", "90 % of a torque step [ms]", 1e3, "{:.2f}"},
+    {"torque_overshoot_percent", "torque overshoot [% of step]", 1.0, "{:.1f}"},
+    {"torque_error_percent", "torque error [% of rated]", 1.0, "{:.2f}"},
+    {"torque_ripple_percent", "torque ripple [% rms]", 1.0, "{:.2f}"},
     {"current_distortion_percent", "current distortion [%]", 1.0, "{:.2f}"},
     {"fluctuation_rpm", "fluctuation [r/min]", 1.0, "{:.2f}"},
     {"fluctuation_rate_percent", "fluctuation rate [%]", 1.0, "{:.2f}"},
@@ -72,10 +77,21 @@ const std::map<std::string, double> &paper_of(const Scenario &scenario, const Me
     return none;
 }
 
-/// Metrics of a position are shown for a run to a position only.
+/// Metrics of a position or a torque are shown for a run to one only. All measures of a torque run have no speed to reach.
 bool is_shown(const std::string &metric, const Scenario &scenario)
 {
-    return metric.rfind("position", 0) != 0 || !scenario.position_reference.empty();
+    static const char *const of_speed[] = {"settling",    "dip",        "overshoot", "steady_state",
+                                           "ripple",      "equivalent", "offset",    "within",
+                                           "fluctuation", "decrease"};
+    const auto               is_of   = [&](const char *what) { return metric.rfind(what, 0) == 0; };
+    const bool               torques = !scenario.torque_reference.empty();
+    if (is_of("torque_") && metric != "torque_noise_percent") {
+        return torques;
+    }
+    if (torques && std::any_of(std::begin(of_speed), std::end(of_speed), is_of)) {
+        return false;
+    }
+    return !is_of("position") || !scenario.position_reference.empty();
 }
 
 constexpr std::ptrdiff_t rows_of_a_piece = 4096; // chosen: some hundred kilobytes

@@ -74,7 +74,7 @@ double PositionCommands::zero_e_rad(double start_e_rad) const
 std::optional<double> PositionCommands::reference_e_rad(const drive_t &drive) const
 {
     const near_optimal_t *s = references_of(drive);
-    if (s == nullptr || !s->positioning || drive.state != DRIVE_RUN) {
+    if (s == nullptr || s->follows != NEAR_OPTIMAL_POSITION || drive.state != DRIVE_RUN) {
         return std::nullopt;
     }
     return rad_of(s->position_ref.at) - rad_of(zero_);

@@ -13,8 +13,10 @@ Recording record(const Scenario &scenario, const Controller &controller)
         const Simulation::CoreTick &tick = simulation.core_tick();
         r.samples.push_back(tick.sample);
         r.commands.push_back(tick.command);
-        r.positions.push_back(tick.command.position ? *tick.command.position
-                                                    : position_command_t{});
+        const law_aim_t aim = tick.command.aim != nullptr ? *tick.command.aim : law_aim_t{};
+        r.positions.push_back(aim.position != nullptr ? *aim.position : position_command_t{});
+        r.torques.push_back(aim.torque != nullptr ? *aim.torque : torque_command_t{});
+        r.aims.push_back(aim);
         r.outputs.push_back(tick.output);
         return end;
     });

@@ -11,11 +11,12 @@
 namespace sdre {
 
 struct Recording {
-    std::vector<drive_t>        drives; ///< the core before each tick
-    std::vector<drive_sample_t> samples;
-    std::vector<drive_command_t>
-        commands; ///< positions by pointer, which does not outlive the run:
-    std::vector<position_command_t> positions; ///< of each tick; zero where a speed is commanded
+    std::vector<drive_t>            drives; ///< the core before each tick
+    std::vector<drive_sample_t>     samples;
+    std::vector<drive_command_t>    commands;  ///< their pointers do not outlive the run:
+    std::vector<law_aim_t>          aims;      ///< of each tick; only whether they are null counts
+    std::vector<position_command_t> positions; ///< zero where a speed or a torque is commanded
+    std::vector<torque_command_t>   torques;   ///< the same of torques
     std::vector<bridge_t>           outputs;   ///< what the core answered here
 };
 

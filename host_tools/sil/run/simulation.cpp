@@ -6,7 +6,8 @@
 namespace sdre {
 
 Simulation::Simulation(const Scenario &scenario, const Controller &controller)
-    : period_s_(control_period_s(scenario.drive)), board_(scenario), positions_(scenario)
+    : period_s_(control_period_s(scenario.drive)), board_(scenario), positions_(scenario),
+      torques_(scenario, controller.config)
 {
     for (const InjectedFault &f : scenario.faults) {
         if (needs_processor(f.kind)) {
@@ -28,8 +29,10 @@ TickEnd Simulation::step(double omega_ref_e_radps)
     const double time_s = static_cast<double>(tick_++) * period_s_;
     board_.begin_tick(time_s);
     core_tick_.sample  = board_.sample();
+    aim_               = {positions_.at(time_s, core_tick_.sample), torques_.at(time_s)};
+    const bool other   = aim_.position != nullptr || aim_.torque != nullptr;
     core_tick_.command = {static_cast<float>(omega_ref_e_radps), true, 0.0F,
-                          positions_.at(time_s, core_tick_.sample)};
+                          other ? &aim_ : nullptr};
     const std::optional<double> position_ref =
         positions_.reference_e_rad(drive_); // of this instant
     core_tick_.output = drive_tick(&drive_, &core_tick_.sample, &core_tick_.command);

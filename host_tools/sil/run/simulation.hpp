@@ -11,6 +11,7 @@
 #include "sil/run/faults.hpp"
 #include "sil/run/position_commands.hpp"
 #include "sil/run/tick_loop.hpp"
+#include "sil/run/torque_commands.hpp"
 #include "sil/setup/scenario.hpp"
 
 namespace sdre {
@@ -58,6 +59,8 @@ private:
     double           period_s_;
     Board            board_;
     PositionCommands positions_;
+    TorqueCommands   torques_;
+    law_aim_t        aim_{};
     drive_t          drive_{};
     CoreTick         core_tick_{};
     bridge_t in_force_{{0.5F, 0.5F, 0.5F}, true}; ///< no voltage until the first result acts

@@ -72,6 +72,20 @@ void read_positions(TomlReader &t, Scenario &s)
     }
 }
 
+void read_torques(TomlReader &t, Scenario &s)
+{
+    s.torque_reference = read_steps(t, "torque_reference", "value_Nm", torque_range_Nm);
+    if (!s.torque_reference.empty() && !s.drive.torque) {
+        t.fail("torque_reference",
+               "is not allowed: the drive takes no torques, its file has no [torque]");
+    }
+    if (!s.torque_reference.empty() && !s.position_reference.empty()) {
+        t.fail("torque_reference", "is not allowed: the scenario has positions");
+    }
+    s.torque_speed_max_e_radps =
+        t.number_or("torque_speed_max_e_radps", {0.0, speed_range_e_radps.hi}, 0.0);
+}
+
 void read_load(TomlReader &t, Scenario &s)
 {
     s.load_torque = read_steps(t, "load_torque", "value_Nm", torque_range_Nm);
@@ -167,6 +181,7 @@ Scenario read_scenario(TomlReader &t, const std::string &name, const Drive &driv
     }
     s.speed_reference = read_steps(t, "speed_reference", "value_e_radps", speed_range_e_radps);
     read_positions(t, s);
+    read_torques(t, s);
     read_load(t, s);
     read_board(t, s);
     PlantChange start;

@@ -43,11 +43,13 @@ struct Scenario {
     std::vector<Step>          speed_reference; ///< electrical rad/s, sorted by time
     std::vector<Step> position_reference; ///< turns of the shaft from its start, sorted by time
     PositionProfile   position_profile;
-    std::vector<Step> load_torque;              ///< N m, sorted by time
-    std::vector<PlantChange>   changes;         ///< sorted by time
-    std::vector<Glitch>        glitches;        ///< sorted by time
-    std::vector<InjectedFault> faults;          ///< sorted by time
-    std::vector<Measure>       measures;        ///< sorted by time
+    std::vector<Step> torque_reference;     ///< N m, sorted by time
+    double torque_speed_max_e_radps = 0.0;  ///< limit of the speed in a torque run; 0: the drive's
+    std::vector<Step>          load_torque; ///< N m, sorted by time
+    std::vector<PlantChange>   changes;     ///< sorted by time
+    std::vector<Glitch>        glitches;    ///< sorted by time
+    std::vector<InjectedFault> faults;      ///< sorted by time
+    std::vector<Measure>       measures;    ///< sorted by time
     double                     dc_link_V = 0.0; ///< the supply; the drive file's unless given
     std::uint64_t              seed      = 1;   ///< of every random draw
     SensorSettings             sensors;

@@ -46,10 +46,13 @@ static tick_file_result_t replay(const tick_file_tick_t *t)
         .valid           = (t->flags & TICK_FILE_VALID) != 0u,
         .edge_of_pattern = (int16_t)((t->flags >> TICK_FILE_EDGE_SHIFT) & TICK_FILE_EDGE_MASK)};
     const bool            positions = (t->flags & TICK_FILE_POSITION) != 0u;
+    const bool            torques   = (t->flags & TICK_FILE_TORQUE) != 0u;
+    const law_aim_t       aim       = {.position = positions ? &t->position : NULL,
+                                       .torque   = torques ? &t->torque : NULL};
     const drive_command_t command   = {.omega_e_radps = t->command_e_radps,
                                        .run           = (t->flags & TICK_FILE_RUN) != 0u,
                                        .derating      = t->derating,
-                                       .position      = positions ? &t->position : NULL};
+                                       .aim           = (positions || torques) ? &aim : NULL};
 
     tick_file_to_drive(&t->drive, &drive);
 

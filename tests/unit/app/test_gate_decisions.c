@@ -79,13 +79,14 @@ static void start_core(void)
     const drive_sample_t  rest  = {.dc_link_V = 295.0f, .theta_e_rad = 1.0f, .valid = true};
     const drive_command_t going = {.omega_e_radps = 0.0f, .run = true};
 
-    answer           = good;
-    sample           = rest;
-    command          = going;
-    counts_hold      = true;
-    drive_config     = gain_tables_drive;
-    drive_config.law = &law;
-    other_config     = drive_config;
+    answer               = good;
+    sample               = rest;
+    command              = going;
+    counts_hold          = true;
+    drive_config         = gain_tables_drive;
+    drive_config.law     = &law;
+    drive_config.torques = false;
+    other_config         = drive_config;
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_init(&drive, &drive_config));
 }
 

@@ -27,6 +27,8 @@ typedef struct {
 static const entry_t entries[] = {
     {&config.ts_s, POSITIVE},
     {&config.current_max_A, POSITIVE},
+    {&config.rated_current_A, POSITIVE},
+    {&config.rated_torque_Nm, POSITIVE},
     {&config.trip_current_A, POSITIVE},
     {&config.trip_speed_e_radps, POSITIVE},
     {&config.speed_max_e_radps, POSITIVE},

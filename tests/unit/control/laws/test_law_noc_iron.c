@@ -204,6 +204,7 @@ static void test_constant_inductances_give_the_answers_of_noc(void)
     constants.currents     = plain->currents;
     constants.iron         = constant_iron(&gain_tables_drive);
     mapped.law             = &law_noc_iron;
+    mapped.torques         = false;
     mapped.positions       = false;
     mapped.constants       = &constants;
     drive                  = &mapped;

@@ -94,6 +94,7 @@ void setUp(void)
     config.overmodulation  = false;
     config.dead_time.share = 0.0f;
     config.law             = &law_of_its_own;
+    config.torques         = false;
     config.constants       = &own;
     checks                 = 0;
     TEST_ASSERT_EQUAL_INT(CTL_OK, drive_init(&drive, &config));

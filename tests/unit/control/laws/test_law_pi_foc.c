@@ -46,6 +46,7 @@ void setUp(void)
     in              = no_past;
     drive           = gain_tables_drive;
     drive.law       = &law_pi_foc;
+    drive.torques   = false;
     drive.constants = &config;
     drive.law->reset(&state, &drive, &sample);
 }

@@ -35,6 +35,7 @@ void setUp(void)
     in              = no_past;
     drive           = gain_tables_drive;
     drive.law       = &law_pid;
+    drive.torques   = false;
     drive.constants = &config;
     drive.law->reset(&state, &drive, &sample);
 }

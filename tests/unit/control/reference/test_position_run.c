@@ -20,6 +20,7 @@ static drive_t                      drive;
 static drive_sample_t               sample;
 static drive_command_t              command;
 static position_command_t           position;
+static law_aim_t                    aim;
 static near_optimal_config_t *const laws = &constants.near_optimal;
 
 static void take(const drive_config_t *base)
@@ -37,11 +38,12 @@ void setUp(void)
                                                     .accel_e_radps2 = 4.0e3f,
                                                     .decel_e_radps2 = 4.0e3f,
                                                     .jerk_e_radps3  = 1.0e6f}};
-    const drive_command_t    there   = {.run = true, .position = &position};
+    const drive_command_t    there   = {.run = true, .aim = &aim};
 
     random_state.state = 3u;
     sample             = at_rest;
     position           = ahead;
+    aim.position       = &position;
     command            = there;
     take(&gain_tables_drive);
 }
@@ -67,7 +69,7 @@ static void test_the_speed_is_not_looked_at_on_the_way_to_a_position(void)
 {
     command.omega_e_radps = NAN;
     assert_fault(DRIVE_FAULT_NONE);
-    command.position = NULL;
+    command.aim = NULL;
     assert_fault(DRIVE_FAULT_COMMAND);
 }
 
@@ -105,7 +107,7 @@ static near_optimal_t      state;
 
 static law_input_t near_its_reference(void)
 {
-    const law_input_t in = {.sample = &sample, .position = &position};
+    const law_input_t in = {.sample = &sample, .aim = &aim};
 
     sample.dc_link_V       = 5000.0f; /* nothing is out of reach */
     view.est               = &est;
@@ -203,12 +205,12 @@ static void test_a_speed_run_knows_no_angle_again(void)
     law_input_t in = near_its_reference();
 
     (void)error_of(&in, 0.02f, 0.0f);
-    TEST_ASSERT_TRUE(state.positioning);
+    TEST_ASSERT_EQUAL_INT(NEAR_OPTIMAL_POSITION, state.follows);
     TEST_ASSERT_TRUE(fabsf(state.theta_error_e_rad) > 0.0f);
-    in.position = NULL;
+    in.aim = NULL;
     (void)near_optimal_error(&state, laws, &config, &view, &in);
-    TEST_ASSERT_FALSE(state.positioning);
-    in.position = &position; /* the next run begins where the shaft is, and forgets the error */
+    TEST_ASSERT_EQUAL_INT(NEAR_OPTIMAL_SPEED, state.follows);
+    in.aim = &aim; /* the next run begins where the shaft is, and forgets the error */
     state.theta_error_e_rad = 1.0f;
     (void)near_optimal_position_error(&state, laws, &config, &view, &in);
     TEST_ASSERT_TRUE(base_within(state.theta_error_e_rad, 0.01f));
