@@ -44,6 +44,10 @@ FIELDS = {
     "off_cnt": ("position_off_cnt", 1),
     "rest_cnt": ("position_steady_cnt", 1),
     "passed_cnt": ("position_overshoot_cnt", 1),
+    "rise_ms": ("torque_rise_s", 1e3),
+    "beyond": ("torque_overshoot_percent", 1),
+    "torque_error": ("torque_error_percent", 1),
+    "torque_ripple": ("torque_ripple_percent", 1),
 }
 STATISTICS = ("worst", "median")
 OF_ANGLES = (*STATISTICS, "best")  # a range
