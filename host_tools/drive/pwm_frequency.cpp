@@ -40,8 +40,9 @@ double           law_cycles(const Drive &d)
 
 double least_cycles(const Drive &d)
 {
-    const double law = law_cycles(d) + (d.position ? cycle_budget::position : 0.0);
-    return law / (1.0 - cycle_budget::background_share);
+    const double more =
+        std::max(d.position ? cycle_budget::position : 0.0, d.torque ? cycle_budget::torque : 0.0);
+    return (law_cycles(d) + more) / (1.0 - cycle_budget::background_share);
 }
 
 /// A count is 61 ppm at the least.

@@ -245,6 +245,8 @@ class Replay:
             if tick == 0
             else f"{self.name}, position"
             if "position" in recorded.name
+            else f"{self.name}, torque"
+            if "torque" in recorded.name
             else self.name
         )
 

@@ -27,6 +27,7 @@ COLUMNS = {
     "noc_speed": "speed form",
     "noc": "encoder form",
     "noc, position": "encoder form, position",
+    "noc, torque": "encoder form, torque",
     "noc_h": "`noc_h`",
     "noc_shaft": "`noc_shaft`",
     "noc_10khz": "encoder form, 10 kHz",
@@ -111,33 +112,40 @@ def operations(f):
 PRICED = ("noc_speed", "noc", "noc_h", "noc_shaft", "conventional")
 
 
-def position(f):
-    """Cycles more on the way to a position."""
-    return f["whole_period"]["noc, position"][1] - f["whole_period"]["noc"][1]
+def more(f, what):
+    """Cycles more on the way to a position, or with a torque."""
+    return f["whole_period"][f"noc, {what}"][1] - f["whole_period"]["noc"][1]
 
 
 def frequencies(f, background):
     """EQ-BOARD-6: with one update in a PWM period, in kHz."""
     rows = []
-    for text, added in (("without positions", 0), ("with `[position]`", position(f))):
+    for text, added in (("without both", 0), ("with `[position]`", more(f, "position"))):
         spent = [dearest(f, column)[1] + added for column in PRICED]
         rows.append(
             [text, *(f"{1e-3 * CLOCK_Hz * (1 - background) / cycles:.1f}" for cycles in spent)]
         )
+    torque = dearest(f, "noc")[1] + more(f, "torque")
+    alone = f"{1e-3 * CLOCK_Hz * (1 - background) / torque:.1f}"
+    rows.insert(
+        1,
+        ["with `[torque]`", *(alone if column == "noc" else "" for column in PRICED)],
+    )
     return table(["highest PWM frequency in kHz", *(COLUMNS[column] for column in PRICED)], rows)
 
 
 def header(f, background):
     """The budget for pwm_frequency.cpp."""
     numbers = {law: f"{dearest(f, law)[1]}.0;" for law in PRICED}
-    numbers["position"] = f"{position(f)}.0;"
+    numbers["position"] = f"{more(f, 'position')}.0;"
+    numbers["torque"] = f"{more(f, 'torque')}.0;"
     numbers["background_share"] = f"{background!r};"
     width = max(map(len, numbers))
     lines = [
         "// SPDX-License-Identifier: MIT",
         "// Generated from docs/budget.json. Do not edit: ./dev budget record.",
         "/// Upper ends of a whole period's cycles, the dearer of a run's first and the others.",
-        "/// position: more on the way to a position.",
+        "/// `position` is more on the way to a position. `torque` is more with one.",
         "#pragma once",
         "",
         "namespace sdre::cycle_budget {",
