@@ -45,6 +45,17 @@ double least_cycles(const Drive &d)
     return (law_cycles(d) + more) / (1.0 - cycle_budget::background_share);
 }
 
+/// The section that takes the most cycles.
+const char *with_words(const Drive &d)
+{
+    const double position = d.position ? cycle_budget::position : 0.0;
+    const double torque   = d.torque ? cycle_budget::torque : 0.0;
+    if (position <= 0.0 && torque <= 0.0) {
+        return "";
+    }
+    return torque > position ? " with [torque]" : " with [position]";
+}
+
 /// A count is 61 ppm at the least.
 std::string seven_digits(double pwm_Hz)
 {
@@ -81,7 +92,7 @@ std::string pwm_refusal(const Drive &d, double pwm_Hz)
         "= {:g} is not allowed: must be {:.0f} .. {:.0f}; a PWM period has at most {:g} cycles of "
         "{:g} MHz, and law \"{}\"{} needs {:.0f}{} (docs/hardware.md, \"Cycle budget\")",
         pwm_Hz, std::ceil(counted_pwm_Hz(allowed.most)), std::floor(counted_pwm_Hz(allowed.least)),
-        most_cycles, 1e-6 * CLOCK_SYSCLK_Hz, law_name(d.law), d.position ? " with [position]" : "",
+        most_cycles, 1e-6 * CLOCK_SYSCLK_Hz, law_name(d.law), with_words(d),
         std::ceil(least_cycles(d)),
         d.inverter.updates_per_period == 1 ? "" : " in each of its two updates");
 }

@@ -13,9 +13,9 @@
 #include "drive/pwm_frequency.hpp"
 #include "facts/cross_checks.hpp"
 #include "facts/new_drive_text.hpp"
+#include "gains/added_note.hpp"
 #include "gains/commands.hpp"
-#include "tune/position_weights.hpp"
-#include "tune/torque_section.hpp"
+#include "tune/added_section.hpp"
 #include "tune/verdict_penalty.hpp"
 
 namespace sdre {
@@ -88,29 +88,19 @@ void say(const Findings &findings, const Options &o)
     }
 }
 
-/// [position], or a note of what is in its way.
-std::string position_or_why_not(const Drive &drive, const std::string &text, const Options &o)
+/// With positions and torques, or with notes of what is in their way. Torques are certified beside the positions.
+std::string with_further_sections(std::string text, const Drive &drive, const Options &o)
 {
-    const PositionSection found =
-        is_certified(drive)
-            ? position_section(drive, text, o.out)
-            : PositionSection{"", "even the start weights of the speed are not certified; "
-                                  "`sdre-gains tune` finds better ones, and positions with them"};
-    if (!found.why_not.empty()) {
-        fmt::print(stderr, "note: no [position], so the drive takes no positions: {}\n",
-                   found.why_not);
+    const bool         ready = is_certified(drive);
+    const AddedSection not_yet{"", "even the start weights of the speed are not certified; "
+                                   "`sdre-gains tune` finds better ones, and these with them"};
+    text += text_or_note("position", "positions",
+                         ready ? position_section(drive, text, o.out) : not_yet, "no");
+    if (takes_torque(drive)) {
+        text += text_or_note("torque", "torques",
+                             ready ? torque_section(drive, text, o.out) : not_yet, "no");
     }
-    return found.text;
-}
-
-/// The same of [torque].
-std::string torque_or_why_not(const Drive &drive)
-{
-    const TorqueSection found = takes_torque(drive) ? torque_section(drive) : TorqueSection{};
-    if (!found.why_not.empty()) {
-        fmt::print(stderr, "note: no [torque], so the drive takes no torques: {}\n", found.why_not);
-    }
-    return found.text;
+    return text;
 }
 
 int run(const Options &o)
@@ -138,8 +128,7 @@ int run(const Options &o)
     say(findings, o);
     std::string text  = new_drive_text(machine);
     const Drive drive = read_drive_text(text, facts.source, o.out); // whose ranges are the tools'
-    text += position_or_why_not(drive, text, o);
-    text += torque_or_why_not(drive);
+    text              = with_further_sections(text, drive, o);
     write_files({{o.out, text}});
     fmt::print("{}{}: written; `sdre-gains tune {} --out TUNED.toml` finds its weights\n",
                pwm_note(drive.inverter), o.out, shell_word(o.out));

@@ -8,12 +8,12 @@
 #include "common/file_output.hpp"
 #include "design/law_design.hpp"
 #include "drive/pwm_frequency.hpp"
+#include "gains/added_note.hpp"
 #include "gains/commands.hpp"
+#include "tune/added_section.hpp"
 #include "tune/auto_tune.hpp"
 #include "tune/drive_text.hpp"
 #include "tune/goals.hpp"
-#include "tune/position_weights.hpp"
-#include "tune/torque_section.hpp"
 #include "tune/tune.hpp"
 #include "tune/verdict_penalty.hpp"
 
@@ -114,35 +114,23 @@ int qualified(const std::string &file, int noise)
     return run_program(arguments) == 0 ? exit_ok : exit_design_failed;
 }
 
-/// [position], where the start weights were not certified and the found ones are: `new` left it out then. Else nothing.
-std::string added_position(const Drive &before, const Drive &found, const std::string &text,
+/// [position] and [torque], where the start weights were not certified and the found ones are: `new` left them out then.
+std::string added_sections(const Drive &before, const Drive &found, const std::string &text,
                            const std::string &file)
 {
-    if (!takes_positions(before.law) || before.position ||
-        law_design(before).weights != Weights::by_goals || is_certified(before)) {
+    if (law_design(before).weights != Weights::by_goals || is_certified(before)) {
         return "";
     }
-    const PositionSection position = position_section(found, text, file);
-    if (!position.why_not.empty()) {
-        fmt::print(stderr, "note: still no [position], so the drive takes no positions: {}\n",
-                   position.why_not);
+    std::string added;
+    if (takes_positions(before.law) && !before.position) {
+        added += text_or_note("position", "positions", position_section(found, text, file),
+                              "still no");
     }
-    return position.text;
-}
-
-/// The same of [torque].
-std::string added_torque(const Drive &before, const Drive &found)
-{
-    if (!takes_torque(before) || before.torque || law_design(before).weights != Weights::by_goals ||
-        is_certified(before)) {
-        return "";
+    if (takes_torque(before) && !before.torque) {
+        added += text_or_note("torque", "torques", torque_section(found, text + added, file),
+                              "still no");
     }
-    const TorqueSection torque = torque_section(found);
-    if (!torque.why_not.empty()) {
-        fmt::print(stderr, "note: still no [torque], so the drive takes no torques: {}\n",
-                   torque.why_not);
-    }
-    return torque.text;
+    return added;
 }
 
 int run(const Options &o)
@@ -158,8 +146,7 @@ int run(const Options &o)
     const Tuned       tuned    = o.spec.empty() ? by_physics(o, drive) : by_specification(o, drive);
     const std::string out      = o.out.empty() ? o.drive : o.out;
     std::string       sections = tuned_sections(tuned.result, tuned.spec);
-    sections += added_position(drive, tuned.result.drive, with_sections(text, sections), out);
-    sections += added_torque(drive, tuned.result.drive);
+    sections += added_sections(drive, tuned.result.drive, with_sections(text, sections), out);
     write_files({{out, with_sections(text, sections)}});
     fmt::print("{}{}{}: written; {}\n", sections, pwm_note(drive.inverter), out, tuned.remark);
     const int missed = tuned.met ? exit_ok : exit_design_failed;

@@ -48,22 +48,6 @@ std::optional<PositionSpec> start_position(const Drive &drive)
     return is_certified(found) ? found.position : std::nullopt;
 }
 
-PositionSection position_section(const Drive &drive, const std::string &text,
-                                 const std::string &file)
-{
-    const std::optional<PositionSpec> position = start_position(drive);
-    if (!position) {
-        return {"", "with no weight of the angle is it certified; a finer encoder would help"};
-    }
-    const std::string section = position_text(*position);
-    try {
-        (void)read_drive_text(text + section, file, file); // whose ranges are the tools'
-    } catch (const InputError &e) {
-        return {"", e.what()};
-    }
-    return {section, ""};
-}
-
 std::string position_text(const PositionSpec &p)
 {
     return fmt::format("\n[position]\n# angle: halved until the certificate passed; speed, i_q, "

@@ -23,14 +23,4 @@ std::optional<PositionSpec> start_position(const Drive &drive);
 /// [position] of a drive file.
 std::string position_text(const PositionSpec &position);
 
-/// A section, or what is in its way.
-struct PositionSection {
-    std::string text;    ///< [position] with its first weights; empty: there is none
-    std::string why_not; ///< empty when there is one
-};
-
-/// For a certified drive whose file has this text, and no [position]. `file`: the name that it has in messages.
-PositionSection position_section(const Drive &drive, const std::string &text,
-                                 const std::string &file);
-
 } // namespace sdre

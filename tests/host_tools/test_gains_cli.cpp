@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "command.hpp"
+#include "common/file_output.hpp"
 #include "drive/drive_file.hpp"
 #include "drive_text.hpp"
 #include "examples.hpp"
@@ -393,6 +394,19 @@ TEST(GainsCli, NewWritesPositionsOrSaysWhyNot)
     EXPECT_FALSE(made("pump_256", "start weights of the speed are not certified"));
     EXPECT_FALSE(made("ev_100kw", "start weights of the speed are not certified"));
     EXPECT_FALSE(made("outrunner_24v", "pwm_frequency_Hz = 20000 is not allowed"));
+}
+
+TEST(GainsCli, NewLeavesTorquesOutThatTheFrequencyHasNoTimeFor)
+{
+    const TempDir dir;
+    std::string   sheet = sdre::read_text_file(SDRE_TEST_DATA_DIR "/facts/outrunner_24v.toml");
+    sheet.replace(sheet.find("pwm_kHz = 20"), 12, "pwm_kHz = 23.5");
+    const std::string out = dir / "drive.toml";
+    const auto r = gains({"new", "--facts", dir.write("sheet.toml", sheet), "--out", out});
+    EXPECT_EQ(r.exit_code, 0) << r.err;
+    EXPECT_NE(r.err.find("note: no [torque]"), std::string::npos) << r.err;
+    EXPECT_NE(r.err.find("\"noc\" with [torque] needs"), std::string::npos) << r.err;
+    EXPECT_FALSE(sdre::read_drive_file(out).torque.has_value()); // and it can be read
 }
 
 TEST(GainsCli, TuneAddsThePositionsThatNewLeftOut)
