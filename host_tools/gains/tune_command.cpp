@@ -123,8 +123,8 @@ std::string added_sections(const Drive &before, const Drive &found, const std::s
     }
     std::string added;
     if (takes_positions(before.law) && !before.position) {
-        added += text_or_note("position", "positions", position_section(found, text, file),
-                              "still no");
+        added +=
+            text_or_note("position", "positions", position_section(found, text, file), "still no");
     }
     if (takes_torque(before) && !before.torque) {
         added += text_or_note("torque", "torques", torque_section(found, text + added, file),

@@ -402,7 +402,7 @@ TEST(GainsCli, NewLeavesTorquesOutThatTheFrequencyHasNoTimeFor)
     std::string   sheet = sdre::read_text_file(SDRE_TEST_DATA_DIR "/facts/outrunner_24v.toml");
     sheet.replace(sheet.find("pwm_kHz = 20"), 12, "pwm_kHz = 23.5");
     const std::string out = dir / "drive.toml";
-    const auto r = gains({"new", "--facts", dir.write("sheet.toml", sheet), "--out", out});
+    const auto        r   = gains({"new", "--facts", dir.write("sheet.toml", sheet), "--out", out});
     EXPECT_EQ(r.exit_code, 0) << r.err;
     EXPECT_NE(r.err.find("note: no [torque]"), std::string::npos) << r.err;
     EXPECT_NE(r.err.find("\"noc\" with [torque] needs"), std::string::npos) << r.err;

@@ -187,7 +187,8 @@ TEST(Verify, WhatNoValueExplainsIsOutsideToo)
         EXPECT_FALSE(j.within());
         EXPECT_GT(j.figures.back(), j.hi.back());
         const double middle = 0.5 * (j.lo.back() + j.hi.back());
-        EXPECT_GE(j.farthest, (j.figures.back() - middle) / (j.hi.back() - middle));
+        const double own    = (j.figures.back() - middle) / (j.hi.back() - middle);
+        EXPECT_GE(j.farthest, own * (1.0 - 1e-12)); // the half width is rounded in another way
     }
 }
 
