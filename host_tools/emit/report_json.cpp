@@ -9,6 +9,7 @@
 #include "drive/pwm_frequency.hpp"
 #include "emit/report_machine.hpp"
 #include "emit/report_parts.hpp"
+#include "emit/report_torque.hpp"
 
 namespace sdre {
 namespace {
@@ -268,6 +269,9 @@ std::string report_json(const Design &d, const std::optional<Prediction> &predic
     Json report       = heading_json(d);
     report["machine"] = machine_json(d, prediction);
     report.update(law_json(d));
+    if (d.torque) {
+        report["torque"] = torque_json(d);
+    }
     if (d.certificate.loop) {
         report["whole_loop"] = verdict_json(*d.certificate.loop);
     }

@@ -10,6 +10,7 @@
 #include "drive/pwm_frequency.hpp"
 #include "emit/report_machine.hpp"
 #include "emit/report_parts.hpp"
+#include "emit/report_torque.hpp"
 
 namespace sdre {
 namespace {
@@ -204,6 +205,7 @@ std::string report_text(const Design &d, const std::optional<Prediction> &predic
         s += fmt::format("  l{:<3} {:.9g}\n", i, d.l[i]);
     }
     s += d.servo ? servo_text(d) : is_cascade(d.drive.law) ? cascade_text(d) : noc_text(d);
+    s += d.torque ? torque_text(d) : "";
     s += verdict_text(d.certificate);
     if (d.drive.mechanics.coupling != Coupling::rigid &&
         !(d.certificate.loop && d.certificate.loop->shaft)) {

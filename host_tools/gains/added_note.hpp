@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What is said of a section that a drive file gets, or does not get.
+/// Says why a drive file does not get a section.
 #pragma once
 
 #include <string>

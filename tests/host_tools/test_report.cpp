@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "common/errors.hpp"
@@ -232,4 +233,36 @@ TEST(Report, LoopsConsistOfTheirParts)
     EXPECT_LT(worst, d.certificate.loop->spectral_radius); // its reference moves, slowly
     EXPECT_EQ(written.at("box_points").size(), 2U);
     EXPECT_THROW(sdre::loops_json(certified()), sdre::InputError); // speed form
+}
+
+// The oracle of the bound is in test_torque.cpp.
+TEST(Report, TorquesHaveTheirBoundInBothForms)
+{
+    const sdre::Design design =
+        sdre::design_drive(sdre::read_drive_file(support::shipped_drive("ipmsm_390w")));
+    const Json        torque = report_of(design)["torque"];
+    const std::string text   = sdre::report_text(design);
+    EXPECT_GT(torque["iq_VpA"].number(), 0.0);
+    EXPECT_GT(torque["id_VpA"].number(), 0.0);
+    const Json &least = torque["least_time_of_rated_step"];
+    ASSERT_EQ(least.size(), 3U);
+    double before_s = 0.0;
+    for (std::size_t k = 0; k < 3; k++) {
+        const double time_s = least[k]["time_s"].number();
+        EXPECT_DOUBLE_EQ(least[k]["speed_e_radps"].number(),
+                         0.5 * static_cast<double>(k) * design.drive.motor.rated_speed_e_radps);
+        EXPECT_GT(time_s, before_s);
+        EXPECT_TRUE(contains(text, fmt::format("{:.2f} ms at ", 1e3 * time_s))) << text;
+        before_s = time_s;
+    }
+
+    sdre::Drive low            = design.drive; // less than the resistance takes
+    low.inverter.dc_link_V     = 3.0;
+    const sdre::Design lowered = sdre::design_drive(low);
+    const Json         out     = report_of(lowered)["torque"]["least_time_of_rated_step"];
+    EXPECT_TRUE(out[0]["time_s"].is_null());
+    EXPECT_TRUE(contains(sdre::report_text(lowered), "out of reach at rest"));
+
+    EXPECT_THROW((void)report_of(certified()).at("torque"), std::exception);
+    EXPECT_FALSE(contains(sdre::report_text(certified()), "\ntorque\n"));
 }
