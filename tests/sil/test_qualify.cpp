@@ -60,6 +60,9 @@ TEST(Qualify, TheShippedDriveIsGood)
     EXPECT_EQ(r.json.at("good"), true);
     EXPECT_EQ(r.json.at("motors").at("good"), 40);
     EXPECT_EQ(r.json.at("trials").size(), 12U);
+    EXPECT_EQ(r.json.at("torques").at("good"), true);
+    EXPECT_NE(r.out.find("\ntorques at 261.5 rad/s: a tenth of the rated one after"),
+              std::string::npos);
     for (const Json &trial : r.json.at("trials")) {
         EXPECT_LE(trial.at("peak_current_A").number(), 4.4) << trial.at("what").text();
     }
@@ -148,6 +151,48 @@ TEST(Qualify, ANoisyDriveIsNotGood)
     EXPECT_EQ(r.exit_code, 4);
     EXPECT_EQ(r.json.at("good"), false);
     EXPECT_NE(r.out.find("not good: load step: noise of v_q"), std::string::npos) << r.out;
+}
+
+TEST(Qualify, TorquesAreTriedWhereTheDriveTakesThem)
+{
+    const sdre::Drive drive = sdre::read_drive_file(support::shipped_drive("ipmsm_390w"));
+    const auto        found = sdre::torque_trial(drive, 2);
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(found->reasons.empty()) << found->reasons.front();
+    // The oracle: the same steps in a run of their own, by the trace.
+    const sdre::Scenario         s       = sdre::torque_scenario(drive);
+    const sdre::SimulationResult r       = sdre::simulate(s, sdre::prepare_controller(s)); // seed 1
+    double                       rated_s = 0.0;
+    for (const sdre::TraceRow &row : r.trace) {
+        if (row.time_s >= s.measures[2].time_s && row.torque_Nm < 0.15 + 0.9 * (1.5 - 0.15)) {
+            rated_s = row.time_s - s.measures[2].time_s;
+        } else if (row.time_s > s.measures[2].time_s) {
+            break;
+        }
+    }
+    const double period_s = 200e-6;
+    EXPECT_NEAR(*found->rated_s, rated_s + 0.5 * period_s, period_s);
+    EXPECT_GT(rated_s, found->least_rated_s); // no drive beats it
+    EXPECT_LT(*found->tenth_s, *found->rated_s);
+
+    const std::string words = sdre::torque_words(*found);
+    EXPECT_NE(words.find(": good"), std::string::npos) << words;
+    EXPECT_FALSE(
+        sdre::torque_trial(sdre::read_drive_file(support::shipped_drive("ipmsm_390w_pi_foc")), 1));
+}
+
+/// The current limit is below what the rated torque takes.
+TEST(Qualify, TorquesOfAPoorDriveAreNotGood)
+{
+    sdre::Drive weak           = sdre::read_drive_file(support::shipped_drive("ipmsm_390w"));
+    weak.motor.max_current_A   = 1.6; // below what the rated torque takes
+    weak.motor.rated_torque_Nm = 1.5;
+    const auto little          = sdre::torque_trial(weak, 1);
+    ASSERT_TRUE(little);
+    ASSERT_FALSE(little->reasons.empty());
+    EXPECT_NE(sdre::torque_words(*little).find("all of the rated torque does not come"),
+              std::string::npos)
+        << sdre::torque_words(*little);
 }
 
 TEST(Qualify, TrialsAreMadeOfTheDrivesNumbers)

@@ -29,6 +29,17 @@ struct SeedMeasure {
     std::string             name;
     double                  time_s = 0.0;
     std::vector<SeedSpread> spread;
+
+    /// The worst value of a metric; none without the metric, or when a seed has no value.
+    std::optional<double> worst(const std::string &metric) const
+    {
+        for (const SeedSpread &s : spread) {
+            if (s.metric == metric) {
+                return s.worst;
+            }
+        }
+        return {};
+    }
 };
 
 struct SeedRuns {

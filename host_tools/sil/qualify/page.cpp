@@ -63,6 +63,7 @@ std::string qualification_html(const Qualification &q)
     for (const Rival &rival : q.rivals) {
         s += paragraph(escaped(rival_words(rival))) + paragraph(rival_verdict(q, rival));
     }
+    s += q.torques ? paragraph(escaped(torque_words(*q.torques))) : "";
     s += "<h2>Steady over speed and torque</h2>\n" + (q.map.points.empty() ? "" : map_svg(q.map));
     s += paragraph(motors_words(q));
     s += paragraph(wide_motors_words(q));

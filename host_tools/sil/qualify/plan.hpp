@@ -10,6 +10,9 @@
 
 namespace sdre {
 
+/// The project's bound for every scenario: peak current over the limit.
+constexpr double peak_ratio = 1.1;
+
 /// One run and its limits; 0: no limit.
 struct Trial {
     std::string what;     ///< "load step", a row of the table

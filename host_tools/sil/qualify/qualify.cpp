@@ -16,18 +16,7 @@
 namespace sdre {
 namespace {
 
-constexpr double peak_ratio  = 1.1;  // the project's bound for every scenario
 constexpr double share_limit = 0.99; // of random motors
-
-std::optional<double> worst(const SeedMeasure &m, const std::string &metric)
-{
-    for (const SeedSpread &s : m.spread) {
-        if (s.metric == metric) {
-            return s.worst;
-        }
-    }
-    return {};
-}
 
 TrialResult result_of(const Trial &trial, const SeedRuns &runs)
 {
@@ -35,13 +24,13 @@ TrialResult result_of(const Trial &trial, const SeedRuns &runs)
     const SeedMeasure &m = runs.measures.back();
     r.what               = trial.what;
     r.faults             = runs.faults;
-    r.settling_time_s    = worst(m, "settling_time_s");
-    r.dip_e_radps        = worst(m, "dip_e_radps").value_or(0.0);
-    r.ripple_e_radps     = worst(m, "ripple_e_radps").value_or(0.0);
-    r.voltage_noise_V    = worst(m, "vq_noise_V").value_or(0.0);
-    r.vd_noise_V         = worst(m, "vd_noise_V").value_or(0.0);
+    r.settling_time_s    = m.worst("settling_time_s");
+    r.dip_e_radps        = m.worst("dip_e_radps").value_or(0.0);
+    r.ripple_e_radps     = m.worst("ripple_e_radps").value_or(0.0);
+    r.voltage_noise_V    = m.worst("vq_noise_V").value_or(0.0);
+    r.vd_noise_V         = m.worst("vd_noise_V").value_or(0.0);
     for (const SeedMeasure &each : runs.measures) {
-        r.peak_current_A = std::max(r.peak_current_A, worst(each, "peak_current_A").value_or(0.0));
+        r.peak_current_A = std::max(r.peak_current_A, each.worst("peak_current_A").value_or(0.0));
     }
     return r;
 }
@@ -141,6 +130,10 @@ Qualification qualify(const Drive &drive, const QualifyOptions &o)
         for (const std::string &reason : r.reasons) {
             q.reasons.push_back(fmt::format("{}: {}", r.what, reason));
         }
+    }
+    q.torques = torque_trial(drive, o.seeds);
+    for (const std::string &reason : q.torques ? q.torques->reasons : std::vector<std::string>{}) {
+        q.reasons.push_back("torques: " + reason);
     }
     q.map = plane_map(drive, o.side, o.seeds);
     for (const std::string &reason : map_reasons(q.map)) {

@@ -10,6 +10,7 @@
 #include "design/law_design.hpp"
 #include "sil/qualify/map.hpp"
 #include "sil/qualify/plan.hpp"
+#include "sil/qualify/torques.hpp"
 
 namespace sdre {
 
@@ -63,12 +64,13 @@ struct Qualification {
     bool        certified        = false;
     double      periods_per_edge = 1.0; ///< at half the rated speed; 1: every period has an edge
     double      lines            = 0.0; ///< of the encoder
-    std::vector<TrialResult> trials;
-    PlaneMap                 map;
-    MotorShare               motors;  ///< R, L, flux +-30 %, J x0.5 .. 2
-    MotorShare               wide;    ///< R, L, flux +-50 %, J x0.5 .. 3; for information
-    std::vector<Rival>       rivals;  ///< pi_foc and ladrc
-    std::vector<std::string> reasons; ///< what is not good, all of it
+    std::vector<TrialResult>   trials;
+    std::optional<TorqueTrial> torques; ///< of a drive that takes them
+    PlaneMap                   map;
+    MotorShare                 motors;  ///< R, L, flux +-30 %, J x0.5 .. 2
+    MotorShare                 wide;    ///< R, L, flux +-50 %, J x0.5 .. 3; for information
+    std::vector<Rival>         rivals;  ///< pi_foc and ladrc
+    std::vector<std::string>   reasons; ///< what is not good, all of it
 
     bool good() const
     {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "common/json.hpp"
@@ -88,6 +90,27 @@ Json map_json(const PlaneMap &map)
             {"points", points}};
 }
 
+Json time_json(const std::optional<double> &time_s)
+{
+    return time_s && std::isfinite(*time_s) ? Json(*time_s) : Json();
+}
+
+Json torques_json(const TorqueTrial &t)
+{
+    return {{"speed_e_radps", t.speed_e_radps},
+            {"good", t.reasons.empty()},
+            {"faults", t.faults},
+            {"least_tenth_s", time_json(t.least_tenth_s)},
+            {"tenth_s", time_json(t.tenth_s)},
+            {"least_rated_s", time_json(t.least_rated_s)},
+            {"rated_s", time_json(t.rated_s)},
+            {"overshoot_percent", t.overshoot_percent},
+            {"error_percent", t.error_percent},
+            {"ripple_percent", t.ripple_percent},
+            {"peak_current_A", t.peak_current_A},
+            {"reasons", t.reasons}};
+}
+
 Json share_json(const MotorShare &m)
 {
     return {{"count", m.count}, {"good", m.good}};
@@ -107,6 +130,7 @@ std::string qualification_text(const Qualification &q)
         s += row_text(r, q);
     }
     s += rivals_text(q);
+    s += q.torques ? line(torque_words(*q.torques)) : "";
     s += map_text(q.map);
     s += line(motors_words(q));
     s += line(wide_motors_words(q));
@@ -135,6 +159,9 @@ std::string qualification_json(const Qualification &q)
            {"motors", share_json(q.motors)},
            {"wide_motors", share_json(q.wide)},
            {"reasons", q.reasons}};
+    if (q.torques) {
+        j["torques"] = torques_json(*q.torques);
+    }
     for (const Rival &rival : q.rivals) {
         j[rival.law->name] = rival_json(rival);
     }
