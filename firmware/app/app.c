@@ -45,7 +45,7 @@ static struct {
     bool                  taken;   /* a command came after it */
     uint16_t              due;     /* pieces of work, APP_SLOW_ */
     uint16_t              slow_periods;
-    uint16_t              slow_period;
+    uint16_t              slow_left; /* periods until the next turn, less one */
     const drive_config_t *drive;
     const drive_config_t *in_force; /* the drive's constants or the second set; NULL: refused */
     const float          *ntc_degC;
@@ -83,7 +83,7 @@ static ctl_status_t init_tick_side(const app_config_t *config, const drive_confi
     tick_side.taken                = false;
     tick_side.due                  = (uint16_t)APP_SLOW_TURN;
     tick_side.slow_periods         = app_slow_periods(drive->ts_s);
-    tick_side.slow_period          = 0U;
+    tick_side.slow_left            = (uint16_t)(tick_side.slow_periods - 1U);
     tick_side.background_count     = 0U;
     tick_side.background_age_ticks = 0U;
     app_config_for(&tick_side.config, config, drive->hardware.updates_per_period);
@@ -279,12 +279,13 @@ static void work_at_rest(app_mode_t mode)
 static void work(void)
 {
     const app_mode_t mode = tick_side.modes.mode;
-    const uint16_t   next = (uint16_t)(tick_side.slow_period + 1U);
+    const uint16_t   left = tick_side.slow_left;
 
-    tick_side.slow_period = next;
-    if (next >= tick_side.slow_periods) {
-        tick_side.slow_period = 0U;
-        tick_side.due         = (uint16_t)(tick_side.due | (uint16_t)APP_SLOW_TURN);
+    if (left > 0U) {
+        tick_side.slow_left = (uint16_t)(left - 1U);
+    } else {
+        tick_side.slow_left = (uint16_t)(tick_side.slow_periods - 1U);
+        tick_side.due       = (uint16_t)(tick_side.due | (uint16_t)APP_SLOW_TURN);
     }
     if ((mode == APP_MODE_RUN) || (mode == APP_MODE_STOP)) {
         work_slowly(mode);
@@ -297,13 +298,17 @@ static bool background_lost(void)
 {
     const uint16_t count = shared.background_count;
 
+    bool lost = false;
+
     if (count != tick_side.background_count) {
         tick_side.background_count     = count;
         tick_side.background_age_ticks = 0U;
-    } else if (tick_side.background_age_ticks <= tick_side.modes.config->background_ticks) {
+    } else if (tick_side.background_age_ticks < tick_side.modes.config->background_ticks) {
         tick_side.background_age_ticks = (uint16_t)(tick_side.background_age_ticks + 1U);
+    } else {
+        lost = true;
     }
-    return tick_side.background_age_ticks > tick_side.modes.config->background_ticks;
+    return lost;
 }
 
 /* Opens the bridge first, or enables it last. */

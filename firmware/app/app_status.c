@@ -13,6 +13,13 @@ static bool current_limited(const volatile app_modes_t *m)
     return ((id_A * id_A) + (iq_A * iq_A)) >= (AT_LIMIT2 * max_A * max_A);
 }
 
+float app_torque_share(const drive_config_t *c, dq_t i_A)
+{
+    const motor_reduced_t *m = &c->motor;
+
+    return (i_A.q * (m->l1 + (m->l11 * i_A.d))) / (m->l3 * c->rated_torque_Nm);
+}
+
 void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_status_t *s)
 {
     const bool running = (m->mode == APP_MODE_RUN) || (m->mode == APP_MODE_STOP);
@@ -54,23 +61,25 @@ void app_modes_status(const volatile app_modes_t *m, uint16_t board_faults, app_
     s->ia_A = m->sample.ia_A;
     s->ib_A = m->sample.ib_A;
 #endif
-    s->d_omega           = running ? m->drive.answer.d_omega : 0.0f;
-    s->zero_a_cnt        = m->scale.zero_a_cnt;
-    s->zero_b_cnt        = m->scale.zero_b_cnt;
-    s->tick_cycles       = 0U;
-    s->tick_cycles_worst = 0U;
-    s->ticks             = m->ticks;
-    s->snapshot          = m->snapshot;
-    s->commission        = app_commission_status(&m->commission);
-    s->state             = APP_CONTROL_NOT_READY; /* app.c sets this and the next */
-    s->mode_of_operation = 0;
-    s->done              = false;
-    s->demand_e_radps    = 0.0f;
-    s->position          = m->position;
-    s->arrived           = running && m->drive.answer.arrived;
-    s->waits             = running && m->drive.answer.waits;
-    s->target_cnt        = 0L;
-    s->acknowledged      = false;
+    s->d_omega             = running ? m->drive.answer.d_omega : 0.0f;
+    s->zero_a_cnt          = m->scale.zero_a_cnt;
+    s->zero_b_cnt          = m->scale.zero_b_cnt;
+    s->tick_cycles         = 0U;
+    s->tick_cycles_worst   = 0U;
+    s->ticks               = m->ticks;
+    s->snapshot            = m->snapshot;
+    s->commission          = app_commission_status(&m->commission);
+    s->state               = APP_CONTROL_NOT_READY; /* app.c sets this and the next */
+    s->mode_of_operation   = 0;
+    s->done                = false;
+    s->demand_e_radps      = 0.0f;
+    s->position            = m->position;
+    s->arrived             = running && m->drive.answer.arrived;
+    s->waits               = running && m->drive.answer.waits;
+    s->torque_share        = running ? app_torque_share(m->drive.config, now_A) : 0.0f;
+    s->torque_demand_share = running ? app_torque_share(m->drive.config, s->i_ref_A) : 0.0f;
+    s->target_cnt          = 0L;
+    s->acknowledged        = false;
 #if APP_DISC_MAP
     s->disc = m->angle.disc.state;
 #endif

@@ -112,10 +112,19 @@ typedef struct {
     bool                    acknowledged; /**< app_setpoint.h */
     bool                    arrived;      /**< the reference rests at the target */
     bool                    waits;        /**< the reference waits for a shaft that cannot follow */
+    float                   torque_share; /**< RUN only: by the model, of the rated torque */
+    float                   torque_demand_share; /**< RUN only: the same of their references */
 #if APP_DISC_MAP
     app_disc_state_t disc; /**< map of the disc, app_disc.h */
 #endif
 } app_status_t;
+
+/** A run follows one of these. */
+typedef enum {
+    APP_FOLLOWS_SPEED = 0,
+    APP_FOLLOWS_POSITION, /**< only drives with positions */
+    APP_FOLLOWS_TORQUE    /**< only drives with torques */
+} app_follows_t;
 
 /** Command of the application modes. */
 typedef struct {
@@ -126,9 +135,15 @@ typedef struct {
     bool  align;      /**< find the angle again; starts in the same way */
     float derating;   /**< unused share of the current limit, 0 .. 1 */
     app_commission_bounds_t bounds; /**< of the commissioning */
-    bool               positioning; /**< true: follow a position, the next two; false: the speed */
-    position_t         target;
-    position_profile_t profile;
+    app_follows_t           follows;
+    position_t              target; /**< of a position, as the next */
+    position_profile_t      profile;
+    float                   torque_share;             /**< of the rated torque, as the next two */
+    float                   torque_step;              /**< change in a period; > 0 */
+    float                   torque_speed_max_e_radps; /**< speed limit, within the drive's */
 } app_command_t;
+
+/** Torque of these currents over the rated one, by the drive's model. Context: any. */
+float app_torque_share(const drive_config_t *c, dq_t i_A);
 
 #endif /* APP_STATUS_H */

@@ -6,11 +6,11 @@
 
 namespace sdre::cycle_budget {
 
-constexpr double noc_speed        = 5152.0;
-constexpr double noc              = 5441.0;
-constexpr double noc_h            = 8898.0;
+constexpr double noc_speed        = 5151.0;
+constexpr double noc              = 5440.0;
+constexpr double noc_h            = 8897.0;
 constexpr double noc_shaft        = 5992.0;
-constexpr double conventional     = 7363.0;
+constexpr double conventional     = 7362.0;
 constexpr double position         = 3055.0;
 constexpr double torque           = 558.0;
 constexpr double background_share = 0.10666666666666667;

@@ -50,6 +50,7 @@ protected:
     void listen(Octets &come)
     {
         served.period();
+        after_period();
         for (int octet = served.take(); octet >= 0; octet = served.take()) {
             come.push_back(static_cast<std::uint8_t>(octet));
         }
@@ -88,8 +89,11 @@ protected:
         const double end_s = served.time_s() + time_s;
         while (served.time_s() < end_s) {
             served.period();
+            after_period();
         }
     }
+    /// After each period that this client lets pass.
+    virtual void after_period() {}
 
     std::uint8_t unit = 1;
     ServedDrive  served{shipped_drive(), 1};

@@ -114,7 +114,7 @@ void prove_app_tick(void)
     in.command.run       = any_bool();
     in.command.reset     = any_bool();
     in.command.align     = any_bool();
-    in.command.positioning  = any_bool();
+    in.command.follows   = any_between(APP_FOLLOWS_SPEED, APP_FOLLOWS_TORQUE);
     in.command.target.turns = any_long_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
     in.command.commission   = false; /* not proved: its own bounds and tests */
 

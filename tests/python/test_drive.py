@@ -52,7 +52,10 @@ def test_states_ramps_and_stops(drive: Drive) -> None:
     drive.write("CONTROLWORD", ControlWord.ENABLE)
     began = until(drive, lambda r: r.mode == Mode.RUN)
     with pytest.raises(DriveError, match="now"):
-        drive.write("MODE_OF_OPERATION", 6)
+        drive.write("LINE_FORMAT", 1)
+    drive.write("MODE_OF_OPERATION", 6)  # of the next start
+    assert drive.read().mode_of_operation == 3
+    drive.write("MODE_OF_OPERATION", 3)
     reached = until(drive, lambda r: bool(r.statusword & 0x400))
     assert (
         0.8 < reached.time_s - began.time_s < 1.3

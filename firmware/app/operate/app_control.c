@@ -62,27 +62,17 @@ static void set_ramp(app_control_t *c, float goal, float accel, float decel)
     c->down_e_radps = forward ? back : away;
 }
 
-/* The reference stays where it is put. */
-static void put_reference(app_control_t *c, float ref_e_radps)
-{
-    c->ref_e_radps  = ref_e_radps;
-    c->goal_e_radps = ref_e_radps;
-    c->up_e_radps   = 0.0f;
-    c->down_e_radps = 0.0f;
-}
-
 static void set_reference(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen)
 {
     const bool runs = (seen->mode == APP_MODE_RUN) || (seen->mode == APP_MODE_STOP);
 
     if (runs || !(o->accel_e_radps2 > 0.0f)) {
         const bool still = c->stopping || app_control_has(o->controlword, APP_CONTROL_HALT) ||
-                           (c->mode == APP_CONTROL_PROFILE_POSITION);
+                           (c->mode != APP_CONTROL_PROFILE_VELOCITY);
 
         set_ramp(c, still ? 0.0f : o->omega_e_radps, o->accel_e_radps2, deceleration(c, o));
     } else {
-        put_reference(c,
-                      base_clamp(seen->speed_e_radps, -c->speed_max_e_radps, c->speed_max_e_radps));
+        app_control_put_speed(c, seen);
     }
 }
 
@@ -91,7 +81,7 @@ static void keep_running(app_control_t *c, app_command_t *out)
 {
     c->moved        = true;
     c->stopping     = false;
-    c->positioning  = false;
+    c->follows      = APP_FOLLOWS_SPEED;
     c->asked        = true;
     out->run        = true;
     out->reset      = false;
@@ -106,11 +96,12 @@ void app_control_decide(app_control_t *c, const app_objects_t *o, const app_cont
     const app_control_ask_t ask       = asked_for(o->controlword);
     const bool              steady    = is_steady(c, seen, ask);
 
-    if (steady && (c->mode == APP_CONTROL_PROFILE_VELOCITY) && !c->done) {
+    if (steady && (c->mode == APP_CONTROL_PROFILE_VELOCITY) && (c->mode == o->mode_of_operation)) {
         keep_running(c, out);
         c->reset_high = reset_now;
         return;
     }
+    app_control_hand_over(c, o);
     if (steady) {
         c->moved    = true;
         c->stopping = false;
@@ -118,8 +109,7 @@ void app_control_decide(app_control_t *c, const app_objects_t *o, const app_cont
         app_control_change(c, o, seen, ask);
         c->stopping = is_stopping(c, ask);
     }
-    c->positioning =
-        (c->mode == APP_CONTROL_PROFILE_POSITION) && app_control_position(c, o, seen, c->stopping);
+    c->follows = app_control_followed(c, o, seen);
 
     const bool on = app_control_is_enabled(c->state);
     const bool go = on && (!c->stopping || app_control_brakes(c, o, seen, ask)) && !c->done;
@@ -138,13 +128,11 @@ void app_control_decide(app_control_t *c, const app_objects_t *o, const app_cont
 void app_control_aim(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
                      app_command_t *out)
 {
-    out->positioning = c->positioning;
-    if (c->positioning) {
-        out->target  = c->setpoint.target;
-        out->profile = c->setpoint.now.profile;
-        put_reference(c, seen->speed_e_radps); /* a stop ramp begins here */
-    } else {
+    out->follows = c->follows;
+    if (c->follows == APP_FOLLOWS_SPEED) {
         set_reference(c, o, seen);
+    } else {
+        app_control_aim_beyond(c, o, seen, out);
     }
     out->derating = base_clamp(1.0f - (o->current_max_A * c->per_current_max), 0.0f, 1.0f);
 }

@@ -61,7 +61,7 @@ typedef struct {
     float               goal_e_radps; /**< its end */
     float               up_e_radps;   /**< its step up in a period, >= 0 */
     float               down_e_radps; /**< its step down */
-    bool                positioning;  /**< a position is followed, no speed */
+    app_follows_t       follows;      /**< of the command */
     bool                stopping;     /**< a stop was asked for */
     bool                holds;        /**< profile position: the set-points have begun */
     app_setpoint_t      setpoint;

@@ -9,6 +9,8 @@
 
 #define STAY APP_CONTROL_STATES
 
+#define ANY_STEP 1.0e9f /* beyond every torque: no slope */
+
 ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
                               const drive_config_t *drive)
 {
@@ -30,7 +32,7 @@ ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
     c->up_e_radps        = 0.0f;
     c->down_e_radps      = 0.0f;
     c->stopping          = false;
-    c->positioning       = false;
+    c->follows           = APP_FOLLOWS_SPEED;
     c->holds             = false;
     return ok ? CTL_OK : CTL_BAD_CONFIG;
 }
@@ -43,7 +45,8 @@ app_objects_t app_control_default(const drive_config_t *drive)
                              .lost_option         = APP_CONTROL_LOST_DISABLE,
                              .window_e_radps      = WINDOW_E_RADPS,
                              .current_max_A       = drive->current_max_A,
-                             .position_window_cnt = POSITION_WINDOW_CNT};
+                             .position_window_cnt = POSITION_WINDOW_CNT,
+                             .torque_most         = TORQUE_SHARE_MAX};
     return o;
 }
 
@@ -54,7 +57,8 @@ bool app_control_knows(const app_objects_t *o, const drive_config_t *drive)
 
     return ((mode == APP_CONTROL_PROFILE_VELOCITY) || (mode == APP_CONTROL_HOMING) ||
             (mode == APP_CONTROL_COMMISSIONING) ||
-            ((mode == APP_CONTROL_PROFILE_POSITION) && drive->positions)) &&
+            ((mode == APP_CONTROL_PROFILE_POSITION) && drive->positions) ||
+            (app_control_is_torque(mode) && drive->torques)) &&
            ((quick <= APP_CONTROL_QUICK_FAST) || (quick >= APP_CONTROL_QUICK_RAMP_STAY));
 }
 
@@ -199,8 +203,10 @@ bool app_control_brakes(const app_control_t *c, const app_objects_t *o,
     return ramps && (stays || !stands(c, seen)) && (seen->mode == APP_MODE_RUN);
 }
 
-bool app_control_position(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
-                          bool stopping)
+/* Executes profile position for one period. True: the drive moves to a position or holds one.
+ * False: it follows a speed, which a halt or a stop ramps to zero. */
+static bool follows_position(app_control_t *c, const app_objects_t *o,
+                             const app_control_seen_t *seen, bool halted)
 {
     if ((seen->mode != APP_MODE_RUN) || !app_control_is_enabled(c->state)) {
         c->holds = false;
@@ -215,5 +221,68 @@ bool app_control_position(app_control_t *c, const app_objects_t *o, const app_co
         c->holds = true;
     }
     app_setpoint_tick(&c->setpoint, o, seen->position, seen->arrived);
-    return !stopping && !app_control_has(o->controlword, APP_CONTROL_HALT);
+    return !halted;
+}
+
+void app_control_hand_over(app_control_t *c, const app_objects_t *o)
+{
+    const int16_t to = o->mode_of_operation;
+
+    if ((to != c->mode) && app_control_is_enabled(c->state) && app_control_runs(c) &&
+        app_control_is_run(to)) {
+        c->mode  = to;
+        c->holds = false;
+    }
+}
+
+app_follows_t app_control_followed(app_control_t *c, const app_objects_t *o,
+                                   const app_control_seen_t *seen)
+{
+    const bool    halted  = c->stopping || app_control_has(o->controlword, APP_CONTROL_HALT);
+    app_follows_t follows = APP_FOLLOWS_SPEED;
+
+    if (app_control_is_torque(c->mode)) {
+        follows = (!halted && app_control_is_enabled(c->state)) ? APP_FOLLOWS_TORQUE : follows;
+    } else if (c->mode == APP_CONTROL_PROFILE_POSITION) {
+        follows = follows_position(c, o, seen, halted) ? APP_FOLLOWS_POSITION : follows;
+    } else {
+        /* a speed */
+    }
+    return follows;
+}
+
+void app_control_put_speed(app_control_t *c, const app_control_seen_t *seen)
+{
+    const float most        = c->speed_max_e_radps;
+    const float ref_e_radps = base_clamp(seen->speed_e_radps, -most, most);
+
+    c->ref_e_radps  = ref_e_radps;
+    c->goal_e_radps = ref_e_radps;
+    c->up_e_radps   = 0.0f;
+    c->down_e_radps = 0.0f;
+}
+
+static void aim_torque(const app_control_t *c, const app_objects_t *o, app_command_t *out)
+{
+    const bool  cyclic       = c->mode == APP_CONTROL_CYCLIC_TORQUE;
+    const float offset       = cyclic ? o->torque_offset : 0.0f;
+    const bool  slope        = !cyclic && (o->torque_slope_1ps > 0.0f);
+    const float most_e_radps = o->torque_speed_max_e_radps;
+
+    out->torque_share = base_clamp(o->torque_share + offset, -o->torque_most, o->torque_most);
+    out->torque_step  = slope ? (c->ts_s * o->torque_slope_1ps) : ANY_STEP;
+    out->torque_speed_max_e_radps =
+        (most_e_radps > 0.0f) ? base_min(most_e_radps, c->speed_max_e_radps) : c->speed_max_e_radps;
+}
+
+void app_control_aim_beyond(app_control_t *c, const app_objects_t *o,
+                            const app_control_seen_t *seen, app_command_t *out)
+{
+    if (c->follows == APP_FOLLOWS_TORQUE) {
+        aim_torque(c, o, out);
+    } else {
+        out->target  = c->setpoint.target;
+        out->profile = c->setpoint.now.profile;
+    }
+    app_control_put_speed(c, seen);
 }

@@ -26,10 +26,10 @@ static inline bool app_control_is_enabled(app_control_state_t state)
     return (state == APP_CONTROL_OPERATION_ENABLED) || (state == APP_CONTROL_QUICK_STOP_ACTIVE);
 }
 
-/** True in the modes of operation in which the drive controls the bridge. */
+/** True in the modes of operation in which the law controls the bridge. */
 static inline bool app_control_runs(const app_control_t *c)
 {
-    return (c->mode == APP_CONTROL_PROFILE_VELOCITY) || (c->mode == APP_CONTROL_PROFILE_POSITION);
+    return app_control_is_run(c->mode);
 }
 
 /** True if the drive stays enabled after a quick stop. */
@@ -50,14 +50,19 @@ void app_control_change(app_control_t *c, const app_objects_t *o, const app_cont
 bool app_control_brakes(const app_control_t *c, const app_objects_t *o,
                         const app_control_seen_t *seen, app_control_ask_t ask);
 
-/**
- * @brief Executes profile position for one period.
- *
- * @return true: the drive moves to a position or holds one. false: it follows a speed, which a halt
- * or
- *         a stop ramps to zero.
- */
-bool app_control_position(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen,
-                          bool stopping);
+/** Takes the requested mode of operation over while the operation is enabled, from a run to a run.
+ * Any other change waits for the next start. */
+void app_control_hand_over(app_control_t *c, const app_objects_t *o);
+
+/** Returns what the run follows. */
+app_follows_t app_control_followed(app_control_t *c, const app_objects_t *o,
+                                   const app_control_seen_t *seen);
+
+/** The reference stays at the present speed. */
+void app_control_put_speed(app_control_t *c, const app_control_seen_t *seen);
+
+/** Sets the position or torque of the command. A later stop begins at the present speed. */
+void app_control_aim_beyond(app_control_t *c, const app_objects_t *o,
+                            const app_control_seen_t *seen, app_command_t *out);
 
 #endif /* APP_CONTROL_CHANGE_H */

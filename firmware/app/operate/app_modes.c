@@ -31,6 +31,8 @@ ctl_status_t app_modes_init(app_modes_t *m, const app_config_t *c, const drive_c
     m->sample           = no_sample;
     m->reading          = no_reading;
     m->ticks            = 0UL;
+    m->torque_ticks     = 0UL;
+    m->to_torque.share  = 0.0f;
     m->sum_a_cnt        = 0UL;
     m->sum_b_cnt        = 0UL;
     m->timer_ticks      = 0U;

@@ -51,7 +51,7 @@ typedef struct {
     app_watch_heat_t    heat;
     app_commission_t    commission;
     float               per_sink_degC; /**< 1 / (trip - limit) of the heat sink */
-    float               warmth;        /**< (T - limit) / (trip - limit) of the heat sink */
+    float               over_degC;     /**< temperature of the heat sink, less its limit */
     app_fault_t         sink_fault;    /**< of a driven motor: temperature or its sensor */
     bool                too_hot;       /**< the same: app_watch_heat_tick() returned false */
     float               zero_a_A; /**< READY: mean of the measured currents with the bridge open */
@@ -74,7 +74,9 @@ typedef struct {
     bool                gate_on;     /**< gates were enabled by an earlier tick */
     uint16_t            phase_errors;
     app_snapshot_t      snapshot;
-    law_aim_t           aim; /**< to_position, to the drive */
+    law_aim_t           aim;          /**< to_position or to_torque, to the drive */
+    torque_command_t    to_torque;    /**< torque command to the drive */
+    uint32_t            torque_ticks; /**< of the last period that followed a torque */
 #if BOARD_CURRENT_SENSORS == 3
     app_watch_sum_t sum;
     bool            sum_differs;

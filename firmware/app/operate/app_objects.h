@@ -40,7 +40,9 @@ enum {
     APP_CONTROL_COMMISSIONING    = -1, /**< measures the motor, commission.h */
     APP_CONTROL_PROFILE_POSITION = 1,  /**< app_setpoint.h; only with a position law */
     APP_CONTROL_PROFILE_VELOCITY = 3,
-    APP_CONTROL_HOMING           = 6 /**< finds the angle, app_align.h */
+    APP_CONTROL_PROFILE_TORQUE   = 4, /**< along a slope, as the next only with a torque law */
+    APP_CONTROL_HOMING           = 6, /**< finds the angle, app_align.h */
+    APP_CONTROL_CYCLIC_TORQUE    = 10 /**< the newest value at once, with its offset */
 };
 
 typedef struct {
@@ -61,7 +63,25 @@ typedef struct {
     float                   profile_e_radps; /**< speed limit, as the next; 0: the drive's */
     float                   jerk_e_radps3;
     uint16_t                position_window_cnt; /**< tolerance of "target reached" */
+    float                   torque_share;        /**< target, of the rated torque, as the next */
+    float                   torque_offset;       /**< cyclic torque: added to it */
+    float                   torque_most;         /**< limit of both, either way, >= 0 */
+    float                   torque_slope_1ps;    /**< profile torque; 0: a step */
+    float torque_speed_max_e_radps;              /**< speed limit of a torque; 0: the drive's */
 } app_objects_t;
+
+/** True for the modes of operation that command a torque. */
+static inline bool app_control_is_torque(int16_t mode)
+{
+    return (mode == APP_CONTROL_PROFILE_TORQUE) || (mode == APP_CONTROL_CYCLIC_TORQUE);
+}
+
+/** True for a mode of operation in which the law controls the bridge. */
+static inline bool app_control_is_run(int16_t mode)
+{
+    return (mode == APP_CONTROL_PROFILE_VELOCITY) || (mode == APP_CONTROL_PROFILE_POSITION) ||
+           app_control_is_torque(mode);
+}
 
 /** True if the word has this bit. */
 static inline bool app_control_has(uint16_t word, int bit)

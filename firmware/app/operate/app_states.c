@@ -22,16 +22,15 @@ bridge_t app_states_drive(app_modes_t *m, const app_command_t *asked, bool run)
 {
     const drive_sample_t sample = drive_sample(m);
 
-    if (asked->positioning) {
-        m->to_position.actual  = m->position.actual;
-        m->to_position.target  = asked->target;
-        m->to_position.profile = asked->profile;
-        m->aim.position        = &m->to_position;
+    const law_aim_t *aim = NULL;
+
+    if (asked->follows != APP_FOLLOWS_SPEED) {
+        aim = app_states_aim(m, asked);
     }
     const drive_command_t command = {.omega_e_radps = asked->omega_e_radps,
                                      .run           = run,
                                      .derating      = base_max(m->heat.derating, asked->derating),
-                                     .aim           = asked->positioning ? &m->aim : NULL};
+                                     .aim           = aim};
     return drive_tick(&m->drive, &sample, &command);
 }
 
@@ -43,7 +42,7 @@ static bridge_t drive_to_a_stop(app_modes_t *m, const app_modes_input_t *in)
 }
 
 /* RUN and STOP. After loss of the encoder the drive brakes until it is too slow to run without one;
- * then it trips. */
+ * then it trips. A run that follows a torque trips at once where the bridge may open. */
 bridge_t app_states_run(app_modes_t *m, const app_modes_input_t *in)
 {
     const bool lost = m->drive.answer.without_angle;
@@ -53,7 +52,7 @@ bridge_t app_states_run(app_modes_t *m, const app_modes_input_t *in)
     bridge_t out =
         brake ? drive_to_a_stop(m, in) : app_states_drive(m, &in->command, in->command.run);
 
-    if (m->drive.state == DRIVE_FAULT) {
+    if ((m->drive.state == DRIVE_FAULT) || (brake && app_states_gives_up(m))) {
         out = app_states_trip(m, in, APP_FAULT_DRIVE);
     } else if (brake) {
         m->mode = APP_MODE_STOP;

@@ -21,6 +21,18 @@ bridge_t app_states_drive(app_modes_t *m, const app_command_t *asked, bool run);
 /** Returns the command that brakes: to standstill, or until the drive trips without encoder. */
 app_command_t app_states_stop_command(const app_modes_t *m, const app_modes_input_t *in);
 
+/**
+ * @brief Returns what the drive follows in place of a speed: a position or a torque.
+ *
+ * A torque goes to its goal by `torque_step` in a period. A run that becomes one of torque begins
+ * with the torque that it has. It runs from flash.
+ */
+const law_aim_t *app_states_aim(app_modes_t *m, const app_command_t *asked);
+
+/** True if a run trips because of a lost encoder: it followed a torque, and the bridge may open.
+ * A torque needs the angle, and a speed is not what was asked for. It runs from flash. */
+bool app_states_gives_up(const app_modes_t *m);
+
 /** Enters a mode and clears its timer and sums. */
 void app_states_enter(app_modes_t *m, app_mode_t mode);
 

@@ -2,6 +2,8 @@
 /* Each mode may enter another one, or trip. These functions run from flash. */
 #include "app_states.h"
 
+#include <stddef.h>
+
 void app_states_enter(app_modes_t *m, app_mode_t mode)
 {
     m->mode             = mode;
@@ -31,6 +33,46 @@ app_command_t app_states_stop_command(const app_modes_t *m, const app_modes_inpu
     return stop;
 }
 
+static const law_aim_t *at_position(app_modes_t *m, const app_command_t *asked)
+{
+    m->to_position.actual  = m->position.actual;
+    m->to_position.target  = asked->target;
+    m->to_position.profile = asked->profile;
+    m->aim.position        = &m->to_position;
+    m->aim.torque          = NULL;
+    return &m->aim;
+}
+
+static const law_aim_t *at_torque(app_modes_t *m, const app_command_t *asked)
+{
+    const bool running = m->drive.state == DRIVE_RUN;
+    const bool goes_on = running && ((m->ticks - m->torque_ticks) == 1UL);
+    float      share   = m->to_torque.share;
+
+    if (!goes_on) {
+        share = running ? app_torque_share(m->drive.config, m->drive.answer.i_ref_A) : 0.0f;
+        share = base_clamp(share, -TORQUE_SHARE_MAX, TORQUE_SHARE_MAX);
+    }
+    m->to_torque.share =
+        base_clamp(asked->torque_share, share - asked->torque_step, share + asked->torque_step);
+    m->to_torque.speed_max_e_radps = asked->torque_speed_max_e_radps;
+    m->torque_ticks                = m->ticks;
+    m->aim.position                = NULL;
+    m->aim.torque                  = &m->to_torque;
+    return &m->aim;
+}
+
+const law_aim_t *app_states_aim(app_modes_t *m, const app_command_t *asked)
+{
+    return (asked->follows == APP_FOLLOWS_TORQUE) ? at_torque(m, asked) : at_position(m, asked);
+}
+
+bool app_states_gives_up(const app_modes_t *m)
+{
+    return m->drive.answer.without_angle && ((m->ticks - m->torque_ticks) == 1UL) &&
+           base_within(m->drive.answer.now.omega_e_radps, m->stop.link_e_radps);
+}
+
 /* The drive gives its reason, and keeps it until a reset. */
 static bool encoder_is_lost(const app_modes_t *m)
 {
@@ -54,11 +96,12 @@ bridge_t app_states_fault(app_modes_t *m, const app_modes_input_t *in)
 }
 
 /* Speed, sensors, wires and motor are judged by the angle. Without it, whatever is wrong with them
- * follows from the loss of the encoder. */
-static drive_fault_t reason(const app_modes_t *m)
+ * follows from the loss of the encoder. A drive that has none tripped because of that loss. */
+static drive_fault_t reason(const app_modes_t *m, app_fault_t tripped)
 {
     const drive_fault_t fault    = m->drive.fault;
-    const bool          by_angle = (fault == DRIVE_FAULT_OVER_SPEED) ||
+    const bool          none     = (tripped == APP_FAULT_DRIVE) && (fault == DRIVE_FAULT_NONE);
+    const bool          by_angle = none || (fault == DRIVE_FAULT_OVER_SPEED) ||
                           ((fault >= DRIVE_FAULT_CURRENT_SENSOR) && (fault <= DRIVE_FAULT_AWAY));
 
     return (m->drive.answer.without_angle && by_angle) ? DRIVE_FAULT_ENCODER : fault;
@@ -68,7 +111,7 @@ static drive_fault_t reason(const app_modes_t *m)
  * wrong with a failing encoder. */
 bridge_t app_states_trip(app_modes_t *m, const app_modes_input_t *in, app_fault_t fault)
 {
-    m->drive.fault            = reason(m);
+    m->drive.fault            = reason(m, fault);
     const bool  off           = (m->drive.state == DRIVE_OFF);
     const float speed_e_radps = off ? m->reading.omega_e_radps : m->drive.answer.now.omega_e_radps;
     const app_snapshot_t snapshot = {.fault          = fault,

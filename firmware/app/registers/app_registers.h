@@ -51,7 +51,8 @@ enum {
     APP_REGISTERS_REACHED            = 1024,
     APP_REGISTERS_LIMITED            = 2048,
     APP_REGISTERS_OF_MODE =
-        4096, /**< velocity mode: speed is zero; position: set-point taken; homing: done */
+        4096, /**< velocity: speed is zero; position: set-point taken; homing: done; cyclic torque:
+                   follows the command */
     APP_REGISTERS_FOLLOWING_ERROR =
         8192, /**< profile position: the reference waits for a shaft that cannot follow */
     APP_REGISTERS_BRIDGE_ON = 16384
@@ -217,6 +218,14 @@ uint32_t app_registers_ticks(const app_registers_t *r, float time_s);
 
 /** Shaft position in the counts of the target. */
 int32_t app_registers_position(const app_registers_t *r);
+
+/** Value of APP_REGISTERS_SUPPORTED_MODES. */
+uint32_t app_registers_modes(const app_registers_t *r);
+
+/** Current limit over the rated current, and a write to it. */
+float app_registers_current_share(const app_registers_t *r);
+void  app_registers_set_current_share(const app_registers_t *r, app_registers_request_t *w,
+                                      float share);
 
 /** Value of APP_REGISTERS_STATUSWORD. */
 uint16_t app_registers_statusword(const app_registers_t *r);

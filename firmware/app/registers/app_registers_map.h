@@ -12,9 +12,9 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "7f633e4d" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "28a815c8" /**< of what a master can see of the map */
 
-#define APP_REGISTERS_SAVED 19U /**< parameters */
+#define APP_REGISTERS_SAVED 22U /**< parameters */
 
 /** Holding registers: those of two words are named by the first. */
 enum {
@@ -69,7 +69,15 @@ enum {
     APP_REGISTERS_TARGET_END = 167,
     APP_REGISTERS_SENSOR_TRIM = 192,
     APP_REGISTERS_TRIM_FIRST = 192,
-    APP_REGISTERS_TRIM_END = 193
+    APP_REGISTERS_TRIM_END = 193,
+    APP_REGISTERS_TORQUE = 224,
+    APP_REGISTERS_TORQUE_OFFSET = 225,
+    APP_REGISTERS_MAX_TORQUE = 226,
+    APP_REGISTERS_TORQUE_SLOPE = 227,
+    APP_REGISTERS_TORQUE_SPEED_MAX = 229,
+    APP_REGISTERS_MAX_CURRENT_SHARE = 231,
+    APP_REGISTERS_TORQUE_FIRST = 224,
+    APP_REGISTERS_TORQUE_END = 232
 };
 
 /** Input registers: those of two words are named by the first. */
@@ -230,7 +238,13 @@ enum {
     APP_REGISTERS_FOUND_LQ_BESIDE_2_3 = 310,
     APP_REGISTERS_FOUND_LQ_BESIDE_2_4 = 311,
     APP_REGISTERS_MAP_FIRST = 288,
-    APP_REGISTERS_MAP_END = 312
+    APP_REGISTERS_MAP_END = 312,
+    APP_REGISTERS_TORQUE_NOW = 320,
+    APP_REGISTERS_TORQUE_DEMAND = 321,
+    APP_REGISTERS_RATED_CURRENT = 322,
+    APP_REGISTERS_RATED_TORQUE = 324,
+    APP_REGISTERS_TORQUE_NOW_FIRST = 320,
+    APP_REGISTERS_TORQUE_NOW_END = 326
 };
 
 typedef enum {
@@ -280,9 +294,9 @@ typedef struct {
 struct app_registers;
 struct app_registers_request;
 
-#define APP_REGISTERS_MAP_HOLDING 40U
+#define APP_REGISTERS_MAP_HOLDING 46U
 
-#define APP_REGISTERS_MAP_INPUT 139U
+#define APP_REGISTERS_MAP_INPUT 143U
 
 /** Rows in ascending order of the address. */
 extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];

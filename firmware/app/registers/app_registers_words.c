@@ -4,6 +4,14 @@
 
 #include <stddef.h>
 
+/* Bits of APP_REGISTERS_SUPPORTED_MODES. Those of all: velocity, homing, commissioning. */
+#define MODE_1       0x00000001UL
+#define MODE_4       0x00000008UL
+#define MODE_10      0x00000200UL
+#define MODES_OF_ALL 0x00010024UL
+
+#define TORQUE_WINDOW 0.005f /* chosen: of the rated torque, as one reads a torque */
+
 /* Active limits. They never trip. */
 static uint16_t limits(const app_status_t *s)
 {
@@ -52,6 +60,25 @@ int32_t app_registers_position(const app_registers_t *r)
     return app_position_cnt(&r->status.position, &r->status.position.actual);
 }
 
+uint32_t app_registers_modes(const app_registers_t *r)
+{
+    const uint32_t positions = r->drive->positions ? MODE_1 : 0UL;
+    const uint32_t torques   = r->drive->torques ? (MODE_4 | MODE_10) : 0UL;
+
+    return MODES_OF_ALL | positions | torques;
+}
+
+float app_registers_current_share(const app_registers_t *r)
+{
+    return r->requested.objects.current_max_A / r->drive->rated_current_A;
+}
+
+void app_registers_set_current_share(const app_registers_t *r, app_registers_request_t *w,
+                                     float share)
+{
+    w->objects.current_max_A = share * r->drive->rated_current_A;
+}
+
 uint32_t app_registers_ticks(const app_registers_t *r, float time_s)
 {
     const float ticks = (time_s / r->drive->ts_s) + 0.5f;
@@ -80,32 +107,65 @@ static bool is_at_target(const app_registers_t *r)
     return r->status.arrived && (off_cnt <= most_cnt) && (off_cnt >= -most_cnt);
 }
 
+/* True if the current references have the commanded torque. A limit or the slope keeps them off. */
+static bool is_at_torque(const app_registers_t *r)
+{
+    const app_objects_t *o      = &r->requested.objects;
+    const bool           cyclic = r->status.mode_of_operation == (int16_t)APP_CONTROL_CYCLIC_TORQUE;
+    const float          offset = cyclic ? o->torque_offset : 0.0f;
+    const float target = base_clamp(o->torque_share + offset, -o->torque_most, o->torque_most);
+
+    return base_within(r->status.torque_demand_share - target, TORQUE_WINDOW);
+}
+
 static bool is_reached(const app_registers_t *r)
 {
-    const app_status_t *s = &r->status;
-    const bool  halted    = app_control_has(r->requested.objects.controlword, APP_CONTROL_HALT);
-    const float target    = halted ? 0.0f : r->requested.objects.omega_e_radps;
+    const app_status_t *s    = &r->status;
+    const int16_t       mode = s->mode_of_operation;
+    const bool  halted       = app_control_has(r->requested.objects.controlword, APP_CONTROL_HALT);
+    const float target       = halted ? 0.0f : r->requested.objects.omega_e_radps;
     const bool  runs = (s->state == APP_CONTROL_OPERATION_ENABLED) && (s->mode == APP_MODE_RUN);
     const bool  near = base_within(s->speed_e_radps - target, r->requested.objects.window_e_radps);
+    bool        there;
 
-    if (s->mode_of_operation == (int16_t)APP_CONTROL_PROFILE_POSITION) {
-        return runs && (halted ? near : is_at_target(r));
+    if (!app_control_is_run(mode)) {
+        there = s->done;
+    } else if (halted || (mode == (int16_t)APP_CONTROL_PROFILE_VELOCITY)) {
+        there = runs && near;
+    } else if (mode == (int16_t)APP_CONTROL_PROFILE_POSITION) {
+        there = runs && is_at_target(r);
+    } else {
+        there = runs && is_at_torque(r);
     }
-    return (s->mode_of_operation == (int16_t)APP_CONTROL_PROFILE_VELOCITY) ? (runs && near)
-                                                                           : s->done;
+    return there;
+}
+
+/* True if a cyclic command is followed: the run is not halted or stopped. */
+static bool is_following(const app_registers_t *r)
+{
+    const app_status_t *s = &r->status;
+
+    return (s->mode_of_operation == (int16_t)APP_CONTROL_CYCLIC_TORQUE) &&
+           (s->state == APP_CONTROL_OPERATION_ENABLED) && (s->mode == APP_MODE_RUN) &&
+           !app_control_has(r->requested.objects.controlword, APP_CONTROL_HALT);
 }
 
 /* Bit 12, whose meaning depends on the mode. */
 static bool is_of_mode(const app_registers_t *r)
 {
-    const app_status_t *s = &r->status;
+    const app_status_t *s    = &r->status;
+    bool                says = s->done && (s->reference != APP_ANGLE_NONE);
 
     if (s->mode_of_operation == (int16_t)APP_CONTROL_PROFILE_POSITION) {
-        return s->acknowledged;
+        says = s->acknowledged;
+    } else if (app_control_is_torque(s->mode_of_operation)) {
+        says = is_following(r);
+    } else if (s->mode_of_operation == (int16_t)APP_CONTROL_PROFILE_VELOCITY) {
+        says = base_within(s->speed_e_radps, r->config->stop.still_e_radps);
+    } else {
+        /* homing and commissioning: whether the angle is known */
     }
-    return (s->mode_of_operation == (int16_t)APP_CONTROL_PROFILE_VELOCITY)
-               ? base_within(s->speed_e_radps, r->config->stop.still_e_radps)
-               : (s->done && (s->reference != APP_ANGLE_NONE));
+    return says;
 }
 
 uint16_t app_registers_statusword(const app_registers_t *r)

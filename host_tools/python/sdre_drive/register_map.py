@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "7f633e4d"
+DIGEST = "28a815c8"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -87,6 +87,15 @@ TARGET: Tuple[Register, ...] = (  # holding
 
 TRIM: Tuple[Register, ...] = (  # holding
     Register("SENSOR_TRIM", 192, "u16", 0.0, ""),
+)
+
+TORQUE: Tuple[Register, ...] = (  # holding
+    Register("TORQUE", 224, "i16", 0.001, "of RATED_TORQUE"),
+    Register("TORQUE_OFFSET", 225, "i16", 0.001, "of RATED_TORQUE"),
+    Register("MAX_TORQUE", 226, "u16", 0.001, "of RATED_TORQUE"),
+    Register("TORQUE_SLOPE", 227, "u32", 0.001, "of RATED_TORQUE per s"),
+    Register("TORQUE_SPEED_MAX", 229, "u32", 0.1, "r/min"),
+    Register("MAX_CURRENT_SHARE", 231, "u16", 0.001, "of RATED_CURRENT"),
 )
 
 LIVE: Tuple[Register, ...] = (  # input
@@ -255,11 +264,18 @@ MAP: Tuple[Register, ...] = (  # input
     Register("FOUND_LQ_BESIDE_2_4", 311, "u16", 0.0001, ""),
 )
 
-HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET, *TRIM)
-INPUT = (*LIVE, *POSITION, *SHAFT, *TRIMMED, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS, *MAP)
+TORQUE_NOW: Tuple[Register, ...] = (  # input
+    Register("TORQUE_NOW", 320, "i16", 0.001, "of RATED_TORQUE"),
+    Register("TORQUE_DEMAND", 321, "i16", 0.001, "of RATED_TORQUE"),
+    Register("RATED_CURRENT", 322, "u32", 0.001, "A"),
+    Register("RATED_TORQUE", 324, "u32", 0.001, "N m"),
+)
+
+HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET, *TRIM, *TORQUE)
+INPUT = (*LIVE, *POSITION, *SHAFT, *TRIMMED, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS, *MAP, *TORQUE_NOW)
 
 # Blocks that hold parameters.
-PARAMETER_BLOCKS = (COMMAND, LINE, TARGET, TRIM,)
+PARAMETER_BLOCKS = (COMMAND, LINE, TARGET, TRIM, TORQUE,)
 
 BY_NAME = {r.name: r for r in (*HOLDING, *INPUT)}
 
@@ -271,7 +287,7 @@ PARAMETERS: Tuple[Parameter, ...] = (
     Parameter(BY_NAME["SHUTDOWN_OPTION"], 0, 1, 0.0, False, "605Bh", "0: `stop` of the drive file; 1: with DECELERATION"),
     Parameter(BY_NAME["DISABLE_OPTION"], 0, 1, 0.0, False, "605Ch", "the same for disable operation"),
     Parameter(BY_NAME["LOST_OPTION"], 2, 3, 2.0, False, "6007h", "2 disable voltage, 3 quick stop. It acts when no request arrives for MODBUS_TIMEOUT."),
-    Parameter(BY_NAME["MAX_CURRENT"], 0, 1000000.0, None, False, "6073h", "limit of the current vector. It acts up to CURRENT_MAX. Below that the drive cannot detect a stall. Only laws with near_optimal.h use it, such as the shipped one."),
+    Parameter(BY_NAME["MAX_CURRENT"], 0, 1000000.0, None, False, "", "limit of the current vector. It acts up to CURRENT_MAX. Below that the drive cannot detect a stall. Only laws with near_optimal.h use it, such as the shipped one."),
     Parameter(BY_NAME["SPEED_WINDOW"], 0, 6553.5, 5.0, False, "606Dh", "around the command: target reached"),
     Parameter(BY_NAME["INERTIA_START"], 0, 5000, 0.0, False, "", "inertia over the drive's at the start; 0: not used. With 0 the law keeps the inertia of the drive file. With any other value it begins with that ratio, and then uses what changes of speed teach (INERTIA_RATIO): [Inertia](tuning.md#inertia). Below 500 it is 500. Only law noc has it."),
     Parameter(BY_NAME["MODBUS_ADDRESS"], 1, 247, 1.0, False, "", "of the drive. The answer to the write still has the old address."),
@@ -283,6 +299,9 @@ PARAMETERS: Tuple[Parameter, ...] = (
     Parameter(BY_NAME["PROFILE_JERK"], 0, 4000000000.0, 0.0, False, "60A4h", "0: the drive's limit"),
     Parameter(BY_NAME["POSITION_WINDOW"], 1, 65535, 4.0, False, "6067h", "around the target: reached"),
     Parameter(BY_NAME["SENSOR_TRIM"], 0, 1, 1.0, False, "", "1: learns errors of the current sensors in a run. 0 forgets what was learned: [Current sensors](hardware.md#trim-of-the-current-sensors). The image of noc_h has no room for it: there it is 0."),
+    Parameter(BY_NAME["MAX_TORQUE"], 0, 33, 33.0, False, "6072h", "limit of their sum, either way. MAX_CURRENT, heat, the voltage and the speed limit act too."),
+    Parameter(BY_NAME["TORQUE_SLOPE"], 0, 1000000.0, 0.0, False, "6087h", "profile torque; 0: a step"),
+    Parameter(BY_NAME["TORQUE_SPEED_MAX"], 0, 10000000.0, 0.0, False, "6080h", "speed limit of a torque, either way; 0: SPEED_MAX. It acts up to SPEED_MAX. The torque that exceeds the limit is taken away, and the drive brakes a shaft that a load drives beyond it."),
 )
 
 # Signals of the scope by number: name and unit.

@@ -69,7 +69,8 @@ BoardScenario for_board(const Scenario &scenario)
     }
     require(s.position_reference.empty(),
             "positions are for the core alone; on the board they come over Modbus (serve)");
-    require(s.torque_reference.empty(), "torques are for the core alone");
+    require(s.torque_reference.empty(),
+            "torques are for the core alone; on the board they come over Modbus (serve)");
     check_sensors(s.sensors, s.drive);
     require(s.sensors.encoder_edge_time == s.drive.encoder.edge_times,
             "edge times are a matter of the drive file, which the firmware follows");

@@ -404,7 +404,7 @@ static void test_modes_of_operation_and_the_limit(void)
 
 static void test_unknown_objects_are_refused(void)
 {
-    static const int modes[] = {-2, 0, 2, 4, 5, 7, 8, 9, 10};
+    static const int modes[] = {-2, 0, 2, 5, 7, 8, 9, 11};
     static const int quick[] = {3, 4};
     TEST_ASSERT_TRUE(app_control_knows(&wanted, &gain_tables_drive));
     for (int i = 0; i < SUPPORT_COUNT(modes); i++) {
@@ -422,6 +422,14 @@ static void test_unknown_objects_are_refused(void)
     TEST_ASSERT_TRUE(app_control_knows(&wanted, &drive));
     drive.positions = false;
     TEST_ASSERT_FALSE(app_control_knows(&wanted, &drive));
+    static const int16_t torques[] = {APP_CONTROL_PROFILE_TORQUE, APP_CONTROL_CYCLIC_TORQUE};
+    for (int i = 0; i < SUPPORT_COUNT(torques); i++) {
+        wanted.mode_of_operation = torques[i];
+        drive.torques            = true;
+        TEST_ASSERT_TRUE(app_control_knows(&wanted, &drive));
+        drive.torques = false;
+        TEST_ASSERT_FALSE(app_control_knows(&wanted, &drive));
+    }
     drive.current_max_A = 0.0f;
     TEST_ASSERT_EQUAL_INT(CTL_BAD_CONFIG, app_control_init(&control, &board_config, &drive));
 }
@@ -459,7 +467,7 @@ static int32_t wanted_cnt(void)
 static void test_profile_position_holds_and_takes_set_points(void)
 {
     hold_position(777, 0.0f);
-    TEST_ASSERT_TRUE(out.run && out.positioning);
+    TEST_ASSERT_TRUE(out.run && (out.follows == APP_FOLLOWS_POSITION));
     TEST_ASSERT_EQUAL_INT32(777, wanted_cnt());
     wanted.target_cnt = 5000;
     seen.arrived      = true;
@@ -476,11 +484,11 @@ static void test_positions_wait_until_the_zero_is_known(void)
     position.known = false;
     go(APP_CONTROL_OPERATION_ENABLED);
     TEST_ASSERT_TRUE(out.run);
-    TEST_ASSERT_FALSE(out.positioning);
+    TEST_ASSERT_EQUAL_INT(APP_FOLLOWS_SPEED, out.follows);
     TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, out.omega_e_radps);
     position.known = true;
     ticks(APP_CONTROL_ENABLE_OPERATION, 1);
-    TEST_ASSERT_TRUE(out.positioning);
+    TEST_ASSERT_EQUAL_INT(APP_FOLLOWS_POSITION, out.follows);
 }
 
 static void test_lost_counts_end_a_position_run_as_a_quick_stop(void)
@@ -489,7 +497,7 @@ static void test_lost_counts_end_a_position_run_as_a_quick_stop(void)
     position.known = false;
     ticks(APP_CONTROL_ENABLE_OPERATION, 1);
     TEST_ASSERT_EQUAL_INT(APP_CONTROL_QUICK_STOP_ACTIVE, control.state);
-    TEST_ASSERT_FALSE(out.positioning);
+    TEST_ASSERT_EQUAL_INT(APP_FOLLOWS_SPEED, out.follows);
     TEST_ASSERT_TRUE(out.run);
     TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, out.omega_e_radps);
 }
@@ -507,21 +515,152 @@ static void test_halt_and_stop_of_a_position_run_begin_at_the_present_speed(void
                  {APP_CONTROL_QUICK_STOP, 2000.0f}};
     for (int i = 0; i < SUPPORT_COUNT(stops); i++) {
         hold_position(777, 100.0f);
-        TEST_ASSERT_TRUE(out.positioning);
+        TEST_ASSERT_EQUAL_INT(APP_FOLLOWS_POSITION, out.follows);
         ticks((uint16_t)stops[i].word, 1);
-        TEST_ASSERT_FALSE(out.positioning);
+        TEST_ASSERT_EQUAL_INT(APP_FOLLOWS_SPEED, out.follows);
         TEST_ASSERT_TRUE(out.run);
         TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 100.0f - (gain_tables_drive.ts_s * stops[i].per_tick),
                                  out.omega_e_radps);
         if (i == 0) { /* and on to the target */
             ticks(APP_CONTROL_ENABLE_OPERATION, 1);
-            TEST_ASSERT_TRUE(out.positioning);
+            TEST_ASSERT_EQUAL_INT(APP_FOLLOWS_POSITION, out.follows);
             TEST_ASSERT_EQUAL_INT32(777, wanted_cnt());
         }
         setUp();
         wanted.decel_e_radps2  = 1000.0f;
         wanted.quick_e_radps2  = 2000.0f;
         wanted.shutdown_option = 1;
+    }
+}
+
+/* Enabled in this torque mode, on a shaft that turns at this speed. */
+static void follow_torque(int16_t mode, float speed_e_radps)
+{
+    wanted.mode_of_operation = mode;
+    seen.speed_e_radps       = speed_e_radps;
+    go(APP_CONTROL_OPERATION_ENABLED);
+    ticks(APP_CONTROL_ENABLE_OPERATION, 2);
+}
+
+static void test_profile_torque_has_a_slope_and_cyclic_torque_an_offset(void)
+{
+    wanted.torque_share     = 0.5f;
+    wanted.torque_offset    = 0.25f;
+    wanted.torque_slope_1ps = 2.0f;
+    follow_torque(APP_CONTROL_PROFILE_TORQUE, 10.0f);
+    TEST_ASSERT_TRUE(out.run);
+    TEST_ASSERT_EQUAL_INT(APP_FOLLOWS_TORQUE, out.follows);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-6f, 0.5f, out.torque_share);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-9f, 2.0f * gain_tables_drive.ts_s, out.torque_step);
+    wanted.torque_slope_1ps = 0.0f;
+    ticks(APP_CONTROL_ENABLE_OPERATION, 1);
+    TEST_ASSERT_TRUE(out.torque_step > (2.0f * TORQUE_SHARE_MAX));
+    wanted.torque_slope_1ps  = 2.0f;
+    wanted.mode_of_operation = APP_CONTROL_CYCLIC_TORQUE;
+    ticks(APP_CONTROL_ENABLE_OPERATION, 1);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-6f, 0.75f, out.torque_share);
+    TEST_ASSERT_TRUE(out.torque_step > (2.0f * TORQUE_SHARE_MAX));
+}
+
+static void test_limits_of_a_torque(void)
+{
+    const float most_e_radps = gain_tables_drive.speed_max_e_radps;
+
+    wanted.torque_share  = -20.0f;
+    wanted.torque_offset = -30.0f;
+    follow_torque(APP_CONTROL_CYCLIC_TORQUE, 0.0f);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-6f, -TORQUE_SHARE_MAX, out.torque_share);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, most_e_radps, out.torque_speed_max_e_radps);
+    wanted.torque_most              = 0.75f;
+    wanted.torque_speed_max_e_radps = 50.0f;
+    ticks(APP_CONTROL_ENABLE_OPERATION, 1);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-6f, -0.75f, out.torque_share);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-6f, 50.0f, out.torque_speed_max_e_radps);
+    wanted.torque_speed_max_e_radps = 1.0e6f; /* beyond the drive's; 0 and below are the drive's */
+    ticks(APP_CONTROL_ENABLE_OPERATION, 1);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, most_e_radps, out.torque_speed_max_e_radps);
+}
+
+static void test_halt_and_stop_of_a_torque_run_begin_at_the_present_speed(void)
+{
+    static const int stops[] = {APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_HALT,
+                                APP_CONTROL_SHUT_DOWN, APP_CONTROL_QUICK_STOP};
+
+    for (int i = 0; i < SUPPORT_COUNT(stops); i++) {
+        setUp();
+        wanted.decel_e_radps2  = 1000.0f;
+        wanted.quick_e_radps2  = 1000.0f;
+        wanted.shutdown_option = 1;
+        wanted.omega_e_radps   = 300.0f; /* of another mode: it is not the goal */
+        follow_torque(APP_CONTROL_PROFILE_TORQUE, 100.0f);
+        TEST_ASSERT_EQUAL_INT(APP_FOLLOWS_TORQUE, out.follows);
+        ticks((uint16_t)stops[i], 1);
+        TEST_ASSERT_EQUAL_INT(APP_FOLLOWS_SPEED, out.follows);
+        TEST_ASSERT_TRUE(out.run);
+        TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 100.0f - (gain_tables_drive.ts_s * 1000.0f),
+                                 out.omega_e_radps);
+        ticks((uint16_t)stops[i], 600);
+        TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, out.omega_e_radps);
+    }
+}
+
+static void test_a_shaft_beyond_the_largest_speed_leaves_the_reference_within_it(void)
+{
+    follow_torque(APP_CONTROL_CYCLIC_TORQUE, 1.1f * gain_tables_drive.speed_max_e_radps);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, gain_tables_drive.speed_max_e_radps, out.omega_e_radps);
+}
+
+/* Each of the four, from each, without a tick in which the bridge would open. */
+static void test_runs_change_into_each_other_while_enabled(void)
+{
+    static const struct {
+        int16_t       mode;
+        app_follows_t follows;
+    } runs[] = {{APP_CONTROL_PROFILE_POSITION, APP_FOLLOWS_POSITION},
+                {APP_CONTROL_PROFILE_VELOCITY, APP_FOLLOWS_SPEED},
+                {APP_CONTROL_PROFILE_TORQUE, APP_FOLLOWS_TORQUE},
+                {APP_CONTROL_CYCLIC_TORQUE, APP_FOLLOWS_TORQUE}};
+
+    for (int from = 0; from < SUPPORT_COUNT(runs); from++) {
+        for (int to = 0; to < SUPPORT_COUNT(runs); to++) {
+            setUp();
+            hold_position(777, 0.0f);
+            wanted.mode_of_operation = runs[from].mode;
+            ticks(APP_CONTROL_ENABLE_OPERATION, 2);
+            TEST_ASSERT_EQUAL_INT(runs[from].follows, out.follows);
+            wanted.mode_of_operation = runs[to].mode;
+            wanted.omega_e_radps     = 200.0f;
+            for (int n = 0; n < 3; n++) {
+                ticks(APP_CONTROL_ENABLE_OPERATION, 1);
+                TEST_ASSERT_TRUE(out.run);
+                TEST_ASSERT_EQUAL_INT(runs[to].follows, out.follows);
+                TEST_ASSERT_EQUAL_INT(runs[to].mode, control.mode);
+            }
+            TEST_ASSERT_FLOAT_WITHIN(0.0f, (runs[to].follows == APP_FOLLOWS_SPEED) ? 200.0f : 0.0f,
+                                     out.omega_e_radps);
+        }
+    }
+}
+
+static void test_a_mode_that_is_no_run_waits_for_the_next_start(void)
+{
+    static const int16_t modes[] = {APP_CONTROL_HOMING, APP_CONTROL_COMMISSIONING};
+
+    for (int i = 0; i < SUPPORT_COUNT(modes); i++) {
+        setUp();
+        go(APP_CONTROL_OPERATION_ENABLED);
+        wanted.mode_of_operation = modes[i];
+        ticks(APP_CONTROL_ENABLE_OPERATION, 5);
+        TEST_ASSERT_TRUE(out.run && !out.align && !out.commission);
+        TEST_ASSERT_EQUAL_INT(APP_CONTROL_PROFILE_VELOCITY, control.mode);
+        ticks(APP_CONTROL_SHUT_DOWN, 5);
+        ticks(APP_CONTROL_ENABLE_OPERATION, 2);
+        TEST_ASSERT_EQUAL_INT(modes[i], control.mode);
+        TEST_ASSERT_FALSE(out.run);
+        wanted.mode_of_operation = APP_CONTROL_CYCLIC_TORQUE; /* nor does it become a run */
+        ticks(APP_CONTROL_ENABLE_OPERATION, 2);
+        TEST_ASSERT_EQUAL_INT(modes[i], control.mode);
+        TEST_ASSERT_FALSE(out.run);
     }
 }
 
@@ -532,6 +671,12 @@ int main(void)
     RUN_TEST(test_positions_wait_until_the_zero_is_known);
     RUN_TEST(test_lost_counts_end_a_position_run_as_a_quick_stop);
     RUN_TEST(test_halt_and_stop_of_a_position_run_begin_at_the_present_speed);
+    RUN_TEST(test_profile_torque_has_a_slope_and_cyclic_torque_an_offset);
+    RUN_TEST(test_limits_of_a_torque);
+    RUN_TEST(test_halt_and_stop_of_a_torque_run_begin_at_the_present_speed);
+    RUN_TEST(test_a_shaft_beyond_the_largest_speed_leaves_the_reference_within_it);
+    RUN_TEST(test_runs_change_into_each_other_while_enabled);
+    RUN_TEST(test_a_mode_that_is_no_run_waits_for_the_next_start);
     RUN_TEST(test_every_transition_and_no_other);
     RUN_TEST(test_boot_leads_to_switch_on_disabled_whatever_is_asked);
     RUN_TEST(test_operation_is_enabled_by_a_rising_bit_only);

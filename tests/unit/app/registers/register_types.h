@@ -34,6 +34,11 @@ static void register_types(void)
     IS(app_registers_request_t, objects.quick_option, int16_t);
     IS(app_registers_request_t, objects.shutdown_option, int16_t);
     IS(app_registers_request_t, objects.target_cnt, int32_t);
+    IS(app_registers_request_t, objects.torque_most, float);
+    IS(app_registers_request_t, objects.torque_offset, float);
+    IS(app_registers_request_t, objects.torque_share, float);
+    IS(app_registers_request_t, objects.torque_slope_1ps, float);
+    IS(app_registers_request_t, objects.torque_speed_max_e_radps, float);
     IS(app_registers_request_t, objects.window_e_radps, float);
     IS(app_registers_request_t, scope.before, uint16_t);
     IS(app_registers_request_t, scope.decimation, uint16_t);
@@ -119,6 +124,8 @@ static void register_types(void)
     IS(app_status_t, tick_cycles, uint16_t);
     IS(app_status_t, tick_cycles_worst, uint16_t);
     IS(app_status_t, ticks, uint32_t);
+    IS(app_status_t, torque_demand_share, float);
+    IS(app_status_t, torque_share, float);
     IS(app_status_t, v_V.d, float);
     IS(app_status_t, v_V.q, float);
     IS(app_status_t, zero_a_cnt, float);
@@ -128,6 +135,8 @@ static void register_types(void)
     IS(drive_config_t, dc_link_min_V, float);
     IS(drive_config_t, hardware.encoder_positions, uint32_t);
     IS(drive_config_t, hardware.pole_pairs, uint16_t);
+    IS(drive_config_t, rated_current_A, float);
+    IS(drive_config_t, rated_torque_Nm, float);
     IS(drive_config_t, speed_max_e_radps, float);
     IS(drive_config_t, trip_current_A, float);
     IS(drive_config_t, trip_speed_e_radps, float);

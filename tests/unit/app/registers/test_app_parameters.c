@@ -85,13 +85,14 @@ static void store(void)
 }
 
 /* Addresses, high and low word of a value of each parameter that is not its default; docs/modbus.md. */
-static const int other[][3] = {{7, 0, 123},    {9, 1, 5},      {11, 2, 3},   {13, -1, 6},
-                               {14, -1, 1},    {15, -1, 1},    {16, -1, 3},  {17, 0, 1500},
-                               {19, -1, 77},   {22, -1, 1500}, {64, -1, 42}, {65, -1, 700},
-                               {66, 0, 19200}, {68, -1, 2},    {69, -1, 1},  {162, 1, 77},
-                               {164, 2, 5},    {166, -1, 9},   {192, -1, 0}};
+static const int other[][3] = {
+    {7, 0, 123},    {9, 1, 5},       {11, 2, 3},     {13, -1, 6},    {14, -1, 1},  {15, -1, 1},
+    {16, -1, 3},    {17, 0, 1500},   {19, -1, 77},   {22, -1, 1500}, {64, -1, 42}, {65, -1, 700},
+    {66, 0, 19200}, {68, -1, 2},     {69, -1, 1},    {162, 1, 77},   {164, 2, 5},  {166, -1, 9},
+    {192, -1, 0},   {226, -1, 1500}, {227, 0, 2500}, {229, 0, 3000}};
 
 #define OTHERS ((int)(sizeof other / sizeof other[0]))
+#define ROOM   (2 + (3 * (OTHERS + 4))) /* words of a record, with some more parameters */
 
 static void write_others(void)
 {
@@ -265,8 +266,8 @@ static uint16_t record(uint16_t *words)
 
 static void test_another_order_changes_nothing(void)
 {
-    uint16_t words[64];
-    uint16_t turned[64];
+    uint16_t words[ROOM];
+    uint16_t turned[ROOM];
 
     (void)record(words);
     (void)memcpy(turned, words, sizeof turned);
@@ -285,7 +286,7 @@ static void test_another_order_changes_nothing(void)
 static void test_a_new_parameter_has_its_default(void)
 {
     for (int n = 0; n < OTHERS; n++) {
-        uint16_t words[64];
+        uint16_t words[ROOM];
 
         (void)record(words);
         (void)memmove(&words[2 + (EACH * n)], &words[2 + (EACH * (n + 1))],
@@ -304,7 +305,7 @@ static void test_a_new_parameter_has_its_default(void)
 static void test_parameters_that_are_gone_are_counted_and_the_others_kept(void)
 {
     for (int more = 1; more <= 4; more++) {
-        uint16_t words[2 + (3 * (OTHERS + 4))];
+        uint16_t words[ROOM];
 
         (void)record(words);
         for (int n = 0; n < more; n++) {
@@ -334,7 +335,7 @@ static void test_no_digest_is_one_of_the_test(void)
 
 static void test_a_record_of_another_format_gives_defaults_and_is_told(void)
 {
-    uint16_t words[64];
+    uint16_t words[ROOM];
     for (uint16_t wrong = 0U; wrong < 4U; wrong++) {
         uint16_t count = record(words);
         if (wrong < 2U) {
@@ -358,7 +359,7 @@ static void test_one_value_out_of_range_gives_defaults_for_all(void)
 {
     /* word of the record and what it must not be: an option, the address, the baud rate, the format */
     static const int bad[][2] = {{13, 3}, {34, 0}, {34, 248}, {40, 9601}, {43, 3}, {46, 2}};
-    uint16_t         words[64];
+    uint16_t         words[ROOM];
     for (int n = 0; n < (int)(sizeof bad / sizeof bad[0]); n++) {
         const uint16_t count = record(words);
         words[bad[n][0]]     = (uint16_t)bad[n][1];

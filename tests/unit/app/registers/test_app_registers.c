@@ -294,15 +294,27 @@ static void test_objects_are_written_and_read_back(void)
     TEST_ASSERT_FLOAT_WITHIN(1.0e-5f, 12.3f, o->window_e_radps);
 }
 
-static void test_the_mode_of_operation_is_changed_while_stopped_only(void)
+static void test_the_line_is_changed_while_stopped_only(void)
 {
     registers.status.state = APP_CONTROL_OPERATION_ENABLED;
-    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BUSY, write(APP_REGISTERS_MODE_OF_OPERATION, 6));
-    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_MODE_OF_OPERATION, 3)); /* is so */
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BUSY, write(APP_REGISTERS_LINE_FORMAT, 1));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_LINE_FORMAT, 0)); /* is so */
     registers.status.state = APP_CONTROL_SWITCHED;
-    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_MODE_OF_OPERATION, 6));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_LINE_FORMAT, 1));
     registers.status.gate_enable = true;
-    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BUSY, write(APP_REGISTERS_MODE_OF_OPERATION, 3));
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_BUSY, write(APP_REGISTERS_LINE_FORMAT, 2));
+}
+
+static void test_the_mode_of_operation_is_changed_in_a_run_too(void)
+{
+    static const int modes[] = {1, 4, 10, 3, 6, -1};
+
+    registers.status.state       = APP_CONTROL_OPERATION_ENABLED;
+    registers.status.gate_enable = true;
+    for (int i = 0; i < SUPPORT_COUNT(modes); i++) {
+        TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_MODE_OF_OPERATION, modes[i]));
+        TEST_ASSERT_EQUAL_INT(modes[i], registers.requested.objects.mode_of_operation);
+    }
 }
 
 /* Bits 0 to 3, 5 and 6 by the standard's table of states; 9 always; 4 and 7 by what is in the way. */
@@ -601,7 +613,7 @@ static void test_every_speed_in_range_is_taken_and_read_back(void)
 static void test_value_out_of_range_is_refused_and_changes_nothing(void)
 {
     static const int bad[][2] = {{6, 5000}, {6, -5000}, {6, 32767}, {6, -32768}, {64, 0}, {1, 0},
-                                 {1, 4},    {1, 2},     {1, 256},   {64, 248},   {13, 3}, {13, 4},
+                                 {1, 5},    {1, 2},     {1, 256},   {64, 248},   {13, 3}, {13, 4},
                                  {13, 7},   {14, 2},    {15, 2},    {16, 1},     {16, 4}};
     static const int speeds[] = {15691, -15691, 65000, -65000, 1 << 30, INT32_MIN};
     (void)write_speed(1234);
@@ -694,7 +706,8 @@ int main(void)
     RUN_TEST(test_block_with_one_bad_value_is_refused_as_a_whole);
     RUN_TEST(test_silence_stops_until_it_is_enabled_again);
     RUN_TEST(test_objects_are_written_and_read_back);
-    RUN_TEST(test_the_mode_of_operation_is_changed_while_stopped_only);
+    RUN_TEST(test_the_line_is_changed_while_stopped_only);
+    RUN_TEST(test_the_mode_of_operation_is_changed_in_a_run_too);
     RUN_TEST(test_statusword);
     RUN_TEST(test_target_reached_and_what_bit_12_says);
     RUN_TEST(test_error_codes);

@@ -96,12 +96,69 @@ static void test_bit_12_of_a_position_run_is_the_acknowledgement(void)
     TEST_ASSERT_EQUAL_HEX16(OF_MODE, statusword(OF_MODE));
 }
 
-static void test_modes_of_a_drive_without_positions(void)
+/* Bit n - 1 is mode n of CiA 402; bit 16 is the manufacturer's, commissioning. */
+static void test_modes_of_a_drive(void)
 {
     drive.positions = true;
+    drive.torques   = true;
+    TEST_ASSERT_EQUAL_HEX32(0x0001022DUL, input_32(APP_REGISTERS_SUPPORTED_MODES));
+    drive.torques = false;
     TEST_ASSERT_EQUAL_HEX32(0x00010025UL, input_32(APP_REGISTERS_SUPPORTED_MODES));
     drive.positions = false;
     TEST_ASSERT_EQUAL_HEX32(0x00010024UL, input_32(APP_REGISTERS_SUPPORTED_MODES));
+}
+
+static void test_a_torque_is_reached_by_its_references(void)
+{
+    app_status_t *s                          = &registers.status;
+    registers.requested.objects.torque_share = 0.4f;
+    s->state                                 = APP_CONTROL_OPERATION_ENABLED;
+    s->mode                                  = APP_MODE_RUN;
+    s->mode_of_operation                     = APP_CONTROL_PROFILE_TORQUE;
+    s->torque_demand_share                   = 0.404f;
+    TEST_ASSERT_EQUAL_HEX16(REACHED, statusword(REACHED | OF_MODE));
+    s->torque_demand_share = 0.394f; /* on its way, or limited */
+    TEST_ASSERT_EQUAL_HEX16(0, statusword(REACHED | OF_MODE));
+
+    registers.requested.objects.torque_offset = 0.2f; /* of cyclic torque alone */
+    registers.requested.objects.torque_most   = 0.5f;
+    s->torque_demand_share                    = 0.4f;
+    TEST_ASSERT_EQUAL_HEX16(REACHED, statusword(REACHED));
+    s->mode_of_operation = APP_CONTROL_CYCLIC_TORQUE;
+    TEST_ASSERT_EQUAL_HEX16(OF_MODE, statusword(REACHED | OF_MODE));
+    s->torque_demand_share = 0.5f;
+    TEST_ASSERT_EQUAL_HEX16(REACHED | OF_MODE, statusword(REACHED | OF_MODE));
+
+    registers.requested.objects.controlword = 0x010FU; /* halt */
+    TEST_ASSERT_EQUAL_HEX16(REACHED, statusword(REACHED | OF_MODE));
+    s->speed_e_radps = 100.0f;
+    TEST_ASSERT_EQUAL_HEX16(0, statusword(REACHED | OF_MODE));
+    registers.requested.objects.controlword = 0x000FU;
+    s->mode                                 = APP_MODE_STOP;
+    TEST_ASSERT_EQUAL_HEX16(0, statusword(REACHED | OF_MODE));
+}
+
+/* 6077h and 6074h in thousandths; 6075h and 6076h in mA and mN m. */
+static void test_torques_and_what_they_are_of(void)
+{
+    registers.status.torque_share        = -0.2504f;
+    registers.status.torque_demand_share = 40.0f;
+    drive.rated_current_A                = 2.3694f;
+    drive.rated_torque_Nm                = 150.0f;
+    TEST_ASSERT_EQUAL_INT16(-250, (int16_t)input(APP_REGISTERS_TORQUE_NOW));
+    TEST_ASSERT_EQUAL_INT16(32767, (int16_t)input(APP_REGISTERS_TORQUE_DEMAND)); /* clamped */
+    TEST_ASSERT_EQUAL_UINT32(2369UL, input_32(APP_REGISTERS_RATED_CURRENT));
+    TEST_ASSERT_EQUAL_UINT32(150000UL, input_32(APP_REGISTERS_RATED_TORQUE));
+}
+
+static void test_the_current_limit_is_a_share_of_the_rated_current_too(void)
+{
+    drive.rated_current_A = 2.5f;
+    TEST_ASSERT_EQUAL_INT(APP_REGISTERS_OK, write(APP_REGISTERS_MAX_CURRENT_SHARE, 800));
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-6f, 2.0f, registers.requested.objects.current_max_A);
+    registers.requested.objects.current_max_A = 5.0f;
+    TEST_ASSERT_EQUAL_HEX16(2000,
+                            register_words_holding(&registers, APP_REGISTERS_MAX_CURRENT_SHARE));
 }
 
 static void test_without_scope_and_record_their_registers_are_zero(void)
@@ -228,7 +285,10 @@ int main(void)
     RUN_TEST(test_a_position_is_reached_at_rest_within_the_window);
     RUN_TEST(test_a_halted_position_run_is_reached_at_standstill);
     RUN_TEST(test_bit_12_of_a_position_run_is_the_acknowledgement);
-    RUN_TEST(test_modes_of_a_drive_without_positions);
+    RUN_TEST(test_modes_of_a_drive);
+    RUN_TEST(test_a_torque_is_reached_by_its_references);
+    RUN_TEST(test_torques_and_what_they_are_of);
+    RUN_TEST(test_the_current_limit_is_a_share_of_the_rated_current_too);
     RUN_TEST(test_without_scope_and_record_their_registers_are_zero);
     RUN_TEST(test_the_scope_is_armed_and_stopped);
     RUN_TEST(test_samples_are_read_when_there_are_any);

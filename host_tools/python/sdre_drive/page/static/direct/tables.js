@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Generated from firmware/app/registers/registers.toml and the words of sdre_drive. Do not edit: host_tools/registers/generate.py.
 
-export const DIGEST = "7f633e4d";
+export const DIGEST = "28a815c8";
 export const VERSION = "1.0.0";
 export const GROUPS = {
   "COMMAND": {"space": "holding", "registers": [["CONTROLWORD", 0, "u16", 0, "bits"], ["MODE_OF_OPERATION", 1, "i16", 0, ""], ["SPEED", 2, "i32", 0.1, "rad/s electrical"], ["SPEED_RPM", 4, "i32", 0.1, "r/min"], ["SPEED_RPM_16", 6, "i16", 1.0, "r/min"], ["ACCELERATION", 7, "u32", 1.0, "rad/s2 electrical"], ["DECELERATION", 9, "u32", 1.0, "rad/s2 electrical"], ["QUICK_STOP_DECELERATION", 11, "u32", 1.0, "rad/s2 electrical"], ["QUICK_STOP_OPTION", 13, "i16", 0, ""], ["SHUTDOWN_OPTION", 14, "i16", 0, ""], ["DISABLE_OPTION", 15, "i16", 0, ""], ["LOST_OPTION", 16, "i16", 0, ""], ["MAX_CURRENT", 17, "i32", 0.001, "A"], ["SPEED_WINDOW", 19, "u16", 0.1, "rad/s electrical"], ["COMMISSION_CURRENT", 20, "u16", 0.01, "A"], ["COMMISSION_SPEED", 21, "u16", 0.1, "rad/s mechanical"], ["INERTIA_START", 22, "u16", 0, "0.001"]]},
@@ -10,6 +10,7 @@ export const GROUPS = {
   "STORE": {"space": "holding", "registers": [["STORE_PARAMETERS", 128, "u32", 0, ""], ["RESTORE_PARAMETERS", 130, "u32", 0, ""], ["ACCEPT_FALLBACK", 132, "u32", 0, ""]]},
   "TARGET": {"space": "holding", "registers": [["TARGET_POSITION", 160, "i32", 0, "counts"], ["PROFILE_VELOCITY", 162, "u32", 0.1, "rad/s electrical"], ["PROFILE_JERK", 164, "u32", 1.0, "rad/s3 electrical"], ["POSITION_WINDOW", 166, "u16", 0, "counts"]]},
   "TRIM": {"space": "holding", "registers": [["SENSOR_TRIM", 192, "u16", 0, ""]]},
+  "TORQUE": {"space": "holding", "registers": [["TORQUE", 224, "i16", 0.001, "of RATED_TORQUE"], ["TORQUE_OFFSET", 225, "i16", 0.001, "of RATED_TORQUE"], ["MAX_TORQUE", 226, "u16", 0.001, "of RATED_TORQUE"], ["TORQUE_SLOPE", 227, "u32", 0.001, "of RATED_TORQUE per s"], ["TORQUE_SPEED_MAX", 229, "u32", 0.1, "r/min"], ["MAX_CURRENT_SHARE", 231, "u16", 0.001, "of RATED_CURRENT"]]},
   "LIVE": {"space": "input", "registers": [["STATUSWORD", 0, "u16", 0, "bits"], ["MODE_NOW", 1, "i16", 0, ""], ["ERROR_CODE", 2, "u16", 0, ""], ["MODE", 3, "u16", 0, ""], ["FAULT", 4, "u16", 0, ""], ["DRIVE_FAULT", 5, "u16", 0, ""], ["BOARD_FAULTS", 6, "u16", 0, "bits"], ["CONDITIONS", 7, "u16", 0, "bits"], ["REFERENCE", 8, "u16", 0, ""], ["ALIGN_STAGE", 9, "u16", 0, ""], ["SPEED_NOW", 10, "i32", 0.1, "rad/s electrical"], ["SPEED_NOW_RPM", 12, "i32", 0.1, "r/min"], ["SPEED_DEMAND_RPM", 14, "i32", 0.1, "r/min"], ["IQ", 16, "i32", 0.001, "A"], ["ID", 18, "i32", 0.001, "A"], ["IQ_REF", 20, "i32", 0.001, "A"], ["ID_REF", 22, "i32", 0.001, "A"], ["VQ", 24, "i16", 0.1, "V"], ["VD", 25, "i16", 0.1, "V"], ["DC_LINK", 26, "u16", 0.1, "V"], ["TEMPERATURE", 27, "i16", 0.1, "degC"], ["THETA", 28, "u16", 0.001, "rad"], ["POSITION", 29, "u16", 0, "counts"], ["CORRECTIONS", 30, "u16", 0, ""], ["ZERO_A", 31, "u16", 0.1, "codes"], ["ZERO_B", 32, "u16", 0.1, "codes"], ["CYCLES", 33, "u16", 0, "cycles"], ["CYCLES_WORST", 34, "u16", 0, "cycles"], ["TICKS", 35, "u32", 0, "control periods"], ["RESET_CAUSE", 37, "u16", 0, ""], ["PHASE_ERRORS", 38, "u16", 0, ""], ["IGNORED_ANGLES", 39, "u16", 0, "samples"], ["IGNORED_CURRENTS", 40, "u16", 0, "samples"], ["JUMPS", 41, "u16", 0, ""], ["MOTOR_HEAT", 42, "u16", 0.001, ""], ["INVERTER_HEAT", 43, "u16", 0.001, ""], ["DERATING", 44, "u16", 0.001, ""], ["FIRST_FAULT", 45, "u16", 0, ""], ["FIRST_MODE", 46, "u16", 0, ""], ["FIRST_DRIVE_FAULT", 47, "u16", 0, ""], ["FIRST_BOARD_FAULTS", 48, "u16", 0, "bits"], ["FIRST_IA", 49, "u16", 0, "codes"], ["FIRST_IB", 50, "u16", 0, "codes"], ["FIRST_DC_LINK", 51, "u16", 0, "codes"], ["FIRST_TEMPERATURE", 52, "u16", 0, "codes"], ["FIRST_POSITION", 53, "u16", 0, "counts"], ["FIRST_INDEX", 54, "u16", 0, "counts"], ["FIRST_SAMPLE", 55, "u16", 0, "bits"], ["FIRST_SPEED", 56, "i32", 0.1, "rad/s electrical"], ["FIRST_WANTED", 58, "i32", 0.1, "rad/s electrical"], ["FIRST_TICKS", 60, "u32", 0, "control periods"]]},
   "POSITION": {"space": "input", "registers": [["POSITION_NOW", 64, "i32", 0, "counts"], ["POSITION_TARGET", 66, "i32", 0, "counts"], ["DISC_MAP", 68, "u16", 0, ""]]},
   "SHAFT": {"space": "input", "registers": [["INERTIA_RATIO", 96, "u16", 0.001, ""], ["INERTIA_CHANGES", 97, "u16", 0, ""], ["RING_FREQUENCY", 98, "u16", 0.1, "Hz"], ["INERTIA_BELIEVED", 99, "u16", 0.001, ""]]},
@@ -19,6 +20,7 @@ export const GROUPS = {
   "STORED": {"space": "input", "registers": [["PARAMETERS_STATE", 224, "u16", 0, ""], ["PARAMETERS_DONE", 225, "u16", 0, ""], ["PARAMETERS_NUMBER", 226, "u32", 0, ""], ["PARAMETERS_WRITES", 228, "u32", 0, ""], ["PARAMETERS_DROPPED", 230, "u16", 0, ""]]},
   "CONSTANTS": {"space": "input", "registers": [["SUPPORTED_MODES", 256, "u32", 0, "bits"], ["POLE_PAIRS", 258, "u16", 0, ""], ["ENCODER_POSITIONS", 259, "u32", 0, "counts"], ["CONTROL_PERIOD", 261, "u32", 1e-09, "s"], ["SPEED_MAX", 263, "i32", 0.1, "rad/s electrical"], ["SPEED_MAX_RPM", 265, "i32", 0.1, "r/min"], ["SPEED_TRIP", 267, "i32", 0.1, "rad/s electrical"], ["CURRENT_MAX", 269, "i32", 0.001, "A"], ["CURRENT_TRIP", 271, "i32", 0.001, "A"], ["DC_LINK_MIN", 273, "u16", 0.1, "V"], ["DC_LINK_MAX", 274, "u16", 0.1, "V"], ["TEMPERATURE_LIMIT", 275, "i16", 0.1, "degC"], ["TEMPERATURE_TRIP", 276, "i16", 0.1, "degC"]]},
   "MAP": {"space": "input", "registers": [["FOUND_MAP_STEP", 288, "dec", 0, "A"], ["FOUND_MAP_BIAS", 290, "dec", 0, "A"], ["FOUND_LD_POSITIVE_1", 292, "u16", 0.0001, ""], ["FOUND_LD_POSITIVE_2", 293, "u16", 0.0001, ""], ["FOUND_LD_POSITIVE_3", 294, "u16", 0.0001, ""], ["FOUND_LD_POSITIVE_4", 295, "u16", 0.0001, ""], ["FOUND_LD_NEGATIVE_1", 296, "u16", 0.0001, ""], ["FOUND_LD_NEGATIVE_2", 297, "u16", 0.0001, ""], ["FOUND_LD_NEGATIVE_3", 298, "u16", 0.0001, ""], ["FOUND_LD_NEGATIVE_4", 299, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_0_1", 300, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_0_2", 301, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_0_3", 302, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_0_4", 303, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_1_1", 304, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_1_2", 305, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_1_3", 306, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_1_4", 307, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_2_1", 308, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_2_2", 309, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_2_3", 310, "u16", 0.0001, ""], ["FOUND_LQ_BESIDE_2_4", 311, "u16", 0.0001, ""]]},
+  "TORQUE_NOW": {"space": "input", "registers": [["TORQUE_NOW", 320, "i16", 0.001, "of RATED_TORQUE"], ["TORQUE_DEMAND", 321, "i16", 0.001, "of RATED_TORQUE"], ["RATED_CURRENT", 322, "u32", 0.001, "A"], ["RATED_TORQUE", 324, "u32", 0.001, "N m"]]},
 };
 export const PARAMETERS = [
   {"name": "ACCELERATION", "low": 0, "high": 1000000.0, "default": 0.0, "stopped": false, "text": "away from zero speed; 0: the drive's limit", "choices": []},
@@ -40,12 +42,16 @@ export const PARAMETERS = [
   {"name": "PROFILE_JERK", "low": 0, "high": 4000000000.0, "default": 0.0, "stopped": false, "text": "0: the drive's limit", "choices": []},
   {"name": "POSITION_WINDOW", "low": 1, "high": 65535, "default": 4.0, "stopped": false, "text": "around the target: reached", "choices": []},
   {"name": "SENSOR_TRIM", "low": 0, "high": 1, "default": 1.0, "stopped": false, "text": "1: learns errors of the current sensors in a run. 0 forgets what was learned: [Current sensors](hardware.md#trim-of-the-current-sensors). The image of noc_h has no room for it: there it is 0.", "choices": []},
+  {"name": "MAX_TORQUE", "low": 0, "high": 33, "default": 33.0, "stopped": false, "text": "limit of their sum, either way. MAX_CURRENT, heat, the voltage and the speed limit act too.", "choices": []},
+  {"name": "TORQUE_SLOPE", "low": 0, "high": 1000000.0, "default": 0.0, "stopped": false, "text": "profile torque; 0: a step", "choices": []},
+  {"name": "TORQUE_SPEED_MAX", "low": 0, "high": 10000000.0, "default": 0.0, "stopped": false, "text": "speed limit of a torque, either way; 0: SPEED_MAX. It acts up to SPEED_MAX. The torque that exceeds the limit is taken away, and the drive brakes a shaft that a load drives beyond it.", "choices": []},
 ];
 export const PARAMETER_GROUPS = [
   "COMMAND",
   "LINE",
   "TARGET",
   "TRIM",
+  "TORQUE",
 ];
 export const SIGNALS = [
   {"name": "NONE", "unit": ""},
