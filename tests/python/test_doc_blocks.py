@@ -26,7 +26,7 @@ PAGES = {
 TOOLS = ROOT / "build/host/bin"
 # A program that runs until Ctrl-C gets one after 8 s; 130 is then a good end.
 CLIENT = f"""#!/bin/bash
-[[ $1 =~ ^(run|move|ui|watch)$ ]] && held=(timeout --preserve-status -s INT 8)
+[[ $1 =~ ^(run|move|torque|ui|watch)$ ]] && held=(timeout --preserve-status -s INT 8)
 [[ $1 =~ ^(ui|bench)$ ]] && more=(--control "127.0.0.1:$SERVED_CONTROL")
 [[ $1 == bench ]] || more+=(--tcp "127.0.0.1:$SERVED_TCP")
 "${{held[@]}}" "{sys.executable}" -m sdre_drive "$@" "${{more[@]}}"

@@ -19,7 +19,16 @@ from sdre_drive.bench_command import EPILOG, bench, state_beside
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.disc_command import disc_map
 from sdre_drive.load_command import load
-from sdre_drive.motion_commands import MOVE_EXAMPLES, NUMBERS, RUN_EXAMPLES, move, run, stop
+from sdre_drive.motion_commands import (
+    MOVE_EXAMPLES,
+    NUMBERS,
+    RUN_EXAMPLES,
+    TORQUE_EXAMPLES,
+    move,
+    run,
+    stop,
+    torque,
+)
 from sdre_drive.options import (
     Control,
     Line,
@@ -130,6 +139,7 @@ def status(
 
 app.command(context_settings=NUMBERS, epilog=RUN_EXAMPLES)(run)
 app.command(context_settings=NUMBERS, epilog=MOVE_EXAMPLES)(move)
+app.command(context_settings=NUMBERS, epilog=TORQUE_EXAMPLES)(torque)
 app.command()(stop)
 
 

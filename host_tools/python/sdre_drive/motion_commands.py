@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`sdre-drive run`, `move` and `stop`."""
+"""`sdre-drive run`, `move`, `torque` and `stop`."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from typing_extensions import Annotated
 
 from sdre_drive import move as mover
 from sdre_drive import session, show
+from sdre_drive import torque as torques
 from sdre_drive.connection import Drive
 from sdre_drive.options import PolePairs, Port, Tcp, pole_pairs_of, target
 from sdre_drive.terminal import For, end_by_signal, live_line, out
@@ -19,6 +20,8 @@ from sdre_drive.units import e_radps_of
 NUMBERS = {"ignore_unknown_options": True}  # -500 is a number
 RUN_EXAMPLES = "Examples: sdre-drive run 1000; sdre-drive run -500 --for 10"
 MOVE_EXAMPLES = "Examples: sdre-drive move 2.5; sdre-drive move -1 --relative --speed 60 --for 2"
+
+TORQUE_EXAMPLES = "Examples: sdre-drive torque 0.2; sdre-drive torque -50 --percent --speed 1000"
 
 
 def run(
@@ -97,6 +100,41 @@ def move(
             f"{found.now} counts, wanted {found.target}: {found.words(turn)}; zero: {zero}",
             refresh=True,
         )
+
+
+def torque(
+    wanted: Annotated[
+        float, typer.Argument(metavar="TORQUE", help="N m at the air gap; negative: the other way")
+    ],
+    percent: Annotated[
+        bool, typer.Option("--percent/--Nm", help="TORQUE is in percent of the rated torque")
+    ] = False,
+    speed: Annotated[
+        float,
+        typer.Option(
+            "--speed", min=0.0, help="speed limit either way, r/min; 0: what the drive can"
+        ),
+    ] = torques.DEFAULT_RPM,
+    length_s: For = None,
+    port: Port = None,
+    tcp: Tcp = None,
+    pole_pairs: PolePairs = None,
+) -> None:
+    """Holds TORQUE up to a speed until Ctrl-C, then stops by the drive's ramp; a second Ctrl-C
+    opens the bridge at once."""
+    end = end_by_signal()
+    with Drive(target(port, tcp)) as drive, Live(console=live_line, auto_refresh=False) as live:
+        pairs = pole_pairs_of(pole_pairs, drive)
+        torque_Nm = wanted * torques.rated(drive).torque_Nm / 100.0 if percent else wanted
+        reading = torques.hold(
+            drive,
+            torques.Wanted(torque_Nm, e_radps_of(speed, pairs)),
+            end,
+            length_s,
+            lambda r, t: live.update(show.line(r, pairs) + f"  {t.words(torque_Nm)}", refresh=True),
+            end.at_once,
+        )
+        live.update(show.line(reading, pairs), refresh=True)
 
 
 def stop(

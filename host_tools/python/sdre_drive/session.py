@@ -12,8 +12,8 @@ from sdre_drive import faults, register_map
 from sdre_drive.connection import Drive, DriveError
 from sdre_drive.registers import (
     ANGLE_KNOWN,
-    PROFILE_POSITION,
     PROFILE_VELOCITY,
+    RUNS,
     ControlWord,
     Mode,
     Reading,
@@ -164,10 +164,7 @@ def ramp_down(drive: Drive, at_once: Optional[threading.Event] = None) -> None:
     """Brings a shaft that the drive has to rest, with the drive's own ramp (DECELERATION). Ends
     early by `at_once`, with the drive, or when the shaft gets no slower."""
     reading = drive.read()
-    if reading.mode != Mode.RUN or reading.mode_of_operation not in (
-        PROFILE_VELOCITY,
-        PROFILE_POSITION,
-    ):
+    if reading.mode != Mode.RUN or reading.mode_of_operation not in RUNS:
         return
     drive.write("CONTROLWORD", ControlWord.ENABLE | HALT)
     ramp = _Ramp()
