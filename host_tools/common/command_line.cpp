@@ -6,6 +6,7 @@
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -46,12 +47,30 @@ std::string complaint(const CLI::App &app, const Tool &tool, const CLI::ParseErr
                        app.get_subcommands()[0]->get_name());
 }
 
+[[noreturn]] void fail_to_print(int error)
+{
+    throw InputError(fmt::format("standard output: cannot write: {}", std::strerror(error)));
+}
+
 /// A full disk shows when the buffer is written, not when the text is printed.
 void require_printed()
 {
     std::cout.flush();
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout) {
-        throw InputError(fmt::format("standard output: cannot write: {}", std::strerror(errno)));
+        fail_to_print(errno);
+    }
+}
+
+/// A text that fills the buffer shows it at once.
+int run_printing(const Command &command)
+{
+    try {
+        return command.run();
+    } catch (const std::system_error &e) {
+        if (std::ferror(stdout) != 0) {
+            fail_to_print(e.code().value());
+        }
+        throw;
     }
 }
 
@@ -78,7 +97,7 @@ int parse_and_run(const Tool &tool, int argc, char **argv)
         require_printed();
         return code;
     }
-    const int code = chosen->run();
+    const int code = run_printing(*chosen);
     require_printed();
     return code;
 }
