@@ -28,5 +28,6 @@ CHOICES: Dict[str, Tuple[Tuple[int, str], ...]] = {
         (1, "8O1: odd parity"),
         (2, "8N2: no parity, two stop bits"),
     ),
+    "SENSOR_TRIM": ((0, "believes them"), (1, "learns their errors in a run")),
     "DIRECTION_PIN": ((0, "not used"), (1, "high while the drive sends (RS-485)")),
 }
