@@ -122,8 +122,9 @@ typedef struct {
 /** A run follows one of these. */
 typedef enum {
     APP_FOLLOWS_SPEED = 0,
-    APP_FOLLOWS_POSITION, /**< only drives with positions */
-    APP_FOLLOWS_TORQUE    /**< only drives with torques */
+    APP_FOLLOWS_POSITION,    /**< only drives with positions */
+    APP_FOLLOWS_TORQUE,      /**< only drives with torques */
+    APP_FOLLOWS_CYCLIC_SPEED /**< of app_control.h alone, whose command follows the speed */
 } app_follows_t;
 
 /** Command of the application modes. */

@@ -63,7 +63,7 @@ typedef struct {
     float               down_e_radps; /**< its step down */
     app_follows_t       follows;      /**< of the command */
     bool                stopping;     /**< a stop was asked for */
-    bool                holds;        /**< profile position: the set-points have begun */
+    bool                holds; /**< profile position, cyclic velocity: the set-points have begun */
     app_setpoint_t      setpoint;
 } app_control_t;
 

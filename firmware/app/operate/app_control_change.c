@@ -9,6 +9,8 @@
 
 #define STAY APP_CONTROL_STATES
 
+#define INTERPOLATION_s 0.01f /* chosen: a master on a serial line can keep it */
+
 #define ANY_STEP 1.0e9f /* beyond every torque: no slope */
 
 ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
@@ -46,7 +48,8 @@ app_objects_t app_control_default(const drive_config_t *drive)
                              .window_e_radps      = WINDOW_E_RADPS,
                              .current_max_A       = drive->current_max_A,
                              .position_window_cnt = POSITION_WINDOW_CNT,
-                             .torque_most         = TORQUE_SHARE_MAX};
+                             .torque_most         = TORQUE_SHARE_MAX,
+                             .interpolation_s     = INTERPOLATION_s};
     return o;
 }
 
@@ -55,7 +58,7 @@ bool app_control_knows(const app_objects_t *o, const drive_config_t *drive)
     const int16_t mode  = o->mode_of_operation;
     const int16_t quick = o->quick_option;
 
-    return ((mode == APP_CONTROL_PROFILE_VELOCITY) || (mode == APP_CONTROL_HOMING) ||
+    return (app_control_is_speed(mode) || (mode == APP_CONTROL_HOMING) ||
             (mode == APP_CONTROL_COMMISSIONING) ||
             ((mode == APP_CONTROL_PROFILE_POSITION) && drive->positions) ||
             (app_control_is_torque(mode) && drive->torques)) &&
@@ -245,6 +248,9 @@ app_follows_t app_control_followed(app_control_t *c, const app_objects_t *o,
         follows = (!halted && app_control_is_enabled(c->state)) ? APP_FOLLOWS_TORQUE : follows;
     } else if (c->mode == APP_CONTROL_PROFILE_POSITION) {
         follows = follows_position(c, o, seen, halted) ? APP_FOLLOWS_POSITION : follows;
+    } else if (c->mode == APP_CONTROL_CYCLIC_VELOCITY) {
+        follows =
+            (!halted && app_control_is_enabled(c->state)) ? APP_FOLLOWS_CYCLIC_SPEED : follows;
     } else {
         /* a speed */
     }
@@ -275,14 +281,42 @@ static void aim_torque(const app_control_t *c, const app_objects_t *o, app_comma
         (most_e_radps > 0.0f) ? base_min(most_e_radps, c->speed_max_e_radps) : c->speed_max_e_radps;
 }
 
+/* A new set-point is reached on a straight line after the interpolation period. A late one finds
+ * the speed of the one before, an early one the speed on the way to it. */
+static void aim_cyclic_speed(app_control_t *c, const app_objects_t *o,
+                             const app_control_seen_t *seen)
+{
+    const float most = c->speed_max_e_radps;
+    const float goal = base_clamp(o->omega_e_radps + o->omega_offset_e_radps, -most, most);
+
+    if (seen->mode != APP_MODE_RUN) {
+        app_control_put_speed(c, seen);
+        c->holds = false;
+    } else if (!c->holds || !base_within(goal - c->goal_e_radps, 0.0f)) {
+        const float share = c->ts_s / base_max(o->interpolation_s, c->ts_s);
+        const float step  = share * fabsf(goal - c->ref_e_radps);
+
+        c->goal_e_radps = goal;
+        c->up_e_radps   = step;
+        c->down_e_radps = step;
+        c->holds        = true;
+    } else {
+        /* on its way, or there */
+    }
+}
+
 void app_control_aim_beyond(app_control_t *c, const app_objects_t *o,
                             const app_control_seen_t *seen, app_command_t *out)
 {
-    if (c->follows == APP_FOLLOWS_TORQUE) {
+    if (c->follows == APP_FOLLOWS_CYCLIC_SPEED) {
+        out->follows = APP_FOLLOWS_SPEED;
+        aim_cyclic_speed(c, o, seen);
+    } else if (c->follows == APP_FOLLOWS_TORQUE) {
         aim_torque(c, o, out);
+        app_control_put_speed(c, seen);
     } else {
         out->target  = c->setpoint.target;
         out->profile = c->setpoint.now.profile;
+        app_control_put_speed(c, seen);
     }
-    app_control_put_speed(c, seen);
 }

@@ -61,7 +61,8 @@ app_follows_t app_control_followed(app_control_t *c, const app_objects_t *o,
 /** The reference stays at the present speed. */
 void app_control_put_speed(app_control_t *c, const app_control_seen_t *seen);
 
-/** Sets the position or torque of the command. A later stop begins at the present speed. */
+/** Sets position or torque of the command, or the ramp of a cyclic velocity. A later stop begins at
+ * the present speed. */
 void app_control_aim_beyond(app_control_t *c, const app_objects_t *o,
                             const app_control_seen_t *seen, app_command_t *out);
 

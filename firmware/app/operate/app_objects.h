@@ -42,6 +42,7 @@ enum {
     APP_CONTROL_PROFILE_VELOCITY = 3,
     APP_CONTROL_PROFILE_TORQUE   = 4, /**< along a slope, as the next only with a torque law */
     APP_CONTROL_HOMING           = 6, /**< finds the angle, app_align.h */
+    APP_CONTROL_CYCLIC_VELOCITY  = 9, /**< from set-point to set-point, app_control_change.h */
     APP_CONTROL_CYCLIC_TORQUE    = 10 /**< the newest value at once, with its offset */
 };
 
@@ -68,6 +69,8 @@ typedef struct {
     float                   torque_most;         /**< limit of both, either way, >= 0 */
     float                   torque_slope_1ps;    /**< profile torque; 0: a step */
     float torque_speed_max_e_radps;              /**< speed limit of a torque; 0: the drive's */
+    float omega_offset_e_radps;                  /**< cyclic velocity: added to the target speed */
+    float interpolation_s;                       /**< between two set-points, > 0 */
 } app_objects_t;
 
 /** True for the modes of operation that command a torque. */
@@ -76,10 +79,16 @@ static inline bool app_control_is_torque(int16_t mode)
     return (mode == APP_CONTROL_PROFILE_TORQUE) || (mode == APP_CONTROL_CYCLIC_TORQUE);
 }
 
+/** True for the modes of operation that command a speed. */
+static inline bool app_control_is_speed(int16_t mode)
+{
+    return (mode == APP_CONTROL_PROFILE_VELOCITY) || (mode == APP_CONTROL_CYCLIC_VELOCITY);
+}
+
 /** True for a mode of operation in which the law controls the bridge. */
 static inline bool app_control_is_run(int16_t mode)
 {
-    return (mode == APP_CONTROL_PROFILE_VELOCITY) || (mode == APP_CONTROL_PROFILE_POSITION) ||
+    return app_control_is_speed(mode) || (mode == APP_CONTROL_PROFILE_POSITION) ||
            app_control_is_torque(mode);
 }
 

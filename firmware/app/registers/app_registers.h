@@ -51,8 +51,8 @@ enum {
     APP_REGISTERS_REACHED            = 1024,
     APP_REGISTERS_LIMITED            = 2048,
     APP_REGISTERS_OF_MODE =
-        4096, /**< velocity: speed is zero; position: set-point taken; homing: done; cyclic torque:
-                   follows the command */
+        4096, /**< velocity: speed is zero; position: set-point taken; homing: done; the cyclic
+                   modes: follows the command */
     APP_REGISTERS_FOLLOWING_ERROR =
         8192, /**< profile position: the reference waits for a shaft that cannot follow */
     APP_REGISTERS_BRIDGE_ON = 16384

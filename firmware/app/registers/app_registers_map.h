@@ -12,9 +12,9 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "28a815c8" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "23bb3057" /**< of what a master can see of the map */
 
-#define APP_REGISTERS_SAVED 22U /**< parameters */
+#define APP_REGISTERS_SAVED 23U /**< parameters */
 
 /** Holding registers: those of two words are named by the first. */
 enum {
@@ -77,7 +77,11 @@ enum {
     APP_REGISTERS_TORQUE_SPEED_MAX = 229,
     APP_REGISTERS_MAX_CURRENT_SHARE = 231,
     APP_REGISTERS_TORQUE_FIRST = 224,
-    APP_REGISTERS_TORQUE_END = 232
+    APP_REGISTERS_TORQUE_END = 232,
+    APP_REGISTERS_VELOCITY_OFFSET = 256,
+    APP_REGISTERS_INTERPOLATION_PERIOD = 258,
+    APP_REGISTERS_CYCLIC_FIRST = 256,
+    APP_REGISTERS_CYCLIC_END = 259
 };
 
 /** Input registers: those of two words are named by the first. */
@@ -294,7 +298,7 @@ typedef struct {
 struct app_registers;
 struct app_registers_request;
 
-#define APP_REGISTERS_MAP_HOLDING 46U
+#define APP_REGISTERS_MAP_HOLDING 48U
 
 #define APP_REGISTERS_MAP_INPUT 143U
 

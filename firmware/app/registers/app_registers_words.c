@@ -4,11 +4,11 @@
 
 #include <stddef.h>
 
-/* Bits of APP_REGISTERS_SUPPORTED_MODES. Those of all: velocity, homing, commissioning. */
+/* Bits of APP_REGISTERS_SUPPORTED_MODES. Those of all: both velocities, homing, commissioning. */
 #define MODE_1       0x00000001UL
 #define MODE_4       0x00000008UL
 #define MODE_10      0x00000200UL
-#define MODES_OF_ALL 0x00010024UL
+#define MODES_OF_ALL 0x00010124UL
 
 #define TORQUE_WINDOW 0.005f /* chosen: of the rated torque, as one reads a torque */
 
@@ -118,19 +118,27 @@ static bool is_at_torque(const app_registers_t *r)
     return base_within(r->status.torque_demand_share - target, TORQUE_WINDOW);
 }
 
+static float commanded_e_radps(const app_registers_t *r, int16_t mode)
+{
+    const app_objects_t *o      = &r->requested.objects;
+    const bool           cyclic = mode == (int16_t)APP_CONTROL_CYCLIC_VELOCITY;
+
+    return o->omega_e_radps + (cyclic ? o->omega_offset_e_radps : 0.0f);
+}
+
 static bool is_reached(const app_registers_t *r)
 {
     const app_status_t *s    = &r->status;
     const int16_t       mode = s->mode_of_operation;
     const bool  halted       = app_control_has(r->requested.objects.controlword, APP_CONTROL_HALT);
-    const float target       = halted ? 0.0f : r->requested.objects.omega_e_radps;
+    const float target       = halted ? 0.0f : commanded_e_radps(r, mode);
     const bool  runs = (s->state == APP_CONTROL_OPERATION_ENABLED) && (s->mode == APP_MODE_RUN);
     const bool  near = base_within(s->speed_e_radps - target, r->requested.objects.window_e_radps);
     bool        there;
 
     if (!app_control_is_run(mode)) {
         there = s->done;
-    } else if (halted || (mode == (int16_t)APP_CONTROL_PROFILE_VELOCITY)) {
+    } else if (halted || app_control_is_speed(mode)) {
         there = runs && near;
     } else if (mode == (int16_t)APP_CONTROL_PROFILE_POSITION) {
         there = runs && is_at_target(r);
@@ -145,7 +153,7 @@ static bool is_following(const app_registers_t *r)
 {
     const app_status_t *s = &r->status;
 
-    return (s->mode_of_operation == (int16_t)APP_CONTROL_CYCLIC_TORQUE) &&
+    return (s->mode_of_operation >= (int16_t)APP_CONTROL_CYCLIC_VELOCITY) &&
            (s->state == APP_CONTROL_OPERATION_ENABLED) && (s->mode == APP_MODE_RUN) &&
            !app_control_has(r->requested.objects.controlword, APP_CONTROL_HALT);
 }
@@ -158,10 +166,10 @@ static bool is_of_mode(const app_registers_t *r)
 
     if (s->mode_of_operation == (int16_t)APP_CONTROL_PROFILE_POSITION) {
         says = s->acknowledged;
-    } else if (app_control_is_torque(s->mode_of_operation)) {
-        says = is_following(r);
     } else if (s->mode_of_operation == (int16_t)APP_CONTROL_PROFILE_VELOCITY) {
         says = base_within(s->speed_e_radps, r->config->stop.still_e_radps);
+    } else if (app_control_is_run(s->mode_of_operation)) {
+        says = is_following(r);
     } else {
         /* homing and commissioning: whether the angle is known */
     }

@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "28a815c8"
+DIGEST = "23bb3057"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -96,6 +96,11 @@ TORQUE: Tuple[Register, ...] = (  # holding
     Register("TORQUE_SLOPE", 227, "u32", 0.001, "of RATED_TORQUE per s"),
     Register("TORQUE_SPEED_MAX", 229, "u32", 0.1, "r/min"),
     Register("MAX_CURRENT_SHARE", 231, "u16", 0.001, "of RATED_CURRENT"),
+)
+
+CYCLIC: Tuple[Register, ...] = (  # holding
+    Register("VELOCITY_OFFSET", 256, "i32", 0.1, "r/min"),
+    Register("INTERPOLATION_PERIOD", 258, "u16", 0.001, "s"),
 )
 
 LIVE: Tuple[Register, ...] = (  # input
@@ -271,11 +276,11 @@ TORQUE_NOW: Tuple[Register, ...] = (  # input
     Register("RATED_TORQUE", 324, "u32", 0.001, "N m"),
 )
 
-HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET, *TRIM, *TORQUE)
+HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET, *TRIM, *TORQUE, *CYCLIC)
 INPUT = (*LIVE, *POSITION, *SHAFT, *TRIMMED, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS, *MAP, *TORQUE_NOW)
 
 # Blocks that hold parameters.
-PARAMETER_BLOCKS = (COMMAND, LINE, TARGET, TRIM, TORQUE,)
+PARAMETER_BLOCKS = (COMMAND, LINE, TARGET, TRIM, TORQUE, CYCLIC,)
 
 BY_NAME = {r.name: r for r in (*HOLDING, *INPUT)}
 
@@ -302,6 +307,7 @@ PARAMETERS: Tuple[Parameter, ...] = (
     Parameter(BY_NAME["MAX_TORQUE"], 0, 33, 33.0, False, "6072h", "limit of their sum, either way. MAX_CURRENT, heat, the voltage and the speed limit act too."),
     Parameter(BY_NAME["TORQUE_SLOPE"], 0, 1000000.0, 0.0, False, "6087h", "profile torque; 0: a step"),
     Parameter(BY_NAME["TORQUE_SPEED_MAX"], 0, 10000000.0, 0.0, False, "6080h", "speed limit of a torque, either way; 0: SPEED_MAX. It acts up to SPEED_MAX. The torque that exceeds the limit is taken away, and the drive brakes a shaft that a load drives beyond it."),
+    Parameter(BY_NAME["INTERPOLATION_PERIOD"], 0.001, 0.1, 0.01, False, "60C2h", "between two set-points"),
 )
 
 # Signals of the scope by number: name and unit.

@@ -404,7 +404,7 @@ static void test_modes_of_operation_and_the_limit(void)
 
 static void test_unknown_objects_are_refused(void)
 {
-    static const int modes[] = {-2, 0, 2, 5, 7, 8, 9, 11};
+    static const int modes[] = {-2, 0, 2, 5, 7, 8, 11};
     static const int quick[] = {3, 4};
     TEST_ASSERT_TRUE(app_control_knows(&wanted, &gain_tables_drive));
     for (int i = 0; i < SUPPORT_COUNT(modes); i++) {
@@ -610,7 +610,7 @@ static void test_a_shaft_beyond_the_largest_speed_leaves_the_reference_within_it
     TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, gain_tables_drive.speed_max_e_radps, out.omega_e_radps);
 }
 
-/* Each of the four, from each, without a tick in which the bridge would open. */
+/* Each of the five, from each, without a tick in which the bridge would open. */
 static void test_runs_change_into_each_other_while_enabled(void)
 {
     static const struct {
@@ -618,6 +618,7 @@ static void test_runs_change_into_each_other_while_enabled(void)
         app_follows_t follows;
     } runs[] = {{APP_CONTROL_PROFILE_POSITION, APP_FOLLOWS_POSITION},
                 {APP_CONTROL_PROFILE_VELOCITY, APP_FOLLOWS_SPEED},
+                {APP_CONTROL_CYCLIC_VELOCITY, APP_FOLLOWS_SPEED},
                 {APP_CONTROL_PROFILE_TORQUE, APP_FOLLOWS_TORQUE},
                 {APP_CONTROL_CYCLIC_TORQUE, APP_FOLLOWS_TORQUE}};
 
@@ -630,6 +631,7 @@ static void test_runs_change_into_each_other_while_enabled(void)
             TEST_ASSERT_EQUAL_INT(runs[from].follows, out.follows);
             wanted.mode_of_operation = runs[to].mode;
             wanted.omega_e_radps     = 200.0f;
+            wanted.interpolation_s   = 1.0e-4f; /* below a period: a step */
             for (int n = 0; n < 3; n++) {
                 ticks(APP_CONTROL_ENABLE_OPERATION, 1);
                 TEST_ASSERT_TRUE(out.run);
@@ -640,6 +642,59 @@ static void test_runs_change_into_each_other_while_enabled(void)
                                      out.omega_e_radps);
         }
     }
+}
+
+/* Lines from set-point to set-point, each a share of the way in every period. */
+static void test_cyclic_velocity_reaches_a_set_point_after_the_interpolation_period(void)
+{
+    const int periods = 50;
+
+    wanted.mode_of_operation    = APP_CONTROL_CYCLIC_VELOCITY;
+    wanted.interpolation_s      = (float)periods * gain_tables_drive.ts_s;
+    wanted.accel_e_radps2       = 1.0f; /* of profile velocity */
+    wanted.omega_e_radps        = 60.0f;
+    wanted.omega_offset_e_radps = 40.0f;
+    seen.speed_e_radps          = 20.0f;
+    seen.mode                   = APP_MODE_READY;
+    ticks(APP_CONTROL_SHUT_DOWN, 3);
+    ticks(APP_CONTROL_ENABLE_OPERATION, 1); /* begins at the speed that there is */
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-5f, 20.0f, out.omega_e_radps);
+    for (int n = 1; n <= periods; n++) {
+        ticks(APP_CONTROL_ENABLE_OPERATION, 1);
+        TEST_ASSERT_EQUAL_INT(APP_FOLLOWS_SPEED, out.follows);
+        TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 20.0f + (80.0f * (float)n / (float)periods),
+                                 out.omega_e_radps);
+    }
+    ticks(APP_CONTROL_ENABLE_OPERATION, 10); /* none comes: it stays */
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 100.0f, out.omega_e_radps);
+    wanted.omega_e_radps = -60.0f;
+    ticks(APP_CONTROL_ENABLE_OPERATION, periods / 2);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 40.0f, out.omega_e_radps);
+    wanted.omega_e_radps = 0.0f; /* early: from where it is */
+    ticks(APP_CONTROL_ENABLE_OPERATION, periods / 2);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 40.0f, out.omega_e_radps);
+    wanted.omega_e_radps = 1.0e6f; /* the sum is limited */
+    ticks(APP_CONTROL_ENABLE_OPERATION, periods);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-2f, gain_tables_drive.speed_max_e_radps, out.omega_e_radps);
+}
+
+static void test_halt_of_a_cyclic_velocity_has_the_ramp_and_ends_on_a_line(void)
+{
+    const float ts_s = gain_tables_drive.ts_s;
+
+    wanted.mode_of_operation = APP_CONTROL_CYCLIC_VELOCITY;
+    wanted.interpolation_s   = 10.0f * ts_s;
+    wanted.decel_e_radps2    = 1000.0f;
+    wanted.omega_e_radps     = 100.0f;
+    go(APP_CONTROL_OPERATION_ENABLED);
+    ticks(APP_CONTROL_ENABLE_OPERATION, 12);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 100.0f, out.omega_e_radps);
+    ticks(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_HALT, 5);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 100.0f - (5.0f * ts_s * 1000.0f), out.omega_e_radps);
+    ticks(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_HALT, 600);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, out.omega_e_radps);
+    ticks(APP_CONTROL_ENABLE_OPERATION, 5);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, 50.0f, out.omega_e_radps);
 }
 
 static void test_a_mode_that_is_no_run_waits_for_the_next_start(void)
@@ -676,6 +731,8 @@ int main(void)
     RUN_TEST(test_halt_and_stop_of_a_torque_run_begin_at_the_present_speed);
     RUN_TEST(test_a_shaft_beyond_the_largest_speed_leaves_the_reference_within_it);
     RUN_TEST(test_runs_change_into_each_other_while_enabled);
+    RUN_TEST(test_cyclic_velocity_reaches_a_set_point_after_the_interpolation_period);
+    RUN_TEST(test_halt_of_a_cyclic_velocity_has_the_ramp_and_ends_on_a_line);
     RUN_TEST(test_a_mode_that_is_no_run_waits_for_the_next_start);
     RUN_TEST(test_every_transition_and_no_other);
     RUN_TEST(test_boot_leads_to_switch_on_disabled_whatever_is_asked);

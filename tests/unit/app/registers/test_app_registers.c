@@ -307,7 +307,7 @@ static void test_the_line_is_changed_while_stopped_only(void)
 
 static void test_the_mode_of_operation_is_changed_in_a_run_too(void)
 {
-    static const int modes[] = {1, 4, 10, 3, 6, -1};
+    static const int modes[] = {1, 4, 9, 10, 3, 6, -1};
 
     registers.status.state       = APP_CONTROL_OPERATION_ENABLED;
     registers.status.gate_enable = true;

@@ -101,11 +101,11 @@ static void test_modes_of_a_drive(void)
 {
     drive.positions = true;
     drive.torques   = true;
-    TEST_ASSERT_EQUAL_HEX32(0x0001022DUL, input_32(APP_REGISTERS_SUPPORTED_MODES));
+    TEST_ASSERT_EQUAL_HEX32(0x0001032DUL, input_32(APP_REGISTERS_SUPPORTED_MODES));
     drive.torques = false;
-    TEST_ASSERT_EQUAL_HEX32(0x00010025UL, input_32(APP_REGISTERS_SUPPORTED_MODES));
+    TEST_ASSERT_EQUAL_HEX32(0x00010125UL, input_32(APP_REGISTERS_SUPPORTED_MODES));
     drive.positions = false;
-    TEST_ASSERT_EQUAL_HEX32(0x00010024UL, input_32(APP_REGISTERS_SUPPORTED_MODES));
+    TEST_ASSERT_EQUAL_HEX32(0x00010124UL, input_32(APP_REGISTERS_SUPPORTED_MODES));
 }
 
 static void test_a_torque_is_reached_by_its_references(void)
@@ -136,6 +136,29 @@ static void test_a_torque_is_reached_by_its_references(void)
     registers.requested.objects.controlword = 0x000FU;
     s->mode                                 = APP_MODE_STOP;
     TEST_ASSERT_EQUAL_HEX16(0, statusword(REACHED | OF_MODE));
+}
+
+static void test_a_cyclic_velocity_is_reached_with_its_offset(void)
+{
+    app_status_t *s                                  = &registers.status;
+    registers.requested.objects.omega_e_radps        = 100.0f;
+    registers.requested.objects.omega_offset_e_radps = 50.0f;
+    registers.requested.objects.window_e_radps       = 5.0f;
+    s->state                                         = APP_CONTROL_OPERATION_ENABLED;
+    s->mode                                          = APP_MODE_RUN;
+    s->mode_of_operation                             = APP_CONTROL_CYCLIC_VELOCITY;
+    s->speed_e_radps                                 = 147.0f;
+    TEST_ASSERT_EQUAL_HEX16(REACHED | OF_MODE, statusword(REACHED | OF_MODE));
+    s->speed_e_radps = 100.0f;
+    TEST_ASSERT_EQUAL_HEX16(OF_MODE, statusword(REACHED | OF_MODE));
+    registers.requested.objects.controlword = 0x010FU; /* halt */
+    TEST_ASSERT_EQUAL_HEX16(0, statusword(REACHED | OF_MODE));
+    s->speed_e_radps = 2.0f;
+    TEST_ASSERT_EQUAL_HEX16(REACHED, statusword(REACHED | OF_MODE));
+    s->mode_of_operation = APP_CONTROL_PROFILE_VELOCITY; /* the offset is not of this mode */
+    registers.requested.objects.controlword = 0x000FU;
+    s->speed_e_radps                        = 102.0f;
+    TEST_ASSERT_EQUAL_HEX16(REACHED, statusword(REACHED | OF_MODE));
 }
 
 /* 6077h and 6074h in thousandths; 6075h and 6076h in mA and mN m. */
@@ -287,6 +310,7 @@ int main(void)
     RUN_TEST(test_bit_12_of_a_position_run_is_the_acknowledgement);
     RUN_TEST(test_modes_of_a_drive);
     RUN_TEST(test_a_torque_is_reached_by_its_references);
+    RUN_TEST(test_a_cyclic_velocity_is_reached_with_its_offset);
     RUN_TEST(test_torques_and_what_they_are_of);
     RUN_TEST(test_the_current_limit_is_a_share_of_the_rated_current_too);
     RUN_TEST(test_without_scope_and_record_their_registers_are_zero);

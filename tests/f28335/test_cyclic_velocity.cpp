@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// Cyclic velocity over Modbus on the virtual device; simulated time only. A master sends set-points
+// of a sine; the speed is the shaft's own.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "served_client.hpp"
+
+extern "C" {
+#include "app_control.h"
+#include "app_registers.h"
+}
+
+using namespace sdre;
+
+namespace {
+
+constexpr double align_s      = 4.0;
+constexpr double most_e_radps = 200.0; // of the sine, which has 1 Hz
+const double     circle       = 2.0 * std::acos(-1.0);
+
+double sine_e_radps(double time_s)
+{
+    return most_e_radps * std::sin(circle * time_s);
+}
+
+class CyclicVelocity : public ServedClient {
+protected:
+    struct Period {
+        double time_s;
+        double omega_e_radps;
+    };
+
+    void after_period() override
+    {
+        all.push_back({served.time_s() - zero_s, served.plant_state().omega_e_radps});
+    }
+    bool write_one(unsigned number, int value)
+    {
+        return write(number, {static_cast<std::uint16_t>(value)});
+    }
+    bool write_speed(unsigned number, double tenths)
+    {
+        const auto x = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(tenths)));
+        return write(number, {static_cast<std::uint16_t>(x >> 16U), static_cast<std::uint16_t>(x)});
+    }
+    void enable(int period_ms)
+    {
+        pass(0.4);
+        ASSERT_TRUE(write_one(APP_REGISTERS_MODE_OF_OPERATION, APP_CONTROL_CYCLIC_VELOCITY));
+        ASSERT_TRUE(write_one(APP_REGISTERS_INTERPOLATION_PERIOD, period_ms));
+        ASSERT_TRUE(write_one(APP_REGISTERS_CONTROLWORD, APP_CONTROL_SHUT_DOWN));
+        ASSERT_TRUE(write_one(APP_REGISTERS_CONTROLWORD, APP_CONTROL_ENABLE_OPERATION));
+        for (const double end_s = served.time_s() + align_s;
+             input(APP_REGISTERS_MODE) != APP_MODE_RUN && served.time_s() < end_s;) {
+            pass(0.05);
+        }
+        ASSERT_EQ(input(APP_REGISTERS_MODE), APP_MODE_RUN);
+        zero_s = served.time_s();
+        all.clear();
+    }
+    /// Set-points at multiples of the period, each late or early by some of it. Every lost_each-th is lost.
+    void send(double period_s, double jitter, int lost_each, double length_s)
+    {
+        std::mt19937                           random(1);
+        std::uniform_real_distribution<double> off(-jitter, jitter);
+        for (int k = 1; k * period_s < length_s; k++) {
+            const double at_s = zero_s + (k + off(random)) * period_s;
+            pass(std::max(at_s - served.time_s(), 0.0));
+            if (lost_each == 0 || k % lost_each != 0) {
+                ASSERT_TRUE(write_speed(APP_REGISTERS_SPEED, 10.0 * sine_e_radps(k * period_s)));
+            }
+        }
+    }
+    /// How far the speed is from the sine that is so much later, after the first half second.
+    double rms_e_radps(double delay_s) const
+    {
+        double sum = 0.0;
+        int    n   = 0;
+        for (const Period &p : all) {
+            if (p.time_s > 0.5) {
+                sum += std::pow(p.omega_e_radps - sine_e_radps(p.time_s - delay_s), 2);
+                n++;
+            }
+        }
+        return std::sqrt(sum / n);
+    }
+    /// The delay that brings them nearest.
+    double delay_s() const
+    {
+        double best_s = 0.0;
+        for (double s = 0.0; s < 0.1; s += 1e-4) {
+            best_s = rms_e_radps(s) < rms_e_radps(best_s) ? s : best_s;
+        }
+        return best_s;
+    }
+
+    double              zero_s = 0.0;
+    std::vector<Period> all;
+};
+
+} // namespace
+
+TEST_F(CyclicVelocity, ASineIsFollowedAnInterpolationPeriodLater)
+{
+    enable(20);
+    send(0.02, 0.0, 0, 2.0);
+    // A request of 13 characters and the silence after it take 3.0 ms; a millisecond is the drive's.
+    EXPECT_GE(delay_s(), 0.020);
+    EXPECT_LE(delay_s(), 0.0241);
+    EXPECT_LE(rms_e_radps(delay_s()), 0.3); // the chord of an arc alone is off by 0.3 in its middle
+    EXPECT_EQ(input(APP_REGISTERS_MODE_NOW), APP_CONTROL_CYCLIC_VELOCITY);
+    EXPECT_TRUE(served.findings().empty());
+}
+
+TEST_F(CyclicVelocity, JitterAndLostSetPointsMoveItNoFurtherThanTheyAreLate)
+{
+    enable(20);
+    send(0.02, 0.3, 50, 3.0);
+    const double later_s  = 0.02 * 1.3; // by a lost one and the jitter of the next
+    const double steepest = circle * most_e_radps;
+    double       farthest = 0.0;
+    for (const Period &p : all) {
+        if (p.time_s > 0.5) {
+            farthest =
+                std::max(farthest, std::abs(p.omega_e_radps - sine_e_radps(p.time_s - 0.024)));
+        }
+    }
+    EXPECT_LE(farthest, steepest * later_s);
+    EXPECT_LE(rms_e_radps(0.024), 4.5);
+    EXPECT_EQ(input(APP_REGISTERS_MODE), APP_MODE_RUN);
+}
+
+TEST_F(CyclicVelocity, TheOffsetIsAddedAndTheModeIsTakenOverInARun)
+{
+    enable(5);
+    ASSERT_TRUE(write_speed(APP_REGISTERS_SPEED, 1000.0));
+    ASSERT_TRUE(write_speed(APP_REGISTERS_VELOCITY_OFFSET, 10.0 * 100.0 * 60.0 / circle / 2.0));
+    pass(0.2);
+    EXPECT_NEAR(served.plant_state().omega_e_radps, 200.0, 1.0);
+    EXPECT_NE(input(APP_REGISTERS_STATUSWORD) & APP_REGISTERS_REACHED, 0);
+    ASSERT_TRUE(write_one(APP_REGISTERS_MODE_OF_OPERATION, APP_CONTROL_PROFILE_VELOCITY));
+    pass(0.2);
+    EXPECT_NEAR(served.plant_state().omega_e_radps, 100.0, 1.0); // which has no offset
+}
+
+TEST_F(CyclicVelocity, WhenSetPointsStopTheSpeedStaysAndThenTheLossActs)
+{
+    enable(20);
+    ASSERT_TRUE(write_one(APP_REGISTERS_LOST_OPTION, APP_CONTROL_LOST_QUICK_STOP));
+    ASSERT_TRUE(write_speed(APP_REGISTERS_SPEED, 2000.0));
+    pass(0.45);
+    EXPECT_NEAR(served.plant_state().omega_e_radps, 200.0, 1.0);
+    EXPECT_TRUE(served.bridge_on());
+    pass(0.5); // MODBUS_TIMEOUT is half a second
+    EXPECT_NEAR(served.plant_state().omega_e_radps, 0.0, 3.0);
+    EXPECT_FALSE(served.bridge_on());
+}
