@@ -297,8 +297,7 @@ static void work(void)
 static bool background_lost(void)
 {
     const uint16_t count = shared.background_count;
-
-    bool lost = false;
+    bool           lost  = false;
 
     if (count != tick_side.background_count) {
         tick_side.background_count     = count;

@@ -270,12 +270,10 @@ void app_control_put_speed(app_control_t *c, const app_control_seen_t *seen)
 
 static void aim_torque(const app_control_t *c, const app_objects_t *o, app_command_t *out)
 {
-    const bool  cyclic       = c->mode == APP_CONTROL_CYCLIC_TORQUE;
-    const float offset       = cyclic ? o->torque_offset : 0.0f;
-    const bool  slope        = !cyclic && (o->torque_slope_1ps > 0.0f);
+    const bool  slope = (c->mode == APP_CONTROL_PROFILE_TORQUE) && (o->torque_slope_1ps > 0.0f);
     const float most_e_radps = o->torque_speed_max_e_radps;
 
-    out->torque_share = base_clamp(o->torque_share + offset, -o->torque_most, o->torque_most);
+    out->torque_share = app_control_target_torque(o, c->mode);
     out->torque_step  = slope ? (c->ts_s * o->torque_slope_1ps) : ANY_STEP;
     out->torque_speed_max_e_radps =
         (most_e_radps > 0.0f) ? base_min(most_e_radps, c->speed_max_e_radps) : c->speed_max_e_radps;
@@ -287,7 +285,7 @@ static void aim_cyclic_speed(app_control_t *c, const app_objects_t *o,
                              const app_control_seen_t *seen)
 {
     const float most = c->speed_max_e_radps;
-    const float goal = base_clamp(o->omega_e_radps + o->omega_offset_e_radps, -most, most);
+    const float goal = base_clamp(app_control_target_e_radps(o, c->mode), -most, most);
 
     if (seen->mode != APP_MODE_RUN) {
         app_control_put_speed(c, seen);

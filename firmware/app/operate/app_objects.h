@@ -92,6 +92,22 @@ static inline bool app_control_is_run(int16_t mode)
            app_control_is_torque(mode);
 }
 
+/** Target of a torque mode within its limit, of the rated torque. */
+static inline float app_control_target_torque(const app_objects_t *o, int16_t mode)
+{
+    const float offset = (mode == APP_CONTROL_CYCLIC_TORQUE) ? o->torque_offset : 0.0f;
+
+    return base_clamp(o->torque_share + offset, -o->torque_most, o->torque_most);
+}
+
+/** Target of a velocity mode, before the drive's limit. */
+static inline float app_control_target_e_radps(const app_objects_t *o, int16_t mode)
+{
+    const float offset = (mode == APP_CONTROL_CYCLIC_VELOCITY) ? o->omega_offset_e_radps : 0.0f;
+
+    return o->omega_e_radps + offset;
+}
+
 /** True if the word has this bit. */
 static inline bool app_control_has(uint16_t word, int bit)
 {

@@ -110,20 +110,10 @@ static bool is_at_target(const app_registers_t *r)
 /* True if the current references have the commanded torque. A limit or the slope keeps them off. */
 static bool is_at_torque(const app_registers_t *r)
 {
-    const app_objects_t *o      = &r->requested.objects;
-    const bool           cyclic = r->status.mode_of_operation == (int16_t)APP_CONTROL_CYCLIC_TORQUE;
-    const float          offset = cyclic ? o->torque_offset : 0.0f;
-    const float target = base_clamp(o->torque_share + offset, -o->torque_most, o->torque_most);
+    const float target =
+        app_control_target_torque(&r->requested.objects, r->status.mode_of_operation);
 
     return base_within(r->status.torque_demand_share - target, TORQUE_WINDOW);
-}
-
-static float commanded_e_radps(const app_registers_t *r, int16_t mode)
-{
-    const app_objects_t *o      = &r->requested.objects;
-    const bool           cyclic = mode == (int16_t)APP_CONTROL_CYCLIC_VELOCITY;
-
-    return o->omega_e_radps + (cyclic ? o->omega_offset_e_radps : 0.0f);
 }
 
 static bool is_reached(const app_registers_t *r)
@@ -131,8 +121,8 @@ static bool is_reached(const app_registers_t *r)
     const app_status_t *s    = &r->status;
     const int16_t       mode = s->mode_of_operation;
     const bool  halted       = app_control_has(r->requested.objects.controlword, APP_CONTROL_HALT);
-    const float target       = halted ? 0.0f : commanded_e_radps(r, mode);
-    const bool  runs = (s->state == APP_CONTROL_OPERATION_ENABLED) && (s->mode == APP_MODE_RUN);
+    const float target = halted ? 0.0f : app_control_target_e_radps(&r->requested.objects, mode);
+    const bool  runs   = (s->state == APP_CONTROL_OPERATION_ENABLED) && (s->mode == APP_MODE_RUN);
     const bool  near = base_within(s->speed_e_radps - target, r->requested.objects.window_e_radps);
     bool        there;
 
