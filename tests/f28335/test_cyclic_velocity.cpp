@@ -8,18 +8,12 @@
 #include <random>
 #include <vector>
 
-#include "served_client.hpp"
-
-extern "C" {
-#include "app_control.h"
-#include "app_registers.h"
-}
+#include "running_client.hpp"
 
 using namespace sdre;
 
 namespace {
 
-constexpr double align_s      = 4.0;
 constexpr double most_e_radps = 200.0; // of the sine, which has 1 Hz
 const double     circle       = 2.0 * std::acos(-1.0);
 
@@ -28,7 +22,7 @@ double sine_e_radps(double time_s)
     return most_e_radps * std::sin(circle * time_s);
 }
 
-class CyclicVelocity : public ServedClient {
+class CyclicVelocity : public RunningClient {
 protected:
     struct Period {
         double time_s;
@@ -39,27 +33,14 @@ protected:
     {
         all.push_back({served.time_s() - zero_s, served.plant_state().omega_e_radps});
     }
-    bool write_one(unsigned number, int value)
-    {
-        return write(number, {static_cast<std::uint16_t>(value)});
-    }
     bool write_speed(unsigned number, double tenths)
     {
-        const auto x = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(tenths)));
-        return write(number, {static_cast<std::uint16_t>(x >> 16U), static_cast<std::uint16_t>(x)});
+        return write_two(number, static_cast<int>(std::lround(tenths)));
     }
-    void enable(int period_ms)
+    void begin(int period_ms)
     {
-        pass(0.4);
-        ASSERT_TRUE(write_one(APP_REGISTERS_MODE_OF_OPERATION, APP_CONTROL_CYCLIC_VELOCITY));
         ASSERT_TRUE(write_one(APP_REGISTERS_INTERPOLATION_PERIOD, period_ms));
-        ASSERT_TRUE(write_one(APP_REGISTERS_CONTROLWORD, APP_CONTROL_SHUT_DOWN));
-        ASSERT_TRUE(write_one(APP_REGISTERS_CONTROLWORD, APP_CONTROL_ENABLE_OPERATION));
-        for (const double end_s = served.time_s() + align_s;
-             input(APP_REGISTERS_MODE) != APP_MODE_RUN && served.time_s() < end_s;) {
-            pass(0.05);
-        }
-        ASSERT_EQ(input(APP_REGISTERS_MODE), APP_MODE_RUN);
+        enable(APP_CONTROL_CYCLIC_VELOCITY);
         zero_s = served.time_s();
         all.clear();
     }
@@ -107,7 +88,7 @@ protected:
 
 TEST_F(CyclicVelocity, ASineIsFollowedAnInterpolationPeriodLater)
 {
-    enable(20);
+    begin(20);
     send(0.02, 0.0, 0, 2.0);
     // A request of 13 characters and the silence after it take 3.0 ms; a millisecond is the drive's.
     EXPECT_GE(delay_s(), 0.020);
@@ -119,7 +100,7 @@ TEST_F(CyclicVelocity, ASineIsFollowedAnInterpolationPeriodLater)
 
 TEST_F(CyclicVelocity, JitterAndLostSetPointsMoveItNoFurtherThanTheyAreLate)
 {
-    enable(20);
+    begin(20);
     send(0.02, 0.3, 50, 3.0);
     const double later_s  = 0.02 * 1.3; // by a lost one and the jitter of the next
     const double steepest = circle * most_e_radps;
@@ -137,7 +118,7 @@ TEST_F(CyclicVelocity, JitterAndLostSetPointsMoveItNoFurtherThanTheyAreLate)
 
 TEST_F(CyclicVelocity, TheOffsetIsAddedAndTheModeIsTakenOverInARun)
 {
-    enable(5);
+    begin(5);
     ASSERT_TRUE(write_speed(APP_REGISTERS_SPEED, 1000.0));
     ASSERT_TRUE(write_speed(APP_REGISTERS_VELOCITY_OFFSET, 10.0 * 100.0 * 60.0 / circle / 2.0));
     pass(0.2);
@@ -150,7 +131,7 @@ TEST_F(CyclicVelocity, TheOffsetIsAddedAndTheModeIsTakenOverInARun)
 
 TEST_F(CyclicVelocity, WhenSetPointsStopTheSpeedStaysAndThenTheLossActs)
 {
-    enable(20);
+    begin(20);
     ASSERT_TRUE(write_one(APP_REGISTERS_LOST_OPTION, APP_CONTROL_LOST_QUICK_STOP));
     ASSERT_TRUE(write_speed(APP_REGISTERS_SPEED, 2000.0));
     pass(0.45);

@@ -4,22 +4,16 @@
 
 #include <cmath>
 
-#include "served_client.hpp"
-
-extern "C" {
-#include "app_control.h"
-#include "app_registers.h"
-}
+#include "running_client.hpp"
 
 using namespace sdre;
 
 namespace {
 
-constexpr int    counts_per_turn = 10000;
-constexpr double align_s         = 4.0;
-constexpr int    within_cnt      = 4; // the window of target reached; a shaft at rest hunts by two
+constexpr int counts_per_turn = 10000;
+constexpr int within_cnt      = 4; // the window of target reached; a shaft at rest hunts by two
 
-class Positions : public ServedClient {
+class Positions : public RunningClient {
 protected:
     int both(unsigned number)
     {
@@ -37,13 +31,9 @@ protected:
     {
         return both(APP_REGISTERS_POSITION_NOW);
     }
-    bool has(int bit)
-    {
-        return (input(APP_REGISTERS_STATUSWORD) & bit) != 0;
-    }
     bool control(int word)
     {
-        return write(APP_REGISTERS_CONTROLWORD, {static_cast<std::uint16_t>(word)});
+        return write_one(APP_REGISTERS_CONTROLWORD, word);
     }
     /// Asks ten times a second, so that the drive goes on.
     bool wait_for(int bit, double longest_s)
@@ -61,7 +51,7 @@ protected:
             input(APP_REGISTERS_MODE);
         }
     }
-    void enable()
+    void hold()
     {
         pass(0.4);
         ASSERT_TRUE(write(APP_REGISTERS_MODE_OF_OPERATION, {APP_CONTROL_PROFILE_POSITION}));
@@ -71,10 +61,8 @@ protected:
     }
     void set_point(int counts, int bits)
     {
-        const auto x = static_cast<std::uint32_t>(counts);
         ASSERT_TRUE(control(APP_CONTROL_ENABLE_OPERATION));
-        ASSERT_TRUE(write(APP_REGISTERS_TARGET_POSITION,
-                          {static_cast<std::uint16_t>(x >> 16U), static_cast<std::uint16_t>(x)}));
+        ASSERT_TRUE(write_two(APP_REGISTERS_TARGET_POSITION, counts));
         ASSERT_TRUE(control(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_NEW_SETPOINT | bits));
         ASSERT_TRUE(has(APP_REGISTERS_OF_MODE));
         ASSERT_TRUE(control(APP_CONTROL_ENABLE_OPERATION));
@@ -85,7 +73,7 @@ protected:
 
 TEST_F(Positions, TurnsToATargetAndHoldsItUnderALoad)
 {
-    enable();
+    hold();
     const int    begin   = now();
     const double start_e = served.plant_state().theta_e_rad;
     set_point(begin + 3 * counts_per_turn, 0);
@@ -100,7 +88,7 @@ TEST_F(Positions, TurnsToATargetAndHoldsItUnderALoad)
 
 TEST_F(Positions, SetPointsFollowEachOtherAndHaltInterruptsThem)
 {
-    enable();
+    hold();
     const int begin = now();
     set_point(2 * counts_per_turn, APP_CONTROL_RELATIVE);
     set_point(-counts_per_turn / 2, APP_CONTROL_RELATIVE); // waits
@@ -123,7 +111,7 @@ TEST_F(Positions, SetPointsFollowEachOtherAndHaltInterruptsThem)
 
 TEST_F(Positions, AShaftThatIsHeldBackIsWaitedForAndDoesNotJumpWhenItIsLetGo)
 {
-    enable();
+    hold();
     const int begin = now();
     ASSERT_TRUE(write(APP_REGISTERS_MAX_CURRENT, {0, 1500})); // below what the load takes
     served.dynamometer().drive(-1.2);
@@ -136,7 +124,7 @@ TEST_F(Positions, AShaftThatIsHeldBackIsWaitedForAndDoesNotJumpWhenItIsLetGo)
 
 TEST_F(Positions, TheZeroIsTheIndexMark)
 {
-    enable();
+    hold();
     set_point(2 * counts_per_turn, APP_CONTROL_RELATIVE); // past the mark
     ASSERT_TRUE(wait_for(APP_REGISTERS_REACHED, 1.0));
     ASSERT_TRUE(control(APP_CONTROL_DISABLE_VOLTAGE));

@@ -7,24 +7,18 @@
 #include <cmath>
 #include <vector>
 
-#include "served_client.hpp"
-
-extern "C" {
-#include "app_control.h"
-#include "app_registers.h"
-}
+#include "running_client.hpp"
 
 using namespace sdre;
 
 namespace {
 
-constexpr double align_s         = 4.0;
 constexpr double rated_Nm        = 1.5;
 constexpr double window_s        = 4e-3; // of a mean: the sensors' noise is not the law's
 constexpr int    slow_e_radps2   = 30;   // takes 0.4 % of the rated torque
 const double     rpm_per_e_radps = 60.0 / (2.0 * std::acos(-1.0)) / 2.0;
 
-class Torques : public ServedClient {
+class Torques : public RunningClient {
 protected:
     struct Period {
         double time_s;
@@ -38,22 +32,9 @@ protected:
         const PlantState &s = served.plant_state();
         all.push_back({served.time_s(), s.torque_Nm, s.omega_e_radps, served.bridge_on()});
     }
-    bool write_one(unsigned number, int value)
-    {
-        return write(number, {static_cast<std::uint16_t>(value)});
-    }
-    bool write_two(unsigned number, int value)
-    {
-        const auto x = static_cast<std::uint32_t>(value);
-        return write(number, {static_cast<std::uint16_t>(x >> 16U), static_cast<std::uint16_t>(x)});
-    }
     int actual(unsigned number)
     {
         return static_cast<std::int16_t>(input(number));
-    }
-    bool has(int bit)
-    {
-        return (input(APP_REGISTERS_STATUSWORD) & bit) != 0;
     }
     double speed_e_radps() const
     {
@@ -72,18 +53,6 @@ protected:
             pass(std::min(0.05, end_s - served.time_s()));
             input(APP_REGISTERS_MODE);
         }
-    }
-    void enable(int mode)
-    {
-        pass(0.4);
-        ASSERT_TRUE(write_one(APP_REGISTERS_MODE_OF_OPERATION, mode));
-        ASSERT_TRUE(write_one(APP_REGISTERS_CONTROLWORD, APP_CONTROL_SHUT_DOWN));
-        ASSERT_TRUE(write_one(APP_REGISTERS_CONTROLWORD, APP_CONTROL_ENABLE_OPERATION));
-        for (const double end_s = served.time_s() + align_s;
-             input(APP_REGISTERS_MODE) != APP_MODE_RUN && served.time_s() < end_s;) {
-            pass(0.05);
-        }
-        ASSERT_EQ(input(APP_REGISTERS_MODE), APP_MODE_RUN);
     }
     /// Mean torque of a window that begins at this time.
     double mean_Nm(double from_s) const
