@@ -125,7 +125,7 @@ def torque(
     end = end_by_signal()
     with Drive(target(port, tcp)) as drive, Live(console=live_line, auto_refresh=False) as live:
         pairs = pole_pairs_of(pole_pairs, drive)
-        torque_Nm = wanted * torques.rated(drive).torque_Nm / 100.0 if percent else wanted
+        torque_Nm = wanted * torques.rated_Nm(drive) / 100.0 if percent else wanted
         reading = torques.hold(
             drive,
             torques.Wanted(torque_Nm, e_radps_of(speed, pairs)),

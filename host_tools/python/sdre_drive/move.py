@@ -9,7 +9,7 @@ from typing import Callable, Optional
 
 from sdre_drive import register_map, session
 from sdre_drive.connection import Drive, DriveError
-from sdre_drive.registers import ANGLE_KNOWN, PROFILE_POSITION, ControlWord, Mode, Reading
+from sdre_drive.registers import ANGLE_KNOWN, PROFILE_POSITION, ControlWord, Reading
 from sdre_drive.units import e_radps_of
 
 NEW, AT_ONCE, RELATIVE = 1 << 4, 1 << 5, 1 << 6  # of the control word
@@ -97,12 +97,7 @@ def _set_point(drive: Drive, counts: int, bits: int) -> None:
 
 def _enable(drive: Drive, wanted: Wanted) -> None:
     """The drive has the shaft, and the way is as long as it should be."""
-    session.start(drive, 0.0, PROFILE_POSITION)
-    if (
-        session.wait_for(drive, lambda r: r.mode in (Mode.RUN, Mode.FAULT), session.STOP_WAIT_S)
-        is None
-    ):
-        raise DriveError("the drive does not come to run")
+    session.come_to_run(drive, PROFILE_POSITION)
     require_near(drive, wanted)
 
 

@@ -124,6 +124,15 @@ def start(drive: Drive, speed_e_radps: float, mode: int = PROFILE_VELOCITY) -> N
         raise Tripped(reading)
 
 
+def come_to_run(drive: Drive, mode: int) -> Reading:
+    """Starts it in a mode of operation at rest, and waits until it runs or is in FAULT."""
+    start(drive, 0.0, mode)
+    reading = wait_for(drive, lambda r: r.mode in (Mode.RUN, Mode.FAULT), STOP_WAIT_S)
+    if reading is None:
+        raise DriveError("the drive does not come to run")
+    return reading
+
+
 def run_steady(
     drive: Drive, speed_e_radps: float, within: float, settle_s: float, longest_s: float
 ) -> None:

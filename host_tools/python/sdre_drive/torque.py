@@ -9,20 +9,12 @@ from typing import Callable, Optional
 
 from sdre_drive import register_map, session
 from sdre_drive.connection import Drive, DriveError
-from sdre_drive.registers import PROFILE_TORQUE, Mode, Reading
+from sdre_drive.registers import PROFILE_TORQUE, Reading
 from sdre_drive.units import rpm_of
 
 SUPPORTED = 1 << (PROFILE_TORQUE - 1)  # of SUPPORTED_MODES
 MOST_SHARE = 32.0  # of the rated torque, that the register holds
 DEFAULT_RPM = 300.0  # chosen: a free shaft turns as fast as this, and is seen to
-
-
-@dataclass(frozen=True)
-class Rated:
-    """Ratings of the drive file."""
-
-    current_A: float
-    torque_Nm: float
 
 
 @dataclass(frozen=True)
@@ -37,10 +29,9 @@ class Torque:
         return f"{self.now_Nm:.3f} of {wanted_Nm:.3f} N m"
 
 
-def rated(drive: Drive) -> Rated:
-    """Current and torque that the shares are of."""
-    found = drive.values(register_map.TORQUE_NOW)
-    return Rated(found["RATED_CURRENT"], found["RATED_TORQUE"])
+def rated_Nm(drive: Drive) -> float:
+    """Returns the torque that the shares are of."""
+    return drive.values(register_map.TORQUE_NOW)["RATED_TORQUE"]
 
 
 def now(drive: Drive) -> Torque:
@@ -65,7 +56,7 @@ class Wanted:
 
     def share(self, drive: Drive) -> float:
         """Returns the share of the rated torque; DriveError beyond what a register holds."""
-        share = self.torque_Nm / rated(drive).torque_Nm
+        share = self.torque_Nm / rated_Nm(drive)
         if not abs(share) <= MOST_SHARE:
             raise DriveError(
                 f"{self.torque_Nm:g} N m is out of range: at most {MOST_SHARE:g} times the rated "
@@ -86,13 +77,7 @@ def begin(drive: Drive, wanted: Wanted) -> None:
         drive.write("TORQUE", 0.0)
     drive.write("TORQUE_SPEED_MAX", rpm_of(wanted.speed_e_radps, drive.constants().pole_pairs))
     try:
-        session.start(drive, 0.0, PROFILE_TORQUE)
-        ran = session.wait_for(
-            drive, lambda r: r.mode in (Mode.RUN, Mode.FAULT), session.STOP_WAIT_S
-        )
-        if ran is None:
-            raise DriveError("the drive does not come to run")
-        session.require_moving(ran)
+        session.require_moving(session.come_to_run(drive, PROFILE_TORQUE))
         drive.write("TORQUE", share)
     except DriveError:
         session.withdraw(drive)
