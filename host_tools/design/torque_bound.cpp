@@ -72,4 +72,11 @@ double least_torque_time_s(const Motor &m, const ReducedParameters &l, const Tor
     return std::numeric_limits<double>::quiet_NaN();
 }
 
+double least_torque_time_s(const Drive &d, double speed_e_radps, double from_Nm, double to_Nm)
+{
+    constexpr double corner = 2.0 / 3.0; // of the dc link
+    return least_torque_time_s(d.motor, reduced_parameters(d.motor),
+                               {speed_e_radps, from_Nm, to_Nm, corner * d.inverter.dc_link_V, 0.9});
+}
+
 } // namespace sdre

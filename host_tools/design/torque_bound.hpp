@@ -20,4 +20,7 @@ struct TorqueStep {
 /// edge. Not a number beyond 0.1 s.                                                                                    EQ-TORQUE-6
 double least_torque_time_s(const Motor &motor, const ReducedParameters &l, const TorqueStep &step);
 
+/// The time to 90 % of a step of a drive, with the longest voltage of its dc link: a corner of the hexagon.
+double least_torque_time_s(const Drive &drive, double speed_e_radps, double from_Nm, double to_Nm);
+
 } // namespace sdre

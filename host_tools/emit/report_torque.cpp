@@ -11,9 +11,6 @@
 namespace sdre {
 namespace {
 
-constexpr double corner =
-    2.0 / 3.0; // of the dc link: the longest voltage, in a corner of the hexagon
-
 struct Bound {
     double speed_e_radps;
     double time_s; ///< not a number: the voltage does not reach the torque
@@ -24,10 +21,9 @@ std::vector<Bound> bounds(const Design &d)
 {
     std::vector<Bound> all;
     for (const double share : {0.0, 0.5, 1.0}) {
-        const double     speed = share * d.drive.motor.rated_speed_e_radps;
-        const TorqueStep step{speed, 0.0, d.drive.motor.rated_torque_Nm,
-                              corner * d.drive.inverter.dc_link_V, 0.9};
-        all.push_back({speed, least_torque_time_s(d.drive.motor, d.l, step)});
+        const double speed = share * d.drive.motor.rated_speed_e_radps;
+        all.push_back(
+            {speed, least_torque_time_s(d.drive, speed, 0.0, d.drive.motor.rated_torque_Nm)});
     }
     return all;
 }

@@ -10,6 +10,7 @@
 #include "sil/eval/random_motors.hpp"
 #include "sil/eval/seeds.hpp"
 #include "sil/qualify/rivals.hpp"
+#include "sil/qualify/words.hpp"
 #include "sil/run/simulation.hpp"
 #include "tune/start_weights.hpp"
 
@@ -33,15 +34,6 @@ TrialResult result_of(const Trial &trial, const SeedRuns &runs)
         r.peak_current_A = std::max(r.peak_current_A, each.worst("peak_current_A").value_or(0.0));
     }
     return r;
-}
-
-void beyond(std::vector<std::string> &reasons, const char *what, double is, double most,
-            const char *unit, double scale = 1.0)
-{
-    if (most > 0.0 && !(is <= most)) {
-        reasons.push_back(
-            fmt::format("{} {:.4g} {}, at most {:.4g}", what, scale * is, unit, scale * most));
-    }
 }
 
 void judge(const Trial &t, int seeds, double limit_A, TrialResult &r)

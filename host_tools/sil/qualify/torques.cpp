@@ -6,16 +6,14 @@
 
 #include <fmt/format.h>
 
-#include "design/motor_model.hpp"
 #include "design/torque_bound.hpp"
 #include "sil/eval/seeds.hpp"
 #include "sil/qualify/plan.hpp"
+#include "sil/qualify/words.hpp"
 
 namespace sdre {
 namespace {
 
-constexpr double corner =
-    2.0 / 3.0; // of the dc link: the longest voltage, in a corner of the hexagon
 constexpr double tenth = 0.1;
 // Chosen: the drives of docs/motors.md stay below two thirds of these. The last tenth of a small step is in the noise of the
 // sensors, which costs periods.
@@ -29,12 +27,6 @@ constexpr double ripple_percent    = 5.0;
 constexpr double window_periods = 300.0;
 constexpr double window_ratio   = 30.0;
 
-double least_s(const Drive &d, double speed_e_radps, double from_Nm, double to_Nm)
-{
-    const TorqueStep step{speed_e_radps, from_Nm, to_Nm, corner * d.inverter.dc_link_V, 0.9};
-    return least_torque_time_s(d.motor, reduced_parameters(d.motor), step);
-}
-
 double half_speed(const Drive &d)
 {
     return 0.5 * d.motor.rated_speed_e_radps;
@@ -43,7 +35,7 @@ double half_speed(const Drive &d)
 double least_rated_s(const Drive &d)
 {
     const double rated_Nm = d.motor.rated_torque_Nm;
-    return least_s(d, half_speed(d), tenth * rated_Nm, rated_Nm);
+    return least_torque_time_s(d, half_speed(d), tenth * rated_Nm, rated_Nm);
 }
 
 double window_s(const Drive &d)
@@ -65,13 +57,6 @@ void judge_time(TorqueTrial &t, const char *what, const std::optional<double> &t
     }
 }
 
-void judge_most(TorqueTrial &t, const char *what, double is, double most, const char *unit)
-{
-    if (!(is <= most)) {
-        t.reasons.push_back(fmt::format("{} {:.4g} {}, at most {:.4g}", what, is, unit, most));
-    }
-}
-
 void judge(TorqueTrial &t, int seeds, const Drive &d)
 {
     if (t.faults > 0) {
@@ -79,10 +64,10 @@ void judge(TorqueTrial &t, int seeds, const Drive &d)
     }
     judge_time(t, "a tenth", t.tenth_s, t.least_tenth_s, tenth_periods * control_period_s(d));
     judge_time(t, "all", t.rated_s, t.least_rated_s, rated_periods * control_period_s(d));
-    judge_most(t, "overshoot", t.overshoot_percent, overshoot_percent, "%");
-    judge_most(t, "error", t.error_percent, error_percent, "%");
-    judge_most(t, "ripple", t.ripple_percent, ripple_percent, "%");
-    judge_most(t, "peak current", t.peak_current_A, peak_ratio * d.motor.max_current_A, "A");
+    beyond(t.reasons, "overshoot", t.overshoot_percent, overshoot_percent, "%");
+    beyond(t.reasons, "error", t.error_percent, error_percent, "%");
+    beyond(t.reasons, "ripple", t.ripple_percent, ripple_percent, "%");
+    beyond(t.reasons, "peak current", t.peak_current_A, peak_ratio * d.motor.max_current_A, "A");
 }
 
 std::string time_words(const std::optional<double> &time_s)
@@ -119,12 +104,12 @@ std::optional<TorqueTrial> torque_trial(const Drive &d, int seeds)
     }
     const SeedRuns runs = run_seeds(torque_scenario(d), seeds);
     TorqueTrial    t;
-    t.speed_e_radps     = half_speed(d);
-    t.least_tenth_s     = least_s(d, half_speed(d), 0.0, tenth * d.motor.rated_torque_Nm);
-    t.least_rated_s     = least_rated_s(d);
-    t.faults            = runs.faults;
-    t.tenth_s           = runs.measures[1].worst("torque_rise_s");
-    t.rated_s           = runs.measures[2].worst("torque_rise_s");
+    t.speed_e_radps = half_speed(d);
+    t.least_tenth_s = least_torque_time_s(d, half_speed(d), 0.0, tenth * d.motor.rated_torque_Nm);
+    t.least_rated_s = least_rated_s(d);
+    t.faults        = runs.faults;
+    t.tenth_s       = runs.measures[1].worst("torque_rise_s");
+    t.rated_s       = runs.measures[2].worst("torque_rise_s");
     t.overshoot_percent = runs.measures[2].worst("torque_overshoot_percent").value_or(0.0);
     for (const SeedMeasure &m : runs.measures) {
         t.error_percent = std::max(t.error_percent, m.worst("torque_error_percent").value_or(0.0));

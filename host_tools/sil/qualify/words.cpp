@@ -20,6 +20,15 @@ std::string share_words(const char *what, const MotorShare &m)
 
 } // namespace
 
+void beyond(std::vector<std::string> &reasons, const char *what, double is, double most,
+            const char *unit, double scale)
+{
+    if (most > 0.0 && !(is <= most)) {
+        reasons.push_back(
+            fmt::format("{} {:.4g} {}, at most {:.4g}", what, scale * is, unit, scale * most));
+    }
+}
+
 std::string settling_words(const TrialResult &r)
 {
     return r.settling_time_s ? fmt::format("{:.2f}", 1e3 * *r.settling_time_s) : "never";

@@ -3,11 +3,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sil/qualify/qualify.hpp"
 
 namespace sdre {
 
+/// Adds a reason if a value is beyond its limit, or not a number. A limit of 0 is none. `scale` is for the words alone.
+void beyond(std::vector<std::string> &reasons, const char *what, double is, double most,
+            const char *unit, double scale = 1.0);
 /// In milliseconds, or "never".
 std::string settling_words(const TrialResult &r);
 /// "good", or why it is not.
