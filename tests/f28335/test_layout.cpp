@@ -23,7 +23,8 @@ struct FieldPlace {
     int word, lowest, width;
 };
 
-#define COUNTED(r) r##_word[0] // a register whose accesses the stand-in counts
+#define COUNTED(r)         r##_word[0]   // a register whose accesses the stand-in counts
+#define BEHIND_FLAGS(word) ((word) + 14) // seven registers have 64 bits instead of 32
 
 // Two passes over one table. Plain data: as test code, every row would be compiled with its checks.
 #define REGISTER(type, member, word, bytes)                                                        \
@@ -77,6 +78,19 @@ TEST(F28335Layout, WholeRegisterBlocksHaveTheSizeOfTheirFrame)
     EXPECT_EQ(sizeof(ADC_REGS), 2U * 0x20);
     EXPECT_EQ(sizeof(SCI_REGS), 2U * 0x10);
     EXPECT_EQ(sizeof(PIE_VECT_TABLE), 128 * sizeof(PINT));
+    EXPECT_EQ(sizeof(ECAN_MBOXES), 2U * 0x100);
+    EXPECT_EQ(sizeof(LAM_REGS), 2U * 0x40);
+}
+
+TEST(F28335Layout, FlagsOfTheMailboxesAreInOrder)
+{
+    EXPECT_EQ(offsetof(ECAN_REGS, CANTRS_word), 8U);
+    EXPECT_EQ(offsetof(ECAN_REGS, CANTRR_word), 16U);
+    EXPECT_EQ(offsetof(ECAN_REGS, CANTA_word), 24U);
+    EXPECT_EQ(offsetof(ECAN_REGS, CANAA_word), 32U);
+    EXPECT_EQ(offsetof(ECAN_REGS, CANRMP_word), 40U);
+    EXPECT_EQ(offsetof(ECAN_REGS, CANRML_word), 48U);
+    EXPECT_EQ(offsetof(ECAN_REGS, CANRFP_word), 56U);
 }
 
 TEST(F28335Layout, VectorsAreAtTheirNumbers)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sil/f28335/registers.hpp"
 
+#include <cstdint>
 #include <cstring>
 #include <initializer_list>
 
@@ -9,6 +10,11 @@ volatile struct ADC_RESULT_MIRROR_REGS AdcMirror;
 volatile struct CPUTIMER_REGS          CpuTimer0Regs;
 volatile struct CPUTIMER_REGS          CpuTimer1Regs;
 volatile struct CPUTIMER_REGS          CpuTimer2Regs;
+volatile struct ECAN_REGS              ECanaRegs;
+volatile struct ECAN_MBOXES            ECanaMboxes;
+volatile struct LAM_REGS               ECanaLAMRegs;
+volatile struct MOTS_REGS              ECanaMOTSRegs;
+volatile struct MOTO_REGS              ECanaMOTORegs;
 volatile struct EPWM_REGS              EPwm1Regs;
 volatile struct EPWM_REGS              EPwm2Regs;
 volatile struct EPWM_REGS              EPwm3Regs;
@@ -51,6 +57,27 @@ void reset_sci(volatile SCI_REGS &r)
     r.SCIFFRX.all = 0x201F;
 }
 
+/// Memory without a value after power-on.
+template <typename T> void scramble(volatile T &x)
+{
+    auto         *words = reinterpret_cast<volatile std::uint32_t *>(&x);
+    std::uint32_t word  = 0;
+    for (std::size_t n = 0; n < sizeof(T) / sizeof(word); n++) {
+        word += 0x9E3779B9U;
+        words[n] = word;
+    }
+}
+
+void reset_can()
+{
+    clear(ECanaRegs);
+    ECanaRegs.CANMC.bit.CCR = 1; // it begins in configuration
+    scramble(ECanaMboxes);
+    scramble(ECanaLAMRegs);
+    scramble(ECanaMOTSRegs);
+    scramble(ECanaMOTORegs);
+}
+
 void reset_timer(volatile CPUTIMER_REGS &r)
 {
     clear(r);
@@ -71,6 +98,7 @@ void reset_registers()
          {&EPwm1Regs, &EPwm2Regs, &EPwm3Regs, &EPwm4Regs, &EPwm5Regs, &EPwm6Regs}) {
         reset_pwm(*r);
     }
+    reset_can();
     clear(EQep1Regs);
     clear(EQep2Regs);
     clear(GpioCtrlRegs);

@@ -10,6 +10,7 @@
 
 #include "DSP2833x_Adc.h"
 #include "DSP2833x_CpuTimers.h"
+#include "DSP2833x_ECan.h"
 #include "DSP2833x_EPwm.h"
 #include "DSP2833x_EQep.h"
 #include "DSP2833x_Gpio.h"
