@@ -43,7 +43,9 @@ Device::Device(Surroundings &surroundings, const Firmware &firmware, const Devic
       watchdog_(options.xrs_low_s), pwm_{PwmUnit(EPwm1Regs, 1), PwmUnit(EPwm2Regs, 2),
                                          PwmUnit(EPwm3Regs, 3)},
       adc_([this](int side, int number) { return surroundings_.analog_V(side, number); }),
-      timer_(CpuTimer0Regs, 0), timer1_(CpuTimer1Regs, 1), main_(firmware, options.own_stack)
+      timer_(CpuTimer0Regs, 0), timer1_(CpuTimer1Regs, 1),
+      can_(options.can_bus != nullptr ? *options.can_bus : own_bus_),
+      main_(firmware, options.own_stack)
 {
     the_device = this;
     std::fill(std::begin(codestart_stack), std::end(codestart_stack), Uint16{0xC0DE});
@@ -127,6 +129,7 @@ void Device::sync()
                              : std::nullopt,
                          now_);
     sci_.sync(findings_, t);
+    can_.sync(now_, clock_, findings_, t);
     reset_ = reset_ || watchdog_.reset_wanted();
     for (int n = 0; n < 3; n++) {
         if (pwm_[static_cast<std::size_t>(n)].take_trip_interrupt()) {
@@ -290,6 +293,11 @@ void Device::serial_write_access()
     sync();
     sci_.write_access();
     guard_.remember();
+}
+
+void Device::can_access()
+{
+    sync();
 }
 
 void Device::watchdog_key_access()

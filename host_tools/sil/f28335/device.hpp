@@ -3,7 +3,8 @@
 ///
 /// Registers are plain memory. At the firmware's hooks the model takes the written values and
 /// refreshes the values to be read. Hooks are EALLOW, EDIS, EINT, DINT, asm(), DELAY_US and the
-/// return of an ISR. The accesses that the headers count are hooks too (SCIRXBUF, SCITXBUF, WDKEY).
+/// return of an ISR. The accesses that the headers count are hooks too (SCIRXBUF, SCITXBUF, WDKEY, and the mailbox flags
+/// of eCAN-A).
 ///
 /// Time passes in asm(" NOP"), in DELAY_US, and where a test advances it. Between two hooks the
 /// firmware takes no time. Only one device may exist at a time, because the registers exist once.
@@ -14,8 +15,10 @@
 #include <memory>
 
 #include "sil/f28335/adc_unit.hpp"
+#include "sil/f28335/can_bus.hpp"
 #include "sil/f28335/clock.hpp"
 #include "sil/f28335/cpu_timer.hpp"
+#include "sil/f28335/ecan_unit.hpp"
 #include "sil/f28335/encoder_unit.hpp"
 #include "sil/f28335/findings.hpp"
 #include "sil/f28335/gpio.hpp"
@@ -40,9 +43,10 @@ constexpr double watchdog_pulse_s = 512 / 30e6;
 struct DeviceOptions {
     ClockFaults clock;
     double      dead_time_s = 0.0; ///< required by the bridge; a shorter one is reported
-    double xrs_low_s = 0.2; ///< the reset pin before the start: a supervisor's time after power-on
-    AtLoad at_load   = AtLoad::old_values;
-    bool   own_stack = can_switch_stacks; ///< of the firmware; false: by passes (runner.hpp)
+    double  xrs_low_s = 0.2; ///< the reset pin before the start: a supervisor's time after power-on
+    AtLoad  at_load   = AtLoad::old_values;
+    bool    own_stack = can_switch_stacks; ///< of the firmware; false: by passes (runner.hpp)
+    CanBus *can_bus   = nullptr;           ///< outlives the device; null: one of its own
 };
 
 class Device {
@@ -99,6 +103,10 @@ public:
     {
         return sci_;
     }
+    EcanUnit &can()
+    {
+        return can_;
+    }
     const Clock &clock() const
     {
         return clock_;
@@ -132,6 +140,7 @@ public:
     void calibrate_adc();
     void serial_read_access();
     void serial_write_access();
+    void can_access();
     void watchdog_key_access();
 
     /// The device that the hooks belong to.
@@ -185,6 +194,8 @@ private:
     CpuTimer                    timer_;
     CpuTimer                    timer1_;
     SciUnit                     sci_;
+    CanBus                      own_bus_;
+    EcanUnit                    can_;
     Guard                       guard_;
     Runner                      main_;
 };

@@ -75,6 +75,7 @@ std::int64_t Device::ticks_to_event() const
     take(adc_.ticks_to_end(now_));
     take(watchdog_.ticks_to_reset());
     take(sci_.ticks_to_event(now_));
+    take(can_.ticks_to_event(now_));
     return next < 0 ? -1 : std::max<std::int64_t>(1, next);
 }
 
@@ -165,6 +166,7 @@ void Device::elapse(std::int64_t ticks)
         pie_.request(1, 1, intm_, findings_, time_s());
     }
     sci_.pass(now_, clock_);
+    can_.pass(now_);
     guard_.remember();
     if (watchdog_.reset_wanted()) {
         reset_ = true;

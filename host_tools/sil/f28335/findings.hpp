@@ -16,6 +16,7 @@ enum class Finding {
     interrupt,     ///< interrupt without vector, or a group without acknowledge
     trip,          ///< the fault pin is low, but a leg switches or its gates float
     dead_time,     ///< both switches of a leg on, or closer than the bridge needs
+    can,           ///< a mailbox or a flag of the CAN controller used against its rules
     flash,         ///< flash changed with interrupts on, or beside the watchdog
     watchdog_reset ///< the device has reset itself
 };

@@ -35,11 +35,30 @@ Guard::Guard()
         [] { return SysCtrlRegs.PCLKCR0.bit.ADCENCLK != 0U; });
     add("SciaRegs", &SciaRegs, sizeof(SciaRegs), false,
         [] { return SysCtrlRegs.PCLKCR0.bit.SCIAENCLK != 0U; });
+    add_can();
     add("CpuTimer0Regs", &CpuTimer0Regs, sizeof(CpuTimer0Regs), false,
         [] { return SysCtrlRegs.PCLKCR3.bit.CPUTIMER0ENCLK != 0U; });
     add("CpuTimer1Regs", &CpuTimer1Regs, sizeof(CpuTimer1Regs), false,
         [] { return SysCtrlRegs.PCLKCR3.bit.CPUTIMER1ENCLK != 0U; });
     remember();
+}
+
+void Guard::add_can()
+{
+    const auto clocked = [] { return SysCtrlRegs.PCLKCR0.bit.ECANAENCLK != 0U; };
+    auto      &r       = ECanaRegs;
+    add("ECanaRegs", &r, sizeof(r), false, clocked);
+    add("ECanaMboxes", &ECanaMboxes, sizeof(ECanaMboxes), false, clocked);
+    add("ECanaLAMRegs", &ECanaLAMRegs, sizeof(ECanaLAMRegs), false, clocked);
+    add("ECanaMOTSRegs", &ECanaMOTSRegs, sizeof(ECanaMOTSRegs), false, clocked);
+    add("ECanaMOTORegs", &ECanaMOTORegs, sizeof(ECanaMOTORegs), false, clocked);
+    add("CANMC", &r.CANMC, sizeof(r.CANMC), true);
+    add("CANBTC", &r.CANBTC, sizeof(r.CANBTC), true);
+    add("CANGIM", &r.CANGIM, sizeof(r.CANGIM), true);
+    add("CANMIM", &r.CANMIM, sizeof(r.CANMIM), true);
+    add("CANTIOC", &r.CANTIOC, sizeof(r.CANTIOC), true);
+    add("CANRIOC", &r.CANRIOC, sizeof(r.CANRIOC), true);
+    add("CANTSC", &r.CANTSC, sizeof(r.CANTSC), true);
 }
 
 void Guard::add(const std::string &name, volatile void *data, std::size_t bytes, bool eallow,

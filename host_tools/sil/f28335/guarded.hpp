@@ -32,6 +32,7 @@ private:
     };
     void add(const std::string &name, volatile void *data, std::size_t bytes, bool eallow,
              const std::function<bool()> &clocked = {});
+    void add_can();
     std::vector<Region> regions_;
 };
 

@@ -30,6 +30,12 @@ Uint16 f28335_scitxbuf_access(void)
     return 0;
 }
 
+Uint16 f28335_ecan_access(void)
+{
+    Device::current().can_access();
+    return 0;
+}
+
 Uint16 f28335_wdkey_access(void)
 {
     Device::current().watchdog_key_access();
