@@ -28,7 +28,7 @@ typedef enum {
     CAN_MISTAKE_INTERRUPT    /**< an interrupt enabled */
 } can_firmware_mistake_t;
 
-/** What to do with the mailbox at the bottom, before the start. */
+/** Set before a run. */
 extern can_firmware_mistake_t can_firmware_mistake;
 /** Bits of CANMC beside SCB and CCR, such as ABO and DBO. */
 extern uint32_t can_firmware_mc;

@@ -106,7 +106,7 @@ public:
     {
         return fault_;
     }
-    /// Of the device; of its last bits when it is off the bus, and 500 kbit/s before any.
+    /// The device has this rate. When it is off the bus, it is the last one; before any it is 500 kbit/s.
     double bit_rate_Hz() const;
 
     void         pass(std::int64_t now_ticks);

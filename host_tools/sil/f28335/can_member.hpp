@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What a CAN bus asks of its members, and the error counters that each member has.
+/// A CAN bus asks this of its members. Each of them has error counters.
 #pragma once
 
 #include <optional>

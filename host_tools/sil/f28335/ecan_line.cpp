@@ -126,7 +126,7 @@ void EcanUnit::enter_bus_off()
     }
 }
 
-/// What follows from the time that the wires have been recessive.
+/// The unit joins the bus, and leaves bus-off, when the wires have been recessive for long enough.
 void EcanUnit::update_mode()
 {
     const std::int64_t recessive = bus_.recessive_ticks(now_);

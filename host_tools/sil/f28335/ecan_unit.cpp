@@ -76,7 +76,7 @@ void EcanUnit::sync(std::int64_t now, const Clock &clock, Findings &findings, do
     present();
 }
 
-/// What the firmware has written into one of the registers of 64 bits; 0: nothing.
+/// Returns the word that the firmware has written into one of the registers of 64 bits; 0 if none.
 std::uint32_t EcanUnit::taken(volatile Uint64 &reg, std::uint32_t shown, const char *name,
                               const Report &report) const
 {

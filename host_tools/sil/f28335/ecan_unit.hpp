@@ -51,7 +51,7 @@ public:
     {
         return rate_Hz_;
     }
-    /// Of the bit, from its begin.
+    /// Share of the bit before its sample, 0 .. 1.
     static double           sample_point();
     const CanErrorCounters &errors() const
     {
