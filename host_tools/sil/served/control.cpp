@@ -81,6 +81,37 @@ std::string note(const ServedDrive &drive)
                        rpm_of(drive, drive.dynamometer().catch_speed_e_radps()));
 }
 
+struct CanFaultName {
+    f28335::CanFault fault;
+    const char      *name;
+};
+constexpr CanFaultName can_faults[] = {{f28335::CanFault::none, "none"},
+                                       {f28335::CanFault::open, "open"},
+                                       {f28335::CanFault::shorted, "shorted"},
+                                       {f28335::CanFault::dominant, "dominant"}};
+
+const char *can_fault(const ServedDrive &drive)
+{
+    for (const CanFaultName &f : can_faults) {
+        if (f.fault == drive.can_bus().fault()) {
+            return f.name;
+        }
+    }
+    return "";
+}
+
+void set_can_fault(const std::string &name, ServedDrive &drive)
+{
+    for (const CanFaultName &f : can_faults) {
+        if (name == f.name) {
+            drive.can_bus().set_fault(f.fault);
+            return;
+        }
+    }
+    throw InputError(
+        fmt::format("can \"{}\" is not allowed: must be open, shorted, dominant or none", name));
+}
+
 json state(const ServedDrive &drive, const ServerReport &server)
 {
     const PlantState  &now    = drive.plant_state();
@@ -104,6 +135,8 @@ json state(const ServedDrive &drive, const ServerReport &server)
                                  {"bridge_on", drive.bridge_on()},
                                  {"broken", broken(drive)},
                                  {"note", note(drive)},
+                                 {"can_fault", can_fault(drive)},
+                                 {"can_load", drive.can_bus().load()},
                                  {"resets", drive.resets()},
                                  {"speed_factor", server.pace.speed_factor()},
                                  {"real_time_factor", server.pace.real_time_factor()},
@@ -189,6 +222,8 @@ json answer(const std::string &word, const std::string &rest, ServedDrive &drive
         drive.set_dc_link_V(number(rest, dc_link_range_V, "dc_link"));
     } else if (word == "fault") {
         return break_part(rest, drive, server);
+    } else if (word == "can") {
+        set_can_fault(rest, drive);
     } else if (word == "mend") {
         drive.mend();
     } else if (word == "power_cycle") {
@@ -197,8 +232,8 @@ json answer(const std::string &word, const std::string &rest, ServedDrive &drive
         return trace(record, number(rest, {0.0, longest_record_s}, "trace"));
     } else if (word != "state") {
         throw InputError(
-            fmt::format("\"{}\" is not a command: load, dc_link, fault, mend, power_cycle, state, "
-                        "trace",
+            fmt::format("\"{}\" is not a command: load, dc_link, fault, can, mend, power_cycle, "
+                        "state, trace",
                         word));
     }
     return state(drive, server);

@@ -6,6 +6,7 @@
 ///     load -1.2 active                           N m against positive speed, whatever the shaft does
 ///     dc_link 280                                V of the supply
 ///     fault kind = "current_zero", phase = "a"   keys as in a scenario's [[fault]], without the time
+///     can open                                   a fault of the CAN cable: open, shorted, dominant; none
 ///     mend                                       nothing is broken, load 0; without the bridge the shaft comes to rest
 ///     power_cycle                                off and on
 ///     state                                      the motor and the bench now

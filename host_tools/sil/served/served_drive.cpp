@@ -138,7 +138,8 @@ void ServedDrive::power_up(bool after_reset)
                               scenario_.drive.inverter.dead_time_s,
                               after_reset ? watchdog_low_s_ : power_on_low_s_,
                               f28335::AtLoad::old_values,
-                              own_stack_});
+                              own_stack_,
+                              &can_bus_});
     const long before = bench_.tick();
     if (!device_->run_until([&] { return bench_.tick() > before; }, longest_boot_s) &&
         !after_reset) {
@@ -184,6 +185,7 @@ void ServedDrive::set_dc_link_V(double voltage_V)
 void ServedDrive::mend()
 {
     bench_.board()->mend();
+    can_bus_.set_fault(f28335::CanFault::none);
     broken_.erase(std::remove_if(broken_.begin(), broken_.end(),
                                  [](const InjectedFault &f) { return !needs_processor(f.kind); }),
                   broken_.end());

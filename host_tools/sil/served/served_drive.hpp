@@ -67,6 +67,20 @@ public:
         return device_->serial().take();
     }
 
+    /// Outlives resets and power cycles of the device.
+    f28335::CanBus &can_bus()
+    {
+        return can_bus_;
+    }
+    const f28335::CanBus &can_bus() const
+    {
+        return can_bus_;
+    }
+    f28335::EcanUnit &can()
+    {
+        return device_->can();
+    }
+
     f28335::SciUnit &line()
     {
         return device_->serial();
@@ -131,6 +145,7 @@ private:
     MotorBench                      bench_;
     f28335::MotorSurroundings       surroundings_;
     bool                            own_stack_;
+    f28335::CanBus                  can_bus_;
     std::unique_ptr<f28335::Device> device_;
     Dynamometer                     dynamometer_;
     double                          source_V_;
