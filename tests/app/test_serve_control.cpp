@@ -8,7 +8,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "common/errors.hpp"
 #include "sil/served/control.hpp"
+#include "sil/served/node_number.hpp"
+#include "sil/served/slcan.hpp"
 
 using namespace sdre;
 
@@ -113,6 +116,42 @@ TEST(ServeControl, LoadSupplyFaultsAndWhatTheyDo)
     EXPECT_NE(at.say("load -1").find("\\\"load -1 active\\\" drives the shaft"), std::string::npos)
         << at.say("load -1");
     EXPECT_NE(at.say("trace 0.1").find("\"speed_e_radps\":["), std::string::npos);
+}
+
+TEST(ServeControl, TheCanCableHasFaultsAndIsMended)
+{
+    AtTheBench at;
+    EXPECT_EQ(at.ask("state").at("can_fault"), "none");
+    for (const char *fault : {"open", "shorted", "dominant"}) {
+        EXPECT_EQ(at.ask(std::string("can ") + fault).at("can_fault"), fault);
+    }
+    EXPECT_EQ(at.ask("mend").at("can_fault"), "none");
+    EXPECT_EQ(at.ask("can open").at("can_fault"), "open");
+    EXPECT_EQ(at.ask("power_cycle").at("can_fault"), "open");
+    EXPECT_EQ(at.ask("can none").at("can_fault"), "none");
+    EXPECT_LE(at.ask("state").at("can_load"), 1.0);
+    EXPECT_EQ(at.ask("can cut").at("error"),
+              "can \"cut\" is not allowed: must be open, shorted, dominant or none");
+}
+
+TEST(ServeControl, ANodeNumberIsARegisterAndThenACommand)
+{
+    AtTheBench       at;
+    NodeNumber       node(at.drive, 17);
+    f28335::CanNode &other = at.drive.can_bus().join();
+    other.open();
+    EXPECT_EQ(node.request(), rtu_frame({1, 6, 1, 32, 0, 17}));
+    EXPECT_THROW(node.answered({}), InputError);
+    EXPECT_THROW(node.answered(rtu_frame({1, 0x86, 2})), InputError);
+    node.answered(node.request());
+    for (int n = 0; n < 100 && !node.done(); n++) {
+        at.pass(at.drive.period_s());
+        node.step();
+    }
+    EXPECT_TRUE(node.done());
+    const std::optional<f28335::CanFrame> command = other.take();
+    ASSERT_TRUE(command);
+    EXPECT_EQ(slcan_line(*command), "t00028200\r");
 }
 
 // A brake takes no shaft anywhere; an active load of the same torque does.

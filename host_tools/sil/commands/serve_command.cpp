@@ -16,15 +16,21 @@ constexpr int default_tcp     = 1502; // as Modbus's own 502, for which one has 
 constexpr int default_control = 1503;
 constexpr int ports           = 65535;
 constexpr int any_port        = -1; // not given
+constexpr int no_node         = 0;
+constexpr int last_node       = 127;
 
 struct Options {
     std::string drive;
     std::string machine;
     std::string pty;
     std::string flash;
-    int         tcp          = any_port;
-    int         rtu_tcp      = any_port;
-    int         control      = any_port;
+    int         tcp       = any_port;
+    int         rtu_tcp   = any_port;
+    int         control   = any_port;
+    int         slcan_tcp = any_port;
+    int         join      = any_port;
+    int         node      = no_node;
+    std::string slcan_pty;
     double      speed_factor = 1.0;
     double      end_s        = 0.0;
     int         cogging      = 0;
@@ -47,6 +53,12 @@ void declare(OptionList &list, Options &o)
     list.number("--control", o.control, {0, ports},
                 "load, supply, faults and the motor itself on this port (default: the next after "
                 "--tcp, 1503)");
+    list.number("--slcan-tcp", o.slcan_tcp, {0, ports},
+                "the drive's CAN bus, as slcan over TCP on this port; 0: any");
+    list.text("--slcan-pty", o.slcan_pty, "slcan on a pseudo-terminal of this name");
+    list.number("--join", o.join, {1, ports},
+                "the CAN bus of the drive whose --slcan-tcp has this port: both drives on one bus");
+    list.number("--node", o.node, {1, last_node}, "node number of this drive on the CAN bus");
     list.text("--flash", o.flash,
               "file that keeps the drive's flash: parameters and image last over its end");
     list.number("--speed-factor", o.speed_factor, {0.01, 100.0},
@@ -78,6 +90,8 @@ int run(const Options &o)
     s.tcp          = port(o.tcp);
     s.rtu_tcp      = port(o.rtu_tcp);
     s.control      = port(o.control == any_port ? control_beside(o.tcp) : o.control);
+    s.can          = {port(o.slcan_tcp), o.slcan_pty, port(o.join)};
+    s.node         = o.node == no_node ? std::nullopt : std::optional<int>(o.node);
     s.flash        = o.flash;
     s.speed_factor = o.speed_factor;
     if (!o.machine.empty()) {

@@ -49,6 +49,23 @@ void set_raw(int fd)
     }
 }
 
+sockaddr_in on_loopback(int port)
+{
+    sockaddr_in address{};
+    address.sin_family      = AF_INET;
+    address.sin_port        = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    return address;
+}
+
+/// A write goes out at once, and nothing waits for the other end.
+void send_at_once(const Descriptor &connection)
+{
+    const int on = 1;
+    set_non_blocking(connection.get());
+    setsockopt(connection.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+}
+
 /// Target of a symbolic link; empty: the path is none.
 std::string link_target(const std::string &path)
 {
@@ -80,7 +97,7 @@ Descriptor::~Descriptor()
     }
 }
 
-PseudoTerminal::PseudoTerminal(std::string path)
+PseudoTerminal::PseudoTerminal(std::string path, const char *option)
     : path_(std::move(path)), master_(posix_openpt(O_RDWR | O_NOCTTY))
 {
     if (!master_ || grantpt(master_.get()) != 0 || unlockpt(master_.get()) != 0) {
@@ -100,8 +117,8 @@ PseudoTerminal::PseudoTerminal(std::string path)
     if (symlink(name, path_.c_str()) != 0) {
         name_.clear(); // the path is not ours
         if (errno == EEXIST) {
-            throw InputError(
-                fmt::format("serve: --pty {} exists: remove it, or choose another path", path_));
+            throw InputError(fmt::format("serve: {} {} exists: remove it, or choose another path",
+                                         option, path_));
         }
         fail(path_);
     }
@@ -121,16 +138,25 @@ Descriptor listen_on_loopback(int port)
     if (!listener || setsockopt(listener.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) != 0) {
         fail("no socket");
     }
-    sockaddr_in address{};
-    address.sin_family      = AF_INET;
-    address.sin_port        = htons(static_cast<std::uint16_t>(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const sockaddr_in address = on_loopback(port);
     if (bind(listener.get(), reinterpret_cast<const sockaddr *>(&address), sizeof address) != 0 ||
         listen(listener.get(), waiting_clients) != 0) {
         fail(fmt::format("port {}", port));
     }
     set_non_blocking(listener.get());
     return listener;
+}
+
+Descriptor connect_to_loopback(int port)
+{
+    Descriptor        other(socket(AF_INET, SOCK_STREAM, 0));
+    const sockaddr_in address = on_loopback(port);
+    if (!other ||
+        connect(other.get(), reinterpret_cast<const sockaddr *>(&address), sizeof address) != 0) {
+        return {};
+    }
+    send_at_once(other);
+    return other;
 }
 
 int port_of(const Descriptor &listener)
@@ -147,9 +173,7 @@ Descriptor accept_client(const Descriptor &listener)
 {
     Descriptor client(accept(listener.get(), nullptr, nullptr));
     if (client) {
-        const int on = 1;
-        set_non_blocking(client.get());
-        setsockopt(client.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+        send_at_once(client);
     }
     return client;
 }

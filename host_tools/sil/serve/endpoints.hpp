@@ -40,7 +40,8 @@ private:
 class PseudoTerminal {
 public:
     /// InputError when the path exists and is no link of a killed run, or cannot be made.
-    explicit PseudoTerminal(std::string path);
+    /// @param option Name of the command-line option, for the message when the path exists.
+    explicit PseudoTerminal(std::string path, const char *option = "--pty");
     PseudoTerminal(PseudoTerminal &&) noexcept            = default;
     PseudoTerminal &operator=(PseudoTerminal &&) noexcept = default;
     ~PseudoTerminal();
@@ -59,6 +60,8 @@ private:
 /// Listens on 127.0.0.1; port 0 takes any.
 Descriptor listen_on_loopback(int port);
 int        port_of(const Descriptor &listener);
+/// Connects to 127.0.0.1; none: nobody listens there.
+Descriptor connect_to_loopback(int port);
 /// A client, or none.
 Descriptor accept_client(const Descriptor &listener);
 

@@ -31,6 +31,7 @@ constexpr std::size_t  longest_line      = 4096;
 constexpr std::size_t  most_clients      = 32;
 constexpr std::size_t  most_unread       = 16'000'000; // chosen: some of the longest traces
 constexpr std::uint8_t own_unit          = 1;
+constexpr long         own_client        = -2; // the server's own request
 constexpr std::uint8_t gateway_busy      = 0x06;
 constexpr std::uint8_t no_gateway_answer = 0x0B;
 
@@ -65,6 +66,9 @@ Server::Server(const Drive &drive, std::uint64_t seed, const ServeOptions &optio
     open(Kind::tcp, options.tcp);
     open(Kind::rtu, options.rtu_tcp);
     open(Kind::control, options.control);
+    if (options.can.any()) {
+        can_.emplace(drive_, options.can);
+    }
     if (!options.pty.empty()) { // last: a link is made by a run that has everything else
         pty_ = std::make_unique<PseudoTerminal>(options.pty);
         clients_.emplace(0, Client{Kind::pty, {}, {}, 0.0, {}, 0});
@@ -90,7 +94,7 @@ std::string Server::greeting() const
                                                : "control       ";
         s += fmt::format("  {}   127.0.0.1:{}\n", name, port_of(listener));
     }
-    return s;
+    return can_ ? s + can_->greeting() : s;
 }
 
 /// When all places are taken, the client that has been quiet for longest goes.
@@ -228,6 +232,9 @@ void Server::read_all(double wall_s)
 
 void Server::deliver(const BusRequest &request, const Octets &answer)
 {
+    if (request.client == own_client) {
+        node_->answered(answer);
+    }
     const auto found = clients_.find(request.client);
     if (found == clients_.end()) {
         return;
@@ -273,6 +280,34 @@ void Server::run_until(double time_s)
         drive_.period();
         record_.note(drive_);
         bus_.step(drive_, [this](const BusRequest &r, const Octets &a) { deliver(r, a); });
+        step_can();
+    }
+}
+
+/// The drive gets its number while it is alone, so that another drive is not reset.
+void Server::begin_can()
+{
+    if (options_.node) {
+        node_.emplace(drive_, *options_.node);
+        bus_.push({own_client, 0, own_unit, node_->request()});
+    } else if (can_) {
+        can_->join();
+    }
+}
+
+void Server::step_can()
+{
+    if (node_) {
+        node_->step();
+        if (node_->done()) {
+            node_.reset();
+            if (can_) {
+                can_->join();
+            }
+        }
+    }
+    if (can_) {
+        can_->step();
     }
 }
 
@@ -289,6 +324,9 @@ void Server::wait(double seconds)
         if (client.fd && takes_more(client)) {
             all.push_back({client.fd.get(), POLLIN, 0});
         }
+    }
+    if (can_) {
+        can_->add_to(all);
     }
     const int ms = std::max(static_cast<int>(1e3 * seconds), 1);
     poll(all.data(), all.size(), ms); // early when something has come
@@ -325,6 +363,7 @@ void Server::run()
     if (options_.boot_rom) {
         boot();
     }
+    begin_can();
     double origin_s = wall_now_s() - drive_.time_s() / pace_.speed_factor();
     while (asked_to_end == 0 && !stopped_ &&
            (options_.end_s <= 0.0 || drive_.time_s() < options_.end_s)) {
@@ -344,6 +383,9 @@ void Server::run()
         }
         accept_all(wall_s);
         read_all(wall_s);
+        if (can_) {
+            can_->read();
+        }
         answer_one_line();
         run_until(std::min(wanted_s, drive_.time_s() + most_late_s));
         flash_.keep();

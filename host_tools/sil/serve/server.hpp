@@ -8,9 +8,11 @@
 #include <optional>
 #include <string>
 
+#include "sil/serve/can_ports.hpp"
 #include "sil/serve/endpoints.hpp"
 #include "sil/serve/flash_file.hpp"
 #include "sil/served/control.hpp"
+#include "sil/served/node_number.hpp"
 #include "sil/served/serial_bus.hpp"
 
 namespace sdre {
@@ -23,9 +25,12 @@ struct ServeOptions {
     std::optional<Drive> machine; ///< motor and disc on the bench; the drive's own when not given
     double               cogging_share = 0.0; ///< of the machine, as in Machine
     std::string          flash;               ///< file that keeps the flash; none when empty
-    double               speed_factor = 1.0;
-    double               end_s        = 0.0; ///< simulated time after which it ends; 0: never
-    bool                 boot_rom =
+    CanPortOptions       can;
+    std::optional<int>
+           node; ///< of this drive on the CAN bus, 1 .. 127; as the firmware has it when not given
+    double speed_factor = 1.0;
+    double end_s        = 0.0; ///< simulated time after which it ends; 0: never
+    bool   boot_rom =
         false; ///< the pseudo-terminal is first the boot ROM's, until it has loaded a program
 };
 
@@ -46,6 +51,11 @@ public:
     int tcp_port() const
     {
         return port_of(listeners_.at(Kind::tcp));
+    }
+    /// Port of slcan over TCP, which has to be open.
+    int can_port() const
+    {
+        return can_->tcp_port();
     }
 
 private:
@@ -76,6 +86,8 @@ private:
     void         send(Client &client, const Octets &octets);
     void         write_rest(Client &client);
     void         deliver(const BusRequest &request, const Octets &answer);
+    void         begin_can();
+    void         step_can();
     void         boot();
     void         run_until(double time_s);
     void         wait(double seconds);
@@ -86,6 +98,8 @@ private:
     MotorRecord                     record_;
     SerialBus                       bus_;
     Pace                            pace_;
+    std::optional<CanPorts>         can_;
+    std::optional<NodeNumber>       node_;
     std::unique_ptr<PseudoTerminal> pty_;
     std::map<Kind, Descriptor>      listeners_;
     std::map<long, Client>          clients_;
