@@ -27,7 +27,7 @@ from pathlib import Path
 from typing import Dict, Iterator, List, NamedTuple, Optional, Tuple
 
 ROOT = Path(__file__).resolve().parents[2]
-NEEDS = ("TI's compiler", "TI's headers", "a real port", "minutes", "a cluster")
+NEEDS = ("TI's compiler", "TI's headers", "a real port", "minutes", "a cluster", "python-can")
 ROOMS = ("tools", "long", "drive", "python")
 MARK = re.compile(r"<!-- block: (.*?) -->")
 COMMAND = re.compile(
