@@ -103,7 +103,7 @@ std::int64_t CanWire::suspended_until(const CanMember &member) const
 
 bool CanWire::may_begin(const CanMember &member, std::int64_t now) const
 {
-    return member.bit_rate_Hz() > 0.0 && member.wants() && now >= suspended_until(member);
+    return member.wants() && member.bit_rate_Hz() > 0.0 && now >= suspended_until(member);
 }
 
 /// All who begin now and have the winning identifier.
@@ -165,12 +165,12 @@ void CanWire::plan(std::int64_t now)
 
 void CanWire::begin(std::int64_t now)
 {
-    const std::vector<CanMember *> before = senders_;
-    choose_senders(now);
-    if (senders_.empty()) {
-        senders_ = before; // their suspension may last
+    const bool any = std::any_of(members_.begin(), members_.end(),
+                                 [&](const CanMember *m) { return may_begin(*m, now); });
+    if (!any) {
         return;
     }
+    choose_senders(now);
     bit_rate_Hz_ = senders_.front()->bit_rate_Hz();
     recessive_   = recessive_ticks(now);
     began_       = now;

@@ -3,6 +3,7 @@
 #include "sil/f28335/ecan_unit.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include <fmt/format.h>
 
@@ -169,6 +170,9 @@ void EcanUnit::take_mailboxes(const Report &report)
     if (((ECanaRegs.CANMD.all ^ shown_md_) & shown_me_ & enabled) != 0U) {
         report.say("CANMD: direction changed while the mailbox is enabled");
     }
+    if (std::memcmp(boxes_.data(), const_cast<ECAN_MBOXES *>(&ECanaMboxes), sizeof(boxes_)) == 0) {
+        return;
+    }
     for (int n = 0; n < mailboxes; n++) {
         volatile MBOX &box = mailbox(n);
         const Words    is{box.MSGID.all, box.MSGCTRL.all, box.MDL.all, box.MDH.all};
@@ -187,11 +191,7 @@ void EcanUnit::take_mailboxes(const Report &report)
 
 void EcanUnit::remember()
 {
-    for (int n = 0; n < mailboxes; n++) {
-        const volatile MBOX &box            = mailbox(n);
-        boxes_[static_cast<std::size_t>(n)] = {box.MSGID.all, box.MSGCTRL.all, box.MDL.all,
-                                               box.MDH.all};
-    }
+    std::memcpy(boxes_.data(), const_cast<ECAN_MBOXES *>(&ECanaMboxes), sizeof(boxes_));
 }
 
 /// The bit timing belongs to the configuration.

@@ -91,7 +91,7 @@ private:
             findings.add(kind, text, time_s);
         }
     };
-    using Words = std::array<std::uint32_t, 4>;
+    using Words = std::array<std::uint32_t, 4>; ///< of a mailbox
 
     std::uint32_t taken(volatile Uint64 &reg, std::uint32_t shown, const char *name,
                         const Report &report) const;

@@ -22,6 +22,12 @@ public:
     void check(bool eallow, Findings &findings, double time_s);
 
 private:
+    /// A register that needs EALLOW in a region that does not.
+    struct Part {
+        std::string name;
+        std::size_t offset;
+        std::size_t bytes;
+    };
     struct Region {
         std::string                name;
         unsigned char             *data;
@@ -29,10 +35,12 @@ private:
         bool                       eallow;  ///< needs EALLOW
         std::function<bool()>      clocked; ///< empty: always
         std::vector<unsigned char> copy;
+        std::vector<Part>          parts;
     };
-    void add(const std::string &name, volatile void *data, std::size_t bytes, bool eallow,
-             const std::function<bool()> &clocked = {});
-    void add_can();
+    static void restore_parts(Region &r, Findings &findings, double time_s);
+    void        add(const std::string &name, volatile void *data, std::size_t bytes, bool eallow,
+                    const std::function<bool()> &clocked = {});
+    void        add_can();
     std::vector<Region> regions_;
 };
 
