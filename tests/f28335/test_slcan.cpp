@@ -20,7 +20,7 @@ protected:
     {
         bus.far_end().close();
     }
-    /// What the channel answers to these characters.
+    /// Returns the answer to these characters.
     std::string say(SlcanChannel &channel, const std::string &text)
     {
         Octets go;
@@ -31,7 +31,7 @@ protected:
     {
         return say(one, text);
     }
-    /// What has come from the bus after some time.
+    /// Returns the lines that have come after 2 ms.
     std::string hear(SlcanChannel &channel, double time_s = 0.0)
     {
         for (int n = 0; n < 200; n++) {

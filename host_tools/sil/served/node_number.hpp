@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Gives a served drive its node number on the CAN bus: through a register on its serial line, and then by the command
-/// after which the firmware takes it.
+/// Gives a served drive its node number on the CAN bus. The number goes through a register on its serial line. The
+/// firmware takes it after a command on the bus.
 #pragma once
 
 #include "sil/served/rtu_frame.hpp"

@@ -85,7 +85,7 @@ std::string slcan_line(const CanFrame &frame)
     return line + cr;
 }
 
-/// What is set while the channel is off the bus.
+/// Settings: they are taken while the channel is off the bus.
 std::string SlcanChannel::set_up(const std::string &line)
 {
     if (node_.is_open()) {
