@@ -252,6 +252,36 @@ TEST_F(F28335Can, AMailboxThatIsBeingChangedWaits)
     expect_clean();
 }
 
+TEST_F(F28335Can, TheBitTimingFollowsItsRules)
+{
+    const struct {
+        std::uint32_t btc;
+        bool          allowed;
+    } all[] = {
+        {0x00090152, true},  {0x00000152, false}, // a prescaler of 1
+        {0x00090050, false}, {0x00090051, true},  // one quantum behind the sample
+        {0x00090009, true},  {0x0009000A, false}, // 2 quanta before it, 2 and 3 behind
+        {0x000901D2, true},  {0x000301D2, false}, // three samples with a small prescaler
+        {0x00090252, true},  {0x00090351, false}, // a jump of 3 and 4 quanta
+    };
+    for (const auto &one : all) {
+        can_firmware_btc    = one.btc;
+        can_firmware_joined = 0;
+        start();
+        EXPECT_EQ(can_firmware_joined == 1, one.allowed) << std::hex << one.btc;
+        EXPECT_EQ(finds("no allowed bit timing"), !one.allowed) << std::hex << one.btc;
+    }
+}
+
+TEST_F(F28335Can, TheBitTimingHoldsInOperation)
+{
+    can_firmware_mistake = CAN_MISTAKE_NO_CCR;
+    start();
+    device->run_for(1e-3);
+    EXPECT_EQ(ECanaRegs.CANBTC.all, btc_500);
+    EXPECT_DOUBLE_EQ(device->can().bit_rate_Hz(), 500e3);
+}
+
 struct Mistake {
     can_firmware_mistake_t mistake;
     Finding                kind;

@@ -243,18 +243,18 @@ TEST_F(CanBusTest, AListenerDoesNotAcknowledgeAndDoesNotDisturb)
 
 TEST_F(CanBusTest, AnErrorPassiveSenderLetsOthersGoFirst)
 {
-    for (int n = 0; n < 3; n++) {
-        nodes[n + 1]->close();
-    }
     nodes[0]->send(frame(0x10));
-    pass_bits(3000);
     nodes[0]->send(frame(0x11));
-    nodes[1]->open(rate_Hz);
+    bus.set_fault(CanFault::shorted);
+    while (nodes[0]->errors().transmit() < 160) {
+        pass_bits(1);
+    }
     nodes[1]->send(frame(0x700));
     nodes[1]->send(frame(0x701));
+    bus.set_fault(CanFault::none);
     pass_bits(600);
-    EXPECT_EQ(taken(*nodes[0]), (std::vector<std::uint32_t>{0x700, 0x701}));
-    EXPECT_EQ(taken(*nodes[1]), (std::vector<std::uint32_t>{0x10, 0x11}));
+    // Behind its own frame it waits for 8 bits more.
+    EXPECT_EQ(taken(*nodes[2]), (std::vector<std::uint32_t>{0x700, 0x10, 0x701, 0x11}));
 }
 
 TEST_F(CanBusTest, AQueueHasAnEnd)

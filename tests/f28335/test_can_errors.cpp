@@ -32,6 +32,26 @@ TEST_F(F28335Can, WithoutAcknowledgementItBecomesPassiveAndNoMore)
     expect_clean();
 }
 
+TEST_F(F28335Can, TheFirstBusErrorStaysUntilItIsAcknowledged)
+{
+    start();
+    device->can().set_far_end(std::nullopt, false);
+    request(2);
+    device->run_for(1e-3);
+    ASSERT_EQ(+ECanaRegs.CANES.bit.ACKE, 1);
+    device->can().set_fault(CanFault::shorted);
+    device->run_for(0.3e-3);
+    EXPECT_EQ(+ECanaRegs.CANES.bit.BE, 0);
+    ECanaRegs.CANES.all = 0x00010000; // another flag
+    device->run_for(0.3e-3);
+    EXPECT_EQ(+ECanaRegs.CANES.bit.ACKE, 1);
+    ECanaRegs.CANES.all = 0x00080000;
+    device->run_for(0.3e-3);
+    EXPECT_EQ(+ECanaRegs.CANES.bit.ACKE, 0);
+    EXPECT_EQ(+ECanaRegs.CANES.bit.BE, 1);
+    expect_clean();
+}
+
 TEST_F(F28335Can, APulledCableLeavesItAlone)
 {
     start();
@@ -67,6 +87,19 @@ TEST_F(F28335Can, AShortedPairLeadsToBusOffAndBack)
     EXPECT_EQ(+ECanaRegs.CANTEC.bit.TEC, 0);
     EXPECT_TRUE(device->can().take()); // the request was still there
     expect_clean();
+}
+
+TEST_F(F28335Can, APulledCableDoesNotHastenTheReturn)
+{
+    start();
+    device->can().set_fault(CanFault::shorted);
+    request(2);
+    ASSERT_TRUE(device->run_until([&] { return device->can().bus_off(); }, 5e-3));
+    device->can().set_fault(CanFault::open);
+    pass_bits(128 * 11 - 60);
+    EXPECT_TRUE(device->can().bus_off());
+    pass_bits(90);
+    EXPECT_FALSE(device->can().bus_off());
 }
 
 TEST_F(F28335Can, WithoutAboTheFirmwareEndsBusOff)
@@ -111,6 +144,39 @@ TEST_F(F28335Can, ADominantPairCountsErrorsAndHoldsUpTheReturn)
     pass_bits(128 * 11 + 250);
     EXPECT_FALSE(device->can().bus_off());
     EXPECT_TRUE(device->can().take());
+}
+
+// The gap behind each frame has eleven recessive bits.
+TEST_F(F28335Can, ItJoinsAFullBusAndReturnsToIt)
+{
+    CanBus     bus;
+    CanNode   *nodes[] = {&bus.join(), &bus.join()};
+    const auto fill    = [&] {
+        for (CanNode *node : nodes) {
+            node->open(500e3);
+            while (node->send(standard(0x700))) { // behind what the device sends
+            }
+        }
+    };
+    DeviceOptions with_bus;
+    with_bus.can_bus = &bus;
+    bus.far_end().close();
+    fill();
+    device.emplace(around, can_firmware_main, with_bus);
+    device->run_for(boot_s);
+    EXPECT_EQ(can_firmware_joined, 1);
+    bus.set_fault(CanFault::shorted);
+    request(2);
+    ASSERT_TRUE(device->run_until([&] { return device->can().bus_off(); }, 5e-3));
+    bus.set_fault(CanFault::none);
+    fill();
+    device->run_for(100 * 50 * bit_s); // frames of 50 bits and more
+    EXPECT_TRUE(device->can().bus_off());
+    device->run_for(100 * 60 * bit_s);
+    EXPECT_FALSE(device->can().bus_off());
+    EXPECT_EQ(flag(ECanaRegs.CANTA_word[0].all), 2U);
+    EXPECT_FALSE(bus.idle());
+    device.reset(); // before its bus
 }
 
 TEST_F(F28335Can, AnotherBitRateDestroysAndDoesNotReceive)

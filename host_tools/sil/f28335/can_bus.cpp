@@ -71,9 +71,6 @@ void CanNode::received(const CanFrame &frame)
 void CanNode::failed(CanError error, bool sends)
 {
     errors_.failed(error, sends);
-    if (errors_.bus_off()) {
-        go_.clear();
-    }
 }
 
 CanBus::CanBus() : far_(std::make_unique<CanNode>(*this)), last_rate_Hz_(first_rate_Hz)
