@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* Stand-alone image: stored in flash, the control interrupt runs from RAM. Sections are those of EABI.
  *
- * Sector A holds the boot entry only: next to it are 0x33FF80..0x33FFF5 (has to be 0 where the security
+ * Sector A holds the boot entry too: next to it are 0x33FF80..0x33FFF5 (has to be 0 where the security
  * module is used) and the passwords 0x33FFF8..0x33FFFF (all 0 locks the device for ever). Neither is in any range
  * below, so both stay erased, 0xFFFF. */
 MEMORY
 {
     BEGIN     : origin = 0x33FFF6, length = 0x000002 /* the boot ROM jumps here */
     STORE     : origin = 0x300000, length = 0x020000 /* sectors H to E: board_store_memory; nothing is linked there */
-    FLASH     : origin = 0x320000, length = 0x018000 /* sectors D .. B */
+    FLASH     : origin = 0x320000, length = 0x01F000 /* sectors D .. B, and A far from its end */
 
     RAMM01    : origin = 0x000100, length = 0x000700 /* M0 and M1; 0x000000..0x00004F: stack of the boot ROM */
     RAML0123  : origin = 0x008000, length = 0x004000 /* no wait states, programs and data */

@@ -86,6 +86,23 @@ typedef struct {
     uint16_t direction; /**< 1: a pin is high while the board sends, for a transceiver */
 } board_line_t;
 
+/** A data frame of the CAN bus with an identifier of 11 bits. */
+typedef struct {
+    uint16_t id;
+    uint16_t length;    /**< octets, 0 .. 8 */
+    uint16_t octets[8]; /**< the low eight bits of each count */
+} board_can_frame_t;
+
+/** Identifiers that board_can_listen() takes at most. */
+#define BOARD_CAN_IDS 8U
+
+/** Bits of board_can_state(). */
+enum {
+    BOARD_CAN_PASSIVE = 1, /**< the error counters show a disturbed bus, or one without others */
+    BOARD_CAN_OFF     = 2, /**< too many errors: off the bus until 128 pauses of 11 bits */
+    BOARD_CAN_LOST    = 4  /**< since the last call a frame came that had no room */
+};
+
 /** Cause of the last reset, as far as the processor can tell. It is information only. */
 typedef enum {
     BOARD_RESET_PIN = 0, /**< power, or the reset pin */
@@ -205,5 +222,36 @@ bool board_serial_read(uint16_t *octet);
 
 /** Sends the low eight bits. @return false: the transmit FIFO is full. Context: background. */
 bool board_serial_write(uint16_t octet);
+
+/** True if the board supports this bit rate of the CAN bus. Context: any. */
+bool board_can_fits(uint16_t rate_kbps);
+
+/**
+ * @brief Leaves the CAN bus and returns to it with a supported bit rate.
+ *
+ * Frames that wait are dropped. It takes until a later board_can_state(), which never waits.
+ *
+ * Context: background or init.
+ */
+void board_can_set(uint16_t rate_kbps);
+
+/** Receives frames with these identifiers, and no others. At most BOARD_CAN_IDS. Context:
+ * background or init. */
+void board_can_listen(const uint16_t *ids, uint16_t count);
+
+/** Takes the oldest frame that was received. @return false: there is none. Context: background. */
+bool board_can_read(board_can_frame_t *frame);
+
+/**
+ * @brief Sends a frame when the bus is free. The lowest identifier goes first.
+ *
+ * @return false: no room, or one with the same identifier still waits. Nothing was taken.
+ *
+ * Context: background.
+ */
+bool board_can_write(const board_can_frame_t *frame);
+
+/** BOARD_CAN_ bits. Context: background, in every pass. */
+uint16_t board_can_state(void);
 
 #endif /* BOARD_H */

@@ -66,8 +66,8 @@ TEST_F(F28335Board, ClockRegisters)
     // ADC: 150 / (2 * 3) = 25 MHz. SCI: 150 / (2 * 2) = 37.5 MHz.
     EXPECT_EQ(SysCtrlRegs.HISPCP.all, 3U);
     EXPECT_EQ(SysCtrlRegs.LOSPCP.all, 2U);
-    // TBCLKSYNC 2, ADC 3, SCI-A 10; ePWM1..3 0..2, eQEP1 14; CPU timers 0, 1 8, 9; all the rest off.
-    EXPECT_EQ(SysCtrlRegs.PCLKCR0.all, (1U << 2) | (1U << 3) | (1U << 10));
+    // TBCLKSYNC 2, ADC 3, SCI-A 10, eCAN-A 14; ePWM1..3 0..2, eQEP1 14; CPU timers 0, 1 8, 9; all the rest off.
+    EXPECT_EQ(SysCtrlRegs.PCLKCR0.all, (1U << 2) | (1U << 3) | (1U << 10) | (1U << 14));
     EXPECT_EQ(SysCtrlRegs.PCLKCR1.all, 7U | (1U << 14));
     EXPECT_EQ(SysCtrlRegs.PCLKCR3.all, (1U << 8) | (1U << 9));
     EXPECT_EQ(SysCtrlRegs.MAPCNF.all, 0U);
@@ -215,17 +215,18 @@ TEST_F(F28335Board, PinRegisters)
 {
     start();
     // Two bits a pin. First register: ePWM1A..3B on 0..5, TZ1 on 12. Second register, from pin 16:
-    // eQEP1A, B, I on 20, 21, 23 and SCI-A on 28, 29.
+    // eQEP1A, B, I on 20, 21, 23, SCI-A on 28, 29 and eCAN-A on 30, 31.
     EXPECT_EQ(GpioCtrlRegs.GPAMUX1.all, 0x555U | (1UL << 24));
-    EXPECT_EQ(GpioCtrlRegs.GPAMUX2.all,
-              (1UL << 8) | (1UL << 10) | (1UL << 14) | (1UL << 24) | (1UL << 26));
+    EXPECT_EQ(GpioCtrlRegs.GPAMUX2.all, (1UL << 8) | (1UL << 10) | (1UL << 14) | (1UL << 24) |
+                                            (1UL << 26) | (1UL << 28) | (1UL << 30));
     // Outputs: the six gates and the driver's enable on 6.
     EXPECT_EQ(GpioCtrlRegs.GPADIR.all, 0x7FU);
     // Pull-ups off: reset value 0xFFF, and pin 12, which the board pulls down.
     EXPECT_EQ(GpioCtrlRegs.GPAPUD.all, 0xFFFUL | (1UL << 12) | (1UL << 27));
-    // TZ1 asynchronous 3; encoder six samples 2; receiver asynchronous 3.
+    // TZ1 asynchronous 3; encoder six samples 2; both receivers asynchronous 3.
     EXPECT_EQ(GpioCtrlRegs.GPAQSEL1.all, 3UL << 24);
-    EXPECT_EQ(GpioCtrlRegs.GPAQSEL2.all, (2UL << 8) | (2UL << 10) | (2UL << 14) | (3UL << 24));
+    EXPECT_EQ(GpioCtrlRegs.GPAQSEL2.all,
+              (2UL << 8) | (2UL << 10) | (2UL << 14) | (3UL << 24) | (3UL << 28));
     EXPECT_EQ(GpioCtrlRegs.GPACTRL.all, 2UL << 16);
     EXPECT_EQ(GpioCtrlRegs.GPBMUX1.all | GpioCtrlRegs.GPBMUX2.all | GpioCtrlRegs.GPBDIR.all, 0U);
 }

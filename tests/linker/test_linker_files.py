@@ -228,7 +228,7 @@ def check_registers(text):
     for source in (*BOARD.glob("*.c"), *BOARD.glob("*.h")):
         used |= set(
             re.findall(
-                r"\b(\w+Regs|AdcMirror|PieVectTable|ADC_cal|board_store_memory)\b",
+                r"\b(\w+Regs|ECanaMboxes|AdcMirror|PieVectTable|ADC_cal|board_store_memory)\b",
                 source.read_text(),
             )
         )
@@ -238,11 +238,11 @@ def check_registers(text):
 
 # image, text, what it becomes, part of the reason
 MUTANTS = [
-    ("flash", "length = 0x018000", "length = 0x01FFF7", "security module"),
-    ("flash", "length = 0x018000", "length = 0x01FF81", "security module"),
+    ("flash", "length = 0x01F000", "length = 0x01FFF7", "security module"),
+    ("flash", "length = 0x01F000", "length = 0x01FF81", "security module"),
     (
         "flash",
-        "FLASH     : origin = 0x320000, length = 0x018000",
+        "FLASH     : origin = 0x320000, length = 0x01F000",
         "FLASH     : origin = 0x318000, length = 0x020000",
         "overlap",
     ),

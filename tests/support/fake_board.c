@@ -17,9 +17,12 @@ void fake_board_reset(void)
                                  .index_cnt       = 0U,
                                  .index_seen      = false,
                                  .valid           = true};
-    const fake_board_t   none = {
-          .init_result = true, .sample = rest, .serial_room = 1 << 20, .store_budget = -1};
-    fake_board = none;
+    const fake_board_t   none = {.init_result  = true,
+                                 .sample       = rest,
+                                 .serial_room  = 1 << 20,
+                                 .can_room     = 1 << 20,
+                                 .store_budget = -1};
+    fake_board                = none;
 }
 
 static void note(fake_board_event_t event)
@@ -231,4 +234,49 @@ bool board_serial_write(uint16_t octet)
     fake_board.serial_room--;
     push(&fake_board.tx, (int)octet);
     return true;
+}
+
+bool board_can_fits(uint16_t rate_kbps)
+{
+    return (rate_kbps == 125U) || (rate_kbps == 250U) || (rate_kbps == 500U) ||
+           (rate_kbps == 1000U);
+}
+
+void board_can_set(uint16_t rate_kbps)
+{
+    fake_board.can_rate_kbps = rate_kbps;
+    fake_board.can_starts++;
+}
+
+void board_can_listen(const uint16_t *ids, uint16_t count)
+{
+    memcpy(fake_board.can_ids, ids, count * sizeof ids[0]);
+    fake_board.can_id_count = count;
+}
+
+bool board_can_read(board_can_frame_t *frame)
+{
+    if (fake_board.can_rx_count == 0) {
+        return false;
+    }
+    *frame = fake_board.can_rx[0];
+    fake_board.can_rx_count--;
+    memmove(&fake_board.can_rx[0], &fake_board.can_rx[1],
+            (size_t)fake_board.can_rx_count * sizeof fake_board.can_rx[0]);
+    return true;
+}
+
+bool board_can_write(const board_can_frame_t *frame)
+{
+    if ((fake_board.can_room == 0) || (fake_board.can_tx_count == FAKE_BOARD_FRAMES)) {
+        return false;
+    }
+    fake_board.can_room--;
+    fake_board.can_tx[fake_board.can_tx_count++] = *frame;
+    return true;
+}
+
+uint16_t board_can_state(void)
+{
+    return fake_board.can_state;
 }

@@ -10,6 +10,7 @@
 
 #define FAKE_BOARD_QUEUE  1024
 #define FAKE_BOARD_EVENTS 64
+#define FAKE_BOARD_FRAMES 64 /* of each direction */
 
 #ifdef __cplusplus
 extern "C" {
@@ -48,7 +49,17 @@ typedef struct {
     int                  store_budget; /* words that may still be erased or written before the power fails; negative: no end */
     uint32_t             cycles;
     uint32_t             cycles_per_read;
-    board_line_t         line;        /* that was set */
+    board_line_t         line;                      /* that was set */
+    board_can_frame_t    can_rx[FAKE_BOARD_FRAMES]; /* to be read, in this order */
+    int                  can_rx_count;
+    board_can_frame_t    can_tx[FAKE_BOARD_FRAMES]; /* written */
+    int                  can_tx_count;
+    int                  can_room; /* frames that the bus takes before it is full */
+    uint16_t             can_rate_kbps;
+    int                  can_starts; /* calls of board_can_set() */
+    uint16_t             can_state;
+    uint16_t             can_ids[BOARD_CAN_IDS];
+    uint16_t             can_id_count;
     int                  serial_room; /* octets that the transmitter takes before it is full */
     void (*tick)(void);
     uint16_t           updates; /* per PWM period */

@@ -64,6 +64,7 @@ LIBRARY = {
     "memcpy",
     "memset",
     "f28335_asm",
+    "f28335_ecan_access",
     "f28335_delay_us",
     "f28335_scirxbuf_access",
     "f28335_scitxbuf_access",

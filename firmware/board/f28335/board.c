@@ -47,6 +47,7 @@ bool board_init(const board_setup_t *setup)
     encoder_init(setup);
     adc_init(setup);
     serial_init();
+    can_init();
     return true;
 }
 

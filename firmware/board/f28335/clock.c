@@ -54,6 +54,7 @@ void clock_peripherals(void)
 
     SysCtrlRegs.PCLKCR0.bit.ADCENCLK       = 1U;
     SysCtrlRegs.PCLKCR0.bit.SCIAENCLK      = 1U;
+    SysCtrlRegs.PCLKCR0.bit.ECANAENCLK     = 1U;
     SysCtrlRegs.PCLKCR1.bit.EPWM1ENCLK     = 1U;
     SysCtrlRegs.PCLKCR1.bit.EPWM2ENCLK     = 1U;
     SysCtrlRegs.PCLKCR1.bit.EPWM3ENCLK     = 1U;

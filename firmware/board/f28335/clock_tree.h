@@ -47,6 +47,19 @@
      ((CLOCK_BAUD_ACTUAL_Hz(baud_Bd) * 100UL) <= ((baud_Bd)*102UL)) &&                             \
      ((CLOCK_BAUD_ACTUAL_Hz(baud_Bd) * 100UL) >= ((baud_Bd)*98UL)))
 
+/** Clock of the CAN module: half the system clock. */
+#define CLOCK_CAN_Hz (CLOCK_SYSCLK_Hz / 2UL)
+/** Time quanta of a bit: one, TSEG1 before the sample point, TSEG2 after it. Chosen: the sample
+ *  point at 13 / 15 of a bit is as near to 7 / 8 as whole prescalers allow at all four rates. */
+#define CLOCK_CAN_TSEG1 12UL
+#define CLOCK_CAN_TSEG2 2UL
+#define CLOCK_CAN_SJW   2UL
+#define CLOCK_CAN_BIT   (1UL + CLOCK_CAN_TSEG1 + CLOCK_CAN_TSEG2)
+/** Prescaler of a bit rate. It is whole for 125, 250, 500 and 1000 kbit/s, but not for 800. */
+#define CLOCK_CAN_PRESCALER(rate_kbps) (CLOCK_CAN_Hz / (CLOCK_CAN_BIT * 1000UL * (rate_kbps)))
+#define CLOCK_CAN_FITS(rate_kbps)                                                                  \
+    ((CLOCK_CAN_PRESCALER(rate_kbps) * CLOCK_CAN_BIT * 1000UL * (rate_kbps)) == CLOCK_CAN_Hz)
+
 /** Longest background pass. Chosen: 0.4 ms with the longest frame, doubled for the interrupt. */
 #define CLOCK_PASS_MAX_us 1000UL
 /** The watchdog's period: 256 * 512 crystal cycles. */
@@ -68,6 +81,10 @@
 #endif
 #if !CLOCK_FIFO_OUTLASTS_PASS(CLOCK_BAUD_Hz)
 #error "at the fastest rate the receiver's FIFO does not outlast a pass of the background"
+#endif
+#if !CLOCK_CAN_FITS(125UL) || !CLOCK_CAN_FITS(250UL) || !CLOCK_CAN_FITS(500UL) ||                  \
+    !CLOCK_CAN_FITS(1000UL)
+#error "a bit rate of can.c has no whole prescaler"
 #endif
 #if (4UL * CLOCK_PASS_MAX_us) > CLOCK_WATCHDOG_us
 #error "the watchdog's period is less than four passes of the background"

@@ -48,6 +48,11 @@ void gpio_connect(void)
     GpioCtrlRegs.GPAMUX2.bit.GPIO28  = 1U; /* SCIRXDA */
     GpioCtrlRegs.GPAMUX2.bit.GPIO29  = 1U; /* SCITXDA */
 
+    GpioCtrlRegs.GPAPUD.bit.GPIO30   = 0U; /* an open input reads recessive */
+    GpioCtrlRegs.GPAQSEL2.bit.GPIO30 = QUALIFY_ASYNC;
+    GpioCtrlRegs.GPAMUX2.bit.GPIO30  = 1U; /* CANRXA */
+    GpioCtrlRegs.GPAMUX2.bit.GPIO31  = 1U; /* CANTXA */
+
     GpioCtrlRegs.GPAMUX1.bit.GPIO0 = 1U; /* EPWM1A .. EPWM3B, held low by the trip */
     GpioCtrlRegs.GPAMUX1.bit.GPIO1 = 1U;
     GpioCtrlRegs.GPAMUX1.bit.GPIO2 = 1U;

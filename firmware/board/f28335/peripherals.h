@@ -70,6 +70,8 @@ void watchdog_start(void);
 
 void serial_init(void);
 
+void can_init(void); /**< off the bus until board_can_set() */
+
 void line_init(bool     uses_direction,
                uint32_t cycles_per_bit); /**< listens. Context: init or loader */
 bool line_is_sending(void);              /**< an octet is on its way. Context: any */

@@ -219,3 +219,37 @@ bool board_serial_write(uint16_t octet)
     (void)octet;
     return true;
 }
+
+bool board_can_fits(uint16_t rate_kbps)
+{
+    (void)rate_kbps;
+    return true;
+}
+
+void board_can_set(uint16_t rate_kbps)
+{
+    (void)rate_kbps;
+}
+
+void board_can_listen(const uint16_t *ids, uint16_t count)
+{
+    (void)ids;
+    (void)count;
+}
+
+bool board_can_read(board_can_frame_t *frame)
+{
+    (void)frame;
+    return false;
+}
+
+bool board_can_write(const board_can_frame_t *frame)
+{
+    (void)frame;
+    return true;
+}
+
+uint16_t board_can_state(void)
+{
+    return 0U;
+}

@@ -57,6 +57,12 @@ bool                  f28335_board_memory_is_whole(void);
 void                  f28335_board_watchdog_serve(void);
 bool                  f28335_board_serial_read(uint16_t *octet);
 bool                  f28335_board_serial_write(uint16_t octet);
+bool                  f28335_board_can_fits(uint16_t rate_kbps);
+void                  f28335_board_can_set(uint16_t rate_kbps);
+void                  f28335_board_can_listen(const uint16_t *ids, uint16_t count);
+bool                  f28335_board_can_read(board_can_frame_t *frame);
+bool                  f28335_board_can_write(const board_can_frame_t *frame);
+uint16_t              f28335_board_can_state(void);
 
 // The fake has no store and never restarts.
 
@@ -198,5 +204,39 @@ bool board_serial_read(uint16_t *octet)
 bool board_serial_write(uint16_t octet)
 {
     return the_fake != nullptr || f28335_board_serial_write(octet); // the fake has no client
+}
+
+bool board_can_fits(uint16_t rate_kbps)
+{
+    return f28335_board_can_fits(rate_kbps);
+}
+
+void board_can_set(uint16_t rate_kbps)
+{
+    if (the_fake == nullptr) {
+        f28335_board_can_set(rate_kbps);
+    }
+}
+
+void board_can_listen(const uint16_t *ids, uint16_t count)
+{
+    if (the_fake == nullptr) {
+        f28335_board_can_listen(ids, count);
+    }
+}
+
+bool board_can_read(board_can_frame_t *frame)
+{
+    return the_fake == nullptr && f28335_board_can_read(frame);
+}
+
+bool board_can_write(const board_can_frame_t *frame)
+{
+    return the_fake != nullptr || f28335_board_can_write(frame);
+}
+
+uint16_t board_can_state()
+{
+    return the_fake != nullptr ? std::uint16_t{0} : f28335_board_can_state();
 }
 }

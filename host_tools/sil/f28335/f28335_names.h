@@ -14,6 +14,12 @@
 #define board_store            f28335_board_store
 #define board_store_erase      f28335_board_store_erase
 #define board_store_program    f28335_board_store_program
+#define board_can_fits         f28335_board_can_fits
+#define board_can_set          f28335_board_can_set
+#define board_can_listen       f28335_board_can_listen
+#define board_can_read         f28335_board_can_read
+#define board_can_write        f28335_board_can_write
+#define board_can_state        f28335_board_can_state
 #define board_start            f28335_board_start
 #define board_sample           f28335_board_sample
 #define board_duty_write       f28335_board_duty_write
