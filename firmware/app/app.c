@@ -151,6 +151,7 @@ ctl_status_t app_init(const app_config_t *config, const drive_config_t *drive)
     const ctl_status_t registers =
         app_registers_init(&app_line.registers, &tick_side.config, drive);
 
+    app_canopen_init(&app_line.canopen, drive->ts_s);
     app_scope_init(&traces.scope);
     app_record_init(&traces.record);
     app_line.registers.scope     = &traces.scope;
@@ -399,7 +400,8 @@ static void restart_when_asked(uint32_t now_ticks)
     app_loader_t    *l    = &app_line.loader;
     app_registers_t *r    = &app_line.registers;
     const bool       on   = r->status.gate_enable;
-    const bool       idle = app_modbus_is_quiet(&app_line.modbus, now_ticks);
+    const bool       idle = app_modbus_is_quiet(&app_line.modbus, now_ticks) &&
+                      app_canopen_is_quiet(&app_line.canopen, now_ticks);
     const bool store = !on && (r->requested.store_command != (uint16_t)APP_PARAMETERS_NO_COMMAND);
 
     l->restart = l->restart && !on;
@@ -408,6 +410,9 @@ static void restart_when_asked(uint32_t now_ticks)
     }
     if ((store || l->restart) && idle) {
         board_restart(store || l->enter);
+    }
+    if (app_line.canopen.restart && !on) {
+        board_restart(false);
     }
     if (on) {
         r->requested.store_command = (uint16_t)APP_PARAMETERS_NO_COMMAND;
@@ -485,6 +490,7 @@ void app_background(void)
     app_registers_see_trim(r, &tick_side.modes.scale);
     app_parameters_rest(&app_line.parameters, (float)now_ticks * tick_side.drive->ts_s);
     app_modbus_poll(&app_line.modbus, r, now_ticks);
+    app_canopen_poll(&app_line.canopen, r, now_ticks);
     choose_constants(r);
     if (r->changed && app_command_write(&r->requested.objects)) {
         r->changed = false;
@@ -515,6 +521,7 @@ void app_take_parameters(app_parameters_done_t done)
     tick_side.modes.locked =
         tick_side.modes.locked || (app_line.parameters.state == APP_PARAMETERS_LOST);
     board_line_set(&r->requested.line);
+    app_canopen_start(&app_line.canopen, r);
     app_modbus_follow(&app_line.modbus, &r->requested.line, tick_side.drive->ts_s,
                       tick_side.config.modbus_gap_ticks);
 }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Generates from firmware/app/registers/registers.toml: the firmware's map, its documentation as
-tables and as CSV, the client's names, the tables of the page in a browser.
+tables and as CSV, the client's names, the tables of the page in a browser. CANopen objects too.
 
     python3 host_tools/registers/generate.py            writes what has changed
     python3 host_tools/registers/generate.py --check    says what would change; exit code 1 then
@@ -18,10 +18,11 @@ from typing import Dict, List
 
 sys.path.insert(0, str(Path(__file__).parent))
 
+import canopen_map  # noqa: E402
 from browser_tables import page_text  # noqa: E402
 from c_map import header, source, types  # noqa: E402
 from c_signals import signals_header, signals_source  # noqa: E402
-from table import Group, Register, Signal, TableError, read, signals  # noqa: E402
+from table import Fixed, Group, Register, Signal, TableError, fixed, read, signals  # noqa: E402
 from versions import digest_of, require_different_ids, saved, version  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -78,15 +79,13 @@ def signals_text(found: List[Signal]) -> str:
     return "\n".join(lines + [f"| {s.number} | `{s.name}` | {s.unit} |" for s in found])
 
 
-def documented(groups: List[Group], found: List[Signal], before: str) -> str:
-    """docs/modbus.md with new tables."""
-    text = before
-    tables = {g.name: table_text(g) for g in groups}
-    tables["signals"] = signals_text(found)
+def documented(path: Path, tables: Dict[str, str]) -> str:
+    """A page with new tables."""
+    text = path.read_text(encoding="utf-8")
     for name, table in tables.items():
         mark = MARK.format(name=name)
         if mark not in text:
-            raise TableError(f"docs/modbus.md has no place for {name}: {mark}")
+            raise TableError(f"{path.relative_to(ROOT)} has no place for {name}: {mark}")
         new = f"{mark}\n\n{table}\n\n{END}"
         text = re.sub(
             re.escape(mark) + r".*?" + re.escape(END), lambda _, n=new: n, text, count=1, flags=re.S
@@ -215,16 +214,24 @@ def python_text(groups: List[Group], found: List[Signal]) -> str:
     return "\n".join([*lines, ")"]) + "\n"
 
 
-def files(groups: List[Group], found: List[Signal]) -> Dict[Path, str]:
+def files(groups: List[Group], found: List[Signal], constants: List[Fixed]) -> Dict[Path, str]:
     """Every file and what has to be in it."""
-    doc = ROOT / "docs/modbus.md"
+    modbus = ROOT / "docs/modbus.md"
+    canopen = ROOT / "docs/canopen.md"
+    tables = {g.name: table_text(g) for g in groups}
+    tables["signals"] = signals_text(found)
+    objects = {"objects": canopen_map.objects_text(groups, constants)}
     return {
         ROOT / "firmware/app/registers/app_registers_map.h": header(groups),
         ROOT / "firmware/app/registers/app_registers_map.c": source(groups),
         ROOT / "tests/unit/app/registers/register_types.h": types(groups),
         ROOT / "firmware/app/trace/app_scope_signals.h": signals_header(found),
         ROOT / "firmware/app/trace/app_scope_signals.c": signals_source(found),
-        doc: documented(groups, found, doc.read_text(encoding="utf-8")),
+        modbus: documented(modbus, tables),
+        canopen: documented(canopen, objects),
+        ROOT / "firmware/app/canopen/app_canopen_map.h": canopen_map.header(groups, constants),
+        ROOT / "firmware/app/canopen/app_canopen_map.c": canopen_map.source(groups, constants),
+        ROOT / "docs/sdre-drive.eds": canopen_map.eds(groups, constants),
         ROOT / "docs/registers.csv": csv_text(groups),
         ROOT / "host_tools/python/sdre_drive/register_map.py": python_text(groups, found),
         ROOT / "host_tools/python/sdre_drive/page/static/direct/tables.js": page_text(
@@ -242,7 +249,7 @@ def main() -> int:
     try:
         groups = read(TABLE)
         require_different_ids(groups)
-        wanted = files(groups, signals(TABLE))
+        wanted = files(groups, signals(TABLE), fixed(TABLE))
     except (TableError, KeyError) as e:
         print(f"registers.toml: {e}", file=sys.stderr)
         return 1

@@ -17,6 +17,7 @@ HOMES = ("requested", "status", "drive", "config")
 MEMBERS = ("u16", "i16", "u32", "i32", "float", "bool")
 WORDS = {"u16": 1, "i16": 1, "u32": 2, "i32": 2, "dec": 2}
 SPACES = ("holding", "input")
+OBJECTS = ("u8", "i8", "u16", "i16", "u32", "i32")
 KEYS = {
     "name",
     "type",
@@ -33,6 +34,8 @@ KEYS = {
     "saved",
     "signature",
     "object",
+    "can",
+    "sub",
     "text",
     "note",
 }
@@ -63,6 +66,8 @@ class Register:
     saved: bool
     signature: int
     object: str
+    can: str
+    sub: int
     text: str
     note: str
 
@@ -109,6 +114,19 @@ class Group:
 
 
 @dataclass(frozen=True)
+class Fixed:
+    """A constant object of CANopen; without a value the version of the project."""
+
+    name: str
+    object: str
+    sub: int
+    type: str
+    value: Optional[int]
+    writable: bool
+    text: str
+
+
+@dataclass(frozen=True)
 class Signal:
     """A signal of the scope."""
 
@@ -125,6 +143,24 @@ def signals(path: Path) -> List[Signal]:
     return [Signal(n, s["name"], s["unit"], s["from"]) for n, s in enumerate(found)]
 
 
+def fixed(path: Path) -> List[Fixed]:
+    """Constant objects."""
+    with path.open("rb") as f:
+        found = tomllib.load(f)["fixed"]
+    return [
+        Fixed(
+            o["name"],
+            o["object"],
+            o.get("sub", 0),
+            o["type"],
+            o.get("value"),
+            o.get("writable", False),
+            o["text"],
+        )
+        for o in found
+    ]
+
+
 def _register(keys: Dict[str, Any], address: int, space: str) -> Register:
     name = keys.get("name", "?")
     if not keys.keys() <= KEYS or not {"name", "type", "text"} <= keys.keys():
@@ -133,6 +169,8 @@ def _register(keys: Dict[str, Any], address: int, space: str) -> Register:
         raise TableError(f"{name}: type {keys['type']}")
     if ("at" in keys) == ("from" in keys) or ("at" in keys and "to" in keys):
         raise TableError(f"{name}: either at, or from and to")
+    if keys.get("can", "u16") not in OBJECTS:
+        raise TableError(f"{name}: can {keys['can']}")
     home, _, member = keys.get("at", "").partition(".")
     real = "step" in keys or keys["type"] == "dec"
     kind = keys.get("c", "float" if real else keys["type"])
@@ -170,6 +208,8 @@ def _register(keys: Dict[str, Any], address: int, space: str) -> Register:
         saved=keys.get("saved", False),
         signature=signature,
         object=keys.get("object", ""),
+        can=keys.get("can", ""),
+        sub=keys.get("sub", 0),
         text=keys["text"],
         note=keys.get("note", ""),
     )

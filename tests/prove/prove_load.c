@@ -41,6 +41,12 @@ bool board_line_fits(const board_line_t *line)
     return any_bool();
 }
 
+bool board_can_fits(uint16_t rate_kbps)
+{
+    (void)rate_kbps;
+    return any_bool();
+}
+
 bool board_fits(const board_setup_t *setup)
 {
     (void)setup;

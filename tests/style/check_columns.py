@@ -11,6 +11,8 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COLUMNS = 100  # of .clang-format, which leaves comments as they are
 GENERATED = {
+    "firmware/app/canopen/app_canopen_map.c",
+    "firmware/app/canopen/app_canopen_map.h",
     "firmware/app/registers/app_registers_map.c",
     "firmware/app/trace/app_scope_signals.c",
     "firmware/config/board_config.c",

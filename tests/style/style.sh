@@ -28,7 +28,7 @@ tidy()
 
 mapfile -t c_like < <(git ls-files '*.c' '*.h' '*.cpp' '*.hpp')
 # The generated map has rows alike.
-mapfile -t core < <(git ls-files firmware/{control,commission,store,app,one_unit}'/*.c' | grep -vx 'firmware/app/registers/app_registers_map\.c')
+mapfile -t core < <(git ls-files firmware/{control,commission,store,app,one_unit}'/*.c' | grep -vxE 'firmware/app/(registers/app_registers|canopen/app_canopen)_map\.c')
 mapfile -t board < <(git ls-files 'firmware/board/f28335/*.c')
 mapfile -t includes < <(find firmware/{control,commission,store,config,app} -type d -printf '-I%p\n')
 

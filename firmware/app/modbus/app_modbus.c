@@ -172,7 +172,8 @@ void app_modbus_poll(app_modbus_t *m, app_registers_t *r, uint32_t now_ticks)
         ((uint32_t)(now_ticks - m->heard_ticks) >= (uint32_t)m->gap_ticks)) {
         end_frame(m, r, now_ticks);
     }
-    if ((uint32_t)(now_ticks - m->request_ticks) > r->requested.modbus_timeout_ticks) {
+    if (!r->by_can &&
+        ((uint32_t)(now_ticks - m->request_ticks) > r->requested.modbus_timeout_ticks)) {
         app_registers_silence(r);
     }
 }

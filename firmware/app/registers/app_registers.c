@@ -9,6 +9,10 @@
 #define RPM_PER_RADPS 9.54929659f /* 60 / (2 pi) */
 #define ADDRESS_MAX   247U        /* by the protocol */
 
+/* Defaults. Chosen: the lowest number, and the rate that most masters begin with. */
+#define CAN_NODE      1U
+#define CAN_RATE_kbps 500U
+
 typedef struct {
     const app_registers_entry_t *entries;
     uint16_t                     count;
@@ -39,6 +43,8 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
     r->map                            = NULL;
     r->requested.modbus_address       = config->modbus_address;
     r->requested.modbus_timeout_ticks = config->modbus_timeout_ticks;
+    r->requested.can_node             = CAN_NODE;
+    r->requested.can_rate_kbps        = CAN_RATE_kbps;
     r->config                         = config;
     r->drive                          = drive;
     r->rpm_per_e_radps                = RPM_PER_RADPS / ((pairs > 0U) ? (float)pairs : 1.0f);
@@ -48,6 +54,7 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
     r->trial   = r->requested;
     r->changed = false;
     r->silent  = false;
+    r->by_can  = false;
     r->loader  = NULL;
     app_watch_ring_reset(&r->ring);
     return ((config->modbus_address >= 1U) && (config->modbus_address <= ADDRESS_MAX) &&

@@ -78,6 +78,8 @@ typedef struct app_registers_request {
     uint16_t          modbus_address;
     uint32_t          modbus_timeout_ticks;
     board_line_t      line;
+    uint16_t          can_node; /**< 1 .. 127 */
+    uint16_t          can_rate_kbps;
     uint16_t          store_command; /**< app_parameters_command_t */
 #if APP_WATCH_INERTIA
     uint16_t inertia_start; /**< INERTIA_START, in thousandths; 0: the law keeps the drive's */
@@ -110,6 +112,7 @@ typedef struct app_registers {
     const app_parameters_t          *parameters; /**< NULL: they cannot be stored now */
     bool                             changed;    /**< command is new; its taker clears this */
     bool                             silent;     /**< stopped by a communication time-out */
+    bool                             by_can;     /**< CAN wrote the control word last */
 } app_registers_t;
 
 /**

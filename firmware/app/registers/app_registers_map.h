@@ -12,9 +12,9 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "23bb3057" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "4ca85270" /**< of what a master can see of the map */
 
-#define APP_REGISTERS_SAVED 23U /**< parameters */
+#define APP_REGISTERS_SAVED 25U /**< parameters */
 
 /** Holding registers: those of two words are named by the first. */
 enum {
@@ -81,7 +81,11 @@ enum {
     APP_REGISTERS_VELOCITY_OFFSET = 256,
     APP_REGISTERS_INTERPOLATION_PERIOD = 258,
     APP_REGISTERS_CYCLIC_FIRST = 256,
-    APP_REGISTERS_CYCLIC_END = 259
+    APP_REGISTERS_CYCLIC_END = 259,
+    APP_REGISTERS_CAN_NODE = 288,
+    APP_REGISTERS_CAN_RATE = 289,
+    APP_REGISTERS_CAN_FIRST = 288,
+    APP_REGISTERS_CAN_END = 290
 };
 
 /** Input registers: those of two words are named by the first. */
@@ -298,7 +302,7 @@ typedef struct {
 struct app_registers;
 struct app_registers_request;
 
-#define APP_REGISTERS_MAP_HOLDING 48U
+#define APP_REGISTERS_MAP_HOLDING 50U
 
 #define APP_REGISTERS_MAP_INPUT 143U
 

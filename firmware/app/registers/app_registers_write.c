@@ -82,7 +82,7 @@ static bool may_be_requested(const app_registers_t *r, const app_registers_reque
     const float most = r->drive->speed_max_e_radps;
     return base_in_range(w->objects.omega_e_radps, -most, most) &&
            app_control_knows(&w->objects, r->drive) && app_scope_knows(&w->scope) &&
-           board_line_fits(&w->line);
+           board_line_fits(&w->line) && board_can_fits(w->can_rate_kbps);
 }
 
 /* True if the range contains no half of a two-word value. */
@@ -163,6 +163,7 @@ app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, u
     r->requested = r->trial;
     command_scope(r);
     r->silent  = r->silent && !app_control_enables(r->requested.objects.controlword);
+    r->by_can  = r->by_can && (first != (uint16_t)APP_REGISTERS_CONTROLWORD);
     r->changed = true;
     return APP_REGISTERS_OK;
 }

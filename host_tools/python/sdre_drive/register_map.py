@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "23bb3057"
+DIGEST = "4ca85270"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -101,6 +101,11 @@ TORQUE: Tuple[Register, ...] = (  # holding
 CYCLIC: Tuple[Register, ...] = (  # holding
     Register("VELOCITY_OFFSET", 256, "i32", 0.1, "r/min"),
     Register("INTERPOLATION_PERIOD", 258, "u16", 0.001, "s"),
+)
+
+CAN: Tuple[Register, ...] = (  # holding
+    Register("CAN_NODE", 288, "u16", 0.0, ""),
+    Register("CAN_RATE", 289, "u16", 0.0, "kbit/s"),
 )
 
 LIVE: Tuple[Register, ...] = (  # input
@@ -276,11 +281,11 @@ TORQUE_NOW: Tuple[Register, ...] = (  # input
     Register("RATED_TORQUE", 324, "u32", 0.001, "N m"),
 )
 
-HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET, *TRIM, *TORQUE, *CYCLIC)
+HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET, *TRIM, *TORQUE, *CYCLIC, *CAN)
 INPUT = (*LIVE, *POSITION, *SHAFT, *TRIMMED, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS, *MAP, *TORQUE_NOW)
 
 # Blocks that hold parameters.
-PARAMETER_BLOCKS = (COMMAND, LINE, TARGET, TRIM, TORQUE, CYCLIC,)
+PARAMETER_BLOCKS = (COMMAND, LINE, TARGET, TRIM, TORQUE, CYCLIC, CAN,)
 
 BY_NAME = {r.name: r for r in (*HOLDING, *INPUT)}
 
@@ -308,6 +313,8 @@ PARAMETERS: Tuple[Parameter, ...] = (
     Parameter(BY_NAME["TORQUE_SLOPE"], 0, 1000000.0, 0.0, False, "6087h", "profile torque; 0: a step"),
     Parameter(BY_NAME["TORQUE_SPEED_MAX"], 0, 10000000.0, 0.0, False, "6080h", "speed limit of a torque, either way; 0: SPEED_MAX. It acts up to SPEED_MAX. The torque that exceeds the limit is taken away, and the drive brakes a shaft that a load drives beyond it."),
     Parameter(BY_NAME["INTERPOLATION_PERIOD"], 0.001, 0.1, 0.01, False, "60C2h", "between two set-points"),
+    Parameter(BY_NAME["CAN_NODE"], 1, 127, 1.0, False, "", "node number. It and CAN_RATE act after a restart, or after the NMT command \"reset communication\"."),
+    Parameter(BY_NAME["CAN_RATE"], 125, 1000, 500.0, False, "", "125, 250, 500 or 1000"),
 )
 
 # Signals of the scope by number: name and unit.

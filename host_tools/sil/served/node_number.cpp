@@ -5,10 +5,14 @@
 
 #include "common/errors.hpp"
 
+extern "C" {
+#include "app_registers_map.h"
+}
+
 namespace sdre {
 namespace {
 
-constexpr unsigned     node_register       = 288;  // CAN_NODE
+constexpr unsigned     node_register       = APP_REGISTERS_CAN_NODE;
 constexpr std::uint8_t write_one           = 6;    // function of Modbus
 constexpr std::uint8_t reset_communication = 0x82; // command of CiA 301; node 0: all
 constexpr double       patience_s          = 2.0;  // chosen: beyond a whole return from bus-off

@@ -13,6 +13,8 @@ static void register_types(void)
 {
     IS(app_config_t, temperature_limit_degC, float);
     IS(app_config_t, temperature_trip_degC, float);
+    IS(app_registers_request_t, can_node, uint16_t);
+    IS(app_registers_request_t, can_rate_kbps, uint16_t);
     IS(app_registers_request_t, line.baud_Bd, uint32_t);
     IS(app_registers_request_t, line.direction, uint16_t);
     IS(app_registers_request_t, line.format, uint16_t);

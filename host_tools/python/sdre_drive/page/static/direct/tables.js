@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Generated from firmware/app/registers/registers.toml and the words of sdre_drive. Do not edit: host_tools/registers/generate.py.
 
-export const DIGEST = "23bb3057";
+export const DIGEST = "4ca85270";
 export const VERSION = "1.0.0";
 export const GROUPS = {
   "COMMAND": {"space": "holding", "registers": [["CONTROLWORD", 0, "u16", 0, "bits"], ["MODE_OF_OPERATION", 1, "i16", 0, ""], ["SPEED", 2, "i32", 0.1, "rad/s electrical"], ["SPEED_RPM", 4, "i32", 0.1, "r/min"], ["SPEED_RPM_16", 6, "i16", 1.0, "r/min"], ["ACCELERATION", 7, "u32", 1.0, "rad/s2 electrical"], ["DECELERATION", 9, "u32", 1.0, "rad/s2 electrical"], ["QUICK_STOP_DECELERATION", 11, "u32", 1.0, "rad/s2 electrical"], ["QUICK_STOP_OPTION", 13, "i16", 0, ""], ["SHUTDOWN_OPTION", 14, "i16", 0, ""], ["DISABLE_OPTION", 15, "i16", 0, ""], ["LOST_OPTION", 16, "i16", 0, ""], ["MAX_CURRENT", 17, "i32", 0.001, "A"], ["SPEED_WINDOW", 19, "u16", 0.1, "rad/s electrical"], ["COMMISSION_CURRENT", 20, "u16", 0.01, "A"], ["COMMISSION_SPEED", 21, "u16", 0.1, "rad/s mechanical"], ["INERTIA_START", 22, "u16", 0, "0.001"]]},
@@ -12,6 +12,7 @@ export const GROUPS = {
   "TRIM": {"space": "holding", "registers": [["SENSOR_TRIM", 192, "u16", 0, ""]]},
   "TORQUE": {"space": "holding", "registers": [["TORQUE", 224, "i16", 0.001, "of RATED_TORQUE"], ["TORQUE_OFFSET", 225, "i16", 0.001, "of RATED_TORQUE"], ["MAX_TORQUE", 226, "u16", 0.001, "of RATED_TORQUE"], ["TORQUE_SLOPE", 227, "u32", 0.001, "of RATED_TORQUE per s"], ["TORQUE_SPEED_MAX", 229, "u32", 0.1, "r/min"], ["MAX_CURRENT_SHARE", 231, "u16", 0.001, "of RATED_CURRENT"]]},
   "CYCLIC": {"space": "holding", "registers": [["VELOCITY_OFFSET", 256, "i32", 0.1, "r/min"], ["INTERPOLATION_PERIOD", 258, "u16", 0.001, "s"]]},
+  "CAN": {"space": "holding", "registers": [["CAN_NODE", 288, "u16", 0, ""], ["CAN_RATE", 289, "u16", 0, "kbit/s"]]},
   "LIVE": {"space": "input", "registers": [["STATUSWORD", 0, "u16", 0, "bits"], ["MODE_NOW", 1, "i16", 0, ""], ["ERROR_CODE", 2, "u16", 0, ""], ["MODE", 3, "u16", 0, ""], ["FAULT", 4, "u16", 0, ""], ["DRIVE_FAULT", 5, "u16", 0, ""], ["BOARD_FAULTS", 6, "u16", 0, "bits"], ["CONDITIONS", 7, "u16", 0, "bits"], ["REFERENCE", 8, "u16", 0, ""], ["ALIGN_STAGE", 9, "u16", 0, ""], ["SPEED_NOW", 10, "i32", 0.1, "rad/s electrical"], ["SPEED_NOW_RPM", 12, "i32", 0.1, "r/min"], ["SPEED_DEMAND_RPM", 14, "i32", 0.1, "r/min"], ["IQ", 16, "i32", 0.001, "A"], ["ID", 18, "i32", 0.001, "A"], ["IQ_REF", 20, "i32", 0.001, "A"], ["ID_REF", 22, "i32", 0.001, "A"], ["VQ", 24, "i16", 0.1, "V"], ["VD", 25, "i16", 0.1, "V"], ["DC_LINK", 26, "u16", 0.1, "V"], ["TEMPERATURE", 27, "i16", 0.1, "degC"], ["THETA", 28, "u16", 0.001, "rad"], ["POSITION", 29, "u16", 0, "counts"], ["CORRECTIONS", 30, "u16", 0, ""], ["ZERO_A", 31, "u16", 0.1, "codes"], ["ZERO_B", 32, "u16", 0.1, "codes"], ["CYCLES", 33, "u16", 0, "cycles"], ["CYCLES_WORST", 34, "u16", 0, "cycles"], ["TICKS", 35, "u32", 0, "control periods"], ["RESET_CAUSE", 37, "u16", 0, ""], ["PHASE_ERRORS", 38, "u16", 0, ""], ["IGNORED_ANGLES", 39, "u16", 0, "samples"], ["IGNORED_CURRENTS", 40, "u16", 0, "samples"], ["JUMPS", 41, "u16", 0, ""], ["MOTOR_HEAT", 42, "u16", 0.001, ""], ["INVERTER_HEAT", 43, "u16", 0.001, ""], ["DERATING", 44, "u16", 0.001, ""], ["FIRST_FAULT", 45, "u16", 0, ""], ["FIRST_MODE", 46, "u16", 0, ""], ["FIRST_DRIVE_FAULT", 47, "u16", 0, ""], ["FIRST_BOARD_FAULTS", 48, "u16", 0, "bits"], ["FIRST_IA", 49, "u16", 0, "codes"], ["FIRST_IB", 50, "u16", 0, "codes"], ["FIRST_DC_LINK", 51, "u16", 0, "codes"], ["FIRST_TEMPERATURE", 52, "u16", 0, "codes"], ["FIRST_POSITION", 53, "u16", 0, "counts"], ["FIRST_INDEX", 54, "u16", 0, "counts"], ["FIRST_SAMPLE", 55, "u16", 0, "bits"], ["FIRST_SPEED", 56, "i32", 0.1, "rad/s electrical"], ["FIRST_WANTED", 58, "i32", 0.1, "rad/s electrical"], ["FIRST_TICKS", 60, "u32", 0, "control periods"]]},
   "POSITION": {"space": "input", "registers": [["POSITION_NOW", 64, "i32", 0, "counts"], ["POSITION_TARGET", 66, "i32", 0, "counts"], ["DISC_MAP", 68, "u16", 0, ""]]},
   "SHAFT": {"space": "input", "registers": [["INERTIA_RATIO", 96, "u16", 0.001, ""], ["INERTIA_CHANGES", 97, "u16", 0, ""], ["RING_FREQUENCY", 98, "u16", 0.1, "Hz"], ["INERTIA_BELIEVED", 99, "u16", 0.001, ""]]},
@@ -47,6 +48,8 @@ export const PARAMETERS = [
   {"name": "TORQUE_SLOPE", "low": 0, "high": 1000000.0, "default": 0.0, "stopped": false, "text": "profile torque; 0: a step", "choices": []},
   {"name": "TORQUE_SPEED_MAX", "low": 0, "high": 10000000.0, "default": 0.0, "stopped": false, "text": "speed limit of a torque, either way; 0: SPEED_MAX. It acts up to SPEED_MAX. The torque that exceeds the limit is taken away, and the drive brakes a shaft that a load drives beyond it.", "choices": []},
   {"name": "INTERPOLATION_PERIOD", "low": 0.001, "high": 0.1, "default": 0.01, "stopped": false, "text": "between two set-points", "choices": []},
+  {"name": "CAN_NODE", "low": 1, "high": 127, "default": 1.0, "stopped": false, "text": "node number. It and CAN_RATE act after a restart, or after the NMT command \"reset communication\".", "choices": []},
+  {"name": "CAN_RATE", "low": 125, "high": 1000, "default": 500.0, "stopped": false, "text": "125, 250, 500 or 1000", "choices": []},
 ];
 export const PARAMETER_GROUPS = [
   "COMMAND",
@@ -55,6 +58,7 @@ export const PARAMETER_GROUPS = [
   "TRIM",
   "TORQUE",
   "CYCLIC",
+  "CAN",
 ];
 export const SIGNALS = [
   {"name": "NONE", "unit": ""},

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * @file app_canopen_objects.h
+ * @brief The registers as objects of CANopen, and constant objects. Context: background.
+ *
+ * Values have the counts of the registers. An object may have fewer octets than its register, or
+ * more.
+ */
+#ifndef APP_CANOPEN_OBJECTS_H
+#define APP_CANOPEN_OBJECTS_H
+
+#include "app_canopen_abort.h"
+#include "app_canopen_map.h"
+#include "app_registers.h"
+
+/** @return APP_CANOPEN_OK, _NO_OBJECT or _NO_SUB. */
+uint32_t app_canopen_objects_find(uint16_t index, uint16_t sub, app_canopen_object_t *found);
+
+/** Value of an object, with its sign in all 32 bits. */
+uint32_t app_canopen_objects_value(const app_registers_t *r, const app_canopen_object_t *o);
+
+/** Writes the low octets of `value`. @return an abort code. */
+uint32_t app_canopen_objects_put(app_registers_t *r, const app_canopen_object_t *o, uint32_t value);
+
+#endif /* APP_CANOPEN_OBJECTS_H */

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: MIT
+"""The drive on CAN, with python-can and canopen of PyPI as its masters."""
+
+from __future__ import annotations
+
+import socket
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Iterator
+
+import pytest
+from conftest import ROOT, Served, serving
+
+canopen = pytest.importorskip("canopen")
+can = pytest.importorskip("can")
+
+EDS = ROOT / "docs/sdre-drive.eds"
+EXAMPLE = ROOT / "docs/examples/canopen_run.py"
+SHUT_DOWN, ENABLE = 0x06, 0x0F
+ENABLED = 0x27
+STATE = 0x6F
+CYCLIC_VELOCITY = 9
+
+
+def free_port() -> int:
+    """A port that nothing of this machine has."""
+    with socket.socket() as s:
+        s.bind(("127.0.0.1", 0))
+        return s.getsockname()[1]
+
+
+@contextmanager
+def on_a_bus(tmp_path: Path, *options: str) -> Iterator[tuple[Served, int]]:
+    """A virtual drive with a bus on a port of its own."""
+    port = free_port()
+    with serving(tmp_path, "--slcan-tcp", str(port), *options) as served:
+        yield served, port
+
+
+@contextmanager
+def master(port: int, number: int = 1) -> Iterator[canopen.RemoteNode]:
+    """A node as its master sees it."""
+    network = canopen.Network()
+    node = network.add_node(number, str(EDS))
+    network.connect(interface="slcan", channel=f"socket://127.0.0.1:{port}", bitrate=500000)
+    try:
+        node.sdo.RESPONSE_TIMEOUT = 2.0  # a busy machine
+        yield node
+    finally:
+        network.disconnect()
+
+
+def wait(node: canopen.RemoteNode, state: int, longest_s: float = 20.0) -> None:
+    """Until the status word shows it."""
+    end = time.monotonic() + longest_s
+    while node.sdo[0x6041].raw & STATE != state:
+        assert time.monotonic() < end, f"status word {node.sdo[0x6041].raw:04X}h"
+        time.sleep(0.02)
+
+
+def enable(node: canopen.RemoteNode, mode: int) -> None:
+    """From power-on to a run."""
+    node.sdo[0x6060].raw = mode
+    node.sdo[0x6040].raw = SHUT_DOWN
+    wait(node, 0x21)
+    node.sdo[0x6040].raw = ENABLE
+    wait(node, ENABLED)
+
+
+def test_every_object_of_the_data_sheet_answers(tmp_path: Path) -> None:
+    with on_a_bus(tmp_path) as (_, port), master(port) as node:
+        read = 0
+        for index, entry in node.object_dictionary.items():
+            parts = (
+                [entry]
+                if isinstance(entry, canopen.objectdictionary.ODVariable)
+                else [*entry.values()]
+            )
+            for part in parts:
+                if index == 0x1003 and part.subindex > 0:
+                    continue  # nothing has happened
+                data = node.sdo.upload(index, part.subindex)
+                if part.data_type != canopen.objectdictionary.VISIBLE_STRING:
+                    assert len(data) * 8 == len(part), part.name
+                    if part.default is not None and part.access_type == "const":
+                        assert part.decode_raw(data) == part.default, part.name
+                read += 1
+        assert read > 250
+        assert node.sdo[0x1008].raw == "sdre-drive"
+        assert node.sdo[0x1000].raw == 0x20192
+
+
+def test_the_example_runs(tmp_path: Path) -> None:
+    with on_a_bus(tmp_path) as (served, port):
+        done = subprocess.run(
+            [sys.executable, str(EXAMPLE), "--channel", f"socket://127.0.0.1:{port}"]
+            + ["--speed", "500", "--seconds", "4"],
+            capture_output=True,
+            text=True,
+            timeout=120,
+        )
+        assert done.returncode == 0, done.stderr
+        assert abs(float(done.stdout.split()[-2]) - 500.0) < 5.0, done.stdout
+
+
+def test_set_points_by_pdo_with_sync_turn_the_shaft(tmp_path: Path) -> None:
+    """Cyclic velocity at 100 Hz: set-points act at SYNC, positions come back with it."""
+    with on_a_bus(tmp_path) as (_, port), master(port) as node:
+        node.tpdo.read()
+        node.rpdo.read()
+        node.rpdo[4].trans_type = 1
+        node.rpdo[4].save()
+        node.sdo[0x60C2][1].raw = 10
+        node.nmt.state = "OPERATIONAL"
+        enable(node, CYCLIC_VELOCITY)
+        positions = []
+        node.tpdo[3].add_callback(lambda m: positions.append(m["POSITION_NOW"].raw))
+        for n in range(300):
+            node.rpdo[4]["CONTROLWORD"].raw = ENABLE
+            node.rpdo[4]["SPEED_RPM"].raw = 10 * min(n, 300)  # up to 300 r/min
+            node.rpdo[4].transmit()
+            node.network.sync.transmit()
+            time.sleep(0.01)
+        assert len(positions) > 280
+        assert not node.emcy.log
+        assert abs(node.sdo[0x606C].raw - 3000) < 60
+        assert positions[-1] - positions[0] > 0
+
+
+def test_a_pulled_cable_stops_the_drive_and_is_told(tmp_path: Path) -> None:
+    with on_a_bus(tmp_path) as (served, port), master(port) as node:
+        node.sdo[0x1016][1].raw = (0x7F << 16) | 200  # the master's heartbeat
+        node.sdo[0x60FF].raw = 3000
+        node.nmt.state = "OPERATIONAL"
+        beat = node.network.send_periodic(0x77F, [5], 0.05)
+        enable(node, 3)
+        time.sleep(1.0)
+        assert node.sdo[0x6041].raw & STATE == ENABLED
+        served.bench().ask("can open")
+        time.sleep(1.0)
+        assert served.bench().ask("state")["bridge_on"] is False
+        served.bench().ask("can none")
+        time.sleep(1.0)
+        assert node.sdo[0x6041].raw & STATE != ENABLED
+        assert any(e.code == 0x8130 for e in node.emcy.log)
+        beat.stop()
+
+
+def test_a_full_bus_leaves_the_drive_running(tmp_path: Path) -> None:
+    """Foreign frames of a lower priority fill the bus; the node still answers, and runs on."""
+    with on_a_bus(tmp_path) as (served, port), master(port) as node:
+        node.sdo[0x60FF].raw = 3000
+        enable(node, 3)
+        other = can.Bus(interface="slcan", channel=f"socket://127.0.0.1:{port}", bitrate=500000)
+        end = time.monotonic() + 3.0
+        while time.monotonic() < end:
+            for _ in range(5):
+                other.send(can.Message(arbitration_id=0x6FF, data=bytes(8), is_extended_id=False))
+            assert node.sdo[0x6041].raw & STATE == ENABLED
+        other.shutdown()
+        assert abs(node.sdo[0x606C].raw - 3000) < 60
+        assert not node.emcy.log
+
+
+def test_two_drives_on_one_bus_move_together(tmp_path: Path) -> None:
+    """The second drive joins the bus of the first. One SYNC reads both positions."""
+    first, second = tmp_path / "first", tmp_path / "second"
+    first.mkdir()
+    second.mkdir()
+    with on_a_bus(first) as (_, port), serving(second, "--node", "2", "--join", str(port)):
+        network = canopen.Network()
+        nodes = [network.add_node(n, str(EDS)) for n in (1, 2)]
+        network.connect(interface="slcan", channel=f"socket://127.0.0.1:{port}", bitrate=500000)
+        for node in nodes:
+            node.sdo.RESPONSE_TIMEOUT = 2.0
+            node.tpdo.read()
+            node.rpdo.read()
+            node.rpdo[4].trans_type = 1
+            node.rpdo[4].save()
+            node.sdo[0x60C2][1].raw = 10
+            node.nmt.state = "OPERATIONAL"
+        for node in nodes:
+            enable(node, CYCLIC_VELOCITY)
+        for n in range(200):
+            for node in nodes:
+                node.rpdo[4]["CONTROLWORD"].raw = ENABLE
+                node.rpdo[4]["SPEED_RPM"].raw = min(30 * n, 3000)
+                node.rpdo[4].transmit()
+            network.sync.transmit()
+            time.sleep(0.01)
+        for node in nodes:
+            assert abs(node.sdo[0x606C].raw - 3000) < 60
+            assert not node.emcy.log
+        network.disconnect()
