@@ -3,10 +3,19 @@
 
 #include <stddef.h>
 
+static bool is_good_motion(const drive_config_t *c, const position_motion_t *m)
+{
+    return position_ok(&m->at) && base_within(m->omega_e_radps, c->speed_max_e_radps) &&
+           base_within(m->omega_dot_e_radps2, CHECK_LARGEST) &&
+           base_within(m->omega_2dot_e_radps3, CHECK_LARGEST);
+}
+
 static bool is_good_position(const drive_config_t *c, const position_command_t *p)
 {
-    return c->positions && position_ok(&p->actual) && position_ok(&p->target) &&
-           position_profile_is_any(&p->profile);
+    const bool goal = p->moves ? is_good_motion(c, &p->motion)
+                               : (position_ok(&p->target) && position_profile_is_any(&p->profile));
+
+    return c->positions && position_ok(&p->actual) && goal;
 }
 
 static bool is_good_torque(const drive_config_t *c, const torque_command_t *t)

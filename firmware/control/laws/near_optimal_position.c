@@ -14,19 +14,33 @@ static position_t seen_position(const near_optimal_view_t *view, const position_
     return position_moved(&command->actual, frames_wrap(theta_rad - command->actual.theta_e_rad));
 }
 
+/* Advances the reference within the profile, which follows from the torque that is there. */
+static void advance(near_optimal_t *s, const near_optimal_config_t *c, const drive_config_t *drive,
+                    const near_optimal_view_t *view, const position_command_t *command,
+                    const position_t *is)
+{
+    position_ref_t          *r      = &s->position_ref;
+    const position_torque_t  torque = position_torque(s, c, &drive->motor, view);
+    const position_profile_t profile =
+        position_ref_profile(r, &command->profile, &c->position.most, &command->target, &torque);
+
+    position_ref_update(r, &profile, &command->target, is, c->position.near_rad, drive->ts_s);
+}
+
 /* Updates the position reference, its speed reference and the angle error. */
 static void update_position(near_optimal_t *s, const near_optimal_config_t *c,
                             const drive_config_t *drive, const near_optimal_view_t *view,
                             const position_command_t *command)
 {
-    const position_t         is     = seen_position(view, command, drive->ts_s);
-    position_ref_t          *r      = &s->position_ref;
-    speed_ref_t             *w      = &s->speed_ref;
-    const position_torque_t  torque = position_torque(s, c, &drive->motor, view);
-    const position_profile_t profile =
-        position_ref_profile(r, &command->profile, &c->position.most, &command->target, &torque);
+    const position_t is = seen_position(view, command, drive->ts_s);
+    position_ref_t  *r  = &s->position_ref;
+    speed_ref_t     *w  = &s->speed_ref;
 
-    position_ref_update(r, &profile, &command->target, &is, c->position.near_rad, drive->ts_s);
+    if (command->moves) {
+        position_ref_take(r, &command->motion, &is, c->position.near_rad);
+    } else {
+        advance(s, c, drive, view, command, &is);
+    }
     w->omega_e_radps         = r->omega_e_radps;
     w->omega_dot_e_radps2    = r->omega_dot_e_radps2;
     w->omega_2dot_e_radps3   = r->omega_2dot_e_radps3;

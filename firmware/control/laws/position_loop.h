@@ -29,11 +29,13 @@ typedef struct {
     position_profile_t most;        /**< limits of every profile */
 } position_gains_t;
 
-/** Position command to a law. */
+/** Position command to a law: a target within a profile, or the motion itself. */
 typedef struct {
     position_t         actual; /**< of the sample's angle */
     position_t         target;
     position_profile_t profile;
+    position_motion_t  motion; /**< reference at the end of this period */
+    bool               moves;  /**< true: the motion is the reference; target and profile are not */
 } position_command_t;
 
 /** true when every constant is in its documented range. Context: init. */

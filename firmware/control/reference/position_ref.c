@@ -250,3 +250,15 @@ void position_ref_update(position_ref_t *r, const position_profile_t *profile,
     }
     hold_near(r, is, near_rad);
 }
+
+void position_ref_take(position_ref_t *r, const position_motion_t *motion, const position_t *is,
+                       float near_rad)
+{
+    r->at                  = motion->at;
+    r->omega_e_radps       = motion->omega_e_radps;
+    r->omega_dot_e_radps2  = motion->omega_dot_e_radps2;
+    r->omega_2dot_e_radps3 = motion->omega_2dot_e_radps3;
+    r->reach_e_radps2      = 0.0f; /* a profile that follows looks anew */
+    r->arrived             = false;
+    hold_near(r, is, near_rad);
+}

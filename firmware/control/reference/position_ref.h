@@ -57,6 +57,14 @@ typedef struct {
     bool       waits;               /**< waits for the shaft */
 } position_ref_t;
 
+/** A motion at one instant. */
+typedef struct {
+    position_t at;
+    float      omega_e_radps;
+    float      omega_dot_e_radps2;
+    float      omega_2dot_e_radps3;
+} position_motion_t;
+
 /** Torque that is there, and what it has to move. */
 typedef struct {
     float share;   /**< of the q current limit, what may brake in this period, 0 .. 1 */
@@ -120,5 +128,18 @@ position_profile_t position_ref_profile(position_ref_t *r, const position_profil
 void position_ref_update(position_ref_t *r, const position_profile_t *profile,
                          const position_t *target, const position_t *is, float near_rad,
                          float ts_s);
+
+/**
+ * @brief Takes a motion as the reference. It never arrives.
+ *
+ * @param r        Reference, updated in place.
+ * @param motion   Position, speed, acceleration and jerk of this period.
+ * @param is       Shaft position, as above.
+ * @param near_rad > 0.
+ *
+ * Context: control ISR. No division.
+ */
+void position_ref_take(position_ref_t *r, const position_motion_t *motion, const position_t *is,
+                       float near_rad);
 
 #endif /* POSITION_REF_H */

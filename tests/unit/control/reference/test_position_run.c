@@ -100,6 +100,37 @@ static void test_positions_and_profiles_out_of_range_are_refused(void)
     }
 }
 
+/* A motion replaces the target, which is then not looked at. */
+static void test_motions_out_of_range_are_refused(void)
+{
+    position_motion_t *const m = &position.motion;
+
+    position.moves                = true;
+    position.target.theta_e_rad   = NAN;
+    m->at                         = position.actual;
+    m->omega_e_radps              = gain_tables_drive.speed_max_e_radps;
+    const position_command_t good = position;
+    float *const floats[]         = {&m->at.theta_e_rad, &m->omega_e_radps, &m->omega_dot_e_radps2,
+                                     &m->omega_2dot_e_radps3};
+    const float  beyond[]         = {3.2f, -1.001f * m->omega_e_radps, 2.0e12f, -2.0e12f};
+
+    assert_fault(DRIVE_FAULT_NONE);
+    for (int i = 0; i < SUPPORT_COUNT(floats); i++) {
+        for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
+            *floats[i] = support_not_finite[k];
+            assert_fault(DRIVE_FAULT_COMMAND);
+        }
+        *floats[i] = beyond[i];
+        assert_fault(DRIVE_FAULT_COMMAND);
+        position = good;
+    }
+    m->at.turns = POSITION_TURNS_MAX + 1L;
+    assert_fault(DRIVE_FAULT_COMMAND);
+    position                    = good;
+    position.actual.theta_e_rad = 3.2f;
+    assert_fault(DRIVE_FAULT_COMMAND);
+}
+
 /* near_optimal.h alone, with an estimate of one's own. */
 static nodo_t              est;
 static near_optimal_view_t view;
@@ -130,6 +161,41 @@ static nosc_error_t error_of(const law_input_t *in, float angle_rad, float speed
     state.position_ref.at            = position_moved(&state.position_ref.at, -angle_rad);
     state.position_ref.omega_e_radps = view.now.omega_e_radps - speed_e_radps;
     return near_optimal_position_error(&state, laws, &config, &view, in);
+}
+
+static void test_a_motion_is_the_reference_unless_the_shaft_is_far(void)
+{
+    const law_input_t in       = near_its_reference();
+    const float       near_rad = laws->position.near_rad;
+
+    position.moves                      = true;
+    position.motion.at                  = position_moved(&position.actual, 0.3f * near_rad);
+    position.motion.omega_e_radps       = 12.0f;
+    position.motion.omega_dot_e_radps2  = -345.0f;
+    position.motion.omega_2dot_e_radps3 = 6789.0f;
+    for (int n = 0; n < 2; n++) {
+        (void)near_optimal_position_error(&state, laws, &config, &view, &in);
+    }
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-6f, 0.0f,
+                             position_way_rad(&position.motion.at, &state.position_ref.at));
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 12.0f, state.position_ref.omega_e_radps);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 12.0f, state.speed_ref.omega_e_radps);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, -345.0f, state.speed_ref.omega_dot_e_radps2);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 6789.0f, state.speed_ref.omega_2dot_e_radps3);
+    TEST_ASSERT_FALSE(state.position_ref.waits);
+    TEST_ASSERT_FALSE(state.position_ref.arrived);
+
+    position.motion.at.turns += 3;
+    (void)near_optimal_position_error(&state, laws, &config, &view, &in);
+    TEST_ASSERT_TRUE(state.position_ref.waits);
+    const float      seen_rad = view.theta_rad - (0.5f * config.ts_s * view.now.omega_e_radps);
+    const position_t is =
+        position_moved(&position.actual, frames_wrap(seen_rad - position.actual.theta_e_rad));
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-5f, near_rad, position_way_rad(&is, &state.position_ref.at));
+
+    position.moves = false; /* a profile goes on from there */
+    (void)near_optimal_position_error(&state, laws, &config, &view, &in);
+    TEST_ASSERT_TRUE(state.position_ref.reach_e_radps2 > 0.0f);
 }
 
 static void test_errors_of_angle_and_speed_are_limited_as_one_in_the_same_share(void)
@@ -230,6 +296,8 @@ int main(void)
     RUN_TEST(test_a_drive_without_positions_refuses_one);
     RUN_TEST(test_the_speed_is_not_looked_at_on_the_way_to_a_position);
     RUN_TEST(test_positions_and_profiles_out_of_range_are_refused);
+    RUN_TEST(test_motions_out_of_range_are_refused);
+    RUN_TEST(test_a_motion_is_the_reference_unless_the_shaft_is_far);
     RUN_TEST(test_errors_of_angle_and_speed_are_limited_as_one_in_the_same_share);
     RUN_TEST(test_the_voltage_has_the_positions_gains_and_the_angles_share);
     RUN_TEST(test_a_speed_run_knows_no_angle_again);
