@@ -125,6 +125,8 @@ static void read_once(app_status_t *status)
     status->demand_e_radps    = tick_side.control.ref_e_radps;
     status->target_cnt        = tick_side.control.setpoint.now.target_cnt;
     status->acknowledged      = tick_side.control.holds && tick_side.control.setpoint.acknowledged;
+    status->beyond            = tick_side.control.path.beyond_s > 0.0f;
+    status->unled             = tick_side.control.path.lost;
     status->reset_cause       = board_reset_cause();
     status->tick_cycles       = shared.cycles;
     status->tick_cycles_worst = shared.cycles_worst;
@@ -486,6 +488,7 @@ void app_background(void)
 
     read_status();
     app_registers_see_inertia(r, believed());
+    app_registers_see_path(r);
     app_registers_see_ring(r);
     app_registers_see_trim(r, &tick_side.modes.scale);
     app_parameters_rest(&app_line.parameters, (float)now_ticks * tick_side.drive->ts_s);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_error.h"
 
-#define APP_FAULTS   ((uint16_t)APP_FAULT_COMMISSION + 1U)
+#define APP_FAULTS   ((uint16_t)APP_FAULT_FOLLOWING + 1U)
 #define DRIVE_FAULTS ((uint16_t)DRIVE_FAULT_MEMORY + 1U)
 
 uint16_t app_error_code(app_fault_t fault, drive_fault_t drive_fault)
@@ -21,7 +21,9 @@ uint16_t app_error_code(app_fault_t fault, drive_fault_t drive_fault)
         0x6100U,          /* TICK: internal software */
         0x2310U,          /* HEAT: continuous over-current */
         0x5510U,          /* MEMORY: RAM */
-        0xFF0EU           /* COMMISSION */
+        0xFF0EU,          /* COMMISSION */
+        0x1000U,          /* CURRENT_SUM */
+        0x8611U           /* FOLLOWING: following error */
     };
 
     static const uint16_t of_drive[DRIVE_FAULTS] = {

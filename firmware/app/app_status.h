@@ -10,6 +10,7 @@
 #include "app_angle.h"
 #include "app_commission.h"
 #include "app_objects.h"
+#include "app_path.h"
 #include "app_position.h"
 #include "app_trim.h"
 #include "board.h"
@@ -44,7 +45,8 @@ typedef enum {
     APP_FAULT_HEAT,               /**< thermal model of motor or inverter tripped */
     APP_FAULT_MEMORY,             /**< constants in RAM have changed, or the stack was too short */
     APP_FAULT_COMMISSION,         /**< see the reason of the commissioning */
-    APP_FAULT_CURRENT_SUM         /**< the currents do not sum to zero, app_watch_sum.h */
+    APP_FAULT_CURRENT_SUM,        /**< the currents do not sum to zero, app_watch_sum.h */
+    APP_FAULT_FOLLOWING           /**< the following error was beyond its window for too long */
 } app_fault_t;
 
 /** Snapshot of the tick of the first fault. It is kept until the next fault, even after a reset. */
@@ -112,6 +114,8 @@ typedef struct {
     bool                    acknowledged; /**< app_setpoint.h */
     bool                    arrived;      /**< the reference rests at the target */
     bool                    waits;        /**< the reference waits for a shaft that cannot follow */
+    bool                    beyond;       /**< the following error is beyond its window */
+    bool                    unled;        /**< no set-points for too long, app_path.h */
     float                   torque_share; /**< RUN only: by the model, of the rated torque */
     float                   torque_demand_share; /**< RUN only: the same of their references */
 #if APP_DISC_MAP
@@ -124,6 +128,7 @@ typedef enum {
     APP_FOLLOWS_SPEED = 0,
     APP_FOLLOWS_POSITION,    /**< only drives with positions */
     APP_FOLLOWS_TORQUE,      /**< only drives with torques */
+    APP_FOLLOWS_PATH,        /**< only drives with positions */
     APP_FOLLOWS_CYCLIC_SPEED /**< of app_control.h alone, whose command follows the speed */
 } app_follows_t;
 
@@ -139,6 +144,7 @@ typedef struct {
     app_follows_t           follows;
     position_t              target; /**< of a position, as the next */
     position_profile_t      profile;
+    app_path_t             *path;                     /**< of a path, never NULL then */
     float                   torque_share;             /**< of the rated torque, as the next two */
     float                   torque_step;              /**< change in a period; > 0 */
     float                   torque_speed_max_e_radps; /**< speed limit, within the drive's */

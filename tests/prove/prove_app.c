@@ -13,6 +13,8 @@ volatile app_objects_t  any_objects;
 drive_config_t          config;
 app_modes_t             modes;
 board_sample_t          raw;
+volatile app_path_t     any_path;
+app_path_t              path;
 
 /* Most counts that app_angle.c turns without an index. */
 #define TURN_cnt ((int)board_config.board.positions + (int)board_config.angle.index_correct_max_cnt)
@@ -25,6 +27,22 @@ static void any_sample(void)
     raw.valid      = any_bool();
 }
 
+/* With positions in their range, which the drive checks. */
+static void let_be_any(app_path_t *p)
+{
+    *p                    = any_path;
+    p->aim.fresh          = any_bool();
+    p->aim.point.given    = any_bool();
+    p->begun              = any_bool();
+    p->due                = any_bool();
+    p->lost               = any_bool();
+    p->deviates           = any_bool();
+    p->track.taken        = (uint16_t)any_between(0, (int)APP_TRACK_KNOWN);
+    p->track.at.turns     = any_long_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
+    p->from.turns         = any_long_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
+    p->aim.point.at.turns = any_long_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
+}
+
 static void any_state(void)
 {
     config.law            = &any_law;
@@ -34,7 +52,7 @@ static void any_state(void)
     modes                            = any_modes;
     modes.config                     = &board_config;
     modes.mode                       = any_between(APP_MODE_BOOT, APP_MODE_STOP);
-    modes.fault                      = any_between(APP_FAULT_NONE, APP_FAULT_CURRENT_SUM);
+    modes.fault                      = any_between(APP_FAULT_NONE, APP_FAULT_FOLLOWING);
     modes.calibrated                 = any_bool();
     modes.armed                      = any_bool();
     modes.commission_armed           = any_bool();
@@ -44,7 +62,7 @@ static void any_state(void)
     modes.tripped                    = any_bool();
     modes.locked                     = any_bool();
     modes.gate_on                    = any_bool();
-    modes.sink_fault                 = any_between(APP_FAULT_NONE, APP_FAULT_CURRENT_SUM);
+    modes.sink_fault                 = any_between(APP_FAULT_NONE, APP_FAULT_FOLLOWING);
     modes.too_hot                    = any_bool();
     modes.angle.have_turned          = any_bool();
     modes.angle.have_index           = any_bool();
@@ -114,7 +132,9 @@ void prove_app_tick(void)
     in.command.run       = any_bool();
     in.command.reset     = any_bool();
     in.command.align     = any_bool();
-    in.command.follows   = any_between(APP_FOLLOWS_SPEED, APP_FOLLOWS_TORQUE);
+    in.command.follows   = any_between(APP_FOLLOWS_SPEED, APP_FOLLOWS_PATH);
+    in.command.path      = &path;
+    let_be_any(&path);
     in.command.target.turns = any_long_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
     in.command.commission   = false; /* not proved: its own bounds and tests */
 
@@ -126,7 +146,7 @@ void prove_app_tick(void)
     is_count(duty.b_cnt);
     is_count(duty.c_cnt);
     //@ check mode: APP_MODE_BOOT <= modes.mode <= APP_MODE_STOP;
-    //@ check fault: APP_FAULT_NONE <= modes.fault <= APP_FAULT_CURRENT_SUM;
+    //@ check fault: APP_FAULT_NONE <= modes.fault <= APP_FAULT_FOLLOWING;
     //@ check stage: APP_ALIGN_WATCH <= modes.align.stage <= APP_ALIGN_FAILED;
     //@ check since_index: -12500 <= modes.angle.since_index_cnt <= 12500;
     //@ check reference: APP_ANGLE_NONE <= modes.angle.reference <= APP_ANGLE_INDEX;
@@ -155,6 +175,8 @@ static void tick_control(app_mode_t mode, app_control_state_t state)
     control.setpoint.now.target_cnt = any_long_between(-APP_POSITION_CNT_MAX, APP_POSITION_CNT_MAX);
     control.setpoint.next.target_cnt =
         any_long_between(-APP_POSITION_CNT_MAX, APP_POSITION_CNT_MAX);
+    control.velocity = any_bool();
+    let_be_any(&control.path);
     seen.mode       = mode;
     seen.shorted    = any_bool();
     seen.in_the_way = any_bool();

@@ -43,6 +43,13 @@ void app_position_find_zero(app_position_t *p, const app_angle_t *angle);
 /** Drops the zero. The next referenced sample gives a new one. Context: control ISR. */
 void app_position_forget(app_position_t *p);
 
+/** Counts limited to +-APP_POSITION_CNT_MAX. */
+static inline int32_t app_position_held(int32_t counts)
+{
+    const int32_t up = (counts > APP_POSITION_CNT_MAX) ? APP_POSITION_CNT_MAX : counts;
+    return (up < -APP_POSITION_CNT_MAX) ? -APP_POSITION_CNT_MAX : up;
+}
+
 /** Position of a count within +-APP_POSITION_CNT_MAX. Context: control ISR. Four integer
  * divisions. */
 position_t app_position_at(const app_position_t *p, int32_t counts);

@@ -27,6 +27,8 @@ const app_canopen_object_t app_canopen_map[APP_CANOPEN_OBJECTS] = {
     {0x6060U, 0U, 1U, true, true, &app_registers_map_holding[1], 0x00000000UL}, /* MODE_OF_OPERATION */
     {0x6061U, 0U, 1U, true, false, &app_registers_map_input[1], 0x00000000UL}, /* MODE_NOW */
     {0x6064U, 0U, 4U, true, false, &app_registers_map_input[51], 0x00000000UL}, /* POSITION_NOW */
+    {0x6065U, 0U, 4U, false, true, &app_registers_map_holding[49], 0x00000000UL}, /* FOLLOWING_WINDOW */
+    {0x6066U, 0U, 2U, false, true, &app_registers_map_holding[50], 0x00000000UL}, /* FOLLOWING_TIMEOUT */
     {0x6067U, 0U, 4U, false, true, &app_registers_map_holding[38], 0x00000000UL}, /* POSITION_WINDOW */
     {0x606BU, 0U, 4U, true, false, &app_registers_map_input[12], 0x00000000UL}, /* SPEED_DEMAND_RPM */
     {0x606CU, 0U, 4U, true, false, &app_registers_map_input[11], 0x00000000UL}, /* SPEED_NOW_RPM */
@@ -48,6 +50,7 @@ const app_canopen_object_t app_canopen_map[APP_CANOPEN_OBJECTS] = {
     {0x6087U, 0U, 4U, false, true, &app_registers_map_holding[43], 0x00000000UL}, /* TORQUE_SLOPE */
     {0x60A4U, 0U, 1U, false, false, NULL, 0x00000001UL}, /* Highest sub-index */
     {0x60A4U, 1U, 4U, false, true, &app_registers_map_holding[37], 0x00000000UL}, /* PROFILE_JERK */
+    {0x60B0U, 0U, 4U, true, true, &app_registers_map_holding[48], 0x00000000UL}, /* POSITION_OFFSET */
     {0x60B1U, 0U, 4U, true, true, &app_registers_map_holding[46], 0x00000000UL}, /* VELOCITY_OFFSET */
     {0x60B2U, 0U, 2U, true, true, &app_registers_map_holding[41], 0x00000000UL}, /* TORQUE_OFFSET */
     {0x60C2U, 0U, 1U, false, false, NULL, 0x00000002UL}, /* Highest sub-index */

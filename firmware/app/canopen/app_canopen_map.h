@@ -24,7 +24,7 @@ typedef struct {
     uint32_t value;                     /**< of the constant */
 } app_canopen_object_t;
 
-#define APP_CANOPEN_OBJECTS 49U
+#define APP_CANOPEN_OBJECTS 52U
 
 /** In ascending order of index and sub-index. */
 extern const app_canopen_object_t app_canopen_map[APP_CANOPEN_OBJECTS];

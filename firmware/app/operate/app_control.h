@@ -50,6 +50,7 @@ typedef struct {
     float               ts_s;
     float               speed_max_e_radps; /**< speed limit of a command */
     float               per_current_max;   /**< 1 / largest current */
+    float               accel_e_radps2;    /**< largest of a path */
     app_control_state_t state;
     int16_t             mode;         /**< present mode of operation */
     bool                armed;        /**< bit 3 was low after the last start */
@@ -63,8 +64,11 @@ typedef struct {
     float               down_e_radps; /**< its step down */
     app_follows_t       follows;      /**< of the command */
     bool                stopping;     /**< a stop was asked for */
-    bool                holds; /**< profile position, cyclic velocity: the set-points have begun */
+    bool                holds;        /**< positions, cyclic velocity: the set-points have begun */
     app_setpoint_t      setpoint;
+    app_path_t          path;          /**< of cyclic position, as the next */
+    uint16_t            target_number; /**< of its last set-point */
+    bool                velocity;      /**< a velocity offset was given since it began */
 } app_control_t;
 
 /** Status of app_modes after the previous tick. */

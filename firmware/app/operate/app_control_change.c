@@ -11,7 +11,7 @@
 
 #define INTERPOLATION_s 0.01f /* chosen: a master on a serial line can keep it */
 
-#define ANY_STEP 1.0e9f /* beyond every torque: no slope */
+#define FOLLOWING_s 0.1f /* chosen: longer than a load step, shorter than a jam lasts */
 
 ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
                               const drive_config_t *drive)
@@ -28,6 +28,7 @@ ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
     c->asked             = false;
     c->moved             = false;
     c->speed_max_e_radps = drive->speed_max_e_radps;
+    c->accel_e_radps2    = app_control_path_accel(drive);
     c->done              = false;
     c->ref_e_radps       = 0.0f;
     c->goal_e_radps      = 0.0f;
@@ -36,6 +37,7 @@ ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
     c->stopping          = false;
     c->follows           = APP_FOLLOWS_SPEED;
     c->holds             = false;
+    app_path_end(&c->path);
     return ok ? CTL_OK : CTL_BAD_CONFIG;
 }
 
@@ -49,7 +51,8 @@ app_objects_t app_control_default(const drive_config_t *drive)
                              .current_max_A       = drive->current_max_A,
                              .position_window_cnt = POSITION_WINDOW_CNT,
                              .torque_most         = TORQUE_SHARE_MAX,
-                             .interpolation_s     = INTERPOLATION_s};
+                             .interpolation_s     = INTERPOLATION_s,
+                             .following_s         = FOLLOWING_s};
     return o;
 }
 
@@ -60,7 +63,7 @@ bool app_control_knows(const app_objects_t *o, const drive_config_t *drive)
 
     return (app_control_is_speed(mode) || (mode == APP_CONTROL_HOMING) ||
             (mode == APP_CONTROL_COMMISSIONING) ||
-            ((mode == APP_CONTROL_PROFILE_POSITION) && drive->positions) ||
+            (app_control_is_position(mode) && drive->positions) ||
             (app_control_is_torque(mode) && drive->torques)) &&
            ((quick <= APP_CONTROL_QUICK_FAST) || (quick >= APP_CONTROL_QUICK_RAMP_STAY));
 }
@@ -206,17 +209,28 @@ bool app_control_brakes(const app_control_t *c, const app_objects_t *o,
     return ramps && (stays || !stands(c, seen)) && (seen->mode == APP_MODE_RUN);
 }
 
-/* Executes profile position for one period. True: the drive moves to a position or holds one.
- * False: it follows a speed, which a halt or a stop ramps to zero. */
+/* True if a position can be followed. False: the drive follows a speed, which a halt or a stop
+ * ramps to zero. */
+static bool has_position(app_control_t *c, const app_control_seen_t *seen)
+{
+    const bool enabled = (seen->mode == APP_MODE_RUN) && app_control_is_enabled(c->state);
+    const bool known   = seen->position->known; /* not before a reference, nor after lost counts */
+
+    if (!enabled) {
+        c->holds = false;
+    } else if (!known && c->holds) {
+        c->state = APP_CONTROL_QUICK_STOP_ACTIVE;
+    } else {
+        /* it can, or could not yet */
+    }
+    return enabled && known;
+}
+
+/* Executes profile position for one period. True: the drive moves to a position or holds one. */
 static bool follows_position(app_control_t *c, const app_objects_t *o,
                              const app_control_seen_t *seen, bool halted)
 {
-    if ((seen->mode != APP_MODE_RUN) || !app_control_is_enabled(c->state)) {
-        c->holds = false;
-        return false;
-    }
-    if (!seen->position->known) { /* not referenced yet, or counts were lost */
-        c->state = c->holds ? APP_CONTROL_QUICK_STOP_ACTIVE : c->state;
+    if (!has_position(c, seen)) {
         return false;
     }
     if (!c->holds) {
@@ -248,73 +262,17 @@ app_follows_t app_control_followed(app_control_t *c, const app_objects_t *o,
         follows = (!halted && app_control_is_enabled(c->state)) ? APP_FOLLOWS_TORQUE : follows;
     } else if (c->mode == APP_CONTROL_PROFILE_POSITION) {
         follows = follows_position(c, o, seen, halted) ? APP_FOLLOWS_POSITION : follows;
+    } else if (c->mode == APP_CONTROL_CYCLIC_POSITION) {
+        follows = (has_position(c, seen) && !halted) ? APP_FOLLOWS_PATH : follows;
     } else if (c->mode == APP_CONTROL_CYCLIC_VELOCITY) {
         follows =
             (!halted && app_control_is_enabled(c->state)) ? APP_FOLLOWS_CYCLIC_SPEED : follows;
     } else {
         /* a speed */
     }
+    if (follows != APP_FOLLOWS_PATH) {
+        app_path_end(&c->path);
+        c->holds = c->holds && (c->mode != APP_CONTROL_CYCLIC_POSITION);
+    }
     return follows;
-}
-
-void app_control_put_speed(app_control_t *c, const app_control_seen_t *seen)
-{
-    const float most        = c->speed_max_e_radps;
-    const float ref_e_radps = base_clamp(seen->speed_e_radps, -most, most);
-
-    c->ref_e_radps  = ref_e_radps;
-    c->goal_e_radps = ref_e_radps;
-    c->up_e_radps   = 0.0f;
-    c->down_e_radps = 0.0f;
-}
-
-static void aim_torque(const app_control_t *c, const app_objects_t *o, app_command_t *out)
-{
-    const bool  slope = (c->mode == APP_CONTROL_PROFILE_TORQUE) && (o->torque_slope_1ps > 0.0f);
-    const float most_e_radps = o->torque_speed_max_e_radps;
-
-    out->torque_share = app_control_target_torque(o, c->mode);
-    out->torque_step  = slope ? (c->ts_s * o->torque_slope_1ps) : ANY_STEP;
-    out->torque_speed_max_e_radps =
-        (most_e_radps > 0.0f) ? base_min(most_e_radps, c->speed_max_e_radps) : c->speed_max_e_radps;
-}
-
-/* A new set-point is reached on a straight line after the interpolation period. A late one finds
- * the speed of the one before, an early one the speed on the way to it. */
-static void aim_cyclic_speed(app_control_t *c, const app_objects_t *o,
-                             const app_control_seen_t *seen)
-{
-    const float most = c->speed_max_e_radps;
-    const float goal = base_clamp(app_control_target_e_radps(o, c->mode), -most, most);
-
-    if (seen->mode != APP_MODE_RUN) {
-        app_control_put_speed(c, seen);
-        c->holds = false;
-    } else if (!c->holds || !base_within(goal - c->goal_e_radps, 0.0f)) {
-        const float share = c->ts_s / base_max(o->interpolation_s, c->ts_s);
-        const float step  = share * fabsf(goal - c->ref_e_radps);
-
-        c->goal_e_radps = goal;
-        c->up_e_radps   = step;
-        c->down_e_radps = step;
-        c->holds        = true;
-    } else {
-        /* on its way, or there */
-    }
-}
-
-void app_control_aim_beyond(app_control_t *c, const app_objects_t *o,
-                            const app_control_seen_t *seen, app_command_t *out)
-{
-    if (c->follows == APP_FOLLOWS_CYCLIC_SPEED) {
-        out->follows = APP_FOLLOWS_SPEED;
-        aim_cyclic_speed(c, o, seen);
-    } else if (c->follows == APP_FOLLOWS_TORQUE) {
-        aim_torque(c, o, out);
-        app_control_put_speed(c, seen);
-    } else {
-        out->target  = c->setpoint.target;
-        out->profile = c->setpoint.now.profile;
-        app_control_put_speed(c, seen);
-    }
 }

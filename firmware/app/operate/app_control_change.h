@@ -61,8 +61,11 @@ app_follows_t app_control_followed(app_control_t *c, const app_objects_t *o,
 /** The reference stays at the present speed. */
 void app_control_put_speed(app_control_t *c, const app_control_seen_t *seen);
 
-/** Sets position or torque of the command, or the ramp of a cyclic velocity. A later stop begins at
- * the present speed. */
+/** Largest acceleration of a path. Context: init. */
+float app_control_path_accel(const drive_config_t *drive);
+
+/** Sets path, position or torque of the command, or the ramp of a cyclic velocity. A later stop
+ * begins at the present speed. */
 void app_control_aim_beyond(app_control_t *c, const app_objects_t *o,
                             const app_control_seen_t *seen, app_command_t *out);
 

@@ -52,10 +52,11 @@ typedef struct {
     app_commission_t    commission;
     float               per_sink_degC; /**< 1 / (trip - limit) of the heat sink */
     float               over_degC;     /**< temperature of the heat sink, less its limit */
-    app_fault_t         sink_fault;    /**< of a driven motor: temperature or its sensor */
-    bool                too_hot;       /**< the same: app_watch_heat_tick() returned false */
-    float               zero_a_A; /**< READY: mean of the measured currents with the bridge open */
-    float               zero_b_A;
+    app_fault_t
+          sink_fault; /**< of a driven motor: temperature, its sensor, or the following error */
+    bool  too_hot;    /**< the same: app_watch_heat_tick() returned false */
+    float zero_a_A;   /**< READY: mean of the measured currents with the bridge open */
+    float zero_b_A;
     app_scale_t         scale; /**< beside sample: the tick reaches both by one pointer */
     app_scale_sample_t  sample;
     app_angle_reading_t reading;

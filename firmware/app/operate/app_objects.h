@@ -42,6 +42,7 @@ enum {
     APP_CONTROL_PROFILE_VELOCITY = 3,
     APP_CONTROL_PROFILE_TORQUE   = 4, /**< along a slope, as the next only with a torque law */
     APP_CONTROL_HOMING           = 6, /**< finds the angle, app_align.h */
+    APP_CONTROL_CYCLIC_POSITION  = 8, /**< from set-point to set-point, app_path.h; as 1 */
     APP_CONTROL_CYCLIC_VELOCITY  = 9, /**< from set-point to set-point, app_control_change.h */
     APP_CONTROL_CYCLIC_TORQUE    = 10 /**< the newest value at once, with its offset */
 };
@@ -68,9 +69,14 @@ typedef struct {
     float                   torque_offset;       /**< cyclic torque: added to it */
     float                   torque_most;         /**< limit of both, either way, >= 0 */
     float                   torque_slope_1ps;    /**< profile torque; 0: a step */
-    float torque_speed_max_e_radps;              /**< speed limit of a torque; 0: the drive's */
-    float omega_offset_e_radps;                  /**< cyclic velocity: added to the target speed */
-    float interpolation_s;                       /**< between two set-points, > 0 */
+    float    torque_speed_max_e_radps;           /**< speed limit of a torque; 0: the drive's */
+    float    omega_offset_e_radps;               /**< cyclic velocity: added to the target speed;
+                                                      cyclic position: speed at the set-point */
+    float    interpolation_s;                    /**< between two set-points, > 0 */
+    int32_t  offset_cnt;    /**< cyclic position, as the next: added to the target position */
+    uint16_t target_number; /**< counts the writes of the target position */
+    uint32_t following_window_cnt; /**< of the following error; 0: any */
+    float    following_s;          /**< that it may be beyond it */
 } app_objects_t;
 
 /** True for the modes of operation that command a torque. */
@@ -85,10 +91,16 @@ static inline bool app_control_is_speed(int16_t mode)
     return (mode == APP_CONTROL_PROFILE_VELOCITY) || (mode == APP_CONTROL_CYCLIC_VELOCITY);
 }
 
+/** True for the modes of operation that command a position. */
+static inline bool app_control_is_position(int16_t mode)
+{
+    return (mode == APP_CONTROL_PROFILE_POSITION) || (mode == APP_CONTROL_CYCLIC_POSITION);
+}
+
 /** True for a mode of operation in which the law controls the bridge. */
 static inline bool app_control_is_run(int16_t mode)
 {
-    return app_control_is_speed(mode) || (mode == APP_CONTROL_PROFILE_POSITION) ||
+    return app_control_is_speed(mode) || app_control_is_position(mode) ||
            app_control_is_torque(mode);
 }
 

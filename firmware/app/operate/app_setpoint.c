@@ -18,12 +18,6 @@ static position_profile_t profile_of(const app_objects_t *o)
     return p;
 }
 
-static int32_t held(int32_t counts)
-{
-    const int32_t up = (counts > APP_POSITION_CNT_MAX) ? APP_POSITION_CNT_MAX : counts;
-    return (up < -APP_POSITION_CNT_MAX) ? -APP_POSITION_CNT_MAX : up;
-}
-
 void app_setpoint_start(app_setpoint_t *s, const app_objects_t *o, const app_position_t *position)
 {
     s->now.target_cnt = app_position_cnt(position, &position->actual);
@@ -47,9 +41,10 @@ static app_setpoint_one_t asked_for(const app_setpoint_t *s, const app_objects_t
     const bool                relative = app_control_has(o->controlword, APP_CONTROL_RELATIVE);
     const int32_t             from_cnt = relative ? before->target_cnt : 0L;
 
-    const app_setpoint_one_t one = {.target_cnt =
-                                        held(from_cnt + held(o->target_cnt)), /* at most 2e9 */
-                                    .profile = profile_of(o)};
+    const app_setpoint_one_t one = {
+        .target_cnt =
+            app_position_held(from_cnt + app_position_held(o->target_cnt)), /* at most 2e9 */
+        .profile = profile_of(o)};
     return one;
 }
 

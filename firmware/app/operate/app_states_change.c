@@ -38,8 +38,23 @@ static const law_aim_t *at_position(app_modes_t *m, const app_command_t *asked)
     m->to_position.actual  = m->position.actual;
     m->to_position.target  = asked->target;
     m->to_position.profile = asked->profile;
+    m->to_position.moves   = false;
     m->aim.position        = &m->to_position;
     m->aim.torque          = NULL;
+    return &m->aim;
+}
+
+/* A fault here is one of the next tick. */
+static const law_aim_t *at_path(app_modes_t *m, const app_command_t *asked)
+{
+    m->to_position.actual = m->position.actual;
+    m->to_position.moves  = true;
+    m->aim.position       = &m->to_position;
+    m->aim.torque         = NULL;
+    app_path_tick(asked->path, &m->position.actual, m->drive.config->ts_s, &m->to_position.motion);
+    if (asked->path->deviates) {
+        m->sink_fault = APP_FAULT_FOLLOWING;
+    }
     return &m->aim;
 }
 
@@ -64,7 +79,16 @@ static const law_aim_t *at_torque(app_modes_t *m, const app_command_t *asked)
 
 const law_aim_t *app_states_aim(app_modes_t *m, const app_command_t *asked)
 {
-    return (asked->follows == APP_FOLLOWS_TORQUE) ? at_torque(m, asked) : at_position(m, asked);
+    const law_aim_t *aim;
+
+    if (asked->follows == APP_FOLLOWS_TORQUE) {
+        aim = at_torque(m, asked);
+    } else if (asked->follows == APP_FOLLOWS_PATH) {
+        aim = at_path(m, asked);
+    } else {
+        aim = at_position(m, asked);
+    }
+    return aim;
 }
 
 bool app_states_gives_up(const app_modes_t *m)

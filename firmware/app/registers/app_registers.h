@@ -54,7 +54,8 @@ enum {
         4096, /**< velocity: speed is zero; position: set-point taken; homing: done; the cyclic
                    modes: follows the command */
     APP_REGISTERS_FOLLOWING_ERROR =
-        8192, /**< profile position: the reference waits for a shaft that cannot follow */
+        8192, /**< positions: the reference waits for a shaft that cannot follow, or the following
+                   error is beyond its window */
     APP_REGISTERS_BRIDGE_ON = 16384
 };
 
@@ -139,6 +140,9 @@ void     app_registers_set_inertia_start(app_registers_request_t *w, float thous
 
 /** Inertia that the law believes, over the drive's. */
 float app_registers_inertia_believed(const app_registers_t *r);
+
+/** Stops an enabled operation whose set-points have ended, as app_registers_silence(). */
+void app_registers_see_path(app_registers_t *r);
 
 /** Lets the status that has just been read show an oscillation, app_watch_ring.h. */
 void app_registers_see_ring(app_registers_t *r);

@@ -61,6 +61,9 @@ const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING]
     {APP_REGISTERS_MAX_CURRENT_SHARE, APP_REGISTERS_U16, 1000.0f, 0.0f, 65.535f, false, 0x0000U, 0UL, APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, 8U, false},
     {APP_REGISTERS_VELOCITY_OFFSET, APP_REGISTERS_I32, 10.0f, -10000000.0f, 10000000.0f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.omega_offset_e_radps), true},
     {APP_REGISTERS_INTERPOLATION_PERIOD, APP_REGISTERS_U16, 1000.0f, 0.001f, 0.1f, false, 0x4703U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.interpolation_s), false},
+    {APP_REGISTERS_POSITION_OFFSET, APP_REGISTERS_I32, 0.0f, -1e+09f, 1e+09f, false, 0x0000U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_I32, AT(app_registers_request_t, objects.offset_cnt), false},
+    {APP_REGISTERS_FOLLOWING_WINDOW, APP_REGISTERS_U32, 0.0f, 0.0f, 1e+09f, false, 0x1241U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U32, AT(app_registers_request_t, objects.following_window_cnt), false},
+    {APP_REGISTERS_FOLLOWING_TIMEOUT, APP_REGISTERS_U16, 1000.0f, 0.0f, 65.535f, false, 0x8EF2U, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_FLOAT, AT(app_registers_request_t, objects.following_s), false},
     {APP_REGISTERS_CAN_NODE, APP_REGISTERS_U16, 0.0f, 1.0f, 127.0f, false, 0x017FU, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, can_node), false},
     {APP_REGISTERS_CAN_RATE, APP_REGISTERS_U16, 0.0f, 125.0f, 1000.0f, false, 0x474BU, 0UL, APP_REGISTERS_REQUESTED, APP_REGISTERS_AS_U16, AT(app_registers_request_t, can_rate_kbps), false},
 };

@@ -12,9 +12,9 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "4ca85270" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "f674b4e8" /**< of what a master can see of the map */
 
-#define APP_REGISTERS_SAVED 25U /**< parameters */
+#define APP_REGISTERS_SAVED 27U /**< parameters */
 
 /** Holding registers: those of two words are named by the first. */
 enum {
@@ -80,8 +80,11 @@ enum {
     APP_REGISTERS_TORQUE_END = 232,
     APP_REGISTERS_VELOCITY_OFFSET = 256,
     APP_REGISTERS_INTERPOLATION_PERIOD = 258,
+    APP_REGISTERS_POSITION_OFFSET = 259,
+    APP_REGISTERS_FOLLOWING_WINDOW = 261,
+    APP_REGISTERS_FOLLOWING_TIMEOUT = 263,
     APP_REGISTERS_CYCLIC_FIRST = 256,
-    APP_REGISTERS_CYCLIC_END = 259,
+    APP_REGISTERS_CYCLIC_END = 264,
     APP_REGISTERS_CAN_NODE = 288,
     APP_REGISTERS_CAN_RATE = 289,
     APP_REGISTERS_CAN_FIRST = 288,
@@ -302,7 +305,7 @@ typedef struct {
 struct app_registers;
 struct app_registers_request;
 
-#define APP_REGISTERS_MAP_HOLDING 50U
+#define APP_REGISTERS_MAP_HOLDING 53U
 
 #define APP_REGISTERS_MAP_INPUT 143U
 

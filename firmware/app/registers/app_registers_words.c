@@ -6,6 +6,7 @@
 
 /* Bits of APP_REGISTERS_SUPPORTED_MODES. Those of all: both velocities, homing, commissioning. */
 #define MODE_1       0x00000001UL
+#define MODE_8       0x00000080UL
 #define MODE_4       0x00000008UL
 #define MODE_10      0x00000200UL
 #define MODES_OF_ALL 0x00010124UL
@@ -62,7 +63,7 @@ int32_t app_registers_position(const app_registers_t *r)
 
 uint32_t app_registers_modes(const app_registers_t *r)
 {
-    const uint32_t positions = r->drive->positions ? MODE_1 : 0UL;
+    const uint32_t positions = r->drive->positions ? (MODE_1 | MODE_8) : 0UL;
     const uint32_t torques   = r->drive->torques ? (MODE_4 | MODE_10) : 0UL;
 
     return MODES_OF_ALL | positions | torques;
@@ -132,6 +133,8 @@ static bool is_reached(const app_registers_t *r)
         there = runs && near;
     } else if (mode == (int16_t)APP_CONTROL_PROFILE_POSITION) {
         there = runs && is_at_target(r);
+    } else if (mode == (int16_t)APP_CONTROL_CYCLIC_POSITION) {
+        there = false;
     } else {
         there = runs && is_at_torque(r);
     }
@@ -143,7 +146,7 @@ static bool is_following(const app_registers_t *r)
 {
     const app_status_t *s = &r->status;
 
-    return (s->mode_of_operation >= (int16_t)APP_CONTROL_CYCLIC_VELOCITY) &&
+    return (s->mode_of_operation >= (int16_t)APP_CONTROL_CYCLIC_POSITION) &&
            (s->state == APP_CONTROL_OPERATION_ENABLED) && (s->mode == APP_MODE_RUN) &&
            !app_control_has(r->requested.objects.controlword, APP_CONTROL_HALT);
 }
@@ -180,7 +183,7 @@ uint16_t app_registers_statusword(const app_registers_t *r)
                       bit_if(is_reached(r), APP_REGISTERS_REACHED) |
                       bit_if(limited, APP_REGISTERS_LIMITED) |
                       bit_if(is_of_mode(r), APP_REGISTERS_OF_MODE) |
-                      bit_if(s->waits, APP_REGISTERS_FOLLOWING_ERROR) |
+                      bit_if(s->waits || s->beyond, APP_REGISTERS_FOLLOWING_ERROR) |
                       bit_if(s->gate_enable, APP_REGISTERS_BRIDGE_ON) |
                       ((s->reference != APP_ANGLE_NONE) ? APP_REGISTERS_REFERENCED : 0U));
 }

@@ -125,6 +125,16 @@ static void command_scope(app_registers_t *r)
     }
 }
 
+/* Every write of the target position is a set-point, of the same value too. */
+static void count_target(app_registers_t *r, uint16_t first, uint16_t count)
+{
+    const uint16_t at = (uint16_t)((uint16_t)APP_REGISTERS_TARGET_POSITION - first);
+
+    if (at < count) {
+        r->requested.objects.target_number = (uint16_t)(r->requested.objects.target_number + 1U);
+    }
+}
+
 /* Changes the copy. All addresses are known to exist. */
 static app_registers_result_t try_all(app_registers_t *r, uint16_t first, uint16_t count,
                                       const uint16_t *values)
@@ -161,6 +171,7 @@ app_registers_result_t app_registers_write(app_registers_t *r, uint16_t first, u
         return APP_REGISTERS_BAD_VALUE;
     }
     r->requested = r->trial;
+    count_target(r, first, count);
     command_scope(r);
     r->silent  = r->silent && !app_control_enables(r->requested.objects.controlword);
     r->by_can  = r->by_can && (first != (uint16_t)APP_REGISTERS_CONTROLWORD);
@@ -219,5 +230,12 @@ void app_registers_silence(app_registers_t *r)
                              : (uint16_t)APP_CONTROL_DISABLE_VOLTAGE;
         r->changed     = true;
         r->silent      = true;
+    }
+}
+
+void app_registers_see_path(app_registers_t *r)
+{
+    if (r->status.unled) {
+        app_registers_silence(r);
     }
 }

@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "4ca85270"
+DIGEST = "f674b4e8"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -101,6 +101,9 @@ TORQUE: Tuple[Register, ...] = (  # holding
 CYCLIC: Tuple[Register, ...] = (  # holding
     Register("VELOCITY_OFFSET", 256, "i32", 0.1, "r/min"),
     Register("INTERPOLATION_PERIOD", 258, "u16", 0.001, "s"),
+    Register("POSITION_OFFSET", 259, "i32", 0.0, "counts"),
+    Register("FOLLOWING_WINDOW", 261, "u32", 0.0, "counts"),
+    Register("FOLLOWING_TIMEOUT", 263, "u16", 0.001, "s"),
 )
 
 CAN: Tuple[Register, ...] = (  # holding
@@ -313,6 +316,8 @@ PARAMETERS: Tuple[Parameter, ...] = (
     Parameter(BY_NAME["TORQUE_SLOPE"], 0, 1000000.0, 0.0, False, "6087h", "profile torque; 0: a step"),
     Parameter(BY_NAME["TORQUE_SPEED_MAX"], 0, 10000000.0, 0.0, False, "6080h", "speed limit of a torque, either way; 0: SPEED_MAX. It acts up to SPEED_MAX. The torque that exceeds the limit is taken away, and the drive brakes a shaft that a load drives beyond it."),
     Parameter(BY_NAME["INTERPOLATION_PERIOD"], 0.001, 0.1, 0.01, False, "60C2h", "between two set-points"),
+    Parameter(BY_NAME["FOLLOWING_WINDOW"], 0, 1000000000, 0.0, False, "6065h", "cyclic position: largest following error; 0: any"),
+    Parameter(BY_NAME["FOLLOWING_TIMEOUT"], 0, 65.535, 0.1, False, "6066h", "beyond the window for longer: fault 16"),
     Parameter(BY_NAME["CAN_NODE"], 1, 127, 1.0, False, "", "node number. It and CAN_RATE act after a restart, or after the NMT command \"reset communication\"."),
     Parameter(BY_NAME["CAN_RATE"], 125, 1000, 500.0, False, "", "125, 250, 500 or 1000"),
 )

@@ -64,9 +64,16 @@ def values(registers: Iterable[Register], words: Sequence[int]) -> Dict[str, flo
 
 ANGLE_KNOWN = 1 << 15  # of the status word: with it the zero of positions
 PROFILE_POSITION, PROFILE_VELOCITY, PROFILE_TORQUE = 1, 3, 4  # modes of operation
-CYCLIC_VELOCITY, CYCLIC_TORQUE = 9, 10
+CYCLIC_POSITION, CYCLIC_VELOCITY, CYCLIC_TORQUE = 8, 9, 10
 # In these the law has the bridge.
-RUNS = (PROFILE_POSITION, PROFILE_VELOCITY, PROFILE_TORQUE, CYCLIC_VELOCITY, CYCLIC_TORQUE)
+RUNS = (
+    PROFILE_POSITION,
+    PROFILE_VELOCITY,
+    PROFILE_TORQUE,
+    CYCLIC_POSITION,
+    CYCLIC_VELOCITY,
+    CYCLIC_TORQUE,
+)
 
 
 class ControlWord(IntEnum):

@@ -404,7 +404,7 @@ static void test_modes_of_operation_and_the_limit(void)
 
 static void test_unknown_objects_are_refused(void)
 {
-    static const int modes[] = {-2, 0, 2, 5, 7, 8, 11};
+    static const int modes[] = {-2, 0, 2, 5, 7, 11};
     static const int quick[] = {3, 4};
     TEST_ASSERT_TRUE(app_control_knows(&wanted, &gain_tables_drive));
     for (int i = 0; i < SUPPORT_COUNT(modes); i++) {
@@ -422,6 +422,10 @@ static void test_unknown_objects_are_refused(void)
     TEST_ASSERT_TRUE(app_control_knows(&wanted, &drive));
     drive.positions = false;
     TEST_ASSERT_FALSE(app_control_knows(&wanted, &drive));
+    wanted.mode_of_operation = APP_CONTROL_CYCLIC_POSITION;
+    TEST_ASSERT_FALSE(app_control_knows(&wanted, &drive));
+    drive.positions = true;
+    TEST_ASSERT_TRUE(app_control_knows(&wanted, &drive));
     static const int16_t torques[] = {APP_CONTROL_PROFILE_TORQUE, APP_CONTROL_CYCLIC_TORQUE};
     for (int i = 0; i < SUPPORT_COUNT(torques); i++) {
         wanted.mode_of_operation = torques[i];
@@ -610,7 +614,7 @@ static void test_a_shaft_beyond_the_largest_speed_leaves_the_reference_within_it
     TEST_ASSERT_FLOAT_WITHIN(1.0e-3f, gain_tables_drive.speed_max_e_radps, out.omega_e_radps);
 }
 
-/* Each of the five, from each, without a tick in which the bridge would open. */
+/* Each of the six, from each, without a tick in which the bridge would open. */
 static void test_runs_change_into_each_other_while_enabled(void)
 {
     static const struct {
@@ -618,6 +622,7 @@ static void test_runs_change_into_each_other_while_enabled(void)
         app_follows_t follows;
     } runs[] = {{APP_CONTROL_PROFILE_POSITION, APP_FOLLOWS_POSITION},
                 {APP_CONTROL_PROFILE_VELOCITY, APP_FOLLOWS_SPEED},
+                {APP_CONTROL_CYCLIC_POSITION, APP_FOLLOWS_PATH},
                 {APP_CONTROL_CYCLIC_VELOCITY, APP_FOLLOWS_SPEED},
                 {APP_CONTROL_PROFILE_TORQUE, APP_FOLLOWS_TORQUE},
                 {APP_CONTROL_CYCLIC_TORQUE, APP_FOLLOWS_TORQUE}};
@@ -642,6 +647,62 @@ static void test_runs_change_into_each_other_while_enabled(void)
                                      out.omega_e_radps);
         }
     }
+}
+
+/* Every write of the target is a set-point, and one that was written before is none. */
+static void test_cyclic_position_takes_what_is_written_while_it_runs(void)
+{
+    wanted.target_cnt    = 5000;
+    wanted.target_number = 3U;
+    hold_position(777, 0.0f);
+    wanted.mode_of_operation = APP_CONTROL_CYCLIC_POSITION;
+    ticks(APP_CONTROL_ENABLE_OPERATION, 2);
+    TEST_ASSERT_EQUAL_INT(APP_FOLLOWS_PATH, out.follows);
+    TEST_ASSERT_TRUE(out.path == &control.path);
+    TEST_ASSERT_FALSE(control.path.aim.fresh);
+    wanted.target_number        = 4U;
+    wanted.offset_cnt           = -40;
+    wanted.following_window_cnt = 100U;
+    wanted.following_s          = 0.25f;
+    wanted.interpolation_s      = 0.02f;
+    ticks(APP_CONTROL_ENABLE_OPERATION, 1);
+    TEST_ASSERT_TRUE(control.path.aim.fresh);
+    TEST_ASSERT_EQUAL_INT32(4960, app_position_cnt(seen.position, &control.path.aim.point.at));
+    TEST_ASSERT_FALSE(control.path.aim.point.given);
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-4f, 100.0f * seen.position->rad_per_cnt,
+                             control.path.aim.window_rad);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.25f, control.path.aim.time_out_s);
+    TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.02f, control.path.aim.track.period_s);
+    control.path.aim.fresh = false; /* as a tick of the path does */
+    ticks(APP_CONTROL_ENABLE_OPERATION, 1);
+    TEST_ASSERT_FALSE(control.path.aim.fresh);
+    for (int n = 0; n < 2; n++) { /* a speed, and the zero after it */
+        wanted.omega_offset_e_radps = (n == 0) ? 12.0f : 0.0f;
+        wanted.target_number        = (uint16_t)(wanted.target_number + 1U);
+        ticks(APP_CONTROL_ENABLE_OPERATION, 1);
+        TEST_ASSERT_TRUE(control.path.aim.point.given);
+        TEST_ASSERT_FLOAT_WITHIN(0.0f, wanted.omega_offset_e_radps,
+                                 control.path.aim.point.omega_e_radps);
+    }
+    control.path.begun = true;
+    ticks(APP_CONTROL_ENABLE_OPERATION | APP_CONTROL_HALT, 1);
+    TEST_ASSERT_EQUAL_INT(APP_FOLLOWS_SPEED, out.follows);
+    TEST_ASSERT_FALSE(control.path.begun);
+}
+
+static void test_an_operator_may_lower_the_jerk_of_a_path(void)
+{
+    hold_position(777, 0.0f);
+    wanted.mode_of_operation = APP_CONTROL_CYCLIC_POSITION;
+    ticks(APP_CONTROL_ENABLE_OPERATION, 2);
+    const float most = control.path.aim.jerk_e_radps3;
+    TEST_ASSERT_TRUE(most > 0.0f);
+    wanted.jerk_e_radps3 = 0.5f * most;
+    ticks(APP_CONTROL_ENABLE_OPERATION, 1);
+    TEST_ASSERT_FLOAT_WITHIN(1.0f, 0.5f * most, control.path.aim.jerk_e_radps3);
+    wanted.jerk_e_radps3 = 2.0f * most;
+    ticks(APP_CONTROL_ENABLE_OPERATION, 1);
+    TEST_ASSERT_FLOAT_WITHIN(1.0f, most, control.path.aim.jerk_e_radps3);
 }
 
 /* Lines from set-point to set-point, each a share of the way in every period. */
@@ -731,6 +792,8 @@ int main(void)
     RUN_TEST(test_halt_and_stop_of_a_torque_run_begin_at_the_present_speed);
     RUN_TEST(test_a_shaft_beyond_the_largest_speed_leaves_the_reference_within_it);
     RUN_TEST(test_runs_change_into_each_other_while_enabled);
+    RUN_TEST(test_cyclic_position_takes_what_is_written_while_it_runs);
+    RUN_TEST(test_an_operator_may_lower_the_jerk_of_a_path);
     RUN_TEST(test_cyclic_velocity_reaches_a_set_point_after_the_interpolation_period);
     RUN_TEST(test_halt_of_a_cyclic_velocity_has_the_ramp_and_ends_on_a_line);
     RUN_TEST(test_a_mode_that_is_no_run_waits_for_the_next_start);

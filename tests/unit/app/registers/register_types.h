@@ -26,10 +26,13 @@ static void register_types(void)
     IS(app_registers_request_t, objects.current_max_A, float);
     IS(app_registers_request_t, objects.decel_e_radps2, float);
     IS(app_registers_request_t, objects.disable_option, int16_t);
+    IS(app_registers_request_t, objects.following_s, float);
+    IS(app_registers_request_t, objects.following_window_cnt, uint32_t);
     IS(app_registers_request_t, objects.interpolation_s, float);
     IS(app_registers_request_t, objects.jerk_e_radps3, float);
     IS(app_registers_request_t, objects.lost_option, int16_t);
     IS(app_registers_request_t, objects.mode_of_operation, int16_t);
+    IS(app_registers_request_t, objects.offset_cnt, int32_t);
     IS(app_registers_request_t, objects.omega_e_radps, float);
     IS(app_registers_request_t, objects.omega_offset_e_radps, float);
     IS(app_registers_request_t, objects.position_window_cnt, uint16_t);

@@ -307,7 +307,7 @@ static void test_the_line_is_changed_while_stopped_only(void)
 
 static void test_the_mode_of_operation_is_changed_in_a_run_too(void)
 {
-    static const int modes[] = {1, 4, 9, 10, 3, 6, -1};
+    static const int modes[] = {1, 4, 8, 9, 10, 3, 6, -1};
 
     registers.status.state       = APP_CONTROL_OPERATION_ENABLED;
     registers.status.gate_enable = true;
@@ -371,9 +371,10 @@ static void test_error_codes(void)
 {
     TEST_ASSERT_EQUAL_HEX16(0, app_error_code(APP_FAULT_NONE, DRIVE_FAULT_NONE));
     TEST_ASSERT_EQUAL_HEX16(0x4310, app_error_code(APP_FAULT_TEMPERATURE, DRIVE_FAULT_NONE));
+    TEST_ASSERT_EQUAL_HEX16(0x8611, app_error_code(APP_FAULT_FOLLOWING, DRIVE_FAULT_NONE));
     TEST_ASSERT_EQUAL_HEX16(0x2310, app_error_code(APP_FAULT_DRIVE, DRIVE_FAULT_OVER_CURRENT));
     TEST_ASSERT_EQUAL_HEX16(0x7121, app_error_code(APP_FAULT_DRIVE, DRIVE_FAULT_STALL));
-    for (int f = 1; f <= (int)APP_FAULT_COMMISSION; f++) {
+    for (int f = 1; f <= (int)APP_FAULT_FOLLOWING; f++) {
         TEST_ASSERT_TRUE(app_error_code((app_fault_t)f, DRIVE_FAULT_NONE) >= 0x1000U);
     }
     for (int f = 1; f <= (int)DRIVE_FAULT_MEMORY; f++) {

@@ -101,9 +101,9 @@ static void test_modes_of_a_drive(void)
 {
     drive.positions = true;
     drive.torques   = true;
-    TEST_ASSERT_EQUAL_HEX32(0x0001032DUL, input_32(APP_REGISTERS_SUPPORTED_MODES));
+    TEST_ASSERT_EQUAL_HEX32(0x000103ADUL, input_32(APP_REGISTERS_SUPPORTED_MODES));
     drive.torques = false;
-    TEST_ASSERT_EQUAL_HEX32(0x00010125UL, input_32(APP_REGISTERS_SUPPORTED_MODES));
+    TEST_ASSERT_EQUAL_HEX32(0x000101A5UL, input_32(APP_REGISTERS_SUPPORTED_MODES));
     drive.positions = false;
     TEST_ASSERT_EQUAL_HEX32(0x00010124UL, input_32(APP_REGISTERS_SUPPORTED_MODES));
 }
@@ -159,6 +159,20 @@ static void test_a_cyclic_velocity_is_reached_with_its_offset(void)
     registers.requested.objects.controlword = 0x000FU;
     s->speed_e_radps                        = 102.0f;
     TEST_ASSERT_EQUAL_HEX16(REACHED, statusword(REACHED | OF_MODE));
+}
+
+static void test_bits_of_a_cyclic_position(void)
+{
+    app_status_t *s      = &registers.status;
+    s->state             = APP_CONTROL_OPERATION_ENABLED;
+    s->mode              = APP_MODE_RUN;
+    s->mode_of_operation = APP_CONTROL_CYCLIC_POSITION;
+    s->arrived           = true;
+    TEST_ASSERT_EQUAL_HEX16(OF_MODE, statusword(REACHED | OF_MODE | 0x2000));
+    s->beyond = true;
+    TEST_ASSERT_EQUAL_HEX16(OF_MODE | 0x2000, statusword(REACHED | OF_MODE | 0x2000));
+    registers.requested.objects.controlword = 0x010FU; /* halt: reached when it stands */
+    TEST_ASSERT_EQUAL_HEX16(REACHED | 0x2000, statusword(REACHED | OF_MODE | 0x2000));
 }
 
 /* 6077h and 6074h in thousandths; 6075h and 6076h in mA and mN m. */
@@ -311,6 +325,7 @@ int main(void)
     RUN_TEST(test_modes_of_a_drive);
     RUN_TEST(test_a_torque_is_reached_by_its_references);
     RUN_TEST(test_a_cyclic_velocity_is_reached_with_its_offset);
+    RUN_TEST(test_bits_of_a_cyclic_position);
     RUN_TEST(test_torques_and_what_they_are_of);
     RUN_TEST(test_the_current_limit_is_a_share_of_the_rated_current_too);
     RUN_TEST(test_without_scope_and_record_their_registers_are_zero);
