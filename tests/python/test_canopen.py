@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import socket
 import subprocess
 import sys
@@ -22,7 +23,9 @@ EXAMPLE = ROOT / "docs/examples/canopen_run.py"
 SHUT_DOWN, ENABLE = 0x06, 0x0F
 ENABLED = 0x27
 STATE = 0x6F
+CYCLIC_POSITION = 8
 CYCLIC_VELOCITY = 9
+TURN = 10000  # counts of the shipped drive's encoder
 
 
 def free_port() -> int:
@@ -128,6 +131,36 @@ def test_set_points_by_pdo_with_sync_turn_the_shaft(tmp_path: Path) -> None:
         assert not node.emcy.log
         assert abs(node.sdo[0x606C].raw - 3000) < 60
         assert positions[-1] - positions[0] > 0
+
+
+def test_positions_at_100_hz_are_followed_for_ten_seconds(tmp_path: Path) -> None:
+    """Cyclic position: a sine of a turn and half a hertz, by PDO with SYNC."""
+    with on_a_bus(tmp_path) as (_, port), master(port) as node:
+        node.tpdo.read()
+        node.rpdo.read()
+        node.rpdo[3].trans_type = 1
+        node.rpdo[3].save()
+        node.sdo[0x60C2][1].raw = 10
+        node.nmt.state = "OPERATIONAL"
+        enable(node, CYCLIC_POSITION)
+        start = node.sdo[0x6064].raw
+        seen = []
+        node.tpdo[3].add_callback(lambda m: seen.append(m["POSITION_NOW"].raw - start))
+        begin, sent = time.monotonic(), []
+        for n in range(1000):
+            sent.append(round(0.5 * TURN * (1.0 - math.cos(math.pi * 0.01 * n))))
+            node.rpdo[3]["CONTROLWORD"].raw = ENABLE
+            node.rpdo[3]["TARGET_POSITION"].raw = start + sent[-1]
+            node.rpdo[3].transmit()
+            node.network.sync.transmit()
+            time.sleep(max(0.0, begin + 0.01 * (n + 1) - time.monotonic()))
+        assert len(seen) > 990
+        assert not node.emcy.log
+        # Two set-points later: the period of the interpolation, and the one until the next SYNC.
+        late = [abs(x - wanted) for x, wanted in zip(seen[100:], sent[98:])]
+        assert sorted(late)[len(late) // 2] < 0.02 * TURN
+        time.sleep(0.3)
+        assert abs(node.sdo[0x6064].raw - start - sent[-1]) < 0.02 * TURN
 
 
 def test_a_pulled_cable_stops_the_drive_and_is_told(tmp_path: Path) -> None:
