@@ -11,7 +11,7 @@ constexpr double noc              = 5440.0;
 constexpr double noc_h            = 8897.0;
 constexpr double noc_shaft        = 5992.0;
 constexpr double conventional     = 7362.0;
-constexpr double position         = 3055.0;
+constexpr double position         = 3098.0;
 constexpr double torque           = 558.0;
 constexpr double background_share = 0.10666666666666667;
 

@@ -27,7 +27,8 @@ KINDS = {
     "integer": (
         "adc adcs add adds addw and ands asr asrs bfc bfi bic bics clz cmn cmp eor eors lsl lsls "
         "lsr lsrs mla mls mov movs "
-        "movt movw mul muls mvn mvns neg negs orr orrs ror rsb rsbs sbc sbfx smlabb smlal smulbb "
+        "movt movw mul muls mvn mvns neg negs orn orns orr orrs ror rsb rsbs "
+        "sbc sbcs sbfx smlabb smlal smulbb "
         "smull sub subs subw sxtab sxtah sxtb sxth teq tst "
         "ubfx umlal umull uxtab uxtah uxtb uxth"
     ).split(),
