@@ -77,6 +77,7 @@ static void any_state(void)
     modes.drive.motion_watch.look    = (motion_watch_look_t)any_between(0, 3);
     modes.drive.answer.arrived       = any_bool();
     modes.drive.answer.waits         = any_bool();
+    modes.to_position.moves          = any_bool();
     modes.position.have              = any_bool();
     modes.position.known             = any_bool();
     modes.position.actual.turns      = any_long_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);

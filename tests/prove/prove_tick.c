@@ -153,9 +153,11 @@ void prove_tick(void)
 
     position_command_t position =
         any_position; /* drive_tick() refuses other turns: unit.position_run */
-    position.actual.turns   = any_turns();
-    position.target.turns   = any_turns();
-    torque_command_t torque = any_torque;
+    position.actual.turns    = any_turns();
+    position.target.turns    = any_turns();
+    position.moves           = any_between(0, 1);
+    position.motion.at.turns = any_turns();
+    torque_command_t torque  = any_torque;
     law_aim_t        aim;
     aim.position = any_between(0, 1) ? &position : NULL;
     aim.torque   = any_between(0, 1) ? &torque : NULL;

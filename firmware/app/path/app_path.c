@@ -191,6 +191,14 @@ static void watch_deviation(app_path_t *p, const position_t *actual, const posit
     p->deviates = p->deviates || (!inside && (p->beyond_s >= p->aim.time_out_s));
 }
 
+/* A NaN stays one, which the drive refuses. */
+static float limited(float omega, float most)
+{
+    const float up = (omega > most) ? most : omega;
+
+    return (up < -most) ? -most : up;
+}
+
 void app_path_tick(app_path_t *p, const position_t *actual, float ts_s, position_motion_t *out)
 {
     if (!p->begun) {
@@ -208,7 +216,7 @@ void app_path_tick(app_path_t *p, const position_t *actual, float ts_s, position
         go_further(p, &at, &now, ts_s);
     }
     out->at                  = at;
-    out->omega_e_radps       = base_clamp(now.omega, -most, most);
+    out->omega_e_radps       = limited(now.omega, most);
     out->omega_dot_e_radps2  = now.accel;
     out->omega_2dot_e_radps3 = now.jerk;
     watch_deviation(p, actual, &at, ts_s);

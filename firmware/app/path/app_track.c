@@ -29,9 +29,9 @@ void app_track_start(app_track_t *t)
 
 position_t app_track_moved(const position_t *p, float by_rad)
 {
-    const bool    near = base_within(by_rad, WAY_MOST); /* a NaN is not, and shows in the angle */
-    const float   way_rad = near ? by_rad : base_clamp(by_rad, -WAY_MOST, WAY_MOST);
-    const int32_t turns   = near ? (int32_t)(way_rad * TURN_PART) : 0L;
+    /* a NaN ends here: it shows in the speed */
+    const float   way_rad = base_clamp(by_rad, -WAY_MOST, WAY_MOST);
+    const int32_t turns   = (int32_t)(way_rad * TURN_PART);
     const int64_t sum     = (int64_t)p->turns + turns;
     position_t    at      = *p;
 

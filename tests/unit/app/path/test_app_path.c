@@ -82,6 +82,8 @@ static void give(double counts)
 /* A period with a shaft that follows at once. */
 static void tick(void)
 {
+    const position_t was = shaft;
+
     before = now;
     app_path_tick(&path, &shaft, (float)TS_s, &now);
     shaft = now.at;
@@ -92,7 +94,7 @@ static void tick(void)
                  fabs((double)now.omega_dot_e_radps2 - (double)before.omega_dot_e_radps2) / TS_s);
     }
     accel_seen = fmax(accel_seen, fabs((double)now.omega_dot_e_radps2));
-    speed_seen = fmax(speed_seen, fabs((double)now.omega_e_radps));
+    speed_seen = fmax(speed_seen, fabs((double)position_way_rad(&was, &now.at)) / TS_s);
 }
 
 static void pass(double length_s)
@@ -216,7 +218,10 @@ static void test_a_line_is_passed_through_after_any_number_of_turns(void)
 
 static void test_without_a_set_point_the_path_comes_to_rest_within_its_limits(void)
 {
+    const position_t at    = shaft;
     path.aim.start_e_radps = 600.0f;
+    tick();
+    TEST_ASSERT_FLOAT_WITHIN(1.0e-5f, (float)(600.0 * TS_s), position_way_rad(&at, &now.at));
     pass(1.0);
     TEST_ASSERT_FLOAT_WITHIN(0.0f, 0.0f, now.omega_e_radps);
     TEST_ASSERT_TRUE(accel_seen <= (1.01 * (double)ACCEL_MAX));
@@ -229,7 +234,7 @@ static void test_without_a_set_point_the_path_comes_to_rest_within_its_limits(vo
 
 static void test_a_step_of_the_set_points_takes_the_time_that_the_limits_need(void)
 {
-    static const double steps_cnt[] = {-3000.0, 200000.0};
+    static const double steps_cnt[] = {-3000.0, 800000.0};
 
     for (int i = 0; i < SUPPORT_COUNT(steps_cnt); i++) {
         setUp();
@@ -239,7 +244,7 @@ static void test_a_step_of_the_set_points_takes_the_time_that_the_limits_need(vo
         }
         TEST_ASSERT_DOUBLE_WITHIN(1.0, steps_cnt[i], counts_of(&now.at));
         TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.0f, now.omega_e_radps);
-        TEST_ASSERT_TRUE(speed_seen <= (double)SPEED_MAX);
+        TEST_ASSERT_TRUE(speed_seen <= (1.02 * (double)SPEED_MAX)); /* floats of an angle */
         TEST_ASSERT_TRUE(accel_seen <= (1.05 * (double)ACCEL_MAX));
         TEST_ASSERT_TRUE(jerk_seen <= (1.1 * (double)JERK_MAX));
     }
@@ -265,6 +270,54 @@ static void test_it_runs_on_for_its_time_and_then_says_that_it_is_lost(void)
     TEST_ASSERT_FLOAT_WITHIN(0.5f, (float)(each_cnt * CNT_rad / 0.02), now.omega_e_radps);
     app_path_end(&path);
     TEST_ASSERT_FALSE(path.lost);
+}
+
+static void test_after_two_periods_without_set_points_the_speed_stays(void)
+{
+    for (int k = 0; k < 50; k++) {
+        give(5.0 * (double)(k * k));
+        pass(0.02);
+    }
+    TEST_ASSERT_TRUE((double)now.omega_dot_e_radps2 > (0.9 * 10.0 * CNT_rad / 4.0e-4));
+    pass(0.2);
+    const float speed_e_radps = now.omega_e_radps;
+    TEST_ASSERT_DOUBLE_WITHIN(20.0, 5.0 * 2.0 * 51.0, (double)speed_e_radps * 0.02 / CNT_rad);
+    pass(0.2);
+    TEST_ASSERT_FLOAT_WITHIN(0.1f, speed_e_radps, now.omega_e_radps);
+}
+
+static void test_the_first_set_point_may_come_late(void)
+{
+    pass(1.0);
+    give(0.0);
+    pass(0.02);
+    TEST_ASSERT_FALSE(path.lost);
+}
+
+/* It comes three fifths of a period early. The one before it keeps its place and its time. */
+static void test_an_early_set_point_waits(void)
+{
+    for (int k = 0; k < 60; k++) {
+        give(0.0);
+        pass((k < 59) ? 0.02 : 0.008);
+    }
+    give(500.0);
+    pass(0.012);
+    TEST_ASSERT_DOUBLE_WITHIN(3.0, 0.0, counts_of(&now.at));
+    pass(0.021);
+    TEST_ASSERT_DOUBLE_WITHIN(60.0, 500.0, counts_of(&now.at));
+}
+
+static void test_three_set_points_make_a_parabola(void)
+{
+    for (int k = 0; k < 3; k++) {
+        give(100.0 * (double)(k * k));
+        pass(0.02 - TS_s);
+        tick();
+    }
+    path.aim.fresh = false;
+    TEST_ASSERT_FLOAT_WITHIN(0.01f, (float)(400.0 * CNT_rad), path.track.s[0]);
+    TEST_ASSERT_FLOAT_WITHIN(0.01f, (float)(100.0 * CNT_rad), path.track.s[1]);
 }
 
 static void test_fast_set_points_may_pause_for_20_ms(void)
@@ -320,6 +373,26 @@ static void test_a_way_moves_a_position_by_its_turns(void)
     }
 }
 
+/* drive_tick() refuses such a speed or position: unit.position_run. */
+static void test_a_number_that_is_none_shows_in_the_motion(void)
+{
+    float *const numbers[] = {&path.c[1], &path.c[2], &path.c[3],  &path.c[4],
+                              &path.c[5], &path.u,    &path.per_s, &path.from.theta_e_rad};
+
+    for (int i = 0; i < SUPPORT_COUNT(numbers); i++) {
+        setUp();
+        for (int k = 0; k < 10; k++) {
+            give(100.0 * (double)k);
+            pass(0.02);
+        }
+        TEST_ASSERT_TRUE(base_within(now.omega_e_radps, SPEED_MAX));
+        pass(5.0 * TS_s);
+        *numbers[i] = NAN;
+        tick();
+        TEST_ASSERT_FALSE(base_within(now.omega_e_radps, SPEED_MAX) && position_ok(&now.at));
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -329,8 +402,13 @@ int main(void)
     RUN_TEST(test_without_a_set_point_the_path_comes_to_rest_within_its_limits);
     RUN_TEST(test_a_step_of_the_set_points_takes_the_time_that_the_limits_need);
     RUN_TEST(test_it_runs_on_for_its_time_and_then_says_that_it_is_lost);
+    RUN_TEST(test_after_two_periods_without_set_points_the_speed_stays);
+    RUN_TEST(test_the_first_set_point_may_come_late);
+    RUN_TEST(test_an_early_set_point_waits);
+    RUN_TEST(test_three_set_points_make_a_parabola);
     RUN_TEST(test_fast_set_points_may_pause_for_20_ms);
     RUN_TEST(test_a_following_error_deviates_after_its_time);
+    RUN_TEST(test_a_number_that_is_none_shows_in_the_motion);
     RUN_TEST(test_a_way_moves_a_position_by_its_turns);
     return UNITY_END();
 }
