@@ -61,7 +61,10 @@ static volatile struct MBOX *box_of(uint16_t n)
 /* When a frame came [bits]. */
 static uint32_t stamp_of(uint16_t n)
 {
-    return (&ECanaMOTSRegs.MOTS0)[n];
+    const volatile Uint32 *stamp = &ECanaMOTSRegs.MOTS0;
+
+    stamp += n;
+    return *stamp;
 }
 
 static uint32_t bit_of(uint16_t n)
