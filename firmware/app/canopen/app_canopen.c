@@ -5,11 +5,6 @@
 #include "app_canopen_process.h"
 #include "app_canopen_sdo.h"
 
-#define ID_NMT       0U
-#define ID_SYNC      0x80U
-#define ID_REQUEST   0x600U
-#define ID_HEARTBEAT 0x700U
-
 /* NMT commands. */
 #define START               1U
 #define STOP                2U
@@ -26,8 +21,6 @@ void app_canopen_init(app_canopen_t *c, float ts_s)
 
     *c              = none;
     c->ticks_per_ms = 1.0e-3f / ts_s;
-    app_canopen_emergency_reset(&c->emergency);
-    app_canopen_process_reset(c);
 }
 
 /* All objects of the communication are as after power-on. */
@@ -122,17 +115,17 @@ static void hear_frame(app_canopen_t *c, app_registers_t *r, const board_can_fra
     const bool talks       = operational || (c->state == APP_CANOPEN_PRE_OPERATIONAL);
 
     c->heard_ticks = now_ticks;
-    if (frame->id == ID_NMT) {
+    if (frame->id == APP_CANOPEN_ID_NMT) {
         take_nmt(c, r, frame, now_ticks);
-    } else if (frame->id == ID_SYNC) {
+    } else if (frame->id == APP_CANOPEN_ID_SYNC) {
         if (operational) {
             app_canopen_process_sync(c, r);
         }
-    } else if (frame->id == (ID_REQUEST + c->node)) {
+    } else if (frame->id == (APP_CANOPEN_ID_REQUEST + c->node)) {
         if (talks) {
             app_canopen_sdo_take(c, r, frame);
         }
-    } else if (frame->id >= ID_HEARTBEAT) {
+    } else if (frame->id >= APP_CANOPEN_ID_HEARTBEAT) {
         c->watches       = true;
         c->missed        = false;
         c->watched_ticks = now_ticks;
@@ -216,7 +209,7 @@ static void watch_sender(app_canopen_t *c, uint32_t now_ticks)
 
 static bool send_state(app_canopen_t *c, uint32_t now_ticks)
 {
-    board_can_frame_t frame = {.id = (uint16_t)(ID_HEARTBEAT + c->node), .length = 1U};
+    board_can_frame_t frame = {.id = (uint16_t)(APP_CANOPEN_ID_HEARTBEAT + c->node), .length = 1U};
 
     frame.octets[0] = (uint16_t)c->state;
     const bool sent = app_canopen_node_send(c, &frame);

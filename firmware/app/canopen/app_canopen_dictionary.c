@@ -69,7 +69,8 @@ static uint32_t read_watched(const app_canopen_t *c, uint16_t sub, found_t *foun
 
 static uint32_t read_server(const app_canopen_t *c, uint16_t sub, found_t *found)
 {
-    const uint32_t ids[] = {2UL, 0x600UL + c->node, 0x580UL + c->node};
+    const uint32_t ids[] = {2UL, (uint32_t)APP_CANOPEN_ID_REQUEST + c->node,
+                            (uint32_t)APP_CANOPEN_ID_ANSWER + c->node};
 
     found->value  = (sub <= 2U) ? ids[sub] : 0UL;
     found->octets = (uint16_t)((sub == 0U) ? 1U : 4U);
@@ -93,7 +94,7 @@ static bool read_single(const app_canopen_t *c, uint16_t index, found_t *found)
         found->text = APP_REGISTERS_VERSION;
         break;
     case ID_EMERGENCY:
-        found->value = 0x80UL + c->node;
+        found->value = (uint32_t)APP_CANOPEN_ID_EMERGENCY + c->node;
         break;
     case HEARTBEAT:
         found->value  = c->heartbeat_ms;

@@ -3,8 +3,7 @@
 
 #include "app_error.h"
 
-#define ID_EMERGENCY 0x80U
-#define OCTET        0xFFU
+#define OCTET 0xFFU
 
 /* Bits of 1001h. */
 #define GENERIC       0x01U
@@ -14,13 +13,6 @@
 #define COMMUNICATION 0x10U
 #define PROFILE       0x20U
 #define OWN           0x80U
-
-void app_canopen_emergency_reset(app_canopen_emergency_t *e)
-{
-    static const app_canopen_emergency_t none = {.count = 0U};
-
-    *e = none;
-}
 
 /* The newest is the first. */
 static void keep_error(app_canopen_emergency_t *e, uint16_t code, uint16_t more)
@@ -91,7 +83,8 @@ void app_canopen_emergency_send(app_canopen_t *c)
 
     if (e->unsent > 0U) {
         const app_canopen_error_t *const oldest = &e->errors[e->unsent - 1U];
-        board_can_frame_t frame = {.id = (uint16_t)(ID_EMERGENCY + c->node), .length = 8U};
+        board_can_frame_t frame = {.id     = (uint16_t)(APP_CANOPEN_ID_EMERGENCY + c->node),
+                                   .length = 8U};
 
         frame.octets[0] = (uint16_t)(oldest->code & OCTET);
         frame.octets[1] = (uint16_t)(oldest->code >> 8U);

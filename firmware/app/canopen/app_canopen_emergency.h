@@ -8,9 +8,6 @@
 
 #include "app_canopen_node.h"
 
-/** Forgets everything. */
-void app_canopen_emergency_reset(app_canopen_emergency_t *e);
-
 /** Notes an error of the communication. */
 void app_canopen_emergency_tell(app_canopen_emergency_t *e, uint16_t code);
 

@@ -6,56 +6,70 @@
 #include <stddef.h>
 
 const app_canopen_object_t app_canopen_map[APP_CANOPEN_OBJECTS] = {
-    {0x1000U, 0U, 4U, false, false, NULL, 0x00020192UL}, /* Device type */
-    {0x1005U, 0U, 4U, false, false, NULL, 0x00000080UL}, /* COB-ID of SYNC */
-    {0x1010U, 0U, 1U, false, false, NULL, 0x00000001UL}, /* Highest sub-index */
-    {0x1010U, 1U, 4U, false, true, &app_registers_map_holding[32], 0x00000000UL}, /* STORE_PARAMETERS */
-    {0x1011U, 0U, 1U, false, false, NULL, 0x00000001UL}, /* Highest sub-index */
-    {0x1011U, 1U, 4U, false, true, &app_registers_map_holding[33], 0x00000000UL}, /* RESTORE_PARAMETERS */
-    {0x1018U, 0U, 1U, false, false, NULL, 0x00000004UL}, /* Highest sub-index */
-    {0x1018U, 1U, 4U, false, false, NULL, 0x00000000UL}, /* Vendor */
-    {0x1018U, 2U, 4U, false, false, NULL, 0x00028335UL}, /* Product */
-    {0x1018U, 3U, 4U, false, false, NULL, 0x00010000UL}, /* Revision */
-    {0x1018U, 4U, 4U, false, false, NULL, 0x00000000UL}, /* Serial number */
-    {0x6007U, 0U, 2U, true, true, &app_registers_map_holding[11], 0x00000000UL}, /* LOST_OPTION */
-    {0x603FU, 0U, 2U, false, false, &app_registers_map_input[2], 0x00000000UL}, /* ERROR_CODE */
-    {0x6040U, 0U, 2U, false, true, &app_registers_map_holding[0], 0x00000000UL}, /* CONTROLWORD */
-    {0x6041U, 0U, 2U, false, false, &app_registers_map_input[0], 0x00000000UL}, /* STATUSWORD */
-    {0x605AU, 0U, 2U, true, true, &app_registers_map_holding[8], 0x00000000UL}, /* QUICK_STOP_OPTION */
-    {0x605BU, 0U, 2U, true, true, &app_registers_map_holding[9], 0x00000000UL}, /* SHUTDOWN_OPTION */
-    {0x605CU, 0U, 2U, true, true, &app_registers_map_holding[10], 0x00000000UL}, /* DISABLE_OPTION */
-    {0x6060U, 0U, 1U, true, true, &app_registers_map_holding[1], 0x00000000UL}, /* MODE_OF_OPERATION */
-    {0x6061U, 0U, 1U, true, false, &app_registers_map_input[1], 0x00000000UL}, /* MODE_NOW */
-    {0x6064U, 0U, 4U, true, false, &app_registers_map_input[51], 0x00000000UL}, /* POSITION_NOW */
-    {0x6065U, 0U, 4U, false, true, &app_registers_map_holding[49], 0x00000000UL}, /* FOLLOWING_WINDOW */
-    {0x6066U, 0U, 2U, false, true, &app_registers_map_holding[50], 0x00000000UL}, /* FOLLOWING_TIMEOUT */
-    {0x6067U, 0U, 4U, false, true, &app_registers_map_holding[38], 0x00000000UL}, /* POSITION_WINDOW */
-    {0x606BU, 0U, 4U, true, false, &app_registers_map_input[12], 0x00000000UL}, /* SPEED_DEMAND_RPM */
-    {0x606CU, 0U, 4U, true, false, &app_registers_map_input[11], 0x00000000UL}, /* SPEED_NOW_RPM */
-    {0x606DU, 0U, 2U, false, true, &app_registers_map_holding[13], 0x00000000UL}, /* SPEED_WINDOW */
-    {0x6071U, 0U, 2U, true, true, &app_registers_map_holding[40], 0x00000000UL}, /* TORQUE */
-    {0x6072U, 0U, 2U, false, true, &app_registers_map_holding[42], 0x00000000UL}, /* MAX_TORQUE */
-    {0x6073U, 0U, 2U, false, true, &app_registers_map_holding[45], 0x00000000UL}, /* MAX_CURRENT_SHARE */
-    {0x6074U, 0U, 2U, true, false, &app_registers_map_input[140], 0x00000000UL}, /* TORQUE_DEMAND */
-    {0x6075U, 0U, 4U, false, false, &app_registers_map_input[141], 0x00000000UL}, /* RATED_CURRENT */
-    {0x6076U, 0U, 4U, false, false, &app_registers_map_input[142], 0x00000000UL}, /* RATED_TORQUE */
-    {0x6077U, 0U, 2U, true, false, &app_registers_map_input[139], 0x00000000UL}, /* TORQUE_NOW */
-    {0x6079U, 0U, 4U, false, false, &app_registers_map_input[19], 0x00000000UL}, /* DC_LINK */
-    {0x607AU, 0U, 4U, true, true, &app_registers_map_holding[35], 0x00000000UL}, /* TARGET_POSITION */
-    {0x6080U, 0U, 4U, false, true, &app_registers_map_holding[44], 0x00000000UL}, /* TORQUE_SPEED_MAX */
-    {0x6081U, 0U, 4U, false, true, &app_registers_map_holding[36], 0x00000000UL}, /* PROFILE_VELOCITY */
-    {0x6083U, 0U, 4U, false, true, &app_registers_map_holding[5], 0x00000000UL}, /* ACCELERATION */
-    {0x6084U, 0U, 4U, false, true, &app_registers_map_holding[6], 0x00000000UL}, /* DECELERATION */
-    {0x6085U, 0U, 4U, false, true, &app_registers_map_holding[7], 0x00000000UL}, /* QUICK_STOP_DECELERATION */
-    {0x6087U, 0U, 4U, false, true, &app_registers_map_holding[43], 0x00000000UL}, /* TORQUE_SLOPE */
-    {0x60A4U, 0U, 1U, false, false, NULL, 0x00000001UL}, /* Highest sub-index */
-    {0x60A4U, 1U, 4U, false, true, &app_registers_map_holding[37], 0x00000000UL}, /* PROFILE_JERK */
-    {0x60B0U, 0U, 4U, true, true, &app_registers_map_holding[48], 0x00000000UL}, /* POSITION_OFFSET */
-    {0x60B1U, 0U, 4U, true, true, &app_registers_map_holding[46], 0x00000000UL}, /* VELOCITY_OFFSET */
-    {0x60B2U, 0U, 2U, true, true, &app_registers_map_holding[41], 0x00000000UL}, /* TORQUE_OFFSET */
-    {0x60C2U, 0U, 1U, false, false, NULL, 0x00000002UL}, /* Highest sub-index */
-    {0x60C2U, 1U, 1U, false, true, &app_registers_map_holding[47], 0x00000000UL}, /* INTERPOLATION_PERIOD */
-    {0x60C2U, 2U, 1U, true, true, NULL, 0xFFFFFFFDUL}, /* INTERPOLATION_POWER */
-    {0x60FFU, 0U, 4U, true, true, &app_registers_map_holding[3], 0x00000000UL}, /* SPEED_RPM */
-    {0x6502U, 0U, 4U, false, false, &app_registers_map_input[104], 0x00000000UL}, /* SUPPORTED_MODES */
+    {0x1000U, 0U, 4U, false, NULL, 0x00020192UL}, /* Device type */
+    {0x1005U, 0U, 4U, false, NULL, 0x00000080UL}, /* COB-ID of SYNC */
+    {0x1010U, 0U, 1U, false, NULL, 0x00000001UL}, /* Highest sub-index */
+    {0x1010U, 1U, 4U, true, &app_registers_map_holding[32], 0x00000000UL}, /* STORE_PARAMETERS */
+    {0x1011U, 0U, 1U, false, NULL, 0x00000001UL}, /* Highest sub-index */
+    {0x1011U, 1U, 4U, true, &app_registers_map_holding[33], 0x00000000UL}, /* RESTORE_PARAMETERS */
+    {0x1018U, 0U, 1U, false, NULL, 0x00000004UL}, /* Highest sub-index */
+    {0x1018U, 1U, 4U, false, NULL, 0x00000000UL}, /* Vendor */
+    {0x1018U, 2U, 4U, false, NULL, 0x00028335UL}, /* Product */
+    {0x1018U, 3U, 4U, false, NULL, 0x00010000UL}, /* Revision */
+    {0x1018U, 4U, 4U, false, NULL, 0x00000000UL}, /* Serial number */
+    {0x6007U, 0U, 2U, true, &app_registers_map_holding[11], 0x00000000UL}, /* LOST_OPTION */
+    {0x603FU, 0U, 2U, false, &app_registers_map_input[2], 0x00000000UL}, /* ERROR_CODE */
+    {0x6040U, 0U, 2U, true, &app_registers_map_holding[0], 0x00000000UL}, /* CONTROLWORD */
+    {0x6041U, 0U, 2U, false, &app_registers_map_input[0], 0x00000000UL}, /* STATUSWORD */
+    {0x605AU, 0U, 2U, true, &app_registers_map_holding[8], 0x00000000UL}, /* QUICK_STOP_OPTION */
+    {0x605BU, 0U, 2U, true, &app_registers_map_holding[9], 0x00000000UL}, /* SHUTDOWN_OPTION */
+    {0x605CU, 0U, 2U, true, &app_registers_map_holding[10], 0x00000000UL}, /* DISABLE_OPTION */
+    {0x6060U, 0U, 1U, true, &app_registers_map_holding[1], 0x00000000UL}, /* MODE_OF_OPERATION */
+    {0x6061U, 0U, 1U, false, &app_registers_map_input[1], 0x00000000UL}, /* MODE_NOW */
+    {0x6064U, 0U, 4U, false, &app_registers_map_input[51], 0x00000000UL}, /* POSITION_NOW */
+    {0x6065U, 0U, 4U, true, &app_registers_map_holding[49], 0x00000000UL}, /* FOLLOWING_WINDOW */
+    {0x6066U, 0U, 2U, true, &app_registers_map_holding[50], 0x00000000UL}, /* FOLLOWING_TIMEOUT */
+    {0x6067U, 0U, 4U, true, &app_registers_map_holding[38], 0x00000000UL}, /* POSITION_WINDOW */
+    {0x606BU, 0U, 4U, false, &app_registers_map_input[12], 0x00000000UL}, /* SPEED_DEMAND_RPM */
+    {0x606CU, 0U, 4U, false, &app_registers_map_input[11], 0x00000000UL}, /* SPEED_NOW_RPM */
+    {0x606DU, 0U, 2U, true, &app_registers_map_holding[13], 0x00000000UL}, /* SPEED_WINDOW */
+    {0x6071U, 0U, 2U, true, &app_registers_map_holding[40], 0x00000000UL}, /* TORQUE */
+    {0x6072U, 0U, 2U, true, &app_registers_map_holding[42], 0x00000000UL}, /* MAX_TORQUE */
+    {0x6073U, 0U, 2U, true, &app_registers_map_holding[45], 0x00000000UL}, /* MAX_CURRENT_SHARE */
+    {0x6074U, 0U, 2U, false, &app_registers_map_input[140], 0x00000000UL}, /* TORQUE_DEMAND */
+    {0x6075U, 0U, 4U, false, &app_registers_map_input[141], 0x00000000UL}, /* RATED_CURRENT */
+    {0x6076U, 0U, 4U, false, &app_registers_map_input[142], 0x00000000UL}, /* RATED_TORQUE */
+    {0x6077U, 0U, 2U, false, &app_registers_map_input[139], 0x00000000UL}, /* TORQUE_NOW */
+    {0x6079U, 0U, 4U, false, &app_registers_map_input[19], 0x00000000UL}, /* DC_LINK */
+    {0x607AU, 0U, 4U, true, &app_registers_map_holding[35], 0x00000000UL}, /* TARGET_POSITION */
+    {0x6080U, 0U, 4U, true, &app_registers_map_holding[44], 0x00000000UL}, /* TORQUE_SPEED_MAX */
+    {0x6081U, 0U, 4U, true, &app_registers_map_holding[36], 0x00000000UL}, /* PROFILE_VELOCITY */
+    {0x6083U, 0U, 4U, true, &app_registers_map_holding[5], 0x00000000UL}, /* ACCELERATION */
+    {0x6084U, 0U, 4U, true, &app_registers_map_holding[6], 0x00000000UL}, /* DECELERATION */
+    {0x6085U, 0U, 4U, true, &app_registers_map_holding[7], 0x00000000UL}, /* QUICK_STOP_DECELERATION */
+    {0x6087U, 0U, 4U, true, &app_registers_map_holding[43], 0x00000000UL}, /* TORQUE_SLOPE */
+    {0x60A4U, 0U, 1U, false, NULL, 0x00000001UL}, /* Highest sub-index */
+    {0x60A4U, 1U, 4U, true, &app_registers_map_holding[37], 0x00000000UL}, /* PROFILE_JERK */
+    {0x60B0U, 0U, 4U, true, &app_registers_map_holding[48], 0x00000000UL}, /* POSITION_OFFSET */
+    {0x60B1U, 0U, 4U, true, &app_registers_map_holding[46], 0x00000000UL}, /* VELOCITY_OFFSET */
+    {0x60B2U, 0U, 2U, true, &app_registers_map_holding[41], 0x00000000UL}, /* TORQUE_OFFSET */
+    {0x60C2U, 0U, 1U, false, NULL, 0x00000002UL}, /* Highest sub-index */
+    {0x60C2U, 1U, 1U, true, &app_registers_map_holding[47], 0x00000000UL}, /* INTERPOLATION_PERIOD */
+    {0x60C2U, 2U, 1U, true, NULL, 0xFFFFFFFDUL}, /* INTERPOLATION_POWER */
+    {0x60FFU, 0U, 4U, true, &app_registers_map_holding[3], 0x00000000UL}, /* SPEED_RPM */
+    {0x6502U, 0U, 4U, false, &app_registers_map_input[104], 0x00000000UL}, /* SUPPORTED_MODES */
+};
+
+const app_canopen_preset_t app_canopen_received[APP_CANOPEN_PDOS] = {
+    {{0x60400010UL, 0x00000000UL}, 1U, 255U, 0U},
+    {{0x60400010UL, 0x60600008UL}, 2U, 255U, 0U},
+    {{0x60400010UL, 0x607A0020UL}, 2U, 255U, 0U},
+    {{0x60400010UL, 0x60FF0020UL}, 2U, 255U, 0U},
+};
+
+const app_canopen_preset_t app_canopen_sent[APP_CANOPEN_PDOS] = {
+    {{0x60410010UL, 0x00000000UL}, 1U, 255U, 100U},
+    {{0x60410010UL, 0x60610008UL}, 2U, 255U, 100U},
+    {{0x60410010UL, 0x60640020UL}, 2U, 1U, 100U},
+    {{0x60410010UL, 0x606C0020UL}, 2U, 1U, 100U},
 };

@@ -3,11 +3,6 @@
 
 #include <stddef.h>
 
-#define ID_NMT       0U
-#define ID_SYNC      0x80U
-#define ID_REQUEST   0x600U
-#define ID_HEARTBEAT 0x700U
-
 bool app_canopen_node_send(app_canopen_t *c, const board_can_frame_t *frame)
 {
     const bool taken = board_can_write(frame);
@@ -28,17 +23,17 @@ void app_canopen_node_listen(const app_canopen_t *c)
     uint16_t       ids[BOARD_CAN_IDS];
     uint16_t       count = 3U;
 
-    ids[0] = ID_NMT;
-    ids[1] = ID_SYNC;
-    ids[2] = (uint16_t)(ID_REQUEST + c->node);
+    ids[0] = APP_CANOPEN_ID_NMT;
+    ids[1] = APP_CANOPEN_ID_SYNC;
+    ids[2] = (uint16_t)(APP_CANOPEN_ID_REQUEST + c->node);
     for (uint16_t n = 0U; n < APP_CANOPEN_PDOS; n++) {
         if (app_canopen_pdo_is_used(&c->received[n])) {
-            ids[count] = (uint16_t)(c->received[n].cob & 0x7FFUL);
+            ids[count] = app_canopen_pdo_id(&c->received[n]);
             count      = (uint16_t)(count + 1U);
         }
     }
     if (watched != 0U) {
-        ids[count] = (uint16_t)(ID_HEARTBEAT + watched);
+        ids[count] = (uint16_t)(APP_CANOPEN_ID_HEARTBEAT + watched);
         count      = (uint16_t)(count + 1U);
     }
     board_can_listen(ids, count);

@@ -8,6 +8,14 @@
 
 #include "app_canopen_pdo.h"
 
+/* Identifiers of CiA 301; the last four plus the number of the node. */
+#define APP_CANOPEN_ID_NMT       0U
+#define APP_CANOPEN_ID_SYNC      0x80U
+#define APP_CANOPEN_ID_EMERGENCY 0x80U
+#define APP_CANOPEN_ID_ANSWER    0x580U
+#define APP_CANOPEN_ID_REQUEST   0x600U
+#define APP_CANOPEN_ID_HEARTBEAT 0x700U
+
 #define APP_CANOPEN_ERRORS 8U /**< kept by 1003h */
 
 /** States of CiA 301, as a heartbeat has them. */

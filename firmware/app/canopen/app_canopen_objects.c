@@ -33,14 +33,13 @@ static uint32_t find_register(uint16_t index, uint16_t sub, app_canopen_object_t
     uint32_t result = APP_CANOPEN_NO_OBJECT;
 
     if (entry != NULL) {
-        found->index     = index;
-        found->sub       = 0U;
-        found->octets    = (uint16_t)(2U * app_registers_count_words(entry));
-        found->is_signed = (entry->type == APP_REGISTERS_I16) || (entry->type == APP_REGISTERS_I32);
-        found->writable  = !input;
-        found->entry     = entry;
-        found->value     = 0UL;
-        result           = (sub == 0U) ? APP_CANOPEN_OK : APP_CANOPEN_NO_SUB;
+        found->index    = index;
+        found->sub      = 0U;
+        found->octets   = (uint16_t)(2U * app_registers_count_words(entry));
+        found->writable = !input;
+        found->entry    = entry;
+        found->value    = 0UL;
+        result          = (sub == 0U) ? APP_CANOPEN_OK : APP_CANOPEN_NO_SUB;
     }
     return result;
 }
@@ -74,15 +73,22 @@ uint32_t app_canopen_objects_value(const app_registers_t *r, const app_canopen_o
     return (o->entry != NULL) ? app_registers_place_value(r, o->entry) : o->value;
 }
 
-/* The low octets of a value with their sign in all 32 bits. */
-static uint32_t extended(const app_canopen_object_t *o, uint32_t value)
+static uint32_t mask_of(uint16_t octets)
 {
-    const uint32_t all  = 0xFFFFFFFFU;
-    const uint32_t mask = (o->octets < 4U) ? ~(all << (8U * o->octets)) : all;
-    const uint32_t sign = mask & ~(mask >> 1U);
-    uint32_t       out  = value & mask;
+    const uint32_t all = 0xFFFFFFFFU;
 
-    if (o->is_signed && ((out & sign) != 0U)) {
+    return (octets < 4U) ? ~(all << (8UL * (uint32_t)octets)) : all;
+}
+
+/* The low octets of a value, with the sign in all 32 bits if the register has one. */
+static uint32_t extended(const app_registers_entry_t *entry, uint16_t octets, uint32_t value)
+{
+    const bool is_signed = (entry->type == APP_REGISTERS_I16) || (entry->type == APP_REGISTERS_I32);
+    const uint32_t mask  = mask_of(octets);
+    const uint32_t sign  = mask & ~(mask >> 1U);
+    uint32_t       out   = value & mask;
+
+    if (is_signed && ((out & sign) != 0U)) {
         out |= ~mask;
     }
     return out;
@@ -127,19 +133,26 @@ static uint32_t write_entry(app_registers_t *r, const app_registers_entry_t *ent
     return result;
 }
 
+uint32_t app_canopen_objects_write(app_registers_t *r, const app_registers_entry_t *entry,
+                                   uint16_t octets, uint32_t value)
+{
+    const uint32_t whole = extended(entry, octets, value);
+
+    return holds(entry, whole) ? write_entry(r, entry, whole) : APP_CANOPEN_VALUE;
+}
+
 uint32_t app_canopen_objects_put(app_registers_t *r, const app_canopen_object_t *o, uint32_t value)
 {
-    const uint32_t whole  = extended(o, value);
-    uint32_t       result = APP_CANOPEN_VALUE;
+    uint32_t result = APP_CANOPEN_VALUE;
 
     if (!o->writable) {
         result = APP_CANOPEN_READ_ONLY;
-    } else if (o->entry == NULL) {
-        result = (whole == o->value) ? APP_CANOPEN_OK : APP_CANOPEN_VALUE;
-    } else if (holds(o->entry, whole)) {
-        result = write_entry(r, o->entry, whole);
+    } else if (o->entry != NULL) {
+        result = app_canopen_objects_write(r, o->entry, o->octets, value);
+    } else if (((value ^ o->value) & mask_of(o->octets)) == 0U) {
+        result = APP_CANOPEN_OK;
     } else {
-        /* beyond the register */
+        /* not the value of the constant */
     }
     return result;
 }

@@ -19,7 +19,11 @@ uint32_t app_canopen_objects_find(uint16_t index, uint16_t sub, app_canopen_obje
 /** Value of an object, with its sign in all 32 bits. */
 uint32_t app_canopen_objects_value(const app_registers_t *r, const app_canopen_object_t *o);
 
-/** Writes the low octets of `value`. @return an abort code. */
+/** Writes the low octets of `value` to a holding register. @return an abort code. */
+uint32_t app_canopen_objects_write(app_registers_t *r, const app_registers_entry_t *entry,
+                                   uint16_t octets, uint32_t value);
+
+/** The same for any object. */
 uint32_t app_canopen_objects_put(app_registers_t *r, const app_canopen_object_t *o, uint32_t value);
 
 #endif /* APP_CANOPEN_OBJECTS_H */

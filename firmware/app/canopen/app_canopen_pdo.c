@@ -5,25 +5,17 @@
 
 #include "app_registers_place.h"
 
-#define UNUSED          ((uint32_t)0x80000000UL)
-#define NO_REMOTE       ((uint32_t)0x40000000UL) /* of a TPDO: nobody asks for it; it is taken */
-#define ID_LEAST        0x181UL                  /* by CiA 301 */
-#define ID_MOST         0x57FUL
-#define TYPE_EVENT      254U
-#define FIRST_RECEIVED  ((uint32_t)0x200UL)
-#define FIRST_SENT      ((uint32_t)0x180UL)
-#define SETTINGS        5U /* highest sub-index */
-#define OCTETS          8U
-#define INHIBIT_DEFAULT 100U /* 10 ms: chosen, two of them take 3 % of 500 kbit/s */
-
+#define UNUSED         ((uint32_t)0x80000000UL)
+#define NO_REMOTE      ((uint32_t)0x40000000UL) /* of a TPDO: nobody asks for it; it is taken */
+#define ID_LEAST       0x181UL                  /* by CiA 301 */
+#define ID_MOST        0x57FUL
+#define TYPE_EVENT     254U
+#define FIRST_RECEIVED ((uint32_t)0x200UL)
+#define FIRST_SENT     ((uint32_t)0x180UL)
+#define SETTINGS       5U /* highest sub-index */
+#define OCTETS         8U
 /* Standard types of CiA 301 that map octets nothing takes. */
 #define DUMMY_LAST 7U
-
-typedef struct {
-    uint32_t objects[2];
-    uint16_t count;
-    uint16_t type;
-} preset_t;
 
 static uint16_t octets_of(uint32_t what)
 {
@@ -40,30 +32,16 @@ static uint16_t sub_of(uint32_t what)
     return (uint16_t)((what >> 8U) & 0xFFUL);
 }
 
-/* The objects are those of CiA 402. Speeds and positions leave with every SYNC. */
-static const preset_t *preset_of(uint16_t n, bool receives)
-{
-    static const preset_t in[APP_CANOPEN_PDOS]  = {{{0x60400010UL, 0UL}, 1U, 255U},
-                                                   {{0x60400010UL, 0x60600008UL}, 2U, 255U},
-                                                   {{0x60400010UL, 0x607A0020UL}, 2U, 255U},
-                                                   {{0x60400010UL, 0x60FF0020UL}, 2U, 255U}};
-    static const preset_t out[APP_CANOPEN_PDOS] = {{{0x60410010UL, 0UL}, 1U, 255U},
-                                                   {{0x60410010UL, 0x60610008UL}, 2U, 255U},
-                                                   {{0x60410010UL, 0x60640020UL}, 2U, 1U},
-                                                   {{0x60410010UL, 0x606C0020UL}, 2U, 1U}};
-
-    return receives ? &in[n] : &out[n];
-}
-
 void app_canopen_pdo_reset(app_canopen_pdo_t *p, uint16_t n, uint16_t node, bool receives)
 {
-    static const app_canopen_pdo_t empty = {.cob = UNUSED};
-    const preset_t *const          d     = preset_of(n, receives);
-    const uint32_t                 first = receives ? FIRST_RECEIVED : FIRST_SENT;
+    static const app_canopen_pdo_t    empty = {.cob = UNUSED};
+    const app_canopen_preset_t *const d =
+        receives ? &app_canopen_received[n] : &app_canopen_sent[n];
+    const uint32_t first = receives ? FIRST_RECEIVED : FIRST_SENT;
 
     *p               = empty;
     p->type          = d->type;
-    p->inhibit_100us = (uint16_t)(receives ? 0U : INHIBIT_DEFAULT);
+    p->inhibit_100us = d->inhibit_100us;
     for (uint16_t k = 0U; k < d->count; k++) {
         (void)app_canopen_pdo_map(p, (uint16_t)(k + 1U), d->objects[k], receives);
     }
@@ -240,19 +218,17 @@ bool app_canopen_pdo_act(const app_canopen_pdo_t *p, app_registers_t *r)
     bool     ok = true;
 
     for (uint16_t k = 0U; ok && (k < p->count); k++) {
-        const uint32_t       what   = p->map[k].what;
-        const uint16_t       octets = octets_of(what);
-        app_canopen_object_t object = {.index = 0U};
-        uint32_t             value  = 0UL;
+        const app_registers_entry_t *const entry  = p->map[k].entry;
+        const uint16_t                     octets = octets_of(p->map[k].what);
+        uint32_t                           value  = 0UL;
 
         at = (uint16_t)(at + octets);
         ok = at <= OCTETS; /* as set_count() has made sure */
         for (uint16_t n = octets; ok && (n > 0U); n--) {
             value = (value << 8U) | p->octets[(at - octets) + (n - 1U)];
         }
-        if (ok && (p->map[k].entry != NULL) &&
-            (app_canopen_objects_find(index_of(what), sub_of(what), &object) == APP_CANOPEN_OK)) {
-            ok = app_canopen_objects_put(r, &object, value) == APP_CANOPEN_OK;
+        if (ok && (entry != NULL)) {
+            ok = app_canopen_objects_write(r, entry, octets, value) == APP_CANOPEN_OK;
         }
     }
     return ok;

@@ -10,7 +10,6 @@
 #include "app_canopen_objects.h"
 #include "board.h"
 
-#define APP_CANOPEN_PDOS   4U /**< of each direction */
 #define APP_CANOPEN_MAPPED 8U /**< objects of one */
 
 #define APP_CANOPEN_SYNC_MOST 240U /**< transmission types up to this go by SYNC */
@@ -43,6 +42,12 @@ void app_canopen_pdo_reset(app_canopen_pdo_t *p, uint16_t n, uint16_t node, bool
 static inline bool app_canopen_pdo_is_used(const app_canopen_pdo_t *p)
 {
     return ((p->cob & 0x80000000UL) == 0UL) && (p->count > 0U);
+}
+
+/** Its identifier on the bus. */
+static inline uint16_t app_canopen_pdo_id(const app_canopen_pdo_t *p)
+{
+    return (uint16_t)(p->cob & 0x7FFUL);
 }
 
 /** True if a change makes it wanted. */

@@ -56,7 +56,7 @@ void app_canopen_process_take(app_canopen_t *c, app_registers_t *r, const board_
     for (uint16_t n = 0U; n < APP_CANOPEN_PDOS; n++) {
         app_canopen_pdo_t *const p = &c->received[n];
 
-        if (app_canopen_pdo_is_used(p) && ((uint16_t)(p->cob & 0x7FFUL) == frame->id)) {
+        if (app_canopen_pdo_is_used(p) && (app_canopen_pdo_id(p) == frame->id)) {
             take_octets(c, p, r, frame, now_ticks);
         }
     }
@@ -99,7 +99,7 @@ static bool is_due(app_canopen_t *c, app_canopen_pdo_t *p, const app_registers_t
     bool due = p->wanted;
 
     if (p->type > APP_CANOPEN_SYNC_MOST) {
-        const bool free =
+        const bool rested =
             app_canopen_node_passed(c, p->at_ticks, now_ticks, TENTH * (float)p->inhibit_100us);
 
         p->wanted = app_canopen_pdo_read(p, r) || p->wanted;
@@ -107,7 +107,7 @@ static bool is_due(app_canopen_t *c, app_canopen_pdo_t *p, const app_registers_t
             app_canopen_node_passed(c, p->at_ticks, now_ticks, (float)p->event_ms)) {
             p->wanted = true;
         }
-        due = p->wanted && free;
+        due = p->wanted && rested;
     } else if (p->type == 0U) {
         due = p->wanted && (p->syncs > 0U);
     } else {
@@ -118,7 +118,7 @@ static bool is_due(app_canopen_t *c, app_canopen_pdo_t *p, const app_registers_t
 
 static void send_octets(app_canopen_t *c, app_canopen_pdo_t *p, uint32_t now_ticks)
 {
-    board_can_frame_t frame = {.id = (uint16_t)(p->cob & 0x7FFUL), .length = p->length};
+    board_can_frame_t frame = {.id = app_canopen_pdo_id(p), .length = p->length};
 
     for (uint16_t n = 0U; n < p->length; n++) {
         frame.octets[n] = p->octets[n];

@@ -3,7 +3,6 @@
 
 #include "app_canopen_dictionary.h"
 
-#define ID_ANSWER 0x580U
 #define OCTETS    8U
 #define EXPEDITED 4U /* octets that fit the first frame */
 #define SEGMENT   7U /* octets of a segment */
@@ -32,7 +31,7 @@ static void begin_answer(app_canopen_t *c, uint16_t command)
     board_can_frame_t *const       a     = &c->sdo.answer;
 
     *a             = empty;
-    a->id          = (uint16_t)(ID_ANSWER + c->node);
+    a->id          = (uint16_t)(APP_CANOPEN_ID_ANSWER + c->node);
     a->octets[0]   = command;
     c->sdo.answers = true;
 }
