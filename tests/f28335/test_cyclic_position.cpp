@@ -3,12 +3,9 @@
 // of a sine; the position is the shaft's own.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <random>
-#include <vector>
 
-#include "running_client.hpp"
+#include "cyclic_client.hpp"
 
 using namespace sdre;
 
@@ -29,19 +26,16 @@ double sine_rpm(double time_s)
     return turns * 60.0 * circle * std::cos(circle * time_s);
 }
 
-class CyclicPosition : public RunningClient {
+class CyclicPosition : public CyclicClient {
 protected:
-    struct Period {
-        double time_s;
-        double position_cnt;
-    };
+    CyclicPosition() : CyclicClient(sine_cnt, 1.5) {}
 
     void after_period() override
     {
         const double omega_m_radps = served.plant_state().omega_e_radps / 2.0;
         turned_cnt += 0.5 * (omega_m_radps + before_radps) * ts_s * per_turn / circle;
         before_radps = omega_m_radps;
-        all.push_back({served.time_s() - zero_s, turned_cnt});
+        note(turned_cnt);
     }
     bool write_target(double counts)
     {
@@ -62,39 +56,17 @@ protected:
     }
     void begin(int period_ms)
     {
-        ASSERT_TRUE(write_one(APP_REGISTERS_INTERPOLATION_PERIOD, period_ms));
-        enable(APP_CONTROL_CYCLIC_POSITION);
+        CyclicClient::begin(APP_CONTROL_CYCLIC_POSITION, period_ms);
         base_cnt   = position_cnt();
         turned_cnt = 0.0;
-        zero_s     = served.time_s();
-        all.clear();
+        begin_time();
     }
-    /// Set-points at multiples of the period, each late or early by some of it. Every lost_each-th is lost.
     void send(double period_s, double jitter, int lost_each, double length_s, bool offset = false)
     {
-        std::mt19937                           random(1);
-        std::uniform_real_distribution<double> off(-jitter, jitter);
-        for (int k = 1; k * period_s < length_s; k++) {
-            const double at_s = zero_s + (k + off(random)) * period_s;
-            pass(std::max(at_s - served.time_s(), 0.0));
-            if (lost_each == 0 || k % lost_each != 0) {
-                const double x = base_cnt + sine_cnt(k * period_s);
-                ASSERT_TRUE(offset ? write_both(x, sine_rpm(k * period_s)) : write_target(x));
-            }
-        }
-    }
-    /// How far the shaft is from the sine that is so much later, from 1.5 s on.
-    double rms_cnt(double delay_s) const
-    {
-        double sum = 0.0;
-        int    n   = 0;
-        for (const Period &p : all) {
-            if (p.time_s > 1.5) {
-                sum += std::pow(p.position_cnt - sine_cnt(p.time_s - delay_s), 2);
-                n++;
-            }
-        }
-        return std::sqrt(sum / n);
+        send_each(period_s, jitter, lost_each, length_s, [&](double time_s) {
+            const double x = base_cnt + sine_cnt(time_s);
+            return offset ? write_both(x, sine_rpm(time_s)) : write_target(x);
+        });
     }
     /// The delay that brings them nearest.
     double delay_s() const
@@ -104,7 +76,7 @@ protected:
             const double around_s = best_s;
             for (int n = each_s < 1e-3 ? -20 : 0; n < (each_s < 1e-3 ? 21 : 150); n++) {
                 const double s = around_s + n * each_s;
-                best_s         = rms_cnt(s) < rms_cnt(best_s) ? s : best_s;
+                best_s         = rms(s) < rms(best_s) ? s : best_s;
             }
         }
         return best_s;
@@ -112,25 +84,13 @@ protected:
     void record()
     {
         RecordProperty("delay_us", static_cast<int>(1e6 * delay_s()));
-        RecordProperty("rms_thousandths", static_cast<int>(1e3 * rms_cnt(delay_s())));
-        RecordProperty("farthest_cnt", static_cast<int>(farthest_cnt(delay_s())));
-    }
-    double farthest_cnt(double delay_s) const
-    {
-        double most = 0.0;
-        for (const Period &p : all) {
-            if (p.time_s > 1.5) {
-                most = std::max(most, std::abs(p.position_cnt - sine_cnt(p.time_s - delay_s)));
-            }
-        }
-        return most;
+        RecordProperty("rms_thousandths", static_cast<int>(1e3 * rms(delay_s())));
+        RecordProperty("farthest_cnt", static_cast<int>(farthest(delay_s())));
     }
 
-    double              zero_s       = 0.0;
-    double              turned_cnt   = 0.0;
-    double              before_radps = 0.0;
-    int                 base_cnt     = 0;
-    std::vector<Period> all;
+    double turned_cnt   = 0.0;
+    double before_radps = 0.0;
+    int    base_cnt     = 0;
 };
 
 } // namespace
@@ -142,7 +102,7 @@ TEST_F(CyclicPosition, ASineIsFollowedAnInterpolationPeriodLater)
     // A request of 13 characters and the silence after it take 3.0 ms; a millisecond is the drive's.
     EXPECT_GE(delay_s(), 0.020);
     EXPECT_LE(delay_s(), 0.0241);
-    EXPECT_LE(rms_cnt(delay_s()), 6.0);
+    EXPECT_LE(rms(delay_s()), 6.0);
     record();
     EXPECT_EQ(input(APP_REGISTERS_MODE_NOW), APP_CONTROL_CYCLIC_POSITION);
     EXPECT_TRUE(has(APP_REGISTERS_OF_MODE));
@@ -155,7 +115,7 @@ TEST_F(CyclicPosition, TheSpeedAtTheSetPointsBringsItNearer)
     begin(20);
     send(0.02, 0.0, 0, 3.5, true);
     EXPECT_LE(delay_s(), 0.0325); // the request of the speed comes first, and its answer
-    EXPECT_LE(rms_cnt(delay_s()), 2.0);
+    EXPECT_LE(rms(delay_s()), 2.0);
     record();
 }
 
@@ -165,7 +125,7 @@ TEST_F(CyclicPosition, SlowSetPointsAreFollowedToo)
     send(0.05, 0.0, 0, 3.5);
     EXPECT_GE(delay_s(), 0.050);
     EXPECT_LE(delay_s(), 0.0545);
-    EXPECT_LE(rms_cnt(delay_s()), 8.0);
+    EXPECT_LE(rms(delay_s()), 8.0);
     record();
 }
 
@@ -175,9 +135,9 @@ TEST_F(CyclicPosition, JitterAndLostSetPointsKeepItWithinAShareOfAPeriod)
     send(0.02, 0.3, 100, 5.0);
     const double steepest = circle * turns * per_turn;
     EXPECT_LE(delay_s(), 0.0241 + 0.001);
-    EXPECT_LE(rms_cnt(delay_s()), 60.0);
+    EXPECT_LE(rms(delay_s()), 60.0);
     record();
-    EXPECT_LE(farthest_cnt(delay_s()), steepest * 0.1 * 0.02);
+    EXPECT_LE(farthest(delay_s()), steepest * 0.1 * 0.02);
     EXPECT_EQ(input(APP_REGISTERS_MODE), APP_MODE_RUN);
     EXPECT_FALSE(has(APP_REGISTERS_FOLLOWING_ERROR));
 }

@@ -3,12 +3,9 @@
 // of a sine; the speed is the shaft's own.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <random>
-#include <vector>
 
-#include "running_client.hpp"
+#include "cyclic_client.hpp"
 
 using namespace sdre;
 
@@ -22,16 +19,13 @@ double sine_e_radps(double time_s)
     return most_e_radps * std::sin(circle * time_s);
 }
 
-class CyclicVelocity : public RunningClient {
+class CyclicVelocity : public CyclicClient {
 protected:
-    struct Period {
-        double time_s;
-        double omega_e_radps;
-    };
+    CyclicVelocity() : CyclicClient(sine_e_radps, 0.5) {}
 
     void after_period() override
     {
-        all.push_back({served.time_s() - zero_s, served.plant_state().omega_e_radps});
+        note(served.plant_state().omega_e_radps);
     }
     bool write_speed(unsigned number, double tenths)
     {
@@ -39,49 +33,23 @@ protected:
     }
     void begin(int period_ms)
     {
-        ASSERT_TRUE(write_one(APP_REGISTERS_INTERPOLATION_PERIOD, period_ms));
-        enable(APP_CONTROL_CYCLIC_VELOCITY);
-        zero_s = served.time_s();
-        all.clear();
+        CyclicClient::begin(APP_CONTROL_CYCLIC_VELOCITY, period_ms);
     }
-    /// Set-points at multiples of the period, each late or early by some of it. Every lost_each-th is lost.
     void send(double period_s, double jitter, int lost_each, double length_s)
     {
-        std::mt19937                           random(1);
-        std::uniform_real_distribution<double> off(-jitter, jitter);
-        for (int k = 1; k * period_s < length_s; k++) {
-            const double at_s = zero_s + (k + off(random)) * period_s;
-            pass(std::max(at_s - served.time_s(), 0.0));
-            if (lost_each == 0 || k % lost_each != 0) {
-                ASSERT_TRUE(write_speed(APP_REGISTERS_SPEED, 10.0 * sine_e_radps(k * period_s)));
-            }
-        }
-    }
-    /// How far the speed is from the sine that is so much later, after the first half second.
-    double rms_e_radps(double delay_s) const
-    {
-        double sum = 0.0;
-        int    n   = 0;
-        for (const Period &p : all) {
-            if (p.time_s > 0.5) {
-                sum += std::pow(p.omega_e_radps - sine_e_radps(p.time_s - delay_s), 2);
-                n++;
-            }
-        }
-        return std::sqrt(sum / n);
+        send_each(period_s, jitter, lost_each, length_s, [this](double time_s) {
+            return write_speed(APP_REGISTERS_SPEED, 10.0 * sine_e_radps(time_s));
+        });
     }
     /// The delay that brings them nearest.
     double delay_s() const
     {
         double best_s = 0.0;
         for (double s = 0.0; s < 0.1; s += 1e-4) {
-            best_s = rms_e_radps(s) < rms_e_radps(best_s) ? s : best_s;
+            best_s = rms(s) < rms(best_s) ? s : best_s;
         }
         return best_s;
     }
-
-    double              zero_s = 0.0;
-    std::vector<Period> all;
 };
 
 } // namespace
@@ -93,7 +61,7 @@ TEST_F(CyclicVelocity, ASineIsFollowedAnInterpolationPeriodLater)
     // A request of 13 characters and the silence after it take 3.0 ms; a millisecond is the drive's.
     EXPECT_GE(delay_s(), 0.020);
     EXPECT_LE(delay_s(), 0.0241);
-    EXPECT_LE(rms_e_radps(delay_s()), 0.3); // the chord of an arc alone is off by 0.3 in its middle
+    EXPECT_LE(rms(delay_s()), 0.3); // the chord of an arc alone is off by 0.3 in its middle
     EXPECT_EQ(input(APP_REGISTERS_MODE_NOW), APP_CONTROL_CYCLIC_VELOCITY);
     EXPECT_TRUE(served.findings().empty());
 }
@@ -104,15 +72,8 @@ TEST_F(CyclicVelocity, JitterAndLostSetPointsMoveItNoFurtherThanTheyAreLate)
     send(0.02, 0.3, 50, 3.0);
     const double later_s  = 0.02 * 1.3; // by a lost one and the jitter of the next
     const double steepest = circle * most_e_radps;
-    double       farthest = 0.0;
-    for (const Period &p : all) {
-        if (p.time_s > 0.5) {
-            farthest =
-                std::max(farthest, std::abs(p.omega_e_radps - sine_e_radps(p.time_s - 0.024)));
-        }
-    }
-    EXPECT_LE(farthest, steepest * later_s);
-    EXPECT_LE(rms_e_radps(0.024), 4.5);
+    EXPECT_LE(farthest(0.024), steepest * later_s);
+    EXPECT_LE(rms(0.024), 4.5);
     EXPECT_EQ(input(APP_REGISTERS_MODE), APP_MODE_RUN);
 }
 

@@ -73,6 +73,23 @@ def enable(node: canopen.RemoteNode, mode: int) -> None:
     wait(node, ENABLED)
 
 
+def lead_by_sync(node: canopen.RemoteNode, pdo: int) -> None:
+    """Set-points of this received PDO act at SYNC, every 10 ms."""
+    node.tpdo.read()
+    node.rpdo.read()
+    node.rpdo[pdo].trans_type = 1
+    node.rpdo[pdo].save()
+    node.sdo[0x60C2][1].raw = 10
+    node.nmt.state = "OPERATIONAL"
+
+
+def set_point(node: canopen.RemoteNode, pdo: int, name: str, value: int) -> None:
+    """One, beside the control word."""
+    node.rpdo[pdo]["CONTROLWORD"].raw = ENABLE
+    node.rpdo[pdo][name].raw = value
+    node.rpdo[pdo].transmit()
+
+
 def test_every_object_of_the_data_sheet_answers(tmp_path: Path) -> None:
     with on_a_bus(tmp_path) as (_, port), master(port) as node:
         read = 0
@@ -112,19 +129,12 @@ def test_the_example_runs(tmp_path: Path) -> None:
 def test_set_points_by_pdo_with_sync_turn_the_shaft(tmp_path: Path) -> None:
     """Cyclic velocity at 100 Hz: set-points act at SYNC, positions come back with it."""
     with on_a_bus(tmp_path) as (_, port), master(port) as node:
-        node.tpdo.read()
-        node.rpdo.read()
-        node.rpdo[4].trans_type = 1
-        node.rpdo[4].save()
-        node.sdo[0x60C2][1].raw = 10
-        node.nmt.state = "OPERATIONAL"
+        lead_by_sync(node, 4)
         enable(node, CYCLIC_VELOCITY)
         positions = []
         node.tpdo[3].add_callback(lambda m: positions.append(m["POSITION_NOW"].raw))
         for n in range(300):
-            node.rpdo[4]["CONTROLWORD"].raw = ENABLE
-            node.rpdo[4]["SPEED_RPM"].raw = 10 * min(n, 300)  # up to 300 r/min
-            node.rpdo[4].transmit()
+            set_point(node, 4, "SPEED_RPM", 10 * min(n, 300))  # up to 300 r/min
             node.network.sync.transmit()
             time.sleep(0.01)
         assert len(positions) > 280
@@ -136,12 +146,7 @@ def test_set_points_by_pdo_with_sync_turn_the_shaft(tmp_path: Path) -> None:
 def test_positions_at_100_hz_are_followed_for_ten_seconds(tmp_path: Path) -> None:
     """Cyclic position: a sine of a turn and half a hertz, by PDO with SYNC."""
     with on_a_bus(tmp_path) as (_, port), master(port) as node:
-        node.tpdo.read()
-        node.rpdo.read()
-        node.rpdo[3].trans_type = 1
-        node.rpdo[3].save()
-        node.sdo[0x60C2][1].raw = 10
-        node.nmt.state = "OPERATIONAL"
+        lead_by_sync(node, 3)
         enable(node, CYCLIC_POSITION)
         start = node.sdo[0x6064].raw
         seen = []
@@ -149,9 +154,7 @@ def test_positions_at_100_hz_are_followed_for_ten_seconds(tmp_path: Path) -> Non
         begin, sent = time.monotonic(), []
         for n in range(1000):
             sent.append(round(0.5 * TURN * (1.0 - math.cos(math.pi * 0.01 * n))))
-            node.rpdo[3]["CONTROLWORD"].raw = ENABLE
-            node.rpdo[3]["TARGET_POSITION"].raw = start + sent[-1]
-            node.rpdo[3].transmit()
+            set_point(node, 3, "TARGET_POSITION", start + sent[-1])
             node.network.sync.transmit()
             time.sleep(max(0.0, begin + 0.01 * (n + 1) - time.monotonic()))
         assert len(seen) > 990
@@ -209,19 +212,12 @@ def test_two_drives_on_one_bus_move_together(tmp_path: Path) -> None:
         network.connect(interface="slcan", channel=f"socket://127.0.0.1:{port}", bitrate=500000)
         for node in nodes:
             node.sdo.RESPONSE_TIMEOUT = 2.0
-            node.tpdo.read()
-            node.rpdo.read()
-            node.rpdo[4].trans_type = 1
-            node.rpdo[4].save()
-            node.sdo[0x60C2][1].raw = 10
-            node.nmt.state = "OPERATIONAL"
+            lead_by_sync(node, 4)
         for node in nodes:
             enable(node, CYCLIC_VELOCITY)
         for n in range(200):
             for node in nodes:
-                node.rpdo[4]["CONTROLWORD"].raw = ENABLE
-                node.rpdo[4]["SPEED_RPM"].raw = min(30 * n, 3000)
-                node.rpdo[4].transmit()
+                set_point(node, 4, "SPEED_RPM", min(30 * n, 3000))
             network.sync.transmit()
             time.sleep(0.01)
         for node in nodes:

@@ -73,24 +73,33 @@ static void test_the_speed_is_not_looked_at_on_the_way_to_a_position(void)
     assert_fault(DRIVE_FAULT_COMMAND);
 }
 
+/* Each number of the command alone: not finite, and beyond its range. */
+static void assert_floats_refused(float *const *floats, const float *beyond, int count)
+{
+    const position_command_t good = position;
+
+    for (int i = 0; i < count; i++) {
+        for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
+            *floats[i] = support_not_finite[k];
+            assert_fault(DRIVE_FAULT_COMMAND);
+        }
+        *floats[i] = beyond[i];
+        assert_fault(DRIVE_FAULT_COMMAND);
+        position = good;
+    }
+}
+
 static void test_positions_and_profiles_out_of_range_are_refused(void)
 {
     const position_command_t good = position;
     float *const   floats[]       = {&position.actual.theta_e_rad,     &position.target.theta_e_rad,
                                      &position.profile.speed_e_radps,  &position.profile.accel_e_radps2,
                                      &position.profile.decel_e_radps2, &position.profile.jerk_e_radps3};
+    const float    beyond[]       = {3.2f, 3.2f, 0.0f, 0.0f, 0.0f, 0.0f};
     int32_t *const turns[]        = {&position.actual.turns, &position.target.turns};
 
     assert_fault(DRIVE_FAULT_NONE);
-    for (int i = 0; i < SUPPORT_COUNT(floats); i++) {
-        for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
-            *floats[i] = support_not_finite[k];
-            assert_fault(DRIVE_FAULT_COMMAND);
-        }
-        *floats[i] = (i < 2) ? 3.2f : 0.0f;
-        assert_fault(DRIVE_FAULT_COMMAND);
-        position = good;
-    }
+    assert_floats_refused(floats, beyond, SUPPORT_COUNT(floats));
     for (int i = 0; i < SUPPORT_COUNT(turns); i++) {
         *turns[i] = POSITION_TURNS_MAX + 1L;
         assert_fault(DRIVE_FAULT_COMMAND);
@@ -115,15 +124,7 @@ static void test_motions_out_of_range_are_refused(void)
     const float  beyond[]         = {3.2f, -1.001f * m->omega_e_radps, 2.0e12f, -2.0e12f};
 
     assert_fault(DRIVE_FAULT_NONE);
-    for (int i = 0; i < SUPPORT_COUNT(floats); i++) {
-        for (int k = 0; k < SUPPORT_COUNT(support_not_finite); k++) {
-            *floats[i] = support_not_finite[k];
-            assert_fault(DRIVE_FAULT_COMMAND);
-        }
-        *floats[i] = beyond[i];
-        assert_fault(DRIVE_FAULT_COMMAND);
-        position = good;
-    }
+    assert_floats_refused(floats, beyond, SUPPORT_COUNT(floats));
     m->at.turns = POSITION_TURNS_MAX + 1L;
     assert_fault(DRIVE_FAULT_COMMAND);
     position                    = good;
