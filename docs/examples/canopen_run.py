@@ -16,6 +16,7 @@ import sys
 import time
 
 import canopen
+from canopen.sdo.exceptions import SdoError
 
 EDS = pathlib.Path(__file__).resolve().parent.parent / "sdre-drive.eds"
 PROFILE_VELOCITY = 3
@@ -83,13 +84,13 @@ def main() -> int:
     network.connect(interface=given.interface, channel=given.channel, bitrate=given.bitrate)
     try:
         run(node, given.speed, given.seconds)
-    except (Stopped, canopen.SdoError) as e:
+    except (Stopped, SdoError) as e:
         print(f"canopen_run: {e}", file=sys.stderr)
         return 1
     finally:
         try:
             node.sdo[0x6040].raw = DISABLE_VOLTAGE
-        except canopen.SdoError:
+        except SdoError:
             pass  # the drive has gone
         network.disconnect()
     return 0

@@ -124,6 +124,14 @@ def test_the_example_runs(tmp_path: Path) -> None:
         )
         assert done.returncode == 0, done.stderr
         assert abs(float(done.stdout.split()[-2]) - 500.0) < 5.0, done.stdout
+        done = subprocess.run(
+            [sys.executable, str(EXAMPLE), "--channel", f"socket://127.0.0.1:{port}"]
+            + ["--node", "9"],
+            capture_output=True,
+            text=True,
+            timeout=120,
+        )
+        assert done.returncode == 1 and "canopen_run: No SDO response" in done.stderr, done
 
 
 def test_set_points_by_pdo_with_sync_turn_the_shaft(tmp_path: Path) -> None:
