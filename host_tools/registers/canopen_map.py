@@ -14,7 +14,17 @@ from versions import version
 # Every register is also an object of its own: index of the first address of a space.
 FIRST = {"holding": 0x2000, "input": 0x2800}
 OCTETS = {"u8": 1, "i8": 1, "u16": 2, "i16": 2, "u32": 4, "i32": 4, "dec": 4}
-EDS_TYPES = {"i8": 2, "i16": 3, "i32": 4, "u8": 5, "u16": 6, "u32": 7, "dec": 7, "text": 9}
+EDS_TYPES = {
+    "i8": 2,
+    "i16": 3,
+    "i32": 4,
+    "u8": 5,
+    "u16": 6,
+    "u32": 7,
+    "dec": 7,
+    "text": 9,
+    "domain": 15,
+}
 PDOS = 4
 MAPPED = 8
 PRESET = 2  # objects of a PDO at the start, at most
@@ -217,6 +227,15 @@ def _own() -> List[Entry]:
         Entry(0x1200, 0, "Highest sub-index", "u8", "const", "2"),
         Entry(0x1200, 1, "COB-ID of requests", "u32", "ro", "$NODEID+0x600"),
         Entry(0x1200, 2, "COB-ID of answers", "u32", "ro", "$NODEID+0x580"),
+        Entry(0x5F00, 0, "Highest sub-index", "u8", "const", "3"),
+        Entry(0x5F00, 1, "Block of registers: selection", "u32", "rw", "0x00010000"),
+        Entry(0x5F00, 2, "Block of registers: input registers", "domain", "ro"),
+        Entry(0x5F00, 3, "Block of registers: holding registers", "domain", "rw"),
+        Entry(0x5F01, 0, "Highest sub-index", "u8", "const", "4"),
+        Entry(0x5F01, 1, "Identification: drive", "text", "const"),
+        Entry(0x5F01, 2, "Identification: digest of the drive file", "text", "const"),
+        Entry(0x5F01, 3, "Identification: digest of the registers", "text", "const"),
+        Entry(0x5F01, 4, "Identification: board", "text", "const"),
     ]
     for n in range(PDOS):
         e += _pdo(n, receive=True) + _pdo(n, receive=False)
@@ -267,7 +286,7 @@ def _eds_entry(e: Entry, section: str) -> List[str]:
     if e.limits:
         lines += [f"LowLimit={round(e.limits[0])}", f"HighLimit={round(e.limits[1])}"]
     value = e.default or (str(e.value) if e.access != "ro" and not e.register else "")
-    if value and e.type != "text":
+    if value and e.type not in ("text", "domain"):
         lines.append(f"DefaultValue={value}")
     lines += [f"PDOMapping={int(e.mappable)}", ""]
     return lines

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_canopen.h"
 
+#include "app_canopen_block.h"
 #include "app_canopen_emergency.h"
 #include "app_canopen_process.h"
 #include "app_canopen_sdo.h"
@@ -34,6 +35,7 @@ void app_canopen_start(app_canopen_t *c, const app_registers_t *r)
     c->watches      = false;
     c->missed       = false;
     c->stuck        = false;
+    c->block        = APP_CANOPEN_BLOCK_START;
     c->sdo.stage    = APP_CANOPEN_SDO_IDLE;
     c->sdo.answers  = false;
     app_canopen_process_reset(c);

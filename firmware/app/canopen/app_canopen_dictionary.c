@@ -3,6 +3,7 @@
 
 #include <stddef.h>
 
+#include "app_canopen_block.h"
 #include "app_canopen_emergency.h"
 
 #define ERROR_REGISTER 0x1001U
@@ -77,6 +78,14 @@ static uint32_t read_server(const app_canopen_t *c, uint16_t sub, found_t *found
     return (sub <= 2U) ? APP_CANOPEN_OK : APP_CANOPEN_NO_SUB;
 }
 
+static uint32_t read_identity(const app_registers_t *r, uint16_t sub, found_t *found)
+{
+    found->text   = app_canopen_block_text(r, sub);
+    found->value  = APP_CANOPEN_IDENTITY_SUBS;
+    found->octets = 1U;
+    return ((sub == 0U) || (found->text != NULL)) ? APP_CANOPEN_OK : APP_CANOPEN_NO_SUB;
+}
+
 /* Objects of one value, whose sub-index is 0. */
 static bool read_single(const app_canopen_t *c, uint16_t index, found_t *found)
 {
@@ -134,6 +143,10 @@ static uint32_t find_value(const app_canopen_t *c, const app_registers_t *r, uin
         result = read_watched(c, sub, found);
     } else if (index == SERVER) {
         result = read_server(c, sub, found);
+    } else if (index == APP_CANOPEN_BLOCK) {
+        result = app_canopen_block_selected(c, sub, &found->value, &found->octets);
+    } else if (index == APP_CANOPEN_IDENTITY) {
+        result = read_identity(r, sub, found);
     } else if (read_single(c, index, found)) {
         result = (sub == 0U) ? APP_CANOPEN_OK : APP_CANOPEN_NO_SUB;
     } else {
@@ -151,7 +164,7 @@ uint32_t app_canopen_dictionary_read(const app_canopen_t *c, const app_registers
     uint16_t       n      = 0U;
 
     if (found.text != NULL) {
-        while ((n < APP_CANOPEN_SDO_MAX) && ((unsigned char)found.text[n] != 0U)) {
+        while ((n < APP_CANOPEN_SDO_WORDS) && ((unsigned char)found.text[n] != 0U)) {
             octets[n] = (uint16_t)((uint16_t)(unsigned char)found.text[n] & 0xFFU);
             n         = (uint16_t)(n + 1U);
         }
@@ -235,7 +248,10 @@ static uint32_t put_value(app_canopen_t *c, app_registers_t *r, uint16_t index, 
         result = write_watched(c, sub, value);
     } else if (index == HEARTBEAT) {
         c->heartbeat_ms = (uint16_t)value;
-    } else if ((index == SERVER) || read_single(c, index, &own)) {
+    } else if (index == APP_CANOPEN_BLOCK) {
+        result = app_canopen_block_select(c, sub, value);
+    } else if ((index == SERVER) || (index == APP_CANOPEN_IDENTITY) ||
+               read_single(c, index, &own)) {
         result = APP_CANOPEN_READ_ONLY;
     } else {
         result = write_object(r, index, sub, value);

@@ -11,7 +11,7 @@
 /**
  * @brief Reads an object.
  *
- * @param octets Room for APP_CANOPEN_SDO_MAX, the low octet of a number first.
+ * @param octets Room for APP_CANOPEN_SDO_WORDS, the low octet of a number first.
  * @param count  Number of them.
  * @return an abort code.
  */

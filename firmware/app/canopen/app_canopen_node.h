@@ -36,7 +36,10 @@ typedef enum {
 #define APP_CANOPEN_PDO_SHORT   0x8210U /**< fewer octets than its objects */
 #define APP_CANOPEN_PDO_LATE    0x8250U /**< its event timer ran out */
 
-/** Largest object that is read or written: the longest text. */
+/** Room of a transfer: octets of a text, or registers of a block. */
+#define APP_CANOPEN_SDO_WORDS 64U
+
+/** Most octets that are written to an object other than a block. */
 #define APP_CANOPEN_SDO_MAX 16U
 
 typedef enum {
@@ -50,9 +53,10 @@ typedef struct {
     uint16_t                index;
     uint16_t                sub;
     uint16_t                toggle;
-    uint16_t                at;    /**< octets done */
-    uint16_t                count; /**< of the object; while writing the announced number, or 0 */
-    uint16_t                octets[APP_CANOPEN_SDO_MAX];
+    uint16_t                at;     /**< octets done */
+    uint16_t                count;  /**< of the object; while writing the announced number, or 0 */
+    bool                    paired; /**< two octets in a word: registers, the low octet first */
+    uint16_t                octets[APP_CANOPEN_SDO_WORDS];
     board_can_frame_t       answer;
     bool                    answers; /**< the answer waits for the bus */
 } app_canopen_sdo_t;
@@ -86,6 +90,7 @@ typedef struct {
     uint32_t                watched_ticks; /**< heard */
     bool                    stuck;         /**< a frame waits on a bus without errors */
     uint32_t                stuck_ticks;   /**< since then */
+    uint32_t                block;         /**< selected registers, app_canopen_block.h */
     app_canopen_sdo_t       sdo;
     app_canopen_emergency_t emergency;
     app_canopen_pdo_t       received[APP_CANOPEN_PDOS];

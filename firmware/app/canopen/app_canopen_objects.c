@@ -109,28 +109,46 @@ static bool holds(const app_registers_entry_t *entry, uint32_t value)
     return ok;
 }
 
+uint32_t app_canopen_objects_result(app_registers_result_t result)
+{
+    uint32_t code = APP_CANOPEN_VALUE;
+
+    switch (result) {
+    case APP_REGISTERS_OK:
+        code = APP_CANOPEN_OK;
+        break;
+    case APP_REGISTERS_BAD_ADDRESS:
+        code = APP_CANOPEN_NO_OBJECT;
+        break;
+    case APP_REGISTERS_BUSY:
+        code = APP_CANOPEN_STATE;
+        break;
+    case APP_REGISTERS_BAD_VALUE:
+    default:
+        break;
+    }
+    return code;
+}
+
+uint32_t app_canopen_objects_write_words(app_registers_t *r, uint16_t first, uint16_t count,
+                                         const uint16_t *words)
+{
+    const app_registers_result_t result = app_registers_write(r, first, count, words);
+
+    if ((result == APP_REGISTERS_OK) && (first == (uint16_t)APP_REGISTERS_CONTROLWORD)) {
+        r->by_can = true;
+    }
+    return app_canopen_objects_result(result);
+}
+
 static uint32_t write_entry(app_registers_t *r, const app_registers_entry_t *entry, uint32_t value)
 {
     const uint16_t high    = (uint16_t)((value >> 16U) & WORD_MASK);
     const uint16_t low     = (uint16_t)(value & WORD_MASK);
     const bool     wide    = app_registers_count_words(entry) == 2U;
     const uint16_t words[] = {wide ? high : low, low};
-    uint32_t       result  = APP_CANOPEN_VALUE;
 
-    switch (app_registers_write(r, entry->address, wide ? 2U : 1U, words)) {
-    case APP_REGISTERS_OK:
-        result    = APP_CANOPEN_OK;
-        r->by_can = r->by_can || (entry->address == (uint16_t)APP_REGISTERS_CONTROLWORD);
-        break;
-    case APP_REGISTERS_BUSY:
-        result = APP_CANOPEN_STATE;
-        break;
-    case APP_REGISTERS_BAD_ADDRESS:
-    case APP_REGISTERS_BAD_VALUE:
-    default:
-        break;
-    }
-    return result;
+    return app_canopen_objects_write_words(r, entry->address, wide ? 2U : 1U, words);
 }
 
 uint32_t app_canopen_objects_write(app_registers_t *r, const app_registers_entry_t *entry,

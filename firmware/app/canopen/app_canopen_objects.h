@@ -26,4 +26,11 @@ uint32_t app_canopen_objects_write(app_registers_t *r, const app_registers_entry
 /** The same for any object. */
 uint32_t app_canopen_objects_put(app_registers_t *r, const app_canopen_object_t *o, uint32_t value);
 
+/** Writes holding registers; they act together, or none does. @return an abort code. */
+uint32_t app_canopen_objects_write_words(app_registers_t *r, uint16_t first, uint16_t count,
+                                         const uint16_t *words);
+
+/** Abort code for the result of the registers. */
+uint32_t app_canopen_objects_result(app_registers_result_t result);
+
 #endif /* APP_CANOPEN_OBJECTS_H */

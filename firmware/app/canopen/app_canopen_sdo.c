@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app_canopen_sdo.h"
 
+#include "app_canopen_block.h"
 #include "app_canopen_dictionary.h"
 
 #define OCTETS    8U
@@ -58,11 +59,64 @@ static void abort_transfer(app_canopen_t *c, uint32_t reason)
     c->sdo.stage = APP_CANOPEN_SDO_IDLE;
 }
 
+/* Most octets that the transfer can have. */
+static uint16_t most_of(const app_canopen_sdo_t *s)
+{
+    return s->paired ? (uint16_t)(2U * APP_CANOPEN_SDO_WORDS) : (uint16_t)APP_CANOPEN_SDO_MAX;
+}
+
+/* Octets that the room of the transfer holds. */
+static uint16_t room_of(const app_canopen_sdo_t *s)
+{
+    return (uint16_t)(s->paired ? (2U * APP_CANOPEN_SDO_WORDS) : APP_CANOPEN_SDO_WORDS);
+}
+
+static uint16_t octet_of(const app_canopen_sdo_t *s, uint16_t n)
+{
+    const uint16_t word = s->paired ? s->octets[n >> 1U] : s->octets[n];
+
+    return (uint16_t)((s->paired && ((n & 1U) != 0U)) ? (word >> 8U) : (word & 0xFFU));
+}
+
+static void put_octet(app_canopen_sdo_t *s, uint16_t n, uint16_t octet)
+{
+    if (!s->paired) {
+        s->octets[n] = octet;
+    } else if ((n & 1U) == 0U) {
+        s->octets[n >> 1U] = (uint16_t)(octet & 0xFFU);
+    } else {
+        s->octets[n >> 1U] = (uint16_t)(s->octets[n >> 1U] | ((octet & 0xFFU) << 8U));
+    }
+}
+
+static uint32_t read_octets(const app_canopen_t *c, const app_registers_t *r, app_canopen_sdo_t *s)
+{
+    uint32_t result;
+
+    if (s->paired) {
+        result = app_canopen_block_read(c, r, s->sub, s->octets, &s->count);
+    } else {
+        result = app_canopen_dictionary_read(c, r, s->index, s->sub, s->octets, &s->count);
+    }
+    return result;
+}
+
+static uint32_t write_octets(app_canopen_t *c, app_registers_t *r, const app_canopen_sdo_t *s)
+{
+    uint32_t result;
+
+    if (s->paired) {
+        result = app_canopen_block_write(c, r, s->sub, s->octets, s->at);
+    } else {
+        result = app_canopen_dictionary_write(c, r, s->index, s->sub, s->octets, s->at);
+    }
+    return result;
+}
+
 static void begin_read(app_canopen_t *c, const app_registers_t *r)
 {
-    app_canopen_sdo_t *const s = &c->sdo;
-    const uint32_t           result =
-        app_canopen_dictionary_read(c, r, s->index, s->sub, s->octets, &s->count);
+    app_canopen_sdo_t *const s      = &c->sdo;
+    const uint32_t           result = read_octets(c, r, s);
 
     if (result != APP_CANOPEN_OK) {
         abort_transfer(c, result);
@@ -71,7 +125,7 @@ static void begin_read(app_canopen_t *c, const app_registers_t *r)
             c, (uint16_t)(READ_ANSWER | ((EXPEDITED - s->count) << 2U) | ALL_HERE | SIZE_SAID));
         name_object(s);
         for (uint16_t n = 0U; n < s->count; n++) {
-            s->answer.octets[4U + n] = s->octets[n];
+            s->answer.octets[4U + n] = octet_of(s, n);
         }
     } else {
         begin_answer(c, READ_ANSWER | SIZE_SAID);
@@ -94,8 +148,8 @@ static void read_segment(app_canopen_t *c, uint16_t toggle)
         abort_transfer(c, APP_CANOPEN_TOGGLE);
     } else {
         begin_answer(c, (uint16_t)(toggle | ((SEGMENT - now) << 1U) | last));
-        for (uint16_t n = 0U; (n < now) && ((s->at + n) < APP_CANOPEN_SDO_MAX); n++) {
-            s->answer.octets[1U + n] = s->octets[s->at + n];
+        for (uint16_t n = 0U; (n < now) && ((s->at + n) < room_of(s)); n++) {
+            s->answer.octets[1U + n] = octet_of(s, (uint16_t)(s->at + n));
         }
         s->at     = (uint16_t)(s->at + now);
         s->toggle = (uint16_t)(s->toggle ^ TOGGLE);
@@ -107,8 +161,8 @@ static void read_segment(app_canopen_t *c, uint16_t toggle)
 
 static void end_write(app_canopen_t *c, app_registers_t *r, uint16_t answer)
 {
-    app_canopen_sdo_t *const s = &c->sdo;
-    const uint32_t result = app_canopen_dictionary_write(c, r, s->index, s->sub, s->octets, s->at);
+    app_canopen_sdo_t *const s      = &c->sdo;
+    const uint32_t           result = write_octets(c, r, s);
 
     if (result == APP_CANOPEN_OK) {
         begin_answer(c, answer);
@@ -129,11 +183,11 @@ static void begin_write(app_canopen_t *c, app_registers_t *r, const uint16_t *q)
 
         s->at = said ? (uint16_t)(EXPEDITED - unused) : 0U;
         for (uint16_t n = 0U; n < EXPEDITED; n++) {
-            s->octets[n] = q[4U + n];
+            put_octet(s, n, q[4U + n]);
         }
         end_write(c, r, WRITTEN);
         name_object(s);
-    } else if (said && ((q[4] > APP_CANOPEN_SDO_MAX) || ((q[5] | q[6] | q[7]) != 0U))) {
+    } else if (said && ((q[4] > most_of(s)) || ((q[5] | q[6] | q[7]) != 0U))) {
         abort_transfer(c, APP_CANOPEN_LENGTH);
     } else {
         s->count  = said ? q[4] : 0U;
@@ -154,12 +208,12 @@ static void write_segment(app_canopen_t *c, app_registers_t *r, const uint16_t *
 
     if (toggle != s->toggle) {
         abort_transfer(c, APP_CANOPEN_TOGGLE);
-    } else if ((all > APP_CANOPEN_SDO_MAX) || (all == 0U) ||
+    } else if ((all > most_of(s)) || (all == 0U) ||
                (last && (s->count != 0U) && (all != s->count))) {
         abort_transfer(c, APP_CANOPEN_LENGTH);
     } else {
-        for (uint16_t n = 0U; (n < now) && ((s->at + n) < APP_CANOPEN_SDO_MAX); n++) {
-            s->octets[s->at + n] = q[1U + n];
+        for (uint16_t n = 0U; (n < now) && ((s->at + n) < room_of(s)); n++) {
+            put_octet(s, (uint16_t)(s->at + n), q[1U + n]);
         }
         s->at     = all;
         s->toggle = (uint16_t)(s->toggle ^ TOGGLE);
@@ -191,6 +245,7 @@ void app_canopen_sdo_take(app_canopen_t *c, app_registers_t *r, const board_can_
     } else if (first) {
         s->stage = APP_CANOPEN_SDO_IDLE;
         name_request(s, q);
+        s->paired = app_canopen_block_has(s->index, s->sub);
         if (command == WRITE_FIRST) {
             begin_write(c, r, q);
         } else {
