@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import threading
 import time
-from typing import Iterator
+from typing import Iterator, Sequence
 
 import pytest
 from conftest import Served
@@ -176,9 +176,9 @@ class Line(PageDrive):
         super().__init__(Target())
         self.words: list = []
 
-    def _asked(self, call: str, *args: object, **kwargs: object) -> None:
+    def write_words(self, first: int, values: Sequence[int]) -> None:
         time.sleep(0.05)
-        self.words.append(args[1])
+        self.words.append(values[0])
 
 
 def test_a_stop_is_the_last_word() -> None:

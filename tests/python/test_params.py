@@ -13,6 +13,7 @@ from support import command, run_at
 
 from sdre_drive import params, session
 from sdre_drive.connection import Drive, DriveError, Target
+from sdre_drive.modbus_link import ModbusLink
 from sdre_drive.options import target, use_line
 
 
@@ -149,7 +150,7 @@ def test_the_line_of_the_command_line(monkeypatch: pytest.MonkeyPatch) -> None:
     use_line("9600-8N2", 7)
     t = target("/dev/ttyUSB9", None)
     assert (t.baud, t.format, t.unit) == (9600, "8N2", 7)
-    client = Drive(t)._client
+    client = ModbusLink(t, 1).client
     assert (
         client.comm_params.baudrate == 9600
         and client.comm_params.parity == "N"

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict
+from typing import List
 
 import pytest
 
@@ -25,26 +25,16 @@ def test_other_map_says_which_side(firmware: str, wanted: str) -> None:
     assert wanted in other_map(firmware)
 
 
-class Answer:
-    """The answer of pymodbus to function 43/14."""
-
-    def __init__(self, information: Dict[int, bytes]) -> None:
-        self.information = information
-
-
 def of_map(digest: str, monkeypatch: pytest.MonkeyPatch) -> Drive:
     """A drive that tells this digest of its register map, and nothing else."""
     drive = Drive(Target())
 
-    def asked(call: str, *_: Any, **kwargs: Any) -> Answer:
-        assert call == "read_device_information"
-        return Answer(
-            {VERSION_OBJECT: b"9.0.0"}
-            if kwargs["read_code"] == 1
-            else {MAP_OBJECT: digest.encode()}
-        )
+    def words(*_: int) -> List[int]:
+        raise AssertionError("a register is read")
 
-    monkeypatch.setattr(drive, "_asked", asked)
+    monkeypatch.setattr(drive, "identify", lambda: {MAP_OBJECT: digest})
+    monkeypatch.setattr(drive, "identify_basic", lambda: {VERSION_OBJECT: "9.0.0"})
+    monkeypatch.setattr(drive, "words", words)
     return drive
 
 

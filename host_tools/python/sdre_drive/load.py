@@ -12,13 +12,14 @@ from pathlib import Path
 from typing import Callable, List, Optional
 
 from sdre_drive.connection import Drive, DriveError
+from sdre_drive.link import BOARD_OBJECT, DIGEST_OBJECT, NAME_OBJECT
 
 FIRST = 8000
 # Holding registers
 COMMAND, OFFSET = FIRST, FIRST + 5
 ENTER, BEGIN, COMMIT, FORGET, LEAVE = 1, 2, 3, 4, 5
-# Objects of function 43/14
-NAME, DIGEST, BOARD = 0x80, 0x81, 0x83
+# Texts of the identification
+NAME, DIGEST, BOARD = NAME_OBJECT, DIGEST_OBJECT, BOARD_OBJECT
 # Input registers
 STATE, PUT, ROOM, LAW, NUMBER, FIELD, COUNT = 0, 2, 4, 6, 7, 9, 28
 IMAGE_VALUE, BOARD_VALUE, FIELD_NAME, SUM_OF_BOARD = 10, 12, 14, 26
