@@ -30,16 +30,22 @@ from sdre_drive.motion_commands import (
     torque,
 )
 from sdre_drive.options import (
+    Can,
+    CanInterface,
+    CanRate,
     Control,
     Line,
+    Node,
     PolePairs,
     Port,
     Tcp,
     Unit,
     bench_address,
     here,
+    place_words,
     pole_pairs_of,
     target,
+    use_can,
     use_line,
 )
 from sdre_drive.page.server import serve
@@ -89,6 +95,10 @@ def common(
     context: typer.Context,
     line: Line = "115200-8E1",
     unit: Unit = 1,
+    can: Can = None,
+    can_interface: CanInterface = "slcan",
+    can_rate: CanRate = 500000,
+    node: Node = 1,
     quiet: Quiet = False,
     verbose: Verbose = False,
     _version: Annotated[
@@ -96,8 +106,9 @@ def common(
         typer.Option("--version", help="print it", callback=show_version, is_eager=True),
     ] = False,
 ) -> None:
-    """For a drive whose line or address is not the one that it comes with."""
+    """For a drive on CAN, or one whose line or address is not the one that it comes with."""
     use_line(line, unit)
+    use_can(can, can_interface, can_rate, node)
     set_volume(quiet, verbose)
     if not context.invoked_subcommand:
         find()
@@ -105,7 +116,7 @@ def common(
 
 @app.command()
 def find(json: Json = None) -> None:
-    """Lists the drives that answer here: serial ports, and TCP on this machine."""
+    """Lists the drives that answer here: serial ports, TCP of this machine, or nodes of --can."""
     found = discover.find(here())
     if json:
         record.write_json(json, [one.as_dict() for one in found])
@@ -251,6 +262,7 @@ def main() -> None:
             raise
         if e.format_message():  # no command at all: the help is there already
             words = e.format_message() + comma_words(" ".join(sys.argv[1:]))
+            words += place_words(e.format_message())
             err.print(f"sdre-drive: {words}", markup=False, highlight=False)
     sys.exit(code)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A drive at the other end of a serial port or of a TCP connection."""
+"""A drive at the other end of a serial port, of a TCP connection, or of a CAN bus."""
 
 from __future__ import annotations
 
@@ -31,6 +31,7 @@ __all__ = [
     "Refused",
     "Target",
     "is_pseudo_terminal",
+    "nodes_of",
     "other_map",
     "why_closed",
 ]
@@ -57,6 +58,27 @@ def other_map(firmware: str) -> str:
     return f"{what}: take both from one build"
 
 
+def link_to(target: Target, tries: int) -> Link:
+    """The link that this address needs; DriveError when CAN is not installed."""
+    if not target.can:
+        return ModbusLink(target, tries)
+    try:
+        from sdre_drive.can_link import CanLink
+    except ImportError as e:
+        raise DriveError(
+            "CAN needs the packages python-can and canopen: pip install 'sdre-drive[can]'"
+        ) from e
+    return CanLink(target, tries)
+
+
+def nodes_of(target: Target) -> List[Tuple[Target, Dict[int, str]]]:
+    """Nodes of a CAN bus with the texts of their identification."""
+    link_to(target, 1)  # what CAN needs is installed
+    from sdre_drive import can_discover
+
+    return can_discover.find(target)
+
+
 class Drive:
     """Blocking requests; one at a time, from any thread. All of them raise DriveError."""
 
@@ -66,14 +88,14 @@ class Drive:
         self._tries = 1 if once else TRIES
         self._lock = threading.Lock()
         self._constants: Optional[Constants] = None
-        self._link: Link = ModbusLink(target, self._tries)
+        self._link = link_to(target, self._tries)
 
     def move_to(self, target: Target) -> None:
         """The drive has another line or address from now on."""
         with self._lock:
             self._link.close()
             self.target = target
-            self._link = ModbusLink(target, self._tries)
+            self._link = link_to(target, self._tries)
 
     def __enter__(self) -> Drive:
         self.open()

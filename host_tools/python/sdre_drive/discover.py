@@ -1,22 +1,22 @@
 # SPDX-License-Identifier: MIT
-"""Drives that answer here: serial ports and loopback, asked for their identification (43/14)."""
+"""Drives that answer here: serial ports and loopback, or the nodes of a CAN bus."""
 
 from __future__ import annotations
 
 import logging
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from typing import Any, Dict, List, Optional
+from typing import Any, Dict, List, Mapping, Optional
 
 from serial.tools import list_ports
 
 from sdre_drive import register_map
-from sdre_drive.connection import MAP_OBJECT, VERSION_OBJECT, Drive, DriveError, Target
+from sdre_drive.connection import Drive, DriveError, Target, nodes_of
+from sdre_drive.link import MAP_OBJECT, NAME_OBJECT, VERSION_OBJECT
 
 log = logging.getLogger(__name__)
 # 502 is Modbus's own. From 1502 on: chosen, for some virtual drives at once.
 TCP_PORTS = (502, *range(1502, 1512))
-NAME_OBJECT = 0x80
 
 
 @dataclass(frozen=True)
@@ -51,13 +51,17 @@ def ask(target: Target) -> Optional[Found]:
             own, common = drive.identify(), drive.identify_basic()
     except DriveError:
         return None
-    if MAP_OBJECT not in own:
+    return _found(target, {**own, **common})
+
+
+def _found(target: Target, texts: Mapping[int, str]) -> Optional[Found]:
+    if MAP_OBJECT not in texts:
         return None
     return Found(
         target,
-        own.get(NAME_OBJECT, "a drive"),
-        common.get(VERSION_OBJECT, "of no version"),
-        own[MAP_OBJECT] == register_map.DIGEST,
+        texts.get(NAME_OBJECT, "a drive"),
+        texts.get(VERSION_OBJECT, "of no version"),
+        texts[MAP_OBJECT] == register_map.DIGEST,
     )
 
 
@@ -70,7 +74,9 @@ def candidates(line: Target) -> List[Target]:
 
 
 def find(line: Target) -> List[Found]:
-    """All that answer, at once."""
+    """All that answer, at once; of a CAN bus its drives."""
+    if line.can:
+        return [found for found in (_found(*one) for one in nodes_of(line)) if found]
     places = candidates(line)
     with ThreadPoolExecutor(len(places)) as pool:
         return [found for found in pool.map(ask, places) if found]
@@ -78,6 +84,11 @@ def find(line: Target) -> List[Found]:
 
 def nothing_words(line: Target) -> str:
     """Where nothing was found, and what to do."""
+    if line.can:
+        return (
+            f"no drive answers on CAN {line.can}: nodes 1 to 127 at {line.can_rate} bit/s; is it "
+            "on, is --can-rate its CAN_RATE, and has the bus its two terminators?"
+        )
     ports = ", ".join(t.serial_port for t in candidates(line) if t.serial_port) or "none here"
     return (
         f"no drive answers: serial ports ({ports}) at {line.baud}-{line.format}, unit {line.unit}, "

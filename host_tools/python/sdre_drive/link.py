@@ -30,7 +30,7 @@ class Refused(DriveError):
 
 @dataclass(frozen=True)
 class Target:
-    """Where the drive is: a serial port, or host and port of Modbus/TCP."""
+    """Where the drive is: a CAN channel, a serial port, or host and port of Modbus/TCP."""
 
     serial_port: Optional[str] = None
     host: str = "127.0.0.1"
@@ -38,16 +38,23 @@ class Target:
     baud: int = 115200
     format: str = "8E1"
     unit: int = 1
+    can: Optional[str] = None  # channel of python-can
+    can_interface: str = "slcan"  # of python-can
+    can_rate: int = 500000  # bit/s
+    node: int = 1
 
     @property
     def words(self) -> str:
         """For messages."""
+        if self.can:
+            return f"node {self.node} on CAN {self.can}"
         return self.serial_port or f"{self.host}:{self.tcp_port}"
 
     @property
     def is_local(self) -> bool:
-        """The drive is on this machine, as a virtual one is."""
-        return self.serial_port is None and self.host in ("127.0.0.1", "localhost", "::1")
+        """Modbus/TCP of this machine, as a virtual drive has it."""
+        here = self.host in ("127.0.0.1", "localhost", "::1")
+        return here and self.serial_port is None and self.can is None
 
 
 class Link:

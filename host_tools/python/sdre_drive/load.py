@@ -155,6 +155,11 @@ def _wait(drive: Drive, states: List[int], longest_s: float) -> Loader:
 
 
 def _enter(drive: Drive) -> Loader:
+    if drive.target.can:
+        raise DriveError(
+            "the loader answers over Modbus alone: connect the serial line or TCP, and give --port "
+            "or --tcp instead of --can"
+        )
     found = look(drive)
     if found.room_words == 0:
         raise DriveError("this board has no store: its constants are compiled in")

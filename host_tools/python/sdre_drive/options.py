@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any, Dict, Optional, Tuple
 
 import typer
@@ -54,6 +55,35 @@ Unit = Annotated[
     int, typer.Option("--unit", min=1, max=247, help="address of the drive", envvar="SDRE_UNIT")
 ]
 
+Can = Annotated[
+    Optional[str],
+    typer.Option(
+        "--can",
+        help="CAN bus of the drive: a serial device, can0, or socket://HOST:PORT",
+        metavar="CHANNEL",
+    ),
+]
+CanInterface = Annotated[
+    str,
+    typer.Option(
+        "--can-interface",
+        help="driver of python-can for --can: slcan, socketcan, pcan ..",
+        envvar="SDRE_CAN_INTERFACE",
+        metavar="NAME",
+    ),
+]
+CanRate = Annotated[
+    int, typer.Option("--can-rate", help="bit/s, as CAN_RATE", envvar="SDRE_CAN_RATE")
+]
+Node = Annotated[
+    int,
+    typer.Option(
+        "--node", min=1, max=127, help="of the drive on CAN, CAN_NODE", envvar="SDRE_NODE"
+    ),
+]
+CAN_RATES = (125000, 250000, 500000, 1000000)
+BEFORE = ("--can", "--can-interface", "--can-rate", "--node", "--line", "--unit")
+
 _line: Dict[str, Any] = {"baud": 115200, "format": "8E1", "unit": 1}  # of all commands
 
 
@@ -63,6 +93,21 @@ def use_line(line: str, unit: int) -> None:
     if not baud.isdigit() or words not in FORMATS:
         raise DriveError(f'--line "{line}" is not BAUD-FORMAT, as 115200-8E1')
     _line.update(baud=int(baud), format=words, unit=unit)
+
+
+def use_can(can: Optional[str], interface: str, rate: int, node: int) -> None:
+    """Sets the options of CAN before the command."""
+    if rate not in CAN_RATES:
+        rates = ", ".join(map(str, CAN_RATES))
+        raise DriveError(f"--can-rate {rate} is not one of {rates} bit/s")
+    _line.update(can=can, can_interface=interface, can_rate=rate, node=node)
+
+
+def place_words(text: str) -> str:
+    """A hint for an option that stands behind its command."""
+    found = re.match(r"No such option: (--[a-z-]+)", text)
+    late = found is not None and found.group(1) in BEFORE
+    return f"; {found.group(1)} stands before the command" if found and late else ""
 
 
 def address(text: str, option: str) -> Tuple[str, int]:
@@ -75,8 +120,12 @@ def address(text: str, option: str) -> Tuple[str, int]:
 
 def target(port: Optional[str], tcp: Optional[str]) -> Target:
     """Address of the drive; by default the only one that answers on this machine."""
-    if port and tcp:
-        raise DriveError("--port and --tcp name two drives: give one")
+    ways = {"--can": _line.get("can"), "--port": port, "--tcp": tcp}
+    given = [name for name, way in ways.items() if way]
+    if len(given) > 1:
+        raise DriveError(f"{' and '.join(given)} name two drives: give one")
+    if given == ["--can"]:
+        return here()
     if port:
         return Target(serial_port=port, **_line)
     if tcp:

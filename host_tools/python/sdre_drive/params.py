@@ -148,7 +148,7 @@ def write(drive: Drive, wanted: Dict[str, float]) -> None:
         except Refused as e:
             why = "; only while stopped" if NAMES[name].stopped else ""
             raise DriveError(f"{name}: {e}{why}") from e
-        if name == "MODBUS_ADDRESS":
+        if name == "MODBUS_ADDRESS" and not drive.target.can:
             drive.move_to(replace(drive.target, unit=int(wanted[name])))
 
 
@@ -176,6 +176,11 @@ def acts_as(drive: Drive, wanted: Dict[str, float]) -> List[str]:
 
 def _new_line(drive: Drive, after: Dict[str, float]) -> None:
     """Talks as the drive does after its restart; a virtual one has no line."""
+    if drive.target.can:
+        rate, node = 1000 * int(after["CAN_RATE"]), int(after["CAN_NODE"])
+        if (rate, node) != (drive.target.can_rate, drive.target.node):
+            drive.move_to(replace(drive.target, can_rate=rate, node=node))
+        return
     t = replace(drive.target, unit=int(after["MODBUS_ADDRESS"]))
     if t.serial_port and not is_pseudo_terminal(t.serial_port):
         t = replace(

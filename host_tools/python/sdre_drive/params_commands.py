@@ -110,6 +110,11 @@ def set_values(
 
 def _line_words(drive: Drive) -> str:
     t = drive.target
+    if t.can:
+        rate_words = "" if t.can_rate == 500000 else f" --can-rate {t.can_rate}"
+        node_words = "" if t.node == 1 else f" --node {t.node}"
+        both = rate_words + node_words
+        return f"; from now on: sdre-drive --can {t.can}{both} .." if both else ""
     if (t.baud, t.format, t.unit) == (115200, "8E1", 1):
         return ""
     return f"; from now on: sdre-drive --line {t.baud}-{t.format} --unit {t.unit} .."
