@@ -47,8 +47,8 @@ void app_canopen_emergency_hold(app_canopen_emergency_t *e, bool holds)
 void app_canopen_emergency_see(app_canopen_emergency_t *e, const app_status_t *status)
 {
     const uint16_t code = app_error_code(status->fault, status->drive_fault);
-    const uint16_t more =
-        (uint16_t)(((uint16_t)status->drive_fault << 8U) | ((uint16_t)status->fault & OCTET));
+    const uint16_t high = (uint16_t)((uint16_t)status->drive_fault << 8U);
+    const uint16_t more = (uint16_t)(high | ((uint16_t)status->fault & OCTET));
 
     if (code != e->fault) {
         e->fault = code;
