@@ -43,6 +43,14 @@ static void let_be_any(app_path_t *p)
     p->aim.point.at.turns = any_long_between(-POSITION_TURNS_MAX, POSITION_TURNS_MAX);
 }
 
+/* Its ranges hold again. The aim is the operator's. */
+static void is_path(const app_path_t *p)
+{
+    //@ check taken: p->track.taken <= APP_TRACK_KNOWN;
+    //@ check track: -POSITION_TURNS_MAX <= p->track.at.turns <= POSITION_TURNS_MAX;
+    //@ check from: -POSITION_TURNS_MAX <= p->from.turns <= POSITION_TURNS_MAX;
+}
+
 static void any_state(void)
 {
     config.law            = &any_law;
@@ -146,6 +154,7 @@ void prove_app_tick(void)
     is_count(duty.a_cnt);
     is_count(duty.b_cnt);
     is_count(duty.c_cnt);
+    is_path(&path);
     //@ check mode: APP_MODE_BOOT <= modes.mode <= APP_MODE_STOP;
     //@ check fault: APP_FAULT_NONE <= modes.fault <= APP_FAULT_FOLLOWING;
     //@ check stage: APP_ALIGN_WATCH <= modes.align.stage <= APP_ALIGN_FAILED;
@@ -206,6 +215,8 @@ static void tick_control(app_mode_t mode, app_control_state_t state)
     }
     app_control_aim(&control, &wanted, &seen, &out); /* neither changes what was decided */
     app_control_follow(&control, &out);
+    //@ check aim: -POSITION_TURNS_MAX <= control.path.aim.point.at.turns <= POSITION_TURNS_MAX;
+    is_path(&control.path);
 }
 
 /* Entry: a tick of the operator's side in any state, with any objects, whatever the modes do. */
