@@ -132,11 +132,12 @@ def joined(comments: list) -> list:
 
 
 def c_comments(text: str) -> list:
-    """Comment lines of C and C++; a string that holds a comment's mark is not one."""
+    """Comment lines of C and C++. A string that holds a comment's mark, and an annotation for the
+    analyser, are none."""
     token = re.compile(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|//[^\n]*|/\*.*?\*/', re.S)
     found = []
     for match in token.finditer(text):
-        if match.group()[0] == "/":
+        if match.group()[0] == "/" and match.group()[2:3] != "@":
             first = text.count("\n", 0, match.start()) + 1
             before = text[text.rfind("\n", 0, match.start()) + 1 : match.start()]
             alone = not before.strip() or "\n" in match.group()

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Modbus server, loader and stored parameters, for the analyser (docs/assurance.md). Flash and the words that outlast a
- * restart have any contents. A request brings any registers, and each module is in any state. */
+/* Modbus server, CANopen node, loader and stored parameters, for the analyser (docs/assurance.md). Flash and the words that
+ * outlast a restart have any contents. A request brings any registers, and each module is in any state. */
 #include "any_flash.h"
+#include "app_canopen.h"
 #include "app_modbus.h"
 #include "board_config.h"
 
@@ -14,12 +15,14 @@
 #define QUANTITY_MAX 125 /* registers of a request */
 
 volatile app_modbus_t     any_modbus;
+volatile app_canopen_t    any_canopen;
 volatile app_loader_t     any_loader;
 volatile board_identity_t any_board;
 volatile app_status_t     any_status;
 volatile app_objects_t    any_objects;
 volatile float            any_float;
 app_modbus_t              modbus;
+app_canopen_t             canopen;
 app_image_t               image;
 app_loader_t              loader;
 app_registers_t           registers;
@@ -45,6 +48,50 @@ bool board_can_fits(uint16_t rate_kbps)
 {
     (void)rate_kbps;
     return any_bool();
+}
+
+void board_can_set(uint16_t rate_kbps)
+{
+    (void)rate_kbps;
+}
+
+void board_can_listen(const uint16_t *ids, uint16_t count)
+{
+    //@ check room: count <= BOARD_CAN_IDS;
+    uint16_t read = 0U;
+
+    for (uint16_t n = 0U; n < count; n++) {
+        read |= ids[n];
+    }
+    (void)read;
+}
+
+/* The CAN bus: any frame that can.c can make. */
+bool board_can_read(board_can_frame_t *frame)
+{
+    frame->id     = (uint16_t)(any_word & 0x7FFU);
+    frame->length = (uint16_t)any_between(0, 8);
+    for (uint16_t n = 0U; n < 8U; n++) {
+        frame->octets[n] = (uint16_t)(any_word & 0xFFU);
+    }
+    return any_bool();
+}
+
+bool board_can_write(const board_can_frame_t *frame)
+{
+    //@ check identifier: frame->id <= 0x7FF;
+    //@ check length: frame->length <= 8;
+    uint16_t read = 0U;
+
+    for (uint16_t n = 0U; n < 8U; n++) {
+        read |= frame->octets[n];
+    }
+    return (read != 0U) || any_bool();
+}
+
+uint16_t board_can_state(void)
+{
+    return (uint16_t)(any_word & 7U);
 }
 
 bool board_fits(const board_setup_t *setup)
@@ -146,6 +193,7 @@ static void any_registers(void)
     s->waits                       = any_bool();
     s->done                        = any_bool();
     s->acknowledged                = any_bool();
+    s->beyond                      = any_bool();
     s->voltage_limited             = any_bool();
     s->current_limited             = any_bool();
     s->snapshot.raw.valid          = any_bool();
@@ -173,8 +221,7 @@ void prove_parameters(void)
     (void)app_parameters_work(&image);
 }
 
-/* Entry: a pass of the server in any state, beside the application or the loader. */
-void prove_modbus(void)
+static void any_surroundings(void)
 {
     any_image();
     any_registers();
@@ -182,9 +229,15 @@ void prove_modbus(void)
     parameters.rested = any_bool();
     parameters.state =
         (app_parameters_state_t)any_between(APP_PARAMETERS_DEFAULT, APP_PARAMETERS_PARTLY);
-    registers.loader     = any_bool() ? &loader : NULL;
+    registers.silent = any_bool();
+}
+
+/* Entry: a pass of the server in any state, beside the application or the loader. */
+void prove_modbus(void)
+{
+    any_surroundings();
+    registers.loader     = any_bool() ? &loader : NULL; /* here, so that both cases stay apart */
     registers.parameters = any_bool() ? &parameters : NULL;
-    registers.silent     = any_bool();
     modbus               = any_modbus;
     modbus.rx_count      = (uint16_t)any_between(0, APP_MODBUS_FRAME_MAX);
     modbus.tx_count      = (uint16_t)any_between(0, APP_MODBUS_FRAME_MAX);
@@ -193,5 +246,168 @@ void prove_modbus(void)
     app_modbus_poll(&modbus, &registers, (uint32_t)any_long);
     //@ check received: modbus.rx_count <= APP_MODBUS_FRAME_MAX;
     //@ check answered: modbus.tx_count <= APP_MODBUS_FRAME_MAX;
+    is_whole();
+}
+
+static const app_registers_entry_t *any_row(bool receives)
+{
+    const app_registers_entry_t *row = NULL;
+
+    if (any_bool()) {
+        row = &app_registers_map_holding[any_between(0, (int)APP_REGISTERS_MAP_HOLDING - 1)];
+    } else if (!receives && any_bool()) {
+        row = &app_registers_map_input[any_between(0, (int)APP_REGISTERS_MAP_INPUT - 1)];
+    } else {
+        /* none */
+    }
+    return row;
+}
+
+/* With rows and numbers that a mapping can have. */
+static void any_pdo(app_canopen_pdo_t *p, bool receives)
+{
+    p->count   = (uint16_t)any_between(0, (int)APP_CANOPEN_MAPPED);
+    p->length  = (uint16_t)any_between(0, 8);
+    p->full    = any_bool();
+    p->wanted  = any_bool();
+    p->watched = any_bool();
+    for (uint16_t k = 0U; k < APP_CANOPEN_MAPPED; k++) {
+        p->map[k].entry = any_row(receives);
+    }
+}
+
+static app_canopen_state_t any_node_state(void)
+{
+    return any_bool() ? (any_bool() ? APP_CANOPEN_BOOTS : APP_CANOPEN_STOPPED)
+                      : (any_bool() ? APP_CANOPEN_OPERATIONAL : APP_CANOPEN_PRE_OPERATIONAL);
+}
+
+static void any_node(void)
+{
+    app_canopen_sdo_t *const       s = &canopen.sdo;
+    app_canopen_emergency_t *const e = &canopen.emergency;
+
+    canopen              = any_canopen;
+    canopen.state        = any_node_state();
+    canopen.node         = (uint16_t)any_between(0, 127);
+    canopen.ticks_per_ms = base_clamp(any_float, 0.1f, 100.0f); /* by its init */
+    canopen.restart      = any_bool();
+    canopen.watches      = any_bool();
+    canopen.missed       = any_bool();
+    canopen.stuck        = any_bool();
+    s->stage   = (app_canopen_sdo_stage_t)any_between(APP_CANOPEN_SDO_IDLE, APP_CANOPEN_SDO_WRITES);
+    s->answers = any_bool();
+    s->at      = (uint16_t)any_between(0, (int)APP_CANOPEN_SDO_MAX);
+    s->count   = (uint16_t)any_between(0, (int)APP_CANOPEN_SDO_MAX);
+    s->answer.id     = (uint16_t)(APP_CANOPEN_ID_ANSWER + canopen.node);
+    s->answer.length = 8U;
+    e->count         = (uint16_t)any_between(0, (int)APP_CANOPEN_ERRORS);
+    e->unsent        = (uint16_t)any_between(0, (int)APP_CANOPEN_ERRORS);
+    e->communication = any_bool();
+    for (uint16_t n = 0U; n < APP_CANOPEN_PDOS; n++) {
+        any_pdo(&canopen.received[n], true);
+        any_pdo(&canopen.sent[n], false);
+    }
+}
+
+static void is_pdo(const app_canopen_pdo_t *p)
+{
+    //@ check objects: p->count <= APP_CANOPEN_MAPPED;
+    //@ check octets: p->length <= 8;
+    for (uint16_t k = 0U; k < APP_CANOPEN_MAPPED; k++) {
+        //@ check row: p->map[k].entry == NULL || \valid_read(p->map[k].entry);
+    }
+}
+
+/* Shows that the node is again one of any_node(). */
+static void is_node(void)
+{
+    //@ check state: canopen.state == 0 || canopen.state == 4 || canopen.state == 5 || canopen.state == 127;
+    //@ check node: canopen.node <= 127;
+    //@ check stage: APP_CANOPEN_SDO_IDLE <= canopen.sdo.stage <= APP_CANOPEN_SDO_WRITES;
+    //@ check done: canopen.sdo.at <= APP_CANOPEN_SDO_MAX;
+    //@ check announced: canopen.sdo.count <= APP_CANOPEN_SDO_MAX;
+    //@ check answer: canopen.sdo.answer.length == 8;
+    //@ check errors: canopen.emergency.count <= APP_CANOPEN_ERRORS;
+    //@ check unsent: canopen.emergency.unsent <= APP_CANOPEN_ERRORS;
+    for (uint16_t n = 0U; n < APP_CANOPEN_PDOS; n++) {
+        is_pdo(&canopen.received[n]);
+        is_pdo(&canopen.sent[n]);
+    }
+}
+
+/* Registers and mappings as the node sees them. prove_canopen_rows shows the first two contracts for each row. Its rows have
+ * too many kinds to be told apart in all mappings, so prove_canopen_pdo takes these contracts. It shows the other two, and
+ * prove_canopen takes all. */
+/*@ requires row: \valid_read(e);
+    assigns \result \from indirect: *r, indirect: *e; */
+uint32_t app_registers_place_value(const app_registers_t *r, const app_registers_entry_t *e);
+
+/*@ requires row: \valid_read(entry);
+    assigns \result, r->requested, r->trial, r->changed, r->silent, r->by_can
+        \from indirect: *r, indirect: *entry, octets, value;
+    ensures changed: r->changed == 0 || r->changed == 1;
+    ensures silent: r->silent == 0 || r->silent == 1;
+    ensures by_can: r->by_can == 0 || r->by_can == 1;
+    ensures node: r->requested.can_node <= 127; */
+uint32_t app_canopen_objects_write(app_registers_t *r, const app_registers_entry_t *entry,
+                                   uint16_t octets, uint32_t value);
+
+/*@ requires objects: p->count <= APP_CANOPEN_MAPPED;
+    assigns \result, r->requested, r->trial, r->changed, r->silent, r->by_can \from indirect: *p, indirect: *r;
+    ensures answer: \result == 0 || \result == 1;
+    ensures changed: r->changed == 0 || r->changed == 1;
+    ensures silent: r->silent == 0 || r->silent == 1;
+    ensures by_can: r->by_can == 0 || r->by_can == 1;
+    ensures node: r->requested.can_node <= 127; */
+bool app_canopen_pdo_act(const app_canopen_pdo_t *p, app_registers_t *r);
+
+/*@ requires objects: p->count <= APP_CANOPEN_MAPPED;
+    assigns \result, p->octets[0 .. 7] \from indirect: *p, indirect: *r;
+    ensures answer: \result == 0 || \result == 1; */
+bool app_canopen_pdo_read(app_canopen_pdo_t *p, const app_registers_t *r);
+
+static void any_can_registers(void)
+{
+    any_surroundings();
+    registers.loader                  = any_bool() ? &loader : NULL;
+    registers.parameters              = any_bool() ? &parameters : NULL;
+    registers.by_can                  = any_bool();
+    registers.requested.can_node      = (uint16_t)any_between(0, 127);
+    registers.requested.can_rate_kbps = (uint16_t)any_between(125, 1000);
+}
+
+/* Entry: each register is read as an object. Each that can be written is, with any octets. */
+void prove_canopen_rows(void)
+{
+    for (int k = 0; k < (int)APP_REGISTERS_MAP_INPUT; k++) {
+        any_can_registers();
+        (void)app_registers_place_value(&registers, &app_registers_map_input[k]);
+    }
+    for (int k = 0; k < (int)APP_REGISTERS_MAP_HOLDING; k++) {
+        any_can_registers();
+        (void)app_registers_place_value(&registers, &app_registers_map_holding[k]);
+        (void)app_canopen_objects_write(&registers, &app_registers_map_holding[k], any_word,
+                                        (uint32_t)any_long);
+        is_whole();
+    }
+}
+
+/* Entry: a received PDO acts, and a sent one is read. */
+void prove_canopen_pdo(void)
+{
+    any_can_registers();
+    any_node();
+    (void)app_canopen_pdo_act(&canopen.received[0], &registers);
+    (void)app_canopen_pdo_read(&canopen.sent[0], &registers);
+}
+
+/* Entry: a pass of the CANopen node in any state, with any frames. */
+void prove_canopen(void)
+{
+    any_can_registers();
+    any_node();
+    app_canopen_poll(&canopen, &registers, (uint32_t)any_long);
+    is_node();
     is_whole();
 }

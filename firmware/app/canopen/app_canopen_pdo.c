@@ -222,6 +222,7 @@ bool app_canopen_pdo_act(const app_canopen_pdo_t *p, app_registers_t *r)
         const uint16_t                     octets = octets_of(p->map[k].what);
         uint32_t                           value  = 0UL;
 
+        /*@ split octets; */ /* for tests/prove: each length by itself */
         at = (uint16_t)(at + octets);
         ok = at <= OCTETS; /* as set_count() has made sure */
         for (uint16_t n = octets; ok && (n > 0U); n--) {

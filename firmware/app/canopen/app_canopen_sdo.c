@@ -148,10 +148,10 @@ static void read_segment(app_canopen_t *c, uint16_t toggle)
         abort_transfer(c, APP_CANOPEN_TOGGLE);
     } else {
         begin_answer(c, (uint16_t)(toggle | ((SEGMENT - now) << 1U) | last));
-        for (uint16_t n = 0U; (n < now) && ((s->at + n) < room_of(s)); n++) {
-            s->answer.octets[1U + n] = octet_of(s, (uint16_t)(s->at + n));
+        for (uint16_t n = 0U; (n < now) && (s->at < room_of(s)); n++) {
+            s->answer.octets[1U + n] = octet_of(s, s->at);
+            s->at                    = (uint16_t)(s->at + 1U);
         }
-        s->at     = (uint16_t)(s->at + now);
         s->toggle = (uint16_t)(s->toggle ^ TOGGLE);
         if (last != 0U) {
             s->stage = APP_CANOPEN_SDO_IDLE;
