@@ -92,7 +92,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     fake_board_erase_store();
     require(app_init(&config, &gain_tables_drive) == CTL_OK);
     app_take_parameters(APP_PARAMETERS_NOT_ASKED);
-    fake_board.tick = app_tick;
+    fake_board.tick             = app_tick;
+    std::uint16_t target_number = 0;
     while (in.any()) {
         const std::uint8_t what = in.octet();
         switch (what >> 5) {
@@ -108,12 +109,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
             break;
         case 4: { // what an operator does
             static constexpr std::uint16_t words[] = {0, 2, 6, 7, 15, 128, 15 + 256, 15};
-            static constexpr std::int16_t  ways[]  = {3, 3, 6, -1};
+            static constexpr std::int16_t  ways[]  = {3, 8, 6, -1};
             app_objects_t                  command = app_control_default(&gain_tables_drive);
-            command.omega_e_radps                  = 800.0F * in.share();
+            const float                    share   = in.share();
+            command.omega_e_radps                  = 800.0F * share;
             command.controlword                    = words[what & 7U];
             command.mode_of_operation              = ways[(what >> 3U) & 3U];
             command.bounds                         = {3.0F, 150.0F};
+            command.target_cnt    = static_cast<std::int32_t>(3e3F * share); // a set-point
+            command.target_number = ++target_number;
             static_cast<void>(app_command_write(&command));
             break;
         }

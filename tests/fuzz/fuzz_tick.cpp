@@ -54,9 +54,19 @@ bool ratio(float x)
     return x >= 0.0F && x <= 1.0F; // false of a NaN
 }
 
-/// Invariants after every period.
-void judge(const drive_t &drive, const bridge_t &out)
+bool in_range(const position_motion_t &m, const drive_config_t &c)
 {
+    return std::abs(m.omega_e_radps) <= c.speed_max_e_radps &&
+           std::isfinite(m.omega_dot_e_radps2) && std::isfinite(m.omega_2dot_e_radps3);
+}
+
+/// Invariants after every period.
+void judge(const drive_t &drive, const bridge_t &out, const drive_command_t &command)
+{
+    const bool moves =
+        command.aim != nullptr && command.aim->position != nullptr && command.aim->position->moves;
+    require(!moves || drive.state != DRIVE_RUN ||
+            in_range(command.aim->position->motion, *drive.config));
     require(ratio(out.duty.a) && ratio(out.duty.b) && ratio(out.duty.c));
     require(out.gate_enable == (drive.state == DRIVE_RUN));
     require((drive.state == DRIVE_FAULT) == (drive.fault != DRIVE_FAULT_NONE));
@@ -110,6 +120,19 @@ position_command_t any_position(fuzz::Bytes &in)
     return p;
 }
 
+/// A motion as between the set-points of a master, mostly near the shaft and in range.
+position_command_t any_motion(fuzz::Bytes &in, const drive_config_t &config)
+{
+    position_command_t p{};
+    const bool         far = (in.octet() & 15U) == 0U;
+    p.moves                = true;
+    p.motion.at            = {far ? static_cast<std::int16_t>(in.word()) : 0, 3.2F * in.share()};
+    p.motion.omega_e_radps = 1.05F * config.speed_max_e_radps * in.share();
+    p.motion.omega_dot_e_radps2  = 1e5F * in.share();
+    p.motion.omega_2dot_e_radps3 = far ? in.number() : 1e7F * in.share();
+    return p;
+}
+
 /// Mostly in range.
 torque_command_t any_torque(fuzz::Bytes &in, const drive_config_t &config)
 {
@@ -140,7 +163,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
         case 1:
             command = {config.speed_max_e_radps * in.share(), (what & 15U) != 0U, 0.0F, nullptr};
             if ((what & 32U) != 0U && config.positions) {
-                position    = any_position(in);
+                position    = (what & 8U) != 0U ? any_motion(in, config) : any_position(in);
                 aim         = {&position, nullptr};
                 command.aim = &aim;
             } else if ((what & 16U) != 0U && config.torques) {
@@ -159,10 +182,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
                 rotor   = Rotor();
             }
         }
-        judge(drive, drive_tick(&drive, &s, &command));
+        judge(drive, drive_tick(&drive, &s, &command), command);
         for (int n = what & 7; n > 0; n--) {
             s = rotor.sample(config);
-            judge(drive, drive_tick(&drive, &s, &command));
+            judge(drive, drive_tick(&drive, &s, &command), command);
         }
     }
     return 0;
