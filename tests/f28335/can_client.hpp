@@ -29,7 +29,7 @@ protected:
         ASSERT_TRUE(offer(id, data));
     }
     /// False: the queue of this end is full.
-    bool offer(std::uint32_t id, const Data &data)
+    virtual bool offer(std::uint32_t id, const Data &data)
     {
         f28335::CanFrame f;
         f.id     = id;

@@ -12,6 +12,7 @@ using namespace sdre;
 constexpr unsigned emergency = 0x81;
 constexpr int      velocity  = 3;
 constexpr unsigned enabled   = 0x27;
+constexpr double   ts_s      = 2e-4;
 
 class Canopen : public CanClient {
 protected:
@@ -236,6 +237,30 @@ TEST_F(Canopen, FaultsAreTold)
     EXPECT_EQ(code, static_cast<int>(get(0x603F).value_or(0)));
     EXPECT_NE(code, 0);
     EXPECT_NE(get(0x1001).value_or(0), 0U);
+}
+
+TEST_F(Canopen, ABrokenEncoderWireIsToldWithTheTrip)
+{
+    run_at(600.0);
+    come.clear();
+    InjectedFault broken;
+    broken.kind  = FaultKind::encoder_losing;
+    broken.value = 1e5; // the counter stands still
+    served.break_part(broken);
+    const double broken_s = served.time_s();
+    double       open_s   = 0.0;
+    for (bool told = false; !told && served.time_s() < broken_s + 1.0;) {
+        pass(ts_s);
+        open_s = served.bridge_on() ? served.time_s() : open_s;
+        for (const f28335::CanFrame &f : come) {
+            told = told || f.id == emergency;
+        }
+    }
+    const double told_s = served.time_s();
+    EXPECT_NE(take_emergency(0.0), -1);
+    std::printf("encoder wire broken: bridge open after %.1f ms, emergency %.1f ms later\n",
+                1e3 * (open_s - broken_s), 1e3 * (told_s - open_s));
+    EXPECT_LE(told_s - open_s, 1e-3);
 }
 
 } // namespace

@@ -24,7 +24,7 @@ OF_ANY_LENGTH = (
 )
 EDS = ROOT / "docs/sdre-drive.eds"
 EXAMPLE = ROOT / "docs/examples/canopen_run.py"
-SHUT_DOWN, ENABLE = 0x06, 0x0F
+SHUT_DOWN, ENABLE, FAULT_RESET = 0x06, 0x0F, 0x80
 ENABLED = 0x27
 STATE = 0x6F
 CYCLIC_POSITION = 8
@@ -195,6 +195,34 @@ def test_a_pulled_cable_stops_the_drive_and_is_told(tmp_path: Path) -> None:
         assert node.sdo[0x6041].raw & STATE != ENABLED
         assert any(e.code == 0x8130 for e in node.emcy.log)
         beat.stop()
+
+
+def test_a_broken_encoder_wire_is_an_emergency(tmp_path: Path) -> None:
+    """The consumer of `canopen` has its code, and that the error is gone after a reset."""
+    with on_a_bus(tmp_path) as (served, port), master(port) as node:
+        node.sdo[0x60FF].raw = 3000
+        enable(node, 3)
+        time.sleep(1.0)
+        assert not node.emcy.log
+        served.bench().ask(  # the counter stands still
+            'fault kind = "encoder_losing", counts_per_s = 50000.0'
+        )
+        error = node.emcy.wait(timeout=20.0)
+        assert error is not None, "no emergency came"
+        assert error.code == node.sdo[0x603F].raw != 0
+        assert error.register == node.sdo[0x1001].raw != 0
+        assert error.data[0] == node.sdo["FAULT"].raw != 0
+        assert error.data[1] == node.sdo["DRIVE_FAULT"].raw
+        assert node.sdo[0x1003][1].raw & 0xFFFF == error.code
+        assert served.bench().ask("state")["bridge_on"] is False
+        served.bench().ask("mend")
+        node.sdo[0x6040].raw = 0
+        node.sdo[0x6040].raw = FAULT_RESET
+        end = time.monotonic() + 20.0
+        while node.emcy.active:
+            assert time.monotonic() < end, "the error has not ended"
+            time.sleep(0.02)
+        assert node.emcy.log[-1].code == node.emcy.log[-1].register == 0
 
 
 def test_a_full_bus_leaves_the_drive_running(tmp_path: Path) -> None:
