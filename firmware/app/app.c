@@ -127,6 +127,8 @@ static void read_once(app_status_t *status)
     status->acknowledged      = tick_side.control.holds && tick_side.control.setpoint.acknowledged;
     status->beyond            = tick_side.control.path.beyond_s > 0.0f;
     status->unled             = tick_side.control.path.lost;
+    status->held              = tick_side.control.limited ||
+                   (tick_side.control.holds && tick_side.control.setpoint.now.limited);
     status->reset_cause       = board_reset_cause();
     status->tick_cycles       = shared.cycles;
     status->tick_cycles_worst = shared.cycles_worst;
@@ -395,6 +397,16 @@ void app_tick(void)
     finish(in->board_faults, start_cycles);
 }
 
+static void pass_command(app_registers_t *r)
+{
+    app_objects_t command;
+
+    if (r->changed) {
+        app_registers_command(r, &command);
+        r->changed = !app_command_write(&command);
+    }
+}
+
 /* Restarts for the loader or to store parameters, after the Modbus answer is sent. If the bridge is
  * on by then, the restart is cancelled. */
 static void restart_when_asked(uint32_t now_ticks)
@@ -495,9 +507,7 @@ void app_background(void)
     app_modbus_poll(&app_line.modbus, r, now_ticks);
     app_canopen_poll(&app_line.canopen, r, now_ticks);
     choose_constants(r);
-    if (r->changed && app_command_write(&r->requested.objects)) {
-        r->changed = false;
-    }
+    pass_command(r);
     restart_when_asked(now_ticks);
 }
 

@@ -116,6 +116,7 @@ typedef struct {
     bool                    waits;        /**< the reference waits for a shaft that cannot follow */
     bool                    beyond;       /**< the following error is beyond its window */
     bool                    unled;        /**< no set-points for too long, app_path.h */
+    bool                    held;         /**< a limit of position holds the set-point */
     float                   torque_share; /**< RUN only: by the model, of the rated torque */
     float                   torque_demand_share; /**< RUN only: the same of their references */
 #if APP_DISC_MAP

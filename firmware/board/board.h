@@ -71,7 +71,7 @@ enum {
 enum { BOARD_STORE_SLOTS = 4 };
 
 /** Number of words that survive board_restart() but not a power cut. */
-#define BOARD_KEPT_WORDS 89U
+#define BOARD_KEPT_WORDS 110U
 
 /** Formats of the serial line. As Modbus requires, each has 11 bits an octet. */
 enum {

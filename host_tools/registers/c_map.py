@@ -118,6 +118,7 @@ def header(groups: List[Group]) -> str:
         "    app_registers_kind_t kind;",
         "    uint16_t             offset; /**< of the member; of a computed value its number */",
         "    bool                 rpm;    /**< the member is electrical rad/s */",
+        "    uint16_t             sense;  /**< bit of the polarity that reverses it; 0: none */",
         "} app_registers_entry_t;",
         "",
         "struct app_registers;",
@@ -157,11 +158,11 @@ def _place(groups: List[Group], r: Register) -> str:
     """Home, kind, offset and unit of a row."""
     if not r.member:
         number = _computed(groups).index(r)
-        return f"APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, {number}U, false"
+        return f"APP_REGISTERS_COMPUTED, APP_REGISTERS_AS_U16, {number}U, false, 0U"
     of = HOMES[r.home]
     kind = f"APP_REGISTERS_AS_{r.kind.upper()}" if r.kind in MEMBERS else f"OF_ENUM({r.kind})"
     at = f"AT({of}, {r.member})"
-    return f"APP_REGISTERS_{r.home.upper()}, {kind}, {at}, {_c_bool(r.rpm)}"
+    return f"APP_REGISTERS_{r.home.upper()}, {kind}, {at}, {_c_bool(r.rpm)}, {r.sense}U"
 
 
 def _table(groups: List[Group], space: str) -> List[str]:

@@ -17,6 +17,7 @@ HOMES = ("requested", "status", "drive", "config")
 MEMBERS = ("u16", "i16", "u32", "i32", "float", "bool")
 WORDS = {"u16": 1, "i16": 1, "u32": 2, "i32": 2, "dec": 2}
 SPACES = ("holding", "input")
+SENSES = {"": 0, "speed": 0x40, "torque": 0x20}  # bits of the polarity, app_units.h
 OBJECTS = ("u8", "i8", "u16", "i16", "u32", "i32")
 KEYS = {
     "name",
@@ -26,6 +27,7 @@ KEYS = {
     "at",
     "c",
     "rpm",
+    "sense",
     "from",
     "to",
     "range",
@@ -58,6 +60,7 @@ class Register:
     member: str
     kind: str
     rpm: bool
+    sense: int
     source: str
     target: str
     range: Optional[Tuple[float, float]]
@@ -171,6 +174,8 @@ def _register(keys: Dict[str, Any], address: int, space: str) -> Register:
         raise TableError(f"{name}: either at, or from and to")
     if keys.get("can", "u16") not in OBJECTS:
         raise TableError(f"{name}: can {keys['can']}")
+    if keys.get("sense", "") not in SENSES:
+        raise TableError(f"{name}: sense {keys['sense']}")
     home, _, member = keys.get("at", "").partition(".")
     real = "step" in keys or keys["type"] == "dec"
     kind = keys.get("c", "float" if real else keys["type"])
@@ -200,6 +205,7 @@ def _register(keys: Dict[str, Any], address: int, space: str) -> Register:
         member=member,
         kind=kind,
         rpm=keys.get("rpm", False),
+        sense=SENSES[keys.get("sense", "")],
         source=keys.get("from", ""),
         target=keys.get("to", ""),
         range=(given[0], given[1]) if given else None,

@@ -125,7 +125,7 @@ def test_it_runs_stops_and_another_master_sees_the_same(served: Served) -> None:
             known, facts = drive.constants(), await page.script("page.facts")
             assert known.pole_pairs == facts["pole_pairs"]
             assert known.speed_max_e_radps == pytest.approx(facts["speed_max_e_radps"])
-            assert known.encoder_counts == facts["encoder_counts"]
+            assert known.turn_units == facts["turn_units"]
             assert drive.identify()[0x80] == facts["name"]
             drive.write("QUICK_STOP_OPTION", 5)  # stays enabled: the page opens the bridge then
         # Quick stop or disable voltage to register 0: the frame after the key.
@@ -203,7 +203,7 @@ def test_a_move_arrives_and_a_hidden_window_stops(served: Served) -> None:
         await running(page, 300)
         await page.click("#stop")
         await mode(page, "READY")
-        turn = await page.script("page.facts.encoder_counts")
+        turn = await page.script("page.facts.turn_units")
         await page.fill("#turns", "11")
         await page.click("#move")
         assert "Allow" in await page.script(text("#said"))

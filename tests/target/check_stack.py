@@ -73,7 +73,9 @@ LIBRARY = {
 }
 LEFT = 0.15  # chosen: of the stack
 LIBRARY_words = 16  # chosen: a leaf's return address and the registers that a callee saves
-ROUTINE_words = {"sqrtf": 32}  # the library's square root calls its division
+# The library's square root calls its division. Divisions of 64 bits: chosen, two operands of four
+# words, a quotient, a rest and what a callee saves.
+ROUTINE_words = {"sqrtf": 32, "__aeabi_ldivmod": 48, "__aeabi_uldivmod": 48}
 # The C28x has eight float registers, this machine 32. A value in s8 .. s15 lies on the stack there
 # and takes two words.
 # Every function saves those of the others that it uses, in its frame.

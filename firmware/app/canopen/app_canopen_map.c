@@ -36,20 +36,34 @@ const app_canopen_object_t app_canopen_map[APP_CANOPEN_OBJECTS] = {
     {0x6071U, 0U, 2U, true, &app_registers_map_holding[40], 0x00000000UL}, /* TORQUE */
     {0x6072U, 0U, 2U, true, &app_registers_map_holding[42], 0x00000000UL}, /* MAX_TORQUE */
     {0x6073U, 0U, 2U, true, &app_registers_map_holding[45], 0x00000000UL}, /* MAX_CURRENT_SHARE */
-    {0x6074U, 0U, 2U, false, &app_registers_map_input[140], 0x00000000UL}, /* TORQUE_DEMAND */
-    {0x6075U, 0U, 4U, false, &app_registers_map_input[141], 0x00000000UL}, /* RATED_CURRENT */
-    {0x6076U, 0U, 4U, false, &app_registers_map_input[142], 0x00000000UL}, /* RATED_TORQUE */
-    {0x6077U, 0U, 2U, false, &app_registers_map_input[139], 0x00000000UL}, /* TORQUE_NOW */
+    {0x6074U, 0U, 2U, false, &app_registers_map_input[141], 0x00000000UL}, /* TORQUE_DEMAND */
+    {0x6075U, 0U, 4U, false, &app_registers_map_input[142], 0x00000000UL}, /* RATED_CURRENT */
+    {0x6076U, 0U, 4U, false, &app_registers_map_input[143], 0x00000000UL}, /* RATED_TORQUE */
+    {0x6077U, 0U, 2U, false, &app_registers_map_input[140], 0x00000000UL}, /* TORQUE_NOW */
     {0x6079U, 0U, 4U, false, &app_registers_map_input[19], 0x00000000UL}, /* DC_LINK */
     {0x607AU, 0U, 4U, true, &app_registers_map_holding[35], 0x00000000UL}, /* TARGET_POSITION */
+    {0x607DU, 0U, 1U, false, NULL, 0x00000002UL}, /* Highest sub-index */
+    {0x607DU, 1U, 4U, true, &app_registers_map_holding[58], 0x00000000UL}, /* POSITION_LEAST */
+    {0x607DU, 2U, 4U, true, &app_registers_map_holding[59], 0x00000000UL}, /* POSITION_MOST */
+    {0x607EU, 0U, 1U, true, &app_registers_map_holding[57], 0x00000000UL}, /* POLARITY */
     {0x6080U, 0U, 4U, true, &app_registers_map_holding[44], 0x00000000UL}, /* TORQUE_SPEED_MAX */
     {0x6081U, 0U, 4U, true, &app_registers_map_holding[36], 0x00000000UL}, /* PROFILE_VELOCITY */
     {0x6083U, 0U, 4U, true, &app_registers_map_holding[5], 0x00000000UL}, /* ACCELERATION */
     {0x6084U, 0U, 4U, true, &app_registers_map_holding[6], 0x00000000UL}, /* DECELERATION */
     {0x6085U, 0U, 4U, true, &app_registers_map_holding[7], 0x00000000UL}, /* QUICK_STOP_DECELERATION */
     {0x6087U, 0U, 4U, true, &app_registers_map_holding[43], 0x00000000UL}, /* TORQUE_SLOPE */
+    {0x608FU, 0U, 1U, false, NULL, 0x00000002UL}, /* Highest sub-index */
+    {0x608FU, 1U, 4U, false, &app_registers_map_input[106], 0x00000000UL}, /* ENCODER_POSITIONS */
+    {0x608FU, 2U, 4U, false, NULL, 0x00000001UL}, /* Motor revolutions */
+    {0x6091U, 0U, 1U, false, NULL, 0x00000002UL}, /* Highest sub-index */
+    {0x6091U, 1U, 4U, true, &app_registers_map_holding[53], 0x00000000UL}, /* GEAR_MOTOR */
+    {0x6091U, 2U, 4U, true, &app_registers_map_holding[54], 0x00000000UL}, /* GEAR_SHAFT */
+    {0x6092U, 0U, 1U, false, NULL, 0x00000002UL}, /* Highest sub-index */
+    {0x6092U, 1U, 4U, true, &app_registers_map_holding[55], 0x00000000UL}, /* FEED */
+    {0x6092U, 2U, 4U, true, &app_registers_map_holding[56], 0x00000000UL}, /* FEED_SHAFT */
     {0x60A4U, 0U, 1U, false, NULL, 0x00000001UL}, /* Highest sub-index */
     {0x60A4U, 1U, 4U, true, &app_registers_map_holding[37], 0x00000000UL}, /* PROFILE_JERK */
+    {0x60A9U, 0U, 4U, false, NULL, 0xFFB44700UL}, /* Unit of speeds */
     {0x60B0U, 0U, 4U, true, &app_registers_map_holding[48], 0x00000000UL}, /* POSITION_OFFSET */
     {0x60B1U, 0U, 4U, true, &app_registers_map_holding[46], 0x00000000UL}, /* VELOCITY_OFFSET */
     {0x60B2U, 0U, 2U, true, &app_registers_map_holding[41], 0x00000000UL}, /* TORQUE_OFFSET */

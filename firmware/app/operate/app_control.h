@@ -69,6 +69,7 @@ typedef struct {
     app_path_t          path;          /**< of cyclic position, as the next */
     uint16_t            target_number; /**< of its last set-point */
     bool                velocity;      /**< a velocity offset was given since it began */
+    bool                limited;       /**< its last set-point was beyond the limits of position */
 } app_control_t;
 
 /** Status of app_modes after the previous tick. */

@@ -28,14 +28,16 @@ static void set_limits(app_control_t *c, const app_objects_t *o, const app_contr
 static void take_point(app_control_t *c, const app_objects_t *o, const app_control_seen_t *seen)
 {
     app_path_aim_t *a     = &c->path.aim;
-    const int32_t   count = app_position_held(app_position_held(o->target_cnt) +
+    const int32_t   asked = app_position_held(app_position_held(o->target_cnt) +
                                               app_position_held(o->offset_cnt)); /* 2e9 at most */
+    const int32_t   count = app_control_limited_cnt(o, asked);
 
     c->velocity            = c->velocity || !base_within(o->omega_offset_e_radps, 0.0f);
     a->point.at            = app_position_at(seen->position, count);
     a->point.omega_e_radps = o->omega_offset_e_radps;
     a->point.given         = c->velocity;
     a->fresh               = true;
+    c->limited             = count != asked;
     c->target_number       = o->target_number;
 }
 

@@ -5,8 +5,6 @@
 
 #define WINDOW_E_RADPS 5.0f /* chosen: above noise and ripple */
 
-#define POSITION_WINDOW_CNT 4U /* chosen: one line; a shaft at rest moves by one or two counts */
-
 #define STAY APP_CONTROL_STATES
 
 #define INTERPOLATION_s 0.01f /* chosen: a master on a serial line can keep it */
@@ -37,22 +35,22 @@ ctl_status_t app_control_init(app_control_t *c, const app_config_t *config,
     c->stopping          = false;
     c->follows           = APP_FOLLOWS_SPEED;
     c->holds             = false;
+    c->limited           = false;
     app_path_end(&c->path);
     return ok ? CTL_OK : CTL_BAD_CONFIG;
 }
 
 app_objects_t app_control_default(const drive_config_t *drive)
 {
-    const app_objects_t o = {.controlword         = APP_CONTROL_DISABLE_VOLTAGE,
-                             .mode_of_operation   = APP_CONTROL_PROFILE_VELOCITY,
-                             .quick_option        = APP_CONTROL_QUICK_FAST,
-                             .lost_option         = APP_CONTROL_LOST_DISABLE,
-                             .window_e_radps      = WINDOW_E_RADPS,
-                             .current_max_A       = drive->current_max_A,
-                             .position_window_cnt = POSITION_WINDOW_CNT,
-                             .torque_most         = TORQUE_SHARE_MAX,
-                             .interpolation_s     = INTERPOLATION_s,
-                             .following_s         = FOLLOWING_s};
+    const app_objects_t o = {.controlword       = APP_CONTROL_DISABLE_VOLTAGE,
+                             .mode_of_operation = APP_CONTROL_PROFILE_VELOCITY,
+                             .quick_option      = APP_CONTROL_QUICK_FAST,
+                             .lost_option       = APP_CONTROL_LOST_DISABLE,
+                             .window_e_radps    = WINDOW_E_RADPS,
+                             .current_max_A     = drive->current_max_A,
+                             .torque_most       = TORQUE_SHARE_MAX,
+                             .interpolation_s   = INTERPOLATION_s,
+                             .following_s       = FOLLOWING_s};
     return o;
 }
 

@@ -64,19 +64,21 @@ typedef struct {
     int32_t                 target_cnt;      /**< target position from the zero, or a distance */
     float                   profile_e_radps; /**< speed limit, as the next; 0: the drive's */
     float                   jerk_e_radps3;
-    uint16_t                position_window_cnt; /**< tolerance of "target reached" */
-    float                   torque_share;        /**< target, of the rated torque, as the next */
-    float                   torque_offset;       /**< cyclic torque: added to it */
-    float                   torque_most;         /**< limit of both, either way, >= 0 */
-    float                   torque_slope_1ps;    /**< profile torque; 0: a step */
-    float    torque_speed_max_e_radps;           /**< speed limit of a torque; 0: the drive's */
-    float    omega_offset_e_radps;               /**< cyclic velocity: added to the target speed;
+    float                   torque_share;     /**< target, of the rated torque, as the next */
+    float                   torque_offset;    /**< cyclic torque: added to it */
+    float                   torque_most;      /**< limit of both, either way, >= 0 */
+    float                   torque_slope_1ps; /**< profile torque; 0: a step */
+    float    torque_speed_max_e_radps;        /**< speed limit of a torque; 0: the drive's */
+    float    omega_offset_e_radps;            /**< cyclic velocity: added to the target speed;
                                                       cyclic position: speed at the set-point */
-    float    interpolation_s;                    /**< between two set-points, > 0 */
+    float    interpolation_s;                 /**< between two set-points, > 0 */
     int32_t  offset_cnt;    /**< cyclic position, as the next: added to the target position */
     uint16_t target_number; /**< counts the writes of the target position */
     uint32_t following_window_cnt; /**< of the following error; 0: any */
     float    following_s;          /**< that it may be beyond it */
+    bool     limits;               /**< set-points of positions keep within the next two */
+    int32_t  least_cnt;
+    int32_t  most_cnt;
 } app_objects_t;
 
 /** True for the modes of operation that command a torque. */
@@ -118,6 +120,15 @@ static inline float app_control_target_e_radps(const app_objects_t *o, int16_t m
     const float offset = (mode == APP_CONTROL_CYCLIC_VELOCITY) ? o->omega_offset_e_radps : 0.0f;
 
     return o->omega_e_radps + offset;
+}
+
+/** A set-point within the limits of position. */
+static inline int32_t app_control_limited_cnt(const app_objects_t *o, int32_t cnt)
+{
+    const int32_t up = (cnt > o->most_cnt) ? o->most_cnt : cnt;
+    const int32_t at = (up < o->least_cnt) ? o->least_cnt : up;
+
+    return o->limits ? at : cnt;
 }
 
 /** True if the word has this bit. */

@@ -22,6 +22,7 @@ void app_setpoint_start(app_setpoint_t *s, const app_objects_t *o, const app_pos
 {
     s->now.target_cnt = app_position_cnt(position, &position->actual);
     s->now.profile    = profile_of(o);
+    s->now.limited    = false;
     s->target         = position->actual;
     s->waits          = false;
     s->acknowledged   = false;
@@ -41,10 +42,11 @@ static app_setpoint_one_t asked_for(const app_setpoint_t *s, const app_objects_t
     const bool                relative = app_control_has(o->controlword, APP_CONTROL_RELATIVE);
     const int32_t             from_cnt = relative ? before->target_cnt : 0L;
 
-    const app_setpoint_one_t one = {
-        .target_cnt =
-            app_position_held(from_cnt + app_position_held(o->target_cnt)), /* at most 2e9 */
-        .profile = profile_of(o)};
+    const int32_t asked =
+        app_position_held(from_cnt + app_position_held(o->target_cnt)); /* at most 2e9 */
+    const int32_t            count = app_control_limited_cnt(o, asked);
+    const app_setpoint_one_t one   = {
+          .target_cnt = count, .profile = profile_of(o), .limited = count != asked};
     return one;
 }
 

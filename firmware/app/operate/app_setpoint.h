@@ -18,6 +18,7 @@
 typedef struct {
     int32_t            target_cnt;
     position_profile_t profile;
+    bool               limited; /**< by the limits of position */
 } app_setpoint_one_t;
 
 typedef struct {

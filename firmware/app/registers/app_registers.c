@@ -49,6 +49,7 @@ ctl_status_t app_registers_init(app_registers_t *r, const app_config_t *config,
     r->drive                          = drive;
     r->rpm_per_e_radps                = RPM_PER_RADPS / ((pairs > 0U) ? (float)pairs : 1.0f);
     r->status                         = nothing;
+    app_registers_init_units(r);
     app_registers_init_inertia(r);
     app_registers_init_trim(r);
     r->trial   = r->requested;

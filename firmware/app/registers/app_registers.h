@@ -18,6 +18,7 @@
 #include "app_status.h"
 #include "app_traces.h"
 #include "app_trim.h"
+#include "app_units.h"
 #include "app_watch_inertia.h"
 #include "app_watch_ring.h"
 
@@ -73,15 +74,18 @@ typedef enum {
 
 /** Contents of the holding registers. */
 typedef struct app_registers_request {
-    app_objects_t     objects;
-    app_scope_setup_t scope;
-    uint16_t          scope_command; /**< 1 arms, 2 stops */
-    uint16_t          modbus_address;
-    uint32_t          modbus_timeout_ticks;
-    board_line_t      line;
-    uint16_t          can_node; /**< 1 .. 127 */
-    uint16_t          can_rate_kbps;
-    uint16_t          store_command; /**< app_parameters_command_t */
+    app_objects_t         objects; /**< without its positions */
+    app_units_t           units;
+    app_units_scale_t     scale; /**< of these units */
+    app_units_positions_t positions;
+    app_scope_setup_t     scope;
+    uint16_t              scope_command; /**< 1 arms, 2 stops */
+    uint16_t              modbus_address;
+    uint32_t              modbus_timeout_ticks;
+    board_line_t          line;
+    uint16_t              can_node; /**< 1 .. 127 */
+    uint16_t              can_rate_kbps;
+    uint16_t              store_command; /**< app_parameters_command_t */
 #if APP_WATCH_INERTIA
     uint16_t inertia_start; /**< INERTIA_START, in thousandths; 0: the law keeps the drive's */
 #endif
@@ -223,8 +227,22 @@ void app_registers_silence(app_registers_t *r);
 /** Number of control periods in a time below one hour. */
 uint32_t app_registers_ticks(const app_registers_t *r, float time_s);
 
-/** Shaft position in the counts of the target. */
+/** Position units that are counts, and default positions. Context: init. */
+void app_registers_init_units(app_registers_t *r);
+
+/** Reduces new units. A speed or a torque keeps its number when POLARITY reverses it.
+ * @return false: units or positions are out of range. */
+bool app_registers_see_units(const app_registers_t *r, app_registers_request_t *w);
+
+/** The requested command, with its positions in counts. */
+void app_registers_command(const app_registers_t *r, app_objects_t *out);
+
+/** Position of the shaft, and of the active set-point [position units]. */
 int32_t app_registers_position(const app_registers_t *r);
+int32_t app_registers_target(const app_registers_t *r);
+
+/** Position units in a turn of the motor. */
+float app_registers_turn_units(const app_registers_t *r);
 
 /** Value of APP_REGISTERS_SUPPORTED_MODES. */
 uint32_t app_registers_modes(const app_registers_t *r);

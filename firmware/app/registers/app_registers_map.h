@@ -12,9 +12,9 @@
 #include "base.h"
 
 #define APP_REGISTERS_VERSION "1.0.0"   /**< of the firmware */
-#define APP_REGISTERS_DIGEST "f674b4e8" /**< of what a master can see of the map */
+#define APP_REGISTERS_DIGEST "9c07479f" /**< of what a master can see of the map */
 
-#define APP_REGISTERS_SAVED 27U /**< parameters */
+#define APP_REGISTERS_SAVED 34U /**< parameters */
 
 /** Holding registers: those of two words are named by the first. */
 enum {
@@ -88,7 +88,16 @@ enum {
     APP_REGISTERS_CAN_NODE = 288,
     APP_REGISTERS_CAN_RATE = 289,
     APP_REGISTERS_CAN_FIRST = 288,
-    APP_REGISTERS_CAN_END = 290
+    APP_REGISTERS_CAN_END = 290,
+    APP_REGISTERS_GEAR_MOTOR = 320,
+    APP_REGISTERS_GEAR_SHAFT = 321,
+    APP_REGISTERS_FEED = 322,
+    APP_REGISTERS_FEED_SHAFT = 324,
+    APP_REGISTERS_POLARITY = 325,
+    APP_REGISTERS_POSITION_LEAST = 326,
+    APP_REGISTERS_POSITION_MOST = 328,
+    APP_REGISTERS_UNITS_FIRST = 320,
+    APP_REGISTERS_UNITS_END = 330
 };
 
 /** Input registers: those of two words are named by the first. */
@@ -224,8 +233,9 @@ enum {
     APP_REGISTERS_DC_LINK_MAX = 274,
     APP_REGISTERS_TEMPERATURE_LIMIT = 275,
     APP_REGISTERS_TEMPERATURE_TRIP = 276,
+    APP_REGISTERS_TURN_UNITS = 277,
     APP_REGISTERS_CONSTANTS_FIRST = 256,
-    APP_REGISTERS_CONSTANTS_END = 277,
+    APP_REGISTERS_CONSTANTS_END = 279,
     APP_REGISTERS_FOUND_MAP_STEP = 288,
     APP_REGISTERS_FOUND_MAP_BIAS = 290,
     APP_REGISTERS_FOUND_LD_POSITIVE_1 = 292,
@@ -300,14 +310,15 @@ typedef struct {
     app_registers_kind_t kind;
     uint16_t             offset; /**< of the member; of a computed value its number */
     bool                 rpm;    /**< the member is electrical rad/s */
+    uint16_t             sense;  /**< bit of the polarity that reverses it; 0: none */
 } app_registers_entry_t;
 
 struct app_registers;
 struct app_registers_request;
 
-#define APP_REGISTERS_MAP_HOLDING 53U
+#define APP_REGISTERS_MAP_HOLDING 60U
 
-#define APP_REGISTERS_MAP_INPUT 143U
+#define APP_REGISTERS_MAP_INPUT 144U
 
 /** Rows in ascending order of the address. */
 extern const app_registers_entry_t app_registers_map_holding[APP_REGISTERS_MAP_HOLDING];

@@ -61,11 +61,17 @@ static uint32_t whole(const app_registers_t *r, const app_registers_entry_t *e)
     return x;
 }
 
+static bool is_reversed(const app_registers_request_t *w, const app_registers_entry_t *e)
+{
+    return (w->units.polarity & e->sense) != 0U;
+}
+
 static float real(const app_registers_t *r, const app_registers_entry_t *e)
 {
-    const float x = *(const float *)place(r, e);
+    const float x    = *(const float *)place(r, e);
+    const float held = e->rpm ? (x * r->rpm_per_e_radps) : x;
 
-    return e->rpm ? (x * r->rpm_per_e_radps) : x;
+    return is_reversed(&r->requested, e) ? -held : held;
 }
 
 uint32_t app_registers_place_value(const app_registers_t *r, const app_registers_entry_t *e)
@@ -89,7 +95,7 @@ static void put(const app_registers_entry_t *e, void *at, float x, int32_t n)
         *(int16_t *)at = (int16_t)x;
         break;
     case APP_REGISTERS_AS_U32:
-        *(uint32_t *)at = (uint32_t)x;
+        *(uint32_t *)at = (uint32_t)n;
         break;
     case APP_REGISTERS_AS_I32:
         *(int32_t *)at = n;
@@ -111,8 +117,10 @@ void app_registers_place_put(const app_registers_t *r, app_registers_request_t *
     if (e->home == APP_REGISTERS_COMPUTED) {
         app_registers_map_put(r, w, e->offset, x);
     } else if (e->home == APP_REGISTERS_REQUESTED) {
-        void *const home = w;
-        put(e, &((char *)home)[e->offset], e->rpm ? (x / r->rpm_per_e_radps) : x, n);
+        void *const home  = w;
+        const float given = e->rpm ? (x / r->rpm_per_e_radps) : x;
+
+        put(e, &((char *)home)[e->offset], is_reversed(w, e) ? -given : given, n);
     } else {
         /* input registers are not written */
     }

@@ -56,11 +56,6 @@ uint16_t app_registers_conditions(const app_registers_t *r)
                       limits(&r->status) | refused_parameters(r) | app_registers_lost(r));
 }
 
-int32_t app_registers_position(const app_registers_t *r)
-{
-    return app_position_cnt(&r->status.position, &r->status.position.actual);
-}
-
 uint32_t app_registers_modes(const app_registers_t *r)
 {
     const uint32_t positions = r->drive->positions ? (MODE_1 | MODE_8) : 0UL;
@@ -102,8 +97,10 @@ static uint16_t bit_if(bool x, int bit)
 /* True if the reference rests at the target and the shaft is near it. */
 static bool is_at_target(const app_registers_t *r)
 {
-    const int32_t off_cnt  = app_registers_position(r) - r->status.target_cnt;
-    const int32_t most_cnt = (int32_t)r->requested.objects.position_window_cnt;
+    const app_position_t *p       = &r->status.position;
+    const int32_t         off_cnt = app_position_cnt(p, &p->actual) - r->status.target_cnt;
+    const int32_t         most_cnt =
+        (int32_t)app_units_window_cnt(&r->requested.scale, r->requested.positions.window);
 
     return r->status.arrived && (off_cnt <= most_cnt) && (off_cnt >= -most_cnt);
 }
@@ -174,7 +171,7 @@ uint16_t app_registers_statusword(const app_registers_t *r)
     const app_status_t *s = &r->status;
     const bool          warns =
         s->hot || s->dc_link_out || s->tripped || s->without_angle || (app_registers_lost(r) != 0U);
-    const bool limited = limits(s) != 0U;
+    const bool limited = (limits(s) != 0U) || s->held;
 
     return (uint16_t)(state_bits(s->state) | bit_if(!s->dc_link_out, APP_REGISTERS_VOLTAGE) |
                       bit_if(warns, APP_REGISTERS_WARNING) |

@@ -77,10 +77,10 @@ static app_registers_result_t try_one(app_registers_t *r, const app_registers_en
 }
 
 /* Checks that depend on the drive or on several registers. */
-static bool may_be_requested(const app_registers_t *r, const app_registers_request_t *w)
+static bool may_be_requested(const app_registers_t *r, app_registers_request_t *w)
 {
     const float most = r->drive->speed_max_e_radps;
-    return base_in_range(w->objects.omega_e_radps, -most, most) &&
+    return base_in_range(w->objects.omega_e_radps, -most, most) && app_registers_see_units(r, w) &&
            app_control_knows(&w->objects, r->drive) && app_scope_knows(&w->scope) &&
            board_line_fits(&w->line) && board_can_fits(w->can_rate_kbps);
 }

@@ -56,7 +56,7 @@ def move(
     ],
     counts: Annotated[
         bool,
-        typer.Option("--counts/--turns", help="TARGET is counts of the encoder, four per line"),
+        typer.Option("--counts/--turns", help="TARGET is position units: counts, without a gear"),
     ] = False,
     relative: Annotated[bool, typer.Option("--relative", help="from where it is")] = False,
     speed: Annotated[
@@ -82,7 +82,7 @@ def move(
     """Turns the shaft to TARGET and holds it there until Ctrl-C."""
     end = end_by_signal()
     with Drive(target(port, tcp)) as drive, Live(console=live_line, auto_refresh=False) as live:
-        pairs, turn = pole_pairs_of(pole_pairs, drive), drive.constants().encoder_counts
+        pairs, turn = pole_pairs_of(pole_pairs, drive), drive.constants().turn_units
         top = mover.default_speed(drive) if speed is None else e_radps_of(speed, pairs)
         wanted = mover.Wanted(round(to if counts else to * turn), relative, top, far)
         found = mover.go(
@@ -97,7 +97,7 @@ def move(
         )
         zero = mover.zero_words(drive)
         live.update(
-            f"{found.now} counts, wanted {found.target}: {found.words(turn)}; zero: {zero}",
+            f"{found.now} position units, wanted {found.target}: {found.words(turn)}; zero: {zero}",
             refresh=True,
         )
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Profile position: to a number of counts and there, with the hand-shake of docs/modbus.md."""
+"""Profile position: to a number of position units, with the hand-shake of docs/modbus.md."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ ZEROS = {1: "where the rotor was aligned", 2: "the index mark"}  # of register R
 
 @dataclass(frozen=True)
 class Where:
-    """Counts of the encoder, of the shaft and of the set-point on the way."""
+    """Position units, of the shaft and of the set-point on the way."""
 
     now: int
     target: int
 
-    def words(self, turn: int) -> str:
-        """In turns of that many counts."""
+    def words(self, turn: float) -> str:
+        """In turns of the motor of so many position units."""
         return f"{self.now / turn:.4f} of {self.target / turn:.4f} turns"
 
 
@@ -46,9 +46,9 @@ def require_possible(drive: Drive) -> None:
 
 @dataclass(frozen=True)
 class Wanted:
-    """A command to move: counts from the zero, or from where the shaft is."""
+    """A command to move: position units from the zero, or from where the shaft is."""
 
-    counts: int
+    units: int
     relative: bool = False
     speed_e_radps: float = 0.0  # largest on the way; 0: what the drive can
     far: bool = False  # more than FAR_TURNS are meant
@@ -61,8 +61,8 @@ class Far(DriveError):
 def require_near(drive: Drive, wanted: Wanted) -> None:
     """Far when the shaft is further away than one would think."""
     now = where(drive).now
-    turn = drive.constants().encoder_counts
-    turns = abs(wanted.counts if wanted.relative else wanted.counts - now) / turn
+    turn = drive.constants().turn_units
+    turns = abs(wanted.units if wanted.relative else wanted.units - now) / turn
     if turns > FAR_TURNS and not wanted.far:
         raise Far(
             f"that is {turns:.1f} turns away: the shaft is {now / turn:.2f} turns from its zero; "
@@ -83,9 +83,9 @@ def default_speed(drive: Drive) -> float:
     return kept or min(e_radps_of(DEFAULT_RPM, known.pole_pairs), known.speed_max_e_radps)
 
 
-def _set_point(drive: Drive, counts: int, bits: int) -> None:
+def _set_point(drive: Drive, units: int, bits: int) -> None:
     drive.write("CONTROLWORD", ControlWord.ENABLE)
-    drive.write("TARGET_POSITION", counts)
+    drive.write("TARGET_POSITION", units)
     drive.write("CONTROLWORD", ControlWord.ENABLE | bits | NEW)
     if (
         session.wait_for(drive, lambda r: bool(r.statusword & ACKNOWLEDGED), session.ANSWER_WAIT_S)
@@ -112,7 +112,7 @@ def begin(drive: Drive, wanted: Wanted) -> None:
     drive.write("PROFILE_VELOCITY", wanted.speed_e_radps)
     try:
         _enable(drive, wanted)
-        _set_point(drive, wanted.counts, AT_ONCE | (RELATIVE if wanted.relative else 0))
+        _set_point(drive, wanted.units, AT_ONCE | (RELATIVE if wanted.relative else 0))
     except DriveError:
         session.withdraw(drive)
         raise

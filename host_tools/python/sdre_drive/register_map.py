@@ -28,7 +28,7 @@ class Parameter(NamedTuple):
     text: str
 
 
-DIGEST = "f674b4e8"
+DIGEST = "9c07479f"
 VERSION = "1.0.0"
 
 COMMAND: Tuple[Register, ...] = (  # holding
@@ -79,10 +79,10 @@ STORE: Tuple[Register, ...] = (  # holding
 )
 
 TARGET: Tuple[Register, ...] = (  # holding
-    Register("TARGET_POSITION", 160, "i32", 0.0, "counts"),
+    Register("TARGET_POSITION", 160, "i32", 0.0, "position units"),
     Register("PROFILE_VELOCITY", 162, "u32", 0.1, "rad/s electrical"),
     Register("PROFILE_JERK", 164, "u32", 1.0, "rad/s3 electrical"),
-    Register("POSITION_WINDOW", 166, "u16", 0.0, "counts"),
+    Register("POSITION_WINDOW", 166, "u16", 0.0, "position units"),
 )
 
 TRIM: Tuple[Register, ...] = (  # holding
@@ -101,14 +101,24 @@ TORQUE: Tuple[Register, ...] = (  # holding
 CYCLIC: Tuple[Register, ...] = (  # holding
     Register("VELOCITY_OFFSET", 256, "i32", 0.1, "r/min"),
     Register("INTERPOLATION_PERIOD", 258, "u16", 0.001, "s"),
-    Register("POSITION_OFFSET", 259, "i32", 0.0, "counts"),
-    Register("FOLLOWING_WINDOW", 261, "u32", 0.0, "counts"),
+    Register("POSITION_OFFSET", 259, "i32", 0.0, "position units"),
+    Register("FOLLOWING_WINDOW", 261, "u32", 0.0, "position units"),
     Register("FOLLOWING_TIMEOUT", 263, "u16", 0.001, "s"),
 )
 
 CAN: Tuple[Register, ...] = (  # holding
     Register("CAN_NODE", 288, "u16", 0.0, ""),
     Register("CAN_RATE", 289, "u16", 0.0, "kbit/s"),
+)
+
+UNITS: Tuple[Register, ...] = (  # holding
+    Register("GEAR_MOTOR", 320, "u16", 0.0, "turns"),
+    Register("GEAR_SHAFT", 321, "u16", 0.0, "turns"),
+    Register("FEED", 322, "u32", 0.0, "position units"),
+    Register("FEED_SHAFT", 324, "u16", 0.0, "turns"),
+    Register("POLARITY", 325, "u16", 0.0, "bits"),
+    Register("POSITION_LEAST", 326, "i32", 0.0, "position units"),
+    Register("POSITION_MOST", 328, "i32", 0.0, "position units"),
 )
 
 LIVE: Tuple[Register, ...] = (  # input
@@ -166,8 +176,8 @@ LIVE: Tuple[Register, ...] = (  # input
 )
 
 POSITION: Tuple[Register, ...] = (  # input
-    Register("POSITION_NOW", 64, "i32", 0.0, "counts"),
-    Register("POSITION_TARGET", 66, "i32", 0.0, "counts"),
+    Register("POSITION_NOW", 64, "i32", 0.0, "position units"),
+    Register("POSITION_TARGET", 66, "i32", 0.0, "position units"),
     Register("DISC_MAP", 68, "u16", 0.0, ""),
 )
 
@@ -250,6 +260,7 @@ CONSTANTS: Tuple[Register, ...] = (  # input
     Register("DC_LINK_MAX", 274, "u16", 0.1, "V"),
     Register("TEMPERATURE_LIMIT", 275, "i16", 0.1, "degC"),
     Register("TEMPERATURE_TRIP", 276, "i16", 0.1, "degC"),
+    Register("TURN_UNITS", 277, "u32", 0.001, "position units"),
 )
 
 MAP: Tuple[Register, ...] = (  # input
@@ -284,11 +295,11 @@ TORQUE_NOW: Tuple[Register, ...] = (  # input
     Register("RATED_TORQUE", 324, "u32", 0.001, "N m"),
 )
 
-HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET, *TRIM, *TORQUE, *CYCLIC, *CAN)
+HOLDING = (*COMMAND, *LINE, *SCOPE, *STORE, *TARGET, *TRIM, *TORQUE, *CYCLIC, *CAN, *UNITS)
 INPUT = (*LIVE, *POSITION, *SHAFT, *TRIMMED, *COMMISSIONING, *TRACES, *STORED, *CONSTANTS, *MAP, *TORQUE_NOW)
 
 # Blocks that hold parameters.
-PARAMETER_BLOCKS = (COMMAND, LINE, TARGET, TRIM, TORQUE, CYCLIC, CAN,)
+PARAMETER_BLOCKS = (COMMAND, LINE, TARGET, TRIM, TORQUE, CYCLIC, CAN, UNITS,)
 
 BY_NAME = {r.name: r for r in (*HOLDING, *INPUT)}
 
@@ -320,6 +331,13 @@ PARAMETERS: Tuple[Parameter, ...] = (
     Parameter(BY_NAME["FOLLOWING_TIMEOUT"], 0, 65.535, 0.1, False, "6066h", "beyond the window for longer: fault 16"),
     Parameter(BY_NAME["CAN_NODE"], 1, 127, 1.0, False, "", "node number. It and CAN_RATE act after a restart, or after the NMT command \"reset communication\"."),
     Parameter(BY_NAME["CAN_RATE"], 125, 1000, 500.0, False, "", "125, 250, 500 or 1000"),
+    Parameter(BY_NAME["GEAR_MOTOR"], 1, 65535, 1.0, True, "6091h", "motor turns per GEAR_SHAFT turns"),
+    Parameter(BY_NAME["GEAR_SHAFT"], 1, 65535, 1.0, True, "6091h", "of the shaft behind the gear"),
+    Parameter(BY_NAME["FEED"], 0, 1000000000, 0.0, True, "6092h", "units per FEED_SHAFT turns; 0: counts. Position units are what positions, their windows and limits count: [Position units](#position-units)."),
+    Parameter(BY_NAME["FEED_SHAFT"], 1, 65535, 1.0, True, "6092h", "of the shaft behind the gear"),
+    Parameter(BY_NAME["POLARITY"], 0, 255, 0.0, True, "607Eh", "128 position, 64 speed, 32 torque: other sense. 224 turns the whole drive round. Other bits are refused."),
+    Parameter(BY_NAME["POSITION_LEAST"], -2147483647, 2147483647, 0.0, False, "607Dh", "limit of target positions. Both limits act when POSITION_LEAST is below POSITION_MOST. A target beyond them becomes the limit, and bit 11 of the status word is set."),
+    Parameter(BY_NAME["POSITION_MOST"], -2147483647, 2147483647, 0.0, False, "607Dh", "the same in the other direction"),
 )
 
 # Signals of the scope by number: name and unit.

@@ -219,6 +219,7 @@ class Constants:
     speed_max_e_radps: float
     current_max_A: float
     encoder_counts: int  # of a turn
+    turn_units: float  # position units in a turn of the motor
     supported_modes: int  # bits of CiA 402
 
 
@@ -231,6 +232,7 @@ def constants(words: Sequence[int]) -> Constants:
         raw["SPEED_MAX"],
         raw["CURRENT_MAX"],
         int(raw["ENCODER_POSITIONS"]),
+        raw["TURN_UNITS"],
         int(raw["SUPPORTED_MODES"]),
     )
 

@@ -42,10 +42,10 @@ def _move(w: Watcher, args: Args) -> str:
     speed = number(args, "speed_e_radps", 1e-3, 1e6)
     relative, far = flag(args, "relative"), flag(args, "far")
     w.jobs.require_none()
-    counts = round(turns * w.require_motor().encoder_counts)
+    units = round(turns * w.require_motor().turn_units)
     w.begin_run()
     try:
-        move.begin(w.drive, move.Wanted(counts, relative, speed, far))
+        move.begin(w.drive, move.Wanted(units, relative, speed, far))
     except move.Far as e:
         raise DriveError(f"{str(e).partition(';')[0]}: allow more than ten turns first") from e
     return f"moves {'by' if relative else 'to'} {turns:g} turns, and holds the shaft there"

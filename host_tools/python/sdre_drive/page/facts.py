@@ -25,7 +25,7 @@ def facts(w: Watcher) -> Dict[str, Any]:
         "period_s": of.period_s if of else None,
         "speed_max_e_radps": of.speed_max_e_radps if of else None,
         "current_max_A": of.current_max_A if of else None,
-        "encoder_counts": of.encoder_counts if of else None,
+        "turn_units": of.turn_units if of else None,
         "positions": bool(of and of.supported_modes & 1),
         "signals": [{"name": name, "unit": unit} for name, unit in register_map.SIGNALS[1:]],
         "triggers": list(scope_facts.TRIGGERS),

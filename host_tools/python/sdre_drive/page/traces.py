@@ -38,7 +38,7 @@ class Traces:
     ) -> None:
         """A reading of the drive."""
         demand = r.speed_demand_rpm * pole_pairs * 2.0 * math.pi / 60.0
-        turns = where.now / of.encoder_counts if where and of.encoder_counts else None
+        turns = where.now / of.turn_units if where and of.turn_units else None
         row = (r.time_s, r.speed_e_radps, demand, r.iq_A, r.id_A, r.dc_link_V, turns)
         self._append("drive", row)
 

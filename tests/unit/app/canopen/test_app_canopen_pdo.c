@@ -61,7 +61,7 @@ static void test_objects_of_a_pdo_are_written_in_order(void)
 
     bench_nmt(OPERATIONAL, 0);
     bench_send(first_of(4), 6, target);
-    TEST_ASSERT_EQUAL_INT(-1000, registers.requested.objects.target_cnt);
+    TEST_ASSERT_EQUAL_INT(-1000, registers.requested.positions.target);
     TEST_ASSERT_EQUAL_HEX(0x0F, registers.requested.objects.controlword);
     bench_send(first_of(5), 6, speed);
     TEST_ASSERT_FLOAT_WITHIN(0.01F, 100.0F / registers.rpm_per_e_radps,

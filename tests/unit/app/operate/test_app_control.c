@@ -690,6 +690,28 @@ static void test_cyclic_position_takes_what_is_written_while_it_runs(void)
     TEST_ASSERT_FALSE(control.path.begun);
 }
 
+static void test_set_points_of_a_path_keep_within_the_limits(void)
+{
+    static const int32_t asked[3] = {5000, 900, -5000};
+    static const int32_t kept[3]  = {1000, 900, -200};
+
+    hold_position(777, 0.0f);
+    wanted.mode_of_operation = APP_CONTROL_CYCLIC_POSITION;
+    wanted.limits            = true;
+    wanted.least_cnt         = -200;
+    wanted.most_cnt          = 1000;
+    ticks(APP_CONTROL_ENABLE_OPERATION, 2);
+    for (int n = 0; n < 3; n++) {
+        wanted.target_cnt    = asked[n] - 7;
+        wanted.offset_cnt    = 7; /* the sum is limited */
+        wanted.target_number = (uint16_t)(wanted.target_number + 1U);
+        ticks(APP_CONTROL_ENABLE_OPERATION, 1);
+        TEST_ASSERT_EQUAL_INT32(kept[n],
+                                app_position_cnt(seen.position, &control.path.aim.point.at));
+        TEST_ASSERT_EQUAL_INT(asked[n] != kept[n], control.limited);
+    }
+}
+
 static void test_an_operator_may_lower_the_jerk_of_a_path(void)
 {
     hold_position(777, 0.0f);
@@ -793,6 +815,7 @@ int main(void)
     RUN_TEST(test_a_shaft_beyond_the_largest_speed_leaves_the_reference_within_it);
     RUN_TEST(test_runs_change_into_each_other_while_enabled);
     RUN_TEST(test_cyclic_position_takes_what_is_written_while_it_runs);
+    RUN_TEST(test_set_points_of_a_path_keep_within_the_limits);
     RUN_TEST(test_an_operator_may_lower_the_jerk_of_a_path);
     RUN_TEST(test_cyclic_velocity_reaches_a_set_point_after_the_interpolation_period);
     RUN_TEST(test_halt_of_a_cyclic_velocity_has_the_ramp_and_ends_on_a_line);

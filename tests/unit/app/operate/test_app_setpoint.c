@@ -160,6 +160,30 @@ static void test_a_set_point_has_the_profile_of_its_time(void)
     TEST_ASSERT_TRUE(base_within(setpoint.now.profile.jerk_e_radps3 - 8.0e4f, 0.0f));
 }
 
+static void test_a_set_point_keeps_within_the_limits(void)
+{
+    wanted.limits    = true;
+    wanted.least_cnt = -100;
+    wanted.most_cnt  = 900;
+    tick(0, 0, true);
+    tick(NEW, 901, true);
+    assert_goes_to(900);
+    TEST_ASSERT_TRUE(setpoint.now.limited);
+    tick(0, 0, true);
+    tick(NEW | RELATIVE, -1100, true);
+    assert_goes_to(-100);
+    TEST_ASSERT_TRUE(setpoint.now.limited);
+    tick(0, 0, true);
+    tick(NEW | RELATIVE, 1000, true); /* from the limit */
+    assert_goes_to(900);
+    TEST_ASSERT_FALSE(setpoint.now.limited);
+    wanted.limits = false;
+    tick(0, 0, true);
+    tick(NEW, 5000, true);
+    assert_goes_to(5000);
+    TEST_ASSERT_FALSE(setpoint.now.limited);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -172,5 +196,6 @@ int main(void)
     RUN_TEST(test_relative_counts_from_the_set_point_before);
     RUN_TEST(test_targets_are_held_within_what_can_be_counted);
     RUN_TEST(test_a_set_point_has_the_profile_of_its_time);
+    RUN_TEST(test_a_set_point_keeps_within_the_limits);
     return UNITY_END();
 }

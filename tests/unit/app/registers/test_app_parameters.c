@@ -86,11 +86,13 @@ static void store(void)
 
 /* Addresses, high and low word of a value of each parameter that is not its default; docs/modbus.md. */
 static const int other[][3] = {
-    {7, 0, 123},    {9, 1, 5},       {11, 2, 3},     {13, -1, 6},    {14, -1, 1},   {15, -1, 1},
-    {16, -1, 3},    {17, 0, 1500},   {19, -1, 77},   {22, -1, 1500}, {64, -1, 42},  {65, -1, 700},
-    {66, 0, 19200}, {68, -1, 2},     {69, -1, 1},    {162, 1, 77},   {164, 2, 5},   {166, -1, 9},
-    {192, -1, 0},   {226, -1, 1500}, {227, 0, 2500}, {229, 0, 3000}, {258, -1, 25}, {261, 0, 900},
-    {263, -1, 40},  {288, -1, 7},    {289, -1, 125}};
+    {7, 0, 123},    {9, 1, 5},      {11, 2, 3},          {13, -1, 6},   {14, -1, 1},
+    {15, -1, 1},    {16, -1, 3},    {17, 0, 1500},       {19, -1, 77},  {22, -1, 1500},
+    {64, -1, 42},   {65, -1, 700},  {66, 0, 19200},      {68, -1, 2},   {69, -1, 1},
+    {162, 1, 77},   {164, 2, 5},    {166, -1, 9},        {192, -1, 0},  {226, -1, 1500},
+    {227, 0, 2500}, {229, 0, 3000}, {258, -1, 25},       {261, 0, 900}, {263, -1, 40},
+    {288, -1, 7},   {289, -1, 125}, {320, -1, 46},       {321, -1, 9},  {322, 0, 5000},
+    {324, -1, 2},   {325, -1, 224}, {326, 65535, 65486}, {328, 1, 77}};
 
 #define OTHERS ((int)(sizeof other / sizeof other[0]))
 #define ROOM   (2 + (3 * (OTHERS + 4))) /* words of a record, with some more parameters */
@@ -229,7 +231,7 @@ static void test_parameters_that_need_a_stop_are_refused_while_enabled(void)
         TEST_ASSERT_EQUAL_INT(needs ? APP_REGISTERS_BUSY : APP_REGISTERS_OK, result);
         refused += needs ? 1 : 0;
     }
-    TEST_ASSERT_EQUAL_INT(3, refused); /* the line */
+    TEST_ASSERT_EQUAL_INT(8, refused); /* the line, and units */
     TEST_ASSERT_EQUAL_UINT32(115200UL, registers.requested.line.baud_Bd);
 }
 

@@ -673,7 +673,7 @@ static void test_target_positions_are_taken_to_the_count(void)
         TEST_ASSERT_EQUAL_INT(
             APP_REGISTERS_OK,
             app_registers_write(&registers, APP_REGISTERS_TARGET_POSITION, 2U, words));
-        TEST_ASSERT_EQUAL_INT32(counts[i], registers.requested.objects.target_cnt);
+        TEST_ASSERT_EQUAL_INT32(counts[i], registers.requested.positions.target);
     }
     const uint16_t beyond[2] = {0x4000U, 0U};
     TEST_ASSERT_EQUAL_INT(

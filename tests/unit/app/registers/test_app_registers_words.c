@@ -54,13 +54,13 @@ static uint32_t input_32(int address)
 
 static void test_a_position_is_reached_at_rest_within_the_window(void)
 {
-    app_status_t *s                                 = &registers.status;
-    const int32_t here_cnt                          = app_registers_position(&registers);
-    registers.requested.objects.position_window_cnt = 3U;
-    s->state                                        = APP_CONTROL_OPERATION_ENABLED;
-    s->mode                                         = APP_MODE_RUN;
-    s->mode_of_operation                            = APP_CONTROL_PROFILE_POSITION;
-    s->arrived                                      = true;
+    app_status_t *s                      = &registers.status;
+    const int32_t here_cnt               = app_registers_position(&registers);
+    registers.requested.positions.window = 3U;
+    s->state                             = APP_CONTROL_OPERATION_ENABLED;
+    s->mode                              = APP_MODE_RUN;
+    s->mode_of_operation                 = APP_CONTROL_PROFILE_POSITION;
+    s->arrived                           = true;
     for (int32_t off = -5; off <= 5; off++) {
         s->target_cnt = here_cnt - off;
         TEST_ASSERT_EQUAL_HEX16(((off >= -3) && (off <= 3)) ? REACHED : 0, statusword(REACHED));

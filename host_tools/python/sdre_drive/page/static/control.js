@@ -107,7 +107,7 @@ export class Control {
     const speed = numberOf(this.moveSpeed, "largest speed", 0, this.largest);
     const relative = this.way.value === "by";
     const where = this.page.state && this.page.state.where;
-    const way = relative || !where ? turns : turns - where.now / this.page.facts.encoder_counts;
+    const way = relative || !where ? turns : turns - where.now / this.page.facts.turn_units;
     if (Math.abs(way) > FAR_TURNS && !this.far.checked) {
       throw new Error(`That is ${fixed(way, 1)} turns from here. Allow "more than ${FAR_TURNS} turns" first.`);
     }

@@ -29,7 +29,7 @@ export class Now {
     const facts = this.page.facts || {};
     const decimals = speedName() === "r/min" ? 0 : 1;
     const speed = (x) => (x === null ? "-" : `${fixed(x, decimals)} ${speedName()}`);
-    const turns = (counts) => (state.where && facts.encoder_counts ? fixed(counts / facts.encoder_counts, 2) : "-");
+    const turns = (units) => (state.where && facts.turn_units ? fixed(units / facts.turn_units, 2) : "-");
     const percent = (x) => (r ? `${fixed(100 * x, 0)} %` : "-");
     const positions = r && r.mode_of_operation === POSITION;
     const moves = r && MOVING.includes(r.mode);

@@ -19,9 +19,9 @@ export async function run(watcher, { speed_e_radps }, link) {
 
 export async function move(watcher, { turns, relative, far, speed_e_radps }, link) {
   requireNoJob(link);
-  const counts = Math.round(turns * watcher.constants.ENCODER_POSITIONS);
+  const units = Math.round(turns * watcher.constants.TURN_UNITS);
   watcher.begin();
-  await session.move(watcher, { counts, relative, far, speed: speed_e_radps });
+  await session.move(watcher, { units, relative, far, speed: speed_e_radps });
   return `moves ${relative ? "by" : "to"} ${turns} turns, and holds the shaft there`;
 }
 

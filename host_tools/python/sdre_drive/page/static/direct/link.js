@@ -127,7 +127,7 @@ export class DirectLink {
       period_s: of.CONTROL_PERIOD,
       speed_max_e_radps: of.SPEED_MAX,
       current_max_A: of.CURRENT_MAX,
-      encoder_counts: of.ENCODER_POSITIONS,
+      turn_units: of.TURN_UNITS,
       positions: Boolean(of.SUPPORTED_MODES & 1),
       signals: SIGNALS.slice(1),
       triggers: TRIGGERS,

@@ -86,18 +86,18 @@ export async function run(watcher, speed) {
   await start(watcher, speed, VELOCITY, stops);
 }
 
-async function requireNear(watcher, counts, relative, far) {
+async function requireNear(watcher, units, relative, far) {
   const now = (await watcher.drive.values("POSITION")).POSITION_NOW;
-  const turns = Math.abs(relative ? counts : counts - now) / watcher.constants.ENCODER_POSITIONS;
+  const turns = Math.abs(relative ? units : units - now) / watcher.constants.TURN_UNITS;
   if (turns > FAR_TURNS && !far) {
     throw new Error(`that is ${turns.toFixed(1)} turns away: allow more than ten turns first`);
   }
 }
 
-async function setPoint(watcher, counts, how, stops) {
+async function setPoint(watcher, units, how, stops) {
   const { drive } = watcher;
   await drive.write("CONTROLWORD", CONTROL.enable, stops);
-  await drive.write("TARGET_POSITION", counts);
+  await drive.write("TARGET_POSITION", units);
   await drive.write("CONTROLWORD", CONTROL.enable | how | NEW, stops);
   if (!(await waitFor(watcher, (r) => r.statusword & ACKNOWLEDGED, ANSWER_WAIT_S))) {
     throw new Error("the drive does not take the position");
@@ -105,15 +105,15 @@ async function setPoint(watcher, counts, how, stops) {
   await drive.write("CONTROLWORD", CONTROL.enable, stops);
 }
 
-/** To a number of counts, or by it. Whatever goes wrong once the drive is ours: it is stopped. */
-export async function move(watcher, { counts, relative, far, speed }) {
+/** To a number of position units, or by it. Whatever goes wrong once the drive is ours: it is stopped. */
+export async function move(watcher, { units, relative, far, speed }) {
   const { drive } = watcher;
   const { stops } = drive;
   const reading = await watcher.read();
   requireMode(reading, POSITION);
   requireSpeed(watcher, speed);
   if (reading.statusword & ANGLE_KNOWN) {
-    await requireNear(watcher, counts, relative, far);
+    await requireNear(watcher, units, relative, far);
   }
   await drive.write("PROFILE_VELOCITY", speed);
   try {
@@ -123,8 +123,8 @@ export async function move(watcher, { counts, relative, far, speed }) {
       throw new Error("the drive does not come to run");
     }
     requireNoTrip(runs);
-    await requireNear(watcher, counts, relative, far);
-    await setPoint(watcher, counts, AT_ONCE | (relative ? RELATIVE : 0), stops);
+    await requireNear(watcher, units, relative, far);
+    await setPoint(watcher, units, AT_ONCE | (relative ? RELATIVE : 0), stops);
   } catch (error) {
     if (drive.stops === stops) {
       await drive.off().catch(() => undefined); // it stops by itself
